@@ -1,0 +1,60 @@
+"""Field units in key names to SI: the one place that converts."""
+
+import math
+from functools import lru_cache
+from types import SimpleNamespace
+
+from pydantic import BaseModel
+
+_ZERO_CELSIUS = 273.15
+
+# Suffix -> (factor, offset): SI = factor * value + offset. The longest suffix that fits wins.
+UNITS: dict[str, tuple[float, float]] = {
+    "_mm": (1e-3, 0.0),
+    "_um": (1e-6, 0.0),
+    "_nm": (1e-9, 0.0),
+    "_mm2": (1e-6, 0.0),
+    "_deg": (math.pi / 180.0, 0.0),
+    "_rpm": (math.pi / 30.0, 0.0),
+    "_degC": (1.0, _ZERO_CELSIUS),
+    "_K": (1.0, 0.0),
+    "_s": (1.0, 0.0),
+    "_us": (1e-6, 0.0),
+    "_N": (1.0, 0.0),
+    "_N_m": (1.0, 0.0),
+    "_N_m_rad": (1.0, 0.0),
+    "_N_s_m": (1.0, 0.0),
+    "_kg": (1.0, 0.0),
+    "_kg_m3": (1.0, 0.0),
+    "_m_s": (1.0, 0.0),
+    "_Pa_s": (1.0, 0.0),
+    "_GPa": (1e9, 0.0),
+    "_1_GPa": (1e-9, 0.0),
+    "_1e6_K": (1e-6, 0.0),
+}
+_BY_LENGTH = sorted(UNITS, key=len, reverse=True)
+
+
+def split_unit(key: str) -> tuple[str, str]:
+    """Name and unit suffix of a key; the suffix is empty for a key without unit."""
+    for suffix in _BY_LENGTH:
+        if key.endswith(suffix) and len(key) > len(suffix):
+            return key[: -len(suffix)], suffix
+    return key, ""
+
+
+@lru_cache(maxsize=256)
+def si(part: BaseModel) -> SimpleNamespace:
+    """Values of one part of a scene in SI units, unit suffixes stripped: ``bore_mm`` becomes ``bore`` in m.
+
+    Keys without a unit pass through; tables within the part are left as they are.
+    """
+    values = {}
+    for key in type(part).model_fields:
+        name, suffix = split_unit(key)
+        value = getattr(part, key)
+        if suffix and value is not None:
+            factor, offset = UNITS[suffix]
+            value = factor * value + offset
+        values[name] = value
+    return SimpleNamespace(**values)

@@ -1,0 +1,76 @@
+"""The variable table: names are a contract."""
+
+import pytest
+
+from fmu_bearing.engine import layout as at
+from fmu_bearing.interface import variables
+
+
+def table(scene):
+    return {variable.name: variable for variable in variables(scene, rotor_inertia=1e-5)}
+
+
+def test_inputs_are_the_contracts_eight(scene):
+    names = [v.name for v in variables(scene("7003C-spindle")) if v.causality == "input"]
+    assert names == [
+        "shaft_speed",
+        "preload",
+        "pedestal_stiffness",
+        "radial_load.y",
+        "radial_load.z",
+        "oil_temperature",
+        "inner_ring_temperature",
+        "outer_ring_temperature",
+    ]
+
+
+def test_names_of_the_contract_are_there(scene):
+    names = set(table(scene("7003C-spindle")))
+    for body in ("inner_ring", "outer_ring", "cage", "ball[1]", "ball[12]"):
+        assert {f"{body}.velocity.{axis}" for axis in "xyz"} <= names
+    for k in range(1, 5):
+        assert {f"mic[{k}].{n}" for n in at.MIC_OUTPUTS} <= names
+        assert {f"mic[{k}].position.{axis}" for axis in "xyz"} <= names
+    for ring in ("inner", "outer"):
+        quantities = ("load_mean", "load_max", "angle_mean", "pressure_max")
+        assert {f"contact.{ring}.{q}" for q in quantities} <= names
+        assert {f"{ring}_ring.displacement.{axis}" for axis in "xyz"} <= names
+    assert {
+        "friction_torque", "heat.inner_ring", "heat.outer_ring", "heat.oil", "cage.speed_ratio",
+        "film.lambda_min", "stiffness.axial", "stiffness.radial", "rotor.inertia", "solver.steps",
+        "solver.rejected", "energy.residual", "level", "tolerance", "max_internal_step",
+        "imperfection.scale", "imperfection.seed", "sound.time_weighting", "sound.metering_start",
+        "lubricant.viscosity_ref", "radiator",
+    } <= names  # fmt: skip
+    assert "time" not in names and "ball[13].velocity.x" not in names and "mic[5].spl" not in names
+
+
+def test_ranges_and_starts(scene):
+    found = table(scene("7003C-spindle"))
+    speed = found["shaft_speed"]
+    assert (speed.min, speed.max, speed.unit, speed.display_unit) == (-10472.0, 10472.0, "rad/s", "r/min")
+    assert speed.start == pytest.approx(2094.3951)
+    assert (found["preload"].min, found["preload"].max, found["preload"].start) == (0.0, 1e4, 500.0)
+    assert (found["pedestal_stiffness"].min, found["pedestal_stiffness"].max) == (1e4, 1e12)
+    assert found["oil_temperature"].start == pytest.approx(293.15)
+    for variable in found.values():
+        assert variable.description and not variable.description.endswith(".")
+        if variable.causality == "input":
+            assert variable.unit and variable.quantity and variable.nominal is not None
+        if variable.array == "z":
+            assert 0 <= variable.index < at.z_size(12, 4)
+
+
+def test_places_do_not_overlap(scene):
+    places = [(v.array, v.index) for v in variables(scene("7009C-full-ceramic")) if v.array]
+    assert len(places) == len(set(places))
+
+
+def test_what_a_scene_leaves_out_has_no_variable(scene):
+    spindle = scene("7003C-spindle")
+    mute = spindle.model_copy(update={"sound": None, "imperfections": None})
+    names = set(table(mute))
+    assert not any(name.startswith(("mic[", "sound.", "imperfection.")) for name in names)
+    bare = spindle.model_copy(update={"bearing": spindle.bearing.model_copy(update={"cage": None})})
+    names = set(table(bare))
+    assert not any(name.startswith("cage.velocity") or name.endswith("spl_cage") for name in names)

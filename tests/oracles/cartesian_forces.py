@@ -1,0 +1,346 @@
+"""Forces between balls, rings and cage in inertial Cartesian vectors, for the oracle in `cartesian`.
+
+Every force acts at one point in space, forward on one body and backward on the other; a body collects force
+and moment about its own centre; power is force times the velocity of the material at that point.
+
+What is the model's choice and not physics is written out here too:
+
+* small tilts: axis ``n = (1 - (by^2 + bz^2)/2, bz, -by)``, angular velocity ``spin n + (0, by', bz')``; the
+  azimuth of a ball on a body is read in the plane YZ;
+* speeds are rounded where they change sign: entrainment over 1e-4 m/s, rolling over 1 rad/s;
+* a land is a plane at a fixed distance from the centre of either body: the cage's axial float is left out;
+  beyond the dry stop the film keeps the thickness it has there.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.polynomial import legendre
+
+EX = np.array([1.0, 0.0, 0.0])
+INNER, OUTER, CAGE = range(3)
+STILL, TURNING = 1e-4, 1.0  # m/s, rad/s
+
+Wave = Callable[[float], tuple[float, float]]
+
+
+@dataclass(frozen=True)
+class Mass:
+    """Mass (kg), transverse and polar moment of inertia (kg m2)."""
+
+    mass: float
+    transverse: float
+    polar: float
+
+
+@dataclass(frozen=True)
+class Race:
+    """Torus groove: centre circle (x, radius), ball centre's free distance from it, contact constants (SI)."""
+
+    x: float
+    circle: float
+    free: float
+    stiffness: float
+    half_length: float
+    profile: float
+    rolling: float
+    wave: Wave
+
+
+@dataclass(frozen=True)
+class Pocket:
+    """Pocket of the cage (SI)."""
+
+    clearance: float
+    stiffness: float
+    damping: float
+    friction: float
+    slip: float
+    film: float
+
+
+@dataclass(frozen=True)
+class Land:
+    """Lands of the cage on the inner ring (SI)."""
+
+    radius: float
+    length: float
+    offset: float
+    clearance: float
+    viscosity: float
+    stop: float
+    fraction: float
+    friction: float
+    slip: float
+
+
+@dataclass(frozen=True)
+class Setup:
+    """The whole bearing (SI). Springs and dampers are diagonals over (x, y, z, angle, tilt y, tilt z)."""
+
+    pitch: float
+    ball_radius: float
+    ball_mass: float
+    ball_inertia: float
+    oversize: np.ndarray
+    races: tuple[Race, Race]
+    damping: float
+    friction: float
+    slide_to_roll: float
+    floor: float
+    strips: int
+    drag: float
+    gravity: bool
+    gyroscopic: bool
+    masses: tuple[Mass, Mass, Mass]
+    springs: np.ndarray
+    dampers: np.ndarray
+    eccentricity: float
+    load: np.ndarray
+    pocket: Pocket | None
+    land: Land | None
+
+
+@dataclass(frozen=True)
+class State:
+    """Balls (n, 9) as x, r, theta, rates, spin; bodies (3, 6) as x, y, z, angle, tilts; their rates (3, 6)."""
+
+    balls: np.ndarray
+    bodies: np.ndarray
+    rates: np.ndarray
+
+    def after(self, time, balls=0.0, bodies=0.0) -> "State":
+        """Move on for ``time`` with the present rates and with the accelerations given ((n, 6), (3, 6))."""
+        rates = np.hstack([self.balls[:, 3:6], np.zeros((len(self.balls), 6))])
+        rates[:, 3:] += balls
+        return State(self.balls + time * rates, self.bodies + time * self.rates, self.rates + time * bodies)
+
+
+@dataclass
+class Loads:
+    """Force and moment about its own centre on every ball and body; rows: balls, then bodies."""
+
+    setup: Setup
+    state: State
+    force: np.ndarray = field(init=False)
+    moment: np.ndarray = field(init=False)
+
+    def __post_init__(self):
+        self.force = np.zeros((len(self.state.balls) + 3, 3))
+        self.moment = np.zeros_like(self.force)
+
+    def row(self, body: int) -> int:
+        return len(self.state.balls) + body
+
+    def centre(self, row: int) -> np.ndarray:
+        n = len(self.state.balls)
+        return ball_centre(self.setup, self.state.balls[row]) if row < n else self.state.bodies[row - n, :3]
+
+    def spin(self, row: int) -> np.ndarray:
+        """Angular velocity of a ball or body."""
+        n = len(self.state.balls)
+        if row < n:
+            return np.array(directions(self.state.balls[row, 2])).T @ self.state.balls[row, 6:]
+        rate = self.state.rates[row - n]
+        return rate[3] * axis(self.state.bodies[row - n]) + np.array([0.0, rate[4], rate[5]])
+
+    def velocity(self, row: int, point: np.ndarray) -> np.ndarray:
+        """Velocity of the material of a ball or body at a point."""
+        n = len(self.state.balls)
+        own = ball_velocity(self.setup, self.state.balls[row]) if row < n else self.state.rates[row - n, :3]
+        return own + np.cross(self.spin(row), point - self.centre(row))
+
+    def push(self, row: int, point: np.ndarray, force: np.ndarray, couple: np.ndarray) -> float:
+        """Load one body; power it receives (W)."""
+        self.force[row] += force
+        self.moment[row] += np.cross(point - self.centre(row), force) + couple
+        return force @ self.velocity(row, point) + couple @ self.spin(row)
+
+    def act(self, one: int, other: int, point, force, couple=(0.0, 0.0, 0.0)) -> float:
+        """Load ``one`` and, at the same point, ``other`` with the opposite; power both receive (W)."""
+        force, couple = np.asarray(force), np.asarray(couple)
+        return self.push(one, point, force, couple) + self.push(other, point, -force, -couple)
+
+
+def directions(theta) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Axial, radial and circumferential direction of a ball at ``theta`` from 12 o'clock."""
+    c, s = np.cos(theta), np.sin(theta)
+    return EX, np.array([0.0, -s, c]), np.array([0.0, -c, -s])
+
+
+def axis(body: np.ndarray) -> np.ndarray:
+    """Axis of a slightly tilted body."""
+    return np.array([1.0 - 0.5 * (body[4] ** 2 + body[5] ** 2), body[5], -body[4]])
+
+
+def ball_centre(setup: Setup, ball: np.ndarray) -> np.ndarray:
+    _, radial, _ = directions(ball[2])
+    return ball[0] * EX + (setup.pitch + ball[1]) * radial
+
+
+def ball_velocity(setup: Setup, ball: np.ndarray) -> np.ndarray:
+    _, radial, around = directions(ball[2])
+    return ball[3] * EX + ball[4] * radial + (setup.pitch + ball[1]) * ball[5] * around
+
+
+def seen_from(setup: Setup, ball, body):
+    """Axis n, radial direction h, tangent n x h, axial and radial distance and azimuth of a ball on a body."""
+    n = axis(body)
+    from_centre = ball_centre(setup, ball) - body[:3]
+    axial = from_centre @ n
+    h = from_centre - axial * n
+    radius = np.sqrt(h @ h)
+    h = h / radius
+    _, radial, around = directions(ball[2])
+    azimuth = ball[2] + np.arctan((h @ around) / (h @ radial)) - body[3]
+    return n, h, np.cross(n, h), axial, radius, azimuth
+
+
+def height(wave: Wave, angle):
+    """Race height, also for an angle on its way along the imaginary time step."""
+    value, slope = wave(angle.real)
+    return value + slope * (angle - angle.real)
+
+
+def approach(setup: Setup, state: State, j: int, k: int):
+    """Approach of ball j and race k (m), positive when they press."""
+    race = setup.races[k]
+    *_, axial, radius, azimuth = seen_from(setup, state.balls[j], state.bodies[k])
+    x, r = axial - race.x, radius - race.circle
+    return np.sqrt(x * x + r * r) - race.free + height(race.wave, azimuth) + setup.oversize[j] / 2.0
+
+
+def in_pocket(setup: Setup, state: State, j: int):
+    """Axial and circumferential offset of ball j from the middle of its pocket (m)."""
+    *_, axial, _, azimuth = seen_from(setup, state.balls[j], state.bodies[CAGE])
+    angle = azimuth - 2.0 * np.pi * j / len(state.balls)
+    return axial, setup.pitch * (angle - 2.0 * np.pi * np.round(angle.real / (2.0 * np.pi)))
+
+
+def strip_points(count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Points and shares of a load spread as 1 - s^2 over (-1, 1) that carry its moments up to 2 count - 1."""
+    points = legendre.legroots(legendre.legder([0.0] * (count + 1) + [1.0]))
+    powers = np.arange(count)
+    moments = 0.75 * ((1.0 + (-1.0) ** powers) / (powers + 1) - (1.0 + (-1.0) ** powers) / (powers + 3))
+    return points, np.linalg.solve(np.vander(points, increasing=True).T, moments)
+
+
+def in_race(loads: Loads, j: int, k: int) -> float:
+    """Load ball j and race k; heat of the contact (W)."""
+    setup, state = loads.setup, loads.state
+    race, ring = setup.races[k], loads.row(k)
+    n, h, t, axial, radius, azimuth = seen_from(setup, state.balls[j], state.bodies[k])
+    e = (axial - race.x) * n + (radius - race.circle) * h
+    e /= np.linalg.norm(e)
+    m = np.cross(e, t)
+    gap = approach(setup, state, j, k)
+    if gap <= 0.0:
+        return 0.0
+    centre = loads.centre(j)
+    # steepest rise of the approach: on a wavy race it leans along the track; the contact pushes down it
+    uphill = e + race.wave(azimuth)[1] / radius * t
+    rate = uphill @ (loads.velocity(j, centre) - loads.velocity(ring, centre))
+    elastic = race.stiffness * gap**1.5
+    load = max(race.stiffness * np.sqrt(gap) * (gap + 1.5 * setup.damping * rate), 0.0)
+    power = loads.act(j, ring, centre, -load * uphill)
+    # both surfaces as seen from the contact, which travels with the ball's centre around the X axis
+    foot = setup.ball_radius * e
+    on_ball = np.cross(loads.spin(j) - state.balls[j, 5] * EX, foot) @ t
+    on_race = on_ball - (loads.velocity(j, centre + foot) - loads.velocity(ring, centre + foot)) @ t
+    entrainment = np.hypot(0.5 * (on_ball + on_race), STILL)
+    still = setup.slide_to_roll * entrainment + setup.floor
+    for place, share in zip(*strip_points(setup.strips), strict=True):
+        offset = place * race.half_length * np.sqrt(gap)
+        point = centre + foot + offset * m - offset**2 / (2.0 * race.profile) * e
+        slip = loads.velocity(j, point) - loads.velocity(ring, point)
+        slip -= (slip @ e) * e
+        power += loads.act(
+            j, ring, point, -setup.friction * share * load * slip / np.sqrt(slip @ slip + still**2)
+        )
+    turning = (loads.spin(j) - loads.spin(ring)) @ m
+    resistance = race.rolling * entrainment**0.66 * load**0.47
+    power += loads.act(j, ring, centre, np.zeros(3), -resistance * turning / np.hypot(turning, TURNING) * m)
+    return -power - elastic * rate
+
+
+def on_cage(loads: Loads, j: int) -> float:
+    """Load ball j and its pocket; heat (W)."""
+    setup, state, pocket = loads.setup, loads.state, loads.setup.pocket
+    cage = loads.row(CAGE)
+    n, _, t, _, radius, _ = seen_from(setup, state.balls[j], state.bodies[CAGE])
+    offset = np.array(in_pocket(setup, state, j))
+    apart = np.linalg.norm(offset)
+    centre = loads.centre(j)
+    sliding = loads.velocity(j, centre) - loads.velocity(cage, centre)
+    power = loads.act(j, cage, centre, -pocket.film * ((sliding @ n) * n + (sliding @ t) * t))
+    push = apart - pocket.clearance
+    if push <= 0.0:
+        return -power
+    # offsets are measured on the pitch circle, the ball may stand on another one
+    uphill = (offset[0] * n + offset[1] * setup.pitch / radius * t) / apart
+    rate = uphill @ sliding
+    elastic = pocket.stiffness * push**1.5
+    load = max(elastic * (1.0 + pocket.damping * rate), 0.0)
+    power += loads.act(j, cage, centre, -load * uphill)
+    normal = (offset[0] * n + offset[1] * t) / apart
+    point = centre + setup.ball_radius * normal
+    slip = loads.velocity(j, point) - loads.velocity(cage, point)
+    slip -= (slip @ normal) * normal
+    power += loads.act(j, cage, point, -pocket.friction * load * slip / np.sqrt(slip @ slip + pocket.slip**2))
+    return -power - elastic * rate
+
+
+def film_push(land: Land, journal, velocity, journal_speed: float, sleeve_speed: float) -> np.ndarray:
+    """Force (N) in y, z of a short film on the journal, which stands at ``journal`` (y, z) in the sleeve.
+
+    Reynolds, flow only along the axis: d/dz(h^3/(12 eta) dp/dz) = (w1 + w2)/2 dh/dphi + dh/dt; integrated
+    over the length by hand and over the half turn where the wedge presses by quadrature.
+    """
+    wedge = journal_speed + sleeve_speed
+    wedge -= 2.0 * (journal[0] * velocity[1] - journal[1] * velocity[0]) / (journal @ journal)
+    thinnest = np.arctan2(journal[1], journal[0])
+    points, weights = legendre.leggauss(400)
+    phi = thinnest - np.sign(wedge) * 0.5 * np.pi * (points + 1.0)
+    out, along = np.array([np.cos(phi), np.sin(phi)]), np.array([-np.sin(phi), np.cos(phi)])
+    film = land.clearance - journal @ out
+    closing = -0.5 * (journal_speed + sleeve_speed) * (journal @ along) - velocity @ out
+    pressed = -land.viscosity * land.length**3 * closing / film**3
+    return -(out * pressed) @ weights * 0.5 * np.pi * land.radius
+
+
+def on_land(loads: Loads, side: float) -> tuple[float, float]:
+    """Load inner ring and cage at one land; heat (W)."""
+    setup, state, land = loads.setup, loads.state, loads.setup.land
+    ring, cage = loads.row(INNER), loads.row(CAGE)
+    plane = [
+        loads.centre(row) + side * land.offset * axis(state.bodies[k]) for row, k in ((ring, 0), (cage, 2))
+    ]
+    apart = (plane[1] - plane[0]) * [0, 1, 1]
+    moving = (loads.velocity(cage, plane[1]) - loads.velocity(ring, plane[0])) * [0, 1, 1]
+    distance = np.linalg.norm(apart)
+    e = apart / distance
+    t = np.cross(EX, e)
+    limit = land.fraction * land.clearance
+    wet = min(distance, limit)
+    whirl = moving @ t / distance
+    speeds = state.rates[INNER, 3], state.rates[CAGE, 3]
+    on_ring = film_push(land, -wet * e[1:], -(moving @ e * e + wet * whirl * t)[1:], *speeds)
+    film = np.array([0.0, *on_ring])
+    gap = land.clearance + wet * np.cos(np.arange(2000) * np.pi / 1000)
+    shear = (
+        land.viscosity * (speeds[0] - speeds[1]) * land.radius**3 * land.length * np.mean(2.0 * np.pi / gap)
+    )
+    power = loads.push(ring, plane[0] + apart / 2.0, film, -shear * EX)
+    power += loads.push(cage, plane[1] - apart / 2.0, -film, shear * EX)
+    if distance <= limit:
+        return -power
+    stop = land.stop * (distance - limit)
+    # the bore rubs where it has come down on the journal, on the far side of the offset
+    touching = [plane[0] - land.radius * e, plane[1] - (land.radius + distance) * e]
+    rub = (loads.velocity(cage, touching[1]) - loads.velocity(ring, touching[0])) @ t
+    force = -stop * e - land.friction * stop * rub / np.hypot(rub, land.slip) * t
+    power += loads.push(ring, touching[0], -force, np.zeros(3)) + loads.push(
+        cage, touching[1], force, np.zeros(3)
+    )
+    return -power - stop * (moving @ e)

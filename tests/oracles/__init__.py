@@ -10,6 +10,7 @@ module             answers
 `kinematics`       defect frequencies, ball spin and orbit under pure rolling
 `jones_harris`     quasi-static bearing: ring displacement and all balls in one system
 `journal`          short journal bearing: film force by quadrature of the pressure, and in closed form
+`cartesian`        equations of motion in global Cartesian axes, ball by ball
 =================  ================================================================================
 
 Axes: X along the bearing axis, Z up; the angle theta runs from Z, growing with positive rotation about X, so

@@ -36,7 +36,7 @@ class Mass:
 
 @dataclass(frozen=True)
 class Race:
-    """Torus groove: centre circle (x, radius), ball centre's free distance from it, contact constants (SI)."""
+    """Torus groove: centre circle (x, radius), free distance of the ball's centre from it, contact (SI)."""
 
     x: float
     circle: float
@@ -104,7 +104,7 @@ class Setup:
 
 @dataclass(frozen=True)
 class State:
-    """Balls (n, 9) as x, r, theta, rates, spin; bodies (3, 6) as x, y, z, angle, tilts; their rates (3, 6)."""
+    """Balls (n, 9): x, r, theta, rates, spin; bodies (3, 6): x, y, z, angle, tilts; their rates (3, 6)."""
 
     balls: np.ndarray
     bodies: np.ndarray
@@ -185,7 +185,7 @@ def ball_velocity(setup: Setup, ball: np.ndarray) -> np.ndarray:
 
 
 def seen_from(setup: Setup, ball, body):
-    """Axis n, radial direction h, tangent n x h, axial and radial distance and azimuth of a ball on a body."""
+    """Axis n, radial direction h, tangent n x h, axial and radial distance, azimuth of a ball on a body."""
     n = axis(body)
     from_centre = ball_centre(setup, ball) - body[:3]
     axial = from_centre @ n
@@ -309,12 +309,12 @@ def film_push(land: Land, journal, velocity, journal_speed: float, sleeve_speed:
     return -(out * pressed) @ weights * 0.5 * np.pi * land.radius
 
 
-def on_land(loads: Loads, side: float) -> tuple[float, float]:
+def on_land(loads: Loads, side: float) -> float:
     """Load inner ring and cage at one land; heat (W)."""
-    setup, state, land = loads.setup, loads.state, loads.setup.land
+    bodies, rates, land = loads.state.bodies, loads.state.rates, loads.setup.land
     ring, cage = loads.row(INNER), loads.row(CAGE)
     plane = [
-        loads.centre(row) + side * land.offset * axis(state.bodies[k]) for row, k in ((ring, 0), (cage, 2))
+        loads.centre(row) + side * land.offset * axis(bodies[k]) for row, k in ((ring, INNER), (cage, CAGE))
     ]
     apart = (plane[1] - plane[0]) * [0, 1, 1]
     moving = (loads.velocity(cage, plane[1]) - loads.velocity(ring, plane[0])) * [0, 1, 1]
@@ -324,7 +324,7 @@ def on_land(loads: Loads, side: float) -> tuple[float, float]:
     limit = land.fraction * land.clearance
     wet = min(distance, limit)
     whirl = moving @ t / distance
-    speeds = state.rates[INNER, 3], state.rates[CAGE, 3]
+    speeds = rates[INNER, 3], rates[CAGE, 3]
     on_ring = film_push(land, -wet * e[1:], -(moving @ e * e + wet * whirl * t)[1:], *speeds)
     film = np.array([0.0, *on_ring])
     gap = land.clearance + wet * np.cos(np.arange(2000) * np.pi / 1000)

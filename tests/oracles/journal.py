@@ -93,9 +93,7 @@ def force_closed_form(film: Film, motion: Motion) -> tuple[float, float]:
     side = copysign(1.0, wedge) if wedge != 0.0 else 1.0
     room = 1.0 - eps**2
     scale = film.viscosity * film.radius * film.length**3 / film.clearance**2
-    along_n = -scale * (
-        abs(wedge) * eps**2 / room**2 + pi * (1.0 + 2.0 * eps**2) * rate / (2.0 * room**2.5)
-    )
+    along_n = -scale * (abs(wedge) * eps**2 / room**2 + pi * (1.0 + 2.0 * eps**2) * rate / (2.0 * room**2.5))
     along_t = scale * (pi * wedge * eps / (4.0 * room**1.5) + 2.0 * side * eps * rate / room**2)
     return along_n, along_t
 

@@ -1,0 +1,70 @@
+"""What the outside calls: ``init``, ``step``, ``outputs`` over the flat arrays of ``layout``.
+
+Each returns a status code; none raises or allocates. A refused call leaves the state as it was, except
+that a step which fails to converge leaves it at the time it reached: the caller restores its copy.
+"""
+
+import math
+
+from fmu_bearing.engine.jit import entry, kernel
+from fmu_bearing.engine.layout import (
+    BAD_INPUT,
+    BAD_STEP,
+    OK,
+    S_STATUS,
+    U_INNER_T,
+    U_OIL_T,
+    U_OUTER_T,
+    U_PEDESTAL,
+    U_SPEED,
+)
+from fmu_bearing.engine.march import march
+from fmu_bearing.engine.observe import observe
+from fmu_bearing.engine.start import start
+
+
+@kernel
+def inputs_usable(u):
+    """Whether every input is finite and within what the equations can take."""
+    for i in range(8):
+        if not (abs(u[i]) < 1e15):
+            return False
+    return (
+        u[U_PEDESTAL] > 0.0
+        and abs(u[U_SPEED]) <= 1.1e4
+        and u[U_OIL_T] >= 230.0
+        and u[U_INNER_T] >= 200.0
+        and u[U_OUTER_T] >= 200.0
+    )
+
+
+@entry
+def init(p, u, s, z, w, t):
+    """Put the state to the quasi-static one at the inputs' values and time ``t`` (s); fill the outputs."""
+    if not inputs_usable(u) or not math.isfinite(t):
+        return BAD_INPUT
+    status = start(p, u, s, w, t)
+    if status == OK:
+        observe(p, s, z)
+    return status
+
+
+@entry
+def step(p, u, s, z, w, h):
+    """Advance the state by ``h`` (s) with the speed ramping to its input and the other inputs held."""
+    if not (h > 0.0 and h < 1e6):
+        return BAD_STEP
+    if not inputs_usable(u):
+        return BAD_INPUT
+    status = march(p, u, s, w, h)
+    s[S_STATUS] = float(status)
+    if status == OK:
+        observe(p, s, z)
+    return status
+
+
+@entry
+def outputs(p, s, z):
+    """Fill the outputs ``z`` from the state ``s``."""
+    observe(p, s, z)
+    return OK

@@ -1,0 +1,211 @@
+"""From one communication point to the next: inputs, internal steps, Jacobian policy, sound samples."""
+
+import math
+
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.layout import (
+    C_SIZE,
+    F_SIZE,
+    NOT_CONVERGED,
+    OK,
+    P_LANES,
+    P_MAX_STEP,
+    P_TOLERANCE,
+    S_ANGLE,
+    S_C,
+    S_CONTRACTION,
+    S_ENERGY_NOW,
+    S_F,
+    S_FAC,
+    S_FACTOR_STEP,
+    S_HEAT_INNER,
+    S_JAC,
+    S_JACOBIAN_ANGLE,
+    S_JACOBIAN_TIME,
+    S_JACOBIANS,
+    S_MEAN_INNER,
+    S_NEWTON,
+    S_REJECTED,
+    S_SOUND,
+    S_SPEED,
+    S_SPEED_RATE,
+    S_STEP,
+    S_STEPS,
+    S_TIME,
+    S_WORK,
+    S_Y,
+    STAGES,
+    STRIDE,
+    U_SPEED,
+    W_ACC,
+    W_F0,
+    W_SCALARS,
+    W_Y,
+    Y_Q,
+    Y_SIZE,
+)
+from fmu_bearing.engine.mechanics.conditions import conditions
+from fmu_bearing.engine.mechanics.energy import stored_energy
+from fmu_bearing.engine.mechanics.equations import right_hand_side
+from fmu_bearing.engine.mechanics.trigonometry import wrap
+from fmu_bearing.engine.motion import emit_samples
+from fmu_bearing.engine.solvers.block_arrow import factor
+from fmu_bearing.engine.solvers.esdirk import GAMMA, esdirk_step, integrate_power
+from fmu_bearing.engine.solvers.jacobian import jacobian
+
+_S = STRIDE
+# Velocity (m/s) that the relative tolerance refers to: a ring's vibration at speed.
+REFERENCE_VELOCITY = 1e-2
+_SHORTEST = 1e-10  # s: a step that must be shorter has not converged
+_OLDEST = 1e-3  # s: age at which the Jacobian is renewed in any case
+_PROBE = 16  # steps between measurements of the contraction
+
+
+@kernel
+def total_energy(p, s, w):
+    """Return the stored energy (J) of the state in ``s``; refresh its right-hand side on the way."""
+    right_hand_side(
+        p, s[S_C : S_C + C_SIZE], s[S_Y : S_Y + Y_SIZE], s[S_ANGLE], s[S_SPEED], s[S_SPEED_RATE], w,
+        s[S_F : S_F + F_SIZE],
+    )  # fmt: skip
+    return stored_energy(p, s[S_C : S_C + C_SIZE], s[S_Y : S_Y + Y_SIZE], w)
+
+
+@kernel
+def take_inputs(p, u, s, w, h):
+    """Set conditions and speed ramp; what a jump of a held input does to stored energy counts as work."""
+    rate = (u[U_SPEED] - s[S_SPEED]) / h
+    fresh = w[W_SCALARS + 8 : W_SCALARS + 8 + C_SIZE]
+    conditions(p, u, 0.5 * (s[S_SPEED] + u[U_SPEED]), fresh)
+    changed = False
+    for i in range(C_SIZE):
+        if fresh[i] != s[S_C + i]:
+            changed = True
+    if changed:
+        # the rows of w are scratch for both evaluations, so the new conditions wait in the stage area
+        for i in range(C_SIZE):
+            w[W_F0 + i] = fresh[i]
+        before = total_energy(p, s, w)
+        for i in range(C_SIZE):
+            s[S_C + i] = w[W_F0 + i]
+        s[S_SPEED_RATE] = rate
+        s[S_WORK] += total_energy(p, s, w) - before
+    elif rate != s[S_SPEED_RATE]:
+        s[S_SPEED_RATE] = rate
+        total_energy(p, s, w)
+
+
+@kernel
+def renew_jacobian(p, s, w):
+    """Jacobian at the present state; marks the factors as out of date."""
+    jacobian(
+        p, s[S_C : S_C + C_SIZE], s[S_Y : S_Y + Y_SIZE], s[S_ANGLE], s[S_SPEED], s[S_SPEED_RATE], w,
+        s[S_JAC:S_FAC],
+    )  # fmt: skip
+    s[S_JACOBIAN_TIME] = s[S_TIME]
+    s[S_JACOBIAN_ANGLE] = s[S_Y + 2 * _S]
+    s[S_FACTOR_STEP] = 0.0
+    s[S_JACOBIANS] += 1.0
+    s[S_CONTRACTION] = 0.1
+
+
+@kernel
+def accept(p, s, w, h):
+    """Move the state to the end of the step just made; angles are brought back into one turn."""
+    lanes = int(p[P_LANES])
+    last = W_ACC + (STAGES - 1) * F_SIZE
+    for i in range(Y_SIZE):
+        s[S_Y + i] = w[W_Y + i]
+    for i in range(F_SIZE):
+        s[S_F + i] = w[last + i]
+    turn = wrap(s[S_Y + 2 * _S]) - s[S_Y + 2 * _S]
+    if turn != 0.0:
+        # the orbit angle at the Jacobian turns back with the balls
+        s[S_JACOBIAN_ANGLE] += turn
+    for j in range(lanes):
+        s[S_Y + 2 * _S + j] = wrap(s[S_Y + 2 * _S + j])
+    s[S_Y + Y_Q + 14] = wrap(s[S_Y + Y_Q + 14])
+    s[S_ANGLE] = wrap(s[S_ANGLE] + h * (s[S_SPEED] + 0.5 * h * s[S_SPEED_RATE]))
+    s[S_SPEED] += h * s[S_SPEED_RATE]
+    s[S_TIME] += h
+    s[S_STEPS] += 1.0
+
+
+@kernel
+def try_step(p, s, w, h, tolerance):
+    """One attempt of length ``h`` with Jacobian and factors kept as long as they serve.
+
+    Returns the error over the tolerance, or -1 where Newton failed with a fresh Jacobian.
+    """
+    report = w[W_SCALARS + 40 : W_SCALARS + 44]
+    for attempt in range(2):
+        fresh = s[S_JACOBIAN_TIME] == s[S_TIME]
+        too_old = s[S_TIME] - s[S_JACOBIAN_TIME] > _OLDEST or s[S_CONTRACTION] > 0.3
+        if not fresh and (attempt == 1 or too_old):
+            renew_jacobian(p, s, w)
+            fresh = True
+        ratio = h / (s[S_FACTOR_STEP] + 1e-300)
+        if ratio > 1.15 or ratio < 0.87:
+            gh = GAMMA * h
+            if not factor(p, s[S_JAC:S_FAC], gh, gh * gh, s[S_FAC:S_SOUND], w):
+                if fresh:
+                    return -1.0
+                continue
+            s[S_FACTOR_STEP] = h
+        probe = s[S_STEPS] % _PROBE == 0.0
+        fine = esdirk_step(
+            p, s[S_C : S_C + C_SIZE], s[S_Y : S_Y + Y_SIZE], s[S_F : S_F + F_SIZE], s[S_ANGLE], s[S_SPEED],
+            s[S_SPEED_RATE], h, s[S_FAC:S_SOUND], s[S_Y + 2 * _S] - s[S_JACOBIAN_ANGLE], 0.5 * tolerance,
+            s[S_CONTRACTION], probe, w, report,
+        )  # fmt: skip
+        if fine:
+            if report[1] > 0.0:
+                s[S_CONTRACTION] = report[1]
+            s[S_NEWTON] += report[2]
+            return report[0] / tolerance
+        if fresh:
+            return -1.0
+    return -1.0
+
+
+@kernel
+def march(p, u, s, w, h):
+    """Advance the state by the communication step ``h`` (s); status code."""
+    for i in range(3):
+        s[S_MEAN_INNER + i] = s[S_HEAT_INNER + i]
+    take_inputs(p, u, s, w, h)
+    tolerance = p[P_TOLERANCE] * REFERENCE_VELOCITY
+    begin = s[S_TIME]
+    end = begin + h
+    # bounded work: no more attempts than a hundred times what the largest internal step would need
+    left = 2000.0 + 100.0 * math.ceil(h / p[P_MAX_STEP])
+    remaining = h
+    while remaining > 1e-12 * h:
+        proposed = min(s[S_STEP], p[P_MAX_STEP])
+        length = remaining / math.ceil(remaining / proposed - 1e-9)
+        error = try_step(p, s, w, length, tolerance)
+        left -= 1.0
+        if error < 0.0 or not (error <= 1.0):
+            s[S_REJECTED] += 1.0
+            shrink = 0.25 if not (error > 0.0) else max(0.2, 0.9 * math.exp(-0.25 * math.log(error)))
+            s[S_STEP] = length * shrink
+            if s[S_STEP] < min(_SHORTEST, 0.01 * h) or left < 0.0:
+                return NOT_CONVERGED
+            continue
+        integrate_power(length, w, s[S_WORK : S_WORK + 4])
+        emit_samples(p, s, w, length)
+        accept(p, s, w, length)
+        remaining = end - s[S_TIME]
+        grow = min(2.0, max(0.3, 0.9 * math.exp(-0.25 * math.log(error + 1e-6))))
+        # a step cut to meet the communication point says nothing against a longer one
+        if grow < 1.0 or length > 0.5 * proposed:
+            wanted = length * grow
+            s[S_STEP] = min(p[P_MAX_STEP], wanted if grow < 1.0 or wanted > 1.2 * length else proposed)
+    s[S_TIME] = end
+    s[S_SPEED] = u[U_SPEED]
+    # One evaluation at the end point: stored energy for the balance, and accelerations and torque that do
+    # not carry the last Newton iteration's remainder.
+    s[S_ENERGY_NOW] = total_energy(p, s, w)
+    for i in range(3):
+        s[S_MEAN_INNER + i] = (s[S_HEAT_INNER + i] - s[S_MEAN_INNER + i]) / h
+    return OK

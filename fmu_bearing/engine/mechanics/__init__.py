@@ -1,0 +1,16 @@
+"""Forces and equations of motion.
+
+================  ===========================================================================
+``trigonometry``  sine and cosine of the ball angles, branch-free
+``conditions``    inputs turned into constants of one communication step
+``pose``          where a ball stands in a body's own frame, and how fast it moves there
+``race``          Hertz contact, damping, traction strips and rolling resistance
+``cage``          pockets and land guidance
+``bodies``        forces on rings and cage that do not come through the balls
+``equations``     the right-hand side: accelerations, power and heat
+``energy``        stored energy
+================  ===========================================================================
+
+Sign rules: forces and moments are those *on the ball*; the body takes their opposite at the same
+point, so that Newton's third law holds to rounding. Moments on a body are about its centre.
+"""

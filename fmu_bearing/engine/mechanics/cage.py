@@ -1,0 +1,199 @@
+"""The cage: pockets that drive and retain the balls, and lands that ride on the inner ring."""
+
+import math
+
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.layout import (
+    C_BALL_RADIUS,
+    P_BALLS,
+    P_LAND_CLEARANCE,
+    P_LAND_LENGTH,
+    P_LAND_RADIUS,
+    P_LAND_STOP_FRACTION,
+    P_LAND_STOP_FRICTION,
+    P_LAND_STOP_SLIP,
+    P_LAND_STOP_STIFFNESS,
+    P_LAND_VISCOSITY,
+    P_PITCH_RADIUS,
+    P_POCKET_CLEARANCE,
+    P_POCKET_DAMPING,
+    P_POCKET_FILM,
+    P_POCKET_FRICTION,
+    P_POCKET_SLIP,
+    P_POCKET_STIFFNESS,
+    POSE_ROWS,
+    STRIDE,
+    W_FORCE,
+    W_LOSS,
+    W_POCKET,
+    W_POSE,
+    X_A,
+    X_DV,
+    X_DW,
+    X_H,
+    X_N,
+    X_RHO,
+    X_T,
+)
+from fmu_bearing.engine.mechanics.pose import bearing_angle
+from fmu_bearing.engine.mechanics.trigonometry import wrap
+
+_S = STRIDE
+_TWO_PI = 6.283185307179586
+
+
+@kernel
+def pockets(p, c, angle, lanes, turned, w):
+    """Pocket forces and moments on the balls and the power lost there.
+
+    A pocket is a radial bore with clearance: Hertz contact with Hunt-Crossley damping once the clearance
+    is used up, Coulomb friction (regularised) on the spinning ball, and film damping at all times.
+    ``turned`` is the cage's angle (rad).
+    """
+    pose = (W_POSE + 2 * POSE_ROWS) * _S
+    out = (W_FORCE + 12) * _S
+    pitch = p[P_PITCH_RADIUS]
+    balls = p[P_BALLS]
+    clearance = p[P_POCKET_CLEARANCE]
+    stiffness = p[P_POCKET_STIFFNESS]
+    damping = p[P_POCKET_DAMPING]
+    film = p[P_POCKET_FILM]
+    mu = p[P_POCKET_FRICTION]
+    slip = p[P_POCKET_SLIP]
+    ball = c[C_BALL_RADIUS]
+    for j in range(lanes):
+        pocket = j if j < balls else 0
+        nx = w[pose + X_N * _S + j]
+        nr = w[pose + (X_N + 1) * _S + j]
+        nt = w[pose + (X_N + 2) * _S + j]
+        tx = w[pose + X_T * _S + j]
+        tr = w[pose + (X_T + 1) * _S + j]
+        tt = w[pose + (X_T + 2) * _S + j]
+        dvx = w[pose + X_DV * _S + j]
+        dvr = w[pose + (X_DV + 1) * _S + j]
+        dvt = w[pose + (X_DV + 2) * _S + j]
+        dwx = w[pose + X_DW * _S + j]
+        dwr = w[pose + (X_DW + 1) * _S + j]
+        dwt = w[pose + (X_DW + 2) * _S + j]
+        lead = angle[j] + bearing_angle(w[pose + (X_H + 1) * _S + j], w[pose + (X_H + 2) * _S + j])
+        axial = w[pose + X_A * _S + j]
+        around = pitch * wrap(lead - turned - pocket * (_TWO_PI / balls))
+        apart = math.sqrt(axial * axial + around * around + 1e-30)
+        px = axial / apart
+        pt = around / apart
+        lever = pitch / w[pose + X_RHO * _S + j]
+        push = max(apart - clearance, 0.0)
+        vn = nx * dvx + nr * dvr + nt * dvt
+        vt = tx * dvx + tr * dvr + tt * dvt
+        rate = px * vn + pt * lever * vt
+        elastic = stiffness * push * math.sqrt(push)
+        load = max(elastic * (1.0 + damping * rate), 0.0)
+        # contact point on the ball: radius along g; sliding there without its normal part
+        gx = px * nx + pt * tx
+        gr = px * nr + pt * tr
+        gt = px * nt + pt * tt
+        sx = dvx + ball * (dwr * gt - dwt * gr)
+        sr = dvr + ball * (dwt * gx - dwx * gt)
+        st = dvt + ball * (dwx * gr - dwr * gx)
+        sn = sx * gx + sr * gr + st * gt
+        sx -= sn * gx
+        sr -= sn * gr
+        st -= sn * gt
+        drag = -mu * load / math.sqrt(sx * sx + sr * sr + st * st + slip * slip)
+        fx = drag * sx
+        fr = drag * sr
+        ft = drag * st
+        fn = -load * px - film * vn
+        fa = -load * pt * lever - film * vt
+        forcex = fx + fn * nx + fa * tx
+        forcer = fr + fn * nr + fa * tr
+        forcet = ft + fn * nt + fa * tt
+        momentx = ball * (gr * ft - gt * fr)
+        momentr = ball * (gt * fx - gx * ft)
+        momentt = ball * (gx * fr - gr * fx)
+        w[W_POCKET * _S + j] = push
+        w[out + j] = forcex
+        w[out + _S + j] = forcer
+        w[out + 2 * _S + j] = forcet
+        w[out + 3 * _S + j] = momentx
+        w[out + 4 * _S + j] = momentr
+        w[out + 5 * _S + j] = momentt
+        w[(W_LOSS + 2) * _S + j] = (
+            -(forcex * dvx + forcer * dvr + forcet * dvt)
+            - (momentx * dwx + momentr * dwr + momentt * dwt)
+            - elastic * rate
+        )
+
+
+@kernel
+def film_force(viscosity, radius, length, clearance, ratio, ratio_rate, wedge):
+    """Radial and tangential force (N) of a short journal film, half-Sommerfeld (Ocvirk 1952; with squeeze).
+
+    ``ratio`` is eccentricity over clearance (below 1), ``ratio_rate`` its rate (1/s), ``wedge`` the sum of
+    both surfaces' speeds less twice the whirl speed (rad/s). The journal is pushed back along the line of
+    centres by the first and across it, in the sense of ``wedge``, by the second.
+    """
+    gap = 1.0 - ratio * ratio
+    root = math.sqrt(gap)
+    factor = viscosity * radius * length * length * length / (clearance * clearance)
+    # |wedge| rounded over 1 rad/s: the force stays smooth where the wedge changes sign
+    size = math.sqrt(wedge * wedge + 1.0)
+    radial = factor * (
+        size * ratio * ratio / (gap * gap)
+        + 0.5 * math.pi * ratio_rate * (1.0 + 2.0 * ratio * ratio) / (gap * gap * root)
+    )
+    tangential = factor * (
+        0.25 * math.pi * wedge * ratio / (gap * root)
+        + 2.0 * ratio * ratio_rate / (gap * gap) * (wedge / size)
+    )
+    return radial, tangential
+
+
+@kernel
+def land(p, dy, dz, vy, vz, journal, sleeve):
+    """Force (N) on the cage in y and z at one land, friction torques (N m) and stored energy (J).
+
+    ``d`` and ``v`` are the cage centre's offset (m) and velocity (m/s) against the inner ring's at the land,
+    ``journal`` and ``sleeve`` the spin rates (rad/s) of inner ring and cage. Returns
+    ``(fy, fz, torque on the inner ring, torque on the cage, energy, power lost)``.
+    """
+    clearance = p[P_LAND_CLEARANCE]
+    radius = p[P_LAND_RADIUS]
+    length = p[P_LAND_LENGTH]
+    viscosity = p[P_LAND_VISCOSITY]
+    limit = p[P_LAND_STOP_FRACTION] * clearance
+    apart2 = dy * dy + dz * dz
+    apart = math.sqrt(apart2 + 1e-24)
+    ey = dy / apart
+    ez = dz / apart
+    # beyond the dry stop the film keeps the thickness it has there
+    wet = min(apart, limit)
+    ratio = wet / clearance
+    rate = (ey * vy + ez * vz) / clearance
+    across = ey * vz - ez * vy
+    # the whirl of a nearly centred cage is undefined but harmless: its force vanishes with the offset
+    whirl = across * apart / (apart2 + 1e-16)
+    radial, tangential = film_force(
+        viscosity, radius, length, clearance, ratio, rate, journal + sleeve - 2.0 * whirl
+    )
+    # Seen from the sleeve the journal stands at -d; the film pushes it back and on, the cage the other way.
+    fy = -radial * ey - tangential * ez
+    fz = -radial * ez + tangential * ey
+    # The pair acts half-way between the centres, so that its moments balance as well.
+    couple = 0.5 * (dy * fz - dz * fy)
+    shear = _TWO_PI * viscosity * radius * radius * radius * length / clearance
+    shear *= (journal - sleeve) / math.sqrt(1.0 - ratio * ratio)
+    push = max(apart - limit, 0.0)
+    stiffness = p[P_LAND_STOP_STIFFNESS]
+    stop = stiffness * push
+    slip = p[P_LAND_STOP_SLIP]
+    # Rubbing where the journal's surface meets the bore, a radius behind the inner ring's centre.
+    rub = across + radius * journal - (radius + apart) * sleeve
+    friction = -p[P_LAND_STOP_FRICTION] * stop * rub / math.sqrt(rub * rub + slip * slip)
+    fy += -stop * ey - friction * ez
+    fz += -stop * ez + friction * ey
+    on_journal = -shear - couple + radius * friction
+    on_sleeve = shear - couple - (radius + apart) * friction
+    energy = 0.5 * stiffness * push * push
+    lost = -(fy * vy + fz * vz + on_journal * journal + on_sleeve * sleeve) - stop * clearance * rate
+    return fy, fz, on_journal, on_sleeve, energy, lost

@@ -1,0 +1,117 @@
+"""Inputs turned into the constants of one communication step: oil, thermal sizes, pedestal."""
+
+import math
+
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.layout import (
+    C_BALL_RADIUS,
+    C_DAMPING,
+    C_DAMPING_AXIAL,
+    C_DAMPING_ROTATIONAL,
+    C_DAMPING_SPIN,
+    C_ECCENTRICITY,
+    C_LOAD_Y,
+    C_LOAD_Z,
+    C_OVERSIZE_SCALE,
+    C_PEDESTAL,
+    C_PEDESTAL_AXIAL,
+    C_PEDESTAL_ROTATIONAL,
+    C_PRELOAD,
+    C_RACE_SIZE,
+    C_RACES,
+    C_VISCOSITY,
+    P_AXIAL_RATIO,
+    P_BALL_EXPANSION,
+    P_DIAMETER,
+    P_ECCENTRICITY,
+    P_IMPERFECTION_SCALE,
+    P_OIL_DENSITY,
+    P_OUTER_MASS,
+    P_OUTER_POLAR,
+    P_OUTER_TRANSVERSE,
+    P_PEDESTAL_ZETA,
+    P_RACES,
+    P_ROTATIONAL_RATIO,
+    P_SHEAR_HEATING,
+    P_STARVATION,
+    P_VISCOSITY,
+    P_VOGEL_B,
+    P_VOGEL_C,
+    RACE_EXPANSION,
+    RACE_GROOVE,
+    RACE_GROOVE_RADIUS,
+    RACE_GROOVE_X,
+    RACE_ROLLING,
+    RACE_SIZE,
+    REFERENCE_TEMPERATURE,
+    U_INNER_T,
+    U_LOAD_Y,
+    U_LOAD_Z,
+    U_OIL_T,
+    U_OUTER_T,
+    U_PEDESTAL,
+    U_PRELOAD,
+)
+
+_TO_RPM = 30.0 / math.pi
+
+
+@kernel
+def viscosity(p, temperature):
+    """Dynamic viscosity (Pa s) at ``temperature`` (K): Vogel's law through the reference point."""
+    reference = p[P_VOGEL_B] / (REFERENCE_TEMPERATURE - p[P_VOGEL_C])
+    return p[P_VISCOSITY] * math.exp(p[P_VOGEL_B] / (temperature - p[P_VOGEL_C]) - reference)
+
+
+@kernel
+def rolling_reduction(p, eta, speed):
+    """Reduction of the rolling resistance by inlet shear heating and kinematic starvation.
+
+    SKF friction model (SKF rolling bearings catalogue 2018): 1/(1 + 1.84e-9 (n d_m)^1.28 nu^0.64) and
+    exp(-K_rs nu n (d + D) sqrt(K_z / (2 (D - d)))), n in r/min, d_m in mm, nu in mm2/s. ``speed`` in rad/s.
+    """
+    n = abs(speed) * _TO_RPM
+    nu = eta / p[P_OIL_DENSITY] * 1e6
+    heating = 1.0 / (1.0 + p[P_SHEAR_HEATING] * math.exp(1.28 * math.log(n + 1e-6) + 0.64 * math.log(nu)))
+    return heating * math.exp(-p[P_STARVATION] * nu * n)
+
+
+@kernel
+def conditions(p, u, speed, c):
+    """Fill ``c`` from the inputs ``u``; ``speed`` (rad/s) enters the reduction factors only.
+
+    Rings and balls expand about the reference temperature: groove circles, groove radii and ball radius
+    scale with their own body's temperature; the balls have the mean of both rings'.
+    """
+    eta = viscosity(p, u[U_OIL_T])
+    rise_i = u[U_INNER_T] - REFERENCE_TEMPERATURE
+    rise_o = u[U_OUTER_T] - REFERENCE_TEMPERATURE
+    ball = 0.5 * p[P_DIAMETER] * (1.0 + p[P_BALL_EXPANSION] * 0.5 * (rise_i + rise_o))
+    reduced = rolling_reduction(p, eta, speed)
+    for race in range(2):
+        numbers = P_RACES + race * RACE_SIZE
+        held = C_RACES + race * C_RACE_SIZE
+        growth = 1.0 + p[numbers + RACE_EXPANSION] * (rise_i if race == 0 else rise_o)
+        c[held] = p[numbers + RACE_GROOVE_X] * growth
+        c[held + 1] = p[numbers + RACE_GROOVE_RADIUS] * growth
+        c[held + 2] = p[numbers + RACE_GROOVE] * growth - ball
+        c[held + 3] = p[numbers + RACE_ROLLING] * math.exp(0.66 * math.log(eta)) * reduced
+    c[C_BALL_RADIUS] = ball
+    c[C_PRELOAD] = u[U_PRELOAD]
+    c[C_LOAD_Y] = u[U_LOAD_Y]
+    c[C_LOAD_Z] = u[U_LOAD_Z]
+    c[C_VISCOSITY] = eta
+    radial = u[U_PEDESTAL]
+    axial = p[P_AXIAL_RATIO] * radial
+    rotational = p[P_ROTATIONAL_RATIO] * radial
+    twice = 2.0 * p[P_PEDESTAL_ZETA]
+    mass = p[P_OUTER_MASS]
+    c[C_PEDESTAL] = radial
+    c[C_PEDESTAL_AXIAL] = axial
+    c[C_PEDESTAL_ROTATIONAL] = rotational
+    c[C_DAMPING] = twice * math.sqrt(radial * mass)
+    c[C_DAMPING_AXIAL] = twice * math.sqrt(axial * mass)
+    c[C_DAMPING_ROTATIONAL] = twice * math.sqrt(rotational * p[P_OUTER_TRANSVERSE])
+    c[C_DAMPING_SPIN] = twice * math.sqrt(rotational * p[P_OUTER_POLAR])
+    c[C_OVERSIZE_SCALE] = p[P_IMPERFECTION_SCALE]
+    c[C_ECCENTRICITY] = p[P_IMPERFECTION_SCALE] * p[P_ECCENTRICITY]

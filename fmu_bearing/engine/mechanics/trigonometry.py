@@ -1,0 +1,71 @@
+"""Sine and cosine of the ball angles without a branch, so that the loop over balls stays a vector loop."""
+
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.layout import STRIDE, W_COS, W_SIN
+
+# Cody-Waite split of pi/2 and the rounding constant 1.5 * 2^52: adding and taking it away rounds to an
+# integer. Both need strict floating point.
+_TWO_OVER_PI = 0.6366197723675814
+_HALF_PI_HIGH = 1.5707963267341256
+_HALF_PI_LOW = 6.077100506506192e-11
+_ROUND = 6755399441055744.0
+_TWO_PI = 6.283185307179586
+
+
+@kernel
+def wrap(angle):
+    """Angle brought into [-pi, pi] (rad); exact to rounding for a few turns."""
+    turns = (angle * (1.0 / _TWO_PI) + _ROUND) - _ROUND
+    return angle - turns * _TWO_PI
+
+
+@kernel
+def ball_angles(angle, at, lanes, w):
+    """Write cosine and sine of ``angle[at + j]`` (rad, a few turns at most) into their rows of ``w``.
+
+    Taylor series to degrees 15 and 16 on [-pi/4, pi/4]: truncation below 5e-17.
+    """
+    for j in range(lanes):
+        x = angle[at + j]
+        n = (x * _TWO_OVER_PI + _ROUND) - _ROUND
+        t = (x - n * _HALF_PI_HIGH) - n * _HALF_PI_LOW
+        t2 = t * t
+        s = t + t * t2 * (
+            -1.0 / 6
+            + t2
+            * (
+                1.0 / 120
+                + t2
+                * (
+                    -1.0 / 5040
+                    + t2
+                    * (1.0 / 362880 + t2 * (-1.0 / 39916800 + t2 * (1.0 / 6227020800 - t2 / 1307674368000.0)))
+                )
+            )
+        )
+        c = 1.0 + t2 * (
+            -0.5
+            + t2
+            * (
+                1.0 / 24
+                + t2
+                * (
+                    -1.0 / 720
+                    + t2
+                    * (
+                        1.0 / 40320
+                        + t2
+                        * (
+                            -1.0 / 3628800
+                            + t2 * (1.0 / 479001600 - t2 * (1.0 / 87178291200 - t2 / 20922789888000.0))
+                        )
+                    )
+                )
+            )
+        )
+        quarter = n - 4.0 * ((n * 0.25 - 0.375 + _ROUND) - _ROUND)  # 0, 1, 2 or 3
+        odd = (quarter == 1.0) | (quarter == 3.0)
+        sine = c if odd else s
+        cosine = s if odd else c
+        w[W_SIN * STRIDE + j] = -sine if quarter >= 2.0 else sine
+        w[W_COS * STRIDE + j] = -cosine if (quarter == 1.0) | (quarter == 2.0) else cosine

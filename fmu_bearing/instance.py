@@ -1,0 +1,141 @@
+"""One running bearing: the model's numbers, its state, and access by name.
+
+The same object serves the library and the FMU, so that both give the same bits.
+"""
+
+import math
+
+import numpy as np
+from fmu_bearing.interface import Variable
+from numpy.typing import NDArray
+
+from fmu_bearing.engine import abi, layout
+from fmu_bearing.prepare.model import Model
+
+_REASONS = {
+    layout.NOT_CONVERGED: "the equations could not be solved: even the shortest internal steps failed",
+    layout.BAD_INPUT: "an input is not finite or outside its range",
+    layout.BAD_STEP: "the communication step must be a positive, finite number of seconds",
+    layout.NO_START: "no quasi-static equilibrium was found for the initial inputs",
+}
+_RELATIVE_SLACK = 1e-12  # a value at a bound may carry rounding from a unit conversion
+
+
+class EngineError(ValueError):
+    """The engine refused; the instance is as it was before the call."""
+
+
+class Instance:
+    """A bearing that can be stepped.
+
+    Parameters
+    ----------
+    model : Model
+        Prepared scene; never changed, so any number of instances may share it.
+
+    Examples
+    --------
+    >>> bearing = Instance(prepare(scene))            # doctest: +SKIP
+    >>> bearing.initialise()                          # doctest: +SKIP
+    >>> bearing.set("shaft_speed", 2100.0)            # doctest: +SKIP
+    >>> bearing.step(1e-3)                            # doctest: +SKIP
+    >>> bearing.get("friction_torque")                # doctest: +SKIP
+    """
+
+    def __init__(self, model: Model) -> None:
+        self.model = model
+        self.by_name = {variable.name: variable for variable in model.variables}
+        self.reset()
+
+    def reset(self) -> None:
+        """Back to the state of a fresh instance."""
+        model = self.model
+        self.p: NDArray[np.float64] = model.parameters.copy()
+        self.u: NDArray[np.float64] = np.zeros(len(layout.INPUTS))
+        self.z: NDArray[np.float64] = np.zeros(layout.z_size(model.n_balls, model.n_mics))
+        self.s: NDArray[np.float64] = np.zeros(layout.state_size(self.p))
+        self._w: NDArray[np.float64] = np.zeros(layout.work_size(self.p))
+        self._kept = self.s.copy()
+        self.initialised = False
+        for variable in model.variables:
+            if variable.array == "u" and variable.start is not None:
+                self.u[variable.index] = variable.start
+
+    @property
+    def time(self) -> float:
+        """Time reached (s)."""
+        return float(self.s[layout.S_TIME])
+
+    def variable(self, name: str) -> Variable:
+        """Variable of that name; ``KeyError`` names what is missing."""
+        try:
+            return self.by_name[name]
+        except KeyError:
+            raise KeyError(f"this bearing has no variable '{name}'") from None
+
+    def check(self, variable: Variable, value: float) -> None:
+        """Raise ``ValueError`` unless ``value`` may be set."""
+        low = -math.inf if variable.min is None else variable.min
+        high = math.inf if variable.max is None else variable.max
+        slack = _RELATIVE_SLACK * max(
+            abs(low) if low > -math.inf else 0.0, abs(high) if high < math.inf else 0.0
+        )
+        if not math.isfinite(value) or not low - slack <= value <= high + slack:
+            unit = f" {variable.unit}" if variable.unit else ""
+            raise ValueError(f"{variable.name} = {value} is refused: allowed are {low:g} to {high:g}{unit}")
+
+    def set(self, name: str, value: float) -> None:
+        """Set an input, or a parameter before initialisation; ``ValueError`` if refused."""
+        variable = self.variable(name)
+        value = float(value)
+        if variable.array == "u":
+            self.check(variable, value)
+            self.u[variable.index] = value
+        elif variable.array == "p" and variable.causality == "parameter":
+            if self.initialised:
+                raise ValueError(f"{name} is fixed once the bearing is initialised; call reset() first")
+            self.check(variable, value)
+            self.p[variable.index] = value
+        else:
+            raise ValueError(f"{name} cannot be set: its causality is {variable.causality}")
+
+    def get(self, name: str) -> float:
+        """Value of any variable, SI units."""
+        variable = self.variable(name)
+        if variable.array == "":
+            return float(variable.value if variable.value is not None else variable.start)
+        return float({"u": self.u, "z": self.z, "p": self.p}[variable.array][variable.index])
+
+    def initialise(self, time: float = 0.0) -> None:
+        """Put the bearing to its quasi-static state at the inputs; ``EngineError`` if there is none."""
+        status = abi.init(self._read_only(), self.u, self.s, self.z, self._w, float(time))
+        if status != layout.OK:
+            raise EngineError(f"initialisation at t = {time} s: {_REASONS[status]}; {self._inputs()}")
+        self.initialised = True
+
+    def step(self, h: float) -> None:
+        """Advance by ``h`` (s). The speed ramps to its input over the step; other inputs are held.
+
+        ``EngineError`` if the step is refused; the state is then that before the call.
+        """
+        if not self.initialised:
+            raise EngineError("the bearing must be initialised before it is stepped")
+        self._kept[:] = self.s
+        status = abi.step(self._p, self.u, self.s, self.z, self._w, float(h))
+        if status != layout.OK:
+            reached = self.time
+            self.s[:] = self._kept
+            raise EngineError(
+                f"step of {h} s from t = {self.time:.9g} s (reached {reached:.9g} s): {_REASONS[status]}; "
+                f"{self._inputs()}"
+            )
+
+    def _read_only(self) -> NDArray[np.float64]:
+        # the compiled entries are specialised on read-only parameters
+        self._p = self.p.view()
+        self._p.setflags(write=False)
+        return self._p
+
+    def _inputs(self) -> str:
+        named = zip(layout.INPUTS, self.u, strict=True)
+        return "inputs were " + ", ".join(f"{name} = {value:.6g}" for name, value in named)

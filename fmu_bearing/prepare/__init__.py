@@ -1,0 +1,9 @@
+"""Scene to numbers, once per scene: ordinary Python, may be slow, may raise.
+
+===================  ==================================================================
+``hertz``            constants of elliptical point contacts
+``bodies``           masses and inertias from the scene's dimensions
+``imperfections``    waviness tables, ball sizes, unbalance from a seed
+``model``            packs everything into the flat parameter array of the engine
+===================  ==================================================================
+"""

@@ -1,0 +1,78 @@
+"""Masses and moments of inertia from the scene's dimensions."""
+
+import math
+from dataclasses import dataclass
+
+from fmu_bearing.scene import Scene, si
+
+
+@dataclass(frozen=True)
+class RigidBody:
+    """Mass (kg), transverse and polar moment of inertia (kg m2) about the bearing's centre."""
+
+    mass: float
+    transverse: float
+    polar: float
+
+    def __add__(self, other: "RigidBody") -> "RigidBody":
+        """Two bodies fixed to each other, both centred in the bearing."""
+        return RigidBody(self.mass + other.mass, self.transverse + other.transverse, self.polar + other.polar)
+
+
+def annulus(inner_diameter: float, outer_diameter: float, width: float, density: float) -> RigidBody:
+    """Ring of rectangular section; diameters and width in m, density in kg/m3."""
+    mass = density * math.pi / 4.0 * (outer_diameter**2 - inner_diameter**2) * width
+    return of_mass(mass, inner_diameter, outer_diameter, width)
+
+
+def of_mass(mass: float, inner_diameter: float, outer_diameter: float, width: float) -> RigidBody:
+    """Ring of a given mass (kg)."""
+    squares = (inner_diameter**2 + outer_diameter**2) / 4.0
+    return RigidBody(mass, mass * (3.0 * squares + width**2) / 12.0, mass * squares / 2.0)
+
+
+def inner_ring(scene: Scene) -> RigidBody:
+    """Inner ring alone, from its effective outer diameter."""
+    b = si(scene.bearing)
+    return annulus(b.bore, b.inner_ring_outer_diameter, b.width, si(scene.materials.inner_ring).density)
+
+
+def outer_ring(scene: Scene) -> RigidBody:
+    """Outer ring alone, from its effective inner diameter."""
+    b = si(scene.bearing)
+    return annulus(
+        b.outer_ring_inner_diameter, b.outside_diameter, b.width, si(scene.materials.outer_ring).density
+    )
+
+
+def cage(scene: Scene) -> RigidBody:
+    """Cage: a ring less its round pockets; inertia scaled with the mass."""
+    b, c = si(scene.bearing), si(scene.bearing.cage)
+    density = si(scene.materials.cage).density
+    full = annulus(c.bore, c.outside_diameter, c.width, density)
+    wall = (c.outside_diameter - c.bore) / 2.0
+    share = 1.0 - density * b.ball_count * math.pi / 4.0 * c.pocket_diameter**2 * wall / full.mass
+    return RigidBody(full.mass * share, full.transverse * share, full.polar * share)
+
+
+def rotor(scene: Scene) -> RigidBody:
+    """Rotor as a solid cylinder centred in the bearing; zero where the scene has none."""
+    if scene.mounting.rotor is None:
+        return RigidBody(0.0, 0.0, 0.0)
+    r = si(scene.mounting.rotor)
+    return of_mass(r.mass, 0.0, r.diameter, r.length)
+
+
+def housing(scene: Scene) -> RigidBody:
+    """Housing that moves with the outer ring, its mass put at the bearing's centre; zero if none."""
+    if scene.mounting.housing is None:
+        return RigidBody(0.0, 0.0, 0.0)
+    h = si(scene.mounting.housing)
+    return of_mass(h.mass, 0.0, h.diameter, h.length)
+
+
+def ball(scene: Scene) -> tuple[float, float]:
+    """Mass (kg) and moment of inertia (kg m2) of one ball."""
+    diameter = si(scene.bearing).ball_diameter
+    mass = si(scene.materials.balls).density * math.pi / 6.0 * diameter**3
+    return mass, mass * diameter**2 / 10.0

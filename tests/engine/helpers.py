@@ -1,0 +1,71 @@
+"""Run the engine on small variations of the example scenes."""
+
+import numpy as np
+
+from fmu_bearing.engine import abi
+from fmu_bearing.engine import layout as at
+from fmu_bearing.prepare.model import pack
+
+RPM = np.pi / 30
+
+
+def quiet(scene):
+    """The scene without imperfections and without sound."""
+    return scene.model_copy(update={"imperfections": None, "sound": None})
+
+
+class Run:
+    """A bearing on bare arrays: parameters from a scene without sound, inputs at will."""
+
+    def __init__(self, scene, rpm, preload=None, pedestal=None, **parameters):
+        self.p = pack(scene, np.empty(0))
+        for name, value in parameters.items():
+            self.p[getattr(at, name)] = value
+        self.p.setflags(write=False)
+        mounting = scene.mounting
+        self.u = np.array(
+            [
+                rpm * RPM,
+                mounting.preload_N if preload is None else preload,
+                mounting.pedestal_stiffness_N_m if pedestal is None else pedestal,
+                0.0,
+                0.0,
+                293.15,
+                293.15,
+                293.15,
+            ]
+        )
+        self.s = np.zeros(at.state_size(self.p))
+        self.w = np.zeros(at.work_size(self.p))
+        self.z = np.zeros(at.z_size(int(self.p[at.P_BALLS]), 0))
+
+    def init(self):
+        status = abi.init(self.p, self.u, self.s, self.z, self.w, 0.0)
+        assert status == at.OK
+        return self
+
+    def step(self, h):
+        return abi.step(self.p, self.u, self.s, self.z, self.w, h)
+
+    def run(self, duration, h=1e-4):
+        """Step for ``duration`` (s); rows of z after each step."""
+        rows = []
+        for _ in range(round(duration / h)):
+            assert self.step(h) == at.OK
+            rows.append(self.z.copy())
+        return np.array(rows)
+
+    def value(self, name, rows=None):
+        """An output by name, from rows of z or the last one."""
+        k = at.BEARING_OUTPUTS.index(name)
+        return self.z[k] if rows is None else rows[:, k]
+
+    @property
+    def heat(self):
+        """Dissipated so far (J)."""
+        return self.s[at.S_HEAT_INNER : at.S_HEAT_INNER + 3].sum()
+
+    @property
+    def imbalance(self):
+        """Work in less dissipation less change of stored energy (J)."""
+        return self.s[at.S_WORK] - self.heat - (self.s[at.S_ENERGY_NOW] - self.s[at.S_ENERGY_START])

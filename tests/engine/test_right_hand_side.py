@@ -1,0 +1,371 @@
+"""The right-hand side against plain inertial vectors, and against momentum and energy.
+
+States are random but physical: quasi-static start, then micrometres of approach, slip of a few per cent,
+tilts, a displaced cage, one ball lifted off both races and one pressed into its pocket.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+from scipy.interpolate import CubicHermiteSpline
+
+from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.mechanics.cage import film_force
+from fmu_bearing.engine.mechanics.conditions import conditions
+from fmu_bearing.engine.mechanics.energy import stored_energy
+from fmu_bearing.engine.mechanics.equations import right_hand_side
+from tests.engine.helpers import Run
+from tests.oracles import cartesian as oracle
+
+LIFTED, TRAPPED = 2, 5
+SPEED_RATE = 3e4  # rad/s2, of the inner ring
+SCENES = ("7003C-spindle", "7009C-full-ceramic")
+ROUNDING = 1e-9  # displacements of 1e-6 m come from radii of 1e-2 m: 1e-12 at best, then powers and sums
+
+
+@dataclass
+class Case:
+    """One state in the engine's layout and in the oracle's."""
+
+    p: np.ndarray
+    c: np.ndarray
+    y: np.ndarray
+    angle: float
+    speed: float
+    setup: oracle.Setup
+    w: np.ndarray
+
+    @property
+    def n(self):
+        return int(self.p[at.P_BALLS])
+
+    @property
+    def state(self):
+        rows = self.y[: 9 * at.STRIDE].reshape(9, at.STRIDE)[:, : self.n]
+        q, v = self.y[at.Y_Q : at.Y_V], self.y[at.Y_V :]
+        bodies = np.array([[*q[:3], self.angle, *q[3:5]], q[5:11], q[11:]])
+        rates = np.array([[*v[:3], self.speed, *v[3:5]], v[5:11], v[11:]])
+        return oracle.State(rows.T.copy(), bodies, rates)
+
+    def engine(self):
+        """The engine's answer, in the oracle's shapes."""
+        f = np.zeros(at.F_SIZE)
+        right_hand_side(self.p, self.c, self.y, self.angle, self.speed, SPEED_RATE, self.w, f)
+        g = f[at.F_G : at.F_WORK]
+        return oracle.Answer(
+            f[: 6 * at.STRIDE].reshape(6, at.STRIDE)[:, : self.n].T,
+            np.array([[*g[:3], 0.0, *g[3:5]], g[5:11], g[11:]]),
+            f[at.F_TORQUE],
+            f[at.F_HEAT : at.F_HEAT + 3],
+            f[at.F_WORK],
+        )
+
+    def oracle(self):
+        return oracle.equations(self.setup, self.state, SPEED_RATE)
+
+
+def spline(table):
+    """Race height and slope by SciPy's Hermite spline over the engine's table."""
+    grid = 2.0 * np.pi * np.arange(at.WAVE_INTERVALS + 1) / at.WAVE_INTERVALS
+    curve = CubicHermiteSpline(grid, [*table[0::2], table[0]], np.array([*table[1::2], table[1]]) / grid[1])
+    slope = curve.derivative()
+    return lambda angle: (curve(angle % (2.0 * np.pi)), slope(angle % (2.0 * np.pi)))
+
+
+def harmonics(table):
+    """Race height and slope as the harmonic sum of which the table holds the values."""
+    lines = np.fft.rfft(table[0::2])[:64] / at.WAVE_INTERVALS
+    lines[1:] *= 2.0
+    orders = np.arange(64)
+
+    def wave(angle):
+        turning = lines * np.exp(1j * orders * angle)
+        return turning.real.sum(), (1j * orders * turning).real.sum()
+
+    return wave
+
+
+def race(p, c, k, wave):
+    block = p[at.P_RACES + k * at.RACE_SIZE :]
+    held = c[at.C_RACES + k * at.C_RACE_SIZE :]
+    table = p[int(p[at.P_AT_WAVES]) + 2 * k * at.WAVE_INTERVALS :][: 2 * at.WAVE_INTERVALS]
+    return oracle.Race(
+        x=held[0],
+        circle=held[1],
+        free=held[2],
+        stiffness=block[at.RACE_STIFFNESS],
+        half_length=block[at.RACE_HALF_LENGTH],
+        profile=block[at.RACE_PROFILE_RADIUS],
+        rolling=held[3] if p[at.P_ROLLING] else 0.0,
+        wave=wave(c[at.C_OVERSIZE_SCALE] * table) if p[at.P_WAVINESS] else lambda angle: (0.0, 0.0),
+    )
+
+
+def pick(kind, p, prefix, names):
+    return kind(**{name: p[getattr(at, prefix + place)] for name, place in names.items()})
+
+
+def cage_parts(p):
+    if not p[at.P_CAGE]:
+        return None, None
+    pocket = pick(
+        oracle.Pocket,
+        p,
+        "P_POCKET_",
+        {name: name.upper() for name in ("clearance", "stiffness", "damping", "friction", "slip", "film")},
+    )
+    names = {name: name.upper() for name in ("radius", "length", "offset", "clearance", "viscosity")}
+    stops = {"stop": "STIFFNESS", "fraction": "FRACTION", "friction": "FRICTION", "slip": "SLIP"}
+    names |= {name: "STOP_" + place for name, place in stops.items()}
+    return pocket, pick(oracle.Land, p, "P_LAND_", names) if p[at.P_LAND] else None
+
+
+def setup(p, c, wave=spline):
+    pocket, land = cage_parts(p)
+    first = int(p[at.P_AT_OVERSIZE])
+    masses = [
+        pick(oracle.Mass, p, f"P_{body}_", {"mass": "MASS", "transverse": "TRANSVERSE", "polar": "POLAR"})
+        for body in ("INNER", "OUTER", "CAGE")
+    ]
+    springs, dampers, load = np.zeros((3, 6)), np.zeros((3, 6)), np.zeros((3, 3))
+    springs[0, 4:], dampers[0, 4:] = p[at.P_TILT_STIFFNESS], p[at.P_TILT_DAMPING]
+    radial, turn = c[at.C_PEDESTAL], c[at.C_PEDESTAL_ROTATIONAL]
+    springs[1] = c[at.C_PEDESTAL_AXIAL], radial, radial, turn, turn, turn
+    radial, turn = c[at.C_DAMPING], c[at.C_DAMPING_ROTATIONAL]
+    dampers[1] = c[at.C_DAMPING_AXIAL], radial, radial, c[at.C_DAMPING_SPIN], turn, turn
+    load[0] = c[at.C_PRELOAD], c[at.C_LOAD_Y], c[at.C_LOAD_Z]
+    return oracle.Setup(
+        pitch=p[at.P_PITCH_RADIUS],
+        ball_radius=c[at.C_BALL_RADIUS],
+        ball_mass=p[at.P_BALL_MASS],
+        ball_inertia=p[at.P_BALL_INERTIA],
+        oversize=c[at.C_OVERSIZE_SCALE] * p[first : first + int(p[at.P_BALLS])],
+        races=tuple(race(p, c, k, wave) for k in range(2)),
+        damping=p[at.P_CONTACT_DAMPING],
+        friction=p[at.P_MU],
+        slide_to_roll=p[at.P_SLIDE_TO_ROLL],
+        floor=p[at.P_TRACTION_FLOOR],
+        strips=int(p[at.P_STRIPS]),
+        drag=p[at.P_DRAG_FACTOR] if p[at.P_DRAG] else 0.0,
+        gravity=bool(p[at.P_GRAVITY]),
+        gyroscopic=bool(p[at.P_GYROSCOPIC]),
+        masses=tuple(masses),
+        springs=springs,
+        dampers=dampers,
+        eccentricity=c[at.C_ECCENTRICITY],
+        load=load,
+        pocket=pocket,
+        land=land,
+    )
+
+
+def shake(y, run, rng, tilt, cage_offset, afloat):
+    """Displace everything about the quasi-static state ``y``; the balls' oil film scale is 1e-6 m."""
+    p, n, size = run.p, int(run.p[at.P_BALLS]), at.STRIDE
+    balls = y[: 9 * size].reshape(9, size)[:, :n]
+    spread = rng.uniform(-1.0, 1.0, (9, n))
+    orbit, spin = balls[at.B_OM].copy(), np.hypot(balls[at.B_WX], balls[at.B_WR])
+    balls[0] += 1e-6 * spread[0]
+    balls[1] += 0.5e-6 * spread[1]
+    balls[2] += 0.7 + 2e-3 * spread[2]
+    balls[3:5] = 0.02 * spread[3:5]
+    balls[5] += 0.02 * orbit * spread[5]
+    balls[6:] += 0.03 * spin * spread[6:]
+    balls[1, LIFTED] -= 3e-6
+    balls[0, LIFTED] -= 6e-6
+    balls[2] = (balls[2] + np.pi) % (2.0 * np.pi) - np.pi
+    q, v = y[at.Y_Q : at.Y_V], y[at.Y_V :]
+    q[:3] += 0.5e-6 * rng.uniform(-1, 1, 3)
+    q[5:8] += 0.5e-6 * rng.uniform(-1, 1, 3)
+    for tilts in (q[3:5], q[9:11], q[15:17]):
+        tilts[:] = tilt * rng.uniform(-1, 1, 2)
+    q[8] = 1e-5
+    # cage: behind its balls by less than the pocket's clearance but for one ball, off its land's middle
+    room = p[at.P_POCKET_CLEARANCE] / p[at.P_PITCH_RADIUS]
+    q[14] = 0.7 - 0.3 * room
+    way = rng.uniform(0, 2 * np.pi)
+    q[11] = q[0] + afloat
+    q[12:14] = q[1:3] + cage_offset * p[at.P_LAND_CLEARANCE] * np.array([np.cos(way), np.sin(way)])
+    v[:] = 0.01 * rng.uniform(-1, 1, 17)
+    v[8] = 2.0
+    v[[3, 4, 9, 10, 15, 16]] *= 30
+    v[14] = 1.01 * orbit.mean()
+    trapped = 2.0 * np.pi * TRAPPED / n + q[14] + 1.15 * room
+    trapped += (np.cos(trapped) * q[12] + np.sin(trapped) * q[13]) * -1.0 / p[at.P_PITCH_RADIUS]
+    balls[2, TRAPPED] = (trapped + np.pi) % (2.0 * np.pi) - np.pi
+    # it closes in at a few cm/s: much faster apart, and the pocket would have let go
+    balls[5, TRAPPED] = v[14] + 0.05 / p[at.P_PITCH_RADIUS]
+
+
+@pytest.fixture
+def case(scene):
+    def make(name, seed=1, rpm=20000, tilt=1e-4, cage_offset=0.5, afloat=8e-6, wave=spline, **parameters):
+        run = Run(scene(name), rpm, **parameters).init()
+        rng = np.random.default_rng(seed)
+        run.u[at.U_LOAD_Y], run.u[at.U_LOAD_Z], run.u[at.U_OIL_T] = 70.0, -40.0, 310.0
+        run.u[at.U_INNER_T], run.u[at.U_OUTER_T] = 296.0, 294.0
+        c = np.zeros(at.C_SIZE)
+        conditions(run.p, run.u, run.u[at.U_SPEED], c)
+        y = run.s[at.S_Y : at.S_Y + at.Y_SIZE].copy()
+        shake(y, run, rng, tilt, cage_offset, afloat)
+        rows = y[: 9 * at.STRIDE].reshape(9, at.STRIDE)
+        rows[:, int(run.p[at.P_BALLS]) :] = rows[:, :1]
+        angle = rng.uniform(-np.pi, np.pi)
+        return Case(run.p, c, y, angle, run.u[at.U_SPEED], setup(run.p, c, wave), run.w)
+
+    return make
+
+
+def off(found, wanted, share=None):
+    """Largest difference over the largest value (of ``share``, where given) of each column."""
+    found, wanted = np.atleast_2d(found), np.atleast_2d(wanted)
+    scale = np.abs(wanted if share is None else share).max(axis=0)
+    return (np.abs(found - wanted).max(axis=0) / np.where(scale == 0.0, 1.0, scale)).max()
+
+
+def agree(case, tolerance, landed=None):
+    """Every number of the right-hand side against the oracle; ``landed``: tolerance where the land enters."""
+    landed = tolerance if landed is None else landed
+    found, wanted = case.engine(), case.oracle()
+    assert off(found.balls, wanted.balls) <= tolerance
+    for body, gate in enumerate((landed, tolerance, landed)):
+        # numbers of one kind: axial, radial, spin, tilt
+        for kind in ([0], [1, 2], [3], [4, 5]):
+            assert off(found.bodies[body, kind, None], wanted.bodies[body, kind, None]) <= gate
+    assert found.torque == pytest.approx(wanted.torque, rel=landed)
+    assert found.work == pytest.approx(wanted.work, rel=landed)
+    assert found.heats[:2] == pytest.approx(wanted.heats[:2], rel=tolerance)
+    assert found.heats[2] == pytest.approx(wanted.heats[2], rel=landed)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_states_are_what_they_should_be(case, name):
+    """One ball off a race, one held by its pocket, most pressed by a few micrometres and sliding."""
+    one = case(name)
+    state = one.state
+    gaps = np.array([[oracle.approach(one.setup, state, j, k) for k in range(2)] for j in range(one.n)])
+    assert gaps[LIFTED].min() < -1e-7
+    assert (gaps > 5e-7).mean() > 0.8
+    assert gaps.max() < 2e-5
+    push = np.hypot(*oracle.in_pocket(one.setup, state, TRAPPED)) - one.setup.pocket.clearance
+    assert 1e-6 < push < 5e-5
+    with_cage, without = one.oracle(), replace(one.setup, pocket=None, land=None)
+    rest = oracle.equations(without, state, SPEED_RATE)
+    assert abs(with_cage.balls[TRAPPED, 2] - rest.balls[TRAPPED, 2]) > 1e5  # rad/s2
+
+
+@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("tilt", [0.0, 1e-5, 1e-4])
+def test_against_inertial_vectors(case, name, seed, tilt):
+    agree(case(name, seed=seed, tilt=tilt, P_LAND=0.0), ROUNDING)
+
+
+@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("cage_offset", [0.1, 0.5, 0.9, 0.98, 1.02])
+def test_lands_against_pressure_quadrature(case, name, cage_offset):
+    """The engine rounds the wedge over 1 rad/s of some 1e3 and the whirl over 10 nm of some 10 um."""
+    agree(case(name, cage_offset=cage_offset), ROUNDING, landed=2e-5 if cage_offset < 0.5 else 1e-6)
+
+
+@pytest.mark.parametrize("ratio", [0.05, 0.5, 0.96])
+@pytest.mark.parametrize("closing", [-300.0, 0.0, 300.0])
+@pytest.mark.parametrize("wedge", [-1e6, 1e6])
+def test_film_against_pressure_quadrature(case, ratio, closing, wedge):
+    """At 1e6 rad/s the engine's rounding of the wedge's sign is below 1e-12."""
+    land = case(SCENES[0]).setup.land
+    eccentric, whirl = ratio * land.clearance, 150.0
+    back, on = film_force(land.viscosity, land.radius, land.length, land.clearance, ratio, closing, wedge)
+    out, ahead = np.array([0.6, -0.8]), np.array([0.8, 0.6])
+    velocity = closing * land.clearance * out + whirl * eccentric * ahead
+    push = oracle.film_push(land, eccentric * out, velocity, 0.7 * wedge, 0.3 * wedge + 2.0 * whirl)
+    assert off(push[:, None], (on * ahead - back * out)[:, None]) <= 1e-11
+
+
+@pytest.mark.parametrize("rpm", [0, 1000, -20000, 60000])
+def test_other_speeds(case, rpm):
+    agree(case(SCENES[0], rpm=rpm, P_LAND=0.0), ROUNDING)
+
+
+@pytest.mark.parametrize(
+    "term", ["CAGE", "GRAVITY", "DRAG", "ROLLING", "GYROSCOPIC", "WAVINESS", "IMPERFECTION_SCALE"]
+)
+def test_without_a_term(case, term):
+    agree(case(SCENES[0], P_LAND=0.0, **{f"P_{term}": 0.0}), ROUNDING)
+
+
+def test_waviness_table_holds_the_harmonics(case):
+    """Hermite interpolation over 2048 intervals: slope of order 20 to (2 pi 20/2048)^3/100 = 2e-6."""
+    agree(case(SCENES[0], P_LAND=0.0, wave=harmonics), 3e-6)
+
+
+def pulls(case, found):
+    """Rates of momentum, forces from outside and centres of balls and bodies, in inertial axes."""
+    setup, state = case.setup, case.state
+    rate, outside, centre = [], [], []
+    weight = np.array([0.0, 0.0, -9.81 if setup.gravity else 0.0])
+    for ball, a in zip(state.balls, found.balls, strict=True):
+        x, r, t = oracle.directions(ball[2])
+        radius, orbit = setup.pitch + ball[1], ball[5]
+        inertial = a[0] * x + (a[1] - radius * orbit**2) * r + (radius * a[2] + 2.0 * ball[4] * orbit) * t
+        rate.append(setup.ball_mass * inertial)
+        outside.append(setup.ball_mass * weight - setup.drag * radius**2 * orbit * abs(orbit) * t)
+        centre.append(ball[0] * x + radius * r)
+    for k, mass in enumerate(setup.masses):
+        spring = setup.springs[k] * state.bodies[k] + setup.dampers[k] * state.rates[k]
+        rate.append(mass.mass * found.bodies[k, :3])
+        outside.append(mass.mass * weight + setup.load[k] - spring[:3])
+        centre.append(state.bodies[k, :3])
+    outside[case.n] = outside[case.n] + oracle.unbalance(setup, state, SPEED_RATE)
+    return np.array(rate), np.array(outside), np.array(centre)
+
+
+@pytest.mark.parametrize("cage_offset", [0.5, 1.02])
+@pytest.mark.parametrize("tilt", [0.0, 1e-3])
+def test_linear_momentum(case, tilt, cage_offset):
+    """What bodies and balls do to each other cancels: only outside forces change the momentum."""
+    one = case(SCENES[0], tilt=tilt, cage_offset=cage_offset)
+    rate, outside, _ = pulls(one, one.engine())
+    assert off(rate.sum(0), outside.sum(0), rate) <= 1e-12
+
+
+@pytest.mark.parametrize("cage_offset", [0.5, 1.02])
+def test_angular_momentum(case, cage_offset):
+    """Moments about the origin, with the drive's torque; without tilt and without axial float of the cage."""
+    one = case(SCENES[0], tilt=0.0, cage_offset=cage_offset, afloat=0.0)
+    setup, state, found = one.setup, one.state, one.engine()
+    rate, outside, centre = pulls(one, found)
+    turning, given = np.cross(centre, rate), np.cross(centre, outside)
+    for j, (ball, a) in enumerate(zip(state.balls, found.balls, strict=True)):
+        spin = a[3:] + np.cross([ball[5], 0.0, 0.0], ball[6:])
+        turning[j] += setup.ball_inertia * (spin @ np.array(oracle.directions(ball[2])))
+    for k, mass in enumerate(setup.masses):
+        spin, tilting = state.rates[k, 3], state.rates[k, 4:]
+        gyroscopic = mass.polar * spin * np.array([tilting[1], -tilting[0]])
+        turning[one.n + k, 0] += mass.polar * found.bodies[k, 3]
+        turning[one.n + k, 1:] += mass.transverse * found.bodies[k, 4:] + gyroscopic
+        given[one.n + k] -= (setup.springs[k] * state.bodies[k] + setup.dampers[k] * state.rates[k])[3:]
+    given[one.n, 0] += found.torque
+    assert off(turning.sum(0), given.sum(0), turning) <= 1e-11
+
+
+@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("cage_offset", [0.5, 1.02])
+@pytest.mark.parametrize(("tilt", "gate"), [(0.0, 1e-12), (1e-5, 1e-9), (1e-4, 1e-8), (1e-3, 1e-6)])
+def test_power_balance(case, name, cage_offset, tilt, gate):
+    """Work less heat is the rate of the stored energy along the engine's accelerations.
+
+    Small-tilt equations leave a rest that grows with the tilt squared.
+    """
+    one = case(name, tilt=tilt, cage_offset=cage_offset)
+    found = one.engine()
+    stored = oracle.power_stored(one.setup, one.state, found.balls, found.bodies)
+    assert abs(found.work - found.heats.sum() - stored) <= gate * found.work
+
+
+def test_stored_energy(case):
+    one = case(SCENES[0], cage_offset=1.02)
+    one.engine()
+    energy = stored_energy(one.p, one.c, one.y, one.w)
+    assert energy == pytest.approx(oracle.stored_energy(one.setup, one.state), rel=1e-12)

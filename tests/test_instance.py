@@ -1,0 +1,106 @@
+"""The library face: one running bearing by name."""
+
+import math
+
+import numpy as np
+import pytest
+from fmu_bearing.instance import EngineError, Instance
+from fmu_bearing.prepare.model import prepare
+
+
+@pytest.fixture(scope="module")
+def model(scene):
+    return prepare(scene("7003C-spindle"))
+
+
+def stepped(bearing, count, h=1e-3):
+    for _ in range(count):
+        bearing.step(h)
+    return bearing
+
+
+def test_reset_is_a_fresh_instance(model):
+    used, fresh = Instance(model), Instance(model)
+    used.set("preload", 300.0)
+    used.initialise()
+    stepped(used, 3)
+    used.reset()
+    for bearing in (used, fresh):
+        bearing.initialise()
+        stepped(bearing, 3)
+    np.testing.assert_array_equal(used.z, fresh.z)
+    np.testing.assert_array_equal(used.s, fresh.s)
+
+
+def test_interleaved_instances_equal_lone_ones(model):
+    slow, fast, lone = Instance(model), Instance(model), Instance(model)
+    slow.set("shaft_speed", 1000.0)
+    for bearing in (slow, fast, lone):
+        bearing.initialise()
+    for _ in range(3):
+        slow.step(1e-3)
+        fast.step(1e-3)
+    stepped(lone, 3)
+    np.testing.assert_array_equal(fast.s, lone.s)
+
+
+def test_bad_values_are_refused_and_not_taken(model):
+    bearing = Instance(model)
+    bearing.initialise()
+    for value in (math.nan, math.inf, -1.0, 1.0001e4):
+        with pytest.raises(ValueError, match=r"preload = .* is refused: allowed are 0 to 10000 N"):
+            bearing.set("preload", value)
+    assert bearing.get("preload") == 500.0
+    with pytest.raises(ValueError, match="friction_torque cannot be set: its causality is output"):
+        bearing.set("friction_torque", 1.0)
+    with pytest.raises(ValueError, match="fixed once the bearing is initialised"):
+        bearing.set("tolerance", 1e-4)
+    with pytest.raises(KeyError, match="no variable 'speed'"):
+        bearing.get("speed")
+
+
+@pytest.mark.parametrize("h", [0.0, -1e-3, math.nan, math.inf])
+def test_bad_steps_leave_the_state_alone(model, h):
+    bearing = Instance(model)
+    with pytest.raises(EngineError, match="must be initialised"):
+        bearing.step(1e-3)
+    bearing.initialise()
+    before = bearing.s.copy()
+    with pytest.raises(EngineError, match="communication step must be a positive, finite"):
+        bearing.step(h)
+    np.testing.assert_array_equal(bearing.s, before)
+    bearing.step(1e-3)
+
+
+def test_levels_and_torque_do_not_depend_on_the_communication_step(model):
+    """0.1 ms against 1 ms: 0.5 % in heat, 0.3 dB in level, as the interface promises."""
+    found = []
+    for h in (1e-4, 1e-3):
+        bearing = Instance(model)
+        bearing.initialise()
+        stepped(bearing, round(0.02 / h), h)
+        heats = []
+        for _ in range(round(0.1 / h)):
+            bearing.step(h)
+            heats.append(sum(bearing.get(f"heat.{part}") for part in ("inner_ring", "outer_ring", "oil")))
+        found.append((np.mean(heats), [bearing.get(f"mic[{k}].leq") for k in range(1, 5)]))
+    assert found[0][0] == pytest.approx(found[1][0], rel=5e-3)
+    np.testing.assert_allclose(found[0][1], found[1][1], atol=0.3)
+
+
+def test_speed_ramps_from_the_value_last_reached(model):
+    bearing = Instance(model)
+    bearing.set("shaft_speed", 1000.0)
+    bearing.initialise()
+    bearing.set("shaft_speed", 1100.0)
+    stepped(bearing, 10, 1e-4)
+    ratio = bearing.get("cage.speed_ratio")
+    # the cage follows within its pocket clearance; at the ramp's end it turns at its kinematic share
+    assert 0.35 < ratio < 0.45
+
+
+def test_inertia_of_the_rotor_is_told_to_the_drive(model, scene):
+    told = Instance(model).get("rotor.inertia")
+    bore, outside, width, density = 17e-3, 22.6e-3, 10e-3, 7800.0
+    ring = density * math.pi / 4 * (outside**2 - bore**2) * width * (bore**2 + outside**2) / 8
+    assert told == pytest.approx(0.25 * 15e-3**2 / 8 + ring, rel=1e-9)

@@ -6,15 +6,20 @@
 ``lubricant``     oil, traction and film constants
 ``mounting``      preload, loads, pedestal, rotor, housing
 ``imperfections`` waviness, ball spread, unbalance, with a seed
+``operation``     speed and temperatures at the start
 ``sound``         what radiates, how it is computed, where the microphones stand
 ``fidelity``      level, tolerance, terms left out
 ``scene``         all of it together, with the checks that span several parts
-``read``          TOML in, one-line errors out
+``base``          what all tables share: frozen, strict, conflicts all told at once
+``read``          TOML in; catalogue names become values
+``problems``      one line per problem, in the words of who wrote the file
 ``units``         the one place that converts to SI
+``catalogue``     bearings, materials and lubricants by name
 ================  =====================================================================
 """
 
-from fmu_bearing.scene.read import SceneError, read_scene, read_scene_text
+from fmu_bearing.scene.problems import SceneError
+from fmu_bearing.scene.read import read_scene, read_scene_text
 from fmu_bearing.scene.scene import Scene
 from fmu_bearing.scene.units import si
 

@@ -1,9 +1,50 @@
-"""What all parts of a scene share: frozen, no unknown keys, finite numbers only."""
+"""What all parts of a scene share: frozen, no unknown keys, no silent conversion, finite numbers only."""
 
-from pydantic import BaseModel, ConfigDict
+from collections.abc import Iterator
+from typing import Annotated, Any, NamedTuple, Self
+
+from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic_core import PydanticCustomError
+
+#: Names end up in XML and in plots: letters, digits and a little punctuation, no control characters.
+LABEL = r"^[\w.,+()/ -]{1,40}$"
+Label = Annotated[str, Field(pattern=LABEL)]
+
+
+class Conflict(NamedTuple):
+    """A value that is fine alone and wrong beside another; ``key`` is dotted, seen from the table."""
+
+    key: str
+    reason: str
 
 
 class Part(BaseModel):
-    """One table of a scene file."""
+    """One table of a scene file.
 
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+    Strict: a number in quotes or a truth value is no number; whole numbers serve where a number is wanted.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
+
+    def conflicts(self) -> Iterator[Conflict]:
+        """Yield what does not fit together in this table and those within it."""
+        yield from ()
+
+    @model_validator(mode="after")
+    def _fits_together(self) -> Self:
+        found = tuple(self.conflicts())
+        if found:
+            # All at once: whoever corrects a file wants to see every line of it.
+            context: dict[str, Any] = {
+                "conflicts": found,
+                "text": "; ".join(f"{conflict.key}: {conflict.reason}" for conflict in found),
+            }
+            raise PydanticCustomError("conflict", "{text}", context)
+        return self
+
+
+def below(part: Part, small: str, large: str) -> Iterator[Conflict]:
+    """Yield a conflict unless the value at ``small`` is below that at ``large``."""
+    limit = getattr(part, large)
+    if getattr(part, small) >= limit:
+        yield Conflict(small, f"must be below {large} = {limit:g}")

@@ -1,90 +1,136 @@
 """Geometry of the bearing."""
 
-from pydantic import Field, model_validator
+import math
+from collections.abc import Iterator
 
-from fmu_bearing.scene.base import Part
+from pydantic import Field
+
+from fmu_bearing.scene.base import Conflict, Label, Part, below
 
 
 class Cage(Part):
     """A cage with round radial pockets, guided by the inner ring's shoulders on two lands."""
 
-    outside_diameter_mm: float = Field(ge=2, le=1000, examples=[27.6], description="outside diameter")
-    bore_mm: float = Field(ge=1, le=1000, examples=[23.4], description="bore")
-    width_mm: float = Field(ge=0.5, le=300, examples=[9.1], description="width")
-    pocket_diameter_mm: float = Field(ge=0.5, le=120, examples=[4.6], description="diameter of a pocket")
-    land_clearance_mm: float = Field(
-        ge=0.005, le=2, examples=[0.04], description="radial clearance of the lands"
+    outside_diameter_mm: float = Field(
+        ge=2, le=1000, examples=[27.6], description="Outside diameter of the cage, mm."
     )
-    pocket_damping_N_s_m: float = Field(ge=0, le=10, examples=[0.02], description="film damping in a pocket")
-    pocket_friction: float = Field(ge=0, le=0.5, examples=[0.05], description="friction in a pocket")
+    bore_mm: float = Field(ge=1, le=1000, examples=[23.4], description="Bore of the cage, mm.")
+    width_mm: float = Field(ge=0.5, le=300, examples=[9.1], description="Width of the cage, mm.")
+    pocket_diameter_mm: float = Field(ge=0.5, le=120, examples=[4.6], description="Diameter of a pocket, mm.")
+    land_clearance_mm: float = Field(
+        ge=0.005, le=2, examples=[0.04], description="Radial clearance between cage bore and lands, mm."
+    )
+    pocket_damping_N_s_m: float = Field(
+        ge=0, le=10, examples=[0.02], description="Damping by the film in a pocket, N s/m."
+    )
+    pocket_friction: float = Field(
+        ge=0, le=0.5, examples=[0.05], description="Coefficient of friction in a pocket."
+    )
 
-    @model_validator(mode="after")
-    def _fits(self) -> "Cage":
-        if self.bore_mm >= self.outside_diameter_mm:
-            raise ValueError(
-                f"bore_mm = {self.bore_mm:g} must be below outside_diameter_mm = {self.outside_diameter_mm:g}"
-            )
-        if self.pocket_diameter_mm >= self.width_mm:
-            raise ValueError(
-                f"pocket_diameter_mm = {self.pocket_diameter_mm:g} must be below width_mm = {self.width_mm:g}"
-            )
-        return self
+    def conflicts(self) -> Iterator[Conflict]:
+        """Yield dimensions that leave no wall or no land."""
+        yield from below(self, "bore_mm", "outside_diameter_mm")
+        yield from below(self, "pocket_diameter_mm", "width_mm")
 
 
 class Bearing(Part):
     """A single-row angular contact ball bearing."""
 
-    designation: str = Field(
-        min_length=1, max_length=40, examples=["7003C"], description="name of the bearing"
+    designation: Label = Field(examples=["7003C"], description="Name of the bearing.")
+    bore_mm: float = Field(ge=1, le=1000, examples=[17.0], description="Bore of the inner ring, mm.")
+    outside_diameter_mm: float = Field(
+        ge=3, le=2000, examples=[35.0], description="Outside diameter of the outer ring, mm."
     )
-    bore_mm: float = Field(ge=1, le=1000, examples=[17.0], description="bore")
-    outside_diameter_mm: float = Field(ge=3, le=2000, examples=[35.0], description="outside diameter")
-    width_mm: float = Field(ge=1, le=300, examples=[10.0], description="width")
-    pitch_diameter_mm: float = Field(ge=2, le=1500, examples=[26.0], description="pitch diameter")
-    ball_diameter_mm: float = Field(ge=0.5, le=120, examples=[4.5], description="ball diameter")
-    ball_count: int = Field(ge=3, le=24, examples=[12], description="number of balls")
-    contact_angle_deg: float = Field(ge=5, le=45, examples=[15.0], description="free contact angle")
-    inner_conformity: float = Field(ge=0.505, le=0.6, examples=[0.515], description="groove radius over D")
-    outer_conformity: float = Field(ge=0.505, le=0.6, examples=[0.52], description="groove radius over D")
+    width_mm: float = Field(ge=1, le=300, examples=[10.0], description="Width of both rings, mm.")
+    pitch_diameter_mm: float = Field(
+        ge=2, le=1500, examples=[26.0], description="Diameter of the circle of ball centres, mm."
+    )
+    ball_diameter_mm: float = Field(ge=0.5, le=120, examples=[4.5], description="Diameter of a ball, mm.")
+    ball_count: int = Field(ge=3, le=24, examples=[12], description="Number of balls.")
+    contact_angle_deg: float = Field(
+        ge=5, le=45, examples=[15.0], description="Contact angle of the unloaded bearing, deg."
+    )
+    inner_conformity: float = Field(
+        ge=0.505, le=0.6, examples=[0.515], description="Groove radius of the inner race over ball diameter."
+    )
+    outer_conformity: float = Field(
+        ge=0.505, le=0.6, examples=[0.52], description="Groove radius of the outer race over ball diameter."
+    )
     inner_ring_outer_diameter_mm: float = Field(
-        ge=1, le=1500, examples=[22.6], description="effective outer diameter of the inner ring, for its mass"
+        ge=1,
+        le=1500,
+        examples=[22.6],
+        description="Effective outer diameter of the inner ring, for its mass, mm.",
     )
     outer_ring_inner_diameter_mm: float = Field(
-        ge=1, le=2000, examples=[29.6], description="effective inner diameter of the outer ring, for its mass"
+        ge=1,
+        le=2000,
+        examples=[29.6],
+        description="Effective inner diameter of the outer ring, for its mass, mm.",
     )
     contact_damping_us: float = Field(
-        ge=0, le=25, examples=[0.5], description="contact damping over contact stiffness"
+        ge=0, le=25, examples=[0.5], description="Contact damping over contact stiffness, us."
     )
     race_roughness_um: float = Field(
-        ge=0.001, le=2, examples=[0.02], description="rms roughness of the races"
+        ge=0.001, le=2, examples=[0.02], description="Roughness (rms) of the races, um."
     )
     ball_roughness_um: float = Field(
-        ge=0.001, le=2, examples=[0.01], description="rms roughness of the balls"
+        ge=0.001, le=2, examples=[0.01], description="Roughness (rms) of the balls, um."
     )
-    cage: Cage | None = Field(default=None, description="leave the table out for a bearing without cage")
+    cage: Cage | None = Field(default=None, description="Cage; absent or false: a bearing without one.")
 
-    @model_validator(mode="after")
-    def _fits(self) -> "Bearing":
-        order = (
-            ("bore_mm", "inner_ring_outer_diameter_mm"),
-            ("inner_ring_outer_diameter_mm", "pitch_diameter_mm"),
-            ("pitch_diameter_mm", "outer_ring_inner_diameter_mm"),
-            ("outer_ring_inner_diameter_mm", "outside_diameter_mm"),
-        )
-        for small, large in order:
-            if getattr(self, small) >= getattr(self, large):
-                raise ValueError(
-                    f"{small} = {getattr(self, small):g} must be below {large} = {getattr(self, large):g}"
-                )
-        room = 3.141592653589793 * self.pitch_diameter_mm / self.ball_diameter_mm
-        if self.ball_count > room:
-            raise ValueError(
-                f"ball_count = {self.ball_count} does not fit the pitch circle: at most {int(room)} balls of "
-                f"{self.ball_diameter_mm:g} mm"
+    def conflicts(self) -> Iterator[Conflict]:
+        """Yield dimensions of which no bearing can be made."""
+        yield from below(self, "bore_mm", "inner_ring_outer_diameter_mm")
+        yield from below(self, "inner_ring_outer_diameter_mm", "pitch_diameter_mm")
+        yield from below(self, "pitch_diameter_mm", "outer_ring_inner_diameter_mm")
+        yield from below(self, "outer_ring_inner_diameter_mm", "outside_diameter_mm")
+        yield from self._ball_conflicts()
+        if self.cage is not None:
+            yield from self._cage_conflicts(self.cage)
+
+    def _ball_conflicts(self) -> Iterator[Conflict]:
+        ball, pitch = self.ball_diameter_mm, self.pitch_diameter_mm
+        wall = min(pitch - self.bore_mm, self.outside_diameter_mm - pitch)
+        if ball >= wall > 0.0:
+            yield Conflict("ball_diameter_mm", f"must be below {wall:g}, or the races cut through the rings")
+        fits = most_balls(pitch, ball)
+        if self.ball_count > fits:
+            yield Conflict(
+                "ball_count", f"does not fit the pitch circle: at most {fits} balls of {ball:g} mm"
             )
-        if self.cage is not None and self.cage.pocket_diameter_mm <= self.ball_diameter_mm:
-            raise ValueError(
-                f"cage.pocket_diameter_mm = {self.cage.pocket_diameter_mm:g} must exceed ball_diameter_mm = "
-                f"{self.ball_diameter_mm:g}"
+
+    def _cage_conflicts(self, cage: Cage) -> Iterator[Conflict]:
+        land = self.inner_ring_outer_diameter_mm + 2.0 * cage.land_clearance_mm
+        if cage.bore_mm <= land:
+            yield Conflict(
+                "cage.bore_mm",
+                f"must exceed {land:g}: inner_ring_outer_diameter_mm and twice the land's clearance",
             )
-        return self
+        if cage.outside_diameter_mm >= self.outer_ring_inner_diameter_mm:
+            limit = self.outer_ring_inner_diameter_mm
+            yield Conflict(
+                "cage.outside_diameter_mm", f"must be below outer_ring_inner_diameter_mm = {limit:g}"
+            )
+        if not cage.bore_mm < self.pitch_diameter_mm < cage.outside_diameter_mm:
+            yield Conflict(
+                "pitch_diameter_mm",
+                f"must lie between the cage's bore and outside diameter, {cage.bore_mm:g} to "
+                f"{cage.outside_diameter_mm:g}",
+            )
+        if cage.width_mm > self.width_mm:
+            yield Conflict("cage.width_mm", f"must not exceed the rings' width_mm = {self.width_mm:g}")
+        if cage.pocket_diameter_mm <= self.ball_diameter_mm:
+            yield Conflict(
+                "cage.pocket_diameter_mm", f"must exceed ball_diameter_mm = {self.ball_diameter_mm:g}"
+            )
+        fits = most_balls(self.pitch_diameter_mm, cage.pocket_diameter_mm)
+        if most_balls(self.pitch_diameter_mm, self.ball_diameter_mm) >= self.ball_count > fits:
+            yield Conflict("cage.pocket_diameter_mm", f"makes {self.ball_count} pockets overlap")
+
+
+def most_balls(pitch_diameter: float, ball_diameter: float) -> int:
+    """Return how many balls fit side by side on a pitch circle; neighbours are a chord apart, not an arc."""
+    if ball_diameter >= pitch_diameter:
+        return 1
+    return math.floor(math.pi / math.asin(ball_diameter / pitch_diameter) + 1e-9)

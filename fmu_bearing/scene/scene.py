@@ -1,70 +1,81 @@
 """A scene: one bearing, its mounting, its oil, its microphones, what to model and how finely."""
 
 import math
+from collections.abc import Iterator
 
 import tomli_w
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from fmu_bearing.scene.base import Part
+from fmu_bearing.scene.base import Conflict, Part
 from fmu_bearing.scene.bearing import Bearing
 from fmu_bearing.scene.fidelity import Fidelity
 from fmu_bearing.scene.imperfections import Imperfections
 from fmu_bearing.scene.lubricant import Lubricant
 from fmu_bearing.scene.material import Materials
 from fmu_bearing.scene.mounting import Mounting
-from fmu_bearing.scene.sound import Point, Sound
+from fmu_bearing.scene.operation import Operation
+from fmu_bearing.scene.sound import Place, Sound
 
-
-class Operation(Part):
-    """Speed and temperatures at the start; all are inputs of the FMU."""
-
-    speed_rpm: float = Field(ge=-1e5, le=1e5, examples=[20000.0], description="shaft speed")
-    oil_temperature_degC: float = Field(ge=-40, le=200, examples=[20.0], description="oil")
-    inner_ring_temperature_degC: float = Field(ge=-40, le=200, examples=[20.0], description="inner ring")
-    outer_ring_temperature_degC: float = Field(ge=-40, le=200, examples=[20.0], description="outer ring")
+#: The name goes into file names and into the FMU's model name: ASCII only.
+NAME = r"^[A-Za-z0-9][A-Za-z0-9._ -]{0,59}$"
 
 
 class Scene(Part):
     """Everything a model is made from."""
 
-    name: str = Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9._ -]{0,59}$", examples=["7003C-spindle"])
-    bearing: Bearing
-    materials: Materials
-    lubricant: Lubricant
-    mounting: Mounting
-    operation: Operation
-    fidelity: Fidelity
-    imperfections: Imperfections | None = None
-    sound: Sound | None = None
+    name: str = Field(
+        pattern=NAME,
+        examples=["7003C-spindle"],
+        description="Name of the scene and of the FMU's model.",
+    )
+    bearing: Bearing = Field(description="Geometry of the bearing.")
+    materials: Materials = Field(description="Materials of its components.")
+    lubricant: Lubricant = Field(description="Oil in contacts and lands.")
+    mounting: Mounting = Field(description="Preload, loads, pedestal and what is fixed to the rings.")
+    operation: Operation = Field(description="Speed and temperatures at the start.")
+    fidelity: Fidelity = Field(description="Level, error bounds and terms.")
+    imperfections: Imperfections | None = Field(default=None, description="Absent: a perfect bearing.")
+    sound: Sound | None = Field(default=None, description="Absent: no sound and no microphones.")
 
-    @model_validator(mode="after")
-    def _together(self) -> "Scene":
+    def conflicts(self) -> Iterator[Conflict]:
+        """Yield what one table asks of another and does not find."""
         if self.bearing.cage is not None and self.materials.cage is None:
-            raise ValueError("materials.cage is missing: the bearing has a cage")
+            yield Conflict("materials.cage", 'is missing, for example cage = "bakelite"; the bearing has one')
+        housing = self.mounting.housing
+        if housing is not None and housing.diameter_mm <= self.bearing.outside_diameter_mm:
+            limit = self.bearing.outside_diameter_mm
+            yield Conflict(
+                "mounting.housing.diameter_mm", f"must exceed bearing.outside_diameter_mm = {limit:g}"
+            )
         if self.sound is not None:
-            if self.sound.radiator == "housing" and self.mounting.housing is None:
-                raise ValueError("sound.radiator = 'housing' needs a table [mounting.housing]")
-            self._microphones_outside()
-        return self
+            if self.sound.radiator == "housing" and housing is None:
+                yield Conflict("sound.radiator", "needs a table [mounting.housing]")
+            yield from self._buried_microphones()
 
-    def _microphones_outside(self) -> None:
-        """Refuse a microphone within a radiating body."""
-        b = self.bearing
-        radius, low, high = b.outside_diameter_mm / 2, -b.width_mm / 2, b.width_mm / 2
-        body = "bearing"
-        if self.sound is not None and self.sound.radiator == "housing" and self.mounting.housing is not None:
-            h = self.mounting.housing
-            low = -b.width_mm / 2 - h.front_face_mm
-            radius, high, body = h.diameter_mm / 2, low + h.length_mm, "housing"
-        for name, (x, y, z) in self.microphones:
-            if low < 1e3 * x < high and 1e3 * math.hypot(y, z) < radius:
-                raise ValueError(
-                    f"microphone '{name}' at x = {1e3 * x:g}, r = {1e3 * math.hypot(y, z):g} mm lies inside "
-                    f"the {body}, which reaches to r = {radius:g} mm from x = {low:g} to {high:g} mm"
-                )
+    def _buried_microphones(self) -> Iterator[Conflict]:
+        bodies = list(self._envelopes())
+        for place in self.microphones:
+            x, y, z = (1e3 * value for value in place.position_m)
+            for body, radius, low, high in bodies:
+                if low < x < high and math.hypot(y, z) < radius:
+                    yield Conflict(
+                        "sound",
+                        f"microphone '{place.name}' at x = {x:g}, r = {math.hypot(y, z):g} mm lies inside "
+                        f"the {body}, which reaches to r = {radius:g} mm from x = {low:g} to {high:g} mm",
+                    )
+                    break
+
+    def _envelopes(self) -> Iterator[tuple[str, float, float, float]]:
+        """Yield name, radius and axial extent (mm) of the cylinders that radiate; a shaft fills the bore."""
+        half = self.bearing.width_mm / 2.0
+        housing = self.mounting.housing
+        if self.sound is not None and self.sound.radiator == "housing" and housing is not None:
+            front = -half - housing.front_face_mm
+            yield "housing", housing.diameter_mm / 2.0, front, front + housing.length_mm
+        yield "bearing", self.bearing.outside_diameter_mm / 2.0, -half, half
 
     @property
-    def microphones(self) -> list[tuple[str, Point]]:
+    def microphones(self) -> list[Place]:
         """Names and places (m) of all microphones; empty without sound."""
         return [] if self.sound is None else self.sound.points()
 

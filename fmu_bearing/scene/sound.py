@@ -1,99 +1,133 @@
 """What radiates, how it is computed, where the microphones stand."""
 
 import math
-from typing import Literal
+from collections.abc import Iterator
+from typing import Literal, NamedTuple
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from fmu_bearing.scene.base import Part
+from fmu_bearing.scene.base import Conflict, Label, Part
 
 Point = tuple[float, float, float]
 
+_CARTESIAN = ("x_mm", "y_mm", "z_mm")
+_CYLINDRICAL = ("theta_deg", "r_mm", "l_mm")
+_FAR = 1e5  # mm
 
-def cylindrical(theta: float, r: float, x: float) -> Point:
-    """Cartesian point (m) of an angle from 12 o'clock (rad), distance from the axis, axial place (m)."""
-    return (x, -r * math.sin(theta), r * math.cos(theta))
+
+class Place(NamedTuple):
+    """A microphone as the rest of the package sees it: its name and (x, y, z) in m."""
+
+    name: str
+    position_m: Point
+
+
+def cylindrical(theta_deg: float, r_mm: float, l_mm: float) -> Point:
+    """Cartesian point (m) of an angle from 12 o'clock, a distance from the axis and an axial place.
+
+    Sine and cosine are rounded at 15 decimals: a point at 3 o'clock then has z = 0, not 1e-17.
+    """
+    theta = math.radians(theta_deg)
+    sine, cosine = round(math.sin(theta), 15), round(math.cos(theta), 15)
+    return (l_mm / 1e3, 0.0 - r_mm * sine / 1e3, 0.0 + r_mm * cosine / 1e3)
 
 
 class Microphone(Part):
     """A named point: either ``x_mm``, ``y_mm``, ``z_mm`` or ``theta_deg``, ``r_mm``, ``l_mm``."""
 
-    name: str = Field(min_length=1, max_length=40, examples=["P1"])
-    x_mm: float | None = Field(default=None, ge=-1e5, le=1e5)
-    y_mm: float | None = Field(default=None, ge=-1e5, le=1e5)
-    z_mm: float | None = Field(default=None, ge=-1e5, le=1e5)
-    theta_deg: float | None = Field(default=None, ge=-720, le=720)
-    r_mm: float | None = Field(default=None, ge=0, le=1e5)
-    l_mm: float | None = Field(default=None, ge=-1e5, le=1e5)
+    name: Label = Field(examples=["P1"], description="Name of the microphone.")
+    x_mm: float | None = Field(
+        default=None, ge=-_FAR, le=_FAR, examples=[0.0], description="Place along the bearing axis, mm."
+    )
+    y_mm: float | None = Field(
+        default=None, ge=-_FAR, le=_FAR, examples=[105.0], description="Horizontal place, mm."
+    )
+    z_mm: float | None = Field(
+        default=None, ge=-_FAR, le=_FAR, examples=[0.0], description="Place upwards, mm."
+    )
+    theta_deg: float | None = Field(
+        default=None, ge=-720, le=720, examples=[90.0], description="Angle from 12 o'clock about +X, deg."
+    )
+    r_mm: float | None = Field(
+        default=None, ge=0, le=_FAR, examples=[210.0], description="Distance from the bearing axis, mm."
+    )
+    l_mm: float | None = Field(
+        default=None, ge=-_FAR, le=_FAR, examples=[50.0], description="Place along the bearing axis, mm."
+    )
 
-    @model_validator(mode="after")
-    def _one_way(self) -> "Microphone":
-        given = [
-            name
-            for name in ("x_mm", "y_mm", "z_mm", "theta_deg", "r_mm", "l_mm")
-            if getattr(self, name) is not None
-        ]
-        if given not in (["x_mm", "y_mm", "z_mm"], ["theta_deg", "r_mm", "l_mm"]):
-            raise ValueError(
+    def conflicts(self) -> Iterator[Conflict]:
+        """Yield a place that is given by halves or twice."""
+        given = tuple(key for key in _CARTESIAN + _CYLINDRICAL if getattr(self, key) is not None)
+        if given not in (_CARTESIAN, _CYLINDRICAL):
+            yield Conflict(
+                "",
                 f"microphone '{self.name}' has {', '.join(given) or 'no place'}: give x_mm, y_mm, z_mm or "
-                "theta_deg, r_mm, l_mm"
+                "theta_deg, r_mm, l_mm",
             )
-        return self
 
     @property
     def position_m(self) -> Point:
         """Cartesian place in m."""
-        if self.x_mm is not None:
-            return (1e-3 * self.x_mm, 1e-3 * (self.y_mm or 0.0), 1e-3 * (self.z_mm or 0.0))
-        return cylindrical(
-            math.radians(self.theta_deg or 0.0), 1e-3 * (self.r_mm or 0.0), 1e-3 * (self.l_mm or 0.0)
-        )
+        if self.x_mm is not None and self.y_mm is not None and self.z_mm is not None:
+            return (self.x_mm / 1e3, self.y_mm / 1e3, self.z_mm / 1e3)
+        assert self.theta_deg is not None and self.r_mm is not None and self.l_mm is not None
+        return cylindrical(self.theta_deg, self.r_mm, self.l_mm)
 
 
 class Circle(Part):
     """Microphones evenly spaced on a circle about the axis, the first at 12 o'clock."""
 
-    radius_mm: float = Field(gt=0, le=1e5, examples=[210.0], description="radius")
-    axial_mm: float = Field(ge=-1e5, le=1e5, examples=[50.0], description="axial place")
-    count: int = Field(ge=1, le=360, examples=[24], description="number of microphones")
+    radius_mm: float = Field(ge=1, le=_FAR, examples=[210.0], description="Radius of the circle, mm.")
+    axial_mm: float = Field(
+        ge=-_FAR, le=_FAR, examples=[50.0], description="Place of the circle along the bearing axis, mm."
+    )
+    count: int = Field(ge=1, le=360, examples=[24], description="Number of microphones on the circle.")
 
-    def points(self) -> list[tuple[str, Point]]:
-        """Names and places (m)."""
-        step = 360.0 / self.count
-        return [
-            (
-                f"{k * step:g} deg",
-                cylindrical(math.radians(k * step), 1e-3 * self.radius_mm, 1e-3 * self.axial_mm),
-            )
-            for k in range(self.count)
-        ]
+    def points(self) -> list[Place]:
+        """Names, by angle, and places (m)."""
+        angles = [360.0 * k / self.count for k in range(self.count)]
+        return [Place(f"{a:g} deg", cylindrical(a, self.radius_mm, self.axial_mm)) for a in angles]
 
 
 class Sound(Part):
     """Radiation and metering."""
 
-    rung: Literal["paper", "compact"] = Field(description="how radiation is computed", examples=["compact"])
-    radiator: Literal["bare", "housing"] = Field(description="what radiates", examples=["bare"])
-    air_density_kg_m3: float = Field(ge=0.1, le=10, examples=[1.225], description="density of the air")
-    sound_speed_m_s: float = Field(ge=100, le=2000, examples=[340.0], description="speed of sound")
-    time_weighting: Literal["fast", "slow"] = Field(description="exponential averaging", examples=["fast"])
-    metering_start_s: float = Field(ge=0, le=1000, examples=[0.02], description="time after initialisation")
-    microphone: tuple[Microphone, ...] = Field(default=(), max_length=360)
-    circle: Circle | None = None
+    rung: Literal["paper", "compact"] = Field(
+        description="How radiation is computed: as the multi-source paper prints it, or by compact bodies.",
+        examples=["compact"],
+    )
+    radiator: Literal["bare", "housing"] = Field(
+        description="What radiates: the bare bearing, or the housing around it.", examples=["bare"]
+    )
+    air_density_kg_m3: float = Field(
+        ge=0.1, le=10, examples=[1.225], description="Density of the air, kg/m3."
+    )
+    sound_speed_m_s: float = Field(
+        ge=100, le=2000, examples=[340.0], description="Speed of sound in the air, m/s."
+    )
+    time_weighting: Literal["fast", "slow"] = Field(
+        description="Exponential averaging of the levels: 0.125 s or 1 s (IEC 61672-1).", examples=["fast"]
+    )
+    metering_start_s: float = Field(
+        ge=0, le=1000, examples=[0.02], description="Time after initialisation at which metering begins, s."
+    )
+    # A file's array arrives as a list: the one conversion that strictness may let pass.
+    microphone: tuple[Microphone, ...] = Field(
+        default=(), max_length=360, strict=False, description="Single microphones."
+    )
+    circle: Circle | None = Field(default=None, description="Microphones on a circle about the axis.")
 
-    @model_validator(mode="after")
-    def _somewhere(self) -> "Sound":
-        names = [name for name, _ in self.points()]
+    def conflicts(self) -> Iterator[Conflict]:
+        """Yield an absence of microphones and names that stand twice."""
+        names = [place.name for place in self.points()]
         if not names:
-            raise ValueError(
-                "no microphone is given: add [[sound.microphone]] or [sound.circle], or leave out [sound]"
+            yield Conflict(
+                "", "no microphone is given: add [[sound.microphone]] or [sound.circle], or leave out [sound]"
             )
-        twice = sorted({name for name in names if names.count(name) > 1})
-        if twice:
-            raise ValueError(f"microphone names must differ: {', '.join(twice)} stands more than once")
-        return self
+        for name in sorted({name for name in names if names.count(name) > 1}):
+            yield Conflict("", f"microphone names must differ: {name} stands more than once")
 
-    def points(self) -> list[tuple[str, Point]]:
-        """Names and places (m) of all microphones."""
-        single = [(microphone.name, microphone.position_m) for microphone in self.microphone]
+    def points(self) -> list[Place]:
+        """Names and places (m) of all microphones: the single ones first, then the circle."""
+        single = [Place(microphone.name, microphone.position_m) for microphone in self.microphone]
         return single + (self.circle.points() if self.circle is not None else [])

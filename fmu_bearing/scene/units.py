@@ -3,6 +3,7 @@
 import math
 from functools import lru_cache
 from types import SimpleNamespace
+from typing import Any
 
 from pydantic import BaseModel
 
@@ -32,6 +33,18 @@ UNITS: dict[str, tuple[float, float]] = {
     "_1_GPa": (1e-9, 0.0),
     "_1e6_K": (1e-6, 0.0),
 }
+#: Suffixes as messages write them, where taking off the underscore is not enough.
+_SYMBOLS = {
+    "_rpm": "r/min",
+    "_N_m": "N/m",
+    "_N_m_rad": "N m/rad",
+    "_N_s_m": "N s/m",
+    "_kg_m3": "kg/m3",
+    "_m_s": "m/s",
+    "_Pa_s": "Pa s",
+    "_1_GPa": "1/GPa",
+    "_1e6_K": "1e-6/K",
+}
 _BY_LENGTH = sorted(UNITS, key=len, reverse=True)
 
 
@@ -43,18 +56,37 @@ def split_unit(key: str) -> tuple[str, str]:
     return key, ""
 
 
-@lru_cache(maxsize=256)
+def symbol(key: str) -> str:
+    """Return the unit of a key as messages write it; empty for a key without unit."""
+    suffix = split_unit(key)[1]
+    return _SYMBOLS.get(suffix, suffix.removeprefix("_"))
+
+
+def convert(value: float, suffix: str) -> float:
+    """Return ``value`` in SI units; decimal prefixes divide.
+
+    20 / 1e6 is the double nearest to 2e-5, 20 * 1e-6 is the one below.
+    """
+    factor, offset = UNITS[suffix]
+    divisor = float(round(1.0 / factor))
+    decimal = divisor > 1.0 and factor == 1.0 / divisor
+    return (value / divisor if decimal else value * factor) + offset
+
+
 def si(part: BaseModel) -> SimpleNamespace:
     """Values of one part of a scene in SI units, unit suffixes stripped: ``bore_mm`` becomes ``bore`` in m.
 
-    Keys without a unit pass through; tables within the part are left as they are.
+    Keys without a unit pass through; tables within the part are left as they are, so that each is converted
+    by its own call.
     """
+    return SimpleNamespace(**_values(part))
+
+
+@lru_cache(maxsize=256)
+def _values(part: BaseModel) -> dict[str, Any]:
     values = {}
     for key in type(part).model_fields:
         name, suffix = split_unit(key)
         value = getattr(part, key)
-        if suffix and value is not None:
-            factor, offset = UNITS[suffix]
-            value = factor * value + offset
-        values[name] = value
-    return SimpleNamespace(**values)
+        values[name] = convert(value, suffix) if suffix and value is not None else value
+    return values

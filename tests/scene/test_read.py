@@ -88,7 +88,7 @@ def test_a_catalogue_name_fills_what_the_file_leaves_out():
         ("= 1e8 #", "= 0 #", ["mounting.pedestal_stiffness_N_m = 0", "allowed: 10000 to 1e+12"]),
         ('rung = "compact"', 'rung = "bem"', ["sound.rung = 'bem'", "allowed: paper, compact"]),
         ("[mounting]", "[mountin]", ["did you mean 'mounting'?", "mounting is missing"]),
-        ("ball_diameter_mm = 4.5", "ball_diameter_mm = 9.0", ["ball_count = 12 does not fit", "at most 9"]),
+        ("ball_diameter_mm = 4.5", "ball_diameter_mm = 9.0", ["ball_count = 12 does not fit", "at most 8"]),
         ("z_mm = 105.0", "z_mm = 1.0", ["microphone 'P3'", "inside the bearing", "r = 17.5 mm"]),
         ('name = "P2"\nx_mm', 'name = "P2"\nl_mm', ["microphone 'P2'", "theta_deg, r_mm, l_mm"]),
         ('name = "P2"', 'name = "P1"', ["microphone names must differ: P1"]),

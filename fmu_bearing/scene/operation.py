@@ -1,0 +1,22 @@
+"""Speed and temperatures at the start."""
+
+from pydantic import Field
+
+from fmu_bearing.scene.base import Part
+
+
+class Operation(Part):
+    """Speed and temperatures at the start; all are inputs of the FMU, with the same ranges."""
+
+    speed_rpm: float = Field(
+        ge=-1e5, le=1e5, examples=[20000.0], description="Shaft speed, right-handed about +X, r/min."
+    )
+    oil_temperature_degC: float = Field(
+        ge=-40, le=199, examples=[20.0], description="Temperature that sets the oil's viscosity, degC."
+    )
+    inner_ring_temperature_degC: float = Field(
+        ge=-40, le=199, examples=[20.0], description="Temperature of the inner ring, degC."
+    )
+    outer_ring_temperature_degC: float = Field(
+        ge=-40, le=199, examples=[20.0], description="Temperature of the outer ring, degC."
+    )

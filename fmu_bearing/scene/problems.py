@@ -1,0 +1,180 @@
+"""What is wrong with a scene, in the words of who wrote it: one line per problem."""
+
+import difflib
+import types
+import typing
+from collections.abc import Iterable, Iterator
+from typing import Any, get_args
+
+from pydantic import BaseModel, ValidationError
+from pydantic.fields import FieldInfo
+
+from fmu_bearing.scene.base import LABEL
+from fmu_bearing.scene.scene import NAME, Scene
+from fmu_bearing.scene.units import symbol
+
+_FROM_CATALOGUE = {"bearing": "7003C", "lubricant": "spindle-oil"}
+_TEXTS = {
+    LABEL: "40 letters, digits, blanks and . , + - ( ) / _",
+    NAME: "60 letters (a to z), digits, blanks and . _ -, a letter or digit first",
+}
+_TEXT = 60  # longest value worth repeating
+_ALIKE = 0.5  # below this likeness a suggestion is a guess: the known keys are listed instead
+
+Location = tuple[Any, ...]
+
+
+class SceneError(ValueError):
+    """A scene cannot be used; the message has one line per problem."""
+
+    @property
+    def problems(self) -> tuple[str, ...]:
+        """The lines of the message."""
+        return tuple(str(self).splitlines())
+
+
+def explain(failure: ValidationError, data: dict[str, Any], skip: Iterable[Location] = ()) -> Iterator[str]:
+    """Yield one line per problem that pydantic found in ``data``, none for tables under ``skip``."""
+    skipped = tuple(skip)
+    for error in failure.errors(include_url=False):
+        path: Location = tuple(error["loc"])
+        if any(path[: len(prefix)] == prefix for prefix in skipped):
+            continue
+        if error["type"] == "conflict":
+            for conflict in error["ctx"]["conflicts"]:
+                place = path + tuple(conflict.key.split(".") if conflict.key else ())
+                yield _conflict(place, conflict.reason, data)
+        elif error["type"] == "missing":
+            yield _missing(path)
+        elif error["type"] == "extra_forbidden":
+            yield _unknown(path)
+        else:
+            yield f"{dotted(path)} = {shown(error['input'])} is refused; allowed: {allowed(path)}"
+
+
+def dotted(path: Location) -> str:
+    """Write a location as a file has it; members of an array count from 1, like ``mic[1]``."""
+    steps = (f"[{step + 1}]" if isinstance(step, int) else f".{step}" for step in path)
+    return "".join(steps).removeprefix(".")
+
+
+def shown(value: Any) -> str:
+    """Write a value as TOML has it, shortened where it would drown the message."""
+    if isinstance(value, dict):
+        return "a table"
+    if isinstance(value, list | tuple):
+        return "an array"
+    if isinstance(value, bool):
+        return str(value).lower()
+    text = f"'{value}'" if isinstance(value, str) else str(value)
+    if not text.isprintable():  # a line break in a value must not break the one line
+        text = text.encode("unicode_escape").decode("ascii")
+    return text if len(text) <= _TEXT else f"{text[: _TEXT - 3]}..."
+
+
+def allowed(path: Location) -> str:
+    """Say what the key at a location may hold, with its unit."""
+    field = _field(path)
+    if field is None:
+        return "a table"
+    whole = field.annotation
+    kinds = [kind for kind in get_args(whole) if kind is not type(None)]
+    kind = kinds[0] if typing.get_origin(whole) in (typing.Union, types.UnionType) else whole
+    if typing.get_origin(kind) is typing.Literal:
+        return ", ".join(str(choice) for choice in get_args(kind))
+    if typing.get_origin(kind) is tuple:
+        limits = [rule.max_length for rule in field.metadata if hasattr(rule, "max_length")]
+        return f"at most {limits[0]} tables [[{dotted(path)}]]"
+    if kind is bool:
+        return "true or false"
+    if kind is str:
+        patterns = [rule.pattern for rule in field.metadata if hasattr(rule, "pattern")]
+        return "text of 1 to " + _TEXTS[patterns[0]]
+    if kind in (int, float):
+        return _range(field, str(path[-1])) + (", whole numbers only" if kind is int else "")
+    names = ", or the name of a catalogue entry" if path[0] == "materials" else ""
+    return f"a table [{dotted(path)}]{names}"
+
+
+def _range(field: FieldInfo, key: str) -> str:
+    low = [rule.ge for rule in field.metadata if hasattr(rule, "ge")]
+    high = [rule.le for rule in field.metadata if hasattr(rule, "le")]
+    return f"{_number(low[0])} to {_number(high[0])} {symbol(key)}".rstrip()
+
+
+def _number(value: float) -> str:
+    return str(value) if isinstance(value, int) else f"{value:g}"
+
+
+def _conflict(path: Location, reason: str, data: dict[str, Any]) -> str:
+    value: Any = data
+    for step in path:
+        try:
+            value = value[step]
+        except (KeyError, IndexError, TypeError):
+            return f"{dotted(path)} {reason}"
+    if isinstance(value, dict | list | tuple):
+        return f"{dotted(path)}: {reason}"
+    return f"{dotted(path)} = {shown(value)} {reason}"
+
+
+def _missing(path: Location) -> str:
+    field, key = _field(path), path[-1]
+    model = _model(None if field is None else field.annotation)
+    if field is None or (model is not None and not field.examples):
+        keys = ", ".join(model.model_fields) if model is not None else ""
+        entry = _FROM_CATALOGUE.get(str(key)) if len(path) == 1 else None
+        hint = f', or catalogue = "{entry}"' if entry else ""
+        return f"{dotted(path)} is missing: the table [{dotted(path)}] with {keys}{hint}"
+    example = field.examples[0] if field.examples else ""
+    value = f'"{example}"' if isinstance(example, str) else shown(example)
+    entry = _FROM_CATALOGUE.get(str(path[0])) if len(path) > 1 else None
+    hint = f'; or take all from catalogue = "{entry}"' if entry else ""
+    return f"{dotted(path)} is missing, for example {key} = {value} ({field.description}){hint}"
+
+
+def _unknown(path: Location) -> str:
+    key, table = str(path[-1]), path[:-1]
+    model = _model_at(table)
+    known = list(model.model_fields) if model is not None else []
+    if table in (("bearing",), ("lubricant",)) or table[:1] == ("materials",):
+        known.append("catalogue")
+    near = difflib.get_close_matches(key, known, n=1, cutoff=_ALIKE)
+    elsewhere = [where for where, other in _tables(Scene) if key in other.model_fields and where != table]
+    if len(elsewhere) == 1:
+        hint = f"; it belongs in [{dotted(elsewhere[0])}]" if elsewhere[0] else "; it stands above all tables"
+    elif near:
+        hint = f"; did you mean '{near[0]}'?"
+    else:
+        hint = f"; known here: {', '.join(known)}"
+    return f"{dotted(path)} is not a key of a scene{hint}"
+
+
+def _tables(model: type[BaseModel], path: Location = ()) -> Iterator[tuple[Location, type[BaseModel]]]:
+    yield path, model
+    for key, field in model.model_fields.items():
+        inner = _model(field.annotation)
+        if inner is not None:
+            yield from _tables(inner, (*path, key))
+
+
+def _field(path: Location) -> FieldInfo | None:
+    model = _model_at(path[:-1])
+    return None if model is None or not path else model.model_fields.get(str(path[-1]))
+
+
+def _model_at(path: Location) -> type[BaseModel] | None:
+    model: type[BaseModel] | None = Scene
+    for step in path:
+        if isinstance(step, int):
+            continue  # a member of an array has the model of the array
+        field = model.model_fields.get(step) if model is not None else None
+        model = None if field is None else _model(field.annotation)
+    return model
+
+
+def _model(annotation: Any) -> type[BaseModel] | None:
+    """Return the table that an annotation is, may be, or is an array of."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return annotation
+    return next((found for part in get_args(annotation) if (found := _model(part)) is not None), None)

@@ -1,0 +1,314 @@
+"""What is wrong with a file is told in its own words, all of it, one line each."""
+
+import pickle
+import re
+import tomllib
+
+import pytest
+
+from fmu_bearing.engine.layout import MAX_BALLS
+from fmu_bearing.scene import Scene, SceneError, read_scene, read_scene_text
+from fmu_bearing.scene.bearing import Bearing, most_balls
+from tests.conftest import SCENES
+
+TEXT = (SCENES / "7003C-spindle.toml").read_text(encoding="utf-8")
+
+
+def problems(*changes, text=TEXT):
+    """Messages about the spindle scene after ``(old, new)`` replacements, the file name taken off."""
+    for old, new in changes:
+        assert old in text, old
+        text = text.replace(old, new, 1)
+    with pytest.raises(SceneError) as caught:
+        read_scene_text(text, "a.toml")
+    error = caught.value
+    assert error.__cause__ is None and error.__suppress_context__
+    assert "pydantic" not in str(error) and "validation error" not in str(error)
+    lines = error.problems
+    assert lines == tuple(str(error).split("\n"))
+    assert all(line.startswith("a.toml: ") and line.isprintable() for line in lines)
+    return [line.removeprefix("a.toml: ") for line in lines]
+
+
+# --- the file ------------------------------------------------------------------------------------
+
+
+def test_missing_file(tmp_path):
+    with pytest.raises(SceneError, match=r"none\.toml: there is no such scene file"):
+        read_scene(tmp_path / "none.toml")
+
+
+@pytest.mark.parametrize("path", [".", "a\0b"])
+def test_what_is_no_file(path):
+    with pytest.raises(SceneError, match="cannot be read"):
+        read_scene(path)
+
+
+def test_text_that_is_not_utf_8(tmp_path):
+    path = tmp_path / "latin.toml"
+    path.write_bytes("name = 'é'".encode("latin-1"))
+    with pytest.raises(SceneError, match="UTF-8"):
+        read_scene(path)
+
+
+def test_byte_order_mark_and_windows_line_ends_are_read(tmp_path):
+    path = tmp_path / "windows é #1.toml"
+    path.write_bytes(b"\xef\xbb\xbf" + TEXT.replace("\n", "\r\n").encode("utf-8"))
+    assert read_scene(path) == read_scene_text(TEXT)
+
+
+@pytest.mark.parametrize("text", ["name = \n", "a = 1\na = 2\n", "x = " + "[" * 100_000])
+def test_toml_syntax(text):
+    with pytest.raises(SceneError, match="b.toml: not valid TOML"):
+        read_scene_text(text, "b.toml")
+
+
+def test_empty_file_names_every_table():
+    lines = problems(text="")
+    for table in "bearing materials lubricant mounting operation fidelity".split():
+        assert any(f"{table} is missing: the table [{table}]" in line for line in lines)
+    assert any('catalogue = "7003C"' in line for line in lines)
+    assert 'name is missing, for example name = "7003C-spindle"' in lines[0]
+    assert len(lines) == 7
+
+
+def test_error_survives_pickling():
+    error = SceneError("a: one\na: two")
+    again = pickle.loads(pickle.dumps(error))
+    assert again.problems == ("a: one", "a: two")
+
+
+# --- one key -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "shown", "allowed"),
+    [
+        ("preload_N = 500.0", "preload_N = -1", "-1", "0 to 10000 N"),
+        ("preload_N = 500.0", "preload_N = 10001", "10001", "0 to 10000 N"),
+        ("preload_N = 500.0", "preload_N = nan", "nan", "0 to 10000 N"),
+        ("preload_N = 500.0", "preload_N = -inf", "-inf", "0 to 10000 N"),
+        ("preload_N = 500.0", 'preload_N = "500"', "'500'", "0 to 10000 N"),
+        ("preload_N = 500.0", "preload_N = true", "true", "0 to 10000 N"),
+        ("preload_N = 500.0", "preload_N = [500.0]", "an array", "0 to 10000 N"),
+        ("preload_N = 500.0", "preload_N = 2020-01-01", "2020-01-01", "0 to 10000 N"),
+        ("preload_N = 500.0", f"preload_N = 1{'0' * 400}", "1" + "0" * 56 + "...", "0 to"),
+        ("speed_rpm = 20000.0", "speed_rpm = 100001", "100001", "-100000 to 100000 r/min"),
+        ("ball_count = 12", "ball_count = 25", "25", "3 to 24, whole numbers only"),
+        ("ball_count = 12", "ball_count = 12.5", "12.5", "3 to 24, whole numbers only"),
+        ("seed = 1", "seed = 2147483648", "2147483648", "0 to 2147483647, whole numbers only"),
+        ("gravity = true", "gravity = 1", "1", "true or false"),
+        ('rung = "compact"', 'rung = "bem"', "'bem'", "paper, compact"),
+        ('rung = "compact"', "rung = 2", "2", "paper, compact"),
+        ('level = "full"', 'level = "rings"', "'rings'", "full"),
+        ("density_kg_m3 = 870.0", "density_kg_m3 = 0", "0", "500 to 2000 kg/m3"),
+        ("expansion_1e6_K = 11.8", "expansion_1e6_K = 1e9", "1000000000.0", "0 to 200 1e-6/K"),
+        ("x_mm = -80.5", "x_mm = 1e9", "1000000000.0", "-100000 to 100000 mm"),
+        ('name = "P1"', 'name = "P\\n1"', r"'P\n1'", "text of 1 to 40 letters"),
+        ('name = "P1"', 'name = ""', "''", "text of 1 to 40 letters"),
+        ('name = "7003C-spindle"', 'name = "a/b"', "'a/b'", "text of 1 to 60 letters"),
+        ('name = "7003C-spindle"', "name = 3", "3", "text of 1 to 60 letters"),
+    ],
+)
+def test_value_is_repeated_with_what_is_allowed(old, new, shown, allowed):
+    (line,) = problems((old, new))
+    key = new.split(" = ")[0]
+    assert re.match(rf"(\w+(\[\d\])?\.)*{key} = ", line)
+    assert f"{key} = {shown} is refused; allowed: {allowed}" in line
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("bearing = 3\n", "bearing = 3 is refused; allowed: a table [bearing]"),
+        ("[materials]\nballs = 3\n", "balls = 3 is refused; allowed: a table [materials.balls], or the name"),
+        ("[sound]\nmicrophone = 3\n", "microphone = 3 is refused; allowed: at most 360 tables"),
+        ("[[sound.microphone]]\n", "sound.microphone[1].name is missing, for example name = "),
+    ],
+)
+def test_tables_of_the_wrong_shape(text, expected):
+    assert any(expected in line for line in problems(text=text))
+
+
+@pytest.mark.parametrize("number", [17, 17.0])
+def test_whole_numbers_serve_as_numbers(number):
+    scene = read_scene_text(TEXT.replace("bore_mm = 17.0", f"bore_mm = {number}"))
+    assert isinstance(scene.bearing.bore_mm, float)
+
+
+def test_missing_key_shows_an_example_and_its_meaning():
+    (line,) = problems(("preload_N = 500.0", ""))
+    assert line.startswith("mounting.preload_N is missing, for example preload_N = 500.0 (Axial force")
+
+
+def test_missing_key_of_a_bearing_points_to_the_catalogue():
+    (line,) = problems(("width_mm = 10.0", ""))
+    assert "bearing.width_mm is missing" in line
+    assert 'catalogue = "7003C"' in line
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "hint"),
+    [
+        (
+            "preload_N = ",
+            "prelaod_N = ",
+            "mounting.prelaod_N is not a key of a scene; did you mean 'preload_N'?",
+        ),
+        ("bore_mm = 17.0", "bore = 17.0", "bearing.bore is not a key of a scene; did you mean 'bore_mm'?"),
+        ("[operation]", "[operatoin]", "operatoin is not a key of a scene; did you mean 'operation'?"),
+        ("[bearing.cage]", "[bearing.cagee]", "bearing.cagee is not a key of a scene; did you mean 'cage'?"),
+        (
+            "bore_mm = 23.4",
+            "bore_m = 23.4",
+            "bearing.cage.bore_m is not a key of a scene; did you mean 'bore_mm'?",
+        ),
+    ],
+)
+def test_misspelt_key_names_the_nearest(old, new, hint):
+    assert hint in problems((old, new))
+
+
+def test_key_in_the_wrong_table_is_sent_home():
+    lines = problems(("preload_N = 500.0", "preload_N = 500.0\nspeed_rpm = 3.0"))
+    assert lines == ["mounting.speed_rpm is not a key of a scene; it belongs in [operation]"]
+
+
+def test_key_like_no_other_lists_the_known_ones():
+    (line,) = problems(("seed = 1", "seed = 1\nqqq = 2"))
+    assert "imperfections.qqq is not a key of a scene; known here: seed, unbalance_um" in line
+
+
+def test_every_problem_has_its_line():
+    lines = problems(
+        ("bore_mm = 17.0", "bore_mm = -1"),
+        ("ball_count = 12", "ball_count = 99"),
+        ("preload_N = 500.0", "preload = 500.0"),
+        ("gravity = true", ""),
+    )
+    assert len(lines) == 5
+    assert [line.split()[0] for line in lines[:2]] == ["bearing.bore_mm", "bearing.ball_count"]
+
+
+# --- catalogue -----------------------------------------------------------------------------------
+
+
+def test_unknown_catalogue_names_are_all_told_and_nothing_beneath_them():
+    data = tomllib.loads(TEXT)
+    for name in "bearing materials lubricant".split():
+        assert name in data
+    text = (
+        'name = "a"\n[bearing]\ncatalogue = "7003D"\n[lubricant]\ncatalogue = 3\n'
+        '[materials]\ninner_ring = "gcr15"\nouter_ring = "GCr15"\nballs = "glass"\n'
+        + TEXT[TEXT.index("[mounting]") :]
+    )
+    lines = problems(text=text)
+    assert lines == [
+        "bearing.catalogue = '7003D' is not in the catalogue; did you mean '7003C'? known: 7003C, 7009C",
+        "lubricant.catalogue = 3 is not in the catalogue; known: spindle-oil",
+        "materials.inner_ring = 'gcr15' is not in the catalogue; did you mean 'GCr15'? "
+        "known: GCr15, Si3N4, ZrO2, bakelite, PEEK",
+        "materials.balls = 'glass' is not in the catalogue; known: GCr15, Si3N4, ZrO2, bakelite, PEEK",
+    ]
+
+
+def test_misspelt_catalogue_key():
+    lines = problems(("[lubricant]", '[lubricant]\ncatalog = "spindle-oil"'))
+    assert lines == ["lubricant.catalog is not a key of a scene; did you mean 'catalogue'?"]
+
+
+# --- what does not fit together ------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ("bore_mm = 23.4", "bore_mm = 22.6", "bearing.cage.bore_mm = 22.6 must exceed 22.68"),
+        ("bore_mm = 23.4", "bore_mm = 27.7", "bearing.cage.bore_mm = 27.7 must be below outside"),
+        ("e_diameter_mm = 27.6", "e_diameter_mm = 29.6", "must be below outer_ring_inner_diameter_mm = 29.6"),
+        ("pocket_diameter_mm = 4.6", "pocket_diameter_mm = 4.5", "must exceed ball_diameter_mm = 4.5"),
+        ("pocket_diameter_mm = 4.6", "pocket_diameter_mm = 9.2", "must be below width_mm = 9.1"),
+        ("pocket_diameter_mm = 4.6", "pocket_diameter_mm = 6.8", "makes 12 pockets overlap"),
+        ("width_mm = 9.1", "width_mm = 10.1", "bearing.cage.width_mm = 10.1 must not exceed"),
+        (
+            "pitch_diameter_mm = 26.0",
+            "pitch_diameter_mm = 22.6",
+            "inner_ring_outer_diameter_mm = 22.6 mu",
+        ),
+        ("pitch_diameter_mm = 26.0", "pitch_diameter_mm = 28.0", "between the cage's bore and outside diam"),
+        ("bore_mm = 17.0", "bore_mm = 22.0", "bearing.ball_diameter_mm = 4.5 must be below 4"),
+        ("outside_diameter_mm = 35.0", "outside_diameter_mm = 29.0", "outer_ring_inner_diameter_mm = 29.6"),
+        ("ball_count = 12", "ball_count = 19", "does not fit the pitch circle: at most 18 balls of 4.5 mm"),
+        ("highest_order = 20", "highest_order = 1", "must not be below lowest_order = 2"),
+        ("traction_strips = 5", "traction_strips = 4", "traction_strips = 4 must be 1, 3 or 5"),
+        ("diameter_mm = 100.0", "diameter_mm = 35.0", "must exceed bearing.outside_diameter_mm = 35"),
+        ("[materials.cage]", "[materials.nothing]", "materials.nothing is not a key of a scene"),
+        ('name = "P1"', 'name = "P2"', "sound: microphone names must differ: P2 stands more than once"),
+        ("y_mm = 105.0\n", "", "sound.microphone[1]: microphone 'P1' has x_mm, z_mm: give x_mm, y_mm, z_mm"),
+        (
+            "y_mm = 105.0\n",
+            "y_mm = 105.0\nr_mm = 1.0\n",
+            "microphone 'P1' has x_mm, y_mm, z_mm, r_mm: give",
+        ),
+        ("y_mm = 105.0\n", "y_mm = 49.9\n", "microphone 'P1' at x = 0, r = 49.9 mm lies inside the housing"),
+        (
+            "x_mm = -80.5\n",
+            "x_mm = -20.4\n",
+            "microphone 'P4' at x = -20.4, r = 0 mm lies inside the housing",
+        ),
+    ],
+)
+def test_values_that_do_not_fit_each_other(old, new, expected):
+    lines = problems((old, new))
+    assert any(expected in line for line in lines), lines
+
+
+def test_cage_needs_a_material():
+    start, end = TEXT.index("[materials.cage]"), TEXT.index("[lubricant]")
+    lines = problems(text=TEXT[:start] + TEXT[end:])
+    assert lines == ['materials.cage is missing, for example cage = "bakelite"; the bearing has one']
+
+
+def test_radiating_housing_must_exist():
+    start, end = TEXT.index("[mounting.housing]"), TEXT.index("# Standard imperfections")
+    lines = problems(text=TEXT[:start] + TEXT[end:])
+    assert lines == ["sound.radiator = 'housing' needs a table [mounting.housing]"]
+
+
+def test_bare_bearing_is_its_own_envelope():
+    bare = TEXT.replace('radiator = "housing"', 'radiator = "bare"').replace("y_mm = 105.0", "y_mm = 17.4")
+    (line,) = problems(text=bare)
+    assert "inside the bearing, which reaches to r = 17.5 mm from x = -5 to 5 mm" in line
+    read_scene_text(bare.replace("y_mm = 17.4", "y_mm = 17.6"))
+
+
+def test_sound_without_microphones_is_refused():
+    (line,) = problems(text=TEXT[: TEXT.index("[[sound.microphone]]")])
+    assert line.startswith("sound: no microphone is given: add [[sound.microphone]] or [sound.circle]")
+
+
+def test_conflicts_of_several_tables_come_together():
+    lines = problems(
+        ("ball_count = 12", "ball_count = 19"),
+        ("traction_strips = 5", "traction_strips = 2"),
+        ("highest_order = 20", "highest_order = 1"),
+    )
+    assert len(lines) == 3
+
+
+def test_most_balls_a_pitch_circle_takes():
+    # six discs around a seventh touch each other: chord = ball at 30 degrees half angle
+    assert most_balls(2.0, 1.0) == 6
+    assert most_balls(2.0, 1.0001) == 5
+    assert most_balls(1.0, 1.0) == 1
+
+
+def test_engine_has_room_for_as_many_balls_as_a_scene():
+    (limit,) = [rule.le for rule in Bearing.model_fields["ball_count"].metadata if hasattr(rule, "le")]
+    assert limit == MAX_BALLS
+
+
+def test_scene_is_frozen(scene):
+    with pytest.raises(ValueError, match="frozen"):
+        scene("7003C-bare").name = "other"
+    assert isinstance(scene("7003C-bare"), Scene)

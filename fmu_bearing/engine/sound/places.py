@@ -2,7 +2,8 @@
 
 ``ps`` begins with a head (``H_*``: sizes, then offsets into ``ps`` itself), followed by tables:
 
-* decimator, ``DECIMATOR_TAPS`` numbers, symmetric; high-pass b0 b1 b2 a1 a2; A-weighting 3 x (b0 b1 b2 a1 a2);
+* decimator, ``DECIMATOR_TAPS`` numbers, symmetric; high-pass b0 b1 b2 a1 a2; A-weighting 3 x (b0 b1 b2 a1
+a2);
 * scalars of the paper's eq. 19: D/4, then half the radii of inner ring, outer ring, cage;
 * banks, ``BANK_SIZE`` numbers each: runs of neighbouring channels with one delay, filtered side by side;
 * taps: per bank ``BANK_TAPS`` rows (a multiple of 4) of one number per channel, newest sample first;
@@ -51,8 +52,8 @@ MIC_SIZE = 3
 # over cos(m theta), sin(m theta): x r for m = 0, then per m: x cos, x sin, r cos, r sin, t cos, t sin.
 C_INNER, C_OUTER, C_CAGE, C_BALLS = 0, 3, 6, 9
 
-# --- channels of rung paper: cylinders of inner ring, outer ring, cage; their points; their pistons; then per ball:
-# ball, point.
+# --- channels of rung paper: cylinders of inner ring, outer ring, cage; their points; their pistons; then
+# per ball: ball, point.
 C_CYLINDERS, C_POINTS, C_PISTONS = 0, 3, 6
 SPEED_FLOOR = 1e-9  # m/s or rad/s in the root of |v|, so that its derivative exists at rest
 

@@ -60,8 +60,8 @@ def reset(ss):
 def push(ps, ss, ws, motion, time_weighting, metering_start):
     """Take one motion sample (layout ``MO_*``) and update filters and meters.
 
-    ``time_weighting`` is the meters' time constant in s, ``metering_start`` the time in s from the first sample on at
-    which they begin. The first sample is taken to have lasted for ever, so that constant
+    ``time_weighting`` is the meters' time constant in s, ``metering_start`` the time in s from the first
+    sample on at which they begin. The first sample is taken to have lasted for ever, so that constant
     accelerations (the balls' centripetal one) make no start-up step.
     """
     n = int(ps[H_CHANNELS])
@@ -131,7 +131,9 @@ def _scalars(ps, motion, fresh):
         b = 12 * body
         spin = 4.0 * motion[b + 6] ** 2 + motion[b + 7] ** 2 + motion[b + 8] ** 2
         rate = (
-            4.0 * motion[b + 6] * motion[b + 9] + motion[b + 7] * motion[b + 10] + motion[b + 8] * motion[b + 11]
+            4.0 * motion[b + 6] * motion[b + 9]
+            + motion[b + 7] * motion[b + 10]
+            + motion[b + 8] * motion[b + 11]
         )
         fresh[C_POINTS + body] = ps[at + 1 + body] * rate / math.sqrt(spin + _FLOOR2)
         fresh[C_PISTONS + body] = motion[b + 3]

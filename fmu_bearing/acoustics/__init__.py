@@ -1,0 +1,14 @@
+"""Acoustics in the workshop: transfer functions, filters for the engine, analysis of recordings.
+
+=============  ==============================================================================
+``sources``    pressure per acceleration of single bodies: exact, compact, and the paper's as printed
+``effective``  effective volumes of rings and cylinders
+``transfer``   the rungs ``compact`` and ``paper``: from components to microphones, on plain numbers
+``fir``        decimator, and filters fitted to transfer functions
+``weighting``  A-weighting, Fast and Slow, levels
+``stream``     packs everything for the engine: `stream.sound_parameters`
+``spectrum``   spectra of recordings, kinematic frequencies
+=============  ==============================================================================
+
+Time factor e^{+j omega t}; transfer functions in Pa per m/s2; levels re 20 uPa.
+"""

@@ -1,0 +1,114 @@
+"""Finite impulse responses for the engine: the decimator, and fits to transfer functions."""
+
+import functools
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import remez
+
+from fmu_bearing.engine.sound.places import DECIMATOR_TAPS, LATENCY, RATE, RAW_RATE
+
+BAND = (20.0, 20_000.0)  # Hz: hearing, and where filters follow their transfer functions
+# Where a path lies this far below its component's strongest one, its error counts against that one (-30 dB).
+_WEAK = 10 ** (-30 / 20)
+_STOP = 24_000.0  # Hz: filters let little through from here on; nothing is fitted between the bands
+_STOP_WEIGHT = 0.02
+_RIDGE = 1e-12  # relative: keeps the normal equations of long filters solvable
+_LENGTHS = (48, 64, 96, 128, 192, 256)
+_GOOD = 10 ** (-55 / 20)  # error at which a filter is long enough
+
+
+def fit_frequencies() -> NDArray[np.float64]:
+    """Frequencies in Hz at which transfer functions are evaluated and fitted, shape (n,)."""
+    low, high = BAND
+    return np.concatenate(
+        [np.geomspace(low, 1000.0, 50, endpoint=False), np.arange(1000.0, high + 1.0, 125.0)]
+    )
+
+
+@functools.cache
+def decimator() -> NDArray[np.float64]:
+    """Return the anti-alias filter at ``RAW_RATE``, shape (DECIMATOR_TAPS,), symmetric; read only.
+
+    Everything above ``RATE`` - 20 kHz = 31.2 kHz, all that could fold below 20 kHz, is down by at least 80
+    dB. The pass band's ripple is undone by the filters fitted behind it (`fit`).
+    """
+    stop = RATE - BAND[1]
+    taps = remez(
+        DECIMATOR_TAPS, [0.0, BAND[1], stop, RAW_RATE / 2], [1.0, 0.0], weight=[1.0, 100.0], fs=RAW_RATE
+    )
+    taps /= taps.sum()
+    taps.flags.writeable = False
+    return taps
+
+
+def decimator_response(frequency: NDArray[np.float64]) -> NDArray[np.complex128]:
+    """Complex response of the decimator at ``frequency`` in Hz."""
+    n = np.arange(DECIMATOR_TAPS)
+    return np.exp(-2j * np.pi * np.asarray(frequency)[..., None] * n / RAW_RATE) @ decimator()
+
+
+def delay_of(flight: float) -> int:
+    """Whole samples at ``RATE`` by which a path of ``flight`` seconds is delayed ahead of its filter."""
+    return int(np.floor(flight * RATE))
+
+
+@functools.cache
+def _basis(length: int) -> NDArray[np.complex128]:
+    turn = -2j * np.pi / RATE * np.arange(length)
+    return np.exp(fit_frequencies()[:, None] * turn)
+
+
+@functools.cache
+def _stop_rows(length: int) -> NDArray[np.complex128]:
+    turn = -2j * np.pi / RATE * np.arange(length)
+    return np.exp(np.linspace(_STOP, RATE / 2, 12)[:, None] * turn)
+
+
+def _target(response: NDArray[np.complex128], flight: float) -> NDArray[np.complex128]:
+    """Return what the filter must do so that the whole chain is ``response``, ``LATENCY`` late."""
+    frequency = fit_frequencies()
+    turn = 2j * np.pi * frequency * (delay_of(flight) - LATENCY) / RATE
+    return response * np.exp(turn) / decimator_response(frequency)
+
+
+def fit(
+    response: NDArray[np.complex128], flight: float, strongest: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], float]:
+    """Fit a filter to a transfer function by weighted least squares.
+
+    Parameters
+    ----------
+    response
+        Transfer function at `fit_frequencies`, flight time included.
+    flight
+        Time in s taken out as whole samples before the fit.
+    strongest
+        Magnitude of the component's strongest path at the same frequencies: the yardstick where this path is
+        weak.
+
+    Returns
+    -------
+    taps, error
+        Taps at ``RATE``, newest sample first, as few as reach -55 dB, 256 at most; largest deviation in
+        `BAND` over the larger of the path's own magnitude and the strongest one's minus 30 dB.
+    """
+    wanted = _target(response, flight)
+    weight = 1.0 / np.maximum(np.abs(response), _WEAK * strongest)
+    right = wanted * weight
+    best, least = np.zeros(_LENGTHS[0]), np.inf
+    for length in _LENGTHS:
+        basis, stop = _basis(length), _stop_rows(length) * (_STOP_WEIGHT * weight[-1])
+        rows = basis * weight[:, None]
+        matrix = np.concatenate([rows.real, rows.imag, stop.real, stop.imag])
+        vector = np.concatenate([right.real, right.imag, np.zeros(2 * len(stop))])
+        # normal equations: a hundred times cheaper than a least-squares solver, and exact to -100 dB here
+        normal = matrix.T @ matrix
+        normal.flat[:: length + 1] += _RIDGE * normal.trace() / length
+        taps = np.linalg.solve(normal, matrix.T @ vector)
+        error = float(np.max(np.abs(basis @ taps - wanted) * weight))
+        if error < least:
+            best, least = taps, error
+        if error < _GOOD:
+            break
+    return best, least

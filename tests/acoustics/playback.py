@@ -1,0 +1,95 @@
+"""Shared by the acoustics tests: two bearings in plain numbers, and a player of motion samples."""
+
+import numba
+import numpy as np
+from scipy.signal import sosfreqz
+
+from fmu_bearing.acoustics.stream import MICROPHONE_LOW_LIMIT
+from fmu_bearing.acoustics.transfer import Housing, Radiators, Ring
+from fmu_bearing.acoustics.weighting import high_pass_section
+from fmu_bearing.engine.layout import MIC_OUTPUTS, motion_size
+from fmu_bearing.engine.sound import meter, radiate
+from fmu_bearing.engine.sound.places import DECIMATION, LATENCY, RATE, RAW_RATE
+
+RHO, C = 1.225, 340.0
+SMALL = Radiators(
+    12, 4.5e-3, 26e-3, Ring(22e-3, 17e-3, 10e-3), Ring(35e-3, 30e-3, 10e-3), Ring(27.6e-3, 23.4e-3, 9.1e-3)
+)
+LARGE = Radiators(
+    17, 8.731e-3, 60e-3, Ring(54e-3, 45e-3, 16e-3), Ring(75e-3, 66e-3, 16e-3), Ring(63.5e-3, 55.5e-3, 14e-3)
+)
+HOUSED = Radiators(
+    SMALL.ball_count,
+    SMALL.ball_diameter,
+    SMALL.pitch_diameter,
+    SMALL.inner_ring,
+    SMALL.outer_ring,
+    SMALL.cage,
+    Housing(0.1, 0.16, 0.0595),
+)
+PAPER_POINTS = [(0.0, 0.105, 0.0), (0.0, 0.150, 0.0), (0.0, 0.0, 0.105), (-0.0805, 0.0, 0.0)]
+PLACE = {name: i for i, name in enumerate(MIC_OUTPUTS)}
+
+
+@numba.njit
+def _play(ps, ss, ws, motion, samples, time_weighting, start, z, pressures, mics, outputs, first):
+    for i in range(samples):
+        radiate.push(ps, ss, ws, motion[(first + i) % len(motion)], time_weighting, start)
+        if i % 4 == 0:
+            meter.levels(ps, ss, z, 0)
+            for m in range(mics):
+                pressures[i // 4, m] = z[outputs * m]
+    meter.levels(ps, ss, z, 0)
+
+
+class Player:
+    """Feeds motion samples, repeated as often as needed, and keeps what the microphones read."""
+
+    def __init__(self, ps, time_weighting=0.125, metering_start=0.0):
+        self.ps, self.settings = ps, (time_weighting, metering_start)
+        self.ss, self.ws = np.zeros(radiate.state_size(ps)), np.zeros(radiate.work_size(ps))
+        self.mics = int(ps[7])
+        self.z = np.zeros(self.mics * len(MIC_OUTPUTS))
+        self.first = 0
+
+    def play(self, motion, samples):
+        """Return pressures, shape (samples / 4, mics)."""
+        pressures = np.zeros((-(-samples // DECIMATION), self.mics))
+        _play(
+            self.ps, self.ss, self.ws, motion, samples, *self.settings, self.z, pressures, self.mics,
+            len(MIC_OUTPUTS), self.first,
+        )  # fmt: skip
+        self.first += samples
+        return pressures
+
+    def reading(self, name, mic=0):
+        return self.z[mic * len(MIC_OUTPUTS) + PLACE[name]]
+
+
+def still(radiators, samples):
+    """Motion samples at rest, shape (samples, motion size); balls evenly round the pitch circle."""
+    motion = np.zeros((samples, motion_size(radiators.ball_count)))
+    for j in range(radiators.ball_count):
+        angle = 2 * np.pi * j / radiators.ball_count
+        motion[:, 36 + 14 * j + 12] = np.cos(angle)
+        motion[:, 36 + 14 * j + 13] = np.sin(angle)
+    return motion
+
+
+def raw_time(samples):
+    return np.arange(samples) / RAW_RATE
+
+
+def chain(frequency):
+    """What every pressure passes besides its transfer function: microphone's low limit and latency."""
+    section = high_pass_section(RATE, MICROPHONE_LOW_LIMIT)[None]
+    limit = sosfreqz(section, frequency, fs=RATE)[1]
+    return limit * np.exp(-2j * np.pi * np.asarray(frequency) * LATENCY / RATE)
+
+
+def lines(pressure, frequencies):
+    """Complex amplitudes of the last 0.01 s of a signal, which holds whole periods of 100 Hz multiples."""
+    tail = pressure[-512:]
+    n = np.arange(len(pressure) - 512, len(pressure))
+    turn = np.exp(-2j * np.pi * np.asarray(frequencies)[:, None] * n / RATE)
+    return 2.0 / 512 * turn @ tail

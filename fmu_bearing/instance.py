@@ -6,10 +6,10 @@ The same object serves the library and the FMU, so that both give the same bits.
 import math
 
 import numpy as np
-from fmu_bearing.interface import Variable
 from numpy.typing import NDArray
 
 from fmu_bearing.engine import abi, layout
+from fmu_bearing.interface import Variable
 from fmu_bearing.prepare.model import Model
 
 _REASONS = {
@@ -54,6 +54,9 @@ class Instance:
         self.u: NDArray[np.float64] = np.zeros(len(layout.INPUTS))
         self.z: NDArray[np.float64] = np.zeros(layout.z_size(model.n_balls, model.n_mics))
         self.s: NDArray[np.float64] = np.zeros(layout.state_size(self.p))
+        # The compiled entries are specialised on read-only parameters; settings still reach them through p.
+        self._p = self.p.view()
+        self._p.setflags(write=False)
         self._w: NDArray[np.float64] = np.zeros(layout.work_size(self.p))
         self._kept = self.s.copy()
         self.initialised = False
@@ -103,12 +106,12 @@ class Instance:
         """Value of any variable, SI units."""
         variable = self.variable(name)
         if variable.array == "":
-            return float(variable.value if variable.value is not None else variable.start)
+            return float("nan") if variable.value is None else variable.value
         return float({"u": self.u, "z": self.z, "p": self.p}[variable.array][variable.index])
 
     def initialise(self, time: float = 0.0) -> None:
         """Put the bearing to its quasi-static state at the inputs; ``EngineError`` if there is none."""
-        status = abi.init(self._read_only(), self.u, self.s, self.z, self._w, float(time))
+        status = abi.init(self._p, self.u, self.s, self.z, self._w, float(time))
         if status != layout.OK:
             raise EngineError(f"initialisation at t = {time} s: {_REASONS[status]}; {self._inputs()}")
         self.initialised = True
@@ -129,12 +132,6 @@ class Instance:
                 f"step of {h} s from t = {self.time:.9g} s (reached {reached:.9g} s): {_REASONS[status]}; "
                 f"{self._inputs()}"
             )
-
-    def _read_only(self) -> NDArray[np.float64]:
-        # the compiled entries are specialised on read-only parameters
-        self._p = self.p.view()
-        self._p.setflags(write=False)
-        return self._p
 
     def _inputs(self) -> str:
         named = zip(layout.INPUTS, self.u, strict=True)

@@ -5,6 +5,7 @@ and ``set``, the documentation's table. Names are a contract: harnesses depend o
 """
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 from fmu_bearing.engine import layout as at
 from fmu_bearing.scene import Scene, si
@@ -39,8 +40,26 @@ RADIATORS = {"none": 0, "bare": 1, "housing": 2}
 _AXES = (("x", "along the axis"), ("y", "horizontal"), ("z", "upwards"))
 _SPEED_LIMIT = 10472.0  # rad/s, 100,000 r/min
 
+# What a variable has unless it says otherwise, by unit: quantity, min, max, nominal. The bounds of what is
+# read lie beyond anything a bearing does; they tell a tool where a value has lost its meaning.
+_USUAL = {
+    "m": ("Length", -1e3, 1e3, 1e-6),
+    "m/s": ("Velocity", -1e4, 1e4, 1e-2),
+    "N": ("Force", 0.0, 1e7, 100.0),
+    "N.m": ("Torque", -1e5, 1e5, 1e-2),
+    "N/m": ("TranslationalSpringConstant", 0.0, 1e13, 1e8),
+    "W": ("Power", -1e8, 1e8, 10.0),
+    "Pa": ("Pressure", -1e5, 1e5, 1e-2),
+    "Pa.s": ("DynamicViscosity", 0.0, 10.0, 1e-2),
+    "rad": ("Angle", -3.2, 3.2, 0.3),
+    "dB": ("Level", -200.0, 300.0, 60.0),
+    "kg.m2": ("MomentOfInertia", 0.0, 1e6, 1e-5),
+    "s": ("Time", 0.0, 1e4, 1e-3),
+    "": ("Ratio", -1e9, 1e9, 1.0),
+}
 
-def variables(scene: Scene, rotor_inertia: float | None = None) -> tuple[Variable, ...]:
+
+def variables(scene: Scene, rotor_inertia: float) -> tuple[Variable, ...]:
     """All variables of a scene, in the order of their value references.
 
     ``rotor_inertia`` is the polar inertia (kg m2) of inner ring and rotor, for the variable of that name.
@@ -56,7 +75,7 @@ def _inputs(scene: Scene) -> list[Variable]:
     mounting, start = si(scene.mounting), si(scene.operation)
 
     def make(
-        name: str, description: str, unit: str, low: float, high: float, value: float, **more: object
+        name: str, description: str, unit: str, low: float, high: float, value: float, **more: Any
     ) -> Variable:
         return Variable(
             name,
@@ -69,7 +88,7 @@ def _inputs(scene: Scene) -> list[Variable]:
             start=value,
             array="u",
             index=at.INPUTS.index(name),
-            **more,  # type: ignore[arg-type]
+            **more,
         )
 
     kelvin = {"display_unit": "degC", "quantity": "ThermodynamicTemperature", "nominal": 300.0}
@@ -147,16 +166,23 @@ def _inputs(scene: Scene) -> list[Variable]:
     ]
 
 
+def _usual(unit: str, more: dict[str, Any]) -> dict[str, Any]:
+    """Keywords of a variable, completed by what is usual for its unit."""
+    return {**dict(zip(("quantity", "min", "max", "nominal"), _USUAL[unit], strict=True)), **more}
+
+
 def _read(
-    name: str, causality: str, description: str, unit: str = "", index: int | None = None, **more: object
+    name: str, causality: str, description: str, unit: str = "", index: int | None = None, **more: Any
 ) -> Variable:
     """Output or local variable at its place in ``z``."""
     place = at.BEARING_OUTPUTS.index(name) if index is None else index
-    return Variable(name, causality, "continuous", description, unit=unit, array="z", index=place, **more)  # type: ignore[arg-type]
+    return Variable(
+        name, causality, "continuous", description, unit=unit, array="z", index=place, **_usual(unit, more)
+    )
 
 
 def _vector(
-    body: str, motion: str, causality: str, words: str, unit: str, first: int | None, **more: object
+    body: str, motion: str, causality: str, words: str, unit: str, first: int | None, **more: Any
 ) -> list[Variable]:
     return [
         _read(
@@ -172,7 +198,7 @@ def _vector(
 
 
 def _outputs(scene: Scene) -> list[Variable]:
-    speed = {"display_unit": "mm/s", "quantity": "Velocity", "nominal": 1e-2}
+    speed = {"display_unit": "mm/s"}
     table = _vector(
         "inner_ring", "velocity", "output", "Velocity of the inner ring's centre", "m/s", None, **speed
     )
@@ -181,7 +207,8 @@ def _outputs(scene: Scene) -> list[Variable]:
     )
     if scene.bearing.cage is not None:
         table += _vector("cage", "velocity", "output", "Velocity of the cage's centre", "m/s", None, **speed)
-    orbit = {"quantity": "Velocity", "nominal": 10.0}
+        table.append(_read("cage.speed_ratio", "output", "Speed of the cage over the shaft's", nominal=0.4))
+    orbit = {"nominal": 10.0}
     for j in range(scene.bearing.ball_count):
         words = f"Velocity of ball {j + 1}, orbit included,"
         table += _vector(f"ball[{j + 1}]", "velocity", "output", words, "m/s", at.Z_BALLS + 3 * j, **orbit)
@@ -196,11 +223,8 @@ def _outputs(scene: Scene) -> list[Variable]:
                     words.format(name),
                     "Pa" if pascal else "dB",
                     first + len(at.MIC_OUTPUTS) * k + i,
-                    quantity="Pressure" if pascal else "",
-                    nominal=1e-2 if pascal else 60.0,
                 )
             )
-    heat = {"quantity": "Power", "nominal": 10.0}
     return [
         *table,
         _read(
@@ -208,32 +232,14 @@ def _outputs(scene: Scene) -> list[Variable]:
             "output",
             "Torque taken from the shaft, without inertia: that belongs to the drive",
             "N.m",
-            quantity="Torque",
-            nominal=0.01,
         ),
         _read(
-            "heat.inner_ring",
-            "output",
-            "Heat to the inner ring, mean over the last communication step",
-            "W",
-            **heat,
+            "heat.inner_ring", "output", "Heat to the inner ring, mean over the last communication step", "W"
         ),
         _read(
-            "heat.outer_ring",
-            "output",
-            "Heat to the outer ring, mean over the last communication step",
-            "W",
-            **heat,
+            "heat.outer_ring", "output", "Heat to the outer ring, mean over the last communication step", "W"
         ),
-        _read(
-            "heat.oil", "output", "Heat to oil and balls, mean over the last communication step", "W", **heat
-        ),
-        _read(
-            "cage.speed_ratio",
-            "output",
-            "Speed of the cage (of the orbit where there is none) over the shaft's",
-            nominal=0.4,
-        ),
+        _read("heat.oil", "output", "Heat to oil and balls, mean over the last communication step", "W"),
     ]
 
 
@@ -253,8 +259,8 @@ _MIC_WORDS = (
 )
 
 
-def _locals(scene: Scene, rotor_inertia: float | None) -> list[Variable]:
-    small = {"display_unit": "um", "quantity": "Length", "nominal": 1e-6}
+def _locals(scene: Scene, rotor_inertia: float) -> list[Variable]:
+    small = {"display_unit": "um"}
     table = _vector(
         "inner_ring", "displacement", "local", "Displacement of the inner ring's centre", "m", None, **small
     )
@@ -264,30 +270,14 @@ def _locals(scene: Scene, rotor_inertia: float | None) -> list[Variable]:
     for side in ("inner", "outer"):
         at_race = f"at the {side} race"
         table += [
-            _read(
-                f"contact.{side}.load_mean",
-                "local",
-                f"Mean load of a ball {at_race}",
-                "N",
-                quantity="Force",
-                nominal=100.0,
-            ),
-            _read(
-                f"contact.{side}.load_max",
-                "local",
-                f"Largest load of a ball {at_race}",
-                "N",
-                quantity="Force",
-                nominal=100.0,
-            ),
+            _read(f"contact.{side}.load_mean", "local", f"Mean load of a ball {at_race}", "N"),
+            _read(f"contact.{side}.load_max", "local", f"Largest load of a ball {at_race}", "N"),
             _read(
                 f"contact.{side}.angle_mean",
                 "local",
                 f"Mean contact angle {at_race}",
                 "rad",
                 display_unit="deg",
-                quantity="Angle",
-                nominal=0.3,
             ),
             _read(
                 f"contact.{side}.pressure_max",
@@ -295,26 +285,16 @@ def _locals(scene: Scene, rotor_inertia: float | None) -> list[Variable]:
                 f"Largest contact pressure {at_race}",
                 "Pa",
                 display_unit="GPa",
-                quantity="Pressure",
+                min=0.0,
+                max=1e12,
                 nominal=1e9,
             ),
         ]
-    stiffness = {"quantity": "TranslationalSpringConstant", "nominal": 1e8}
     table += [
         _read("film.lambda_min", "local", "Thinnest oil film over the composite roughness", nominal=1.0),
+        _read("stiffness.axial", "local", "Axial stiffness between the rings at the present contacts", "N/m"),
         _read(
-            "stiffness.axial",
-            "local",
-            "Axial stiffness between the rings at the present contacts",
-            "N/m",
-            **stiffness,
-        ),
-        _read(
-            "stiffness.radial",
-            "local",
-            "Radial stiffness between the rings at the present contacts",
-            "N/m",
-            **stiffness,
+            "stiffness.radial", "local", "Radial stiffness between the rings at the present contacts", "N/m"
         ),
         _read(
             "energy.residual",
@@ -326,7 +306,8 @@ def _locals(scene: Scene, rotor_inertia: float | None) -> list[Variable]:
         ("solver.steps", "Internal steps so far"),
         ("solver.rejected", "Internal steps refused so far"),
     ):
-        table.append(replace(_read(name, "local", words), type="Integer", variability="discrete"))
+        count = _read(name, "local", words, quantity="", min=0, max=2**31 - 1, nominal=None)
+        table.append(replace(count, type="Integer", variability="discrete"))
     table.append(
         Variable(
             "rotor.inertia",
@@ -334,8 +315,8 @@ def _locals(scene: Scene, rotor_inertia: float | None) -> list[Variable]:
             "constant",
             "Polar inertia of inner ring and rotor, which the drive owns",
             unit="kg.m2",
-            quantity="MomentOfInertia",
-            value=rotor_inertia or 0.0,
+            value=rotor_inertia,
+            **_usual("kg.m2", {}),
         )
     )
     first = at.z_mics(scene.bearing.ball_count)
@@ -343,9 +324,7 @@ def _locals(scene: Scene, rotor_inertia: float | None) -> list[Variable]:
         for i, (label, words) in enumerate(_MIC_WORDS):
             if i >= 5 and not (label == "spl_cage" and scene.bearing.cage is None):
                 place = first + len(at.MIC_OUTPUTS) * k + i
-                table.append(
-                    _read(f"mic[{k + 1}].{label}", "local", words.format(name), "dB", place, nominal=60.0)
-                )
+                table.append(_read(f"mic[{k + 1}].{label}", "local", words.format(name), "dB", place))
     return table
 
 
@@ -361,18 +340,23 @@ def _parameters(scene: Scene) -> list[Variable]:
             "fixed",
             description,
             unit=unit,
-            min=low,
-            max=high,
             start=value,
             array="p",
             index=index,
+            **_usual(unit, {"min": low, "max": high, "nominal": value or 1.0}),
         )
 
     def constant(name: str, description: str, value: float, unit: str = "", kind: str = "Real") -> Variable:
-        return Variable(name, "local", "constant", description, type=kind, unit=unit, value=value)
+        more: dict[str, Any] = {} if kind == "Integer" else _usual(unit, {"nominal": 0.1})
+        return Variable(name, "local", "constant", description, type=kind, unit=unit, value=value, **more)
 
     table = [
-        replace(tunable("level", at.P_LEVEL, "Level of the dynamics: 0 is full", 0, 0, 0), type="Integer"),
+        replace(
+            tunable("level", at.P_LEVEL, "Level of the dynamics: 0 is full", 0, 0, 0),
+            type="Integer",
+            quantity="",
+            nominal=None,
+        ),
         tunable(
             "tolerance", at.P_TOLERANCE, "Relative error of ring velocities", fidelity.tolerance, 1e-6, 0.1
         ),

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+
 from fmu_bearing.instance import EngineError, Instance
 from fmu_bearing.prepare.model import prepare
 

@@ -11,7 +11,7 @@ def table(scene):
 
 
 def test_inputs_are_the_contracts_eight(scene):
-    names = [v.name for v in variables(scene("7003C-spindle")) if v.causality == "input"]
+    names = [v.name for v in variables(scene("7003C-spindle"), 1e-5) if v.causality == "input"]
     assert names == [
         "shaft_speed",
         "preload",
@@ -62,7 +62,7 @@ def test_ranges_and_starts(scene):
 
 
 def test_places_do_not_overlap(scene):
-    places = [(v.array, v.index) for v in variables(scene("7009C-full-ceramic")) if v.array]
+    places = [(v.array, v.index) for v in variables(scene("7009C-full-ceramic"), 1e-5) if v.array]
     assert len(places) == len(set(places))
 
 
@@ -73,4 +73,4 @@ def test_what_a_scene_leaves_out_has_no_variable(scene):
     assert not any(name.startswith(("mic[", "sound.", "imperfection.")) for name in names)
     bare = spindle.model_copy(update={"bearing": spindle.bearing.model_copy(update={"cage": None})})
     names = set(table(bare))
-    assert not any(name.startswith("cage.velocity") or name.endswith("spl_cage") for name in names)
+    assert not any(name.startswith("cage.") or name.endswith("spl_cage") for name in names)

@@ -1,8 +1,9 @@
 """How kernels are compiled: one set of flags for all, entries cached once per machine.
 
 ``kernel`` marks a function called by other kernels. ``entry`` marks what Python calls (and the right-hand
-side, which tests and studies call by itself); its machine code is kept in the user's cache directory under a hash of the engine's sources, so that a changed helper never
-meets a stale entry, a read-only installation works, and an FMU that is unzipped anew compiles nothing.
+side, which tests and studies call by itself); its machine code is kept in the user's cache directory under
+a hash of the engine's sources, so that a changed helper never meets a stale entry, a read-only
+installation works, and an FMU that is unzipped anew compiles nothing.
 """
 
 import hashlib

@@ -37,7 +37,9 @@ from fmu_bearing.engine.layout import (
     S_ENERGY_NOW,
     S_ENERGY_START,
     S_F,
+    S_FAC,
     S_FACTOR_STEP,
+    S_JAC,
     S_JACOBIAN_TIME,
     S_JACOBIANS,
     S_MEAN_INNER,
@@ -59,6 +61,7 @@ from fmu_bearing.engine.layout import (
 from fmu_bearing.engine.march import total_energy
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.solvers.quasistatic import quasistatic, stiffness_matrix
+from fmu_bearing.engine.solvers.spin_balance import balance_spins
 
 _S = STRIDE
 
@@ -118,6 +121,12 @@ def start(p, u, s, w, t):
         y[k + 1] = y[Y_Q + 1]
         y[k + 2] = y[Y_Q + 2]
         y[Y_V + Q_CAGE + 3] = found[3]
+    balance_spins(p, c, y, 0.0, u[U_SPEED], w, s[S_JAC:S_FAC])
+    if p[P_CAGE] != 0.0:
+        orbit = 0.0
+        for j in range(int(p[P_BALLS])):
+            orbit += y[B_OM * _S + j] / p[P_BALLS]
+        y[Y_V + Q_CAGE + 3] = orbit
     s[S_TIME] = t
     s[S_START] = t
     s[S_SPEED] = u[U_SPEED]

@@ -46,7 +46,9 @@ def outer_ring(scene: Scene) -> RigidBody:
 
 
 def cage(scene: Scene) -> RigidBody:
-    """Cage: a ring less its round pockets; inertia scaled with the mass."""
+    """Cage: a ring less its round pockets, inertia scaled with the mass; zero where there is none."""
+    if scene.bearing.cage is None or scene.materials.cage is None:
+        return RigidBody(0.0, 0.0, 0.0)
     b, c = si(scene.bearing), si(scene.bearing.cage)
     density = si(scene.materials.cage).density
     full = annulus(c.bore, c.outside_diameter, c.width, density)

@@ -4,17 +4,19 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from fmu_bearing.interface import Variable, variables
 from numpy.typing import NDArray
 from scipy.special import roots_jacobi
 
 from fmu_bearing.acoustics.stream import sound_parameters
 from fmu_bearing.engine import layout as at
 from fmu_bearing.engine.sound import radiate
+from fmu_bearing.interface import Variable, variables
 from fmu_bearing.prepare import bodies
 from fmu_bearing.prepare.hertz import PointContact, effective_modulus, point_contact
 from fmu_bearing.prepare.imperfections import ball_oversizes, race_waves
 from fmu_bearing.scene import Scene, si
+from fmu_bearing.scene.bearing import Cage
+from fmu_bearing.scene.material import Material
 
 # SKF friction model (SKF rolling bearings catalogue 2018, p. 65 ff): inlet shear heating, starvation
 _SHEAR_HEATING = 1.84e-9
@@ -94,8 +96,8 @@ def pack(scene: Scene, sound: NDArray[np.float64]) -> NDArray[np.float64]:
     _fidelity(scene, p)
     _bearing(scene, p)
     _mounting(scene, p)
-    if scene.bearing.cage is not None:
-        _cage(scene, p)
+    if scene.bearing.cage is not None and scene.materials.cage is not None:
+        _cage(scene, scene.bearing.cage, scene.materials.cage, p)
     return p
 
 
@@ -204,13 +206,13 @@ def _mounting(scene: Scene, p: NDArray[np.float64]) -> None:
         p[at.P_ECCENTRICITY] = si(scene.imperfections).unbalance
 
 
-def _cage(scene: Scene, p: NDArray[np.float64]) -> None:
-    b, c = si(scene.bearing), si(scene.bearing.cage)
+def _cage(scene: Scene, cage_table: Cage, material: Material, p: NDArray[np.float64]) -> None:
+    b, c = si(scene.bearing), si(cage_table)
     body = bodies.cage(scene)
     p[at.P_CAGE] = 1.0
     p[at.P_CAGE_MASS], p[at.P_CAGE_TRANSVERSE], p[at.P_CAGE_POLAR] = body.mass, body.transverse, body.polar
     p[at.P_POCKET_CLEARANCE] = (c.pocket_diameter - b.ball_diameter) / 2
-    ball, cage = si(scene.materials.balls), si(scene.materials.cage)
+    ball, cage = si(scene.materials.balls), si(material)
     modulus = effective_modulus(
         cage.youngs_modulus, cage.poisson_ratio, ball.youngs_modulus, ball.poisson_ratio
     )

@@ -1,0 +1,260 @@
+"""The table of variables as ``modelDescription.xml`` (FMI 2.0, co-simulation).
+
+The value reference of a variable is its place in the table, its index in ``ModelStructure`` one more.
+Everything written follows from the model; nothing from the clock or the machine, so the same scene gives
+the same bytes.
+"""
+
+import hashlib
+import math
+import re
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+from uuid import UUID
+from xml.etree.ElementTree import Element, SubElement, indent, tostring
+
+import numpy as np
+
+from fmu_bearing.fmi.units import NO_UNIT, UNITS
+from fmu_bearing.interface import Variable
+
+if TYPE_CHECKING:
+    from fmu_bearing.prepare.model import Model
+
+__all__ = [
+    "CAPABILITIES",
+    "ENUMERATIONS",
+    "LOG_CATEGORIES",
+    "description_element",
+    "description_xml",
+    "fmi_type",
+    "identifier",
+    "interface_guid",
+    "items",
+]
+
+GENERATION_TOOL = "fmu-bearing"
+
+#: What this build can do; pythonfmu 0.7.0 answers fmi2Error to derivatives, directional or in time.
+CAPABILITIES = {
+    "needsExecutionTool": "true",
+    "canHandleVariableCommunicationStepSize": "true",
+    "canInterpolateInputs": "false",
+    "maxOutputDerivativeOrder": "0",
+    "canRunAsynchronuously": "false",
+    "canBeInstantiatedOnlyOncePerProcess": "false",
+    "canNotUseMemoryManagementFunctions": "true",
+    "canGetAndSetFMUstate": "true",
+    "canSerializeFMUstate": "true",
+    "providesDirectionalDerivative": "false",
+}
+
+LOG_CATEGORIES = {
+    "logStatusWarning": "Accepted, but outside the range the model was validated for.",
+    "logStatusDiscard": "A value or a step that was not taken, and why.",
+    "logStatusError": "A call out of order, or a failure inside the model.",
+    "logAll": "Everything else.",
+}
+
+#: Integers of the table that read better by name: type name, then (item, value, what it means).
+ENUMERATIONS: dict[str, tuple[str, tuple[tuple[str, int, str], ...]]] = {
+    "level": (
+        "Level",
+        (
+            ("full", 0, "Six degrees of freedom for every ball, the rings and the cage."),
+            ("rings", 1, "Rings are dynamic; balls and cage move kinematically."),
+            ("response", 2, "Linear response around the quasi-static state."),
+        ),
+    ),
+}
+
+# Default experiment, assumed: a few shaft turns after the start has died away (10-20 ms), at a
+# communication step that resolves the shaft order.
+STOP_TIME = 0.1  # s
+STEP_SIZE = 1e-4  # s
+
+
+def identifier(model: "Model") -> str:
+    """Return the name of the FMU's shared library: ``Bearing`` and the designation as a C identifier."""
+    return "Bearing" + re.sub(r"\W", "_", model.scene.bearing.designation, flags=re.ASCII)
+
+
+def fmi_type(variable: Variable) -> str:
+    """Return the FMI type of a variable: its own, or ``Enumeration`` where the values have names."""
+    return "Enumeration" if variable.name in ENUMERATIONS else variable.type
+
+
+def interface_guid(model: "Model") -> str:
+    """Return the GUID: a hash of the description, of the scene and of every number in the parameters.
+
+    Two FMUs with the same GUID have the same variables and the same model.
+    """
+    digest = hashlib.sha256(_serialise(_root(model, guid="")))
+    digest.update(model.scene.to_toml().encode("utf-8"))
+    digest.update(np.ascontiguousarray(model.parameters, dtype="<f8").tobytes())
+    return f"{{{UUID(bytes=digest.digest()[:16])}}}"
+
+
+def description_xml(model: "Model") -> bytes:
+    """Return ``modelDescription.xml`` of a model, UTF-8, with its GUID.
+
+    Raises
+    ------
+    KeyError
+        If a variable has a unit or a display unit that :data:`fmu_bearing.fmi.units.UNITS` does not know.
+    """
+    return _serialise(description_element(model))
+
+
+def description_element(model: "Model") -> Element:
+    """Return the same as :func:`description_xml`, as a tree."""
+    return _root(model, interface_guid(model))
+
+
+def _serialise(root: Element) -> bytes:
+    indent(root, "  ")
+    text = tostring(root, encoding="unicode", short_empty_elements=True)
+    return f'<?xml version="1.0" encoding="UTF-8"?>\n{text}\n'.encode()
+
+
+def _root(model: "Model", guid: str) -> Element:
+    scene = model.scene
+    root = Element(
+        "fmiModelDescription",
+        {
+            "fmiVersion": "2.0",
+            "modelName": scene.name,
+            "guid": guid,
+            "description": (
+                f"Angular contact ball bearing {scene.bearing.designation} on its mounting: "
+                "vibration, friction torque, heat and sound"
+            ),
+            "generationTool": GENERATION_TOOL,
+            "variableNamingConvention": "structured",
+        },
+    )
+    SubElement(root, "CoSimulation", {"modelIdentifier": identifier(model), **CAPABILITIES})
+    _units(SubElement(root, "UnitDefinitions"), model.variables)
+    named = [variable for variable in model.variables if variable.name in ENUMERATIONS]
+    if named:
+        _types(SubElement(root, "TypeDefinitions"), named)
+    categories = SubElement(root, "LogCategories")
+    for name, sentence in LOG_CATEGORIES.items():
+        SubElement(categories, "Category", {"name": name, "description": sentence})
+    SubElement(
+        root,
+        "DefaultExperiment",
+        {
+            "startTime": "0.0",
+            "stopTime": repr(STOP_TIME),
+            "tolerance": _number(scene.fidelity.tolerance),
+            "stepSize": repr(STEP_SIZE),
+        },
+    )
+    variables = SubElement(root, "ModelVariables")
+    for reference, variable in enumerate(model.variables):
+        _variable(variables, reference, variable)
+    _structure(SubElement(root, "ModelStructure"), model.variables)
+    return root
+
+
+def _units(parent: Element, variables: Iterable[Variable]) -> None:
+    used: dict[str, set[str]] = {}
+    for variable in variables:
+        if variable.type == "Real":
+            name = variable.unit or NO_UNIT
+            if name not in UNITS:
+                raise KeyError(f"{variable.name}: unknown unit {name!r}")
+            shown = used.setdefault(name, set())
+            if variable.display_unit:
+                shown.add(variable.display_unit)
+    for name in sorted(used):
+        element = SubElement(parent, "Unit", {"name": name})
+        SubElement(element, "BaseUnit", {base: str(power) for base, power in UNITS[name].base.items()})
+        for display in map(UNITS[name].display, sorted(used[name])):
+            attributes = {"name": display.name, "factor": repr(display.factor)}
+            if display.offset:
+                attributes["offset"] = repr(display.offset)
+            SubElement(element, "DisplayUnit", attributes)
+
+
+def _types(parent: Element, named: Iterable[Variable]) -> None:
+    for variable in named:
+        type_name, _ = ENUMERATIONS[variable.name]
+        simple = SubElement(parent, "SimpleType", {"name": type_name})
+        enumeration = SubElement(simple, "Enumeration")
+        for item, value, sentence in items(variable):
+            attributes = {"name": item, "value": str(value), "description": sentence}
+            SubElement(enumeration, "Item", attributes)
+
+
+def items(variable: Variable) -> list[tuple[str, int, str]]:
+    """Return name, value and meaning of what an enumeration may be set to, empty for other variables."""
+    low = -math.inf if variable.min is None else variable.min
+    high = math.inf if variable.max is None else variable.max
+    return [item for item in ENUMERATIONS.get(variable.name, ("", ()))[1] if low <= item[1] <= high]
+
+
+def _variable(parent: Element, reference: int, variable: Variable) -> None:
+    causality, initial, start = _initial(variable)
+    attributes = {
+        "name": variable.name,
+        "valueReference": str(reference),
+        "description": variable.description,
+        "causality": causality,
+        "variability": variable.variability,
+    }
+    if initial:
+        attributes["initial"] = initial
+    element = SubElement(parent, "ScalarVariable", attributes)
+    kind = fmi_type(variable)
+    details: dict[str, Any] = {}
+    if kind == "Enumeration":
+        details["declaredType"] = ENUMERATIONS[variable.name][0]
+    if kind == "Real":
+        details["quantity"] = variable.quantity or None
+        details["unit"] = variable.unit or NO_UNIT
+        details["displayUnit"] = variable.display_unit or None
+    if kind != "String":
+        details["min"] = variable.min
+        details["max"] = variable.max
+    if kind == "Real":
+        details["nominal"] = variable.nominal
+    details["start"] = start
+    given = {key: _text(value, kind) for key, value in details.items() if value is not None}
+    SubElement(element, kind, given)
+
+
+def _initial(variable: Variable) -> tuple[str, str, Any]:
+    """Return causality, ``initial`` and start value as FMI has them; a constant is a local with a value."""
+    if variable.variability == "constant" or variable.causality == "constant":
+        value = variable.value if variable.value is not None else variable.start
+        causality = "local" if variable.causality == "constant" else variable.causality
+        return causality, "exact", value
+    if variable.causality == "input":
+        return "input", "", variable.start
+    if variable.causality == "parameter":
+        return "parameter", "exact", variable.start
+    return variable.causality, "calculated", None
+
+
+def _text(value: Any, kind: str) -> str:
+    if isinstance(value, str):
+        return value
+    return _number(value) if kind == "Real" else str(int(value))
+
+
+def _number(value: float) -> str:
+    """Return the shortest text that reads back as the same double."""
+    return repr(float(value))
+
+
+def _structure(parent: Element, variables: Iterable[Variable]) -> None:
+    places = [i + 1 for i, variable in enumerate(variables) if variable.causality == "output"]
+    # dependencies="": between two steps a set input changes no output, so importers must see no
+    # algebraic loop. While initialising, every output may depend on everything: attribute omitted.
+    outputs = SubElement(parent, "Outputs")
+    unknowns = SubElement(parent, "InitialUnknowns")
+    for place in places:
+        SubElement(outputs, "Unknown", {"index": str(place), "dependencies": ""})
+        SubElement(unknowns, "Unknown", {"index": str(place)})

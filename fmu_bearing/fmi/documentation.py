@@ -1,0 +1,129 @@
+"""The pages inside the FMU: what the bearing is, its validity range, its variables, what it needs."""
+
+import sys
+from collections.abc import Iterator
+from html import escape
+from importlib.metadata import PackageNotFoundError, distribution, version
+from pathlib import Path
+from string import Template
+from typing import TYPE_CHECKING, Any
+
+from fmu_bearing.fmi.description import interface_guid, items
+from fmu_bearing.fmi.units import UNITS
+from fmu_bearing.interface import Variable
+
+if TYPE_CHECKING:
+    from fmu_bearing.prepare.model import Model
+
+__all__ = ["pages", "templates"]
+
+_NEEDS = """This FMU runs its model in Python and needs on the machine that simulates it:
+
+- Python {python} or a later 3.x, as the host process or loaded into it;
+- the package fmu-bearing {package}, the version that built the FMU, with its dependencies in that Python;
+  another version is refused where its equations or its variables differ;
+- linux64 or win64.
+"""
+
+
+def templates() -> Path:
+    """Return the folder of templates, licences and icon: package data, or the repository's own."""
+    packaged = Path(__file__).parent / "data"
+    return packaged if packaged.is_dir() else Path(__file__).parents[2] / "modelDescription"
+
+
+def pages(model: "Model") -> dict[str, bytes]:
+    """Return the files of the FMU's ``documentation`` folder, by path below it."""
+    folder = templates() / "documentation"
+    found: dict[str, bytes] = {
+        path.relative_to(folder).as_posix(): path.read_bytes()
+        for path in folder.rglob("*")
+        if path.is_file() and not path.name.startswith(".")
+    }
+    page = Template(found["index.html"].decode("utf-8")).substitute(_fields(model))
+    found["index.html"] = page.encode("utf-8")
+    needs = _NEEDS.format(python="3.11", package=_package_version())
+    found["externalDependencies.txt"] = needs.encode("utf-8")
+    found["licenses/pythonfmu.txt"] = _pythonfmu_licence()
+    return found
+
+
+def _fields(model: "Model") -> dict[str, str]:
+    scene = model.scene
+    ranges = (
+        f"<tr><td>{escape(v.name)}: {escape(v.description)}</td><td>{_range(v)}</td></tr>"
+        for v in model.variables
+        if v.causality in ("input", "parameter") and v.type == "Real"
+    )
+    if scene.sound is None:
+        sound = "This scene has no microphones: nothing is computed about its sound."
+    else:
+        sound = (
+            f"Sound is radiated by the rungs &quot;{escape(str(scene.sound.rung))}&quot; and "
+            f"&quot;{escape(str(scene.sound.radiator))}&quot; of the model into a free field: no room, "
+            "no floor, no other machine. Levels are re 20 &micro;Pa."
+        )
+    return {
+        "model_name": escape(scene.name),
+        "designation": escape(scene.bearing.designation),
+        "ball_count": str(scene.bearing.ball_count),
+        "guid": escape(interface_guid(model)),
+        "ranges": "\n".join(ranges),
+        "sound": sound,
+        "variables": "\n".join(_rows(model)),
+        "scene": escape(scene.to_toml()),
+    }
+
+
+def _rows(model: "Model") -> Iterator[str]:
+    for variable in model.variables:
+        value = variable.start if variable.value is None else variable.value
+        settable = variable.causality in ("input", "parameter") or variable.variability == "constant"
+        cells = (
+            f"<code>{escape(variable.name)}</code>",
+            "constant" if variable.variability == "constant" else variable.causality,
+            escape(variable.unit or ""),
+            _range(variable),
+            _shown(variable, value) if settable and value is not None else "",
+            escape(variable.description),
+        )
+        yield "<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>"
+
+
+def _range(variable: Variable) -> str:
+    if items(variable):
+        return ", ".join(f"{value} = {name}" for name, value, _ in items(variable))
+    low, high = variable.min, variable.max
+    if low is None and high is None:
+        return ""
+    if low is None:
+        return f"at most {_shown(variable, high)}"
+    if high is None:
+        return f"at least {_shown(variable, low)}"
+    return f"{_shown(variable, low)} to {_shown(variable, high)}"
+
+
+def _shown(variable: Variable, value: Any) -> str:
+    """Return a value in its unit, and in the display unit where there is one."""
+    if variable.type != "Real":
+        return escape(str(value))
+    text = f"{value:.6g}" + (f" {variable.unit}" if variable.unit else "")
+    if variable.display_unit:
+        display = UNITS[variable.unit].display(variable.display_unit)
+        text += f" ({display.shown(value):.6g} {display.name})"
+    return escape(text)
+
+
+def _package_version() -> str:
+    try:
+        return version("fmu-bearing")
+    except PackageNotFoundError:
+        return "(the source tree this FMU was built from)"
+
+
+def _pythonfmu_licence() -> bytes:
+    """Return the licence of the binaries, which come from pythonfmu."""
+    for file in distribution("pythonfmu").files or ():
+        if file.name == "LICENSE":
+            return Path(str(file.locate())).read_bytes()
+    raise FileNotFoundError(f"pythonfmu's licence is not installed in {sys.prefix}")

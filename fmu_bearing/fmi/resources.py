@@ -1,0 +1,89 @@
+"""The numbers inside an FMU: the scene, the parameter array, and the fingerprint that binds them."""
+
+import functools
+import hashlib
+import io
+from pathlib import Path
+
+import numpy as np
+
+from fmu_bearing.engine import layout
+from fmu_bearing.interface import variables
+from fmu_bearing.prepare.model import Model
+from fmu_bearing.scene import read_scene
+
+__all__ = ["PARAMETERS", "SCENE", "contents", "fingerprint", "load"]
+
+SCENE = "scene.toml"
+PARAMETERS = "parameters.npy"
+
+
+def contents(model: Model) -> dict[str, bytes]:
+    """Return the files to put into the resources, by name."""
+    buffer = io.BytesIO()
+    np.save(buffer, np.ascontiguousarray(model.parameters, dtype="<f8"), allow_pickle=False)
+    return {SCENE: model.scene.to_toml().encode("utf-8"), PARAMETERS: buffer.getvalue()}
+
+
+@functools.cache
+def engine_digest() -> bytes:
+    """Return a hash of the engine's source.
+
+    The kernels trust the offsets in the parameter array: read by another version of them, an old array
+    would not give an error but a damaged process.
+    """
+    root = Path(layout.__file__).parent
+    digest = hashlib.sha256()
+    for path in sorted(root.rglob("*.py")):
+        digest.update(path.relative_to(root).as_posix().encode("utf-8") + b"\0")
+        digest.update(path.read_bytes() + b"\0")
+    return digest.digest()
+
+
+def fingerprint(model: Model) -> str:
+    """Return a hash of what makes the numbers mean what they mean: variables, engine, the numbers.
+
+    Wording is left out, so an FMU goes on working under a later package as long as the engine, the
+    variables and their places are the same.
+    """
+    digest = hashlib.sha256()
+    for variable in model.variables:
+        face = (
+            variable.name,
+            variable.causality,
+            variable.variability,
+            variable.type,
+            variable.unit,
+            variable.min,
+            variable.max,
+            variable.start,
+            variable.value,
+            variable.array,
+            variable.index,
+        )
+        digest.update(repr(face).encode("utf-8"))
+    digest.update(engine_digest())
+    digest.update(np.ascontiguousarray(model.parameters, dtype="<f8").tobytes())
+    return digest.hexdigest()
+
+
+@functools.lru_cache(maxsize=16)
+def load(folder: Path, expected: str) -> Model:
+    """Read a model back without preparing it again.
+
+    Raises
+    ------
+    ValueError
+        If the numbers are damaged, or the installed package lays them out in another way than the one
+        that built the FMU.
+    """
+    scene = read_scene(folder / SCENE)
+    parameters = np.load(folder / PARAMETERS, allow_pickle=False)
+    parameters.setflags(write=False)
+    model = Model(scene, parameters, variables(scene, rotor_inertia=float(parameters[layout.P_INNER_POLAR])))
+    if fingerprint(model) != expected:
+        raise ValueError(
+            f"the model in {folder} is damaged, or was built by another version of fmu-bearing than the one "
+            "installed here: install that one (see documentation/externalDependencies.txt) or rebuild the FMU"
+        )
+    return model

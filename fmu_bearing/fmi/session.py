@@ -1,0 +1,250 @@
+"""One FMU instance from instantiation to termination: the rules of FMI around an :class:`Instance`.
+
+Knows value references, phases and refusals, but no FMU tool: every call returns normally, whatever it was
+given, and says in the log what it did not do. What is wrong stays noted, and every step is refused until
+it is put right, because pythonfmu gives no way to refuse a single value.
+"""
+
+import contextlib
+import math
+from collections.abc import Callable, Sequence
+from enum import Enum
+from typing import Any
+
+import numpy as np
+
+from fmu_bearing.engine import layout
+from fmu_bearing.fmi.state import State
+from fmu_bearing.instance import EngineError, Instance
+from fmu_bearing.prepare.model import Model
+
+__all__ = ["DISCARD", "ERROR", "WARNING", "Phase", "Session"]
+
+WARNING, DISCARD, ERROR = "warning", "discard", "error"  # severities handed to the log
+
+_FAILED, _UNSETTLED = -1, -2  # keys beside the value references: until reset, until initialised anew
+_NONE: frozenset[int] = frozenset()
+_TUNABLES = slice(0, layout.P_VISCOSITY + 1)  # the head of p, all that can be set there
+
+
+class Phase(Enum):
+    """Where in its life an instance is (FMI 2.0.5, section 4.2.4)."""
+
+    INSTANTIATED = "before initialisation"
+    INITIALISING = "in initialisation"
+    STEPPING = "between steps"
+    TERMINATED = "after termination"
+
+
+_PHASES = tuple(Phase)
+
+
+class Session:
+    """Calls of an FMI master on one instance of a model.
+
+    Parameters
+    ----------
+    model : Model
+    log : callable
+        Takes a severity (:data:`WARNING`, :data:`DISCARD` or :data:`ERROR`) and a message.
+    """
+
+    def __init__(self, model: Model, log: Callable[[str, str], None]) -> None:
+        self.phase = Phase.INSTANTIATED
+        self.time = 0.0
+        self._variables = model.variables
+        self._instance = Instance(model)
+        self._log = log
+        self._wrong: dict[int, str] = {}  # by value reference
+        self._shown: list[Any] | None = None  # all values, until something changes
+        self._kinds: dict[str, set[int]] = {}
+        self._constants: list[Any] = [0.0] * len(model.variables)
+        places: dict[str, list[tuple[int, int]]] = {"u": [], "p": [], "z": []}
+        for reference, variable in enumerate(model.variables):
+            self._kinds.setdefault(variable.type, set()).add(reference)
+            if variable.array:
+                places[variable.array].append((reference, variable.index))
+            else:
+                self._constants[reference] = variable.start if variable.value is None else variable.value
+        self._computed = {reference for reference, _ in places["z"]}
+        self._places = {name: np.array(pairs, int).reshape(-1, 2).T for name, pairs in places.items()}
+
+    # --- values -----------------------------------------------------------------------------------
+    def get(self, references: Sequence[int], kind: str) -> list[Any]:
+        """Return values of variables of one type, ``Real``, ``Integer`` or ``String``.
+
+        Outputs asked for in initialisation are those of its end.
+        """
+        if self.phase is Phase.INITIALISING and not self._computed.isdisjoint(references):
+            self._settle()
+        if self._shown is None:
+            self._shown = self._read()
+        shown = self._shown
+        known = self._kinds.get(kind, _NONE)
+        if known.issuperset(references):
+            return [shown[reference] for reference in references]
+        strange = sorted(set(references) - known)
+        self.fail(f"there is no {kind} with value reference {', '.join(map(str, strange))}")
+        return [0 for _ in references]
+
+    def _read(self) -> list[Any]:
+        shown = self._constants.copy()
+        for name, (references, indices) in self._places.items():
+            values = getattr(self._instance, name)[indices].tolist()
+            for reference, value in zip(references, values, strict=True):
+                shown[reference] = value
+        return shown
+
+    def set(self, references: Sequence[int], values: Sequence[Any], kind: str) -> None:
+        """Take values; one that cannot be taken is noted and refuses every step until a good one comes."""
+        self._shown = None
+        for reference, value in zip(references, values, strict=True):
+            if reference not in self._kinds.get(kind, _NONE):
+                self.fail(f"there is no {kind} with value reference {reference}")
+                continue
+            problem = self._take(reference, value)
+            if problem:
+                self._wrong[reference] = problem
+                self._log(DISCARD, f"value not taken: {problem}")
+            else:
+                self._wrong.pop(reference, None)
+
+    def _take(self, reference: int, value: Any) -> str:
+        variable = self._variables[reference]
+        refused = f"{variable.name} = {value!r} is refused: "
+        if variable.causality not in ("input", "parameter") or variable.variability == "constant":
+            return f"{refused}it is computed, not set"
+        if self.phase is Phase.TERMINATED:
+            return f"{refused}nothing can be set {self.phase.value}"
+        if self.phase is Phase.STEPPING and variable.causality == "parameter":
+            # the value it has already is no change, and ends an earlier refusal
+            unchanged = value == self._instance.get(variable.name)
+            return "" if unchanged else f"{refused}parameters cannot be set {self.phase.value}"
+        if self.phase is not Phase.STEPPING:
+            self._unsettle()
+        try:
+            self._instance.set(variable.name, value)
+        except ValueError as error:
+            return str(error)
+        return ""
+
+    # --- phases -----------------------------------------------------------------------------------
+    def setup(self, start: float, tolerance: float | None) -> None:
+        """Take start time (s) and relative tolerance, which wins over the parameter."""
+        if self.phase is not Phase.INSTANTIATED:
+            self.fail(f"setupExperiment called {self.phase.value}")
+            return
+        if math.isfinite(start):
+            self.time = start
+        else:
+            self.fail(f"start time {start!r} s is not a finite number")
+        if tolerance is not None:
+            for reference, variable in enumerate(self._variables):
+                if variable.name == "tolerance":
+                    self.set([reference], [tolerance], variable.type)
+
+    def enter_initialisation(self) -> None:
+        """Begin to initialise."""
+        if self.phase is Phase.INSTANTIATED:
+            self.phase = Phase.INITIALISING
+        else:
+            self.fail(f"enterInitializationMode called {self.phase.value}")
+
+    def exit_initialisation(self) -> None:
+        """Settle the state at the inputs' values."""
+        if self.phase is not Phase.INITIALISING:
+            self.fail(f"exitInitializationMode called {self.phase.value}")
+            return
+        self._settle()
+        self.phase = Phase.STEPPING
+
+    def _settle(self) -> None:
+        """Put the engine to its quasi-static state at the inputs set so far, once."""
+        if self._instance.initialised or _UNSETTLED in self._wrong:
+            return
+        self._shown = None
+        try:
+            self._instance.initialise(self.time)
+        except EngineError as error:
+            self._wrong[_UNSETTLED] = str(error)
+            self._log(ERROR, str(error))
+
+    def _unsettle(self) -> None:
+        """Undo an initialisation that was only made to show outputs: another value is coming."""
+        self._wrong.pop(_UNSETTLED, None)
+        instance = self._instance
+        if instance.initialised:
+            inputs, tunables = instance.u.copy(), instance.p[_TUNABLES].copy()
+            instance.reset()
+            instance.u[:] = inputs
+            instance.p[_TUNABLES] = tunables
+
+    def step(self, time: float, size: float) -> bool:
+        """Advance from ``time`` by ``size`` (s); ``False``, state unchanged, where that is refused."""
+        problem = self._objection(time, size)
+        if not problem:
+            try:
+                self._instance.step(size)
+            except EngineError as error:
+                problem = str(error)
+        if problem:
+            self._log(DISCARD, f"step from {time!r} s by {size!r} s refused: {problem}")
+            return False
+        self._shown = None
+        self.time = time + size
+        return True
+
+    def _objection(self, time: float, size: float) -> str:
+        if self._wrong:
+            return "; ".join(self._wrong.values())
+        if self.phase is not Phase.STEPPING:
+            return f"doStep called {self.phase.value}"
+        if not (math.isfinite(size) and size > 0.0):
+            return f"the step {size!r} s is not a positive, finite number"
+        # masters count time in different ways: allow what adding up steps may lose
+        if not abs(time - self.time) <= 1e-9 + 1e-12 * abs(self.time):
+            return f"the communication time {time!r} s is not the time reached, {self.time!r} s"
+        return ""
+
+    def terminate(self) -> None:
+        """End stepping; values can still be read."""
+        if self.phase is not Phase.STEPPING:
+            self._log(ERROR, f"terminate called {self.phase.value}")
+        self.phase = Phase.TERMINATED
+
+    def fail(self, message: str) -> None:
+        """Note what only a reset or an earlier state can put right."""
+        self._wrong[_FAILED] = message
+        self._log(ERROR, message)
+
+    # --- state ------------------------------------------------------------------------------------
+    def state(self) -> State:
+        """Return a copy of all that a later call depends on."""
+        instance = self._instance
+        return State(
+            phase=_PHASES.index(self.phase),
+            time=self.time,
+            inputs=instance.u.copy(),
+            tunables=instance.p[_TUNABLES].copy(),
+            outputs=instance.z.copy(),
+            engine=instance.s.copy(),
+            settled=instance.initialised,
+            wrong=tuple(self._wrong.items()),
+        )
+
+    def restore(self, state: State) -> None:
+        """Go back to a state of this model: what follows is the same to the last bit."""
+        instance = self._instance
+        instance.p[_TUNABLES] = state.tunables
+        instance.u[:] = state.inputs
+        if state.settled and not instance.initialised:
+            # a fresh instance first has to be one that steps; what it starts from is overwritten
+            with contextlib.suppress(EngineError):
+                instance.initialise(state.time)
+        instance.initialised = state.settled
+        instance.z[:] = state.outputs
+        instance.s[:] = state.engine
+        self.phase = _PHASES[state.phase]
+        self.time = state.time
+        self._wrong = dict(state.wrong)
+        self._shown = None

@@ -1,0 +1,87 @@
+"""The state of an FMU instance: kept aside, put back, written to bytes and read again.
+
+Layout of the bytes: magic and version, the model's fingerprint, a checksum of what follows, then the
+arrays, little-endian, each with its length.
+"""
+
+import hashlib
+import struct
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["State", "StateError"]
+
+_MAGIC = b"fmu-bearing state 1\n"
+_HEAD = struct.Struct("<d7Q")  # time; phase, settled, lengths of the arrays and of the notes
+
+
+class StateError(ValueError):
+    """Bytes that are not a state of this model."""
+
+
+@dataclass(frozen=True)
+class State:
+    """All that a later call depends on.
+
+    Attributes
+    ----------
+    phase : int
+        Place of the phase in the life of an instance.
+    time : float
+        Time reached (s).
+    inputs, tunables, outputs, engine : ndarray
+        Arrays ``u``, head of ``p``, ``z`` and ``s`` of the engine.
+    settled : bool
+        Whether the engine has been initialised.
+    wrong : tuple of (int, str)
+        Values that were refused, by reference, and why.
+    """
+
+    phase: int
+    time: float
+    inputs: NDArray[np.float64]
+    tunables: NDArray[np.float64]
+    outputs: NDArray[np.float64]
+    engine: NDArray[np.float64]
+    settled: bool = False
+    wrong: tuple[tuple[int, str], ...] = ()
+
+    def to_bytes(self, fingerprint: str) -> bytes:
+        """Return the state as bytes, bound to the model with that fingerprint."""
+        arrays = (self.inputs, self.tunables, self.outputs, self.engine)
+        notes = "".join(f"{key}\t{text}\x00" for key, text in self.wrong).encode("utf-8")
+        sizes = (array.size for array in arrays)
+        head = _HEAD.pack(self.time, self.phase, self.settled, *sizes, len(notes))
+        body = head + b"".join(array.astype("<f8").tobytes() for array in arrays) + notes
+        return _MAGIC + bytes.fromhex(fingerprint) + hashlib.sha256(body).digest() + body
+
+    @classmethod
+    def from_bytes(cls, data: bytes, fingerprint: str) -> "State":
+        """Read a state back.
+
+        Raises
+        ------
+        StateError
+            If the bytes are no state, of another version, of another model, or damaged.
+        """
+        if not data.startswith(_MAGIC):
+            raise StateError("these bytes are not a state that this version of fmu-bearing can read")
+        start = len(_MAGIC)
+        if data[start : start + 32] != bytes.fromhex(fingerprint):
+            raise StateError("the state belongs to another model")
+        body = data[start + 64 :]
+        if hashlib.sha256(body).digest() != data[start + 32 : start + 64]:
+            raise StateError("the state is damaged: its checksum does not hold")
+        time, phase, settled, *sizes, notes_size = _HEAD.unpack_from(body)
+        position = _HEAD.size
+        arrays = []
+        for size in sizes:
+            arrays.append(np.frombuffer(body, "<f8", size, position).astype(np.float64))
+            position += 8 * size
+        notes = body[position : position + notes_size].decode("utf-8").split("\x00")[:-1]
+        pairs = (note.split("\t", 1) for note in notes)
+        wrong = tuple((int(key), text) for key, text in pairs)
+        inputs, tunables, outputs, engine = arrays
+        return cls(phase, time, inputs, tunables, outputs, engine, settled=bool(settled), wrong=wrong)

@@ -1,0 +1,52 @@
+"""FMUs of the spindle example, built once per worker, and the example's folder as a place to import from."""
+
+import importlib.util
+import pathlib
+import subprocess
+import sys
+
+import pytest
+
+ROOT = pathlib.Path(__file__).parents[2]
+SPINDLE = ROOT / "examples" / "spindle_cosimulation"
+
+
+@pytest.fixture(scope="session", autouse=True)
+def spindle_modules():
+    """The example's modules import each other by their bare names, as when it is run as a script."""
+    sys.path.insert(0, str(SPINDLE))
+    yield
+    sys.path.remove(str(SPINDLE))
+
+
+@pytest.fixture(scope="session")
+def builder():
+    """The example's build.py, under a name of its own: `build` is a common name for a module."""
+    spec = importlib.util.spec_from_file_location("spindle_build", SPINDLE / "build.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    module.UNITS |= {name: ({}, None) for name in ("N", "m", "Pa", "Pa.s", "rad", "dB")}
+    return module
+
+
+@pytest.fixture(scope="session")
+def fmus(builder, tmp_path_factory):
+    """Folder with motor and thermal FMU and, under the bearing's name, a stand-in for the bearing."""
+    folder = tmp_path_factory.mktemp("fmus")
+    for model in builder.MODELS:
+        builder.build(SPINDLE / f"{model}.py", folder)
+    stub = builder.build(pathlib.Path(__file__).parent / "stub_bearing.py", folder)
+    stub.rename(folder / "Bearing7003C.fmu")
+    return folder
+
+
+@pytest.fixture(scope="session")
+def real_fmus(builder, tmp_path_factory):
+    """Folder with all three FMUs, the bearing built from the example scene."""
+    folder = tmp_path_factory.mktemp("real")
+    for model in builder.MODELS:
+        builder.build(SPINDLE / f"{model}.py", folder)
+    scene = ROOT / "examples" / "scenes" / "7003C-spindle.toml"
+    command = [sys.executable, str(ROOT / "build_fmu.py"), str(scene), "-o", str(folder / "Bearing7003C.fmu")]
+    subprocess.run(command, check=True, capture_output=True, text=True)
+    return folder

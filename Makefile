@@ -1,0 +1,60 @@
+# make demo    install, build the FMU, run the spindle co-simulation; results under out/
+# make test    install with test tools and run the tests that take seconds
+# make heavy   the tests that take minutes
+# make clean   remove what was made here
+
+PYTHON ?= python3
+VENV ?= .venv
+OUT ?= out
+JOBS ?= 2
+
+BIN := $(VENV)/bin
+PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt
+SCENE := examples/scenes/7003C-spindle.toml
+SPINDLE := examples/spindle_cosimulation
+BEARING := $(OUT)/Bearing7003C.fmu
+SOURCES := $(shell find fmu_bearing modelDescription -type f ! -name '*.pyc' 2>/dev/null)
+
+# Two test workers on two cores: linear algebra libraries must not start threads of their own.
+test heavy: export OPENBLAS_NUM_THREADS = 1
+
+.PHONY: demo test heavy kernels clean
+.DELETE_ON_ERROR:
+
+demo: $(BEARING) $(OUT)/SpindleMotor.fmu
+	$(BIN)/python -m fmu_bearing.engine
+	$(BIN)/python $(SPINDLE)/cosimulate.py --fmu-dir $(OUT) --output-dir $(OUT)
+
+$(BEARING): $(VENV)/.installed build_fmu.py $(SCENE) $(SOURCES)
+	@mkdir -p $(OUT)
+	$(BIN)/python build_fmu.py $(SCENE) -o $@
+
+# One call writes both, the motor last.
+$(OUT)/SpindleMotor.fmu: $(VENV)/.installed $(wildcard $(SPINDLE)/*.py)
+	@mkdir -p $(OUT)
+	$(BIN)/python $(SPINDLE)/build.py --output-dir $(OUT)
+
+# Kernels are compiled once (some minutes), in one process, before the parallel tests share them.
+test: kernels
+	$(BIN)/python -m pytest -n $(JOBS) -m "not heavy"
+
+heavy: kernels
+	$(BIN)/python -m pytest -n $(JOBS) -m heavy
+
+kernels: $(VENV)/.installed-test
+	$(BIN)/python -m fmu_bearing.engine
+
+# Stamps: pip runs again only when the requirements change.
+$(VENV)/.installed: pyproject.toml constraints.txt | $(BIN)/python
+	$(PIP) --editable .
+	@touch $@
+
+$(VENV)/.installed-test: pyproject.toml constraints.txt | $(BIN)/python
+	$(PIP) --editable ".[test]"
+	@touch $@ $(VENV)/.installed
+
+$(BIN)/python:
+	$(PYTHON) -m venv $(VENV)
+
+clean:
+	rm -rf $(VENV) $(OUT) .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis

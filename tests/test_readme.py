@@ -1,0 +1,46 @@
+"""The README's commands exist and its Python runs as printed."""
+
+import contextlib
+import io
+import pathlib
+import re
+import subprocess
+import sys
+
+import pytest
+
+ROOT = pathlib.Path(__file__).parents[1]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+
+
+def blocks(language):
+    return re.findall(rf"```{language}\n(.*?)```", README, flags=re.DOTALL)
+
+
+@pytest.mark.parametrize("command", re.findall(r"^make (\w+)", README, flags=re.MULTILINE))
+def test_make_knows_the_target(command):
+    # -n prints what would be done and does nothing
+    done = subprocess.run(["make", "-n", command], cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+
+
+def test_python_of_the_readme_runs(tmp_path, monkeypatch):
+    (code,) = blocks("python")
+    assert len(code.strip().splitlines()) <= 12
+    (tmp_path / "out").mkdir()
+    scene = ROOT / "examples" / "scenes" / "7003C-spindle.toml"
+    command = [sys.executable, str(ROOT / "build_fmu.py"), str(scene), "-o", "out/Bearing7003C.fmu"]
+    subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, text=True)
+    monkeypatch.chdir(tmp_path)
+    printed = io.StringIO()
+    with contextlib.redirect_stdout(printed):
+        exec(compile(code, "README.md", "exec"), {})
+    torque, level = map(float, re.search(r"(\S+) N\.m, (\S+) dB\(A\)", printed.getvalue()).groups())
+    # the order of a 17 mm spindle bearing: some N.mm, and a sound between a quiet room and a workshop
+    assert 1e-3 < torque < 0.1
+    assert 30.0 < level < 110.0
+
+
+def test_files_named_in_the_readme_exist():
+    for path in re.findall(r"`((?:examples|docs|fmu_bearing)/[^`]*)`", README):
+        assert (ROOT / path).exists(), path

@@ -102,7 +102,8 @@ def fit(
         rows = basis * weight[:, None]
         matrix = np.concatenate([rows.real, rows.imag, stop.real, stop.imag])
         vector = np.concatenate([right.real, right.imag, np.zeros(2 * len(stop))])
-        # normal equations: a hundred times cheaper than a least-squares solver, and exact to -100 dB here
+        # Normal equations: far cheaper than an orthogonal solver, and the errors stay those of the filter
+        # length.
         normal = matrix.T @ matrix
         normal.flat[:: length + 1] += _RIDGE * normal.trace() / length
         taps = np.linalg.solve(normal, matrix.T @ vector)

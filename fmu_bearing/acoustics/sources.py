@@ -29,7 +29,7 @@ def pulsating_sphere(
     """Pressure around a sphere whose surface breathes, per radial surface acceleration.
 
     Exact. ``distance`` counts from the centre and broadcasts against ``frequency``. Source: any text on
-    radiation from spheres, for example Morse and Ingard (1968), section 7.1.
+    radiation from spheres, for example Morse and Ingard (1968).
     """
     k = _wavenumber(frequency, sound_speed)
     r = np.asarray(distance, dtype=float)
@@ -47,8 +47,8 @@ def oscillating_sphere(
     """Pressure around a rigid sphere shaken along a line, per acceleration of its centre.
 
     Exact. ``cosine`` is that of the angle between the acceleration and the direction to the observer;
-    it and ``distance`` (from the centre) broadcast against ``frequency``. Source: Morse and Ingard (1968),
-    section 7.1. It is a point dipole times `sphere_factor`.
+    it and ``distance`` (from the centre) broadcast against ``frequency``. Source: Morse and Ingard (1968). It
+    is a point dipole times `sphere_factor`.
     """
     volume = 2.0 * np.pi * radius**3  # effective: displaced volume plus half of it as added mass
     point = compact_dipole(frequency, distance, cosine, volume, density, sound_speed)
@@ -125,7 +125,7 @@ def compact_dipole(
 
     p = rho V a cos(theta) (1 + j k r) e^{-jkr} / (4 pi r^2), where the effective volume V is the displaced
     volume plus the added mass over the air density (see `effective`). Source: Dowling and Ffowcs Williams
-    (1983), chapter 7 (sound of a shaken compact body).
+    (1983; sound of a shaken compact body).
     """
     k = _wavenumber(frequency, sound_speed)
     r = np.asarray(distance, dtype=float)

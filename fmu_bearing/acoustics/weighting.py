@@ -25,7 +25,7 @@ def _analogue(frequency: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def a_weighting_db(frequency: ArrayLike) -> NDArray[np.float64]:
-    """A-weighting in dB at ``frequency`` in Hz (positive), 0 dB at 1 kHz. IEC 61672-1 (2013), eq. E.6."""
+    """A-weighting in dB at ``frequency`` in Hz (positive), 0 dB at 1 kHz. IEC 61672-1 (2013), annex E."""
     f = np.asarray(frequency, dtype=float)
     return 20.0 * np.log10(_analogue(f) / _analogue(np.array(1000.0)))
 

@@ -32,10 +32,10 @@ from fmu_bearing.engine.layout import (
     W_Y,
     Y_V,
 )
+from fmu_bearing.engine.sound.places import RAW_RATE
 from fmu_bearing.engine.sound.radiate import push
 
 _S = STRIDE
-RATE = 204800.0  # Hz
 
 
 @kernel
@@ -118,8 +118,8 @@ def emit_samples(p, s, w, h):
     ps = p[block : block + int(p[P_SOUND_SIZE])]
     elapsed = s[S_TIME] - s[S_START]
     last = W_ACC + (STAGES - 1) * F_SIZE
-    while s[S_SAMPLE] <= (elapsed + h) * RATE:
-        t = min(max((s[S_SAMPLE] / RATE - elapsed) / h, 0.0), 1.0)
+    while s[S_SAMPLE] <= (elapsed + h) * RAW_RATE:
+        t = min(max((s[S_SAMPLE] / RAW_RATE - elapsed) / h, 0.0), 1.0)
         body_motion(s, w, 0, W_MOTION, 3, s[S_SPEED] + t * h * s[S_SPEED_RATE], s[S_SPEED_RATE], h, t)
         k = Q_OUTER + 3
         spin, rate = hermite(s[S_Y + Y_V + k], s[S_F + F_G + k], w[W_Y + Y_V + k], w[last + F_G + k], h, t)

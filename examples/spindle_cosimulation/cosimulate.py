@@ -22,7 +22,7 @@ import figures
 import numpy as np
 import studies
 import typer
-from coupling import Fmu, Plan, SimulationError, run
+from coupling import Fmu, Plan, Recording, SimulationError, run
 from fmpy.util import write_csv
 from numpy.typing import NDArray
 from rich.box import SIMPLE
@@ -139,7 +139,11 @@ def _demo(console: Console, fmu_dir: Path, output_dir: Path, plan: Plan, short: 
                 highlight=False,
             )
             labels = _labels(bearing)
-            table = run(motor, bearing, thermal, plan, watch.task("co-simulation", plan.end_time)).table()
+            try:
+                recording = run(motor, bearing, thermal, plan, watch.task("co-simulation", plan.end_time))
+            except SimulationError as error:
+                raise SimulationError(f"{error}{_keep(error.recording, output_dir)}") from error
+            table = recording.table()
             write_csv(output_dir / "spindle.csv", table)
             marks = studies.frequencies(bearing, float(table[-1]["shaft_speed"]))
             nominal = {name: bearing.start(name) for name in bearing.having(VARIED)}
@@ -158,6 +162,16 @@ def _demo(console: Console, fmu_dir: Path, output_dir: Path, plan: Plan, short: 
     if interrupt.asked:
         console.print(f"stopped by Ctrl-C; what was computed up to {table[-1]['time']:.4g} s is kept")
     console.print(f"tables and pictures are in {output_dir}", highlight=False)
+
+
+def _keep(recording: Recording | None, output_dir: Path) -> str:
+    """Write what a refused run had computed; say in words where it is."""
+    if recording is None:
+        return ""
+    path = output_dir / "spindle.csv"
+    table = recording.table()
+    write_csv(path, table)
+    return f"; what was computed up to {table[-1]['time']:.4g} s is in {path}"
 
 
 def _vary(

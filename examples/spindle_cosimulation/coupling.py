@@ -29,7 +29,12 @@ STATUS = ("ok", "warning", "discard", "error", "fatal", "pending")
 
 
 class SimulationError(RuntimeError):
-    """An FMU refused a call; the message names the FMU and what it said."""
+    """An FMU refused a call; the message names the FMU and what it said.
+
+    ``recording`` holds what a co-simulation had computed by then.
+    """
+
+    recording: "Recording | None" = None
 
 
 class Fmu:
@@ -204,7 +209,7 @@ def run(
     Raises
     ------
     SimulationError
-        If an FMU refuses a call.
+        If an FMU refuses a call; it carries what was computed.
     """
     recorded = bearing_names(bearing)
     recording = Recording(["time", *MOTOR_OUTPUTS, *TEMPERATURES, *THERMAL_OUTPUTS, *recorded])
@@ -219,11 +224,7 @@ def run(
     def record(time: float) -> None:
         recording.rows.append([time, *(value for reader in readers for value in reader())])
 
-    _initialise(motor, bearing, thermal, plan)
-    record(0.0)
-    count = max(1, math.ceil(plan.end_time / plan.communication_step - 1e-9))
-    for k in range(count):
-        now, after = plan.end_time * k / count, plan.end_time * (k + 1) / count
+    def exchange(now: float, after: float) -> None:
         motor.set({"load_torque": torque()[0]})
         motor.step(now, after - now)
         bearing.set(
@@ -232,6 +233,17 @@ def run(
         bearing.step(now, after - now)
         thermal.set(dict(zip(HEATS, heats(), strict=True)))
         thermal.step(now, after - now)
+
+    _initialise(motor, bearing, thermal, plan)
+    record(0.0)
+    count = max(1, math.ceil(plan.end_time / plan.communication_step - 1e-9))
+    for k in range(count):
+        now, after = plan.end_time * k / count, plan.end_time * (k + 1) / count
+        try:
+            exchange(now, after)
+        except SimulationError as error:
+            error.recording = recording
+            raise
         record(after)
         if not progress(after):
             break

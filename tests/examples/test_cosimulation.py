@@ -38,6 +38,24 @@ def test_time_comes_first_and_ends_where_asked(together):
     assert np.diff(table["time"]).max() <= 7e-4 + 1e-12
 
 
+def test_a_refused_step_keeps_what_was_computed(together, monkeypatch):
+    from coupling import Fmu, SimulationError
+
+    step = Fmu.step
+
+    def refuse_late(self, time, h):
+        if self.name == "bearing" and time > 0.0495:
+            raise SimulationError("bearing: refused")
+        step(self, time, h)
+
+    monkeypatch.setattr(Fmu, "step", refuse_late)
+    with pytest.raises(SimulationError) as caught:
+        together(communication_step=1e-3)
+    table = caught.value.recording.table()
+    assert table["time"][-1] == pytest.approx(0.05)
+    assert len(table) == 51
+
+
 def test_motor_carries_load_and_inertia_of_the_bearing(together):
     table, _ = together()
     ramp = table[(table["time"] > 0.1) & (table["time"] < 0.3)]

@@ -105,17 +105,18 @@ def build(
     compact = rung == "compact"
     for members in groups.values():
         paths = _paths(rung, radiators, air, [microphones[i] for i in members], harmonics)
+        place = ", ".join(f"{1e3 * length:g}" for length in microphones[members[0]])
         first = len(components)
         order: list[Path | None] = []
-        for run, rows in _runs(paths, _filters(paths)):
+        for run, rows in _runs(paths, _filters(paths, place)):
             first_path = next(path for path in run if path is not None)
             delay = delay_of(first_path.flight)
             banks.append([first_path.channel, len(run), delay, len(rows), len(components)])
             taps.append(rows)
             components += [0 if path is None else path.component for path in run]
             order += run
-        for place, i in enumerate(members):
-            weights = np.array([0.0 if path is None else path.weights[place] for path in order])
+        for k, i in enumerate(members):
+            weights = np.array([0.0 if path is None else path.weights[k] for path in order])
             runs[i] = (first, len(order), weights)
     head = np.zeros(at.HEAD_SIZE)
     head[at.H_RUNG] = at.RUNG_COMPACT if compact else at.RUNG_PAPER
@@ -188,7 +189,7 @@ def _paths(
     ]
 
 
-def _filters(paths: list[Path]) -> list[NDArray[np.float64]]:
+def _filters(paths: list[Path], place: str) -> list[NDArray[np.float64]]:
     """Filter of each path; each component's errors count against its strongest path where its own is weak."""
     filters: list[NDArray[np.float64]] = []
     known: dict[int, NDArray[np.float64]] = {}  # sources that share a response share their filter
@@ -200,9 +201,11 @@ def _filters(paths: list[Path]) -> list[NDArray[np.float64]]:
         if id(path.response) not in known:
             taps, error = fit(path.response, path.flight, strongest[path.component])
             if error > _TOLERANCE:
+                off, most = 20 * np.log10(error), 20 * np.log10(_TOLERANCE)
+                body = at.COMPONENTS[path.component].replace("_", " ")
                 raise ValueError(
-                    f"the filter of {at.COMPONENTS[path.component]}, channel {path.channel}, misses its "
-                    f"transfer function by {20 * np.log10(error):.0f} dB"
+                    f"no filter follows the sound of the {body} at ({place}) mm: it is off by {off:.0f} dB, "
+                    f"allowed are {most:.0f}; move that microphone or choose another sound.rung"
                 )
             known[id(path.response)] = taps
         filters.append(known[id(path.response)])

@@ -14,7 +14,7 @@ from fmu_bearing.interface import Variable, variables
 from fmu_bearing.prepare import bodies
 from fmu_bearing.prepare.hertz import PointContact, effective_modulus, point_contact
 from fmu_bearing.prepare.imperfections import ball_oversizes, race_waves
-from fmu_bearing.scene import Scene, si
+from fmu_bearing.scene import Scene, SceneError, si
 from fmu_bearing.scene.bearing import Cage
 from fmu_bearing.scene.material import Material
 
@@ -59,8 +59,12 @@ class Model:
 
 
 def prepare(scene: Scene) -> Model:
-    """Turn a scene into a model; takes a second where there is sound, else milliseconds."""
-    parameters = pack(scene, sound_parameters(scene))
+    """Turn a scene into a model; ``SceneError`` where its sound cannot be computed."""
+    try:
+        sound = sound_parameters(scene)
+    except ValueError as problem:
+        raise SceneError(f"{scene.name}: {problem}") from None
+    parameters = pack(scene, sound)
     parameters.setflags(write=False)
     rotating = bodies.inner_ring(scene) + bodies.rotor(scene)
     return Model(scene, parameters, variables(scene, rotor_inertia=rotating.polar))
@@ -123,7 +127,6 @@ def _bearing(scene: Scene, p: NDArray[np.float64]) -> None:
     d, dm, angle = b.ball_diameter, b.pitch_diameter, b.contact_angle
     p[at.P_PITCH_RADIUS] = dm / 2
     p[at.P_DIAMETER] = d
-    p[at.P_FREE_ANGLE] = angle
     p[at.P_BALL_MASS], p[at.P_BALL_INERTIA] = bodies.ball(scene)
     p[at.P_BALL_EXPANSION] = si(scene.materials.balls).expansion
     p[at.P_CONTACT_DAMPING] = b.contact_damping
@@ -171,7 +174,6 @@ def _race(block: NDArray[np.float64], hertz: PointContact, rx: float, modulus: f
     block[at.RACE_STIFFNESS] = hertz.stiffness
     block[at.RACE_HALF_LENGTH] = hertz.half_length
     block[at.RACE_PRESSURE] = hertz.pressure
-    block[at.RACE_ROLLING_RADIUS] = rx
     speed, load = modulus * rx, modulus * rx**2
     force = 2.86 * load * k**0.348 * material**0.022 * speed**-0.66 * load**-0.47
     # the moment pair that dissipates the inlet force on both surfaces at the entrainment speed

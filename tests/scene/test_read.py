@@ -2,6 +2,7 @@
 
 import pytest
 
+from fmu_bearing.prepare.model import prepare
 from fmu_bearing.scene import SceneError, read_scene, read_scene_text
 from fmu_bearing.scene.read import catalogue
 from tests.conftest import SCENES
@@ -117,3 +118,11 @@ def test_broken_toml_and_missing_files():
 def test_scenes_are_frozen(scene):
     with pytest.raises(ValueError, match="frozen"):
         scene("7003C-bare").bearing.bore_mm = 18.0
+
+
+def test_sound_that_no_filter_follows_is_refused_in_words():
+    far = text().replace('rung = "compact"', 'rung = "paper"').replace("y_mm = 105.0", "y_mm = 10000.0")
+    with pytest.raises(
+        SceneError, match=r"7003C-bare: no filter .* at \(0, 10000, 0\) mm.*move that microphone"
+    ):
+        prepare(read_scene_text(far))

@@ -106,7 +106,9 @@ class Instance:
         """Value of any variable, SI units."""
         variable = self.variable(name)
         if variable.array == "":
-            return float("nan") if variable.value is None else variable.value
+            if variable.value is None:
+                raise ValueError(f"{name} has no value: the table of variables gives it none")
+            return variable.value
         return float({"u": self.u, "z": self.z, "p": self.p}[variable.array][variable.index])
 
     def initialise(self, time: float = 0.0) -> None:

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from fmu_bearing.engine import layout as at
 from fmu_bearing.instance import EngineError, Instance
 from fmu_bearing.prepare.model import prepare
 
@@ -94,10 +95,12 @@ def test_speed_ramps_from_the_value_last_reached(model):
     bearing.set("shaft_speed", 1000.0)
     bearing.initialise()
     bearing.set("shaft_speed", 1100.0)
-    stepped(bearing, 10, 1e-4)
-    ratio = bearing.get("cage.speed_ratio")
-    # the cage follows within its pocket clearance; at the ramp's end it turns at its kinematic share
-    assert 0.35 < ratio < 0.45
+    bearing.step(1e-4)
+    # linear from 1000 to 1100 rad/s: the shaft has turned by the mean speed
+    assert bearing.s[at.S_SPEED] == 1100.0
+    assert bearing.s[at.S_ANGLE] == pytest.approx(1050.0 * 1e-4, rel=1e-12)
+    stepped(bearing, 4, 1e-4)
+    assert bearing.s[at.S_ANGLE] == pytest.approx(1050.0 * 1e-4 + 1100.0 * 4e-4, rel=1e-12)
 
 
 def test_inertia_of_the_rotor_is_told_to_the_drive(model, scene):

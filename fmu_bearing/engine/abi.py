@@ -11,7 +11,6 @@ from fmu_bearing.engine.layout import (
     BAD_INPUT,
     BAD_STEP,
     OK,
-    S_STATUS,
     U_INNER_T,
     U_OIL_T,
     U_OUTER_T,
@@ -57,7 +56,6 @@ def step(p, u, s, z, w, h):
     if not inputs_usable(u):
         return BAD_INPUT
     status = march(p, u, s, w, h)
-    s[S_STATUS] = float(status)
     if status == OK:
         observe(p, s, z)
     return status

@@ -150,7 +150,6 @@ PI = np.pi
     P_SOUND_WORK,
     P_PITCH_RADIUS,
     P_DIAMETER,  # of a ball
-    P_FREE_ANGLE,
     P_BALL_MASS,
     P_BALL_INERTIA,
     P_BALL_EXPANSION,
@@ -195,13 +194,12 @@ PI = np.pi
     P_LAND_STOP_FRACTION,
     P_LAND_STOP_FRICTION,
     P_LAND_STOP_SLIP,
-) = range(8, 8 + 65)
+) = range(8, 8 + 64)
 P_RACES = 80  # two blocks of RACE_SIZE: inner, outer
 (
     RACE_STIFFNESS,  # N/m^1.5
     RACE_HALF_LENGTH,  # semi-major axis over sqrt(approach)
     RACE_PRESSURE,  # peak pressure over sqrt(approach)
-    RACE_ROLLING_RADIUS,
     RACE_PROFILE_RADIUS,  # of the deformed contact surface across the rolling direction
     RACE_ROLLING,  # rolling moment factor at viscosity 1 Pa s
     RACE_FILM,  # minimum film factor at viscosity 1 Pa s
@@ -209,7 +207,7 @@ P_RACES = 80  # two blocks of RACE_SIZE: inner, outer
     RACE_GROOVE_RADIUS,  # radius of the circle of groove centres
     RACE_GROOVE,  # groove radius
     RACE_EXPANSION,
-) = range(11)
+) = range(10)
 RACE_SIZE = 12
 P_TABLES = P_RACES + 2 * RACE_SIZE  # variable part begins here
 WAVE_INTERVALS = 2048
@@ -221,7 +219,7 @@ Y_Q = 9 * STRIDE  # 17 coordinates of the bodies
 Y_V = Y_Q + 17  # and their rates
 Y_SIZE = Y_V + 17
 # Bodies' coordinates: inner x y z by bz; outer and cage x y z angle by bz.
-Q_INNER, Q_OUTER, Q_CAGE = 0, 5, 11
+Q_OUTER, Q_CAGE = 5, 11
 N_BODY = 17
 
 # --- f: right-hand side -----------------------------------------------------------------------------
@@ -258,7 +256,6 @@ S_F = S_Y + Y_SIZE  # right-hand side at the state: accelerations start the next
 S_C = S_F + F_SIZE
 (
     S_TIME,
-    S_STATUS,
     S_ANGLE,  # of the inner ring
     S_SPEED,  # reached at S_TIME
     S_SPEED_RATE,
@@ -279,12 +276,10 @@ S_C = S_F + F_SIZE
     S_MEAN_OIL,
     S_SAMPLE,  # index of the next sound sample
     S_START,  # time of initialisation
-    S_STIFF_AXIAL,
-    S_STIFF_RADIAL,
     S_NEWTON,  # iterations so far
     S_JACOBIANS,
     S_ENERGY_NOW,
-) = range(S_C + C_SIZE, S_C + C_SIZE + 27)
+) = range(S_C + C_SIZE, S_C + C_SIZE + 24)
 S_JAC = S_C + C_SIZE + 32  # raw blocks: B 6x9, C 6x34, D 17x9 rows per lane, E 17x34
 J_B, J_C, J_D = 0, 54 * STRIDE, (54 + 204) * STRIDE
 J_E = (54 + 204 + 153) * STRIDE
@@ -334,9 +329,8 @@ W_G = W_FORCE + 18  # 17 rows: generalised forces on the bodies
 W_LOSS = W_G + 17  # dissipated per body
 W_ROWS = W_LOSS + 3
 W_SCALARS = W_ROWS * STRIDE  # scratch scalars
-W_STAGES = W_SCALARS + 64
 STAGES = 6
-W_Y = W_STAGES  # stage state
+W_Y = W_SCALARS + 64  # stage state
 W_F = W_Y + Y_SIZE
 W_F0 = W_F + F_SIZE  # unperturbed right-hand side
 W_D = W_F0 + F_SIZE  # Newton increment

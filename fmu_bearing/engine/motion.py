@@ -7,6 +7,9 @@ from fmu_bearing.engine.layout import (
     F_G,
     F_SIZE,
     MO_BALLS,
+    MO_CAGE,
+    MO_INNER,
+    MO_OUTER,
     MO_PER_BALL,
     P_AT_SOUND,
     P_BALLS,
@@ -120,13 +123,15 @@ def emit_samples(p, s, w, h):
     last = W_ACC + (STAGES - 1) * F_SIZE
     while s[S_SAMPLE] <= (elapsed + h) * RAW_RATE:
         t = min(max((s[S_SAMPLE] / RAW_RATE - elapsed) / h, 0.0), 1.0)
-        body_motion(s, w, 0, W_MOTION, 3, s[S_SPEED] + t * h * s[S_SPEED_RATE], s[S_SPEED_RATE], h, t)
+        body_motion(
+            s, w, 0, W_MOTION + MO_INNER, 3, s[S_SPEED] + t * h * s[S_SPEED_RATE], s[S_SPEED_RATE], h, t
+        )
         k = Q_OUTER + 3
         spin, rate = hermite(s[S_Y + Y_V + k], s[S_F + F_G + k], w[W_Y + Y_V + k], w[last + F_G + k], h, t)
-        body_motion(s, w, Q_OUTER, W_MOTION + 12, k + 1, spin, rate, h, t)
+        body_motion(s, w, Q_OUTER, W_MOTION + MO_OUTER, k + 1, spin, rate, h, t)
         k = Q_CAGE + 3
         spin, rate = hermite(s[S_Y + Y_V + k], s[S_F + F_G + k], w[W_Y + Y_V + k], w[last + F_G + k], h, t)
-        body_motion(s, w, Q_CAGE, W_MOTION + 24, k + 1, spin, rate, h, t)
+        body_motion(s, w, Q_CAGE, W_MOTION + MO_CAGE, k + 1, spin, rate, h, t)
         ball_motion(p, s, w, h, t)
         push(ps, s[S_SOUND:], w[W_SOUND:], w[W_MOTION:W_SOUND], p[P_TIME_WEIGHTING], p[P_METERING_START])
         s[S_SAMPLE] += 1.0

@@ -47,8 +47,6 @@ from fmu_bearing.engine.layout import (
     S_SPEED_RATE,
     S_START,
     S_STEP,
-    S_STIFF_AXIAL,
-    S_STIFF_RADIAL,
     S_TIME,
     S_Y,
     STRIDE,
@@ -95,7 +93,7 @@ def start(p, u, s, w, t):
     status = quasistatic(p, c, u[U_SPEED], found)
     if status != OK:
         return status
-    axial, radial, _, _ = stiffness_matrix(p, c, found)
+    _, radial, _, _ = stiffness_matrix(p, c, found)
     y = s[S_Y : S_Y + Y_SIZE]
     x_outer = c[C_PRELOAD] / c[C_PEDESTAL_AXIAL]
     inner_z = c[C_LOAD_Z]
@@ -136,8 +134,6 @@ def start(p, u, s, w, t):
     s[S_JACOBIAN_TIME] = -1e300
     s[S_CONTRACTION] = 0.1
     s[S_JACOBIANS] = 0.0
-    s[S_STIFF_AXIAL] = axial
-    s[S_STIFF_RADIAL] = radial
     s[S_ENERGY_START] = total_energy(p, s, w)
     s[S_ENERGY_NOW] = s[S_ENERGY_START]
     for i in range(3):

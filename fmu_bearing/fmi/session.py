@@ -5,7 +5,6 @@ given, and says in the log what it did not do. What is wrong stays noted, and ev
 it is put right, because pythonfmu gives no way to refuse a single value.
 """
 
-import contextlib
 import math
 from collections.abc import Callable, Sequence
 from enum import Enum
@@ -237,10 +236,6 @@ class Session:
         instance = self._instance
         instance.p[_TUNABLES] = state.tunables
         instance.u[:] = state.inputs
-        if state.settled and not instance.initialised:
-            # a fresh instance first has to be one that steps; what it starts from is overwritten
-            with contextlib.suppress(EngineError):
-                instance.initialise(state.time)
         instance.initialised = state.settled
         instance.z[:] = state.outputs
         instance.s[:] = state.engine

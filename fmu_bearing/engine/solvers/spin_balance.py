@@ -13,8 +13,8 @@ from fmu_bearing.engine.solvers.jacobian import jacobian
 
 _S = STRIDE
 _ROUNDS = 40
-# Largest change per round over the spin speed: a tenth of the slide-to-roll ratio where traction saturates
-# would be safe everywhere; this is five times that and converges in about ten rounds.
+# Largest change per round over the spin speed: half the default slide-to-roll ratio at which traction
+# saturates, so that one round does not cross from one sign of sliding to the other's plateau.
 _STRIDE_LIMIT = 2.5e-3
 
 

@@ -28,8 +28,8 @@ _COEFFICIENT = np.array([2.23, 1.98, 1.70, 1.51, 1.36, 1.21, 1.14])
 # Fitted to the radial values above; rings much longer than their mean radius lie outside the fit.
 _CURVATURE_AT_ZERO, _CURVATURE_SLOPE, _CURVATURE_LIMIT = 1.068, 0.236, 2.0
 
-# Solid cylinders, length over diameter: BEM of a disc d35 x 10 and a point-source solution of d100 x 160, both
-# made elsewhere; towards a long cylinder (radial) and a needle (axial) assumed.
+# Solid cylinders, length over diameter: BEM of a disc d35 x 10 and a point-source solution of d100 x 160,
+# both made elsewhere; towards a long cylinder (radial) and a needle (axial) assumed.
 _SLENDERNESS = np.array([0.286, 1.6, 5.0, 20.0])
 _CYLINDER_RADIAL = np.array([1.30, 1.65, 1.90, 2.0])
 _CYLINDER_AXIAL = np.array([2.85, 1.34, 1.10, 1.0])

@@ -5,9 +5,9 @@ volume plus its added mass over the air density.
 
 Rings: the cross-section is a rectangle of wall by width. Moving along the axis it pushes with its thin side,
 moving radially half of it (the mean of cos^2 round the ring) pushes with its broad side. The
-two-dimensional added mass of a rectangle is tabulated (Blevins 1979). One correction for curvature, linear
-in width over mean radius, is fitted to boundary-element values of the 7003C's three rings; those it meets
-within 1 %, the 7009C's (wall of 4.5 mm assumed) within 3 %:
+two-dimensional added mass of a rectangle is tabulated (Blevins 1979, quoted from memory). One correction
+for curvature, linear in width over mean radius, is fitted to boundary-element values of the 7003C's three
+rings; those it meets within 1 %, the 7009C's (wall of 4.5 mm assumed) within 3 %:
 
 =================  ======  =====
 ring               radial  axial

@@ -77,8 +77,21 @@ BEARING_OUTPUTS = (
     "solver.steps",
     "solver.rejected",
     "energy.residual",
+    "solver.fallbacks",
+    "inner_ring.tilt.y",
+    "inner_ring.tilt.z",
+    "contact.inner.spin_to_roll",
+    "contact.outer.spin_to_roll",
+    "contact.inner.slip",
+    "contact.outer.slip",
+    "cage.whirl_radius",
+    "cage.whirl_speed",
+    "friction_torque.contacts",
+    "friction_torque.rolling",
+    "friction_torque.cage",
+    "friction_torque.drag",
 )
-Z_BALLS = 40  # ball[j].velocity.x|y|z at Z_BALLS + 3 j
+Z_BALLS = 48  # ball[j].velocity.x|y|z at Z_BALLS + 3 j
 MIC_OUTPUTS = (
     "pressure",
     "spl",
@@ -103,7 +116,7 @@ def z_size(n_balls, n_mics):
 
 
 # --- p: head, tunable before initialisation -----------------------------------------------------
-P_LEVEL = 0  # 0 full (rings and response come later)
+P_LEVEL = 0  # see LEVELS
 P_TOLERANCE = 1  # relative, on ring velocities
 P_MAX_STEP = 2  # s
 P_IMPERFECTION_SCALE = 3
@@ -194,8 +207,28 @@ PI = np.pi
     P_LAND_STOP_FRACTION,
     P_LAND_STOP_FRICTION,
     P_LAND_STOP_SLIP,
-) = range(8, 8 + 64)
-P_RACES = 80  # two blocks of RACE_SIZE: inner, outer
+    P_METHOD,  # integrator of level full: see METHODS
+    P_TRACTION_LAW,  # see TRACTION_LAWS
+    P_EYRING_STRESS,  # Pa
+    P_PRESSURE_VISCOSITY,  # 1/Pa
+    P_VISCOSITY_LAW,  # 0 Vogel, 1 Walther
+    P_WALTHER_SLOPE,
+    P_REDUCTION,  # switch: thermal and starvation factors of the rolling resistance
+    P_RIGID,  # switch: rigid preload
+    P_MISALIGNMENT_Y,  # rad, of the outer ring's seat against the shaft
+    P_MISALIGNMENT_Z,
+    P_SPRINGS,  # N/m between adjacent balls; 0: none
+    P_SPRING_DAMPING,  # N s/m
+    P_BALL_WAVES,  # number of zonal orders of the balls' waviness; 0: none
+    P_AT_BALL_WAVES,  # offset: amplitudes of orders 1.., then the bodies' axes, 3 rows of STRIDE
+    P_RACE_CONTROL,  # who balances the gyroscopic moment: 0 shared, 1 outer race, 2 inner race
+    P_AT_LEVEL,  # offset of the level's own table; 0: none
+) = range(8, 8 + 80)
+P_RACES = 100  # two blocks of RACE_SIZE: inner, outer
+LEVELS = ("full", "rings", "response")
+METHODS = ("esdirk4", "fast", "trbdf2", "rk4")
+TRACTION_LAWS = ("regularised", "eyring", "paper")
+RACE_CONTROLS = ("shared", "outer", "inner")
 (
     RACE_STIFFNESS,  # N/m^1.5
     RACE_HALF_LENGTH,  # semi-major axis over sqrt(approach)
@@ -207,7 +240,9 @@ P_RACES = 80  # two blocks of RACE_SIZE: inner, outer
     RACE_GROOVE_RADIUS,  # radius of the circle of groove centres
     RACE_GROOVE,  # groove radius
     RACE_EXPANSION,
-) = range(10)
+    RACE_HALF_WIDTH,  # semi-minor axis over sqrt(approach)
+    RACE_CENTRAL_FILM,  # central film factor at viscosity 1 Pa s
+) = range(12)
 RACE_SIZE = 12
 P_TABLES = P_RACES + 2 * RACE_SIZE  # variable part begins here
 WAVE_INTERVALS = 2048
@@ -248,7 +283,7 @@ F_SIZE = F_TORQUE + 1
 C_RACES = 13  # per race: groove centre x, circle radius, free distance, rolling moment factor
 C_RACE_SIZE = 4
 C_BALL_RADIUS = C_RACES + 2 * C_RACE_SIZE
-C_SIZE = 24
+C_SIZE = 32
 
 # --- s: state ----------------------------------------------------------------------------------------
 S_Y = 0

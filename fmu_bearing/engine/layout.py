@@ -319,10 +319,11 @@ S_JAC = S_C + C_SIZE + 32  # raw blocks: B 6x9, C 6x34, D 17x9 rows per lane, E 
 J_B, J_C, J_D = 0, 54 * STRIDE, (54 + 204) * STRIDE
 J_E = (54 + 204 + 153) * STRIDE
 J_SIZE = J_E + 17 * 34
-S_FAC = S_JAC + J_SIZE  # factors: inverse 6x6, W 6x17, M_Gb 17x6 rows per lane, inverse 17x17
+S_FAC = S_JAC + J_SIZE  # factors: inverse 6x6, W 6x17, M_Gb 17x6 rows per lane, inverse 17x17 by columns
 A_INV, A_W, A_GB = 0, 36 * STRIDE, (36 + 102) * STRIDE
 A_S = (36 + 102 + 102) * STRIDE
-A_SIZE = A_S + 17 * 17
+BORDER = 20  # numbers per column of the inverse: 17, rounded up to whole vectors
+A_SIZE = A_S + 17 * BORDER
 S_SOUND = S_FAC + A_SIZE
 
 # --- w: rows of the force evaluation, then stages --------------------------------------------------
@@ -361,8 +362,9 @@ RACE_ROWS = 28
 W_POCKET = W_RACE + 2 * RACE_ROWS  # penetration of the pocket
 W_FORCE = W_POCKET + 2  # per body 6 rows: force and moment on the ball
 W_G = W_FORCE + 18  # 17 rows: generalised forces on the bodies
-W_LOSS = W_G + 17  # dissipated per body
-W_ROWS = W_LOSS + 3
+W_SHAFT = W_G + 17  # moment on the inner ring about its own axis
+W_LOSS = W_SHAFT + 1  # dissipated per body, and by drag
+W_ROWS = W_LOSS + 4
 W_SCALARS = W_ROWS * STRIDE  # scratch scalars
 STAGES = 6
 W_Y = W_SCALARS + 64  # stage state
@@ -371,8 +373,8 @@ W_F0 = W_F + F_SIZE  # unperturbed right-hand side
 W_D = W_F0 + F_SIZE  # Newton increment
 W_ACC = W_D + F_SIZE  # stage accelerations, STAGES x F_SIZE
 W_VEL = W_ACC + STAGES * F_SIZE  # stage velocities in the layout of accelerations
-W_NEW = W_VEL + STAGES * F_SIZE
-W_MOTION = W_NEW + Y_SIZE
+W_LAST = W_ACC + (STAGES - 1) * F_SIZE  # accelerations at the end of a step, of any method
+W_MOTION = W_VEL + STAGES * F_SIZE
 W_G0 = W_MOTION + MO_BALLS + MO_PER_BALL * MAX_BALLS
 W_SOUND = W_G0 + N_BODY * STRIDE
 

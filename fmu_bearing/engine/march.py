@@ -10,6 +10,7 @@ from fmu_bearing.engine.layout import (
     OK,
     P_LANES,
     P_MAX_STEP,
+    P_METHOD,
     P_TOLERANCE,
     S_ANGLE,
     S_C,
@@ -34,11 +35,10 @@ from fmu_bearing.engine.layout import (
     S_TIME,
     S_WORK,
     S_Y,
-    STAGES,
     STRIDE,
     U_SPEED,
-    W_ACC,
     W_F0,
+    W_LAST,
     W_SCALARS,
     W_Y,
     Y_Q,
@@ -50,8 +50,9 @@ from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 from fmu_bearing.engine.motion import emit_samples
 from fmu_bearing.engine.solvers.block_arrow import factor
-from fmu_bearing.engine.solvers.esdirk import GAMMA, esdirk_step, integrate_power
+from fmu_bearing.engine.solvers.esdirk import esdirk_step, integrate_power
 from fmu_bearing.engine.solvers.jacobian import jacobian
+from fmu_bearing.engine.solvers.tableaux import ESDIRK4, T_GAMMA, T_ORDER, TABLEAUX, TRBDF2
 
 _S = STRIDE
 # Velocity (m/s) that the relative tolerance refers to: a ring's vibration at speed.
@@ -117,7 +118,7 @@ def renew_jacobian(p, s, w):
 def accept(p, s, w, h):
     """Move the state to the end of the step just made; angles are brought back into one turn."""
     lanes = int(p[P_LANES])
-    last = W_ACC + (STAGES - 1) * F_SIZE
+    last = W_LAST
     for i in range(Y_SIZE):
         s[S_Y + i] = w[W_Y + i]
     for i in range(F_SIZE):
@@ -136,7 +137,7 @@ def accept(p, s, w, h):
 
 
 @kernel
-def try_step(p, s, w, h, tolerance):
+def try_step(p, s, w, h, tableau, tolerance):
     """One attempt of length ``h`` with Jacobian and factors kept as long as they serve.
 
     Returns the error over the tolerance, or -1 where Newton failed with a fresh Jacobian.
@@ -150,7 +151,7 @@ def try_step(p, s, w, h, tolerance):
             fresh = True
         ratio = h / (s[S_FACTOR_STEP] + 1e-300)
         if ratio < _SAME_STEP[0] or ratio > _SAME_STEP[1]:
-            gh = GAMMA * h
+            gh = TABLEAUX[tableau + T_GAMMA] * h
             if not factor(p, s[S_JAC:S_FAC], gh, gh * gh, s[S_FAC:S_SOUND], w):
                 if fresh:
                     return -1.0
@@ -159,8 +160,8 @@ def try_step(p, s, w, h, tolerance):
         probe = s[S_STEPS] % _PROBE == 0.0
         fine = esdirk_step(
             p, s[S_C : S_C + C_SIZE], s[S_Y : S_Y + Y_SIZE], s[S_F : S_F + F_SIZE], s[S_ANGLE], s[S_SPEED],
-            s[S_SPEED_RATE], h, s[S_FAC:S_SOUND], s[S_Y + 2 * _S] - s[S_JACOBIAN_ANGLE], 0.5 * tolerance,
-            s[S_CONTRACTION], probe, w, report,
+            s[S_SPEED_RATE], h, tableau, s[S_FAC:S_SOUND], s[S_Y + 2 * _S] - s[S_JACOBIAN_ANGLE],
+            0.5 * tolerance, s[S_CONTRACTION], probe, w, report,
         )  # fmt: skip
         if fine:
             if report[1] > 0.0:
@@ -179,6 +180,8 @@ def march(p, u, s, w, h):
         s[S_MEAN_INNER + i] = s[S_HEAT_INNER + i]
     take_inputs(p, u, s, w, h)
     tolerance = p[P_TOLERANCE] * REFERENCE_VELOCITY
+    tableau = TRBDF2 if p[P_METHOD] == 2.0 else ESDIRK4
+    power = -1.0 / TABLEAUX[tableau + T_ORDER]
     begin = s[S_TIME]
     end = begin + h
     # bounded work: no more attempts than a hundred times what the largest internal step would need
@@ -187,20 +190,20 @@ def march(p, u, s, w, h):
     while remaining > 1e-12 * h:
         proposed = min(s[S_STEP], p[P_MAX_STEP])
         length = remaining / math.ceil(remaining / proposed - 1e-9)
-        error = try_step(p, s, w, length, tolerance)
+        error = try_step(p, s, w, length, tableau, tolerance)
         left -= 1.0
         if error < 0.0 or not (error <= 1.0):
             s[S_REJECTED] += 1.0
-            shrink = 0.25 if not (error > 0.0) else max(0.2, 0.9 * math.exp(-0.25 * math.log(error)))
+            shrink = 0.25 if not (error > 0.0) else max(0.2, 0.9 * error**power)
             s[S_STEP] = length * shrink
             if s[S_STEP] < min(_SHORTEST, 0.01 * h) or left < 0.0:
                 return NOT_CONVERGED
             continue
-        integrate_power(length, w, s[S_WORK : S_WORK + 4])
+        integrate_power(length, tableau, w, s[S_WORK : S_WORK + 4])
         emit_samples(p, s, w, length)
         accept(p, s, w, length)
         remaining = end - s[S_TIME]
-        grow = min(2.0, max(0.3, 0.9 * math.exp(-0.25 * math.log(error + 1e-6))))
+        grow = min(2.0, max(0.3, 0.9 * (error + 1e-6) ** power))
         # a step cut to meet the communication point says nothing against a longer one
         if grow < 1.0 or length > 0.5 * proposed:
             wanted = length * grow

@@ -5,7 +5,6 @@ import math
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import (
     F_G,
-    F_SIZE,
     MO_BALLS,
     MO_CAGE,
     MO_INNER,
@@ -27,9 +26,8 @@ from fmu_bearing.engine.layout import (
     S_START,
     S_TIME,
     S_Y,
-    STAGES,
     STRIDE,
-    W_ACC,
+    W_LAST,
     W_MOTION,
     W_SOUND,
     W_Y,
@@ -60,7 +58,7 @@ def body_motion(s, w, first, at, tilt, spin, spin_rate, h, t):
 
     ``first``: its coordinates; ``tilt``: its tilt coordinates. The spin is taken about X: tilts are small.
     """
-    last = W_ACC + (STAGES - 1) * F_SIZE + F_G
+    last = W_LAST + F_G
     for i in range(3):
         k = first + i
         v, a = hermite(s[S_Y + Y_V + k], s[S_F + F_G + k], w[W_Y + Y_V + k], w[last + k], h, t)
@@ -78,7 +76,7 @@ def body_motion(s, w, first, at, tilt, spin, spin_rate, h, t):
 @kernel
 def ball_motion(p, s, w, h, t):
     """Inertial velocity, acceleration, spin and its rate of every ball, resolved in its orbiting axes."""
-    last = W_ACC + (STAGES - 1) * F_SIZE
+    last = W_LAST
     pitch = p[P_PITCH_RADIUS]
     for j in range(int(p[P_BALLS])):
         at = W_MOTION + MO_BALLS + MO_PER_BALL * j
@@ -120,7 +118,7 @@ def emit_samples(p, s, w, h):
     block = int(p[P_AT_SOUND])
     ps = p[block : block + int(p[P_SOUND_SIZE])]
     elapsed = s[S_TIME] - s[S_START]
-    last = W_ACC + (STAGES - 1) * F_SIZE
+    last = W_LAST
     while s[S_SAMPLE] <= (elapsed + h) * RAW_RATE:
         t = min(max((s[S_SAMPLE] / RAW_RATE - elapsed) / h, 0.0), 1.0)
         body_motion(

@@ -51,6 +51,7 @@ from fmu_bearing.engine.layout import (
     S_Y,
     STRIDE,
     U_SPEED,
+    W_MOTION,
     W_SCALARS,
     Y_Q,
     Y_SIZE,
@@ -87,6 +88,8 @@ def start(p, u, s, w, t):
     """Fill the state ``s`` for the inputs ``u`` at time ``t`` (s); status code."""
     for i in range(s.size):
         s[i] = 0.0
+    for i in range(W_MOTION):
+        w[i] = 0.0
     c = s[S_C : S_C + C_SIZE]
     conditions(p, u, u[U_SPEED], c)
     found = w[W_SCALARS + 8 : W_SCALARS + 16]

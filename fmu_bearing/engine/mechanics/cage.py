@@ -2,7 +2,7 @@
 
 import math
 
-from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.jit import inlined, kernel
 from fmu_bearing.engine.layout import (
     C_BALL_RADIUS,
     P_BALLS,
@@ -42,7 +42,7 @@ _S = STRIDE
 _TWO_PI = 6.283185307179586
 
 
-@kernel
+@inlined
 def pockets(p, c, angle, lanes, turned, w):
     """Pocket forces and moments on the balls and the power lost there.
 
@@ -118,11 +118,12 @@ def pockets(p, c, angle, lanes, turned, w):
         w[out + 3 * _S + j] = momentx
         w[out + 4 * _S + j] = momentr
         w[out + 5 * _S + j] = momentt
-        w[(W_LOSS + 2) * _S + j] = (
+        lost = (
             -(forcex * dvx + forcer * dvr + forcet * dvt)
             - (momentx * dwx + momentr * dwr + momentt * dwt)
             - elastic * rate
         )
+        w[(W_LOSS + 2) * _S + j] = lost if j < balls else 0.0
 
 
 @kernel

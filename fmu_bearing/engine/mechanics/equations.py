@@ -1,6 +1,6 @@
 """The right-hand side: from positions and velocities to accelerations, power and heat."""
 
-from fmu_bearing.engine.jit import entry, kernel
+from fmu_bearing.engine.jit import entry, inlined, kernel
 from fmu_bearing.engine.layout import (
     B_OM,
     B_R,
@@ -34,6 +34,8 @@ from fmu_bearing.engine.layout import (
     W_G,
     W_LOSS,
     W_POSE,
+    W_SCALARS,
+    W_SHAFT,
     W_SIN,
     X_N,
     X_Q,
@@ -49,58 +51,38 @@ from fmu_bearing.engine.mechanics.trigonometry import ball_angles
 _S = STRIDE
 
 
-@kernel
-def react(lanes, body, first, spins, w):
-    """Generalised forces that each ball puts on one body, into the rows of ``W_G`` from ``first`` on.
+@inlined
+def react(lanes, balls, body, first, spin, last, w):
+    """Generalised forces that each ball puts on one body; spare lanes put none.
 
-    Order: force x, y, z, moment about the body's own axis (only if ``spins``), moment y, z.
+    Force x, y, z into the rows of ``w`` from ``first`` on, the moment about the body's own axis into row
+    ``spin``, the moments about y and z into the rows from ``last`` on.
     """
     force = (W_FORCE + body * 6) * _S
     pose = (W_POSE + body * POSE_ROWS) * _S
-    out = (W_G + first) * _S
-    last = 4 if spins else 3
     for j in range(lanes):
+        live = -1.0 if j < balls else 0.0
         c = w[W_COS * _S + j]
         s = w[W_SIN * _S + j]
-        fx = -w[force + j]
-        fr = -w[force + _S + j]
-        ft = -w[force + 2 * _S + j]
+        fx = live * w[force + j]
+        fr = live * w[force + _S + j]
+        ft = live * w[force + 2 * _S + j]
         qx = w[pose + X_Q * _S + j]
         qr = w[pose + (X_Q + 1) * _S + j]
         qt = w[pose + (X_Q + 2) * _S + j]
-        mx = qr * ft - qt * fr - w[force + 3 * _S + j]
-        mr = qt * fx - qx * ft - w[force + 4 * _S + j]
-        mt = qx * fr - qr * fx - w[force + 5 * _S + j]
-        w[out + j] = fx
-        w[out + _S + j] = -s * fr - c * ft
-        w[out + 2 * _S + j] = c * fr - s * ft
-        # for the inner ring this row is overwritten by the moment about y just below
-        w[out + 3 * _S + j] = (
+        mx = qr * ft - qt * fr + live * w[force + 3 * _S + j]
+        mr = qt * fx - qx * ft + live * w[force + 4 * _S + j]
+        mt = qx * fr - qr * fx + live * w[force + 5 * _S + j]
+        w[first * _S + j] = fx
+        w[(first + 1) * _S + j] = -s * fr - c * ft
+        w[(first + 2) * _S + j] = c * fr - s * ft
+        w[spin * _S + j] = (
             mx * w[pose + X_N * _S + j]
             + mr * w[pose + (X_N + 1) * _S + j]
             + mt * w[pose + (X_N + 2) * _S + j]
         )
-        w[out + last * _S + j] = -s * mr - c * mt
-        w[out + (last + 1) * _S + j] = c * mr - s * mt
-
-
-@kernel
-def shaft_moment(balls, w):
-    """Moment of all balls on the inner ring about its own axis (N m), which the drive must balance."""
-    pose = W_POSE * _S
-    force = W_FORCE * _S
-    total = 0.0
-    for j in range(balls):
-        fx = -w[force + j]
-        fr = -w[force + _S + j]
-        ft = -w[force + 2 * _S + j]
-        qx = w[pose + X_Q * _S + j]
-        qr = w[pose + (X_Q + 1) * _S + j]
-        qt = w[pose + (X_Q + 2) * _S + j]
-        total += (qr * ft - qt * fr - w[force + 3 * _S + j]) * w[pose + X_N * _S + j]
-        total += (qt * fx - qx * ft - w[force + 4 * _S + j]) * w[pose + (X_N + 1) * _S + j]
-        total += (qx * fr - qr * fx - w[force + 5 * _S + j]) * w[pose + (X_N + 2) * _S + j]
-    return total
+        w[last * _S + j] = -s * mr - c * mt
+        w[(last + 1) * _S + j] = c * mr - s * mt
 
 
 @kernel
@@ -122,14 +104,20 @@ def ball_forces(p, c, y, angle, speed, w):
         p, y, lanes, 1, y[q], y[q + 1], y[q + 2], y[q + 4], y[q + 5],
         y[v], y[v + 1], y[v + 2], y[v + 3], y[v + 4], y[v + 5], w,
     )  # fmt: skip
-    for race in range(2):
-        waves(p, c, turning, lanes, race, angle if race == 0 else y[q + 3], w)
-        normal(p, c, y, lanes, race, w)
-        traction(p, lanes, race, w)
-        rolling(p, c, lanes, race, w)
-        collect(c, lanes, race, w)
-    react(lanes, 0, 0, False, w)
-    react(lanes, 1, Q_OUTER, True, w)
+    # written out: the number of the race has to be a constant for the loops to become vector loops
+    waves(p, c, turning, lanes, 0, angle, w)
+    normal(p, c, y, lanes, 0, w)
+    traction(p, lanes, 0, w)
+    rolling(p, c, lanes, 0, w)
+    collect(p, c, lanes, 0, w)
+    waves(p, c, turning, lanes, 1, y[q + 3], w)
+    normal(p, c, y, lanes, 1, w)
+    traction(p, lanes, 1, w)
+    rolling(p, c, lanes, 1, w)
+    collect(p, c, lanes, 1, w)
+    balls = int(p[P_BALLS])
+    react(lanes, balls, 0, W_G, W_SHAFT, W_G + 3, w)
+    react(lanes, balls, 1, W_G + Q_OUTER, W_G + Q_OUTER + 3, W_G + Q_OUTER + 4, w)
     if p[P_CAGE] != 0.0:
         q = Y_Q + Q_CAGE
         v = Y_V + Q_CAGE
@@ -138,15 +126,20 @@ def ball_forces(p, c, y, angle, speed, w):
             y[v], y[v + 1], y[v + 2], y[v + 3], y[v + 4], y[v + 5], w,
         )  # fmt: skip
         pockets(p, c, turning, lanes, y[q + 3], w)
-        react(lanes, 2, Q_CAGE, True, w)
+        react(lanes, balls, 2, W_G + Q_CAGE, W_G + Q_CAGE + 3, W_G + Q_CAGE + 4, w)
+    else:
+        for i in range(6 * _S):
+            w[(W_FORCE + 12) * _S + i] = 0.0
+            w[(W_G + Q_CAGE) * _S + i] = 0.0
+        for j in range(_S):
+            w[(W_LOSS + 2) * _S + j] = 0.0
 
 
 @kernel
 def ball_accelerations(p, y, w, f):
-    """Accelerations of the balls in the orbiting axes (rows of ``f``); returns the power lost to drag (W)."""
+    """Accelerations of the balls in the orbiting axes (rows of ``f``); the power lost to drag into ``w``."""
     lanes = int(p[P_LANES])
     balls = int(p[P_BALLS])
-    caged = p[P_CAGE] != 0.0
     weight = GRAVITY * p[P_BALL_MASS] if p[P_GRAVITY] != 0.0 else 0.0
     drag = p[P_DRAG_FACTOR] if p[P_DRAG] != 0.0 else 0.0
     gyro = 1.0 if p[P_GYROSCOPIC] != 0.0 else 0.0
@@ -156,10 +149,6 @@ def ball_accelerations(p, y, w, f):
     one = W_FORCE * _S
     two = (W_FORCE + 6) * _S
     three = (W_FORCE + 12) * _S
-    if not caged:
-        for i in range(6 * _S):
-            w[three + i] = 0.0
-    lost = 0.0
     for j in range(lanes):
         om = y[B_OM * _S + j]
         vr = y[B_VR * _S + j]
@@ -180,19 +169,25 @@ def ball_accelerations(p, y, w, f):
         f[5 * _S + j] = (
             w[one + 5 * _S + j] + w[two + 5 * _S + j] + w[three + 5 * _S + j]
         ) * per_inertia - gyro * om * y[B_WR * _S + j]
-        if j < balls:
-            lost += pull * around
-    return lost
+        w[(W_LOSS + 3) * _S + j] = pull * around if j < balls else 0.0
 
 
 @kernel
-def sum_rows(first, count, balls, w, out, at):
-    """Sum ``count`` rows of ``w`` over the balls, in index order, into ``out[at:]``."""
+def sum_rows(first, count, lanes, w, out, at):
+    """Sum ``count`` rows of ``w`` over the lanes into ``out[at:]``, in four partial sums of fixed order."""
     for i in range(count):
-        total = 0.0
-        for j in range(balls):
-            total += w[(first + i) * _S + j]
-        out[at + i] = total
+        a = 0.0
+        b = 0.0
+        c = 0.0
+        d = 0.0
+        row = (first + i) * _S
+        for k in range(lanes // 4):
+            j = row + 4 * k
+            a += w[j]
+            b += w[j + 1]
+            c += w[j + 2]
+            d += w[j + 3]
+        out[at + i] = (a + b) + (c + d)
 
 
 @entry
@@ -203,23 +198,16 @@ def right_hand_side(p, c, y, angle, speed, speed_rate, w, f):
     the inner ring (rad, rad/s, rad/s2); ``w`` work space; ``f`` result (see ``layout``). SI units.
     """
     ball_forces(p, c, y, angle, speed, w)
-    balls = int(p[P_BALLS])
-    drag_loss = ball_accelerations(p, y, w, f)
-    sum_rows(W_G, N_BODY, balls, w, f, F_G)
-    torque = -shaft_moment(balls, w)
-    losses = f[F_HEAT : F_HEAT + 3]
-    inner = 0.0
-    outer = 0.0
-    pocket = 0.0
-    for j in range(balls):
-        inner += w[W_LOSS * _S + j]
-        outer += w[(W_LOSS + 1) * _S + j]
-        if p[P_CAGE] != 0.0:
-            pocket += w[(W_LOSS + 2) * _S + j]
+    ball_accelerations(p, y, w, f)
+    lanes = int(p[P_LANES])
+    sum_rows(W_G, N_BODY, lanes, w, f, F_G)
+    sums = w[W_SCALARS + 48 : W_SCALARS + 56]
+    sum_rows(W_SHAFT, 5, lanes, w, sums, 0)
+    torque = -sums[0]
     # half of each contact's loss heats its ring, the balls' half goes to the oil with all that stirs it
-    losses[0] = 0.5 * inner
-    losses[1] = 0.5 * outer
-    losses[2] = 0.5 * (inner + outer) + pocket + drag_loss
+    f[F_HEAT] = 0.5 * sums[1]
+    f[F_HEAT + 1] = 0.5 * sums[2]
+    f[F_HEAT + 2] = 0.5 * (sums[1] + sums[2]) + sums[3] + sums[4]
     f[F_TORQUE] = torque
     f[F_WORK] = 0.0
     body_equations(p, c, y, angle, speed, speed_rate, w, f)

@@ -2,7 +2,7 @@
 
 import math
 
-from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.jit import inlined, kernel
 from fmu_bearing.engine.layout import (
     B_OM,
     B_R,
@@ -37,7 +37,7 @@ def axis_cosine(by, bz):
     return 1.0 - 0.5 * (by * by + bz * bz)
 
 
-@kernel
+@inlined
 def relative_pose(p, y, lanes, body, ux, uy, uz, by, bz, vx, vy, vz, spin, dby, dbz, w):
     """Ball centres and velocities relative to one body, in each ball's orbiting axes (x, r, theta).
 
@@ -94,7 +94,7 @@ def relative_pose(p, y, lanes, body, ux, uy, uz, by, bz, vx, vy, vz, spin, dby, 
         w[base + (X_DW + 2) * _S + j] = y[B_WT * _S + j] - gt
 
 
-@kernel
+@inlined
 def bearing_angle(hr, ht):
     """Angle (rad) by which a direction leaves the ball's radial one: arctangent series, 1e-18 up to 4e-3."""
     a = ht / hr

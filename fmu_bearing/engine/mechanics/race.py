@@ -6,7 +6,9 @@ Velocities are those of the ball's surface against the race's.
 
 import math
 
-from fmu_bearing.engine.jit import kernel
+import numpy as np
+
+from fmu_bearing.engine.jit import inlined
 from fmu_bearing.engine.layout import (
     B_OM,
     B_WR,
@@ -19,6 +21,7 @@ from fmu_bearing.engine.layout import (
     P_AT_OVERSIZE,
     P_AT_STRIPS,
     P_AT_WAVES,
+    P_BALLS,
     P_CONTACT_DAMPING,
     P_MU,
     P_RACES,
@@ -72,12 +75,13 @@ from fmu_bearing.engine.layout import (
     X_T,
 )
 from fmu_bearing.engine.mechanics.pose import bearing_angle
+from fmu_bearing.engine.mechanics.powers import ROUND, exp2, log2
 
 _S = STRIDE
 _PER_RADIAN = WAVE_INTERVALS / 6.283185307179586
 
 
-@kernel
+@inlined
 def waves(p, c, y_angle, lanes, race, turned, w):
     """Race height (m, towards the ball) and slope (m/rad) under each ball.
 
@@ -98,10 +102,11 @@ def waves(p, c, y_angle, lanes, race, turned, w):
         angle = (
             y_angle[j] + bearing_angle(w[pose + (X_H + 1) * _S + j], w[pose + (X_H + 2) * _S + j]) - turned
         )
+        # Adding ROUND leaves the interval's number in the low bits: no conversion, no branch.
         place = angle * _PER_RADIAN
-        floor = math.floor(place)
-        t = place - floor
-        i0 = int(floor) & (WAVE_INTERVALS - 1)
+        number = (place - 0.5) + ROUND
+        t = place - (number - ROUND)
+        i0 = np.float64(number).view(np.int64) & (WAVE_INTERVALS - 1)
         i1 = (i0 + 1) & (WAVE_INTERVALS - 1)
         h0 = p[table + 2 * i0]
         g0 = p[table + 2 * i0 + 1]
@@ -114,7 +119,7 @@ def waves(p, c, y_angle, lanes, race, turned, w):
         w[row + R_SLOPE * _S + j] = scale * _PER_RADIAN * (g0 + t * (2.0 * b + t * 3.0 * a))
 
 
-@kernel
+@inlined
 def normal(p, c, y, lanes, race, w):
     """Contact direction, approach and its rate, load and sliding at the contact's middle."""
     row = (W_RACE + race * RACE_ROWS) * _S
@@ -197,7 +202,7 @@ def normal(p, c, y, lanes, race, w):
         w[row + R_SCALE * _S + j] = slide_to_roll * math.sqrt(entrain * entrain + 1e-8) + slip_floor
 
 
-@kernel
+@inlined
 def traction(p, lanes, race, w):
     """Traction of the strips over the major axis: forces along e_t and e_m and moments on the ball.
 
@@ -236,7 +241,7 @@ def traction(p, lanes, race, w):
             w[row + R_MM * _S + j] -= sag * ft
 
 
-@kernel
+@inlined
 def rolling(p, c, lanes, race, w):
     """Hydrodynamic rolling moment (N m) about e_m, opposing the relative rolling of the two surfaces.
 
@@ -253,13 +258,14 @@ def rolling(p, c, lanes, race, w):
         u = w[row + R_ENTRAIN * _S + j]
         load = w[row + R_LOAD * _S + j]
         turning = w[row + R_AM * _S + j]
-        size = factor * load * math.exp(0.33 * math.log(u * u + 1e-8) - 0.53 * math.log(load + 1e-9))
+        size = factor * load * exp2(0.33 * log2(u * u + 1e-8) - 0.53 * log2(load + 1e-9))
         w[row + R_ROLL * _S + j] = -size * turning / math.sqrt(turning * turning + 1.0)
 
 
-@kernel
-def collect(c, lanes, race, w):
-    """Force and moment on each ball and the power lost in the contact."""
+@inlined
+def collect(p, c, lanes, race, w):
+    """Force and moment on each ball and the power lost in the contact; spare lanes lose none."""
+    balls = int(p[P_BALLS])
     row = (W_RACE + race * RACE_ROWS) * _S
     pose = (W_POSE + race * POSE_ROWS) * _S
     out = (W_FORCE + race * 6) * _S
@@ -274,13 +280,28 @@ def collect(c, lanes, race, w):
         mt = w[row + R_MT * _S + j] - ball * fm
         mm = w[row + R_MM * _S + j] + ball * ft + w[row + R_ROLL * _S + j]
         power = -w[row + R_ELASTIC * _S + j] * w[row + R_RATE * _S + j]
-        for i in range(3):
-            e = w[row + (R_EN + i) * _S + j]
-            m = w[row + (R_EM + i) * _S + j]
-            t = w[pose + (X_T + i) * _S + j]
-            force = -load * e + lean * t + fm * m
-            moment = mn * e + mt * t + mm * m
-            w[out + i * _S + j] = force
-            w[out + (3 + i) * _S + j] = moment
-            power -= force * w[pose + (X_DV + i) * _S + j] + moment * w[pose + (X_DW + i) * _S + j]
-        w[(W_LOSS + race) * _S + j] = power
+        ex = w[row + R_EN * _S + j]
+        er = w[row + (R_EN + 1) * _S + j]
+        et = w[row + (R_EN + 2) * _S + j]
+        mx = w[row + R_EM * _S + j]
+        mr = w[row + (R_EM + 1) * _S + j]
+        me = w[row + (R_EM + 2) * _S + j]
+        tx = w[pose + X_T * _S + j]
+        tr = w[pose + (X_T + 1) * _S + j]
+        tt = w[pose + (X_T + 2) * _S + j]
+        fx = -load * ex + lean * tx + fm * mx
+        fr = -load * er + lean * tr + fm * mr
+        fe = -load * et + lean * tt + fm * me
+        gx = mn * ex + mt * tx + mm * mx
+        gr = mn * er + mt * tr + mm * mr
+        ge = mn * et + mt * tt + mm * me
+        w[out + j] = fx
+        w[out + _S + j] = fr
+        w[out + 2 * _S + j] = fe
+        w[out + 3 * _S + j] = gx
+        w[out + 4 * _S + j] = gr
+        w[out + 5 * _S + j] = ge
+        power -= fx * w[pose + X_DV * _S + j] + gx * w[pose + X_DW * _S + j]
+        power -= fr * w[pose + (X_DV + 1) * _S + j] + gr * w[pose + (X_DW + 1) * _S + j]
+        power -= fe * w[pose + (X_DV + 2) * _S + j] + ge * w[pose + (X_DW + 2) * _S + j]
+        w[(W_LOSS + race) * _S + j] = power if j < balls else 0.0

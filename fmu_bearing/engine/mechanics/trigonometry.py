@@ -1,25 +1,24 @@
 """Sine and cosine of the ball angles without a branch, so that the loop over balls stays a vector loop."""
 
-from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.jit import inlined
 from fmu_bearing.engine.layout import STRIDE, W_COS, W_SIN
+from fmu_bearing.engine.mechanics.powers import ROUND
 
-# Cody-Waite split of pi/2 and the rounding constant 1.5 * 2^52: adding and taking it away rounds to an
-# integer. Both need strict floating point.
+# Cody-Waite split of pi/2: like the rounding constant it needs strict floating point.
 _TWO_OVER_PI = 0.6366197723675814
 _HALF_PI_HIGH = 1.5707963267341256
 _HALF_PI_LOW = 6.077100506506192e-11
-_ROUND = 6755399441055744.0
 _TWO_PI = 6.283185307179586
 
 
-@kernel
+@inlined
 def wrap(angle):
     """Angle brought into [-pi, pi] (rad); exact to rounding for a few turns."""
-    turns = (angle * (1.0 / _TWO_PI) + _ROUND) - _ROUND
+    turns = (angle * (1.0 / _TWO_PI) + ROUND) - ROUND
     return angle - turns * _TWO_PI
 
 
-@kernel
+@inlined
 def ball_angles(angle, at, lanes, w):
     """Write cosine and sine of ``angle[at + j]`` (rad, a few turns at most) into their rows of ``w``.
 
@@ -27,7 +26,7 @@ def ball_angles(angle, at, lanes, w):
     """
     for j in range(lanes):
         x = angle[at + j]
-        n = (x * _TWO_OVER_PI + _ROUND) - _ROUND
+        n = (x * _TWO_OVER_PI + ROUND) - ROUND
         t = (x - n * _HALF_PI_HIGH) - n * _HALF_PI_LOW
         t2 = t * t
         s = t + t * t2 * (
@@ -63,7 +62,7 @@ def ball_angles(angle, at, lanes, w):
                 )
             )
         )
-        quarter = n - 4.0 * ((n * 0.25 - 0.375 + _ROUND) - _ROUND)  # 0, 1, 2 or 3
+        quarter = n - 4.0 * ((n * 0.25 - 0.375 + ROUND) - ROUND)  # 0, 1, 2 or 3
         odd = (quarter == 1.0) | (quarter == 3.0)
         sine = c if odd else s
         cosine = s if odd else c

@@ -1,12 +1,14 @@
-"""ESDIRK4(3), the implicit part of ARK4(3)6L[2]SA (Kennedy and Carpenter 2003), on x'' = f(x, x').
+"""Implicit Runge-Kutta step on x'' = f(x, x') with the accelerations of each stage as unknowns.
 
-The unknowns of a stage are its accelerations A: V = v_base + g h A, X = x_base + g h V with g = 1/4. The
-first stage is the last one of the step before (stiffly accurate), so a step costs five implicit stages.
+With base values from the stages before, V = v_base + g h A and X = x_base + g h V, so Newton's method needs
+one solve with I - g h Jv - (g h)^2 Jx per iteration. The first stage is the last one of the step before.
+The loops over all coordinates run over spare lanes too: they hold zeros. They work on slices whose indices
+begin at zero: with an offset inside the index the compiler finds no vector loop.
 """
 
-import numpy as np
+import math
 
-from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.jit import inlined, kernel
 from fmu_bearing.engine.layout import (
     C_BALL_RADIUS,
     F_G,
@@ -14,17 +16,16 @@ from fmu_bearing.engine.layout import (
     F_SIZE,
     F_WORK,
     N_BODY,
-    P_BALLS,
     P_LANES,
     P_PITCH_RADIUS,
     Q_CAGE,
-    STAGES,
     STRIDE,
     W_ACC,
     W_D,
     W_F,
     W_F0,
-    W_NEW,
+    W_LAST,
+    W_MOTION,
     W_VEL,
     W_Y,
     Y_Q,
@@ -34,172 +35,201 @@ from fmu_bearing.engine.layout import (
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.solvers.block_arrow import solve
 from fmu_bearing.engine.solvers.jacobian import is_angle
+from fmu_bearing.engine.solvers.tableaux import T_A, T_B, T_ERROR, T_GAMMA, T_NODES, T_STAGES, TABLEAUX
 
 _S = STRIDE
-GAMMA = 0.25
-NODES = np.array([0.0, 1.0 / 2, 83.0 / 250, 31.0 / 50, 17.0 / 20, 1.0])
-# rows of the tableau below the diagonal, five numbers each
-A = np.array([
-    0.0, 0.0, 0.0, 0.0, 0.0,
-    1.0 / 4, 0.0, 0.0, 0.0, 0.0,
-    8611.0 / 62500, -1743.0 / 31250, 0.0, 0.0, 0.0,
-    5012029.0 / 34652500, -654441.0 / 2922500, 174375.0 / 388108, 0.0, 0.0,
-    15267082809.0 / 155376265600, -71443401.0 / 120774400, 730878875.0 / 902184768,
-    2285395.0 / 8070912, 0.0,
-    82889.0 / 524892, 0.0, 15625.0 / 83664, 69875.0 / 102672, -2260.0 / 8211,
-])  # fmt: skip
-B = np.array([82889.0 / 524892, 0.0, 15625.0 / 83664, 69875.0 / 102672, -2260.0 / 8211, 1.0 / 4])
-B_LOW = np.array(
-    [
-        4586570599.0 / 29645900160,
-        0.0,
-        178811875.0 / 945068544,
-        814220225.0 / 1159782912,
-        -3700637.0 / 11593932,
-        61727.0 / 225920,
-    ]
-)
+_PLACES = 3 * STRIDE  # rows of ball coordinates that have both place and rate in the state
+_RATES = 6 * STRIDE
 MAX_ITERATIONS = 8
 
 
-@kernel
-def scaled_size(p, d, factor):
-    """Largest change of velocity (m/s) in ``factor * d``: bodies at the pitch radius, balls in x and r.
+@inlined
+def add_scaled(scale, x, y, n):
+    """``y += scale * x`` over ``n`` numbers."""
+    for i in range(n):
+        y[i] += scale * x[i]
 
-    The cage and the balls count a tenth: they matter through what they do to the rings.
-    """
+
+@inlined
+def sum_scaled(x, scale, y, out, n):
+    """``out = x + scale * y`` over ``n`` numbers."""
+    for i in range(n):
+        out[i] = x[i] + scale * y[i]
+
+
+@kernel
+def body_size(p, d, at):
+    """Sum of squares of the bodies' velocities (m2/s2): tilts at the pitch radius, the cage a tenth."""
     lever = p[P_PITCH_RADIUS]
-    size = 0.0
+    total = 0.0
     for i in range(N_BODY):
-        value = abs(d[F_G + i])
+        value = d[at + i]
         if is_angle(i):
             value *= lever
         if i >= Q_CAGE:
             value *= 0.1
-        size = max(size, value)
-    for j in range(2 * _S):
-        if j % _S < p[P_BALLS]:
-            size = max(size, 0.1 * abs(d[j]))
-    return size * abs(factor)
+        total += value * value
+    return total
+
+
+@kernel
+def row_size(d, first, count, lanes):
+    """Mean over the lanes of the sum of squares of ``count`` rows."""
+    total = 0.0
+    for i in range(count):
+        a = 0.0
+        b = 0.0
+        c = 0.0
+        e = 0.0
+        for k in range(lanes // 4):
+            j = (first + i) * _S + 4 * k
+            a += d[j] * d[j]
+            b += d[j + 1] * d[j + 1]
+            c += d[j + 2] * d[j + 2]
+            e += d[j + 3] * d[j + 3]
+        total += (a + b) + (c + e)
+    return total / lanes
 
 
 @kernel
 def newton_size(p, c, d, factor):
-    """As :func:`scaled_size`, with the balls' orbit and spin at their surface speeds as well.
+    """Size (m/s) of the velocity change ``factor * d``, rings in full.
 
-    They are left out of the step control, where their stiff share of the error estimate means nothing.
+    The cage and the balls' axial and radial motion count a tenth, their orbit and spin a tenth and 3 % of
+    their surface speeds: they matter through what they do to the rings.
     """
-    size = scaled_size(p, d, factor)
-    orbit = 0.1 * p[P_PITCH_RADIUS] * abs(factor)
-    spin = 0.03 * c[C_BALL_RADIUS] * abs(factor)
-    for j in range(int(p[P_BALLS])):
-        size = max(size, orbit * abs(d[2 * _S + j]))
-        for k in range(3, 6):
-            size = max(size, spin * abs(d[k * _S + j]))
-    return size
+    lanes = int(p[P_LANES])
+    orbit = 0.1 * p[P_PITCH_RADIUS]
+    spin = 0.03 * c[C_BALL_RADIUS]
+    total = body_size(p, d, F_G) + 0.03 * row_size(d, 0, 2, lanes)
+    total += orbit * orbit * row_size(d, 2, 1, lanes) + spin * spin * row_size(d, 3, 3, lanes)
+    return math.sqrt(total) * abs(factor)
 
 
 @kernel
-def add_scaled(p, scale, source, at, target, to):
-    """``target[to:] += scale * source[at:]`` over balls' lanes and bodies in the layout of accelerations."""
-    lanes = int(p[P_LANES])
-    for i in range(6):
-        for j in range(lanes):
-            target[to + i * _S + j] += scale * source[at + i * _S + j]
+def error_size(p, h, tableau, w):
+    """Size (m/s) of the difference between the two solutions' velocities.
+
+    The balls' orbit and spin are left out: their stiff share of the estimate means nothing.
+    """
+    stages = int(TABLEAUX[tableau + T_STAGES])
+    d = w[W_D : W_D + F_SIZE]
+    balls = d[: 2 * _S]
+    bodies = d[F_G : F_G + N_BODY]
+    for i in range(2 * _S):
+        balls[i] = 0.0
     for i in range(N_BODY):
-        target[to + F_G + i] += scale * source[at + F_G + i]
-
-
-@kernel
-def stage_base(p, y, h, stage, w):
-    """Explicit part of a stage into ``w[W_NEW:]``: positions and velocities before its own acceleration."""
-    lanes = int(p[P_LANES])
-    for i in range(Y_SIZE):
-        w[W_NEW + i] = y[i]
-    for m in range(stage):
-        a = h * A[stage * 5 + m]
-        if a == 0.0:
-            continue
+        bodies[i] = 0.0
+    for m in range(stages):
+        e = h * TABLEAUX[tableau + T_ERROR + m]
         acc = W_ACC + m * F_SIZE
-        vel = W_VEL + m * F_SIZE
-        for i in range(3):
-            for j in range(lanes):
-                w[W_NEW + i * _S + j] += a * w[vel + i * _S + j]
-        for i in range(6):
-            for j in range(lanes):
-                w[W_NEW + (3 + i) * _S + j] += a * w[acc + i * _S + j]
-        for i in range(N_BODY):
-            w[W_NEW + Y_Q + i] += a * w[vel + F_G + i]
-            w[W_NEW + Y_V + i] += a * w[acc + F_G + i]
+        add_scaled(e, w[acc : acc + 2 * _S], balls, 2 * _S)
+        add_scaled(e, w[acc + F_G : acc + F_WORK], bodies, N_BODY)
+    return math.sqrt(body_size(p, d, F_G) + 0.01 * row_size(d, 0, 2, int(p[P_LANES])))
 
 
 @kernel
-def stage_state(p, acc, gh, w):
-    """State of a stage from its base and accelerations into ``w[W_Y:]``."""
-    lanes = int(p[P_LANES])
-    for i in range(6):
-        for j in range(lanes):
-            w[W_Y + (3 + i) * _S + j] = w[W_NEW + (3 + i) * _S + j] + gh * w[acc + i * _S + j]
-    for i in range(3):
-        for j in range(lanes):
-            w[W_Y + i * _S + j] = w[W_NEW + i * _S + j] + gh * w[W_Y + (3 + i) * _S + j]
+def predict(y, h, gh, stage, tableau, w):
+    """State of a stage into ``w[W_Y:]`` from the stages before and its first guess of the accelerations."""
+    here = W_ACC + stage * F_SIZE
+    acc = w[here : here + F_SIZE]
+    places = w[W_Y : W_Y + _PLACES]
+    rates = w[W_Y + _PLACES : W_Y + _PLACES + _RATES]
+    q = w[W_Y + Y_Q : W_Y + Y_V]
+    v = w[W_Y + Y_V : W_Y + Y_SIZE]
+    before = w[here - F_SIZE : here]
+    for i in range(F_SIZE):
+        acc[i] = before[i]
+    sum_scaled(y[_PLACES : _PLACES + _RATES], gh, acc, rates, _RATES)
+    sum_scaled(y[Y_V:Y_SIZE], gh, acc[F_G:], v, N_BODY)
+    for i in range(_PLACES):
+        places[i] = y[i]
     for i in range(N_BODY):
-        w[W_Y + Y_V + i] = w[W_NEW + Y_V + i] + gh * w[acc + F_G + i]
-        w[W_Y + Y_Q + i] = w[W_NEW + Y_Q + i] + gh * w[W_Y + Y_V + i]
+        q[i] = y[Y_Q + i]
+    for m in range(stage):
+        a = h * TABLEAUX[tableau + T_A + stage * 5 + m]
+        if a != 0.0:
+            at = m * F_SIZE
+            add_scaled(a, w[W_ACC + at : W_VEL], rates, _RATES)
+            add_scaled(a, w[W_ACC + at + F_G : W_VEL], v, N_BODY)
+            add_scaled(a, w[W_VEL + at : W_MOTION], places, _PLACES)
+            add_scaled(a, w[W_VEL + at + F_G : W_MOTION], q, N_BODY)
+    add_scaled(gh, rates, places, _PLACES)
+    add_scaled(gh, v, q, N_BODY)
 
 
 @kernel
-def keep_velocities(p, y, at, w):
-    """Copy the velocities of a state at ``y`` into ``w[at:]`` in the layout of accelerations."""
-    lanes = int(p[P_LANES])
-    for i in range(6):
-        for j in range(lanes):
-            w[at + i * _S + j] = y[(3 + i) * _S + j]
+def correct(acc, gh, w):
+    """Add the increment in ``w[W_D:]`` to a stage's accelerations ``acc`` and to its state."""
+    d = w[W_D : W_D + F_SIZE]
+    square = gh * gh
+    add_scaled(1.0, d, acc, _RATES + N_BODY)
+    add_scaled(gh, d, w[W_Y + _PLACES : W_Y + Y_Q], _RATES)
+    add_scaled(square, d, w[W_Y : W_Y + _PLACES], _PLACES)
+    add_scaled(gh, d[F_G:], w[W_Y + Y_V : W_Y + Y_SIZE], N_BODY)
+    add_scaled(square, d[F_G:], w[W_Y + Y_Q : W_Y + Y_V], N_BODY)
+
+
+@kernel
+def keep_velocities(y, kept):
+    """Copy the rates of all places of a state into ``kept``, laid out like accelerations."""
+    rates = y[_PLACES : 2 * _PLACES]
+    for i in range(_PLACES):
+        kept[i] = rates[i]
     for i in range(N_BODY):
-        w[at + F_G + i] = y[Y_V + i]
+        kept[F_G + i] = y[Y_V + i]
+
+
+@kernel
+def newton_residual(acc, w):
+    """Right-hand side less the stage's accelerations ``acc`` into ``w[W_D:]``."""
+    d = w[W_D : W_D + F_SIZE]
+    f = w[W_F : W_F + F_SIZE]
+    for i in range(_RATES + N_BODY):
+        d[i] = f[i] - acc[i]
 
 
 @kernel
 def esdirk_step(
-    p, c, y, f, angle, speed, speed_rate, h, fac, turned, tolerance, contraction, probe, w, report
+    p, c, y, f, angle, speed, speed_rate, h, tableau, fac, turned, tolerance, contraction, probe, w, report
 ):
     """One step of length ``h`` from (y, f); the new state is left in ``w[W_Y:]`` and its f in the last stage.
 
-    ``fac``: factors for about this ``h``; ``turned``: orbit angle (rad) since they were made; ``tolerance``
-    (m/s): Newton's error; ``contraction``: rate known so far; ``probe``: measure it anew. ``report`` takes
-    the error estimate (m/s), contraction and iterations. Returns False where Newton does not converge.
+    ``tableau``: place in TABLEAUX; ``fac``: factors for about this ``h``; ``turned``: orbit angle (rad) since
+    they were made; ``tolerance`` (m/s): Newton's error; ``contraction``: rate known so far; ``probe``:
+    measure it anew. ``report`` takes the error estimate (m/s), contraction and iterations. Returns False
+    where Newton does not converge.
     """
-    gh = GAMMA * h
+    gh = TABLEAUX[tableau + T_GAMMA] * h
+    stages = int(TABLEAUX[tableau + T_STAGES])
     stage_y = w[W_Y : W_Y + Y_SIZE]
     result = w[W_F:W_F0]
+    increment = w[W_D : W_D + F_SIZE]
     for i in range(F_SIZE):
         w[W_ACC + i] = f[i]
-    keep_velocities(p, y, W_VEL, w)
+        result[i] = 0.0
+    keep_velocities(y, w[W_VEL:W_MOTION])
     orbit = y[5 * _S]
     iterations = 0.0
     worst = 0.0
-    for stage in range(1, STAGES):
-        acc = W_ACC + stage * F_SIZE
-        for i in range(F_SIZE):
-            w[acc + i] = w[acc - F_SIZE + i]
-        stage_base(p, y, h, stage, w)
-        stage_state(p, acc, gh, w)
-        t = h * NODES[stage]
+    for stage in range(1, stages):
+        here = W_ACC + stage * F_SIZE
+        acc = w[here : here + F_SIZE]
+        predict(y, h, gh, stage, tableau, w)
+        t = h * TABLEAUX[tableau + T_NODES + stage]
         angle_t = angle + t * (speed + 0.5 * t * speed_rate)
         speed_t = speed + t * speed_rate
+        co = math.cos(turned + orbit * t)
+        si = math.sin(turned + orbit * t)
         before = 0.0
         done = False
         for n in range(MAX_ITERATIONS):
             right_hand_side(p, c, stage_y, angle_t, speed_t, speed_rate, w, result)
-            for i in range(F_G + N_BODY):
-                w[W_D + i] = result[i] - w[acc + i]
-            solve(p, fac, turned + orbit * t, w[W_D : W_D + F_SIZE], w)
-            add_scaled(p, 1.0, w, W_D, w, acc)
-            for i in range(F_WORK, F_SIZE):
-                w[acc + i] = result[i]
-            stage_state(p, acc, gh, w)
+            newton_residual(acc, w)
+            solve(p, fac, co, si, increment, w)
+            correct(acc, gh, w)
             iterations += 1.0
-            size = newton_size(p, c, w[W_D : W_D + F_SIZE], gh)
+            size = newton_size(p, c, increment, gh)
             if not (size < 1e6):
                 return False
             rate = contraction
@@ -209,7 +239,7 @@ def esdirk_step(
                     worst = max(worst, rate)
                 if rate > 0.9 and size > tolerance:
                     return False
-            if (n > 0 or not (probe and stage == STAGES - 1)) and size * rate <= tolerance * (
+            if (n > 0 or not (probe and stage == stages - 1)) and size * rate <= tolerance * (
                 1.0 - min(rate, 0.9)
             ):
                 done = True
@@ -217,23 +247,26 @@ def esdirk_step(
             before = size
         if not done:
             return False
-        keep_velocities(p, stage_y, W_VEL + stage * F_SIZE, w)
-    # difference of the two solutions' velocities
-    for i in range(F_SIZE):
-        w[W_D + i] = 0.0
-    for stage in range(STAGES):
-        add_scaled(p, B[stage] - B_LOW[stage], w, W_ACC + stage * F_SIZE, w, W_D)
-    report[0] = scaled_size(p, w[W_D : W_D + F_SIZE], h)
+        for i in range(F_WORK, F_SIZE):
+            acc[i] = result[i]
+        keep_velocities(stage_y, w[W_VEL + stage * F_SIZE : W_MOTION])
+    last = W_ACC + (stages - 1) * F_SIZE
+    if last != W_LAST:
+        for i in range(F_SIZE):
+            w[W_LAST + i] = w[last + i]
+    report[0] = error_size(p, h, tableau, w)
     report[1] = worst
     report[2] = iterations
     return True
 
 
 @kernel
-def integrate_power(h, w, totals):
+def integrate_power(h, tableau, w, totals):
     """Add work, and heat to inner ring, outer ring and oil (J) over the last step, by the same quadrature."""
+    stages = int(TABLEAUX[tableau + T_STAGES])
     for k in range(4):
         total = 0.0
-        for stage in range(STAGES):
-            total += B[stage] * w[W_ACC + stage * F_SIZE + (F_WORK if k == 0 else F_HEAT + k - 1)]
+        for stage in range(stages):
+            weight = TABLEAUX[tableau + T_B + stage]
+            total += weight * w[W_ACC + stage * F_SIZE + (F_WORK if k == 0 else F_HEAT + k - 1)]
         totals[k] += h * total

@@ -31,12 +31,12 @@ class Lubricant(Part):
     vogel_C_K: float = Field(
         ge=50, le=220, examples=[178.0], description="Constant C of Vogel's viscosity exp(B/(T - C)), K."
     )
-    # Assumed: a mineral oil of viscosity index 95 to 100.
+    # Assumed: a mineral oil of viscosity index about 100.
     walther_slope: float = Field(
-        default=3.6,
+        default=3.7,
         ge=0,
         le=8,
-        examples=[3.6],
+        examples=[3.7],
         description="Slope B of Walther's lg lg(v + 0.7) = A - B lg T, v in mm2/s; 0: the same viscosity at "
         "any temperature.",
     )

@@ -57,8 +57,8 @@ from fmu_bearing.engine.layout import (
 )
 
 _TO_RPM = 30.0 / math.pi
-_LN10 = math.log(10.0)
-_STIFFEST = 12.0  # lg of the highest viscosity, mm2/s, that Walther's law gives: an oil that has set
+# Both laws grow without bound in the cold: twelve decades stand for an oil that has set.
+_SET = 12.0 * math.log(10.0)
 _CLEAR = 1.0  # K: Vogel's law is held short of its pole by this much
 
 
@@ -71,7 +71,7 @@ def vogel(p, temperature):
     b = p[P_VOGEL_B]
     pole = p[P_VOGEL_C]
     exponent = b / max(temperature - pole, _CLEAR) - b / (REFERENCE_TEMPERATURE - pole)
-    return p[P_VISCOSITY] * math.exp(exponent)
+    return p[P_VISCOSITY] * math.exp(min(exponent, _SET))
 
 
 @kernel
@@ -85,7 +85,7 @@ def walther(p, temperature):
     known = math.log(max(p[P_VISCOSITY] * to_mm2_s + 0.7, 1.0 + 1e-6))
     fall = p[P_WALTHER_SLOPE] * math.log(max(temperature, 1.0) / REFERENCE_TEMPERATURE)
     raised = known * math.exp(-fall)
-    return (math.exp(min(raised, _STIFFEST * _LN10)) - 0.7) / to_mm2_s
+    return (math.exp(min(raised, _SET)) - 0.7) / to_mm2_s
 
 
 @kernel

@@ -68,7 +68,7 @@ def test_springs_instead_of_a_cage():
     assert list(packed()[places("P_SPRINGS", "P_SPRING_DAMPING", "P_CAGE")]) == [0.0, 0.0, 1.0]
 
 
-def test_ball_waves_stand_in_their_table(scene):
+def test_ball_waves_stand_in_their_table():
     plain = packed()
     p = packed(
         ("ball_waviness_nm = 0.0", "ball_waviness_nm = 20.0"),
@@ -93,10 +93,13 @@ def test_what_is_left_out_takes_no_place(scene):
     assert perfect.size == at.P_TABLES + 2 * 5 + at.STRIDE  # five strips' nodes and weights, the balls' sizes
     assert not perfect[places("P_AT_WAVES", "P_AT_BALL_WAVES", "P_AT_SOUND", "P_BALL_WAVES")].any()
     assert perfect[at.P_WAVINESS] == 0.0
-    sound = np.full(3, 7.0)
-    p = pack(bare.model_copy(update={"imperfections": None, "sound": None}), NO_SOUND)
-    assert p[at.P_SOUND_SIZE] == 0.0 and p.size == perfect.size
-    assert sound.size == 3
+    assert perfect[at.P_SOUND_SIZE] == 0.0
+
+
+def test_sound_stands_last(scene):
+    p = prepare(scene("7003C-bare")).parameters
+    assert p[at.P_SOUND_SIZE] > 0.0
+    assert p[at.P_AT_SOUND] + p[at.P_SOUND_SIZE] == p.size
 
 
 @pytest.mark.parametrize(("race", "side", "sign"), [(0, "inner_ring", 1.0), (1, "outer_ring", -1.0)])

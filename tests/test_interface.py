@@ -74,3 +74,51 @@ def test_what_a_scene_leaves_out_has_no_variable(scene):
     bare = spindle.model_copy(update={"bearing": spindle.bearing.model_copy(update={"cage": None})})
     names = set(table(bare))
     assert not any(name.startswith("cage.") or name.endswith("spl_cage") for name in names)
+
+
+def test_what_the_model_was_built_as_is_a_constant(scene):
+    bare = scene("7003C-bare")
+    found = table(bare)
+    for name in ("level", "method"):
+        variable = found[name]
+        assert (variable.causality, variable.variability, variable.type) == ("local", "constant", "Integer")
+        assert (variable.array, variable.value) == ("", 0)
+    fidelity = bare.fidelity.model_copy(update={"level": "response", "method": "rk4"})
+    found = table(bare.model_copy(update={"fidelity": fidelity}))
+    assert (found["level"].value, found["method"].value) == (2, 3)
+    assert found["method"].description == "Integrator of level full: 0 esdirk4, 1 fast, 2 trbdf2, 3 rk4"
+    assert found["level"].description == "Level of the dynamics: 0 full, 1 rings, 2 response"
+
+
+def test_details_of_contacts_cage_and_torque(scene):
+    found = table(scene("7003C-spindle"))
+    units = {
+        "inner_ring.tilt.y": "rad",
+        "inner_ring.tilt.z": "rad",
+        "cage.whirl_radius": "m",
+        "cage.whirl_speed": "rad/s",
+        **{f"friction_torque.{name}": "N.m" for name in ("contacts", "rolling", "cage", "drag")},
+        **{f"contact.{ring}.{q}": "" for ring in ("inner", "outer") for q in ("spin_to_roll", "slip")},
+    }
+    for name, unit in units.items():
+        variable = found[name]
+        assert (variable.unit, variable.causality, variable.type) == (unit, "local", "Real")
+        assert (variable.array, variable.index) == ("z", at.BEARING_OUTPUTS.index(name))
+    count = found["solver.fallbacks"]
+    assert (count.type, count.variability, count.min) == ("Integer", "discrete", 0)
+
+
+def test_every_output_of_the_engine_has_its_variable(scene):
+    found = table(scene("7003C-spindle"))
+    assert set(at.BEARING_OUTPUTS) <= set(found)
+    bare = scene("7003C-bare")
+    caged = {name for name in at.BEARING_OUTPUTS if name.split(".")[0] == "cage" or name.endswith(".cage")}
+    names = set(table(bare.model_copy(update={"bearing": bare.bearing.model_copy(update={"cage": None})})))
+    assert set(at.BEARING_OUTPUTS) - names == caged
+
+
+def test_rigid_preload_says_what_the_input_means(scene):
+    bare = scene("7003C-bare")
+    rigid = bare.model_copy(update={"mounting": bare.mounting.model_copy(update={"preload_mode": "rigid"})})
+    assert "at standstill and 20 degC" in table(rigid)["preload"].description
+    assert table(rigid)["preload"].start == 500.0

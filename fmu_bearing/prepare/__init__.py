@@ -3,7 +3,8 @@
 ===================  ==================================================================
 ``hertz``            constants of elliptical point contacts
 ``bodies``           masses and inertias from the scene's dimensions
-``imperfections``    waviness tables, ball sizes, unbalance from a seed
+``contacts``         oil and friction, rolling resistance and films of the races
+``imperfections``    waviness of races and balls, ball sizes, from a seed
 ``model``            packs everything into the flat parameter array of the engine
 ===================  ==================================================================
 """

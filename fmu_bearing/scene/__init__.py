@@ -5,16 +5,16 @@
 ``material``      elastic and thermal constants; catalogue names
 ``lubricant``     oil, traction and film constants
 ``mounting``      preload, loads, pedestal, rotor, housing
-``imperfections`` waviness, ball spread, unbalance, with a seed
+``imperfections`` waviness, ball spread, unbalance, by values or by grade, with a seed
 ``operation``     speed and temperatures at the start
 ``sound``         what radiates, how it is computed, where the microphones stand
-``fidelity``      level, tolerance, terms left out
+``fidelity``      level, integrator, accuracy, terms left out
 ``scene``         all of it together, with the checks that span several parts
 ``base``          what all tables share: frozen, strict, conflicts all told at once
 ``read``          TOML in; catalogue names become values
 ``problems``      one line per problem, in the words of who wrote the file
 ``units``         the one place that converts to SI
-``catalogue``     bearings, materials and lubricants by name
+``catalogue``     bearings, materials, lubricants and grades by name
 ================  =====================================================================
 """
 

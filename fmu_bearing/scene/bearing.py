@@ -21,7 +21,7 @@ class Cage(Part):
         ge=0.005, le=2, examples=[0.04], description="Radial clearance between cage bore and lands, mm."
     )
     pocket_damping_N_s_m: float = Field(
-        ge=0, le=10, examples=[0.02], description="Damping by the film in a pocket, N s/m."
+        ge=0, le=10, examples=[0.02], description="Damping by the film in a pocket; 0: none, N s/m."
     )
     pocket_friction: float = Field(
         ge=0, le=0.5, examples=[0.05], description="Coefficient of friction in a pocket."
@@ -31,6 +31,17 @@ class Cage(Part):
         """Yield dimensions that leave no wall or no land."""
         yield from below(self, "bore_mm", "outside_diameter_mm")
         yield from below(self, "pocket_diameter_mm", "width_mm")
+
+
+class BallSprings(Part):
+    """Linear springs between adjacent balls instead of a cage, as the impact-noise paper has them."""
+
+    stiffness_N_m: float = Field(
+        ge=1, le=1e9, examples=[1e5], description="Stiffness between two adjacent balls, N/m."
+    )
+    damping_N_s_m: float = Field(
+        default=0.0, ge=0, le=1e4, examples=[0.0], description="Damping between two adjacent balls, N s/m."
+    )
 
 
 class Bearing(Part):
@@ -69,7 +80,7 @@ class Bearing(Part):
         description="Effective inner diameter of the outer ring, for its mass, mm.",
     )
     contact_damping_us: float = Field(
-        ge=0, le=25, examples=[0.5], description="Contact damping over contact stiffness, us."
+        ge=0, le=25, examples=[0.5], description="Contact damping over contact stiffness; 0: none, us."
     )
     race_roughness_um: float = Field(
         ge=0.001, le=2, examples=[0.02], description="Roughness (rms) of the races, um."
@@ -78,6 +89,9 @@ class Bearing(Part):
         ge=0.001, le=2, examples=[0.01], description="Roughness (rms) of the balls, um."
     )
     cage: Cage | None = Field(default=None, description="Cage; absent or false: a bearing without one.")
+    ball_springs: BallSprings | None = Field(
+        default=None, description="Springs between the balls instead of a cage; absent: none."
+    )
 
     def conflicts(self) -> Iterator[Conflict]:
         """Yield dimensions of which no bearing can be made."""
@@ -88,6 +102,11 @@ class Bearing(Part):
         yield from self._ball_conflicts()
         if self.cage is not None:
             yield from self._cage_conflicts(self.cage)
+        if self.cage is not None and self.ball_springs is not None:
+            yield Conflict(
+                "ball_springs",
+                "stand instead of a cage, not beside one: write cage = false, or leave them out",
+            )
 
     def _ball_conflicts(self) -> Iterator[Conflict]:
         ball, pitch = self.ball_diameter_mm, self.pitch_diameter_mm

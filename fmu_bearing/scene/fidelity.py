@@ -11,19 +11,71 @@ STRIPS = (1, 3, 5)
 
 
 class Terms(Part):
-    """Forces that a scene may leave out; what is left out is not computed."""
+    """Forces that a scene may leave out; what is left out is not computed.
+
+    What is no term here is left out where it is described: traction by ``lubricant.traction_max = 0``, the
+    film in pockets by ``pocket_damping_N_s_m = 0``, the cage by ``bearing.cage = false``, pedestal damping by
+    its ratio, thermal effects by ``expansion_1e6_K = 0`` and ``vogel_B_K = 0`` or ``walther_slope = 0``,
+    imperfections, rotor and supports by leaving out their tables. Contact of balls and races and the inertia
+    of what moves are the bearing itself.
+    """
 
     gravity: bool = Field(description="Weight of all bodies.", examples=[True])
     drag: bool = Field(description="Oil-air drag on the balls.", examples=[True])
     rolling_resistance: bool = Field(description="Hydrodynamic rolling resistance.", examples=[True])
+    rolling_reduction: bool = Field(
+        default=True,
+        description="Less rolling resistance by inlet shear heating and starvation; false: factor 1.",
+        examples=[True],
+    )
+    contact_damping: bool = Field(
+        default=True, description="Damping in the contacts of balls and races.", examples=[True]
+    )
+    pocket_friction: bool = Field(
+        default=True, description="Friction between balls and the cage's pockets.", examples=[True]
+    )
     land_film: bool = Field(description="Film and dry stop of the cage's lands.", examples=[True])
     gyroscopic: bool = Field(description="Gyroscopic moments of the balls.", examples=[True])
 
 
-class Fidelity(Part):
-    """Level, error bounds and detail."""
+class Accuracy(Part):
+    """What level ``auto`` may differ by from ``full``."""
 
-    level: Literal["full"] = Field(description="Level of the dynamics.", examples=["full"])
+    level_dB: float = Field(
+        default=1.0,
+        ge=0.01,
+        le=40,
+        examples=[1.0],
+        description="Difference allowed in levels of vibration and sound, dB.",
+    )
+    relative: float = Field(
+        default=0.1,
+        ge=1e-3,
+        le=1,
+        examples=[0.1],
+        description="Relative difference allowed in loads and friction torque.",
+    )
+
+
+class Fidelity(Part):
+    """Level, integrator, error bounds and detail."""
+
+    level: Literal["full", "rings", "response", "auto"] = Field(
+        description="Level of the dynamics: all bodies, the rings alone, the linear response, or the fastest "
+        "within the accuracy.",
+        examples=["full"],
+    )
+    method: Literal["esdirk4", "fast", "trbdf2", "rk4"] = Field(
+        default="esdirk4", description="Integrator of level full.", examples=["esdirk4"]
+    )
+    accuracy: Accuracy = Field(
+        default_factory=Accuracy, description="Differences from level full that level auto may make."
+    )
+    race_control: Literal["shared", "outer", "inner"] = Field(
+        default="shared",
+        description="Which race balances the gyroscopic moment in the quasi-static state.",
+        examples=["shared"],
+    )
     tolerance: float = Field(
         ge=1e-6, le=0.1, examples=[1e-3], description="Relative error allowed in ring velocities."
     )

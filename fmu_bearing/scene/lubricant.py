@@ -1,12 +1,14 @@
 """Oil and what it does in contacts, lands and around the balls."""
 
+from typing import Literal
+
 from pydantic import Field
 
 from fmu_bearing.scene.base import Part
 
 
 class Lubricant(Part):
-    """Lubricant; viscosity follows Vogel's law through its value at 20 degC."""
+    """Lubricant; viscosity follows Vogel's or Walther's law through its value at 20 degC."""
 
     viscosity_Pa_s: float = Field(
         ge=1e-3, le=2, examples=[0.03], description="Dynamic viscosity at 20 degC, Pa s."
@@ -15,14 +17,44 @@ class Lubricant(Part):
         ge=1, le=50, examples=[20.0], description="Pressure-viscosity coefficient, 1/GPa."
     )
     density_kg_m3: float = Field(ge=500, le=2000, examples=[870.0], description="Density of the oil, kg/m3.")
+    viscosity_law: Literal["vogel", "walther"] = Field(
+        default="vogel",
+        examples=["vogel"],
+        description="How viscosity falls with temperature: Vogel's law or Walther's (ASTM D341).",
+    )
     vogel_B_K: float = Field(
-        ge=0, le=3000, examples=[879.0], description="Constant B of Vogel's viscosity exp(B/(T - C)), K."
+        ge=0,
+        le=3000,
+        examples=[879.0],
+        description="Constant B of Vogel's viscosity exp(B/(T - C)); 0: the same at any temperature, K.",
     )
     vogel_C_K: float = Field(
         ge=50, le=220, examples=[178.0], description="Constant C of Vogel's viscosity exp(B/(T - C)), K."
     )
+    # Assumed: a mineral oil of viscosity index about 100.
+    walther_slope: float = Field(
+        default=3.7,
+        ge=0,
+        le=8,
+        examples=[3.7],
+        description="Slope B of Walther's lg lg(v + 0.7) = A - B lg T, v in mm2/s; 0: the same viscosity at "
+        "any temperature.",
+    )
+    traction_law: Literal["regularised", "eyring", "paper"] = Field(
+        default="regularised",
+        examples=["regularised"],
+        description="Traction: regularised Coulomb friction, Eyring's law with Roelands' viscosity, or the "
+        "papers' viscosity times speed over film, which alone drives no cage.",
+    )
+    # Assumed: the papers name no oil.
+    eyring_stress_MPa: float = Field(
+        default=5.0, ge=0.1, le=100, examples=[5.0], description="Shear stress of Eyring's law, MPa."
+    )
     traction_max: float = Field(
-        ge=0, le=0.5, examples=[0.05], description="Largest traction over the contact's load."
+        ge=0,
+        le=0.5,
+        examples=[0.05],
+        description="Largest traction over the contact's load, in every law; 0: no traction.",
     )
     traction_slide_to_roll: float = Field(
         ge=1e-4, le=0.5, examples=[0.005], description="Slide-to-roll ratio at which traction saturates."
@@ -37,7 +69,10 @@ class Lubricant(Part):
         ge=0, le=2, examples=[0.006], description="Effective viscosity between cage and lands, Pa s."
     )
     replenishment_constant: float = Field(
-        ge=0, le=1e-6, examples=[6e-8], description="Replenishment constant K_rs of SKF's friction model."
+        ge=0,
+        le=1e-6,
+        examples=[6e-8],
+        description="Replenishment constant K_rs of SKF's friction model; 0: no starvation.",
     )
     oil_air_density_kg_m3: float = Field(
         ge=0, le=1000, examples=[5.0], description="Density of the oil-air mixture around the balls, kg/m3."

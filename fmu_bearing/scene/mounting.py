@@ -1,5 +1,7 @@
 """How the bearing is mounted and loaded."""
 
+from typing import Literal
+
 from pydantic import Field
 
 from fmu_bearing.scene.base import Part
@@ -46,6 +48,12 @@ class Mounting(Part):
     preload_N: float = Field(
         ge=0, le=1e4, examples=[500.0], description="Axial force on the inner ring towards +X, N."
     )
+    preload_mode: Literal["force", "rigid"] = Field(
+        default="force",
+        examples=["force"],
+        description="Preload by a constant force, or by the displacement that gives it at standstill and "
+        "20 degC.",
+    )
     pedestal_stiffness_N_m: float = Field(
         ge=1e4, le=1e12, examples=[1e8], description="Radial stiffness under the outer ring, N/m."
     )
@@ -56,13 +64,30 @@ class Mounting(Part):
         ge=0.1, le=1e6, examples=[200.0], description="Rotational over radial stiffness of the pedestal, mm2."
     )
     pedestal_damping_ratio: float = Field(
-        ge=0, le=1, examples=[0.05], description="Damping over the critical one of the outer ring's mass."
+        ge=0,
+        le=1,
+        examples=[0.05],
+        description="Damping over the critical one of the outer ring's mass; 0: none.",
     )
     radial_load_y_N: float = Field(
         ge=-3e3, le=3e3, examples=[0.0], description="Horizontal load on the inner ring, N."
     )
     radial_load_z_N: float = Field(
         ge=-3e3, le=3e3, examples=[0.0], description="Upward load on the inner ring, N."
+    )
+    misalignment_y_mrad: float = Field(
+        default=0.0,
+        ge=-10,
+        le=10,
+        examples=[0.0],
+        description="Tilt about Y of the outer ring's seat against the shaft, mrad.",
+    )
+    misalignment_z_mrad: float = Field(
+        default=0.0,
+        ge=-10,
+        le=10,
+        examples=[0.0],
+        description="Tilt about Z of the outer ring's seat against the shaft, mrad.",
     )
     rotor: Rotor | None = Field(default=None, description="Rotor on the inner ring; absent: the ring alone.")
     tilt_support: TiltSupport | None = Field(

@@ -13,7 +13,14 @@ from fmu_bearing.scene.base import LABEL
 from fmu_bearing.scene.scene import NAME, Scene
 from fmu_bearing.scene.units import symbol
 
-_FROM_CATALOGUE = {"bearing": "7003C", "lubricant": "spindle-oil"}
+#: Where a table can take its values from.
+_SOURCES = {
+    "bearing": 'catalogue = "7003C"',
+    "lubricant": 'catalogue = "spindle-oil"',
+    "imperfections": 'grade = "P4"',
+}
+#: Keys that no source has.
+_OWN = {"seed", "ball_springs", "inner_race_harmonic", "outer_race_harmonic"}
 _TEXTS = {
     LABEL: "40 letters, digits, blanks and . , + - ( ) / _",
     NAME: "60 letters (a to z), digits, blanks and . _ -, a letter or digit first",
@@ -123,13 +130,13 @@ def _missing(path: Location) -> str:
     model = _model(None if field is None else field.annotation)
     if field is None or (model is not None and not field.examples):
         keys = ", ".join(model.model_fields) if model is not None else ""
-        entry = _FROM_CATALOGUE.get(str(key)) if len(path) == 1 else None
-        hint = f', or catalogue = "{entry}"' if entry else ""
+        source = _SOURCES.get(str(key)) if len(path) == 1 else None
+        hint = f", or {source}" if source else ""
         return f"{dotted(path)} is missing: the table [{dotted(path)}] with {keys}{hint}"
     example = field.examples[0] if field.examples else ""
     value = f'"{example}"' if isinstance(example, str) else shown(example)
-    entry = _FROM_CATALOGUE.get(str(path[0])) if len(path) > 1 else None
-    hint = f'; or take all from catalogue = "{entry}"' if entry else ""
+    source = _SOURCES.get(str(path[0])) if len(path) > 1 and not _OWN & set(path) else None
+    hint = f"; or take all from {source}" if source else ""
     return f"{dotted(path)} is missing, for example {key} = {value} ({field.description}){hint}"
 
 
@@ -139,6 +146,8 @@ def _unknown(path: Location) -> str:
     known = list(model.model_fields) if model is not None else []
     if table in (("bearing",), ("lubricant",)) or table[:1] == ("materials",):
         known.append("catalogue")
+    elif table == ("imperfections",):
+        known.append("grade")
     near = difflib.get_close_matches(key, known, n=1, cutoff=_ALIKE)
     elsewhere = [where for where, other in _tables(Scene) if key in other.model_fields and where != table]
     if len(elsewhere) == 1:

@@ -9,14 +9,15 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from fmu_bearing.scene.imperfections import RACES
 from fmu_bearing.scene.problems import Location, SceneError, explain, shown
 from fmu_bearing.scene.scene import Scene
 
-__all__ = ["SceneError", "catalogue", "read_scene", "read_scene_text"]
+__all__ = ["SceneError", "catalogue", "read_scene", "read_scene_text", "with_fidelity"]
 
 
 def catalogue(kind: str) -> dict[str, dict[str, Any]]:
-    """Catalogue of ``bearings``, ``materials`` or ``lubricants``: name to values."""
+    """Catalogue of ``bearings``, ``materials``, ``lubricants`` or ``grades``: name to values."""
     text = resources.files("fmu_bearing.scene").joinpath("catalogue", f"{kind}.toml").read_text("utf-8")
     return tomllib.loads(text)
 
@@ -66,6 +67,23 @@ def read_scene_text(text: str, name: str = "scene") -> Scene:
     raise SceneError("\n".join(f"{name}: {line}" for line in dict.fromkeys(lines))) from None
 
 
+def with_fidelity(scene: Scene, **keys: Any) -> Scene:
+    """Return the scene with other values at keys of ``fidelity``, held against the same ranges.
+
+    Raises
+    ------
+    SceneError
+        If a value is refused.
+    """
+    data = scene.model_dump()
+    data["fidelity"] |= keys
+    try:
+        return Scene.model_validate(data)
+    except ValidationError as problem:
+        lines = explain(problem, data)
+        raise SceneError("\n".join(f"{scene.name}: {line}" for line in lines)) from None
+
+
 def _resolve(data: dict[str, Any], lines: list[str], unresolved: list[Location]) -> None:
     """Replace catalogue names by their values; keys given in the file win.
 
@@ -81,29 +99,44 @@ def _resolve(data: dict[str, Any], lines: list[str], unresolved: list[Location])
             if isinstance(value, str):
                 materials[key] = {"catalogue": value}
             _fill(materials, ("materials", key), "materials", lines, unresolved)
+    _fill(data, ("imperfections",), "grades", lines, unresolved, key="grade")
 
 
 def _fill(
-    parent: dict[str, Any], path: Location, kind: str, lines: list[str], unresolved: list[Location]
+    parent: dict[str, Any],
+    path: Location,
+    kind: str,
+    lines: list[str],
+    unresolved: list[Location],
+    key: str = "catalogue",
 ) -> None:
-    """Fill the table at the end of ``path`` from the catalogue entry it names, if it names one."""
+    """Fill the table at the end of ``path`` from the catalogue entry it names under ``key``, if any."""
     given = parent.get(path[-1])
-    if not isinstance(given, dict) or "catalogue" not in given:
+    if not isinstance(given, dict) or key not in given:
         return
-    wanted = given.pop("catalogue")
+    wanted = given.pop(key)
     entries = catalogue(kind)
     if not isinstance(wanted, str) or wanted not in entries:
         folded = {name.lower(): name for name in entries}
         near = difflib.get_close_matches(str(wanted).lower(), folded, n=1, cutoff=0.5)
         hint = f"did you mean '{folded[near[0]]}'? " if near else ""
-        where = ".".join(path) + ("" if path[0] == "materials" else ".catalogue")
+        where = ".".join(path) + ("" if path[0] == "materials" else f".{key}")
         lines.append(f"{where} = {shown(wanted)} is not in the catalogue; {hint}known: {', '.join(entries)}")
         unresolved.append(path)
         return
-    entry = entries[wanted]
+    entry = _beside_harmonics(entries[wanted], given) if kind == "grades" else entries[wanted]
     nested = {
-        key: {**value, **given[key]}
-        for key, value in entry.items()
-        if isinstance(value, dict) and isinstance(given.get(key), dict)
+        name: {**value, **given[name]}
+        for name, value in entry.items()
+        if isinstance(value, dict) and isinstance(given.get(name), dict)
     }
     parent[path[-1]] = {**entry, **given, **nested}
+
+
+def _beside_harmonics(entry: dict[str, Any], given: dict[str, Any]) -> dict[str, Any]:
+    """Return a grade without what the file's own harmonics stand for."""
+    explicit = [race for race in RACES if given.get(f"{race}_race_harmonic")]
+    unused = {f"{race}_race_amplitude_um" for race in explicit}
+    if len(explicit) == len(RACES):
+        unused |= {"lowest_order", "highest_order"}
+    return {name: value for name, value in entry.items() if name not in unused}

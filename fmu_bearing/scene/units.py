@@ -16,6 +16,7 @@ UNITS: dict[str, tuple[float, float]] = {
     "_nm": (1e-9, 0.0),
     "_mm2": (1e-6, 0.0),
     "_deg": (math.pi / 180.0, 0.0),
+    "_mrad": (1e-3, 0.0),
     "_rpm": (math.pi / 30.0, 0.0),
     "_degC": (1.0, _ZERO_CELSIUS),
     "_K": (1.0, 0.0),
@@ -29,9 +30,11 @@ UNITS: dict[str, tuple[float, float]] = {
     "_kg_m3": (1.0, 0.0),
     "_m_s": (1.0, 0.0),
     "_Pa_s": (1.0, 0.0),
+    "_MPa": (1e6, 0.0),
     "_GPa": (1e9, 0.0),
     "_1_GPa": (1e-9, 0.0),
     "_1e6_K": (1e-6, 0.0),
+    "_dB": (1.0, 0.0),
 }
 #: Suffixes as messages write them, where taking off the underscore is not enough.
 _SYMBOLS = {

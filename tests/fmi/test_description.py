@@ -124,7 +124,7 @@ def test_names_of_the_contract(tree):
     outputs = "inner_ring.velocity.x ball[1].velocity.z friction_torque heat.oil cage.speed_ratio"
     for name in outputs.split():
         assert names[name] == "output"
-    for name in "level tolerance max_internal_step imperfection.scale lubricant.viscosity_ref".split():
+    for name in "tolerance max_internal_step imperfection.scale lubricant.viscosity_ref".split():
         assert names[name] == "parameter"
 
 

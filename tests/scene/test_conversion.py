@@ -16,6 +16,7 @@ CASES = [
     ("ball_diameter_spread_nm", 50.0, "ball_diameter_spread", 50e-9),
     ("pedestal_rotational_ratio_mm2", 200.0, "pedestal_rotational_ratio", 2e-4),
     ("contact_angle_deg", 15.0, "contact_angle", math.pi / 12.0),
+    ("misalignment_y_mrad", 0.2, "misalignment_y", 2e-4),
     ("speed_rpm", 30.0, "speed", math.pi),
     ("oil_temperature_degC", 20.0, "oil_temperature", 293.15),
     ("vogel_B_K", 879.0, "vogel_B", 879.0),
@@ -29,16 +30,19 @@ CASES = [
     ("density_kg_m3", 7800.0, "density", 7800.0),
     ("traction_floor_m_s", 1e-3, "traction_floor", 1e-3),
     ("viscosity_Pa_s", 0.03, "viscosity", 0.03),
+    ("eyring_stress_MPa", 5.0, "eyring_stress", 5e6),
     ("youngs_modulus_GPa", 208.0, "youngs_modulus", 208e9),
     ("pressure_viscosity_1_GPa", 20.0, "pressure_viscosity", 20e-9),
     ("expansion_1e6_K", 11.8, "expansion", 11.8e-6),
+    ("level_dB", 1.0, "level", 1.0),
 ]
 
 # the only numbers of a scene without a unit
 DIMENSIONLESS = set(
     """ball_count inner_conformity outer_conformity pocket_friction poisson_ratio traction_max
     traction_slide_to_roll replenishment_constant drag_coefficient pedestal_axial_ratio pedestal_damping_ratio
-    damping_ratio seed lowest_order highest_order tolerance traction_strips ball_harmonics count""".split()
+    damping_ratio seed lowest_order highest_order order ball_waviness_order tolerance traction_strips
+    ball_harmonics count walther_slope relative""".split()
 )
 
 
@@ -72,7 +76,7 @@ def test_keys_without_unit_pass_through(key):
 def test_every_number_of_a_scene_has_a_unit_or_is_known_to_have_none():
     for table in tables():
         for key, field in table.model_fields.items():
-            if field.annotation in (float, int, float | None):
+            if field.annotation in (float, int, float | None, int | None):
                 assert (split_unit(key)[1] == "") == (key in DIMENSIONLESS), f"{table.__name__}.{key}"
 
 

@@ -66,7 +66,7 @@ def fields(model=Scene, path=()):
 def test_every_field_is_described_and_bounded(path, field):
     words = field.description
     assert words and words.endswith(".") and words[0].isupper()
-    if field.annotation in (int, float, float | None):
+    if field.annotation in (int, float, float | None, int | None):
         rules = {name for rule in field.metadata for name in ("ge", "le") if hasattr(rule, name)}
         assert rules == {"ge", "le"}
         suffix = split_unit(path[-1])[1]
@@ -84,6 +84,8 @@ def test_every_field_is_described_and_bounded(path, field):
 def test_example_pins_every_value(name, scene):
     written = tomllib.loads(text_of(name))
     written["sound"].setdefault("microphone", [])
+    for race in ("inner", "outer"):
+        written["imperfections"].setdefault(f"{race}_race_harmonic", [])
     resolved = tomllib.loads(scene(name).to_toml())
     assert written == resolved
 

@@ -31,12 +31,15 @@ from fmu_bearing.engine.layout import (
     P_OUTER_TRANSVERSE,
     P_PEDESTAL_ZETA,
     P_RACES,
+    P_REDUCTION,
     P_ROTATIONAL_RATIO,
     P_SHEAR_HEATING,
     P_STARVATION,
     P_VISCOSITY,
+    P_VISCOSITY_LAW,
     P_VOGEL_B,
     P_VOGEL_C,
+    P_WALTHER_SLOPE,
     RACE_EXPANSION,
     RACE_GROOVE,
     RACE_GROOVE_RADIUS,
@@ -54,13 +57,43 @@ from fmu_bearing.engine.layout import (
 )
 
 _TO_RPM = 30.0 / math.pi
+# Both laws grow without bound in the cold: twelve decades stand for an oil that has set.
+_SET = 12.0 * math.log(10.0)
+_CLEAR = 1.0  # K: Vogel's law is held short of its pole by this much
+
+
+@kernel
+def vogel(p, temperature):
+    """Dynamic viscosity (Pa s) at ``temperature`` (K): exp(B/(T - C)) through the reference point.
+
+    Vogel (1921).
+    """
+    b = p[P_VOGEL_B]
+    pole = p[P_VOGEL_C]
+    exponent = b / max(temperature - pole, _CLEAR) - b / (REFERENCE_TEMPERATURE - pole)
+    return p[P_VISCOSITY] * math.exp(min(exponent, _SET))
+
+
+@kernel
+def walther(p, temperature):
+    """Dynamic viscosity (Pa s) at ``temperature`` (K): lg lg(v + 0.7) = A - B lg T, v in mm2/s.
+
+    Walther (1931) as in ASTM D341; A follows from the reference viscosity, the density is constant.
+    """
+    to_mm2_s = 1e6 / p[P_OIL_DENSITY]
+    # the law knows oils above 0.3 mm2/s only: below, the inner logarithm has no logarithm
+    known = math.log(max(p[P_VISCOSITY] * to_mm2_s + 0.7, 1.0 + 1e-6))
+    fall = p[P_WALTHER_SLOPE] * math.log(max(temperature, 1.0) / REFERENCE_TEMPERATURE)
+    raised = known * math.exp(-fall)
+    return (math.exp(min(raised, _SET)) - 0.7) / to_mm2_s
 
 
 @kernel
 def viscosity(p, temperature):
-    """Dynamic viscosity (Pa s) at ``temperature`` (K): Vogel's law through the reference point."""
-    reference = p[P_VOGEL_B] / (REFERENCE_TEMPERATURE - p[P_VOGEL_C])
-    return p[P_VISCOSITY] * math.exp(p[P_VOGEL_B] / (temperature - p[P_VOGEL_C]) - reference)
+    """Dynamic viscosity (Pa s) of the oil at ``temperature`` (K) and ambient pressure."""
+    if p[P_VISCOSITY_LAW] == 1.0:
+        return walther(p, temperature)
+    return vogel(p, temperature)
 
 
 @kernel
@@ -69,9 +102,12 @@ def rolling_reduction(p, eta, speed):
 
     SKF friction model (SKF rolling bearings catalogue 2018): 1/(1 + 1.84e-9 (n d_m)^1.28 nu^0.64) and
     exp(-K_rs nu n (d + D) sqrt(K_z / (2 (D - d)))), n in r/min, d_m in mm, nu in mm2/s. ``speed`` in rad/s.
+    1 where the scene leaves the reduction out.
     """
+    if p[P_REDUCTION] == 0.0:
+        return 1.0
     n = abs(speed) * _TO_RPM
-    nu = eta / p[P_OIL_DENSITY] * 1e6
+    nu = max(eta / p[P_OIL_DENSITY] * 1e6, 1e-6)
     heating = 1.0 / (1.0 + p[P_SHEAR_HEATING] * math.exp(1.28 * math.log(n + 1e-6) + 0.64 * math.log(nu)))
     return heating * math.exp(-p[P_STARVATION] * nu * n)
 

@@ -1,0 +1,72 @@
+"""What drives the bearing: continuous inputs, started at the scene's values."""
+
+from typing import Any
+
+from fmu_bearing.engine import layout as at
+from fmu_bearing.interface.variable import Variable
+from fmu_bearing.scene import Scene, si
+
+_SPEED = {
+    "unit": "rad/s",
+    "min": -10472.0,  # 100,000 r/min
+    "max": 10472.0,
+    "nominal": 1000.0,
+    "quantity": "AngularVelocity",
+    "display_unit": "r/min",
+}
+_FORCE = {"unit": "N", "quantity": "Force", "nominal": 100.0}
+_LOAD = {**_FORCE, "min": -3e3, "max": 3e3}
+_SPRING = {
+    "unit": "N/m",
+    "min": 1e4,
+    "max": 1e12,
+    "nominal": 1e8,
+    "quantity": "TranslationalSpringConstant",
+}
+_KELVIN = {
+    "unit": "K",
+    "min": 233.0,
+    "max": 473.0,
+    "nominal": 300.0,
+    "quantity": "ThermodynamicTemperature",
+    "display_unit": "degC",
+}
+
+
+def inputs(scene: Scene) -> list[Variable]:
+    """Return the inputs of the model, in the order of the engine's array ``u``."""
+    mounting, start = si(scene.mounting), si(scene.operation)
+    preload = "Axial force that pushes the inner ring towards +X"
+    if scene.mounting.preload_mode == "rigid":
+        preload += ", at standstill and 20 degC; its displacement is then held"
+    rows: tuple[tuple[str, str, dict[str, Any], float], ...] = (
+        ("shaft_speed", "Rotational speed of the shaft, right-handed about +X", _SPEED, start.speed),
+        ("preload", preload, {**_FORCE, "min": 0.0, "max": 1e4}, mounting.preload),
+        (
+            "pedestal_stiffness",
+            "Radial stiffness under the outer ring; the other directions keep their ratio to it",
+            _SPRING,
+            mounting.pedestal_stiffness,
+        ),
+        ("radial_load.y", "Horizontal load on the inner ring", _LOAD, mounting.radial_load_y),
+        ("radial_load.z", "Upward load on the inner ring", _LOAD, mounting.radial_load_z),
+        ("oil_temperature", "Temperature that sets the oil's viscosity", _KELVIN, start.oil_temperature),
+        (
+            "inner_ring_temperature",
+            "Temperature that expands the inner ring and, by half, the balls",
+            _KELVIN,
+            start.inner_ring_temperature,
+        ),
+        (
+            "outer_ring_temperature",
+            "Temperature that expands the outer ring and, by half, the balls",
+            _KELVIN,
+            start.outer_ring_temperature,
+        ),
+    )
+    return [
+        Variable(
+            name, "input", "continuous", words, start=value, array="u", index=at.INPUTS.index(name), **more
+        )
+        for name, words, more, value in rows
+    ]

@@ -1,0 +1,178 @@
+"""What is read after each step: outputs, and local variables for those who look inside."""
+
+from dataclasses import replace
+from typing import Any
+
+from fmu_bearing.engine import layout as at
+from fmu_bearing.interface.variable import Variable, usual
+from fmu_bearing.scene import Scene
+
+_AXES = (("x", "along the axis"), ("y", "horizontal"), ("z", "upwards"))
+_MIC_WORDS = (
+    ("pressure", "Sound pressure at microphone {}"),
+    ("spl", "Time-weighted sound pressure level at microphone {}"),
+    ("spl_a", "Time- and A-weighted sound level at microphone {}"),
+    ("leq", "Equivalent level since metering began at microphone {}"),
+    ("leq_a", "A-weighted equivalent level since metering began at microphone {}"),
+    ("spl_inner_ring", "Time-weighted partial level of the inner ring at microphone {}"),
+    (
+        "spl_outer_ring",
+        "Time-weighted partial level of the outer ring and what moves with it at microphone {}",
+    ),
+    ("spl_cage", "Time-weighted partial level of the cage at microphone {}"),
+    ("spl_balls", "Time-weighted partial level of the balls at microphone {}"),
+)
+_TOTALS = 5  # of these, what is heard of all bodies together; the rest are partial levels
+
+
+def outputs(scene: Scene) -> list[Variable]:
+    """Return the outputs: velocities, microphones, friction torque and heats."""
+    speed: dict[str, Any] = {"display_unit": "mm/s"}
+    table: list[Variable] = []
+    for body, words in _bodies(scene):
+        table += _vector(body, "velocity", "output", f"Velocity of the {words}'s centre", "m/s", **speed)
+    if scene.bearing.cage is not None:
+        table.append(_read("cage.speed_ratio", "output", "Speed of the cage over the shaft's", nominal=0.4))
+    for j in range(scene.bearing.ball_count):
+        words = f"Velocity of ball {j + 1}, orbit included,"
+        place = at.Z_BALLS + 3 * j
+        table += _vector(f"ball[{j + 1}]", "velocity", "output", words, "m/s", place, nominal=10.0)
+    table += _microphones(scene, "output")
+    torque = "Torque taken from the shaft, without inertia: that belongs to the drive"
+    table.append(_read("friction_torque", "output", torque, "N.m"))
+    for name, words in (("inner_ring", "the inner ring"), ("outer_ring", "the outer ring")):
+        heat = f"Heat to {words}, mean over the last communication step"
+        table.append(_read(f"heat.{name}", "output", heat, "W"))
+    oil = "Heat to oil and balls, mean over the last communication step"
+    return [*table, _read("heat.oil", "output", oil, "W")]
+
+
+def internals(scene: Scene) -> list[Variable]:
+    """Return the local variables: places, contacts, shares of the friction torque, the solver's counts."""
+    small: dict[str, Any] = {"display_unit": "um"}
+    table: list[Variable] = []
+    for ring in ("inner", "outer"):
+        words = f"Displacement of the {ring} ring's centre"
+        table += _vector(f"{ring}_ring", "displacement", "local", words, "m", **small)
+    for axis, words in (("y", "the horizontal"), ("z", "the upward")):
+        tilt = f"Tilt of the inner ring about {words} axis"
+        table.append(_read(f"inner_ring.tilt.{axis}", "local", tilt, "rad", nominal=1e-4))
+    table += [*_contacts("inner"), *_contacts("outer")]
+    table += [
+        _read("film.lambda_min", "local", "Thinnest oil film over the composite roughness", nominal=1.0),
+        _read("stiffness.axial", "local", "Axial stiffness between the rings at the present contacts", "N/m"),
+        _read(
+            "stiffness.radial", "local", "Radial stiffness between the rings at the present contacts", "N/m"
+        ),
+        *_cage_whirl(scene),
+        *_torque_shares(scene),
+        _read(
+            "energy.residual",
+            "local",
+            "Work in less dissipation less change of stored energy, over dissipation",
+        ),
+        _count("solver.steps", "Internal steps so far"),
+        _count("solver.rejected", "Internal steps refused so far"),
+        _count("solver.fallbacks", "Internal steps left to the default method so far, by a faster one"),
+    ]
+    return table + _microphones(scene, "local")
+
+
+def _read(
+    name: str, causality: str, description: str, unit: str = "", index: int | None = None, **more: Any
+) -> Variable:
+    """Output or local variable at its place in ``z``."""
+    place = at.BEARING_OUTPUTS.index(name) if index is None else index
+    return Variable(
+        name, causality, "continuous", description, unit=unit, array="z", index=place, **usual(unit, more)
+    )
+
+
+def _count(name: str, description: str) -> Variable:
+    """Whole number that only grows."""
+    variable = _read(name, "local", description, quantity="", min=0, max=2**31 - 1, nominal=None)
+    return replace(variable, type="Integer", variability="discrete")
+
+
+def _vector(
+    body: str, motion: str, causality: str, words: str, unit: str, first: int | None = None, **more: Any
+) -> list[Variable]:
+    return [
+        _read(
+            f"{body}.{motion}.{axis}",
+            causality,
+            f"{words} {direction}",
+            unit,
+            None if first is None else first + k,
+            **more,
+        )
+        for k, (axis, direction) in enumerate(_AXES)
+    ]
+
+
+def _bodies(scene: Scene) -> list[tuple[str, str]]:
+    bodies = [("inner_ring", "inner ring"), ("outer_ring", "outer ring"), ("cage", "cage")]
+    return bodies if scene.bearing.cage is not None else bodies[:2]
+
+
+def _contacts(side: str) -> list[Variable]:
+    at_race = f"at the {side} race"
+    angle = f"Mean contact angle {at_race}"
+    pressure: dict[str, Any] = {"display_unit": "GPa", "min": 0.0, "max": 1e12, "nominal": 1e9}
+    return [
+        _read(f"contact.{side}.load_mean", "local", f"Mean load of a ball {at_race}", "N"),
+        _read(f"contact.{side}.load_max", "local", f"Largest load of a ball {at_race}", "N"),
+        _read(f"contact.{side}.angle_mean", "local", angle, "rad", display_unit="deg"),
+        _read(
+            f"contact.{side}.pressure_max", "local", f"Largest contact pressure {at_race}", "Pa", **pressure
+        ),
+        _read(f"contact.{side}.spin_to_roll", "local", f"Mean spin over roll of the balls {at_race}"),
+        _read(
+            f"contact.{side}.slip", "local", f"Mean sliding over entrainment speed {at_race}", nominal=1e-3
+        ),
+    ]
+
+
+def _cage_whirl(scene: Scene) -> list[Variable]:
+    if scene.bearing.cage is None:
+        return []
+    radius = "Distance of the cage's centre from the inner ring's"
+    return [
+        _read("cage.whirl_radius", "local", radius, "m", display_unit="um", min=0.0, nominal=1e-5),
+        _read(
+            "cage.whirl_speed",
+            "local",
+            "Angular velocity of the cage's centre about the inner ring's",
+            "rad/s",
+            display_unit="r/min",
+        ),
+    ]
+
+
+def _torque_shares(scene: Scene) -> list[Variable]:
+    shares = [
+        ("contacts", "sliding in the contacts of balls and races"),
+        ("rolling", "rolling resistance"),
+        ("cage", "the cage's pockets and lands"),
+        ("drag", "drag on the balls"),
+    ]
+    return [
+        _read(f"friction_torque.{name}", "local", f"Share of the friction torque by {words}", "N.m")
+        for name, words in shares
+        if name != "cage" or scene.bearing.cage is not None
+    ]
+
+
+def _microphones(scene: Scene, causality: str) -> list[Variable]:
+    """Return what is heard at each microphone: totals are outputs, partial levels local."""
+    first = at.z_mics(scene.bearing.ball_count)
+    table = []
+    for k, (name, _) in enumerate(scene.microphones):
+        for i, (label, words) in enumerate(_MIC_WORDS):
+            absent = label == "spl_cage" and scene.bearing.cage is None
+            if absent or (i < _TOTALS) != (causality == "output"):
+                continue
+            unit = "Pa" if label == "pressure" else "dB"
+            place = first + len(at.MIC_OUTPUTS) * k + i
+            table.append(_read(f"mic[{k + 1}].{label}", causality, words.format(name), unit, place))
+    return table

@@ -1,0 +1,118 @@
+"""What is set before initialisation, and what is fixed when the model is built."""
+
+from typing import Any
+
+from fmu_bearing.engine import layout as at
+from fmu_bearing.interface.variable import Variable, usual
+from fmu_bearing.scene import Scene, si
+
+RADIATORS = {"none": 0, "bare": 1, "housing": 2}
+
+
+def parameters(scene: Scene) -> list[Variable]:
+    """Return the parameters: places of ``p`` that may be set before initialisation."""
+    fidelity = si(scene.fidelity)
+    table = [
+        _tunable(
+            "tolerance", at.P_TOLERANCE, "Relative error of ring velocities", fidelity.tolerance, 1e-6, 0.1
+        ),
+        _tunable(
+            "max_internal_step",
+            at.P_MAX_STEP,
+            "Largest internal step",
+            fidelity.max_internal_step,
+            1e-7,
+            1e-4,
+            "s",
+        ),
+        _tunable(
+            "lubricant.viscosity_ref",
+            at.P_VISCOSITY,
+            "Dynamic viscosity of the oil at 20 degC",
+            si(scene.lubricant).viscosity,
+            1e-3,
+            2.0,
+            "Pa.s",
+        ),
+    ]
+    if scene.imperfections is not None:
+        words = "Factor on all imperfections"
+        table.append(_tunable("imperfection.scale", at.P_IMPERFECTION_SCALE, words, 1.0, 0.0, 100.0))
+    if scene.sound is not None:
+        table += _metering(scene.sound.time_weighting, si(scene.sound).metering_start)
+    return table
+
+
+def constants(scene: Scene, rotor_inertia: float) -> list[Variable]:
+    """Return the constants: what was chosen when the model was built, for those who read results."""
+    radiator = RADIATORS["none" if scene.sound is None else scene.sound.radiator]
+    table = [
+        _whole(
+            "level", "Level of the dynamics: " + _numbered(at.LEVELS), at.LEVELS.index(scene.fidelity.level)
+        ),
+        _whole(
+            "method",
+            "Integrator of level full: " + _numbered(at.METHODS),
+            at.METHODS.index(scene.fidelity.method),
+        ),
+        _whole("radiator", "What radiates: 0 nothing, 1 the bare bearing, 2 the housing", radiator),
+        _constant(
+            "rotor.inertia",
+            "Polar inertia of inner ring and rotor, which the drive owns",
+            rotor_inertia,
+            "kg.m2",
+        ),
+    ]
+    if scene.imperfections is not None:
+        seed = scene.imperfections.seed
+        table.append(_whole("imperfection.seed", "Seed of the imperfections", seed))
+    for k, (name, place) in enumerate(scene.microphones):
+        for axis, metres in zip("xyz", place, strict=True):
+            words = f"Place of microphone {name}, {axis}"
+            table.append(_constant(f"mic[{k + 1}].position.{axis}", words, metres, "m", nominal=0.1))
+    return table
+
+
+def _tunable(
+    name: str, index: int, description: str, value: float, low: float, high: float, unit: str = ""
+) -> Variable:
+    return Variable(
+        name,
+        "parameter",
+        "fixed",
+        description,
+        unit=unit,
+        start=value,
+        array="p",
+        index=index,
+        **usual(unit, {"min": low, "max": high, "nominal": value or 1.0}),
+    )
+
+
+def _metering(weighting: str, start: float) -> list[Variable]:
+    words = "Time constant of the levels: 0.125 Fast, 1 Slow"
+    constant = 0.125 if weighting == "fast" else 1.0
+    return [
+        _tunable("sound.time_weighting", at.P_TIME_WEIGHTING, words, constant, 0.02, 10.0, "s"),
+        _tunable(
+            "sound.metering_start",
+            at.P_METERING_START,
+            "Time after initialisation at which metering begins",
+            start,
+            0.0,
+            1000.0,
+            "s",
+        ),
+    ]
+
+
+def _constant(name: str, description: str, value: float, unit: str, **more: Any) -> Variable:
+    return Variable(name, "local", "constant", description, unit=unit, value=value, **usual(unit, more))
+
+
+def _whole(name: str, description: str, value: int) -> Variable:
+    return Variable(name, "local", "constant", description, type="Integer", value=value)
+
+
+def _numbered(names: tuple[str, ...]) -> str:
+    return ", ".join(f"{number} {name}" for number, name in enumerate(names))

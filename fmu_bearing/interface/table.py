@@ -1,0 +1,25 @@
+"""All variables of a scene in one table."""
+
+from fmu_bearing.interface.inputs import inputs
+from fmu_bearing.interface.outputs import internals, outputs
+from fmu_bearing.interface.parameters import constants, parameters
+from fmu_bearing.interface.variable import Variable
+from fmu_bearing.scene import Scene
+
+
+def variables(scene: Scene, rotor_inertia: float) -> tuple[Variable, ...]:
+    """All variables of a scene, in the order of their value references.
+
+    ``rotor_inertia`` is the polar inertia (kg m2) of inner ring and rotor, for the variable of that name.
+    What the scene leaves out (cage, sound, imperfections) has no variable.
+    """
+    table = [
+        *inputs(scene),
+        *outputs(scene),
+        *internals(scene),
+        *parameters(scene),
+        *constants(scene, rotor_inertia),
+    ]
+    names = [variable.name for variable in table]
+    assert len(set(names)) == len(names), "a variable name stands twice"
+    return tuple(table)

@@ -1,0 +1,109 @@
+"""Contacts of the balls as numbers: oil, friction, and per race stiffness, rolling resistance and films."""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.engine import layout as at
+from fmu_bearing.prepare import bodies
+from fmu_bearing.prepare.hertz import PointContact, effective_modulus, point_contact
+from fmu_bearing.scene import Scene, si
+
+# SKF friction model (SKF rolling bearings catalogue 2018, p. 65 ff): inlet shear heating, starvation
+_SHEAR_HEATING = 1.84e-9
+_ANGULAR_CONTACT_KZ = 4.4
+
+VISCOSITY_LAWS = ("vogel", "walther")
+
+
+def oil(scene: Scene, p: NDArray[np.float64]) -> None:
+    """Write what the oil does: viscosity, traction, reduction of the rolling resistance, drag."""
+    b, values = si(scene.bearing), si(scene.lubricant)
+    p[at.P_VISCOSITY] = values.viscosity
+    p[at.P_PRESSURE_VISCOSITY] = values.pressure_viscosity
+    p[at.P_OIL_DENSITY] = values.density
+    p[at.P_VISCOSITY_LAW] = VISCOSITY_LAWS.index(values.viscosity_law)
+    p[at.P_VOGEL_B], p[at.P_VOGEL_C] = values.vogel_B, values.vogel_C
+    p[at.P_WALTHER_SLOPE] = values.walther_slope
+    p[at.P_TRACTION_LAW] = at.TRACTION_LAWS.index(values.traction_law)
+    p[at.P_EYRING_STRESS] = values.eyring_stress
+    p[at.P_MU] = values.traction_max
+    p[at.P_SLIDE_TO_ROLL] = values.traction_slide_to_roll
+    p[at.P_TRACTION_FLOOR] = values.traction_floor
+    mean, bore, outside = 1e3 * b.pitch_diameter, 1e3 * b.bore, 1e3 * b.outside_diameter
+    p[at.P_SHEAR_HEATING] = _SHEAR_HEATING * mean**1.28
+    p[at.P_STARVATION] = (
+        values.replenishment_constant
+        * (bore + outside)
+        * math.sqrt(_ANGULAR_CONTACT_KZ / (2.0 * (outside - bore)))
+    )
+    p[at.P_DRAG_FACTOR] = (
+        0.5 * values.oil_air_density * values.drag_coefficient * math.pi * b.ball_diameter**2 / 4
+    )
+
+
+def balls(scene: Scene, p: NDArray[np.float64]) -> None:
+    """Write size and mass of the balls and what both their contacts share."""
+    b = si(scene.bearing)
+    p[at.P_PITCH_RADIUS] = b.pitch_diameter / 2
+    p[at.P_DIAMETER] = b.ball_diameter
+    p[at.P_BALL_MASS], p[at.P_BALL_INERTIA] = bodies.ball(scene)
+    p[at.P_BALL_EXPANSION] = si(scene.materials.balls).expansion
+    p[at.P_CONTACT_DAMPING] = b.contact_damping if scene.fidelity.terms.contact_damping else 0.0
+    p[at.P_ROUGHNESS] = math.hypot(b.race_roughness, b.ball_roughness)
+    if scene.bearing.ball_springs is not None:
+        springs = si(scene.bearing.ball_springs)
+        p[at.P_SPRINGS], p[at.P_SPRING_DAMPING] = springs.stiffness, springs.damping
+
+
+def races(scene: Scene, p: NDArray[np.float64]) -> None:
+    """Write the blocks of inner and outer race; constants of the contact hold at the free contact angle."""
+    b, ball = si(scene.bearing), si(scene.materials.balls)
+    d, dm, angle = b.ball_diameter, b.pitch_diameter, b.contact_angle
+    gamma = d * math.cos(angle) / dm
+    sides = (
+        (-1.0, b.inner_conformity, scene.materials.inner_ring, gamma / (1.0 - gamma)),
+        (1.0, b.outer_conformity, scene.materials.outer_ring, -gamma / (1.0 + gamma)),
+    )
+    for race, (side, conformity, material, curvature) in enumerate(sides):
+        block = p[at.P_RACES + race * at.RACE_SIZE :][: at.RACE_SIZE]
+        ring = si(material)
+        modulus = effective_modulus(
+            ring.youngs_modulus, ring.poisson_ratio, ball.youngs_modulus, ball.poisson_ratio
+        )
+        rx = d / 2.0 / (1.0 + curvature)
+        ry = 1.0 / (2.0 / d - 1.0 / (conformity * d))
+        hertz = point_contact(rx, ry, modulus)
+        block[at.RACE_STIFFNESS] = hertz.stiffness
+        block[at.RACE_HALF_LENGTH] = hertz.half_length
+        block[at.RACE_HALF_WIDTH] = hertz.half_width
+        block[at.RACE_PRESSURE] = hertz.pressure
+        films(block, hertz, rx, modulus, si(scene.lubricant).pressure_viscosity)
+        reach = (conformity - 0.5) * d
+        block[at.RACE_PROFILE_RADIUS] = 2.0 * conformity * d / (2.0 * conformity + 1.0)
+        block[at.RACE_GROOVE_X] = -side * reach * math.sin(angle)
+        block[at.RACE_GROOVE_RADIUS] = dm / 2 - side * reach * math.cos(angle)
+        block[at.RACE_GROOVE] = conformity * d
+        block[at.RACE_EXPANSION] = ring.expansion
+
+
+def films(block: NDArray[np.float64], hertz: PointContact, rx: float, modulus: float, alpha: float) -> None:
+    """Write rolling resistance and films of one race, as factors at viscosity 1 Pa s.
+
+    Rolling resistance: Houpert (1987). Films: Hamrock and Dowson (1977), so that with the entrainment speed
+    u (m/s) and the load Q (N) the minimum film is ``RACE_FILM (eta u)^0.68 Q^-0.073`` and the central one
+    ``RACE_CENTRAL_FILM (eta u)^0.67 Q^-0.067`` (m). ``rx`` in m, ``modulus`` E' in Pa, ``alpha`` in 1/Pa.
+    """
+    k = hertz.ellipticity
+    material = alpha * modulus
+    speed, load = modulus * rx, modulus * rx**2
+    force = 2.86 * load * k**0.348 * material**0.022 * speed**-0.66 * load**-0.47
+    # the moment pair that dissipates the inlet force on both surfaces at the entrainment speed
+    block[at.RACE_ROLLING] = 2.0 * rx * force
+    block[at.RACE_FILM] = (
+        3.63 * rx * speed**-0.68 * material**0.49 * load**0.073 * (1.0 - math.exp(-0.68 * k))
+    )
+    block[at.RACE_CENTRAL_FILM] = (
+        2.69 * rx * speed**-0.67 * material**0.53 * load**0.067 * (1.0 - 0.61 * math.exp(-0.73 * k))
+    )

@@ -1,0 +1,96 @@
+"""Viscosity over temperature, and the reduction of the rolling resistance, against closed forms."""
+
+import math
+
+import mpmath
+import numpy as np
+import pytest
+
+from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.mechanics.conditions import rolling_reduction, viscosity
+
+TEMPERATURES = [233.15, 263.15, 293.15, 313.15, 353.15, 373.15, 473.15]  # K, the range of the input
+VOGEL, WALTHER = 0.0, 1.0
+
+
+def oil(law, eta=0.03, density=870.0, b=879.0, c=178.0, slope=3.7):
+    p = np.zeros(at.P_TABLES)
+    p[at.P_VISCOSITY_LAW] = law
+    p[at.P_VISCOSITY], p[at.P_OIL_DENSITY] = eta, density
+    p[at.P_VOGEL_B], p[at.P_VOGEL_C] = b, c
+    p[at.P_WALTHER_SLOPE] = slope
+    return p
+
+
+def walther(eta, density, slope, temperature):
+    """lg lg(v + 0.7) = A - B lg T in 30 digits, as printed (ASTM D341)."""
+    with mpmath.workdps(30):
+        nu = mpmath.mpf(eta) / density * 10**6
+        a = mpmath.log10(mpmath.log10(nu + mpmath.mpf("0.7"))) + slope * mpmath.log10(mpmath.mpf(293.15))
+        raised = a - slope * mpmath.log10(mpmath.mpf(temperature))
+        return float((10 ** (10**raised) - mpmath.mpf("0.7")) * density / 10**6)
+
+
+@pytest.mark.parametrize("law", [VOGEL, WALTHER])
+@pytest.mark.parametrize("eta", [1e-3, 0.03, 2.0])
+def test_both_laws_pass_through_the_reference_point(law, eta):
+    # a logarithm and back: an ulp of the logarithm, 1e-16 times up to 8, and of v + 0.7 over v
+    assert viscosity(oil(law, eta), at.REFERENCE_TEMPERATURE) == pytest.approx(eta, rel=2e-15)
+
+
+@pytest.mark.parametrize("temperature", TEMPERATURES)
+def test_vogel(temperature):
+    expected = 0.03 * np.exp(879.0 / (temperature - 178.0) - 879.0 / (293.15 - 178.0))
+    assert viscosity(oil(VOGEL), temperature) == pytest.approx(expected, rel=1e-14)
+
+
+@pytest.mark.parametrize("temperature", TEMPERATURES)
+@pytest.mark.parametrize("slope", [2.0, 3.7, 5.53])
+def test_walther(temperature, slope):
+    # the outer exponential multiplies an ulp of its argument, at most 70 here
+    expected = walther(0.03, 870.0, slope, temperature)
+    assert viscosity(oil(WALTHER, slope=slope), temperature) == pytest.approx(expected, rel=1e-13)
+
+
+def test_walther_of_a_vg_32_oil():
+    # A VG 32 oil of viscosity index about 100: 32 mm2/s at 40 degC (ISO 3448), 5.4 at 100 degC.
+    # The slope follows from these two, the viscosity at 20 degC from the slope.
+    def double(nu):
+        return math.log10(math.log10(nu + 0.7))
+
+    slope = (double(32.0) - double(5.4)) / math.log10(373.15 / 313.15)
+    assert slope == pytest.approx(3.7, abs=0.1)  # the scene's default
+    nu_20 = 10 ** (10 ** (double(32.0) + slope * math.log10(313.15 / 293.15))) - 0.7
+    assert nu_20 == pytest.approx(87.0, rel=0.05)  # data sheets of such oils: 80 to 90 mm2/s
+    p = oil(WALTHER, eta=nu_20 * 870.0 / 1e6, slope=slope)
+    assert viscosity(p, 313.15) / 870.0 * 1e6 == pytest.approx(32.0, rel=1e-12)
+    assert viscosity(p, 373.15) / 870.0 * 1e6 == pytest.approx(5.4, rel=1e-12)
+
+
+@pytest.mark.parametrize(("law", "flat"), [(VOGEL, {"b": 0.0}), (WALTHER, {"slope": 0.0})])
+def test_a_constant_of_zero_leaves_the_temperature_out(law, flat):
+    for temperature in TEMPERATURES:
+        assert viscosity(oil(law, **flat), temperature) == pytest.approx(0.03, rel=2e-15)
+
+
+@pytest.mark.parametrize("law", [VOGEL, WALTHER])
+@pytest.mark.parametrize("extreme", [{"eta": 2.0, "b": 3000.0, "c": 220.0, "slope": 8.0}, {"eta": 1e-3}])
+def test_extremes_stay_finite_and_fall(law, extreme):
+    p = oil(law, density=2000.0 if extreme["eta"] < 1.0 else 500.0, **extreme)
+    values = [viscosity(p, temperature) for temperature in TEMPERATURES]
+    assert np.all(np.isfinite(values)) and np.all(np.diff(values) <= 0.0) and values[-1] > 0.0
+    for wrong in (0.0, 100.0, 220.0, 1e4):  # inputs beyond their range: a number, not NaN
+        assert math.isfinite(viscosity(p, wrong)) and viscosity(p, wrong) > 0.0
+
+
+def test_reduction_of_the_rolling_resistance():
+    p = oil(VOGEL)
+    p[at.P_SHEAR_HEATING], p[at.P_STARVATION] = 1.84e-9 * 26.0**1.28, 6e-8 * 52.0 * math.sqrt(4.4 / 36.0)
+    assert rolling_reduction(p, 0.03, 2000.0) == 1.0  # left out
+    p[at.P_REDUCTION] = 1.0
+    n, nu = 2000.0 * 30.0 / math.pi, 0.03 / 870.0 * 1e6
+    heating = 1.0 / (1.0 + 1.84e-9 * (n * 26.0) ** 1.28 * nu**0.64)
+    starving = math.exp(-6e-8 * nu * n * 52.0 * math.sqrt(4.4 / (2.0 * 18.0)))
+    for speed in (2000.0, -2000.0):  # 1e-6 r/min of the speed's floor is 7e-11 of the factor
+        assert rolling_reduction(p, 0.03, speed) == pytest.approx(heating * starving, rel=1e-9)
+    assert rolling_reduction(p, 0.03, 0.0) == pytest.approx(1.0, abs=1e-12)

@@ -1,0 +1,235 @@
+"""Imperfections: by grade, by amplitudes, by harmonics, and what is drawn from the seed."""
+
+import numpy as np
+import pytest
+
+from fmu_bearing.prepare.imperfections import ball_oversizes, ball_waves, race_harmonics, race_waves
+from fmu_bearing.scene import SceneError, read_scene_text
+from fmu_bearing.scene.imperfections import Imperfections
+from fmu_bearing.scene.read import catalogue
+from tests.conftest import SCENES
+
+TEXT = (SCENES / "7003C-bare.toml").read_text(encoding="utf-8")
+FROM, TO = TEXT.index("[imperfections]"), TEXT.index("[operation]")
+GRADES = ["P0", "P6", "P5", "P4", "P2"]
+BY_HAND = """seed = 1
+unbalance_um = 0.5
+ball_diameter_spread_nm = 50.0
+"""
+
+
+def flawed(lines):
+    """The bare bearing with these lines in its table of imperfections."""
+    return read_scene_text(TEXT[:FROM] + "[imperfections]\n" + lines + "\n" + TEXT[TO:], "a")
+
+
+def refused(lines):
+    with pytest.raises(SceneError) as caught:
+        flawed(lines)
+    return [line.removeprefix("a: ") for line in caught.value.problems]
+
+
+def harmonics(race, rows):
+    return "".join(
+        f"[[imperfections.{race}_race_harmonic]]\norder = {order}\n"
+        f"amplitude_um = {float(amplitude)!r}\nphase_deg = {float(phase)!r}\n"
+        for order, amplitude, phase in rows
+    )
+
+
+# --- grades --------------------------------------------------------------------------------------
+
+
+def test_every_grade_is_valid():
+    entries = catalogue("grades")
+    assert list(entries) == GRADES
+    for name, entry in entries.items():
+        assert Imperfections.model_validate({"seed": 1, **entry}), name
+
+
+def test_p4_is_the_standard_set(scene):
+    standard = scene("7003C-bare").imperfections
+    flaws = flawed('seed = 1\ngrade = "P4"').imperfections
+    assert flaws.ball_waviness_nm == 20.0
+    assert flaws.model_copy(update={"ball_waviness_nm": 0.0}) == standard
+
+
+def test_finer_grades_have_smaller_imperfections():
+    keys = [
+        "unbalance_um",
+        "ball_diameter_spread_nm",
+        "inner_race_amplitude_um",
+        "outer_race_amplitude_um",
+        "ball_waviness_nm",
+    ]
+    rows = np.array([[catalogue("grades")[grade][key] for key in keys] for grade in GRADES])
+    assert np.all(np.diff(rows, axis=0) < 0.0)
+    # one ratio for all keys of a grade, that of the tolerances of radial runout over P4's
+    ratios = rows / rows[GRADES.index("P4")]
+    np.testing.assert_allclose(ratios, np.outer(np.array([10, 7, 4, 2.5, 1.5]) / 2.5, np.ones(5)), rtol=1e-12)
+
+
+def test_the_files_keys_win_over_the_grade():
+    flaws = flawed('grade = "P0"\nseed = 7\nunbalance_um = 0\nhighest_order = 30').imperfections
+    assert (flaws.unbalance_um, flaws.highest_order, flaws.seed) == (0.0, 30, 7)
+    assert flaws.inner_race_amplitude_um == 0.4
+
+
+def test_grade_survives_the_way_through_toml_as_values():
+    scene = flawed('grade = "P5"\nseed = 3')
+    assert "grade" not in scene.to_toml()
+    assert read_scene_text(scene.to_toml()) == scene
+
+
+@pytest.mark.parametrize(
+    ("lines", "expected"),
+    [
+        (
+            'seed = 1\ngrade = "P44"',
+            "imperfections.grade = 'P44' is not in the catalogue; did you mean 'P4'?",
+        ),
+        (
+            "seed = 1\ngrade = 4",
+            "imperfections.grade = 4 is not in the catalogue; did you mean 'P4'? known: P0, P6",
+        ),
+        ('seed = 1\ngrad = "P4"', "imperfections.grad is not a key of a scene; did you mean 'grade'?"),
+        ('grade = "P4"', "imperfections.seed is missing, for example seed = 1"),
+        ("seed = 1", "unbalance_um is missing, for example unbalance_um = 0.5 (Eccentricity of the rotating"),
+        ("seed = 1", 'or take all from grade = "P4"'),
+    ],
+)
+def test_grades_that_are_none(lines, expected):
+    found = refused(lines)
+    assert any(expected in line for line in found), found
+
+
+# --- harmonics -----------------------------------------------------------------------------------
+
+
+def test_harmonics_with_the_numbers_of_a_band_give_its_table(scene):
+    bare = scene("7003C-bare")
+    lines = BY_HAND
+    for race in ("inner", "outer"):
+        amplitudes, orders, phases = race_harmonics(bare.imperfections, race)
+        assert list(orders) == list(range(2, 21)) and amplitudes == pytest.approx(0.1e-6)
+        lines += harmonics(race, zip(orders, amplitudes * 1e6, np.degrees(phases), strict=True))
+    # phases through degrees and back: a few ulp of 2 pi times order 20 on 19 harmonics of 0.1 um
+    np.testing.assert_allclose(race_waves(flawed(lines)), race_waves(bare), rtol=0, atol=1e-20)
+
+
+def test_one_race_by_harmonics_leaves_the_others_draw_alone(scene):
+    lines = BY_HAND + "outer_race_amplitude_um = 0.1\nlowest_order = 2\nhighest_order = 20\n"
+    mixed, bare = (
+        race_waves(flawed(lines + harmonics("inner", [(3, 0.2, 90.0)]))),
+        race_waves(scene("7003C-bare")),
+    )
+    half = bare.size // 2
+    assert np.array_equal(mixed[half:], bare[half:])
+    angle = 2.0 * np.pi * np.arange(half // 2) / (half // 2)
+    # 0.2 um cos(3 angle + 90 deg) = -0.2 um sin(3 angle)
+    np.testing.assert_allclose(mixed[:half:2], -0.2e-6 * np.sin(3.0 * angle), rtol=0, atol=1e-20)
+
+
+def test_harmonics_beside_a_grade_stand_for_its_band():
+    flaws = flawed('seed = 1\ngrade = "P4"\n' + harmonics("outer", [(5, 1.0, 0.0)])).imperfections
+    assert (flaws.inner_race_amplitude_um, flaws.outer_race_amplitude_um) == (0.1, None)
+    assert (flaws.lowest_order, flaws.highest_order) == (2, 20)
+    both = harmonics("inner", [(5, 1.0, 0.0)]) + harmonics("outer", [(5, 1.0, 0.0)])
+    flaws = flawed('seed = 1\ngrade = "P4"\n' + both).imperfections
+    assert flaws.lowest_order is flaws.highest_order is flaws.inner_race_amplitude_um is None
+
+
+INNER, OUTER = (harmonics(race, [(5, 1.0, 0.0)]) for race in ("inner", "outer"))
+
+
+@pytest.mark.parametrize(
+    ("lines", "expected"),
+    [
+        (
+            "inner_race_amplitude_um = 0.1\nlowest_order = 2\nhighest_order = 3\n" + INNER + OUTER,
+            "imperfections.inner_race_amplitude_um = 0.1 stands beside [[imperfections.inner_race_harmonic]]",
+        ),
+        (
+            INNER,
+            "imperfections.outer_race_amplitude_um is missing, for example outer_race_amplitude_um = 0.1",
+        ),
+        (INNER, 'or give [[imperfections.outer_race_harmonic]], or grade = "P4" for all'),
+        ("outer_race_amplitude_um = 0.1\n" + INNER, "lowest_order is missing, for example lowest_order = 2"),
+        (
+            "outer_race_amplitude_um = 0.1\n" + INNER,
+            "highest_order is missing, for example highest_order = 20",
+        ),
+        (
+            "highest_order = 9\n" + INNER + OUTER,
+            "highest_order = 9 has no meaning where both races have explicit harmonics",
+        ),
+        (INNER + INNER + OUTER, "imperfections.inner_race_harmonic: order 5 stands more than once"),
+        (
+            INNER + OUTER.replace("order = 5", "order = 0"),
+            "imperfections.outer_race_harmonic[1].order = 0 is refused; allowed: 1 to 200, whole",
+        ),
+        (
+            INNER + OUTER.replace("amplitude_um = 1.0", "amplitude_um = 6"),
+            "outer_race_harmonic[1].amplitude_um = 6 is refused; allowed: 0 to 5 um",
+        ),
+        (
+            INNER + OUTER.replace("phase_deg = 0.0", "phase_deg = 721"),
+            "outer_race_harmonic[1].phase_deg = 721 is refused; allowed: -720 to 720 deg",
+        ),
+        (INNER + OUTER.replace("order = 5\n", ""), "outer_race_harmonic[1].order is missing, for example"),
+        (
+            "inner_race_harmonic = 3\n" + OUTER,
+            "inner_race_harmonic = 3 is refused; allowed: at most 200 tables",
+        ),
+    ],
+)
+def test_waviness_by_halves_or_twice(lines, expected):
+    found = refused(BY_HAND + lines)
+    assert any(expected in line for line in found), found
+
+
+def test_a_smooth_race_needs_no_orders():
+    scene = flawed(BY_HAND + "inner_race_amplitude_um = 0\nouter_race_amplitude_um = 0\n")
+    assert race_waves(scene).size == 0
+
+
+# --- the seed ------------------------------------------------------------------------------------
+
+
+def test_draws_are_those_of_the_first_release(scene):
+    # pinned: a scene's numbers must not change under its feet
+    bare = scene("7003C-bare")
+    _, _, phases = race_harmonics(bare.imperfections, "inner")
+    assert phases[0] == np.random.default_rng([1, 0]).uniform(0.0, 2.0 * np.pi, 19)[0]
+    drawn = np.random.default_rng([1, 2]).uniform(-50e-9, 50e-9, 12)
+    assert np.array_equal(ball_oversizes(bare), drawn - drawn.mean())
+
+
+def test_the_seed_fixes_every_number():
+    one, again, other = (flawed(f'grade = "P4"\nseed = {seed}') for seed in (1, 1, 2))
+    for draw in (race_waves, ball_oversizes, lambda scene: ball_waves(scene)[1]):
+        assert np.array_equal(draw(one), draw(again))
+        assert not np.array_equal(draw(one), draw(other))
+
+
+def test_round_balls_have_no_table(scene):
+    amplitudes, axes = ball_waves(scene("7003C-bare"))
+    assert amplitudes.size == axes.size == 0
+
+
+def test_wavy_balls():
+    scene = flawed('grade = "P4"\nseed = 1\nball_waviness_order = 4')
+    amplitudes, axes = ball_waves(scene)
+    assert list(amplitudes) == [0.0, 0.0, 0.0, 20e-9]
+    assert axes.shape == (3, 12)
+    np.testing.assert_allclose(np.linalg.norm(axes, axis=0), 1.0, rtol=1e-15)
+
+
+def test_axes_of_wavy_balls_point_everywhere_alike():
+    axes = np.concatenate(
+        [ball_waves(flawed(f'grade = "P4"\nseed = {seed}'))[1] for seed in range(100)], axis=1
+    )
+    # 1200 directions: the mean of a component has the standard deviation 1/sqrt(3 * 1200) = 0.017, that of
+    # its square sqrt(4/45/1200) = 0.009; four of each
+    assert np.all(np.abs(axes.mean(axis=1)) < 0.07)
+    np.testing.assert_allclose((axes**2).mean(axis=1), 1.0 / 3.0, atol=0.035)

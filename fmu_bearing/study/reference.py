@@ -46,7 +46,7 @@ def _moved(y, a, k, out):
 
 @entry
 def runge_kutta(p, c, y, angle, speed, h, steps, w, k):
-    """``steps`` steps of length ``h`` (s) by the classical method of Kutta (1901), in place on ``y``.
+    """Take ``steps`` steps of ``h`` (s) by the classical method of Kutta (1901), in place on ``y``.
 
     ``angle`` (rad) of the shaft at the start, ``speed`` (rad/s) constant; ``k``: scratch, 6 x Y_SIZE.
     """
@@ -136,7 +136,7 @@ def reference_from(
     implicit_step: float = 1e-6,
     implicit_tolerance: float = 1e-7,
 ) -> Reference:
-    """Reference trajectory from the bearing's present state, which is left as it is.
+    """Integrate from the bearing's present state, which is left as it is, by both methods.
 
     Parameters
     ----------
@@ -152,16 +152,14 @@ def reference_from(
     exact, explicit = explicit_rings(bearing, duration, sample, explicit_step)
     other, implicit = implicit_rings(bearing, duration, sample, implicit_step, implicit_tolerance)
     times = sample * np.arange(1, len(exact) + 1)
-    return Reference(
-        times, exact, relative_error(other, exact), explicit / duration, implicit / duration
-    )
+    return Reference(times, exact, relative_error(other, exact), explicit / duration, implicit / duration)
 
 
 def reference(
     scene: Scene, rpm: float, duration: float, *, warm_up: float = 0.05, load_y: float = 0.0,
     load_z: float = 0.0, **options: float,
 ) -> Reference:  # fmt: skip
-    """Reference trajectory of a scene at ``rpm`` after ``warm_up`` (s) from its quasi-static state.
+    """Run a scene at ``rpm`` for ``warm_up`` (s) from its quasi-static state, then take the reference.
 
     ``options``: as :func:`reference_from`.
     """

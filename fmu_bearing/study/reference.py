@@ -151,7 +151,7 @@ def reference_from(
     """
     exact, explicit = explicit_rings(bearing, duration, sample, explicit_step)
     other, implicit = implicit_rings(bearing, duration, sample, implicit_step, implicit_tolerance)
-    times = sample * np.arange(1, len(exact) + 1)
+    times = sample * np.arange(1.0, len(exact) + 1.0, dtype=np.float64)
     return Reference(times, exact, relative_error(other, exact), explicit / duration, implicit / duration)
 
 

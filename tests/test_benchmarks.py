@@ -1,0 +1,82 @@
+"""The benchmark runs and fills its table; figures themselves are never asserted."""
+
+import csv
+import dataclasses
+import math
+
+import numpy as np
+
+from benchmarks import ours, peers, table
+from benchmarks.cases import CASES, SOLVERS, Case
+from fmu_bearing.study.first_order import FirstOrder
+from fmu_bearing.study.reference import reference_from
+
+TINY = Case("7003C-spindle", 20000, "start", window=2e-4)
+
+
+def test_one_case_through_to_the_table(tmp_path):
+    start = TINY.bearing()
+    exact = reference_from(start, TINY.window, sample=ours.SAMPLE)
+    mine = ours.full_rows(TINY, SOLVERS[0], start, exact, budget=1e-3, repeats=1)
+    problem = FirstOrder(start)
+    times = np.array([2.5e-5, 5e-5])
+    short = reference_from(start, times[-1], sample=times[0])
+    entry = peers.solvers()["LSODA"]
+    other = peers.peer_row(TINY.name, "LSODA", entry, problem, short.velocities, times, 1e-3, 5.0)
+    rows = [*mine, other]
+    table.fill_ratios(rows)
+    for row in rows:
+        assert math.isfinite(row.error) and row.wall > 0.0 and row.cpu > 0.0
+        assert len(row.cells()) == len(table.COLUMNS)
+    assert mine[-1].error <= ours.LIMIT
+    assert other.error <= ours.LIMIT
+    assert mine[-1].ratios["x LSODA"] == mine[-1].wall / other.wall
+    table.write_csv(tmp_path / "t.csv", table.COLUMNS, [row.cells() for row in rows])
+    with (tmp_path / "t.csv").open(encoding="utf-8") as file:
+        read = list(csv.reader(file))
+    assert read[0] == list(table.COLUMNS) and len(read) == 1 + len(rows)
+    assert table.markdown(table.COLUMNS, read[1:]).count("\n") == 2 + len(rows)
+
+
+def test_reference_agrees_with_itself_by_two_methods():
+    start = TINY.bearing()
+    exact = reference_from(start, 2e-4, sample=5e-5)
+    # just after a start the fluctuation is small and everything rings; settled windows give 5e-8
+    assert exact.agreement < 1e-5
+
+
+def test_a_missed_goal_is_named():
+    row = table.Row("c", "s", error=2e-3, wall=1.0, goal=2.0)
+    assert row.verdict == "missed: speed, error"
+    assert dataclasses.replace(row, error=1e-4, wall=2.5).verdict == "met"
+    assert dataclasses.replace(row, error=math.nan).verdict == "missed: speed, error"
+    assert dataclasses.replace(row, goal=0.0).verdict == ""
+
+
+def test_a_missing_package_is_a_remark():
+    row = peers.peer_row("c", "CVODE", None, None, np.zeros((1, 6)), np.ones(1), 1e-3, 1.0)
+    assert row.remark == "not installed" and math.isnan(row.wall)
+
+
+def test_the_jacobian_for_the_peers_is_that_of_the_rates():
+    problem = FirstOrder(TINY.bearing())
+    out = np.empty((problem.size, problem.size))
+    problem.jacobian(0.0, problem.start, out)
+    by_differences = np.empty_like(out)
+    ahead, behind = np.empty(problem.size), np.empty(problem.size)
+    for k in range(problem.size):
+        for sign, rates in ((1.0, ahead), (-1.0, behind)):
+            x = problem.start.copy()
+            x[k] += sign * 1e-4 * problem.scale[k]
+            problem.rate(0.0, x, rates)
+        by_differences[:, k] = (ahead - behind) / (2e-4 * problem.scale[k])
+    weights = np.abs(by_differences) * problem.scale
+    # forward differences against central ones; the cage's lands bend within a step
+    assert (np.abs(out - by_differences) * problem.scale <= 0.05 * weights.max(1, keepdims=True) + 1e-6).all()
+
+
+def test_cases_cover_both_bearings_and_all_conditions():
+    assert {case.kind for case in CASES} == {"settled", "start", "radial"}
+    speeds = {name: sorted({c.rpm for c in CASES if c.scene == name and c.kind == "settled"}) for name in
+              ("7003C-bare", "7009C-full-ceramic")}  # fmt: skip
+    assert speeds == {"7003C-bare": [1000, 10000, 28000], "7009C-full-ceramic": [3000, 18000]}

@@ -88,6 +88,7 @@ CASES = (
 QUICK = (Case("7003C-spindle", 20000),)
 
 
-def silent(name: str) -> Scene:
-    """Example scene without its sound."""
-    return read_scene(SCENES / f"{name}.toml").model_copy(update={"sound": None})
+def silent(name: str, **fidelity: str) -> Scene:
+    """Example scene without its sound, with other choices of ``fidelity`` (not checked)."""
+    scene = read_scene(SCENES / f"{name}.toml")
+    return scene.model_copy(update={"sound": None, "fidelity": scene.fidelity.model_copy(update=fidelity)})

@@ -20,7 +20,8 @@ LIMIT = 1e-3
 
 def started(case: Case, solver: Solver, warm_up: float) -> Arrays:
     """Bearing of a case that has run by ``solver`` from its start for ``warm_up`` (s)."""
-    bearing = Arrays(silent(case.scene), case.rpm, load_y=case.load_y, **solver.parameters)
+    scene = silent(case.scene, level=solver.level, method=solver.method)
+    bearing = Arrays(scene, case.rpm, load_y=case.load_y, **solver.parameters)
     bearing.init()
     bearing.run(warm_up, COMMUNICATION)
     return bearing
@@ -133,8 +134,8 @@ def rows_of(
     rows = []
     for solver, there in built.items():
         if not there:
-            rows.append(Row(case.name, solver.name, remark="not built"))
-        elif solver.level == "full":
+            continue
+        if solver.level == "full":
             rows += full_rows(case, solver, start, exact, budget, repeats)
         elif case.kind != "start":
             rows.append(level_row(case, solver, start, budget, repeats))

@@ -18,7 +18,7 @@ from fmu_bearing.study.reference import relative_error
 
 #: Relative tolerances; absolute ones are these times the scale of each component. Each solver starts at the
 #: rung that usually meets the error and moves by what it finds there.
-RUNGS = (3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 1e-7)
+RUNGS = (3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 1e-8)
 SCIPY = {"Radau": 1e-3, "LSODA": 1e-4, "BDF": 3e-5}
 CVODE = 3e-5
 
@@ -111,6 +111,7 @@ def version(package: str) -> str:
 def peer_row(
     case: str, name: str, entry: tuple[Solve, float] | None, problem: FirstOrder,
     exact: NDArray[np.float64], times: NDArray[np.float64], limit: float, seconds: float,
+    repeats: int = 0,
 ) -> Row:  # fmt: skip
     """The loosest tolerance with an error within ``limit``, or the tightest that ``seconds`` allowed."""
     row = Row(case, name, ours=False)
@@ -149,4 +150,15 @@ def peer_row(
     if best is None:
         return row
     best.remark = row.remark
+    again(best, solve, problem, times, repeats)
     return best
+
+
+def again(row: Row, solve: Solve, problem: FirstOrder, times: NDArray[np.float64], repeats: int) -> None:
+    """Time the chosen setting ``repeats`` times more where it takes less than a second; keep the best."""
+    tolerance = float(row.setting.split()[1])
+    for _ in range(repeats if row.wall > times[-1] else 0):
+        clock, used = time.perf_counter(), time.process_time()
+        solve(problem, times, tolerance, np.inf)
+        row.wall = max(row.wall, times[-1] / (time.perf_counter() - clock))
+        row.cpu = max(row.cpu, times[-1] / (time.process_time() - used))

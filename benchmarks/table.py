@@ -6,7 +6,7 @@ import pathlib
 from dataclasses import dataclass, field
 
 COLUMNS = (
-    "case", "solver", "setting", "error", "simulated/wall", "simulated/CPU", "goal", "verdict",
+    "case", "solver", "setting", "error", "sim/wall", "sim/CPU", "goal", "verdict",
     "x EXUDYN", "x Radau", "x LSODA", "x BDF", "x CVODE", "remark",
 )  # fmt: skip
 PEERS = {f"x {name}": name for name in ("EXUDYN", "Radau", "LSODA", "BDF", "CVODE")}
@@ -59,12 +59,12 @@ def number(value: float) -> str:
 
 
 def fill_ratios(rows: list[Row]) -> None:
-    """Give our rows their speed over each peer's in the same case."""
-    speed = {(row.case, row.solver): row.wall for row in rows if not row.ours}
+    """Give our rows their speed over each peer's in the same case, by CPU time: the machine may be shared."""
+    speed = {(row.case, row.solver): row.cpu for row in rows if not row.ours}
     for row in rows:
         if row.ours:
             for column, peer in PEERS.items():
-                row.ratios[column] = row.wall / speed.get((row.case, peer), math.nan)
+                row.ratios[column] = row.cpu / speed.get((row.case, peer), math.nan)
 
 
 def markdown(columns: tuple[str, ...], rows: list[list[str]]) -> str:
@@ -78,11 +78,14 @@ def show(title: str, columns: tuple[str, ...], rows: list[list[str]]) -> None:
     from rich.console import Console
     from rich.table import Table
 
-    table = Table(*columns, title=title)
+    table = Table(columns[0], title=title)
+    table.columns[0].no_wrap = True
+    for name in columns[1:]:
+        table.add_column(name)
     for row in rows:
         table.add_row(*row)
     console = Console()
-    Console(width=max(console.width, 170)).print(table)
+    Console(width=max(console.width, 190)).print(table)
 
 
 def write_csv(path: pathlib.Path, columns: tuple[str, ...], rows: list[list[str]]) -> None:

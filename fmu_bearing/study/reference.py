@@ -1,8 +1,14 @@
 """The trajectory that others are held against: level ``full`` by two integrators that share no code.
 
 One is classical Runge-Kutta of fourth order, explicit, at tens of nanoseconds; it knows only the right-hand
-side. The other is the engine's own implicit method at a tight tolerance. What they agree to is the
-reference's own error.
+side. The other is the engine's own implicit method at a tight tolerance. What they agree to bounds the
+error of both.
+
+Measured on the scene 7003C-spindle at 20,000 r/min over 5 ms after 50 ms: Runge-Kutta at 40 ns and at 20 ns
+agree to 6e-11; ESDIRK4 differs from them by 2.0e-6, 2.6e-7, 5e-8 and 2e-8 at 4, 2, 1 and 0.5 us (tolerance
+1e-5 to 1e-8). The races' waviness limits it: cubic pieces join with a jump in the second derivative, one per
+ball and 2.5 us there. Without waviness 4 us give 6e-10. At 1,000 r/min stiff traction makes Runge-Kutta
+unstable above 60 ns.
 """
 
 import time
@@ -132,9 +138,9 @@ def reference_from(
     duration: float,
     *,
     sample: float = 1e-4,
-    explicit_step: float = 2e-8,
-    implicit_step: float = 1e-6,
-    implicit_tolerance: float = 1e-7,
+    explicit_step: float = 4e-8,
+    implicit_step: float = 5e-7,
+    implicit_tolerance: float = 1e-8,
 ) -> Reference:
     """Integrate from the bearing's present state, which is left as it is, by both methods.
 

@@ -6,9 +6,9 @@ error of both.
 
 Measured on the scene 7003C-spindle at 20,000 r/min over 5 ms after 50 ms: Runge-Kutta at 40 ns and at 20 ns
 agree to 6e-11; ESDIRK4 differs from them by 2.0e-6, 2.6e-7, 5e-8 and 2e-8 at 4, 2, 1 and 0.5 us (tolerance
-1e-5 to 1e-8). The races' waviness limits it: cubic pieces join with a jump in the second derivative, one per
-ball and 2.5 us there. Without waviness 4 us give 6e-10. At 1,000 r/min stiff traction makes Runge-Kutta
-unstable above 60 ns.
+1e-5 to 1e-8). The races' waviness limits both to second order: its cubic pieces join with a jump in the
+second derivative, which contact damping turns into a kink of the force, one per ball and 2.5 us there.
+Without waviness 4 us give 6e-10. At 1,000 r/min stiff traction makes Runge-Kutta unstable above 60 ns.
 """
 
 import time

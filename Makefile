@@ -42,7 +42,7 @@ test: kernels
 heavy: kernels
 	$(BIN)/python -m pytest -n $(JOBS) -m heavy
 
-# About ten minutes of one core; on a machine that does nothing else.
+# A few minutes of one core; on a machine that does nothing else.
 bench: $(VENV)/.installed-bench
 	$(BIN)/python -m fmu_bearing.engine
 	$(BIN)/python -m benchmarks.run --output docs/results

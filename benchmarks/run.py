@@ -126,7 +126,7 @@ def report(rows: list[Row], references, costs, sizes, repeats: int) -> str:
 def main(arguments: list[str] | None = None) -> None:
     """Run, print, and write the tables where ``--output`` says."""
     parser = argparse.ArgumentParser(prog="benchmarks", description=__doc__)
-    parser.add_argument("--quick", action="store_true", help="one case, one repeat: a minute")
+    parser.add_argument("--quick", action="store_true", help="one case, one repeat: half a minute")
     parser.add_argument("--output", type=pathlib.Path, help="directory for benchmark.md and benchmark.csv")
     given = parser.parse_args(arguments)
     rows, references = measure(QUICK if given.quick else CASES, given.quick)

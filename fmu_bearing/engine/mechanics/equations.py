@@ -25,6 +25,7 @@ from fmu_bearing.engine.layout import (
     P_GYROSCOPIC,
     P_LANES,
     P_PITCH_RADIUS,
+    P_TRACTION_LAW,
     POSE_ROWS,
     Q_CAGE,
     Q_OUTER,
@@ -44,6 +45,7 @@ from fmu_bearing.engine.mechanics.bodies import body_equations
 from fmu_bearing.engine.mechanics.cage import pockets
 from fmu_bearing.engine.mechanics.pose import relative_pose
 from fmu_bearing.engine.mechanics.race import collect, normal, rolling, traction, waves
+from fmu_bearing.engine.mechanics.traction import lubricated_traction
 from fmu_bearing.engine.mechanics.trigonometry import ball_angles
 
 _S = STRIDE
@@ -125,7 +127,10 @@ def ball_forces(p, c, y, angle, speed, w):
     for race in range(2):
         waves(p, c, turning, lanes, race, angle if race == 0 else y[q + 3], w)
         normal(p, c, y, lanes, race, w)
-        traction(p, lanes, race, w)
+        if p[P_TRACTION_LAW] == 0.0:
+            traction(p, lanes, race, w)
+        else:
+            lubricated_traction(p, c, lanes, race, w)
         rolling(p, c, lanes, race, w)
         collect(c, lanes, race, w)
     react(lanes, 0, 0, False, w)

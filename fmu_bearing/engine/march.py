@@ -12,6 +12,7 @@ from fmu_bearing.engine.layout import (
     P_MAX_STEP,
     P_TOLERANCE,
     S_ANGLE,
+    S_AXES,
     S_C,
     S_CONTRACTION,
     S_ENERGY_NOW,
@@ -44,6 +45,7 @@ from fmu_bearing.engine.layout import (
     Y_Q,
     Y_SIZE,
 )
+from fmu_bearing.engine.mechanics.ball_waves import advance_axes, turn_axes
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.mechanics.energy import stored_energy
 from fmu_bearing.engine.mechanics.equations import right_hand_side
@@ -66,8 +68,15 @@ _SLOW = 0.3  # contraction beyond which a new Jacobian pays: three iterations ag
 
 
 @kernel
+def show_axes(p, s, w):
+    """Rows ``W_AXES`` of the state in ``s``, for wavy balls."""
+    turn_axes(p, s[S_AXES:S_JAC], s[S_Y : S_Y + Y_SIZE], int(p[P_LANES]), 0.0, w)
+
+
+@kernel
 def total_energy(p, s, w):
     """Return the stored energy (J) of the state in ``s``; refresh its right-hand side on the way."""
+    show_axes(p, s, w)
     right_hand_side(
         p, s[S_C : S_C + C_SIZE], s[S_Y : S_Y + Y_SIZE], s[S_ANGLE], s[S_SPEED], s[S_SPEED_RATE], w,
         s[S_F : S_F + F_SIZE],
@@ -102,6 +111,7 @@ def take_inputs(p, u, s, w, h):
 @kernel
 def renew_jacobian(p, s, w):
     """Jacobian at the present state; marks the factors as out of date."""
+    show_axes(p, s, w)
     jacobian(
         p, s[S_C : S_C + C_SIZE], s[S_Y : S_Y + Y_SIZE], s[S_ANGLE], s[S_SPEED], s[S_SPEED_RATE], w,
         s[S_JAC:S_FAC],
@@ -118,6 +128,7 @@ def accept(p, s, w, h):
     """Move the state to the end of the step just made; angles are brought back into one turn."""
     lanes = int(p[P_LANES])
     last = W_ACC + (STAGES - 1) * F_SIZE
+    advance_axes(p, s[S_AXES:S_JAC], s[S_Y : S_Y + Y_SIZE], w[W_Y : W_Y + Y_SIZE], lanes, h)
     for i in range(Y_SIZE):
         s[S_Y + i] = w[W_Y + i]
     for i in range(F_SIZE):
@@ -158,8 +169,8 @@ def try_step(p, s, w, h, tolerance):
             s[S_FACTOR_STEP] = h
         probe = s[S_STEPS] % _PROBE == 0.0
         fine = esdirk_step(
-            p, s[S_C : S_C + C_SIZE], s[S_Y : S_Y + Y_SIZE], s[S_F : S_F + F_SIZE], s[S_ANGLE], s[S_SPEED],
-            s[S_SPEED_RATE], h, s[S_FAC:S_SOUND], s[S_Y + 2 * _S] - s[S_JACOBIAN_ANGLE], 0.5 * tolerance,
+            p, s[S_C : S_C + C_SIZE], s[S_Y : S_Y + Y_SIZE], s[S_F : S_F + F_SIZE], s[S_AXES:S_JAC],
+            s[S_ANGLE], s[S_SPEED], s[S_SPEED_RATE], h, s[S_FAC:S_SOUND], s[S_Y + 2 * _S] - s[S_JACOBIAN_ANGLE], 0.5 * tolerance,
             s[S_CONTRACTION], probe, w, report,
         )  # fmt: skip
         if fine:

@@ -32,6 +32,7 @@ from fmu_bearing.engine.layout import (
     PI,
     Q_CAGE,
     Q_OUTER,
+    S_AXES,
     S_C,
     S_CONTRACTION,
     S_ENERGY_NOW,
@@ -56,7 +57,8 @@ from fmu_bearing.engine.layout import (
     Y_SIZE,
     Y_V,
 )
-from fmu_bearing.engine.march import total_energy
+from fmu_bearing.engine.march import show_axes, total_energy
+from fmu_bearing.engine.mechanics.ball_waves import first_axes
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.solvers.quasistatic import quasistatic, stiffness_matrix
 from fmu_bearing.engine.solvers.spin_balance import balance_spins
@@ -119,6 +121,8 @@ def start(p, u, s, w, t):
         y[k + 1] = y[Y_Q + 1]
         y[k + 2] = y[Y_Q + 2]
         y[Y_V + Q_CAGE + 3] = found[3]
+    first_axes(p, s[S_AXES:S_JAC])
+    show_axes(p, s, w)
     balance_spins(p, c, y, 0.0, u[U_SPEED], w, s[S_JAC:S_FAC])
     if p[P_CAGE] != 0.0:
         orbit = 0.0

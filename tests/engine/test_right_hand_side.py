@@ -46,7 +46,11 @@ class Case:
         q, v = self.y[at.Y_Q : at.Y_V], self.y[at.Y_V :]
         bodies = np.array([[*q[:3], self.angle, *q[3:5]], q[5:11], q[11:]])
         rates = np.array([[*v[:3], self.speed, *v[3:5]], v[5:11], v[11:]])
-        return oracle.State(rows.T.copy(), bodies, rates)
+        axes = None
+        if self.p[at.P_BALL_WAVES]:
+            own = self.w[at.W_AXES * at.STRIDE :][: 3 * at.STRIDE].reshape(3, at.STRIDE)
+            axes = np.array([np.array(oracle.directions(rows[2, j])).T @ own[:, j] for j in range(self.n)])
+        return oracle.State(rows.T.copy(), bodies, rates, axes)
 
     def engine(self):
         """The engine's answer, in the oracle's shapes."""
@@ -157,6 +161,12 @@ def setup(p, c, wave=spline):
         load=load,
         pocket=pocket,
         land=land,
+        bumps=c[at.C_OVERSIZE_SCALE] * p[int(p[at.P_AT_BALL_WAVES]) :][: int(p[at.P_BALL_WAVES])]
+        if p[at.P_BALL_WAVES]
+        else None,
+        neighbours=(p[at.P_SPRINGS], p[at.P_SPRING_DAMPING])
+        if p[at.P_SPRINGS] and not p[at.P_CAGE]
+        else None,
     )
 
 
@@ -348,6 +358,43 @@ def test_angular_momentum(case, cage_offset):
         given[one.n + k] -= (setup.springs[k] * state.bodies[k] + setup.dampers[k] * state.rates[k])[3:]
     given[one.n, 0] += found.torque
     assert off(turning.sum(0), given.sum(0), turning) <= 1e-11
+
+
+BUMPS = 1e-7 * np.array([0.0, 1.0, -0.5, 0.3, 0.0, 0.2, -0.1, 0.1])  # m, orders 1 to 8
+
+
+@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("tilt", [0.0, 1e-4])
+def test_wavy_balls(case, name, tilt):
+    """Forces and moments of wavy balls from the gradient of the approach, taken by complex steps."""
+    one = case(name, tilt=tilt, ball_waves=BUMPS, P_LAND=0.0)
+    smooth = one.oracle() if not tilt else None
+    agree(one, ROUNDING)
+    if smooth is not None:
+        rest = oracle.equations(replace(one.setup, bumps=None), one.state, SPEED_RATE)
+        for k in range(6):  # every row of a ball feels the waves
+            assert off(rest.balls[:, k, None], smooth.balls[:, k, None]) > 1e-7
+
+
+@pytest.mark.parametrize(("tilt", "gate"), [(0.0, 1e-12), (1e-5, 1e-9), (1e-4, 1e-8)])
+def test_power_balance_of_wavy_balls(case, tilt, gate):
+    one = case(SCENES[0], tilt=tilt, ball_waves=BUMPS)
+    found = one.engine()
+    stored = oracle.power_stored(one.setup, one.state, found.balls, found.bodies)
+    assert abs(found.work - found.heats.sum() - stored) <= gate * found.work
+
+
+@pytest.mark.parametrize("stiffness", [1e5, 2.5e7])
+def test_springs_between_balls(case, stiffness):
+    one = case(SCENES[0], tilt=0.0, P_CAGE=0.0, P_SPRINGS=stiffness, P_SPRING_DAMPING=30.0)
+    agree(one, ROUNDING)
+    found = one.engine()
+    stored = oracle.power_stored(one.setup, one.state, found.balls, found.bodies)
+    # springs stretched by 0.1 mm exchange far more power than the bearing takes in
+    exchanged = np.abs(found.balls[:, 2] * one.state.balls[:, 5]).max() * one.setup.ball_mass * one.setup.pitch**2
+    assert abs(found.work - found.heats.sum() - stored) <= 1e-12 * (found.work + exchanged)
+    energy = stored_energy(one.p, one.c, one.y, one.w)
+    assert energy == pytest.approx(oracle.stored_energy(one.setup, one.state), rel=1e-12)
 
 
 @pytest.mark.parametrize("name", SCENES)

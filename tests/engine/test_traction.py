@@ -134,13 +134,13 @@ def test_against_every_strip_in_forty_digits(contact, law, race):
 
 @pytest.mark.parametrize(
     ("slide", "spin", "gate"),
-    [(1e-6, 0.0, 0.8), (1e-4, 0.0, 0.35), (1e-2, 0.0, 0.15), (1.0, 0.0, 0.1), (1.0, 1500.0, 0.1)],
+    [(1e-4, 0.0, 0.35), (1e-2, 0.0, 0.03), (1.0, 0.0, 0.03), (1.0, 1500.0, 0.03)],
 )
 def test_strips_against_the_whole_ellipse(contact, slide, spin, gate):
     """Local pressure, viscosity and bound over the ellipse instead of five strips at their mean pressure.
 
     Viscosity grows so fast with pressure that a creeping contact pulls by the ridge of its pressure, which
-    a mean underrates; once Eyring's law saturates, stress hardly depends on it. Strips have no sliding along
+    a mean underrates (a sixth at 1 um/s, 70 % at 0.1 mm/s); once Eyring's law saturates, stress hardly depends on it. Strips have no sliding along
     the minor axis: where spin outweighs sliding they say less about the force than here.
     """
     one = contact("eyring").press(0, 60.0, ut=slide, um=0.0, an=spin)
@@ -157,7 +157,6 @@ def test_strips_against_the_whole_ellipse(contact, slide, spin, gate):
     tau = 5e6 * np.arcsinh(eta * speed / film / 5e6)
     tau /= np.sqrt(1 + (tau / (mu * pressure)) ** 2)
     whole = -(tau * ut / speed).sum() * a * b / 200**2
-    print(found, whole, found / whole - 1)
     assert abs(found / whole - 1) < gate
 
 

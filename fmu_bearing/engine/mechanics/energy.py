@@ -25,6 +25,7 @@ from fmu_bearing.engine.layout import (
     P_OUTER_TRANSVERSE,
     P_PITCH_RADIUS,
     P_POCKET_STIFFNESS,
+    P_SPRINGS,
     P_TILT_STIFFNESS,
     Q_CAGE,
     Q_OUTER,
@@ -40,6 +41,7 @@ from fmu_bearing.engine.layout import (
     Y_V,
 )
 from fmu_bearing.engine.mechanics.equations import kinetic_spin
+from fmu_bearing.engine.mechanics.springs import spring_energy
 
 _S = STRIDE
 
@@ -87,6 +89,8 @@ def stored_energy(p, c, y, w):
     vo = Y_V + Q_OUTER
     vc = Y_V + Q_CAGE
     total = ball_energy(p, y, w) + w[W_SCALARS]
+    if p[P_SPRINGS] != 0.0 and p[P_CAGE] == 0.0:
+        total += spring_energy(p, y)
     total += 0.5 * p[P_INNER_MASS] * squares(y, Y_V, 3)
     total += 0.5 * p[P_INNER_TRANSVERSE] * squares(y, Y_V + 3, 2)
     total += 0.5 * p[P_TILT_STIFFNESS] * squares(y, Y_Q + 3, 2)

@@ -17,6 +17,7 @@ from fmu_bearing.engine.layout import (
     N_BODY,
     P_BALL_INERTIA,
     P_BALL_MASS,
+    P_BALL_WAVES,
     P_BALLS,
     P_CAGE,
     P_DRAG,
@@ -25,6 +26,7 @@ from fmu_bearing.engine.layout import (
     P_GYROSCOPIC,
     P_LANES,
     P_PITCH_RADIUS,
+    P_SPRINGS,
     P_TRACTION_LAW,
     POSE_ROWS,
     Q_CAGE,
@@ -41,10 +43,12 @@ from fmu_bearing.engine.layout import (
     Y_Q,
     Y_V,
 )
+from fmu_bearing.engine.mechanics.ball_waves import add_ball_waves, ball_wave_forces
 from fmu_bearing.engine.mechanics.bodies import body_equations
 from fmu_bearing.engine.mechanics.cage import pockets
 from fmu_bearing.engine.mechanics.pose import relative_pose
 from fmu_bearing.engine.mechanics.race import collect, normal, rolling, traction, waves
+from fmu_bearing.engine.mechanics.springs import spring_forces
 from fmu_bearing.engine.mechanics.traction import lubricated_traction
 from fmu_bearing.engine.mechanics.trigonometry import ball_angles
 
@@ -127,12 +131,16 @@ def ball_forces(p, c, y, angle, speed, w):
     for race in range(2):
         waves(p, c, turning, lanes, race, angle if race == 0 else y[q + 3], w)
         normal(p, c, y, lanes, race, w)
+        if p[P_BALL_WAVES] != 0.0:
+            add_ball_waves(p, c, lanes, race, w)
         if p[P_TRACTION_LAW] == 0.0:
             traction(p, lanes, race, w)
         else:
             lubricated_traction(p, c, lanes, race, w)
         rolling(p, c, lanes, race, w)
         collect(c, lanes, race, w)
+        if p[P_BALL_WAVES] != 0.0:
+            ball_wave_forces(c, lanes, race, w)
     react(lanes, 0, 0, False, w)
     react(lanes, 1, Q_OUTER, True, w)
     if p[P_CAGE] != 0.0:
@@ -187,6 +195,8 @@ def ball_accelerations(p, y, w, f):
         ) * per_inertia - gyro * om * y[B_WR * _S + j]
         if j < balls:
             lost += pull * around
+    if p[P_SPRINGS] != 0.0 and not caged:
+        lost += spring_forces(p, y, f)
     return lost
 
 

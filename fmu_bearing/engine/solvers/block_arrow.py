@@ -12,6 +12,7 @@ from fmu_bearing.engine.layout import (
     A_GB,
     A_INV,
     A_S,
+    A_SPRING_BALLS,
     A_W,
     F_G,
     J_B,
@@ -20,10 +21,13 @@ from fmu_bearing.engine.layout import (
     J_E,
     N_BODY,
     P_BALLS,
+    P_CAGE,
     P_LANES,
+    P_SPRINGS,
     STRIDE,
     W_FORCE,
 )
+from fmu_bearing.engine.solvers.spring_coupling import couple_springs, spring_matrix
 
 _S = STRIDE
 
@@ -143,7 +147,11 @@ def factor(p, jac, cv, cx, fac, w):
                 for j in range(balls):
                     total -= fac[left + j] * fac[right + j]
             fac[A_S + g * N_BODY + h] = total
-    return invert_border(fac, A_S, N_BODY, w[scratch : scratch + N_BODY])
+    fine = invert_border(fac, A_S, N_BODY, w[scratch : scratch + N_BODY])
+    if fine and p[P_SPRINGS] != 0.0 and p[P_CAGE] == 0.0:
+        spring_matrix(p, cv, cx, fac, w)
+        fine = invert_border(fac, A_SPRING_BALLS, balls, w[scratch : scratch + balls])
+    return fine
 
 
 @kernel
@@ -186,6 +194,8 @@ def solve(p, fac, angle, d, w):
         for h in range(N_BODY):
             total += fac[A_S + g * N_BODY + h] * w[scratch + 6 * _S + h]
         d[F_G + g] = total
+    if p[P_SPRINGS] != 0.0 and p[P_CAGE] == 0.0:
+        couple_springs(p, fac, d, w)
     for i in range(6):
         for j in range(lanes):
             d[i * _S + j] = w[scratch + i * _S + j]

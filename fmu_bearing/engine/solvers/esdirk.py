@@ -31,6 +31,7 @@ from fmu_bearing.engine.layout import (
     Y_SIZE,
     Y_V,
 )
+from fmu_bearing.engine.mechanics.ball_waves import turn_axes
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.solvers.block_arrow import solve
 from fmu_bearing.engine.solvers.jacobian import is_angle
@@ -161,11 +162,11 @@ def keep_velocities(p, y, at, w):
 
 @kernel
 def esdirk_step(
-    p, c, y, f, angle, speed, speed_rate, h, fac, turned, tolerance, contraction, probe, w, report
+    p, c, y, f, axes, angle, speed, speed_rate, h, fac, turned, tolerance, contraction, probe, w, report
 ):
     """One step of length ``h`` from (y, f); the new state is left in ``w[W_Y:]`` and its f in the last stage.
 
-    ``fac``: factors for about this ``h``; ``turned``: orbit angle (rad) since they were made; ``tolerance``
+    ``axes``: of wavy balls, at the step's start; ``fac``: factors for about this ``h``; ``turned``: orbit angle (rad) since they were made; ``tolerance``
     (m/s): Newton's error; ``contraction``: rate known so far; ``probe``: measure it anew. ``report`` takes
     the error estimate (m/s), contraction and iterations. Returns False where Newton does not converge.
     """
@@ -185,6 +186,7 @@ def esdirk_step(
         stage_base(p, y, h, stage, w)
         stage_state(p, acc, gh, w)
         t = h * NODES[stage]
+        turn_axes(p, axes, y, int(p[P_LANES]), t, w)
         angle_t = angle + t * (speed + 0.5 * t * speed_rate)
         speed_t = speed + t * speed_rate
         before = 0.0

@@ -10,6 +10,7 @@ from fmu_bearing.engine.layout import (
     OK,
     P_LANES,
     P_MAX_STEP,
+    P_RIGID,
     P_TOLERANCE,
     S_ANGLE,
     S_AXES,
@@ -44,11 +45,14 @@ from fmu_bearing.engine.layout import (
     W_Y,
     Y_Q,
     Y_SIZE,
+    Y_V,
 )
 from fmu_bearing.engine.mechanics.ball_waves import advance_axes, turn_axes
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.mechanics.energy import stored_energy
 from fmu_bearing.engine.mechanics.equations import right_hand_side
+from fmu_bearing.engine.mechanics.rigid_preload import axial_speed
+from fmu_bearing.engine.mechanics.summary import summarise
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 from fmu_bearing.engine.motion import emit_samples
 from fmu_bearing.engine.solvers.block_arrow import factor
@@ -90,7 +94,8 @@ def take_inputs(p, u, s, w, h):
     rate = (u[U_SPEED] - s[S_SPEED]) / h
     fresh = w[W_SCALARS + 8 : W_SCALARS + 8 + C_SIZE]
     conditions(p, u, 0.5 * (s[S_SPEED] + u[U_SPEED]), fresh)
-    changed = False
+    axial = axial_speed(p, u, fresh, s, w, h) if p[P_RIGID] != 0.0 else s[S_Y + Y_V]
+    changed = axial != s[S_Y + Y_V]
     for i in range(C_SIZE):
         if fresh[i] != s[S_C + i]:
             changed = True
@@ -102,6 +107,7 @@ def take_inputs(p, u, s, w, h):
         for i in range(C_SIZE):
             s[S_C + i] = w[W_F0 + i]
         s[S_SPEED_RATE] = rate
+        s[S_Y + Y_V] = axial
         s[S_WORK] += total_energy(p, s, w) - before
     elif rate != s[S_SPEED_RATE]:
         s[S_SPEED_RATE] = rate
@@ -221,6 +227,7 @@ def march(p, u, s, w, h):
     # One evaluation at the end point: stored energy for the balance, and accelerations and torque that do
     # not carry the last Newton iteration's remainder.
     s[S_ENERGY_NOW] = total_energy(p, s, w)
+    summarise(p, s, w)
     for i in range(3):
         s[S_MEAN_INNER + i] = (s[S_HEAT_INNER + i] - s[S_MEAN_INNER + i]) / h
     return OK

@@ -10,7 +10,7 @@ from fmu_bearing.scene import si
 
 
 def film_places(scene, p, law):
-    """Set traction law, Eyring stress, pressure-viscosity and the races' widths and central films in ``p``."""
+    """Set traction law, its constants and the races' widths and central films in ``p``."""
     b, oil = si(scene.bearing), si(scene.lubricant)
     p[at.P_TRACTION_LAW] = at.TRACTION_LAWS.index(law)
     p[at.P_EYRING_STRESS] = 5e6

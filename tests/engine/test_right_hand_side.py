@@ -133,6 +133,8 @@ def setup(p, c, wave=spline):
         for body in ("INNER", "OUTER", "CAGE")
     ]
     springs, dampers, load = np.zeros((3, 6)), np.zeros((3, 6)), np.zeros((3, 3))
+    rest = np.zeros((3, 6))
+    rest[1, 4:] = p[at.P_MISALIGNMENT_Y], p[at.P_MISALIGNMENT_Z]
     springs[0, 4:], dampers[0, 4:] = p[at.P_TILT_STIFFNESS], p[at.P_TILT_DAMPING]
     radial, turn = c[at.C_PEDESTAL], c[at.C_PEDESTAL_ROTATIONAL]
     springs[1] = c[at.C_PEDESTAL_AXIAL], radial, radial, turn, turn, turn
@@ -161,6 +163,7 @@ def setup(p, c, wave=spline):
         load=load,
         pocket=pocket,
         land=land,
+        rest=rest,
         bumps=c[at.C_OVERSIZE_SCALE] * p[int(p[at.P_AT_BALL_WAVES]) :][: int(p[at.P_BALL_WAVES])]
         if p[at.P_BALL_WAVES]
         else None,
@@ -384,6 +387,13 @@ def test_power_balance_of_wavy_balls(case, tilt, gate):
     assert abs(found.work - found.heats.sum() - stored) <= gate * found.work
 
 
+def test_leaning_seat(case):
+    one = case(SCENES[0], tilt=1e-5, P_MISALIGNMENT_Y=3e-4, P_MISALIGNMENT_Z=-1e-4, P_LAND=0.0)
+    agree(one, ROUNDING)
+    energy = stored_energy(one.p, one.c, one.y, one.w)
+    assert energy == pytest.approx(oracle.stored_energy(one.setup, one.state), rel=1e-12)
+
+
 @pytest.mark.parametrize("stiffness", [1e5, 2.5e7])
 def test_springs_between_balls(case, stiffness):
     one = case(SCENES[0], tilt=0.0, P_CAGE=0.0, P_SPRINGS=stiffness, P_SPRING_DAMPING=30.0)
@@ -391,7 +401,8 @@ def test_springs_between_balls(case, stiffness):
     found = one.engine()
     stored = oracle.power_stored(one.setup, one.state, found.balls, found.bodies)
     # springs stretched by 0.1 mm exchange far more power than the bearing takes in
-    exchanged = np.abs(found.balls[:, 2] * one.state.balls[:, 5]).max() * one.setup.ball_mass * one.setup.pitch**2
+    inertia = one.setup.ball_mass * one.setup.pitch**2
+    exchanged = np.abs(found.balls[:, 2] * one.state.balls[:, 5]).max() * inertia
     assert abs(found.work - found.heats.sum() - stored) <= 1e-12 * (found.work + exchanged)
     energy = stored_energy(one.p, one.c, one.y, one.w)
     assert energy == pytest.approx(oracle.stored_energy(one.setup, one.state), rel=1e-12)

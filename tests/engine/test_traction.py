@@ -140,8 +140,9 @@ def test_strips_against_the_whole_ellipse(contact, slide, spin, gate):
     """Local pressure, viscosity and bound over the ellipse instead of five strips at their mean pressure.
 
     Viscosity grows so fast with pressure that a creeping contact pulls by the ridge of its pressure, which
-    a mean underrates (a sixth at 1 um/s, 70 % at 0.1 mm/s); once Eyring's law saturates, stress hardly depends on it. Strips have no sliding along
-    the minor axis: where spin outweighs sliding they say less about the force than here.
+    a mean underrates (a sixth at 1 um/s, 70 % at 0.1 mm/s); once Eyring's law saturates, stress hardly
+    depends on it. Strips have no sliding along the minor axis: where spin outweighs sliding they say less
+    about the force than here.
     """
     one = contact("eyring").press(0, 60.0, ut=slide, um=0.0, an=spin)
     found = one.run(0)[0, 0]
@@ -153,7 +154,8 @@ def test_strips_against_the_whole_ellipse(contact, slide, spin, gate):
     ut, um = slide - spin * a * x, spin * b * y
     speed = np.hypot(ut, um)
     log = np.log(ETA) + 9.67
-    eta = ETA * np.exp(log * ((1 + pressure / 1.96e8) ** (one.p[at.P_PRESSURE_VISCOSITY] * 1.96e8 / log) - 1))
+    index = one.p[at.P_PRESSURE_VISCOSITY] * 1.96e8 / log
+    eta = ETA * np.exp(log * ((1 + pressure / 1.96e8) ** index - 1))
     tau = 5e6 * np.arcsinh(eta * speed / film / 5e6)
     tau /= np.sqrt(1 + (tau / (mu * pressure)) ** 2)
     whole = -(tau * ut / speed).sum() * a * b / 200**2

@@ -79,7 +79,7 @@ def equations(setup: Setup, state: State, spin_rate: float = 0.0) -> Answer:
     heats = np.array([contact[0] / 2.0 + spring_loss[0], contact[1] / 2.0 + spring_loss[1], oil])
     bodies = np.zeros((3, 6))
     for k in range(3 if setup.pocket is not None else 2):
-        outside = -setup.springs[k] * state.bodies[k] - setup.dampers[k] * state.rates[k]
+        outside = -setup.springs[k] * (state.bodies[k] - setup.rest[k]) - setup.dampers[k] * state.rates[k]
         outside[:3] += setup.load[k]
         if k == INNER:
             outside[:3] += unbalance(setup, state, spin_rate)
@@ -160,7 +160,8 @@ def stored_energy(setup: Setup, state: State):
         total += (
             0.5 * body.mass * (rate[:3] @ rate[:3]) + turning + 0.5 * body.transverse * (rate[4:] @ rate[4:])
         )
-        total += body.mass * gravity * at[2] + 0.5 * (setup.springs[k] * at) @ at
+        off = at - setup.rest[k]
+        total += body.mass * gravity * at[2] + 0.5 * (setup.springs[k] * off) @ off
     if setup.land is not None:
         for side in (1.0, -1.0):
             reach = [

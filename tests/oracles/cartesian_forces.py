@@ -101,6 +101,7 @@ class Setup:
     pocket: Pocket | None
     land: Land | None
     bumps: np.ndarray | None = None  # m: zonal harmonics of the balls from order 1 on
+    rest: np.ndarray = field(default_factory=lambda: np.zeros((3, 6)))  # where the springs are slack
     neighbours: tuple[float, float] | None = None  # N/m and N s/m between adjacent balls
 
 

@@ -20,6 +20,8 @@ from fmu_bearing.engine.layout import (
     P_GRAVITY,
     P_INNER_MASS,
     P_INNER_TRANSVERSE,
+    P_MISALIGNMENT_Y,
+    P_MISALIGNMENT_Z,
     P_OUTER_MASS,
     P_OUTER_POLAR,
     P_OUTER_TRANSVERSE,
@@ -98,7 +100,10 @@ def stored_energy(p, c, y, w):
     total += 0.5 * p[P_OUTER_TRANSVERSE] * squares(y, vo + 4, 2)
     total += 0.5 * c[C_PEDESTAL_AXIAL] * squares(y, outer, 1)
     total += 0.5 * c[C_PEDESTAL] * squares(y, outer + 1, 2)
-    total += 0.5 * c[C_PEDESTAL_ROTATIONAL] * squares(y, outer + 3, 3)
+    lean_y = y[outer + 4] - p[P_MISALIGNMENT_Y]
+    lean_z = y[outer + 5] - p[P_MISALIGNMENT_Z]
+    turned = squares(y, outer + 3, 1) + lean_y * lean_y + lean_z * lean_z
+    total += 0.5 * c[C_PEDESTAL_ROTATIONAL] * turned
     heavy = p[P_INNER_MASS] * y[Y_Q + 2] + p[P_OUTER_MASS] * y[outer + 2]
     if p[P_CAGE] != 0.0:
         total += 0.5 * p[P_CAGE_MASS] * squares(y, vc, 3) + 0.5 * p[P_CAGE_POLAR] * squares(y, vc + 3, 1)

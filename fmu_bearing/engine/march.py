@@ -176,8 +176,8 @@ def try_step(p, s, w, h, tolerance):
         probe = s[S_STEPS] % _PROBE == 0.0
         fine = esdirk_step(
             p, s[S_C : S_C + C_SIZE], s[S_Y : S_Y + Y_SIZE], s[S_F : S_F + F_SIZE], s[S_AXES:S_JAC],
-            s[S_ANGLE], s[S_SPEED], s[S_SPEED_RATE], h, s[S_FAC:S_SOUND], s[S_Y + 2 * _S] - s[S_JACOBIAN_ANGLE], 0.5 * tolerance,
-            s[S_CONTRACTION], probe, w, report,
+            s[S_ANGLE], s[S_SPEED], s[S_SPEED_RATE], h, s[S_FAC:S_SOUND],
+            s[S_Y + 2 * _S] - s[S_JACOBIAN_ANGLE], 0.5 * tolerance, s[S_CONTRACTION], probe, w, report,
         )  # fmt: skip
         if fine:
             if report[1] > 0.0:

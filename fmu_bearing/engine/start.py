@@ -106,7 +106,7 @@ def start(p, u, s, w, t):
         status = rigid_start(p, u, c, s, w, found)
     if status != OK:
         return status
-    _, radial, tilt, _ = stiffness_matrix(p, c, found)
+    _, radial, tilting, coupling = stiffness_matrix(p, c, found)
     y = s[S_Y : S_Y + Y_SIZE]
     x_outer = c[C_PRELOAD] / c[C_PEDESTAL_AXIAL]
     inner_z = c[C_LOAD_Z]
@@ -128,7 +128,7 @@ def start(p, u, s, w, t):
         y[Y_Q + 2] = y[o + 2] + min(max(inner_z / radial, -1e-6), 1e-6)
     place_balls(p, y, found, x_outer, y[o + 1], y[o + 2])
     if p[P_MISALIGNMENT_Y] != 0.0 or p[P_MISALIGNMENT_Z] != 0.0:
-        lean(p, c, tilt, y)
+        lean(p, c, radial, tilting, coupling, y)
     k = Y_Q + Q_CAGE
     if p[P_CAGE] != 0.0:
         y[k] = found[1] + x_outer

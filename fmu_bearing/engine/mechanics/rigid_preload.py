@@ -27,6 +27,7 @@ from fmu_bearing.engine.solvers.quasistatic import quasistatic
 
 _INPUTS = 8
 _ROUNDS = 60
+_TOUCHING = 0.01  # N: without preload the ring stands where the balls just touch, not anywhere free
 
 
 @kernel
@@ -52,6 +53,7 @@ def static_place(p, u, w):
     still[U_INNER_T] = REFERENCE_TEMPERATURE
     still[U_OUTER_T] = REFERENCE_TEMPERATURE
     conditions(p, still, 0.0, c)
+    c[C_PRELOAD] = max(c[C_PRELOAD], _TOUCHING)
     return place_under(p, c, 0.0, found)
 
 

@@ -51,13 +51,13 @@ from fmu_bearing.engine.mechanics.ball_waves import advance_axes, turn_axes
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.mechanics.energy import stored_energy
 from fmu_bearing.engine.mechanics.equations import right_hand_side
-from fmu_bearing.engine.mechanics.rigid_preload import axial_speed
 from fmu_bearing.engine.mechanics.summary import summarise
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 from fmu_bearing.engine.motion import emit_samples
 from fmu_bearing.engine.solvers.block_arrow import factor
 from fmu_bearing.engine.solvers.esdirk import GAMMA, esdirk_step, integrate_power
 from fmu_bearing.engine.solvers.jacobian import jacobian
+from fmu_bearing.engine.solvers.rigid_preload import axial_speed
 
 _S = STRIDE
 # Velocity (m/s) that the relative tolerance refers to: a ring's vibration at speed.

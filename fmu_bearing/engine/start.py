@@ -66,9 +66,9 @@ from fmu_bearing.engine.march import show_axes, total_energy
 from fmu_bearing.engine.mechanics.ball_waves import first_axes
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.mechanics.misalignment import lean
-from fmu_bearing.engine.mechanics.rigid_preload import rigid_start
 from fmu_bearing.engine.mechanics.summary import summarise
 from fmu_bearing.engine.solvers.quasistatic import quasistatic, stiffness_matrix
+from fmu_bearing.engine.solvers.rigid_preload import rigid_start
 from fmu_bearing.engine.solvers.spin_balance import balance_spins
 
 _S = STRIDE

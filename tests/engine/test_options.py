@@ -54,7 +54,7 @@ def axial_load(scene, rpm, rigid, inner=293.15):
 
 
 def test_rigid_preload_grows_with_speed_and_heat(scene):
-    """Balls pressed outwards and a warm inner ring want to push the rings apart; a rigid mount does not let them."""
+    """Balls pressed outwards and a warm inner ring push the rings apart; a rigid mount does not let them."""
     slow, middle, fast = (axial_load(scene, rpm, True) for rpm in (100, 20000, 40000))
     assert slow == pytest.approx(500.0, rel=1e-3)
     # centrifugal force grows with the square of the speed; friction adds some newtons axially at most

@@ -95,8 +95,8 @@ def newton_size(p, c, d, factor):
     # Eyring's law saturates within 0.1 mm/s of sliding: an error there of a few times the tolerance is noise
     # in the traction that the step control then chases
     eyring = p[P_TRACTION_LAW] == 1.0
-    orbit = (1.0 if eyring else 0.1) * p[P_PITCH_RADIUS] * abs(factor)
-    spin = (1.0 if eyring else 0.03) * c[C_BALL_RADIUS] * abs(factor)
+    orbit = (p[95] if eyring else 0.1) * p[P_PITCH_RADIUS] * abs(factor)
+    spin = (p[96] if eyring else 0.03) * c[C_BALL_RADIUS] * abs(factor)
     for j in range(int(p[P_BALLS])):
         size = max(size, orbit * abs(d[2 * _S + j]))
         for k in range(3, 6):

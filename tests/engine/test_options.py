@@ -88,11 +88,15 @@ def test_misalignment_makes_the_loads_uneven_twice_a_turn(scene):
     lean = 1e-3
     run = Run(quiet(scene(NAME)), 20000, P_MISALIGNMENT_Y=lean).init()
     run.run(0.02)
+    tilts = []
+    for _ in range(100):  # the outer ring still swings on its springs
+        run.run(1e-4)
+        tilts.append(run.s[at.S_Y + at.Y_Q + at.Q_OUTER + 4])
     load = run.w[(at.W_RACE + at.R_LOAD) * at.STRIDE :][: int(run.p[at.P_BALLS])]
     turns = np.abs(np.fft.rfft(load)) / load.sum()
     assert turns[2] > 3.0 * turns[1]
     assert 0.02 < turns[2] < 0.2
-    assert run.s[at.S_Y + at.Y_Q + at.Q_OUTER + 4] == pytest.approx(lean, rel=0.1)
+    assert np.mean(tilts) == pytest.approx(lean, rel=0.1)
     assert 0.0 < run.value("inner_ring.tilt.y") < 0.5 * lean
     assert abs(run.imbalance) < 1e-3 * run.heat
 

@@ -17,7 +17,6 @@ from fmu_bearing.engine.layout import (
     P_BALLS,
     P_LANES,
     P_PITCH_RADIUS,
-    P_TRACTION_LAW,
     Q_CAGE,
     STAGES,
     STRIDE,
@@ -92,11 +91,8 @@ def newton_size(p, c, d, factor):
     They are left out of the step control, where their stiff share of the error estimate means nothing.
     """
     size = scaled_size(p, d, factor)
-    # Eyring's law saturates within 0.1 mm/s of sliding: an error there of a few times the tolerance is noise
-    # in the traction that the step control then chases
-    eyring = p[P_TRACTION_LAW] == 1.0
-    orbit = (p[95] if eyring else 0.1) * p[P_PITCH_RADIUS] * abs(factor)
-    spin = (p[96] if eyring else 0.03) * c[C_BALL_RADIUS] * abs(factor)
+    orbit = 0.1 * p[P_PITCH_RADIUS] * abs(factor)
+    spin = 0.03 * c[C_BALL_RADIUS] * abs(factor)
     for j in range(int(p[P_BALLS])):
         size = max(size, orbit * abs(d[2 * _S + j]))
         for k in range(3, 6):

@@ -43,28 +43,32 @@ def test_springs_hold_the_balls_apart(scene, stiffness):
 
 
 def axial_load(scene, rpm, rigid, inner=293.15):
-    """Axial load (N) of the inner contacts, mean over the last 2 of 5 ms."""
+    """Axial force (N) of the balls on the inner ring, friction included, mean over the last 2 of 5 ms."""
     run = Run(quiet(scene(NAME)), rpm, P_RIGID=float(rigid))
     run.u[at.U_INNER_T] = inner
-    rows = run.init().run(0.005)[-20:]
+    run.init().run(0.003)
+    forces = []
+    for _ in range(200):
+        run.run(1e-5, 1e-5)
+        forces.append(-run.w[at.W_G * at.STRIDE :][: int(run.p[at.P_BALLS])].sum())
     # energy over a few milliseconds without imperfections: the heat is small, the gate is of its size
     assert abs(run.imbalance) < 1e-3 * run.heat
-    load, angle = (run.value(f"contact.inner.{name}", rows) for name in ("load_mean", "angle_mean"))
-    return (run.p[at.P_BALLS] * load * np.sin(angle)).mean()
+    return np.mean(forces)
 
 
 def test_rigid_preload_grows_with_speed_and_heat(scene):
     """Balls pressed outwards and a warm inner ring push the rings apart; a rigid mount does not let them."""
     slow, middle, fast = (axial_load(scene, rpm, True) for rpm in (100, 20000, 40000))
     assert slow == pytest.approx(500.0, rel=1e-3)
-    # centrifugal force grows with the square of the speed; friction adds some newtons axially at most
-    assert fast - slow > 3.0 * (middle - slow) > 0.0
+    # centrifugal force grows with the square of the speed
+    assert fast - slow == pytest.approx(4.0 * (middle - slow), rel=0.2)
+    assert fast > slow
     assert axial_load(scene, 20000, True, inner=303.15) > 1.05 * middle
 
 
 @pytest.mark.parametrize(("rpm", "inner"), [(40000, 293.15), (20000, 303.15)])
 def test_constant_force_stays(scene, rpm, inner):
-    assert axial_load(scene, rpm, False, inner) == pytest.approx(500.0, rel=5e-3)
+    assert axial_load(scene, rpm, False, inner) == pytest.approx(500.0, rel=1e-3)
 
 
 def test_rigid_preload_moves_with_its_input(scene):
@@ -81,23 +85,24 @@ def test_rigid_preload_moves_with_its_input(scene):
     assert abs(run.imbalance) < 1e-3 * run.heat
 
 
-def test_misalignment_makes_the_loads_uneven_twice_a_turn(scene):
-    """To first order a leaning seat loads one side, but the inner ring is free to move radially and takes
-    that load off again; what remains changes the contact angles, twice a turn. Both rings tilt with the seat.
+def test_misalignment_makes_the_loads_uneven(scene):
+    """To first order a leaning seat loads one side, but the inner ring moves radially and takes most of that
+    off again (once a turn is left what the moment on the pedestal asks for); the rest changes the contact
+    angles, twice a turn. Seat, bearing and tilt support share the tilt as springs in series: the linear
+    estimate of the start holds to a per cent at 1 mrad.
     """
     lean = 1e-3
     run = Run(quiet(scene(NAME)), 20000, P_MISALIGNMENT_Y=lean).init()
+    at_outer = at.S_Y + at.Y_Q + at.Q_OUTER + 4
+    estimate = run.s[at_outer]
+    assert 0.5 * lean < estimate < lean
     run.run(0.02)
-    tilts = []
-    for _ in range(100):  # the outer ring still swings on its springs
-        run.run(1e-4)
-        tilts.append(run.s[at.S_Y + at.Y_Q + at.Q_OUTER + 4])
     load = run.w[(at.W_RACE + at.R_LOAD) * at.STRIDE :][: int(run.p[at.P_BALLS])]
     turns = np.abs(np.fft.rfft(load)) / load.sum()
-    assert turns[2] > 3.0 * turns[1]
-    assert 0.02 < turns[2] < 0.2
-    assert np.mean(tilts) == pytest.approx(lean, rel=0.1)
-    assert 0.0 < run.value("inner_ring.tilt.y") < 0.5 * lean
+    assert turns[2] > turns[1] > 10.0 * turns[3]
+    assert 0.01 < turns[2] < 0.1
+    assert run.s[at_outer] == pytest.approx(estimate, rel=0.01)
+    assert 0.0 < run.value("inner_ring.tilt.y") < 0.05 * lean
     assert abs(run.imbalance) < 1e-3 * run.heat
 
 

@@ -15,6 +15,7 @@ from fmu_bearing.engine.mechanics.cage import film_force
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.mechanics.energy import stored_energy
 from fmu_bearing.engine.mechanics.equations import right_hand_side
+from fmu_bearing.engine.mechanics.summary import summarise
 from tests.engine.helpers import Run
 from tests.oracles import cartesian as oracle
 
@@ -361,6 +362,27 @@ def test_angular_momentum(case, cage_offset):
         given[one.n + k] -= (setup.springs[k] * state.bodies[k] + setup.dampers[k] * state.rates[k])[3:]
     given[one.n, 0] += found.torque
     assert off(turning.sum(0), given.sum(0), turning) <= 1e-11
+
+
+def test_losses_by_source(case):
+    """Sources add up to all heat but the dampers'; rolling is what goes when the oracle leaves it out."""
+    one = case(SCENES[0], cage_offset=1.02)
+    s = np.zeros(at.state_size(one.p))
+    s[at.S_Y : at.S_Y + at.Y_SIZE] = one.y
+    f = s[at.S_F : at.S_F + at.F_SIZE]
+    right_hand_side(one.p, one.c, one.y, one.angle, one.speed, SPEED_RATE, one.w, f)
+    summarise(one.p, s, one.w)
+    contacts, rolling, cage, drag = s[at.S_LOSS : at.S_LOSS + 4]
+    dampers = (one.setup.dampers * one.state.rates**2).sum()
+    heats = f[at.F_HEAT : at.F_HEAT + 3].sum()
+    assert contacts + rolling + cage + drag + dampers == pytest.approx(heats, rel=1e-12)
+    for lost, change in (
+        (rolling, {"races": tuple(replace(race, rolling=0.0) for race in one.setup.races)}),
+        (cage, {"pocket": None, "land": None}),
+        (drag, {"drag": 0.0}),
+    ):
+        less = oracle.equations(replace(one.setup, **change), one.state, SPEED_RATE).heats.sum()
+        assert lost == pytest.approx(one.oracle().heats.sum() - less, rel=1e-6)
 
 
 BUMPS = 1e-7 * np.array([0.0, 1.0, -0.5, 0.3, 0.0, 0.2, -0.1, 0.1])  # m, orders 1 to 8

@@ -29,6 +29,12 @@ def test_every_traction_law_runs(scene, law):
         assert np.abs(ratio[20:] - 0.42).max() < 0.01
 
 
+@pytest.mark.parametrize("rpm", [0, 1, 100, 100000])
+def test_eyring_at_any_speed(scene, rpm):
+    run = lubricated(scene(NAME).model_copy(update={"sound": None}), "eyring", rpm).init()
+    assert np.isfinite(run.run(0.002)).all()
+
+
 @pytest.mark.parametrize("stiffness", [1e5, 5e6, 2.5e7])
 def test_springs_hold_the_balls_apart(scene, stiffness):
     one = scene(NAME).model_copy(update={"sound": None})

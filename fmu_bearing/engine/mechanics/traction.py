@@ -16,6 +16,7 @@ from fmu_bearing.engine.layout import (
     P_PRESSURE_VISCOSITY,
     P_RACES,
     P_STRIPS,
+    P_TRACTION_FLOOR,
     P_TRACTION_LAW,
     R_AM,
     R_AN,
@@ -120,6 +121,8 @@ def lubricated_traction(p, c, lanes, race, w):
     of Eyring's strips therefore includes spin times half the strip's width and times the mean square of the
     place across it, weighted with the pressure, (b^2 / 4)(1 - xi^2), and both resist the spin. That brings
     five strips from four times to within a tenth of the whole ellipse's pull at small sliding with spin.
+    The floor of the regularised law's slip scale counts as sliding too: at standstill, where no spin is left,
+    the law would otherwise switch within a thin film's 1 um/s.
     """
     row = (W_RACE + race * RACE_ROWS) * _S
     numbers = P_RACES + race * RACE_SIZE
@@ -131,6 +134,7 @@ def lubricated_traction(p, c, lanes, race, w):
     index = roelands_index(p[P_PRESSURE_VISCOSITY], eta)
     stress = p[P_EYRING_STRESS]
     eyring = p[P_TRACTION_LAW] == 1.0
+    floor_2 = p[P_TRACTION_FLOOR] * p[P_TRACTION_FLOOR]
     across = 0.25 * width * width
     mu = p[P_MU]
     strips = int(p[P_STRIPS])
@@ -159,7 +163,7 @@ def lubricated_traction(p, c, lanes, race, w):
                 # half the strip's width over a: its share over the density 3/4 (1 - xi^2) of the load
                 reach = share / (1.5 * inside)
                 turning = half * spin
-                slide_2 = ut * ut + um * um + (reach * reach + across * inside) * turning * turning
+                slide_2 = floor_2 + ut * ut + um * um + (reach * reach + across * inside) * turning * turning
                 drag = eyring_drag(area, thick, film, stress, mu * share * load, slide_2)
                 # along the strip only what turns the sliding counts: the stress hardly changes
                 steady = ut * ut / (slide_2 + _STILL_2)

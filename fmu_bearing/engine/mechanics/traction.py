@@ -100,6 +100,25 @@ def eyring_drag(area, eta, film, stress, limit, slide_2):
 
 
 @kernel
+def eyring_strip(area, eta, film, stress, limit, ut, um, turning, reach, across, floor_2):
+    """Eyring force of a strip over its sliding (N s/m); second, times a^2 and spin, the moment of its own.
+
+    ``turning``: spin times the semi-major axis a (m/s). Spin makes the sliding vary within a strip. Eyring's
+    stress saturates within 0.1 mm/s, so a strip taken at its middle would stick and slip where the contact
+    as a whole slides smoothly. Its sliding therefore includes spin times half its width, ``reach`` over a,
+    and times the mean square of the place across it, ``across`` over a^2. That brings five strips from four
+    times to within a tenth of the whole ellipse's pull at small sliding with spin. The floor of the
+    regularised law's slip scale counts as sliding too: at standstill, where no spin is left, the law
+    would otherwise switch within a thin film's 1 um/s.
+    """
+    slide_2 = floor_2 + ut * ut + um * um + (reach * reach + across) * turning * turning
+    drag = eyring_drag(area, eta, film, stress, limit, slide_2)
+    # along the strip only what turns the sliding counts: the stress hardly changes
+    steady = ut * ut / (slide_2 + _STILL_2)
+    return drag, drag * (reach * reach / 3.0 * (1.0 - steady) + across)
+
+
+@kernel
 def strip_area(half_length, half_width, share, node):
     """Area (m2) of the strip that carries ``share`` of the load at ``node`` of the major axis.
 
@@ -115,14 +134,6 @@ def lubricated_traction(p, c, lanes, race, w):
     Eyring (1936) with Roelands' viscosity at the strip's mean pressure, bounded by mu Q of the strip. The
     paper's law takes the ambient viscosity and has no bound; alone it is unusable (traction over load 3e-5
     at speed: it cannot drive a ball). Forces along e_t and e_m and moments on the ball, as ``traction``.
-
-    Spin makes the sliding vary within a strip as well. Eyring's stress saturates within 0.1 mm/s, so a
-    strip taken at its middle would stick and slip where the contact as a whole slides smoothly. The sliding
-    of Eyring's strips therefore includes spin times half the strip's width and times the mean square of the
-    place across it, weighted with the pressure, (b^2 / 4)(1 - xi^2), and both resist the spin. That brings
-    five strips from four times to within a tenth of the whole ellipse's pull at small sliding with spin.
-    The floor of the regularised law's slip scale counts as sliding too: at standstill, where no spin is left,
-    the law would otherwise switch within a thin film's 1 um/s.
     """
     row = (W_RACE + race * RACE_ROWS) * _S
     numbers = P_RACES + race * RACE_SIZE
@@ -160,15 +171,13 @@ def lubricated_traction(p, c, lanes, race, w):
             area = strip_area(half, half * width, share, node)
             if eyring:
                 thick = viscosity_under_pressure(eta, index, pressure * half * math.sqrt(inside))
-                # half the strip's width over a: its share over the density 3/4 (1 - xi^2) of the load
-                reach = share / (1.5 * inside)
-                turning = half * spin
-                slide_2 = floor_2 + ut * ut + um * um + (reach * reach + across * inside) * turning * turning
-                drag = eyring_drag(area, thick, film, stress, mu * share * load, slide_2)
-                # along the strip only what turns the sliding counts: the stress hardly changes
-                steady = ut * ut / (slide_2 + _STILL_2)
-                own = reach * reach / 3.0 * (1.0 - steady) + across * inside
-                moment_n -= drag * own * half * turning
+                # half the strip's width over a: its share over the density 3/4 (1 - xi^2) of the load; across
+                # it the mean square weighted with the pressure, b^2 / 4 (1 - xi^2)
+                drag, own = eyring_strip(
+                    area, thick, film, stress, mu * share * load, ut, um, half * spin,
+                    share / (1.5 * inside), across * inside, floor_2,
+                )  # fmt: skip
+                moment_n -= own * half * half * spin
             else:
                 drag = area * eta / film
             ft = -drag * ut

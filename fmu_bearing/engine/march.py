@@ -8,12 +8,15 @@ from fmu_bearing.engine.layout import (
     BLOCK,
     C_SIZE,
     F_SIZE,
+    FAST_Y,
     NOT_CONVERGED,
     OK,
     P_MAX_STEP,
     P_METHOD,
+    P_RIGID,
     P_TOLERANCE,
     S_ANGLE,
+    S_AXES,
     S_C,
     S_CONTRACTION,
     S_ENERGY_NOW,
@@ -42,12 +45,15 @@ from fmu_bearing.engine.layout import (
     W_F0,
     W_SCALARS,
     Y_SIZE,
+    Y_V,
 )
 from fmu_bearing.engine.mechanics.conditions import conditions
+from fmu_bearing.engine.mechanics.summary import summarise
 from fmu_bearing.engine.motion import emit_samples
 from fmu_bearing.engine.progress import accept, renew_jacobian, total_energy
 from fmu_bearing.engine.solvers.block_arrow import factor
 from fmu_bearing.engine.solvers.esdirk import esdirk_step, integrate_power
+from fmu_bearing.engine.solvers.rigid_preload import axial_speed
 from fmu_bearing.engine.solvers.tableaux import ESDIRK4, T_GAMMA, T_ORDER, TABLEAUX, TRBDF2
 
 _S = STRIDE
@@ -70,7 +76,8 @@ def take_inputs(p, u, s, w, h):
     rate = (u[U_SPEED] - s[S_SPEED]) / h
     fresh = w[W_SCALARS + 8 : W_SCALARS + 8 + C_SIZE]
     conditions(p, u, 0.5 * (s[S_SPEED] + u[U_SPEED]), fresh)
-    changed = False
+    axial = axial_speed(p, u, fresh, s, w, h) if p[P_RIGID] != 0.0 else s[S_Y + Y_V]
+    changed = axial != s[S_Y + Y_V]
     for i in range(C_SIZE):
         if fresh[i] != s[S_C + i]:
             changed = True
@@ -84,6 +91,8 @@ def take_inputs(p, u, s, w, h):
         s[S_SPEED_RATE] = rate
         for i in range(F_SIZE):
             w[W_D + i] = s[S_F + i]
+        s[S_FAST + FAST_Y + Y_V] += axial - s[S_Y + Y_V]
+        s[S_Y + Y_V] = axial
         s[S_WORK] += total_energy(p, s, w) - before
         shift_history(s, w[W_D : W_D + F_SIZE])
     elif rate != s[S_SPEED_RATE]:
@@ -114,9 +123,9 @@ def try_step(p, s, w, h, tableau, tolerance):
             s[S_FACTOR_STEP] = h
         probe = s[S_STEPS] % _PROBE == 0.0
         fine = esdirk_step(
-            p, s[S_C : S_C + C_SIZE], s[S_Y : S_Y + Y_SIZE], s[S_F : S_F + F_SIZE], s[S_ANGLE], s[S_SPEED],
-            s[S_SPEED_RATE], h, tableau, s[S_FAC:S_FAST], s[S_Y + 2 * _S] - s[S_JACOBIAN_ANGLE],
-            0.5 * tolerance, s[S_CONTRACTION], probe, w, report,
+            p, s[S_C : S_C + C_SIZE], s[S_Y : S_Y + Y_SIZE], s[S_F : S_F + F_SIZE], s[S_AXES:S_JAC],
+            s[S_ANGLE], s[S_SPEED], s[S_SPEED_RATE], h, tableau, s[S_FAC:S_FAST],
+            s[S_Y + 2 * _S] - s[S_JACOBIAN_ANGLE], 0.5 * tolerance, s[S_CONTRACTION], probe, w, report,
         )  # fmt: skip
         if fine:
             if report[1] > 0.0:
@@ -166,7 +175,7 @@ def march(p, u, s, w, h):
             continue
         integrate_power(length, tableau, w, s[S_WORK : S_WORK + 4])
         emit_samples(p, s, w, length)
-        accept(s, w, length)
+        accept(p, s, w, length)
         if fast:
             remember(s, length, w[W_ACC : W_ACC + F_SIZE])
         remaining = end - s[S_TIME]
@@ -180,6 +189,7 @@ def march(p, u, s, w, h):
     # One evaluation at the end point: stored energy for the balance, and accelerations and torque that do
     # not carry the last Newton iteration's remainder.
     s[S_ENERGY_NOW] = total_energy(p, s, w)
+    summarise(p, s, w)
     for i in range(3):
         s[S_MEAN_INNER + i] = (s[S_HEAT_INNER + i] - s[S_MEAN_INNER + i]) / h
     return OK

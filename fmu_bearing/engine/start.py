@@ -28,11 +28,15 @@ from fmu_bearing.engine.layout import (
     P_INNER_MASS,
     P_LANES,
     P_MAX_STEP,
+    P_MISALIGNMENT_Y,
+    P_MISALIGNMENT_Z,
     P_OUTER_MASS,
     P_PITCH_RADIUS,
+    P_RIGID,
     PI,
     Q_CAGE,
     Q_OUTER,
+    S_AXES,
     S_C,
     S_CONTRACTION,
     S_ENERGY_NOW,
@@ -44,6 +48,7 @@ from fmu_bearing.engine.layout import (
     S_JACOBIAN_TIME,
     S_JACOBIANS,
     S_MEAN_INNER,
+    S_PLACE,
     S_SPEED,
     S_SPEED_RATE,
     S_START,
@@ -51,6 +56,7 @@ from fmu_bearing.engine.layout import (
     S_TIME,
     S_Y,
     STRIDE,
+    U_PRELOAD,
     U_SPEED,
     W_MOTION,
     W_SCALARS,
@@ -58,9 +64,13 @@ from fmu_bearing.engine.layout import (
     Y_SIZE,
     Y_V,
 )
+from fmu_bearing.engine.mechanics.ball_waves import first_axes
 from fmu_bearing.engine.mechanics.conditions import conditions
-from fmu_bearing.engine.progress import total_energy
+from fmu_bearing.engine.mechanics.misalignment import lean
+from fmu_bearing.engine.mechanics.summary import summarise
+from fmu_bearing.engine.progress import show_axes, total_energy
 from fmu_bearing.engine.solvers.quasistatic import quasistatic, stiffness_matrix
+from fmu_bearing.engine.solvers.rigid_preload import rigid_start
 from fmu_bearing.engine.solvers.spin_balance import balance_spins
 
 _S = STRIDE
@@ -94,10 +104,13 @@ def start(p, u, s, w, t):
     c = s[S_C : S_C + C_SIZE]
     conditions(p, u, u[U_SPEED], c)
     found = w[W_SCALARS + 8 : W_SCALARS + 16]
-    status = quasistatic(p, c, u[U_SPEED], found)
+    if p[P_RIGID] == 0.0:
+        status = quasistatic(p, c, u[U_SPEED], found)
+    else:
+        status = rigid_start(p, u, c, s, w, found)
     if status != OK:
         return status
-    _, radial, _, _ = stiffness_matrix(p, c, found)
+    _, radial, tilting, coupling = stiffness_matrix(p, c, found)
     y = s[S_Y : S_Y + Y_SIZE]
     x_outer = c[C_PRELOAD] / c[C_PEDESTAL_AXIAL]
     inner_z = c[C_LOAD_Z]
@@ -111,18 +124,23 @@ def start(p, u, s, w, t):
     y[o] = x_outer
     y[o + 1] = c[C_LOAD_Y] / c[C_PEDESTAL]
     y[o + 2] = outer_z / c[C_PEDESTAL]
-    y[Y_Q] = x_outer + found[0]
+    y[Y_Q] = x_outer + found[0] if p[P_RIGID] == 0.0 else s[S_PLACE]
+    c[C_PRELOAD] = u[U_PRELOAD]
     if radial > 0.0:
         # sag of the inner ring, bounded where a soft contact would put it out of the linear range
         y[Y_Q + 1] = y[o + 1] + min(max(c[C_LOAD_Y] / radial, -1e-6), 1e-6)
         y[Y_Q + 2] = y[o + 2] + min(max(inner_z / radial, -1e-6), 1e-6)
     place_balls(p, y, found, x_outer, y[o + 1], y[o + 2])
+    if p[P_MISALIGNMENT_Y] != 0.0 or p[P_MISALIGNMENT_Z] != 0.0:
+        lean(p, c, radial, tilting, coupling, y)
     k = Y_Q + Q_CAGE
     if p[P_CAGE] != 0.0:
         y[k] = found[1] + x_outer
         y[k + 1] = y[Y_Q + 1]
         y[k + 2] = y[Y_Q + 2]
         y[Y_V + Q_CAGE + 3] = found[3]
+    first_axes(p, s[S_AXES:S_JAC])
+    show_axes(p, s, w)
     balance_spins(p, c, y, 0.0, u[U_SPEED], w, s[S_JAC:S_FAC])
     if p[P_CAGE] != 0.0:
         orbit = 0.0
@@ -141,6 +159,7 @@ def start(p, u, s, w, t):
     s[S_JACOBIANS] = 0.0
     s[S_ENERGY_START] = total_energy(p, s, w)
     s[S_ENERGY_NOW] = s[S_ENERGY_START]
+    summarise(p, s, w)
     for i in range(3):
         s[S_MEAN_INNER + i] = s[S_F + F_HEAT + i]
     return OK

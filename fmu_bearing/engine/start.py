@@ -79,7 +79,7 @@ _S = STRIDE
 
 @kernel
 def loads(p, c, load):
-    """Set the loads on the inner ring with its weight (N, N m); returns what the pedestal carries in z (N)."""
+    """Set the loads on the inner ring with its weight (N, N m); return the pedestal's load in z (N)."""
     load[0] = c[C_PRELOAD]
     load[1] = c[C_LOAD_Y]
     load[2] = c[C_LOAD_Z]

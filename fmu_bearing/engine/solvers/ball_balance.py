@@ -1,8 +1,9 @@
 """One ball between two displaced rings: contacts, rolling, gyroscopic friction, and its place.
 
 The ball may move along x and radially; its angle round the bearing is held. Vectors stand in the ball's
-axes (x, r, theta). Of a ring, ``pose`` holds nine numbers: the inner ring's centre, its axis, the outer
-ring's axis, all in the ball's axes, the outer ring's centre at the origin.
+axes (x, r, theta). ``pose`` holds eleven numbers: the inner ring's centre, its axis and the outer ring's
+axis, all in the ball's axes, the outer ring's centre at the origin; then by how much (m) the ball's
+oversize and the race's waviness deepen the approach, inside and outside.
 """
 
 import math
@@ -33,8 +34,8 @@ _LEAST_ARM = 0.05
 
 
 @kernel
-def poses(c, s, ring, offset):
-    """Nine numbers ``pose`` of a ball at the angle of (cos, sin) = (c, s).
+def poses(c, s, ring, offset, deeper_i, deeper_o):
+    """Eleven numbers ``pose`` of a ball at the angle of (cos, sin) = (c, s).
 
     ``ring``: x y z by bz of the inner ring against the outer (m, rad); ``offset``: outer ring's tilts (rad).
     """
@@ -46,6 +47,7 @@ def poses(c, s, ring, offset):
         ring[0], c * ring[2] - s * ring[1], -c * ring[1] - s * ring[2],
         axis_cosine(by, bz), -s * bz - c * by, -c * bz + s * by,
         axis_cosine(oy, oz), -s * oz - c * oy, -c * oz + s * oy,
+        deeper_i, deeper_o,
     )  # fmt: skip
 
 
@@ -53,7 +55,7 @@ def poses(c, s, ring, offset):
 def seat(p, c, race, extra, qx, qr, qt, nx, nr, nt):
     """Load and geometry of the contact with one race, exact for a torus and a sphere.
 
-    ``q``: ball's centre from the ring's (m), ``n``: ring's axis, ``extra``: oversize of the ball's radius
+    ``q``: ball's centre from the ring's (m), ``n``: ring's axis, ``extra``: see above
     (m). Returns load (N), normal stiffness (N/m), distances from groove centre and axis (m), the unit
     vectors e (from the ball into the race) and m (along the major axis), and the cosine towards the axis.
     """
@@ -133,7 +135,7 @@ def friction(p, c, orbit, spin, load_i, load_o):
 
 
 @kernel
-def ball_state(p, c, speed, pose, extra, x, r):
+def ball_state(p, c, speed, pose, x, r):
     """Return the forces on a ball at (x, r) and all that follows from its place.
 
     Net force (x, r), its in-plane stiffness xx, xr, rr, inner load and direction e (3), outer load, sines
@@ -141,9 +143,11 @@ def ball_state(p, c, speed, pose, extra, x, r):
     """
     radius = p[P_PITCH_RADIUS] + r
     qi, ki, di, _, ex, er, et, _, _, _, _ = seat(
-        p, c, 0, extra, x - pose[0], radius - pose[1], -pose[2], pose[3], pose[4], pose[5]
+        p, c, 0, pose[9], x - pose[0], radius - pose[1], -pose[2], pose[3], pose[4], pose[5]
     )
-    qo, ko, do, _, ox, o_r, o_t, _, _, _, _ = seat(p, c, 1, extra, x, radius, 0.0, pose[6], pose[7], pose[8])
+    qo, ko, do, _, ox, o_r, o_t, _, _, _, _ = seat(
+        p, c, 1, pose[10], x, radius, 0.0, pose[6], pose[7], pose[8]
+    )
     plane_i = -1.0 / math.sqrt(ex * ex + er * er)
     plane_o = 1.0 / math.sqrt(ox * ox + o_r * o_r)
     si = ex * plane_i
@@ -163,19 +167,19 @@ def ball_state(p, c, speed, pose, extra, x, r):
 
 
 @kernel
-def thrown_out(p, c, pose, extra, orbit):
+def thrown_out(p, c, pose, orbit):
     """Place (x, r) where a ball that only the outer race holds is balanced by the centrifugal force."""
     held = C_RACES + C_RACE_SIZE
     pitch = p[P_PITCH_RADIUS]
     force = p[P_BALL_MASS] * pitch * orbit * orbit
     press = force / p[P_RACES + RACE_SIZE + RACE_STIFFNESS]
-    radius = c[held + 1] + c[held + 2] - extra + math.exp(2.0 / 3.0 * math.log(press + 1e-30))
+    radius = c[held + 1] + c[held + 2] - pose[10] + math.exp(2.0 / 3.0 * math.log(press + 1e-30))
     # a tilted ring's groove circle stands beside that of the upright one
     return c[held] - c[held + 1] * pose[7], radius - pitch + c[held] * pose[7]
 
 
 @kernel
-def ball_equilibrium(p, c, speed, pose, extra, x, r):
+def ball_equilibrium(p, c, speed, pose, x, r):
     """Newton's method for the ball's place from (x, r); returns ``(x, r, residual N)``.
 
     Forces of orbit and spin are held in the derivative. Contacts are springs, so a step is judged by the
@@ -184,7 +188,7 @@ def ball_equilibrium(p, c, speed, pose, extra, x, r):
     thrown = False
     size = 0.0
     fx, fr, kxx, kxr, krr, qi, _, _, _, qo, _, _, _, _, orbit, _, _, _, _, _, _ = ball_state(
-        p, c, speed, pose, extra, x, r
+        p, c, speed, pose, x, r
     )
     for _ in range(_ITERATIONS):
         size = math.sqrt(fx * fx + fr * fr)
@@ -192,9 +196,9 @@ def ball_equilibrium(p, c, speed, pose, extra, x, r):
             break
         if qi == 0.0 and not thrown:
             thrown = True
-            tx, tr = thrown_out(p, c, pose, extra, orbit)
+            tx, tr = thrown_out(p, c, pose, orbit)
             gx, gr, gxx, gxr, grr, gi, _, _, _, go, _, _, _, _, orbit, _, _, _, _, _, _ = ball_state(
-                p, c, speed, pose, extra, tx, tr
+                p, c, speed, pose, tx, tr
             )
             if gi == 0.0:
                 x, r, fx, fr, kxx, kxr, krr, qo = tx, tr, gx, gr, gxx, gxr, grr, go
@@ -210,7 +214,7 @@ def ball_equilibrium(p, c, speed, pose, extra, x, r):
         ahead = fx * dx + fr * dr
         for n in range(_BACKTRACKS):
             gx, gr, kxx, kxr, krr, qi, _, _, _, qo, _, _, _, _, orbit, _, _, _, _, _, _ = ball_state(
-                p, c, speed, pose, extra, x + share * dx, r + share * dr
+                p, c, speed, pose, x + share * dx, r + share * dr
             )
             after = gx * dx + gr * dr
             if after >= -0.9 * ahead or gx * gx + gr * gr < 0.25 * size * size or n == _BACKTRACKS - 1:

@@ -18,13 +18,11 @@ from fmu_bearing.engine.layout import (
     Q5_STIFFNESS,
     Q5_X,
     STRIDE,
-    W_COS,
     W_POSE,
-    W_SIN,
 )
 from fmu_bearing.engine.solvers.ball_balance import ball_state, friction, poses
 from fmu_bearing.engine.solvers.elimination import eliminate
-from fmu_bearing.engine.solvers.quasistatic import oversize_of, solve_ring
+from fmu_bearing.engine.solvers.quasistatic import DEEPER, solve_ring
 
 _S = STRIDE
 _ROUNDS = 12
@@ -33,18 +31,21 @@ _SYSTEM = (W_POSE + 40) * STRIDE  # scratch behind that of ``solve_ring``: 5 x 6
 
 
 @kernel
-def outer_moment(p, c, speed, offset, share, found, w):
+def outer_moment(p, c, speed, offset, found, w):
     """Moments y, z (N m) of the balls on the outer ring about its centre at the equilibrium ``found``."""
     ball = c[C_BALL_RADIUS]
     my = 0.0
     mz = 0.0
     for j in range(int(p[P_BALLS])):
-        cj = w[W_COS * _S + j]
-        sj = w[W_SIN * _S + j]
-        pose = poses(cj, sj, found[Q5_SHIFT : Q5_SHIFT + 5], offset)
+        angle = 2.0 * PI * j / p[P_BALLS]
+        cj = math.cos(angle)
+        sj = math.sin(angle)
+        low = w[(W_POSE + DEEPER) * _S + j]
+        high = w[(W_POSE + DEEPER + 1) * _S + j]
+        pose = poses(cj, sj, found[Q5_SHIFT : Q5_SHIFT + 5], offset, low, high)
         x = found[Q5_X + j]
         r = found[Q5_R + j]
-        state = ball_state(p, c, speed, pose, share * oversize_of(p, c, j), x, r)
+        state = ball_state(p, c, speed, pose, x, r)
         load = state[9]
         _, rub = friction(p, c, state[14], state[16], state[5], load)
         ex, er, et = state[18], state[19], state[20]
@@ -85,10 +86,6 @@ def mounted_equilibrium(p, c, speed, load, share, tilt, found, w):
     method in the two tilts: a moment on the outer ring changes with its tilt only through the tilt support
     of the inner ring, which follows freely without one. Returns the status of the last ring equilibrium.
     """
-    for j in range(int(p[P_BALLS])):
-        angle = 2.0 * PI * j / p[P_BALLS]
-        w[W_COS * _S + j] = math.cos(angle)
-        w[W_SIN * _S + j] = math.sin(angle)
     turn = c[C_PEDESTAL_ROTATIONAL]
     tilt[0] = p[P_MISALIGNMENT_Y]
     tilt[1] = p[P_MISALIGNMENT_Z]
@@ -97,7 +94,7 @@ def mounted_equilibrium(p, c, speed, load, share, tilt, found, w):
         status = solve_ring(p, c, speed, load, tilt, share, found, w)
         if status != OK:
             break
-        my, mz = outer_moment(p, c, speed, tilt, share, found, w)
+        my, mz = outer_moment(p, c, speed, tilt, found, w)
         my -= turn * (tilt[0] - p[P_MISALIGNMENT_Y])
         mz -= turn * (tilt[1] - p[P_MISALIGNMENT_Z])
         support = p[P_TILT_STIFFNESS]

@@ -28,11 +28,13 @@ from fmu_bearing.engine.layout import (
     NO_START,
     OK,
     P_AT_OVERSIZE,
+    P_AT_WAVES,
     P_BALLS,
     P_GYROSCOPIC,
     P_PITCH_RADIUS,
     P_RACES,
     P_TILT_STIFFNESS,
+    P_WAVINESS,
     PI,
     Q5_ANGLE_I,
     Q5_ANGLE_O,
@@ -52,6 +54,7 @@ from fmu_bearing.engine.layout import (
     RACE_STIFFNESS,
     STRIDE,
     W_POSE,
+    WAVE_INTERVALS,
 )
 from fmu_bearing.engine.solvers.ball_balance import ball_equilibrium, ball_state, poses
 from fmu_bearing.engine.solvers.elimination import eliminate
@@ -66,8 +69,8 @@ _PATIENCE = 25
 _MOVE = 1e-10
 _FLOOR = 1.0  # N/m: Levenberg term; moves a ring that nothing holds by the longest step at most
 # scratch rows and scalars in the slice of w from W_POSE on
-_COS, _SIN, _EXTRA, _X, _R, _X1, _R1, _PX, _PR = 0, 1, 2, 3, 4, 5, 6, 7, 12  # prediction: 5 rows each
-_RING = 17 * STRIDE  # ring 5, trial 5, forces 5, trial forces 5, step 5
+_COS, _SIN, DEEPER, _X, _R, _X1, _R1, _PX, _PR = 0, 1, 2, 4, 5, 6, 7, 8, 13  # prediction: 5 rows each
+_RING = 18 * STRIDE  # ring 5, trial 5, forces 5, trial forces 5, step 5
 _TRIAL, _G, _G1, _STEP = _RING + 5, _RING + 10, _RING + 15, _RING + 20
 _A = _RING + 25  # a ball's share: 35
 _ROWS = _A + 35  # linear system: 5 x 6
@@ -100,9 +103,22 @@ def axial_guess(p, c, force):
 
 
 @kernel
-def oversize_of(p, c, j):
-    """Deviation (m) of the radius of ball ``j`` at the present scale of imperfections."""
-    return 0.5 * c[C_OVERSIZE_SCALE] * p[int(p[P_AT_OVERSIZE]) + j]
+def deeper(p, c, race, j, angle):
+    """How much oversize of ball ``j`` and waviness of a race at ``angle`` (rad) deepen the approach (m).
+
+    Both rings' own angles are zero. The table is that of ``mechanics.race.waves``, linear between its points.
+    """
+    scale = c[C_OVERSIZE_SCALE]
+    height = 0.5 * p[int(p[P_AT_OVERSIZE]) + j]
+    if p[P_WAVINESS] != 0.0:
+        table = int(p[P_AT_WAVES]) + race * 2 * WAVE_INTERVALS
+        place = angle / (2.0 * PI) * WAVE_INTERVALS
+        below = int(place)
+        part = place - below
+        first = p[table + 2 * (below % WAVE_INTERVALS)]
+        second = p[table + 2 * ((below + 1) % WAVE_INTERVALS)]
+        height += first + part * (second - first)
+    return scale * height
 
 
 @kernel
@@ -125,7 +141,8 @@ def place_first(p, c, shift, offset, share, v):
         radius = c[o + 1] + reach * sr
         v[_COS * _S + j] = cj
         v[_SIN * _S + j] = sj
-        v[_EXTRA * _S + j] = share * oversize_of(p, c, j)
+        for race in range(2):
+            v[(DEEPER + race) * _S + j] = share * deeper(p, c, race, j, angle)
         v[_X * _S + j] = x + radius * lean
         v[_R * _S + j] = radius - x * lean - p[P_PITCH_RADIUS]
 
@@ -144,8 +161,7 @@ def ring_forces(p, c, speed, load, offset, ring, v, share, g):
     for j in range(int(p[P_BALLS])):
         cj = v[_COS * _S + j]
         sj = v[_SIN * _S + j]
-        extra = v[_EXTRA * _S + j]
-        pose = poses(cj, sj, ring, offset)
+        pose = poses(cj, sj, ring, offset, v[DEEPER * _S + j], v[(DEEPER + 1) * _S + j])
         x = v[_X * _S + j]
         r = v[_R * _S + j]
         if share > 0.0:
@@ -165,11 +181,11 @@ def ring_forces(p, c, speed, load, offset, ring, v, share, g):
                     move = lean_t
                 x += share * move * v[(_PX + k) * _S + j]
                 r += share * move * v[(_PR + k) * _S + j]
-        x, r, size = ball_equilibrium(p, c, speed, pose, extra, x, r)
+        x, r, size = ball_equilibrium(p, c, speed, pose, x, r)
         v[_X1 * _S + j] = x
         v[_R1 * _S + j] = r
         worst = max(worst, size)
-        state = ball_state(p, c, speed, pose, extra, x, r)
+        state = ball_state(p, c, speed, pose, x, r)
         qi = state[5]
         rub = state[17]
         fx = qi * state[6] - rub * state[11]
@@ -201,8 +217,8 @@ def tangent(p, c, offset, ring, v, out):
     for j in range(int(p[P_BALLS])):
         cj = v[_COS * _S + j]
         sj = v[_SIN * _S + j]
-        pose = poses(cj, sj, ring, offset)
-        ball_share(p, c, pose, v[_EXTRA * _S + j], v[_X * _S + j], v[_R * _S + j], a)
+        pose = poses(cj, sj, ring, offset, v[DEEPER * _S + j], v[(DEEPER + 1) * _S + j])
+        ball_share(p, c, pose, v[_X * _S + j], v[_R * _S + j], a)
         for k in range(5):
             v[(_PX + k) * _S + j] = a[25 + k]
             v[(_PR + k) * _S + j] = a[30 + k]
@@ -258,8 +274,10 @@ def report(p, c, speed, offset, v, out):
     for j in range(int(p[P_BALLS])):
         x = v[_X * _S + j]
         r = v[_R * _S + j]
-        pose = poses(v[_COS * _S + j], v[_SIN * _S + j], ring, offset)
-        state = ball_state(p, c, speed, pose, v[_EXTRA * _S + j], x, r)
+        cj = v[_COS * _S + j]
+        sj = v[_SIN * _S + j]
+        pose = poses(cj, sj, ring, offset, v[DEEPER * _S + j], v[(DEEPER + 1) * _S + j])
+        state = ball_state(p, c, speed, pose, x, r)
         out[Q5_X + j] = x
         out[Q5_R + j] = r
         out[Q5_OM + j] = state[14]
@@ -312,7 +330,7 @@ def search(p, c, speed, load, offset, size, ahead, v):
 
 @kernel
 def solve_ring(p, c, speed, load, offset, share, out, w):
-    """As ``equilibrium``, with ``share`` of the balls' diameter deviations (0: equal balls)."""
+    """As ``equilibrium``, with ``share`` of the imperfections: ball sizes, race waviness (0: none)."""
     v = w[W_POSE * _S :]
     for i in range(Q5_SIZE):
         out[i] = 0.0
@@ -331,11 +349,12 @@ def solve_ring(p, c, speed, load, offset, share, out, w):
     pitch = p[P_PITCH_RADIUS]
     total = abs(load[0]) + abs(load[1]) + abs(load[2]) + (abs(load[3]) + abs(load[4])) / pitch
     rubbed = speed != 0.0 and p[P_GYROSCOPIC] != 0.0
+    limit = 1e-8 + 1e-9 * total
     damping = _FLOOR
     done = 0.0
     size = norm(g)
     tangent(p, c, offset, ring, v, out)
-    while size > 1e-8 + 1e-9 * total and done < _ITERATIONS:
+    while size > limit and done < _ITERATIONS:
         done += 1.0
         ahead = newton_step(p, out, damping, v)
         if not (ahead > 0.0):
@@ -346,7 +365,7 @@ def solve_ring(p, c, speed, load, offset, share, out, w):
         keep_trial(p, v)
         size = norm(g)
         tangent(p, c, offset, ring, v, out)
-        if rubbed and done > _PATIENCE and size > 1e-8 + 1e-9 * total:
+        if rubbed and done > _PATIENCE and size > limit:
             difference(p, c, speed, load, offset, ring, v, out)
     tangent(p, c, offset, ring, v, out)
     for i in range(5):
@@ -359,5 +378,5 @@ def solve_ring(p, c, speed, load, offset, share, out, w):
 
 @kernel
 def equilibrium(p, c, speed, load, offset, out, w):
-    """Equilibrium of the inner ring and equal balls (see the module); status code."""
+    """Equilibrium of the inner ring of a perfect bearing (see the module); status code."""
     return solve_ring(p, c, speed, load, offset, 0.0, out, w)

@@ -88,11 +88,11 @@ def contact_tensor(load, kn, distance, rho, ex, er, et, mx, mr, mt, cosine):
 
 
 @kernel
-def ball_share(p, c, pose, extra, x, r, a):
+def ball_share(p, c, pose, x, r, a):
     """Stiffness of the inner ring through one ball into ``a[:25]``, the ball's own motion into ``a[25:35]``.
 
     Both in the ball's axes: rows force x, r, theta and moment r, theta; columns displacements x, r, theta
-    and tilts r, theta. ``pose``, ``extra``: see ``ball_balance``; ``x``, ``r``: the ball's place (m).
+    and tilts r, theta. ``pose``: see ``ball_balance``; ``x``, ``r``: the ball's place (m).
     """
     for i in range(35):
         a[i] = 0.0
@@ -101,7 +101,7 @@ def ball_share(p, c, pose, extra, x, r, a):
     qr = radius - pose[1]
     qt = -pose[2]
     load, kn, distance, rho, ex, er, et, mx, mr, mt, cosine = seat(
-        p, c, 0, extra, qx, qr, qt, pose[3], pose[4], pose[5]
+        p, c, 0, pose[9], qx, qr, qt, pose[3], pose[4], pose[5]
     )
     if load <= 0.0:
         return
@@ -110,7 +110,7 @@ def ball_share(p, c, pose, extra, x, r, a):
     ft = -load * et
     xx, xr, xt, rr, rt, tt = contact_tensor(load, kn, distance, rho, ex, er, et, mx, mr, mt, cosine)
     load, kn, distance, rho, ex, er, et, mx, mr, mt, cosine = seat(
-        p, c, 1, extra, x, radius, 0.0, pose[6], pose[7], pose[8]
+        p, c, 1, pose[10], x, radius, 0.0, pose[6], pose[7], pose[8]
     )
     oxx, oxr, _, orr, _, _ = contact_tensor(load, kn, distance, rho, ex, er, et, mx, mr, mt, cosine)
     sxx = xx + oxx + 1e-3

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.solvers.axial import quasistatic, stiffness_matrix
 from fmu_bearing.engine.solvers.mounted import mounted_equilibrium
 from tests.engine.test_quasistatic import RPM, Bearing
 from tests.oracles import B7003C, B7009C
@@ -174,3 +175,32 @@ def test_pedestal_tilt_balances_the_moments(scene):
     spring = bearing.c[at.C_PEDESTAL_ROTATIONAL] * (tilt[0] - 1e-3)
     displaced = bearing.shift[2] * load[0] - bearing.shift[0] * load[2]
     assert support + spring == pytest.approx(displaced, rel=1e-4, abs=1e-5 * abs(spring))
+
+
+@pytest.mark.parametrize(
+    ("name", "rpm"), [("7003C-bare", 0.0), ("7003C-bare", 2e4), ("7009C-full-ceramic", 1.2e4)]
+)
+def test_the_axial_solution_is_the_same(scene, name, rpm):
+    """One unknown against five; the closed form leaves out how a tilt turns the loads."""
+    bearing = Bearing(scene(name)).solve(rpm, (400, 0, 0, 0, 0))
+    bearing.c[at.C_PRELOAD] = 400.0
+    found = np.zeros(8)
+    assert quasistatic(bearing.p, bearing.c, rpm * RPM, found) == at.OK
+    rows = [bearing.row(k)[0] for k in (at.Q5_X, at.Q5_R, at.Q5_OM, at.Q5_WX, at.Q5_WR)]
+    np.testing.assert_allclose(found[:6], [bearing.shift[0], *rows], rtol=1e-7, atol=1e-14)
+    axial, radial, tilt, coupling = stiffness_matrix(bearing.p, bearing.c, found)
+    k = bearing.stiffness
+    assert axial == pytest.approx(k[0, 0], rel=1e-6)
+    assert radial == pytest.approx(k[2, 2], rel=1e-3)
+    assert tilt == pytest.approx(k[3, 3], rel=5e-3)
+    assert coupling == pytest.approx(k[2, 3], rel=5e-3) or coupling == pytest.approx(-k[2, 3], rel=5e-3)
+
+
+def test_static_gates_of_the_matrix(scene):
+    """The design study's numbers for the 7003C under 500 N, within 0.5 %, from the 5 x 5 matrix."""
+    bearing = Bearing(scene("7003C-bare")).solve(0.0, (500, 0, 0, 0, 0))
+    k = bearing.stiffness
+    np.testing.assert_allclose(k, k.T, atol=1e-6 * k[1, 1])
+    assert k[0, 0] == pytest.approx(5.57e7, rel=5e-3)
+    assert k[1, 1] == pytest.approx(1.63e8, rel=5e-3) and k[1, 1] == pytest.approx(k[2, 2], rel=1e-9)
+    assert k[3, 3] == pytest.approx(4.73e3, rel=5e-3)

@@ -2,6 +2,7 @@
 
 ================  ==========================================================================
 ``quasistatic``   Jones-Harris equilibrium of the inner ring in five degrees of freedom
+``axial``         the same for axial load alone: one unknown
 ``ball_balance``  its balls: contacts, rolling, gyroscopic friction, place of one ball
 ``stiffness``     contacts in series, stiffness matrix of the bearing
 ``mounted``       the equilibrium with the outer ring on its pedestal: where a run starts

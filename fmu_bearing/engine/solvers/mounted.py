@@ -27,6 +27,7 @@ from fmu_bearing.engine.solvers.quasistatic import DEEPER, solve_ring
 _S = STRIDE
 _ROUNDS = 12
 _LARGEST = 2e-3  # rad: longest step of the outer ring's tilt
+_REACH = 5e-3  # rad: beyond it equations for small tilts mean little
 _SYSTEM = (W_POSE + 40) * STRIDE  # scratch behind that of ``solve_ring``: 5 x 6
 
 
@@ -79,6 +80,12 @@ def support_column(p, k, found, w):
 
 
 @kernel
+def kept_near(middle, tilt):
+    """``tilt`` (rad) held near the seat's: a lone ring on a very soft seat tips over under load."""
+    return min(max(tilt, middle - _REACH), middle + _REACH)
+
+
+@kernel
 def mounted_equilibrium(p, c, speed, load, share, tilt, found, w):
     """Equilibrium of the inner ring (``found``, see ``quasistatic``) and the outer ring's ``tilt`` (rad).
 
@@ -109,6 +116,6 @@ def mounted_equilibrium(p, c, speed, load, share, tilt, found, w):
         dz = (yy * mz - zy * my) / det
         if abs(dy) + abs(dz) < 1e-9:
             break
-        tilt[0] += min(max(dy, -_LARGEST), _LARGEST)
-        tilt[1] += min(max(dz, -_LARGEST), _LARGEST)
+        tilt[0] = kept_near(p[P_MISALIGNMENT_Y], tilt[0] + min(max(dy, -_LARGEST), _LARGEST))
+        tilt[1] = kept_near(p[P_MISALIGNMENT_Z], tilt[1] + min(max(dz, -_LARGEST), _LARGEST))
     return status

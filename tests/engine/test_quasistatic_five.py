@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 
 from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.solvers.axial import quasistatic, stiffness_matrix
 from fmu_bearing.engine.solvers.mounted import mounted_equilibrium
+from tests.engine.helpers import quiet
 from tests.engine.test_quasistatic import RPM, Bearing
 from tests.oracles import B7003C, B7009C
 from tests.oracles.jones_harris import JonesHarris
@@ -204,3 +206,27 @@ def test_static_gates_of_the_matrix(scene):
     assert k[0, 0] == pytest.approx(5.57e7, rel=5e-3)
     assert k[1, 1] == pytest.approx(1.63e8, rel=5e-3) and k[1, 1] == pytest.approx(k[2, 2], rel=1e-9)
     assert k[3, 3] == pytest.approx(4.73e3, rel=5e-3)
+
+
+@pytest.mark.parametrize("name", ["7003C-bare", "7003C-spindle"])
+@pytest.mark.parametrize("tilt", [0.0, 3e-3])
+def test_the_full_level_stands_still_there(scene, name, tilt):
+    """Same geometry: at standstill the right-hand side leaves inner ring and balls (x, r) where they are."""
+    off = dict.fromkeys(("P_GRAVITY", "P_DRAG", "P_ROLLING", "P_CAGE", "P_WAVINESS"), 0.0)
+    bearing = Bearing(quiet(scene(name)), **off).solve(0.0, (500, 100, -300, 0, 0), (tilt, -0.5 * tilt))
+    bearing.c[[at.C_PRELOAD, at.C_LOAD_Y, at.C_LOAD_Z]] = 500, 100, -300
+    y, f = np.zeros(at.Y_SIZE), np.zeros(at.F_SIZE)
+    for row, found in ((at.B_X, at.Q5_X), (at.B_R, at.Q5_R)):
+        y[row * at.STRIDE :][: bearing.balls] = bearing.row(found)
+    y[at.B_TH * at.STRIDE :][: bearing.balls] = 2 * np.pi * np.arange(bearing.balls) / bearing.balls
+    outer = at.Y_Q + at.Q_OUTER
+    y[outer + 4 : outer + 6] = tilt, -0.5 * tilt
+    y[at.Y_Q : at.Y_Q + 5] = bearing.shift
+    y[at.Y_Q + 3 : at.Y_Q + 5] += y[outer + 4 : outer + 6]
+    right_hand_side(bearing.p, bearing.c, y, 0.0, 0.0, 0.0, bearing.w, f)
+    p = bearing.p
+    force = f[at.F_G : at.F_G + 3] * p[at.P_INNER_MASS]
+    moment = f[at.F_G + 3 : at.F_G + 5] * p[at.P_INNER_TRANSVERSE] / p[at.P_PITCH_RADIUS]
+    np.testing.assert_allclose([*force, *moment], 0.0, atol=1e-5)
+    balls = f[: 2 * at.STRIDE].reshape(2, -1)[:, : bearing.balls] * p[at.P_BALL_MASS]
+    np.testing.assert_allclose(balls, 0.0, atol=1e-6)

@@ -13,6 +13,7 @@ from fmu_bearing.engine.layout import (
     B_VR,
     B_VX,
     B_WR,
+    B_WT,
     B_WX,
     B_X,
     C_LOAD_Y,
@@ -131,17 +132,24 @@ def place_balls(p, y, found, x_outer, y_outer, z_outer):
     for j in range(int(p[P_LANES])):
         place = j if j < balls else 0
         angle = 2.0 * PI * place / balls
-        along = math.cos(angle) * z_outer - math.sin(angle) * y_outer
-        across = -math.cos(angle) * y_outer - math.sin(angle) * z_outer
+        # the ball's place and velocity, from the axes about the outer ring's centre to the inertial ones
+        radius = pitch + found[Q5_R + place]
         orbit = found[Q5_OM + place]
+        outwards = orbit * around(p, found, Q5_R, place)
+        yb = y_outer - radius * math.sin(angle)
+        zb = z_outer + radius * math.cos(angle)
+        apart = math.sqrt(yb * yb + zb * zb)
+        c = (zb * math.cos(angle) - yb * math.sin(angle)) / apart
+        s = (-yb * math.cos(angle) - zb * math.sin(angle)) / apart
         y[B_X * _S + j] = found[Q5_X + place] + x_outer
-        y[B_TH * _S + j] = angle + across / pitch
-        y[B_R * _S + j] = found[Q5_R + place] + along
+        y[B_TH * _S + j] = angle + math.atan2(s, c)
+        y[B_R * _S + j] = apart - pitch
         y[B_VX * _S + j] = orbit * around(p, found, Q5_X, place)
-        y[B_VR * _S + j] = orbit * (around(p, found, Q5_R, place) + across)
-        y[B_OM * _S + j] = orbit
+        y[B_VR * _S + j] = outwards * c + radius * orbit * s
+        y[B_OM * _S + j] = (radius * orbit * c - outwards * s) / apart
         y[B_WX * _S + j] = found[Q5_WX + place]
-        y[B_WR * _S + j] = found[Q5_WR + place]
+        y[B_WR * _S + j] = found[Q5_WR + place] * c
+        y[B_WT * _S + j] = -found[Q5_WR + place] * s
 
 
 @kernel

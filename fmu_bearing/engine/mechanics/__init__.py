@@ -9,7 +9,6 @@
 ``ball_waves``    waviness that turns with the balls, and the turning of their axes
 ``cage``          pockets and land guidance
 ``springs``       springs between neighbouring balls in place of a cage
-``misalignment``  how rings and balls lean at the start
 ``bodies``        forces on rings and cage that do not come through the balls
 ``equations``     the right-hand side: accelerations, power and heat
 ``energy``        stored energy

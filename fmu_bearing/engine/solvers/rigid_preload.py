@@ -23,7 +23,7 @@ from fmu_bearing.engine.layout import (
     Y_Q,
 )
 from fmu_bearing.engine.mechanics.conditions import conditions
-from fmu_bearing.engine.solvers.quasistatic import quasistatic
+from fmu_bearing.engine.solvers.axial import quasistatic
 
 _INPUTS = 8
 _ROUNDS = 60

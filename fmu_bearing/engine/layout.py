@@ -323,7 +323,9 @@ S_FAC = S_JAC + J_SIZE  # factors: inverse 6x6, W 6x17, M_Gb 17x6 rows per lane,
 A_INV, A_W, A_GB = 0, 36 * STRIDE, (36 + 102) * STRIDE
 A_S = (36 + 102 + 102) * STRIDE
 A_SIZE = A_S + 17 * 17
-S_SOUND = S_FAC + A_SIZE
+S_LEVEL = S_FAC + A_SIZE  # what the levels `rings` and `response` keep: see engine/levels
+L_SIZE = 4992
+S_SOUND = S_LEVEL + L_SIZE
 
 # --- w: rows of the force evaluation, then stages --------------------------------------------------
 W_COS, W_SIN = 0, 1

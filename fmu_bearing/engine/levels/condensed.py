@@ -1,8 +1,12 @@
-"""Balls without inertia of vibration: each rests between the races, and the rings feel what it carries.
+"""Balls without modes of their own: each rests between the races, and the rings feel what it carries.
 
 A ball's place (x, r) balances both contacts, the centrifugal force, its weight and the friction pair that
 holds the gyroscopic moment. One Newton sweep for all balls at once also gives the forces on the rings at
 the corrected place, to first order, so that a good guess needs no second sweep.
+
+The balls' inertia enters as far as they follow statically (Guyan 1965): what the rings' motion makes them do
+is mass added to the rings (``linearised.added_mass``), what the waves make them do is a force here. The
+turning of the orbit is neglected in both, some 0.1 of a term that is itself some 0.1 of the rings' mass.
 
 Contact damping. Level `full` adds tau times the stiffness times the rate of approach to each contact. Two
 such elements in series, with the same tau and no mass between them, are the series spring with that same
@@ -41,6 +45,7 @@ from fmu_bearing.engine.layout import (
     Y_V,
 )
 from fmu_bearing.engine.levels.places import (
+    E_BEND,
     E_COS,
     E_FORCE,
     E_INNER,
@@ -72,10 +77,11 @@ _SWEEPS = 30
 
 
 @kernel
-def stand(p, c, lv, theta, inner_angle, outer_angle, w):
-    """Cosines and sines of the balls' angles and the height of both races under each ball (m).
+def stand(p, c, lv, theta, inner_angle, outer_angle, speed, w):
+    """Cosines and sines of the balls' angles, height (m) of both races under each ball, its acceleration.
 
-    ``theta``: angle of ball 0; all are evenly spaced. Heights contain half the ball's diameter deviation.
+    ``theta``: angle of ball 0; all are evenly spaced. Heights contain half the ball's diameter deviation;
+    their second derivatives by time (m/s2) are those of the table's cubics at the ``speed`` of the shaft.
     """
     lanes = int(p[P_LANES])
     c0 = math.cos(theta)
@@ -89,12 +95,17 @@ def stand(p, c, lv, theta, inner_angle, outer_angle, w):
         w[E_SIN * _S + j] = s0 * co + c0 * si
         w[E_INNER * _S + j] = size
         w[(E_INNER + 1) * _S + j] = size
+        w[E_BEND * _S + j] = 0.0
+        w[(E_BEND + 1) * _S + j] = 0.0
     if p[P_WAVINESS] == 0.0 or scale == 0.0:
         return
     for race in range(2):
         table = int(p[P_AT_WAVES]) + race * 2 * WAVE_INTERVALS
         start = (theta - (inner_angle if race == 0 else outer_angle)) * _PER_RADIAN
         row = (E_INNER + race) * _S
+        bend = (E_BEND + race) * _S
+        rate = (lv[L_RATIO] - (1.0 if race == 0 else 0.0)) * speed * _PER_RADIAN
+        scale2 = 2.0 * scale * rate * rate
         for j in range(lanes):
             place = start + lv[L_PHI + j]
             floor = math.floor(place)
@@ -109,6 +120,7 @@ def stand(p, c, lv, theta, inner_angle, outer_angle, w):
             a = g0 + g1 - 2.0 * d
             b = 3.0 * d - 2.0 * g0 - g1
             w[row + j] += scale * (h0 + t * (g0 + t * (b + t * a)))
+            w[bend + j] = scale2 * (b + 3.0 * t * a)
 
 
 @kernel
@@ -161,7 +173,8 @@ def sweep(p, c, lv, speed, q, w):
     pair_i = lv[L_PAIR_INNER] * speed * speed
     pair_o = lv[L_PAIR_OUTER] * speed * speed
     orbit = lv[L_RATIO] * speed
-    pull = p[P_BALL_MASS] * orbit * orbit
+    mass = p[P_BALL_MASS]
+    pull = mass * orbit * orbit
     weight = GRAVITY * p[P_BALL_MASS] if p[P_GRAVITY] != 0.0 else 0.0
     for j in range(lanes):
         co = w[E_COS * _S + j]
@@ -186,6 +199,13 @@ def sweep(p, c, lv, speed, q, w):
         kxr = kn * ex * er + kt * mx * mr + kn2 * fx * fr + kt2 * tx * tr
         krr = kn * er * er + kt * mr * mr + kn2 * fr * fr + kt2 * tr * tr + _FLOOR
         per = 1.0 / (kxx * krr - kxr * kxr)
+        # waves push the ball away from their race; the ball's inertia resists
+        pushed_i = kn * w[E_BEND * _S + j]
+        pushed_o = kn2 * w[(E_BEND + 1) * _S + j]
+        bx0 = pushed_i * ex + pushed_o * fx
+        br0 = pushed_i * er + pushed_o * fr
+        netx += mass * (bx0 * krr - br0 * kxr) * per
+        netr += mass * (br0 * kxx - bx0 * kxr) * per
         dx = (netx * krr - netr * kxr) * per
         dr = (netr * kxx - netx * kxr) * per
         length = math.sqrt(dx * dx + dr * dr)

@@ -4,9 +4,18 @@ import math
 
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import (
+    C_BALL_RADIUS,
     C_ECCENTRICITY,
+    C_RACE_SIZE,
+    C_RACES,
     F_G,
-    P_LANES,
+    P_BALL_MASS,
+    P_BALLS,
+    P_INNER_MASS,
+    P_INNER_TRANSVERSE,
+    P_OUTER_MASS,
+    P_OUTER_POLAR,
+    P_OUTER_TRANSVERSE,
     P_PITCH_RADIUS,
     STRIDE,
     W_F,
@@ -16,11 +25,14 @@ from fmu_bearing.engine.layout import (
 )
 from fmu_bearing.engine.levels.condensed import accelerations
 from fmu_bearing.engine.levels.places import (
+    E_COS,
     E_R,
+    E_SIN,
     E_X,
     L_INVERSE,
     L_JV,
     L_JX,
+    L_MASS,
     T_A,
     T_D,
     T_Q,
@@ -50,13 +62,13 @@ def derivatives(p, c, lv, angle, speed, speed_rate, w):
     The balls' places in ``w`` are those of the state before and after. ``w[W_F + F_G:]`` keeps its
     accelerations.
     """
-    lanes = int(p[P_LANES])
     q = w[T_Q : T_Q + N]
     lever = p[P_PITCH_RADIUS]
     if not accelerations(p, c, lv, angle, speed, speed_rate, q, w):
         return False
     base = T_SPARE
     balls = T_SPARE + N
+    follow = balls + 2 * _S
     for i in range(N):
         w[base + i] = w[W_F + F_G + i]
     for i in range(2 * _S):
@@ -75,12 +87,70 @@ def derivatives(p, c, lv, angle, speed, speed_rate, w):
         for m in range(N):
             lv[into + m * N] = (w[W_F + F_G + m] - w[base + m]) / step
         for m in range(2 * _S):
+            if k < N:
+                w[follow + i * 2 * _S + m] = (w[E_X * _S + m] - w[balls + m]) / step
             w[E_X * _S + m] = w[balls + m]
         if not fine:
             return False
     for i in range(N):
         w[W_F + F_G + i] = w[base + i]
+    added_mass(p, c, lv, follow, w)
     return True
+
+
+@kernel
+def across_track(w, j, i, contact_x):
+    """Velocity along the track at a contact per unit rate of ring coordinate ``i`` (0-2 x y z, 3 4 tilts)."""
+    co = w[E_COS * _S + j]
+    si = w[E_SIN * _S + j]
+    if i == 1:
+        return -co
+    if i == 2:
+        return -si
+    if i == 3:
+        return si * contact_x
+    if i == 4:
+        return -co * contact_x
+    return 0.0
+
+
+@kernel
+def added_mass(p, c, lv, follow, w):
+    """Identity plus the balls' share of the mass matrix over the rings' own masses, into ``lv[L_MASS:]``.
+
+    In the axial plane the balls follow as their static equilibrium does (``w[follow:]``, derivatives of
+    (x, r) by the 11 coordinates). Along the track they roll: the centre goes with the mean of both races,
+    and half their difference turns the ball, which counts 2/5 of its mass.
+    """
+    ball = p[P_BALL_MASS]
+    # contacts lie off the bearing's middle by the ball's radius times the sine of about the free angle
+    x_o = c[C_BALL_RADIUS] * c[C_RACES] / (c[C_RACES + 2] + 1e-12)
+    x_i = -x_o
+    for i in range(N):
+        for k in range(N):
+            total = 0.0
+            for j in range(int(p[P_BALLS])):
+                a = follow + i * 2 * _S + j
+                b = follow + k * 2 * _S + j
+                total += w[a] * w[b] + w[a + _S] * w[b + _S]
+                ti = across_track(w, j, i, x_i) if i < 5 else 0.0
+                tk = across_track(w, j, k, x_i) if k < 5 else 0.0
+                oi = across_track(w, j, i - 5 if i < 8 else i - 6, x_o) if i >= 5 and i != 8 else 0.0
+                ok = across_track(w, j, k - 5 if k < 8 else k - 6, x_o) if k >= 5 and k != 8 else 0.0
+                total += 0.25 * (ti + oi) * (tk + ok) + 0.1 * (ti - oi) * (tk - ok)
+            lv[L_MASS + i * N + k] = (1.0 if i == k else 0.0) + ball * total / own_mass(p, i)
+
+
+@kernel
+def own_mass(p, i):
+    """Mass or moment of inertia of ring coordinate ``i``."""
+    if i < 3:
+        return p[P_INNER_MASS]
+    if i < 5:
+        return p[P_INNER_TRANSVERSE]
+    if i < 8:
+        return p[P_OUTER_MASS]
+    return p[P_OUTER_POLAR] if i == 8 else p[P_OUTER_TRANSVERSE]
 
 
 @kernel
@@ -116,11 +186,9 @@ def invert(a, at, n, out, to):
 
 @kernel
 def factor_step(lv, cv, cx, w):
-    """Inverse of ``I - cv J_v - cx J_x`` into ``lv[L_INVERSE:]``; False if singular."""
+    """Inverse of ``B - cv J_v - cx J_x`` into ``lv[L_INVERSE:]``; False if singular."""
     for i in range(N * N):
-        w[T_SPARE + i] = -cv * lv[L_JV + i] - cx * lv[L_JX + i]
-    for i in range(N):
-        w[T_SPARE + i * N + i] += 1.0
+        w[T_SPARE + i] = lv[L_MASS + i] - cv * lv[L_JV + i] - cx * lv[L_JX + i]
     return invert(w, T_SPARE, N, lv, L_INVERSE)
 
 
@@ -143,12 +211,15 @@ def times(lv, at, w, source, target):
 
 @kernel
 def highest_mode(lv, w):
-    """Angular frequency (rad/s) of the highest mode, from ``L_JX`` by power iteration."""
+    """Angular frequency (rad/s) of the highest mode, by power iteration; the inverse is left that of B."""
+    if not factor_step(lv, 0.0, 0.0, w):
+        return 1e9
     for i in range(N):
         w[T_D + i] = 1.0 + 0.1 * i
     size = 0.0
     for _ in range(40):
-        times(lv, L_JX, w, T_D, T_A)
+        times(lv, L_JX, w, T_D, T_Q)
+        times(lv, L_INVERSE, w, T_Q, T_A)
         total = 0.0
         before = 0.0
         for i in range(N):

@@ -45,8 +45,9 @@ L_JERK = L_MEAN + 12  # rates of acceleration, kept over a change of step
 L_JX = L_JERK + 12  # derivatives of accelerations by displacements and velocities, then the inverse
 L_JV = L_JX + N * N
 L_INVERSE = L_JV + N * N
+L_MASS = L_INVERSE + N * N  # identity plus the balls' mass over the rings' own
 # rows per ball
-L_X = L_INVERSE + N * N  # place now and at the two steps before
+L_X = L_MASS + N * N  # place now and at the two steps before
 L_R = L_X + STRIDE
 L_X1 = L_R + STRIDE
 L_R1 = L_X1 + STRIDE
@@ -66,9 +67,10 @@ LINES = (L_SIZE - L_LINES) // LINE_SIZE
 # scratch rows of w: the first ones are those of the full force evaluation, not in use meanwhile
 E_COS, E_SIN, E_X, E_R, E_INNER, E_OUTER, E_STEP = range(7)  # E_INNER, E_OUTER: race heights
 E_FORCE = 8  # on inner ring x y z, moment y z; then on the outer ring
-assert E_FORCE + 10 <= W_POCKET
+E_BEND = E_FORCE + 10  # second time derivative of the race heights, inner and outer
+assert E_BEND + 2 <= W_POCKET
 T_Q = W_SCALARS + 16  # trial numbers of a step: 12 each
 T_D = W_SCALARS + 28
 T_A = W_SCALARS + 40
 T_SPARE = W_ACC  # for matrices and balls' derivatives; F_SIZE x 5 numbers
-assert 5 * F_SIZE > 2 * N * N + 2 * N * STRIDE
+assert 5 * F_SIZE > N + 2 * STRIDE + 2 * N * STRIDE  # see `linearised`

@@ -73,6 +73,7 @@ from fmu_bearing.engine.levels.linearised import (
     times,
 )
 from fmu_bearing.engine.levels.places import (
+    E_BEND,
     E_INNER,
     E_R,
     E_X,
@@ -90,6 +91,7 @@ from fmu_bearing.engine.levels.places import (
     L_JERK,
     L_KNOWN,
     L_MASK,
+    L_MASS,
     L_MEAN,
     L_ORDER,
     L_PHI,
@@ -221,9 +223,10 @@ def start_condensed(p, u, s, w, t):
 @kernel
 def flat(p, c, lv, w):
     """Angles at the start, and races without waves under balls of one size."""
-    stand(p, c, lv, 0.0, 0.0, 0.0, w)
+    stand(p, c, lv, 0.0, 0.0, 0.0, 0.0, w)
     for i in range(2 * _S):
         w[E_INNER * _S + i] = 0.0
+        w[E_BEND * _S + i] = 0.0
 
 
 @kernel
@@ -259,12 +262,13 @@ def renew(p, s, w):
         w[W_Y + Y_V + i] = lv[L_V + i]
     for i in range(2 * _S):
         w[E_X * _S + i] = lv[L_X + i]
-    stand(p, c, lv, lv[L_THETA], s[S_ANGLE], lv[L_Q + 8], w)
+    stand(p, c, lv, lv[L_THETA], s[S_ANGLE], lv[L_Q + 8], s[S_SPEED], w)
     if not derivatives(p, c, lv, s[S_ANGLE], s[S_SPEED], s[S_SPEED_RATE], w):
         return False
-    for i in range(N):
-        lv[L_A + i] = w[W_F + F_G + i]
     lv[L_HIGHEST] = highest_mode(lv, w)
+    times(lv, L_INVERSE, w, W_F + F_G, T_A)
+    for i in range(N):
+        lv[L_A + i] = w[T_A + i]
     lv[L_FACTOR_STEP] = 0.0
     lv[L_CONTRACTION] = 0.1
     lv[L_FRESH] = 1.0
@@ -358,7 +362,7 @@ def correct(p, s, h, tolerance, probe, w):
     predict(lv, h, w)
     stand(
         p, c, lv, lv[L_THETA] + lv[L_RATIO] * turned + p[P_CONTACT_DAMPING] * lv[L_RATIO] * speed,
-        angle + p[P_CONTACT_DAMPING] * speed, w[W_Y + Y_Q + 8], w,
+        angle + p[P_CONTACT_DAMPING] * speed, w[W_Y + Y_Q + 8], speed, w,
     )  # fmt: skip
     q = w[T_Q : T_Q + N]
     before = 0.0
@@ -366,8 +370,9 @@ def correct(p, s, h, tolerance, probe, w):
     for n in range(_ITERATIONS):
         if not accelerations(p, c, lv, angle, speed, rate, q, w):
             return -1.0
+        times(lv, L_MASS, w, T_A, T_D)
         for i in range(N):
-            w[W_F + F_G + i] -= w[T_A + i]
+            w[W_F + F_G + i] -= w[T_D + i]
         times(lv, L_INVERSE, w, W_F + F_G, T_D)
         for i in range(N):
             d = w[T_D + i]

@@ -54,6 +54,7 @@ from fmu_bearing.engine.levels.places import (
     E_STEP,
     E_X,
     L_COS,
+    L_EXTRA,
     L_MASK,
     L_PAIR_INNER,
     L_PAIR_OUTER,
@@ -295,4 +296,9 @@ def accelerations(p, c, lv, angle, speed, speed_rate, q, w):
     y = w[W_Y : W_Y + Y_SIZE]
     inner_ring(p, c, y, angle, speed, speed_rate, f)
     outer_ring(p, c, y, f)
+    for i in range(11):
+        total = 0.0
+        for k in range(11):
+            total += lv[L_EXTRA + i * 11 + k] * y[Y_V + k]
+        f[F_G + i] += total
     return True

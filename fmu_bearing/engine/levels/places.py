@@ -47,7 +47,8 @@ L_JV = L_JX + N * N
 L_INVERSE = L_JV + N * N
 L_MASS = L_INVERSE + N * N  # identity plus the balls' mass over the rings' own
 # rows per ball
-L_X = L_MASS + N * N  # place now and at the two steps before
+L_EXTRA = L_MASS + N * N  # damping that traction adds, per own mass
+L_X = L_EXTRA + N * N  # place now and at the two steps before
 L_R = L_X + STRIDE
 L_X1 = L_R + STRIDE
 L_R1 = L_X1 + STRIDE

@@ -62,6 +62,7 @@ from fmu_bearing.engine.layout import (
     Y_V,
 )
 from fmu_bearing.engine.levels.condensed import accelerations, stand
+from fmu_bearing.engine.levels.damping import add_damping
 from fmu_bearing.engine.levels.held import hold, out_of_date
 from fmu_bearing.engine.levels.linearised import (
     at_rest,
@@ -83,6 +84,7 @@ from fmu_bearing.engine.levels.places import (
     L_CALM,
     L_CONTRACTION,
     L_COS,
+    L_EXTRA,
     L_FACTOR_STEP,
     L_FRESH,
     L_HEAT,
@@ -217,6 +219,18 @@ def start_condensed(p, u, s, w, t):
             w[E_R * _S + j] = s[S_Y + _S + j]
     for i in range(N):
         lv[L_MEAN + i] = w[W_Y + Y_Q + i]
+    if derivatives(p, c, lv, 0.0, u[U_SPEED], 0.0, w):
+        # the trial state and the balls' places outlast the full evaluations in there only if kept
+        for i in range(2 * _S):
+            lv[L_X + i] = w[E_X * _S + i]
+        add_damping(p, s, w)
+        for i in range(2 * _S):
+            w[E_X * _S + i] = lv[L_X + i]
+        for i in range(Y_SIZE):
+            w[W_Y + i] = 0.0
+        for i in range(N):
+            w[W_Y + Y_Q + i] = lv[L_MEAN + i]
+        flat(p, c, lv, w)
     return OK
 
 
@@ -294,6 +308,11 @@ def take_inputs(p, u, s, w, h):
         if status != OK:
             return status
         lv[L_KNOWN] = 0.0
+        for i in range(N * N):
+            lv[L_EXTRA + i] = 0.0
+        if not renew(p, s, w):
+            return NOT_CONVERGED
+        add_damping(p, s, w)
         if not renew(p, s, w):
             return NOT_CONVERGED
     return OK

@@ -18,6 +18,7 @@ from fmu_bearing.engine.layout import (
     U_PEDESTAL,
     U_SPEED,
 )
+from fmu_bearing.engine.levels.response import march_response, start_response
 from fmu_bearing.engine.levels.rings import march_rings, start_rings
 from fmu_bearing.engine.march import march
 from fmu_bearing.engine.observe import observe
@@ -46,6 +47,8 @@ def init(p, u, s, z, w, t):
         return BAD_INPUT
     if p[P_LEVEL] == 1.0:
         status = start_rings(p, u, s, w, t)
+    elif p[P_LEVEL] == 2.0:
+        status = start_response(p, u, s, w, t)
     else:
         status = start(p, u, s, w, t)
     if status == OK:
@@ -62,6 +65,8 @@ def step(p, u, s, z, w, h):
         return BAD_INPUT
     if p[P_LEVEL] == 1.0:
         status = march_rings(p, u, s, w, h)
+    elif p[P_LEVEL] == 2.0:
+        status = march_response(p, u, s, w, h)
     else:
         status = march(p, u, s, w, h)
     if status == OK:

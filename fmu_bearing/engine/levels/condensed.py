@@ -16,6 +16,8 @@ times their rates, which is how the kernels below are called; waviness is advanc
 
 import math
 
+import numpy as np
+
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import (
     C_OVERSIZE_SCALE,
@@ -44,6 +46,7 @@ from fmu_bearing.engine.layout import (
     Y_SIZE,
     Y_V,
 )
+from fmu_bearing.engine.levels.dense import times
 from fmu_bearing.engine.levels.places import (
     E_BEND,
     E_COS,
@@ -71,9 +74,9 @@ _S = STRIDE
 _PER_RADIAN = WAVE_INTERVALS / 6.283185307179586
 _FLOOR = 1e3  # N/m: keeps a ball without contact from being thrown far; 1e-5 of a loaded contact
 _LONGEST = 2e-6  # m: move of a ball in one sweep, about the approach of a loaded contact
-# Sum over the balls of squared moves (m2) below which the first-order forces serve: 3 nm, whose second order
-# is 3 nm squared over four approaches of 1 um, or 2e-12 m of ring motion.
-_CLOSE = 1e-17
+# Sum over the balls of squared moves (m2) below which the first-order forces serve: 9 nm each, whose second
+# order is 9 nm squared over four approaches of 1.5 um, or 1e-11 m of ring motion, 1e-4 of what it vibrates.
+_CLOSE = 1e-15
 _SWEEPS = 30
 
 
@@ -111,8 +114,10 @@ def stand(p, c, lv, theta, inner_angle, outer_angle, speed, w):
             place = start + lv[L_PHI + j]
             floor = math.floor(place)
             t = place - floor
-            i0 = 2 * (int(floor) & (WAVE_INTERVALS - 1))
-            i1 = 2 * ((int(floor) + 1) & (WAVE_INTERVALS - 1))
+            # 32-bit integers: conversion and gathered loads are then vector instructions
+            whole = np.int32(floor)
+            i0 = 2 * (whole & np.int32(WAVE_INTERVALS - 1))
+            i1 = 2 * ((whole + np.int32(1)) & np.int32(WAVE_INTERVALS - 1))
             h0 = p[table + i0]
             g0 = p[table + i0 + 1]
             h1 = p[table + i1]
@@ -261,6 +266,33 @@ def sum_row(row, lanes, w):
 
 
 @kernel
+def sum_forces(lanes, w, f):
+    """Sums of the force rows over the balls, four lanes at a time, into the rings' rows of ``f``."""
+    for i in range(5):
+        a = (E_FORCE + i) * _S
+        b = (E_FORCE + 5 + i) * _S
+        a0 = w[a]
+        a1 = w[a + 1]
+        a2 = w[a + 2]
+        a3 = w[a + 3]
+        b0 = w[b]
+        b1 = w[b + 1]
+        b2 = w[b + 2]
+        b3 = w[b + 3]
+        for j in range(4, lanes, 4):
+            a0 += w[a + j]
+            a1 += w[a + j + 1]
+            a2 += w[a + j + 2]
+            a3 += w[a + j + 3]
+            b0 += w[b + j]
+            b1 += w[b + j + 1]
+            b2 += w[b + j + 2]
+            b3 += w[b + j + 3]
+        f[F_G + i] = (a0 + a1) + (a2 + a3)
+        f[F_G + Q_OUTER + (i if i < 3 else i + 1)] = (b0 + b1) + (b2 + b3)
+
+
+@kernel
 def carried(p, c, lv, speed, q, w):
     """Sweep until the first-order forces serve; False where the balls find no rest in bounded work."""
     lanes = int(p[P_LANES])
@@ -275,7 +307,7 @@ def carried(p, c, lv, speed, q, w):
 def accelerations(p, c, lv, angle, speed, speed_rate, q, w):
     """Accelerations of the rings at the trial state in ``w[W_Y:]`` into ``w[W_F + F_G:]``; False if none.
 
-    ``q``: scratch for 11 numbers. Balls, angles and race heights stand in the rows of ``w`` (:func:`stand`).
+    ``q``: scratch for 12 numbers. Balls, angles and race heights stand in the rows of ``w`` (:func:`stand`).
     """
     tau = p[P_CONTACT_DAMPING]
     for i in range(11):
@@ -286,19 +318,12 @@ def accelerations(p, c, lv, angle, speed, speed_rate, q, w):
     f = w[W_F : W_F + F_SIZE]
     for i in range(F_WORK, F_SIZE):
         f[i] = 0.0
-    for i in range(5):
-        f[F_G + i] = sum_row(E_FORCE + i, lanes, w)
-    for i in range(3):
-        f[F_G + Q_OUTER + i] = sum_row(E_FORCE + 5 + i, lanes, w)
+    sum_forces(lanes, w, f)
     f[F_G + Q_OUTER + 3] = lv[L_TWIST]
-    f[F_G + Q_OUTER + 4] = sum_row(E_FORCE + 8, lanes, w)
-    f[F_G + Q_OUTER + 5] = sum_row(E_FORCE + 9, lanes, w)
     y = w[W_Y : W_Y + Y_SIZE]
     inner_ring(p, c, y, angle, speed, speed_rate, f)
     outer_ring(p, c, y, f)
+    times(lv, L_EXTRA, y, Y_V, q, 0)
     for i in range(11):
-        total = 0.0
-        for k in range(11):
-            total += lv[L_EXTRA + i * 11 + k] * y[Y_V + k]
-        f[F_G + i] += total
+        f[F_G + i] += q[i]
     return True

@@ -11,80 +11,25 @@ import math
 
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import C_SIZE, J_B, J_C, J_D, J_E, P_BALLS, S_JAC, S_LEVEL, STRIDE, Y_SIZE
+from fmu_bearing.engine.levels.dense import eigenvectors, solve_complex
 from fmu_bearing.engine.levels.linearised import own_mass
-from fmu_bearing.engine.levels.places import L_C, L_EXTRA, L_FOUND_SPEED, L_JV, L_JX, L_MASS, L_Y, T_SPARE, N
+from fmu_bearing.engine.levels.places import (
+    L_C,
+    L_EXTRA,
+    L_FOUND_SPEED,
+    L_JV,
+    L_JX,
+    L_MASS,
+    L_Y,
+    MATRIX,
+    T_SPARE,
+    N,
+)
 from fmu_bearing.engine.solvers.jacobian import jacobian
 
 _S = STRIDE
 _SLOWEST = 300.0  # rad/s: slower motions feel the supports, not the balls
 _MOST = 0.6  # damping added to a mode at most, over its frequency: a ratio of 0.3
-
-
-@kernel
-def eigenvectors(a, at, v, to, n):
-    """Jacobi's method on the symmetric matrix ``a[at:]``: values on its diagonal, vectors as columns."""
-    for i in range(n * n):
-        v[to + i] = 0.0
-    for i in range(n):
-        v[to + i * n + i] = 1.0
-    for _ in range(12):
-        for p in range(n - 1):
-            for q in range(p + 1, n):
-                apq = a[at + p * n + q]
-                size = abs(a[at + p * n + p]) + abs(a[at + q * n + q])
-                if not (abs(apq) > 1e-15 * size):
-                    continue
-                theta = (a[at + q * n + q] - a[at + p * n + p]) / (2.0 * apq)
-                t = (1.0 if theta >= 0.0 else -1.0) / (abs(theta) + math.sqrt(theta * theta + 1.0))
-                c = 1.0 / math.sqrt(t * t + 1.0)
-                s = t * c
-                for k in range(n):
-                    x = a[at + k * n + p]
-                    y = a[at + k * n + q]
-                    a[at + k * n + p] = c * x - s * y
-                    a[at + k * n + q] = s * x + c * y
-                for k in range(n):
-                    x = a[at + p * n + k]
-                    y = a[at + q * n + k]
-                    a[at + p * n + k] = c * x - s * y
-                    a[at + q * n + k] = s * x + c * y
-                    x = v[to + k * n + p]
-                    y = v[to + k * n + q]
-                    v[to + k * n + p] = c * x - s * y
-                    v[to + k * n + q] = s * x + c * y
-
-
-@kernel
-def solve_complex(re, im, n):
-    """Solve in place ``n`` complex equations, rows of ``n + 1`` numbers in ``re``, ``im``; False if singular."""
-    m = n + 1
-    for k in range(n):
-        best = 0.0
-        pivot = k
-        for i in range(k, n):
-            size = re[i * m + k] * re[i * m + k] + im[i * m + k] * im[i * m + k]
-            if size > best:
-                best = size
-                pivot = i
-        if not (best > 0.0 and best < 1e300):
-            return False
-        pr = re[pivot * m + k] / best
-        pi = -im[pivot * m + k] / best
-        for j in range(k, m):
-            xr = re[pivot * m + j]
-            xi = im[pivot * m + j]
-            re[pivot * m + j] = re[k * m + j]
-            im[pivot * m + j] = im[k * m + j]
-            re[k * m + j] = xr * pr - xi * pi
-            im[k * m + j] = xr * pi + xi * pr
-        for i in range(n):
-            if i != k:
-                fr = re[i * m + k]
-                fi = im[i * m + k]
-                for j in range(k, m):
-                    re[i * m + j] -= fr * re[k * m + j] - fi * im[k * m + j]
-                    im[i * m + j] -= fr * im[k * m + j] + fi * re[k * m + j]
-    return True
 
 
 @kernel
@@ -153,7 +98,7 @@ def add_damping(p, s, w):
             shape[N + i] = shape[i] * own_mass(p, i)
         for i in range(N):
             for m in range(N):
-                own -= shape[N + i] * lv[L_JV + i * N + m] * shape[m]
+                own -= shape[N + i] * lv[L_JV + i + 12 * m] * shape[m]
         extra = taken(p, jac, shape, omega, w) - own
         if not (extra > 0.0):
             continue
@@ -161,11 +106,11 @@ def add_damping(p, s, w):
         for i in range(N):
             left = 0.0
             for m in range(N):
-                left += lv[L_MASS + i * N + m] * shape[m]
+                left += lv[L_MASS + i + 12 * m] * shape[m]
             w[mass + i] = left
         for i in range(N):
             for m in range(N):
-                lv[L_EXTRA + i * N + m] -= w[mass + i] * extra * w[mass + m] * own_mass(p, m)
+                lv[L_EXTRA + i + 12 * m] -= w[mass + i] * extra * w[mass + m] * own_mass(p, m)
 
 
 @kernel
@@ -179,9 +124,7 @@ def modes(p, lv, w, values, vectors, mass):
         for k in range(N):
             scale = math.sqrt(own_mass(p, i) / own_mass(p, k))
             back = 1.0 / scale
-            w[values + i * N + k] = 0.5 * (
-                scale * lv[L_MASS + i * N + k] + back * lv[L_MASS + k * N + i]
-            )
+            w[values + i * N + k] = 0.5 * (scale * lv[L_MASS + i + 12 * k] + back * lv[L_MASS + k + 12 * i])
     eigenvectors(w, values, w, vectors, N)
     # columns over the roots of the values: U with U^T M U = 1
     for k in range(N):
@@ -193,7 +136,9 @@ def modes(p, lv, w, values, vectors, mass):
             total = 0.0
             for m in range(N):
                 for n in range(N):
-                    total -= w[mass + m * N + i] * own_mass(p, m) * lv[L_JX + m * N + n] * w[mass + n * N + k]
+                    total -= (
+                        w[mass + m * N + i] * own_mass(p, m) * lv[L_JX + m + 12 * n] * w[mass + n * N + k]
+                    )
             w[values + i * N + k] = total
     for i in range(N):
         for k in range(i):
@@ -210,4 +155,5 @@ def modes(p, lv, w, values, vectors, mass):
             lv[L_EXTRA + i * N + k] = total
     for i in range(N * N):
         w[vectors + i] = lv[L_EXTRA + i]
+    for i in range(MATRIX):
         lv[L_EXTRA + i] = 0.0

@@ -6,7 +6,6 @@ from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import (
     C_BALL_RADIUS,
     C_ECCENTRICITY,
-    C_RACE_SIZE,
     C_RACES,
     F_G,
     P_BALL_MASS,
@@ -24,6 +23,7 @@ from fmu_bearing.engine.layout import (
     Y_V,
 )
 from fmu_bearing.engine.levels.condensed import accelerations
+from fmu_bearing.engine.levels.dense import invert, times
 from fmu_bearing.engine.levels.places import (
     E_COS,
     E_R,
@@ -62,7 +62,7 @@ def derivatives(p, c, lv, angle, speed, speed_rate, w):
     The balls' places in ``w`` are those of the state before and after. ``w[W_F + F_G:]`` keeps its
     accelerations.
     """
-    q = w[T_Q : T_Q + N]
+    q = w[T_Q : T_Q + 12]
     lever = p[P_PITCH_RADIUS]
     if not accelerations(p, c, lv, angle, speed, speed_rate, q, w):
         return False
@@ -83,9 +83,9 @@ def derivatives(p, c, lv, angle, speed, speed_rate, w):
         w[at] = kept + step
         fine = accelerations(p, c, lv, angle, speed, speed_rate, q, w)
         w[at] = kept
-        into = (L_JX if k < N else L_JV) + i
+        into = (L_JX if k < N else L_JV) + 12 * i
         for m in range(N):
-            lv[into + m * N] = (w[W_F + F_G + m] - w[base + m]) / step
+            lv[into + m] = (w[W_F + F_G + m] - w[base + m]) / step
         for m in range(2 * _S):
             if k < N:
                 w[follow + i * 2 * _S + m] = (w[E_X * _S + m] - w[balls + m]) / step
@@ -138,7 +138,7 @@ def added_mass(p, c, lv, follow, w):
                 oi = across_track(w, j, i - 5 if i < 8 else i - 6, x_o) if i >= 5 and i != 8 else 0.0
                 ok = across_track(w, j, k - 5 if k < 8 else k - 6, x_o) if k >= 5 and k != 8 else 0.0
                 total += 0.25 * (ti + oi) * (tk + ok) + 0.1 * (ti - oi) * (tk - ok)
-            lv[L_MASS + i * N + k] = (1.0 if i == k else 0.0) + ball * total / own_mass(p, i)
+            lv[L_MASS + i + 12 * k] = (1.0 if i == k else 0.0) + ball * total / own_mass(p, i)
 
 
 @kernel
@@ -154,59 +154,25 @@ def own_mass(p, i):
 
 
 @kernel
-def invert(a, at, n, out, to):
-    """Inverse of the ``n`` x ``n`` matrix ``a[at:]`` (destroyed) into ``out[to:]``; False if singular."""
-    for i in range(n):
-        for j in range(n):
-            out[to + i * n + j] = 1.0 if i == j else 0.0
-    for k in range(n):
-        pivot = k
-        for i in range(k + 1, n):
-            if abs(a[at + i * n + k]) > abs(a[at + pivot * n + k]):
-                pivot = i
-        size = a[at + pivot * n + k]
-        if not (abs(size) > 0.0 and abs(size) < 1e300):
-            return False
-        per = 1.0 / size
-        for j in range(n):
-            kept = a[at + k * n + j]
-            a[at + k * n + j] = a[at + pivot * n + j] * per
-            a[at + pivot * n + j] = kept if pivot != k else a[at + k * n + j]
-            kept = out[to + k * n + j]
-            out[to + k * n + j] = out[to + pivot * n + j] * per
-            out[to + pivot * n + j] = kept if pivot != k else out[to + k * n + j]
-        for i in range(n):
-            if i != k:
-                factor = a[at + i * n + k]
-                for j in range(n):
-                    a[at + i * n + j] -= factor * a[at + k * n + j]
-                    out[to + i * n + j] -= factor * out[to + k * n + j]
+def invert_into(lv, w):
+    """Inverse of the matrix in ``w[T_SPARE:]`` (rows of 11) into ``lv[L_INVERSE:]``; False if singular."""
+    if not invert(w, T_SPARE, N, w, T_SPARE + N * N):
+        return False
+    for k in range(N):
+        for i in range(N):
+            lv[L_INVERSE + 12 * k + i] = w[T_SPARE + N * N + i * N + k]
+        lv[L_INVERSE + 12 * k + 11] = 0.0
     return True
 
 
 @kernel
 def factor_step(lv, cv, cx, w):
     """Inverse of ``B - cv J_v - cx J_x`` into ``lv[L_INVERSE:]``; False if singular."""
-    for i in range(N * N):
-        w[T_SPARE + i] = lv[L_MASS + i] - cv * lv[L_JV + i] - cx * lv[L_JX + i]
-    return invert(w, T_SPARE, N, lv, L_INVERSE)
-
-
-@kernel
-def times(lv, at, w, source, target):
-    """``w[target:] = matrix w[source:]`` with the matrix of 11 x 11 numbers at ``lv[at:]``."""
     for i in range(N):
-        row = at + i * N
-        a = 0.0
-        b = 0.0
-        d = 0.0
-        for j in range(0, 9, 3):
-            a += lv[row + j] * w[source + j]
-            b += lv[row + j + 1] * w[source + j + 1]
-            d += lv[row + j + 2] * w[source + j + 2]
-        a += lv[row + 9] * w[source + 9]
-        b += lv[row + 10] * w[source + 10]
-        w[target + i] = (a + b) + d
+        for k in range(N):
+            at = i + 12 * k
+            w[T_SPARE + i * N + k] = lv[L_MASS + at] - cv * lv[L_JV + at] - cx * lv[L_JX + at]
+    return invert_into(lv, w)
 
 
 @kernel
@@ -218,8 +184,8 @@ def highest_mode(lv, w):
         w[T_D + i] = 1.0 + 0.1 * i
     size = 0.0
     for _ in range(40):
-        times(lv, L_JX, w, T_D, T_Q)
-        times(lv, L_INVERSE, w, T_Q, T_A)
+        times(lv, L_JX, w, T_D, w, T_Q)
+        times(lv, L_INVERSE, w, T_Q, w, T_A)
         total = 0.0
         before = 0.0
         for i in range(N):
@@ -246,12 +212,12 @@ def at_rest(p, c, lv, speed, w):
         if not derivatives(p, c, lv, 0.0, speed, 0.0, w):
             break
         for i in range(N):
-            lv[L_JX + i * N + i] -= 2500.0
+            lv[L_JX + 13 * i] -= 2500.0
         if not factor_step_static(lv, w):
             break
         for i in range(N):
             w[T_A + i] = w[W_F + F_G + i]
-        times(lv, L_INVERSE, w, T_A, T_D)
+        times(lv, L_INVERSE, w, T_A, w, T_D)
         longest = 0.0
         for i in range(N):
             longest = max(longest, abs(w[T_D + i]) * (lever if is_tilt(i) else 1.0))
@@ -270,9 +236,10 @@ def at_rest(p, c, lv, speed, w):
 @kernel
 def factor_step_static(lv, w):
     """Inverse of ``-J_x`` into ``lv[L_INVERSE:]``; False if singular."""
-    for i in range(N * N):
-        w[T_SPARE + i] = -lv[L_JX + i]
-    return invert(w, T_SPARE, N, lv, L_INVERSE)
+    for i in range(N):
+        for k in range(N):
+            w[T_SPARE + i * N + k] = -lv[L_JX + i + 12 * k]
+    return invert_into(lv, w)
 
 
 @kernel

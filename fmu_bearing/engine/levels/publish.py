@@ -59,11 +59,11 @@ def rate_error(lv, i):
 
 
 @kernel
-def publish_rings(lv, y, f):
-    """Displacements, velocities and accelerations of the rings."""
+def publish_rings(lv, newmark, y, f):
+    """Displacements, velocities and accelerations of the rings; ``newmark``: velocities are Newmark's."""
     for i in range(N):
         y[Y_Q + i] = lv[L_Q + i]
-        y[Y_V + i] = lv[L_V + i] - rate_error(lv, i)
+        y[Y_V + i] = lv[L_V + i] - (rate_error(lv, i) if newmark else 0.0)
         f[F_G + i] = lv[L_A + i]
 
 
@@ -128,9 +128,9 @@ def publish_losses(lv, f):
 
 
 @kernel
-def publish(p, lv, speed, speed_rate, y, f):
+def publish(p, lv, speed, speed_rate, newmark, y, f):
     """Write the whole state ``y`` and its right-hand side ``f`` (layout of level full)."""
-    publish_rings(lv, y, f)
+    publish_rings(lv, newmark, y, f)
     publish_cage(p, lv, speed, speed_rate, y, f)
     publish_balls(p, lv, speed, speed_rate, y, f)
     publish_losses(lv, f)

@@ -395,3 +395,14 @@ NOT_CONVERGED = 1  # the step did not converge at the smallest internal step
 BAD_INPUT = 2  # an input is not finite or out of range
 BAD_STEP = 3  # communication step not positive or not finite
 NO_START = 4  # the quasi-static start did not converge
+
+# --- out of the quasi-static equilibrium (solvers/quasistatic.py) ----------------------------------------
+Q5_SHIFT = 0  # x y z by bz of the inner ring against the outer (m, rad)
+Q5_RESIDUAL = 5  # N; moments over the pitch radius
+Q5_ITERATIONS = 6
+Q5_STIFFNESS = 7  # 5 x 5, row by row: force or moment on x y z by bz per displacement
+# then ten rows of STRIDE: ball's place (m), orbit speed and spin (rad/s), loads (N), contact angles (rad)
+Q5_X, Q5_R, Q5_OM, Q5_WX, Q5_WR, Q5_WT, Q5_LOAD_I, Q5_LOAD_O, Q5_ANGLE_I, Q5_ANGLE_O = (
+    32 + k * STRIDE for k in range(10)
+)
+Q5_SIZE = 32 + 10 * STRIDE

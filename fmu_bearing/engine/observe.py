@@ -48,7 +48,7 @@ from fmu_bearing.engine.layout import (
     Z_BALLS,
 )
 from fmu_bearing.engine.mechanics.pose import axis_cosine
-from fmu_bearing.engine.solvers.quasistatic import series_stiffness
+from fmu_bearing.engine.solvers.stiffness import series_stiffness
 from fmu_bearing.engine.sound.meter import levels
 
 _S = STRIDE

@@ -221,7 +221,9 @@ def sweep(p, c, lv, speed, q, w):
         w[E_X * _S + j] = x + dx
         w[E_R * _S + j] = r + dr
         mask = lv[L_MASK + j]
-        w[E_STEP * _S + j] = mask * (dx * dx + dr * dr)
+        # a ball that touches neither race goes towards one, but nothing waits for it
+        touching = mask if load + load2 > 0.0 else 0.0
+        w[E_STEP * _S + j] = touching * (dx * dx + dr * dr)
         # on the inner ring, at the moved ball
         along = load + kn * (ex * dx + er * dr)
         across = pair_i + kt * (mx * dx + mr * dr)
@@ -267,7 +269,7 @@ def sum_row(row, lanes, w):
 
 @kernel
 def sum_forces(lanes, w, f):
-    """Sums of the force rows over the balls, four lanes at a time, into the rings' rows of ``f``."""
+    """Write the sums of the force rows over the balls, four at a time, into the rings' rows of ``f``."""
     for i in range(5):
         a = (E_FORCE + i) * _S
         b = (E_FORCE + 5 + i) * _S

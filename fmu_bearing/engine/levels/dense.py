@@ -120,7 +120,7 @@ def eigenvectors(a, at, v, to, n):
 
 @kernel
 def solve_complex(re, im, n):
-    """Solve in place ``n`` complex equations, rows of ``n + 1`` numbers in ``re``, ``im``; False if singular."""
+    """Solve ``n`` complex equations, rows of ``n + 1`` numbers, in place; False if singular."""
     m = n + 1
     for k in range(n):
         best = 0.0

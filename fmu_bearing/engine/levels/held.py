@@ -32,6 +32,10 @@ from fmu_bearing.engine.layout import (
     P_GYROSCOPIC,
     P_LANES,
     P_RACE_CONTROL,
+    Q5_OM,
+    Q5_SHIFT,
+    Q5_SIZE,
+    Q5_WR,
     Q_CAGE,
     Q_OUTER,
     S_JAC,
@@ -40,6 +44,7 @@ from fmu_bearing.engine.layout import (
     W_G,
     W_NEW,
     W_SCALARS,
+    W_VEL,
     Y_Q,
     Y_SIZE,
     Y_V,
@@ -58,9 +63,9 @@ from fmu_bearing.engine.levels.places import (
 )
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.mechanics.equations import right_hand_side
-from fmu_bearing.engine.solvers.quasistatic import quasistatic
+from fmu_bearing.engine.solvers.mounted import mounted_equilibrium
 from fmu_bearing.engine.solvers.spin_balance import balance_spins
-from fmu_bearing.engine.start import place_balls
+from fmu_bearing.engine.start import loads, place_balls, place_cage
 
 _S = STRIDE
 _STANDSTILL = 1.0  # rad/s: slower shafts are given the ratios of this speed
@@ -68,36 +73,41 @@ _STANDSTILL = 1.0  # rad/s: slower shafts are given the ratios of this speed
 
 @kernel
 def quasistatic_point(p, c, speed, y, w):
-    """State ``y`` at the quasi-static point under ``c``; orbit and spin x, r of ball 0 as it rolls there.
+    """State ``y`` at the quasi-static point under ``c``, without imperfections; orbit times spin r there.
 
-    Returns ``(status, orbit, wx, wr)``. The one place that knows which quasi-static kernel there is: loads
-    other than the axial one do not change the friction held here.
+    Returns ``(status, mean over the balls of orbit speed times spin about r, (rad/s)^2)``. The one place
+    that knows the quasi-static kernel.
     """
-    found = w[W_SCALARS + 8 : W_SCALARS + 16]
-    status = quasistatic(p, c, speed, found)
+    load = w[W_SCALARS + 8 : W_SCALARS + 13]
+    tilt = w[W_SCALARS + 13 : W_SCALARS + 15]
+    found = w[W_VEL : W_VEL + Q5_SIZE]
+    carried = loads(p, c, load)
+    status = mounted_equilibrium(p, c, speed, load, 0.0, tilt, found, w)
     if status != OK:
-        return status, 0.0, 0.0, 0.0
-    orbit = found[3]
-    wx = found[4]
-    wr = found[5]
+        # as in `start`: a ring without axial load is given a little
+        load[0] += 1.0 + 0.05 * (abs(load[0]) + abs(load[1]) + abs(load[2]))
+        status = mounted_equilibrium(p, c, speed, load, 0.0, tilt, found, w)
+    if status != OK:
+        return status, 0.0
     for i in range(Y_SIZE):
         y[i] = 0.0
-    x_outer = c[C_PRELOAD] / c[C_PEDESTAL_AXIAL]
-    y_outer = c[C_LOAD_Y] / c[C_PEDESTAL]
-    z_outer = c[C_LOAD_Z] / c[C_PEDESTAL]
-    shared = Y_Q + Q_OUTER
-    for first in (Y_Q, shared):
-        y[first] = x_outer
-        y[first + 1] = y_outer
-        y[first + 2] = z_outer
-    y[Y_Q] += found[0]
-    place_balls(p, y, found, x_outer, y_outer, z_outer)
+    o = Y_Q + Q_OUTER
+    y[o] = c[C_PRELOAD] / c[C_PEDESTAL_AXIAL]
+    y[o + 1] = c[C_LOAD_Y] / c[C_PEDESTAL]
+    y[o + 2] = carried / c[C_PEDESTAL]
+    for i in range(2):
+        y[o + 4 + i] = tilt[i]
+        y[Y_Q + 3 + i] = tilt[i] + found[Q5_SHIFT + 3 + i]
+    for i in range(3):
+        y[Y_Q + i] = y[o + i] + found[Q5_SHIFT + i]
+    place_balls(p, y, found, y[o], y[o + 1], y[o + 2])
     if p[P_CAGE] != 0.0:
-        y[Y_Q + Q_CAGE] = found[1] + x_outer
-        y[Y_Q + Q_CAGE + 1] = y_outer
-        y[Y_Q + Q_CAGE + 2] = z_outer
-        y[Y_V + Q_CAGE + 3] = orbit
-    return OK, orbit, wx, wr
+        place_cage(p, y, found, y[o])
+    gyroscopic = 0.0
+    balls = int(p[P_BALLS])
+    for j in range(balls):
+        gyroscopic += found[Q5_OM + j] * found[Q5_WR + j] / balls
+    return OK, gyroscopic
 
 
 @kernel
@@ -112,11 +122,11 @@ def hold(p, u, speed, s, w):
     conditions(p, u, speed, c)
     lv[L_FOUND_SPEED] = speed
     c[C_OVERSIZE_SCALE] = 0.0
-    status, orbit, _, wr = quasistatic_point(p, c, turning, y, w)
+    status, gyroscopic = quasistatic_point(p, c, turning, y, w)
     if status != OK:
         return status
     square = turning * turning
-    pair = p[P_BALL_INERTIA] * orbit * wr / (c[C_BALL_RADIUS] * square)
+    pair = p[P_BALL_INERTIA] * gyroscopic / (c[C_BALL_RADIUS] * square)
     if p[P_GYROSCOPIC] == 0.0:
         pair = 0.0
     outer = 0.5

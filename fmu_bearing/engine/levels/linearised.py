@@ -57,7 +57,7 @@ def is_tilt(i):
 
 @kernel
 def derivatives(p, c, lv, angle, speed, speed_rate, w):
-    """Derivatives of accelerations at the state in ``w[W_Y:]`` into ``lv``: ``L_JX``, ``L_JV``; False if none.
+    """Fill ``L_JX``, ``L_JV`` and ``L_MASS`` at the state in ``w[W_Y:]``; False where balls find no rest.
 
     The balls' places in ``w`` are those of the state before and after. ``w[W_F + F_G:]`` keeps its
     accelerations.
@@ -199,7 +199,7 @@ def highest_mode(lv, w):
 
 @kernel
 def at_rest(p, c, lv, speed, w):
-    """Static equilibrium of the rings without unbalance, from the guess in ``w[W_Y:]``; whether found.
+    """Find the rings' static equilibrium without unbalance from the guess in ``w[W_Y:]``; whether found.
 
     Newton's method with moves of a few micrometres at most; soft directions (no preload) are held by a
     floor of (50 rad/s)^2 on the diagonal, a hundredth of the lowest spring that a scene's pedestal makes.

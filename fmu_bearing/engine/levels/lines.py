@@ -104,7 +104,7 @@ def order_amplitudes(p, lv):
 
 @kernel
 def sample_orbit(p, c, lv, speed, x, w):
-    """Forces of one ball on the rings all round, and their derivatives, into ``x``; returns the count.
+    """Fill ``x`` with the forces of one ball on the rings all round, and their derivatives; the count.
 
     The rings stand at ``w[W_Y:]``. All balls are moved through one spacing in equal parts.
     """

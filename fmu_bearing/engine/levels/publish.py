@@ -51,7 +51,7 @@ _S = STRIDE
 
 @kernel
 def rate_error(lv, i):
-    """What Newmark's velocity exceeds the true one by: h^2/12 times the rate of acceleration (m/s)."""
+    """By how much Newmark's velocity exceeds the true one: h^2/12 times the rate of acceleration (m/s)."""
     h = lv[L_SPACING]
     if lv[L_KNOWN] >= 2.0:
         return h / 24.0 * (3.0 * lv[L_A + i] - 4.0 * lv[L_A1 + i] + lv[L_A2 + i])
@@ -69,7 +69,7 @@ def publish_rings(lv, newmark, y, f):
 
 @kernel
 def publish_cage(p, lv, speed, speed_rate, y, f):
-    """The cage turns with the balls about the place it had at the start."""
+    """Turn the cage with the balls about the place it had at the start."""
     k = Q_CAGE + 3
     y[Y_Q + k] = wrap(lv[L_THETA])
     y[Y_V + k] = lv[L_RATIO] * speed if p[P_CAGE] != 0.0 else 0.0

@@ -64,7 +64,7 @@ from fmu_bearing.engine.levels.places import (
     N,
 )
 from fmu_bearing.engine.levels.publish import publish
-from fmu_bearing.engine.levels.rings import advance, emit, flat, set_inputs, start_condensed
+from fmu_bearing.engine.levels.shared import advance, emit, flat, set_inputs, start_condensed
 
 _S = STRIDE
 _SAMPLING = 51_200.0  # Hz of the states that samples are interpolated between, with sound
@@ -73,7 +73,7 @@ _BACK = 2e-6  # s between the two states a ball's rate is taken from, without so
 
 @kernel
 def linearise(p, s, w):
-    """Derivatives, damping and lines about the equilibrium in ``L_MEAN``; False where there are none."""
+    """Renew derivatives, damping and lines about ``L_MEAN``; False where there are none."""
     lv = s[S_LEVEL : S_LEVEL + L_SIZE]
     c = s[S_C : S_C + C_SIZE]
     for i in range(MATRIX):
@@ -119,7 +119,7 @@ def start_response(p, u, s, w, t):
 
 @kernel
 def renew_equilibrium(p, u, s, w):
-    """New held values, equilibrium from the old one, and lines; status code."""
+    """Renew held values, equilibrium from the old one, and lines; status code."""
     lv = s[S_LEVEL : S_LEVEL + L_SIZE]
     status = hold(p, u, u[U_SPEED], s, w)
     if status != OK:

@@ -78,6 +78,7 @@ _LONGEST = 2e-6  # m: move of a ball in one sweep, about the approach of a loade
 # order is 9 nm squared over four approaches of 1.5 um, or 1e-11 m of ring motion, 1e-4 of what it vibrates.
 _CLOSE = 1e-15
 _SWEEPS = 30
+_SOFT = 1e6  # N/m: moves count as if against this stiffness at most; loaded contacts have 1e8
 
 
 @kernel
@@ -223,7 +224,9 @@ def sweep(p, c, lv, speed, q, w):
         mask = lv[L_MASK + j]
         # a ball that touches neither race goes towards one, but nothing waits for it
         touching = mask if load + load2 > 0.0 else 0.0
-        w[E_STEP * _S + j] = touching * (dx * dx + dr * dr)
+        # one that barely touches moves far for forces that nobody feels: 3e-8 m times _SOFT is 0.03 N
+        felt = (netx * netx + netr * netr) * (1.0 / (_SOFT * _SOFT))
+        w[E_STEP * _S + j] = touching * min(dx * dx + dr * dr, felt)
         # on the inner ring, at the moved ball
         along = load + kn * (ex * dx + er * dr)
         across = pair_i + kt * (mx * dx + mr * dr)

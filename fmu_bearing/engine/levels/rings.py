@@ -112,7 +112,7 @@ _PROBE = 16  # steps between measurements of the contraction
 _SLOW = 0.25  # contraction beyond which a new Jacobian (23 evaluations) pays
 # Shares of the tolerance: what the correction may leave in a step, and what the step's own error estimate
 # may reach. Both repeat at every step and mostly alternate in sign.
-_CORRECTION = 0.1
+_CORRECTION = 0.03
 _TRUNCATION = 1.0
 _GROW = 1.0 / 40  # of the allowed error: twice the step makes 16 times the error
 _PATIENCE = 8  # steps before a longer one is tried

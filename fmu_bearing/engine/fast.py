@@ -7,7 +7,7 @@ the scale of the step. Otherwise the block is thrown away and ESDIRK4 goes on fr
 
 import math
 
-from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.jit import inlined, kernel
 from fmu_bearing.engine.layout import (
     C_SIZE,
     F_G,
@@ -190,7 +190,7 @@ def method_error(p, h, beta_ball, k, w):
     return error
 
 
-@kernel
+@inlined
 def try_block(p, s, w, h, beta_ball, count, tolerance):
     """Compute ``count`` steps of length ``h`` into the block; 0 good, 1 shorter steps, 2 leave."""
     c = s[S_C : S_C + C_SIZE]
@@ -226,7 +226,7 @@ def try_block(p, s, w, h, beta_ball, count, tolerance):
     return 0 if method_error(p, h, beta_ball, count, w) <= tolerance else 1
 
 
-@kernel
+@inlined
 def commit_step(p, s, w, h, k):
     """Make step ``k`` of the block the state: true rates, sound samples, work and heat by the trapezoid."""
     here = W_BLOCK_A + (k + 3) * F_SIZE
@@ -257,7 +257,7 @@ def keep_block(s, w, count):
     wrap_angles(y)
 
 
-@kernel
+@inlined
 def fast_block(p, s, w, count, tolerance):
     """Advance by ``count`` steps (at most BLOCK) of the history's length; False if refused.
 

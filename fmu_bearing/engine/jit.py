@@ -1,11 +1,12 @@
 """How kernels are compiled: one set of flags for all, entries cached once per machine.
 
-``kernel`` marks a function called by other kernels. ``inlined`` marks a loop over balls that is compiled
-into its caller: its literal arguments become constants there, and only with constant places does the loop
-become a vector loop (4 times faster). ``entry`` marks what Python calls (and the right-hand side, which
-tests and studies call by itself); its machine code is kept in the user's cache directory under a hash of
-the engine's sources, so that a changed helper never meets a stale entry, a read-only installation works,
-and an FMU that is unzipped anew compiles nothing.
+``kernel`` marks a function called by other kernels. ``inlined`` marks one that is compiled into its caller.
+For a loop over balls, literal arguments become constants there, and only with constant places does the loop
+become a vector loop (4 times faster); for a large function with one caller it saves compiling all that it
+calls once more, as Numba does for each kernel of a chain. ``entry`` marks what Python calls (and the
+right-hand side, which tests and studies call by itself); its machine code is kept in the user's cache
+directory under a hash of the engine's sources, so that a changed helper never meets a stale entry, a
+read-only installation works, and an FMU that is unzipped anew compiles nothing.
 """
 
 import hashlib

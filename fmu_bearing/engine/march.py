@@ -3,7 +3,7 @@
 import math
 
 from fmu_bearing.engine.fast import fast_block, fast_history, fast_length, remember, shift_history
-from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.jit import inlined
 from fmu_bearing.engine.layout import (
     BLOCK,
     C_SIZE,
@@ -65,7 +65,7 @@ _SAME_STEP = (0.87, 1.15)
 _SLOW = 0.3  # contraction beyond which a new Jacobian pays: three iterations against two
 
 
-@kernel
+@inlined
 def take_inputs(p, u, s, w, h):
     """Set conditions and speed ramp; what a jump of a held input does to stored energy counts as work."""
     rate = (u[U_SPEED] - s[S_SPEED]) / h
@@ -95,7 +95,7 @@ def take_inputs(p, u, s, w, h):
         total_energy(p, s, w)
 
 
-@kernel
+@inlined
 def try_step(p, s, w, h, tableau, tolerance):
     """One attempt of length ``h`` with Jacobian and factors kept as long as they serve.
 
@@ -133,7 +133,7 @@ def try_step(p, s, w, h, tableau, tolerance):
     return -1.0
 
 
-@kernel
+@inlined
 def march(p, u, s, w, h):
     """Advance the state by the communication step ``h`` (s); status code."""
     for i in range(3):

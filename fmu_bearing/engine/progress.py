@@ -1,6 +1,6 @@
 """What every way of stepping does to the state: renew the Jacobian, take a step over, add up energy."""
 
-from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.jit import inlined, kernel
 from fmu_bearing.engine.layout import (
     C_SIZE,
     F_SIZE,
@@ -54,7 +54,7 @@ def show_axes(p, s, w):
     turn_axes(p, s[S_AXES:S_JAC], s[S_Y : S_Y + Y_SIZE], int(p[P_LANES]), 0.0, w)
 
 
-@kernel
+@inlined
 def total_energy(p, s, w):
     """Return the stored energy (J) of the state in ``s``; refresh its right-hand side on the way."""
     show_axes(p, s, w)
@@ -73,7 +73,7 @@ def wrap_angles(y):
     y[Y_Q + Q_CAGE + 3] = wrap(y[Y_Q + Q_CAGE + 3])
 
 
-@kernel
+@inlined
 def renew_jacobian(p, s, w):
     """Jacobian at the present state; marks the factors as out of date."""
     show_axes(p, s, w)

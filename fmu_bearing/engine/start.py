@@ -6,7 +6,7 @@ Rings rest on their springs; each ball has its own place, orbit and spin.
 import math
 
 from fmu_bearing.engine.fast import begin
-from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.jit import inlined, kernel
 from fmu_bearing.engine.layout import (
     B_OM,
     B_R,
@@ -178,7 +178,7 @@ def place_cage(p, y, found, x_outer):
         y[Y_V + Q_CAGE + 3] += found[Q5_OM + j] / balls
 
 
-@kernel
+@inlined
 def start(p, u, s, w, t):
     """Fill the state ``s`` for the inputs ``u`` at time ``t`` (s); status code."""
     for i in range(s.size):

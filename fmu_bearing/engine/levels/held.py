@@ -8,7 +8,7 @@ follow the speed, the gyroscopic friction its square, and torque and heats stay 
 zero with the speed). A renewal costs some 30 evaluations of the full right-hand side with its Jacobian.
 """
 
-from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.jit import inlined, kernel
 from fmu_bearing.engine.layout import (
     B_OM,
     B_WX,
@@ -74,7 +74,7 @@ _S = STRIDE
 _STANDSTILL = 1.0  # rad/s: slower shafts are given the ratios of this speed
 
 
-@kernel
+@inlined
 def quasistatic_point(p, c, speed, y, w):
     """State ``y`` at the quasi-static point under the axial load in ``c``; orbit times spin r there.
 

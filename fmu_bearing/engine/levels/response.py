@@ -11,7 +11,7 @@ between states 19.5 us apart.
 
 import math
 
-from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.jit import inlined, kernel
 from fmu_bearing.engine.layout import (
     C_SIZE,
     F_SIZE,
@@ -99,7 +99,7 @@ def still(p, c, lv, w):
     flat(p, c, lv, w)
 
 
-@kernel
+@inlined
 def start_response(p, u, s, w, t):
     """Fill the state ``s`` for the inputs ``u`` at time ``t`` (s); status code."""
     status = start_condensed(p, u, s, w, t)
@@ -117,7 +117,7 @@ def start_response(p, u, s, w, t):
     return OK
 
 
-@kernel
+@inlined
 def renew_equilibrium(p, u, s, w):
     """Renew held values, equilibrium from the old one, and lines; status code."""
     lv = s[S_LEVEL : S_LEVEL + L_SIZE]
@@ -197,7 +197,7 @@ def show(p, s, w):
     publish(p, lv, s[S_SPEED], s[S_SPEED_RATE], False, s[S_Y : S_Y + Y_SIZE], s[S_F : S_F + F_SIZE])
 
 
-@kernel
+@inlined
 def march_response(p, u, s, w, h):
     """Advance the state by the communication step ``h`` (s); status code."""
     lv = s[S_LEVEL : S_LEVEL + L_SIZE]

@@ -13,7 +13,7 @@ the third difference of the accelerations shows that it is too long.
 
 import math
 
-from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.jit import inlined, kernel
 from fmu_bearing.engine.layout import (
     C_SIZE,
     F_G,
@@ -126,7 +126,7 @@ def longest_step(p, lv, speed):
     return min(h, _WAVE / (lv[L_ORDER] * fastest + 1.0))
 
 
-@kernel
+@inlined
 def start_rings(p, u, s, w, t):
     """Fill the state ``s`` for the inputs ``u`` at time ``t`` (s); status code."""
     status = start_condensed(p, u, s, w, t)
@@ -182,7 +182,7 @@ def renew(p, s, w):
     return True
 
 
-@kernel
+@inlined
 def take_inputs(p, u, s, w, h):
     """Set conditions and speed ramp; renew what is held where it is out of date. Status code."""
     lv = s[S_LEVEL : S_LEVEL + L_SIZE]
@@ -345,7 +345,7 @@ def accept(p, s, h, w):
     lv[L_THETA] = wrap(lv[L_THETA] + lv[L_RATIO] * turned)
 
 
-@kernel
+@inlined
 def try_step(p, s, h, tolerance, w):
     """One attempt of length ``h``: its error over the allowed one, or -1 with a fresh Jacobian in vain."""
     lv = s[S_LEVEL : S_LEVEL + L_SIZE]
@@ -367,7 +367,7 @@ def try_step(p, s, h, tolerance, w):
     return -1.0
 
 
-@kernel
+@inlined
 def march_rings(p, u, s, w, h):
     """Advance the state by the communication step ``h`` (s); status code."""
     lv = s[S_LEVEL : S_LEVEL + L_SIZE]

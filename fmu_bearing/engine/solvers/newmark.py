@@ -59,7 +59,7 @@ def predict(y, a, h, new, new_a):
         new_a[i] = a[i]
 
 
-@kernel
+@inlined
 def iterate(p, c, angle, speed, speed_rate, h, beta_ball, fac, co, si, new, new_a, w):
     """One Newton iteration on the state ``new`` and its accelerations; the increment stays in ``w[W_D:]``.
 

@@ -69,7 +69,8 @@ _S = STRIDE
 LONGEST = 1e-5  # s: beyond it the rings' modes of the example bearings leave the method's range
 SHORTEST = 2.5e-6  # s: below it ESDIRK4 costs no more
 _SETTLING = 4e-3  # s after the start before the first try
-_CONTRACTION = 0.1  # a second iteration must gain this much
+_CONTRACTION = 0.2  # a second iteration must gain this much
+_LEFT = 10.0  # what it finds, in tolerances: not an error that adds up, for the next step finds it again
 _RANGE = 2.0  # rad: limit of frequency times step, of 2.45 for beta = 1/12
 _BALL_RANGE = 2.1  # rad: the same for the balls
 _OLDEST = 1e-2  # s: age of the Jacobian; the contraction usually asks for a new one earlier
@@ -221,7 +222,7 @@ def try_block(p, s, w, h, beta_ball, count, tolerance):
         return 2
     if left > _CONTRACTION * size and left > 1e-2 * tolerance:
         return 2
-    if left > tolerance:
+    if left > _LEFT * tolerance:
         return 1
     return 0 if method_error(p, h, beta_ball, count, w) <= tolerance else 1
 
@@ -302,7 +303,7 @@ def fast_length(p, s, remaining):
     if s[S_TIME] < s[S_FAST_HOLD]:
         return 0.0
     wanted = min(s[S_FAST_STEP], p[P_MAX_STEP])
-    length = remaining / math.ceil(remaining / wanted - 1e-6)
+    length = remaining / max(1.0, math.ceil(remaining / wanted - 1e-6))
     if ring_range(s) * length > _RANGE:
         return 0.0
     return length

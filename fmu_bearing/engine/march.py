@@ -149,9 +149,10 @@ def march(p, u, s, w, h):
     left = 2000.0 + (1000.0 if tableau == RK4 else 100.0) * math.ceil(h / p[P_MAX_STEP])
     remaining = h
     fast = p[P_METHOD] == 1.0
-    while remaining > 1e-12 * h:
+    # the clock's own rounding must not count as time left
+    while remaining > 1e-12 * h + 4e-16 * abs(end):
         proposed = min(s[S_STEP], p[P_MAX_STEP])
-        length = remaining / math.ceil(remaining / proposed - 1e-9)
+        length = remaining / max(1.0, math.ceil(remaining / proposed - 1e-9))
         short = fast_length(p, s, remaining) if fast else 0.0
         if short > 0.0 and short <= 1.000001 * length:
             # ESDIRK4 takes the same steps until the history suffices
@@ -161,13 +162,15 @@ def march(p, u, s, w, h):
                 if fast_block(p, s, w, count, tolerance):
                     remaining = end - s[S_TIME]
                     continue
-        error = try_step(p, s, w, length, tableau, tolerance)
         left -= 1.0
+        if left < 0.0:
+            return NOT_CONVERGED
+        error = try_step(p, s, w, length, tableau, tolerance)
         if error < 0.0 or not (error <= 1.0):
             s[S_REJECTED] += 1.0
             shrink = 0.25 if not (error > 0.0) else max(0.2, 0.9 * error**power)
             s[S_STEP] = length * shrink
-            if s[S_STEP] < min(_SHORTEST, 0.01 * h) or left < 0.0:
+            if s[S_STEP] < min(_SHORTEST, 0.01 * h):
                 return NOT_CONVERGED
             continue
         integrate_power(length, tableau, w, s[S_WORK : S_WORK + 4])

@@ -67,6 +67,7 @@ from fmu_bearing.engine.layout import (
     S_TIME,
     S_Y,
     STRIDE,
+    TOO_SOFT,
     U_PRELOAD,
     U_SPEED,
     W_MOTION,
@@ -203,6 +204,8 @@ def start(p, u, s, w, t):
     y[o] = c[C_PRELOAD] / c[C_PEDESTAL_AXIAL]
     y[o + 1] = c[C_LOAD_Y] / c[C_PEDESTAL]
     y[o + 2] = carried / c[C_PEDESTAL]
+    if abs(y[o + 1]) + abs(y[o + 2]) > 0.1 * p[P_PITCH_RADIUS]:
+        return TOO_SOFT
     for i in range(2):
         y[o + 4 + i] = tilt[i]
         y[Y_Q + 3 + i] = tilt[i] + found[Q5_SHIFT + 3 + i]

@@ -91,67 +91,82 @@ def react(lanes, balls, body, first, spin, last, w):
         w[(last + 1) * _S + j] = c * mr - s * mt
 
 
+@inlined
+def race_forces(p, c, y, lanes, race, turned, w):
+    """Evaluate the forces between balls and one race, whose poses stand in ``w``; ``turned``: its angle.
+
+    ``race`` has to be a literal: only with constant places do the loops become vector loops.
+    """
+    waves(p, c, y[B_TH * _S : (B_TH + 1) * _S], lanes, race, turned, w)
+    normal(p, c, y, lanes, race, w)
+    if p[P_BALL_WAVES] != 0.0:
+        add_ball_waves(p, c, lanes, race, w)
+    if p[P_TRACTION_LAW] == 0.0:
+        traction(p, lanes, race, w)
+    else:
+        lubricated_traction(p, c, lanes, race, w)
+    rolling(p, c, lanes, race, w)
+    collect(p, c, lanes, race, w)
+    if p[P_BALL_WAVES] != 0.0:
+        ball_wave_forces(p, c, lanes, race, w)
+
+
 @kernel
-def ball_forces(p, c, y, angle, speed, w):
-    """Everything the balls feel from the bodies and give back to them; fills the rows of ``w``."""
+def inner_forces(p, c, y, angle, speed, w):
+    """Evaluate what the balls feel from the inner ring and give back to it."""
     lanes = int(p[P_LANES])
-    th = B_TH * _S
-    ball_angles(y, th, lanes, w)
     q = Y_Q
     v = Y_V
-    turning = y[th : th + _S]
     relative_pose(
         p, y, lanes, 0, y[q], y[q + 1], y[q + 2], y[q + 3], y[q + 4],
         y[v], y[v + 1], y[v + 2], speed, y[v + 3], y[v + 4], w,
     )  # fmt: skip
-    q += Q_OUTER
-    v += Q_OUTER
+    race_forces(p, c, y, lanes, 0, angle, w)
+    react(lanes, int(p[P_BALLS]), 0, W_G, W_SHAFT, W_G + 3, w)
+
+
+@kernel
+def outer_forces(p, c, y, w):
+    """Evaluate what the balls feel from the outer ring and give back to it."""
+    lanes = int(p[P_LANES])
+    q = Y_Q + Q_OUTER
+    v = Y_V + Q_OUTER
     relative_pose(
         p, y, lanes, 1, y[q], y[q + 1], y[q + 2], y[q + 4], y[q + 5],
         y[v], y[v + 1], y[v + 2], y[v + 3], y[v + 4], y[v + 5], w,
     )  # fmt: skip
-    # written out: the number of the race has to be a constant for the loops to become vector loops
-    waves(p, c, turning, lanes, 0, angle, w)
-    normal(p, c, y, lanes, 0, w)
-    if p[P_BALL_WAVES] != 0.0:
-        add_ball_waves(p, c, lanes, 0, w)
-    if p[P_TRACTION_LAW] == 0.0:
-        traction(p, lanes, 0, w)
-    else:
-        lubricated_traction(p, c, lanes, 0, w)
-    rolling(p, c, lanes, 0, w)
-    collect(p, c, lanes, 0, w)
-    waves(p, c, turning, lanes, 1, y[q + 3], w)
-    normal(p, c, y, lanes, 1, w)
-    if p[P_BALL_WAVES] != 0.0:
-        add_ball_waves(p, c, lanes, 1, w)
-    if p[P_TRACTION_LAW] == 0.0:
-        traction(p, lanes, 1, w)
-    else:
-        lubricated_traction(p, c, lanes, 1, w)
-    rolling(p, c, lanes, 1, w)
-    collect(p, c, lanes, 1, w)
-    if p[P_BALL_WAVES] != 0.0:
-        ball_wave_forces(p, c, lanes, 0, w)
-        ball_wave_forces(p, c, lanes, 1, w)
-    balls = int(p[P_BALLS])
-    react(lanes, balls, 0, W_G, W_SHAFT, W_G + 3, w)
-    react(lanes, balls, 1, W_G + Q_OUTER, W_G + Q_OUTER + 3, W_G + Q_OUTER + 4, w)
-    if p[P_CAGE] != 0.0:
-        q = Y_Q + Q_CAGE
-        v = Y_V + Q_CAGE
-        relative_pose(
-            p, y, lanes, 2, y[q], y[q + 1], y[q + 2], y[q + 4], y[q + 5],
-            y[v], y[v + 1], y[v + 2], y[v + 3], y[v + 4], y[v + 5], w,
-        )  # fmt: skip
-        pockets(p, c, turning, lanes, y[q + 3], w)
-        react(lanes, balls, 2, W_G + Q_CAGE, W_G + Q_CAGE + 3, W_G + Q_CAGE + 4, w)
-    else:
+    race_forces(p, c, y, lanes, 1, y[q + 3], w)
+    react(lanes, int(p[P_BALLS]), 1, W_G + Q_OUTER, W_G + Q_OUTER + 3, W_G + Q_OUTER + 4, w)
+
+
+@kernel
+def cage_forces(p, c, y, w):
+    """Evaluate what the balls feel from the cage and give back to it; zeros where there is none."""
+    lanes = int(p[P_LANES])
+    if p[P_CAGE] == 0.0:
         for i in range(6 * _S):
             w[(W_FORCE + 12) * _S + i] = 0.0
             w[(W_G + Q_CAGE) * _S + i] = 0.0
         for j in range(_S):
             w[(W_LOSS + 2) * _S + j] = 0.0
+        return
+    q = Y_Q + Q_CAGE
+    v = Y_V + Q_CAGE
+    relative_pose(
+        p, y, lanes, 2, y[q], y[q + 1], y[q + 2], y[q + 4], y[q + 5],
+        y[v], y[v + 1], y[v + 2], y[v + 3], y[v + 4], y[v + 5], w,
+    )  # fmt: skip
+    pockets(p, c, y[B_TH * _S : (B_TH + 1) * _S], lanes, y[q + 3], w)
+    react(lanes, int(p[P_BALLS]), 2, W_G + Q_CAGE, W_G + Q_CAGE + 3, W_G + Q_CAGE + 4, w)
+
+
+@kernel
+def ball_forces(p, c, y, angle, speed, w):
+    """Everything the balls feel from the bodies and give back to them; fills the rows of ``w``."""
+    ball_angles(y, B_TH * _S, int(p[P_LANES]), w)
+    inner_forces(p, c, y, angle, speed, w)
+    outer_forces(p, c, y, w)
+    cage_forces(p, c, y, w)
 
 
 @kernel
@@ -211,14 +226,9 @@ def sum_rows(first, count, lanes, w, out, at):
         out[at + i] = (a + b) + (c + d)
 
 
-@entry
-def right_hand_side(p, c, y, angle, speed, speed_rate, w, f):
-    """Accelerations, power, heat and shaft torque at one state.
-
-    ``p`` parameters, ``c`` conditions, ``y`` positions and velocities, ``angle``/``speed``/``speed_rate`` of
-    the inner ring (rad, rad/s, rad/s2); ``w`` work space; ``f`` result (see ``layout``). SI units.
-    """
-    ball_forces(p, c, y, angle, speed, w)
+@kernel
+def add_up(p, c, y, angle, speed, speed_rate, w, f):
+    """From the forces in the rows of ``w`` to the right-hand side ``f``."""
     ball_accelerations(p, y, w, f)
     lanes = int(p[P_LANES])
     sum_rows(W_G, N_BODY, lanes, w, f, F_G)
@@ -232,6 +242,17 @@ def right_hand_side(p, c, y, angle, speed, speed_rate, w, f):
     f[F_TORQUE] = torque
     f[F_WORK] = 0.0
     body_equations(p, c, y, angle, speed, speed_rate, w, f)
+
+
+@entry
+def right_hand_side(p, c, y, angle, speed, speed_rate, w, f):
+    """Accelerations, power, heat and shaft torque at one state.
+
+    ``p`` parameters, ``c`` conditions, ``y`` positions and velocities, ``angle``/``speed``/``speed_rate`` of
+    the inner ring (rad, rad/s, rad/s2); ``w`` work space; ``f`` result (see ``layout``). SI units.
+    """
+    ball_forces(p, c, y, angle, speed, w)
+    add_up(p, c, y, angle, speed, speed_rate, w, f)
 
 
 @kernel

@@ -1,7 +1,8 @@
 """Jacobian of the accelerations by forward differences.
 
 A ball's accelerations depend on its own state and on the bodies', never on another ball's, so one
-perturbation serves all balls at once: 9 evaluations for the ball columns, 34 for the bodies'.
+perturbation serves all balls at once: 9 evaluations for the ball columns. For the bodies' 34 only the forces
+of the body that moves are evaluated.
 """
 
 from fmu_bearing.engine.jit import kernel
@@ -24,6 +25,7 @@ from fmu_bearing.engine.layout import (
     P_OUTER_TRANSVERSE,
     P_RIGID,
     Q_CAGE,
+    Q_OUTER,
     STRIDE,
     W_F,
     W_F0,
@@ -31,7 +33,15 @@ from fmu_bearing.engine.layout import (
     W_G0,
     Y_Q,
 )
-from fmu_bearing.engine.mechanics.equations import ball_accelerations, ball_forces, right_hand_side
+from fmu_bearing.engine.mechanics.equations import (
+    add_up,
+    ball_accelerations,
+    ball_forces,
+    cage_forces,
+    inner_forces,
+    outer_forces,
+    right_hand_side,
+)
 
 _S = STRIDE
 # Small against the contact approach (2e-6 m) and the traction law's slip scale (1e-3 m/s), large against
@@ -69,14 +79,11 @@ def is_angle(i):
 
 
 @kernel
-def jacobian(p, c, y, angle, speed, speed_rate, w, jac):
-    """Fill the blocks B, C, D, E of ``jac`` at state ``y`` (rows per lane; E is 17 x 34, row-major)."""
+def ball_columns(p, c, y, angle, speed, w, jac):
+    """Blocks B and D: all balls moved at once; the unmoved answers stand in ``w[W_F0:]`` and ``w[W_G0:]``."""
     lanes = int(p[P_LANES])
     f = w[W_F:W_F0]
     f0 = w[W_F0 : W_F0 + (W_F0 - W_F)]
-    right_hand_side(p, c, y, angle, speed, speed_rate, w, f0)
-    for i in range(N_BODY * _S):
-        w[W_G0 + i] = w[W_G * _S + i]
     caged = p[P_CAGE] != 0.0
     for k in range(9):
         step = _DISPLACEMENT if k < 2 else (_ANGLE if k == 2 else (_VELOCITY if k < 5 else _RATE))
@@ -96,26 +103,48 @@ def jacobian(p, c, y, angle, speed, speed_rate, w, jac):
                 scale = 0.0
             for j in range(lanes):
                 jac[J_D + (i * 9 + k) * _S + j] = (w[(W_G + i) * _S + j] - w[W_G0 + i * _S + j]) * scale
-    for k in range(2 * N_BODY):
-        i = k % N_BODY
-        if i >= Q_CAGE and not caged:
+
+
+@kernel
+def moved_forces(p, c, y, angle, speed, i, w):
+    """Evaluate anew the forces on the body to which coordinate ``i`` belongs: the others' rows hold."""
+    if i < Q_OUTER:
+        inner_forces(p, c, y, angle, speed, w)
+    elif i < Q_CAGE:
+        outer_forces(p, c, y, w)
+    else:
+        cage_forces(p, c, y, w)
+
+
+@kernel
+def jacobian(p, c, y, angle, speed, speed_rate, w, jac):
+    """Fill the blocks B, C, D, E of ``jac`` at state ``y`` (rows per lane; E is 17 x 34, row-major)."""
+    lanes = int(p[P_LANES])
+    f = w[W_F:W_F0]
+    f0 = w[W_F0 : W_F0 + (W_F0 - W_F)]
+    right_hand_side(p, c, y, angle, speed, speed_rate, w, f0)
+    for i in range(N_BODY * _S):
+        w[W_G0 + i] = w[W_G * _S + i]
+    ball_columns(p, c, y, angle, speed, w, jac)
+    ball_forces(p, c, y, angle, speed, w)
+    for i in range(N_BODY):
+        for rate in range(2):
+            k = i + rate * N_BODY
+            if rate == 0:
+                step = _ANGLE if is_angle(i) else _DISPLACEMENT
+            else:
+                step = _RATE if is_angle(i) else _VELOCITY
+            kept = y[Y_Q + k]
+            y[Y_Q + k] = kept + step
+            moved_forces(p, c, y, angle, speed, i, w)
+            add_up(p, c, y, angle, speed, speed_rate, w, f)
+            y[Y_Q + k] = kept
+            per = 1.0 / step
             for n in range(6):
                 for j in range(lanes):
-                    jac[J_C + (n * 34 + k) * _S + j] = 0.0
+                    jac[J_C + (n * 34 + k) * _S + j] = (f[n * _S + j] - f0[n * _S + j]) * per
             for n in range(N_BODY):
-                jac[J_E + n * 34 + k] = 0.0
-            continue
-        if k < N_BODY:
-            step = _ANGLE if is_angle(i) else _DISPLACEMENT
-        else:
-            step = _RATE if is_angle(i) else _VELOCITY
-        kept = y[Y_Q + k]
-        y[Y_Q + k] = kept + step
-        right_hand_side(p, c, y, angle, speed, speed_rate, w, f)
-        y[Y_Q + k] = kept
-        per = 1.0 / step
-        for n in range(6):
-            for j in range(lanes):
-                jac[J_C + (n * 34 + k) * _S + j] = (f[n * _S + j] - f0[n * _S + j]) * per
-        for n in range(N_BODY):
-            jac[J_E + n * 34 + k] = (f[F_G + n] - f0[F_G + n]) * per
+                jac[J_E + n * 34 + k] = (f[F_G + n] - f0[F_G + n]) * per
+        if i == Q_OUTER - 1 or i == Q_CAGE - 1:
+            # the next coordinates are another body's: this one's rows go back to the unmoved state
+            moved_forces(p, c, y, angle, speed, i, w)

@@ -25,7 +25,7 @@ from fmu_bearing.engine.solvers.elimination import eliminate
 from fmu_bearing.engine.solvers.quasistatic import DEEPER, solve_ring
 
 _S = STRIDE
-_ROUNDS = 12
+_ROUNDS = 25
 _LARGEST = 2e-3  # rad: longest step of the outer ring's tilt
 _REACH = 5e-3  # rad: beyond it equations for small tilts mean little
 _SYSTEM = (W_POSE + 40) * STRIDE  # scratch behind that of ``solve_ring``: 5 x 6
@@ -97,7 +97,7 @@ def mounted_equilibrium(p, c, speed, load, share, tilt, found, w):
     tilt[0] = p[P_MISALIGNMENT_Y]
     tilt[1] = p[P_MISALIGNMENT_Z]
     status = OK
-    for _ in range(_ROUNDS):
+    for n in range(_ROUNDS):
         status = solve_ring(p, c, speed, load, tilt, share, found, w)
         if status != OK:
             break
@@ -114,7 +114,8 @@ def mounted_equilibrium(p, c, speed, load, share, tilt, found, w):
         det = yy * zz - yz * zy
         dy = (zz * my - yz * mz) / det
         dz = (yy * mz - zy * my) / det
-        if abs(dy) + abs(dz) < 1e-9:
+        # the balls found belong to the tilt they were found at: after the last round it stays
+        if abs(dy) + abs(dz) < 1e-9 or n == _ROUNDS - 1:
             break
         tilt[0] = kept_near(p[P_MISALIGNMENT_Y], tilt[0] + min(max(dy, -_LARGEST), _LARGEST))
         tilt[1] = kept_near(p[P_MISALIGNMENT_Z], tilt[1] + min(max(dz, -_LARGEST), _LARGEST))

@@ -1,6 +1,7 @@
 # make demo    install, build the FMU, run the spindle co-simulation; results under out/
 # make test    install with test tools and run the tests that take seconds
 # make heavy   the tests that take minutes
+# make bench   time the levels beside other programs; writes docs/results/benchmark.md and .csv
 # make clean   remove what was made here
 
 PYTHON ?= python3
@@ -18,7 +19,7 @@ SOURCES := $(shell find fmu_bearing modelDescription -type f ! -name '*.pyc' 2>/
 # Two test workers on two cores: linear algebra libraries must not start threads of their own.
 test heavy: export OPENBLAS_NUM_THREADS = 1
 
-.PHONY: demo test heavy kernels clean
+.PHONY: demo test heavy bench kernels clean
 .DELETE_ON_ERROR:
 
 demo: $(BEARING) $(OUT)/SpindleMotor.fmu
@@ -41,6 +42,11 @@ test: kernels
 heavy: kernels
 	$(BIN)/python -m pytest -n $(JOBS) -m heavy
 
+# A few minutes of one core; on a machine that does nothing else.
+bench: $(VENV)/.installed-bench
+	$(BIN)/python -m fmu_bearing.engine
+	$(BIN)/python -m benchmarks.run --output docs/results
+
 kernels: $(VENV)/.installed-test
 	$(BIN)/python -m fmu_bearing.engine
 
@@ -51,6 +57,10 @@ $(VENV)/.installed: pyproject.toml constraints.txt | $(BIN)/python
 
 $(VENV)/.installed-test: pyproject.toml constraints.txt | $(BIN)/python
 	$(PIP) --editable ".[test]"
+	@touch $@ $(VENV)/.installed
+
+$(VENV)/.installed-bench: pyproject.toml constraints.txt | $(BIN)/python
+	$(PIP) --editable ".[bench]"
 	@touch $@ $(VENV)/.installed
 
 $(BIN)/python:

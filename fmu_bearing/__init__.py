@@ -12,6 +12,7 @@ One way through, with no way back::
 ``engine``          Numba kernels on flat arrays: mechanics, solvers, sound
 ``instance``        one running bearing, for the library and for the FMU alike
 ``fmi``             the FMI face: XML, slave, the written ``.fmu``
+``study``           reference trajectories, and level ``full`` for general-purpose integrators
 ==================  =========================================================================
 
 Axes: X bearing axis, Y horizontal, Z up. Positive speed is right-handed about +X; preload pushes the inner

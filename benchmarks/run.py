@@ -1,0 +1,150 @@
+"""Print simulated s per wall s of each level beside its peers: ``python -m benchmarks.run``.
+
+One process, one machine, one run. Timings are printed, never asserted.
+"""
+
+import argparse
+import os
+import pathlib
+import platform
+import sys
+import time
+
+import numba
+import numpy as np
+
+from benchmarks import exudyn_peer, memory, ours, peers, table, terms
+from benchmarks.cases import CASES, QUICK, SOLVERS, Case
+from benchmarks.table import Row
+from fmu_bearing.study.arrays import Arrays
+from fmu_bearing.study.first_order import FirstOrder
+from fmu_bearing.study.reference import Reference
+
+PEER_WINDOW = 2e-3  # s
+EXUDYN_STEP = 5e-6  # s
+RESULTS = pathlib.Path(__file__).parents[1] / "docs" / "results"
+
+
+def machine() -> str:
+    """Processor, cores and the versions that matter for speed."""
+    model = platform.processor() or platform.machine()
+    cpuinfo = pathlib.Path("/proc/cpuinfo")
+    if cpuinfo.exists():
+        names = [line for line in cpuinfo.read_text().splitlines() if line.startswith("model name")]
+        model = names[0].split(":", 1)[1].strip() if names else model
+    return (
+        f"{model}, {os.cpu_count()} cores (one used), {platform.system()}; "
+        f"Python {platform.python_version()}, NumPy {np.__version__}, Numba {numba.__version__}, "
+        f"SciPy {peers.version('scipy')}, EXUDYN {peers.version('exudyn')}, "
+        f"scikit-sundae {peers.version('scikit-sundae')}"
+    )
+
+
+def peer_rows(
+    case: Case, start: Arrays, exact: Reference, window: float, seconds: float, repeats: int
+) -> list[Row]:
+    """Rows of the peers in one case."""
+    rows = []
+    row = Row(case.name, "EXUDYN", f"h = {1e6 * EXUDYN_STEP:g} us", ours=False)
+    if exudyn_peer.version() is None:
+        row.remark = "not installed"
+    else:
+        run = exudyn_peer.timed(start, EXUDYN_STEP, 0.0 if case.kind == "start" else 5e-4, window)
+        row.wall, row.cpu = run.simulated / run.wall, run.simulated / run.cpu
+        row.remark = run.note or "own model: dry, contact angle 0, no waviness"
+    rows.append(row)
+    steps = max(1, round(window / ours.SAMPLE))
+    problem = FirstOrder(start)
+    problem.jacobian(0.0, problem.start, np.empty((problem.size, problem.size)))  # compiled before the clock
+    problem.rate(0.0, problem.start, np.empty(problem.size))
+    for name, entry in peers.solvers().items():
+        rows.append(
+            peers.peer_row(
+                case.name,
+                name,
+                entry,
+                problem,
+                exact.velocities[:steps],
+                exact.times[:steps],
+                ours.LIMIT,
+                seconds,
+                repeats,
+            )  # fmt: skip
+        )
+    return rows
+
+
+def measure(cases: tuple[Case, ...], quick: bool) -> tuple[list[Row], list[list[str]]]:
+    """Rows of the main table, and one row per case on its reference."""
+    budget, repeats, seconds = (0.05, 1, 5.0) if quick else (0.4, 3, 12.0)
+    built = ours.probe(SOLVERS, QUICK[0])
+    rows: list[Row] = []
+    references = []
+    for case in cases:
+        begin = time.process_time()
+        mine, start, exact = ours.rows_of(case, built, budget, repeats)
+        others = peer_rows(case, start, exact, PEER_WINDOW, seconds, repeats)
+        rows += mine + others
+        references.append(
+            [case.name, f"{1e3 * case.window:g} ms", f"{exact.agreement:.0e}", f"{exact.explicit_cost:.0f}",
+             f"{exact.implicit_cost:.0f}"]
+        )  # fmt: skip
+        print(f"{case.name}: {time.process_time() - begin:.0f} s", file=sys.stderr, flush=True)
+    table.fill_ratios(rows)
+    rows += [Row("all", solver.name, remark="not built") for solver, there in built.items() if not there]
+    rows.append(Row("all", "the same right-hand side in C", remark="not written", ours=False))
+    return rows, references
+
+
+REFERENCE_COLUMNS = (
+    "case", "window", "two integrators agree to", "CPU s per s, Runge-Kutta 40 ns", "ESDIRK4 0.5 us",
+)  # fmt: skip
+
+TEXT = """# Benchmark
+
+{machine}
+
+Simulated seconds per wall second, higher is faster; made by `make bench`, which `benchmarks/README.md`
+explains. Best of {repeats} runs, communication step 1 ms, no sound. Error: rms difference of the six ring
+velocities to the reference over the rms of its fluctuation; for `rings` and `response` the larger ring's
+difference in rms velocity to `full`. A ratio is our speed over the peer's in the same case and run, by CPU
+time, each at the error it states. EXUDYN computes another, simpler model and has no error here. The peers'
+rows stand below ours; they are timed over {window:g} ms.
+
+"""
+
+
+def report(rows: list[Row], references, costs, sizes, repeats: int) -> str:
+    """Everything as Markdown."""
+    text = TEXT.format(machine=machine(), repeats=repeats, window=1e3 * PEER_WINDOW)
+    text += table.markdown(table.COLUMNS, [row.cells() for row in rows])
+    text += "\n## References\n\n" + table.markdown(REFERENCE_COLUMNS, references)
+    text += "\n## Cost of terms\n\n" + table.markdown(terms.COLUMNS, costs)
+    return text + "\n## Memory of an instance\n\n" + table.markdown(memory.COLUMNS, sizes)
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Run, print, and write the tables where ``--output`` says."""
+    parser = argparse.ArgumentParser(prog="benchmarks", description=__doc__)
+    parser.add_argument("--quick", action="store_true", help="one case, one repeat: half a minute")
+    parser.add_argument("--output", type=pathlib.Path, help="directory for benchmark.md and benchmark.csv")
+    given = parser.parse_args(arguments)
+    rows, references = measure(QUICK if given.quick else CASES, given.quick)
+    budget, repeats = (0.05, 1) if given.quick else (0.3, 3)
+    costs = terms.rows("7003C-spindle", 20000.0, budget, repeats)
+    if not given.quick:
+        costs += terms.rows("7009C-full-ceramic", 18000.0, budget, repeats)
+    sizes = memory.rows(("7003C-spindle", "7009C-full-ceramic"))
+    print(machine())
+    table.show("Simulated s per wall s", table.COLUMNS, [row.cells() for row in rows])
+    table.show("References", REFERENCE_COLUMNS, references)
+    table.show("Cost of terms", terms.COLUMNS, costs)
+    table.show("Memory of an instance", memory.COLUMNS, sizes)
+    if given.output:
+        given.output.mkdir(parents=True, exist_ok=True)
+        (given.output / "benchmark.md").write_text(report(rows, references, costs, sizes, repeats), "utf-8")
+        table.write_csv(given.output / "benchmark.csv", table.COLUMNS, [row.cells() for row in rows])
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,94 @@
+"""What each term costs: one right-hand side, and the run, with it and without it."""
+
+import time
+
+import numpy as np
+
+from benchmarks.cases import silent
+from benchmarks.ours import speed
+from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.jit import entry
+from fmu_bearing.engine.mechanics.equations import right_hand_side
+from fmu_bearing.study.arrays import Arrays, Refused
+
+COLUMNS = ("scene", "variant", "right-hand side, us", "of all terms", "sim/CPU", "times all terms")
+#: Switches of ``p``; one that a scene does not have on is left out of the table.
+SWITCHES = {
+    "without gravity": "P_GRAVITY",
+    "without drag": "P_DRAG",
+    "without rolling resistance": "P_ROLLING",
+    "without its reduction factors": "P_REDUCTION",
+    "without land film": "P_LAND",
+    "without gyroscopic moments": "P_GYROSCOPIC",
+    "without waviness": "P_WAVINESS",
+    "without waviness of the balls": "P_BALL_WAVES",
+    "without cage": "P_CAGE",
+}
+
+
+@entry
+def repeat(p, c, y, angle, speed_, w, f, times):
+    """Evaluate the right-hand side ``times`` times."""
+    for n in range(times):
+        right_hand_side(p, c, y, angle + 1e-9 * n, speed_, 0.0, w, f)
+
+
+def evaluation(bearing: Arrays, times: int = 4000) -> float:
+    """CPU seconds of one right-hand side."""
+    s = bearing.s
+    y, c, f = s[at.S_Y : at.S_Y + at.Y_SIZE].copy(), s[at.S_C : at.S_C + at.C_SIZE], np.zeros(at.F_SIZE)
+    repeat(bearing.p, c, y, s[at.S_ANGLE], s[at.S_SPEED], bearing.w, f, 1)  # compiled before the clock
+    clock = time.process_time()
+    repeat(bearing.p, c, y, s[at.S_ANGLE], s[at.S_SPEED], bearing.w, f, times)
+    return (time.process_time() - clock) / times
+
+
+def variants(name: str):
+    """Yield name, scene and changed parameters of everything that can be left out."""
+    scene = silent(name)
+    base = Arrays(scene, 0.0).p
+    yield "all terms, 5 strips", scene, {}
+    for words, place in SWITCHES.items():
+        if base[getattr(at, place)] != 0.0:
+            yield words, scene, {place: 0.0}
+    for strips in (3, 1):
+        fidelity = scene.fidelity.model_copy(update={"traction_strips": strips})
+        yield (
+            f"{strips} strips" if strips > 1 else "1 strip",
+            scene.model_copy(update={"fidelity": fidelity}),
+            {},
+        )
+    fewest = scene.fidelity.model_copy(update={"traction_strips": 1})
+    off = {place: 0.0 for place in SWITCHES.values() if base[getattr(at, place)] != 0.0}
+    yield "nothing but contacts, 1 strip", scene.model_copy(update={"fidelity": fewest}), off
+
+
+def rows(name: str, rpm: float, budget: float, repeats: int) -> list[list[str]]:
+    """One row per variant of a scene, level ``full`` by the default method.
+
+    The variants take turns, so that what else the machine does falls on all of them.
+    """
+    bearings: dict[str, Arrays] = {}
+    refused: dict[str, str] = {}
+    for words, scene, changed in variants(name):
+        bearing = Arrays(scene, rpm, **changed)
+        try:
+            bearing.init()
+            bearing.run(0.02, 1e-3)
+            bearings[words] = bearing
+        except Refused as problem:
+            refused[words] = str(problem)
+    cost = dict.fromkeys(bearings, float("inf"))
+    fast = dict.fromkeys(bearings, 0.0)
+    for _ in range(repeats):
+        for words, bearing in bearings.items():
+            cost[words] = min(cost[words], evaluation(bearing))
+            fast[words] = max(fast[words], speed(bearing, budget, 1, 1.0)[1])
+    whole = next(iter(bearings))
+    case = f"{name} {rpm:,.0f} r/min"
+    found = [
+        [case, words, f"{1e6 * cost[words]:.2f}", f"{cost[words] / cost[whole]:.0%}", f"{fast[words]:.3g}",
+         f"{fast[words] / fast[whole]:.2f}"]
+        for words in bearings
+    ]  # fmt: skip
+    return found + [[case, words, "", "", "", why] for words, why in refused.items()]

@@ -1,0 +1,91 @@
+"""A bearing on bare flat arrays: what ``Instance`` holds, open to loops that save and restore the state."""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.engine import abi
+from fmu_bearing.engine import layout as at
+from fmu_bearing.prepare.model import pack
+from fmu_bearing.scene import Scene
+
+RPM = math.pi / 30.0  # rad/s
+#: Places in ``y`` of the six ring velocities: inner x, y, z, outer x, y, z.
+RINGS = np.array([at.Y_V, at.Y_V + 1, at.Y_V + 2, *(at.Y_V + at.Q_OUTER + k for k in range(3))])
+
+
+class Refused(RuntimeError):
+    """The engine returned a status other than OK."""
+
+
+class Arrays:
+    """Parameters, inputs, state, outputs and work space of one bearing without sound.
+
+    Parameters
+    ----------
+    scene : Scene
+    rpm : float
+        Shaft speed (r/min), held.
+    load_y, load_z : float
+        Radial load on the inner ring (N).
+    parameters : float
+        Values for places of ``p`` by their names in ``layout``, for example ``P_TOLERANCE=1e-5``.
+    """
+
+    def __init__(
+        self, scene: Scene, rpm: float, load_y: float = 0.0, load_z: float = 0.0, **parameters: float
+    ) -> None:
+        self.p: NDArray[np.float64] = pack(scene, np.empty(0))
+        for name, value in parameters.items():
+            self.p[getattr(at, name)] = value
+        # the compiled entries are specialised on read-only parameters
+        self.p.setflags(write=False)
+        self.u = np.zeros(len(at.INPUTS))
+        self.u[at.U_SPEED] = rpm * RPM
+        self.u[at.U_PRELOAD] = scene.mounting.preload_N
+        self.u[at.U_PEDESTAL] = scene.mounting.pedestal_stiffness_N_m
+        self.u[at.U_LOAD_Y], self.u[at.U_LOAD_Z] = load_y, load_z
+        self.u[at.U_OIL_T : at.U_OUTER_T + 1] = at.REFERENCE_TEMPERATURE
+        self.s = np.zeros(at.state_size(self.p))
+        self.z = np.zeros(at.z_size(int(self.p[at.P_BALLS]), 0))
+        self.w = np.zeros(at.work_size(self.p))
+
+    def init(self) -> None:
+        """Quasi-static state at the inputs; ``Refused`` if there is none."""
+        status = abi.init(self.p, self.u, self.s, self.z, self.w, 0.0)
+        if status != at.OK:
+            raise Refused(f"initialisation: status {status}")
+
+    def step(self, h: float) -> None:
+        """Advance by ``h`` (s); ``Refused`` if the engine does."""
+        status = abi.step(self.p, self.u, self.s, self.z, self.w, h)
+        if status != at.OK:
+            raise Refused(f"step to {self.s[at.S_TIME] + h:.6g} s: status {status}")
+
+    def run(self, duration: float, h: float) -> None:
+        """Advance by ``duration`` in communication steps of ``h`` (s)."""
+        for _ in range(round(duration / h)):
+            self.step(h)
+
+    def rings(self, duration: float, sample: float) -> NDArray[np.float64]:
+        """Ring velocities (m/s), six columns, after each of the communication steps ``sample`` (s)."""
+        rows = np.empty((round(duration / sample), 6))
+        for row in rows:
+            self.step(sample)
+            row[:] = self.z[:6]
+        return rows
+
+    def with_parameters(self, **parameters: float) -> "Arrays":
+        """Copy with other parameters and the same inputs and state; it works on its own arrays."""
+        other = object.__new__(Arrays)
+        other.p = self.p.copy()
+        for name, value in parameters.items():
+            other.p[getattr(at, name)] = value
+        other.p.setflags(write=False)
+        other.u, other.s, other.z, other.w = (a.copy() for a in (self.u, self.s, self.z, self.w))
+        # Newton's memory belongs to the old parameters: no factors, a first step that suits the new bound
+        other.s[at.S_FACTOR_STEP] = 0.0
+        other.s[at.S_JACOBIAN_TIME] = -1e300
+        other.s[at.S_STEP] = min(other.s[at.S_STEP], other.p[at.P_MAX_STEP])
+        return other

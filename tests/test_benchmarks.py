@@ -1,0 +1,99 @@
+"""The benchmark runs and fills its table; figures themselves are never asserted."""
+
+import csv
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+from benchmarks import ours, peers, table
+from benchmarks.cases import CASES, SOLVERS, Case
+from fmu_bearing.study.first_order import FirstOrder
+from fmu_bearing.study.reference import reference_from
+
+TINY = Case("7003C-spindle", 20000, "start", window=2e-4)
+
+
+def test_one_case_through_to_the_table(tmp_path):
+    start = TINY.bearing()
+    exact = reference_from(start, TINY.window, sample=ours.SAMPLE)
+    mine = ours.full_rows(TINY, SOLVERS[0], start, exact, budget=1e-3, repeats=1)
+    problem = FirstOrder(start)
+    times = np.array([2.5e-5, 5e-5])
+    short = reference_from(start, times[-1], sample=times[0])
+    entry = peers.solvers()["LSODA"]
+    other = peers.peer_row(TINY.name, "LSODA", entry, problem, short.velocities, times, 1e-3, 5.0)
+    rows = [*mine, other]
+    table.fill_ratios(rows)
+    for row in rows:
+        assert math.isfinite(row.error) and row.wall > 0.0 and row.cpu > 0.0
+        assert len(row.cells()) == len(table.COLUMNS)
+    assert mine[-1].error <= ours.LIMIT
+    assert other.error <= ours.LIMIT
+    assert mine[-1].ratios["x LSODA"] == mine[-1].cpu / other.cpu
+    table.write_csv(tmp_path / "t.csv", table.COLUMNS, [row.cells() for row in rows])
+    with (tmp_path / "t.csv").open(encoding="utf-8") as file:
+        read = list(csv.reader(file))
+    assert read[0] == list(table.COLUMNS) and len(read) == 1 + len(rows)
+    assert table.markdown(table.COLUMNS, read[1:]).count("\n") == 2 + len(rows)
+
+
+def test_a_missed_goal_is_named():
+    row = table.Row("c", "s", error=2e-3, wall=1.0, goal=2.0)
+    assert row.verdict == "missed: speed, error"
+    assert dataclasses.replace(row, error=1e-4, wall=2.5).verdict == "met"
+    assert dataclasses.replace(row, error=math.nan).verdict == "missed: speed, error"
+    assert dataclasses.replace(row, goal=0.0).verdict == ""
+
+
+def test_a_missing_package_is_a_remark():
+    row = peers.peer_row("c", "CVODE", None, None, np.zeros((1, 6)), np.ones(1), 1e-3, 1.0)
+    assert row.remark == "not installed" and math.isnan(row.wall)
+
+
+def test_cases_cover_both_bearings_and_all_conditions():
+    assert {case.kind for case in CASES} == {"settled", "start", "radial"}
+    speeds = {name: sorted({c.rpm for c in CASES if c.scene == name and c.kind == "settled"}) for name in
+              ("7003C-bare", "7009C-full-ceramic")}  # fmt: skip
+    assert speeds == {"7003C-bare": [1000, 10000, 28000], "7009C-full-ceramic": [3000, 18000]}
+
+
+def test_why_exudyn_runs_without_a_contact_angle():
+    """A frictionless sphere pressed into a groove at 20 degrees off its plane is pushed along the groove.
+
+    By symmetry it cannot be. Once this test fails, EXUDYN has mended it: give the peer its contact angle.
+    """
+    exu = pytest.importorskip("exudyn")
+    from exudyn.utilities import InertiaSphere, MarkerBodyRigid, NodeGenericData, SensorObject
+
+    system = exu.SystemContainer().AddSystem()
+    reach, circle = 0.06, 0.6
+    ground = system.CreateGround()
+    place = [circle + reach * np.cos(0.35), 0.0, reach * np.sin(0.35)]
+    ball = system.CreateRigidBody(referencePosition=place, inertia=InertiaSphere(mass=1, radius=0.5))
+    markers = [
+        system.AddMarker(MarkerBodyRigid(bodyNumber=body, localPosition=[0, 0, 0])) for body in (ball, ground)
+    ]
+    node = system.AddNode(NodeGenericData(initialCoordinates=[0, 0, 0, 0], numberOfDataCoordinates=4))
+    contact = exu.itemInterface.ObjectContactSphereTorus(
+        markerNumbers=markers, nodeNumber=node, sphereRadius=0.5, torusMajorRadius=circle,
+        torusMinorRadius=0.55, torusAxis=[0, 0, 1], contactStiffness=1e3, contactStiffnessExponent=1,
+        contactDamping=0, dynamicFriction=0,
+    )  # fmt: skip
+    sensor = system.AddSensor(
+        SensorObject(
+            objectNumber=system.AddObject(contact), storeInternal=True,
+            outputVariableType=exu.OutputVariableType.Force,
+        )
+    )  # fmt: skip
+    system.Assemble()
+    settings = exu.SimulationSettings()
+    settings.solutionSettings.writeSolutionToFile = False
+    settings.solutionSettings.sensorsWritePeriod = 1e-7
+    settings.timeIntegration.endTime = 1e-6
+    settings.timeIntegration.numberOfSteps = 10
+    system.SolveDynamic(settings)
+    radial, tangential, axial = system.GetSensorStoredData(sensor)[-1, 1:]
+    assert axial / radial == pytest.approx(np.tan(0.35), rel=0.01)
+    assert abs(tangential) > 0.3 * abs(radial)

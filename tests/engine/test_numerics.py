@@ -106,27 +106,54 @@ def dense(jac, balls, cv, cx):
     return m
 
 
-def test_block_arrow_solves_the_dense_system():
+def solve_both(p, springs, angle=0.0, balls=11, lanes=12):
+    """Solution of a random system by the engine and by the dense matrix ``springs`` is added to."""
     rng = np.random.default_rng(3)
-    balls, lanes = 11, 12
-    p = np.zeros(at.P_TABLES)
     p[at.P_BALLS], p[at.P_LANES] = balls, lanes
     jac = random_blocks(rng, p, lanes, balls)
     cv, cx = 0.03, 0.01
     fac, w = np.zeros(at.A_SIZE), np.zeros(at.W_SOUND)
-    assert block_arrow.factor(p, jac, cv, cx, fac, w)
+    assert block_arrow.factor(p, jac, cv, cx, cx, fac, w)
     d = np.zeros(at.F_SIZE)
     rows = rng.normal(size=(6, balls))
     for i in range(6):
         d[i * S : i * S + balls] = rows[i]
     d[at.F_G : at.F_G + 17] = rng.normal(size=17)
+    turned = np.eye(6 * balls + 17)
+    for k in (1, 3, 6, 9, 12, 15):
+        at_k = slice(6 * balls + k, 6 * balls + k + 2)
+        turned[at_k, at_k] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
     right = np.concatenate([rows.T.ravel(), d[at.F_G : at.F_G + 17]])
-    expected = np.linalg.solve(dense(jac, balls, cv, cx), right)
-    block_arrow.solve(p, fac, 0.0, d, w)
+    expected = turned @ np.linalg.solve(dense(jac, balls, cv, cx) + springs(cv, cx), turned.T @ right)
+    block_arrow.solve(p, fac, angle, d, w)
     got = np.concatenate(
         [np.array([d[i * S : i * S + balls] for i in range(6)]).T.ravel(), d[at.F_G : at.F_G + 17]]
     )
+    return got, expected
+
+
+def test_block_arrow_solves_the_dense_system():
+    got, expected = solve_both(np.zeros(at.P_TABLES), lambda cv, cx: 0.0)
     np.testing.assert_allclose(got, expected, rtol=1e-10, atol=1e-12)
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.6])
+@pytest.mark.parametrize("stiffness", [1.0, 1e6])
+def test_springs_between_balls_solve_the_dense_system(angle, stiffness):
+    p, balls = np.zeros(at.P_TABLES), 11
+    p[at.P_SPRINGS], p[at.P_SPRING_DAMPING], p[at.P_BALL_MASS] = stiffness, 7.0, 0.4
+
+    def springs(cv, cx):
+        matrix = np.zeros((6 * balls + 17,) * 2)
+        for j in range(balls):
+            rows = 6 * j + 2, 6 * ((j + 1) % balls) + 2
+            matrix[np.ix_(rows, rows)] += (
+                (cv * 7.0 + cx * stiffness) / 0.4 * np.array([[1.0, -1.0], [-1.0, 1.0]])
+            )
+        return matrix
+
+    got, expected = solve_both(p, springs, angle)
+    np.testing.assert_allclose(got, expected, rtol=1e-9, atol=1e-10)
 
 
 def test_tableau_meets_the_order_conditions():

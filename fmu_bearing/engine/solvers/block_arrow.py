@@ -11,6 +11,7 @@ from fmu_bearing.engine.layout import (
     A_INV,
     A_S,
     A_SIZE,
+    A_SPRING_BALLS,
     A_W,
     BORDER,
     F_G,
@@ -19,10 +20,14 @@ from fmu_bearing.engine.layout import (
     J_D,
     J_E,
     N_BODY,
+    P_BALLS,
+    P_CAGE,
     P_LANES,
+    P_SPRINGS,
     STRIDE,
     W_FORCE,
 )
+from fmu_bearing.engine.solvers.spring_coupling import couple_springs, spring_matrix
 
 _S = STRIDE
 
@@ -103,7 +108,7 @@ def newton_row(jac, at, columns, cv, cx, out, to, lanes):
 
 
 @kernel
-def border_column(jac, fac, w, scratch, g, cv, cx, lanes):
+def border_column(jac, fac, w, scratch, g, cv, cx, cx_ball, lanes):
     """Column ``g`` of the border: W = Mb^-1 M_bG into ``fac``, and the row M_Gb beside it."""
     for i in range(6):
         newton_row(jac, J_C + (i * 34 + g) * _S, N_BODY, cv, cx, w, scratch + i * _S, lanes)
@@ -111,24 +116,27 @@ def border_column(jac, fac, w, scratch, g, cv, cx, lanes):
         times_six(fac, A_INV + i * 6 * _S, w, scratch, fac, A_W + (i * N_BODY + g) * _S, lanes)
     for k in range(6):
         out = A_GB + (g * 6 + k) * _S
-        newton_row(jac, J_D + (g * 9 + k) * _S, 3, cv, cx if k < 3 else 0.0, fac, out, lanes)
+        newton_row(jac, J_D + (g * 9 + k) * _S, 3, cv, cx_ball if k < 3 else 0.0, fac, out, lanes)
 
 
 @kernel
-def factor(p, jac, cv, cx, fac, w):
-    """Factor I - cv Jv - cx Jx from the blocks ``jac`` into ``fac``; False if singular."""
+def factor(p, jac, cv, cx, cx_ball, fac, w):
+    """Factor I - cv Jv - cx Jx from the blocks ``jac`` into ``fac``; False if singular.
+
+    ``cx_ball`` stands for ``cx`` in the columns of the balls' places.
+    """
     lanes = int(p[P_LANES])
     scratch = W_FORCE * _S
     for i in range(6):
         for k in range(6):
             out = A_INV + (i * 6 + k) * _S
-            newton_row(jac, J_B + (i * 9 + k) * _S, 3, cv, cx if k < 3 else 0.0, fac, out, lanes)
+            newton_row(jac, J_B + (i * 9 + k) * _S, 3, cv, cx_ball if k < 3 else 0.0, fac, out, lanes)
         own = A_INV + i * 7 * _S
         for j in range(lanes):
             fac[own + j] += 1.0
     invert_blocks(fac, A_INV, lanes)
     for g in range(N_BODY):
-        border_column(jac, fac, w, scratch, g, cv, cx, lanes)
+        border_column(jac, fac, w, scratch, g, cv, cx, cx_ball, lanes)
     border = w[scratch : scratch + N_BODY * N_BODY]
     for g in range(N_BODY):
         left = A_GB + g * 6 * _S
@@ -153,6 +161,10 @@ def factor(p, jac, cv, cx, fac, w):
     for g in range(N_BODY):
         for h in range(N_BODY):
             fac[A_S + h * BORDER + g] = border[g * N_BODY + h]
+    if fine and p[P_SPRINGS] != 0.0 and p[P_CAGE] == 0.0:
+        balls = int(p[P_BALLS])
+        spring_matrix(p, cv, cx_ball, fac, w)
+        fine = invert_border(fac, A_SPRING_BALLS, balls, w[scratch : scratch + balls])
     return fine
 
 
@@ -254,6 +266,8 @@ def solve(p, fac, c, s, d, w):
             fourth += products[4 * k + 3]
         w[sums + g] = d[F_G + g] - ((first + second) + (third + fourth))
     border_product(fac, w, sums, d)
+    if p[P_SPRINGS] != 0.0 and p[P_CAGE] == 0.0:
+        couple_springs(p, fac, d, w)
     less_seventeen(fac, A_W, d, F_G, w, t, d, 0, lanes)
     less_seventeen(fac, A_W + 17 * _S, d, F_G, w, t + _S, d, _S, lanes)
     less_seventeen(fac, A_W + 34 * _S, d, F_G, w, t + 2 * _S, d, 2 * _S, lanes)

@@ -32,6 +32,7 @@ from fmu_bearing.engine.layout import (
     Y_SIZE,
     Y_V,
 )
+from fmu_bearing.engine.mechanics.ball_waves import turn_axes
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.solvers.block_arrow import solve
 from fmu_bearing.engine.solvers.jacobian import is_angle
@@ -191,14 +192,15 @@ def newton_residual(acc, w):
 
 @kernel
 def esdirk_step(
-    p, c, y, f, angle, speed, speed_rate, h, tableau, fac, turned, tolerance, contraction, probe, w, report
-):
+    p, c, y, f, axes, angle, speed, speed_rate, h, tableau, fac, turned, tolerance, contraction, probe, w,
+    report,
+):  # fmt: skip
     """One step of length ``h`` from (y, f); the new state is left in ``w[W_Y:]`` and its f in the last stage.
 
-    ``tableau``: place in TABLEAUX; ``fac``: factors for about this ``h``; ``turned``: orbit angle (rad) since
-    they were made; ``tolerance`` (m/s): Newton's error; ``contraction``: rate known so far; ``probe``:
-    measure it anew. ``report`` takes the error estimate (m/s), contraction and iterations. Returns False
-    where Newton does not converge.
+    ``axes``: of wavy balls, at the step's start; ``tableau``: place in TABLEAUX; ``fac``: factors for about
+    this ``h``; ``turned``: orbit angle (rad) since they were made; ``tolerance`` (m/s): Newton's error;
+    ``contraction``: rate known so far; ``probe``: measure it anew. ``report`` takes the error estimate
+    (m/s), contraction and iterations. Returns False where Newton does not converge.
     """
     gh = TABLEAUX[tableau + T_GAMMA] * h
     stages = int(TABLEAUX[tableau + T_STAGES])
@@ -217,6 +219,7 @@ def esdirk_step(
         acc = w[here : here + F_SIZE]
         predict(y, h, gh, stage, tableau, w)
         t = h * TABLEAUX[tableau + T_NODES + stage]
+        turn_axes(p, axes, y, int(p[P_LANES]), t, w)
         angle_t = angle + t * (speed + 0.5 * t * speed_rate)
         speed_t = speed + t * speed_rate
         co = math.cos(turned + orbit * t)

@@ -10,9 +10,11 @@ from dataclasses import dataclass, field
 from tests.extremes.bearings import PERFECT, SILENT
 
 #: Levels and methods that the engine computes at present.
-COMPUTED = (("full", "esdirk4"), ("full", "trbdf2"))
-#: ESDIRK4 is the reference; the others run the whole table in the heavy tests.
-REFERENCE = COMPUTED[0]
+COMPUTED = (("full", "esdirk4"), ("full", "fast"), ("full", "trbdf2"))
+#: Their internal steps against ESDIRK4's: TR-BDF2 is of second order and needs up to five times as many.
+WORK = {("full", "esdirk4"): 1.0, ("full", "fast"): 1.0, ("full", "trbdf2"): 5.0}
+#: Differences between runs of the same case: TR-BDF2 damps the rings' modes where its steps are long.
+SLACK = {"trbdf2": 3.0}
 
 DRY = {"fidelity.terms.land_film": False, "bearing.cage.pocket_damping_N_s_m": 0.0}
 
@@ -28,8 +30,7 @@ class Case:
     legs: tuple = ((5e-3, {}, 1e-4),)
     per_ms: float = 300.0
     perfect: bool = False
-    energy: float | None = 1e-3  # bound on the energy residual over the dissipation; None: no bound
-    heavy: bool = False
+    energy: float = 1e-3  # bound on the energy residual over the energy turned over
 
     @property
     def all_changes(self) -> dict:
@@ -49,7 +50,7 @@ CASES = [
     *_both("standstill", start={"rpm": 0.0}),
     *_both("1 r/min", start={"rpm": 1.0}),
     *_both("100 r/min", start={"rpm": 100.0}),
-    *_both("100000 r/min", start={"rpm": 1e5}),
+    *_both("100000 r/min", start={"rpm": 1e5}, per_ms=500.0),
     *_both("backwards", start={"rpm": -2e4}),
     *_both(
         "reversal in 5 ms",
@@ -68,26 +69,23 @@ CASES = [
     ),
     *_both("no preload at speed", start={"rpm": 2e4, "preload": 0.0}),
     *_both("no preload at standstill", start={"rpm": 0.0, "preload": 0.0}),
-    Case("no preload at 100000 r/min", start={"rpm": 1e5, "preload": 0.0}),
+    Case("no preload at 100000 r/min", start={"rpm": 1e5, "preload": 0.0}, per_ms=600.0),
     Case(
         "preload taken away and given back",
         start={"rpm": 2e4},
         legs=((1e-3, {}, 1e-4), (2e-3, {"preload": 0.0}, 1e-4), (2e-3, {"preload": 500.0}, 1e-4)),
+        per_ms=1000.0,
     ),
     *_both("preload 10 kN", start={"rpm": 2e4, "preload": 1e4}),
-    *_both("radial 3 kN at the start", start={"rpm": 2e4, "radial_load.y": 3e3}),
+    *_both("radial 3 kN at the start", start={"rpm": 2e4, "radial_load.y": 3e3}, per_ms=700.0),
     *_both(
         "radial 3 kN from one step to the next",
         start={"rpm": 2e4},
         legs=((1e-3, {}, 1e-4), (3e-3, {"radial_load.z": -3e3}, 1e-4), (1e-3, {"radial_load.z": 0.0}, 1e-4)),
+        per_ms=1800.0,  # balls leave the races and come back
     ),
     *_both("soft pedestal", start={"rpm": 2e4, "pedestal_stiffness": 1e4}),
     *_both("rigid pedestal", start={"rpm": 2e4, "pedestal_stiffness": 1e12}),
-    Case(
-        "pedestal from soft to rigid and back",
-        start={"rpm": 2e4, "pedestal_stiffness": 1e4},
-        legs=((1e-3, {}, 1e-4), (2e-3, {"pedestal_stiffness": 1e12}, 1e-4), (1e-3, {"pedestal_stiffness": 1e4}, 1e-4)),
-    ),
     *_both("no contact damping", changes={"bearing.contact_damping_us": 0.0}),
     *_both("contact damping 25 us", changes={"bearing.contact_damping_us": 25.0}),
     *_both("dry cage", changes=DRY),

@@ -47,7 +47,7 @@ def turning(changes, rpm, mirror, level, method):
 
 
 def agree(one, other, share):
-    """Outputs agree within ``share`` of the largest of their kind, those of ``FLIPPED`` with the other sign."""
+    """Outputs agree within ``share`` of the largest of their kind, ``FLIPPED`` ones with the other sign."""
     for k, name in enumerate(at.BEARING_OUTPUTS):
         if name.startswith(("solver.", "energy.", "cage.whirl")):
             continue

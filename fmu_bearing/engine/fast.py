@@ -62,8 +62,8 @@ from fmu_bearing.engine.mechanics.ball_waves import turn_axes
 from fmu_bearing.engine.motion import emit_samples
 from fmu_bearing.engine.progress import accept, renew_jacobian, wrap_angles
 from fmu_bearing.engine.solvers.block_arrow import factor
-from fmu_bearing.engine.solvers.esdirk import body_size, newton_size
 from fmu_bearing.engine.solvers.newmark import BETA, BETA_BALL, iterate, predict, true_rates
+from fmu_bearing.engine.solvers.runge_kutta import body_size, newton_size
 
 _S = STRIDE
 LONGEST = 1e-5  # s: beyond it the rings' modes of the example bearings leave the method's range

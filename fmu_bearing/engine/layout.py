@@ -347,7 +347,9 @@ A_SIZE = A_SPRING_BALLS + MAX_BALLS * MAX_BALLS
 # the one-evaluation path: its own rates (trapezoidal rule), accelerations now and two steps back
 S_FAST = S_FAC + A_SIZE
 FAST_Y, FAST_A0, FAST_A1, FAST_A2 = 0, Y_SIZE, Y_SIZE + F_SIZE, Y_SIZE + 2 * F_SIZE
-S_SOUND = S_FAST + Y_SIZE + 3 * F_SIZE
+S_LEVEL = S_FAST + Y_SIZE + 3 * F_SIZE  # what the levels `rings` and `response` keep: see engine/levels
+L_SIZE = 4992
+S_SOUND = S_LEVEL + L_SIZE
 
 # --- w: rows of the force evaluation, then stages --------------------------------------------------
 W_COS, W_SIN = 0, 1

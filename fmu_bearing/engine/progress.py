@@ -5,6 +5,7 @@ from fmu_bearing.engine.layout import (
     C_SIZE,
     F_SIZE,
     P_LANES,
+    P_TOLERANCE,
     Q_CAGE,
     S_ANGLE,
     S_AXES,
@@ -35,6 +36,16 @@ from fmu_bearing.engine.mechanics.trigonometry import wrap
 from fmu_bearing.engine.solvers.jacobian import jacobian
 
 _S = STRIDE
+# Amplitude (m) whose velocity at shaft speed the relative tolerance refers to: 10 mm/s at 20,000 r/min, as
+# rings vibrate there; the slowest speed (rad/s) for which it shrinks with speed.
+_AMPLITUDE = 5e-6
+_SLOWEST = 20.0
+
+
+@kernel
+def velocity_tolerance(p, speed):
+    """Error (m/s) allowed in the rings' velocities at a shaft speed (rad/s)."""
+    return p[P_TOLERANCE] * _AMPLITUDE * max(abs(speed), _SLOWEST)
 
 
 @kernel

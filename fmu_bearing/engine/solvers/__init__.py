@@ -12,8 +12,8 @@
 ``block_arrow``      factors and solves the Newton system: small blocks per ball, one border
 ``spring_coupling``  springs between balls in that system: a small dense correction
 ``elimination``      small linear systems
-``tableaux``         coefficients of the implicit Runge-Kutta methods
-``esdirk``           one step of such a method with accelerations as unknowns
+``tableaux``         coefficients of the Runge-Kutta methods
+``runge_kutta``      one step of such a method with accelerations as unknowns
 ``newmark``          one evaluation per step, for a bearing that has settled
 ===================  ==========================================================================
 """

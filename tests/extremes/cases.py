@@ -10,9 +10,25 @@ from dataclasses import dataclass, field
 from tests.extremes.bearings import PERFECT, SILENT
 
 #: Levels and methods that the engine computes at present.
-COMPUTED = (("full", "esdirk4"), ("full", "fast"), ("full", "trbdf2"))
+COMPUTED = (
+    ("full", "esdirk4"),
+    ("full", "fast"),
+    ("full", "trbdf2"),
+    ("rings", "esdirk4"),
+    ("response", "esdirk4"),
+)
+FULL = tuple(pair for pair in COMPUTED if pair[0] == "full")
+#: Explicit steps are as short as 0.1 us: a few cases, in the heavy tests.
+EXPLICIT = ("full", "rk4")
 #: Their internal steps against ESDIRK4's: TR-BDF2 is of second order and needs up to five times as many.
-WORK = {("full", "esdirk4"): 1.0, ("full", "fast"): 1.0, ("full", "trbdf2"): 5.0}
+WORK = {
+    ("full", "esdirk4"): 1.0,
+    ("full", "fast"): 1.0,
+    ("full", "trbdf2"): 5.0,
+    ("full", "rk4"): 300.0,  # 20 ns at standstill
+    ("rings", "esdirk4"): 1.0,
+    ("response", "esdirk4"): 1.0,
+}
 #: Differences between runs of the same case: TR-BDF2 damps the rings' modes where its steps are long.
 SLACK = {"trbdf2": 3.0}
 

@@ -5,7 +5,7 @@ import pytest
 
 from fmu_bearing.engine import layout as at
 from tests.extremes.bearings import RINGS, SILENT, bearing, drive
-from tests.extremes.cases import COMPUTED, DRY, SLACK
+from tests.extremes.cases import DRY, FULL, SLACK
 
 CAGE = [f"cage.velocity.{axis}" for axis in "xyz"]
 
@@ -21,7 +21,7 @@ def pair(changes, level, method, push, rpm=2e4):
     return runs
 
 
-@pytest.mark.parametrize(("level", "method"), COMPUTED)
+@pytest.mark.parametrize(("level", "method"), FULL)
 def test_a_lubricated_cage_is_contractive(level, method):
     one, other = pair({}, level, method, 1e-3)
     first = drive(one, 2e-3, 1e-4), drive(other, 2e-3, 1e-4)
@@ -36,7 +36,7 @@ def test_a_lubricated_cage_is_contractive(level, method):
 
 
 @pytest.mark.heavy
-@pytest.mark.parametrize(("level", "method"), COMPUTED)
+@pytest.mark.parametrize(("level", "method"), FULL)
 def test_a_dry_cage_keeps_its_statistics(level, method):
     """Trajectories part, so only means and rms over 0.2 s are compared, two starts of the same bearing."""
     runs = pair(DRY, level, method, 1e-3)

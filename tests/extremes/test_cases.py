@@ -1,5 +1,7 @@
 """Every extreme case finishes, with bounded work and plausible outputs, in every level and method."""
 
+import contextlib
+
 import numpy as np
 import pytest
 
@@ -8,14 +10,25 @@ from fmu_bearing.engine import layout as at
 from fmu_bearing.instance import EngineError
 from fmu_bearing.scene import SceneError, read_scene_text
 from tests.conftest import SCENES
-from tests.extremes.bearings import RPM, Trace, bearing, drive, feed
-from tests.extremes.cases import CASES, COMPUTED, WORK
+from tests.extremes.bearings import PERFECT, RINGS, RPM, Trace, bearing, drive, feed
+from tests.extremes.cases import CASES, COMPUTED, EXPLICIT, FULL, WORK
 from tests.extremes.checks import balanced, finite, plausible
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
 @pytest.mark.parametrize(("level", "method"), COMPUTED)
 def test_finishes(case, level, method):
+    finishes(case, level, method)
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("case", CASES[:4] + CASES[8:12], ids=lambda case: case.name)
+def test_finishes_with_explicit_steps(case):
+    finishes(case, *EXPLICIT)
+
+
+def finishes(case, level, method):
+    """Run a case to its end and hold it against every bound."""
     run = bearing(case.scene, case.all_changes, case.start, level, method)
     run.initialise()
     trace = Trace([run.time], [run.z.copy()])
@@ -30,7 +43,7 @@ def test_finishes(case, level, method):
         balanced(run, case.energy)
 
 
-@pytest.mark.parametrize(("level", "method"), COMPUTED)
+@pytest.mark.parametrize(("level", "method"), FULL)
 def test_a_jump_that_stores_megajoules_is_refused_within_bounds(level, method):
     """On 1e4 N/m the preload pushes the outer ring 50 mm; 1e12 N/m there would be a force of 5e10 N."""
     run = bearing("7003C-bare", {"sound": None}, {"rpm": 2e4, "pedestal_stiffness": 1e4}, level, method)
@@ -109,3 +122,55 @@ def test_the_engine_refuses_such_inputs_by_itself(place, value):
     assert abi.init(run._p, run.u, run.s, run.z, run._w, 0.0) == at.BAD_INPUT
     np.testing.assert_array_equal(run.s, kept)
     np.testing.assert_array_equal(run.z, shown)
+
+
+@pytest.mark.parametrize(("level", "method"), COMPUTED)
+def test_time_far_from_zero_changes_nothing(level, method):
+    """A day into a simulation time is counted in steps of 15 ps."""
+    found = []
+    for begin in (0.0, 1e5):
+        run = bearing("7003C-spindle", {"sound": None}, {"rpm": 2e4}, level, method)
+        run.initialise(begin)
+        found.append(drive(run, 0.01, 1e-4).columns(RINGS))
+    # an internal step is 15 ps of 20 us shorter or longer: far less than the solver's own errors
+    assert np.abs(found[0] - found[1]).max() <= 1e-2 * found[0].std(0).max()
+
+
+@pytest.mark.parametrize("h", [1e-15, 1e-12, 1e-9])
+@pytest.mark.parametrize(("level", "method"), COMPUTED)
+def test_communication_steps_shorter_than_anything(level, method, h):
+    run = bearing("7003C-bare", {"sound": None}, {"rpm": 2e4}, level, method)
+    run.initialise()
+    drive(run, 1e-3, 1e-4)
+    for _ in range(3):
+        run.step(h)
+    drive(run, 1e-4, 1e-4)
+    finite(run)
+
+
+@pytest.mark.parametrize("scene", ["7003C-bare", "7003C-spindle", "7009C-full-ceramic"])
+@pytest.mark.parametrize(("level", "method"), COMPUTED)
+@pytest.mark.parametrize("stiffness", [1e4, 1e6, 1e8, 1e12])
+def test_the_start_is_an_equilibrium_on_any_pedestal(scene, level, method, stiffness):
+    """A perfect bearing starts with the loads it keeps: nothing of the pedestal reaches the contacts."""
+    run = bearing(scene, PERFECT, {"rpm": 2e4, "pedestal_stiffness": stiffness}, level, method)
+    run.initialise()
+    load = run.get("preload") / run.model.n_balls / np.sin(run.get("contact.inner.angle_mean"))
+    # the gyroscopic pair carries up to 1 % of the preload, weight and tilt shift some more between the balls
+    assert run.get("contact.inner.load_mean") == pytest.approx(load, rel=0.05)
+    trace = drive(run, 1e-3, 1e-4)
+    assert np.abs(trace.columns(RINGS)).max() <= 0.02
+
+
+@pytest.mark.parametrize(("level", "method"), COMPUTED)
+def test_a_pedestal_too_soft_for_its_load_is_refused_or_computed(level, method):
+    """100 N on 1e4 N/m are 10 mm, where equations for small displacements say nothing."""
+    inputs = {"rpm": 2e4, "pedestal_stiffness": 1e4, "radial_load.y": 100.0}
+    run = bearing("7003C-bare", {"sound": None}, inputs, level, method)
+    with contextlib.suppress(EngineError):
+        run.initialise()
+        drive(run, 1e-3, 1e-4)
+    finite(run)
+    run.reset()
+    run.initialise()
+    drive(run, 1e-4, 1e-4)

@@ -11,8 +11,8 @@ from fmu_bearing.instance import EngineError
 from tests.extremes.bearings import bearing, work
 from tests.extremes.cases import COMPUTED
 
-# ESDIRK4 may try at most this many steps per largest internal step of a call, and so many besides:
-# the engine's own limit, which a refusal must not exceed either.
+# The Runge-Kutta methods may try at most this many steps per largest internal step of a call, and so many
+# besides: the engine's own limit, which a refusal must not exceed either.
 _PER_STEP, _BESIDES = 101.0, 2001.0
 SANE = {
     "shaft_speed": 2000.0,
@@ -56,6 +56,16 @@ def put(run, name, value):
         assert run.get(name) == before
 
 
+def astray(run):
+    """Whether the bearing has left what equations for small displacements cover: 1 mm across the axis.
+
+    3 kN on a pedestal of 1e4 N/m ask for 300 mm; such a run may be refused at any time.
+    """
+    across = math.hypot(run.get("outer_ring.displacement.y"), run.get("outer_ring.displacement.z"))
+    wanted = math.hypot(run.get("radial_load.y"), run.get("radial_load.z")) / run.get("pedestal_stiffness")
+    return max(across, wanted) > 1e-3
+
+
 def walk(scene, start, moves, level, method):
     """Initialise, then one input and one step after the other; every refusal is undone and gone on from."""
     run = bearing(scene, {"sound": None}, {}, level, method)
@@ -81,6 +91,9 @@ def walk(scene, start, moves, level, method):
             np.testing.assert_array_equal(run.z, shown)
             # with the inputs under which the state was reached the bearing goes on
             run.u[:] = inputs
+            if astray(run):
+                run.reset()
+                run.initialise()
             run.step(1e-6)
         assert work(run) - before <= most
         assert np.isfinite(run.z).all() and np.isfinite(run.s).all()
@@ -107,7 +120,7 @@ def test_a_short_walk(level, method, start, moves):
 @pytest.mark.heavy
 @pytest.mark.parametrize(("level", "method"), COMPUTED)
 @pytest.mark.parametrize("scene", ["7003C-bare", "7003C-spindle", "7009C-full-ceramic"])
-@settings(max_examples=60, deadline=None, suppress_health_check=_HEALTH)
-@given(start=STARTS, moves=st.lists(MOVES, min_size=10, max_size=60))
+@settings(max_examples=20, deadline=None, suppress_health_check=_HEALTH)
+@given(start=STARTS, moves=st.lists(MOVES, min_size=10, max_size=40))
 def test_a_long_walk(scene, level, method, start, moves):
     walk(scene, start, moves, level, method)

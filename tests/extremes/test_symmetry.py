@@ -60,7 +60,9 @@ def agree(one, other, share):
         size = np.abs(left).max()
         if name in RINGS:
             size = np.abs(one.columns(RINGS)).max()
-        assert np.abs(left - right).max() <= share * size, (k, name)
+        # 1 nm/s, 1 pm and such are rounding: a perfect bearing on a condensed level hardly moves at all
+        floor = 1e-9 if "velocity" in name else 1e-12
+        assert np.abs(left - right).max() <= share * size + floor, (k, name)
 
 
 @pytest.mark.parametrize(("level", "method"), COMPUTED)

@@ -133,7 +133,7 @@ def test_a_short_walk_of_condensed_levels(level, method, start, moves):
 @pytest.mark.heavy
 @pytest.mark.parametrize(("level", "method"), FULL)
 @pytest.mark.parametrize("scene", ["7003C-bare", "7003C-spindle", "7009C-full-ceramic"])
-@settings(max_examples=15, **LONG)
+@settings(max_examples=8, **LONG)
 @given(start=STARTS, moves=st.lists(MOVES, min_size=10, max_size=30))
 def test_a_long_walk(scene, level, method, start, moves):
     walk(scene, start, moves, level, method)
@@ -142,7 +142,7 @@ def test_a_long_walk(scene, level, method, start, moves):
 @pytest.mark.heavy
 @pytest.mark.parametrize(("level", "method"), CONDENSED)
 @pytest.mark.parametrize("scene", ["7003C-spindle", "7009C-full-ceramic"])
-@settings(max_examples=10, **LONG)
+@settings(max_examples=5, **LONG)
 @given(start=STARTS, moves=st.lists(MOVES, min_size=5, max_size=12))
 def test_a_long_walk_of_condensed_levels(scene, level, method, start, moves):
     walk(scene, start, moves, level, method)

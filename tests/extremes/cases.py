@@ -101,7 +101,8 @@ CASES = [
         "radial 3 kN from one step to the next",
         start={"rpm": 2e4},
         legs=((1e-3, {}, 1e-4), (3e-3, {"radial_load.z": -3e3}, 1e-4), (1e-3, {"radial_load.z": 0.0}, 1e-4)),
-        per_ms=1800.0,  # balls leave the races and come back
+        per_ms=1800.0,
+        per_ms_rings=3000.0,  # balls leave the races and come back
         refusing=("rings",),
     ),
     *_both("soft pedestal", start={"rpm": 2e4, "pedestal_stiffness": 1e4}, refusing=("rings",)),

@@ -1,0 +1,148 @@
+"""A random walk of the inputs over all they may be: it goes on, or is refused and can go on from before."""
+
+import math
+import re
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from fmu_bearing.instance import EngineError
+from tests.extremes.bearings import bearing, work
+from tests.extremes.cases import COMPUTED, FULL, WORK
+
+# The Runge-Kutta methods may try at most this many steps per largest internal step of a call, and so many
+# besides: the engine's own limit, which a refusal must not exceed either.
+_PER_STEP, _BESIDES = 101.0, 2001.0
+REFUSALS = re.compile("could not be solved|no quasi-static equilibrium")
+SANE = {
+    "shaft_speed": 2000.0,
+    "preload": 500.0,
+    "pedestal_stiffness": 1e8,
+    "radial_load.y": 0.0,
+    "radial_load.z": 0.0,
+    "oil_temperature": 293.15,
+    "inner_ring_temperature": 293.15,
+    "outer_ring_temperature": 293.15,
+}
+
+
+def values(name: str):
+    """Values of one input over its whole range, the ends among them, and a few beyond it."""
+    speed, load = st.floats(-10472.0, 10472.0), st.floats(-3e3, 3e3)
+    ranges = {
+        "shaft_speed": st.one_of(speed, st.sampled_from([0.0, 0.1, -10472.0, 10472.0])),
+        "preload": st.one_of(st.floats(0.0, 1e4), st.sampled_from([0.0, 1.0, 1e4])),
+        "pedestal_stiffness": st.floats(4.0, 12.0).map(lambda lg: min(max(10.0**lg, 1e4), 1e12)),
+        "radial_load.y": st.one_of(load, st.sampled_from([0.0, 3e3])),
+        "radial_load.z": st.one_of(load, st.sampled_from([0.0, -3e3])),
+    }
+    inside = ranges.get(name, st.floats(233.0, 473.0))
+    return st.one_of(inside, inside, inside, inside, st.sampled_from([math.nan, -1e13, 1e13]))
+
+
+MOVES = st.sampled_from(sorted(SANE)).flatmap(
+    lambda name: st.tuples(st.just(name), values(name), st.sampled_from([1e-5, 5e-5, 2e-4]))
+)
+STARTS = st.fixed_dictionaries({}, optional={name: values(name) for name in SANE})
+
+
+def put(run, name, value):
+    """Set an input; a value that is refused leaves the one before."""
+    before = run.get(name)
+    try:
+        run.set(name, value)
+    except ValueError as reason:
+        assert "is refused: allowed are" in str(reason)
+        assert run.get(name) == before
+
+
+def astray(run):
+    """Whether the bearing has left what equations for small displacements cover: 1 mm across the axis.
+
+    3 kN on a pedestal of 1e4 N/m ask for 300 mm; such a run may be refused at any time.
+    """
+    across = math.hypot(run.get("outer_ring.displacement.y"), run.get("outer_ring.displacement.z"))
+    wanted = math.hypot(run.get("radial_load.y"), run.get("radial_load.z")) / run.get("pedestal_stiffness")
+    return max(across, wanted) > 1e-3
+
+
+def walk(scene, start, moves, level, method):
+    """Initialise, then one input and one step after the other; every refusal is undone and gone on from."""
+    run = bearing(scene, {"sound": None}, {}, level, method)
+    for name, value in start.items():
+        put(run, name, value)
+    try:
+        run.initialise()
+    except EngineError as reason:
+        assert REFUSALS.search(str(reason))
+        run.reset()
+        run.initialise()
+    assert np.isfinite(run.z).all() and np.isfinite(run.s).all()
+    for name, value, h in moves:
+        inputs = run.u.copy()
+        put(run, name, value)
+        kept, shown, before = run.s.copy(), run.z.copy(), work(run)
+        most = _BESIDES + _PER_STEP * math.ceil(h / run.get("max_internal_step"))
+        try:
+            run.step(h)
+        except EngineError as reason:
+            assert REFUSALS.search(str(reason))
+            np.testing.assert_array_equal(run.s, kept)
+            np.testing.assert_array_equal(run.z, shown)
+            # with the inputs under which the state was reached the bearing goes on
+            run.u[:] = inputs
+            if astray(run):
+                run.reset()
+                run.initialise()
+            run.step(1e-6)
+        assert work(run) - before <= most * WORK[level, method]
+        assert np.isfinite(run.z).all() and np.isfinite(run.s).all()
+        for side in ("inner", "outer"):
+            assert run.get(f"contact.{side}.load_mean") >= 0.0
+    run.reset()
+    for name, value in SANE.items():
+        run.set(name, value)
+    run.initialise()
+    run.step(1e-4)
+    assert np.isfinite(run.z).all()
+
+
+_HEALTH = list(HealthCheck)
+QUICK = {"deadline": None, "derandomize": True, "suppress_health_check": _HEALTH}
+LONG = {"deadline": None, "suppress_health_check": _HEALTH}
+# every change of an input makes them look for a new equilibrium
+CONDENSED = [pair for pair in COMPUTED if pair not in FULL]
+
+
+@pytest.mark.parametrize(("level", "method"), FULL)
+@settings(max_examples=25, **QUICK)
+@given(start=STARTS, moves=st.lists(MOVES, min_size=1, max_size=12))
+def test_a_short_walk(level, method, start, moves):
+    walk("7003C-bare", start, moves, level, method)
+
+
+@pytest.mark.parametrize(("level", "method"), CONDENSED)
+@settings(max_examples=10, **QUICK)
+@given(start=STARTS, moves=st.lists(MOVES, min_size=1, max_size=6))
+def test_a_short_walk_of_condensed_levels(level, method, start, moves):
+    walk("7003C-bare", start, moves, level, method)
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize(("level", "method"), FULL)
+@pytest.mark.parametrize("scene", ["7003C-bare", "7003C-spindle", "7009C-full-ceramic"])
+@settings(max_examples=8, **LONG)
+@given(start=STARTS, moves=st.lists(MOVES, min_size=10, max_size=30))
+def test_a_long_walk(scene, level, method, start, moves):
+    walk(scene, start, moves, level, method)
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize(("level", "method"), CONDENSED)
+@pytest.mark.parametrize("scene", ["7003C-spindle", "7009C-full-ceramic"])
+@settings(max_examples=5, **LONG)
+@given(start=STARTS, moves=st.lists(MOVES, min_size=5, max_size=12))
+def test_a_long_walk_of_condensed_levels(scene, level, method, start, moves):
+    walk(scene, start, moves, level, method)

@@ -314,7 +314,14 @@ S_C = S_F + F_SIZE
     S_NEWTON,  # iterations so far
     S_JACOBIANS,
     S_ENERGY_NOW,
-) = range(S_C + C_SIZE, S_C + C_SIZE + 24)
+    S_FALLBACKS,  # times the one-evaluation path was left
+    S_FAST_STEP,  # its step: wanted, and that of the history; history's length in steps, 0 to 3
+    S_FAST_LENGTH,
+    S_FAST_COUNT,
+    S_FAST_HOLD,  # time before which it is not tried
+    S_FAST_PATIENCE,  # s: the next hold
+    S_FAST_BETA,  # Newmark's beta of the balls
+) = range(S_C + C_SIZE, S_C + C_SIZE + 31)
 S_JAC = S_C + C_SIZE + 32  # raw blocks: B 6x9, C 6x34, D 17x9 rows per lane, E 17x34
 J_B, J_C, J_D = 0, 54 * STRIDE, (54 + 204) * STRIDE
 J_E = (54 + 204 + 153) * STRIDE
@@ -324,7 +331,10 @@ A_INV, A_W, A_GB = 0, 36 * STRIDE, (36 + 102) * STRIDE
 A_S = (36 + 102 + 102) * STRIDE
 BORDER = 20  # numbers per column of the inverse: 17, rounded up to whole vectors
 A_SIZE = A_S + 17 * BORDER
-S_SOUND = S_FAC + A_SIZE
+# the one-evaluation path: its own rates (trapezoidal rule), accelerations now and two steps back
+S_FAST = S_FAC + A_SIZE
+FAST_Y, FAST_A0, FAST_A1, FAST_A2 = 0, Y_SIZE, Y_SIZE + F_SIZE, Y_SIZE + 2 * F_SIZE
+S_SOUND = S_FAST + Y_SIZE + 3 * F_SIZE
 
 # --- w: rows of the force evaluation, then stages --------------------------------------------------
 W_COS, W_SIN = 0, 1
@@ -374,7 +384,11 @@ W_D = W_F0 + F_SIZE  # Newton increment
 W_ACC = W_D + F_SIZE  # stage accelerations, STAGES x F_SIZE
 W_VEL = W_ACC + STAGES * F_SIZE  # stage velocities in the layout of accelerations
 W_LAST = W_ACC + (STAGES - 1) * F_SIZE  # accelerations at the end of a step, of any method
-W_MOTION = W_VEL + STAGES * F_SIZE
+# a block of one-evaluation steps: accelerations two and one step back, then states and accelerations
+BLOCK = 8
+W_BLOCK_A = W_VEL + STAGES * F_SIZE
+W_BLOCK_Y = W_BLOCK_A + (BLOCK + 3) * F_SIZE
+W_MOTION = W_BLOCK_Y + (BLOCK + 1) * Y_SIZE
 W_G0 = W_MOTION + MO_BALLS + MO_PER_BALL * MAX_BALLS
 W_SOUND = W_G0 + N_BODY * STRIDE
 

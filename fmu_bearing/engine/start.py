@@ -2,6 +2,7 @@
 
 import math
 
+from fmu_bearing.engine.fast import begin
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import (
     B_OM,
@@ -57,8 +58,8 @@ from fmu_bearing.engine.layout import (
     Y_SIZE,
     Y_V,
 )
-from fmu_bearing.engine.march import total_energy
 from fmu_bearing.engine.mechanics.conditions import conditions
+from fmu_bearing.engine.progress import total_energy
 from fmu_bearing.engine.solvers.quasistatic import quasistatic, stiffness_matrix
 from fmu_bearing.engine.solvers.spin_balance import balance_spins
 
@@ -136,6 +137,7 @@ def start(p, u, s, w, t):
     s[S_FACTOR_STEP] = 0.0
     s[S_JACOBIAN_TIME] = -1e300
     s[S_CONTRACTION] = 0.1
+    begin(s, t)
     s[S_JACOBIANS] = 0.0
     s[S_ENERGY_START] = total_energy(p, s, w)
     s[S_ENERGY_NOW] = s[S_ENERGY_START]

@@ -114,7 +114,7 @@ def test_block_arrow_solves_the_dense_system():
     jac = random_blocks(rng, p, lanes, balls)
     cv, cx = 0.03, 0.01
     fac, w = np.zeros(at.A_SIZE), np.zeros(at.W_SOUND)
-    assert block_arrow.factor(p, jac, cv, cx, fac, w)
+    assert block_arrow.factor(p, jac, cv, cx, cx, fac, w)
     d = np.zeros(at.F_SIZE)
     rows = rng.normal(size=(6, balls))
     for i in range(6):

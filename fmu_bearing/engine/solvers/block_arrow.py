@@ -103,7 +103,7 @@ def newton_row(jac, at, columns, cv, cx, out, to, lanes):
 
 
 @kernel
-def border_column(jac, fac, w, scratch, g, cv, cx, lanes):
+def border_column(jac, fac, w, scratch, g, cv, cx, cx_ball, lanes):
     """Column ``g`` of the border: W = Mb^-1 M_bG into ``fac``, and the row M_Gb beside it."""
     for i in range(6):
         newton_row(jac, J_C + (i * 34 + g) * _S, N_BODY, cv, cx, w, scratch + i * _S, lanes)
@@ -111,24 +111,27 @@ def border_column(jac, fac, w, scratch, g, cv, cx, lanes):
         times_six(fac, A_INV + i * 6 * _S, w, scratch, fac, A_W + (i * N_BODY + g) * _S, lanes)
     for k in range(6):
         out = A_GB + (g * 6 + k) * _S
-        newton_row(jac, J_D + (g * 9 + k) * _S, 3, cv, cx if k < 3 else 0.0, fac, out, lanes)
+        newton_row(jac, J_D + (g * 9 + k) * _S, 3, cv, cx_ball if k < 3 else 0.0, fac, out, lanes)
 
 
 @kernel
-def factor(p, jac, cv, cx, fac, w):
-    """Factor I - cv Jv - cx Jx from the blocks ``jac`` into ``fac``; False if singular."""
+def factor(p, jac, cv, cx, cx_ball, fac, w):
+    """Factor I - cv Jv - cx Jx from the blocks ``jac`` into ``fac``; False if singular.
+
+    ``cx_ball`` stands for ``cx`` in the columns of the balls' places.
+    """
     lanes = int(p[P_LANES])
     scratch = W_FORCE * _S
     for i in range(6):
         for k in range(6):
             out = A_INV + (i * 6 + k) * _S
-            newton_row(jac, J_B + (i * 9 + k) * _S, 3, cv, cx if k < 3 else 0.0, fac, out, lanes)
+            newton_row(jac, J_B + (i * 9 + k) * _S, 3, cv, cx_ball if k < 3 else 0.0, fac, out, lanes)
         own = A_INV + i * 7 * _S
         for j in range(lanes):
             fac[own + j] += 1.0
     invert_blocks(fac, A_INV, lanes)
     for g in range(N_BODY):
-        border_column(jac, fac, w, scratch, g, cv, cx, lanes)
+        border_column(jac, fac, w, scratch, g, cv, cx, cx_ball, lanes)
     border = w[scratch : scratch + N_BODY * N_BODY]
     for g in range(N_BODY):
         left = A_GB + g * 6 * _S

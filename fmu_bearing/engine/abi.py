@@ -11,12 +11,15 @@ from fmu_bearing.engine.layout import (
     BAD_INPUT,
     BAD_STEP,
     OK,
+    P_LEVEL,
     U_INNER_T,
     U_OIL_T,
     U_OUTER_T,
     U_PEDESTAL,
     U_SPEED,
 )
+from fmu_bearing.engine.levels.response import march_response, start_response
+from fmu_bearing.engine.levels.rings import march_rings, start_rings
 from fmu_bearing.engine.march import march
 from fmu_bearing.engine.observe import observe
 from fmu_bearing.engine.start import start
@@ -42,7 +45,12 @@ def init(p, u, s, z, w, t):
     """Put the state to the quasi-static one at the inputs' values and time ``t`` (s); fill the outputs."""
     if not inputs_usable(u) or not math.isfinite(t):
         return BAD_INPUT
-    status = start(p, u, s, w, t)
+    if p[P_LEVEL] == 1.0:
+        status = start_rings(p, u, s, w, t)
+    elif p[P_LEVEL] == 2.0:
+        status = start_response(p, u, s, w, t)
+    else:
+        status = start(p, u, s, w, t)
     if status == OK:
         observe(p, s, z)
     return status
@@ -55,7 +63,12 @@ def step(p, u, s, z, w, h):
         return BAD_STEP
     if not inputs_usable(u):
         return BAD_INPUT
-    status = march(p, u, s, w, h)
+    if p[P_LEVEL] == 1.0:
+        status = march_rings(p, u, s, w, h)
+    elif p[P_LEVEL] == 2.0:
+        status = march_response(p, u, s, w, h)
+    else:
+        status = march(p, u, s, w, h)
     if status == OK:
         observe(p, s, z)
     return status

@@ -28,6 +28,7 @@ from fmu_bearing.engine.layout import (
     P_MAX_STEP,
     P_OUTER_MASS,
     S_ANGLE,
+    S_AXES,
     S_C,
     S_F,
     S_FAC,
@@ -57,11 +58,12 @@ from fmu_bearing.engine.layout import (
     W_Y,
     Y_SIZE,
 )
+from fmu_bearing.engine.mechanics.ball_waves import turn_axes
 from fmu_bearing.engine.motion import emit_samples
 from fmu_bearing.engine.progress import accept, renew_jacobian, wrap_angles
 from fmu_bearing.engine.solvers.block_arrow import factor
-from fmu_bearing.engine.solvers.esdirk import body_size, newton_size
 from fmu_bearing.engine.solvers.newmark import BETA, BETA_BALL, iterate, predict, true_rates
+from fmu_bearing.engine.solvers.runge_kutta import body_size, newton_size
 
 _S = STRIDE
 LONGEST = 1e-5  # s: beyond it the rings' modes of the example bearings leave the method's range
@@ -208,6 +210,7 @@ def try_block(p, s, w, h, beta_ball, count, tolerance):
         co = math.cos(turned + t * orbit)
         si = math.sin(turned + t * orbit)
         predict(y, a, h, new, new_a)
+        turn_axes(p, s[S_AXES:S_JAC], s[S_Y : S_Y + Y_SIZE], int(p[P_LANES]), t, w)
         iterate(p, c, angle, s[S_SPEED] + t * rate, rate, h, beta_ball, fac, co, si, new, new_a, w)
         if k == count - 1:
             size = newton_size(p, c, w[W_D : W_D + F_SIZE], 0.5 * h)
@@ -281,7 +284,7 @@ def fast_block(p, s, w, count, tolerance):
     if verdict == 0:
         for k in range(count):
             commit_step(p, s, w, h, k)
-            accept(s, w, h)
+            accept(p, s, w, h)
         keep_block(s, w, count)
         if s[S_TIME] - s[S_FAST_HOLD] > _TRUSTED:
             s[S_FAST_PATIENCE] = _HOLDS[0]

@@ -321,8 +321,18 @@ S_C = S_F + F_SIZE
     S_FAST_HOLD,  # time before which it is not tried
     S_FAST_PATIENCE,  # s: the next hold
     S_FAST_BETA,  # Newmark's beta of the balls
-) = range(S_C + C_SIZE, S_C + C_SIZE + 31)
-S_JAC = S_C + C_SIZE + 32  # raw blocks: B 6x9, C 6x34, D 17x9 rows per lane, E 17x34
+    S_SPIN_TO_ROLL,  # inner, outer: means over the loaded contacts at the last communication point
+    S_SPIN_TO_ROLL_OUTER,
+    S_SLIP,
+    S_SLIP_OUTER,
+    S_LOSS,  # W: contacts, rolling, cage, drag
+    S_LOSS_ROLLING,
+    S_LOSS_CAGE,
+    S_LOSS_DRAG,
+    S_PLACE,  # m: where rigid preload takes the inner ring
+) = range(S_C + C_SIZE, S_C + C_SIZE + 40)
+S_AXES = S_C + C_SIZE + 48  # the balls' body-fixed axes in their orbiting axes, 3 rows
+S_JAC = S_AXES + 3 * STRIDE  # raw blocks: B 6x9, C 6x34, D 17x9 rows per lane, E 17x34
 J_B, J_C, J_D = 0, 54 * STRIDE, (54 + 204) * STRIDE
 J_E = (54 + 204 + 153) * STRIDE
 J_SIZE = J_E + 17 * 34
@@ -330,19 +340,24 @@ S_FAC = S_JAC + J_SIZE  # factors: inverse 6x6, W 6x17, M_Gb 17x6 rows per lane,
 A_INV, A_W, A_GB = 0, 36 * STRIDE, (36 + 102) * STRIDE
 A_S = (36 + 102 + 102) * STRIDE
 BORDER = 20  # numbers per column of the inverse: 17, rounded up to whole vectors
-A_SIZE = A_S + 17 * BORDER
+A_SPRING = A_S + 17 * BORDER  # coupling of neighbouring balls: strength, bodies' answers, inverse Z x Z
+A_SPRING_BODY = A_SPRING + 1
+A_SPRING_BALLS = A_SPRING_BODY + 17 * STRIDE
+A_SIZE = A_SPRING_BALLS + MAX_BALLS * MAX_BALLS
 # the one-evaluation path: its own rates (trapezoidal rule), accelerations now and two steps back
 S_FAST = S_FAC + A_SIZE
 FAST_Y, FAST_A0, FAST_A1, FAST_A2 = 0, Y_SIZE, Y_SIZE + F_SIZE, Y_SIZE + 2 * F_SIZE
-S_SOUND = S_FAST + Y_SIZE + 3 * F_SIZE
+S_LEVEL = S_FAST + Y_SIZE + 3 * F_SIZE  # what the levels `rings` and `response` keep: see engine/levels
+L_SIZE = 4992
+S_SOUND = S_LEVEL + L_SIZE
 
 # --- w: rows of the force evaluation, then stages --------------------------------------------------
 W_COS, W_SIN = 0, 1
 W_POSE = 2  # per body 20 rows
 POSE_ROWS = 20
 X_Q, X_N, X_H, X_T, X_A, X_RHO, X_DV, X_DW = 0, 3, 6, 9, 12, 13, 14, 17
-W_RACE = W_POSE + 3 * POSE_ROWS  # per race 28 rows
-RACE_ROWS = 28
+W_RACE = W_POSE + 3 * POSE_ROWS  # per race 30 rows
+RACE_ROWS = 30
 (
     R_EN,
     R_EM,
@@ -368,13 +383,16 @@ RACE_ROWS = 28
     R_ROLL,
     R_SINA,
     R_COSA,
-) = (0, 3, *range(6, 28))
+    R_BUMP_T,  # slope of the ball's own waviness towards e_t and e_m
+    R_BUMP_M,
+) = (0, 3, *range(6, 30))
 W_POCKET = W_RACE + 2 * RACE_ROWS  # penetration of the pocket
 W_FORCE = W_POCKET + 2  # per body 6 rows: force and moment on the ball
 W_G = W_FORCE + 18  # 17 rows: generalised forces on the bodies
 W_SHAFT = W_G + 17  # moment on the inner ring about its own axis
 W_LOSS = W_SHAFT + 1  # dissipated per body, and by drag
-W_ROWS = W_LOSS + 4
+W_AXES = W_LOSS + 4  # the balls' body-fixed axes at the state evaluated
+W_ROWS = W_AXES + 3
 W_SCALARS = W_ROWS * STRIDE  # scratch scalars
 STAGES = 6
 W_Y = W_SCALARS + 64  # stage state
@@ -409,3 +427,14 @@ NOT_CONVERGED = 1  # the step did not converge at the smallest internal step
 BAD_INPUT = 2  # an input is not finite or out of range
 BAD_STEP = 3  # communication step not positive or not finite
 NO_START = 4  # the quasi-static start did not converge
+
+# --- out of the quasi-static equilibrium (solvers/quasistatic.py) ----------------------------------------
+Q5_SHIFT = 0  # x y z by bz of the inner ring against the outer (m, rad)
+Q5_RESIDUAL = 5  # N; moments over the pitch radius
+Q5_ITERATIONS = 6
+Q5_STIFFNESS = 7  # 5 x 5, row by row: force or moment on x y z by bz per displacement
+# then ten rows of STRIDE: ball's place (m), orbit speed and spin (rad/s), loads (N), contact angles (rad)
+Q5_X, Q5_R, Q5_OM, Q5_WX, Q5_WR, Q5_WT, Q5_LOAD_I, Q5_LOAD_O, Q5_ANGLE_I, Q5_ANGLE_O = (
+    32 + k * STRIDE for k in range(10)
+)
+Q5_SIZE = 32 + 10 * STRIDE

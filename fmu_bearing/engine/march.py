@@ -8,12 +8,14 @@ from fmu_bearing.engine.layout import (
     BLOCK,
     C_SIZE,
     F_SIZE,
+    FAST_Y,
     NOT_CONVERGED,
     OK,
     P_MAX_STEP,
     P_METHOD,
-    P_TOLERANCE,
+    P_RIGID,
     S_ANGLE,
+    S_AXES,
     S_C,
     S_CONTRACTION,
     S_ENERGY_NOW,
@@ -42,19 +44,18 @@ from fmu_bearing.engine.layout import (
     W_F0,
     W_SCALARS,
     Y_SIZE,
+    Y_V,
 )
 from fmu_bearing.engine.mechanics.conditions import conditions
+from fmu_bearing.engine.mechanics.summary import summarise
 from fmu_bearing.engine.motion import emit_samples
-from fmu_bearing.engine.progress import accept, renew_jacobian, total_energy
+from fmu_bearing.engine.progress import accept, renew_jacobian, total_energy, velocity_tolerance
 from fmu_bearing.engine.solvers.block_arrow import factor
-from fmu_bearing.engine.solvers.esdirk import esdirk_step, integrate_power
-from fmu_bearing.engine.solvers.tableaux import ESDIRK4, T_GAMMA, T_ORDER, TABLEAUX, TRBDF2
+from fmu_bearing.engine.solvers.rigid_preload import axial_speed
+from fmu_bearing.engine.solvers.runge_kutta import integrate_power, runge_kutta_step
+from fmu_bearing.engine.solvers.tableaux import ESDIRK4, RK4, T_GAMMA, T_ORDER, TABLEAUX, TRBDF2
 
 _S = STRIDE
-# Amplitude (m) whose velocity at shaft speed the relative tolerance refers to: 10 mm/s at 20,000 r/min, as
-# rings vibrate there; the slowest speed (rad/s) for which it shrinks with speed.
-_AMPLITUDE = 5e-6
-_SLOWEST = 20.0
 _SHORTEST = 1e-10  # s: a step that must be shorter has not converged
 _OLDEST = 5e-3  # s: age at which the Jacobian is renewed in any case
 _PROBE = 16  # steps between measurements of the contraction
@@ -70,7 +71,8 @@ def take_inputs(p, u, s, w, h):
     rate = (u[U_SPEED] - s[S_SPEED]) / h
     fresh = w[W_SCALARS + 8 : W_SCALARS + 8 + C_SIZE]
     conditions(p, u, 0.5 * (s[S_SPEED] + u[U_SPEED]), fresh)
-    changed = False
+    axial = axial_speed(p, u, fresh, s, w, h) if p[P_RIGID] != 0.0 else s[S_Y + Y_V]
+    changed = axial != s[S_Y + Y_V]
     for i in range(C_SIZE):
         if fresh[i] != s[S_C + i]:
             changed = True
@@ -84,6 +86,8 @@ def take_inputs(p, u, s, w, h):
         s[S_SPEED_RATE] = rate
         for i in range(F_SIZE):
             w[W_D + i] = s[S_F + i]
+        s[S_FAST + FAST_Y + Y_V] += axial - s[S_Y + Y_V]
+        s[S_Y + Y_V] = axial
         s[S_WORK] += total_energy(p, s, w) - before
         shift_history(s, w[W_D : W_D + F_SIZE])
     elif rate != s[S_SPEED_RATE]:
@@ -98,14 +102,15 @@ def try_step(p, s, w, h, tableau, tolerance):
     Returns the error over the tolerance, or -1 where Newton failed with a fresh Jacobian.
     """
     report = w[W_SCALARS + 40 : W_SCALARS + 44]
+    explicit = TABLEAUX[tableau + T_GAMMA] == 0.0
     for attempt in range(2):
-        fresh = s[S_JACOBIAN_TIME] == s[S_TIME]
+        fresh = s[S_JACOBIAN_TIME] == s[S_TIME] or explicit
         too_old = s[S_TIME] - s[S_JACOBIAN_TIME] > _OLDEST or s[S_CONTRACTION] > _SLOW
         if not fresh and (attempt == 1 or too_old):
             renew_jacobian(p, s, w)
             fresh = True
         ratio = h / (s[S_FACTOR_STEP] + 1e-300)
-        if ratio < _SAME_STEP[0] or ratio > _SAME_STEP[1]:
+        if not explicit and (ratio < _SAME_STEP[0] or ratio > _SAME_STEP[1]):
             gh = TABLEAUX[tableau + T_GAMMA] * h
             if not factor(p, s[S_JAC:S_FAC], gh, gh * gh, gh * gh, s[S_FAC:S_FAST], w):
                 if fresh:
@@ -113,10 +118,10 @@ def try_step(p, s, w, h, tableau, tolerance):
                 continue
             s[S_FACTOR_STEP] = h
         probe = s[S_STEPS] % _PROBE == 0.0
-        fine = esdirk_step(
-            p, s[S_C : S_C + C_SIZE], s[S_Y : S_Y + Y_SIZE], s[S_F : S_F + F_SIZE], s[S_ANGLE], s[S_SPEED],
-            s[S_SPEED_RATE], h, tableau, s[S_FAC:S_FAST], s[S_Y + 2 * _S] - s[S_JACOBIAN_ANGLE],
-            0.5 * tolerance, s[S_CONTRACTION], probe, w, report,
+        fine = runge_kutta_step(
+            p, s[S_C : S_C + C_SIZE], s[S_Y : S_Y + Y_SIZE], s[S_F : S_F + F_SIZE], s[S_AXES:S_JAC],
+            s[S_ANGLE], s[S_SPEED], s[S_SPEED_RATE], h, tableau, s[S_FAC:S_FAST],
+            s[S_Y + 2 * _S] - s[S_JACOBIAN_ANGLE], 0.5 * tolerance, s[S_CONTRACTION], probe, w, report,
         )  # fmt: skip
         if fine:
             if report[1] > 0.0:
@@ -134,13 +139,14 @@ def march(p, u, s, w, h):
     for i in range(3):
         s[S_MEAN_INNER + i] = s[S_HEAT_INNER + i]
     take_inputs(p, u, s, w, h)
-    tolerance = p[P_TOLERANCE] * _AMPLITUDE * max(abs(u[U_SPEED]), _SLOWEST)
-    tableau = TRBDF2 if p[P_METHOD] == 2.0 else ESDIRK4
+    tolerance = velocity_tolerance(p, u[U_SPEED])
+    tableau = TRBDF2 if p[P_METHOD] == 2.0 else RK4 if p[P_METHOD] == 3.0 else ESDIRK4
     power = -1.0 / TABLEAUX[tableau + T_ORDER]
     begin = s[S_TIME]
     end = begin + h
     # bounded work: no more attempts than a hundred times what the largest internal step would need
-    left = 2000.0 + 100.0 * math.ceil(h / p[P_MAX_STEP])
+    # (a thousand times for explicit steps, which stability keeps below 0.1 us)
+    left = 2000.0 + (1000.0 if tableau == RK4 else 100.0) * math.ceil(h / p[P_MAX_STEP])
     remaining = h
     fast = p[P_METHOD] == 1.0
     while remaining > 1e-12 * h:
@@ -166,7 +172,7 @@ def march(p, u, s, w, h):
             continue
         integrate_power(length, tableau, w, s[S_WORK : S_WORK + 4])
         emit_samples(p, s, w, length)
-        accept(s, w, length)
+        accept(p, s, w, length)
         if fast:
             remember(s, length, w[W_ACC : W_ACC + F_SIZE])
         remaining = end - s[S_TIME]
@@ -180,6 +186,7 @@ def march(p, u, s, w, h):
     # One evaluation at the end point: stored energy for the balance, and accelerations and torque that do
     # not carry the last Newton iteration's remainder.
     s[S_ENERGY_NOW] = total_energy(p, s, w)
+    summarise(p, s, w)
     for i in range(3):
         s[S_MEAN_INNER + i] = (s[S_HEAT_INNER + i] - s[S_MEAN_INNER + i]) / h
     return OK

@@ -10,6 +10,7 @@ from fmu_bearing.engine.layout import (
     B_VR,
     B_VX,
     B_X,
+    BEARING_OUTPUTS,
     C_BALL_RADIUS,
     C_RACE_SIZE,
     C_RACES,
@@ -34,11 +35,15 @@ from fmu_bearing.engine.layout import (
     S_ENERGY_NOW,
     S_ENERGY_START,
     S_F,
+    S_FALLBACKS,
     S_HEAT_INNER,
+    S_LOSS,
     S_MEAN_INNER,
     S_REJECTED,
+    S_SLIP,
     S_SOUND,
     S_SPEED,
+    S_SPIN_TO_ROLL,
     S_STEPS,
     S_WORK,
     S_Y,
@@ -48,10 +53,35 @@ from fmu_bearing.engine.layout import (
     Z_BALLS,
 )
 from fmu_bearing.engine.mechanics.pose import axis_cosine
-from fmu_bearing.engine.solvers.quasistatic import series_stiffness
+from fmu_bearing.engine.solvers.stiffness import series_stiffness
 from fmu_bearing.engine.sound.meter import levels
 
 _S = STRIDE
+# places in z by name: the table of names in ``layout`` is the only one that numbers them
+Z_INNER_VELOCITY = BEARING_OUTPUTS.index("inner_ring.velocity.x")
+Z_OUTER_VELOCITY = BEARING_OUTPUTS.index("outer_ring.velocity.x")
+Z_CAGE_VELOCITY = BEARING_OUTPUTS.index("cage.velocity.x")
+Z_TORQUE = BEARING_OUTPUTS.index("friction_torque")
+Z_HEAT = BEARING_OUTPUTS.index("heat.inner_ring")
+Z_CAGE_RATIO = BEARING_OUTPUTS.index("cage.speed_ratio")
+Z_INNER_PLACE = BEARING_OUTPUTS.index("inner_ring.displacement.x")
+Z_OUTER_PLACE = BEARING_OUTPUTS.index("outer_ring.displacement.x")
+Z_CONTACT = BEARING_OUTPUTS.index("contact.inner.load_mean")  # four of the inner, four of the outer race
+Z_LAMBDA = BEARING_OUTPUTS.index("film.lambda_min")
+Z_AXIAL_STIFFNESS = BEARING_OUTPUTS.index("stiffness.axial")
+Z_RADIAL_STIFFNESS = BEARING_OUTPUTS.index("stiffness.radial")
+Z_STEPS = BEARING_OUTPUTS.index("solver.steps")
+Z_REJECTED = BEARING_OUTPUTS.index("solver.rejected")
+Z_RESIDUAL = BEARING_OUTPUTS.index("energy.residual")
+Z_FALLBACKS = BEARING_OUTPUTS.index("solver.fallbacks")
+Z_TILT = BEARING_OUTPUTS.index("inner_ring.tilt.y")
+Z_SPIN_TO_ROLL = BEARING_OUTPUTS.index("contact.inner.spin_to_roll")
+Z_SLIP = BEARING_OUTPUTS.index("contact.inner.slip")
+Z_WHIRL_RADIUS = BEARING_OUTPUTS.index("cage.whirl_radius")
+Z_WHIRL_SPEED = BEARING_OUTPUTS.index("cage.whirl_speed")
+Z_TORQUE_CONTACTS = BEARING_OUTPUTS.index("friction_torque.contacts")  # then rolling, cage, drag
+_STANDSTILL = 1e-9  # rad/s: below it nothing is divided by the shaft speed
+_CENTRED_2 = 1e-16  # m2: the whirl speed of a cage within 10 nm of the middle says nothing
 
 
 @kernel
@@ -60,11 +90,13 @@ def bodies(p, s, z):
     v = S_Y + Y_V
     q = S_Y + Y_Q
     for i in range(3):
-        z[i] = s[v + i]
-        z[3 + i] = s[v + Q_OUTER + i]
-        z[6 + i] = s[v + Q_CAGE + i]
-        z[14 + i] = s[q + i]
-        z[17 + i] = s[q + Q_OUTER + i]
+        z[Z_INNER_VELOCITY + i] = s[v + i]
+        z[Z_OUTER_VELOCITY + i] = s[v + Q_OUTER + i]
+        z[Z_CAGE_VELOCITY + i] = s[v + Q_CAGE + i]
+        z[Z_INNER_PLACE + i] = s[q + i]
+        z[Z_OUTER_PLACE + i] = s[q + Q_OUTER + i]
+    for i in range(2):
+        z[Z_TILT + i] = s[q + 3 + i]
     pitch = p[P_PITCH_RADIUS]
     orbit = 0.0
     balls = int(p[P_BALLS])
@@ -81,7 +113,28 @@ def bodies(p, s, z):
         orbit += om / balls
     turning = s[v + Q_CAGE + 3] if p[P_CAGE] != 0.0 else orbit
     speed = s[S_SPEED]
-    z[13] = turning / speed if abs(speed) > 1e-9 else 0.0
+    z[Z_CAGE_RATIO] = turning / speed if abs(speed) > _STANDSTILL else 0.0
+    z[Z_WHIRL_RADIUS] = 0.0
+    z[Z_WHIRL_SPEED] = 0.0
+    if p[P_CAGE] != 0.0:
+        dy = s[q + Q_CAGE + 1] - s[q + 1]
+        dz = s[q + Q_CAGE + 2] - s[q + 2]
+        vy = s[v + Q_CAGE + 1] - s[v + 1]
+        vz = s[v + Q_CAGE + 2] - s[v + 2]
+        apart2 = dy * dy + dz * dz
+        z[Z_WHIRL_RADIUS] = math.sqrt(apart2)
+        z[Z_WHIRL_SPEED] = (dy * vz - dz * vy) / (apart2 + _CENTRED_2)
+
+
+@kernel
+def losses(s, z):
+    """Sliding of the contacts, and friction torque by source: the power lost there over the shaft speed."""
+    speed = abs(s[S_SPEED])
+    for i in range(2):
+        z[Z_SPIN_TO_ROLL + i] = s[S_SPIN_TO_ROLL + i]
+        z[Z_SLIP + i] = s[S_SLIP + i]
+    for i in range(4):
+        z[Z_TORQUE_CONTACTS + i] = s[S_LOSS + i] / s[S_SPEED] if speed > _STANDSTILL else 0.0
 
 
 @kernel
@@ -112,10 +165,10 @@ def contacts(p, s, z):
     ball = c[C_BALL_RADIUS]
     oversize = int(p[P_AT_OVERSIZE])
     thinnest = 1e30
-    for i in range(20, 28):
-        z[i] = 0.0
-    z[29] = 0.0
-    z[30] = 0.0
+    for i in range(8):
+        z[Z_CONTACT + i] = 0.0
+    z[Z_AXIAL_STIFFNESS] = 0.0
+    z[Z_RADIAL_STIFFNESS] = 0.0
     for j in range(balls):
         angle = s[S_Y + B_TH * _S + j]
         co = math.cos(angle)
@@ -134,7 +187,7 @@ def contacts(p, s, z):
             approach = max(distance - c[held + 2] + 0.5 * p[oversize + j], 0.0)
             load = p[numbers + RACE_STIFFNESS] * approach * math.sqrt(approach)
             side = -1.0 if race == 0 else 1.0
-            at = 20 + 4 * race
+            at = Z_CONTACT + 4 * race
             z[at] += load / balls
             z[at + 1] = max(z[at + 1], load)
             z[at + 2] += math.atan2(side * sx, side * sr) / balls
@@ -149,24 +202,26 @@ def contacts(p, s, z):
             p, c, ax - c[C_RACES], ar - c[C_RACES + 1],
             bx - c[C_RACES + C_RACE_SIZE], br - c[C_RACES + C_RACE_SIZE + 1],
         )  # fmt: skip
-        z[29] += kxx
-        z[30] += 0.5 * krr
-    z[28] = thinnest / p[P_ROUGHNESS]
+        z[Z_AXIAL_STIFFNESS] += kxx
+        z[Z_RADIAL_STIFFNESS] += 0.5 * krr
+    z[Z_LAMBDA] = thinnest / p[P_ROUGHNESS]
 
 
 @kernel
 def observe(p, s, z):
     """Fill ``z`` (see ``layout``) from the state ``s``."""
     bodies(p, s, z)
-    z[9] = s[S_F + F_TORQUE]
+    z[Z_TORQUE] = s[S_F + F_TORQUE]
     for i in range(3):
-        z[10 + i] = s[S_MEAN_INNER + i]
+        z[Z_HEAT + i] = s[S_MEAN_INNER + i]
     contacts(p, s, z)
-    z[31] = s[S_STEPS]
-    z[32] = s[S_REJECTED]
+    losses(s, z)
+    z[Z_STEPS] = s[S_STEPS]
+    z[Z_REJECTED] = s[S_REJECTED]
+    z[Z_FALLBACKS] = s[S_FALLBACKS]
     lost = s[S_HEAT_INNER] + s[S_HEAT_INNER + 1] + s[S_HEAT_INNER + 2]
     gained = s[S_ENERGY_NOW] - s[S_ENERGY_START]
-    z[33] = (s[S_WORK] - lost - gained) / lost if lost > 1e-12 else 0.0
+    z[Z_RESIDUAL] = (s[S_WORK] - lost - gained) / lost if lost > 1e-12 else 0.0
     if p[P_SOUND_SIZE] != 0.0:
         block = int(p[P_AT_SOUND])
         levels(p[block : block + int(p[P_SOUND_SIZE])], s[S_SOUND:], z, Z_BALLS + 3 * int(p[P_BALLS]))

@@ -4,8 +4,11 @@ from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import (
     C_SIZE,
     F_SIZE,
+    P_LANES,
+    P_TOLERANCE,
     Q_CAGE,
     S_ANGLE,
+    S_AXES,
     S_C,
     S_CONTRACTION,
     S_F,
@@ -26,17 +29,35 @@ from fmu_bearing.engine.layout import (
     Y_Q,
     Y_SIZE,
 )
+from fmu_bearing.engine.mechanics.ball_waves import advance_axes, turn_axes
 from fmu_bearing.engine.mechanics.energy import stored_energy
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 from fmu_bearing.engine.solvers.jacobian import jacobian
 
 _S = STRIDE
+# Amplitude (m) whose velocity at shaft speed the relative tolerance refers to: 10 mm/s at 20,000 r/min, as
+# rings vibrate there; the slowest speed (rad/s) for which it shrinks with speed.
+_AMPLITUDE = 5e-6
+_SLOWEST = 20.0
+
+
+@kernel
+def velocity_tolerance(p, speed):
+    """Error (m/s) allowed in the rings' velocities at a shaft speed (rad/s)."""
+    return p[P_TOLERANCE] * _AMPLITUDE * max(abs(speed), _SLOWEST)
+
+
+@kernel
+def show_axes(p, s, w):
+    """Rows ``W_AXES`` of the state in ``s``, for wavy balls."""
+    turn_axes(p, s[S_AXES:S_JAC], s[S_Y : S_Y + Y_SIZE], int(p[P_LANES]), 0.0, w)
 
 
 @kernel
 def total_energy(p, s, w):
     """Return the stored energy (J) of the state in ``s``; refresh its right-hand side on the way."""
+    show_axes(p, s, w)
     right_hand_side(
         p, s[S_C : S_C + C_SIZE], s[S_Y : S_Y + Y_SIZE], s[S_ANGLE], s[S_SPEED], s[S_SPEED_RATE], w,
         s[S_F : S_F + F_SIZE],
@@ -55,6 +76,7 @@ def wrap_angles(y):
 @kernel
 def renew_jacobian(p, s, w):
     """Jacobian at the present state; marks the factors as out of date."""
+    show_axes(p, s, w)
     jacobian(
         p, s[S_C : S_C + C_SIZE], s[S_Y : S_Y + Y_SIZE], s[S_ANGLE], s[S_SPEED], s[S_SPEED_RATE], w,
         s[S_JAC:S_FAC],
@@ -67,8 +89,10 @@ def renew_jacobian(p, s, w):
 
 
 @kernel
-def accept(s, w, h):
+def accept(p, s, w, h):
     """Move the state to the end of the step just made; angles are brought back into one turn."""
+    y = s[S_Y : S_Y + Y_SIZE]
+    advance_axes(p, s[S_AXES:S_JAC], y, w[W_Y : W_Y + Y_SIZE], int(p[P_LANES]), h)
     for i in range(Y_SIZE):
         s[S_Y + i] = w[W_Y + i]
     for i in range(F_SIZE):

@@ -14,11 +14,23 @@ def quiet(scene):
     return scene.model_copy(update={"imperfections": None, "sound": None})
 
 
+def wavy_balls(p, amplitudes, seed=5):
+    """Parameters with ball waviness: amplitudes (m) of orders 1, 2, ... and random axes."""
+    axes = np.random.default_rng(seed).normal(size=(3, at.STRIDE))
+    axes /= np.linalg.norm(axes, axis=0)
+    axes[:, int(p[at.P_BALLS]) :] = axes[:, :1]
+    longer = np.concatenate([p, amplitudes, axes.ravel()])
+    longer[at.P_BALL_WAVES], longer[at.P_AT_BALL_WAVES] = len(amplitudes), p.size
+    return longer
+
+
 class Run:
     """A bearing on bare arrays: parameters from a scene without sound, inputs at will."""
 
-    def __init__(self, scene, rpm, preload=None, pedestal=None, **parameters):
+    def __init__(self, scene, rpm, preload=None, pedestal=None, ball_waves=None, **parameters):
         self.p = pack(scene, np.empty(0))
+        if ball_waves is not None:
+            self.p = wavy_balls(self.p, ball_waves)
         for name, value in parameters.items():
             self.p[getattr(at, name)] = value
         self.p.setflags(write=False)

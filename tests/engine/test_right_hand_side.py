@@ -15,6 +15,7 @@ from fmu_bearing.engine.mechanics.cage import film_force
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.mechanics.energy import stored_energy
 from fmu_bearing.engine.mechanics.equations import right_hand_side
+from fmu_bearing.engine.mechanics.summary import summarise
 from tests.engine.helpers import Run
 from tests.oracles import cartesian as oracle
 
@@ -46,7 +47,11 @@ class Case:
         q, v = self.y[at.Y_Q : at.Y_V], self.y[at.Y_V :]
         bodies = np.array([[*q[:3], self.angle, *q[3:5]], q[5:11], q[11:]])
         rates = np.array([[*v[:3], self.speed, *v[3:5]], v[5:11], v[11:]])
-        return oracle.State(rows.T.copy(), bodies, rates)
+        axes = None
+        if self.p[at.P_BALL_WAVES]:
+            own = self.w[at.W_AXES * at.STRIDE :][: 3 * at.STRIDE].reshape(3, at.STRIDE)
+            axes = np.array([np.array(oracle.directions(rows[2, j])).T @ own[:, j] for j in range(self.n)])
+        return oracle.State(rows.T.copy(), bodies, rates, axes)
 
     def engine(self):
         """The engine's answer, in the oracle's shapes."""
@@ -129,6 +134,8 @@ def setup(p, c, wave=spline):
         for body in ("INNER", "OUTER", "CAGE")
     ]
     springs, dampers, load = np.zeros((3, 6)), np.zeros((3, 6)), np.zeros((3, 3))
+    rest = np.zeros((3, 6))
+    rest[1, 4:] = p[at.P_MISALIGNMENT_Y], p[at.P_MISALIGNMENT_Z]
     springs[0, 4:], dampers[0, 4:] = p[at.P_TILT_STIFFNESS], p[at.P_TILT_DAMPING]
     radial, turn = c[at.C_PEDESTAL], c[at.C_PEDESTAL_ROTATIONAL]
     springs[1] = c[at.C_PEDESTAL_AXIAL], radial, radial, turn, turn, turn
@@ -157,6 +164,13 @@ def setup(p, c, wave=spline):
         load=load,
         pocket=pocket,
         land=land,
+        rest=rest,
+        bumps=c[at.C_OVERSIZE_SCALE] * p[int(p[at.P_AT_BALL_WAVES]) :][: int(p[at.P_BALL_WAVES])]
+        if p[at.P_BALL_WAVES]
+        else None,
+        neighbours=(p[at.P_SPRINGS], p[at.P_SPRING_DAMPING])
+        if p[at.P_SPRINGS] and not p[at.P_CAGE]
+        else None,
     )
 
 
@@ -348,6 +362,72 @@ def test_angular_momentum(case, cage_offset):
         given[one.n + k] -= (setup.springs[k] * state.bodies[k] + setup.dampers[k] * state.rates[k])[3:]
     given[one.n, 0] += found.torque
     assert off(turning.sum(0), given.sum(0), turning) <= 1e-11
+
+
+def test_losses_by_source(case):
+    """Sources add up to all heat but the dampers'; rolling is what goes when the oracle leaves it out."""
+    one = case(SCENES[0], cage_offset=1.02)
+    s = np.zeros(at.state_size(one.p))
+    s[at.S_Y : at.S_Y + at.Y_SIZE] = one.y
+    f = s[at.S_F : at.S_F + at.F_SIZE]
+    right_hand_side(one.p, one.c, one.y, one.angle, one.speed, SPEED_RATE, one.w, f)
+    summarise(one.p, s, one.w)
+    contacts, rolling, cage, drag = s[at.S_LOSS : at.S_LOSS + 4]
+    dampers = (one.setup.dampers * one.state.rates**2).sum()
+    heats = f[at.F_HEAT : at.F_HEAT + 3].sum()
+    assert contacts + rolling + cage + drag + dampers == pytest.approx(heats, rel=1e-12)
+    for lost, change in (
+        (rolling, {"races": tuple(replace(race, rolling=0.0) for race in one.setup.races)}),
+        (cage, {"pocket": None, "land": None}),
+        (drag, {"drag": 0.0}),
+    ):
+        less = oracle.equations(replace(one.setup, **change), one.state, SPEED_RATE).heats.sum()
+        assert lost == pytest.approx(one.oracle().heats.sum() - less, rel=1e-6)
+
+
+BUMPS = 1e-7 * np.array([0.0, 1.0, -0.5, 0.3, 0.0, 0.2, -0.1, 0.1])  # m, orders 1 to 8
+
+
+@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("tilt", [0.0, 1e-4])
+def test_wavy_balls(case, name, tilt):
+    """Forces and moments of wavy balls from the gradient of the approach, taken by complex steps."""
+    one = case(name, tilt=tilt, ball_waves=BUMPS, P_LAND=0.0)
+    smooth = one.oracle() if not tilt else None
+    agree(one, ROUNDING)
+    if smooth is not None:
+        rest = oracle.equations(replace(one.setup, bumps=None), one.state, SPEED_RATE)
+        for k in range(6):  # every row of a ball feels the waves
+            assert off(rest.balls[:, k, None], smooth.balls[:, k, None]) > 1e-7
+
+
+@pytest.mark.parametrize(("tilt", "gate"), [(0.0, 1e-12), (1e-5, 1e-9), (1e-4, 1e-8)])
+def test_power_balance_of_wavy_balls(case, tilt, gate):
+    one = case(SCENES[0], tilt=tilt, ball_waves=BUMPS)
+    found = one.engine()
+    stored = oracle.power_stored(one.setup, one.state, found.balls, found.bodies)
+    assert abs(found.work - found.heats.sum() - stored) <= gate * found.work
+
+
+def test_leaning_seat(case):
+    one = case(SCENES[0], tilt=1e-5, P_MISALIGNMENT_Y=3e-4, P_MISALIGNMENT_Z=-1e-4, P_LAND=0.0)
+    agree(one, ROUNDING)
+    energy = stored_energy(one.p, one.c, one.y, one.w)
+    assert energy == pytest.approx(oracle.stored_energy(one.setup, one.state), rel=1e-12)
+
+
+@pytest.mark.parametrize("stiffness", [1e5, 2.5e7])
+def test_springs_between_balls(case, stiffness):
+    one = case(SCENES[0], tilt=0.0, P_CAGE=0.0, P_SPRINGS=stiffness, P_SPRING_DAMPING=30.0)
+    agree(one, ROUNDING)
+    found = one.engine()
+    stored = oracle.power_stored(one.setup, one.state, found.balls, found.bodies)
+    # springs stretched by 0.1 mm exchange far more power than the bearing takes in
+    inertia = one.setup.ball_mass * one.setup.pitch**2
+    exchanged = np.abs(found.balls[:, 2] * one.state.balls[:, 5]).max() * inertia
+    assert abs(found.work - found.heats.sum() - stored) <= 1e-12 * (found.work + exchanged)
+    energy = stored_energy(one.p, one.c, one.y, one.w)
+    assert energy == pytest.approx(oracle.stored_energy(one.setup, one.state), rel=1e-12)
 
 
 @pytest.mark.parametrize("name", SCENES)

@@ -25,12 +25,14 @@ from tests.oracles.cartesian_forces import (
     axis,
     ball_centre,
     ball_velocity,
+    between_balls,
     directions,
     film_push,
     in_pocket,
     in_race,
     on_cage,
     on_land,
+    stretch,
 )
 
 __all__ = [
@@ -66,6 +68,8 @@ def equations(setup: Setup, state: State, spin_rate: float = 0.0) -> Answer:
         oil += sum(on_cage(loads, j) for j in range(count))
     if setup.land is not None:
         oil += on_land(loads, 1.0) + on_land(loads, -1.0)
+    if setup.neighbours is not None:
+        oil += between_balls(loads)
     torque = -loads.moment[count + INNER] @ axis(state.bodies[INNER])
     balls = np.empty((count, 6))
     for j in range(count):
@@ -75,7 +79,7 @@ def equations(setup: Setup, state: State, spin_rate: float = 0.0) -> Answer:
     heats = np.array([contact[0] / 2.0 + spring_loss[0], contact[1] / 2.0 + spring_loss[1], oil])
     bodies = np.zeros((3, 6))
     for k in range(3 if setup.pocket is not None else 2):
-        outside = -setup.springs[k] * state.bodies[k] - setup.dampers[k] * state.rates[k]
+        outside = -setup.springs[k] * (state.bodies[k] - setup.rest[k]) - setup.dampers[k] * state.rates[k]
         outside[:3] += setup.load[k]
         if k == INNER:
             outside[:3] += unbalance(setup, state, spin_rate)
@@ -148,13 +152,16 @@ def stored_energy(setup: Setup, state: State):
             axial, around = in_pocket(setup, state, j)
             push = np.sqrt(axial * axial + around * around) - setup.pocket.clearance
             total += 0.4 * setup.pocket.stiffness * push**2.5 if push.real > 0.0 else 0.0
+    if setup.neighbours is not None:
+        total += 0.5 * setup.neighbours[0] * (stretch(setup, state) ** 2).sum()
     for k in range(3 if setup.pocket is not None else 2):
         body, at, rate = setup.masses[k], state.bodies[k], state.rates[k]
         turning = 0.0 if k == INNER else 0.5 * body.polar * rate[3] ** 2
         total += (
             0.5 * body.mass * (rate[:3] @ rate[:3]) + turning + 0.5 * body.transverse * (rate[4:] @ rate[4:])
         )
-        total += body.mass * gravity * at[2] + 0.5 * (setup.springs[k] * at) @ at
+        off = at - setup.rest[k]
+        total += body.mass * gravity * at[2] + 0.5 * (setup.springs[k] * off) @ off
     if setup.land is not None:
         for side in (1.0, -1.0):
             reach = [

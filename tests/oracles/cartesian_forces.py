@@ -13,7 +13,7 @@ What is the model's choice and not physics is written out here too:
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.polynomial import legendre
@@ -100,21 +100,33 @@ class Setup:
     load: np.ndarray
     pocket: Pocket | None
     land: Land | None
+    bumps: np.ndarray | None = None  # m: zonal harmonics of the balls from order 1 on
+    rest: np.ndarray = field(default_factory=lambda: np.zeros((3, 6)))  # where the springs are slack
+    neighbours: tuple[float, float] | None = None  # N/m and N s/m between adjacent balls
 
 
 @dataclass(frozen=True)
 class State:
-    """Balls (n, 9): x, r, theta, rates, spin; bodies (3, 6): x, y, z, angle, tilts; their rates (3, 6)."""
+    """Balls (n, 9): x, r, theta, rates, spin; bodies (3, 6): x, y, z, angle, tilts; their rates (3, 6);
+    inertial directions (n, 3) fixed in wavy balls.
+    """
 
     balls: np.ndarray
     bodies: np.ndarray
     rates: np.ndarray
+    axes: np.ndarray | None = None
 
     def after(self, time, balls=0.0, bodies=0.0) -> "State":
         """Move on for ``time`` with the present rates and with the accelerations given ((n, 6), (3, 6))."""
         rates = np.hstack([self.balls[:, 3:6], np.zeros((len(self.balls), 6))])
         rates[:, 3:] += balls
-        return State(self.balls + time * rates, self.bodies + time * self.rates, self.rates + time * bodies)
+        axes = None
+        if self.axes is not None:
+            turning = [np.array(directions(ball[2])).T @ ball[6:] for ball in self.balls]
+            axes = self.axes + time * np.cross(turning, self.axes)
+        return State(
+            self.balls + time * rates, self.bodies + time * self.rates, self.rates + time * bodies, axes
+        )
 
 
 @dataclass
@@ -208,7 +220,35 @@ def approach(setup: Setup, state: State, j: int, k: int):
     race = setup.races[k]
     *_, axial, radius, azimuth = seen_from(setup, state.balls[j], state.bodies[k])
     x, r = axial - race.x, radius - race.circle
-    return np.sqrt(x * x + r * r) - race.free + height(race.wave, azimuth) + setup.oversize[j] / 2.0
+    gap = np.sqrt(x * x + r * r) - race.free + height(race.wave, azimuth) + setup.oversize[j] / 2.0
+    return gap + bump(setup, state, j, k)
+
+
+def bump(setup: Setup, state: State, j: int, k: int):
+    """Height (m) of the wavy ball j where it faces race k."""
+    if setup.bumps is None:
+        return 0.0
+    n, h, _, axial, radius, _ = seen_from(setup, state.balls[j], state.bodies[k])
+    e = (axial - setup.races[k].x) * n + (radius - setup.races[k].circle) * h
+    e = e / np.sqrt(e @ e)
+    return legendre.legval(e @ state.axes[j], [0.0, *setup.bumps])
+
+
+def bump_gradient(setup: Setup, state: State, j: int, k: int) -> tuple[np.ndarray, np.ndarray]:
+    """Change of :func:`bump` with the ball's place and with its turning (inertial axes), by complex steps."""
+    step, moved, turned = 1e-30j, np.zeros(3), np.zeros(3)
+    radius = setup.pitch + state.balls[j, 1]
+    for i, (direction, per) in enumerate(
+        zip(directions(state.balls[j, 2]), (1.0, 1.0, 1.0 / radius), strict=True)
+    ):
+        balls = state.balls.astype(complex)
+        balls[j, i] += step * per
+        moved += direction * bump(setup, replace(state, balls=balls), j, k).imag / step.imag
+    for i, direction in enumerate(np.eye(3)):
+        axes = state.axes.astype(complex)
+        axes[j] += step * np.cross(direction, state.axes[j])
+        turned[i] = bump(setup, replace(state, axes=axes), j, k).imag / step.imag
+    return moved, turned
 
 
 def in_pocket(setup: Setup, state: State, j: int):
@@ -240,10 +280,15 @@ def in_race(loads: Loads, j: int, k: int) -> float:
     centre = loads.centre(j)
     # steepest rise of the approach: on a wavy race it leans along the track; the contact pushes down it
     uphill = e + race.wave(azimuth)[1] / radius * t
+    twist = np.zeros(3)
+    if setup.bumps is not None:
+        moved, twist = bump_gradient(setup, state, j, k)
+        uphill = uphill + moved
     rate = uphill @ (loads.velocity(j, centre) - loads.velocity(ring, centre))
+    rate += twist @ (loads.spin(j) - loads.spin(ring))
     elastic = race.stiffness * gap**1.5
     load = max(race.stiffness * np.sqrt(gap) * (gap + 1.5 * setup.damping * rate), 0.0)
-    power = loads.act(j, ring, centre, -load * uphill)
+    power = loads.act(j, ring, centre, -load * uphill, -load * twist)
     # both surfaces as seen from the contact, which travels with the ball's centre around the X axis
     foot = setup.ball_radius * e
     on_ball = np.cross(loads.spin(j) - state.balls[j, 5] * EX, foot) @ t
@@ -262,6 +307,30 @@ def in_race(loads: Loads, j: int, k: int) -> float:
     resistance = race.rolling * entrainment**0.66 * load**0.47
     power += loads.act(j, ring, centre, np.zeros(3), -resistance * turning / np.hypot(turning, TURNING) * m)
     return -power - elastic * rate
+
+
+def stretch(setup: Setup, state: State) -> np.ndarray:
+    """Arc (m) on the pitch circle by which each ball is too far from the next one."""
+    theta = state.balls[:, 2]
+    angle = np.roll(theta, -1) - theta - 2.0 * np.pi / len(theta)
+    return setup.pitch * (angle - 2.0 * np.pi * np.round(angle.real / (2.0 * np.pi)))
+
+
+def between_balls(loads: Loads) -> float:
+    """Load all balls by the springs and dampers that join neighbours; heat (W)."""
+    setup, balls = loads.setup, loads.state.balls
+    apart = stretch(setup, loads.state)
+    lost = 0.0
+    for j in range(len(balls)):
+        k = (j + 1) % len(balls)
+        opening = setup.pitch * (balls[k, 5] - balls[j, 5])
+        pull = setup.neighbours[0] * apart[j] + setup.neighbours[1] * opening
+        for ball, sign in ((j, 1.0), (k, -1.0)):
+            # the pull acts on the pitch circle, the ball may stand on another one: same moment about X
+            _, _, around = directions(balls[ball, 2])
+            loads.force[ball] += sign * pull * setup.pitch / (setup.pitch + balls[ball, 1]) * around
+        lost += setup.neighbours[1] * opening**2
+    return lost
 
 
 def on_cage(loads: Loads, j: int) -> float:

@@ -17,6 +17,7 @@ still and fixed; ball j sits at its angle theta_j and may move along X and radia
       x:  Q_i sin a_i - Q_o sin a_o + M/D (cos a_i - cos a_o) = 0
       r:  Q_i cos a_i - Q_o cos a_o - M/D (sin a_i - sin a_o) + m r w_c^2 = 0
 
+* Under race control one race takes all of it: ``2 M/D`` there and nothing at the other.
 * The pair never exceeds `friction_limit` times the lighter of both loads, so it fades without a jump as a
   ball leaves the inner race. It binds where M/D > 0.05 Q_i, for the 7009C at 18,000 r/min below 30 N.
 * Left out: traction along the rolling direction, drag, cage forces, gravity; both rings are rigid.
@@ -87,15 +88,24 @@ class JonesHarris:
         False leaves the gyroscopic moment out.
     friction_limit : float
         Greatest share of the lighter contact load the gyroscopic friction pair may take; 0.05 is assumed.
+        Under race control it is the load of the race in control.
+    control : str
+        Who carries the gyroscopic moment: "shared", "outer" or "inner".
     """
 
     def __init__(
-        self, bearing: Bearing, pitch: str = "mean", gyroscopic: bool = True, friction_limit: float = 0.05
+        self,
+        bearing: Bearing,
+        pitch: str = "mean",
+        gyroscopic: bool = True,
+        friction_limit: float = 0.05,
+        control: str = "shared",
     ) -> None:
         self.bearing = bearing
         self.pitch = pitch
         self.gyroscopic = gyroscopic
         self.friction_limit = friction_limit
+        self.control = control
         self.inner_constant = race_contact(bearing, "inner").constant
         self.outer_constant = race_contact(bearing, "outer").constant
         self.angles = [2.0 * pi * j / bearing.ball_count for j in range(bearing.ball_count)]
@@ -125,10 +135,12 @@ class JonesHarris:
         moment = bearing.ball_inertia * orbit * spin * sin(beta) if self.gyroscopic else 0.0
         # sharing equally, each race supplies M/2 at the arm D/2
         pair = moment / bearing.ball_diameter
-        limit = self.friction_limit * min(inner_load, outer_load)
+        shares = {"shared": (1.0, 1.0), "outer": (0.0, 2.0), "inner": (2.0, 0.0)}[self.control]
+        gripping = [load for load, share in zip((inner_load, outer_load), shares, strict=True) if share > 0.0]
+        limit = self.friction_limit * min(gripping) / max(shares)
         pair = min(max(pair, -limit), limit)
-        inner_friction = pair * (cos(inner_angle) * e_x - sin(inner_angle) * e_r)
-        outer_friction = -pair * (cos(outer_angle) * e_x - sin(outer_angle) * e_r)
+        inner_friction = shares[0] * pair * (cos(inner_angle) * e_x - sin(inner_angle) * e_r)
+        outer_friction = -shares[1] * pair * (cos(outer_angle) * e_x - sin(outer_angle) * e_r)
 
         on_ball_inner = inner_load * inner_normal + inner_friction
         on_ball = on_ball_inner + outer_load * outer_normal + outer_friction

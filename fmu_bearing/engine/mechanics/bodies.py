@@ -30,9 +30,12 @@ from fmu_bearing.engine.layout import (
     P_INNER_TRANSVERSE,
     P_LAND,
     P_LAND_OFFSET,
+    P_MISALIGNMENT_Y,
+    P_MISALIGNMENT_Z,
     P_OUTER_MASS,
     P_OUTER_POLAR,
     P_OUTER_TRANSVERSE,
+    P_RIGID,
     P_TILT_DAMPING,
     P_TILT_STIFFNESS,
     Q_CAGE,
@@ -87,7 +90,8 @@ def inner_ring(p, c, y, angle, speed, speed_rate, f):
     # heavy spot at 12 o'clock when the angle is zero: direction (0, -sin, cos)
     push_y = eccentric * (speed * speed * -sa + speed_rate * ca)
     push_z = eccentric * (speed * speed * ca + speed_rate * sa)
-    fx = c[C_PRELOAD]
+    # rigid preload: the mount gives whatever holds the ring to its place
+    fx = c[C_PRELOAD] if p[P_RIGID] == 0.0 else -f[g]
     fy = c[C_LOAD_Y] + push_y
     fz = c[C_LOAD_Z] + push_z
     f[F_WORK] += fx * y[v] + fy * y[v + 1] + fz * y[v + 2] + f[F_TORQUE] * speed
@@ -133,8 +137,10 @@ def outer_ring(p, c, y, f):
     f[g + 2] = (f[g + 2] - c[C_PEDESTAL] * y[q + 2] - c[C_DAMPING] * y[v + 2] - weight) / mass
     f[g + 3] = (f[g + 3] - turn * y[q + 3] - c[C_DAMPING_SPIN] * y[v + 3]) / p[P_OUTER_POLAR]
     damped = c[C_DAMPING_ROTATIONAL]
-    f[g + 4] = (f[g + 4] - polar * y[v + 5] - turn * y[q + 4] - damped * y[v + 4]) / transverse
-    f[g + 5] = (f[g + 5] + polar * y[v + 4] - turn * y[q + 5] - damped * y[v + 5]) / transverse
+    lean_y = y[q + 4] - p[P_MISALIGNMENT_Y]
+    lean_z = y[q + 5] - p[P_MISALIGNMENT_Z]
+    f[g + 4] = (f[g + 4] - polar * y[v + 5] - turn * lean_y - damped * y[v + 4]) / transverse
+    f[g + 5] = (f[g + 5] + polar * y[v + 4] - turn * lean_z - damped * y[v + 5]) / transverse
 
 
 @kernel

@@ -20,11 +20,14 @@ from fmu_bearing.engine.layout import (
     P_GRAVITY,
     P_INNER_MASS,
     P_INNER_TRANSVERSE,
+    P_MISALIGNMENT_Y,
+    P_MISALIGNMENT_Z,
     P_OUTER_MASS,
     P_OUTER_POLAR,
     P_OUTER_TRANSVERSE,
     P_PITCH_RADIUS,
     P_POCKET_STIFFNESS,
+    P_SPRINGS,
     P_TILT_STIFFNESS,
     Q_CAGE,
     Q_OUTER,
@@ -40,6 +43,7 @@ from fmu_bearing.engine.layout import (
     Y_V,
 )
 from fmu_bearing.engine.mechanics.equations import kinetic_spin
+from fmu_bearing.engine.mechanics.springs import spring_energy
 
 _S = STRIDE
 
@@ -87,6 +91,8 @@ def stored_energy(p, c, y, w):
     vo = Y_V + Q_OUTER
     vc = Y_V + Q_CAGE
     total = ball_energy(p, y, w) + w[W_SCALARS]
+    if p[P_SPRINGS] != 0.0 and p[P_CAGE] == 0.0:
+        total += spring_energy(p, y)
     total += 0.5 * p[P_INNER_MASS] * squares(y, Y_V, 3)
     total += 0.5 * p[P_INNER_TRANSVERSE] * squares(y, Y_V + 3, 2)
     total += 0.5 * p[P_TILT_STIFFNESS] * squares(y, Y_Q + 3, 2)
@@ -94,7 +100,10 @@ def stored_energy(p, c, y, w):
     total += 0.5 * p[P_OUTER_TRANSVERSE] * squares(y, vo + 4, 2)
     total += 0.5 * c[C_PEDESTAL_AXIAL] * squares(y, outer, 1)
     total += 0.5 * c[C_PEDESTAL] * squares(y, outer + 1, 2)
-    total += 0.5 * c[C_PEDESTAL_ROTATIONAL] * squares(y, outer + 3, 3)
+    lean_y = y[outer + 4] - p[P_MISALIGNMENT_Y]
+    lean_z = y[outer + 5] - p[P_MISALIGNMENT_Z]
+    turned = squares(y, outer + 3, 1) + lean_y * lean_y + lean_z * lean_z
+    total += 0.5 * c[C_PEDESTAL_ROTATIONAL] * turned
     heavy = p[P_INNER_MASS] * y[Y_Q + 2] + p[P_OUTER_MASS] * y[outer + 2]
     if p[P_CAGE] != 0.0:
         total += 0.5 * p[P_CAGE_MASS] * squares(y, vc, 3) + 0.5 * p[P_CAGE_POLAR] * squares(y, vc + 3, 1)

@@ -17,6 +17,7 @@ from fmu_bearing.engine.layout import (
     N_BODY,
     P_BALL_INERTIA,
     P_BALL_MASS,
+    P_BALL_WAVES,
     P_BALLS,
     P_CAGE,
     P_DRAG,
@@ -25,6 +26,8 @@ from fmu_bearing.engine.layout import (
     P_GYROSCOPIC,
     P_LANES,
     P_PITCH_RADIUS,
+    P_SPRINGS,
+    P_TRACTION_LAW,
     POSE_ROWS,
     Q_CAGE,
     Q_OUTER,
@@ -42,10 +45,13 @@ from fmu_bearing.engine.layout import (
     Y_Q,
     Y_V,
 )
+from fmu_bearing.engine.mechanics.ball_waves import add_ball_waves, ball_wave_forces
 from fmu_bearing.engine.mechanics.bodies import body_equations
 from fmu_bearing.engine.mechanics.cage import pockets
 from fmu_bearing.engine.mechanics.pose import relative_pose
 from fmu_bearing.engine.mechanics.race import collect, normal, rolling, traction, waves
+from fmu_bearing.engine.mechanics.springs import spring_forces
+from fmu_bearing.engine.mechanics.traction import lubricated_traction
 from fmu_bearing.engine.mechanics.trigonometry import ball_angles
 
 _S = STRIDE
@@ -107,14 +113,27 @@ def ball_forces(p, c, y, angle, speed, w):
     # written out: the number of the race has to be a constant for the loops to become vector loops
     waves(p, c, turning, lanes, 0, angle, w)
     normal(p, c, y, lanes, 0, w)
-    traction(p, lanes, 0, w)
+    if p[P_BALL_WAVES] != 0.0:
+        add_ball_waves(p, c, lanes, 0, w)
+    if p[P_TRACTION_LAW] == 0.0:
+        traction(p, lanes, 0, w)
+    else:
+        lubricated_traction(p, c, lanes, 0, w)
     rolling(p, c, lanes, 0, w)
     collect(p, c, lanes, 0, w)
     waves(p, c, turning, lanes, 1, y[q + 3], w)
     normal(p, c, y, lanes, 1, w)
-    traction(p, lanes, 1, w)
+    if p[P_BALL_WAVES] != 0.0:
+        add_ball_waves(p, c, lanes, 1, w)
+    if p[P_TRACTION_LAW] == 0.0:
+        traction(p, lanes, 1, w)
+    else:
+        lubricated_traction(p, c, lanes, 1, w)
     rolling(p, c, lanes, 1, w)
     collect(p, c, lanes, 1, w)
+    if p[P_BALL_WAVES] != 0.0:
+        ball_wave_forces(p, c, lanes, 0, w)
+        ball_wave_forces(p, c, lanes, 1, w)
     balls = int(p[P_BALLS])
     react(lanes, balls, 0, W_G, W_SHAFT, W_G + 3, w)
     react(lanes, balls, 1, W_G + Q_OUTER, W_G + Q_OUTER + 3, W_G + Q_OUTER + 4, w)
@@ -170,6 +189,8 @@ def ball_accelerations(p, y, w, f):
             w[one + 5 * _S + j] + w[two + 5 * _S + j] + w[three + 5 * _S + j]
         ) * per_inertia - gyro * om * y[B_WR * _S + j]
         w[(W_LOSS + 3) * _S + j] = pull * around if j < balls else 0.0
+    if p[P_SPRINGS] != 0.0 and p[P_CAGE] == 0.0:
+        w[(W_LOSS + 3) * _S] += spring_forces(p, y, f)
 
 
 @kernel

@@ -11,6 +11,7 @@ from fmu_bearing.engine.layout import (
     A_INV,
     A_S,
     A_SIZE,
+    A_SPRING_BALLS,
     A_W,
     BORDER,
     F_G,
@@ -19,10 +20,14 @@ from fmu_bearing.engine.layout import (
     J_D,
     J_E,
     N_BODY,
+    P_BALLS,
+    P_CAGE,
     P_LANES,
+    P_SPRINGS,
     STRIDE,
     W_FORCE,
 )
+from fmu_bearing.engine.solvers.spring_coupling import couple_springs, spring_matrix
 
 _S = STRIDE
 
@@ -156,6 +161,10 @@ def factor(p, jac, cv, cx, cx_ball, fac, w):
     for g in range(N_BODY):
         for h in range(N_BODY):
             fac[A_S + h * BORDER + g] = border[g * N_BODY + h]
+    if fine and p[P_SPRINGS] != 0.0 and p[P_CAGE] == 0.0:
+        balls = int(p[P_BALLS])
+        spring_matrix(p, cv, cx_ball, fac, w)
+        fine = invert_border(fac, A_SPRING_BALLS, balls, w[scratch : scratch + balls])
     return fine
 
 
@@ -257,6 +266,8 @@ def solve(p, fac, c, s, d, w):
             fourth += products[4 * k + 3]
         w[sums + g] = d[F_G + g] - ((first + second) + (third + fourth))
     border_product(fac, w, sums, d)
+    if p[P_SPRINGS] != 0.0 and p[P_CAGE] == 0.0:
+        couple_springs(p, fac, d, w)
     less_seventeen(fac, A_W, d, F_G, w, t, d, 0, lanes)
     less_seventeen(fac, A_W + 17 * _S, d, F_G, w, t + _S, d, _S, lanes)
     less_seventeen(fac, A_W + 34 * _S, d, F_G, w, t + 2 * _S, d, 2 * _S, lanes)

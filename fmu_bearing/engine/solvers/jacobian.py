@@ -22,6 +22,7 @@ from fmu_bearing.engine.layout import (
     P_OUTER_MASS,
     P_OUTER_POLAR,
     P_OUTER_TRANSVERSE,
+    P_RIGID,
     Q_CAGE,
     STRIDE,
     W_F,
@@ -91,7 +92,7 @@ def jacobian(p, c, y, angle, speed, speed_rate, w, jac):
                 jac[J_B + (i * 9 + k) * _S + j] = (f[i * _S + j] - f0[i * _S + j]) * per
         for i in range(N_BODY):
             scale = per / inertia(p, i)
-            if i >= Q_CAGE and not caged:
+            if i >= Q_CAGE and not caged or i == 0 and p[P_RIGID] != 0.0:
                 scale = 0.0
             for j in range(lanes):
                 jac[J_D + (i * 9 + k) * _S + j] = (w[(W_G + i) * _S + j] - w[W_G0 + i * _S + j]) * scale

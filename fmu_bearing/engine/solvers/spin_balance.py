@@ -9,6 +9,7 @@ import math
 
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import B_OM, J_B, P_LANES, STRIDE, W_ACC, W_F0, W_FORCE
+from fmu_bearing.engine.solvers.elimination import eliminate
 from fmu_bearing.engine.solvers.jacobian import jacobian
 
 _S = STRIDE
@@ -16,31 +17,6 @@ _ROUNDS = 40
 # Largest change per round over the spin speed: half the default slide-to-roll ratio at which traction
 # saturates, so that one round does not cross from one sign of sliding to the other's plateau.
 _STRIDE_LIMIT = 2.5e-3
-
-
-@kernel
-def eliminate(a, at, n):
-    """Solve in place the system of ``n`` rows of ``n + 1`` numbers at ``a[at:]``; False if singular."""
-    m = n + 1
-    for k in range(n):
-        pivot = k
-        for i in range(k + 1, n):
-            if abs(a[at + i * m + k]) > abs(a[at + pivot * m + k]):
-                pivot = i
-        if not (abs(a[at + pivot * m + k]) > 0.0):
-            return False
-        for j in range(m):
-            kept = a[at + k * m + j]
-            a[at + k * m + j] = a[at + pivot * m + j]
-            a[at + pivot * m + j] = kept
-        for i in range(n):
-            if i != k:
-                factor = a[at + i * m + k] / a[at + k * m + k]
-                for j in range(k, m):
-                    a[at + i * m + j] -= factor * a[at + k * m + j]
-    for k in range(n):
-        a[at + k * m + n] /= a[at + k * m + k]
-    return True
 
 
 @kernel

@@ -1,8 +1,8 @@
-"""Tableaux of the implicit Runge-Kutta methods: explicit first stage, one diagonal entry, stiffly accurate.
+"""Tableaux of the Runge-Kutta methods: explicit first stage, one diagonal entry, last stage at the new state.
 
 One block of ``SIZE`` numbers per method: number of stages, diagonal entry, order of the error estimate, six
 nodes, the rows below the diagonal (five numbers each), six weights, six differences to the weights of the
-embedded method. Unused places are zero.
+embedded method. Unused places are zero. A diagonal entry of zero makes the method explicit.
 """
 
 import math
@@ -13,7 +13,7 @@ T_STAGES, T_GAMMA, T_ORDER, T_NODES, T_A = 0, 1, 2, 3, 9
 T_B = T_A + 30
 T_ERROR = T_B + 6
 SIZE = T_ERROR + 6
-ESDIRK4, TRBDF2 = 0, SIZE
+ESDIRK4, TRBDF2, RK4 = 0, SIZE, 2 * SIZE
 
 
 def _tableau(gamma, order, rows, low):
@@ -66,4 +66,14 @@ def _trbdf2():
     )
 
 
-TABLEAUX = np.concatenate([_esdirk4(), _trbdf2()])
+def _rk4():
+    """Classical Runge-Kutta method; the first stage of the next step gives a third-order companion."""
+    return _tableau(
+        0.0,
+        4,
+        [[], [0.5], [0.0, 0.5], [0.0, 0.0, 1.0], [1 / 6, 1 / 3, 1 / 3, 1 / 6]],
+        [1 / 6, 1 / 3, 1 / 3, 0.0, 1 / 6],
+    )
+
+
+TABLEAUX = np.concatenate([_esdirk4(), _trbdf2(), _rk4()])

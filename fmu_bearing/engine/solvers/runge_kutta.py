@@ -1,4 +1,4 @@
-"""Implicit Runge-Kutta step on x'' = f(x, x') with the accelerations of each stage as unknowns.
+"""Runge-Kutta step, implicit or explicit, on x'' = f(x, x') with the accelerations of each stage as unknowns.
 
 With base values from the stages before, V = v_base + g h A and X = x_base + g h V, so Newton's method needs
 one solve with I - g h Jv - (g h)^2 Jx per iteration. The first stage is the last one of the step before.
@@ -32,6 +32,7 @@ from fmu_bearing.engine.layout import (
     Y_SIZE,
     Y_V,
 )
+from fmu_bearing.engine.mechanics.ball_waves import turn_axes
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.solvers.block_arrow import solve
 from fmu_bearing.engine.solvers.jacobian import is_angle
@@ -107,24 +108,25 @@ def newton_size(p, c, d, factor):
 
 
 @kernel
-def error_size(p, h, tableau, w):
+def error_size(p, c, h, tableau, w):
     """Size (m/s) of the difference between the two solutions' velocities.
 
-    The balls' orbit and spin are left out: their stiff share of the estimate means nothing.
+    The balls' orbit and spin are left out for implicit methods: their stiff share of the estimate means
+    nothing. For explicit ones it is what tells of instability.
     """
     stages = int(TABLEAUX[tableau + T_STAGES])
+    explicit = TABLEAUX[tableau + T_GAMMA] == 0.0
+    rows = _RATES if explicit else 2 * _S
     d = w[W_D : W_D + F_SIZE]
-    balls = d[: 2 * _S]
-    bodies = d[F_G : F_G + N_BODY]
-    for i in range(2 * _S):
-        balls[i] = 0.0
-    for i in range(N_BODY):
-        bodies[i] = 0.0
+    for i in range(F_SIZE):
+        d[i] = 0.0
     for m in range(stages):
         e = h * TABLEAUX[tableau + T_ERROR + m]
         acc = W_ACC + m * F_SIZE
-        add_scaled(e, w[acc : acc + 2 * _S], balls, 2 * _S)
-        add_scaled(e, w[acc + F_G : acc + F_WORK], bodies, N_BODY)
+        add_scaled(e, w[acc : acc + rows], d, rows)
+        add_scaled(e, w[acc + F_G : acc + F_WORK], d[F_G:], N_BODY)
+    if explicit:
+        return newton_size(p, c, d, 1.0)
     return math.sqrt(body_size(p, d, F_G) + 0.01 * row_size(d, 0, 2, int(p[P_LANES])))
 
 
@@ -190,15 +192,16 @@ def newton_residual(acc, w):
 
 
 @kernel
-def esdirk_step(
-    p, c, y, f, angle, speed, speed_rate, h, tableau, fac, turned, tolerance, contraction, probe, w, report
-):
+def runge_kutta_step(
+    p, c, y, f, axes, angle, speed, speed_rate, h, tableau, fac, turned, tolerance, contraction, probe, w,
+    report,
+):  # fmt: skip
     """One step of length ``h`` from (y, f); the new state is left in ``w[W_Y:]`` and its f in the last stage.
 
-    ``tableau``: place in TABLEAUX; ``fac``: factors for about this ``h``; ``turned``: orbit angle (rad) since
-    they were made; ``tolerance`` (m/s): Newton's error; ``contraction``: rate known so far; ``probe``:
-    measure it anew. ``report`` takes the error estimate (m/s), contraction and iterations. Returns False
-    where Newton does not converge.
+    ``axes``: of wavy balls, at the step's start; ``tableau``: place in TABLEAUX; ``fac``: factors for about
+    this ``h``; ``turned``: orbit angle (rad) since they were made; ``tolerance`` (m/s): Newton's error;
+    ``contraction``: rate known so far; ``probe``: measure it anew. ``report`` takes the error estimate
+    (m/s), contraction and iterations. Returns False where Newton does not converge.
     """
     gh = TABLEAUX[tableau + T_GAMMA] * h
     stages = int(TABLEAUX[tableau + T_STAGES])
@@ -217,13 +220,18 @@ def esdirk_step(
         acc = w[here : here + F_SIZE]
         predict(y, h, gh, stage, tableau, w)
         t = h * TABLEAUX[tableau + T_NODES + stage]
+        turn_axes(p, axes, y, int(p[P_LANES]), t, w)
         angle_t = angle + t * (speed + 0.5 * t * speed_rate)
         speed_t = speed + t * speed_rate
         co = math.cos(turned + orbit * t)
         si = math.sin(turned + orbit * t)
         before = 0.0
-        done = False
-        for n in range(MAX_ITERATIONS):
+        done = gh == 0.0
+        if done:
+            right_hand_side(p, c, stage_y, angle_t, speed_t, speed_rate, w, result)
+            for i in range(_RATES + N_BODY):
+                acc[i] = result[i]
+        for n in range(0 if done else MAX_ITERATIONS):
             right_hand_side(p, c, stage_y, angle_t, speed_t, speed_rate, w, result)
             newton_residual(acc, w)
             solve(p, fac, co, si, increment, w)
@@ -254,7 +262,7 @@ def esdirk_step(
     if last != W_LAST:
         for i in range(F_SIZE):
             w[W_LAST + i] = w[last + i]
-    report[0] = error_size(p, h, tableau, w)
+    report[0] = error_size(p, c, h, tableau, w)
     report[1] = worst
     report[2] = iterations
     return True

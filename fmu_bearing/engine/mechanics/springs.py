@@ -1,0 +1,68 @@
+"""Springs and dampers between neighbouring balls in place of a cage (impact-noise paper, 1e5 to 2.5e7 N/m).
+
+Each joins two balls along the pitch circle and is slack where they stand 2 pi / Z apart. The pull on the
+pitch radius gives both balls the same moment about the bearing's axis, whatever their own radius.
+"""
+
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.layout import (
+    B_OM,
+    B_R,
+    B_TH,
+    P_BALL_MASS,
+    P_BALLS,
+    P_LANES,
+    P_PITCH_RADIUS,
+    P_SPRING_DAMPING,
+    P_SPRINGS,
+    STRIDE,
+)
+from fmu_bearing.engine.mechanics.trigonometry import wrap
+
+_S = STRIDE
+_TWO_PI = 6.283185307179586
+
+
+@kernel
+def spring_forces(p, y, f):
+    """Add what the springs do to the balls' orbit accelerations in ``f``; returns the power lost (W).
+
+    Spare lanes get what ball 0 gets.
+    """
+    balls = int(p[P_BALLS])
+    pitch = p[P_PITCH_RADIUS]
+    stiffness = p[P_SPRINGS]
+    damping = p[P_SPRING_DAMPING]
+    gap = _TWO_PI / balls
+    per_mass = pitch * pitch / p[P_BALL_MASS]
+    lost = 0.0
+    before = 0.0
+    for n in range(-1, balls):
+        j = n if n >= 0 else balls - 1
+        k = j + 1 if j + 1 < balls else 0
+        apart = wrap(y[B_TH * _S + k] - y[B_TH * _S + j] - gap)
+        opening = y[B_OM * _S + k] - y[B_OM * _S + j]
+        pull = stiffness * apart + damping * opening
+        if n >= 0:
+            radius = pitch + y[B_R * _S + j]
+            given = (pull - before) * per_mass / (radius * radius)
+            f[2 * _S + j] += given
+            lost += damping * pitch * pitch * opening * opening
+            if j == 0:
+                for lane in range(balls, int(p[P_LANES])):
+                    f[2 * _S + lane] += given
+        before = pull
+    return lost
+
+
+@kernel
+def spring_energy(p, y):
+    """Elastic energy (J) of the springs between the balls."""
+    balls = int(p[P_BALLS])
+    pitch = p[P_PITCH_RADIUS]
+    total = 0.0
+    for j in range(balls):
+        k = j + 1 if j + 1 < balls else 0
+        apart = pitch * wrap(y[B_TH * _S + k] - y[B_TH * _S + j] - _TWO_PI / balls)
+        total += 0.5 * p[P_SPRINGS] * apart * apart
+    return total

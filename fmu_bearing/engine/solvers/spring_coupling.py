@@ -1,0 +1,108 @@
+"""Newton solve with springs between the balls: exact correction of the block-arrow one.
+
+One block per ball does not see that a spring ties a ball to its neighbours. With U picking the orbit row of
+each ball, M = M0 - U T U^T, T = -t L, L the cyclic second difference (2, -1, -1) and
+t = (cv d + cx k) / m on the pitch circle (balls' own radii differ by 1e-4, which a modified Newton method
+does not notice). Sherman, Morrison and Woodbury: M^-1 r = x + M0^-1 U z with x = M0^-1 r,
+z = (I - T G)^-1 T U^T x and G = U^T M0^-1 U. M0^-1 U is not stored: with b_j the bodies' answer to a unit on
+ball j's orbit row, the correction is one change of the bodies' part and one column of each ball's own
+inverse, both before the balls are substituted back.
+"""
+
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.layout import (
+    A_GB,
+    A_INV,
+    A_S,
+    A_SPRING,
+    A_SPRING_BALLS,
+    A_SPRING_BODY,
+    A_W,
+    BORDER,
+    F_G,
+    N_BODY,
+    P_BALL_MASS,
+    P_BALLS,
+    P_LANES,
+    P_SPRING_DAMPING,
+    P_SPRINGS,
+    STRIDE,
+    W_FORCE,
+)
+
+_S = STRIDE
+_ORBIT = 2  # row of a ball's accelerations
+
+
+@kernel
+def spring_matrix(p, cv, cx, fac, w):
+    """Bodies' answers b_j and the matrix I - T G into ``fac`` (Z x Z at ``A_SPRING_BALLS``, to be inverted).
+
+    ``cv``, ``cx``: weights of velocity and position as in ``block_arrow.factor``, whose factors stand in
+    ``fac`` already.
+    """
+    balls = int(p[P_BALLS])
+    strength = (cv * p[P_SPRING_DAMPING] + cx * p[P_SPRINGS]) / p[P_BALL_MASS]
+    fac[A_SPRING] = strength
+    scratch = W_FORCE * _S
+    for j in range(balls):
+        for h in range(N_BODY):
+            total = 0.0
+            for k in range(6):
+                own = fac[A_INV + (k * 6 + _ORBIT) * _S + j]
+                total += fac[A_GB + (h * 6 + k) * _S + j] * own
+            w[scratch + h] = total
+        for g in range(N_BODY):
+            total = 0.0
+            for h in range(N_BODY):
+                total -= fac[A_S + h * BORDER + g] * w[scratch + h]
+            fac[A_SPRING_BODY + g * _S + j] = total
+    for j in range(balls):
+        for i in range(balls):
+            total = fac[A_INV + (_ORBIT * 6 + _ORBIT) * _S + j] if i == j else 0.0
+            for g in range(N_BODY):
+                total -= fac[A_W + (_ORBIT * N_BODY + g) * _S + i] * fac[A_SPRING_BODY + g * _S + j]
+            w[scratch + i] = total  # column j of G
+        for i in range(balls):
+            ahead = i + 1 if i + 1 < balls else 0
+            behind = i - 1 if i > 0 else balls - 1
+            second = 2.0 * w[scratch + i] - w[scratch + ahead] - w[scratch + behind]
+            fac[A_SPRING_BALLS + i * balls + j] = strength * second + (1.0 if i == j else 0.0)
+
+
+@kernel
+def couple_springs(p, fac, d, w):
+    """Correct the bodies' part in ``d`` and the balls' in the scratch rows, before the back substitution.
+
+    On entry row k of ``w[W_FORCE:]`` holds the balls' own inverse times the residual and ``d[F_G:]`` the
+    bodies' solution, both without springs.
+    """
+    balls = int(p[P_BALLS])
+    scratch = W_FORCE * _S
+    orbit = scratch + 7 * _S
+    pull = scratch + 8 * _S
+    found = scratch + 9 * _S
+    for j in range(balls):
+        total = w[scratch + _ORBIT * _S + j]
+        for g in range(N_BODY):
+            total -= fac[A_W + (_ORBIT * N_BODY + g) * _S + j] * d[F_G + g]
+        w[orbit + j] = total
+    for j in range(balls):
+        ahead = j + 1 if j + 1 < balls else 0
+        behind = j - 1 if j > 0 else balls - 1
+        w[pull + j] = -fac[A_SPRING] * (2.0 * w[orbit + j] - w[orbit + ahead] - w[orbit + behind])
+    for i in range(balls):
+        total = 0.0
+        for j in range(balls):
+            total += fac[A_SPRING_BALLS + i * balls + j] * w[pull + j]
+        w[found + i] = total
+    for j in range(balls, int(p[P_LANES])):
+        w[found + j] = w[found]
+    for g in range(N_BODY):
+        total = d[F_G + g]
+        for j in range(balls):
+            total += fac[A_SPRING_BODY + g * _S + j] * w[found + j]
+        d[F_G + g] = total
+    for k in range(6):
+        for j in range(int(p[P_LANES])):
+            w[scratch + k * _S + j] += fac[A_INV + (k * 6 + _ORBIT) * _S + j] * w[found + j]

@@ -19,7 +19,6 @@ from fmu_bearing.study import choose as choosing
 from fmu_bearing.study import sensitivity as moving
 from fmu_bearing.study import tradeoff as trading
 from fmu_bearing.study.arrays import Refused
-from fmu_bearing.study.chart import draw
 from fmu_bearing.study.table import show
 
 app = typer.Typer(help=__doc__, no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False)
@@ -127,6 +126,8 @@ def tradeoff(
     ] = None,
 ) -> None:
     """Measure error and speed of levels, methods, steps, strips and terms; write table and chart."""
+    from fmu_bearing.study.chart import draw  # Matplotlib loads slowly, and `build` has no use for it
+
     with refusals():
         bar = partial(_track, description="variants")
         if quick:

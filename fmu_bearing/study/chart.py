@@ -61,8 +61,9 @@ def draw(study: Tradeoff, path: pathlib.Path) -> None:
         for name, (color, marker) in _STYLES.items()
         if name in used
     ]
-    hollow = {"color": "0.4", "marker": "o", "markerfacecolor": "none", "linestyle": ""}
-    handles.append(Line2D([], [], label="terms or strips left out", **hollow))
+    hollow = Line2D([], [], color="0.4", marker="o", linestyle="", label="terms or strips left out")
+    hollow.set_markerfacecolor("none")
+    handles.append(hollow)
     handles.append(Line2D([], [], color="0.5", label="best of those with all terms (Pareto front)"))
     figure.legend(handles=handles, loc="outside lower center", ncols=4, frameon=False)
     figure.draw_without_rendering()  # the layout is settled: labels are placed in pixels

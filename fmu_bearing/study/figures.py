@@ -146,7 +146,7 @@ def measure(
     Refused
         If the engine refuses.
     """
-    bearing = Arrays.of(scene, **parameters)
+    bearing = Arrays.of(scene, None, **parameters)
     bearing.init()
     bearing.run(warm_up, COMMUNICATION)
     wall, cpu = speed(bearing, budget, 2, 1.0) if budget else (math.nan, math.nan)

@@ -79,9 +79,8 @@ def info(scene: SceneFile) -> None:
         auto = found.fidelity.level == "auto"
         model = prepare(found, level="full") if auto else prepare(found)
     p, fidelity = model.parameters, found.fidelity
-    memory = 8 * (
-        2 * p.size + at.state_size(p) * 2 + at.work_size(p) + at.z_size(model.n_balls, model.n_mics)
-    )
+    # an instance copies the parameters and keeps its last state beside the present one
+    places = p.size + 2 * at.state_size(p) + at.work_size(p) + at.z_size(model.n_balls, model.n_mics)
     typer.echo(f"scene      {found.name}: {found.bearing.designation}, {found.operation.speed_rpm:g} r/min")
     if auto:
         bounds = fidelity.accuracy
@@ -98,7 +97,7 @@ def info(scene: SceneFile) -> None:
     typer.echo(f"balls      {model.n_balls}, traction strips {fidelity.traction_strips}")
     typer.echo(f"sound      {_sound_line(found)}")
     typer.echo(f"variables  {len(model.variables)}")
-    typer.echo(f"memory     {memory / 1e6:.2f} MB for the arrays of one instance")
+    typer.echo(f"memory     {8e-6 * places:.2f} MB for the arrays of one instance")
 
 
 def _sound_line(scene: Scene) -> str:

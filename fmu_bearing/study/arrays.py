@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.engine import abi
 from fmu_bearing.engine import layout as at
+from fmu_bearing.instance import REASONS
 from fmu_bearing.interface.inputs import inputs
 from fmu_bearing.prepare.model import pack
 from fmu_bearing.scene import Scene
@@ -69,13 +70,14 @@ class Arrays:
         """Quasi-static state at the inputs; ``Refused`` if there is none."""
         status = abi.init(self.p, self.u, self.s, self.z, self.w, 0.0)
         if status != at.OK:
-            raise Refused(f"initialisation: status {status}")
+            raise Refused(f"initialisation: {REASONS[status]}")
 
     def step(self, h: float) -> None:
         """Advance by ``h`` (s); ``Refused`` if the engine does."""
+        begin = self.s[at.S_TIME]
         status = abi.step(self.p, self.u, self.s, self.z, self.w, h)
         if status != at.OK:
-            raise Refused(f"step to {self.s[at.S_TIME] + h:.6g} s: status {status}")
+            raise Refused(f"step to {begin + h:.6g} s: {REASONS[status]}")
 
     def run(self, duration: float, h: float) -> None:
         """Advance by ``duration`` in communication steps of ``h`` (s)."""

@@ -21,7 +21,7 @@ import math
 import os
 import pathlib
 import tempfile
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -74,7 +74,7 @@ CANDIDATES = (
 FINEST = Candidate("full", "esdirk4", 1e-5, 2e-6)
 
 COLUMNS = (
-    "level", "method", "tolerance", "max step, us", "ring level, dB", "dB(A)", "load", "torque", "sim/wall",
+    "level", "method", "tolerance", "max step, us", "ring level, dB", "dB(A)", "load", "torque", "sim/CPU",
     "verdict",
 )  # fmt: skip
 
@@ -83,7 +83,7 @@ COLUMNS = (
 class Probe:
     """What one candidate gave; ``errors`` None and ``reason`` where it could not run.
 
-    ``tolerance`` and ``max_step`` (s) are those it ran with; ``wall`` is in simulated s per wall s.
+    ``tolerance`` and ``max_step`` (s) are those it ran with; ``pace``: simulated s per CPU s, without sound.
     """
 
     level: str
@@ -91,7 +91,7 @@ class Probe:
     tolerance: float
     max_step: float
     errors: Errors | None
-    wall: float
+    pace: float
     reason: str = ""
 
     @property
@@ -106,7 +106,7 @@ class Probe:
         method = self.method if self.level == "full" else ""
         return [
             self.level, method, f"{self.tolerance:g}", f"{1e6 * self.max_step:g}", *found,
-            number(self.wall), self.reason or "accurate",
+            number(self.pace), self.reason or "accurate",
         ]  # fmt: skip
 
 
@@ -178,7 +178,7 @@ def too_far(found: Errors, scene: Scene) -> str:
 
 
 def choose(
-    scene: Scene, candidates: Iterable[Candidate] = CANDIDATES, *, warm_up: float = WARM_UP,
+    scene: Scene, candidates: Sequence[Candidate] = CANDIDATES, *, warm_up: float = WARM_UP,
     window: float = WINDOW, budget: float = BUDGET,
 ) -> Choice:  # fmt: skip
     """Probe a scene, whatever its level, and choose.
@@ -196,24 +196,24 @@ def choose(
     truth = measure(finest, sound, warm_up, window, budget=budget)
     lacking = absent(scene, [(c.level, c.method) for c in candidates], warm_up)
     probes = []
-    for candidate in candidates:
-        variant = candidate.scene(scene)
-        fidelity = variant.fidelity
-        found, wall, reason = None, math.nan, lacking.get((candidate.level, candidate.method), "")
+    # bounds of the scene may make two candidates one
+    variants = {(made := candidate.scene(scene)).fidelity: made for candidate in candidates}
+    for fidelity, variant in variants.items():
+        found, pace, reason = None, math.nan, lacking.get((fidelity.level, fidelity.method), "")
         if not reason:
             try:
                 run = measure(variant, sound, warm_up, window, budget=budget)
-                found, wall = errors(run.figures, truth.figures), run.wall
+                found, pace = errors(run.figures, truth.figures), run.cpu
                 reason = too_far(found, scene)
             except Refused as problem:
                 reason = f"refused: {problem}"
         probes.append(
-            Probe(candidate.level, candidate.method, fidelity.tolerance, 1e-6 * fidelity.max_internal_step_us,
-                  found, wall, reason)
+            Probe(fidelity.level, fidelity.method, fidelity.tolerance, 1e-6 * fidelity.max_internal_step_us,
+                  found, pace, reason)
         )  # fmt: skip
     f = finest.fidelity
     none = errors(truth.figures, truth.figures)
-    probes.append(Probe(f.level, f.method, f.tolerance, 1e-6 * f.max_internal_step_us, none, truth.wall))
+    probes.append(Probe(f.level, f.method, f.tolerance, 1e-6 * f.max_internal_step_us, none, truth.cpu))
     accuracy = scene.fidelity.accuracy
     return Choice(scene.name, accuracy.level_dB, accuracy.relative, tuple(probes), _cheapest(probes))
 
@@ -223,7 +223,7 @@ def _cheapest(probes: list[Probe]) -> int:
     places = [k for k, probe in enumerate(probes) if not probe.reason]
     best = places[0]
     for k in places[1:]:
-        if probes[k].wall > CLEARLY * probes[best].wall:
+        if probes[k].pace > CLEARLY * probes[best].pace:
             best = k
     return best
 

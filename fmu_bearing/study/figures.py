@@ -89,12 +89,13 @@ def errors(found: Figures, truth: Figures) -> Errors:
         abs(max(value, INAUDIBLE) - max(true, INAUDIBLE))
         for value, true in zip(found.levels, truth.levels, strict=True)
     ]
+    # NumPy's maximum passes on what is not a number, Python's may not
     return Errors(
-        ring_rms=max(abs(ratio - 1.0) for ratio in rms),
-        ring_level=max(abs(20.0 * math.log10(ratio)) for ratio in rms),
-        load=max(relative(value, true) for value, true in zip(found.load, truth.load, strict=True)),
+        ring_rms=float(np.max([abs(ratio - 1.0) for ratio in rms])),
+        ring_level=float(np.max([abs(20.0 * math.log10(ratio)) for ratio in rms])),
+        load=float(np.max([relative(*pair) for pair in zip(found.load, truth.load, strict=True)])),
         torque=relative(found.torque, truth.torque),
-        level=max(sound, default=math.nan),
+        level=float(np.max(np.nan_to_num(sound, nan=math.inf))) if sound else math.nan,
     )
 
 

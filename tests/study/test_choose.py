@@ -66,7 +66,7 @@ def test_every_bound_is_held(automatic):
 
 
 def _probes(*given):
-    return [Probe("full", "esdirk4", 1e-3, 2e-5, NONE, wall, reason) for wall, reason in given]
+    return [Probe("full", "esdirk4", 1e-3, 2e-5, NONE, pace, reason) for pace, reason in given]
 
 
 def test_noise_of_the_clock_does_not_change_the_choice():

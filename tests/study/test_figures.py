@@ -46,3 +46,16 @@ def test_sound_is_read_from_the_engines_own_meters(scene):
     assert len(run.figures.levels) == 4
     assert all(60.0 < level < 120.0 for level in run.figures.levels)
     assert run.figures.levels[0] > run.figures.levels[1]  # the second microphone stands farther away
+
+
+def test_what_is_not_a_number_is_no_small_error():
+    for place in (0, 1):
+        pair = [115.0, 116.0]
+        pair[place] = math.nan
+        assert math.isnan(errors(Figures(BASE.ring_rms, tuple(pair), *_rest()), BASE).load)
+    levels = (80.0, math.nan)
+    assert errors(Figures(BASE.ring_rms, BASE.load, *_rest()[:3], levels), BASE).level == math.inf
+
+
+def _rest():
+    return BASE.angle, BASE.torque, BASE.cage_ratio, BASE.levels

@@ -7,7 +7,7 @@ import pytest
 
 from fmu_bearing.study import tradeoff as trading
 from fmu_bearing.study.chart import draw, front
-from fmu_bearing.study.tradeoff import QUICK, REFERENCE, SETTINGS, Setting, tradeoff
+from fmu_bearing.study.tradeoff import QUICK, REFERENCE, SETTINGS, WITNESS, Setting, tradeoff
 
 
 @pytest.fixture(scope="module")
@@ -18,7 +18,7 @@ def study(silent):
 
 def test_errors_shrink_with_the_step_and_the_reference_is_sure(study):
     coarse, fine, response, strip = study.rows
-    assert study.agreement < 1e-6 and study.reference_error < 1e-5
+    assert study.pair < 1e-6 and study.agreement < 1e-5 and study.reference_error < 1e-6
     assert 0.0 < fine.trajectory < 0.3 * coarse.trajectory < 1e-3
     assert fine.errors.ring_rms < coarse.errors.ring_rms + 1e-6
     assert coarse.wall > 0.0 and coarse.cpu > 0.0
@@ -50,7 +50,7 @@ def test_front_keeps_what_nothing_betters():
 
 def test_the_sweep_is_no_factorial_and_every_setting_is_a_scene(silent):
     assert 25 <= len(SETTINGS) <= 40 and len(set(SETTINGS)) == len(SETTINGS)
-    for setting in (*SETTINGS, *QUICK, REFERENCE):
+    for setting in (*SETTINGS, *QUICK, REFERENCE, WITNESS):
         made = setting.scene(silent).fidelity
         assert (made.level, made.method, made.traction_strips) == (
             setting.level,
@@ -67,4 +67,4 @@ def test_the_whole_sweep_with_sound(scene):
     default = next(row for row in study.rows if row.setting == Setting())
     # the scenes' default: relative error of the ring velocities within the tolerance it states
     assert default.trajectory < 1e-3 and default.errors.level < 0.1
-    assert study.agreement < 1e-6 and study.reference_error < 1e-6
+    assert study.agreement < 1e-6 and study.pair < 1e-7 and study.reference_error < 1e-6

@@ -168,8 +168,8 @@ class Tradeoff:
         return _PAGE.format(
             scene=self.scene, rpm=self.rpm, machine=machine(), warm_up=1e3 * self.warm_up,
             window=1e3 * self.window, check=1e3 * CHECK, agreement=number(self.agreement) or "?",
-            pair=self.pair, own=self.reference_error, step=1e6 * REFERENCE.max_step, tolerance=REFERENCE.tolerance,
-            table=markdown(COLUMNS, self.cells()),
+            pair=self.pair, own=self.reference_error, step=1e6 * REFERENCE.max_step,
+            tolerance=REFERENCE.tolerance, table=markdown(COLUMNS, self.cells()),
         )  # fmt: skip
 
 

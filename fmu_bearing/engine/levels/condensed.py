@@ -207,8 +207,9 @@ def sweep(p, c, lv, speed, q, w):
         krr = kn * er * er + kt * mr * mr + kn2 * fr * fr + kt2 * tr * tr + _FLOOR
         per = 1.0 / (kxx * krr - kxr * kxr)
         # waves push the ball away from their race; the ball's inertia resists
-        pushed_i = kn * w[E_BEND * _S + j]
-        pushed_o = kn2 * w[(E_BEND + 1) * _S + j]
+        # (not where a contact carries less than about 1 N: with a jump there, balls would find no rest)
+        pushed_i = kn * w[E_BEND * _S + j] * (load * load / (load * load + 1.0))
+        pushed_o = kn2 * w[(E_BEND + 1) * _S + j] * (load2 * load2 / (load2 * load2 + 1.0))
         bx0 = pushed_i * ex + pushed_o * fx
         br0 = pushed_i * er + pushed_o * fr
         netx += mass * (bx0 * krr - br0 * kxr) * per

@@ -79,5 +79,6 @@ assert E_BEND + 2 <= W_POCKET
 T_Q = W_SCALARS + 16  # trial numbers of a step: 12 each
 T_D = W_SCALARS + 28
 T_A = W_SCALARS + 40
+T_V = W_SCALARS + 52
 T_SPARE = W_ACC  # for matrices and balls' derivatives; F_SIZE x 5 numbers
 assert 5 * F_SIZE > N + 2 * STRIDE + 2 * N * STRIDE  # see `linearised`

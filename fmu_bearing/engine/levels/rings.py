@@ -91,6 +91,7 @@ from fmu_bearing.engine.levels.places import (
     T_A,
     T_D,
     T_Q,
+    T_V,
     N,
 )
 from fmu_bearing.engine.levels.publish import publish, rate_error
@@ -110,7 +111,7 @@ _PROBE = 16  # steps between measurements of the contraction
 _SLOW = 0.25  # contraction beyond which a new Jacobian (23 evaluations) pays
 # Shares of the tolerance: what the correction may leave in a step, and what the step's own error estimate
 # may reach. Both repeat at every step and mostly alternate in sign.
-_CORRECTION = 0.1
+_CORRECTION = 0.03
 _TRUNCATION = 1.0
 _GROW = 1.0 / 40  # of the allowed error: twice the step makes 16 times the error
 _PATIENCE = 8  # steps before a longer one is tried
@@ -164,7 +165,10 @@ def renew(p, s, w):
         w[W_Y + Y_V + i] = lv[L_V + i]
     for i in range(2 * _S):
         w[E_X * _S + i] = lv[L_X + i]
-    stand(p, c, lv, lv[L_THETA], s[S_ANGLE], lv[L_Q + 8], s[S_SPEED], w)
+    tau = p[P_CONTACT_DAMPING]
+    speed = s[S_SPEED]
+    theta = lv[L_THETA] + tau * lv[L_RATIO] * speed
+    stand(p, c, lv, theta, s[S_ANGLE] + tau * speed, lv[L_Q + 8], speed, w)
     if not derivatives(p, c, lv, s[S_ANGLE], s[S_SPEED], s[S_SPEED_RATE], w):
         return False
     lv[L_HIGHEST] = highest_mode(lv, w)
@@ -268,7 +272,18 @@ def correct(p, s, h, tolerance, probe, w):
     before = 0.0
     worst = 0.0
     for n in range(_ITERATIONS):
-        if not accelerations(p, c, lv, angle, speed, rate, q, w):
+        # dampers and gyroscopic moments see the true velocity, or they would be wrong by (omega h)^2 / 12
+        known = lv[L_KNOWN] >= 1.0
+        for i in range(N):
+            change = w[T_A + i] - lv[L_A + i]
+            if known:
+                change = 0.5 * (3.0 * change - (lv[L_A + i] - lv[L_A1 + i]))
+            w[T_V + i] = w[W_Y + Y_V + i]
+            w[W_Y + Y_V + i] -= h / 12.0 * change
+        fine = accelerations(p, c, lv, angle, speed, rate, q, w)
+        for i in range(N):
+            w[W_Y + Y_V + i] = w[T_V + i]
+        if not fine:
             return -1.0
         times(lv, L_MASS, w, T_A, w, T_D)
         for i in range(N):

@@ -131,7 +131,7 @@ def tradeoff(
         bar = partial(_track, description="variants")
         if quick:
             study = trading.tradeoff(
-                read_scene(scene), trading.QUICK, warm_up=0.01, window=0.01, budget=0.01, track=bar
+                read_scene(scene), trading.QUICK, warm_up=0.005, window=0.005, budget=0.01, track=bar
             )
         else:
             study = trading.tradeoff(read_scene(scene), track=bar)
@@ -148,7 +148,9 @@ def sensitivity(scene: SceneFile, output: Folder = Path("out/sensitivity"), quic
     with refusals():
         bar = partial(_track, description="moves")
         if quick:
-            study = moving.sensitivity(read_scene(scene), moving.QUICK, warm_up=0.01, window=0.01, track=bar)
+            study = moving.sensitivity(
+                read_scene(scene), moving.QUICK, warm_up=0.005, window=0.005, track=bar
+            )
         else:
             study = moving.sensitivity(read_scene(scene), track=bar)
         moving.write(study, output)

@@ -229,7 +229,7 @@ def tradeoff(
         If the engine refuses the reference.
     """
     sound = np.empty(0) if scene.sound is None else sound_parameters(scene)
-    pair, own = check(scene, warm_up, min(CHECK, window))
+    pair, own = check(scene, warm_up, min(CHECK, 0.5 * window))
     truth = measure(REFERENCE.scene(scene), sound, warm_up, window)
     lacking = absent(scene, [(s.level, s.method) for s in (*settings, WITNESS)])
     agreement = np.nan

@@ -75,7 +75,7 @@ _FAST = Setting(method="fast")
 
 def _steps(base: Setting, *pairs: tuple[float, float]) -> tuple[Setting, ...]:
     """Return ``base`` at pairs of tolerance and largest step (us)."""
-    return tuple(replace(base, tolerance=tolerance, max_step=1e-6 * step) for tolerance, step in pairs)
+    return tuple(replace(base, tolerance=tolerance, max_step=step / 1e6) for tolerance, step in pairs)
 
 
 #: What is swept: one thing at a time from the scenes' default, and a small grid of tolerance and step.

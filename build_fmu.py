@@ -5,10 +5,9 @@ from typing import Annotated
 
 import typer
 
+from fmu_bearing.cli import build_scene, model_of, refusals
 from fmu_bearing.fmi.description import description_xml
-from fmu_bearing.fmi.package import build
-from fmu_bearing.prepare.model import prepare
-from fmu_bearing.scene import SceneError, read_scene
+from fmu_bearing.scene import read_scene
 
 HERE = Path(__file__).resolve().parent
 DEFAULT_SCENE = HERE / "examples" / "scenes" / "7003C-spindle.toml"
@@ -26,17 +25,13 @@ def main(
     ] = False,
 ) -> None:
     """Build a co-simulation FMU (FMI 2.0) of the bearing that a scene describes."""
-    try:
-        model = prepare(read_scene(scene))
+    with refusals():
         if write_description:
+            model = model_of(read_scene(scene))
             DESCRIPTION.write_bytes(description_xml(model))
             typer.echo(f"{DESCRIPTION}: {len(model.variables)} variables")
         else:
-            typer.echo(f"built {build(model, output)}")
-    except (SceneError, OSError) as error:
-        message = "; ".join(line.strip() for line in str(error).splitlines() if line.strip())
-        typer.echo(f"error: {message}", err=True)
-        raise typer.Exit(2) from None
+            typer.echo(f"built {build_scene(scene, output)}")
 
 
 if __name__ == "__main__":

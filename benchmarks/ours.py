@@ -1,18 +1,15 @@
 """Time the engine's levels and integrators, and take their errors from the reference trajectory."""
 
-import time
-
 import numpy as np
-from numpy.typing import NDArray
 
 from benchmarks.cases import WARM_UP, Case, Solver, silent
 from benchmarks.table import Row
 from fmu_bearing.engine import layout as at
 from fmu_bearing.study.arrays import Arrays, Refused
+from fmu_bearing.study.built import absent
+from fmu_bearing.study.figures import COMMUNICATION, SAMPLE, ring_rms, speed
 from fmu_bearing.study.reference import Reference, reference_from, relative_error
 
-SAMPLE = 1e-4  # s between the points at which errors are taken
-COMMUNICATION = 1e-3  # s, of the timed runs
 #: Tolerance and largest internal step (s): the scenes' default, then finer until the error is met.
 LADDER = ((1e-3, 20e-6), (3e-4, 10e-6), (1e-4, 10e-6), (1e-4, 5e-6), (3e-5, 2.5e-6), (1e-5, 1e-6))
 LIMIT = 1e-3
@@ -28,43 +25,10 @@ def started(case: Case, solver: Solver, warm_up: float) -> Arrays:
 
 
 def probe(solvers: tuple[Solver, ...], case: Case) -> dict[Solver, bool]:
-    """Which of ``solvers`` this build has.
-
-    The engine refuses what it lacks, or ignores the choice and returns the first solver's very bits.
-    """
-    built: dict[Solver, bool] = {}
-    first = None
-    for solver in solvers:
-        try:
-            rows = started(case, solver, 0.02).rings(2e-3, SAMPLE)
-        except (Refused, IndexError):
-            built[solver] = False
-            continue
-        built[solver] = first is None or not np.array_equal(rows, first)
-        first = rows if first is None else first
-    return built
-
-
-def speed(bearing: Arrays, budget: float, repeats: int, longest: float) -> tuple[float, float]:
-    """Simulated s per wall s and per CPU s, best of ``repeats`` runs from the bearing's state.
-
-    A run lasts about ``budget`` s of wall time and at most ``longest`` s of simulated time.
-    """
-    state = bearing.s.copy()
-    clock = time.perf_counter()
-    bearing.run(2 * COMMUNICATION, COMMUNICATION)
-    pilot = (time.perf_counter() - clock) / 2
-    steps = max(1, min(round(longest / COMMUNICATION), round(budget / pilot)))
-    wall = cpu = float("inf")
-    for _ in range(repeats):
-        bearing.s[:] = state
-        clock, used = time.perf_counter(), time.process_time()
-        bearing.run(steps * COMMUNICATION, COMMUNICATION)
-        wall = min(wall, time.perf_counter() - clock)
-        cpu = min(cpu, time.process_time() - used)
-    bearing.s[:] = state
-    simulated = steps * COMMUNICATION
-    return simulated / wall, simulated / cpu
+    """Which of ``solvers`` this build has."""
+    scene = silent(case.scene)
+    lacking = absent(scene, [(solver.level, solver.method) for solver in solvers])
+    return {solver: (solver.level, solver.method) not in lacking for solver in solvers}
 
 
 def full_rows(
@@ -92,12 +56,6 @@ def full_rows(
     return rows
 
 
-def rms(rows: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Rms velocity about the mean of inner and outer ring, the three axes together."""
-    squares = ((rows - rows.mean(0)) ** 2).mean(0)
-    return np.sqrt([squares[:3].sum(), squares[3:].sum()])
-
-
 def level_row(case: Case, solver: Solver, start: Arrays, budget: float, repeats: int) -> Row:
     """Row of a level that approximates ``full``: error is that of the rings' rms velocity, larger ring.
 
@@ -107,13 +65,13 @@ def level_row(case: Case, solver: Solver, start: Arrays, budget: float, repeats:
     row.limit = float("inf")
     window = 0.05
     try:
-        full = rms(start.with_parameters().rings(window, SAMPLE))
+        full = ring_rms(start.with_parameters().rings(window, SAMPLE))
         bearing = started(case, solver, WARM_UP)
         step = bearing.p[at.P_MAX_STEP]
         row.setting = f"h <= {1e6 * step:g} us"
         state = bearing.with_parameters()
         own = state.rings(window, SAMPLE)
-        errors = rms(own) / full - 1.0
+        errors = ring_rms(own) / full - 1.0
         row.error = float(np.abs(errors).max())
         finer = bearing.with_parameters(P_MAX_STEP=step / 4, P_TOLERANCE=1e-5)
         few = round(5e-3 / SAMPLE)

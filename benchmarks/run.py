@@ -4,18 +4,16 @@ One process, one machine, one run. Timings are printed, never asserted.
 """
 
 import argparse
-import os
 import pathlib
-import platform
 import sys
 import time
 
-import numba
 import numpy as np
 
-from benchmarks import exudyn_peer, memory, ours, peers, table, terms
+from benchmarks import exudyn_peer, memory, ours, peers, terms
 from benchmarks.cases import CASES, QUICK, SOLVERS, Case
-from benchmarks.table import Row
+from benchmarks.table import COLUMNS, Row, fill_ratios
+from fmu_bearing.study import table
 from fmu_bearing.study.arrays import Arrays
 from fmu_bearing.study.first_order import FirstOrder
 from fmu_bearing.study.reference import Reference
@@ -26,18 +24,9 @@ RESULTS = pathlib.Path(__file__).parents[1] / "docs" / "results"
 
 
 def machine() -> str:
-    """Processor, cores and the versions that matter for speed."""
-    model = platform.processor() or platform.machine()
-    cpuinfo = pathlib.Path("/proc/cpuinfo")
-    if cpuinfo.exists():
-        names = [line for line in cpuinfo.read_text().splitlines() if line.startswith("model name")]
-        model = names[0].split(":", 1)[1].strip() if names else model
-    return (
-        f"{model}, {os.cpu_count()} cores (one used), {platform.system()}; "
-        f"Python {platform.python_version()}, NumPy {np.__version__}, Numba {numba.__version__}, "
-        f"SciPy {peers.version('scipy')}, EXUDYN {peers.version('exudyn')}, "
-        f"scikit-sundae {peers.version('scikit-sundae')}"
-    )
+    """Processor, cores and all versions that matter here."""
+    names = ("SciPy", "EXUDYN", "scikit-sundae")
+    return ", ".join([table.machine(), *(f"{name} {peers.version(name.lower())}" for name in names)])
 
 
 def peer_rows(
@@ -90,7 +79,7 @@ def measure(cases: tuple[Case, ...], quick: bool) -> tuple[list[Row], list[list[
              f"{exact.implicit_cost:.0f}"]
         )  # fmt: skip
         print(f"{case.name}: {time.process_time() - begin:.0f} s", file=sys.stderr, flush=True)
-    table.fill_ratios(rows)
+    fill_ratios(rows)
     rows += [Row("all", solver.name, remark="not built") for solver, there in built.items() if not there]
     rows.append(Row("all", "the same right-hand side in C", remark="not written", ours=False))
     return rows, references
@@ -117,7 +106,7 @@ rows stand below ours; they are timed over {window:g} ms.
 def report(rows: list[Row], references, costs, sizes, repeats: int) -> str:
     """Everything as Markdown."""
     text = TEXT.format(machine=machine(), repeats=repeats, window=1e3 * PEER_WINDOW)
-    text += table.markdown(table.COLUMNS, [row.cells() for row in rows])
+    text += table.markdown(COLUMNS, [row.cells() for row in rows])
     text += "\n## References\n\n" + table.markdown(REFERENCE_COLUMNS, references)
     text += "\n## Cost of terms\n\n" + table.markdown(terms.COLUMNS, costs)
     return text + "\n## Memory of an instance\n\n" + table.markdown(memory.COLUMNS, sizes)
@@ -136,14 +125,14 @@ def main(arguments: list[str] | None = None) -> None:
         costs += terms.rows("7009C-full-ceramic", 18000.0, budget, repeats)
     sizes = memory.rows(("7003C-spindle", "7009C-full-ceramic"))
     print(machine())
-    table.show("Simulated s per wall s", table.COLUMNS, [row.cells() for row in rows])
+    table.show("Simulated s per wall s", COLUMNS, [row.cells() for row in rows])
     table.show("References", REFERENCE_COLUMNS, references)
     table.show("Cost of terms", terms.COLUMNS, costs)
     table.show("Memory of an instance", memory.COLUMNS, sizes)
     if given.output:
         given.output.mkdir(parents=True, exist_ok=True)
         (given.output / "benchmark.md").write_text(report(rows, references, costs, sizes, repeats), "utf-8")
-        table.write_csv(given.output / "benchmark.csv", table.COLUMNS, [row.cells() for row in rows])
+        table.write_csv(given.output / "benchmark.csv", COLUMNS, [row.cells() for row in rows])
 
 
 if __name__ == "__main__":

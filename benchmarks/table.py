@@ -1,9 +1,9 @@
-"""Rows, and where they go: terminal, Markdown, CSV."""
+"""Rows of the main table."""
 
-import csv
 import math
-import pathlib
 from dataclasses import dataclass, field
+
+from fmu_bearing.study.table import number
 
 COLUMNS = (
     "case", "solver", "setting", "error", "sim/wall", "sim/CPU", "goal", "verdict",
@@ -49,15 +49,6 @@ class Row:
         ]  # fmt: skip
 
 
-def number(value: float) -> str:
-    """Two or three digits, empty for NaN."""
-    if math.isnan(value):
-        return ""
-    if value == 0.0 or 0.01 <= abs(value) < 1e4:
-        return f"{value:.3g}" if abs(value) < 100 else f"{value:.0f}"
-    return f"{value:.1e}"
-
-
 def fill_ratios(rows: list[Row]) -> None:
     """Give our rows their speed over each peer's in the same case, by CPU time: the machine may be shared."""
     speed = {(row.case, row.solver): row.cpu for row in rows if not row.ours}
@@ -65,32 +56,3 @@ def fill_ratios(rows: list[Row]) -> None:
         if row.ours:
             for column, peer in PEERS.items():
                 row.ratios[column] = row.cpu / speed.get((row.case, peer), math.nan)
-
-
-def markdown(columns: tuple[str, ...], rows: list[list[str]]) -> str:
-    """Pipe table."""
-    lines = ["| " + " | ".join(columns) + " |", "|" + " --- |" * len(columns)]
-    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows]) + "\n"
-
-
-def show(title: str, columns: tuple[str, ...], rows: list[list[str]]) -> None:
-    """Print one table to the terminal."""
-    from rich.console import Console
-    from rich.table import Table
-
-    table = Table(columns[0], title=title)
-    table.columns[0].no_wrap = True
-    for name in columns[1:]:
-        table.add_column(name)
-    for row in rows:
-        table.add_row(*row)
-    console = Console()
-    Console(width=max(console.width, 190)).print(table)
-
-
-def write_csv(path: pathlib.Path, columns: tuple[str, ...], rows: list[list[str]]) -> None:
-    """Comma-separated values with a head line."""
-    with path.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(columns)
-        writer.writerows(rows)

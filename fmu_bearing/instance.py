@@ -12,7 +12,8 @@ from fmu_bearing.engine import abi, layout
 from fmu_bearing.interface import Variable
 from fmu_bearing.prepare.model import Model
 
-_REASONS = {
+#: What the status codes of the engine mean to who called it.
+REASONS = {
     layout.NOT_CONVERGED: "the equations could not be solved: even the shortest internal steps failed",
     layout.BAD_INPUT: "an input is not finite or outside its range",
     layout.BAD_STEP: "the communication step must be a positive, finite number of seconds",
@@ -117,7 +118,7 @@ class Instance:
         """Put the bearing to its quasi-static state at the inputs; ``EngineError`` if there is none."""
         status = abi.init(self._p, self.u, self.s, self.z, self._w, float(time))
         if status != layout.OK:
-            raise EngineError(f"initialisation at t = {time} s: {_REASONS[status]}; {self._inputs()}")
+            raise EngineError(f"initialisation at t = {time} s: {REASONS[status]}; {self._inputs()}")
         self.initialised = True
 
     def step(self, h: float) -> None:
@@ -133,7 +134,7 @@ class Instance:
             reached = self.time
             self.s[:] = self._kept
             raise EngineError(
-                f"step of {h} s from t = {self.time:.9g} s (reached {reached:.9g} s): {_REASONS[status]}; "
+                f"step of {h} s from t = {self.time:.9g} s (reached {reached:.9g} s): {REASONS[status]}; "
                 f"{self._inputs()}"
             )
 

@@ -9,15 +9,17 @@ import pytest
 
 from benchmarks import ours, peers, table
 from benchmarks.cases import CASES, SOLVERS, Case
+from fmu_bearing.study.figures import SAMPLE
 from fmu_bearing.study.first_order import FirstOrder
 from fmu_bearing.study.reference import reference_from
+from fmu_bearing.study.table import markdown, write_csv
 
 TINY = Case("7003C-spindle", 20000, "start", window=2e-4)
 
 
 def test_one_case_through_to_the_table(tmp_path):
     start = TINY.bearing()
-    exact = reference_from(start, TINY.window, sample=ours.SAMPLE)
+    exact = reference_from(start, TINY.window, sample=SAMPLE)
     mine = ours.full_rows(TINY, SOLVERS[0], start, exact, budget=1e-3, repeats=1)
     problem = FirstOrder(start)
     times = np.array([2.5e-5, 5e-5])
@@ -32,11 +34,11 @@ def test_one_case_through_to_the_table(tmp_path):
     assert mine[-1].error <= ours.LIMIT
     assert other.error <= ours.LIMIT
     assert mine[-1].ratios["x LSODA"] == mine[-1].cpu / other.cpu
-    table.write_csv(tmp_path / "t.csv", table.COLUMNS, [row.cells() for row in rows])
+    write_csv(tmp_path / "t.csv", table.COLUMNS, [row.cells() for row in rows])
     with (tmp_path / "t.csv").open(encoding="utf-8") as file:
         read = list(csv.reader(file))
     assert read[0] == list(table.COLUMNS) and len(read) == 1 + len(rows)
-    assert table.markdown(table.COLUMNS, read[1:]).count("\n") == 2 + len(rows)
+    assert markdown(table.COLUMNS, read[1:]).count("\n") == 2 + len(rows)
 
 
 def test_a_missed_goal_is_named():

@@ -70,6 +70,7 @@ def _fields(model: "Model") -> dict[str, str]:
         "guid": escape(interface_guid(model)),
         "ranges": "\n".join(ranges),
         "sound": sound,
+        "note": f"<p>{escape(model.note)}.</p>\n" if model.note else "",
         "variables": "\n".join(_rows(model)),
         "scene": escape(scene.to_toml()),
     }

@@ -38,11 +38,14 @@ class Model:
     parameters : ndarray
         Flat parameter array ``p`` of the engine, read-only.
     variables : tuple of Variable
+    note : str
+        What readers of its documentation should know, such as why its level was chosen.
     """
 
     scene: Scene
     parameters: NDArray[np.float64]
     variables: tuple[Variable, ...]
+    note: str = ""
 
     @property
     def n_balls(self) -> int:
@@ -56,8 +59,9 @@ class Model:
 
 
 def prepare(
-    scene: Scene, *, level: str | None = None, method: str | None = None, max_step: float | None = None
-) -> Model:
+    scene: Scene, *, level: str | None = None, method: str | None = None, max_step: float | None = None,
+    note: str = "",
+) -> Model:  # fmt: skip
     """Turn a scene into a model.
 
     Parameters
@@ -68,6 +72,8 @@ def prepare(
         ``level``: which level is accurate enough has to be found by running it.
     max_step : float, optional
         Largest internal step (s) in place of the scene's.
+    note : str, optional
+        The model's ``note``.
 
     Returns
     -------
@@ -95,7 +101,7 @@ def prepare(
     parameters = pack(scene, sound)
     parameters.setflags(write=False)
     rotating = bodies.inner_ring(scene) + bodies.rotor(scene)
-    return Model(scene, parameters, variables(scene, rotor_inertia=rotating.polar))
+    return Model(scene, parameters, variables(scene, rotor_inertia=rotating.polar), note)
 
 
 def _require_level(scene: Scene) -> None:

@@ -1,6 +1,13 @@
 """What people do with a bearing: run it beside slower, surer methods, vary it, look at it.
 
 ``arrays``       a bearing on bare flat arrays, for loops that need the state itself
+``figures``      the figures by which runs are compared, and the pace of a run
+``built``        which levels and methods this build of the engine has
 ``first_order``  level ``full`` as x' = g(t, x), for general-purpose integrators
 ``reference``    the trajectory that other results are held against, by two integrators
+``tradeoff``     what accuracy costs: levels, methods, steps, strips, terms against the reference
+``chart``        error against speed, drawn
+``choose``       level ``auto``: the cheapest within the scene's accuracy, found by running it
+``sensitivity``  what rests on assumed values
+``table``        tables to terminal, Markdown, CSV; the machine they were made on
 """

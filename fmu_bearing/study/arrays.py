@@ -1,12 +1,15 @@
 """A bearing on bare flat arrays: what ``Instance`` holds, open to loops that save and restore the state."""
 
 import math
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.engine import abi
 from fmu_bearing.engine import layout as at
+from fmu_bearing.instance import REASONS
+from fmu_bearing.interface.inputs import inputs
 from fmu_bearing.prepare.model import pack
 from fmu_bearing.scene import Scene
 
@@ -20,7 +23,7 @@ class Refused(RuntimeError):
 
 
 class Arrays:
-    """Parameters, inputs, state, outputs and work space of one bearing without sound.
+    """Parameters, inputs, state, outputs and work space of one bearing.
 
     Parameters
     ----------
@@ -29,14 +32,17 @@ class Arrays:
         Shaft speed (r/min), held.
     load_y, load_z : float
         Radial load on the inner ring (N).
+    sound : ndarray, optional
+        The scene's sound block (``acoustics.stream.sound_parameters``); default: no sound.
     parameters : float
         Values for places of ``p`` by their names in ``layout``, for example ``P_TOLERANCE=1e-5``.
     """
 
     def __init__(
-        self, scene: Scene, rpm: float, load_y: float = 0.0, load_z: float = 0.0, **parameters: float
-    ) -> None:
-        self.p: NDArray[np.float64] = pack(scene, np.empty(0))
+        self, scene: Scene, rpm: float, load_y: float = 0.0, load_z: float = 0.0,
+        sound: NDArray[np.float64] | None = None, **parameters: float,
+    ) -> None:  # fmt: skip
+        self.p: NDArray[np.float64] = pack(scene, np.empty(0) if sound is None else sound)
         for name, value in parameters.items():
             self.p[getattr(at, name)] = value
         # the compiled entries are specialised on read-only parameters
@@ -48,20 +54,30 @@ class Arrays:
         self.u[at.U_LOAD_Y], self.u[at.U_LOAD_Z] = load_y, load_z
         self.u[at.U_OIL_T : at.U_OUTER_T + 1] = at.REFERENCE_TEMPERATURE
         self.s = np.zeros(at.state_size(self.p))
-        self.z = np.zeros(at.z_size(int(self.p[at.P_BALLS]), 0))
+        self.z = np.zeros(at.z_size(int(self.p[at.P_BALLS]), int(self.p[at.P_MICS])))
         self.w = np.zeros(at.work_size(self.p))
+
+    @classmethod
+    def of(cls, scene: Scene, sound: NDArray[np.float64] | None = None, **parameters: float) -> Self:
+        """Bearing at the scene's own speed, loads and temperatures."""
+        bearing = cls(scene, scene.operation.speed_rpm, sound=sound, **parameters)
+        for variable in inputs(scene):
+            if variable.start is not None:
+                bearing.u[variable.index] = variable.start
+        return bearing
 
     def init(self) -> None:
         """Quasi-static state at the inputs; ``Refused`` if there is none."""
         status = abi.init(self.p, self.u, self.s, self.z, self.w, 0.0)
         if status != at.OK:
-            raise Refused(f"initialisation: status {status}")
+            raise Refused(f"initialisation: {REASONS[status]}")
 
     def step(self, h: float) -> None:
         """Advance by ``h`` (s); ``Refused`` if the engine does."""
+        begin = self.s[at.S_TIME]
         status = abi.step(self.p, self.u, self.s, self.z, self.w, h)
         if status != at.OK:
-            raise Refused(f"step to {self.s[at.S_TIME] + h:.6g} s: status {status}")
+            raise Refused(f"step to {begin + h:.6g} s: {REASONS[status]}")
 
     def run(self, duration: float, h: float) -> None:
         """Advance by ``duration`` in communication steps of ``h`` (s)."""

@@ -1,6 +1,7 @@
 """The library face: one running bearing by name."""
 
 import math
+import warnings
 
 import numpy as np
 import pytest
@@ -108,3 +109,22 @@ def test_inertia_of_the_rotor_is_told_to_the_drive(model, scene):
     bore, outside, width, density = 17e-3, 22.6e-3, 10e-3, 7800.0
     ring = density * math.pi / 4 * (outside**2 - bore**2) * width * (bore**2 + outside**2) / 8
     assert told == pytest.approx(0.25 * 15e-3**2 / 8 + ring, rel=1e-9)
+
+
+def test_an_ellipse_beyond_the_shoulder_is_told(scene):
+    bearing = Instance(prepare(scene("7003C-bare")))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        bearing.initialise()  # 500 N: 1.8 deg of groove left
+    bearing.reset()
+    bearing.set("preload", 1e4)
+    with pytest.warns(UserWarning, match="beyond its shoulder"):
+        bearing.initialise()
+
+
+def test_a_pedestal_too_soft_for_the_load_is_refused(scene):
+    bearing = Instance(prepare(scene("7003C-bare")))
+    bearing.set("pedestal_stiffness", 1e4)
+    bearing.set("radial_load.y", 99.0)
+    with pytest.raises(EngineError, match="stiffer pedestal"):
+        bearing.initialise()

@@ -6,6 +6,7 @@ it is put right, because pythonfmu gives no way to refuse a single value.
 """
 
 import math
+import warnings
 from collections.abc import Callable, Sequence
 from enum import Enum
 from typing import Any
@@ -163,7 +164,11 @@ class Session:
             return
         self._shown = None
         try:
-            self._instance.initialise(self.time)
+            with warnings.catch_warnings(record=True) as cautions:
+                warnings.simplefilter("always")
+                self._instance.initialise(self.time)
+            for caution in cautions:
+                self._log(WARNING, str(caution.message))
         except EngineError as error:
             self._wrong[_UNSETTLED] = str(error)
             self._log(ERROR, str(error))

@@ -5,6 +5,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import root
 
+from fmu_bearing.engine import abi
 from fmu_bearing.engine import layout as at
 from fmu_bearing.engine.levels import places as k
 from tests.engine.helpers import RPM, Run, quiet
@@ -68,11 +69,6 @@ def test_a_perfect_bearing_is_silent_at_the_quasi_static_point(scene, level):
         angle = np.degrees(run.value(f"contact.{side}.angle_mean", rows)[-1])
         assert load == pytest.approx(theory[f"load_{side[0]}"], rel=1e-3)
         assert angle == pytest.approx(theory[f"angle_{side[0]}"], rel=1e-3)
-    friction = run.value("friction_torque", rows)[-1]
-    heats = sum(run.value(f"heat.{part}", rows)[-1] for part in ("inner_ring", "outer_ring", "oil"))
-    # what the shaft puts in comes out as heat, but for the lands' drag: it speeds up a cage not yet held back
-    # by the balls, 4 N mm of 24
-    assert heats == pytest.approx(friction * 20000 * RPM, rel=0.2)
     assert run.value("energy.residual", rows)[-1] == pytest.approx(0.0, abs=1e-9)
 
 
@@ -344,3 +340,108 @@ def test_response_follows_rings_under_radial_load(scene):
         run.run(0.03)
         figures.append(vibration(run.run(0.05, 5e-5)))
     np.testing.assert_allclose(figures[1], figures[0], rtol=0.25)
+
+
+@pytest.mark.parametrize("level", LEVELS)
+@pytest.mark.parametrize("rpm", [20_000, -9_000, 5])
+def test_heats_are_torque_times_speed(scene, level, rpm):
+    """By definition of these levels; also the torques by source add up to it."""
+    run = Run(silent(scene("7003C-bare")), rpm, P_LEVEL=LEVELS[level]).init()
+    run.run(1e-3)
+    friction = run.value("friction_torque")
+    heats = sum(run.value(f"heat.{part}") for part in ("inner_ring", "outer_ring", "oil"))
+    sources = sum(run.value(f"friction_torque.{part}") for part in ("contacts", "rolling", "cage", "drag"))
+    assert heats > 0.0
+    assert heats == pytest.approx(friction * rpm * RPM, rel=1e-9)
+    assert sources == pytest.approx(friction, rel=1e-9)
+
+
+@pytest.mark.parametrize(("name", "rpm"), [("7003C-bare", 20_000), ("7009C-full-ceramic", 18_000)])
+def test_response_after_a_step_of_the_load_is_that_of_a_start_under_it(scene, name, rpm):
+    """3 kN radial: balls turn by a third of a round meanwhile and must be found again, however far."""
+    settled = Run(silent(scene(name)), rpm, P_LEVEL=2.0)
+    settled.u[at.U_LOAD_Z] = -3000.0
+    settled.init()
+    most = settled.run(2e-3, 2e-5)
+    run = Run(silent(scene(name)), rpm, P_LEVEL=2.0).init()
+    run.run(1e-3)
+    run.u[at.U_LOAD_Z] = -3000.0
+    for h in (1e-4, 1e-4, 1e-3, 1e-3):
+        assert run.step(h) == at.OK
+        for side in ("inner", "outer"):
+            loads = settled.value(f"contact.{side}.load_max", most)
+            assert 0.9 * loads.min() <= run.value(f"contact.{side}.load_max") <= 1.1 * loads.max()
+    np.testing.assert_allclose(
+        block(run)[k.L_MEAN :][: k.N], block(settled)[k.L_MEAN :][: k.N], atol=1e-9, rtol=1e-6
+    )
+
+
+def test_response_follows_a_ramp_from_standstill(scene):
+    """After 0 to 100,000 r/min within one step, amplitudes are those of a start at that speed."""
+    scenes = silent(scene("7003C-spindle"))
+    run = Run(scenes, 0, P_LEVEL=2.0).init()
+    run.u[at.U_SPEED] = 100_000 * RPM
+    assert run.step(1e-3) == at.OK
+    fresh = Run(scenes, 100_000, P_LEVEL=2.0).init()
+    moving, settled = (vibration(r.run(2e-3, 2e-5)) for r in (run, fresh))
+    assert min(settled) > 0.0
+    # 2 ms are no whole number of turns of the cage
+    np.testing.assert_allclose(moving, settled, rtol=0.1)
+
+
+def test_response_follows_a_steady_ramp(scene):
+    """A ramp whose rate does not change leaves the speed that the lines were made for all the same."""
+    run = Run(silent(scene("7003C-spindle")), 10_000, P_LEVEL=2.0).init()
+    for i in range(1, 11):
+        run.u[at.U_SPEED] = (10_000 + 500 * i) * RPM
+        assert run.step(1e-3) == at.OK
+        assert block(run)[k.L_FOUND_SPEED] == pytest.approx(run.u[at.U_SPEED], rel=0.011)
+
+
+@pytest.mark.parametrize("level", LEVELS)
+def test_balls_that_carry_nothing_have_no_false_rates(scene, level):
+    """Standstill without preload: no ball is faster than what the rings and gravity do in 4 ms, 0.04 m/s."""
+    run = Run(silent(scene("7003C-bare")), 0, preload=0.0, P_LEVEL=LEVELS[level]).init()
+    for h in (1e-6, 1e-5, 1e-3, 3e-3):
+        assert run.step(h) == at.OK
+        balls = run.z[at.Z_BALLS : at.Z_BALLS + 3 * int(run.p[at.P_BALLS])]
+        assert np.abs(balls).max() < (0.05 if level == "rings" else 1e-12)
+
+
+@pytest.mark.parametrize("level", LEVELS)
+def test_balls_move_in_their_races(scene, level):
+    """Loaded balls do have rates across the track: those of level full at the same place within a third."""
+    run = Run(silent(scene("7003C-spindle")), 12_000, P_LEVEL=LEVELS[level])
+    run.u[at.U_LOAD_Z] = -300.0
+    run.init()
+    full = Run(silent(scene("7003C-spindle")), 12_000)
+    full.u[at.U_LOAD_Z] = -300.0
+    full.init()
+    sizes = []
+    places = [at.B_VX * at.STRIDE, at.B_VR * at.STRIDE]
+    for each in (run, full):
+        rates = []
+        for _ in range(100):
+            assert each.step(1e-4) == at.OK
+            rates.append(each.s[places])
+        sizes.append(np.sqrt((np.array(rates) ** 2).mean(0)))
+    np.testing.assert_allclose(sizes[0], sizes[1], rtol=0.33)
+
+
+@pytest.mark.parametrize("level", LEVELS)
+def test_a_start_fails_with_its_own_status_and_a_step_with_its_own(scene, level):
+    """1 N of preload may have no rest on waves: then NO_START; from there on steps end in time."""
+    run = Run(silent(scene("7003C-bare")), 20_000, preload=1.0, P_LEVEL=LEVELS[level])
+    status = abi.init(run.p, run.u, run.s, run.z, run.w, 0.0)
+    assert status in (at.OK, at.NO_START)
+    if status == at.OK:
+        assert run.step(1e-4) in (at.OK, at.NOT_CONVERGED)
+
+
+def test_late_times_and_odd_steps_end(scene):
+    """Steps of a few rounding errors of the time are taken, not divided by zero."""
+    run = Run(silent(scene("7003C-bare")), 20_000, P_LEVEL=1.0).init()
+    run.s[at.S_TIME] = 1e5
+    for h in (1e-3, 1e-10, 1e-3):
+        assert run.step(h) == at.OK
+        assert np.isfinite(run.z).all()

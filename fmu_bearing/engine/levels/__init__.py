@@ -6,6 +6,7 @@
 ``held``        cage speed, friction and heats, evaluated at the quasi-static point and held
 ``linearised``  derivatives of the rings' accelerations, and their static equilibrium
 ``publish``     from a level's own state to the one that outputs and sound read
+``predictor``   first guess of a step of level `rings`
 ``rings``       level `rings`: the rings' 11 degrees of freedom, stepped in time
 ``response``    level `response`: the linear answer to every excitation, as a sum of lines
 ==============  =============================================================================

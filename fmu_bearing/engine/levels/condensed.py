@@ -52,6 +52,7 @@ from fmu_bearing.engine.levels.places import (
     E_COS,
     E_FORCE,
     E_INNER,
+    E_MOVED,
     E_R,
     E_SIN,
     E_STEP,
@@ -63,6 +64,7 @@ from fmu_bearing.engine.levels.places import (
     L_PAIR_OUTER,
     L_PHI,
     L_RATIO,
+    L_SETTLED,
     L_SIN,
     L_SIZES,
     L_TWIST,
@@ -164,7 +166,7 @@ def sweep(p, c, lv, speed, q, w):
 
     ``q``: 11 displacements of the rings (advanced by tau, see above); the balls' places stand in the rows
     ``E_X``, ``E_R`` of ``w`` and are moved; rows ``E_FORCE`` on take forces and moments, ``E_STEP`` the
-    squares of the moves.
+    squares of the moves that matter, ``E_MOVED`` of all.
     """
     lanes = int(p[P_LANES])
     pitch = p[P_PITCH_RADIUS]
@@ -227,6 +229,7 @@ def sweep(p, c, lv, speed, q, w):
         touching = mask if load + load2 > 0.0 else 0.0
         # one that barely touches moves far for forces that nobody feels: 3e-8 m times _SOFT is 0.03 N
         felt = (netx * netx + netr * netr) * (1.0 / (_SOFT * _SOFT))
+        w[E_MOVED * _S + j] = dx * dx + dr * dr
         w[E_STEP * _S + j] = touching * min(dx * dx + dr * dr, felt)
         # on the inner ring, at the moved ball
         along = load + kn * (ex * dx + er * dr)
@@ -307,6 +310,14 @@ def carried(p, c, lv, speed, q, w):
         if sum_row(E_STEP, lanes, w) < _CLOSE:
             return True
     return False
+
+
+@kernel
+def count_settled(lv, lanes, w):
+    """Count per ball the places in a row that are places of rest: only between those is there a rate."""
+    for j in range(lanes):
+        resting = w[E_MOVED * _S + j] < _CLOSE
+        lv[L_SETTLED + j] = lv[L_SETTLED + j] + 1.0 if resting else 0.0
 
 
 @kernel

@@ -3,14 +3,17 @@
 All come from one evaluation of the full right-hand side at the quasi-static point under the axial load
 alone, with the balls' spins balanced and without imperfections. (Under a radial load the balls' own orbit
 speeds differ, and before a cage has evened them out the same evaluation shows several times the settled
-torque.) They are renewed when the speed has moved by 1 % or a condition by 0.1 %; in between orbit and spins
-follow the speed, the gyroscopic friction its square, and torque and heats stay (below 1 rad/s they go to
-zero with the speed). A renewal costs some 30 evaluations of the full right-hand side with its Jacobian.
+losses.) The torque is what puts in the heats: at that point the lands' drag still speeds up a cage that the
+balls do not hold back yet, which would be 15 % more; level `full` settles at the heats. They are renewed when
+the speed has moved by 1 % or a condition by 0.1 %; in between orbit and spins follow the speed, the
+gyroscopic friction its square, and the heats stay (below 1 rad/s they go to zero with the speed squared). A
+renewal costs some 30 evaluations of the full right-hand side with its Jacobian.
 """
 
 from fmu_bearing.engine.jit import inlined, kernel
 from fmu_bearing.engine.layout import (
     B_OM,
+    B_R,
     B_WX,
     C_BALL_RADIUS,
     C_LOAD_Y,
@@ -25,7 +28,6 @@ from fmu_bearing.engine.layout import (
     C_VISCOSITY,
     F_HEAT,
     F_SIZE,
-    F_TORQUE,
     OK,
     P_BALL_INERTIA,
     P_BALLS,
@@ -42,7 +44,10 @@ from fmu_bearing.engine.layout import (
     S_F,
     S_JAC,
     S_LEVEL,
+    S_LOSS,
+    S_Y,
     STRIDE,
+    W_ACC,
     W_BLOCK_A,
     W_G,
     W_SCALARS,
@@ -114,6 +119,26 @@ def quasistatic_point(p, c, speed, y, w):
 
 
 @kernel
+def summarise_held(p, s, y, f, w):
+    """Losses by source at the held state ``y`` with its right-hand side ``f``; the state in ``s`` stays.
+
+    A step's first sound sample is interpolated from what ``s`` was published with.
+    """
+    heat = s[S_F + F_HEAT + 2]
+    s[S_F + F_HEAT + 2] = f[F_HEAT + 2]
+    for j in range(_S):
+        w[W_ACC + j] = s[S_Y + B_OM * _S + j]
+        w[W_ACC + _S + j] = s[S_Y + B_R * _S + j]
+        s[S_Y + B_OM * _S + j] = y[B_OM * _S + j]
+        s[S_Y + B_R * _S + j] = y[B_R * _S + j]
+    summarise(p, s, w)
+    s[S_F + F_HEAT + 2] = heat
+    for j in range(_S):
+        s[S_Y + B_OM * _S + j] = w[W_ACC + j]
+        s[S_Y + B_R * _S + j] = w[W_ACC + _S + j]
+
+
+@kernel
 def hold(p, u, speed, s, w):
     """Renew everything held at ``speed`` (rad/s) and the inputs ``u``; status code, old values on failure."""
     lv = s[S_LEVEL:]
@@ -152,13 +177,13 @@ def hold(p, u, speed, s, w):
             lv[L_SPIN + i * _S + j] = y[(B_WX + i) * _S + j] / turning
     f = w[W_BLOCK_A : W_BLOCK_A + F_SIZE]
     right_hand_side(p, c, y, 0.0, turning, 0.0, w, f)
-    for i in range(F_SIZE):
-        s[S_F + i] = f[i]
-    summarise(p, s, w)
+    summarise_held(p, s, y, f, w)
     share = speed / turning
-    lv[L_TORQUE] = share * f[F_TORQUE]
+    lv[L_TORQUE] = share * (f[F_HEAT] + f[F_HEAT + 1] + f[F_HEAT + 2]) / turning
     for i in range(3):
         lv[L_HEAT + i] = share * share * f[F_HEAT + i]
+    for i in range(4):
+        s[S_LOSS + i] *= share * share
     twist = 0.0
     for j in range(balls):
         twist += w[(W_G + Q_OUTER + 3) * _S + j]

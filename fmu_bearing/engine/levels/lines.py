@@ -32,7 +32,6 @@ from fmu_bearing.engine.layout import (
     S_C,
     S_JAC,
     S_LEVEL,
-    S_SPEED,
     STRIDE,
     W_Y,
     WAVE_INTERVALS,
@@ -333,12 +332,11 @@ def shaft_lines(p, c, lv, x, orbit, speed, w):
 
 
 @kernel
-def renew_lines(p, s, w):
-    """All lines about the equilibrium in ``w[W_Y:]``, with the derivatives in ``lv``."""
+def renew_lines(p, s, speed, w):
+    """All lines at ``speed`` (rad/s) about the equilibrium in ``w[W_Y:]``, with the derivatives in ``lv``."""
     lv = s[S_LEVEL : S_LEVEL + L_SIZE]
     c = s[S_C : S_C + C_SIZE]
     x = s[S_JAC:S_LEVEL]
-    speed = s[S_SPEED]
     orbit = lv[L_RATIO] * speed
     count = sample_orbit(p, c, lv, speed, x, w)
     for m in range(count):

@@ -56,7 +56,7 @@ L_X1 = L_R + STRIDE
 L_R1 = L_X1 + STRIDE
 L_X2 = L_R1 + STRIDE
 L_R2 = L_X2 + STRIDE
-L_X3 = L_R2 + STRIDE
+L_X3 = L_R2 + STRIDE  # level response: places at its equilibrium, ball 0 at angle 0
 L_R3 = L_X3 + STRIDE
 L_PHI = L_R3 + STRIDE  # angle from ball 0 in table intervals, then its cosine and sine
 L_COS = L_PHI + STRIDE
@@ -64,7 +64,8 @@ L_SIN = L_COS + STRIDE
 L_SIZES = L_SIN + STRIDE  # half the diameter deviation, at scale 1
 L_MASK = L_SIZES + STRIDE  # 1 for a ball, 0 for a spare lane
 L_SPIN = L_MASK + STRIDE  # spin over shaft speed: x, r, theta
-L_Y = L_SPIN + 3 * STRIDE  # state of the quasi-static point
+L_SETTLED = L_SPIN + 3 * STRIDE  # how many of the latest places are places of rest
+L_Y = L_SETTLED + STRIDE  # state of the quasi-static point
 ORDERS = 64  # of race waviness that level response knows
 L_WAVES = L_Y + Y_SIZE  # complex amplitudes of orders 1 .. ORDERS, inner then outer
 L_LINES = L_WAVES + 4 * ORDERS
@@ -72,7 +73,7 @@ LINE_SIZE = 22  # multiples of ball 0's and the shaft's angle, then complex disp
 LINES = (L_SIZE - L_LINES) // LINE_SIZE
 
 # scratch rows of w: the first ones are those of the full force evaluation, not in use meanwhile
-E_COS, E_SIN, E_X, E_R, E_INNER, E_OUTER, E_STEP = range(7)  # E_INNER, E_OUTER: race heights
+E_COS, E_SIN, E_X, E_R, E_INNER, E_OUTER, E_STEP, E_MOVED = range(8)  # E_INNER, E_OUTER: race heights
 E_FORCE = 8  # on inner ring x y z, moment y z; then on the outer ring
 E_BEND = E_FORCE + 10  # second time derivative of the race heights, inner and outer
 assert E_BEND + 2 <= W_POCKET

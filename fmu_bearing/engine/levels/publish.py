@@ -16,6 +16,7 @@ from fmu_bearing.engine.layout import (
     P_BALLS,
     P_CAGE,
     P_LANES,
+    P_PITCH_RADIUS,
     PI,
     Q_CAGE,
     STRIDE,
@@ -26,6 +27,7 @@ from fmu_bearing.engine.levels.places import (
     L_A,
     L_A1,
     L_A2,
+    L_FOUND_SPEED,
     L_HEAT,
     L_JERK,
     L_KNOWN,
@@ -34,6 +36,7 @@ from fmu_bearing.engine.levels.places import (
     L_R1,
     L_R2,
     L_RATIO,
+    L_SETTLED,
     L_SPACING,
     L_SPIN,
     L_THETA,
@@ -47,6 +50,10 @@ from fmu_bearing.engine.levels.places import (
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 
 _S = STRIDE
+# What a ball in its races can do: its place varies by 0.3 mm per radian of turning at most (ten times what a
+# load of 3 kN does), and follows the rings by at most ten times their velocity.
+_PER_RADIAN = 3e-4
+_PER_RING = 10.0
 
 
 @kernel
@@ -77,8 +84,22 @@ def publish_cage(p, lv, speed, speed_rate, y, f):
 
 
 @kernel
+def fastest_ball(p, speed, y):
+    """Bound (m/s) on what differences of the balls' places may show: see above."""
+    most = 0.0
+    for i in range(N):
+        tilt = i == 3 or i == 4 or i >= 8
+        most = max(most, abs(y[Y_V + i]) * (p[P_PITCH_RADIUS] if tilt else 1.0))
+    return _PER_RADIAN * abs(speed) + _PER_RING * most
+
+
+@kernel
 def publish_balls(p, lv, speed, speed_rate, y, f):
-    """Places, rates and spins of the balls; rates of x and r by backward differences over the last steps."""
+    """Places, rates and spins of the balls; rates of x and r by backward differences over the last steps.
+
+    A ball that carries nothing has no place of its own to have a rate: zero there, and where the difference
+    is more than a ball can do.
+    """
     h = lv[L_SPACING]
     known = lv[L_KNOWN]
     # weights of the places now, one and two steps before, in velocity and acceleration
@@ -95,6 +116,8 @@ def publish_balls(p, lv, speed, speed_rate, y, f):
         v0 = 1.0 / h
         v1 = -1.0 / h
     orbit = lv[L_RATIO] * speed
+    limit = fastest_ball(p, speed, y)
+    needed = min(known, 2.0) + 1.0
     balls = p[P_BALLS]
     for j in range(int(p[P_LANES])):
         place = j if j < balls else 0
@@ -107,11 +130,14 @@ def publish_balls(p, lv, speed, speed_rate, y, f):
         y[B_X * _S + j] = x
         y[B_R * _S + j] = r
         y[B_TH * _S + j] = wrap(lv[L_THETA] + 2.0 * PI * place / balls)
-        y[B_VX * _S + j] = v0 * x + v1 * x1 + v2 * x2
-        y[B_VR * _S + j] = v0 * r + v1 * r1 + v2 * r2
+        vx = v0 * x + v1 * x1 + v2 * x2
+        vr = v0 * r + v1 * r1 + v2 * r2
+        told = 1.0 if lv[L_SETTLED + j] >= needed and max(abs(vx), abs(vr)) <= limit else 0.0
+        y[B_VX * _S + j] = told * vx
+        y[B_VR * _S + j] = told * vr
         y[B_OM * _S + j] = orbit
-        f[j] = per2 * (x - 2.0 * x1 + x2)
-        f[_S + j] = per2 * (r - 2.0 * r1 + r2)
+        f[j] = told * per2 * (x - 2.0 * x1 + x2)
+        f[_S + j] = told * per2 * (r - 2.0 * r1 + r2)
         f[2 * _S + j] = lv[L_RATIO] * speed_rate
         for i in range(3):
             y[(B_WX + i) * _S + j] = lv[L_SPIN + i * _S + j] * speed
@@ -119,10 +145,13 @@ def publish_balls(p, lv, speed, speed_rate, y, f):
 
 
 @kernel
-def publish_losses(lv, f):
-    """Torque and heats held from the quasi-static point."""
-    f[F_TORQUE] = lv[L_TORQUE]
+def publish_losses(lv, speed, f):
+    """Heats held from the quasi-static point, and the torque that puts them in at ``speed``."""
     f[F_WORK] = lv[L_HEAT] + lv[L_HEAT + 1] + lv[L_HEAT + 2]
+    found = lv[L_FOUND_SPEED]
+    # in a ramp from far below, the speed that the heats belong to is still to come
+    near = found != 0.0 and speed * found > 0.5 * found * found
+    f[F_TORQUE] = f[F_WORK] / speed if near else lv[L_TORQUE]
     for i in range(3):
         f[F_HEAT + i] = lv[L_HEAT + i]
 
@@ -133,4 +162,4 @@ def publish(p, lv, speed, speed_rate, newmark, y, f):
     publish_rings(lv, newmark, y, f)
     publish_cage(p, lv, speed, speed_rate, y, f)
     publish_balls(p, lv, speed, speed_rate, y, f)
-    publish_losses(lv, f)
+    publish_losses(lv, speed, f)

@@ -17,9 +17,13 @@ from fmu_bearing.engine.layout import (
     F_SIZE,
     L_SIZE,
     NO_START,
+    NOT_CONVERGED,
     OK,
+    P_BALLS,
     P_CONTACT_DAMPING,
+    P_LANES,
     P_SOUND_SIZE,
+    PI,
     S_ANGLE,
     S_C,
     S_F,
@@ -36,7 +40,7 @@ from fmu_bearing.engine.layout import (
     Y_Q,
     Y_SIZE,
 )
-from fmu_bearing.engine.levels.condensed import carried, stand
+from fmu_bearing.engine.levels.condensed import carried, count_settled, stand
 from fmu_bearing.engine.levels.damping import add_damping
 from fmu_bearing.engine.levels.held import hold
 from fmu_bearing.engine.levels.linearised import at_rest, derivatives
@@ -58,44 +62,53 @@ from fmu_bearing.engine.levels.places import (
     L_X,
     L_X1,
     L_X2,
+    L_X3,
     LINE_SIZE,
     MATRIX,
     T_Q,
     N,
 )
 from fmu_bearing.engine.levels.publish import publish
-from fmu_bearing.engine.levels.shared import advance, emit, flat, set_inputs, start_condensed
+from fmu_bearing.engine.levels.shared import (
+    advance,
+    emit,
+    flat,
+    quasistatic_places,
+    set_inputs,
+    start_condensed,
+)
 
 _S = STRIDE
 _SAMPLING = 51_200.0  # Hz of the states that samples are interpolated between, with sound
+_TRIES = 8  # of 30 sweeps
 _BACK = 2e-6  # s between the two states a ball's rate is taken from, without sound
 
 
 @kernel
-def linearise(p, s, w):
-    """Renew derivatives, damping and lines about ``L_MEAN``; False where there are none."""
+def linearise(p, s, speed, w):
+    """Renew derivatives, damping and lines at ``speed`` about ``L_MEAN``; False where there are none."""
     lv = s[S_LEVEL : S_LEVEL + L_SIZE]
     c = s[S_C : S_C + C_SIZE]
     for i in range(MATRIX):
         lv[L_EXTRA + i] = 0.0
     still(p, c, lv, w)
-    if not derivatives(p, c, lv, 0.0, s[S_SPEED], 0.0, w):
+    if not derivatives(p, c, lv, 0.0, speed, 0.0, w):
         return False
     add_damping(p, s, w)
     still(p, c, lv, w)
-    renew_lines(p, s, w)
+    renew_lines(p, s, speed, w)
     return True
 
 
 @kernel
 def still(p, c, lv, w):
-    """Trial state at the equilibrium without motion, balls where they stood last, even races."""
+    """Trial state at the equilibrium without motion, ball 0 at angle 0, even races."""
     for i in range(Y_SIZE):
         w[W_Y + i] = 0.0
     for i in range(N):
         w[W_Y + Y_Q + i] = lv[L_MEAN + i]
     for i in range(2 * _S):
-        w[E_X * _S + i] = lv[L_X + i]
+        w[E_X * _S + i] = lv[L_X3 + i]
     flat(p, c, lv, w)
 
 
@@ -108,8 +121,9 @@ def start_response(p, u, s, w, t):
     lv = s[S_LEVEL : S_LEVEL + L_SIZE]
     for i in range(2 * _S):
         lv[L_X + i] = w[E_X * _S + i]
+        lv[L_X3 + i] = w[E_X * _S + i]
     order_amplitudes(p, lv)
-    if not linearise(p, s, w):
+    if not linearise(p, s, u[U_SPEED], w):
         return NO_START
     show(p, s, w)
     for i in range(3):
@@ -119,21 +133,31 @@ def start_response(p, u, s, w, t):
 
 @inlined
 def renew_equilibrium(p, u, s, w):
-    """Renew held values, equilibrium from the old one, and lines; status code."""
+    """Renew held values, equilibrium from the old one, and lines for the speed to come; status code.
+
+    Where Newton does not come from the old equilibrium to the new one, it starts from the quasi-static one,
+    which serves itself where there is no rest (as at the start).
+    """
     lv = s[S_LEVEL : S_LEVEL + L_SIZE]
-    status = hold(p, u, u[U_SPEED], s, w)
-    if status != OK:
-        return status
+    speed = u[U_SPEED]
+    if hold(p, u, speed, s, w) != OK:
+        return NOT_CONVERGED
     c = s[S_C : S_C + C_SIZE]
     for i in range(MATRIX):
         lv[L_EXTRA + i] = 0.0
     still(p, c, lv, w)
-    if at_rest(p, c, lv, u[U_SPEED], w):
-        for i in range(N):
-            lv[L_MEAN + i] = w[W_Y + Y_Q + i]
-        for i in range(2 * _S):
-            lv[L_X + i] = w[E_X * _S + i]
-    return OK if linearise(p, s, w) else NO_START
+    if not at_rest(p, c, lv, speed, w):
+        for part in range(2):
+            if quasistatic_places(p, c, speed, w) != OK:
+                return NOT_CONVERGED
+            flat(p, c, lv, w)
+            if part == 1 or at_rest(p, c, lv, speed, w):
+                break
+    for i in range(N):
+        lv[L_MEAN + i] = w[W_Y + Y_Q + i]
+    for i in range(2 * _S):
+        lv[L_X3 + i] = w[E_X * _S + i]
+    return OK if linearise(p, s, speed, w) else NOT_CONVERGED
 
 
 @kernel
@@ -162,6 +186,39 @@ def sum_lines(lv, theta, angle, orbit, speed, w):
 
 
 @kernel
+def from_equilibrium(p, lv, theta, w):
+    """Balls' places between those at the equilibrium, for ball 0 at ``theta`` (rad): linear in the angle."""
+    balls = int(p[P_BALLS])
+    turned = theta * balls / (2.0 * PI)
+    whole = math.floor(turned)
+    part = turned - whole
+    for j in range(int(p[P_LANES])):
+        near = int((j + whole) % balls)
+        next_one = (near + 1) % balls
+        for i in range(2):
+            row = L_X3 + i * _S
+            w[(E_X + i) * _S + j] = (1.0 - part) * lv[row + near] + part * lv[row + next_one]
+
+
+@kernel
+def find_places(p, c, lv, theta, speed, q, w):
+    """Places of rest for the rings at ``q``: from the last ones, else from the equilibrium's.
+
+    The last ones are far off after a long step or a jump of the load: a ball moves by 2 um per sweep, and
+    one left behind by 50 um would show 30 times its load. What is found in the end is shown in any case:
+    nearer than anything older.
+    """
+    for i in range(2 * _S):
+        w[E_X * _S + i] = lv[L_X + i]
+    if carried(p, c, lv, speed, q, w):
+        return
+    from_equilibrium(p, lv, theta, w)
+    for _ in range(_TRIES):
+        if carried(p, c, lv, speed, q, w):
+            return
+
+
+@kernel
 def place(p, s, ahead, w):
     """Rings and balls at ``ahead`` (s, may be negative) from the present time into ``lv``."""
     lv = s[S_LEVEL : S_LEVEL + L_SIZE]
@@ -176,12 +233,10 @@ def place(p, s, ahead, w):
     q = w[T_Q : T_Q + 12]
     for i in range(N):
         q[i] = lv[L_Q + i] + tau * lv[L_V + i]
+    find_places(p, c, lv, theta, speed, q, w)
     for i in range(2 * _S):
-        w[E_X * _S + i] = lv[L_X + i]
-    # balls between open contacts find no place; where they are has then no meaning and stays as it is
-    if carried(p, c, lv, speed, q, w):
-        for i in range(2 * _S):
-            lv[L_X + i] = w[E_X * _S + i]
+        lv[L_X + i] = w[E_X * _S + i]
+    count_settled(lv, int(p[P_LANES]), w)
 
 
 @kernel

@@ -19,9 +19,11 @@ from fmu_bearing.engine.layout import (
     F_G,
     F_SIZE,
     L_SIZE,
+    NO_START,
     NOT_CONVERGED,
     OK,
     P_CONTACT_DAMPING,
+    P_LANES,
     P_MAX_STEP,
     P_PITCH_RADIUS,
     P_SOUND_SIZE,
@@ -48,7 +50,7 @@ from fmu_bearing.engine.layout import (
     Y_SIZE,
     Y_V,
 )
-from fmu_bearing.engine.levels.condensed import accelerations, stand
+from fmu_bearing.engine.levels.condensed import accelerations, count_settled, stand
 from fmu_bearing.engine.levels.damping import add_damping
 from fmu_bearing.engine.levels.dense import times
 from fmu_bearing.engine.levels.held import hold
@@ -73,14 +75,12 @@ from fmu_bearing.engine.levels.places import (
     L_HEAT,
     L_HIGHEST,
     L_INVERSE,
-    L_JERK,
     L_KNOWN,
     L_MASS,
     L_MEAN,
     L_ORDER,
     L_Q,
     L_RATIO,
-    L_SPACING,
     L_THETA,
     L_V,
     L_X,
@@ -94,7 +94,8 @@ from fmu_bearing.engine.levels.places import (
     T_V,
     N,
 )
-from fmu_bearing.engine.levels.publish import publish, rate_error
+from fmu_bearing.engine.levels.predictor import change_spacing, predict
+from fmu_bearing.engine.levels.publish import publish
 from fmu_bearing.engine.levels.shared import advance, emit, set_inputs, start_condensed
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 from fmu_bearing.engine.progress import velocity_tolerance
@@ -135,10 +136,13 @@ def start_rings(p, u, s, w, t):
     lv = s[S_LEVEL : S_LEVEL + L_SIZE]
     # from the even races' equilibrium to the one on waves and unequal balls, or the start would ring
     c = s[S_C : S_C + C_SIZE]
+    balls_of(w, lv, L_X3)
     stand(p, c, lv, 0.0, 0.0, 0.0, s[S_SPEED], w)
     if not at_rest(p, c, lv, s[S_SPEED], w):
         for i in range(N):
             w[W_Y + Y_Q + i] = lv[L_MEAN + i]
+        for i in range(2 * _S):
+            w[E_X * _S + i] = lv[L_X3 + i]
     for i in range(N):
         lv[L_Q + i] = w[W_Y + Y_Q + i]
         lv[L_V + i] = 0.0
@@ -147,7 +151,9 @@ def start_rings(p, u, s, w, t):
         balls_of(w, lv, row)
     lv[L_THETA] = 0.0
     if not renew(p, s, w):
-        return NOT_CONVERGED
+        return NO_START
+    for _ in range(4):
+        count_settled(lv, int(p[P_LANES]), w)
     s[S_STEP] = longest_step(p, lv, s[S_SPEED])
     publish(p, lv, s[S_SPEED], 0.0, True, s[S_Y : S_Y + Y_SIZE], s[S_F : S_F + F_SIZE])
     for i in range(3):
@@ -190,7 +196,7 @@ def take_inputs(p, u, s, w, h):
         return OK
     status = hold(p, u, u[U_SPEED], s, w)
     if status != OK:
-        return status
+        return NOT_CONVERGED
     lv[L_KNOWN] = 0.0
     for i in range(MATRIX):
         lv[L_EXTRA + i] = 0.0
@@ -198,43 +204,6 @@ def take_inputs(p, u, s, w, h):
         return NOT_CONVERGED
     add_damping(p, s, w)
     return OK if renew(p, s, w) else NOT_CONVERGED
-
-
-@kernel
-def change_spacing(lv, h):
-    """Exchange the part of the velocities that belongs to the step, if that changes; forget the history."""
-    if abs(h - lv[L_SPACING]) > 1e-6 * h:
-        old = lv[L_SPACING]
-        if old > 0.0:
-            for i in range(N):
-                lv[L_JERK + i] = 12.0 / (old * old) * rate_error(lv, i)
-                lv[L_V + i] += (h * h - old * old) / 12.0 * lv[L_JERK + i]
-        lv[L_SPACING] = h
-        lv[L_KNOWN] = 0.0
-        lv[L_CALM] = 0.0
-
-
-@kernel
-def predict(lv, h, w):
-    """Trial state in ``w[W_Y:]``, trial accelerations in ``T_A``, balls' places continued from four."""
-    for i in range(N):
-        a = lv[L_A + i]
-        w[T_A + i] = a
-        w[W_Y + Y_Q + i] = lv[L_Q + i] + h * (lv[L_V + i] + 0.5 * h * a)
-        w[W_Y + Y_V + i] = lv[L_V + i] + h * a
-    known = lv[L_KNOWN]
-    if known >= 3.0:
-        for i in range(2 * _S):
-            w[E_X * _S + i] = 4.0 * (lv[L_X + i] + lv[L_X2 + i]) - 6.0 * lv[L_X1 + i] - lv[L_X3 + i]
-    elif known == 2.0:
-        for i in range(2 * _S):
-            w[E_X * _S + i] = 3.0 * (lv[L_X + i] - lv[L_X1 + i]) + lv[L_X2 + i]
-    elif known == 1.0:
-        for i in range(2 * _S):
-            w[E_X * _S + i] = 2.0 * lv[L_X + i] - lv[L_X1 + i]
-    else:
-        for i in range(2 * _S):
-            w[E_X * _S + i] = lv[L_X + i]
 
 
 @kernel
@@ -338,6 +307,7 @@ def accept(p, s, h, w):
         lv[L_X2 + i] = lv[L_X1 + i]
         lv[L_X1 + i] = lv[L_X + i]
         lv[L_X + i] = w[E_X * _S + i]
+    count_settled(lv, int(p[P_LANES]), w)
     lv[L_KNOWN] += 1.0
     lv[L_CALM] += 1.0
     lv[L_FRESH] = 0.0
@@ -381,9 +351,10 @@ def march_rings(p, u, s, w, h):
     end = s[S_TIME] + h
     left = 2000.0 + 100.0 * math.ceil(h / longest)
     remaining = h
-    while remaining > 1e-12 * h:
+    # what is left after rounding of the time itself is no step
+    while remaining > 1e-12 * h + 4e-16 * abs(end):
         cap = min(s[S_STEP], longest)
-        count = math.ceil(remaining / cap - 1e-9)
+        count = max(1.0, math.ceil(remaining / cap - 1e-9))
         length = remaining / count
         error = try_step(p, s, length, tolerance, w)
         left -= 1.0
@@ -393,6 +364,8 @@ def march_rings(p, u, s, w, h):
             if s[S_STEP] < min(_SHORTEST, 0.01 * h) or left < 0.0:
                 return NOT_CONVERGED
             continue
+        if left < 0.0:
+            return NOT_CONVERGED
         accept(p, s, length, w)
         if p[P_SOUND_SIZE] != 0.0:
             emit(p, s, w, length, True)

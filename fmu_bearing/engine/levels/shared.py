@@ -4,7 +4,13 @@ import math
 
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import (
+    B_R,
     B_TH,
+    B_X,
+    C_LOAD_Y,
+    C_PEDESTAL,
+    C_PEDESTAL_AXIAL,
+    C_PRELOAD,
     C_SIZE,
     F_SIZE,
     L_SIZE,
@@ -15,6 +21,9 @@ from fmu_bearing.engine.layout import (
     P_LANES,
     P_WAVINESS,
     PI,
+    Q5_SHIFT,
+    Q5_SIZE,
+    Q_OUTER,
     S_ANGLE,
     S_C,
     S_F,
@@ -30,6 +39,7 @@ from fmu_bearing.engine.layout import (
     U_SPEED,
     W_LAST,
     W_SCALARS,
+    W_VEL,
     W_Y,
     WAVE_INTERVALS,
     Y_Q,
@@ -63,7 +73,7 @@ from fmu_bearing.engine.levels.publish import publish
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 from fmu_bearing.engine.motion import emit_samples
-from fmu_bearing.engine.start import start
+from fmu_bearing.engine.start import find, loads, place_balls, start
 
 _S = STRIDE
 
@@ -165,13 +175,45 @@ def start_condensed(p, u, s, w, t):
 
 
 @kernel
+def quasistatic_places(p, c, speed, w):
+    """Rings and balls at the quasi-static equilibrium under all loads into the trial state; status code."""
+    load = w[W_SCALARS + 8 : W_SCALARS + 13]
+    tilt = w[W_SCALARS + 13 : W_SCALARS + 15]
+    found = w[W_VEL : W_VEL + Q5_SIZE]
+    carried = loads(p, c, load)
+    status = find(p, c, speed, load, tilt, found, w)
+    if status != OK:
+        return status
+    y = w[W_Y : W_Y + Y_SIZE]
+    for i in range(Y_SIZE):
+        y[i] = 0.0
+    o = Y_Q + Q_OUTER
+    y[o] = c[C_PRELOAD] / c[C_PEDESTAL_AXIAL]
+    y[o + 1] = c[C_LOAD_Y] / c[C_PEDESTAL]
+    y[o + 2] = carried / c[C_PEDESTAL]
+    for i in range(2):
+        y[o + 4 + i] = tilt[i]
+        y[Y_Q + 3 + i] = tilt[i] + found[Q5_SHIFT + 3 + i]
+    for i in range(3):
+        y[Y_Q + i] = y[o + i] + found[Q5_SHIFT + i]
+    place_balls(p, y, found, y[o], y[o + 1], y[o + 2])
+    for j in range(_S):
+        w[E_X * _S + j] = y[B_X * _S + j]
+        w[E_R * _S + j] = y[B_R * _S + j]
+    for i in range(Y_Q):
+        y[i] = 0.0
+    return OK
+
+
+@kernel
 def set_inputs(p, u, s, w, h):
     """Set conditions and speed ramp; True where what is held is out of date."""
     lv = s[S_LEVEL : S_LEVEL + L_SIZE]
     rate = (u[U_SPEED] - s[S_SPEED]) / h
     fresh = w[W_SCALARS + 16 : W_SCALARS + 16 + C_SIZE]
     conditions(p, u, 0.5 * (s[S_SPEED] + u[U_SPEED]), fresh)
-    changed = rate != s[S_SPEED_RATE]
+    # a ramp that goes on as before also leaves the speed that all was found at
+    changed = rate != s[S_SPEED_RATE] or u[U_SPEED] != s[S_SPEED]
     for i in range(C_SIZE):
         if fresh[i] != s[S_C + i]:
             changed = True

@@ -18,7 +18,7 @@ SWITCHES = {
     "without drag": "P_DRAG",
     "without rolling resistance": "P_ROLLING",
     "without its reduction factors": "P_REDUCTION",
-    "without land film": "P_LAND",
+    "without land film": "P_LAND_VISCOSITY",
     "without gyroscopic moments": "P_GYROSCOPIC",
     "without waviness": "P_WAVINESS",
     "without waviness of the balls": "P_BALL_WAVES",

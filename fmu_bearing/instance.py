@@ -19,7 +19,7 @@ REASONS = {
     layout.BAD_INPUT: "an input is not finite or outside its range",
     layout.BAD_STEP: "the communication step must be a positive, finite number of seconds",
     layout.NO_START: "no quasi-static equilibrium was found for the initial inputs",
-    layout.TOO_SOFT: "the loads push the outer ring sideways by more than a tenth of the pitch radius; "
+    layout.TOO_SOFT: "the loads push the outer ring sideways by more than 0.3 of the pitch radius; "
     "give a stiffer pedestal or less radial load",
 }
 _RELATIVE_SLACK = 1e-12  # a value at a bound may carry rounding from a unit conversion

@@ -67,7 +67,7 @@ from fmu_bearing.engine.solvers.runge_kutta import body_size, newton_size
 
 _S = STRIDE
 LONGEST = 1e-5  # s: beyond it the rings' modes of the example bearings leave the method's range
-SHORTEST = 2.5e-6  # s: below it ESDIRK4 costs no more
+SHORTEST = 4e-6  # s: below it ESDIRK4 costs no more
 _SETTLING = 4e-3  # s after the start before the first try
 _CONTRACTION = 0.2  # a second iteration must gain this much
 _LEFT = 10.0  # what it finds, in tolerances: not an error that adds up, for the next step finds it again
@@ -98,6 +98,7 @@ def leave(s, shorter, h):
         s[S_FAST_STEP] = h / 1.5
         s[S_FAST_HOLD] = s[S_TIME]
     else:
+        s[S_FAST_STEP] = LONGEST
         s[S_FAST_HOLD] = s[S_TIME] + s[S_FAST_PATIENCE]
         s[S_FAST_PATIENCE] = min(2.0 * s[S_FAST_PATIENCE], _HOLDS[1])
 
@@ -293,7 +294,7 @@ def fast_block(p, s, w, count, tolerance):
                 s[S_FAST_STEP] = min(1.5 * s[S_FAST_STEP], LONGEST)
                 s[S_FAST_HOLD] = s[S_TIME]
         return True
-    leave(s, verdict == 1 and h > SHORTEST, h)
+    leave(s, verdict == 1 and h >= 1.5 * SHORTEST, h)
     return False
 
 

@@ -427,7 +427,7 @@ NOT_CONVERGED = 1  # the step did not converge at the smallest internal step
 BAD_INPUT = 2  # an input is not finite or out of range
 BAD_STEP = 3  # communication step not positive or not finite
 NO_START = 4  # the quasi-static start did not converge
-TOO_SOFT = 5  # the loads push the outer ring sideways by more than a tenth of the pitch radius
+TOO_SOFT = 5  # the loads push the outer ring sideways by more than 0.3 of the pitch radius
 
 # --- out of the quasi-static equilibrium (solvers/quasistatic.py) ----------------------------------------
 Q5_SHIFT = 0  # x y z by bz of the inner ring against the outer (m, rad)

@@ -86,6 +86,7 @@ from fmu_bearing.engine.solvers.rigid_preload import rigid_start
 from fmu_bearing.engine.solvers.spin_balance import balance_spins
 
 _S = STRIDE
+_FAR = 0.3  # of the pitch radius: beyond it the angles of pockets and waves, series in it, lose a micrometre
 
 
 @kernel
@@ -204,7 +205,7 @@ def start(p, u, s, w, t):
     y[o] = c[C_PRELOAD] / c[C_PEDESTAL_AXIAL]
     y[o + 1] = c[C_LOAD_Y] / c[C_PEDESTAL]
     y[o + 2] = carried / c[C_PEDESTAL]
-    if abs(y[o + 1]) + abs(y[o + 2]) > 0.1 * p[P_PITCH_RADIUS]:
+    if abs(y[o + 1]) + abs(y[o + 2]) > _FAR * p[P_PITCH_RADIUS]:
         return TOO_SOFT
     for i in range(2):
         y[o + 4 + i] = tilt[i]

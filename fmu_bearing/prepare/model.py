@@ -182,7 +182,7 @@ def _fidelity(scene: Scene, p: NDArray[np.float64]) -> None:
     p[at.P_DRAG] = terms.drag
     p[at.P_ROLLING] = terms.rolling_resistance
     p[at.P_REDUCTION] = terms.rolling_reduction
-    p[at.P_LAND] = terms.land_film
+    p[at.P_LAND] = 1.0  # the dry stop stays: without it nothing would carry the cage
     p[at.P_GYROSCOPIC] = terms.gyroscopic
 
 
@@ -246,7 +246,8 @@ def _cage(scene: Scene, cage_table: Cage, material: Material, p: NDArray[np.floa
     p[at.P_LAND_RADIUS] = c.bore / 2 - c.land_clearance
     p[at.P_LAND_LENGTH] = (c.width - c.pocket_diameter) / 2
     p[at.P_LAND_OFFSET] = (c.width + c.pocket_diameter) / 4
-    p[at.P_LAND_VISCOSITY] = si(scene.lubricant).land_viscosity
+    film = scene.fidelity.terms.land_film
+    p[at.P_LAND_VISCOSITY] = si(scene.lubricant).land_viscosity if film else 0.0
     p[at.P_LAND_STOP_STIFFNESS] = _STOP_STIFFNESS
     p[at.P_LAND_STOP_FRACTION] = _STOP_FRACTION
     p[at.P_LAND_STOP_FRICTION] = _STOP_FRICTION

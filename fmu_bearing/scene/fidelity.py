@@ -34,7 +34,9 @@ class Terms(Part):
     pocket_friction: bool = Field(
         default=True, description="Friction between balls and the cage's pockets.", examples=[True]
     )
-    land_film: bool = Field(description="Film and dry stop of the cage's lands.", examples=[True])
+    land_film: bool = Field(
+        description="Film between the cage's lands and the inner ring; the dry stop stays.", examples=[True]
+    )
     gyroscopic: bool = Field(description="Gyroscopic moments of the balls.", examples=[True])
 
 

@@ -37,11 +37,8 @@ def test_a_lubricated_cage_is_contractive(level, method):
 
 @pytest.mark.heavy
 @pytest.mark.parametrize(("level", "method"), FULL)
-def test_a_dry_cage_keeps_its_statistics(request, level, method):
+def test_a_dry_cage_keeps_its_statistics(level, method):
     """Trajectories part, so only means and rms over 0.2 s are compared, two starts of the same bearing."""
-    if method == "fast":
-        reason = "blocks leave a rest of 1e-16 s, which march divides by a count rounded to zero"
-        request.applymarker(pytest.mark.xfail(reason=reason, strict=False))
     runs = pair(DRY, level, method, 1e-3)
     found = []
     for run in runs:

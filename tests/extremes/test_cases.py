@@ -36,7 +36,7 @@ def finishes_or_refuses(case, level, method):
     try:
         finishes(case, level, method)
     except EngineError as reason:
-        assert re.search(r"could not be solved|no quasi-static equilibrium", str(reason))
+        assert re.search(r"could not be solved|no quasi-static equilibrium|stiffer pedestal", str(reason))
         assert "inputs were shaft_speed" in str(reason)
 
 
@@ -139,11 +139,8 @@ def test_the_engine_refuses_such_inputs_by_itself(place, value):
 
 
 @pytest.mark.parametrize(("level", "method"), COMPUTED)
-def test_time_far_from_zero_changes_nothing(request, level, method):
+def test_time_far_from_zero_changes_nothing(level, method):
     """A day into a simulation time is counted in steps of 15 ps."""
-    if method == "fast":
-        reason = "blocks leave a rest of 1e-16 s, which march divides by a count rounded to zero"
-        request.applymarker(pytest.mark.xfail(reason=reason, strict=False))
     found = []
     for begin in (0.0, 0.3, 1e5):
         run = bearing("7003C-spindle", {"sound": None}, {"rpm": 2e4}, level, method)
@@ -155,10 +152,7 @@ def test_time_far_from_zero_changes_nothing(request, level, method):
         assert np.abs(late - found[0]).max() <= 1e-2 * SLACK.get(method, 1.0) * rms
 
 
-TOO_SHORT = pytest.mark.xfail(reason="march divides what remains by a count rounded to zero", strict=False)
-
-
-@pytest.mark.parametrize("h", [pytest.param(1e-15, marks=TOO_SHORT), 1e-12, 1e-9])
+@pytest.mark.parametrize("h", [1e-15, 1e-12, 1e-9])
 @pytest.mark.parametrize(("level", "method"), COMPUTED)
 def test_communication_steps_shorter_than_anything(level, method, h):
     run = bearing("7003C-bare", {"sound": None}, {"rpm": 2e4}, level, method)

@@ -99,11 +99,8 @@ def test_pedestal():
 
 @pytest.mark.parametrize(("level", "method"), COMPUTED)
 @pytest.mark.parametrize("rpm", [2e4, -2e4])
-def test_heats_carry_the_shaft_power(request, level, method, rpm):
+def test_heats_carry_the_shaft_power(level, method, rpm):
     """Settled, all of the shaft's power becomes heat: torque times speed against the three heats."""
-    if level != "full":
-        reason = "the condensed levels' torque holds 14 % that their heats do not"
-        request.applymarker(pytest.mark.xfail(reason=reason, strict=False))
     run = bearing("7003C-bare", PERFECT, {"rpm": rpm}, level, method)
     run.initialise()
     drive(run, 0.02, 1e-4)

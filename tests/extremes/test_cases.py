@@ -169,8 +169,8 @@ def test_communication_steps_shorter_than_anything(level, method, h):
 @pytest.mark.parametrize("stiffness", [1e4, 1e6, 1e12])
 def test_the_start_is_an_equilibrium_on_any_pedestal(request, scene, level, method, stiffness):
     """A perfect bearing starts with the loads it keeps: nothing of the pedestal reaches the contacts."""
-    if stiffness == 1e4 and (scene.startswith("7009C") or level != "full"):
-        reason = "the outer ring's tilt on a very soft pedestal does not settle, loads of kilonewtons"
+    if stiffness == 1e4 and scene == "7003C-spindle" and level != "full":
+        reason = "2 kg of housing sink by 2 mm there; the condensed levels' balls do not follow"
         request.applymarker(pytest.mark.xfail(reason=reason, strict=False))
     loads = []
     for spring in (1e8, stiffness):

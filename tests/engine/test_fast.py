@@ -3,11 +3,14 @@
 import numpy as np
 import pytest
 
+from fmu_bearing.engine import fast
 from fmu_bearing.engine import layout as at
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.solvers import newmark
 from fmu_bearing.engine.solvers.block_arrow import factor
 from fmu_bearing.engine.solvers.jacobian import jacobian
+from fmu_bearing.instance import Instance
+from fmu_bearing.prepare.model import prepare
 from tests.engine.helpers import Run, quiet
 
 RATES = [*range(at.Y_V, at.Y_V + 3), *range(at.Y_V + at.Q_OUTER, at.Y_V + at.Q_OUTER + 3)]
@@ -154,3 +157,30 @@ def test_it_waits_until_the_start_has_died_away(scene):
     # ESDIRK4's steps of up to 20 us, not the path's of 10 and less
     assert run.s[at.S_STEPS] < 3e-3 / 12e-6
     assert run.s[at.S_FALLBACKS] == 0.0
+
+
+def test_its_history_ends_at_the_present_state(scene):
+    """However many steps of one length came before: an old place would be a jump back in time."""
+    run = Run(quiet(scene("7003C-bare")), 20000).init()
+    run.run(1e-3)
+    before = run.s[at.S_F : at.S_F + at.F_SIZE].copy()
+    for _ in range(4):
+        run.s[at.S_Y : at.S_Y + 3 * at.STRIDE] += 1e-9
+        fast.remember(run.s, 1e-5, before)
+        kept = run.s[at.S_FAST + at.FAST_Y :][: 3 * at.STRIDE]
+    np.testing.assert_array_equal(kept, run.s[at.S_Y : at.S_Y + 3 * at.STRIDE])
+
+
+def test_the_balls_sound_as_they_do_by_the_default_method(scene):
+    """Their angles pass from pi to -pi inside blocks; the sound must not see that."""
+    levels = []
+    for method in ("esdirk4", "fast"):
+        found = scene("7009C-full-ceramic")
+        found = found.model_copy(update={"fidelity": found.fidelity.model_copy(update={"ball_harmonics": 4})})
+        run = Instance(prepare(found, method=method))
+        run.initialise()
+        for _ in range(40):
+            run.step(1e-3)
+        levels.append(run.get("mic[1].spl_balls"))
+    # both follow the same balls within 1e-3; a ball that swings through a turn within one step is decibels
+    assert levels[1] == pytest.approx(levels[0], abs=0.05)

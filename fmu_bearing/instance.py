@@ -15,10 +15,12 @@ from fmu_bearing.prepare.model import Model
 
 #: What the status codes of the engine mean to who called it.
 REASONS = {
-    layout.NOT_CONVERGED: "the equations could not be solved: even the shortest internal steps failed",
+    layout.NOT_CONVERGED: "the equations could not be solved: even the shortest internal steps failed; "
+    "change inputs by less at a time, or over more steps",
     layout.BAD_INPUT: "an input is not finite or outside its range",
     layout.BAD_STEP: "the communication step must be a positive, finite number of seconds",
-    layout.NO_START: "no quasi-static equilibrium was found for the initial inputs",
+    layout.NO_START: "no quasi-static equilibrium was found for the initial inputs; "
+    "give more preload or less radial load",
     layout.TOO_SOFT: "the loads push the outer ring sideways by more than 0.3 of the pitch radius; "
     "give a stiffer pedestal or less radial load",
 }

@@ -222,8 +222,7 @@ PI = np.pi
     P_BALL_WAVES,  # number of zonal orders of the balls' waviness; 0: none
     P_AT_BALL_WAVES,  # offset: amplitudes of orders 1.., then the bodies' axes, 3 rows of STRIDE
     P_RACE_CONTROL,  # who balances the gyroscopic moment: 0 shared, 1 outer race, 2 inner race
-    P_AT_LEVEL,  # offset of the level's own table; 0: none
-) = range(8, 8 + 80)
+) = range(8, 8 + 79)
 P_RACES = 100  # two blocks of RACE_SIZE: inner, outer
 LEVELS = ("full", "rings", "response")
 METHODS = ("esdirk4", "fast", "trbdf2", "rk4")

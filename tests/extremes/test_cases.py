@@ -171,7 +171,7 @@ def test_the_start_is_an_equilibrium_on_any_pedestal(request, scene, level, meth
     """A perfect bearing starts with the loads it keeps: nothing of the pedestal reaches the contacts."""
     if stiffness == 1e4 and scene == "7003C-spindle" and level != "full":
         reason = "2 kg of housing sink by 2 mm there; the condensed levels' balls do not follow"
-        request.applymarker(pytest.mark.xfail(reason=reason, strict=False))
+        request.applymarker(pytest.mark.xfail(reason=reason, strict=True))
     loads = []
     for spring in (1e8, stiffness):
         run = bearing(scene, PERFECT, {"rpm": 2e4, "pedestal_stiffness": spring}, level, method)

@@ -11,6 +11,6 @@
 ``response``    level `response`: the linear answer to every excitation, as a sum of lines
 ==============  =============================================================================
 
-Both leave out the cage's motion, slip and the balls' inertia. Friction torque and heats are those of the
-quasi-static point; energy is therefore not balanced but by definition: work in equals the heats.
+Both leave out the cage's motion, slip and the balls' own vibration. Friction torque and heats are those of
+the quasi-static point; energy is therefore not balanced but by definition: work in equals the heats.
 """

@@ -12,7 +12,6 @@ import math
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import C_SIZE, J_B, J_C, J_D, J_E, P_BALLS, S_JAC, S_LEVEL, STRIDE, Y_SIZE
 from fmu_bearing.engine.levels.dense import eigenvectors, solve_complex
-from fmu_bearing.engine.levels.linearised import own_mass
 from fmu_bearing.engine.levels.places import (
     L_C,
     L_EXTRA,
@@ -25,7 +24,7 @@ from fmu_bearing.engine.levels.places import (
     T_SPARE,
     N,
 )
-from fmu_bearing.engine.solvers.jacobian import jacobian
+from fmu_bearing.engine.solvers.jacobian import inertia, jacobian
 
 _S = STRIDE
 _SLOWEST = 300.0  # rad/s: slower motions feel the supports, not the balls
@@ -95,7 +94,7 @@ def add_damping(p, s, w):
         own = 0.0
         for i in range(N):
             shape[i] = w[vectors + i * N + k]
-            shape[N + i] = shape[i] * own_mass(p, i)
+            shape[N + i] = shape[i] * inertia(p, i)
         for i in range(N):
             for m in range(N):
                 own -= shape[N + i] * lv[L_JV + i + 12 * m] * shape[m]
@@ -110,7 +109,7 @@ def add_damping(p, s, w):
             w[mass + i] = left
         for i in range(N):
             for m in range(N):
-                lv[L_EXTRA + i + 12 * m] -= w[mass + i] * extra * w[mass + m] * own_mass(p, m)
+                lv[L_EXTRA + i + 12 * m] -= w[mass + i] * extra * w[mass + m] * inertia(p, m)
 
 
 @kernel
@@ -122,7 +121,7 @@ def modes(p, lv, w, values, vectors, mass):
     """
     for i in range(N):
         for k in range(N):
-            scale = math.sqrt(own_mass(p, i) / own_mass(p, k))
+            scale = math.sqrt(inertia(p, i) / inertia(p, k))
             back = 1.0 / scale
             w[values + i * N + k] = 0.5 * (scale * lv[L_MASS + i + 12 * k] + back * lv[L_MASS + k + 12 * i])
     eigenvectors(w, values, w, vectors, N)
@@ -130,15 +129,13 @@ def modes(p, lv, w, values, vectors, mass):
     for k in range(N):
         root = 1.0 / math.sqrt(max(w[values + k * N + k], 1e-12))
         for i in range(N):
-            w[mass + i * N + k] = w[vectors + i * N + k] * root / math.sqrt(own_mass(p, i))
+            w[mass + i * N + k] = w[vectors + i * N + k] * root / math.sqrt(inertia(p, i))
     for i in range(N):
         for k in range(N):
             total = 0.0
             for m in range(N):
                 for n in range(N):
-                    total -= (
-                        w[mass + m * N + i] * own_mass(p, m) * lv[L_JX + m + 12 * n] * w[mass + n * N + k]
-                    )
+                    total -= w[mass + m * N + i] * inertia(p, m) * lv[L_JX + m + 12 * n] * w[mass + n * N + k]
             w[values + i * N + k] = total
     for i in range(N):
         for k in range(i):

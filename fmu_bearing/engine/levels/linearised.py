@@ -10,11 +10,6 @@ from fmu_bearing.engine.layout import (
     F_G,
     P_BALL_MASS,
     P_BALLS,
-    P_INNER_MASS,
-    P_INNER_TRANSVERSE,
-    P_OUTER_MASS,
-    P_OUTER_POLAR,
-    P_OUTER_TRANSVERSE,
     P_PITCH_RADIUS,
     STRIDE,
     W_F,
@@ -39,6 +34,7 @@ from fmu_bearing.engine.levels.places import (
     T_SPARE,
     N,
 )
+from fmu_bearing.engine.solvers.jacobian import inertia
 
 _S = STRIDE
 # Differences: displacement 1 nm (0.1 N in 100), tilt the same at the pitch circle, and rates that move the
@@ -138,19 +134,7 @@ def added_mass(p, c, lv, follow, w):
                 oi = across_track(w, j, i - 5 if i < 8 else i - 6, x_o) if i >= 5 and i != 8 else 0.0
                 ok = across_track(w, j, k - 5 if k < 8 else k - 6, x_o) if k >= 5 and k != 8 else 0.0
                 total += 0.25 * (ti + oi) * (tk + ok) + 0.1 * (ti - oi) * (tk - ok)
-            lv[L_MASS + i + 12 * k] = (1.0 if i == k else 0.0) + ball * total / own_mass(p, i)
-
-
-@kernel
-def own_mass(p, i):
-    """Mass or moment of inertia of ring coordinate ``i``."""
-    if i < 3:
-        return p[P_INNER_MASS]
-    if i < 5:
-        return p[P_INNER_TRANSVERSE]
-    if i < 8:
-        return p[P_OUTER_MASS]
-    return p[P_OUTER_POLAR] if i == 8 else p[P_OUTER_TRANSVERSE]
+            lv[L_MASS + i + 12 * k] = (1.0 if i == k else 0.0) + ball * total / inertia(p, i)
 
 
 @kernel

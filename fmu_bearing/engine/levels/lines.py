@@ -39,7 +39,6 @@ from fmu_bearing.engine.layout import (
 )
 from fmu_bearing.engine.levels.condensed import carried, stand
 from fmu_bearing.engine.levels.dense import solve_complex
-from fmu_bearing.engine.levels.linearised import own_mass
 from fmu_bearing.engine.levels.places import (
     E_BEND,
     E_FORCE,
@@ -59,6 +58,7 @@ from fmu_bearing.engine.levels.places import (
     T_SPARE,
     N,
 )
+from fmu_bearing.engine.solvers.jacobian import inertia
 
 _S = STRIDE
 REACH = 8  # highest circumferential order l of the balls' unequal loads
@@ -176,7 +176,7 @@ def keep(p, lv, a, b, omega, force, w):
             at = i + 12 * k
             re[i * 12 + k] = -omega * omega * lv[L_MASS + at] - lv[L_JX + at]
             im[i * 12 + k] = -omega * (lv[L_JV + at] + lv[L_EXTRA + at])
-        per = 1.0 / own_mass(p, i)
+        per = 1.0 / inertia(p, i)
         place = i if i < 8 else i - 1
         re[i * 12 + 11] = w[force + place] * per if i != 8 else 0.0
         im[i * 12 + 11] = w[force + 10 + place] * per if i != 8 else 0.0

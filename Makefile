@@ -35,7 +35,7 @@ $(OUT)/SpindleMotor.fmu: $(VENV)/.installed $(wildcard $(SPINDLE)/*.py)
 	@mkdir -p $(OUT)
 	$(BIN)/python $(SPINDLE)/build.py --output-dir $(OUT)
 
-# Kernels are compiled once (some minutes), in one process, before the parallel tests share them.
+# Kernels are compiled once (three minutes, two processes), before the parallel tests share them.
 test: kernels
 	$(BIN)/python -m pytest -n $(JOBS) -m "not heavy"
 

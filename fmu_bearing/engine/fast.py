@@ -125,7 +125,7 @@ def remember(s, h, before):
         s[fast + FAST_A1 + i] = before[i]
         s[fast + FAST_A0 + i] = s[S_F + i]
     s[S_FAST_COUNT] += 1.0
-    if s[S_FAST_COUNT] >= 2.0:
+    if s[S_FAST_COUNT] == 2.0:
         a = s[fast + FAST_A0 : fast + FAST_A1]
         true_rates(
             s[S_Y : S_Y + Y_SIZE], -h, a, s[fast + FAST_A1 : fast + FAST_A2],
@@ -195,10 +195,7 @@ def method_error(p, h, beta_ball, k, w):
 
 @inlined
 def try_block(p, s, w, h, beta_ball, count, tolerance):
-    """Compute ``count`` steps of length ``h`` into the block.
-
-    Returns 0 good, 1 too long for the method, 2 Newton does not contract, 3 too long for one iteration.
-    """
+    """Compute ``count`` steps of length ``h`` into the block; 0 good, 1 shorter steps, 2 leave."""
     c = s[S_C : S_C + C_SIZE]
     fac = s[S_FAC:S_FAST]
     load_block(s, w)
@@ -228,23 +225,23 @@ def try_block(p, s, w, h, beta_ball, count, tolerance):
     if left > _CONTRACTION * size and left > 1e-2 * tolerance:
         return 2
     if left > _LEFT * tolerance:
-        return 3
+        return 1
     return 0 if method_error(p, h, beta_ball, count, w) <= tolerance else 1
 
 
 @inlined
-def commit_step(p, s, w, h, step):
-    """Make ``step`` of the block the state: true rates, sound samples, work and heat by the trapezoid."""
-    here = W_BLOCK_A + (step + 3) * F_SIZE
+def commit_step(p, s, w, h, k):
+    """Make step ``k`` of the block the state: true rates, sound samples, work and heat by the trapezoid."""
+    here = W_BLOCK_A + (k + 3) * F_SIZE
     for i in range(F_SIZE):
         w[W_LAST + i] = w[here + i]
     true_rates(
-        w[W_BLOCK_Y + (step + 1) * Y_SIZE : W_BLOCK_Y + (step + 2) * Y_SIZE], h, w[here : here + F_SIZE],
+        w[W_BLOCK_Y + (k + 1) * Y_SIZE : W_BLOCK_Y + (k + 2) * Y_SIZE], h, w[here : here + F_SIZE],
         w[here - F_SIZE : here], w[here - 2 * F_SIZE : here - F_SIZE], w[W_Y : W_Y + Y_SIZE],
     )  # fmt: skip
     # the block's angles run on while the state's are brought back into one turn after each step
-    for k in range(2 * _S, 3 * _S):
-        w[W_Y + k] = s[S_Y + k] + wrap(w[W_Y + k] - s[S_Y + k])
+    for j in range(2 * _S, 3 * _S):
+        w[W_Y + j] = s[S_Y + j] + wrap(w[W_Y + j] - s[S_Y + j])
     emit_samples(p, s, w, h)
     for i in range(4):
         place = F_WORK if i == 0 else F_HEAT + i - 1
@@ -287,7 +284,7 @@ def fast_block(p, s, w, count, tolerance):
             s[S_FACTOR_STEP] = -h
             s[S_FAST_BETA] = beta
         verdict = try_block(p, s, w, h, s[S_FAST_BETA], count, tolerance)
-        if verdict <= 1 or fresh:
+        if verdict == 0 or fresh:
             break
         s[S_JACOBIAN_TIME] = -1e300
     if verdict == 0:
@@ -301,7 +298,7 @@ def fast_block(p, s, w, count, tolerance):
                 s[S_FAST_STEP] = min(1.5 * s[S_FAST_STEP], LONGEST)
                 s[S_FAST_HOLD] = s[S_TIME]
         return True
-    leave(s, verdict != 2 and h >= 1.5 * SHORTEST, h)
+    leave(s, verdict == 1 and h >= 1.5 * SHORTEST, h)
     return False
 
 

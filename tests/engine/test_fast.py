@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from fmu_bearing.engine import fast
 from fmu_bearing.engine import layout as at
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.solvers import newmark
@@ -157,18 +156,6 @@ def test_it_waits_until_the_start_has_died_away(scene):
     # ESDIRK4's steps of up to 20 us, not the path's of 10 and less
     assert run.s[at.S_STEPS] < 3e-3 / 12e-6
     assert run.s[at.S_FALLBACKS] == 0.0
-
-
-def test_its_history_ends_at_the_present_state(scene):
-    """However many steps of one length came before: an old place would be a jump back in time."""
-    run = Run(quiet(scene("7003C-bare")), 20000).init()
-    run.run(1e-3)
-    before = run.s[at.S_F : at.S_F + at.F_SIZE].copy()
-    for _ in range(4):
-        run.s[at.S_Y : at.S_Y + 3 * at.STRIDE] += 1e-9
-        fast.remember(run.s, 1e-5, before)
-        kept = run.s[at.S_FAST + at.FAST_Y :][: 3 * at.STRIDE]
-    np.testing.assert_array_equal(kept, run.s[at.S_Y : at.S_Y + 3 * at.STRIDE])
 
 
 def test_the_balls_sound_as_they_do_by_the_default_method(scene):

@@ -107,9 +107,8 @@ def pack(
     _put_groups(block, groups)
     slots, deepest = _put_banks(block, banks, levels)
     found[at.H_ROWS] = max([deepest, *(2 * length + 1 for length in levels)])
-    lanes = max(bank.taps.shape[1] for bank in banks)
     _place_state(block, levels, slots)
-    _place_work(block, levels, lanes)
+    _place_work(block, levels)
     return block.flat()
 
 
@@ -195,7 +194,7 @@ def _place_state(block: _Block, levels: Sequence[int], slots: Sequence[int]) -> 
     found[at.H_STATE] = end
 
 
-def _place_work(block: _Block, levels: Sequence[int], lanes: int) -> None:
+def _place_work(block: _Block, levels: Sequence[int]) -> None:
     """Give every part of the work space its place; the decimated channels stand first."""
     found = block.head
     channels, outputs, mics = (int(found[k]) for k in (at.H_CHANNELS, at.H_OUTPUTS, at.H_MICS))
@@ -204,7 +203,7 @@ def _place_work(block: _Block, levels: Sequence[int], lanes: int) -> None:
     end = channels
     for place, size in (
         (at.H_W_OUTPUTS, outputs),
-        (at.H_W_LANES, 2 * lanes),
+        (at.H_W_LANES, 2 * at.MAX_CHANNELS),
         (at.H_W_WEIGHTED, int(found[at.H_LANES])),
         (at.H_W_SOURCES, int(found[at.H_SOURCES]) * mics),
         (at.H_W_METERS, at.METERS * mics),

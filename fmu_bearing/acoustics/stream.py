@@ -23,7 +23,7 @@ _NEGLIGIBLE = 1e-7
 # Worst deviation of a filter from its transfer function that is let pass: 1 %, 0.09 dB. Bodies without sharp
 # resonances keep -50 dB; what each path has is told by `filter_errors`.
 _TOLERANCE = 10 ** (-40 / 20)
-_LONGEST_GAP = 4  # channels
+_LONGEST_GAP = 6  # channels
 _SILENT = 1e-12  # weight of a microphone on a node line, where rounding leaves a little
 _ALIKE = 12  # decimals to which weights are compared
 

@@ -30,15 +30,30 @@ _ROW = MAX_HARMONICS
 
 @kernel
 def _turns(c1, s1, table, orders):
-    """Cosines and sines of the multiples 1 .. ``orders`` of an angle: rows 0 and 1 of the ``table``."""
-    c = 1.0
-    s = 0.0
-    for m in range(orders):
-        turned = c * c1 - s * s1
-        s = c * s1 + s * c1
-        c = turned
-        table[m] = c
-        table[_ROW + m] = s
+    """Cosines and sines of the multiples of an angle, 8 or 16 of them: rows 0 and 1 of the ``table``.
+
+    By doubling: each half turned by its last multiple makes the next, which is short and vectorised.
+    """
+    table[0] = c1
+    table[_ROW] = s1
+    table[1] = c1 * c1 - s1 * s1
+    table[_ROW + 1] = 2.0 * c1 * s1
+    c = table[1]
+    s = table[_ROW + 1]
+    for m in range(2):
+        table[2 + m] = table[m] * c - table[_ROW + m] * s
+        table[_ROW + 2 + m] = table[m] * s + table[_ROW + m] * c
+    c = table[3]
+    s = table[_ROW + 3]
+    for m in range(4):
+        table[4 + m] = table[m] * c - table[_ROW + m] * s
+        table[_ROW + 4 + m] = table[m] * s + table[_ROW + m] * c
+    if orders > 8:
+        c = table[7]
+        s = table[_ROW + 7]
+        for m in range(8):
+            table[8 + m] = table[m] * c - table[_ROW + m] * s
+            table[_ROW + 8 + m] = table[m] * s + table[_ROW + m] * c
 
 
 @kernel
@@ -55,6 +70,7 @@ def accelerations(ps, ws, motion, fresh):
     table = ws[at : at + 8 * _ROW]  # one slice and constant rows: only so is the loop a vector loop
     for i in range(2 * _ROW, 8 * _ROW):
         table[i] = 0.0
+    lanes = 8 if orders <= 8 else _ROW  # whole vectors; what is beyond the orders is not used
     x = 0.0
     r = 0.0
     for j in range(balls):
@@ -65,7 +81,7 @@ def accelerations(ps, ws, motion, fresh):
         x += ax
         r += ar
         _turns(motion[b + 12], motion[b + 13], table, orders)
-        for i in range(orders):
+        for i in range(lanes):
             c = table[i]
             s = table[_ROW + i]
             table[2 * _ROW + i] += ax * c

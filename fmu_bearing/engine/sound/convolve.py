@@ -37,6 +37,7 @@ from fmu_bearing.engine.sound.places import (
     LEVEL_S_SPECTRA,
     LEVEL_SIZE,
     LEVEL_SLOTS,
+    MAX_CHANNELS,
     PART_AT,
     PART_COUNT,
     PART_FIRST,
@@ -176,29 +177,43 @@ def _multiply(ps, ss, ws, b, level, block, slots, spectra, newest, total):
     n_parts = int(ps[parts + PART_COUNT])
     filters = int(ps[parts + PART_AT])
     targets = int(ps[b + BANK_AT_TARGETS])
-    lanes = int(ps[H_W_LANES])
-    yr = ws[lanes : lanes + m]
-    yi = ws[lanes + m : lanes + 2 * m]
+    # Sums at two places a constant apart in one slice, two parts at a time: only so is it a vector loop.
+    y = ws[int(ps[H_W_LANES]) : int(ps[H_W_LANES]) + 2 * MAX_CHANNELS]
+    known = min(n_parts, newest + 2 - first)  # before the first block there was silence
+    step = (block + 1) * 2 * m
     for k in range(block + 1):
         for c in range(m):
-            yr[c] = 0.0
-            yi[c] = 0.0
-        for part in range(n_parts):
-            number = newest + 1 - first - part
-            if number < 0:  # before the first block there was silence
-                break
-            x = spectra + ((number % slots) * (block + 1) + k) * 2 * n + channel
-            h = filters + (part * (block + 1) + k) * 2 * m
-            xr = ss[x : x + m]
-            xi = ss[x + n : x + n + m]
+            y[c] = 0.0
+            y[MAX_CHANNELS + c] = 0.0
+        h = filters + k * 2 * m
+        for pair in range(known // 2):
+            number = newest + 1 - first - 2 * pair
+            p0 = spectra + ((number % slots) * (block + 1) + k) * 2 * n + channel
+            p1 = spectra + (((number - 1) % slots) * (block + 1) + k) * 2 * n + channel
+            xr = ss[p0 : p0 + m]
+            xi = ss[p0 + n : p0 + n + m]
+            hr = ps[h : h + m]
+            hi = ps[h + m : h + 2 * m]
+            vr = ss[p1 : p1 + m]
+            vi = ss[p1 + n : p1 + n + m]
+            gr = ps[h + step : h + step + m]
+            gi = ps[h + step + m : h + step + 2 * m]
+            h += 2 * step
+            for c in range(m):
+                y[c] += (hr[c] * xr[c] - hi[c] * xi[c]) + (gr[c] * vr[c] - gi[c] * vi[c])
+                y[MAX_CHANNELS + c] += (hr[c] * xi[c] + hi[c] * xr[c]) + (gr[c] * vi[c] + gi[c] * vr[c])
+        if known % 2 == 1:
+            number = newest + 2 - first - known
+            p0 = spectra + ((number % slots) * (block + 1) + k) * 2 * n + channel
+            xr = ss[p0 : p0 + m]
+            xi = ss[p0 + n : p0 + n + m]
             hr = ps[h : h + m]
             hi = ps[h + m : h + 2 * m]
             for c in range(m):
-                yr[c] += hr[c] * xr[c] - hi[c] * xi[c]
-            for c in range(m):
-                yi[c] += hr[c] * xi[c] + hi[c] * xr[c]
+                y[c] += hr[c] * xr[c] - hi[c] * xi[c]
+                y[MAX_CHANNELS + c] += hr[c] * xi[c] + hi[c] * xr[c]
         at = 2 * n_out * k
         for c in range(m):
             target = at + int(ps[targets + c])
-            total[target] += yr[c]
-            total[target + n_out] += yi[c]
+            total[target] += y[c]
+            total[target + n_out] += y[MAX_CHANNELS + c]

@@ -76,6 +76,7 @@ BAND_LANES = 32  # lanes kept for the third octaves ``layout.BANDS``: whole vect
 HEAD_SIZE = 40
 
 MAX_HARMONICS = 16
+MAX_CHANNELS = 256  # side by side in one bank
 MAX_LEVELS = 2
 (BANK_CHANNEL, BANK_COUNT, BANK_DELAY, BANK_TAPS, BANK_AT_TAPS, BANK_AT_TARGETS, BANK_LEVELS) = range(7)
 PART_FIRST, PART_COUNT, PART_AT = range(3)  # of a bank in one level

@@ -21,8 +21,20 @@ _MIC_WORDS = (
     ),
     ("spl_cage", "Time-weighted partial level of the cage at microphone {}"),
     ("spl_balls", "Time-weighted partial level of the balls at microphone {}"),
+    ("spl_fast", "Fast sound pressure level at microphone {}"),
+    ("spl_fast_a", "Fast A-weighted sound level at microphone {}"),
+    ("spl_slow", "Slow sound pressure level at microphone {}"),
+    ("spl_slow_a", "Slow A-weighted sound level at microphone {}"),
+    ("spl_energy_sum", "Time-weighted level of the bodies' energies added at microphone {}"),
+    ("spl_radial", "Time-weighted partial level of the radial motion of rings and cage at microphone {}"),
+    ("spl_axial", "Time-weighted partial level of the axial motion of rings and cage at microphone {}"),
+    ("spl_rotation", "Time-weighted partial level of the tilting of rings and cage at microphone {}"),
+    ("spl_flexure", "Time-weighted partial level of the bending of the rings at microphone {}"),
 )
-_TOTALS = 5  # of these, what is heard of all bodies together; the rest are partial levels
+_PLAIN = 9  # of these, what every scene has; the rest need sound.details
+_PARTIAL = tuple(f"spl_{part}" for part in (
+    "inner_ring", "outer_ring", "cage", "balls", "radial", "axial", "rotation", "flexure",
+))  # fmt: skip
 
 
 def outputs(scene: Scene) -> list[Variable]:
@@ -165,14 +177,33 @@ def _torque_shares(scene: Scene) -> list[Variable]:
 
 def _microphones(scene: Scene, causality: str) -> list[Variable]:
     """Return what is heard at each microphone: totals are outputs, partial levels local."""
-    first = at.z_mics(scene.bearing.ball_count)
+    if scene.sound is None:
+        return []
+    balls, mics = scene.bearing.ball_count, len(scene.microphones)
+    words_of = _MIC_WORDS if scene.sound.details else _MIC_WORDS[:_PLAIN]
     table = []
     for k, (name, _) in enumerate(scene.microphones):
-        for i, (label, words) in enumerate(_MIC_WORDS):
+        for i, (label, words) in enumerate(words_of):
             absent = label == "spl_cage" and scene.bearing.cage is None
-            if absent or (i < _TOTALS) != (causality == "output"):
+            if absent or (label in _PARTIAL) != (causality == "local"):
                 continue
             unit = "Pa" if label == "pressure" else "dB"
-            place = first + len(at.MIC_OUTPUTS) * k + i
+            place = at.z_mics(balls) + len(at.MIC_OUTPUTS) * k + i
             table.append(_read(f"mic[{k + 1}].{label}", causality, words.format(name), unit, place))
+        if causality == "output" and scene.sound.third_octaves:
+            table += _third_octaves(k, name, at.z_bands(balls, mics) + len(at.BANDS) * k)
     return table
+
+
+def _third_octaves(mic: int, name: str, first: int) -> list[Variable]:
+    """Return the bands of one microphone, named by their nominal frequency; 31 stands for 31.5 Hz."""
+    return [
+        _read(
+            f"mic[{mic + 1}].third_octave[{int(nominal)}]",
+            "output",
+            f"Fast third-octave level around {nominal:g} Hz at microphone {name}",
+            "dB",
+            first + band,
+        )
+        for band, nominal in enumerate(at.BANDS)
+    ]

@@ -9,7 +9,7 @@ from scipy.special import roots_jacobi
 
 from fmu_bearing.acoustics.stream import sound_parameters
 from fmu_bearing.engine import layout as at
-from fmu_bearing.engine.sound import radiate
+from fmu_bearing.engine.sound import places
 from fmu_bearing.interface import Variable, variables
 from fmu_bearing.prepare import bodies, contacts
 from fmu_bearing.prepare.hertz import effective_modulus, point_contact
@@ -56,6 +56,11 @@ class Model:
     def n_mics(self) -> int:
         """Number of microphones."""
         return int(self.parameters[at.P_MICS])
+
+    @property
+    def n_bands(self) -> int:
+        """Number of third octaves of each microphone; 0: none are metered."""
+        return int(self.parameters[at.P_BANDS])
 
 
 def prepare(
@@ -192,9 +197,10 @@ def _sound(scene: Scene, sound: NDArray[np.float64], p: NDArray[np.float64]) -> 
         p[at.P_METERING_START] = si(scene.sound).metering_start
     if sound.size:
         p[at.P_SOUND_SIZE] = sound.size
-        p[at.P_SOUND_STATE] = radiate.state_size(sound)
-        p[at.P_SOUND_WORK] = radiate.work_size(sound)
+        p[at.P_SOUND_STATE] = places.state_size(sound)
+        p[at.P_SOUND_WORK] = places.work_size(sound)
         p[at.P_MICS] = len(scene.microphones)
+        p[at.P_BANDS] = sound[places.H_BANDS]
 
 
 def _mounting(scene: Scene, p: NDArray[np.float64]) -> None:

@@ -96,7 +96,7 @@ def allowed(path: Location) -> str:
         return "true or false"
     if kind is str:
         patterns = [rule.pattern for rule in field.metadata if hasattr(rule, "pattern")]
-        return "text of 1 to " + _TEXTS[patterns[0]]
+        return "text of 1 to " + _TEXTS[patterns[0]] if patterns else "the name of a file"
     if kind in (int, float):
         return _range(field, str(path[-1])) + (", whole numbers only" if kind is int else "")
     names = ", or the name of a catalogue entry" if path[0] == "materials" else ""

@@ -26,6 +26,7 @@ from fmu_bearing.acoustics.impact.chain import Collision, Sphere, collide, conta
 from fmu_bearing.acoustics.impact.scattering import SphereRow
 from fmu_bearing.acoustics.impact.sound import BAND, impact_pressure
 from fmu_bearing.acoustics.impact.sphere_field import sphere_pressure
+from fmu_bearing.acoustics.transfer import Air
 from fmu_bearing.study.table import markdown, show, write_csv
 
 Array = NDArray[np.float64]
@@ -84,7 +85,7 @@ def together(case: Case, chain: Collision, elastic: bool) -> Array:
         BALL, BALL, case.speed, hertz_stiffness(BALL, BALL) * case.stiffness
     )
     band = BAND * max(1.0, shorter)
-    order = int(2.0 * np.pi * band / 340.0 * BALL.radius) + 12
+    order = int(2.0 * np.pi * band / Air().sound_speed * BALL.radius) + 12
     row = SphereRow(centres(case), [BALL.radius] * 3, order)
     bodies = [BALL] * 3 if elastic else None
     return impact_pressure(row, chain, [case.microphone], TIMES, spheres=bodies, band=band)[0]

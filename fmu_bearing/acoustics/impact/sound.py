@@ -16,7 +16,7 @@ Spectrum = NDArray[np.complex128]
 BAND = 80e3
 #: Share of the band, at its upper end, over which the spectrum is faded out.
 _FADE = 0.2
-#: What is left of the sound after this many passages along the row counts as nothing (1e-4, measured).
+#: What is left of the sound after this many passages along the row counts as nothing (three balls: 1e-7).
 _PASSAGES = 5.0
 #: Orders above k a that an answer below 1 % needs, touching spheres aside.
 _SPARE = 3
@@ -99,8 +99,10 @@ def impact_pressure(
     """
     place, when = row.outside(points), np.asarray(times, dtype=float)
     _check(row, collision, orders, band)
-    for ball in spheres or ():
-        _below_resonance(ball, band)
+    for ball, radius in zip(spheres or (), row.radii, strict=False):  # numbers are compared by elastic_drive
+        _elastic_enough(ball, radius, band)
+    if not np.isfinite(when).all():
+        raise ValueError(f"times hold {when[~np.isfinite(when)][0]}: give finite times in s")
     centres, radii = np.asarray(row.centres, dtype=float), np.asarray(row.radii, dtype=float)
     way = np.hypot(place[:, :1] - centres, place[:, 1:]) - radii
     first = way.min(axis=1) / row.air.sound_speed
@@ -119,8 +121,10 @@ def impact_pressure(
     return np.where(when >= first[:, None], history, 0.0)
 
 
-def _below_resonance(ball: Sphere, band: float) -> None:
-    """Refuse a band in which an undamped ball rings: its history would never end."""
+def _elastic_enough(ball: Sphere, radius: float, band: float) -> None:
+    """Refuse a ball of another size than in the row, and a band in which it would ring for ever, undamped."""
+    if not np.isclose(ball.radius, radius, rtol=1e-9):
+        raise ValueError(f"an elastic ball has radius {ball.radius:g} m, the row {radius:g} m: give the same")
     (first,) = spheroidal_frequencies(ball, 2)  # the lowest mode that forces on the axis excite
     if band >= first:
         raise ValueError(

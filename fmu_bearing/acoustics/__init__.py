@@ -8,6 +8,7 @@
 ``weighting``  A-weighting, Fast and Slow, levels
 ``stream``     packs everything for the engine: `stream.sound_parameters`
 ``spectrum``   spectra of recordings, kinematic frequencies
+``impact``     balls that hit each other on one line: Hertz chain, multiple scattering, elastic spheres
 =============  ==============================================================================
 
 Time factor e^{+j omega t}; transfer functions in Pa per m/s2; levels re 20 uPa.

@@ -49,7 +49,7 @@ class Run:
         )
         self.s = np.zeros(at.state_size(self.p))
         self.w = np.zeros(at.work_size(self.p))
-        self.z = np.zeros(at.z_size(int(self.p[at.P_BALLS]), 0))
+        self.z = np.zeros(at.z_size(int(self.p[at.P_BALLS]), 0, int(self.p[at.P_MODES])))
 
     def init(self):
         status = abi.init(self.p, self.u, self.s, self.z, self.w, 0.0)

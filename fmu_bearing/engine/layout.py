@@ -16,6 +16,8 @@ Per-ball quantities are structures of arrays: quantity ``k`` of ball ``j`` stand
 
 import numpy as np
 
+from fmu_bearing.engine import modes_layout
+
 STRIDE = 24  # lanes reserved per ball quantity; not a power of two, so rows spread over cache sets
 MAX_BALLS = STRIDE
 
@@ -136,9 +138,6 @@ P_VISCOSITY = 6  # Pa s at the reference temperature
 # the second time derivatives (m/s2) of the flexural coordinates, cosine and sine of each mode.
 MO_INNER, MO_OUTER, MO_CAGE, MO_BALLS = 0, 12, 24, 36
 MO_PER_BALL = 14
-
-
-MAX_MODES = 16  # flexural modes of both rings
 
 
 def mo_flex(n_balls):
@@ -262,20 +261,6 @@ RACE_CONTROLS = ("shared", "outer", "inner")
 RACE_SIZE = 12
 P_TABLES = P_RACES + 2 * RACE_SIZE  # variable part begins here
 WAVE_INTERVALS = 2048
-(
-    MODE_BODY,  # 0 inner ring, 1 outer ring
-    MODE_ORDER,  # circumferential, 2 or more
-    MODE_MASS,  # kg, of one coordinate
-    MODE_STIFFNESS,  # N/m, with the seat's
-    MODE_DAMPING,  # 1/s: twice damping ratio times free frequency
-    MODE_GYROSCOPIC,
-    MODE_X,  # shape at the centre of the groove's circle: axial, radial, circumferential,
-    MODE_R,
-    MODE_T,
-    MODE_TILT,  # and rotation about the circumferential direction, 1/m
-    MODE_WEIGHT,  # mean square of the shape, for Newton's method and the error
-) = range(11)
-MODE_SIZE = 12
 
 # --- y: positions and velocities of the mechanics (head of s; also each solver stage) ---------------
 # Nine rows per ball: x, r (from the pitch radius), theta, their rates, spin in the orbiting axes.
@@ -437,54 +422,18 @@ BLOCK = 8
 W_BLOCK_A = W_VEL + STAGES * F_SIZE
 W_BLOCK_Y = W_BLOCK_A + (BLOCK + 3) * F_SIZE
 W_MOTION = W_BLOCK_Y + (BLOCK + 1) * Y_SIZE
-W_G0 = W_MOTION + MO_BALLS + MO_PER_BALL * MAX_BALLS + 2 * MAX_MODES
+W_G0 = W_MOTION + MO_BALLS + MO_PER_BALL * MAX_BALLS + 2 * modes_layout.MAX_MODES
 W_SOUND = W_G0 + N_BODY * STRIDE
-
-
-# Flexure of the rings stands behind the sound's part of s and of w, where a scene has any: see flexure_state
-# and flexure_work in mechanics/flexure. In s: places, velocities and accelerations of the coordinates, then
-# what Newton's method keeps of the contacts: per ring 18 rows of the balls' answer to the groove's motion
-# (6 x 3) and 18 of the groove's to the balls' (3 x 6), and two numbers per mode.
-FACTOR_ROWS = 36
-# In w: rows of the groove's motion under each ball, cosine and sine of the first order, then of each mode's;
-# then flat arrays over the coordinates.
-(
-    FR_X,  # displacement, later force on the ring: axial, radial,
-    FR_R,
-    FR_GX,  # its change with the angle, later circumferential force and moment; slope and ratio of radii
-    FR_GR,
-    FR_VX,  # velocity of the material
-    FR_VR,
-    FR_VT,
-    FR_TURN,  # angular velocity about the circumferential direction
-    FR_COS,
-    FR_SIN,
-) = range(10)
-FLEX_ROWS = 10
-# flat arrays: place, velocity, force, acceleration, Newton increment, then of all stages accelerations and
-# velocities
-FW_Q, FW_V, FW_FORCE, FW_A, FW_D, FW_ACC, FW_VEL = 0, 1, 2, 3, 4, 5, 5 + STAGES
-FLAT_ARRAYS = 5 + 2 * STAGES
-
-
-def flexure_state_size(modes):
-    """Numbers that ``modes`` flexural modes take in ``s``."""
-    return 0 if modes == 0 else 6 * modes + 2 * FACTOR_ROWS * STRIDE + 2 * modes
-
-
-def flexure_work_size(modes):
-    """Numbers that ``modes`` flexural modes take in ``w``."""
-    return 0 if modes == 0 else (FLEX_ROWS + 2 * modes) * STRIDE + FLAT_ARRAYS * 2 * modes
 
 
 def state_size(p):
     """Length of ``s`` for the parameters ``p``."""
-    return S_SOUND + int(p[P_SOUND_STATE]) + flexure_state_size(int(p[P_MODES]))
+    return S_SOUND + int(p[P_SOUND_STATE]) + modes_layout.state_size(int(p[P_MODES]), STRIDE)
 
 
 def work_size(p):
     """Length of ``w`` for the parameters ``p``."""
-    return W_SOUND + int(p[P_SOUND_WORK]) + 8 + flexure_work_size(int(p[P_MODES]))
+    return W_SOUND + int(p[P_SOUND_WORK]) + 8 + modes_layout.work_size(int(p[P_MODES]), STRIDE, STAGES)
 
 
 # --- status codes -------------------------------------------------------------------------------------

@@ -54,7 +54,7 @@ from fmu_bearing.engine.mechanics.summary import summarise
 from fmu_bearing.engine.motion import emit_samples
 from fmu_bearing.engine.progress import accept, renew_jacobian, total_energy, velocity_tolerance
 from fmu_bearing.engine.solvers.block_arrow import factor
-from fmu_bearing.engine.solvers.flexible import factor_modes
+from fmu_bearing.engine.solvers.mode_factors import factor_modes
 from fmu_bearing.engine.solvers.rigid_preload import axial_speed
 from fmu_bearing.engine.solvers.runge_kutta import integrate_power, runge_kutta_step
 from fmu_bearing.engine.solvers.tableaux import ESDIRK4, RK4, T_GAMMA, T_ORDER, TABLEAUX, TRBDF2

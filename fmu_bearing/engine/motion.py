@@ -6,8 +6,6 @@ from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import (
     F_G,
     MO_BALLS,
-    FW_A,
-    FW_V,
     MO_CAGE,
     MO_INNER,
     MO_OUTER,
@@ -37,6 +35,10 @@ from fmu_bearing.engine.layout import (
     Y_V,
 )
 from fmu_bearing.engine.mechanics.flexure import flat, flexure_state, flexure_work
+from fmu_bearing.engine.modes_layout import (
+    FW_A,
+    FW_V,
+)
 from fmu_bearing.engine.sound.places import RAW_RATE
 from fmu_bearing.engine.sound.radiate import push
 

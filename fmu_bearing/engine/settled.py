@@ -14,8 +14,6 @@ from fmu_bearing.engine.layout import (
     B_VX,
     B_X,
     F_SIZE,
-    FW_ACC,
-    FW_D,
     P_BALLS,
     P_LANES,
     P_MODES,
@@ -31,9 +29,14 @@ from fmu_bearing.engine.layout import (
 )
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.mechanics.flexure import flat, flexure_state, flexure_work, show_flexure
+from fmu_bearing.engine.modes_layout import (
+    FW_ACC,
+    FW_D,
+)
 from fmu_bearing.engine.solvers.block_arrow import factor
-from fmu_bearing.engine.solvers.flexible import factor_modes, solve_modes
+from fmu_bearing.engine.solvers.flexible import solve_modes
 from fmu_bearing.engine.solvers.jacobian import jacobian
+from fmu_bearing.engine.solvers.mode_factors import factor_modes
 
 _S = STRIDE
 _ROUNDS = 60

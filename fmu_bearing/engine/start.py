@@ -1,7 +1,7 @@
 """The state at initialisation: quasi-static under preload, radial loads, weights and misalignment.
 
-Rings rest on their springs, bent by their loads where they are flexible; each ball has its own place, orbit and
-spin.
+Rings rest on their springs, bent by their loads where they are flexible; each ball has its own place, orbit
+and spin.
 """
 
 import math

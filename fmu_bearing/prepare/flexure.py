@@ -7,12 +7,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.elastic.modes import RingMode
-from fmu_bearing.engine import layout as at
+from fmu_bearing.engine import modes_layout as at
 from fmu_bearing.scene import Scene, SceneError, si
 
-# Internal steps over the period of the highest mode at rest. The methods bend a free mode's frequency by 0.4 %
-# (esdirk4, which damps it like a damping ratio of 1e-4), 1 % (trbdf2, 4e-4) and 0.03 % (rk4, 1e-4) then;
-# modes below have it better by the square of the frequency at least.
+# Internal steps over the period of the highest mode at rest. The methods then lower a free mode's frequency
+# by 0.5 % (esdirk4, which damps it like a damping ratio of 1e-4), 1 % (trbdf2, 5e-4) or 0.03 % (rk4, 1e-4);
+# lower modes fare better by the square of the frequency at least.
 _STEPS = {"esdirk4": 4.0, "trbdf2": 12.5, "fast": 4.0, "rk4": 14.0}
 
 
@@ -28,9 +28,10 @@ def mode_table(scene: Scene, modes: Sequence[RingMode]) -> NDArray[np.float64]:
         return np.empty(0)
     if len(modes) > at.MAX_MODES:
         raise SceneError(
-            f"{scene.name}: mounting.flexure asks for {len(modes)} modes; at most {at.MAX_MODES} are carried: "
-            "leave out the highest orders"
+            f"{scene.name}: mounting.flexure asks for {len(modes)} modes; at most {at.MAX_MODES} are "
+            "carried: leave out the highest orders"
         )
+    assert scene.mounting.flexure is not None  # it is what asked for the modes
     flexure = si(scene.mounting.flexure)
     seats = flexure.inner_seat_stiffness, flexure.outer_seat_stiffness
     table = np.zeros((len(modes), at.MODE_SIZE))

@@ -8,11 +8,12 @@ from numpy.typing import NDArray
 from scipy.special import roots_jacobi
 
 from fmu_bearing.acoustics.stream import sound_parameters
+from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.engine import layout as at
+from fmu_bearing.engine import modes_layout
 from fmu_bearing.engine.sound import radiate
 from fmu_bearing.interface import Variable, variables
 from fmu_bearing.prepare import bodies, contacts
-from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.prepare.flexure import longest_step, mode_table
 from fmu_bearing.prepare.hertz import effective_modulus, point_contact
 from fmu_bearing.prepare.imperfections import ball_oversizes, ball_waves, race_waves
@@ -151,7 +152,7 @@ def pack(scene: Scene, sound: NDArray[np.float64]) -> NDArray[np.float64]:
     if tables[at.P_AT_BALL_WAVES].size:
         p[at.P_BALL_WAVES] = tables[at.P_AT_BALL_WAVES].size - 3 * at.STRIDE
     if tables[at.P_AT_MODES].size:
-        p[at.P_MODES] = tables[at.P_AT_MODES].size // at.MODE_SIZE
+        p[at.P_MODES] = tables[at.P_AT_MODES].size // modes_layout.MODE_SIZE
         p[at.P_MODE_STEP] = longest_step(tables[at.P_AT_MODES], scene.fidelity.method)
     _fidelity(scene, p)
     _sound(scene, sound, p)

@@ -63,7 +63,7 @@ class Candidate:
         )
 
     def carries(self, scene: Scene) -> bool:
-        """Whether this way carries what the scene models: only level full bends rings, and not by ``fast``."""
+        """Whether this way carries what the scene models: level full bends rings, but not by ``fast``."""
         flexure = scene.mounting.flexure
         rigid = flexure is None or not (flexure.inner_ring or flexure.outer_ring)
         return rigid or (self.level == "full" and self.method != "fast")

@@ -16,8 +16,9 @@ Equations per coordinate, with g the mode's gyroscopic number::
     m ((Da)' + (n + 2 g) W Db + d Da) + k a = Q_a
     m ((Db)' - (n + 2 g) W Da + d Db) + k b = Q_b
 
-which is one equation for z = a - i b, z'' + 2 i W (n + g) z' + (k/m - n^2 W^2 - 2 n g W^2) z + d (z' + i n W z)
-= (Q_a - i Q_b)/m at constant spin. The stiffening of the ring by its own centrifugal load is left out.
+At constant spin and with z = a - i b they are one equation, z'' + 2 i W (n + g) z' + (k/m - n^2 W^2
+- 2 n g W^2) z + d (z' + i n W z) = (Q_a - i Q_b)/m. The stiffening of the ring by its own centrifugal load
+is left out.
 """
 
 import math
@@ -28,32 +29,6 @@ from fmu_bearing.engine.layout import (
     C_RACES,
     F_G,
     F_HEAT,
-    FLEX_ROWS,
-    FR_COS,
-    FR_GR,
-    FR_GX,
-    FR_R,
-    FR_SIN,
-    FR_TURN,
-    FR_VR,
-    FR_VT,
-    FR_VX,
-    FR_X,
-    FW_A,
-    FW_FORCE,
-    FW_Q,
-    FW_V,
-    MODE_BODY,
-    MODE_DAMPING,
-    MODE_GYROSCOPIC,
-    MODE_MASS,
-    MODE_ORDER,
-    MODE_R,
-    MODE_SIZE,
-    MODE_STIFFNESS,
-    MODE_T,
-    MODE_TILT,
-    MODE_X,
     P_AT_MODES,
     P_BALLS,
     P_MODES,
@@ -82,6 +57,34 @@ from fmu_bearing.engine.layout import (
     X_RHO,
     X_T,
     Y_V,
+)
+from fmu_bearing.engine.modes_layout import (
+    FLEX_ROWS,
+    FR_COS,
+    FR_GR,
+    FR_GX,
+    FR_R,
+    FR_SIN,
+    FR_TURN,
+    FR_VR,
+    FR_VT,
+    FR_VX,
+    FR_X,
+    FW_A,
+    FW_FORCE,
+    FW_Q,
+    FW_V,
+    MODE_BODY,
+    MODE_DAMPING,
+    MODE_GYROSCOPIC,
+    MODE_MASS,
+    MODE_ORDER,
+    MODE_R,
+    MODE_SIZE,
+    MODE_STIFFNESS,
+    MODE_T,
+    MODE_TILT,
+    MODE_X,
 )
 
 _S = STRIDE
@@ -217,7 +220,7 @@ def bend(p, lanes, race, spin, own):
 
 @inlined
 def move_groove(p, c, lanes, race, spin, w):
-    """Shift places and velocities of the balls against one ring, as ``relative_pose`` left them, by its flexure.
+    """Shift by its flexure what ``relative_pose`` left of the balls' places and velocities against a ring.
 
     Leaves in the rows ``FR_GX`` and ``FR_GR`` the slope of the track and the ratio of the radii that
     :func:`lean` takes, in ``FR_VT`` the circumferential velocity.
@@ -271,7 +274,7 @@ def slide(p, lanes, race, w):
 
 @inlined
 def groove_forces(p, c, lanes, race, w, own):
-    """Forces and moment of the balls on the groove of one ring into four rows; spare lanes put none."""
+    """Gather forces and moment of the balls on one ring's groove into four rows; spare lanes put none."""
     balls = int(p[P_BALLS])
     pose = (W_POSE + race * POSE_ROWS) * _S
     force = (W_FORCE + race * 6) * _S
@@ -301,22 +304,39 @@ def groove_forces(p, c, lanes, race, w, own):
 
 
 @kernel
-def mode_force(p, mode, lanes, own, at):
-    """Generalised forces (N) of the four force rows on one mode's cosine and sine coordinate."""
+def row_sum(own, at, lanes):
+    """Sum of one row over the lanes, in four partial sums of fixed order."""
+    a = 0.0
+    b = 0.0
+    c = 0.0
+    d = 0.0
+    for k in range(lanes // 4):
+        j = at + 4 * k
+        a += own[j]
+        b += own[j + 1]
+        c += own[j + 2]
+        d += own[j + 3]
+    return (a + b) + (c + d)
+
+
+@kernel
+def mode_force(p, mode, lanes, own, at, turning):
+    """Generalised forces (N) of the force rows on one mode's cosine and sine coordinate.
+
+    ``turning``: 1 with the moment on the section, 0 without.
+    """
     psi_x = p[mode + MODE_X]
     psi_r = p[mode + MODE_R]
     psi_t = p[mode + MODE_T]
-    tilt = p[mode + MODE_TILT]
-    cosine = 0.0
-    sine = 0.0
+    tilt = turning * p[mode + MODE_TILT]
     for j in range(lanes):
         c = own[at + j]
         s = own[at + _S + j]
         push = psi_x * own[FR_X * _S + j] + psi_r * own[FR_R * _S + j] + tilt * own[FR_GR * _S + j]
         drag = psi_t * own[FR_GX * _S + j]
-        cosine += push * c + drag * s
-        sine += push * s - drag * c
-    return cosine, sine
+        own[FR_VX * _S + j] = push * c + drag * s
+        own[FR_VR * _S + j] = push * s - drag * c
+    return row_sum(own, FR_VX * _S, lanes), row_sum(own, FR_VR * _S, lanes)
 
 
 @inlined
@@ -329,7 +349,7 @@ def press_modes(p, c, lanes, race, w):
     for k in range(int(p[P_MODES])):
         mode = table + k * MODE_SIZE
         if int(p[mode + MODE_BODY]) == race:
-            cosine, sine = mode_force(p, mode, lanes, own, (FLEX_ROWS + 2 * k) * _S)
+            cosine, sine = mode_force(p, mode, lanes, own, (FLEX_ROWS + 2 * k) * _S, 1.0)
             own[out + 2 * k] = cosine
             own[out + 2 * k + 1] = sine
 

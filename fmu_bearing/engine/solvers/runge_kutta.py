@@ -210,10 +210,11 @@ def runge_kutta_step(
 ):  # fmt: skip
     """One step of length ``h`` from (y, f); the new state is left in ``w[W_Y:]`` and its f in the last stage.
 
-    ``axes``: of wavy balls, at the step's start; ``flexure``: the rings' part of the state; ``tableau``: place in TABLEAUX; ``fac``: factors for about
-    this ``h``; ``turned``: orbit angle (rad) since they were made; ``tolerance`` (m/s): Newton's error;
-    ``contraction``: rate known so far; ``probe``: measure it anew. ``report`` takes the error estimate
-    (m/s), contraction and iterations. Returns False where Newton does not converge.
+    ``axes``: of wavy balls, at the step's start; ``flexure``: the rings' part of the state; ``tableau``:
+    place in TABLEAUX; ``fac``: factors for about this ``h``; ``turned``: orbit angle (rad) since they were
+    made; ``tolerance`` (m/s): Newton's error; ``contraction``: rate known so far; ``probe``: measure it anew.
+    ``report`` takes the error estimate (m/s), contraction and iterations. Returns False where Newton does not
+    converge.
     """
     gh = TABLEAUX[tableau + T_GAMMA] * h
     stages = int(TABLEAUX[tableau + T_STAGES])

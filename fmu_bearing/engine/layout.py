@@ -16,6 +16,8 @@ Per-ball quantities are structures of arrays: quantity ``k`` of ball ``j`` stand
 
 import numpy as np
 
+from fmu_bearing.engine import modes_layout
+
 STRIDE = 24  # lanes reserved per ball quantity; not a power of two, so rows spread over cache sets
 MAX_BALLS = STRIDE
 
@@ -125,13 +127,18 @@ def z_mics(n_balls):
 
 
 def z_bands(n_balls, n_mics):
-    """Place of the first microphone's first third octave in ``z``: after all other outputs."""
+    """Place of the first microphone's first third octave in ``z``: after all its other outputs."""
     return z_mics(n_balls) + len(MIC_OUTPUTS) * n_mics
 
 
-def z_size(n_balls, n_mics, n_bands=0):
-    """Length of ``z`` for ``n_balls`` balls and ``n_mics`` microphones of ``n_bands`` third octaves."""
+def z_flex(n_balls, n_mics, n_bands=0):
+    """Place in ``z`` of the flexural velocities: two for each mode, cosine then sine."""
     return z_bands(n_balls, n_mics) + n_bands * n_mics
+
+
+def z_size(n_balls, n_mics, n_bands=0, n_modes=0):
+    """Length of ``z`` for microphones of ``n_bands`` third octaves each, and ``n_modes`` flexural modes."""
+    return z_flex(n_balls, n_mics, n_bands) + 2 * n_modes
 
 
 # --- p: head, tunable before initialisation -----------------------------------------------------
@@ -147,20 +154,19 @@ P_VISCOSITY = 6  # Pa s at the reference temperature
 # Bodies inner ring, outer ring, cage: velocity, acceleration, angular velocity, angular acceleration
 # in inertial axes (x, y, z), 12 numbers each; then per ball 14 numbers: the same four vectors in the
 # orbiting axes (x, r, theta) - inertial quantities, only resolved there - and cos, sin of the angle; then
-# the accelerations (m/s2) of all flexural coordinates, in the order of their table.
+# the second time derivatives (m/s2) of the flexural coordinates, cosine and sine of each mode.
 MO_INNER, MO_OUTER, MO_CAGE, MO_BALLS = 0, 12, 24, 36
 MO_PER_BALL = 14
-MAX_FLEX = 64  # flexural coordinates
 
 
 def mo_flex(n_balls):
-    """Place of the first flexural coordinate in a motion sample for ``n_balls`` balls."""
+    """Place of the flexural accelerations in a motion sample for ``n_balls`` balls."""
     return MO_BALLS + MO_PER_BALL * n_balls
 
 
-def motion_size(n_balls, n_flex=0):
-    """Length of a motion sample for ``n_balls`` balls and ``n_flex`` flexural coordinates."""
-    return mo_flex(n_balls) + n_flex
+def motion_size(n_balls, n_modes=0):
+    """Length of a motion sample for ``n_balls`` balls and ``n_modes`` flexural modes."""
+    return mo_flex(n_balls) + 2 * n_modes
 
 
 REFERENCE_TEMPERATURE = 293.15  # K: viscosity is the reference one, expansion is zero
@@ -248,7 +254,10 @@ PI = np.pi
     P_BALL_WAVES,  # number of zonal orders of the balls' waviness; 0: none
     P_AT_BALL_WAVES,  # offset: amplitudes of orders 1.., then the bodies' axes, 3 rows of STRIDE
     P_RACE_CONTROL,  # who balances the gyroscopic moment: 0 shared, 1 outer race, 2 inner race
-) = range(8, 8 + 79)
+    P_MODES,  # number of flexural modes of both rings; 0: rigid rings
+    P_AT_MODES,  # offset: MODE_SIZE numbers per mode
+    P_MODE_STEP,  # s: longest internal step that resolves the modes
+) = range(8, 8 + 82)
 P_BANDS = 99  # third octaves per microphone; 0: none
 P_RACES = 100  # two blocks of RACE_SIZE: inner, outer
 LEVELS = ("full", "rings", "response")
@@ -433,18 +442,18 @@ BLOCK = 8
 W_BLOCK_A = W_VEL + STAGES * F_SIZE
 W_BLOCK_Y = W_BLOCK_A + (BLOCK + 3) * F_SIZE
 W_MOTION = W_BLOCK_Y + (BLOCK + 1) * Y_SIZE
-W_G0 = W_MOTION + MO_BALLS + MO_PER_BALL * MAX_BALLS + MAX_FLEX
+W_G0 = W_MOTION + MO_BALLS + MO_PER_BALL * MAX_BALLS + 2 * modes_layout.MAX_MODES
 W_SOUND = W_G0 + N_BODY * STRIDE
 
 
 def state_size(p):
     """Length of ``s`` for the parameters ``p``."""
-    return S_SOUND + int(p[P_SOUND_STATE])
+    return S_SOUND + int(p[P_SOUND_STATE]) + modes_layout.state_size(int(p[P_MODES]), STRIDE)
 
 
 def work_size(p):
     """Length of ``w`` for the parameters ``p``."""
-    return W_SOUND + int(p[P_SOUND_WORK]) + 8
+    return W_SOUND + int(p[P_SOUND_WORK]) + 8 + modes_layout.work_size(int(p[P_MODES]), STRIDE, STAGES)
 
 
 # --- status codes -------------------------------------------------------------------------------------

@@ -50,6 +50,7 @@ def outputs(scene: Scene) -> list[Variable]:
         place = at.Z_BALLS + 3 * j
         table += _vector(f"ball[{j + 1}]", "velocity", "output", words, "m/s", place, nominal=10.0)
     table += _microphones(scene, "output")
+    table += _flexure(scene)
     torque = "Torque taken from the shaft, without inertia: that belongs to the drive"
     table.append(_read("friction_torque", "output", torque, "N.m"))
     for name, words in (("inner_ring", "the inner ring"), ("outer_ring", "the outer ring")):
@@ -173,6 +174,29 @@ def _torque_shares(scene: Scene) -> list[Variable]:
         for name, words in shares
         if name != "cage" or scene.bearing.cage is not None
     ]
+
+
+def _flexure(scene: Scene) -> list[Variable]:
+    """Return the velocities of the rings' bending, in the order of the engine's coordinates.
+
+    A bending of order n moves the groove radially by cosine cos(n theta) + sine sin(n theta), theta from
+    12 o'clock about +X in the frame that does not spin.
+    """
+    flexure = scene.mounting.flexure
+    if flexure is None:
+        return []
+    bands = len(at.BANDS) if scene.sound is not None and scene.sound.third_octaves else 0
+    first = at.z_flex(scene.bearing.ball_count, len(scene.microphones), bands)
+    table: list[Variable] = []
+    for ring, orders in (("inner", flexure.inner_ring), ("outer", flexure.outer_ring)):
+        for order in orders:
+            for part in ("cosine", "sine"):
+                words = f"Velocity of the {ring} ring's bending of order {order} at the groove, {part} part"
+                name = f"{ring}_ring.flexure.n{order}.{part}"
+                table.append(
+                    _read(name, "output", words, "m/s", first + len(table), display_unit="mm/s", nominal=1e-3)
+                )
+    return table
 
 
 def _microphones(scene: Scene, causality: str) -> list[Variable]:

@@ -50,7 +50,7 @@ class Elastic:
 def _strain(u: Any, r: NDArray[np.float64]) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
     """Strains xx, rr, tt, xr, rt, xt (shears doubled): what does not grow with n, and what does, per n."""
     (xx, xr), (rx, rr), (tx, tr) = u.grad
-    x, radial, t = u.value
+    x, radial, t = u[0], u[1], u[2]
     zero = 0.0 * x
     return (xx, rr, radial / r, xr + rx, tr - t / r, tx), (zero, zero, t / r, zero, -radial / r, -x / r)
 

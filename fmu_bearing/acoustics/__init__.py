@@ -7,6 +7,7 @@
 ``fir``        decimator, and filters fitted to transfer functions
 ``weighting``  A-weighting, Fast and Slow, levels
 ``stream``     packs everything for the engine: `stream.sound_parameters`
+``field``      pressure anywhere from recorded channels, in the frequency domain
 ``spectrum``   spectra of recordings, kinematic frequencies
 =============  ==============================================================================
 

@@ -9,5 +9,7 @@
 ``chart``        error against speed, drawn
 ``choose``       level ``auto``: the cheapest within the scene's accuracy, found by running it
 ``sensitivity``  what rests on assumed values
+``recording``    `record`: a run with the engine's channels kept
+``recorded``     `Recording`: pressure at any microphone, from such a run or from an FMU's
 ``table``        tables to terminal, Markdown, CSV; the machine they were made on
 """

@@ -1,0 +1,165 @@
+"""Pressure at any place from recorded channels, by exact multiplication in the frequency domain.
+
+The engine streams sound to the scene's microphones through short filters. This module takes the channels that
+such a run leaves behind (one row per sample at ``RATE``, behind decimator and high-pass) to microphones that
+the run did not know, through the same paths, without filters: one long transform of the channels, the
+decimator's response divided out, times each path's transfer function between its tabulated frequencies.
+"""
+
+from collections.abc import Callable, Hashable, Iterator, Sequence
+from dataclasses import dataclass
+from importlib import import_module
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.fft import irfft, next_fast_len, rfft
+from scipy.interpolate import CubicSpline
+
+from fmu_bearing.acoustics.fir import BAND, decimator_response, fit_frequencies
+from fmu_bearing.acoustics.transfer import Air, Path, Radiators, compact_paths, paper_paths
+from fmu_bearing.engine.sound import places
+
+Position = tuple[float, float, float]
+
+#: Rows that a recording must reach beyond the last pressure wanted: the band limit rings that long (5 ms).
+TAIL = 256
+_STOP = 24_000.0  # Hz: between the end of the band and here everything fades out
+_SETTLE = 4096  # rows of zeros behind the recording, so that the end does not reach round to the beginning
+_BLOCK = 16_384  # frequencies worked on at once: bounds the memory
+_SAME_PLACE = 9  # decimals of a metre within which microphones share a circle
+
+
+@dataclass(frozen=True)
+class Circle:
+    """Microphones that share transfer functions: their places in the list asked for, and their paths."""
+
+    members: tuple[int, ...]
+    paths: tuple[Path, ...]
+
+
+def circles(
+    rung: str, radiators: Radiators, air: Air, positions: Sequence[Position], harmonics: int
+) -> Iterator[Circle]:
+    """Yield the paths from channels to microphones, circle by circle.
+
+    Parameters
+    ----------
+    rung : str
+        ``"compact"``, ``"bem"`` or ``"paper"``.
+    positions : sequence of (x, y, z)
+        Places in m, bearing centre at the origin.
+    harmonics : int
+        Highest circumferential order of the balls among the channels.
+
+    Raises
+    ------
+    ValueError
+        On another rung, or a microphone inside a body.
+    """
+    groups: dict[tuple[float, float], list[int]] = {}
+    for i, (x, y, z) in enumerate(positions):
+        across = float(np.hypot(y, z))
+        place = (float(np.hypot(across, x)), 0.0) if rung == "paper" else (across, float(x))
+        groups.setdefault((round(place[0], _SAME_PLACE), round(place[1], _SAME_PLACE)), []).append(i)
+    for members in groups.values():
+        x, y, z = (float(value) for value in positions[members[0]])
+        if rung == "paper":
+            paths = paper_paths(radiators, air, float(np.linalg.norm((x, y, z))), len(members))
+        else:
+            azimuths = [float(np.arctan2(-positions[i][1], positions[i][2])) for i in members]
+            paths = _vector_paths(rung)(radiators, air, float(np.hypot(y, z)), x, azimuths, harmonics)
+        yield Circle(tuple(members), tuple(paths))
+
+
+def _vector_paths(rung: str) -> Callable[..., list[Path]]:
+    """Return what makes the paths of a rung that takes accelerations as they are."""
+    if rung == "compact":
+        return compact_paths
+    if rung == "bem":
+        found: Callable[..., list[Path]] = import_module("fmu_bearing.acoustics.bem.paths").bem_paths
+        return found
+    raise ValueError(f'rung = "{rung}" cannot be evaluated at other places: use "compact", "bem" or "paper"')
+
+
+def kind_of(path: Path) -> str:
+    """Source type of a path: one of radial, axial, rotation, flexure, balls (``places.KINDS``)."""
+    kind = getattr(path, "kind", None)
+    if kind is not None:
+        return str(places.KINDS[kind])  # type: ignore[attr-defined,unused-ignore]
+    if path.channel >= places.C_BALLS:
+        return "balls"
+    return "axial" if path.channel % 3 == 0 else "radial"
+
+
+class Channels:
+    """Spectra of recorded channels, ready to be taken to microphones.
+
+    Parameters
+    ----------
+    history : ndarray, shape (rows, channels)
+        Channel history from the engine's first sample on; rows are 1 / ``RATE`` apart.
+    longest : float
+        Longest flight (s) it will be used for.
+    """
+
+    def __init__(self, history: NDArray[np.float64], longest: float = 0.1) -> None:
+        self.rows = len(history)
+        self.size = int(next_fast_len(self.rows + _SETTLE + round(longest * places.RATE), real=True))
+        frequency = np.fft.rfftfreq(self.size, 1.0 / places.RATE).astype(np.float64)
+        self.frequency = frequency[frequency < _STOP]
+        fade = np.clip((self.frequency - BAND[1]) / (_STOP - BAND[1]), 0.0, 1.0)
+        shape = np.empty(len(self.frequency), dtype=complex)
+        for block in _blocks(len(shape)):
+            shape[block] = np.cos(0.5 * np.pi * fade[block]) ** 2 / decimator_response(self.frequency[block])
+        self.spectra = np.empty((history.shape[1], len(shape)), dtype=complex)
+        for c in range(history.shape[1]):
+            self.spectra[c] = rfft(history[:, c], self.size)[: len(shape)] * shape
+
+    def pressures(
+        self, circle: Circle, label: Callable[[Path], Hashable] = lambda path: ""
+    ) -> dict[Hashable, NDArray[np.float64]]:
+        """Pressure (Pa) at the microphones of one circle, shape (members, rows), split by ``label``.
+
+        No latency: row k is what arrives at time k / ``RATE``. The last `TAIL` rows are not to be used.
+        """
+        members = len(circle.members)
+        parts = {label(path): np.zeros((members, self.size // 2 + 1), complex) for path in circle.paths}
+        interpolants = _interpolants(circle.paths)
+        for block in _blocks(len(self.frequency)):
+            f = self.frequency[block]
+            known = {key: spline(f) * np.exp(-2j * np.pi * f * flight) for key, (spline, flight) in
+                     interpolants.items()}  # fmt: skip
+            for name in parts:
+                chosen = [path for path in circle.paths if label(path) == name]
+                heard = np.array([self.spectra[path.channel, block] * known[_key(path)] for path in chosen])
+                weights = np.array([path.weights for path in chosen]).T
+                parts[name][:, block] = weights @ heard
+        return {name: irfft(part, self.size, axis=1)[:, : self.rows] for name, part in parts.items()}
+
+
+def _key(path: Path) -> tuple[int, float]:
+    """Identity of a transfer function: sources that share a response share its interpolant."""
+    return id(path.response), path.flight
+
+
+def _interpolants(paths: Sequence[Path]) -> dict[tuple[int, float], tuple[CubicSpline, float]]:
+    """Cubic splines through the responses without their flight times; conjugate at negative frequencies."""
+    f = fit_frequencies()
+    both = np.concatenate([-f[::-1], f])
+    found = {}
+    for path in paths:
+        if _key(path) not in found:
+            still = path.response * np.exp(2j * np.pi * f * path.flight)
+            spline = CubicSpline(both, np.concatenate([still[::-1].conj(), still]))
+            # beyond the last tabulated frequency everything fades: its value is held
+            found[_key(path)] = (_held(spline, f[-1]), path.flight)
+    return found
+
+
+def _held(spline: CubicSpline, last: float) -> Callable[[NDArray[np.float64]], NDArray[np.complex128]]:
+    return lambda f: spline(np.minimum(f, last))
+
+
+def _blocks(count: int) -> Iterator[slice]:
+    for start in range(0, count, _BLOCK):
+        yield slice(start, min(start + _BLOCK, count))

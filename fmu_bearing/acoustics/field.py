@@ -21,7 +21,7 @@ from fmu_bearing.acoustics.transfer import Air, Path, Radiators, compact_paths, 
 from fmu_bearing.engine.sound import places
 
 Position = tuple[float, float, float]
-_Response = Callable[[NDArray[np.float64]], NDArray[np.complex128]]
+_Responses = Callable[[NDArray[np.float64]], dict[tuple[int, float], NDArray[np.complex128]]]
 
 #: Rows that a recording must reach beyond the last pressure wanted: the band limit rings that long (5 ms).
 TAIL = 256
@@ -126,11 +126,9 @@ class Channels:
         """
         members = len(circle.members)
         parts = {label(path): np.zeros((members, self.size // 2 + 1), complex) for path in circle.paths}
-        interpolants = _interpolants(circle.paths)
+        responses = _interpolated(circle.paths)
         for block in _blocks(len(self.frequency)):
-            f = self.frequency[block]
-            known = {key: spline(f) * np.exp(-2j * np.pi * f * flight) for key, (spline, flight) in
-                     interpolants.items()}  # fmt: skip
+            known = responses(self.frequency[block])
             for name in parts:
                 chosen = [path for path in circle.paths if label(path) == name]
                 heard = np.array([self.spectra[path.channel, block] * known[_key(path)] for path in chosen])
@@ -180,19 +178,16 @@ class Blocks:
         self, circle: Circle, label: Callable[[Path], Hashable] = lambda path: ""
     ) -> dict[Hashable, NDArray[np.float64]]:
         """Mean square pressure (Pa^2) per bin at one circle's microphones, (members, bins) by label."""
-        f = self.frequency
-        known = {
-            key: spline(f) * np.exp(-2j * np.pi * f * flight)
-            for key, (spline, flight) in _interpolants(circle.paths).items()
-        }
+        known = _interpolated(circle.paths)(self.frequency)
         found: dict[Hashable, NDArray[np.float64]] = {}
         for name in dict.fromkeys(label(path) for path in circle.paths):
             chosen = [path for path in circle.paths if label(path) == name]
             weights = np.array([path.weights for path in chosen]).T
-            total = np.zeros((len(circle.members), len(f)))
+            total = np.zeros((len(circle.members), len(self.frequency)))
+            places_of = [path.channel for path in chosen]
+            response = np.array([known[_key(path)] for path in chosen])
             for block in range(self.spectra.shape[1]):
-                heard = np.array([self.spectra[path.channel, block] * known[_key(path)] for path in chosen])
-                total += np.abs(weights @ heard) ** 2
+                total += np.abs(weights @ (self.spectra[places_of, block] * response)) ** 2
             found[name] = total
         return found
 
@@ -202,22 +197,28 @@ def _key(path: Path) -> tuple[int, float]:
     return id(path.response), path.flight
 
 
-def _interpolants(paths: Sequence[Path]) -> dict[tuple[int, float], tuple[_Response, float]]:
-    """Cubic splines through the responses without their flight times; conjugate at negative frequencies."""
+def _interpolated(paths: Sequence[Path]) -> _Responses:
+    """Return a function that gives the responses of all paths at frequencies, by `_key`.
+
+    One cubic spline through the responses without their flight times, conjugate at negative frequencies.
+    Beyond the last tabulated frequency, where everything fades, the value there is held.
+    """
     f = fit_frequencies()
-    both = np.concatenate([-f[::-1], f])
-    found = {}
-    for path in paths:
-        if _key(path) not in found:
-            still = path.response * np.exp(2j * np.pi * f * path.flight)
-            spline = CubicSpline(both, np.concatenate([still[::-1].conj(), still]))
-            # beyond the last tabulated frequency everything fades: its value is held
-            found[_key(path)] = (_held(spline, f[-1]), path.flight)
-    return found
+    distinct = {_key(path): path for path in paths}
+    flights = np.array([path.flight for path in distinct.values()])
+    still = np.array([path.response for path in distinct.values()]) * np.exp(
+        2j * np.pi * np.outer(flights, f)
+    )
+    spline = CubicSpline(
+        np.concatenate([-f[::-1], f]), np.concatenate([still[:, ::-1].conj(), still], axis=1), axis=1
+    )
 
+    def evaluate(frequency: NDArray[np.float64]) -> dict[tuple[int, float], NDArray[np.complex128]]:
+        found = spline(np.minimum(frequency, f[-1]))
+        turns = {flight: np.exp(-2j * np.pi * frequency * flight) for flight in set(flights)}
+        return {key: row * turns[key[1]] for key, row in zip(distinct, found, strict=True)}
 
-def _held(spline: CubicSpline, last: float) -> _Response:
-    return lambda f: spline(np.minimum(f, last))
+    return evaluate
 
 
 def _blocks(count: int) -> Iterator[slice]:

@@ -25,7 +25,7 @@ _TOGETHER = 32  # microphones evaluated at once by `Recording.levels`
 _NO_WEIGHTING = 'weighting = "{}": only "A" and "Z" (none) are known'
 
 
-@dataclass
+@dataclass(repr=False)
 class Heard:
     """What a run leaves behind for the ears; `recorded.Recording` is it, and knows files.
 
@@ -70,6 +70,13 @@ class Heard:
     microphones: tuple[tuple[str, Position], ...] = ()
     harmonics: int = 0
     _spectra: Channels | None = field(default=None, repr=False, compare=False)
+
+    def __repr__(self) -> str:
+        name = "no scene" if self.scene is None else self.scene.name
+        return (
+            f"{type(self).__name__}({name}, rung {self.rung}, {self.size / self.rate:g} s at "
+            f"{self.rate:g} Hz from {self.start:g} s on, {self.history.shape[1]} channels)"
+        )
 
     @property
     def time(self) -> NDArray[np.float64]:
@@ -217,7 +224,7 @@ class Heard:
             return self._quick_levels(places, rung, weighting, resolution)
         mean_square = np.zeros(len(places))
         if self.history.size == 0:
-            mean_square[:] = self._mean_square(self.pressure(places), weighting)
+            mean_square[:] = self.mean_square(self.pressure(places), weighting)
             return level(mean_square)
         energies = (rung or self.rung).startswith("paper")
         for low in range(0, len(places), _TOGETHER):
@@ -227,7 +234,7 @@ class Heard:
             ):
                 rows = [low + i for i in circle.members]
                 for part in parts.values():
-                    mean_square[rows] += self._mean_square(part, weighting)
+                    mean_square[rows] += self.mean_square(part, weighting)
         return level(mean_square)
 
     def _quick_levels(
@@ -247,8 +254,11 @@ class Heard:
             mean_square[list(circle.members)] = sum(part @ weights for part in parts.values())
         return level(mean_square)
 
-    def _mean_square(self, pressure: NDArray[np.float64], weighting: str) -> NDArray[np.float64]:
-        """Mean square over the samples; filters have settled on what was before the first, if anything."""
+    def mean_square(self, pressure: NDArray[np.float64], weighting: str = "Z") -> NDArray[np.float64]:
+        """Mean square (Pa^2) over the recording's samples, the last ones of ``pressure``, shape (...,).
+
+        What ``pressure`` holds before them lets the filter of the A-weighting settle.
+        """
         if weighting == "A":
             pressure = sosfilt(a_weighting_sections(self.rate), pressure, axis=-1)
         elif weighting != "Z":

@@ -88,6 +88,13 @@ def record(
         if not (math.isfinite(value) and value > low):
             raise ValueError(f"{name} = {value} s: it must be a finite, positive number of seconds")
     wanted = rung or ("compact" if scene.sound is None else scene.sound.rung)
+    if microphones and (
+        scene.sound is None or wanted.startswith("paper") != scene.sound.rung.startswith("paper")
+    ):
+        raise ValueError(
+            f'microphones=True runs the scene as it is, which has no channels for rung = "{wanted}": '
+            "leave it out, or set sound.rung in the scene"
+        )
     model = source if isinstance(source, Model) and microphones else prepare(
         scene if microphones else listened(scene, wanted if wanted.startswith("paper") else "compact")
     )  # fmt: skip

@@ -9,6 +9,7 @@ decimator's response divided out, times each path's transfer function between it
 from collections.abc import Callable, Hashable, Iterator, Sequence
 from dataclasses import dataclass
 from importlib import import_module
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,7 +41,12 @@ class Circle:
 
 
 def circles(
-    rung: str, radiators: Radiators, air: Air, positions: Sequence[Position], harmonics: int
+    rung: str,
+    radiators: Radiators,
+    air: Air,
+    positions: Sequence[Position],
+    harmonics: int,
+    **options: Any,
 ) -> Iterator[Circle]:
     """Yield the paths from channels to microphones, circle by circle.
 
@@ -52,6 +58,8 @@ def circles(
         Places in m, bearing centre at the origin.
     harmonics : int
         Highest circumferential order of the balls among the channels.
+    options
+        What else the rung's own function takes, such as a reflecting plane.
 
     Raises
     ------
@@ -69,7 +77,9 @@ def circles(
             paths = paper_paths(radiators, air, float(np.linalg.norm((x, y, z))), len(members))
         else:
             azimuths = [float(np.arctan2(-positions[i][1], positions[i][2])) for i in members]
-            paths = _vector_paths(rung)(radiators, air, float(np.hypot(y, z)), x, azimuths, harmonics)
+            paths = _vector_paths(rung)(
+                radiators, air, float(np.hypot(y, z)), x, azimuths, harmonics, **options
+            )
         yield Circle(tuple(members), tuple(paths))
 
 
@@ -87,7 +97,7 @@ def kind_of(path: Path) -> str:
     """Source type of a path: one of radial, axial, rotation, flexure, balls (``places.KINDS``)."""
     kind = getattr(path, "kind", None)
     if kind is not None:
-        return str(places.KINDS[kind])  # type: ignore[attr-defined,unused-ignore]
+        return kind if isinstance(kind, str) else str(places.KINDS[kind])  # type: ignore[attr-defined,unused-ignore]
     if path.channel >= places.C_BALLS:
         return "balls"
     return "axial" if path.channel % 3 == 0 else "radial"
@@ -105,7 +115,7 @@ class Channels:
     """
 
     def __init__(self, history: NDArray[np.float64], longest: float = 0.1) -> None:
-        self.rows = len(history)
+        self.rows, self.longest = len(history), longest
         self.size = int(next_fast_len(self.rows + _SETTLE + round(longest * places.RATE), real=True))
         frequency = np.fft.rfftfreq(self.size, 1.0 / places.RATE).astype(np.float64)
         self.frequency = frequency[frequency < _STOP]

@@ -55,7 +55,8 @@ def kinematic_lines(
     lines = []
     for carrier, by in modulators.items():
         base = float(getattr(frequencies, carrier))
-        for n in range(1, harmonics + 1):
+        # the shaft's own go on: f_i + f_o alone is as many times f_r as there are balls
+        for n in range(1, (2 * harmonics if carrier == "f_r" else harmonics) + 1):
             lines.append(KinematicLine(n * base, _times(n, carrier), n - 1))
             for modulator, sidebands in by.items():
                 step = float(getattr(frequencies, modulator))

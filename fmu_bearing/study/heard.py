@@ -4,8 +4,11 @@ A run's motion does not depend on who listens: what the engine fed to its filter
 (``acoustics.field``).
 """
 
+import math
+import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -21,6 +24,7 @@ from fmu_bearing.engine.sound.places import COMPONENTS
 from fmu_bearing.scene import Scene, si
 
 _ANGLES = ("contact.inner.angle_mean", "contact.outer.angle_mean")
+_FLIGHT = 0.1  # s: room for microphones to 34 m without another transform
 _TOGETHER = 32  # microphones evaluated at once by `Recording.levels`
 _NO_WEIGHTING = 'weighting = "{}": only "A" and "Z" (none) are known'
 
@@ -270,12 +274,27 @@ class Heard:
     ) -> Iterator[tuple[Circle, dict[Any, NDArray[np.float64]]]]:
         """Yield each circle with its pressures by label; ``whole``: with what was before the first sample."""
         found = self._circles(places, rung)
-        if self._spectra is None:
-            self._spectra = Channels(self.history)
+        self._prepare(places)
+        assert self._spectra is not None
         begin = 0 if whole else self.first
         for circle in found:
             parts = self._spectra.pressures(circle, label)
             yield circle, {name: part[:, begin : self.first + self.size] for name, part in parts.items()}
+
+    def _prepare(self, places: list[Position]) -> None:
+        """Spectra of the channels, with room for the longest flight; a warning where it exceeds the start."""
+        assert self.scene is not None
+        longest = max(math.hypot(*place) for place in places) / air_of(self.scene).sound_speed
+        if longest > self.start:
+            warnings.warn(
+                f"sound takes {longest:.3g} s to the farthest place, but the recording starts "
+                f"{self.start:.3g} s after the bearing: record with a longer settle",
+                stacklevel=4,
+            )
+        # the room depends on the places alone, so that a call gives the same bits whatever was asked before
+        room = _FLIGHT if longest < _FLIGHT else 1.2 * longest
+        if self._spectra is None or self._spectra.longest != room:
+            self._spectra = Channels(self.history, room)
 
     def _circles(self, places: list[Position], rung: str | None) -> Iterator[Circle]:
         """Paths from the channels to places, circle by circle."""
@@ -289,7 +308,8 @@ class Heard:
             raise ValueError(
                 f'rung = "{rung}" needs other channels than "{self.rung}": record with rung="{rung}"'
             )
-        return circles(rung, radiators_of(self.scene), air_of(self.scene), places, self.harmonics)
+        radiators, air = radiators_of(self.scene), air_of(self.scene)
+        return circles(rung, radiators, air, places, self.harmonics, **_options(self.scene))
 
     def _places(self, positions: Sequence[ArrayLike] | None) -> list[Position]:
         """Places as plain tuples."""
@@ -313,6 +333,17 @@ class Heard:
                 )
             rows.append(near[0])
         return rows
+
+
+def _options(scene: Scene) -> dict[str, Any]:
+    """Return what paths take beyond radiators and air, if the scene has it: reflecting plane (m), modes."""
+    found: dict[str, Any] = {}
+    plane = getattr(scene.sound, "reflecting_plane_mm", None)
+    if plane is not None:
+        found["plane"] = 1e-3 * plane
+    if getattr(scene.mounting, "flexure", None) is not None:
+        found["modes"] = import_module("fmu_bearing.elastic.modes").ring_modes(scene)
+    return found
 
 
 def air_of(scene: Scene) -> Air:

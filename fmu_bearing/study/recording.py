@@ -170,11 +170,12 @@ def _march(
     bearing: Instance, drives: Mapping[str, Signal], kept: _Kept, step: float, progress: bool | None
 ) -> None:
     """Step until all rows have come."""
+    from rich.console import Console
     from rich.progress import Progress
 
     total = len(kept.rows)
     shown = sys.stderr.isatty() and total > places.RATE / 2 if progress is None else progress
-    with Progress(transient=True, disable=not shown) as bar:
+    with Progress(console=Console(stderr=True), transient=True, disable=not shown) as bar:
         task = bar.add_task(f"{bearing.model.scene.name}: recording", total=total)
         kept.read()
         number = 0

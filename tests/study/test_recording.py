@@ -60,3 +60,15 @@ def test_save_and_load(own, tmp_path):
     np.savez(tmp_path / "other.npz", x=np.zeros(3))
     with pytest.raises(ValueError, match="no recording"):
         Recording.load(tmp_path / "other.npz")
+
+
+def test_far_places(spindle, own):
+    """At 30 and 45 m sound has fallen by 20 lg 1.5; a recording that starts before it arrives says so."""
+    before = own.pressure()
+    with pytest.warns(UserWarning, match="longer settle"):
+        assert np.abs(own.pressure([(0.0, 0.0, 45.0)])).max() < 1e-3 * np.abs(before).max()
+    assert np.array_equal(own.pressure(), before)
+    late = record(spindle, 0.1, settle=0.15)
+    near, far = late.levels([(0.0, 0.0, 30.0), (0.0, 0.0, 45.0)])
+    # not the same 0.1 s of sound: the farther microphone hears 44 ms earlier ones
+    assert near - far == pytest.approx(20 * np.log10(1.5), abs=0.3)

@@ -93,6 +93,11 @@ def _vector_paths(rung: str) -> Callable[..., list[Path]]:
     raise ValueError(f'rung = "{rung}" cannot be evaluated at other places: use "compact", "bem" or "paper"')
 
 
+def form_of(rung: str) -> str:
+    """Return which channels a rung hears: accelerations (``"vectors"``), or a paper's own, by its name."""
+    return rung if rung in ("paper", "paper_contacts") else "vectors"
+
+
 def kind_of(path: Path) -> str:
     """Source type of a path: one of radial, axial, rotation, flexure, balls (``places.KINDS``)."""
     kind = getattr(path, "kind", None)

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.signal import sosfilt
 
-from fmu_bearing.acoustics.field import Blocks, Channels, Circle, Position, circles, kind_of
+from fmu_bearing.acoustics.field import Blocks, Channels, Circle, Position, circles, form_of, kind_of
 from fmu_bearing.acoustics.spectrum import KinematicFrequencies, kinematic_frequencies
 from fmu_bearing.acoustics.stream import radiators_of
 from fmu_bearing.acoustics.transfer import Air
@@ -304,7 +304,7 @@ class Heard:
                 "study.recording.record keeps"
             )
         rung = self.rung if rung is None else rung
-        if rung.startswith("paper") != self.rung.startswith("paper"):
+        if form_of(rung) != form_of(self.rung):
             raise ValueError(
                 f'rung = "{rung}" needs other channels than "{self.rung}": record with rung="{rung}"'
             )

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.acoustics.field import TAIL
+from fmu_bearing.acoustics.field import TAIL, form_of
 from fmu_bearing.acoustics.transfer import Air
 from fmu_bearing.engine import layout as at
 from fmu_bearing.engine.sound import places
@@ -88,15 +88,13 @@ def record(
         if not (math.isfinite(value) and value > low):
             raise ValueError(f"{name} = {value} s: it must be a finite, positive number of seconds")
     wanted = rung or ("compact" if scene.sound is None else scene.sound.rung)
-    if microphones and (
-        scene.sound is None or wanted.startswith("paper") != scene.sound.rung.startswith("paper")
-    ):
+    if microphones and (scene.sound is None or form_of(wanted) != form_of(scene.sound.rung)):
         raise ValueError(
             f'microphones=True runs the scene as it is, which has no channels for rung = "{wanted}": '
             "leave it out, or set sound.rung in the scene"
         )
     model = source if isinstance(source, Model) and microphones else prepare(
-        scene if microphones else listened(scene, wanted if wanted.startswith("paper") else "compact")
+        scene if microphones else listened(scene, "compact" if form_of(wanted) == "vectors" else wanted)
     )  # fmt: skip
     bearing = Instance(model)
     drives = dict(inputs or {})
@@ -123,7 +121,11 @@ def listened(scene: Scene, rung: str) -> Scene:
         rung="compact", radiator="bare", air_density_kg_m3=Air.density, sound_speed_m_s=Air.sound_speed,
         time_weighting="fast", metering_start_s=0.0, microphone=(one,),
     )  # fmt: skip
-    sound = sound.model_copy(update={"rung": rung, "microphone": (one,), "circle": None})
+    # channels are motion: they do not depend on what radiates, and a bare bearing is the cheapest
+    sound = sound.model_copy(
+        update={"rung": rung, "radiator": "bare", "microphone": (one,), "circle": None}
+        | {key: None for key in ("reflecting_plane_mm", "table_file") if key in Sound.model_fields}
+    )
     return scene.model_copy(update={"sound": sound})
 
 
@@ -156,14 +158,19 @@ class _Kept:
             values.append(self.bearing.get(name))
         state = self.bearing.s[at.S_SOUND :]
         channels = self.rows.shape[1]
-        history = places.SS_TABLES + channels * (places.DECIMATOR_TAPS + 2)
-        ring = state[history : history + channels * self.depth].reshape(self.depth, channels)
+        first = _history_place(channels)
+        ring = state[first : first + channels * self.depth].reshape(self.depth, channels)
         count = int(state[places.SS_COUNT])
         if count - self.count > self.depth:
             raise RuntimeError(f"{count - self.count} rows came in one step, the engine keeps {self.depth}")
         new = np.arange(self.count, min(count, len(self.rows)))
         self.rows[new] = ring[new % self.depth]
         self.count = count
+
+
+def _history_place(channels: int) -> int:
+    """Place of the ring of channel rows in the sound state: behind the raw history and the high-pass."""
+    return places.SS_TABLES + channels * (places.DECIMATOR_TAPS + 2)
 
 
 def _march(

@@ -1,5 +1,7 @@
 """Recordings: any microphone after the run, as exact as the engine's own."""
 
+import sys
+
 import numpy as np
 import pytest
 
@@ -72,3 +74,23 @@ def test_far_places(spindle, own):
     near, far = late.levels([(0.0, 0.0, 30.0), (0.0, 0.0, 45.0)])
     # not the same 0.1 s of sound: the farther microphone hears 44 ms earlier ones
     assert near - far == pytest.approx(20 * np.log10(1.5), abs=0.3)
+
+
+def test_boundary_elements_are_asked_by_name(own, monkeypatch):
+    """Rung bem is loaded when it is wanted, and gets what all rungs get."""
+    from types import ModuleType
+
+    from fmu_bearing.acoustics.transfer import compact_paths
+
+    asked = []
+
+    def bem_paths(*arguments, **options):
+        asked.append((arguments[2:4], options))
+        return compact_paths(*arguments)
+
+    room, paths = ModuleType("bem"), ModuleType("paths")
+    paths.bem_paths = bem_paths
+    monkeypatch.setitem(sys.modules, "fmu_bearing.acoustics.bem", room)
+    monkeypatch.setitem(sys.modules, "fmu_bearing.acoustics.bem.paths", paths)
+    assert np.array_equal(own.pressure([(0.05, -0.12, 0.16)], "bem"), own.pressure([(0.05, -0.12, 0.16)]))
+    assert asked == [((pytest.approx(0.2), 0.05), {})]

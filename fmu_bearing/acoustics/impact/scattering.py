@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.special import eval_legendre
 
 from fmu_bearing.acoustics.impact import multipoles as waves
-from fmu_bearing.acoustics.transfer import Air
+from fmu_bearing.acoustics.radiators import Air
 
 Array = NDArray[np.float64]
 Spectrum = NDArray[np.complex128]

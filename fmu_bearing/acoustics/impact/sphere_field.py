@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.signal import lsim
 
-from fmu_bearing.acoustics.transfer import Air
+from fmu_bearing.acoustics.radiators import Air
 
 
 def sphere_pressure(

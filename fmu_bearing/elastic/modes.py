@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.elastic.fourier import Elastic, Solid, solid
-from fmu_bearing.elastic.section import FINENESS, INNER, OUTER, Section, grid, ring_section
+from fmu_bearing.elastic.section import FINENESS, INNER, OUTER, RACES, Section, grid, ring_section
 from fmu_bearing.scene import Scene, si
 from fmu_bearing.scene.material import Material
 
@@ -98,7 +98,7 @@ def ring_modes(scene: Scene) -> tuple[RingMode, ...]:
     Raises
     ------
     ValueError
-        When a ring's dimensions leave no groove.
+        When a ring's dimensions leave no groove, or it has no such mode among its lowest.
     """
     flexure = scene.mounting.flexure
     if flexure is None:
@@ -123,10 +123,22 @@ def elastic(material: Material) -> Elastic:
 
 @lru_cache(maxsize=64)
 def in_plane_mode(section: Section, material: Elastic, order: int, fineness: int = FINENESS) -> RingMode:
-    """Lowest mode of one order (2 or more) that moves mostly in the plane of the ring."""
+    """Lowest mode of one order (2 or more) that moves mostly in the plane of the ring.
+
+    Raises
+    ------
+    ValueError
+        When a ring of odd proportions has other motions first.
+    """
     ring = _solid(section, material, fineness)
     frequencies, shapes = ring.modes(order, _SEARCHED)
-    pick = next(i for i in range(_SEARCHED) if family(ring, order, shapes[:, i]) == "in-plane")
+    inside = [i for i in range(_SEARCHED) if family(ring, order, shapes[:, i]) == "in-plane"]
+    if not inside:
+        raise ValueError(
+            f"the {RACES[section.body]} ring has no in-plane mode of order {order} among its {_SEARCHED} "
+            "lowest: leave this order out of [mounting.flexure]"
+        )
+    pick = inside[0]
     shape = shapes[:, pick]
     contact = ring.nodes[ring.grid.contact, ring.grid.race_row]
     shape = shape / shape[contact[_R]]

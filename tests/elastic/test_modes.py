@@ -212,3 +212,12 @@ def test_frequencies_beyond_the_mesh_are_refused():
         free_modes(*ring("7003C-bare", OUTER), 1e7)
     with pytest.raises(ValueError, match="highest = 0 Hz is refused"):
         free_modes(*ring("7003C-bare", OUTER), 0.0)
+
+
+def test_disc_without_bending_in_its_plane_is_refused():
+    # a thin plate with a small hole: six families bend out of its plane before one in it
+    plate = Section(OUTER, 0.002, 0.050, 0.0004)
+    with pytest.raises(
+        ValueError, match="outer ring has no in-plane mode of order 2 among its 6 lowest: leave"
+    ):
+        in_plane_mode(plate, STEEL, 2)

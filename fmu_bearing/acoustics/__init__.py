@@ -20,7 +20,7 @@
 ``bem``              the rung ``bem``: boundary elements on bodies of revolution
 ``fir``              decimator, and filters fitted to transfer functions
 ``weighting``        A-weighting, Fast and Slow, levels
-``stream``           designs all filters of a scene: `stream.sound_parameters`; ``pack``, ``blocks``: their layout
+``stream``           designs the filters of a scene: `stream.sound_parameters`; ``pack``, ``blocks``: layout
 ``field``            pressure anywhere from recorded channels, in the frequency domain
 ``spectrum``         spectra of recordings, kinematic frequencies
 ``lines``            lines that kinematics expect, lines that stand out, what explains them

@@ -20,7 +20,7 @@ from rich.console import Console
 from rich.progress import Progress
 
 from fmu_bearing.acoustics.bem.meridian import Body, Mesh
-from fmu_bearing.acoustics.bem.solver import Scatterer, orbit_dipoles, wall_admittance
+from fmu_bearing.acoustics.bem.solver import ROUGHNESS_FACTOR, Scatterer, orbit_dipoles, wall_admittance
 from fmu_bearing.engine.jit import cache_directory
 
 Complex = NDArray[np.complex128]
@@ -160,7 +160,7 @@ class Solution:
         k = self._wavenumber(frequency)
         mesh = self._scatterer.mesh
         found = np.zeros((self.count, mesh.size), dtype=complex)
-        system = self._scatterer.at(k, wall_admittance(k, self.task.sound_speed))
+        system = self._scatterer.at(k, self._losses(k))
         cage_away = mesh.node_component() != BODIES - 1
         everything = np.concatenate([mesh.points, self._scatterer.inside])
         incoming = self._incoming(everything, k)
@@ -185,7 +185,7 @@ class Solution:
             k = self._wavenumber(frequency)
             single, double = potentials(k)
             if not self.task.baffled:
-                double = double - 1j * k * wall_admittance(k, self.task.sound_speed) * single
+                double = double - 1j * k * self._losses(k) * single
             for i, (order, shape) in enumerate(self._drives):
                 own = image * self.task.density * (single[order] @ shape)
                 result[:, i, f] = own + double[order] @ self.surface[f, i]
@@ -233,6 +233,10 @@ class Solution:
         """Sound of the balls in free space, shape (3, harmonics + 1, points)."""
         task = self.task
         return task.density * orbit_dipoles(points, k, task.orbit, self._balls, task.plane)
+
+    def _losses(self, k: float) -> complex:
+        """Admittance of the skins."""
+        return ROUGHNESS_FACTOR * wall_admittance(k, self.task.sound_speed)
 
     def _wavenumber(self, frequency: float) -> float:
         return 2.0 * np.pi * float(frequency) / self.task.sound_speed

@@ -157,7 +157,7 @@ def channels(harmonics: int, bodies_of_flexures: Sequence[int] = ()) -> dict[str
 
     ``bodies_of_flexures``: the body (0 inner, 1 outer ring) of each flexural coordinate.
     """
-    known = {}
+    known: dict[str, tuple[int, int, int]] = {}
     for body, index in _BODIES.items():
         for k, axis in enumerate("xyz"):
             known[f"{body}.acceleration.{axis}"] = (index, 3 * index + k, RADIAL if k else AXIAL)
@@ -170,8 +170,8 @@ def channels(harmonics: int, bodies_of_flexures: Sequence[int] = ()) -> dict[str
             for i, shape in enumerate(("cos", "sin")):
                 channel = C_BALLS + 2 + 6 * (m - 1) + 2 * k + i
                 known[f"balls.acceleration.{axis}.{shape}[{m}]"] = (BALLS, channel, BALLS_KIND)
-    for i, body in enumerate(bodies_of_flexures):
-        known[f"flexure[{i + 1}]"] = (body, c_flex(harmonics) + i, FLEXURE)
+    for i, ring in enumerate(bodies_of_flexures):
+        known[f"flexure[{i + 1}]"] = (ring, c_flex(harmonics) + i, FLEXURE)
     return known
 
 

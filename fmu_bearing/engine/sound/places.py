@@ -75,7 +75,6 @@ BAND_LANES = 32  # lanes kept for the third octaves ``layout.BANDS``: whole vect
 ) = range(39)
 HEAD_SIZE = 40
 
-MAX_HARMONICS = 16
 MAX_CHANNELS = 256  # side by side in one bank
 MAX_LEVELS = 2
 (BANK_CHANNEL, BANK_COUNT, BANK_DELAY, BANK_TAPS, BANK_AT_TAPS, BANK_AT_TARGETS, BANK_LEVELS) = range(7)

@@ -152,4 +152,5 @@ def _surface(families: list[_Family], count: int, k: NDArray[np.float64], m: int
             drive[:, i, j] += source.area * (green @ turn[apart])
         disc = np.sqrt(to.area / np.pi)  # the patch itself: a disc, seen from its centre
         drive[:, i, i] += 0.5 * disc * np.sinc(k * disc / (2 * np.pi)) * np.exp(-0.5j * k * disc)
-    return np.moveaxis(np.linalg.solve(system, drive), 0, -1)
+    answers: NDArray[np.complex128] = np.moveaxis(np.linalg.solve(system, drive).astype(complex), 0, -1)
+    return answers

@@ -11,7 +11,7 @@ from fmu_bearing.acoustics.fir import decimator
 from fmu_bearing.acoustics.rungs import Ladder
 from fmu_bearing.acoustics.transfer import paper_scalars
 from fmu_bearing.acoustics.weighting import a_weighting_sections, band_sections, high_pass_section
-from fmu_bearing.engine.layout import BANDS
+from fmu_bearing.engine.layout import BANDS, STRIDE
 from fmu_bearing.engine.sound import places as at
 from fmu_bearing.engine.sound import thirds as bands
 
@@ -198,7 +198,7 @@ def _place_work(block: _Block, levels: Sequence[int]) -> None:
     """Give every part of the work space its place; the decimated channels stand first."""
     found = block.head
     channels, outputs, mics = (int(found[k]) for k in (at.H_CHANNELS, at.H_OUTPUTS, at.H_MICS))
-    scratch = [8 * at.MAX_HARMONICS, at.BAND_LANES]
+    scratch = [2 * STRIDE, at.BAND_LANES]
     scratch += [max(2 * b * channels, 2 * (b + 1) * outputs + 2 * b * outputs) for b in levels]
     end = channels
     for place, size in (

@@ -44,6 +44,7 @@ _BODIES = {"inner_ring": 0, "outer_ring": 1, "housing": 1, "cage": 2}
 _APART = 1e-3  # m by which a microphone may stand off its place in the scene
 _TURN = 0.5 * np.pi  # rad between neighbouring frequencies: beyond this the curve between them is a guess
 _HEARD = 10 ** (-40 / 20)  # turns count where the magnitude exceeds this share of the largest
+_SILENT = 1e-9  # an input this far below the loudest is what rounding has left
 _MARGIN = 4.0 / RATE  # s that a filter keeps ahead of the sound's mean arrival
 
 
@@ -157,7 +158,7 @@ def channels(harmonics: int, bodies_of_flexures: Sequence[int] = ()) -> dict[str
 
     ``bodies_of_flexures``: the body (0 inner, 1 outer ring) of each flexural coordinate.
     """
-    known = {}
+    known: dict[str, tuple[int, int, int]] = {}
     for body, index in _BODIES.items():
         for k, axis in enumerate("xyz"):
             known[f"{body}.acceleration.{axis}"] = (index, 3 * index + k, RADIAL if k else AXIAL)
@@ -170,8 +171,8 @@ def channels(harmonics: int, bodies_of_flexures: Sequence[int] = ()) -> dict[str
             for i, shape in enumerate(("cos", "sin")):
                 channel = C_BALLS + 2 + 6 * (m - 1) + 2 * k + i
                 known[f"balls.acceleration.{axis}.{shape}[{m}]"] = (BALLS, channel, BALLS_KIND)
-    for i, body in enumerate(bodies_of_flexures):
-        known[f"flexure[{i + 1}]"] = (body, c_flex(harmonics) + i, FLEXURE)
+    for i, ring in enumerate(bodies_of_flexures):
+        known[f"flexure[{i + 1}]"] = (ring, c_flex(harmonics) + i, FLEXURE)
     return known
 
 
@@ -200,8 +201,8 @@ def table_paths(
             raise ValueError(
                 f"sound.table_file: '{name}' stands twice, as housing and as outer_ring: keep one"
             )
-        _check_spacing(table, microphone, name, response, flight)
-        if np.any(response):
+        if np.abs(response).max() > _SILENT * np.abs(responses).max():
+            _check_spacing(table, microphone, name, response, flight)
             heard = between(table.frequencies, response, flight, f)
             found[channel] = Path(component, channel, flight, heard, np.ones(1), kind)
     return [found[channel] for channel in sorted(found)]
@@ -210,7 +211,8 @@ def table_paths(
 def _flight(frequency: NDArray[np.float64], responses: NDArray[np.complex128]) -> float:
     """Mean arrival time in s of all inputs at one microphone, less a margin: mean of the group delay."""
     peaks = np.abs(responses).max(axis=1)
-    scaled = responses[peaks > 0.0] / peaks[peaks > 0.0, None]
+    heard = peaks > _SILENT * peaks.max()
+    scaled = responses[heard] / peaks[heard, None]
     steps = scaled[:, 1:] * scaled[:, :-1].conj()
     # the phase of neighbouring products, weighted by their magnitude and spacing
     delays = -np.angle(steps) / (2.0 * np.pi * np.diff(frequency))

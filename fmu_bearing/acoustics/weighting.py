@@ -61,14 +61,15 @@ def band_centre(nominal: float) -> float:
 
 
 def band_sections(sample_rate: float, nominal: float) -> NDArray[np.float64]:
-    """Second-order sections of a third-octave filter, shape (3, 6), as `scipy.signal.sosfilt` takes them.
+    """Second-order sections of a third-octave filter, shape (4, 6), as `scipy.signal.sosfilt` takes them.
 
-    Butterworth of order three on either side, band edges 10^(1/20) above and below the middle (IEC 61260-1,
-    base ten), bilinear with both edges held; class 1. 0 dB exactly in the middle.
+    Butterworth of order four on either side (three would miss class 1 at 16 kHz), edges 10^(1/20) above
+    and below the middle (IEC 61260-1, base ten), bilinear with both edges held; class 1. 0 dB exactly in the
+    middle.
     """
     centre = band_centre(nominal)
     edges = (centre * 10**-0.05, centre * 10**0.05)
-    sections: NDArray[np.float64] = butter(3, edges, "bandpass", fs=sample_rate, output="sos")
+    sections: NDArray[np.float64] = butter(4, edges, "bandpass", fs=sample_rate, output="sos")
     sections[0, :3] /= abs(sosfreqz(sections, [centre], fs=sample_rate)[1][0])
     return sections
 

@@ -3,7 +3,7 @@
 import math
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import MO_BALLS, MO_CAGE, MO_PER_BALL
+from fmu_bearing.engine.layout import MO_BALLS, MO_CAGE, MO_PER_BALL, STRIDE
 from fmu_bearing.engine.sound.places import (
     C_BALLS,
     C_CYLINDERS,
@@ -16,7 +16,6 @@ from fmu_bearing.engine.sound.places import (
     H_FLEXURES,
     H_HARMONICS,
     H_W_TRANSFORM,
-    MAX_HARMONICS,
     SCALAR_BALL,
     SCALAR_COSINE,
     SCALAR_ORBIT,
@@ -25,35 +24,6 @@ from fmu_bearing.engine.sound.places import (
 )
 
 _FLOOR2 = SPEED_FLOOR**2
-_ROW = MAX_HARMONICS
-
-
-@kernel
-def _turns(c1, s1, table, orders):
-    """Cosines and sines of the multiples of an angle, 8 or 16 of them: rows 0 and 1 of the ``table``.
-
-    By doubling: each half turned by its last multiple makes the next, which is short and vectorised.
-    """
-    table[0] = c1
-    table[_ROW] = s1
-    table[1] = c1 * c1 - s1 * s1
-    table[_ROW + 1] = 2.0 * c1 * s1
-    c = table[1]
-    s = table[_ROW + 1]
-    for m in range(2):
-        table[2 + m] = table[m] * c - table[_ROW + m] * s
-        table[_ROW + 2 + m] = table[m] * s + table[_ROW + m] * c
-    c = table[3]
-    s = table[_ROW + 3]
-    for m in range(4):
-        table[4 + m] = table[m] * c - table[_ROW + m] * s
-        table[_ROW + 4 + m] = table[m] * s + table[_ROW + m] * c
-    if orders > 8:
-        c = table[7]
-        s = table[_ROW + 7]
-        for m in range(8):
-            table[8 + m] = table[m] * c - table[_ROW + m] * s
-            table[_ROW + 8 + m] = table[m] * s + table[_ROW + m] * c
 
 
 @kernel
@@ -67,34 +37,43 @@ def accelerations(ps, ws, motion, fresh):
         fresh[C_TILTS + 2 * body] = motion[12 * body + 10]
         fresh[C_TILTS + 2 * body + 1] = motion[12 * body + 11]
     at = int(ps[H_W_TRANSFORM])
-    table = ws[at : at + 8 * _ROW]  # one slice and constant rows: only so is the loop a vector loop
-    for i in range(2 * _ROW, 8 * _ROW):
-        table[i] = 0.0
-    lanes = 8 if orders <= 8 else _ROW  # whole vectors; what is beyond the orders is not used
+    turns = ws[at : at + 2 * STRIDE]  # cosine and sine of the present multiple of every ball's angle
     x = 0.0
     r = 0.0
     for j in range(balls):
         b = MO_BALLS + MO_PER_BALL * j
-        ax = motion[b + 3]
-        ar = motion[b + 4]
-        along = motion[b + 5]
-        x += ax
-        r += ar
-        _turns(motion[b + 12], motion[b + 13], table, orders)
-        for i in range(lanes):
-            c = table[i]
-            s = table[_ROW + i]
-            table[2 * _ROW + i] += ax * c
-            table[3 * _ROW + i] += ax * s
-            table[4 * _ROW + i] += ar * c
-            table[5 * _ROW + i] += ar * s
-            table[6 * _ROW + i] += along * c
-            table[7 * _ROW + i] += along * s
+        x += motion[b + 3]
+        r += motion[b + 4]
+        turns[j] = motion[b + 12]
+        turns[STRIDE + j] = motion[b + 13]
     fresh[C_BALLS] = x
     fresh[C_BALLS + 1] = r
-    for i in range(orders):
-        for k in range(6):
-            fresh[C_BALLS + 2 + 6 * i + k] = table[(2 + k) * _ROW + i]
+    for m in range(orders):
+        xc = 0.0
+        xs = 0.0
+        rc = 0.0
+        rs = 0.0
+        tc = 0.0
+        ts = 0.0
+        for j in range(balls):
+            b = MO_BALLS + MO_PER_BALL * j
+            c = turns[j]
+            s = turns[STRIDE + j]
+            xc += motion[b + 3] * c
+            xs += motion[b + 3] * s
+            rc += motion[b + 4] * c
+            rs += motion[b + 4] * s
+            tc += motion[b + 5] * c
+            ts += motion[b + 5] * s
+            turns[j] = c * motion[b + 12] - s * motion[b + 13]
+            turns[STRIDE + j] = c * motion[b + 13] + s * motion[b + 12]
+        q = C_BALLS + 2 + 6 * m
+        fresh[q] = xc
+        fresh[q + 1] = xs
+        fresh[q + 2] = rc
+        fresh[q + 3] = rs
+        fresh[q + 4] = tc
+        fresh[q + 5] = ts
     flex = MO_BALLS + MO_PER_BALL * balls
     q = C_BALLS + 2 + 6 * orders
     for i in range(int(ps[H_FLEXURES])):
@@ -129,7 +108,7 @@ def scalars(ps, motion, fresh):
 
 
 @kernel
-def contacts(ps, ws, motion, fresh):
+def contacts(ps, motion, fresh):
     """Channels of the rung paper_contacts: rates of normal velocities at the contacts, by harmonics.
 
     The sources orbit with the balls. Their strength is the normal velocity of the body there, so its rate
@@ -142,8 +121,6 @@ def contacts(ps, ws, motion, fresh):
     cosine = ps[scalar + SCALAR_COSINE]
     pitch = ps[scalar + SCALAR_ORBIT]
     wide = 1 + 2 * orders
-    at = int(ps[H_W_TRANSFORM])
-    table = ws[at : at + 2 * _ROW]
     for i in range(len(fresh)):
         fresh[i] = 0.0
     for j in range(int(ps[H_BALLS])):
@@ -151,7 +128,6 @@ def contacts(ps, ws, motion, fresh):
         c = motion[b + 12]
         s = motion[b + 13]
         omega = motion[b + 2] / pitch
-        _turns(c, s, table, orders)
         for family in range(4):
             if family < 2:
                 o = 12 * family
@@ -170,7 +146,12 @@ def contacts(ps, ws, motion, fresh):
                 rate = sine * motion[b + 3] + cosine * (motion[b + 4] + omega * motion[b + 2])
             q = family * wide
             fresh[q] += rate
+            cm = 1.0
+            sm = 0.0
             for m in range(orders):
+                turned = cm * c - sm * s
+                sm = cm * s + sm * c
+                cm = turned
                 turn = (m + 1.0) * omega * value
-                fresh[q + 1 + 2 * m] += rate * table[m] - turn * table[_ROW + m]
-                fresh[q + 2 + 2 * m] += rate * table[_ROW + m] + turn * table[m]
+                fresh[q + 1 + 2 * m] += rate * cm - turn * sm
+                fresh[q + 2 + 2 * m] += rate * sm + turn * cm

@@ -179,7 +179,7 @@ def _multiply(ps, ss, ws, b, level, block, slots, spectra, newest, total):
     targets = int(ps[b + BANK_AT_TARGETS])
     # Sums at two places a constant apart in one slice, two parts at a time: only so is it a vector loop.
     y = ws[int(ps[H_W_LANES]) : int(ps[H_W_LANES]) + 2 * MAX_CHANNELS]
-    known = min(n_parts, newest + 2 - first)  # before the first block there was silence
+    known = max(min(n_parts, newest + 2 - first), 0)  # before the first block there was silence
     step = (block + 1) * 2 * m
     for k in range(block + 1):
         for c in range(m):

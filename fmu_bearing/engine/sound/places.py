@@ -3,7 +3,7 @@
 ``ps`` begins with a head (``H_*``: sizes, then offsets into ``ps``, ``ss`` and ``ws``), followed by tables:
 
 * decimator, ``DECIMATOR_TAPS`` numbers, symmetric; high-pass b0 b1 b2 a1 a2; A-weighting 3 x (b0 b1 b2 a1
-  a2); third octaves: 3 sections x (b0 b1 b2 a1 a2) x ``BAND_LANES`` bands;
+  a2); third octaves: 4 sections x (b0 b1 b2 a1 a2) x ``BAND_LANES`` bands;
 * scalars that the paper rungs need to form their channels;
 * banks, ``BANK_SIZE`` numbers each: runs of neighbouring channels, filtered side by side;
 * taps of the direct part: per bank ``BANK_TAPS`` rows (a multiple of 4) of one number per channel, newest
@@ -75,7 +75,6 @@ BAND_LANES = 32  # lanes kept for the third octaves ``layout.BANDS``: whole vect
 ) = range(39)
 HEAD_SIZE = 40
 
-MAX_HARMONICS = 16
 MAX_CHANNELS = 256  # side by side in one bank
 MAX_LEVELS = 2
 (BANK_CHANNEL, BANK_COUNT, BANK_DELAY, BANK_TAPS, BANK_AT_TAPS, BANK_AT_TARGETS, BANK_LEVELS) = range(7)

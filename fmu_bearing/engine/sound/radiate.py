@@ -56,7 +56,7 @@ def push(ps, ss, ws, motion, time_weighting, metering_start):
     if rung == RUNG_PAPER:
         channels.scalars(ps, motion, fresh)
     elif rung == RUNG_CONTACTS:
-        channels.contacts(ps, ws, motion, fresh)
+        channels.contacts(ps, motion, fresh)
     else:
         channels.accelerations(ps, ws, motion, fresh)
     high_pass = int(ps[H_S_HIGH_PASS])

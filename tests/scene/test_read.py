@@ -105,6 +105,16 @@ def test_a_catalogue_name_fills_what_the_file_leaves_out():
             ["sound.reflecting_plane_mm = -50.0 needs", 'rung = "bem"'],
         ),
         (
+            'rung = "compact"',
+            'rung = "bem"\nreflecting_plane_mm = -50.0',
+            ["sound.reflecting_plane_mm = -50.0 stands between", "microphone 'P4' at x = -80.5 mm"],
+        ),
+        (
+            'rung = "compact"',
+            'rung = "bem"\nreflecting_plane_mm = 4.0',
+            ["sound.reflecting_plane_mm = 4.0 cuts the bearing", "x = -5 to 5 mm"],
+        ),
+        (
             "third_octaves = false",
             "third_octaves = 1",
             ["sound.third_octaves = 1", "true or false"],

@@ -23,15 +23,9 @@ MAX_BALLS = STRIDE
 
 # --- u: inputs -------------------------------------------------------------------------------
 INPUTS = (
-    "shaft_speed",
-    "preload",
-    "pedestal_stiffness",
-    "radial_load.y",
-    "radial_load.z",
-    "oil_temperature",
-    "inner_ring_temperature",
-    "outer_ring_temperature",
-)
+    "shaft_speed", "preload", "pedestal_stiffness", "radial_load.y", "radial_load.z", "oil_temperature",
+    "inner_ring_temperature", "outer_ring_temperature",
+)  # fmt: skip
 (
     U_SPEED,
     U_PRELOAD,
@@ -95,25 +89,10 @@ BEARING_OUTPUTS = (
 )
 Z_BALLS = 48  # ball[j].velocity.x|y|z at Z_BALLS + 3 j
 MIC_OUTPUTS = (
-    "pressure",
-    "spl",
-    "spl_a",
-    "leq",
-    "leq_a",
-    "spl_inner_ring",
-    "spl_outer_ring",
-    "spl_cage",
-    "spl_balls",
-    "spl_fast",
-    "spl_fast_a",
-    "spl_slow",
-    "spl_slow_a",
-    "spl_energy_sum",
-    "spl_radial",
-    "spl_axial",
-    "spl_rotation",
-    "spl_flexure",
-)
+    "pressure", "spl", "spl_a", "leq", "leq_a", "spl_inner_ring", "spl_outer_ring", "spl_cage", "spl_balls",
+    "spl_fast", "spl_fast_a", "spl_slow", "spl_slow_a", "spl_energy_sum", "spl_radial", "spl_axial",
+    "spl_rotation", "spl_flexure",
+)  # fmt: skip
 #: Third octaves: nominal mid-band frequencies in Hz, IEC 61260-1; the exact ones are 10^(n/10).
 BANDS = (
     25.0, 31.5, 40.0, 50.0, 63.0, 80.0, 100.0, 125.0, 160.0, 200.0, 250.0, 315.0, 400.0, 500.0, 630.0, 800.0,

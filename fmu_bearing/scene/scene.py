@@ -52,6 +52,20 @@ class Scene(Part):
             if self.sound.radiator == "housing" and housing is None:
                 yield Conflict("sound.radiator", "needs a table [mounting.housing]")
             yield from self._buried_microphones()
+            if self.sound.reflecting_plane_mm is not None:
+                yield from self._behind_plane(self.sound.reflecting_plane_mm)
+
+    def _behind_plane(self, plane: float) -> Iterator[Conflict]:
+        key = "sound.reflecting_plane_mm"
+        for body, _, low, high in self._envelopes():
+            if low < plane < high:
+                yield Conflict(key, f"cuts the {body}, which reaches from x = {low:g} to {high:g} mm")
+        for place in self.microphones:
+            x = 1e3 * place.position_m[0]
+            if (x - plane) * plane > 0.0:
+                yield Conflict(
+                    key, f"stands between the bearing and microphone '{place.name}' at x = {x:g} mm"
+                )
 
     def _flexure(self) -> Iterator[Conflict]:
         """Yield a level or method that does not carry the bending of the rings."""

@@ -18,7 +18,9 @@ import numpy as np
 
 from fmu_bearing.engine import modes_layout
 
-STRIDE = 24  # lanes reserved per ball quantity; not a power of two, so rows spread over cache sets
+STRIDE = (
+    modes_layout.STRIDE
+)  # lanes reserved per ball quantity; not a power of two, so rows spread over cache sets
 MAX_BALLS = STRIDE
 
 # --- u: inputs -------------------------------------------------------------------------------
@@ -409,7 +411,7 @@ W_LOSS = W_SHAFT + 1  # dissipated per body, and by drag
 W_AXES = W_LOSS + 4  # the balls' body-fixed axes at the state evaluated
 W_ROWS = W_AXES + 3
 W_SCALARS = W_ROWS * STRIDE  # scratch scalars
-STAGES = 6
+STAGES = modes_layout.STAGES
 W_Y = W_SCALARS + 64  # stage state
 W_F = W_Y + Y_SIZE
 W_F0 = W_F + F_SIZE  # unperturbed right-hand side
@@ -421,6 +423,7 @@ W_LAST = W_ACC + (STAGES - 1) * F_SIZE  # accelerations at the end of a step, of
 BLOCK = 8
 W_BLOCK_A = W_VEL + STAGES * F_SIZE
 W_BLOCK_Y = W_BLOCK_A + (BLOCK + 3) * F_SIZE
+W_FLEX = W_BLOCK_A  # flexible rings: never together with one-evaluation steps; see modes_layout
 W_MOTION = W_BLOCK_Y + (BLOCK + 1) * Y_SIZE
 W_G0 = W_MOTION + MO_BALLS + MO_PER_BALL * MAX_BALLS + 2 * modes_layout.MAX_MODES
 W_SOUND = W_G0 + N_BODY * STRIDE
@@ -428,12 +431,12 @@ W_SOUND = W_G0 + N_BODY * STRIDE
 
 def state_size(p):
     """Length of ``s`` for the parameters ``p``."""
-    return S_SOUND + int(p[P_SOUND_STATE]) + modes_layout.state_size(int(p[P_MODES]), STRIDE)
+    return S_SOUND + int(p[P_SOUND_STATE]) + modes_layout.state_size(int(p[P_MODES]))
 
 
 def work_size(p):
     """Length of ``w`` for the parameters ``p``."""
-    return W_SOUND + int(p[P_SOUND_WORK]) + 8 + modes_layout.work_size(int(p[P_MODES]), STRIDE, STAGES)
+    return W_SOUND + int(p[P_SOUND_WORK]) + 8
 
 
 # --- status codes -------------------------------------------------------------------------------------

@@ -8,17 +8,17 @@ torsion.
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csc_matrix
+from scipy.sparse import coo_matrix, csc_matrix, kron
 from scipy.sparse.linalg import eigsh
-from skfem import Basis, BilinearForm, ElementQuad2, ElementVector
+from skfem import Basis, ElementQuad2
 
 from fmu_bearing.elastic.section import Grid
 
-_COMPONENTS = 3  # X, R, T
+_X, _R, _T = range(3)
+_COMPONENTS = 3
 #: Eigenvalues are sought from minus this share of (wave speed / mean radius)^2: below zero, so that the
 #: matrix can be factorised where rigid motion makes the stiffness singular, and small beside all elastic
 #: ones.
@@ -45,47 +45,6 @@ class Elastic:
         """Lame's first constant, Pa."""
         nu = self.poisson_ratio
         return self.youngs_modulus * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))
-
-
-def _strain(u: Any, r: NDArray[np.float64]) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
-    """Strains xx, rr, tt, xr, rt, xt (shears doubled): what does not grow with n, and what does, per n."""
-    (xx, xr), (rx, rr), (tx, tr) = u.grad
-    x, radial, t = u.value
-    zero = 0.0 * x
-    return (xx, rr, radial / r, xr + rx, tr - t / r, tx), (zero, zero, t / r, zero, -radial / r, -x / r)
-
-
-def _energy(a: tuple[Any, ...], b: tuple[Any, ...], lame: float, shear: float) -> Any:
-    """Work of the stresses of strain ``b`` on strain ``a``, per volume."""
-    volume = lame * (a[0] + a[1] + a[2]) * (b[0] + b[1] + b[2])
-    normal = 2.0 * (a[0] * b[0] + a[1] * b[1] + a[2] * b[2])
-    return volume + shear * (normal + a[3] * b[3] + a[4] * b[4] + a[5] * b[5])
-
-
-@BilinearForm
-def _constant(u: Any, v: Any, w: Any) -> Any:
-    return _energy(_strain(v, w.x[1])[0], _strain(u, w.x[1])[0], w.lame, w.shear) * w.x[1]
-
-
-@BilinearForm
-def _linear(u: Any, v: Any, w: Any) -> Any:
-    (v0, v1), (u0, u1) = _strain(v, w.x[1]), _strain(u, w.x[1])
-    return (_energy(v0, u1, w.lame, w.shear) + _energy(v1, u0, w.lame, w.shear)) * w.x[1]
-
-
-@BilinearForm
-def _quadratic(u: Any, v: Any, w: Any) -> Any:
-    return _energy(_strain(v, w.x[1])[1], _strain(u, w.x[1])[1], w.lame, w.shear) * w.x[1]
-
-
-@BilinearForm
-def _inertia(u: Any, v: Any, w: Any) -> Any:
-    return (u[0] * v[0] + u[1] * v[1] + u[2] * v[2]) * w.x[1]
-
-
-@BilinearForm
-def _coriolis(u: Any, v: Any, w: Any) -> Any:
-    return (u[1] * v[2] + u[2] * v[1]) * w.x[1]
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,24 +98,76 @@ class Solid:
 
 def solid(grid: Grid, material: Elastic) -> Solid:
     """Assemble the matrices of a ring."""
-    element = ElementVector(ElementQuad2(), _COMPONENTS)
-    basis = Basis(grid.mesh, element, intorder=5)
-    half = np.rint(2.0 * Basis(grid.reference, element, intorder=1).doflocs).astype(int)
-    component = np.zeros(basis.N, dtype=int)
-    for entity in (basis.nodal_dofs, basis.facet_dofs, basis.interior_dofs):
-        for index, row in enumerate(entity):
-            component[row] = index % _COMPONENTS
-    nodes = np.full((2 * grid.columns + 1, 2 * grid.rows + 1, _COMPONENTS), -1, dtype=np.int64)
-    nodes[half[0], half[1], component] = np.arange(basis.N)
-    constants = {"lame": material.lame, "shear": material.shear_modulus}
+    basis = Basis(grid.mesh, ElementQuad2(), intorder=5)
+    half = np.rint(2.0 * Basis(grid.reference, ElementQuad2(), intorder=1).doflocs).astype(int)
+    place = np.zeros((2 * grid.columns + 1, 2 * grid.rows + 1), dtype=np.int64)
+    place[half[0], half[1]] = np.arange(basis.N)
+    value, weight, constant, growing = _strains(basis)
+    stress, lame = np.diag([2.0, 2.0, 2.0, 1.0, 1.0, 1.0]) * material.shear_modulus, material.lame
+    stress[:3, :3] += lame
+    # integration points and strain components in one line: products of matrices, one per element
+    stressed = [np.matmul(stress, strain) * weight[..., None, None] for strain in (constant, growing)]
+    lines = [part.reshape(len(part), -1, part.shape[-1]) for part in (constant, growing, *stressed)]
+    s0, s1, d0, d1 = lines
+    dofs = (_COMPONENTS * basis.element_dofs.T[..., None] + np.arange(_COMPONENTS)).reshape(len(s0), -1)
+    mixed = np.matmul(s0.transpose(0, 2, 1), d1)
+    inertia = material.density * np.einsum("iep,jep,ep->eij", value, value, weight)
+    mass = _gathered(inertia, basis.element_dofs.T)
+    swapped = np.array([[0.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]])
     return Solid(
         grid=grid,
         material=material,
-        nodes=nodes,
-        points=np.moveaxis(basis.doflocs[:, nodes[..., 0]], 0, -1),
-        k0=csc_matrix(_constant.assemble(basis, **constants)),
-        k1=csc_matrix(_linear.assemble(basis, **constants)),
-        k2=csc_matrix(_quadratic.assemble(basis, **constants)),
-        mass=csc_matrix(material.density * _inertia.assemble(basis)),
-        coriolis=csc_matrix(material.density * _coriolis.assemble(basis)),
+        nodes=_COMPONENTS * place[..., None] + np.arange(_COMPONENTS),
+        points=np.moveaxis(basis.doflocs[:, place], 0, -1),
+        k0=_gathered(np.matmul(s0.transpose(0, 2, 1), d0), dofs),
+        k1=_gathered(mixed + mixed.transpose(0, 2, 1), dofs),
+        k2=_gathered(np.matmul(s1.transpose(0, 2, 1), d1), dofs),
+        mass=csc_matrix(kron(mass, np.eye(_COMPONENTS))),
+        coriolis=csc_matrix(kron(mass, swapped)),
     )
+
+
+def _strains(basis: Basis) -> tuple[NDArray[np.float64], ...]:
+    """Strains xx, rr, tt, xr, rt, xt (shears doubled) of the elements' shape functions.
+
+    Returns
+    -------
+    value : ndarray (functions, elements, points)
+        The shape functions.
+    weight : ndarray (elements, points)
+        The integration points' shares of the integral of r over the section (m3).
+    constant, growing : ndarray (elements, points, 6, 3 * functions)
+        What does not depend on the order n, and what grows with it, per n (1/m).
+    """
+    functions = [function[0] for function in basis.basis]
+    value = np.array([np.broadcast_to(function, basis.dx.shape) for function in functions])
+    dx, dr = np.moveaxis(np.array([function.grad for function in functions]), 1, 0)
+    r = np.asarray(basis.global_coordinates())[1]
+    over = value / r
+    constant = np.zeros((*basis.dx.shape, 6, len(functions), _COMPONENTS))
+    growing = np.zeros_like(constant)
+    terms = [
+        (constant, 0, _X, dx),
+        (constant, 1, _R, dr),
+        (constant, 2, _R, over),
+        (constant, 3, _X, dr),
+        (constant, 3, _R, dx),
+        (constant, 4, _T, dr - over),
+        (constant, 5, _T, dx),
+        (growing, 2, _T, over),
+        (growing, 4, _R, -over),
+        (growing, 5, _X, -over),
+    ]
+    for strain, row, component, values in terms:
+        strain[:, :, row, :, component] = np.moveaxis(values, 0, -1)
+    shape = (*basis.dx.shape, 6, -1)
+    return value, basis.dx * r, constant.reshape(shape), growing.reshape(shape)
+
+
+def _gathered(elements: NDArray[np.float64], dofs: NDArray[np.int64]) -> csc_matrix:
+    """Sum the elements' matrices into that of all unknowns."""
+    rows = np.broadcast_to(dofs[:, :, None], elements.shape)
+    columns = np.broadcast_to(dofs[:, None, :], elements.shape)
+    size = int(dofs.max()) + 1
+    made = coo_matrix((elements.ravel(), (rows.ravel(), columns.ravel())), shape=(size, size))
+    return csc_matrix(made)

@@ -1,5 +1,6 @@
 """Flexural modes of a scene's rings, as the equations of motion and the sound need them."""
 
+import math
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
@@ -8,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.elastic.fourier import Elastic, Solid, solid
-from fmu_bearing.elastic.section import FINENESS, INNER, OUTER, Section, grid, ring_section
+from fmu_bearing.elastic.section import FINENESS, INNER, OUTER, RACES, Section, grid, ring_section
 from fmu_bearing.scene import Scene, si
+from fmu_bearing.scene.material import Material
 
 Array = NDArray[np.float64]
 
@@ -20,6 +22,7 @@ _SEARCHED = 6  # modes of one order among which the first in-plane one is; it is
 _TILT_REACH = np.deg2rad(15.0)
 #: Spacing of points on the skin, m: 57 to a wavelength of 17 mm in air at 20 kHz.
 _SKIN_SPACING = 0.3e-3
+_PER_WAVE = 6  # quadratic elements to the shortest wave that `free_modes` lists
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,7 +98,7 @@ def ring_modes(scene: Scene) -> tuple[RingMode, ...]:
     Raises
     ------
     ValueError
-        When a ring's dimensions leave no groove.
+        When a ring's dimensions leave no groove, or it has no such mode among its lowest.
     """
     flexure = scene.mounting.flexure
     if flexure is None:
@@ -112,18 +115,30 @@ def ring_modes(scene: Scene) -> tuple[RingMode, ...]:
     return tuple(found)
 
 
-def elastic(material: object) -> Elastic:
+def elastic(material: Material) -> Elastic:
     """Return what the rings' solid needs of a scene's material."""
-    values = si(material)  # type: ignore[arg-type]
+    values = si(material)
     return Elastic(values.youngs_modulus, values.poisson_ratio, values.density)
 
 
 @lru_cache(maxsize=64)
 def in_plane_mode(section: Section, material: Elastic, order: int, fineness: int = FINENESS) -> RingMode:
-    """Lowest mode of one order (2 or more) that moves mostly in the plane of the ring."""
+    """Lowest mode of one order (2 or more) that moves mostly in the plane of the ring.
+
+    Raises
+    ------
+    ValueError
+        When a ring of odd proportions has other motions first.
+    """
     ring = _solid(section, material, fineness)
     frequencies, shapes = ring.modes(order, _SEARCHED)
-    pick = next(i for i in range(_SEARCHED) if family(ring, order, shapes[:, i]) == "in-plane")
+    inside = [i for i in range(_SEARCHED) if family(ring, order, shapes[:, i]) == "in-plane"]
+    if not inside:
+        raise ValueError(
+            f"the {RACES[section.body]} ring has no in-plane mode of order {order} among its {_SEARCHED} "
+            "lowest: leave this order out of [mounting.flexure]"
+        )
+    pick = inside[0]
     shape = shapes[:, pick]
     contact = ring.nodes[ring.grid.contact, ring.grid.race_row]
     shape = shape / shape[contact[_R]]
@@ -150,7 +165,19 @@ def free_modes(section: Section, material: Elastic, highest: float) -> tuple[Fre
     Families: ``rigid``; of order 0 ``breathing`` (radial), ``roll`` (the section turns) and ``torsion``
     (about the axis); of higher orders ``in-plane`` and ``out-of-plane``. Families of order 1 and above have
     two modes of the same frequency, listed once.
+
+    Raises
+    ------
+    ValueError
+        When the frequency is beyond the mesh's reach.
     """
+    element = max(section.width, section.high - section.low) / FINENESS
+    reach = math.sqrt(material.shear_modulus / material.density) / (_PER_WAVE * element)
+    if not 0.0 < highest <= reach:
+        raise ValueError(
+            f"highest = {highest:g} Hz is refused; allowed: above 0 to {reach:.3g} Hz, where the mesh of the "
+            f"section still has {_PER_WAVE} elements to a shear wave"
+        )
     ring = _solid(section, material, FINENESS)
     found: list[FreeMode] = []
     order, below = 0, True

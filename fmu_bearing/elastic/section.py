@@ -11,7 +11,7 @@ from skfem import MeshQuad, MeshQuad2
 from fmu_bearing.scene import Scene, si
 
 INNER, OUTER = 0, 1  # bodies, as the engine counts them
-RINGS = ("inner ring", "outer ring")
+RACES = ("inner", "outer")
 
 #: Elements over the longer side of the section. With 16, frequencies of the first modes below 60 kHz are
 #: within 0.01 % of those on a mesh twice as fine; a mode's skin is smooth on the scale of sound anyway.
@@ -128,7 +128,8 @@ def ring_section(scene: Scene, body: int) -> Section:
     Raises
     ------
     ValueError
-        When no shoulder between the contact and the middle of the groove's circle gives that mass.
+        When the contact lies beyond the end faces, the groove leaves no wall, or no shoulder between the
+        contact and the middle of the groove's circle gives that mass.
     """
     b = si(scene.bearing)
     side = -1.0 if body == INNER else 1.0
@@ -143,16 +144,24 @@ def ring_section(scene: Scene, body: int) -> Section:
     seat, effective = b.bore / 2.0, b.inner_ring_outer_diameter / 2.0
     if body == OUTER:
         seat, effective = b.outside_diameter / 2.0, b.outer_ring_inner_diameter / 2.0
-    plain = _section(body, seat, effective, b.width)
+    whole = _section(body, seat, effective, b.width).moment
+    contact = _section(body, seat, effective, b.width, groove).contact
     # at the contact's own height the groove would end there; beyond the circle's middle it would close again
-    contact = _section(body, seat, effective, b.width, groove).contact[1]
-    ends = [_section(body, seat, height, b.width, groove) for height in (contact, groove.r)]
-    lowest, highest = (end.moment for end in ends)
-    if side * (seat - groove.r) <= groove.radius or not lowest < plain.moment < highest:
-        raise ValueError(_no_shoulder(body, seat, b.width, lowest, highest))
+    ends = [_section(body, seat, height, b.width, groove).moment for height in (contact[1], groove.r)]
+    problem = None
+    if abs(contact[0]) >= b.width / 2.0:
+        problem = (
+            f"width_mm = {1e3 * b.width:.4g} does not reach the contact; give a smaller contact_angle_deg"
+        )
+    elif side * (seat - groove.r) <= groove.radius:
+        problem = f"groove leaves no wall at the seat; give a smaller {RACES[body]}_conformity or ball"
+    elif not ends[0] < whole < ends[1]:
+        problem = _no_shoulder(body, seat, b.width, ends)
+    if problem is not None:
+        raise ValueError(f"the {RACES[body]} ring's {problem}, or leave the ring out of [mounting.flexure]")
     shoulder = brentq(
-        lambda height: _section(body, seat, height, b.width, groove).moment - plain.moment,
-        contact,
+        lambda height: _section(body, seat, height, b.width, groove).moment - whole,
+        contact[1],
         groove.r,
         xtol=1e-12,
     )
@@ -164,17 +173,14 @@ def _section(body: int, seat: float, shoulder: float, width: float, groove: Groo
     return Section(body, low, high, width, groove)
 
 
-def _no_shoulder(body: int, seat: float, width: float, lowest: float, highest: float) -> str:
+def _no_shoulder(body: int, seat: float, width: float, moments: list[float]) -> str:
     """Say which effective diameters the groove allows: those of rectangles with the extreme volumes."""
     sign = 1.0 if body == INNER else -1.0
-    limits = [
-        2e3 * math.sqrt(max(seat**2 + sign * 2.0 * moment / width, 0.0)) for moment in (lowest, highest)
-    ]
+    limits = [2e3 * math.sqrt(max(seat**2 + sign * 2.0 * moment / width, 0.0)) for moment in moments]
     key = "inner_ring_outer_diameter_mm" if body == INNER else "outer_ring_inner_diameter_mm"
     return (
-        f"the {RINGS[body]}'s groove fits no ring of the mass that bearing.{key} gives; allowed for this "
-        f"ball, conformity and contact angle: {min(limits):.4g} to {max(limits):.4g}; correct it, or leave "
-        "the ring out of [mounting.flexure]"
+        f"groove fits no ring of the mass that bearing.{key} gives; allowed for this ball, conformity and "
+        f"contact angle: {min(limits):.4g} to {max(limits):.4g}; correct it"
     )
 
 

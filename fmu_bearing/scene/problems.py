@@ -82,6 +82,8 @@ def shown(value: Any) -> str:
 def allowed(path: Location) -> str:
     """Say what the key at a location may hold, with its unit."""
     field = _field(path)
+    if field is None and path and isinstance(path[-1], int) and _field(path[:-1]) is not None:
+        return allowed(path[:-1])  # a member of an array of numbers
     if field is None:
         return "a table"
     whole = field.annotation
@@ -91,6 +93,10 @@ def allowed(path: Location) -> str:
         return ", ".join(str(choice) for choice in get_args(kind))
     if typing.get_origin(kind) is tuple:
         limits = [rule.max_length for rule in field.metadata if hasattr(rule, "max_length")]
+        member = get_args(kind)[0]
+        if typing.get_origin(member) is typing.Annotated:
+            numbers = _range(get_args(member)[1], str(path[-1]))
+            return f"at most {limits[0]} whole numbers from {numbers}"
         return f"at most {limits[0]} tables [[{dotted(path)}]]"
     if kind is bool:
         return "true or false"

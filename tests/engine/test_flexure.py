@@ -16,6 +16,7 @@ from fmu_bearing.prepare.model import pack, prepare
 from fmu_bearing.scene import SceneError
 from fmu_bearing.scene.mounting import Flexure as Bending
 from fmu_bearing.scene.read import with_fidelity
+from fmu_bearing.study.built import carries
 from fmu_bearing.study.choose import CANDIDATES
 from tests.engine.flexible import FirstOrder, Flexure, shaken, thin_ring, untouched
 from tests.engine.helpers import RPM, Run, quiet
@@ -196,7 +197,7 @@ def linear_modes(problem):
 def test_contacts_stiffen_the_outer_ring(scene):
     """7003C, 500 N at standstill: the outer ring's n = 2 goes from 6.6 to about 10.8 kHz."""
     flexible = bending(quiet(scene(SCENE)), outer=(2,))
-    run = Run(flexible, 0, preload=500.0, **FRICTIONLESS, P_DRAG=0.0, P_GRAVITY=0.0).init()
+    run = Run(flexible, 0, preload=500.0, bends=True, **FRICTIONLESS, P_DRAG=0.0, P_GRAVITY=0.0).init()
     frequencies, share = linear_modes(FirstOrder(run))
     up = frequencies > 5e3
     main = frequencies[up][np.argmax(share[up])]
@@ -287,7 +288,7 @@ def test_energy_over_a_run(scene, method):
 def test_rings_start_bent_by_their_loads(scene):
     """Under radial load the outer ring bends towards the loaded side, and hardly moves at first."""
     flexible = bending(quiet(scene(SCENE)), outer=(2, 3))
-    run = Run(flexible, 10000, preload=300.0, P_GRAVITY=0.0)
+    run = Run(flexible, 10000, preload=300.0, bends=True, P_GRAVITY=0.0)
     run.u[at.U_LOAD_Z] = -400.0
     run.init()
     flexure = Flexure(run.p, run.w)
@@ -322,7 +323,7 @@ def test_rigid_rings_carry_nothing(scene):
     np.testing.assert_array_equal(without, with_empty)
     assert at.state_size(without) == at.S_SOUND
     assert at.work_size(without) == at.W_SOUND + 8
-    runs = [Run(one, 20000).init() for one in (rigid, listed)]
+    runs = [Run(one, 20000, bends=True).init() for one in (rigid, listed)]
     np.testing.assert_array_equal(*(run.run(2e-3, 1e-3) for run in runs))
 
 
@@ -407,8 +408,8 @@ def test_what_knows_rigid_rings_only_is_refused(scene, values, key):
 def test_level_auto_leaves_out_what_cannot_bend(scene):
     rigid = quiet(scene(SCENE))
     flexible = bending(rigid, outer=(2,))
-    assert all(candidate.carries(rigid) for candidate in CANDIDATES)
-    left = [candidate for candidate in CANDIDATES if candidate.carries(flexible)]
+    assert all(carries(rigid, (c.level, c.method)) for c in CANDIDATES)
+    left = [c for c in CANDIDATES if carries(flexible, (c.level, c.method))]
     assert left
     assert {(c.level, c.method) for c in left} == {("full", "esdirk4")}
     with_fidelity(flexible, level="auto", method="fast")  # the candidates bring their own methods

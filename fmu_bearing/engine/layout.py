@@ -34,16 +34,7 @@ INPUTS = (
     "inner_ring_temperature",
     "outer_ring_temperature",
 )
-(
-    U_SPEED,
-    U_PRELOAD,
-    U_PEDESTAL,
-    U_LOAD_Y,
-    U_LOAD_Z,
-    U_OIL_T,
-    U_INNER_T,
-    U_OUTER_T,
-) = range(len(INPUTS))
+U_SPEED, U_PRELOAD, U_PEDESTAL, U_LOAD_Y, U_LOAD_Z, U_OIL_T, U_INNER_T, U_OUTER_T = range(len(INPUTS))
 
 # --- z: what people read ---------------------------------------------------------------------
 BEARING_OUTPUTS = (
@@ -136,8 +127,8 @@ P_VISCOSITY = 6  # Pa s at the reference temperature
 # --- motion sample handed to the sound kernels ----------------------------------------------------
 # Bodies inner ring, outer ring, cage: velocity, acceleration, angular velocity, angular acceleration
 # in inertial axes (x, y, z), 12 numbers each; then per ball 14 numbers: the same four vectors in the
-# orbiting axes (x, r, theta) - inertial quantities, only resolved there - and cos, sin of the angle; then
-# the second time derivatives (m/s2) of the flexural coordinates, cosine and sine of each mode.
+# orbiting axes (x, r, theta) - inertial quantities, only resolved there - and cos, sin of the angle; then the
+# second time derivatives (m/s2) of the flexural coordinates, two per mode.
 MO_INNER, MO_OUTER, MO_CAGE, MO_BALLS = 0, 12, 24, 36
 MO_PER_BALL = 14
 
@@ -446,6 +437,7 @@ BAD_INPUT = 2  # an input is not finite or out of range
 BAD_STEP = 3  # communication step not positive or not finite
 NO_START = 4  # the quasi-static start did not converge
 TOO_SOFT = 5  # the loads push the outer ring sideways by more than 0.3 of the pitch radius
+RIGID_ONLY = 6  # flexible rings, and a level or method that knows rigid ones only
 
 # --- out of the quasi-static equilibrium (solvers/quasistatic.py) ----------------------------------------
 Q5_SHIFT = 0  # x y z by bz of the inner ring against the outer (m, rad)

@@ -22,8 +22,8 @@ MODE_SIZE = 12
 
 # --- s and w ------------------------------------------------------------------------------------------------
 # In s behind the sound's part, see flexure_state in mechanics/flexure: places, velocities and accelerations
-# of the coordinates, then what Newton's method keeps of the contacts: per ring 18 rows of the balls' answer to
-# the groove's motion (6 x 3) and 18 of the groove's to the balls' (3 x 6), and four numbers per mode.
+# of the coordinates, then what Newton's method keeps of the contacts: per ring 18 rows of the balls' answer
+# to the groove's motion (6 x 3) and 18 of the groove's to the balls' (3 x 6), and four numbers per mode.
 FACTOR_ROWS = 36
 # In w, from W_FLEX on: rows of the groove's motion under each ball, cosine and sine of the first order, then
 # of each mode's; then flat arrays over the coordinates.

@@ -18,9 +18,7 @@ import numpy as np
 
 from fmu_bearing.engine import modes_layout
 
-STRIDE = (
-    modes_layout.STRIDE
-)  # lanes reserved per ball quantity; not a power of two, so rows spread over cache sets
+STRIDE = modes_layout.STRIDE  # lanes per ball quantity: no power of two, so that rows spread over cache sets
 MAX_BALLS = STRIDE
 
 # --- u: inputs -------------------------------------------------------------------------------

@@ -69,8 +69,7 @@ class Scene(Part):
 
     def _flexure(self) -> Iterator[Conflict]:
         """Yield a level or method that does not carry the bending of the rings."""
-        flexure = self.mounting.flexure
-        if flexure is None or not (flexure.inner_ring or flexure.outer_ring):
+        if not self.bends:
             return
         level, method = self.fidelity.level, self.fidelity.method
         way_out = "or leave out [mounting.flexure]"
@@ -105,6 +104,16 @@ class Scene(Part):
             front = -half - housing.front_face_mm
             yield "housing", housing.diameter_mm / 2.0, front, front + housing.length_mm
         yield "bearing", self.bearing.outside_diameter_mm / 2.0, -half, half
+
+    @property
+    def bends(self) -> bool:
+        """Whether a ring bends."""
+        flexure = self.mounting.flexure
+        return flexure is not None and bool(flexure.inner_ring or flexure.outer_ring)
+
+    def with_rigid_rings(self) -> "Scene":
+        """Return the scene without the bending of its rings."""
+        return self.model_copy(update={"mounting": self.mounting.model_copy(update={"flexure": None})})
 
     @property
     def microphones(self) -> list[Place]:

@@ -42,8 +42,8 @@ BASE_FREQUENCIES = (
     tuple(np.arange(6000.0, 20_001.0, 1000.0)),
 )
 # Largest error of the cubic at the middle of an interval. The middle is then added, which makes the error of
-# what is used about sixteen times smaller: -58 dB.
-_INTERPOLATION = 2e-2
+# what is used about sixteen times smaller: -50 dB.
+_INTERPOLATION = 5e-2
 _NARROWEST = 16.0  # Hz: intervals are not halved below
 
 

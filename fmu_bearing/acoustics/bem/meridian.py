@@ -94,11 +94,14 @@ class Mesh:
         return np.repeat(self.component, NODES)
 
 
-def mesh_of(bodies: Sequence[Body], size: float, finest: float | None = None) -> Mesh:
+def mesh_of(
+    bodies: Sequence[Body], size: float, finest: float | None = None, source: Points | None = None
+) -> Mesh:
     """Divide bodies into elements of at most ``size`` m, finer towards the ends of every side.
 
     Sides that face another body get elements no longer than their distance from it, but no shorter than
-    ``finest`` (m; by default ``size``).
+    ``finest`` (m; by default ``size``), and sides near a ``source`` (x, r in m) no longer than half their
+    distance from it.
     """
     ends, component = [], []
     for body in bodies:
@@ -108,6 +111,9 @@ def mesh_of(bodies: Sequence[Body], size: float, finest: float | None = None) ->
             samples = first + np.linspace(0.0, 1.0, 9)[:, None] * (last - first)
             gap = min((float(other.distance(samples).min()) for other in others), default=size)
             here = min(size, max(finest or size, gap))
+            if source is not None:
+                near = np.linspace(0.0, 1.0, 41)[:, None] * (last - first) + first - source
+                here = min(here, 0.5 * float(np.hypot(near[:, 0], near[:, 1]).min()))
             cuts = _divide(float(np.hypot(*(last - first))), here)[:, None]
             places = first + cuts * (last - first)
             ends.append(np.hstack([places[:-1], places[1:]]))

@@ -115,7 +115,8 @@ class Task:
         sections = [np.ptp(body.contour, axis=0).min() for body in self.bodies if body.closed]
         size = 2.0 * np.pi / wavenumber / _PER_WAVELENGTH
         finest = min([size] + [_GAP_ELEMENTS * float(thin) for thin in sections])
-        return Scatterer(self.bodies, wavenumber, self.orders, size, finest, self.plane)
+        source = self.orbit if self.orbit > 0.0 else None
+        return Scatterer(self.bodies, wavenumber, self.orders, size, finest, source, self.plane)
 
 
 def drives(task: Task, mesh: Mesh) -> list[tuple[int, NDArray[np.float64]]]:
@@ -188,14 +189,13 @@ class Band:
         """Pressures (Pa per unit of each drive) at points (x, r), shape (points, drives, frequencies)."""
         potentials = self._scatterer.field_potentials(points)
         result = np.zeros((len(points), self.count, len(self.frequencies)), dtype=complex)
-        image = 2.0 if self.task.baffled else 1.0
         for f, frequency in enumerate(self.frequencies):
             k = self._wavenumber(frequency)
             single, double = potentials(k)
             if not self.task.baffled:
                 double = double - 1j * k * self._losses(k) * single
             for i, (order, shape) in enumerate(self._drives):
-                own = image * self.task.density * (single[order] @ shape)
+                own = self.task.density * (single[order] @ shape)
                 result[:, i, f] = own + double[order] @ self.surface[f, i]
             direct = self._incoming(points, k)
             for order in range(self._balls):
@@ -245,6 +245,8 @@ class Band:
     def _incoming(self, points: NDArray[np.float64], k: float) -> Complex:
         """Sound of the balls in free space, shape (3, harmonics + 1, points)."""
         task = self.task
+        if self._balls == 0:
+            return np.zeros((3, 0, len(points)), dtype=complex)
         return task.density * orbit_dipoles(points, k, task.orbit, self._balls, task.plane)
 
     def _losses(self, k: float) -> complex:

@@ -60,6 +60,8 @@ class Scatterer:
         Largest element (m); by default an eighth of the shortest wavelength.
     finest : float, optional
         Largest element (m) where bodies face each other closely; by default ``size``.
+    source : float, optional
+        Radius (m) of a circle of sources at x = 0, near which elements are small enough for it.
     plane : float, optional
         Axial place (m) of a rigid plane normal to the axis.
     """
@@ -71,10 +73,12 @@ class Scatterer:
         orders: int,
         size: float | None = None,
         finest: float | None = None,
+        source: float | None = None,
         plane: float | None = None,
     ) -> None:
         self.bodies, self.highest, self.orders, self.plane = tuple(bodies), highest, orders, plane
-        self.mesh = mesh_of(bodies, size or 2.0 * np.pi / highest / 8.0, finest)
+        orbit = None if source is None else np.array([0.0, source])
+        self.mesh = mesh_of(bodies, size or 2.0 * np.pi / highest / 8.0, finest, orbit)
         self._owner = np.repeat(np.arange(len(self.mesh.ends)), NODES)
         self.inside = inner_points(bodies, highest)
         self._surface = Potentials(self.mesh.points, self._owner, self.mesh, orders, plane)

@@ -14,12 +14,14 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import irfft, next_fast_len, rfft
 from scipy.interpolate import CubicSpline
+from scipy.signal import get_window
 
 from fmu_bearing.acoustics.fir import BAND, decimator_response, fit_frequencies
 from fmu_bearing.acoustics.transfer import Air, Path, Radiators, compact_paths, paper_paths
 from fmu_bearing.engine.sound import places
 
 Position = tuple[float, float, float]
+_Response = Callable[[NDArray[np.float64]], NDArray[np.complex128]]
 
 #: Rows that a recording must reach beyond the last pressure wanted: the band limit rings that long (5 ms).
 TAIL = 256
@@ -137,12 +139,70 @@ class Channels:
         return {name: irfft(part, self.size, axis=1)[:, : self.rows] for name, part in parts.items()}
 
 
+class Blocks:
+    """Short-time spectra of recorded channels: mean squares at many places, quickly.
+
+    Blocks of 1 / ``resolution`` s with half overlap (Hann window) are averaged in energy. Against the exact
+    mean square of the same recording, this weighs its two ends less.
+
+    Parameters
+    ----------
+    channels : ndarray, shape (samples, channels)
+        Channels at ``RATE``.
+    resolution : float
+        Spacing of frequencies (Hz).
+
+    Raises
+    ------
+    ValueError
+        When the recording is shorter than one block.
+    """
+
+    def __init__(self, channels: NDArray[np.float64], resolution: float) -> None:
+        size = round(places.RATE / resolution)
+        if size < 64 or size > len(channels):
+            raise ValueError(
+                f"a resolution of {resolution:g} Hz needs blocks of {size} samples (64 or more), the "
+                f"recording has {len(channels)}"
+            )
+        window = get_window("hann", size)
+        frequency = np.fft.rfftfreq(size, 1.0 / places.RATE).astype(np.float64)
+        keep = (frequency > 0.0) & (frequency <= BAND[1])
+        self.frequency = frequency[keep]
+        starts = range(0, len(channels) - size + 1, max(1, size // 2))
+        scale = np.sqrt(2.0 / size / np.sum(window**2) / len(starts)) / decimator_response(self.frequency)
+        # shape (channels, blocks, frequencies): rms per bin once squared and summed over blocks
+        self.spectra = np.array(
+            [rfft(channels[start : start + size].T * window, axis=1)[:, keep] * scale for start in starts]
+        ).transpose(1, 0, 2)
+
+    def mean_squares(
+        self, circle: Circle, label: Callable[[Path], Hashable] = lambda path: ""
+    ) -> dict[Hashable, NDArray[np.float64]]:
+        """Mean square pressure (Pa^2) per bin at one circle's microphones, (members, bins) by label."""
+        f = self.frequency
+        known = {
+            key: spline(f) * np.exp(-2j * np.pi * f * flight)
+            for key, (spline, flight) in _interpolants(circle.paths).items()
+        }
+        found: dict[Hashable, NDArray[np.float64]] = {}
+        for name in dict.fromkeys(label(path) for path in circle.paths):
+            chosen = [path for path in circle.paths if label(path) == name]
+            weights = np.array([path.weights for path in chosen]).T
+            total = np.zeros((len(circle.members), len(f)))
+            for block in range(self.spectra.shape[1]):
+                heard = np.array([self.spectra[path.channel, block] * known[_key(path)] for path in chosen])
+                total += np.abs(weights @ heard) ** 2
+            found[name] = total
+        return found
+
+
 def _key(path: Path) -> tuple[int, float]:
     """Identity of a transfer function: sources that share a response share its interpolant."""
     return id(path.response), path.flight
 
 
-def _interpolants(paths: Sequence[Path]) -> dict[tuple[int, float], tuple[CubicSpline, float]]:
+def _interpolants(paths: Sequence[Path]) -> dict[tuple[int, float], tuple[_Response, float]]:
     """Cubic splines through the responses without their flight times; conjugate at negative frequencies."""
     f = fit_frequencies()
     both = np.concatenate([-f[::-1], f])
@@ -156,7 +216,7 @@ def _interpolants(paths: Sequence[Path]) -> dict[tuple[int, float], tuple[CubicS
     return found
 
 
-def _held(spline: CubicSpline, last: float) -> Callable[[NDArray[np.float64]], NDArray[np.complex128]]:
+def _held(spline: CubicSpline, last: float) -> _Response:
     return lambda f: spline(np.minimum(f, last))
 
 

@@ -10,6 +10,7 @@
 ``choose``       level ``auto``: the cheapest within the scene's accuracy, found by running it
 ``sensitivity``  what rests on assumed values
 ``recording``    `record`: a run with the engine's channels kept
-``recorded``     `Recording`: pressure at any microphone, from such a run or from an FMU's
+``recorded``     `Recording`: such a run or an FMU's, in files
+``heard``        its pressures and levels at any microphone
 ``table``        tables to terminal, Markdown, CSV; the machine they were made on
 """

@@ -89,7 +89,7 @@ def record(
             raise ValueError(f"{name} = {value} s: it must be a finite, positive number of seconds")
     wanted = rung or ("compact" if scene.sound is None else scene.sound.rung)
     model = source if isinstance(source, Model) and microphones else prepare(
-        scene if microphones else listened(scene, "paper" if wanted.startswith("paper") else "compact")
+        scene if microphones else listened(scene, wanted if wanted.startswith("paper") else "compact")
     )  # fmt: skip
     bearing = Instance(model)
     drives = dict(inputs or {})

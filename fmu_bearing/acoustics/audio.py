@@ -1,0 +1,111 @@
+"""Sound files in pascals: WAV at 48 kHz, 32-bit float, with the calibration written into the file.
+
+A sample of 1.0 stands for the *full scale*, a pressure the caller states. It is kept as a comment in the file
+(``full scale = 20 Pa``), so that `read_wav` gives pascals back.
+"""
+
+import math
+import os
+import pathlib
+import re
+import struct
+import warnings
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.io import wavfile
+from scipy.signal import firwin, resample_poly
+
+WAV_RATE = 48_000
+FULL_SCALE = 20.0  # Pa: 117 dB of a sine, above any bearing
+_PASS, _STOP = 20_000.0, 24_000.0  # Hz
+_ATTENUATION = 100.0  # dB of the resampler's stop band
+_CALIBRATION = re.compile(r"full scale = ([0-9.eE+-]+) Pa")
+
+
+def resample(pressure: ArrayLike, sample_rate: float, wanted: float = WAV_RATE) -> NDArray[np.float64]:
+    """Resample along the last axis; 0.001 dB flat to 20 kHz (0.42 of the lower rate), -100 dB above 24 kHz.
+
+    Raises
+    ------
+    ValueError
+        When the rates are not whole numbers of hertz.
+    """
+    signal = np.asarray(pressure, dtype=float)
+    if sample_rate == wanted:
+        return signal
+    rates = round(sample_rate), round(wanted)
+    if abs(rates[0] - sample_rate) > 1e-6 * sample_rate or abs(rates[1] - wanted) > 1e-6 * wanted:
+        raise ValueError(f"rates must be whole numbers of Hz, not {sample_rate} and {wanted}")
+    common = math.gcd(*rates)
+    up, down = rates[1] // common, rates[0] // common
+    fine = rates[0] * up
+    low = min(rates) / WAV_RATE
+    width = 2.0 * math.pi * (_STOP - _PASS) * low / fine
+    taps = 2 * math.ceil(0.5 * (_ATTENUATION - 8.0) / (2.285 * width)) + 1
+    beta = 0.1102 * (_ATTENUATION - 8.7)
+    kernel = firwin(taps, 0.5 * (_PASS + _STOP) * low, window=("kaiser", beta), fs=fine)
+    return resample_poly(signal, up, down, axis=-1, window=kernel)
+
+
+def write_wav(
+    path: str | os.PathLike[str], pressure: ArrayLike, sample_rate: float, full_scale: float = FULL_SCALE
+) -> None:
+    """Write pressures (Pa) as a 48 kHz float WAV file.
+
+    Parameters
+    ----------
+    pressure : array_like, shape (samples,) or (channels, samples)
+    full_scale : float
+        Pressure (Pa) of a sample of 1.0. Players clip beyond; the file itself does not.
+
+    Raises
+    ------
+    ValueError
+        When ``full_scale`` is not positive.
+    """
+    if not (math.isfinite(full_scale) and full_scale > 0.0):
+        raise ValueError(f"full_scale = {full_scale} Pa must be positive")
+    signal = resample(pressure, sample_rate) / full_scale
+    peak = float(np.max(np.abs(signal), initial=0.0))
+    if peak > 1.0:
+        warnings.warn(
+            f"the peak of {peak * full_scale:.3g} Pa exceeds full_scale = {full_scale:g} Pa: players clip",
+            stacklevel=2,
+        )
+    wavfile.write(path, WAV_RATE, np.ascontiguousarray(signal.T, dtype=np.float32))
+    _comment(pathlib.Path(path), f"full scale = {full_scale!r} Pa")
+
+
+def read_wav(
+    path: str | os.PathLike[str], full_scale: float | None = None
+) -> tuple[NDArray[np.float64], float]:
+    """Pressures (Pa), shape (samples,) or (channels, samples), and sample rate (Hz) of a WAV file.
+
+    Raises
+    ------
+    ValueError
+        When the file does not state its calibration and ``full_scale`` (Pa) is not given.
+    """
+    if full_scale is None:
+        found = _CALIBRATION.search(pathlib.Path(path).read_bytes().decode("latin-1"))
+        if found is None:
+            raise ValueError(f"{path} does not say what pressure its full scale is: give full_scale in Pa")
+        full_scale = float(found[1])
+    rate, samples = wavfile.read(path)
+    if np.issubdtype(samples.dtype, np.integer):
+        samples = samples / -float(np.iinfo(samples.dtype).min)
+    return np.asarray(samples, dtype=float).T * full_scale, float(rate)
+
+
+def _comment(path: pathlib.Path, text: str) -> None:
+    """Append an INFO list with one comment, which every player skips, and mend the file's length."""
+    words = text.encode("ascii") + b"\0"
+    words += b"\0" * (len(words) % 2)
+    body = b"INFO" + b"ICMT" + struct.pack("<I", len(words)) + words
+    with path.open("r+b") as file:
+        file.seek(0, os.SEEK_END)
+        file.write(b"LIST" + struct.pack("<I", len(body)) + body)
+        length = file.tell() - 8
+        file.seek(4)
+        file.write(struct.pack("<I", length))

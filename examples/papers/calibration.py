@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 STEP_DB = 0.5  # the factor stands in half decibels: a finer one would only copy the measurement's own scatter
-_ROUNDS = 8
+ROUNDS = 8
 _GOOD = 0.5  # dB
 _LIMIT_DB = 20.0  # either way: beyond ten times their size imperfections of 0.1 um are no tolerances any more
 
@@ -39,15 +39,16 @@ class Calibration:
         )
 
 
-def calibrate(target: float, level: Callable[[float], float]) -> Calibration:
+def calibrate(target: float, level: Callable[[float], float], rounds: int = ROUNDS) -> Calibration:
     """Find the factor at which ``level(factor)`` (dB) comes closest to ``target`` (dB).
 
     Sound is nearly proportional to imperfections, so the first steps are the difference itself; once the
-    target lies between two tries, they are halved. It ends where tries stand `STEP_DB` apart.
+    target lies between two tries, they are halved. It ends where tries stand `STEP_DB` apart, or after
+    ``rounds`` runs.
     """
     tries: dict[float, float] = {}
     db = 0.0
-    while len(tries) < _ROUNDS and db not in tries:
+    while len(tries) < rounds and db not in tries:
         tries[db] = level(10.0 ** (db / 20.0))
         miss = target - tries[db]
         if abs(miss) <= _GOOD:

@@ -13,7 +13,7 @@ from types import ModuleType
 from typing import Any
 
 from examples.papers import impact_noise, multi_source, sound_field
-from examples.papers.calibration import Calibration, calibrate
+from examples.papers.calibration import ROUNDS, Calibration, calibrate
 from examples.papers.case import ROOT, Case, code_hash, kept
 from examples.papers.page import Output
 
@@ -39,7 +39,7 @@ def calibration_of(name: str, rung: str, quick: bool, cache: pathlib.Path) -> Ca
         found = kept(place, lambda: {"dB": module.calibration_level(case.recording(rung, cache), rung)})
         return float(found["dB"])
 
-    return calibrate(module.CALIBRATION[1], level)
+    return calibrate(module.CALIBRATION[1], level, 3 if quick else ROUNDS)
 
 
 def rungs_of(module: ModuleType, rung: str) -> list[str]:

@@ -28,7 +28,7 @@ def save(drawn: Figure, path: pathlib.Path) -> None:
     """Write the PNG with few colours and without a date: small, and equal pictures are equal files."""
     buffer = io.BytesIO()
     drawn.savefig(buffer, dpi=_DPI, format="png")
-    Image.open(buffer).convert("RGB").quantize(48).save(path, optimize=True)
+    Image.open(buffer).convert("RGB").quantize(96).save(path, optimize=True)
 
 
 def curves(

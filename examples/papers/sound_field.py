@@ -120,9 +120,12 @@ def values(results: Results, variant: str, calibration: Calibration, directive: 
             since = (DIFFERENCES[0][2], circle_at(fast).dv)
             ours = circle_at(fast, r, place).dv
             add(f"DV at r {r}, l {place} mm", dv, ours, None if (r, place) == (R, L) else since)
-    tops = [circle_at(fast, r, x).top for r, x in ((30, L), (270, L), (R, 20), (R, 200))]
-    add("fall of SPLmax for r 30 to 270 mm (l 50)", 14.34, tops[0] - tops[1])
-    add("fall of SPLmax for l 20 to 200 mm (r 210)", 19.5, tops[2] - tops[3])
+    for what, paper, near, far in (
+        ("r 30 to 270 mm (l 50)", 14.34, (30, L), (270, L)),
+        ("l 20 to 200 mm (r 210)", 19.5, (R, 20), (R, 200)),
+        ("l 20 to 200 mm (r 30)", 19.5, (30, 20), (30, 200)),
+    ):
+        add(f"fall of SPLmax for {what}", paper, circle_at(fast, *near).top - circle_at(fast, *far).top)
     if variant == VARIANTS[0] and 18000 in results.get(VARIANTS[2], {}) and directive:
         steel = circle_at(results[VARIANTS[2]][18000]).dv
         add("steel twin, DV at r 210, l 50 mm", 2.76, steel, (DIFFERENCES[0][2], circle_at(fast).dv))

@@ -6,6 +6,7 @@ One way through, with no way back::
 
 ==================  =========================================================================
 ``scene``           WHAT is simulated: frozen models read from TOML, catalogue
+``elastic``         bending of the rings: sections, finite elements, modes
 ``acoustics``       transfer functions from motion to microphones, filters, spectra
 ``prepare``         scene to numbers, once: contacts, masses, imperfections, the model
 ``interface``       THE table of variables

@@ -80,7 +80,8 @@ def info(scene: SceneFile) -> None:
         model = prepare(found, level="full") if auto else prepare(found)
     p, fidelity = model.parameters, found.fidelity
     # an instance copies the parameters and keeps its last state beside the present one
-    places = p.size + 2 * at.state_size(p) + at.work_size(p) + at.z_size(model.n_balls, model.n_mics)
+    places = p.size + 2 * at.state_size(p) + at.work_size(p)
+    places += at.z_size(model.n_balls, model.n_mics, model.n_bands, model.n_modes)
     typer.echo(f"scene      {found.name}: {found.bearing.designation}, {found.operation.speed_rpm:g} r/min")
     if auto:
         bounds = fidelity.accuracy

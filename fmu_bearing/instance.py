@@ -58,7 +58,8 @@ class Instance:
         model = self.model
         self.p: NDArray[np.float64] = model.parameters.copy()
         self.u: NDArray[np.float64] = np.zeros(len(layout.INPUTS))
-        self.z: NDArray[np.float64] = np.zeros(layout.z_size(model.n_balls, model.n_mics))
+        sizes = (model.n_balls, model.n_mics, model.n_bands, model.n_modes)
+        self.z: NDArray[np.float64] = np.zeros(layout.z_size(*sizes))
         self.s: NDArray[np.float64] = np.zeros(layout.state_size(self.p))
         # The compiled entries are specialised on read-only parameters; settings still reach them through p.
         self._p = self.p.view()

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from examples.papers.hearing import sources_hash
 from fmu_bearing.engine.jit import source_hash
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.read import read_scene_text
@@ -109,10 +110,9 @@ def kept(path: pathlib.Path, compute: Callable[[], dict[str, Any]]) -> dict[str,
 
 def code_hash(*modules: str) -> str:
     """Hash (12 hex digits) of the sound's sources and of modules of this folder: results follow the code."""
-    digest = hashlib.sha256()
-    files = sorted((ROOT / "fmu_bearing" / "acoustics").rglob("*.py"))
-    for path in [*files, *(pathlib.Path(__file__).with_name(f"{name}.py") for name in modules)]:
-        digest.update(path.read_bytes())
+    digest = hashlib.sha256(sources_hash().encode())
+    for name in modules:
+        digest.update(pathlib.Path(__file__).with_name(f"{name}.py").read_bytes())
     return digest.hexdigest()[:12]
 
 

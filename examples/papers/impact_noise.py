@@ -8,12 +8,11 @@ from scipy.signal import find_peaks
 from examples.papers import charts, page
 from examples.papers.calibration import Calibration
 from examples.papers.case import Case
-from examples.papers.hearing import NAMES, a_weighted, heard
+from examples.papers.hearing import NAMES, Ear, a_weighted
 from examples.papers.page import Ordering, Output, Value, verdict
 from fmu_bearing.acoustics.directivity import plane_points
 from fmu_bearing.acoustics.spectrum import power_spectral_density
 from fmu_bearing.acoustics.weighting import level
-from fmu_bearing.study.recording import Recording
 from fmu_bearing.study.table import markdown
 
 NAME = "impact-noise"
@@ -59,10 +58,10 @@ def calibration_case(scale: float, quick: bool) -> Case:
     return cases(scale, quick)[0]
 
 
-def calibration_level(recording: Recording, rung: str) -> float:
+def calibration_level(ear: Ear) -> float:
     """Largest of a 5 ms history 100 mm above (dB(A)), mean over the recording's histories."""
-    pressure = a_weighted(recording.pressure([ABOVE], rung), recording.rate)
-    return float(histories(pressure, recording.rate)[0].mean())
+    rate = ear.recording.rate
+    return float(histories(a_weighted(ear.pressure([ABOVE]), rate), rate)[0].mean())
 
 
 def histories(pressure, rate: float):
@@ -73,12 +72,13 @@ def histories(pressure, rate: float):
     return level((cut**2).max(axis=2))
 
 
-def reduce(recording: Recording, rung: str, quick: bool) -> dict[str, Any]:
+def reduce(ear: Ear, quick: bool) -> dict[str, Any]:
     """Levels above the bearing by component, and round the three planes."""
+    recording = ear.recording
     rate = recording.rate
     skip = round(WINDOW * rate)
     parts = {}
-    for name, found in heard(recording, [ABOVE], rung).items():
+    for name, found in ear.sources([ABOVE]).items():
         weighted = a_weighted(found.sum(axis=0), rate)
         peaks, _ = find_peaks(np.abs(weighted[0, skip:]))
         parts[name] = {
@@ -91,9 +91,11 @@ def reduce(recording: Recording, rung: str, quick: bool) -> dict[str, Any]:
         }
     planes = {}
     kept = recording.scene.bearing.ball_springs.stiffness_N_m == SPRINGS[-1]  # the paper's planes have these
-    for name, ours in PLANES.items() if kept else ():
-        places = plane_points(ours, RADIUS, 24 if quick else 360)
-        weighted = a_weighted(recording.pressure(places, rung), rate)
+    count = 24 if quick else 360
+    points = np.concatenate([plane_points(ours, RADIUS, count) for ours in PLANES.values()])
+    around = a_weighted(ear.pressure(points), rate) if kept else points  # planes share circles: one call
+    for k, name in enumerate(PLANES if kept else ()):
+        weighted = around[k * count : (k + 1) * count]
         largest = histories(weighted, rate)
         planes[name] = {
             "largest": largest.mean(axis=1).round(3).tolist(),

@@ -7,9 +7,8 @@ import numpy as np
 from examples.papers import charts, page
 from examples.papers.calibration import Calibration
 from examples.papers.case import Case
-from examples.papers.hearing import NAMES, equivalent, heard, line, spectrum
+from examples.papers.hearing import NAMES, Ear, equivalent, line, spectrum
 from examples.papers.page import Ordering, Output, Value, verdict
-from fmu_bearing.study.recording import Recording
 from fmu_bearing.study.table import markdown
 
 NAME = "multi-source"
@@ -48,14 +47,15 @@ def calibration_case(scale: float, quick: bool) -> Case:
     return cases(scale, quick)[0] if quick else Case("7003C-spindle", 30000, CHANGES, scale)
 
 
-def calibration_level(recording: Recording, rung: str) -> float:
+def calibration_level(ear: Ear) -> float:
     """Level (dB) at P3."""
-    return float(recording.levels([recording.positions[2]], rung)[0])
+    return float(ear.levels([ear.recording.positions[2]])[0])
 
 
-def reduce(recording: Recording, rung: str, quick: bool) -> dict[str, Any]:
+def reduce(ear: Ear, quick: bool) -> dict[str, Any]:
     """Levels at the four points, by component, lines and spectra at P1."""
-    sources = heard(recording, recording.positions, rung)
+    recording = ear.recording
+    sources = ear.sources(recording.positions)
     ratio = float(np.mean(recording.outputs["cage.speed_ratio"][recording.output_time >= recording.start]))
     rolling = recording.kinematics()
     balls = recording.scene.bearing.ball_count

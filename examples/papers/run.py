@@ -15,6 +15,7 @@ from typing import Any
 from examples.papers import impact_noise, multi_source, sound_field
 from examples.papers.calibration import ROUNDS, Calibration, calibrate
 from examples.papers.case import ROOT, Case, code_hash, kept
+from examples.papers.hearing import Ear
 from examples.papers.page import Output
 
 PAGES: dict[str, ModuleType] = {module.NAME: module for module in (multi_source, sound_field, impact_noise)}
@@ -26,7 +27,7 @@ def evaluate(name: str, case: Case, rung: str, quick: bool, cache: pathlib.Path)
     """Return the result of one case with one rung (worker)."""
     module = PAGES[name]
     place = cache / name / f"{case.key(rung)}-{rung}-{code_hash(*module.MODULES)}.json"
-    return kept(place, lambda: module.reduce(case.recording(rung, cache), rung, quick))
+    return kept(place, lambda: module.reduce(Ear(case.recording(rung, cache), rung, cache), quick))
 
 
 def calibration_of(name: str, rung: str, quick: bool, cache: pathlib.Path) -> Calibration:
@@ -36,7 +37,9 @@ def calibration_of(name: str, rung: str, quick: bool, cache: pathlib.Path) -> Ca
     def level(scale: float) -> float:
         case = module.calibration_case(scale, quick)
         place = cache / name / f"{case.key(rung)}-{rung}-{code_hash(*module.MODULES)}-level.json"
-        found = kept(place, lambda: {"dB": module.calibration_level(case.recording(rung, cache), rung)})
+        found = kept(
+            place, lambda: {"dB": module.calibration_level(Ear(case.recording(rung, cache), rung, cache))}
+        )
         return float(found["dB"])
 
     return calibrate(module.CALIBRATION[1], level, 3 if quick else ROUNDS)

@@ -20,11 +20,10 @@ from examples.papers.circles import (
     orderings,
     twins,
 )
-from examples.papers.hearing import NAMES, equivalent, heard
+from examples.papers.hearing import NAMES, Ear, equivalent
 from examples.papers.page import Output, Value
 from fmu_bearing.acoustics.directivity import attenuation
 from fmu_bearing.scene.sound import cylindrical
-from fmu_bearing.study.recording import Recording
 from fmu_bearing.study.table import markdown
 
 NAME = "sound-field"
@@ -76,16 +75,17 @@ def calibration_case(scale: float, quick: bool) -> Case:
     return cases(scale, quick)[0] if quick else Case(CERAMIC, 18000, (), scale, label=VARIANTS[0])
 
 
-def calibration_level(recording: Recording, rung: str) -> float:
+def calibration_level(ear: Ear) -> float:
     """Level (dB) at 210 degrees."""
-    return float(recording.levels([cylindrical(210, R, L)], rung)[0])
+    return float(ear.levels([cylindrical(210, R, L)])[0])
 
 
-def reduce(recording: Recording, rung: str, quick: bool) -> dict[str, Any]:
+def reduce(ear: Ear, quick: bool) -> dict[str, Any]:
     """Levels round circles, shape (radii, places, 24), and by component on the paper's circle."""
     grid = [cylindrical(a, r, x) for r in RADII for x in PLACES for a in ANGLES]
-    field = recording.levels(grid, rung).reshape(len(RADII), len(PLACES), len(ANGLES))
-    own = heard(recording, [cylindrical(a, R, L) for a in ANGLES], rung)
+    recording = ear.recording
+    field = ear.levels(grid).reshape(len(RADII), len(PLACES), len(ANGLES))
+    own = ear.sources([cylindrical(a, R, L) for a in ANGLES])
     late = recording.output_time >= recording.start
     return {
         "field": field.round(3).tolist(),

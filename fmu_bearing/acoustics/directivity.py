@@ -25,7 +25,8 @@ class Directivity:
     da : float
         Directivity angle: where the largest level stands (rad), eq. 13.
     dl : float
-        Directivity level: largest level over the mean of the levels in dB round the whole circle, eq. 14.
+        Directivity level: largest level over the mean of the levels in dB round the whole circle, eq. 14; NaN
+        where that mean is not positive.
     dv : float
         Largest less smallest level of the whole circle (dB), eq. 15.
     highest, lowest, mean : float
@@ -97,7 +98,7 @@ def directivity(angles: ArrayLike, levels: ArrayLike, zone: tuple[float, float] 
     Raises
     ------
     ValueError
-        When shapes differ, the zone is empty, or the mean level is not positive (eq. 14 divides by it).
+        When shapes differ or no point lies in the zone.
     """
     phi, value = np.asarray(angles, dtype=float), np.asarray(levels, dtype=float)
     if phi.ndim != 1 or phi.shape != value.shape or phi.size < 2:
@@ -110,10 +111,9 @@ def directivity(angles: ArrayLike, levels: ArrayLike, zone: tuple[float, float] 
             raise ValueError(f"no point lies between {np.degrees(low):g} and {np.degrees(high):g} deg")
     best = int(np.flatnonzero(inside)[np.argmax(value[inside])])
     mean = float(value.mean())
-    if mean <= 0.0:
-        raise ValueError(f"the mean level is {mean:.1f} dB: DL of eq. 14 needs a positive one")
+    ratio = float(value[best]) / mean if mean > 0.0 else float("nan")
     return Directivity(
-        float(phi[best]), float(value[best]) / mean, float(value.max() - value.min()), float(value[best]),
+        float(phi[best]), ratio, float(value.max() - value.min()), float(value[best]),
         float(value.min()), mean,
     )  # fmt: skip
 

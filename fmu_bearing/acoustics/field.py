@@ -8,7 +8,7 @@ decimator's response divided out, times each path's transfer function between it
 
 from collections.abc import Callable, Hashable, Iterator, Sequence
 from dataclasses import dataclass
-from importlib import import_module
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,11 +17,12 @@ from scipy.interpolate import CubicSpline
 from scipy.signal import get_window
 
 from fmu_bearing.acoustics.fir import BAND, decimator_response, fit_frequencies
-from fmu_bearing.acoustics.transfer import Air, Path, Radiators, compact_paths, paper_paths
+from fmu_bearing.acoustics.radiators import Air, Path, Radiators
+from fmu_bearing.acoustics.rungs import Ladder
 from fmu_bearing.engine.sound import places
 
 Position = tuple[float, float, float]
-_Response = Callable[[NDArray[np.float64]], NDArray[np.complex128]]
+_Responses = Callable[[NDArray[np.float64]], dict[tuple[int, float], NDArray[np.complex128]]]
 
 #: Rows that a recording must reach beyond the last pressure wanted: the band limit rings that long (5 ms).
 TAIL = 256
@@ -40,57 +41,46 @@ class Circle:
 
 
 def circles(
-    rung: str, radiators: Radiators, air: Air, positions: Sequence[Position], harmonics: int
+    rung: str,
+    radiators: Radiators,
+    air: Air,
+    positions: Sequence[Position],
+    harmonics: int,
+    **options: Any,
 ) -> Iterator[Circle]:
     """Yield the paths from channels to microphones, circle by circle.
 
     Parameters
     ----------
     rung : str
-        ``"compact"``, ``"bem"`` or ``"paper"``.
+        Any but ``"table"``, which knows its own microphones only.
     positions : sequence of (x, y, z)
         Places in m, bearing centre at the origin.
     harmonics : int
         Highest circumferential order of the balls among the channels.
+    options
+        Fields of `rungs.Ladder` beyond these: reflecting plane, flexural modes.
 
     Raises
     ------
     ValueError
-        On another rung, or a microphone inside a body.
+        On the rung ``table``, an unknown rung, or a microphone inside a body.
     """
-    groups: dict[tuple[float, float], list[int]] = {}
-    for i, (x, y, z) in enumerate(positions):
-        across = float(np.hypot(y, z))
-        place = (float(np.hypot(across, x)), 0.0) if rung == "paper" else (across, float(x))
-        groups.setdefault((round(place[0], _SAME_PLACE), round(place[1], _SAME_PLACE)), []).append(i)
-    for members in groups.values():
-        x, y, z = (float(value) for value in positions[members[0]])
-        if rung == "paper":
-            paths = paper_paths(radiators, air, float(np.linalg.norm((x, y, z))), len(members))
-        else:
-            azimuths = [float(np.arctan2(-positions[i][1], positions[i][2])) for i in members]
-            paths = _vector_paths(rung)(radiators, air, float(np.hypot(y, z)), x, azimuths, harmonics)
-        yield Circle(tuple(members), tuple(paths))
+    if rung == "table":
+        raise ValueError('rung = "table" cannot be evaluated at other places: use "bem" or "compact"')
+    ladder = Ladder(rung, radiators, air, harmonics, **options)
+    for members in ladder.circles(positions):
+        yield Circle(tuple(members), tuple(ladder.paths(positions, members)))
 
 
-def _vector_paths(rung: str) -> Callable[..., list[Path]]:
-    """Return what makes the paths of a rung that takes accelerations as they are."""
-    if rung == "compact":
-        return compact_paths
-    if rung == "bem":
-        found: Callable[..., list[Path]] = import_module("fmu_bearing.acoustics.bem.paths").bem_paths
-        return found
-    raise ValueError(f'rung = "{rung}" cannot be evaluated at other places: use "compact", "bem" or "paper"')
+def form_of(rung: str) -> str:
+    """Return which channels a rung hears: accelerations (``"vectors"``), or a paper's own, by its name."""
+    return rung if rung in ("paper", "paper_contacts") else "vectors"
 
 
 def kind_of(path: Path) -> str:
-    """Source type of a path: one of radial, axial, rotation, flexure, balls (``places.KINDS``)."""
-    kind = getattr(path, "kind", None)
-    if kind is not None:
-        return str(places.KINDS[kind])  # type: ignore[attr-defined,unused-ignore]
-    if path.channel >= places.C_BALLS:
-        return "balls"
-    return "axial" if path.channel % 3 == 0 else "radial"
+    """Source type of a path: one of ``places.KINDS``."""
+    return places.KINDS[path.kind]
 
 
 class Channels:
@@ -105,7 +95,7 @@ class Channels:
     """
 
     def __init__(self, history: NDArray[np.float64], longest: float = 0.1) -> None:
-        self.rows = len(history)
+        self.rows, self.longest = len(history), longest
         self.size = int(next_fast_len(self.rows + _SETTLE + round(longest * places.RATE), real=True))
         frequency = np.fft.rfftfreq(self.size, 1.0 / places.RATE).astype(np.float64)
         self.frequency = frequency[frequency < _STOP]
@@ -126,11 +116,9 @@ class Channels:
         """
         members = len(circle.members)
         parts = {label(path): np.zeros((members, self.size // 2 + 1), complex) for path in circle.paths}
-        interpolants = _interpolants(circle.paths)
+        responses = _interpolated(circle.paths)
         for block in _blocks(len(self.frequency)):
-            f = self.frequency[block]
-            known = {key: spline(f) * np.exp(-2j * np.pi * f * flight) for key, (spline, flight) in
-                     interpolants.items()}  # fmt: skip
+            known = responses(self.frequency[block])
             for name in parts:
                 chosen = [path for path in circle.paths if label(path) == name]
                 heard = np.array([self.spectra[path.channel, block] * known[_key(path)] for path in chosen])
@@ -180,19 +168,16 @@ class Blocks:
         self, circle: Circle, label: Callable[[Path], Hashable] = lambda path: ""
     ) -> dict[Hashable, NDArray[np.float64]]:
         """Mean square pressure (Pa^2) per bin at one circle's microphones, (members, bins) by label."""
-        f = self.frequency
-        known = {
-            key: spline(f) * np.exp(-2j * np.pi * f * flight)
-            for key, (spline, flight) in _interpolants(circle.paths).items()
-        }
+        known = _interpolated(circle.paths)(self.frequency)
         found: dict[Hashable, NDArray[np.float64]] = {}
         for name in dict.fromkeys(label(path) for path in circle.paths):
             chosen = [path for path in circle.paths if label(path) == name]
             weights = np.array([path.weights for path in chosen]).T
-            total = np.zeros((len(circle.members), len(f)))
+            total = np.zeros((len(circle.members), len(self.frequency)))
+            places_of = [path.channel for path in chosen]
+            response = np.array([known[_key(path)] for path in chosen])
             for block in range(self.spectra.shape[1]):
-                heard = np.array([self.spectra[path.channel, block] * known[_key(path)] for path in chosen])
-                total += np.abs(weights @ heard) ** 2
+                total += np.abs(weights @ (self.spectra[places_of, block] * response)) ** 2
             found[name] = total
         return found
 
@@ -202,22 +187,28 @@ def _key(path: Path) -> tuple[int, float]:
     return id(path.response), path.flight
 
 
-def _interpolants(paths: Sequence[Path]) -> dict[tuple[int, float], tuple[_Response, float]]:
-    """Cubic splines through the responses without their flight times; conjugate at negative frequencies."""
+def _interpolated(paths: Sequence[Path]) -> _Responses:
+    """Return a function that gives the responses of all paths at frequencies, by `_key`.
+
+    One cubic spline through the responses without their flight times, conjugate at negative frequencies.
+    Beyond the last tabulated frequency, where everything fades, the value there is held.
+    """
     f = fit_frequencies()
-    both = np.concatenate([-f[::-1], f])
-    found = {}
-    for path in paths:
-        if _key(path) not in found:
-            still = path.response * np.exp(2j * np.pi * f * path.flight)
-            spline = CubicSpline(both, np.concatenate([still[::-1].conj(), still]))
-            # beyond the last tabulated frequency everything fades: its value is held
-            found[_key(path)] = (_held(spline, f[-1]), path.flight)
-    return found
+    distinct = {_key(path): path for path in paths}
+    flights = np.array([path.flight for path in distinct.values()])
+    still = np.array([path.response for path in distinct.values()]) * np.exp(
+        2j * np.pi * np.outer(flights, f)
+    )
+    spline = CubicSpline(
+        np.concatenate([-f[::-1], f]), np.concatenate([still[:, ::-1].conj(), still], axis=1), axis=1
+    )
 
+    def evaluate(frequency: NDArray[np.float64]) -> dict[tuple[int, float], NDArray[np.complex128]]:
+        found = spline(np.minimum(frequency, f[-1]))
+        turns = {flight: np.exp(-2j * np.pi * frequency * flight) for flight in set(flights)}
+        return {key: row * turns[key[1]] for key, row in zip(distinct, found, strict=True)}
 
-def _held(spline: CubicSpline, last: float) -> _Response:
-    return lambda f: spline(np.minimum(f, last))
+    return evaluate
 
 
 def _blocks(count: int) -> Iterator[slice]:

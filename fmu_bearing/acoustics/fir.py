@@ -4,6 +4,7 @@ import functools
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
 from scipy.signal import remez
 
 from fmu_bearing.engine.sound.places import DECIMATOR_TAPS, LATENCY, RATE, RAW_RATE
@@ -14,7 +15,10 @@ _WEAK = 10 ** (-30 / 20)
 _STOP = 24_000.0  # Hz: filters let little through from here on; nothing is fitted between the bands
 _STOP_WEIGHT = 0.02
 _RIDGE = 1e-12  # relative: keeps the normal equations of long filters solvable
-_LENGTHS = (48, 64, 96, 128, 192, 256)
+_LENGTHS = (48, 64, 96, 128, 192, 256, 384, 512, 768, 1024)
+# Beyond this length the grid of `fit_frequencies` (125 Hz: 8 ms, 410 taps) no longer determines the taps.
+_GRID_SERVES = 256
+_FINER = 4
 _GOOD = 10 ** (-55 / 20)  # error at which a filter is long enough
 
 
@@ -54,9 +58,19 @@ def delay_of(flight: float) -> int:
 
 
 @functools.cache
+def _grid(length: int) -> NDArray[np.float64]:
+    """Frequencies in Hz that determine a filter of ``length`` taps."""
+    f = fit_frequencies()
+    if length <= _GRID_SERVES:
+        return f
+    places = np.arange(_FINER * (len(f) - 1) + 1) / _FINER
+    return np.interp(places, np.arange(len(f)), f)
+
+
+@functools.cache
 def _basis(length: int) -> NDArray[np.complex128]:
     turn = -2j * np.pi / RATE * np.arange(length)
-    return np.exp(fit_frequencies()[:, None] * turn)
+    return np.exp(_grid(length)[:, None] * turn)
 
 
 @functools.cache
@@ -65,9 +79,29 @@ def _stop_rows(length: int) -> NDArray[np.complex128]:
     return np.exp(np.linspace(_STOP, RATE / 2, 12)[:, None] * turn)
 
 
-def _target(response: NDArray[np.complex128], flight: float) -> NDArray[np.complex128]:
+def between(
+    frequency: NDArray[np.float64],
+    response: NDArray[np.complex128],
+    flight: float,
+    wanted: NDArray[np.float64],
+) -> NDArray[np.complex128]:
+    """Transfer function at the frequencies ``wanted`` (Hz, within the given ones), by a cubic spline.
+
+    The flight time (s) is taken out before and put back after. Towards zero frequency the spline knows that
+    negative frequencies carry the conjugate.
+    """
+    still = response * np.exp(2j * np.pi * frequency * flight)
+    low = frequency > 0.0
+    ends = np.concatenate([-frequency[low][::-1], frequency])
+    spline = CubicSpline(ends, np.concatenate([still[low][::-1].conj(), still]))
+    result: NDArray[np.complex128] = spline(wanted) * np.exp(-2j * np.pi * wanted * flight)
+    return result
+
+
+def _target(
+    frequency: NDArray[np.float64], response: NDArray[np.complex128], flight: float
+) -> NDArray[np.complex128]:
     """Return what the filter must do so that the whole chain is ``response``, ``LATENCY`` late."""
-    frequency = fit_frequencies()
     turn = 2j * np.pi * frequency * (delay_of(flight) - LATENCY) / RATE
     return response * np.exp(turn) / decimator_response(frequency)
 
@@ -90,26 +124,38 @@ def fit(
     Returns
     -------
     taps, error
-        Taps at ``RATE``, newest sample first, as few as reach -55 dB, 256 at most; largest deviation in
-        `BAND` over the larger of the path's own magnitude and the strongest one's minus 30 dB.
+        Taps at ``RATE``, newest sample first, as few as reach -55 dB, 1024 at most; largest deviation in
+        `BAND` over the larger of the path's own magnitude and the strongest one's minus 30 dB. Filters
+        longer than 256 taps are held to a grid four times as fine, where a spline stands for the response.
     """
-    wanted = _target(response, flight)
-    weight = 1.0 / np.maximum(np.abs(response), _WEAK * strongest)
-    right = wanted * weight
     best, least = np.zeros(_LENGTHS[0]), np.inf
     for length in _LENGTHS:
-        basis, stop = _basis(length), _stop_rows(length) * (_STOP_WEIGHT * weight[-1])
-        rows = basis * weight[:, None]
-        matrix = np.concatenate([rows.real, rows.imag, stop.real, stop.imag])
-        vector = np.concatenate([right.real, right.imag, np.zeros(2 * len(stop))])
-        # Normal equations: far cheaper than an orthogonal solver, and the errors stay those of the filter
-        # length.
-        normal = matrix.T @ matrix
-        normal.flat[:: length + 1] += _RIDGE * normal.trace() / length
-        taps = np.linalg.solve(normal, matrix.T @ vector)
-        error = float(np.max(np.abs(basis @ taps - wanted) * weight))
+        taps, error = _fit_length(length, response, flight, strongest)
         if error < least:
             best, least = taps, error
         if error < _GOOD:
             break
     return best, least
+
+
+def _fit_length(
+    length: int, response: NDArray[np.complex128], flight: float, strongest: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], float]:
+    """Return taps and error of the best filter of one length."""
+    coarse, grid = fit_frequencies(), _grid(length)
+    if len(grid) > len(coarse):
+        response = between(coarse, response, flight, grid)
+        strongest = np.interp(grid, coarse, strongest)
+    wanted = _target(grid, response, flight)
+    weight = 1.0 / np.maximum(np.abs(response), _WEAK * strongest)
+    right = wanted * weight
+    basis, stop = _basis(length), _stop_rows(length) * (_STOP_WEIGHT * weight[-1])
+    rows = basis * weight[:, None]
+    matrix = np.concatenate([rows.real, rows.imag, stop.real, stop.imag])
+    vector = np.concatenate([right.real, right.imag, np.zeros(2 * len(stop))])
+    # Normal equations: far cheaper than an orthogonal solver, and the errors stay those of the filter
+    # length.
+    normal = matrix.T @ matrix
+    normal.flat[:: length + 1] += _RIDGE * normal.trace() / length
+    taps = np.linalg.solve(normal, matrix.T @ vector)
+    return taps, float(np.max(np.abs(basis @ taps - wanted) * weight))

@@ -39,21 +39,26 @@ class Line:
 
 
 def kinematic_lines(
-    frequencies: KinematicFrequencies, highest: float, harmonics: int = 10, sidebands: int = 2
+    frequencies: KinematicFrequencies, highest: float, harmonics: int = 12
 ) -> list[KinematicLine]:
     """Lines up to ``highest`` (Hz), in order of frequency.
 
     Harmonics of the shaft f_r, the cage f_c, the balls (f_b and, a defect touching both races, 2 f_b) and of
     the passing of balls at the races f_i and f_o; with sidebands by what modulates them: the inner race's
-    harmonics and f_r, the balls' and f_c, the outer race's and both.
+    harmonics and f_r, the balls' and f_c, the outer race's and both. Up to four sidebands by f_r, as waviness
+    and unbalance of the turning ring make, and two by f_c: more would explain anything.
     """
-    modulators = {"f_i": ("f_r", "f_c"), "f_o": ("f_r", "f_c"), "f_b": ("f_c",), "f_r": (), "f_c": ()}
+    both = {"f_r": 4, "f_c": 2}
+    modulators: dict[str, dict[str, int]] = {
+        "f_i": both, "f_o": both, "f_b": {"f_c": 2}, "f_r": {}, "f_c": {},
+    }  # fmt: skip
     lines = []
     for carrier, by in modulators.items():
         base = float(getattr(frequencies, carrier))
-        for n in range(1, harmonics + 1):
+        # the shaft's own go on: f_i + f_o alone is as many times f_r as there are balls
+        for n in range(1, (2 * harmonics if carrier == "f_r" else harmonics) + 1):
             lines.append(KinematicLine(n * base, _times(n, carrier), n - 1))
-            for modulator in by:
+            for modulator, sidebands in by.items():
                 step = float(getattr(frequencies, modulator))
                 for m in range(1, sidebands + 1):
                     for sign, word in ((1, "+"), (-1, "-")):
@@ -69,9 +74,16 @@ def _times(n: int, name: str) -> str:
 
 
 def explain(frequency: float, lines: Sequence[KinematicLine], tolerance: float) -> KinematicLine | None:
-    """Return the simplest of the lines within ``tolerance`` (Hz), the nearest of equals; None without any."""
+    """Return the line that best explains a frequency (Hz); None when all are further than ``tolerance`` (Hz).
+
+    Simplicity weighs as much as nearness: at the tolerance a line costs as much as eight ranks (assumed).
+    """
     near = [line for line in lines if abs(line.frequency - frequency) <= tolerance]
-    return min(near, key=lambda line: (line.rank, abs(line.frequency - frequency)), default=None)
+    return min(
+        near,
+        key=lambda line: line.rank + 8.0 * ((line.frequency - frequency) / tolerance) ** 2,
+        default=None,
+    )
 
 
 def strongest_lines(
@@ -79,7 +91,7 @@ def strongest_lines(
     levels: ArrayLike,
     count: int = 12,
     kinematic: Sequence[KinematicLine] = (),
-    tolerance: float | None = None,
+    slip: float = 0.0015,
 ) -> list[Line]:
     """Return the strongest lines of a spectrum, strongest first.
 
@@ -91,8 +103,8 @@ def strongest_lines(
         How many at most.
     kinematic : sequence of KinematicLine
         What may explain them.
-    tolerance : float, optional
-        Distance (Hz) at which a kinematic line still explains; default: 1.5 bins.
+    slip : float
+        Share of its frequency by which a line may miss the kinematic one, as balls slide; at least one bin.
 
     Notes
     -----
@@ -102,7 +114,6 @@ def strongest_lines(
     f: NDArray[np.float64] = np.asarray(frequency, dtype=float)
     value: NDArray[np.float64] = np.asarray(levels, dtype=float)
     bin_width = float(f[1] - f[0])
-    allowed = 1.5 * bin_width if tolerance is None else tolerance
     found = []
     for i in range(2, len(f) - 1):
         near = value[max(0, i - _LOBE) : i + _LOBE + 1]
@@ -112,7 +123,7 @@ def strongest_lines(
         below, at, above = value[i - 1 : i + 2]
         curve = below - 2.0 * at + above
         place = f[i] + (0.5 * (below - above) / curve * bin_width if curve < 0.0 else 0.0)
-        best = explain(float(place), kinematic, allowed)
+        best = explain(float(place), kinematic, max(bin_width, slip * float(place)))
         if best is None:
             found.append(Line(float(place), float(at)))
         else:

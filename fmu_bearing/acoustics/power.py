@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fmu_bearing.acoustics.effective import cylinder_volumes, ring_volumes
-from fmu_bearing.acoustics.transfer import Air, Radiators
+from fmu_bearing.acoustics.radiators import Air, Radiators
 from fmu_bearing.acoustics.weighting import REFERENCE_PRESSURE
 from fmu_bearing.engine.sound import places
 

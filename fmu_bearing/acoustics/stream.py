@@ -1,50 +1,123 @@
 """The sound block of the engine's parameters: transfer functions turned into filters and packed flat."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.acoustics.fir import decimator, delay_of, fit
-from fmu_bearing.acoustics.transfer import (
-    Air,
-    Housing,
-    Path,
-    Radiators,
-    Ring,
-    compact_paths,
-    paper_paths,
-    paper_scalars,
-)
-from fmu_bearing.acoustics.weighting import a_weighting_sections, high_pass_section
+from fmu_bearing.acoustics.blocks import Bank
+from fmu_bearing.acoustics.fir import delay_of, fit
+from fmu_bearing.acoustics.pack import pack
+from fmu_bearing.acoustics.radiators import Air, Housing, Path, Radiators, Ring
+from fmu_bearing.acoustics.rungs import Ladder, Position
+from fmu_bearing.acoustics.table import Table, read_table, select
 from fmu_bearing.engine.sound import places as at
 from fmu_bearing.scene import Scene, si
 
-Position = tuple[float, float, float]
+__all__ = ["FilterError", "build", "filter_errors", "ladder_of", "radiators_of", "sound_parameters"]
 
-MICROPHONE_LOW_LIMIT = 5.0  # Hz, second order: of a half-inch measurement microphone (assumed)
 # Paths this far below their component's strongest one, at all frequencies, are left out.
 _NEGLIGIBLE = 1e-7
-_TOLERANCE = 10 ** (-50 / 20)  # worst deviation of a filter from its transfer function
-_LONGEST_GAP = 4  # channels
-_SAME_PLACE = 9  # decimals of a metre within which microphones share a circle
+# Worst deviation of a filter from its transfer function that is let pass: 1 %, 0.09 dB. Bodies without sharp
+# resonances keep -50 dB; what each path has is told by `filter_errors`.
+_TOLERANCE = 10 ** (-40 / 20)
+_LONGEST_GAP = 6  # channels
+_SILENT = 1e-12  # weight of a microphone on a node line, where rounding leaves a little
+_ALIKE = 12  # decimals to which weights are compared
 
 
-def sound_parameters(scene: Scene) -> NDArray[np.float64]:
+@dataclass(frozen=True)
+class FilterError:
+    """How well one filter follows its transfer function.
+
+    Attributes
+    ----------
+    microphones : tuple of int
+        Indices of the microphones that share it.
+    component, kind : str
+        Whose sound it carries, see ``engine.sound.places``.
+    channel, taps : int
+        Channel it filters and its length.
+    error : float
+        Largest deviation from 20 Hz to 20 kHz in dB, relative to the larger of the path's own magnitude and
+        its component's strongest one less 30 dB.
+    """
+
+    microphones: tuple[int, ...]
+    component: str
+    kind: str
+    channel: int
+    taps: int
+    error: float
+
+
+@dataclass(frozen=True)
+class Group:
+    """Microphones that share filters: weights (output, microphone) of the outputs from ``first`` on."""
+
+    members: tuple[int, ...]
+    first: int
+    weights: NDArray[np.float64]
+
+
+def sound_parameters(scene: Scene, modes: Sequence[Any] = ()) -> NDArray[np.float64]:
     """Sound block of a scene for the kernels in `engine.sound`; empty when the scene has no sound.
+
+    Parameters
+    ----------
+    modes
+        Elastic modes of the rings in the order of the engine's coordinates, two channels each.
 
     Raises
     ------
     ValueError
-        When a microphone lies inside the bearing or its housing, or a filter does not follow its transfer
-        function.
+        When a microphone lies inside a body, the table does not serve, or a filter does not follow its
+        transfer function.
     """
     if scene.sound is None or not scene.microphones:
         return np.zeros(0)
-    sound = si(scene.sound)
-    air = Air(sound.air_density, sound.sound_speed)
     positions = [position for _, position in scene.microphones]
-    return build(sound.rung, radiators_of(scene), air, positions, int(scene.fidelity.ball_harmonics))
+    ladder = ladder_of(scene, modes)
+    return _block(ladder, positions, details=scene.sound.details, thirds=scene.sound.third_octaves)
+
+
+def filter_errors(scene: Scene, modes: Sequence[Any] = ()) -> list[FilterError]:
+    """How well the filters of a scene follow their transfer functions, the worst first; empty: no sound.
+
+    Raises
+    ------
+    ValueError
+        As `sound_parameters`.
+    """
+    if scene.sound is None or not scene.microphones:
+        return []
+    errors: list[FilterError] = []
+    _design(ladder_of(scene, modes), [position for _, position in scene.microphones], errors)
+    return sorted(errors, key=lambda found: -found.error)
+
+
+def ladder_of(scene: Scene, modes: Sequence[Any] = ()) -> Ladder:
+    """Return what the paths of a scene with sound depend on besides its microphones.
+
+    Raises
+    ------
+    ValueError
+        When the scene has no sound, or its table does not serve.
+    """
+    if scene.sound is None:
+        raise ValueError(f"{scene.name} has no sound: add [sound]")
+    sound = si(scene.sound)
+    table = None
+    if scene.sound.rung == "table":
+        where = f"sound.table_file {scene.sound.table_file}"
+        table = select(read_table(str(scene.sound.table_file)), scene.microphones, where)
+    return Ladder(
+        scene.sound.rung, radiators_of(scene), Air(sound.air_density, sound.sound_speed),
+        int(scene.fidelity.ball_harmonics), tuple(modes),
+        None if scene.sound.reflecting_plane_mm is None else sound.reflecting_plane, table,
+    )  # fmt: skip
 
 
 def radiators_of(scene: Scene) -> Radiators:
@@ -72,127 +145,136 @@ def radiators_of(scene: Scene) -> Radiators:
         outer_ring=Ring(bearing.outside_diameter, bearing.outer_ring_inner_diameter, bearing.width),
         cage=cage,
         housing=housing,
+        contact_angle=bearing.contact_angle,
+        baffle=scene.sound is not None and scene.sound.radiator == "baffle",
     )
 
 
 def build(
-    rung: str, radiators: Radiators, air: Air, microphones: Sequence[Position], harmonics: int = 4
+    rung: str,
+    radiators: Radiators,
+    air: Air,
+    microphones: Sequence[Position],
+    harmonics: int = 4,
+    *,
+    modes: Sequence[Any] = (),
+    plane: float | None = None,
+    table: Table | None = None,
+    details: bool = True,
+    thirds: bool = False,
+    levels: Sequence[int] | None = None,
 ) -> NDArray[np.float64]:
     """Sound block from plain numbers.
 
     Parameters
     ----------
     rung
-        ``"compact"`` or ``"paper"``, see `transfer`.
+        See `rungs`.
     microphones
         Places (x, y, z) in m, bearing centre at the origin.
     harmonics
-        Highest circumferential order of the balls' sound (rung ``compact``).
+        Highest circumferential order of the balls' sound.
+    modes, plane, table
+        See `rungs.Ladder`.
+    details
+        Whether Fast, Slow, energy sum and levels per source type are metered.
+    thirds
+        Whether third octaves are.
+    levels
+        Block lengths of the convolution (powers of two, ascending); empty: direct form; default: the
+        cheapest.
 
     Raises
     ------
     ValueError
         On another rung, a microphone inside a body, or a filter that misses its transfer function by more
-        than -50 dB.
+        than -40 dB.
     """
-    if rung not in ("compact", "paper"):
-        raise ValueError(f'rung must be "paper" or "compact", not {rung!r}')
-    groups = _circles(rung, microphones)
-    banks: list[list[float]] = []
-    taps: list[NDArray[np.float64]] = []
-    components: list[int] = []
-    runs: dict[int, tuple[int, int, NDArray[np.float64]]] = {}
-    compact = rung == "compact"
-    for members in groups.values():
-        paths = _paths(rung, radiators, air, [microphones[i] for i in members], harmonics)
-        place = ", ".join(f"{1e3 * length:g}" for length in microphones[members[0]])
-        first = len(components)
-        order: list[Path | None] = []
-        for run, rows in _runs(paths, _filters(paths, place)):
-            first_path = next(path for path in run if path is not None)
-            delay = delay_of(first_path.flight)
-            banks.append([first_path.channel, len(run), delay, len(rows), len(components)])
-            taps.append(rows)
-            components += [0 if path is None else path.component for path in run]
-            order += run
-        for k, i in enumerate(members):
-            weights = np.array([0.0 if path is None else path.weights[k] for path in order])
-            runs[i] = (first, len(order), weights)
-    head = np.zeros(at.HEAD_SIZE)
-    head[at.H_RUNG] = at.RUNG_COMPACT if compact else at.RUNG_PAPER
-    head[at.H_BALLS] = radiators.ball_count
-    head[at.H_HARMONICS] = harmonics
-    head[at.H_CHANNELS] = (
-        at.compact_channels(harmonics) if compact else at.paper_channels(radiators.ball_count)
-    )
-    head[at.H_ROWS] = max(bank[at.BANK_DELAY] + bank[at.BANK_TAPS] for bank in banks)
-    head[at.H_BANKS] = len(banks)
-    head[at.H_OUTPUTS] = len(components)
-    head[at.H_MICS] = len(microphones)
-    head[at.H_LANES] = len(microphones) if compact else len(components)
-    return _pack(head, radiators, banks, taps, components, [runs[i] for i in range(len(microphones))])
+    ladder = Ladder(rung, radiators, air, harmonics, tuple(modes), plane, table)
+    return _block(ladder, microphones, details=details, thirds=thirds, levels=levels)
 
 
-def _pack(
-    head: NDArray[np.float64],
-    radiators: Radiators,
-    banks: list[list[float]],
-    taps: list[NDArray[np.float64]],
-    components: list[int],
-    runs: list[tuple[int, int, NDArray[np.float64]]],
+def _block(
+    ladder: Ladder,
+    microphones: Sequence[Position],
+    *,
+    details: bool,
+    thirds: bool,
+    levels: Sequence[int] | None = None,
 ) -> NDArray[np.float64]:
-    """Lay head and tables one after another; offsets count from the start of the block."""
-    table: list[float] = []
-
-    def put(numbers) -> int:
-        place = at.HEAD_SIZE + len(table)
-        table.extend(np.asarray(numbers, dtype=float).ravel())
-        return place
-
-    keep = [0, 1, 2, 4, 5]  # the leading denominator coefficient is 1
-    head[at.H_AT_DECIMATOR] = put(decimator())
-    head[at.H_AT_HIGH_PASS] = put(high_pass_section(at.RATE, MICROPHONE_LOW_LIMIT)[keep])
-    head[at.H_AT_A_WEIGHTING] = put(a_weighting_sections(at.RATE)[:, keep])
-    head[at.H_AT_SCALARS] = put(paper_scalars(radiators))
-    head[at.H_AT_COMPONENTS] = put(components)
-    head[at.H_AT_BANKS] = put([[*bank, put(rows)] for bank, rows in zip(banks, taps, strict=True)])
-    head[at.H_AT_MICS] = put([[first, count, put(weights)] for first, count, weights in runs])
-    return np.concatenate([head, table])
+    banks, groups, sources = _design(ladder, microphones, [])
+    return pack(ladder, banks, groups, sources, details=details, thirds=thirds, levels=levels)
 
 
-def _circles(rung: str, microphones: Sequence[Position]) -> dict[tuple[float, ...], list[int]]:
-    """Return indices of microphones that share their transfer functions."""
-    groups: dict[tuple[float, ...], list[int]] = {}
-    for i, (x, y, z) in enumerate(microphones):
-        across = np.hypot(y, z)
-        place = (np.hypot(across, x),) if rung == "paper" else (across, x)
-        groups.setdefault(tuple(round(float(v), _SAME_PLACE) for v in place), []).append(i)
-    return groups
+def _design(
+    ladder: Ladder, microphones: Sequence[Position], errors: list[FilterError]
+) -> tuple[list[Bank], list[Group], list[tuple[int, int]]]:
+    """Banks, groups of microphones, component and kind of every output; errors are added to ``errors``."""
+    banks: list[Bank] = []
+    groups: list[Group] = []
+    sources: list[tuple[int, int]] = []
+    for members in ladder.circles(microphones):
+        paths = _audible(ladder.paths(microphones, members))
+        place = ", ".join(f"{1e3 * length:g}" for length in microphones[members[0]])
+        filters = _filters(paths, place, members, errors)
+        first = len(sources)
+        targets, rows = _outputs(ladder, paths, sources)
+        for run in _runs(paths):
+            scaled = [np.zeros(0) if i is None else filters[i] * targets[i][1] for i in run]
+            place_of = tuple(first if i is None else targets[i][0] for i in run)
+            leader = paths[next(i for i in run if i is not None)]
+            banks.append(Bank(leader.channel, delay_of(leader.flight), _side_by_side(scaled), place_of))
+        groups.append(Group(tuple(members), first, np.array(rows).reshape(-1, len(members))))
+    return banks, groups, sources
 
 
-def _paths(
-    rung: str, radiators: Radiators, air: Air, microphones: Sequence[Position], harmonics: int
-) -> list[Path]:
-    """Paths to the microphones of one circle, without the negligible ones."""
-    x, y, z = microphones[0]
-    if rung == "paper":
-        return paper_paths(radiators, air, float(np.linalg.norm((x, y, z))), len(microphones))
-    azimuths = [np.arctan2(-y, z) for _, y, z in microphones]
-    paths = compact_paths(radiators, air, float(np.hypot(y, z)), x, azimuths, harmonics)
-    strongest = [
-        max(np.abs(p.response).max() for p in paths if p.component == path.component) for path in paths
-    ]
+def _audible(paths: list[Path]) -> list[Path]:
+    """Leave out negligible paths and those on whose node lines all microphones stand."""
+    strongest: dict[int, float] = {}
+    for path in paths:
+        loudest = float(np.abs(path.response).max())
+        strongest[path.component] = max(strongest.get(path.component, 0.0), loudest)
     return [
         path
-        for path, limit in zip(paths, strongest, strict=True)
-        if np.abs(path.response).max() > _NEGLIGIBLE * limit
+        for path in paths
+        if np.abs(path.response).max() > _NEGLIGIBLE * strongest[path.component]
+        and np.abs(path.weights).max() > _SILENT
     ]
 
 
-def _filters(paths: list[Path], place: str) -> list[NDArray[np.float64]]:
+def _outputs(
+    ladder: Ladder, paths: list[Path], sources: list[tuple[int, int]]
+) -> tuple[list[tuple[int, float]], list[NDArray[np.float64]]]:
+    """Output and factor of each path, and the weights of the new outputs, whose sources are appended.
+
+    Paths of one component and kind whose weights are multiples of one another add up in one output: at a
+    single microphone all of them. The printed method squares each by itself.
+    """
+    known: dict[tuple[Any, ...], int] = {}
+    targets: list[tuple[int, float]] = []
+    rows: list[NDArray[np.float64]] = []
+    for number, path in enumerate(paths):
+        factor = float(path.weights[np.abs(path.weights).argmax()])
+        row = path.weights / factor
+        key = (
+            (number,)
+            if ladder.rung == "paper"
+            else (path.component, path.kind, tuple(np.round(row, _ALIKE) + 0.0))
+        )
+        if key not in known:
+            known[key] = len(sources)
+            sources.append((path.component, path.kind))
+            rows.append(row)
+        targets.append((known[key], factor))
+    return targets, rows
+
+
+def _filters(
+    paths: list[Path], place: str, members: Sequence[int], errors: list[FilterError]
+) -> list[NDArray[np.float64]]:
     """Filter of each path; each component's errors count against its strongest path where its own is weak."""
     filters: list[NDArray[np.float64]] = []
-    known: dict[int, NDArray[np.float64]] = {}  # sources that share a response share their filter
+    known: dict[int, tuple[NDArray[np.float64], float]] = {}  # a shared response has a shared filter
     strongest = {
         component: np.max([np.abs(p.response) for p in paths if p.component == component], axis=0)
         for component in {path.component for path in paths}
@@ -200,43 +282,37 @@ def _filters(paths: list[Path], place: str) -> list[NDArray[np.float64]]:
     for path in paths:
         if id(path.response) not in known:
             taps, error = fit(path.response, path.flight, strongest[path.component])
+            off = 20 * np.log10(max(error, 1e-15))
+            component, kind = at.COMPONENTS[path.component], at.KINDS[path.kind]
+            errors.append(FilterError(tuple(members), component, kind, path.channel, len(taps), off))
             if error > _TOLERANCE:
-                off, most = 20 * np.log10(error), 20 * np.log10(_TOLERANCE)
-                body = at.COMPONENTS[path.component].replace("_", " ")
                 raise ValueError(
-                    f"no filter follows the sound of the {body} at ({place}) mm: it is off by {off:.0f} dB, "
-                    f"allowed are {most:.0f}; move that microphone or choose another sound.rung"
+                    f"no filter follows the sound of the {component.replace('_', ' ')} at ({place}) mm: it "
+                    f"is off by {off:.0f} dB, allowed are {20 * np.log10(_TOLERANCE):.0f}; move that "
+                    "microphone or choose another sound.rung"
                 )
-            known[id(path.response)] = taps
-        filters.append(known[id(path.response)])
+            known[id(path.response)] = (taps, error)
+        filters.append(known[id(path.response)][0])
     return filters
 
 
-def _runs(
-    paths: list[Path], filters: list[NDArray[np.float64]]
-) -> list[tuple[list[Path | None], NDArray[np.float64]]]:
-    """Gather paths of one delay into banks of neighbouring channels, with their taps side by side.
+def _runs(paths: list[Path]) -> list[list[int | None]]:
+    """Gather paths of one delay into runs of neighbouring channels, as places in the list.
 
-    A short gap between two channels is filled with a silent path: one long vector loop beats two short ones.
+    A short gap between two channels is filled with silence: one long vector loop beats two short ones.
     """
-    runs: list[tuple[list[Path | None], list[NDArray[np.float64]]]] = []
+    runs: list[list[int | None]] = []
     last = None
-    for path, taps in sorted(
-        zip(paths, filters, strict=True), key=lambda pair: (pair[0].flight, pair[0].channel)
-    ):
-        gap = (
-            path.channel - last.channel - 1
-            if last is not None and last.flight == path.flight
-            else _LONGEST_GAP + 1
-        )
+    for i in sorted(range(len(paths)), key=lambda i: (paths[i].flight, paths[i].channel)):
+        path = paths[i]
+        near = last is not None and last.flight == path.flight and last.channel < path.channel
+        gap = path.channel - last.channel - 1 if near and last is not None else _LONGEST_GAP + 1
         if gap > _LONGEST_GAP:
-            runs.append(([], []))
+            runs.append([])
             gap = 0
-        members, rows = runs[-1]
-        members += [None] * gap + [path]
-        rows += [np.zeros(0)] * gap + [taps]
+        runs[-1] += [None] * gap + [i]
         last = path
-    return [(members, _side_by_side(rows)) for members, rows in runs]
+    return runs
 
 
 def _side_by_side(filters: list[NDArray[np.float64]]) -> NDArray[np.float64]:

@@ -1,4 +1,4 @@
-"""Frequency and time weighting of sound levels (IEC 61672-1).
+"""Frequency and time weighting of sound levels (IEC 61672-1), third octaves (IEC 61260-1).
 
 `a_weighting_db` is the standard's formula; `a_weighting_sections` is the digital filter the engine runs:
 the four low analogue poles mapped one by one (z = e^{s/fs}), the four zeros at zero frequency, and for the
@@ -53,6 +53,25 @@ def a_weighting_sections(sample_rate: float) -> NDArray[np.float64]:
     x = least_squares(error, start, x_scale=np.maximum(np.abs(start), 1e-2), xtol=1e-14, ftol=1e-14).x
     x[:3] *= 10 ** (-error(x)[-1] / 20.0)  # exactly 0 dB at 1 kHz, where calibrators sound
     return np.concatenate([fixed, last(x)])
+
+
+def band_centre(nominal: float) -> float:
+    """Exact mid-band frequency in Hz of the third octave with a nominal one. IEC 61260-1, base ten."""
+    return float(10.0 ** (round(10.0 * np.log10(nominal)) / 10.0))
+
+
+def band_sections(sample_rate: float, nominal: float) -> NDArray[np.float64]:
+    """Second-order sections of a third-octave filter, shape (4, 6), as `scipy.signal.sosfilt` takes them.
+
+    Butterworth of order four on either side (three would miss class 1 at 16 kHz), edges 10^(1/20) above
+    and below the middle (IEC 61260-1, base ten), bilinear with both edges held; class 1. 0 dB exactly in the
+    middle.
+    """
+    centre = band_centre(nominal)
+    edges = (centre * 10**-0.05, centre * 10**0.05)
+    sections: NDArray[np.float64] = butter(4, edges, "bandpass", fs=sample_rate, output="sos")
+    sections[0, :3] /= abs(sosfreqz(sections, [centre], fs=sample_rate)[1][0])
+    return sections
 
 
 def high_pass_section(sample_rate: float, frequency: float) -> NDArray[np.float64]:

@@ -16,6 +16,8 @@ Per-ball quantities are structures of arrays: quantity ``k`` of ball ``j`` stand
 
 import numpy as np
 
+from fmu_bearing.engine import modes_layout
+
 STRIDE = 24  # lanes reserved per ball quantity; not a power of two, so rows spread over cache sets
 MAX_BALLS = STRIDE
 
@@ -102,7 +104,21 @@ MIC_OUTPUTS = (
     "spl_outer_ring",
     "spl_cage",
     "spl_balls",
+    "spl_fast",
+    "spl_fast_a",
+    "spl_slow",
+    "spl_slow_a",
+    "spl_energy_sum",
+    "spl_radial",
+    "spl_axial",
+    "spl_rotation",
+    "spl_flexure",
 )
+#: Third octaves: nominal mid-band frequencies in Hz, IEC 61260-1; the exact ones are 10^(n/10).
+BANDS = (
+    25.0, 31.5, 40.0, 50.0, 63.0, 80.0, 100.0, 125.0, 160.0, 200.0, 250.0, 315.0, 400.0, 500.0, 630.0, 800.0,
+    1000.0, 1250.0, 1600.0, 2000.0, 2500.0, 3150.0, 4000.0, 5000.0, 6300.0, 8000.0, 10000.0, 12500.0, 16000.0,
+)  # fmt: skip
 
 
 def z_mics(n_balls):
@@ -110,9 +126,19 @@ def z_mics(n_balls):
     return Z_BALLS + 3 * n_balls
 
 
-def z_size(n_balls, n_mics):
-    """Length of ``z`` for ``n_balls`` balls and ``n_mics`` microphones."""
+def z_bands(n_balls, n_mics):
+    """Place of the first microphone's first third octave in ``z``: after all its other outputs."""
     return z_mics(n_balls) + len(MIC_OUTPUTS) * n_mics
+
+
+def z_flex(n_balls, n_mics, n_bands=0):
+    """Place in ``z`` of the flexural velocities: two for each mode, cosine then sine."""
+    return z_bands(n_balls, n_mics) + n_bands * n_mics
+
+
+def z_size(n_balls, n_mics, n_bands=0, n_modes=0):
+    """Length of ``z`` for microphones of ``n_bands`` third octaves each, and ``n_modes`` flexural modes."""
+    return z_flex(n_balls, n_mics, n_bands) + 2 * n_modes
 
 
 # --- p: head, tunable before initialisation -----------------------------------------------------
@@ -127,14 +153,20 @@ P_VISCOSITY = 6  # Pa s at the reference temperature
 # --- motion sample handed to the sound kernels ----------------------------------------------------
 # Bodies inner ring, outer ring, cage: velocity, acceleration, angular velocity, angular acceleration
 # in inertial axes (x, y, z), 12 numbers each; then per ball 14 numbers: the same four vectors in the
-# orbiting axes (x, r, theta) - inertial quantities, only resolved there - and cos, sin of the angle.
+# orbiting axes (x, r, theta) - inertial quantities, only resolved there - and cos, sin of the angle; then
+# the second time derivatives (m/s2) of the flexural coordinates, cosine and sine of each mode.
 MO_INNER, MO_OUTER, MO_CAGE, MO_BALLS = 0, 12, 24, 36
 MO_PER_BALL = 14
 
 
-def motion_size(n_balls):
-    """Length of a motion sample for ``n_balls`` balls."""
+def mo_flex(n_balls):
+    """Place of the flexural accelerations in a motion sample for ``n_balls`` balls."""
     return MO_BALLS + MO_PER_BALL * n_balls
+
+
+def motion_size(n_balls, n_modes=0):
+    """Length of a motion sample for ``n_balls`` balls and ``n_modes`` flexural modes."""
+    return mo_flex(n_balls) + 2 * n_modes
 
 
 REFERENCE_TEMPERATURE = 293.15  # K: viscosity is the reference one, expansion is zero
@@ -222,7 +254,11 @@ PI = np.pi
     P_BALL_WAVES,  # number of zonal orders of the balls' waviness; 0: none
     P_AT_BALL_WAVES,  # offset: amplitudes of orders 1.., then the bodies' axes, 3 rows of STRIDE
     P_RACE_CONTROL,  # who balances the gyroscopic moment: 0 shared, 1 outer race, 2 inner race
-) = range(8, 8 + 79)
+    P_MODES,  # number of flexural modes of both rings; 0: rigid rings
+    P_AT_MODES,  # offset: MODE_SIZE numbers per mode
+    P_MODE_STEP,  # s: longest internal step that resolves the modes
+) = range(8, 8 + 82)
+P_BANDS = 99  # third octaves per microphone; 0: none
 P_RACES = 100  # two blocks of RACE_SIZE: inner, outer
 LEVELS = ("full", "rings", "response")
 METHODS = ("esdirk4", "fast", "trbdf2", "rk4")
@@ -406,18 +442,18 @@ BLOCK = 8
 W_BLOCK_A = W_VEL + STAGES * F_SIZE
 W_BLOCK_Y = W_BLOCK_A + (BLOCK + 3) * F_SIZE
 W_MOTION = W_BLOCK_Y + (BLOCK + 1) * Y_SIZE
-W_G0 = W_MOTION + MO_BALLS + MO_PER_BALL * MAX_BALLS
+W_G0 = W_MOTION + MO_BALLS + MO_PER_BALL * MAX_BALLS + 2 * modes_layout.MAX_MODES
 W_SOUND = W_G0 + N_BODY * STRIDE
 
 
 def state_size(p):
     """Length of ``s`` for the parameters ``p``."""
-    return S_SOUND + int(p[P_SOUND_STATE])
+    return S_SOUND + int(p[P_SOUND_STATE]) + modes_layout.state_size(int(p[P_MODES]), STRIDE)
 
 
 def work_size(p):
     """Length of ``w`` for the parameters ``p``."""
-    return W_SOUND + int(p[P_SOUND_WORK]) + 8
+    return W_SOUND + int(p[P_SOUND_WORK]) + 8 + modes_layout.work_size(int(p[P_MODES]), STRIDE, STAGES)
 
 
 # --- status codes -------------------------------------------------------------------------------------

@@ -13,6 +13,8 @@ from fmu_bearing.engine.layout import (
     OK,
     P_MAX_STEP,
     P_METHOD,
+    P_MODE_STEP,
+    P_MODES,
     P_RIGID,
     S_ANGLE,
     S_AXES,
@@ -47,10 +49,12 @@ from fmu_bearing.engine.layout import (
     Y_V,
 )
 from fmu_bearing.engine.mechanics.conditions import conditions
+from fmu_bearing.engine.mechanics.flexure import flexure_state
 from fmu_bearing.engine.mechanics.summary import summarise
 from fmu_bearing.engine.motion import emit_samples
 from fmu_bearing.engine.progress import accept, renew_jacobian, total_energy, velocity_tolerance
 from fmu_bearing.engine.solvers.block_arrow import factor
+from fmu_bearing.engine.solvers.mode_factors import factor_modes
 from fmu_bearing.engine.solvers.rigid_preload import axial_speed
 from fmu_bearing.engine.solvers.runge_kutta import integrate_power, runge_kutta_step
 from fmu_bearing.engine.solvers.tableaux import ESDIRK4, RK4, T_GAMMA, T_ORDER, TABLEAUX, TRBDF2
@@ -116,11 +120,15 @@ def try_step(p, s, w, h, tableau, tolerance):
                 if fresh:
                     return -1.0
                 continue
+            factor_modes(
+                p, s[S_JAC:S_FAC], s[S_FAC:S_FAST], s[S_Y : S_Y + Y_SIZE],
+                s[S_Y + 2 * _S] - s[S_JACOBIAN_ANGLE], s[S_SPEED], gh, gh * gh, s[flexure_state(p) :], w,
+            )  # fmt: skip
             s[S_FACTOR_STEP] = h
         probe = s[S_STEPS] % _PROBE == 0.0
         fine = runge_kutta_step(
             p, s[S_C : S_C + C_SIZE], s[S_Y : S_Y + Y_SIZE], s[S_F : S_F + F_SIZE], s[S_AXES:S_JAC],
-            s[S_ANGLE], s[S_SPEED], s[S_SPEED_RATE], h, tableau, s[S_FAC:S_FAST],
+            s[flexure_state(p) :], s[S_ANGLE], s[S_SPEED], s[S_SPEED_RATE], h, tableau, s[S_FAC:S_FAST],
             s[S_Y + 2 * _S] - s[S_JACOBIAN_ANGLE], 0.5 * tolerance, s[S_CONTRACTION], probe, w, report,
         )  # fmt: skip
         if fine:
@@ -144,14 +152,15 @@ def march(p, u, s, w, h):
     power = -1.0 / TABLEAUX[tableau + T_ORDER]
     begin = s[S_TIME]
     end = begin + h
+    longest = p[P_MAX_STEP] if p[P_MODES] == 0.0 else min(p[P_MAX_STEP], p[P_MODE_STEP])
     # bounded work: no more attempts than a hundred times what the largest internal step would need
     # (a thousand times for explicit steps, which stability keeps below 0.1 us)
-    left = 2000.0 + (1000.0 if tableau == RK4 else 100.0) * math.ceil(h / p[P_MAX_STEP])
+    left = 2000.0 + (1000.0 if tableau == RK4 else 100.0) * math.ceil(h / longest)
     remaining = h
     fast = p[P_METHOD] == 1.0
     # the clock's own rounding must not count as time left
     while remaining > 1e-12 * h + 4e-16 * abs(end):
-        proposed = min(s[S_STEP], p[P_MAX_STEP])
+        proposed = min(s[S_STEP], longest)
         length = remaining / max(1.0, math.ceil(remaining / proposed - 1e-9))
         short = fast_length(p, s, remaining) if fast else 0.0
         if short > 0.0 and short <= 1.000001 * length:
@@ -183,7 +192,7 @@ def march(p, u, s, w, h):
         # a step cut to meet the communication point says nothing against a longer one
         if grow < 1.0 or length > 0.5 * proposed:
             wanted = length * grow
-            s[S_STEP] = min(p[P_MAX_STEP], wanted if grow < 1.0 or wanted > 1.2 * length else proposed)
+            s[S_STEP] = min(longest, wanted if grow < 1.0 or wanted > 1.2 * length else proposed)
     s[S_TIME] = end
     s[S_SPEED] = u[U_SPEED]
     # One evaluation at the end point: stored energy for the balance, and accelerations and torque that do

@@ -13,6 +13,7 @@ from fmu_bearing.engine.layout import (
     P_AT_SOUND,
     P_BALLS,
     P_METERING_START,
+    P_MODES,
     P_PITCH_RADIUS,
     P_SOUND_SIZE,
     P_TIME_WEIGHTING,
@@ -32,6 +33,11 @@ from fmu_bearing.engine.layout import (
     W_SOUND,
     W_Y,
     Y_V,
+)
+from fmu_bearing.engine.mechanics.flexure import flat, flexure_state, flexure_work
+from fmu_bearing.engine.modes_layout import (
+    FW_A,
+    FW_V,
 )
 from fmu_bearing.engine.sound.places import RAW_RATE
 from fmu_bearing.engine.sound.radiate import push
@@ -111,6 +117,20 @@ def ball_motion(p, s, w, h, t):
 
 
 @kernel
+def flexure_motion(p, s, w, h, t):
+    """Second time derivatives of the flexural coordinates, behind the balls."""
+    count = 2 * int(p[P_MODES])
+    at = W_MOTION + MO_BALLS + MO_PER_BALL * int(p[P_BALLS])
+    old = flexure_state(p)
+    new = flexure_work(p)
+    v = new + flat(p, FW_V)
+    a = new + flat(p, FW_A)
+    for i in range(count):
+        _, rate = hermite(s[old + count + i], s[old + 2 * count + i], w[v + i], w[a + i], h, t)
+        w[at + i] = rate
+
+
+@kernel
 def emit_samples(p, s, w, h):
     """Push every sample that falls into the step just made (old state in ``s``, new one in ``w``)."""
     if p[P_SOUND_SIZE] == 0.0:
@@ -131,5 +151,6 @@ def emit_samples(p, s, w, h):
         spin, rate = hermite(s[S_Y + Y_V + k], s[S_F + F_G + k], w[W_Y + Y_V + k], w[last + F_G + k], h, t)
         body_motion(s, w, Q_CAGE, W_MOTION + MO_CAGE, k + 1, spin, rate, h, t)
         ball_motion(p, s, w, h, t)
+        flexure_motion(p, s, w, h, t)
         push(ps, s[S_SOUND:], w[W_SOUND:], w[W_MOTION:W_SOUND], p[P_TIME_WEIGHTING], p[P_METERING_START])
         s[S_SAMPLE] += 1.0

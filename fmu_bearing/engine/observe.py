@@ -17,10 +17,14 @@ from fmu_bearing.engine.layout import (
     C_SIZE,
     C_VISCOSITY,
     F_TORQUE,
+    MIC_OUTPUTS,
     P_AT_OVERSIZE,
     P_AT_SOUND,
     P_BALLS,
+    P_BANDS,
     P_CAGE,
+    P_MICS,
+    P_MODES,
     P_PITCH_RADIUS,
     P_RACES,
     P_ROUGHNESS,
@@ -52,6 +56,7 @@ from fmu_bearing.engine.layout import (
     Y_V,
     Z_BALLS,
 )
+from fmu_bearing.engine.mechanics.flexure import flexure_state
 from fmu_bearing.engine.mechanics.pose import axis_cosine
 from fmu_bearing.engine.solvers.stiffness import series_stiffness
 from fmu_bearing.engine.sound.meter import levels
@@ -80,6 +85,7 @@ Z_SLIP = BEARING_OUTPUTS.index("contact.inner.slip")
 Z_WHIRL_RADIUS = BEARING_OUTPUTS.index("cage.whirl_radius")
 Z_WHIRL_SPEED = BEARING_OUTPUTS.index("cage.whirl_speed")
 Z_TORQUE_CONTACTS = BEARING_OUTPUTS.index("friction_torque.contacts")  # then rolling, cage, drag
+_PER_MIC = len(MIC_OUTPUTS)
 _STANDSTILL = 1e-9  # rad/s: below it nothing is divided by the shaft speed
 _CENTRED_2 = 1e-16  # m2: the whirl speed of a cage within 10 nm of the middle says nothing
 
@@ -208,6 +214,16 @@ def contacts(p, s, z):
 
 
 @kernel
+def flexure(p, s, z):
+    """Velocities (m/s) of the flexural coordinates, after the microphones."""
+    count = 2 * int(p[P_MODES])
+    to = Z_BALLS + 3 * int(p[P_BALLS]) + (_PER_MIC + int(p[P_BANDS])) * int(p[P_MICS])
+    at = flexure_state(p) + count
+    for i in range(count):
+        z[to + i] = s[at + i]
+
+
+@kernel
 def observe(p, s, z):
     """Fill ``z`` (see ``layout``) from the state ``s``."""
     bodies(p, s, z)
@@ -216,6 +232,7 @@ def observe(p, s, z):
         z[Z_HEAT + i] = s[S_MEAN_INNER + i]
     contacts(p, s, z)
     losses(s, z)
+    flexure(p, s, z)
     z[Z_STEPS] = s[S_STEPS]
     z[Z_REJECTED] = s[S_REJECTED]
     z[Z_FALLBACKS] = s[S_FALLBACKS]

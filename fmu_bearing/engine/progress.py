@@ -5,6 +5,7 @@ from fmu_bearing.engine.layout import (
     C_SIZE,
     F_SIZE,
     P_LANES,
+    P_MODES,
     P_TOLERANCE,
     Q_CAGE,
     S_ANGLE,
@@ -32,7 +33,14 @@ from fmu_bearing.engine.layout import (
 from fmu_bearing.engine.mechanics.ball_waves import advance_axes, turn_axes
 from fmu_bearing.engine.mechanics.energy import stored_energy
 from fmu_bearing.engine.mechanics.equations import right_hand_side
+from fmu_bearing.engine.mechanics.flexure import (
+    flexure_energy,
+    flexure_state,
+    keep_accelerations,
+    show_flexure,
+)
 from fmu_bearing.engine.mechanics.trigonometry import wrap
+from fmu_bearing.engine.solvers.flexible import accept_modes
 from fmu_bearing.engine.solvers.jacobian import jacobian
 
 _S = STRIDE
@@ -50,8 +58,9 @@ def velocity_tolerance(p, speed):
 
 @kernel
 def show_axes(p, s, w):
-    """Rows ``W_AXES`` of the state in ``s``, for wavy balls."""
+    """Rows ``W_AXES`` of the state in ``s``, for wavy balls, and the coordinates of flexible rings."""
     turn_axes(p, s[S_AXES:S_JAC], s[S_Y : S_Y + Y_SIZE], int(p[P_LANES]), 0.0, w)
+    show_flexure(p, s, w)
 
 
 @inlined
@@ -62,7 +71,11 @@ def total_energy(p, s, w):
         p, s[S_C : S_C + C_SIZE], s[S_Y : S_Y + Y_SIZE], s[S_ANGLE], s[S_SPEED], s[S_SPEED_RATE], w,
         s[S_F : S_F + F_SIZE],
     )  # fmt: skip
-    return stored_energy(p, s[S_C : S_C + C_SIZE], s[S_Y : S_Y + Y_SIZE], w)
+    energy = stored_energy(p, s[S_C : S_C + C_SIZE], s[S_Y : S_Y + Y_SIZE], w)
+    if p[P_MODES] != 0.0:
+        keep_accelerations(p, s, w)
+        energy += flexure_energy(p, s[S_Y : S_Y + Y_SIZE], s[S_SPEED], w)
+    return energy
 
 
 @kernel
@@ -97,6 +110,7 @@ def accept(p, s, w, h):
         s[S_Y + i] = w[W_Y + i]
     for i in range(F_SIZE):
         s[S_F + i] = w[W_LAST + i]
+    accept_modes(p, s, flexure_state(p), w)
     turn = wrap(s[S_Y + 2 * _S]) - s[S_Y + 2 * _S]
     if turn != 0.0:
         # the orbit angle at the Jacobian turns back with the balls

@@ -1,6 +1,7 @@
 """The state at initialisation: quasi-static under preload, radial loads, weights and misalignment.
 
-Rings rest on their springs; each ball has its own place, orbit and spin.
+Rings rest on their springs, bent by their loads where they are flexible; each ball has its own place, orbit
+and spin.
 """
 
 import math
@@ -81,6 +82,7 @@ from fmu_bearing.engine.mechanics.ball_waves import first_axes
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.mechanics.summary import summarise
 from fmu_bearing.engine.progress import show_axes, total_energy
+from fmu_bearing.engine.settled import around, settle
 from fmu_bearing.engine.solvers.mounted import mounted_equilibrium
 from fmu_bearing.engine.solvers.rigid_preload import rigid_start
 from fmu_bearing.engine.solvers.spin_balance import balance_spins
@@ -118,18 +120,6 @@ def find(p, c, speed, load, tilt, found, w):
         load[0] += 1.0 + 0.05 * (abs(load[0]) + abs(load[1]) + abs(load[2]))
         status = mounted_equilibrium(p, c, speed, load, 1.0, tilt, found, w)
     return status
-
-
-@kernel
-def around(p, found, row, j):
-    """Change of a ball quantity with the angle round the bearing (1/rad) between the neighbours of ``j``."""
-    balls = int(p[P_BALLS])
-    ahead = found[row + (j + 1) % balls]
-    behind = found[row + (j + balls - 1) % balls]
-    ahead2 = found[row + (j + 2) % balls]
-    behind2 = found[row + (j + balls - 2) % balls]
-    # fourth order: the first harmonic, that of a radial load or tilt, comes out within 0.3 % for 12 balls
-    return (8.0 * (ahead - behind) - (ahead2 - behind2)) * balls / (24.0 * PI)
 
 
 @kernel
@@ -220,6 +210,7 @@ def start(p, u, s, w, t):
         place_cage(p, y, found, y[o])
     first_axes(p, s[S_AXES:S_JAC])
     show_axes(p, s, w)
+    settle(p, c, y, 0.0, u[U_SPEED], s, w)
     balance_spins(p, c, y, 0.0, u[U_SPEED], w, s[S_JAC:S_FAC])
     if p[P_CAGE] != 0.0:
         orbit = 0.0

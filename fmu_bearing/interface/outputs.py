@@ -21,8 +21,20 @@ _MIC_WORDS = (
     ),
     ("spl_cage", "Time-weighted partial level of the cage at microphone {}"),
     ("spl_balls", "Time-weighted partial level of the balls at microphone {}"),
+    ("spl_fast", "Fast sound pressure level at microphone {}"),
+    ("spl_fast_a", "Fast A-weighted sound level at microphone {}"),
+    ("spl_slow", "Slow sound pressure level at microphone {}"),
+    ("spl_slow_a", "Slow A-weighted sound level at microphone {}"),
+    ("spl_energy_sum", "Time-weighted level of the bodies' energies added at microphone {}"),
+    ("spl_radial", "Time-weighted partial level of the radial motion of rings and cage at microphone {}"),
+    ("spl_axial", "Time-weighted partial level of the axial motion of rings and cage at microphone {}"),
+    ("spl_rotation", "Time-weighted partial level of the tilting of rings and cage at microphone {}"),
+    ("spl_flexure", "Time-weighted partial level of the bending of the rings at microphone {}"),
 )
-_TOTALS = 5  # of these, what is heard of all bodies together; the rest are partial levels
+_PLAIN = 9  # of these, what every scene has; the rest need sound.details
+_PARTIAL = tuple(f"spl_{part}" for part in (
+    "inner_ring", "outer_ring", "cage", "balls", "radial", "axial", "rotation", "flexure",
+))  # fmt: skip
 
 
 def outputs(scene: Scene) -> list[Variable]:
@@ -38,6 +50,7 @@ def outputs(scene: Scene) -> list[Variable]:
         place = at.Z_BALLS + 3 * j
         table += _vector(f"ball[{j + 1}]", "velocity", "output", words, "m/s", place, nominal=10.0)
     table += _microphones(scene, "output")
+    table += _flexure(scene)
     torque = "Torque taken from the shaft, without inertia: that belongs to the drive"
     table.append(_read("friction_torque", "output", torque, "N.m"))
     for name, words in (("inner_ring", "the inner ring"), ("outer_ring", "the outer ring")):
@@ -163,16 +176,58 @@ def _torque_shares(scene: Scene) -> list[Variable]:
     ]
 
 
+def _flexure(scene: Scene) -> list[Variable]:
+    """Return the velocities of the rings' bending, in the order of the engine's coordinates.
+
+    A bending of order n moves the groove radially by cosine cos(n theta) + sine sin(n theta), theta from
+    12 o'clock about +X in the frame that does not spin.
+    """
+    flexure = scene.mounting.flexure
+    if flexure is None:
+        return []
+    bands = len(at.BANDS) if scene.sound is not None and scene.sound.third_octaves else 0
+    first = at.z_flex(scene.bearing.ball_count, len(scene.microphones), bands)
+    table: list[Variable] = []
+    for ring, orders in (("inner", flexure.inner_ring), ("outer", flexure.outer_ring)):
+        for order in orders:
+            for part in ("cosine", "sine"):
+                words = f"Velocity of the {ring} ring's bending of order {order} at the groove, {part} part"
+                name = f"{ring}_ring.flexure.n{order}.{part}"
+                table.append(
+                    _read(name, "output", words, "m/s", first + len(table), display_unit="mm/s", nominal=1e-3)
+                )
+    return table
+
+
 def _microphones(scene: Scene, causality: str) -> list[Variable]:
     """Return what is heard at each microphone: totals are outputs, partial levels local."""
-    first = at.z_mics(scene.bearing.ball_count)
+    if scene.sound is None:
+        return []
+    balls, mics = scene.bearing.ball_count, len(scene.microphones)
+    words_of = _MIC_WORDS if scene.sound.details else _MIC_WORDS[:_PLAIN]
     table = []
     for k, (name, _) in enumerate(scene.microphones):
-        for i, (label, words) in enumerate(_MIC_WORDS):
+        for i, (label, words) in enumerate(words_of):
             absent = label == "spl_cage" and scene.bearing.cage is None
-            if absent or (i < _TOTALS) != (causality == "output"):
+            if absent or (label in _PARTIAL) != (causality == "local"):
                 continue
             unit = "Pa" if label == "pressure" else "dB"
-            place = first + len(at.MIC_OUTPUTS) * k + i
+            place = at.z_mics(balls) + len(at.MIC_OUTPUTS) * k + i
             table.append(_read(f"mic[{k + 1}].{label}", causality, words.format(name), unit, place))
+        if causality == "output" and scene.sound.third_octaves:
+            table += _third_octaves(k, name, at.z_bands(balls, mics) + len(at.BANDS) * k)
     return table
+
+
+def _third_octaves(mic: int, name: str, first: int) -> list[Variable]:
+    """Return the bands of one microphone, named by their nominal frequency; 31 stands for 31.5 Hz."""
+    return [
+        _read(
+            f"mic[{mic + 1}].third_octave[{int(nominal)}]",
+            "output",
+            f"Fast third-octave level around {nominal:g} Hz at microphone {name}",
+            "dB",
+            first + band,
+        )
+        for band, nominal in enumerate(at.BANDS)
+    ]

@@ -8,10 +8,13 @@ from numpy.typing import NDArray
 from scipy.special import roots_jacobi
 
 from fmu_bearing.acoustics.stream import sound_parameters
+from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.engine import layout as at
-from fmu_bearing.engine.sound import radiate
+from fmu_bearing.engine import modes_layout
+from fmu_bearing.engine.sound import places
 from fmu_bearing.interface import Variable, variables
 from fmu_bearing.prepare import bodies, contacts
+from fmu_bearing.prepare.flexure import longest_step, mode_table
 from fmu_bearing.prepare.hertz import effective_modulus, point_contact
 from fmu_bearing.prepare.imperfections import ball_oversizes, ball_waves, race_waves
 from fmu_bearing.scene import Scene, SceneError, si
@@ -56,6 +59,16 @@ class Model:
     def n_mics(self) -> int:
         """Number of microphones."""
         return int(self.parameters[at.P_MICS])
+
+    @property
+    def n_bands(self) -> int:
+        """Number of third octaves of each microphone; 0: none are metered."""
+        return int(self.parameters[at.P_BANDS])
+
+    @property
+    def n_modes(self) -> int:
+        """Number of flexural modes of both rings."""
+        return int(self.parameters[at.P_MODES])
 
 
 def prepare(
@@ -129,6 +142,7 @@ def pack(scene: Scene, sound: NDArray[np.float64]) -> NDArray[np.float64]:
         at.P_AT_WAVES: race_waves(scene),
         at.P_AT_BALL_WAVES: _ball_wave_table(scene),
         at.P_AT_SOUND: sound,
+        at.P_AT_MODES: _modes(scene),
     }
     p = np.zeros(at.P_TABLES + sum(table.size for table in tables.values()))
     start = at.P_TABLES
@@ -142,6 +156,9 @@ def pack(scene: Scene, sound: NDArray[np.float64]) -> NDArray[np.float64]:
     p[at.P_WAVINESS] = float(tables[at.P_AT_WAVES].size > 0)
     if tables[at.P_AT_BALL_WAVES].size:
         p[at.P_BALL_WAVES] = tables[at.P_AT_BALL_WAVES].size - 3 * at.STRIDE
+    if tables[at.P_AT_MODES].size:
+        p[at.P_MODES] = tables[at.P_AT_MODES].size // modes_layout.MODE_SIZE
+        p[at.P_MODE_STEP] = longest_step(tables[at.P_AT_MODES], scene.fidelity.method)
     _fidelity(scene, p)
     _sound(scene, sound, p)
     contacts.oil(scene, p)
@@ -151,6 +168,13 @@ def pack(scene: Scene, sound: NDArray[np.float64]) -> NDArray[np.float64]:
     if scene.bearing.cage is not None and scene.materials.cage is not None:
         _cage(scene, scene.bearing.cage, scene.materials.cage, p)
     return p
+
+
+def _modes(scene: Scene) -> NDArray[np.float64]:
+    try:
+        return mode_table(scene, ring_modes(scene))
+    except ValueError as problem:
+        raise SceneError(f"{scene.name}: mounting.flexure: {problem}") from None
 
 
 def _lanes(values: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -192,9 +216,10 @@ def _sound(scene: Scene, sound: NDArray[np.float64], p: NDArray[np.float64]) -> 
         p[at.P_METERING_START] = si(scene.sound).metering_start
     if sound.size:
         p[at.P_SOUND_SIZE] = sound.size
-        p[at.P_SOUND_STATE] = radiate.state_size(sound)
-        p[at.P_SOUND_WORK] = radiate.work_size(sound)
+        p[at.P_SOUND_STATE] = places.state_size(sound)
+        p[at.P_SOUND_WORK] = places.work_size(sound)
         p[at.P_MICS] = len(scene.microphones)
+        p[at.P_BANDS] = sound[places.H_BANDS]
 
 
 def _mounting(scene: Scene, p: NDArray[np.float64]) -> None:

@@ -4,7 +4,7 @@
 ``bearing``       geometry of rings, balls and cage
 ``material``      elastic and thermal constants; catalogue names
 ``lubricant``     oil, traction and film constants
-``mounting``      preload, loads, pedestal, rotor, housing
+``mounting``      preload, loads, pedestal, rotor, housing, bending of the rings
 ``imperfections`` waviness, ball spread, unbalance, by values or by grade, with a seed
 ``operation``     speed and temperatures at the start
 ``sound``         what radiates, how it is computed, where the microphones stand

@@ -1,10 +1,12 @@
 """How the bearing is mounted and loaded."""
 
-from typing import Literal
+from collections.abc import Iterator
+from itertools import pairwise
+from typing import Annotated, Literal
 
 from pydantic import Field
 
-from fmu_bearing.scene.base import Part
+from fmu_bearing.scene.base import Conflict, Part
 
 
 class Rotor(Part):
@@ -40,6 +42,63 @@ class Housing(Part):
         examples=[15.5],
         description="Distance of its front face ahead (-X) of the bearing's end face, mm.",
     )
+
+
+#: Lowest and highest circumferential order of a flexural mode; 0 and 1 are no bending of a free ring.
+_LOWEST, _HIGHEST = 2, 8
+Order = Annotated[int, Field(ge=_LOWEST, le=_HIGHEST)]
+_MOST = _HIGHEST - _LOWEST + 1
+
+
+class Flexure(Part):
+    """Bending of the rings in their plane: which orders move, how they are damped, how seats hold them.
+
+    A tight seat, or a solid shaft, leaves no bending that could be heard: model none then.
+    """
+
+    # A file's array arrives as a list: the one conversion that strictness may let pass.
+    outer_ring: tuple[Order, ...] = Field(
+        default=(),
+        max_length=_MOST,
+        strict=False,
+        examples=[[2, 3, 4]],
+        description="Circumferential orders of the outer ring that move.",
+    )
+    inner_ring: tuple[Order, ...] = Field(
+        default=(),
+        max_length=_MOST,
+        strict=False,
+        examples=[[2, 3]],
+        description="Circumferential orders of the inner ring that move.",
+    )
+    damping_ratio: float = Field(
+        default=0.005,
+        ge=0,
+        le=0.5,
+        examples=[0.005],
+        description="Damping over the critical one of every mode.",
+    )
+    outer_seat_stiffness_N_m: float = Field(
+        default=0.0,
+        ge=0,
+        le=1e12,
+        examples=[0.0],
+        description="Radial stiffness of the outer ring's seat against bending; 0: loose, N/m.",
+    )
+    inner_seat_stiffness_N_m: float = Field(
+        default=0.0,
+        ge=0,
+        le=1e12,
+        examples=[0.0],
+        description="Radial stiffness of the inner ring's seat against bending; 0: loose, N/m.",
+    )
+
+    def conflicts(self) -> Iterator[Conflict]:
+        """Yield orders that do not rise."""
+        for key in ("outer_ring", "inner_ring"):
+            orders = getattr(self, key)
+            if any(second <= first for first, second in pairwise(orders)):
+                yield Conflict(key, f"must rise, each order once: {sorted(set(orders))}")
 
 
 class Mounting(Part):
@@ -96,3 +155,18 @@ class Mounting(Part):
     housing: Housing | None = Field(
         default=None, description="Housing on the outer ring; absent: the ring alone."
     )
+    flexure: Flexure | None = Field(default=None, description="Bending of the rings; absent: rigid rings.")
+
+    def conflicts(self) -> Iterator[Conflict]:
+        """Yield rings that are to bend although a solid body on a tight seat holds them round."""
+        if self.flexure is None:
+            return
+        held = (("inner", "rotor", self.rotor), ("outer", "housing", self.housing))
+        for ring, name, body in held:
+            stiffness = getattr(self.flexure, f"{ring}_seat_stiffness_N_m")
+            if body is not None and getattr(self.flexure, f"{ring}_ring") and stiffness == 0.0:
+                yield Conflict(
+                    f"flexure.{ring}_ring",
+                    f"cannot bend on the tight seat of [mounting.{name}]: write {ring}_ring = [], or for "
+                    f"a loose fit give {ring}_seat_stiffness_N_m, or leave out the {name}",
+                )

@@ -82,6 +82,8 @@ def shown(value: Any) -> str:
 def allowed(path: Location) -> str:
     """Say what the key at a location may hold, with its unit."""
     field = _field(path)
+    if field is None and path and isinstance(path[-1], int) and _field(path[:-1]) is not None:
+        return allowed(path[:-1])  # a member of an array of numbers
     if field is None:
         return "a table"
     whole = field.annotation
@@ -91,12 +93,16 @@ def allowed(path: Location) -> str:
         return ", ".join(str(choice) for choice in get_args(kind))
     if typing.get_origin(kind) is tuple:
         limits = [rule.max_length for rule in field.metadata if hasattr(rule, "max_length")]
+        member = get_args(kind)[0]
+        if typing.get_origin(member) is typing.Annotated:
+            numbers = _range(get_args(member)[1], str(path[-1]))
+            return f"at most {limits[0]} whole numbers from {numbers}"
         return f"at most {limits[0]} tables [[{dotted(path)}]]"
     if kind is bool:
         return "true or false"
     if kind is str:
         patterns = [rule.pattern for rule in field.metadata if hasattr(rule, "pattern")]
-        return "text of 1 to " + _TEXTS[patterns[0]]
+        return "text of 1 to " + _TEXTS[patterns[0]] if patterns else "the name of a file"
     if kind in (int, float):
         return _range(field, str(path[-1])) + (", whole numbers only" if kind is int else "")
     names = ", or the name of a catalogue entry" if path[0] == "materials" else ""

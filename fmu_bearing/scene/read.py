@@ -39,11 +39,13 @@ def read_scene(path: str | PathLike[str]) -> Scene:
         raise SceneError(f"{path}: is not text in UTF-8: {problem}") from None
     except (OSError, ValueError) as problem:
         raise SceneError(f"{path}: cannot be read: {problem}") from None
-    return read_scene_text(text, str(path))
+    return read_scene_text(text, str(path), Path(path).parent)
 
 
-def read_scene_text(text: str, name: str = "scene") -> Scene:
+def read_scene_text(text: str, name: str = "scene", folder: Path | None = None) -> Scene:
     """Read a scene from TOML text; ``name`` stands for the file in messages.
+
+    Names of files in it count from ``folder`` (default: the current one).
 
     Raises
     ------
@@ -57,6 +59,9 @@ def read_scene_text(text: str, name: str = "scene") -> Scene:
     lines: list[str] = []
     unresolved: list[Location] = []
     _resolve(data, lines, unresolved)
+    sound = data.get("sound")
+    if folder is not None and isinstance(sound, dict) and isinstance(sound.get("table_file"), str):
+        sound["table_file"] = str((folder / sound["table_file"]).resolve())
     try:
         scene = Scene.model_validate(data)
     except ValidationError as problem:

@@ -47,10 +47,28 @@ class Scene(Part):
             yield Conflict(
                 "mounting.housing.diameter_mm", f"must exceed bearing.outside_diameter_mm = {limit:g}"
             )
+        yield from self._flexure()
         if self.sound is not None:
             if self.sound.radiator == "housing" and housing is None:
                 yield Conflict("sound.radiator", "needs a table [mounting.housing]")
             yield from self._buried_microphones()
+
+    def _flexure(self) -> Iterator[Conflict]:
+        """Yield a level or method that does not carry the bending of the rings."""
+        flexure = self.mounting.flexure
+        if flexure is None or not (flexure.inner_ring or flexure.outer_ring):
+            return
+        level, method = self.fidelity.level, self.fidelity.method
+        way_out = "or leave out [mounting.flexure]"
+        if level not in ("full", "auto"):
+            yield Conflict(
+                "fidelity.level", f"'{level}' has rigid rings only: bending needs 'full' or 'auto', {way_out}"
+            )
+        elif level == "full" and method == "fast":
+            yield Conflict(
+                "fidelity.method",
+                f"'fast' has rigid rings only: bending needs 'esdirk4', 'trbdf2' or 'rk4', {way_out}",
+            )
 
     def _buried_microphones(self) -> Iterator[Conflict]:
         bodies = list(self._envelopes())

@@ -92,12 +92,36 @@ class Circle(Part):
 class Sound(Part):
     """Radiation and metering."""
 
-    rung: Literal["paper", "compact"] = Field(
-        description="How radiation is computed: as the multi-source paper prints it, or by compact bodies.",
+    rung: Literal["paper", "paper_vector", "paper_contacts", "compact", "bem", "table"] = Field(
+        description="How radiation is computed: by the papers' methods, compact bodies, boundary elements "
+        "or the user's table.",
         examples=["compact"],
     )
-    radiator: Literal["bare", "housing"] = Field(
-        description="What radiates: the bare bearing, or the housing around it.", examples=["bare"]
+    radiator: Literal["bare", "baffle", "housing"] = Field(
+        description="What radiates: the bare bearing, its face flush in a rigid plane, or the housing.",
+        examples=["bare"],
+    )
+    reflecting_plane_mm: float | None = Field(
+        default=None,
+        ge=-_FAR,
+        le=_FAR,
+        examples=[-100.0],
+        description="Place of a rigid plane across the bearing axis, mm; absent: free field.",
+    )
+    table_file: str | None = Field(
+        default=None,
+        min_length=1,
+        max_length=1000,
+        examples=["housing.npz"],
+        description="File of the rung table, seen from the scene file.",
+    )
+    third_octaves: bool = Field(
+        default=False, description="Third-octave levels of every microphone.", examples=[True]
+    )
+    details: bool = Field(
+        default=True,
+        description="Fast and Slow levels side by side, energy sums and levels per source type.",
+        examples=[False],
     )
     air_density_kg_m3: float = Field(
         ge=0.1, le=10, examples=[1.225], description="Density of the air, kg/m3."
@@ -126,6 +150,18 @@ class Sound(Part):
             )
         for name in sorted({name for name in names if names.count(name) > 1}):
             yield Conflict("", f"microphone names must differ: {name} stands more than once")
+        if self.rung == "table" and self.table_file is None:
+            yield Conflict(
+                "table_file", 'is missing, for example table_file = "housing.npz"; rung table reads it'
+            )
+        if self.rung != "table" and self.table_file is not None:
+            yield Conflict("table_file", f'is read by rung "table" only, not by "{self.rung}"')
+        if self.rung != "bem":
+            if self.radiator == "baffle":
+                yield Conflict("radiator", f'needs rung = "bem"; rung "{self.rung}" knows no rigid planes')
+            if self.reflecting_plane_mm is not None:
+                words = f'needs rung = "bem"; rung "{self.rung}" knows no rigid planes'
+                yield Conflict("reflecting_plane_mm", words)
 
     def points(self) -> list[Place]:
         """Names and places (m) of all microphones: the single ones first, then the circle."""

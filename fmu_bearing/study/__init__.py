@@ -1,16 +1,19 @@
 """What people do with a bearing: run it beside slower, surer methods, vary it, look at it.
 
-``arrays``       a bearing on bare flat arrays, for loops that need the state itself
-``figures``      the figures by which runs are compared, and the pace of a run
-``built``        which levels and methods this build of the engine has
-``first_order``  level ``full`` as x' = g(t, x), for general-purpose integrators
-``reference``    the trajectory that other results are held against, by two integrators
-``tradeoff``     what accuracy costs: levels, methods, steps, strips, terms against the reference
-``chart``        error against speed, drawn
-``choose``       level ``auto``: the cheapest within the scene's accuracy, found by running it
-``sensitivity``  what rests on assumed values
-``recording``    `record`: a run with the engine's channels kept
-``recorded``     `Recording`: such a run or an FMU's, in files
-``heard``        its pressures and levels at any microphone
-``table``        tables to terminal, Markdown, CSV; the machine they were made on
+``arrays``          a bearing on bare flat arrays, for loops that need the state itself
+``figures``         the figures by which runs are compared, and the pace of a run
+``built``           which levels and methods this build of the engine has
+``first_order``     level ``full`` as x' = g(t, x), for general-purpose integrators
+``reference``       the trajectory that other results are held against, by two integrators
+``tradeoff``        what accuracy costs: levels, methods, steps, strips, terms against the reference
+``chart``           error against speed, drawn
+``choose``          level ``auto``: the cheapest within the scene's accuracy, found by running it
+``sensitivity``     what rests on assumed values
+``recording``       `record`: a run with the engine's channels kept
+``recorded``        `Recording`: such a run or an FMU's, in files
+``heard``           its pressures and levels at any microphone
+``sound_measure``   what is measured on a recording: spectra, circles, planes, power, run-ups
+``sound_tables``    such measurements as tables
+``sound_pictures``  and as pictures
+``table``           tables to terminal, Markdown, CSV; the machine they were made on
 """

@@ -54,7 +54,8 @@ class Arrays:
         self.u[at.U_LOAD_Y], self.u[at.U_LOAD_Z] = load_y, load_z
         self.u[at.U_OIL_T : at.U_OUTER_T + 1] = at.REFERENCE_TEMPERATURE
         self.s = np.zeros(at.state_size(self.p))
-        self.z = np.zeros(at.z_size(int(self.p[at.P_BALLS]), int(self.p[at.P_MICS])))
+        sizes = (int(self.p[place]) for place in (at.P_BALLS, at.P_MICS, at.P_BANDS, at.P_MODES))
+        self.z = np.zeros(at.z_size(*sizes))
         self.w = np.zeros(at.work_size(self.p))
 
     @classmethod

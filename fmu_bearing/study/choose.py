@@ -12,6 +12,7 @@ Of those the first in ``CANDIDATES`` is taken, which stand in the order of what 
 another is faster by ``CLEARLY``: noise of the clock then does not change the choice. Tolerance and largest
 step of the scene are upper bounds. ``FINEST`` stands last and is accurate by definition. Other speeds and
 loads than the scene's are not probed, and nothing is decided at run time.
+Where the rings bend, the candidates that know rigid rings only are left out.
 """
 
 import dataclasses
@@ -60,6 +61,12 @@ class Candidate:
             tolerance=min(self.tolerance, fidelity.tolerance),
             max_internal_step_us=min(1e6 * self.max_step, fidelity.max_internal_step_us),
         )
+
+    def carries(self, scene: Scene) -> bool:
+        """Whether this way carries what the scene models: level full bends rings, but not by ``fast``."""
+        flexure = scene.mounting.flexure
+        rigid = flexure is None or not (flexure.inner_ring or flexure.outer_ring)
+        return rigid or (self.level == "full" and self.method != "fast")
 
 
 CANDIDATES = (
@@ -192,6 +199,7 @@ def choose(
         If level ``full`` itself is refused.
     """
     sound = np.empty(0) if scene.sound is None else sound_parameters(scene)
+    candidates = [candidate for candidate in candidates if candidate.carries(scene)]
     finest = FINEST.scene(scene)
     truth = measure(finest, sound, warm_up, window, budget=budget)
     lacking = absent(scene, [(c.level, c.method) for c in candidates], warm_up)

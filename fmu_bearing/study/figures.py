@@ -175,8 +175,9 @@ def _levels(
     bearing = Arrays.of(scene, sound, **parameters, P_METERING_START=warm_up)
     bearing.init()
     bearing.run(warm_up + window, COMMUNICATION)
-    first = at.z_mics(int(bearing.p[at.P_BALLS])) + _LEVEL
-    return tuple(float(level) for level in bearing.z[first :: len(at.MIC_OUTPUTS)])
+    sizes = int(bearing.p[at.P_BALLS]), int(bearing.p[at.P_MICS])
+    levels = bearing.z[at.z_mics(sizes[0]) + _LEVEL : at.z_bands(*sizes) : len(at.MIC_OUTPUTS)]
+    return tuple(float(level) for level in levels)
 
 
 def speed(bearing: Arrays, budget: float, repeats: int, longest: float) -> tuple[float, float]:

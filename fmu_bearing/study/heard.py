@@ -4,6 +4,8 @@ A run's motion does not depend on who listens: what the engine fed to its filter
 (``acoustics.field``).
 """
 
+import math
+import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -12,20 +14,22 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.signal import sosfilt
 
-from fmu_bearing.acoustics.field import Blocks, Channels, Circle, Position, circles, kind_of
+from fmu_bearing.acoustics.field import Blocks, Channels, Circle, Position, circles, form_of, kind_of
+from fmu_bearing.acoustics.radiators import Air
 from fmu_bearing.acoustics.spectrum import KinematicFrequencies, kinematic_frequencies
 from fmu_bearing.acoustics.stream import radiators_of
-from fmu_bearing.acoustics.transfer import Air
 from fmu_bearing.acoustics.weighting import a_weighting_db, a_weighting_sections, level
+from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.engine.sound.places import COMPONENTS
 from fmu_bearing.scene import Scene, si
 
 _ANGLES = ("contact.inner.angle_mean", "contact.outer.angle_mean")
+_FLIGHT = 0.1  # s: room for microphones to 34 m without another transform
 _TOGETHER = 32  # microphones evaluated at once by `Recording.levels`
 _NO_WEIGHTING = 'weighting = "{}": only "A" and "Z" (none) are known'
 
 
-@dataclass
+@dataclass(repr=False)
 class Heard:
     """What a run leaves behind for the ears; `recorded.Recording` is it, and knows files.
 
@@ -70,6 +74,13 @@ class Heard:
     microphones: tuple[tuple[str, Position], ...] = ()
     harmonics: int = 0
     _spectra: Channels | None = field(default=None, repr=False, compare=False)
+
+    def __repr__(self) -> str:
+        name = "no scene" if self.scene is None else self.scene.name
+        return (
+            f"{type(self).__name__}({name}, rung {self.rung}, {self.size / self.rate:g} s at "
+            f"{self.rate:g} Hz from {self.start:g} s on, {self.history.shape[1]} channels)"
+        )
 
     @property
     def time(self) -> NDArray[np.float64]:
@@ -217,7 +228,7 @@ class Heard:
             return self._quick_levels(places, rung, weighting, resolution)
         mean_square = np.zeros(len(places))
         if self.history.size == 0:
-            mean_square[:] = self._mean_square(self.pressure(places), weighting)
+            mean_square[:] = self.mean_square(self.pressure(places), weighting)
             return level(mean_square)
         energies = (rung or self.rung).startswith("paper")
         for low in range(0, len(places), _TOGETHER):
@@ -227,7 +238,7 @@ class Heard:
             ):
                 rows = [low + i for i in circle.members]
                 for part in parts.values():
-                    mean_square[rows] += self._mean_square(part, weighting)
+                    mean_square[rows] += self.mean_square(part, weighting)
         return level(mean_square)
 
     def _quick_levels(
@@ -247,8 +258,11 @@ class Heard:
             mean_square[list(circle.members)] = sum(part @ weights for part in parts.values())
         return level(mean_square)
 
-    def _mean_square(self, pressure: NDArray[np.float64], weighting: str) -> NDArray[np.float64]:
-        """Mean square over the samples; filters have settled on what was before the first, if anything."""
+    def mean_square(self, pressure: NDArray[np.float64], weighting: str = "Z") -> NDArray[np.float64]:
+        """Mean square (Pa^2) over the recording's samples, the last ones of ``pressure``, shape (...,).
+
+        What ``pressure`` holds before them lets the filter of the A-weighting settle.
+        """
         if weighting == "A":
             pressure = sosfilt(a_weighting_sections(self.rate), pressure, axis=-1)
         elif weighting != "Z":
@@ -260,12 +274,27 @@ class Heard:
     ) -> Iterator[tuple[Circle, dict[Any, NDArray[np.float64]]]]:
         """Yield each circle with its pressures by label; ``whole``: with what was before the first sample."""
         found = self._circles(places, rung)
-        if self._spectra is None:
-            self._spectra = Channels(self.history)
+        self._prepare(places)
+        assert self._spectra is not None
         begin = 0 if whole else self.first
         for circle in found:
             parts = self._spectra.pressures(circle, label)
             yield circle, {name: part[:, begin : self.first + self.size] for name, part in parts.items()}
+
+    def _prepare(self, places: list[Position]) -> None:
+        """Spectra of the channels, with room for the longest flight; a warning where it exceeds the start."""
+        assert self.scene is not None
+        longest = max(math.hypot(*place) for place in places) / air_of(self.scene).sound_speed
+        if longest > self.start:
+            warnings.warn(
+                f"sound takes {longest:.3g} s to the farthest place, but the recording starts "
+                f"{self.start:.3g} s after the bearing: record with a longer settle",
+                stacklevel=4,
+            )
+        # the room depends on the places alone, so that a call gives the same bits whatever was asked before
+        room = _FLIGHT if longest < _FLIGHT else 1.2 * longest
+        if self._spectra is None or self._spectra.longest != room:
+            self._spectra = Channels(self.history, room)
 
     def _circles(self, places: list[Position], rung: str | None) -> Iterator[Circle]:
         """Paths from the channels to places, circle by circle."""
@@ -275,11 +304,12 @@ class Heard:
                 "study.recording.record keeps"
             )
         rung = self.rung if rung is None else rung
-        if rung.startswith("paper") != self.rung.startswith("paper"):
+        if form_of(rung) != form_of(self.rung):
             raise ValueError(
                 f'rung = "{rung}" needs other channels than "{self.rung}": record with rung="{rung}"'
             )
-        return circles(rung, radiators_of(self.scene), air_of(self.scene), places, self.harmonics)
+        radiators, air = radiators_of(self.scene), air_of(self.scene)
+        return circles(rung, radiators, air, places, self.harmonics, **_options(self.scene))
 
     def _places(self, positions: Sequence[ArrayLike] | None) -> list[Position]:
         """Places as plain tuples."""
@@ -303,6 +333,15 @@ class Heard:
                 )
             rows.append(near[0])
         return rows
+
+
+def _options(scene: Scene) -> dict[str, Any]:
+    """Return what paths take beyond radiators and air, if the scene has it: reflecting plane (m), modes."""
+    found: dict[str, Any] = {}
+    if scene.sound is not None and scene.sound.reflecting_plane_mm is not None:
+        found["plane"] = si(scene.sound).reflecting_plane
+    found["modes"] = ring_modes(scene)
+    return found
 
 
 def air_of(scene: Scene) -> Air:

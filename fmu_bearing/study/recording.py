@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterable, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.acoustics.field import TAIL
-from fmu_bearing.acoustics.transfer import Air
+from fmu_bearing.acoustics.field import TAIL, form_of
+from fmu_bearing.acoustics.radiators import Air
 from fmu_bearing.engine import layout as at
 from fmu_bearing.engine.sound import places
 from fmu_bearing.instance import Instance
@@ -88,8 +88,13 @@ def record(
         if not (math.isfinite(value) and value > low):
             raise ValueError(f"{name} = {value} s: it must be a finite, positive number of seconds")
     wanted = rung or ("compact" if scene.sound is None else scene.sound.rung)
+    if microphones and (scene.sound is None or form_of(wanted) != form_of(scene.sound.rung)):
+        raise ValueError(
+            f'microphones=True runs the scene as it is, which has no channels for rung = "{wanted}": '
+            "leave it out, or set sound.rung in the scene"
+        )
     model = source if isinstance(source, Model) and microphones else prepare(
-        scene if microphones else listened(scene, wanted if wanted.startswith("paper") else "compact")
+        scene if microphones else listened(scene, "compact" if form_of(wanted) == "vectors" else wanted)
     )  # fmt: skip
     bearing = Instance(model)
     drives = dict(inputs or {})
@@ -116,7 +121,11 @@ def listened(scene: Scene, rung: str) -> Scene:
         rung="compact", radiator="bare", air_density_kg_m3=Air.density, sound_speed_m_s=Air.sound_speed,
         time_weighting="fast", metering_start_s=0.0, microphone=(one,),
     )  # fmt: skip
-    sound = sound.model_copy(update={"rung": rung, "microphone": (one,), "circle": None})
+    # channels are motion: they do not depend on what radiates, and a bare bearing is the cheapest
+    sound = sound.model_copy(
+        update={"rung": rung, "radiator": "bare", "microphone": (one,), "circle": None}
+        | {"reflecting_plane_mm": None, "table_file": None, "third_octaves": False, "details": False}
+    )
     return scene.model_copy(update={"sound": sound})
 
 
@@ -149,8 +158,8 @@ class _Kept:
             values.append(self.bearing.get(name))
         state = self.bearing.s[at.S_SOUND :]
         channels = self.rows.shape[1]
-        history = places.SS_TABLES + channels * (places.DECIMATOR_TAPS + 2)
-        ring = state[history : history + channels * self.depth].reshape(self.depth, channels)
+        first = int(self.sound[places.H_S_CHANNELS])
+        ring = state[first : first + channels * self.depth].reshape(self.depth, channels)
         count = int(state[places.SS_COUNT])
         if count - self.count > self.depth:
             raise RuntimeError(f"{count - self.count} rows came in one step, the engine keeps {self.depth}")
@@ -163,11 +172,12 @@ def _march(
     bearing: Instance, drives: Mapping[str, Signal], kept: _Kept, step: float, progress: bool | None
 ) -> None:
     """Step until all rows have come."""
+    from rich.console import Console
     from rich.progress import Progress
 
     total = len(kept.rows)
     shown = sys.stderr.isatty() and total > places.RATE / 2 if progress is None else progress
-    with Progress(transient=True, disable=not shown) as bar:
+    with Progress(console=Console(stderr=True), transient=True, disable=not shown) as bar:
         task = bar.add_task(f"{bearing.model.scene.name}: recording", total=total)
         kept.read()
         number = 0

@@ -4,12 +4,12 @@ import numba
 import numpy as np
 from scipy.signal import sosfreqz
 
-from fmu_bearing.acoustics.stream import MICROPHONE_LOW_LIMIT
-from fmu_bearing.acoustics.transfer import Housing, Radiators, Ring
+from fmu_bearing.acoustics.pack import MICROPHONE_LOW_LIMIT
+from fmu_bearing.acoustics.radiators import Housing, Radiators, Ring
 from fmu_bearing.acoustics.weighting import high_pass_section
 from fmu_bearing.engine.layout import MIC_OUTPUTS, motion_size
 from fmu_bearing.engine.sound import meter, radiate
-from fmu_bearing.engine.sound.places import DECIMATION, LATENCY, RATE, RAW_RATE
+from fmu_bearing.engine.sound.places import DECIMATION, H_BANDS, H_MICS, LATENCY, RATE, RAW_RATE
 
 RHO, C = 1.225, 340.0
 SMALL = Radiators(
@@ -48,8 +48,8 @@ class Player:
     def __init__(self, ps, time_weighting=0.125, metering_start=0.0):
         self.ps, self.settings = ps, (time_weighting, metering_start)
         self.ss, self.ws = np.zeros(radiate.state_size(ps)), np.zeros(radiate.work_size(ps))
-        self.mics = int(ps[7])
-        self.z = np.zeros(self.mics * len(MIC_OUTPUTS))
+        self.mics = int(ps[H_MICS])
+        self.z = np.zeros(self.mics * (len(MIC_OUTPUTS) + int(ps[H_BANDS])))
         self.first = 0
 
     def play(self, motion, samples):

@@ -23,6 +23,7 @@ from fmu_bearing.acoustics.power import (
     power_level,
     sphere_points,
 )
+from fmu_bearing.acoustics.radiators import Air
 from fmu_bearing.acoustics.spectrum import kinematic_frequencies, level_spectrum
 from fmu_bearing.acoustics.third_octave import (
     OCTAVE,
@@ -31,7 +32,6 @@ from fmu_bearing.acoustics.third_octave import (
     spread,
     third_octave_levels,
 )
-from fmu_bearing.acoustics.transfer import Air
 from fmu_bearing.acoustics.weighting import a_weighting_db, a_weighting_sections
 from tests.acoustics.playback import SMALL
 

@@ -8,9 +8,9 @@ import pytest
 from fmu_bearing.acoustics import sources
 from fmu_bearing.acoustics.effective import ring_volumes
 from fmu_bearing.acoustics.fir import decimator_response
+from fmu_bearing.acoustics.radiators import Air
 from fmu_bearing.acoustics.stream import build
-from fmu_bearing.acoustics.transfer import Air
-from fmu_bearing.engine.sound.places import RATE, RAW_RATE
+from fmu_bearing.engine.sound.places import H_BANKS, H_MICS, RATE, RAW_RATE
 from tests.acoustics.playback import (
     HOUSED,
     LARGE,
@@ -290,7 +290,7 @@ def test_microphones_of_a_circle_share_filters_and_symmetry():
     angle = np.arange(24) * np.pi / 12
     circle = [(0.05, -0.21 * np.sin(a), 0.21 * np.cos(a)) for a in angle]
     ps = build("compact", LARGE, Air(), circle)
-    assert ps[6] == build("compact", LARGE, Air(), circle[:1])[6]
+    assert ps[H_BANKS] == build("compact", LARGE, Air(), circle[:1])[H_BANKS]
     levels = []
     for turn in (0, 6):
         motion = still(LARGE, PERIOD)
@@ -319,7 +319,7 @@ def test_example_scenes_have_sound_blocks(scene):
     from fmu_bearing.acoustics.stream import radiators_of, sound_parameters
 
     spindle = scene("7003C-spindle")
-    assert sound_parameters(spindle)[7] == len(spindle.microphones)
+    assert sound_parameters(spindle)[H_MICS] == len(spindle.microphones)
     assert radiators_of(spindle).housing.centre == pytest.approx(-5e-3 - 15.5e-3 + 80e-3)
 
 

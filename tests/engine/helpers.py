@@ -5,6 +5,7 @@ import numpy as np
 from fmu_bearing.engine import abi
 from fmu_bearing.engine import layout as at
 from fmu_bearing.prepare.model import pack
+from tests.engine.flexible import with_modes
 
 RPM = np.pi / 30
 
@@ -25,12 +26,17 @@ def wavy_balls(p, amplitudes, seed=5):
 
 
 class Run:
-    """A bearing on bare arrays: parameters from a scene without sound, inputs at will."""
+    """A bearing on bare arrays: parameters from a scene without sound, inputs at will.
 
-    def __init__(self, scene, rpm, preload=None, pedestal=None, ball_waves=None, **parameters):
+    ``modes``: rows of the table of flexural modes, in place of the scene's.
+    """
+
+    def __init__(self, scene, rpm, preload=None, pedestal=None, ball_waves=None, modes=None, **parameters):
         self.p = pack(scene, np.empty(0))
         if ball_waves is not None:
             self.p = wavy_balls(self.p, ball_waves)
+        if modes is not None:
+            self.p = with_modes(self.p, modes)
         for name, value in parameters.items():
             self.p[getattr(at, name)] = value
         self.p.setflags(write=False)
@@ -49,7 +55,7 @@ class Run:
         )
         self.s = np.zeros(at.state_size(self.p))
         self.w = np.zeros(at.work_size(self.p))
-        self.z = np.zeros(at.z_size(int(self.p[at.P_BALLS]), 0))
+        self.z = np.zeros(at.z_size(int(self.p[at.P_BALLS]), 0, 0, int(self.p[at.P_MODES])))
 
     def init(self):
         status = abi.init(self.p, self.u, self.s, self.z, self.w, 0.0)

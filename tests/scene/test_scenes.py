@@ -159,6 +159,9 @@ def test_what_the_scenes_leave_out(scene):
         assert lone.mounting.rotor is lone.mounting.housing is lone.mounting.tilt_support is None
         assert lone.sound.radiator == "bare"
         assert lone.mounting.pedestal_stiffness_N_m == 1e8
+    assert bare.mounting.flexure is spindle.mounting.flexure is None
+    flexure = ceramic.mounting.flexure
+    assert (flexure.outer_ring, flexure.inner_ring) == ((2, 3, 4, 5), (2, 3))
     assert bare.bearing == spindle.bearing
     assert bare.sound.microphone == spindle.sound.microphone
     assert bare.imperfections == spindle.imperfections == ceramic.imperfections

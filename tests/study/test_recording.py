@@ -1,5 +1,7 @@
 """Recordings: any microphone after the run, as exact as the engine's own."""
 
+import sys
+
 import numpy as np
 import pytest
 
@@ -35,10 +37,12 @@ def test_pressures_equal_the_engines(own):
 
 
 def test_who_listens_changes_nothing(spindle, own):
-    """One far microphone in place of four: the same channels, bit for bit; so with other steps' reading."""
+    """One far microphone in place of four: the same channels, bit for bit; other steps: -100 dB at least."""
     other = record(spindle, SHORT)
     assert np.array_equal(other.channels, own.channels)
     assert np.array_equal(other.pressure(own.positions, "compact"), own.pressure())
+    finer = record(spindle, SHORT, step=4e-4).pressure() - own.pressure()
+    assert np.linalg.norm(finer) < 1e-5 * np.linalg.norm(own.pressure())
 
 
 def test_parts_sum_to_the_whole(own):
@@ -60,3 +64,35 @@ def test_save_and_load(own, tmp_path):
     np.savez(tmp_path / "other.npz", x=np.zeros(3))
     with pytest.raises(ValueError, match="no recording"):
         Recording.load(tmp_path / "other.npz")
+
+
+def test_far_places(spindle, own):
+    """At 30 and 45 m sound has fallen by 20 lg 1.5; a recording that starts before it arrives says so."""
+    before = own.pressure()
+    with pytest.warns(UserWarning, match="longer settle"):
+        assert np.abs(own.pressure([(0.0, 0.0, 45.0)])).max() < 1e-3 * np.abs(before).max()
+    assert np.array_equal(own.pressure(), before)
+    late = record(spindle, 0.1, settle=0.15)
+    near, far = late.levels([(0.0, 0.0, 30.0), (0.0, 0.0, 45.0)])
+    # not the same 0.1 s of sound: the farther microphone hears 44 ms earlier ones
+    assert near - far == pytest.approx(20 * np.log10(1.5), abs=0.3)
+
+
+def test_boundary_elements_are_asked_by_name(own, monkeypatch):
+    """Rung bem is loaded when it is wanted, and gets what all rungs get."""
+    from types import ModuleType
+
+    from fmu_bearing.acoustics.transfer import compact_paths
+
+    asked = []
+
+    def bem_paths(*arguments, **options):
+        asked.append((arguments[2:4], options))
+        return compact_paths(*arguments)
+
+    room, paths = ModuleType("bem"), ModuleType("paths")
+    paths.bem_paths = bem_paths
+    monkeypatch.setitem(sys.modules, "fmu_bearing.acoustics.bem", room)
+    monkeypatch.setitem(sys.modules, "fmu_bearing.acoustics.bem.paths", paths)
+    assert np.array_equal(own.pressure([(0.05, -0.12, 0.16)], "bem"), own.pressure([(0.05, -0.12, 0.16)]))
+    assert asked == [((pytest.approx(0.2), 0.05), {})]

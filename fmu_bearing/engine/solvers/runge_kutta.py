@@ -17,6 +17,7 @@ from fmu_bearing.engine.layout import (
     F_WORK,
     N_BODY,
     P_LANES,
+    P_MODES,
     P_PITCH_RADIUS,
     Q_CAGE,
     STRIDE,
@@ -35,6 +36,17 @@ from fmu_bearing.engine.layout import (
 from fmu_bearing.engine.mechanics.ball_waves import turn_axes
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.solvers.block_arrow import solve
+from fmu_bearing.engine.solvers.flexible import (
+    begin_modes,
+    correct_modes,
+    end_modes,
+    keep_mode_velocities,
+    modes_error,
+    modes_size,
+    predict_modes,
+    solve_modes,
+    take_accelerations,
+)
 from fmu_bearing.engine.solvers.jacobian import is_angle
 from fmu_bearing.engine.solvers.tableaux import T_A, T_B, T_ERROR, T_GAMMA, T_NODES, T_STAGES, TABLEAUX
 
@@ -193,15 +205,16 @@ def newton_residual(acc, w):
 
 @kernel
 def runge_kutta_step(
-    p, c, y, f, axes, angle, speed, speed_rate, h, tableau, fac, turned, tolerance, contraction, probe, w,
-    report,
+    p, c, y, f, axes, flexure, angle, speed, speed_rate, h, tableau, fac, turned, tolerance, contraction,
+    probe, w, report,
 ):  # fmt: skip
     """One step of length ``h`` from (y, f); the new state is left in ``w[W_Y:]`` and its f in the last stage.
 
-    ``axes``: of wavy balls, at the step's start; ``tableau``: place in TABLEAUX; ``fac``: factors for about
-    this ``h``; ``turned``: orbit angle (rad) since they were made; ``tolerance`` (m/s): Newton's error;
-    ``contraction``: rate known so far; ``probe``: measure it anew. ``report`` takes the error estimate
-    (m/s), contraction and iterations. Returns False where Newton does not converge.
+    ``axes``: of wavy balls, at the step's start; ``flexure``: the rings' part of the state; ``tableau``:
+    place in TABLEAUX; ``fac``: factors for about this ``h``; ``turned``: orbit angle (rad) since they were
+    made; ``tolerance`` (m/s): Newton's error; ``contraction``: rate known so far; ``probe``: measure it anew.
+    ``report`` takes the error estimate (m/s), contraction and iterations. Returns False where Newton does not
+    converge.
     """
     gh = TABLEAUX[tableau + T_GAMMA] * h
     stages = int(TABLEAUX[tableau + T_STAGES])
@@ -212,6 +225,8 @@ def runge_kutta_step(
         w[W_ACC + i] = f[i]
         result[i] = 0.0
     keep_velocities(y, w[W_VEL:W_MOTION])
+    flexible = p[P_MODES] != 0.0
+    begin_modes(p, flexure, w)
     orbit = y[5 * _S]
     iterations = 0.0
     worst = 0.0
@@ -219,6 +234,8 @@ def runge_kutta_step(
         here = W_ACC + stage * F_SIZE
         acc = w[here : here + F_SIZE]
         predict(y, h, gh, stage, tableau, w)
+        if flexible:
+            predict_modes(p, flexure, h, gh, stage, tableau, w)
         t = h * TABLEAUX[tableau + T_NODES + stage]
         turn_axes(p, axes, y, int(p[P_LANES]), t, w)
         angle_t = angle + t * (speed + 0.5 * t * speed_rate)
@@ -231,13 +248,19 @@ def runge_kutta_step(
             right_hand_side(p, c, stage_y, angle_t, speed_t, speed_rate, w, result)
             for i in range(_RATES + N_BODY):
                 acc[i] = result[i]
+            if flexible:
+                take_accelerations(p, stage, w)
         for n in range(0 if done else MAX_ITERATIONS):
             right_hand_side(p, c, stage_y, angle_t, speed_t, speed_rate, w, result)
             newton_residual(acc, w)
+            if flexible:
+                solve_modes(p, flexure, stage, increment, w)
             solve(p, fac, co, si, increment, w)
             correct(acc, gh, w)
+            if flexible:
+                correct_modes(p, stage, gh, w)
             iterations += 1.0
-            size = newton_size(p, c, increment, gh)
+            size = modes_size(p, newton_size(p, c, increment, gh), gh, w)
             if not (size < 1e6):
                 return False
             rate = contraction
@@ -258,11 +281,14 @@ def runge_kutta_step(
         for i in range(F_WORK, F_SIZE):
             acc[i] = result[i]
         keep_velocities(stage_y, w[W_VEL + stage * F_SIZE : W_MOTION])
+        if flexible:
+            keep_mode_velocities(p, stage, w)
     last = W_ACC + (stages - 1) * F_SIZE
     if last != W_LAST:
         for i in range(F_SIZE):
             w[W_LAST + i] = w[last + i]
-    report[0] = error_size(p, c, h, tableau, w)
+    end_modes(p, stages, w)
+    report[0] = modes_error(p, error_size(p, c, h, tableau, w), h, tableau, w)
     report[1] = worst
     report[2] = iterations
     return True

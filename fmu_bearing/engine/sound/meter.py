@@ -1,130 +1,227 @@
 """Sound level meters: one per microphone, moved by one pressure sample at a time.
 
-Compact rung: components add as pressures, levels are of the sum. Paper rung: components and their sources
-add as energies (multi-source paper, eqs. 43 and 46), only the instantaneous pressure is a plain sum.
+Rung paper: components and their sources add as energies (multi-source paper, eqs. 43 and 46), only the
+instantaneous pressure, and with it the third octaves, is a plain sum. Other rungs: everything adds as
+pressures, and levels are of the sum; the energy sum over the components is metered beside it.
 
-Fast and Slow are exponential averages divided by the sum of their weights since metering began, so that
-a steady sound reads its level at once instead of climbing to it.
+Exponential averages are divided by the sum of their weights since metering began, so that a steady sound
+reads its level at once instead of climbing to it.
 """
 
 import math
 
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import MIC_OUTPUTS
+from fmu_bearing.engine.sound import thirds
 from fmu_bearing.engine.sound.places import (
-    DECIMATOR_TAPS,
+    GROUP_AT_WEIGHTS,
+    GROUP_COUNT,
+    GROUP_FIRST,
+    GROUP_LANE,
+    GROUP_MICS,
+    GROUP_SIZE,
     H_AT_A_WEIGHTING,
-    H_AT_COMPONENTS,
-    H_AT_MICS,
-    H_CHANNELS,
+    H_AT_GROUPS,
+    H_AT_ORDER,
+    H_AT_OUTPUTS,
+    H_AT_SOURCES,
+    H_BANDS,
+    H_DETAILS,
+    H_GROUPS,
     H_LANES,
     H_MICS,
-    H_OUTPUTS,
-    H_ROWS,
     H_RUNG,
+    H_S_A_WEIGHTING,
+    H_S_BANDS,
+    H_S_METERS,
+    H_SOURCES,
+    H_W_METERS,
+    H_W_OUTPUTS,
+    H_W_SOURCES,
+    H_W_WEIGHTED,
+    M_ENERGY,
     M_FAST,
     M_FAST_A,
+    M_KIND,
+    M_LEVEL,
+    M_LEVEL_A,
     M_PART,
     M_PRESSURE,
+    M_SLOW,
+    M_SLOW_A,
     M_SUM,
     M_SUM_A,
-    METER_SIZE,
-    MIC_AT_WEIGHTS,
-    MIC_COUNT,
-    MIC_FIRST,
-    MIC_SIZE,
+    METERS,
+    PLAIN,
     RATE,
     RUNG_PAPER,
     SS_COUNT,
+    SS_FAST,
     SS_METERED,
-    SS_TABLES,
+    SS_SLOW,
     SS_WEIGHT,
 )
 
 _N_OUT = len(MIC_OUTPUTS)
 _FLOOR = 1e-20  # Pa^2
 _REFERENCE = 4e-10  # Pa^2
+_FAST = 1.0 - math.exp(-1.0 / (RATE * 0.125))  # time constants of IEC 61672-1
+_SLOW = 1.0 - math.exp(-1.0 / (RATE * 1.0))
+# Squares of one sample in ``ws`` from ``H_W_METERS`` on, one row of microphones each, places as in
+# ``MIC_OUTPUTS``: total and its A-weighted twin, components, energy sum, kinds.
+_TOTAL, _TOTAL_A = M_LEVEL, M_LEVEL_A
 
 
 @kernel
-def update(ps, ss, ws, lanes, time_weighting, metering_start):
-    """Move all meters by one sample; filter outputs stand in ``ws``, A-weighting state at ``ss[lanes]``."""
-    n_out = int(ps[H_OUTPUTS])
-    n_mics = int(ps[H_MICS])
-    n_lanes = int(ps[H_LANES])
-    outputs = int(ps[H_CHANNELS])
-    weighted = outputs + n_out
-    parts = weighted + n_lanes
-    meters = lanes + 6 * n_lanes
-    paper = int(ps[H_RUNG]) == RUNG_PAPER
-    for mic in range(n_mics):
-        pressure = _combine(ps, ws, mic, outputs, parts + 8 * mic, paper)
-        ss[meters + METER_SIZE * mic + M_PRESSURE] = pressure
-        if not paper:
-            ws[weighted + mic] = pressure
-    if paper:
-        for i in range(n_out):
-            ws[weighted + i] = ws[outputs + i]
-    _a_weight(ps, ss, ws, lanes, weighted, n_lanes)
-    if ss[SS_COUNT] < metering_start * RATE:
+def update(ps, ss, ws, time_weighting, metering_start):
+    """Move all meters by one sample; filter outputs stand in ``ws``."""
+    n = int(ps[H_MICS])
+    rows = int(ps[H_W_METERS])
+    size = METERS * n
+    squares = ws[rows : rows + size]
+    for i in range(size):
+        squares[i] = 0.0
+    meters = ss[int(ps[H_S_METERS]) : int(ps[H_S_METERS]) + size]
+    if int(ps[H_RUNG]) == RUNG_PAPER:
+        _energies(ps, ss, ws, squares, n)
+    else:
+        _pressures(ps, ss, ws, squares, n)
+    for i in range(n):
+        meters[i] = squares[i]
+    metered = ss[SS_COUNT] >= metering_start * RATE
+    if int(ps[H_BANDS]) > 0:
+        thirds.update(ps, ss, ws, rows, _FAST if metered else 0.0)
+    if not metered:
         return
     fraction = 1.0
     if time_weighting > 0.0:
         fraction = 1.0 - math.exp(-1.0 / (RATE * time_weighting))
     ss[SS_METERED] += 1.0
     ss[SS_WEIGHT] += fraction * (1.0 - ss[SS_WEIGHT])
-    for mic in range(n_mics):
-        part = parts + 8 * mic
-        energy_a = 0.0
-        if paper:
-            at = int(ps[H_AT_MICS]) + MIC_SIZE * mic
-            first = weighted + int(ps[at + MIC_FIRST])
-            for i in range(first, first + int(ps[at + MIC_COUNT])):
-                energy_a += ws[i] ** 2
-        else:
-            energy_a = ws[weighted + mic] ** 2
-        at = meters + METER_SIZE * mic
-        energy = ws[part + 4]
-        ss[at + M_FAST] += fraction * (energy - ss[at + M_FAST])
-        ss[at + M_FAST_A] += fraction * (energy_a - ss[at + M_FAST_A])
-        ss[at + M_SUM] += energy
-        ss[at + M_SUM_A] += energy_a
-        for k in range(4):
-            ss[at + M_PART + k] += fraction * (ws[part + k] - ss[at + M_PART + k])
+    ss[SS_FAST] += _FAST * (1.0 - ss[SS_FAST])
+    ss[SS_SLOW] += _SLOW * (1.0 - ss[SS_SLOW])
+    _track(meters, M_LEVEL, squares, _TOTAL, 2, n, fraction)
+    _track(meters, M_PART, squares, M_PART, PLAIN - M_PART, n, fraction)
+    add = meters[M_SUM * n : (M_SUM + 2) * n]
+    seen = squares[_TOTAL * n : (_TOTAL + 2) * n]
+    for i in range(2 * n):
+        add[i] += seen[i]
+    if int(ps[H_DETAILS]) > 0:
+        _track(meters, M_FAST, squares, _TOTAL, 2, n, _FAST)
+        _track(meters, M_SLOW, squares, _TOTAL, 2, n, _SLOW)
+        _track(meters, M_ENERGY, squares, M_ENERGY, METERS - M_ENERGY, n, fraction)
 
 
 @kernel
-def _combine(ps, ws, mic, outputs, part, paper):
-    """Pressure at one microphone; its components' squares go to ``ws[part]``, the total's to ``part + 4``."""
-    at = int(ps[H_AT_MICS]) + MIC_SIZE * mic
-    first = int(ps[at + MIC_FIRST])
-    weights = int(ps[at + MIC_AT_WEIGHTS])
-    components = int(ps[H_AT_COMPONENTS])
-    for k in range(5):
-        ws[part + k] = 0.0
-    pressure = 0.0
-    for i in range(int(ps[at + MIC_COUNT])):
-        k = int(ps[components + first + i])
-        value = ps[weights + i] * ws[outputs + first + i]
-        pressure += value
-        if paper:
-            ws[part + k] += value * value
-        else:
-            ws[part + k] += value
-    if paper:
-        for k in range(4):
-            ws[part + 4] += ws[part + k]
-    else:
-        for k in range(4):
-            ws[part + k] = ws[part + k] ** 2
-        ws[part + 4] = pressure * pressure
-    return pressure
+def _track(meters, row, squares, source, count, n, fraction):
+    """Exponential averages: ``count`` rows of ``meters`` follow as many of ``squares``."""
+    mean = meters[row * n : (row + count) * n]
+    fresh = squares[source * n : (source + count) * n]
+    for i in range(count * n):
+        mean[i] += fraction * (fresh[i] - mean[i])
 
 
 @kernel
-def _a_weight(ps, ss, ws, lanes, weighted, n):
-    """A-weight the ``n`` signals at ``ws[weighted]`` in place, lanes side by side."""
-    x = ws[weighted : weighted + n]
+def _pressures(ps, ss, ws, squares, n):
+    """Coherent sums: pressures of each source, of components, of kinds, of all; then their squares."""
+    at = int(ps[H_W_SOURCES])
+    n_sources = int(ps[H_SOURCES])
+    parts = ws[at : at + n_sources * n]
+    for i in range(n_sources * n):
+        parts[i] = 0.0
+    out_at = int(ps[H_W_OUTPUTS])
+    sources = int(ps[H_AT_OUTPUTS])
+    for group in range(int(ps[H_GROUPS])):
+        g = int(ps[H_AT_GROUPS]) + GROUP_SIZE * group
+        first = int(ps[g + GROUP_FIRST])
+        lane = int(ps[g + GROUP_LANE])
+        mics = int(ps[g + GROUP_MICS])
+        weights = int(ps[g + GROUP_AT_WEIGHTS])
+        for o in range(int(ps[g + GROUP_COUNT])):
+            value = ws[out_at + first + o]
+            to = int(ps[sources + first + o]) * n + lane
+            part = parts[to : to + mics]
+            w = ps[weights + o * mics : weights + (o + 1) * mics]
+            for i in range(mics):
+                part[i] += w[i] * value
+    total = squares[0:n]
+    table = int(ps[H_AT_SOURCES])
+    for source in range(n_sources):
+        part = parts[source * n : (source + 1) * n]
+        component = (M_PART + int(ps[table + 2 * source])) * n
+        kind = (M_KIND + int(ps[table + 2 * source + 1])) * n
+        whole = squares[component : component + n]
+        for i in range(n):
+            total[i] += part[i]
+            whole[i] += part[i]
+        if kind < METERS * n:
+            alike = squares[kind : kind + n]
+            for i in range(n):
+                alike[i] += part[i]
+    at = int(ps[H_W_WEIGHTED])
+    weighted = ws[at : at + n]
+    for i in range(n):
+        weighted[i] = total[i]
+    _a_weight(ps, ss, weighted, n)
+    for i in range(n):
+        squares[_TOTAL * n + i] = total[i] * total[i]
+        squares[_TOTAL_A * n + i] = weighted[i] * weighted[i]
+    for i in range(M_PART * n, METERS * n):
+        squares[i] = squares[i] * squares[i]
+    _sum_components(squares, n)
+
+
+@kernel
+def _energies(ps, ss, ws, squares, n):
+    """Energy sums of the printed method: every filter output is squared by itself."""
+    out_at = int(ps[H_W_OUTPUTS])
+    lanes = int(ps[H_LANES])
+    at = int(ps[H_W_WEIGHTED])
+    weighted = ws[at : at + lanes]
+    for i in range(lanes):
+        weighted[i] = ws[out_at + i]
+    _a_weight(ps, ss, weighted, lanes)
+    sources = int(ps[H_AT_OUTPUTS])
+    table = int(ps[H_AT_SOURCES])
+    for group in range(int(ps[H_GROUPS])):
+        g = int(ps[H_AT_GROUPS]) + GROUP_SIZE * group
+        first = int(ps[g + GROUP_FIRST])
+        lane = int(ps[g + GROUP_LANE])
+        mics = int(ps[g + GROUP_MICS])
+        weights = int(ps[g + GROUP_AT_WEIGHTS])
+        for o in range(int(ps[g + GROUP_COUNT])):
+            source = int(ps[sources + first + o])
+            component = (M_PART + int(ps[table + 2 * source])) * n + lane
+            kind = (M_KIND + int(ps[table + 2 * source + 1])) * n + lane
+            for i in range(mics):
+                w = ps[weights + o * mics + i]
+                value = w * ws[out_at + first + o]
+                energy = value * value
+                squares[lane + i] += value
+                squares[component + i] += energy
+                if kind < METERS * n:
+                    squares[kind + i] += energy
+                squares[_TOTAL_A * n + lane + i] += (w * weighted[first + o]) ** 2
+    _sum_components(squares, n)
+    for i in range(n):
+        squares[_TOTAL * n + i] = squares[M_ENERGY * n + i]
+
+
+@kernel
+def _sum_components(squares, n):
+    """Eq. 46 of the multi-source paper: energies of the components added."""
+    total = squares[M_ENERGY * n : (M_ENERGY + 1) * n]
+    for i in range(n):
+        total[i] = 0.0
+    for k in range(M_PART, PLAIN):
+        part = squares[k * n : (k + 1) * n]
+        for i in range(n):
+            total[i] += part[i]
+
+
+@kernel
+def _a_weight(ps, ss, x, n):
+    """A-weight the ``n`` signals ``x`` in place, lanes side by side."""
     for section in range(3):
         at = int(ps[H_AT_A_WEIGHTING]) + 5 * section
         b0 = ps[at]
@@ -132,7 +229,7 @@ def _a_weight(ps, ss, ws, lanes, weighted, n):
         b2 = ps[at + 2]
         a1 = ps[at + 3]
         a2 = ps[at + 4]
-        state = lanes + 2 * n * section
+        state = int(ps[H_S_A_WEIGHTING]) + 2 * n * section
         s1 = ss[state : state + n]
         s2 = ss[state + n : state + 2 * n]
         for c in range(n):
@@ -149,25 +246,38 @@ def _decibel(mean_square):
 
 @kernel
 def levels(ps, ss, z, offset):
-    """Write the ``MIC_OUTPUTS`` of every microphone into ``z`` from ``offset`` on.
+    """Write the ``MIC_OUTPUTS`` of every microphone into ``z`` from ``offset`` on, then its third octaves.
 
-    Levels in dB re 20 uPa, never below -106 dB and always finite; the floor before metering has begun.
+    Levels in dB re 20 uPa, never below -106 dB and always finite; the floor before metering has begun, and
+    where the scene keeps no such meter.
     """
-    n = int(ps[H_CHANNELS])
-    lanes = SS_TABLES + n * (DECIMATOR_TAPS + 2 + int(ps[H_ROWS]))
-    meters = lanes + 6 * int(ps[H_LANES])
+    n = int(ps[H_MICS])
+    meters = int(ps[H_S_METERS])
     count = 1.0
     weight = 1.0
+    fast = 1.0
+    slow = 1.0
     if ss[SS_METERED] > 0.0:
         count = ss[SS_METERED]
         weight = ss[SS_WEIGHT]
-    for mic in range(int(ps[H_MICS])):
-        at = meters + METER_SIZE * mic
+        fast = ss[SS_FAST]
+        slow = ss[SS_SLOW]
+    kept = METERS if int(ps[H_DETAILS]) > 0 else PLAIN
+    bands = int(ps[H_BANDS])
+    for mic in range(n):
+        lane = int(ps[int(ps[H_AT_ORDER]) + mic])
         out = offset + _N_OUT * mic
-        z[out] = ss[at + M_PRESSURE]
-        z[out + 1] = _decibel(ss[at + M_FAST] / weight)
-        z[out + 2] = _decibel(ss[at + M_FAST_A] / weight)
-        z[out + 3] = _decibel(ss[at + M_SUM] / count)
-        z[out + 4] = _decibel(ss[at + M_SUM_A] / count)
-        for k in range(4):
-            z[out + 5 + k] = _decibel(ss[at + M_PART + k] / weight)
+        z[out + M_PRESSURE] = ss[meters + lane]
+        for row in range(1, METERS):
+            by = weight
+            if row == M_SUM or row == M_SUM_A:
+                by = count
+            elif row == M_FAST or row == M_FAST_A:
+                by = fast
+            elif row == M_SLOW or row == M_SLOW_A:
+                by = slow
+            z[out + row] = _decibel(ss[meters + row * n + lane] / by if row < kept else 0.0)
+        mean = int(ps[H_S_BANDS]) + thirds.SIZE * lane + thirds.MEAN
+        first = offset + _N_OUT * n + bands * mic
+        for k in range(bands):
+            z[first + k] = _decibel(ss[mean + k] / fast)

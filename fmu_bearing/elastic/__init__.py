@@ -1,0 +1,16 @@
+"""Elastic rings: which flexural modes a ring of the scene has, from its meridian section.
+
+==============  ======================================================================
+``section``     meridian section of a ring, groove included, and its mesh
+``fourier``     the solid of revolution for one circumferential harmonic: matrices, modes
+``modes``       the modes a scene asks for, as motion and sound need them; free modes
+==============  ======================================================================
+
+Data flow: scene -> section -> mesh -> matrices (once per ring) -> modes of each order -> ``RingMode``.
+
+Coordinates: x along the bearing's axis, r outwards, t along increasing angle theta from 12 o'clock. A mode of
+order n has two amplitudes a, b (m)::
+
+    u_x, u_r = psi_x, psi_r (a cos n theta + b sin n theta)
+    u_t      = psi_t        (a sin n theta - b cos n theta)
+"""

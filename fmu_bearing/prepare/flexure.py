@@ -1,0 +1,72 @@
+"""Flexural modes of the rings as the engine's table."""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.elastic.modes import RingMode
+from fmu_bearing.engine import modes_layout as at
+from fmu_bearing.scene import Scene, SceneError, si
+
+# Internal steps over the period of the highest mode at rest. The methods then lower a free mode's frequency
+# by 0.5 % (esdirk4, which damps it like a damping ratio of 1e-4), 1 % (trbdf2, 5e-4) or 0.03 % (rk4, 1e-4);
+# lower modes fare better by the square of the frequency at least.
+_STEPS = {"esdirk4": 4.0, "trbdf2": 12.5, "fast": 4.0, "rk4": 14.0}
+
+
+def mode_table(scene: Scene, modes: Sequence[RingMode]) -> NDArray[np.float64]:
+    """Rows of ``MODE_SIZE`` numbers, one per mode; empty without modes.
+
+    Raises
+    ------
+    SceneError
+        Where the scene asks for more modes than the engine has places.
+    """
+    if not modes:
+        return np.empty(0)
+    if len(modes) > at.MAX_MODES:
+        raise SceneError(
+            f"{scene.name}: mounting.flexure asks for {len(modes)} modes; at most {at.MAX_MODES} are "
+            "carried: leave out the highest orders"
+        )
+    assert scene.mounting.flexure is not None  # it is what asked for the modes
+    flexure = si(scene.mounting.flexure)
+    seats = flexure.inner_seat_stiffness, flexure.outer_seat_stiffness
+    table = np.zeros((len(modes), at.MODE_SIZE))
+    for row, mode in zip(table, modes, strict=True):
+        free = 2.0 * math.pi * mode.frequency
+        row[at.MODE_BODY], row[at.MODE_ORDER] = mode.body, mode.order
+        row[at.MODE_MASS] = mode.modal_mass
+        row[at.MODE_STIFFNESS] = mode.modal_mass * free**2 + seats[mode.body] * mode.seat
+        row[at.MODE_DAMPING] = 2.0 * flexure.damping_ratio * free
+        row[at.MODE_GYROSCOPIC] = mode.gyroscopic
+        shape = groove_centre(scene, mode)
+        row[at.MODE_X], row[at.MODE_R], row[at.MODE_T] = shape
+        row[at.MODE_TILT] = mode.groove_tilt
+        row[at.MODE_WEIGHT] = 0.5 * (shape @ shape)
+    return table.ravel()
+
+
+def groove_centre(scene: Scene, mode: RingMode) -> NDArray[np.float64]:
+    """Shape (x, r, t) of a mode at the centre of the groove's circle, carried there by the section's turn.
+
+    ``mode.groove`` belongs to the point of the groove that the unloaded ball touches.
+    """
+    bearing = si(scene.bearing)
+    conformity = bearing.inner_conformity if mode.body == 0 else bearing.outer_conformity
+    reach = conformity * bearing.ball_diameter * (1.0 if mode.body == 0 else -1.0)
+    x, r, t = mode.groove
+    # from the contact to the centre; a turn about t takes r to -x and x to r
+    dx, dr = reach * math.sin(bearing.contact_angle), reach * math.cos(bearing.contact_angle)
+    return np.array([x - mode.groove_tilt * dr, r + mode.groove_tilt * dx, t])
+
+
+def longest_step(table: NDArray[np.float64], method: str) -> float:
+    """Longest internal step (s) that resolves every mode of a table; infinite without modes."""
+    if table.size == 0:
+        return math.inf
+    rows = table.reshape(-1, at.MODE_SIZE)
+    highest = np.sqrt((rows[:, at.MODE_STIFFNESS] / rows[:, at.MODE_MASS]).max()) / (2.0 * math.pi)
+    return 1.0 / (_STEPS[method] * float(highest))

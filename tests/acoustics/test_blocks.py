@@ -1,0 +1,181 @@
+"""Convolution by blocks against the direct form, and long filters against the frequency domain."""
+
+import sys
+import types
+
+import numpy as np
+import pytest
+
+from fmu_bearing.acoustics import blocks
+from fmu_bearing.acoustics.fir import decimator_response, delay_of, fit, fit_frequencies
+from fmu_bearing.acoustics.stream import build
+from fmu_bearing.acoustics.transfer import Air, Path
+from fmu_bearing.engine.sound import transform
+from fmu_bearing.engine.sound.places import (
+    C_OUTER,
+    H_AT_LEVELS,
+    H_LEVELS,
+    LATENCY,
+    LEVEL_BLOCK,
+    LEVEL_SIZE,
+    RADIAL,
+    RATE,
+)
+from tests.acoustics.playback import LARGE, PAPER_POINTS, SMALL, Player, chain, lines, raw_time, still
+
+PERIOD = 2048  # raw samples: 100 Hz
+LEVELS = [(16,), (64,), (256,), (16, 128), (32, 512)]
+
+
+@pytest.mark.parametrize("block", [8, 64])
+def test_transform_against_numpy(block):
+    """1e-14 of the largest: a dozen roundings."""
+    n = 5
+    x = np.random.default_rng(1).standard_normal((2 * block, n))
+    angle = np.pi * np.arange(block + 1) / block
+    turns = np.concatenate([np.cos(angle), np.sin(angle)])
+    z = np.zeros((block, 2, n))
+    for k in range(block):
+        z[transform.reversed_bits(k, block)] = x[2 * k : 2 * k + 2]
+    flat = z.ravel()
+    transform.butterflies(flat, n, block, turns, -1.0)
+    spectrum = np.zeros((block + 1) * 2 * n)
+    transform.unfold(flat, n, block, turns, spectrum)
+    found = spectrum.reshape(block + 1, 2, n)
+    expected = np.fft.rfft(x, axis=0)
+    assert np.max(np.abs(found[:, 0] + 1j * found[:, 1] - expected)) < 1e-13 * np.abs(expected).max()
+    transform.fold(spectrum, n, block, turns, flat)
+    transform.butterflies(flat, n, block, turns, 1.0)
+    assert np.max(np.abs(flat.reshape(2 * block, n) / block - x)) < 1e-13
+
+
+def levels_of(ps):
+    first = int(ps[H_AT_LEVELS]) + LEVEL_BLOCK
+    return tuple(int(ps[first + LEVEL_SIZE * i]) for i in range(int(ps[H_LEVELS])))
+
+
+def ring_of(decay, frequency, late):
+    """Stand-in for boundary elements: the outer ring heard through a resonance, two other paths plain."""
+
+    def bem_paths(radiators, air, radius, axial, azimuths, harmonics, modes=(), plane=None):
+        f = fit_frequencies()
+        flight = np.hypot(radius, axial) / air.sound_speed + late
+        turn = np.exp(-2j * np.pi * f * flight)
+        ring = 0.01 * turn / (1 - (f / frequency) ** 2 + 1j * f / (np.pi * frequency**2 * decay))
+        angles = np.asarray(azimuths)
+        return [
+            Path(1, C_OUTER, flight, 0.3 * ring, np.ones(len(angles)), 1),
+            Path(1, C_OUTER + 1, flight, ring, -np.sin(angles), RADIAL),
+            Path(1, C_OUTER + 2, flight, ring, np.cos(angles), RADIAL),
+        ]
+
+    return bem_paths
+
+
+@pytest.fixture
+def ringing(monkeypatch):
+    def put(decay=5e-4, frequency=3000.0, late=0.0):
+        module = types.ModuleType("fmu_bearing.acoustics.bem.paths")
+        module.bem_paths = ring_of(decay, frequency, late)
+        monkeypatch.setitem(sys.modules, "fmu_bearing.acoustics.bem.paths", module)
+
+    return put
+
+
+@pytest.mark.parametrize("levels", LEVELS)
+@pytest.mark.parametrize("rung", ["compact", "bem"])
+def test_blocks_equal_the_direct_form(rung, levels, ringing):
+    """Sample for sample, nothing later: 1e-12 of the largest pressure, the gate for any way of cutting."""
+    ringing()
+    motion = np.random.default_rng(5).standard_normal((8000, len(still(SMALL, 1)[0])))
+    points = [*PAPER_POINTS, (0.3, 0.4, 0.5), (0.0, 2.0, 0.0)]  # the last ones are later than a block
+    direct = Player(build(rung, SMALL, Air(), points, levels=())).play(motion, 8000)
+    ps = build(rung, SMALL, Air(), points, levels=levels)
+    assert levels_of(ps) == levels
+    found = Player(ps).play(motion, 8000)
+    assert np.max(np.abs(direct[-200:])) > 1e-4
+    assert np.max(np.abs(found - direct)) < 1e-12 * np.max(np.abs(direct))
+
+
+def test_ringing_filters_follow_the_frequency_domain(ringing):
+    """A ring of 0.5 ms (Q = 5) needs hundreds of taps; -50 dB at any tone, on the resonance and beside."""
+    ringing()
+    ps = build("bem", SMALL, Air(), PAPER_POINTS)
+    assert levels_of(ps), "a long filter goes by blocks"
+    frequencies = np.array([100.0, 1500.0, 2900.0, 3000.0, 3100.0, 8000.0, 15_000.0])
+    motion = still(SMALL, PERIOD)
+    motion[:, 16] = np.cos(2 * np.pi * frequencies * raw_time(PERIOD)[:, None]).sum(axis=1)
+    pressure = Player(ps).play(motion, 41 * PERIOD)[:, 0]
+    f, flight = frequencies, 0.105 / 340.0
+    exact = 0.01 * np.exp(-2j * np.pi * f * flight) / (1 - (f / 3e3) ** 2 + 1j * f / (np.pi * 9e6 * 5e-4))
+    exact *= chain(frequencies)
+    error = np.abs(lines(pressure, frequencies) - exact) / np.abs(exact)
+    assert 20 * np.log10(error.max()) < -50
+
+
+def test_length_grows_with_the_ringing_and_between_the_grid():
+    """Decay of 0.1 to 0.5 ms: more taps each time; long filters hold between the frequencies too."""
+    f = fit_frequencies()
+    found = []
+    for decay in (1e-4, 2.5e-4, 5e-4):
+
+        def response(f, decay=decay):
+            return np.exp(-2j * np.pi * f * 3e-4) / (1 - (f / 3e3) ** 2 + 1j * f / (np.pi * 9e6 * decay))
+
+        taps, error = fit(response(f), 3e-4, np.abs(response(f)))
+        assert error < 10 ** (-50 / 20)
+        between = np.arange(1062.5, 6000.0, 125.0)
+        turn = np.exp(-2j * np.pi * np.outer(between, np.arange(len(taps))) / RATE)
+        whole = turn @ taps * decimator_response(between)
+        whole *= np.exp(-2j * np.pi * between * (delay_of(3e-4) - LATENCY) / RATE)
+        off = np.abs(whole - response(between)) / np.abs(response(between))
+        assert 20 * np.log10(off.max()) < -40
+        found.append(len(taps))
+    assert found == sorted(found) and found[-1] >= 256
+
+
+@pytest.mark.parametrize("levels", [(), (16,), (16, 128)])
+def test_state_carries_everything_with_blocks(levels, ringing):
+    """Saved in the middle of a block, spoilt work space, restored: bit for bit, however it is cut."""
+    ringing()
+    ps = build("bem", LARGE, Air(), PAPER_POINTS, levels=levels, thirds=True)
+    motion = np.random.default_rng(3).standard_normal((6000, len(still(LARGE, 1)[0])))
+    whole = Player(ps, metering_start=0.002)
+    whole.play(motion, 6000)
+    cut = Player(ps, metering_start=0.002)
+    for samples in (1, 2, 5, 992, 1001, 1233):
+        cut.play(motion, samples)
+    again = Player(ps, metering_start=0.002)
+    again.ss[:] = cut.ss
+    again.ws[:] = np.nan
+    again.first = cut.first
+    again.play(motion, 6000 - cut.first)
+    assert np.array_equal(again.ss, whole.ss) and np.array_equal(again.z, whole.z)
+
+
+def test_choice_of_blocks():
+    """One short filter goes direct; many long ones by blocks, for a fraction of the work."""
+    rng = np.random.default_rng(1)
+    short = [blocks.Bank(0, 3, rng.standard_normal((12, 1)), (0,))]
+    assert blocks.choose(short, 1, 1) == ()
+    long = [blocks.Bank(0, 15, rng.standard_normal((512, 60)), (0,) * 60)] * 4
+    chosen = blocks.choose(long, 60, 20)
+    assert chosen and blocks.cost(long, chosen, 60, 20) < 0.35 * blocks.cost(long, (), 60, 20)
+
+
+def test_parts_hold_every_lag_once():
+    bank = blocks.Bank(0, 21, np.random.default_rng(2).standard_normal((500, 3)), (0, 1, 2))
+    for levels in LEVELS:
+        total = np.zeros((2048, 3))
+        direct = blocks.head(bank, levels)
+        total[21 : 21 + len(direct)] += direct
+        for block, low, high in blocks.spans(levels):
+            found = blocks.parts(bank, block, low, high)
+            lags = np.fft.irfft(found.spectra[:, :, 0] + 1j * found.spectra[:, :, 1], axis=1)
+            assert found.first >= 1 or found.count == 0
+            for part, rows in enumerate(lags):
+                begin = (found.first + part) * block
+                total[begin : begin + 2 * block] += rows
+        assert np.max(np.abs(total[21:521] - bank.taps)) < 1e-13
+        total[21:521] = 0.0
+        assert np.max(np.abs(total)) < 1e-13

@@ -1,0 +1,157 @@
+"""Level meters beyond the first nine, and third octaves."""
+
+import numpy as np
+import pytest
+from scipy.signal import sosfreqz
+
+from fmu_bearing.acoustics.stream import build
+from fmu_bearing.acoustics.transfer import Air
+from fmu_bearing.acoustics.weighting import band_centre, band_sections
+from fmu_bearing.engine.layout import BANDS, MIC_OUTPUTS
+from fmu_bearing.engine.sound.places import H_STATE, METERS, RATE, RAW_RATE
+from tests.acoustics.playback import LARGE, PAPER_POINTS, SMALL, Player, lines, raw_time, still
+
+PERIOD = 2048  # raw samples: 100 Hz
+QUIET = 10 * np.log10(1e-20 / 4e-10)
+# IEC 61260-1, class 1, octave filters: frequency ratio as power of G = 10^0.3, least and most attenuation
+# (dB) of the 1995 edition, which is the stricter one; third octaves by the standard's mapping of ratios.
+LIMITS = [
+    (0.0, -0.3, 0.3), (1 / 8, -0.3, 0.4), (1 / 4, -0.3, 0.6), (3 / 8, -0.3, 1.3), (1 / 2, 2.0, 5.0),
+    (1.0, 17.5, np.inf), (2.0, 42.0, np.inf), (3.0, 61.0, np.inf), (4.0, 70.0, np.inf),
+]  # fmt: skip
+
+
+def test_one_meter_per_name():
+    assert len(MIC_OUTPUTS) == METERS
+
+
+def tone(frequency=1000.0, amplitude=1.0, radiators=SMALL):
+    motion = still(radiators, PERIOD)
+    motion[:, 16] = amplitude * np.cos(2 * np.pi * frequency * raw_time(PERIOD))
+    return motion
+
+
+def pascal(ps):
+    """Acceleration that makes 1 Pa rms at 1 kHz at the first microphone."""
+    return np.sqrt(2) / abs(lines(Player(ps).play(tone(), 41 * PERIOD)[:, 0], [1000.0])[0])
+
+
+def test_calibrator_on_all_meters():
+    """1 Pa at 1 kHz: 93.98 dB and dB(A) everywhere, and in the 1 kHz band; its neighbours as the standard."""
+    ps = build("compact", SMALL, Air(), PAPER_POINTS, thirds=True)
+    player = Player(ps, metering_start=0.3)
+    player.play(tone(amplitude=pascal(ps)), int(1.5 * RAW_RATE))
+    names = ("spl", "spl_a", "leq", "leq_a", "spl_fast", "spl_fast_a", "spl_slow", "spl_slow_a")
+    for name in (*names, "spl_energy_sum", "spl_radial", "spl_outer_ring"):
+        assert player.reading(name) == pytest.approx(93.979, abs=0.02), name
+    for name in ("spl_axial", "spl_rotation", "spl_flexure", "spl_balls"):
+        assert player.reading(name) == pytest.approx(QUIET), name
+    bands = dict(zip(BANDS, player.z[4 * METERS : 4 * METERS + len(BANDS)], strict=True))
+    assert bands[1000.0] == pytest.approx(93.979, abs=0.02)
+    # the next band's middle is a ratio of 10^0.1 away, between the standard's points 17.5 and 42 dB
+    for neighbour, least in ((800.0, 17.0), (1250.0, 17.0), (500.0, 42.0), (2000.0, 42.0), (250.0, 61.0)):
+        assert bands[neighbour] < 93.979 - least, neighbour
+
+
+@pytest.mark.parametrize("nominal", BANDS)
+def test_third_octaves_keep_class_1(nominal):
+    """Every band at the standard's break points, up to 25 kHz where sampling ends."""
+    middle, edge = band_centre(nominal), 10**0.05
+    sections = band_sections(RATE, nominal)
+    for power, least, most in LIMITS:
+        octave = 10 ** (0.3 * power)
+        ratio = 1.0 + (edge - 1.0) / (np.sqrt(10**0.3) - 1.0) * (octave - 1.0)
+        for frequency in (middle * ratio, middle / ratio):
+            if frequency < 25_000.0:
+                gain = abs(sosfreqz(sections, [frequency], fs=RATE)[1][0])
+                attenuation = -20 * np.log10(max(gain, 1e-12))
+                assert least - 1e-6 <= attenuation <= most + 1e-6, (frequency, attenuation)
+
+
+def test_bands_are_those_of_the_standard():
+    assert [round(band_centre(n), 2) for n in (25.0, 31.5, 1000.0, 16_000.0)] == [
+        25.12, 31.62, 1000.0, 15848.93,
+    ]  # fmt: skip
+    assert len(BANDS) == 29
+
+
+def test_fast_and_slow_decay_at_their_rates():
+    """IEC 61672-1: 34.7 and 4.3 dB/s after a sound has stopped, whatever the chosen weighting is."""
+    ps = build("compact", SMALL, Air(), PAPER_POINTS[:1])
+    player = Player(ps, time_weighting=0.4)
+    player.play(tone(amplitude=pascal(ps)), int(0.5 * RAW_RATE))
+    player.play(still(SMALL, 4), int(0.1 * RAW_RATE))
+    before = {name: player.reading(name) for name in ("spl_fast", "spl_slow", "spl")}
+    player.play(still(SMALL, 4), int(0.2 * RAW_RATE))
+    fall = {name: (level - player.reading(name)) / 0.2 for name, level in before.items()}
+    assert fall["spl_fast"] == pytest.approx(10 / np.log(10) / 0.125, rel=0.02)
+    # these two still gather weight: the mean falls by as much more slowly as the weights' sum grows
+    for name, constant, since in (("spl_slow", 1.0, 0.6), ("spl", 0.4, 0.6)):
+        grown = (1 - np.exp(-(since + 0.2) / constant)) / (1 - np.exp(-since / constant))
+        expected = 10 / np.log(10) / constant + 10 * np.log10(grown) / 0.2
+        assert fall[name] == pytest.approx(expected, rel=0.02), name
+
+
+@pytest.mark.parametrize("rung", ["compact", "paper_vector"])
+def test_energy_sum_beside_the_coherent_one(rung):
+    """Two bodies driven against each other with equal sound: silence, and by eq. 46 each plus 3 dB."""
+    ps = build(rung, SMALL, Air(), PAPER_POINTS[:1])
+    levels = {}
+    for body in (0, 1):
+        player = Player(ps)
+        motion = still(SMALL, PERIOD)
+        motion[:, 12 * body + 4] = 1000 * np.sin(2 * np.pi * 200 * raw_time(PERIOD))
+        pressure = player.play(motion, 41 * PERIOD)[:, 0]
+        levels[body] = lines(pressure, [200.0])[0]
+    motion = still(SMALL, PERIOD)
+    t = raw_time(PERIOD)
+    ratio = -levels[0] / levels[1]
+    motion[:, 4] = 1000 * np.sin(2 * np.pi * 200 * t)
+    motion[:, 16] = 1000 * np.imag(ratio * np.exp(2j * np.pi * 200 * t))
+    player = Player(ps, metering_start=0.3)
+    player.play(motion, 41 * PERIOD)
+    one = player.reading("spl_inner_ring")
+    assert player.reading("spl_outer_ring") == pytest.approx(one, abs=0.01)
+    assert player.reading("spl_energy_sum") == pytest.approx(one + 3.0103, abs=0.01)
+    assert player.reading("spl") < one - 60
+    assert player.reading("spl_radial") < one - 60  # one kind, heard as one
+
+
+def test_kinds_are_told_apart():
+    ps = build("compact", SMALL, Air(), [(0.05, 0.06, 0.07)])
+    place = {"spl_axial": 12 + 3, "spl_radial": 12 + 4, "spl_balls": 36 + 3}
+    for heard, column in place.items():
+        motion = still(SMALL, PERIOD)
+        motion[:, column] = 1000 * np.sin(2 * np.pi * 1000 * raw_time(PERIOD))
+        player = Player(ps)
+        player.play(motion, 41 * PERIOD)
+        assert player.reading(heard) == pytest.approx(player.reading("spl"), abs=1e-6)
+        for other in {*place, "spl_rotation", "spl_flexure"} - {heard}:
+            # axial tones leave the high-pass rest of nothing behind: the floor
+            assert player.reading(other) == pytest.approx(QUIET), (heard, other)
+
+
+def test_levels_without_details_cost_nothing_and_read_the_floor():
+    plain = build("compact", LARGE, Air(), PAPER_POINTS, details=False)
+    player = Player(plain)
+    player.play(tone(radiators=LARGE), 20 * PERIOD)
+    whole = Player(build("compact", LARGE, Air(), PAPER_POINTS))
+    whole.play(tone(radiators=LARGE), 20 * PERIOD)
+    for name in MIC_OUTPUTS[:9]:
+        assert player.reading(name) == whole.reading(name), name
+    for name in MIC_OUTPUTS[9:]:
+        assert player.reading(name) == pytest.approx(QUIET), name
+    thirds = build("compact", LARGE, Air(), PAPER_POINTS, thirds=True)
+    assert thirds[H_STATE] > plain[H_STATE]
+
+
+def test_opposite_bodies_of_the_paper_rung_do_not_cancel():
+    """Eq. 46 is the paper's own law: energies add, and the energy sum is the level."""
+    ps = build("paper", SMALL, Air(), PAPER_POINTS[:1])
+    motion = still(SMALL, PERIOD)
+    motion[:, 3] = 1000 * np.sin(2 * np.pi * 1000 * raw_time(PERIOD))
+    motion[:, 15] = -motion[:, 3]
+    player = Player(ps)
+    player.play(motion, 41 * PERIOD)
+    assert player.reading("spl") == player.reading("spl_energy_sum") > player.reading("spl_inner_ring")
+    assert player.reading("spl_axial") == pytest.approx(player.reading("spl"), abs=1e-9)

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from examples.papers.hearing import sources_hash
+from examples.papers.hearing import LISTENING, sources_hash
 from fmu_bearing.engine.jit import source_hash
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.read import read_scene_text
@@ -120,7 +120,7 @@ def _motion(scene: Scene) -> dict[str, Any]:
     """Return the scene without what only listens: its motion does not depend on it."""
     data = scene.model_dump(mode="json", exclude_none=True)
     sound = data.get("sound", {})
-    for key in ("rung", "microphone", "circle", "metering_start_s", "time_weighting"):
+    for key in LISTENING:
         sound.pop(key, None)
     return data
 

@@ -7,6 +7,7 @@ Paths depend on bodies and places, not on the run: they are made once per scene 
 elements take a second per circle.
 """
 
+import fcntl
 import functools
 import hashlib
 import os
@@ -29,6 +30,10 @@ from fmu_bearing.scene import Scene
 from fmu_bearing.study.heard import air_of
 from fmu_bearing.study.recording import Recording
 
+#: Keys of ``sound`` that change no motion and no path.
+LISTENING = (
+    "rung", "microphone", "circle", "metering_start_s", "time_weighting", "third_octaves", "details",
+)  # fmt: skip
 Sources = dict[str, NDArray[np.float64]]
 Places = Sequence[Sequence[float]]
 NAMES = {"inner_ring": "inner ring", "outer_ring": "outer ring", "cage": "cage", "balls": "balls"}
@@ -106,8 +111,7 @@ def _kept_paths(
     cache: pathlib.Path,
 ) -> list[Circle]:  # fmt: skip
     """Paths to places: from the cache, or made and put there."""
-    listening = {"rung", "microphone", "circle", "metering_start_s", "time_weighting"}
-    sound = "" if scene.sound is None else scene.sound.model_dump_json(exclude=listening)
+    sound = "" if scene.sound is None else scene.sound.model_dump_json(exclude=set(LISTENING))
     body = (
         scene.bearing.model_dump_json(exclude={"ball_springs"}),
         scene.materials.model_dump_json(),
@@ -115,17 +119,15 @@ def _kept_paths(
     )
     text = repr((rung, sound, body, places, harmonics, sources_hash()))
     path = cache / "paths" / f"{hashlib.sha256(text.encode()).hexdigest()[:16]}.pickle"
-    if not path.exists():
-        made = list(
-            circles(
-                rung, radiators_of(scene), air_of(scene), places, harmonics,
-                modes=ring_modes(scene) if rung != "paper" else (),
-            )
-        )  # fmt: skip
-        path.parent.mkdir(parents=True, exist_ok=True)
-        part = path.with_suffix(f".{os.getpid()}")
-        part.write_bytes(pickle.dumps(made))
-        part.replace(path)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with path.with_suffix(".lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)  # other workers want the same paths: one makes them
+        if not path.exists():
+            modes = ring_modes(scene) if rung != "paper" else ()
+            made = list(circles(rung, radiators_of(scene), air_of(scene), places, harmonics, modes=modes))
+            part = path.with_suffix(f".{os.getpid()}")
+            part.write_bytes(pickle.dumps(made))
+            part.replace(path)
     return _read(path)
 
 

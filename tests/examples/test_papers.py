@@ -11,7 +11,7 @@ from examples.papers import case as case_module
 from examples.papers import circles, impact_noise, multi_source, page, sound_field
 from examples.papers.calibration import calibrate
 from examples.papers.case import Case
-from examples.papers.hearing import a_weighted, equivalent, heard, line, spectrum
+from examples.papers.hearing import Ear, a_weighted, equivalent, line, spectrum
 from examples.papers.run import PAGES, run
 from fmu_bearing.acoustics.weighting import a_weighting_db
 
@@ -253,7 +253,7 @@ def test_a_repeated_run_takes_what_is_kept(tiny, monkeypatch):
 
 
 @pytest.mark.parametrize("rung", ["compact", "paper"])
-def test_sources_add_up_to_the_recordings_own_level(tiny, rung):
+def test_sources_add_up_to_the_recordings_own_level(tiny, rung, tmp_path):
     root, _ = tiny
     one = next(iter(multi_source.cases(1.0, True)))
     kept = sorted((root / "cache").glob("*.npz"))
@@ -265,7 +265,7 @@ def test_sources_add_up_to_the_recordings_own_level(tiny, rung):
     recording = Case(one.scene, one.rpm, one.changes, scale, one.settle, one.duration).recording(
         rung, root / "cache"
     )
-    sources = heard(recording, recording.positions, rung)
+    sources = Ear(recording, rung, tmp_path).sources(recording.positions)
     assert set(sources) == {"inner_ring", "outer_ring", "cage", "balls", "total"}
     # the paper's energy sum, or the coherent one: two ways through the same paths
     assert equivalent(sources["total"]) == pytest.approx(recording.levels(rung=rung), abs=0.01)

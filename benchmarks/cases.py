@@ -89,6 +89,9 @@ QUICK = (Case("7003C-spindle", 20000),)
 
 
 def silent(name: str, **fidelity: str) -> Scene:
-    """Example scene without its sound, with other choices of ``fidelity`` (not checked)."""
-    scene = read_scene(SCENES / f"{name}.toml")
+    """Example scene without its sound, with other choices of ``fidelity`` (not checked) and rigid rings.
+
+    The peers' rings are rigid, too.
+    """
+    scene = read_scene(SCENES / f"{name}.toml").with_rigid_rings()
     return scene.model_copy(update={"sound": None, "fidelity": scene.fidelity.model_copy(update=fidelity)})

@@ -10,7 +10,7 @@ import time
 
 import numpy as np
 
-from benchmarks import exudyn_peer, memory, ours, peers, terms
+from benchmarks import exudyn_peer, memory, ours, peers, sound, terms
 from benchmarks.cases import CASES, QUICK, SOLVERS, Case
 from benchmarks.table import COLUMNS, Row, fill_ratios
 from fmu_bearing.study import table
@@ -103,13 +103,14 @@ rows stand below ours; they are timed over {window:g} ms.
 """
 
 
-def report(rows: list[Row], references, costs, sizes, repeats: int) -> str:
+def report(rows: list[Row], references, costs, sizes, sounds, repeats: int) -> str:
     """Everything as Markdown."""
     text = TEXT.format(machine=machine(), repeats=repeats, window=1e3 * PEER_WINDOW)
     text += table.markdown(COLUMNS, [row.cells() for row in rows])
     text += "\n## References\n\n" + table.markdown(REFERENCE_COLUMNS, references)
     text += "\n## Cost of terms\n\n" + table.markdown(terms.COLUMNS, costs)
-    return text + "\n## Memory of an instance\n\n" + table.markdown(memory.COLUMNS, sizes)
+    text += "\n## Memory of an instance\n\n" + table.markdown(memory.COLUMNS, sizes)
+    return text + "\n## Cost of sound\n\n" + table.markdown(sound.COLUMNS, sounds)
 
 
 def main(arguments: list[str] | None = None) -> None:
@@ -124,14 +125,20 @@ def main(arguments: list[str] | None = None) -> None:
     if not given.quick:
         costs += terms.rows("7009C-full-ceramic", 18000.0, budget, repeats)
     sizes = memory.rows(("7003C-spindle", "7009C-full-ceramic"))
+    rungs = ("compact",) if given.quick else ("compact", "paper", "paper_contacts")
+    sounds = sound.rows("7003C-spindle", rungs, repeats)
+    if not given.quick:
+        sounds += sound.rows("7009C-full-ceramic", ("compact",), repeats)
     print(machine())
     table.show("Simulated s per wall s", COLUMNS, [row.cells() for row in rows])
     table.show("References", REFERENCE_COLUMNS, references)
     table.show("Cost of terms", terms.COLUMNS, costs)
     table.show("Memory of an instance", memory.COLUMNS, sizes)
+    table.show("Cost of sound", sound.COLUMNS, sounds)
     if given.output:
         given.output.mkdir(parents=True, exist_ok=True)
-        (given.output / "benchmark.md").write_text(report(rows, references, costs, sizes, repeats), "utf-8")
+        text = report(rows, references, costs, sizes, sounds, repeats)
+        (given.output / "benchmark.md").write_text(text, "utf-8")
         table.write_csv(given.output / "benchmark.csv", COLUMNS, [row.cells() for row in rows])
 
 

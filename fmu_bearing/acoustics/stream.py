@@ -13,6 +13,7 @@ from fmu_bearing.acoustics.pack import pack
 from fmu_bearing.acoustics.radiators import Air, Housing, Path, Radiators, Ring
 from fmu_bearing.acoustics.rungs import Ladder, Position
 from fmu_bearing.acoustics.table import Table, read_table, select
+from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.engine.sound import places as at
 from fmu_bearing.scene import Scene, si
 
@@ -62,13 +63,14 @@ class Group:
     weights: NDArray[np.float64]
 
 
-def sound_parameters(scene: Scene, modes: Sequence[Any] = ()) -> NDArray[np.float64]:
+def sound_parameters(scene: Scene, modes: Sequence[Any] | None = None) -> NDArray[np.float64]:
     """Sound block of a scene for the kernels in `engine.sound`; empty when the scene has no sound.
 
     Parameters
     ----------
     modes
-        Elastic modes of the rings in the order of the engine's coordinates, two channels each.
+        Elastic modes of the rings in the order of the engine's coordinates, two channels each; by default
+        the scene's.
 
     Raises
     ------
@@ -83,7 +85,7 @@ def sound_parameters(scene: Scene, modes: Sequence[Any] = ()) -> NDArray[np.floa
     return _block(ladder, positions, details=scene.sound.details, thirds=scene.sound.third_octaves)
 
 
-def filter_errors(scene: Scene, modes: Sequence[Any] = ()) -> list[FilterError]:
+def filter_errors(scene: Scene, modes: Sequence[Any] | None = None) -> list[FilterError]:
     """How well the filters of a scene follow their transfer functions, the worst first; empty: no sound.
 
     Raises
@@ -98,7 +100,7 @@ def filter_errors(scene: Scene, modes: Sequence[Any] = ()) -> list[FilterError]:
     return sorted(errors, key=lambda found: -found.error)
 
 
-def ladder_of(scene: Scene, modes: Sequence[Any] = ()) -> Ladder:
+def ladder_of(scene: Scene, modes: Sequence[Any] | None = None) -> Ladder:
     """Return what the paths of a scene with sound depend on besides its microphones.
 
     Raises
@@ -115,7 +117,7 @@ def ladder_of(scene: Scene, modes: Sequence[Any] = ()) -> Ladder:
         table = select(read_table(str(scene.sound.table_file)), scene.microphones, where)
     return Ladder(
         scene.sound.rung, radiators_of(scene), Air(sound.air_density, sound.sound_speed),
-        int(scene.fidelity.ball_harmonics), tuple(modes),
+        int(scene.fidelity.ball_harmonics), ring_modes(scene) if modes is None else tuple(modes),
         None if scene.sound.reflecting_plane_mm is None else sound.reflecting_plane, table,
     )  # fmt: skip
 
@@ -146,6 +148,7 @@ def radiators_of(scene: Scene) -> Radiators:
         cage=cage,
         housing=housing,
         contact_angle=bearing.contact_angle,
+        shaft=scene.mounting.rotor is not None,
         baffle=scene.sound is not None and scene.sound.radiator == "baffle",
     )
 

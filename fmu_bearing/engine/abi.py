@@ -12,6 +12,9 @@ from fmu_bearing.engine.layout import (
     BAD_STEP,
     OK,
     P_LEVEL,
+    P_METHOD,
+    P_MODES,
+    RIGID_ONLY,
     U_INNER_T,
     U_OIL_T,
     U_OUTER_T,
@@ -45,6 +48,8 @@ def init(p, u, s, z, w, t):
     """Put the state to the quasi-static one at the inputs' values and time ``t`` (s); fill the outputs."""
     if not inputs_usable(u) or not math.isfinite(t):
         return BAD_INPUT
+    if p[P_MODES] != 0.0 and (p[P_LEVEL] != 0.0 or p[P_METHOD] == 1.0):
+        return RIGID_ONLY
     if p[P_LEVEL] == 1.0:
         status = start_rings(p, u, s, w, t)
     elif p[P_LEVEL] == 2.0:

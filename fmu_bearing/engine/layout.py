@@ -18,30 +18,15 @@ import numpy as np
 
 from fmu_bearing.engine import modes_layout
 
-STRIDE = 24  # lanes reserved per ball quantity; not a power of two, so rows spread over cache sets
+STRIDE = modes_layout.STRIDE  # lanes per ball quantity: no power of two, so that rows spread over cache sets
 MAX_BALLS = STRIDE
 
 # --- u: inputs -------------------------------------------------------------------------------
 INPUTS = (
-    "shaft_speed",
-    "preload",
-    "pedestal_stiffness",
-    "radial_load.y",
-    "radial_load.z",
-    "oil_temperature",
-    "inner_ring_temperature",
-    "outer_ring_temperature",
-)
-(
-    U_SPEED,
-    U_PRELOAD,
-    U_PEDESTAL,
-    U_LOAD_Y,
-    U_LOAD_Z,
-    U_OIL_T,
-    U_INNER_T,
-    U_OUTER_T,
-) = range(len(INPUTS))
+    "shaft_speed", "preload", "pedestal_stiffness", "radial_load.y", "radial_load.z", "oil_temperature",
+    "inner_ring_temperature", "outer_ring_temperature",
+)  # fmt: skip
+U_SPEED, U_PRELOAD, U_PEDESTAL, U_LOAD_Y, U_LOAD_Z, U_OIL_T, U_INNER_T, U_OUTER_T = range(len(INPUTS))
 
 # --- z: what people read ---------------------------------------------------------------------
 BEARING_OUTPUTS = (
@@ -95,25 +80,10 @@ BEARING_OUTPUTS = (
 )
 Z_BALLS = 48  # ball[j].velocity.x|y|z at Z_BALLS + 3 j
 MIC_OUTPUTS = (
-    "pressure",
-    "spl",
-    "spl_a",
-    "leq",
-    "leq_a",
-    "spl_inner_ring",
-    "spl_outer_ring",
-    "spl_cage",
-    "spl_balls",
-    "spl_fast",
-    "spl_fast_a",
-    "spl_slow",
-    "spl_slow_a",
-    "spl_energy_sum",
-    "spl_radial",
-    "spl_axial",
-    "spl_rotation",
-    "spl_flexure",
-)
+    "pressure", "spl", "spl_a", "leq", "leq_a", "spl_inner_ring", "spl_outer_ring", "spl_cage", "spl_balls",
+    "spl_fast", "spl_fast_a", "spl_slow", "spl_slow_a", "spl_energy_sum", "spl_radial", "spl_axial",
+    "spl_rotation", "spl_flexure",
+)  # fmt: skip
 #: Third octaves: nominal mid-band frequencies in Hz, IEC 61260-1; the exact ones are 10^(n/10).
 BANDS = (
     25.0, 31.5, 40.0, 50.0, 63.0, 80.0, 100.0, 125.0, 160.0, 200.0, 250.0, 315.0, 400.0, 500.0, 630.0, 800.0,
@@ -153,8 +123,8 @@ P_VISCOSITY = 6  # Pa s at the reference temperature
 # --- motion sample handed to the sound kernels ----------------------------------------------------
 # Bodies inner ring, outer ring, cage: velocity, acceleration, angular velocity, angular acceleration
 # in inertial axes (x, y, z), 12 numbers each; then per ball 14 numbers: the same four vectors in the
-# orbiting axes (x, r, theta) - inertial quantities, only resolved there - and cos, sin of the angle; then
-# the second time derivatives (m/s2) of the flexural coordinates, cosine and sine of each mode.
+# orbiting axes (x, r, theta) - inertial quantities, only resolved there - and cos, sin of the angle; then the
+# second time derivatives (m/s2) of the flexural coordinates, two per mode.
 MO_INNER, MO_OUTER, MO_CAGE, MO_BALLS = 0, 12, 24, 36
 MO_PER_BALL = 14
 
@@ -429,7 +399,7 @@ W_LOSS = W_SHAFT + 1  # dissipated per body, and by drag
 W_AXES = W_LOSS + 4  # the balls' body-fixed axes at the state evaluated
 W_ROWS = W_AXES + 3
 W_SCALARS = W_ROWS * STRIDE  # scratch scalars
-STAGES = 6
+STAGES = modes_layout.STAGES
 W_Y = W_SCALARS + 64  # stage state
 W_F = W_Y + Y_SIZE
 W_F0 = W_F + F_SIZE  # unperturbed right-hand side
@@ -441,6 +411,7 @@ W_LAST = W_ACC + (STAGES - 1) * F_SIZE  # accelerations at the end of a step, of
 BLOCK = 8
 W_BLOCK_A = W_VEL + STAGES * F_SIZE
 W_BLOCK_Y = W_BLOCK_A + (BLOCK + 3) * F_SIZE
+W_FLEX = W_BLOCK_A  # flexible rings: never together with one-evaluation steps; see modes_layout
 W_MOTION = W_BLOCK_Y + (BLOCK + 1) * Y_SIZE
 W_G0 = W_MOTION + MO_BALLS + MO_PER_BALL * MAX_BALLS + 2 * modes_layout.MAX_MODES
 W_SOUND = W_G0 + N_BODY * STRIDE
@@ -448,12 +419,12 @@ W_SOUND = W_G0 + N_BODY * STRIDE
 
 def state_size(p):
     """Length of ``s`` for the parameters ``p``."""
-    return S_SOUND + int(p[P_SOUND_STATE]) + modes_layout.state_size(int(p[P_MODES]), STRIDE)
+    return S_SOUND + int(p[P_SOUND_STATE]) + modes_layout.state_size(int(p[P_MODES]))
 
 
 def work_size(p):
     """Length of ``w`` for the parameters ``p``."""
-    return W_SOUND + int(p[P_SOUND_WORK]) + 8 + modes_layout.work_size(int(p[P_MODES]), STRIDE, STAGES)
+    return W_SOUND + int(p[P_SOUND_WORK]) + 8
 
 
 # --- status codes -------------------------------------------------------------------------------------
@@ -463,6 +434,7 @@ BAD_INPUT = 2  # an input is not finite or out of range
 BAD_STEP = 3  # communication step not positive or not finite
 NO_START = 4  # the quasi-static start did not converge
 TOO_SOFT = 5  # the loads push the outer ring sideways by more than 0.3 of the pitch radius
+RIGID_ONLY = 6  # flexible rings, and a level or method that knows rigid ones only
 
 # --- out of the quasi-static equilibrium (solvers/quasistatic.py) ----------------------------------------
 Q5_SHIFT = 0  # x y z by bz of the inner ring against the outer (m, rad)

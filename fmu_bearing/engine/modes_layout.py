@@ -1,5 +1,7 @@
 """Places of the rings' flexure in the flat arrays; see ``layout``. A scene with rigid rings has none."""
 
+STRIDE = 24  # of ``layout``, which takes both numbers from here
+STAGES = 6
 MAX_MODES = 16  # flexural modes of both rings
 
 # --- p: one row of MODE_SIZE numbers per mode ------------------------------------------------------------
@@ -19,13 +21,12 @@ MAX_MODES = 16  # flexural modes of both rings
 MODE_SIZE = 12
 
 # --- s and w ------------------------------------------------------------------------------------------------
-# Flexure of the rings stands behind the sound's part of s and of w, where a scene has any: see flexure_state
-# and flexure_work in mechanics/flexure. In s: places, velocities and accelerations of the coordinates, then
-# what Newton's method keeps of the contacts: per ring 18 rows of the balls' answer to the groove's motion
-# (6 x 3) and 18 of the groove's to the balls' (3 x 6), and four numbers per mode.
+# In s behind the sound's part, see flexure_state in mechanics/flexure: places, velocities and accelerations
+# of the coordinates, then what Newton's method keeps of the contacts: per ring 18 rows of the balls' answer
+# to the groove's motion (6 x 3) and 18 of the groove's to the balls' (3 x 6), and four numbers per mode.
 FACTOR_ROWS = 36
-# In w: rows of the groove's motion under each ball, cosine and sine of the first order, then of each mode's;
-# then flat arrays over the coordinates.
+# In w, from W_FLEX on: rows of the groove's motion under each ball, cosine and sine of the first order, then
+# of each mode's; then flat arrays over the coordinates.
 (
     FR_X,  # displacement, later force on the ring: axial, radial,
     FR_R,
@@ -39,16 +40,14 @@ FACTOR_ROWS = 36
     FR_SIN,
 ) = range(10)
 FLEX_ROWS = 10
-# flat arrays: place, velocity, force, acceleration, Newton increment, then of all stages accelerations and
-# velocities
-FW_Q, FW_V, FW_FORCE, FW_A, FW_D, FW_ACC = range(6)  # FW_VEL follows the stages of FW_ACC
+FLAT = (FLEX_ROWS + 2 * MAX_MODES) * STRIDE
+ARRAY = 2 * MAX_MODES
+# flat arrays: place, velocity, force, acceleration, Newton increment, then accelerations and velocities of
+# all stages
+FW_Q, FW_V, FW_FORCE, FW_A, FW_D, FW_ACC = (FLAT + k * ARRAY for k in range(6))
+FW_VEL = FW_ACC + STAGES * ARRAY
 
 
-def state_size(modes, stride):
+def state_size(modes):
     """Numbers that ``modes`` flexural modes take in ``s``."""
-    return 0 if modes == 0 else 6 * modes + 2 * FACTOR_ROWS * stride + 4 * modes
-
-
-def work_size(modes, stride, stages):
-    """Numbers that ``modes`` flexural modes take in ``w``, for integrators of up to ``stages`` stages."""
-    return 0 if modes == 0 else (FLEX_ROWS + 2 * modes) * stride + (5 + 2 * stages) * 2 * modes
+    return 0 if modes == 0 else 6 * modes + 2 * FACTOR_ROWS * STRIDE + 4 * modes

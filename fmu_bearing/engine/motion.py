@@ -28,13 +28,14 @@ from fmu_bearing.engine.layout import (
     S_TIME,
     S_Y,
     STRIDE,
+    W_FLEX,
     W_LAST,
     W_MOTION,
     W_SOUND,
     W_Y,
     Y_V,
 )
-from fmu_bearing.engine.mechanics.flexure import flat, flexure_state, flexure_work
+from fmu_bearing.engine.mechanics.flexure import flexure_state
 from fmu_bearing.engine.modes_layout import (
     FW_A,
     FW_V,
@@ -122,9 +123,9 @@ def flexure_motion(p, s, w, h, t):
     count = 2 * int(p[P_MODES])
     at = W_MOTION + MO_BALLS + MO_PER_BALL * int(p[P_BALLS])
     old = flexure_state(p)
-    new = flexure_work(p)
-    v = new + flat(p, FW_V)
-    a = new + flat(p, FW_A)
+    new = W_FLEX
+    v = new + FW_V
+    a = new + FW_A
     for i in range(count):
         _, rate = hermite(s[old + count + i], s[old + 2 * count + i], w[v + i], w[a + i], h, t)
         w[at + i] = rate

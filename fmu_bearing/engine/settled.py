@@ -14,6 +14,10 @@ from fmu_bearing.engine.layout import (
     B_VX,
     B_X,
     F_SIZE,
+    J_B,
+    J_C,
+    J_D,
+    N_BODY,
     P_BALLS,
     P_LANES,
     P_MODES,
@@ -26,9 +30,10 @@ from fmu_bearing.engine.layout import (
     W_D,
     W_F,
     W_F0,
+    W_FLEX,
 )
 from fmu_bearing.engine.mechanics.equations import right_hand_side
-from fmu_bearing.engine.mechanics.flexure import flat, flexure_state, flexure_work, show_flexure
+from fmu_bearing.engine.mechanics.flexure import flexure_state, show_flexure
 from fmu_bearing.engine.modes_layout import (
     FW_ACC,
     FW_D,
@@ -57,16 +62,32 @@ def around(p, found, row, j):
 
 
 @kernel
+def hold_orbit(jac):
+    """Take the balls' orbit and spin out of a Jacobian: they neither answer nor act."""
+    for i in range(6):
+        for k in range(9):
+            if i >= 2 or k == 2:
+                for j in range(_S):
+                    jac[J_B + (i * 9 + k) * _S + j] = 0.0
+    for i in range(2 * 34 * _S, 6 * 34 * _S):
+        jac[J_C + i] = 0.0
+    for i in range(N_BODY):
+        for j in range(_S):
+            jac[J_D + (i * 9 + 2) * _S + j] = 0.0
+
+
+@kernel
 def settling(p, c, y, angle, speed, s, w):
     """One round of Newton's method; returns the largest increment (m) it asks for, left in ``w[W_D:]``."""
     lanes = int(p[P_LANES])
     jac = s[S_JAC:S_FAC]
     fac = s[S_FAC:S_FAST]
     kept = s[flexure_state(p) :]
-    own = w[flexure_work(p) :]
+    own = w[W_FLEX:]
     d = w[W_D : W_D + F_SIZE]
     f = w[W_F:W_F0]
     jacobian(p, c, y, angle, speed, 0.0, w, jac)
+    hold_orbit(jac)
     # accelerations over a time of 1 s: the inertia beside the contacts' stiffness is 1e-11 then
     factor(p, jac, 0.0, 1.0, 1.0, fac, w)
     factor_modes(p, jac, fac, y, 0.0, speed, 0.0, 1.0, kept, w)
@@ -74,7 +95,7 @@ def settling(p, c, y, angle, speed, s, w):
     for i in range(F_SIZE):
         d[i] = f[i] if i < 2 * _S else 0.0
     for i in range(2 * int(p[P_MODES])):
-        own[flat(p, FW_ACC) + i] = 0.0
+        own[FW_ACC + i] = 0.0
     solve_modes(p, kept, 0, d, w)
     largest = 0.0
     for j in range(lanes):
@@ -87,7 +108,7 @@ def settling(p, c, y, angle, speed, s, w):
         d[_S + j] = r
         largest = max(largest, abs(x), abs(r))
     for i in range(2 * int(p[P_MODES])):
-        largest = max(largest, abs(own[flat(p, FW_D) + i]))
+        largest = max(largest, abs(own[FW_D + i]))
     return largest
 
 
@@ -111,7 +132,7 @@ def settle(p, c, y, angle, speed, s, w):
         for i in range(2):
             for j in range(lanes):
                 y[i * _S + j] += share * w[W_D + i * _S + j]
-        found = flexure_work(p) + flat(p, FW_D)
+        found = W_FLEX + FW_D
         for i in range(2 * int(p[P_MODES])):
             s[at + i] += share * w[found + i]
         if largest < _SETTLED:

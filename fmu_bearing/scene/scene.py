@@ -52,11 +52,24 @@ class Scene(Part):
             if self.sound.radiator == "housing" and housing is None:
                 yield Conflict("sound.radiator", "needs a table [mounting.housing]")
             yield from self._buried_microphones()
+            if self.sound.reflecting_plane_mm is not None:
+                yield from self._behind_plane(self.sound.reflecting_plane_mm)
+
+    def _behind_plane(self, plane: float) -> Iterator[Conflict]:
+        key = "sound.reflecting_plane_mm"
+        for body, _, low, high in self._envelopes():
+            if low < plane < high:
+                yield Conflict(key, f"cuts the {body}, which reaches from x = {low:g} to {high:g} mm")
+        for place in self.microphones:
+            x = 1e3 * place.position_m[0]
+            if (x - plane) * plane > 0.0:
+                yield Conflict(
+                    key, f"stands between the bearing and microphone '{place.name}' at x = {x:g} mm"
+                )
 
     def _flexure(self) -> Iterator[Conflict]:
         """Yield a level or method that does not carry the bending of the rings."""
-        flexure = self.mounting.flexure
-        if flexure is None or not (flexure.inner_ring or flexure.outer_ring):
+        if not self.bends:
             return
         level, method = self.fidelity.level, self.fidelity.method
         way_out = "or leave out [mounting.flexure]"
@@ -91,6 +104,16 @@ class Scene(Part):
             front = -half - housing.front_face_mm
             yield "housing", housing.diameter_mm / 2.0, front, front + housing.length_mm
         yield "bearing", self.bearing.outside_diameter_mm / 2.0, -half, half
+
+    @property
+    def bends(self) -> bool:
+        """Whether a ring bends."""
+        flexure = self.mounting.flexure
+        return flexure is not None and bool(flexure.inner_ring or flexure.outer_ring)
+
+    def with_rigid_rings(self) -> "Scene":
+        """Return the scene without the bending of its rings."""
+        return self.model_copy(update={"mounting": self.mounting.model_copy(update={"flexure": None})})
 
     @property
     def microphones(self) -> list[Place]:

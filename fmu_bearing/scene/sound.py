@@ -106,7 +106,7 @@ class Sound(Part):
         ge=-_FAR,
         le=_FAR,
         examples=[-100.0],
-        description="Place of a rigid plane across the bearing axis, mm; absent: free field.",
+        description="Place of a rigid plane across the bearing axis (absent: free field), mm.",
     )
     table_file: str | None = Field(
         default=None,

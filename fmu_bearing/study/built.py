@@ -14,6 +14,12 @@ Solver = tuple[str, str]  # level, method
 DEFAULT: Solver = ("full", "esdirk4")
 
 
+def carries(scene: Scene, solver: Solver) -> bool:
+    """Whether a level and method carry what the scene models: bending needs level full, not by ``fast``."""
+    level, method = solver
+    return not scene.bends or (level == "full" and method != "fast")
+
+
 def absent(scene: Scene, solvers: Iterable[Solver], settle: float = 0.02) -> dict[Solver, str]:
     """Return those of ``solvers`` that cannot be had for a scene, with the reason.
 
@@ -24,6 +30,9 @@ def absent(scene: Scene, solvers: Iterable[Solver], settle: float = 0.02) -> dic
     found: dict[Solver, str] = {}
     for solver in dict.fromkeys(solvers):
         if solver == DEFAULT:
+            continue
+        if not carries(scene, solver):
+            found[solver] = "knows rigid rings only"
             continue
         try:
             if np.array_equal(_rings(scene, solver, settle), plain):

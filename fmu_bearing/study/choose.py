@@ -32,7 +32,7 @@ from fmu_bearing.engine.jit import cache_directory, source_hash
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.study.arrays import Refused
-from fmu_bearing.study.built import absent
+from fmu_bearing.study.built import absent, carries
 from fmu_bearing.study.figures import Errors, errors, measure
 from fmu_bearing.study.table import number
 
@@ -61,12 +61,6 @@ class Candidate:
             tolerance=min(self.tolerance, fidelity.tolerance),
             max_internal_step_us=min(1e6 * self.max_step, fidelity.max_internal_step_us),
         )
-
-    def carries(self, scene: Scene) -> bool:
-        """Whether this way carries what the scene models: level full bends rings, but not by ``fast``."""
-        flexure = scene.mounting.flexure
-        rigid = flexure is None or not (flexure.inner_ring or flexure.outer_ring)
-        return rigid or (self.level == "full" and self.method != "fast")
 
 
 CANDIDATES = (
@@ -199,7 +193,7 @@ def choose(
         If level ``full`` itself is refused.
     """
     sound = np.empty(0) if scene.sound is None else sound_parameters(scene)
-    candidates = [candidate for candidate in candidates if candidate.carries(scene)]
+    candidates = [c for c in candidates if carries(scene, (c.level, c.method))]
     finest = FINEST.scene(scene)
     truth = measure(finest, sound, warm_up, window, budget=budget)
     lacking = absent(scene, [(c.level, c.method) for c in candidates], warm_up)

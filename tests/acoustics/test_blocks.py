@@ -134,6 +134,14 @@ def test_length_grows_with_the_ringing_and_between_the_grid():
     assert found == sorted(found) and found[-1] >= 256
 
 
+def test_sound_that_no_filter_follows_is_refused_in_words(ringing):
+    """A ring of 20 ms is longer than 1024 taps: one line with body, place, what is off and the way out."""
+    ringing(decay=0.02)
+    message = r"sound of the outer ring at \(0, 105, 0\) mm: it is off by .* dB, allowed are -40; move that"
+    with pytest.raises(ValueError, match=message):
+        build("bem", SMALL, Air(), PAPER_POINTS)
+
+
 @pytest.mark.parametrize("levels", [(), (16,), (16, 128)])
 def test_state_carries_everything_with_blocks(levels, ringing):
     """Saved in the middle of a block, spoilt work space, restored: bit for bit, however it is cut."""

@@ -254,7 +254,8 @@ def test_table_makes_the_sound_of_its_transfer_functions(tmp_path):
     for mic in range(4):
         a, b = lines(found[:, mic], tones), lines(expected[:, mic], tones)
         assert np.max(np.abs(a - b)) < 10 ** (-45 / 20) * np.max(np.abs(b))
-    assert np.max(np.abs(lines(found[:, 0], [7000.0]))) > 1e-8  # the ball's harmonic is heard too
+    loudest = max(abs(lines(found[:, mic], [7000.0])[0]) for mic in range(4))
+    assert loudest > 1e-8  # the ball's harmonic is heard too
 
 
 GOOD = {

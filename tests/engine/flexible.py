@@ -50,13 +50,12 @@ class Flexure:
 
     def __init__(self, p, w):
         self.count = 2 * int(p[at.P_MODES])
-        self.first = at.W_SOUND + int(p[at.P_SOUND_WORK]) + 8 + (places.FLEX_ROWS + self.count) * S
         self.kept = at.S_SOUND + int(p[at.P_SOUND_STATE])
         self.w = w
 
-    def array(self, number):
-        """One flat array over the coordinates."""
-        begin = self.first + number * self.count
+    def array(self, place):
+        """One flat array over the coordinates, by its place in ``modes_layout``."""
+        begin = at.W_FLEX + place
         return self.w[begin : begin + self.count]
 
     def state(self, s):

@@ -28,11 +28,13 @@ def wavy_balls(p, amplitudes, seed=5):
 class Run:
     """A bearing on bare arrays: parameters from a scene without sound, inputs at will.
 
-    ``modes``: rows of the table of flexural modes, in place of the scene's.
+    Rings are rigid but for ``modes``, rows of the table of flexural modes, or ``bends``: the scene's own.
     """
 
-    def __init__(self, scene, rpm, preload=None, pedestal=None, ball_waves=None, modes=None, **parameters):
-        self.p = pack(scene, np.empty(0))
+    def __init__(
+        self, scene, rpm, preload=None, pedestal=None, ball_waves=None, modes=None, bends=False, **parameters
+    ):
+        self.p = pack(scene if bends else scene.with_rigid_rings(), np.empty(0))
         if ball_waves is not None:
             self.p = wavy_balls(self.p, ball_waves)
         if modes is not None:

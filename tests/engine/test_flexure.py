@@ -7,15 +7,17 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from fmu_bearing.elastic.modes import ring_modes
+from fmu_bearing.engine import abi
 from fmu_bearing.engine import layout as at
 from fmu_bearing.engine import modes_layout as places
 from fmu_bearing.engine.motion import flexure_motion
-from fmu_bearing.instance import Instance
+from fmu_bearing.instance import REASONS, Instance
 from fmu_bearing.prepare.flexure import groove_centre, longest_step, mode_table
 from fmu_bearing.prepare.model import pack, prepare
 from fmu_bearing.scene import SceneError
 from fmu_bearing.scene.mounting import Flexure as Bending
 from fmu_bearing.scene.read import with_fidelity
+from fmu_bearing.study.built import carries
 from fmu_bearing.study.choose import CANDIDATES
 from tests.engine.flexible import FirstOrder, Flexure, shaken, thin_ring, untouched
 from tests.engine.helpers import RPM, Run, quiet
@@ -168,7 +170,8 @@ def test_free_mode_rings_at_its_frequency(scene, method, bent):
         values.append(flexure.state(run.s)[0].copy())
     values = np.array(values)
     assert peak(values[:, 0], h, 2e3, 12e3) == pytest.approx(6640.0, rel=bent)
-    assert np.abs(values[:, 1]).max() < 1e-12  # the outer ring does not spin: nothing couples the two
+    # the outer ring hardly turns on its pedestal: nothing couples the two
+    assert np.abs(values[:, 1]).max() < 1e-4 * 1e-6
     envelope = np.abs(values[:16, 0]).max() / np.abs(values[-16:, 0]).max()
     # damping ratio 0.01; the methods add up to 5e-4
     assert np.log(envelope) / (2 * np.pi * 6640.0 * 144 * h) == pytest.approx(0.01, rel=0.12)
@@ -189,28 +192,55 @@ def linear_modes(problem):
     masses = v.sum(0)
     balls = np.abs(vectors[3 * problem.balls : 5 * problem.balls]) ** 2
     rings = np.abs(vectors[9 * problem.balls + 17 : 9 * problem.balls + 25]) ** 2
-    share = masses / (masses + 0.05 * balls.sum(0) + rings.sum(0))
+    share = masses / (masses + 0.05 * balls.sum(0) + rings.sum(0) + 1e-300)
     return values.imag / (2 * np.pi), share
 
 
-def test_contacts_stiffen_the_outer_ring(scene):
-    """7003C, 500 N at standstill: the outer ring's n = 2 goes from 6.6 to about 10.8 kHz."""
-    flexible = bending(quiet(scene(SCENE)), outer=(2,))
-    run = Run(flexible, 0, preload=500.0, **FRICTIONLESS, P_DRAG=0.0, P_GRAVITY=0.0).init()
+def loose(run):
+    """Frequencies (Hz) of the run's linearised bearing in which its rings bend."""
     frequencies, share = linear_modes(FirstOrder(run))
-    up = frequencies > 5e3
-    main = frequencies[up][np.argmax(share[up])]
-    assert main == pytest.approx(10.8e3, rel=0.05)
+    return np.sort(frequencies[(frequencies > 5e3) & (share > 0.5)])
+
+
+def test_contacts_stiffen_the_outer_ring(scene):
+    """7003C, 500 N at standstill: between balls on a round inner ring, in closed form.
+
+    Twelve light balls, two springs in series each at the loaded angle: N/2 cos^2 a k_i k_o/(k_i + k_o).
+    """
+    flexible = bending(quiet(scene(SCENE)), outer=(2,))
+    run = Run(flexible, 0, preload=500.0, bends=True, **FRICTIONLESS, P_DRAG=0.0, P_GRAVITY=0.0).init()
+    row = run.p[int(run.p[at.P_AT_MODES]) :]
+    load = run.value("contact.outer.load_mean")
+    springs = [
+        1.5 * run.p[at.P_RACES + k * at.RACE_SIZE + at.RACE_STIFFNESS] ** (2 / 3) * load ** (1 / 3)
+        for k in range(2)
+    ]
+    angle = run.value("contact.outer.angle_mean")
+    contacts = 6.0 * np.cos(angle) ** 2 / (1 / springs[0] + 1 / springs[1])
+    wanted = np.sqrt((row[places.MODE_STIFFNESS] + contacts) / row[places.MODE_MASS]) / (2 * np.pi)
+    # the balls' mass, 1 % of the ring's, and the turn of the contact angle are left out
+    np.testing.assert_allclose(loose(run), wanted, rtol=0.01)
+    assert np.abs(Flexure(run.p, run.w).state(run.s)[0]).max() < 1e-11  # twelve equal balls bend no n = 2
+
+
+def test_both_rings_bend_together(scene):
+    """7003C, 500 N at standstill: the outer ring's n = 2 goes from 6.6 to about 10.8 kHz.
+
+    So an independent prototype, whose section and shape differ in detail (assumed 6 %); with the inner ring
+    round it would go to 18.4 kHz.
+    """
+    flexible = bending(quiet(scene(SCENE)), inner=(2,), outer=(2,))
+    run = Run(flexible, 0, preload=500.0, bends=True, **FRICTIONLESS, P_DRAG=0.0, P_GRAVITY=0.0).init()
+    found = loose(run)
+    assert found[0] == pytest.approx(10.8e3, rel=0.06)
     # the same out of the engine's own motion
     flexure = Flexure(run.p, run.w)
-    rest = flexure.state(run.s).copy()
-    flexure.state(run.s)[1] += 1e-4, 0.0
+    flexure.state(run.s)[1] += 0.0, 0.0, 1e-4, 0.0
     h, values = 1e-5, []
     for _ in range(300):
         assert run.step(h) == at.OK
-        values.append(flexure.state(run.s)[1, 0])
-    assert np.abs(rest[0]).max() < 1e-11  # n = 2 of twelve equal balls: no static bending
-    assert peak(np.array(values), h, 5e3, 2e4) == pytest.approx(main, rel=0.02)
+        values.append(flexure.state(run.s)[1, 2])
+    assert peak(np.array(values), h, 5e3, 2e4) == pytest.approx(found[0], rel=0.01)
 
 
 @pytest.mark.parametrize(("race", "order"), [(0, 10), (0, 14), (1, 14), (1, 22)])
@@ -287,13 +317,12 @@ def test_energy_over_a_run(scene, method):
 def test_rings_start_bent_by_their_loads(scene):
     """Under radial load the outer ring bends towards the loaded side, and hardly moves at first."""
     flexible = bending(quiet(scene(SCENE)), outer=(2, 3))
-    run = Run(flexible, 10000, preload=300.0, P_GRAVITY=0.0)
+    run = Run(flexible, 10000, preload=300.0, bends=True, P_GRAVITY=0.0)
     run.u[at.U_LOAD_Z] = -400.0
     run.init()
     flexure = Flexure(run.p, run.w)
     start, _, accelerations = flexure.state(run.s).copy()
     assert start[0] > 1e-7  # n = 2 outwards at 6 o'clock, and at 12
-    assert start[2] < -1e-8  # n = 3 outwards at 6 o'clock
     rows = run.p[int(run.p[at.P_AT_MODES]) :][: 2 * places.MODE_SIZE].reshape(2, -1)
     free = rows[:, places.MODE_STIFFNESS] / rows[:, places.MODE_MASS]
     # what a start without bending would begin with: 1e2 of what is left here
@@ -322,7 +351,7 @@ def test_rigid_rings_carry_nothing(scene):
     np.testing.assert_array_equal(without, with_empty)
     assert at.state_size(without) == at.S_SOUND
     assert at.work_size(without) == at.W_SOUND + 8
-    runs = [Run(one, 20000).init() for one in (rigid, listed)]
+    runs = [Run(one, 20000, bends=True).init() for one in (rigid, listed)]
     np.testing.assert_array_equal(*(run.run(2e-3, 1e-3) for run in runs))
 
 
@@ -407,8 +436,17 @@ def test_what_knows_rigid_rings_only_is_refused(scene, values, key):
 def test_level_auto_leaves_out_what_cannot_bend(scene):
     rigid = quiet(scene(SCENE))
     flexible = bending(rigid, outer=(2,))
-    assert all(candidate.carries(rigid) for candidate in CANDIDATES)
-    left = [candidate for candidate in CANDIDATES if candidate.carries(flexible)]
+    assert all(carries(rigid, (c.level, c.method)) for c in CANDIDATES)
+    left = [c for c in CANDIDATES if carries(flexible, (c.level, c.method))]
     assert left
     assert {(c.level, c.method) for c in left} == {("full", "esdirk4")}
     with_fidelity(flexible, level="auto", method="fast")  # the candidates bring their own methods
+
+
+@pytest.mark.parametrize("values", [{"P_LEVEL": 1.0}, {"P_LEVEL": 2.0}, {"P_METHOD": 1.0}])
+def test_the_engine_refuses_them_too(scene, values):
+    run = Run(scene(SCENE), 20000, modes=MODES, **values)
+    before = run.s.copy()
+    assert abi.init(run.p, run.u, run.s, run.z, run.w, 0.0) == at.RIGID_ONLY
+    np.testing.assert_array_equal(run.s, before)
+    assert at.RIGID_ONLY in REASONS

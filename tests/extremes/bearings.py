@@ -17,8 +17,11 @@ RINGS = [f"{ring}_ring.velocity.{axis}" for ring in ("inner", "outer") for axis 
 
 
 def edited(name: str, changes: dict) -> Scene:
-    """Scene ``name`` of the examples with ``table.table.key`` replaced, held against the scene's rules."""
-    data = read_scene(SCENES / f"{name}.toml").model_dump()
+    """Scene ``name`` of the examples with ``table.table.key`` replaced, held against the scene's rules.
+
+    Rings are rigid unless ``changes`` give ``mounting.flexure``.
+    """
+    data = read_scene(SCENES / f"{name}.toml").with_rigid_rings().model_dump()
     for path, value in changes.items():
         *tables, key = path.split(".")
         table = data

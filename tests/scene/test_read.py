@@ -87,7 +87,38 @@ def test_a_catalogue_name_fills_what_the_file_leaves_out():
         ("preload_N = 500.0", "preload_N = inf", ["mounting.preload_N = inf", "allowed: 0 to 10000"]),
         ("preload_N = 500.0", 'preload_N = "x"', ["mounting.preload_N = 'x'", "allowed: 0 to 10000"]),
         ("= 1e8 #", "= 0 #", ["mounting.pedestal_stiffness_N_m = 0", "allowed: 10000 to 1e+12"]),
-        ('rung = "compact"', 'rung = "bem"', ["sound.rung = 'bem'", "allowed: paper, compact"]),
+        ('rung = "compact"', 'rung = "fem"', ["sound.rung = 'fem'", "allowed: paper, paper_vector"]),
+        ('rung = "compact"', 'rung = "table"', ["sound.table_file is missing", '"housing.npz"']),
+        (
+            'rung = "compact"',
+            'rung = "compact"\ntable_file = "a.npz"',
+            ["sound.table_file = 'a.npz' is read", 'rung "table" only'],
+        ),
+        (
+            'radiator = "bare"',
+            'radiator = "baffle"',
+            ["sound.radiator = 'baffle' needs", 'rung = "bem"', 'rung "compact" knows no rigid planes'],
+        ),
+        (
+            'radiator = "bare"',
+            'radiator = "bare"\nreflecting_plane_mm = -50.0',
+            ["sound.reflecting_plane_mm = -50.0 needs", 'rung = "bem"'],
+        ),
+        (
+            'rung = "compact"',
+            'rung = "bem"\nreflecting_plane_mm = -50.0',
+            ["sound.reflecting_plane_mm = -50.0 stands between", "microphone 'P4' at x = -80.5 mm"],
+        ),
+        (
+            'rung = "compact"',
+            'rung = "bem"\nreflecting_plane_mm = 4.0',
+            ["sound.reflecting_plane_mm = 4.0 cuts the bearing", "x = -5 to 5 mm"],
+        ),
+        (
+            "third_octaves = false",
+            "third_octaves = 1",
+            ["sound.third_octaves = 1", "true or false"],
+        ),
         ("[mounting]", "[mountin]", ["did you mean 'mounting'?", "mounting is missing"]),
         ("ball_diameter_mm = 4.5", "ball_diameter_mm = 9.0", ["ball_count = 12 does not fit", "at most 8"]),
         ("z_mm = 105.0", "z_mm = 1.0", ["microphone 'P3'", "inside the bearing", "r = 17.5 mm"]),
@@ -120,9 +151,14 @@ def test_scenes_are_frozen(scene):
         scene("7003C-bare").bearing.bore_mm = 18.0
 
 
-def test_sound_that_no_filter_follows_is_refused_in_words():
-    far = text().replace('rung = "compact"', 'rung = "paper"').replace("y_mm = 105.0", "y_mm = 10000.0")
-    with pytest.raises(
-        SceneError, match=r"7003C-bare: no filter .* at \(0, 10000, 0\) mm.*move that microphone"
-    ):
-        prepare(read_scene_text(far))
+def test_a_table_is_sought_beside_the_scene(tmp_path):
+    """Its path counts from the scene file, and one that is not there is refused in one line."""
+    new = text().replace('rung = "compact"', 'rung = "table"\ntable_file = "sub/housing.npz"')
+    file = tmp_path / "scene.toml"
+    file.write_text(new, "utf-8")
+    found = read_scene(file)
+    assert found.sound.table_file == str((tmp_path / "sub" / "housing.npz").resolve())
+    assert read_scene_text(found.to_toml()) == found
+    with pytest.raises(SceneError, match="table_file .*housing.npz: there is no such file") as refusal:
+        prepare(found)
+    assert len(str(refusal.value).splitlines()) == 1

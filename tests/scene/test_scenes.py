@@ -239,8 +239,8 @@ def test_cylindrical_places(theta, r, length):
     x, y, z = cylindrical(theta, r, length)
     assert x == length / 1e3
     # sine and cosine are rounded at 15 decimals
-    assert y == pytest.approx(-r / 1e3 * math.sin(math.radians(theta)), abs=2e-15 * r)
-    assert z == pytest.approx(r / 1e3 * math.cos(math.radians(theta)), abs=2e-15 * r)
+    assert y == pytest.approx(-r / 1e3 * math.sin(math.radians(theta)), abs=2e-15 * r + 1e-300)
+    assert z == pytest.approx(r / 1e3 * math.cos(math.radians(theta)), abs=2e-15 * r + 1e-300)
 
 
 def test_both_ways_to_give_a_place():

@@ -1,9 +1,9 @@
 """The bodies of revolution that a bearing shows to the air.
 
 ``bare``: both rings and the cage, each free in space; where a rotor is mounted, its shaft fills the inner
-ring's bore, flush with the ring. ``housing``: outer ring and housing are one body with an open front, the
-inner ring sits on a shaft stub that ends flush with the housing's front face; behind the bearing the bore is
-closed half a bearing width further back (assumed: seals and spacers are not modelled). ``baffle``: the rings'
+ring's bore, flush with the ring. ``housing``: outer ring and housing move together, the inner ring sits on a
+shaft stub that ends flush with the housing's front face; the slot between the rings is open to the front and
+closed where the bearing ends (assumed: seals and spacers are not modelled). ``baffle``: the rings'
 front faces lie flush in an infinite rigid wall, the gap between them is closed (assumed), balls and cage
 are not heard.
 
@@ -17,7 +17,6 @@ import numpy as np
 from fmu_bearing.acoustics.bem.meridian import Body, cylinder, ring
 from fmu_bearing.acoustics.radiators import CAGE, INNER, OUTER, Radiators
 
-_FLOOR = 0.5  # of the bearing's width: depth of the closed room behind the bearing
 _TOUCH = 1e-5  # m: bodies closer than this count as touching
 _SAMPLES = 40  # along each side, when looking for bodies that intersect
 
@@ -41,8 +40,6 @@ def bodies_of(radiators: Radiators) -> list[Body]:
     found = []
     if radiators.housing is not None:
         found.append(_housing(radiators))
-        front = radiators.housing.centre - 0.5 * radiators.housing.length
-        found.append(_stub(inner.outer, inner.inner, half, min(front, -half)))
     else:
         found.append(ring("outer ring", OUTER, outer.outer, outer.inner, -half, half))
         if radiators.shaft:
@@ -63,50 +60,35 @@ def _face(name: str, component: int, outer: float, inner: float, x: float) -> Bo
 
 
 def _housing(radiators: Radiators) -> Body:
-    """Outer ring and housing: a cylinder with a stepped bore, open towards -X."""
-    housing, outer = radiators.housing, radiators.outer_ring
+    """Return housing, outer ring, inner ring and shaft stub as one body with a slot open towards -X."""
+    housing, outer, inner = radiators.housing, radiators.outer_ring, radiators.inner_ring
     assert housing is not None
     half = 0.5 * outer.width
     front, rear = housing.centre - 0.5 * housing.length, housing.centre + 0.5 * housing.length
-    floor = half + _FLOOR * outer.width
-    if front > half or rear <= floor:
+    if front > half or rear <= half:
         raise ValueError(
-            f"the housing from x = {1e3 * front:g} to {1e3 * rear:g} mm does not hold the bearing and the "
-            f"room behind it, x = {-1e3 * half:g} to {1e3 * floor:g} mm: change "
-            "mounting.housing.front_face_mm or length_mm"
+            f"the housing from x = {1e3 * front:g} to {1e3 * rear:g} mm does not hold the bearing, "
+            f"x = {-1e3 * half:g} to {1e3 * half:g} mm: change mounting.housing.front_face_mm or length_mm"
         )
     corners = [
-        (floor, 0.0),
-        (floor, 0.5 * outer.inner),
-        (-half, 0.5 * outer.inner),
-        (-half, 0.5 * outer.outer),
-        (front, 0.5 * outer.outer),
-        (front, 0.5 * housing.diameter),
-        (rear, 0.5 * housing.diameter),
-        (rear, 0.0),
+        ((min(front, -half), 0.0), INNER),
+        ((min(front, -half), 0.5 * inner.inner), INNER),
+        ((-half, 0.5 * inner.inner), INNER),
+        ((-half, 0.5 * inner.outer), INNER),
+        ((half, 0.5 * inner.outer), OUTER),
+        ((half, 0.5 * outer.inner), OUTER),
+        ((-half, 0.5 * outer.inner), OUTER),
+        ((-half, 0.5 * outer.outer), OUTER),
+        ((front, 0.5 * outer.outer), OUTER),
+        ((front, 0.5 * housing.diameter), OUTER),
+        ((rear, 0.5 * housing.diameter), OUTER),
     ]
-    return _contour("housing", OUTER, corners)
-
-
-def _stub(outer: float, bore: float, half: float, front: float) -> Body:
-    """Inner ring on a shaft that ends at x = ``front``; diameters in m."""
-    corners = [
-        (front, 0.0),
-        (front, 0.5 * bore),
-        (-half, 0.5 * bore),
-        (-half, 0.5 * outer),
-        (half, 0.5 * outer),
-        (half, 0.0),
-    ]
-    return _contour("inner ring", INNER, corners)
-
-
-def _contour(name: str, component: int, corners: list[tuple[float, float]]) -> Body:
-    """Body of one component; corners that coincide are one."""
-    kept = [corners[0]] + [
-        b for a, b in itertools.pairwise(corners) if np.hypot(b[0] - a[0], b[1] - a[1]) > 1e-9
-    ]
-    return Body(name, np.array(kept), (component,) * (len(kept) - 1))
+    contour, sides = [(rear, 0.0)], list[int]()
+    for corner, component in reversed(corners):
+        if np.hypot(corner[0] - contour[0][0], corner[1] - contour[0][1]) > 1e-9:
+            contour.insert(0, corner)
+            sides.insert(0, component)
+    return Body("housing", np.array(contour), tuple(sides))
 
 
 def _check_apart(one: Body, other: Body) -> None:

@@ -78,10 +78,10 @@ def _side(x, r, ends, normal, from_, to, smallest, flat, rule, nodes, orders, wo
         edge = inner
 
 
-@numba.njit(nogil=True, error_model="numpy", parallel=True, cache=True)
+@numba.njit(nogil=True, error_model="numpy", cache=True)
 def _static(points, own, ends, normals, far_rule, near_rule, nodes, orders, out):
     """Fill ``out`` (4, points, elements, NODES, orders) with the closed parts."""
-    for i in numba.prange(len(points)):
+    for i in range(len(points)):
         work = np.zeros((5, orders + 2))
         x = points[i, 0]
         r = points[i, 1]
@@ -102,12 +102,12 @@ def _static(points, own, ends, normals, far_rule, near_rule, nodes, orders, out)
             _side(x, r, ends[e], normals[e], t, 1.0, smallest, flat, near_rule, nodes, orders, work, block)
 
 
-@numba.njit(nogil=True, error_model="numpy", parallel=True, cache=True)
+@numba.njit(nogil=True, error_model="numpy", cache=True)
 def _remainder(points, own, ends, normals, rule, basis, cosines, k, out):
     """Add the smooth parts of order m to ``out`` (2, orders, points, elements * NODES), complex."""
     orders = out.shape[1]
     turns = cosines.shape[1]  # two rows at least: the second is cos(phi) itself
-    for i in numba.prange(len(points)):
+    for i in range(len(points)):
         sums = np.zeros((4, orders))
         x = points[i, 0]
         r = points[i, 1]

@@ -6,18 +6,22 @@ along x, r and theta.
 """
 
 import hashlib
+import itertools
 import os
 import pathlib
 import sys
 import zipfile
 from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from rich.console import Console
 from rich.progress import Progress
+from threadpoolctl import threadpool_limits
 
 from fmu_bearing.acoustics.bem.meridian import Body, Mesh
 from fmu_bearing.acoustics.bem.solver import ROUGHNESS_FACTOR, Scatterer, orbit_dipoles, wall_admittance
@@ -27,12 +31,16 @@ Complex = NDArray[np.complex128]
 
 BODIES = 3  # inner ring, outer ring, cage
 AXIAL, RADIAL, TILT = 0, BODIES, 2 * BODIES  # first drive of each kind
-_PER_WAVELENGTH = 8.0  # elements, two unknowns each
+_PER_WAVELENGTH = 6.0  # elements, two unknowns each
 _GAP_ELEMENTS = 0.4  # longest element in a gap over the thickness of the thinnest ring
 
 
-#: Frequencies (Hz) solved in any case; between them, intervals are halved where interpolation fails.
-BASE_FREQUENCIES = (20.0, 50.0, 100.0, 200.0, 350.0, 500.0, 750.0, *np.arange(1000.0, 20_001.0, 1000.0))
+#: Frequencies (Hz) solved in any case, one band per mesh: low frequencies need fewer elements. Between them,
+#: intervals are halved where interpolation fails.
+BASE_FREQUENCIES = (
+    (20.0, 50.0, 100.0, 200.0, 350.0, 500.0, 750.0, *np.arange(1000.0, 6001.0, 1000.0)),
+    tuple(np.arange(6000.0, 20_001.0, 1000.0)),
+)
 # Largest error of the cubic at the middle of an interval. The middle is then added, which makes the error of
 # what is used about sixteen times smaller: -58 dB.
 _INTERPOLATION = 2e-2
@@ -122,8 +130,8 @@ def drives(task: Task, mesh: Mesh) -> list[tuple[int, NDArray[np.float64]]]:
     return found
 
 
-class Solution:
-    """Surface pressures of a task over frequency, and fields computed from them.
+class Band:
+    """Surface pressures of a task over one band of frequencies, on one mesh, and fields computed from them.
 
     Attributes
     ----------
@@ -133,12 +141,12 @@ class Solution:
         Pressures (Pa per unit of each drive) at `points`.
     """
 
-    def __init__(self, task: Task) -> None:
+    def __init__(self, task: Task, base: Sequence[float]) -> None:
         self.task = task
-        self._scatterer = task.scatterer(BASE_FREQUENCIES[-1])
+        self._scatterer = task.scatterer(base[-1])
         self._drives = drives(task, self._scatterer.mesh)
         self._balls = task.harmonics + 1 if task.orbit > 0.0 else 0
-        self.frequencies = np.array(BASE_FREQUENCIES)
+        self.frequencies = np.array(base)
         self.surface = np.zeros((len(self.frequencies), self.count, self._scatterer.mesh.size), dtype=complex)
 
     @property
@@ -196,27 +204,32 @@ class Solution:
                     result[:, i, f] = direct[axis, order] + double[order] @ self.surface[f, i]
         return result
 
-    def refine(self, solved: Callable[[int], None] = lambda count: None) -> None:
+    def refine(self, solved: Callable[[int], None] = lambda left: None) -> None:
         """Solve the base frequencies, then halve intervals until the cubic through neighbours fits.
 
-        ``solved`` is called with the number of frequencies still known to be open.
+        ``solved`` is called after each frequency with the number still known to be open. Frequencies are
+        shared among the machine's cores; the result does not depend on how many there are.
         """
-        for f, frequency in enumerate(BASE_FREQUENCIES):
-            self.surface[f] = self.solve(frequency)
-            solved(2 * len(BASE_FREQUENCIES) - f)
-        lengths = np.diff(self.frequencies)
-        open_ = [(float(f), float(f + w)) for f, w in zip(self.frequencies, lengths, strict=False)]
-        while open_:
-            low, high = open_.pop(0)
-            middle = 0.5 * (low + high)
-            found = self.solve(middle)
-            wide = high - low > 2.0 * _NARROWEST
-            if wide and self._missed(middle, found) > _INTERPOLATION:
-                open_ += [(low, middle), (middle, high)]
-            place = int(np.searchsorted(self.frequencies, middle))
-            self.frequencies = np.insert(self.frequencies, place, middle)
-            self.surface = np.insert(self.surface, place, found, axis=0)
-            solved(len(open_))
+        with threadpool_limits(1), ThreadPoolExecutor() as pool:
+            for f, found in enumerate(pool.map(self.solve, self.frequencies)):
+                self.surface[f] = found
+                solved(2 * len(self.frequencies) - f)
+            ends = self.frequencies.tolist()
+            open_ = list(itertools.pairwise(ends))
+            while open_:
+                middles = [0.5 * (low + high) for low, high in open_]
+                halved = []
+                surfaces = []
+                for k, found in enumerate(pool.map(self.solve, middles)):
+                    low, high = open_[k]
+                    if high - low > 2.0 * _NARROWEST and self._missed(middles[k], found) > _INTERPOLATION:
+                        halved += [(low, middles[k]), (middles[k], high)]
+                    surfaces.append(found)
+                    solved(len(open_) - k + len(halved))
+                order = np.argsort(np.concatenate([self.frequencies, middles]))
+                self.frequencies = np.concatenate([self.frequencies, middles])[order]
+                self.surface = np.concatenate([self.surface, surfaces])[order]
+                open_ = halved
 
     def _missed(self, frequency: float, found: Complex) -> float:
         """Largest error of the cubic through the four nearest frequencies, over each drive's own size."""
@@ -240,6 +253,34 @@ class Solution:
 
     def _wavenumber(self, frequency: float) -> float:
         return 2.0 * np.pi * float(frequency) / self.task.sound_speed
+
+
+class Solution:
+    """A task solved in all bands, and the fields anywhere in the air."""
+
+    def __init__(self, task: Task) -> None:
+        self.task = task
+        self.bands = [Band(task, base) for base in BASE_FREQUENCIES]
+
+    @property
+    def frequencies(self) -> NDArray[np.float64]:
+        """Hz, rising, shape (n,)."""
+        return np.concatenate([band.frequencies[i > 0 :] for i, band in enumerate(self.bands)])
+
+    @property
+    def points(self) -> NDArray[np.float64]:
+        """Points (x, r) on the skins in m, shape (nodes, 2)."""
+        return self.bands[-1].points
+
+    def ball_drive(self, order: int, axis: int) -> int:
+        """Place of the balls' drive of a circumferential order along x (0), r (1) or theta (2)."""
+        return self.bands[0].ball_drive(order, axis)
+
+    def field(self, points: NDArray[np.float64]) -> Complex:
+        """Pressures (Pa per unit of each drive) at points (x, r), shape (points, drives, frequencies)."""
+        # the first frequency of a band is the last of the one below, which has the coarser mesh
+        parts = [band.field(points)[:, :, i > 0 :] for i, band in enumerate(self.bands)]
+        return np.concatenate(parts, axis=2)
 
 
 @lru_cache(maxsize=4)
@@ -269,35 +310,38 @@ def solution(task: Task) -> Solution:
 def _solve_all(found: Solution) -> None:
     console = Console(file=sys.stderr)
     with Progress(console=console, transient=True, disable=not console.is_terminal) as progress:
-        bar = progress.add_task("radiation of the bodies", total=2 * len(BASE_FREQUENCIES))
-        done = 0
+        for i, band in enumerate(found.bands):
+            words = f"radiation of the bodies, band {i + 1} of {len(found.bands)}"
+            bar = progress.add_task(words, total=None)
 
-        def moved(left: int) -> None:
-            nonlocal done
-            done += 1
-            progress.update(bar, completed=done, total=done + left)
+            def moved(left: int, bar=bar) -> None:
+                done = progress.tasks[bar].completed + 1
+                progress.update(bar, completed=done, total=done + left)
 
-        found.refine(moved)
+            band.refine(moved)
 
 
 def _load(path: pathlib.Path, found: Solution) -> bool:
     try:
         with np.load(path) as kept:
-            frequencies, surface = kept["frequencies"], kept["surface"]
+            tables = [(kept[f"frequencies{i}"], kept[f"surface{i}"]) for i in range(len(found.bands))]
     except (OSError, ValueError, EOFError, KeyError, zipfile.BadZipFile):
         return False  # absent or damaged: solve anew
-    if surface.shape != (len(frequencies), *found.surface.shape[1:]) or not np.isfinite(surface).all():
-        return False
-    found.frequencies, found.surface = frequencies, surface
+    for band, (frequencies, surface) in zip(found.bands, tables, strict=True):
+        if surface.shape != (len(frequencies), *band.surface.shape[1:]) or not np.isfinite(surface).all():
+            return False
+        band.frequencies, band.surface = frequencies, surface
     return True
 
 
 def _save(path: pathlib.Path, found: Solution) -> None:
     """Keep a solution; a cache that cannot be written is no reason to fail."""
+    tables: dict[str, Any] = {f"frequencies{i}": band.frequencies for i, band in enumerate(found.bands)}
+    tables |= {f"surface{i}": band.surface for i, band in enumerate(found.bands)}
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         partial = path.with_suffix(f".{os.getpid()}.npz")
-        np.savez(partial, frequencies=found.frequencies, surface=found.surface)
+        np.savez(partial, **tables)
         partial.replace(path)
     except OSError:
         pass

@@ -49,7 +49,14 @@ from fmu_bearing.engine.layout import (
 from fmu_bearing.engine.mechanics.ball_waves import add_ball_waves, ball_wave_forces
 from fmu_bearing.engine.mechanics.bodies import body_equations
 from fmu_bearing.engine.mechanics.cage import pockets
-from fmu_bearing.engine.mechanics.flexure import flexure_equations, lean, move_groove, press_modes, slide
+from fmu_bearing.engine.mechanics.flexure import (
+    bends,
+    flexure_equations,
+    lean,
+    move_groove,
+    press_modes,
+    slide,
+)
 from fmu_bearing.engine.mechanics.pose import relative_pose
 from fmu_bearing.engine.mechanics.race import collect, normal, rolling, traction, waves
 from fmu_bearing.engine.mechanics.springs import spring_forces
@@ -100,10 +107,11 @@ def race_forces(p, c, y, lanes, race, turned, w):
     ``race`` has to be a literal: only with constant places do the loops become vector loops.
     """
     waves(p, c, y[B_TH * _S : (B_TH + 1) * _S], lanes, race, turned, w)
-    if p[P_MODES] != 0.0:
+    flexible = bends(p, race)
+    if flexible:
         lean(p, lanes, race, w)
     normal(p, c, y, lanes, race, w)
-    if p[P_MODES] != 0.0:
+    if flexible:
         slide(p, lanes, race, w)
     if p[P_BALL_WAVES] != 0.0:
         add_ball_waves(p, c, lanes, race, w)
@@ -115,7 +123,7 @@ def race_forces(p, c, y, lanes, race, turned, w):
     collect(p, c, lanes, race, w)
     if p[P_BALL_WAVES] != 0.0:
         ball_wave_forces(p, c, lanes, race, w)
-    if p[P_MODES] != 0.0:
+    if flexible:
         press_modes(p, c, lanes, race, w)
 
 
@@ -129,7 +137,7 @@ def inner_forces(p, c, y, angle, speed, w):
         p, y, lanes, 0, y[q], y[q + 1], y[q + 2], y[q + 3], y[q + 4],
         y[v], y[v + 1], y[v + 2], speed, y[v + 3], y[v + 4], w,
     )  # fmt: skip
-    if p[P_MODES] != 0.0:
+    if bends(p, 0):
         move_groove(p, c, lanes, 0, speed, w)
     race_forces(p, c, y, lanes, 0, angle, w)
     react(lanes, int(p[P_BALLS]), 0, W_G, W_SHAFT, W_G + 3, w)
@@ -145,7 +153,7 @@ def outer_forces(p, c, y, w):
         p, y, lanes, 1, y[q], y[q + 1], y[q + 2], y[q + 4], y[q + 5],
         y[v], y[v + 1], y[v + 2], y[v + 3], y[v + 4], y[v + 5], w,
     )  # fmt: skip
-    if p[P_MODES] != 0.0:
+    if bends(p, 1):
         move_groove(p, c, lanes, 1, y[v + 3], w)
     race_forces(p, c, y, lanes, 1, y[q + 3], w)
     react(lanes, int(p[P_BALLS]), 1, W_G + Q_OUTER, W_G + Q_OUTER + 3, W_G + Q_OUTER + 4, w)

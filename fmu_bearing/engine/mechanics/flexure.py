@@ -33,7 +33,6 @@ from fmu_bearing.engine.layout import (
     P_BALLS,
     P_MODES,
     P_SOUND_STATE,
-    P_SOUND_WORK,
     POSE_ROWS,
     Q_OUTER,
     R_FT,
@@ -43,12 +42,12 @@ from fmu_bearing.engine.layout import (
     S_SOUND,
     STRIDE,
     W_COS,
+    W_FLEX,
     W_FORCE,
     W_LOSS,
     W_POSE,
     W_RACE,
     W_SIN,
-    W_SOUND,
     X_A,
     X_DV,
     X_DW,
@@ -97,19 +96,6 @@ def flexure_state(p):
 
 
 @kernel
-def flexure_work(p):
-    """Place of the flexure's part in ``w``."""
-    return W_SOUND + int(p[P_SOUND_WORK]) + 8
-
-
-@kernel
-def flat(p, array):
-    """Place of one of the flat arrays over the coordinates, in the flexure's part of ``w``."""
-    modes = int(p[P_MODES])
-    return (FLEX_ROWS + 2 * modes) * _S + 2 * modes * array
-
-
-@kernel
 def bends(p, race):
     """Whether the ring of ``race`` has flexural modes."""
     found = False
@@ -126,9 +112,9 @@ def show_flexure(p, s, w):
         return
     count = 2 * int(p[P_MODES])
     kept = s[flexure_state(p) :]
-    own = w[flexure_work(p) + flat(p, FW_Q) :]
-    for i in range(2 * count):
-        own[i] = kept[i]
+    for i in range(count):
+        w[W_FLEX + FW_Q + i] = kept[i]
+        w[W_FLEX + FW_V + i] = kept[count + i]
 
 
 @kernel
@@ -138,7 +124,7 @@ def keep_accelerations(p, s, w):
         return
     count = 2 * int(p[P_MODES])
     kept = s[flexure_state(p) + 2 * count :]
-    own = w[flexure_work(p) + flat(p, FW_A) :]
+    own = w[W_FLEX + FW_A :]
     for i in range(count):
         kept[i] = own[i]
 
@@ -158,12 +144,11 @@ def first_order(lanes, race, w, own):
 
 
 @kernel
-def raise_order(order, lanes, own, at):
-    """Cosine and sine of ``order`` times the angle into two rows of ``own`` at ``at``."""
-    for j in range(lanes):
-        own[at + j] = own[FR_COS * _S + j]
-        own[at + _S + j] = own[FR_SIN * _S + j]
-    for _ in range(order - 1):
+def raise_order(times, lanes, own, source, at):
+    """Cosine and sine of the order ``times`` above that of the rows at ``source`` into those at ``at``."""
+    for j in range(2 * _S):
+        own[at + j] = own[source + j]
+    for _ in range(times):
         for j in range(lanes):
             c = own[at + j]
             s = own[at + _S + j]
@@ -203,15 +188,23 @@ def add_mode(p, mode, lanes, spin, own, at, a, b, va, vb):
 def bend(p, lanes, race, spin, own):
     """Motion of the groove of one ring under each ball, into the rows of ``own``."""
     table = int(p[P_AT_MODES])
-    q = flat(p, FW_Q)
-    v = flat(p, FW_V)
+    q = FW_Q
+    v = FW_V
+    source = FR_COS * _S
+    order = 1
     for i in range(FR_COS * _S):
         own[i] = 0.0
     for k in range(int(p[P_MODES])):
         mode = table + k * MODE_SIZE
         if int(p[mode + MODE_BODY]) == race:
             at = (FLEX_ROWS + 2 * k) * _S
-            raise_order(int(p[mode + MODE_ORDER]), lanes, own, at)
+            n = int(p[mode + MODE_ORDER])
+            if n < order:
+                source = FR_COS * _S
+                order = 1
+            raise_order(n - order, lanes, own, source, at)
+            source = at
+            order = n
             add_mode(
                 p, mode, lanes, spin, own, at, own[q + 2 * k], own[q + 2 * k + 1], own[v + 2 * k],
                 own[v + 2 * k + 1],
@@ -225,7 +218,7 @@ def move_groove(p, c, lanes, race, spin, w):
     Leaves in the rows ``FR_GX`` and ``FR_GR`` the slope of the track and the ratio of the radii that
     :func:`lean` takes, in ``FR_VT`` the circumferential velocity.
     """
-    own = w[flexure_work(p) :]
+    own = w[W_FLEX:]
     pose = (W_POSE + race * POSE_ROWS) * _S
     first_order(lanes, race, w, own)
     bend(p, lanes, race, spin, own)
@@ -246,17 +239,21 @@ def move_groove(p, c, lanes, race, spin, w):
         own[FR_GR * _S + j] = rho / before
         w[pose + X_A * _S + j] = axial
         w[pose + X_RHO * _S + j] = rho
-        for i in range(3):
-            n = w[pose + (X_N + i) * _S + j]
-            h = w[pose + (X_H + i) * _S + j]
-            w[pose + (X_DV + i) * _S + j] -= vx * n + vr * h
-            w[pose + (X_DW + i) * _S + j] -= turn * w[pose + (X_T + i) * _S + j]
+        hx = w[pose + X_H * _S + j]
+        hr = w[pose + (X_H + 1) * _S + j]
+        ht = w[pose + (X_H + 2) * _S + j]
+        w[pose + X_DV * _S + j] -= vx * w[pose + X_N * _S + j] + vr * hx
+        w[pose + (X_DV + 1) * _S + j] -= vx * w[pose + (X_N + 1) * _S + j] + vr * hr
+        w[pose + (X_DV + 2) * _S + j] -= vx * w[pose + (X_N + 2) * _S + j] + vr * ht
+        w[pose + X_DW * _S + j] -= turn * w[pose + X_T * _S + j]
+        w[pose + (X_DW + 1) * _S + j] -= turn * w[pose + (X_T + 1) * _S + j]
+        w[pose + (X_DW + 2) * _S + j] -= turn * w[pose + (X_T + 2) * _S + j]
 
 
 @inlined
 def lean(p, lanes, race, w):
     """Add the flexed track's slope to the waviness'; both over the radius before the shift."""
-    own = w[flexure_work(p) :]
+    own = w[W_FLEX:]
     row = (W_RACE + race * RACE_ROWS) * _S
     for j in range(lanes):
         slope = w[row + R_SLOPE * _S + j] + own[FR_GX * _S + j]
@@ -266,7 +263,7 @@ def lean(p, lanes, race, w):
 @inlined
 def slide(p, lanes, race, w):
     """Take the circumferential velocity of the groove from the sliding along the track."""
-    own = w[flexure_work(p) :]
+    own = w[W_FLEX:]
     row = (W_RACE + race * RACE_ROWS) * _S
     for j in range(lanes):
         w[row + R_UT * _S + j] -= own[FR_VT * _S + j]
@@ -284,23 +281,33 @@ def groove_forces(p, c, lanes, race, w, own):
     groove_r = c[C_RACES + race * C_RACE_SIZE + 1]
     for j in range(lanes):
         live = -1.0 if j < balls else 0.0
-        fn = 0.0
-        fh = 0.0
-        mt = 0.0
-        for i in range(3):
-            f = w[force + i * _S + j]
-            fn += f * w[pose + (X_N + i) * _S + j]
-            fh += f * w[pose + (X_H + i) * _S + j]
-            mt += w[force + (3 + i) * _S + j] * w[pose + (X_T + i) * _S + j]
+        fx = w[force + j]
+        fr = w[force + _S + j]
+        ft = w[force + 2 * _S + j]
+        fn = (
+            fx * w[pose + X_N * _S + j]
+            + fr * w[pose + (X_N + 1) * _S + j]
+            + ft * w[pose + (X_N + 2) * _S + j]
+        )
+        fh = (
+            fx * w[pose + X_H * _S + j]
+            + fr * w[pose + (X_H + 1) * _S + j]
+            + ft * w[pose + (X_H + 2) * _S + j]
+        )
+        mt = (
+            w[force + 3 * _S + j] * w[pose + X_T * _S + j]
+            + w[force + 4 * _S + j] * w[pose + (X_T + 1) * _S + j]
+            + w[force + 5 * _S + j] * w[pose + (X_T + 2) * _S + j]
+        )
         sx = w[pose + X_A * _S + j] - groove_x
         sr = w[pose + X_RHO * _S + j] - groove_r
-        ft = live * w[row + R_FT * _S + j]
+        drag = live * w[row + R_FT * _S + j]
         own[FR_X * _S + j] = live * fn
         own[FR_R * _S + j] = live * fh
-        own[FR_GX * _S + j] = ft
+        own[FR_GX * _S + j] = drag
         own[FR_GR * _S + j] = live * (mt + sx * fh - sr * fn)
         # the loss was taken from velocities without the groove's circumferential one
-        w[loss + j] -= ft * own[FR_VT * _S + j]
+        w[loss + j] -= drag * own[FR_VT * _S + j]
 
 
 @kernel
@@ -342,10 +349,10 @@ def mode_force(p, mode, lanes, own, at, turning):
 @inlined
 def press_modes(p, c, lanes, race, w):
     """Generalised forces of the balls on the modes of one ring, from the forces in the rows of ``w``."""
-    own = w[flexure_work(p) :]
+    own = w[W_FLEX:]
     groove_forces(p, c, lanes, race, w, own)
     table = int(p[P_AT_MODES])
-    out = flat(p, FW_FORCE)
+    out = FW_FORCE
     for k in range(int(p[P_MODES])):
         mode = table + k * MODE_SIZE
         if int(p[mode + MODE_BODY]) == race:
@@ -357,12 +364,12 @@ def press_modes(p, c, lanes, race, w):
 @kernel
 def flexure_equations(p, y, speed, speed_rate, w, f):
     """Accelerations of the coordinates from their forces; their damping heats the rings (rows of ``f``)."""
-    own = w[flexure_work(p) :]
+    own = w[W_FLEX:]
     table = int(p[P_AT_MODES])
-    q = flat(p, FW_Q)
-    v = flat(p, FW_V)
-    force = flat(p, FW_FORCE)
-    out = flat(p, FW_A)
+    q = FW_Q
+    v = FW_V
+    force = FW_FORCE
+    out = FW_A
     for k in range(int(p[P_MODES])):
         mode = table + k * MODE_SIZE
         inner = p[mode + MODE_BODY] == 0.0
@@ -391,10 +398,10 @@ def flexure_equations(p, y, speed, speed_rate, w, f):
 @kernel
 def flexure_energy(p, y, speed, w):
     """Kinetic and strain energy (J) of the modes, seats included, for the coordinates last evaluated."""
-    own = w[flexure_work(p) :]
+    own = w[W_FLEX:]
     table = int(p[P_AT_MODES])
-    q = flat(p, FW_Q)
-    v = flat(p, FW_V)
+    q = FW_Q
+    v = FW_V
     total = 0.0
     for k in range(int(p[P_MODES])):
         mode = table + k * MODE_SIZE

@@ -12,11 +12,12 @@ from fmu_bearing.engine.layout import (
     P_BALLS,
     P_LANES,
     P_MODES,
-    STAGES,
     STRIDE,
+    W_FLEX,
 )
-from fmu_bearing.engine.mechanics.flexure import bends, flat, flexure_work, mode_force
+from fmu_bearing.engine.mechanics.flexure import bends, mode_force
 from fmu_bearing.engine.modes_layout import (
+    ARRAY,
     FACTOR_ROWS,
     FLEX_ROWS,
     FW_A,
@@ -25,6 +26,7 @@ from fmu_bearing.engine.modes_layout import (
     FW_FORCE,
     FW_Q,
     FW_V,
+    FW_VEL,
     MODE_BODY,
     MODE_MASS,
     MODE_R,
@@ -37,7 +39,6 @@ from fmu_bearing.engine.solvers.mode_factors import partner
 from fmu_bearing.engine.solvers.tableaux import T_A, T_ERROR, T_STAGES, TABLEAUX
 
 _S = STRIDE
-FW_VEL = FW_ACC + STAGES
 
 
 @inlined
@@ -110,12 +111,12 @@ def solve_modes(p, kept, stage, d, w):
     lanes = int(p[P_LANES])
     balls = int(p[P_BALLS])
     table = int(p[P_AT_MODES])
-    own = w[flexure_work(p) :]
-    found = flat(p, FW_A)
-    acc = flat(p, FW_ACC + stage)
+    own = w[W_FLEX:]
+    found = FW_A
+    acc = FW_ACC + stage * ARRAY
     # the forces have done their work: the residuals take their place
-    residual = flat(p, FW_FORCE)
-    out = flat(p, FW_D)
+    residual = FW_FORCE
+    out = FW_D
     for race in range(2):
         if not bends(p, race):
             continue
@@ -147,9 +148,9 @@ def begin_modes(p, kept, w):
     if p[P_MODES] == 0.0:
         return
     count = 2 * int(p[P_MODES])
-    own = w[flexure_work(p) :]
-    acc = flat(p, FW_ACC)
-    vel = flat(p, FW_VEL)
+    own = w[W_FLEX:]
+    acc = FW_ACC
+    vel = FW_VEL
     for i in range(count):
         own[acc + i] = kept[2 * count + i]
         own[vel + i] = kept[count + i]
@@ -159,20 +160,20 @@ def begin_modes(p, kept, w):
 def predict_modes(p, kept, h, gh, stage, tableau, w):
     """Coordinates of a stage from the stages before and its first guess of the accelerations."""
     count = 2 * int(p[P_MODES])
-    own = w[flexure_work(p) :]
-    q = flat(p, FW_Q)
-    v = flat(p, FW_V)
-    here = flat(p, FW_ACC + stage)
+    own = w[W_FLEX:]
+    q = FW_Q
+    v = FW_V
+    here = FW_ACC + stage * ARRAY
     for i in range(count):
-        guess = own[here - count + i]
+        guess = own[here - ARRAY + i]
         own[here + i] = guess
         own[v + i] = kept[count + i] + gh * guess
         own[q + i] = kept[i]
     for m in range(stage):
         a = h * TABLEAUX[tableau + T_A + stage * 5 + m]
         if a != 0.0:
-            acc = flat(p, FW_ACC + m)
-            vel = flat(p, FW_VEL + m)
+            acc = FW_ACC + m * ARRAY
+            vel = FW_VEL + m * ARRAY
             for i in range(count):
                 own[v + i] += a * own[acc + i]
                 own[q + i] += a * own[vel + i]
@@ -184,11 +185,11 @@ def predict_modes(p, kept, h, gh, stage, tableau, w):
 def correct_modes(p, stage, gh, w):
     """Add the increments to a stage's accelerations and coordinates."""
     count = 2 * int(p[P_MODES])
-    own = w[flexure_work(p) :]
-    q = flat(p, FW_Q)
-    v = flat(p, FW_V)
-    d = flat(p, FW_D)
-    here = flat(p, FW_ACC + stage)
+    own = w[W_FLEX:]
+    q = FW_Q
+    v = FW_V
+    d = FW_D
+    here = FW_ACC + stage * ARRAY
     for i in range(count):
         own[here + i] += own[d + i]
         own[v + i] += gh * own[d + i]
@@ -199,9 +200,9 @@ def correct_modes(p, stage, gh, w):
 def take_accelerations(p, stage, w):
     """Accelerations of an explicit stage: those just evaluated."""
     count = 2 * int(p[P_MODES])
-    own = w[flexure_work(p) :]
-    found = flat(p, FW_A)
-    here = flat(p, FW_ACC + stage)
+    own = w[W_FLEX:]
+    found = FW_A
+    here = FW_ACC + stage * ARRAY
     for i in range(count):
         own[here + i] = own[found + i]
 
@@ -210,9 +211,9 @@ def take_accelerations(p, stage, w):
 def keep_mode_velocities(p, stage, w):
     """Velocities of a finished stage for those that follow."""
     count = 2 * int(p[P_MODES])
-    own = w[flexure_work(p) :]
-    v = flat(p, FW_V)
-    vel = flat(p, FW_VEL + stage)
+    own = w[W_FLEX:]
+    v = FW_V
+    vel = FW_VEL + stage * ARRAY
     for i in range(count):
         own[vel + i] = own[v + i]
 
@@ -223,9 +224,9 @@ def end_modes(p, stages, w):
     if p[P_MODES] == 0.0:
         return
     count = 2 * int(p[P_MODES])
-    own = w[flexure_work(p) :]
-    last = flat(p, FW_ACC + stages - 1)
-    out = flat(p, FW_A)
+    own = w[W_FLEX:]
+    last = FW_ACC + (stages - 1) * ARRAY
+    out = FW_A
     for i in range(count):
         own[out + i] = own[last + i]
 
@@ -247,8 +248,8 @@ def modes_size(p, size, gh, w):
     """Size (m/s) of a Newton increment, ``size`` without the modes."""
     if p[P_MODES] == 0.0:
         return size
-    own = w[flexure_work(p) :]
-    return math.sqrt(size * size + gh * gh * grooves_size(p, own, flat(p, FW_D)))
+    own = w[W_FLEX:]
+    return math.sqrt(size * size + gh * gh * grooves_size(p, own, FW_D))
 
 
 @kernel
@@ -257,13 +258,13 @@ def modes_error(p, error, h, tableau, w):
     if p[P_MODES] == 0.0:
         return error
     count = 2 * int(p[P_MODES])
-    own = w[flexure_work(p) :]
-    d = flat(p, FW_D)
+    own = w[W_FLEX:]
+    d = FW_D
     for i in range(count):
         own[d + i] = 0.0
     for m in range(int(TABLEAUX[tableau + T_STAGES])):
         e = h * TABLEAUX[tableau + T_ERROR + m]
-        acc = flat(p, FW_ACC + m)
+        acc = FW_ACC + m * ARRAY
         for i in range(count):
             own[d + i] += e * own[acc + i]
     return math.sqrt(error * error + grooves_size(p, own, d))
@@ -275,10 +276,10 @@ def accept_modes(p, s, at, w):
     if p[P_MODES] == 0.0:
         return
     count = 2 * int(p[P_MODES])
-    own = w[flexure_work(p) :]
-    q = flat(p, FW_Q)
-    v = flat(p, FW_V)
-    a = flat(p, FW_A)
+    own = w[W_FLEX:]
+    q = FW_Q
+    v = FW_V
+    a = FW_A
     for i in range(count):
         s[at + i] = own[q + i]
         s[at + count + i] = own[v + i]

@@ -27,8 +27,9 @@ from fmu_bearing.engine.layout import (
     Q_OUTER,
     STAGES,
     STRIDE,
+    W_FLEX,
 )
-from fmu_bearing.engine.mechanics.flexure import bends, flexure_work
+from fmu_bearing.engine.mechanics.flexure import bends
 from fmu_bearing.engine.modes_layout import (
     FACTOR_ROWS,
     FW_ACC,
@@ -221,8 +222,8 @@ def factor_modes(p, jac, fac, y, turned, speed, cv, cx, kept, w):
         return
     modes = int(p[P_MODES])
     # inertia of inner on inner, inner on outer, outer on inner, outer on outer groove
-    totals = w[flexure_work(p) : flexure_work(p) + 36]
-    row = w[flexure_work(p) + 36 : flexure_work(p) + 42]
+    totals = w[W_FLEX : W_FLEX + 36]
+    row = w[W_FLEX + 36 : W_FLEX + 42]
     first = kept[6 * modes :]
     second = kept[6 * modes + FACTOR_ROWS * _S :]
     inner = bends(p, 0)

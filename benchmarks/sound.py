@@ -1,0 +1,82 @@
+"""What sound costs: CPU seconds per simulated second, by rung and number of microphones."""
+
+import time
+
+import numpy as np
+
+from benchmarks.cases import SCENES
+from fmu_bearing.acoustics.rungs import Ladder
+from fmu_bearing.acoustics.stream import build, ladder_of
+from fmu_bearing.engine.jit import entry
+from fmu_bearing.engine.layout import motion_size
+from fmu_bearing.engine.sound import places as at
+from fmu_bearing.engine.sound import radiate
+from fmu_bearing.scene import read_scene
+from fmu_bearing.scene.sound import cylindrical
+
+COLUMNS = (
+    "scene", "microphones", "rung", "channels", "blocks", "CPU s per s", "direct form", "goal", "verdict",
+)  # fmt: skip
+GOAL = 0.1  # s per simulated s, four microphones
+_BATCH = 8192  # motion samples: 40 ms
+
+
+@entry
+def pushes(ps, ss, ws, motion, samples):
+    """Push ``samples`` motion samples, the rows of ``motion`` over and over."""
+    for i in range(samples):
+        radiate.push(ps, ss, ws, motion[i % len(motion)], 0.125, 0.0)
+
+
+def cost(ps, repeats: int) -> float:
+    """CPU s per simulated s of one sound block."""
+    size = motion_size(int(ps[at.H_BALLS]), int(ps[at.H_FLEXURES]))
+    motion = np.random.default_rng(1).standard_normal((512, size))
+    ss, ws = np.zeros(at.state_size(ps)), np.zeros(at.work_size(ps))
+    pushes(ps, ss, ws, motion, _BATCH)  # compiled, and past the start
+    best = float("inf")
+    for _ in range(repeats):
+        clock = time.process_time()
+        pushes(ps, ss, ws, motion, _BATCH)
+        best = min(best, time.process_time() - clock)
+    return best * at.RAW_RATE / _BATCH
+
+
+def microphones(scene) -> dict[str, list[tuple[float, float, float]]]:
+    """Sets of microphones: the scene's own four or the multi-source paper's, and circles of 24 and 360."""
+    four = [(0.0, 0.105, 0.0), (0.0, 0.150, 0.0), (0.0, 0.0, 0.105), (-0.0805, 0.0, 0.0)]
+    own = [place for _, place in scene.microphones]
+    circles = {
+        f"circle of {count}": [cylindrical(360.0 * k / count, 210.0, 50.0) for k in range(count)]
+        for count in (24, 360)
+    }
+    return {"4": own if len(own) == 4 else four, **circles}
+
+
+def block_lengths(ps) -> str:
+    """Block lengths of the convolution, as text."""
+    first = int(ps[at.H_AT_LEVELS]) + at.LEVEL_BLOCK
+    lengths = [f"{ps[first + at.LEVEL_SIZE * i]:g}" for i in range(int(ps[at.H_LEVELS]))]
+    return " + ".join(lengths) or "none"
+
+
+def rows(name: str, rungs: tuple[str, ...], repeats: int) -> list[list[str]]:
+    """One row per rung and set of microphones of a scene."""
+    scene = read_scene(SCENES / f"{name}.toml")
+    given = ladder_of(scene)
+    found = []
+    for words, points in microphones(scene).items():
+        for rung in rungs:
+            ladder = Ladder(rung, given.radiators, given.air, given.harmonics)
+            block, direct = (
+                build(rung, ladder.radiators, ladder.air, points, ladder.harmonics, levels=levels)
+                for levels in (None, ())
+            )
+            here = cost(block, repeats)
+            goal = words == "4"
+            verdict = "" if not goal else "met" if here <= GOAL else "missed"
+            found.append(
+                [name, words, rung, f"{block[at.H_CHANNELS]:.0f}", block_lengths(block), f"{here:.3f}",
+                 f"{cost(direct, repeats):.3f}", f"{GOAL:g}" if goal else "", verdict]
+            )  # fmt: skip
+    return found

@@ -2,6 +2,7 @@
 # make test    install with test tools and run the tests that take seconds
 # make heavy   the tests that take minutes
 # make bench   time the levels beside other programs; writes docs/results/benchmark.md and .csv
+# make papers  run the papers' cases and write docs/papers; some minutes, kept under out/papers
 # make clean   remove what was made here
 
 PYTHON ?= python3
@@ -17,9 +18,9 @@ BEARING := $(OUT)/Bearing7003C.fmu
 SOURCES := $(shell find fmu_bearing modelDescription -type f ! -name '*.pyc' 2>/dev/null)
 
 # Two test workers on two cores: linear algebra libraries must not start threads of their own.
-test heavy: export OPENBLAS_NUM_THREADS = 1
+test heavy papers: export OPENBLAS_NUM_THREADS = 1
 
-.PHONY: demo test heavy bench kernels clean
+.PHONY: demo test heavy bench papers kernels clean
 .DELETE_ON_ERROR:
 
 demo: $(BEARING) $(OUT)/SpindleMotor.fmu
@@ -46,6 +47,11 @@ heavy: kernels
 bench: $(VENV)/.installed-bench
 	$(BIN)/python -m fmu_bearing.engine
 	$(BIN)/python -m benchmarks.run --output docs/results
+
+# Interrupted, it goes on from what is under out/papers.
+papers: $(VENV)/.installed
+	$(BIN)/python -m fmu_bearing.engine
+	$(BIN)/python -m examples.papers.run --jobs $(JOBS)
 
 kernels: $(VENV)/.installed-test
 	$(BIN)/python -m fmu_bearing.engine

@@ -17,11 +17,13 @@ from fmu_bearing.scene.sound import cylindrical
 from fmu_bearing.scene.units import split_unit, symbol
 from tests.conftest import SCENES
 
-NAMES = ["7003C-spindle", "7003C-bare", "7009C-full-ceramic"]
+CATALOGUED = ["7003C-spindle", "7003C-bare", "7009C-full-ceramic", "7009C-steel"]
+NAMES = [*CATALOGUED, "7003C-impact"]
 MATERIALS = {
     "7003C-spindle": ("GCr15", "GCr15", "Si3N4", "bakelite"),
     "7003C-bare": ("GCr15", "GCr15", "Si3N4", "bakelite"),
     "7009C-full-ceramic": ("ZrO2", "ZrO2", "Si3N4", "PEEK"),
+    "7009C-steel": ("GCr15", "GCr15", "GCr15", "PEEK"),
 }
 # what a scene of few lines still has to say
 SHORT = """
@@ -90,7 +92,7 @@ def test_example_pins_every_value(name, scene):
     assert written == resolved
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", CATALOGUED)
 def test_example_agrees_with_the_catalogue(name, scene):
     read = scene(name)
     assert read.name == name
@@ -163,6 +165,33 @@ def test_what_the_scenes_leave_out(scene):
     assert bare.bearing == spindle.bearing
     assert bare.sound.microphone == spindle.sound.microphone
     assert bare.imperfections == spindle.imperfections == ceramic.imperfections
+
+
+def test_steel_twin_differs_in_name_and_materials_alone(scene):
+    ceramic, steel = scene("7009C-full-ceramic"), scene("7009C-steel")
+    assert steel.materials.cage == ceramic.materials.cage
+    same = {"name": ceramic.name, "materials": ceramic.materials}
+    assert steel.model_copy(update=same) == ceramic
+
+
+def test_assumptions_of_the_impact_paper(scene):
+    bare, impact = scene("7003C-bare"), scene("7003C-impact")
+    assert impact.bearing.cage is None and impact.materials.cage is None
+    assert impact.bearing.ball_springs.stiffness_N_m == 2.5e7  # what the paper keeps
+    assert impact.bearing.ball_springs.damping_N_s_m == 0.0
+    same = {"cage": bare.bearing.cage, "ball_springs": None}
+    assert impact.bearing.model_copy(update=same) == bare.bearing
+    assert impact.materials.balls == bare.materials.balls
+    assert impact.lubricant.traction_max == 0.0  # no friction
+    on = {name for name, value in impact.fidelity.terms if value}
+    assert on == {"contact_damping"}
+    assert impact.imperfections.unbalance_um == 0.0
+    # the outer ring is held: its own mass on the pedestal swings beyond all sound
+    b, mounting = si(impact.bearing), si(impact.mounting)
+    section = math.pi / 4 * (b.outside_diameter**2 - b.outer_ring_inner_diameter**2)
+    mass = section * b.width * si(impact.materials.outer_ring).density
+    assert math.sqrt(mounting.pedestal_stiffness / mass) / (2 * math.pi) > 1e5
+    assert [tuple(place) for place in impact.microphones] == [("above", (0.0, 0.0, 0.1))]
 
 
 # --- catalogue -----------------------------------------------------------------------------------

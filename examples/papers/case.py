@@ -1,0 +1,131 @@
+"""One operating point of a scene: what is run, and its recording on disk."""
+
+import hashlib
+import json
+import os
+import pathlib
+import tomllib
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from examples.papers.hearing import LISTENING, sources_hash
+from fmu_bearing.engine.jit import source_hash
+from fmu_bearing.scene import Scene
+from fmu_bearing.scene.read import read_scene_text
+from fmu_bearing.study.recording import OUTPUTS, Recording, record
+
+ROOT = pathlib.Path(__file__).parents[2]
+SCENES = ROOT / "examples" / "scenes"
+#: Keys of ``imperfections`` that are lengths: the calibrated scalar multiplies all of them alike.
+AMPLITUDES = (
+    "unbalance_um",
+    "ball_diameter_spread_nm",
+    "inner_race_amplitude_um",
+    "outer_race_amplitude_um",
+    "ball_waviness_nm",
+)
+
+
+@dataclass(frozen=True)
+class Case:
+    """One operating point.
+
+    Attributes
+    ----------
+    scene : str
+        File name in ``examples/scenes``, without its suffix.
+    rpm : float
+    changes : tuple of (str, value)
+        Keys of the scene, dotted, with other values than the file's.
+    scale : float
+        Factor on the amplitudes of all imperfections.
+    settle, duration : float
+        Time (s) left out at the beginning, and recorded after it.
+    label : str
+        What tables call the variant; empty for the scene as it is.
+    """
+
+    scene: str
+    rpm: float
+    changes: tuple[tuple[str, Any], ...] = ()
+    scale: float = 1.0
+    settle: float = 0.05
+    duration: float = 0.16
+    label: str = ""
+
+    def build(self) -> Scene:
+        """Return the scene at this point; ``SceneError`` where a value is refused."""
+        data = tomllib.loads((SCENES / f"{self.scene}.toml").read_text("utf-8"))
+        data["operation"]["speed_rpm"] = float(self.rpm)
+        for dotted, value in self.changes:
+            *tables, key = dotted.split(".")
+            place = data
+            for table in tables:
+                place = place[table]
+            place[key] = value
+        for key in AMPLITUDES:
+            data["imperfections"][key] *= self.scale
+        return read_scene_text(_toml(data), self.scene)
+
+    def key(self, rung: str) -> str:
+        """Hash (16 hex digits) of all that the recording depends on."""
+        kind = "paper" if rung == "paper" else "vector"
+        text = f"{_toml(_motion(self.build()))} {self.settle} {self.duration} {kind} {source_hash()}"
+        return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+    def recording(self, rung: str, cache: pathlib.Path) -> Recording:
+        """Return the recording for a rung: taken from ``cache``, or run and put there.
+
+        All rungs but ``paper`` take accelerations and share one recording.
+        """
+        path = cache / f"{self.key(rung)}.npz"
+        if path.exists():
+            return Recording.load(path)
+        # ears are chosen afterwards: what the recording is made with is the cheapest of its kind
+        scene = self.build()
+        made = record(
+            scene, self.duration, settle=self.settle, progress=False,
+            outputs=(*OUTPUTS, *(["cage.speed_ratio"] if scene.bearing.cage is not None else [])),
+            rung="paper" if rung == "paper" else "compact",
+        )  # fmt: skip
+        cache.mkdir(parents=True, exist_ok=True)
+        part = path.with_suffix(f".{os.getpid()}")  # an interrupted write leaves no half recording
+        made.save(part)
+        part.replace(path)
+        return made
+
+
+def kept(path: pathlib.Path, compute: Callable[[], dict[str, Any]]) -> dict[str, Any]:
+    """Return what ``path`` (JSON) holds, or compute it and put it there."""
+    if path.exists():
+        return json.loads(path.read_text("utf-8"))
+    found = compute()
+    path.parent.mkdir(parents=True, exist_ok=True)
+    part = path.with_suffix(f".{os.getpid()}")
+    part.write_text(json.dumps(found), "utf-8")
+    part.replace(path)
+    return json.loads(path.read_text("utf-8"))  # what a later run will see
+
+
+def code_hash(*modules: str) -> str:
+    """Hash (12 hex digits) of the sound's sources and of modules of this folder: results follow the code."""
+    digest = hashlib.sha256(sources_hash().encode())
+    for name in modules:
+        digest.update(pathlib.Path(__file__).with_name(f"{name}.py").read_bytes())
+    return digest.hexdigest()[:12]
+
+
+def _motion(scene: Scene) -> dict[str, Any]:
+    """Return the scene without what only listens: its motion does not depend on it."""
+    data = scene.model_dump(mode="json", exclude_none=True)
+    sound = data.get("sound", {})
+    for key in LISTENING:
+        sound.pop(key, None)
+    return data
+
+
+def _toml(data: dict[str, Any]) -> str:
+    import tomli_w
+
+    return tomli_w.dumps(data)

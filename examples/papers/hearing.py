@@ -1,0 +1,173 @@
+"""Levels of a recording, source by source.
+
+Most rungs add pressures: a component is one source, the total is the coherent sum. The rung ``paper`` adds
+energies: each component is several sources (multi-source paper, eqs. 43 and 46).
+
+Paths depend on bodies and places, not on the run: they are made once per scene and kept, since boundary
+elements take a second per circle.
+"""
+
+import fcntl
+import functools
+import hashlib
+import os
+import pathlib
+import pickle
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import sosfilt
+
+from fmu_bearing.acoustics.field import Channels, Circle, circles
+from fmu_bearing.acoustics.spectrum import amplitude_spectrum
+from fmu_bearing.acoustics.stream import radiators_of
+from fmu_bearing.acoustics.transfer import Path
+from fmu_bearing.acoustics.weighting import a_weighting_sections, level
+from fmu_bearing.elastic.modes import ring_modes
+from fmu_bearing.engine.sound.places import COMPONENTS
+from fmu_bearing.scene import Scene
+from fmu_bearing.study.heard import air_of
+from fmu_bearing.study.recording import Recording
+
+#: Keys of ``sound`` that change no motion and no path.
+LISTENING = (
+    "rung", "microphone", "circle", "metering_start_s", "time_weighting", "third_octaves", "details",
+)  # fmt: skip
+Sources = dict[str, NDArray[np.float64]]
+Places = Sequence[Sequence[float]]
+NAMES = {"inner_ring": "inner ring", "outer_ring": "outer ring", "cage": "cage", "balls": "balls"}
+_SEARCH = 0.004  # relative: how far from its frequency a line is looked for
+_STEPS = 9
+
+
+class Ear:
+    """A recording heard through paths that are kept on disk.
+
+    Parameters
+    ----------
+    recording : Recording
+    rung : str
+    cache : pathlib.Path
+        Folder of the kept paths.
+    """
+
+    def __init__(self, recording: Recording, rung: str, cache: pathlib.Path) -> None:
+        if recording.scene is None:
+            raise ValueError("this recording has no scene: nothing says what radiates")
+        self.recording, self.rung, self.cache = recording, rung, cache
+        self.scene: Scene = recording.scene
+        self.channels = Channels(recording.history)
+
+    def parts(self, places: Places, label: Callable[[Path], int]) -> dict[int, NDArray[np.float64]]:
+        """Pressures (Pa), shape (mics, size), summed over paths with one label."""
+        points = tuple((float(x), float(y), float(z)) for x, y, z in places)
+        record = self.recording
+        window = slice(record.first, record.first + record.size)
+        found: dict[int, NDArray[np.float64]] = {}
+        for circle in _kept_paths(self.scene, self.rung, points, record.harmonics, self.cache):
+            for name, part in self.channels.pressures(circle, label).items():
+                total = found.setdefault(name, np.zeros((len(points), record.size)))
+                total[list(circle.members)] += part[:, window]
+        return found
+
+    def sources(self, places: Places) -> Sources:
+        """Pressures of each component's sources, shape (sources, mics, size) by component, and ``total``.
+
+        Within an entry energies add: the total of a vector rung is one coherent sum, the total of rung
+        ``paper`` all its sources.
+        """
+        if self.rung != "paper":
+            parts = self.parts(places, lambda path: path.component)
+            found = {COMPONENTS[k]: part[None] for k, part in parts.items()}
+            return found | {"total": np.sum(list(parts.values()), axis=0)[None]}
+        many = len(COMPONENTS)
+        parts = self.parts(places, lambda path: many * path.channel + path.component)
+        found = {
+            name: np.array([part for key, part in parts.items() if key % many == k])
+            for k, name in enumerate(COMPONENTS)
+            if any(key % many == k for key in parts)
+        }
+        return found | {"total": np.concatenate(list(found.values()))}
+
+    def pressure(self, places: Places) -> NDArray[np.float64]:
+        """Coherent sum of all sources (Pa), shape (mics, size)."""
+        return self.parts(places, lambda path: 0)[0]
+
+    def levels(self, places: Places) -> NDArray[np.float64]:
+        """Equivalent level (dB) of the total, shape (mics,)."""
+        if self.rung == "paper":
+            return equivalent(self.sources(places)["total"])
+        return level((self.pressure(places) ** 2).mean(axis=1))
+
+
+@functools.lru_cache(maxsize=8)
+def _read(path: pathlib.Path) -> list[Circle]:
+    return pickle.loads(path.read_bytes())
+
+
+def _kept_paths(
+    scene: Scene, rung: str, places: tuple[tuple[float, float, float], ...], harmonics: int,
+    cache: pathlib.Path,
+) -> list[Circle]:  # fmt: skip
+    """Paths to places: from the cache, or made and put there."""
+    sound = "" if scene.sound is None else scene.sound.model_dump_json(exclude=set(LISTENING))
+    body = (
+        scene.bearing.model_dump_json(exclude={"ball_springs"}),
+        scene.materials.model_dump_json(),
+        scene.mounting.model_dump_json(include={"housing", "flexure"}),
+    )
+    text = repr((rung, sound, body, places, harmonics, sources_hash()))
+    path = cache / "paths" / f"{hashlib.sha256(text.encode()).hexdigest()[:16]}.pickle"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with path.with_suffix(".lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)  # other workers want the same paths: one makes them
+        if not path.exists():
+            modes = ring_modes(scene) if rung != "paper" else ()
+            made = list(circles(rung, radiators_of(scene), air_of(scene), places, harmonics, modes=modes))
+            part = path.with_suffix(f".{os.getpid()}")
+            part.write_bytes(pickle.dumps(made))
+            part.replace(path)
+    return _read(path)
+
+
+@functools.cache
+def sources_hash() -> str:
+    """Hash (12 hex digits) of the sources of sound and elasticity: what is kept follows the code."""
+    digest = hashlib.sha256()
+    root = pathlib.Path(circles.__code__.co_filename).parents[1]
+    for room in ("acoustics", "elastic"):
+        for path in sorted((root / room).rglob("*.py")):
+            digest.update(path.read_bytes())
+    return digest.hexdigest()[:12]
+
+
+def equivalent(sources: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Equivalent level (dB) at each microphone, shape (mics,), of sources (sources, mics, size)."""
+    return level((sources**2).mean(axis=2).sum(axis=0))
+
+
+def spectrum(sources: NDArray[np.float64], rate: float, step: float, last: float) -> NDArray[np.float64]:
+    """Levels (dB) of one microphone's sources (sources, size) at 0, ``step``, ... ``last`` Hz."""
+    squares = sum(amplitude_spectrum(source, rate, step)[1] ** 2 for source in sources)
+    return level(squares)[: round(last / step) + 1]
+
+
+def line(sources: NDArray[np.float64], rate: float, frequency: float) -> float:
+    """Level (dB) of the line at ``frequency`` (Hz) in one microphone's sources (sources, size).
+
+    Largest value within 0.4 % of it, seen through one Hann window over the whole recording: lines closer
+    than two windows (4 / duration) merge.
+    """
+    size = sources.shape[-1]
+    window = np.hanning(size)
+    time = np.arange(size) / rate
+    around = frequency * (1.0 + _SEARCH * np.linspace(-1.0, 1.0, _STEPS))
+    turn = np.exp(-2j * np.pi * around[:, None] * time) * (window * np.sqrt(2.0) / window.sum())
+    mean = sources.mean(axis=-1, keepdims=True)
+    return float(level((np.abs((sources - mean) @ turn.T) ** 2).sum(axis=0).max()))
+
+
+def a_weighted(pressure: NDArray[np.float64], rate: float) -> NDArray[np.float64]:
+    """A-weighted pressure; the filter rests at the first sample, so leave out the first milliseconds."""
+    return sosfilt(a_weighting_sections(rate), pressure, axis=-1)

@@ -329,7 +329,8 @@ def test_rings_start_bent_by_their_loads(scene):
     assert np.abs(accelerations[::2]).max() < 0.02 * np.abs(free * start[::2]).max()
     values = run.run(2e-3, 2e-5)[:, at.z_flex(12, 0) :]
     still = np.abs(values[:, 0]).max() / np.sqrt(free[0])  # m
-    assert still < 0.1 * start[0]
+    # what is left is the passing of the balls, 0.2; from straight rings it would be 2
+    assert still < 0.3 * start[0]
 
 
 def test_state_saved_and_restored(scene):

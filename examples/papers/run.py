@@ -20,7 +20,7 @@ from examples.papers.page import Output
 
 PAGES: dict[str, ModuleType] = {module.NAME: module for module in (multi_source, sound_field, impact_noise)}
 RUNGS = ("compact", "bem")  # those that evaluate recordings at any place
-DEFAULT_RUNG = "compact"
+DEFAULT_RUNG = "bem"
 
 
 def evaluate(name: str, case: Case, rung: str, quick: bool, cache: pathlib.Path) -> dict[str, Any]:

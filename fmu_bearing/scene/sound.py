@@ -93,9 +93,10 @@ class Sound(Part):
     """Radiation and metering."""
 
     rung: Literal["paper", "paper_vector", "paper_contacts", "compact", "bem", "table"] = Field(
+        default="bem",
         description="How radiation is computed: by the papers' methods, compact bodies, boundary elements "
         "or the user's table.",
-        examples=["compact"],
+        examples=["bem"],
     )
     radiator: Literal["bare", "baffle", "housing"] = Field(
         description="What radiates: the bare bearing, its face flush in a rigid plane, or the housing.",

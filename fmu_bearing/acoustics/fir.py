@@ -16,8 +16,8 @@ _STOP = 24_000.0  # Hz: filters let little through from here on; nothing is fitt
 _STOP_WEIGHT = 0.02
 _RIDGE = 1e-12  # relative: keeps the normal equations of long filters solvable
 _LENGTHS = (48, 64, 96, 128, 192, 256, 384, 512, 768, 1024)
-# Beyond this length the grid of `fit_frequencies` (125 Hz: 8 ms, 410 taps) no longer determines the taps.
-_GRID_SERVES = 256
+# Beyond this length the grid of `fit_frequencies` (62.5 Hz: 16 ms, 820 taps) no longer determines the taps.
+_GRID_SERVES = 512
 _FINER = 4
 _GOOD = 10 ** (-55 / 20)  # error at which a filter is long enough
 
@@ -26,7 +26,7 @@ def fit_frequencies() -> NDArray[np.float64]:
     """Frequencies in Hz at which transfer functions are evaluated and fitted, shape (n,)."""
     low, high = BAND
     return np.concatenate(
-        [np.geomspace(low, 1000.0, 50, endpoint=False), np.arange(1000.0, high + 1.0, 125.0)]
+        [np.geomspace(low, 1000.0, 50, endpoint=False), np.arange(1000.0, high + 1.0, 62.5)]
     )
 
 

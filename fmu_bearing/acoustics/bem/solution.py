@@ -31,6 +31,7 @@ Complex = NDArray[np.complex128]
 
 BODIES = 3  # inner ring, outer ring, cage
 AXIAL, RADIAL, TILT = 0, BODIES, 2 * BODIES  # first drive of each kind
+_COARSEST = 10_000.0  # Hz: meshes reach that far at least, whatever their band
 _PER_WAVELENGTH = 6.0  # elements, two unknowns each
 _GAP_ELEMENTS = 0.4  # longest element in a gap over the thickness of the thinnest ring
 
@@ -144,7 +145,7 @@ class Band:
 
     def __init__(self, task: Task, base: Sequence[float]) -> None:
         self.task = task
-        self._scatterer = task.scatterer(base[-1])
+        self._scatterer = task.scatterer(max(base[-1], _COARSEST))
         self._drives = drives(task, self._scatterer.mesh)
         self._balls = task.harmonics + 1 if task.orbit > 0.0 else 0
         self.frequencies = np.array(base)

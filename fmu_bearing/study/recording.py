@@ -40,7 +40,7 @@ def record(
     speed: Signal | None = None,
     inputs: Mapping[str, Signal] | None = None,
     settle: float = 0.02,
-    step: float = 1e-3,
+    step: float = 4e-4,
     rung: str | None = None,
     outputs: Iterable[str] = OUTPUTS,
     microphones: bool = False,
@@ -62,7 +62,7 @@ def record(
     settle : float
         Time (s) left out at the beginning, in which the start-up dies away.
     step : float
-        Communication step (s).
+        Communication step (s). Longer ones than the engine keeps rows for are cut: 0.48 ms at least.
     rung : str, optional
         In place of the scene's ``sound.rung`` (``compact`` without sound). The papers' rungs have channels of
         their own, so they must be told before the run; all others share theirs.

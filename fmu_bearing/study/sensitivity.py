@@ -83,6 +83,11 @@ ASSUMED: dict[str, Moves] = {
     "mounting.rotor.diameter_mm": by_share,
     "mounting.tilt_support.stiffness_N_m_rad": by_share,
     "mounting.tilt_support.damping_ratio": by_share,
+    "mounting.flexure.outer_ring": to((2, 3, 4), (2, 3)),
+    "mounting.flexure.inner_ring": to((2,), ()),
+    "mounting.flexure.damping_ratio": by_share,
+    "mounting.flexure.outer_seat_stiffness_N_m": to(1e6, 1e7),
+    "mounting.flexure.inner_seat_stiffness_N_m": to(1e6, 1e7),
     "mounting.housing.mass_kg": by_share,
     "mounting.housing.diameter_mm": by(5.0),
     "mounting.housing.length_mm": by_share,
@@ -152,9 +157,10 @@ class Sensitivity:
         return (
             f"# What rests on assumed values: {self.scene}, {self.rpm:,.0f} r/min\n\n{machine()}\n\n"
             "Made by `fmu-bearing sensitivity`. One value at a time, level `full`, figures over "
-            f"{1e3 * self.window:g} ms after {1e3 * self.warm_up:g} ms. Unmoved: rms ring velocity "
-            f"{1e3 * b.ring_rms[0]:.3g} (inner) and {1e3 * b.ring_rms[1]:.3g} mm/s (outer), contact load "
-            f"{b.load[0]:.4g} N, contact angle {math.degrees(b.angle[0]):.2f} deg (both inner race), "
+            f"{1e3 * self.window:g} ms after {1e3 * self.warm_up:g} ms; sound by rung compact. Unmoved: "
+            f"rms ring velocity {1e3 * b.ring_rms[0]:.3g} (inner) and {1e3 * b.ring_rms[1]:.3g} mm/s "
+            f"(outer), contact load {b.load[0]:.4g} N, contact angle {math.degrees(b.angle[0]):.2f} deg "
+            "(both inner race), "
             f"friction torque {1e3 * b.torque:.3g} N mm, cage speed {b.cage_ratio:.4f} of the shaft's"
             + (f", sound {sound} dB(A) at the microphones" if sound else "")
             + ". The last column is that of the microphone where it changed most.\n\n"
@@ -198,7 +204,8 @@ def sensitivity(
     Parameters
     ----------
     scene : Scene
-        Computed at level full, whatever its own.
+        Computed at level full, whatever its own; its sound by rung compact where it asks for boundary
+        elements, which would be solved anew for every geometry.
     warm_up, window : float
         Time (s) that each run takes before it is measured, and over which it is.
     track : callable
@@ -210,6 +217,9 @@ def sensitivity(
         If the engine refuses the scene as it is.
     """
     scene = with_fidelity(scene, level="full")
+    if scene.sound is not None and scene.sound.rung == "bem" and scene.sound.radiator != "baffle":
+        plain = {"rung": "compact", "reflecting_plane_mm": None}
+        scene = scene.model_copy(update={"sound": scene.sound.model_copy(update=plain)})
     blocks: dict[str, NDArray[np.float64]] = {}
     base = measure(scene, _sound(scene, blocks), warm_up, window).figures
     moves = [
@@ -255,7 +265,8 @@ def _sound(scene: Scene, blocks: dict[str, NDArray[np.float64]]) -> NDArray[np.f
     """Sound block of a scene, computed once for all that radiate alike."""
     if scene.sound is None:
         return np.empty(0)
-    key = repr((scene.sound, radiators_of(scene), scene.fidelity.ball_harmonics))
+    bending = (scene.mounting.flexure, scene.materials) if scene.mounting.flexure is not None else ()
+    key = repr((scene.sound, radiators_of(scene), scene.fidelity.ball_harmonics, bending))
     if key not in blocks:
         blocks[key] = sound_parameters(scene)
     return blocks[key]

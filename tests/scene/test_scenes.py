@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fmu_bearing.scene import read_scene_text, si
+from fmu_bearing.scene import read_scene, read_scene_text, si
 from fmu_bearing.scene.bearing import Bearing
 from fmu_bearing.scene.lubricant import Lubricant
 from fmu_bearing.scene.material import Material
@@ -83,12 +83,12 @@ def test_every_field_is_described_and_bounded(path, field):
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_example_pins_every_value(name, scene):
+def test_example_pins_every_value(name):
     written = tomllib.loads(text_of(name))
     written["sound"].setdefault("microphone", [])
     for race in ("inner", "outer"):
         written["imperfections"].setdefault(f"{race}_race_harmonic", [])
-    resolved = tomllib.loads(scene(name).to_toml())
+    resolved = tomllib.loads(read_scene(SCENES / f"{name}.toml").to_toml())
     assert written == resolved
 
 
@@ -206,7 +206,7 @@ def test_every_catalogue_entry_is_valid(kind, model):
 
 
 def test_scene_from_the_catalogue_equals_the_example(scene):
-    bare = scene("7003C-bare")
+    bare = read_scene(SCENES / "7003C-bare.toml")
     assert read_scene_text(short()) == bare.model_copy(update={"name": "short"})
 
 

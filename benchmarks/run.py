@@ -10,7 +10,7 @@ import time
 
 import numpy as np
 
-from benchmarks import exudyn_peer, memory, ours, peers, sound, terms
+from benchmarks import bem, exudyn_peer, memory, ours, peers, sound, terms
 from benchmarks.cases import CASES, QUICK, SOLVERS, Case
 from benchmarks.table import COLUMNS, Row, fill_ratios
 from fmu_bearing.study import table
@@ -103,14 +103,15 @@ rows stand below ours; they are timed over {window:g} ms.
 """
 
 
-def report(rows: list[Row], references, costs, sizes, sounds, repeats: int) -> str:
+def report(rows: list[Row], references, costs, sizes, sounds, solved, repeats: int) -> str:
     """Everything as Markdown."""
     text = TEXT.format(machine=machine(), repeats=repeats, window=1e3 * PEER_WINDOW)
     text += table.markdown(COLUMNS, [row.cells() for row in rows])
     text += "\n## References\n\n" + table.markdown(REFERENCE_COLUMNS, references)
     text += "\n## Cost of terms\n\n" + table.markdown(terms.COLUMNS, costs)
     text += "\n## Memory of an instance\n\n" + table.markdown(memory.COLUMNS, sizes)
-    return text + "\n## Cost of sound\n\n" + table.markdown(sound.COLUMNS, sounds)
+    text += "\n## Cost of sound\n\n" + table.markdown(sound.COLUMNS, sounds)
+    return text + "\n## Boundary elements on a ring\n\n" + table.markdown(bem.COLUMNS, solved)
 
 
 def main(arguments: list[str] | None = None) -> None:
@@ -125,19 +126,21 @@ def main(arguments: list[str] | None = None) -> None:
     if not given.quick:
         costs += terms.rows("7009C-full-ceramic", 18000.0, budget, repeats)
     sizes = memory.rows(("7003C-spindle", "7009C-full-ceramic"))
-    rungs = ("compact",) if given.quick else ("compact", "paper", "paper_contacts")
+    rungs = ("compact",) if given.quick else ("bem", "compact", "paper", "paper_contacts")
     sounds = sound.rows("7003C-spindle", rungs, repeats)
     if not given.quick:
-        sounds += sound.rows("7009C-full-ceramic", ("compact",), repeats)
+        sounds += sound.rows("7009C-full-ceramic", ("bem", "compact"), repeats)
+    solved = bem.rows(given.quick)
     print(machine())
     table.show("Simulated s per wall s", COLUMNS, [row.cells() for row in rows])
     table.show("References", REFERENCE_COLUMNS, references)
     table.show("Cost of terms", terms.COLUMNS, costs)
     table.show("Memory of an instance", memory.COLUMNS, sizes)
     table.show("Cost of sound", sound.COLUMNS, sounds)
+    table.show("Boundary elements", bem.COLUMNS, solved)
     if given.output:
         given.output.mkdir(parents=True, exist_ok=True)
-        text = report(rows, references, costs, sizes, sounds, repeats)
+        text = report(rows, references, costs, sizes, sounds, solved, repeats)
         (given.output / "benchmark.md").write_text(text, "utf-8")
         table.write_csv(given.output / "benchmark.csv", COLUMNS, [row.cells() for row in rows])
 

@@ -1,17 +1,14 @@
 """Third-octave bands (IEC 61260-1, base ten): filters, and levels of recordings.
 
 Band x has its centre at 1000 Hz times 10^(x/10) and its edges a factor of 10^(1/20) to either side. Each
-filter is a Butterworth band pass of order eight whose edges stand where the standard wants them; it keeps the
-limits of class 1 at 48 kHz and more (order six misses them below the bands near half the sample rate).
+filter is that of the meters (`weighting.band_sections`): it keeps the limits of class 1 at 48 kHz and more.
 """
-
-import functools
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.signal import butter, sosfilt
+from scipy.signal import sosfilt
 
-from fmu_bearing.acoustics.weighting import level
+from fmu_bearing.acoustics.weighting import band_sections, level
 
 #: Octave ratio of the base-ten system.
 OCTAVE = 10.0**0.3
@@ -19,7 +16,6 @@ _EDGE = OCTAVE ** (1.0 / 6.0)
 _NOMINAL = (1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0)
 _LOWEST, _HIGHEST = -17, 13  # bands 20 Hz to 20 kHz
 _ROOM = 0.95  # of half the sample rate: the last band's upper edge lies below
-_ORDER = 4  # of the prototype, so eight of the band pass
 
 
 def centre_frequencies(sample_rate: float = np.inf) -> NDArray[np.float64]:
@@ -48,16 +44,8 @@ def band_filters(sample_rate: float) -> tuple[NDArray[np.float64], NDArray[np.fl
         raise ValueError(
             f"a sample rate of {sample_rate:g} Hz leaves room for no band; the lowest needs 48 Hz"
         )
-    sections = [_band(float(centre), float(sample_rate)) for centre in centres]
+    sections = [band_sections(float(sample_rate), float(centre)) for centre in centres]
     return centres, np.array(sections)
-
-
-@functools.lru_cache(maxsize=256)
-def _band(centre: float, sample_rate: float) -> NDArray[np.float64]:
-    edges = (centre / _EDGE, centre * _EDGE)
-    sections: NDArray[np.float64] = butter(_ORDER, edges, "bandpass", fs=sample_rate, output="sos")
-    sections.flags.writeable = False
-    return sections
 
 
 def third_octave_levels(

@@ -25,7 +25,7 @@ def test_one_case_through_to_the_table(tmp_path):
     times = np.array([2.5e-5, 5e-5])
     short = reference_from(start, times[-1], sample=times[0])
     entry = peers.solvers()["LSODA"]
-    other = peers.peer_row(TINY.name, "LSODA", entry, problem, short.velocities, times, 1e-3, 5.0)
+    other = peers.peer_row(TINY.name, "LSODA", entry, problem, short.velocities, times, 1e-3, 30.0)
     rows = [*mine, other]
     table.fill_ratios(rows)
     for row in rows:

@@ -32,7 +32,7 @@ PUSH = 1e-3  # m/s
 
 
 @entry
-def fixed_steps(p, c, y, axes, angle, speed, h, count, tableau, tolerance, w, jac, fac, f):
+def fixed_steps(p, c, y, axes, flexure, angle, speed, h, count, tableau, tolerance, w, jac, fac, f):
     """Advance ``y`` by ``count`` steps of ``h`` (s); number of steps that converged."""
     report = np.zeros(4)
     right_hand_side(p, c, y, angle, speed, 0.0, w, f)
@@ -43,7 +43,8 @@ def fixed_steps(p, c, y, axes, angle, speed, h, count, tableau, tolerance, w, ja
     for n in range(count):
         turned = y[2 * at.STRIDE] - start
         if not runge_kutta_step(
-            p, c, y, f, axes, angle, speed, 0.0, h, tableau, fac, turned, tolerance, 0.1, True, w, report
+            p, c, y, f, axes, flexure, angle, speed, 0.0, h, tableau, fac, turned, tolerance, 0.1,
+            True, w, report,
         ):  # fmt: skip
             return n
         for i in range(at.Y_SIZE):
@@ -70,9 +71,12 @@ def rings_after(run, h, tableau, tolerance=1e-13):
     y = s[at.S_Y : at.S_Y + at.Y_SIZE].copy()
     c, axes = s[at.S_C : at.S_C + at.C_SIZE].copy(), s[at.S_AXES : at.S_JAC].copy()
     jac, fac, f = np.zeros(at.J_SIZE), np.zeros(at.A_SIZE), np.zeros(at.F_SIZE)
+    rigid = np.zeros(0)  # rings without flexural modes
     count = round(DURATION / h)
     angle, speed = s[at.S_ANGLE], s[at.S_SPEED]
-    done = fixed_steps(run._p, c, y, axes, angle, speed, h, count, tableau, tolerance, run._w, jac, fac, f)
+    done = fixed_steps(
+        run._p, c, y, axes, rigid, angle, speed, h, count, tableau, tolerance, run._w, jac, fac, f
+    )
     assert done == count
     return y[[at.Y_V, at.Y_V + 1, at.Y_V + 2, at.Y_V + 5, at.Y_V + 6, at.Y_V + 7]]
 

@@ -5,7 +5,7 @@ The same object serves the library and the FMU, so that both give the same bits.
 
 import math
 import warnings
-from typing import NamedTuple
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,14 +28,29 @@ REASONS = {
 }
 
 
-class Caution(NamedTuple):
-    """A warning due while ``z[index]`` is below ``low``; it tells ``scale`` times what is missing."""
+@dataclass(frozen=True)
+class Caution:
+    """A warning after initialisation where ``z[index] < threshold``: ``before``, ``scale`` z, ``after``.
+
+    Attributes
+    ----------
+    index : int
+        Place in ``z``.
+    threshold : float
+    scale : float
+        Factor on the number in the text.
+    before, after : str
+        Text around the number.
+    decimals : int
+        Digits of the number behind the point.
+    """
 
     index: int
-    low: float
+    threshold: float
     scale: float
     before: str
     after: str
+    decimals: int = 1
 
 
 def _shoulder(ring: str, other: str) -> Caution:
@@ -156,11 +171,8 @@ class Instance:
 
     def _cautions(self) -> list[str]:
         """Warnings about the state reached."""
-        return [
-            f"{caution.before}{caution.scale * (self.z[caution.index] - caution.low):.1f}{caution.after}"
-            for caution in CAUTIONS
-            if self.z[caution.index] < caution.low
-        ]
+        due = [caution for caution in CAUTIONS if self.z[caution.index] < caution.threshold]
+        return [f"{one.before}{one.scale * self.z[one.index]:.{one.decimals}f}{one.after}" for one in due]
 
     def step(self, h: float) -> None:
         """Advance by ``h`` (s). The speed ramps to its input over the step; other inputs are held.

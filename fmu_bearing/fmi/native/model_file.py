@@ -17,13 +17,13 @@ from numpy.typing import ArrayLike
 from fmu_bearing.engine import layout
 from fmu_bearing.fmi.description import LOG_CATEGORIES
 from fmu_bearing.fmi.resources import fingerprint
-from fmu_bearing.instance import REASONS
+from fmu_bearing.instance import CAUTIONS, REASONS, Caution
 from fmu_bearing.interface import Variable
 
 if TYPE_CHECKING:
     from fmu_bearing.prepare.model import Model
 
-__all__ = ["MODEL_FILE", "Caution", "Contents", "contents_bytes", "model_bytes"]
+__all__ = ["MODEL_FILE", "Contents", "contents_bytes", "model_bytes"]
 
 MODEL_FILE = "model.bin"
 
@@ -46,31 +46,6 @@ _CATEGORY = struct.Struct("<2I")
 
 #: The fmi2Status whose messages belong to a category.
 _STATUS_OF_CATEGORY = {"logAll": 0, "logStatusWarning": 1, "logStatusDiscard": 2, "logStatusError": 3}
-
-
-@dataclass(frozen=True)
-class Caution:
-    """A warning after initialisation where ``z[index] < threshold``: ``before``, ``scale`` z, ``after``.
-
-    Attributes
-    ----------
-    index : int
-        Place in ``z``.
-    threshold : float
-    scale : float
-        Factor on the number in the text.
-    before, after : str
-        Text around the number.
-    decimals : int
-        Digits of the number behind the point.
-    """
-
-    index: int
-    threshold: float
-    scale: float
-    before: str
-    after: str
-    decimals: int = 1
 
 
 @dataclass(frozen=True)
@@ -217,7 +192,7 @@ def _caution(caution: Caution, texts: _Texts) -> bytes:
     )
 
 
-def model_bytes(model: "Model", guid: str, kernels_hash: str, cautions: Sequence[Caution] = ()) -> bytes:
+def model_bytes(model: "Model", guid: str, kernels_hash: str) -> bytes:
     """Return ``resources/model.bin`` of a model.
 
     Parameters
@@ -227,7 +202,6 @@ def model_bytes(model: "Model", guid: str, kernels_hash: str, cautions: Sequence
         As in ``modelDescription.xml``.
     kernels_hash : str
         64 hexadecimal digits that name the equations of the library.
-    cautions : sequence of Caution
 
     Returns
     -------
@@ -253,7 +227,7 @@ def model_bytes(model: "Model", guid: str, kernels_hash: str, cautions: Sequence
             variables=model.variables,
             ramped=layout.U_SPEED,
             reasons=REASONS,
-            cautions=cautions,
+            cautions=CAUTIONS,
             categories=[(name, _STATUS_OF_CATEGORY[name]) for name in LOG_CATEGORIES],
         )
     )

@@ -153,6 +153,13 @@ def test_places_of_variables_are_not_believed(master, tmp_path, place):
     assert "do not fit together" in one.messages
 
 
+def test_inputs_stand_among_the_inputs(master, tmp_path):
+    # rates of inputs have places for those only
+    changed = bytearray(GOOD)
+    struct.pack_into("<I", changed, VARIABLES + 4 * 3, 2)
+    assert master(written(tmp_path, sealed(bytes(changed)))).instance is None
+
+
 @pytest.mark.parametrize("count", range(34))
 def test_files_of_every_length(master, tmp_path, count):
     # the checksum works in blocks of 128 bytes

@@ -8,7 +8,7 @@
 
 static const char MAGIC[8] = {'f', 'b', 'm', 'o', 'd', 'e', 'l', '\n'};
 static const uint64_t VERSION = 1;
-static const uint64_t LARGEST = UINT64_C(1) << 27; /* numbers in s or w: a gigabyte, far beyond any scene */
+static const uint64_t LARGEST = UINT64_C(1) << 24; /* numbers in s, z or w: 128 MB, far beyond any scene */
 enum { MOST_CATEGORIES = 32 };
 
 /* Read a whole file; NULL with the reason. */
@@ -66,6 +66,7 @@ static int variable_fits(const ModelHead *head, const ModelVariable *variable)
     int text = variable->type != TYPE_STRING || variable->array == ARRAY_NONE;
     return variable->type <= TYPE_STRING && variable->causality <= CAUSALITY_PARAMETER &&
            variable->variability <= VARIABILITY_CONTINUOUS && variable->array <= ARRAY_P && text &&
+           (variable->causality != CAUSALITY_INPUT || variable->array == ARRAY_U) && /* rates stand beside u */
            (variable->array == ARRAY_NONE || variable->index < sizes[variable->array]) &&
            variable->name < head->n_text && variable->unit < head->n_text && variable->text < head->n_text;
 }

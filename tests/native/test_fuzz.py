@@ -1,0 +1,133 @@
+"""A careless host: random calls and values, damaged files and states; the driver is ``fuzz/fuzz.c``.
+
+It runs in a process of its own, so that a crash is a failure of the test and not of the tests.
+"""
+
+import shutil
+import subprocess
+
+import pytest
+
+from fmu_bearing.fmi.native import compile as ahead
+from fmu_bearing.fmi.native.model_file import model_bytes
+from fmu_bearing.fmi.native.platforms import host as own_platform
+from fmu_bearing.fmi.resources import engine_digest
+
+from . import toy
+
+DRIVER = sorted(map(str, (toy.HERE / "fuzz").glob("*.c")))
+DRIVER.remove(KERNEL := str(toy.HERE / "fuzz" / "kernel.c"))
+SANITIZED = ("-O1", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
+#: Least counts that show a run to have reached every depth, for each round.
+DEPTH = {
+    "ok": 60,
+    "discard": 2,
+    "error": 30,
+    "logged": 30,
+    "steps": 10,
+    "discarded_steps": 0.1,
+    "refused_models": 4,
+    "refused_states": 1,
+}
+FORGED = {"forged_models": 0.5, "forged_states": 1}
+
+
+def build(folder, compiler, kernels, digest, *options, shim=toy.SHIM):
+    """Compile driver and shim with options, and link them with kernels."""
+    program = folder / "fuzz"
+    sources = [*DRIVER, *sorted(map(str, shim.glob("*.c")))]
+    flags = [*toy.WARNINGS, *options, f"-I{toy.HEADERS}", f"-I{shim}", f'-DFB_KERNELS="{digest}"']
+    flags += ["-DFB_X86"] if toy.IS_X86 else []
+    toy.run([compiler, *flags, *sources, *map(str, kernels), "-o", str(program), "-lm"])
+    return program
+
+
+def hostile_kernels(folder, compiler, *options):
+    """Objects of the kernels that use every number they are given."""
+    objects = []
+    for isa in ("v2", "v3") if toy.IS_X86 else ("base",):
+        objects.append(folder / f"kernel_{isa}.o")
+        command = [compiler, *toy.WARNINGS, *options, f"-DISA={isa}", "-c", KERNEL, "-o", str(objects[-1])]
+        toy.run(command)
+    return objects
+
+
+def play(program, good, bad, seed, rounds, *, guid=toy.GUID, count=17, step=0.1, forge=True, seconds=60):
+    """Let the host call for some rounds; counts of what happened."""
+    bad.mkdir(exist_ok=True)
+    arguments = [guid, good, bad, count, step, int(forge), seed, rounds]
+    done = subprocess.run(
+        [program, *map(str, arguments)], capture_output=True, text=True, errors="replace", timeout=seconds
+    )
+    assert done.returncode == 0, (arguments, done.stdout[-2000:], done.stderr[-4000:])
+    return {name: int(number) for name, number in (pair.split("=") for pair in done.stdout.split())}
+
+
+def check_depth(counts, rounds, forge=True):
+    for name, least in (DEPTH | FORGED if forge else DEPTH).items():
+        assert counts[name] >= least * rounds, (name, counts)
+
+
+def test_no_call_is_too_careless(compiler, resources, tmp_path):
+    program = build(tmp_path, compiler, hostile_kernels(tmp_path, compiler), toy.KERNELS)
+    counts = play(program, resources, tmp_path / "bad", seed=1, rounds=60)
+    check_depth(counts, 60)
+    # what happens follows from the seed alone: a failure can be had again
+    assert play(program, resources, tmp_path / "bad", seed=1, rounds=60) == counts
+
+
+@pytest.fixture(scope="session")
+def sanitizers(compiler, tmp_path_factory):
+    """Options of the sanitisers, where the compiler has them."""
+    source = tmp_path_factory.mktemp("sanitizers") / "nothing.c"
+    source.write_text("int main(void) { return 0; }\n")
+    command = [compiler, *SANITIZED, str(source), "-o", str(source.with_suffix(""))]
+    if subprocess.run(command, capture_output=True).returncode != 0:
+        pytest.skip("the C compiler has no address and undefined-behaviour sanitisers (Debian: gcc)")
+    return SANITIZED
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("seed", range(2, 6))
+def test_no_call_is_too_careless_under_sanitizers(compiler, sanitizers, resources, tmp_path, seed):
+    kernels = hostile_kernels(tmp_path, compiler, *sanitizers)
+    program = build(tmp_path, compiler, kernels, toy.KERNELS, *sanitizers)
+    counts = play(program, resources, tmp_path / "bad", seed, rounds=1000, seconds=600)
+    check_depth(counts, 1000)
+
+
+@pytest.mark.heavy
+def test_real_kernels_bear_a_careless_host(compiler, sanitizers, scene, tmp_path):
+    """Damage that keeps its checksum right is left out: kernels trust what the shim has checked."""
+    from fmu_bearing.fmi.description import interface_guid
+    from fmu_bearing.prepare.model import prepare
+
+    platform = own_platform()
+    if platform is None:
+        pytest.skip("there are no compiled kernels for this machine")
+    model = prepare(scene("7003C-spindle"))
+    digest, guid = engine_digest().hex(), interface_guid(model, "native")
+    good = tmp_path / "good"
+    good.mkdir()
+    (good / "model.bin").write_bytes(model_bytes(model, guid, digest))
+    program = build(tmp_path, compiler, ahead.objects(platform), digest, *sanitizers)
+    step, count = 1e-5, len(model.variables)
+    options = {"guid": guid, "count": count, "step": step, "forge": False, "seconds": 900}
+    counts = play(program, good, tmp_path / "bad", seed=1, rounds=20, **options)
+    check_depth(counts, 20, forge=False)
+
+
+def test_driver_notices_a_library_that_takes_damage(compiler, resources, tmp_path):
+    """The driver itself: with checksums believed blindly it has to fail."""
+    shim = tmp_path / "shim"
+    shutil.copytree(toy.SHIM, shim)
+    digest = shim / "digest.c"
+    text = digest.read_text()
+    believing = text.replace("return memcmp(found, expected, DIGEST_SIZE) == 0;", "return 1;")
+    assert believing != text
+    digest.write_text(believing)
+    program = build(
+        tmp_path, compiler, hostile_kernels(tmp_path, compiler), toy.KERNELS, "-Wno-unused", shim=shim
+    )
+    with pytest.raises(AssertionError, match="took a damaged"):
+        play(program, resources, tmp_path / "bad", seed=1, rounds=20)

@@ -79,7 +79,7 @@ def compiler_for(platform: Platform, prefer: str = "auto") -> Compiler:
             return Compiler((command, *_own_flags()), _version(command))
     if prefer in ("auto", "zig") and importlib.util.find_spec("ziglang") is not None:
         zig = (sys.executable, "-m", "ziglang", "cc", "-target", platform.zig, "-s")
-        return Compiler(zig, f"zig {version('ziglang')}")
+        return Compiler((*zig, *_zig_flags(platform)), f"zig {version('ziglang')}")
     if own:
         raise BuildError(
             f"{platform.name}: there is no C compiler; install one (Debian: gcc), or pip install "
@@ -93,6 +93,12 @@ def compiler_for(platform: Platform, prefer: str = "auto") -> Compiler:
 def _own_flags() -> tuple[str, ...]:
     if sys.platform.startswith("linux"):
         return ("-fPIC", "-s", "-Wl,--build-id=none", "-Wl,--no-undefined", "-Wl,-z,noexecstack")
+    return ()
+
+
+def _zig_flags(platform: Platform) -> tuple[str, ...]:
+    if platform.suffix == ".dylib":  # it would be named after the file, which lies in a folder of the moment
+        return ("-Wl,-install_name,@rpath/bearing.dylib",)
     return ()
 
 

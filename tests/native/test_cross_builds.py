@@ -1,0 +1,238 @@
+"""Libraries for every platform: what they export and ask for, and two of them run under emulators.
+
+The host's library is looked at in the quick tests, all five in the heavy ones. Emulators run only on
+request, as they are large: set FMU_BEARING_EMULATORS=1.
+"""
+
+import importlib.util
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from fmu_bearing.fmi.native import link
+from fmu_bearing.fmi.native.compile import objects
+from fmu_bearing.fmi.native.link import library
+from fmu_bearing.fmi.native.model_file import model_bytes
+from fmu_bearing.fmi.native.optimise import MATHEMATICS, BuildError
+from fmu_bearing.fmi.native.platforms import PLATFORMS
+from fmu_bearing.fmi.native.platforms import host as own_platform
+from fmu_bearing.fmi.resources import engine_digest
+
+from . import binaries, toy
+from .master import SIGNATURES
+
+FUNCTIONS = {f"fmi2{name}" for name in SIGNATURES} | {
+    "fmi2Instantiate",
+    "fmi2FreeInstance",
+    "fmi2GetVersion",
+    "fmi2GetTypesPlatform",
+}
+#: What the shim uses of the C library, and names the mathematics have there.
+C_LIBRARY = MATHEMATICS | set(
+    "calloc malloc realloc free fopen fclose fread fseek ftell getenv snprintf memcmp strcmp strlen strncmp "
+    "strspn strtod strtol fmax".split()
+)
+#: The same functions under the names that macOS' headers and code generator give them, and its loader.
+DARWIN = set("bzero __bzero __memcpy_chk __snprintf_chk __sincos_stret dyld_stub_binder".split())
+#: Written into every library of its kind by Zig's linker; no function.
+MARKERS = {"_mh_dylib_header", "__dso_handle"}
+SYSTEM = {
+    ".so": {"libc.so.6", "libm.so.6", "ld-linux-x86-64.so.2", "ld-linux-aarch64.so.1"},
+    ".dylib": {"/usr/lib/libSystem.B.dylib"},
+    ".dll": {"kernel32.dll"},
+}
+OLDEST_GLIBC = (2, 17)
+
+
+def check_symbols(platform, data):
+    """Nothing but FMI comes out, nothing but the C library goes in; returns what was read."""
+    found = binaries.read(data)
+    assert found.machine == ("x86-64" if platform.triple.startswith("x86_64") else "aarch64")
+    assert found.exports - (MARKERS if platform.suffix == ".dylib" else set()) == FUNCTIONS
+    if platform.suffix == ".dll":  # its run-time library adds what a DLL needs to start
+        strange = {name for name in found.needed if not name.lower().startswith("api-ms-win-crt-")}
+        assert {name.lower() for name in strange} <= SYSTEM[".dll"]
+    else:
+        assert found.imports <= C_LIBRARY | (DARWIN if platform.suffix == ".dylib" else set())
+        assert found.needed <= SYSTEM[platform.suffix]
+    return found
+
+
+def test_library_of_this_machine(compiler):
+    platform = own_platform()
+    if platform is None:
+        pytest.skip("there is no native build for this machine")
+    check_symbols(platform, library(platform).read_bytes())
+
+
+def test_reader_tells_what_is_too_much(compiler, tmp_path):
+    # the toy without hidden symbols and with one more: what the test above has to notice
+    source = tmp_path / "more.c"
+    source.write_text('#include <stdio.h>\nint more(void);\nint more(void) { return puts(""); }\n')
+    toy.run([compiler, "-shared", "-fPIC", str(source), "-o", str(tmp_path / "more.so")])
+    found = binaries.read((tmp_path / "more.so").read_bytes())
+    assert found.exports == {"more"}
+    assert found.imports - C_LIBRARY == {"puts"}
+
+
+@pytest.fixture
+def no_zig(monkeypatch):
+    """As if Zig were not installed."""
+    find_spec = importlib.util.find_spec
+    monkeypatch.setattr(
+        link.importlib.util, "find_spec", lambda name: None if name == "ziglang" else find_spec(name)
+    )
+
+
+def test_platform_without_its_compiler_names_the_extra(no_zig):
+    other = next(name for name in PLATFORMS if PLATFORMS[name] != own_platform())
+    with pytest.raises(BuildError) as refusal:
+        link.compiler_for(PLATFORMS[other])
+    assert str(refusal.value) == (
+        f"{other}: another platform than this machine's needs pip install fmu-bearing[cross]"
+    )
+
+
+@pytest.fixture(scope="session")
+def zig():
+    if importlib.util.find_spec("ziglang") is None:
+        pytest.skip("Zig is not installed: pip install fmu-bearing[cross]")
+    return (sys.executable, "-m", "ziglang", "cc")
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("name", PLATFORMS)
+def test_library_of_every_platform(zig, name):
+    platform = PLATFORMS[name]
+    data = library(platform, prefer="zig").read_bytes()
+    found = check_symbols(platform, data)
+    for version in found.versions:
+        assert tuple(map(int, version.removeprefix("GLIBC_").split("."))) <= (*OLDEST_GLIBC, 0), version
+    if platform.suffix == ".so":
+        assert found.versions
+    if name == "aarch64-darwin":
+        assert found.signed  # nothing unsigned runs there
+    assert found.name in ("", "bearing.dll", "@rpath/bearing.dylib")
+    # the same sources give the same bytes, wherever the compiler's files of the moment lie
+    again = link.link(
+        link.compiler_for(platform, "zig"),
+        platform,
+        link.shim_sources(),
+        objects(platform),
+        engine_digest().hex(),
+    )
+    assert again == data
+
+
+@pytest.mark.heavy
+def test_one_fmu_for_all_platforms(zig, tmp_path, scene):
+    from fmu_bearing.fmi.package import build
+    from fmu_bearing.prepare.model import prepare
+
+    built = build(prepare(scene("7003C-spindle")), tmp_path / "all.fmu", platforms=list(PLATFORMS))
+    assert built.platforms == tuple(sorted(PLATFORMS))
+    assert str(built).count(", ".join(sorted(PLATFORMS))) == 1
+
+
+# --- emulators ------------------------------------------------------------------------------------------
+def _wine():
+    for name in ("wine64", "wine", "/usr/lib/wine/wine64"):
+        if found := shutil.which(name):
+            return found
+    return None
+
+
+def _emulator(name):
+    """How to run programs of a platform; skips where that was not asked for, or is not there."""
+    if os.environ.get("FMU_BEARING_EMULATORS") != "1":
+        pytest.skip(
+            "emulators run on request: set FMU_BEARING_EMULATORS=1 (Debian: wine64 for win64; qemu-user and "
+            "libc6-arm64-cross for aarch64-linux)"
+        )
+    if name == "win64":
+        command = [_wine()]
+        if not command[0]:
+            pytest.skip("there is no Wine (Debian: wine64)")
+    else:
+        qemu = shutil.which("qemu-aarch64") or shutil.which("qemu-aarch64-static")
+        root = Path("/usr/aarch64-linux-gnu")
+        if not qemu or not root.is_dir():
+            pytest.skip("there is no qemu-aarch64 with a C library (Debian: qemu-user, libc6-arm64-cross)")
+        command = [qemu, "-L", str(root)]
+    return command
+
+
+#: Speeds in rad/s that the shaft is brought to in turn.
+_SPEEDS = (700.0, 900.0, 1200.0)
+
+
+@pytest.fixture(scope="module")
+def spindle(tmp_path_factory):
+    """Folder with the model of the spindle, its GUID, the commands of a run, and references of its Reals."""
+    from fmu_bearing.fmi.description import interface_guid
+    from fmu_bearing.prepare.model import prepare
+    from fmu_bearing.scene import read_scene
+
+    path = toy.HERE.parents[1] / "examples" / "scenes" / "7003C-spindle.toml"
+    found = read_scene(path)
+    model = prepare(found.model_copy(update={"sound": found.sound.model_copy(update={"rung": "compact"})}))
+    guid = interface_guid(model, "native")
+    folder = tmp_path_factory.mktemp("spindle")
+    (folder / "model.bin").write_bytes(model_bytes(model, guid, engine_digest().hex()))
+    names = [variable.name for variable in model.variables]
+    shown = [
+        reference
+        for reference, variable in enumerate(model.variables)
+        if variable.type == "Real" and variable.causality in ("output", "local")
+    ]
+    commands = ["start:0.0"]
+    for speed in _SPEEDS:
+        commands += [f"set:{names.index('shaft_speed')}:{speed}", "step:1e-4:10"]
+        commands.append("get:" + ",".join(map(str, shown)))
+    return folder, guid, commands, [names[reference] for reference in shown]
+
+
+def _values(ran):
+    assert ran.returncode == 0, (ran.stdout[-2000:], ran.stderr[-2000:])
+    lines = [line.split() for line in ran.stdout.splitlines() if line and not line.startswith("log ")]
+    return np.array([[float(number) for number in line] for line in lines])
+
+
+@pytest.mark.parametrize("name", ["win64", "aarch64-linux"])
+def test_library_runs_under_an_emulator(zig, host, spindle, tmp_path, monkeypatch, name):
+    emulator = _emulator(name)
+    folder, guid, commands, names = spindle
+    platform = PLATFORMS[name]
+    own = subprocess.run(
+        [host, library(own_platform()), guid, folder.as_uri(), *commands], capture_output=True, text=True
+    )
+    expected = _values(own)
+    assert expected.shape == (len(_SPEEDS), len(names))
+    program = tmp_path / ("host.exe" if name == "win64" else "host")
+    toy.run(
+        [*zig, "-target", platform.zig, "-std=c99", "-O2", f"-I{toy.HEADERS}", str(toy.HERE / "host.c"), "-o",
+         str(program), *(() if name == "win64" else ("-ldl", "-lpthread"))]
+    )  # fmt: skip
+    made = shutil.copy(library(platform, prefer="zig"), tmp_path / f"bearing{platform.suffix}")
+    place, where = (f"Z:{made}", f"file:///Z:{folder}") if name == "win64" else (made, folder.as_uri())
+    monkeypatch.setenv("WINEPREFIX", str(tmp_path / "wine"))
+    monkeypatch.setenv("WINEDEBUG", "-all")
+    ran = subprocess.run(
+        [*emulator, program, place, guid, where, *commands], capture_output=True, text=True, timeout=900
+    )
+    found = _values(ran)
+    assert found.shape == expected.shape
+    size = np.abs(expected).max(axis=0)
+    off = (np.abs(found - expected) / np.where(size > 0.0, size, 1.0)).max(axis=0)
+    worst = int(off.argmax())
+    print(
+        f"{name}: {np.mean(found == expected):.0%} of the values equal bit for bit, the largest difference "
+        f"{off[worst]:.2g} of the value, in {names[worst]}"
+    )
+    # other mathematics libraries round differently in the last place; a step multiplies that
+    assert off[worst] < 1e-6, (names[worst], found[:, worst], expected[:, worst])

@@ -25,7 +25,7 @@ DEPTH = {
     "error": 30,
     "logged": 30,
     "steps": 10,
-    "discarded_steps": 0.1,
+    "discarded_steps": 0.02,
     "refused_models": 4,
     "refused_states": 1,
 }
@@ -113,8 +113,8 @@ def test_real_kernels_bear_a_careless_host(compiler, sanitizers, scene, tmp_path
     program = build(tmp_path, compiler, ahead.objects(platform), digest, *sanitizers)
     step, count = 1e-5, len(model.variables)
     options = {"guid": guid, "count": count, "step": step, "forge": False, "seconds": 900}
-    counts = play(program, good, tmp_path / "bad", seed=1, rounds=20, **options)
-    check_depth(counts, 20, forge=False)
+    counts = play(program, good, tmp_path / "bad", seed=1, rounds=100, **options)
+    check_depth(counts, 100, forge=False)
 
 
 def test_driver_notices_a_library_that_takes_damage(compiler, resources, tmp_path):

@@ -10,6 +10,7 @@ enum {
     MODEL_CHECKSUM = 16,                       /* behind magic and version */
     MODEL_SIZES = MODEL_CHECKSUM + 3 * 32,     /* behind the hashes of equations and model */
     MODEL_HEAD = MODEL_SIZES + 15 * 8,
+    VARIABLE = 8 * 4 + 3 * 8,
     STATE_CHECKSUM = 16 + 32,                  /* behind magic and model */
     STATE_HEAD = STATE_CHECKSUM + 32 + 7 * 8
 };
@@ -69,6 +70,21 @@ static void shrink(unsigned char *file)
     }
 }
 
+/* Change some numbers of one variable, among the first ones rather than the others. */
+static void change_variable(Fuzz *fuzz, unsigned char *file)
+{
+    uint64_t before[2], variable = below(fuzz, chance(fuzz, 70) ? 4 : fuzz->n_variables);
+    unsigned char *at;
+    int i;
+    memcpy(before, file + MODEL_SIZES, sizeof before); /* of parameters and inputs */
+    at = file + MODEL_HEAD + 8 * (before[0] + before[1]) + VARIABLE * variable;
+    for (i = 0; i < 2; i++) {
+        uint64_t place = below(fuzz, 5); /* type, causality, variability, array, index */
+        uint32_t number = (uint32_t)below(fuzz, place == 4 && chance(fuzz, 50) ? UINT32_MAX : 4);
+        memcpy(at + 4 * place, &number, sizeof number);
+    }
+}
+
 /* Write a damaged file; 1 if it must be refused, as its checksum was left as it is. */
 static int write_bad(Fuzz *fuzz)
 {
@@ -77,7 +93,12 @@ static int write_bad(Fuzz *fuzz)
     int differs, forged = fuzz->forge && chance(fuzz, 85);
     FILE *file = fopen(fuzz->bad_file, "wb");
     memcpy(bytes, fuzz->model, fuzz->model_size);
-    differs = damage(fuzz, bytes, size, MODEL_SIZES, MODEL_HEAD) || size < fuzz->model_size;
+    if (forged && size == fuzz->model_size && chance(fuzz, 40)) {
+        change_variable(fuzz, bytes);
+        differs = 1;
+    } else {
+        differs = damage(fuzz, bytes, size, MODEL_SIZES, MODEL_HEAD) || size < fuzz->model_size;
+    }
     if (forged && size >= MODEL_HEAD) shrink(bytes);
     if (forged && size > MODEL_CHECKSUM + 32) {
         digest(bytes + MODEL_CHECKSUM + 32, size - MODEL_CHECKSUM - 32, bytes + MODEL_CHECKSUM);

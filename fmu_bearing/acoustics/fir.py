@@ -5,6 +5,7 @@ import functools
 import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
+from scipy.linalg import solve, toeplitz
 from scipy.signal import remez
 
 from fmu_bearing.engine.sound.places import DECIMATOR_TAPS, LATENCY, RATE, RAW_RATE
@@ -98,12 +99,10 @@ def between(
     return result
 
 
-def _target(
-    frequency: NDArray[np.float64], response: NDArray[np.complex128], flight: float
-) -> NDArray[np.complex128]:
-    """Return what the filter must do so that the whole chain is ``response``, ``LATENCY`` late."""
-    turn = 2j * np.pi * frequency * (delay_of(flight) - LATENCY) / RATE
-    return response * np.exp(turn) / decimator_response(frequency)
+@functools.cache
+def _decimated(length: int) -> NDArray[np.complex128]:
+    """Response of the decimator on the grid of a filter of ``length`` taps."""
+    return decimator_response(_grid(length))
 
 
 def fit(
@@ -146,16 +145,14 @@ def _fit_length(
     if len(grid) > len(coarse):
         response = between(coarse, response, flight, grid)
         strongest = np.interp(grid, coarse, strongest)
-    wanted = _target(grid, response, flight)
+    # what the filter must do so that the whole chain is `response`, LATENCY late
+    wanted = response * np.exp(2j * np.pi * grid * (delay_of(flight) - LATENCY) / RATE) / _decimated(length)
     weight = 1.0 / np.maximum(np.abs(response), _WEAK * strongest)
-    right = wanted * weight
-    basis, stop = _basis(length), _stop_rows(length) * (_STOP_WEIGHT * weight[-1])
-    rows = basis * weight[:, None]
-    matrix = np.concatenate([rows.real, rows.imag, stop.real, stop.imag])
-    vector = np.concatenate([right.real, right.imag, np.zeros(2 * len(stop))])
+    basis, stop = _basis(length), _stop_rows(length)
     # Normal equations: far cheaper than an orthogonal solver, and the errors stay those of the filter
-    # length.
-    normal = matrix.T @ matrix
-    normal.flat[:: length + 1] += _RIDGE * normal.trace() / length
-    taps = np.linalg.solve(normal, matrix.T @ vector)
+    # length. Their matrix depends on the distance of two taps alone: one column tells all.
+    square = weight**2
+    column = (square @ basis).real + (_STOP_WEIGHT * weight[-1]) ** 2 * stop.sum(axis=0).real
+    column[0] *= 1.0 + _RIDGE
+    taps = solve(toeplitz(column), ((square * wanted.conj()) @ basis).real, assume_a="pos")
     return taps, float(np.max(np.abs(basis @ taps - wanted) * weight))

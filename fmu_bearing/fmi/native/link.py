@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
 
-from fmu_bearing.fmi.files import write_whole
+from fmu_bearing.files import write_whole
 from fmu_bearing.fmi.native.compile import Tell, kernel_folder, objects, silent
 from fmu_bearing.fmi.native.optimise import BuildError
 from fmu_bearing.fmi.native.platforms import Platform, host

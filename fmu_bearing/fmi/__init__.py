@@ -14,7 +14,7 @@ host           ends the interpreter in hosts that are not Python
 icon           draws ``model.png``
 ============== =====================================================================================
 
-Building: ``scene -> prepare -> package.build``. Running a native FMU: its library reads ``model.bin`` and
-needs nothing else. Running a Python FMU (session, state, python_slave, host): pythonfmu's library imports the stub from the
-FMU's resources, the stub imports ``python_slave``, which reads ``resources`` and drives a ``session``.
+Building: ``scene -> prepare -> package.build``. A native FMU needs nothing but its library, which reads
+``model.bin``. In a Python FMU (session, state, python_slave, host) pythonfmu's library imports the stub from
+the FMU's resources, the stub imports ``python_slave``, which reads ``resources`` and drives a ``session``.
 """

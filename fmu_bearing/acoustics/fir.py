@@ -21,6 +21,7 @@ _LENGTHS = (48, 64, 96, 128, 192, 256, 384, 512, 768, 1024)
 _GRID_SERVES = 512
 _FINER = 4
 _GOOD = 10 ** (-55 / 20)  # error at which a filter is long enough
+_LITTLE = 10 ** (0.5 / 20)  # where none is: what a longer one must better, 0.5 dB
 
 
 def fit_frequencies() -> NDArray[np.float64]:
@@ -123,18 +124,18 @@ def fit(
     Returns
     -------
     taps, error
-        Taps at ``RATE``, newest sample first, as few as reach -55 dB, 1024 at most; largest deviation in
-        `BAND` over the larger of the path's own magnitude and the strongest one's minus 30 dB. Filters
-        longer than 256 taps are held to a grid four times as fine, where a spline stands for the response.
+        Taps at ``RATE``, newest sample first, as few as reach -55 dB or, where 1024 do not, come within
+        0.5 dB of the least error; largest deviation in `BAND` over the larger of the path's own magnitude and
+        the strongest one's minus 30 dB. Filters longer than 512 taps are held to a grid four times as fine,
+        where a spline stands for the response.
     """
-    best, least = np.zeros(_LENGTHS[0]), np.inf
+    found = []
     for length in _LENGTHS:
-        taps, error = _fit_length(length, response, flight, strongest)
-        if error < least:
-            best, least = taps, error
-        if error < _GOOD:
-            break
-    return best, least
+        found.append(_fit_length(length, response, flight, strongest))
+        if found[-1][1] < _GOOD:
+            return found[-1]
+    least = min(error for _, error in found)
+    return next((taps, error) for taps, error in found if error <= _LITTLE * least)
 
 
 def _fit_length(

@@ -41,12 +41,45 @@ static fmi2Status wrong_time(Instance *it, double time, double size)
     return instance_fail(it, &text);
 }
 
+/* Note a step. A copy of a large state takes longer than many a step, so one serves several: as the engine
+ * answers the same to the last bit, repeating the steps since leads to any state on the way. */
+static inline void note(Instance *it, double size, const double *inputs)
+{
+    const ModelHead *head = it->model.head;
+    double *entry;
+    if (it->n_journal == it->most_journal || it->span + size > head->journal_span) {
+        memcpy(it->kept_s, it->s, it->bytes_s);
+        it->n_journal = 0;
+        it->span = 0.0;
+    }
+    entry = it->journal + it->n_journal * (head->n_u + 1);
+    if (it->most_journal > 1) memcpy(entry + 1, inputs, (size_t)head->n_u * sizeof(double));
+    entry[0] = size;
+    it->span += size;
+    it->n_journal++;
+}
+
+/* Go back to the state before the step noted last; 0 if the engine does not do again what it did. */
+static int go_back(Instance *it)
+{
+    uint64_t length = it->model.head->n_u + 1;
+    uint64_t i;
+    memcpy(it->s, it->kept_s, it->bytes_s);
+    for (i = 0; i + 1 < it->n_journal; i++) {
+        const double *entry = it->journal + i * length;
+        if (it->step(it->p, entry + 1, it->s, it->z, it->w, it->sizes, entry[0]) != 0) return 0;
+    }
+    instance_forget(it);
+    return 1;
+}
+
 /* Go back to where the step began, and say why it did not succeed. */
 static fmi2Status undo(Instance *it, double time, double size, int32_t status)
 {
     Text text = {0};
+    int there;
     it->reached = *it->engine_time;
-    memcpy(it->s, it->kept_s, it->bytes_s);
+    there = go_back(it);
     if (!it->tracks) it->last_step = 0.0; /* the copy was of this step's begin: nothing to look back on */
     add_step(&text, time, size);
     text_add(&text, "step of ", NULL);
@@ -59,14 +92,16 @@ static fmi2Status undo(Instance *it, double time, double size, int32_t status)
     model_add_reason(&it->model, status, &text);
     text_add(&text, "; ", NULL);
     instance_add_inputs(it, &text);
-    return instance_refuse(it, fmi2Discard, &text);
+    if (there) return instance_refuse(it, fmi2Discard, &text);
+    text_add(&text, "; the state before the step could not be found again", NULL);
+    return instance_fail(it, &text);
 }
 
 /* Let the engine step with these inputs; where that fails everything is as before. */
 static inline fmi2Status advance(Instance *it, double time, double size, const double *inputs)
 {
     int32_t status;
-    memcpy(it->kept_s, it->s, it->bytes_s);
+    note(it, size, inputs);
     if (it->tracks) memcpy(it->kept_z, it->z, it->bytes_z);
     status = it->step(it->p, inputs, it->s, it->z, it->w, it->sizes, size);
     if (status != 0) return undo(it, time, size, status);

@@ -41,19 +41,34 @@ static fmi2Status wrong_time(Instance *it, double time, double size)
     return instance_fail(it, &text);
 }
 
+/* Copy numbers; a few of them in line, as a call would take longer. */
+static inline void copy(double *to, const double *from, size_t count)
+{
+    size_t i;
+    if (count > 16) {
+        memcpy(to, from, count * sizeof(double));
+        return;
+    }
+    for (i = 0; i < count; i++) to[i] = from[i];
+}
+
 /* Note a step. A copy of a large state takes longer than many a step, so one serves several: as the engine
  * answers the same to the last bit, repeating the steps since leads to any state on the way. */
 static inline void note(Instance *it, double size, const double *inputs)
 {
-    const ModelHead *head = it->model.head;
     double *entry;
-    if (it->n_journal == it->most_journal || it->span + size > head->journal_span) {
-        memcpy(it->kept_s, it->s, it->bytes_s);
+    if (it->most_journal == 1) { /* a small state */
+        copy(it->kept_s, it->s, (size_t)it->sizes[2]);
+        it->n_journal = 1;
+        return;
+    }
+    if (it->n_journal == it->most_journal || it->span + size > it->most_span) {
+        copy(it->kept_s, it->s, (size_t)it->sizes[2]);
         it->n_journal = 0;
         it->span = 0.0;
     }
-    entry = it->journal + it->n_journal * (head->n_u + 1);
-    if (it->most_journal > 1) memcpy(entry + 1, inputs, (size_t)head->n_u * sizeof(double));
+    entry = it->journal + it->n_journal * it->entry_size;
+    memcpy(entry + 1, inputs, (it->entry_size - 1) * sizeof(double));
     entry[0] = size;
     it->span += size;
     it->n_journal++;
@@ -62,11 +77,10 @@ static inline void note(Instance *it, double size, const double *inputs)
 /* Go back to the state before the step noted last; 0 if the engine does not do again what it did. */
 static int go_back(Instance *it)
 {
-    uint64_t length = it->model.head->n_u + 1;
     uint64_t i;
     memcpy(it->s, it->kept_s, it->bytes_s);
     for (i = 0; i + 1 < it->n_journal; i++) {
-        const double *entry = it->journal + i * length;
+        const double *entry = it->journal + i * it->entry_size;
         if (it->step(it->p, entry + 1, it->s, it->z, it->w, it->sizes, entry[0]) != 0) return 0;
     }
     instance_forget(it);

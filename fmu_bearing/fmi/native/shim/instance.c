@@ -119,6 +119,8 @@ Instance *instance_new(Model *model, const Log *log, Text *why)
     it->bytes_s = (size_t)head->n_s * sizeof(double);
     it->bytes_z = (size_t)head->n_z * sizeof(double);
     it->most_journal = head->journal;
+    it->most_span = head->journal_span;
+    it->entry_size = (size_t)head->n_u + 1;
     it->engine_time = it->s + head->time;
     memcpy(it->tunables, it->p, (size_t)head->n_tunables * sizeof(double));
     fill_slots(it);

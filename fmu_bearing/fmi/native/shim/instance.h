@@ -35,7 +35,8 @@ typedef struct Instance {
     double *kept_s;  /* the state some steps ago */
     double *journal; /* inputs and size of each step since, the present one included */
     uint64_t n_journal, most_journal;
-    double span; /* time of the steps in the journal (s) */
+    size_t entry_size;      /* numbers for one step in the journal */
+    double span, most_span; /* time of the steps in the journal, and the longest (s) */
     int tracks;     /* outputs before the last step are kept from step to step, as someone asked for them */
     double *kept_z, *before_z; /* outputs before the present and before the last step */
     const double *engine_time;

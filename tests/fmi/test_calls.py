@@ -4,6 +4,8 @@ import ctypes
 import math
 import subprocess
 import sys
+import threading
+import time
 
 import pytest
 
@@ -273,6 +275,31 @@ def test_error_of_one_instance_is_not_that_of_another(master, expected):
     pair, lone = (master().start(), master().start()), master().start()
     assert pair[0].step(7.0) == expected["wrong communication time"][0]
     assert pair[1].run(2) == lone.run(2)
+
+
+def test_threads_step_at_the_same_time(master):
+    # two instances in two threads give what they give alone, and neither holds the interpreter
+    lone = [master().start(preload=load).run(3, size=5e-3) for load in (400.0, 250.0)]
+    pair = [master().start(preload=load) for load in (400.0, 250.0)]
+    together = [[], []]
+    threads = [
+        threading.Thread(target=lambda one=one, taken=taken: taken.extend(one.run(3, size=5e-3)))
+        for one, taken in zip(pair, together, strict=True)
+    ]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert together == lone
+    # a long step leaves this thread free to count; with the interpreter held it would get hardly a turn
+    stepped = threading.Thread(target=lambda: pair[0].step(3 * 5e-3, 0.1))
+    stepped.start()
+    turns = 0
+    while stepped.is_alive():
+        time.sleep(1e-3)
+        turns += 1
+    assert turns > 10
+    assert pair[0].last_time() == (OK, pytest.approx(3 * 5e-3 + 0.1))
 
 
 # A process of its own with no more than the calls of C: what pythonfmu does to some paths ends it.

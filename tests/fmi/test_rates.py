@@ -149,7 +149,6 @@ def steady(bearing, size, until=0.15, begin=0.1):
     return {name: total / taken for name, total in sums.items()}, bearing.get("mic[1].leq")
 
 
-@pytest.mark.heavy
 def test_results_do_not_depend_on_the_communication_step(master):
     # design figures: steady means to 0.5 %, levels to 0.3 dB. Heats are means over each step; the torque is
     # that of the step's end, so it is compared between steps short enough to sample its ripple

@@ -4,6 +4,7 @@
 description    the table of variables as ``modelDescription.xml``; GUID
 units          units and display units in the terms of FMI
 documentation  the pages inside the FMU
+reference      results of a short run inside the FMU
 resources      scene and parameter array inside the FMU, and the fingerprint that binds them
 package        writes the FMU: deterministic zip, in one of two flavours
 native/        flavour native: kernels compiled ahead of time, shim in C, ``model.bin``

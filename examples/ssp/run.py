@@ -11,6 +11,7 @@ import ctypes
 from collections.abc import Callable
 from importlib import metadata
 from pathlib import Path
+from types import ModuleType
 from typing import Annotated
 from unittest import mock
 
@@ -69,20 +70,25 @@ def run_fmpy(path: Path, steps: int, step: float) -> Table:
     return _table(names, rows)
 
 
-def run_ecos(path: Path, steps: int, step: float, parameter_set: str | None = None) -> Table:
-    """Run with ecos through ecospy; a set of parameters applies only when it is named."""
-    # ecospy loads a library that needs TBB's, which pip puts where no loader looks.
+def load_ecos() -> ModuleType:
+    """Import ecospy, whose library needs TBB's, which pip puts where no loader looks."""
     for file in metadata.files("tbb") or ():
         if file.name == "libtbb.so.12":
             ctypes.CDLL(str(file.locate()), ctypes.RTLD_GLOBAL)
-    from ecospy import EcosLib, EcosSimulation
+    import ecospy
 
-    EcosLib.set_log_level("warn")
+    return ecospy
+
+
+def run_ecos(path: Path, steps: int, step: float, parameter_set: str | None = None) -> Table:
+    """Run with ecos through ecospy; a set of parameters applies only when it is named."""
+    ecospy = load_ecos()
+    ecospy.EcosLib.set_log_level("warn")
     names = signals(path)
     rows = []
-    with EcosSimulation(ssp_path=str(path), step_size=step) as run:
+    with ecospy.EcosSimulation(ssp_path=str(path), step_size=step) as run:
         if not run.init(parameter_set=parameter_set):
-            raise RuntimeError(f"ecos cannot initialise {path}: {EcosLib.get_last_error()}")
+            raise RuntimeError(f"ecos cannot initialise {path}: {ecospy.EcosLib.get_last_error()}")
         for _ in range(steps):
             run.step()
             rows.append((run.get_time(), *(run.get_real(f"{c}::{v}") for c, v in names)))

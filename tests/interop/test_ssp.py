@@ -11,10 +11,9 @@ from fmpy.fmi1 import FMICallException
 from fmpy.ssp.simulation import simulate_ssp
 from lxml import etree
 
-from .conftest import EXACT_STEP, needs_linux64
+from .conftest import EXACT_STEP, STEPS, needs_linux64
 
 pytestmark = needs_linux64
-STEPS = 16
 
 
 @pytest.fixture(params=["native", "python"])

@@ -10,6 +10,7 @@ made what the connected output has at time 0, every parameter is also a start va
 tools begin at the same point.
 """
 
+import math
 import sys
 import tempfile
 import zipfile
@@ -25,7 +26,7 @@ sys.path.insert(0, str(SPINDLE))  # that example's modules know each other by th
 from build import EPOCH, build  # noqa: E402
 from coupling import HEATS, TEMPERATURES, Fmu, SimulationError  # noqa: E402
 
-RPM = 30.0 / 3.141592653589793
+RPM = 30.0 / math.pi
 
 #: Output to input, as (component, variable, component, variable).
 CONNECTIONS = (

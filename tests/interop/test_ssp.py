@@ -11,7 +11,11 @@ from fmpy.fmi1 import FMICallException
 from fmpy.ssp.simulation import simulate_ssp
 from lxml import etree
 
-from .conftest import EXACT_STEP, STEPS, needs_linux64
+from fmu_bearing.fmi.package import build
+from fmu_bearing.prepare.model import prepare
+from fmu_bearing.scene import read_scene
+
+from .conftest import EXACT_STEP, ROOT, STEPS, needs_linux64
 
 pytestmark = needs_linux64
 
@@ -121,6 +125,21 @@ def test_another_step_changes_no_more_than_rounding_at_first(archives):
     # a hundredfold each millisecond or so.
     one, other = (engine(archives["native"], 6, 5e-4) for engine in (run_fmpy, run_libcosim))
     assert largest_difference(one, other) < 1e-9
+
+
+@pytest.mark.heavy
+def test_the_default_scene_for_a_fifth_of_a_second(tmp_path):
+    from run import ENGINES
+    from write import write
+
+    model = prepare(read_scene(ROOT / "examples" / "scenes" / "7003C-spindle.toml"))
+    bearing = build(model, tmp_path / "Bearing7003C.fmu", flavour="native").path
+    archive = write(bearing, tmp_path / "spindle.ssp", target_speed=2300.0, ramp_time=0.1, stop_time=0.2)
+    expected, *others = (engine(archive, 100, EXACT_STEP) for engine in ENGINES.values())
+    for found in others:
+        for name in expected.dtype.names:
+            assert np.array_equal(found[name], expected[name]), name
+    assert expected["motor.shaft_speed"][-1] == pytest.approx(2300.0, rel=2e-3)
 
 
 def test_parameters_of_the_archive(archives, other_ramp):

@@ -3,7 +3,6 @@
 import hashlib
 import importlib.util
 import platform
-import shutil
 import subprocess
 from dataclasses import replace
 from pathlib import Path
@@ -100,8 +99,3 @@ def run(command):
     """Run a compiler, and show what it says if it fails."""
     done = subprocess.run(command, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
-
-
-def has_compiler():
-    """Whether the tests can compile for this machine."""
-    return shutil.which("cc") is not None

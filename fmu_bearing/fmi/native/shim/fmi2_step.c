@@ -47,7 +47,7 @@ static fmi2Status undo(Instance *it, double time, double size, int32_t status)
     Text text = {0};
     it->reached = *it->engine_time;
     memcpy(it->s, it->kept_s, it->bytes_s);
-    memcpy(it->z, it->kept_z, it->bytes_z);
+    if (!it->tracks) it->last_step = 0.0; /* the copy was of this step's begin: nothing to look back on */
     add_step(&text, time, size);
     text_add(&text, "step of ", NULL);
     text_add_number(&text, size, 0);
@@ -55,7 +55,9 @@ static fmi2Status undo(Instance *it, double time, double size, int32_t status)
     text_add_number(&text, *it->engine_time, 9);
     text_add(&text, " s (reached ", NULL);
     text_add_number(&text, it->reached, 9);
-    text_add(&text, " s): ", model_reason(&it->model, status), "; ", NULL);
+    text_add(&text, " s): ", NULL);
+    model_add_reason(&it->model, status, &text);
+    text_add(&text, "; ", NULL);
     instance_add_inputs(it, &text);
     return instance_refuse(it, fmi2Discard, &text);
 }
@@ -63,14 +65,16 @@ static fmi2Status undo(Instance *it, double time, double size, int32_t status)
 /* Let the engine step with these inputs; where that fails everything is as before. */
 static inline fmi2Status advance(Instance *it, double time, double size, const double *inputs)
 {
-    double *spare = it->before_z;
     int32_t status;
     memcpy(it->kept_s, it->s, it->bytes_s);
-    memcpy(it->kept_z, it->z, it->bytes_z);
+    if (it->tracks) memcpy(it->kept_z, it->z, it->bytes_z);
     status = it->step(it->p, inputs, it->s, it->z, it->w, it->sizes, size);
     if (status != 0) return undo(it, time, size, status);
-    it->before_z = it->kept_z;
-    it->kept_z = spare;
+    if (it->tracks) {
+        double *spare = it->before_z;
+        it->before_z = it->kept_z;
+        it->kept_z = spare;
+    }
     it->last_step = size;
     it->reached = it->time = time + size;
     return fmi2OK;
@@ -211,6 +215,7 @@ fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReferenc
     size_t i;
     if (!call_allowed(it, CALL_OUTPUT_DERIVATIVES)) return call_refused(it, CALL_OUTPUT_DERIVATIVES);
     if (nvr) status = has_arrays(it, CALL_OUTPUT_DERIVATIVES, vr, order, value);
+    instance_track(it);
     for (i = 0; i < nvr && status != fmi2Error; i++) {
         status = is_rate(it, vr[i], order[i], CAUSALITY_OUTPUT);
         value[i] = 0.0;

@@ -142,6 +142,7 @@ void instance_reset(Instance *it)
     it->phase = PHASE_INSTANTIATED;
     it->settled = 0;
     it->rated = 0;
+    it->tracks = 0;
     it->time = it->reached = it->last_step = 0.0;
     memcpy(it->model.p, it->tunables, (size_t)head->n_tunables * sizeof(double));
     memcpy(it->u, it->model.u, (size_t)head->n_u * sizeof(double));
@@ -149,6 +150,15 @@ void instance_reset(Instance *it)
     memset(it->s, 0, it->bytes_s);
     memset(it->z, 0, it->bytes_z);
     memset(it->before_z, 0, it->bytes_z);
+}
+
+/* Fill the outputs before the last step, and keep them from now on. They follow from the state alone, so
+ * those who never ask for rates of outputs pay nothing for them. */
+void instance_track(Instance *it)
+{
+    if (it->tracks) return;
+    if (it->last_step > 0.0) it->kernels->outputs(it->p, it->kept_s, it->before_z, it->sizes);
+    it->tracks = 1;
 }
 
 /* Append "inputs were shaft_speed = ...". */
@@ -197,7 +207,9 @@ fmi2Status instance_settle(Instance *it, fmi2Status otherwise)
     }
     text_add(&text, "initialisation at t = ", NULL);
     text_add_number(&text, it->time, 0);
-    text_add(&text, " s: ", model_reason(&it->model, status), "; ", NULL);
+    text_add(&text, " s: ", NULL);
+    model_add_reason(&it->model, status, &text);
+    text_add(&text, "; ", NULL);
     instance_add_inputs(it, &text);
     return instance_refuse(it, otherwise, &text);
 }

@@ -26,13 +26,15 @@ typedef struct Instance {
     int settled; /* the engine has been initialised at the present values */
     int rated;   /* some input has a rate */
     double time; /* at which the master stands (s) */
-    double reached, last_step;
+    double reached, last_step; /* time the engine reached; step behind, 0 if there is none to look back on */
     KernelStep *step;
     const double *p;
     double *u, *s, *z, *w;
     int64_t sizes[5];
-    double *kept_s, *kept_z, *before_z; /* before this step; outputs before the last one */
     size_t bytes_s, bytes_z;
+    double *kept_s; /* before the last step */
+    int tracks;     /* outputs before the last step are kept from step to step, as someone asked for them */
+    double *kept_z, *before_z; /* outputs before the present and before the last step */
     const double *engine_time;
     Slot *slots;
     uint64_t n_variables;
@@ -55,6 +57,9 @@ void instance_reset(Instance *it);
 
 /* Put the engine to its quasi-static state at the values so far, once; fmi2OK, or `otherwise` said. */
 fmi2Status instance_settle(Instance *it, fmi2Status otherwise);
+
+/* Fill the outputs before the last step, and keep them from now on. */
+void instance_track(Instance *it);
 
 /* Append "inputs were shaft_speed = ...". */
 void instance_add_inputs(const Instance *it, Text *text);

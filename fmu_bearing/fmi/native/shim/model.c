@@ -163,12 +163,16 @@ const char *model_text(const Model *model, uint64_t offset)
     return model->texts + offset;
 }
 
-/* What a status of the kernels means. */
-const char *model_reason(const Model *model, int32_t status)
+/* Append what a status of the kernels means. */
+void model_add_reason(const Model *model, int32_t status, Text *text)
 {
     uint64_t i;
     for (i = 0; i < model->head->n_reasons; i++) {
-        if (model->reasons[i].status == (uint32_t)status) return model_text(model, model->reasons[i].text);
+        if (model->reasons[i].status == (uint32_t)status) {
+            text_add(text, model_text(model, model->reasons[i].text), NULL);
+            return;
+        }
     }
-    return "the engine refused, for a reason that has no text";
+    text_add(text, "the engine refused with status ", NULL);
+    text_add_number(text, status, 9);
 }

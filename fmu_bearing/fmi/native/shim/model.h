@@ -77,7 +77,7 @@ void model_free(Model *model);
 /* A text of the model. */
 const char *model_text(const Model *model, uint64_t offset);
 
-/* What a status of the kernels means. */
-const char *model_reason(const Model *model, int32_t status);
+/* Append what a status of the kernels means. */
+void model_add_reason(const Model *model, int32_t status, Text *text);
 
 #endif

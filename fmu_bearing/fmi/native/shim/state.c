@@ -31,10 +31,11 @@ static void get(const char **at, double *numbers, uint64_t count)
 }
 
 /* Write the present state into a block. */
-void state_take(const Instance *it, State *state)
+void state_take(Instance *it, State *state)
 {
     const ModelHead *head = it->model.head;
     char *at = (char *)(state + 1);
+    instance_track(it);
     memcpy(state->magic, MAGIC, sizeof MAGIC);
     memcpy(state->fingerprint, head->fingerprint, DIGEST_SIZE);
     memset(state->checksum, 0, DIGEST_SIZE);
@@ -61,6 +62,7 @@ void state_put_back(Instance *it, const State *state)
     it->phase = (unsigned)state->phase;
     it->settled = state->settled != 0;
     it->rated = state->rated != 0;
+    it->tracks = 1;
     it->time = state->time;
     it->reached = state->reached;
     it->last_step = state->last_step;

@@ -18,7 +18,7 @@ typedef struct State {
 size_t state_size(const Instance *it);
 
 /* Write the present state into a block of that size. */
-void state_take(const Instance *it, State *state);
+void state_take(Instance *it, State *state);
 
 /* Go back to a state, which must be one of this model. */
 void state_put_back(Instance *it, const State *state);

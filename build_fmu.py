@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from fmu_bearing.cli import build_scene, model_of, refusals
+from fmu_bearing.cli import Flavour, Output, Platforms, build_scene, model_of, refusals
 from fmu_bearing.fmi.description import description_xml
 from fmu_bearing.scene import read_scene
 
@@ -16,10 +16,9 @@ DESCRIPTION = HERE / "modelDescription" / "modelDescription.xml"
 
 def main(
     scene: Annotated[Path, typer.Argument(help="Scene to build from (TOML).")] = DEFAULT_SCENE,
-    output: Annotated[
-        Path | None,
-        typer.Option("--output", "-o", help="FMU to write; default: Bearing<designation>.fmu here."),
-    ] = None,
+    output: Output = None,
+    flavour: Flavour = None,
+    platforms: Platforms = None,
     write_description: Annotated[
         bool, typer.Option(help="Only renew modelDescription/modelDescription.xml from the scene.")
     ] = False,
@@ -31,7 +30,7 @@ def main(
             DESCRIPTION.write_bytes(description_xml(model))
             typer.echo(f"{DESCRIPTION}: {len(model.variables)} variables")
         else:
-            typer.echo(f"built {build_scene(scene, output)}")
+            typer.echo(f"built {build_scene(scene, output, flavour, platforms)}")
 
 
 if __name__ == "__main__":

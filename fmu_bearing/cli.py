@@ -11,7 +11,10 @@ from rich.console import Console
 from rich.progress import track
 
 from fmu_bearing.engine import layout as at
-from fmu_bearing.fmi.package import BuiltFmu
+from fmu_bearing.fmi.description import FLAVOURS
+from fmu_bearing.fmi.native.optimise import BuildError
+from fmu_bearing.fmi.native.platforms import PLATFORMS
+from fmu_bearing.fmi.package import BuiltFmu, ChoiceError, check_choice
 from fmu_bearing.fmi.package import build as build_fmu
 from fmu_bearing.prepare.model import Model, prepare
 from fmu_bearing.scene import Scene, SceneError, read_scene
@@ -24,6 +27,25 @@ from fmu_bearing.study.table import show
 app = typer.Typer(help=__doc__, no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False)
 
 SceneFile = Annotated[Path, typer.Argument(metavar="SCENE", help="Scene file (TOML).")]
+Output = Annotated[
+    Path | None,
+    typer.Option("--output", "-o", help="FMU to write; default: Bearing<designation>.fmu here."),
+]
+Flavour = Annotated[
+    str | None,
+    typer.Option(
+        metavar="|".join(FLAVOURS),
+        help="native: compiled, runs without Python; python: runs in the installed package. "
+        "Default: native where a library can be made.",
+    ),
+]
+Platforms = Annotated[
+    str | None,
+    typer.Option(
+        metavar="NAME,...",
+        help=f"Platforms of a native FMU: {', '.join(PLATFORMS)}, or all; default: this machine's.",
+    ),
+]
 Folder = Annotated[Path, typer.Option("--output", "-o", help="Folder for the results.")]
 Quick = Annotated[bool, typer.Option("--quick", help="Few variants, short windows: to see that it works.")]
 
@@ -36,7 +58,7 @@ def refusals() -> Iterator[None]:
     """Tell refusals in a line of the user's own terms and end with code 2; no traceback."""
     try:
         yield
-    except (SceneError, Refused, OSError) as error:
+    except (SceneError, Refused, BuildError, ChoiceError, OSError) as error:
         message = "; ".join(line.strip() for line in str(error).splitlines() if line.strip())
         typer.echo(f"error: {message}", err=True)
         raise typer.Exit(2) from None
@@ -53,22 +75,26 @@ def model_of(scene: Scene) -> Model:
     return prepare(resolved, note=note)
 
 
-def build_scene(scene: Path, output: Path | None) -> BuiltFmu:
-    """Write the FMU of a scene file; see :func:`fmu_bearing.fmi.package.build`."""
-    return build_fmu(model_of(read_scene(scene)), output)
+def build_scene(
+    scene: Path, output: Path | None, flavour: str | None = None, platforms: str | None = None
+) -> BuiltFmu:
+    """Write the FMU of a scene file; see :func:`fmu_bearing.fmi.package.build`.
+
+    ``platforms``: names with commas between, or ``all``.
+    """
+    names = list(PLATFORMS) if platforms == "all" else [n.strip() for n in (platforms or "").split(",")]
+    wanted = [name for name in names if name]
+    check_choice(flavour, wanted)
+    return build_fmu(model_of(read_scene(scene)), output, flavour, wanted, partial(typer.echo, err=True))
 
 
 @app.command()
 def build(
-    scene: SceneFile,
-    output: Annotated[
-        Path | None,
-        typer.Option("--output", "-o", help="FMU to write; default: Bearing<designation>.fmu here."),
-    ] = None,
+    scene: SceneFile, output: Output = None, flavour: Flavour = None, platforms: Platforms = None
 ) -> None:
     """Build the co-simulation FMU (FMI 2.0) of a scene."""
     with refusals():
-        typer.echo(f"built {build_scene(scene, output)}")
+        typer.echo(f"built {build_scene(scene, output, flavour, platforms)}")
 
 
 @app.command()

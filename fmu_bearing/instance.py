@@ -5,6 +5,7 @@ The same object serves the library and the FMU, so that both give the same bits.
 
 import math
 import warnings
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +26,46 @@ REASONS = {
     layout.TOO_SOFT: "the loads push the outer ring sideways by more than 0.3 of the pitch radius; "
     "give a stiffer pedestal or less radial load",
 }
+
+
+@dataclass(frozen=True)
+class Caution:
+    """A warning after initialisation where ``z[index] < threshold``: ``before``, ``scale`` z, ``after``.
+
+    Attributes
+    ----------
+    index : int
+        Place in ``z``.
+    threshold : float
+    scale : float
+        Factor on the number in the text.
+    before, after : str
+        Text around the number.
+    decimals : int
+        Digits of the number behind the point.
+    """
+
+    index: int
+    threshold: float
+    scale: float
+    before: str
+    after: str
+    decimals: int = 1
+
+
+def _shoulder(ring: str, other: str) -> Caution:
+    return Caution(
+        layout.BEARING_OUTPUTS.index(f"contact.{ring}.shoulder_margin"),
+        0.0,
+        -180.0 / math.pi,
+        f"the ellipse of the most loaded contact of the {ring} race reaches ",
+        f" deg beyond its shoulder (bearing.{ring}_ring_{other}_diameter_mm): the edge cuts in there, while "
+        "loads and stiffness are those of an unbroken groove; reduce preload or load",
+    )
+
+
+#: What a state is warned of once it has been reached by initialisation.
+CAUTIONS = (_shoulder("inner", "outer"), _shoulder("outer", "inner"))
 _RELATIVE_SLACK = 1e-12  # a value at a bound may carry rounding from a unit conversion
 
 
@@ -129,31 +170,9 @@ class Instance:
             warnings.warn(caution, stacklevel=2)
 
     def _cautions(self) -> list[str]:
-        """Warnings about the state reached: a contact ellipse that leaves its groove over the shoulder."""
-        found = []
-        bearing = self.model.scene.bearing
-        rings = (
-            ("inner", 1.0, bearing.inner_ring_outer_diameter_mm),
-            ("outer", -1.0, bearing.outer_ring_inner_diameter_mm),
-        )
-        for race, (ring, side, diameter) in enumerate(rings):
-            block = self.p[layout.P_RACES + race * layout.RACE_SIZE :]
-            load = self.get(f"contact.{ring}.load_max")
-            half = block[layout.RACE_HALF_LENGTH] * (load / block[layout.RACE_STIFFNESS]) ** (1.0 / 3.0)
-            reach = math.asin(min(1.0, half / block[layout.RACE_PROFILE_RADIUS]))
-            edge = math.degrees(self.get(f"contact.{ring}.angle_mean") + reach)
-            height = side * (block[layout.RACE_GROOVE_RADIUS] - 5e-4 * diameter)
-            limit = math.degrees(math.acos(max(-1.0, min(1.0, height / block[layout.RACE_GROOVE]))))
-            if edge > limit:
-                other = "outer" if ring == "inner" else "inner"
-                found.append(
-                    f"the ellipse of the most loaded contact reaches to {edge:.1f} deg in the {ring} "
-                    f"race, beyond its shoulder at {limit:.1f} deg "
-                    f"(bearing.{ring}_ring_{other}_diameter_mm): the edge cuts in there, while loads and "
-                    "stiffness are those of an unbroken groove; "
-                    "reduce preload or load"
-                )
-        return found
+        """Warnings about the state reached."""
+        due = [caution for caution in CAUTIONS if self.z[caution.index] < caution.threshold]
+        return [f"{one.before}{one.scale * self.z[one.index]:.{one.decimals}f}{one.after}" for one in due]
 
     def step(self, h: float) -> None:
         """Advance by ``h`` (s). The speed ramps to its input over the step; other inputs are held.

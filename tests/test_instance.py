@@ -115,11 +115,14 @@ def test_an_ellipse_beyond_the_shoulder_is_told(scene):
     bearing = Instance(prepare(scene("7003C-bare")))
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        bearing.initialise()  # 500 N: 1.8 deg of groove left
+        bearing.initialise()
+    margins = [math.degrees(bearing.get(f"contact.{ring}.shoulder_margin")) for ring in ("inner", "outer")]
+    assert min(margins) == pytest.approx(1.8, abs=0.1)  # at 500 N
     bearing.reset()
     bearing.set("preload", 1e4)
     with pytest.warns(UserWarning, match="beyond its shoulder"):
         bearing.initialise()
+    assert bearing.get("contact.inner.shoulder_margin") < 0.0
 
 
 def test_a_pedestal_too_soft_for_the_load_is_refused(scene):

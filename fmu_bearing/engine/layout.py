@@ -30,55 +30,21 @@ U_SPEED, U_PRELOAD, U_PEDESTAL, U_LOAD_Y, U_LOAD_Z, U_OIL_T, U_INNER_T, U_OUTER_
 
 # --- z: what people read ---------------------------------------------------------------------
 BEARING_OUTPUTS = (
-    "inner_ring.velocity.x",
-    "inner_ring.velocity.y",
-    "inner_ring.velocity.z",
-    "outer_ring.velocity.x",
-    "outer_ring.velocity.y",
-    "outer_ring.velocity.z",
-    "cage.velocity.x",
-    "cage.velocity.y",
-    "cage.velocity.z",
-    "friction_torque",
-    "heat.inner_ring",
-    "heat.outer_ring",
-    "heat.oil",
-    "cage.speed_ratio",
-    "inner_ring.displacement.x",
-    "inner_ring.displacement.y",
-    "inner_ring.displacement.z",
-    "outer_ring.displacement.x",
-    "outer_ring.displacement.y",
-    "outer_ring.displacement.z",
-    "contact.inner.load_mean",
-    "contact.inner.load_max",
-    "contact.inner.angle_mean",
-    "contact.inner.pressure_max",
-    "contact.outer.load_mean",
-    "contact.outer.load_max",
-    "contact.outer.angle_mean",
-    "contact.outer.pressure_max",
-    "film.lambda_min",
-    "stiffness.axial",
-    "stiffness.radial",
-    "solver.steps",
-    "solver.rejected",
-    "energy.residual",
-    "solver.fallbacks",
-    "inner_ring.tilt.y",
-    "inner_ring.tilt.z",
-    "contact.inner.spin_to_roll",
-    "contact.outer.spin_to_roll",
-    "contact.inner.slip",
-    "contact.outer.slip",
-    "cage.whirl_radius",
-    "cage.whirl_speed",
-    "friction_torque.contacts",
-    "friction_torque.rolling",
-    "friction_torque.cage",
-    "friction_torque.drag",
-)
-Z_BALLS = 48  # ball[j].velocity.x|y|z at Z_BALLS + 3 j
+    "inner_ring.velocity.x", "inner_ring.velocity.y", "inner_ring.velocity.z", "outer_ring.velocity.x",
+    "outer_ring.velocity.y", "outer_ring.velocity.z", "cage.velocity.x", "cage.velocity.y",
+    "cage.velocity.z", "friction_torque", "heat.inner_ring", "heat.outer_ring", "heat.oil",
+    "cage.speed_ratio", "inner_ring.displacement.x", "inner_ring.displacement.y",
+    "inner_ring.displacement.z", "outer_ring.displacement.x", "outer_ring.displacement.y",
+    "outer_ring.displacement.z", "contact.inner.load_mean", "contact.inner.load_max",
+    "contact.inner.angle_mean", "contact.inner.pressure_max", "contact.outer.load_mean",
+    "contact.outer.load_max", "contact.outer.angle_mean", "contact.outer.pressure_max", "film.lambda_min",
+    "stiffness.axial", "stiffness.radial", "solver.steps", "solver.rejected", "energy.residual",
+    "solver.fallbacks", "inner_ring.tilt.y", "inner_ring.tilt.z", "contact.inner.spin_to_roll",
+    "contact.outer.spin_to_roll", "contact.inner.slip", "contact.outer.slip", "cage.whirl_radius",
+    "cage.whirl_speed", "friction_torque.contacts", "friction_torque.rolling", "friction_torque.cage",
+    "friction_torque.drag", "contact.inner.shoulder_margin", "contact.outer.shoulder_margin",
+)  # fmt: skip
+Z_BALLS = len(BEARING_OUTPUTS)  # ball[j].velocity.x|y|z at Z_BALLS + 3 j
 MIC_OUTPUTS = (
     "pressure", "spl", "spl_a", "leq", "leq_a", "spl_inner_ring", "spl_outer_ring", "spl_cage", "spl_balls",
     "spl_fast", "spl_fast_a", "spl_slow", "spl_slow_a", "spl_energy_sum", "spl_radial", "spl_axial",
@@ -247,8 +213,9 @@ RACE_CONTROLS = ("shared", "outer", "inner")
     RACE_EXPANSION,
     RACE_HALF_WIDTH,  # semi-minor axis over sqrt(approach)
     RACE_CENTRAL_FILM,  # central film factor at viscosity 1 Pa s
-) = range(12)
-RACE_SIZE = 12
+    RACE_SHOULDER,  # rad: contact angle at which the groove ends
+) = range(13)
+RACE_SIZE = 13
 P_TABLES = P_RACES + 2 * RACE_SIZE  # variable part begins here
 WAVE_INTERVALS = 2048
 

@@ -32,7 +32,10 @@ from fmu_bearing.engine.layout import (
     Q_CAGE,
     Q_OUTER,
     RACE_FILM,
+    RACE_HALF_LENGTH,
     RACE_PRESSURE,
+    RACE_PROFILE_RADIUS,
+    RACE_SHOULDER,
     RACE_SIZE,
     RACE_STIFFNESS,
     S_C,
@@ -84,6 +87,7 @@ Z_SPIN_TO_ROLL = BEARING_OUTPUTS.index("contact.inner.spin_to_roll")
 Z_SLIP = BEARING_OUTPUTS.index("contact.inner.slip")
 Z_WHIRL_RADIUS = BEARING_OUTPUTS.index("cage.whirl_radius")
 Z_WHIRL_SPEED = BEARING_OUTPUTS.index("cage.whirl_speed")
+Z_SHOULDER = BEARING_OUTPUTS.index("contact.inner.shoulder_margin")
 Z_TORQUE_CONTACTS = BEARING_OUTPUTS.index("friction_torque.contacts")  # then rolling, cage, drag
 _PER_MIC = len(MIC_OUTPUTS)
 _STANDSTILL = 1e-9  # rad/s: below it nothing is divided by the shaft speed
@@ -160,8 +164,9 @@ def seen_from(s, ring, tilt, x, r, across, c, n, pitch):
 
 @kernel
 def contacts(p, s, z):
-    """Write loads, angles, pressures, thinnest film over roughness and stiffness between the rings.
+    """Write loads, angles, pressures, shoulder margins, film over roughness and stiffness between the rings.
 
+    The margin is the angle (rad) by which the ellipse of the most loaded contact ends before its shoulder.
     Loads are the elastic ones without the waviness of the races. Film: Hamrock and Dowson (1977), minimum
     film, with the rolling speed of a ball that does not slip.
     """
@@ -211,6 +216,12 @@ def contacts(p, s, z):
         z[Z_AXIAL_STIFFNESS] += kxx
         z[Z_RADIAL_STIFFNESS] += 0.5 * krr
     z[Z_LAMBDA] = thinnest / p[P_ROUGHNESS]
+    for race in range(2):
+        numbers = P_RACES + race * RACE_SIZE
+        root = (z[Z_CONTACT + 4 * race + 1] / p[numbers + RACE_STIFFNESS]) ** (1.0 / 3.0)
+        half = p[numbers + RACE_HALF_LENGTH] * root
+        reach = math.asin(min(1.0, half / p[numbers + RACE_PROFILE_RADIUS]))
+        z[Z_SHOULDER + race] = p[numbers + RACE_SHOULDER] - z[Z_CONTACT + 4 * race + 2] - reach
 
 
 @kernel

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 __all__ = [
     "CAPABILITIES",
     "ENUMERATIONS",
+    "FLAVOURS",
     "LOG_CATEGORIES",
     "description_element",
     "description_xml",
@@ -35,12 +36,24 @@ __all__ = [
 
 GENERATION_TOOL = "fmu-bearing"
 
-#: What this build can do; pythonfmu 0.7.0 answers fmi2Error to derivatives, directional or in time.
+#: The two builds: compiled ahead of time, and run by Python.
+FLAVOURS = ("native", "python")
+
+#: What a build can do; pythonfmu 0.7.0 answers fmi2Error to derivatives, directional or in time.
 CAPABILITIES = {
-    "needsExecutionTool": "true",
+    "native": {
+        "needsExecutionTool": "false",
+        "canInterpolateInputs": "true",
+        "maxOutputDerivativeOrder": "1",
+    },
+    "python": {
+        "needsExecutionTool": "true",
+        "canInterpolateInputs": "false",
+        "maxOutputDerivativeOrder": "0",
+    },
+}
+_BOTH_CAN = {
     "canHandleVariableCommunicationStepSize": "true",
-    "canInterpolateInputs": "false",
-    "maxOutputDerivativeOrder": "0",
     "canRunAsynchronuously": "false",
     "canBeInstantiatedOnlyOncePerProcess": "false",
     "canNotUseMemoryManagementFunctions": "true",
@@ -84,31 +97,31 @@ def fmi_type(variable: Variable) -> str:
     return "Enumeration" if variable.name in ENUMERATIONS else variable.type
 
 
-def interface_guid(model: "Model") -> str:
+def interface_guid(model: "Model", flavour: str = FLAVOURS[0]) -> str:
     """Return the GUID: a hash of the description, of the scene and of every number in the parameters.
 
-    Two FMUs with the same GUID have the same variables and the same model.
+    Two FMUs with the same GUID have the same variables, the same model and the same abilities.
     """
-    digest = hashlib.sha256(_serialise(_root(model, guid="")))
+    digest = hashlib.sha256(_serialise(_root(model, flavour, guid="")))
     digest.update(model.scene.to_toml().encode("utf-8"))
     digest.update(np.ascontiguousarray(model.parameters, dtype="<f8").tobytes())
     return f"{{{UUID(bytes=digest.digest()[:16])}}}"
 
 
-def description_xml(model: "Model") -> bytes:
-    """Return ``modelDescription.xml`` of a model, UTF-8, with its GUID.
+def description_xml(model: "Model", flavour: str = FLAVOURS[0]) -> bytes:
+    """Return ``modelDescription.xml`` of a model in one of :data:`FLAVOURS`, UTF-8, with its GUID.
 
     Raises
     ------
     KeyError
         If a variable has a unit or a display unit that :data:`fmu_bearing.fmi.units.UNITS` does not know.
     """
-    return _serialise(description_element(model))
+    return _serialise(description_element(model, flavour))
 
 
-def description_element(model: "Model") -> Element:
+def description_element(model: "Model", flavour: str = FLAVOURS[0]) -> Element:
     """Return the same as :func:`description_xml`, as a tree."""
-    return _root(model, interface_guid(model))
+    return _root(model, flavour, interface_guid(model, flavour))
 
 
 def _serialise(root: Element) -> bytes:
@@ -117,7 +130,7 @@ def _serialise(root: Element) -> bytes:
     return f'<?xml version="1.0" encoding="UTF-8"?>\n{text}\n'.encode()
 
 
-def _root(model: "Model", guid: str) -> Element:
+def _root(model: "Model", flavour: str, guid: str) -> Element:
     scene = model.scene
     root = Element(
         "fmiModelDescription",
@@ -133,7 +146,8 @@ def _root(model: "Model", guid: str) -> Element:
             "variableNamingConvention": "structured",
         },
     )
-    SubElement(root, "CoSimulation", {"modelIdentifier": identifier(model), **CAPABILITIES})
+    can = {"modelIdentifier": identifier(model), **CAPABILITIES[flavour], **_BOTH_CAN}
+    SubElement(root, "CoSimulation", can)
     _units(SubElement(root, "UnitDefinitions"), model.variables)
     named = [variable for variable in model.variables if variable.name in ENUMERATIONS]
     if named:

@@ -8,7 +8,7 @@ from pathlib import Path
 from string import Template
 from typing import TYPE_CHECKING, Any
 
-from fmu_bearing.fmi.description import interface_guid, items
+from fmu_bearing.fmi.description import FLAVOURS, interface_guid, items
 from fmu_bearing.fmi.units import UNITS
 from fmu_bearing.interface import Variable
 
@@ -32,23 +32,24 @@ def templates() -> Path:
     return packaged if packaged.is_dir() else Path(__file__).parents[2] / "modelDescription"
 
 
-def pages(model: "Model") -> dict[str, bytes]:
-    """Return the files of the FMU's ``documentation`` folder, by path below it."""
+def pages(model: "Model", flavour: str = FLAVOURS[0]) -> dict[str, bytes]:
+    """Return the files of the ``documentation`` folder of an FMU of a flavour, by path below it."""
     folder = templates() / "documentation"
     found: dict[str, bytes] = {
         path.relative_to(folder).as_posix(): path.read_bytes()
         for path in folder.rglob("*")
         if path.is_file() and not path.name.startswith(".")
     }
-    page = Template(found["index.html"].decode("utf-8")).substitute(_fields(model))
+    page = Template(found["index.html"].decode("utf-8")).substitute(_fields(model, flavour))
     found["index.html"] = page.encode("utf-8")
-    needs = _NEEDS.format(python="3.11", package=_package_version())
-    found["externalDependencies.txt"] = needs.encode("utf-8")
-    found["licenses/pythonfmu.txt"] = _pythonfmu_licence()
+    if flavour == "python":
+        needs = _NEEDS.format(python="3.11", package=_package_version())
+        found["externalDependencies.txt"] = needs.encode("utf-8")
+        found["licenses/pythonfmu.txt"] = _pythonfmu_licence()
     return found
 
 
-def _fields(model: "Model") -> dict[str, str]:
+def _fields(model: "Model", flavour: str) -> dict[str, str]:
     scene = model.scene
     ranges = (
         f"<tr><td>{escape(v.name)}: {escape(v.description)}</td><td>{_range(v)}</td></tr>"
@@ -67,7 +68,8 @@ def _fields(model: "Model") -> dict[str, str]:
         "model_name": escape(scene.name),
         "designation": escape(scene.bearing.designation),
         "ball_count": str(scene.bearing.ball_count),
-        "guid": escape(interface_guid(model)),
+        "guid": escape(interface_guid(model, flavour)),
+        "behaviour": (templates() / "behaviour" / f"{flavour}.html").read_text("utf-8"),
         "ranges": "\n".join(ranges),
         "sound": sound,
         "note": f"<p>{escape(model.note)}.</p>\n" if model.note else "",

@@ -1,23 +1,28 @@
 """Writing the FMU: the same model gives the same bytes, whenever and wherever it is built."""
 
 import io
-import os
 import re
-import tempfile
 import zipfile
 from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from fmu_bearing.fmi import documentation, resources
-from fmu_bearing.fmi.description import description_xml, identifier, interface_guid
+from fmu_bearing.fmi.description import FLAVOURS, description_xml, identifier, interface_guid
+from fmu_bearing.fmi.files import write_whole
+from fmu_bearing.fmi.native.compile import Tell, silent
+from fmu_bearing.fmi.native.link import library
+from fmu_bearing.fmi.native.model_file import MODEL_FILE, model_bytes
+from fmu_bearing.fmi.native.optimise import BuildError
+from fmu_bearing.fmi.native.platforms import PLATFORMS, host
 
 if TYPE_CHECKING:
     from fmu_bearing.prepare.model import Model
 
-__all__ = ["BuiltFmu", "build", "contents"]
+__all__ = ["BuiltFmu", "ChoiceError", "build", "check_choice", "contents"]
 
 _EPOCH = (1980, 1, 1, 0, 0, 0)  # the earliest date a zip can hold: the clock stays out of the FMU
 _UNIX = 3
@@ -48,6 +53,12 @@ class BuiltFmu:
         Bytes.
     variables : dict of str to int
         Number of variables of each causality.
+    flavour : str
+        ``native`` or ``python``.
+    platforms : tuple of str
+        Folders of the libraries inside.
+    remarks : tuple of str
+        What was not built, and why.
     """
 
     path: Path
@@ -55,17 +66,28 @@ class BuiltFmu:
     identifier: str
     size: int
     variables: dict[str, int]
+    flavour: str
+    platforms: tuple[str, ...]
+    remarks: tuple[str, ...] = ()
 
     def __str__(self) -> str:
-        """Return one line that says what was built."""
+        """Return what was built in one line, and what was not in another for each."""
         counts = ", ".join(f"{count} {causality}" for causality, count in self.variables.items())
-        return (
-            f"{self.path}: {sum(self.variables.values())} variables ({counts}), "
-            f"{self.size / 1024:.0f} KiB, GUID {self.guid}"
+        line = (
+            f"{self.path}: {self.flavour} build for {', '.join(self.platforms)}; "
+            f"{sum(self.variables.values())} variables ({counts}), {self.size / 1024:.0f} KiB, "
+            f"GUID {self.guid}"
         )
+        return "\n".join((line, *(f"not built: {remark}" for remark in self.remarks)))
 
 
-def build(model: "Model", output: str | Path | None = None) -> BuiltFmu:
+def build(
+    model: "Model",
+    output: str | Path | None = None,
+    flavour: str | None = None,
+    platforms: Sequence[str] | None = None,
+    tell: Tell = silent,
+) -> BuiltFmu:
     """Write the FMU of a model.
 
     Parameters
@@ -75,6 +97,14 @@ def build(model: "Model", output: str | Path | None = None) -> BuiltFmu:
     output : str or Path, optional
         File to write; folders on the way are made. Default: the identifier with ``.fmu`` in the current
         folder. An existing file is replaced only once the new one is complete.
+    flavour : str, optional
+        ``native``: equations compiled, no Python at run time. ``python``: equations run by the installed
+        package, through pythonfmu. Default: native where a library can be made or is kept for at least one
+        platform, else python; the remarks of the result tell why.
+    platforms : sequence of str, optional
+        Platforms of a native FMU (names as in ``native.platforms.PLATFORMS``). Default: this machine's.
+    tell : callable, optional
+        Takes a line of text before work that takes minutes.
 
     Returns
     -------
@@ -84,37 +114,104 @@ def build(model: "Model", output: str | Path | None = None) -> BuiltFmu:
     ------
     OSError
         If the file cannot be written.
+    ChoiceError
+        If there is no such flavour or platform, or platforms are named for a Python build.
+    BuildError
+        If a library that was asked for cannot be made.
     """
     path = Path(output) if output is not None else Path(f"{identifier(model)}.fmu")
     if path.is_dir():
         raise IsADirectoryError(f"{path} is a folder: name the file to write")
-    data = _zip(contents(model))
+    check_choice(flavour, platforms)
+    remarks: tuple[str, ...] = ()
+    binaries: dict[str, Path] = {}
+    if flavour != "python":
+        try:
+            binaries = _libraries(platforms, tell)
+            flavour = "native"
+        except BuildError as problem:
+            if flavour == "native" or platforms:
+                raise
+            flavour, remarks = "python", (f"native FMU: {problem}",)
+    inside = contents(model, flavour, binaries)
+    data = _zip(inside)
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        _write_whole(path, data)
+        write_whole(path, data)
     except OSError as error:
         raise OSError(f"cannot write {path}: {error.strerror or error}") from error
     counts = Counter("constant" if v.variability == "constant" else v.causality for v in model.variables)
-    return BuiltFmu(path, interface_guid(model), identifier(model), len(data), dict(sorted(counts.items())))
+    return BuiltFmu(
+        path,
+        interface_guid(model, flavour),
+        identifier(model),
+        len(data),
+        dict(sorted(counts.items())),
+        flavour,
+        tuple(sorted({name.split("/")[1] for name in inside if name.startswith("binaries/")})),
+        remarks,
+    )
 
 
-def contents(model: "Model") -> dict[str, bytes]:
-    """Return all files of the FMU of a model, by path inside the zip."""
+class ChoiceError(ValueError):
+    """A flavour or platform that there is not."""
+
+
+def check_choice(flavour: str | None, platforms: Sequence[str] | None) -> None:
+    """Raise :class:`ChoiceError` unless an FMU of that flavour can be for those platforms."""
+    if flavour not in (None, *FLAVOURS):
+        raise ChoiceError(f"there is no flavour '{flavour}': choose {' or '.join(FLAVOURS)}")
+    for name in platforms or ():
+        if name not in PLATFORMS:
+            raise ChoiceError(f"there is no platform '{name}': choose from {', '.join(PLATFORMS)}")
+    if flavour == "python" and platforms:
+        raise ChoiceError("platforms cannot be chosen for a python build: it holds pythonfmu's libraries")
+
+
+def _libraries(platforms: Sequence[str] | None, tell: Tell) -> dict[str, Path]:
+    """Return the library of each platform, this machine's if none is named."""
+    own = host()
+    if not platforms and own is None:
+        raise BuildError(
+            "this machine is none of " + ", ".join(PLATFORMS) + ": name the platforms to build for"
+        )
+    names = list(dict.fromkeys(platforms or ())) or [own.name if own else ""]
+    return {name: library(PLATFORMS[name], tell=tell) for name in names}
+
+
+def contents(model: "Model", flavour: str, libraries: Mapping[str, Path] | None = None) -> dict[str, bytes]:
+    """Return all files of the FMU of a model, by path inside the zip.
+
+    ``libraries``: by platform, for a native build.
+    """
+    inside = {
+        "modelDescription.xml": description_xml(model, flavour),
+        "model.png": (documentation.templates() / "model.png").read_bytes(),
+        f"resources/{resources.SCENE}": model.scene.to_toml().encode("utf-8"),
+    }
+    inside |= {f"documentation/{file}": data for file, data in documentation.pages(model, flavour).items()}
+    if flavour == "python":
+        return inside | _python_parts(model)
+    name = identifier(model)
+    for platform, path in (libraries or {}).items():
+        inside[f"binaries/{platform}/{name}{PLATFORMS[platform].suffix}"] = path.read_bytes()
+    guid = interface_guid(model, flavour)
+    inside[f"resources/{MODEL_FILE}"] = model_bytes(model, guid, resources.engine_digest().hex())
+    return inside
+
+
+def _python_parts(model: "Model") -> dict[str, bytes]:
+    """Return what only the Python build holds: the stub, the parameters, pythonfmu's libraries."""
     name = identifier(model)
     fingerprint = resources.fingerprint(model)
     # Python keeps modules by name for the life of the process: two FMUs must not share one.
     module = f"{re.sub('[^a-z0-9]', '_', name.lower())}_{fingerprint[:16]}"
     stub = _STUB.format(identifier=name, fingerprint=fingerprint)
-    inside = {
-        "modelDescription.xml": description_xml(model),
-        "model.png": (documentation.templates() / "model.png").read_bytes(),
+    return {
         f"resources/{module}.py": stub.encode("utf-8"),
         "resources/slavemodule.txt": module.encode("ascii"),
+        f"resources/{resources.PARAMETERS}": resources.parameter_bytes(model),
+        **_binaries(name),
     }
-    inside |= {f"resources/{file}": data for file, data in resources.contents(model).items()}
-    inside |= {f"documentation/{file}": data for file, data in documentation.pages(model).items()}
-    inside |= _binaries(name)
-    return inside
 
 
 def _binaries(name: str) -> dict[str, bytes]:
@@ -122,10 +219,10 @@ def _binaries(name: str) -> dict[str, bytes]:
     found = {}
     for platform in (files("pythonfmu") / "resources" / "binaries").iterdir():
         if platform.is_dir():
-            for library in platform.iterdir():
-                suffix = Path(library.name).suffix
+            for file in platform.iterdir():
+                suffix = Path(file.name).suffix
                 if suffix in (".so", ".dll", ".dylib"):
-                    found[f"binaries/{platform.name}/{name}{suffix}"] = library.read_bytes()
+                    found[f"binaries/{platform.name}/{name}{suffix}"] = file.read_bytes()
     return found
 
 
@@ -139,16 +236,3 @@ def _zip(inside: dict[str, bytes]) -> bytes:
             entry.external_attr = (0o755 if name.startswith("binaries/") else 0o644) << 16
             archive.writestr(entry, inside[name])
     return buffer.getvalue()
-
-
-def _write_whole(path: Path, data: bytes) -> None:
-    """Write all of a file or none of it."""
-    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(data)
-        os.chmod(temporary, 0o644)
-        os.replace(temporary, path)
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
-        raise

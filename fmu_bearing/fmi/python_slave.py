@@ -75,7 +75,7 @@ class BearingSlave(Fmi2Slave):
 
     def to_xml(self, model_options: dict[str, str] | None = None) -> Element:
         """Return ``modelDescription.xml`` as a tree; options of pythonfmu's builder change nothing."""
-        return description_element(self.model)
+        return description_element(self.model, "python")
 
     @_contained(None)
     def setup_experiment(

@@ -12,17 +12,17 @@ from fmu_bearing.interface import variables
 from fmu_bearing.prepare.model import Model
 from fmu_bearing.scene import read_scene
 
-__all__ = ["PARAMETERS", "SCENE", "contents", "fingerprint", "load"]
+__all__ = ["PARAMETERS", "SCENE", "engine_digest", "fingerprint", "load", "parameter_bytes"]
 
 SCENE = "scene.toml"
 PARAMETERS = "parameters.npy"
 
 
-def contents(model: Model) -> dict[str, bytes]:
-    """Return the files to put into the resources, by name."""
+def parameter_bytes(model: Model) -> bytes:
+    """Return the file of the parameter array."""
     buffer = io.BytesIO()
     np.save(buffer, np.ascontiguousarray(model.parameters, dtype="<f8"), allow_pickle=False)
-    return {SCENE: model.scene.to_toml().encode("utf-8"), PARAMETERS: buffer.getvalue()}
+    return buffer.getvalue()
 
 
 @functools.cache

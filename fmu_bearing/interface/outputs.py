@@ -131,6 +131,7 @@ def _bodies(scene: Scene) -> list[tuple[str, str]]:
 def _contacts(side: str) -> list[Variable]:
     at_race = f"at the {side} race"
     angle = f"Mean contact angle {at_race}"
+    margin = f"Angle by which the largest contact ellipse {at_race} ends before the shoulder"
     pressure: dict[str, Any] = {"display_unit": "GPa", "min": 0.0, "max": 1e12, "nominal": 1e9}
     return [
         _read(f"contact.{side}.load_mean", "local", f"Mean load of a ball {at_race}", "N"),
@@ -143,6 +144,7 @@ def _contacts(side: str) -> list[Variable]:
         _read(
             f"contact.{side}.slip", "local", f"Mean sliding over entrainment speed {at_race}", nominal=1e-3
         ),
+        _read(f"contact.{side}.shoulder_margin", "local", margin, "rad", display_unit="deg"),
     ]
 
 

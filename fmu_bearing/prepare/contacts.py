@@ -63,10 +63,12 @@ def races(scene: Scene, p: NDArray[np.float64]) -> None:
     d, dm, angle = b.ball_diameter, b.pitch_diameter, b.contact_angle
     gamma = d * math.cos(angle) / dm
     sides = (
-        (-1.0, b.inner_conformity, scene.materials.inner_ring, gamma / (1.0 - gamma)),
-        (1.0, b.outer_conformity, scene.materials.outer_ring, -gamma / (1.0 + gamma)),
-    )
-    for race, (side, conformity, material, curvature) in enumerate(sides):
+        (-1.0, b.inner_conformity, scene.materials.inner_ring, gamma / (1.0 - gamma),
+         b.inner_ring_outer_diameter),
+        (1.0, b.outer_conformity, scene.materials.outer_ring, -gamma / (1.0 + gamma),
+         b.outer_ring_inner_diameter),
+    )  # fmt: skip
+    for race, (side, conformity, material, curvature, shoulder) in enumerate(sides):
         block = p[at.P_RACES + race * at.RACE_SIZE :][: at.RACE_SIZE]
         ring = si(material)
         modulus = effective_modulus(
@@ -86,6 +88,8 @@ def races(scene: Scene, p: NDArray[np.float64]) -> None:
         block[at.RACE_GROOVE_RADIUS] = dm / 2 - side * reach * math.cos(angle)
         block[at.RACE_GROOVE] = conformity * d
         block[at.RACE_EXPANSION] = ring.expansion
+        height = side * (0.5 * shoulder - block[at.RACE_GROOVE_RADIUS]) / block[at.RACE_GROOVE]
+        block[at.RACE_SHOULDER] = math.acos(max(-1.0, min(1.0, height)))
 
 
 def films(block: NDArray[np.float64], hertz: PointContact, rx: float, modulus: float, alpha: float) -> None:

@@ -1,0 +1,165 @@
+"""Shared libraries: the objects of the kernels and the C shim, linked for a platform and kept by hash.
+
+For the machine that builds, its own C compiler is enough; for the others, and for a library that runs on
+old Linux systems too, Zig's compiler (extra ``cross``).
+"""
+
+import hashlib
+import importlib.util
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass
+from importlib.metadata import version
+from pathlib import Path
+
+from fmu_bearing.fmi.files import write_whole
+from fmu_bearing.fmi.native.compile import Tell, kernel_folder, objects, silent
+from fmu_bearing.fmi.native.optimise import BuildError
+from fmu_bearing.fmi.native.platforms import Platform, host
+from fmu_bearing.fmi.resources import engine_digest
+
+__all__ = ["Compiler", "compiler_for", "headers", "library", "shim_sources"]
+
+#: Strict C; contraction of a * b + c would change bits between processors.
+_FLAGS = ("-std=c99", "-O2", "-Wall", "-Wextra", "-ffp-contract=off", "-fvisibility=hidden")
+
+
+@dataclass(frozen=True)
+class Compiler:
+    """A C compiler for one platform.
+
+    Attributes
+    ----------
+    command : tuple of str
+        Its call, without files.
+    name : str
+        What it is, for people and for the hash of what it makes.
+    """
+
+    command: tuple[str, ...]
+    name: str
+
+
+def headers() -> Path:
+    """Folder of the FMI 2.0 headers, which FMPy brings along."""
+    spec = importlib.util.find_spec("fmpy")
+    if spec is None or spec.origin is None:
+        raise BuildError("FMPy, which holds the FMI headers, is not installed: pip install fmpy")
+    return Path(spec.origin).parent / "c-code"
+
+
+def shim_sources() -> list[Path]:
+    """C files of the shim, in name order."""
+    return sorted((Path(__file__).parent / "shim").glob("*.c"))
+
+
+def compiler_for(platform: Platform, prefer: str = "auto") -> Compiler:
+    """Compiler that can make a library for a platform.
+
+    Parameters
+    ----------
+    platform : Platform
+    prefer : str
+        ``cc``, ``zig``, or ``auto``: the machine's own compiler for its own platform, Zig for the others
+        and where there is none.
+
+    Raises
+    ------
+    BuildError
+        If there is none; the message names what to install.
+    """
+    own = platform == host()
+    if own and prefer in ("auto", "cc"):
+        command = os.environ.get("CC") or shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
+        if command:
+            return Compiler((command, *_own_flags()), _version(command))
+    if prefer in ("auto", "zig") and importlib.util.find_spec("ziglang") is not None:
+        zig = (sys.executable, "-m", "ziglang", "cc", "-target", platform.zig, "-s")
+        return Compiler(zig, f"zig {version('ziglang')}")
+    if own:
+        raise BuildError(
+            f"{platform.name}: there is no C compiler; install one (Debian: gcc), or pip install "
+            "fmu-bearing[cross]"
+        )
+    raise BuildError(
+        f"{platform.name}: another platform than this machine's needs pip install fmu-bearing[cross]"
+    )
+
+
+def _own_flags() -> tuple[str, ...]:
+    if sys.platform.startswith("linux"):
+        return ("-fPIC", "-s", "-Wl,--build-id=none", "-Wl,--no-undefined", "-Wl,-z,noexecstack")
+    return ()
+
+
+def _version(command: str) -> str:
+    ran = subprocess.run([command, "--version"], capture_output=True, text=True)
+    return ran.stdout.splitlines()[0] if ran.returncode == 0 and ran.stdout else command
+
+
+def library(platform: Platform, prefer: str = "auto", tell: Tell = silent) -> Path:
+    """Shared library for a platform, made unless it is in the cache.
+
+    Where the cache holds one by another compiler and there is none now, that one serves.
+
+    Raises
+    ------
+    BuildError
+        If it is not there and cannot be made.
+    """
+    folder = kernel_folder() / platform.name
+    sources = _sources_digest()
+    try:
+        compiler = compiler_for(platform, prefer)
+    except BuildError:
+        kept = sorted(folder.glob(f"{sources}-*{platform.suffix}"))
+        if kept and prefer == "auto":
+            return kept[0]
+        raise
+    made_by = hashlib.sha256(f"{compiler.name} {compiler.command[1:]}".encode()).hexdigest()[:8]
+    path = folder / f"{sources}-{made_by}{platform.suffix}"
+    if not path.is_file():
+        kernels = objects(platform, tell)
+        tell(f"linking {platform.name} ({compiler.name})")
+        write_whole(path, link(compiler, platform, shim_sources(), kernels, engine_digest().hex()))
+    return path
+
+
+def _sources_digest() -> str:
+    """Hash (16 hex digits) of the shim."""
+    digest = hashlib.sha256()
+    for path in sorted((Path(__file__).parent / "shim").iterdir()):
+        if path.suffix in (".c", ".h"):
+            digest.update(path.name.encode() + path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def link(
+    compiler: Compiler, platform: Platform, sources: Sequence[Path], kernels: Sequence[Path], digest: str
+) -> bytes:
+    """Compile C sources, link them with objects, and return the shared library.
+
+    ``digest`` (64 hex digits) names the equations of the objects; the library refuses models of others.
+
+    Raises
+    ------
+    BuildError
+        With what the compiler complained of.
+    """
+    defines = [f'-DFB_KERNELS="{digest}"']
+    if len(platform.instruction_sets) > 1:
+        defines.append("-DFB_X86")
+    with tempfile.TemporaryDirectory() as folder:
+        made = Path(folder) / f"bearing{platform.suffix}"
+        command = [
+            *compiler.command, *_FLAGS, *defines, f"-I{headers()}", "-shared",
+            *map(str, sources), *map(str, kernels), "-o", str(made), "-lm",
+        ]  # fmt: skip
+        ran = subprocess.run(command, capture_output=True, text=True)
+        if ran.returncode != 0:
+            raise BuildError(f"{platform.name}: {compiler.name} failed: {ran.stderr.strip()[-2000:]}")
+        return made.read_bytes()

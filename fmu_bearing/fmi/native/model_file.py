@@ -1,0 +1,233 @@
+"""A model as the bytes of ``resources/model.bin``, which the C shim reads (``shim/model.h``).
+
+The lower half knows no bearing: :class:`Contents` is what the file holds, whatever the model, and
+:func:`contents_bytes` lays it out. :func:`model_bytes` fills it from a model.
+"""
+
+import hashlib
+import math
+import struct
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from fmu_bearing.engine import layout
+from fmu_bearing.fmi.description import LOG_CATEGORIES
+from fmu_bearing.fmi.resources import fingerprint
+from fmu_bearing.instance import CAUTIONS, REASONS, Caution
+from fmu_bearing.interface import Variable
+
+if TYPE_CHECKING:
+    from fmu_bearing.prepare.model import Model
+
+__all__ = ["MODEL_FILE", "Contents", "contents_bytes", "model_bytes"]
+
+MODEL_FILE = "model.bin"
+
+_MAGIC = b"fbmodel\n"
+_VERSION = 1
+_NOWHERE = 2**64 - 1
+_DIGEST_SIZE = 32
+
+# In the order of the numbers in shim/model.h.
+_TYPES = ("Real", "Integer", "Boolean", "String")
+_CAUSALITIES = ("input", "output", "local", "parameter")
+_VARIABILITIES = ("constant", "fixed", "discrete", "continuous")
+_ARRAYS = ("", "u", "z", "p")
+
+_NUMBERS = struct.Struct("<14Q")
+_VARIABLE = struct.Struct("<8I3d")
+_REASON = struct.Struct("<2I")
+_CAUTION = struct.Struct("<4I2d")
+_CATEGORY = struct.Struct("<2I")
+
+#: The fmi2Status whose messages belong to a category.
+_STATUS_OF_CATEGORY = {"logAll": 0, "logStatusWarning": 1, "logStatusDiscard": 2, "logStatusError": 3}
+
+
+@dataclass(frozen=True)
+class Contents:
+    """What the file holds.
+
+    Attributes
+    ----------
+    guid : str
+    kernels : str
+        64 hexadecimal digits that name the equations; a library of others refuses the file.
+    fingerprint : str
+        64 hexadecimal digits that bind states to the model.
+    parameters, inputs : array_like
+        Array ``p`` and starts of ``u``.
+    state_size, output_size, work_size : int
+        Lengths of ``s``, ``z`` and ``w``.
+    time : int
+        Place in ``s`` of the time reached.
+    tunables : int
+        Numbers at the head of ``p`` that can be set.
+    variables : sequence of Variable
+        In the order of the value references.
+    ramped : int or None
+        Input that the engine ramps over a step while it holds the others.
+    reasons : dict of int to str
+        What a status of the kernels means.
+    cautions : sequence of Caution
+    categories : sequence of (str, int)
+        Log categories and the fmi2Status of their messages; that of fmi2OK (0) stands for all.
+    """
+
+    guid: str
+    kernels: str
+    fingerprint: str
+    parameters: ArrayLike
+    inputs: ArrayLike
+    state_size: int
+    output_size: int
+    work_size: int
+    time: int
+    tunables: int
+    variables: Sequence[Variable]
+    ramped: int | None = None
+    reasons: dict[int, str] = field(default_factory=dict)
+    cautions: Sequence[Caution] = ()
+    categories: Sequence[tuple[str, int]] = tuple(_STATUS_OF_CATEGORY.items())
+
+
+class _Texts:
+    """Texts by offset; equal ones stand once, the empty one at 0."""
+
+    def __init__(self) -> None:
+        self.data = bytearray(b"\0")
+        self._places = {"": 0}
+
+    def place(self, text: str) -> int:
+        if text not in self._places:
+            if "\0" in text:
+                raise ValueError(f"the text {text!r} holds a zero character, which ends a text in C")
+            self._places[text] = len(self.data)
+            self.data += text.encode("utf-8") + b"\0"
+        return self._places[text]
+
+    def padded(self) -> bytes:
+        return bytes(self.data) + b"\0" * (-len(self.data) % 8)
+
+
+def contents_bytes(contents: Contents) -> bytes:
+    """Lay the contents out as the file.
+
+    Raises
+    ------
+    ValueError
+        If a hash is not 64 hexadecimal digits, or a text holds a zero character.
+    """
+    texts = _Texts()
+    parameters = np.ascontiguousarray(contents.parameters, "<f8")
+    inputs = np.ascontiguousarray(contents.inputs, "<f8")
+    variables = b"".join(_variable(variable, texts) for variable in contents.variables)
+    reasons = b"".join(_REASON.pack(code, texts.place(text)) for code, text in contents.reasons.items())
+    cautions = b"".join(_caution(caution, texts) for caution in contents.cautions)
+    categories = b"".join(_CATEGORY.pack(texts.place(name), code) for name, code in contents.categories)
+    tolerance = [i for i, variable in enumerate(contents.variables) if variable.name == "tolerance"]
+    guid = texts.place(contents.guid)
+    strings = texts.padded()
+    numbers = _NUMBERS.pack(
+        parameters.size,
+        inputs.size,
+        contents.state_size,
+        contents.output_size,
+        contents.work_size,
+        contents.tunables,
+        contents.time,
+        tolerance[0] if tolerance else _NOWHERE,
+        _NOWHERE if contents.ramped is None else contents.ramped,
+        len(contents.variables),
+        len(contents.reasons),
+        len(contents.cautions),
+        len(contents.categories),
+        len(strings),
+    )
+    hashes = _hash(contents.kernels, "kernels") + _hash(contents.fingerprint, "fingerprint")
+    body = hashes + numbers + struct.pack("<Q", guid) + parameters.tobytes() + inputs.tobytes()
+    body += variables + reasons + cautions + categories + strings
+    checksum = hashlib.blake2b(body, digest_size=_DIGEST_SIZE).digest()
+    return _MAGIC + struct.pack("<Q", _VERSION) + checksum + body
+
+
+def _hash(digits: str, name: str) -> bytes:
+    data = bytes.fromhex(digits)
+    if len(data) != _DIGEST_SIZE:
+        raise ValueError(f"{name} = {digits!r} must be {2 * _DIGEST_SIZE} hexadecimal digits")
+    return data
+
+
+def _variable(variable: Variable, texts: _Texts) -> bytes:
+    value = variable.start if variable.value is None else variable.value
+    text = value if isinstance(value, str) else ""
+    causality = "local" if variable.causality == "constant" else variable.causality
+    return _VARIABLE.pack(
+        _TYPES.index(variable.type),
+        _CAUSALITIES.index(causality),
+        _VARIABILITIES.index(variable.variability),
+        _ARRAYS.index(variable.array),
+        variable.index,
+        texts.place(variable.name),
+        texts.place(variable.unit),
+        texts.place(text),
+        -math.inf if variable.min is None else variable.min,
+        math.inf if variable.max is None else variable.max,
+        0.0 if text or value is None else float(value),
+    )
+
+
+def _caution(caution: Caution, texts: _Texts) -> bytes:
+    return _CAUTION.pack(
+        caution.index,
+        texts.place(caution.before),
+        texts.place(caution.after),
+        caution.decimals,
+        caution.threshold,
+        caution.scale,
+    )
+
+
+def model_bytes(model: "Model", guid: str, kernels_hash: str) -> bytes:
+    """Return ``resources/model.bin`` of a model.
+
+    Parameters
+    ----------
+    model : Model
+    guid : str
+        As in ``modelDescription.xml``.
+    kernels_hash : str
+        64 hexadecimal digits that name the equations of the library.
+
+    Returns
+    -------
+    bytes
+    """
+    inputs = np.zeros(len(layout.INPUTS))
+    for variable in model.variables:
+        if variable.array == "u" and variable.start is not None:
+            inputs[variable.index] = variable.start
+    parameters = model.parameters
+    return contents_bytes(
+        Contents(
+            guid=guid,
+            kernels=kernels_hash,
+            fingerprint=fingerprint(model),
+            parameters=parameters,
+            inputs=inputs,
+            state_size=layout.state_size(parameters),
+            output_size=layout.z_size(model.n_balls, model.n_mics, model.n_bands, model.n_modes),
+            work_size=layout.work_size(parameters),
+            time=layout.S_TIME,
+            tunables=layout.P_VISCOSITY + 1,
+            variables=model.variables,
+            ramped=layout.U_SPEED,
+            reasons=REASONS,
+            cautions=CAUTIONS,
+            categories=[(name, _STATUS_OF_CATEGORY[name]) for name in LOG_CATEGORIES],
+        )
+    )

@@ -1,0 +1,64 @@
+"""The machines a library can be built for."""
+
+import platform as machine
+import sys
+from dataclasses import dataclass
+
+__all__ = ["PLATFORMS", "Platform", "host"]
+
+# Levels of the x86-64 psABI: v2 (2009) is the least asked for, v3 (2015, AVX2) is used where it is there.
+_X86 = (("v2", "x86-64-v2"), ("v3", "x86-64-v3"))
+
+
+@dataclass(frozen=True)
+class Platform:
+    """A system and processor.
+
+    Attributes
+    ----------
+    name : str
+        Folder under ``binaries`` in the FMU.
+    triple : str
+        LLVM's name.
+    zig : str
+        Zig's name; the C library's version is the oldest one asked for.
+    suffix : str
+        Of shared libraries.
+    instruction_sets : tuple of (str, str)
+        Suffix of the symbols, and LLVM's name of a processor that has just these instructions.
+    """
+
+    name: str
+    triple: str
+    zig: str
+    suffix: str
+    instruction_sets: tuple[tuple[str, str], ...] = _X86
+
+
+PLATFORMS = {
+    one.name: one
+    for one in (
+        Platform("linux64", "x86_64-unknown-linux-gnu", "x86_64-linux-gnu.2.17", ".so"),
+        Platform("win64", "x86_64-w64-windows-gnu", "x86_64-windows-gnu", ".dll"),
+        Platform("darwin64", "x86_64-apple-macosx11.0.0", "x86_64-macos.11.0", ".dylib"),
+        Platform(
+            "aarch64-linux", "aarch64-unknown-linux-gnu", "aarch64-linux-gnu.2.17", ".so",
+            (("base", "generic"),),
+        ),
+        Platform(
+            "aarch64-darwin", "arm64-apple-macosx11.0.0", "aarch64-macos.11.0", ".dylib",
+            (("base", "apple-m1"),),
+        ),
+    )
+}  # fmt: skip
+
+
+def host() -> Platform | None:
+    """Return the platform of this process; ``None`` where no library can be built for it."""
+    arm = machine.machine().lower() in ("arm64", "aarch64")
+    if not arm and machine.machine().lower() not in ("x86_64", "amd64"):
+        return None
+    systems = {"linux": ("linux64", "aarch64-linux"), "darwin": ("darwin64", "aarch64-darwin")}
+    names = systems.get(sys.platform, ("win64", None))
+    name = names[arm]
+    return PLATFORMS[name] if name else None

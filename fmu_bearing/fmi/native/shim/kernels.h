@@ -1,0 +1,27 @@
+/* The compiled equations: one set of entries per instruction set, chosen when an instance is made.
+ *
+ * The build defines FB_KERNELS, a string of 64 hexadecimal digits that names the equations, and FB_X86
+ * where the library holds kernels for x86-64-v2 and x86-64-v3 rather than one set for any processor. */
+#ifndef FB_KERNELS_H
+#define FB_KERNELS_H
+
+#include "text.h"
+
+#include <stdint.h>
+
+typedef int32_t KernelInit(
+    const double *p, const double *u, double *s, double *z, double *w, const int64_t *sizes, double time);
+typedef int32_t KernelStep(
+    const double *p, const double *u, double *s, double *z, double *w, const int64_t *sizes, double h);
+typedef int32_t KernelOutputs(const double *p, const double *s, double *z, const int64_t *sizes);
+
+typedef struct Kernels {
+    KernelInit *init;
+    KernelStep *step;
+    KernelOutputs *outputs;
+} Kernels;
+
+/* The kernels for this processor, NULL with the reason if it is too old; FMU_BEARING_ISA=v2 takes v2. */
+const Kernels *kernels_choose(Text *why);
+
+#endif

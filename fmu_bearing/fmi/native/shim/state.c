@@ -1,0 +1,126 @@
+#include "state.h"
+
+#include <string.h>
+
+static const char MAGIC[16] = "fmu-bearing s 1";
+
+enum { ALL_PHASES = PHASE_INSTANTIATED | PHASE_INITIALISING | PHASE_STEPPING | PHASE_TERMINATED | PHASE_FAILED };
+
+/* Bytes of a state of this instance. */
+size_t state_size(const Instance *it)
+{
+    const ModelHead *head = it->model.head;
+    return sizeof(State) + 2 * it->bytes_z + it->bytes_s +
+           (size_t)(2 * head->n_u + head->n_tunables) * sizeof(double);
+}
+
+/* Copy into the block, and move on. */
+static void put(char **at, const double *numbers, uint64_t count)
+{
+    size_t bytes = (size_t)count * sizeof(double);
+    memcpy(*at, numbers, bytes);
+    *at += bytes;
+}
+
+/* Copy out of the block, and move on. */
+static void get(const char **at, double *numbers, uint64_t count)
+{
+    size_t bytes = (size_t)count * sizeof(double);
+    memcpy(numbers, *at, bytes);
+    *at += bytes;
+}
+
+/* Write the present state into a block. */
+void state_take(Instance *it, State *state)
+{
+    const ModelHead *head = it->model.head;
+    char *at = (char *)(state + 1);
+    instance_track(it);
+    memcpy(state->magic, MAGIC, sizeof MAGIC);
+    memcpy(state->fingerprint, head->fingerprint, DIGEST_SIZE);
+    memset(state->checksum, 0, DIGEST_SIZE);
+    state->size = state_size(it);
+    state->phase = it->phase;
+    state->settled = it->settled != 0;
+    state->rated = it->rated != 0;
+    state->time = it->time;
+    state->reached = it->reached;
+    state->last_step = it->last_step;
+    put(&at, it->rates, head->n_u);
+    put(&at, it->u, head->n_u);
+    put(&at, it->p, head->n_tunables);
+    put(&at, it->z, head->n_z);
+    put(&at, it->before_z, head->n_z);
+    put(&at, it->s, head->n_s);
+}
+
+/* Go back to a state. */
+void state_put_back(Instance *it, const State *state)
+{
+    const ModelHead *head = it->model.head;
+    const char *at = (const char *)(state + 1);
+    it->phase = (unsigned)state->phase;
+    it->settled = state->settled != 0;
+    it->rated = state->rated != 0;
+    it->tracks = 1;
+    it->time = state->time;
+    it->reached = state->reached;
+    it->last_step = state->last_step;
+    get(&at, it->rates, head->n_u);
+    get(&at, it->u, head->n_u);
+    get(&at, it->model.p, head->n_tunables);
+    get(&at, it->z, head->n_z);
+    get(&at, it->before_z, head->n_z);
+    get(&at, it->s, head->n_s);
+}
+
+/* Whether a block is a state of this model. */
+int state_belongs(const Instance *it, const State *state, Text *why)
+{
+    const char *problem = NULL;
+    if (memcmp(state->magic, MAGIC, sizeof MAGIC) != 0) {
+        problem = "these bytes are not a state that this version of fmu-bearing can read";
+    } else if (memcmp(state->fingerprint, it->model.head->fingerprint, DIGEST_SIZE) != 0) {
+        problem = "the state belongs to another model";
+    } else if (state->size != state_size(it)) {
+        problem = "the state is damaged: its size is wrong";
+    }
+    if (problem) text_add(why, "state not taken: ", problem, NULL);
+    return !problem;
+}
+
+/* Begin of what the checksum covers. */
+static const char *covered(const State *state)
+{
+    return (const char *)&state->size;
+}
+
+/* Write the checksum into a block. */
+void state_seal(State *state)
+{
+    size_t before = (size_t)(covered(state) - (const char *)state);
+    digest(covered(state), (size_t)state->size - before, state->checksum);
+}
+
+/* Whether a number is one of the phases. */
+static int is_phase(uint64_t phase)
+{
+    return (phase & ALL_PHASES) == phase && phase != 0 && (phase & (phase - 1)) == 0;
+}
+
+/* Whether bytes just read are a state of this model. */
+int state_is_whole(const Instance *it, const State *state, size_t size, Text *why)
+{
+    const char *problem = NULL;
+    if (size >= sizeof *state && !state_belongs(it, state, why)) return 0;
+    if (size < state_size(it)) {
+        problem = "the state is cut off";
+    } else if (!digest_holds(covered(state), (size_t)state->size - (size_t)(covered(state) - (const char *)state),
+                             state->checksum)) {
+        problem = "the state is damaged: its checksum does not hold";
+    } else if (!is_phase(state->phase)) {
+        problem = "the state is damaged: it has no phase";
+    }
+    if (problem) text_add(why, "state not taken: ", problem, NULL);
+    return !problem;
+}

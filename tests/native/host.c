@@ -1,0 +1,496 @@
+/* A host of co-simulation FMUs: host LIBRARY GUID RESOURCES COMMAND...
+ *
+ * Commands are carried out in turn on one instance:
+ *   setup:T enter exit terminate reset     phases; start:T is the first three of them
+ *   set:VR:VALUE  rate:VR:VALUE            a Real input, its first derivative
+ *   step:H[:N]                             so many steps (1) of H seconds
+ *   get:VR,...                             one line of Reals, every bit of them
+ *   save:FILE  load:FILE                   the state as bytes
+ *   time:T                                 where the master believes to stand
+ *   expect:STATUS                          what the next call has to answer, 0 (fmi2OK) unless told
+ *   time-step:H:N  time-get:N:VR,...  time-state:N  time-instantiate:N    nanoseconds for each call
+ *   threads:K:H:N                          K instances in threads; how much faster than in turn
+ * It leaves with 0 if every call answered as expected, 1 if one did not, 2 if it could not begin. */
+#define _POSIX_C_SOURCE 200112L
+
+#include "fmi2Functions.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#ifdef _WIN32
+#include <windows.h>
+#else
+#include <dlfcn.h>
+#include <pthread.h>
+#include <time.h>
+#endif
+
+enum { MOST_REFERENCES = 1000, MOST_THREADS = 64, ROUNDS = 5 };
+
+typedef struct Library {
+    fmi2InstantiateTYPE *instantiate;
+    fmi2FreeInstanceTYPE *free_instance;
+    fmi2SetupExperimentTYPE *setup;
+    fmi2EnterInitializationModeTYPE *enter;
+    fmi2ExitInitializationModeTYPE *exit;
+    fmi2TerminateTYPE *terminate;
+    fmi2ResetTYPE *reset;
+    fmi2SetRealTYPE *set_real;
+    fmi2GetRealTYPE *get_real;
+    fmi2SetRealInputDerivativesTYPE *set_rate;
+    fmi2DoStepTYPE *step;
+    fmi2GetFMUstateTYPE *get_state;
+    fmi2SetFMUstateTYPE *set_state;
+    fmi2FreeFMUstateTYPE *free_state;
+    fmi2SerializedFMUstateSizeTYPE *state_size;
+    fmi2SerializeFMUstateTYPE *serialise;
+    fmi2DeSerializeFMUstateTYPE *deserialise;
+} Library;
+
+typedef struct Host {
+    Library library;
+    const char *guid, *resources;
+    fmi2Component instance;
+    double time;
+    fmi2Status expected;
+    int surprises;
+} Host;
+
+/* Print what the FMU says, with its arguments filled in. */
+static void logger(fmi2ComponentEnvironment environment, fmi2String name, fmi2Status status, fmi2String category,
+                   fmi2String message, ...)
+{
+    va_list arguments;
+    (void)environment;
+    va_start(arguments, message);
+    printf("log %d %s %s: ", (int)status, category, name);
+    vprintf(message, arguments);
+    printf("\n");
+    va_end(arguments);
+}
+
+static const fmi2CallbackFunctions CALLBACKS = {logger, calloc, free, NULL, NULL};
+
+/* Monotonic seconds. */
+static double now(void)
+{
+#ifdef _WIN32
+    LARGE_INTEGER ticks, rate;
+    QueryPerformanceCounter(&ticks);
+    QueryPerformanceFrequency(&rate);
+    return (double)ticks.QuadPart / (double)rate.QuadPart;
+#else
+    struct timespec moment;
+    clock_gettime(CLOCK_MONOTONIC, &moment);
+    return (double)moment.tv_sec + 1e-9 * (double)moment.tv_nsec;
+#endif
+}
+
+/* Load a library; NULL with the reason printed. */
+static void *load(const char *path)
+{
+#ifdef _WIN32
+    void *library = (void *)LoadLibraryA(path);
+    if (!library) fprintf(stderr, "%s: error %lu\n", path, GetLastError());
+#else
+    void *library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    if (!library) fprintf(stderr, "%s\n", dlerror());
+#endif
+    return library;
+}
+
+/* Put the address of a function where it belongs; 0 if there is none of that name. */
+static int find(void *library, const char *name, void *place)
+{
+#ifdef _WIN32
+    FARPROC found = GetProcAddress((HMODULE)library, name);
+#else
+    void *found = dlsym(library, name);
+#endif
+    if (!found) fprintf(stderr, "the library has no %s\n", name);
+    memcpy(place, &found, sizeof found);
+    return found != NULL;
+}
+
+/* Find the functions the host uses. */
+static int find_all(void *from, Library *to)
+{
+    return find(from, "fmi2Instantiate", &to->instantiate) && find(from, "fmi2FreeInstance", &to->free_instance) &&
+           find(from, "fmi2SetupExperiment", &to->setup) &&
+           find(from, "fmi2EnterInitializationMode", &to->enter) &&
+           find(from, "fmi2ExitInitializationMode", &to->exit) && find(from, "fmi2Terminate", &to->terminate) &&
+           find(from, "fmi2Reset", &to->reset) && find(from, "fmi2SetReal", &to->set_real) &&
+           find(from, "fmi2GetReal", &to->get_real) &&
+           find(from, "fmi2SetRealInputDerivatives", &to->set_rate) && find(from, "fmi2DoStep", &to->step) &&
+           find(from, "fmi2GetFMUstate", &to->get_state) && find(from, "fmi2SetFMUstate", &to->set_state) &&
+           find(from, "fmi2FreeFMUstate", &to->free_state) &&
+           find(from, "fmi2SerializedFMUstateSize", &to->state_size) &&
+           find(from, "fmi2SerializeFMUstate", &to->serialise) &&
+           find(from, "fmi2DeSerializeFMUstate", &to->deserialise);
+}
+
+/* Note whether a call answered as expected. */
+static fmi2Status check(Host *host, const char *call, fmi2Status status)
+{
+    if (status != host->expected) {
+        printf("%s answered %d instead of %d\n", call, (int)status, (int)host->expected);
+        host->surprises++;
+    }
+    host->expected = fmi2OK;
+    return status;
+}
+
+/* Make an instance. */
+static fmi2Component instantiate(const Host *host)
+{
+    return host->library.instantiate("host", fmi2CoSimulation, host->guid, host->resources, &CALLBACKS, fmi2False,
+                                     fmi2True);
+}
+
+/* Carry an instance from instantiation to its first step. */
+static void start(Host *host, double time)
+{
+    host->time = time;
+    check(host, "setupExperiment", host->library.setup(host->instance, fmi2False, 0.0, time, fmi2False, 0.0));
+    check(host, "enterInitializationMode", host->library.enter(host->instance));
+    check(host, "exitInitializationMode", host->library.exit(host->instance));
+}
+
+/* Take so many steps. */
+static void step(Host *host, double size, long count)
+{
+    for (; count > 0; count--) {
+        fmi2Status status = host->library.step(host->instance, host->time, size, fmi2True);
+        if (check(host, "doStep", status) == fmi2OK) host->time += size;
+    }
+}
+
+/* Read numbers with commas between them. */
+static size_t read_references(const char *text, fmi2ValueReference *found)
+{
+    size_t count = 0;
+    char *end;
+    while (count < MOST_REFERENCES) {
+        unsigned long value = strtoul(text, &end, 10);
+        if (end == text) break;
+        found[count++] = (fmi2ValueReference)value;
+        if (*end != ',') break;
+        text = end + 1;
+    }
+    return count;
+}
+
+/* Print Reals. */
+static void get(Host *host, const char *text)
+{
+    fmi2ValueReference references[MOST_REFERENCES];
+    fmi2Real values[MOST_REFERENCES];
+    size_t count = read_references(text, references);
+    size_t i;
+    check(host, "getReal", host->library.get_real(host->instance, references, count, values));
+    for (i = 0; i < count; i++) printf(i ? " %.17g" : "%.17g", values[i]);
+    printf("\n");
+}
+
+/* Write the state into a file. */
+static void save(Host *host, const char *path)
+{
+    fmi2FMUstate state = NULL;
+    size_t size = 0;
+    fmi2Byte *bytes;
+    FILE *file = fopen(path, "wb");
+    check(host, "getFMUstate", host->library.get_state(host->instance, &state));
+    check(host, "serializedFMUstateSize", host->library.state_size(host->instance, state, &size));
+    bytes = malloc(size + 1);
+    check(host, "serializeFMUstate", host->library.serialise(host->instance, state, bytes, size));
+    if (!file || fwrite(bytes, 1, size, file) != size) host->surprises++;
+    if (file) fclose(file);
+    free(bytes);
+    check(host, "freeFMUstate", host->library.free_state(host->instance, &state));
+}
+
+/* Go on from the state in a file; the time is the master's to know. */
+static void restore(Host *host, const char *path)
+{
+    fmi2FMUstate state = NULL;
+    fmi2Byte *bytes;
+    size_t size;
+    FILE *file = fopen(path, "rb");
+    if (!file) {
+        host->surprises++;
+        return;
+    }
+    fseek(file, 0, SEEK_END);
+    size = (size_t)ftell(file);
+    fseek(file, 0, SEEK_SET);
+    bytes = malloc(size + 1);
+    if (fread(bytes, 1, size, file) != size) host->surprises++;
+    fclose(file);
+    check(host, "deSerializeFMUstate", host->library.deserialise(host->instance, bytes, size, &state));
+    check(host, "setFMUstate", host->library.set_state(host->instance, state));
+    check(host, "freeFMUstate", host->library.free_state(host->instance, &state));
+    free(bytes);
+}
+
+/* Print the least of several rounds, which is what the machine's other work disturbed least. */
+static void print_time(const char *name, const double *seconds, long count)
+{
+    double least = seconds[0];
+    int i;
+    for (i = 1; i < ROUNDS; i++) least = seconds[i] < least ? seconds[i] : least;
+    printf("%s %.2f ns\n", name, 1e9 * least / (double)count);
+}
+
+/* Time steps. */
+static void time_steps(Host *host, double size, long count)
+{
+    fmi2DoStepTYPE *call = host->library.step;
+    double seconds[ROUNDS];
+    int round;
+    long i;
+    for (round = 0; round < ROUNDS; round++) {
+        double begin = now();
+        unsigned answers = 0;
+        for (i = 0; i < count; i++) {
+            answers |= (unsigned)call(host->instance, host->time, size, fmi2True);
+            host->time += size;
+        }
+        seconds[round] = now() - begin;
+        check(host, "doStep", (fmi2Status)answers);
+    }
+    print_time("doStep", seconds, count);
+}
+
+/* Time reading some Reals at once. */
+static void time_get(Host *host, long count, const char *text)
+{
+    fmi2ValueReference references[MOST_REFERENCES];
+    fmi2Real values[MOST_REFERENCES];
+    size_t n = read_references(text, references);
+    double seconds[ROUNDS];
+    int round;
+    long i;
+    for (round = 0; round < ROUNDS; round++) {
+        double begin = now();
+        unsigned answers = 0;
+        for (i = 0; i < count; i++) {
+            answers |= (unsigned)host->library.get_real(host->instance, references, n, values);
+        }
+        seconds[round] = now() - begin;
+        check(host, "getReal", (fmi2Status)answers);
+    }
+    print_time("getReal", seconds, count);
+}
+
+/* Time keeping a state aside in the same block and going back to it. */
+static void time_state(Host *host, long count)
+{
+    fmi2FMUstate state = NULL;
+    double seconds[ROUNDS];
+    int round;
+    long i;
+    for (round = 0; round < ROUNDS; round++) {
+        double begin = now();
+        unsigned answers = 0;
+        for (i = 0; i < count; i++) {
+            answers |= (unsigned)host->library.get_state(host->instance, &state);
+            answers |= (unsigned)host->library.set_state(host->instance, state);
+        }
+        seconds[round] = now() - begin;
+        check(host, "getFMUstate and setFMUstate", (fmi2Status)answers);
+    }
+    check(host, "freeFMUstate", host->library.free_state(host->instance, &state));
+    print_time("state", seconds, count);
+}
+
+/* Time making and freeing instances. */
+static void time_instantiate(Host *host, long count)
+{
+    double seconds[ROUNDS];
+    int round;
+    long i;
+    for (round = 0; round < ROUNDS; round++) {
+        double begin = now();
+        for (i = 0; i < count; i++) {
+            fmi2Component one = instantiate(host);
+            if (!one) host->surprises++;
+            host->library.free_instance(one);
+        }
+        seconds[round] = now() - begin;
+    }
+    print_time("instantiate", seconds, count);
+}
+
+#ifdef _WIN32
+/* Threads are timed where there is pthread. */
+static void time_threads(Host *host, long threads, double size, long count)
+{
+    (void)threads, (void)size, (void)count;
+    printf("threads are not timed on Windows\n");
+    host->surprises++;
+}
+#else
+typedef struct Run {
+    Host host;
+    double size;
+    long count;
+} Run;
+
+/* Let one instance take its steps. */
+static void *run(void *argument)
+{
+    Run *one = argument;
+    step(&one->host, one->size, one->count);
+    return NULL;
+}
+
+/* Time several instances in turn and in threads. */
+static void time_threads(Host *host, long threads, double size, long count)
+{
+    static Run runs[MOST_THREADS];
+    pthread_t handles[MOST_THREADS];
+    double begin, in_turn;
+    long i;
+    if (threads < 1 || threads > MOST_THREADS) threads = MOST_THREADS;
+    for (i = 0; i < threads; i++) {
+        runs[i].host = *host;
+        runs[i].host.surprises = 0;
+        runs[i].host.instance = instantiate(host);
+        runs[i].size = size;
+        runs[i].count = count;
+        start(&runs[i].host, 0.0);
+    }
+    begin = now();
+    for (i = 0; i < threads; i++) run(&runs[i]);
+    in_turn = now() - begin;
+    begin = now();
+    for (i = 0; i < threads; i++) pthread_create(&handles[i], NULL, run, &runs[i]);
+    for (i = 0; i < threads; i++) pthread_join(handles[i], NULL);
+    printf("threads %.2f times as fast\n", in_turn / (now() - begin));
+    for (i = 0; i < threads; i++) {
+        host->surprises += runs[i].host.surprises;
+        host->library.free_instance(runs[i].host.instance);
+    }
+}
+#endif
+
+/* The part of a command behind so many colons, empty if there are not so many. */
+static const char *argument(const char *command, int place)
+{
+    for (; place > 0; place--) {
+        const char *colon = strchr(command, ':');
+        if (!colon) return "";
+        command = colon + 1;
+    }
+    return command;
+}
+
+/* Whether a command has that name. */
+static int is(const char *command, const char *name)
+{
+    size_t length = strlen(name);
+    return strncmp(command, name, length) == 0 && (command[length] == ':' || command[length] == '\0');
+}
+
+/* Set a Real or its rate. */
+static void set(Host *host, int rate, const char *reference, const char *text)
+{
+    fmi2ValueReference vr = (fmi2ValueReference)strtoul(reference, NULL, 10);
+    fmi2Real value = strtod(text, NULL);
+    fmi2Integer order = 1;
+    if (rate) {
+        check(host, "setRealInputDerivatives", host->library.set_rate(host->instance, &vr, 1, &order, &value));
+    } else {
+        check(host, "setReal", host->library.set_real(host->instance, &vr, 1, &value));
+    }
+}
+
+/* Carry out a command that changes the phase; 0 if it is none. */
+static int change_phase(Host *host, const char *command)
+{
+    double number = strtod(argument(command, 1), NULL);
+    fmi2Component c = host->instance;
+    if (is(command, "start")) {
+        start(host, number);
+    } else if (is(command, "setup")) {
+        host->time = number;
+        check(host, "setupExperiment", host->library.setup(c, fmi2False, 0.0, number, fmi2False, 0.0));
+    } else if (is(command, "enter")) {
+        check(host, "enterInitializationMode", host->library.enter(c));
+    } else if (is(command, "exit")) {
+        check(host, "exitInitializationMode", host->library.exit(c));
+    } else if (is(command, "terminate")) {
+        check(host, "terminate", host->library.terminate(c));
+    } else if (is(command, "reset")) {
+        check(host, "reset", host->library.reset(c));
+    } else {
+        return 0;
+    }
+    return 1;
+}
+
+/* Carry out a command; 0 if it is not known. */
+static int obey(Host *host, const char *command)
+{
+    const char *first = argument(command, 1), *second = argument(command, 2), *third = argument(command, 3);
+    long count = strtol(second, NULL, 10);
+    if (change_phase(host, command)) return 1;
+    if (is(command, "set") || is(command, "rate")) {
+        set(host, is(command, "rate"), first, second);
+    } else if (is(command, "step")) {
+        step(host, strtod(first, NULL), *second ? count : 1);
+    } else if (is(command, "get")) {
+        get(host, first);
+    } else if (is(command, "save")) {
+        save(host, first);
+    } else if (is(command, "load")) {
+        restore(host, first);
+    } else if (is(command, "time")) {
+        host->time = strtod(first, NULL);
+    } else if (is(command, "expect")) {
+        host->expected = (fmi2Status)strtol(first, NULL, 10);
+    } else if (is(command, "time-step")) {
+        time_steps(host, strtod(first, NULL), count);
+    } else if (is(command, "time-get")) {
+        time_get(host, strtol(first, NULL, 10), second);
+    } else if (is(command, "time-state")) {
+        time_state(host, strtol(first, NULL, 10));
+    } else if (is(command, "time-instantiate")) {
+        time_instantiate(host, strtol(first, NULL, 10));
+    } else if (is(command, "threads")) {
+        time_threads(host, strtol(first, NULL, 10), strtod(second, NULL), strtol(third, NULL, 10));
+    } else {
+        return 0;
+    }
+    return 1;
+}
+
+/* Load, instantiate, obey, free. */
+int main(int argc, char **argv)
+{
+    Host host;
+    void *library;
+    int i;
+    memset(&host, 0, sizeof host);
+    if (argc < 4) {
+        fprintf(stderr, "usage: host LIBRARY GUID RESOURCES COMMAND...\n");
+        return 2;
+    }
+    library = load(argv[1]);
+    if (!library || !find_all(library, &host.library)) return 2;
+    host.guid = argv[2];
+    host.resources = argv[3];
+    host.instance = instantiate(&host);
+    if (!host.instance) return 2;
+    for (i = 4; i < argc; i++) {
+        if (!obey(&host, argv[i])) {
+            fprintf(stderr, "unknown command %s\n", argv[i]);
+            return 2;
+        }
+    }
+    host.library.free_instance(host.instance);
+    return host.surprises > 0;
+}

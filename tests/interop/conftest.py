@@ -71,7 +71,8 @@ def fmus(model, tmp_path_factory):
     """FMU by flavour of the build."""
     folder = tmp_path_factory.mktemp("interop")
     return {
-        flavour: build(model, folder / flavour / "Bearing7003C.fmu", flavour=flavour).path for flavour in ("native", "python")
+        flavour: build(model, folder / flavour / "Bearing7003C.fmu", flavour=flavour).path
+        for flavour in ("native", "python")
     }
 
 

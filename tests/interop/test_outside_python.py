@@ -39,7 +39,7 @@ def test_c_host(host, unpacked, clean_environment, expected):
     assert ran.returncode == 0, ran.stdout + ran.stderr[-2000:]
     rows = [[float(word) for word in line.split()] for line in ran.stdout.splitlines()]
     assert np.array_equal(rows, expected)
-    loaded = set(re.findall(r"calling init: (\S+)", ran.stderr))
+    loaded = set(re.findall(r"calling init: (.+)$", ran.stderr, flags=re.MULTILINE))
     assert str(library) in loaded
     # With it only what every C program has: no Python, no NumPy, no compiler's run-time library.
     others = {name.rpartition("/")[2].partition(".")[0].partition("-")[0] for name in loaded - {str(library)}}
@@ -54,10 +54,9 @@ def test_ecos_simulate(ecos, native, expected, tmp_path):
     assert ran.returncode == 0, ran.stdout + ran.stderr
     assert "[error]" not in ran.stdout + ran.stderr
     found = read_csv(tmp_path / f"{native.stem}.csv")
-    # ecos writes the start and all steps but the last
-    assert found["time"] == pytest.approx(np.arange(STEPS) * EXACT_STEP, abs=CSV_ERROR)
+    assert found["time"] == pytest.approx(np.arange(STEPS + 1) * EXACT_STEP, abs=CSV_ERROR)
     for name, values in zip(WATCHED, expected.T, strict=True):
-        assert found[name] == pytest.approx(values[:STEPS], abs=CSV_ERROR), name
+        assert found[name] == pytest.approx(values, abs=CSV_ERROR), name
 
 
 @pytest.fixture
@@ -84,13 +83,26 @@ def lone(native, tmp_path):
     return write
 
 
+# ecos crashes now and then where it reads an Integer through proxyfmu: only Reals are written.
+CSV_CONFIG = """<?xml version="1.0" encoding="UTF-8"?>
+<ecos:CsvConfig xmlns:ecos="http://github.com/Ecos-platform/libecos/resources/schema/CsvConfig">
+  <ecos:components><ecos:component name="bearing">
+    {variables}
+  </ecos:component></ecos:components>
+</ecos:CsvConfig>
+"""
+
+
 @needs_linux64
 @pytest.mark.parametrize("start", ["", "proxyfmu://localhost?file="], ids=["in ecos", "by proxyfmu"])
 def test_ecos_simulate_archive(ecos, lone, start, model, tmp_path):
     path = lone(f"{start}resources/Bearing7003C.fmu", preload=450.0, shaft_speed=2200.0)
+    config = tmp_path / "csv.xml"
+    names = "\n    ".join(f'<ecos:variable name="{name}"/>' for name in WATCHED)
+    config.write_text(CSV_CONFIG.format(variables=names))
     ran = ecos(
         "simulate",
-        *("--path", path, "--stepSize", EXACT_STEP, "--stopTime", STEPS * EXACT_STEP),
+        *("--path", path, "--csvConfig", config, "--stepSize", EXACT_STEP, "--stopTime", STEPS * EXACT_STEP),
         *("--parameterSet", "operation", "--logLevel", "debug"),
         cwd=tmp_path,
     )
@@ -100,7 +112,7 @@ def test_ecos_simulate_archive(ecos, lone, start, model, tmp_path):
     if start:
         assert "External process for instance 'bearing' returned with status 0" in output
     found = read_csv(tmp_path / "lone.csv")
-    expected = alone(model, STEPS - 1, preload=450.0, shaft_speed=2200.0)
+    expected = alone(model, STEPS, preload=450.0, shaft_speed=2200.0)
     for name, values in zip(WATCHED, expected.T, strict=True):
         assert found[name] == pytest.approx(values, abs=CSV_ERROR), name
 

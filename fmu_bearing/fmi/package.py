@@ -10,9 +10,9 @@ from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from fmu_bearing.files import write_whole
 from fmu_bearing.fmi import documentation, resources
 from fmu_bearing.fmi.description import FLAVOURS, description_xml, identifier, interface_guid
-from fmu_bearing.fmi.files import write_whole
 from fmu_bearing.fmi.native.compile import Tell, silent
 from fmu_bearing.fmi.native.link import library
 from fmu_bearing.fmi.native.model_file import MODEL_FILE, model_bytes

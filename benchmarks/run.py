@@ -12,6 +12,7 @@ import numpy as np
 
 from benchmarks import bem, exudyn_peer, memory, ours, peers, sound, terms
 from benchmarks.cases import CASES, QUICK, SOLVERS, Case
+from benchmarks.fmu import calls
 from benchmarks.table import COLUMNS, Row, fill_ratios
 from fmu_bearing.study import table
 from fmu_bearing.study.arrays import Arrays
@@ -81,7 +82,7 @@ def measure(cases: tuple[Case, ...], quick: bool) -> tuple[list[Row], list[list[
         print(f"{case.name}: {time.process_time() - begin:.0f} s", file=sys.stderr, flush=True)
     fill_ratios(rows)
     rows += [Row("all", solver.name, remark="not built") for solver, there in built.items() if not there]
-    rows.append(Row("all", "the same right-hand side in C", remark="not written", ours=False))
+    rows.append(Row("all", "the same right-hand side in C", remark="none: a second copy of the physics would have to be kept equal", ours=False))
     return rows, references
 
 
@@ -103,7 +104,7 @@ rows stand below ours; they are timed over {window:g} ms.
 """
 
 
-def report(rows: list[Row], references, costs, sizes, sounds, solved, repeats: int) -> str:
+def report(rows: list[Row], references, costs, sizes, sounds, solved, called, repeats: int) -> str:
     """Everything as Markdown."""
     text = TEXT.format(machine=machine(), repeats=repeats, window=1e3 * PEER_WINDOW)
     text += table.markdown(COLUMNS, [row.cells() for row in rows])
@@ -111,7 +112,8 @@ def report(rows: list[Row], references, costs, sizes, sounds, solved, repeats: i
     text += "\n## Cost of terms\n\n" + table.markdown(terms.COLUMNS, costs)
     text += "\n## Memory of an instance\n\n" + table.markdown(memory.COLUMNS, sizes)
     text += "\n## Cost of sound\n\n" + table.markdown(sound.COLUMNS, sounds)
-    return text + "\n## Boundary elements on a ring\n\n" + table.markdown(bem.COLUMNS, solved)
+    text += "\n## Boundary elements on a ring\n\n" + table.markdown(bem.COLUMNS, solved)
+    return text + "\n## Calls of an FMU\n\n" + table.markdown(calls.COLUMNS, called)
 
 
 def main(arguments: list[str] | None = None) -> None:
@@ -131,6 +133,7 @@ def main(arguments: list[str] | None = None) -> None:
     if not given.quick:
         sounds += sound.rows("7009C-full-ceramic", ("bem", "compact"), repeats)
     solved = bem.rows(given.quick)
+    called = calls.rows(given.quick)
     print(machine())
     table.show("Simulated s per wall s", COLUMNS, [row.cells() for row in rows])
     table.show("References", REFERENCE_COLUMNS, references)
@@ -138,9 +141,10 @@ def main(arguments: list[str] | None = None) -> None:
     table.show("Memory of an instance", memory.COLUMNS, sizes)
     table.show("Cost of sound", sound.COLUMNS, sounds)
     table.show("Boundary elements", bem.COLUMNS, solved)
+    table.show("Calls of an FMU", calls.COLUMNS, called)
     if given.output:
         given.output.mkdir(parents=True, exist_ok=True)
-        text = report(rows, references, costs, sizes, sounds, solved, repeats)
+        text = report(rows, references, costs, sizes, sounds, solved, called, repeats)
         (given.output / "benchmark.md").write_text(text, "utf-8")
         table.write_csv(given.output / "benchmark.csv", COLUMNS, [row.cells() for row in rows])
 

@@ -12,7 +12,8 @@ One way through, with no way back::
 ``interface``       THE table of variables
 ``engine``          Numba kernels on flat arrays: mechanics, solvers, sound
 ``instance``        one running bearing, for the library and for the FMU alike
-``fmi``             the FMI face: XML, slave, the written ``.fmu``
+``fmi``             the FMI face: XML, native library, slave, the written ``.fmu``
+``files``           writing files that other processes may read
 ``study``           reference trajectories, and level ``full`` for general-purpose integrators
 ==================  =========================================================================
 

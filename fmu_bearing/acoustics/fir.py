@@ -5,6 +5,7 @@ import functools
 import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
+from scipy.linalg import solve, toeplitz
 from scipy.signal import remez
 
 from fmu_bearing.engine.sound.places import DECIMATOR_TAPS, LATENCY, RATE, RAW_RATE
@@ -20,6 +21,7 @@ _LENGTHS = (48, 64, 96, 128, 192, 256, 384, 512, 768, 1024)
 _GRID_SERVES = 512
 _FINER = 4
 _GOOD = 10 ** (-55 / 20)  # error at which a filter is long enough
+_LITTLE = 10 ** (0.5 / 20)  # where none is: what a longer one must better, 0.5 dB
 
 
 def fit_frequencies() -> NDArray[np.float64]:
@@ -98,12 +100,10 @@ def between(
     return result
 
 
-def _target(
-    frequency: NDArray[np.float64], response: NDArray[np.complex128], flight: float
-) -> NDArray[np.complex128]:
-    """Return what the filter must do so that the whole chain is ``response``, ``LATENCY`` late."""
-    turn = 2j * np.pi * frequency * (delay_of(flight) - LATENCY) / RATE
-    return response * np.exp(turn) / decimator_response(frequency)
+@functools.cache
+def _decimated(length: int) -> NDArray[np.complex128]:
+    """Response of the decimator on the grid of a filter of ``length`` taps."""
+    return decimator_response(_grid(length))
 
 
 def fit(
@@ -124,18 +124,18 @@ def fit(
     Returns
     -------
     taps, error
-        Taps at ``RATE``, newest sample first, as few as reach -55 dB, 1024 at most; largest deviation in
-        `BAND` over the larger of the path's own magnitude and the strongest one's minus 30 dB. Filters
-        longer than 256 taps are held to a grid four times as fine, where a spline stands for the response.
+        Taps at ``RATE``, newest sample first, as few as reach -55 dB or, where 1024 do not, come within
+        0.5 dB of the least error; largest deviation in `BAND` over the larger of the path's own magnitude and
+        the strongest one's minus 30 dB. Filters longer than 512 taps are held to a grid four times as fine,
+        where a spline stands for the response.
     """
-    best, least = np.zeros(_LENGTHS[0]), np.inf
+    found = []
     for length in _LENGTHS:
-        taps, error = _fit_length(length, response, flight, strongest)
-        if error < least:
-            best, least = taps, error
-        if error < _GOOD:
-            break
-    return best, least
+        found.append(_fit_length(length, response, flight, strongest))
+        if found[-1][1] < _GOOD:
+            return found[-1]
+    least = min(error for _, error in found)
+    return next((taps, error) for taps, error in found if error <= _LITTLE * least)
 
 
 def _fit_length(
@@ -146,16 +146,14 @@ def _fit_length(
     if len(grid) > len(coarse):
         response = between(coarse, response, flight, grid)
         strongest = np.interp(grid, coarse, strongest)
-    wanted = _target(grid, response, flight)
+    # what the filter must do so that the whole chain is `response`, LATENCY late
+    wanted = response * np.exp(2j * np.pi * grid * (delay_of(flight) - LATENCY) / RATE) / _decimated(length)
     weight = 1.0 / np.maximum(np.abs(response), _WEAK * strongest)
-    right = wanted * weight
-    basis, stop = _basis(length), _stop_rows(length) * (_STOP_WEIGHT * weight[-1])
-    rows = basis * weight[:, None]
-    matrix = np.concatenate([rows.real, rows.imag, stop.real, stop.imag])
-    vector = np.concatenate([right.real, right.imag, np.zeros(2 * len(stop))])
+    basis, stop = _basis(length), _stop_rows(length)
     # Normal equations: far cheaper than an orthogonal solver, and the errors stay those of the filter
-    # length.
-    normal = matrix.T @ matrix
-    normal.flat[:: length + 1] += _RIDGE * normal.trace() / length
-    taps = np.linalg.solve(normal, matrix.T @ vector)
+    # length. Their matrix depends on the distance of two taps alone: one column tells all.
+    square = weight**2
+    column = (square @ basis).real + (_STOP_WEIGHT * weight[-1]) ** 2 * stop.sum(axis=0).real
+    column[0] *= 1.0 + _RIDGE
+    taps = solve(toeplitz(column), ((square * wanted.conj()) @ basis).real, assume_a="pos")
     return taps, float(np.max(np.abs(basis @ taps - wanted) * weight))

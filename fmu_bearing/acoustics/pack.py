@@ -1,12 +1,13 @@
 """Lays the sound block flat: head, tables, and the places of the kernels' state and work."""
 
 from collections.abc import Sequence
+from itertools import groupby
 from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.acoustics.blocks import Bank, choose, head, parts, spans
+from fmu_bearing.acoustics.blocks import Bank, Wire, choose, filters, head, segments, spans, wired
 from fmu_bearing.acoustics.fir import decimator
 from fmu_bearing.acoustics.rungs import Ladder
 from fmu_bearing.acoustics.transfer import paper_scalars
@@ -57,7 +58,7 @@ class _Block:
 
 def pack(
     ladder: Ladder,
-    banks: Sequence[Bank],
+    wires: Sequence[Wire],
     groups: Sequence[Members],
     sources: Sequence[tuple[int, int]],
     *,
@@ -75,10 +76,18 @@ def pack(
         Which meters are kept.
     levels
         Block lengths of the convolution; default: the cheapest.
+
+    Raises
+    ------
+    ValueError
+        When a block is longer than 512 samples.
     """
     channels = ladder.channels
+    banks, lanes = wired(wires, channels)
     if levels is None:
-        levels = choose(banks, channels, len(sources))
+        levels = choose(banks, len(sources))
+    if max(levels, default=0) >= at.MAX_FREQUENCIES:
+        raise ValueError(f"blocks of {max(levels)} samples are too long: 512 at most")
     block = _Block()
     found = block.head
     found[at.H_RUNG] = ladder.form
@@ -105,10 +114,12 @@ def pack(
     )
     _put_sources(block, sources)
     _put_groups(block, groups)
-    slots, deepest = _put_banks(block, banks, levels)
+    found[at.H_AT_LANES] = block.put(lanes)
+    deepest = _put_banks(block, banks, levels)
+    rows = _put_levels(block, banks, levels)
     found[at.H_ROWS] = max([deepest, *(2 * length + 1 for length in levels)])
-    _place_state(block, levels, slots)
-    _place_work(block, levels)
+    _place_state(block, rows)
+    _place_work(block, rows)
     return block.flat()
 
 
@@ -140,36 +151,44 @@ def _put_groups(block: _Block, groups: Sequence[Members]) -> None:
     block.head[at.H_AT_ORDER] = block.put(order)
 
 
-def _put_banks(block: _Block, banks: Sequence[Bank], levels: Sequence[int]) -> tuple[list[int], int]:
-    """Put all banks; return the stored blocks that each level needs, and the rows of the direct parts."""
-    slots = [1] * len(levels)
+def _put_banks(block: _Block, banks: Sequence[Bank], levels: Sequence[int]) -> int:
+    """Put the direct parts of all banks; return how much history they need."""
     rows = []
     deepest = 1
     for bank in banks:
         direct = head(bank, levels)
         if len(direct):
             deepest = max(deepest, bank.delay + len(direct))
-        row = np.zeros(at.BANK_SIZE)
-        row[at.BANK_CHANNEL] = bank.channel
-        row[at.BANK_COUNT] = bank.taps.shape[1]
-        row[at.BANK_DELAY] = bank.delay
-        row[at.BANK_TAPS] = len(direct)
-        row[at.BANK_AT_TAPS] = block.put(direct)
-        row[at.BANK_AT_TARGETS] = block.put(bank.targets)
-        for level, (length, low, high) in enumerate(spans(levels)):
-            found = parts(bank, length, low, high)
-            first = at.BANK_LEVELS + 3 * level
-            row[first + at.PART_FIRST] = found.first
-            row[first + at.PART_COUNT] = found.count
-            row[first + at.PART_AT] = block.put(found.spectra)
-            slots[level] = max(slots[level], found.first + found.count - 1)
-        rows.append(row)
+        place = block.put(direct)
+        runs = [(output, len(list(run))) for output, run in groupby(bank.targets)]
+        lanes = bank.taps.shape[1]
+        rows.append([bank.lane, lanes, bank.delay, len(direct), place, len(runs), block.put(runs)])
     block.head[at.H_AT_BANKS] = block.put(rows)
-    return slots, deepest
+    return deepest
 
 
-def _place_state(block: _Block, levels: Sequence[int], slots: Sequence[int]) -> None:
-    """Give every part of the state its place, and put the table of levels that says so."""
+def _put_levels(block: _Block, banks: Sequence[Bank], levels: Sequence[int]) -> list[list[int]]:
+    """Put the filters of every level; return the beginning of each level's row."""
+    found = []
+    for span in spans(levels):
+        served = filters(banks, *span)
+        runs = segments(one.lane for one in served)
+        lanes = [lane for first, count in runs for lane in range(first, first + count)]
+        rows = [
+            [lanes.index(one.lane), one.output, one.first, one.count, block.put(one.spectra)]
+            for one in served
+        ]
+        slots = max([1, *(one.first + one.count - 1 for one in served)])
+        turns = np.pi * np.arange(span[0] + 1) / span[0]
+        found.append(
+            [span[0], slots, len(lanes), len(runs), block.put(runs), len(rows), block.put(rows)]
+            + [block.put([np.cos(turns), np.sin(turns)])]
+        )
+    return found
+
+
+def _place_state(block: _Block, levels: Sequence[list[int]]) -> None:
+    """Give every part of the state its place, complete the rows of ``levels`` with them and put these."""
     found = block.head
     channels, mics = int(found[at.H_CHANNELS]), int(found[at.H_MICS])
     end = at.SS_TABLES + at.DECIMATOR_TAPS * channels
@@ -182,11 +201,10 @@ def _place_state(block: _Block, levels: Sequence[int], slots: Sequence[int]) -> 
     found[at.H_S_HIGH_PASS] = room(2 * channels)
     found[at.H_S_CHANNELS] = room(found[at.H_ROWS] * channels)
     rows = []
-    for length, count in zip(levels, slots, strict=True):
-        angle = np.pi * np.arange(length + 1) / length
-        turns = block.put([np.cos(angle), np.sin(angle)])
-        spectra = room(count * 2 * (length + 1) * channels)
-        rows.append([length, count, turns, spectra, room(length * found[at.H_OUTPUTS])])
+    for row in levels:
+        length, slots, lanes = row[:3]
+        spectra = room(slots * 2 * (length + 1) * lanes)
+        rows.append([*row, spectra, room(length * found[at.H_OUTPUTS])])
     found[at.H_AT_LEVELS] = block.put(rows)
     found[at.H_S_A_WEIGHTING] = room(6 * found[at.H_LANES])
     found[at.H_S_METERS] = room(at.METERS * mics)
@@ -194,16 +212,16 @@ def _place_state(block: _Block, levels: Sequence[int], slots: Sequence[int]) -> 
     found[at.H_STATE] = end
 
 
-def _place_work(block: _Block, levels: Sequence[int]) -> None:
+def _place_work(block: _Block, levels: Sequence[list[int]]) -> None:
     """Give every part of the work space its place; the decimated channels stand first."""
     found = block.head
     channels, outputs, mics = (int(found[k]) for k in (at.H_CHANNELS, at.H_OUTPUTS, at.H_MICS))
     scratch = [2 * STRIDE, at.BAND_LANES]
-    scratch += [max(2 * b * channels, 2 * (b + 1) * outputs + 2 * b * outputs) for b in levels]
+    scratch += [(4 * length + 2) * max(lanes, outputs) for length, _, lanes in (row[:3] for row in levels)]
     end = channels
     for place, size in (
         (at.H_W_OUTPUTS, outputs),
-        (at.H_W_LANES, 2 * at.MAX_CHANNELS),
+        (at.H_W_LANES, max(at.MAX_CHANNELS, 2 * at.MAX_FREQUENCIES)),
         (at.H_W_WEIGHTED, int(found[at.H_LANES])),
         (at.H_W_SOURCES, int(found[at.H_SOURCES]) * mics),
         (at.H_W_METERS, at.METERS * mics),

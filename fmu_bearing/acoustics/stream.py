@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.acoustics.blocks import Bank
+from fmu_bearing.acoustics.blocks import Wire
 from fmu_bearing.acoustics.fir import delay_of, fit
 from fmu_bearing.acoustics.pack import pack
 from fmu_bearing.acoustics.radiators import Air, Housing, Path, Radiators, Ring
@@ -24,7 +24,6 @@ _NEGLIGIBLE = 1e-7
 # Worst deviation of a filter from its transfer function that is let pass, at any one frequency: 3 %, 0.27 dB.
 # Bodies without sharp resonances keep -50 dB; what each path has is told by `filter_errors`.
 _TOLERANCE = 10 ** (-30 / 20)
-_LONGEST_GAP = 6  # channels
 _SILENT = 1e-12  # weight of a microphone on a node line, where rounding leaves a little
 _ALIKE = 12  # decimals to which weights are compared
 
@@ -184,14 +183,14 @@ def build(
     thirds
         Whether third octaves are.
     levels
-        Block lengths of the convolution (powers of two, ascending); empty: direct form; default: the
-        cheapest.
+        Block lengths of the convolution (powers of two up to 512, ascending); empty: direct form; default:
+        the cheapest.
 
     Raises
     ------
     ValueError
-        On another rung, a microphone inside a body, or a filter that misses its transfer function by more
-        than -40 dB.
+        On another rung, a microphone inside a body, a block that is too long, or a filter that misses its
+        transfer function by more than -30 dB.
     """
     ladder = Ladder(rung, radiators, air, harmonics, tuple(modes), plane, table)
     return _block(ladder, microphones, details=details, thirds=thirds, levels=levels)
@@ -205,15 +204,15 @@ def _block(
     thirds: bool,
     levels: Sequence[int] | None = None,
 ) -> NDArray[np.float64]:
-    banks, groups, sources = _design(ladder, microphones, [])
-    return pack(ladder, banks, groups, sources, details=details, thirds=thirds, levels=levels)
+    wires, groups, sources = _design(ladder, microphones, [])
+    return pack(ladder, wires, groups, sources, details=details, thirds=thirds, levels=levels)
 
 
 def _design(
     ladder: Ladder, microphones: Sequence[Position], errors: list[FilterError]
-) -> tuple[list[Bank], list[Group], list[tuple[int, int]]]:
-    """Banks, groups of microphones, component and kind of every output; errors are added to ``errors``."""
-    banks: list[Bank] = []
+) -> tuple[list[Wire], list[Group], list[tuple[int, int]]]:
+    """Design filters; groups of microphones; component and kind of every output. Adds to ``errors``."""
+    wires: list[Wire] = []
     groups: list[Group] = []
     sources: list[tuple[int, int]] = []
     for members in ladder.circles(microphones):
@@ -222,27 +221,29 @@ def _design(
         filters = _filters(paths, place, members, errors)
         first = len(sources)
         targets, rows = _outputs(ladder, paths, sources)
-        for run in _runs(paths):
-            scaled = [np.zeros(0) if i is None else filters[i] * targets[i][1] for i in run]
-            place_of = tuple(first if i is None else targets[i][0] for i in run)
-            leader = paths[next(i for i in run if i is not None)]
-            banks.append(Bank(leader.channel, delay_of(leader.flight), _side_by_side(scaled), place_of))
+        for path, taps, (target, factor) in zip(paths, filters, targets, strict=True):
+            wires.append(Wire(len(groups), path.channel, delay_of(path.flight), factor * taps, target))
         groups.append(Group(tuple(members), first, np.array(rows).reshape(-1, len(members))))
-    return banks, groups, sources
+    return wires, groups, sources
 
 
 def _audible(paths: list[Path]) -> list[Path]:
     """Leave out negligible paths and those on whose node lines all microphones stand."""
-    strongest: dict[int, float] = {}
-    for path in paths:
-        loudest = float(np.abs(path.response).max())
-        strongest[path.component] = max(strongest.get(path.component, 0.0), loudest)
+    strongest = _strongest(paths)
     return [
         path
         for path in paths
-        if np.abs(path.response).max() > _NEGLIGIBLE * strongest[path.component]
+        if np.abs(path.response).max() > _NEGLIGIBLE * strongest[path.component].max()
         and np.abs(path.weights).max() > _SILENT
     ]
+
+
+def _strongest(paths: list[Path]) -> dict[int, NDArray[np.float64]]:
+    """Magnitude of each component's strongest path at every frequency."""
+    return {
+        component: np.max([np.abs(path.response) for path in paths if path.component == component], axis=0)
+        for component in {path.component for path in paths}
+    }
 
 
 def _outputs(
@@ -278,10 +279,7 @@ def _filters(
     """Filter of each path; each component's errors count against its strongest path where its own is weak."""
     filters: list[NDArray[np.float64]] = []
     known: dict[int, tuple[NDArray[np.float64], float]] = {}  # a shared response has a shared filter
-    strongest = {
-        component: np.max([np.abs(p.response) for p in paths if p.component == component], axis=0)
-        for component in {path.component for path in paths}
-    }
+    strongest = _strongest(paths)
     for path in paths:
         if id(path.response) not in known:
             taps, error = fit(path.response, path.flight, strongest[path.component])
@@ -297,29 +295,3 @@ def _filters(
             known[id(path.response)] = (taps, error)
         filters.append(known[id(path.response)][0])
     return filters
-
-
-def _runs(paths: list[Path]) -> list[list[int | None]]:
-    """Gather paths of one delay into runs of neighbouring channels, as places in the list.
-
-    A short gap between two channels is filled with silence: one long vector loop beats two short ones.
-    """
-    runs: list[list[int | None]] = []
-    last = None
-    for i in sorted(range(len(paths)), key=lambda i: (paths[i].flight, paths[i].channel)):
-        path = paths[i]
-        near = last is not None and last.flight == path.flight and last.channel < path.channel
-        gap = path.channel - last.channel - 1 if near and last is not None else _LONGEST_GAP + 1
-        if gap > _LONGEST_GAP:
-            runs.append([])
-            gap = 0
-        runs[-1] += [None] * gap + [i]
-        last = path
-    return runs
-
-
-def _side_by_side(filters: list[NDArray[np.float64]]) -> NDArray[np.float64]:
-    table = np.zeros((max(len(taps) for taps in filters), len(filters)))
-    for column, taps in enumerate(filters):
-        table[: len(taps), column] = taps
-    return table

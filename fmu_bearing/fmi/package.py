@@ -6,18 +6,20 @@ import zipfile
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from fmu_bearing.files import write_whole
 from fmu_bearing.fmi import documentation, resources
 from fmu_bearing.fmi.description import FLAVOURS, description_xml, identifier, interface_guid
-from fmu_bearing.fmi.files import write_whole
 from fmu_bearing.fmi.native.compile import Tell, silent
 from fmu_bearing.fmi.native.link import library
 from fmu_bearing.fmi.native.model_file import MODEL_FILE, model_bytes
 from fmu_bearing.fmi.native.optimise import BuildError
 from fmu_bearing.fmi.native.platforms import PLATFORMS, host
+from fmu_bearing.fmi.reference import NoReference, reference_files, run_instance, run_library
 
 if TYPE_CHECKING:
     from fmu_bearing.prepare.model import Model
@@ -134,6 +136,10 @@ def build(
                 raise
             flavour, remarks = "python", (f"native FMU: {problem}",)
     inside = contents(model, flavour, binaries)
+    try:
+        inside |= _reference(model, flavour, binaries, inside)
+    except NoReference as problem:
+        remarks = (*remarks, f"reference results: {problem}")
     data = _zip(inside)
     try:
         write_whole(path, data)
@@ -178,8 +184,19 @@ def _libraries(platforms: Sequence[str] | None, tell: Tell) -> dict[str, Path]:
     return {name: library(PLATFORMS[name], tell=tell) for name in names}
 
 
+def _reference(
+    model: "Model", flavour: str, libraries: Mapping[str, Path], inside: Mapping[str, bytes]
+) -> dict[str, bytes]:
+    """Return the files of the reference results, run by this machine's library if it is inside."""
+    own = host()
+    if own is None or own.name not in libraries:
+        return reference_files(model, run_instance)
+    guid, numbers = interface_guid(model, flavour), inside[f"resources/{MODEL_FILE}"]
+    return reference_files(model, partial(run_library, libraries[own.name], guid, numbers))
+
+
 def contents(model: "Model", flavour: str, libraries: Mapping[str, Path] | None = None) -> dict[str, bytes]:
-    """Return all files of the FMU of a model, by path inside the zip.
+    """Return all files of the FMU of a model but its reference results, by path inside the zip.
 
     ``libraries``: by platform, for a native build.
     """

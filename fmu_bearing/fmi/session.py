@@ -85,7 +85,7 @@ class Session:
             return [shown[reference] for reference in references]
         strange = sorted(set(references) - known)
         self.fail(f"there is no {kind} with value reference {', '.join(map(str, strange))}")
-        return [0 for _ in references]
+        return ["" if kind == "String" else 0 for _ in references]
 
     def _read(self) -> list[Any]:
         shown = self._constants.copy()

@@ -5,6 +5,8 @@
 ``bodies``           masses and inertias from the scene's dimensions
 ``contacts``         oil and friction, rolling resistance and films of the races
 ``imperfections``    waviness of races and balls, ball sizes, from a seed
+``flexure``          bending modes of the rings as the engine's coordinates
+``sound``            the sound block, kept on disk
 ``model``            packs everything into the flat parameter array of the engine
 ===================  ==================================================================
 """

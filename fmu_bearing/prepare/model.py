@@ -7,7 +7,6 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import roots_jacobi
 
-from fmu_bearing.acoustics.stream import sound_parameters
 from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.engine import layout as at
 from fmu_bearing.engine import modes_layout
@@ -17,6 +16,7 @@ from fmu_bearing.prepare import bodies, contacts
 from fmu_bearing.prepare.flexure import longest_step, mode_table
 from fmu_bearing.prepare.hertz import effective_modulus, point_contact
 from fmu_bearing.prepare.imperfections import ball_oversizes, ball_waves, race_waves
+from fmu_bearing.prepare.sound import sound_block
 from fmu_bearing.scene import Scene, SceneError, si
 from fmu_bearing.scene.bearing import Cage
 from fmu_bearing.scene.material import Material
@@ -108,7 +108,7 @@ def prepare(
         scene = with_fidelity(scene, **given)
     _require_level(scene)
     try:
-        sound = sound_parameters(scene)
+        sound = sound_block(scene)
     except ValueError as problem:
         raise SceneError(f"{scene.name}: {problem}") from None
     parameters = pack(scene, sound)

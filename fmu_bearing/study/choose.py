@@ -19,9 +19,7 @@ import dataclasses
 import hashlib
 import json
 import math
-import os
 import pathlib
-import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -29,6 +27,7 @@ import numpy as np
 
 from fmu_bearing.acoustics.stream import sound_parameters
 from fmu_bearing.engine.jit import cache_directory, source_hash
+from fmu_bearing.files import write_whole
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.study.arrays import Refused
@@ -273,10 +272,6 @@ def _from_text(text: str) -> Choice:
 def _keep(path: pathlib.Path, text: str) -> None:
     """Write whole or not at all; a cache that cannot be written costs time, no more."""
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        handle, temporary = tempfile.mkstemp(dir=path.parent)
-        with os.fdopen(handle, "w", encoding="utf-8") as file:
-            file.write(text)
-        os.replace(temporary, path)
+        write_whole(path, text.encode("utf-8"))
     except OSError:
         pass

@@ -140,7 +140,9 @@ class _Kept:
         self.bearing = bearing
         self.sound: NDArray[np.float64] = p[block : block + int(p[at.P_SOUND_SIZE])]
         self.depth = int(self.sound[places.H_ROWS])
-        self.rows = np.zeros((rows, int(self.sound[places.H_CHANNELS])))
+        lanes, channels = int(self.sound[places.H_AT_LANES]), int(self.sound[places.H_CHANNELS])
+        self.lanes = self.sound[lanes : lanes + channels].astype(int)
+        self.rows = np.zeros((rows, channels))
         self.count = 0
         self.time: list[float] = []
         self.speed: list[float] = []
@@ -164,7 +166,7 @@ class _Kept:
         if count - self.count > self.depth:
             raise RuntimeError(f"{count - self.count} rows came in one step, the engine keeps {self.depth}")
         new = np.arange(self.count, min(count, len(self.rows)))
-        self.rows[new] = ring[new % self.depth]
+        self.rows[new] = ring[new % self.depth][:, self.lanes]
         self.count = count
 
 

@@ -142,6 +142,11 @@ def test_sound_that_no_filter_follows_is_refused_in_words(ringing):
         build("bem", SMALL, Air(), PAPER_POINTS)
 
 
+def test_blocks_beyond_the_kernels_room_are_refused():
+    with pytest.raises(ValueError, match="blocks of 1024 samples are too long: 512 at most"):
+        build("compact", SMALL, Air(), PAPER_POINTS, levels=(1024,))
+
+
 @pytest.mark.parametrize("levels", [(), (16,), (16, 128)])
 def test_state_carries_everything_with_blocks(levels, ringing):
     """Saved in the middle of a block, spoilt work space, restored: bit for bit, however it is cut."""
@@ -165,25 +170,47 @@ def test_choice_of_blocks():
     """One short filter goes direct; many long ones by blocks, for a fraction of the work."""
     rng = np.random.default_rng(1)
     short = [blocks.Bank(0, 3, rng.standard_normal((12, 1)), (0,))]
-    assert blocks.choose(short, 1, 1) == ()
+    assert blocks.choose(short, 1) == ()
     long = [blocks.Bank(0, 15, rng.standard_normal((512, 60)), (0,) * 60)] * 4
-    chosen = blocks.choose(long, 60, 20)
-    assert chosen and blocks.cost(long, chosen, 60, 20) < 0.35 * blocks.cost(long, (), 60, 20)
+    chosen = blocks.choose(long, 20)
+    assert chosen and blocks.cost(long, chosen, 20) < 0.35 * blocks.cost(long, (), 20)
 
 
 def test_parts_hold_every_lag_once():
-    bank = blocks.Bank(0, 21, np.random.default_rng(2).standard_normal((500, 3)), (0, 1, 2))
+    """Filters of 500 and 60 taps: direct part and blocks add up to the taps; short ones have few."""
+    taps = np.random.default_rng(2).standard_normal((500, 3))
+    taps[60:, 1] = 0.0
+    bank = blocks.Bank(4, 21, taps, (0, 1, 2))
     for levels in LEVELS:
         total = np.zeros((2048, 3))
         direct = blocks.head(bank, levels)
         total[21 : 21 + len(direct)] += direct
         for block, low, high in blocks.spans(levels):
-            found = blocks.parts(bank, block, low, high)
-            lags = np.fft.irfft(found.spectra[:, :, 0] + 1j * found.spectra[:, :, 1], axis=1)
-            assert found.first >= 1 or found.count == 0
-            for part, rows in enumerate(lags):
-                begin = (found.first + part) * block
-                total[begin : begin + 2 * block] += rows
-        assert np.max(np.abs(total[21:521] - bank.taps)) < 1e-13
+            for found in blocks.filters([bank], block, low, high):
+                column = found.lane - 4
+                lags = np.fft.irfft(found.spectra[:, 0] + 1j * found.spectra[:, 1], axis=1)
+                assert found.output == column and found.first >= 1
+                assert (found.first + found.count - 1) * block < (81 if column == 1 else 521)
+                for part, rows in enumerate(lags):
+                    begin = (found.first + part) * block
+                    total[begin : begin + 2 * block, column] += rows
+        assert np.max(np.abs(total[21:521] - taps)) < 1e-13
         total[21:521] = 0.0
         assert np.max(np.abs(total)) < 1e-13
+
+
+def test_lanes_put_what_is_heard_together_side_by_side():
+    """Two groups hear channels 0 and 9 of 12, one also 4 and 5: gaps close, unheard ones come last."""
+    rng = np.random.default_rng(3)
+    wires = [blocks.Wire(0, channel, 7, rng.standard_normal(20), channel) for channel in (0, 4, 5, 9)]
+    wires += [blocks.Wire(1, channel, 9, rng.standard_normal(30), 20) for channel in (0, 9)]
+    wires.append(blocks.Wire(0, 9, 7, rng.standard_normal(8), 30))  # a second path from the same channel
+    banks, lanes = blocks.wired(wires, 12)
+    assert sorted(lanes) == list(range(12)) and sorted(lanes[c] for c in (0, 4, 5, 9)) == [0, 1, 2, 3]
+    assert abs(lanes[0] - lanes[9]) > 0 and all(lanes[c] > 3 for c in (1, 2, 3, 6, 7, 8, 10, 11))
+    found = {(b.delay, b.lane + k, t): b.taps[:, k] for b in banks for k, t in enumerate(b.targets)}
+    for wire in wires:
+        taps = found[wire.delay, lanes[wire.channel], wire.target]
+        assert np.array_equal(taps[: len(wire.taps)], wire.taps) and not taps[len(wire.taps) :].any()
+    assert sum(np.any(taps) for taps in found.values()) == len(wires)
+    assert blocks.segments([5, 1, 2, 2, 7, 6]) == [(1, 2), (5, 3)]

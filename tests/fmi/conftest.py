@@ -1,30 +1,95 @@
-"""An FMU of the default scene, built once, and a master that keeps the log."""
+"""Both builds of one scene, made once, and a master that keeps the status of every call and the log.
 
-import itertools
+Every test here runs on both builds unless it says otherwise; where pythonfmu cannot do what is asked, the
+test looks up the exact difference in ``differences``.
+"""
+
+import ctypes
+import functools
 import pathlib
 import zipfile
 
 import fmpy
-import fmpy.fmi2
 import pytest
 
+from fmu_bearing.fmi.description import FLAVOURS
+from fmu_bearing.fmi.native.optimise import BuildError
+from fmu_bearing.fmi.native.platforms import host
 from fmu_bearing.fmi.package import build
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.scene import read_scene
+from tests.native import master as calls
+
+from .differences import DIFFERENCES
 
 ROOT = pathlib.Path(__file__).parents[2]
 DEFAULT_SCENE = ROOT / "examples" / "scenes" / "7003C-spindle.toml"
 STEP = 2e-4  # s
+OK, WARNING, DISCARD, ERROR = calls.OK, calls.WARNING, calls.DISCARD, calls.ERROR
 
 
 @pytest.fixture(scope="session")
-def model():
-    return prepare(read_scene(DEFAULT_SCENE))
+def scene_file(tmp_path_factory):
+    """The default scene with compact sound, which takes seconds less to prepare."""
+    text = DEFAULT_SCENE.read_text(encoding="utf-8")
+    file = tmp_path_factory.mktemp("scene") / "7003C-spindle.toml"
+    file.write_text(text.replace('rung = "bem"', 'rung = "compact"'), encoding="utf-8")
+    return file
 
 
 @pytest.fixture(scope="session")
-def fmu(model, tmp_path_factory):
-    return build(model, tmp_path_factory.mktemp("fmu") / "Bearing7003C.fmu").path
+def model(scene_file):
+    return prepare(read_scene(scene_file))
+
+
+@pytest.fixture(scope="session", params=FLAVOURS)
+def flavour(request):
+    return request.param
+
+
+@pytest.fixture(scope="session")
+def fmus(model, tmp_path_factory):
+    """A function that builds the FMU of a flavour, once."""
+    folder = tmp_path_factory.mktemp("fmu")
+
+    @functools.cache
+    def of(flavour):
+        try:
+            return build(model, folder / flavour / "Bearing7003C.fmu", flavour).path
+        except BuildError as problem:
+            return str(problem)
+
+    def built(flavour):
+        path = of(flavour)
+        if isinstance(path, str):
+            pytest.skip(f"no native FMU here: {path}")
+        return path
+
+    return built
+
+
+@pytest.fixture(scope="session")
+def unpack(fmus, tmp_path_factory):
+    """A function that unpacks the FMU of a flavour, once."""
+
+    @functools.cache
+    def unpacked(flavour):
+        folder = tmp_path_factory.mktemp("unpacked fmu") / flavour  # the blank is on purpose
+        with zipfile.ZipFile(fmus(flavour)) as archive:
+            archive.extractall(folder)
+        return folder
+
+    return unpacked
+
+
+@pytest.fixture(scope="session")
+def fmu(fmus, flavour):
+    return fmus(flavour)
+
+
+@pytest.fixture(scope="session")
+def unpacked(unpack, flavour):
+    return unpack(flavour)
 
 
 @pytest.fixture(scope="session")
@@ -33,74 +98,76 @@ def description(fmu):
 
 
 @pytest.fixture(scope="session")
-def unpacked(fmu, tmp_path_factory):
-    folder = tmp_path_factory.mktemp("unpacked fmu")  # the blank is on purpose
-    with zipfile.ZipFile(fmu) as archive:
-        archive.extractall(folder)
-    return folder
+def expected(flavour):
+    """What this build answers, by behaviour."""
+    return {row.behaviour: row.native if flavour == "native" else row.python for row in DIFFERENCES}
 
 
-class Master:
-    """One instance of an FMU with variables by name; ``log`` holds (status, category, message)."""
+read_description = functools.cache(fmpy.read_model_description)
+load = functools.cache(calls.load)
 
-    numbers = itertools.count()
 
-    def __init__(self, folder, logging=True):
-        self.description = fmpy.read_model_description(str(folder))
+def address(function):
+    return ctypes.cast(function, ctypes.c_void_p).value
+
+
+class Master(calls.Master):
+    """One instance of an unpacked FMU; ``by_name`` holds its variables."""
+
+    def __init__(self, folder, **options):
+        self.folder = folder
+        self.description = read_description(str(folder))
         self.by_name = {variable.name: variable for variable in self.description.modelVariables}
-        self.log = []
-        self.slave = fmpy.fmi2.FMU2Slave(
-            guid=self.description.guid,
-            unzipDirectory=str(folder),
-            modelIdentifier=self.description.coSimulation.modelIdentifier,
-            instanceName=f"bearing{next(self.numbers)}",
-        )
-        self.callbacks = fmpy.fmi2.fmi2CallbackFunctions()
-        self.callbacks.logger = fmpy.fmi2.fmi2CallbackLoggerTYPE(self._message)
-        self.callbacks.allocateMemory = fmpy.fmi2.fmi2CallbackAllocateMemoryTYPE(fmpy.fmi2.calloc)
-        self.callbacks.freeMemory = fmpy.fmi2.fmi2CallbackFreeMemoryTYPE(fmpy.fmi2.free)
-        self.slave.instantiate(callbacks=self.callbacks, loggingOn=logging)
+        platform = host()
+        name = self.description.coSimulation.modelIdentifier
+        self.library = str(folder / "binaries" / platform.name / f"{name}{platform.suffix}")
+        references = {name: variable.valueReference for name, variable in self.by_name.items()}
+        settings = {
+            "guid": self.description.guid,
+            "references": references,
+            "memory": (address(fmpy.calloc), address(fmpy.free)),
+            "location": folder / "resources",
+            **options,
+        }
+        super().__init__(load(self.library), **settings)
 
-    def _message(self, _environment, _instance, status, category, message):
-        self.log.append((status, (category or b"").decode(), message.decode()))
+    def kind_of(self, name):
+        return "Integer" if self.by_name[name].type == "Enumeration" else self.by_name[name].type
 
-    @property
-    def messages(self):
-        return "\n".join(message for _, _, message in self.log)
+    def set(self, name, value, kind=None):
+        return super().set(name, value, kind or self.kind_of(name))
+
+    def get(self, name, kind=None):
+        return super().get(name, kind or self.kind_of(name))
+
+    def everything(self):
+        """All Reals and Integers, in the order of the table."""
+        taken = []
+        for kind in ("Real", "Integer"):
+            names = [name for name in self.by_name if self.kind_of(name) == kind]
+            status, values = self.read(*names, kind=kind)
+            assert status == OK, self.messages
+            taken += values
+        return taken
 
     def start(self, time=0.0, tolerance=None, **inputs):
-        self.slave.setupExperiment(startTime=time, tolerance=tolerance)
-        self.slave.enterInitializationMode()
+        """Initialise, whatever the values set are answered with."""
+        assert self.setup(time, tolerance) == OK
+        assert self.enter() == OK
         for name, value in inputs.items():
             self.set(name, value)
-        self.slave.exitInitializationMode()
+        assert self.exit() == OK, self.messages
         return self
 
-    def set(self, name, value):
-        variable = self.by_name[name]
-        call = self.slave.setReal if variable.type == "Real" else self.slave.setInteger
-        call([variable.valueReference], [value])
-
-    def get(self, name):
-        variable = self.by_name[name]
-        call = self.slave.getReal if variable.type == "Real" else self.slave.getInteger
-        return call([variable.valueReference])[0]
-
-    def reals(self):
-        """All Reals, in the order of the table."""
-        found = [v.valueReference for v in self.description.modelVariables if v.type == "Real"]
-        return self.slave.getReal(found)
-
     def step(self, time, size=STEP):
-        self.slave.doStep(time, size)
+        return super().step(time, size)
 
-    def run(self, steps, time=0.0, size=STEP):
-        """Values of all Reals after each of so many steps."""
-        taken = []
-        for i in range(steps):
-            self.step(time + i * size, size)
-            taken.append(self.reals())
-        return taken
+    def run(self, count, time=0.0, size=STEP):
+        """Values of all variables after each of so many steps."""
+        return super().run(count, time, size)
+
+    def reset(self):
+        return self.call("Reset")
 
 
 @pytest.fixture
@@ -114,4 +181,5 @@ def master(unpacked):
 
     yield instantiate
     for one in made:
-        one.slave.freeInstance()
+        if one.instance:
+            one.free()

@@ -1,4 +1,4 @@
-"""A host written in C with a Python library loaded: it must leave with exit code 0."""
+"""A host written in C: without Python, and for the Python build with a Python library loaded."""
 
 import importlib.util
 import os
@@ -8,6 +8,7 @@ import sys
 import sysconfig
 from pathlib import Path
 
+import fmpy
 import pytest
 
 HOST = r"""
@@ -26,14 +27,14 @@ int main(int argc, char **argv) {
     fmi2Component c;
     if (!library) { puts(dlerror()); return 2; }
     c = ((fmi2InstantiateTYPE *) dlsym(library, "fmi2Instantiate"))(
-        "bearing", fmi2CoSimulation, "", argv[2], &callbacks, 0, 1);
+        "bearing", fmi2CoSimulation, argv[3], argv[2], &callbacks, 0, 1);
     if (!c) return 3;
     ((fmi2SetupExperimentTYPE *) dlsym(library, "fmi2SetupExperiment"))(c, 0, 0.0, 0.0, 0, 0.0);
     ((fmi2EnterInitializationModeTYPE *) dlsym(library, "fmi2EnterInitializationMode"))(c);
     ((fmi2ExitInitializationModeTYPE *) dlsym(library, "fmi2ExitInitializationMode"))(c);
     if (((fmi2DoStepTYPE *) dlsym(library, "fmi2DoStep"))(c, 0.0, 1e-5, 1)) return 4;
-    if (argc > 3) ((fmi2FreeInstanceTYPE *) dlsym(library, "fmi2FreeInstance"))(c);
-    if (argc > 4) dlclose(library);
+    if (argc > 4) ((fmi2FreeInstanceTYPE *) dlsym(library, "fmi2FreeInstance"))(c);
+    if (argc > 5) dlclose(library);
     return 0;
 }
 """
@@ -42,10 +43,10 @@ PYTHON_LIBRARY = Path(sysconfig.get_config_var("LIBDIR") or "", sysconfig.get_co
 
 
 @pytest.fixture(scope="module")
-def host(tmp_path_factory):
+def program(tmp_path_factory):
     compiler = shutil.which("cc")
-    if not sys.platform.startswith("linux") or compiler is None or PYTHON_LIBRARY.suffix != ".so":
-        pytest.skip("needs linux, a C compiler and Python as a shared library")
+    if not sys.platform.startswith("linux") or compiler is None:
+        pytest.skip("needs linux and a C compiler")
     folder = tmp_path_factory.mktemp("host")
     source, program = folder / "host.c", folder / "host"
     source.write_text(HOST)
@@ -54,19 +55,33 @@ def host(tmp_path_factory):
     return program
 
 
-@pytest.mark.parametrize("leave", [(), ("free",), ("free", "close")], ids=["leave", "free", "close"])
-def test_c_host_leaves_in_peace(host, unpacked, leave, pytestconfig):
-    library = unpacked / "binaries" / "linux64" / "Bearing7003C.so"
-    environment = {
-        **os.environ,
-        "LD_PRELOAD": str(PYTHON_LIBRARY),
-        "PYTHONHOME": sys.base_prefix,
-        "PYTHONPATH": os.pathsep.join([str(pytestconfig.rootpath), *filter(None, sys.path)]),
-    }
-    ran = subprocess.run(
-        [str(host), str(library), (unpacked / "resources").as_uri(), *leave],
-        capture_output=True,
-        text=True,
-        env=environment,
+def leave(program, folder, *how, **environment):
+    description = fmpy.read_model_description(str(folder))
+    library = folder / "binaries" / "linux64" / f"{description.coSimulation.modelIdentifier}.so"
+    command = [str(program), str(library), (folder / "resources").as_uri(), description.guid, *how]
+    return subprocess.run(command, capture_output=True, text=True, env={**os.environ, **environment})
+
+
+LEAVE = pytest.mark.parametrize("how", [(), ("free",), ("free", "close")], ids=["leave", "free", "close"])
+
+
+@LEAVE
+def test_host_without_python(program, unpacked, expected, how):
+    ran = leave(program, unpacked, *how)
+    assert ran.returncode == expected["host without Python"], ran.stdout + ran.stderr
+    assert ("undefined symbol: _Py" in ran.stdout) == (ran.returncode == 2)
+
+
+@LEAVE
+def test_host_with_python_leaves_in_peace(program, unpack, how, pytestconfig):
+    if PYTHON_LIBRARY.suffix != ".so":
+        pytest.skip("needs Python as a shared library")
+    ran = leave(
+        program,
+        unpack("python"),
+        *how,
+        LD_PRELOAD=str(PYTHON_LIBRARY),
+        PYTHONHOME=sys.base_prefix,
+        PYTHONPATH=os.pathsep.join([str(pytestconfig.rootpath), *filter(None, sys.path)]),
     )
     assert ran.returncode == 0, ran.stdout + ran.stderr

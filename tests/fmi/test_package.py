@@ -1,5 +1,6 @@
 """The file: what is in it, and that it is the same whenever and wherever it is built."""
 
+import dataclasses
 import hashlib
 import importlib.util
 import os
@@ -7,15 +8,18 @@ import shutil
 import subprocess
 import sys
 import zipfile
+from pathlib import Path
 
 import fmpy
 import pytest
 
 from fmu_bearing.fmi import resources
+from fmu_bearing.fmi.native.platforms import host
 from fmu_bearing.fmi.package import build
+from fmu_bearing.prepare.model import prepare
 from fmu_bearing.scene import read_scene
 
-from .conftest import DEFAULT_SCENE, ROOT, STEP
+from .conftest import OK, ROOT, STEP
 
 
 def command(*arguments, **environment):
@@ -27,32 +31,37 @@ def command(*arguments, **environment):
     )
 
 
-def test_building_twice_gives_identical_bytes(model, fmu, tmp_path):
-    again = build(model, tmp_path / "other name.fmu").path
+def test_building_twice_gives_identical_bytes(model, fmu, flavour, tmp_path):
+    again = build(model, tmp_path / "other name.fmu", flavour).path
     assert again.read_bytes() == fmu.read_bytes()
 
 
-def test_another_process_builds_identical_bytes(fmu, tmp_path):
+def test_another_process_builds_identical_bytes(fmu, flavour, scene_file, tmp_path):
     target = tmp_path / "b.fmu"
-    built = command(DEFAULT_SCENE, "-o", target, PYTHONHASHSEED="7", TZ="Asia/Tokyo", LC_ALL="C")
+    where = {"PYTHONHASHSEED": "7", "TZ": "Asia/Tokyo", "LC_ALL": "C"}
+    built = command(scene_file, "-o", target, "--flavour", flavour, **where)
     assert built.returncode == 0, built.stderr
     assert hashlib.sha256(target.read_bytes()).digest() == hashlib.sha256(fmu.read_bytes()).digest()
 
 
-def test_command_says_what_was_built(tmp_path, description):
+def test_command_says_what_was_built(tmp_path, flavour, fmus, scene_file):
+    fmus(flavour)  # or say why there is none
     target = tmp_path / "new folder" / "Bearing.fmu"
-    built = command("-o", target)  # no scene: the default one
+    scene = [scene_file] if flavour == "python" else []  # no scene: the default one
+    built = command(*scene, "-o", target, "--flavour", flavour)
     assert built.returncode == 0, built.stderr
     line = built.stdout.strip()
     assert "\n" not in line
-    for part in (str(target), description.guid, f"{len(description.modelVariables)} variables", "KiB"):
+    made = fmpy.read_model_description(str(target))
+    platforms = {"native": f"native build for {host().name};", "python": "python build for linux64, win64;"}
+    for part in (str(target), made.guid, f"{len(made.modelVariables)} variables", "KiB", platforms[flavour]):
         assert part in line
 
 
 @pytest.mark.parametrize("case", ["missing", "broken", "wrong value", "no place", "folder"])
-def test_errors_take_one_line_and_exit_code_2(case, tmp_path):
+def test_errors_take_one_line_and_exit_code_2(case, scene_file, tmp_path):
     scene, target = tmp_path / "scene.toml", tmp_path / "b.fmu"
-    text = DEFAULT_SCENE.read_text(encoding="utf-8")
+    text = scene_file.read_text(encoding="utf-8")
     if case == "broken":
         scene.write_text("name = \n")
     elif case == "wrong value":
@@ -72,29 +81,39 @@ def test_errors_take_one_line_and_exit_code_2(case, tmp_path):
     assert list(tmp_path.glob("*.fmu")) == []
 
 
-def test_contents(fmu, model):
+COMMON = (
+    "modelDescription.xml",
+    "model.png",
+    "documentation/index.html",
+    "documentation/fmi-ls-ref.txt",
+    "documentation/licenses/license.txt",
+    "extra/org.fmi-standard.fmi-ls-ref/fmi-ls-manifest.xml",
+    "extra/org.fmi-standard.fmi-ls-ref/reference.csv",
+    "extra/org.fmi-standard.fmi-ls-ref/reference.exp",
+    "resources/scene.toml",
+)
+PYTHON = (
+    "binaries/linux64/Bearing7003C.so",
+    "binaries/win64/Bearing7003C.dll",
+    "documentation/externalDependencies.txt",
+    "documentation/licenses/pythonfmu.txt",
+    "resources/parameters.npy",
+    "resources/slavemodule.txt",
+)
+
+
+def test_contents(fmu, model, flavour):
     with zipfile.ZipFile(fmu) as archive:
         names = archive.namelist()
-        assert names == sorted(names)
         assert {info.date_time for info in archive.infolist()} == {(1980, 1, 1, 0, 0, 0)}
-        for name in (
-            "modelDescription.xml",
-            "model.png",
-            "documentation/index.html",
-            "documentation/externalDependencies.txt",
-            "documentation/licenses/license.txt",
-            "documentation/licenses/pythonfmu.txt",
-            "resources/scene.toml",
-            "resources/parameters.npy",
-            "binaries/linux64/Bearing7003C.so",
-            "binaries/win64/Bearing7003C.dll",
-        ):
-            assert name in names
+        own = ["resources/model.bin", f"binaries/{host().name}/Bearing7003C{host().suffix}"]
+        if flavour == "python":
+            stub = archive.read("resources/slavemodule.txt").decode("ascii")
+            own = [*PYTHON, f"resources/{stub}.py"]
+        assert names == sorted((*COMMON, *own))
         licence = archive.read("documentation/licenses/license.txt").decode("utf-8")
         assert licence == (ROOT / "LICENSE").read_text(encoding="utf-8")
         page = archive.read("documentation/index.html").decode("utf-8")
-        stub = archive.read("resources/slavemodule.txt").decode("ascii")
-        assert f"resources/{stub}.py" in names
     assert "Validity range" in page
     assert "$" not in page.split("<h2>Scene</h2>")[0]
     for variable in model.variables:
@@ -105,49 +124,62 @@ def test_scene_inside_is_the_scene(unpacked, model):
     assert read_scene(unpacked / "resources" / "scene.toml") == model.scene
 
 
-def test_model_inside_is_the_model(unpacked, model):
-    inside = resources.load(unpacked / "resources", resources.fingerprint(model))
+def test_model_inside_is_the_model(unpack, model):
+    inside = resources.load(unpack("python") / "resources", resources.fingerprint(model))
     assert inside.parameters.tobytes() == model.parameters.tobytes()
     assert inside.variables == model.variables
 
 
-def test_damaged_numbers_are_refused(master, unpacked, tmp_path, capfd):
+def test_damaged_numbers_are_refused(master, unpacked, flavour, expected, tmp_path, capfd):
     folder = tmp_path / "damaged"
     shutil.copytree(unpacked, folder)
-    file = folder / "resources" / "parameters.npy"
+    file = folder / "resources" / {"native": "model.bin", "python": "parameters.npy"}[flavour]
     data = bytearray(file.read_bytes())
     data[-3] ^= 1
     file.write_bytes(data)
     resources.load.cache_clear()
-    with pytest.raises(Exception, match="instantiate"):
-        master(folder)
-    assert "damaged" in capfd.readouterr().err
-    master().start().step(0.0)  # others go on
+    one = master(folder)
+    assert one.instance is None
+    said = {"log": one.messages, "stderr": capfd.readouterr().err}
+    assert "damaged" in said[expected["reason of no instance"]]
+    assert file.parent.name in said[expected["reason of no instance"]]
+    assert master().start().step(0.0) == OK  # others go on
 
 
-def test_model_of_another_engine_is_refused(unpacked, model, monkeypatch):
+def test_model_of_another_engine_is_refused(unpack, model, monkeypatch):
     # its kernels would read offsets where there are none, and write beyond the arrays
     expected = resources.fingerprint(model)
     monkeypatch.setattr(resources, "engine_digest", lambda: b"another engine")
     resources.load.cache_clear()
     with pytest.raises(ValueError, match="another version"):
-        resources.load(unpacked / "resources", expected)
+        resources.load(unpack("python") / "resources", expected)
 
 
-def test_stub_has_a_module_name_of_its_own(unpacked, model, tmp_path, master):
+def test_two_scenes_in_one_process(unpacked, flavour, scene_file, tmp_path, master):
     # a second scene with the same bearing in the same process must not get the first one's model
     scene = tmp_path / "softer.toml"
-    text = DEFAULT_SCENE.read_text(encoding="utf-8")
+    text = scene_file.read_text(encoding="utf-8")
     scene.write_text(text.replace("preload_N =", "preload_N = 77.0 #"), encoding="utf-8")
-    target = tmp_path / "softer.fmu"
-    assert command(scene, "-o", target).returncode == 0
+    softer = build(prepare(read_scene(scene)), tmp_path / "softer.fmu", flavour).path
     folder = tmp_path / "softer"
-    fmpy.extract(target, folder)
-    one, other = master().start(), master(folder).start()
+    fmpy.extract(softer, folder)
+    one, other, lone = master().start(), master(folder).start(), master().start()
     assert other.get("preload") == 77.0
     assert one.get("preload") != 77.0
-    stubs = {next((each / "resources").glob("*.py")).stem for each in (unpacked, folder)}
-    assert len(stubs) == 2
+    assert one.run(2) == lone.run(2) != other.run(2)
+    if flavour == "python":
+        stubs = {next((each / "resources").glob("*.py")).stem for each in (unpacked, folder)}
+        assert len(stubs) == 2
+
+
+def test_library_serves_every_scene(unpack, model, tmp_path):
+    # of a native build, only model.bin differs
+    other = build(dataclasses.replace(model, parameters=model.parameters * 1.0), tmp_path / "o.fmu", "native")
+    unpacked = unpack("native")
+    with zipfile.ZipFile(other.path) as archive:
+        for library in unpacked.glob("binaries/*/*"):
+            name = library.relative_to(unpacked).as_posix()
+            assert archive.read(name) == library.read_bytes()
 
 
 def test_blanks_in_paths(fmu, tmp_path):
@@ -162,20 +194,23 @@ def test_blanks_in_paths(fmu, tmp_path):
     assert len(result) == 3
 
 
-def test_many_instances_one_after_another(master, unpacked):
+def test_many_instances_one_after_another(master):
     # pythonfmu 0.7.0 frees the stub's namespace under our feet unless it is held
     path = sys.path.copy()
     for _ in range(20):
         bearing = master()
-        bearing.slave.reset()
+        assert bearing.reset() == OK
     assert bearing.get("shaft_speed") == float(bearing.by_name["shaft_speed"].start)
     assert sys.path == path
 
 
-def test_resources_need_no_repository(fmu):
+def test_resources_need_no_repository(fmu, flavour):
     # nothing inside points to the machine it was built on
     with zipfile.ZipFile(fmu) as archive:
         for name in archive.namelist():
             if not name.startswith("binaries/"):
                 assert str(ROOT).encode() not in archive.read(name), name
+            elif flavour == "native":
+                assert str(ROOT).encode() not in archive.read(name), name
+                assert str(Path.home() / ".cache").encode() not in archive.read(name), name
     assert importlib.util.find_spec("fmu_bearing") is not None

@@ -96,16 +96,18 @@ class Master:
 
     numbers = itertools.count()
 
-    def __init__(self, functions, location, guid=GUID, kind=1, logging=True, references=REFERENCES):
+    def __init__(
+        self, functions, location, guid=GUID, kind=1, logging=True, references=REFERENCES, memory=(None, None)
+    ):
         self.functions = functions
         self.references = references
         self.log = []  # (status, category, message)
         self._logger = LOGGER(
             lambda _environment, _name, status, category, message: self.log.append(
-                (status, category.decode(), message.decode())
+                (status, (category or b"").decode(), message.decode())
             )
         )
-        self.callbacks = Callbacks(self._logger, None, None, None, None)
+        self.callbacks = Callbacks(self._logger, *memory, None, None)
         where = Path(location).as_uri() if isinstance(location, Path) else location
         self.instance = functions.fmi2Instantiate(
             f"toy{next(self.numbers)}".encode(),

@@ -116,7 +116,8 @@ def test_changed_byte_is_noticed(master, tmp_path, place):
 
 def head(**fields):
     """The file with fields of the head changed, and the right checksum."""
-    names = "p u s z w tunables time tolerance ramped variables reasons cautions categories text guid".split()
+    names = "p u s z w tunables time tolerance ramped journal span".split()
+    names += "variables reasons cautions categories text guid".split()
     changed = bytearray(GOOD)
     for name, value in fields.items():
         struct.pack_into("<Q", changed, 112 + 8 * names.index(name), value)
@@ -124,7 +125,8 @@ def head(**fields):
 
 
 @pytest.mark.parametrize(
-    "field", "p u s z w tunables time tolerance variables reasons cautions categories text guid".split()
+    "field",
+    "p u s z w tunables time tolerance journal variables reasons cautions categories text guid".split(),
 )
 @pytest.mark.parametrize("value", [2**20, 2**32, 2**61, 2**63, 2**64 - 2])
 def test_numbers_of_the_head_are_not_believed(master, tmp_path, field, value):
@@ -135,13 +137,13 @@ def test_numbers_of_the_head_are_not_believed(master, tmp_path, field, value):
     assert "do not fit together" in one.messages
 
 
-@pytest.mark.parametrize("field", "p u variables reasons cautions categories text".split())
+@pytest.mark.parametrize("field", "p u journal variables reasons cautions categories text".split())
 def test_counts_that_leave_something_over_are_refused(master, tmp_path, field):
     one = master(written(tmp_path, head(**{field: 0})))
     assert one.instance is None
 
 
-VARIABLES = 112 + 15 * 8 + 8 * (3 + 4)
+VARIABLES = 112 + 17 * 8 + 8 * (3 + 4)
 
 
 @pytest.mark.parametrize("place", range(8))

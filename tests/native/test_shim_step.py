@@ -4,7 +4,21 @@ import math
 
 import pytest
 
+from . import toy
 from .master import DISCARD, ERROR, OK
+
+# A copy of the state for each step; one for four; one for as many as take 0.25 s.
+JOURNALS = {"each": {}, "four": {"journal": 4}, "span": {"journal": 100, "journal_span": 0.25}}
+
+
+@pytest.fixture(params=JOURNALS)
+def copies(request):
+    return request.param
+
+
+@pytest.fixture
+def resources(copies, tmp_path):
+    return toy.write_model(tmp_path, **JOURNALS[copies])
 
 
 def test_steps_advance_time_and_state(master):
@@ -57,6 +71,30 @@ def test_step_that_fails_leaves_no_trace(master):
     assert one.set("trouble", 0.0) == OK
     after, other = one.run(2, 0.1), untouched.run(2, 0.1)
     assert after == other
+
+
+@pytest.mark.parametrize("steps", range(1, 10))
+def test_failure_after_some_steps_leaves_no_trace(master, steps):
+    def lead(one):
+        for i in range(steps):
+            assert one.set("speed", 3.0 * i - 7.0) == OK
+            if i % 3 == 1:
+                assert one.rate("load", 40.0) == OK
+            assert one.step(0.0625 * i, 0.0625) == OK
+        return one.everything()
+
+    one, untouched = master().start(), master().start()
+    before = lead(one)
+    assert before == lead(untouched)
+    one.slope("angle")
+    time = 0.0625 * steps
+    for _ in range(3):
+        assert one.set("trouble", 1.0) == OK
+        assert one.step(time) == DISCARD
+        assert one.everything() == before
+        assert one.slope("angle") == untouched.slope("angle")
+        assert one.set("trouble", 0.0) == OK
+    assert one.run(6, time) == untouched.run(6, time)
 
 
 def test_smaller_step_after_a_failure(master):
@@ -238,7 +276,7 @@ def test_slope_belongs_to_the_state(master):
     assert one.slope("angle") == other.slope("angle")
 
 
-def test_slope_survives_a_failed_step_once_it_was_asked_for(master):
+def test_slope_survives_a_failed_step_once_it_was_asked_for(master, copies):
     one = master().start()
     one.run(1)
     slope = one.slope("angle")
@@ -249,4 +287,5 @@ def test_slope_survives_a_failed_step_once_it_was_asked_for(master):
     other.run(1)
     assert other.set("trouble", 1.0) == OK
     assert other.step(0.1) == DISCARD
-    assert other.slope("angle") == (OK, 0.0)  # nothing to look back on
+    # with a copy for each step it was overwritten, and nobody had asked
+    assert other.slope("angle") == ((OK, 0.0) if copies == "each" else slope)

@@ -281,7 +281,7 @@ def test_numbers_are_written_as_python_writes_them(master, value):
     one.free()
 
 
-EDGES = (1e16, 1e15, 123456789012345680.0, 1e-4, 1e-5, 1.5e-7, 1.7976931348623157e308, -0.1, 1 / 3)
+EDGES = (1e16, 1e15, 123456789012345680.0, 1e-4, 1e-5, 1.5e-7, 1.7976931348623157e308, -0.1, 1 / 3, 2.0**-24)
 
 
 @pytest.mark.parametrize("value", EDGES)

@@ -2,6 +2,7 @@
 
 import hashlib
 import importlib.util
+import os
 import platform
 import subprocess
 from dataclasses import replace
@@ -78,20 +79,22 @@ def write_model(folder, **changes):
     return folder
 
 
-def compile_library(folder, *options, compiler=("cc",), suffix=".so"):
-    """Compile shim and toy kernels into a library."""
+def compile_library(folder, *options, compiler=("cc",), suffix=".so", objects=()):
+    """Compile shim and toy kernels into a library; ``TOY_FLAGS`` of the environment are added."""
     folder.mkdir(parents=True, exist_ok=True)
     flags = ["-O2", "-fPIC", "-fvisibility=hidden", f"-I{HEADERS}", f'-DFB_KERNELS="{KERNELS}"', *options]
+    flags += os.environ.get("TOY_FLAGS", "").split()
     sets = {"v2": 2, "v3": 3} if IS_X86 else {"base": 0}
-    objects = []
+    kernels = []
     for isa, mark in sets.items():
-        objects.append(folder / f"toy_{isa}.o")
+        kernels.append(folder / f"toy_{isa}.o")
         source = [str(HERE / "toy_kernel.c"), f"-DISA={isa}", f"-DMARK={mark}.0"]
-        run([*compiler, *WARNINGS, *flags, "-c", *source, "-o", str(objects[-1])])
+        run([*compiler, *WARNINGS, *flags, "-c", *source, "-o", str(kernels[-1])])
     flags += ["-DFB_X86"] if IS_X86 else []
     library = folder / f"Toy{suffix}"
     sources = sorted(map(str, SHIM.glob("*.c")))
-    run([*compiler, *WARNINGS, *flags, "-shared", *sources, *map(str, objects), "-o", str(library), "-lm"])
+    inputs = [*sources, *map(str, kernels), *objects]
+    run([*compiler, *WARNINGS, *flags, "-shared", *inputs, "-o", str(library), "-lm"])
     return library
 
 

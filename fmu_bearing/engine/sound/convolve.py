@@ -1,25 +1,33 @@
 """Filters: each bank of channels by a direct part, and by blocks in the frequency domain where it is long.
 
 The direct form takes one sum per tap. The blocks are uniformly partitioned overlap-save convolution
-(Stockham 1966; partitions: Kulp 1988): every B samples the last 2 B of all channels are transformed once,
-multiplied by the spectra of all filters' parts, and the sums transformed back into the next B samples of
-every output. A part of lags p B .. (p + 1) B - 1 needs p >= 1, so that its input is complete when its
-output begins: shorter lags go by the direct form (Gardner 1995), and nothing comes later than without
-blocks. Up to two block lengths share one filter, the longer for the later lags.
+(Stockham 1966; partitions: Kulp 1988): every B samples the last 2 B of all channels with long filters are
+transformed once, multiplied by the spectra of all filters' parts, and the sums transformed back into the
+next B samples of every output. Spectra lie one behind the other, so that each product is one vector loop
+over frequencies and every filter has as many parts as its own length asks for. A part of lags p B ..
+(p + 1) B - 1 needs p >= 1, so that its input is complete when its output begins: shorter lags go by the
+direct form (Gardner 1995), and nothing comes later than without blocks. Up to
+two block lengths share one filter, the longer for the later lags.
 
 The work of a block falls on its first sample: one sample in B costs up to about B times the mean.
 """
 
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.sound.places import (
+    BANK_AT_RUNS,
     BANK_AT_TAPS,
-    BANK_AT_TARGETS,
-    BANK_CHANNEL,
     BANK_COUNT,
     BANK_DELAY,
-    BANK_LEVELS,
+    BANK_LANE,
+    BANK_RUNS,
     BANK_SIZE,
     BANK_TAPS,
+    FILTER_AT,
+    FILTER_COUNT,
+    FILTER_FIRST,
+    FILTER_LANE,
+    FILTER_OUTPUT,
+    FILTER_SIZE,
     H_AT_BANKS,
     H_AT_LEVELS,
     H_BANKS,
@@ -31,23 +39,25 @@ from fmu_bearing.engine.sound.places import (
     H_W_LANES,
     H_W_OUTPUTS,
     H_W_TRANSFORM,
+    LEVEL_AT_FILTERS,
+    LEVEL_AT_SEGMENTS,
     LEVEL_AT_TURNS,
     LEVEL_BLOCK,
+    LEVEL_FILTERS,
+    LEVEL_LANES,
     LEVEL_S_FUTURE,
     LEVEL_S_SPECTRA,
+    LEVEL_SEGMENTS,
     LEVEL_SIZE,
     LEVEL_SLOTS,
-    MAX_CHANNELS,
-    PART_AT,
-    PART_COUNT,
-    PART_FIRST,
+    MAX_FREQUENCIES,
 )
 from fmu_bearing.engine.sound.transform import butterflies, fold, reversed_bits, unfold
 
 
 @kernel
 def convolve(ps, ss, ws, place, count):
-    """Filter outputs of sample ``count``, whose channels stand in row ``place`` of the history."""
+    """Filter outputs of sample ``count``, whose lanes stand in row ``place`` of the history."""
     n_out = int(ps[H_OUTPUTS])
     out = ws[int(ps[H_W_OUTPUTS]) : int(ps[H_W_OUTPUTS]) + n_out]
     for i in range(n_out):
@@ -62,7 +72,7 @@ def convolve(ps, ss, ws, place, count):
         block = int(ps[at + LEVEL_BLOCK])
         step = count % block
         if step == 0 and count > 0:
-            _renew(ps, ss, ws, at, level, place, count // block - 1)
+            _renew(ps, ss, ws, at, place, count // block - 1)
         future = int(ps[at + LEVEL_S_FUTURE]) + step * n_out
         row = ss[future : future + n_out]
         for i in range(n_out):
@@ -73,12 +83,12 @@ def convolve(ps, ss, ws, place, count):
 def _direct(ps, ss, ws, at, place, out):
     """Direct part of the bank described at ``ps[at]``, added to its outputs.
 
-    Channels of a bank lie side by side in history and taps, so the inner loop is one vector loop without a
+    Lanes of a bank lie side by side in history and taps, so the inner loop is one vector loop without a
     running sum, the same on every machine.
     """
     n = int(ps[H_CHANNELS])
     rows = int(ps[H_ROWS])
-    first = int(ps[H_S_CHANNELS]) + int(ps[at + BANK_CHANNEL])
+    first = int(ps[H_S_CHANNELS]) + int(ps[at + BANK_LANE])
     m = int(ps[at + BANK_COUNT])
     row = place - int(ps[at + BANK_DELAY])
     if row < 0:
@@ -108,112 +118,152 @@ def _direct(ps, ss, ws, at, place, out):
         h3 = ps[taps + (i + 3) * m : taps + (i + 4) * m]
         for c in range(m):
             y[c] += (h0[c] * x0[c] + h1[c] * x1[c]) + (h2[c] * x2[c] + h3[c] * x3[c])
-    targets = int(ps[at + BANK_AT_TARGETS])
-    for c in range(m):
-        out[int(ps[targets + c])] += y[c]
+    run = int(ps[at + BANK_AT_RUNS])
+    c = 0
+    for _ in range(int(ps[at + BANK_RUNS])):
+        count = int(ps[run + 1])
+        even = 0.0
+        odd = 0.0
+        for _ in range(count // 2):
+            even += y[c]
+            odd += y[c + 1]
+            c += 2
+        if count % 2 == 1:
+            even += y[c]
+            c += 1
+        out[int(ps[run])] += even + odd
+        run += 2
 
 
 @kernel
-def _renew(ps, ss, ws, at, level, place, newest):
+def _renew(ps, ss, ws, at, place, newest):
     """Transform the block of inputs that has just become complete, number ``newest``; fill the next outputs.
 
     ``place`` is the history's row of the sample after that block.
     """
-    n = int(ps[H_CHANNELS])
+    n = int(ps[at + LEVEL_LANES])
     n_out = int(ps[H_OUTPUTS])
-    rows = int(ps[H_ROWS])
     block = int(ps[at + LEVEL_BLOCK])
     slots = int(ps[at + LEVEL_SLOTS])
     table = int(ps[at + LEVEL_AT_TURNS])
     turns = ps[table : table + 2 * (block + 1)]
     work = int(ps[H_W_TRANSFORM])
     spectra = int(ps[at + LEVEL_S_SPECTRA])
-    size = 2 * (block + 1) * n
+    rows = block + 1
     z = ws[work : work + 2 * block * n]
-    row = place - 2 * block
-    if row < 0:
-        row += rows
-    channels = int(ps[H_S_CHANNELS])
-    for k in range(block):
-        to = reversed_bits(k, block) * 2 * n
-        for part in range(2):
-            x = ss[channels + row * n : channels + (row + 1) * n]
-            y = z[to + part * n : to + (part + 1) * n]
-            for c in range(n):
-                y[c] = x[c]
-            row = row + 1 if row < rows - 1 else 0
+    x = ws[work + 2 * block * n : work + 2 * (block + rows) * n]
+    _gather(ps, ss, at, place, z)
     butterflies(z, n, block, turns, -1.0)
-    slot = spectra + (newest % slots) * size
-    unfold(z, n, block, turns, ss[slot : slot + size])
-    total = ws[work : work + 2 * (block + 1) * n_out]
-    for i in range(len(total)):
-        total[i] = 0.0
-    banks = int(ps[H_AT_BANKS])
-    for bank in range(int(ps[H_BANKS])):
-        b = banks + BANK_SIZE * bank
-        if ps[b + BANK_LEVELS + 3 * level + PART_COUNT] > 0.0:
-            _multiply(ps, ss, ws, b, level, block, slots, spectra, newest, total)
+    unfold(z, n, block, turns, x)
+    slot = newest % slots
+    for lane in range(n):
+        first = spectra + 2 * rows * (slots * lane + slot)
+        kept = ss[first : first + 2 * rows]
+        for k in range(rows):
+            kept[k] = x[2 * n * k + lane]
+            kept[rows + k] = x[2 * n * k + n + lane]
+    total = ws[work : work + 2 * rows * n_out]
+    _multiply(ps, ss, ws, at, slot, total)
     z = ws[work + len(total) : work + len(total) + 2 * block * n_out]
     fold(total, n_out, block, turns, z)
     butterflies(z, n_out, block, turns, 1.0)
     future = int(ps[at + LEVEL_S_FUTURE])
     scale = 1.0 / block
     half = block // 2
-    kept = z[half * 2 * n_out :]  # the second half of the circle is free of wrapped samples
+    after = z[half * 2 * n_out :]  # the second half of the circle is free of wrapped samples
     rows_out = ss[future : future + block * n_out]
     for i in range(len(rows_out)):
-        rows_out[i] = scale * kept[i]
+        rows_out[i] = scale * after[i]
 
 
 @kernel
-def _multiply(ps, ss, ws, b, level, block, slots, spectra, newest, total):
-    """Add what the parts of the bank at ``ps[b]`` make of the stored spectra to the outputs' ``total``."""
-    n = int(ps[H_CHANNELS])
+def _gather(ps, ss, at, place, z):
+    """Copy the level's lanes of the last two blocks before row ``place`` to ``z``, in bit-reversed order."""
+    n = int(ps[at + LEVEL_LANES])
+    block = int(ps[at + LEVEL_BLOCK])
+    segments = int(ps[at + LEVEL_AT_SEGMENTS])
+    channels = int(ps[H_S_CHANNELS])
+    width = int(ps[H_CHANNELS])
+    rows = int(ps[H_ROWS])
+    row = place - 2 * block
+    if row < 0:
+        row += rows
+    for k in range(block):
+        to = reversed_bits(k, block) * 2 * n
+        for _ in range(2):
+            for segment in range(int(ps[at + LEVEL_SEGMENTS])):
+                lane = channels + row * width + int(ps[segments + 2 * segment])
+                count = int(ps[segments + 2 * segment + 1])
+                x = ss[lane : lane + count]
+                y = z[to : to + count]
+                for c in range(count):
+                    y[c] = x[c]
+                to += count
+            row = row + 1 if row < rows - 1 else 0
+
+
+@kernel
+def _multiply(ps, ss, ws, at, newest, total):
+    """Write the outputs' spectra ``total``: the sums over all filters of the level at ``ps[at]``.
+
+    ``newest`` is the slot of the block that has just been transformed. Slots not yet filled are silent.
+    """
+    block = int(ps[at + LEVEL_BLOCK])
+    slots = int(ps[at + LEVEL_SLOTS])
     n_out = int(ps[H_OUTPUTS])
-    m = int(ps[b + BANK_COUNT])
-    channel = int(ps[b + BANK_CHANNEL])
-    parts = b + BANK_LEVELS + 3 * level
-    first = int(ps[parts + PART_FIRST])
-    n_parts = int(ps[parts + PART_COUNT])
-    filters = int(ps[parts + PART_AT])
-    targets = int(ps[b + BANK_AT_TARGETS])
-    # Sums at two places a constant apart in one slice, two parts at a time: only so is it a vector loop.
-    y = ws[int(ps[H_W_LANES]) : int(ps[H_W_LANES]) + 2 * MAX_CHANNELS]
-    known = max(min(n_parts, newest + 2 - first), 0)  # before the first block there was silence
-    step = (block + 1) * 2 * m
-    for k in range(block + 1):
-        for c in range(m):
-            y[c] = 0.0
-            y[MAX_CHANNELS + c] = 0.0
-        h = filters + k * 2 * m
-        for pair in range(known // 2):
-            number = newest + 1 - first - 2 * pair
-            p0 = spectra + ((number % slots) * (block + 1) + k) * 2 * n + channel
-            p1 = spectra + (((number - 1) % slots) * (block + 1) + k) * 2 * n + channel
-            xr = ss[p0 : p0 + m]
-            xi = ss[p0 + n : p0 + n + m]
-            hr = ps[h : h + m]
-            hi = ps[h + m : h + 2 * m]
-            vr = ss[p1 : p1 + m]
-            vi = ss[p1 + n : p1 + n + m]
-            gr = ps[h + step : h + step + m]
-            gi = ps[h + step + m : h + step + 2 * m]
-            h += 2 * step
-            for c in range(m):
-                y[c] += (hr[c] * xr[c] - hi[c] * xi[c]) + (gr[c] * vr[c] - gi[c] * vi[c])
-                y[MAX_CHANNELS + c] += (hr[c] * xi[c] + hi[c] * xr[c]) + (gr[c] * vi[c] + gi[c] * vr[c])
-        if known % 2 == 1:
-            number = newest + 2 - first - known
-            p0 = spectra + ((number % slots) * (block + 1) + k) * 2 * n + channel
-            xr = ss[p0 : p0 + m]
-            xi = ss[p0 + n : p0 + n + m]
-            hr = ps[h : h + m]
-            hi = ps[h + m : h + 2 * m]
-            for c in range(m):
-                y[c] += hr[c] * xr[c] - hi[c] * xi[c]
-                y[MAX_CHANNELS + c] += hr[c] * xi[c] + hi[c] * xr[c]
-        at = 2 * n_out * k
-        for c in range(m):
-            target = at + int(ps[targets + c])
-            total[target] += y[c]
-            total[target + n_out] += y[MAX_CHANNELS + c]
+    n_filters = int(ps[at + LEVEL_FILTERS])
+    rows = block + 1
+    row = int(ps[at + LEVEL_AT_FILTERS])
+    y = ws[int(ps[H_W_LANES]) : int(ps[H_W_LANES]) + 2 * MAX_FREQUENCIES]
+    left = n_filters
+    for output in range(n_out):
+        for k in range(rows):
+            y[k] = 0.0
+            y[MAX_FREQUENCIES + k] = 0.0
+        while left > 0 and int(ps[row + FILTER_OUTPUT]) == output:
+            spectra = int(ps[at + LEVEL_S_SPECTRA]) + 2 * rows * slots * int(ps[row + FILTER_LANE])
+            slot = newest + 1 - int(ps[row + FILTER_FIRST])
+            if slot < 0:
+                slot += slots
+            _add_parts(ps, ss, y, row, spectra, slot, slots, rows)
+            row += FILTER_SIZE
+            left -= 1
+        for k in range(rows):
+            total[2 * n_out * k + output] = y[k]
+            total[2 * n_out * k + n_out + output] = y[MAX_FREQUENCIES + k]
+
+
+@kernel
+def _add_parts(ps, ss, y, row, spectra, slot, slots, rows):
+    """Add one filter's parts times the stored spectra of its lane, from ``slot`` on back, to the sums ``y``.
+
+    Sums at two places a constant apart in one slice, two parts at a time: only so is it a vector loop.
+    """
+    count = int(ps[row + FILTER_COUNT])
+    h = int(ps[row + FILTER_AT])
+    for _ in range(count // 2):
+        p0 = spectra + 2 * rows * slot
+        slot = slot - 1 if slot > 0 else slots - 1
+        p1 = spectra + 2 * rows * slot
+        slot = slot - 1 if slot > 0 else slots - 1
+        xr = ss[p0 : p0 + rows]
+        xi = ss[p0 + rows : p0 + 2 * rows]
+        hr = ps[h : h + rows]
+        hi = ps[h + rows : h + 2 * rows]
+        vr = ss[p1 : p1 + rows]
+        vi = ss[p1 + rows : p1 + 2 * rows]
+        gr = ps[h + 2 * rows : h + 3 * rows]
+        gi = ps[h + 3 * rows : h + 4 * rows]
+        h += 4 * rows
+        for k in range(rows):
+            y[k] += (hr[k] * xr[k] - hi[k] * xi[k]) + (gr[k] * vr[k] - gi[k] * vi[k])
+            y[MAX_FREQUENCIES + k] += (hr[k] * xi[k] + hi[k] * xr[k]) + (gr[k] * vi[k] + gi[k] * vr[k])
+    if count % 2 == 1:
+        p0 = spectra + 2 * rows * slot
+        xr = ss[p0 : p0 + rows]
+        xi = ss[p0 + rows : p0 + 2 * rows]
+        hr = ps[h : h + rows]
+        hi = ps[h + rows : h + 2 * rows]
+        for k in range(rows):
+            y[k] += hr[k] * xr[k] - hi[k] * xi[k]
+            y[MAX_FREQUENCIES + k] += hr[k] * xi[k] + hi[k] * xr[k]

@@ -5,11 +5,15 @@
 * decimator, ``DECIMATOR_TAPS`` numbers, symmetric; high-pass b0 b1 b2 a1 a2; A-weighting 3 x (b0 b1 b2 a1
   a2); third octaves: 4 sections x (b0 b1 b2 a1 a2) x ``BAND_LANES`` bands;
 * scalars that the paper rungs need to form their channels;
-* banks, ``BANK_SIZE`` numbers each: runs of neighbouring channels, filtered side by side;
-* taps of the direct part: per bank ``BANK_TAPS`` rows (a multiple of 4) of one number per channel, newest
-  sample first; then which output each channel of the bank adds to;
+* lane of each channel in the history: channels that the same microphones hear lie side by side, the unheard
+  last;
+* banks, ``BANK_SIZE`` numbers each: runs of neighbouring lanes, filtered side by side;
+* taps of the direct part: per bank ``BANK_TAPS`` rows (a multiple of 4) of one number per lane, newest
+  sample first; then runs (output, count) of neighbouring lanes that add to one output;
 * levels of the partitioned convolution, ``LEVEL_SIZE`` numbers each, with their tables of cosines and
-  sines, and per bank and level the spectra of its parts: part, frequency, real then imaginary, channel;
+  sines, their segments (first lane, count: the lanes they transform) and their filters, ``FILTER_SIZE``
+  numbers each, in the order of their outputs, with the spectra of their parts: part, real then imaginary,
+  frequency;
 * sources: component and kind of each, and the source of each output;
 * groups of microphones, ``GROUP_SIZE`` numbers each, with weights: one row of microphones per output;
 * for each microphone of the scene its lane: microphones of a group lie side by side.
@@ -53,6 +57,7 @@ BAND_LANES = 32  # lanes kept for the third octaves ``layout.BANDS``: whole vect
     H_AT_A_WEIGHTING,
     H_AT_BANDS,
     H_AT_SCALARS,
+    H_AT_LANES,
     H_AT_BANKS,
     H_AT_LEVELS,
     H_AT_SOURCES,
@@ -72,16 +77,28 @@ BAND_LANES = 32  # lanes kept for the third octaves ``layout.BANDS``: whole vect
     H_W_TRANSFORM,
     H_STATE,  # sizes
     H_WORK,
-) = range(39)
+) = range(40)
 HEAD_SIZE = 40
 
 MAX_CHANNELS = 256  # side by side in one bank
-MAX_LEVELS = 2
-(BANK_CHANNEL, BANK_COUNT, BANK_DELAY, BANK_TAPS, BANK_AT_TAPS, BANK_AT_TARGETS, BANK_LEVELS) = range(7)
-PART_FIRST, PART_COUNT, PART_AT = range(3)  # of a bank in one level
-BANK_SIZE = BANK_LEVELS + 3 * MAX_LEVELS
-LEVEL_BLOCK, LEVEL_SLOTS, LEVEL_AT_TURNS, LEVEL_S_SPECTRA, LEVEL_S_FUTURE = range(5)
-LEVEL_SIZE = 5
+MAX_FREQUENCIES = 520  # of one block, 512 samples long: real and imaginary sums lie this far apart
+(BANK_LANE, BANK_COUNT, BANK_DELAY, BANK_TAPS, BANK_AT_TAPS, BANK_RUNS, BANK_AT_RUNS) = range(7)
+BANK_SIZE = 7
+(
+    LEVEL_BLOCK,
+    LEVEL_SLOTS,
+    LEVEL_LANES,
+    LEVEL_SEGMENTS,
+    LEVEL_AT_SEGMENTS,
+    LEVEL_FILTERS,
+    LEVEL_AT_FILTERS,
+    LEVEL_AT_TURNS,
+    LEVEL_S_SPECTRA,  # lane of the level, slot, real then imaginary, frequency
+    LEVEL_S_FUTURE,
+) = range(10)
+LEVEL_SIZE = 10
+FILTER_LANE, FILTER_OUTPUT, FILTER_FIRST, FILTER_COUNT, FILTER_AT = range(5)  # first part, parts
+FILTER_SIZE = 5
 GROUP_FIRST, GROUP_COUNT, GROUP_LANE, GROUP_MICS, GROUP_AT_WEIGHTS = range(5)  # outputs, then microphones
 GROUP_SIZE = 5
 

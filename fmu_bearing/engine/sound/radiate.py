@@ -13,6 +13,7 @@ from fmu_bearing.engine.sound.places import (
     DECIMATOR_TAPS,
     H_AT_DECIMATOR,
     H_AT_HIGH_PASS,
+    H_AT_LANES,
     H_CHANNELS,
     H_ROWS,
     H_RUNG,
@@ -120,7 +121,10 @@ def _decimate(ps, ss, ws, history, row, n):
 
 @kernel
 def _high_pass(ps, ss, ws, state, place, n):
-    """Lower limit of the microphones; writes the row of the channel history that starts at ``place``."""
+    """Lower limit of the microphones; writes the row of the channel history that starts at ``place``.
+
+    The channels stand in the first ``n`` places of ``ws``.
+    """
     at = int(ps[H_AT_HIGH_PASS])
     b0 = ps[at]
     b1 = ps[at + 1]
@@ -135,4 +139,7 @@ def _high_pass(ps, ss, ws, state, place, n):
         value = b0 * x[c] + s1[c]
         s1[c] = b1 * x[c] - a1 * value + s2[c]
         s2[c] = b2 * x[c] - a2 * value
-        y[c] = value
+        x[c] = value
+    lanes = int(ps[H_AT_LANES])
+    for c in range(n):
+        y[int(ps[lanes + c])] = x[c]

@@ -16,7 +16,7 @@ import llvmlite
 import numba
 
 from fmu_bearing.engine.jit import cache_directory
-from fmu_bearing.fmi.files import write_whole
+from fmu_bearing.files import write_whole
 from fmu_bearing.fmi.native import entries, optimise
 from fmu_bearing.fmi.native.entries import SETTINGS
 from fmu_bearing.fmi.native.optimise import BuildError

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
 
-from fmu_bearing.fmi.files import write_whole
+from fmu_bearing.files import write_whole
 from fmu_bearing.fmi.native.compile import Tell, kernel_folder, objects, silent
 from fmu_bearing.fmi.native.optimise import BuildError
 from fmu_bearing.fmi.native.platforms import Platform, host
@@ -25,7 +25,7 @@ from fmu_bearing.fmi.resources import engine_digest
 __all__ = ["Compiler", "compiler_for", "headers", "library", "shim_sources"]
 
 #: Strict C; contraction of a * b + c would change bits between processors.
-_FLAGS = ("-std=c99", "-O2", "-Wall", "-Wextra", "-ffp-contract=off", "-fvisibility=hidden")
+FLAGS = ("-std=c99", "-O2", "-Wall", "-Wextra", "-ffp-contract=off", "-fvisibility=hidden")
 
 
 @dataclass(frozen=True)
@@ -162,7 +162,7 @@ def link(
     with tempfile.TemporaryDirectory() as folder:
         made = Path(folder) / f"bearing{platform.suffix}"
         command = [
-            *compiler.command, *_FLAGS, *defines, f"-I{headers()}", "-shared",
+            *compiler.command, *FLAGS, *defines, f"-I{headers()}", "-shared",
             *map(str, sources), *map(str, kernels), "-o", str(made), "-lm",
         ]  # fmt: skip
         ran = subprocess.run(command, capture_output=True, text=True)

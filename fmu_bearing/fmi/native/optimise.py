@@ -14,7 +14,7 @@ from pathlib import Path
 
 import llvmlite.binding as llvm
 
-from fmu_bearing.fmi.files import write_whole
+from fmu_bearing.files import write_whole
 from fmu_bearing.fmi.native.entries import ENTRIES, symbol
 from fmu_bearing.fmi.native.platforms import PLATFORMS, Platform
 

@@ -1,4 +1,4 @@
-/* FMI 2.0: communication steps, derivatives in time, and how the last step went. */
+/* FMI 2.0: communication steps. */
 #include "calls.h"
 
 #include "fmi2Functions.h"
@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Refuse a step: before it, as the master called it wrongly, or after it, as the engine did not get there. */
+/* Append which step is refused. */
 static void add_step(Text *text, double time, double size)
 {
     text_add(text, "step from ", NULL);
@@ -41,12 +41,59 @@ static fmi2Status wrong_time(Instance *it, double time, double size)
     return instance_fail(it, &text);
 }
 
+/* Copy numbers; a few of them in line, as a call would take longer. */
+static inline void copy(double *to, const double *from, size_t count)
+{
+    size_t i;
+    if (count > 16) {
+        memcpy(to, from, count * sizeof(double));
+        return;
+    }
+    for (i = 0; i < count; i++) to[i] = from[i];
+}
+
+/* Note a step. A copy of a large state takes longer than many a step, so one serves several: as the engine
+ * answers the same to the last bit, repeating the steps since leads to any state on the way. */
+static inline void note(Instance *it, double size, const double *inputs)
+{
+    double *entry;
+    if (it->most_journal == 1) { /* a small state */
+        copy(it->kept_s, it->s, (size_t)it->sizes[2]);
+        it->n_journal = 1;
+        return;
+    }
+    if (it->n_journal == it->most_journal || it->span + size > it->most_span) {
+        copy(it->kept_s, it->s, (size_t)it->sizes[2]);
+        it->n_journal = 0;
+        it->span = 0.0;
+    }
+    entry = it->journal + it->n_journal * it->entry_size;
+    memcpy(entry + 1, inputs, (it->entry_size - 1) * sizeof(double));
+    entry[0] = size;
+    it->span += size;
+    it->n_journal++;
+}
+
+/* Go back to the state before the step noted last; 0 if the engine does not do again what it did. */
+static int go_back(Instance *it)
+{
+    uint64_t i;
+    memcpy(it->s, it->kept_s, it->bytes_s);
+    for (i = 0; i + 1 < it->n_journal; i++) {
+        const double *entry = it->journal + i * it->entry_size;
+        if (it->step(it->p, entry + 1, it->s, it->z, it->w, it->sizes, entry[0]) != 0) return 0;
+    }
+    instance_forget(it);
+    return 1;
+}
+
 /* Go back to where the step began, and say why it did not succeed. */
 static fmi2Status undo(Instance *it, double time, double size, int32_t status)
 {
     Text text = {0};
+    int there;
     it->reached = *it->engine_time;
-    memcpy(it->s, it->kept_s, it->bytes_s);
+    there = go_back(it);
     if (!it->tracks) it->last_step = 0.0; /* the copy was of this step's begin: nothing to look back on */
     add_step(&text, time, size);
     text_add(&text, "step of ", NULL);
@@ -59,14 +106,16 @@ static fmi2Status undo(Instance *it, double time, double size, int32_t status)
     model_add_reason(&it->model, status, &text);
     text_add(&text, "; ", NULL);
     instance_add_inputs(it, &text);
-    return instance_refuse(it, fmi2Discard, &text);
+    if (there) return instance_refuse(it, fmi2Discard, &text);
+    text_add(&text, "; the state before the step could not be found again", NULL);
+    return instance_fail(it, &text);
 }
 
 /* Let the engine step with these inputs; where that fails everything is as before. */
 static inline fmi2Status advance(Instance *it, double time, double size, const double *inputs)
 {
     int32_t status;
-    memcpy(it->kept_s, it->s, it->bytes_s);
+    note(it, size, inputs);
     if (it->tracks) memcpy(it->kept_z, it->z, it->bytes_z);
     status = it->step(it->p, inputs, it->s, it->z, it->w, it->sizes, size);
     if (status != 0) return undo(it, time, size, status);
@@ -130,183 +179,4 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real size, fmi2Boolean
     if (!(fabs(time - it->time) <= 1e-9 + 1e-12 * fabs(it->time))) return wrong_time(it, time, size);
     if (it->rated) return ramped(it, time, size);
     return advance(it, time, size, it->u);
-}
-
-/* Name of a variable, or its value reference where there is none. */
-static void add_name(const Instance *it, fmi2ValueReference reference, Text *text)
-{
-    if (reference < it->n_variables) {
-        text_add(text, model_text(&it->model, it->model.variables[reference].name), NULL);
-    } else {
-        text_add(text, "value reference ", NULL);
-        text_add_whole(text, reference);
-    }
-}
-
-/* Whether the arrays of a call about derivatives are there. */
-static fmi2Status has_arrays(Instance *it, Call call, const void *vr, const void *order, const void *value)
-{
-    if (!vr) return call_lacks(it, call, "vr");
-    if (!order) return call_lacks(it, call, "order");
-    if (!value) return call_lacks(it, call, "value");
-    return fmi2OK;
-}
-
-/* Whether a derivative is of first order, and of a Real with that causality. */
-static fmi2Status is_rate(Instance *it, fmi2ValueReference reference, fmi2Integer order, unsigned causality)
-{
-    Text text = {0};
-    if (reference >= it->n_variables || it->slots[reference].type != TYPE_REAL ||
-        it->slots[reference].causality != causality) {
-        add_name(it, reference, &text);
-        text_add(&text, causality == CAUSALITY_INPUT ? " is not an input" : " is not an output",
-                 ": it has no derivative", NULL);
-        return instance_fail(it, &text);
-    }
-    if (order == 1) return fmi2OK;
-    add_name(it, reference, &text);
-    text_add(&text, ": derivatives of order ", order < 0 ? "-" : NULL, NULL);
-    text_add_whole(&text, order < 0 ? 0ULL - (unsigned long long)order : (unsigned long long)order);
-    text_add(&text, " are not supported, only of order 1", NULL);
-    return instance_fail(it, &text);
-}
-
-/* Set the rate of one input. */
-static fmi2Status take_rate(Instance *it, fmi2ValueReference reference, fmi2Integer order, double rate)
-{
-    fmi2Status status = is_rate(it, reference, order, CAUSALITY_INPUT);
-    Text text = {0};
-    if (status != fmi2OK) return status;
-    if (isfinite(rate)) {
-        it->rates[it->model.variables[reference].index] = rate;
-        it->rated = 1;
-        return fmi2OK;
-    }
-    text_add(&text, "rate not taken: that of ", NULL);
-    add_name(it, reference, &text);
-    text_add(&text, " = ", NULL);
-    text_add_number(&text, rate, 0);
-    text_add(&text, " is refused: it must be finite", NULL);
-    return instance_refuse(it, fmi2Discard, &text);
-}
-
-/* Set rates of inputs for the next step. */
-fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,
-                                       const fmi2Integer order[], const fmi2Real value[])
-{
-    Instance *it = c;
-    fmi2Status status = fmi2OK;
-    size_t i;
-    if (!call_allowed(it, CALL_INPUT_DERIVATIVES)) return call_refused(it, CALL_INPUT_DERIVATIVES);
-    if (nvr) status = has_arrays(it, CALL_INPUT_DERIVATIVES, vr, order, value);
-    for (i = 0; i < nvr && status != fmi2Error; i++) {
-        fmi2Status one = take_rate(it, vr[i], order[i], value[i]);
-        if (one > status) status = one;
-    }
-    return status;
-}
-
-/* Mean rates of outputs over the last step. */
-fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,
-                                        const fmi2Integer order[], fmi2Real value[])
-{
-    Instance *it = c;
-    fmi2Status status = fmi2OK;
-    size_t i;
-    if (!call_allowed(it, CALL_OUTPUT_DERIVATIVES)) return call_refused(it, CALL_OUTPUT_DERIVATIVES);
-    if (nvr) status = has_arrays(it, CALL_OUTPUT_DERIVATIVES, vr, order, value);
-    instance_track(it);
-    for (i = 0; i < nvr && status != fmi2Error; i++) {
-        status = is_rate(it, vr[i], order[i], CAUSALITY_OUTPUT);
-        value[i] = 0.0;
-        if (status == fmi2OK && it->slots[vr[i]].computed && it->last_step > 0.0) {
-            uint32_t at = it->model.variables[vr[i]].index;
-            value[i] = (it->z[at] - it->before_z[at]) / it->last_step;
-        }
-    }
-    return status;
-}
-
-/* Refuse to cancel: steps end before doStep returns. */
-fmi2Status fmi2CancelStep(fmi2Component c)
-{
-    Instance *it = c;
-    Text text = {0};
-    if (!call_allowed(it, CALL_CANCEL_STEP)) return call_refused(it, CALL_CANCEL_STEP);
-    text_add(&text, "cancelStep: no step is running, as doStep returns only when its step has ended", NULL);
-    return instance_fail(it, &text);
-}
-
-/* Refuse partial derivatives. */
-fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference unknowns[], size_t n_unknowns,
-                                        const fmi2ValueReference knowns[], size_t n_knowns,
-                                        const fmi2Real known[], fmi2Real unknown[])
-{
-    Instance *it = c;
-    Text text = {0};
-    (void)unknowns, (void)n_unknowns, (void)knowns, (void)n_knowns, (void)known, (void)unknown;
-    if (!call_allowed(it, CALL_DIRECTIONAL_DERIVATIVE)) return call_refused(it, CALL_DIRECTIONAL_DERIVATIVE);
-    text_add(&text, "getDirectionalDerivative: this FMU does not provide directional derivatives", NULL);
-    return instance_fail(it, &text);
-}
-
-/* Say that a status is not to be had. */
-static fmi2Status no_status(Instance *it, const char *what)
-{
-    Text text = {0};
-    text_add(&text, "getStatus: ", what, NULL);
-    return instance_refuse(it, fmi2Discard, &text);
-}
-
-static const char NOT_PENDING[] = "no step is pending, as doStep returns only when its step has ended";
-static const char NOT_OF_THIS_TYPE[] = "there is no status of that kind and type";
-
-/* How the last step went: known from doStep itself. */
-fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Status *value)
-{
-    Instance *it = c;
-    if (!call_allowed(it, CALL_STATUS)) return call_refused(it, CALL_STATUS);
-    if (!value) return call_lacks(it, CALL_STATUS, "value");
-    return no_status(it, kind == fmi2DoStepStatus ? NOT_PENDING : NOT_OF_THIS_TYPE);
-}
-
-/* Time until which the last step succeeded. */
-fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Real *value)
-{
-    Instance *it = c;
-    if (!call_allowed(it, CALL_STATUS)) return call_refused(it, CALL_STATUS);
-    if (!value) return call_lacks(it, CALL_STATUS, "value");
-    if (kind != fmi2LastSuccessfulTime) return no_status(it, NOT_OF_THIS_TYPE);
-    *value = it->reached;
-    return fmi2OK;
-}
-
-/* No status is an Integer. */
-fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Integer *value)
-{
-    Instance *it = c;
-    (void)kind;
-    if (!call_allowed(it, CALL_STATUS)) return call_refused(it, CALL_STATUS);
-    if (!value) return call_lacks(it, CALL_STATUS, "value");
-    return no_status(it, NOT_OF_THIS_TYPE);
-}
-
-/* Whether the slave wants to end: never. */
-fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Boolean *value)
-{
-    Instance *it = c;
-    if (!call_allowed(it, CALL_STATUS)) return call_refused(it, CALL_STATUS);
-    if (!value) return call_lacks(it, CALL_STATUS, "value");
-    if (kind != fmi2Terminated) return no_status(it, NOT_OF_THIS_TYPE);
-    *value = fmi2False;
-    return fmi2OK;
-}
-
-/* What a pending step waits for: none is ever pending. */
-fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind kind, fmi2String *value)
-{
-    Instance *it = c;
-    if (!call_allowed(it, CALL_STATUS)) return call_refused(it, CALL_STATUS);
-    if (!value) return call_lacks(it, CALL_STATUS, "value");
-    return no_status(it, kind == fmi2PendingStatus ? NOT_PENDING : NOT_OF_THIS_TYPE);
 }

@@ -48,6 +48,7 @@ static size_t carve_arrays(Instance *it, double *memory)
     it->s = carve(memory, &used, head->n_s);
     it->kept_s = carve(memory, &used, head->n_s);
     it->w = carve(memory, &used, head->n_w);
+    it->journal = carve(memory, &used, head->journal * (head->n_u + 1));
     return used + CACHE_LINE;
 }
 
@@ -117,6 +118,9 @@ Instance *instance_new(Model *model, const Log *log, Text *why)
     it->sizes[4] = (int64_t)head->n_w;
     it->bytes_s = (size_t)head->n_s * sizeof(double);
     it->bytes_z = (size_t)head->n_z * sizeof(double);
+    it->most_journal = head->journal;
+    it->most_span = head->journal_span;
+    it->entry_size = (size_t)head->n_u + 1;
     it->engine_time = it->s + head->time;
     memcpy(it->tunables, it->p, (size_t)head->n_tunables * sizeof(double));
     fill_slots(it);
@@ -142,7 +146,8 @@ void instance_reset(Instance *it)
     it->phase = PHASE_INSTANTIATED;
     it->settled = 0;
     it->rated = 0;
-    it->tracks = 0;
+    it->tracks = it->most_journal > 1; /* then the state before the last step is not at hand */
+    instance_forget(it);
     it->time = it->reached = it->last_step = 0.0;
     memcpy(it->model.p, it->tunables, (size_t)head->n_tunables * sizeof(double));
     memcpy(it->u, it->model.u, (size_t)head->n_u * sizeof(double));
@@ -152,8 +157,14 @@ void instance_reset(Instance *it)
     memset(it->before_z, 0, it->bytes_z);
 }
 
+/* Forget the state some steps ago: the next step then begins with a copy. */
+void instance_forget(Instance *it)
+{
+    it->n_journal = it->most_journal;
+}
+
 /* Fill the outputs before the last step, and keep them from now on. They follow from the state alone, so
- * those who never ask for rates of outputs pay nothing for them. */
+ * with a copy of it for each step those who never ask for rates of outputs pay nothing for them. */
 void instance_track(Instance *it)
 {
     if (it->tracks) return;

@@ -32,7 +32,11 @@ typedef struct Instance {
     double *u, *s, *z, *w;
     int64_t sizes[5];
     size_t bytes_s, bytes_z;
-    double *kept_s; /* before the last step */
+    double *kept_s;  /* the state some steps ago */
+    double *journal; /* inputs and size of each step since, the present one included */
+    uint64_t n_journal, most_journal;
+    size_t entry_size;      /* numbers for one step in the journal */
+    double span, most_span; /* time of the steps in the journal, and the longest (s) */
     int tracks;     /* outputs before the last step are kept from step to step, as someone asked for them */
     double *kept_z, *before_z; /* outputs before the present and before the last step */
     const double *engine_time;
@@ -57,6 +61,9 @@ void instance_reset(Instance *it);
 
 /* Put the engine to its quasi-static state at the values so far, once; fmi2OK, or `otherwise` said. */
 fmi2Status instance_settle(Instance *it, fmi2Status otherwise);
+
+/* Forget the state some steps ago: the present one did not come from it by steps. */
+void instance_forget(Instance *it);
 
 /* Fill the outputs before the last step, and keep them from now on. */
 void instance_track(Instance *it);

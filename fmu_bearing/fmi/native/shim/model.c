@@ -9,7 +9,7 @@
 static const char MAGIC[8] = {'f', 'b', 'm', 'o', 'd', 'e', 'l', '\n'};
 static const uint64_t VERSION = 1;
 static const uint64_t LARGEST = UINT64_C(1) << 24; /* numbers in s, z or w: 128 MB, far beyond any scene */
-enum { MOST_CATEGORIES = 32 };
+enum { MOST_CATEGORIES = 32, LONGEST_JOURNAL = 1000 };
 
 /* Read a whole file; NULL with the reason. */
 static void *read_all(FILE *file, size_t *size, const char **why)
@@ -77,7 +77,7 @@ static int places_fit(const Model *model)
     const ModelHead *head = model->head;
     uint64_t i;
     if (head->n_s > LARGEST || head->n_w > LARGEST || head->n_z > LARGEST || head->time >= head->n_s ||
-        head->n_tunables > head->n_p || head->n_categories > MOST_CATEGORIES || head->guid >= head->n_text) {
+        head->journal < 1 || head->journal > LONGEST_JOURNAL || head->n_tunables > head->n_p || head->n_categories > MOST_CATEGORIES || head->guid >= head->n_text) {
         return 0;
     }
     for (i = 0; i < head->n_variables; i++) {

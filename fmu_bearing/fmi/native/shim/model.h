@@ -30,6 +30,8 @@ typedef struct ModelHead {
     uint64_t time;       /* where in s the time stands */
     uint64_t tolerance;  /* value reference, or MODEL_NOWHERE */
     uint64_t ramped;     /* input that the engine ramps over a step, the others being held; or MODEL_NOWHERE */
+    uint64_t journal;    /* most steps, at least 1, that are repeated to go back behind a refused one ... */
+    double journal_span; /* ... and the longest time (s) that they take together */
     uint64_t n_variables, n_reasons, n_cautions, n_categories, n_text;
     uint64_t guid;
 } ModelHead;

@@ -72,6 +72,7 @@ void state_put_back(Instance *it, const State *state)
     get(&at, it->z, head->n_z);
     get(&at, it->before_z, head->n_z);
     get(&at, it->s, head->n_s);
+    instance_forget(it);
 }
 
 /* Whether a block is a state of this model. */

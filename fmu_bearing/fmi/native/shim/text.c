@@ -45,18 +45,44 @@ void text_add(Text *text, const char *first, ...)
     va_end(pieces);
 }
 
-/* Decimal digits of a positive number, and the power of ten of the first one; whatever the locale. */
+/* Raise the last digit of a number such as 1.25e+00; 0 if all its digits are nines. */
+static int raise_last_digit(char *number)
+{
+    char *at = strchr(number, 'e');
+    while (at && at > number) {
+        at--;
+        if (*at == '9') {
+            *at = '0';
+        } else if (*at >= '0' && *at <= '8') {
+            ++*at;
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* Decimal digits of a positive number, and the power of ten of the first one, whatever the locale; whether
+ * they read back as the number. Above a power of two lies twice the room of below it, so that the digits next
+ * above may read back where the nearest do not. */
 static int decimal(double value, int digits, char *found, int *exponent)
 {
     char buffer[64];
     const char *at = buffer;
     int count = 0;
+    int same;
     snprintf(buffer, sizeof buffer, "%.*e", digits - 1, value);
+    same = strtod(buffer, NULL) == value;
+    if (!same) {
+        char above[sizeof buffer];
+        memcpy(above, buffer, sizeof buffer);
+        same = raise_last_digit(above) && strtod(above, NULL) == value;
+        if (same) memcpy(buffer, above, sizeof buffer);
+    }
     for (; *at && *at != 'e'; at++) {
         if (*at >= '0' && *at <= '9') found[count++] = *at;
     }
     *exponent = *at ? (int)strtol(at + 1, NULL, 10) : 0;
-    return strtod(buffer, NULL) == value;
+    return same;
 }
 
 /* Lay digits out as Python does: plain, or with an exponent where it is below -4 or beyond the limit. */

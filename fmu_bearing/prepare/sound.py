@@ -1,0 +1,67 @@
+"""The sound block of a scene, kept on disk: fitting its filters takes seconds."""
+
+import functools
+import hashlib
+import io
+import json
+from pathlib import Path
+
+import numpy as np
+import scipy
+from numpy.typing import NDArray
+
+import fmu_bearing
+from fmu_bearing.acoustics.stream import sound_parameters
+from fmu_bearing.engine.jit import cache_directory, source_hash
+from fmu_bearing.files import write_whole
+from fmu_bearing.scene import Scene
+
+__all__ = ["sound_block"]
+
+#: Rooms whose code the numbers come from, beside the engine's.
+_ROOMS = ("acoustics", "elastic", "prepare", "scene")
+#: Parts of a scene that its sound block depends on, with one number of its fidelity.
+_PARTS = {"bearing", "materials", "mounting", "sound", "microphones"}
+
+
+def sound_block(scene: Scene) -> NDArray[np.float64]:
+    """Sound block of a scene (`acoustics.stream.sound_parameters`), from the cache where it is there.
+
+    Raises
+    ------
+    ValueError
+        As `acoustics.stream.sound_parameters`.
+    """
+    if scene.sound is None or scene.sound.rung == "table":  # a table may change under its name
+        return sound_parameters(scene)
+    path = cache_directory().parent / "sound" / f"block-{_key(scene)}.npy"
+    try:
+        kept: NDArray[np.float64] = np.load(path, allow_pickle=False)
+        return kept
+    except (OSError, ValueError, EOFError):  # not there, or damaged: made anew
+        block = sound_parameters(scene)
+    buffer = io.BytesIO()
+    np.save(buffer, block, allow_pickle=False)
+    try:
+        write_whole(path, buffer.getvalue())
+    except OSError:
+        pass  # a cache that cannot be written costs time, not results
+    return block
+
+
+def _key(scene: Scene) -> str:
+    parts = scene.model_dump(mode="json", include=_PARTS)
+    digest = hashlib.sha256(json.dumps(parts, sort_keys=True).encode())
+    digest.update(f"{scene.fidelity.ball_harmonics} {_code()}".encode())
+    return digest.hexdigest()[:24]
+
+
+@functools.cache
+def _code() -> str:
+    """Name what computes the numbers: sources and libraries."""
+    root = Path(fmu_bearing.__file__).parent
+    digest = hashlib.sha256(f"{source_hash()} {np.__version__} {scipy.__version__}".encode())
+    for room in _ROOMS:
+        for path in sorted((root / room).rglob("*.py")):
+            digest.update(path.relative_to(root).as_posix().encode() + path.read_bytes())
+    return digest.hexdigest()

@@ -1,0 +1,214 @@
+"""The FMU in a master: values, what is refused and how it is said, and the log."""
+
+import ctypes
+import math
+
+import pytest
+
+from .conftest import DISCARD, ERROR, OK, STEP
+
+
+def test_start_values_are_those_of_the_description(master):
+    bearing = master()
+    for variable in bearing.description.modelVariables:
+        if variable.start is not None and variable.type != "String":
+            assert bearing.get(variable.name) == float(variable.start), variable.name
+
+
+def test_outputs_follow_the_inputs_while_initialising(master):
+    bearing, other = master(), master()
+    assert bearing.setup() == bearing.enter() == OK
+    before = bearing.get("contact.inner.load_mean")
+    assert bearing.set("preload", 300.0) == OK
+    after = bearing.get("contact.inner.load_mean")
+    assert bearing.exit() == OK
+    other.start(preload=300.0)
+    assert before > after > 0.0
+    assert bearing.everything() == other.everything()
+    assert bearing.run(2) == other.run(2)
+
+
+def test_setting_an_input_changes_no_output_until_the_next_step(master):
+    # what dependencies="" in ModelStructure/Outputs promises
+    bearing = master().start()
+    bearing.run(1)
+    outputs = [name for name, variable in bearing.by_name.items() if variable.causality == "output"]
+    before = bearing.read(*outputs)
+    assert bearing.set("shaft_speed", 1000.0) == bearing.set("preload", 200.0) == OK
+    assert bearing.read(*outputs) == before
+
+
+# --- refusals ---------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, 2e4, -1.0])
+def test_bad_value_is_named_and_not_taken(master, expected, value):
+    bearing, untouched = master().start(), master().start()
+    answer = bearing.set("preload", value)
+    assert bearing.log[-1][:2] == (DISCARD, "logStatusDiscard")
+    assert f"preload = {float(value)!r} is refused: allowed are 0 to 10000 N" in bearing.messages
+    before = bearing.everything()
+    assert before == untouched.everything()
+    next_step = bearing.step(0.0)
+    assert (answer, next_step) == expected["value out of range"]
+    if next_step == OK:
+        assert bearing.everything() == untouched.run(1)[0]
+        return
+    assert bearing.everything() == before
+    assert bearing.last_time() == (OK, 0.0)
+    assert bearing.set("preload", float(bearing.by_name["preload"].start)) == OK
+    assert bearing.run(2) == untouched.run(2)
+
+
+def test_others_of_the_same_call_are_taken(master, expected):
+    bearing = master().start()
+    answer = bearing.set_many(shaft_speed=1500.0, preload=math.nan, oil_temperature=300.0)
+    assert answer == expected["value out of range"][0]
+    assert bearing.read("shaft_speed", "preload", "oil_temperature") == (OK, [1500.0, 500.0, 300.0])
+
+
+def test_bad_value_before_initialisation_is_not_forgotten(master, expected):
+    bearing = master()
+    answer = bearing.set("oil_temperature", 20.0)  # degC where K is asked
+    assert (answer, bearing.start().step(0.0)) == expected["value out of range"]
+    assert "oil_temperature = 20.0 is refused" in bearing.messages
+    assert bearing.get("oil_temperature") == 293.15
+
+
+def test_bound_may_carry_rounding(master):
+    bearing = master().start()
+    assert bearing.set("preload", 1e4 * (1.0 + 1e-13)) == OK
+    assert bearing.step(0.0) == OK
+    assert bearing.log == []
+
+
+def test_parameters_are_fixed_after_initialisation(master, expected):
+    bearing = master().start()
+    before = bearing.get("max_internal_step")
+    assert bearing.set("max_internal_step", before) == OK
+    answer = bearing.set("max_internal_step", 0.5 * before)
+    assert bearing.get("max_internal_step") == before
+    assert (answer, bearing.step(0.0)) == expected["parameter after initialisation"]
+    assert "parameters cannot be set between steps" in bearing.messages
+
+
+@pytest.mark.parametrize(
+    "name", ["friction_torque", "rotor.inertia", "mic[1].position.x", "solver.steps", "level"]
+)
+def test_what_is_computed_or_constant_cannot_be_set(master, expected, name):
+    bearing = master().start()
+    before = bearing.get(name)
+    answer = bearing.set(name, 0)
+    assert (answer, bearing.step(0.0)) == expected["what cannot be set"]
+    assert f"{name} = 0" in bearing.messages
+    assert "is refused: it is computed, not set" in bearing.messages
+    assert bearing.get(name) == before
+
+
+def test_tolerance_of_the_experiment_wins(master, expected):
+    bearing = master()
+    assert bearing.set("tolerance", 1e-3) == OK
+    assert bearing.start(tolerance=1e-4).get("tolerance") == 1e-4
+    assert bearing.reset() == OK
+    answer = bearing.setup(0.0, math.nan)
+    assert bearing.enter() == bearing.exit() == OK
+    assert (answer, bearing.step(0.0)) == expected["tolerance out of range"]
+    assert "tolerance = nan is refused" in bearing.messages
+
+
+@pytest.mark.parametrize("reference", [100_000, "preload"])
+def test_unknown_reference_is_an_error(master, expected, reference):
+    # there is none, or it is that of a Real
+    bearing, other = master().start(), master().start()
+    status, values = bearing.read(reference, kind="Integer")
+    assert values == [0]
+    assert (status, bearing.step(0.0)) == expected["unknown value reference"]
+    number = bearing.references.get(reference, reference)
+    assert f"there is no Integer with value reference {number}" in bearing.messages
+    answer = other._set(number, 3, "Integer")
+    assert (answer, other.step(0.0)) == expected["unknown value reference"]
+
+
+@pytest.mark.parametrize("kind", ["Boolean", "String"])
+def test_types_that_the_interface_does_not_have(master, expected, kind):
+    bearing, other = master().start(), master().start()
+    status, values = bearing.read("preload", kind=kind)
+    assert not values[0]
+    assert (status, bearing.step(0.0)) == expected["unknown value reference"]
+    answer = other.set("preload", b"x" if kind == "String" else 1, kind)
+    assert (answer, other.step(0.0)) == expected["unknown value reference"]
+    assert f"there is no {kind} with value reference" in other.messages
+
+
+def test_no_value_is_ever_nan(master):
+    bearing = master()
+    assert not any(map(math.isnan, bearing.everything()))
+    assert not any(map(math.isnan, bearing.start().everything()))
+    assert not any(map(math.isnan, bearing.run(1)[0]))
+
+
+# --- the log ----------------------------------------------------------------------------------------------
+
+
+def categories(*names):
+    return len(names), (ctypes.c_char_p * max(1, len(names)))(*(name.encode() for name in names))
+
+
+def provoke(bearing):
+    """Make a message of category discard, and one of category error."""
+    bearing.reset()
+    bearing.start()
+    bearing.set("preload", -1.0)
+    bearing.exit()
+
+
+def test_nothing_is_logged_with_logging_off(master):
+    bearing = master(logging=False)
+    provoke(bearing)
+    assert bearing.log == []
+
+
+BOTH = {"logStatusDiscard", "logStatusError"}
+
+
+@pytest.mark.parametrize(
+    ("names", "heard"),
+    [
+        ((), BOTH),
+        (("logStatusError",), {"logStatusError"}),
+        (("logStatusDiscard",), {"logStatusDiscard"}),
+        (("logStatusDiscard", "logStatusError"), BOTH),
+        (("logStatusWarning",), set()),
+    ],
+)
+def test_log_categories_can_be_asked_for(master, names, heard):
+    bearing = master(logging=False)
+    assert bearing.call("SetDebugLogging", 1, *categories(*names)) == OK
+    provoke(bearing)
+    assert {category for _, category, _ in bearing.log} == heard
+    bearing.log.clear()
+    assert bearing.call("SetDebugLogging", 0, 0, None) == OK
+    provoke(bearing)
+    assert bearing.log == []
+
+
+def test_category_that_stands_for_all(master, expected):
+    bearing = master(logging=False)
+    assert bearing.call("SetDebugLogging", 1, *categories("logAll")) == OK
+    provoke(bearing)
+    assert {category for _, category, _ in bearing.log} == expected["category logAll"]
+
+
+def test_category_that_there_is_not(master, expected):
+    bearing = master().start()
+    answer = bearing.call("SetDebugLogging", 1, *categories("nonsense"))
+    assert answer == expected["unknown log category"]
+    assert ("there is no log category nonsense" in bearing.messages) == (answer == ERROR)
+    assert bearing.step(0.0) == OK
+
+
+def test_warning_of_a_state_beyond_the_shoulder(master):
+    bearing = master().start(preload=1e4)
+    assert bearing.log[-1][:2] == (1, "logStatusWarning")
+    assert "deg beyond its shoulder (bearing.inner_ring_outer_diameter_mm)" in bearing.messages
+    assert bearing.run(1, size=STEP)

@@ -1,0 +1,167 @@
+"""FMUs of one scene with compact sound, and the programs of the ecospy wheel where they can be run."""
+
+import importlib.util
+import os
+import re
+import shutil
+import subprocess
+import sys
+import zipfile
+from importlib import metadata
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from fmu_bearing.fmi.package import build
+from fmu_bearing.instance import Instance
+from fmu_bearing.prepare.model import prepare
+
+ROOT = Path(__file__).parents[2]
+EXACT_STEP = 2.0**-9  # s: masters that count in ns and those that add up doubles agree on its multiples
+STEPS = 16
+WATCHED = ("friction_torque", "heat.oil", "cage.speed_ratio", "ball[1].velocity.x", "mic[1].pressure")
+
+CSV_ERROR = 5.1e-7  # ecos writes six decimals
+
+needs_linux64 = pytest.mark.skipif(
+    not (sys.platform.startswith("linux") and os.uname().machine == "x86_64"),
+    reason="ecospy, libcosimpy and tbb are installed on linux x86-64 only",
+)
+
+
+def alone(model, steps, **inputs):
+    """Array of ``WATCHED``, one row at the start and one after each step, without any FMU."""
+    instance = Instance(model)
+    for name, value in inputs.items():
+        instance.set(name, value)
+    instance.initialise(0.0)
+    rows = [[instance.get(name) for name in WATCHED]]
+    for _ in range(steps):
+        instance.step(EXACT_STEP)
+        rows.append([instance.get(name) for name in WATCHED])
+    return np.array(rows)
+
+
+def read_csv(path):
+    """Columns by variable name; ecos calls them ``instance::name[TYPE]``."""
+    head, *lines = path.read_text().splitlines()
+    names = [re.sub(r"^.*::|\[\w+\]$", "", name) for name in head.split(", ")]
+    rows = [[float(value) for value in line.split(",")] for line in lines]
+    return dict(zip(names, np.transpose(rows), strict=True))
+
+
+@pytest.fixture(scope="session", autouse=True)
+def example_modules():
+    """The examples import their neighbours by bare names, as when they are run as scripts."""
+    folders = [str(ROOT / "examples" / name) for name in ("ssp", "spindle_cosimulation")]
+    sys.path[:0] = folders
+    yield
+    for folder in folders:
+        sys.path.remove(folder)
+
+
+@pytest.fixture(scope="session")
+def model(scene):
+    return prepare(scene("7003C-spindle"))
+
+
+@pytest.fixture(scope="session")
+def fmus(model, tmp_path_factory):
+    """FMU by flavour of the build."""
+    folder = tmp_path_factory.mktemp("interop")
+    return {
+        flavour: build(model, folder / flavour / "Bearing7003C.fmu", flavour=flavour).path
+        for flavour in ("native", "python")
+    }
+
+
+@pytest.fixture(params=["native", "python"])
+def fmu(request, fmus):
+    """The FMU of each flavour, for tools inside a Python process."""
+    return fmus[request.param]
+
+
+@pytest.fixture(scope="session")
+def native(fmus):
+    """The FMU for tools without Python."""
+    return fmus["native"]
+
+
+@pytest.fixture(scope="session")
+def unpacked(native, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("unpacked native")
+    with zipfile.ZipFile(native) as archive:
+        archive.extractall(folder)
+    return folder
+
+
+@pytest.fixture(scope="session")
+def expected(model):
+    """Values of ``WATCHED`` at the start and after each of ``STEPS`` steps, from the library itself."""
+    return alone(model, STEPS)
+
+
+@pytest.fixture(scope="session")
+def clean_environment():
+    """An environment in which no Python is to be found by accident."""
+    return {
+        name: value
+        for name, value in os.environ.items()
+        if not name.startswith("PYTHON") and name not in ("LD_PRELOAD", "VIRTUAL_ENV")
+    }
+
+
+@pytest.fixture(scope="session")
+def ecos(clean_environment, tmp_path_factory):
+    """Run the program ``ecos``: a function of its arguments and working folder.
+
+    In the wheel neither ``ecos`` nor ``proxyfmu`` may be executed, so they are copied; and pip puts TBB's
+    library where no loader looks.
+    """
+    folder = tmp_path_factory.mktemp("ecos")
+    wheel = Path(importlib.util.find_spec("ecospy").submodule_search_locations[0]) / "binaries"
+    for name in ("ecos", "proxyfmu"):
+        shutil.copy(wheel / name, folder)
+        (folder / name).chmod(0o755)
+    library = next(file.locate() for file in metadata.files("tbb") if file.name == "libtbb.so.12")
+    environment = clean_environment | {"LD_LIBRARY_PATH": str(Path(library).resolve().parent)}
+
+    def run(*arguments, cwd):
+        return subprocess.run(
+            [str(folder / "ecos"), *map(str, arguments)],
+            cwd=cwd,
+            env=environment,
+            capture_output=True,
+            text=True,
+            timeout=120,
+        )
+
+    run.folder = folder
+    return run
+
+
+@pytest.fixture(scope="session")
+def compiler():
+    found = shutil.which("cc") or shutil.which("gcc")
+    if found is None:
+        pytest.skip("no C compiler on the path")
+    return found
+
+
+@pytest.fixture(scope="session")
+def headers():
+    """Folder of the FMI headers in the installed FMPy."""
+    return Path(importlib.util.find_spec("fmpy").origin).parent / "c-code"
+
+
+@pytest.fixture(scope="session")
+def archives(fmus, tmp_path_factory):
+    """Path of motor, bearing and thermal network as one .ssp, by flavour of the bearing's build."""
+    from write import write
+
+    folder = tmp_path_factory.mktemp("ssp")
+    return {
+        flavour: write(path, folder / f"{flavour}.ssp", target_speed=2300.0, ramp_time=0.02, stop_time=0.1)
+        for flavour, path in fmus.items()
+    }

@@ -1,0 +1,192 @@
+"""One .ssp of motor, bearing and thermal network: equal results with FMPy, ecos and libcosim."""
+
+import re
+import zipfile
+from pathlib import Path
+
+import fmpy
+import numpy as np
+import pytest
+from fmpy.fmi1 import FMICallException
+from fmpy.ssp.simulation import simulate_ssp
+from lxml import etree
+
+from fmu_bearing.fmi.package import build
+from fmu_bearing.prepare.model import prepare
+from fmu_bearing.scene import read_scene
+
+from .conftest import EXACT_STEP, ROOT, STEPS, needs_linux64
+
+pytestmark = needs_linux64
+
+
+@pytest.fixture(params=["native", "python"])
+def archive(request, archives):
+    return archives[request.param]
+
+
+@pytest.fixture(scope="module")
+def runs(archives):
+    """Results by engine and flavour."""
+    from run import ENGINES
+
+    return {
+        flavour: {name: engine(path, STEPS, EXACT_STEP) for name, engine in ENGINES.items()}
+        for flavour, path in archives.items()
+    }
+
+
+def read_structure(path):
+    with zipfile.ZipFile(path) as archive:
+        return archive.read("SystemStructure.ssd")
+
+
+@pytest.fixture
+def other_ramp(archives, tmp_path):
+    """An archive whose parameters ask for a faster run-up than the start values inside its FMUs."""
+    path = tmp_path / "other.ssp"
+    with zipfile.ZipFile(archives["native"]) as old, zipfile.ZipFile(path, "w") as new:
+        for name in old.namelist():
+            data = old.read(name)
+            if name.endswith(".ssd"):
+                changed = re.sub(rb'(name="ramp_time">\s*<ssv:Real value=")[^"]*', rb"\g<1>0.005", data)
+                assert changed != data
+                data = changed
+            new.writestr(name, data)
+    return path
+
+
+def test_structure_is_valid(archive):
+    schema = Path(fmpy.__file__).parent / "ssp" / "schema" / "SystemStructureDescription.xsd"
+    etree.XMLSchema(etree.parse(schema)).assertValid(etree.fromstring(read_structure(archive)))
+
+
+def test_every_end_of_a_connection_is_a_variable(archive, tmp_path):
+    with zipfile.ZipFile(archive) as file:
+        file.extractall(tmp_path)
+    root = etree.fromstring(read_structure(archive))
+    descriptions = {
+        component.get("name"): fmpy.read_model_description(str(tmp_path / component.get("source")))
+        for component in root.iterfind(".//{*}Component")
+    }
+    variables = {(name, v.name): v for name, d in descriptions.items() for v in d.modelVariables}
+    for connection in root.iterfind(".//{*}Connection"):
+        output = variables[connection.get("startElement"), connection.get("startConnector")]
+        given = variables[connection.get("endElement"), connection.get("endConnector")]
+        assert (output.causality, given.causality) == ("output", "input")
+        assert output.unit == given.unit
+    for component in root.iterfind(".//{*}Component"):
+        for parameter in component.iterfind(".//{*}Parameter"):
+            start = variables[component.get("name"), parameter.get("name")].start
+            # pythonfmu writes 16 digits
+            assert float(start) == pytest.approx(float(parameter[0].get("value")), rel=1e-15)
+
+
+def test_written_twice_it_is_the_same(fmus, archives, tmp_path):
+    from write import write
+
+    again = write(fmus["native"], tmp_path / "a.ssp", target_speed=2300.0, ramp_time=0.02, stop_time=0.1)
+    assert again.read_bytes() == archives["native"].read_bytes()
+
+
+@pytest.mark.parametrize("engine", ["ecos", "libcosim"])
+@pytest.mark.parametrize("flavour", ["native", "python"])
+def test_engines_agree_to_the_last_bit(runs, flavour, engine):
+    # The same algorithm and times that all of them count exactly: nothing is left to differ.
+    expected, found = runs[flavour]["fmpy"], runs[flavour][engine]
+    assert found.dtype == expected.dtype
+    for name in expected.dtype.names:
+        assert np.array_equal(found[name], expected[name]), name
+
+
+def test_builds_agree_to_the_last_bit(runs):
+    for name, native in runs["native"]["fmpy"].dtype.fields.items():
+        assert native is not None
+        assert np.array_equal(runs["native"]["fmpy"][name], runs["python"]["fmpy"][name]), name
+
+
+def test_the_system_does_what_it_is_for(runs):
+    run = runs["native"]["fmpy"]
+    assert run["time"] == pytest.approx(np.arange(1, STEPS + 1) * EXACT_STEP, rel=1e-15)
+    assert run["motor.shaft_speed"][0] == pytest.approx(2094.4, abs=5.0)
+    # 50 ms of 20 Hz control behind a ramp of 20 ms: most of the way to 2300 rad/s
+    assert 2200.0 < run["motor.shaft_speed"][-1] < 2400.0
+    assert np.all(np.diff(run["thermal.oil_temperature"]) > 0.0)
+    power = run["bearing.friction_torque"] * run["motor.shaft_speed"]
+    heat = sum(run[f"bearing.heat.{part}"] for part in ("inner_ring", "outer_ring", "oil"))
+    # Torque at an instant against heat as a mean of the step: means over some ball passages come close.
+    assert heat[4:].mean() == pytest.approx(power[4:].mean(), rel=0.15)
+
+
+def test_another_step_changes_no_more_than_rounding_at_first(archives):
+    from run import largest_difference, run_fmpy, run_libcosim
+
+    # 0.5 ms is no exact binary number: sums and nanoseconds differ by 1e-16 s, and the motion amplifies it
+    # a hundredfold each millisecond or so.
+    one, other = (engine(archives["native"], 6, 5e-4) for engine in (run_fmpy, run_libcosim))
+    assert largest_difference(one, other) < 1e-9
+
+
+@pytest.mark.heavy
+def test_the_default_scene_for_a_fifth_of_a_second(tmp_path):
+    from run import ENGINES
+    from write import write
+
+    model = prepare(read_scene(ROOT / "examples" / "scenes" / "7003C-spindle.toml"))
+    bearing = build(model, tmp_path / "Bearing7003C.fmu", flavour="native").path
+    archive = write(bearing, tmp_path / "spindle.ssp", target_speed=2300.0, ramp_time=0.1, stop_time=0.2)
+    expected, *others = (engine(archive, 100, EXACT_STEP) for engine in ENGINES.values())
+    for found in others:
+        for name in expected.dtype.names:
+            assert np.array_equal(found[name], expected[name]), name
+    assert expected["motor.shaft_speed"][-1] == pytest.approx(2300.0, rel=2e-3)
+
+
+def test_parameters_of_the_archive(archives, other_ramp):
+    from run import run_ecos, run_fmpy, run_libcosim
+
+    def speed(engine, path, **options):
+        return engine(path, 4, EXACT_STEP, **options)["motor.shaft_speed"]
+
+    slow, fast = speed(run_fmpy, archives["native"]), speed(run_libcosim, other_ramp)
+    assert fast[-1] > slow[-1] + 20.0
+    assert np.array_equal(speed(run_ecos, other_ramp, parameter_set="operation"), fast)
+    # What the page on other tools says of them: without the name ecos keeps the start values, FMPy always.
+    assert np.array_equal(speed(run_ecos, other_ramp), slow)
+    assert np.array_equal(speed(run_fmpy, other_ramp), slow)
+
+
+def test_fmpy_alone_begins_at_absolute_zero(archive):
+    # The reason for what run_fmpy does before the first step.
+    with pytest.raises(FMICallException, match="discard"):
+        simulate_ssp(str(archive), stop_time=2 * EXACT_STEP, step_size=EXACT_STEP)
+
+
+def test_unequal_temperatures_are_refused(fmus, monkeypatch):
+    from coupling import Fmu, SimulationError
+    from write import operating_point
+
+    get = Fmu.get
+    monkeypatch.setattr(Fmu, "get", lambda self, names: [float(k) for k, _ in enumerate(get(self, names))])
+    with pytest.raises(SimulationError, match="oil_temperature 3 K.*equal temperatures"):
+        operating_point(fmus["native"])
+
+
+def test_commands(fmus, tmp_path):
+    import run
+    import write
+    from typer import Typer
+    from typer.testing import CliRunner
+
+    archive = tmp_path / "made" / "spindle.ssp"
+    for module, arguments, words in (
+        (write, [str(fmus["native"]), "-o", str(archive)], "wrote"),
+        (run, [str(archive), "--output-dir", str(tmp_path), "--steps", "3"], "libcosim"),
+    ):
+        app = Typer()
+        app.command()(module.main)
+        result = CliRunner().invoke(app, arguments)
+        assert result.exit_code == 0, result.output
+        assert words in result.output
+    assert result.output.count("largest difference to FMPy 0\n") == 3
+    assert len((tmp_path / "spindle_ecos.csv").read_text().splitlines()) == 4

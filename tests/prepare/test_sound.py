@@ -1,0 +1,50 @@
+"""The kept sound block: the same numbers, made once, and made anew where it matters."""
+
+import numpy as np
+import pytest
+
+from fmu_bearing.prepare import sound
+
+
+@pytest.fixture
+def made(monkeypatch, tmp_path):
+    """Scenes that were computed rather than read, with an empty cache."""
+    scenes = []
+    compute = sound.sound_parameters
+
+    def counted(scene):
+        scenes.append(scene)
+        return compute(scene)
+
+    monkeypatch.setenv("FMU_BEARING_CACHE", str(tmp_path))
+    monkeypatch.setattr(sound, "sound_parameters", counted)
+    return scenes
+
+
+def test_a_block_is_made_once(made, scene):
+    spindle = scene("7003C-spindle")
+    first, second = sound.sound_block(spindle), sound.sound_block(spindle)
+    assert len(made) == 1
+    assert first.size > 1000
+    assert np.array_equal(first, second)
+
+
+def changed(scene, part, **values):
+    return scene.model_copy(update={part: getattr(scene, part).model_copy(update=values)})
+
+
+def test_what_does_not_sound_does_not_matter(made, scene):
+    spindle = scene("7003C-spindle")
+    first = sound.sound_block(spindle)
+    again = sound.sound_block(changed(spindle, "operation", speed_rpm=5000.0))
+    assert len(made) == 1 and np.array_equal(again, first)
+    lighter = sound.sound_block(changed(spindle, "sound", air_density_kg_m3=0.6))
+    assert len(made) == 2 and not np.array_equal(lighter, first)
+
+
+def test_a_damaged_block_is_made_anew(made, scene, tmp_path):
+    first = sound.sound_block(scene("7003C-spindle"))
+    (kept,) = tmp_path.glob("sound/block-*.npy")
+    kept.write_bytes(kept.read_bytes()[:100])
+    assert np.array_equal(sound.sound_block(scene("7003C-spindle")), first)
+    assert len(made) == 2

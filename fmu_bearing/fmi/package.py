@@ -181,7 +181,8 @@ def _libraries(platforms: Sequence[str] | None, tell: Tell) -> dict[str, Path]:
             "this machine is none of " + ", ".join(PLATFORMS) + ": name the platforms to build for"
         )
     names = list(dict.fromkeys(platforms or ())) or [own.name if own else ""]
-    return {name: library(PLATFORMS[name], tell=tell) for name in names}
+    prefer = "portable" if platforms else "auto"  # named ones are for other machines too
+    return {name: library(PLATFORMS[name], prefer, tell) for name in names}
 
 
 def _reference(

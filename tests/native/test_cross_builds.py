@@ -9,6 +9,7 @@ import os
 import shutil
 import subprocess
 import sys
+import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -34,8 +35,8 @@ FUNCTIONS = {f"fmi2{name}" for name in SIGNATURES} | {
 }
 #: What the shim uses of the C library, and names the mathematics have there.
 C_LIBRARY = MATHEMATICS | set(
-    "calloc malloc realloc free fopen fclose fread fseek ftell getenv snprintf memcmp strcmp strlen strncmp "
-    "strspn strtod strtol fmax".split()
+    "calloc malloc realloc free fopen fclose fread fseek ftell getenv snprintf memchr memcmp strchr strcmp "
+    "strlen strncmp strrchr strspn strstr strtod strtol fmax".split()
 )
 #: The same functions under the names that macOS' headers and code generator give them, and its loader.
 DARWIN = set("bzero __bzero __memcpy_chk __snprintf_chk __sincos_stret dyld_stub_binder".split())
@@ -98,6 +99,31 @@ def test_platform_without_its_compiler_names_the_extra(no_zig):
     )
 
 
+def test_machine_without_any_compiler_says_what_to_install(no_zig, monkeypatch):
+    if own_platform() is None:
+        pytest.skip("there is no native build for this machine")
+    monkeypatch.delenv("CC", raising=False)
+    monkeypatch.setattr(link.shutil, "which", lambda name: None)
+    for prefer in ("auto", "portable", "zig"):
+        with pytest.raises(BuildError, match=r"there is no C compiler; install one \(Debian: gcc\), or pip"):
+            link.compiler_for(own_platform(), prefer)
+
+
+def test_named_platforms_are_for_old_systems_too(zig, compiler):
+    platform = own_platform()
+    if platform is None:
+        pytest.skip("there is no native build for this machine")
+    assert not link.compiler_for(platform).name.startswith("zig")
+    assert link.compiler_for(platform, "portable").name.startswith("zig")
+
+
+def test_named_platform_without_zig_takes_the_own_compiler(no_zig, compiler):
+    platform = own_platform()
+    if platform is None:
+        pytest.skip("there is no native build for this machine")
+    assert link.compiler_for(platform, "portable") == link.compiler_for(platform, "cc")
+
+
 @pytest.fixture(scope="session")
 def zig():
     if importlib.util.find_spec("ziglang") is None:
@@ -136,7 +162,11 @@ def test_one_fmu_for_all_platforms(zig, tmp_path, scene):
 
     built = build(prepare(scene("7003C-spindle")), tmp_path / "all.fmu", platforms=list(PLATFORMS))
     assert built.platforms == tuple(sorted(PLATFORMS))
-    assert str(built).count(", ".join(sorted(PLATFORMS))) == 1
+    assert f"native build for {', '.join(sorted(PLATFORMS))};" in str(built)
+    with zipfile.ZipFile(built.path) as archive:
+        for name, platform in PLATFORMS.items():
+            inside = archive.read(f"binaries/{name}/{built.identifier}{platform.suffix}")
+            check_symbols(platform, inside)
 
 
 # --- emulators ------------------------------------------------------------------------------------------

@@ -64,8 +64,9 @@ def compiler_for(platform: Platform, prefer: str = "auto") -> Compiler:
     ----------
     platform : Platform
     prefer : str
-        ``cc``, ``zig``, or ``auto``: the machine's own compiler for its own platform, Zig for the others
-        and where there is none.
+        ``cc``, ``zig``, ``auto``: the machine's own compiler for its own platform, Zig for the others and
+        where there is none; or ``portable``: Zig wherever it is installed, as the machine's own compiler
+        asks for a C library as new as the machine's.
 
     Raises
     ------
@@ -73,11 +74,12 @@ def compiler_for(platform: Platform, prefer: str = "auto") -> Compiler:
         If there is none; the message names what to install.
     """
     own = platform == host()
-    if own and prefer in ("auto", "cc"):
+    has_zig = importlib.util.find_spec("ziglang") is not None
+    if own and (prefer in ("auto", "cc") or (prefer == "portable" and not has_zig)):
         command = os.environ.get("CC") or shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
         if command:
             return Compiler((command, *_own_flags()), _version(command))
-    if prefer in ("auto", "zig") and importlib.util.find_spec("ziglang") is not None:
+    if prefer != "cc" and has_zig:
         zig = (sys.executable, "-m", "ziglang", "cc", "-target", platform.zig, "-s")
         return Compiler((*zig, *_zig_flags(platform)), f"zig {version('ziglang')}")
     if own:
@@ -123,7 +125,7 @@ def library(platform: Platform, prefer: str = "auto", tell: Tell = silent) -> Pa
         compiler = compiler_for(platform, prefer)
     except BuildError:
         kept = sorted(folder.glob(f"{sources}-*{platform.suffix}"))
-        if kept and prefer == "auto":
+        if kept and prefer in ("auto", "portable"):
             return kept[0]
         raise
     made_by = hashlib.sha256(f"{compiler.name} {compiler.command[1:]}".encode()).hexdigest()[:8]

@@ -1,5 +1,6 @@
-#include "digest.h"
 #include "fuzz.h"
+#include "model.h"
+#include "state.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,12 +8,12 @@
 
 enum { LARGE = 1 << 14, LARGEST = 1 << 24 };
 enum {
-    MODEL_CHECKSUM = 16,                       /* behind magic and version */
-    MODEL_SIZES = MODEL_CHECKSUM + 3 * 32,     /* behind the hashes of equations and model */
-    MODEL_HEAD = MODEL_SIZES + 15 * 8,
-    VARIABLE = 8 * 4 + 3 * 8,
-    STATE_CHECKSUM = 16 + 32,                  /* behind magic and model */
-    STATE_HEAD = STATE_CHECKSUM + 32 + 7 * 8
+    MODEL_CHECKSUM = offsetof(ModelHead, checksum),
+    MODEL_SIZES = offsetof(ModelHead, n_p),
+    MODEL_HEAD = sizeof(ModelHead),
+    VARIABLE = sizeof(ModelVariable),
+    STATE_CHECKSUM = offsetof(State, checksum),
+    STATE_HEAD = sizeof(State)
 };
 
 /* Another value for a count, near the right one or far away. */

@@ -177,8 +177,10 @@ def _wine():
     return None
 
 
-def _emulator(name):
-    """How to run programs of a platform; skips where that was not asked for, or is not there."""
+@pytest.fixture(params=["win64", "aarch64-linux"])
+def emulator(request):
+    """Name of a platform and how to run its programs; skips where that was not asked for, or is not there."""
+    name = request.param
     if os.environ.get("FMU_BEARING_EMULATORS") != "1":
         pytest.skip(
             "emulators run on request: set FMU_BEARING_EMULATORS=1 (Debian: wine64 for win64; qemu-user and "
@@ -194,7 +196,7 @@ def _emulator(name):
         if not qemu or not root.is_dir():
             pytest.skip("there is no qemu-aarch64 with a C library (Debian: qemu-user, libc6-arm64-cross)")
         command = [qemu, "-L", str(root)]
-    return command
+    return name, command
 
 
 #: Speeds in rad/s that the shaft is brought to in turn.
@@ -233,9 +235,9 @@ def _values(ran):
     return np.array([[float(number) for number in line] for line in lines])
 
 
-@pytest.mark.parametrize("name", ["win64", "aarch64-linux"])
-def test_library_runs_under_an_emulator(zig, host, spindle, tmp_path, monkeypatch, name):
-    emulator = _emulator(name)
+@pytest.mark.heavy
+def test_library_runs_under_an_emulator(emulator, zig, host, spindle, tmp_path, monkeypatch):
+    name, command = emulator
     folder, guid, commands, names = spindle
     platform = PLATFORMS[name]
     own = subprocess.run(
@@ -253,7 +255,7 @@ def test_library_runs_under_an_emulator(zig, host, spindle, tmp_path, monkeypatc
     monkeypatch.setenv("WINEPREFIX", str(tmp_path / "wine"))
     monkeypatch.setenv("WINEDEBUG", "-all")
     ran = subprocess.run(
-        [*emulator, program, place, guid, where, *commands], capture_output=True, text=True, timeout=900
+        [*command, program, place, guid, where, *commands], capture_output=True, text=True, timeout=900
     )
     found = _values(ran)
     assert found.shape == expected.shape

@@ -14,7 +14,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
+from fmu_bearing import cli
 from fmu_bearing.fmi.native import link
 from fmu_bearing.fmi.native.compile import objects
 from fmu_bearing.fmi.native.link import library
@@ -97,6 +99,20 @@ def test_platform_without_its_compiler_names_the_extra(no_zig):
     assert str(refusal.value) == (
         f"{other}: another platform than this machine's needs pip install fmu-bearing[cross]"
     )
+
+
+def test_command_without_the_compiler_ends_with_one_line(no_zig, monkeypatch, tmp_path):
+    monkeypatch.setattr(link, "kernel_folder", lambda: tmp_path / "no libraries kept")
+    other = next(name for name in PLATFORMS if PLATFORMS[name] != own_platform())
+    path = toy.HERE.parents[1] / "examples" / "scenes" / "7003C-bare.toml"
+    ran = CliRunner().invoke(
+        cli.app, ["build", str(path), "--platforms", other, "-o", str(tmp_path / "bearing.fmu")]
+    )
+    assert ran.exit_code == 2
+    assert [line for line in ran.output.splitlines() if line.startswith("error: ")] == [
+        f"error: {other}: another platform than this machine's needs pip install fmu-bearing[cross]"
+    ]
+    assert not (tmp_path / "bearing.fmu").exists()
 
 
 def test_machine_without_any_compiler_says_what_to_install(no_zig, monkeypatch):

@@ -26,7 +26,7 @@ from fmu_bearing.fmi.native.platforms import PLATFORMS
 from fmu_bearing.fmi.native.platforms import host as own_platform
 from fmu_bearing.fmi.resources import engine_digest
 
-from . import binaries, toy
+from . import binaries, careless, toy
 from .master import SIGNATURES
 
 FUNCTIONS = {f"fmi2{name}" for name in SIGNATURES} | {
@@ -284,3 +284,22 @@ def test_library_runs_under_an_emulator(emulator, zig, host, spindle, tmp_path, 
     )
     # other mathematics libraries round differently in the last place; a step multiplies that
     assert off[worst] < 1e-6, (names[worst], found[:, worst], expected[:, worst])
+
+
+@pytest.mark.heavy
+def test_careless_host_under_an_emulator(emulator, zig, compiler, resources, tmp_path, monkeypatch):
+    name, command = emulator
+    platform = PLATFORMS[name]
+    sets = [suffix for suffix, _ in platform.instruction_sets]
+    target = (*zig, "-target", platform.zig)
+    (tmp_path / "own").mkdir()
+    kernels = careless.hostile_kernels(tmp_path / "own", [compiler])
+    own = careless.build(tmp_path / "own", [compiler], kernels, toy.KERNELS)
+    kernels = careless.hostile_kernels(tmp_path, target, sets=sets)
+    program = careless.build(tmp_path, target, kernels, toy.KERNELS, sets=sets)
+    monkeypatch.setenv("WINEPREFIX", str(tmp_path / "wine"))
+    monkeypatch.setenv("WINEDEBUG", "-all")
+    bad = tmp_path / "bad"
+    found = careless.play(program, resources, bad, seed=1, rounds=50, seconds=300, emulator=command)
+    # the library answers every call the same
+    assert found == careless.play(own, resources, bad, seed=1, rounds=50)

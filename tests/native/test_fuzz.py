@@ -14,9 +14,8 @@ from fmu_bearing.fmi.native.platforms import host as own_platform
 from fmu_bearing.fmi.resources import engine_digest
 
 from . import toy
+from .careless import build, hostile_kernels, play
 
-DRIVER = sorted(map(str, (toy.HERE / "fuzz").glob("*.c")))
-DRIVER.remove(KERNEL := str(toy.HERE / "fuzz" / "kernel.c"))
 SANITIZED = ("-O1", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
 #: Least counts that show a run to have reached every depth, for each round.
 DEPTH = {
@@ -32,44 +31,13 @@ DEPTH = {
 FORGED = {"forged_models": 0.5, "forged_states": 1}
 
 
-def build(folder, compiler, kernels, digest, *options, shim=toy.SHIM):
-    """Compile driver and shim with options, and link them with kernels."""
-    program = folder / "fuzz"
-    sources = [*DRIVER, *sorted(map(str, shim.glob("*.c")))]
-    flags = [*toy.WARNINGS, *options, f"-I{toy.HEADERS}", f"-I{shim}", f'-DFB_KERNELS="{digest}"']
-    flags += ["-DFB_X86"] if toy.IS_X86 else []
-    toy.run([compiler, *flags, *sources, *map(str, kernels), "-o", str(program), "-lm"])
-    return program
-
-
-def hostile_kernels(folder, compiler, *options):
-    """Objects of the kernels that use every number they are given."""
-    objects = []
-    for isa in ("v2", "v3") if toy.IS_X86 else ("base",):
-        objects.append(folder / f"kernel_{isa}.o")
-        command = [compiler, *toy.WARNINGS, *options, f"-DISA={isa}", "-c", KERNEL, "-o", str(objects[-1])]
-        toy.run(command)
-    return objects
-
-
-def play(program, good, bad, seed, rounds, *, guid=toy.GUID, count=17, step=0.1, forge=True, seconds=60):
-    """Let the host call for some rounds; counts of what happened."""
-    bad.mkdir(exist_ok=True)
-    arguments = [guid, good, bad, count, step, int(forge), seed, rounds]
-    done = subprocess.run(
-        [program, *map(str, arguments)], capture_output=True, text=True, errors="replace", timeout=seconds
-    )
-    assert done.returncode == 0, (arguments, done.stdout[-2000:], done.stderr[-4000:])
-    return {name: int(number) for name, number in (pair.split("=") for pair in done.stdout.split())}
-
-
 def check_depth(counts, rounds, forge=True):
     for name, least in (DEPTH | FORGED if forge else DEPTH).items():
         assert counts[name] >= least * rounds, (name, counts)
 
 
 def test_no_call_is_too_careless(compiler, resources, tmp_path):
-    program = build(tmp_path, compiler, hostile_kernels(tmp_path, compiler), toy.KERNELS)
+    program = build(tmp_path, [compiler], hostile_kernels(tmp_path, [compiler]), toy.KERNELS)
     counts = play(program, resources, tmp_path / "bad", seed=1, rounds=60)
     check_depth(counts, 60)
     several = toy.write_model(tmp_path / "several", journal=4, journal_span=0.25)
@@ -92,8 +60,8 @@ def sanitizers(compiler, tmp_path_factory):
 @pytest.mark.heavy
 @pytest.mark.parametrize("seed", range(2, 5))
 def test_no_call_is_too_careless_under_sanitizers(compiler, sanitizers, resources, tmp_path, seed):
-    kernels = hostile_kernels(tmp_path, compiler, *sanitizers)
-    program = build(tmp_path, compiler, kernels, toy.KERNELS, *sanitizers)
+    kernels = hostile_kernels(tmp_path, [compiler], *sanitizers)
+    program = build(tmp_path, [compiler], kernels, toy.KERNELS, *sanitizers)
     several = toy.write_model(tmp_path / "several", journal=4, journal_span=0.25)
     for model in (resources, several):
         check_depth(play(program, model, tmp_path / "bad", seed, rounds=1000, seconds=600), 1000)
@@ -113,7 +81,7 @@ def test_real_kernels_bear_a_careless_host(compiler, sanitizers, scene, tmp_path
     good = tmp_path / "good"
     good.mkdir()
     (good / "model.bin").write_bytes(model_bytes(model, guid, digest))
-    program = build(tmp_path, compiler, ahead.objects(platform), digest, *sanitizers)
+    program = build(tmp_path, [compiler], ahead.objects(platform), digest, *sanitizers)
     step, count = 1e-5, len(model.variables)
     options = {"guid": guid, "count": count, "step": step, "forge": False, "seconds": 900}
     counts = play(program, good, tmp_path / "bad", seed=1, rounds=100, **options)
@@ -130,7 +98,7 @@ def test_driver_notices_a_library_that_takes_damage(compiler, resources, tmp_pat
     assert believing != text
     digest.write_text(believing)
     program = build(
-        tmp_path, compiler, hostile_kernels(tmp_path, compiler), toy.KERNELS, "-Wno-unused", shim=shim
+        tmp_path, [compiler], hostile_kernels(tmp_path, [compiler]), toy.KERNELS, "-Wno-unused", shim=shim
     )
     with pytest.raises(AssertionError, match="took a damaged"):
         play(program, resources, tmp_path / "bad", seed=1, rounds=20)

@@ -66,13 +66,15 @@ fmi2Component make(Fuzz *fuzz, const char *folder, int strange)
     fmi2Type type = fmi2CoSimulation;
     char place[201];
     fmi2Component made;
+    /* one after the other, as C leaves the order of arguments open */
+    fmi2Boolean visible = chance(fuzz, 50), logging = chance(fuzz, 70);
     callbacks.componentEnvironment = fuzz;
     if (strange && chance(fuzz, 10)) callbacks.logger = NULL;
     if (strange && chance(fuzz, 10)) guid = chance(fuzz, 50) ? NULL : "%s%n another one";
     if (strange && chance(fuzz, 10)) type = (fmi2Type)below(fuzz, 3);
     memcpy(given, &callbacks, sizeof callbacks);
-    made = fmi2Instantiate(name, type, guid, location_of(fuzz, folder, strange, place),
-                           strange && chance(fuzz, 5) ? NULL : given, chance(fuzz, 50), chance(fuzz, 70));
+    folder = location_of(fuzz, folder, strange, place);
+    made = fmi2Instantiate(name, type, guid, folder, strange && chance(fuzz, 5) ? NULL : given, visible, logging);
     free(given);
     return made;
 }

@@ -164,6 +164,8 @@ static void move_on(Fuzz *fuzz, Slave *slave)
 {
     fmi2Component c = slave->instance;
     double start = chance(fuzz, 90) ? 0.0 : any_real(fuzz);
+    double tolerance = any_real(fuzz), stop = any_real(fuzz);
+    fmi2Boolean has_tolerance = chance(fuzz, 20), has_stop = chance(fuzz, 50);
     switch (below(fuzz, 12)) {
     case 0: answer(fuzz, "terminate", fmi2Terminate(c)); break;
     case 1:
@@ -177,8 +179,7 @@ static void move_on(Fuzz *fuzz, Slave *slave)
     case 9: answer(fuzz, "exitInitializationMode", fmi2ExitInitializationMode(c)); break;
     default:
         if (answer(fuzz, "setupExperiment",
-                   fmi2SetupExperiment(c, chance(fuzz, 20), any_real(fuzz), start, chance(fuzz, 50),
-                                       any_real(fuzz))) != fmi2Error) {
+                   fmi2SetupExperiment(c, has_tolerance, tolerance, start, has_stop, stop)) != fmi2Error) {
             slave->time = start;
         }
     }
@@ -191,9 +192,11 @@ static void choose_log(Fuzz *fuzz, Slave *slave)
                                        "nothing", NULL};
     fmi2String names[3];
     size_t i, count = (size_t)below(fuzz, 4);
+    fmi2Boolean on;
     for (i = 0; i < 3; i++) names[i] = NAMES[below(fuzz, chance(fuzz, 80) ? 4 : 6)];
+    on = chance(fuzz, 80);
     answer(fuzz, "setDebugLogging",
-           fmi2SetDebugLogging(slave->instance, chance(fuzz, 80), count, chance(fuzz, 10) ? NULL : names));
+           fmi2SetDebugLogging(slave->instance, on, count, chance(fuzz, 10) ? NULL : names));
 }
 
 /* Bring an instance to where it can step, whatever it was. */

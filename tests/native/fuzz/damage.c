@@ -19,10 +19,11 @@ enum {
 /* Another value for a count, near the right one or far away. */
 static uint64_t any_count(Fuzz *fuzz, uint64_t right)
 {
+    uint64_t off = below(fuzz, 2);
     switch (below(fuzz, 4)) {
     case 0: return right + below(fuzz, 7) - 3;
     case 1: return below(fuzz, 40);
-    case 2: return (UINT64_C(1) << below(fuzz, 64)) - below(fuzz, 2);
+    case 2: return (UINT64_C(1) << below(fuzz, 64)) - off;
     default: return UINT64_MAX - below(fuzz, 4);
     }
 }

@@ -82,7 +82,14 @@ def measure(cases: tuple[Case, ...], quick: bool) -> tuple[list[Row], list[list[
         print(f"{case.name}: {time.process_time() - begin:.0f} s", file=sys.stderr, flush=True)
     fill_ratios(rows)
     rows += [Row("all", solver.name, remark="not built") for solver, there in built.items() if not there]
-    rows.append(Row("all", "the same right-hand side in C", remark="none: a second copy of the physics would have to be kept equal", ours=False))
+    rows.append(
+        Row(
+            "all",
+            "the same right-hand side in C",
+            remark="none: a second copy of the physics would have to be kept equal",
+            ours=False,
+        )
+    )
     return rows, references
 
 

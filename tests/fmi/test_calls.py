@@ -302,6 +302,23 @@ def test_threads_step_at_the_same_time(master):
     assert pair[0].last_time() == (OK, pytest.approx(3 * 5e-3 + 0.1))
 
 
+NOTHING = """
+import ctypes, sys
+library = ctypes.CDLL(sys.argv[1])
+library.fmi2DoStep.argtypes = (ctypes.c_void_p, ctypes.c_double, ctypes.c_double, ctypes.c_int)
+print(library.fmi2DoStep(None, 0.0, 1e-4, 1), flush=True)
+"""
+
+
+def test_no_instance(master, expected):
+    ran = subprocess.run([sys.executable, "-c", NOTHING, master().library], capture_output=True, text=True)
+    if expected["NULL instead of an instance"] == ERROR:
+        assert (ran.returncode, ran.stdout) == (0, f"{ERROR}\n"), ran.stderr
+    else:
+        assert ran.returncode != 0
+        assert ran.stdout == ""
+
+
 # A process of its own with no more than the calls of C: what pythonfmu does to some paths ends it.
 CRASH = """
 import ctypes, sys

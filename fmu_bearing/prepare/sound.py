@@ -11,7 +11,6 @@ import scipy
 from numpy.typing import NDArray
 
 import fmu_bearing
-from fmu_bearing.acoustics.stream import sound_parameters
 from fmu_bearing.engine.jit import cache_directory, source_hash
 from fmu_bearing.files import write_whole
 from fmu_bearing.scene import Scene
@@ -24,6 +23,13 @@ _ROOMS = ("acoustics", "elastic", "prepare", "scene")
 _PARTS = {"bearing", "materials", "mounting", "sound", "microphones"}
 
 
+def sound_parameters(scene: Scene) -> NDArray[np.float64]:
+    """Compute the block; what that needs of SciPy takes half a second to load, so it is loaded here."""
+    from fmu_bearing.acoustics import stream
+
+    return stream.sound_parameters(scene)
+
+
 def sound_block(scene: Scene) -> NDArray[np.float64]:
     """Sound block of a scene (`acoustics.stream.sound_parameters`), from the cache where it is there.
 
@@ -32,7 +38,9 @@ def sound_block(scene: Scene) -> NDArray[np.float64]:
     ValueError
         As `acoustics.stream.sound_parameters`.
     """
-    if scene.sound is None or scene.sound.rung == "table":  # a table may change under its name
+    if scene.sound is None or not scene.microphones:
+        return np.zeros(0)
+    if scene.sound.rung == "table":  # a table may change under its name
         return sound_parameters(scene)
     path = cache_directory().parent / "sound" / f"block-{_key(scene)}.npy"
     try:

@@ -23,11 +23,9 @@ import pathlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
-from fmu_bearing.acoustics.stream import sound_parameters
 from fmu_bearing.engine.jit import cache_directory, source_hash
 from fmu_bearing.files import write_whole
+from fmu_bearing.prepare.sound import sound_block
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.study.arrays import Refused
@@ -191,7 +189,7 @@ def choose(
     Refused
         If level ``full`` itself is refused.
     """
-    sound = np.empty(0) if scene.sound is None else sound_parameters(scene)
+    sound = sound_block(scene)
     candidates = [c for c in candidates if carries(scene, (c.level, c.method))]
     finest = FINEST.scene(scene)
     truth = measure(finest, sound, warm_up, window, budget=budget)

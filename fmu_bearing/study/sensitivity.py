@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import ValidationError
 
-from fmu_bearing.acoustics.stream import radiators_of, sound_parameters
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.study.arrays import Refused
@@ -263,6 +262,9 @@ def changes(found: Figures, base: Figures) -> tuple[float, ...]:
 
 def _sound(scene: Scene, blocks: dict[str, NDArray[np.float64]]) -> NDArray[np.float64]:
     """Sound block of a scene, computed once for all that radiate alike."""
+    # slow to load, and the command line has other uses of this module's tables
+    from fmu_bearing.acoustics.stream import radiators_of, sound_parameters
+
     if scene.sound is None:
         return np.empty(0)
     bending = (scene.mounting.flexure, scene.materials) if scene.mounting.flexure is not None else ()

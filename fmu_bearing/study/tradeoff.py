@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fmu_bearing.acoustics.stream import sound_parameters
+from fmu_bearing.prepare.sound import sound_block
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.fidelity import Terms
 from fmu_bearing.scene.read import with_fidelity
@@ -228,7 +228,7 @@ def tradeoff(
     Refused
         If the engine refuses the reference.
     """
-    sound = np.empty(0) if scene.sound is None else sound_parameters(scene)
+    sound = sound_block(scene)
     pair, own = check(scene, warm_up, min(CHECK, 0.5 * window))
     truth = measure(REFERENCE.scene(scene), sound, warm_up, window)
     lacking = absent(scene, [(s.level, s.method) for s in (*settings, WITNESS)])

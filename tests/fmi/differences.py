@@ -34,6 +34,7 @@ DIFFERENCES = (
         "reason of no instance", "log", "stderr", "pythonfmu loses the exception of a slave's constructor"
     ),
     Difference("any path", True, False, "pythonfmu undoes no escape of the location but that of a blank"),
+    Difference("NULL instead of an instance", ERROR, "the process ends", "not looked at inside pythonfmu"),
     Difference("call out of order", (ERROR, ERROR), (OK, DISCARD), _NO_STATUS),
     Difference("step out of order", (ERROR, ERROR), (DISCARD, DISCARD), _NO_STATUS),
     Difference("step of no length", (ERROR, ERROR), (DISCARD, OK), _NO_STATUS),

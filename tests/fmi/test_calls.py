@@ -191,6 +191,30 @@ def test_step_that_does_not_converge(master, expected):
     bearing.release(state)
 
 
+def test_short_step_that_does_not_converge_leaves_no_trace(master):
+    # after many good ones: a build may go back by repeating them
+    size, steps = 1e-4, 0
+    bearing, other = master().start(), master().start()
+    for one in (bearing, other):
+        assert all(one.set(name, value) == OK for name, value in HARD.items())
+    answer, values = OK, bearing.everything()
+    while answer == OK and steps < 100:
+        before = values
+        answer = bearing.step(steps * size, size)
+        values = bearing.everything()
+        steps += 1
+    assert answer == DISCARD
+    assert 10 < steps < 100
+    assert values == before
+    assert other.run(steps - 1, size=size)[-1] == before
+    time, ends = (steps - 1) * size, []
+    for one in (bearing, other):
+        assert one.set("radial_load.y", 0.0) == one.set("pedestal_stiffness", 1e8) == OK
+        ends.append((one.step(time, 1e-6), one.step(time + 1e-6, 1e-6), one.everything()))
+    assert ends[0] == ends[1]
+    assert ends[0][0] == OK
+
+
 def soft(bearing):
     """Set what has no equilibrium."""
     for name, value in (("preload", 0.0), ("radial_load.z", 3000.0), ("pedestal_stiffness", 1e4)):
@@ -300,6 +324,23 @@ def test_threads_step_at_the_same_time(master):
         turns += 1
     assert turns > 10
     assert pair[0].last_time() == (OK, pytest.approx(3 * 5e-3 + 0.1))
+
+
+NOTHING = """
+import ctypes, sys
+library = ctypes.CDLL(sys.argv[1])
+library.fmi2DoStep.argtypes = (ctypes.c_void_p, ctypes.c_double, ctypes.c_double, ctypes.c_int)
+print(library.fmi2DoStep(None, 0.0, 1e-4, 1), flush=True)
+"""
+
+
+def test_no_instance(master, expected):
+    ran = subprocess.run([sys.executable, "-c", NOTHING, master().library], capture_output=True, text=True)
+    if expected["NULL instead of an instance"] == ERROR:
+        assert (ran.returncode, ran.stdout) == (0, f"{ERROR}\n"), ran.stderr
+    else:
+        assert ran.returncode != 0
+        assert ran.stdout == ""
 
 
 # A process of its own with no more than the calls of C: what pythonfmu does to some paths ends it.

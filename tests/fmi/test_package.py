@@ -4,6 +4,7 @@ import dataclasses
 import hashlib
 import importlib.util
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -20,6 +21,7 @@ from fmu_bearing.prepare.model import prepare
 from fmu_bearing.scene import read_scene
 
 from .conftest import OK, ROOT, STEP
+from .differences import DIFFERENCES
 
 
 def command(*arguments, **environment):
@@ -214,3 +216,10 @@ def test_resources_need_no_repository(fmu, flavour):
                 assert str(ROOT).encode() not in archive.read(name), name
                 assert str(Path.home() / ".cache").encode() not in archive.read(name), name
     assert importlib.util.find_spec("fmu_bearing") is not None
+
+
+def test_documentation_names_every_difference():
+    page = (ROOT / "docs" / "fmu.md").read_text(encoding="utf-8")
+    named = re.findall(r"(?<!\*)\*([^*|]+)\*(?!\*)", page.split("## What it answers")[1])
+    assert sorted(set(named) - {"italics"}) == sorted(row.behaviour for row in DIFFERENCES)
+    assert all(row.native != row.python and row.why for row in DIFFERENCES)

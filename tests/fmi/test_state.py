@@ -1,7 +1,4 @@
-"""The state of an FMU instance: complete, portable, bound to its model."""
-
-import subprocess
-import sys
+"""The state of an FMU instance: complete, bound to its model; ``test_equality`` sends it to a new process."""
 
 import numpy as np
 import pytest
@@ -64,32 +61,6 @@ def test_refusals_belong_to_the_state(master, expected):
     assert bearing.put_back(bad) == OK
     assert bearing.step(0.0) == next_step
     assert bearing.release(good) == bearing.release(bad) == OK
-
-
-CHILD = """
-import sys
-from pathlib import Path
-sys.path.insert(0, sys.argv[1])
-from tests.fmi.conftest import Master, STEP
-bearing = Master(Path(sys.argv[2]))
-state = bearing.from_bytes(Path(sys.argv[3]).read_bytes())[1]
-assert bearing.put_back(state) == 0
-for values in bearing.run(2, 2 * STEP):
-    print(*(float(value).hex() for value in values))
-bearing.free()
-"""
-
-
-def test_another_process_continues_with_the_same_bits(master, unpacked, tmp_path, pytestconfig):
-    bearing = master().start(preload=300.0)
-    bearing.run(2)
-    file = tmp_path / "state.bin"
-    file.write_bytes(bearing.to_bytes(bearing.keep()))
-    command = [sys.executable, "-c", CHILD, str(pytestconfig.rootpath), str(unpacked), str(file)]
-    child = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path)
-    assert child.returncode == 0, child.stderr
-    after = [" ".join(float(value).hex() for value in values) for values in bearing.run(2, 2 * STEP)]
-    assert child.stdout.split("\n")[:-1] == after
 
 
 @pytest.mark.parametrize("damage", ["flip", "short", "empty", "version", "model"])

@@ -39,10 +39,10 @@ def test_a_measured_run(silent):
 
 
 def test_sound_is_read_from_the_engines_own_meters(scene):
-    from fmu_bearing.acoustics.stream import sound_parameters
+    from fmu_bearing.prepare.sound import sound_block
 
     spindle = scene("7003C-spindle")
-    run = measure(spindle, sound_parameters(spindle), 5e-3, 5e-3)
+    run = measure(spindle, sound_block(spindle), 5e-3, 5e-3)
     assert len(run.figures.levels) == 4
     assert all(60.0 < level < 120.0 for level in run.figures.levels)
     assert run.figures.levels[0] > run.figures.levels[1]  # the second microphone stands farther away

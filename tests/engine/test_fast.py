@@ -70,6 +70,7 @@ class Motion:
         return found
 
 
+@pytest.mark.heavy
 def test_newmark_converges_with_its_order(scene):
     run = smooth(scene)
     motion = Motion(run)

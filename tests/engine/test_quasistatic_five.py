@@ -208,6 +208,7 @@ def test_static_gates_of_the_matrix(scene):
     assert k[3, 3] == pytest.approx(4.73e3, rel=5e-3)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("name", ["7003C-bare", "7003C-spindle"])
 @pytest.mark.parametrize("tilt", [0.0, 3e-3])
 def test_the_full_level_stands_still_there(scene, name, tilt):

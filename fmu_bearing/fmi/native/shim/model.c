@@ -77,7 +77,8 @@ static int places_fit(const Model *model)
     const ModelHead *head = model->head;
     uint64_t i;
     if (head->n_s > LARGEST || head->n_w > LARGEST || head->n_z > LARGEST || head->time >= head->n_s ||
-        head->journal < 1 || head->journal > LONGEST_JOURNAL || head->n_tunables > head->n_p || head->n_categories > MOST_CATEGORIES || head->guid >= head->n_text) {
+        head->journal < 1 || head->journal > LONGEST_JOURNAL || head->n_tunables > head->n_p ||
+        head->n_categories > MOST_CATEGORIES || head->guid >= head->n_text) {
         return 0;
     }
     for (i = 0; i < head->n_variables; i++) {

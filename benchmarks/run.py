@@ -8,8 +8,6 @@ import pathlib
 import sys
 import time
 
-import numpy as np
-
 from benchmarks import bem, exudyn_peer, memory, ours, peers, sound, terms
 from benchmarks.cases import CASES, QUICK, SOLVERS, Case
 from benchmarks.fmu import calls
@@ -45,8 +43,6 @@ def peer_rows(
     rows.append(row)
     steps = max(1, round(window / ours.SAMPLE))
     problem = FirstOrder(start)
-    problem.jacobian(0.0, problem.start, np.empty((problem.size, problem.size)))  # compiled before the clock
-    problem.rate(0.0, problem.start, np.empty(problem.size))
     for name, entry in peers.solvers().items():
         rows.append(
             peers.peer_row(

@@ -66,7 +66,7 @@ LOG_CATEGORIES = {
     "logStatusWarning": "Accepted, but outside the range the model was validated for.",
     "logStatusDiscard": "A value or a step that was not taken, and why.",
     "logStatusError": "A call out of order, or a failure inside the model.",
-    "logAll": "Everything else.",
+    "logAll": "All messages.",
 }
 
 #: Integers of the table that read better by name: type name, then (item, value, what it means).

@@ -5,9 +5,10 @@ from typing import Annotated
 
 import typer
 
-from fmu_bearing.cli import Flavour, Output, Platforms, build_scene, model_of, refusals
+from fmu_bearing.cli.base import refusals, tell
+from fmu_bearing.cli.build import Flavour, Output, Platforms, named
 from fmu_bearing.fmi.description import description_xml
-from fmu_bearing.scene import read_scene
+from fmu_bearing.study.build import build_fmu, model_of
 
 HERE = Path(__file__).resolve().parent
 DEFAULT_SCENE = HERE / "examples" / "scenes" / "7003C-spindle.toml"
@@ -26,11 +27,11 @@ def main(
     """Build a co-simulation FMU (FMI 2.0) of the bearing that a scene describes."""
     with refusals():
         if write_description:
-            model = model_of(read_scene(scene))
+            model = model_of(scene, tell)
             DESCRIPTION.write_bytes(description_xml(model))
             typer.echo(f"{DESCRIPTION}: {len(model.variables)} variables")
         else:
-            typer.echo(f"built {build_scene(scene, output, flavour, platforms)}")
+            typer.echo(f"built {build_fmu(scene, output, flavour, named(platforms), tell)}")
 
 
 if __name__ == "__main__":

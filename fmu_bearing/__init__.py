@@ -21,11 +21,56 @@ Axes: X bearing axis, Y horizontal, Z up. Positive speed is right-handed about +
 ring towards +X; angles count from 12 o'clock with positive rotation. SI units inside; scene files use the
 units in their key names.
 
->>> from fmu_bearing.scene import read_scene
->>> from fmu_bearing.prepare.model import prepare
->>> from fmu_bearing.instance import Instance
->>> bearing = Instance(prepare(read_scene("examples/scenes/7003C-bare.toml")))  # doctest: +SKIP
->>> bearing.initialise(); bearing.step(1e-3); bearing.get("friction_torque")  # doctest: +SKIP
+>>> from fmu_bearing import Bearing, simulate
+>>> run = simulate("examples/scenes/7003C-bare.toml", 2e-3)
+>>> round(1e3 * run["friction_torque"][-1])  # N.mm
+16
 """
 
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from fmu_bearing.scene import Scene, SceneError, read_scene
+    from fmu_bearing.study.bearing import Bearing
+    from fmu_bearing.study.build import build_fmu
+    from fmu_bearing.study.recording import Recording, record
+    from fmu_bearing.study.run import Run
+    from fmu_bearing.study.simulate import simulate
+
 __version__ = "0.1.0"
+
+#: Public names and where they live; each is imported when first asked for.
+_PLACES = {
+    "Bearing": "study.bearing",
+    "Recording": "study.recording",
+    "Run": "study.run",
+    "Scene": "scene",
+    "SceneError": "scene",
+    "build_fmu": "study.build",
+    "read_scene": "scene",
+    "record": "study.recording",
+    "simulate": "study.simulate",
+}
+
+__all__ = [
+    "Bearing",
+    "Recording",
+    "Run",
+    "Scene",
+    "SceneError",
+    "build_fmu",
+    "read_scene",
+    "record",
+    "simulate",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _PLACES:
+        raise AttributeError(f"fmu_bearing has no '{name}'; public names are {', '.join(__all__)}")
+    return getattr(import_module(f"fmu_bearing.{_PLACES[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    return [*__all__, "__version__"]

@@ -1,5 +1,11 @@
 """What people do with a bearing: run it beside slower, surer methods, vary it, look at it.
 
+``simulate``        `simulate`: a run over given inputs; ``simulate_fmu``: of an FMU, by FMPy
+``run``             `Run`: what it leaves behind, as CSV, netCDF, xarray
+``bearing``         `Bearing`: to initialise and step by hand
+``build``           `build_fmu`: the FMU of a scene in one call
+``names``           variables as people write them
+``extras``          packages that only some studies need
 ``arrays``          a bearing on bare flat arrays, for loops that need the state itself
 ``figures``         the figures by which runs are compared, and the pace of a run
 ``built``           which levels and methods this build of the engine has

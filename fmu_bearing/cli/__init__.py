@@ -1,0 +1,14 @@
+"""The command ``fmu-bearing``; one file per command or family of commands.
+
+==============  ==================================================================
+``base``        the application, shared options, refusals, exit codes
+``build``       the FMU of a scene
+``scenes``      what a scene is computed with
+``studies``     choose, tradeoff, sensitivity
+==============  ==================================================================
+"""
+
+from fmu_bearing.cli import build, scenes, studies  # noqa: F401  (importing a file registers its commands)
+from fmu_bearing.cli.base import app
+
+__all__ = ["app"]

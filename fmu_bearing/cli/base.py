@@ -1,0 +1,74 @@
+"""The application, what its commands share, and how refusals are told.
+
+Exit codes: 0 done; 1 a check found something; 2 refused (a scene, an option, a file); 3 the computation ended
+early, what was computed is written; 130 interrupted, what was computed is written.
+"""
+
+import json
+import math
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import partial
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich.console import Console
+from rich.progress import track
+
+from fmu_bearing.fmi.native.optimise import BuildError
+from fmu_bearing.fmi.package import ChoiceError
+from fmu_bearing.scene import SceneError
+from fmu_bearing.study.arrays import Refused
+from fmu_bearing.study.extras import MissingExtra
+
+FOUND, REFUSED, ENDED_EARLY, INTERRUPTED = 1, 2, 3, 130
+
+app = typer.Typer(
+    help="Angular contact ball bearings and their sound: scenes, runs, FMUs, studies, reports.",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    epilog="Exit codes: 0 done; 1 a check found something; 2 refused; 3 ended early and 130 interrupted, "
+    "with what was computed written.",
+)
+
+SceneFile = Annotated[Path, typer.Argument(metavar="SCENE", help="Scene file (TOML).")]
+Folder = Annotated[Path, typer.Option("--output", "-o", help="Folder for the results.")]
+Quick = Annotated[bool, typer.Option("--quick", help="Few variants, short windows: to see that it works.")]
+Json = Annotated[bool, typer.Option("--json", help="Print the result as JSON, for machines.")]
+
+errors = Console(stderr=True)
+progress = partial(track, console=errors)  # results alone go to standard output
+tell = partial(typer.echo, err=True)
+
+
+@contextmanager
+def refusals() -> Iterator[None]:
+    """Tell refusals in a line of the user's own terms and end with code 2; no traceback."""
+    try:
+        yield
+    except (SceneError, Refused, BuildError, ChoiceError, MissingExtra, Refusal, OSError) as error:
+        message = "; ".join(line.strip() for line in str(error).splitlines() if line.strip())
+        typer.echo(f"error: {message}", err=True)
+        raise typer.Exit(REFUSED) from None
+
+
+class Refusal(ValueError):
+    """Something a command cannot do with what it was given; the message says what and the way out."""
+
+
+def print_json(result: Any) -> None:
+    """Print ``result`` as JSON; what is no finite number becomes null, as JSON knows none."""
+    typer.echo(json.dumps(_plain(result), indent=2, ensure_ascii=False))
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {str(key): _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    if hasattr(value, "tolist"):  # NumPy's arrays and numbers
+        return _plain(value.tolist())
+    if isinstance(value, Path):
+        return str(value)
+    return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -1,0 +1,55 @@
+"""``fmu-bearing build``: the FMU of a scene."""
+
+from dataclasses import asdict
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from fmu_bearing.cli.base import Json, SceneFile, app, print_json, refusals, tell
+from fmu_bearing.fmi.description import FLAVOURS
+from fmu_bearing.fmi.native.platforms import PLATFORMS
+from fmu_bearing.study.build import build_fmu
+
+Output = Annotated[
+    Path | None,
+    typer.Option("--output", "-o", help="FMU to write; default: Bearing<designation>.fmu here."),
+]
+Flavour = Annotated[
+    str | None,
+    typer.Option(
+        metavar="|".join(FLAVOURS),
+        help="native: compiled, runs without Python; python: runs in the installed package. "
+        "Default: native where a library can be made.",
+    ),
+]
+Platforms = Annotated[
+    str | None,
+    typer.Option(
+        metavar="NAME,...",
+        help=f"Platforms of a native FMU: {', '.join(PLATFORMS)}, or all; default: this machine's.",
+    ),
+]
+
+
+def named(platforms: str | None) -> list[str]:
+    """Return platforms from names with commas between, or ``all``."""
+    names = list(PLATFORMS) if platforms == "all" else [n.strip() for n in (platforms or "").split(",")]
+    return [name for name in names if name]
+
+
+@app.command()
+def build(
+    scene: SceneFile,
+    output: Output = None,
+    flavour: Flavour = None,
+    platforms: Platforms = None,
+    as_json: Json = False,
+) -> None:
+    """Build the co-simulation FMU (FMI 2.0) of a scene."""
+    with refusals():
+        built = build_fmu(scene, output, flavour, named(platforms), tell)
+    if as_json:
+        print_json(asdict(built))
+    else:
+        typer.echo(f"built {built}")

@@ -1,0 +1,66 @@
+"""``fmu-bearing choose``, ``tradeoff``, ``sensitivity``: what accuracy costs, what rests on assumptions."""
+
+from functools import partial
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from fmu_bearing.cli.base import Folder, Quick, SceneFile, app, progress, refusals
+from fmu_bearing.scene import read_scene
+from fmu_bearing.study import choose as choosing
+from fmu_bearing.study import sensitivity as moving
+from fmu_bearing.study import tradeoff as trading
+from fmu_bearing.study.table import show
+
+
+@app.command()
+def choose(scene: SceneFile) -> None:
+    """Tell which level, method and step meet the scene's accuracy, and how every candidate did."""
+    with refusals():
+        choice = choosing.chosen(read_scene(scene))
+    show(f"{choice.scene}: errors against level full", choosing.COLUMNS, choice.cells(), width=110)
+    typer.echo(choice.summary)
+
+
+@app.command()
+def tradeoff(
+    scene: SceneFile,
+    output: Folder = Path("out/tradeoff"),
+    quick: Quick = False,
+    chart: Annotated[
+        Path | None, typer.Option(help="Chart to write; default: tradeoff.png in the folder.")
+    ] = None,
+) -> None:
+    """Measure error and speed of levels, methods, steps, strips and terms; write table and chart."""
+    from fmu_bearing.study.chart import draw  # Matplotlib loads slowly, and `build` has no use for it
+
+    with refusals():
+        bar = partial(progress, description="variants")
+        if quick:
+            study = trading.tradeoff(
+                read_scene(scene), trading.QUICK, warm_up=0.005, window=0.005, budget=0.01, track=bar
+            )
+        else:
+            study = trading.tradeoff(read_scene(scene), track=bar)
+        trading.write(study, output)
+        chart = chart or output / "tradeoff.png"
+        draw(study, chart)
+    show(f"{study.scene}: accuracy and cost", trading.COLUMNS, study.cells())
+    typer.echo(f"written: {output / 'tradeoff.md'}, {output / 'tradeoff.csv'}, {chart}")
+
+
+@app.command()
+def sensitivity(scene: SceneFile, output: Folder = Path("out/sensitivity"), quick: Quick = False) -> None:
+    """Move every assumed value of a scene and tell what changes."""
+    with refusals():
+        bar = partial(progress, description="moves")
+        if quick:
+            study = moving.sensitivity(
+                read_scene(scene), moving.QUICK, warm_up=0.005, window=0.005, track=bar
+            )
+        else:
+            study = moving.sensitivity(read_scene(scene), track=bar)
+        moving.write(study, output)
+    show(f"{study.scene}: what rests on assumed values", moving.COLUMNS, study.cells())
+    typer.echo(f"written: {output / 'sensitivity.md'}, {output / 'sensitivity.csv'}")

@@ -102,7 +102,8 @@ explains. Best of {repeats} runs, communication step 1 ms, no sound. Error: rms 
 velocities to the reference over the rms of its fluctuation; for `rings` and `response` the larger ring's
 difference in rms velocity to `full`. A ratio is our speed over the peer's in the same case and run, by CPU
 time, each at the error it states. EXUDYN computes another, simpler model and has no error here. The peers'
-rows stand below ours; they are timed over {window:g} ms.
+rows stand below ours; they are timed over {window:g} ms. On a virtual machine absolute figures differ by
+up to 40 % from run to run; ratios within a row are surer.
 
 """
 

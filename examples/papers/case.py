@@ -126,6 +126,6 @@ def _motion(scene: Scene) -> dict[str, Any]:
 
 
 def _toml(data: dict[str, Any]) -> str:
-    import tomli_w
+    import tomlkit
 
-    return tomli_w.dumps(data)
+    return tomlkit.dumps(data)

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator
 
-import tomli_w
+import tomlkit
 from pydantic import Field
 
 from fmu_bearing.scene.base import Conflict, Part
@@ -122,4 +122,4 @@ class Scene(Part):
 
     def to_toml(self) -> str:
         """Write the scene, catalogue entries resolved, as TOML that reads back to an equal scene."""
-        return tomli_w.dumps(self.model_dump(mode="json", exclude_none=True))
+        return tomlkit.dumps(self.model_dump(mode="json", exclude_none=True))

@@ -3,12 +3,14 @@
 ==============  ==================================================================
 ``base``        the application, shared options, refusals, exit codes
 ``build``       the FMU of a scene
-``scenes``      what a scene is computed with
+``scenes``      scene new, check, show, catalogue
+``runs``        simulate, plot
+``sound``       levels, spectra, directivity, WAV
 ``studies``     choose, tradeoff, sensitivity
 ==============  ==================================================================
 """
 
-from fmu_bearing.cli import build, scenes, studies  # noqa: F401  (importing a file registers its commands)
+from fmu_bearing.cli import build, runs, scenes, sound, studies  # noqa: F401  (importing a file registers its commands)
 from fmu_bearing.cli.base import app
 
 __all__ = ["app"]

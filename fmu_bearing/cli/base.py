@@ -6,6 +6,7 @@ early, what was computed is written; 130 interrupted, what was computed is writt
 
 import json
 import math
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import partial
@@ -17,8 +18,6 @@ from rich.console import Console
 from rich.progress import track
 
 from fmu_bearing.fmi.native.optimise import BuildError
-from fmu_bearing.fmi.package import ChoiceError
-from fmu_bearing.scene import SceneError
 from fmu_bearing.study.arrays import Refused
 from fmu_bearing.study.extras import MissingExtra
 
@@ -47,10 +46,25 @@ def refusals() -> Iterator[None]:
     """Tell refusals in a line of the user's own terms and end with code 2; no traceback."""
     try:
         yield
-    except (SceneError, Refused, BuildError, ChoiceError, MissingExtra, Refusal, OSError) as error:
+    except (ValueError, Refused, BuildError, MissingExtra, OSError) as error:
         message = "; ".join(line.strip() for line in str(error).splitlines() if line.strip())
         typer.echo(f"error: {message}", err=True)
         raise typer.Exit(REFUSED) from None
+
+
+@contextmanager
+def quiet_warnings() -> Iterator[None]:
+    """Tell warnings in a line each, without the place in the code."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("always", UserWarning)
+        warnings.showwarning = _caution  # type: ignore[assignment]
+        yield
+
+
+def _caution(message: Warning | str, category: type[Warning], *place: Any) -> None:
+    """Print a warning of ours; Python's own developers' warnings stay silent."""
+    if issubclass(category, UserWarning):
+        tell(f"caution: {message}")
 
 
 class Refusal(ValueError):

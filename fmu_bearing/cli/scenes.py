@@ -1,44 +1,188 @@
-"""``fmu-bearing info``: what a scene is computed with."""
+"""``fmu-bearing scene``: new files, what is wrong with one, what is in one, what the catalogue has."""
+
+import warnings
+from dataclasses import asdict
+from pathlib import Path
+from typing import Annotated, Any
 
 import typer
 
-from fmu_bearing.cli.base import SceneFile, app, refusals
+from fmu_bearing.cli.base import FOUND, Json, Refusal, SceneFile, app, print_json, refusals
 from fmu_bearing.engine import layout as at
-from fmu_bearing.prepare.model import prepare
-from fmu_bearing.scene import Scene, read_scene
+from fmu_bearing.files import write_whole
+from fmu_bearing.instance import EngineError, Instance
+from fmu_bearing.prepare.model import Model, prepare
+from fmu_bearing.scene import Scene, SceneError, read_scene
+from fmu_bearing.scene.origins import Origin, origins
+from fmu_bearing.scene.read import catalogue as entries
+from fmu_bearing.scene.template import MATERIALS, Dimensions, new_scene
+from fmu_bearing.study.table import show as show_table
+
+scene_app = typer.Typer(help="Scene files: new, check, show; what the catalogue has.", no_args_is_help=True)
+app.add_typer(scene_app, name="scene")
+
+KINDS = ("bearings", "materials", "lubricants", "grades")
+_OPTIONAL = "Needed for a bearing that is not in the catalogue."
 
 
-@app.command()
-def info(scene: SceneFile) -> None:
-    """Tell what a scene is computed with, and its sizes."""
+@scene_app.command()
+def new(
+    path: Annotated[Path, typer.Argument(metavar="FILE", help="Scene file to write (.toml).")],
+    bearing: Annotated[str | None, typer.Option(help="A bearing of the catalogue.")] = None,
+    bore: Annotated[float | None, typer.Option(help=f"Bore, mm. {_OPTIONAL}")] = None,
+    outside_diameter: Annotated[
+        float | None, typer.Option("--outside-diameter", "--outside", help=f"mm. {_OPTIONAL}")
+    ] = None,
+    width: Annotated[float | None, typer.Option(help=f"mm. {_OPTIONAL}")] = None,
+    contact_angle: Annotated[float, typer.Option(help="deg; with --bore.")] = 15.0,
+    designation: Annotated[str | None, typer.Option(help="What the bearing is called.")] = None,
+    kind: Annotated[str, typer.Option(metavar="|".join(MATERIALS), help="Materials.")] = "hybrid",
+    speed: Annotated[float, typer.Option(help="r/min.")] = 20_000.0,
+    preload: Annotated[float, typer.Option(help="N.")] = 300.0,
+    grade: Annotated[str, typer.Option(help="Tolerance class of the imperfections.")] = "P4",
+    lubricant: Annotated[str, typer.Option(help="Oil of the catalogue.")] = "spindle-oil",
+    sound: Annotated[bool, typer.Option(help="With four microphones.")] = True,
+    force: Annotated[bool, typer.Option("--force", help="Replace a file that is there.")] = False,
+) -> None:
+    """Write a scene from the catalogue, or from boundary dimensions with the rest estimated."""
     with refusals():
-        found = read_scene(scene)
-        auto = found.fidelity.level == "auto"
-        model = prepare(found, level="full") if auto else prepare(found)
+        if path.exists() and not force:
+            raise Refusal(f"{path} is there already: name another file, or give --force")
+        dimensions = (bore, outside_diameter, width)
+        if bearing is not None and any(value is not None for value in dimensions):
+            raise Refusal("give --bearing or dimensions, not both")
+        chosen: str | Dimensions = bearing or "7003C"
+        if bearing is None and any(value is not None for value in dimensions):
+            if bore is None or outside_diameter is None or width is None:
+                raise Refusal("a bearing of your own needs --bore, --outside-diameter and --width")
+            chosen = Dimensions(bore, outside_diameter, width, contact_angle)
+        text = new_scene(
+            path.stem, chosen, kind=kind, speed_rpm=speed, preload_N=preload, grade=grade,
+            lubricant=lubricant, sound=sound, designation=designation,
+        )  # fmt: skip
+        write_whole(path, text.encode("utf-8"))
+        assumed = sum(one.assumed for one in origins(path))
+    typer.echo(f"written: {path}; {assumed} values are assumed: `fmu-bearing scene show {path} --assumed`")
+
+
+@scene_app.command()
+def check(
+    paths: Annotated[list[Path], typer.Argument(metavar="SCENE...", help="Scene files.")],
+    as_json: Json = False,
+) -> None:
+    """Read scenes and find their equilibrium; tell what is refused and what to look at."""
+    found = {str(path): _findings(path) for path in paths}
+    if as_json:
+        print_json({path: {"ok": ok, "findings": lines} for path, (ok, lines) in found.items()})
+    else:
+        for path, (ok, lines) in found.items():
+            for line in lines:
+                typer.echo(f"{'caution' if ok else 'error'}: {line}", err=not ok)
+            if ok:
+                typer.echo(f"{path}: a scene, with an equilibrium at its operating point")
+    if not all(ok for ok, _ in found.values()):
+        raise typer.Exit(FOUND)
+
+
+def _findings(path: Path) -> tuple[bool, list[str]]:
+    """Whether a scene can be run, and what there is to say."""
+    try:
+        scene = read_scene(path)
+        bearing = Instance(_silent(scene))
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            bearing.initialise()
+        return True, [f"{path}: {one.message}" for one in told]
+    except SceneError as problem:
+        return False, list(problem.problems)
+    except EngineError as problem:
+        return False, [f"{path}: {problem}"]
+
+
+@scene_app.command()
+def show(
+    path: SceneFile,
+    assumed: Annotated[bool, typer.Option("--assumed", help="Only values that are assumed.")] = False,
+    as_json: Json = False,
+) -> None:
+    """Show every value of a scene, its unit and range, where it comes from, and what is assumed."""
+    with refusals():
+        scene = read_scene(path)
+        values = [one for one in origins(path) if one.assumed or not assumed]
+        sizes = _sizes(scene)
+    if as_json:
+        print_json({"scene": scene.name, "computed": sizes, "values": [asdict(one) for one in values]})
+        return
+    rows = [[one.key, _shown(one), one.allowed, one.origin, _remark(one)] for one in values]
+    show_table(scene.name, ("key", "value", "allowed", "from", "remark"), rows, width=150)
+    for name, value in sizes.items():
+        typer.echo(f"{name:10} {value}")
+
+
+@scene_app.command("catalogue")
+def show_catalogue(
+    kind: Annotated[str, typer.Argument(metavar="|".join(KINDS))] = KINDS[0], as_json: Json = False
+) -> None:
+    """Show what the catalogue has: bearings, materials, lubricants, tolerance classes."""
+    with refusals():
+        if kind not in KINDS:
+            raise Refusal(f"there is no catalogue of '{kind}': choose from {', '.join(KINDS)}")
+        found = entries(kind)
+    if as_json:
+        print_json(found)
+        return
+    plain = {
+        name: {k: v for k, v in entry.items() if not isinstance(v, dict)} for name, entry in found.items()
+    }
+    keys = list(dict.fromkeys(key for entry in plain.values() for key in entry))
+    rows = [[key, *(str(entry.get(key, "")) for entry in plain.values())] for key in keys]
+    show_table(kind, ("key", *plain), rows, width=80)
+
+
+def _silent(scene: Scene) -> Model:
+    """Return the model without its sound: boundary elements may take minutes."""
+    level = "full" if scene.fidelity.level == "auto" else None
+    return prepare(scene.model_copy(update={"sound": None}), level=level)
+
+
+def _shown(one: Origin) -> str:
+    value = f"{one.value:g}" if isinstance(one.value, float) else str(one.value)
+    return f"{value} {one.unit}".rstrip()
+
+
+def _remark(one: Origin) -> str:
+    if not one.assumed:
+        return one.remark
+    return f"assumed: {one.remark}" if one.remark else "assumed"
+
+
+def _sizes(found: Scene) -> dict[str, Any]:
+    """Return what a scene is computed with, and its sizes, in words."""
+    auto = found.fidelity.level == "auto"
+    model = _silent(found)
     p, fidelity = model.parameters, found.fidelity
     # an instance copies the parameters and keeps its last state beside the present one
     places = p.size + 2 * at.state_size(p) + at.work_size(p)
     places += at.z_size(model.n_balls, model.n_mics, model.n_bands, model.n_modes)
-    typer.echo(f"scene      {found.name}: {found.bearing.designation}, {found.operation.speed_rpm:g} r/min")
     if auto:
         bounds = fidelity.accuracy
-        typer.echo(
-            f"level      auto, within {bounds.level_dB:g} dB and {bounds.relative:g} of level full; "
+        level = (
+            f"auto, within {bounds.level_dB:g} dB and {bounds.relative:g} of level full; "
             "`fmu-bearing choose` tells which; sizes are those of full"
         )
     else:
         method = f", method {fidelity.method}" if fidelity.level == "full" else ""
-        typer.echo(
-            f"level      {fidelity.level}{method}, internal steps up to "
-            f"{fidelity.max_internal_step_us:g} us, tolerance {fidelity.tolerance:g}"
+        level = (
+            f"{fidelity.level}{method}, internal steps up to {fidelity.max_internal_step_us:g} us, "
+            f"tolerance {fidelity.tolerance:g}"
         )
-    typer.echo(f"balls      {model.n_balls}, traction strips {fidelity.traction_strips}")
-    typer.echo(f"sound      {_sound_line(found)}")
-    typer.echo(f"variables  {len(model.variables)}")
-    typer.echo(f"memory     {8e-6 * places:.2f} MB for the arrays of one instance")
-
-
-def _sound_line(scene: Scene) -> str:
-    if scene.sound is None:
-        return "none"
-    return f"{scene.sound.rung}, {scene.sound.radiator}, {len(scene.microphones)} microphones"
+    sound = "none"
+    if found.sound is not None:
+        sound = f"{found.sound.rung}, {found.sound.radiator}, {len(found.microphones)} microphones"
+    return {
+        "scene": f"{found.name}: {found.bearing.designation}, {found.operation.speed_rpm:g} r/min",
+        "level": level,
+        "balls": f"{model.n_balls}, traction strips {fidelity.traction_strips}",
+        "sound": sound,
+        "memory": f"{8e-6 * places:.2f} MB for the arrays of one instance, without sound",
+    }

@@ -10,6 +10,8 @@
 ``sound``         what radiates, how it is computed, where the microphones stand
 ``fidelity``      level, integrator, accuracy, terms left out
 ``scene``         all of it together, with the checks that span several parts
+``template``      the text of a new scene; ``estimate``: a bearing from its boundary dimensions
+``origins``       where each value comes from, and which are assumed
 ``base``          what all tables share: frozen, strict, conflicts all told at once
 ``read``          TOML in; catalogue names become values
 ``problems``      one line per problem, in the words of who wrote the file

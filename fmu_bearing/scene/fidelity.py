@@ -20,9 +20,11 @@ class Terms(Part):
     of what moves are the bearing itself.
     """
 
-    gravity: bool = Field(description="Weight of all bodies.", examples=[True])
-    drag: bool = Field(description="Oil-air drag on the balls.", examples=[True])
-    rolling_resistance: bool = Field(description="Hydrodynamic rolling resistance.", examples=[True])
+    gravity: bool = Field(default=True, description="Weight of all bodies.", examples=[True])
+    drag: bool = Field(default=True, description="Oil-air drag on the balls.", examples=[True])
+    rolling_resistance: bool = Field(
+        default=True, description="Hydrodynamic rolling resistance.", examples=[True]
+    )
     rolling_reduction: bool = Field(
         default=True,
         description="Less rolling resistance by inlet shear heating and starvation; false: factor 1.",
@@ -35,9 +37,11 @@ class Terms(Part):
         default=True, description="Friction between balls and the cage's pockets.", examples=[True]
     )
     land_film: bool = Field(
-        description="Film between the cage's lands and the inner ring; the dry stop stays.", examples=[True]
+        default=True,
+        description="Film between the cage's lands and the inner ring; the dry stop stays.",
+        examples=[True],
     )
-    gyroscopic: bool = Field(description="Gyroscopic moments of the balls.", examples=[True])
+    gyroscopic: bool = Field(default=True, description="Gyroscopic moments of the balls.", examples=[True])
 
 
 class Accuracy(Part):
@@ -63,6 +67,7 @@ class Fidelity(Part):
     """Level, integrator, error bounds and detail."""
 
     level: Literal["full", "rings", "response", "auto"] = Field(
+        default="full",
         description="Level of the dynamics: all bodies, the rings alone, the linear response, or the fastest "
         "within the accuracy.",
         examples=["full"],
@@ -79,18 +84,22 @@ class Fidelity(Part):
         examples=["shared"],
     )
     tolerance: float = Field(
-        ge=1e-6, le=0.1, examples=[1e-3], description="Relative error allowed in ring velocities."
+        default=1e-3,
+        ge=1e-6,
+        le=0.1,
+        examples=[1e-3],
+        description="Relative error allowed in ring velocities.",
     )
     max_internal_step_us: float = Field(
-        ge=0.1, le=100, examples=[20.0], description="Largest internal step of the solver, us."
+        default=20.0, ge=0.1, le=100, examples=[20.0], description="Largest internal step of the solver, us."
     )
     traction_strips: int = Field(
-        ge=1, le=5, examples=[5], description="Strips over a contact's major axis: 1, 3 or 5."
+        default=5, ge=1, le=5, examples=[5], description="Strips over a contact's major axis: 1, 3 or 5."
     )
     ball_harmonics: int = Field(
-        ge=0, le=16, examples=[4], description="Highest circumferential order of the balls' sound."
+        default=8, ge=0, le=16, examples=[4], description="Highest circumferential order of the balls' sound."
     )
-    terms: Terms = Field(description="Forces that are computed.")
+    terms: Terms = Field(default_factory=Terms, description="Forces that are computed.")
 
     def conflicts(self) -> Iterator[Conflict]:
         """Yield a number of strips for which there is no symmetric rule."""

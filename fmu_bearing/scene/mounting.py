@@ -117,22 +117,31 @@ class Mounting(Part):
         ge=1e4, le=1e12, examples=[1e8], description="Radial stiffness under the outer ring, N/m."
     )
     pedestal_axial_ratio: float = Field(
-        ge=0.01, le=100, examples=[1.0], description="Axial over radial stiffness of the pedestal."
+        default=1.0,
+        ge=0.01,
+        le=100,
+        examples=[1.0],
+        description="Axial over radial stiffness of the pedestal.",
     )
     pedestal_rotational_ratio_mm2: float = Field(
-        ge=0.1, le=1e6, examples=[200.0], description="Rotational over radial stiffness of the pedestal, mm2."
+        default=200.0,
+        ge=0.1,
+        le=1e6,
+        examples=[200.0],
+        description="Rotational over radial stiffness of the pedestal, mm2.",
     )
     pedestal_damping_ratio: float = Field(
+        default=0.05,
         ge=0,
         le=1,
         examples=[0.05],
         description="Damping over the critical one of the outer ring's mass; 0: none.",
     )
     radial_load_y_N: float = Field(
-        ge=-3e3, le=3e3, examples=[0.0], description="Horizontal load on the inner ring, N."
+        default=0.0, ge=-3e3, le=3e3, examples=[0.0], description="Horizontal load on the inner ring, N."
     )
     radial_load_z_N: float = Field(
-        ge=-3e3, le=3e3, examples=[0.0], description="Upward load on the inner ring, N."
+        default=0.0, ge=-3e3, le=3e3, examples=[0.0], description="Upward load on the inner ring, N."
     )
     misalignment_y_mrad: float = Field(
         default=0.0,

@@ -12,11 +12,15 @@ class Operation(Part):
         ge=-1e5, le=1e5, examples=[20000.0], description="Shaft speed, right-handed about +X, r/min."
     )
     oil_temperature_degC: float = Field(
-        ge=-40, le=199, examples=[20.0], description="Temperature that sets the oil's viscosity, degC."
+        default=20.0,
+        ge=-40,
+        le=199,
+        examples=[20.0],
+        description="Temperature that sets the oil's viscosity, degC.",
     )
     inner_ring_temperature_degC: float = Field(
-        ge=-40, le=199, examples=[20.0], description="Temperature of the inner ring, degC."
+        default=20.0, ge=-40, le=199, examples=[20.0], description="Temperature of the inner ring, degC."
     )
     outer_ring_temperature_degC: float = Field(
-        ge=-40, le=199, examples=[20.0], description="Temperature of the outer ring, degC."
+        default=20.0, ge=-40, le=199, examples=[20.0], description="Temperature of the outer ring, degC."
     )

@@ -18,8 +18,12 @@ __all__ = ["SceneError", "catalogue", "read_scene", "read_scene_text", "with_fid
 
 def catalogue(kind: str) -> dict[str, dict[str, Any]]:
     """Catalogue of ``bearings``, ``materials``, ``lubricants`` or ``grades``: name to values."""
-    text = resources.files("fmu_bearing.scene").joinpath("catalogue", f"{kind}.toml").read_text("utf-8")
-    return tomllib.loads(text)
+    return tomllib.loads(catalogue_text(kind))
+
+
+def catalogue_text(kind: str) -> str:
+    """Text of a catalogue, with its remarks."""
+    return resources.files("fmu_bearing.scene").joinpath("catalogue", f"{kind}.toml").read_text("utf-8")
 
 
 def read_scene(path: str | PathLike[str]) -> Scene:

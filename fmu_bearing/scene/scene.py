@@ -33,7 +33,7 @@ class Scene(Part):
     lubricant: Lubricant = Field(description="Oil in contacts and lands.")
     mounting: Mounting = Field(description="Preload, loads, pedestal and what is fixed to the rings.")
     operation: Operation = Field(description="Speed and temperatures at the start.")
-    fidelity: Fidelity = Field(description="Level, error bounds and terms.")
+    fidelity: Fidelity = Field(default_factory=Fidelity, description="Level, error bounds and terms.")
     imperfections: Imperfections | None = Field(default=None, description="Absent: a perfect bearing.")
     sound: Sound | None = Field(default=None, description="Absent: no sound and no microphones.")
 

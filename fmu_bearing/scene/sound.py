@@ -99,6 +99,7 @@ class Sound(Part):
         examples=["bem"],
     )
     radiator: Literal["bare", "baffle", "housing"] = Field(
+        default="bare",
         description="What radiates: the bare bearing, its face flush in a rigid plane, or the housing.",
         examples=["bare"],
     )
@@ -125,16 +126,30 @@ class Sound(Part):
         examples=[False],
     )
     air_density_kg_m3: float = Field(
-        ge=0.1, le=10, examples=[1.225], description="Density of the air, kg/m3."
+        default=1.204,
+        ge=0.1,
+        le=10,
+        examples=[1.225],
+        description="Density of the air (default: at 20 degC), kg/m3.",
     )
     sound_speed_m_s: float = Field(
-        ge=100, le=2000, examples=[340.0], description="Speed of sound in the air, m/s."
+        default=343.2,
+        ge=100,
+        le=2000,
+        examples=[340.0],
+        description="Speed of sound in the air (default: at 20 degC), m/s.",
     )
     time_weighting: Literal["fast", "slow"] = Field(
-        description="Exponential averaging of the levels: 0.125 s or 1 s (IEC 61672-1).", examples=["fast"]
+        default="fast",
+        description="Exponential averaging of the levels: 0.125 s or 1 s (IEC 61672-1).",
+        examples=["fast"],
     )
     metering_start_s: float = Field(
-        ge=0, le=1000, examples=[0.02], description="Time after initialisation at which metering begins, s."
+        default=0.02,
+        ge=0,
+        le=1000,
+        examples=[0.02],
+        description="Time after initialisation at which metering begins, s.",
     )
     # A file's array arrives as a list: the one conversion that strictness may let pass.
     microphone: tuple[Microphone, ...] = Field(

@@ -6,10 +6,9 @@ import pathlib
 from collections.abc import Sequence
 
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from fmu_bearing.study.pictures import empty, save
 from fmu_bearing.study.tradeoff import Row, Tradeoff
 
 Point = tuple[Row, float, float]  # row, speed, error
@@ -44,8 +43,7 @@ def front(points: Sequence[tuple[float, float]]) -> list[int]:
 
 def draw(study: Tradeoff, path: pathlib.Path) -> None:
     """Draw the four kinds of error against simulated s per wall s (log-log) into a PNG file."""
-    figure = Figure(figsize=(13.0, 9.5), layout="constrained")
-    FigureCanvasAgg(figure)
+    figure = empty((13.0, 9.5))
     axes = figure.subplots(2, 2, sharex=True).ravel()
     drawn = []
     for ax, (title, unit, kind) in zip(axes, _PANELS, strict=True):
@@ -70,7 +68,7 @@ def draw(study: Tradeoff, path: pathlib.Path) -> None:
     for ax, best, points in drawn:
         _label(ax, best, points)
     path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, dpi=120, metadata={"Software": None})
+    save(figure, path)
 
 
 def _panel(ax: Axes, rows: Sequence[Row], kind: str) -> tuple[list[Point], list[Point]]:

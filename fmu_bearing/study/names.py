@@ -2,8 +2,28 @@
 
 import difflib
 import fnmatch
+import functools
 import re
 from collections.abc import Iterable, Sequence
+
+from fmu_bearing.interface import variables
+from fmu_bearing.scene import read_scene_text
+from fmu_bearing.scene.template import new_scene
+
+_MOST = 24  # names listed in a message
+_INDEX = re.compile(r"\[\d+\]")
+
+
+@functools.cache
+def _usual_units() -> dict[str, str]:
+    """Return units by name of the variables of a scene that has everything, indices left out."""
+    scene = read_scene_text(new_scene("any", "7003C"))
+    return {_INDEX.sub("[]", variable.name): variable.unit for variable in variables(scene, 0.0)}
+
+
+def unit_of(name: str) -> str:
+    """Return the unit that a variable of this name has in our FMUs; empty for others."""
+    return _usual_units().get(_INDEX.sub("[]", name), "")
 
 
 class UnknownName(ValueError):
@@ -15,8 +35,15 @@ def known(name: str, names: Sequence[str], what: str) -> str:
     if name in names:
         return name
     near = difflib.get_close_matches(name, names, n=1, cutoff=0.5)
-    hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(names)}"
+    hint = f"did you mean '{near[0]}'?" if near else f"there are {_some(names)}"
     raise UnknownName(f"there is no {what} '{name}'; {hint}")
+
+
+def _some(names: Iterable[str]) -> str:
+    """List names, those that differ by an index once, at most `_MOST`."""
+    found = list(dict.fromkeys(_INDEX.sub("[*]", name) for name in names))
+    more = f" and {len(found) - _MOST} more" if len(found) > _MOST else ""
+    return ", ".join(found[:_MOST]) + more
 
 
 def chosen_names(patterns: Sequence[str] | None, names: Iterable[str], default: Sequence[str]) -> list[str]:

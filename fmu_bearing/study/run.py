@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 #: Why a run ended.
 COMPLETE, REFUSED, INTERRUPTED = "complete", "refused", "interrupted"
+#: Endings of files of results.
+ENDINGS = (".csv", ".nc")
 
 
 class ResultError(ValueError):
@@ -116,7 +118,7 @@ class Run:
             need("h5netcdf", "netCDF")
             data = self.to_xarray()
             return write_whole(path, _written(lambda file: data.to_netcdf(file, engine="h5netcdf"), ".nc"))
-        raise ResultError(f"{path}: results are written as .csv or .nc")
+        raise ResultError(f"{path}: results are written as {' or '.join(ENDINGS)}")
 
     def to_xarray(self) -> "xarray.Dataset":
         """Return the run as a dataset over time, units in attributes, the scene as TOML text in ``scene``."""

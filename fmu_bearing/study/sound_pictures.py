@@ -1,42 +1,33 @@
-"""Pictures of sound measurements: each function returns a Matplotlib figure, `save` writes it.
-
-No global state: figures are made without pyplot.
-"""
+"""Pictures of sound measurements: each function returns a Matplotlib figure, `save` writes it."""
 
 import math
-import os
-import pathlib
 from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
 from fmu_bearing.acoustics.order import OrderMap, Waterfall
 from fmu_bearing.acoustics.spectrum import KinematicFrequencies
 from fmu_bearing.acoustics.third_octave import nominal_frequency
+from fmu_bearing.study.pictures import COLOURS, OTHERS, empty, label, save, single
 from fmu_bearing.study.sound_measure import MotionPower, Round, Sweep
 
-#: Colours told apart by all eyes (Okabe and Ito, 2008); the total is black.
-COLOURS = {
-    "total": "#000000",
-    "inner_ring": "#0072B2",
-    "outer_ring": "#D55E00",
-    "cage": "#009E73",
-    "balls": "#CC79A7",
-}
-_OTHERS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+__all__ = [
+    "circle_picture",
+    "order_picture",
+    "planes_picture",
+    "power_picture",
+    "save",
+    "spectrum_picture",
+    "sweep_picture",
+    "third_octave_picture",
+    "waterfall_picture",
+]
+
 _RANGE = 70.0  # dB shown below the highest level
 _HARMONICS = 3  # of each kinematic frequency that are marked
-
-
-def save(figure: Figure, path: str | os.PathLike[str]) -> None:
-    """Write a figure to a file, its folder made where it is missing."""
-    target = pathlib.Path(path)
-    target.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(target, dpi=120, metadata={"Software": None} if target.suffix == ".png" else None)
 
 
 def spectrum_picture(
@@ -46,7 +37,7 @@ def spectrum_picture(
     title: str = "",
 ) -> Figure:
     """Draw levels (dB) over frequency (Hz), one curve each, kinematic frequencies and harmonics marked."""
-    figure, ax = _one((10.0, 5.0))
+    figure, ax = single((10.0, 5.0))
     f = np.asarray(frequency, dtype=float)
     for name, colour in _coloured(spectra).items():
         width = 1.4 if name == "total" else 0.8
@@ -56,14 +47,14 @@ def spectrum_picture(
     ax.set_xlim(0.0, float(f[-1]))
     if kinematics is not None:
         _mark(ax, kinematics, float(f[-1]))
-    _label(ax, "frequency, Hz", "level, dB re 20 uPa", title)
+    label(ax, "frequency, Hz", "level, dB re 20 uPa", title)
     ax.legend(frameon=False, ncols=5, loc="lower center", bbox_to_anchor=(0.5, 1.0 if not title else 1.05))
     return figure
 
 
 def third_octave_picture(centres: ArrayLike, levels: Mapping[str, ArrayLike], title: str = "") -> Figure:
     """Draw third-octave levels (dB) as bars side by side."""
-    figure, ax = _one((10.0, 4.5))
+    figure, ax = single((10.0, 4.5))
     bands = np.arange(len(np.asarray(centres)))
     width = 0.8 / len(levels)
     top = max(float(np.max(np.asarray(values))) for values in levels.values())
@@ -71,41 +62,41 @@ def third_octave_picture(centres: ArrayLike, levels: Mapping[str, ArrayLike], ti
         height = np.maximum(np.asarray(levels[name], dtype=float) - (top - _RANGE), 0.0)
         ax.bar(bands + (k + 0.5) * width - 0.4, height, width, top - _RANGE, color=colour, label=_words(name))
     ax.set_xticks(bands[::3], [f"{nominal_frequency(f):g}" for f in np.asarray(centres)[::3]])
-    _label(ax, "third-octave band, Hz", "level, dB re 20 uPa", title)
+    label(ax, "third-octave band, Hz", "level, dB re 20 uPa", title)
     ax.legend(frameon=False)
     return figure
 
 
 def order_picture(found: OrderMap, kinematics: KinematicFrequencies | None = None, title: str = "") -> Figure:
     """Draw an order map: colour is the level (dB), upright lines are the kinematic orders."""
-    figure, ax = _one((9.0, 5.5))
+    figure, ax = single((9.0, 5.5))
     rpm = found.speed * 30.0 / math.pi
     _colour_map(figure, ax, found.orders, rpm, found.levels)
     if kinematics is not None:
         orders = KinematicFrequencies(*(f / kinematics.f_r for f in kinematics))
         _mark(ax, orders, float(found.orders[-1]), "white")
-    _label(ax, "order (multiples of the shaft's turns)", "shaft speed, r/min", title, grid=False)
+    label(ax, "order (multiples of the shaft's turns)", "shaft speed, r/min", title, grid=False)
     return figure
 
 
 def waterfall_picture(found: Waterfall, title: str = "") -> Figure:
     """Draw spectra over time: colour is the level (dB)."""
-    figure, ax = _one((9.0, 5.5))
+    figure, ax = single((9.0, 5.5))
     _colour_map(figure, ax, found.frequency, found.time, found.levels)
-    _label(ax, "frequency, Hz", "time, s", title, grid=False)
+    label(ax, "frequency, Hz", "time, s", title, grid=False)
     return figure
 
 
 def circle_picture(circles: Mapping[str, Round], title: str = "") -> Figure:
     """Draw levels (dB) round one or more circles: 12 o'clock on top, as seen from +X."""
-    figure = _figure((6.5, 6.5))
+    figure = empty((6.5, 6.5))
     _polar(figure.add_subplot(projection="polar"), circles, "N", title)
     return figure
 
 
 def planes_picture(found: Mapping[str, Round], title: str = "") -> Figure:
     """Draw levels (dB) in three planes; 0 deg is 12 o'clock in YZ and +X in the others."""
-    figure = _figure((13.0, 4.8))
+    figure = empty((13.0, 4.8))
     for k, (name, each) in enumerate(found.items()):
         ax = figure.add_subplot(1, len(found), k + 1, projection="polar")
         _polar(ax, {name: each}, "N" if name == "YZ" else "E", f"plane {name}")
@@ -115,16 +106,16 @@ def planes_picture(found: Mapping[str, Round], title: str = "") -> Figure:
 
 def sweep_picture(found: Sweep, title: str = "") -> Figure:
     """Draw largest level, DL and DV over the radial distance, one curve per axial distance."""
-    figure = _figure((13.0, 4.2))
+    figure = empty((13.0, 4.2))
     axes = figure.subplots(1, 3)
     for ax, (name, words) in zip(
         axes, (("highest", "largest level, dB"), ("dl", "DL"), ("dv", "DV, dB")), strict=True
     ):
         for k, x in enumerate(found.axials):
             values = [getattr(row[k].directivity, name) for row in found.circles]
-            colour = _OTHERS[k % len(_OTHERS)]
+            colour = OTHERS[k % len(OTHERS)]
             ax.plot(1e3 * found.radii, values, marker="o", color=colour, label=f"l = {1e3 * x:g} mm")
-        _label(ax, "r, mm", words, "")
+        label(ax, "r, mm", words, "")
     axes[0].legend(frameon=False)
     figure.suptitle(title)
     return figure
@@ -132,32 +123,12 @@ def sweep_picture(found: Sweep, title: str = "") -> Figure:
 
 def power_picture(motion: MotionPower, measured: Mapping[str, float], title: str = "") -> Figure:
     """Draw power levels (dB) of the bodies' motion, and, by name, those measured by pressure."""
-    figure, ax = _one((8.0, 4.2))
+    figure, ax = single((8.0, 4.2))
     levels = {f"motion, {_words(name)}": value for name, value in motion.levels.items()} | dict(measured)
     low = max(levels.values()) - _RANGE
     ax.barh(list(levels), [max(value - low, 0.0) for value in levels.values()], left=low, color="#0072B2")
-    _label(ax, "sound power level, dB re 1 pW", "", title)
+    label(ax, "sound power level, dB re 1 pW", "", title)
     return figure
-
-
-def _figure(size: tuple[float, float]) -> Figure:
-    figure = Figure(figsize=size, layout="constrained")
-    FigureCanvasAgg(figure)
-    return figure
-
-
-def _one(size: tuple[float, float]) -> tuple[Figure, Axes]:
-    figure = _figure(size)
-    return figure, figure.add_subplot()
-
-
-def _label(ax: Axes, x: str, y: str, title: str, grid: bool = True) -> None:
-    ax.set_xlabel(x)
-    ax.set_ylabel(y)
-    ax.set_title(title)
-    ax.set_axisbelow(True)
-    if grid:
-        ax.grid(True, color="0.92")
 
 
 def _words(name: str) -> str:
@@ -166,7 +137,7 @@ def _words(name: str) -> str:
 
 def _coloured(names: Mapping[str, object]) -> dict[str, str]:
     """Colour of each name; components keep theirs."""
-    return {name: COLOURS.get(name, _OTHERS[k % len(_OTHERS)]) for k, name in enumerate(names)}
+    return {name: COLOURS.get(name, OTHERS[k % len(OTHERS)]) for k, name in enumerate(names)}
 
 
 def _mark(ax: Axes, kinematics: KinematicFrequencies, highest: float, colour: str = "black") -> None:
@@ -200,7 +171,7 @@ def _polar(ax: Axes, circles: Mapping[str, Round], zero: str, title: str) -> Non
     low = min(float(each.levels.min()) for each in circles.values())
     high = max(float(each.levels.max()) for each in circles.values())
     for k, (name, each) in enumerate(circles.items()):
-        colour = _OTHERS[k % len(_OTHERS)]
+        colour = OTHERS[k % len(OTHERS)]
         angles, levels = np.append(each.angles, each.angles[0]), np.append(each.levels, each.levels[0])
         marker = "o" if len(each.levels) <= 36 else ""
         ax.plot(angles, levels, color=colour, marker=marker, markersize=3, label=name)

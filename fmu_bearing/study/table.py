@@ -43,13 +43,14 @@ def show(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]], widt
     """Print one table to the terminal, at least ``width`` characters wide."""
     from rich.console import Console
     from rich.table import Table
+    from rich.text import Text
 
     table = Table(columns[0], title=title)
     table.columns[0].no_wrap = True
     for name in columns[1:]:
         table.add_column(name)
     for row in rows:
-        table.add_row(*row)
+        table.add_row(*map(Text, row))  # brackets in a cell are no markup
     console = Console()
     Console(width=max(console.width, width)).print(table)
 

@@ -1,0 +1,107 @@
+"""``fmu-bearing simulate`` and ``plot``: a run of a scene or an FMU, its results, its pictures."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from fmu_bearing.cli.base import (
+    ENDED_EARLY,
+    INTERRUPTED,
+    Json,
+    Refusal,
+    app,
+    print_json,
+    quiet_warnings,
+    refusals,
+)
+from fmu_bearing.study import run as results
+
+Source = Annotated[Path, typer.Argument(metavar="SCENE|FMU", help="Scene file (.toml) or FMU (.fmu).")]
+Settings = Annotated[
+    list[str] | None,
+    typer.Option("--set", "-s", metavar="NAME=VALUE", help="Start value of an input or parameter, SI units."),
+]
+Variables = Annotated[
+    str | None,
+    typer.Option("--variables", "-v", metavar="NAME,...", help="Variables; * stands for any text."),
+]
+RPM = 0.10471975511965977  # rad/s
+
+
+@app.command()
+def simulate(
+    source: Source,
+    stop_time: Annotated[float, typer.Option("--stop-time", "-t", help="End of the run, s.")] = 0.1,
+    step: Annotated[float, typer.Option(help="Communication step, s.")] = 1e-3,
+    speed: Annotated[float | None, typer.Option(help="Shaft speed, r/min.")] = None,
+    inputs: Annotated[
+        Path | None, typer.Option("--input", "-i", help="CSV with time (s) and inputs, SI units.")
+    ] = None,
+    settings: Settings = None,
+    variables: Variables = None,
+    output: Annotated[
+        Path, typer.Option("--output", "-o", help="Result to write: .csv as FMPy has it, or .nc.")
+    ] = Path("result.csv"),
+    as_json: Json = False,
+) -> None:
+    """Run a scene or an FMU; a run that is refused or interrupted (Ctrl-C) keeps what it has computed."""
+    from fmu_bearing.study.simulate import simulate as run_it
+
+    with refusals(), quiet_warnings():
+        if output.suffix not in results.ENDINGS:
+            raise Refusal(f"{output}: results are written as {' or '.join(results.ENDINGS)}")
+        start = _settings(settings) | ({} if speed is None else {"shaft_speed": speed * RPM})
+        run = run_it(
+            source, stop_time, step=step, inputs=inputs, start_values=start, outputs=_split(variables),
+            progress=False if as_json else None,
+        )  # fmt: skip
+        run.save(output)
+    if as_json:
+        print_json(run.summary() | {"file": output})
+    else:
+        if run.note:
+            typer.echo(f"error: {run.note}", err=True)
+        pace = float(run.time[-1]) / run.wall
+        typer.echo(
+            f"written: {output}, {len(run)} points to {run.time[-1]:g} s, {len(run.names)} variables, "
+            f"{pace:.2g} simulated s per s"
+        )
+    if not run.complete:
+        raise typer.Exit(INTERRUPTED if run.ended == results.INTERRUPTED else ENDED_EARLY)
+
+
+@app.command()
+def plot(
+    result: Annotated[Path, typer.Argument(metavar="RESULT", help="Result of a run: .csv or .nc.")],
+    variables: Variables = None,
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", help="Picture: .png or .svg; default: beside the result.")
+    ] = None,
+) -> None:
+    """Draw variables over time, one panel per unit."""
+    from fmu_bearing.study.time_pictures import draw
+
+    with refusals():
+        picture = output or result.with_suffix(".png")
+        draw(results.Run.load(result), picture, _split(variables))
+    typer.echo(f"written: {picture}")
+
+
+def _split(names: str | None) -> list[str] | None:
+    """Return names from a list with commas; None where none is given."""
+    return None if names is None else [name.strip() for name in names.split(",") if name.strip()]
+
+
+def _settings(settings: list[str] | None) -> dict[str, float]:
+    """Return values by name from ``NAME=VALUE``."""
+    found = {}
+    for setting in settings or ():
+        name, equals, text = setting.partition("=")
+        try:
+            found[name.strip()] = float(text)
+        except ValueError:
+            equals = ""
+        if not equals:
+            raise Refusal(f"--set {setting}: write NAME=VALUE with a number in SI units, as preload=300")
+    return found

@@ -1,0 +1,68 @@
+"""``fmu-bearing sound``: levels, spectra, directivity and WAV files of a scene or a recording."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from fmu_bearing.cli.base import Folder, Json, app, print_json, quiet_warnings, refusals, tell
+from fmu_bearing.cli.runs import RPM
+from fmu_bearing.scene import read_scene
+from fmu_bearing.scene.read import with_fidelity
+from fmu_bearing.study.table import show
+
+
+@app.command()
+def sound(
+    source: Annotated[
+        Path,
+        typer.Argument(
+            metavar="SCENE|RECORDING|RESULT",
+            help="Scene (.toml), recording (.npz), or result of an FMU run with pressures (.csv).",
+        ),
+    ],
+    duration: Annotated[float, typer.Option("--duration", "-t", help="Length of the recording, s.")] = 0.5,
+    settle: Annotated[float, typer.Option(help="Time left out at the beginning, s.")] = 0.02,
+    speed: Annotated[float | None, typer.Option(help="Shaft speed, r/min.")] = None,
+    level: Annotated[str | None, typer.Option(help="Level of the dynamics in place of the scene's.")] = None,
+    rung: Annotated[
+        str | None, typer.Option(help="How radiation is computed, in place of the scene's.")
+    ] = None,
+    microphone: Annotated[
+        list[str] | None, typer.Option("--microphone", "-m", help="Only these microphones, by name.")
+    ] = None,
+    scene: Annotated[
+        Path | None, typer.Option(help="With a result (.csv): the scene of the FMU that was run.")
+    ] = None,
+    resolution: Annotated[float, typer.Option(help="Of the spectra, Hz.")] = 5.0,
+    wav: Annotated[bool, typer.Option(help="Write WAV files.")] = True,
+    directivity: Annotated[bool, typer.Option(help="Measure three planes.")] = True,
+    output: Folder = Path("out/sound"),
+    as_json: Json = False,
+) -> None:
+    """Measure levels, spectra, third octaves and directivity; write tables, pictures, netCDF and WAV."""
+    from fmu_bearing.study.listen import listen, write_all
+    from fmu_bearing.study.recording import Recording, record
+
+    with refusals(), quiet_warnings():
+        if source.suffix == ".npz":
+            recording = Recording.load(source)
+        elif source.suffix == ".csv":
+            recording = Recording.from_fmu(source, read_scene(scene) if scene else None, settle)
+        else:
+            found = read_scene(source)
+            if level is not None:
+                found = with_fidelity(found, level=level)
+            recording = record(
+                found, duration, speed=None if speed is None else speed * RPM, settle=settle, rung=rung,
+                progress=False if as_json else None,
+            )  # fmt: skip
+            output.mkdir(parents=True, exist_ok=True)
+            recording.save(output / "recording.npz")
+        heard = listen(recording, microphone, rung, resolution)
+        files = write_all(recording, heard, output, rung, wav, directivity, tell)
+    if as_json:
+        print_json({"levels": heard.summary(), "files": files})
+    else:
+        show("levels", *heard.rows(), width=80)
+        tell(f"written: {output}: {', '.join(path.name for path in files)}")

@@ -1,0 +1,70 @@
+"""A bearing from its boundary dimensions: what a catalogue does not print, by rules of thumb.
+
+Each rule says from which bearings it was taken and how far those scatter; every value it gives is assumed.
+"""
+
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from fmu_bearing.scene.bearing import most_balls
+from fmu_bearing.scene.problems import SceneError
+
+
+class Estimate(NamedTuple):
+    """A value for a key of ``[bearing]`` or ``[bearing.cage]``, and the rule it comes from."""
+
+    key: str
+    value: float | int
+    rule: str
+
+
+def estimates(bore: float, outside: float, width: float, angle: float) -> Iterator[Estimate]:
+    """Yield what stands in ``[bearing]`` for a bearing of these dimensions.
+
+    Parameters
+    ----------
+    bore, outside, width : float
+        Boundary dimensions (mm).
+    angle : float
+        Contact angle (deg).
+
+    Raises
+    ------
+    SceneError
+        For dimensions that leave no room for balls.
+    """
+    if not 0.0 < bore < outside or not width > 0.0:
+        raise SceneError(
+            f"bore {bore:g}, outside diameter {outside:g} and width {width:g} mm: the outside diameter must "
+            "exceed the bore, and all must be positive"
+        )
+    ball = round(0.27 * (outside - bore), 3)
+    pitch = 0.5 * (bore + outside)
+    land = 0.7 * ball
+    yield Estimate("pitch_diameter_mm", pitch, "mean of bore and outside diameter")
+    yield Estimate("ball_diameter_mm", ball, "0.27 of outside diameter less bore; series 70 has 0.25 to 0.29")
+    yield Estimate(
+        "ball_count", math.floor(0.75 * most_balls(pitch, ball)), "three quarters of a full circle of balls"
+    )
+    yield Estimate("contact_angle_deg", angle, "")
+    yield Estimate("inner_conformity", 0.515, "usual for hybrid and ceramic bearings")
+    yield Estimate("outer_conformity", 0.52, "usual for hybrid and ceramic bearings")
+    yield Estimate("inner_ring_outer_diameter_mm", round(pitch - land, 2), "0.7 ball diameters below pitch")
+    yield Estimate("outer_ring_inner_diameter_mm", round(pitch + land, 2), "0.7 ball diameters above pitch")
+    yield Estimate("contact_damping_us", 0.5, "")
+    yield Estimate("race_roughness_um", 0.02, "fine honing")
+    yield Estimate("ball_roughness_um", 0.01, "grade 5 or better")
+
+
+def cage_estimates(bore: float, outside: float, width: float) -> Iterator[Estimate]:
+    """Yield what stands in ``[bearing.cage]`` for a bearing of these dimensions (mm)."""
+    ball = 0.27 * (outside - bore)
+    pitch = 0.5 * (bore + outside)
+    yield Estimate("outside_diameter_mm", round(pitch + 0.38 * ball, 2), "0.38 ball diameters above pitch")
+    yield Estimate("bore_mm", round(pitch - 0.55 * ball, 2), "0.55 ball diameters below pitch")
+    yield Estimate("width_mm", round(0.9 * width, 2), "0.9 of the rings' width")
+    yield Estimate("pocket_diameter_mm", round(1.02 * ball, 3), "2 % larger than a ball")
+    yield Estimate("land_clearance_mm", round(0.025 + 0.001 * bore, 3), "25 um and 1 um per mm of bore")
+    yield Estimate("pocket_damping_N_s_m", 0.02, "")
+    yield Estimate("pocket_friction", 0.05, "")

@@ -1,0 +1,133 @@
+"""Where each value of a scene file comes from, and which are assumed: by the remarks the files carry."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import tomlkit
+from tomlkit.container import Container
+from tomlkit.items import AoT, Table
+
+from fmu_bearing.scene.problems import allowed
+from fmu_bearing.scene.read import catalogue_text, read_scene
+from fmu_bearing.scene.units import symbol
+
+#: What a file names instead of values: key of the name, kind of catalogue.
+_NAMED = {"bearing": "bearings", "lubricant": "lubricants", "materials": "materials"}
+#: Tables whose defaults describe how a scene is computed, not what it is: nothing assumed there.
+_CHOICES = ("fidelity", "sound", "name")
+_MARK = "assumed"
+
+
+@dataclass(frozen=True)
+class Origin:
+    """One value of a scene.
+
+    Attributes
+    ----------
+    key : str
+        Dotted key.
+    value : Any
+    unit : str
+    origin : str
+        ``file``, ``catalogue NAME``, ``grade NAME`` or ``default``.
+    assumed : bool
+        Whether its remark says so, or it is a default of what is simulated.
+    remark : str
+        Rest of the remark.
+    allowed : str
+        What the key may hold.
+    """
+
+    key: str
+    value: Any
+    unit: str
+    origin: str
+    assumed: bool
+    remark: str
+    allowed: str
+
+
+def origins(path: str | Path) -> list[Origin]:
+    """Return every value of a scene file with its origin, in the order of the models.
+
+    Raises
+    ------
+    SceneError
+        For a file that is no scene.
+    """
+    scene = read_scene(path).model_dump(mode="json", exclude_none=True)
+    document = tomlkit.parse(Path(path).read_text("utf-8-sig"))
+    known: dict[str, tuple[str, str]] = {}
+    for table, name, kind, origin in _references(document):
+        entry = tomlkit.parse(catalogue_text(kind)).get(name)
+        if isinstance(entry, Table):
+            known |= {key: (origin, remark) for key, remark in _remarks(entry, table)}
+    known |= {key: ("file", remark) for key, remark in _remarks(document, "")}
+    return [_origin(key, value, known.get(key)) for key, value in _flat(scene, "")]
+
+
+def _origin(key: str, value: Any, found: tuple[str, str] | None) -> Origin:
+    table = key.split(".")[0]
+    place, remark = found or ("default", _MARK if table not in _CHOICES else "")
+    words = remark.removeprefix(_MARK).removesuffix(_MARK).strip(":, ")
+    location = tuple(part.split("[")[0] for part in key.split("."))
+    unit = symbol(location[-1]) if isinstance(value, float) else ""
+    return Origin(key, value, unit, place, _MARK in remark, words, allowed(location))
+
+
+def _references(document: Mapping[str, Any]) -> Iterator[tuple[str, str, str, str]]:
+    """Yield table, name, kind of catalogue, and words for each entry that a file names."""
+    for table, kind in _NAMED.items():
+        given = document.get(table)
+        if not isinstance(given, Mapping):
+            continue
+        if "catalogue" in given:
+            yield table, str(given["catalogue"]), kind, f"catalogue {given['catalogue']}"
+        elif table == "materials":
+            for body, entry in given.items():
+                name = entry.get("catalogue") if isinstance(entry, Mapping) else entry
+                if name is not None:
+                    yield f"{table}.{body}", str(name), kind, f"catalogue {name}"
+    imperfections = document.get("imperfections")
+    if isinstance(imperfections, Mapping) and "grade" in imperfections:
+        grade = str(imperfections["grade"])
+        yield "imperfections", grade, "grades", f"grade {grade}"
+
+
+def _remarks(table: Container | Table, path: str, above: str = "") -> Iterator[tuple[str, str]]:
+    """Yield the dotted key and the remark of every value; a table's remark holds for all in it."""
+    if isinstance(table, Table):
+        above = _words(table) or above
+    for key, item in table.items():
+        dotted = f"{path}.{key}".lstrip(".")
+        if isinstance(item, AoT):
+            for k, member in enumerate(item):
+                yield from _remarks(member, f"{dotted}[{k + 1}]", above)
+        elif isinstance(item, Table | Container):
+            yield from _remarks(item, dotted, above)
+        elif isinstance(item, Mapping):  # an inline table
+            yield from ((f"{dotted}.{name}", _words(item)) for name in item)
+        else:
+            yield dotted, _words(table.item(key) if hasattr(table, "item") else item) or above
+
+
+def _words(item: Any) -> str:
+    """Return the remark behind an item."""
+    trivia = getattr(item, "trivia", None)
+    return "" if trivia is None else trivia.comment.lstrip("# ").strip()
+
+
+def _flat(table: Mapping[str, Any], path: str) -> Iterator[tuple[str, Any]]:
+    for key, value in table.items():
+        dotted = f"{path}.{key}".lstrip(".")
+        if isinstance(value, Mapping):
+            yield from _flat(value, dotted)
+        elif value == []:
+            continue  # nothing is given there
+        elif isinstance(value, list) and isinstance(value[0], Mapping):
+            for k, member in enumerate(value):
+                yield from _flat(member, f"{dotted}[{k + 1}]")
+        else:
+            yield dotted, value

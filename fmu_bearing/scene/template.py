@@ -1,0 +1,138 @@
+"""The text of a new scene file: few keys, each with its unit, and a remark wherever a value is assumed."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from fmu_bearing.scene.estimate import Estimate, cage_estimates, estimates
+from fmu_bearing.scene.problems import SceneError
+from fmu_bearing.scene.read import catalogue, read_scene_text
+
+#: Materials of rings, balls and cage by what a bearing is called.
+MATERIALS = {
+    "steel": ("GCr15", "GCr15", "GCr15", "bakelite"),
+    "hybrid": ("GCr15", "GCr15", "Si3N4", "bakelite"),
+    "full-ceramic": ("ZrO2", "ZrO2", "Si3N4", "PEEK"),
+}
+_BODIES = ("inner_ring", "outer_ring", "balls", "cage")
+
+
+@dataclass(frozen=True)
+class Dimensions:
+    """Boundary dimensions (mm) and contact angle (deg) of a bearing that is not in the catalogue."""
+
+    bore: float
+    outside: float
+    width: float
+    angle: float = 15.0
+
+
+def new_scene(
+    name: str,
+    bearing: str | Dimensions,
+    *,
+    kind: str = "hybrid",
+    speed_rpm: float = 20_000.0,
+    preload_N: float = 300.0,
+    grade: str = "P4",
+    lubricant: str = "spindle-oil",
+    sound: bool = True,
+    designation: str | None = None,
+) -> str:
+    """Return the text of a scene file that reads back without a refusal.
+
+    Parameters
+    ----------
+    name : str
+        Of the scene.
+    bearing : str or Dimensions
+        A bearing of the catalogue, or dimensions from which the rest is estimated.
+    kind : str
+        ``steel``, ``hybrid`` (steel rings, ceramic balls) or ``full-ceramic``.
+    speed_rpm, preload_N : float
+    grade, lubricant : str
+        Names in the catalogue.
+    sound : bool
+        With four microphones around the bare bearing, or without sound.
+    designation : str, optional
+        What the bearing is called; default: its catalogue name, or the scene's.
+
+    Raises
+    ------
+    SceneError
+        For names that are not in the catalogue and values outside their range.
+    """
+    if kind not in MATERIALS:
+        raise SceneError(f"there is no kind of bearing '{kind}': choose from {', '.join(MATERIALS)}")
+    materials = zip(_BODIES, MATERIALS[kind], strict=True)
+    outside = _outside(bearing)
+    parts = [
+        f"# Made by `fmu-bearing scene new`. Values marked assumed are not from you: replace what you know.\n"
+        f'name = "{name}"',
+        *_bearing(bearing, designation or (bearing if isinstance(bearing, str) else name)),
+        "[materials]\n" + "\n".join(f'{body} = "{material}"' for body, material in materials),
+        f'[lubricant]\ncatalogue = "{lubricant}" # assumed; keys given here win over the catalogue',
+        _MOUNTING.format(preload=float(preload_N)),
+        f'[imperfections] # assumed, by tolerance class\ngrade = "{grade}"\nseed = 1',
+        _OPERATION.format(speed=float(speed_rpm)),
+        *([_sound(outside)] if sound else []),
+    ]
+    text = "\n\n".join(parts) + "\n"
+    read_scene_text(text, name)
+    return text
+
+
+def _outside(bearing: str | Dimensions) -> float:
+    """Return the outside diameter (mm); of an unknown name any, as reading the text will refuse it."""
+    if isinstance(bearing, Dimensions):
+        return bearing.outside
+    return float(catalogue("bearings").get(bearing, {}).get("outside_diameter_mm", 30.0))
+
+
+def _bearing(bearing: str | Dimensions, designation: str) -> Sequence[str]:
+    if isinstance(bearing, str):
+        return (f'[bearing]\ncatalogue = "{bearing}"\ndesignation = "{designation}"',)
+    d = bearing
+    given = (
+        f'designation = "{designation}"\nbore_mm = {float(d.bore)}\n'
+        f"outside_diameter_mm = {float(d.outside)}\nwidth_mm = {float(d.width)}\n"
+    )
+    return (
+        "[bearing]\n" + given + _lines(estimates(d.bore, d.outside, d.width, float(d.angle))),
+        "[bearing.cage]\n" + _lines(cage_estimates(d.bore, d.outside, d.width)),
+    )
+
+
+def _lines(found: Iterable[Estimate]) -> str:
+    def remark(one: Estimate) -> str:
+        if one.key == "contact_angle_deg":
+            return ""
+        return " # assumed" + (f": {one.rule}" if one.rule else "")
+
+    return "\n".join(f"{one.key} = {one.value}{remark(one)}" for one in found)
+
+
+_MOUNTING = """[mounting]
+preload_N = {preload}
+pedestal_stiffness_N_m = 1e8 # assumed
+pedestal_axial_ratio = 1.0 # assumed
+pedestal_rotational_ratio_mm2 = 200.0 # assumed
+pedestal_damping_ratio = 0.05 # assumed
+radial_load_y_N = 0.0
+radial_load_z_N = 0.0"""
+
+_OPERATION = """[operation]
+speed_rpm = {speed}
+oil_temperature_degC = 20.0
+inner_ring_temperature_degC = 20.0
+outer_ring_temperature_degC = 20.0"""
+
+
+def _sound(outside: float) -> str:
+    """Return a table of sound with four microphones at three outside diameters."""
+    r = float(round(3.0 * outside, -1) or 10.0)
+    places = (("right", 0.0, r, 0.0), ("top", 0.0, 0.0, r), ("front", r, 0.0, 0.0), ("back", -r, 0.0, 0.0))
+    microphones = "\n\n".join(
+        f'[[sound.microphone]]\nname = "{name}"\nx_mm = {x}\ny_mm = {y}\nz_mm = {z}'
+        for name, x, y, z in places
+    )
+    return f'[sound]\nradiator = "bare" # assumed: no housing\n\n{microphones}'

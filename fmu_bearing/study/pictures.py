@@ -1,0 +1,65 @@
+"""What all pictures share: figures without pyplot's global state, colours, labels, files."""
+
+import os
+import pathlib
+
+from matplotlib import rc_context
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+#: Colours told apart by all eyes (Okabe and Ito, 2008); the total is black.
+COLOURS = {
+    "total": "#000000",
+    "inner_ring": "#0072B2",
+    "outer_ring": "#D55E00",
+    "cage": "#009E73",
+    "balls": "#CC79A7",
+}
+OTHERS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+
+#: Endings of files, and what is left out of each: dates and versions.
+_METADATA: dict[str, dict[str, None]] = {
+    ".png": {"Software": None},
+    ".svg": {"Date": None, "Creator": None},
+    ".pdf": {"CreationDate": None, "Creator": None, "Producer": None},
+}
+
+
+def save(figure: Figure, path: str | os.PathLike[str]) -> None:
+    """Write a figure to a file, its folder made where it is missing; the same figure gives the same bytes.
+
+    Raises
+    ------
+    ValueError
+        For an ending other than those of `_METADATA`.
+    """
+    target = pathlib.Path(path)
+    if target.suffix not in _METADATA:
+        raise ValueError(f"{target}: pictures are written as {', '.join(_METADATA)}")
+    target.parent.mkdir(parents=True, exist_ok=True)
+    with rc_context({"svg.hashsalt": "fmu-bearing"}):
+        figure.savefig(target, dpi=120, metadata=_METADATA[target.suffix])
+
+
+def empty(size: tuple[float, float]) -> Figure:
+    """Return a figure of a size (inches) that needs no screen."""
+    figure = Figure(figsize=size, layout="constrained")
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def single(size: tuple[float, float]) -> tuple[Figure, Axes]:
+    """Return such a figure with one set of axes."""
+    figure = empty(size)
+    return figure, figure.add_subplot()
+
+
+def label(ax: Axes, x: str, y: str, title: str, grid: bool = True) -> None:
+    """Name axes and picture, with a faint grid behind the curves."""
+    ax.set_xlabel(x)
+    ax.set_ylabel(y)
+    ax.set_title(title)
+    ax.set_axisbelow(True)
+    if grid:
+        ax.grid(True, color="0.92")

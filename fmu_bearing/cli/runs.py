@@ -62,10 +62,9 @@ def simulate(
     else:
         if run.note:
             typer.echo(f"error: {run.note}", err=True)
-        pace = float(run.time[-1]) / run.wall
         typer.echo(
             f"written: {output}, {len(run)} points to {run.time[-1]:g} s, {len(run.names)} variables, "
-            f"{pace:.2g} simulated s per s"
+            f"in {run.wall:.2g} s"
         )
     if not run.complete:
         raise typer.Exit(INTERRUPTED if run.ended == results.INTERRUPTED else ENDED_EARLY)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.audio import write_wav
 from fmu_bearing.acoustics.lines import Line
+from fmu_bearing.acoustics.spectrum import level_spectrum
 from fmu_bearing.acoustics.third_octave import third_octave_levels
 from fmu_bearing.acoustics.weighting import level
 from fmu_bearing.study import sound_measure as measure
@@ -154,10 +155,7 @@ def _spectra(
     signals: dict[str, NDArray[np.float64]], rate: float, resolution: float
 ) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]]]:
     """Frequencies (Hz) and levels (dB) of every signal, shape (mics, bins) by name."""
-    found = {
-        name: [measure.level_spectrum(row, rate, resolution) for row in rows]
-        for name, rows in signals.items()
-    }
+    found = {name: [level_spectrum(row, rate, resolution) for row in rows] for name, rows in signals.items()}
     frequency = found["total"][0][0]
     return frequency, {name: np.array([levels for _, levels in rows]) for name, rows in found.items()}
 

@@ -2,6 +2,8 @@
 
 Exit codes: 0 done; 1 a check found something; 2 refused (a scene, an option, a file); 3 the computation ended
 early, what was computed is written; 130 interrupted, what was computed is written.
+
+Commands import what they work with when they run, so that help and completion answer at once.
 """
 
 import json
@@ -16,10 +18,6 @@ from typing import Annotated, Any
 import typer
 from rich.console import Console
 from rich.progress import track
-
-from fmu_bearing.fmi.native.optimise import BuildError
-from fmu_bearing.study.arrays import Refused
-from fmu_bearing.study.extras import MissingExtra
 
 FOUND, REFUSED, ENDED_EARLY, INTERRUPTED = 1, 2, 3, 130
 
@@ -46,7 +44,9 @@ def refusals() -> Iterator[None]:
     """Tell refusals in a line of the user's own terms and end with code 2; no traceback."""
     try:
         yield
-    except (ValueError, Refused, BuildError, MissingExtra, OSError) as error:
+    except Exception as error:
+        if not isinstance(error, _refused()):
+            raise
         message = "; ".join(line.strip() for line in str(error).splitlines() if line.strip())
         typer.echo(f"error: {message}", err=True)
         raise typer.Exit(REFUSED) from None
@@ -65,6 +65,15 @@ def _caution(message: Warning | str, category: type[Warning], *place: Any) -> No
     """Print a warning of ours; Python's own developers' warnings stay silent."""
     if issubclass(category, UserWarning):
         tell(f"caution: {message}")
+
+
+def _refused() -> tuple[type[Exception], ...]:
+    """Return what counts as a refusal; imported only once something has gone wrong."""
+    from fmu_bearing.fmi.native.optimise import BuildError
+    from fmu_bearing.study.arrays import Refused
+    from fmu_bearing.study.extras import MissingExtra
+
+    return (ValueError, OSError, BuildError, Refused, MissingExtra)
 
 
 class Refusal(ValueError):

@@ -7,9 +7,7 @@ from typing import Annotated
 import typer
 
 from fmu_bearing.cli.base import Json, SceneFile, app, print_json, refusals, tell
-from fmu_bearing.fmi.description import FLAVOURS
 from fmu_bearing.fmi.native.platforms import PLATFORMS
-from fmu_bearing.study.build import build_fmu
 
 Output = Annotated[
     Path | None,
@@ -18,7 +16,7 @@ Output = Annotated[
 Flavour = Annotated[
     str | None,
     typer.Option(
-        metavar="|".join(FLAVOURS),
+        metavar="native|python",
         help="native: compiled, runs without Python; python: runs in the installed package. "
         "Default: native where a library can be made.",
     ),
@@ -47,6 +45,8 @@ def build(
     as_json: Json = False,
 ) -> None:
     """Build the co-simulation FMU (FMI 2.0) of a scene."""
+    from fmu_bearing.study.build import build_fmu
+
     with refusals():
         built = build_fmu(scene, output, flavour, named(platforms), tell)
     if as_json:

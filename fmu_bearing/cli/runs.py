@@ -15,7 +15,6 @@ from fmu_bearing.cli.base import (
     quiet_warnings,
     refusals,
 )
-from fmu_bearing.study import run as results
 
 Source = Annotated[Path, typer.Argument(metavar="SCENE|FMU", help="Scene file (.toml) or FMU (.fmu).")]
 Settings = Annotated[
@@ -46,6 +45,7 @@ def simulate(
     as_json: Json = False,
 ) -> None:
     """Run a scene or an FMU; a run that is refused or interrupted (Ctrl-C) keeps what it has computed."""
+    from fmu_bearing.study import run as results
     from fmu_bearing.study.simulate import simulate as run_it
 
     with refusals(), quiet_warnings():
@@ -79,11 +79,12 @@ def plot(
     ] = None,
 ) -> None:
     """Draw variables over time, one panel per unit."""
+    from fmu_bearing.study.run import Run
     from fmu_bearing.study.time_pictures import draw
 
     with refusals():
         picture = output or result.with_suffix(".png")
-        draw(results.Run.load(result), picture, _split(variables))
+        draw(Run.load(result), picture, _split(variables))
     typer.echo(f"written: {picture}")
 
 

@@ -3,20 +3,19 @@
 import warnings
 from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from fmu_bearing.cli.base import FOUND, Json, Refusal, SceneFile, app, print_json, refusals
-from fmu_bearing.engine import layout as at
 from fmu_bearing.files import write_whole
-from fmu_bearing.instance import EngineError, Instance
-from fmu_bearing.prepare.model import Model, prepare
 from fmu_bearing.scene import Scene, SceneError, read_scene
 from fmu_bearing.scene.origins import Origin, origins
 from fmu_bearing.scene.read import catalogue as entries
 from fmu_bearing.scene.template import MATERIALS, Dimensions, new_scene
-from fmu_bearing.study.table import show as show_table
+
+if TYPE_CHECKING:
+    from fmu_bearing.prepare.model import Model
 
 scene_app = typer.Typer(help="Scene files: new, check, show; what the catalogue has.", no_args_is_help=True)
 app.add_typer(scene_app, name="scene")
@@ -86,6 +85,8 @@ def check(
 
 def _findings(path: Path) -> tuple[bool, list[str]]:
     """Whether a scene can be run, and what there is to say."""
+    from fmu_bearing.instance import EngineError, Instance
+
     try:
         scene = read_scene(path)
         bearing = Instance(_silent(scene))
@@ -106,6 +107,8 @@ def show(
     as_json: Json = False,
 ) -> None:
     """Show every value of a scene, its unit and range, where it comes from, and what is assumed."""
+    from fmu_bearing.study.table import show as show_table
+
     with refusals():
         scene = read_scene(path)
         values = [one for one in origins(path) if one.assumed or not assumed]
@@ -124,6 +127,8 @@ def show_catalogue(
     kind: Annotated[str, typer.Argument(metavar="|".join(KINDS))] = KINDS[0], as_json: Json = False
 ) -> None:
     """Show what the catalogue has: bearings, materials, lubricants, tolerance classes."""
+    from fmu_bearing.study.table import show as show_table
+
     with refusals():
         if kind not in KINDS:
             raise Refusal(f"there is no catalogue of '{kind}': choose from {', '.join(KINDS)}")
@@ -139,8 +144,10 @@ def show_catalogue(
     show_table(kind, ("key", *plain), rows, width=80)
 
 
-def _silent(scene: Scene) -> Model:
+def _silent(scene: Scene) -> "Model":
     """Return the model without its sound: boundary elements may take minutes."""
+    from fmu_bearing.prepare.model import prepare
+
     level = "full" if scene.fidelity.level == "auto" else None
     return prepare(scene.model_copy(update={"sound": None}), level=level)
 
@@ -158,6 +165,8 @@ def _remark(one: Origin) -> str:
 
 def _sizes(found: Scene) -> dict[str, Any]:
     """Return what a scene is computed with, and its sizes, in words."""
+    from fmu_bearing.engine import layout as at
+
     auto = found.fidelity.level == "auto"
     model = _silent(found)
     p, fidelity = model.parameters, found.fidelity

@@ -5,11 +5,8 @@ from typing import Annotated
 
 import typer
 
-from fmu_bearing.cli.base import Folder, Json, app, print_json, quiet_warnings, refusals, tell
+from fmu_bearing.cli.base import Folder, Json, Refusal, app, print_json, quiet_warnings, refusals, tell
 from fmu_bearing.cli.runs import RPM
-from fmu_bearing.scene import read_scene
-from fmu_bearing.scene.read import with_fidelity
-from fmu_bearing.study.table import show
 
 
 @app.command()
@@ -34,15 +31,19 @@ def sound(
     scene: Annotated[
         Path | None, typer.Option(help="With a result (.csv): the scene of the FMU that was run.")
     ] = None,
-    resolution: Annotated[float, typer.Option(help="Of the spectra, Hz.")] = 5.0,
+    resolution: Annotated[
+        float | None, typer.Option(help="Of the spectra, Hz; default: 5, or what a shorter one allows.")
+    ] = None,
     wav: Annotated[bool, typer.Option(help="Write WAV files.")] = True,
     directivity: Annotated[bool, typer.Option(help="Measure three planes.")] = True,
     output: Folder = Path("out/sound"),
     as_json: Json = False,
 ) -> None:
     """Measure levels, spectra, third octaves and directivity; write tables, pictures, netCDF and WAV."""
+    from fmu_bearing.scene.read import read_scene, with_fidelity
     from fmu_bearing.study.listen import listen, write_all
     from fmu_bearing.study.recording import Recording, record
+    from fmu_bearing.study.table import show
 
     with refusals(), quiet_warnings():
         if source.suffix == ".npz":
@@ -50,6 +51,11 @@ def sound(
         elif source.suffix == ".csv":
             recording = Recording.from_fmu(source, read_scene(scene) if scene else None, settle)
         else:
+            if resolution is not None and resolution * duration < 1.0:
+                raise Refusal(
+                    f"--resolution {resolution:g} Hz needs --duration {1.0 / resolution:g} s or more, "
+                    f"not {duration:g} s"
+                )
             found = read_scene(source)
             if level is not None:
                 found = with_fidelity(found, level=level)

@@ -7,16 +7,15 @@ from typing import Annotated
 import typer
 
 from fmu_bearing.cli.base import Folder, Quick, SceneFile, app, progress, refusals
-from fmu_bearing.scene import read_scene
-from fmu_bearing.study import choose as choosing
-from fmu_bearing.study import sensitivity as moving
-from fmu_bearing.study import tradeoff as trading
-from fmu_bearing.study.table import show
 
 
 @app.command()
 def choose(scene: SceneFile) -> None:
     """Tell which level, method and step meet the scene's accuracy, and how every candidate did."""
+    from fmu_bearing.scene import read_scene
+    from fmu_bearing.study import choose as choosing
+    from fmu_bearing.study.table import show
+
     with refusals():
         choice = choosing.chosen(read_scene(scene))
     show(f"{choice.scene}: errors against level full", choosing.COLUMNS, choice.cells(), width=110)
@@ -33,7 +32,10 @@ def tradeoff(
     ] = None,
 ) -> None:
     """Measure error and speed of levels, methods, steps, strips and terms; write table and chart."""
-    from fmu_bearing.study.chart import draw  # Matplotlib loads slowly, and `build` has no use for it
+    from fmu_bearing.scene import read_scene
+    from fmu_bearing.study import tradeoff as trading
+    from fmu_bearing.study.chart import draw
+    from fmu_bearing.study.table import show
 
     with refusals():
         bar = partial(progress, description="variants")
@@ -53,6 +55,10 @@ def tradeoff(
 @app.command()
 def sensitivity(scene: SceneFile, output: Folder = Path("out/sensitivity"), quick: Quick = False) -> None:
     """Move every assumed value of a scene and tell what changes."""
+    from fmu_bearing.scene import read_scene
+    from fmu_bearing.study import sensitivity as moving
+    from fmu_bearing.study.table import show
+
     with refusals():
         bar = partial(progress, description="moves")
         if quick:

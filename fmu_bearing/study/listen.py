@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 _SETTLE = 0.02  # s left to filters of third octaves, at most a fifth of the recording
 _LINES = 12
+_RESOLUTION = 5.0  # Hz
 Tell = Callable[[str], None]
 
 
@@ -102,7 +103,7 @@ def listen(
     recording: Heard,
     microphones: Sequence[str] | None = None,
     rung: str | None = None,
-    resolution: float = 5.0,
+    resolution: float | None = None,
 ) -> Listened:
     """Measure levels, spectra, third octaves and lines at the scene's microphones.
 
@@ -113,8 +114,8 @@ def listen(
         Names of some of them; default: all.
     rung : str, optional
         In place of the recording's.
-    resolution : float
-        Of the spectra (Hz); blocks shorter than the recording need at least its inverse.
+    resolution : float, optional
+        Of the spectra (Hz); default: 5, or what a shorter recording allows.
 
     Raises
     ------
@@ -135,6 +136,8 @@ def listen(
         signals = {"total": sum(parts.values(), np.zeros((len(places), recording.size)))} | parts
     else:
         parts, signals = {}, {"total": recording.pressure(places)}
+    if resolution is None:
+        resolution = max(_RESOLUTION, recording.rate / recording.size)
     frequency, spectra = _spectra(signals, recording.rate, resolution)
     settle = min(_SETTLE, 0.2 * recording.size / recording.rate)
     bands, thirds = third_octave_levels(signals["total"], recording.rate, settle)

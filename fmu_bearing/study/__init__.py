@@ -1,6 +1,7 @@
 """What people do with a bearing: run it beside slower, surer methods, vary it, look at it.
 
 ``simulate``        `simulate`: a run over given inputs; ``simulate_fmu``: of an FMU, by FMPy
+``inputs``          inputs of a run over time, held against their ranges
 ``run``             `Run`: what it leaves behind, as CSV, netCDF, xarray
 ``bearing``         `Bearing`: to initialise and step by hand
 ``build``           `build_fmu`: the FMU of a scene in one call
@@ -19,7 +20,9 @@
 ``recorded``        `Recording`: such a run or an FMU's, in files
 ``heard``           its pressures and levels at any microphone
 ``sound_measure``   what is measured on a recording: spectra, circles, planes, power, run-ups
+``listen``          all that is usually asked of a recording, measured at once
 ``sound_tables``    such measurements as tables
 ``sound_pictures``  and as pictures
+``time_pictures``   variables over time; ``pictures``: what all pictures share
 ``table``           tables to terminal, Markdown, CSV; the machine they were made on
 """

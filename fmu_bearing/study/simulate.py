@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from typing import Any, Protocol
 
 import numpy as np
-from fmpy.simulation import Input
+from fmpy.simulation import Input as FmpyInput
 from numpy.typing import NDArray
 
 from fmu_bearing.instance import EngineError, Instance
@@ -21,12 +21,9 @@ from fmu_bearing.interface import Variable
 from fmu_bearing.prepare.model import Model, prepare
 from fmu_bearing.scene import Scene, read_scene
 from fmu_bearing.study.choose import resolve
+from fmu_bearing.study.inputs import Input, Inputs, input_table
 from fmu_bearing.study.names import chosen_names, known
-from fmu_bearing.study.run import COMPLETE, INTERRUPTED, REFUSED, Run, columns_of, read_table, structured
-
-Signal = float | Callable[[float], float]
-Inputs = Mapping[str, Signal] | NDArray[Any] | str | os.PathLike[str]
-_EPSILON = 1e-9  # of a step: what rounding may leave between the last point and the stop time
+from fmu_bearing.study.run import COMPLETE, INTERRUPTED, REFUSED, Run, columns_of, structured
 
 
 def simulate(
@@ -108,8 +105,8 @@ class Player(Protocol):
         ...
 
     @property
-    def inputs(self) -> Mapping[str, float]:
-        """Start value of each input."""
+    def inputs(self) -> Mapping[str, Input]:
+        """Each input."""
         ...
 
     @property
@@ -144,7 +141,11 @@ class _Library:
         self.name, self.scene = model.scene.name, model.scene
         self.readable = {name: v.unit for name, v in variables.items()}
         self.outputs = [name for name, v in variables.items() if v.causality == "output"]
-        self.inputs = {n: float(v.start or 0.0) for n, v in variables.items() if v.causality == "input"}
+        self.inputs = {
+            name: Input(float(v.start or 0.0), v.min, v.max, v.unit)
+            for name, v in variables.items()
+            if v.causality == "input"
+        }
         self.settable = [n for n, v in variables.items() if v.causality in ("input", "parameter")]
 
     def run(self, stop_time, step, table, start, names, stop, tell):
@@ -179,7 +180,7 @@ class _Library:
             return
         names = columns_of(table)
         columns = np.stack([table[name] for name in names])
-        values = Input.interpolate(time, table["time"], columns, after_event=after_event)[0]
+        values = FmpyInput.interpolate(time, table["time"], columns, after_event=after_event)[0]
         for name, value in zip(names, np.ravel(values), strict=True):
             self.bearing.set(name, float(value))
 
@@ -194,43 +195,6 @@ def _following(table: NDArray[Any] | None, time: float) -> float:
     jumps = table["time"][:-1][np.diff(table["time"]) == 0.0]
     later = [t for t in jumps if t > time and not math.isclose(t, time)]
     return min(later, default=math.inf)
-
-
-def input_table(
-    inputs: Inputs | None, known_inputs: Mapping[str, float], stop_time: float, step: float
-) -> NDArray[Any] | None:
-    """Return inputs as a table over time; None where there are none.
-
-    Raises
-    ------
-    ValueError
-        Naming an input there is not, or a value that is no finite number.
-    """
-    if inputs is None:
-        return None
-    if isinstance(inputs, Mapping):
-        times = np.minimum(np.arange(math.ceil(stop_time / step - _EPSILON) + 1) * step, stop_time)
-        columns = {"time": times} | {name: _sampled(name, signal, times) for name, signal in inputs.items()}
-        table = structured(columns)
-    else:
-        table = inputs if isinstance(inputs, np.ndarray) else read_table(inputs)
-        if (table.dtype.names or ("",))[0] != "time":
-            raise ValueError("a table of inputs needs 'time' (s) as its first column")
-    for name in columns_of(table):
-        known(name, list(known_inputs), "input")
-        if not np.isfinite(table[name]).all():
-            raise ValueError(f"input '{name}' must hold finite numbers")
-    return table if columns_of(table) and len(table) else None
-
-
-def _sampled(name: str, signal: Signal, times: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Values of a number or a function of time at ``times``."""
-    try:
-        return np.array([float(signal(t) if callable(signal) else signal) for t in times])
-    except TypeError:
-        raise ValueError(
-            f"input '{name}' must be a number or a function of time that gives one, not {signal!r}"
-        ) from None
 
 
 def _model(source: Scene | Model | str | os.PathLike[str]) -> Model:

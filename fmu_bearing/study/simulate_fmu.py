@@ -3,7 +3,7 @@
 import pathlib
 import tempfile
 import zipfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import fmpy
@@ -13,6 +13,7 @@ from fmpy.model_description import ModelDescription
 from numpy.typing import NDArray
 
 from fmu_bearing.scene import SceneError, read_scene
+from fmu_bearing.study.inputs import Input
 from fmu_bearing.study.run import COMPLETE, INTERRUPTED, REFUSED, ResultError, columns_of, structured
 
 _LAST_LINES = 3  # of the FMU's log that go into a message
@@ -29,7 +30,9 @@ class FmuPlayer:
         self.readable = {v.name: _unit(v) for v in variables}
         self.outputs = [v.name for v in variables if v.causality == "output"]
         self.inputs = {
-            v.name: float(v.start or 0.0) for v in variables if v.causality == "input" and v.type == "Real"
+            v.name: Input(float(v.start or 0.0), _bound(v.min), _bound(v.max), _unit(v))
+            for v in variables
+            if v.causality == "input" and v.type == "Real"
         }
         self.settable = [v.name for v in variables if v.causality in ("input", "parameter")]
 
@@ -44,8 +47,8 @@ class FmuPlayer:
             try:
                 fmpy.simulate_fmu(
                     folder, start_time=0.0, stop_time=stop_time, output_interval=step,
-                    fmi_type="CoSimulation", start_values=start, input=self._whole(table),
-                    output=list(names), logger=watch.log, step_finished=watch.step_finished,
+                    fmi_type="CoSimulation", start_values=start, input=self._whole(table, start),
+                    output=list(names), logger=watch.log, debug_logging=True, step_finished=watch.step_finished,
                     model_description=self.description,
                 )  # fmt: skip
             except FMICallException as problem:
@@ -59,13 +62,15 @@ class FmuPlayer:
         columns = {name: np.asarray(result[name], float)[:rows] for name in ("time", *names)}
         return structured(columns), watch.ended, watch.note
 
-    def _whole(self, table: NDArray[Any] | None) -> NDArray[Any] | None:
-        """Return the table with a column for every input: FMPy complains of missing ones."""
+    def _whole(self, table: NDArray[Any] | None, start: Mapping[str, float]) -> NDArray[Any] | None:
+        """Return the table with a column for every input, those not given held: FMPy complains else."""
         if table is None:
             return None
         given = ["time", *columns_of(table)]
-        held = {name: np.full(len(table), value) for name, value in self.inputs.items() if name not in given}
-        return structured({name: table[name] for name in given} | held)
+        held = {name: one.start for name, one in self.inputs.items()} | dict(start)
+        missing = [name for name in self.inputs if name not in given]
+        constant = {name: np.full(len(table), held[name]) for name in missing}
+        return structured({name: table[name] for name in given} | constant)
 
 
 class _Watch:
@@ -80,8 +85,9 @@ class _Watch:
         self.ended, self.note = COMPLETE, ""
 
     def log(self, environment: Any, name: Any, status: int, category: Any, message: Any) -> None:
-        """Take a message of the FMU's log."""
-        self.lines.append(message.decode("utf-8", "replace"))
+        """Take a message of the FMU's log if it is a warning or worse."""
+        if status > 0:
+            self.lines.append(message.decode("utf-8", "replace"))
 
     def step_finished(self, time: float, recorder: Any) -> bool:
         """Return whether to go on; FMPy itself would repeat a refused step for ever."""
@@ -119,6 +125,11 @@ def open_fmu(path: pathlib.Path) -> FmuPlayer:
     if description.coSimulation is None:
         raise ResultError(f"{path}: is no co-simulation FMU")
     return FmuPlayer(path, description)
+
+
+def _bound(value: str | float | None) -> float | None:
+    """Return a bound of a variable, which FMPy may hold as text."""
+    return None if value is None else float(value)
 
 
 def _unit(variable: Any) -> str:

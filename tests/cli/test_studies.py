@@ -1,28 +1,15 @@
-"""The command fmu-bearing: what it prints, writes and refuses."""
+"""build, choose, tradeoff, sensitivity: what they print, write and refuse."""
 
 import math
 import zipfile
 
 import pytest
-from typer.testing import CliRunner
 
-from fmu_bearing import cli
 from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.study import choose as choosing
 from fmu_bearing.study.choose import Choice, Probe
 from fmu_bearing.study.figures import Errors
 from tests.conftest import SCENES
-
-
-def run(*arguments):
-    return CliRunner().invoke(cli.app, [str(argument) for argument in arguments])
-
-
-@pytest.fixture(scope="module")
-def silent_file(scene, tmp_path_factory):
-    path = tmp_path_factory.mktemp("scene") / "silent.toml"
-    path.write_text(scene("7003C-spindle").model_copy(update={"sound": None}).to_toml(), "utf-8")
-    return path
 
 
 @pytest.fixture
@@ -37,29 +24,32 @@ def auto_file(scene, tmp_path, monkeypatch):
     return path
 
 
-@pytest.mark.parametrize("command", ["build", "choose", "info", "sensitivity", "tradeoff"])
-def test_an_unknown_file_is_told_in_one_line(command, tmp_path):
-    result = run(command, tmp_path / "none.toml")
+@pytest.mark.parametrize(
+    "command",
+    ["build", "choose", "scene show", "sensitivity", "tradeoff", "simulate", "sound"],
+)
+def test_an_unknown_file_is_told_in_one_line(run, command, tmp_path):
+    result = run(*command.split(), tmp_path / "none.toml")
     assert result.exit_code == 2
     assert result.output.startswith("error: ") and "there is no such scene file" in result.output
     assert "Traceback" not in result.output and result.output.count("\n") == 1
 
 
-def test_a_faulty_scene_is_told_by_key(tmp_path):
+def test_a_faulty_scene_is_told_by_key(run, tmp_path):
     path = tmp_path / "faulty.toml"
     path.write_text((SCENES / "7003C-bare.toml").read_text().replace("ball_count = 12", "ball_count = -3"))
-    result = run("info", path)
+    result = run("scene", "show", path)
     assert result.exit_code == 2 and "ball_count" in result.output and "Traceback" not in result.output
 
 
-def test_info(silent_file, auto_file):
-    told = run("info", silent_file)
+def test_what_a_scene_is_computed_with(run, silent_file, auto_file):
+    told = run("scene", "show", silent_file)
     assert told.exit_code == 0
     assert "level      full, method esdirk4" in told.output and "sound      none" in told.output
-    assert "level      auto, within 1 dB and 0.1" in run("info", auto_file).output
+    assert "level      auto, within 1 dB and 0.1" in run("scene", "show", auto_file).output
 
 
-def test_build_of_a_scene_of_level_auto_notes_the_choice(auto_file, tmp_path):
+def test_build_of_a_scene_of_level_auto_notes_the_choice(run, auto_file, tmp_path):
     result = run("build", auto_file, "-o", tmp_path / "auto.fmu")
     assert result.exit_code == 0, result.output
     assert "level auto: full / esdirk4, internal steps up to 10 us" in result.output
@@ -68,13 +58,13 @@ def test_build_of_a_scene_of_level_auto_notes_the_choice(auto_file, tmp_path):
         assert b'level = "full"' in fmu.read("resources/scene.toml")
 
 
-def test_choose_prints_table_and_reason(auto_file):
+def test_choose_prints_table_and_reason(run, auto_file):
     result = run("choose", auto_file)
     assert result.exit_code == 0, result.output
     assert "chosen" in result.output and "level auto: full / esdirk4" in result.output
 
 
-def test_quick_studies_write_their_tables(silent_file, tmp_path):
+def test_quick_studies_write_their_tables(run, silent_file, tmp_path):
     result = run("sensitivity", silent_file, "--quick", "-o", tmp_path)
     assert result.exit_code == 0, result.output
     assert (tmp_path / "sensitivity.md").exists() and (tmp_path / "sensitivity.csv").exists()

@@ -9,12 +9,12 @@ import warnings
 from typing import Any
 
 import numpy as np
-from fmpy.util import read_csv
 from numpy.typing import NDArray
 
 from fmu_bearing.engine.sound.places import LATENCY, RATE
 from fmu_bearing.scene import Scene, read_scene_text, si
 from fmu_bearing.study.heard import Heard
+from fmu_bearing.study.run import read_table
 
 #: Communication step (s) at which an FMU shows every pressure sample once: a hair longer than a sample, so
 #: that rounding of times never shows one twice and the next not at all.
@@ -54,7 +54,7 @@ class Recording(Heard):
         ValueError
             Without pressures, for unevenly spaced times, or when nothing is left after ``settle``.
         """
-        table: Any = result if isinstance(result, np.ndarray) else read_csv(os.fspath(result))
+        table: Any = result if isinstance(result, np.ndarray) else read_table(result)
         names = table.dtype.names or ()
         pressures = [name for name in names if _PRESSURE.fullmatch(name)]
         if "time" not in names or not pressures:

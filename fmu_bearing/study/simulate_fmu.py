@@ -48,8 +48,8 @@ class FmuPlayer:
                 fmpy.simulate_fmu(
                     folder, start_time=0.0, stop_time=stop_time, output_interval=step,
                     fmi_type="CoSimulation", start_values=start, input=self._whole(table, start),
-                    output=list(names), logger=watch.log, debug_logging=True, step_finished=watch.step_finished,
-                    model_description=self.description,
+                    output=list(names), logger=watch.log, debug_logging=True,
+                    step_finished=watch.step_finished, model_description=self.description,
                 )  # fmt: skip
             except FMICallException as problem:
                 watch.refused(str(problem))

@@ -1,0 +1,209 @@
+"""simulate, plot, sound: files, exit codes, refusals; and what all commands share."""
+
+import csv
+import signal
+import threading
+
+import numpy as np
+import pytest
+import xarray
+from scipy.io import wavfile
+
+from fmu_bearing import Run, build_fmu
+from fmu_bearing.fmi.native.optimise import BuildError
+from fmu_bearing.study.recording import record
+
+
+@pytest.fixture(scope="module")
+def fmu(rings_file, tmp_path_factory):
+    try:
+        return build_fmu(rings_file, tmp_path_factory.mktemp("fmu") / "rings.fmu", "native").path
+    except BuildError as problem:
+        pytest.skip(f"no native library: {problem}")
+
+
+def test_simulate_scene_and_fmu_write_the_same(run, rings_file, fmu, tmp_path):
+    (tmp_path / "speed.csv").write_text("time,shaft_speed\n0,1900\n0.01,2100\n")
+    found = {}
+    for name, source in (("scene", rings_file), ("fmu", fmu)):
+        result = tmp_path / f"{name}.csv"
+        done = run(
+            "simulate", source, "-t", 0.01, "--step", 1e-3, "-i", tmp_path / "speed.csv", "-s", "preload=400",
+            "-v", "friction_torque, mic[*].leq", "-o", result,
+        )  # fmt: skip
+        assert done.exit_code == 0 and "11 points to 0.01 s, 5 variables" in done.stdout, done.output
+        found[name] = result.read_bytes()
+    assert found["scene"] == found["fmu"]
+
+
+def test_simulate_tells_machines_and_writes_netcdf(run, rings_file, tmp_path):
+    result = tmp_path / "run.nc"
+    done = run(
+        "simulate", rings_file, "-t", 2e-3, "--speed", 12000, "-v", "friction_torque", "-o", result, "--json"
+    )
+    assert done.exit_code == 0
+    assert done.data["ended"] == "complete" and done.data["points"] == 3
+    assert done.data["last"]["friction_torque"]["unit"] == "N.m" and done.data["file"] == str(result)
+    with xarray.open_dataset(result) as data:
+        assert data["friction_torque"].attrs["units"] == "N.m"
+
+
+def test_a_refused_run_writes_what_it_has(run, silent_file, tmp_path):
+    result = tmp_path / "short.csv"
+    (tmp_path / "load.csv").write_text(
+        "time,radial_load.z,pedestal_stiffness\n0,0,1e5\n2e-3,0,1e5\n2e-3,3000,1e5\n"
+    )
+    text = silent_file.read_text().replace('level = "full"', 'level = "rings"')
+    (tmp_path / "rings.toml").write_text(text)
+    done = run("simulate", tmp_path / "rings.toml", "-t", 0.05, "-i", tmp_path / "load.csv", "-o", result)
+    assert done.exit_code == 3 and "could not be solved" in done.stderr and "written" in done.stdout
+    assert 2e-3 <= Run.load(result).time[-1] < 0.05
+
+
+def test_an_interrupted_run_writes_what_it_has(run, rings_file, tmp_path):
+    result = tmp_path / "short.csv"
+    timer = threading.Timer(0.6, signal.raise_signal, (signal.SIGINT,))
+    timer.start()
+    done = run("simulate", rings_file, "-t", 1e4, "-v", "friction_torque", "-o", result)
+    timer.join()
+    assert done.exit_code == 130 and "interrupted at t =" in done.stderr
+    assert len(Run.load(result)) > 1
+
+
+@pytest.mark.parametrize(
+    ("arguments", "reason"),
+    [
+        (("-s", "preload"), "write NAME=VALUE"),
+        (("-s", "preload=much"), "write NAME=VALUE"),
+        (("-s", "preloads=1"), "did you mean 'preload'"),
+        (("-s", "preload=-1"), "preload = -1.0 is refused: allowed are 0 to 10000 N"),
+        (("-o", "run.mat"), "written as .csv or .nc"),
+        (("-t", "-1"), "stop_time = -1.0 s"),
+        (("-i", "none.csv"), "none.csv: there is no such file"),
+        (("-v", "frictiontorque"), "did you mean 'friction_torque'"),
+    ],
+)
+def test_simulate_refuses_in_a_line(run, rings_file, tmp_path, monkeypatch, arguments, reason):
+    monkeypatch.chdir(tmp_path)
+    refused = run("simulate", rings_file, *arguments)
+    assert refused.exit_code == 2 and reason in refused.stderr, refused.output
+    assert refused.stderr.startswith("error: ") and refused.stderr.count("\n") == 1
+    assert not list(tmp_path.iterdir())
+
+
+def test_plot(run, rings_file, tmp_path):
+    result = tmp_path / "run.csv"
+    run("simulate", rings_file, "-t", 3e-3, "-o", result)
+    assert run("plot", result).exit_code == 0
+    assert (tmp_path / "run.png").read_bytes().startswith(b"\x89PNG")
+    for picture in ("one.svg", "two.svg"):
+        done = run("plot", result, "-v", "heat.*,mic[*].spl_a", "-o", tmp_path / picture)
+        assert done.exit_code == 0, done.output
+    first = (tmp_path / "one.svg").read_bytes()
+    assert first.startswith(b"<?xml") and first == (tmp_path / "two.svg").read_bytes()
+    for arguments, reason in (
+        ((result, "-o", tmp_path / "run.bmp"), "written as .png, .svg, .pdf"),
+        ((result, "-v", "heat.oils"), "did you mean 'heat.oil'"),
+        ((tmp_path / "none.csv",), "there is no such file"),
+    ):
+        refused = run("plot", *arguments)
+        assert refused.exit_code == 2 and reason in refused.stderr
+
+
+@pytest.fixture(scope="module")
+def heard(run, rings_file, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("sound")
+    return folder, run("sound", rings_file, "-t", 0.1, "-o", folder, "--json")
+
+
+def test_sound_writes_what_is_usually_asked(heard):
+    folder, done = heard
+    assert done.exit_code == 0, done.output
+    names = {path.name for path in folder.iterdir()}
+    assert names >= {
+        "recording.npz", "levels.csv", "spectrum.csv", "spectrum.png", "third-octaves.csv", "lines.md",
+        "planes.csv", "planes.png", "spectra.nc", "P1.wav", "P4.wav",
+    }  # fmt: skip
+    assert {str(folder / name) for name in names - {"recording.npz"}} == set(done.data["files"])
+    with (folder / "levels.csv").open() as file:
+        table = {row["microphone"]: row for row in csv.DictReader(file)}
+    for name, levels in done.data["levels"].items():
+        assert float(table[name]["LAeq, dB(A)"]) == pytest.approx(levels["laeq_dB"], abs=0.051)
+    with xarray.open_dataset(folder / "spectra.nc") as data:
+        assert data["spectrum"].dims == ("source", "microphone", "frequency")
+        assert data["frequency"].attrs["units"] == "Hz"
+        # a spectrum's bins add up to the level of the signal, but for the lines' scale of the flat top window
+        total = data["spectrum"].sel(source="total", microphone="P1").values
+        summed = 10.0 * np.log10(np.sum(10.0 ** (total / 10.0)) / 3.77)
+        assert summed == pytest.approx(done.data["levels"]["P1"]["leq_dB"], abs=1.0)
+
+
+def test_sound_plays_in_pascals(heard, run):
+    folder, done = heard
+    rate, signal_ = wavfile.read(folder / "P1.wav")
+    other = wavfile.read(folder / "P4.wav")[1]
+    apart = done.data["levels"]["P4"]["leq_dB"] - done.data["levels"]["P1"]["leq_dB"]
+    assert rate == 48000 and len(signal_) == pytest.approx(0.1 * rate, abs=2)
+    # one scale for all: microphones compare by ear as they do by level
+    ratio = 20.0 * np.log10(np.std(other) / np.std(signal_))
+    assert ratio == pytest.approx(apart, abs=0.2)
+
+
+def test_sound_of_a_recording_is_that_of_the_scene(heard, run, tmp_path):
+    folder, done = heard
+    again = run(
+        "sound",
+        folder / "recording.npz",
+        "-o",
+        tmp_path,
+        "-m",
+        "P2",
+        "--no-wav",
+        "--no-directivity",
+        "--json",
+    )
+    assert again.exit_code == 0, again.output
+    assert again.data["levels"] == {"P2": done.data["levels"]["P2"]}
+    assert {path.name for path in tmp_path.iterdir()} == {
+        "levels.csv", "spectrum.csv", "spectrum.png", "third-octaves.csv", "third-octaves.png", "lines.md",
+        "spectra.nc",
+    }  # fmt: skip
+
+
+def test_sound_refuses_in_a_line(run, rings_file, heard, silent_file, tmp_path):
+    folder = heard[0]
+    for arguments, reason in (
+        ((folder / "recording.npz", "-m", "P9"), "there is no microphone P9; there are P1, P2, P3, P4"),
+        ((rings_file, "-t", 0.05, "--resolution", 5), "needs --duration 0.2 s or more"),
+        ((folder / "levels.csv",), "is no table of numbers"),
+        ((folder / "third-octaves.csv",), "the first column must be 'time'"),
+        ((rings_file, "--rung", "loud"), "loud"),
+        ((rings_file, "--level", "best"), "fidelity.level"),
+        ((silent_file, "-t", 0.01), "give the scene [sound]"),
+    ):
+        refused = run("sound", *arguments, "-o", tmp_path)
+        assert refused.exit_code == 2 and reason in refused.stderr, refused.output
+        assert refused.stderr.splitlines()[-1].startswith("error: ")
+
+
+def test_listening_to_pressures_alone(scene):
+    from fmu_bearing.scene.read import with_fidelity
+    from fmu_bearing.study.listen import listen
+    from fmu_bearing.study.recording import Recording
+
+    whole = record(with_fidelity(scene("7003C-bare"), level="rings"), 0.05)
+    heard = listen(whole)
+    alone = Recording(
+        whole.scene, "recorded", whole.rate, whole.start, whole.size, whole.output_time, whole.speed_points,
+        recorded=whole.pressure(), microphones=whole.microphones,
+    )  # fmt: skip
+    again = listen(alone)
+    np.testing.assert_allclose(again.levels[:, 0], heard.levels[:, 0], atol=1e-9)
+    assert set(heard.parts) == {"inner_ring", "outer_ring", "cage", "balls"} and again.parts == {}
+
+
+def test_help_names_every_command_and_the_exit_codes(run):
+    told = run("--help").stdout
+    for command in ("scene", "build", "simulate", "plot", "sound", "choose", "tradeoff", "sensitivity"):
+        assert command in told
+    assert "--install-completion" in told and "130 interrupted" in told

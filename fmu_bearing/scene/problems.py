@@ -32,7 +32,17 @@ Location = tuple[Any, ...]
 
 
 class SceneError(ValueError):
-    """A scene cannot be used; the message has one line per problem."""
+    """A scene cannot be used; the message has one line per problem.
+
+    Examples
+    --------
+    >>> from fmu_bearing import SceneError, read_scene
+    >>> try:
+    ...     read_scene("none.toml")
+    ... except SceneError as problem:
+    ...     print(problem.problems[0])
+    none.toml: there is no such scene file
+    """
 
     @property
     def problems(self) -> tuple[str, ...]:

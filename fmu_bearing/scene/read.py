@@ -33,6 +33,13 @@ def read_scene(path: str | PathLike[str]) -> Scene:
     ------
     SceneError
         If the file cannot be read or does not hold a scene; its message has one line per problem.
+
+    Examples
+    --------
+    >>> from fmu_bearing import read_scene
+    >>> scene = read_scene("examples/scenes/7003C-spindle.toml")
+    >>> scene.bearing.ball_count, scene.mounting.preload_N
+    (12, 500.0)
     """
     try:
         # some editors put a byte order mark in front, which TOML does not know

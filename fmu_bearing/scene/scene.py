@@ -21,7 +21,17 @@ NAME = r"^[A-Za-z0-9][A-Za-z0-9._ -]{0,59}$"
 
 
 class Scene(Part):
-    """Everything a model is made from."""
+    """Everything a model is made from; the units stand in the names of the values.
+
+    Examples
+    --------
+    >>> from fmu_bearing import Scene, read_scene
+    >>> scene = read_scene("examples/scenes/7003C-bare.toml")
+    >>> isinstance(scene, Scene), [name for name, place in scene.microphones]
+    (True, ['P1', 'P2', 'P3', 'P4'])
+    >>> scene.to_toml().splitlines()[0]
+    'name = "7003C-bare"'
+    """
 
     name: str = Field(
         pattern=NAME,

@@ -55,6 +55,13 @@ def build_fmu(
     ------
     ValueError, OSError, BuildError
         As :func:`fmu_bearing.fmi.package.build`, and for a scene that is refused.
+
+    Examples
+    --------
+    >>> from fmu_bearing import Bearing, build_fmu
+    >>> scene = Bearing("examples/scenes/7003C-bare.toml").scene.model_copy(update={"sound": None})
+    >>> build_fmu(scene, "bearing.fmu", flavour="python").variables["input"]
+    8
     """
     check_choice(flavour, platforms)
     model = source if isinstance(source, Model) else model_of(source, tell)

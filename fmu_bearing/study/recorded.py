@@ -28,6 +28,15 @@ class Recording(Heard):
     """Pressures, levels and channels of a run (`Heard` has all that can be asked of it), with files.
 
     Made by ``study.recording.record``, from a file (`load`) or from an FMU's run (`from_fmu`).
+
+    Examples
+    --------
+    >>> from fmu_bearing import Bearing, Recording, record
+    >>> bearing = Bearing("examples/scenes/7003C-bare.toml", level="rings")
+    >>> record(bearing.scene, 0.02, rung="compact").save("run.npz")
+    >>> recording = Recording.load("run.npz")
+    >>> recording.pressure([(0.0, 0.2, 0.0)]).shape  # Pa, anywhere (m)
+    (1, 1024)
     """
 
     @classmethod

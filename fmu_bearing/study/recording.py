@@ -82,6 +82,14 @@ def record(
     ------
     ValueError
         For a refused time or input; `EngineError` and `SceneError` are of this kind.
+
+    Examples
+    --------
+    >>> from fmu_bearing import Bearing, record
+    >>> bearing = Bearing("examples/scenes/7003C-bare.toml", level="rings")
+    >>> recording = record(bearing.scene, 0.05, rung="compact")
+    >>> [round(float(level)) for level in recording.levels(weighting="A")]  # dB(A) at the scene's microphones
+    [50, 47, 50, 57]
     """
     scene = source.scene if isinstance(source, Model) else resolve(source)[0]
     for name, value, low in (("duration", duration, 0.0), ("step", step, 0.0), ("settle", settle, -1e-300)):

@@ -49,6 +49,15 @@ class Run:
         ``"complete"``, ``"refused"`` (the bearing or the FMU refused a step) or ``"interrupted"``.
     note : str
         Why it ended early, in words.
+
+    Examples
+    --------
+    >>> from fmu_bearing import Run, simulate
+    >>> simulate("examples/scenes/7003C-bare.toml", 2e-3, outputs=["heat.*"]).save("run.csv")
+    PosixPath('run.csv')
+    >>> run = Run.load("run.csv")
+    >>> run.names, float(run.time[-1])
+    (['heat.inner_ring', 'heat.outer_ring', 'heat.oil'], 0.002)
     """
 
     name: str

@@ -1,0 +1,42 @@
+"""The package's public face: every name is there, is documented, and its example runs."""
+
+import doctest
+import inspect
+import subprocess
+import sys
+
+import pytest
+
+import fmu_bearing
+from tests.conftest import ROOT
+
+
+@pytest.mark.parametrize("name", fmu_bearing.__all__)
+def test_every_public_name_has_an_example_that_runs(name, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "examples").symlink_to(ROOT / "examples")
+    thing = getattr(fmu_bearing, name)
+    assert inspect.getdoc(thing), name
+    finder = doctest.DocTestFinder(recurse=False)
+    (test,) = finder.find(thing, name, globs={}, module=False)
+    assert test.examples, f"{name} has no example"
+    assert not any(doctest.SKIP in example.options for example in test.examples)
+    runner = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE)
+    assert runner.run(test).failed == 0
+
+
+def test_the_map_of_the_package_runs(monkeypatch):
+    monkeypatch.chdir(ROOT)
+    assert doctest.testmod(fmu_bearing).failed == 0
+
+
+def test_public_names_are_listed_and_others_refused():
+    assert set(fmu_bearing.__all__) <= set(dir(fmu_bearing))
+    with pytest.raises(AttributeError, match="public names are Bearing"):
+        fmu_bearing.Gear  # noqa: B018
+
+
+def test_importing_the_package_costs_nothing():
+    code = "import sys, fmu_bearing; print(len({'numpy', 'numba', 'scipy', 'pydantic'} & set(sys.modules)))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT)
+    assert done.stdout.strip() == "0"

@@ -8,6 +8,9 @@ import subprocess
 import sys
 
 import pytest
+from typer.testing import CliRunner
+
+from fmu_bearing import cli
 
 ROOT = pathlib.Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -25,7 +28,7 @@ def test_make_knows_the_target(command):
 
 
 def test_python_of_the_readme_runs(tmp_path, monkeypatch):
-    (code,) = blocks("python")
+    code = blocks("python")[0]
     assert len(code.strip().splitlines()) <= 12
     (tmp_path / "out").mkdir()
     scene = ROOT / "examples" / "scenes" / "7003C-spindle.toml"
@@ -41,6 +44,23 @@ def test_python_of_the_readme_runs(tmp_path, monkeypatch):
     assert 30.0 < level < 110.0
 
 
+def test_commands_of_the_readme_run_in_order(tmp_path, monkeypatch):
+    lines = [line.split("#")[0].split() for line in blocks("sh")[1].splitlines() if line]
+    assert len(lines) == 6 and all(line[0] == "fmu-bearing" for line in lines)
+    monkeypatch.chdir(tmp_path)
+    for line in lines:
+        done = CliRunner().invoke(cli.app, line[1:])
+        assert done.exit_code == 0, (line, done.output)
+    files = {path.name for path in tmp_path.iterdir()}
+    assert files == {"my.toml", "run.csv", "run.png", "sound", "my.fmu"}
+    printed = io.StringIO()
+    with contextlib.redirect_stdout(printed):
+        exec(compile(blocks("python")[1], "README.md", "exec"), {})
+    assert re.match(r"Run\(my, 21 points to 0.02 s, \d+ variables\) 0\.0\d+", printed.getvalue())
+
+
 def test_files_named_in_the_readme_exist():
+    for path in re.findall(r"\]\((docs/[^)#]*)\)", README):
+        assert (ROOT / path).exists(), path
     for path in re.findall(r"`((?:examples|docs|fmu_bearing)/[^`]*)`", README):
         assert (ROOT / path).exists(), path

@@ -1,16 +1,17 @@
 """``fmu-bearing choose``, ``tradeoff``, ``sensitivity``: what accuracy costs, what rests on assumptions."""
 
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from fmu_bearing.cli.base import Folder, Quick, SceneFile, app, progress, refusals
+from fmu_bearing.cli.base import Folder, Json, Quick, SceneFile, app, print_json, progress, refusals
 
 
 @app.command()
-def choose(scene: SceneFile) -> None:
+def choose(scene: SceneFile, as_json: Json = False) -> None:
     """Tell which level, method and step meet the scene's accuracy, and how every candidate did."""
     from fmu_bearing.scene import read_scene
     from fmu_bearing.study import choose as choosing
@@ -18,8 +19,11 @@ def choose(scene: SceneFile) -> None:
 
     with refusals():
         choice = choosing.chosen(read_scene(scene))
-    show(f"{choice.scene}: errors against level full", choosing.COLUMNS, choice.cells(), width=110)
-    typer.echo(choice.summary)
+    if as_json:
+        print_json({"chosen": choice.summary, "candidates": named(choosing.COLUMNS, choice.cells())})
+    else:
+        show(f"{choice.scene}: errors against level full", choosing.COLUMNS, choice.cells(), width=110)
+        typer.echo(choice.summary)
 
 
 @app.command()
@@ -30,6 +34,7 @@ def tradeoff(
     chart: Annotated[
         Path | None, typer.Option(help="Chart to write; default: tradeoff.png in the folder.")
     ] = None,
+    as_json: Json = False,
 ) -> None:
     """Measure error and speed of levels, methods, steps, strips and terms; write table and chart."""
     from fmu_bearing.scene import read_scene
@@ -48,12 +53,18 @@ def tradeoff(
         trading.write(study, output)
         chart = chart or output / "tradeoff.png"
         draw(study, chart)
-    show(f"{study.scene}: accuracy and cost", trading.COLUMNS, study.cells())
-    typer.echo(f"written: {output / 'tradeoff.md'}, {output / 'tradeoff.csv'}, {chart}")
+    files = [output / "tradeoff.md", output / "tradeoff.csv", chart]
+    if as_json:
+        print_json({"settings": named(trading.COLUMNS, study.cells()), "files": files})
+    else:
+        show(f"{study.scene}: accuracy and cost", trading.COLUMNS, study.cells())
+        typer.echo(f"written: {', '.join(map(str, files))}")
 
 
 @app.command()
-def sensitivity(scene: SceneFile, output: Folder = Path("out/sensitivity"), quick: Quick = False) -> None:
+def sensitivity(
+    scene: SceneFile, output: Folder = Path("out/sensitivity"), quick: Quick = False, as_json: Json = False
+) -> None:
     """Move every assumed value of a scene and tell what changes."""
     from fmu_bearing.scene import read_scene
     from fmu_bearing.study import sensitivity as moving
@@ -68,5 +79,14 @@ def sensitivity(scene: SceneFile, output: Folder = Path("out/sensitivity"), quic
         else:
             study = moving.sensitivity(read_scene(scene), track=bar)
         moving.write(study, output)
-    show(f"{study.scene}: what rests on assumed values", moving.COLUMNS, study.cells())
-    typer.echo(f"written: {output / 'sensitivity.md'}, {output / 'sensitivity.csv'}")
+    files = [output / "sensitivity.md", output / "sensitivity.csv"]
+    if as_json:
+        print_json({"moves": named(moving.COLUMNS, study.cells()), "files": files})
+    else:
+        show(f"{study.scene}: what rests on assumed values", moving.COLUMNS, study.cells())
+        typer.echo(f"written: {', '.join(map(str, files))}")
+
+
+def named(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> list[dict[str, str]]:
+    """Rows of a table with their columns' names."""
+    return [dict(zip(columns, row, strict=True)) for row in rows]

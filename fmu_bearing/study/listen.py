@@ -245,7 +245,7 @@ def _directivity(recording: Heard, folder: pathlib.Path, rung: str | None) -> li
     from fmu_bearing.study import sound_pictures as pictures
 
     radius = min(math.hypot(*place) for place in recording.positions)
-    planes = measure.planes(recording, radius, count=72, weighting="A", rung=rung)
+    planes = measure.planes(recording, radius, count=36, weighting="A", rung=rung)
     write_csv(folder / "planes.csv", *tables.round_table(planes))
     title = f"dB(A) at {1e3 * radius:.0f} mm"
     pictures.save(pictures.planes_picture(planes, title), folder / "planes.png")

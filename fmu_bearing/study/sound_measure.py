@@ -142,12 +142,13 @@ def planes(
 ) -> dict[str, Round]:
     """Levels round the bearing centre at ``radius`` (m) in the planes YZ, XY and XZ, by plane."""
     angles = circle_angles(count)
-    found = {}
-    for plane in PLANES:
-        points = list(plane_points(plane, radius, count))
-        levels = recording.levels(points, rung, weighting, resolution)
-        found[plane] = Round(angles, levels, directivity(angles, levels))
-    return found
+    # all at once: planes through the axis meet the same circles about it
+    points = [point for plane in PLANES for point in plane_points(plane, radius, count)]
+    together = recording.levels(points, rung, weighting, resolution).reshape(len(PLANES), count)
+    return {
+        plane: Round(angles, levels, directivity(angles, levels))
+        for plane, levels in zip(PLANES, together, strict=True)
+    }
 
 
 def sweep(

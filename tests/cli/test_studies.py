@@ -62,11 +62,14 @@ def test_choose_prints_table_and_reason(run, auto_file):
     result = run("choose", auto_file)
     assert result.exit_code == 0, result.output
     assert "chosen" in result.output and "level auto: full / esdirk4" in result.output
+    data = run("choose", auto_file, "--json").data
+    assert data["chosen"].startswith("level auto: full / esdirk4") and len(data["candidates"]) == 2
 
 
 def test_quick_studies_write_their_tables(run, silent_file, tmp_path):
-    result = run("sensitivity", silent_file, "--quick", "-o", tmp_path)
+    result = run("sensitivity", silent_file, "--quick", "-o", tmp_path, "--json")
     assert result.exit_code == 0, result.output
+    assert {row["parameter"] for row in result.data["moves"]} >= {"lubricant.traction_max"}
     assert (tmp_path / "sensitivity.md").exists() and (tmp_path / "sensitivity.csv").exists()
     result = run("tradeoff", silent_file, "--quick", "-o", tmp_path)
     assert result.exit_code == 0, result.output

@@ -27,7 +27,7 @@ _LANGUAGES = {".py": "python", ".toml": "toml", ".c": "c", ".h": "c"}
 
 
 #: Pages that are written elsewhere; the navigation has places for them already.
-ARRIVING = ("sweeps.md", "report.md", "testing.md")
+ARRIVING = ("sweeps.md", "report.md", "testing.md", "results/coupling.md", "results/sweep.md")
 
 
 def on_config(config):

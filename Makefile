@@ -3,6 +3,7 @@
 # make heavy   the tests that take minutes
 # make bench   time the levels beside other programs; writes docs/results/benchmark.md and .csv
 # make papers  run the papers' cases and write docs/papers; some minutes, kept under out/papers
+# make docs    build the documentation site into out/site; opens from the disk, works offline
 # make clean   remove what was made here
 
 PYTHON ?= python3
@@ -20,7 +21,7 @@ SOURCES := $(shell find fmu_bearing modelDescription -type f ! -name '*.pyc' 2>/
 # Two test workers on two cores: linear algebra libraries must not start threads of their own.
 test heavy papers: export OPENBLAS_NUM_THREADS = 1
 
-.PHONY: demo test heavy bench papers kernels clean
+.PHONY: demo test heavy bench papers docs kernels clean
 .DELETE_ON_ERROR:
 
 demo: $(BEARING) $(OUT)/SpindleMotor.fmu
@@ -53,6 +54,11 @@ papers: $(VENV)/.installed
 	$(BIN)/python -m fmu_bearing.engine
 	$(BIN)/python -m examples.papers.run --jobs $(JOBS)
 
+# References are made from the code here, so it is installed too.
+docs: $(VENV)/.installed-docs
+	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict --quiet --config-file docs/site/mkdocs.yml --site-dir $(abspath $(OUT))/site
+	@echo "open $(OUT)/site/index.html"
+
 kernels: $(VENV)/.installed-test
 	$(BIN)/python -m fmu_bearing.fmi.native & native=$$!; \
 	$(BIN)/python -m fmu_bearing.engine || exit 1; \
@@ -69,6 +75,10 @@ $(VENV)/.installed-test: pyproject.toml constraints.txt | $(BIN)/python
 
 $(VENV)/.installed-bench: pyproject.toml constraints.txt | $(BIN)/python
 	$(PIP) --editable ".[bench]"
+	@touch $@ $(VENV)/.installed
+
+$(VENV)/.installed-docs: pyproject.toml constraints.txt | $(BIN)/python
+	$(PIP) --editable ".[docs]"
 	@touch $@ $(VENV)/.installed
 
 $(BIN)/python:

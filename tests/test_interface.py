@@ -1,9 +1,12 @@
 """The variable table: names are a contract."""
 
+from typing import get_args
+
 import pytest
 
 from fmu_bearing.engine import layout as at
 from fmu_bearing.interface import variables
+from fmu_bearing.scene.sound import Sound
 
 
 def table(scene):
@@ -122,3 +125,12 @@ def test_rigid_preload_says_what_the_input_means(scene):
     rigid = bare.model_copy(update={"mounting": bare.mounting.model_copy(update={"preload_mode": "rigid"})})
     assert "at standstill and 20 degC" in table(rigid)["preload"].description
     assert table(rigid)["preload"].start == 500.0
+
+
+def test_every_radiator_has_a_number_of_its_own(scene):
+    bare = scene("7003C-bare")
+    numbers = {"none": table(bare.model_copy(update={"sound": None}))["radiator"].value}
+    for name in get_args(Sound.model_fields["radiator"].annotation):
+        sound = bare.sound.model_copy(update={"radiator": name})
+        numbers[name] = table(bare.model_copy(update={"sound": sound}))["radiator"].value
+    assert numbers == {"none": 0, "bare": 1, "housing": 2, "baffle": 3}

@@ -52,7 +52,7 @@ def pages(model: "Model", flavour: str = FLAVOURS[0]) -> dict[str, bytes]:
 def _fields(model: "Model", flavour: str) -> dict[str, str]:
     scene = model.scene
     ranges = (
-        f"<tr><td>{escape(v.name)}: {escape(v.description)}</td><td>{_range(v)}</td></tr>"
+        f"<tr><td>{escape(v.name)}: {escape(v.description)}</td><td>{range_of(v)}</td></tr>"
         for v in model.variables
         if v.causality in ("input", "parameter") and v.type == "Real"
     )
@@ -86,14 +86,15 @@ def _rows(model: "Model") -> Iterator[str]:
             f"<code>{escape(variable.name)}</code>",
             "constant" if variable.variability == "constant" else variable.causality,
             escape(variable.unit or ""),
-            _range(variable),
+            range_of(variable),
             _shown(variable, value) if settable and value is not None else "",
             escape(variable.description),
         )
         yield "<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>"
 
 
-def _range(variable: Variable) -> str:
+def range_of(variable: Variable) -> str:
+    """Return the range of a variable in words (HTML), in its unit and its display unit."""
     if items(variable):
         return ", ".join(f"{value} = {name}" for name, value, _ in items(variable))
     low, high = variable.min, variable.max

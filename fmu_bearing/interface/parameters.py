@@ -6,7 +6,7 @@ from fmu_bearing.engine import layout as at
 from fmu_bearing.interface.variable import Variable, usual
 from fmu_bearing.scene import Scene, si
 
-RADIATORS = {"none": 0, "bare": 1, "housing": 2}
+RADIATORS = {"none": 0, "bare": 1, "housing": 2, "baffle": 3}
 
 
 def parameters(scene: Scene) -> list[Variable]:
@@ -55,7 +55,11 @@ def constants(scene: Scene, rotor_inertia: float) -> list[Variable]:
             "Integrator of level full: " + _numbered(at.METHODS),
             at.METHODS.index(scene.fidelity.method),
         ),
-        _whole("radiator", "What radiates: 0 nothing, 1 the bare bearing, 2 the housing", radiator),
+        _whole(
+            "radiator",
+            "What radiates: 0 nothing, 1 the bare bearing, 2 the housing, 3 its face in a rigid plane",
+            radiator,
+        ),
         _constant(
             "rotor.inertia",
             "Polar inertia of inner ring and rotor, which the drive owns",

@@ -1,0 +1,99 @@
+"""What MkDocs does not do by itself: generated references, links to files outside docs, captions.
+
+A page says ``<!-- generated: scene -->`` where ``reference.scene()`` belongs; the text is made when the site
+is built and kept nowhere else.
+"""
+
+import html
+import importlib.util
+import posixpath
+import re
+from pathlib import Path
+
+from mkdocs.structure.files import File, InclusionLevel
+
+ROOT = Path(__file__).parents[2]
+
+# Loaded by its path: MkDocs puts no folder of hooks on the import path.
+_spec = importlib.util.spec_from_file_location("docs_reference", Path(__file__).with_name("reference.py"))
+reference = importlib.util.module_from_spec(_spec)
+_spec.loader.exec_module(reference)
+
+_GENERATED = re.compile(r"<!-- generated: (\w+) -->")
+_LINK = re.compile(r"(?<=\]\()((?:\.\./)+[^)#\s]+)")
+_PICTURE = re.compile(r'<p>(<img alt="([^"]+)" src="[^"]+" */?>)</p>')
+_ROLE = re.compile(r":(?:func|class|meth|mod):(?=<code|`)")
+_LANGUAGES = {".py": "python", ".toml": "toml", ".c": "c", ".h": "c"}
+
+
+#: Pages that are written elsewhere; the navigation has places for them already.
+ARRIVING = ("sweeps.md", "report.md", "testing.md", "results/coupling.md", "results/sweep.md")
+
+
+def on_config(config):
+    """Leave out of the navigation what is not there yet."""
+    absent = {name for name in ARRIVING if not (ROOT / "docs" / name).exists()}
+    for section in config.nav:
+        for pages in section.values():
+            pages[:] = [p for p in pages if not (isinstance(p, dict) and absent & set(map(str, p.values())))]
+    return config
+
+
+def on_files(files, config):
+    """Add the changelog, and each file outside docs that a page links to as a page of its own."""
+    changes = (ROOT / "CHANGELOG.md").read_text("utf-8").replace("](docs/", "](")
+    files.append(File.generated(config, "changes.md", content=changes))
+    linked = {
+        _outside(file.src_uri, link)
+        for file in files.documentation_pages()
+        for link in _LINK.findall(file.content_string)
+    } - {None}
+    for path in sorted(linked):
+        files.append(
+            File.generated(
+                config, _source_page(path), content=_shown(path), inclusion=InclusionLevel.NOT_IN_NAV
+            )
+        )
+    return files
+
+
+def on_page_markdown(markdown, page, config, files):
+    """Put generated references in their places, and point links to files outside docs at their pages."""
+    if page.file.src_uri.startswith("results/"):
+        page.meta.setdefault("hide", ["toc"])  # room for wide tables
+    markdown = _GENERATED.sub(lambda match: getattr(reference, match[1])(), markdown)
+    here = page.file.src_uri
+
+    def pointed(match):
+        path = _outside(here, match[1])
+        if path is None:
+            return match[1]
+        return posixpath.relpath(_source_page(path), posixpath.dirname(here) or ".")
+
+    return _LINK.sub(pointed, markdown)
+
+
+def on_page_content(content, page, config, files):
+    """Turn a picture that stands alone into a figure; its text becomes the caption."""
+    content = _ROLE.sub("", content)
+    content = _PICTURE.sub(r"<figure>\1<figcaption>\2</figcaption></figure>", content)
+    return f'<div class="results">{content}</div>' if page.file.src_uri.startswith("results/") else content
+
+
+def _outside(page, link):
+    """Path from the repository's root of a link that leaves docs; None for any other link."""
+    path = posixpath.normpath(posixpath.join("docs", posixpath.dirname(page), link))
+    return None if path.startswith("docs/") or not (ROOT / path).is_file() else path
+
+
+def _source_page(path):
+    return f"source/{path}" if path.endswith(".md") else f"source/{path}.md"
+
+
+def _shown(path):
+    text = (ROOT / path).read_text("utf-8")
+    if path.endswith(".md"):
+        return text
+    language = _LANGUAGES.get(Path(path).suffix, "text")
+    head = f"---\ntitle: {html.escape(path)}\nsearch:\n  exclude: true\n---\n\n# `{path}`\n\n"
+    return f"{head}````{language}\n{text}````\n"

@@ -1,0 +1,207 @@
+"""References made from the code itself: keys of scene files, variables, commands, public names.
+
+Each function returns Markdown; ``hooks.py`` puts it into the page that asks for it.
+"""
+
+import re
+import types
+import typing
+from pathlib import Path
+
+import typer
+from pydantic import BaseModel
+from typer.cli import get_docs_for_click
+
+import fmu_bearing
+from fmu_bearing.cli import app
+from fmu_bearing.fmi.documentation import range_of
+from fmu_bearing.interface import variables
+from fmu_bearing.scene import Scene, read_scene
+from fmu_bearing.scene.read import catalogue
+from fmu_bearing.scene.units import symbol
+
+SCENES = Path(__file__).parents[2] / "examples" / "scenes"
+
+
+def scene():
+    """Every table of a scene file, and what the catalogue knows."""
+    return "\n".join(["## Top level", "", *_table_of(Scene, ""), *_catalogue()])
+
+
+def _table_of(model, path):
+    """Lines for one table of a scene file and for the tables within it."""
+    rows, nested = [], []
+    for key, field in model.model_fields.items():
+        inner, many = _inner(field.annotation)
+        if inner is not None:
+            nested.append((f"{path}.{key}" if path else key, inner, many, field))
+            continue
+        default = "required" if field.is_required() else _value(field.default)
+        cells = (f"`{key}`", _unit(key, field), _range(field), default, _sentence(key, field))
+        rows.append(_row(cells))
+    lines = [_row(("key", "unit", "range", "default", "what")), _row(["---"] * 5), *rows, ""] if rows else []
+    for where, inner, many, field in nested:
+        brackets = f"[[{where}]]" if many else f"[{where}]"
+        needed = "Required. " if field.is_required() else ""
+        lines += [f"## `{brackets}`", "", f"{needed}{field.description or ''} {_summary(inner)}".strip(), ""]
+        lines += _table_of(inner, where)
+    return lines
+
+
+def _summary(model):
+    """First paragraph of a model's docstring."""
+    text = (model.__doc__ or "").strip().split("\n\n")[0]
+    return " ".join(text.split()).replace("``", "`")
+
+
+def _inner(annotation):
+    """Return the model inside an annotation, and whether there may be many of it."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return annotation, False
+    many = typing.get_origin(annotation) is tuple
+    for part in typing.get_args(annotation):
+        found, several = _inner(part)
+        if found is not None:
+            return found, many or several
+    return None, False
+
+
+def _unit(key, field):
+    if symbol(key):
+        return symbol(key)
+    kinds = _kinds(field.annotation)
+    if bool in kinds:
+        return "true/false"
+    return "text" if str in kinds else "-"
+
+
+def _kinds(annotation):
+    """Plain types inside an annotation; a choice of words counts as text."""
+    if typing.get_origin(annotation) is typing.Literal:
+        return {type(word) for word in typing.get_args(annotation)}
+    if isinstance(annotation, type):
+        return {annotation} - {types.NoneType}
+    return set().union(*map(_kinds, typing.get_args(annotation)))
+
+
+def _range(field):
+    words = [word for word in typing.get_args(field.annotation) if isinstance(word, str)]
+    if typing.get_origin(field.annotation) is typing.Literal:
+        return ", ".join(f'`"{word}"`' for word in words)
+    limits = field.metadata + [
+        item
+        for part in typing.get_args(field.annotation)
+        if typing.get_origin(part) is typing.Annotated
+        for extra in part.__metadata__
+        for item in getattr(extra, "metadata", [])
+    ]
+    low = next((item.ge for item in limits if hasattr(item, "ge")), None)
+    high = next((item.le for item in limits if hasattr(item, "le")), None)
+    if low is None or high is None:
+        return ""
+    numbers = f"{low:,.10g} to {high:,.10g}"
+    return f"list, each {numbers}" if typing.get_origin(field.annotation) is tuple else numbers
+
+
+def _value(default):
+    if default is None:
+        return "absent"
+    if isinstance(default, bool):
+        return f"`{str(default).lower()}`"
+    if isinstance(default, tuple):
+        return f"`{list(default)}`"
+    return f'`"{default}"`' if isinstance(default, str) else f"`{default:g}`"
+
+
+def _sentence(key, field):
+    """Sentence of a key without the unit at its end, which has a column of its own."""
+    text = field.description or ""
+    unit = symbol(key)
+    return text.removesuffix(f", {unit}.") + "." if unit and text.endswith(f", {unit}.") else text
+
+
+def _catalogue():
+    lines = ["## Catalogue", ""]
+    for kind, where in (
+        ("bearings", '`[bearing] catalogue = "7003C"`'),
+        ("materials", '`[materials] balls = "Si3N4"`'),
+        ("lubricants", '`[lubricant] catalogue = "spindle-oil"`'),
+        ("grades", '`[imperfections] grade = "P4"`'),
+    ):
+        entries = catalogue(kind)
+        keys = [key for key, value in next(iter(entries.values())).items() if not isinstance(value, dict)]
+        lines += [f"### {kind.capitalize()}", "", f"{where}; keys written beside it win.", ""]
+        lines += [_row(("key", *entries)), _row(["---"] * (1 + len(entries)))]
+        lines += [_row((f"`{key}`", *(f"{e.get(key, '')}" for e in entries.values()))) for key in keys]
+        lines.append("")
+    return lines
+
+
+#: Heading, then what a variable of that group must satisfy; the first group that fits takes it.
+GROUPS = (
+    ("Inputs", lambda v: v.causality == "input"),
+    ("Parameters, set before initialisation", lambda v: v.causality == "parameter"),
+    ("Outputs: torque and heat", lambda v: v.causality == "output" and v.unit in ("N.m", "W")),
+    ("Outputs: sound", lambda v: v.causality == "output" and v.name.startswith("mic[")),
+    ("Outputs: motion", lambda v: v.causality == "output"),
+    ("Constants: how the model was built", lambda v: v.variability == "constant"),
+    ("Local: sound by component and type of motion", lambda v: v.name.startswith("mic[")),
+    ("Local: contacts, film, stiffness", lambda v: v.name.startswith(("contact.", "film.", "stiffness."))),
+    ("Local: places, cage, shares of torque, solver", lambda v: True),
+)
+
+#: What differs between variables of one kind: in the name, and in the sentence.
+_INDICES = (
+    (r"ball\[\d+\]", "ball[i]", r"ball \d+", "ball i"),
+    (r"mic\[\d+\]", "mic[k]", r"microphone [^,]+", "microphone k"),
+    (r"third_octave\[\d+\]", "third_octave[f]", r"around [\d.]+ Hz", "around f Hz"),
+    (r"flexure\.n\d+", "flexure.n*", r"of order \d+", "of order *"),
+)
+
+
+def fmu():
+    """Every variable of an FMU, grouped; one row stands for all balls, microphones, bands, orders."""
+    groups = {title: {} for title, _ in GROUPS}
+    for variable in _all_variables():
+        title = next(title for title, fits in GROUPS if fits(variable))
+        name, sentence = variable.name, variable.description
+        for in_name, index, in_sentence, words in _INDICES:
+            if re.search(in_name, name):
+                name = re.sub(in_name, index, name)
+                sentence = re.sub(in_sentence, words, sentence)
+        groups[title].setdefault(name, (variable, sentence))
+    lines = []
+    for title, rows in groups.items():
+        lines += [f"## {title}", "", _row(("name", "causality", "unit", "range", "what")), _row(["---"] * 5)]
+        for name, (variable, sentence) in rows.items():
+            kind = "constant" if variable.variability == "constant" else variable.causality
+            unit = variable.unit or ("-" if variable.type == "Real" else variable.type)
+            lines.append(_row((f"`{name}`", kind, unit, range_of(variable), sentence)))
+        lines.append("")
+    return "\n".join(lines)
+
+
+def _all_variables():
+    """Variables of two scenes that together have everything: sound in bands, bending rings, a cage."""
+    spindle = read_scene(SCENES / "7003C-spindle.toml")
+    spindle = spindle.model_copy(update={"sound": spindle.sound.model_copy(update={"third_octaves": True})})
+    bending = read_scene(SCENES / "7009C-full-ceramic.toml")
+    return [*variables(spindle, 0.0), *variables(bending, 0.0)]
+
+
+def commands():
+    """Every command with its arguments and options, from the application itself."""
+    command = typer.main.get_command(app)
+    text = get_docs_for_click(obj=command, ctx=typer.Context(command), name="fmu-bearing")
+    text = text[text.index("\n## ") :]
+    return re.sub(r"(?<!`)<(\w+)>(?![^\n]*`)", r"`<\1>`", text)
+
+
+def names():
+    """Every public name of the package, described by its docstring."""
+    places = fmu_bearing._PLACES
+    return "\n\n".join(f"::: fmu_bearing.{places[name]}.{name}" for name in fmu_bearing.__all__)
+
+
+def _row(cells):
+    return "| " + " | ".join(str(cell).replace("|", "\\|") for cell in cells) + " |"

@@ -1,0 +1,237 @@
+"""The documentation builds without a warning, its code runs, its links hold, it names everything there is."""
+
+import importlib.util
+import re
+import shutil
+import tomllib
+from html import unescape
+
+import pytest
+import typer
+
+import fmu_bearing
+from fmu_bearing.cli import app, base
+from fmu_bearing.interface import variables
+from fmu_bearing.scene import Scene, read_scene
+from fmu_bearing.scene.units import symbol
+from tests.conftest import SCENES
+from tests.pages import DOCS, ROOT, blocks, commands, parse, run_page
+
+PAGES = sorted(
+    path for path in (ROOT / "README.md", *DOCS.rglob("*.md")) if "site" not in path.relative_to(ROOT).parts
+)
+_FENCED = re.compile(r"^(`{3,}).*?^\1", flags=re.MULTILINE | re.DOTALL)
+_LINK = re.compile(r"\]\(([^)\s]+)\)")
+
+
+def names(paths):
+    return [path.relative_to(ROOT).as_posix() for path in paths]
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    """Folder of the built site; ``strict`` turns any warning of MkDocs into an end."""
+    commands = pytest.importorskip("mkdocs.commands.build", reason="MkDocs is not installed: extra docs")
+    from mkdocs.config import load_config
+
+    folder = tmp_path_factory.mktemp("site")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("NO_MKDOCS_2_WARNING", "1")
+        commands.build(load_config(str(DOCS / "site" / "mkdocs.yml"), site_dir=str(folder), strict=True))
+    return folder
+
+
+@pytest.fixture(scope="module")
+def reference():
+    pytest.importorskip("typer.cli")
+    spec = importlib.util.spec_from_file_location("docs_reference", DOCS / "site" / "reference.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def text(site, page):
+    return unescape((site / page).read_text(encoding="utf-8"))
+
+
+def test_every_page_becomes_part_of_the_site(site):
+    for path in PAGES[1:]:
+        assert (site / path.relative_to(DOCS).with_suffix(".html")).exists() or path.name == "README.md", path
+
+
+def test_nothing_is_fetched_from_elsewhere(site):
+    for path in site.rglob("*.html"):
+        page = path.read_text(encoding="utf-8")
+        assert not re.search(r'<(?:script|img|iframe|source)[^>]* src="?(?:https?:)?//', page), path
+        assert not re.search(r'<link[^>]*rel="?(?:stylesheet|preconnect)[^>]*href="?(?:https?:)?//', page), (
+            path
+        )
+    for path in site.rglob("*.css"):
+        assert not re.search(r"url\(['\"]?https?:", path.read_text(encoding="utf-8")), path
+
+
+def test_search_knows_the_generated_pages(site):
+    index = (site / "search" / "search_index.js").read_text(encoding="utf-8")
+    for word in ("contact_damping_us", "heat.oil", "fmu-bearing sensitivity", "read_scene"):
+        assert word in unescape(index), word
+
+
+def test_search_works_on_pages_opened_from_the_disk(site):
+    program = shutil.which("chromium")
+    if program is None:
+        pytest.skip("no chromium on the path")
+    playwright = pytest.importorskip("playwright.sync_api")
+    with playwright.sync_playwright() as tools:
+        browser = tools.chromium.launch(executable_path=program, args=["--no-sandbox"])
+        page, said, asked = browser.new_page(), [], []
+        page.on("console", lambda message: said.append(message.text) if message.type == "error" else None)
+        page.on("pageerror", lambda error: said.append(str(error)))
+        page.on("request", lambda request: asked.append(request.url))
+        page.goto((site / "index.html").as_uri())
+        box = page.locator("input[name=query]")
+        box.focus()  # the index is loaded then
+        page.wait_for_selector(".md-search-result__meta:not(:has-text('Initializing'))", state="attached")
+        box.press_sequentially("preload")
+        page.wait_for_selector(".md-search-result__item", state="attached")
+        found = page.text_content(".md-search-result__list")
+        browser.close()
+    assert "preload" in found.lower()
+    assert not said
+    assert all(url.startswith(("file:", "data:")) for url in asked)
+
+
+@pytest.mark.parametrize("page", PAGES[1:], ids=names(PAGES[1:]))
+def test_links_and_pictures_are_there(page):
+    """Links of the files themselves; those of the site, anchors included, MkDocs has checked."""
+    for link in _LINK.findall(_FENCED.sub("", page.read_text(encoding="utf-8"))):
+        if not re.match(r"[a-z]+:|#", link):
+            target = page.parent / link.split("#")[0]
+            # written when the site is built
+            assert target.exists() or target == DOCS / "changes.md", link
+
+
+def leaves(command, path):
+    children = getattr(command, "commands", {})
+    for name, child in children.items():
+        yield from leaves(child, f"{path} {name}")
+    if not children:
+        yield path
+
+
+def test_every_command_is_described(site):
+    page = text(site, "cli.html")
+    for command in leaves(typer.main.get_command(app), "fmu-bearing"):
+        assert f"<code>{command}</code>" in page, command
+
+
+def test_every_exit_code_is_described(site):
+    page = text(site, "cli.html")
+    for code in (0, base.FOUND, base.REFUSED, base.ENDED_EARLY, base.INTERRUPTED):
+        assert f"<td>{code}</td>" in page
+
+
+def test_every_public_name_is_described(site):
+    page = text(site, "api.html")
+    for name in fmu_bearing.__all__:
+        assert re.search(rf'<h2 id="fmu_bearing\.[\w.]+\.{name}"', page), name
+
+
+def keys(table, path=""):
+    """Dotted keys of a table of a scene file; elements of lists of tables under the list's name."""
+    for key, value in table.items():
+        dotted = f"{path}.{key}" if path else key
+        inner = value[0] if isinstance(value, list) and value and isinstance(value[0], dict) else value
+        if isinstance(inner, dict):
+            yield from keys(inner, dotted)
+        else:
+            yield dotted
+
+
+def schema_keys():
+    """Table name (class) and key of everything a scene file may hold, from the schema that pydantic makes."""
+    schema = Scene.model_json_schema()
+    for name, part in {"Scene": schema, **schema["$defs"]}.items():
+        for key, value in part.get("properties", {}).items():
+            if "$ref" not in str(value):
+                yield name, key
+
+
+@pytest.fixture(scope="module")
+def scene_rows(reference):
+    """Cells of the rows of the scene reference by dotted key."""
+    rows, table = {}, ""
+    for line in reference.scene().splitlines():
+        if line.startswith("## "):
+            table = line[3:].strip("`[]")
+        if line.startswith("| `"):
+            key, *cells = [cell.strip() for cell in line.strip("|").split(" | ")]
+            prefix = "" if table == "Top level" else f"{table}."
+            rows[prefix + key.strip(" `")] = cells
+    return rows
+
+
+def test_every_key_of_a_scene_is_described_with_its_unit(scene_rows):
+    described = {key.rsplit(".", 1)[-1] for key in scene_rows}
+    for table, key in schema_keys():
+        assert key in described, f"{table}.{key}"
+    for path in SCENES.glob("*.toml"):
+        for dotted in keys(tomllib.loads(path.read_text(encoding="utf-8"))):
+            assert dotted in scene_rows, dotted
+    for dotted, cells in scene_rows.items():
+        if dotted.startswith("Catalogue."):
+            continue
+        unit, _, default, sentence = cells
+        assert unit == (symbol(dotted) or unit) and unit, dotted
+        assert default and sentence.endswith("."), dotted
+
+
+def test_ranges_of_the_reference_are_those_that_are_refused(scene_rows):
+    # two keys by hand: a plain range, and a list's
+    assert scene_rows["bearing.contact_angle_deg"][:2] == ["deg", "5 to 45"]
+    assert scene_rows["mounting.flexure.outer_ring"][1] == "list, each 2 to 8"
+
+
+@pytest.mark.parametrize("name", [path.stem for path in sorted(SCENES.glob("*.toml"))])
+def test_every_variable_is_described(name, reference, site):
+    page = text(site, "fmu-reference.html")
+    for variable in variables(read_scene(SCENES / f"{name}.toml"), 1e-5):
+        shown = variable.name
+        for pattern, index in (
+            (r"ball\[\d+\]", "ball[i]"),
+            (r"mic\[\d+\]", "mic[k]"),
+            (r"third_octave\[\d+\]", "third_octave[f]"),
+            (r"flexure\.n\d+", "flexure.n*"),
+        ):
+            shown = re.sub(pattern, index, shown)
+        row = re.search(rf"<code>{re.escape(shown)}</code>.*?</tr>", page, flags=re.DOTALL)
+        assert row is not None, variable.name
+        assert (variable.unit or "-") in row[0] or variable.type == "Integer", variable.name
+
+
+RUN = ["quick-start.md", "catalogue.md", "choosing.md", "coupling.md"]
+
+
+@pytest.mark.parametrize("page", RUN)
+def test_code_of_a_page_runs(page, tmp_path, monkeypatch):
+    run_page(DOCS / page, tmp_path, monkeypatch)
+
+
+def test_commands_of_all_pages_are_understood():
+    seen = 0
+    for page in PAGES:
+        for language, _, script in blocks(page):
+            if language in ("sh", "bash"):
+                for words in commands(script):
+                    words = words[1:] if words[0].endswith("/python") else words
+                    if words and words[0].endswith("fmu-bearing"):
+                        parse(words)
+                        seen += 1
+    assert seen >= 10
+
+
+def test_bash_blocks_hold_only_what_cannot_be_run():
+    for page in PAGES:
+        for language, _, script in blocks(page):
+            if language == "bash":
+                first = {words[0] for words in commands(script)}
+                assert first <= {"python3", ".", "pip", "python", "make", "git"}, page

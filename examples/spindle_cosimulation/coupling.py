@@ -84,6 +84,18 @@ class Fmu:
         """Advance from ``time`` by ``h``, both in s."""
         self._call(self._slave.doStep, currentCommunicationPoint=time, communicationStepSize=h)
 
+    def keep(self) -> Any:
+        """Return the instance's state, for :meth:`put_back`; :meth:`forget` it afterwards."""
+        return self._call(self._slave.getFMUstate)
+
+    def put_back(self, state: Any) -> None:
+        """Return to a state kept; the next step is from its time."""
+        self._call(self._slave.setFMUstate, state)
+
+    def forget(self, state: Any) -> None:
+        """Free a state kept."""
+        self._call(self._slave.freeFMUstate, state)
+
     def set(self, values: dict[str, float]) -> None:
         """Set Real variables by name."""
         if values:

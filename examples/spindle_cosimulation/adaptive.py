@@ -12,7 +12,7 @@ twice unless it is refused.
 
 Result, without imperfections: within 0.03 rad/s a step, 107 steps of 0.1 to 2.8 ms and 8 refused ones come to
 within 0.23 rad/s of a reference at 20 us; fixed steps need 750 of 0.2 ms for that, and 300 of 0.5 ms miss it
-by 2.5 rad/s, most of it after an event at 30 ms that they step over. With the scene's imperfections the
+by 2.5 rad/s. With the scene's imperfections the
 torque fluctuates by a fifth with the balls, adaptive steps follow every ripple, and nothing is won: 1744
 steps for 0.58 rad/s, where 1500 fixed ones reach 0.8. There, choose a fixed step by the table.
 """
@@ -82,7 +82,7 @@ class Exchange:
         return [*speed, *torque, *self.thermal.get(TEMPERATURES)]
 
     def step(self, now: float, h: float, judge: Callable[[list[float], list[float]], float]) -> float:
-        """Advance by ``h``; go back if ``judge`` of the values before and after, which is returned, is above 1."""
+        """Advance by ``h``; go back if ``judge`` of the values before and after is above 1; return it."""
         before, states = self.values(), [fmu.keep() for fmu in self.fmus]
         try:
             try:

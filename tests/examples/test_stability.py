@@ -1,12 +1,10 @@
 """The coupling maps: what the example measures on a few cells is what its formula and its page say."""
 
 import csv
-import subprocess
-import sys
 
 import pytest
 
-from tests.examples.conftest import ROOT, SPINDLE
+from tests.examples.conftest import ROOT
 
 PAGE = ROOT / "docs" / "results" / "coupling.csv"
 
@@ -20,9 +18,9 @@ def cells(path):
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     out = tmp_path_factory.mktemp("coupling")
-    command = [sys.executable, str(SPINDLE / "stability.py"), "--quick", "--results", str(out)]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=300)
-    assert done.returncode == 0, done.stderr
+    import stability
+
+    stability.main(quick=True, results=out, images=None)
     return out
 
 

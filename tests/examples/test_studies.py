@@ -22,6 +22,7 @@ def quick(tmp_path, capsys):
     return run
 
 
+@pytest.mark.heavy
 def test_run_as_a_command(tmp_path):
     command = [sys.executable, str(ROOT / "examples" / "directivity" / "directivity.py"), "--help"]
     done = subprocess.run(command, capture_output=True, text=True, timeout=120, cwd=tmp_path)
@@ -52,6 +53,7 @@ def test_directivity(quick):
     assert 60.0 < max(levels) < 90.0
 
 
+@pytest.mark.heavy
 def test_tolerance_study(quick):
     folder = quick("tolerance_study/tolerance.py")
     rows = read(folder / "tolerance.csv")

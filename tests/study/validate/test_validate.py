@@ -184,6 +184,7 @@ def test_a_crash_is_a_finding_and_checks_before_it_stand(broken):
     assert results["reset"].details == ["'finite' did not come to an end"]
 
 
+@pytest.mark.heavy
 def test_a_step_that_does_not_return_is_ended(broken):
     result = by_name(validate(broken("HANGS"), limit=2.0))["finite"]
     assert result.outcome == "finding"

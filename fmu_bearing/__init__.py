@@ -15,6 +15,7 @@ One way through, with no way back::
 ``fmi``             the FMI face: XML, native library, slave, the written ``.fmu``
 ``files``           writing files that other processes may read
 ``study``           reference trajectories, and level ``full`` for general-purpose integrators
+``testing``         fixtures for pytest: FMUs against recorded references
 ==================  =========================================================================
 
 Axes: X bearing axis, Y horizontal, Z up. Positive speed is right-handed about +X; preload pushes the inner

@@ -1,8 +1,8 @@
 """Build the FMUs of motor and thermal network with pythonfmu: ``python build.py --output-dir out``.
 
-pythonfmu 0.7 writes no units, no initial unknowns and a random GUID, and Python keeps modules by name for the
-life of a process, so that two FMUs with a module of the same name would share the first one's code. This file
-adds the former and names each module after a hash of its source.
+pythonfmu 0.7 writes no units, no initial unknowns, no ability to keep states and a random GUID, and Python
+keeps modules by name for the life of a process, so that two FMUs with a module of the same name would share
+the first one's code. This file adds the former and names each module after a hash of its source.
 """
 
 import hashlib
@@ -84,10 +84,12 @@ def _rewrite(raw: Path, target: Path, units: dict[str, str]) -> Path:
 
 
 def _complete(description: bytes, units: dict[str, str]) -> bytes:
-    """Add units, initial unknowns and a GUID that follows from the interface."""
+    """Add units, initial unknowns, abilities and a GUID that follows from the interface."""
     root = ElementTree.fromstring(description)
     root.attrib.pop("generationDateAndTime", None)
     root.set("guid", "")
+    for ability in ("canGetAndSetFMUstate", "canSerializeFMUstate"):
+        root.find("CoSimulation").set(ability, "true")
     definitions = ElementTree.Element("UnitDefinitions")
     for name in sorted(set(units.values())):
         base, display = UNITS[name]

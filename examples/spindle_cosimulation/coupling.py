@@ -84,6 +84,18 @@ class Fmu:
         """Advance from ``time`` by ``h``, both in s."""
         self._call(self._slave.doStep, currentCommunicationPoint=time, communicationStepSize=h)
 
+    def keep(self) -> Any:
+        """Return the instance's state, for :meth:`put_back`; :meth:`forget` it afterwards."""
+        return self._call(self._slave.getFMUstate)
+
+    def put_back(self, state: Any) -> None:
+        """Return to a state kept; the next step is from its time."""
+        self._call(self._slave.setFMUstate, state)
+
+    def forget(self, state: Any) -> None:
+        """Free a state kept."""
+        self._call(self._slave.freeFMUstate, state)
+
     def set(self, values: dict[str, float]) -> None:
         """Set Real variables by name."""
         if values:
@@ -218,23 +230,12 @@ def run(
         thermal.reader([*TEMPERATURES, *THERMAL_OUTPUTS]),
         bearing.reader(recorded),
     )
-    torque, heats = bearing.reader(["friction_torque"]), bearing.reader(HEATS)
-    speed, temperatures = motor.reader(["shaft_speed"]), thermal.reader(TEMPERATURES)
+    exchange = exchanger(motor, bearing, thermal)
 
     def record(time: float) -> None:
         recording.rows.append([time, *(value for reader in readers for value in reader())])
 
-    def exchange(now: float, after: float) -> None:
-        motor.set({"load_torque": torque()[0]})
-        motor.step(now, after - now)
-        bearing.set(
-            {"shaft_speed": speed()[0], **dict(zip(TEMPERATURES, temperatures(), strict=True))},
-        )
-        bearing.step(now, after - now)
-        thermal.set(dict(zip(HEATS, heats(), strict=True)))
-        thermal.step(now, after - now)
-
-    _initialise(motor, bearing, thermal, plan)
+    initialise(motor, bearing, thermal, plan)
     record(0.0)
     count = max(1, math.ceil(plan.end_time / plan.communication_step - 1e-9))
     for k in range(count):
@@ -250,7 +251,25 @@ def run(
     return recording
 
 
-def _initialise(motor: Fmu, bearing: Fmu, thermal: Fmu, plan: Plan) -> None:
+def exchanger(motor: Fmu, bearing: Fmu, thermal: Fmu) -> Callable[[float, float], None]:
+    """Return a function that takes all three from one communication point to the next (both in s)."""
+    torque, heats = bearing.reader(["friction_torque"]), bearing.reader(HEATS)
+    speed, temperatures = motor.reader(["shaft_speed"]), thermal.reader(TEMPERATURES)
+
+    def exchange(now: float, after: float) -> None:
+        motor.set({"load_torque": torque()[0]})
+        motor.step(now, after - now)
+        bearing.set(
+            {"shaft_speed": speed()[0], **dict(zip(TEMPERATURES, temperatures(), strict=True))},
+        )
+        bearing.step(now, after - now)
+        thermal.set(dict(zip(HEATS, heats(), strict=True)))
+        thermal.step(now, after - now)
+
+    return exchange
+
+
+def initialise(motor: Fmu, bearing: Fmu, thermal: Fmu, plan: Plan) -> None:
     """Bring all to time 0: the bearing first, for the motor needs its inertia and its torque."""
     thermal.enter_initialization()
     thermal.exit_initialization()

@@ -66,6 +66,11 @@ class SpindleMotor(Fmi2Slave):
         self.samples = 0
         self.integral = 0.0
 
+    def _get_fmu_state(self):
+        """Return all there is to put back: pythonfmu keeps variables, not what the controller remembers."""
+        hidden = ("begin", "samples", "integral")
+        return super()._get_fmu_state() | {name: getattr(self, name) for name in hidden}
+
     def setup_experiment(self, start_time, stop_time=None, tolerance=None):
         """Take the start time: the run-up counts from there."""
         self.begin = start_time

@@ -103,6 +103,10 @@ class SpindleThermal(Fmi2Slave):
             nested=False,
         )
 
+    def _get_fmu_state(self):
+        """Return variables and the matrix in use: another one of nearly the same step has other last bits."""
+        return super()._get_fmu_state() | {"solved_step": self.solved_step, "inverse": self.inverse}
+
     def exit_initialization_mode(self):
         """Put all lumps to the initial temperature."""
         for lump in self.lumps:

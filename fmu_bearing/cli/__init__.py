@@ -7,10 +7,12 @@
 ``runs``        simulate, plot
 ``sound``       levels, spectra, directivity, WAV
 ``studies``     choose, tradeoff, sensitivity
+``validate``    checks of an FMU
 ==============  ==================================================================
 """
 
-from fmu_bearing.cli import build, runs, scenes, sound, studies  # noqa: F401  (importing a file registers its commands)
+# importing a file registers its commands
+from fmu_bearing.cli import build, runs, scenes, sound, studies, validate  # noqa: F401
 from fmu_bearing.cli.base import app
 
 __all__ = ["app"]

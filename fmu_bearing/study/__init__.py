@@ -24,5 +24,6 @@
 ``sound_tables``    such measurements as tables
 ``sound_pictures``  and as pictures
 ``time_pictures``   variables over time; ``pictures``: what all pictures share
+``validate``        what FMI 2.0 asks of an FMU, checked
 ``table``           tables to terminal, Markdown, CSV; the machine they were made on
 """

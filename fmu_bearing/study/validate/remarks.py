@@ -1,0 +1,64 @@
+"""What a check tells."""
+
+from dataclasses import dataclass, field
+
+#: How a check ended, from good to bad.
+PASSED, SKIPPED, NOTE, FINDING = "passed", "skipped", "note", "finding"
+_ORDER = (PASSED, SKIPPED, NOTE, FINDING)
+
+
+class Skip(Exception):
+    """A check that does not apply; the message says why."""
+
+
+@dataclass(frozen=True)
+class Remark:
+    """Something a check came upon.
+
+    Attributes
+    ----------
+    called, returned, expected : str
+        What was called, what came back, what was expected instead.
+    where : str
+        Section of FMI 2.0 that says so; empty where no call was out of line with it.
+    severity : str
+        ``finding`` for what FMI requires, ``note`` for what it leaves open.
+    """
+
+    called: str
+    returned: str
+    expected: str
+    where: str = ""
+    severity: str = FINDING
+
+    def __str__(self) -> str:
+        asks = "" if self.severity == FINDING else " leaves it open"
+        section = f" (FMI 2.0, section {self.where}{asks})" if self.where else ""
+        return f"{self.called}: {self.returned}; expected {self.expected}{section}"
+
+
+@dataclass
+class Result:
+    """One check of one FMU.
+
+    Attributes
+    ----------
+    check : str
+        Its name.
+    meaning : str
+        What it asks of the FMU, in a sentence.
+    outcome : str
+        ``passed``, ``skipped`` (it does not apply), ``note`` or ``finding``.
+    details : list of str
+        What was found, or why it was skipped.
+    """
+
+    check: str
+    meaning: str
+    outcome: str = PASSED
+    details: list[str] = field(default_factory=list)
+
+    def add(self, severity: str, detail: str) -> None:
+        """Add a detail; the outcome is that of the worst."""
+        self.outcome = max(self.outcome, severity, key=_ORDER.index)
+        self.details.append(detail)

@@ -1,0 +1,31 @@
+"""FMUs in the tests of whoever uses them: fixtures for pytest, and comparison with recorded references.
+
+``plan``        `Plan`: what to run; `step_fmu`
+``comparison``  `compare` a run with a reference: where it departs first, and by how much
+``plugin``      options, marker and fixtures; pytest finds it by itself once the package is installed
+
+pytest reads this file in every project of the environment: names are imported when they are asked for.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from fmu_bearing.testing.comparison import Departure, compare, report
+    from fmu_bearing.testing.plan import Plan, step_fmu
+
+_PLACES = {
+    "Departure": "comparison",
+    "Plan": "plan",
+    "compare": "comparison",
+    "report": "comparison",
+    "step_fmu": "plan",
+}
+
+__all__ = ["Departure", "Plan", "compare", "report", "step_fmu"]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _PLACES:
+        raise AttributeError(f"fmu_bearing.testing has no '{name}'; public names are {', '.join(__all__)}")
+    return getattr(import_module(f"fmu_bearing.testing.{_PLACES[name]}"), name)

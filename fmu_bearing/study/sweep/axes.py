@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.units import symbol
@@ -87,10 +88,15 @@ def parse_values(key: str, text: str) -> list[Any]:
     if not (math.isfinite(low) and math.isfinite(high)) or count < 2:
         raise SweepError(f"axis {key} = '{text}' is refused: give finite bounds and 2 or more values")
     if match[4] is None:
-        return [float(value) for value in np.linspace(low, high, count)]
+        return _round(np.linspace(low, high, count))
     if low <= 0.0 or high <= 0.0:
         raise SweepError(f"axis {key} = '{text}' is refused: logarithmic steps need bounds above 0")
-    return [float(value) for value in np.geomspace(low, high, count)]
+    return _round(np.geomspace(low, high, count))
+
+
+def _round(values: NDArray[np.float64]) -> list[float]:
+    """Return numbers as people would write them: 2e7 rather than 20000000.000000004."""
+    return [float(f"{value:.12g}") for value in values]
 
 
 def axes_of(scene: Scene, wanted: Mapping[str, Sequence[Any] | str]) -> tuple[Axis, ...]:

@@ -2,6 +2,7 @@
 
 import contextlib
 import logging
+import re
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
@@ -12,6 +13,7 @@ from fmu_bearing.study.sweep.point import Outcome, Task, block_of, code_digest, 
 
 TIMEOUT = 10.0  # s in which a scheduler has to answer, and to have a worker
 _AHEAD = 4  # tasks per thread of the cluster that are handed out at once: none waits, none drowns it
+_ADDRESS = re.compile(r"(\w+://)?[^/\s]+:\d+")
 _WAY_OUT = "install the same version of fmu-bearing, NumPy and Numba there"
 
 
@@ -46,7 +48,7 @@ def cluster(
         }
         waiting = iter(tasks)
         running: dict[Any, Task] = {}
-        finished = distributed.as_completed()
+        finished = distributed.as_completed(loop=client.loop)
 
         def more() -> None:
             room = _AHEAD * max(1, sum(client.nthreads().values())) - len(running)
@@ -58,6 +60,11 @@ def cluster(
         more()
         for future in finished:
             task = running.pop(future)
+            if future.cancelled():
+                raise SweepError(
+                    f"the scheduler at {address} was lost; finished points are kept where a folder is given: "
+                    "the same command goes on"
+                )
             yield task, _outcome(task, future)
             more()
 
@@ -74,12 +81,14 @@ def _outcome(task: Task, future: Any) -> Outcome:
 @contextlib.contextmanager
 def _client(distributed: Any, address: str, timeout: float) -> Iterator[Any]:
     """Connect to a scheduler; what it holds for us is let go at the end, whatever that was."""
+    if _ADDRESS.fullmatch(address) is None:
+        raise SweepError(f"scheduler = '{address}' is refused: write its address, such as tcp://host:8786")
     quiet = logging.getLogger("distributed")
     level = quiet.level
     try:
         quiet.setLevel(logging.CRITICAL)  # a refusal is one line, ours
         client = distributed.Client(address, timeout=timeout, set_as_default=False)
-    except (OSError, ValueError, TimeoutError) as problem:
+    except (OSError, TimeoutError) as problem:
         quiet.setLevel(level)
         raise SweepError(
             f"no scheduler answered at {address} within {timeout:g} s ({type(problem).__name__}): start one "

@@ -111,3 +111,26 @@ def _text(value: Any) -> str:
     if isinstance(value, float):  # NumPy's numbers are of this kind too
         return "" if math.isnan(value) else repr(float(value))
     return str(value)
+
+
+#: Heads of `extremes`.
+COLUMNS = ("figure", "unit", "least", "at", "largest", "at")
+
+
+def extremes(data: "xarray.Dataset") -> list[dict[str, Any]]:
+    """Return the least and the largest of each figure and where they are, in the order of the axes."""
+    found = []
+    for name, values in data.data_vars.items():
+        if name in (SEED, WALL, REASON) or not np.isfinite(values).any():
+            continue
+        row: dict[str, Any] = {"figure": str(name), "unit": values.attrs["units"]}
+        for word, place in (("least", values.argmin(...)), ("largest", values.argmax(...))):
+            one = values.isel(place)
+            row[word] = float(one)
+            row[f"{word}_at"] = ", ".join(_short(one[dim].item()) for dim in values.dims)
+        found.append(row)
+    return found
+
+
+def _short(value: Any) -> str:
+    return f"{value:.6g}" if isinstance(value, float) else str(value)

@@ -1,27 +1,11 @@
 """``fmu-bearing sweep``: a scene over a grid of its values."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from fmu_bearing.cli.base import (
-    ENDED_EARLY,
-    INTERRUPTED,
-    Folder,
-    Json,
-    Refusal,
-    app,
-    print_json,
-    refusals,
-    tell,
-)
-from fmu_bearing.study.extras import need
-from fmu_bearing.study.names import UnknownName
-from fmu_bearing.study.sweep.axes import SweepError, parse_axis
-from fmu_bearing.study.sweep.description import Description, is_description, read_description
+from fmu_bearing.cli.base import ENDED_EARLY, INTERRUPTED, Folder, Json, app, print_json, refusals, tell
 
 if TYPE_CHECKING:
     from fmu_bearing.study.sweep.plan import Plan
@@ -39,12 +23,12 @@ AxisTexts = Annotated[
     ),
 ]
 Names = Annotated[
-    list[str] | None,
+    str | None,
     typer.Option(
-        "--figure",
-        "-f",
-        metavar="NAME[:STATISTIC]",
-        help="What is kept, '*' for any text; statistics: mean, rms, min, max, last, 1x. Once per name.",
+        "--variables",
+        "-v",
+        metavar="NAME[:STATISTIC],...",
+        help="What is kept, * stands for any text; statistics: mean, rms, min, max, last, 1x.",
     ),
 ]
 Settle = Annotated[
@@ -67,7 +51,7 @@ DryRun = Annotated[
 def sweep(
     source: Source,
     axis: AxisTexts = None,
-    figure: Names = None,
+    variables: Names = None,
     settle: Settle = None,
     window: Window = None,
     workers: Workers = None,
@@ -80,10 +64,12 @@ def sweep(
 
     Finished points are kept in the folder: the same command goes on where an earlier one was interrupted.
     """
-    with refusals(), _told():
+    from fmu_bearing.study.extras import need
+
+    with refusals():
         need("xarray", "a sweep")
         need("h5netcdf", "netCDF")
-        made = _plan(source, axis, figure, settle, window, output if not dry_run else None)
+        made = _plan(source, axis, variables, settle, window, output if not dry_run else None)
         if made.note:
             tell(made.note)
         if dry_run:
@@ -92,19 +78,13 @@ def sweep(
             _run(made, output, workers, scheduler, as_json)
 
 
-@contextmanager
-def _told() -> Iterator[None]:
-    try:
-        yield
-    except (SweepError, UnknownName) as problem:
-        raise Refusal(str(problem)) from None
-
-
 def _plan(
-    source: Path, axis: list[str] | None, figure: list[str] | None, settle: float | None,
+    source: Path, axis: list[str] | None, variables: str | None, settle: float | None,
     window: float | None, folder: Path | None,
 ) -> "Plan":  # fmt: skip
     """Lay out what file and options ask for; options win. The folder gets a file to do it again."""
+    from fmu_bearing.study.sweep.axes import SweepError, parse_axis
+    from fmu_bearing.study.sweep.description import Description, is_description, read_description
     from fmu_bearing.study.sweep.plan import plan
 
     given = dict(map(parse_axis, axis or []))
@@ -116,8 +96,9 @@ def _plan(
         known["axes"] |= given
     else:
         known = {"scene": str(source), "axes": given}
-    times = {"settle_s": settle, "window_s": window, "figures": tuple(figure) if figure else None}
-    known |= {key: value for key, value in times.items() if value is not None}
+    names = None if variables is None else tuple(name.strip() for name in variables.split(","))
+    options = {"settle_s": settle, "window_s": window, "figures": names}
+    known |= {key: value for key, value in options.items() if value is not None}
     if not known["axes"]:
         raise SweepError("a sweep needs an axis, for example --axis speed=8000:40000:9")
     wanted = Description.model_construct(**known)
@@ -152,7 +133,7 @@ def _run(made: "Plan", output: Path, workers: int | None, scheduler: str | None,
 
 def _write(made: "Plan", outcomes: "Outcomes", output: Path, as_json: bool) -> None:
     """Write what there is and tell it."""
-    from fmu_bearing.study.sound_pictures import save as save_picture
+    from fmu_bearing.study.sweep.picture import save as save_picture
     from fmu_bearing.study.sweep.picture import sweep_picture
     from fmu_bearing.study.sweep.result import COLUMNS, dataset, extremes, save
     from fmu_bearing.study.table import show

@@ -6,17 +6,19 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from fmu_bearing.scene.units import split_unit
 from fmu_bearing.study.names import chosen_names
+from fmu_bearing.study.pictures import empty, label, save
 from fmu_bearing.study.sweep.axes import SweepError
 from fmu_bearing.study.sweep.result import REASON, SEED, WALL
 
 if TYPE_CHECKING:
     import xarray
+
+__all__ = ["draw_map", "label_of", "save", "shown", "sweep_picture"]
 
 #: Drawn unless told otherwise, as far as they are there.
 DEFAULT = ("mic[1].leq_a", "outer_ring.velocity", "outer_ring.velocity:1x", "friction_torque")
@@ -51,8 +53,7 @@ def sweep_picture(data: "xarray.Dataset", figures: Sequence[str] | None = None) 
     data = data.sortby([name for name in (over, beside) if name and data[name].dtype.kind in "iuf"])
     columns = min(len(names), 3 if len(names) > 4 else 2)
     rows = -(-len(names) // columns)
-    figure = Figure(figsize=(6.2 * columns, 4.2 * rows), layout="constrained")
-    FigureCanvasAgg(figure)
+    figure = empty((6.2 * columns, 4.2 * rows))
     panels = np.ravel(figure.subplots(rows, columns, squeeze=False))
     for ax, name in zip(panels, names, strict=False):
         values, unit = shown(data[name])
@@ -61,7 +62,7 @@ def sweep_picture(data: "xarray.Dataset", figures: Sequence[str] | None = None) 
             figure.colorbar(colours, ax=ax, label=unit)
         else:
             _curves(ax, data, over, beside, values)
-            ax.set_ylabel(unit)
+            label(ax, label_of(data, over), unit, "")
         ax.set_title(name, fontsize=10)
     for ax in panels[len(names) :]:
         ax.remove()
@@ -108,12 +109,10 @@ def _curves(
     members: list[Any] = [None] if beside is None else list(data[beside].values)
     for member in members:
         y = values.values if beside is None else values.sel({beside: member}).values
-        label = None if beside is None else f"{member:g}" if isinstance(member, float) else str(member)
-        ax.plot(x, y, marker="o", markersize=3, linewidth=1.2, label=label)
+        name = None if beside is None else f"{member:g}" if isinstance(member, float) else str(member)
+        ax.plot(x, y, marker="o", markersize=3, linewidth=1.2, label=name)
     if beside is not None:
         ax.legend(title=label_of(data, beside), frameon=False, fontsize=8)
-    ax.set_xlabel(label_of(data, over))
-    ax.grid(True, color="0.9")
 
 
 def _roles(data: "xarray.Dataset") -> tuple[str, str | None]:

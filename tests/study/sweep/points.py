@@ -10,6 +10,7 @@ from fmu_bearing.study.sweep.point import Outcome
 
 #: Folder where points leave word that they ran; workers inherit it.
 TRACE = "FMU_BEARING_TEST_TRACE"
+SPEEDS = range(1000, 7000, 1000)
 
 
 def small(scene, **axes):

@@ -85,12 +85,15 @@ class _Worker:
         """Whether it has ever come to life."""
         return self.greeting.done() and self.greeting.exception() is None
 
-    def give(self, run: Callable[[Any], Any], item: Any) -> None:
-        self.task = self._pool.submit(run, item)
-
-    def revive(self) -> None:
-        self._pool.shutdown(wait=False)
-        self._start()
+    def give(self, run: Callable[[Any], Any], item: Any) -> Future[Any]:
+        """Start on an item, by a new process where the last one has died."""
+        try:
+            self.task = self._pool.submit(run, item)
+        except BrokenProcessPool:
+            self._pool.shutdown(wait=False)
+            self._start()
+            self.task = self._pool.submit(run, item)
+        return self.task
 
     def end(self, at_once: bool) -> None:
         if at_once and self.task is not None and not self.task.done():
@@ -130,20 +133,13 @@ def _spread(
         while waiting and free:
             worker = free.pop()
             item, run, number = waiting.popleft()
-            try:
-                worker.give(run, item)
-            except BrokenProcessPool:  # died while it had nothing to do
-                worker.revive()
-                worker.give(run, item)
-            assert worker.task is not None
-            busy[worker.task] = (worker, item, run, number)
+            busy[worker.give(run, item)] = (worker, item, run, number)
         for done in wait(busy, return_when=FIRST_COMPLETED).done:
             worker, item, run, number = busy.pop(done)
             problem = done.exception()
             if isinstance(problem, BrokenProcessPool):
                 if not worker.alive:
                     raise SweepError(_CANNOT_START)
-                worker.revive()
                 if number < TRIES:
                     waiting.appendleft((item, run, number + 1))
                 else:

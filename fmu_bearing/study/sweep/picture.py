@@ -90,6 +90,8 @@ def draw_map(
         getattr(ax, f"set_{axis}label")(label_of(data, name))
         if _is_geometric(data[name].values.astype(float)):
             getattr(ax, f"set_{axis}scale")("log")
+        else:
+            ax.locator_params(axis=axis, nbins=6)
     return colours
 
 
@@ -147,4 +149,4 @@ def _is_geometric(values: NDArray[np.float64]) -> bool:
     if len(values) < 3 or values.min() <= 0.0:
         return False
     ratios = values[1:] / values[:-1]
-    return bool(np.allclose(ratios, ratios[0], rtol=1e-6))
+    return bool(np.allclose(ratios, ratios[0], rtol=1e-3))  # people write few digits

@@ -48,17 +48,13 @@ def plain(task, block=None):
     return Outcome((rpm(task),), "", 0.0)
 
 
-def dies_once(task, block=None):
-    """The point at 3000 r/min takes its worker with it at the first try."""
-    if leave_word(task) == 0 and rpm(task) == 3000.0:
+def troubled(task, block=None):
+    """At 2000 r/min a point takes its worker with it at the first try, at 4000 at every; at 3000 it fails."""
+    before = leave_word(task)
+    if rpm(task) == 4000.0 or (rpm(task) == 2000.0 and before == 0):
         os._exit(9)
-    return Outcome((rpm(task),), "", 0.0)
-
-
-def dies_always(task, block=None):
-    leave_word(task)
     if rpm(task) == 3000.0:
-        os._exit(9)
+        raise KeyError("a fault of the program")
     return Outcome((rpm(task),), "", 0.0)
 
 
@@ -67,10 +63,3 @@ def slow(task, block=None):
     leave_word(task)
     time.sleep(0.2)
     return Outcome((rpm(task),), "", 0.2)
-
-
-def raises(task, block=None):
-    leave_word(task)
-    if rpm(task) == 3000.0:
-        raise KeyError("a fault of the program")
-    return Outcome((rpm(task),), "", 0.0)

@@ -2,7 +2,9 @@
 
 import contextlib
 import logging
+import math
 import re
+import time as clock
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
@@ -13,6 +15,7 @@ from fmu_bearing.study.sweep.point import Outcome, Task, block_of, code_digest, 
 
 TIMEOUT = 10.0  # s in which a scheduler has to answer, and to have a worker
 _AHEAD = 4  # tasks per thread of the cluster that are handed out at once: none waits, none drowns it
+_ASK = 2.0  # s between questions how large the cluster is
 _ADDRESS = re.compile(r"(\w+://)?[^/\s]+:\d+")
 _WAY_OUT = "install the same version of fmu-bearing, NumPy and Numba there"
 
@@ -50,8 +53,14 @@ def cluster(
         running: dict[Any, Task] = {}
         finished = distributed.as_completed(loop=client.loop)
 
+        asked, room_for = -math.inf, 0
+
         def more() -> None:
-            room = _AHEAD * max(1, sum(client.nthreads().values())) - len(running)
+            nonlocal asked, room_for
+            if clock.monotonic() - asked > _ASK:  # workers come and go; asking takes milliseconds
+                room_for = _AHEAD * max(1, sum(client.nthreads().values()))
+                asked = clock.monotonic()
+            room = room_for - len(running)
             for _, task in zip(range(room), waiting, strict=False):
                 future = client.submit(run, task, sounds.get(task.sound), key=f"fmu-bearing-{task.key}")
                 running[future] = task

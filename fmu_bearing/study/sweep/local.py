@@ -35,10 +35,9 @@ def cores() -> int:
 
 def here(tasks: Iterable[Task], run: Run = run_point) -> Iterator[tuple[Task, Outcome]]:
     """Run points in this process, one after another."""
-    for task in tasks:
-        with threadpool_limits(1):
-            outcome = run(task)
-        yield task, outcome
+    with threadpool_limits(1):  # as in worker processes
+        for task in tasks:
+            yield task, run(task)
 
 
 def processes(

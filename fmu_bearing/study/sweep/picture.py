@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -86,7 +86,8 @@ def draw_map(
     ax.set_facecolor("0.75")
     x, y = (_edges(data[name].values.astype(float)) for name in (over, beside))
     colours = ax.pcolormesh(x, y, values, **({"cmap": "viridis"} | options))
-    for axis, name in (("x", over), ("y", beside)):
+    sides: tuple[tuple[Literal["x", "y"], str], ...] = (("x", over), ("y", beside))
+    for axis, name in sides:
         getattr(ax, f"set_{axis}label")(label_of(data, name))
         if _is_geometric(data[name].values.astype(float)):
             getattr(ax, f"set_{axis}scale")("log")

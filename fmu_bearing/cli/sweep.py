@@ -83,17 +83,18 @@ def _plan(
     window: float | None, folder: Path | None,
 ) -> "Plan":  # fmt: skip
     """Lay out what file and options ask for; options win. The folder gets a file to do it again."""
-    from fmu_bearing.study.sweep.axes import SweepError, parse_axis
+    from fmu_bearing.study.sweep.axes import ALIASES, SweepError, parse_axis
     from fmu_bearing.study.sweep.description import Description, is_description, read_description
     from fmu_bearing.study.sweep.plan import plan
 
-    given = dict(map(parse_axis, axis or []))
-    if len(given) < len(axis or []):
+    parsed = [parse_axis(text) for text in axis or []]
+    given = {ALIASES.get(key, key): values for key, values in parsed}
+    if len(given) < len(parsed):
         raise SweepError("an axis is given twice: give each --axis once")
     known: dict[str, Any] = {}
     if is_description(source):
         known = read_description(source).model_dump()
-        known["axes"] |= given
+        known["axes"] = {ALIASES.get(key, key): values for key, values in known["axes"].items()} | given
     else:
         known = {"scene": str(source), "axes": given}
     names = None if variables is None else tuple(name.strip() for name in variables.split(","))

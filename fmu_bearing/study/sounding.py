@@ -13,5 +13,6 @@ def sound_key(scene: Scene) -> str:
 
     if scene.sound is None:
         return ""
-    bending = (scene.mounting.flexure, scene.materials) if scene.mounting.flexure is not None else ()
+    flexure = scene.mounting.flexure
+    bending = (flexure, scene.materials, scene.bearing) if flexure is not None else ()
     return repr((scene.sound, radiators_of(scene), scene.fidelity.ball_harmonics, bending))

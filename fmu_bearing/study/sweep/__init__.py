@@ -26,7 +26,8 @@ from typing import TYPE_CHECKING, Any
 from fmu_bearing.scene import Scene
 from fmu_bearing.study.extras import need
 from fmu_bearing.study.sweep.axes import SweepError
-from fmu_bearing.study.sweep.plan import SETTLE, WINDOW, plan
+from fmu_bearing.study.sweep.plan import SETTLE, WINDOW
+from fmu_bearing.study.sweep.plan import plan as lay_out
 from fmu_bearing.study.sweep.result import dataset, save
 from fmu_bearing.study.sweep.runs import Interrupted, run_plan
 from fmu_bearing.study.sweep.store import Store
@@ -107,7 +108,7 @@ def sweep(
     [67.0, 138.0]
     """
     need("xarray", "a sweep")
-    made = plan(source, axes, settle, window, figures)
+    made = lay_out(source, axes, settle, window, figures)
     if workers is not None and workers < 1:
         raise SweepError(f"workers = {workers} is refused: give 1 or more")
     store = None if folder is None else Store(pathlib.Path(folder))

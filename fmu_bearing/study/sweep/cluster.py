@@ -11,6 +11,7 @@ from typing import Any
 import fmu_bearing
 from fmu_bearing.study.extras import need
 from fmu_bearing.study.sweep.axes import SweepError
+from fmu_bearing.study.sweep.local import failed
 from fmu_bearing.study.sweep.point import Outcome, Task, block_of, code_digest, nothing, run_point
 
 TIMEOUT = 10.0  # s in which a scheduler has to answer, and to have a worker
@@ -84,7 +85,7 @@ def _outcome(task: Task, future: Any) -> Outcome:
         return future.result()
     if isinstance(problem, ValueError):  # of its sound, which another task prepared
         return nothing(task, " ".join(str(problem).split()), lasting=True)
-    return nothing(task, f"failed: {type(problem).__name__}: {' '.join(str(problem).split())}")
+    return nothing(task, failed(problem))
 
 
 @contextlib.contextmanager

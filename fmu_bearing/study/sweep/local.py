@@ -37,7 +37,11 @@ def here(tasks: Iterable[Task], run: Run = run_point) -> Iterator[tuple[Task, Ou
     """Run points in this process, one after another."""
     with threadpool_limits(1):  # as in worker processes
         for task in tasks:
-            yield task, run(task)
+            try:
+                outcome = run(task)
+            except Exception as fault:  # of one point, which ends no sweep
+                outcome = nothing(task, failed(fault))
+            yield task, outcome
 
 
 def processes(
@@ -59,6 +63,11 @@ def processes(
             pass
         for task, outcome in _spread(crew, [(task, run) for task in tasks]):
             yield task, outcome if isinstance(outcome, Outcome) else nothing(task, str(outcome))
+
+
+def failed(fault: BaseException) -> str:
+    """Return the reason of a point that met a fault of the program."""
+    return f"failed: {type(fault).__name__}: {' '.join(str(fault).split())}"
 
 
 def _prepare_sound(scene: Any) -> None:
@@ -144,7 +153,7 @@ def _spread(
                 else:
                     yield item, f"failed: its worker process died {number} times"
             elif problem is not None:
-                yield item, f"failed: {type(problem).__name__}: {problem}"
+                yield item, failed(problem)
             else:
                 yield item, done.result()
             free.append(worker)

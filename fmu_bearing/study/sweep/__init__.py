@@ -105,7 +105,7 @@ def sweep(
     ...     workers=1,
     ... )
     >>> data["contact.inner.load_mean"].sel(level="rings").round().values.tolist()  # N
-    [67.0, 138.0]
+    [51.0, 115.0]
     """
     need("xarray", "a sweep")
     made = lay_out(source, axes, settle, window, figures)

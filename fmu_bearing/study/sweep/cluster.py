@@ -52,7 +52,7 @@ def cluster(
         }
         waiting = iter(tasks)
         running: dict[Any, Task] = {}
-        finished = distributed.as_completed(loop=client.loop)
+        finished = distributed.as_completed(loop=client.loop, with_results=True, raise_errors=False)
 
         asked, room_for = -math.inf, 0
 
@@ -68,24 +68,24 @@ def cluster(
                 finished.add(future)
 
         more()
-        for future in finished:
+        for future, result in finished:
             task = running.pop(future)
             if future.cancelled():
                 raise SweepError(
                     f"the scheduler at {address} was lost; finished points are kept where a folder is given: "
                     "the same command goes on"
                 )
-            yield task, _outcome(task, future)
+            yield task, _outcome(task, result[1] if future.status == "error" else result)
             more()
 
 
-def _outcome(task: Task, future: Any) -> Outcome:
-    problem = future.exception()
-    if problem is None:
-        return future.result()
-    if isinstance(problem, ValueError):  # of its sound, which another task prepared
-        return nothing(task, " ".join(str(problem).split()), lasting=True)
-    return nothing(task, failed(problem))
+def _outcome(task: Task, result: Any) -> Outcome:
+    """Return the outcome of a task, or of what it met in its place."""
+    if isinstance(result, Outcome):
+        return result
+    if isinstance(result, ValueError):  # of its sound, which another task prepared
+        return nothing(task, " ".join(str(result).split()), lasting=True)
+    return nothing(task, failed(result))
 
 
 @contextlib.contextmanager

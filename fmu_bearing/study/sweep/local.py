@@ -57,11 +57,11 @@ def processes(
         When no worker comes to life.
     """
     sounds = list(dict.fromkeys(task.sound for task in tasks if task.sound is not None))
-    with _one_thread(), _crew(min(workers, len(tasks))) as crew:
+    with _one_thread(), hired(min(workers, len(tasks))) as crew:
         # each sound is prepared by one worker, before any two meet the same one; both take it from disk then
-        for _ in _spread(crew, [(sound, _prepare_sound) for sound in sounds]):
+        for _ in spread(crew, [(sound, _prepare_sound) for sound in sounds]):
             pass
-        for task, outcome in _spread(crew, [(task, run) for task in tasks]):
+        for task, outcome in spread(crew, [(task, run) for task in tasks]):
             yield task, outcome if isinstance(outcome, Outcome) else nothing(task, str(outcome))
 
 
@@ -119,7 +119,8 @@ def _begin() -> int:
 
 
 @contextmanager
-def _crew(count: int) -> Iterator[list[_Worker]]:
+def hired(count: int) -> Iterator[list[_Worker]]:
+    """Start workers and end them: at once where something went wrong meanwhile."""
     crew = [_Worker() for _ in range(count)]
     finished = False
     try:
@@ -130,7 +131,7 @@ def _crew(count: int) -> Iterator[list[_Worker]]:
             worker.end(at_once=not finished)
 
 
-def _spread(
+def spread(
     crew: list[_Worker], jobs: Iterable[tuple[Any, Callable[[Any], Any]]]
 ) -> Iterator[tuple[Any, Any]]:  # fmt: skip
     """Give each job's item to its function on the next free worker; yield items with what came of them."""

@@ -32,7 +32,7 @@ def trace(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def dask(trace):
-    options = {"processes": True, "threads_per_worker": 1, "dashboard_address": None, "silence_logs": 50}
+    options = {"processes": True, "threads_per_worker": 1, "dashboard_address": ":0", "silence_logs": 50}
     with distributed.LocalCluster(n_workers=2, **options) as found:
         yield found
 

@@ -7,12 +7,13 @@
 ``runs``        simulate, plot
 ``sound``       levels, spectra, directivity, WAV
 ``studies``     choose, tradeoff, sensitivity
+``sweep``       a scene over a grid of its values
 ``validate``    checks of an FMU
 ==============  ==================================================================
 """
 
 # importing a file registers its commands
-from fmu_bearing.cli import build, runs, scenes, sound, studies, validate  # noqa: F401
+from fmu_bearing.cli import build, runs, scenes, sound, studies, sweep, validate  # noqa: F401
 from fmu_bearing.cli.base import app
 
 __all__ = ["app"]

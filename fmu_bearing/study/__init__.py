@@ -16,6 +16,9 @@
 ``chart``           error against speed, drawn
 ``choose``          level ``auto``: the cheapest within the scene's accuracy, found by running it
 ``sensitivity``     what rests on assumed values
+``values``          values of a scene by dotted key
+``sounding``        scenes that sound alike
+``sweep``           a scene over a grid of its values, on all cores or a cluster, resumable
 ``recording``       `record`: a run with the engine's channels kept
 ``recorded``        `Recording`: such a run or an FMU's, in files
 ``heard``           its pressures and levels at any microphone

@@ -6,6 +6,7 @@ from types import ModuleType
 #: Package to import, and the extra of this package that installs it.
 EXTRAS = {
     "xarray": "results",
+    "h5netcdf": "results",
     "plotly": "report",
     "distributed": "cluster",
     "fmu_manipulation_toolbox": "validate",

@@ -19,7 +19,9 @@ from fmu_bearing.scene import Scene
 from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.study.arrays import Refused
 from fmu_bearing.study.figures import INAUDIBLE, Figures, measure
+from fmu_bearing.study.sounding import sound_key
 from fmu_bearing.study.table import machine, markdown, write_csv
+from fmu_bearing.study.values import replaced, value_at
 
 SHARE = 0.2
 
@@ -171,23 +173,9 @@ def _shown(value: Any) -> str:
     return f"{value:.6g}" if isinstance(value, int | float) else str(value)
 
 
-def value_at(scene: Scene, key: str) -> Any:
-    """Value at a dotted key of a scene; None where the scene has no such table or value."""
-    part: Any = scene
-    for name in key.split("."):
-        part = getattr(part, name, None)
-    return part
-
-
 def changed(scene: Scene, key: str, value: Any) -> Scene:
     """Return the scene with another value at a dotted key; ``ValidationError`` where it is refused."""
-    data = scene.model_dump()
-    *tables, last = key.split(".")
-    part = data
-    for name in tables:
-        part = part[name]
-    part[last] = value
-    return Scene.model_validate(data)
+    return Scene.model_validate(replaced(scene, {key: value}))
 
 
 def sensitivity(
@@ -263,12 +251,11 @@ def changes(found: Figures, base: Figures) -> tuple[float, ...]:
 def _sound(scene: Scene, blocks: dict[str, NDArray[np.float64]]) -> NDArray[np.float64]:
     """Sound block of a scene, computed once for all that radiate alike."""
     # slow to load, and the command line has other uses of this module's tables
-    from fmu_bearing.acoustics.stream import radiators_of, sound_parameters
+    from fmu_bearing.acoustics.stream import sound_parameters
 
     if scene.sound is None:
         return np.empty(0)
-    bending = (scene.mounting.flexure, scene.materials) if scene.mounting.flexure is not None else ()
-    key = repr((scene.sound, radiators_of(scene), scene.fidelity.ball_harmonics, bending))
+    key = sound_key(scene)
     if key not in blocks:
         blocks[key] = sound_parameters(scene)
     return blocks[key]

@@ -1,0 +1,201 @@
+"""``fmu-bearing sweep``: a scene over a grid of its values."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from fmu_bearing.cli.base import ENDED_EARLY, INTERRUPTED, Folder, Json, app, print_json, refusals, tell
+
+if TYPE_CHECKING:
+    from fmu_bearing.study.sweep.plan import Plan
+    from fmu_bearing.study.sweep.runs import Outcomes
+
+Source = Annotated[Path, typer.Argument(metavar="SCENE|SWEEP", help="Scene, or sweep file (TOML).")]
+AxisTexts = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--axis",
+        "-a",
+        metavar="KEY=VALUES",
+        help="What is varied: KEY=LOW:HIGH:COUNT, KEY=LOW:HIGH:COUNTlog, KEY=VALUE,VALUE,... KEY is dotted "
+        "(mounting.preload_N) or speed, preload, pedestal, viscosity, seed, level. Once per axis.",
+    ),
+]
+Names = Annotated[
+    str | None,
+    typer.Option(
+        "--variables",
+        "-v",
+        metavar="NAME[:STATISTIC],...",
+        help="What is kept, * stands for any text; statistics: mean, rms, min, max, last, 1x.",
+    ),
+]
+Settle = Annotated[
+    float | None, typer.Option(help="Time each point runs before it is read, s; default 0.02.")
+]
+Window = Annotated[float | None, typer.Option(help="Time over which it is read, s; default 0.1.")]
+Workers = Annotated[
+    int | None, typer.Option("--workers", "-w", min=1, help="Processes; default: one per core.")
+]
+Scheduler = Annotated[
+    str | None,
+    typer.Option(metavar="ADDRESS", help="Dask scheduler to use in their place, such as tcp://host:8786."),
+]
+DryRun = Annotated[
+    bool, typer.Option("--dry-run", help="Check all points, time one of them, estimate; run no more.")
+]
+
+
+@app.command()
+def sweep(
+    source: Source,
+    axis: AxisTexts = None,
+    variables: Names = None,
+    settle: Settle = None,
+    window: Window = None,
+    workers: Workers = None,
+    scheduler: Scheduler = None,
+    output: Folder = Path("out/sweep"),
+    dry_run: DryRun = False,
+    as_json: Json = False,
+) -> None:
+    """Run a scene over all combinations of some of its values; write netCDF, CSV, a picture.
+
+    Finished points are kept in the folder: the same command goes on where an earlier one was interrupted.
+    """
+    from fmu_bearing.study.extras import need
+
+    with refusals():
+        need("xarray", "a sweep")
+        need("h5netcdf", "netCDF")
+        made = _plan(source, axis, variables, settle, window, output if not dry_run else None)
+        if made.note:
+            tell(made.note)
+        if dry_run:
+            _estimate(made, output, workers, as_json)
+        else:
+            _run(made, output, workers, scheduler, as_json)
+
+
+def _plan(
+    source: Path, axis: list[str] | None, variables: str | None, settle: float | None,
+    window: float | None, folder: Path | None,
+) -> "Plan":  # fmt: skip
+    """Lay out what file and options ask for; options win. The folder gets a file to do it again."""
+    from fmu_bearing.study.sweep.axes import ALIASES, SweepError, parse_axis
+    from fmu_bearing.study.sweep.description import Description, is_description, read_description
+    from fmu_bearing.study.sweep.plan import plan
+
+    parsed = [parse_axis(text) for text in axis or []]
+    given = {ALIASES.get(key, key): values for key, values in parsed}
+    if len(given) < len(parsed):
+        raise SweepError("an axis is given twice: give each --axis once")
+    known: dict[str, Any] = {}
+    if is_description(source):
+        known = read_description(source).model_dump()
+        known["axes"] = {ALIASES.get(key, key): values for key, values in known["axes"].items()} | given
+    else:
+        known = {"scene": str(source), "axes": given}
+    names = None if variables is None else tuple(name.strip() for name in variables.split(","))
+    options = {"settle_s": settle, "window_s": window, "figures": names}
+    known |= {key: value for key, value in options.items() if value is not None}
+    if not known["axes"]:
+        raise SweepError("a sweep needs an axis, for example --axis speed=8000:40000:9")
+    wanted = Description.model_construct(**known)
+    made = plan(wanted.scene, wanted.axes, wanted.settle_s, wanted.window_s, wanted.figures)
+    if folder is not None:
+        scene = folder / "scene.toml"
+        folder.mkdir(parents=True, exist_ok=True)
+        scene.write_text(made.scene.to_toml(), "utf-8")
+        text = wanted.model_copy(update={"scene": scene.name}).to_toml()
+        (folder / "sweep.toml").write_text(text, "utf-8")
+    return made
+
+
+def _run(made: "Plan", output: Path, workers: int | None, scheduler: str | None, as_json: bool) -> None:
+    from fmu_bearing.study.sweep.runs import Interrupted, run_plan
+    from fmu_bearing.study.sweep.store import Store
+
+    store, code = Store(output), 0
+    try:
+        outcomes = run_plan(made, store, workers, scheduler)
+    except Interrupted as stop:
+        outcomes, code = stop.outcomes, INTERRUPTED
+        left = len(made.tasks) - len(outcomes)
+        again = f"fmu-bearing sweep {output / 'sweep.toml'} -o {output}"
+        tell(f"{stop} and kept; `{again}` runs the {left} that are left")
+    if any(not outcome.lasting for outcome in outcomes.values()):
+        code = code or ENDED_EARLY
+    _write(made, outcomes, output, as_json)
+    if code:
+        raise typer.Exit(code)
+
+
+def _write(made: "Plan", outcomes: "Outcomes", output: Path, as_json: bool) -> None:
+    """Write what there is and tell it."""
+    from fmu_bearing.study.sweep.picture import save as save_picture
+    from fmu_bearing.study.sweep.picture import sweep_picture
+    from fmu_bearing.study.sweep.result import COLUMNS, dataset, extremes, save
+    from fmu_bearing.study.table import show
+
+    data = dataset(made, outcomes)
+    files = save(data, output)
+    if outcomes and sum(size > 1 for size in made.shape) in (1, 2):
+        files["picture"] = output / "sweep.png"
+        save_picture(sweep_picture(data), files["picture"])
+    bad = {key: outcome.reason for key, outcome in outcomes.items() if outcome.reason}
+    found = extremes(data)
+    if as_json:
+        print_json(
+            {
+                "scene": made.scene.name,
+                "points": len(made.tasks),
+                "finished": len(outcomes),
+                "refused": len(bad),
+                "reasons": sorted(set(bad.values())),
+                "axes": {axis.key: axis.values for axis in made.axes},
+                "figures": {row["figure"]: row for row in found},
+                "files": files,
+            }
+        )
+        return
+    rows = [[f"{cell:.5g}" if isinstance(cell, float) else cell for cell in row.values()] for row in found]
+    show(str(data.attrs["title"]), COLUMNS, rows, width=110)
+    counted = f"{len(outcomes)} of {len(made.tasks)} points"
+    typer.echo(f"{counted}, {len(bad)} refused; written: {', '.join(map(str, files.values()))}")
+    for reason in sorted(set(bad.values()))[:5]:
+        typer.echo(f"refused: {reason}")
+
+
+def _estimate(made: "Plan", output: Path, workers: int | None, as_json: bool) -> None:
+    """Time one point, twice: the first run also loads kernels and prepares the sound."""
+    from fmu_bearing.study.sweep.point import run_point
+    from fmu_bearing.study.sweep.runs import crew_size, finished
+    from fmu_bearing.study.sweep.store import Store
+
+    kept = len(finished(made, Store(output))) if output.is_dir() else 0
+    task = made.tasks[len(made.tasks) // 2]
+    first, second = run_point(task), run_point(task)
+    left = len(made.tasks) - kept
+    crew = crew_size(left, workers)
+    seconds = left * second.wall / crew
+    result = {
+        "points": len(made.tasks), "kept": kept, "sounds": len(made.sounds), "probe_s": second.wall,
+        "first_s": first.wall, "workers": crew, "estimate_s": seconds, "reason": second.reason,
+    }  # fmt: skip
+    if as_json:
+        print_json(result)
+        return
+    typer.echo(
+        f"{len(made.tasks)} points, {kept} kept; one took {second.wall:.3g} s "
+        f"(the first {first.wall:.3g} s, with loading and sound): about {_spell(seconds)} on {crew} processes"
+        + (f"; the probe was refused: {second.reason}" if second.reason else "")
+    )
+
+
+def _spell(seconds: float) -> str:
+    for size, unit in ((86400.0, "days"), (3600.0, "h"), (60.0, "min")):
+        if seconds >= 2.0 * size:
+            return f"{seconds / size:.3g} {unit}"
+    return f"{seconds:.3g} s"

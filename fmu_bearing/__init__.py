@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from fmu_bearing.study.recording import Recording, record
     from fmu_bearing.study.run import Run
     from fmu_bearing.study.simulate import simulate
+    from fmu_bearing.study.sweep import sweep
 
 __version__ = "0.1.0"
 
@@ -52,6 +53,7 @@ _PLACES = {
     "read_scene": "scene",
     "record": "study.recording",
     "simulate": "study.simulate",
+    "sweep": "study.sweep",
 }
 
 __all__ = [
@@ -64,6 +66,7 @@ __all__ = [
     "read_scene",
     "record",
     "simulate",
+    "sweep",
 ]
 
 

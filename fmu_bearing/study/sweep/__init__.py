@@ -93,8 +93,7 @@ def sweep(
 
     Examples
     --------
-    >>> from fmu_bearing import read_scene
-    >>> from fmu_bearing.study.sweep import sweep
+    >>> from fmu_bearing import read_scene, sweep
     >>> scene = read_scene("examples/scenes/7003C-bare.toml")
     >>> data = sweep(
     ...     scene.model_copy(update={"sound": None}),

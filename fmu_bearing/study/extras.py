@@ -7,6 +7,7 @@ from types import ModuleType
 EXTRAS = {
     "xarray": "results",
     "plotly": "report",
+    "jinja2": "report",
     "distributed": "cluster",
     "fmu_manipulation_toolbox": "validate",
 }

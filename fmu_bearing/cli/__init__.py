@@ -8,11 +8,12 @@
 ``sound``       levels, spectra, directivity, WAV
 ``studies``     choose, tradeoff, sensitivity
 ``validate``    checks of an FMU
+``report``      a page about a run
 ==============  ==================================================================
 """
 
 # importing a file registers its commands
-from fmu_bearing.cli import build, runs, scenes, sound, studies, validate  # noqa: F401
+from fmu_bearing.cli import build, report, runs, scenes, sound, studies, validate  # noqa: F401
 from fmu_bearing.cli.base import app
 
 __all__ = ["app"]

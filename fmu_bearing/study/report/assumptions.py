@@ -20,7 +20,15 @@ def assumed_table(scene: Scene, text: str = "") -> Table:
         value = value_at(scene, key)
         if value is None:
             continue
-        rows.append([key, _shown(value), symbol(key.rsplit(".", 1)[-1]), meaning(scene, key), _remark(key, remarks, text)])
+        rows.append(
+            [
+                key,
+                _shown(value),
+                symbol(key.rsplit(".", 1)[-1]),
+                meaning(scene, key),
+                _remark(key, remarks, text),
+            ]
+        )
     marked = sum(1 for row in rows if row[4].startswith(_MARK))
     said = (
         f" The scene file marks {marked} of them as assumed; one without the mark has a value of your own."
@@ -31,7 +39,8 @@ def assumed_table(scene: Scene, text: str = "") -> Table:
         f"{len(rows)} values that neither paper nor data sheet gives",
         ["key", "value", "unit", "what it is", "the file says" if text else "in the catalogue"],
         rows,
-        note="What each of them is worth is told by fmu-bearing sensitivity, which moves them one by one." + said,
+        note="What each of them is worth is told by fmu-bearing sensitivity, which moves them one by one."
+        + said,
         folded=True,
     )
 

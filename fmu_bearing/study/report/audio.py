@@ -17,7 +17,7 @@ _FULL = 32_767
 
 
 def audio(heard: Microphones) -> Section:
-    """The chosen microphones to listen to."""
+    """Put the chosen microphones into players."""
     recording = heard.subject.recording
     samples = min(recording.size, round(LONGEST * recording.rate))
     signals = resample(heard.pressure[heard.shown][:, :samples], recording.rate)
@@ -27,8 +27,10 @@ def audio(heard: Microphones) -> Section:
     at_full = 20.0 * math.log10(1.0 / factor / math.sqrt(2.0) / 2e-5) if peak > 0.0 else math.nan
     blocks: list[Block] = [
         Words(
-            f"The first {seconds:.2g} s at each microphone, in a loop, with {1e3 * _FADE:g} ms of fading at both ends. All "
-            f"are scaled alike, by {factor:.4g} per Pa ({1.0 / factor:.3g} Pa, {at_full:.1f} dB of a sine, is full scale): what "
+            f"The first {seconds:.2g} s at each microphone, in a loop, with {1e3 * _FADE:g} ms of fading "
+            f"at both ends. All "
+            f"are scaled alike, by {factor:.4g} per Pa ({1.0 / factor:.3g} Pa, {at_full:.1f} dB of a sine, "
+            f"is full scale): what "
             "is louder there is louder here. The loudness of your player is not calibrated."
         )
     ]

@@ -38,7 +38,7 @@ class Sphere:
     levels: dict[str, NDArray[np.float64]]
 
     def directions(self) -> NDArray[np.float64]:
-        """Unit vectors (x, y, z), shape (latitudes, around, 3)."""
+        """Return unit vectors (x, y, z), shape (latitudes, around, 3)."""
         a, b = np.meshgrid(self.polar, self.azimuth, indexing="ij")
         return np.stack([np.cos(a), -np.sin(a) * np.sin(b), np.sin(a) * np.cos(b)], axis=-1)
 
@@ -108,9 +108,10 @@ def _balloon(subject: Subject, found: Sphere) -> Chart:
         radius = np.maximum(whole - (top - _RANGE), 0.0) / _RANGE
         x, y, z = (radius * closed[..., axis] for axis in range(3))
         figure.add_surface(
-            x=small(x), y=small(y), z=small(z), surfacecolor=small(whole), cmin=max(top - _RANGE, float(values.min()) - 0.05),
+            x=small(x), y=small(y), z=small(z), surfacecolor=small(whole),
+            cmin=max(top - _RANGE, float(values.min()) - 0.05),
             cmax=top, colorscale="Viridis", meta={"band": name}, visible=k == 0, text=_spots(found),
-            colorbar={"title": {"text": "dB", "side": "top"}, "thickness": 14, "len": 0.75, "outlinewidth": 0},
+            colorbar=look.bar("dB", 0.75),
             hovertemplate="%{text}: %{surfacecolor:.1f} dB<extra></extra>",
             lighting={"ambient": 0.75, "diffuse": 0.5, "specular": 0.1}, showscale=True,
         )  # fmt: skip
@@ -129,10 +130,13 @@ def _balloon(subject: Subject, found: Sphere) -> Chart:
     a = found.levels["A-weighted"]
     return Chart(
         "balloon", f"Level over direction at {subject.radius:g} m", figure,
-        f"Three-dimensional directivity at {subject.radius:g} m: A-weighted levels from {a.min():.1f} to {a.max():.1f} dB.",
+        f"Three-dimensional directivity at {subject.radius:g} m: A-weighted levels from {a.min():.1f} to "
+        f"{a.max():.1f} dB.",
         (_choice(found, "Level"),), solid=True,
-        note=f"Drag to turn, scroll to zoom. Distance from the centre and colour both are the level; the centre stands "
-        f"{_RANGE:g} dB below the loudest direction. {_LATITUDES * _AROUND - 2 * (_AROUND - 1)} directions, rung {subject.rung}, "
+        note=f"Drag to turn, scroll to zoom. Distance from the centre and colour both are the level; the "
+        f"centre stands "
+        f"{_RANGE:g} dB below the loudest direction. {_LATITUDES * _AROUND - 2 * (_AROUND - 1)} "
+        f"directions, rung {subject.rung}, "
         f"{_resolution(subject):.3g} Hz blocks.",
     )  # fmt: skip
 
@@ -141,7 +145,8 @@ def _spots(found: Sphere) -> list[list[str]]:
     """Directions in words, for the pointer."""
     around = [*np.degrees(found.azimuth), 0.0]
     return [
-        [f"{math.degrees(p):.0f} deg from +X, {angle:.0f} deg from 12 o'clock" for angle in around] for p in found.polar
+        [f"{math.degrees(p):.0f} deg from +X, {angle:.0f} deg from 12 o'clock" for angle in around]
+        for p in found.polar
     ]
 
 
@@ -171,16 +176,19 @@ def _planes(subject: Subject, found: Sphere) -> Chart:
     for k, (name, values) in enumerate(found.levels.items()):
         for plane, row in _rounds(values).items():
             figure.add_scatterpolar(
-                theta=small(angle), r=small(row), mode="lines", name=plane, meta={"band": name}, visible=k == 0,
+                theta=small(angle), r=small(row), mode="lines", name=plane, meta={"band": name},
+                visible=k == 0,
                 line={"color": look.colour(_PLANES[plane]), "width": 2},
                 hovertemplate="%{theta:.0f} deg: %{r:.1f} dB<extra>" + plane + "</extra>",
             )  # fmt: skip
         choices.append(Option(name, name, {"polar.radialaxis.range": list(_scale(values))}))
     return Chart(
         "planes", f"Level in three planes at {subject.radius:g} m", figure,
-        "Polar chart of the level in the bearing plane, the horizontal and the upright plane through the axis.",
+        "Polar chart of the level in the bearing plane, the horizontal and the upright plane through the "
+        "axis.",
         (Choice("band", "Level", choices),),
-        note="YZ: from 12 o'clock with positive rotation, as seen from +X. XY: from +X towards +Y. XZ: from +X upwards.",
+        note="YZ: from 12 o'clock with positive rotation, as seen from +X. XY: from +X towards +Y. XZ: "
+        "from +X upwards.",
     )  # fmt: skip
 
 
@@ -198,7 +206,8 @@ def _circle(subject: Subject, heard: Microphones) -> Chart | None:
     choices = []
     for k, (name, values) in enumerate(found.items()):
         figure.add_scatterpolar(
-            theta=small(angle), r=small(np.append(values, values[0])), mode="lines", name=name, meta={"band": name},
+            theta=small(angle), r=small(np.append(values, values[0])), mode="lines", name=name,
+            meta={"band": name},
             visible=k == 0, line={"color": look.colour("outer_ring"), "width": 2}, showlegend=False,
             hovertemplate="%{theta:.0f} deg: %{r:.1f} dB<extra></extra>",
         )  # fmt: skip
@@ -208,5 +217,6 @@ def _circle(subject: Subject, heard: Microphones) -> Chart | None:
         "circle", f"Level round the axis at {where}", figure,
         f"Polar chart of the level on the circle about the axis with {where}.",
         (Choice("band", "Level", choices),),
-        note=f"{_CIRCLE} places on the circle through the microphone farthest from the axis, 12 o'clock on top, seen from +X.",
+        note=f"{_CIRCLE} places on the circle through the microphone farthest from the axis, 12 o'clock on "
+        f"top, seen from +X.",
     )  # fmt: skip

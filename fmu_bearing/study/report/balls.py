@@ -46,7 +46,7 @@ class Watch:
         self._has_cage = bool(bearing.p[at.P_CAGE])
 
     def outputs(self) -> dict[str, NDArray[np.float64]]:
-        """Return what was read, over the calls, by `name_of`: rad, N, rad; and the cage's displacement (m)."""
+        """Return what was read, over the calls, by `name_of` (rad, N, rad), and the cage's place (m)."""
         table = np.array(self._balls)
         found = {}
         for j in range(table.shape[1]):

@@ -10,9 +10,11 @@ from fmu_bearing.study.report.subject import RPM, Subject
 
 _LEVELS = {
     "full": "all bodies move: rings, cage and every ball, with sliding, film, pockets and lands",
-    "rings": "rings move in time; each ball stands where both contacts balance it, the cage turns with them; torque and "
+    "rings": "rings move in time; each ball stands where both contacts balance it, the cage turns with "
+    "them; torque and "
     "heats are the quasi-static ones; no slip, no motion of the cage",
-    "response": "linear response of the rings about the quasi-static state, as a sum of lines; no slip, no motion of the "
+    "response": "linear response of the rings about the quasi-static state, as a sum of lines; no slip, no "
+    "motion of the "
     "cage, nothing that a change sets ringing",
 }
 _RUNGS = {
@@ -24,7 +26,11 @@ _RUNGS = {
     "table": "the user's transfer functions",
     "recorded": "pressures as they were recorded",
 }
-_RADIATORS = {"bare": "the bare bearing", "baffle": "its face, flush in a rigid plane", "housing": "the housing"}
+_RADIATORS = {
+    "bare": "the bare bearing",
+    "baffle": "its face, flush in a rigid plane",
+    "housing": "the housing",
+}
 _FREQUENCY_WORDS = {
     "f_r": "turns of the shaft",
     "f_c": "turns of the cage",
@@ -46,16 +52,19 @@ def _operation(subject: Subject) -> Table:
     rpm = subject.speed / RPM
     imperfections = scene.imperfections
     rows = [
-        ["bearing", f"{b.designation}: {b.bore_mm:g} x {b.outside_diameter_mm:g} x {b.width_mm:g} mm, {b.ball_count} balls "
+        ["bearing", f"{b.designation}: {b.bore_mm:g} x {b.outside_diameter_mm:g} x {b.width_mm:g} mm, "
+        f"{b.ball_count} balls "
          f"of {b.ball_diameter_mm:g} mm, contact angle {b.contact_angle_deg:g} deg"],
         ["shaft speed", f"{rpm:,.0f} r/min" + _variation(subject)],
-        ["preload", f"{m.preload_N:g} N along the axis, by {'a constant force' if m.preload_mode == 'force' else 'rigid distance'}"],
+        ["preload", f"{m.preload_N:g} N along the axis, by "
+        f"{'a constant force' if m.preload_mode == 'force' else 'rigid distance'}"],
         ["radial load on the inner ring", f"y {m.radial_load_y_N:g} N, z {m.radial_load_z_N:g} N"],
         ["misalignment", f"about y {m.misalignment_y_mrad:g} mrad, about z {m.misalignment_z_mrad:g} mrad"],
         ["temperatures", f"oil {o.oil_temperature_degC:g}, inner ring {o.inner_ring_temperature_degC:g}, "
          f"outer ring {o.outer_ring_temperature_degC:g} degC"],
         ["pedestal stiffness", f"{1e-6 * m.pedestal_stiffness_N_m:.4g} N/um"],
-        ["cage", "none" if b.cage is None else f"{b.cage.width_mm:g} mm wide, pockets of {b.cage.pocket_diameter_mm:g} mm"],
+        ["cage", "none" if b.cage is None else f"{b.cage.width_mm:g} mm wide, pockets of "
+        f"{b.cage.pocket_diameter_mm:g} mm"],
         ["imperfections", "none: a perfect bearing" if imperfections is None else
          f"seed {imperfections.seed}, unbalance {imperfections.unbalance_um:g} um, balls within "
          f"+-{imperfections.ball_diameter_spread_nm:g} nm, waviness orders {imperfections.lowest_order} to "
@@ -76,7 +85,8 @@ def _variation(subject: Subject) -> str:
 def _method(scene: Scene) -> str:
     f = scene.fidelity
     name = f"{f.method}, " if f.level == "full" else ""
-    return f"{name}internal steps up to {f.max_internal_step_us:g} us, tolerance {f.tolerance:g}, {f.traction_strips} strips per contact"
+    return f"{name}internal steps up to {f.max_internal_step_us:g} us, tolerance {f.tolerance:g}, "
+    f"{f.traction_strips} strips per contact"
 
 
 def _sound(subject: Subject) -> str:
@@ -91,7 +101,11 @@ def _kinematics(subject: Subject) -> Table:
     for name, value in kinematics._asdict().items():
         order = f"{value / kinematics.f_r:.4f}" if kinematics.f_r else ""
         rows.append([name, OTHER_NAMES[name], _FREQUENCY_WORDS[name], f"{value:.2f}", order])
-    angle = math.degrees(subject.mean("contact.outer.angle_mean")) if subject.has("contact.outer.angle_mean") else None
+    angle = (
+        math.degrees(subject.mean("contact.outer.angle_mean"))
+        if subject.has("contact.outer.angle_mean")
+        else None
+    )
     words = (
         "at the mean of the computed contact angles" if angle is not None else "at the nominal contact angle"
     )
@@ -99,7 +113,8 @@ def _kinematics(subject: Subject) -> Table:
     if subject.has("cage.speed_ratio") and subject.level == "full":
         found = subject.mean("cage.speed_ratio")
         rolling = kinematics.f_c / kinematics.f_r if kinematics.f_r else math.nan
-        ratio = f" The cage turned at {found:.5f} of the shaft's speed, {100.0 * (found / rolling - 1.0):+.2f} % from rolling."
+        ratio = f" The cage turned at {found:.5f} of the shaft's speed, "
+        f"{100.0 * (found / rolling - 1.0):+.2f} % from rolling."
     return Table(
         "Kinematic frequencies", ["", "also called", "counts", "frequency, Hz", "order"], rows,
         note=f"Rolling without sliding, {words}.{ratio}",
@@ -127,10 +142,12 @@ def _choices(subject: Subject) -> Table:
         ["radiation", subject.rung, _RUNGS.get(subject.rung, "")],
         ["forces left out", ", ".join(off) or "none", "fidelity.terms"],
         ["rings", "bending" if scene.bends else "rigid", "mounting.flexure"],
-        ["oil", scene.lubricant.viscosity_law, f"viscosity {scene.lubricant.viscosity_Pa_s:g} Pa s at 20 degC; "
+        ["oil", scene.lubricant.viscosity_law, f"viscosity {scene.lubricant.viscosity_Pa_s:g} Pa s at 20 "
+        f"degC; "
          f"traction law {scene.lubricant.traction_law}"],
         ["temperatures", "held", "the run does not warm up: heats are told, not fed back"],
-        ["recorded", f"{recording.size / recording.rate:.4g} s", f"after {recording.start:.3g} s in which the start dies away"],
+        ["recorded", f"{recording.size / recording.rate:.4g} s", f"after {recording.start:.3g} s in which "
+        f"the start dies away"],
         ["communication step", steps, "between the points at which variables were read"],
         ["sound", f"{recording.rate:g} Hz", "20 Hz to 20 kHz; free field unless the scene says otherwise"],
     ]  # fmt: skip
@@ -146,4 +163,5 @@ def source_words(subject: Subject) -> str:
         scene = subject.scene
     except Absent:
         return "a recording without scene"
-    return f"{scene.bearing.designation} at {subject.speed / RPM:,.0f} r/min, preload {scene.mounting.preload_N:g} N"
+    return f"{scene.bearing.designation} at {subject.speed / RPM:,.0f} r/min, preload "
+    f"{scene.mounting.preload_N:g} N"

@@ -31,7 +31,7 @@ _FURTHER = (
 
 
 def contacts(subject: Subject) -> Section:
-    """Loads and angles around the circle and ball by ball."""
+    """Show loads and angles around the circle and ball by ball."""
     subject.output("contact.inner.load_mean")  # says what is missing
     blocks: list[Block] = []
     balls = _ball_count(subject)
@@ -40,7 +40,8 @@ def contacts(subject: Subject) -> Section:
     else:
         blocks.append(
             Words(
-                "Ball by ball there is nothing to show: this recording kept means and extremes over the balls only. "
+                "Ball by ball there is nothing to show: this recording kept means and extremes over the "
+                "balls only. "
                 "Make the report from the scene to see each ball.",
                 "absent",
             )
@@ -84,7 +85,7 @@ def by_place(
 def _around(subject: Subject, balls: int) -> Chart:
     figure = look.polar(560)
     azimuth = _of_balls(subject, balls, "azimuth")
-    for what, (words, unit, factor) in _WHAT.items():
+    for what, (_, unit, factor) in _WHAT.items():
         for race in RACES:
             values = factor * _of_balls(subject, balls, what, race)
             middles, (mean, low, high) = by_place(azimuth, values)
@@ -97,14 +98,16 @@ def _around(subject: Subject, balls: int) -> Chart:
                 fillcolor=look.faint(race), hoverinfo="skip", showlegend=False, meta=meta, visible=shown,
             )  # fmt: skip
             figure.add_scatterpolar(
-                theta=small(angle), r=small(np.append(mean, mean[:1])), mode="lines", name=f"{race} race, mean",
+                theta=small(angle), r=small(np.append(mean, mean[:1])), mode="lines", name=f"{race} race, "
+                f"mean",
                 line={"color": tint, "width": 2}, meta=meta, visible=shown,
                 hovertemplate=f"%{{theta:.0f}} deg: %{{r:.4g}} {unit}<extra>{race} race</extra>",
             )  # fmt: skip
             figure.add_scatterpolar(
                 theta=small(np.degrees(azimuth[:, -1])), r=small(values[:, -1]), mode="markers+text",
                 text=[str(j + 1) for j in range(balls)], textposition="top center", textfont={"size": 11},
-                name=f"{race} race, balls at the end", marker={"color": tint, "size": 8}, meta=meta, visible=shown,
+                name=f"{race} race, balls at the end", marker={"color": tint, "size": 8}, meta=meta,
+                visible=shown,
                 hovertemplate=f"ball %{{text}}: %{{r:.4g}} {unit}<extra>{race} race</extra>",
             )  # fmt: skip
     load = _of_balls(subject, balls, "load", "outer")
@@ -112,11 +115,14 @@ def _around(subject: Subject, balls: int) -> Chart:
         "contacts-around",
         "Around the circle",
         figure,
-        f"Polar chart of contact load and angle of {balls} balls over their place on the circle, inner and outer race; "
+        f"Polar chart of contact load and angle of {balls} balls over their place on the circle, inner and "
+        f"outer race; "
         f"loads at the outer race run from {load.min():.1f} to {load.max():.1f} N.",
         (_what_to_show(),),
-        note="Seen from +X, 12 o'clock on top, positive rotation anticlockwise. Line: mean of all balls that pass a place; "
-        "band: smallest to largest; numbers: balls at the end of the recording. Elastic loads, without waviness of the "
+        note="Seen from +X, 12 o'clock on top, positive rotation anticlockwise. Line: mean of all balls "
+        "that pass a place; "
+        "band: smallest to largest; numbers: balls at the end of the recording. Elastic loads, without "
+        "waviness of the "
         "races.",
     )
 
@@ -140,7 +146,8 @@ def _ball_by_ball(subject: Subject, balls: int) -> Chart:
                 visible=what == "load", customdata=np.array(numbers),
                 error_y={
                     "type": "data", "symmetric": False, "array": small(values.max(axis=1) - mean),
-                    "arrayminus": small(mean - values.min(axis=1)), "color": look.colour(race), "thickness": 1.4,
+                    "arrayminus": small(mean - values.min(axis=1)), "color": look.colour(race),
+                    "thickness": 1.4,
                 },
                 hovertemplate=f"ball %{{customdata}}: %{{y:.5g}} {unit}<extra>{race} race</extra>",
             )  # fmt: skip
@@ -176,7 +183,9 @@ def _over_time(subject: Subject) -> Chart:
     figure.update_layout(
         xaxis=look.axis("time after initialisation, s"), yaxis=look.axis("load of a ball, N")
     )
-    return Chart("contacts-time", "Loads over time", figure, "Mean load of the balls at both races over time.")
+    return Chart(
+        "contacts-time", "Loads over time", figure, "Mean load of the balls at both races over time."
+    )
 
 
 def _table(subject: Subject) -> Table:
@@ -193,8 +202,22 @@ def _table(subject: Subject) -> Table:
     for name, words, factor, unit in _FURTHER:
         if subject.has(name):
             values = factor * subject.output(name)
-            rows.append([words, unit, f"{values.mean():.4g}", f"{values.min():.4g}", f"{values.max():.4g}", "", "", ""])
+            rows.append(
+                [
+                    words,
+                    unit,
+                    f"{values.mean():.4g}",
+                    f"{values.min():.4g}",
+                    f"{values.max():.4g}",
+                    "",
+                    "",
+                    "",
+                ]
+            )
     columns = ["", "unit", *(f"{race}, {what}" for race in RACES for what in ("mean", "least", "largest"))]
     return Table(
-        "Contacts over the recording", columns, rows, note="Figures of the whole bearing stand in the first three columns."
+        "Contacts over the recording",
+        columns,
+        rows,
+        note="Figures of the whole bearing stand in the first three columns.",
     )

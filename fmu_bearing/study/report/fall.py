@@ -25,7 +25,8 @@ def fall(heard: Microphones, run_up: Subject | None = None) -> Section:
         blocks.append(_map(heard, over_speed=False))
         blocks.append(
             Words(
-                "The speed is steady, so lines stand still; what changes is beating and chance. Ask for a run-up to see "
+                "The speed is steady, so lines stand still; what changes is beating and chance. Ask for a "
+                "run-up to see "
                 "resonances: fmu-bearing report ... --run-up 5000:30000.",
                 "note",
             )
@@ -34,7 +35,10 @@ def fall(heard: Microphones, run_up: Subject | None = None) -> Section:
     other = listen(run_up)
     blocks += [_map(other, over_speed=True), _over_speed(other)]
     blocks.append(
-        Words(f"A run of its own: {run_up.source}. Ramps this fast smear high orders; slower ones show more.", "note")
+        Words(
+            f"A run of its own: {run_up.source}. Ramps this fast smear high orders; slower ones show more.",
+            "note",
+        )
     )
     return Section("waterfall", "Run-up", blocks)
 
@@ -51,7 +55,11 @@ def _waterfall(heard: Microphones) -> Waterfall:
     if resolution * duration < 8.0 - 1e-9 or recording.size < 512:
         raise Absent(f"the recording of {duration:.3g} s is too short")
     _, pressure = _microphone(heard)
-    overlap = max(0.0, min(0.75, 1.0 - resolution * duration / _ROWS)) if resolution * duration * 4.0 > _ROWS else 0.75
+    overlap = (
+        max(0.0, min(0.75, 1.0 - resolution * duration / _ROWS))
+        if resolution * duration * 4.0 > _ROWS
+        else 0.75
+    )
     return waterfall(pressure, recording.angle, recording.rate, _HIGHEST, resolution, overlap)
 
 
@@ -66,8 +74,9 @@ def _map(heard: Microphones, over_speed: bool) -> Chart:
     unit = "r/min" if over_speed else "s"
     figure.add_heatmap(
         x0=float(found.frequency[0]), dx=float(found.frequency[1] - found.frequency[0]), y=small(y[order]),
-        z=small(np.round(found.levels[order], 2)), zmin=top - _RANGE, zmax=top, colorscale="Magma", zsmooth=False,
-        colorbar={"title": {"text": "dB", "side": "top"}, "thickness": 14, "outlinewidth": 0},
+        z=small(np.round(found.levels[order], 2)), zmin=top - _RANGE, zmax=top, zsmooth=False,
+        colorscale="Magma",
+        colorbar=look.bar("dB"),
         hovertemplate="%{x:.0f} Hz, %{y:.5g} " + unit + ": %{z:.1f} dB<extra></extra>",
     )  # fmt: skip
     if over_speed:
@@ -79,7 +88,8 @@ def _map(heard: Microphones, over_speed: bool) -> Chart:
     title = f"Level over frequency and {'shaft speed' if over_speed else 'time'} at {name}"
     return Chart(
         "waterfall", title, figure, title + ", in dB re 20 uPa, as colours.",
-        note=f"Blocks of {1e3 / found.frequency[1]:.3g} ms, {found.frequency[1]:.3g} Hz between lines, flat-top window."
+        note=f"Blocks of {1e3 / found.frequency[1]:.3g} ms, {found.frequency[1]:.3g} Hz between lines, "
+        f"flat-top window."
         + (" Dotted: kinematic frequencies." if over_speed else ""),
     )  # fmt: skip
 
@@ -93,11 +103,13 @@ def _order_lines(figure, subject: Subject, rpm: NDArray[np.float64]) -> None:
     for name in _LINES:
         figure.add_scatter(
             x=small(getattr(base, name) * ends), y=small(ends), mode="lines", name=name,
-            line={"color": "#FFFFFF", "width": 1, "dash": "dot"}, hovertemplate=name + "<extra></extra>", showlegend=False,
+            line={"color": "#FFFFFF", "width": 1, "dash": "dot"}, showlegend=False,
+            hovertemplate=name + "<extra></extra>",
         )  # fmt: skip
         inside = getattr(base, name) * ends[1] < _HIGHEST
         figure.add_annotation(
-            x=float(getattr(base, name) * ends[1]) if inside else _HIGHEST, y=float(ends[1]), text=name, showarrow=False,
+            x=float(getattr(base, name) * ends[1]) if inside else _HIGHEST, y=float(ends[1]), text=name,
+            showarrow=False,
             yanchor="bottom", font={"size": 12},
         )  # fmt: skip
 
@@ -117,9 +129,12 @@ def _over_speed(heard: Microphones) -> Chart:
             line={"color": look.colour(tints[k % len(tints)])},
             hovertemplate="%{x:.0f} r/min: %{y:.1f} dB(A)<extra>" + heard.names[k] + "</extra>",
         )  # fmt: skip
-    figure.update_layout(xaxis=look.axis("shaft speed, r/min"), yaxis=look.axis("level, dB(A)"), showlegend=True)
+    figure.update_layout(
+        xaxis=look.axis("shaft speed, r/min"), yaxis=look.axis("level, dB(A)"), showlegend=True
+    )
     return Chart(
-        "run-up-levels", "Level over shaft speed", figure, "A-weighted level over shaft speed, one curve per microphone.",
+        "run-up-levels", "Level over shaft speed", figure, "A-weighted level over shaft speed, one curve "
+        "per microphone.",
         note=f"Over {1e3 * span / recording.rate:.3g} ms at each point.",
     )  # fmt: skip
 
@@ -133,7 +148,7 @@ def _weighted(heard: Microphones, k: int) -> NDArray[np.float64]:
 
 
 def ramp(first: float, last: float, duration: float, settle: float):
-    """Shaft speed (rad/s) that rises evenly from ``first`` to ``last`` over ``duration`` after ``settle`` (s)."""
+    """Return a shaft speed (rad/s) over time that rises evenly between two over ``duration`` (s)."""
 
     def speed(time: float) -> float:
         share = min(max((time - settle) / duration, 0.0), 1.0)

@@ -30,7 +30,8 @@ def friction(subject: Subject) -> Section:
     if subject.level in ("rings", "response"):
         blocks.append(
             Words(
-                f"Level {subject.level} holds torque and heats at those of the quasi-static state at the present inputs.",
+                f"Level {subject.level} holds torque and heats at those of the quasi-static state at the "
+                f"present inputs.",
                 "note",
             )
         )
@@ -57,14 +58,14 @@ def _torque(subject: Subject) -> Chart:
     names |= {f"friction_torque.{key}": value for key, value in _SHARES.items()}
     for trace in _curves(subject, names, 1e3):
         figure.add_scatter(**trace, hovertemplate="%{x:.4f} s: %{y:.3f} N mm<extra>%{fullData.name}</extra>")
-    figure.update_layout(
-        xaxis=look.axis("time after initialisation, s"), yaxis=look.axis("torque, N mm")
-    )
+    figure.update_layout(xaxis=look.axis("time after initialisation, s"), yaxis=look.axis("torque, N mm"))
     return Chart(
         "torque", "Friction torque and its shares", figure,
-        f"Friction torque over time, {1e3 * subject.mean('friction_torque'):.3g} N mm in the mean, and its shares by "
+        f"Friction torque over time, {1e3 * subject.mean('friction_torque'):.3g} N mm in the mean, and its "
+        f"shares by "
         "source.",
-        note="A share is the power lost there over the shaft speed. The torque taken from the shaft also stores and gives "
+        note="A share is the power lost there over the shaft speed. The torque taken from the shaft also "
+        "stores and gives "
         "back energy, so it varies about the shares' sum.",
     )  # fmt: skip
 
@@ -81,24 +82,33 @@ def _heats(subject: Subject) -> Chart:
     return Chart(
         "heat", "Heat by where it goes", figure,
         f"Heat to inner ring, outer ring and oil over time; {total:.3g} W in all in the mean.",
-        note="Means over each communication step. Half of what a contact loses heats its ring, all else goes to oil and balls.",
+        note="Means over each communication step. Half of what a contact loses heats its ring, all else "
+        "goes to oil and balls.",
     )  # fmt: skip
 
 
 def _table(subject: Subject) -> Table:
     speed = abs(subject.speed)
     rows = []
-    shares = {key: subject.mean(f"friction_torque.{key}") for key in _SHARES if subject.has(f"friction_torque.{key}")}
+    shares = {
+        key: subject.mean(f"friction_torque.{key}")
+        for key in _SHARES
+        if subject.has(f"friction_torque.{key}")
+    }
     whole = sum(shares.values())
     for key, value in shares.items():
         share = f"{100.0 * value / whole:.1f}" if whole else ""
         rows.append([_SHARES[key][0], f"{1e3 * value:.3f}", f"{abs(value) * speed:.3f}", share])
     torque = subject.output("friction_torque")
     if shares:
-        rows.append(["all shares", f"{1e3 * whole:.3f}", f"{abs(whole) * speed:.3f}", "100.0" if whole else ""])
+        rows.append(
+            ["all shares", f"{1e3 * whole:.3f}", f"{abs(whole) * speed:.3f}", "100.0" if whole else ""]
+        )
     mean = float(np.mean(torque))
     rows.append(["torque taken from the shaft", f"{1e3 * mean:.3f}", f"{abs(mean) * speed:.3f}", ""])
     for key, (words, _) in _HEATS.items():
         if subject.has(f"heat.{key}"):
             rows.append([f"heat to {words}", "", f"{subject.mean(f'heat.{key}'):.3f}", ""])
-    return Table("Friction and heat, means over the recording", ["", "torque, N mm", "power, W", "share, %"], rows)
+    return Table(
+        "Friction and heat, means over the recording", ["", "torque, N mm", "power, W", "share, %"], rows
+    )

@@ -127,7 +127,8 @@ def listen(subject: Subject) -> Microphones:
     places = list(recording.microphones)[:LISTED]
     if not places:
         raise Absent(
-            "the scene has no microphones: add [[sound.microphone]] to it, or give places to `measure` (see the "
+            "the scene has no microphones: add [[sound.microphone]] to it, or give places to `measure` "
+            "(see the "
             "page on analysis)"
         )
     names, positions = [name for name, _ in places], [place for _, place in places]

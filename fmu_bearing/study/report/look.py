@@ -39,7 +39,7 @@ def faint(name: str, alpha: float = 0.18) -> str:
 
 def words(name: str) -> str:
     """Name of a component as people write it."""
-    return name.replace("_", " ")
+    return "all together" if name == "total" else name.replace("_", " ")
 
 
 def styles() -> dict[str, Any]:
@@ -82,10 +82,17 @@ def polar(height: int, radial: dict[str, Any] | None = None) -> Any:
         height, margin={"l": 40, "r": 40, "t": 30, "b": 70},
         legend={"orientation": "h", "x": 0.5, "y": -0.1, "xanchor": "center", "yanchor": "top"},
         polar={
-            "angularaxis": {"rotation": 90, "direction": "counterclockwise", "dtick": 30, "ticksuffix": "\u00b0"},
+            "angularaxis": {
+                "rotation": 90, "direction": "counterclockwise", "dtick": 30, "ticksuffix": "\u00b0",
+            },
             "radialaxis": {"angle": 15, "tickangle": 15} | (radial or {}),
         },
     )  # fmt: skip
+
+
+def bar(title: str, length: float = 1.0) -> dict[str, Any]:
+    """Return the scale of colours beside a map."""
+    return {"title": {"text": title, "side": "top"}, "thickness": 14, "len": length, "outlinewidth": 0}
 
 
 def axis(title: str, **more: Any) -> dict[str, Any]:

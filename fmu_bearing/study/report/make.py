@@ -11,7 +11,6 @@ from typing import Any
 from fmu_bearing.acoustics.field import form_of
 from fmu_bearing.files import write_whole
 from fmu_bearing.scene import Scene, SceneError, read_scene
-
 from fmu_bearing.study.choose import resolve
 from fmu_bearing.study.extras import need
 from fmu_bearing.study.recording import Recording, record
@@ -169,7 +168,9 @@ def check_writable(path: pathlib.Path) -> None:
         with tempfile.TemporaryFile(dir=path.parent):
             pass
     except OSError as problem:
-        raise OSError(f"{path.parent} cannot be written to: {problem.strerror}; name another folder") from None
+        raise OSError(
+            f"{path.parent} cannot be written to: {problem.strerror}; name another folder"
+        ) from None
 
 
 def _check(
@@ -222,13 +223,18 @@ def _load(file: pathlib.Path) -> Recording:
         raise SceneError(f"{file}: is no recording: {problem}") from None
 
 
-def _taken(recording: Recording, origin: str, rung: str | None, radius: float, speed: float | None) -> Subject:
-    """A recording; ``ValueError`` for what can no longer be changed about it."""
+def _taken(
+    recording: Recording, origin: str, rung: str | None, radius: float, speed: float | None
+) -> Subject:
+    """Take a recording; ``ValueError`` for what can no longer be changed about it."""
     if speed is not None:
-        raise ValueError("the speed of a recording cannot be changed: give the scene to run it at another one")
+        raise ValueError(
+            "the speed of a recording cannot be changed: give the scene to run it at another one"
+        )
     if rung is not None and form_of(rung) != form_of(recording.rung):
         raise ValueError(
-            f'rung = "{rung}" needs other channels than this recording of rung "{recording.rung}" has: give the scene'
+            f'rung = "{rung}" needs other channels than this recording of rung "{recording.rung}" has: '
+            "give the scene"
         )
     return Subject(recording, rung or recording.rung, origin, radius=radius)
 
@@ -241,13 +247,15 @@ def _run_up(
     words = f"{scene.name} from {speeds[0] / RPM:,.0f} to {speeds[1] / RPM:,.0f} r/min in {duration:g} s"
     tell(f"running up: {words}")
     recording = record(
-        scene, duration, speed=fall.ramp(*speeds, duration, SETTLE), settle=SETTLE, step=4.0 * STEP, rung=subject.rung,
-        progress=progress,
+        scene, duration, speed=fall.ramp(*speeds, duration, SETTLE), settle=SETTLE, step=4.0 * STEP,
+        rung=subject.rung, progress=progress,
     )  # fmt: skip
     return Subject(recording, subject.rung, words, radius=subject.radius)
 
 
-def _sections(subject: Subject, rising: Subject | None, tell: Tell) -> tuple[list[Section], Microphones | None]:
+def _sections(
+    subject: Subject, rising: Subject | None, tell: Tell
+) -> tuple[list[Section], Microphones | None]:
     """All sections in the page's order; one that cannot be made says why."""
     heard: Microphones | None = None
     reason = ""

@@ -34,7 +34,8 @@ def mark_kinematics(figure: Any, subject: Subject, highest: float = 20_000.0) ->
             text += [words, words, ""]
         figure.add_scatter(
             x=small(x), y=small(y), text=text, mode="lines", yaxis="y9", name=label(name),
-            line={"color": look.colour(_COLOURS[name]), "width": 1, "dash": "dot"}, hovertemplate="%{text}<extra></extra>",
+            line={"color": look.colour(_COLOURS[name]), "width": 1, "dash": "dot"},
+            hovertemplate="%{text}<extra></extra>",
             visible=True if name in _AT_FIRST else "legendonly",
         )  # fmt: skip
     figure.update_layout(

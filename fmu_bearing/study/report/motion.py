@@ -49,7 +49,8 @@ def no_cage(subject: Subject) -> str:
     """Why the cage does not move here."""
     if subject.level in ("rings", "response"):
         return (
-            f"Level {subject.level} turns the cage with the balls and holds its centre, and puts each ball where both "
+            f"Level {subject.level} turns the cage with the balls and holds its centre, and puts each ball "
+            f"where both "
             "contacts balance it: take level full for the motion of cage and balls."
         )
     return "The scene has no cage, or its motion was not kept."
@@ -90,7 +91,8 @@ def _over_time(subject: Subject, bodies: list[str]) -> Chart:
             Choice("body", "Body", [Option(look.words(body), body) for body in bodies]),
             Choice("window", "Show the last", options),
         ),
-        note=f"Instantaneous values every {1e6 * subject.step:.4g} us; where a long run has more points than a screen, "
+        note=f"Instantaneous values every {1e6 * subject.step:.4g} us; where a long run has more points "
+        f"than a screen, "
         "smallest and largest of each span. Drag to zoom, double-click to see all.",
     )
 
@@ -131,7 +133,8 @@ def _over_frequency(subject: Subject, bodies: list[str]) -> Chart:
         for axis, (frequency, rms) in _spectra(subject, body, resolution).items():
             top = max(top, float(1e3 * rms.max()))
             figure.add_scatter(
-                x0=float(frequency[0]), dx=float(frequency[1] - frequency[0]), y=small(1e3 * rms), mode="lines",
+                x0=float(frequency[0]), dx=float(frequency[1] - frequency[0]),
+                y=small(1e3 * rms), mode="lines",
                 name=_AXIS_WORDS[axis], meta={"body": body}, visible=body == bodies[0],
                 line={"color": look.colour(axis), "width": 1.2},
                 hovertemplate="%{x:.0f} Hz: %{y:.3g} mm/s<extra>" + axis + "</extra>",
@@ -148,8 +151,10 @@ def _over_frequency(subject: Subject, bodies: list[str]) -> Chart:
         figure,
         f"Spectra of the velocity along three axes of {_listed(bodies)}, kinematic frequencies marked.",
         (Choice("body", "Body", [Option(look.words(body), body) for body in bodies]), reach()),
-        note=f"Accelerations sampled at {subject.recording.rate / 1e3:g} kHz behind the engine's anti-alias filter, "
-        f"divided by 2 pi f; {resolution:.3g} Hz between lines, flat-top window: lines read true. Click a legend entry to "
+        note=f"Accelerations sampled at {subject.recording.rate / 1e3:g} kHz behind the engine's "
+        f"anti-alias filter, "
+        f"divided by 2 pi f; {resolution:.3g} Hz between lines, flat-top window: lines read true. Click a "
+        f"legend entry to "
         "show or hide it.",
     )
 
@@ -172,7 +177,8 @@ def _band_table(subject: Subject, bodies: list[str]) -> Table:
         "Rms velocity in three bands, um/s",
         ["body", "axis", *(f"{low:,.0f} to {high:,.0f} Hz" for low, high in BANDS)],
         rows,
-        note="The bands of ISO 15242-1 (low, medium, high); speed and mounting here are the scene's, not the standard's.",
+        note="The bands of ISO 15242-1 (low, medium, high); speed and mounting here are the scene's, not "
+        "the standard's.",
     )
 
 
@@ -210,7 +216,10 @@ def _orbits(subject: Subject) -> Chart:
         number = "" if k == 0 else str(k + 1)
         reach = 1.08 * max(float(np.max(np.abs(y))), float(np.max(np.abs(z))), 1e-6)
         bins = np.linspace(0.0, 1.0, count * 100 + 1)
-        begin, end = bins[k * 100] + (0.07 if count > 1 else 0.25), bins[(k + 1) * 100] - (0.01 if count > 1 else 0.25)
+        begin, end = (
+            bins[k * 100] + (0.07 if count > 1 else 0.25),
+            bins[(k + 1) * 100] - (0.01 if count > 1 else 0.25),
+        )
         for part, window, width, opacity in (
             ("whole run", slice(None), 0.7, 0.35),
             (f"last {turns:.3g} turns", slice(-last, None), 1.6, 1.0),
@@ -218,14 +227,17 @@ def _orbits(subject: Subject) -> Chart:
             step = max(1, len(y[window]) // 8000)
             figure.add_scatter(
                 x=small(y[window][::step]), y=small(z[window][::step]), mode="lines", opacity=opacity,
-                name=f"{look.words(body)}, {part}", xaxis=f"x{number}", yaxis=f"y{number}", meta={"orbit": body},
+                name=f"{look.words(body)}, {part}", xaxis=f"x{number}", yaxis=f"y{number}",
+                meta={"orbit": body},
                 line={"color": look.colour(body if part != "whole run" else "grey"), "width": width},
                 hovertemplate="y %{x:.3f} um, z %{y:.3f} um<extra>" + look.words(body) + "</extra>",
             )  # fmt: skip
         figure.update_layout({
-            f"xaxis{number}": look.axis("y, um", domain=[begin, end], range=[-reach, reach], anchor=f"y{number}"),
+            f"xaxis{number}": look.axis("y, um", domain=[begin, end], range=[-reach, reach],
+                                        anchor=f"y{number}"),
             f"yaxis{number}": look.axis(
-                "z, um" if k == 0 else "", range=[-reach, reach], anchor=f"x{number}", scaleanchor=f"x{number}",
+                "z, um" if k == 0 else "", range=[-reach, reach], anchor=f"x{number}",
+                scaleanchor=f"x{number}",
                 constrain="domain",
             ),
         })  # fmt: skip
@@ -241,7 +253,8 @@ def _orbits(subject: Subject) -> Chart:
         + _listed(list(found))
         + " in the plane across the axis, in micrometres: "
         + "; ".join(f"{look.words(body)} {_extent(y, z)}" for body, (y, z) in found.items()),
-        note=f"Seen from +X: y grows to the right, z upwards, positive rotation runs anticlockwise. Grey: the whole recording, "
+        note=f"Seen from +X: y grows to the right, z upwards, positive rotation runs anticlockwise. Grey: "
+        f"the whole recording, "
         f"in colour its last {turns:.3g} turns. "
         + "; ".join(f"{look.words(body)}: {_extent(y, z)}" for body, (y, z) in found.items())
         + ".",

@@ -54,7 +54,8 @@ def render(
     versions = f"fmu-bearing {version()}, Python {platform.python_version()}".replace(" ,", ",")
     return str(
         template.render(
-            title=title, subtitle=subtitle, source=source, sections=sections, tiles=tiles, sentences=sentences,
+            title=title, subtitle=subtitle, source=source, sections=sections, tiles=tiles,
+            sentences=sentences,
             warnings=warnings, policy=POLICY, made=f"{made:%d %B %Y, %H:%M} UTC", versions=versions,
             charts=[block for section in sections for block in section.blocks if isinstance(block, Chart)],
             styles=packed(styles()),

@@ -53,28 +53,40 @@ def _level_table(heard: Microphones) -> Table:
         "Equivalent levels re 20 uPa",
         ["microphone", "x, y, z, mm", "Leq, dB", "LAeq, dB(A)", *parts],
         rows,
-        note=f"Over {duration:.3g} s. Pressures of components add with their phases, so their levels need not sum to the total.",
+        note=f"Over {duration:.3g} s. Pressures of components add with their phases, so their levels need "
+        f"not sum to the total.",
         folded=len(rows) > 8,
     )
 
 
 def _ranking(heard: Microphones) -> Chart:
     names = heard.components
-    figure = look.figure(height=max(320, 90 + 44 * min(len(heard.names), 8)) if len(heard.names) <= 8 else 380)
+    figure = look.figure(
+        height=max(320, 90 + 44 * min(len(heard.names), 8)) if len(heard.names) <= 8 else 380
+    )
     level = "LAeq, dB(A)"
     for weighting in ("A", "Z"):
         for name in names:
             values = heard.levels[weighting][name]
             figure.add_bar(
-                x=small(values), y=heard.names, orientation="h", name="all together" if name == "total" else look.words(name),
+                x=small(values), y=heard.names, orientation="h", name=look.words(name),
                 marker={"color": look.colour(name)}, meta={"weighting": weighting}, visible=weighting == "A",
                 hovertemplate="%{y}: %{x:.1f} dB<extra>" + look.words(name) + "</extra>",
             )  # fmt: skip
     if len(heard.names) > 8:  # a circle of microphones: upright
         for trace in figure.data:
-            trace.update(x=trace.y, y=trace.x, orientation="v", hovertemplate=trace.hovertemplate.replace("{y}", "{t}").replace("{x", "{y").replace("{t}", "{x}"))
+            trace.update(
+                x=trace.y,
+                y=trace.x,
+                orientation="v",
+                hovertemplate=trace.hovertemplate.replace("{y}", "{t}")
+                .replace("{x", "{y")
+                .replace("{t}", "{x}"),
+            )
     highest = max(float(np.max(values)) for w in heard.levels.values() for values in w.values())
-    low = 10.0 * math.floor((min(float(np.min(heard.levels[w][n])) for w in "AZ" for n in names) - 5.0) / 10.0)
+    low = 10.0 * math.floor(
+        (min(float(np.min(heard.levels[w][n])) for w in "AZ" for n in names) - 5.0) / 10.0
+    )
     axis = look.axis(level, range=[max(low, highest - 60.0), highest + 3.0])
     other = look.axis("", type="category")
     if len(heard.names) <= 8:
@@ -90,9 +102,11 @@ def _ranking(heard: Microphones) -> Chart:
     )
     return Chart(
         "ranking", "Which component is loudest", figure,
-        f"Bars of the level of each component at each microphone. Loudest component by A-weighted level: {loudest}.",
+        f"Bars of the level of each component at each microphone. Loudest component by A-weighted level: "
+        f"{loudest}.",
         (Choice("weighting", "Weighting", [
-            Option("A", "A", {f"{which}.title.text": level}), Option("none", "Z", {f"{which}.title.text": "Leq, dB"}),
+            Option("A", "A", {f"{which}.title.text": level}),
+            Option("none", "Z", {f"{which}.title.text": "Leq, dB"}),
         ]),),
         note=f"Loudest component, A-weighted: {loudest}. The outer ring includes what moves with it.",
     )  # fmt: skip
@@ -114,9 +128,11 @@ def _spectrum(subject: Subject, heard: Microphones) -> Chart:
             keep = (frequency >= 20.0) & (frequency <= 20_000.0)
             top = max(top, float(values[keep].max()))
             figure.add_scatter(
-                x0=float(frequency[keep][0]), dx=float(frequency[1] - frequency[0]), y=small(values[keep]), mode="lines",
-                name="all together" if name == "total" else look.words(name), meta={"mic": str(k), "component": name},
-                visible=str(k) == first, line={"color": look.colour(name), "width": 1.5 if name == "total" else 1.1},
+                x0=float(frequency[keep][0]), dx=float(frequency[1] - frequency[0]),
+                y=small(values[keep]), mode="lines",
+                name=look.words(name), meta={"mic": str(k), "component": name},
+                visible=str(k) == first,
+                line={"color": look.colour(name), "width": 1.5 if name == "total" else 1.1},
                 hovertemplate="%{x:.0f} Hz: %{y:.1f} dB<extra>" + look.words(name) + "</extra>",
             )  # fmt: skip
     mark_kinematics(figure, subject)
@@ -126,10 +142,13 @@ def _spectrum(subject: Subject, heard: Microphones) -> Chart:
     )
     return Chart(
         "spectrum", "Spectrum, whole and by component", figure,
-        f"Levels over frequency at {', '.join(heard.names[k] for k in heard.shown)}, of all components together and of each.",
+        f"Levels over frequency at {', '.join(heard.names[k] for k in heard.shown)}, of all components "
+        f"together and of each.",
         (choice, reach()),
-        note=f"{heard.resolution:.3g} Hz between lines, flat-top window: a line's level is right within 0.1 dB. Dotted: "
-        "kinematic frequencies of rolling without sliding and harmonics to the fifth; click a legend entry to show or hide.",
+        note=f"{heard.resolution:.3g} Hz between lines, flat-top window: a line's level is right within "
+        f"0.1 dB. Dotted: "
+        "kinematic frequencies of rolling without sliding and harmonics to the fifth; click a legend entry "
+        "to show or hide.",
     )  # fmt: skip
 
 
@@ -151,7 +170,8 @@ def _line_table(subject: Subject, heard: Microphones) -> Table:
         f"Strongest lines at {heard.names[heard.shown[place]]}",
         [*columns, "loudest component"],
         rows,
-        note="The simplest harmonic or sideband of f_r, f_c, f_b, f_i, f_o near a line explains it, 0.15 % of sliding and at "
+        note="The simplest harmonic or sideband of f_r, f_c, f_b, f_i, f_o near a line explains it, 0.15 % "
+        "of sliding and at "
         "least one spectral line allowed.",
     )
 
@@ -166,7 +186,7 @@ def _third_octaves(heard: Microphones) -> Chart:
     for name, values in found.items():
         for k, row in enumerate(values):
             figure.add_bar(
-                x=names, y=small(np.maximum(row - low, 0.0)), base=low, name="all together" if name == "total" else look.words(name),
+                x=names, y=small(np.maximum(row - low, 0.0)), base=low, name=look.words(name),
                 marker={"color": look.colour(name)}, meta={"mic": str(k), "component": name},
                 visible=str(k) == choice.options[0].value, customdata=small(row),
                 hovertemplate="%{x} Hz: %{customdata:.1f} dB<extra>" + look.words(name) + "</extra>",
@@ -178,7 +198,8 @@ def _third_octaves(heard: Microphones) -> Chart:
     deviations = spread(np.array(bands), heard.third_octave_time)
     unsure = [band for band, deviation in zip(bands, deviations, strict=True) if deviation > _UNSURE]
     chance = (
-        f" In {heard.third_octave_time:.3g} s the bands up to {unsure[-1]:g} Hz scatter by more than {_UNSURE:g} dB if they hold "
+        f" In {heard.third_octave_time:.3g} s the bands up to {unsure[-1]:g} Hz scatter by more than "
+        f"{_UNSURE:g} dB if they hold "
         "noise: record longer if they matter."
         if unsure
         else ""

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from fmu_bearing.study.report import look
+from fmu_bearing.study.report.balls import RACES
 from fmu_bearing.study.report.blocks import Absent
 from fmu_bearing.study.report.heard import Microphones
 from fmu_bearing.study.report.subject import RPM, Subject
@@ -37,31 +38,53 @@ def tiles(subject: Subject, heard: Microphones | None) -> list[Tile]:
     add("preload_N", "preload", "N", "g", lambda: subject.scene.mounting.preload_N)
     if heard is not None:
         k = heard.loudest
-        add("laeq_dB", f"loudest, at {heard.names[k]}", "dB(A)", ".1f", lambda: float(heard.levels["A"]["total"][k]))
+        add(
+            "laeq_dB",
+            f"loudest, at {heard.names[k]}",
+            "dB(A)",
+            ".1f",
+            lambda: float(heard.levels["A"]["total"][k]),
+        )
     for body in ("inner_ring", "outer_ring"):
         add(
             f"{body}_rms_mm_s", f"{look.words(body)}, rms velocity", "mm/s", ".3g",
-            lambda body=body: 1e3 * math.sqrt(sum(float(np.var(subject.output(f"{body}.velocity.{a}"))) for a in "xyz")),
+            lambda body=body: 1e3 * _rms(subject, body),
         )  # fmt: skip
     add("torque_N_mm", "friction torque", "N mm", ".3g", lambda: 1e3 * subject.mean("friction_torque"))
     add("loss_W", "friction power", "W", ".3g", lambda: abs(subject.mean("friction_torque") * subject.speed))
     add(
         "pressure_GPa", "largest contact pressure", "GPa", ".3g",
-        lambda: 1e-9 * max(float(subject.output(f"contact.{race}.pressure_max").max()) for race in ("inner", "outer")),
+        lambda: 1e-9 * max(_largest(subject, f"contact.{race}.pressure_max") for race in RACES),
     )  # fmt: skip
-    add("lambda", "thinnest film / roughness", "", ".3g", lambda: float(subject.output("film.lambda_min").min()))
+    add(
+        "lambda",
+        "thinnest film / roughness",
+        "",
+        ".3g",
+        lambda: float(subject.output("film.lambda_min").min()),
+    )
     return found
 
 
+def _rms(subject: Subject, body: str) -> float:
+    """Return the rms velocity (m/s) of a body's centre about its mean, the three axes together."""
+    return math.sqrt(sum(float(np.var(subject.output(f"{body}.velocity.{axis}"))) for axis in "xyz"))
+
+
+def _largest(subject: Subject, name: str) -> float:
+    return float(subject.output(name).max())
+
+
 def sentences(subject: Subject, heard: Microphones | None) -> list[str]:
-    """What stands out, in words."""
+    """Say what stands out."""
     if heard is None:
         return []
     k, found = heard.loudest, []
     parts = heard.components[1:]
     if parts:
         ranked = sorted(parts, key=lambda name: -heard.levels["A"][name][k])
-        text = f"At {heard.names[k]} the {look.words(ranked[0])} is loudest ({heard.levels['A'][ranked[0]][k]:.1f} dB(A) alone)"
+        text = f"At {heard.names[k]} the {look.words(ranked[0])} is loudest "
+        f"({heard.levels['A'][ranked[0]][k]:.1f} dB(A) alone)"
         if len(ranked) > 1:
             text += f", then the {look.words(ranked[1])} ({heard.levels['A'][ranked[1]][k]:.1f})"
         found.append(text + ".")
@@ -71,23 +94,31 @@ def sentences(subject: Subject, heard: Microphones | None) -> list[str]:
         if lines:
             line = lines[0]
             why = f", {line.name}" if line.name else ", which no kinematic frequency explains"
-            found.append(f"Its strongest line stands at {line.frequency:.0f} Hz with {line.level:.1f} dB{why}.")
+            found.append(
+                f"Its strongest line stands at {line.frequency:.0f} Hz with {line.level:.1f} dB{why}."
+            )
     return found
 
 
 def warnings_of(subject: Subject) -> list[str]:
     """All that the figures should be read with, the run's own warnings first."""
     found = list(subject.warnings)
-    for race in ("inner", "outer"):
+    for race in RACES:
         name = f"contact.{race}.shoulder_margin"
         if subject.has(name) and (margin := float(subject.output(name).min())) < 0.0:
             found.append(
-                f"The ellipse of the most loaded contact of the {race} race reaches {-math.degrees(margin):.1f} deg beyond "
-                "its shoulder: the edge cuts in there, while loads and stiffness are those of an unbroken groove."
+                f"The ellipse of the most loaded contact of the {race} race reaches "
+                f"{-math.degrees(margin):.1f} deg beyond "
+                "its shoulder: the edge cuts in there, while loads and stiffness are those of an unbroken "
+                "groove."
             )
-    if subject.has("film.lambda_min") and (film := float(subject.output("film.lambda_min").min())) < _THIN_FILM:
+    if (
+        subject.has("film.lambda_min")
+        and (film := float(subject.output("film.lambda_min").min())) < _THIN_FILM
+    ):
         found.append(
-            f"The thinnest film is {film:.2g} times the composite roughness: asperities touch there, while traction is that "
+            f"The thinnest film is {film:.2g} times the composite roughness: asperities touch there, while "
+            f"traction is that "
             "of a full film."
         )
     found += _reach(subject)
@@ -106,7 +137,8 @@ def _reach(subject: Subject) -> list[str]:
         radius = scene.mounting.housing.diameter_mm / 2e3
     highest = sound_speed / (2.0 * math.pi * radius)
     return [
-        f"Rung compact takes bodies as small beside the wavelength: above about {0.5 * highest:,.0f} Hz (ka = 0.5) levels and "
+        f"Rung compact takes bodies as small beside the wavelength: above about {0.5 * highest:,.0f} Hz "
+        f"(ka = 0.5) levels and "
         "directions mean less and less. Rung bem has no such limit up to 20 kHz."
     ]
 
@@ -120,7 +152,8 @@ def _length(subject: Subject) -> list[str]:
         return []
     if cage > 0.0 and duration * cage < _TURNS:
         return [
-            f"The recording holds {duration * cage:.1f} turns of the cage: means over so few depend on where it begins; "
+            f"The recording holds {duration * cage:.1f} turns of the cage: means over so few depend on "
+            f"where it begins; "
             f"{_TURNS:g} turns take {_TURNS / cage:.2g} s."
         ]
     return []

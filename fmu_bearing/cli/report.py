@@ -58,15 +58,12 @@ def report(
         speeds = None if run_up is None else span(run_up)
         from fmu_bearing.study.report import make  # loads slowly, and no other command has use for it
 
-        try:
-            made = make(
-                source, output, duration=duration, settle=settle, rung=rung, radius=radius, title=title,
-                speed=None if speed is None else speed * _RPM,
-                run_up=None if speeds is None else (speeds[0] * _RPM, speeds[1] * _RPM),
-                run_up_time=run_up_time, tell=tell, progress=errors.is_terminal,
-            )  # fmt: skip
-        except ValueError as problem:
-            raise Refusal(str(problem)) from None
+        made = make(
+            source, output, duration=duration, settle=settle, rung=rung, radius=radius, title=title,
+            speed=None if speed is None else speed * _RPM,
+            run_up=None if speeds is None else (speeds[0] * _RPM, speeds[1] * _RPM),
+            run_up_time=run_up_time, tell=tell, progress=errors.is_terminal,
+        )  # fmt: skip
         if keep is not None:
             keep.parent.mkdir(parents=True, exist_ok=True)
             made.recording.save(keep)

@@ -13,7 +13,7 @@ from fmu_bearing.study.report.blocks import Absent, Block, Chart, Choice, Option
 from fmu_bearing.study.report.heard import Microphones
 from fmu_bearing.study.report.subject import Subject
 
-_LATITUDES, _AROUND = 19, 36  # every 10 deg, so that the three planes are among the points
+_LATITUDES, _AROUND = 31, 36  # every 6 and 10 deg, so that the three planes are among the points
 _CIRCLE = 72
 _RESOLUTION = 20.0  # Hz
 _RANGE = 30.0  # dB below the loudest direction that the balloon's radius shows
@@ -102,6 +102,7 @@ def _balloon(subject: Subject, found: Sphere) -> Chart:
     figure = look.figure(height=560, margin={"l": 0, "r": 0, "t": 10, "b": 10}, showlegend=False)
     directions = found.directions()
     closed = np.concatenate([directions, directions[:, :1]], axis=1)
+    spots = _spots(found)
     for k, (name, values) in enumerate(found.levels.items()):
         whole = np.concatenate([values, values[:, :1]], axis=1)
         top = float(values.max())
@@ -110,9 +111,10 @@ def _balloon(subject: Subject, found: Sphere) -> Chart:
         figure.add_surface(
             x=small(x), y=small(y), z=small(z), surfacecolor=small(whole),
             cmin=max(top - _RANGE, float(values.min()) - 0.05),
-            cmax=top, colorscale="Viridis", meta={"band": name}, visible=k == 0, text=_spots(found),
+            cmax=top, colorscale="Viridis", meta={"band": name}, visible=k == 0, customdata=spots,
             colorbar=look.bar("dB", 0.75),
-            hovertemplate="%{text}: %{surfacecolor:.1f} dB<extra></extra>",
+            hovertemplate="%{surfacecolor:.1f} dB at %{customdata[0]:.0f} deg from +X, %{customdata[1]:.0f} deg from "
+            "12 o'clock<extra></extra>",
             lighting={"ambient": 0.75, "diffuse": 0.5, "specular": 0.1}, showscale=True,
         )  # fmt: skip
     figure.add_scatter3d(
@@ -141,13 +143,10 @@ def _balloon(subject: Subject, found: Sphere) -> Chart:
     )  # fmt: skip
 
 
-def _spots(found: Sphere) -> list[list[str]]:
-    """Directions in words, for the pointer."""
-    around = [*np.degrees(found.azimuth), 0.0]
-    return [
-        [f"{math.degrees(p):.0f} deg from +X, {angle:.0f} deg from 12 o'clock" for angle in around]
-        for p in found.polar
-    ]
+def _spots(found: Sphere) -> NDArray[np.float32]:
+    """Directions (deg) for the pointer: from +X, and from 12 o'clock, shape (latitudes, around + 1, 2)."""
+    around = np.append(np.degrees(found.azimuth), 0.0)
+    return small(np.stack(np.meshgrid(np.degrees(found.polar), around, indexing="ij"), axis=-1))
 
 
 def _rounds(values: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
@@ -172,11 +171,10 @@ def _scale(values: NDArray[np.float64]) -> tuple[float, float]:
 def _planes(subject: Subject, found: Sphere) -> Chart:
     choices = []
     figure = look.polar(520, {"range": list(_scale(found.levels["A-weighted"]))})
-    angle = np.linspace(0.0, 360.0, _AROUND + 1)
     for k, (name, values) in enumerate(found.levels.items()):
         for plane, row in _rounds(values).items():
             figure.add_scatterpolar(
-                theta=small(angle), r=small(row), mode="lines", name=plane, meta={"band": name},
+                theta=small(np.linspace(0.0, 360.0, len(row))), r=small(row), mode="lines", name=plane, meta={"band": name},
                 visible=k == 0,
                 line={"color": look.colour(_PLANES[plane]), "width": 2},
                 hovertemplate="%{theta:.0f} deg: %{r:.1f} dB<extra>" + plane + "</extra>",

@@ -126,7 +126,7 @@ def assumptions(subject: Subject) -> Section:
     scene = subject.scene
     blocks: list[Block] = [
         Words("A computed figure is worth what went into it. Here is what was assumed, chosen and left out."),
-        assumed_table(scene, subject.scene_text),
+        assumed_table(scene, subject.origins),
         _choices(subject),
         Folded("The scene, to run it again", subject.scene_text or scene.to_toml()),
     ]

@@ -11,7 +11,7 @@ from fmu_bearing.study.report.blocks import Block, Chart, Choice, Option, Sectio
 from fmu_bearing.study.report.decimate import thinned
 from fmu_bearing.study.report.subject import Subject
 
-_BINS = 36  # of the circle
+_BINS = 72  # of the circle
 _WHAT = {"load": ("contact load", "N", 1.0), "angle": ("contact angle", "deg", 180.0 / math.pi)}
 #: Variables of the table: name behind ``contact.<race>.``, words, factor, unit, which extreme counts.
 _FIGURES = (
@@ -104,8 +104,8 @@ def _around(subject: Subject, balls: int) -> Chart:
                 hovertemplate=f"%{{theta:.0f}} deg: %{{r:.4g}} {unit}<extra>{race} race</extra>",
             )  # fmt: skip
             figure.add_scatterpolar(
-                theta=small(np.degrees(azimuth[:, -1])), r=small(values[:, -1]), mode="markers+text",
-                text=[str(j + 1) for j in range(balls)], textposition="top center", textfont={"size": 11},
+                theta=small(np.degrees(azimuth[:, -1])), r=small(values[:, -1]), mode="markers+text" if race == "outer" else "markers",
+                text=[str(j + 1) for j in range(balls)], textposition="top center", textfont={"size": 12},
                 name=f"{race} race, balls at the end", marker={"color": tint, "size": 8}, meta=meta,
                 visible=shown,
                 hovertemplate=f"ball %{{text}}: %{{r:.4g}} {unit}<extra>{race} race</extra>",

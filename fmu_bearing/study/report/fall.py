@@ -83,7 +83,10 @@ def _map(heard: Microphones, over_speed: bool) -> Chart:
         _order_lines(figure, heard.subject, y[order])
     figure.update_layout(
         xaxis=look.axis("frequency, Hz", range=[0.0, _HIGHEST], constrain="domain"),
-        yaxis=look.axis("shaft speed, r/min" if over_speed else "time after initialisation, s"),
+        yaxis=look.axis(
+            "shaft speed, r/min" if over_speed else "time after initialisation, s",
+            range=[float(y.min()), float(y.max())],
+        ),
     )
     title = f"Level over frequency and {'shaft speed' if over_speed else 'time'} at {name}"
     return Chart(

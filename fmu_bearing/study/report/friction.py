@@ -5,6 +5,7 @@ import numpy as np
 from fmu_bearing.study.report import look
 from fmu_bearing.study.report.blocks import Block, Chart, Section, Table, Words, small
 from fmu_bearing.study.report.decimate import thinned
+from fmu_bearing.study.report.motion import last_turns
 from fmu_bearing.study.report.subject import Subject
 
 _SHARES = {
@@ -44,7 +45,7 @@ def _curves(subject: Subject, names: dict[str, tuple[str, str]], factor: float) 
     for name, (words, tint) in names.items():
         if not subject.has(name):
             continue
-        values, span = thinned(factor * subject.output(name), 4000)
+        values, span = thinned(factor * subject.output(name), 6000)
         traces.append({
             "x0": float(subject.time[0]), "dx": span * subject.step, "y": small(values), "mode": "lines",
             "name": words, "line": {"color": look.colour(tint), "width": 1.3},
@@ -58,13 +59,17 @@ def _torque(subject: Subject) -> Chart:
     names |= {f"friction_torque.{key}": value for key, value in _SHARES.items()}
     for trace in _curves(subject, names, 1e3):
         figure.add_scatter(**trace, hovertemplate="%{x:.4f} s: %{y:.3f} N mm<extra>%{fullData.name}</extra>")
-    figure.update_layout(xaxis=look.axis("time after initialisation, s"), yaxis=look.axis("torque, N mm"))
+    window = last_turns(subject)
+    figure.update_layout(
+        xaxis=look.axis("time after initialisation, s", range=window.options[0].layout["xaxis.range"]),
+        yaxis=look.axis("torque, N mm"),
+    )
     return Chart(
         "torque", "Friction torque and its shares", figure,
         f"Friction torque over time, {1e3 * subject.mean('friction_torque'):.3g} N mm in the mean, and its "
         f"shares by "
         "source.",
-        note="A share is the power lost there over the shaft speed. The torque taken from the shaft also "
+        (window,), note="A share is the power lost there over the shaft speed. The torque taken from the shaft also "
         "stores and gives "
         "back energy, so it varies about the shares' sum.",
     )  # fmt: skip
@@ -75,14 +80,16 @@ def _heats(subject: Subject) -> Chart:
     names = {f"heat.{key}": value for key, value in _HEATS.items()}
     for trace in _curves(subject, names, 1.0):
         figure.add_scatter(**trace, hovertemplate="%{x:.4f} s: %{y:.3f} W<extra>%{fullData.name}</extra>")
+    window = last_turns(subject)
     figure.update_layout(
-        xaxis=look.axis("time after initialisation, s"), yaxis=look.axis("heat, W", rangemode="tozero")
+        xaxis=look.axis("time after initialisation, s", range=window.options[0].layout["xaxis.range"]),
+        yaxis=look.axis("heat, W", rangemode="tozero"),
     )
     total = sum(subject.mean(name) for name in names)
     return Chart(
         "heat", "Heat by where it goes", figure,
         f"Heat to inner ring, outer ring and oil over time; {total:.3g} W in all in the mean.",
-        note="Means over each communication step. Half of what a contact loses heats its ring, all else "
+        (window,), note="Means over each communication step. Half of what a contact loses heats its ring, all else "
         "goes to oil and balls.",
     )  # fmt: skip
 

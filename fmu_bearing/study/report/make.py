@@ -11,6 +11,7 @@ from typing import Any
 from fmu_bearing.acoustics.field import form_of
 from fmu_bearing.files import write_whole
 from fmu_bearing.scene import Scene, SceneError, read_scene
+from fmu_bearing.scene.origins import origins
 from fmu_bearing.study.choose import resolve
 from fmu_bearing.study.extras import need
 from fmu_bearing.study.recording import Recording, record
@@ -191,14 +192,14 @@ def _subject(
     tell: Tell, progress: bool | None,
 ) -> Subject:  # fmt: skip
     """Take a recording as it is, or make one of a scene."""
-    text = ""
+    text, whence = "", []
     if isinstance(source, str | os.PathLike):
         file = pathlib.Path(source)
         if file.suffix == ".npz":
             tell(f"reading {file.name}")
             return _taken(_load(file), f"recording {file.name}", rung, radius, speed)
         source = read_scene(file)
-        text = file.read_text("utf-8-sig")
+        text, whence = file.read_text("utf-8-sig"), origins(file)
     if isinstance(source, Recording):
         return _taken(source, "a recording in memory", rung, radius, speed)
     if source.fidelity.level == "auto":
@@ -211,7 +212,7 @@ def _subject(
     origin = f"scene {scene.name}, run for {settle + duration:g} s of which the last {duration:g} s are shown"
     if choice is not None:
         origin += f"; {choice.summary}"
-    return Subject(recording, recording.rung, origin, text, notes, radius)
+    return Subject(recording, recording.rung, origin, text, whence, notes, radius)
 
 
 def _load(file: pathlib.Path) -> Recording:

@@ -13,7 +13,7 @@ from fmu_bearing.study.report.subject import Subject
 OTHER_NAMES = {"f_r": "", "f_c": "FTF", "f_b": "BSF", "f_i": "BPFI", "f_o": "BPFO"}
 HARMONICS = 5
 _COLOURS = {"f_r": "grey", "f_c": "cage", "f_b": "balls", "f_i": "inner_ring", "f_o": "outer_ring"}
-_AT_FIRST = ("f_r", "f_o")
+_AT_FIRST = ("f_i", "f_o")
 
 
 def mark_kinematics(figure: Any, subject: Subject, highest: float = 20_000.0) -> None:

@@ -18,6 +18,7 @@ _CHANNELS = {"inner_ring": places.C_INNER, "outer_ring": places.C_OUTER, "cage":
 #: Frequency bands (Hz) in which ISO 15242-1 reads the vibration of bearings.
 BANDS = ((50.0, 300.0), (300.0, 1800.0), (1800.0, 10_000.0))
 _LOWEST, _HIGHEST = 20.0, 20_000.0  # Hz: as far as channels are flat
+_ORBIT_TURNS = 5.0
 _SHOWN_TURNS = 10.0  # at first: one sees the shaft's turns
 
 
@@ -68,18 +69,9 @@ def _over_time(subject: Subject, bodies: list[str]) -> Chart:
                 line={"color": look.colour(axis), "width": 1.2},
                 hovertemplate="%{x:.5f} s: %{y:.3f} mm/s<extra>" + axis + "</extra>",
             )  # fmt: skip
-    first, last = float(subject.time[0]), float(subject.time[-1])
-    windows = [("all", last - first)]
-    windows += [(f"{n:g} turns", n * subject.turn) for n in (100.0, _SHOWN_TURNS, 3.0)]
-    options = [
-        Option(text, text, {"xaxis.range": [max(first, last - width), last], "yaxis.autorange": True})
-        for text, width in windows
-        if text == "all" or width < 0.9 * (last - first)
-    ]
-    chosen = [option for option in options if option.text == f"{_SHOWN_TURNS:g} turns"] or options[:1]
-    options.sort(key=lambda option: option is not chosen[0])  # the first is what is shown at first
+    window = last_turns(subject)
     figure.update_layout(
-        xaxis=look.axis("time after initialisation, s", range=chosen[0].layout["xaxis.range"]),
+        xaxis=look.axis("time after initialisation, s", range=window.options[0].layout["xaxis.range"]),
         yaxis=look.axis("velocity, mm/s"),
     )
     return Chart(
@@ -89,12 +81,27 @@ def _over_time(subject: Subject, bodies: list[str]) -> Chart:
         f"Curves of the velocity along three axes of {_listed(bodies)} over time, at {rpm:,.0f} r/min.",
         (
             Choice("body", "Body", [Option(look.words(body), body) for body in bodies]),
-            Choice("window", "Show the last", options),
+            window,
         ),
         note=f"Instantaneous values every {1e6 * subject.step:.4g} us; where a long run has more points "
         f"than a screen, "
         "smallest and largest of each span. Drag to zoom, double-click to see all.",
     )
+
+
+def last_turns(subject: Subject) -> Choice:
+    """Choose how much of the time is shown, in turns of the shaft; few at first."""
+    first, last = float(subject.time[0]), float(subject.time[-1])
+    spans = [("all", last - first)]
+    spans += [(f"{n:g} turns", n * subject.turn) for n in (100.0, 30.0, _SHOWN_TURNS, 3.0)]
+    options = [
+        Option(text, text, {"xaxis.range": [max(first, last - span), last], "yaxis.autorange": True})
+        for text, span in spans
+        if text == "all" or span < 0.9 * (last - first)
+    ]
+    # the first of the list is what is shown at first
+    options.sort(key=lambda option: option.text != f"{_SHOWN_TURNS:g} turns")
+    return Choice("window", "Show the last", options)
 
 
 def _rms_table(subject: Subject, bodies: list[str]) -> Table:
@@ -113,7 +120,9 @@ def _rms_table(subject: Subject, bodies: list[str]) -> Table:
     )
 
 
-def _spectra(subject: Subject, body: str, resolution: float) -> dict[str, tuple[NDArray[np.float64], ...]]:
+def _spectra(
+    subject: Subject, body: str, resolution: float
+) -> dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]]:
     """Frequency (Hz) and rms velocity (m/s) of lines, by axis, from the acceleration channels."""
     found = {}
     for k, axis in enumerate(AXES):
@@ -209,8 +218,8 @@ def _paths(subject: Subject) -> dict[str, tuple[NDArray[np.float64], NDArray[np.
 def _orbits(subject: Subject) -> Chart:
     found = _paths(subject)
     count = len(found)
-    figure = look.figure(height=430, showlegend=False)
-    turns = min(_SHOWN_TURNS, (subject.time[-1] - subject.time[0]) / subject.turn)
+    figure = look.figure(height=380, showlegend=False)
+    turns = min(_ORBIT_TURNS, (subject.time[-1] - subject.time[0]) / subject.turn)
     last = max(2, round(turns * subject.turn / subject.step)) if np.isfinite(turns) else len(subject.time)
     for k, (body, (y, z)) in enumerate(found.items()):
         number = "" if k == 0 else str(k + 1)
@@ -233,12 +242,12 @@ def _orbits(subject: Subject) -> Chart:
                 hovertemplate="y %{x:.3f} um, z %{y:.3f} um<extra>" + look.words(body) + "</extra>",
             )  # fmt: skip
         figure.update_layout({
-            f"xaxis{number}": look.axis("y, um", domain=[begin, end], range=[-reach, reach],
+            f"xaxis{number}": look.axis("y, um", domain=[begin, end], range=[-reach, reach], constrain="domain",
                                         anchor=f"y{number}"),
             f"yaxis{number}": look.axis(
                 "z, um" if k == 0 else "", range=[-reach, reach], anchor=f"x{number}",
                 scaleanchor=f"x{number}",
-                constrain="domain",
+                constrain="domain", constraintoward="top",
             ),
         })  # fmt: skip
         figure.add_annotation(

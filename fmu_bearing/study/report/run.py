@@ -1,4 +1,4 @@
-"""The run a report is made from: sound channels, all variables at 10 kHz, what every ball carries."""
+"""The run a report is made from: sound channels, all variables at 25.6 kHz, what every ball carries."""
 
 import math
 import warnings
@@ -10,8 +10,8 @@ from fmu_bearing.scene import Scene
 from fmu_bearing.study.recording import Recording, record
 from fmu_bearing.study.report.balls import Watch
 
-#: Communication step (s): every fifth sound sample. Thirty points per turn at 20,000 r/min draw an orbit.
-STEP = 5.0 / RATE
+#: Communication step (s): every second sound sample. At 20,000 r/min eleven points draw each passing of a ball.
+STEP = 2.0 / RATE
 RPM = math.pi / 30.0  # rad/s
 
 

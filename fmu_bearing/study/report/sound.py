@@ -132,7 +132,7 @@ def _spectrum(subject: Subject, heard: Microphones) -> Chart:
                 y=small(values[keep]), mode="lines",
                 name=look.words(name), meta={"mic": str(k), "component": name},
                 visible=str(k) == first,
-                line={"color": look.colour(name), "width": 1.5 if name == "total" else 1.1},
+                line={"color": look.colour(name), "width": 2.4 if name == "total" else 1.1},
                 hovertemplate="%{x:.0f} Hz: %{y:.1f} dB<extra>" + look.words(name) + "</extra>",
             )  # fmt: skip
     mark_kinematics(figure, subject)

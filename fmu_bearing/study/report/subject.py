@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from fmu_bearing.acoustics.field import form_of
 from fmu_bearing.acoustics.spectrum import KinematicFrequencies
 from fmu_bearing.scene import Scene
+from fmu_bearing.scene.origins import Origin
 from fmu_bearing.study.recording import Recording
 from fmu_bearing.study.report.blocks import Absent
 
@@ -32,6 +33,8 @@ class Subject:
         Where it came from, in words.
     scene_text : str
         The scene file as it was read, with its remarks; empty where there is none.
+    origins : list of Origin
+        Where each value of that file comes from.
     warnings : list of str
         Told while it was made.
     radius : float
@@ -42,6 +45,7 @@ class Subject:
     rung: str
     source: str = ""
     scene_text: str = ""
+    origins: list[Origin] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
     radius: float = 1.0
 

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -48,7 +49,7 @@ def tiles(subject: Subject, heard: Microphones | None) -> list[Tile]:
     for body in ("inner_ring", "outer_ring"):
         add(
             f"{body}_rms_mm_s", f"{look.words(body)}, rms velocity", "mm/s", ".3g",
-            lambda body=body: 1e3 * _rms(subject, body),
+            partial(_rms, subject, body),
         )  # fmt: skip
     add("torque_N_mm", "friction torque", "N mm", ".3g", lambda: 1e3 * subject.mean("friction_torque"))
     add("loss_W", "friction power", "W", ".3g", lambda: abs(subject.mean("friction_torque") * subject.speed))
@@ -67,8 +68,8 @@ def tiles(subject: Subject, heard: Microphones | None) -> list[Tile]:
 
 
 def _rms(subject: Subject, body: str) -> float:
-    """Return the rms velocity (m/s) of a body's centre about its mean, the three axes together."""
-    return math.sqrt(sum(float(np.var(subject.output(f"{body}.velocity.{axis}"))) for axis in "xyz"))
+    """Return the rms velocity (mm/s) of a body's centre about its mean, the three axes together."""
+    return 1e3 * math.sqrt(sum(float(np.var(subject.output(f"{body}.velocity.{axis}"))) for axis in "xyz"))
 
 
 def _largest(subject: Subject, name: str) -> float:

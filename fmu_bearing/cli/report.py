@@ -34,7 +34,7 @@ def report(
         float | None, typer.Option(metavar="RPM", help="Shaft speed; default: the scene's.")
     ] = None,
     duration: Annotated[float, typer.Option(metavar="S", help="Length of the run that is shown.")] = 0.5,
-    settle: Annotated[float, typer.Option(metavar="S", help="Time left out before it.")] = 0.05,
+    settle: Annotated[float, typer.Option(metavar="S", help="Time left out before it.")] = 0.1,
     rung: Annotated[
         str | None,
         typer.Option(

@@ -61,6 +61,8 @@ def sphere(subject: Subject) -> Sphere:
     recording = subject.recording
     if not recording.history.size:
         raise Absent("only pressures were recorded: levels elsewhere need the channels a run of ours keeps")
+    if subject.rung == "paper":
+        raise Absent("rung paper hears a bearing alike from all directions")
     polar = np.linspace(0.0, math.pi, _LATITUDES)
     azimuth = 2.0 * math.pi * np.arange(_AROUND) / _AROUND
     bare = Sphere(polar, azimuth, {})
@@ -113,8 +115,8 @@ def _balloon(subject: Subject, found: Sphere) -> Chart:
             cmin=max(top - _RANGE, float(values.min()) - 0.05),
             cmax=top, colorscale="Viridis", meta={"band": name}, visible=k == 0, customdata=spots,
             colorbar=look.bar("dB", 0.75),
-            hovertemplate="%{surfacecolor:.1f} dB at %{customdata[0]:.0f} deg from +X, %{customdata[1]:.0f} deg from "
-            "12 o'clock<extra></extra>",
+            hovertemplate="%{surfacecolor:.1f} dB at %{customdata[0]:.0f} deg from +X, "
+            "%{customdata[1]:.0f} deg from 12 o'clock<extra></extra>",
             lighting={"ambient": 0.75, "diffuse": 0.5, "specular": 0.1}, showscale=True,
         )  # fmt: skip
     figure.add_scatter3d(
@@ -174,7 +176,8 @@ def _planes(subject: Subject, found: Sphere) -> Chart:
     for k, (name, values) in enumerate(found.levels.items()):
         for plane, row in _rounds(values).items():
             figure.add_scatterpolar(
-                theta=small(np.linspace(0.0, 360.0, len(row))), r=small(row), mode="lines", name=plane, meta={"band": name},
+                theta=small(np.linspace(0.0, 360.0, len(row))), r=small(row), mode="lines", name=plane,
+                meta={"band": name},
                 visible=k == 0,
                 line={"color": look.colour(_PLANES[plane]), "width": 2},
                 hovertemplate="%{theta:.0f} deg: %{r:.1f} dB<extra>" + plane + "</extra>",

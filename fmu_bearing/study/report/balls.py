@@ -19,8 +19,8 @@ _CONTACTS = entry(observe.contacts.py_func)  # kept compiled, as what Python cal
 _ROWS = 9  # of the state, per ball
 _PER_RACE = at.BEARING_OUTPUTS.index("contact.outer.load_mean") - observe.Z_CONTACT
 _CAGE = at.S_Y + at.Y_Q + at.Q_CAGE
-_LOAD, _ANGLE = 0, 2  # places behind the first of a race
 RACES = ("inner", "outer")
+_READ = [observe.Z_CONTACT + k for k in (0, 2, _PER_RACE, _PER_RACE + 2)]  # load and angle at both
 
 
 def name_of(ball: int, what: str, race: str = "") -> str:
@@ -37,13 +37,14 @@ class Watch:
     def __init__(self) -> None:
         self._balls: list[NDArray[np.float64]] = []
         self._cage: list[NDArray[np.float64]] = []
-        self._has_cage = False
+        self._reader: Reader | None = None
 
     def __call__(self, bearing: Instance) -> None:
         """Read the state as it is."""
-        self._balls.append(read(bearing))
+        if self._reader is None:
+            self._reader = Reader(bearing)
+        self._balls.append(self._reader.read(bearing))
         self._cage.append(bearing.s[_CAGE : _CAGE + 3].copy())
-        self._has_cage = bool(bearing.p[at.P_CAGE])
 
     def outputs(self) -> dict[str, NDArray[np.float64]]:
         """Return what was read, over the calls, by `name_of` (rad, N, rad), and the cage's place (m)."""
@@ -54,33 +55,39 @@ class Watch:
             for k, race in enumerate(RACES):
                 found[name_of(j + 1, "load", race)] = table[:, j, 1 + 2 * k]
                 found[name_of(j + 1, "angle", race)] = table[:, j, 2 + 2 * k]
-        if self._has_cage:
+        if self._reader is not None and self._reader.has_cage:
             for axis, values in zip("xyz", np.array(self._cage).T, strict=True):
                 found[f"cage.displacement.{axis}"] = values
         return found
 
 
-def read(bearing: Instance) -> NDArray[np.float64]:
-    """Azimuth (rad, from 12 o'clock about +X), load (N) and angle (rad) at the inner, then the outer race.
+class Reader:
+    """Reads the balls of one initialised bearing."""
 
-    Shape (balls, 5).
-    """
-    p = bearing.p.copy()
-    balls, oversize = int(p[at.P_BALLS]), int(p[at.P_AT_OVERSIZE])
-    state: NDArray[np.float64] = bearing.s[: at.S_AXES].copy()  # the kernel reads nothing behind
-    z: NDArray[np.float64] = np.zeros(len(at.BEARING_OUTPUTS))
-    rows = at.S_Y + at.STRIDE * np.arange(_ROWS)
-    places = state[rows[:, None] + np.arange(balls)].copy()
-    diameters = p[oversize : oversize + balls].copy()
-    p[at.P_BALLS] = 1.0
-    found = np.empty((balls, 5))
-    for j in range(balls):
-        state[rows] = places[:, j]
-        p[oversize] = diameters[j]
-        _CONTACTS(p, state, z)
-        found[j, 0] = places[at.B_TH, j] % (2.0 * math.pi)
-        for race in range(2):
-            first = observe.Z_CONTACT + _PER_RACE * race
-            found[j, 1 + 2 * race] = z[first + _LOAD]
-            found[j, 2 + 2 * race] = z[first + _ANGLE]
-    return found
+    def __init__(self, bearing: Instance) -> None:
+        # without the sound block behind the tables, which is large
+        end = int(bearing.p[at.P_AT_SOUND]) or len(bearing.p)
+        self._p: NDArray[np.float64] = bearing.p[:end].copy()
+        self._oversize = int(self._p[at.P_AT_OVERSIZE])
+        self.balls = int(self._p[at.P_BALLS])
+        self.has_cage = bool(self._p[at.P_CAGE])
+        self._diameters = self._p[self._oversize : self._oversize + self.balls].copy()
+        self._p[at.P_BALLS] = 1.0
+        self._rows = at.S_Y + at.STRIDE * np.arange(_ROWS)
+        self._z: NDArray[np.float64] = np.zeros(len(at.BEARING_OUTPUTS))
+
+    def read(self, bearing: Instance) -> NDArray[np.float64]:
+        """Return azimuth (rad, from 12 o'clock about +X), load (N) and angle (rad) at inner and outer race.
+
+        Shape (balls, 5).
+        """
+        state = bearing.s[: at.S_AXES].copy()  # the kernel reads nothing behind
+        places = state[self._rows[:, None] + np.arange(self.balls)]
+        found = np.empty((self.balls, 1 + 2 * len(RACES)))
+        for j in range(self.balls):
+            state[self._rows] = places[:, j]
+            self._p[self._oversize] = self._diameters[j]
+            _CONTACTS(self._p, state, self._z)
+            found[j, 0] = places[at.B_TH, j] % (2.0 * math.pi)
+            found[j, 1:] = self._z[_READ]
+        return found

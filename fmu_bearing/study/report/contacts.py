@@ -104,7 +104,8 @@ def _around(subject: Subject, balls: int) -> Chart:
                 hovertemplate=f"%{{theta:.0f}} deg: %{{r:.4g}} {unit}<extra>{race} race</extra>",
             )  # fmt: skip
             figure.add_scatterpolar(
-                theta=small(np.degrees(azimuth[:, -1])), r=small(values[:, -1]), mode="markers+text" if race == "outer" else "markers",
+                theta=small(np.degrees(azimuth[:, -1])), r=small(values[:, -1]),
+                mode="markers+text" if race == "outer" else "markers",
                 text=[str(j + 1) for j in range(balls)], textposition="top center", textfont={"size": 12},
                 name=f"{race} race, balls at the end", marker={"color": tint, "size": 8}, meta=meta,
                 visible=shown,

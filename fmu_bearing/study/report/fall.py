@@ -4,9 +4,10 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.signal import sosfilt
 
 from fmu_bearing.acoustics.order import Waterfall, waterfall
-from fmu_bearing.acoustics.weighting import level
+from fmu_bearing.acoustics.weighting import a_weighting_sections, level
 from fmu_bearing.study.report import look
 from fmu_bearing.study.report.blocks import Absent, Block, Chart, Section, Words, small
 from fmu_bearing.study.report.heard import Microphones, listen
@@ -143,10 +144,6 @@ def _over_speed(heard: Microphones) -> Chart:
 
 
 def _weighted(heard: Microphones, k: int) -> NDArray[np.float64]:
-    from scipy.signal import sosfilt
-
-    from fmu_bearing.acoustics.weighting import a_weighting_sections
-
     return np.asarray(sosfilt(a_weighting_sections(heard.rate), heard.pressure[k]))
 
 

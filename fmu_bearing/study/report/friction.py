@@ -69,7 +69,8 @@ def _torque(subject: Subject) -> Chart:
         f"Friction torque over time, {1e3 * subject.mean('friction_torque'):.3g} N mm in the mean, and its "
         f"shares by "
         "source.",
-        (window,), note="A share is the power lost there over the shaft speed. The torque taken from the shaft also "
+        (window,),
+        note="A share is the power lost there over the shaft speed. The torque taken from the shaft also "
         "stores and gives "
         "back energy, so it varies about the shares' sum.",
     )  # fmt: skip
@@ -89,7 +90,8 @@ def _heats(subject: Subject) -> Chart:
     return Chart(
         "heat", "Heat by where it goes", figure,
         f"Heat to inner ring, outer ring and oil over time; {total:.3g} W in all in the mean.",
-        (window,), note="Means over each communication step. Half of what a contact loses heats its ring, all else "
+        (window,),
+        note="Means over each communication step. Half of what a contact loses heats its ring, all else "
         "goes to oil and balls.",
     )  # fmt: skip
 

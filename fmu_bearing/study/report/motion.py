@@ -3,9 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.acoustics.fir import decimator_response
 from fmu_bearing.acoustics.spectrum import amplitude_spectrum, power_spectral_density
-from fmu_bearing.engine.sound import places
 from fmu_bearing.study.report import look
 from fmu_bearing.study.report.blocks import Absent, Block, Chart, Choice, Option, Section, Table, Words, small
 from fmu_bearing.study.report.decimate import thinned
@@ -14,10 +12,10 @@ from fmu_bearing.study.report.subject import RPM, Subject
 
 AXES = ("x", "y", "z")
 _AXIS_WORDS = {"x": "x, along the axis", "y": "y, horizontal", "z": "z, upwards"}
-_CHANNELS = {"inner_ring": places.C_INNER, "outer_ring": places.C_OUTER, "cage": places.C_CAGE}
 #: Frequency bands (Hz) in which ISO 15242-1 reads the vibration of bearings.
 BANDS = ((50.0, 300.0), (300.0, 1800.0), (1800.0, 10_000.0))
-_LOWEST, _HIGHEST = 20.0, 20_000.0  # Hz: as far as channels are flat
+_LOWEST, _HIGHEST = 20.0, 10_000.0  # Hz
+_LONGEST_STEP = 45e-6  # s: what lies above 12 kHz, and would fold back to 10, hardly moves a ring
 _ORBIT_TURNS = 5.0
 _SHOWN_TURNS = 10.0  # at first: one sees the shaft's turns
 
@@ -120,26 +118,37 @@ def _rms_table(subject: Subject, bodies: list[str]) -> Table:
     )
 
 
-def _spectra(
-    subject: Subject, body: str, resolution: float
-) -> dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]]:
-    """Frequency (Hz) and rms velocity (m/s) of lines, by axis, from the acceleration channels."""
-    found = {}
-    for k, axis in enumerate(AXES):
-        signal = subject.accelerations[:, _CHANNELS[body] + k]
-        frequency, rms = amplitude_spectrum(signal, subject.recording.rate, resolution)
-        keep = (frequency >= _LOWEST) & (frequency <= _HIGHEST)
-        f = frequency[keep]
-        found[axis] = (f, rms[keep] / np.abs(decimator_response(f)) / (2.0 * np.pi * f))
-    return found
+def _sampled(subject: Subject) -> float:
+    """Velocities per second; `Absent` where they are too few for spectra."""
+    if subject.step > _LONGEST_STEP:
+        raise Absent(
+            f"variables were kept every {1e6 * subject.step:.4g} us, "
+            f"spectra need {1e6 * _LONGEST_STEP:g} us or less"
+        )
+    return 1.0 / subject.step
+
+
+def velocity_spectrum(
+    subject: Subject, name: str, resolution: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Frequency (Hz) and rms velocity (m/s) of the lines of a variable, as far as it is sampled well."""
+    frequency, rms = amplitude_spectrum(subject.output(name), _sampled(subject), resolution)
+    keep = (frequency > _LOWEST - 1e-3) & (frequency < _HIGHEST + 1e-3)
+    return frequency[keep], rms[keep]
+
+
+def _finest(subject: Subject, wanted: float) -> float:
+    """Spacing of lines (Hz) that the recording allows."""
+    return max(wanted, 1.0 / (subject.step * len(subject.time)))
 
 
 def _over_frequency(subject: Subject, bodies: list[str]) -> Chart:
     figure = look.figure(height=420)
-    resolution = max(5.0, subject.recording.rate / subject.recording.size)
+    resolution = _finest(subject, 5.0)
     top = 0.0
     for body in bodies:
-        for axis, (frequency, rms) in _spectra(subject, body, resolution).items():
+        for axis in AXES:
+            frequency, rms = velocity_spectrum(subject, f"{body}.velocity.{axis}", resolution)
             top = max(top, float(1e3 * rms.max()))
             figure.add_scatter(
                 x0=float(frequency[0]), dx=float(frequency[1] - frequency[0]),
@@ -151,7 +160,7 @@ def _over_frequency(subject: Subject, bodies: list[str]) -> Chart:
     mark_kinematics(figure, subject)
     decades = np.log10(top) if top > 0.0 else 0.0
     figure.update_layout(
-        xaxis=look.axis("frequency, Hz", range=[0.0, 10_000.0]),
+        xaxis=look.axis("frequency, Hz", range=[0.0, _HIGHEST]),
         yaxis=look.axis("rms velocity, mm/s", type="log", range=[decades - 5.0, decades + 0.5]),
     )
     return Chart(
@@ -159,24 +168,19 @@ def _over_frequency(subject: Subject, bodies: list[str]) -> Chart:
         "Velocity of the centres over frequency",
         figure,
         f"Spectra of the velocity along three axes of {_listed(bodies)}, kinematic frequencies marked.",
-        (Choice("body", "Body", [Option(look.words(body), body) for body in bodies]), reach()),
-        note=f"Accelerations sampled at {subject.recording.rate / 1e3:g} kHz behind the engine's "
-        f"anti-alias filter, "
-        f"divided by 2 pi f; {resolution:.3g} Hz between lines, flat-top window: lines read true. Click a "
-        f"legend entry to "
-        "show or hide it.",
+        (Choice("body", "Body", [Option(look.words(body), body) for body in bodies]), reach(_HIGHEST)),
+        note=f"Velocities read {1e-3 * _sampled(subject):.4g} thousand times a second; {resolution:.3g} Hz "
+        "between lines, flat-top window: lines read true. Click a legend entry to show or hide it.",
     )
 
 
 def _band_table(subject: Subject, bodies: list[str]) -> Table:
     rows = []
-    resolution = max(10.0, subject.recording.rate / subject.recording.size)
+    resolution = _finest(subject, 10.0)
     for body in bodies:
-        for k, axis in enumerate(AXES):
-            signal = subject.accelerations[:, _CHANNELS[body] + k]
-            frequency, density = power_spectral_density(signal, subject.recording.rate, resolution)
-            f = np.maximum(frequency, resolution)
-            density = density / np.abs(decimator_response(f)) ** 2 / (2.0 * np.pi * f) ** 2
+        for axis in AXES:
+            values = subject.output(f"{body}.velocity.{axis}")
+            frequency, density = power_spectral_density(values, _sampled(subject), resolution)
             cells = []
             for low, high in BANDS:
                 inside = (frequency >= low) & (frequency < high)
@@ -242,12 +246,13 @@ def _orbits(subject: Subject) -> Chart:
                 hovertemplate="y %{x:.3f} um, z %{y:.3f} um<extra>" + look.words(body) + "</extra>",
             )  # fmt: skip
         figure.update_layout({
-            f"xaxis{number}": look.axis("y, um", domain=[begin, end], range=[-reach, reach], constrain="domain",
-                                        anchor=f"y{number}"),
+            f"xaxis{number}": look.axis(
+                "y, um", domain=[begin, end], range=[-reach, reach], anchor=f"y{number}",
+                constrain="domain",
+            ),
             f"yaxis{number}": look.axis(
                 "z, um" if k == 0 else "", range=[-reach, reach], anchor=f"x{number}",
-                scaleanchor=f"x{number}",
-                constrain="domain", constraintoward="top",
+                scaleanchor=f"x{number}", constrain="domain", constraintoward="top",
             ),
         })  # fmt: skip
         figure.add_annotation(
@@ -278,16 +283,13 @@ def _listed(bodies: list[str]) -> str:
     return ", ".join(look.words(body) for body in bodies)
 
 
-def reach() -> Choice:
-    """Choose how far a frequency axis goes."""
-    return Choice(
-        "reach",
-        "Frequencies to",
-        [
-            Option("10 kHz", "10", {"xaxis.type": "linear", "xaxis.range": [0.0, 10_000.0]}),
-            Option("5 kHz", "5", {"xaxis.type": "linear", "xaxis.range": [0.0, 5000.0]}),
-            Option("1 kHz", "1", {"xaxis.type": "linear", "xaxis.range": [0.0, 1000.0]}),
-            Option("20 kHz", "20", {"xaxis.type": "linear", "xaxis.range": [0.0, 20_000.0]}),
-            Option("20 kHz, logarithmic", "log", {"xaxis.type": "log", "xaxis.range": [1.3, 4.302]}),
-        ],
-    )
+def reach(highest: float = 20_000.0) -> Choice:
+    """Choose how far a frequency axis goes, up to ``highest`` (Hz)."""
+    linear = [
+        Option(f"{f / 1e3:g} kHz", f"{f:g}", {"xaxis.type": "linear", "xaxis.range": [0.0, f]})
+        for f in (10_000.0, 5000.0, 1000.0, 20_000.0)
+        if f <= highest
+    ]
+    whole = {"xaxis.type": "log", "xaxis.range": [float(np.log10(20.0)), float(np.log10(highest))]}
+    words = f"{highest / 1e3:g} kHz, logarithmic"
+    return Choice("reach", "Frequencies to", [*linear, Option(words, "log", whole)])

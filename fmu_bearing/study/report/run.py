@@ -10,7 +10,7 @@ from fmu_bearing.scene import Scene
 from fmu_bearing.study.recording import Recording, record
 from fmu_bearing.study.report.balls import Watch
 
-#: Communication step (s): every second sound sample. At 20,000 r/min eleven points draw each passing of a ball.
+#: Communication step (s): every second sound sample. At 20,000 r/min each ball that passes gets 11 points.
 STEP = 2.0 / RATE
 RPM = math.pi / 30.0  # rad/s
 
@@ -26,7 +26,7 @@ def observed(
     duration: float = 0.5,
     *,
     speed: float | None = None,
-    settle: float = 0.05,
+    settle: float = 0.1,
     rung: str | None = None,
     progress: bool | None = None,
 ) -> tuple[Recording, list[str]]:

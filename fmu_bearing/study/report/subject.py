@@ -8,7 +8,6 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.acoustics.field import form_of
 from fmu_bearing.acoustics.spectrum import KinematicFrequencies
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.origins import Origin
@@ -111,12 +110,3 @@ class Subject:
     def turn(self) -> float:
         """Time of one turn of the shaft (s); infinite at rest."""
         return 2.0 * math.pi / abs(self.speed) if abs(self.speed) > 1e-6 else math.inf
-
-    @property
-    def accelerations(self) -> NDArray[np.float64]:
-        """Channels that are accelerations (m/s2), shape (samples, channels); `Absent` without."""
-        if not self.recording.history.size:
-            raise Absent("the recording holds pressures only, no accelerations")
-        if form_of(self.recording.rung) != "vectors":
-            raise Absent(f'rung "{self.recording.rung}" keeps channels of its own, no accelerations')
-        return self.recording.channels

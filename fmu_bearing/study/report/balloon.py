@@ -145,10 +145,11 @@ def _balloon(subject: Subject, found: Sphere) -> Chart:
     )  # fmt: skip
 
 
-def _spots(found: Sphere) -> NDArray[np.float32]:
+def _spots(found: Sphere) -> NDArray[np.int16]:
     """Directions (deg) for the pointer: from +X, and from 12 o'clock, shape (latitudes, around + 1, 2)."""
     around = np.append(np.degrees(found.azimuth), 0.0)
-    return small(np.stack(np.meshgrid(np.degrees(found.polar), around, indexing="ij"), axis=-1))
+    both = np.stack(np.meshgrid(np.degrees(found.polar), around, indexing="ij"), axis=-1)
+    return np.round(both).astype(np.int16)
 
 
 def _rounds(values: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:

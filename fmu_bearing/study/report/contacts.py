@@ -98,9 +98,8 @@ def _around(subject: Subject, balls: int) -> Chart:
                 fillcolor=look.faint(race), hoverinfo="skip", showlegend=False, meta=meta, visible=shown,
             )  # fmt: skip
             figure.add_scatterpolar(
-                theta=small(angle), r=small(np.append(mean, mean[:1])), mode="lines", name=f"{race} race, "
-                f"mean",
-                line={"color": tint, "width": 2}, meta=meta, visible=shown,
+                theta=small(angle), r=small(np.append(mean, mean[:1])), mode="lines",
+                name=f"{race} race, mean", line={"color": tint, "width": 2}, meta=meta, visible=shown,
                 hovertemplate=f"%{{theta:.0f}} deg: %{{r:.4g}} {unit}<extra>{race} race</extra>",
             )  # fmt: skip
             figure.add_scatterpolar(
@@ -111,6 +110,7 @@ def _around(subject: Subject, balls: int) -> Chart:
                 visible=shown,
                 hovertemplate=f"ball %{{text}}: %{{r:.4g}} {unit}<extra>{race} race</extra>",
             )  # fmt: skip
+    figure.data = sorted(figure.data, key=lambda trace: trace.fill != "toself")  # bands behind all lines
     load = _of_balls(subject, balls, "load", "outer")
     return Chart(
         "contacts-around",

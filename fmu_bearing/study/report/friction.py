@@ -45,7 +45,7 @@ def _curves(subject: Subject, names: dict[str, tuple[str, str]], factor: float) 
     for name, (words, tint) in names.items():
         if not subject.has(name):
             continue
-        values, span = thinned(factor * subject.output(name), 6000)
+        values, span = thinned(factor * subject.output(name), 8000)
         traces.append({
             "x0": float(subject.time[0]), "dx": span * subject.step, "y": small(values), "mode": "lines",
             "name": words, "line": {"color": look.colour(tint), "width": 1.3},

@@ -16,6 +16,7 @@ _AXIS_WORDS = {"x": "x, along the axis", "y": "y, horizontal", "z": "z, upwards"
 BANDS = ((50.0, 300.0), (300.0, 1800.0), (1800.0, 10_000.0))
 _LOWEST, _HIGHEST = 20.0, 10_000.0  # Hz
 _LONGEST_STEP = 45e-6  # s: what lies above 12 kHz, and would fold back to 10, hardly moves a ring
+_POINTS = 14_000  # of a curve: half a second as it is
 _ORBIT_TURNS = 5.0
 _SHOWN_TURNS = 10.0  # at first: one sees the shaft's turns
 
@@ -60,7 +61,7 @@ def _over_time(subject: Subject, bodies: list[str]) -> Chart:
     rpm = abs(subject.speed) / RPM
     for body in bodies:
         for axis in AXES:
-            values, span = thinned(1e3 * subject.output(f"{body}.velocity.{axis}"))
+            values, span = thinned(1e3 * subject.output(f"{body}.velocity.{axis}"), _POINTS)
             figure.add_scatter(
                 x0=float(subject.time[0]), dx=span * subject.step, y=small(values), mode="lines",
                 name=_AXIS_WORDS[axis], meta={"body": body}, visible=body == bodies[0],
@@ -184,7 +185,8 @@ def _band_table(subject: Subject, bodies: list[str]) -> Table:
             cells = []
             for low, high in BANDS:
                 inside = (frequency >= low) & (frequency < high)
-                cells.append(f"{1e6 * np.sqrt(np.sum(density[inside]) * frequency[1]):.4g}")
+                value = 1e6 * np.sqrt(np.sum(density[inside]) * frequency[1])
+                cells.append(f"{value:.0f}" if value >= 1000.0 else f"{value:.3g}")
             rows.append([look.words(body), axis, *cells])
     return Table(
         "Rms velocity in three bands, um/s",
@@ -222,7 +224,7 @@ def _paths(subject: Subject) -> dict[str, tuple[NDArray[np.float64], NDArray[np.
 def _orbits(subject: Subject) -> Chart:
     found = _paths(subject)
     count = len(found)
-    figure = look.figure(height=380, showlegend=False)
+    figure = look.figure(height=340, showlegend=False)
     turns = min(_ORBIT_TURNS, (subject.time[-1] - subject.time[0]) / subject.turn)
     last = max(2, round(turns * subject.turn / subject.step)) if np.isfinite(turns) else len(subject.time)
     for k, (body, (y, z)) in enumerate(found.items()):

@@ -85,8 +85,10 @@ def _variation(subject: Subject) -> str:
 def _method(scene: Scene) -> str:
     f = scene.fidelity
     name = f"{f.method}, " if f.level == "full" else ""
-    return f"{name}internal steps up to {f.max_internal_step_us:g} us, tolerance {f.tolerance:g}, "
-    f"{f.traction_strips} strips per contact"
+    return (
+        f"{name}internal steps up to {f.max_internal_step_us:g} us, tolerance {f.tolerance:g}, "
+        f"{f.traction_strips} strips per contact"
+    )
 
 
 def _sound(subject: Subject) -> str:
@@ -113,8 +115,8 @@ def _kinematics(subject: Subject) -> Table:
     if subject.has("cage.speed_ratio") and subject.level == "full":
         found = subject.mean("cage.speed_ratio")
         rolling = kinematics.f_c / kinematics.f_r if kinematics.f_r else math.nan
-        ratio = f" The cage turned at {found:.5f} of the shaft's speed, "
-        f"{100.0 * (found / rolling - 1.0):+.2f} % from rolling."
+        slip = 100.0 * (found / rolling - 1.0)
+        ratio = f" The cage turned at {found:.5f} of the shaft's speed, {slip:+.2f} % from rolling."
     return Table(
         "Kinematic frequencies", ["", "also called", "counts", "frequency, Hz", "order"], rows,
         note=f"Rolling without sliding, {words}.{ratio}",
@@ -163,5 +165,5 @@ def source_words(subject: Subject) -> str:
         scene = subject.scene
     except Absent:
         return "a recording without scene"
-    return f"{scene.bearing.designation} at {subject.speed / RPM:,.0f} r/min, preload "
-    f"{scene.mounting.preload_N:g} N"
+    speed = f"{subject.speed / RPM:,.0f} r/min"
+    return f"{scene.bearing.designation} at {speed}, preload {scene.mounting.preload_N:g} N"

@@ -1,5 +1,7 @@
 """How rings and cage move: velocities over time and frequency, orbits of their centres."""
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -227,6 +229,7 @@ def _orbits(subject: Subject) -> Chart:
     figure = look.figure(height=340, showlegend=False)
     turns = min(_ORBIT_TURNS, (subject.time[-1] - subject.time[0]) / subject.turn)
     last = max(2, round(turns * subject.turn / subject.step)) if np.isfinite(turns) else len(subject.time)
+    narrow: dict[str, Any] = {"height": 360 * count}
     for k, (body, (y, z)) in enumerate(found.items()):
         number = "" if k == 0 else str(k + 1)
         reach = 1.08 * max(float(np.max(np.abs(y))), float(np.max(np.abs(z))), 1e-6)
@@ -247,6 +250,12 @@ def _orbits(subject: Subject) -> Chart:
                 line={"color": look.colour(body if part != "whole run" else "grey"), "width": width},
                 hovertemplate="y %{x:.3f} um, z %{y:.3f} um<extra>" + look.words(body) + "</extra>",
             )  # fmt: skip
+        # on a narrow page one above the other
+        low = 1.0 - (k + 0.78) / count
+        narrow |= {
+            f"xaxis{number}.domain": [0.1, 0.95], f"yaxis{number}.domain": [low, 1.0 - (k + 0.06) / count],
+            f"annotations.{k}.x": 0.5, f"annotations.{k}.y": 1.0 - (k + 0.05) / count,
+        }  # fmt: skip
         figure.update_layout({
             f"xaxis{number}": look.axis(
                 "y, um", domain=[begin, end], range=[-reach, reach], anchor=f"y{number}",
@@ -261,6 +270,7 @@ def _orbits(subject: Subject) -> Chart:
             text=look.words(body), x=0.5 * (begin + end), y=1.02, xref="paper", yref="paper", showarrow=False,
             yanchor="bottom", font={"size": 14},
         )  # fmt: skip
+    figure.layout.meta = {"narrow": narrow}
     return Chart(
         "orbits",
         "Orbits of the centres in the bearing plane, about their mean",

@@ -40,8 +40,9 @@
   // A narrow page has no room for wide margins and long legends.
   const fitted = (layout, width) => {
     if (width >= 560) return layout;
-    const small = { ...layout, font: { size: 11 }, margin: { ...layout.margin, l: Math.min(layout.margin?.l ?? 40, 46), r: 8 } };
-    return small;
+    for (const [path, value] of Object.entries(layout.meta?.narrow ?? {})) set(layout, path, structuredClone(value));
+    const side = layout.polar ? { l: 34, r: 34 } : { l: Math.min(layout.margin?.l ?? 40, 46), r: 8 };
+    return { ...layout, font: { size: 11 }, margin: { ...layout.margin, ...side } };
   };
 
   const set = (layout, path, value) => {
@@ -142,6 +143,14 @@
   addEventListener("afterprint", () => {
     printing = false;
     for (const part of folded) part.open = false;
+    redraw();
+  });
+
+  // Plotly follows the window; from wide to narrow and back figures are arranged anew.
+  let narrow = innerWidth < 700;
+  addEventListener("resize", () => {
+    if (narrow === innerWidth < 700 || printing) return;
+    narrow = !narrow;
     redraw();
   });
 

@@ -16,6 +16,7 @@ from fmu_bearing.study.sound_measure import strongest
 
 Tile = dict[str, Any]
 _THIN_FILM = 1.0  # film over roughness: below it, asperities touch
+_CANCELS = 1.0  # dB by which a component alone exceeds all together before it is told
 _TURNS = 10.0  # of the cage, for a mean worth the name
 
 
@@ -84,10 +85,13 @@ def sentences(subject: Subject, heard: Microphones | None) -> list[str]:
     parts = heard.components[1:]
     if parts:
         ranked = sorted(parts, key=lambda name: -heard.levels["A"][name][k])
-        text = f"At {heard.names[k]} the {look.words(ranked[0])} is loudest "
-        f"({heard.levels['A'][ranked[0]][k]:.1f} dB(A) alone)"
+        alone = heard.levels["A"][ranked[0]][k]
+        text = f"At {heard.names[k]} the {look.words(ranked[0])} is loudest ({alone:.1f} dB(A) alone)"
         if len(ranked) > 1:
             text += f", then the {look.words(ranked[1])} ({heard.levels['A'][ranked[1]][k]:.1f})"
+        total = heard.levels["A"]["total"][k]
+        if alone > total + _CANCELS:
+            text += f"; in phase opposition they leave {total:.1f} dB(A) together"
         found.append(text + ".")
     if subject.recording.scene is not None and k in heard.shown:
         frequency, values = heard.spectra["total"][heard.shown.index(k)]

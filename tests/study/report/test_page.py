@@ -40,6 +40,15 @@ def test_the_page_is_in_order(full_page, full_report):
     assert {f"#{key}" for key in full_report.sections} <= set(full_page.addresses)
 
 
+def test_what_is_said_is_said_to_the_end(full, full_page):
+    summary, conditions = full_page.sections["summary"], full_page.sections["conditions"]
+    part = max(full.partial().items(), key=lambda item: full.mean_square(item[1], "A").max())[0]
+    assert f"the {part.replace('_', ' ')} is loudest (" in summary and "dB(A) alone), then the" in summary
+    assert "Its strongest line stands at" in summary and "ka = 0.5" in summary
+    assert "5 strips per contact" in conditions and "% from rolling." in conditions
+    assert "7003C at 20,000 r/min, preload 500 N" in full_page.text
+
+
 def test_assumed_values_carry_the_files_remarks(tmp_path):
     made = make(SCENES / "7003C-bare.toml", tmp_path / "a.html", duration=0.02, settle=0.0, rung="compact")
     page = Page(made.path)
@@ -59,6 +68,11 @@ def test_level_rings_says_what_does_not_move(rings, tmp_path):
     assert "cage" not in {row[0] for row in page.tables["Velocity of the centres about its mean, mm/s"]}
     assert "many of these was measured" not in page.text
     assert any("values that the papers leave open" in caption for caption in page.tables)
+    # the housing moves against the inner ring's shaft or not: the sentence follows the levels
+    summary, table = page.sections["summary"], page.tables["Equivalent levels re 20 uPa"]
+    loudest = max(table[1:], key=lambda row: float(row[3]))
+    cancels = max(map(float, loudest[4:])) > float(loudest[3]) + 1.0
+    assert ("in phase opposition" in summary) == cancels
 
 
 def test_pressures_of_an_fmu_alone(tmp_path):

@@ -72,6 +72,15 @@ def report(source: Source, output: str | os.PathLike[str], **options: Any) -> pa
     """Write the report of a run as one HTML page that needs no network, and return its path.
 
     Parameters are those of `make`, which also tells what was written.
+
+    Examples
+    --------
+    >>> from fmu_bearing import Bearing
+    >>> from fmu_bearing.study.report import report
+    >>> bearing = Bearing("examples/scenes/7003C-bare.toml", level="rings")
+    >>> page = report(bearing.scene, "report.html", duration=0.05, rung="compact")
+    >>> page.name, 5e6 < page.stat().st_size < 8e6
+    ('report.html', True)
     """
     return make(source, output, **options).path
 

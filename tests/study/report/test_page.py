@@ -1,5 +1,6 @@
 """The page as a file: whole, offline, honest about what it lacks; and the errors of making it."""
 
+import doctest
 import math
 import re
 import sys
@@ -38,6 +39,13 @@ def test_the_page_is_in_order(full_page, full_report):
     assert all(later - earlier <= 1 for earlier, later in zip(levels, levels[1:], strict=False))
     assert all(figure["data"] for figure in full_page.figures.values()) and len(full_page.figures) >= 12
     assert {f"#{key}" for key in full_report.sections} <= set(full_page.addresses)
+
+
+def test_the_example_runs(tmp_path, monkeypatch):
+    (tmp_path / "examples").symlink_to(SCENES.parent)
+    monkeypatch.chdir(tmp_path)
+    (test,) = doctest.DocTestFinder().find(report, "report", globs={}, module=False)
+    assert test.examples and doctest.DocTestRunner().run(test).failed == 0
 
 
 def test_what_is_said_is_said_to_the_end(full, full_page):

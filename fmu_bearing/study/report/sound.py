@@ -96,10 +96,7 @@ def _ranking(heard: Microphones) -> Chart:
     else:
         figure.update_layout(xaxis=other, yaxis=axis, barmode="group", bargap=0.15)
         which = "yaxis"
-    loudest = ", ".join(
-        f"{mic}: {look.words(max(names[1:], key=lambda name: heard.levels['A'][name][k]))}"
-        for k, mic in list(enumerate(heard.names))[:8]
-    )
+    loudest = _loudest(heard)
     return Chart(
         "ranking", "Which component is loudest", figure,
         f"Bars of the level of each component at each microphone. Loudest component by A-weighted level: "
@@ -110,6 +107,17 @@ def _ranking(heard: Microphones) -> Chart:
         ]),),
         note=f"Loudest component, A-weighted: {loudest}. The outer ring includes what moves with it.",
     )  # fmt: skip
+
+
+def _loudest(heard: Microphones) -> str:
+    """Loudest component at each microphone, in words; once where it is the same at all."""
+    parts = heard.components[1:]
+    first = [
+        look.words(max(parts, key=lambda name: heard.levels["A"][name][k])) for k in range(len(heard.names))
+    ]
+    if len(first) > 1 and len(set(first)) == 1:
+        return f"the {first[0]} at all {len(first)} microphones"
+    return ", ".join(f"{mic}: {part}" for mic, part in zip(heard.names, first, strict=True))
 
 
 def _microphone_choice(heard: Microphones) -> Choice:

@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from fmu_bearing.study.bearing import Bearing
     from fmu_bearing.study.build import build_fmu
     from fmu_bearing.study.recording import Recording, record
+    from fmu_bearing.study.report import report
     from fmu_bearing.study.run import Run
     from fmu_bearing.study.simulate import simulate
     from fmu_bearing.study.sweep import sweep
@@ -52,6 +53,7 @@ _PLACES = {
     "build_fmu": "study.build",
     "read_scene": "scene",
     "record": "study.recording",
+    "report": "study.report",
     "simulate": "study.simulate",
     "sweep": "study.sweep",
 }
@@ -65,6 +67,7 @@ __all__ = [
     "build_fmu",
     "read_scene",
     "record",
+    "report",
     "simulate",
     "sweep",
 ]

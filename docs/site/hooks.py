@@ -26,19 +26,6 @@ _ROLE = re.compile(r":(?:func|class|meth|mod):(?=<code|`)")
 _LANGUAGES = {".py": "python", ".toml": "toml", ".c": "c", ".h": "c"}
 
 
-#: Pages that are written elsewhere; the navigation has places for them already.
-ARRIVING = ("sweeps.md", "report.md", "testing.md", "results/coupling.md", "results/sweep.md")
-
-
-def on_config(config):
-    """Leave out of the navigation what is not there yet."""
-    absent = {name for name in ARRIVING if not (ROOT / "docs" / name).exists()}
-    for section in config.nav:
-        for pages in section.values():
-            pages[:] = [p for p in pages if not (isinstance(p, dict) and absent & set(map(str, p.values())))]
-    return config
-
-
 def on_files(files, config):
     """Add the changelog, and each file outside docs that a page links to as a page of its own."""
     changes = (ROOT / "CHANGELOG.md").read_text("utf-8").replace("](docs/", "](")

@@ -9,11 +9,12 @@
 ``studies``     choose, tradeoff, sensitivity
 ``sweep``       a scene over a grid of its values
 ``validate``    checks of an FMU
+``report``      a page about a run
 ==============  ==================================================================
 """
 
 # importing a file registers its commands
-from fmu_bearing.cli import build, runs, scenes, sound, studies, sweep, validate  # noqa: F401
+from fmu_bearing.cli import build, report, runs, scenes, sound, studies, sweep, validate  # noqa: F401
 from fmu_bearing.cli.base import app
 
 __all__ = ["app"]

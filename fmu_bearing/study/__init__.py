@@ -28,5 +28,6 @@
 ``sound_pictures``  and as pictures
 ``time_pictures``   variables over time; ``pictures``: what all pictures share
 ``validate``        what FMI 2.0 asks of an FMU, checked
+``report``          one HTML page about a run
 ``table``           tables to terminal, Markdown, CSV; the machine they were made on
 """

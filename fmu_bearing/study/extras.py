@@ -8,6 +8,7 @@ EXTRAS = {
     "xarray": "results",
     "h5netcdf": "results",
     "plotly": "report",
+    "jinja2": "report",
     "distributed": "cluster",
     "fmu_manipulation_toolbox": "validate",
 }

@@ -241,22 +241,32 @@ class Heard:
                     mean_square[rows] += self.mean_square(part, weighting)
         return level(mean_square)
 
+    def mean_squares(
+        self, positions: Sequence[ArrayLike] | None = None, rung: str | None = None, resolution: float = 20.0
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Frequencies (Hz), and mean square pressure (Pa^2) in each bin at each place, (mics, bins).
+
+        By short-time spectra of the channels: fast at many places. Sums over bins are what `levels` with a
+        ``resolution`` gives, whole or by bands.
+        """
+        places = self._places(positions)
+        blocks = Blocks(self.channels, resolution)
+        energies = (rung or self.rung).startswith("paper")
+        found = np.zeros((len(places), len(blocks.frequency)))
+        for circle in self._circles(places, rung):
+            parts = blocks.mean_squares(circle, (lambda path: path.channel) if energies else (lambda path: 0))
+            found[list(circle.members)] = sum(parts.values())
+        return blocks.frequency, found
+
     def _quick_levels(
         self, places: list[Position], rung: str | None, weighting: str, resolution: float
     ) -> NDArray[np.float64]:
         """Levels by short-time spectra of the channels."""
-        blocks = Blocks(self.channels, resolution)
-        weights = np.ones(len(blocks.frequency))
-        if weighting == "A":
-            weights = 10.0 ** (a_weighting_db(blocks.frequency) / 10.0)
-        elif weighting != "Z":
+        if weighting not in ("A", "Z"):
             raise ValueError(_NO_WEIGHTING.format(weighting))
-        energies = (rung or self.rung).startswith("paper")
-        mean_square = np.zeros(len(places))
-        for circle in self._circles(places, rung):
-            parts = blocks.mean_squares(circle, (lambda path: path.channel) if energies else (lambda path: 0))
-            mean_square[list(circle.members)] = sum(part @ weights for part in parts.values())
-        return level(mean_square)
+        frequency, squares = self.mean_squares(places, rung, resolution)
+        weights = 10.0 ** (a_weighting_db(frequency) / 10.0) if weighting == "A" else np.ones(len(frequency))
+        return level(squares @ weights)
 
     def mean_square(self, pressure: NDArray[np.float64], weighting: str = "Z") -> NDArray[np.float64]:
         """Mean square (Pa^2) over the recording's samples, the last ones of ``pressure``, shape (...,).

@@ -45,6 +45,7 @@ def record(
     outputs: Iterable[str] = OUTPUTS,
     microphones: bool = False,
     progress: bool | None = None,
+    watch: Callable[[Instance], None] | None = None,
 ) -> Recording:
     """Run a scene and keep its channels at 51.2 kHz, so that any microphone can be set up afterwards.
 
@@ -73,6 +74,9 @@ def record(
         streams to a single one and runs faster.
     progress : bool, optional
         Show a progress bar; default: when the run is long and a terminal is there.
+    watch : callable, optional
+        Called with the running bearing after initialisation and after each communication step: for what is
+        in the state but no variable.
 
     Returns
     -------
@@ -112,7 +116,7 @@ def record(
     bearing.initialise()
     first = round(settle * places.RATE)
     size = round(duration * places.RATE)
-    kept = _Kept(bearing, tuple(outputs), first + size + TAIL)
+    kept = _Kept(bearing, tuple(outputs), first + size + TAIL, watch)
     _march(bearing, drives, kept, min(step, (kept.depth - 8) / places.RATE), progress)
     return Recording(
         scene, wanted, places.RATE, first / places.RATE, size, np.array(kept.time), np.array(kept.speed),
@@ -140,12 +144,15 @@ def listened(scene: Scene, rung: str) -> Scene:
 class _Kept:
     """What is read at communication points: rows of the engine's channel history, speed, outputs."""
 
-    def __init__(self, bearing: Instance, outputs: tuple[str, ...], rows: int) -> None:
+    def __init__(
+        self, bearing: Instance, outputs: tuple[str, ...], rows: int, watch: Callable[[Instance], None] | None
+    ) -> None:
         p = bearing.p
         block = int(p[at.P_AT_SOUND])
         if block == 0:
             raise ValueError("the model has no sound: give the scene, or leave microphones=False")
         self.bearing = bearing
+        self.watch = watch
         self.sound: NDArray[np.float64] = p[block : block + int(p[at.P_SOUND_SIZE])]
         self.depth = int(self.sound[places.H_ROWS])
         lanes, channels = int(self.sound[places.H_AT_LANES]), int(self.sound[places.H_CHANNELS])
@@ -166,6 +173,8 @@ class _Kept:
         self.speed.append(float(self.bearing.s[at.S_SPEED]))
         for name, values in self.outputs.items():
             values.append(self.bearing.get(name))
+        if self.watch is not None:
+            self.watch(self.bearing)
         state = self.bearing.s[at.S_SOUND :]
         channels = self.rows.shape[1]
         first = int(self.sound[places.H_S_CHANNELS])

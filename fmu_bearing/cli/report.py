@@ -1,0 +1,81 @@
+"""``fmu-bearing report``: one HTML page about a run."""
+
+import math
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from fmu_bearing.cli.base import Json, Refusal, app, errors, print_json, refusals, tell
+
+Source = Annotated[
+    Path, typer.Argument(metavar="SCENE|RUN.npz", help="Scene file (TOML), or a recording of a run (.npz).")
+]
+Page = Annotated[Path, typer.Option("--output", "-o", help="HTML file to write.")]
+_RPM = math.pi / 30.0  # rad/s
+
+
+def span(text: str) -> tuple[float, float]:
+    """Two speeds (r/min) with a colon between."""
+    try:
+        first, last = (float(part) for part in text.split(":"))
+    except ValueError:
+        raise Refusal(
+            f"--run-up {text}: write two speeds in r/min with a colon between, such as 5000:30000"
+        ) from None
+    return first, last
+
+
+@app.command()
+def report(
+    source: Source,
+    output: Page = Path("report.html"),
+    speed: Annotated[
+        float | None, typer.Option(metavar="RPM", help="Shaft speed; default: the scene's.")
+    ] = None,
+    duration: Annotated[float, typer.Option(metavar="S", help="Length of the run that is shown.")] = 0.5,
+    settle: Annotated[float, typer.Option(metavar="S", help="Time left out before it.")] = 0.1,
+    rung: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAME", help="How sound is radiated: bem, compact, paper ...; default: the scene's."
+        ),
+    ] = None,
+    run_up: Annotated[
+        str | None,
+        typer.Option(metavar="RPM:RPM", help="Second run from one speed to the other, for the waterfall."),
+    ] = None,
+    run_up_time: Annotated[float, typer.Option(metavar="S", help="Time the run-up takes.")] = 1.0,
+    radius: Annotated[float, typer.Option(metavar="M", help="Distance at which directivity is shown.")] = 1.0,
+    title: Annotated[str, typer.Option(help="Heading; default: the scene's name.")] = "",
+    keep: Annotated[
+        Path | None, typer.Option(metavar="RUN.npz", help="Keep the run, for another report without running.")
+    ] = None,
+    as_json: Json = False,
+) -> None:
+    """Write a report of a run: one HTML page that needs a browser and nothing else."""
+    with refusals():
+        speeds = None if run_up is None else span(run_up)
+        from fmu_bearing.study.report import make  # loads slowly, and no other command has use for it
+
+        made = make(
+            source, output, duration=duration, settle=settle, rung=rung, radius=radius, title=title,
+            speed=None if speed is None else speed * _RPM,
+            run_up=None if speeds is None else (speeds[0] * _RPM, speeds[1] * _RPM),
+            run_up_time=run_up_time, tell=tell, progress=errors.is_terminal,
+        )  # fmt: skip
+        if keep is not None:
+            keep.parent.mkdir(parents=True, exist_ok=True)
+            made.recording.save(keep)
+    missing = {key: reason for key, reason in made.sections.items() if reason}
+    if as_json:
+        print_json({
+            "path": made.path, "bytes": made.size, "figures": made.figures, "missing": missing,
+            "sections": list(made.sections), "warnings": made.warnings,
+        })  # fmt: skip
+        return
+    for key, reason in missing.items():
+        tell(f"not in the report: {key}: {reason}")
+    for warning in made.warnings:
+        tell(f"warning: {warning}")
+    typer.echo(f"written: {made.path} ({made.size / 1e6:.1f} MB)")

@@ -1,0 +1,135 @@
+"""What a section is made of. Everything here is data: the page's template turns it into HTML."""
+
+import base64
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+class Absent(ValueError):
+    """A section, or part of one, cannot be made of this recording; the message says why."""
+
+
+@dataclass(frozen=True)
+class Words:
+    """A paragraph; ``kind`` is ``"text"``, ``"note"`` (small), ``"warning"`` or ``"absent"``."""
+
+    text: str
+    kind: str = "text"
+    sort: str = "words"
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows of texts under a caption; cells that look like numbers are set to the right."""
+
+    caption: str
+    columns: Sequence[str]
+    rows: Sequence[Sequence[str]]
+    note: str = ""
+    folded: bool = False
+    sort: str = "table"
+
+
+@dataclass(frozen=True)
+class Option:
+    """One entry of a `Choice`: what it is called, the ``meta`` value it shows, what it sets in the layout."""
+
+    text: str
+    value: str = ""
+    layout: dict[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Choice:
+    """A selection above a chart.
+
+    Of traces whose ``meta`` has ``key``, those are shown whose value is the chosen option's.
+    """
+
+    key: str
+    label: str
+    options: Sequence[Option]
+
+
+@dataclass(frozen=True)
+class Chart:
+    """A Plotly figure, with what it shows in words for those who do not see it.
+
+    ``solid``: drawn by WebGL, so that print takes a picture of it.
+    """
+
+    key: str
+    title: str
+    figure: Any
+    words: str
+    choices: Sequence[Choice] = ()
+    note: str = ""
+    solid: bool = False
+    sort: str = "chart"
+
+    @property
+    def height(self) -> int:
+        """Of the figure, in CSS pixels."""
+        return int(self.figure.layout.height)
+
+    @property
+    def json(self) -> str:
+        """The figure for a ``<script>`` element."""
+        return for_script(self.figure.to_json())
+
+
+@dataclass(frozen=True)
+class Sound:
+    """A WAV file that the page can play."""
+
+    name: str
+    words: str
+    wav: bytes
+    sort: str = "sound"
+
+    @property
+    def address(self) -> str:
+        """Return the file as a ``data:`` address."""
+        return "data:audio/wav;base64," + base64.b64encode(self.wav).decode("ascii")
+
+
+@dataclass(frozen=True)
+class Folded:
+    """Text as it stands, shown on request."""
+
+    title: str
+    text: str
+    sort: str = "folded"
+
+
+Block = Words | Table | Chart | Sound | Folded
+
+
+@dataclass(frozen=True)
+class Section:
+    """A heading and what stands under it; ``missing``: why there is nothing."""
+
+    key: str
+    title: str
+    blocks: Sequence[Block]
+    missing: str = ""
+
+
+def for_script(text: str) -> str:
+    """JSON that cannot end the ``<script>`` element it stands in."""
+    return text.replace("</", "<\\/").replace("<!--", "<\\!--")
+
+
+def packed(data: Any) -> str:
+    """Plain data as JSON for a ``<script>`` element."""
+    return for_script(json.dumps(data))
+
+
+def small(values: Any) -> NDArray[np.float32]:
+    """Numbers for a chart, in half the room: seven digits are more than a screen shows."""
+    return np.asarray(values, dtype=np.float32)

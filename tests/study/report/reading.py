@@ -1,0 +1,78 @@
+"""Reads a report as a machine would: its tables, its figures, what it refers to."""
+
+import base64
+import json
+from html.parser import HTMLParser
+
+import numpy as np
+
+
+def numbers(value):
+    """An array out of a figure, however Plotly packed it."""
+    if isinstance(value, dict):
+        found = np.frombuffer(base64.b64decode(value["bdata"]), dtype=np.dtype(value["dtype"]))
+        shape = str(value.get("shape", "")).split(",")
+        return found.reshape([int(n) for n in shape]) if shape != [""] else found
+    return np.asarray(value, dtype=float)
+
+
+class Page(HTMLParser):
+    """Tables by caption, figures by key, texts by class of paragraph, addresses, sounds."""
+
+    def __init__(self, path):
+        super().__init__()
+        self.text = path.read_text("utf-8")
+        self.tables, self.figures, self.paragraphs, self.addresses, self.sounds = {}, {}, [], [], []
+        self.sections, self.headings, self.ids = {}, [], []
+        self._tag, self._words, self._rows, self._script = "", "", [], ""
+        self.feed(self.text)
+
+    def handle_starttag(self, tag, attributes):
+        found = dict(attributes)
+        self.ids += [found["id"]] if "id" in found else []
+        self.addresses += [found[name] for name in ("src", "href", "poster", "action") if name in found]
+        if tag == "section":
+            self._section = found["id"]
+            self.sections[self._section] = ""
+        if tag == "audio":
+            self.sounds.append(base64.b64decode(found["src"].split(",", 1)[1]))
+        if tag == "script":
+            self._script = found.get("id", "") if found.get("class") == "figure" else ""
+        if tag == "table":
+            self._rows = []
+        if tag == "tr":
+            self._rows.append([])
+        if tag in ("td", "th", "caption", "p", "h1", "h2", "h3"):
+            self._words = ""
+        self._tag = tag
+
+    def handle_data(self, data):
+        if self._tag == "script" and self._script:
+            self.figures[self._script.removeprefix("figure-")] = json.loads(data)
+            self._script = ""
+        elif self._tag not in ("script", "style"):
+            self._words += data
+            if self.sections:
+                self.sections[self._section] += data
+
+    def handle_endtag(self, tag):
+        if tag in ("td", "th"):
+            self._rows[-1].append(self._words.strip())
+        elif tag == "caption":
+            self._caption = self._words.strip()
+        elif tag == "table":
+            self.tables[self._caption] = self._rows
+        elif tag == "p":
+            self.paragraphs.append(self._words.strip())
+        elif tag in ("h1", "h2", "h3"):
+            self.headings.append((int(tag[1]), self._words.strip()))
+        self._tag = ""
+
+    def traces(self, key, **meta):
+        """Traces of a figure whose ``meta`` agrees."""
+        found = []
+        for trace in self.figures[key]["data"]:
+            has = trace.get("meta") or {}
+            if all(has.get(name) == value for name, value in meta.items()):
+                found.append(trace)
+        return found

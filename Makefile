@@ -38,8 +38,9 @@ $(OUT)/SpindleMotor.fmu: $(VENV)/.installed $(wildcard $(SPINDLE)/*.py)
 
 # Kernels are compiled once (six minutes of two cores), before the parallel tests share them: for Python, and
 # ahead of time for native FMUs. Without a C compiler there is no library; tests of it then say so.
+# Files stay together: what a file compiles or prepares for itself is made by one worker, not by each.
 test: kernels
-	$(BIN)/python -m pytest -n $(JOBS) -m "not heavy"
+	$(BIN)/python -m pytest -n $(JOBS) --dist loadfile -m "not heavy"
 
 heavy: kernels
 	$(BIN)/python -m pytest -n $(JOBS) -m heavy

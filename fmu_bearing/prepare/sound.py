@@ -4,15 +4,13 @@ import functools
 import hashlib
 import io
 import json
-from pathlib import Path
 
 import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-import fmu_bearing
 from fmu_bearing.engine.jit import cache_directory, source_hash
-from fmu_bearing.files import write_whole
+from fmu_bearing.files import sources_digest, write_whole
 from fmu_bearing.scene import Scene
 
 __all__ = ["sound_block"]
@@ -67,9 +65,4 @@ def _key(scene: Scene) -> str:
 @functools.cache
 def _code() -> str:
     """Name what computes the numbers: sources and libraries."""
-    root = Path(fmu_bearing.__file__).parent
-    digest = hashlib.sha256(f"{source_hash()} {np.__version__} {scipy.__version__}".encode())
-    for room in _ROOMS:
-        for path in sorted((root / room).rglob("*.py")):
-            digest.update(path.relative_to(root).as_posix().encode() + path.read_bytes())
-    return digest.hexdigest()
+    return f"{source_hash()} {np.__version__} {scipy.__version__} {sources_digest(_ROOMS)}"

@@ -6,9 +6,9 @@ import math
 import re
 import time as clock
 from collections.abc import Callable, Iterator, Sequence
+from importlib.metadata import version
 from typing import Any
 
-import fmu_bearing
 from fmu_bearing.study.extras import need
 from fmu_bearing.study.sweep.axes import SweepError
 from fmu_bearing.study.sweep.local import failed
@@ -128,4 +128,4 @@ def _check_workers(client: Any, address: str, timeout: float) -> None:
 
 
 def _code() -> str:
-    return f"{fmu_bearing.__version__}, code {code_digest()}"
+    return f"{version('fmu-bearing')}, code {code_digest()}"

@@ -12,9 +12,9 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-import fmu_bearing
 from fmu_bearing.engine import layout as at
 from fmu_bearing.engine.jit import source_hash
+from fmu_bearing.files import sources_digest
 from fmu_bearing.prepare.sound import sound_block
 from fmu_bearing.scene import Scene
 from fmu_bearing.study.arrays import Arrays, Refused
@@ -147,12 +147,8 @@ def block_of(scene: Scene | None) -> NDArray[np.float64]:
 @functools.cache
 def code_digest() -> str:
     """Digest (16 hex digits) of what figures come from: sources, NumPy's and Numba's version."""
-    root = pathlib.Path(fmu_bearing.__file__).parent
-    digest = hashlib.sha256(f"{source_hash()} {np.__version__} {numba.__version__}".encode())
-    for room in _ROOMS:
-        for path in sorted((root / room).rglob("*.py")):
-            digest.update(path.relative_to(root).as_posix().encode() + path.read_bytes())
-    return digest.hexdigest()[:16]
+    parts = f"{source_hash()} {np.__version__} {numba.__version__} {sources_digest(_ROOMS)}"
+    return hashlib.sha256(parts.encode()).hexdigest()[:16]
 
 
 def _content(path: str) -> str:

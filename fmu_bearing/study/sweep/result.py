@@ -3,12 +3,12 @@
 import math
 import os
 import pathlib
+from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
 import numba
 import numpy as np
 
-import fmu_bearing
 from fmu_bearing.engine.jit import source_hash
 from fmu_bearing.study.extras import need
 from fmu_bearing.study.sweep.figures import STATISTICS
@@ -68,7 +68,7 @@ def _attributes(plan: Plan) -> dict[str, Any]:
         "scene": plan.scene.to_toml(),
         "settle_s": plan.settle,
         "window_s": plan.window,
-        "fmu_bearing": fmu_bearing.__version__,
+        "fmu_bearing": version("fmu-bearing"),
         "engine": source_hash(),
         "code": code_digest(),
         "numpy": np.__version__,

@@ -19,6 +19,7 @@ import typer
 from rich.console import Console
 from rich.progress import track
 
+RPM = math.pi / 30.0  # rad/s
 FOUND, REFUSED, ENDED_EARLY, INTERRUPTED = 1, 2, 3, 130
 
 app = typer.Typer(

@@ -1,18 +1,16 @@
 """``fmu-bearing report``: one HTML page about a run."""
 
-import math
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from fmu_bearing.cli.base import Json, Refusal, app, errors, print_json, refusals, tell
+from fmu_bearing.cli.base import RPM, Json, Refusal, app, errors, print_json, refusals, tell
 
 Source = Annotated[
     Path, typer.Argument(metavar="SCENE|RUN.npz", help="Scene file (TOML), or a recording of a run (.npz).")
 ]
 Page = Annotated[Path, typer.Option("--output", "-o", help="HTML file to write.")]
-_RPM = math.pi / 30.0  # rad/s
 
 
 def span(text: str) -> tuple[float, float]:
@@ -60,8 +58,8 @@ def report(
 
         made = make(
             source, output, duration=duration, settle=settle, rung=rung, radius=radius, title=title,
-            speed=None if speed is None else speed * _RPM,
-            run_up=None if speeds is None else (speeds[0] * _RPM, speeds[1] * _RPM),
+            speed=None if speed is None else speed * RPM,
+            run_up=None if speeds is None else (speeds[0] * RPM, speeds[1] * RPM),
             run_up_time=run_up_time, tell=tell, progress=errors.is_terminal,
         )  # fmt: skip
         if keep is not None:

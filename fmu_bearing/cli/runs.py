@@ -8,6 +8,7 @@ import typer
 from fmu_bearing.cli.base import (
     ENDED_EARLY,
     INTERRUPTED,
+    RPM,
     Json,
     Refusal,
     app,
@@ -25,7 +26,6 @@ Variables = Annotated[
     str | None,
     typer.Option("--variables", "-v", metavar="NAME,...", help="Variables; * stands for any text."),
 ]
-RPM = 0.10471975511965977  # rad/s
 
 
 @app.command()

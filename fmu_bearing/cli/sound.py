@@ -5,8 +5,7 @@ from typing import Annotated
 
 import typer
 
-from fmu_bearing.cli.base import Folder, Json, Refusal, app, print_json, quiet_warnings, refusals, tell
-from fmu_bearing.cli.runs import RPM
+from fmu_bearing.cli.base import RPM, Folder, Json, Refusal, app, print_json, quiet_warnings, refusals, tell
 
 
 @app.command()

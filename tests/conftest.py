@@ -21,3 +21,12 @@ def scene():
         return found.model_copy(update={"sound": found.sound.model_copy(update={"rung": "compact"})})
 
     return read
+
+
+@pytest.fixture(scope="session")
+def scene_file(tmp_path_factory):
+    """File of the default scene with compact sound: its housing takes boundary elements over a minute."""
+    text = (SCENES / "7003C-spindle.toml").read_text(encoding="utf-8")
+    file = tmp_path_factory.mktemp("scene") / "7003C-spindle.toml"
+    file.write_text(text.replace('rung = "bem"', 'rung = "compact"'), encoding="utf-8")
+    return file

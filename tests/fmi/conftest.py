@@ -29,15 +29,6 @@ OK, WARNING, DISCARD, ERROR = calls.OK, calls.WARNING, calls.DISCARD, calls.ERRO
 
 
 @pytest.fixture(scope="session")
-def scene_file(tmp_path_factory):
-    """The default scene with compact sound, which takes seconds less to prepare."""
-    text = DEFAULT_SCENE.read_text(encoding="utf-8")
-    file = tmp_path_factory.mktemp("scene") / "7003C-spindle.toml"
-    file.write_text(text.replace('rung = "bem"', 'rung = "compact"'), encoding="utf-8")
-    return file
-
-
-@pytest.fixture(scope="session")
 def model(scene_file):
     return prepare(read_scene(scene_file))
 

@@ -49,8 +49,7 @@ def test_another_process_builds_identical_bytes(fmu, flavour, scene_file, tmp_pa
 def test_command_says_what_was_built(tmp_path, flavour, fmus, scene_file):
     fmus(flavour)  # or say why there is none
     target = tmp_path / "new folder" / "Bearing.fmu"
-    scene = [scene_file] if flavour == "python" else []  # no scene: the default one
-    built = command(*scene, "-o", target, "--flavour", flavour)
+    built = command(scene_file, "-o", target, "--flavour", flavour)
     assert built.returncode == 0, built.stderr
     line = built.stdout.strip()
     assert "\n" not in line
@@ -58,6 +57,16 @@ def test_command_says_what_was_built(tmp_path, flavour, fmus, scene_file):
     platforms = {"native": f"native build for {host().name};", "python": "python build for linux64, win64;"}
     for part in (str(target), made.guid, f"{len(made.modelVariables)} variables", "KiB", platforms[flavour]):
         assert part in line
+
+
+@pytest.mark.heavy
+def test_without_a_scene_the_default_one_is_built(tmp_path):
+    target = tmp_path / "Bearing.fmu"
+    built = command("-o", target)
+    assert built.returncode == 0, built.stderr
+    assert fmpy.read_model_description(str(target)).modelName == "7003C-spindle"
+    with zipfile.ZipFile(target) as archive:
+        assert b'rung = "bem"' in archive.read("resources/scene.toml")
 
 
 @pytest.mark.parametrize("case", ["missing", "broken", "wrong value", "no place", "folder"])

@@ -121,21 +121,21 @@ class Mounting(Part):
         ge=0.01,
         le=100,
         examples=[1.0],
-        description="Axial over radial stiffness of the pedestal.",
+        description="Axial over radial stiffness of the pedestal (default assumed).",
     )
     pedestal_rotational_ratio_mm2: float = Field(
         default=200.0,
         ge=0.1,
         le=1e6,
         examples=[200.0],
-        description="Rotational over radial stiffness of the pedestal, mm2.",
+        description="Rotational over radial stiffness of the pedestal (default assumed), mm2.",
     )
     pedestal_damping_ratio: float = Field(
         default=0.05,
         ge=0,
         le=1,
         examples=[0.05],
-        description="Damping over the critical one of the outer ring's mass; 0: none.",
+        description="Damping over the critical one of the outer ring's mass (default assumed); 0: none.",
     )
     radial_load_y_N: float = Field(
         default=0.0, ge=-3e3, le=3e3, examples=[0.0], description="Horizontal load on the inner ring, N."

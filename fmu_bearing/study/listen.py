@@ -38,7 +38,7 @@ class Listened:
     names : tuple of str
         Microphones.
     levels : ndarray, shape (mics, 2)
-        Equivalent level in dB and dB(A).
+        Equivalent level in dB and dB(A), as `Heard.levels` has it: the papers' rungs add energies.
     parts : dict of str to ndarray, shape (mics,)
         Level (dB(A)) of each component alone; empty for a recording of pressures.
     frequency : ndarray, shape (bins,)
@@ -148,7 +148,7 @@ def listen(
     )
     return Listened(
         tuple(name for name, _ in chosen),
-        np.column_stack([level(recording.mean_square(signals["total"], w)) for w in "ZA"]),
+        np.column_stack([recording.levels(places, rung, w) for w in "ZA"]),
         {name: level(recording.mean_square(part, "A")) for name, part in parts.items()},
         frequency, spectra, bands, thirds, lines,
     )  # fmt: skip

@@ -158,19 +158,19 @@ class _Library:
         self.settable = [n for n, v in variables.items() if v.causality in ("input", "parameter")]
 
     def run(self, stop_time, step, table, start, names, stop, tell):
-        bearing = self.bearing
+        bearing, feed = self.bearing, _Feed(table)
         for name, value in start.items():
             bearing.set(name, value)
-        self._apply(table, 0.0)
+        feed.apply(bearing, 0.0)
         bearing.initialise()
         rows = [self._row(0.0, names)]
         time, count, ended, note = 0.0, 0, COMPLETE, ""
         while time < stop_time and not math.isclose(time, stop_time):
-            following = min(_following(table, time), (count + 1) * step)
+            following = min(feed.next_jump(time), (count + 1) * step)
             if following > stop_time and not math.isclose(following, stop_time):
                 following = stop_time
             try:
-                self._apply(table, time, after_event=True)
+                feed.apply(bearing, time, after_event=True)
                 bearing.step(following - time)
             except EngineError as refusal:
                 ended, note = REFUSED, str(refusal)
@@ -184,26 +184,33 @@ class _Library:
                 break
         return structured(dict(zip(("time", *names), np.array(rows).T, strict=True))), ended, note
 
-    def _apply(self, table: NDArray[Any] | None, time: float, after_event: bool = False) -> None:
-        if table is None:
-            return
-        names = columns_of(table)
-        columns = np.stack([table[name] for name in names])
-        values = FmpyInput.interpolate(time, table["time"], columns, after_event=after_event)[0]
-        for name, value in zip(names, np.ravel(values), strict=True):
-            self.bearing.set(name, float(value))
-
     def _row(self, time: float, names: Sequence[str]) -> list[float]:
         return [time, *(self.bearing.get(name) for name in names)]
 
 
-def _following(table: NDArray[Any] | None, time: float) -> float:
-    """Next time at which an input jumps, as FMPy finds it."""
-    if table is None or len(table) < 2:
-        return math.inf
-    jumps = table["time"][:-1][np.diff(table["time"]) == 0.0]
-    later = [t for t in jumps if t > time and not math.isclose(t, time)]
-    return min(later, default=math.inf)
+class _Feed:
+    """A table of inputs, laid out once for all steps; values and jumps as FMPy finds them."""
+
+    def __init__(self, table: NDArray[Any] | None) -> None:
+        self.names = [] if table is None else columns_of(table)
+        if table is None:
+            self.jumps: list[float] = []
+            return
+        self.times = np.ascontiguousarray(table["time"])
+        self.columns = np.stack([table[name] for name in self.names])
+        self.jumps = np.unique(self.times[:-1][np.diff(self.times) == 0.0]).tolist()
+
+    def apply(self, bearing: Instance, time: float, after_event: bool = False) -> None:
+        """Set the inputs to their values at ``time`` (s)."""
+        if self.names:
+            values = FmpyInput.interpolate(time, self.times, self.columns, after_event=after_event)[0]
+            for name, value in zip(self.names, np.ravel(values), strict=True):
+                bearing.set(name, float(value))
+
+    def next_jump(self, time: float) -> float:
+        """Return the next time (s) at which an input jumps."""
+        later = (t for t in self.jumps if t > time and not math.isclose(t, time))
+        return next(later, math.inf)
 
 
 def _model(source: Scene | Model | str | os.PathLike[str]) -> Model:

@@ -10,8 +10,11 @@ import xarray
 from scipy.io import wavfile
 
 from fmu_bearing import Run, build_fmu
+from fmu_bearing.acoustics.weighting import level
 from fmu_bearing.fmi.native.optimise import BuildError
-from fmu_bearing.study.recording import record
+from fmu_bearing.scene.read import with_fidelity
+from fmu_bearing.study.listen import listen
+from fmu_bearing.study.recording import Recording, record
 
 
 @pytest.fixture(scope="module")
@@ -187,10 +190,6 @@ def test_sound_refuses_in_a_line(run, rings_file, heard, silent_file, tmp_path):
 
 
 def test_listening_to_pressures_alone(scene):
-    from fmu_bearing.scene.read import with_fidelity
-    from fmu_bearing.study.listen import listen
-    from fmu_bearing.study.recording import Recording
-
     whole = record(with_fidelity(scene("7003C-bare"), level="rings"), 0.05)
     heard = listen(whole)
     alone = Recording(
@@ -200,6 +199,15 @@ def test_listening_to_pressures_alone(scene):
     again = listen(alone)
     np.testing.assert_allclose(again.levels[:, 0], heard.levels[:, 0], atol=1e-9)
     assert set(heard.parts) == {"inner_ring", "outer_ring", "cage", "balls"} and again.parts == {}
+
+
+def test_levels_of_a_papers_rung_add_energies(scene):
+    """As the paper does (eqs. 43 and 46); the pressures of its sources added would read 0.3 dB more here."""
+    whole = record(with_fidelity(scene("7003C-bare"), level="rings"), 0.05, rung="paper")
+    heard = listen(whole)
+    np.testing.assert_array_equal(heard.levels[:, 1], whole.levels(weighting="A"))
+    added = level(whole.mean_square(whole.pressure()))
+    assert np.all(np.abs(added - heard.levels[:, 0]) > 0.1)
 
 
 def test_help_names_every_command_and_the_exit_codes(run):

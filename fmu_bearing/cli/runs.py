@@ -49,8 +49,7 @@ def simulate(
     from fmu_bearing.study.simulate import simulate as run_it
 
     with refusals(), quiet_warnings():
-        if output.suffix not in results.ENDINGS:
-            raise Refusal(f"{output}: results are written as {' or '.join(results.ENDINGS)}")
+        results.check_target(output)
         start = _settings(settings) | ({} if speed is None else {"shaft_speed": speed * RPM})
         run = run_it(
             source, stop_time, step=step, inputs=inputs, start_values=start, outputs=_split(variables),

@@ -120,14 +120,11 @@ class Run:
         MissingExtra
             For netCDF without xarray.
         """
-        path = pathlib.Path(path)
+        path = check_target(path)
         if path.suffix == ".csv":
             return write_whole(path, _written(lambda file: write_csv(file, self.table), ".csv"))
-        if path.suffix == ".nc":
-            need("h5netcdf", "netCDF")
-            data = self.to_xarray()
-            return write_whole(path, _written(lambda file: data.to_netcdf(file, engine="h5netcdf"), ".nc"))
-        raise ResultError(f"{path}: results are written as {' or '.join(ENDINGS)}")
+        data = self.to_xarray()
+        return write_whole(path, _written(lambda file: data.to_netcdf(file, engine="h5netcdf"), ".nc"))
 
     def to_xarray(self) -> "xarray.Dataset":
         """Return the run as a dataset over time, units in attributes, the scene as TOML text in ``scene``."""
@@ -184,6 +181,27 @@ class Run:
             "wall_s": self.wall,
             "last": {n: {"value": float(self[n][-1]), "unit": self.units.get(n, "")} for n in self.names},
         }
+
+
+def check_target(path: str | os.PathLike[str]) -> pathlib.Path:
+    """Return where a result is to go, if it can be written: to be asked before a long run, not after it.
+
+    Raises
+    ------
+    ResultError
+        For an ending other than those of `ENDINGS`, or a folder of that name.
+    MissingExtra
+        For netCDF without xarray and h5netcdf.
+    """
+    target = pathlib.Path(path)
+    if target.suffix not in ENDINGS:
+        raise ResultError(f"{target}: results are written as {' or '.join(ENDINGS)}")
+    if target.is_dir():
+        raise ResultError(f"{target} is a folder: name the file to write")
+    if target.suffix == ".nc":
+        need("xarray", "netCDF")
+        need("h5netcdf", "netCDF")
+    return target
 
 
 def columns_of(table: NDArray[Any]) -> list[str]:

@@ -2,6 +2,7 @@
 
 import csv
 import signal
+import sys
 import threading
 
 import numpy as np
@@ -12,6 +13,7 @@ from scipy.io import wavfile
 from fmu_bearing import Run, build_fmu
 from fmu_bearing.acoustics.weighting import level
 from fmu_bearing.fmi.native.optimise import BuildError
+from fmu_bearing.instance import Instance
 from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.study.listen import listen
 from fmu_bearing.study.recording import Recording, record
@@ -92,6 +94,16 @@ def test_simulate_refuses_in_a_line(run, rings_file, tmp_path, monkeypatch, argu
     assert refused.exit_code == 2 and reason in refused.stderr, refused.output
     assert refused.stderr.startswith("error: ") and refused.stderr.count("\n") == 1
     assert not list(tmp_path.iterdir())
+
+
+def test_netcdf_without_its_packages_is_refused_before_the_run(run, rings_file, tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "h5netcdf", None)
+    monkeypatch.setattr(Instance, "initialise", lambda *arguments: pytest.fail("the run has begun"))
+    refused = run("simulate", rings_file, "-o", tmp_path / "run.nc")
+    assert refused.exit_code == 2 and "pip install 'fmu-bearing[results]'" in refused.stderr
+    (tmp_path / "folder.csv").mkdir()
+    refused = run("simulate", rings_file, "-o", tmp_path / "folder.csv")
+    assert refused.exit_code == 2 and "is a folder: name the file" in refused.stderr
 
 
 def test_plot(run, rings_file, tmp_path):

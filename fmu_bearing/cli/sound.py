@@ -40,7 +40,7 @@ def sound(
 ) -> None:
     """Measure levels, spectra, third octaves and directivity; write tables, pictures, netCDF and WAV."""
     from fmu_bearing.scene.read import read_scene, with_fidelity
-    from fmu_bearing.study.listen import listen, write_all
+    from fmu_bearing.study.listen import chosen_microphones, listen, write_all
     from fmu_bearing.study.recording import Recording, record
     from fmu_bearing.study.table import show
 
@@ -58,11 +58,12 @@ def sound(
             found = read_scene(source)
             if level is not None:
                 found = with_fidelity(found, level=level)
+            chosen_microphones([(place.name, place.position_m) for place in found.microphones], microphone)
+            output.mkdir(parents=True, exist_ok=True)  # whatever is wrong there, before the run
             recording = record(
                 found, duration, speed=None if speed is None else speed * RPM, settle=settle, rung=rung,
                 progress=False if as_json else None,
             )  # fmt: skip
-            output.mkdir(parents=True, exist_ok=True)
             recording.save(output / "recording.npz")
         heard = listen(recording, microphone, rung, resolution)
         files = write_all(recording, heard, output, rung, wav, directivity, tell)

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.audio import write_wav
+from fmu_bearing.acoustics.field import Position
 from fmu_bearing.acoustics.lines import Line
 from fmu_bearing.acoustics.spectrum import level_spectrum
 from fmu_bearing.acoustics.third_octave import third_octave_levels
@@ -122,13 +123,7 @@ def listen(
     ValueError
         For a microphone there is not, or a recording too short for the resolution.
     """
-    chosen = [m for m in recording.microphones if microphones is None or m[0] in microphones]
-    unknown = set(microphones or ()) - {name for name, _ in chosen}
-    if unknown or not chosen:
-        there = ", ".join(name for name, _ in recording.microphones) or "none: give the scene [sound]"
-        raise ValueError(
-            f"there is no microphone {', '.join(sorted(unknown)) or 'to listen at'}; there are {there}"
-        )
+    chosen = chosen_microphones(recording.microphones, microphones)
     places = [place for _, place in chosen]
     known = recording.history.size > 0
     if known:
@@ -152,6 +147,20 @@ def listen(
         {name: level(recording.mean_square(part, "A")) for name, part in parts.items()},
         frequency, spectra, bands, thirds, lines,
     )  # fmt: skip
+
+
+def chosen_microphones(
+    there: Sequence[tuple[str, Position]], wanted: Sequence[str] | None
+) -> list[tuple[str, Position]]:
+    """Return the microphones of some names, all without names; ``ValueError`` where one is not there."""
+    chosen = [one for one in there if wanted is None or one[0] in wanted]
+    unknown = set(wanted or ()) - {name for name, _ in chosen}
+    if unknown or not chosen:
+        known = ", ".join(name for name, _ in there) or "none: give the scene [sound]"
+        raise ValueError(
+            f"there is no microphone {', '.join(sorted(unknown)) or 'to listen at'}; there are {known}"
+        )
+    return chosen
 
 
 def _spectra(

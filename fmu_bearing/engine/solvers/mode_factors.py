@@ -25,14 +25,12 @@ from fmu_bearing.engine.layout import (
     P_OUTER_MASS,
     P_PITCH_RADIUS,
     Q_OUTER,
-    STAGES,
     STRIDE,
     W_FLEX,
 )
 from fmu_bearing.engine.mechanics.flexure import bends
 from fmu_bearing.engine.modes_layout import (
     FACTOR_ROWS,
-    FW_ACC,
     MODE_BODY,
     MODE_DAMPING,
     MODE_GYROSCOPIC,
@@ -46,7 +44,6 @@ from fmu_bearing.engine.modes_layout import (
 )
 
 _S = STRIDE
-FW_VEL = FW_ACC + STAGES
 
 
 @kernel

@@ -62,7 +62,6 @@ from fmu_bearing.engine.solvers.jacobian import inertia
 
 _S = STRIDE
 REACH = 8  # highest circumferential order l of the balls' unequal loads
-_MULTIPLES = (ORDERS + REACH) // 3  # of Z at most; a bearing has three balls or more
 _HEIGHT = 1e-9  # m, for differences; heights' accelerations by (3e4 rad/s)^2 times that
 _BEND = 1.0  # m/s2
 _WEAK = 1e-5  # of the strongest line's velocity: left out

@@ -29,7 +29,6 @@ TAIL = 256
 _STOP = 24_000.0  # Hz: between the end of the band and here everything fades out
 _SETTLE = 4096  # rows of zeros behind the recording, so that the end does not reach round to the beginning
 _BLOCK = 16_384  # frequencies worked on at once: bounds the memory
-_SAME_PLACE = 9  # decimals of a metre within which microphones share a circle
 
 
 @dataclass(frozen=True)

@@ -1,12 +1,13 @@
 """Time the engine's levels and integrators, and take their errors from the reference trajectory."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from benchmarks.cases import WARM_UP, Case, Solver, silent
 from benchmarks.table import Row
 from fmu_bearing.engine import layout as at
 from fmu_bearing.study.arrays import Arrays, Refused
-from fmu_bearing.study.built import absent
 from fmu_bearing.study.figures import COMMUNICATION, SAMPLE, ring_rms, speed
 from fmu_bearing.study.reference import Reference, reference_from, relative_error
 
@@ -22,13 +23,6 @@ def started(case: Case, solver: Solver, warm_up: float) -> Arrays:
     bearing.init()
     bearing.run(warm_up, COMMUNICATION)
     return bearing
-
-
-def probe(solvers: tuple[Solver, ...], case: Case) -> dict[Solver, bool]:
-    """Which of ``solvers`` this build has."""
-    scene = silent(case.scene)
-    lacking = absent(scene, [(solver.level, solver.method) for solver in solvers])
-    return {solver: (solver.level, solver.method) not in lacking for solver in solvers}
 
 
 def full_rows(
@@ -84,15 +78,13 @@ def level_row(case: Case, solver: Solver, start: Arrays, budget: float, repeats:
 
 
 def rows_of(
-    case: Case, built: dict[Solver, bool], budget: float, repeats: int
+    case: Case, solvers: Sequence[Solver], budget: float, repeats: int
 ) -> tuple[list[Row], Arrays, Reference]:
-    """Rows of all that this build has, with the state they started from and the reference."""
+    """Rows of all solvers, with the state they started from and the reference."""
     start = case.bearing()
     exact = reference_from(start, case.window, sample=SAMPLE)
     rows = []
-    for solver, there in built.items():
-        if not there:
-            continue
+    for solver in solvers:
         if solver.level == "full":
             rows += full_rows(case, solver, start, exact, budget, repeats)
         elif case.kind != "start":

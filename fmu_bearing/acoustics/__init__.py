@@ -1,6 +1,5 @@
 """Acoustics in the workshop: transfer functions, filters for the engine, analysis of recordings.
 
-=======
 ===================  ==============================================================================
 ``sources``          pressure per acceleration of single bodies: exact, compact, and the paper's as printed
 ``effective``        effective volumes of rings and cylinders

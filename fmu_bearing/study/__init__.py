@@ -9,7 +9,7 @@
 ``extras``          packages that only some studies need
 ``arrays``          a bearing on bare flat arrays, for loops that need the state itself
 ``figures``         the figures by which runs are compared, and the pace of a run
-``built``           which levels and methods this build of the engine has
+``settings``        `Setting`: one way to compute a scene
 ``first_order``     level ``full`` as x' = g(t, x), for general-purpose integrators
 ``reference``       the trajectory that other results are held against, by two integrators
 ``tradeoff``        what accuracy costs: levels, methods, steps, strips, terms against the reference

@@ -21,7 +21,7 @@ import json
 import math
 import pathlib
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from fmu_bearing.engine.jit import cache_directory, source_hash
 from fmu_bearing.files import write_whole
@@ -29,8 +29,8 @@ from fmu_bearing.prepare.sound import sound_block
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.study.arrays import Refused
-from fmu_bearing.study.built import absent, carries
 from fmu_bearing.study.figures import Errors, errors, measure
+from fmu_bearing.study.settings import Setting
 from fmu_bearing.study.table import number
 
 WARM_UP = 0.03  # s
@@ -39,37 +39,26 @@ BUDGET = 0.15  # s of each of two timed runs
 CLEARLY = 1.5
 
 
-@dataclass(frozen=True)
-class Candidate:
-    """One way to compute a scene; ``tolerance`` and ``max_step`` (s) are upper bounds beside the scene's."""
-
-    level: str
-    method: str = "esdirk4"
-    tolerance: float = 1e-2
-    max_step: float = 40e-6
-
-    def scene(self, scene: Scene) -> Scene:
-        """Return the scene computed this way."""
-        fidelity = scene.fidelity
-        return with_fidelity(
-            scene,
-            level=self.level,
-            method=self.method,
-            tolerance=min(self.tolerance, fidelity.tolerance),
-            max_internal_step_us=min(1e6 * self.max_step, fidelity.max_internal_step_us),
-        )
+def bounded(setting: Setting, scene: Scene) -> Scene:
+    """Return the scene computed in a setting, at no more than its own tolerance and step, with its strips."""
+    own = scene.fidelity
+    return with_fidelity(
+        replace(setting, strips=own.traction_strips).scene(scene),
+        tolerance=min(setting.tolerance, own.tolerance),
+        max_internal_step_us=min(1e6 * setting.max_step, own.max_internal_step_us),
+    )
 
 
 CANDIDATES = (
-    Candidate("response"),
-    Candidate("rings", max_step=20e-6),
-    Candidate("full", "fast", 1e-2, 20e-6),
-    Candidate("full", "esdirk4", 1e-2, 20e-6),
-    Candidate("full", "fast", 1e-3, 10e-6),
-    Candidate("full", "esdirk4", 1e-3, 10e-6),
-    Candidate("full", "esdirk4", 1e-4, 5e-6),
+    Setting("response", tolerance=1e-2, max_step=40e-6),
+    Setting("rings", tolerance=1e-2),
+    Setting("full", "fast", 1e-2),
+    Setting("full", "esdirk4", 1e-2),
+    Setting("full", "fast", 1e-3, 10e-6),
+    Setting("full", "esdirk4", 1e-3, 10e-6),
+    Setting("full", "esdirk4", 1e-4, 5e-6),
 )
-FINEST = Candidate("full", "esdirk4", 1e-5, 2e-6)
+FINEST = Setting("full", "esdirk4", 1e-5, 2e-6)
 
 COLUMNS = (
     "level", "method", "tolerance", "max step, us", "ring level, dB", "dB(A)", "load", "torque", "sim/CPU",
@@ -138,7 +127,7 @@ class Choice:
     def apply(self, scene: Scene) -> Scene:
         """Return the scene with the chosen level, method, tolerance and largest step."""
         p = self.probe
-        return Candidate(p.level, p.method, p.tolerance, p.max_step).scene(scene)
+        return bounded(Setting(p.level, p.method, p.tolerance, p.max_step), scene)
 
     @property
     def summary(self) -> str:
@@ -176,7 +165,7 @@ def too_far(found: Errors, scene: Scene) -> str:
 
 
 def choose(
-    scene: Scene, candidates: Sequence[Candidate] = CANDIDATES, *, warm_up: float = WARM_UP,
+    scene: Scene, candidates: Sequence[Setting] = CANDIDATES, *, warm_up: float = WARM_UP,
     window: float = WINDOW, budget: float = BUDGET,
 ) -> Choice:  # fmt: skip
     """Probe a scene, whatever its level, and choose.
@@ -190,22 +179,20 @@ def choose(
         If level ``full`` itself is refused.
     """
     sound = sound_block(scene)
-    candidates = [c for c in candidates if carries(scene, (c.level, c.method))]
-    finest = FINEST.scene(scene)
+    candidates = [c for c in candidates if c.carries(scene)]
+    finest = bounded(FINEST, scene)
     truth = measure(finest, sound, warm_up, window, budget=budget)
-    lacking = absent(scene, [(c.level, c.method) for c in candidates], warm_up)
     probes = []
     # bounds of the scene may make two candidates one
-    variants = {(made := candidate.scene(scene)).fidelity: made for candidate in candidates}
+    variants = {(made := bounded(candidate, scene)).fidelity: made for candidate in candidates}
     for fidelity, variant in variants.items():
-        found, pace, reason = None, math.nan, lacking.get((fidelity.level, fidelity.method), "")
-        if not reason:
-            try:
-                run = measure(variant, sound, warm_up, window, budget=budget)
-                found, pace = errors(run.figures, truth.figures), run.cpu
-                reason = too_far(found, scene)
-            except Refused as problem:
-                reason = f"refused: {problem}"
+        found, pace = None, math.nan
+        try:
+            run = measure(variant, sound, warm_up, window, budget=budget)
+            found, pace = errors(run.figures, truth.figures), run.cpu
+            reason = too_far(found, scene)
+        except Refused as problem:
+            reason = f"refused: {problem}"
         probes.append(
             Probe(fidelity.level, fidelity.method, fidelity.tolerance, 1e-6 * fidelity.max_internal_step_us,
                   found, pace, reason)

@@ -17,52 +17,13 @@ import numpy as np
 
 from fmu_bearing.prepare.sound import sound_block
 from fmu_bearing.scene import Scene
-from fmu_bearing.scene.fidelity import Terms
-from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.study.arrays import Arrays, Refused
-from fmu_bearing.study.built import absent
 from fmu_bearing.study.figures import COMMUNICATION, SAMPLE, Errors, errors, measure
 from fmu_bearing.study.reference import explicit_rings, implicit_rings, relative_error
+from fmu_bearing.study.settings import TERMS, Setting
 from fmu_bearing.study.table import machine, markdown, number, write_csv
 
 CHECK = 5e-3  # s over which two integrators are compared
-TERMS = tuple(Terms.model_fields)
-
-
-@dataclass(frozen=True)
-class Setting:
-    """One way to compute a scene; ``max_step`` in s, ``without``: names of terms left out."""
-
-    level: str = "full"
-    method: str = "esdirk4"
-    tolerance: float = 1e-3
-    max_step: float = 20e-6
-    strips: int = 5
-    without: tuple[str, ...] = ()
-
-    def scene(self, scene: Scene) -> Scene:
-        """Return the scene computed this way."""
-        return with_fidelity(
-            scene,
-            level=self.level,
-            method=self.method,
-            tolerance=self.tolerance,
-            max_internal_step_us=1e6 * self.max_step,
-            traction_strips=self.strips,
-            terms=scene.fidelity.terms.model_dump() | dict.fromkeys(self.without, False),
-        )
-
-    @property
-    def name(self) -> str:
-        """Level and, for level full, method."""
-        return f"{self.level} / {self.method}" if self.level == "full" else self.level
-
-    @property
-    def left_out(self) -> str:
-        """Terms left out, in words."""
-        if len(self.without) == len(TERMS):
-            return "all that can be"
-        return ", ".join(term.replace("_", " ") for term in self.without)
 
 
 #: Settings of the reference: 1 us is an error of 4e-7 in the 7003C's trajectory, 20,000 r/min, 150 ms.
@@ -231,17 +192,15 @@ def tradeoff(
     sound = sound_block(scene)
     pair, own = check(scene, warm_up, min(CHECK, 0.5 * window))
     truth = measure(REFERENCE.scene(scene), sound, warm_up, window)
-    lacking = absent(scene, [(s.level, s.method) for s in (*settings, WITNESS)])
     agreement = np.nan
-    if (WITNESS.level, WITNESS.method) not in lacking:
+    if WITNESS.carries(scene):
         with suppress(Refused):
             witness = measure(WITNESS.scene(scene), np.empty(0), warm_up, window)
             agreement = relative_error(truth.rings, witness.rings)
     rows = []
     for setting in track(settings):
-        why = lacking.get((setting.level, setting.method))
-        if why is not None:
-            rows.append(Row(setting, remark=why))
+        if not setting.carries(scene):
+            rows.append(Row(setting, remark="knows rigid rings only"))
             continue
         try:
             run = measure(setting.scene(scene), sound, warm_up, window, budget=budget)

@@ -17,7 +17,6 @@ from fmu_bearing.prepare.model import pack, prepare
 from fmu_bearing.scene import SceneError
 from fmu_bearing.scene.mounting import Flexure as Bending
 from fmu_bearing.scene.read import with_fidelity
-from fmu_bearing.study.built import carries
 from fmu_bearing.study.choose import CANDIDATES
 from tests.engine.flexible import FirstOrder, Flexure, shaken, thin_ring, untouched
 from tests.engine.helpers import RPM, Run, quiet
@@ -437,8 +436,8 @@ def test_what_knows_rigid_rings_only_is_refused(scene, values, key):
 def test_level_auto_leaves_out_what_cannot_bend(scene):
     rigid = quiet(scene(SCENE))
     flexible = bending(rigid, outer=(2,))
-    assert all(carries(rigid, (c.level, c.method)) for c in CANDIDATES)
-    left = [c for c in CANDIDATES if carries(flexible, (c.level, c.method))]
+    assert all(c.carries(rigid) for c in CANDIDATES)
+    left = [c for c in CANDIDATES if c.carries(flexible)]
     assert left
     assert {(c.level, c.method) for c in left} == {("full", "esdirk4")}
     with_fidelity(flexible, level="auto", method="fast")  # the candidates bring their own methods

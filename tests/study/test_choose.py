@@ -8,7 +8,17 @@ import pytest
 from fmu_bearing.fmi import documentation
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.study import choose as choosing
-from fmu_bearing.study.choose import CANDIDATES, FINEST, Choice, Probe, choose, chosen, resolve, too_far
+from fmu_bearing.study.choose import (
+    CANDIDATES,
+    FINEST,
+    Choice,
+    Probe,
+    bounded,
+    choose,
+    chosen,
+    resolve,
+    too_far,
+)
 from fmu_bearing.study.figures import Errors
 
 NONE = Errors(0.0, 0.0, 0.0, 0.0, math.nan)
@@ -45,7 +55,7 @@ def test_the_resolved_scene_is_concrete(automatic, tight):
 def test_the_scenes_tolerance_and_step_are_upper_bounds(automatic):
     scene = automatic(1.0, 0.1)
     for candidate in (*CANDIDATES, FINEST):
-        made = candidate.scene(scene).fidelity
+        made = bounded(candidate, scene).fidelity
         assert made.tolerance <= scene.fidelity.tolerance
         assert made.max_internal_step_us <= scene.fidelity.max_internal_step_us
 

@@ -7,7 +7,8 @@ import pytest
 
 from fmu_bearing.study import tradeoff as trading
 from fmu_bearing.study.chart import draw, front
-from fmu_bearing.study.tradeoff import QUICK, REFERENCE, SETTINGS, WITNESS, Setting, tradeoff
+from fmu_bearing.study.settings import Setting
+from fmu_bearing.study.tradeoff import QUICK, REFERENCE, SETTINGS, WITNESS, tradeoff
 
 
 @pytest.fixture(scope="module")

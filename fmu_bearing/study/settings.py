@@ -1,0 +1,49 @@
+"""`Setting`: one way to compute a scene."""
+
+from dataclasses import dataclass
+
+from fmu_bearing.scene import Scene
+from fmu_bearing.scene.fidelity import Terms
+from fmu_bearing.scene.read import with_fidelity
+
+TERMS = tuple(Terms.model_fields)
+
+
+@dataclass(frozen=True)
+class Setting:
+    """One way to compute a scene; ``max_step`` in s, ``without``: names of terms left out."""
+
+    level: str = "full"
+    method: str = "esdirk4"
+    tolerance: float = 1e-3
+    max_step: float = 20e-6
+    strips: int = 5
+    without: tuple[str, ...] = ()
+
+    def scene(self, scene: Scene) -> Scene:
+        """Return the scene computed this way."""
+        return with_fidelity(
+            scene,
+            level=self.level,
+            method=self.method,
+            tolerance=self.tolerance,
+            max_internal_step_us=1e6 * self.max_step,
+            traction_strips=self.strips,
+            terms=scene.fidelity.terms.model_dump() | dict.fromkeys(self.without, False),
+        )
+
+    def carries(self, scene: Scene) -> bool:
+        """Whether what the scene models can be computed this way: rings that bend need full, not ``fast``."""
+        return not scene.bends or (self.level == "full" and self.method != "fast")
+
+    @property
+    def name(self) -> str:
+        """Level and, for level full, method."""
+        return f"{self.level} / {self.method}" if self.level == "full" else self.level
+
+    @property
+    def left_out(self) -> str:
+        """Terms left out, in words."""
+        if len(self.without) == len(TERMS):
+            return "all that can be"
+        return ", ".join(term.replace("_", " ") for term in self.without)

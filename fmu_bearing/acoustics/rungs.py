@@ -14,11 +14,11 @@ rung                 channels                 microphones that share filters
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from importlib import import_module
 from typing import Any
 
 import numpy as np
 
+from fmu_bearing.acoustics.bem.paths import bem_paths
 from fmu_bearing.acoustics.contacts import contact_paths
 from fmu_bearing.acoustics.paper_vector import paper_vector_paths
 from fmu_bearing.acoustics.radiators import Air, Path, Radiators
@@ -98,13 +98,9 @@ class Ladder:
         azimuths = [float(np.arctan2(-microphones[i][1], microphones[i][2])) for i in members]
         place = (self.radiators, self.air, float(np.hypot(y, z)), float(x), azimuths, self.harmonics)
         if self.rung == "bem":
-            # the room of boundary elements is large and, for the other rungs, not needed
-            bem_paths = import_module("fmu_bearing.acoustics.bem.paths").bem_paths
-            found: list[Path] = bem_paths(*place, modes=tuple(self.modes), plane=self.plane)
-            return found
-        makers = {
-            "compact": compact_paths,
-            "paper_vector": paper_vector_paths,
-            "paper_contacts": contact_paths,
-        }
-        return makers[self.rung](*place)
+            return bem_paths(*place, modes=tuple(self.modes), plane=self.plane)
+        return _CIRCLES[self.rung](*place)
+
+
+#: Rungs whose microphones on one circle share filters, with what makes their paths.
+_CIRCLES = {"paper_vector": paper_vector_paths, "paper_contacts": contact_paths, "compact": compact_paths}

@@ -8,7 +8,7 @@ import typer
 from fmu_bearing.cli.base import refusals, tell
 from fmu_bearing.cli.build import Flavour, Output, Platforms, named
 from fmu_bearing.fmi.description import description_xml
-from fmu_bearing.study.build import build_fmu, model_of
+from fmu_bearing.run.build import build_fmu, model_of
 
 HERE = Path(__file__).resolve().parent
 DEFAULT_SCENE = HERE / "examples" / "scenes" / "7003C-spindle.toml"

@@ -7,8 +7,8 @@ import tracemalloc
 import numpy as np
 
 from benchmarks.bem_peer import DENSITY, SPEED, ring_pressures
-from fmu_bearing.acoustics.bem.meridian import ring
-from fmu_bearing.acoustics.bem.solver import Scatterer
+from fmu_bearing.acoustics.radiation.bem.meridian import ring
+from fmu_bearing.acoustics.radiation.bem.solver import Scatterer
 
 COLUMNS = ("solver", "frequency", "unknowns", "s once", "s per frequency", "memory", "largest error")
 RING = (0.035, 0.0296, 0.01)

@@ -4,8 +4,8 @@ import pathlib
 from dataclasses import dataclass
 
 from fmu_bearing.engine import layout as at
+from fmu_bearing.run.arrays import Arrays
 from fmu_bearing.scene import Scene, read_scene
-from fmu_bearing.study.arrays import Arrays
 
 SCENES = pathlib.Path(__file__).parents[1] / "examples" / "scenes"
 WARM_UP = 0.05  # s: ringing of the start has died away

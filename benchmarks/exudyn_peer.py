@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fmu_bearing.engine import layout as at
-from fmu_bearing.study.arrays import Arrays
+from fmu_bearing.run.arrays import Arrays
 
 
 @dataclass(frozen=True)

@@ -6,10 +6,10 @@ import numpy as np
 
 from benchmarks.cases import WARM_UP, Case, Solver, silent
 from benchmarks.table import Row
+from fmu_bearing.accuracy.reference import Reference, reference_from, relative_error
 from fmu_bearing.engine import layout as at
-from fmu_bearing.study.arrays import Arrays, Refused
-from fmu_bearing.study.figures import COMMUNICATION, SAMPLE, ring_rms, speed
-from fmu_bearing.study.reference import Reference, reference_from, relative_error
+from fmu_bearing.run.arrays import Arrays, Refused
+from fmu_bearing.run.metrics import COMMUNICATION, SAMPLE, ring_rms, speed
 
 #: Tolerance and largest internal step (s): the scenes' default, then finer until the error is met.
 LADDER = ((1e-3, 20e-6), (3e-4, 10e-6), (1e-4, 10e-6), (1e-4, 5e-6), (3e-5, 2.5e-6), (1e-5, 1e-6))

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.table import Row
-from fmu_bearing.study.first_order import FirstOrder
-from fmu_bearing.study.reference import relative_error
+from fmu_bearing.accuracy.first_order import FirstOrder
+from fmu_bearing.accuracy.reference import relative_error
 
 #: Relative tolerances; absolute ones are these times the scale of each component. Each solver starts at the
 #: rung that usually meets the error and moves by what it finds there.

@@ -12,10 +12,10 @@ from benchmarks import bem, exudyn_peer, memory, ours, peers, sound, terms
 from benchmarks.cases import CASES, QUICK, SOLVERS, Case
 from benchmarks.fmu import calls
 from benchmarks.table import COLUMNS, Row, fill_ratios
-from fmu_bearing.study import table
-from fmu_bearing.study.arrays import Arrays
-from fmu_bearing.study.first_order import FirstOrder
-from fmu_bearing.study.reference import Reference
+from fmu_bearing.accuracy.first_order import FirstOrder
+from fmu_bearing.accuracy.reference import Reference
+from fmu_bearing.run import table
+from fmu_bearing.run.arrays import Arrays
 
 PEER_WINDOW = 2e-3  # s
 EXUDYN_STEP = 5e-6  # s

@@ -5,11 +5,11 @@ import time
 import numpy as np
 
 from benchmarks.cases import SCENES
-from fmu_bearing.acoustics.rungs import Ladder
-from fmu_bearing.acoustics.stream import build, ladder_of
+from fmu_bearing.acoustics.filters.design import build, ladder_of
+from fmu_bearing.acoustics.registry import Ladder
+from fmu_bearing.engine import layout_sound as at
 from fmu_bearing.engine.jit import entry
 from fmu_bearing.engine.layout import motion_size
-from fmu_bearing.engine.sound import places as at
 from fmu_bearing.engine.sound import radiate
 from fmu_bearing.scene import read_scene
 from fmu_bearing.scene.sound import cylindrical

@@ -12,13 +12,13 @@ import pickle
 import time
 from collections.abc import Callable, Iterator
 
+from fmu_bearing.run.table import machine, markdown
 from fmu_bearing.scene import Scene, read_scene
 from fmu_bearing.scene.read import with_fidelity
-from fmu_bearing.study.sweep.cluster import cluster
-from fmu_bearing.study.sweep.local import here, hired, spread
-from fmu_bearing.study.sweep.plan import Plan, plan
-from fmu_bearing.study.sweep.point import Outcome, Task, run_point
-from fmu_bearing.study.table import machine, markdown
+from fmu_bearing.sweeps.cluster import cluster
+from fmu_bearing.sweeps.local import here, hired, spread
+from fmu_bearing.sweeps.plan import Plan, plan
+from fmu_bearing.sweeps.point import Outcome, Task, run_point
 
 SCENE = "examples/scenes/7003C-spindle.toml"
 EMPTY = 400  # points that compute nothing, to time the handing over

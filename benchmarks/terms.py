@@ -8,8 +8,8 @@ from benchmarks.cases import silent
 from fmu_bearing.engine import layout as at
 from fmu_bearing.engine.jit import entry
 from fmu_bearing.engine.mechanics.equations import right_hand_side
-from fmu_bearing.study.arrays import Arrays, Refused
-from fmu_bearing.study.figures import speed
+from fmu_bearing.run.arrays import Arrays, Refused
+from fmu_bearing.run.metrics import speed
 
 COLUMNS = ("scene", "variant", "right-hand side, us", "of all terms", "sim/CPU", "times all terms")
 #: Switches of ``p``; one that a scene does not have on is left out of the table.

@@ -2,20 +2,26 @@
 
 One way through, with no way back::
 
-    scene.toml -> Scene -> Model (flat numbers + names) -> engine: init / step / outputs -> what people read
+    scene.toml -> Scene -> Model (flat numbers + names) -> engine: init / step / outputs -> outputs by name
 
 ==================  =========================================================================
+``files``           writing files that other processes may read; hashes of sources
+``engine``          Numba kernels on flat arrays: mechanics, fidelities, sound
 ``scene``           WHAT is simulated: frozen models read from TOML, catalogue
 ``elastic``         bending of the rings: sections, finite elements, modes
-``acoustics``       transfer functions from motion to microphones, filters, spectra
-``prepare``         scene to numbers, once: contacts, masses, imperfections, the model
+``acoustics``       transfer functions from motion to microphones, filters, analysis
 ``interface``       THE table of variables
-``engine``          Numba kernels on flat arrays: mechanics, solvers, sound
+``prepare``         scene to numbers, once: contacts, masses, imperfections, the model
 ``instance``        one running bearing, for the library and for the FMU alike
 ``fmi``             the FMI face: XML, native library, slave, the written ``.fmu``
-``files``           writing files that other processes may read
-``study``           reference trajectories, and level ``full`` for general-purpose integrators
+``run``             a scene or an FMU run over inputs; results; fidelity ``auto``
+``recording``       runs with the sound channels kept, and what is measured on them
+``accuracy``        reference trajectories, what accuracy costs, what rests on assumed values
+``sweeps``          a scene over a grid of its values
+``reports``         one HTML page about a run
+``validation``      what FMI 2.0 asks of an FMU, checked
 ``testing``         fixtures for pytest: FMUs against recorded references
+``cli``             the command ``fmu-bearing``
 ==================  =========================================================================
 
 Axes: X bearing axis, Y horizontal, Z up. Positive speed is right-handed about +X; preload pushes the inner
@@ -32,30 +38,30 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from fmu_bearing.recording.record import Recording, record
+    from fmu_bearing.reports import report
+    from fmu_bearing.run.bearing import Bearing
+    from fmu_bearing.run.build import build_fmu
+    from fmu_bearing.run.result import Run
+    from fmu_bearing.run.simulate import simulate
     from fmu_bearing.scene import Scene, SceneError, read_scene
-    from fmu_bearing.study.bearing import Bearing
-    from fmu_bearing.study.build import build_fmu
-    from fmu_bearing.study.recording import Recording, record
-    from fmu_bearing.study.report import report
-    from fmu_bearing.study.run import Run
-    from fmu_bearing.study.simulate import simulate
-    from fmu_bearing.study.sweep import sweep
+    from fmu_bearing.sweeps import sweep
 
 __version__ = "0.1.0"
 
 #: Public names and where they live; each is imported when first asked for.
 _PLACES = {
-    "Bearing": "study.bearing",
-    "Recording": "study.recording",
-    "Run": "study.run",
+    "Bearing": "run.bearing",
+    "Recording": "recording.recording",
+    "Run": "run.result",
     "Scene": "scene",
     "SceneError": "scene",
-    "build_fmu": "study.build",
+    "build_fmu": "run.build",
     "read_scene": "scene",
-    "record": "study.recording",
-    "report": "study.report",
-    "simulate": "study.simulate",
-    "sweep": "study.sweep",
+    "record": "recording.record",
+    "report": "reports",
+    "simulate": "run.simulate",
+    "sweep": "sweeps",
 }
 
 __all__ = [

@@ -30,3 +30,21 @@ def scene_file(tmp_path_factory):
     file = tmp_path_factory.mktemp("scene") / "7003C-spindle.toml"
     file.write_text(text.replace('rung = "bem"', 'rung = "compact"'), encoding="utf-8")
     return file
+
+
+@pytest.fixture(scope="session")
+def silent(scene):
+    """The 7003C in its spindle without microphones."""
+    return scene("7003C-spindle").model_copy(update={"sound": None})
+
+
+@pytest.fixture(scope="session")
+def automatic(silent):
+    """Return the silent scene with level auto and an accuracy."""
+
+    from fmu_bearing.scene.read import with_fidelity
+
+    def make(level_dB, relative):
+        return with_fidelity(silent, level="auto", accuracy={"level_dB": level_dB, "relative": relative})
+
+    return make

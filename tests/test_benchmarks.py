@@ -9,10 +9,10 @@ import pytest
 
 from benchmarks import ours, peers, table
 from benchmarks.cases import CASES, SOLVERS, Case
-from fmu_bearing.study.figures import SAMPLE
-from fmu_bearing.study.first_order import FirstOrder
-from fmu_bearing.study.reference import reference_from
-from fmu_bearing.study.table import markdown, write_csv
+from fmu_bearing.accuracy.first_order import FirstOrder
+from fmu_bearing.accuracy.reference import reference_from
+from fmu_bearing.run.metrics import SAMPLE
+from fmu_bearing.run.table import markdown, write_csv
 
 TINY = Case("7003C-spindle", 20000, "start", window=2e-4)
 

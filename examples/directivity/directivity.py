@@ -17,10 +17,11 @@ import numpy as np
 import typer
 
 from fmu_bearing import read_scene, record
-from fmu_bearing.acoustics.directivity import directivity
-from fmu_bearing.study import sound_measure, sound_pictures
-from fmu_bearing.study.sound_measure import Round
-from fmu_bearing.study.table import markdown, write_csv
+from fmu_bearing.acoustics.analysis.directivity import directivity
+from fmu_bearing.recording import measure as sound_measure
+from fmu_bearing.recording import pictures as sound_pictures
+from fmu_bearing.recording.measure import Round
+from fmu_bearing.run.table import markdown, write_csv
 
 SCENES = Path(__file__).resolve().parents[1] / "scenes"
 RADIUS, AXIAL, COUNT = 0.21, 0.05, 24  # m; the sound-field paper's circle

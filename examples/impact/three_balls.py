@@ -22,12 +22,18 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from fmu_bearing.acoustics.impact.chain import Collision, Sphere, collide, contact_time, hertz_stiffness
-from fmu_bearing.acoustics.impact.scattering import SphereRow
-from fmu_bearing.acoustics.impact.sound import BAND, impact_pressure
-from fmu_bearing.acoustics.impact.sphere_field import sphere_pressure
-from fmu_bearing.acoustics.radiators import Air
-from fmu_bearing.study.table import markdown, show, write_csv
+from fmu_bearing.acoustics.papers.impact.chain import (
+    Collision,
+    Sphere,
+    collide,
+    contact_time,
+    hertz_stiffness,
+)
+from fmu_bearing.acoustics.papers.impact.scattering import SphereRow
+from fmu_bearing.acoustics.papers.impact.sound import BAND, impact_pressure
+from fmu_bearing.acoustics.papers.impact.sphere_field import sphere_pressure
+from fmu_bearing.acoustics.radiation.radiators import Air
+from fmu_bearing.run.table import markdown, show, write_csv
 
 Array = NDArray[np.float64]
 

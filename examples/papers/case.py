@@ -11,9 +11,9 @@ from typing import Any
 
 from examples.papers.hearing import LISTENING, sources_hash
 from fmu_bearing.engine.jit import source_hash
+from fmu_bearing.recording.record import OUTPUTS, Recording, record
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.read import read_scene_text
-from fmu_bearing.study.recording import OUTPUTS, Recording, record
 
 ROOT = pathlib.Path(__file__).parents[2]
 SCENES = ROOT / "examples" / "scenes"

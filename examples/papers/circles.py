@@ -6,7 +6,7 @@ import numpy as np
 
 from examples.papers import page
 from examples.papers.page import Ordering, verdict
-from fmu_bearing.acoustics.directivity import directivity
+from fmu_bearing.acoustics.analysis.directivity import directivity
 
 RADII, PLACES = (30, 90, 150, 210, 270), (20, 50, 100, 150, 200)  # mm
 R, L = 210, 50  # mm: the paper's circle

@@ -19,16 +19,16 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import sosfilt
 
-from fmu_bearing.acoustics.field import Channels, Circle, circles
-from fmu_bearing.acoustics.spectrum import amplitude_spectrum
-from fmu_bearing.acoustics.stream import radiators_of
-from fmu_bearing.acoustics.transfer import Path
-from fmu_bearing.acoustics.weighting import a_weighting_sections, level
+from fmu_bearing.acoustics.analysis.field import Channels, Circle, circles
+from fmu_bearing.acoustics.analysis.spectrum import amplitude_spectrum
+from fmu_bearing.acoustics.filters.design import radiators_of
+from fmu_bearing.acoustics.filters.weighting import a_weighting_sections, level
+from fmu_bearing.acoustics.radiation.compact import Path
 from fmu_bearing.elastic.modes import ring_modes
-from fmu_bearing.engine.sound.places import COMPONENTS
+from fmu_bearing.engine.layout_sound import COMPONENTS
+from fmu_bearing.recording.heard import air_of
+from fmu_bearing.recording.record import Recording
 from fmu_bearing.scene import Scene
-from fmu_bearing.study.heard import air_of
-from fmu_bearing.study.recording import Recording
 
 #: Keys of ``sound`` that change no motion and no path.
 LISTENING = (

@@ -10,10 +10,10 @@ from examples.papers.calibration import Calibration
 from examples.papers.case import Case
 from examples.papers.hearing import NAMES, Ear, a_weighted
 from examples.papers.page import Ordering, Output, Value, verdict
-from fmu_bearing.acoustics.directivity import plane_points
-from fmu_bearing.acoustics.spectrum import power_spectral_density
-from fmu_bearing.acoustics.weighting import level
-from fmu_bearing.study.table import markdown
+from fmu_bearing.acoustics.analysis.directivity import plane_points
+from fmu_bearing.acoustics.analysis.spectrum import power_spectral_density
+from fmu_bearing.acoustics.filters.weighting import level
+from fmu_bearing.run.table import markdown
 
 NAME = "impact-noise"
 TITLE = "Impact-noise paper: dry 7003C, held all round, springs for a cage"

@@ -9,7 +9,7 @@ from examples.papers.calibration import Calibration
 from examples.papers.case import Case
 from examples.papers.hearing import NAMES, Ear, equivalent, line, spectrum
 from examples.papers.page import Ordering, Output, Value, verdict
-from fmu_bearing.study.table import markdown
+from fmu_bearing.run.table import markdown
 
 NAME = "multi-source"
 TITLE = "Multi-source paper: 7003C in a spindle, 10,000 to 40,000 r/min"

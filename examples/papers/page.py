@@ -4,7 +4,7 @@ import pathlib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from fmu_bearing.study.table import markdown, write_csv
+from fmu_bearing.run.table import markdown, write_csv
 
 HOLDS, NOT, UNSEEN = "holds", "does not hold", "not judged"
 _NAMED = 3  # cases named that a statement fails in

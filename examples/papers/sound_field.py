@@ -22,9 +22,9 @@ from examples.papers.circles import (
 )
 from examples.papers.hearing import NAMES, Ear, equivalent
 from examples.papers.page import Output, Value
-from fmu_bearing.acoustics.directivity import attenuation
+from fmu_bearing.acoustics.analysis.directivity import attenuation
+from fmu_bearing.run.table import markdown
 from fmu_bearing.scene.sound import cylindrical
-from fmu_bearing.study.table import markdown
 
 NAME = "sound-field"
 TITLE = "Sound-field paper: full-ceramic 7009C, circles of 24 points"

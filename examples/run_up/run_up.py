@@ -17,10 +17,12 @@ import typer
 from numpy.typing import NDArray
 
 from fmu_bearing import read_scene, record
-from fmu_bearing.acoustics.order import OrderMap, waterfall
+from fmu_bearing.acoustics.analysis.order import OrderMap, waterfall
+from fmu_bearing.recording import measure as sound_measure
+from fmu_bearing.recording import pictures as sound_pictures
+from fmu_bearing.recording import tables as sound_tables
+from fmu_bearing.run.table import markdown, write_csv
 from fmu_bearing.scene.read import with_fidelity
-from fmu_bearing.study import sound_measure, sound_pictures, sound_tables
-from fmu_bearing.study.table import markdown, write_csv
 
 SCENE = Path(__file__).resolve().parents[1] / "scenes" / "7003C-spindle.toml"
 RPM = np.pi / 30.0

@@ -32,9 +32,9 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from fmu_bearing import build_fmu, read_scene
-from fmu_bearing.study.run import structured
-from fmu_bearing.study.sound_pictures import save
-from fmu_bearing.study.table import markdown, number, write_csv
+from fmu_bearing.recording.pictures import save
+from fmu_bearing.run.result import structured
+from fmu_bearing.run.table import markdown, number, write_csv
 
 ROOT = Path(__file__).resolve().parents[2]
 SCENE = ROOT / "examples" / "scenes" / "7003C-spindle.toml"

@@ -30,7 +30,7 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
-from fmu_bearing.acoustics.spectrum import KinematicFrequencies
+from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 
 RPM = 30.0 / np.pi
 BEARING, MOTOR, THERMAL = "Bearing7003C.fmu", "SpindleMotor.fmu", "SpindleThermal.fmu"

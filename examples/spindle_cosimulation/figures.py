@@ -6,7 +6,7 @@ import matplotlib
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.acoustics.spectrum import KinematicFrequencies, level_spectrum
+from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies, level_spectrum
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402 (after the choice of the backend)

@@ -9,7 +9,7 @@ import numpy as np
 from coupling import TEMPERATURES, Fmu, Plan, Recording
 from numpy.typing import NDArray
 
-from fmu_bearing.acoustics.spectrum import KinematicFrequencies, kinematic_frequencies
+from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies, kinematic_frequencies
 from fmu_bearing.scene import read_scene, si
 
 SAMPLE_RATE = 51200  # Hz: the usual rate of sound measurements, reaches beyond 20 kHz

@@ -23,13 +23,13 @@ from scipy.linalg import eigh
 from scipy.signal import find_peaks
 
 from fmu_bearing.engine import layout as at
+from fmu_bearing.run.arrays import RPM, Arrays
+from fmu_bearing.run.pictures import empty, save
+from fmu_bearing.run.table import machine, markdown, show, write_csv
 from fmu_bearing.scene import Scene, read_scene
 from fmu_bearing.scene.read import with_fidelity
-from fmu_bearing.study.arrays import RPM, Arrays
-from fmu_bearing.study.pictures import empty, save
-from fmu_bearing.study.sweep import sweep
-from fmu_bearing.study.sweep.picture import draw_map, shown
-from fmu_bearing.study.table import machine, markdown, show, write_csv
+from fmu_bearing.sweeps import sweep
+from fmu_bearing.sweeps.picture import draw_map, shown
 
 Array = NDArray[np.float64]
 

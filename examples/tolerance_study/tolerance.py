@@ -25,10 +25,10 @@ from rich.console import Console
 from rich.progress import track
 
 from fmu_bearing import Scene, read_scene, record
+from fmu_bearing.recording.pictures import save
+from fmu_bearing.run.table import markdown, write_csv
 from fmu_bearing.scene.imperfections import Imperfections
 from fmu_bearing.scene.read import catalogue, with_fidelity
-from fmu_bearing.study.sound_pictures import save
-from fmu_bearing.study.table import markdown, write_csv
 
 SCENE = Path(__file__).resolve().parents[1] / "scenes" / "7003C-spindle.toml"
 GRADES = ("P5", "P4", "P2")

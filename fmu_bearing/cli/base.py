@@ -71,8 +71,8 @@ def _caution(message: Warning | str, category: type[Warning], *place: Any) -> No
 def _refused() -> tuple[type[Exception], ...]:
     """Return what counts as a refusal; imported only once something has gone wrong."""
     from fmu_bearing.fmi.native.optimise import BuildError
-    from fmu_bearing.study.arrays import Refused
-    from fmu_bearing.study.extras import MissingExtra
+    from fmu_bearing.run.arrays import Refused
+    from fmu_bearing.run.extras import MissingExtra
 
     return (ValueError, OSError, BuildError, Refused, MissingExtra)
 

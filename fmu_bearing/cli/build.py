@@ -45,7 +45,7 @@ def build(
     as_json: Json = False,
 ) -> None:
     """Build the co-simulation FMU (FMI 2.0) of a scene."""
-    from fmu_bearing.study.build import build_fmu
+    from fmu_bearing.run.build import build_fmu
 
     with refusals():
         built = build_fmu(scene, output, flavour, named(platforms), tell)

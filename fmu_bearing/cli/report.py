@@ -54,7 +54,7 @@ def report(
     """Write a report of a run: one HTML page that needs a browser and nothing else."""
     with refusals():
         speeds = None if run_up is None else span(run_up)
-        from fmu_bearing.study.report import make  # loads slowly, and no other command has use for it
+        from fmu_bearing.reports import make  # loads slowly, and no other command has use for it
 
         made = make(
             source, output, duration=duration, settle=settle, rung=rung, radius=radius, title=title,

@@ -45,8 +45,8 @@ def simulate(
     as_json: Json = False,
 ) -> None:
     """Run a scene or an FMU; a run that is refused or interrupted (Ctrl-C) keeps what it has computed."""
-    from fmu_bearing.study import run as results
-    from fmu_bearing.study.simulate import simulate as run_it
+    from fmu_bearing.run import result as results
+    from fmu_bearing.run.simulate import simulate as run_it
 
     with refusals(), quiet_warnings():
         results.check_target(output)
@@ -78,8 +78,8 @@ def plot(
     ] = None,
 ) -> None:
     """Draw variables over time, one panel per unit."""
-    from fmu_bearing.study.run import Run
-    from fmu_bearing.study.time_pictures import draw
+    from fmu_bearing.run.result import Run
+    from fmu_bearing.run.time_pictures import draw
 
     with refusals():
         picture = output or result.with_suffix(".png")

@@ -107,7 +107,7 @@ def show(
     as_json: Json = False,
 ) -> None:
     """Show every value of a scene, its unit and range, where it comes from, and what is assumed."""
-    from fmu_bearing.study.table import show as show_table
+    from fmu_bearing.run.table import show as show_table
 
     with refusals():
         scene = read_scene(path)
@@ -127,7 +127,7 @@ def show_catalogue(
     kind: Annotated[str, typer.Argument(metavar="|".join(KINDS))] = KINDS[0], as_json: Json = False
 ) -> None:
     """Show what the catalogue has: bearings, materials, lubricants, tolerance classes."""
-    from fmu_bearing.study.table import show as show_table
+    from fmu_bearing.run.table import show as show_table
 
     with refusals():
         if kind not in KINDS:

@@ -39,10 +39,10 @@ def sound(
     as_json: Json = False,
 ) -> None:
     """Measure levels, spectra, third octaves and directivity; write tables, pictures, netCDF and WAV."""
+    from fmu_bearing.recording.listen import chosen_microphones, listen, write_all
+    from fmu_bearing.recording.record import Recording, record
+    from fmu_bearing.run.table import show
     from fmu_bearing.scene.read import read_scene, with_fidelity
-    from fmu_bearing.study.listen import chosen_microphones, listen, write_all
-    from fmu_bearing.study.recording import Recording, record
-    from fmu_bearing.study.table import show
 
     with refusals(), quiet_warnings():
         if source.suffix == ".npz":

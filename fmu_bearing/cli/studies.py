@@ -13,9 +13,9 @@ from fmu_bearing.cli.base import Folder, Json, Quick, SceneFile, app, print_json
 @app.command()
 def choose(scene: SceneFile, as_json: Json = False) -> None:
     """Tell which level, method and step meet the scene's accuracy, and how every candidate did."""
+    from fmu_bearing.run import choose as choosing
+    from fmu_bearing.run.table import show
     from fmu_bearing.scene import read_scene
-    from fmu_bearing.study import choose as choosing
-    from fmu_bearing.study.table import show
 
     with refusals():
         choice = choosing.chosen(read_scene(scene))
@@ -37,10 +37,10 @@ def tradeoff(
     as_json: Json = False,
 ) -> None:
     """Measure error and speed of levels, methods, steps, strips and terms; write table and chart."""
+    from fmu_bearing.accuracy import tradeoff as trading
+    from fmu_bearing.accuracy.chart import draw
+    from fmu_bearing.run.table import show
     from fmu_bearing.scene import read_scene
-    from fmu_bearing.study import tradeoff as trading
-    from fmu_bearing.study.chart import draw
-    from fmu_bearing.study.table import show
 
     with refusals():
         bar = partial(progress, description="variants")
@@ -66,9 +66,9 @@ def sensitivity(
     scene: SceneFile, output: Folder = Path("out/sensitivity"), quick: Quick = False, as_json: Json = False
 ) -> None:
     """Move every assumed value of a scene and tell what changes."""
+    from fmu_bearing.accuracy import sensitivity as moving
+    from fmu_bearing.run.table import show
     from fmu_bearing.scene import read_scene
-    from fmu_bearing.study import sensitivity as moving
-    from fmu_bearing.study.table import show
 
     with refusals():
         bar = partial(progress, description="moves")

@@ -8,8 +8,8 @@ import typer
 from fmu_bearing.cli.base import ENDED_EARLY, INTERRUPTED, Folder, Json, app, print_json, refusals, tell
 
 if TYPE_CHECKING:
-    from fmu_bearing.study.sweep.plan import Plan
-    from fmu_bearing.study.sweep.runs import Outcomes
+    from fmu_bearing.sweeps.plan import Plan
+    from fmu_bearing.sweeps.runs import Outcomes
 
 Source = Annotated[Path, typer.Argument(metavar="SCENE|SWEEP", help="Scene, or sweep file (TOML).")]
 AxisTexts = Annotated[
@@ -64,7 +64,7 @@ def sweep(
 
     Finished points are kept in the folder: the same command goes on where an earlier one was interrupted.
     """
-    from fmu_bearing.study.extras import need
+    from fmu_bearing.run.extras import need
 
     with refusals():
         need("xarray", "a sweep")
@@ -83,9 +83,9 @@ def _plan(
     window: float | None, folder: Path | None,
 ) -> "Plan":  # fmt: skip
     """Lay out what file and options ask for; options win. The folder gets a file to do it again."""
-    from fmu_bearing.study.sweep.axes import ALIASES, SweepError, parse_axis
-    from fmu_bearing.study.sweep.description import Description, is_description, read_description
-    from fmu_bearing.study.sweep.plan import plan
+    from fmu_bearing.sweeps.axes import ALIASES, SweepError, parse_axis
+    from fmu_bearing.sweeps.description import Description, is_description, read_description
+    from fmu_bearing.sweeps.plan import plan
 
     parsed = [parse_axis(text) for text in axis or []]
     given = {ALIASES.get(key, key): values for key, values in parsed}
@@ -114,8 +114,8 @@ def _plan(
 
 
 def _run(made: "Plan", output: Path, workers: int | None, scheduler: str | None, as_json: bool) -> None:
-    from fmu_bearing.study.sweep.runs import Interrupted, run_plan
-    from fmu_bearing.study.sweep.store import Store
+    from fmu_bearing.sweeps.runs import Interrupted, run_plan
+    from fmu_bearing.sweeps.store import Store
 
     store, code = Store(output), 0
     try:
@@ -134,10 +134,10 @@ def _run(made: "Plan", output: Path, workers: int | None, scheduler: str | None,
 
 def _write(made: "Plan", outcomes: "Outcomes", output: Path, as_json: bool) -> None:
     """Write what there is and tell it."""
-    from fmu_bearing.study.sweep.picture import save as save_picture
-    from fmu_bearing.study.sweep.picture import sweep_picture
-    from fmu_bearing.study.sweep.result import COLUMNS, dataset, extremes, save
-    from fmu_bearing.study.table import show
+    from fmu_bearing.run.table import show
+    from fmu_bearing.sweeps.picture import save as save_picture
+    from fmu_bearing.sweeps.picture import sweep_picture
+    from fmu_bearing.sweeps.result import COLUMNS, dataset, extremes, save
 
     data = dataset(made, outcomes)
     files = save(data, output)
@@ -170,9 +170,9 @@ def _write(made: "Plan", outcomes: "Outcomes", output: Path, as_json: bool) -> N
 
 def _estimate(made: "Plan", output: Path, workers: int | None, as_json: bool) -> None:
     """Time one point, twice: the first run also loads kernels and prepares the sound."""
-    from fmu_bearing.study.sweep.point import run_point
-    from fmu_bearing.study.sweep.runs import crew_size, finished
-    from fmu_bearing.study.sweep.store import Store
+    from fmu_bearing.sweeps.point import run_point
+    from fmu_bearing.sweeps.runs import crew_size, finished
+    from fmu_bearing.sweeps.store import Store
 
     kept = len(finished(made, Store(output))) if output.is_dir() else 0
     task = made.tasks[len(made.tasks) // 2]

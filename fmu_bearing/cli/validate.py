@@ -9,7 +9,7 @@ import typer
 from fmu_bearing.cli.base import FOUND, Json, Refusal, app, errors, print_json, refusals
 
 if TYPE_CHECKING:
-    from fmu_bearing.study.validate import Result
+    from fmu_bearing.validation import Result
 
 _COLOURS = {"passed": "green", "skipped": "dim", "note": "yellow", "finding": "bold red"}
 
@@ -26,7 +26,7 @@ def validate(
 
     Exit code 0: no finding (notes are no findings); 1: findings; 2: not an FMU for FMI 2.0 co-simulation.
     """
-    from fmu_bearing.study import validate as validation
+    from fmu_bearing import validation
 
     with refusals(), errors.status("checking") as status:
         try:

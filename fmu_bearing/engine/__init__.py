@@ -1,12 +1,17 @@
 """The engine: Numba kernels on flat float64 arrays. No scene, no file, no FMI.
 
 =====================  =======================================================================
-``layout``             places in the flat arrays ``p u s z w``
-``abi``                what the outside calls: ``init``, ``step``, ``outputs``
-``mechanics``          forces and equations of motion of balls, cage and rings
-``solvers``            quasi-static start, Jacobian, block-arrow algebra, ESDIRK4(3)
-``sound``              filters from motion to microphones, level meters
 ``jit``                compiler flags and the cache of compiled kernels
+``layout``             places in the flat arrays ``p u s z w``
+``elimination``        small linear systems by elimination
+``dense``              small dense matrices: product, inverse, eigenvectors, complex equations
+``mechanics``          forces and equations of motion of balls, cage and rings
+``newton``             the Newton system in accelerations: Jacobian, factors, solution
+``statics``            quasi-static equilibrium, where a run starts
+``sound``              filters from motion to microphones, level meters
+``readout``            from the state to outputs, losses and motion samples
+``fidelities``         how the state is stepped: full, rings, response
+``abi``                public entry points: ``init``, ``step``, ``outputs``
 =====================  =======================================================================
 
 Kernels allocate nothing, raise nothing and return status codes; work space is passed in.

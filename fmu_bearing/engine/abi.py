@@ -6,6 +6,10 @@ that a step which fails to converge leaves it at the time it reached: the caller
 
 import math
 
+from fmu_bearing.engine.fidelities.full.march import march
+from fmu_bearing.engine.fidelities.full.start import start
+from fmu_bearing.engine.fidelities.response.march import march_response, start_response
+from fmu_bearing.engine.fidelities.rings.march import march_rings, start_rings
 from fmu_bearing.engine.jit import entry, kernel
 from fmu_bearing.engine.layout import (
     BAD_INPUT,
@@ -21,11 +25,7 @@ from fmu_bearing.engine.layout import (
     U_PEDESTAL,
     U_SPEED,
 )
-from fmu_bearing.engine.levels.response import march_response, start_response
-from fmu_bearing.engine.levels.rings import march_rings, start_rings
-from fmu_bearing.engine.march import march
-from fmu_bearing.engine.observe import observe
-from fmu_bearing.engine.start import start
+from fmu_bearing.engine.readout.outputs import observe
 
 
 @kernel

@@ -16,7 +16,7 @@ Per-ball quantities are structures of arrays: quantity ``k`` of ball ``j`` stand
 
 import numpy as np
 
-from fmu_bearing.engine import modes_layout
+from fmu_bearing.engine import layout_flexure as modes_layout
 
 STRIDE = modes_layout.STRIDE  # lanes per ball quantity: no power of two, so that rows spread over cache sets
 MAX_BALLS = STRIDE

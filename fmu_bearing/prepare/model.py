@@ -9,8 +9,8 @@ from scipy.special import roots_jacobi
 
 from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.engine import layout as at
-from fmu_bearing.engine import modes_layout
-from fmu_bearing.engine.sound import places
+from fmu_bearing.engine import layout_flexure as modes_layout
+from fmu_bearing.engine import layout_sound as places
 from fmu_bearing.interface import Variable, variables
 from fmu_bearing.prepare import bodies, contacts
 from fmu_bearing.prepare.flexure import longest_step, mode_table

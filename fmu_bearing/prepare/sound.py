@@ -13,7 +13,7 @@ from fmu_bearing.engine.jit import cache_directory, source_hash
 from fmu_bearing.files import sources_digest, write_whole
 from fmu_bearing.scene import Scene
 
-__all__ = ["sound_block"]
+__all__ = ["sound_block", "sound_key"]
 
 #: Rooms whose code the numbers come from, beside the engine's.
 _ROOMS = ("acoustics", "elastic", "prepare", "scene")
@@ -23,18 +23,18 @@ _PARTS = {"bearing", "materials", "mounting", "sound", "microphones"}
 
 def sound_parameters(scene: Scene) -> NDArray[np.float64]:
     """Compute the block; what that needs of SciPy takes half a second to load, so it is loaded here."""
-    from fmu_bearing.acoustics import stream
+    from fmu_bearing.acoustics.filters import design as stream
 
     return stream.sound_parameters(scene)
 
 
 def sound_block(scene: Scene) -> NDArray[np.float64]:
-    """Sound block of a scene (`acoustics.stream.sound_parameters`), from the cache where it is there.
+    """Sound block of a scene (`acoustics.filters.design.sound_parameters`), from the cache where it is there.
 
     Raises
     ------
     ValueError
-        As `acoustics.stream.sound_parameters`.
+        As `acoustics.filters.design.sound_parameters`.
     """
     if scene.sound is None or not scene.microphones:
         return np.zeros(0)
@@ -53,6 +53,20 @@ def sound_block(scene: Scene) -> NDArray[np.float64]:
     except OSError:
         pass  # a cache that cannot be written costs time, not results
     return block
+
+
+def sound_key(scene: Scene) -> str:
+    """Tell what a scene's sound block depends on; empty without sound.
+
+    Speed, loads, oil, springs and imperfections are not among it: a sweep over those solves the sound once.
+    """
+    from fmu_bearing.acoustics.filters.design import radiators_of
+
+    if scene.sound is None:
+        return ""
+    flexure = scene.mounting.flexure
+    bending = (flexure, scene.materials, scene.bearing) if flexure is not None else ()
+    return repr((scene.sound, radiators_of(scene), scene.fidelity.ball_harmonics, bending))
 
 
 def _key(scene: Scene) -> str:

@@ -5,8 +5,8 @@ import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from fmu_bearing.study.run import Run
-from fmu_bearing.study.simulate import Inputs, simulate
+from fmu_bearing.run.result import Run
+from fmu_bearing.run.simulate import Inputs, simulate
 
 
 @dataclass(frozen=True)

@@ -4,12 +4,12 @@ import numba
 import numpy as np
 from scipy.signal import sosfreqz
 
-from fmu_bearing.acoustics.pack import MICROPHONE_LOW_LIMIT
-from fmu_bearing.acoustics.radiators import Housing, Radiators, Ring
-from fmu_bearing.acoustics.weighting import high_pass_section
+from fmu_bearing.acoustics.filters.pack import MICROPHONE_LOW_LIMIT
+from fmu_bearing.acoustics.filters.weighting import high_pass_section
+from fmu_bearing.acoustics.radiation.radiators import Housing, Radiators, Ring
 from fmu_bearing.engine.layout import MIC_OUTPUTS, motion_size
+from fmu_bearing.engine.layout_sound import DECIMATION, H_BANDS, H_MICS, LATENCY, RATE, RAW_RATE
 from fmu_bearing.engine.sound import meter, radiate
-from fmu_bearing.engine.sound.places import DECIMATION, H_BANDS, H_MICS, LATENCY, RATE, RAW_RATE
 
 RHO, C = 1.225, 340.0
 SMALL = Radiators(

@@ -4,18 +4,17 @@ import numpy as np
 import pytest
 from scipy.signal import sosfreqz
 
-from fmu_bearing.acoustics import sources
-from fmu_bearing.acoustics.audio import read_wav, resample, write_wav
-from fmu_bearing.acoustics.directivity import (
+from fmu_bearing.acoustics.analysis.audio import read_wav, resample, write_wav
+from fmu_bearing.acoustics.analysis.directivity import (
     attenuation,
     circle_angles,
     circle_points,
     directivity,
     plane_points,
 )
-from fmu_bearing.acoustics.lines import kinematic_lines, strongest_lines
-from fmu_bearing.acoustics.order import on_angle, order_map, order_spectrum, waterfall
-from fmu_bearing.acoustics.power import (
+from fmu_bearing.acoustics.analysis.lines import kinematic_lines, strongest_lines
+from fmu_bearing.acoustics.analysis.order import on_angle, order_map, order_spectrum, waterfall
+from fmu_bearing.acoustics.analysis.power import (
     dipoles,
     hemisphere_points,
     power_from_motion,
@@ -23,17 +22,18 @@ from fmu_bearing.acoustics.power import (
     power_level,
     sphere_points,
 )
-from fmu_bearing.acoustics.radiators import Air
-from fmu_bearing.acoustics.spectrum import kinematic_frequencies, level_spectrum
-from fmu_bearing.acoustics.third_octave import (
+from fmu_bearing.acoustics.analysis.spectrum import kinematic_frequencies, level_spectrum
+from fmu_bearing.acoustics.analysis.third_octave import (
     OCTAVE,
     band_filters,
     nominal_frequency,
     spread,
     third_octave_levels,
 )
-from fmu_bearing.acoustics.weighting import a_weighting_db, a_weighting_sections
-from fmu_bearing.engine.sound import places
+from fmu_bearing.acoustics.filters.weighting import a_weighting_db, a_weighting_sections
+from fmu_bearing.acoustics.radiation import sources
+from fmu_bearing.acoustics.radiation.radiators import Air
+from fmu_bearing.engine import layout_sound as places
 from tests.acoustics.playback import SMALL
 
 RATE = 51_200.0
@@ -268,7 +268,7 @@ def test_wav_keeps_pascals(tmp_path):
 def test_psychoacoustics():
     """ISO 532-1: 1 kHz at 40 dB is 1 sone, DIN 45692: about 0.9 acum there; the extra is named without it."""
     pytest.importorskip("mosqito")
-    from fmu_bearing.acoustics.psychoacoustics import sensation
+    from fmu_bearing.acoustics.analysis.psychoacoustics import sensation
 
     tone = 2e-5 * 100 * np.sqrt(2) * np.sin(2 * np.pi * 1000 * time(0.5))
     found = sensation(tone, RATE)
@@ -281,7 +281,7 @@ def test_psychoacoustics():
 def test_the_extra_is_named(monkeypatch):
     import sys
 
-    from fmu_bearing.acoustics.psychoacoustics import sensation
+    from fmu_bearing.acoustics.analysis.psychoacoustics import sensation
 
     monkeypatch.setitem(sys.modules, "mosqito.sq_metrics", None)
     with pytest.raises(ImportError, match="psychoacoustics"):

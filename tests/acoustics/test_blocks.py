@@ -1,17 +1,14 @@
 """Convolution by blocks against the direct form, and long filters against the frequency domain."""
 
-import sys
-import types
-
 import numpy as np
 import pytest
 
-from fmu_bearing.acoustics import blocks
-from fmu_bearing.acoustics.fir import decimator_response, delay_of, fit, fit_frequencies
-from fmu_bearing.acoustics.stream import build
-from fmu_bearing.acoustics.transfer import Air, Path
-from fmu_bearing.engine.sound import transform
-from fmu_bearing.engine.sound.places import (
+from fmu_bearing.acoustics.filters import blocks
+from fmu_bearing.acoustics.filters.design import build
+from fmu_bearing.acoustics.filters.fir import decimator_response, delay_of, fit
+from fmu_bearing.acoustics.radiation.compact import Air, Path
+from fmu_bearing.acoustics.radiation.frequencies import fit_frequencies
+from fmu_bearing.engine.layout_sound import (
     C_OUTER,
     H_AT_LEVELS,
     H_LEVELS,
@@ -21,6 +18,7 @@ from fmu_bearing.engine.sound.places import (
     RADIAL,
     RATE,
 )
+from fmu_bearing.engine.sound import transform
 from tests.acoustics.playback import LARGE, PAPER_POINTS, SMALL, Player, chain, lines, raw_time, still
 
 PERIOD = 2048  # raw samples: 100 Hz
@@ -75,9 +73,7 @@ def ring_of(decay, frequency, late):
 @pytest.fixture
 def ringing(monkeypatch):
     def put(decay=5e-4, frequency=3000.0, late=0.0):
-        module = types.ModuleType("fmu_bearing.acoustics.bem.paths")
-        module.bem_paths = ring_of(decay, frequency, late)
-        monkeypatch.setitem(sys.modules, "fmu_bearing.acoustics.bem.paths", module)
+        monkeypatch.setattr("fmu_bearing.acoustics.registry.bem_paths", ring_of(decay, frequency, late))
 
     return put
 

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from scipy.signal import sosfreqz
 
-from fmu_bearing.acoustics.stream import build
-from fmu_bearing.acoustics.transfer import Air
-from fmu_bearing.acoustics.weighting import band_centre, band_sections
+from fmu_bearing.acoustics.filters.design import build
+from fmu_bearing.acoustics.filters.weighting import band_centre, band_sections
+from fmu_bearing.acoustics.radiation.compact import Air
 from fmu_bearing.engine.layout import BANDS, MIC_OUTPUTS
-from fmu_bearing.engine.sound.places import H_STATE, METERS, RATE, RAW_RATE
+from fmu_bearing.engine.layout_sound import H_STATE, METERS, RATE, RAW_RATE
 from tests.acoustics.playback import LARGE, PAPER_POINTS, SMALL, Player, lines, raw_time, still
 
 PERIOD = 2048  # raw samples: 100 Hz

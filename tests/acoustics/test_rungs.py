@@ -1,20 +1,18 @@
 """Every rung of the ladder is selectable and heard; the papers' two other rungs, and the user's tables."""
 
-import sys
-import types
-
 import numpy as np
 import pytest
 
-from fmu_bearing.acoustics import sources
-from fmu_bearing.acoustics.contacts import contact_paths
-from fmu_bearing.acoustics.fir import fit_frequencies
-from fmu_bearing.acoustics.rungs import RUNGS, Ladder
-from fmu_bearing.acoustics.stream import build, filter_errors
-from fmu_bearing.acoustics.table import Table, channels, read_table, select
-from fmu_bearing.acoustics.transfer import Air, Path, Radiators, compact_paths, paper_scalars
+from fmu_bearing.acoustics.filters.design import build, filter_errors
+from fmu_bearing.acoustics.papers.contacts import contact_paths
+from fmu_bearing.acoustics.papers.scalars import paper_scalars
+from fmu_bearing.acoustics.radiation import sources
+from fmu_bearing.acoustics.radiation.compact import Air, Path, Radiators, compact_paths
+from fmu_bearing.acoustics.radiation.frequencies import fit_frequencies
+from fmu_bearing.acoustics.radiation.table import Table, channels, read_table, select
+from fmu_bearing.acoustics.registry import RUNGS, Ladder
 from fmu_bearing.engine.layout import mo_flex
-from fmu_bearing.engine.sound.places import FLEXURE, H_CHANNELS, c_flex, vector_channels
+from fmu_bearing.engine.layout_sound import FLEXURE, H_CHANNELS, c_flex, vector_channels
 from tests.acoustics.playback import PAPER_POINTS, RHO, SMALL, C, Player, chain, lines, raw_time, still
 
 PERIOD = 2048  # raw samples: 100 Hz
@@ -44,9 +42,7 @@ def flexing(radiators, air, radius, axial, azimuths, harmonics, modes=(), plane=
 
 @pytest.fixture
 def elements(monkeypatch):
-    module = types.ModuleType("fmu_bearing.acoustics.bem.paths")
-    module.bem_paths = flexing
-    monkeypatch.setitem(sys.modules, "fmu_bearing.acoustics.bem.paths", module)
+    monkeypatch.setattr("fmu_bearing.acoustics.registry.bem_paths", flexing)
 
 
 def table_of(points, inputs, frequencies=GRID):

@@ -8,13 +8,13 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from fmu_bearing.acoustics import sources
-from fmu_bearing.acoustics.bem.meridian import cylinder
-from fmu_bearing.acoustics.bem.solver import Scatterer
-from fmu_bearing.acoustics.effective import cylinder_volumes, ring_volumes
-from fmu_bearing.acoustics.fir import fit_frequencies
-from fmu_bearing.acoustics.radiators import Air, Housing
-from fmu_bearing.acoustics.transfer import housing_responses
+from fmu_bearing.acoustics.radiation import sources
+from fmu_bearing.acoustics.radiation.bem.meridian import cylinder
+from fmu_bearing.acoustics.radiation.bem.solver import Scatterer
+from fmu_bearing.acoustics.radiation.compact import housing_responses
+from fmu_bearing.acoustics.radiation.effective import cylinder_volumes, ring_volumes
+from fmu_bearing.acoustics.radiation.frequencies import fit_frequencies
+from fmu_bearing.acoustics.radiation.radiators import Air, Housing
 
 RHO, C = 1.225, 340.0
 FREQUENCIES = np.array([20.0, 467.0, 2000.0, 8123.4, 20_000.0])

@@ -5,12 +5,12 @@ import time
 import numpy as np
 import pytest
 
-from fmu_bearing.acoustics import sources
-from fmu_bearing.acoustics.effective import ring_volumes
-from fmu_bearing.acoustics.fir import decimator_response
-from fmu_bearing.acoustics.radiators import Air
-from fmu_bearing.acoustics.stream import build
-from fmu_bearing.engine.sound.places import H_BANKS, H_MICS, RATE, RAW_RATE
+from fmu_bearing.acoustics.filters.design import build
+from fmu_bearing.acoustics.filters.fir import decimator_response
+from fmu_bearing.acoustics.radiation import sources
+from fmu_bearing.acoustics.radiation.effective import ring_volumes
+from fmu_bearing.acoustics.radiation.radiators import Air
+from fmu_bearing.engine.layout_sound import H_BANKS, H_MICS, RATE, RAW_RATE
 from tests.acoustics.playback import (
     HOUSED,
     LARGE,
@@ -316,7 +316,7 @@ def test_refusals():
 
 
 def test_example_scenes_have_sound_blocks(scene):
-    from fmu_bearing.acoustics.stream import radiators_of, sound_parameters
+    from fmu_bearing.acoustics.filters.design import radiators_of, sound_parameters
 
     spindle = scene("7003C-spindle")
     assert sound_parameters(spindle)[H_MICS] == len(spindle.microphones)

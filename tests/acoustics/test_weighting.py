@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 from scipy.signal import sosfreqz
 
-from fmu_bearing.acoustics.spectrum import (
+from fmu_bearing.acoustics.analysis.spectrum import (
     amplitude_spectrum,
     kinematic_frequencies,
     level_spectrum,
     power_spectral_density,
 )
-from fmu_bearing.acoustics.weighting import a_weighting_db, a_weighting_sections, level
-from fmu_bearing.engine.sound.places import RATE
+from fmu_bearing.acoustics.filters.weighting import a_weighting_db, a_weighting_sections, level
+from fmu_bearing.engine.layout_sound import RATE
 
 # IEC 61672-1:2013, table 3: nominal frequency, A-weighting in dB, given to 0.1 dB.
 IEC_TABLE = {

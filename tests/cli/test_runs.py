@@ -11,12 +11,12 @@ import xarray
 from scipy.io import wavfile
 
 from fmu_bearing import Run, build_fmu
-from fmu_bearing.acoustics.weighting import level
+from fmu_bearing.acoustics.filters.weighting import level
 from fmu_bearing.fmi.native.optimise import BuildError
 from fmu_bearing.instance import Instance
+from fmu_bearing.recording.listen import listen
+from fmu_bearing.recording.record import Recording, record
 from fmu_bearing.scene.read import with_fidelity
-from fmu_bearing.study.listen import listen
-from fmu_bearing.study.recording import Recording, record
 
 
 @pytest.fixture(scope="module")

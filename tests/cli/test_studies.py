@@ -5,10 +5,10 @@ import zipfile
 
 import pytest
 
+from fmu_bearing.run import choose as choosing
+from fmu_bearing.run.choose import Choice, Probe
+from fmu_bearing.run.metrics import Errors
 from fmu_bearing.scene.read import with_fidelity
-from fmu_bearing.study import choose as choosing
-from fmu_bearing.study.choose import Choice, Probe
-from fmu_bearing.study.figures import Errors
 from tests.conftest import SCENES
 
 

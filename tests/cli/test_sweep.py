@@ -7,7 +7,7 @@ import pytest
 from typer.testing import CliRunner
 
 from fmu_bearing import cli
-from fmu_bearing.study.sweep import local, runs
+from fmu_bearing.sweeps import local, runs
 
 QUICK = ("--settle", 0, "--window", 0.002, "-v", "friction_torque,contact.*.load_mean", "--workers", 1)
 

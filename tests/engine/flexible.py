@@ -3,7 +3,7 @@
 import numpy as np
 
 from fmu_bearing.engine import layout as at
-from fmu_bearing.engine import modes_layout as places
+from fmu_bearing.engine import layout_flexure as places
 from fmu_bearing.engine.mechanics.energy import stored_energy
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.mechanics.flexure import flexure_energy

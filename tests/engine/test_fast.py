@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.fidelities.full.fast import newmark
 from fmu_bearing.engine.mechanics.equations import right_hand_side
-from fmu_bearing.engine.solvers import newmark
-from fmu_bearing.engine.solvers.block_arrow import factor
-from fmu_bearing.engine.solvers.jacobian import jacobian
+from fmu_bearing.engine.newton.block_arrow import factor
+from fmu_bearing.engine.newton.jacobian import jacobian
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import prepare
 from tests.engine.helpers import Run, quiet

@@ -9,15 +9,15 @@ from scipy.integrate import solve_ivp
 from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.engine import abi
 from fmu_bearing.engine import layout as at
-from fmu_bearing.engine import modes_layout as places
-from fmu_bearing.engine.motion import flexure_motion
+from fmu_bearing.engine import layout_flexure as places
+from fmu_bearing.engine.readout.motion import flexure_motion
 from fmu_bearing.instance import REASONS, Instance
 from fmu_bearing.prepare.flexure import groove_centre, longest_step, mode_table
 from fmu_bearing.prepare.model import pack, prepare
+from fmu_bearing.run.choose import CANDIDATES
 from fmu_bearing.scene import SceneError
 from fmu_bearing.scene.mounting import Flexure as Bending
 from fmu_bearing.scene.read import with_fidelity
-from fmu_bearing.study.choose import CANDIDATES
 from tests.engine.flexible import FirstOrder, Flexure, shaken, thin_ring, untouched
 from tests.engine.helpers import RPM, Run, quiet
 

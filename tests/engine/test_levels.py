@@ -7,7 +7,7 @@ from scipy.optimize import root
 
 from fmu_bearing.engine import abi
 from fmu_bearing.engine import layout as at
-from fmu_bearing.engine.levels import places as k
+from fmu_bearing.engine import layout_condensed as k
 from tests.engine.helpers import RPM, Run, quiet
 
 LEVELS = {"rings": 1.0, "response": 2.0}

@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 
 from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.fidelities.full.methods import tableaux
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.mechanics.cage import film_force
 from fmu_bearing.engine.mechanics.powers import exp2, log2
 from fmu_bearing.engine.mechanics.race import waves
 from fmu_bearing.engine.mechanics.trigonometry import ball_angles, wrap
-from fmu_bearing.engine.solvers import block_arrow, tableaux
+from fmu_bearing.engine.newton import block_arrow
 from fmu_bearing.prepare.imperfections import wave_table
 from tests.oracles import journal
 

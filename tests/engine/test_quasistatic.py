@@ -6,7 +6,7 @@ from scipy.optimize import brentq
 
 from fmu_bearing.engine import layout as at
 from fmu_bearing.engine.mechanics.conditions import conditions
-from fmu_bearing.engine.solvers.quasistatic import equilibrium
+from fmu_bearing.engine.statics.quasistatic import equilibrium
 from fmu_bearing.prepare.model import pack
 from tests.oracles import B7003C, B7009C
 from tests.oracles.jones_harris import JonesHarris

@@ -5,8 +5,8 @@ import pytest
 
 from fmu_bearing.engine import layout as at
 from fmu_bearing.engine.mechanics.equations import right_hand_side
-from fmu_bearing.engine.solvers.axial import quasistatic, stiffness_matrix
-from fmu_bearing.engine.solvers.mounted import mounted_equilibrium
+from fmu_bearing.engine.statics.axial import quasistatic, stiffness_matrix
+from fmu_bearing.engine.statics.mounted import mounted_equilibrium
 from tests.engine.helpers import quiet
 from tests.engine.test_quasistatic import RPM, Bearing
 from tests.oracles import B7003C, B7009C

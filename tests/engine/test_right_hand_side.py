@@ -15,7 +15,7 @@ from fmu_bearing.engine.mechanics.cage import film_force
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.mechanics.energy import stored_energy
 from fmu_bearing.engine.mechanics.equations import right_hand_side
-from fmu_bearing.engine.mechanics.summary import summarise
+from fmu_bearing.engine.readout.losses import summarise
 from tests.engine.helpers import Run
 from tests.oracles import cartesian as oracle
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fmu_bearing.engine import layout as at
-from fmu_bearing.engine.start import place_balls
+from fmu_bearing.engine.fidelities.full.start import place_balls
 from tests.engine.test_quasistatic import RPM, Bearing
 
 

@@ -13,7 +13,7 @@ from examples.papers.calibration import calibrate
 from examples.papers.case import Case
 from examples.papers.hearing import Ear, a_weighted, equivalent, line, spectrum
 from examples.papers.run import PAGES, run
-from fmu_bearing.acoustics.weighting import a_weighting_db
+from fmu_bearing.acoustics.filters.weighting import a_weighting_db
 
 RATE = 51200.0
 

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.fidelities.full.methods.tableaux import ESDIRK4, RK4, T_GAMMA, TABLEAUX, TRBDF2
+from fmu_bearing.engine.fidelities.full.runge_kutta import runge_kutta_step
 from fmu_bearing.engine.jit import entry
 from fmu_bearing.engine.mechanics.equations import right_hand_side
-from fmu_bearing.engine.solvers.block_arrow import factor
-from fmu_bearing.engine.solvers.jacobian import jacobian
-from fmu_bearing.engine.solvers.runge_kutta import runge_kutta_step
-from fmu_bearing.engine.solvers.tableaux import ESDIRK4, RK4, T_GAMMA, TABLEAUX, TRBDF2
+from fmu_bearing.engine.newton.block_arrow import factor
+from fmu_bearing.engine.newton.jacobian import jacobian
 from tests.extremes.bearings import bearing, drive
 
 SMOOTH = {

@@ -57,7 +57,7 @@ from fmu_bearing.engine.layout import (
     X_T,
     Y_V,
 )
-from fmu_bearing.engine.modes_layout import (
+from fmu_bearing.engine.layout_flexure import (
     FLEX_ROWS,
     FR_COS,
     FR_GR,

@@ -4,7 +4,7 @@ import math
 
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import MO_BALLS, MO_CAGE, MO_PER_BALL, STRIDE
-from fmu_bearing.engine.sound.places import (
+from fmu_bearing.engine.layout_sound import (
     C_BALLS,
     C_CYLINDERS,
     C_PAPER_BALLS,

@@ -13,7 +13,7 @@ The work of a block falls on its first sample: one sample in B costs up to about
 """
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.sound.places import (
+from fmu_bearing.engine.layout_sound import (
     BANK_AT_RUNS,
     BANK_AT_TAPS,
     BANK_COUNT,

@@ -12,8 +12,7 @@ import math
 
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import MIC_OUTPUTS
-from fmu_bearing.engine.sound import thirds
-from fmu_bearing.engine.sound.places import (
+from fmu_bearing.engine.layout_sound import (
     GROUP_AT_WEIGHTS,
     GROUP_COUNT,
     GROUP_FIRST,
@@ -61,6 +60,7 @@ from fmu_bearing.engine.sound.places import (
     SS_SLOW,
     SS_WEIGHT,
 )
+from fmu_bearing.engine.sound import thirds
 
 _N_OUT = len(MIC_OUTPUTS)
 _FLOOR = 1e-20  # Pa^2

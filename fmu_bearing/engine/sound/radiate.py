@@ -6,9 +6,7 @@ all filters and moves the meters. State depends on the samples alone, never on h
 """
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.sound import channels, meter
-from fmu_bearing.engine.sound.convolve import convolve
-from fmu_bearing.engine.sound.places import (
+from fmu_bearing.engine.layout_sound import (
     DECIMATION,
     DECIMATOR_TAPS,
     H_AT_DECIMATOR,
@@ -27,6 +25,8 @@ from fmu_bearing.engine.sound.places import (
     state_size,
     work_size,
 )
+from fmu_bearing.engine.sound import channels, meter
+from fmu_bearing.engine.sound.convolve import convolve
 
 __all__ = ["push", "reset", "state_size", "work_size"]
 

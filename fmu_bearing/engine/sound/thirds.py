@@ -1,7 +1,7 @@
 """Third octaves of every microphone's pressure: four second-order sections per band, bands side by side."""
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.sound.places import BAND_LANES, H_AT_BANDS, H_MICS, H_S_BANDS, H_W_TRANSFORM
+from fmu_bearing.engine.layout_sound import BAND_LANES, H_AT_BANDS, H_MICS, H_S_BANDS, H_W_TRANSFORM
 
 SECTIONS = 4
 # Per microphone: two states of each section, then the running mean square; all BAND_LANES wide.

@@ -6,14 +6,15 @@ import types
 import numpy as np
 import pytest
 
-from fmu_bearing.acoustics import sources
-from fmu_bearing.acoustics.bem import solution as solved
-from fmu_bearing.acoustics.bem.bodies import bodies_of
-from fmu_bearing.acoustics.bem.paths import bem_paths, task_of
-from fmu_bearing.acoustics.fir import fit, fit_frequencies
-from fmu_bearing.acoustics.radiators import BALLS, CAGE, INNER, OUTER, Air, Housing, Radiators, Ring
-from fmu_bearing.acoustics.transfer import compact_paths
-from fmu_bearing.engine.sound import places as at
+from fmu_bearing.acoustics.filters.fir import fit
+from fmu_bearing.acoustics.radiation import sources
+from fmu_bearing.acoustics.radiation.bem import solution as solved
+from fmu_bearing.acoustics.radiation.bem.bodies import bodies_of
+from fmu_bearing.acoustics.radiation.bem.paths import bem_paths, task_of
+from fmu_bearing.acoustics.radiation.compact import compact_paths
+from fmu_bearing.acoustics.radiation.frequencies import fit_frequencies
+from fmu_bearing.acoustics.radiation.radiators import BALLS, CAGE, INNER, OUTER, Air, Housing, Radiators, Ring
+from fmu_bearing.engine import layout_sound as at
 
 AIR = Air()
 BARE = Radiators(

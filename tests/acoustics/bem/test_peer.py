@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from benchmarks.bem_peer import DENSITY, SPEED, ring_pressures
-from fmu_bearing.acoustics.bem.meridian import ring
-from fmu_bearing.acoustics.bem.solver import Scatterer
+from fmu_bearing.acoustics.radiation.bem.meridian import ring
+from fmu_bearing.acoustics.radiation.bem.solver import Scatterer
 
 RING = (0.035, 0.0296, 0.01)
 

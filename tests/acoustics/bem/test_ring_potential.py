@@ -6,7 +6,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from fmu_bearing.acoustics.bem.ring_potential import elliptic, static_harmonics, toroidal
+from fmu_bearing.acoustics.radiation.bem.ring_potential import elliptic, static_harmonics, toroidal
 
 EXCESSES = (1e-9, 1e-4, 0.05, 0.099, 0.101, 1.0, 30.0, 3e3)
 

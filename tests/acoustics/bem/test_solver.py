@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from scipy.special import lpmv, spherical_jn, spherical_yn
 
-from fmu_bearing.acoustics import sources
-from fmu_bearing.acoustics.bem.meridian import Body, cylinder, ring
-from fmu_bearing.acoustics.bem.solver import Scatterer, orbit_dipoles, wall_admittance
-from fmu_bearing.acoustics.effective import cylinder_volumes, ring_volumes
+from fmu_bearing.acoustics.radiation import sources
+from fmu_bearing.acoustics.radiation.bem.meridian import Body, cylinder, ring
+from fmu_bearing.acoustics.radiation.bem.solver import Scatterer, orbit_dipoles, wall_admittance
+from fmu_bearing.acoustics.radiation.effective import cylinder_volumes, ring_volumes
 
 DENSITY, SPEED = 1.225, 340.0
 POINTS = np.array([[0.03, 0.1], [-0.1, 0.02], [-0.05, 0.21]])
@@ -120,7 +120,7 @@ def test_without_inner_points_a_resonance_of_the_inside_spoils_the_solution(monk
     body, frequency = sphere(0.05, 40), np.pi / 0.05 * SPEED / (2.0 * np.pi)
     with_points = hidden_source([body], (0.01, 0.02), frequency, 1, size=1.0)
     monkeypatch.setattr(
-        "fmu_bearing.acoustics.bem.solver.inner_points", lambda bodies, highest: np.zeros((0, 2))
+        "fmu_bearing.acoustics.radiation.bem.solver.inner_points", lambda bodies, highest: np.zeros((0, 2))
     )
     without = hidden_source([body], (0.01, 0.02), frequency, 1, size=1.0)
     assert with_points < 2e-3

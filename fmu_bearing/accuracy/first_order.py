@@ -1,0 +1,133 @@
+"""Level ``full`` as x' = g(t, x), for integrators that know nothing of bearings.
+
+``x`` holds nine rows of one number per ball (x, r, theta, their rates, spin), then 17 coordinates of the
+bodies and their 17 rates, as ``y`` in ``engine.layout`` without its spare lanes.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.jit import entry, kernel
+from fmu_bearing.engine.layout import (
+    F_G,
+    J_B,
+    J_C,
+    J_D,
+    J_E,
+    N_BODY,
+    P_BALLS,
+    P_LANES,
+    STRIDE,
+    Y_Q,
+    Y_SIZE,
+    Y_V,
+)
+from fmu_bearing.engine.mechanics.equations import right_hand_side
+from fmu_bearing.engine.newton.jacobian import jacobian
+from fmu_bearing.run.arrays import RINGS, Arrays
+
+_S = STRIDE
+
+
+@kernel
+def spread(p, x, y):
+    """Copy ``x`` into ``y``; the spare lanes take ball 0, as everywhere in the engine."""
+    balls = int(p[P_BALLS])
+    for i in range(9):
+        for j in range(int(p[P_LANES])):
+            y[i * _S + j] = x[i * balls + (j if j < balls else 0)]
+    for i in range(2 * N_BODY):
+        y[Y_Q + i] = x[9 * balls + i]
+
+
+@entry
+def first_order(p, c, angle, speed, t, x, w, f, y, dx):
+    """Fill ``dx`` with the rates of ``x`` (SI) at ``t`` (s) after the shaft stood at ``angle`` (rad).
+
+    ``p`` parameters, ``c`` conditions, ``speed`` of the shaft (rad/s, constant); ``w``, ``f``, ``y`` scratch.
+    """
+    balls = int(p[P_BALLS])
+    spread(p, x, y)
+    right_hand_side(p, c, y, angle + speed * t, speed, 0.0, w, f)
+    for i in range(3 * balls):
+        dx[i] = x[3 * balls + i]
+    for i in range(6):
+        for j in range(balls):
+            dx[(3 + i) * balls + j] = f[i * _S + j]
+    for i in range(N_BODY):
+        dx[9 * balls + i] = y[Y_V + i]
+        dx[9 * balls + N_BODY + i] = f[F_G + i]
+
+
+@entry
+def first_order_jacobian(p, c, angle, speed, t, x, w, blocks, y, out):
+    """Fill the dense matrix ``out`` with d(dx)/dx from the blocks of the engine's own Jacobian."""
+    balls = int(p[P_BALLS])
+    body = 9 * balls
+    spread(p, x, y)
+    jacobian(p, c, y, angle + speed * t, speed, 0.0, w, blocks)
+    for i in range(out.shape[0]):
+        for k in range(out.shape[0]):
+            out[i, k] = 0.0
+    for j in range(balls):
+        for k in range(3):
+            out[k * balls + j, (3 + k) * balls + j] = 1.0
+        for i in range(6):
+            for k in range(9):
+                out[(3 + i) * balls + j, k * balls + j] = blocks[J_B + (i * 9 + k) * _S + j]
+            for g in range(2 * N_BODY):
+                out[(3 + i) * balls + j, body + g] = blocks[J_C + (i * 34 + g) * _S + j]
+        for i in range(N_BODY):
+            for k in range(9):
+                out[body + N_BODY + i, k * balls + j] = blocks[J_D + (i * 9 + k) * _S + j]
+    for i in range(N_BODY):
+        out[body + i, body + N_BODY + i] = 1.0
+        for g in range(2 * N_BODY):
+            out[body + N_BODY + i, body + g] = blocks[J_E + i * 34 + g]
+
+
+class FirstOrder:
+    """The initial value problem that starts at a bearing's present state, its speed held.
+
+    Attributes
+    ----------
+    start : ndarray
+        ``x`` at t = 0.
+    scale : ndarray
+        Size of what moves in each component, for absolute tolerances.
+    rings : ndarray of int
+        Places in ``x`` of the six ring velocities.
+    """
+
+    def __init__(self, bearing: Arrays) -> None:
+        self.p = bearing.p
+        balls = int(self.p[at.P_BALLS])
+        self.c = bearing.s[at.S_C : at.S_C + at.C_SIZE].copy()
+        self.angle = float(bearing.s[at.S_ANGLE])
+        self.speed = float(bearing.s[at.S_SPEED])
+        y = bearing.s[at.S_Y : at.S_Y + Y_SIZE]
+        rows = y[: 9 * _S].reshape(9, _S)[:, :balls]
+        self.start = np.concatenate([rows.ravel(), y[Y_Q:]])
+        self.size = self.start.size
+        self.rings = RINGS - Y_Q + 9 * balls
+        self.scale = np.concatenate([_BALL_SCALE.repeat(balls), _BODY_SCALE, 1e4 * _BODY_SCALE])
+        self._w = np.zeros(bearing.w.size)
+        self._f = np.zeros(at.F_SIZE)
+        self._y = np.zeros(Y_SIZE)
+        self._blocks = np.zeros(at.J_SIZE)
+
+    def rate(self, t: float, x: NDArray[np.float64], dx: NDArray[np.float64]) -> None:
+        """Fill ``dx`` with the rates at ``t`` (s), ``x``."""
+        first_order(self.p, self.c, self.angle, self.speed, t, x, self._w, self._f, self._y, dx)
+
+    def jacobian(self, t: float, x: NDArray[np.float64], out: NDArray[np.float64]) -> None:
+        """Fill ``out`` (size x size, C order) with the Jacobian of the rates."""
+        first_order_jacobian(
+            self.p, self.c, self.angle, self.speed, t, x, self._w, self._blocks, self._y, out
+        )
+
+
+# Micrometres, and the velocities that go with them at some 1e4 rad/s; a ball's orbit and spin wander more.
+_BALL_SCALE = np.array([1e-6, 1e-6, 1e-4, 1e-2, 1e-2, 1.0, 10.0, 10.0, 10.0])
+_BODY_SCALE = np.array([1e-6] * 3 + [1e-4] * 2 + [1e-6] * 3 + [1e-4] * 3 + [1e-6] * 3 + [1e-4] * 3)

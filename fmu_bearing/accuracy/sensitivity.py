@@ -1,0 +1,268 @@
+"""How much rests on what the sources leave open: every assumed value of a scene, moved one by one.
+
+Each change is run at level ``full`` from its own quasi-static state, and its figures are held against those
+of the scene as it is. A value is moved down and up by a fifth; where a fifth of the value is no fair step, by
+what ``ASSUMED`` says.
+"""
+
+import math
+import pathlib
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import ValidationError
+
+from fmu_bearing.prepare.sound import sound_key
+from fmu_bearing.run.arrays import Refused
+from fmu_bearing.run.metrics import INAUDIBLE, Figures, measure
+from fmu_bearing.run.table import machine, markdown, write_csv
+from fmu_bearing.scene import Scene
+from fmu_bearing.scene.read import with_fidelity
+from fmu_bearing.scene.values import replaced, value_at
+
+SHARE = 0.2
+
+Moves = Callable[[Any], tuple[Any, Any]]
+
+
+def by_share(value: float) -> tuple[float, float]:
+    """Return a fifth less and a fifth more."""
+    return (1.0 - SHARE) * value, (1.0 + SHARE) * value
+
+
+def conformity(value: float) -> tuple[float, float]:
+    """Return a groove radius over ball diameter whose excess over one half is a fifth less, and more."""
+    return 0.5 + (1.0 - SHARE) * (value - 0.5), 0.5 + (1.0 + SHARE) * (value - 0.5)
+
+
+def by(step: float) -> Moves:
+    """Return a move by ``step`` in the value's own unit, or to whole neighbours."""
+    return lambda value: (value - step, value + step)
+
+
+def to(first: Any, second: Any) -> Moves:
+    """Return a move to two given values."""
+    return lambda value: (first, second)
+
+
+#: Dotted key of the scene, and how it is moved.
+ASSUMED: dict[str, Moves] = {
+    "bearing.pitch_diameter_mm": by(0.1),
+    "bearing.inner_conformity": conformity,
+    "bearing.outer_conformity": conformity,
+    "bearing.inner_ring_outer_diameter_mm": by(0.5),
+    "bearing.outer_ring_inner_diameter_mm": by(0.5),
+    "bearing.contact_damping_us": by_share,
+    "bearing.race_roughness_um": by_share,
+    "bearing.ball_roughness_um": by_share,
+    "bearing.cage.bore_mm": by(0.5),
+    "bearing.cage.land_clearance_mm": by_share,
+    "bearing.cage.pocket_damping_N_s_m": by_share,
+    "bearing.cage.pocket_friction": by_share,
+    "lubricant.viscosity_Pa_s": by_share,
+    "lubricant.pressure_viscosity_1_GPa": by_share,
+    "lubricant.density_kg_m3": by_share,
+    "lubricant.vogel_B_K": by_share,
+    "lubricant.vogel_C_K": by_share,
+    "lubricant.walther_slope": by_share,
+    "lubricant.eyring_stress_MPa": by_share,
+    "lubricant.traction_max": by_share,
+    "lubricant.traction_slide_to_roll": by_share,
+    "lubricant.traction_floor_m_s": by_share,
+    "lubricant.land_viscosity_Pa_s": by_share,
+    "lubricant.oil_air_density_kg_m3": by_share,
+    "lubricant.drag_coefficient": by_share,
+    "mounting.pedestal_stiffness_N_m": by_share,
+    "mounting.pedestal_axial_ratio": by_share,
+    "mounting.pedestal_rotational_ratio_mm2": by_share,
+    "mounting.pedestal_damping_ratio": by_share,
+    "mounting.rotor.mass_kg": by_share,
+    "mounting.rotor.length_mm": by_share,
+    "mounting.rotor.diameter_mm": by_share,
+    "mounting.tilt_support.stiffness_N_m_rad": by_share,
+    "mounting.tilt_support.damping_ratio": by_share,
+    "mounting.flexure.outer_ring": to((2, 3, 4), (2, 3)),
+    "mounting.flexure.inner_ring": to((2,), ()),
+    "mounting.flexure.damping_ratio": by_share,
+    "mounting.flexure.outer_seat_stiffness_N_m": to(1e6, 1e7),
+    "mounting.flexure.inner_seat_stiffness_N_m": to(1e6, 1e7),
+    "mounting.housing.mass_kg": by_share,
+    "mounting.housing.diameter_mm": by(5.0),
+    "mounting.housing.length_mm": by_share,
+    "mounting.housing.front_face_mm": by_share,
+    "imperfections.seed": by(1),
+    "imperfections.unbalance_um": by_share,
+    "imperfections.ball_diameter_spread_nm": by_share,
+    "imperfections.inner_race_amplitude_um": by_share,
+    "imperfections.outer_race_amplitude_um": by_share,
+    "imperfections.lowest_order": to(1, 3),
+    "imperfections.highest_order": by(4),
+    "imperfections.ball_waviness_nm": to(0.0, 20.0),
+}
+QUICK = ("bearing.inner_conformity", "lubricant.traction_max", "lubricant.walther_slope")
+
+COLUMNS = (
+    "parameter", "value", "moved to", "inner ring rms, %", "outer ring rms, %", "contact load, %",
+    "contact angle, deg", "friction torque, %", "cage speed, %", "sound, dB(A)",
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Row:
+    """One move: what it changed, or why there is nothing to say.
+
+    ``changes``: of rms velocity of inner and outer ring, load, angle (rad), torque, cage speed, all but the
+    angle relative, and of the level (dB) at the microphone where it changed most; NaN: does not apply.
+    """
+
+    key: str
+    value: Any
+    moved: Any
+    changes: tuple[float, ...] = ()
+    remark: str = ""
+
+    def cells(self) -> list[str]:
+        """Texts in the order of ``COLUMNS``."""
+        head = [self.key, _shown(self.value), _shown(self.moved)]
+        if not self.changes:
+            return [*head, self.remark, *[""] * (len(COLUMNS) - 4)]
+        inner, outer, load, angle, torque, cage, level = self.changes
+        percents = [f"{100 * x:+.2f}" if math.isfinite(x) else "" for x in (inner, outer, load, torque, cage)]
+        sound = f"{level:+.2f}" if math.isfinite(level) else ""
+        percents.insert(3, f"{math.degrees(angle):+.3f}")
+        return [*head, *percents, sound]
+
+
+@dataclass(frozen=True)
+class Sensitivity:
+    """Rows of one scene, and the figures of the scene as it is."""
+
+    scene: str
+    rpm: float
+    warm_up: float
+    window: float
+    base: Figures
+    rows: tuple[Row, ...]
+
+    def cells(self) -> list[list[str]]:
+        """Texts of all rows."""
+        return [row.cells() for row in self.rows]
+
+    def markdown(self) -> str:
+        """Return the study as a page."""
+        b = self.base
+        sound = ", ".join(f"{level:.1f}" for level in b.levels)
+        return (
+            f"# What rests on assumed values: {self.scene}, {self.rpm:,.0f} r/min\n\n{machine()}\n\n"
+            "Made by `fmu-bearing sensitivity`. One value at a time, level `full`, figures over "
+            f"{1e3 * self.window:g} ms after {1e3 * self.warm_up:g} ms; sound by rung compact. Unmoved: "
+            f"rms ring velocity {1e3 * b.ring_rms[0]:.3g} (inner) and {1e3 * b.ring_rms[1]:.3g} mm/s "
+            f"(outer), contact load {b.load[0]:.4g} N, contact angle {math.degrees(b.angle[0]):.2f} deg "
+            "(both inner race), "
+            f"friction torque {1e3 * b.torque:.3g} N mm, cage speed {b.cage_ratio:.4f} of the shaft's"
+            + (f", sound {sound} dB(A) at the microphones" if sound else "")
+            + ". The last column is that of the microphone where it changed most.\n\n"
+            + markdown(COLUMNS, self.cells())
+        )
+
+
+def _shown(value: Any) -> str:
+    return f"{value:.6g}" if isinstance(value, int | float) else str(value)
+
+
+def changed(scene: Scene, key: str, value: Any) -> Scene:
+    """Return the scene with another value at a dotted key; ``ValidationError`` where it is refused."""
+    return Scene.model_validate(replaced(scene, {key: value}))
+
+
+def sensitivity(
+    scene: Scene,
+    keys: Sequence[str] = tuple(ASSUMED),
+    *,
+    warm_up: float = 0.03,
+    window: float = 0.06,
+    track: Callable[[Sequence[tuple[str, Any]]], Iterable[tuple[str, Any]]] = iter,
+) -> Sensitivity:
+    """Move each of ``keys`` that the scene has.
+
+    Parameters
+    ----------
+    scene : Scene
+        Computed at level full, whatever its own; its sound by rung compact where it asks for boundary
+        elements, which would be solved anew for every geometry.
+    warm_up, window : float
+        Time (s) that each run takes before it is measured, and over which it is.
+    track : callable
+        Wraps the moves (key and new value), for a progress bar.
+
+    Raises
+    ------
+    Refused
+        If the engine refuses the scene as it is.
+    """
+    scene = with_fidelity(scene, level="full")
+    if scene.sound is not None and scene.sound.rung == "bem" and scene.sound.radiator != "baffle":
+        plain = {"rung": "compact", "reflecting_plane_mm": None}
+        scene = scene.model_copy(update={"sound": scene.sound.model_copy(update=plain)})
+    blocks: dict[str, NDArray[np.float64]] = {}
+    base = measure(scene, _sound(scene, blocks), warm_up, window).figures
+    moves = [
+        (key, moved)
+        for key in keys
+        if value_at(scene, key) is not None
+        for moved in ASSUMED[key](value_at(scene, key))
+        if moved != value_at(scene, key)
+    ]
+    rows = []
+    for key, moved in track(moves):
+        value = value_at(scene, key)
+        try:
+            other = changed(scene, key, moved)
+            figures = measure(other, _sound(other, blocks), warm_up, window).figures
+        except (Refused, ValidationError, ValueError) as problem:
+            reason = "the scene does not allow it" if isinstance(problem, ValidationError) else str(problem)
+            rows.append(Row(key, value, moved, remark=reason))
+            continue
+        rows.append(Row(key, value, moved, changes(figures, base)))
+    return Sensitivity(scene.name, scene.operation.speed_rpm, warm_up, window, base, tuple(rows))
+
+
+def changes(found: Figures, base: Figures) -> tuple[float, ...]:
+    """Return what ``Row.changes`` holds, from two sets of figures."""
+
+    def of(value: float, before: float) -> float:
+        return value / before - 1.0 if before else math.nan
+
+    sound = [max(a, INAUDIBLE) - max(b, INAUDIBLE) for a, b in zip(found.levels, base.levels, strict=True)]
+    return (
+        of(found.ring_rms[0], base.ring_rms[0]),
+        of(found.ring_rms[1], base.ring_rms[1]),
+        of(found.load[0], base.load[0]),
+        found.angle[0] - base.angle[0],
+        of(found.torque, base.torque),
+        of(found.cage_ratio, base.cage_ratio),
+        max(sound, key=abs, default=math.nan),
+    )
+
+
+def _sound(scene: Scene, blocks: dict[str, NDArray[np.float64]]) -> NDArray[np.float64]:
+    """Sound block of a scene, computed once for all that radiate alike."""
+    # slow to load, and the command line has other uses of this module's tables
+    from fmu_bearing.acoustics.filters.design import sound_parameters
+
+    if scene.sound is None:
+        return np.empty(0)
+    key = sound_key(scene)
+    if key not in blocks:
+        blocks[key] = sound_parameters(scene)
+    return blocks[key]
+
+
+def write(study: Sensitivity, folder: pathlib.Path) -> None:
+    """Write ``sensitivity.md`` and ``sensitivity.csv`` into a folder, which is made."""
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "sensitivity.md").write_text(study.markdown(), "utf-8")
+    write_csv(folder / "sensitivity.csv", COLUMNS, study.cells())

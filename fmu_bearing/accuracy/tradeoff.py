@@ -1,0 +1,220 @@
+"""What accuracy costs: levels, methods, steps, strips and terms against a reference, with their speed.
+
+Every variant runs from its own quasi-static state through its own warm-up; then its figures are taken over
+the same window as the reference's. The reference is level ``full`` by the default method at ``REFERENCE``,
+and two things are held against it: over the whole run, warm-up included, the explicit method at ``WITNESS``,
+which the study asks to agree to 1e-6; and over ``CHECK`` after the warm-up, from one state, the two
+integrators of :mod:`fmu_bearing.accuracy.reference`. The first is larger: where balls stand on their orbit is
+what nothing pulls back, so differences of the warm-up stay.
+"""
+
+import pathlib
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from fmu_bearing.accuracy.reference import explicit_rings, implicit_rings, relative_error
+from fmu_bearing.prepare.sound import sound_block
+from fmu_bearing.run.arrays import Arrays, Refused
+from fmu_bearing.run.metrics import COMMUNICATION, SAMPLE, Errors, errors, measure
+from fmu_bearing.run.settings import TERMS, Setting
+from fmu_bearing.run.table import machine, markdown, number, write_csv
+from fmu_bearing.scene import Scene
+
+CHECK = 5e-3  # s over which two integrators are compared
+
+
+#: Settings of the reference: 1 us is an error of 4e-7 in the 7003C's trajectory, 20,000 r/min, 150 ms.
+REFERENCE = Setting(tolerance=1e-6, max_step=1e-6)
+#: What it has to agree with: 0.5 us and 0.25 us agree to 2e-8 there.
+WITNESS = Setting(method="rk4", tolerance=1e-6, max_step=5e-7)
+_FULL = Setting()
+_FAST = Setting(method="fast")
+
+
+def _steps(base: Setting, *pairs: tuple[float, float]) -> tuple[Setting, ...]:
+    """Return ``base`` at pairs of tolerance and largest step (us)."""
+    return tuple(replace(base, tolerance=tolerance, max_step=step / 1e6) for tolerance, step in pairs)
+
+
+#: What is swept: one thing at a time from the scenes' default, and a small grid of tolerance and step.
+SETTINGS = (
+    *_steps(_FULL, (1e-2, 40), (1e-2, 20), (1e-3, 20), (1e-3, 10), (1e-4, 10), (1e-4, 5), (1e-5, 4)),
+    *_steps(_FAST, (1e-2, 40), (1e-2, 20), (1e-3, 20), (1e-3, 10), (1e-4, 10), (1e-4, 5), (1e-5, 4)),
+    *_steps(Setting(method="trbdf2"), (1e-3, 20), (1e-3, 10), (1e-4, 5)),
+    *_steps(Setting(method="rk4"), (1e-3, 1), (1e-3, 0.5)),
+    *_steps(Setting("rings"), (1e-3, 20), (1e-3, 10), (1e-4, 5)),
+    Setting("response"),
+    replace(_FULL, strips=3),
+    replace(_FULL, strips=1),
+    *(replace(_FULL, without=(term,)) for term in TERMS),
+    replace(_FULL, strips=1, without=TERMS),
+    replace(_FAST, strips=1, without=TERMS),
+)
+QUICK = (_FULL, _FAST, Setting("rings"), Setting("response"), replace(_FULL, strips=1))
+
+COLUMNS = (
+    "level", "method", "tolerance", "max step, us", "strips", "left out", "trajectory", "ring rms", "load",
+    "torque", "dB(A)", "sim/wall", "sim/CPU", "remark",
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Row:
+    """One line: a setting, how far it is from the reference, how fast it is.
+
+    Attributes
+    ----------
+    errors : Errors or None
+        None where the engine refused or does not have it; ``remark`` then says so.
+    trajectory : float
+        Rms difference of the six ring velocities over the rms of their fluctuation; NaN for levels that are
+        not ``full``: their phases are their own.
+    wall, cpu : float
+        Simulated s per s, without sound.
+    """
+
+    setting: Setting
+    errors: Errors | None = None
+    trajectory: float = np.nan
+    wall: float = np.nan
+    cpu: float = np.nan
+    remark: str = ""
+
+    def cells(self) -> list[str]:
+        """Texts in the order of ``COLUMNS``."""
+        s, e = self.setting, self.errors
+        found = [""] * 4 if e is None else [number(x) for x in (e.ring_rms, e.load, e.torque, e.level)]
+        method = s.method if s.level == "full" else ""
+        # the linear response is a sum of lines: nothing is stepped
+        steps = ["", ""] if s.level == "response" else [f"{s.tolerance:g}", f"{1e6 * s.max_step:g}"]
+        return [
+            s.level, method, *steps, str(s.strips), s.left_out,
+            number(self.trajectory), *found, number(self.wall), number(self.cpu), self.remark,
+        ]  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Tradeoff:
+    """The rows of one scene, and what is known of the reference they are held against.
+
+    Attributes
+    ----------
+    agreement : float
+        Relative difference of the trajectories of reference and witness over the window; NaN where the
+        engine lacks or refuses the witness.
+    pair : float
+        Relative difference of the two integrators over ``CHECK``, from one state.
+    reference_error : float
+        Relative difference of the reference's settings from the explicit one of the pair.
+    """
+
+    scene: str
+    rpm: float
+    warm_up: float
+    window: float
+    agreement: float
+    pair: float
+    reference_error: float
+    rows: tuple[Row, ...]
+
+    def cells(self) -> list[list[str]]:
+        """Texts of all rows."""
+        return [row.cells() for row in self.rows]
+
+    def markdown(self) -> str:
+        """Return the study as a page."""
+        return _PAGE.format(
+            scene=self.scene, rpm=self.rpm, machine=machine(), warm_up=1e3 * self.warm_up,
+            window=1e3 * self.window, check=1e3 * CHECK, agreement=number(self.agreement) or "?",
+            pair=self.pair, own=self.reference_error, step=1e6 * REFERENCE.max_step,
+            tolerance=REFERENCE.tolerance, table=markdown(COLUMNS, self.cells()),
+        )  # fmt: skip
+
+
+_PAGE = """# Accuracy and cost: {scene}, {rpm:,.0f} r/min
+
+{machine}
+
+Made by `fmu-bearing tradeoff`, which `docs/tradeoff.md` explains. Figures over {window:g} ms after a warm-up
+of {warm_up:g} ms. Errors of trajectory, rms ring velocity, contact load and friction torque are relative;
+those of sound are in dB(A) at the worst microphone. Speeds are without sound.
+
+Reference: level `full`, `esdirk4`, {step:g} us, tolerance {tolerance:g}. Trajectories of it and of `rk4` at
+0.5 us, each with its own warm-up, agree to {agreement} over the whole window. Over {check:g} ms from one
+state Runge-Kutta at 40 ns and ESDIRK4 at 0.5 us agree to {pair:.0e}; the reference's settings are {own:.0e}
+from them.
+
+{table}"""
+
+
+def check(scene: Scene, warm_up: float, length: float) -> tuple[float, float]:
+    """Return the agreement of two integrators over ``length`` (s), and the error of ``REFERENCE`` there."""
+    bearing = Arrays.of(REFERENCE.scene(scene))
+    bearing.init()
+    bearing.run(warm_up, COMMUNICATION)
+    exact, _ = explicit_rings(bearing, length, SAMPLE, 4e-8)
+    other, _ = implicit_rings(bearing, length, SAMPLE, 5e-7, 1e-8)
+    own, _ = implicit_rings(bearing, length, SAMPLE, REFERENCE.max_step, REFERENCE.tolerance)
+    return relative_error(other, exact), relative_error(own, exact)
+
+
+def tradeoff(
+    scene: Scene,
+    settings: Sequence[Setting] = SETTINGS,
+    *,
+    warm_up: float = 0.05,
+    window: float = 0.1,
+    budget: float = 0.4,
+    track: Callable[[Sequence[Setting]], Iterable[Setting]] = iter,
+) -> Tradeoff:
+    """Run a scene in every setting and hold each against the reference.
+
+    Parameters
+    ----------
+    scene : Scene
+        At its own speed, loads and temperatures; whatever its ``fidelity`` says but for terms left out.
+    settings : sequence of Setting
+    warm_up, window : float
+        Time (s) that each variant runs before it is measured, and over which it is.
+    budget : float
+        Wall time (s) of each of two timed runs.
+    track : callable
+        Wraps the settings, for a progress bar.
+
+    Raises
+    ------
+    Refused
+        If the engine refuses the reference.
+    """
+    sound = sound_block(scene)
+    pair, own = check(scene, warm_up, min(CHECK, 0.5 * window))
+    truth = measure(REFERENCE.scene(scene), sound, warm_up, window)
+    agreement = np.nan
+    if WITNESS.carries(scene):
+        with suppress(Refused):
+            witness = measure(WITNESS.scene(scene), np.empty(0), warm_up, window)
+            agreement = relative_error(truth.rings, witness.rings)
+    rows = []
+    for setting in track(settings):
+        if not setting.carries(scene):
+            rows.append(Row(setting, remark="knows rigid rings only"))
+            continue
+        try:
+            run = measure(setting.scene(scene), sound, warm_up, window, budget=budget)
+        except Refused as problem:
+            rows.append(Row(setting, remark=f"refused: {problem}"))
+            continue
+        error = relative_error(run.rings, truth.rings) if setting.level == "full" else np.nan
+        rows.append(Row(setting, errors(run.figures, truth.figures), error, run.wall, run.cpu))
+    rpm = scene.operation.speed_rpm
+    return Tradeoff(scene.name, rpm, warm_up, window, agreement, pair, own, tuple(rows))
+
+
+def write(study: Tradeoff, folder: pathlib.Path) -> None:
+    """Write ``tradeoff.md`` and ``tradeoff.csv`` into a folder, which is made."""
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "tradeoff.md").write_text(study.markdown(), "utf-8")
+    write_csv(folder / "tradeoff.csv", COLUMNS, study.cells())

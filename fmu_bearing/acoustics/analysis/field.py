@@ -1,0 +1,216 @@
+"""Pressure at any place from recorded channels, by exact multiplication in the frequency domain.
+
+The engine streams sound to the scene's microphones through short filters. This module takes the channels that
+such a run leaves behind (one row per sample at ``RATE``, behind decimator and high-pass) to microphones that
+the run did not know, through the same paths, without filters: one long transform of the channels, the
+decimator's response divided out, times each path's transfer function between its tabulated frequencies.
+"""
+
+from collections.abc import Callable, Hashable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.fft import irfft, next_fast_len, rfft
+from scipy.interpolate import CubicSpline
+from scipy.signal import get_window
+
+from fmu_bearing.acoustics.filters.fir import decimator_response
+from fmu_bearing.acoustics.radiation.frequencies import BAND, fit_frequencies
+from fmu_bearing.acoustics.radiation.radiators import Air, Path, Radiators
+from fmu_bearing.acoustics.registry import Ladder
+from fmu_bearing.engine import layout_sound as places
+
+Position = tuple[float, float, float]
+_Responses = Callable[[NDArray[np.float64]], dict[tuple[int, float], NDArray[np.complex128]]]
+
+#: Rows that a recording must reach beyond the last pressure wanted: the band limit rings that long (5 ms).
+TAIL = 256
+_STOP = 24_000.0  # Hz: between the end of the band and here everything fades out
+_SETTLE = 4096  # rows of zeros behind the recording, so that the end does not reach round to the beginning
+_BLOCK = 16_384  # frequencies worked on at once: bounds the memory
+
+
+@dataclass(frozen=True)
+class Circle:
+    """Microphones that share transfer functions: their places in the list asked for, and their paths."""
+
+    members: tuple[int, ...]
+    paths: tuple[Path, ...]
+
+
+def circles(
+    rung: str,
+    radiators: Radiators,
+    air: Air,
+    positions: Sequence[Position],
+    harmonics: int,
+    **options: Any,
+) -> Iterator[Circle]:
+    """Yield the paths from channels to microphones, circle by circle.
+
+    Parameters
+    ----------
+    rung : str
+        Any but ``"table"``, which knows its own microphones only.
+    positions : sequence of (x, y, z)
+        Places in m, bearing centre at the origin.
+    harmonics : int
+        Highest circumferential order of the balls among the channels.
+    options
+        Fields of `rungs.Ladder` beyond these: reflecting plane, flexural modes.
+
+    Raises
+    ------
+    ValueError
+        On the rung ``table``, an unknown rung, or a microphone inside a body.
+    """
+    if rung == "table":
+        raise ValueError('rung = "table" cannot be evaluated at other places: use "bem" or "compact"')
+    ladder = Ladder(rung, radiators, air, harmonics, **options)
+    for members in ladder.circles(positions):
+        yield Circle(tuple(members), tuple(ladder.paths(positions, members)))
+
+
+def form_of(rung: str) -> str:
+    """Return which channels a rung hears: accelerations (``"vectors"``), or a paper's own, by its name."""
+    return rung if rung in ("paper", "paper_contacts") else "vectors"
+
+
+def kind_of(path: Path) -> str:
+    """Source type of a path: one of ``places.KINDS``."""
+    return places.KINDS[path.kind]
+
+
+class Channels:
+    """Spectra of recorded channels, ready to be taken to microphones.
+
+    Parameters
+    ----------
+    history : ndarray, shape (rows, channels)
+        Channel history from the engine's first sample on; rows are 1 / ``RATE`` apart.
+    longest : float
+        Longest flight (s) it will be used for.
+    """
+
+    def __init__(self, history: NDArray[np.float64], longest: float = 0.1) -> None:
+        self.rows, self.longest = len(history), longest
+        self.size = int(next_fast_len(self.rows + _SETTLE + round(longest * places.RATE), real=True))
+        frequency = np.fft.rfftfreq(self.size, 1.0 / places.RATE).astype(np.float64)
+        self.frequency = frequency[frequency < _STOP]
+        fade = np.clip((self.frequency - BAND[1]) / (_STOP - BAND[1]), 0.0, 1.0)
+        shape = np.empty(len(self.frequency), dtype=complex)
+        for block in _blocks(len(shape)):
+            shape[block] = np.cos(0.5 * np.pi * fade[block]) ** 2 / decimator_response(self.frequency[block])
+        self.spectra = np.empty((history.shape[1], len(shape)), dtype=complex)
+        for c in range(history.shape[1]):
+            self.spectra[c] = rfft(history[:, c], self.size)[: len(shape)] * shape
+
+    def pressures(
+        self, circle: Circle, label: Callable[[Path], Hashable] = lambda path: ""
+    ) -> dict[Hashable, NDArray[np.float64]]:
+        """Pressure (Pa) at the microphones of one circle, shape (members, rows), split by ``label``.
+
+        No latency: row k is what arrives at time k / ``RATE``. The last `TAIL` rows are not to be used.
+        """
+        members = len(circle.members)
+        parts = {label(path): np.zeros((members, self.size // 2 + 1), complex) for path in circle.paths}
+        responses = _interpolated(circle.paths)
+        for block in _blocks(len(self.frequency)):
+            known = responses(self.frequency[block])
+            for name in parts:
+                chosen = [path for path in circle.paths if label(path) == name]
+                heard = np.array([self.spectra[path.channel, block] * known[_key(path)] for path in chosen])
+                weights = np.array([path.weights for path in chosen]).T
+                parts[name][:, block] = weights @ heard
+        return {name: irfft(part, self.size, axis=1)[:, : self.rows] for name, part in parts.items()}
+
+
+class Blocks:
+    """Short-time spectra of recorded channels: mean squares at many places, quickly.
+
+    Blocks of 1 / ``resolution`` s with half overlap (Hann window) are averaged in energy. Against the exact
+    mean square of the same recording, this weighs its two ends less.
+
+    Parameters
+    ----------
+    channels : ndarray, shape (samples, channels)
+        Channels at ``RATE``.
+    resolution : float
+        Spacing of frequencies (Hz).
+
+    Raises
+    ------
+    ValueError
+        When the recording is shorter than one block.
+    """
+
+    def __init__(self, channels: NDArray[np.float64], resolution: float) -> None:
+        size = round(places.RATE / resolution)
+        if size < 64 or size > len(channels):
+            raise ValueError(
+                f"a resolution of {resolution:g} Hz needs blocks of {size} samples (64 or more), the "
+                f"recording has {len(channels)}"
+            )
+        window = get_window("hann", size)
+        frequency = np.fft.rfftfreq(size, 1.0 / places.RATE).astype(np.float64)
+        keep = (frequency > 0.0) & (frequency <= BAND[1])
+        self.frequency = frequency[keep]
+        starts = range(0, len(channels) - size + 1, max(1, size // 2))
+        scale = np.sqrt(2.0 / size / np.sum(window**2) / len(starts)) / decimator_response(self.frequency)
+        # shape (channels, blocks, frequencies): rms per bin once squared and summed over blocks
+        self.spectra = np.array(
+            [rfft(channels[start : start + size].T * window, axis=1)[:, keep] * scale for start in starts]
+        ).transpose(1, 0, 2)
+
+    def mean_squares(
+        self, circle: Circle, label: Callable[[Path], Hashable] = lambda path: ""
+    ) -> dict[Hashable, NDArray[np.float64]]:
+        """Mean square pressure (Pa^2) per bin at one circle's microphones, (members, bins) by label."""
+        known = _interpolated(circle.paths)(self.frequency)
+        found: dict[Hashable, NDArray[np.float64]] = {}
+        for name in dict.fromkeys(label(path) for path in circle.paths):
+            chosen = [path for path in circle.paths if label(path) == name]
+            weights = np.array([path.weights for path in chosen]).T
+            total = np.zeros((len(circle.members), len(self.frequency)))
+            places_of = [path.channel for path in chosen]
+            response = np.array([known[_key(path)] for path in chosen])
+            for block in range(self.spectra.shape[1]):
+                total += np.abs(weights @ (self.spectra[places_of, block] * response)) ** 2
+            found[name] = total
+        return found
+
+
+def _key(path: Path) -> tuple[int, float]:
+    """Identity of a transfer function: sources that share a response share its interpolant."""
+    return id(path.response), path.flight
+
+
+def _interpolated(paths: Sequence[Path]) -> _Responses:
+    """Return a function that gives the responses of all paths at frequencies, by `_key`.
+
+    One cubic spline through the responses without their flight times, conjugate at negative frequencies.
+    Beyond the last tabulated frequency, where everything fades, the value there is held.
+    """
+    f = fit_frequencies()
+    distinct = {_key(path): path for path in paths}
+    flights = np.array([path.flight for path in distinct.values()])
+    still = np.array([path.response for path in distinct.values()]) * np.exp(
+        2j * np.pi * np.outer(flights, f)
+    )
+    spline = CubicSpline(
+        np.concatenate([-f[::-1], f]), np.concatenate([still[:, ::-1].conj(), still], axis=1), axis=1
+    )
+
+    def evaluate(frequency: NDArray[np.float64]) -> dict[tuple[int, float], NDArray[np.complex128]]:
+        found = spline(np.minimum(frequency, f[-1]))
+        turns = {flight: np.exp(-2j * np.pi * frequency * flight) for flight in set(flights)}
+        return {key: row * turns[key[1]] for key, row in zip(distinct, found, strict=True)}
+
+    return evaluate
+
+
+def _blocks(count: int) -> Iterator[slice]:
+    for start in range(0, count, _BLOCK):
+        yield slice(start, min(start + _BLOCK, count))

@@ -1,0 +1,10 @@
+"""Filters for the engine, from transfer functions to the packed sound block.
+
+=============  ==============================================================================
+``fir``        the decimator, and filters fitted to transfer functions
+``weighting``  A-weighting, third octaves, levels
+``blocks``     direct form or convolution by blocks, whichever costs less
+``pack``       lays everything flat for the engine
+``design``     from a scene to the engine's block; how well filters follow
+=============  ==============================================================================
+"""

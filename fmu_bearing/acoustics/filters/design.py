@@ -1,0 +1,297 @@
+"""The sound block of the engine's parameters: transfer functions turned into filters and packed flat."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.acoustics.filters.blocks import Wire
+from fmu_bearing.acoustics.filters.fir import delay_of, fit
+from fmu_bearing.acoustics.filters.pack import pack
+from fmu_bearing.acoustics.radiation.radiators import Air, Housing, Path, Radiators, Ring
+from fmu_bearing.acoustics.radiation.table import Table, read_table, select
+from fmu_bearing.acoustics.registry import Ladder, Position
+from fmu_bearing.elastic.modes import ring_modes
+from fmu_bearing.engine import layout_sound as at
+from fmu_bearing.scene import Scene, si
+
+__all__ = ["FilterError", "build", "filter_errors", "ladder_of", "radiators_of", "sound_parameters"]
+
+# Paths this far below their component's strongest one, at all frequencies, are left out.
+_NEGLIGIBLE = 1e-7
+# Worst deviation of a filter from its transfer function that is let pass, at any one frequency: 3 %, 0.27 dB.
+# Bodies without sharp resonances keep -50 dB; what each path has is told by `filter_errors`.
+_TOLERANCE = 10 ** (-30 / 20)
+_SILENT = 1e-12  # weight of a microphone on a node line, where rounding leaves a little
+_ALIKE = 12  # decimals to which weights are compared
+
+
+@dataclass(frozen=True)
+class FilterError:
+    """How well one filter follows its transfer function.
+
+    Attributes
+    ----------
+    microphones : tuple of int
+        Indices of the microphones that share it.
+    component, kind : str
+        Whose sound it carries, see ``engine.sound.places``.
+    channel, taps : int
+        Channel it filters and its length.
+    error : float
+        Largest deviation from 20 Hz to 20 kHz in dB, relative to the larger of the path's own magnitude and
+        its component's strongest one less 30 dB.
+    """
+
+    microphones: tuple[int, ...]
+    component: str
+    kind: str
+    channel: int
+    taps: int
+    error: float
+
+
+@dataclass(frozen=True)
+class Group:
+    """Microphones that share filters: weights (output, microphone) of the outputs from ``first`` on."""
+
+    members: tuple[int, ...]
+    first: int
+    weights: NDArray[np.float64]
+
+
+def sound_parameters(scene: Scene, modes: Sequence[Any] | None = None) -> NDArray[np.float64]:
+    """Sound block of a scene for the kernels in `engine.sound`; empty when the scene has no sound.
+
+    Parameters
+    ----------
+    modes
+        Elastic modes of the rings in the order of the engine's coordinates, two channels each; by default
+        the scene's.
+
+    Raises
+    ------
+    ValueError
+        When a microphone lies inside a body, the table does not serve, or a filter does not follow its
+        transfer function.
+    """
+    if scene.sound is None or not scene.microphones:
+        return np.zeros(0)
+    positions = [position for _, position in scene.microphones]
+    ladder = ladder_of(scene, modes)
+    return _block(ladder, positions, details=scene.sound.details, thirds=scene.sound.third_octaves)
+
+
+def filter_errors(scene: Scene, modes: Sequence[Any] | None = None) -> list[FilterError]:
+    """How well the filters of a scene follow their transfer functions, the worst first; empty: no sound.
+
+    Raises
+    ------
+    ValueError
+        As `sound_parameters`.
+    """
+    if scene.sound is None or not scene.microphones:
+        return []
+    errors: list[FilterError] = []
+    _design(ladder_of(scene, modes), [position for _, position in scene.microphones], errors)
+    return sorted(errors, key=lambda found: -found.error)
+
+
+def ladder_of(scene: Scene, modes: Sequence[Any] | None = None) -> Ladder:
+    """Return what the paths of a scene with sound depend on besides its microphones.
+
+    Raises
+    ------
+    ValueError
+        When the scene has no sound, or its table does not serve.
+    """
+    if scene.sound is None:
+        raise ValueError(f"{scene.name} has no sound: add [sound]")
+    sound = si(scene.sound)
+    table = None
+    if scene.sound.rung == "table":
+        where = f"sound.table_file {scene.sound.table_file}"
+        table = select(read_table(str(scene.sound.table_file)), scene.microphones, where)
+    return Ladder(
+        scene.sound.rung, radiators_of(scene), Air(sound.air_density, sound.sound_speed),
+        int(scene.fidelity.ball_harmonics), ring_modes(scene) if modes is None else tuple(modes),
+        None if scene.sound.reflecting_plane_mm is None else sound.reflecting_plane, table,
+    )  # fmt: skip
+
+
+def radiators_of(scene: Scene) -> Radiators:
+    """Return what sounds in a scene, in m.
+
+    The housing's front face stands ahead (-X) of the bearing's end face.
+    """
+    bearing = si(scene.bearing)
+    cage = None
+    if scene.bearing.cage is not None:
+        body = si(scene.bearing.cage)
+        cage = Ring(body.outside_diameter, body.bore, body.width)
+    housing = None
+    if scene.sound is not None and scene.sound.radiator == "housing":
+        if scene.mounting.housing is None:
+            raise ValueError('sound.radiator = "housing" needs a table [mounting.housing]')
+        body = si(scene.mounting.housing)
+        centre = -0.5 * bearing.width - body.front_face + 0.5 * body.length
+        housing = Housing(body.diameter, body.length, centre)
+    return Radiators(
+        ball_count=int(bearing.ball_count),
+        ball_diameter=bearing.ball_diameter,
+        pitch_diameter=bearing.pitch_diameter,
+        inner_ring=Ring(bearing.inner_ring_outer_diameter, bearing.bore, bearing.width),
+        outer_ring=Ring(bearing.outside_diameter, bearing.outer_ring_inner_diameter, bearing.width),
+        cage=cage,
+        housing=housing,
+        contact_angle=bearing.contact_angle,
+        shaft=scene.mounting.rotor is not None,
+        baffle=scene.sound is not None and scene.sound.radiator == "baffle",
+    )
+
+
+def build(
+    rung: str,
+    radiators: Radiators,
+    air: Air,
+    microphones: Sequence[Position],
+    harmonics: int = 4,
+    *,
+    modes: Sequence[Any] = (),
+    plane: float | None = None,
+    table: Table | None = None,
+    details: bool = True,
+    thirds: bool = False,
+    levels: Sequence[int] | None = None,
+) -> NDArray[np.float64]:
+    """Sound block from plain numbers.
+
+    Parameters
+    ----------
+    rung
+        See `rungs`.
+    microphones
+        Places (x, y, z) in m, bearing centre at the origin.
+    harmonics
+        Highest circumferential order of the balls' sound.
+    modes, plane, table
+        See `rungs.Ladder`.
+    details
+        Whether Fast, Slow, energy sum and levels per source type are metered.
+    thirds
+        Whether third octaves are.
+    levels
+        Block lengths of the convolution (powers of two up to 512, ascending); empty: direct form; default:
+        the cheapest.
+
+    Raises
+    ------
+    ValueError
+        On another rung, a microphone inside a body, a block that is too long, or a filter that misses its
+        transfer function by more than -30 dB.
+    """
+    ladder = Ladder(rung, radiators, air, harmonics, tuple(modes), plane, table)
+    return _block(ladder, microphones, details=details, thirds=thirds, levels=levels)
+
+
+def _block(
+    ladder: Ladder,
+    microphones: Sequence[Position],
+    *,
+    details: bool,
+    thirds: bool,
+    levels: Sequence[int] | None = None,
+) -> NDArray[np.float64]:
+    wires, groups, sources = _design(ladder, microphones, [])
+    return pack(ladder, wires, groups, sources, details=details, thirds=thirds, levels=levels)
+
+
+def _design(
+    ladder: Ladder, microphones: Sequence[Position], errors: list[FilterError]
+) -> tuple[list[Wire], list[Group], list[tuple[int, int]]]:
+    """Design filters; groups of microphones; component and kind of every output. Adds to ``errors``."""
+    wires: list[Wire] = []
+    groups: list[Group] = []
+    sources: list[tuple[int, int]] = []
+    for members in ladder.circles(microphones):
+        paths = _audible(ladder.paths(microphones, members))
+        place = ", ".join(f"{1e3 * length:g}" for length in microphones[members[0]])
+        filters = _filters(paths, place, members, errors)
+        first = len(sources)
+        targets, rows = _outputs(ladder, paths, sources)
+        for path, taps, (target, factor) in zip(paths, filters, targets, strict=True):
+            wires.append(Wire(len(groups), path.channel, delay_of(path.flight), factor * taps, target))
+        groups.append(Group(tuple(members), first, np.array(rows).reshape(-1, len(members))))
+    return wires, groups, sources
+
+
+def _audible(paths: list[Path]) -> list[Path]:
+    """Leave out negligible paths and those on whose node lines all microphones stand."""
+    strongest = _strongest(paths)
+    return [
+        path
+        for path in paths
+        if np.abs(path.response).max() > _NEGLIGIBLE * strongest[path.component].max()
+        and np.abs(path.weights).max() > _SILENT
+    ]
+
+
+def _strongest(paths: list[Path]) -> dict[int, NDArray[np.float64]]:
+    """Magnitude of each component's strongest path at every frequency."""
+    return {
+        component: np.max([np.abs(path.response) for path in paths if path.component == component], axis=0)
+        for component in {path.component for path in paths}
+    }
+
+
+def _outputs(
+    ladder: Ladder, paths: list[Path], sources: list[tuple[int, int]]
+) -> tuple[list[tuple[int, float]], list[NDArray[np.float64]]]:
+    """Output and factor of each path, and the weights of the new outputs, whose sources are appended.
+
+    Paths of one component and kind whose weights are multiples of one another add up in one output: at a
+    single microphone all of them. The printed method squares each by itself.
+    """
+    known: dict[tuple[Any, ...], int] = {}
+    targets: list[tuple[int, float]] = []
+    rows: list[NDArray[np.float64]] = []
+    for number, path in enumerate(paths):
+        factor = float(path.weights[np.abs(path.weights).argmax()])
+        row = path.weights / factor
+        key = (
+            (number,)
+            if ladder.rung == "paper"
+            else (path.component, path.kind, tuple(np.round(row, _ALIKE) + 0.0))
+        )
+        if key not in known:
+            known[key] = len(sources)
+            sources.append((path.component, path.kind))
+            rows.append(row)
+        targets.append((known[key], factor))
+    return targets, rows
+
+
+def _filters(
+    paths: list[Path], place: str, members: Sequence[int], errors: list[FilterError]
+) -> list[NDArray[np.float64]]:
+    """Filter of each path; each component's errors count against its strongest path where its own is weak."""
+    filters: list[NDArray[np.float64]] = []
+    known: dict[int, tuple[NDArray[np.float64], float]] = {}  # a shared response has a shared filter
+    strongest = _strongest(paths)
+    for path in paths:
+        if id(path.response) not in known:
+            taps, error = fit(path.response, path.flight, strongest[path.component])
+            off = 20 * np.log10(max(error, 1e-15))
+            component, kind = at.COMPONENTS[path.component], at.KINDS[path.kind]
+            errors.append(FilterError(tuple(members), component, kind, path.channel, len(taps), off))
+            if error > _TOLERANCE:
+                raise ValueError(
+                    f"no filter follows the sound of the {component.replace('_', ' ')} at ({place}) mm: it "
+                    f"is off by {off:.0f} dB, allowed are {20 * np.log10(_TOLERANCE):.0f}; move that "
+                    "microphone or choose another sound.rung"
+                )
+            known[id(path.response)] = (taps, error)
+        filters.append(known[id(path.response)][0])
+    return filters

@@ -1,0 +1,63 @@
+"""Rung ``paper``: scalar sources of the multi-source paper.
+
+All sources stand in the bearing's centre (assumed:
+the paper leaves r open), cos(theta) = 1 (assumed), every body bare whatever the scene says about the housing.
+"""
+
+import numpy as np
+
+from fmu_bearing.acoustics.radiation import sources
+from fmu_bearing.acoustics.radiation.frequencies import fit_frequencies
+from fmu_bearing.acoustics.radiation.radiators import BALLS, CAGE, INNER, OUTER, Air, Path, Radiators
+from fmu_bearing.engine.layout_sound import (
+    AXIAL,
+    BALLS_KIND,
+    C_CYLINDERS,
+    C_PAPER_BALLS,
+    C_PISTONS,
+    C_POINTS,
+    RADIAL,
+    ROTATION,
+)
+
+
+def paper_paths(radiators: Radiators, air: Air, distance: float, count: int) -> list[Path]:
+    """Paths of the rung ``paper`` to ``count`` microphones at one distance, in the order of channels.
+
+    Radii the paper leaves open (all assumed): r0 of balls and of their point source is D/2; a ring's or
+    cage's point source, eq. 19 and cylinder use its outer radius; its piston uses its own two diameters. The
+    cylinder keeps eq. 36's magnitude with a causal phase (`sources.paper_cylinder_causal`): levels, being
+    energy sums, do not see the difference.
+    """
+    f = fit_frequencies()
+    flight = distance / air.sound_speed
+    weights = np.ones(count)
+    medium = (air.density, air.sound_speed)
+    paths = []
+    bodies = ((INNER, radiators.inner_ring), (OUTER, radiators.outer_ring), (CAGE, radiators.cage))
+    for body, (component, ring) in enumerate(bodies):
+        if ring is None:
+            continue
+        cylinder = sources.paper_cylinder_causal(f, distance, ring.outer / 2, *medium)
+        point = sources.paper_point(f, distance, ring.outer / 2, *medium)
+        piston = sources.paper_piston(f, distance, ring.outer, ring.inner, *medium)
+        paths.append(Path(component, C_CYLINDERS + body, flight, cylinder, weights, RADIAL))
+        paths.append(Path(component, C_POINTS + body, flight, point, weights, ROTATION))
+        paths.append(Path(component, C_PISTONS + body, flight, piston, weights, AXIAL))
+    ball = sources.paper_ball(f, distance, radiators.ball_diameter / 2, *medium)
+    point = sources.paper_point(f, distance, radiators.ball_diameter / 2, *medium)
+    for j in range(radiators.ball_count):
+        paths.append(Path(BALLS, C_PAPER_BALLS + 2 * j, flight, ball, weights, BALLS_KIND))
+        paths.append(Path(BALLS, C_PAPER_BALLS + 2 * j + 1, flight, point, weights, BALLS_KIND))
+    return sorted(paths, key=lambda path: path.channel)
+
+
+def paper_scalars(radiators: Radiators) -> tuple[float, float, float, float]:
+    """Lengths of the paper's eq. 19: D/4, and half the radii of inner ring, outer ring, cage."""
+    cage = 0.0 if radiators.cage is None else radiators.cage.outer
+    return (
+        radiators.ball_diameter / 4,
+        radiators.inner_ring.outer / 4,
+        radiators.outer_ring.outer / 4,
+        cage / 4,
+    )

@@ -1,0 +1,12 @@
+"""Bodies that radiate: pressure at microphones per acceleration, against frequency.
+
+===============  ==============================================================================
+``frequencies``  where transfer functions are evaluated, and interpolation between
+``sources``      single bodies: exact, compact, and the multi-source paper's as printed
+``radiators``    what sounds, the air, and a path from one channel to microphones
+``bem``          boundary elements on bodies of revolution
+``effective``    effective volumes of rings and cylinders
+``compact``      the radiation model ``compact``: dipoles and exact spheres
+``table``        the radiation model ``table``: transfer functions that the user brings
+===============  ==============================================================================
+"""

@@ -1,0 +1,69 @@
+"""What sounds, the air around it, and one way from a channel of motion to microphones, on plain numbers."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.engine.layout_sound import RADIAL
+
+INNER, OUTER, CAGE, BALLS = range(4)
+
+
+@dataclass(frozen=True)
+class Ring:
+    """A ring or cage: outer diameter, inner diameter, width in m."""
+
+    outer: float
+    inner: float
+    width: float
+
+
+@dataclass(frozen=True)
+class Housing:
+    """A closed cylinder about the bearing axis: diameter, length, place of its centre along X, in m."""
+
+    diameter: float
+    length: float
+    centre: float
+
+
+@dataclass(frozen=True)
+class Radiators:
+    """What sounds, in m: the bearing centre is the origin, X its axis."""
+
+    ball_count: int
+    ball_diameter: float
+    pitch_diameter: float
+    inner_ring: Ring
+    outer_ring: Ring
+    cage: Ring | None = None
+    housing: Housing | None = None
+    contact_angle: float = np.pi / 12  # rad; only the rung paper_contacts asks for it
+    baffle: bool = False  # the face at -X lies flush in a rigid plane: only the rung bem can
+    shaft: bool = False  # fills the inner ring's bore: only the rung bem knows it
+
+
+@dataclass(frozen=True)
+class Air:
+    """Density in kg/m3 and sound speed in m/s."""
+
+    density: float = 1.225
+    sound_speed: float = 340.0
+
+
+@dataclass(frozen=True)
+class Path:
+    """One channel's way to the microphones of one circle.
+
+    ``response`` is pressure per channel at `fit_frequencies`, flight time included; ``flight`` the time in s
+    to take out before the fit; ``weights`` one factor per microphone; ``kind`` the source type, a place in
+    ``engine.sound.places.KINDS``.
+    """
+
+    component: int
+    channel: int
+    flight: float
+    response: NDArray[np.complex128]
+    weights: NDArray[np.float64]
+    kind: int = RADIAL

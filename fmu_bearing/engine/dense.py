@@ -1,0 +1,151 @@
+"""Small dense matrices: product, inverse, eigenvectors and complex equations."""
+
+import math
+
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.layout_condensed import N
+
+
+@kernel
+def times(m, at, x, source, y, target):
+    """``y[target:] = matrix x[source:]``, the matrix of 11 columns of 12 at ``m[at:]``; writes 12 numbers.
+
+    Twelve sums by name stay in three vector registers, where an inner loop would go through memory.
+    """
+    a0 = 0.0
+    a1 = 0.0
+    a2 = 0.0
+    a3 = 0.0
+    a4 = 0.0
+    a5 = 0.0
+    a6 = 0.0
+    a7 = 0.0
+    a8 = 0.0
+    a9 = 0.0
+    a10 = 0.0
+    a11 = 0.0
+    for k in range(N):
+        value = x[source + k]
+        column = at + 12 * k
+        a0 += m[column + 0] * value
+        a1 += m[column + 1] * value
+        a2 += m[column + 2] * value
+        a3 += m[column + 3] * value
+        a4 += m[column + 4] * value
+        a5 += m[column + 5] * value
+        a6 += m[column + 6] * value
+        a7 += m[column + 7] * value
+        a8 += m[column + 8] * value
+        a9 += m[column + 9] * value
+        a10 += m[column + 10] * value
+        a11 += m[column + 11] * value
+    y[target + 0] = a0
+    y[target + 1] = a1
+    y[target + 2] = a2
+    y[target + 3] = a3
+    y[target + 4] = a4
+    y[target + 5] = a5
+    y[target + 6] = a6
+    y[target + 7] = a7
+    y[target + 8] = a8
+    y[target + 9] = a9
+    y[target + 10] = a10
+    y[target + 11] = a11
+
+
+@kernel
+def invert(a, at, n, out, to):
+    """Inverse of the ``n`` x ``n`` matrix ``a[at:]`` (destroyed) into ``out[to:]``; False if singular."""
+    for i in range(n):
+        for j in range(n):
+            out[to + i * n + j] = 1.0 if i == j else 0.0
+    for k in range(n):
+        pivot = k
+        for i in range(k + 1, n):
+            if abs(a[at + i * n + k]) > abs(a[at + pivot * n + k]):
+                pivot = i
+        size = a[at + pivot * n + k]
+        if not (abs(size) > 0.0 and abs(size) < 1e300):
+            return False
+        per = 1.0 / size
+        for j in range(n):
+            kept = a[at + k * n + j]
+            a[at + k * n + j] = a[at + pivot * n + j] * per
+            a[at + pivot * n + j] = kept if pivot != k else a[at + k * n + j]
+            kept = out[to + k * n + j]
+            out[to + k * n + j] = out[to + pivot * n + j] * per
+            out[to + pivot * n + j] = kept if pivot != k else out[to + k * n + j]
+        for i in range(n):
+            if i != k:
+                factor = a[at + i * n + k]
+                for j in range(n):
+                    a[at + i * n + j] -= factor * a[at + k * n + j]
+                    out[to + i * n + j] -= factor * out[to + k * n + j]
+    return True
+
+
+@kernel
+def eigenvectors(a, at, v, to, n):
+    """Jacobi's method on the symmetric matrix ``a[at:]``: values on its diagonal, vectors as columns."""
+    for i in range(n * n):
+        v[to + i] = 0.0
+    for i in range(n):
+        v[to + i * n + i] = 1.0
+    for _ in range(12):
+        for p in range(n - 1):
+            for q in range(p + 1, n):
+                apq = a[at + p * n + q]
+                size = abs(a[at + p * n + p]) + abs(a[at + q * n + q])
+                if not (abs(apq) > 1e-15 * size):
+                    continue
+                theta = (a[at + q * n + q] - a[at + p * n + p]) / (2.0 * apq)
+                t = (1.0 if theta >= 0.0 else -1.0) / (abs(theta) + math.sqrt(theta * theta + 1.0))
+                c = 1.0 / math.sqrt(t * t + 1.0)
+                s = t * c
+                for k in range(n):
+                    x = a[at + k * n + p]
+                    y = a[at + k * n + q]
+                    a[at + k * n + p] = c * x - s * y
+                    a[at + k * n + q] = s * x + c * y
+                for k in range(n):
+                    x = a[at + p * n + k]
+                    y = a[at + q * n + k]
+                    a[at + p * n + k] = c * x - s * y
+                    a[at + q * n + k] = s * x + c * y
+                    x = v[to + k * n + p]
+                    y = v[to + k * n + q]
+                    v[to + k * n + p] = c * x - s * y
+                    v[to + k * n + q] = s * x + c * y
+
+
+@kernel
+def solve_complex(re, im, n):
+    """Solve ``n`` complex equations, rows of ``n + 1`` numbers, in place; False if singular."""
+    m = n + 1
+    for k in range(n):
+        best = 0.0
+        pivot = k
+        for i in range(k, n):
+            size = re[i * m + k] * re[i * m + k] + im[i * m + k] * im[i * m + k]
+            if size > best:
+                best = size
+                pivot = i
+        if not (best > 0.0 and best < 1e300):
+            return False
+        pr = re[pivot * m + k] / best
+        pi = -im[pivot * m + k] / best
+        for j in range(k, m):
+            xr = re[pivot * m + j]
+            xi = im[pivot * m + j]
+            re[pivot * m + j] = re[k * m + j]
+            im[pivot * m + j] = im[k * m + j]
+            re[k * m + j] = xr * pr - xi * pi
+            im[k * m + j] = xr * pi + xi * pr
+        for i in range(n):
+            if i != k:
+                fr = re[i * m + k]
+                fi = im[i * m + k]
+                for j in range(k, m):
+                    re[i * m + j] -= fr * re[k * m + j] - fi * im[k * m + j]
+                    im[i * m + j] -= fr * im[k * m + j] + fi * re[k * m + j]
+    return True

@@ -1,0 +1,14 @@
+"""What fidelities rings and response share: balls in static equilibrium between the races.
+
+==============  =============================================================================
+``balls``       each ball at rest between the races, and what it puts on the rings
+``held``        cage speed, friction and heats, evaluated at the quasi-static point and held
+``linearised``  derivatives of the rings' accelerations, and their static equilibrium
+``damping``     what traction takes from the rings' modes
+``publish``     from the rings' own state to the one that outputs and sound read
+``shared``      start, inputs, clock and sound samples
+==============  =============================================================================
+
+Both leave out the cage's motion, slip and the balls' own vibration. Friction torque and heats are those of
+the quasi-static point. Work in is set equal to the heats: the energy residual is zero by construction.
+"""

@@ -1,0 +1,14 @@
+"""Fidelity full: rings, cage and every ball with all their degrees of freedom.
+
+===============  =============================================================================
+``norms``        how large a change of the state is
+``methods``      the Runge-Kutta methods as data
+``flexible``     flexural modes in a Runge-Kutta step
+``runge_kutta``  one step of such a method, implicit or explicit
+``progress``     what every way of stepping does to the state: Jacobian, energy, next step
+``fast``         method fast: blocks of one-evaluation steps
+``settle``       flexible rings at the start
+``start``        the state at initialisation
+``march``        from one communication point to the next
+===============  =============================================================================
+"""

@@ -1,0 +1,222 @@
+"""From one communication point to the next: inputs, internal steps, Jacobian policy, sound samples."""
+
+import math
+
+from fmu_bearing.engine.fidelities.full.fast.blocks import (
+    fast_block,
+    fast_history,
+    fast_length,
+    remember,
+    shift_history,
+)
+from fmu_bearing.engine.fidelities.full.methods.tableaux import (
+    ESDIRK4,
+    RK4,
+    T_GAMMA,
+    T_ORDER,
+    TABLEAUX,
+    TRBDF2,
+)
+from fmu_bearing.engine.fidelities.full.progress import (
+    accept,
+    renew_jacobian,
+    total_energy,
+    velocity_tolerance,
+)
+from fmu_bearing.engine.fidelities.full.runge_kutta import integrate_power, runge_kutta_step
+from fmu_bearing.engine.jit import inlined
+from fmu_bearing.engine.layout import (
+    BLOCK,
+    C_SIZE,
+    F_SIZE,
+    FAST_Y,
+    NOT_CONVERGED,
+    OK,
+    P_MAX_STEP,
+    P_METHOD,
+    P_MODE_STEP,
+    P_MODES,
+    P_RIGID,
+    S_ANGLE,
+    S_AXES,
+    S_C,
+    S_CONTRACTION,
+    S_ENERGY_NOW,
+    S_F,
+    S_FAC,
+    S_FACTOR_STEP,
+    S_FAST,
+    S_HEAT_INNER,
+    S_JAC,
+    S_JACOBIAN_ANGLE,
+    S_JACOBIAN_TIME,
+    S_MEAN_INNER,
+    S_NEWTON,
+    S_REJECTED,
+    S_SPEED,
+    S_SPEED_RATE,
+    S_STEP,
+    S_STEPS,
+    S_TIME,
+    S_WORK,
+    S_Y,
+    STRIDE,
+    U_SPEED,
+    W_ACC,
+    W_D,
+    W_F0,
+    W_SCALARS,
+    Y_SIZE,
+    Y_V,
+)
+from fmu_bearing.engine.mechanics.conditions import conditions
+from fmu_bearing.engine.mechanics.flexure import flexure_state
+from fmu_bearing.engine.newton.block_arrow import factor
+from fmu_bearing.engine.newton.modes import factor_modes
+from fmu_bearing.engine.readout.losses import summarise
+from fmu_bearing.engine.readout.motion import emit_samples
+from fmu_bearing.engine.statics.rigid_preload import axial_speed
+
+_S = STRIDE
+_SHORTEST = 1e-10  # s: a step that must be shorter has not converged
+_OLDEST = 5e-3  # s: age at which the Jacobian is renewed in any case
+_PROBE = 16  # steps between measurements of the contraction
+# Factors serve a step within 15 % of theirs: the wrong scale then contracts by about the same 0.15, which a
+# second iteration repairs more cheaply than a factorisation (20 us against 6).
+_SAME_STEP = (0.87, 1.15)
+_SLOW = 0.3  # contraction beyond which a new Jacobian pays: three iterations against two
+
+
+@inlined
+def take_inputs(p, u, s, w, h):
+    """Set conditions and speed ramp; what a jump of a held input does to stored energy counts as work."""
+    rate = (u[U_SPEED] - s[S_SPEED]) / h
+    fresh = w[W_SCALARS + 8 : W_SCALARS + 8 + C_SIZE]
+    conditions(p, u, 0.5 * (s[S_SPEED] + u[U_SPEED]), fresh)
+    axial = axial_speed(p, u, fresh, s, w, h) if p[P_RIGID] != 0.0 else s[S_Y + Y_V]
+    changed = axial != s[S_Y + Y_V]
+    for i in range(C_SIZE):
+        if fresh[i] != s[S_C + i]:
+            changed = True
+    if changed:
+        # the rows of w are scratch for both evaluations, so the new conditions wait in the stage area
+        for i in range(C_SIZE):
+            w[W_F0 + i] = fresh[i]
+        before = total_energy(p, s, w)
+        for i in range(C_SIZE):
+            s[S_C + i] = w[W_F0 + i]
+        s[S_SPEED_RATE] = rate
+        for i in range(F_SIZE):
+            w[W_D + i] = s[S_F + i]
+        s[S_FAST + FAST_Y + Y_V] += axial - s[S_Y + Y_V]
+        s[S_Y + Y_V] = axial
+        s[S_WORK] += total_energy(p, s, w) - before
+        shift_history(s, w[W_D : W_D + F_SIZE])
+    elif rate != s[S_SPEED_RATE]:
+        s[S_SPEED_RATE] = rate
+        total_energy(p, s, w)
+
+
+@inlined
+def try_step(p, s, w, h, tableau, tolerance):
+    """One attempt of length ``h`` with Jacobian and factors kept as long as they serve.
+
+    Returns the error over the tolerance, or -1 where Newton failed with a fresh Jacobian.
+    """
+    report = w[W_SCALARS + 40 : W_SCALARS + 44]
+    explicit = TABLEAUX[tableau + T_GAMMA] == 0.0
+    for attempt in range(2):
+        fresh = s[S_JACOBIAN_TIME] == s[S_TIME] or explicit
+        too_old = s[S_TIME] - s[S_JACOBIAN_TIME] > _OLDEST or s[S_CONTRACTION] > _SLOW
+        if not fresh and (attempt == 1 or too_old):
+            renew_jacobian(p, s, w)
+            fresh = True
+        ratio = h / (s[S_FACTOR_STEP] + 1e-300)
+        if not explicit and (ratio < _SAME_STEP[0] or ratio > _SAME_STEP[1]):
+            gh = TABLEAUX[tableau + T_GAMMA] * h
+            if not factor(p, s[S_JAC:S_FAC], gh, gh * gh, gh * gh, s[S_FAC:S_FAST], w):
+                if fresh:
+                    return -1.0
+                continue
+            factor_modes(
+                p, s[S_JAC:S_FAC], s[S_FAC:S_FAST], s[S_Y : S_Y + Y_SIZE],
+                s[S_Y + 2 * _S] - s[S_JACOBIAN_ANGLE], s[S_SPEED], gh, gh * gh, s[flexure_state(p) :], w,
+            )  # fmt: skip
+            s[S_FACTOR_STEP] = h
+        probe = s[S_STEPS] % _PROBE == 0.0
+        fine = runge_kutta_step(
+            p, s[S_C : S_C + C_SIZE], s[S_Y : S_Y + Y_SIZE], s[S_F : S_F + F_SIZE], s[S_AXES:S_JAC],
+            s[flexure_state(p) :], s[S_ANGLE], s[S_SPEED], s[S_SPEED_RATE], h, tableau, s[S_FAC:S_FAST],
+            s[S_Y + 2 * _S] - s[S_JACOBIAN_ANGLE], 0.5 * tolerance, s[S_CONTRACTION], probe, w, report,
+        )  # fmt: skip
+        if fine:
+            if report[1] > 0.0:
+                s[S_CONTRACTION] = report[1]
+            s[S_NEWTON] += report[2]
+            return report[0] / tolerance
+        if fresh:
+            return -1.0
+    return -1.0
+
+
+@inlined
+def march(p, u, s, w, h):
+    """Advance the state by the communication step ``h`` (s); status code."""
+    for i in range(3):
+        s[S_MEAN_INNER + i] = s[S_HEAT_INNER + i]
+    take_inputs(p, u, s, w, h)
+    tolerance = velocity_tolerance(p, u[U_SPEED])
+    tableau = TRBDF2 if p[P_METHOD] == 2.0 else RK4 if p[P_METHOD] == 3.0 else ESDIRK4
+    power = -1.0 / TABLEAUX[tableau + T_ORDER]
+    begin = s[S_TIME]
+    end = begin + h
+    longest = p[P_MAX_STEP] if p[P_MODES] == 0.0 else min(p[P_MAX_STEP], p[P_MODE_STEP])
+    # bounded work: no more attempts than a hundred times what the largest internal step would need
+    # (a thousand times for explicit steps, which stability keeps below 0.1 us)
+    left = 2000.0 + (1000.0 if tableau == RK4 else 100.0) * math.ceil(h / longest)
+    remaining = h
+    fast = p[P_METHOD] == 1.0
+    # the clock's own rounding must not count as time left
+    while remaining > 1e-12 * h + 4e-16 * abs(end):
+        proposed = min(s[S_STEP], longest)
+        length = remaining / max(1.0, math.ceil(remaining / proposed - 1e-9))
+        short = fast_length(p, s, remaining) if fast else 0.0
+        if short > 0.0 and short <= 1.000001 * length:
+            # ESDIRK4 takes the same steps until the history suffices
+            length = short
+            if fast_history(s, short):
+                count = min(BLOCK, int(remaining / short + 0.5))
+                if fast_block(p, s, w, count, tolerance):
+                    remaining = end - s[S_TIME]
+                    continue
+        left -= 1.0
+        if left < 0.0:
+            return NOT_CONVERGED
+        error = try_step(p, s, w, length, tableau, tolerance)
+        if error < 0.0 or not (error <= 1.0):
+            s[S_REJECTED] += 1.0
+            shrink = 0.25 if not (error > 0.0) else max(0.2, 0.9 * error**power)
+            s[S_STEP] = length * shrink
+            if s[S_STEP] < min(_SHORTEST, 0.01 * h):
+                return NOT_CONVERGED
+            continue
+        integrate_power(length, tableau, w, s[S_WORK : S_WORK + 4])
+        emit_samples(p, s, w, length)
+        accept(p, s, w, length)
+        if fast:
+            remember(s, length, w[W_ACC : W_ACC + F_SIZE])
+        remaining = end - s[S_TIME]
+        grow = min(2.0, max(0.3, 0.9 * (error + 1e-6) ** power))
+        # a step cut to meet the communication point says nothing against a longer one
+        if grow < 1.0 or length > 0.5 * proposed:
+            wanted = length * grow
+            s[S_STEP] = min(longest, wanted if grow < 1.0 or wanted > 1.2 * length else proposed)
+    s[S_TIME] = end
+    s[S_SPEED] = u[U_SPEED]
+    # One evaluation at the end point: stored energy for the balance, and accelerations and torque that do
+    # not carry the last Newton iteration's remainder.
+    s[S_ENERGY_NOW] = total_energy(p, s, w)
+    summarise(p, s, w)
+    for i in range(3):
+        s[S_MEAN_INNER + i] = (s[S_HEAT_INNER + i] - s[S_MEAN_INNER + i]) / h
+    return OK

@@ -1,0 +1,262 @@
+"""Runge-Kutta step, implicit or explicit, on x'' = f(x, x') with the accelerations of each stage as unknowns.
+
+With base values from the stages before, V = v_base + g h A and X = x_base + g h V, so Newton's method needs
+one solve with I - g h Jv - (g h)^2 Jx per iteration. The first stage is the last one of the step before.
+The loops over all coordinates run over spare lanes too: they hold zeros. They work on slices whose indices
+begin at zero: with an offset inside the index the compiler finds no vector loop.
+"""
+
+import math
+
+from fmu_bearing.engine.fidelities.full.flexible import (
+    begin_modes,
+    correct_modes,
+    end_modes,
+    keep_mode_velocities,
+    modes_error,
+    modes_size,
+    predict_modes,
+    solve_modes,
+    take_accelerations,
+)
+from fmu_bearing.engine.fidelities.full.methods.tableaux import (
+    T_A,
+    T_B,
+    T_ERROR,
+    T_GAMMA,
+    T_NODES,
+    T_STAGES,
+    TABLEAUX,
+)
+from fmu_bearing.engine.fidelities.full.norms import body_size, newton_size, row_size
+from fmu_bearing.engine.jit import inlined, kernel
+from fmu_bearing.engine.layout import (
+    F_G,
+    F_HEAT,
+    F_SIZE,
+    F_WORK,
+    N_BODY,
+    P_LANES,
+    P_MODES,
+    STRIDE,
+    W_ACC,
+    W_D,
+    W_F,
+    W_F0,
+    W_LAST,
+    W_MOTION,
+    W_VEL,
+    W_Y,
+    Y_Q,
+    Y_SIZE,
+    Y_V,
+)
+from fmu_bearing.engine.mechanics.ball_waves import turn_axes
+from fmu_bearing.engine.mechanics.equations import right_hand_side
+from fmu_bearing.engine.newton.block_arrow import solve
+
+_S = STRIDE
+_PLACES = 3 * STRIDE  # rows of ball coordinates that have both place and rate in the state
+_RATES = 6 * STRIDE
+MAX_ITERATIONS = 8
+
+
+@inlined
+def add_scaled(scale, x, y, n):
+    """``y += scale * x`` over ``n`` numbers."""
+    for i in range(n):
+        y[i] += scale * x[i]
+
+
+@inlined
+def sum_scaled(x, scale, y, out, n):
+    """``out = x + scale * y`` over ``n`` numbers."""
+    for i in range(n):
+        out[i] = x[i] + scale * y[i]
+
+
+@kernel
+def error_size(p, c, h, tableau, w):
+    """Size (m/s) of the difference between the two solutions' velocities.
+
+    The balls' orbit and spin are left out for implicit methods: their stiff share of the estimate means
+    nothing. For explicit ones it is what tells of instability.
+    """
+    stages = int(TABLEAUX[tableau + T_STAGES])
+    explicit = TABLEAUX[tableau + T_GAMMA] == 0.0
+    rows = _RATES if explicit else 2 * _S
+    d = w[W_D : W_D + F_SIZE]
+    for i in range(F_SIZE):
+        d[i] = 0.0
+    for m in range(stages):
+        e = h * TABLEAUX[tableau + T_ERROR + m]
+        acc = W_ACC + m * F_SIZE
+        add_scaled(e, w[acc : acc + rows], d, rows)
+        add_scaled(e, w[acc + F_G : acc + F_WORK], d[F_G:], N_BODY)
+    if explicit:
+        return newton_size(p, c, d, 1.0)
+    return math.sqrt(body_size(p, d, F_G) + 0.01 * row_size(d, 0, 2, int(p[P_LANES])))
+
+
+@kernel
+def predict(y, h, gh, stage, tableau, w):
+    """State of a stage into ``w[W_Y:]`` from the stages before and its first guess of the accelerations."""
+    here = W_ACC + stage * F_SIZE
+    acc = w[here : here + F_SIZE]
+    places = w[W_Y : W_Y + _PLACES]
+    rates = w[W_Y + _PLACES : W_Y + _PLACES + _RATES]
+    q = w[W_Y + Y_Q : W_Y + Y_V]
+    v = w[W_Y + Y_V : W_Y + Y_SIZE]
+    before = w[here - F_SIZE : here]
+    for i in range(F_SIZE):
+        acc[i] = before[i]
+    sum_scaled(y[_PLACES : _PLACES + _RATES], gh, acc, rates, _RATES)
+    sum_scaled(y[Y_V:Y_SIZE], gh, acc[F_G:], v, N_BODY)
+    for i in range(_PLACES):
+        places[i] = y[i]
+    for i in range(N_BODY):
+        q[i] = y[Y_Q + i]
+    for m in range(stage):
+        a = h * TABLEAUX[tableau + T_A + stage * 5 + m]
+        if a != 0.0:
+            at = m * F_SIZE
+            add_scaled(a, w[W_ACC + at : W_VEL], rates, _RATES)
+            add_scaled(a, w[W_ACC + at + F_G : W_VEL], v, N_BODY)
+            add_scaled(a, w[W_VEL + at : W_MOTION], places, _PLACES)
+            add_scaled(a, w[W_VEL + at + F_G : W_MOTION], q, N_BODY)
+    add_scaled(gh, rates, places, _PLACES)
+    add_scaled(gh, v, q, N_BODY)
+
+
+@kernel
+def correct(acc, gh, w):
+    """Add the increment in ``w[W_D:]`` to a stage's accelerations ``acc`` and to its state."""
+    d = w[W_D : W_D + F_SIZE]
+    square = gh * gh
+    add_scaled(1.0, d, acc, _RATES + N_BODY)
+    add_scaled(gh, d, w[W_Y + _PLACES : W_Y + Y_Q], _RATES)
+    add_scaled(square, d, w[W_Y : W_Y + _PLACES], _PLACES)
+    add_scaled(gh, d[F_G:], w[W_Y + Y_V : W_Y + Y_SIZE], N_BODY)
+    add_scaled(square, d[F_G:], w[W_Y + Y_Q : W_Y + Y_V], N_BODY)
+
+
+@kernel
+def keep_velocities(y, kept):
+    """Copy the rates of all places of a state into ``kept``, laid out like accelerations."""
+    rates = y[_PLACES : 2 * _PLACES]
+    for i in range(_PLACES):
+        kept[i] = rates[i]
+    for i in range(N_BODY):
+        kept[F_G + i] = y[Y_V + i]
+
+
+@kernel
+def newton_residual(acc, w):
+    """Right-hand side less the stage's accelerations ``acc`` into ``w[W_D:]``."""
+    d = w[W_D : W_D + F_SIZE]
+    f = w[W_F : W_F + F_SIZE]
+    for i in range(_RATES + N_BODY):
+        d[i] = f[i] - acc[i]
+
+
+@kernel
+def runge_kutta_step(
+    p, c, y, f, axes, flexure, angle, speed, speed_rate, h, tableau, fac, turned, tolerance, contraction,
+    probe, w, report,
+):  # fmt: skip
+    """One step of length ``h`` from (y, f); the new state is left in ``w[W_Y:]`` and its f in the last stage.
+
+    ``axes``: of wavy balls, at the step's start; ``flexure``: the rings' part of the state; ``tableau``:
+    place in TABLEAUX; ``fac``: factors for about this ``h``; ``turned``: orbit angle (rad) since they were
+    made; ``tolerance`` (m/s): Newton's error; ``contraction``: rate known so far; ``probe``: measure it anew.
+    ``report`` takes the error estimate (m/s), contraction and iterations. Returns False where Newton does not
+    converge.
+    """
+    gh = TABLEAUX[tableau + T_GAMMA] * h
+    stages = int(TABLEAUX[tableau + T_STAGES])
+    stage_y = w[W_Y : W_Y + Y_SIZE]
+    result = w[W_F:W_F0]
+    increment = w[W_D : W_D + F_SIZE]
+    for i in range(F_SIZE):
+        w[W_ACC + i] = f[i]
+        result[i] = 0.0
+    keep_velocities(y, w[W_VEL:W_MOTION])
+    flexible = p[P_MODES] != 0.0
+    begin_modes(p, flexure, w)
+    orbit = y[5 * _S]
+    iterations = 0.0
+    worst = 0.0
+    for stage in range(1, stages):
+        here = W_ACC + stage * F_SIZE
+        acc = w[here : here + F_SIZE]
+        predict(y, h, gh, stage, tableau, w)
+        if flexible:
+            predict_modes(p, flexure, h, gh, stage, tableau, w)
+        t = h * TABLEAUX[tableau + T_NODES + stage]
+        turn_axes(p, axes, y, int(p[P_LANES]), t, w)
+        angle_t = angle + t * (speed + 0.5 * t * speed_rate)
+        speed_t = speed + t * speed_rate
+        co = math.cos(turned + orbit * t)
+        si = math.sin(turned + orbit * t)
+        before = 0.0
+        done = gh == 0.0
+        if done:
+            right_hand_side(p, c, stage_y, angle_t, speed_t, speed_rate, w, result)
+            for i in range(_RATES + N_BODY):
+                acc[i] = result[i]
+            if flexible:
+                take_accelerations(p, stage, w)
+        for n in range(0 if done else MAX_ITERATIONS):
+            right_hand_side(p, c, stage_y, angle_t, speed_t, speed_rate, w, result)
+            newton_residual(acc, w)
+            if flexible:
+                solve_modes(p, flexure, stage, increment, w)
+            solve(p, fac, co, si, increment, w)
+            correct(acc, gh, w)
+            if flexible:
+                correct_modes(p, stage, gh, w)
+            iterations += 1.0
+            size = modes_size(p, newton_size(p, c, increment, gh), gh, w)
+            if not (size < 1e6):
+                return False
+            rate = contraction
+            if n > 0:
+                rate = size / (before + 1e-300)
+                if size > 1e-2 * tolerance:
+                    worst = max(worst, rate)
+                if rate > 0.9 and size > tolerance:
+                    return False
+            if (n > 0 or not (probe and stage == stages - 1)) and size * rate <= tolerance * (
+                1.0 - min(rate, 0.9)
+            ):
+                done = True
+                break
+            before = size
+        if not done:
+            return False
+        for i in range(F_WORK, F_SIZE):
+            acc[i] = result[i]
+        keep_velocities(stage_y, w[W_VEL + stage * F_SIZE : W_MOTION])
+        if flexible:
+            keep_mode_velocities(p, stage, w)
+    last = W_ACC + (stages - 1) * F_SIZE
+    if last != W_LAST:
+        for i in range(F_SIZE):
+            w[W_LAST + i] = w[last + i]
+    end_modes(p, stages, w)
+    report[0] = modes_error(p, error_size(p, c, h, tableau, w), h, tableau, w)
+    report[1] = worst
+    report[2] = iterations
+    return True
+
+
+@kernel
+def integrate_power(h, tableau, w, totals):
+    """Add work, and heat to inner ring, outer ring and oil (J) over the last step, by the same quadrature."""
+    stages = int(TABLEAUX[tableau + T_STAGES])
+    for k in range(4):
+        total = 0.0
+        for stage in range(stages):
+            weight = TABLEAUX[tableau + T_B + stage]
+            total += weight * w[W_ACC + stage * F_SIZE + (F_WORK if k == 0 else F_HEAT + k - 1)]
+        totals[k] += h * total

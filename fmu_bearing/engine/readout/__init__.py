@@ -1,0 +1,8 @@
+"""From the state to what leaves the engine.
+
+============  =====================================================================
+``losses``    sliding and losses by source, once per communication step
+``motion``    motion samples for the sound filters, at a fixed rate
+``outputs``   the outputs ``z``; everything follows from the state alone
+============  =====================================================================
+"""

@@ -1,0 +1,255 @@
+"""From the state to what people read. Everything here follows from the state alone."""
+
+import math
+
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.layout import (
+    B_OM,
+    B_R,
+    B_TH,
+    B_VR,
+    B_VX,
+    B_X,
+    BEARING_OUTPUTS,
+    C_BALL_RADIUS,
+    C_RACE_SIZE,
+    C_RACES,
+    C_SIZE,
+    C_VISCOSITY,
+    F_TORQUE,
+    MIC_OUTPUTS,
+    P_AT_OVERSIZE,
+    P_AT_SOUND,
+    P_BALLS,
+    P_BANDS,
+    P_CAGE,
+    P_MICS,
+    P_MODES,
+    P_PITCH_RADIUS,
+    P_RACES,
+    P_ROUGHNESS,
+    P_SOUND_SIZE,
+    Q_CAGE,
+    Q_OUTER,
+    RACE_FILM,
+    RACE_HALF_LENGTH,
+    RACE_PRESSURE,
+    RACE_PROFILE_RADIUS,
+    RACE_SHOULDER,
+    RACE_SIZE,
+    RACE_STIFFNESS,
+    S_C,
+    S_ENERGY_NOW,
+    S_ENERGY_START,
+    S_F,
+    S_FALLBACKS,
+    S_HEAT_INNER,
+    S_LOSS,
+    S_MEAN_INNER,
+    S_REJECTED,
+    S_SLIP,
+    S_SOUND,
+    S_SPEED,
+    S_SPIN_TO_ROLL,
+    S_STEPS,
+    S_WORK,
+    S_Y,
+    STRIDE,
+    Y_Q,
+    Y_V,
+    Z_BALLS,
+)
+from fmu_bearing.engine.mechanics.flexure import flexure_state
+from fmu_bearing.engine.mechanics.pose import axis_cosine
+from fmu_bearing.engine.sound.meter import levels
+from fmu_bearing.engine.statics.stiffness import series_stiffness
+
+_S = STRIDE
+# places in z by name: the table of names in ``layout`` is the only one that numbers them
+Z_INNER_VELOCITY = BEARING_OUTPUTS.index("inner_ring.velocity.x")
+Z_OUTER_VELOCITY = BEARING_OUTPUTS.index("outer_ring.velocity.x")
+Z_CAGE_VELOCITY = BEARING_OUTPUTS.index("cage.velocity.x")
+Z_TORQUE = BEARING_OUTPUTS.index("friction_torque")
+Z_HEAT = BEARING_OUTPUTS.index("heat.inner_ring")
+Z_CAGE_RATIO = BEARING_OUTPUTS.index("cage.speed_ratio")
+Z_INNER_PLACE = BEARING_OUTPUTS.index("inner_ring.displacement.x")
+Z_OUTER_PLACE = BEARING_OUTPUTS.index("outer_ring.displacement.x")
+Z_CONTACT = BEARING_OUTPUTS.index("contact.inner.load_mean")  # four of the inner, four of the outer race
+Z_LAMBDA = BEARING_OUTPUTS.index("film.lambda_min")
+Z_AXIAL_STIFFNESS = BEARING_OUTPUTS.index("stiffness.axial")
+Z_RADIAL_STIFFNESS = BEARING_OUTPUTS.index("stiffness.radial")
+Z_STEPS = BEARING_OUTPUTS.index("solver.steps")
+Z_REJECTED = BEARING_OUTPUTS.index("solver.rejected")
+Z_RESIDUAL = BEARING_OUTPUTS.index("energy.residual")
+Z_FALLBACKS = BEARING_OUTPUTS.index("solver.fallbacks")
+Z_TILT = BEARING_OUTPUTS.index("inner_ring.tilt.y")
+Z_SPIN_TO_ROLL = BEARING_OUTPUTS.index("contact.inner.spin_to_roll")
+Z_SLIP = BEARING_OUTPUTS.index("contact.inner.slip")
+Z_WHIRL_RADIUS = BEARING_OUTPUTS.index("cage.whirl_radius")
+Z_WHIRL_SPEED = BEARING_OUTPUTS.index("cage.whirl_speed")
+Z_SHOULDER = BEARING_OUTPUTS.index("contact.inner.shoulder_margin")
+Z_TORQUE_CONTACTS = BEARING_OUTPUTS.index("friction_torque.contacts")  # then rolling, cage, drag
+_PER_MIC = len(MIC_OUTPUTS)
+_STANDSTILL = 1e-9  # rad/s: below it nothing is divided by the shaft speed
+_CENTRED_2 = 1e-16  # m2: the whirl speed of a cage within 10 nm of the middle says nothing
+
+
+@kernel
+def bodies(p, s, z):
+    """Velocities and displacements of rings and cage, velocities of the balls in inertial axes."""
+    v = S_Y + Y_V
+    q = S_Y + Y_Q
+    for i in range(3):
+        z[Z_INNER_VELOCITY + i] = s[v + i]
+        z[Z_OUTER_VELOCITY + i] = s[v + Q_OUTER + i]
+        z[Z_CAGE_VELOCITY + i] = s[v + Q_CAGE + i]
+        z[Z_INNER_PLACE + i] = s[q + i]
+        z[Z_OUTER_PLACE + i] = s[q + Q_OUTER + i]
+    for i in range(2):
+        z[Z_TILT + i] = s[q + 3 + i]
+    pitch = p[P_PITCH_RADIUS]
+    orbit = 0.0
+    balls = int(p[P_BALLS])
+    for j in range(balls):
+        angle = s[S_Y + B_TH * _S + j]
+        c = math.cos(angle)
+        n = math.sin(angle)
+        vr = s[S_Y + B_VR * _S + j]
+        om = s[S_Y + B_OM * _S + j]
+        vt = (pitch + s[S_Y + B_R * _S + j]) * om
+        z[Z_BALLS + 3 * j] = s[S_Y + B_VX * _S + j]
+        z[Z_BALLS + 3 * j + 1] = -n * vr - c * vt
+        z[Z_BALLS + 3 * j + 2] = c * vr - n * vt
+        orbit += om / balls
+    turning = s[v + Q_CAGE + 3] if p[P_CAGE] != 0.0 else orbit
+    speed = s[S_SPEED]
+    z[Z_CAGE_RATIO] = turning / speed if abs(speed) > _STANDSTILL else 0.0
+    z[Z_WHIRL_RADIUS] = 0.0
+    z[Z_WHIRL_SPEED] = 0.0
+    if p[P_CAGE] != 0.0:
+        dy = s[q + Q_CAGE + 1] - s[q + 1]
+        dz = s[q + Q_CAGE + 2] - s[q + 2]
+        vy = s[v + Q_CAGE + 1] - s[v + 1]
+        vz = s[v + Q_CAGE + 2] - s[v + 2]
+        apart2 = dy * dy + dz * dz
+        z[Z_WHIRL_RADIUS] = math.sqrt(apart2)
+        z[Z_WHIRL_SPEED] = (dy * vz - dz * vy) / (apart2 + _CENTRED_2)
+
+
+@kernel
+def losses(s, z):
+    """Sliding of the contacts, and friction torque by source: the power lost there over the shaft speed."""
+    speed = abs(s[S_SPEED])
+    for i in range(2):
+        z[Z_SPIN_TO_ROLL + i] = s[S_SPIN_TO_ROLL + i]
+        z[Z_SLIP + i] = s[S_SLIP + i]
+    for i in range(4):
+        z[Z_TORQUE_CONTACTS + i] = s[S_LOSS + i] / s[S_SPEED] if speed > _STANDSTILL else 0.0
+
+
+@kernel
+def seen_from(s, ring, tilt, x, r, across, c, n, pitch):
+    """Axial and radial place (m) of a ball in a ring's frame and the ring's tilt axis resolved there."""
+    by = s[tilt]
+    bz = s[tilt + 1]
+    qx = x - s[ring]
+    qr = pitch + r - (c * s[ring + 2] - n * s[ring + 1])
+    qt = across + c * s[ring + 1] + n * s[ring + 2]
+    nx = axis_cosine(by, bz)
+    nr = -n * bz - c * by
+    nt = -c * bz + n * by
+    axial = qx * nx + qr * nr + qt * nt
+    return axial, math.sqrt(max(qx * qx + qr * qr + qt * qt - axial * axial, 0.0))
+
+
+@kernel
+def contacts(p, s, z):
+    """Write loads, angles, pressures, shoulder margins, film over roughness and stiffness between the rings.
+
+    The margin is the angle (rad) by which the ellipse of the most loaded contact ends before its shoulder.
+    Loads are the elastic ones without the waviness of the races. Film: Hamrock and Dowson (1977), minimum
+    film, with the rolling speed of a ball that does not slip.
+    """
+    c = s[S_C : S_C + C_SIZE]
+    pitch = p[P_PITCH_RADIUS]
+    balls = int(p[P_BALLS])
+    ball = c[C_BALL_RADIUS]
+    oversize = int(p[P_AT_OVERSIZE])
+    thinnest = 1e30
+    for i in range(8):
+        z[Z_CONTACT + i] = 0.0
+    z[Z_AXIAL_STIFFNESS] = 0.0
+    z[Z_RADIAL_STIFFNESS] = 0.0
+    for j in range(balls):
+        angle = s[S_Y + B_TH * _S + j]
+        co = math.cos(angle)
+        si = math.sin(angle)
+        x = s[S_Y + B_X * _S + j]
+        r = s[S_Y + B_R * _S + j]
+        ax, ar = seen_from(s, S_Y + Y_Q, S_Y + Y_Q + 3, x, r, 0.0, co, si, pitch)
+        bx, br = seen_from(s, S_Y + Y_Q + Q_OUTER, S_Y + Y_Q + Q_OUTER + 4, x, r, 0.0, co, si, pitch)
+        om = s[S_Y + B_OM * _S + j]
+        for race in range(2):
+            held = C_RACES + race * C_RACE_SIZE
+            numbers = P_RACES + race * RACE_SIZE
+            sx = (ax if race == 0 else bx) - c[held]
+            sr = (ar if race == 0 else br) - c[held + 1]
+            distance = math.sqrt(sx * sx + sr * sr)
+            approach = max(distance - c[held + 2] + 0.5 * p[oversize + j], 0.0)
+            load = p[numbers + RACE_STIFFNESS] * approach * math.sqrt(approach)
+            side = -1.0 if race == 0 else 1.0
+            at = Z_CONTACT + 4 * race
+            z[at] += load / balls
+            z[at + 1] = max(z[at + 1], load)
+            z[at + 2] += math.atan2(side * sx, side * sr) / balls
+            z[at + 3] = max(z[at + 3], p[numbers + RACE_PRESSURE] * math.sqrt(approach))
+            rolling = om if race == 1 else s[S_SPEED] - om
+            speed = abs(rolling) * (pitch + ball * sr / distance)
+            film = p[numbers + RACE_FILM] * math.exp(
+                0.68 * math.log(c[C_VISCOSITY] * speed + 1e-12) - 0.073 * math.log(load + 1e-3)
+            )
+            thinnest = min(thinnest, film)
+        kxx, _, krr = series_stiffness(
+            p, c, ax - c[C_RACES], ar - c[C_RACES + 1],
+            bx - c[C_RACES + C_RACE_SIZE], br - c[C_RACES + C_RACE_SIZE + 1],
+        )  # fmt: skip
+        z[Z_AXIAL_STIFFNESS] += kxx
+        z[Z_RADIAL_STIFFNESS] += 0.5 * krr
+    z[Z_LAMBDA] = thinnest / p[P_ROUGHNESS]
+    for race in range(2):
+        numbers = P_RACES + race * RACE_SIZE
+        root = (z[Z_CONTACT + 4 * race + 1] / p[numbers + RACE_STIFFNESS]) ** (1.0 / 3.0)
+        half = p[numbers + RACE_HALF_LENGTH] * root
+        reach = math.asin(min(1.0, half / p[numbers + RACE_PROFILE_RADIUS]))
+        z[Z_SHOULDER + race] = p[numbers + RACE_SHOULDER] - z[Z_CONTACT + 4 * race + 2] - reach
+
+
+@kernel
+def flexure(p, s, z):
+    """Velocities (m/s) of the flexural coordinates, after the microphones."""
+    count = 2 * int(p[P_MODES])
+    to = Z_BALLS + 3 * int(p[P_BALLS]) + (_PER_MIC + int(p[P_BANDS])) * int(p[P_MICS])
+    at = flexure_state(p) + count
+    for i in range(count):
+        z[to + i] = s[at + i]
+
+
+@kernel
+def observe(p, s, z):
+    """Fill ``z`` (see ``layout``) from the state ``s``."""
+    bodies(p, s, z)
+    z[Z_TORQUE] = s[S_F + F_TORQUE]
+    for i in range(3):
+        z[Z_HEAT + i] = s[S_MEAN_INNER + i]
+    contacts(p, s, z)
+    losses(s, z)
+    flexure(p, s, z)
+    z[Z_STEPS] = s[S_STEPS]
+    z[Z_REJECTED] = s[S_REJECTED]
+    z[Z_FALLBACKS] = s[S_FALLBACKS]
+    lost = s[S_HEAT_INNER] + s[S_HEAT_INNER + 1] + s[S_HEAT_INNER + 2]
+    gained = s[S_ENERGY_NOW] - s[S_ENERGY_START]
+    z[Z_RESIDUAL] = (s[S_WORK] - lost - gained) / lost if lost > 1e-12 else 0.0
+    if p[P_SOUND_SIZE] != 0.0:
+        block = int(p[P_AT_SOUND])
+        levels(p[block : block + int(p[P_SOUND_SIZE])], s[S_SOUND:], z, Z_BALLS + 3 * int(p[P_BALLS]))

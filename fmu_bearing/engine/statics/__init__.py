@@ -1,0 +1,12 @@
+"""Quasi-static equilibrium: where a run starts, and what the condensed fidelities are linearised about.
+
+=================  ==========================================================================
+``ball_balance``   one ball: contacts, rolling, gyroscopic friction, place
+``stiffness``      contacts in series, stiffness matrix of the bearing
+``quasistatic``    Jones-Harris equilibrium of the inner ring in five degrees of freedom
+``axial``          the same for axial load alone: one unknown
+``mounted``        the equilibrium with the outer ring on its pedestal
+``rigid_preload``  the inner ring's place under rigid preload, and the load it means
+``spin_balance``   orbit and spin, where friction, drag and gyroscopic moments balance
+=================  ==========================================================================
+"""

@@ -1,0 +1,108 @@
+"""Equilibrium of equal balls under axial load alone: one unknown, no work space.
+
+The same balls as in ``quasistatic``; for those who need the axial curve many times over.
+"""
+
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.layout import (
+    C_PRELOAD,
+    C_RACE_SIZE,
+    C_RACES,
+    NO_START,
+    OK,
+    P_BALLS,
+    P_PITCH_RADIUS,
+)
+from fmu_bearing.engine.statics.ball_balance import ball_equilibrium, ball_state
+from fmu_bearing.engine.statics.stiffness import series_stiffness
+
+_ROUNDS = 100
+
+
+@kernel
+def upright(shift):
+    """Pose (see ``ball_balance``) of every ball for two upright rings ``shift`` (m) apart."""
+    return shift, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0
+
+
+@kernel
+def axial_force(p, c, speed, shift, x, r):
+    """Axial force (N) by which all balls hold the inner ring at ``shift``; the ball's place and residual."""
+    pose = upright(shift)
+    x, r, size = ball_equilibrium(p, c, speed, pose, x, r)
+    state = ball_state(p, c, speed, pose, x, r)
+    return -p[P_BALLS] * (state[5] * state[6] - state[17] * state[11]), x, r, size
+
+
+@kernel
+def quasistatic(p, c, speed, out):
+    """Equilibrium under the axial preload at ``speed`` (rad/s); status code.
+
+    ``out``: inner ring's axial displacement against the outer (m), ball x and r (m), orbit speed, spin x and
+    r (rad/s), residual of a ball (N). Bracketing and bisection-safe secant steps: bounded work.
+    """
+    target = c[C_PRELOAD]
+    low = -2e-5
+    high = 1e-5
+    x = 0.0
+    r = 0.0
+    force = 0.0
+    for _ in range(40):
+        force, x, r, _ = axial_force(p, c, speed, high, 0.5 * high, r)
+        if force >= target:
+            break
+        low = high
+        high += 2e-5
+    above = force - target
+    force, x, r, size = axial_force(p, c, speed, low, 0.5 * low, 0.0)
+    below = force - target
+    # where nothing pushes the rings together the balls lie in the outer race alone
+    shift = low
+    here = 0.0
+    if below < 0.0:
+        for _ in range(_ROUNDS):
+            margin = 0.02 * (high - low)
+            shift = low - below * (high - low) / (above - below)
+            if shift <= low + margin or shift >= high - margin:
+                shift = 0.5 * (low + high)
+            force, x, r, size = axial_force(p, c, speed, shift, x, r)
+            here = force - target
+            if here < 0.0:
+                low = shift
+                below = here
+            else:
+                high = shift
+                above = here
+            if abs(here) < 1e-9 * (1.0 + target) or high - low < 1e-18:
+                break
+    state = ball_state(p, c, speed, upright(shift), x, r)
+    out[0] = shift
+    out[1] = x
+    out[2] = r
+    out[3] = state[14]
+    out[4] = state[15]
+    out[5] = state[16]
+    out[6] = size
+    return OK if abs(here) <= 1e-4 * (1.0 + target) and size < 1e-3 else NO_START
+
+
+@kernel
+def stiffness_matrix(p, c, out):
+    """Stiffness of the inner against the outer ring at the equilibrium ``out`` of :func:`quasistatic`.
+
+    Returns axial, radial (N/m), tilt (N m/rad) and the radial-tilt coupling (N), each with the other
+    motions held, in closed form for equal balls.
+    """
+    radius = p[P_PITCH_RADIUS] + out[2]
+    xi = out[1] - out[0] - c[C_RACES]
+    ri = radius - c[C_RACES + 1]
+    xo = out[1] - c[C_RACES + C_RACE_SIZE]
+    ro = radius - c[C_RACES + C_RACE_SIZE + 1]
+    kxx, kxr, krr = series_stiffness(p, c, xi, ri, xo, ro)
+    # a tilt b about the tangent moves the groove centre by (-b R_c, b x_c)
+    gx = -c[C_RACES + 1]
+    gr = c[C_RACES]
+    half = 0.5 * p[P_BALLS]
+    tilt = half * (kxx * gx * gx + 2.0 * kxr * gx * gr + krr * gr * gr)
+    coupling = half * (kxr * gx + krr * gr)
+    return p[P_BALLS] * kxx, half * krr, tilt, coupling

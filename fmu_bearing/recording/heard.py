@@ -1,0 +1,362 @@
+"""Pressures and levels at any microphone, from the channels that a run has left behind.
+
+A run's motion does not depend on who listens: what the engine fed to its filters gives the pressure anywhere
+(``acoustics.field``).
+"""
+
+import math
+import warnings
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.signal import sosfilt
+
+from fmu_bearing.acoustics.analysis.field import Blocks, Channels, Circle, Position, circles, form_of, kind_of
+from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies, kinematic_frequencies
+from fmu_bearing.acoustics.filters.design import radiators_of
+from fmu_bearing.acoustics.filters.weighting import a_weighting_db, a_weighting_sections, level
+from fmu_bearing.acoustics.radiation.radiators import Air
+from fmu_bearing.elastic.modes import ring_modes
+from fmu_bearing.engine.layout_sound import COMPONENTS
+from fmu_bearing.scene import Scene, si
+
+_ANGLES = ("contact.inner.angle_mean", "contact.outer.angle_mean")
+_FLIGHT = 0.1  # s: room for microphones to 34 m without another transform
+_TOGETHER = 32  # microphones evaluated at once by `Recording.levels`
+_NO_WEIGHTING = 'weighting = "{}": only "A" and "Z" (none) are known'
+
+
+@dataclass(repr=False)
+class Heard:
+    """What a run leaves behind for the ears; `recorded.Recording` is it, and knows files.
+
+    Attributes
+    ----------
+    scene : Scene or None
+        What was run.
+    rung : str
+        How radiation is computed unless a call says otherwise; ``"recorded"``: pressures only.
+    rate : float
+        Samples per second.
+    start : float
+        Time (s after initialisation) of the first sample.
+    size : int
+        Number of samples.
+    output_time : ndarray, shape (m,)
+        Communication points (s), from initialisation on.
+    speed_points : ndarray, shape (m,)
+        Shaft speed there (rad/s); it is linear in between.
+    outputs : dict
+        Other variables at `output_time`, by name, SI units.
+    history : ndarray, shape (rows, channels)
+        Channels from initialisation on, beyond the last sample; empty where only pressures were recorded.
+    recorded : ndarray, shape (mics, size)
+        Pressures (Pa) where only they were recorded, else empty.
+    microphones : tuple of (name, (x, y, z))
+        The scene's microphones, places in m.
+    harmonics : int
+        Highest circumferential order of the balls' sound among the channels.
+    """
+
+    scene: Scene | None
+    rung: str
+    rate: float
+    start: float
+    size: int
+    output_time: NDArray[np.float64]
+    speed_points: NDArray[np.float64]
+    outputs: dict[str, NDArray[np.float64]] = field(default_factory=dict)
+    history: NDArray[np.float64] = field(default_factory=lambda: np.zeros((0, 0)))
+    recorded: NDArray[np.float64] = field(default_factory=lambda: np.zeros((0, 0)))
+    microphones: tuple[tuple[str, Position], ...] = ()
+    harmonics: int = 0
+    _spectra: Channels | None = field(default=None, repr=False, compare=False)
+
+    def __repr__(self) -> str:
+        name = "no scene" if self.scene is None else self.scene.name
+        return (
+            f"{type(self).__name__}({name}, rung {self.rung}, {self.size / self.rate:g} s at "
+            f"{self.rate:g} Hz from {self.start:g} s on, {self.history.shape[1]} channels)"
+        )
+
+    @property
+    def time(self) -> NDArray[np.float64]:
+        """Time of each sample (s after initialisation), shape (size,)."""
+        return self.start + np.arange(self.size) / self.rate
+
+    @property
+    def first(self) -> int:
+        """Row of `history` that belongs to the first sample."""
+        return round(self.start * self.rate)
+
+    @property
+    def channels(self) -> NDArray[np.float64]:
+        """Channels at each sample, shape (size, channels); see ``engine.sound.places``."""
+        return self.history[self.first : self.first + self.size]
+
+    @property
+    def speed(self) -> NDArray[np.float64]:
+        """Shaft speed at each sample (rad/s), shape (size,)."""
+        return np.interp(self.time, self.output_time, self.speed_points)
+
+    @property
+    def angle(self) -> NDArray[np.float64]:
+        """Angle (rad) the shaft has turned since initialisation at each sample, shape (size,)."""
+        t, w = self.output_time, self.speed_points
+        whole = np.concatenate([[0.0], np.cumsum(0.5 * (w[1:] + w[:-1]) * np.diff(t))])
+        k = np.clip(np.searchsorted(t, self.time, side="right") - 1, 0, len(t) - 1)
+        return whole[k] + 0.5 * (w[k] + self.speed) * (self.time - t[k])
+
+    @property
+    def positions(self) -> list[Position]:
+        """Places (m) of the scene's microphones."""
+        return [place for _, place in self.microphones]
+
+    def kinematics(
+        self, speed: float | None = None, contact_angle: float | None = None
+    ) -> KinematicFrequencies:
+        """Kinematic frequencies (`KinematicFrequencies`, Hz) of the scene's bearing.
+
+        Parameters
+        ----------
+        speed : float, optional
+            Shaft speed (rad/s); default: mean of the recording.
+        contact_angle : float, optional
+            In rad; default: mean over the run of the computed angles at both races where these were kept
+            among the outputs, else the nominal one.
+
+        Raises
+        ------
+        ValueError
+            When the recording does not say which bearing it is of.
+        """
+        if self.scene is None:
+            raise ValueError(
+                "this recording has no scene: give one to Recording.from_fmu, or the frequencies"
+            )
+        bearing = si(self.scene.bearing)
+        if contact_angle is None:
+            kept = [self.outputs[name] for name in _ANGLES if name in self.outputs]
+            contact_angle = float(np.mean(kept)) if kept else float(bearing.contact_angle)
+        w = float(np.mean(self.speed)) if speed is None else speed
+        return kinematic_frequencies(
+            w, int(bearing.ball_count), bearing.ball_diameter, bearing.pitch_diameter, contact_angle
+        )
+
+    def pressure(
+        self, positions: Sequence[ArrayLike] | None = None, rung: str | None = None
+    ) -> NDArray[np.float64]:
+        """Sound pressure (Pa) at places of your choice, shape (mics, size): the coherent sum of all sources.
+
+        Parameters
+        ----------
+        positions : sequence of (x, y, z), optional
+            Places in m, bearing centre at the origin; default: the scene's microphones.
+        rung : str, optional
+            In place of `rung`.
+
+        Raises
+        ------
+        ValueError
+            For a place inside a body, a rung the channels do not serve, or a place at which a recording of
+            pressures has no microphone.
+        """
+        places = self._places(positions)
+        if self.history.size == 0:
+            return self.recorded[self._recorded_rows(places)]
+        total = np.zeros((len(places), self.size))
+        for circle, parts in self._heard(places, rung, lambda path: ""):
+            for part in parts.values():
+                total[list(circle.members)] += part
+        return total
+
+    def partial(
+        self, positions: Sequence[ArrayLike] | None = None, rung: str | None = None, by: str = "component"
+    ) -> dict[str, NDArray[np.float64]]:
+        """Sound pressure (Pa) of each source alone, shape (mics, size) by name; the sum is `pressure`.
+
+        Parameters
+        ----------
+        positions, rung
+            As for `pressure`.
+        by : str
+            ``"component"`` (inner_ring, outer_ring, cage, balls) or ``"kind"`` of source (radial, axial ...).
+
+        Raises
+        ------
+        ValueError
+            As `pressure`; also for a recording of pressures, which cannot be taken apart.
+        """
+        if by not in ("component", "kind"):
+            raise ValueError(f'by = "{by}": sources are split by "component" or by "kind"')
+        places = self._places(positions)
+        found: dict[str, NDArray[np.float64]] = {}
+        for circle, parts in self._heard(
+            places, rung, lambda path: COMPONENTS[path.component] if by == "component" else kind_of(path)
+        ):
+            for name, part in parts.items():
+                total = found.setdefault(name, np.zeros((len(places), self.size)))
+                total[list(circle.members)] += part
+        return found
+
+    def levels(
+        self,
+        positions: Sequence[ArrayLike] | None = None,
+        rung: str | None = None,
+        weighting: str = "Z",
+        resolution: float | None = None,
+    ) -> NDArray[np.float64]:
+        """Equivalent level (dB re 20 uPa) over the recording at each place, shape (mics,).
+
+        Rungs of the papers add energies, source by source (multi-source paper, eqs. 43 and 46).
+
+        Parameters
+        ----------
+        positions, rung
+            As for `pressure`.
+        weighting : str
+            ``"Z"`` (none) or ``"A"``.
+        resolution : float, optional
+            Average over blocks of 1 / ``resolution`` s instead (Hz; 20, for example): far faster at many
+            places, a few hundredths of a dB apart in a steady sound.
+        """
+        places = self._places(positions)
+        if resolution is not None and self.history.size:
+            return self._quick_levels(places, rung, weighting, resolution)
+        mean_square = np.zeros(len(places))
+        if self.history.size == 0:
+            mean_square[:] = self.mean_square(self.pressure(places), weighting)
+            return level(mean_square)
+        energies = (rung or self.rung).startswith("paper")
+        for low in range(0, len(places), _TOGETHER):
+            some = places[low : low + _TOGETHER]
+            for circle, parts in self._heard(
+                some, rung, (lambda path: path.channel) if energies else (lambda path: 0), whole=True
+            ):
+                rows = [low + i for i in circle.members]
+                for part in parts.values():
+                    mean_square[rows] += self.mean_square(part, weighting)
+        return level(mean_square)
+
+    def mean_squares(
+        self, positions: Sequence[ArrayLike] | None = None, rung: str | None = None, resolution: float = 20.0
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Frequencies (Hz), and mean square pressure (Pa^2) in each bin at each place, (mics, bins).
+
+        By short-time spectra of the channels: fast at many places. Sums over bins are what `levels` with a
+        ``resolution`` gives, whole or by bands.
+        """
+        places = self._places(positions)
+        blocks = Blocks(self.channels, resolution)
+        energies = (rung or self.rung).startswith("paper")
+        found = np.zeros((len(places), len(blocks.frequency)))
+        for circle in self._circles(places, rung):
+            parts = blocks.mean_squares(circle, (lambda path: path.channel) if energies else (lambda path: 0))
+            found[list(circle.members)] = sum(parts.values())
+        return blocks.frequency, found
+
+    def _quick_levels(
+        self, places: list[Position], rung: str | None, weighting: str, resolution: float
+    ) -> NDArray[np.float64]:
+        """Levels by short-time spectra of the channels."""
+        if weighting not in ("A", "Z"):
+            raise ValueError(_NO_WEIGHTING.format(weighting))
+        frequency, squares = self.mean_squares(places, rung, resolution)
+        weights = 10.0 ** (a_weighting_db(frequency) / 10.0) if weighting == "A" else np.ones(len(frequency))
+        return level(squares @ weights)
+
+    def mean_square(self, pressure: NDArray[np.float64], weighting: str = "Z") -> NDArray[np.float64]:
+        """Mean square (Pa^2) over the recording's samples, the last ones of ``pressure``, shape (...,).
+
+        What ``pressure`` holds before them lets the filter of the A-weighting settle.
+        """
+        if weighting == "A":
+            pressure = sosfilt(a_weighting_sections(self.rate), pressure, axis=-1)
+        elif weighting != "Z":
+            raise ValueError(_NO_WEIGHTING.format(weighting))
+        return np.asarray(np.mean(pressure[..., -self.size :] ** 2, axis=-1))
+
+    def _heard(
+        self, places: list[Position], rung: str | None, label, whole: bool = False
+    ) -> Iterator[tuple[Circle, dict[Any, NDArray[np.float64]]]]:
+        """Yield each circle with its pressures by label; ``whole``: with what was before the first sample."""
+        found = self._circles(places, rung)
+        self._prepare(places)
+        assert self._spectra is not None
+        begin = 0 if whole else self.first
+        for circle in found:
+            parts = self._spectra.pressures(circle, label)
+            yield circle, {name: part[:, begin : self.first + self.size] for name, part in parts.items()}
+
+    def _prepare(self, places: list[Position]) -> None:
+        """Spectra of the channels, with room for the longest flight; a warning where it exceeds the start."""
+        assert self.scene is not None
+        longest = max(math.hypot(*place) for place in places) / air_of(self.scene).sound_speed
+        if longest > self.start:
+            warnings.warn(
+                f"sound takes {longest:.3g} s to the farthest place, but the recording starts "
+                f"{self.start:.3g} s after the bearing: record with a longer settle",
+                stacklevel=4,
+            )
+        # the room depends on the places alone, so that a call gives the same bits whatever was asked before
+        room = _FLIGHT if longest < _FLIGHT else 1.2 * longest
+        if self._spectra is None or self._spectra.longest != room:
+            self._spectra = Channels(self.history, room)
+
+    def _circles(self, places: list[Position], rung: str | None) -> Iterator[Circle]:
+        """Paths from the channels to places, circle by circle."""
+        if self.history.size == 0 or self.scene is None:
+            raise ValueError(
+                "only pressures were recorded: components and other places need the channels that "
+                "fmu_bearing.record keeps"
+            )
+        rung = self.rung if rung is None else rung
+        if form_of(rung) != form_of(self.rung):
+            raise ValueError(
+                f'rung = "{rung}" needs other channels than "{self.rung}": record with rung="{rung}"'
+            )
+        radiators, air = radiators_of(self.scene), air_of(self.scene)
+        return circles(rung, radiators, air, places, self.harmonics, **_options(self.scene))
+
+    def _places(self, positions: Sequence[ArrayLike] | None) -> list[Position]:
+        """Places as plain tuples."""
+        if positions is None:
+            if not self.microphones:
+                raise ValueError("the scene has no microphones: give positions")
+            return self.positions
+        table = np.asarray(positions, dtype=float)
+        if table.ndim != 2 or table.shape[1] != 3 or not np.isfinite(table).all():
+            raise ValueError(f"positions must be finite (x, y, z) in m, not an array of shape {table.shape}")
+        return [(float(x), float(y), float(z)) for x, y, z in table]
+
+    def _recorded_rows(self, places: list[Position]) -> list[int]:
+        rows = []
+        for place in places:
+            near = [i for i, known in enumerate(self.positions) if np.allclose(known, place, atol=1e-9)]
+            if not near:
+                raise ValueError(
+                    f"no microphone was recorded at {place} m, and only pressures were: record the scene "
+                    "with fmu_bearing.record"
+                )
+            rows.append(near[0])
+        return rows
+
+
+def _options(scene: Scene) -> dict[str, Any]:
+    """Return what paths take beyond radiators and air, if the scene has it: reflecting plane (m), modes."""
+    found: dict[str, Any] = {}
+    if scene.sound is not None and scene.sound.reflecting_plane_mm is not None:
+        found["plane"] = si(scene.sound).reflecting_plane
+    found["modes"] = ring_modes(scene)
+    return found
+
+
+def air_of(scene: Scene) -> Air:
+    """Return the scene's air; without sound, the papers'."""
+    if scene.sound is None:
+        return Air()
+    sound = si(scene.sound)
+    return Air(sound.air_density, sound.sound_speed)

@@ -1,0 +1,260 @@
+"""All that is usually asked of a recording, measured at once and written to a folder."""
+
+import math
+import pathlib
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.acoustics.analysis.audio import write_wav
+from fmu_bearing.acoustics.analysis.field import Position
+from fmu_bearing.acoustics.analysis.lines import Line
+from fmu_bearing.acoustics.analysis.spectrum import level_spectrum
+from fmu_bearing.acoustics.analysis.third_octave import third_octave_levels
+from fmu_bearing.acoustics.filters.weighting import level
+from fmu_bearing.recording import measure, tables
+from fmu_bearing.recording.heard import Heard
+from fmu_bearing.run.extras import MissingExtra, need
+from fmu_bearing.run.table import markdown, write_csv
+
+if TYPE_CHECKING:
+    import xarray
+
+_SETTLE = 0.02  # s left to filters of third octaves, at most a fifth of the recording
+_LINES = 12
+_RESOLUTION = 5.0  # Hz
+Tell = Callable[[str], None]
+
+
+@dataclass(frozen=True)
+class Listened:
+    """What is heard at the microphones of a recording.
+
+    Attributes
+    ----------
+    names : tuple of str
+        Microphones.
+    levels : ndarray, shape (mics, 2)
+        Equivalent level in dB and dB(A), as `Heard.levels` has it: the papers' rungs add energies.
+    parts : dict of str to ndarray, shape (mics,)
+        Level (dB(A)) of each component alone; empty for a recording of pressures.
+    frequency : ndarray, shape (bins,)
+        In Hz.
+    spectra : dict of str to ndarray, shape (mics, bins)
+        Levels (dB) of the total and of each component.
+    bands : ndarray, shape (bands,)
+        Centres of third octaves (Hz).
+    third_octaves : ndarray, shape (mics, bands)
+        In dB.
+    lines : list of Line
+        Strongest lines at the first microphone; empty where the bearing is not known.
+    """
+
+    names: tuple[str, ...]
+    levels: NDArray[np.float64]
+    parts: dict[str, NDArray[np.float64]]
+    frequency: NDArray[np.float64]
+    spectra: dict[str, NDArray[np.float64]]
+    bands: NDArray[np.float64]
+    third_octaves: NDArray[np.float64]
+    lines: list[Line]
+
+    def rows(self) -> tuple[list[str], list[list[str]]]:
+        """Columns and rows of a table of levels."""
+        rows = [
+            [name, f"{z:.1f}", f"{a:.1f}", *(f"{values[k]:.1f}" for values in self.parts.values())]
+            for k, (name, (z, a)) in enumerate(zip(self.names, self.levels, strict=True))
+        ]
+        return ["microphone", "Leq, dB", "LAeq, dB(A)", *(f"{name}, dB(A)" for name in self.parts)], rows
+
+    def summary(self) -> dict[str, Any]:
+        """Return levels by microphone, for machines."""
+        return {
+            name: {"leq_dB": z, "laeq_dB": a}
+            | {f"laeq_{part}_dB": values[k] for part, values in self.parts.items()}
+            for k, (name, (z, a)) in enumerate(zip(self.names, self.levels.tolist(), strict=True))
+        }
+
+    def to_xarray(self) -> "xarray.Dataset":
+        """Return spectra and third octaves with microphones and sources as coordinates."""
+        xr = need("xarray", "a dataset")
+        spectra = np.stack([self.spectra[name] for name in self.spectra])
+        decibel = {"units": "dB", "long_name": "level re 20 uPa"}
+        return xr.Dataset(
+            {
+                "spectrum": (("source", "microphone", "frequency"), spectra, decibel),
+                "third_octaves": (("microphone", "band"), self.third_octaves, decibel),
+                "leq": ("microphone", self.levels[:, 0], decibel),
+                "laeq": ("microphone", self.levels[:, 1], decibel | {"units": "dB(A)"}),
+            },
+            {
+                "source": list(self.spectra),
+                "microphone": list(self.names),
+                "frequency": ("frequency", self.frequency, {"units": "Hz"}),
+                "band": ("band", self.bands, {"units": "Hz", "long_name": "third-octave centre"}),
+            },
+        )
+
+
+def listen(
+    recording: Heard,
+    microphones: Sequence[str] | None = None,
+    rung: str | None = None,
+    resolution: float | None = None,
+) -> Listened:
+    """Measure levels, spectra, third octaves and lines at the scene's microphones.
+
+    Parameters
+    ----------
+    recording : Heard
+    microphones : sequence of str, optional
+        Names of some of them; default: all.
+    rung : str, optional
+        In place of the recording's.
+    resolution : float, optional
+        Of the spectra (Hz); default: 5, or what a shorter recording allows.
+
+    Raises
+    ------
+    ValueError
+        For a microphone there is not, or a recording too short for the resolution.
+    """
+    chosen = chosen_microphones(recording.microphones, microphones)
+    places = [place for _, place in chosen]
+    known = recording.history.size > 0
+    if known:
+        parts = recording.partial(places, rung)
+        signals = {"total": sum(parts.values(), np.zeros((len(places), recording.size)))} | parts
+    else:
+        parts, signals = {}, {"total": recording.pressure(places)}
+    if resolution is None:
+        resolution = max(_RESOLUTION, recording.rate / recording.size)
+    frequency, spectra = _spectra(signals, recording.rate, resolution)
+    settle = min(_SETTLE, 0.2 * recording.size / recording.rate)
+    bands, thirds = third_octave_levels(signals["total"], recording.rate, settle)
+    lines = (
+        []
+        if recording.scene is None
+        else measure.strongest(recording, frequency, spectra["total"][0], _LINES)
+    )
+    return Listened(
+        tuple(name for name, _ in chosen),
+        np.column_stack([recording.levels(places, rung, w) for w in "ZA"]),
+        {name: level(recording.mean_square(part, "A")) for name, part in parts.items()},
+        frequency, spectra, bands, thirds, lines,
+    )  # fmt: skip
+
+
+def chosen_microphones(
+    there: Sequence[tuple[str, Position]], wanted: Sequence[str] | None
+) -> list[tuple[str, Position]]:
+    """Return the microphones of some names, all without names; ``ValueError`` where one is not there."""
+    chosen = [one for one in there if wanted is None or one[0] in wanted]
+    unknown = set(wanted or ()) - {name for name, _ in chosen}
+    if unknown or not chosen:
+        known = ", ".join(name for name, _ in there) or "none: give the scene [sound]"
+        raise ValueError(
+            f"there is no microphone {', '.join(sorted(unknown)) or 'to listen at'}; there are {known}"
+        )
+    return chosen
+
+
+def _spectra(
+    signals: dict[str, NDArray[np.float64]], rate: float, resolution: float
+) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]]]:
+    """Frequencies (Hz) and levels (dB) of every signal, shape (mics, bins) by name."""
+    found = {name: [level_spectrum(row, rate, resolution) for row in rows] for name, rows in signals.items()}
+    frequency = found["total"][0][0]
+    return frequency, {name: np.array([levels for _, levels in rows]) for name, rows in found.items()}
+
+
+def write_all(
+    recording: Heard,
+    found: Listened,
+    folder: pathlib.Path,
+    rung: str | None = None,
+    wav: bool = True,
+    directivity: bool = True,
+    tell: Tell = lambda text: None,
+) -> list[pathlib.Path]:
+    """Write tables (CSV), pictures (PNG), spectra (netCDF where xarray is there) and sounds (WAV).
+
+    Parameters
+    ----------
+    recording, found
+        As given to and returned by `listen`.
+    folder : Path
+        Made where it is missing.
+    rung : str, optional
+        For the directivity.
+    wav, directivity : bool
+        Leave out what takes time or space; a recording of pressures has no directivity.
+    tell : callable
+        Takes a line about what was left out.
+
+    Returns
+    -------
+    list of Path
+        Files written.
+    """
+    from fmu_bearing.recording import pictures
+
+    folder.mkdir(parents=True, exist_ok=True)
+    write_csv(folder / "levels.csv", *found.rows())
+    first = {name: levels[0] for name, levels in found.spectra.items()}
+    write_csv(folder / "spectrum.csv", *tables.spectrum_table(found.frequency, first))
+    audible = found.frequency <= 20_000.0
+    kinematics = None if recording.scene is None else recording.kinematics()
+    pictures.save(
+        pictures.spectrum_picture(
+            found.frequency[audible], {name: values[audible] for name, values in first.items()}, kinematics,
+            found.names[0],
+        ),
+        folder / "spectrum.png",
+    )  # fmt: skip
+    thirds = dict(zip(found.names, found.third_octaves, strict=True))
+    write_csv(folder / "third-octaves.csv", *tables.third_octave_table(found.bands, thirds))
+    pictures.save(pictures.third_octave_picture(found.bands, thirds), folder / "third-octaves.png")
+    files = ["levels.csv", "spectrum.csv", "spectrum.png", "third-octaves.csv", "third-octaves.png"]
+    if found.lines:
+        (folder / "lines.md").write_text(markdown(*tables.lines_table(found.lines)), "utf-8")
+        files.append("lines.md")
+    if wav:
+        files += _sounds(recording, found.names, folder, rung)
+    if directivity and recording.history.size:
+        files += _directivity(recording, folder, rung)
+    try:
+        need("h5netcdf", "netCDF")
+        found.to_xarray().to_netcdf(folder / "spectra.nc", engine="h5netcdf")
+        files.append("spectra.nc")
+    except MissingExtra as absent:
+        tell(f"spectra.nc is left out: {absent}")
+    return [folder / file for file in files]
+
+
+def _sounds(recording: Heard, names: Sequence[str], folder: pathlib.Path, rung: str | None) -> list[str]:
+    """Write one WAV file per microphone, all at one scale so that they compare by ear."""
+    places = dict(recording.microphones)
+    pressures = recording.pressure([places[name] for name in names], rung)
+    peak = float(np.max(np.abs(pressures)))
+    scale = 10.0 ** math.ceil(math.log10(max(peak, 1e-6)))
+    files = []
+    for name, pressure in zip(names, pressures, strict=True):
+        files.append(f"{''.join(c if c.isalnum() else '-' for c in name)}.wav")
+        write_wav(folder / files[-1], pressure, recording.rate, full_scale=scale)
+    return files
+
+
+def _directivity(recording: Heard, folder: pathlib.Path, rung: str | None) -> list[str]:
+    """Write levels round a sphere that holds the nearest microphone, in three planes."""
+    from fmu_bearing.recording import pictures
+
+    radius = min(math.hypot(*place) for place in recording.positions)
+    planes = measure.planes(recording, radius, count=36, weighting="A", rung=rung)
+    write_csv(folder / "planes.csv", *tables.round_table(planes))
+    title = f"dB(A) at {1e3 * radius:.0f} mm"
+    pictures.save(pictures.planes_picture(planes, title), folder / "planes.png")
+    return ["planes.csv", "planes.png"]

@@ -1,0 +1,184 @@
+"""Pictures of sound measurements: each function returns a Matplotlib figure, `save` writes it."""
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import ArrayLike, NDArray
+
+from fmu_bearing.acoustics.analysis.order import OrderMap, Waterfall
+from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
+from fmu_bearing.acoustics.analysis.third_octave import nominal_frequency
+from fmu_bearing.recording.measure import MotionPower, Round, Sweep
+from fmu_bearing.run.pictures import COLOURS, OTHERS, empty, label, save, single
+
+__all__ = [
+    "circle_picture",
+    "order_picture",
+    "planes_picture",
+    "power_picture",
+    "save",
+    "spectrum_picture",
+    "sweep_picture",
+    "third_octave_picture",
+    "waterfall_picture",
+]
+
+_RANGE = 70.0  # dB shown below the highest level
+_HARMONICS = 3  # of each kinematic frequency that are marked
+
+
+def spectrum_picture(
+    frequency: ArrayLike,
+    spectra: Mapping[str, ArrayLike],
+    kinematics: KinematicFrequencies | None = None,
+    title: str = "",
+) -> Figure:
+    """Draw levels (dB) over frequency (Hz), one curve each, kinematic frequencies and harmonics marked."""
+    figure, ax = single((10.0, 5.0))
+    f = np.asarray(frequency, dtype=float)
+    for name, colour in _coloured(spectra).items():
+        width = 1.4 if name == "total" else 0.8
+        ax.plot(f, np.asarray(spectra[name]), color=colour, linewidth=width, label=_words(name))
+    top = max(float(np.max(np.asarray(levels)[1:])) for levels in spectra.values())
+    ax.set_ylim(top - _RANGE, top + 12.0)
+    ax.set_xlim(0.0, float(f[-1]))
+    if kinematics is not None:
+        _mark(ax, kinematics, float(f[-1]))
+    label(ax, "frequency, Hz", "level, dB re 20 uPa", title)
+    ax.legend(frameon=False, ncols=5, loc="lower center", bbox_to_anchor=(0.5, 1.0 if not title else 1.05))
+    return figure
+
+
+def third_octave_picture(centres: ArrayLike, levels: Mapping[str, ArrayLike], title: str = "") -> Figure:
+    """Draw third-octave levels (dB) as bars side by side."""
+    figure, ax = single((10.0, 4.5))
+    bands = np.arange(len(np.asarray(centres)))
+    width = 0.8 / len(levels)
+    top = max(float(np.max(np.asarray(values))) for values in levels.values())
+    for k, (name, colour) in enumerate(_coloured(levels).items()):
+        height = np.maximum(np.asarray(levels[name], dtype=float) - (top - _RANGE), 0.0)
+        ax.bar(bands + (k + 0.5) * width - 0.4, height, width, top - _RANGE, color=colour, label=_words(name))
+    ax.set_xticks(bands[::3], [f"{nominal_frequency(f):g}" for f in np.asarray(centres)[::3]])
+    label(ax, "third-octave band, Hz", "level, dB re 20 uPa", title)
+    ax.legend(frameon=False)
+    return figure
+
+
+def order_picture(found: OrderMap, kinematics: KinematicFrequencies | None = None, title: str = "") -> Figure:
+    """Draw an order map: colour is the level (dB), upright lines are the kinematic orders."""
+    figure, ax = single((9.0, 5.5))
+    rpm = found.speed * 30.0 / math.pi
+    _colour_map(figure, ax, found.orders, rpm, found.levels)
+    if kinematics is not None:
+        orders = KinematicFrequencies(*(f / kinematics.f_r for f in kinematics))
+        _mark(ax, orders, float(found.orders[-1]), "white")
+    label(ax, "order (multiples of the shaft's turns)", "shaft speed, r/min", title, grid=False)
+    return figure
+
+
+def waterfall_picture(found: Waterfall, title: str = "") -> Figure:
+    """Draw spectra over time: colour is the level (dB)."""
+    figure, ax = single((9.0, 5.5))
+    _colour_map(figure, ax, found.frequency, found.time, found.levels)
+    label(ax, "frequency, Hz", "time, s", title, grid=False)
+    return figure
+
+
+def circle_picture(circles: Mapping[str, Round], title: str = "") -> Figure:
+    """Draw levels (dB) round one or more circles: 12 o'clock on top, as seen from +X."""
+    figure = empty((6.5, 6.5))
+    _polar(figure.add_subplot(projection="polar"), circles, "N", title)
+    return figure
+
+
+def planes_picture(found: Mapping[str, Round], title: str = "") -> Figure:
+    """Draw levels (dB) in three planes; 0 deg is 12 o'clock in YZ and +X in the others."""
+    figure = empty((13.0, 4.8))
+    for k, (name, each) in enumerate(found.items()):
+        ax = figure.add_subplot(1, len(found), k + 1, projection="polar")
+        _polar(ax, {name: each}, "N" if name == "YZ" else "E", f"plane {name}")
+    figure.suptitle(title)
+    return figure
+
+
+def sweep_picture(found: Sweep, title: str = "") -> Figure:
+    """Draw largest level, DL and DV over the radial distance, one curve per axial distance."""
+    figure = empty((13.0, 4.2))
+    axes = figure.subplots(1, 3)
+    for ax, (name, words) in zip(
+        axes, (("highest", "largest level, dB"), ("dl", "DL"), ("dv", "DV, dB")), strict=True
+    ):
+        for k, x in enumerate(found.axials):
+            values = [getattr(row[k].directivity, name) for row in found.circles]
+            colour = OTHERS[k % len(OTHERS)]
+            ax.plot(1e3 * found.radii, values, marker="o", color=colour, label=f"l = {1e3 * x:g} mm")
+        label(ax, "r, mm", words, "")
+    axes[0].legend(frameon=False)
+    figure.suptitle(title)
+    return figure
+
+
+def power_picture(motion: MotionPower, measured: Mapping[str, float], title: str = "") -> Figure:
+    """Draw power levels (dB) of the bodies' motion, and, by name, those measured by pressure."""
+    figure, ax = single((8.0, 4.2))
+    levels = {f"motion, {_words(name)}": value for name, value in motion.levels.items()} | dict(measured)
+    low = max(levels.values()) - _RANGE
+    ax.barh(list(levels), [max(value - low, 0.0) for value in levels.values()], left=low, color="#0072B2")
+    label(ax, "sound power level, dB re 1 pW", "", title)
+    return figure
+
+
+def _words(name: str) -> str:
+    return name.replace("_", " ")
+
+
+def _coloured(names: Mapping[str, object]) -> dict[str, str]:
+    """Colour of each name; components keep theirs."""
+    return {name: COLOURS.get(name, OTHERS[k % len(OTHERS)]) for k, name in enumerate(names)}
+
+
+def _mark(ax: Axes, kinematics: KinematicFrequencies, highest: float, colour: str = "black") -> None:
+    """Upright lines at the kinematic frequencies and their harmonics, named on top."""
+    low, high = ax.get_ylim()
+    for k, (name, base) in enumerate(zip(kinematics._fields, kinematics, strict=True)):
+        for n in range(1, _HARMONICS + 1):
+            if n * base > highest:
+                break
+            ax.axvline(n * base, color=colour, linewidth=0.5, linestyle=":", alpha=0.6)
+            words = f"${name[0]}_{name[2]}$" if n == 1 else f"${n}{name[0]}_{name[2]}$"
+            # five heights, so that neighbours do not hide each other
+            height = high - (high - low) * (0.02 + 0.035 * k)
+            ax.text(n * base, height, words, fontsize=7, ha="center", va="top", color=colour)
+
+
+def _colour_map(
+    figure: Figure, ax: Axes, x: NDArray[np.float64], y: NDArray[np.float64], levels: NDArray[np.float64]
+) -> None:
+    order: Sequence[int] = np.argsort(y).tolist()
+    top = float(levels.max())
+    drawn = ax.pcolormesh(
+        x, y[order], levels[order], vmin=top - _RANGE, vmax=top, cmap="magma", shading="nearest",
+        rasterized=True,
+    )  # fmt: skip
+    figure.colorbar(drawn, ax=ax, label="level, dB re 20 uPa")
+
+
+def _polar(ax: Axes, circles: Mapping[str, Round], zero: str, title: str) -> None:
+    """Levels round a circle; the largest one's direction is marked."""
+    low = min(float(each.levels.min()) for each in circles.values())
+    high = max(float(each.levels.max()) for each in circles.values())
+    for k, (name, each) in enumerate(circles.items()):
+        colour = OTHERS[k % len(OTHERS)]
+        angles, levels = np.append(each.angles, each.angles[0]), np.append(each.levels, each.levels[0])
+        marker = "o" if len(each.levels) <= 36 else ""
+        ax.plot(angles, levels, color=colour, marker=marker, markersize=3, label=name)
+        ax.plot([each.directivity.da], [each.directivity.highest], color=colour, marker="*", markersize=10)
+    # seen from +X, positive rotation runs anticlockwise: as polar axes do
+    ax.set_theta_zero_location(zero)  # type: ignore[attr-defined]
+    ax.set_ylim(5.0 * math.floor((low - 3.0) / 5.0), high + 1.0)
+    ax.set_title(title)
+    if len(circles) > 1:
+        ax.legend(frameon=False, loc="lower right", bbox_to_anchor=(1.1, -0.05))

@@ -1,0 +1,214 @@
+"""One run from a scene's quasi-static state with the engine's channel history kept."""
+
+import math
+import sys
+from collections.abc import Callable, Iterable, Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.acoustics.analysis.field import TAIL, form_of
+from fmu_bearing.acoustics.radiation.radiators import Air
+from fmu_bearing.engine import layout as at
+from fmu_bearing.engine import layout_sound as places
+from fmu_bearing.instance import Instance
+from fmu_bearing.prepare.model import Model, prepare
+from fmu_bearing.recording.recording import PRESSURE_STEP, Recording
+from fmu_bearing.run.choose import resolve
+from fmu_bearing.scene import Scene
+from fmu_bearing.scene.sound import Microphone, Sound
+
+__all__ = ["OUTPUTS", "PRESSURE_STEP", "Recording", "record"]
+
+Signal = float | Callable[[float], float]
+
+#: What a recording keeps besides speed and channels unless told otherwise.
+OUTPUTS = (
+    "friction_torque",
+    "contact.inner.load_mean",
+    "contact.outer.load_mean",
+    "contact.inner.angle_mean",
+    "contact.outer.angle_mean",
+)
+_FAR = 2000.0  # mm: where the one microphone of a recording stands; its flight lengthens the channel history
+
+
+def record(
+    source: Model | Scene,
+    duration: float,
+    *,
+    speed: Signal | None = None,
+    inputs: Mapping[str, Signal] | None = None,
+    settle: float = 0.02,
+    step: float = 4e-4,
+    rung: str | None = None,
+    outputs: Iterable[str] = OUTPUTS,
+    microphones: bool = False,
+    progress: bool | None = None,
+    watch: Callable[[Instance], None] | None = None,
+) -> Recording:
+    """Run a scene and keep its channels at 51.2 kHz, so that any microphone can be set up afterwards.
+
+    Parameters
+    ----------
+    source : Scene or Model
+        Level ``auto`` is resolved first.
+    duration : float
+        Length of the recording (s), counted from the end of ``settle``.
+    speed : float or callable, optional
+        Shaft speed (rad/s), or a function of time (s after initialisation); default: the scene's. It ramps
+        between communication points.
+    inputs : mapping, optional
+        Other inputs by name, numbers or functions of time, SI units, held over each step.
+    settle : float
+        Time (s) left out at the beginning, in which the start-up dies away.
+    step : float
+        Communication step (s). Longer ones than the engine keeps rows for are cut: 0.48 ms at least.
+    rung : str, optional
+        In place of the scene's ``sound.rung`` (``compact`` without sound). The papers' rungs have channels of
+        their own, so they must be told before the run; all others share theirs.
+    outputs : iterable of str
+        Variables kept at the communication points.
+    microphones : bool
+        Run the scene's own microphones, so that ``mic[1].leq`` and the like can be kept; else the engine
+        streams to a single one and runs faster.
+    progress : bool, optional
+        Show a progress bar; default: when the run is long and a terminal is there.
+    watch : callable, optional
+        Called with the running bearing after initialisation and after each communication step: for what is
+        in the state but no variable.
+
+    Returns
+    -------
+    Recording
+
+    Raises
+    ------
+    ValueError
+        For a refused time or input; `EngineError` and `SceneError` are of this kind.
+
+    Examples
+    --------
+    >>> from fmu_bearing import Bearing, record
+    >>> bearing = Bearing("examples/scenes/7003C-bare.toml", level="rings")
+    >>> recording = record(bearing.scene, 0.05, rung="compact")
+    >>> [round(float(level)) for level in recording.levels(weighting="A")]  # dB(A) at the scene's microphones
+    [50, 47, 50, 57]
+    """
+    scene = source.scene if isinstance(source, Model) else resolve(source)[0]
+    for name, value, low in (("duration", duration, 0.0), ("step", step, 0.0), ("settle", settle, -1e-300)):
+        if not (math.isfinite(value) and value > low):
+            raise ValueError(f"{name} = {value} s: it must be a finite, positive number of seconds")
+    wanted = rung or ("compact" if scene.sound is None else scene.sound.rung)
+    if microphones and (scene.sound is None or form_of(wanted) != form_of(scene.sound.rung)):
+        raise ValueError(
+            f'microphones=True runs the scene as it is, which has no channels for rung = "{wanted}": '
+            "leave it out, or set sound.rung in the scene"
+        )
+    model = source if isinstance(source, Model) and microphones else prepare(
+        scene if microphones else listened(scene, "compact" if form_of(wanted) == "vectors" else wanted)
+    )  # fmt: skip
+    bearing = Instance(model)
+    drives = dict(inputs or {})
+    if speed is not None:
+        drives["shaft_speed"] = speed
+    _drive(bearing, drives, 0.0)
+    bearing.initialise()
+    first = round(settle * places.RATE)
+    size = round(duration * places.RATE)
+    kept = _Kept(bearing, tuple(outputs), first + size + TAIL, watch)
+    _march(bearing, drives, kept, min(step, (kept.depth - 8) / places.RATE), progress)
+    return Recording(
+        scene, wanted, places.RATE, first / places.RATE, size, np.array(kept.time), np.array(kept.speed),
+        {name: np.array(values) for name, values in kept.outputs.items()}, kept.rows,
+        microphones=tuple((place.name, place.position_m) for place in scene.microphones),
+        harmonics=int(kept.sound[places.H_HARMONICS]),
+    )  # fmt: skip
+
+
+def listened(scene: Scene, rung: str) -> Scene:
+    """Return the scene with one far microphone: all the engine needs to form its channels."""
+    one = Microphone(name="far", x_mm=0.0, y_mm=_FAR, z_mm=0.0)
+    sound = scene.sound or Sound(
+        rung="compact", radiator="bare", air_density_kg_m3=Air.density, sound_speed_m_s=Air.sound_speed,
+        time_weighting="fast", metering_start_s=0.0, microphone=(one,),
+    )  # fmt: skip
+    # channels are motion: they do not depend on what radiates, and a bare bearing is the cheapest
+    sound = sound.model_copy(
+        update={"rung": rung, "radiator": "bare", "microphone": (one,), "circle": None}
+        | {"reflecting_plane_mm": None, "table_file": None, "third_octaves": False, "details": False}
+    )
+    return scene.model_copy(update={"sound": sound})
+
+
+class _Kept:
+    """What is read at communication points: rows of the engine's channel history, speed, outputs."""
+
+    def __init__(
+        self, bearing: Instance, outputs: tuple[str, ...], rows: int, watch: Callable[[Instance], None] | None
+    ) -> None:
+        p = bearing.p
+        block = int(p[at.P_AT_SOUND])
+        if block == 0:
+            raise ValueError("the model has no sound: give the scene, or leave microphones=False")
+        self.bearing = bearing
+        self.watch = watch
+        self.sound: NDArray[np.float64] = p[block : block + int(p[at.P_SOUND_SIZE])]
+        self.depth = int(self.sound[places.H_ROWS])
+        lanes, channels = int(self.sound[places.H_AT_LANES]), int(self.sound[places.H_CHANNELS])
+        self.lanes = self.sound[lanes : lanes + channels].astype(int)
+        self.rows = np.zeros((rows, channels))
+        self.count = 0
+        self.time: list[float] = []
+        self.speed: list[float] = []
+        self.outputs: dict[str, list[float]] = {name: [] for name in outputs}
+
+    @property
+    def full(self) -> bool:
+        return self.count >= len(self.rows)
+
+    def read(self) -> None:
+        """Take over what has come since the last call."""
+        self.time.append(self.bearing.time)
+        self.speed.append(float(self.bearing.s[at.S_SPEED]))
+        for name, values in self.outputs.items():
+            values.append(self.bearing.get(name))
+        if self.watch is not None:
+            self.watch(self.bearing)
+        state = self.bearing.s[at.S_SOUND :]
+        channels = self.rows.shape[1]
+        first = int(self.sound[places.H_S_CHANNELS])
+        ring = state[first : first + channels * self.depth].reshape(self.depth, channels)
+        count = int(state[places.SS_COUNT])
+        if count - self.count > self.depth:
+            raise RuntimeError(f"{count - self.count} rows came in one step, the engine keeps {self.depth}")
+        new = np.arange(self.count, min(count, len(self.rows)))
+        self.rows[new] = ring[new % self.depth][:, self.lanes]
+        self.count = count
+
+
+def _march(
+    bearing: Instance, drives: Mapping[str, Signal], kept: _Kept, step: float, progress: bool | None
+) -> None:
+    """Step until all rows have come."""
+    from rich.console import Console
+    from rich.progress import Progress
+
+    total = len(kept.rows)
+    shown = sys.stderr.isatty() and total > places.RATE / 2 if progress is None else progress
+    with Progress(console=Console(stderr=True), transient=True, disable=not shown) as bar:
+        task = bar.add_task(f"{bearing.model.scene.name}: recording", total=total)
+        kept.read()
+        number = 0
+        while not kept.full:
+            number += 1
+            _drive(bearing, drives, number * step)
+            bearing.step(number * step - bearing.time)
+            kept.read()
+            bar.update(task, completed=min(kept.count, total))
+
+
+def _drive(bearing: Instance, drives: Mapping[str, Signal], time: float) -> None:
+    """Set inputs to what they are to be at ``time``."""
+    for name, signal in drives.items():
+        bearing.set(name, float(signal(time)) if callable(signal) else float(signal))

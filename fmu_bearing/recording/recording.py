@@ -1,0 +1,149 @@
+"""Recordings: what a run leaves behind for the ears, kept in files, or taken from an FMU's run."""
+
+import json
+import math
+import os
+import pathlib
+import re
+import warnings
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.engine.layout_sound import LATENCY, RATE
+from fmu_bearing.recording.heard import Heard
+from fmu_bearing.run.result import read_table
+from fmu_bearing.scene import Scene, read_scene_text, si
+
+#: Communication step (s) at which an FMU shows every pressure sample once: a hair longer than a sample, so
+#: that rounding of times never shows one twice and the next not at all.
+PRESSURE_STEP = (1.0 + 1e-9) / RATE
+_PRESSURE = re.compile(r"mic\[\d+\]\.pressure")
+_ENOUGH = 40_000.0  # Hz: pressures reach to 20 kHz
+_VERSION = 1
+
+
+class Recording(Heard):
+    """Pressures, levels and channels of a run (`Heard` has all that can be asked of it), with files.
+
+    Made by ``fmu_bearing.record``, from a file (`load`) or from an FMU's run (`from_fmu`).
+
+    Examples
+    --------
+    >>> from fmu_bearing import Bearing, Recording, record
+    >>> bearing = Bearing("examples/scenes/7003C-bare.toml", level="rings")
+    >>> record(bearing.scene, 0.02, rung="compact").save("run.npz")
+    >>> recording = Recording.load("run.npz")
+    >>> recording.pressure([(0.0, 0.2, 0.0)]).shape  # Pa, anywhere (m)
+    (1, 1024)
+    """
+
+    @classmethod
+    def from_fmu(
+        cls,
+        result: NDArray[Any] | str | os.PathLike[str],
+        scene: Scene | None = None,
+        settle: float = 0.02,
+    ) -> "Recording":
+        """Take the pressures of an FMU run.
+
+        Parameters
+        ----------
+        result : structured array or path
+            What ``fmpy.simulate_fmu`` returns, with ``mic[1].pressure`` and so on among its outputs, or a CSV
+            file of it. Run with ``output_interval=PRESSURE_STEP``, so that every sample is there once.
+        scene : Scene, optional
+            The scene the FMU was built from: places of microphones, kinematic frequencies.
+        settle : float
+            Time (s) left out at the beginning.
+
+        Raises
+        ------
+        ValueError
+            Without pressures, for unevenly spaced times, or when nothing is left after ``settle``.
+        """
+        table: Any = result if isinstance(result, np.ndarray) else read_table(result)
+        names = table.dtype.names or ()
+        pressures = [name for name in names if _PRESSURE.fullmatch(name)]
+        if "time" not in names or not pressures:
+            raise ValueError(
+                "the result must hold time and mic[1].pressure; ask for them as outputs of the run"
+            )
+        time = np.asarray(table["time"], dtype=float)
+        gaps = np.diff(time)
+        rate = 1.0 / float(np.mean(gaps))
+        if np.max(np.abs(gaps * rate - 1.0)) > 1e-3:
+            raise ValueError(
+                f"times are {gaps.min():.3g} to {gaps.max():.3g} s apart: pressures must be evenly spaced"
+            )
+        if abs(rate / RATE - 1.0) < 1e-6:
+            rate = RATE
+        if rate < _ENOUGH:
+            warnings.warn(
+                f"pressures at {rate:g} Hz fold what lies above {rate / 2:g} Hz: run with "
+                "output_interval=PRESSURE_STEP",
+                stacklevel=2,
+            )
+        first = int(np.searchsorted(time, time[0] + settle - 1e-9))
+        if first >= len(time):
+            raise ValueError(f"settle = {settle} s leaves nothing of {time[-1] - time[0]:g} s")
+        known = (
+            {} if scene is None else {f"mic[{k + 1}].pressure": m for k, m in enumerate(scene.microphones)}
+        )
+        places = [known.get(name, (name, (math.nan,) * 3)) for name in pressures]
+        speed = table["shaft_speed"] if "shaft_speed" in names else _speed_of(scene, len(time))
+        others = [name for name in names if name not in ("time", *pressures)]
+        return cls(
+            scene, "recorded", rate, float(time[first]) - LATENCY / RATE, len(time) - first, time - time[0],
+            np.asarray(speed, dtype=float),
+            {name: np.asarray(table[name], dtype=np.float64) for name in others},
+            recorded=np.array([table[name][first:] for name in pressures], dtype=float),
+            microphones=tuple((str(name), place) for name, place in places),
+        )  # fmt: skip
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write everything to one ``.npz`` file."""
+        head = {
+            "version": _VERSION,
+            "scene": None if self.scene is None else self.scene.to_toml(),
+            "rung": self.rung,
+            "rate": self.rate,
+            "start": self.start,
+            "size": self.size,
+            "microphones": self.microphones,
+            "harmonics": self.harmonics,
+        }
+        arrays: dict[str, Any] = {f"output:{name}": values for name, values in self.outputs.items()}
+        with pathlib.Path(path).open("wb") as file:
+            np.savez(
+                file, head=np.array(json.dumps(head)), output_time=self.output_time,
+                speed_points=self.speed_points, history=self.history, recorded=self.recorded, **arrays,
+            )  # fmt: skip
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> "Recording":
+        """Read what `save` wrote.
+
+        Raises
+        ------
+        ValueError
+            When the file is no recording.
+        """
+        with np.load(path, allow_pickle=False) as data:
+            if "head" not in data or (head := json.loads(str(data["head"]))).get("version") != _VERSION:
+                raise ValueError(f"{path} is no recording that this version has written")
+            scene = head["scene"]
+            return cls(
+                None if scene is None else read_scene_text(scene, str(path)),
+                head["rung"], head["rate"], head["start"], head["size"], data["output_time"],
+                data["speed_points"],
+                {name[7:]: data[name] for name in data.files if name.startswith("output:")},
+                data["history"], data["recorded"],
+                tuple((name, tuple(place)) for name, place in head["microphones"]), head["harmonics"],
+            )  # fmt: skip
+
+
+def _speed_of(scene: Scene | None, count: int) -> NDArray[np.float64]:
+    """Return the scene's speed (rad/s), NaN without scene."""
+    return np.full(count, math.nan if scene is None else si(scene.operation).speed)

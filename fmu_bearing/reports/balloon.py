@@ -1,0 +1,224 @@
+"""Directivity: level over all directions at one distance, in bands, turned by hand and in three planes."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.acoustics.analysis.directivity import circle_points
+from fmu_bearing.acoustics.filters.weighting import a_weighting_db, level
+from fmu_bearing.reports import look
+from fmu_bearing.reports.blocks import Absent, Block, Chart, Choice, Option, Section, small
+from fmu_bearing.reports.heard import Microphones
+from fmu_bearing.reports.subject import Subject
+
+_LATITUDES, _AROUND = 31, 36  # every 6 and 10 deg, so that the three planes are among the points
+_CIRCLE = 72
+_RESOLUTION = 20.0  # Hz
+_RANGE = 30.0  # dB below the loudest direction that the balloon's radius shows
+_OCTAVES = (125.0, 250.0, 500.0, 1000.0, 2000.0, 4000.0, 8000.0)
+_PLANES = {"YZ, bearing plane": "x", "XY, horizontal": "y", "XZ, upright": "z"}  # and the colour of each
+
+
+@dataclass(frozen=True)
+class Sphere:
+    """Directions of a sphere about the axis, and levels there.
+
+    Attributes
+    ----------
+    polar, azimuth : ndarray
+        Angles (rad) from +X, shape (latitudes,), and from 12 o'clock about +X, shape (around,).
+    levels : dict of ndarray, shape (latitudes, around)
+        In dB, by name of the band.
+    """
+
+    polar: NDArray[np.float64]
+    azimuth: NDArray[np.float64]
+    levels: dict[str, NDArray[np.float64]]
+
+    def directions(self) -> NDArray[np.float64]:
+        """Return unit vectors (x, y, z), shape (latitudes, around, 3)."""
+        a, b = np.meshgrid(self.polar, self.azimuth, indexing="ij")
+        return np.stack([np.cos(a), -np.sin(a) * np.sin(b), np.sin(a) * np.cos(b)], axis=-1)
+
+
+def _bands(frequency: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
+    """Weights of the bins for each band."""
+    found = {
+        "A-weighted": 10.0 ** (a_weighting_db(frequency) / 10.0),
+        "unweighted": np.ones(len(frequency)),
+    }
+    for centre in _OCTAVES:
+        inside = (frequency >= centre / math.sqrt(2.0)) & (frequency < centre * math.sqrt(2.0))
+        name = f"octave {centre:g} Hz" if centre < 1000.0 else f"octave {centre / 1e3:g} kHz"
+        found[name] = inside.astype(float)
+    return found
+
+
+def sphere(subject: Subject) -> Sphere:
+    """Levels at the report's radius; `Absent` where the recording does not allow other places."""
+    recording = subject.recording
+    if not recording.history.size:
+        raise Absent("only pressures were recorded: levels elsewhere need the channels a run of ours keeps")
+    if subject.rung == "paper":
+        raise Absent("rung paper hears a bearing alike from all directions")
+    polar = np.linspace(0.0, math.pi, _LATITUDES)
+    azimuth = 2.0 * math.pi * np.arange(_AROUND) / _AROUND
+    bare = Sphere(polar, azimuth, {})
+    points = subject.radius * bare.directions()
+    inner = points[1:-1].reshape(-1, 3)
+    ends = subject.radius * np.array([[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]])
+    try:
+        frequency, squares = recording.mean_squares([*ends, *inner], subject.rung, _resolution(subject))
+    except ValueError as problem:
+        raise Absent(str(problem)) from None
+    found = {}
+    for name, weights in _bands(frequency).items():
+        values = level(squares @ weights)
+        whole = np.empty((_LATITUDES, _AROUND))
+        whole[0], whole[-1] = values[0], values[1]
+        whole[1:-1] = values[2:].reshape(_LATITUDES - 2, _AROUND)
+        found[name] = whole
+    return Sphere(polar, azimuth, found)
+
+
+def _resolution(subject: Subject) -> float:
+    return max(_RESOLUTION, 2.0 * subject.recording.rate / subject.recording.size)
+
+
+def directivity(subject: Subject, heard: Microphones | None) -> Section:
+    """Balloon, three planes, and a circle through the first microphone."""
+    found = sphere(subject)
+    blocks: list[Block] = [_balloon(subject, found), _planes(subject, found)]
+    if heard is not None and (chart := _circle(subject, heard)) is not None:
+        blocks.append(chart)
+    return Section("directivity", "Directivity", blocks)
+
+
+def _choice(found: Sphere, unit: str) -> Choice:
+    return Choice("band", unit, [Option(name, name) for name in found.levels])
+
+
+def _balloon(subject: Subject, found: Sphere) -> Chart:
+    figure = look.figure(height=560, margin={"l": 0, "r": 0, "t": 10, "b": 10}, showlegend=False)
+    directions = found.directions()
+    closed = np.concatenate([directions, directions[:, :1]], axis=1)
+    spots = _spots(found)
+    for k, (name, values) in enumerate(found.levels.items()):
+        whole = np.concatenate([values, values[:, :1]], axis=1)
+        top = float(values.max())
+        radius = np.maximum(whole - (top - _RANGE), 0.0) / _RANGE
+        x, y, z = (radius * closed[..., axis] for axis in range(3))
+        figure.add_surface(
+            x=small(x), y=small(y), z=small(z), surfacecolor=small(whole),
+            cmin=max(top - _RANGE, float(values.min()) - 0.05),
+            cmax=top, colorscale="Viridis", meta={"band": name}, visible=k == 0, customdata=spots,
+            colorbar=look.bar("dB", 0.75),
+            hovertemplate="%{surfacecolor:.1f} dB at %{customdata[0]:.0f} deg from +X, "
+            "%{customdata[1]:.0f} deg from 12 o'clock<extra></extra>",
+            lighting={"ambient": 0.75, "diffuse": 0.5, "specular": 0.1}, showscale=True,
+        )  # fmt: skip
+    figure.add_scatter3d(
+        x=[-1.15, 1.15], y=[0, 0], z=[0, 0], mode="lines+text", text=["-X", "+X, axis"], hoverinfo="skip",
+        line={"color": look.colour("grey"), "width": 5}, textposition="top center",
+    )  # fmt: skip
+    axis = {"showticklabels": False, "range": [-1.2, 1.2], "showspikes": False}
+    figure.update_layout(
+        scene={
+            "xaxis": axis | {"title": {"text": "X, axis"}}, "yaxis": axis | {"title": {"text": "Y"}},
+            "zaxis": axis | {"title": {"text": "Z, up"}}, "aspectmode": "cube",
+            "camera": {"eye": {"x": 1.25, "y": 1.15, "z": 0.75}},
+        }
+    )  # fmt: skip
+    a = found.levels["A-weighted"]
+    return Chart(
+        "balloon", f"Level over direction at {subject.radius:g} m", figure,
+        f"Three-dimensional directivity at {subject.radius:g} m: A-weighted levels from {a.min():.1f} to "
+        f"{a.max():.1f} dB.",
+        (_choice(found, "Level"),), solid=True,
+        note=f"Drag to turn, scroll to zoom. Distance from the centre and colour both are the level; the "
+        f"centre stands "
+        f"{_RANGE:g} dB below the loudest direction. {_LATITUDES * _AROUND - 2 * (_AROUND - 1)} "
+        f"directions, rung {subject.rung}, "
+        f"{_resolution(subject):.3g} Hz blocks.",
+    )  # fmt: skip
+
+
+def _spots(found: Sphere) -> NDArray[np.int16]:
+    """Directions (deg) for the pointer: from +X, and from 12 o'clock, shape (latitudes, around + 1, 2)."""
+    around = np.append(np.degrees(found.azimuth), 0.0)
+    both = np.stack(np.meshgrid(np.degrees(found.polar), around, indexing="ij"), axis=-1)
+    return np.round(both).astype(np.int16)
+
+
+def _rounds(values: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
+    """Levels round the three planes out of those on the sphere, the first again at the end.
+
+    In YZ from 12 o'clock with positive rotation, in the others from +X: towards +Y, and upwards.
+    """
+    quarter = _AROUND // 4
+    yz = values[(_LATITUDES - 1) // 2]
+    # azimuth 270 deg is +Y, 90 deg is -Y, 0 is up, 180 deg is down
+    xy = np.concatenate([values[:, 3 * quarter], values[-2:0:-1, quarter]])
+    xz = np.concatenate([values[:, 0], values[-2:0:-1, 2 * quarter]])
+    return {name: np.append(row, row[0]) for name, row in zip(_PLANES, (yz, xy, xz), strict=True)}
+
+
+def _scale(values: NDArray[np.float64]) -> tuple[float, float]:
+    """Range of a radial axis: whole steps of 5 dB, 10 dB at least."""
+    high = 5.0 * math.ceil((float(values.max()) + 0.5) / 5.0)
+    return max(min(5.0 * math.floor((float(values.min()) - 1.0) / 5.0), high - 10.0), high - 40.0), high
+
+
+def _planes(subject: Subject, found: Sphere) -> Chart:
+    choices = []
+    figure = look.polar(520, {"range": list(_scale(found.levels["A-weighted"]))})
+    for k, (name, values) in enumerate(found.levels.items()):
+        for plane, row in _rounds(values).items():
+            figure.add_scatterpolar(
+                theta=small(np.linspace(0.0, 360.0, len(row))), r=small(row), mode="lines", name=plane,
+                meta={"band": name},
+                visible=k == 0,
+                line={"color": look.colour(_PLANES[plane]), "width": 2},
+                hovertemplate="%{theta:.0f} deg: %{r:.1f} dB<extra>" + plane + "</extra>",
+            )  # fmt: skip
+        choices.append(Option(name, name, {"polar.radialaxis.range": list(_scale(values))}))
+    return Chart(
+        "planes", f"Level in three planes at {subject.radius:g} m", figure,
+        "Polar chart of the level in the bearing plane, the horizontal and the upright plane through the "
+        "axis.",
+        (Choice("band", "Level", choices),),
+        note="YZ: from 12 o'clock with positive rotation, as seen from +X. XY: from +X towards +Y. XZ: "
+        "from +X upwards.",
+    )  # fmt: skip
+
+
+def _circle(subject: Subject, heard: Microphones) -> Chart | None:
+    """Levels round the axis through the microphone farthest off it; none where all stand on the axis."""
+    places = [(math.hypot(y, z), x) for x, y, z in heard.positions]
+    radius, axial = max(places)
+    if not radius > 1e-6:
+        return None
+    points = list(circle_points(radius, axial, _CIRCLE))
+    frequency, squares = subject.recording.mean_squares(points, subject.rung, _resolution(subject))
+    found = {name: level(squares @ weights) for name, weights in _bands(frequency).items()}
+    figure = look.polar(480, {"range": list(_scale(found["A-weighted"]))})
+    angle = np.linspace(0.0, 360.0, _CIRCLE + 1)
+    choices = []
+    for k, (name, values) in enumerate(found.items()):
+        figure.add_scatterpolar(
+            theta=small(angle), r=small(np.append(values, values[0])), mode="lines", name=name,
+            meta={"band": name},
+            visible=k == 0, line={"color": look.colour("outer_ring"), "width": 2}, showlegend=False,
+            hovertemplate="%{theta:.0f} deg: %{r:.1f} dB<extra></extra>",
+        )  # fmt: skip
+        choices.append(Option(name, name, {"polar.radialaxis.range": list(_scale(values))}))
+    where = f"r = {1e3 * radius:g} mm, l = {1e3 * axial:g} mm"
+    return Chart(
+        "circle", f"Level round the axis at {where}", figure,
+        f"Polar chart of the level on the circle about the axis with {where}.",
+        (Choice("band", "Level", choices),),
+        note=f"{_CIRCLE} places on the circle through the microphone farthest from the axis, 12 o'clock on "
+        f"top, seen from +X.",
+    )  # fmt: skip

@@ -1,0 +1,93 @@
+"""Place, load and contact angle of every ball and the cage's place, out of the state.
+
+The table of variables has means and extremes over the balls. The engine computes those in one kernel from
+each ball's place; here the same kernel reads a bearing that has one ball, the one asked for, so that no
+formula stands twice.
+"""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.jit import entry
+from fmu_bearing.engine.readout import outputs as observe
+from fmu_bearing.instance import Instance
+
+_CONTACTS = entry(observe.contacts.py_func)  # kept compiled, as what Python calls
+_ROWS = 9  # of the state, per ball
+_PER_RACE = at.BEARING_OUTPUTS.index("contact.outer.load_mean") - observe.Z_CONTACT
+_CAGE = at.S_Y + at.Y_Q + at.Q_CAGE
+RACES = ("inner", "outer")
+_READ = [observe.Z_CONTACT + k for k in (0, 2, _PER_RACE, _PER_RACE + 2)]  # load and angle at both
+
+
+def name_of(ball: int, what: str, race: str = "") -> str:
+    """Name under which a recording keeps ``what`` ("azimuth", "load", "angle") of ball 1, 2, ..."""
+    return f"ball[{ball}].contact.{race}.{what}" if race else f"ball[{ball}].{what}"
+
+
+class Watch:
+    """Reads balls and cage at each call, for ``fmu_bearing.record(watch=...)``.
+
+    Loads are the elastic ones, without waviness of the races, as ``contact.inner.load_mean`` is.
+    """
+
+    def __init__(self) -> None:
+        self._balls: list[NDArray[np.float64]] = []
+        self._cage: list[NDArray[np.float64]] = []
+        self._reader: Reader | None = None
+
+    def __call__(self, bearing: Instance) -> None:
+        """Read the state as it is."""
+        if self._reader is None:
+            self._reader = Reader(bearing)
+        self._balls.append(self._reader.read(bearing))
+        self._cage.append(bearing.s[_CAGE : _CAGE + 3].copy())
+
+    def outputs(self) -> dict[str, NDArray[np.float64]]:
+        """Return what was read, over the calls, by `name_of` (rad, N, rad), and the cage's place (m)."""
+        table = np.array(self._balls)
+        found = {}
+        for j in range(table.shape[1]):
+            found[name_of(j + 1, "azimuth")] = table[:, j, 0]
+            for k, race in enumerate(RACES):
+                found[name_of(j + 1, "load", race)] = table[:, j, 1 + 2 * k]
+                found[name_of(j + 1, "angle", race)] = table[:, j, 2 + 2 * k]
+        if self._reader is not None and self._reader.has_cage:
+            for axis, values in zip("xyz", np.array(self._cage).T, strict=True):
+                found[f"cage.displacement.{axis}"] = values
+        return found
+
+
+class Reader:
+    """Reads the balls of one initialised bearing."""
+
+    def __init__(self, bearing: Instance) -> None:
+        # without the sound block behind the tables, which is large
+        end = int(bearing.p[at.P_AT_SOUND]) or len(bearing.p)
+        self._p: NDArray[np.float64] = bearing.p[:end].copy()
+        self._oversize = int(self._p[at.P_AT_OVERSIZE])
+        self.balls = int(self._p[at.P_BALLS])
+        self.has_cage = bool(self._p[at.P_CAGE])
+        self._diameters = self._p[self._oversize : self._oversize + self.balls].copy()
+        self._p[at.P_BALLS] = 1.0
+        self._rows = at.S_Y + at.STRIDE * np.arange(_ROWS)
+        self._z: NDArray[np.float64] = np.zeros(len(at.BEARING_OUTPUTS))
+
+    def read(self, bearing: Instance) -> NDArray[np.float64]:
+        """Return azimuth (rad, from 12 o'clock about +X), load (N) and angle (rad) at inner and outer race.
+
+        Shape (balls, 5).
+        """
+        state = bearing.s[: at.S_AXES].copy()  # the kernel reads nothing behind
+        places = state[self._rows[:, None] + np.arange(self.balls)]
+        found = np.empty((self.balls, 1 + 2 * len(RACES)))
+        for j in range(self.balls):
+            state[self._rows] = places[:, j]
+            self._p[self._oversize] = self._diameters[j]
+            _CONTACTS(self._p, state, self._z)
+            found[j, 0] = places[at.B_TH, j] % (2.0 * math.pi)
+            found[j, 1:] = self._z[_READ]
+        return found

@@ -1,0 +1,169 @@
+"""Operating point, kinematic frequencies, and the choices that stand behind the figures."""
+
+import math
+
+from fmu_bearing.reports.assumptions import assumed_table
+from fmu_bearing.reports.blocks import Absent, Block, Folded, Section, Table, Words
+from fmu_bearing.reports.marks import OTHER_NAMES
+from fmu_bearing.reports.subject import RPM, Subject
+from fmu_bearing.scene import Scene
+
+_LEVELS = {
+    "full": "all bodies move: rings, cage and every ball, with sliding, film, pockets and lands",
+    "rings": "rings move in time; each ball stands where both contacts balance it, the cage turns with "
+    "them; torque and "
+    "heats are the quasi-static ones; no slip, no motion of the cage",
+    "response": "linear response of the rings about the quasi-static state, as a sum of lines; no slip, no "
+    "motion of the "
+    "cage, nothing that a change sets ringing",
+}
+_RUNGS = {
+    "bem": "boundary elements on bodies of revolution, everything scattering on everything",
+    "compact": "rings, cage and housing as dipoles, balls as spheres on their orbit; no body shields another",
+    "paper": "the multi-source paper as printed; energies are added",
+    "paper_vector": "the multi-source paper's filters on vectors",
+    "paper_contacts": "the sound-field paper's sources at the contact points",
+    "table": "the user's transfer functions",
+    "recorded": "pressures as they were recorded",
+}
+_RADIATORS = {
+    "bare": "the bare bearing",
+    "baffle": "its face, flush in a rigid plane",
+    "housing": "the housing",
+}
+_FREQUENCY_WORDS = {
+    "f_r": "turns of the shaft",
+    "f_c": "turns of the cage",
+    "f_b": "turns of a ball about itself",
+    "f_i": "balls passing a place of the inner race",
+    "f_o": "balls passing a place of the outer race",
+}
+
+
+def conditions(subject: Subject) -> Section:
+    """Operating point and kinematic frequencies."""
+    blocks: list[Block] = [_operation(subject), _kinematics(subject)]
+    return Section("conditions", "Operating point", blocks)
+
+
+def _operation(subject: Subject) -> Table:
+    scene = subject.scene
+    b, m, o = scene.bearing, scene.mounting, scene.operation
+    rpm = subject.speed / RPM
+    imperfections = scene.imperfections
+    rows = [
+        ["bearing", f"{b.designation}: {b.bore_mm:g} x {b.outside_diameter_mm:g} x {b.width_mm:g} mm, "
+        f"{b.ball_count} balls "
+         f"of {b.ball_diameter_mm:g} mm, contact angle {b.contact_angle_deg:g} deg"],
+        ["shaft speed", f"{rpm:,.0f} r/min" + _variation(subject)],
+        ["preload", f"{m.preload_N:g} N along the axis, by "
+        f"{'a constant force' if m.preload_mode == 'force' else 'rigid distance'}"],
+        ["radial load on the inner ring", f"y {m.radial_load_y_N:g} N, z {m.radial_load_z_N:g} N"],
+        ["misalignment", f"about y {m.misalignment_y_mrad:g} mrad, about z {m.misalignment_z_mrad:g} mrad"],
+        ["temperatures", f"oil {o.oil_temperature_degC:g}, inner ring {o.inner_ring_temperature_degC:g}, "
+         f"outer ring {o.outer_ring_temperature_degC:g} degC"],
+        ["pedestal stiffness", f"{1e-6 * m.pedestal_stiffness_N_m:.4g} N/um"],
+        ["cage", "none" if b.cage is None else f"{b.cage.width_mm:g} mm wide, pockets of "
+        f"{b.cage.pocket_diameter_mm:g} mm"],
+        ["imperfections", "none: a perfect bearing" if imperfections is None else
+         f"seed {imperfections.seed}, unbalance {imperfections.unbalance_um:g} um, balls within "
+         f"+-{imperfections.ball_diameter_spread_nm:g} nm, waviness orders {imperfections.lowest_order} to "
+         f"{imperfections.highest_order}"],
+        ["level", f"{scene.fidelity.level}: {_LEVELS.get(scene.fidelity.level, '')}"],
+        ["method", _method(scene)],
+        ["sound", _sound(subject)],
+    ]  # fmt: skip
+    return Table("Operating point and method", ["", ""], rows)
+
+
+def _variation(subject: Subject) -> str:
+    speed = subject.recording.speed
+    low, high = float(speed.min()) / RPM, float(speed.max()) / RPM
+    return "" if high - low < 0.5 else f" in the mean, from {low:,.0f} to {high:,.0f} r/min"
+
+
+def _method(scene: Scene) -> str:
+    f = scene.fidelity
+    name = f"{f.method}, " if f.level == "full" else ""
+    return (
+        f"{name}internal steps up to {f.max_internal_step_us:g} us, tolerance {f.tolerance:g}, "
+        f"{f.traction_strips} strips per contact"
+    )
+
+
+def _sound(subject: Subject) -> str:
+    scene = subject.scene
+    radiator = "" if scene.sound is None else f"; radiator: {_RADIATORS[scene.sound.radiator]}"
+    return f"rung {subject.rung}: {_RUNGS.get(subject.rung, '')}{radiator}"
+
+
+def _kinematics(subject: Subject) -> Table:
+    kinematics = subject.kinematics
+    rows = []
+    for name, value in kinematics._asdict().items():
+        order = f"{value / kinematics.f_r:.4f}" if kinematics.f_r else ""
+        rows.append([name, OTHER_NAMES[name], _FREQUENCY_WORDS[name], f"{value:.2f}", order])
+    angle = (
+        math.degrees(subject.mean("contact.outer.angle_mean"))
+        if subject.has("contact.outer.angle_mean")
+        else None
+    )
+    words = (
+        "at the mean of the computed contact angles" if angle is not None else "at the nominal contact angle"
+    )
+    ratio = ""
+    if subject.has("cage.speed_ratio") and subject.level == "full":
+        found = subject.mean("cage.speed_ratio")
+        rolling = kinematics.f_c / kinematics.f_r if kinematics.f_r else math.nan
+        slip = 100.0 * (found / rolling - 1.0)
+        ratio = f" The cage turned at {found:.5f} of the shaft's speed, {slip:+.2f} % from rolling."
+    return Table(
+        "Kinematic frequencies", ["", "also called", "counts", "frequency, Hz", "order"], rows,
+        note=f"Rolling without sliding, {words}.{ratio}",
+    )  # fmt: skip
+
+
+def assumptions(subject: Subject) -> Section:
+    """Assumed values, choices, the scene itself."""
+    scene = subject.scene
+    blocks: list[Block] = [
+        Words("A computed figure is worth what went into it. Here is what was assumed, chosen and left out."),
+        assumed_table(scene, subject.origins),
+        _choices(subject),
+        Folded("The scene, to run it again", subject.scene_text or scene.to_toml()),
+    ]
+    return Section("assumptions", "Assumptions and choices", blocks)
+
+
+def _choices(subject: Subject) -> Table:
+    scene, recording = subject.scene, subject.recording
+    off = [name.replace("_", " ") for name, on in scene.fidelity.terms.model_dump().items() if not on]
+    steps = f"{1e6 * subject.step:.4g} us" if subject.time.size > 1 else ""
+    rows = [
+        ["level of the dynamics", scene.fidelity.level, _LEVELS.get(scene.fidelity.level, "")],
+        ["radiation", subject.rung, _RUNGS.get(subject.rung, "")],
+        ["forces left out", ", ".join(off) or "none", "fidelity.terms"],
+        ["rings", "bending" if scene.bends else "rigid", "mounting.flexure"],
+        ["oil", scene.lubricant.viscosity_law, f"viscosity {scene.lubricant.viscosity_Pa_s:g} Pa s at 20 "
+        f"degC; "
+         f"traction law {scene.lubricant.traction_law}"],
+        ["temperatures", "held", "the run does not warm up: heats are told, not fed back"],
+        ["recorded", f"{recording.size / recording.rate:.4g} s", f"after {recording.start:.3g} s in which "
+        f"the start dies away"],
+        ["communication step", steps, "between the points at which variables were read"],
+        ["sound", f"{recording.rate:g} Hz", "20 Hz to 20 kHz; free field unless the scene says otherwise"],
+    ]  # fmt: skip
+    if scene.sound is not None:
+        s = scene.sound
+        rows.append(["air", f"{s.air_density_kg_m3:g} kg/m3", f"sound speed {s.sound_speed_m_s:g} m/s"])
+    return Table("Choices", ["what", "choice", "which means"], rows, folded=True)
+
+
+def source_words(subject: Subject) -> str:
+    """Bearing and speed in a line."""
+    try:
+        scene = subject.scene
+    except Absent:
+        return "a recording without scene"
+    speed = f"{subject.speed / RPM:,.0f} r/min"
+    return f"{scene.bearing.designation} at {speed}, preload {scene.mounting.preload_N:g} N"

@@ -1,0 +1,224 @@
+"""Loads and angles of the balls around the circle, and what follows from them."""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.reports import look
+from fmu_bearing.reports.balls import RACES, name_of
+from fmu_bearing.reports.blocks import Block, Chart, Choice, Option, Section, Table, Words, small
+from fmu_bearing.reports.decimate import thinned
+from fmu_bearing.reports.subject import Subject
+
+_BINS = 72  # of the circle
+_WHAT = {"load": ("contact load", "N", 1.0), "angle": ("contact angle", "deg", 180.0 / math.pi)}
+#: Variables of the table: name behind ``contact.<race>.``, words, factor, unit, which extreme counts.
+_FIGURES = (
+    ("load_mean", "mean load of a ball", 1.0, "N"),
+    ("load_max", "largest load of a ball", 1.0, "N"),
+    ("angle_mean", "mean contact angle", 180.0 / math.pi, "deg"),
+    ("pressure_max", "largest contact pressure", 1e-9, "GPa"),
+    ("shoulder_margin", "ellipse ends before the shoulder", 180.0 / math.pi, "deg"),
+    ("spin_to_roll", "spin over roll", 1.0, ""),
+    ("slip", "sliding over entrainment speed", 1.0, ""),
+)
+_FURTHER = (
+    ("film.lambda_min", "thinnest film over composite roughness", 1.0, ""),
+    ("stiffness.axial", "axial stiffness between the rings", 1e-6, "N/um"),
+    ("stiffness.radial", "radial stiffness between the rings", 1e-6, "N/um"),
+)
+
+
+def contacts(subject: Subject) -> Section:
+    """Show loads and angles around the circle and ball by ball."""
+    subject.output("contact.inner.load_mean")  # says what is missing
+    blocks: list[Block] = []
+    balls = _ball_count(subject)
+    if balls:
+        blocks += [_around(subject, balls), _ball_by_ball(subject, balls)]
+    else:
+        blocks.append(
+            Words(
+                "Ball by ball there is nothing to show: this recording kept means and extremes over the "
+                "balls only. "
+                "Make the report from the scene to see each ball.",
+                "absent",
+            )
+        )
+        blocks.append(_over_time(subject))
+    blocks.append(_table(subject))
+    return Section("contacts", "Contacts", blocks)
+
+
+def _ball_count(subject: Subject) -> int:
+    count = 0
+    while subject.has(name_of(count + 1, "load", "inner")):
+        count += 1
+    return count
+
+
+def _of_balls(subject: Subject, balls: int, what: str, race: str = "") -> NDArray[np.float64]:
+    """Values of each ball over time, shape (balls, points)."""
+    return np.array([subject.output(name_of(j + 1, what, race)) for j in range(balls)])
+
+
+def by_place(
+    azimuth: NDArray[np.float64], values: NDArray[np.float64], bins: int = _BINS
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Middles (rad) of equal parts of the circle, and mean, least and largest value there, shape (3, parts).
+
+    Parts in which no ball was seen are left out.
+    """
+    part = np.minimum((azimuth.ravel() * bins / (2.0 * math.pi)).astype(int), bins - 1)
+    flat = values.ravel()
+    count = np.bincount(part, minlength=bins)
+    seen = count > 0
+    mean = np.bincount(part, flat, bins)[seen] / count[seen]
+    low, high = np.full(bins, np.inf), np.full(bins, -np.inf)
+    np.minimum.at(low, part, flat)
+    np.maximum.at(high, part, flat)
+    middles = (np.arange(bins) + 0.5) * 2.0 * math.pi / bins
+    return middles[seen], np.array([mean, low[seen], high[seen]])
+
+
+def _around(subject: Subject, balls: int) -> Chart:
+    figure = look.polar(560)
+    azimuth = _of_balls(subject, balls, "azimuth")
+    for what, (_, unit, factor) in _WHAT.items():
+        for race in RACES:
+            values = factor * _of_balls(subject, balls, what, race)
+            middles, (mean, low, high) = by_place(azimuth, values)
+            angle = np.degrees(np.append(middles, middles[:1]))
+            meta, shown, tint = {"what": what}, what == "load", look.colour(race)
+            round_trip = np.concatenate([angle, angle[::-1]])
+            band = np.concatenate([high, high[:1], low[:1], low[::-1]])
+            figure.add_scatterpolar(
+                theta=small(round_trip), r=small(band), mode="lines", line={"width": 0}, fill="toself",
+                fillcolor=look.faint(race), hoverinfo="skip", showlegend=False, meta=meta, visible=shown,
+            )  # fmt: skip
+            figure.add_scatterpolar(
+                theta=small(angle), r=small(np.append(mean, mean[:1])), mode="lines",
+                name=f"{race} race, mean", line={"color": tint, "width": 2}, meta=meta, visible=shown,
+                hovertemplate=f"%{{theta:.0f}} deg: %{{r:.4g}} {unit}<extra>{race} race</extra>",
+            )  # fmt: skip
+            figure.add_scatterpolar(
+                theta=small(np.degrees(azimuth[:, -1])), r=small(values[:, -1]),
+                mode="markers+text" if race == "outer" else "markers",
+                text=[str(j + 1) for j in range(balls)], textposition="top center", textfont={"size": 12},
+                name=f"{race} race, balls at the end", marker={"color": tint, "size": 8}, meta=meta,
+                visible=shown,
+                hovertemplate=f"ball %{{text}}: %{{r:.4g}} {unit}<extra>{race} race</extra>",
+            )  # fmt: skip
+    figure.data = sorted(figure.data, key=lambda trace: trace.fill != "toself")  # bands behind all lines
+    load = _of_balls(subject, balls, "load", "outer")
+    return Chart(
+        "contacts-around",
+        "Around the circle",
+        figure,
+        f"Polar chart of contact load and angle of {balls} balls over their place on the circle, inner and "
+        f"outer race; "
+        f"loads at the outer race run from {load.min():.1f} to {load.max():.1f} N.",
+        (_what_to_show(),),
+        note="Seen from +X, 12 o'clock on top, positive rotation anticlockwise. Line: mean of all balls "
+        "that pass a place; "
+        "band: smallest to largest; numbers: balls at the end of the recording. Elastic loads, without "
+        "waviness of the "
+        "races.",
+    )
+
+
+def _what_to_show() -> Choice:
+    return Choice("what", "Show", [Option(words, what) for what, (words, _, _) in _WHAT.items()])
+
+
+def _ball_by_ball(subject: Subject, balls: int) -> Chart:
+    figure = look.figure(height=360, barmode="group")
+    numbers = list(range(1, balls + 1))
+    units = {}
+    for what, (words, unit, factor) in _WHAT.items():
+        units[what] = f"{words}, {unit}"
+        for race in RACES:
+            values = factor * _of_balls(subject, balls, what, race)
+            mean = values.mean(axis=1)
+            figure.add_scatter(
+                x=np.array(numbers) + (-0.12 if race == "inner" else 0.12), y=small(mean), mode="markers",
+                name=f"{race} race", marker={"color": look.colour(race), "size": 9}, meta={"what": what},
+                visible=what == "load", customdata=np.array(numbers),
+                error_y={
+                    "type": "data", "symmetric": False, "array": small(values.max(axis=1) - mean),
+                    "arrayminus": small(mean - values.min(axis=1)), "color": look.colour(race),
+                    "thickness": 1.4,
+                },
+                hovertemplate=f"ball %{{customdata}}: %{{y:.5g}} {unit}<extra>{race} race</extra>",
+            )  # fmt: skip
+    figure.update_layout(
+        xaxis=look.axis("ball", tickmode="array", tickvals=numbers), yaxis=look.axis(units["load"])
+    )
+    options = [
+        Option(words, what, {"yaxis.title.text": units[what], "yaxis.autorange": True})
+        for what, (words, _, _) in _WHAT.items()
+    ]
+    return Chart(
+        "contacts-balls",
+        "Ball by ball",
+        figure,
+        f"Mean contact load and angle of each of {balls} balls at both races, with the range over time.",
+        (Choice("what", "Show", options),),
+        note="Mean over the recording; bars reach from the smallest to the largest value.",
+    )
+
+
+def _over_time(subject: Subject) -> Chart:
+    figure = look.figure(height=340)
+    for race in RACES:
+        for what, dash in (("load_mean", "solid"), ("load_max", "dot")):
+            if not subject.has(f"contact.{race}.{what}"):
+                continue
+            values, span = thinned(subject.output(f"contact.{race}.{what}"))
+            figure.add_scatter(
+                x0=float(subject.time[0]), dx=span * subject.step, y=small(values), mode="lines",
+                name=f"{race} race, {'mean' if what == 'load_mean' else 'largest'}",
+                line={"color": look.colour(race), "width": 1.2, "dash": dash},
+            )  # fmt: skip
+    figure.update_layout(
+        xaxis=look.axis("time after initialisation, s"), yaxis=look.axis("load of a ball, N")
+    )
+    return Chart(
+        "contacts-time", "Loads over time", figure, "Mean load of the balls at both races over time."
+    )
+
+
+def _table(subject: Subject) -> Table:
+    rows = []
+    for name, words, factor, unit in _FIGURES:
+        cells = []
+        for race in RACES:
+            if not subject.has(f"contact.{race}.{name}"):
+                break
+            values = factor * subject.output(f"contact.{race}.{name}")
+            cells += [f"{values.mean():.4g}", f"{values.min():.4g}", f"{values.max():.4g}"]
+        else:
+            rows.append([words, unit, *cells])
+    for name, words, factor, unit in _FURTHER:
+        if subject.has(name):
+            values = factor * subject.output(name)
+            rows.append(
+                [
+                    words,
+                    unit,
+                    f"{values.mean():.4g}",
+                    f"{values.min():.4g}",
+                    f"{values.max():.4g}",
+                    "",
+                    "",
+                    "",
+                ]
+            )
+    columns = ["", "unit", *(f"{race}, {what}" for race in RACES for what in ("mean", "least", "largest"))]
+    return Table(
+        "Contacts over the recording",
+        columns,
+        rows,
+        note="Figures of the whole bearing stand in the first three columns.",
+    )

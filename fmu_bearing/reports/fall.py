@@ -1,0 +1,158 @@
+"""Waterfall: levels over frequency and time, or over shaft speed in a run-up."""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import sosfilt
+
+from fmu_bearing.acoustics.analysis.order import Waterfall, waterfall
+from fmu_bearing.acoustics.filters.weighting import a_weighting_sections, level
+from fmu_bearing.reports import look
+from fmu_bearing.reports.blocks import Absent, Block, Chart, Section, Words, small
+from fmu_bearing.reports.heard import Microphones, listen
+from fmu_bearing.reports.subject import RPM, Subject
+
+_HIGHEST = 8000.0  # Hz
+_RANGE = 70.0  # dB
+_ROWS = 160  # at most
+_LINES = ("f_r", "f_c", "f_i", "f_o")
+
+
+def fall(heard: Microphones, run_up: Subject | None = None) -> Section:
+    """Waterfall of a run-up, or, without one, of the recording over time."""
+    blocks: list[Block] = []
+    if run_up is None:
+        blocks.append(_map(heard, over_speed=False))
+        blocks.append(
+            Words(
+                "The speed is steady, so lines stand still; what changes is beating and chance. Ask for a "
+                "run-up to see "
+                "resonances: fmu-bearing report ... --run-up 5000:30000.",
+                "note",
+            )
+        )
+        return Section("waterfall", "Waterfall", blocks)
+    other = listen(run_up)
+    blocks += [_map(other, over_speed=True), _over_speed(other)]
+    blocks.append(
+        Words(
+            f"A run of its own: {run_up.source}. Ramps this fast smear high orders; slower ones show more.",
+            "note",
+        )
+    )
+    return Section("waterfall", "Run-up", blocks)
+
+
+def _microphone(heard: Microphones) -> tuple[str, NDArray[np.float64]]:
+    """Name and pressure (Pa) of the loudest microphone."""
+    return heard.names[heard.loudest], heard.pressure[heard.loudest]
+
+
+def _waterfall(heard: Microphones) -> Waterfall:
+    recording = heard.subject.recording
+    duration = recording.size / recording.rate
+    resolution = max(20.0, 8.0 / duration)
+    if resolution * duration < 8.0 - 1e-9 or recording.size < 512:
+        raise Absent(f"the recording of {duration:.3g} s is too short")
+    _, pressure = _microphone(heard)
+    overlap = (
+        max(0.0, min(0.75, 1.0 - resolution * duration / _ROWS))
+        if resolution * duration * 4.0 > _ROWS
+        else 0.75
+    )
+    return waterfall(pressure, recording.angle, recording.rate, _HIGHEST, resolution, overlap)
+
+
+def _map(heard: Microphones, over_speed: bool) -> Chart:
+    found = _waterfall(heard)
+    name, _ = _microphone(heard)
+    start = heard.subject.recording.start
+    y = found.speed / RPM if over_speed else found.time + start
+    order = np.argsort(y)
+    top = float(found.levels.max())
+    figure = look.figure(height=520)
+    unit = "r/min" if over_speed else "s"
+    figure.add_heatmap(
+        x0=float(found.frequency[0]), dx=float(found.frequency[1] - found.frequency[0]), y=small(y[order]),
+        z=small(np.round(found.levels[order], 2)), zmin=top - _RANGE, zmax=top, zsmooth=False,
+        colorscale="Magma",
+        colorbar=look.bar("dB"),
+        hovertemplate="%{x:.0f} Hz, %{y:.5g} " + unit + ": %{z:.1f} dB<extra></extra>",
+    )  # fmt: skip
+    if over_speed:
+        _order_lines(figure, heard.subject, y[order])
+    figure.update_layout(
+        xaxis=look.axis("frequency, Hz", range=[0.0, _HIGHEST], constrain="domain"),
+        yaxis=look.axis(
+            "shaft speed, r/min" if over_speed else "time after initialisation, s",
+            range=[float(y.min()), float(y.max())],
+        ),
+    )
+    title = f"Level over frequency and {'shaft speed' if over_speed else 'time'} at {name}"
+    return Chart(
+        "waterfall", title, figure, title + ", in dB re 20 uPa, as colours.",
+        note=f"Blocks of {1e3 / found.frequency[1]:.3g} ms, {found.frequency[1]:.3g} Hz between lines, "
+        f"flat-top window."
+        + (" Dotted: kinematic frequencies." if over_speed else ""),
+    )  # fmt: skip
+
+
+def _order_lines(figure, subject: Subject, rpm: NDArray[np.float64]) -> None:
+    """Kinematic frequencies rise with speed: one line each."""
+    if subject.recording.scene is None:
+        return
+    ends = np.array([rpm[0], rpm[-1]])
+    base = subject.recording.kinematics(speed=RPM)  # at 1 r/min
+    for name in _LINES:
+        figure.add_scatter(
+            x=small(getattr(base, name) * ends), y=small(ends), mode="lines", name=name,
+            line={"color": "#FFFFFF", "width": 1, "dash": "dot"}, showlegend=False,
+            hovertemplate=name + "<extra></extra>",
+        )  # fmt: skip
+        inside = getattr(base, name) * ends[1] < _HIGHEST
+        figure.add_annotation(
+            x=float(getattr(base, name) * ends[1]) if inside else _HIGHEST, y=float(ends[1]), text=name,
+            showarrow=False,
+            yanchor="bottom", font={"size": 12},
+        )  # fmt: skip
+
+
+def _over_speed(heard: Microphones) -> Chart:
+    """A-weighted level of each microphone over speed."""
+    recording = heard.subject.recording
+    figure = look.figure(height=340)
+    span = max(64, recording.size // 80)
+    blocks = recording.size // span
+    rpm = recording.speed[: blocks * span].reshape(blocks, span).mean(axis=1) / RPM
+    tints = ("inner_ring", "outer_ring", "cage", "balls", "first", "second")
+    for k in heard.shown:
+        weighted = _weighted(heard, k)[: blocks * span].reshape(blocks, span)
+        figure.add_scatter(
+            x=small(rpm), y=small(level(np.mean(weighted**2, axis=1))), mode="lines", name=heard.names[k],
+            line={"color": look.colour(tints[k % len(tints)])},
+            hovertemplate="%{x:.0f} r/min: %{y:.1f} dB(A)<extra>" + heard.names[k] + "</extra>",
+        )  # fmt: skip
+    figure.update_layout(
+        xaxis=look.axis("shaft speed, r/min"), yaxis=look.axis("level, dB(A)"), showlegend=True
+    )
+    return Chart(
+        "run-up-levels", "Level over shaft speed", figure, "A-weighted level over shaft speed, one curve "
+        "per microphone.",
+        note=f"Over {1e3 * span / recording.rate:.3g} ms at each point.",
+    )  # fmt: skip
+
+
+def _weighted(heard: Microphones, k: int) -> NDArray[np.float64]:
+    return np.asarray(sosfilt(a_weighting_sections(heard.rate), heard.pressure[k]))
+
+
+def ramp(first: float, last: float, duration: float, settle: float):
+    """Return a shaft speed (rad/s) over time that rises evenly between two over ``duration`` (s)."""
+
+    def speed(time: float) -> float:
+        share = min(max((time - settle) / duration, 0.0), 1.0)
+        return first + (last - first) * share
+
+    assert math.isfinite(first) and math.isfinite(last)
+    return speed

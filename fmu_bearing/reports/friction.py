@@ -1,0 +1,123 @@
+"""Friction torque, where it comes from, and where its heat goes."""
+
+import numpy as np
+
+from fmu_bearing.reports import look
+from fmu_bearing.reports.blocks import Block, Chart, Section, Table, Words, small
+from fmu_bearing.reports.decimate import thinned
+from fmu_bearing.reports.motion import last_turns
+from fmu_bearing.reports.subject import Subject
+
+_SHARES = {
+    "contacts": ("sliding in the contacts", "inner_ring"),
+    "rolling": ("rolling resistance of the oil", "outer_ring"),
+    "cage": ("cage: pockets and lands", "cage"),
+    "drag": ("drag of oil and air on the balls", "balls"),
+}
+_HEATS = {
+    "inner_ring": ("inner ring", "inner_ring"),
+    "outer_ring": ("outer ring", "outer_ring"),
+    "oil": ("oil and balls", "balls"),
+}
+
+
+def friction(subject: Subject) -> Section:
+    """Torque and heat over time, their means and shares."""
+    subject.output("friction_torque")  # says what is missing
+    blocks: list[Block] = [_torque(subject)]
+    if subject.has("heat.inner_ring"):
+        blocks.append(_heats(subject))
+    blocks.append(_table(subject))
+    if subject.level in ("rings", "response"):
+        blocks.append(
+            Words(
+                f"Level {subject.level} holds torque and heats at those of the quasi-static state at the "
+                f"present inputs.",
+                "note",
+            )
+        )
+    return Section("friction", "Friction and heat", blocks)
+
+
+def _curves(subject: Subject, names: dict[str, tuple[str, str]], factor: float) -> list[dict]:
+    """Traces over time of variables given with words and colour."""
+    traces = []
+    for name, (words, tint) in names.items():
+        if not subject.has(name):
+            continue
+        values, span = thinned(factor * subject.output(name), 8000)
+        traces.append({
+            "x0": float(subject.time[0]), "dx": span * subject.step, "y": small(values), "mode": "lines",
+            "name": words, "line": {"color": look.colour(tint), "width": 1.3},
+        })  # fmt: skip
+    return traces
+
+
+def _torque(subject: Subject) -> Chart:
+    figure = look.figure(height=360)
+    names = {"friction_torque": ("torque taken from the shaft", "total")}
+    names |= {f"friction_torque.{key}": value for key, value in _SHARES.items()}
+    for trace in _curves(subject, names, 1e3):
+        figure.add_scatter(**trace, hovertemplate="%{x:.4f} s: %{y:.3f} N mm<extra>%{fullData.name}</extra>")
+    window = last_turns(subject)
+    figure.update_layout(
+        xaxis=look.axis("time after initialisation, s", range=window.options[0].layout["xaxis.range"]),
+        yaxis=look.axis("torque, N mm"),
+    )
+    return Chart(
+        "torque", "Friction torque and its shares", figure,
+        f"Friction torque over time, {1e3 * subject.mean('friction_torque'):.3g} N mm in the mean, and its "
+        f"shares by "
+        "source.",
+        (window,),
+        note="A share is the power lost there over the shaft speed. The torque taken from the shaft also "
+        "stores and gives "
+        "back energy, so it varies about the shares' sum.",
+    )  # fmt: skip
+
+
+def _heats(subject: Subject) -> Chart:
+    figure = look.figure(height=320)
+    names = {f"heat.{key}": value for key, value in _HEATS.items()}
+    for trace in _curves(subject, names, 1.0):
+        figure.add_scatter(**trace, hovertemplate="%{x:.4f} s: %{y:.3f} W<extra>%{fullData.name}</extra>")
+    window = last_turns(subject)
+    figure.update_layout(
+        xaxis=look.axis("time after initialisation, s", range=window.options[0].layout["xaxis.range"]),
+        yaxis=look.axis("heat, W", rangemode="tozero"),
+    )
+    total = sum(subject.mean(name) for name in names)
+    return Chart(
+        "heat", "Heat by where it goes", figure,
+        f"Heat to inner ring, outer ring and oil over time; {total:.3g} W in all in the mean.",
+        (window,),
+        note="Means over each communication step. Half of what a contact loses heats its ring, all else "
+        "goes to oil and balls.",
+    )  # fmt: skip
+
+
+def _table(subject: Subject) -> Table:
+    speed = abs(subject.speed)
+    rows = []
+    shares = {
+        key: subject.mean(f"friction_torque.{key}")
+        for key in _SHARES
+        if subject.has(f"friction_torque.{key}")
+    }
+    whole = sum(shares.values())
+    for key, value in shares.items():
+        share = f"{100.0 * value / whole:.1f}" if whole else ""
+        rows.append([_SHARES[key][0], f"{1e3 * value:.3f}", f"{abs(value) * speed:.3f}", share])
+    torque = subject.output("friction_torque")
+    if shares:
+        rows.append(
+            ["all shares", f"{1e3 * whole:.3f}", f"{abs(whole) * speed:.3f}", "100.0" if whole else ""]
+        )
+    mean = float(np.mean(torque))
+    rows.append(["torque taken from the shaft", f"{1e3 * mean:.3f}", f"{abs(mean) * speed:.3f}", ""])
+    for key, (words, _) in _HEATS.items():
+        if subject.has(f"heat.{key}"):
+            rows.append([f"heat to {words}", "", f"{subject.mean(f'heat.{key}'):.3f}", ""])
+    return Table(
+        "Friction and heat, means over the recording", ["", "torque, N mm", "power, W", "share, %"], rows
+    )

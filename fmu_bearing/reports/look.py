@@ -1,0 +1,100 @@
+"""How figures look: colours that all eyes tell apart, one style for light pages and one for dark."""
+
+from typing import Any
+
+from fmu_bearing.recording.pictures import COLOURS
+from fmu_bearing.run.extras import need
+
+#: Colours of things that are no component of sound.
+FURTHER = {
+    "x": "#0072B2", "y": "#D55E00", "z": "#009E73", "inner": "#0072B2", "outer": "#D55E00",
+    "first": "#E69F00", "second": "#56B4E9", "grey": "#7F7F7F", "mark": "#8C6D1F",
+}  # fmt: skip
+#: The same on a dark ground; figures are made with the light ones, the page exchanges them.
+ON_DARK = {
+    "#000000": "#F5F5F5",
+    "#0072B2": "#5CB8F2",
+    "#D55E00": "#FF8F45",
+    "#009E73": "#35D0A5",
+    "#CC79A7": "#F0A3CD",
+    "#E69F00": "#FFC247",
+    "#56B4E9": "#8FD0F7",
+    "#7F7F7F": "#A8A8A8",
+    "#8C6D1F": "#D9BC6B",
+}
+_FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif"
+
+
+def colour(name: str) -> str:
+    """Colour of a component, body, axis or race."""
+    return COLOURS.get(name) or FURTHER[name]
+
+
+def faint(name: str, alpha: float = 0.18) -> str:
+    """Return the colour for areas, seen through."""
+    text = colour(name).lstrip("#")
+    red, green, blue = (int(text[k : k + 2], 16) for k in (0, 2, 4))
+    return f"rgba({red},{green},{blue},{alpha})"
+
+
+def words(name: str) -> str:
+    """Name of a component as people write it."""
+    return "all together" if name == "total" else name.replace("_", " ")
+
+
+def styles() -> dict[str, Any]:
+    """Return the page's two styles of Plotly layouts and its exchange of colours, as plain data."""
+    return {
+        "light": {"layout": _style("#1D2329", "#E3E7EB", "#9AA4AE", "#FFFFFF", "#F6F8FA")},
+        "dark": {"layout": _style("#E4E8EC", "#333B44", "#66717C", "#1B2128", "#20272F")},
+        "exchange": ON_DARK,
+    }
+
+
+def _style(ink: str, grid: str, line: str, ground: str, panel: str) -> dict[str, Any]:
+    axis = {"gridcolor": grid, "linecolor": line, "zerolinecolor": line, "tickcolor": line, "showline": True}
+    solid = {"gridcolor": grid, "zerolinecolor": line, "showbackground": True, "backgroundcolor": panel}
+    return {
+        "font": {"color": ink, "family": _FONT, "size": 13},
+        "paper_bgcolor": ground, "plot_bgcolor": ground,
+        "xaxis": axis, "yaxis": axis,
+        "polar": {"bgcolor": panel, "angularaxis": axis, "radialaxis": axis},
+        "scene": {"xaxis": solid, "yaxis": solid, "zaxis": solid},
+        "hoverlabel": {"font": {"family": _FONT}},
+        "legend": {"bgcolor": "rgba(0,0,0,0)"},
+    }  # fmt: skip
+
+
+def figure(height: int = 380, **layout: Any) -> Any:
+    """Return an empty Plotly figure with room for axes, its legend above."""
+    go = need("plotly.graph_objects", "a report")
+    base = {
+        "template": {}, "height": height, "margin": {"l": 62, "r": 16, "t": 36, "b": 52},
+        "legend": {"orientation": "h", "x": 0.0, "y": 1.0, "xanchor": "left", "yanchor": "bottom"},
+        "hovermode": "closest",
+    }  # fmt: skip
+    return go.Figure(layout=base | layout)
+
+
+def polar(height: int, radial: dict[str, Any] | None = None) -> Any:
+    """Return an empty polar figure as seen from +X: 12 o'clock on top, positive rotation anticlockwise."""
+    return figure(
+        height, margin={"l": 40, "r": 40, "t": 30, "b": 70},
+        legend={"orientation": "h", "x": 0.5, "y": -0.1, "xanchor": "center", "yanchor": "top"},
+        polar={
+            "angularaxis": {
+                "rotation": 90, "direction": "counterclockwise", "dtick": 30, "ticksuffix": "\u00b0",
+            },
+            "radialaxis": {"angle": 15, "tickangle": 15} | (radial or {}),
+        },
+    )  # fmt: skip
+
+
+def bar(title: str, length: float = 1.0) -> dict[str, Any]:
+    """Return the scale of colours beside a map."""
+    return {"title": {"text": title, "side": "top"}, "thickness": 14, "len": length, "outlinewidth": 0}
+
+
+def axis(title: str, **more: Any) -> dict[str, Any]:
+    """Return an axis with a title that keeps clear of its numbers."""
+    return {"title": {"text": title, "standoff": 8}, "automargin": True, **more}

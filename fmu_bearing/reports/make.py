@@ -1,0 +1,296 @@
+"""Reports: from a scene, a recording or a file of one to a page."""
+
+import os
+import pathlib
+import tempfile
+import warnings as python_warnings
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from fmu_bearing.acoustics.analysis.field import form_of
+from fmu_bearing.files import write_whole
+from fmu_bearing.recording.record import Recording, record
+from fmu_bearing.reports import audio, balloon, conditions, contacts, fall, friction, motion, sound, summary
+from fmu_bearing.reports.blocks import Absent, Section
+from fmu_bearing.reports.heard import Microphones, listen
+from fmu_bearing.reports.page import render
+from fmu_bearing.reports.run import STEP, observed
+from fmu_bearing.reports.subject import RPM, Subject, Tell
+from fmu_bearing.run.choose import resolve
+from fmu_bearing.run.extras import need
+from fmu_bearing.scene import Scene, SceneError, read_scene
+from fmu_bearing.scene.origins import origins
+
+Source = Recording | Scene | str | os.PathLike[str]
+SETTLE = 0.1  # s left out at the beginning: the sound's high-pass at 5 Hz forgets the start in 0.03 s
+RUN_UP = 1.0  # s a run-up takes
+_SHORTEST = 0.02  # s
+
+
+def silent(text: str) -> None:
+    """Tell nobody."""
+
+
+@dataclass(frozen=True)
+class Report:
+    """What was written.
+
+    Attributes
+    ----------
+    path : Path
+    size : int
+        In bytes.
+    sections : dict
+        Why a section is missing, by its key; empty text: it is there.
+    figures : dict
+        The figures on top of the page, by name with unit.
+    warnings : list of str
+    recording : Recording
+        What the page is about.
+    """
+
+    path: pathlib.Path
+    size: int
+    sections: dict[str, str]
+    figures: dict[str, float]
+    warnings: list[str]
+    recording: Recording
+
+
+def report(source: Source, output: str | os.PathLike[str], **options: Any) -> pathlib.Path:
+    """Write the report of a run as one HTML page that needs no network, and return its path.
+
+    Parameters are those of `make`, which also tells what was written.
+
+    Examples
+    --------
+    >>> from fmu_bearing import Bearing
+    >>> from fmu_bearing.reports import report
+    >>> bearing = Bearing("examples/scenes/7003C-bare.toml", level="rings")
+    >>> page = report(bearing.scene, "report.html", duration=0.05, rung="compact")
+    >>> page.name, 5e6 < page.stat().st_size < 8e6
+    ('report.html', True)
+    """
+    return make(source, output, **options).path
+
+
+def make(
+    source: Source,
+    output: str | os.PathLike[str],
+    *,
+    duration: float = 0.5,
+    settle: float = SETTLE,
+    speed: float | None = None,
+    rung: str | None = None,
+    run_up: tuple[float, float] | None = None,
+    run_up_time: float = RUN_UP,
+    radius: float = 1.0,
+    title: str = "",
+    tell: Tell = silent,
+    progress: bool | None = None,
+) -> Report:
+    """Run a scene, or take a recording, and write its report.
+
+    Parameters
+    ----------
+    source : Recording, Scene or path
+        A scene file (``.toml``) or a scene in memory, which are run; or a recording (``.npz``), whose
+        report has the sections that its variables allow.
+    output : path
+        HTML file; its folder is made.
+    duration, settle : float
+        Length of the run (s), and the time left out before it.
+    speed : float, optional
+        Shaft speed (rad/s) in place of the scene's.
+    rung : str, optional
+        In place of the scene's ``sound.rung``.
+    run_up : (float, float), optional
+        Shaft speeds (rad/s) of a second run that rises evenly from one to the other, for the waterfall.
+    run_up_time : float
+        Time (s) it takes.
+    radius : float
+        Of the sphere on which directivity is shown (m).
+    title : str
+        Heading; default: the scene's name.
+    tell : callable
+        Takes a line of text before each piece of work.
+    progress : bool, optional
+        Progress bars of the runs; default: on a terminal.
+
+    Returns
+    -------
+    Report
+
+    Raises
+    ------
+    MissingExtra
+        Without the extra ``report`` (plotly, jinja2).
+    OSError
+        When the page cannot be written; told before the run.
+    ValueError
+        For a source, a time or a speed that is refused.
+    """
+    need("plotly.graph_objects", "a report")
+    need("jinja2", "a report")
+    path = pathlib.Path(output)
+    check_writable(path)
+    _check(duration, settle, radius, run_up, run_up_time)
+    subject = _subject(source, duration, settle, speed, rung, radius, tell, progress)
+    rising = _run_up(subject, run_up, run_up_time, tell, progress) if run_up else None
+    with python_warnings.catch_warnings(record=True) as caught:
+        python_warnings.simplefilter("always", UserWarning)
+        sections, heard = _sections(subject, rising, tell)
+    subject.warnings += [str(each.message) for each in caught if issubclass(each.category, UserWarning)]
+    notes = summary.warnings_of(subject)
+    shown = summary.tiles(subject, heard)
+    scene = subject.recording.scene
+    heading = title or ("Recording" if scene is None else scene.name)
+    tell("writing the page")
+    text = render(
+        heading, conditions.source_words(subject), subject.source, sections, shown,
+        summary.sentences(subject, heard), notes,
+    )  # fmt: skip
+    data = text.encode("utf-8")
+    write_whole(path, data)
+    return Report(
+        path, len(data), {section.key: section.missing for section in sections},
+        {tile["key"]: tile["value"] for tile in shown}, notes, subject.recording,
+    )  # fmt: skip
+
+
+def check_writable(path: pathlib.Path) -> None:
+    """Raise ``OSError`` unless a file can be written at ``path``; its folder is made."""
+    if path.is_dir():
+        raise IsADirectoryError(f"{path} is a folder: name the HTML file to write")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=path.parent):
+            pass
+    except OSError as problem:
+        raise OSError(
+            f"{path.parent} cannot be written to: {problem.strerror}; name another folder"
+        ) from None
+
+
+def _check(
+    duration: float, settle: float, radius: float, run_up: tuple[float, float] | None, run_up_time: float
+) -> None:
+    lowest = {"duration": _SHORTEST, "run_up_time": 0.1, "settle": 0.0, "radius": 1e-3}
+    given = {"duration": duration, "run_up_time": run_up_time, "settle": settle, "radius": radius}
+    for name, value in given.items():
+        if not lowest[name] <= value < 1e4:
+            unit = "m" if name == "radius" else "s"
+            raise ValueError(f"{name} = {value:g} {unit}: it must be {lowest[name]:g} {unit} or more")
+    if run_up is not None and not abs(run_up[1] - run_up[0]) > 1.0:
+        raise ValueError("a run-up needs two speeds that differ: 5000:30000, for example")
+
+
+def _subject(
+    source: Source, duration: float, settle: float, speed: float | None, rung: str | None, radius: float,
+    tell: Tell, progress: bool | None,
+) -> Subject:  # fmt: skip
+    """Take a recording as it is, or make one of a scene."""
+    text, whence = "", []
+    if isinstance(source, str | os.PathLike):
+        file = pathlib.Path(source)
+        if file.suffix == ".npz":
+            tell(f"reading {file.name}")
+            return _taken(_load(file), f"recording {file.name}", rung, radius, speed)
+        source = read_scene(file)
+        text, whence = file.read_text("utf-8-sig"), origins(file)
+    if isinstance(source, Recording):
+        return _taken(source, "a recording in memory", rung, radius, speed)
+    if source.fidelity.level == "auto":
+        tell("level auto: finding the cheapest within the scene's accuracy")
+    scene, choice = resolve(source)
+    if choice is not None:
+        tell(choice.summary)
+    tell(f"running {scene.name}, level {scene.fidelity.level}, for {settle + duration:g} s")
+    recording, notes = observed(scene, duration, speed=speed, settle=settle, rung=rung, progress=progress)
+    origin = f"scene {scene.name}, run for {settle + duration:g} s of which the last {duration:g} s are shown"
+    if choice is not None:
+        origin += f"; {choice.summary}"
+    return Subject(recording, recording.rung, origin, text, whence, notes, radius)
+
+
+def _load(file: pathlib.Path) -> Recording:
+    if not file.exists():
+        raise SceneError(f"{file}: there is no such file")
+    try:
+        return Recording.load(file)
+    except (ValueError, OSError, KeyError, EOFError) as problem:
+        raise SceneError(f"{file}: is no recording: {problem}") from None
+
+
+def _taken(
+    recording: Recording, origin: str, rung: str | None, radius: float, speed: float | None
+) -> Subject:
+    """Take a recording; ``ValueError`` for what can no longer be changed about it."""
+    if speed is not None:
+        raise ValueError(
+            "the speed of a recording cannot be changed: give the scene to run it at another one"
+        )
+    if rung is not None and form_of(rung) != form_of(recording.rung):
+        raise ValueError(
+            f'rung = "{rung}" needs other channels than this recording of rung "{recording.rung}" has: '
+            "give the scene"
+        )
+    return Subject(recording, rung or recording.rung, origin, radius=radius)
+
+
+def _run_up(
+    subject: Subject, speeds: tuple[float, float], duration: float, tell: Tell, progress: bool | None
+) -> Subject:
+    """Second run, from one speed to the other."""
+    scene = subject.scene
+    words = f"{scene.name} from {speeds[0] / RPM:,.0f} to {speeds[1] / RPM:,.0f} r/min in {duration:g} s"
+    tell(f"running up: {words}")
+    recording = record(
+        scene, duration, speed=fall.ramp(*speeds, duration, SETTLE), settle=SETTLE, step=4.0 * STEP,
+        rung=subject.rung, progress=progress,
+    )  # fmt: skip
+    return Subject(recording, subject.rung, words, radius=subject.radius)
+
+
+def _sections(
+    subject: Subject, rising: Subject | None, tell: Tell
+) -> tuple[list[Section], Microphones | None]:
+    """All sections in the page's order; one that cannot be made says why."""
+    heard: Microphones | None = None
+    reason = ""
+    tell("listening at the microphones")
+    try:
+        heard = listen(subject)
+    except (Absent, ValueError) as problem:
+        reason = str(problem)
+
+    def with_sound(make_one: Callable[[Microphones], Section]) -> Callable[[], Section]:
+        def made() -> Section:
+            if heard is None:
+                raise Absent(reason)
+            return make_one(heard)
+
+        return made
+
+    plan: list[tuple[str, str, Callable[[], Section]]] = [
+        ("conditions", "Operating point", lambda: conditions.conditions(subject)),
+        ("levels", "Levels and sources", with_sound(lambda h: sound.levels(subject, h))),
+        ("spectra", "Spectra", with_sound(lambda h: sound.spectra(subject, h))),
+        ("audio", "Listen", with_sound(audio.audio)),
+        ("waterfall", "Waterfall", with_sound(lambda h: fall.fall(h, rising))),
+        ("directivity", "Directivity", lambda: balloon.directivity(subject, heard)),
+        ("velocities", "Velocities", lambda: motion.velocities(subject)),
+        ("orbits", "Orbits", lambda: motion.orbits(subject)),
+        ("contacts", "Contacts", lambda: contacts.contacts(subject)),
+        ("friction", "Friction and heat", lambda: friction.friction(subject)),
+        ("assumptions", "Assumptions and choices", lambda: conditions.assumptions(subject)),
+    ]
+    found = []
+    for key, title, make_one in plan:
+        tell(f"section: {title.lower()}")
+        try:
+            found.append(make_one())
+        except Absent as problem:
+            found.append(Section(key, title, (), str(problem)))
+    return found, heard

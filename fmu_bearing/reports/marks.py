@@ -1,0 +1,54 @@
+"""Upright lines at the bearing's kinematic frequencies."""
+
+from typing import Any
+
+import numpy as np
+
+from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
+from fmu_bearing.reports import look
+from fmu_bearing.reports.blocks import Absent, small
+from fmu_bearing.reports.subject import Subject
+
+#: The field's other names.
+OTHER_NAMES = {"f_r": "", "f_c": "FTF", "f_b": "BSF", "f_i": "BPFI", "f_o": "BPFO"}
+HARMONICS = 5
+_COLOURS = {"f_r": "grey", "f_c": "cage", "f_b": "balls", "f_i": "inner_ring", "f_o": "outer_ring"}
+_AT_FIRST = ("f_i", "f_o")
+
+
+def mark_kinematics(figure: Any, subject: Subject, highest: float = 20_000.0) -> None:
+    """Add a trace of upright lines per kinematic frequency, with harmonics; none without a scene."""
+    try:
+        kinematics = subject.kinematics
+    except Absent:
+        return
+    for name, base in kinematics._asdict().items():
+        multiples = [n for n in range(1, HARMONICS + 1) if 0.0 < n * base <= highest]
+        if not multiples:
+            continue
+        x, y, text = [], [], []
+        for n in multiples:
+            words = f"{name if n == 1 else f'{n} {name}'} = {n * base:.1f} Hz"
+            x += [n * base, n * base, np.nan]
+            y += [0.0, 1.0, np.nan]
+            text += [words, words, ""]
+        figure.add_scatter(
+            x=small(x), y=small(y), text=text, mode="lines", yaxis="y9", name=label(name),
+            line={"color": look.colour(_COLOURS[name]), "width": 1, "dash": "dot"},
+            hovertemplate="%{text}<extra></extra>",
+            visible=True if name in _AT_FIRST else "legendonly",
+        )  # fmt: skip
+    figure.update_layout(
+        yaxis9={"overlaying": "y", "range": [0.0, 1.0], "visible": False, "fixedrange": True}
+    )
+
+
+def label(name: str) -> str:
+    """Both names of a kinematic frequency."""
+    other = OTHER_NAMES[name]
+    return f"{name} ({other})" if other else name
+
+
+def named(kinematics: KinematicFrequencies) -> dict[str, float]:
+    """Frequencies (Hz) by `label`."""
+    return {label(name): value for name, value in kinematics._asdict().items()}

@@ -1,0 +1,307 @@
+"""How rings and cage move: velocities over time and frequency, orbits of their centres."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.acoustics.analysis.spectrum import amplitude_spectrum, power_spectral_density
+from fmu_bearing.reports import look
+from fmu_bearing.reports.blocks import Absent, Block, Chart, Choice, Option, Section, Table, Words, small
+from fmu_bearing.reports.decimate import thinned
+from fmu_bearing.reports.marks import mark_kinematics
+from fmu_bearing.reports.subject import RPM, Subject
+
+AXES = ("x", "y", "z")
+_AXIS_WORDS = {"x": "x, along the axis", "y": "y, horizontal", "z": "z, upwards"}
+#: Frequency bands (Hz) in which ISO 15242-1 reads the vibration of bearings.
+BANDS = ((50.0, 300.0), (300.0, 1800.0), (1800.0, 10_000.0))
+_LOWEST, _HIGHEST = 20.0, 10_000.0  # Hz
+_LONGEST_STEP = 45e-6  # s: what lies above 12 kHz, and would fold back to 10, hardly moves a ring
+_POINTS = 14_000  # of a curve: half a second as it is
+_ORBIT_TURNS = 5.0
+_SHOWN_TURNS = 10.0  # at first: one sees the shaft's turns
+
+
+def bodies_of(subject: Subject) -> list[str]:
+    """Bodies whose motion the recording holds."""
+    names = ["inner_ring", "outer_ring", "cage"]
+    found = [name for name in names if subject.has(f"{name}.velocity.x")]
+    if not found:
+        subject.output("inner_ring.velocity.x")  # says what is missing
+    if "cage" in found and subject.level in ("rings", "response"):
+        found.remove("cage")
+    return found
+
+
+def velocities(subject: Subject) -> Section:
+    """Velocities of ring and cage centres."""
+    bodies = bodies_of(subject)
+    blocks: list[Block] = [_over_time(subject, bodies), _rms_table(subject, bodies)]
+    try:
+        blocks += [_over_frequency(subject, bodies), _band_table(subject, bodies)]
+    except Absent as reason:
+        blocks.append(Words(f"No spectra of velocity: {reason}.", "absent"))
+    if "cage" not in bodies:
+        blocks.append(Words(no_cage(subject), "note"))
+    return Section("velocities", "Velocities", blocks)
+
+
+def no_cage(subject: Subject) -> str:
+    """Why the cage does not move here."""
+    if subject.level in ("rings", "response"):
+        return (
+            f"Level {subject.level} turns the cage with the balls and holds its centre, and puts each ball "
+            f"where both "
+            "contacts balance it: take level full for the motion of cage and balls."
+        )
+    return "The scene has no cage, or its motion was not kept."
+
+
+def _over_time(subject: Subject, bodies: list[str]) -> Chart:
+    figure = look.figure(height=400)
+    rpm = abs(subject.speed) / RPM
+    for body in bodies:
+        for axis in AXES:
+            values, span = thinned(1e3 * subject.output(f"{body}.velocity.{axis}"), _POINTS)
+            figure.add_scatter(
+                x0=float(subject.time[0]), dx=span * subject.step, y=small(values), mode="lines",
+                name=_AXIS_WORDS[axis], meta={"body": body}, visible=body == bodies[0],
+                line={"color": look.colour(axis), "width": 1.2},
+                hovertemplate="%{x:.5f} s: %{y:.3f} mm/s<extra>" + axis + "</extra>",
+            )  # fmt: skip
+    window = last_turns(subject)
+    figure.update_layout(
+        xaxis=look.axis("time after initialisation, s", range=window.options[0].layout["xaxis.range"]),
+        yaxis=look.axis("velocity, mm/s"),
+    )
+    return Chart(
+        "velocity-time",
+        "Velocity of the centres over time",
+        figure,
+        f"Curves of the velocity along three axes of {_listed(bodies)} over time, at {rpm:,.0f} r/min.",
+        (
+            Choice("body", "Body", [Option(look.words(body), body) for body in bodies]),
+            window,
+        ),
+        note=f"Instantaneous values every {1e6 * subject.step:.4g} us; where a long run has more points "
+        f"than a screen, "
+        "smallest and largest of each span. Drag to zoom, double-click to see all.",
+    )
+
+
+def last_turns(subject: Subject) -> Choice:
+    """Choose how much of the time is shown, in turns of the shaft; few at first."""
+    first, last = float(subject.time[0]), float(subject.time[-1])
+    spans = [("all", last - first)]
+    spans += [(f"{n:g} turns", n * subject.turn) for n in (100.0, 30.0, _SHOWN_TURNS, 3.0)]
+    options = [
+        Option(text, text, {"xaxis.range": [max(first, last - span), last], "yaxis.autorange": True})
+        for text, span in spans
+        if text == "all" or span < 0.9 * (last - first)
+    ]
+    # the first of the list is what is shown at first
+    options.sort(key=lambda option: option.text != f"{_SHOWN_TURNS:g} turns")
+    return Choice("window", "Show the last", options)
+
+
+def _rms_table(subject: Subject, bodies: list[str]) -> Table:
+    rows = []
+    for body in bodies:
+        parts = [1e3 * subject.output(f"{body}.velocity.{axis}") for axis in AXES]
+        rms = [float(np.std(part)) for part in parts]
+        peak = max(float(np.max(np.abs(part - part.mean()))) for part in parts)
+        whole = float(np.sqrt(np.sum(np.square(rms))))
+        rows.append([look.words(body), *(f"{value:.3f}" for value in rms), f"{whole:.3f}", f"{peak:.3f}"])
+    return Table(
+        "Velocity of the centres about its mean, mm/s",
+        ["body", "rms x", "rms y", "rms z", "rms, all axes", "largest of one axis"],
+        rows,
+        note="Over the whole recording, all frequencies.",
+    )
+
+
+def _sampled(subject: Subject) -> float:
+    """Velocities per second; `Absent` where they are too few for spectra."""
+    if subject.step > _LONGEST_STEP:
+        raise Absent(
+            f"variables were kept every {1e6 * subject.step:.4g} us, "
+            f"spectra need {1e6 * _LONGEST_STEP:g} us or less"
+        )
+    return 1.0 / subject.step
+
+
+def velocity_spectrum(
+    subject: Subject, name: str, resolution: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Frequency (Hz) and rms velocity (m/s) of the lines of a variable, as far as it is sampled well."""
+    frequency, rms = amplitude_spectrum(subject.output(name), _sampled(subject), resolution)
+    keep = (frequency > _LOWEST - 1e-3) & (frequency < _HIGHEST + 1e-3)
+    return frequency[keep], rms[keep]
+
+
+def _finest(subject: Subject, wanted: float) -> float:
+    """Spacing of lines (Hz) that the recording allows."""
+    return max(wanted, 1.0 / (subject.step * len(subject.time)))
+
+
+def _over_frequency(subject: Subject, bodies: list[str]) -> Chart:
+    figure = look.figure(height=420)
+    resolution = _finest(subject, 5.0)
+    top = 0.0
+    for body in bodies:
+        for axis in AXES:
+            frequency, rms = velocity_spectrum(subject, f"{body}.velocity.{axis}", resolution)
+            top = max(top, float(1e3 * rms.max()))
+            figure.add_scatter(
+                x0=float(frequency[0]), dx=float(frequency[1] - frequency[0]),
+                y=small(1e3 * rms), mode="lines",
+                name=_AXIS_WORDS[axis], meta={"body": body}, visible=body == bodies[0],
+                line={"color": look.colour(axis), "width": 1.2},
+                hovertemplate="%{x:.0f} Hz: %{y:.3g} mm/s<extra>" + axis + "</extra>",
+            )  # fmt: skip
+    mark_kinematics(figure, subject)
+    decades = np.log10(top) if top > 0.0 else 0.0
+    figure.update_layout(
+        xaxis=look.axis("frequency, Hz", range=[0.0, _HIGHEST]),
+        yaxis=look.axis("rms velocity, mm/s", type="log", range=[decades - 5.0, decades + 0.5]),
+    )
+    return Chart(
+        "velocity-spectrum",
+        "Velocity of the centres over frequency",
+        figure,
+        f"Spectra of the velocity along three axes of {_listed(bodies)}, kinematic frequencies marked.",
+        (Choice("body", "Body", [Option(look.words(body), body) for body in bodies]), reach(_HIGHEST)),
+        note=f"Velocities read {1e-3 * _sampled(subject):.4g} thousand times a second; {resolution:.3g} Hz "
+        "between lines, flat-top window: lines read true. Click a legend entry to show or hide it.",
+    )
+
+
+def _band_table(subject: Subject, bodies: list[str]) -> Table:
+    rows = []
+    resolution = _finest(subject, 10.0)
+    for body in bodies:
+        for axis in AXES:
+            values = subject.output(f"{body}.velocity.{axis}")
+            frequency, density = power_spectral_density(values, _sampled(subject), resolution)
+            cells = []
+            for low, high in BANDS:
+                inside = (frequency >= low) & (frequency < high)
+                value = 1e6 * np.sqrt(np.sum(density[inside]) * frequency[1])
+                cells.append(f"{value:.0f}" if value >= 1000.0 else f"{value:.3g}")
+            rows.append([look.words(body), axis, *cells])
+    return Table(
+        "Rms velocity in three bands, um/s",
+        ["body", "axis", *(f"{low:,.0f} to {high:,.0f} Hz" for low, high in BANDS)],
+        rows,
+        note="The bands of ISO 15242-1 (low, medium, high); speed and mounting here are the scene's, not "
+        "the standard's.",
+    )
+
+
+def orbits(subject: Subject) -> Section:
+    """Orbits of the ring centres and of the cage in the bearing plane."""
+    charts: list[Block] = [_orbits(subject)]
+    if not _has_cage(subject):
+        charts.append(Words(no_cage(subject), "note"))
+    return Section("orbits", "Orbits", charts)
+
+
+def _has_cage(subject: Subject) -> bool:
+    return subject.has("cage.displacement.y") and subject.level not in ("rings", "response")
+
+
+def _paths(subject: Subject) -> dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]]:
+    """Places (um) of the centres in the bearing plane, about their mean."""
+    found = {}
+    for body in ("inner_ring", "outer_ring"):
+        y, z = (1e6 * subject.output(f"{body}.displacement.{axis}") for axis in "yz")
+        found[body] = (y - y.mean(), z - z.mean())
+    if _has_cage(subject):
+        y, z = (1e6 * subject.output(f"cage.displacement.{axis}") for axis in "yz")
+        found["cage"] = (y - y.mean(), z - z.mean())
+    return found
+
+
+def _orbits(subject: Subject) -> Chart:
+    found = _paths(subject)
+    count = len(found)
+    figure = look.figure(height=340, showlegend=False)
+    turns = min(_ORBIT_TURNS, (subject.time[-1] - subject.time[0]) / subject.turn)
+    last = max(2, round(turns * subject.turn / subject.step)) if np.isfinite(turns) else len(subject.time)
+    narrow: dict[str, Any] = {"height": 360 * count}
+    for k, (body, (y, z)) in enumerate(found.items()):
+        number = "" if k == 0 else str(k + 1)
+        reach = 1.08 * max(float(np.max(np.abs(y))), float(np.max(np.abs(z))), 1e-6)
+        bins = np.linspace(0.0, 1.0, count * 100 + 1)
+        begin, end = (
+            bins[k * 100] + (0.07 if count > 1 else 0.25),
+            bins[(k + 1) * 100] - (0.01 if count > 1 else 0.25),
+        )
+        for part, window, width, opacity in (
+            ("whole run", slice(None), 0.7, 0.35),
+            (f"last {turns:.3g} turns", slice(-last, None), 1.6, 1.0),
+        ):
+            step = max(1, len(y[window]) // 8000)
+            figure.add_scatter(
+                x=small(y[window][::step]), y=small(z[window][::step]), mode="lines", opacity=opacity,
+                name=f"{look.words(body)}, {part}", xaxis=f"x{number}", yaxis=f"y{number}",
+                meta={"orbit": body},
+                line={"color": look.colour(body if part != "whole run" else "grey"), "width": width},
+                hovertemplate="y %{x:.3f} um, z %{y:.3f} um<extra>" + look.words(body) + "</extra>",
+            )  # fmt: skip
+        # on a narrow page one above the other
+        low = 1.0 - (k + 0.78) / count
+        narrow |= {
+            f"xaxis{number}.domain": [0.1, 0.95], f"yaxis{number}.domain": [low, 1.0 - (k + 0.06) / count],
+            f"annotations.{k}.x": 0.5, f"annotations.{k}.y": 1.0 - (k + 0.05) / count,
+        }  # fmt: skip
+        figure.update_layout({
+            f"xaxis{number}": look.axis(
+                "y, um", domain=[begin, end], range=[-reach, reach], anchor=f"y{number}",
+                constrain="domain",
+            ),
+            f"yaxis{number}": look.axis(
+                "z, um" if k == 0 else "", range=[-reach, reach], anchor=f"x{number}",
+                scaleanchor=f"x{number}", constrain="domain", constraintoward="top",
+            ),
+        })  # fmt: skip
+        figure.add_annotation(
+            text=look.words(body), x=0.5 * (begin + end), y=1.02, xref="paper", yref="paper", showarrow=False,
+            yanchor="bottom", font={"size": 14},
+        )  # fmt: skip
+    figure.layout.meta = {"narrow": narrow}
+    return Chart(
+        "orbits",
+        "Orbits of the centres in the bearing plane, about their mean",
+        figure,
+        "Paths of the centres of "
+        + _listed(list(found))
+        + " in the plane across the axis, in micrometres: "
+        + "; ".join(f"{look.words(body)} {_extent(y, z)}" for body, (y, z) in found.items()),
+        note=f"Seen from +X: y grows to the right, z upwards, positive rotation runs anticlockwise. Grey: "
+        f"the whole recording, "
+        f"in colour its last {turns:.3g} turns. "
+        + "; ".join(f"{look.words(body)}: {_extent(y, z)}" for body, (y, z) in found.items())
+        + ".",
+    )
+
+
+def _extent(y: NDArray[np.float64], z: NDArray[np.float64]) -> str:
+    return f"{np.ptp(y):.3g} by {np.ptp(z):.3g} um"
+
+
+def _listed(bodies: list[str]) -> str:
+    return ", ".join(look.words(body) for body in bodies)
+
+
+def reach(highest: float = 20_000.0) -> Choice:
+    """Choose how far a frequency axis goes, up to ``highest`` (Hz)."""
+    linear = [
+        Option(f"{f / 1e3:g} kHz", f"{f:g}", {"xaxis.type": "linear", "xaxis.range": [0.0, f]})
+        for f in (10_000.0, 5000.0, 1000.0, 20_000.0)
+        if f <= highest
+    ]
+    whole = {"xaxis.type": "log", "xaxis.range": [float(np.log10(20.0)), float(np.log10(highest))]}
+    words = f"{highest / 1e3:g} kHz, logarithmic"
+    return Choice("reach", "Frequencies to", [*linear, Option(words, "log", whole)])

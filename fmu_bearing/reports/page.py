@@ -1,0 +1,66 @@
+"""The page out of its sections: one HTML file with all it needs inside."""
+
+import datetime
+import platform
+from importlib import metadata, resources
+from typing import Any
+
+from fmu_bearing.reports.blocks import Chart, Section, packed
+from fmu_bearing.reports.look import styles
+from fmu_bearing.run.extras import need
+
+#: What a browser may load for the page: nothing from anywhere. Plotly makes code for its 3-D drawing.
+POLICY = (
+    "default-src 'none'; script-src 'unsafe-inline' 'unsafe-eval'; style-src 'unsafe-inline'; "
+    "img-src data: blob:; media-src data:; font-src data:"
+)
+
+
+def version() -> str:
+    """Version of the package; empty where it runs without being installed."""
+    try:
+        return metadata.version("fmu-bearing")
+    except metadata.PackageNotFoundError:
+        return ""
+
+
+def render(
+    title: str, subtitle: str, source: str, sections: list[Section], tiles: list[dict[str, Any]],
+    sentences: list[str], warnings: list[str], made: datetime.datetime | None = None,
+) -> str:  # fmt: skip
+    """Return the page as text.
+
+    Parameters
+    ----------
+    title, subtitle, source : str
+        Heading, the line under it, and where the run came from.
+    sections : list of Section
+    tiles, sentences, warnings
+        As ``summary`` makes them.
+    made : datetime, optional
+        Default: now.
+
+    Raises
+    ------
+    MissingExtra
+        Without jinja2 or plotly.
+    """
+    jinja2 = need("jinja2", "a report")
+    library = need("plotly.offline", "a report").get_plotlyjs()
+    files = resources.files("fmu_bearing.reports")
+    environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
+    template = environment.from_string(files.joinpath("page.html.j2").read_text("utf-8"))
+    made = made or datetime.datetime.now(datetime.UTC)
+    versions = f"fmu-bearing {version()}, Python {platform.python_version()}".replace(" ,", ",")
+    return str(
+        template.render(
+            title=title, subtitle=subtitle, source=source, sections=sections, tiles=tiles,
+            sentences=sentences,
+            warnings=warnings, policy=POLICY, made=f"{made:%d %B %Y, %H:%M} UTC", versions=versions,
+            charts=[block for section in sections for block in section.blocks if isinstance(block, Chart)],
+            styles=packed(styles()),
+            css=files.joinpath("page.css").read_text("utf-8"),
+            script=files.joinpath("page.js").read_text("utf-8"),
+            library=library,
+        )
+    )  # fmt: skip

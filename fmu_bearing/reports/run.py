@@ -1,0 +1,66 @@
+"""The run a report is made from: sound channels, all variables at 25.6 kHz, what every ball carries."""
+
+import math
+import warnings
+
+from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.layout_sound import RATE
+from fmu_bearing.interface.outputs import internals, outputs
+from fmu_bearing.recording.record import Recording, record
+from fmu_bearing.reports.balls import Watch
+from fmu_bearing.scene import Scene
+
+#: Communication step (s): every second sound sample. At 20,000 r/min each ball that passes gets 11 points.
+STEP = 2.0 / RATE
+RPM = math.pi / 30.0  # rad/s
+
+
+def variables_of(scene: Scene) -> tuple[str, ...]:
+    """Names of all that a run without microphones has to tell, but the balls' velocities."""
+    table = [*outputs(scene), *internals(scene)]
+    return tuple(v.name for v in table if v.array == "z" and v.index < at.Z_BALLS)
+
+
+def observed(
+    scene: Scene,
+    duration: float = 0.5,
+    *,
+    speed: float | None = None,
+    settle: float = 0.1,
+    rung: str | None = None,
+    progress: bool | None = None,
+) -> tuple[Recording, list[str]]:
+    """Record a scene with all that a report shows.
+
+    Parameters
+    ----------
+    scene : Scene
+        Its level is not ``auto``.
+    duration, settle : float
+        In s, as for ``fmu_bearing.record``.
+    speed : float, optional
+        Shaft speed (rad/s); default: the scene's.
+    rung : str, optional
+        In place of the scene's.
+
+    Returns
+    -------
+    recording : Recording
+        Contacts of the balls are among its outputs under the names of `balls.name_of`.
+    warnings : list of str
+        What the run warned of.
+
+    Raises
+    ------
+    ValueError
+        As ``record``.
+    """
+    watch = Watch()
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        recording = record(
+            scene, duration, speed=speed, settle=settle, step=STEP, rung=rung,
+            outputs=variables_of(scene), progress=progress, watch=watch,
+        )  # fmt: skip
+    recording.outputs.update(watch.outputs())
+    return recording, list(dict.fromkeys(str(each.message) for each in caught))

@@ -1,0 +1,219 @@
+"""Levels, spectra, third octaves, ranking of components and strongest lines."""
+
+import math
+
+import numpy as np
+
+from fmu_bearing.acoustics.analysis.third_octave import spread
+from fmu_bearing.recording.measure import strongest
+from fmu_bearing.recording.tables import lines_table
+from fmu_bearing.reports import look
+from fmu_bearing.reports.blocks import Block, Chart, Choice, Option, Section, Table, Words, small
+from fmu_bearing.reports.heard import Microphones
+from fmu_bearing.reports.marks import mark_kinematics
+from fmu_bearing.reports.motion import reach
+from fmu_bearing.reports.subject import Subject
+
+_RANGE = 70.0  # dB shown below the highest line
+_UNSURE = 2.0  # dB of spread beyond which a third octave is more chance than level
+_LINES = 12
+
+
+def levels(subject: Subject, heard: Microphones) -> Section:
+    """Overall levels, the ranking of components, the strongest lines."""
+    blocks: list[Block] = [_level_table(heard)]
+    if len(heard.components) > 1:
+        blocks.append(_ranking(heard))
+    else:
+        blocks.append(Words("Components cannot be told apart: only pressures were recorded.", "absent"))
+    total = len(subject.recording.microphones)
+    if total > len(heard.names):
+        blocks.append(Words(f"The first {len(heard.names)} of {total} microphones.", "note"))
+    return Section("levels", "Levels and sources", blocks)
+
+
+def spectra(subject: Subject, heard: Microphones) -> Section:
+    """Spectra, lines and third octaves."""
+    blocks: list[Block] = [_spectrum(subject, heard), _line_table(subject, heard)]
+    if subject.recording.size / heard.rate >= 0.02:
+        blocks.append(_third_octaves(heard))
+    return Section("spectra", "Spectra", blocks)
+
+
+def _level_table(heard: Microphones) -> Table:
+    rows = []
+    names = heard.components
+    for k, (name, place) in enumerate(zip(heard.names, heard.positions, strict=True)):
+        where = ", ".join("?" if math.isnan(v) else f"{1e3 * v:.4g}" for v in place)
+        cells = [f"{heard.levels['A'][c][k]:.1f}" for c in names]
+        rows.append([name, where, f"{heard.levels['Z']['total'][k]:.1f}", *cells])
+    parts = [f"{look.words(c)}, dB(A)" for c in names[1:]]
+    duration = heard.subject.recording.size / heard.rate
+    return Table(
+        "Equivalent levels re 20 uPa",
+        ["microphone", "x, y, z, mm", "Leq, dB", "LAeq, dB(A)", *parts],
+        rows,
+        note=f"Over {duration:.3g} s. Pressures of components add with their phases, so their levels need "
+        f"not sum to the total.",
+        folded=len(rows) > 8,
+    )
+
+
+def _ranking(heard: Microphones) -> Chart:
+    names = heard.components
+    figure = look.figure(
+        height=max(320, 90 + 44 * min(len(heard.names), 8)) if len(heard.names) <= 8 else 380
+    )
+    level = "LAeq, dB(A)"
+    for weighting in ("A", "Z"):
+        for name in names:
+            values = heard.levels[weighting][name]
+            figure.add_bar(
+                x=small(values), y=heard.names, orientation="h", name=look.words(name),
+                marker={"color": look.colour(name)}, meta={"weighting": weighting}, visible=weighting == "A",
+                hovertemplate="%{y}: %{x:.1f} dB<extra>" + look.words(name) + "</extra>",
+            )  # fmt: skip
+    if len(heard.names) > 8:  # a circle of microphones: upright
+        for trace in figure.data:
+            trace.update(
+                x=trace.y,
+                y=trace.x,
+                orientation="v",
+                hovertemplate=trace.hovertemplate.replace("{y}", "{t}")
+                .replace("{x", "{y")
+                .replace("{t}", "{x}"),
+            )
+    highest = max(float(np.max(values)) for w in heard.levels.values() for values in w.values())
+    low = 10.0 * math.floor(
+        (min(float(np.min(heard.levels[w][n])) for w in "AZ" for n in names) - 5.0) / 10.0
+    )
+    axis = look.axis(level, range=[max(low, highest - 60.0), highest + 3.0])
+    other = look.axis("", type="category")
+    if len(heard.names) <= 8:
+        other["autorange"] = "reversed"
+        figure.update_layout(xaxis=axis, yaxis=other, barmode="group", bargap=0.25)
+        which = "xaxis"
+    else:
+        figure.update_layout(xaxis=other, yaxis=axis, barmode="group", bargap=0.15)
+        which = "yaxis"
+    loudest = _loudest(heard)
+    return Chart(
+        "ranking", "Which component is loudest", figure,
+        f"Bars of the level of each component at each microphone. Loudest component by A-weighted level: "
+        f"{loudest}.",
+        (Choice("weighting", "Weighting", [
+            Option("A", "A", {f"{which}.title.text": level}),
+            Option("none", "Z", {f"{which}.title.text": "Leq, dB"}),
+        ]),),
+        note=f"Loudest component, A-weighted: {loudest}. The outer ring includes what moves with it.",
+    )  # fmt: skip
+
+
+def _loudest(heard: Microphones) -> str:
+    """Loudest component at each microphone, in words; once where it is the same at all."""
+    parts = heard.components[1:]
+    first = [
+        look.words(max(parts, key=lambda name: heard.levels["A"][name][k])) for k in range(len(heard.names))
+    ]
+    if len(first) > 1 and len(set(first)) == 1:
+        return f"the {first[0]} at all {len(first)} microphones"
+    return ", ".join(f"{mic}: {part}" for mic, part in zip(heard.names, first, strict=True))
+
+
+def _microphone_choice(heard: Microphones) -> Choice:
+    order = sorted(range(len(heard.shown)), key=lambda k: -heard.levels["A"]["total"][heard.shown[k]])
+    return Choice("mic", "Microphone", [Option(heard.names[heard.shown[k]], str(k)) for k in order])
+
+
+def _spectrum(subject: Subject, heard: Microphones) -> Chart:
+    figure = look.figure(height=470)
+    choice = _microphone_choice(heard)
+    first = choice.options[0].value
+    top = -math.inf
+    # the total is drawn first, below the others
+    for name in heard.components:
+        for k, (frequency, values) in enumerate(heard.spectra[name]):
+            keep = (frequency >= 20.0) & (frequency <= 20_000.0)
+            top = max(top, float(values[keep].max()))
+            figure.add_scatter(
+                x0=float(frequency[keep][0]), dx=float(frequency[1] - frequency[0]),
+                y=small(values[keep]), mode="lines",
+                name=look.words(name), meta={"mic": str(k), "component": name},
+                visible=str(k) == first,
+                line={"color": look.colour(name), "width": 2.4 if name == "total" else 1.1},
+                hovertemplate="%{x:.0f} Hz: %{y:.1f} dB<extra>" + look.words(name) + "</extra>",
+            )  # fmt: skip
+    mark_kinematics(figure, subject)
+    figure.update_layout(
+        xaxis=look.axis("frequency, Hz", range=[0.0, 10_000.0]),
+        yaxis=look.axis("level, dB re 20 uPa", range=[top - _RANGE, top + 5.0]),
+    )
+    return Chart(
+        "spectrum", "Spectrum, whole and by component", figure,
+        f"Levels over frequency at {', '.join(heard.names[k] for k in heard.shown)}, of all components "
+        f"together and of each.",
+        (choice, reach()),
+        note=f"{heard.resolution:.3g} Hz between lines, flat-top window: a line's level is right within "
+        f"0.1 dB. Dotted: "
+        "kinematic frequencies of rolling without sliding and harmonics to the fifth; click a legend entry "
+        "to show or hide.",
+    )  # fmt: skip
+
+
+def _line_table(subject: Subject, heard: Microphones) -> Table:
+    place = max(range(len(heard.shown)), key=lambda k: heard.levels["A"]["total"][heard.shown[k]])
+    frequency, values = heard.spectra["total"][place]
+    if subject.recording.scene is None:
+        from fmu_bearing.acoustics.analysis.lines import strongest_lines
+
+        found = strongest_lines(frequency, values, _LINES)
+    else:
+        found = strongest(subject.recording, frequency, values, _LINES)
+    columns, rows = lines_table(found)
+    for row, line in zip(rows, found, strict=True):
+        at = int(np.argmin(np.abs(frequency - line.frequency)))
+        parts = {name: heard.spectra[name][place][1][at] for name in heard.components[1:]}
+        row.append(look.words(max(parts, key=lambda name: parts[name])) if parts else "")
+    return Table(
+        f"Strongest lines at {heard.names[heard.shown[place]]}",
+        [*columns, "loudest component"],
+        rows,
+        note="The simplest harmonic or sideband of f_r, f_c, f_b, f_i, f_o near a line explains it, 0.15 % "
+        "of sliding and at "
+        "least one spectral line allowed.",
+    )
+
+
+def _third_octaves(heard: Microphones) -> Chart:
+    bands, found = heard.third_octaves
+    figure = look.figure(height=400, barmode="group", bargap=0.12)
+    names = [f"{band:g}" for band in bands]
+    choice = _microphone_choice(heard)
+    top = max(float(values.max()) for values in found.values())
+    low = top - _RANGE
+    for name, values in found.items():
+        for k, row in enumerate(values):
+            figure.add_bar(
+                x=names, y=small(np.maximum(row - low, 0.0)), base=low, name=look.words(name),
+                marker={"color": look.colour(name)}, meta={"mic": str(k), "component": name},
+                visible=str(k) == choice.options[0].value, customdata=small(row),
+                hovertemplate="%{x} Hz: %{customdata:.1f} dB<extra>" + look.words(name) + "</extra>",
+            )  # fmt: skip
+    figure.update_layout(
+        xaxis=look.axis("third-octave band, Hz", type="category", tickangle=-45),
+        yaxis=look.axis("level, dB re 20 uPa", range=[low, top + 4.0]),
+    )
+    deviations = spread(np.array(bands), heard.third_octave_time)
+    unsure = [band for band, deviation in zip(bands, deviations, strict=True) if deviation > _UNSURE]
+    chance = (
+        f" In {heard.third_octave_time:.3g} s the bands up to {unsure[-1]:g} Hz scatter by more than "
+        f"{_UNSURE:g} dB if they hold "
+        "noise: record longer if they matter."
+        if unsure
+        else ""
+    )
+    return Chart(
+        "third-octaves", "Third octaves", figure,
+        "Third-octave levels at the chosen microphone, of all components together and of each.",
+        (choice,), note="IEC 61260-1, class 1." + chance,
+    )  # fmt: skip

@@ -1,0 +1,112 @@
+"""What a report is about: a recording, and how sections ask it for things it may not have."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
+from fmu_bearing.recording.record import Recording
+from fmu_bearing.reports.blocks import Absent
+from fmu_bearing.scene import Scene
+from fmu_bearing.scene.origins import Origin
+
+RPM = math.pi / 30.0  # rad/s
+#: What reports are told while they are made.
+Tell = Callable[[str], None]
+
+
+@dataclass(eq=False)
+class Subject:
+    """A recording with what was said about it.
+
+    Attributes
+    ----------
+    recording : Recording
+    rung : str
+        How its sound is computed in this report.
+    source : str
+        Where it came from, in words.
+    scene_text : str
+        The scene file as it was read, with its remarks; empty where there is none.
+    origins : list of Origin
+        Where each value of that file comes from.
+    warnings : list of str
+        Told while it was made.
+    radius : float
+        Of the sphere on which directivity is shown (m).
+    """
+
+    recording: Recording
+    rung: str
+    source: str = ""
+    scene_text: str = ""
+    origins: list[Origin] = field(default_factory=list)
+    warnings: list[str] = field(default_factory=list)
+    radius: float = 1.0
+
+    @property
+    def scene(self) -> Scene:
+        """The scene; `Absent` without."""
+        if self.recording.scene is None:
+            raise Absent("the recording does not say which scene it is of")
+        return self.recording.scene
+
+    @property
+    def level(self) -> str:
+        """Level of the dynamics; empty without scene."""
+        return "" if self.recording.scene is None else self.recording.scene.fidelity.level
+
+    @cached_property
+    def kept(self) -> NDArray[np.bool_]:
+        """Which communication points are within the recording, shape (points,)."""
+        time, start = self.recording.output_time, self.recording.start
+        end = start + self.recording.size / self.recording.rate
+        found: NDArray[np.bool_] = (time >= start - 1e-9) & (time <= end + 1e-9)
+        return found
+
+    @property
+    def time(self) -> NDArray[np.float64]:
+        """Communication points within the recording (s after initialisation)."""
+        return np.asarray(self.recording.output_time[self.kept])
+
+    @property
+    def step(self) -> float:
+        """Time (s) between communication points."""
+        return float(np.mean(np.diff(self.time)))
+
+    def has(self, *names: str) -> bool:
+        """Whether all of these variables were kept."""
+        return all(name in self.recording.outputs for name in names)
+
+    def output(self, name: str) -> NDArray[np.float64]:
+        """Variable at `time`, SI units; `Absent` where it was not kept."""
+        if name not in self.recording.outputs:
+            raise Absent(
+                f"the recording did not keep {name}: make the report from the scene, or record with "
+                f'outputs=("{name}", ...)'
+            )
+        return np.asarray(self.recording.outputs[name][self.kept])
+
+    def mean(self, name: str) -> float:
+        """Mean of a variable over the recording."""
+        return float(np.mean(self.output(name)))
+
+    @cached_property
+    def kinematics(self) -> KinematicFrequencies:
+        """Kinematic frequencies (Hz); `Absent` without scene."""
+        assert self.scene is not None
+        return self.recording.kinematics()
+
+    @property
+    def speed(self) -> float:
+        """Mean shaft speed (rad/s)."""
+        return float(np.mean(self.recording.speed))
+
+    @property
+    def turn(self) -> float:
+        """Time of one turn of the shaft (s); infinite at rest."""
+        return 2.0 * math.pi / abs(self.speed) if abs(self.speed) > 1e-6 else math.inf

@@ -1,0 +1,164 @@
+"""The figures on top of the page, and what the reader must be warned of."""
+
+import math
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from fmu_bearing.recording.measure import strongest
+from fmu_bearing.reports import look
+from fmu_bearing.reports.balls import RACES
+from fmu_bearing.reports.blocks import Absent
+from fmu_bearing.reports.heard import Microphones
+from fmu_bearing.reports.subject import RPM, Subject
+
+Tile = dict[str, Any]
+_THIN_FILM = 1.0  # film over roughness: below it, asperities touch
+_CANCELS = 1.0  # dB by which a component alone exceeds all together before it is told
+_TURNS = 10.0  # of the cage, for a mean worth the name
+
+
+def _tile(key: str, label: str, value: float, unit: str, digits: str) -> Tile:
+    return {"key": key, "label": label, "value": value, "unit": unit, "text": format(value, digits)}
+
+
+def tiles(subject: Subject, heard: Microphones | None) -> list[Tile]:
+    """Return the most wanted figures; what the recording does not have is left out."""
+    found: list[Tile] = []
+
+    def add(key: str, label: str, unit: str, digits: str, value: Callable[[], float]) -> None:
+        try:
+            number = value()
+        except Absent:
+            return
+        if math.isfinite(number):
+            found.append(_tile(key, label, number, unit, digits))
+
+    add("speed_rpm", "shaft speed", "r/min", ",.0f", lambda: subject.speed / RPM)
+    add("preload_N", "preload", "N", "g", lambda: subject.scene.mounting.preload_N)
+    if heard is not None:
+        k = heard.loudest
+        add(
+            "laeq_dB",
+            f"loudest, at {heard.names[k]}",
+            "dB(A)",
+            ".1f",
+            lambda: float(heard.levels["A"]["total"][k]),
+        )
+    for body in ("inner_ring", "outer_ring"):
+        add(
+            f"{body}_rms_mm_s", f"{look.words(body)}, rms velocity", "mm/s", ".3g",
+            partial(_rms, subject, body),
+        )  # fmt: skip
+    add("torque_N_mm", "friction torque", "N mm", ".3g", lambda: 1e3 * subject.mean("friction_torque"))
+    add("loss_W", "friction power", "W", ".3g", lambda: abs(subject.mean("friction_torque") * subject.speed))
+    add(
+        "pressure_GPa", "largest contact pressure", "GPa", ".3g",
+        lambda: 1e-9 * max(_largest(subject, f"contact.{race}.pressure_max") for race in RACES),
+    )  # fmt: skip
+    add(
+        "lambda",
+        "thinnest film / roughness",
+        "",
+        ".3g",
+        lambda: float(subject.output("film.lambda_min").min()),
+    )
+    return found
+
+
+def _rms(subject: Subject, body: str) -> float:
+    """Return the rms velocity (mm/s) of a body's centre about its mean, the three axes together."""
+    return 1e3 * math.sqrt(sum(float(np.var(subject.output(f"{body}.velocity.{axis}"))) for axis in "xyz"))
+
+
+def _largest(subject: Subject, name: str) -> float:
+    return float(subject.output(name).max())
+
+
+def sentences(subject: Subject, heard: Microphones | None) -> list[str]:
+    """Say what stands out."""
+    if heard is None:
+        return []
+    k, found = heard.loudest, []
+    parts = heard.components[1:]
+    if parts:
+        ranked = sorted(parts, key=lambda name: -heard.levels["A"][name][k])
+        alone = heard.levels["A"][ranked[0]][k]
+        text = f"At {heard.names[k]} the {look.words(ranked[0])} is loudest ({alone:.1f} dB(A) alone)"
+        if len(ranked) > 1:
+            text += f", then the {look.words(ranked[1])} ({heard.levels['A'][ranked[1]][k]:.1f})"
+        total = heard.levels["A"]["total"][k]
+        if alone > total + _CANCELS:
+            text += f"; in phase opposition they leave {total:.1f} dB(A) together"
+        found.append(text + ".")
+    if subject.recording.scene is not None and k in heard.shown:
+        frequency, values = heard.spectra["total"][heard.shown.index(k)]
+        lines = strongest(subject.recording, frequency, values, 1)
+        if lines:
+            line = lines[0]
+            why = f", {line.name}" if line.name else ", which no kinematic frequency explains"
+            found.append(
+                f"Its strongest line stands at {line.frequency:.0f} Hz with {line.level:.1f} dB{why}."
+            )
+    return found
+
+
+def warnings_of(subject: Subject) -> list[str]:
+    """All that the figures should be read with, the run's own warnings first."""
+    found = list(subject.warnings)
+    for race in RACES:
+        name = f"contact.{race}.shoulder_margin"
+        if subject.has(name) and (margin := float(subject.output(name).min())) < 0.0:
+            found.append(
+                f"The ellipse of the most loaded contact of the {race} race reaches "
+                f"{-math.degrees(margin):.1f} deg beyond "
+                "its shoulder: the edge cuts in there, while loads and stiffness are those of an unbroken "
+                "groove."
+            )
+    if (
+        subject.has("film.lambda_min")
+        and (film := float(subject.output("film.lambda_min").min())) < _THIN_FILM
+    ):
+        found.append(
+            f"The thinnest film is {film:.2g} times the composite roughness: asperities touch there, while "
+            f"traction is that "
+            "of a full film."
+        )
+    found += _reach(subject)
+    found += _length(subject)
+    return list(dict.fromkeys(found))
+
+
+def _reach(subject: Subject) -> list[str]:
+    """How far in frequency the radiation can be trusted."""
+    if subject.recording.scene is None or subject.rung != "compact":
+        return []
+    scene = subject.recording.scene
+    sound_speed = 340.0 if scene.sound is None else scene.sound.sound_speed_m_s
+    radius = scene.bearing.outside_diameter_mm / 2e3
+    if scene.sound is not None and scene.sound.radiator == "housing" and scene.mounting.housing is not None:
+        radius = scene.mounting.housing.diameter_mm / 2e3
+    highest = sound_speed / (2.0 * math.pi * radius)
+    return [
+        f"Rung compact takes bodies as small beside the wavelength: above about {0.5 * highest:,.0f} Hz "
+        f"(ka = 0.5) levels and "
+        "directions mean less and less. Rung bem has no such limit up to 20 kHz."
+    ]
+
+
+def _length(subject: Subject) -> list[str]:
+    """Whether the recording is long enough for means."""
+    duration = subject.recording.size / subject.recording.rate
+    try:
+        cage = subject.kinematics.f_c
+    except Absent:
+        return []
+    if cage > 0.0 and duration * cage < _TURNS:
+        return [
+            f"The recording holds {duration * cage:.1f} turns of the cage: means over so few depend on "
+            f"where it begins; "
+            f"{_TURNS:g} turns take {_TURNS / cage:.2g} s."
+        ]
+    return []

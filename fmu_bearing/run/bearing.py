@@ -1,0 +1,143 @@
+"""`Bearing`: a bearing to step by hand, for scripts and notebooks."""
+
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, Self
+
+from fmu_bearing.instance import Instance
+from fmu_bearing.prepare.model import Model, prepare
+from fmu_bearing.run.choose import resolve
+from fmu_bearing.run.names import chosen_names, known
+from fmu_bearing.run.result import Run
+from fmu_bearing.run.simulate import simulate
+from fmu_bearing.scene import Scene, read_scene
+from fmu_bearing.scene.read import with_fidelity
+
+
+class Bearing(Mapping[str, float]):
+    """A bearing that is initialised and stepped by hand; its variables are read like a dictionary's.
+
+    Parameters
+    ----------
+    source : Scene, Model or path
+        Scene file (TOML) or scene in memory; level ``auto`` is resolved.
+    **fidelity
+        Other values for keys of ``[fidelity]``, such as ``level="rings"`` or ``tolerance=1e-4``.
+
+    Raises
+    ------
+    SceneError
+        For a scene that is refused.
+
+    Examples
+    --------
+    >>> from fmu_bearing import Bearing
+    >>> bearing = Bearing("examples/scenes/7003C-bare.toml", level="rings")
+    >>> bearing.init(shaft_speed=2000.0, preload=300.0)  # rad/s, N
+    >>> bearing.step(1e-3)
+    >>> round(bearing["contact.inner.load_mean"])  # N
+    79
+    """
+
+    def __init__(self, source: Scene | Model | str | os.PathLike[str], **fidelity: Any) -> None:
+        if isinstance(source, Model):
+            if fidelity:
+                raise ValueError("a prepared Model has its fidelity: give the scene to change it")
+            self._instance = Instance(source)
+            return
+        scene = source if isinstance(source, Scene) else read_scene(source)
+        if fidelity:
+            scene = with_fidelity(scene, **fidelity)
+        self._instance = Instance(prepare(resolve(scene)[0]))
+
+    @property
+    def scene(self) -> Scene:
+        """What is simulated."""
+        return self._instance.model.scene
+
+    @property
+    def time(self) -> float:
+        """Time reached (s)."""
+        return self._instance.time
+
+    def set(self, values: Mapping[str, float] | None = None, /, **named: float) -> Self:
+        """Set inputs (or parameters, before `init`) in SI units; names with dots go into a mapping.
+
+        Raises
+        ------
+        ValueError
+            For a name there is not, or a value outside its range.
+        """
+        for name, value in {**(values or {}), **named}.items():
+            known(name, self._settable, "input or parameter")
+            self._instance.set(name, value)
+        return self
+
+    def init(self, values: Mapping[str, float] | None = None, /, **named: float) -> None:
+        """Put the bearing to its quasi-static state, at inputs as for `set`; also to begin anew.
+
+        Inputs and parameters that were set before stay set.
+
+        Raises
+        ------
+        ValueError
+            As `set`; `EngineError`, one of them, when there is no equilibrium.
+        """
+        if self._instance.initialised:
+            kept = {name: self._instance.get(name) for name in self._settable}
+            self._instance.reset()
+            self.set(kept)
+        self.set(values, **named)
+        self._instance.initialise()
+
+    def step(self, h: float, values: Mapping[str, float] | None = None, /, **named: float) -> None:
+        """Advance by ``h`` (s) under inputs as for `set`; the speed ramps to its value over the step.
+
+        Raises
+        ------
+        ValueError
+            As `set`; `EngineError`, one of them, for a step that is refused: the state is then as before.
+        """
+        self.set(values, **named)
+        self._instance.step(h)
+
+    def read(self, *patterns: str) -> dict[str, float]:
+        """Return variables by name, SI units; ``*`` stands for any text; default: all outputs."""
+        names = chosen_names(patterns or None, self, self._outputs)
+        return {name: self[name] for name in names}
+
+    def simulate(self, stop_time: float, **options: Any) -> Run:
+        """Run a fresh copy from this bearing's inputs and parameters; options as for `simulate`."""
+        here = {name: self._instance.get(name) for name in self._settable}
+        start = here | dict(options.pop("start_values", None) or {})
+        return simulate(self._instance.model, stop_time, start_values=start, **options)
+
+    @property
+    def _settable(self) -> Sequence[str]:
+        variables = self._instance.by_name.items()
+        return [name for name, v in variables if v.causality in ("input", "parameter")]
+
+    @property
+    def _outputs(self) -> Sequence[str]:
+        return [name for name, v in self._instance.by_name.items() if v.causality == "output"]
+
+    def __getitem__(self, name: str) -> float:
+        return self._instance.get(known(name, list(self), "variable"))
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._instance.by_name)
+
+    def __len__(self) -> int:
+        return len(self._instance.by_name)
+
+    def __repr__(self) -> str:
+        return f"Bearing({self.scene.name}, level {self.scene.fidelity.level}, t = {self.time:g} s)"
+
+    def _repr_html_(self) -> str:
+        units = self._instance.by_name
+        rows = "".join(
+            f"<tr><td>{name}</td><td>{value:.6g}</td><td>{units[name].unit}</td></tr>"
+            for name, value in self.read().items()
+        )
+        head = f"<caption>{self!r}</caption><tr><th>output</th><th>value</th><th>unit</th></tr>"
+        return f"<table>{head}{rows}</table>"

@@ -1,0 +1,68 @@
+"""The FMU of a scene in one call: level ``auto`` resolved, model prepared, file written."""
+
+import os
+from collections.abc import Sequence
+
+from fmu_bearing.fmi.native.compile import Tell, silent
+from fmu_bearing.fmi.package import BuiltFmu, build, check_choice
+from fmu_bearing.prepare.model import Model, prepare
+from fmu_bearing.run.choose import resolve
+from fmu_bearing.scene import Scene, read_scene
+
+
+def model_of(source: Scene | str | os.PathLike[str], tell: Tell = silent) -> Model:
+    """Return the model of a scene; one of level ``auto`` is resolved, and the choice noted in the model.
+
+    Raises
+    ------
+    SceneError
+        For a scene that is refused.
+    """
+    scene = source if isinstance(source, Scene) else read_scene(source)
+    if scene.fidelity.level == "auto":
+        tell("level auto: probing the scene against level full (kept for the next time)")
+    resolved, choice = resolve(scene)
+    note = "" if choice is None else choice.summary
+    if note:
+        tell(note)
+    return prepare(resolved, note=note)
+
+
+def build_fmu(
+    source: Scene | Model | str | os.PathLike[str],
+    output: str | os.PathLike[str] | None = None,
+    flavour: str | None = None,
+    platforms: Sequence[str] | None = None,
+    tell: Tell = silent,
+) -> BuiltFmu:
+    """Write the FMU of a scene.
+
+    Parameters
+    ----------
+    source : Scene, Model or path
+        Scene file (TOML) or scene in memory.
+    output, flavour, platforms
+        As for :func:`fmu_bearing.fmi.package.build`.
+    tell : callable, optional
+        Takes a line of text before work that takes minutes, and the choice of level ``auto``.
+
+    Returns
+    -------
+    BuiltFmu
+        ``path`` of the file, its GUID, what was built and what was not.
+
+    Raises
+    ------
+    ValueError, OSError, BuildError
+        As :func:`fmu_bearing.fmi.package.build`, and for a scene that is refused.
+
+    Examples
+    --------
+    >>> from fmu_bearing import Bearing, build_fmu
+    >>> scene = Bearing("examples/scenes/7003C-bare.toml").scene.model_copy(update={"sound": None})
+    >>> build_fmu(scene, "bearing.fmu", flavour="python").variables["input"]
+    8
+    """
+    check_choice(flavour, platforms)
+    model = source if isinstance(source, Model) else model_of(source, tell)
+    return build(model, None if output is None else os.fspath(output), flavour, platforms, tell)

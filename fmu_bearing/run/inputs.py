@@ -1,0 +1,78 @@
+"""Inputs of a run over time: numbers, functions of time, tables, CSV files, held against their ranges."""
+
+import math
+import os
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.run.names import known
+from fmu_bearing.run.result import columns_of, read_table, structured
+
+Signal = float | Callable[[float], float]
+Inputs = Mapping[str, Signal] | NDArray[Any] | str | os.PathLike[str]
+_SLACK = 1e-12  # of a bound: rounding of a unit conversion, as in `instance.Instance.check`
+_EPSILON = 1e-9  # of a step: what rounding may leave between the last point and the stop time
+
+
+@dataclass(frozen=True)
+class Input:
+    """Start value, range (None: no bound) and unit of an input."""
+
+    start: float
+    min: float | None = None
+    max: float | None = None
+    unit: str = ""
+
+    def check(self, name: str, table: NDArray[Any]) -> None:
+        """Raise ``ValueError`` for the first value of a table's column that may not be set."""
+        low = -math.inf if self.min is None else self.min
+        high = math.inf if self.max is None else self.max
+        slack = _SLACK * max((abs(bound) for bound in (low, high) if math.isfinite(bound)), default=0.0)
+        values = table[name]
+        wrong = ~(np.isfinite(values) & (values >= low - slack) & (values <= high + slack))
+        if wrong.any():
+            first = table[int(np.argmax(wrong))]
+            raise ValueError(
+                f"input {name} = {first[name]:g} at t = {first['time']:g} s is refused: allowed are "
+                f"{low:g} to {high:g} {self.unit}".rstrip()
+            )
+
+
+def input_table(
+    inputs: Inputs | None, known_inputs: Mapping[str, Input], stop_time: float, step: float
+) -> NDArray[Any] | None:
+    """Return inputs as a table over time; None where there are none.
+
+    Raises
+    ------
+    ValueError
+        Naming an input there is not, or a value outside its range with its time.
+    """
+    if inputs is None:
+        return None
+    if isinstance(inputs, Mapping):
+        times = np.minimum(np.arange(math.ceil(stop_time / step - _EPSILON) + 1) * step, stop_time)
+        columns = {"time": times} | {name: _sampled(name, signal, times) for name, signal in inputs.items()}
+        table = structured(columns)
+    else:
+        table = inputs if isinstance(inputs, np.ndarray) else read_table(inputs)
+        if (table.dtype.names or ("",))[0] != "time":
+            raise ValueError("a table of inputs needs 'time' (s) as its first column")
+    for name in columns_of(table):
+        known(name, list(known_inputs), "input")
+        known_inputs[name].check(name, table)
+    return table if columns_of(table) and len(table) else None
+
+
+def _sampled(name: str, signal: Signal, times: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Values of a number or a function of time at ``times``."""
+    try:
+        return np.array([float(signal(t) if callable(signal) else signal) for t in times])
+    except (TypeError, ValueError):
+        raise ValueError(
+            f"input '{name}' must be a number or a function of time that gives one, not {signal!r}"
+        ) from None

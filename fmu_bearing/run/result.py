@@ -1,0 +1,253 @@
+"""What a run leaves behind, and the files it goes to: CSV as FMPy reads and writes it, netCDF."""
+
+import os
+import pathlib
+import tempfile
+import warnings
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from fmpy.util import read_csv, write_csv
+from numpy.typing import NDArray
+
+from fmu_bearing.files import write_whole
+from fmu_bearing.run.extras import need
+from fmu_bearing.scene import Scene, read_scene_text
+
+if TYPE_CHECKING:
+    import xarray
+
+#: Why a run ended.
+COMPLETE, REFUSED, INTERRUPTED = "complete", "refused", "interrupted"
+#: Endings of files of results.
+ENDINGS = (".csv", ".nc")
+
+
+class ResultError(ValueError):
+    """A file that is no result, or a name that is not in one."""
+
+
+@dataclass(repr=False)
+class Run:
+    """Variables of a bearing over time, SI units.
+
+    Attributes
+    ----------
+    name : str
+        Of the scene, or of the FMU's model.
+    table : structured ndarray, shape (points,)
+        ``time`` (s) and one column per variable, as ``fmpy.simulate_fmu`` returns it.
+    units : dict
+        Unit of each column, ``""`` for plain numbers.
+    scene : Scene, optional
+        What was run, where it is known.
+    wall : float
+        Seconds it took; NaN where it is not known.
+    ended : str
+        ``"complete"``, ``"refused"`` (the bearing or the FMU refused a step) or ``"interrupted"``.
+    note : str
+        Why it ended early, in words.
+
+    Examples
+    --------
+    >>> from fmu_bearing import Run, simulate
+    >>> simulate("examples/scenes/7003C-bare.toml", 2e-3, outputs=["heat.*"]).save("run.csv")
+    PosixPath('run.csv')
+    >>> run = Run.load("run.csv")
+    >>> run.names, float(run.time[-1])
+    (['heat.inner_ring', 'heat.outer_ring', 'heat.oil'], 0.002)
+    """
+
+    name: str
+    table: NDArray[Any]
+    units: dict[str, str] = field(default_factory=dict)
+    scene: Scene | None = None
+    wall: float = float("nan")
+    ended: str = COMPLETE
+    note: str = ""
+
+    @property
+    def complete(self) -> bool:
+        """Whether the run reached its end."""
+        return self.ended == COMPLETE
+
+    @property
+    def time(self) -> NDArray[np.float64]:
+        """Communication points (s), shape (points,)."""
+        return np.asarray(self.table["time"], dtype=float)
+
+    @property
+    def names(self) -> list[str]:
+        """Names of the variables kept."""
+        return columns_of(self.table)
+
+    def __getitem__(self, name: str) -> NDArray[np.float64]:
+        if name not in (self.table.dtype.names or ()):
+            raise KeyError(f"'{name}' was not kept; kept were {', '.join(self.names)}")
+        return np.asarray(self.table[name], dtype=float)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.names)
+
+    def __len__(self) -> int:
+        return len(self.table)
+
+    def __repr__(self) -> str:
+        ended = "" if self.complete else f", {self.ended}: {self.note}"
+        points = f"{len(self)} points to {self._reached():g} s"
+        return f"Run({self.name}, {points}, {len(self.names)} variables{ended})"
+
+    def _repr_html_(self) -> str:
+        rows = "".join(
+            f"<tr><td>{name}</td><td>{self[name][-1]:.6g}</td><td>{self.units.get(name, '')}</td></tr>"
+            for name in self.names
+        )
+        head = f"<caption>{self.name} at {self._reached():g} s</caption>"
+        return f"<table>{head}<tr><th>variable</th><th>last value</th><th>unit</th></tr>{rows}</table>"
+
+    def _reached(self) -> float:
+        return float(self.time[-1]) if len(self) else float("nan")
+
+    def save(self, path: str | os.PathLike[str]) -> pathlib.Path:
+        """Write to ``.csv`` (as FMPy writes it: SI units, full precision) or ``.nc`` (netCDF, with units).
+
+        Raises
+        ------
+        ResultError
+            For another ending.
+        MissingExtra
+            For netCDF without xarray.
+        """
+        path = check_target(path)
+        if path.suffix == ".csv":
+            return write_whole(path, _written(lambda file: write_csv(file, self.table), ".csv"))
+        data = self.to_xarray()
+        return write_whole(path, _written(lambda file: data.to_netcdf(file, engine="h5netcdf"), ".nc"))
+
+    def to_xarray(self) -> "xarray.Dataset":
+        """Return the run as a dataset over time, units in attributes, the scene as TOML text in ``scene``."""
+        xr = need("xarray", "a dataset")
+        scene = "" if self.scene is None else self.scene.to_toml()
+        head = {"name": self.name, "ended": self.ended, "note": self.note, "scene": scene}
+        columns = {name: ("time", self[name], {"units": self.units.get(name, "")}) for name in self.names}
+        return xr.Dataset(columns, {"time": ("time", self.time, {"units": "s"})}, head)
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> "Run":
+        """Read ``.csv`` (ours, FMPy's, or any with ``time`` and numbers) or ``.nc`` as `save` writes it.
+
+        Raises
+        ------
+        ResultError
+            For a file that is none of these.
+        """
+        path = pathlib.Path(path)
+        if not path.exists():
+            raise ResultError(f"{path}: there is no such file")
+        if path.suffix == ".nc":
+            return cls._load_netcdf(path)
+        return cls(path.stem, read_table(path))
+
+    @classmethod
+    def _load_netcdf(cls, path: pathlib.Path) -> "Run":
+        xr = need("xarray", "netCDF")
+        need("h5netcdf", "netCDF")
+        try:
+            with xr.open_dataset(path, engine="h5netcdf", decode_times=False) as data:
+                data.load()
+        except (OSError, ValueError) as problem:
+            raise ResultError(f"{path}: is no netCDF file: {problem}") from None
+        if "time" not in data.coords or any(data[name].dims != ("time",) for name in data.data_vars):
+            raise ResultError(f"{path}: holds no variables over time; sweeps are read by xarray")
+        columns = {"time": data["time"].values} | {str(n): data[n].values for n in data.data_vars}
+        units = {str(name): str(data[name].attrs.get("units", "")) for name in data.data_vars}
+        text = data.attrs.get("scene", "")
+        return cls(
+            data.attrs.get("name", path.stem), structured(columns), units,
+            read_scene_text(text, str(path)) if text else None,
+            ended=data.attrs.get("ended", COMPLETE), note=data.attrs.get("note", ""),
+        )  # fmt: skip
+
+    def summary(self) -> dict[str, Any]:
+        """Return what a machine wants to know: how it ended, and the last values with their units."""
+        return {
+            "name": self.name,
+            "ended": self.ended,
+            "note": self.note,
+            "points": len(self),
+            "time_s": self._reached(),
+            "wall_s": self.wall,
+            "last": {n: {"value": float(self[n][-1]), "unit": self.units.get(n, "")} for n in self.names},
+        }
+
+
+def check_target(path: str | os.PathLike[str]) -> pathlib.Path:
+    """Return where a result is to go, if it can be written: to be asked before a long run, not after it.
+
+    Raises
+    ------
+    ResultError
+        For an ending other than those of `ENDINGS`, or a folder of that name.
+    MissingExtra
+        For netCDF without xarray and h5netcdf.
+    """
+    target = pathlib.Path(path)
+    if target.suffix not in ENDINGS:
+        raise ResultError(f"{target}: results are written as {' or '.join(ENDINGS)}")
+    if target.is_dir():
+        raise ResultError(f"{target} is a folder: name the file to write")
+    if target.suffix == ".nc":
+        need("xarray", "netCDF")
+        need("h5netcdf", "netCDF")
+    return target
+
+
+def columns_of(table: NDArray[Any]) -> list[str]:
+    """Return the names of a table's columns but ``time``."""
+    return [name for name in table.dtype.names or () if name != "time"]
+
+
+def structured(columns: Mapping[str, NDArray[Any]]) -> NDArray[Any]:
+    """Columns of numbers as one structured array."""
+    table = np.zeros(len(next(iter(columns.values()))), dtype=[(name, np.float64) for name in columns])
+    for name, values in columns.items():
+        table[name] = values
+    return table
+
+
+def read_table(path: str | os.PathLike[str]) -> NDArray[Any]:
+    """Read a CSV file with ``time`` (s) first and numbers only; times may repeat (a jump) but not fall.
+
+    Raises
+    ------
+    ResultError
+        Naming the file, the column and what is wrong.
+    """
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            table = np.atleast_1d(read_csv(os.fspath(path)))
+    except FileNotFoundError:
+        raise ResultError(f"{path}: there is no such file") from None
+    except (OSError, UnicodeDecodeError, ValueError, IndexError, TypeError) as problem:
+        raise ResultError(f"{path}: is no table of numbers with a line of names: {problem}") from None
+    names = table.dtype.names or ()
+    if not names or names[0] != "time":
+        raise ResultError(f"{path}: the first column must be 'time' (s), not '{names[0] if names else ''}'")
+    for name in names:
+        if table[name].ndim != 1 or not np.isfinite(table[name]).all():
+            raise ResultError(f"{path}: column '{name}' must hold one finite number per line")
+    if (np.diff(table["time"]) < 0.0).any():
+        line = int(np.argmax(np.diff(table["time"]) < 0.0)) + 3
+        raise ResultError(f"{path}: time falls at line {line}; it must rise, or repeat where values jump")
+    return table
+
+
+def _written(write: Any, suffix: str) -> bytes:
+    """Return what a writer puts into a file of its own."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder) / f"result{suffix}"
+        write(file)
+        return file.read_bytes()

@@ -1,0 +1,269 @@
+"""Runs of a scene or of an FMU over given inputs: the points and values of ``fmpy.simulate_fmu``."""
+
+import math
+import os
+import pathlib
+import signal
+import sys
+import threading
+import time as clock
+import warnings
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from typing import Any, Protocol
+
+import numpy as np
+from fmpy.simulation import Input as FmpyInput
+from numpy.typing import NDArray
+
+from fmu_bearing.instance import EngineError, Instance
+from fmu_bearing.interface import Variable
+from fmu_bearing.prepare.model import Model, prepare
+from fmu_bearing.run.choose import resolve
+from fmu_bearing.run.inputs import Input, Inputs, input_table
+from fmu_bearing.run.names import chosen_names, known
+from fmu_bearing.run.result import COMPLETE, INTERRUPTED, REFUSED, Run, columns_of, structured
+from fmu_bearing.scene import Scene, read_scene
+
+
+def simulate(
+    source: Scene | Model | str | os.PathLike[str],
+    stop_time: float,
+    *,
+    step: float = 1e-3,
+    inputs: Inputs | None = None,
+    start_values: Mapping[str, float] | None = None,
+    outputs: Sequence[str] | None = None,
+    progress: bool | None = None,
+) -> Run:
+    """Run a bearing from its quasi-static state and keep its variables at the communication points.
+
+    A scene is run by the library and gives the bits that ``fmpy.simulate_fmu`` gives on its FMU; an FMU is
+    run by FMPy. Inputs are set at the beginning of each step, as FMPy does; the speed then ramps to its value
+    over the step.
+
+    Parameters
+    ----------
+    source : Scene, Model or path
+        A scene file (``.toml``), an FMU (``.fmu``), or a scene in memory; level ``auto`` is resolved first.
+    stop_time : float
+        End of the run (s).
+    step : float
+        Communication step (s), at the end of which variables are kept.
+    inputs : mapping, structured array or path, optional
+        Numbers or functions of time (s) by name; or a table with ``time`` and columns of inputs, linear in
+        between, or a CSV file of one. SI units. Inputs that are not named keep their start values.
+    start_values : mapping, optional
+        Inputs and parameters at the start, SI units.
+    outputs : sequence of str, optional
+        Variables to keep, with ``*`` for any text (``"mic[*].leq"``); default: all outputs.
+    progress : bool, optional
+        Show a progress bar; default: on a terminal.
+
+    Returns
+    -------
+    Run
+        Shorter than asked for, with a warning, when a step is refused or on Ctrl-C; see ``Run.ended``.
+
+    Raises
+    ------
+    ValueError
+        For times, names or values that are refused before the run begins.
+
+    Examples
+    --------
+    >>> from fmu_bearing import simulate
+    >>> run = simulate(
+    ...     "examples/scenes/7003C-bare.toml", 3e-3, inputs={"shaft_speed": lambda t: 2000.0 + 1e4 * t}
+    ... )
+    >>> len(run), f"{1e3 * run['friction_torque'][-1]:.0f} N.mm"
+    (4, '22 N.mm')
+    """
+    _check_times(stop_time, step)
+    if isinstance(source, str | os.PathLike) and pathlib.Path(source).suffix == ".fmu":
+        from fmu_bearing.run.simulate_fmu import open_fmu
+
+        player: Player = open_fmu(pathlib.Path(source))
+    else:
+        player = _Library(_model(source))
+    table = input_table(inputs, player.inputs, stop_time, step)
+    names = chosen_names(outputs, player.readable, player.outputs)
+    for name in start_values or {}:
+        known(name, player.settable, "input or parameter")
+    with stoppable() as stop, bar(player.name, stop_time, progress) as tell:
+        begin = clock.perf_counter()
+        columns, ended, note = player.run(stop_time, step, table, dict(start_values or {}), names, stop, tell)
+        wall = clock.perf_counter() - begin
+    if note:
+        warnings.warn(note, stacklevel=2)
+    units = {name: player.readable[name] for name in names}
+    return Run(player.name, columns, units, player.scene, wall, ended, note)
+
+
+class Player(Protocol):
+    """Something that runs over a table of inputs; `_Library` here, an FMU in ``simulate_fmu``."""
+
+    @property
+    def name(self) -> str:
+        """Name of the scene or model."""
+        ...
+
+    @property
+    def scene(self) -> Scene | None:
+        """What is run, where it is known."""
+        ...
+
+    @property
+    def inputs(self) -> Mapping[str, Input]:
+        """Each input."""
+        ...
+
+    @property
+    def readable(self) -> Mapping[str, str]:
+        """Unit of each variable."""
+        ...
+
+    @property
+    def settable(self) -> Sequence[str]:
+        """Inputs and parameters."""
+        ...
+
+    @property
+    def outputs(self) -> Sequence[str]:
+        """What is kept unless told otherwise."""
+        ...
+
+    def run(
+        self, stop_time: float, step: float, table: NDArray[Any] | None, start: dict[str, float],
+        names: Sequence[str], stop: Callable[[], bool], tell: Callable[[float], None],
+    ) -> tuple[NDArray[Any], str, str]:  # fmt: skip
+        """Return the table of results, how the run ended, and why."""
+        ...
+
+
+class _Library:
+    """A model run by the package itself."""
+
+    def __init__(self, model: Model) -> None:
+        self.bearing = Instance(model)
+        variables: Mapping[str, Variable] = self.bearing.by_name
+        self.name, self.scene = model.scene.name, model.scene
+        self.readable = {name: v.unit for name, v in variables.items()}
+        self.outputs = [name for name, v in variables.items() if v.causality == "output"]
+        self.inputs = {
+            name: Input(float(v.start or 0.0), v.min, v.max, v.unit)
+            for name, v in variables.items()
+            if v.causality == "input"
+        }
+        self.settable = [n for n, v in variables.items() if v.causality in ("input", "parameter")]
+
+    def run(self, stop_time, step, table, start, names, stop, tell):
+        bearing, feed = self.bearing, _Feed(table)
+        for name, value in start.items():
+            bearing.set(name, value)
+        feed.apply(bearing, 0.0)
+        bearing.initialise()
+        rows = [self._row(0.0, names)]
+        time, count, ended, note = 0.0, 0, COMPLETE, ""
+        while time < stop_time and not math.isclose(time, stop_time):
+            following = min(feed.next_jump(time), (count + 1) * step)
+            if following > stop_time and not math.isclose(following, stop_time):
+                following = stop_time
+            try:
+                feed.apply(bearing, time, after_event=True)
+                bearing.step(following - time)
+            except EngineError as refusal:
+                ended, note = REFUSED, str(refusal)
+                break
+            time = following
+            count += math.isclose(time, (count + 1) * step)
+            rows.append(self._row(time, names))
+            tell(time)
+            if stop():
+                ended, note = INTERRUPTED, f"interrupted at t = {time:.6g} s of {stop_time:g} s"
+                break
+        return structured(dict(zip(("time", *names), np.array(rows).T, strict=True))), ended, note
+
+    def _row(self, time: float, names: Sequence[str]) -> list[float]:
+        return [time, *(self.bearing.get(name) for name in names)]
+
+
+class _Feed:
+    """A table of inputs, laid out once for all steps; values and jumps as FMPy finds them."""
+
+    def __init__(self, table: NDArray[Any] | None) -> None:
+        self.names = [] if table is None else columns_of(table)
+        if table is None:
+            self.jumps: list[float] = []
+            return
+        self.times = np.ascontiguousarray(table["time"])
+        self.columns = np.stack([table[name] for name in self.names])
+        self.jumps = np.unique(self.times[:-1][np.diff(self.times) == 0.0]).tolist()
+
+    def apply(self, bearing: Instance, time: float, after_event: bool = False) -> None:
+        """Set the inputs to their values at ``time`` (s)."""
+        if self.names:
+            values = FmpyInput.interpolate(time, self.times, self.columns, after_event=after_event)[0]
+            for name, value in zip(self.names, np.ravel(values), strict=True):
+                bearing.set(name, float(value))
+
+    def next_jump(self, time: float) -> float:
+        """Return the next time (s) at which an input jumps."""
+        later = (t for t in self.jumps if t > time and not math.isclose(t, time))
+        return next(later, math.inf)
+
+
+def _model(source: Scene | Model | str | os.PathLike[str]) -> Model:
+    if isinstance(source, Model):
+        return source
+    return prepare(resolve(source if isinstance(source, Scene) else read_scene(source))[0])
+
+
+def _check_times(stop_time: float, step: float) -> None:
+    for name, value in (("stop_time", stop_time), ("step", step)):
+        if not (math.isfinite(value) and value > 0.0):
+            raise ValueError(f"{name} = {value} s: it must be a finite, positive number of seconds")
+
+
+@contextmanager
+def stoppable() -> Iterator[Callable[[], bool]]:
+    """Turn the first Ctrl-C into a request that the yielded function tells; a second interrupts at once."""
+    asked = threading.Event()
+    if threading.current_thread() is not threading.main_thread():
+        yield asked.is_set  # only the main thread may handle signals
+        return
+    before = signal.getsignal(signal.SIGINT)
+
+    def ask(number: int, frame: Any) -> None:
+        if asked.is_set():
+            raise KeyboardInterrupt
+        asked.set()
+
+    signal.signal(signal.SIGINT, ask)
+    try:
+        yield asked.is_set
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+@contextmanager
+def bar(name: str, stop_time: float, shown: bool | None) -> Iterator[Callable[[float], None]]:
+    """Progress over simulated time, with the pace (simulated per wall second) and the time left."""
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+
+    shown = sys.stderr.isatty() if shown is None else shown
+    columns = (
+        TextColumn("{task.description}"), BarColumn(),
+        TextColumn("{task.completed:.4g} of {task.total:.4g} s"), TextColumn("{task.fields[pace]}"),
+        TimeRemainingColumn(),
+    )  # fmt: skip
+    with Progress(*columns, console=Console(stderr=True), disable=not shown) as display:
+        task = display.add_task(name, total=stop_time, pace="")
+        begin = clock.perf_counter()
+
+        def tell(time: float) -> None:
+            pace = f"{time / max(clock.perf_counter() - begin, 1e-9):.2g} simulated/wall"
+            display.update(task, completed=time, pace=pace)
+
+        yield tell

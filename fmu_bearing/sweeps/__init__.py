@@ -1,0 +1,114 @@
+"""Sweeps: a scene over a grid of its values, on all cores or a cluster, resumable.
+
+=================  =======================================================================
+``axes``           what is varied: keys, values, their text on the command line
+``figures``        what is kept of a run: variables with a statistic
+``plan``           the points, all checked before the first is run
+``point``          one point: run, and its key
+``store``          finished points on disk
+``local``          points in this process or on worker processes
+``cluster``        points on a Dask cluster
+``runs``           what is not there yet is run; progress; Ctrl-C
+``result``         the dataset, netCDF and CSV
+``picture``        curves and maps
+``description``    a sweep as a TOML file
+=================  =======================================================================
+
+Equal keys give equal figures: each point is a run of its own from its quasi-static state, with the scene's
+own seed unless the seed is an axis, so order, number of workers and restarts change no bit.
+"""
+
+import os
+import pathlib
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from fmu_bearing.run.extras import need
+from fmu_bearing.scene import Scene
+from fmu_bearing.sweeps.axes import SweepError
+from fmu_bearing.sweeps.plan import SETTLE, WINDOW
+from fmu_bearing.sweeps.plan import plan as lay_out
+from fmu_bearing.sweeps.result import dataset, save
+from fmu_bearing.sweeps.runs import Interrupted, run_plan
+from fmu_bearing.sweeps.store import Store
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["Interrupted", "SweepError", "save", "sweep"]
+
+
+def sweep(
+    source: Scene | str | os.PathLike[str],
+    axes: Mapping[str, Sequence[Any] | str],
+    *,
+    settle: float = SETTLE,
+    window: float = WINDOW,
+    figures: Sequence[str] | None = None,
+    folder: str | os.PathLike[str] | None = None,
+    workers: int | None = None,
+    scheduler: str | None = None,
+    progress: bool | None = None,
+) -> "xarray.Dataset":
+    """Run a scene over all combinations of some of its values and return figures over these axes.
+
+    Parameters
+    ----------
+    source : Scene or path
+        Scene file (TOML) or scene in memory; level ``auto`` is resolved once, for the scene as it is.
+    axes : mapping
+        Values by dotted key of the scene (``"mounting.preload_N"``) or short name (``speed``, ``preload``,
+        ``pedestal``, ``viscosity``, ``seed``, ``level``), in the key's unit: a list, or text such as
+        ``"8000:40000:9"`` and ``"1e7:1e8:5log"``.
+    settle, window : float
+        Time (s) that each point runs before it is read, and over which it is.
+    figures : sequence of str, optional
+        Variables of the table, with ``*`` for any text, and a statistic behind a colon where another than the
+        usual is wanted (``"friction_torque:max"``); default: levels, velocities, loads, friction, heat.
+    folder : path, optional
+        Finished points are kept there, and what is there is not run again. Default: nothing is written.
+    workers : int, optional
+        Processes; 1: all in this one. Default: one per core. A script needs
+        ``if __name__ == "__main__":`` then.
+    scheduler : str, optional
+        Address of a Dask scheduler (``"tcp://host:8786"``), in place of processes here.
+    progress : bool, optional
+        Show a progress bar; default: on a terminal.
+
+    Returns
+    -------
+    xarray.Dataset
+        Figures over the axes with units in attributes, SI; ``seed``, ``wall`` (s) and ``reason`` of each
+        point. A point that cannot be run has NaN and the reason, and stops nothing.
+
+    Raises
+    ------
+    ValueError
+        For keys, values and figures that are refused, all told before anything is run (`SweepError`,
+        `SceneError`), and for a scheduler that does not answer.
+    MissingExtra
+        Without xarray, or without Dask where a scheduler is given.
+    Interrupted
+        On Ctrl-C, a `KeyboardInterrupt`; finished points are in the folder.
+
+    Examples
+    --------
+    >>> from fmu_bearing import read_scene, sweep
+    >>> scene = read_scene("examples/scenes/7003C-bare.toml")
+    >>> data = sweep(
+    ...     scene.model_copy(update={"sound": None}),
+    ...     {"level": ["rings"], "preload": [200, 500]},
+    ...     settle=0.005,
+    ...     window=0.01,
+    ...     figures=["contact.inner.load_mean"],
+    ...     workers=1,
+    ... )
+    >>> data["contact.inner.load_mean"].sel(level="rings").round().values.tolist()  # N
+    [51.0, 115.0]
+    """
+    need("xarray", "a sweep")
+    made = lay_out(source, axes, settle, window, figures)
+    if workers is not None and workers < 1:
+        raise SweepError(f"workers = {workers} is refused: give 1 or more")
+    store = None if folder is None else Store(pathlib.Path(folder))
+    return dataset(made, run_plan(made, store, workers, scheduler, progress))

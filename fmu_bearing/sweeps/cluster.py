@@ -1,0 +1,131 @@
+"""Points on the workers of a Dask cluster; results come back to the client, which alone writes them."""
+
+import contextlib
+import logging
+import math
+import re
+import time as clock
+from collections.abc import Callable, Iterator, Sequence
+from importlib.metadata import version
+from typing import Any
+
+from fmu_bearing.run.extras import need
+from fmu_bearing.sweeps.axes import SweepError
+from fmu_bearing.sweeps.local import failed
+from fmu_bearing.sweeps.point import Outcome, Task, block_of, code_digest, nothing, run_point
+
+TIMEOUT = 10.0  # s in which a scheduler has to answer, and to have a worker
+_AHEAD = 4  # tasks per thread of the cluster that are handed out at once: none waits, none drowns it
+_ASK = 2.0  # s between questions how large the cluster is
+_ADDRESS = re.compile(r"(\w+://)?[^/\s]+:\d+")
+_WAY_OUT = "install the same version of fmu-bearing, NumPy and Numba there"
+
+
+def cluster(
+    tasks: Sequence[Task], address: str, run: Callable[..., Outcome] = run_point, timeout: float = TIMEOUT
+) -> Iterator[tuple[Task, Outcome]]:
+    """Run points on a cluster and yield each as it ends.
+
+    The scheduler gives the points of a lost worker to others; one that has taken several workers with it (the
+    scheduler's ``allowed-failures``, 3) is told as failed. Each sound is prepared by one worker, once.
+
+    Parameters
+    ----------
+    address : str
+        Of the scheduler, such as ``tcp://host:8786``.
+    timeout : float
+        Seconds in which the scheduler has to answer, and to have a worker.
+
+    Raises
+    ------
+    SweepError
+        When none answers, none works, or workers have other code than this side.
+    MissingExtra
+        Without Dask.
+    """
+    distributed = need("distributed", "a sweep on a Dask cluster")
+    with _client(distributed, address, timeout) as client:
+        _check_workers(client, address, timeout)
+        sounds = {
+            task.sound: client.submit(block_of, task.sound, pure=False)
+            for task in {t.sound: t for t in tasks if t.sound is not None}.values()
+        }
+        waiting = iter(tasks)
+        running: dict[Any, Task] = {}
+        finished = distributed.as_completed(loop=client.loop, with_results=True, raise_errors=False)
+
+        asked, room_for = -math.inf, 0
+
+        def more() -> None:
+            nonlocal asked, room_for
+            if clock.monotonic() - asked > _ASK:  # workers come and go; asking takes milliseconds
+                room_for = _AHEAD * max(1, sum(client.nthreads().values()))
+                asked = clock.monotonic()
+            room = room_for - len(running)
+            for _, task in zip(range(room), waiting, strict=False):
+                future = client.submit(run, task, sounds.get(task.sound), key=f"fmu-bearing-{task.key}")
+                running[future] = task
+                finished.add(future)
+
+        more()
+        for future, result in finished:
+            task = running.pop(future)
+            if future.cancelled():
+                raise SweepError(
+                    f"the scheduler at {address} was lost; finished points are kept where a folder is given: "
+                    "the same command goes on"
+                )
+            yield task, _outcome(task, result[1] if future.status == "error" else result)
+            more()
+
+
+def _outcome(task: Task, result: Any) -> Outcome:
+    """Return the outcome of a task, or of what it met in its place."""
+    if isinstance(result, Outcome):
+        return result
+    if isinstance(result, ValueError):  # of its sound, which another task prepared
+        return nothing(task, " ".join(str(result).split()), lasting=True)
+    return nothing(task, failed(result))
+
+
+@contextlib.contextmanager
+def _client(distributed: Any, address: str, timeout: float) -> Iterator[Any]:
+    """Connect to a scheduler; what it holds for us is let go at the end, whatever that was."""
+    if _ADDRESS.fullmatch(address) is None:
+        raise SweepError(f"scheduler = '{address}' is refused: write its address, such as tcp://host:8786")
+    quiet = logging.getLogger("distributed")
+    level = quiet.level
+    try:
+        quiet.setLevel(logging.CRITICAL)  # a refusal is one line, ours
+        client = distributed.Client(address, timeout=timeout, set_as_default=False)
+    except (OSError, TimeoutError) as problem:
+        quiet.setLevel(level)
+        raise SweepError(
+            f"no scheduler answered at {address} within {timeout:g} s ({type(problem).__name__}): start one "
+            "with `dask scheduler`, or leave out --scheduler to use this machine"
+        ) from None
+    try:
+        yield client
+    finally:
+        client.close(timeout=timeout)
+        quiet.setLevel(level)
+
+
+def _check_workers(client: Any, address: str, timeout: float) -> None:
+    """Refuse a cluster without workers, or with workers of other code."""
+    try:
+        client.wait_for_workers(1, timeout=timeout)
+    except TimeoutError:
+        raise SweepError(
+            f"the scheduler at {address} has no workers: start some with `dask worker {address}`"
+        ) from None
+    ours = _code()
+    for worker, theirs in client.run(_code, on_error="return").items():
+        if isinstance(theirs, BaseException):
+            raise SweepError(f"worker {worker} cannot load fmu-bearing ({theirs}): {_WAY_OUT}")
+        if theirs != ours:
+            raise SweepError(f"worker {worker} has fmu-bearing {theirs}, this side {ours}: {_WAY_OUT}")
+
+
+def _code() -> str:
+    return f"{version('fmu-bearing')}, code {code_digest()}"

@@ -1,0 +1,185 @@
+"""Figures: what is kept of a run, as variables of the table with a statistic over the window."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.interface import Variable, variables
+from fmu_bearing.run.names import chosen_names, known
+from fmu_bearing.scene import Scene
+from fmu_bearing.sweeps.axes import SweepError
+
+#: What is kept unless told otherwise.
+DEFAULT = (
+    "mic[*].leq_a",
+    "mic[*].leq",
+    "inner_ring.velocity",
+    "outer_ring.velocity",
+    "outer_ring.velocity:1x",
+    "cage.velocity",
+    "cage.speed_ratio",
+    "contact.*.load_mean",
+    "contact.*.angle_mean",
+    "contact.*.pressure_max",
+    "contact.*.shoulder_margin",
+    "film.lambda_min",
+    "friction_torque",
+    "heat.*",
+)
+STATISTICS = {
+    "mean": "mean over the window",
+    "rms": "rms about the mean over the window, all axes together",
+    "min": "least over the window",
+    "max": "largest over the window",
+    "last": "at the end of the window",
+    "1x": "rms of the part at shaft speed, vertical and horizontal together",
+}
+_MOTION = ".velocity"
+_AXES = ("x", "y", "z")
+
+
+@dataclass(frozen=True)
+class Figure:
+    """One number of a run.
+
+    Attributes
+    ----------
+    name : str
+        Variable, with ``:`` and the statistic where it is not the usual one of its kind.
+    statistic : str
+    columns : tuple of int
+        Places in the engine's outputs ``z``; for velocities of a body its three axes.
+    unit, words : str
+    """
+
+    name: str
+    statistic: str
+    columns: tuple[int, ...]
+    unit: str
+    words: str
+
+
+def figures_of(scene: Scene, patterns: Sequence[str] | None = None) -> tuple[Figure, ...]:
+    """Return the figures that patterns name in a scene's table of variables.
+
+    Parameters
+    ----------
+    patterns : sequence of str, optional
+        Variables, with ``*`` for any text; ``:statistic`` behind one asks for another than the usual, for
+        example ``"friction_torque:max"``. A body's velocity goes without axis: ``"cage.velocity"``. Default:
+        those of `DEFAULT` that the scene has.
+
+    Raises
+    ------
+    UnknownName
+        For a name or statistic there is not; it says which is nearest.
+    SweepError
+        For a statistic that a variable has not.
+    """
+    table = _table(scene)
+    found: dict[str, Figure] = {}
+    for pattern in DEFAULT if patterns is None else patterns:
+        name, _, statistic = pattern.partition(":")
+        if statistic:
+            known(statistic, list(STATISTICS), "statistic")
+        if patterns is None:
+            names = _matching(name, table)
+        else:
+            names = chosen_names([name], table, [])
+        for one in names:
+            figure = _figure(one, statistic, table[one])
+            found[figure.name] = figure
+    return tuple(found.values())
+
+
+def read(
+    figures: Sequence[Figure], rows: NDArray[np.float64], time: NDArray[np.float64], speed: float
+) -> tuple[float, ...]:
+    """Return the figures of a window.
+
+    Parameters
+    ----------
+    rows : ndarray, shape (points, size of z)
+        Outputs at evenly spaced points.
+    time : ndarray, shape (points,)
+        In s.
+    speed : float
+        Of the shaft (rad/s), constant.
+    """
+    return tuple(_value(figure, rows[:, figure.columns], time, speed) for figure in figures)
+
+
+def _value(figure: Figure, signals: NDArray[np.float64], time: NDArray[np.float64], speed: float) -> float:
+    if not np.isfinite(signals).all():
+        return math.nan
+    if figure.statistic == "mean":
+        return float(signals.mean())
+    if figure.statistic == "rms":
+        return float(np.sqrt(signals.var(axis=0).sum()))
+    if figure.statistic == "min":
+        return float(signals.min())
+    if figure.statistic == "max":
+        return float(signals.max())
+    if figure.statistic == "last":
+        return float(signals[-1, 0])
+    return _once_per_turn(signals[:, 1:], time, speed)
+
+
+def _once_per_turn(signals: NDArray[np.float64], time: NDArray[np.float64], speed: float) -> float:
+    """Rms of what goes round with the shaft; Hann's window keeps out lines that are two of its bins away."""
+    turns = abs(speed) * (time[-1] - time[0]) / (2.0 * math.pi)
+    if turns < 3.0:  # the line would not be apart from the mean
+        return math.nan
+    weights = np.hanning(len(time) + 2)[1:-1]
+    carrier = weights * np.exp(-1j * speed * (time - time[0]))
+    centred = signals - (weights @ signals) / weights.sum()
+    amplitudes = 2.0 * (carrier @ centred) / weights.sum()
+    return float(np.sqrt(0.5 * (np.abs(amplitudes) ** 2).sum()))
+
+
+def _table(scene: Scene) -> dict[str, list[Variable]]:
+    """Return what can be asked for: outputs and local variables, velocities as vectors."""
+    read = {v.name: v for v in variables(scene, rotor_inertia=0.0) if v.array == "z"}
+    table: dict[str, list[Variable]] = {}
+    for name, variable in read.items():
+        body, motion, axis = name.rpartition(f"{_MOTION}.")
+        if motion and axis in _AXES:
+            table.setdefault(body + _MOTION, []).append(variable)
+        else:
+            table[name] = [variable]
+    return table
+
+
+def _matching(pattern: str, table: dict[str, list[Variable]]) -> list[str]:
+    """Names that a pattern of `DEFAULT` matches; a scene without sound or cage has none of some."""
+    try:
+        return chosen_names([pattern], table, [])
+    except ValueError:
+        return []
+
+
+def _figure(name: str, statistic: str, members: list[Variable]) -> Figure:
+    usual = _usual(name, members)
+    if statistic == "1x" and len(members) != len(_AXES):
+        raise SweepError(f"{name}:1x is refused: the part at shaft speed is taken of a body's velocity")
+    words = members[0].description
+    if len(members) > 1:
+        words = words.removesuffix(" along the axis")
+    label = name if statistic in ("", usual) else f"{name}:{statistic}"
+    chosen = statistic or usual
+    return Figure(label, chosen, tuple(v.index for v in members), members[0].unit, words)
+
+
+def _usual(name: str, members: list[Variable]) -> str:
+    """Return the statistic that says most about a variable."""
+    if len(members) > 1 or name.startswith(("inner_ring.flexure", "outer_ring.flexure")):
+        return "rms"
+    end = name.rpartition(".")[2]
+    if members[0].unit == "dB" or members[0].type == "Integer":
+        return "last"
+    if end in ("shoulder_margin", "lambda_min"):
+        return "min"
+    return "max" if end.endswith("_max") else "mean"

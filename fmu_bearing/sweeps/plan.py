@@ -1,0 +1,134 @@
+"""The points of a sweep, all checked before the first is run."""
+
+import itertools
+import math
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from pydantic import ValidationError
+
+from fmu_bearing.prepare.sound import sound_key
+from fmu_bearing.run.choose import resolve
+from fmu_bearing.scene import Scene, SceneError, read_scene
+from fmu_bearing.scene.problems import explain
+from fmu_bearing.scene.values import NoSuchPlace, replaced
+from fmu_bearing.sweeps.axes import Axis, SweepError, axes_of
+from fmu_bearing.sweeps.figures import Figure, figures_of
+from fmu_bearing.sweeps.point import Task, task_of
+
+SETTLE = 0.02  # s
+WINDOW = 0.1  # s: 33 turns at 20,000 r/min
+_MOST = 20  # lines of a refusal
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What a sweep runs.
+
+    Attributes
+    ----------
+    scene : Scene
+        What is varied; level ``auto`` resolved.
+    axes : tuple of Axis
+    settle, window : float
+        In s.
+    figures : tuple of Figure
+    tasks : tuple of Task
+        One per point, the last axis fastest.
+    note : str
+        What level ``auto`` became, and why.
+    """
+
+    scene: Scene
+    axes: tuple[Axis, ...]
+    settle: float
+    window: float
+    figures: tuple[Figure, ...]
+    tasks: tuple[Task, ...]
+    note: str = ""
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Number of values of each axis."""
+        return tuple(len(axis.values) for axis in self.axes)
+
+    @property
+    def sounds(self) -> tuple[Scene, ...]:
+        """Scenes whose sound has to be prepared, once each."""
+        return tuple(dict.fromkeys(task.sound for task in self.tasks if task.sound is not None))
+
+
+def plan(
+    source: Scene | str | os.PathLike[str],
+    axes: Mapping[str, Sequence[Any] | str],
+    settle: float = SETTLE,
+    window: float = WINDOW,
+    figures: Sequence[str] | None = None,
+) -> Plan:
+    """Check a sweep and lay out its points.
+
+    Raises
+    ------
+    SweepError
+        With a line for each key, value and combination that is refused.
+    SceneError
+        For a scene file that is refused.
+    UnknownName
+        For a figure there is not.
+    """
+    _check_times(settle, window)
+    scene = source if isinstance(source, Scene) else read_scene(source)
+    found = axes_of(scene, axes)
+    note = ""
+    if "fidelity.level" not in {axis.key for axis in found}:
+        scene, choice = resolve(scene)
+        note = "" if choice is None else choice.summary
+    scenes = _scenes(scene, found)
+    kept = figures_of(scene, figures)
+    names = tuple(figure.name for figure in kept)
+    first: dict[str, Scene] = {}  # the first scene of all that sound alike
+    tasks = []
+    for one in scenes:
+        silent = one.sound is None or not one.microphones
+        sound = None if silent else first.setdefault(sound_key(one), one)
+        tasks.append(task_of(one, settle, window, names, sound))
+    return Plan(scene, found, settle, window, kept, tuple(tasks), note)
+
+
+def _scenes(scene: Scene, axes: tuple[Axis, ...]) -> list[Scene]:
+    """Return the scene of each point, or tell all that is refused."""
+    found, problems = [], []
+    for values in itertools.product(*(axis.values for axis in axes)):
+        chosen = {axis.key: value for axis, value in zip(axes, values, strict=True)}
+        if chosen.get("fidelity.level") == "auto":
+            problems.append(
+                "fidelity.level = 'auto' is refused as a value of an axis: it is decided by timing; give "
+                "full, rings or response"
+            )
+            continue
+        try:
+            data = replaced(scene, chosen)
+        except NoSuchPlace as problem:
+            problems.append(str(problem))
+            continue
+        try:
+            found.append(Scene.model_validate(data))
+        except ValidationError as problem:
+            problems += explain(problem, data)
+    lines = list(dict.fromkeys(problems))
+    if lines:
+        more = [f"and {len(lines) - _MOST} more"] if len(lines) > _MOST else []
+        raise SweepError("\n".join([*lines[:_MOST], *more]))
+    return found
+
+
+def _check_times(settle: float, window: float) -> None:
+    if not (math.isfinite(settle) and 0.0 <= settle <= 1e3):
+        raise SweepError(f"settle = {settle} s is refused: allowed are 0 to 1000 s")
+    if not (math.isfinite(window) and 1e-3 <= window <= 1e3):
+        raise SweepError(f"window = {window} s is refused: allowed are 0.001 to 1000 s")
+
+
+__all__ = ["SETTLE", "WINDOW", "Plan", "SceneError", "plan"]

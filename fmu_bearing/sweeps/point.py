@@ -1,0 +1,158 @@
+"""One point of a sweep: a scene is run from its quasi-static state and read over a window."""
+
+import functools
+import hashlib
+import json
+import math
+import pathlib
+import time as clock
+from dataclasses import dataclass
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.jit import source_hash
+from fmu_bearing.files import sources_digest
+from fmu_bearing.prepare.sound import sound_block
+from fmu_bearing.run.arrays import Arrays, Refused
+from fmu_bearing.run.metrics import COMMUNICATION, SAMPLE
+from fmu_bearing.scene import Scene
+from fmu_bearing.sweeps.figures import figures_of, read
+
+#: Rooms whose code the figures come from, beside the engine's.
+_ROOMS = ("acoustics", "elastic", "interface", "prepare", "scene", "study/sweep")
+
+
+@dataclass(frozen=True)
+class Task:
+    """What a worker needs to run one point.
+
+    Attributes
+    ----------
+    key : str
+        Of scene, settings and code: equal keys give equal figures.
+    scene : Scene
+    settle, window : float
+        Time (s) left out, and over which figures are taken.
+    figures : tuple of str
+    sound : Scene or None
+        A scene of the sweep that sounds alike, whose sound block serves; None: no sound.
+    code : str
+        Digest of the code that is to run it.
+    """
+
+    key: str
+    scene: Scene
+    settle: float
+    window: float
+    figures: tuple[str, ...]
+    sound: Scene | None
+    code: str
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What came of a point.
+
+    Attributes
+    ----------
+    figures : tuple of float
+        In the order of the task's; NaN where there is none.
+    reason : str
+        Why there are no figures; empty: there are.
+    wall : float
+        Seconds it took.
+    lasting : bool
+        Whether another try would end alike; lost workers are no property of the point.
+    """
+
+    figures: tuple[float, ...]
+    reason: str = ""
+    wall: float = math.nan
+    lasting: bool = True
+
+
+def nothing(task: Task, reason: str, wall: float = math.nan, *, lasting: bool = False) -> Outcome:
+    """Return an outcome without figures."""
+    return Outcome((math.nan,) * len(task.figures), reason, wall, lasting)
+
+
+def task_of(
+    scene: Scene, settle: float, window: float, figures: tuple[str, ...], sound: Scene | None
+) -> Task:  # fmt: skip
+    """Return the task of a scene; its key names scene, settings and code."""
+    parts = [scene.model_dump(mode="json"), settle, window, figures, code_digest()]
+    if scene.sound is not None and scene.sound.table_file is not None:
+        parts.append(_content(scene.sound.table_file))
+    key = hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()[:24]
+    return Task(key, scene, settle, window, figures, sound, code_digest())
+
+
+def run_point(task: Task, block: NDArray[np.float64] | None = None) -> Outcome:
+    """Run one point; what cannot be run has its reason in the outcome.
+
+    ``block``: the sound block, where it came with the task; default: from this machine's cache.
+    """
+    begin = clock.perf_counter()
+    if task.code != code_digest():
+        return nothing(task, f"the worker has other code ({code_digest()}) than the sweep ({task.code})")
+    try:
+        sound = block_of(task.sound) if block is None else block
+        figures = _measured(task, sound)
+    except (Refused, ValueError, ArithmeticError) as refusal:
+        reason = " ".join(str(refusal).split())
+        return nothing(task, reason, clock.perf_counter() - begin, lasting=True)
+    return Outcome(figures, "", clock.perf_counter() - begin)
+
+
+def _measured(task: Task, sound: NDArray[np.float64]) -> tuple[float, ...]:
+    scene = task.scene
+    bearing = Arrays.of(scene, sound, P_METERING_START=task.settle)
+    bearing.init()
+    if task.settle > 0.0:
+        steps = math.ceil(task.settle / COMMUNICATION)
+        bearing.run(task.settle, task.settle / steps)
+    count = max(4, round(task.window / SAMPLE))
+    h = task.window / count
+    rows = np.empty((count, bearing.z.size))
+    for row in rows:
+        bearing.step(h)
+        row[:] = bearing.z
+    there = {figure.name: figure for figure in figures_of(scene, _names(task.figures, scene))}
+    time = np.linspace(task.settle + h, task.settle + task.window, count)
+    found = dict(zip(there, read(tuple(there.values()), rows, time, bearing.u[at.U_SPEED]), strict=True))
+    return tuple(found.get(name, math.nan) for name in task.figures)
+
+
+def _names(wanted: tuple[str, ...], scene: Scene) -> list[str]:
+    """Return those of the figures that this scene has: an axis may take the cage or a ball away."""
+    names = []
+    for name in wanted:
+        try:
+            figures_of(scene, [name])
+        except ValueError:
+            continue
+        names.append(name)
+    return names
+
+
+@functools.lru_cache(maxsize=2)
+def block_of(scene: Scene | None) -> NDArray[np.float64]:
+    """Sound block of a scene, kept in this process and on this machine's disk; empty without scene."""
+    return np.empty(0) if scene is None else sound_block(scene)
+
+
+@functools.cache
+def code_digest() -> str:
+    """Digest (16 hex digits) of what figures come from: sources, NumPy's and Numba's version."""
+    parts = f"{source_hash()} {np.__version__} {numba.__version__} {sources_digest(_ROOMS)}"
+    return hashlib.sha256(parts.encode()).hexdigest()[:16]
+
+
+def _content(path: str) -> str:
+    try:
+        return hashlib.sha256(pathlib.Path(path).read_bytes()).hexdigest()
+    except OSError:
+        return "not read"

@@ -1,0 +1,107 @@
+"""Running the points that are not there yet, wherever, and telling how far it is."""
+
+import sys
+import time as clock
+from collections.abc import Callable, Generator, Iterator
+from contextlib import closing, contextmanager
+
+from fmu_bearing.sweeps.local import cores, here, processes
+from fmu_bearing.sweeps.plan import Plan
+from fmu_bearing.sweeps.point import Outcome, Task
+from fmu_bearing.sweeps.store import Store
+
+Outcomes = dict[str, Outcome]
+
+
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C in the middle; ``outcomes`` holds what was finished by key."""
+
+    def __init__(self, outcomes: Outcomes, total: int) -> None:
+        super().__init__(f"interrupted: {len(outcomes)} of {total} points are finished")
+        self.outcomes = outcomes
+
+
+def run_plan(
+    plan: Plan, store: Store | None = None, workers: int | None = None, scheduler: str | None = None,
+    progress: bool | None = None,
+) -> Outcomes:  # fmt: skip
+    """Run what ``store`` does not hold and return all outcomes by key.
+
+    Raises
+    ------
+    Interrupted
+        On Ctrl-C; what was finished is in the store.
+    SweepError
+        When no worker can be had.
+    """
+    outcomes = finished(plan, store)
+    # points that sound alike follow each other, so that a worker keeps one sound at a time
+    order = {scene: place for place, scene in enumerate(plan.sounds)}
+    todo = sorted(
+        (task for task in plan.tasks if task.key not in outcomes),
+        key=lambda task: -1 if task.sound is None else order[task.sound],
+    )
+    if not todo:
+        return outcomes
+    try:
+        with (
+            _bar(len(plan.tasks), len(outcomes), progress) as tell,
+            closing(_ends(todo, workers, scheduler)) as ends,
+        ):
+            for task, outcome in ends:
+                outcomes[task.key] = outcome
+                if store is not None:
+                    store.keep(task, outcome)
+                tell(len(outcomes))
+    except KeyboardInterrupt:
+        raise Interrupted(outcomes, len(plan.tasks)) from None
+    return outcomes
+
+
+def finished(plan: Plan, store: Store | None) -> Outcomes:
+    """Return what the store holds of a plan."""
+    if store is None:
+        return {}
+    found = ((task.key, store.load(task)) for task in plan.tasks)
+    return {key: outcome for key, outcome in found if outcome is not None}
+
+
+def crew_size(tasks: int, workers: int | None) -> int:
+    """Return how many processes are used: the cores, but no more than there are points."""
+    return max(1, min(tasks, cores() if workers is None else workers))
+
+
+def _ends(
+    tasks: list[Task], workers: int | None, scheduler: str | None
+) -> Generator[tuple[Task, Outcome]]:  # fmt: skip
+    if scheduler is not None:
+        from fmu_bearing.sweeps.cluster import cluster
+
+        yield from cluster(tasks, scheduler)
+    elif crew_size(len(tasks), workers) == 1:
+        yield from here(tasks)
+    else:
+        yield from processes(tasks, crew_size(len(tasks), workers))
+
+
+@contextmanager
+def _bar(total: int, kept: int, shown: bool | None) -> Iterator[Callable[[int], None]]:
+    """Show points done and left, the pace, and the time left."""
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+
+    shown = sys.stderr.isatty() if shown is None else shown
+    columns = (
+        TextColumn("{task.description}"), BarColumn(), TextColumn("{task.completed:.0f} of {task.total:.0f}"),
+        TextColumn("{task.fields[pace]}"), TimeRemainingColumn(),
+    )  # fmt: skip
+    with Progress(*columns, console=Console(stderr=True), disable=not shown) as display:
+        name = "points" if not kept else f"points ({kept} kept)"
+        bar = display.add_task(name, total=total, completed=kept, pace="")
+        begin = clock.perf_counter()
+
+        def tell(done: int) -> None:
+            pace = 60.0 * (done - kept) / max(clock.perf_counter() - begin, 1e-9)
+            display.update(bar, completed=done, pace=f"{pace:.3g} points/min")
+
+        yield tell

@@ -1,0 +1,201 @@
+"""`validate`: all checks of one FMU, none of which can end the process that asks."""
+
+import json
+import os
+import queue
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import IO, Any
+from xml.etree import ElementTree
+
+from fmu_bearing.validation import tools
+from fmu_bearing.validation.checks import CHECKS, NEEDED, meaning_of, name_of
+from fmu_bearing.validation.remarks import FINDING, SKIPPED, Result
+
+LIMIT = 60.0  # s: any check of a bearing takes seconds
+_DESCRIPTION = "modelDescription.xml"
+_LOADING = 60.0  # s, for the process to begin
+_LAST_WORDS = 2  # lines of standard error that a finding repeats
+
+
+class NotAnFmu(ValueError):
+    """A file that is no FMU, or none for FMI 2.0 co-simulation."""
+
+
+def validate(
+    path: str | os.PathLike[str], limit: float = LIMIT, tell: Callable[[str], None] = lambda _: None
+) -> list[Result]:
+    """Check an FMI 2.0 co-simulation FMU: its description by others' tools, its behaviour by our checks.
+
+    Parameters
+    ----------
+    path : path
+        The FMU.
+    limit : float
+        Time (s) that a check may take; one that takes longer is ended and is a finding.
+    tell : callable, optional
+        Takes the name of each check before it is run.
+
+    Returns
+    -------
+    list of Result
+        One for each check, in the order they were run.
+
+    Raises
+    ------
+    NotAnFmu
+        For a file that is none, or for another version or kind of FMI.
+
+    Examples
+    --------
+    >>> from fmu_bearing.validation import validate
+    >>> results = validate("out/Bearing7003C.fmu")  # doctest: +SKIP
+    >>> [r.check for r in results if r.outcome == "finding"]  # doctest: +SKIP
+    []
+    """
+    path = Path(path)
+    with tempfile.TemporaryDirectory() as place:
+        folder = Path(place) / "fmu"
+        _unpack(path, folder)
+        problem = _kind(path, folder)
+        results = []
+        for tool in (tools.fmpy, tools.fmutool):
+            tell(tool.__name__)
+            results.append(tool(path))
+        if problem:
+            reason = f"the description cannot be read: {problem}"
+            rest = [Result(name_of(check), meaning_of(check), SKIPPED, [reason]) for check in CHECKS]
+        else:
+            rest = _Behaviour(folder, limit, tell).results()
+    return results + rest
+
+
+def _unpack(path: Path, folder: Path) -> None:
+    if not path.exists():
+        raise NotAnFmu(f"{path}: there is no such FMU")
+    try:
+        with zipfile.ZipFile(path) as archive:
+            if _DESCRIPTION not in archive.namelist():
+                raise NotAnFmu(f"{path}: is no FMU: it holds no {_DESCRIPTION}")
+            archive.extractall(folder)  # leaves out what points outside the folder
+    except (zipfile.BadZipFile, IsADirectoryError, PermissionError) as problem:
+        raise NotAnFmu(f"{path}: is no FMU: {problem}") from None
+
+
+def _kind(path: Path, folder: Path) -> str:
+    """Return what keeps the description from being read; another version or kind is refused."""
+    try:
+        root = ElementTree.parse(folder / _DESCRIPTION).getroot()
+    except ElementTree.ParseError as problem:
+        return str(problem)
+    version = root.get("fmiVersion", "")
+    if version != "2.0" or root.find("CoSimulation") is None:
+        kind = "co-simulation" if root.find("CoSimulation") is not None else "model exchange only"
+        raise NotAnFmu(
+            f"{path}: is FMI {version or 'of no version'}, {kind}; checked are FMUs for FMI 2.0 co-simulation"
+        )
+    try:
+        from fmu_bearing.validation.subject import Subject
+
+        Subject(folder)
+    except Exception as problem:  # FMPy raises what it comes upon
+        return str(problem) or repr(problem)
+    return ""
+
+
+class _Behaviour:
+    """Runs the checks in processes of their own: one for all, a new one after each that was ended."""
+
+    def __init__(self, folder: Path, limit: float, tell: Callable[[str], None]) -> None:
+        self.folder, self.limit, self.tell = folder, limit, tell
+        self.found = [Result(name_of(check), meaning_of(check)) for check in CHECKS]
+        # a host that may make one instance per process needs a process per check
+        root = ElementTree.parse(folder / _DESCRIPTION).getroot().find("CoSimulation")
+        once = root is not None and root.get("canBeInstantiatedOnlyOncePerProcess") == "true"
+        self.together = 1 if once else len(CHECKS)
+
+    def results(self) -> list[Result]:
+        """Run all."""
+        number, alone = 0, False
+        while number < len(CHECKS):
+            count = 1 if alone else self.together
+            at, how = self._process(number, count)
+            if not how:
+                number, alone = number + count, False
+            elif at > number:
+                also = "instances before it in that process may have left something; alone it is run again"
+                self.found[at].add(FINDING, f"{how}; {also}")
+                number, alone = at, True
+            else:
+                self.found[at].add(FINDING, how)
+                number, alone = at + 1, False
+                if CHECKS[at] in NEEDED:
+                    for result in self.found[number:]:
+                        result.add(SKIPPED, f"'{self.found[at].check}' did not come to an end")
+                    break
+        return self.found
+
+    def _process(self, first: int, count: int) -> tuple[int, str]:
+        """Run some checks; return which one ended the process and how, in words; none if nothing did."""
+        command = [sys.executable, "-m", "fmu_bearing.validation.worker"]
+        command += [str(self.folder), str(first), str(count)]
+        with (
+            tempfile.TemporaryFile() as errors,
+            subprocess.Popen(command, stdout=subprocess.PIPE, stderr=errors) as process,
+        ):
+            assert process.stdout is not None
+            at, late = self._listen(process.stdout, first)
+            if late:
+                process.kill()
+            code = process.wait()
+            if late:
+                return at, f"the check took longer than {self.limit:g} s and was ended"
+            return at, f"the process ended {_how(code)}{_last_words(errors)}" if code else ""
+
+    def _listen(self, stream: IO[bytes], first: int) -> tuple[int, bool]:
+        """Take what the process tells until it ends; return the check it was at, and whether it is late."""
+        lines: queue.Queue[bytes] = queue.Queue()
+        threading.Thread(target=_forward, args=(stream, lines), daemon=True).start()
+        at, wait = first, self.limit + _LOADING
+        while True:
+            try:
+                line = lines.get(timeout=wait)
+            except queue.Empty:
+                return at, True
+            if not line:
+                return at, False
+            said: dict[str, Any] = json.loads(line)
+            wait = self.limit
+            if "begins" in said:
+                at = said["begins"]
+                self.tell(self.found[at].check)
+            for severity, detail in said.get("details", ()):
+                self.found[at].add(severity, detail)
+
+
+def _forward(stream: IO[bytes], lines: "queue.Queue[bytes]") -> None:
+    """Pass on lines, and an empty one at the end."""
+    for line in stream:
+        lines.put(line)
+    lines.put(b"")
+
+
+def _how(code: int) -> str:
+    if code >= 0:
+        return f"with exit code {code}"
+    try:
+        return f"by signal {-code} ({signal.Signals(-code).name})"
+    except ValueError:
+        return f"by signal {-code}"
+
+
+def _last_words(errors: IO[bytes]) -> str:
+    errors.seek(0)
+    lines = [line.strip() for line in errors.read().decode("utf-8", "replace").splitlines() if line.strip()]
+    return f": {'; '.join(lines[-_LAST_WORDS:])}" if lines else ""

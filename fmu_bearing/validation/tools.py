@@ -1,0 +1,61 @@
+"""Validation of the description by others' tools."""
+
+import logging
+from pathlib import Path
+
+from fmpy.validation import validate_fmu
+
+from fmu_bearing.run.extras import MissingExtra, need
+from fmu_bearing.validation.remarks import FINDING, SKIPPED, Result
+
+
+def fmpy(path: Path) -> Result:
+    """Validate by FMPy."""
+    result = Result("FMPy", "FMPy's validation of the description: schema, names, units, structure")
+    for problem in validate_fmu(str(path)):
+        result.add(FINDING, _line(problem))
+    return result
+
+
+def fmutool(path: Path) -> Result:
+    """Validate by the checker of fmu-manipulation-toolbox, where it is installed."""
+    result = Result("fmutool", "fmu-manipulation-toolbox's checks of the description: schema, semantics")
+    try:
+        checker = need("fmu_manipulation_toolbox.checker", "the checker fmutool")
+        operations = need("fmu_manipulation_toolbox.operations", "the checker fmutool")
+    except MissingExtra as missing:
+        result.add(SKIPPED, str(missing))
+        return result
+    logger = logging.getLogger("fmu_manipulation_toolbox")
+    heard = _Heard(logging.ERROR)
+    before = logger.propagate, logger.level
+    logger.addHandler(heard)
+    logger.propagate = False
+    try:
+        with operations.FMU(str(path)) as fmu:
+            for check in checker.get_checkers():
+                fmu.apply_operation(check())
+    except Exception as problem:  # of a description that cannot be read: its own kinds, and those of XML
+        heard.lines.append(str(problem) or repr(problem))
+    finally:
+        logger.removeHandler(heard)
+        logger.propagate, logger.level = before
+    for line in dict.fromkeys(heard.lines):
+        result.add(FINDING, line.replace(f"'{path}': ", ""))
+    return result
+
+
+class _Heard(logging.Handler):
+    """Keeps messages."""
+
+    def __init__(self, level: int) -> None:
+        super().__init__(level)
+        self.lines: list[str] = []
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Keep a message."""
+        self.lines.append(_line(record.getMessage()))
+
+
+def _line(text: str) -> str:
+    return " ".join(str(text).split())

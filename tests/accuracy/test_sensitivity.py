@@ -1,0 +1,63 @@
+"""Sensitivity to assumed values: none is forgotten, each can be moved, and moves show."""
+
+import csv
+import re
+
+import pytest
+
+from fmu_bearing.accuracy import sensitivity as moving
+from fmu_bearing.accuracy.sensitivity import ASSUMED, QUICK, changed, sensitivity, value_at
+from tests.conftest import SCENES
+
+#: Order of a waviness whose amplitude is zero.
+IDLE = {"imperfections.ball_waviness_order"}
+
+
+def assumed_keys(name):
+    """Keys that a scene file's comments call assumed, alone or by their table."""
+    table, whole, keys = "", False, set()
+    for line in (SCENES / f"{name}.toml").read_text("utf-8").splitlines():
+        code, _, remark = line.partition("#")
+        word = re.search(r"\bassumed\b", remark) is not None
+        if not code.strip():
+            whole = "all assumed" in remark
+        elif code.startswith("["):
+            table, whole = code.strip().strip("[]"), whole or word
+        elif word or whole:
+            keys.add(f"{table}.{code.split('=')[0].strip()}")
+    return keys - IDLE
+
+
+@pytest.mark.parametrize("name", ["7003C-spindle", "7003C-bare", "7009C-full-ceramic"])
+def test_no_assumed_value_is_forgotten(scene, name):
+    found = assumed_keys(name)
+    assert len(found) > 25
+    assert found <= set(ASSUMED)
+    for key in found:
+        assert value_at(scene(name), key) is not None
+
+
+def test_every_move_changes_what_it_names(scene):
+    for name in ("7003C-spindle", "7009C-full-ceramic"):
+        for key, moves in ASSUMED.items():
+            value = value_at(scene(name), key)
+            for moved in () if value is None else moves(value):
+                other = changed(scene(name), key, moved)
+                assert value_at(other, key) == moved
+                assert changed(other, key, value) == scene(name)
+
+
+def test_moves_show(silent, tmp_path):
+    study = sensitivity(silent, QUICK, warm_up=0.01, window=0.01)
+    by_key = {}
+    for row in study.rows:
+        by_key.setdefault(row.key, []).append(row.changes)
+    low, high = by_key["lubricant.traction_max"]
+    assert low[4] < -0.02 and high[4] > 0.02  # less traction, less torque
+    # Walther's slope is not in use under Vogel's law: the very same bits
+    assert all(change[:6] == (0.0,) * 6 for change in by_key["lubricant.walther_slope"])
+    moving.write(study, tmp_path)
+    with (tmp_path / "sensitivity.csv").open(encoding="utf-8") as file:
+        read = list(csv.reader(file))
+    assert read[0] == list(moving.COLUMNS) and {len(line) for line in read} == {len(moving.COLUMNS)}
+    assert "Numba" in (tmp_path / "sensitivity.md").read_text("utf-8")

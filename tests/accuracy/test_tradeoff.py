@@ -1,0 +1,71 @@
+"""The tradeoff study: its rows, its files, its chart."""
+
+import csv
+import math
+
+import pytest
+
+from fmu_bearing.accuracy import tradeoff as trading
+from fmu_bearing.accuracy.chart import draw, front
+from fmu_bearing.accuracy.tradeoff import QUICK, REFERENCE, SETTINGS, WITNESS, tradeoff
+from fmu_bearing.run.settings import Setting
+
+
+@pytest.fixture(scope="module")
+def study(silent):
+    settings = (Setting(), Setting(max_step=5e-6, tolerance=1e-4), Setting("response"), Setting(strips=1))
+    return tradeoff(silent, settings, warm_up=0.01, window=2e-3, budget=0.005)
+
+
+def test_errors_shrink_with_the_step_and_the_reference_is_sure(study):
+    coarse, fine, response, strip = study.rows
+    assert study.pair < 1e-6 and study.agreement < 1e-5 and study.reference_error < 1e-6
+    assert 0.0 < fine.trajectory < 0.3 * coarse.trajectory < 1e-3
+    assert fine.errors.ring_rms < coarse.errors.ring_rms + 1e-6
+    assert coarse.wall > 0.0 and coarse.cpu > 0.0
+    assert math.isnan(response.trajectory)
+    assert (response.errors is None) == bool(response.remark)
+    # one strip knows no spin: it loses a good part of the torque
+    assert strip.errors.torque > 0.02 > coarse.errors.torque
+
+
+def test_files_hold_every_row_and_the_machine(study, tmp_path):
+    trading.write(study, tmp_path)
+    with (tmp_path / "tradeoff.csv").open(encoding="utf-8") as file:
+        read = list(csv.reader(file))
+    assert read[0] == list(trading.COLUMNS) and len(read) == 1 + len(study.rows)
+    page = (tmp_path / "tradeoff.md").read_text("utf-8")
+    assert "Numba" in page and page.count("\n| ") == 2 + len(study.rows)
+
+
+def test_a_chart_without_sound(study, tmp_path):
+    draw(study, tmp_path / "new" / "chart.png")
+    assert (tmp_path / "new" / "chart.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_front_keeps_what_nothing_betters():
+    points = [(1.0, 1e-3), (2.0, 1e-2), (1.5, 2e-2), (4.0, 0.1), (4.0, 0.2), (0.5, 1e-3)]
+    assert front(points) == [3, 1, 0]
+    assert front([]) == []
+
+
+def test_the_sweep_is_no_factorial_and_every_setting_is_a_scene(silent):
+    assert 25 <= len(SETTINGS) <= 40 and len(set(SETTINGS)) == len(SETTINGS)
+    for setting in (*SETTINGS, *QUICK, REFERENCE, WITNESS):
+        made = setting.scene(silent).fidelity
+        assert (made.level, made.method, made.traction_strips) == (
+            setting.level,
+            setting.method,
+            setting.strips,
+        )
+        off = {name for name, on in made.terms.model_dump().items() if not on}
+        assert off == set(setting.without)
+
+
+@pytest.mark.heavy
+def test_the_whole_sweep_with_sound(scene):
+    study = tradeoff(scene("7003C-spindle"), warm_up=0.02, window=0.05, budget=0.05)
+    default = next(row for row in study.rows if row.setting == Setting())
+    # the scenes' default: relative error of the ring velocities within the tolerance it states
+    assert default.trajectory < 1e-3 and default.errors.level < 0.1
+    assert study.agreement < 1e-6 and study.pair < 1e-7 and study.reference_error < 1e-6

@@ -1,0 +1,50 @@
+"""The command ``fmu-bearing report``."""
+
+import json
+
+import pytest
+from typer.testing import CliRunner
+
+from fmu_bearing.cli import app
+from fmu_bearing.scene.read import with_fidelity
+from tests.reports.reading import Page
+
+
+def run(*arguments):
+    return CliRunner().invoke(app, ["report", *(str(a) for a in arguments)])
+
+
+def test_a_scene_at_another_speed_with_run_up_and_its_recording_again(scene, tmp_path):
+    file, page, kept = tmp_path / "s.toml", tmp_path / "new" / "page.html", tmp_path / "run.npz"
+    file.write_text(with_fidelity(scene("7003C-spindle"), level="rings").to_toml(), "utf-8")
+    made = run(
+        file, "-o", page, "--speed", 12_000, "--duration", 0.05, "--title", "Try <1>", "--keep", kept,
+        "--run-up", "6000:12000", "--run-up-time", 0.2, "--json",
+    )  # fmt: skip
+    assert made.exit_code == 0, made.output
+    told = json.loads(made.stdout)
+    assert told["figures"]["speed_rpm"] == pytest.approx(12_000) and told["missing"] == {}
+    assert told["bytes"] == page.stat().st_size
+    read = Page(page)
+    assert read.headings[0] == (1, "Try <1>")
+    low, high = read.figures["waterfall"]["layout"]["yaxis"]["range"]
+    assert 6000 < low < 7000 and 11_000 < high < 12_000  # blocks are named by their middles
+    assert "from 6,000 to 12,000 r/min" in read.sections["waterfall"]
+    again = run(kept, "-o", tmp_path / "again.html", "--json")
+    assert json.loads(again.stdout)["figures"] == pytest.approx(told["figures"], nan_ok=True)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["none.toml"], "there is no such scene file"),
+        (["none.npz"], "there is no such file"),
+        (["none.toml", "--run-up", "fast"], "5000:30000"),
+        (["none.toml", "--duration", "-1"], "duration = -1"),
+    ],
+)
+def test_refusals_take_one_line(arguments, words, tmp_path):
+    told = run(*arguments, "-o", tmp_path / "page.html")
+    lines = told.output.splitlines()
+    assert told.exit_code == 2 and words in lines[-1] and lines[-1].startswith("error: ")
+    assert "Traceback" not in told.output and not (tmp_path / "page.html").exists()

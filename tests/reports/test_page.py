@@ -1,0 +1,159 @@
+"""The page as a file: whole, offline, honest about what it lacks; and the errors of making it."""
+
+import doctest
+import math
+import re
+import sys
+
+import numpy as np
+import pytest
+
+from fmu_bearing.recording.record import Recording, record
+from fmu_bearing.reports import make, report
+from fmu_bearing.reports.page import POLICY
+from fmu_bearing.run.extras import MissingExtra
+from fmu_bearing.scene.read import with_fidelity
+from tests.conftest import SCENES
+from tests.reports.reading import Page
+
+LARGEST = 8e6  # bytes
+
+
+def test_nothing_is_loaded_from_elsewhere(full_page, full_report):
+    assert full_report.size < LARGEST
+    assert full_page.addresses and all(a.startswith(("#", "data:")) for a in full_page.addresses)
+    style = re.search(r"<style>(.*?)</style>", full_page.text, re.S)[1]
+    assert "url(" not in style and "@import" not in style
+    assert (
+        POLICY.startswith("default-src 'none'")
+        and "http" not in POLICY
+        and "Content-Security-Policy" in full_page.text
+    )
+
+
+def test_the_page_is_in_order(full_page, full_report):
+    assert set(full_report.sections.values()) == {""}
+    assert len(set(full_page.ids)) == len(full_page.ids)
+    levels = [depth for depth, _ in full_page.headings]
+    assert levels[0] == 1 and levels.count(1) == 1
+    assert all(later - earlier <= 1 for earlier, later in zip(levels, levels[1:], strict=False))
+    assert all(figure["data"] for figure in full_page.figures.values()) and len(full_page.figures) >= 12
+    assert {f"#{key}" for key in full_report.sections} <= set(full_page.addresses)
+
+
+def test_the_example_runs(tmp_path, monkeypatch):
+    (tmp_path / "examples").symlink_to(SCENES.parent)
+    monkeypatch.chdir(tmp_path)
+    (test,) = doctest.DocTestFinder().find(report, "report", globs={}, module=False)
+    assert test.examples and doctest.DocTestRunner().run(test).failed == 0
+
+
+def test_what_is_said_is_said_to_the_end(full, full_page):
+    summary, conditions = full_page.sections["summary"], full_page.sections["conditions"]
+    part = max(full.partial().items(), key=lambda item: full.mean_square(item[1], "A").max())[0]
+    assert f"the {part.replace('_', ' ')} is loudest (" in summary and "dB(A) alone), then the" in summary
+    assert "Its strongest line stands at" in summary and "ka = 0.5" in summary
+    assert "5 strips per contact" in conditions and "% from rolling." in conditions
+    assert "7003C at 20,000 r/min, preload 500 N" in full_page.text
+
+
+def test_assumed_values_carry_the_files_remarks(tmp_path):
+    made = make(SCENES / "7003C-bare.toml", tmp_path / "a.html", duration=0.02, settle=0.0, rung="compact")
+    page = Page(made.path)
+    (caption,) = [caption for caption in page.tables if caption.endswith("values are assumed")]
+    rows = {row[0]: row for row in page.tables[caption][1:]}
+    assert caption.startswith(f"{len(rows)} of ")
+    assert rows["bearing.inner_ring_outer_diameter_mm"][5] == "effective, for the ring's mass"
+    assert "bearing.bore_mm" not in rows
+    assert any("turns of the cage" in warning for warning in made.warnings)
+
+
+def test_level_rings_says_what_does_not_move(rings, tmp_path):
+    page = Page(report(rings, tmp_path / "rings.html"))
+    assert {t["meta"]["orbit"] for t in page.traces("orbits")} == {"inner_ring", "outer_ring"}
+    for section in ("velocities", "orbits", "friction"):
+        assert "Level rings" in page.sections[section]
+    assert "cage" not in {row[0] for row in page.tables["Velocity of the centres about its mean, mm/s"]}
+    assert "many of these was measured" not in page.text
+    assert any("values that the papers leave open" in caption for caption in page.tables)
+    # the housing moves against the inner ring's shaft or not: the sentence follows the levels
+    summary, table = page.sections["summary"], page.tables["Equivalent levels re 20 uPa"]
+    loudest = max(table[1:], key=lambda row: float(row[3]))
+    cancels = max(map(float, loudest[4:])) > float(loudest[3]) + 1.0
+    assert ("in phase opposition" in summary) == cancels
+
+
+def test_pressures_of_an_fmu_alone(tmp_path):
+    """No scene, no channels: what can be shown is shown, the rest says why."""
+    rate, size = 51_200.0, 5120
+    time = np.arange(size) / rate
+    tone = 0.02 * math.sqrt(2) * np.sin(2 * np.pi * 1000.0 * time)
+    recording = Recording(
+        None, "recorded", rate, 0.0, size, time, np.full(size, math.nan), {}, recorded=tone[None],
+        microphones=(("mic[1].pressure", (math.nan,) * 3),),
+    )  # fmt: skip
+    made = make(recording, tmp_path / "fmu.html")
+    page = Page(made.path)
+    missing = {key for key, reason in made.sections.items() if reason}
+    assert missing == {
+        "conditions",
+        "directivity",
+        "velocities",
+        "orbits",
+        "contacts",
+        "friction",
+        "assumptions",
+    }
+    assert "which scene" in made.sections["conditions"] and "pressures" in made.sections["directivity"]
+    assert "inner_ring.velocity.x" in made.sections["velocities"]
+    assert float(page.tables["Equivalent levels re 20 uPa"][1][2]) == pytest.approx(60.0, abs=0.05)
+    assert float(page.tables["Strongest lines at mic[1].pressure"][1][0]) == pytest.approx(1000.0, abs=1.0)
+
+
+def test_a_recording_of_few_variables_and_a_papers_rung(scene, tmp_path):
+    rings = with_fidelity(scene("7003C-spindle"), level="rings")
+    recording = record(rings, 0.03, rung="paper", outputs=("inner_ring.velocity.x",))
+    recording.outputs |= {
+        f"inner_ring.velocity.{a}": recording.outputs["inner_ring.velocity.x"] for a in "yz"
+    }
+    made = make(recording, tmp_path / "paper.html")
+    page = Page(made.path)
+    assert "velocity-time" in page.figures and "velocity-spectrum" not in page.figures
+    assert "kept every 400 us" in page.sections["velocities"]
+    assert "alike from all directions" in made.sections["directivity"]
+    assert "contact.inner.load_mean" in made.sections["contacts"]
+
+
+def test_a_scene_without_microphones(rings, tmp_path):
+    deaf = Recording(
+        **{name: getattr(rings, name) for name in rings.__dataclass_fields__ if name != "_spectra"}
+    )
+    deaf.microphones = ()
+    made = make(deaf, tmp_path / "deaf.html")
+    assert all("no microphones" in made.sections[key] for key in ("levels", "spectra", "audio", "waterfall"))
+    assert made.sections["directivity"] == ""
+
+
+def test_errors_name_the_way_out(rings, tmp_path, monkeypatch):
+    page = tmp_path / "page.html"
+    with pytest.raises(IsADirectoryError, match="name the HTML file"):
+        make(rings, tmp_path)
+    (tmp_path / "file").write_text("")
+    with pytest.raises(OSError, match="name another folder"):
+        make(rings, tmp_path / "file" / "page.html")
+    (tmp_path / "bad.npz").write_bytes(b"nothing")
+    with pytest.raises(ValueError, match="bad.npz: is no recording"):
+        make(tmp_path / "bad.npz", page)
+    with pytest.raises(ValueError, match="cannot be changed"):
+        make(rings, page, speed=100.0)
+    with pytest.raises(ValueError, match="needs other channels"):
+        make(rings, page, rung="paper")
+    with pytest.raises(ValueError, match="duration = 0"):
+        make(rings, page, duration=0.0)
+    with pytest.raises(ValueError, match="two speeds that differ"):
+        make(rings, page, run_up=(100.0, 100.0))
+    monkeypatch.setitem(sys.modules, "plotly", None)
+    monkeypatch.setitem(sys.modules, "plotly.graph_objects", None)
+    with pytest.raises(MissingExtra, match=r"fmu-bearing\[report\]"):
+        make(rings, page)
+    assert not page.exists()

@@ -1,0 +1,69 @@
+"""Axes as people write them, and what is told of those that are refused."""
+
+import numpy as np
+import pytest
+
+from fmu_bearing.sweeps.axes import SweepError, axes_of, parse_axis
+
+
+def test_text_of_the_command_line():
+    assert parse_axis("operation.speed_rpm=10000:40000:7")[1] == [1e4, 1.5e4, 2e4, 2.5e4, 3e4, 3.5e4, 4e4]
+    key, values = parse_axis("pedestal=1e6:1e8:5log")
+    assert key == "pedestal" and values == pytest.approx([1e6, 10**6.5, 1e7, 10**7.5, 1e8], rel=1e-11)
+    assert values[2] == 1e7  # not 10000000.000000002
+    assert parse_axis("mounting.preload_N = 500,800, 1200") == ("mounting.preload_N", [500, 800, 1200])
+    assert parse_axis("fidelity.level=rings,full")[1] == ["rings", "full"]
+    assert parse_axis("fidelity.terms.drag=true,false")[1] == [True, False]
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("speed", "write KEY=LOW:HIGH:COUNT"),
+        ("speed=1:2", "write KEY=LOW:HIGH:COUNT"),
+        ("speed=1:2:1", "2 or more values"),
+        ("speed=0:10:3log", "bounds above 0"),
+        ("speed=a:b:3", "bounds must be numbers"),
+        ("speed=1:inf:3", "finite bounds"),
+    ],
+)
+def test_text_that_is_no_axis(text, told):
+    with pytest.raises(SweepError, match=told):
+        parse_axis(text)
+
+
+def test_axes_have_names_units_and_meaning(scene):
+    axes = axes_of(
+        scene("7003C-spindle"), {"speed": "1000:2000:2", "mounting.rotor.mass_kg": np.array([0.2, 0.3])}
+    )
+    assert [axis.name for axis in axes] == ["speed_rpm", "mass_kg"]
+    assert [axis.unit for axis in axes] == ["r/min", "kg"]
+    assert axes[1].words == "Mass of the rotor, kg." and axes[1].values == (0.2, 0.3)
+
+
+def test_axes_that_end_alike_keep_their_whole_keys(scene):
+    axes = axes_of(
+        scene("7003C-spindle"), {"mounting.rotor.mass_kg": [0.2], "mounting.housing.mass_kg": [2, 3]}
+    )
+    assert [axis.name for axis in axes] == ["mounting.rotor.mass_kg", "mounting.housing.mass_kg"]
+
+
+def test_a_range_of_whole_numbers_serves_a_whole_number(scene):
+    (axis,) = axes_of(scene("7003C-spindle"), {"seed": "1:4:4"})
+    assert axis.values == (1, 2, 3, 4) and all(isinstance(value, int) for value in axis.values)
+
+
+def test_all_that_is_wrong_is_told_at_once(scene):
+    wrong = {"spede": [1], "mounting.preload": [1], "speed": [1, 1], "pedestal": [], "level": [None]}
+    with pytest.raises(SweepError) as caught:
+        axes_of(scene("7003C-spindle"), wrong)
+    told = str(caught.value).splitlines()
+    assert told[0] == "no key of a scene 'spede'; did you mean 'speed'?"
+    assert "did you mean 'mounting.preload_N'?" in told[1]
+    assert told[2] == "axis operation.speed_rpm: 1 stands more than once"
+    assert told[3] == "axis mounting.pedestal_stiffness_N_m has no values"
+    assert "None is refused" in told[4] and len(told) == 5
+    with pytest.raises(SweepError, match="given twice"):
+        axes_of(scene("7003C-spindle"), {"speed": [1], "operation.speed_rpm": [2]})
+    with pytest.raises(SweepError, match="needs an axis"):
+        axes_of(scene("7003C-spindle"), {})

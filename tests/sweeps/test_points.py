@@ -1,0 +1,86 @@
+"""What a point measures, against runs made otherwise; what cannot be run."""
+
+import numpy as np
+import pytest
+
+from fmu_bearing.prepare.sound import sound_block
+from fmu_bearing.run import metrics as comparing
+from fmu_bearing.run.simulate import simulate
+from fmu_bearing.scene.read import with_fidelity
+from fmu_bearing.sweeps import sweep
+from fmu_bearing.sweeps.figures import _once_per_turn
+from tests.sweeps.points import small
+
+
+@pytest.fixture(scope="module")
+def rings(scene):
+    return with_fidelity(scene("7003C-bare"), level="rings")
+
+
+def test_figures_are_those_of_a_run_beside(rings):
+    """Another loop over the same engine: the same statistics of the same run."""
+    data = sweep(rings, {"preload": [500]}, settle=0.01, window=0.02, workers=1).squeeze()
+    other = comparing.measure(rings, sound_block(rings), 0.01, 0.02).figures
+    found = [
+        *(float(data[f"{ring}_ring.velocity"]) for ring in ("inner", "outer")),
+        *(float(data[f"contact.{ring}.load_mean"]) for ring in ("inner", "outer")),
+        *(float(data[f"contact.{ring}.angle_mean"]) for ring in ("inner", "outer")),
+        float(data["friction_torque"]),
+        float(data["cage.speed_ratio"]),
+        *(float(data[f"mic[{k}].leq_a"]) for k in (1, 2, 3, 4)),
+    ]
+    expected = [*other.ring_rms, *other.load, *other.angle, other.torque, other.cage_ratio, *other.levels]
+    # sums in another order; levels there with steps of 1 ms: other internal steps, 0.06 dB at most
+    np.testing.assert_allclose(found[:8], expected[:8], rtol=1e-9)
+    np.testing.assert_allclose(found[8:], expected[8:], atol=0.2)
+    assert data["friction_torque"].attrs["units"] == "N.m"
+    assert data["seed"] == 1 and data["reason"] == "" and data["wall"] > 0
+
+
+def test_a_point_is_the_run_that_simulate_makes(rings):
+    quiet = rings.model_copy(update={"sound": None})
+    data = sweep(
+        quiet, {"speed": [15000]}, settle=0.0, window=2e-3, figures=["friction_torque:last"], workers=1
+    )
+    turned = quiet.model_copy(update={"operation": quiet.operation.model_copy(update={"speed_rpm": 15000.0})})
+    run = simulate(turned, 2e-3, step=1e-4, progress=False)
+    assert float(data["friction_torque:last"].squeeze()) == pytest.approx(
+        run["friction_torque"][-1], rel=1e-12
+    )
+
+
+def test_the_part_at_shaft_speed_is_found_beside_a_stronger_line():
+    time = np.arange(1, 1001) * 1e-4
+    speed = 2.0 * np.pi * 467.0
+    turn = np.stack([np.cos(speed * time), np.sin(speed * time)], 1)
+    other = 20.0 * np.stack([np.sin(2.0 * np.pi * 2440.0 * time), np.ones(time.size)], 1)
+    # two axes of amplitude 1: rms 1 together; of the other line what Hann's window lets through
+    assert _once_per_turn(turn + other, time, speed) == pytest.approx(1.0, abs=2e-3)
+    assert np.isnan(_once_per_turn(turn[:50], time[:50], speed))  # 2.3 turns
+
+
+def test_a_point_without_equilibrium_is_refused_and_stops_nothing(scene):
+    quiet = with_fidelity(scene("7003C-bare").model_copy(update={"sound": None}), level="rings")
+    loose = quiet.model_copy(
+        update={"mounting": quiet.mounting.model_copy(update={"radial_load_z_N": -2000.0})}
+    )
+    data = sweep(
+        loose, {"preload": [0, 800], "pedestal": [1e4, 1e8]}, settle=0.0, window=1e-3, workers=1,
+        figures=["contact.inner.load_mean"],
+    )  # fmt: skip
+    reasons = data["reason"].values.ravel().tolist()
+    assert reasons[3] == "" and np.isfinite(data["contact.inner.load_mean"].values[1, 1])
+    soft = data.sel(pedestal_stiffness_N_m=1e4)
+    assert np.isnan(soft["contact.inner.load_mean"].values).all()
+    assert all(reason.startswith("initialisation: ") for reason in soft["reason"].values)
+
+
+def test_a_figure_that_only_some_points_have(scene):
+    """An axis may take a ball away: its figures are missing there."""
+    made = small(scene("7003C-bare").model_copy(update={"sound": None}), speeds=[5000])
+    data = sweep(
+        made.scene, {"bearing.ball_count": [12, 11], "level": ["response"]}, settle=0.0, window=1e-3,
+        figures=["ball[12].velocity", "friction_torque"], workers=1,
+    ).squeeze()  # fmt: skip
+    assert np.isfinite(data["friction_torque"]).all()
+    assert np.isfinite(data["ball[12].velocity"][0]) and np.isnan(data["ball[12].velocity"][1])

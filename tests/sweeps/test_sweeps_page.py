@@ -1,0 +1,60 @@
+"""docs/sweeps.md: Python, file and commands run, figures are those of the table."""
+
+import csv
+import pathlib
+import re
+import shlex
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from fmu_bearing import cli
+from fmu_bearing.sweeps.description import read_description
+
+ROOT = pathlib.Path(__file__).parents[3]
+PAGE = (ROOT / "docs" / "sweeps.md").read_text("utf-8")
+
+
+def blocks(language):
+    return re.findall(rf"```{language}\n(.*?)```", PAGE, flags=re.DOTALL)
+
+
+def test_python_of_the_page_runs(tmp_path, monkeypatch):
+    (tmp_path / "examples").symlink_to(ROOT / "examples")
+    monkeypatch.chdir(tmp_path)
+    names = {}
+    for block in blocks("python"):
+        exec(compile(block, "docs/sweeps.md", "exec"), names)
+    assert {path.name for path in (tmp_path / "out" / "friction").iterdir()} == {
+        "sweep.nc", "sweep.csv", "sweep.png",
+    }  # fmt: skip
+    torque = names["torque"].values
+    assert torque.shape == (4, 3) and (np.diff(torque, axis=1) > 0.0).all()  # more preload, more friction
+
+
+def test_the_file_of_the_page_is_a_sweep(tmp_path):
+    (text,) = blocks("toml")
+    (tmp_path / "sweep.toml").write_text(text)
+    assert set(read_description(tmp_path / "sweep.toml").axes) == {"speed", "mounting.preload_N"}
+
+
+@pytest.mark.parametrize("line", [s for s in blocks("sh")[0].splitlines() if "--dry-run" in s])
+def test_the_dry_run_of_the_page(tmp_path, monkeypatch, scene, line):
+    monkeypatch.chdir(tmp_path)
+    silent = scene("7003C-spindle").model_copy(update={"sound": None})
+    (tmp_path / "my-scene.toml").write_text(silent.to_toml(), "utf-8")
+    result = CliRunner().invoke(cli.app, shlex.split(line)[1:] + ["--window", "0.001", "--settle", "0"])
+    assert result.exit_code == 0 and result.stdout.startswith("85 points, 0 kept")
+
+
+def test_figures_of_the_page_are_those_of_the_table():
+    with (ROOT / "docs" / "results" / "sweep.csv").open(encoding="utf-8", newline="") as file:
+        head, *rows = list(csv.reader(file))
+    assert [float(row[0]) for row in rows] == sorted(float(row[0]) for row in rows) and len(rows) == 9
+    modes, turn, heard = (np.array([float(row[k]) for row in rows]) for k in (1, 3, 5))
+    assert f"{turn.min():.1f} to {turn.max():.1f} % above" in PAGE
+    assert f"{heard.min():.1f} to {heard.max():.1f} % above" in PAGE
+    assert f"{round(modes[0], -2):,.0f} to {round(modes[-1], -2):,.0f} r/min" in PAGE
+    scaled = modes / np.sqrt([float(row[0]) for row in rows])
+    assert np.ptp(scaled) / scaled.mean() < 3e-3

@@ -3,7 +3,7 @@
 import pathlib
 from dataclasses import dataclass
 
-from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.choices import FIDELITIES, METHODS
 from fmu_bearing.run.arrays import Arrays
 from fmu_bearing.scene import Scene, read_scene
 
@@ -61,7 +61,7 @@ class Solver:
     @property
     def parameters(self) -> dict[str, float]:
         """Places of ``p`` that choose it."""
-        return {"P_LEVEL": at.LEVELS.index(self.level), "P_METHOD": at.METHODS.index(self.method)}
+        return {"FIDELITY": FIDELITIES.index(self.level), "METHOD": METHODS.index(self.method)}
 
 
 SOLVERS = (

@@ -14,7 +14,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.constants import GRAVITY
+from fmu_bearing.engine.layout import P, U, Z
 from fmu_bearing.run.arrays import Arrays
 
 
@@ -89,22 +90,22 @@ def _build(bearing: Arrays):
     from exudyn.utilities import InertiaCylinder, MarkerBodyRigid
 
     p, u = bearing.p, bearing.u
-    balls, pitch = int(p[at.P_BALLS]), float(p[at.P_PITCH_RADIUS])
-    radius, speed = 0.5 * float(p[at.P_DIAMETER]), float(u[at.U_SPEED])
-    races = [p[at.P_RACES + k * at.RACE_SIZE :][: at.RACE_SIZE] for k in range(2)]
+    balls, pitch = int(p[P.BALLS]), float(p[P.PITCH_RADIUS])
+    radius, speed = 0.5 * float(p[P.DIAMETER]), float(u[U.SPEED])
+    races = [p[P.RACES + k * P.RACE_SIZE :][: P.RACE_SIZE] for k in range(2)]
     # the load of our balls, as interference at a contact angle of zero
-    load = bearing.z[at.BEARING_OUTPUTS.index("contact.inner.load_mean")]
-    approach = float((load / races[0][at.RACE_STIFFNESS]) ** (2.0 / 3.0))
+    load = bearing.z[Z.BEARING_OUTPUTS.index("contact.inner.load_mean")]
+    approach = float((load / races[0][P.RACE_STIFFNESS]) ** (2.0 / 3.0))
     data = GetBallBearingData(
         [0, 0, 1], 2.6 * pitch, 1.4 * pitch, 2.2 * radius, balls, radiusBalls=radius, radiusCage=pitch,
-        innerGrooveRadius=races[0][at.RACE_GROOVE], outerGrooveRadius=races[1][at.RACE_GROOVE],
+        innerGrooveRadius=races[0][P.RACE_GROOVE], outerGrooveRadius=races[1][P.RACE_GROOVE],
     )  # fmt: skip
     data["radiusBalls"] += approach
     system = exu.SystemContainer().AddSystem()
-    gravity = [0.0, -at.GRAVITY, 0.0]
+    gravity = [0.0, -GRAVITY, 0.0]
     inertia = InertiaCylinder(1.0, 1.0, 1.0, axis=2)
-    inertia.mass = float(p[at.P_INNER_MASS])
-    inertia.inertiaTensor = np.diag([p[at.P_INNER_TRANSVERSE]] * 2 + [p[at.P_INNER_POLAR]])
+    inertia.mass = float(p[P.INNER_MASS])
+    inertia.inertiaTensor = np.diag([p[P.INNER_TRANSVERSE]] * 2 + [p[P.INNER_POLAR]])
     inner = system.CreateRigidBody(
         referencePosition=[0, 0, 0], nodeType=exu.NodeType.RotationRxyz, inertia=inertia,
         initialAngularVelocity=[0, 0, speed], gravity=gravity,
@@ -112,29 +113,29 @@ def _build(bearing: Arrays):
     system.CreateCoordinateConstraint(
         itemNumbers=[inner, None], coordinates=[5, None], velocityLevel=True, offset=speed, show=False
     )
-    system.CreateForce(itemNumber=inner, loadVector=[0, -float(np.hypot(u[at.U_LOAD_Y], u[at.U_LOAD_Z])), 0])
+    system.CreateForce(itemNumber=inner, loadVector=[0, -float(np.hypot(u[U.LOAD_Y], u[U.LOAD_Z])), 0])
     ground = system.CreateGround()
     on_inner, on_outer = (
         system.AddMarker(MarkerBodyRigid(bodyNumber=body, localPosition=[0, 0, 0]))
         for body in (inner, ground)
     )
     contact = {
-        "contactStiffness": races[0][at.RACE_STIFFNESS],
+        "contactStiffness": races[0][P.RACE_STIFFNESS],
         "contactStiffnessExponent": 1.5,
-        "contactDamping": 1.5 * p[at.P_CONTACT_DAMPING] * races[0][at.RACE_STIFFNESS] * approach**0.5,
-        "dynamicFriction": p[at.P_MU],
+        "contactDamping": 1.5 * p[P.CONTACT_DAMPING] * races[0][P.RACE_STIFFNESS] * approach**0.5,
+        "dynamicFriction": p[P.MU],
         "frictionProportionalZone": 0.1,
     }
     # rolling without slip: orbit of the balls' centres and their own turning, both absolute
     orbit = 0.5 * speed * (1.0 - radius / pitch)
     spin = -0.5 * speed * (pitch / radius - 1.0)
-    density = p[at.P_BALL_MASS] / (4 / 3 * np.pi * radius**3)
+    density = p[P.BALL_MASS] / (4 / 3 * np.pi * radius**3)
     items = CreateBallBearing(
         system, data, on_inner, on_outer, density, 1400.0, cageInitialAngularVelocity=[0, 0, orbit],
         ballsInitialAngularVelocity=[0, 0, spin], gravity=gravity, springStiffnessCage=1e5,
         springDampingCage=1.0, contactParametersRingBalls=contact,
     )  # fmt: skip
     for place in items["outerRingBallContacts"]:
-        system.SetObjectParameter(place, "contactStiffness", races[1][at.RACE_STIFFNESS])
+        system.SetObjectParameter(place, "contactStiffness", races[1][P.RACE_STIFFNESS])
     system.Assemble()
     return system, inner

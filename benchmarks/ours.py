@@ -7,7 +7,7 @@ import numpy as np
 from benchmarks.cases import WARM_UP, Case, Solver, silent
 from benchmarks.table import Row
 from fmu_bearing.accuracy.reference import Reference, reference_from, relative_error
-from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.layout import P
 from fmu_bearing.run.arrays import Arrays, Refused
 from fmu_bearing.run.metrics import COMMUNICATION, SAMPLE, ring_rms, speed
 
@@ -33,7 +33,7 @@ def full_rows(
     rows = []
     for rung, (tolerance, step) in enumerate(LADDER):
         row = Row(case.name, solver.name, f"tol {tolerance:g}, h <= {1e6 * step:g} us", goal=goal)
-        bearing = start.with_parameters(**solver.parameters, P_TOLERANCE=tolerance, P_MAX_STEP=step)
+        bearing = start.with_parameters(**solver.parameters, TOLERANCE=tolerance, MAX_STEP=step)
         try:
             row.error = relative_error(bearing.with_parameters().rings(case.window, SAMPLE), exact.velocities)
             met = row.error <= LIMIT
@@ -61,13 +61,13 @@ def level_row(case: Case, solver: Solver, start: Arrays, budget: float, repeats:
     try:
         full = ring_rms(start.with_parameters().rings(window, SAMPLE))
         bearing = started(case, solver, WARM_UP)
-        step = bearing.p[at.P_MAX_STEP]
+        step = bearing.p[P.MAX_STEP]
         row.setting = f"h <= {1e6 * step:g} us"
         state = bearing.with_parameters()
         own = state.rings(window, SAMPLE)
         errors = ring_rms(own) / full - 1.0
         row.error = float(np.abs(errors).max())
-        finer = bearing.with_parameters(P_MAX_STEP=step / 4, P_TOLERANCE=1e-5)
+        finer = bearing.with_parameters(MAX_STEP=step / 4, TOLERANCE=1e-5)
         few = round(5e-3 / SAMPLE)
         integration = relative_error(own[:few], finer.rings(5e-3, SAMPLE))
         row.remark = f"rms inner {errors[0]:+.1%}, outer {errors[1]:+.1%}; integration {integration:.0e}"

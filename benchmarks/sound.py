@@ -7,9 +7,8 @@ import numpy as np
 from benchmarks.cases import SCENES
 from fmu_bearing.acoustics.filters.design import build, ladder_of
 from fmu_bearing.acoustics.registry import Ladder
-from fmu_bearing.engine import layout_sound as at
 from fmu_bearing.engine.jit import entry
-from fmu_bearing.engine.layout import motion_size
+from fmu_bearing.engine.layout import MO, SD
 from fmu_bearing.engine.sound import radiate
 from fmu_bearing.scene import read_scene
 from fmu_bearing.scene.sound import cylindrical
@@ -31,16 +30,16 @@ def pushes(ps, ss, ws, motion, samples):
 
 def cost(ps, repeats: int) -> float:
     """CPU s per simulated s of one sound block."""
-    size = motion_size(int(ps[at.H_BALLS]), int(ps[at.H_FLEXURES]))
+    size = MO.size(int(ps[SD.H_BALLS]), int(ps[SD.H_FLEXURES]))
     motion = np.random.default_rng(1).standard_normal((_ROWS, size))
-    ss, ws = np.zeros(at.state_size(ps)), np.zeros(at.work_size(ps))
+    ss, ws = np.zeros(SD.state_size(ps)), np.zeros(SD.work_size(ps))
     pushes(ps, ss, ws, motion, _BATCH)  # compiled, and past the start
     best = float("inf")
     for _ in range(repeats):
         clock = time.process_time()
         pushes(ps, ss, ws, motion, _BATCH)
         best = min(best, time.process_time() - clock)
-    return best * at.RAW_RATE / _BATCH
+    return best * SD.RAW_RATE / _BATCH
 
 
 def microphones(scene) -> dict[str, list[tuple[float, float, float]]]:
@@ -56,8 +55,8 @@ def microphones(scene) -> dict[str, list[tuple[float, float, float]]]:
 
 def block_lengths(ps) -> str:
     """Block lengths of the convolution, as text."""
-    first = int(ps[at.H_AT_LEVELS]) + at.LEVEL_BLOCK
-    lengths = [f"{ps[first + at.LEVEL_SIZE * i]:g}" for i in range(int(ps[at.H_LEVELS]))]
+    first = int(ps[SD.H_AT_LEVELS]) + SD.LEVEL_BLOCK
+    lengths = [f"{ps[first + SD.LEVEL_SIZE * i]:g}" for i in range(int(ps[SD.H_LEVELS]))]
     return " + ".join(lengths) or "none"
 
 
@@ -77,7 +76,7 @@ def rows(name: str, rungs: tuple[str, ...], repeats: int) -> list[list[str]]:
             goal = words == "4"
             verdict = "" if not goal else "met" if here <= GOAL else "missed"
             found.append(
-                [name, words, rung, f"{block[at.H_CHANNELS]:.0f}", block_lengths(block), f"{here:.3f}",
+                [name, words, rung, f"{block[SD.H_CHANNELS]:.0f}", block_lengths(block), f"{here:.3f}",
                  f"{cost(direct, repeats):.3f}", f"{GOAL:g}" if goal else "", verdict]
             )  # fmt: skip
     return found

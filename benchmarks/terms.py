@@ -5,8 +5,8 @@ import time
 import numpy as np
 
 from benchmarks.cases import silent
-from fmu_bearing.engine import layout as at
 from fmu_bearing.engine.jit import entry
+from fmu_bearing.engine.layout import C, F, P, S, Y
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.run.arrays import Arrays, Refused
 from fmu_bearing.run.metrics import speed
@@ -14,15 +14,15 @@ from fmu_bearing.run.metrics import speed
 COLUMNS = ("scene", "variant", "right-hand side, us", "of all terms", "sim/CPU", "times all terms")
 #: Switches of ``p``; one that a scene does not have on is left out of the table.
 SWITCHES = {
-    "without gravity": "P_GRAVITY",
-    "without drag": "P_DRAG",
-    "without rolling resistance": "P_ROLLING",
-    "without its reduction factors": "P_REDUCTION",
-    "without land film": "P_LAND_VISCOSITY",
-    "without gyroscopic moments": "P_GYROSCOPIC",
-    "without waviness": "P_WAVINESS",
-    "without waviness of the balls": "P_BALL_WAVES",
-    "without cage": "P_CAGE",
+    "without gravity": "GRAVITY",
+    "without drag": "DRAG",
+    "without rolling resistance": "ROLLING",
+    "without its reduction factors": "REDUCTION",
+    "without land film": "LAND_VISCOSITY",
+    "without gyroscopic moments": "GYROSCOPIC",
+    "without waviness": "WAVINESS",
+    "without waviness of the balls": "BALL_WAVES",
+    "without cage": "CAGE",
 }
 
 
@@ -36,10 +36,10 @@ def repeat(p, c, y, angle, speed_, w, f, times):
 def evaluation(bearing: Arrays, times: int = 4000) -> float:
     """CPU seconds of one right-hand side."""
     s = bearing.s
-    y, c, f = s[at.S_Y : at.S_Y + at.Y_SIZE].copy(), s[at.S_C : at.S_C + at.C_SIZE], np.zeros(at.F_SIZE)
-    repeat(bearing.p, c, y, s[at.S_ANGLE], s[at.S_SPEED], bearing.w, f, 1)  # compiled before the clock
+    y, c, f = s[S.Y : S.Y + Y.SIZE].copy(), s[S.C : S.C + C.SIZE], np.zeros(F.SIZE)
+    repeat(bearing.p, c, y, s[S.ANGLE], s[S.SPEED], bearing.w, f, 1)  # compiled before the clock
     clock = time.process_time()
-    repeat(bearing.p, c, y, s[at.S_ANGLE], s[at.S_SPEED], bearing.w, f, times)
+    repeat(bearing.p, c, y, s[S.ANGLE], s[S.SPEED], bearing.w, f, times)
     return (time.process_time() - clock) / times
 
 
@@ -49,7 +49,7 @@ def variants(name: str):
     base = Arrays(scene, 0.0).p
     yield "all terms, 5 strips", scene, {}
     for words, place in SWITCHES.items():
-        if base[getattr(at, place)] != 0.0:
+        if base[getattr(P, place)] != 0.0:
             yield words, scene, {place: 0.0}
     for strips in (3, 1):
         fidelity = scene.fidelity.model_copy(update={"traction_strips": strips})
@@ -59,7 +59,7 @@ def variants(name: str):
             {},
         )
     fewest = scene.fidelity.model_copy(update={"traction_strips": 1})
-    off = {place: 0.0 for place in SWITCHES.values() if base[getattr(at, place)] != 0.0}
+    off = {place: 0.0 for place in SWITCHES.values() if base[getattr(P, place)] != 0.0}
     yield "nothing but contacts, 1 strip", scene.model_copy(update={"fidelity": fewest}), off
 
 

@@ -10,20 +10,22 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.engine import abi, layout
+from fmu_bearing.engine import abi
+from fmu_bearing.engine.layout import S, U, W, Z
+from fmu_bearing.engine.status import BAD_INPUT, BAD_STEP, NO_START, NOT_CONVERGED, OK, RIGID_ONLY, TOO_SOFT
 from fmu_bearing.interface import Variable
 from fmu_bearing.prepare.model import Model
 
 #: What the status codes of the engine mean to who called it.
 REASONS = {
-    layout.NOT_CONVERGED: "the equations could not be solved: even the shortest internal steps failed; "
+    NOT_CONVERGED: "the equations could not be solved: even the shortest internal steps failed; "
     "change inputs by less at a time, or over more steps",
-    layout.BAD_INPUT: "an input is not finite or outside its range",
-    layout.BAD_STEP: "the communication step must be a positive, finite number of seconds",
-    layout.NO_START: "no quasi-static equilibrium was found for the initial inputs; "
+    BAD_INPUT: "an input is not finite or outside its range",
+    BAD_STEP: "the communication step must be a positive, finite number of seconds",
+    NO_START: "no quasi-static equilibrium was found for the initial inputs; "
     "give more preload or less radial load",
-    layout.RIGID_ONLY: "its rings bend, which needs level full and method esdirk4, trbdf2 or rk4",
-    layout.TOO_SOFT: "the loads push the outer ring sideways by more than 0.3 of the pitch radius; "
+    RIGID_ONLY: "its rings bend, which needs level full and method esdirk4, trbdf2 or rk4",
+    TOO_SOFT: "the loads push the outer ring sideways by more than 0.3 of the pitch radius; "
     "give a stiffer pedestal or less radial load",
 }
 
@@ -55,7 +57,7 @@ class Caution:
 
 def _shoulder(ring: str, other: str) -> Caution:
     return Caution(
-        layout.BEARING_OUTPUTS.index(f"contact.{ring}.shoulder_margin"),
+        Z.BEARING_OUTPUTS.index(f"contact.{ring}.shoulder_margin"),
         0.0,
         -180.0 / math.pi,
         f"the ellipse of the most loaded contact of the {ring} race reaches ",
@@ -99,14 +101,14 @@ class Instance:
         """Back to the state of a fresh instance."""
         model = self.model
         self.p: NDArray[np.float64] = model.parameters.copy()
-        self.u: NDArray[np.float64] = np.zeros(len(layout.INPUTS))
+        self.u: NDArray[np.float64] = np.zeros(len(U.INPUTS))
         sizes = (model.n_balls, model.n_mics, model.n_bands, model.n_modes)
-        self.z: NDArray[np.float64] = np.zeros(layout.z_size(*sizes))
-        self.s: NDArray[np.float64] = np.zeros(layout.state_size(self.p))
+        self.z: NDArray[np.float64] = np.zeros(Z.size(*sizes))
+        self.s: NDArray[np.float64] = np.zeros(S.size(self.p))
         # The compiled entries are specialised on read-only parameters; settings still reach them through p.
         self._p = self.p.view()
         self._p.setflags(write=False)
-        self._w: NDArray[np.float64] = np.zeros(layout.work_size(self.p))
+        self._w: NDArray[np.float64] = np.zeros(W.size(self.p))
         self._kept = self.s.copy()
         self.initialised = False
         for variable in model.variables:
@@ -116,7 +118,7 @@ class Instance:
     @property
     def time(self) -> float:
         """Time reached (s)."""
-        return float(self.s[layout.S_TIME])
+        return float(self.s[S.TIME])
 
     def variable(self, name: str) -> Variable:
         """Variable of that name; ``KeyError`` names what is missing."""
@@ -163,7 +165,7 @@ class Instance:
     def initialise(self, time: float = 0.0) -> None:
         """Put the bearing to its quasi-static state at the inputs; ``EngineError`` if there is none."""
         status = abi.init(self._p, self.u, self.s, self.z, self._w, float(time))
-        if status != layout.OK:
+        if status != OK:
             raise EngineError(f"initialisation at t = {time} s: {REASONS[status]}; {self._inputs()}")
         self.initialised = True
         for caution in self._cautions():
@@ -183,7 +185,7 @@ class Instance:
             raise EngineError("the bearing must be initialised before it is stepped")
         self._kept[:] = self.s
         status = abi.step(self._p, self.u, self.s, self.z, self._w, float(h))
-        if status != layout.OK:
+        if status != OK:
             reached = self.time
             self.s[:] = self._kept
             raise EngineError(
@@ -192,5 +194,5 @@ class Instance:
             )
 
     def _inputs(self) -> str:
-        named = zip(layout.INPUTS, self.u, strict=True)
+        named = zip(U.INPUTS, self.u, strict=True)
         return "inputs were " + ", ".join(f"{name} = {value:.6g}" for name, value in named)

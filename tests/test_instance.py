@@ -6,7 +6,7 @@ import warnings
 import numpy as np
 import pytest
 
-from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.layout import S
 from fmu_bearing.instance import EngineError, Instance
 from fmu_bearing.prepare.model import prepare
 
@@ -98,10 +98,10 @@ def test_speed_ramps_from_the_value_last_reached(model):
     bearing.set("shaft_speed", 1100.0)
     bearing.step(1e-4)
     # linear from 1000 to 1100 rad/s: the shaft has turned by the mean speed
-    assert bearing.s[at.S_SPEED] == 1100.0
-    assert bearing.s[at.S_ANGLE] == pytest.approx(1050.0 * 1e-4, rel=1e-12)
+    assert bearing.s[S.SPEED] == 1100.0
+    assert bearing.s[S.ANGLE] == pytest.approx(1050.0 * 1e-4, rel=1e-12)
     stepped(bearing, 4, 1e-4)
-    assert bearing.s[at.S_ANGLE] == pytest.approx(1050.0 * 1e-4 + 1100.0 * 4e-4, rel=1e-12)
+    assert bearing.s[S.ANGLE] == pytest.approx(1050.0 * 1e-4 + 1100.0 * 4e-4, rel=1e-12)
 
 
 def test_inertia_of_the_rotor_is_told_to_the_drive(model, scene):

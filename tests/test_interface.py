@@ -4,7 +4,7 @@ from typing import get_args
 
 import pytest
 
-from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.layout import Z
 from fmu_bearing.interface import variables
 from fmu_bearing.scene.sound import Sound
 
@@ -32,7 +32,7 @@ def test_names_of_the_contract_are_there(scene):
     for body in ("inner_ring", "outer_ring", "cage", "ball[1]", "ball[12]"):
         assert {f"{body}.velocity.{axis}" for axis in "xyz"} <= names
     for k in range(1, 5):
-        assert {f"mic[{k}].{n}" for n in at.MIC_OUTPUTS} <= names
+        assert {f"mic[{k}].{n}" for n in Z.MIC_OUTPUTS} <= names
         assert {f"mic[{k}].position.{axis}" for axis in "xyz"} <= names
     for ring in ("inner", "outer"):
         quantities = ("load_mean", "load_max", "angle_mean", "pressure_max")
@@ -61,7 +61,7 @@ def test_ranges_and_starts(scene):
         if variable.causality == "input":
             assert variable.unit and variable.quantity and variable.nominal is not None
         if variable.array == "z":
-            assert 0 <= variable.index < at.z_size(12, 4)
+            assert 0 <= variable.index < Z.size(12, 4)
 
 
 def test_places_do_not_overlap(scene):
@@ -106,18 +106,18 @@ def test_details_of_contacts_cage_and_torque(scene):
     for name, unit in units.items():
         variable = found[name]
         assert (variable.unit, variable.causality, variable.type) == (unit, "local", "Real")
-        assert (variable.array, variable.index) == ("z", at.BEARING_OUTPUTS.index(name))
+        assert (variable.array, variable.index) == ("z", Z.BEARING_OUTPUTS.index(name))
     count = found["solver.fallbacks"]
     assert (count.type, count.variability, count.min) == ("Integer", "discrete", 0)
 
 
 def test_every_output_of_the_engine_has_its_variable(scene):
     found = table(scene("7003C-spindle"))
-    assert set(at.BEARING_OUTPUTS) <= set(found)
+    assert set(Z.BEARING_OUTPUTS) <= set(found)
     bare = scene("7003C-bare")
-    caged = {name for name in at.BEARING_OUTPUTS if name.split(".")[0] == "cage" or name.endswith(".cage")}
+    caged = {name for name in Z.BEARING_OUTPUTS if name.split(".")[0] == "cage" or name.endswith(".cage")}
     names = set(table(bare.model_copy(update={"bearing": bare.bearing.model_copy(update={"cage": None})})))
-    assert set(at.BEARING_OUTPUTS) - names == caged
+    assert set(Z.BEARING_OUTPUTS) - names == caged
 
 
 def test_rigid_preload_says_what_the_input_means(scene):

@@ -18,8 +18,7 @@ import typer
 
 from fmu_bearing import read_scene, record
 from fmu_bearing.acoustics.analysis.directivity import directivity
-from fmu_bearing.recording import measure as sound_measure
-from fmu_bearing.recording import pictures as sound_pictures
+from fmu_bearing.recording import measure as sound_measure, pictures as sound_pictures
 from fmu_bearing.recording.measure import Round
 from fmu_bearing.run.table import markdown, write_csv
 

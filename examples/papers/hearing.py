@@ -25,7 +25,7 @@ from fmu_bearing.acoustics.filters.design import radiators_of
 from fmu_bearing.acoustics.filters.weighting import a_weighting_sections, level
 from fmu_bearing.acoustics.radiation.compact import Path
 from fmu_bearing.elastic.modes import ring_modes
-from fmu_bearing.engine.layout_sound import COMPONENTS
+from fmu_bearing.engine.layout import SD
 from fmu_bearing.recording.heard import air_of
 from fmu_bearing.recording.record import Recording
 from fmu_bearing.scene import Scene
@@ -79,13 +79,13 @@ class Ear:
         """
         if self.rung != "paper":
             parts = self.parts(places, lambda path: path.component)
-            found = {COMPONENTS[k]: part[None] for k, part in parts.items()}
+            found = {SD.COMPONENTS[k]: part[None] for k, part in parts.items()}
             return found | {"total": np.sum(list(parts.values()), axis=0)[None]}
-        many = len(COMPONENTS)
+        many = len(SD.COMPONENTS)
         parts = self.parts(places, lambda path: many * path.channel + path.component)
         found = {
             name: np.array([part for key, part in parts.items() if key % many == k])
-            for k, name in enumerate(COMPONENTS)
+            for k, name in enumerate(SD.COMPONENTS)
             if any(key % many == k for key in parts)
         }
         return found | {"total": np.concatenate(list(found.values()))}

@@ -18,9 +18,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing import read_scene, record
 from fmu_bearing.acoustics.analysis.order import OrderMap, waterfall
-from fmu_bearing.recording import measure as sound_measure
-from fmu_bearing.recording import pictures as sound_pictures
-from fmu_bearing.recording import tables as sound_tables
+from fmu_bearing.recording import measure as sound_measure, pictures as sound_pictures, tables as sound_tables
 from fmu_bearing.run.table import markdown, write_csv
 from fmu_bearing.scene.read import with_fidelity
 

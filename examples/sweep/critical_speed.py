@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh
 from scipy.signal import find_peaks
 
-from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.layout import P
 from fmu_bearing.run.arrays import RPM, Arrays
 from fmu_bearing.run.pictures import empty, save
 from fmu_bearing.run.table import machine, markdown, show, write_csv
@@ -70,7 +70,7 @@ def critical_speed(scene: Scene, stiffness: float, speeds: Array, balls: Array) 
     less than 0.01 % here; damping and gyroscopic moments are left out.
     """
     p = Arrays(scene, 0.0).p
-    mass = np.diag(p[[at.P_INNER_MASS, at.P_OUTER_MASS]])
+    mass = np.diag(p[[P.INNER_MASS, P.OUTER_MASS]])
     rpm = float(speeds[0])
     for _ in range(20):
         k = float(np.interp(rpm, speeds, balls))

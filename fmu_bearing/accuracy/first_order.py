@@ -7,38 +7,23 @@ bodies and their 17 rates, as ``y`` in ``engine.layout`` without its spare lanes
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.engine import layout as at
 from fmu_bearing.engine.jit import entry, kernel
-from fmu_bearing.engine.layout import (
-    F_G,
-    J_B,
-    J_C,
-    J_D,
-    J_E,
-    N_BODY,
-    P_BALLS,
-    P_LANES,
-    STRIDE,
-    Y_Q,
-    Y_SIZE,
-    Y_V,
-)
+from fmu_bearing.engine.layout import C, F, J, P, Q, S, Y
+from fmu_bearing.engine.layout.sizes import STRIDE
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.newton.jacobian import jacobian
 from fmu_bearing.run.arrays import RINGS, Arrays
-
-_S = STRIDE
 
 
 @kernel
 def spread(p, x, y):
     """Copy ``x`` into ``y``; the spare lanes take ball 0, as everywhere in the engine."""
-    balls = int(p[P_BALLS])
+    balls = int(p[P.BALLS])
     for i in range(9):
-        for j in range(int(p[P_LANES])):
-            y[i * _S + j] = x[i * balls + (j if j < balls else 0)]
-    for i in range(2 * N_BODY):
-        y[Y_Q + i] = x[9 * balls + i]
+        for j in range(int(p[P.LANES])):
+            y[i * STRIDE + j] = x[i * balls + (j if j < balls else 0)]
+    for i in range(2 * Q.SIZE):
+        y[Y.Q0 + i] = x[9 * balls + i]
 
 
 @entry
@@ -47,23 +32,23 @@ def first_order(p, c, angle, speed, t, x, w, f, y, dx):
 
     ``p`` parameters, ``c`` conditions, ``speed`` of the shaft (rad/s, constant); ``w``, ``f``, ``y`` scratch.
     """
-    balls = int(p[P_BALLS])
+    balls = int(p[P.BALLS])
     spread(p, x, y)
     right_hand_side(p, c, y, angle + speed * t, speed, 0.0, w, f)
     for i in range(3 * balls):
         dx[i] = x[3 * balls + i]
     for i in range(6):
         for j in range(balls):
-            dx[(3 + i) * balls + j] = f[i * _S + j]
-    for i in range(N_BODY):
-        dx[9 * balls + i] = y[Y_V + i]
-        dx[9 * balls + N_BODY + i] = f[F_G + i]
+            dx[(3 + i) * balls + j] = f[i * STRIDE + j]
+    for i in range(Q.SIZE):
+        dx[9 * balls + i] = y[Y.V0 + i]
+        dx[9 * balls + Q.SIZE + i] = f[F.BODY + i]
 
 
 @entry
 def first_order_jacobian(p, c, angle, speed, t, x, w, blocks, y, out):
     """Fill the dense matrix ``out`` with d(dx)/dx from the blocks of the engine's own Jacobian."""
-    balls = int(p[P_BALLS])
+    balls = int(p[P.BALLS])
     body = 9 * balls
     spread(p, x, y)
     jacobian(p, c, y, angle + speed * t, speed, 0.0, w, blocks)
@@ -75,16 +60,16 @@ def first_order_jacobian(p, c, angle, speed, t, x, w, blocks, y, out):
             out[k * balls + j, (3 + k) * balls + j] = 1.0
         for i in range(6):
             for k in range(9):
-                out[(3 + i) * balls + j, k * balls + j] = blocks[J_B + (i * 9 + k) * _S + j]
-            for g in range(2 * N_BODY):
-                out[(3 + i) * balls + j, body + g] = blocks[J_C + (i * 34 + g) * _S + j]
-        for i in range(N_BODY):
+                out[(3 + i) * balls + j, k * balls + j] = blocks[J.B + (i * 9 + k) * STRIDE + j]
+            for g in range(2 * Q.SIZE):
+                out[(3 + i) * balls + j, body + g] = blocks[J.C + (i * 34 + g) * STRIDE + j]
+        for i in range(Q.SIZE):
             for k in range(9):
-                out[body + N_BODY + i, k * balls + j] = blocks[J_D + (i * 9 + k) * _S + j]
-    for i in range(N_BODY):
-        out[body + i, body + N_BODY + i] = 1.0
-        for g in range(2 * N_BODY):
-            out[body + N_BODY + i, body + g] = blocks[J_E + i * 34 + g]
+                out[body + Q.SIZE + i, k * balls + j] = blocks[J.D + (i * 9 + k) * STRIDE + j]
+    for i in range(Q.SIZE):
+        out[body + i, body + Q.SIZE + i] = 1.0
+        for g in range(2 * Q.SIZE):
+            out[body + Q.SIZE + i, body + g] = blocks[J.E + i * 34 + g]
 
 
 class FirstOrder:
@@ -102,20 +87,20 @@ class FirstOrder:
 
     def __init__(self, bearing: Arrays) -> None:
         self.p = bearing.p
-        balls = int(self.p[at.P_BALLS])
-        self.c = bearing.s[at.S_C : at.S_C + at.C_SIZE].copy()
-        self.angle = float(bearing.s[at.S_ANGLE])
-        self.speed = float(bearing.s[at.S_SPEED])
-        y = bearing.s[at.S_Y : at.S_Y + Y_SIZE]
-        rows = y[: 9 * _S].reshape(9, _S)[:, :balls]
-        self.start = np.concatenate([rows.ravel(), y[Y_Q:]])
+        balls = int(self.p[P.BALLS])
+        self.c = bearing.s[S.C : S.C + C.SIZE].copy()
+        self.angle = float(bearing.s[S.ANGLE])
+        self.speed = float(bearing.s[S.SPEED])
+        y = bearing.s[S.Y : S.Y + Y.SIZE]
+        rows = y[: 9 * STRIDE].reshape(9, STRIDE)[:, :balls]
+        self.start = np.concatenate([rows.ravel(), y[Y.Q0 :]])
         self.size = self.start.size
-        self.rings = RINGS - Y_Q + 9 * balls
+        self.rings = RINGS - Y.Q0 + 9 * balls
         self.scale = np.concatenate([_BALL_SCALE.repeat(balls), _BODY_SCALE, 1e4 * _BODY_SCALE])
         self._w = np.zeros(bearing.w.size)
-        self._f = np.zeros(at.F_SIZE)
-        self._y = np.zeros(Y_SIZE)
-        self._blocks = np.zeros(at.J_SIZE)
+        self._f = np.zeros(F.SIZE)
+        self._y = np.zeros(Y.SIZE)
+        self._blocks = np.zeros(J.SIZE)
 
     def rate(self, t: float, x: NDArray[np.float64], dx: NDArray[np.float64]) -> None:
         """Fill ``dx`` with the rates at ``t`` (s), ``x``."""

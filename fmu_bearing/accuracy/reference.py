@@ -17,36 +17,34 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.engine import layout as at
 from fmu_bearing.engine.jit import entry, kernel
-from fmu_bearing.engine.layout import F_G, N_BODY, P_LANES, STRIDE, Y_Q, Y_SIZE, Y_V
+from fmu_bearing.engine.layout import C, F, P, Q, S, Y
+from fmu_bearing.engine.layout.sizes import STRIDE
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.run.arrays import RINGS, Arrays
 from fmu_bearing.scene import Scene
-
-_S = STRIDE
 
 
 @kernel
 def _rates(p, c, y, angle, speed, w, f, k):
     """Rates of ``y`` into ``k``, both with the spare lanes of ``layout``."""
     right_hand_side(p, c, y, angle, speed, 0.0, w, f)
-    lanes = int(p[P_LANES])
+    lanes = int(p[P.LANES])
     for i in range(3):
         for j in range(lanes):
-            k[i * _S + j] = y[(3 + i) * _S + j]
+            k[i * STRIDE + j] = y[(3 + i) * STRIDE + j]
     for i in range(6):
         for j in range(lanes):
-            k[(3 + i) * _S + j] = f[i * _S + j]
-    for i in range(N_BODY):
-        k[Y_Q + i] = y[Y_V + i]
-        k[Y_V + i] = f[F_G + i]
+            k[(3 + i) * STRIDE + j] = f[i * STRIDE + j]
+    for i in range(Q.SIZE):
+        k[Y.Q0 + i] = y[Y.V0 + i]
+        k[Y.V0 + i] = f[F.BODY + i]
 
 
 @kernel
 def _moved(y, a, k, out):
     """``out = y + a k``."""
-    for i in range(Y_SIZE):
+    for i in range(Y.SIZE):
         out[i] = y[i] + a * k[i]
 
 
@@ -69,7 +67,7 @@ def runge_kutta(p, c, y, angle, speed, h, steps, w, k):
         _rates(p, c, new, at_middle, speed, w, f, k[2])
         _moved(y, h, k[2], new)
         _rates(p, c, new, at_end, speed, w, f, k[3])
-        for i in range(Y_SIZE):
+        for i in range(Y.SIZE):
             y[i] += h / 6.0 * (k[0, i] + 2.0 * (k[1, i] + k[2, i]) + k[3, i])
 
 
@@ -80,12 +78,12 @@ def explicit_rings(
 
     The bearing's state is left as it is; ``step`` (s) is shortened to divide ``sample``.
     """
-    y = bearing.s[at.S_Y : at.S_Y + Y_SIZE].copy()
-    c = bearing.s[at.S_C : at.S_C + at.C_SIZE].copy()
-    angle, speed = float(bearing.s[at.S_ANGLE]), float(bearing.s[at.S_SPEED])
+    y = bearing.s[S.Y : S.Y + Y.SIZE].copy()
+    c = bearing.s[S.C : S.C + C.SIZE].copy()
+    angle, speed = float(bearing.s[S.ANGLE]), float(bearing.s[S.SPEED])
     steps = int(np.ceil(sample / step - 1e-9))
     w = np.zeros(bearing.w.size)
-    k = np.zeros((6, max(Y_SIZE, at.F_SIZE)))
+    k = np.zeros((6, max(Y.SIZE, F.SIZE)))
     runge_kutta(bearing.p, c, y, angle, speed, sample / steps, 0, w, k)  # compiled or loaded before the clock
     rows = np.empty((round(duration / sample), 6))
     begin = time.process_time()
@@ -99,7 +97,7 @@ def implicit_rings(
     bearing: Arrays, duration: float, sample: float, step: float, tolerance: float
 ) -> tuple[NDArray[np.float64], float]:
     """As :func:`explicit_rings` by the engine's default method with ``step`` and ``tolerance`` as bounds."""
-    tight = bearing.with_parameters(P_LEVEL=0, P_METHOD=0, P_MAX_STEP=step, P_TOLERANCE=tolerance)
+    tight = bearing.with_parameters(FIDELITY=0, METHOD=0, MAX_STEP=step, TOLERANCE=tolerance)
     begin = time.process_time()
     rows = tight.rings(duration, sample)
     return rows, time.process_time() - begin

@@ -25,7 +25,7 @@ from fmu_bearing.acoustics.radiation.bem.paths import bem_paths
 from fmu_bearing.acoustics.radiation.compact import compact_paths
 from fmu_bearing.acoustics.radiation.radiators import Air, Path, Radiators
 from fmu_bearing.acoustics.radiation.table import Table, table_paths
-from fmu_bearing.engine import layout_sound as at
+from fmu_bearing.engine.layout import SD
 
 Position = tuple[float, float, float]
 
@@ -60,16 +60,16 @@ class Ladder:
     @property
     def form(self) -> int:
         """How the engine forms the channels."""
-        return {"paper": at.RUNG_PAPER, "paper_contacts": at.RUNG_CONTACTS}.get(self.rung, at.RUNG_VECTORS)
+        return {"paper": SD.RUNG_PAPER, "paper_contacts": SD.RUNG_CONTACTS}.get(self.rung, SD.RUNG_VECTORS)
 
     @property
     def channels(self) -> int:
         """Number of channels."""
-        if self.form == at.RUNG_PAPER:
-            return at.paper_channels(self.radiators.ball_count)
-        if self.form == at.RUNG_CONTACTS:
-            return at.contact_channels(self.harmonics)
-        return at.vector_channels(self.harmonics, 2 * len(self.modes))
+        if self.form == SD.RUNG_PAPER:
+            return SD.paper_channels(self.radiators.ball_count)
+        if self.form == SD.RUNG_CONTACTS:
+            return SD.contact_channels(self.harmonics)
+        return SD.vector_channels(self.harmonics, 2 * len(self.modes))
 
     def circles(self, microphones: Sequence[Position]) -> list[list[int]]:
         """Return indices of microphones that share their transfer functions."""

@@ -165,14 +165,14 @@ def _remark(one: Origin) -> str:
 
 def _sizes(found: Scene) -> dict[str, Any]:
     """Return what a scene is computed with, and its sizes, in words."""
-    from fmu_bearing.engine import layout as at
+    from fmu_bearing.engine.layout import S, W, Z
 
     auto = found.fidelity.level == "auto"
     model = _silent(found)
     p, fidelity = model.parameters, found.fidelity
     # an instance copies the parameters and keeps its last state beside the present one
-    places = p.size + 2 * at.state_size(p) + at.work_size(p)
-    places += at.z_size(model.n_balls, model.n_mics, model.n_bands, model.n_modes)
+    places = p.size + 2 * S.size(p) + W.size(p)
+    places += Z.size(model.n_balls, model.n_mics, model.n_bands, model.n_modes)
     if auto:
         bounds = fidelity.accuracy
         level = (

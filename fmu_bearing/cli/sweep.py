@@ -135,8 +135,7 @@ def _run(made: "Plan", output: Path, workers: int | None, scheduler: str | None,
 def _write(made: "Plan", outcomes: "Outcomes", output: Path, as_json: bool) -> None:
     """Write what there is and tell it."""
     from fmu_bearing.run.table import show
-    from fmu_bearing.sweeps.picture import save as save_picture
-    from fmu_bearing.sweeps.picture import sweep_picture
+    from fmu_bearing.sweeps.picture import save as save_picture, sweep_picture
     from fmu_bearing.sweeps.result import COLUMNS, dataset, extremes, save
 
     data = dataset(made, outcomes)

@@ -6,14 +6,15 @@ import time
 
 import numpy as np
 
-from fmu_bearing.engine import abi, layout
+from fmu_bearing.engine import abi
 from fmu_bearing.engine.jit import cache_directory
+from fmu_bearing.engine.layout import P, U
 
 
 def compile_entry(name: str) -> None:
     """Call an entry with arrays that it refuses at once: enough for the compiler, no simulation."""
-    p = np.full(layout.P_TABLES, np.nan)
-    inputs = np.full(len(layout.INPUTS), np.nan)
+    p = np.full(P.TABLES, np.nan)
+    inputs = np.full(len(U.INPUTS), np.nan)
     s, z, w = np.zeros(8), np.zeros(8), np.zeros(8)
     p.setflags(write=False)
     if name == "init":

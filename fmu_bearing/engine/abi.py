@@ -11,21 +11,9 @@ from fmu_bearing.engine.fidelities.full.start import start
 from fmu_bearing.engine.fidelities.response.march import march_response, start_response
 from fmu_bearing.engine.fidelities.rings.march import march_rings, start_rings
 from fmu_bearing.engine.jit import entry, kernel
-from fmu_bearing.engine.layout import (
-    BAD_INPUT,
-    BAD_STEP,
-    OK,
-    P_LEVEL,
-    P_METHOD,
-    P_MODES,
-    RIGID_ONLY,
-    U_INNER_T,
-    U_OIL_T,
-    U_OUTER_T,
-    U_PEDESTAL,
-    U_SPEED,
-)
+from fmu_bearing.engine.layout import P, U
 from fmu_bearing.engine.readout.outputs import observe
+from fmu_bearing.engine.status import BAD_INPUT, BAD_STEP, OK, RIGID_ONLY
 
 
 @kernel
@@ -35,11 +23,11 @@ def inputs_usable(u):
         if not (abs(u[i]) < 1e15):
             return False
     return (
-        u[U_PEDESTAL] > 0.0
-        and abs(u[U_SPEED]) <= 1.1e4
-        and u[U_OIL_T] >= 230.0
-        and u[U_INNER_T] >= 200.0
-        and u[U_OUTER_T] >= 200.0
+        u[U.PEDESTAL] > 0.0
+        and abs(u[U.SPEED]) <= 1.1e4
+        and u[U.OIL_T] >= 230.0
+        and u[U.INNER_T] >= 200.0
+        and u[U.OUTER_T] >= 200.0
     )
 
 
@@ -48,11 +36,11 @@ def init(p, u, s, z, w, t):
     """Put the state to the quasi-static one at the inputs' values and time ``t`` (s); fill the outputs."""
     if not inputs_usable(u) or not math.isfinite(t):
         return BAD_INPUT
-    if p[P_MODES] != 0.0 and (p[P_LEVEL] != 0.0 or p[P_METHOD] == 1.0):
+    if p[P.MODES] != 0.0 and (p[P.FIDELITY] != 0.0 or p[P.METHOD] == 1.0):
         return RIGID_ONLY
-    if p[P_LEVEL] == 1.0:
+    if p[P.FIDELITY] == 1.0:
         status = start_rings(p, u, s, w, t)
-    elif p[P_LEVEL] == 2.0:
+    elif p[P.FIDELITY] == 2.0:
         status = start_response(p, u, s, w, t)
     else:
         status = start(p, u, s, w, t)
@@ -68,9 +56,9 @@ def step(p, u, s, z, w, h):
         return BAD_STEP
     if not inputs_usable(u):
         return BAD_INPUT
-    if p[P_LEVEL] == 1.0:
+    if p[P.FIDELITY] == 1.0:
         status = march_rings(p, u, s, w, h)
-    elif p[P_LEVEL] == 2.0:
+    elif p[P.FIDELITY] == 2.0:
         status = march_response(p, u, s, w, h)
     else:
         status = march(p, u, s, w, h)

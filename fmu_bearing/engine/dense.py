@@ -3,7 +3,7 @@
 import math
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout_condensed import N
+from fmu_bearing.engine.layout import L
 
 
 @kernel
@@ -24,7 +24,7 @@ def times(m, at, x, source, y, target):
     a9 = 0.0
     a10 = 0.0
     a11 = 0.0
-    for k in range(N):
+    for k in range(L.N):
         value = x[source + k]
         column = at + 12 * k
         a0 += m[column + 0] * value

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from fmu_bearing.engine import layout
+from fmu_bearing.engine import jit
+from fmu_bearing.engine.layout import P
 from fmu_bearing.interface import variables
 from fmu_bearing.prepare.model import Model
 from fmu_bearing.scene import read_scene
@@ -32,7 +33,7 @@ def engine_digest() -> bytes:
     The kernels trust the offsets in the parameter array: read by another version of them, an old array
     would not give an error but a damaged process.
     """
-    root = Path(layout.__file__).parent
+    root = Path(jit.__file__).parent
     digest = hashlib.sha256()
     for path in sorted(root.rglob("*.py")):
         digest.update(path.relative_to(root).as_posix().encode("utf-8") + b"\0")
@@ -80,7 +81,7 @@ def load(folder: Path, expected: str) -> Model:
     scene = read_scene(folder / SCENE)
     parameters = np.load(folder / PARAMETERS, allow_pickle=False)
     parameters.setflags(write=False)
-    model = Model(scene, parameters, variables(scene, rotor_inertia=float(parameters[layout.P_INNER_POLAR])))
+    model = Model(scene, parameters, variables(scene, rotor_inertia=float(parameters[P.INNER_POLAR])))
     if fingerprint(model) != expected:
         raise ValueError(
             f"the model in {folder} is damaged, or was built by another version of fmu-bearing than the one "

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from fmu_bearing.engine import layout
+from fmu_bearing.engine.layout import P
 from fmu_bearing.fmi.state import State
 from fmu_bearing.instance import EngineError, Instance
 from fmu_bearing.prepare.model import Model
@@ -24,7 +24,7 @@ WARNING, DISCARD, ERROR = "warning", "discard", "error"  # severities handed to 
 
 _FAILED, _UNSETTLED = -1, -2  # keys beside the value references: until reset, until initialised anew
 _NONE: frozenset[int] = frozenset()
-_TUNABLES = slice(0, layout.P_VISCOSITY + 1)  # the head of p, all that can be set there
+_TUNABLES = slice(0, P.VISCOSITY + 1)  # the head of p, all that can be set there
 
 
 class Phase(Enum):

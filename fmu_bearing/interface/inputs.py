@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.layout import U
 from fmu_bearing.interface.variable import Variable
 from fmu_bearing.scene import Scene, si
 
@@ -66,7 +66,7 @@ def inputs(scene: Scene) -> list[Variable]:
     )
     return [
         Variable(
-            name, "input", "continuous", words, start=value, array="u", index=at.INPUTS.index(name), **more
+            name, "input", "continuous", words, start=value, array="u", index=U.INPUTS.index(name), **more
         )
         for name, words, more, value in rows
     ]

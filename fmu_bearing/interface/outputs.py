@@ -3,7 +3,7 @@
 from dataclasses import replace
 from typing import Any
 
-from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.layout import Z
 from fmu_bearing.interface.variable import Variable, usual
 from fmu_bearing.scene import Scene
 
@@ -47,7 +47,7 @@ def outputs(scene: Scene) -> list[Variable]:
         table.append(_read("cage.speed_ratio", "output", "Speed of the cage over the shaft's", nominal=0.4))
     for j in range(scene.bearing.ball_count):
         words = f"Velocity of ball {j + 1}, orbit included,"
-        place = at.Z_BALLS + 3 * j
+        place = Z.BALLS + 3 * j
         table += _vector(f"ball[{j + 1}]", "velocity", "output", words, "m/s", place, nominal=10.0)
     table += _microphones(scene, "output")
     table += _flexure(scene)
@@ -95,7 +95,7 @@ def _read(
     name: str, causality: str, description: str, unit: str = "", index: int | None = None, **more: Any
 ) -> Variable:
     """Output or local variable at its place in ``z``."""
-    place = at.BEARING_OUTPUTS.index(name) if index is None else index
+    place = Z.BEARING_OUTPUTS.index(name) if index is None else index
     return Variable(
         name, causality, "continuous", description, unit=unit, array="z", index=place, **usual(unit, more)
     )
@@ -187,8 +187,8 @@ def _flexure(scene: Scene) -> list[Variable]:
     flexure = scene.mounting.flexure
     if flexure is None:
         return []
-    bands = len(at.BANDS) if scene.sound is not None and scene.sound.third_octaves else 0
-    first = at.z_flex(scene.bearing.ball_count, len(scene.microphones), bands)
+    bands = len(Z.BANDS) if scene.sound is not None and scene.sound.third_octaves else 0
+    first = Z.flexures(scene.bearing.ball_count, len(scene.microphones), bands)
     table: list[Variable] = []
     for ring, orders in (("inner", flexure.inner_ring), ("outer", flexure.outer_ring)):
         for order in orders:
@@ -214,10 +214,10 @@ def _microphones(scene: Scene, causality: str) -> list[Variable]:
             if absent or (label in _PARTIAL) != (causality == "local"):
                 continue
             unit = "Pa" if label == "pressure" else "dB"
-            place = at.z_mics(balls) + len(at.MIC_OUTPUTS) * k + i
+            place = Z.mics(balls) + len(Z.MIC_OUTPUTS) * k + i
             table.append(_read(f"mic[{k + 1}].{label}", causality, words.format(name), unit, place))
         if causality == "output" and scene.sound.third_octaves:
-            table += _third_octaves(k, name, at.z_bands(balls, mics) + len(at.BANDS) * k)
+            table += _third_octaves(k, name, Z.bands(balls, mics) + len(Z.BANDS) * k)
     return table
 
 
@@ -231,5 +231,5 @@ def _third_octaves(mic: int, name: str, first: int) -> list[Variable]:
             "dB",
             first + band,
         )
-        for band, nominal in enumerate(at.BANDS)
+        for band, nominal in enumerate(Z.BANDS)
     ]

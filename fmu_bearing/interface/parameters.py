@@ -2,7 +2,8 @@
 
 from typing import Any
 
-from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.choices import FIDELITIES, METHODS
+from fmu_bearing.engine.layout import P
 from fmu_bearing.interface.variable import Variable, usual
 from fmu_bearing.scene import Scene, si
 
@@ -14,11 +15,11 @@ def parameters(scene: Scene) -> list[Variable]:
     fidelity = si(scene.fidelity)
     table = [
         _tunable(
-            "tolerance", at.P_TOLERANCE, "Relative error of ring velocities", fidelity.tolerance, 1e-6, 0.1
+            "tolerance", P.TOLERANCE, "Relative error of ring velocities", fidelity.tolerance, 1e-6, 0.1
         ),
         _tunable(
             "max_internal_step",
-            at.P_MAX_STEP,
+            P.MAX_STEP,
             "Largest internal step",
             fidelity.max_internal_step,
             1e-7,
@@ -27,7 +28,7 @@ def parameters(scene: Scene) -> list[Variable]:
         ),
         _tunable(
             "lubricant.viscosity_ref",
-            at.P_VISCOSITY,
+            P.VISCOSITY,
             "Dynamic viscosity of the oil at 20 degC",
             si(scene.lubricant).viscosity,
             1e-3,
@@ -37,7 +38,7 @@ def parameters(scene: Scene) -> list[Variable]:
     ]
     if scene.imperfections is not None:
         words = "Factor on all imperfections"
-        table.append(_tunable("imperfection.scale", at.P_IMPERFECTION_SCALE, words, 1.0, 0.0, 100.0))
+        table.append(_tunable("imperfection.scale", P.IMPERFECTION_SCALE, words, 1.0, 0.0, 100.0))
     if scene.sound is not None:
         table += _metering(scene.sound.time_weighting, si(scene.sound).metering_start)
     return table
@@ -48,12 +49,12 @@ def constants(scene: Scene, rotor_inertia: float) -> list[Variable]:
     radiator = RADIATORS["none" if scene.sound is None else scene.sound.radiator]
     table = [
         _whole(
-            "level", "Level of the dynamics: " + _numbered(at.LEVELS), at.LEVELS.index(scene.fidelity.level)
+            "level", "Level of the dynamics: " + _numbered(FIDELITIES), FIDELITIES.index(scene.fidelity.level)
         ),
         _whole(
             "method",
-            "Integrator of level full: " + _numbered(at.METHODS),
-            at.METHODS.index(scene.fidelity.method),
+            "Integrator of level full: " + _numbered(METHODS),
+            METHODS.index(scene.fidelity.method),
         ),
         _whole(
             "radiator",
@@ -97,10 +98,10 @@ def _metering(weighting: str, start: float) -> list[Variable]:
     words = "Time constant of the levels: 0.125 Fast, 1 Slow"
     constant = 0.125 if weighting == "fast" else 1.0
     return [
-        _tunable("sound.time_weighting", at.P_TIME_WEIGHTING, words, constant, 0.02, 10.0, "s"),
+        _tunable("sound.time_weighting", P.TIME_WEIGHTING, words, constant, 0.02, 10.0, "s"),
         _tunable(
             "sound.metering_start",
-            at.P_METERING_START,
+            P.METERING_START,
             "Time after initialisation at which metering begins",
             start,
             0.0,

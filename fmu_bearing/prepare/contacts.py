@@ -5,7 +5,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.choices import TRACTION_LAWS
+from fmu_bearing.engine.layout import P
 from fmu_bearing.prepare import bodies
 from fmu_bearing.prepare.hertz import PointContact, effective_modulus, point_contact
 from fmu_bearing.scene import Scene, si
@@ -20,25 +21,25 @@ VISCOSITY_LAWS = ("vogel", "walther")
 def oil(scene: Scene, p: NDArray[np.float64]) -> None:
     """Write what the oil does: viscosity, traction, reduction of the rolling resistance, drag."""
     b, values = si(scene.bearing), si(scene.lubricant)
-    p[at.P_VISCOSITY] = values.viscosity
-    p[at.P_PRESSURE_VISCOSITY] = values.pressure_viscosity
-    p[at.P_OIL_DENSITY] = values.density
-    p[at.P_VISCOSITY_LAW] = VISCOSITY_LAWS.index(values.viscosity_law)
-    p[at.P_VOGEL_B], p[at.P_VOGEL_C] = values.vogel_B, values.vogel_C
-    p[at.P_WALTHER_SLOPE] = values.walther_slope
-    p[at.P_TRACTION_LAW] = at.TRACTION_LAWS.index(values.traction_law)
-    p[at.P_EYRING_STRESS] = values.eyring_stress
-    p[at.P_MU] = values.traction_max
-    p[at.P_SLIDE_TO_ROLL] = values.traction_slide_to_roll
-    p[at.P_TRACTION_FLOOR] = values.traction_floor
+    p[P.VISCOSITY] = values.viscosity
+    p[P.PRESSURE_VISCOSITY] = values.pressure_viscosity
+    p[P.OIL_DENSITY] = values.density
+    p[P.VISCOSITY_LAW] = VISCOSITY_LAWS.index(values.viscosity_law)
+    p[P.VOGEL_B], p[P.VOGEL_C] = values.vogel_B, values.vogel_C
+    p[P.WALTHER_SLOPE] = values.walther_slope
+    p[P.TRACTION_LAW] = TRACTION_LAWS.index(values.traction_law)
+    p[P.EYRING_STRESS] = values.eyring_stress
+    p[P.MU] = values.traction_max
+    p[P.SLIDE_TO_ROLL] = values.traction_slide_to_roll
+    p[P.TRACTION_FLOOR] = values.traction_floor
     mean, bore, outside = 1e3 * b.pitch_diameter, 1e3 * b.bore, 1e3 * b.outside_diameter
-    p[at.P_SHEAR_HEATING] = _SHEAR_HEATING * mean**1.28
-    p[at.P_STARVATION] = (
+    p[P.SHEAR_HEATING] = _SHEAR_HEATING * mean**1.28
+    p[P.STARVATION] = (
         values.replenishment_constant
         * (bore + outside)
         * math.sqrt(_ANGULAR_CONTACT_KZ / (2.0 * (outside - bore)))
     )
-    p[at.P_DRAG_FACTOR] = (
+    p[P.DRAG_FACTOR] = (
         0.5 * values.oil_air_density * values.drag_coefficient * math.pi * b.ball_diameter**2 / 4
     )
 
@@ -46,15 +47,15 @@ def oil(scene: Scene, p: NDArray[np.float64]) -> None:
 def balls(scene: Scene, p: NDArray[np.float64]) -> None:
     """Write size and mass of the balls and what both their contacts share."""
     b = si(scene.bearing)
-    p[at.P_PITCH_RADIUS] = b.pitch_diameter / 2
-    p[at.P_DIAMETER] = b.ball_diameter
-    p[at.P_BALL_MASS], p[at.P_BALL_INERTIA] = bodies.ball(scene)
-    p[at.P_BALL_EXPANSION] = si(scene.materials.balls).expansion
-    p[at.P_CONTACT_DAMPING] = b.contact_damping if scene.fidelity.terms.contact_damping else 0.0
-    p[at.P_ROUGHNESS] = math.hypot(b.race_roughness, b.ball_roughness)
+    p[P.PITCH_RADIUS] = b.pitch_diameter / 2
+    p[P.DIAMETER] = b.ball_diameter
+    p[P.BALL_MASS], p[P.BALL_INERTIA] = bodies.ball(scene)
+    p[P.BALL_EXPANSION] = si(scene.materials.balls).expansion
+    p[P.CONTACT_DAMPING] = b.contact_damping if scene.fidelity.terms.contact_damping else 0.0
+    p[P.ROUGHNESS] = math.hypot(b.race_roughness, b.ball_roughness)
     if scene.bearing.ball_springs is not None:
         springs = si(scene.bearing.ball_springs)
-        p[at.P_SPRINGS], p[at.P_SPRING_DAMPING] = springs.stiffness, springs.damping
+        p[P.SPRINGS], p[P.SPRING_DAMPING] = springs.stiffness, springs.damping
 
 
 def races(scene: Scene, p: NDArray[np.float64]) -> None:
@@ -69,7 +70,7 @@ def races(scene: Scene, p: NDArray[np.float64]) -> None:
          b.outer_ring_inner_diameter),
     )  # fmt: skip
     for race, (side, conformity, material, curvature, shoulder) in enumerate(sides):
-        block = p[at.P_RACES + race * at.RACE_SIZE :][: at.RACE_SIZE]
+        block = p[P.RACES + race * P.RACE_SIZE :][: P.RACE_SIZE]
         ring = si(material)
         modulus = effective_modulus(
             ring.youngs_modulus, ring.poisson_ratio, ball.youngs_modulus, ball.poisson_ratio
@@ -77,19 +78,19 @@ def races(scene: Scene, p: NDArray[np.float64]) -> None:
         rx = d / 2.0 / (1.0 + curvature)
         ry = 1.0 / (2.0 / d - 1.0 / (conformity * d))
         hertz = point_contact(rx, ry, modulus)
-        block[at.RACE_STIFFNESS] = hertz.stiffness
-        block[at.RACE_HALF_LENGTH] = hertz.half_length
-        block[at.RACE_HALF_WIDTH] = hertz.half_width
-        block[at.RACE_PRESSURE] = hertz.pressure
+        block[P.RACE_STIFFNESS] = hertz.stiffness
+        block[P.RACE_HALF_LENGTH] = hertz.half_length
+        block[P.RACE_HALF_WIDTH] = hertz.half_width
+        block[P.RACE_PRESSURE] = hertz.pressure
         films(block, hertz, rx, modulus, si(scene.lubricant).pressure_viscosity)
         reach = (conformity - 0.5) * d
-        block[at.RACE_PROFILE_RADIUS] = 2.0 * conformity * d / (2.0 * conformity + 1.0)
-        block[at.RACE_GROOVE_X] = -side * reach * math.sin(angle)
-        block[at.RACE_GROOVE_RADIUS] = dm / 2 - side * reach * math.cos(angle)
-        block[at.RACE_GROOVE] = conformity * d
-        block[at.RACE_EXPANSION] = ring.expansion
-        height = side * (0.5 * shoulder - block[at.RACE_GROOVE_RADIUS]) / block[at.RACE_GROOVE]
-        block[at.RACE_SHOULDER] = math.acos(max(-1.0, min(1.0, height)))
+        block[P.RACE_PROFILE_RADIUS] = 2.0 * conformity * d / (2.0 * conformity + 1.0)
+        block[P.RACE_GROOVE_X] = -side * reach * math.sin(angle)
+        block[P.RACE_GROOVE_RADIUS] = dm / 2 - side * reach * math.cos(angle)
+        block[P.RACE_GROOVE] = conformity * d
+        block[P.RACE_EXPANSION] = ring.expansion
+        height = side * (0.5 * shoulder - block[P.RACE_GROOVE_RADIUS]) / block[P.RACE_GROOVE]
+        block[P.RACE_SHOULDER] = math.acos(max(-1.0, min(1.0, height)))
 
 
 def films(block: NDArray[np.float64], hertz: PointContact, rx: float, modulus: float, alpha: float) -> None:
@@ -104,10 +105,8 @@ def films(block: NDArray[np.float64], hertz: PointContact, rx: float, modulus: f
     speed, load = modulus * rx, modulus * rx**2
     force = 2.86 * load * k**0.348 * material**0.022 * speed**-0.66 * load**-0.47
     # the moment pair that dissipates the inlet force on both surfaces at the entrainment speed
-    block[at.RACE_ROLLING] = 2.0 * rx * force
-    block[at.RACE_FILM] = (
-        3.63 * rx * speed**-0.68 * material**0.49 * load**0.073 * (1.0 - math.exp(-0.68 * k))
-    )
-    block[at.RACE_CENTRAL_FILM] = (
+    block[P.RACE_ROLLING] = 2.0 * rx * force
+    block[P.RACE_FILM] = 3.63 * rx * speed**-0.68 * material**0.49 * load**0.073 * (1.0 - math.exp(-0.68 * k))
+    block[P.RACE_CENTRAL_FILM] = (
         2.69 * rx * speed**-0.67 * material**0.53 * load**0.067 * (1.0 - 0.61 * math.exp(-0.73 * k))
     )

@@ -7,7 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.elastic.modes import RingMode
-from fmu_bearing.engine import layout_flexure as at
+from fmu_bearing.engine.layout import P
+from fmu_bearing.engine.layout.sizes import MAX_MODES
 from fmu_bearing.scene import Scene, SceneError, si
 
 # Internal steps over the period of the highest mode at rest. The methods then lower a free mode's frequency
@@ -26,26 +27,26 @@ def mode_table(scene: Scene, modes: Sequence[RingMode]) -> NDArray[np.float64]:
     """
     if not modes:
         return np.empty(0)
-    if len(modes) > at.MAX_MODES:
+    if len(modes) > MAX_MODES:
         raise SceneError(
-            f"{scene.name}: mounting.flexure asks for {len(modes)} modes; at most {at.MAX_MODES} are "
+            f"{scene.name}: mounting.flexure asks for {len(modes)} modes; at most {MAX_MODES} are "
             "carried: leave out the highest orders"
         )
     assert scene.mounting.flexure is not None  # it is what asked for the modes
     flexure = si(scene.mounting.flexure)
     seats = flexure.inner_seat_stiffness, flexure.outer_seat_stiffness
-    table = np.zeros((len(modes), at.MODE_SIZE))
+    table = np.zeros((len(modes), P.MODE_SIZE))
     for row, mode in zip(table, modes, strict=True):
         free = 2.0 * math.pi * mode.frequency
-        row[at.MODE_BODY], row[at.MODE_ORDER] = mode.body, mode.order
-        row[at.MODE_MASS] = mode.modal_mass
-        row[at.MODE_STIFFNESS] = mode.modal_mass * free**2 + seats[mode.body] * mode.seat
-        row[at.MODE_DAMPING] = 2.0 * flexure.damping_ratio * free
-        row[at.MODE_GYROSCOPIC] = mode.gyroscopic
+        row[P.MODE_BODY], row[P.MODE_ORDER] = mode.body, mode.order
+        row[P.MODE_MASS] = mode.modal_mass
+        row[P.MODE_STIFFNESS] = mode.modal_mass * free**2 + seats[mode.body] * mode.seat
+        row[P.MODE_DAMPING] = 2.0 * flexure.damping_ratio * free
+        row[P.MODE_GYROSCOPIC] = mode.gyroscopic
         shape = groove_centre(scene, mode)
-        row[at.MODE_X], row[at.MODE_R], row[at.MODE_T] = shape
-        row[at.MODE_TILT] = mode.groove_tilt
-        row[at.MODE_WEIGHT] = 0.5 * (shape @ shape)
+        row[P.MODE_X], row[P.MODE_R], row[P.MODE_T] = shape
+        row[P.MODE_TILT] = mode.groove_tilt
+        row[P.MODE_WEIGHT] = 0.5 * (shape @ shape)
     return table.ravel()
 
 
@@ -67,6 +68,6 @@ def longest_step(table: NDArray[np.float64], method: str) -> float:
     """Longest internal step (s) that resolves every mode of a table; infinite without modes."""
     if table.size == 0:
         return math.inf
-    rows = table.reshape(-1, at.MODE_SIZE)
-    highest = np.sqrt((rows[:, at.MODE_STIFFNESS] / rows[:, at.MODE_MASS]).max()) / (2.0 * math.pi)
+    rows = table.reshape(-1, P.MODE_SIZE)
+    highest = np.sqrt((rows[:, P.MODE_STIFFNESS] / rows[:, P.MODE_MASS]).max()) / (2.0 * math.pi)
     return 1.0 / (_STEPS[method] * float(highest))

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.engine.layout import WAVE_INTERVALS
+from fmu_bearing.engine.layout import P
 from fmu_bearing.scene import Scene, si
 from fmu_bearing.scene.imperfections import RACES, Imperfections
 
@@ -22,11 +22,11 @@ def wave_table(amplitudes: NDArray[np.float64], orders: NDArray[np.int64], phase
         Shape ``(2 * WAVE_INTERVALS,)``: height (m, positive towards the ball) and slope (m per interval)
         interleaved, as the engine's Hermite interpolation wants them.
     """
-    angle = 2.0 * np.pi * np.arange(WAVE_INTERVALS) / WAVE_INTERVALS
+    angle = 2.0 * np.pi * np.arange(P.WAVE_INTERVALS) / P.WAVE_INTERVALS
     argument = np.outer(orders, angle) + phases[:, None]
-    table = np.empty(2 * WAVE_INTERVALS)
+    table = np.empty(2 * P.WAVE_INTERVALS)
     table[0::2] = amplitudes @ np.cos(argument)
-    table[1::2] = -(amplitudes * orders) @ np.sin(argument) * (2.0 * np.pi / WAVE_INTERVALS)
+    table[1::2] = -(amplitudes * orders) @ np.sin(argument) * (2.0 * np.pi / P.WAVE_INTERVALS)
     return table
 
 

@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 from scipy.special import roots_jacobi
 
 from fmu_bearing.elastic.modes import ring_modes
-from fmu_bearing.engine import layout as at
-from fmu_bearing.engine import layout_flexure as modes_layout
-from fmu_bearing.engine import layout_sound as places
+from fmu_bearing.engine.choices import FIDELITIES, METHODS, RACE_CONTROLS
+from fmu_bearing.engine.layout import SD, P
+from fmu_bearing.engine.layout.sizes import STRIDE
 from fmu_bearing.interface import Variable, variables
 from fmu_bearing.prepare import bodies, contacts
 from fmu_bearing.prepare.flexure import longest_step, mode_table
@@ -53,22 +53,22 @@ class Model:
     @property
     def n_balls(self) -> int:
         """Number of balls."""
-        return int(self.parameters[at.P_BALLS])
+        return int(self.parameters[P.BALLS])
 
     @property
     def n_mics(self) -> int:
         """Number of microphones."""
-        return int(self.parameters[at.P_MICS])
+        return int(self.parameters[P.MICS])
 
     @property
     def n_bands(self) -> int:
         """Number of third octaves of each microphone; 0: none are metered."""
-        return int(self.parameters[at.P_BANDS])
+        return int(self.parameters[P.BANDS])
 
     @property
     def n_modes(self) -> int:
         """Number of flexural modes of both rings."""
-        return int(self.parameters[at.P_MODES])
+        return int(self.parameters[P.MODES])
 
 
 def prepare(
@@ -118,10 +118,10 @@ def prepare(
 
 
 def _require_level(scene: Scene) -> None:
-    if scene.fidelity.level not in at.LEVELS:
+    if scene.fidelity.level not in FIDELITIES:
         raise SceneError(
             f"{scene.name}: fidelity.level = '{scene.fidelity.level}' must be resolved first, to one of "
-            + ", ".join(at.LEVELS)
+            + ", ".join(FIDELITIES)
         )
 
 
@@ -137,28 +137,28 @@ def pack(scene: Scene, sound: NDArray[np.float64]) -> NDArray[np.float64]:
     nodes, weights = roots_jacobi(scene.fidelity.traction_strips, 1.0, 1.0)
     # what the scene leaves out is an empty table: it takes no place, and its offset is 0
     tables = {
-        at.P_AT_STRIPS: np.concatenate([nodes, weights / weights.sum()]),
-        at.P_AT_OVERSIZE: _lanes(ball_oversizes(scene)),
-        at.P_AT_WAVES: race_waves(scene),
-        at.P_AT_BALL_WAVES: _ball_wave_table(scene),
-        at.P_AT_SOUND: sound,
-        at.P_AT_MODES: _modes(scene),
+        P.AT_STRIPS: np.concatenate([nodes, weights / weights.sum()]),
+        P.AT_OVERSIZE: _lanes(ball_oversizes(scene)),
+        P.AT_WAVES: race_waves(scene),
+        P.AT_BALL_WAVES: _ball_wave_table(scene),
+        P.AT_SOUND: sound,
+        P.AT_MODES: _modes(scene),
     }
-    p = np.zeros(at.P_TABLES + sum(table.size for table in tables.values()))
-    start = at.P_TABLES
+    p = np.zeros(P.TABLES + sum(table.size for table in tables.values()))
+    start = P.TABLES
     for place, table in tables.items():
         if table.size:
             p[place] = start
             p[start : start + table.size] = table
             start += table.size
-    p[at.P_BALLS] = scene.bearing.ball_count
-    p[at.P_LANES] = 4 * math.ceil(scene.bearing.ball_count / 4)
-    p[at.P_WAVINESS] = float(tables[at.P_AT_WAVES].size > 0)
-    if tables[at.P_AT_BALL_WAVES].size:
-        p[at.P_BALL_WAVES] = tables[at.P_AT_BALL_WAVES].size - 3 * at.STRIDE
-    if tables[at.P_AT_MODES].size:
-        p[at.P_MODES] = tables[at.P_AT_MODES].size // modes_layout.MODE_SIZE
-        p[at.P_MODE_STEP] = longest_step(tables[at.P_AT_MODES], scene.fidelity.method)
+    p[P.BALLS] = scene.bearing.ball_count
+    p[P.LANES] = 4 * math.ceil(scene.bearing.ball_count / 4)
+    p[P.WAVINESS] = float(tables[P.AT_WAVES].size > 0)
+    if tables[P.AT_BALL_WAVES].size:
+        p[P.BALL_WAVES] = tables[P.AT_BALL_WAVES].size - 3 * STRIDE
+    if tables[P.AT_MODES].size:
+        p[P.MODES] = tables[P.AT_MODES].size // P.MODE_SIZE
+        p[P.MODE_STEP] = longest_step(tables[P.AT_MODES], scene.fidelity.method)
     _fidelity(scene, p)
     _sound(scene, sound, p)
     contacts.oil(scene, p)
@@ -179,7 +179,7 @@ def _modes(scene: Scene) -> NDArray[np.float64]:
 
 def _lanes(values: NDArray[np.float64]) -> NDArray[np.float64]:
     """One value per lane; spare lanes copy ball 0."""
-    row = np.full(at.STRIDE, values[0])
+    row = np.full(STRIDE, values[0])
     row[: values.size] = values
     return row
 
@@ -194,86 +194,86 @@ def _ball_wave_table(scene: Scene) -> NDArray[np.float64]:
 
 def _fidelity(scene: Scene, p: NDArray[np.float64]) -> None:
     fidelity = si(scene.fidelity)
-    p[at.P_LEVEL] = at.LEVELS.index(fidelity.level)
-    p[at.P_METHOD] = at.METHODS.index(fidelity.method)
-    p[at.P_RACE_CONTROL] = at.RACE_CONTROLS.index(fidelity.race_control)
-    p[at.P_STRIPS] = fidelity.traction_strips
-    p[at.P_TOLERANCE] = fidelity.tolerance
-    p[at.P_MAX_STEP] = fidelity.max_internal_step
-    p[at.P_IMPERFECTION_SCALE] = 1.0
+    p[P.FIDELITY] = FIDELITIES.index(fidelity.level)
+    p[P.METHOD] = METHODS.index(fidelity.method)
+    p[P.RACE_CONTROL] = RACE_CONTROLS.index(fidelity.race_control)
+    p[P.STRIPS] = fidelity.traction_strips
+    p[P.TOLERANCE] = fidelity.tolerance
+    p[P.MAX_STEP] = fidelity.max_internal_step
+    p[P.IMPERFECTION_SCALE] = 1.0
     terms = scene.fidelity.terms
-    p[at.P_GRAVITY] = terms.gravity
-    p[at.P_DRAG] = terms.drag
-    p[at.P_ROLLING] = terms.rolling_resistance
-    p[at.P_REDUCTION] = terms.rolling_reduction
-    p[at.P_LAND] = 1.0  # the dry stop stays: without it nothing would carry the cage
-    p[at.P_GYROSCOPIC] = terms.gyroscopic
+    p[P.GRAVITY] = terms.gravity
+    p[P.DRAG] = terms.drag
+    p[P.ROLLING] = terms.rolling_resistance
+    p[P.REDUCTION] = terms.rolling_reduction
+    p[P.LAND] = 1.0  # the dry stop stays: without it nothing would carry the cage
+    p[P.GYROSCOPIC] = terms.gyroscopic
 
 
 def _sound(scene: Scene, sound: NDArray[np.float64], p: NDArray[np.float64]) -> None:
     if scene.sound is not None:
-        p[at.P_TIME_WEIGHTING] = 0.125 if scene.sound.time_weighting == "fast" else 1.0
-        p[at.P_METERING_START] = si(scene.sound).metering_start
+        p[P.TIME_WEIGHTING] = 0.125 if scene.sound.time_weighting == "fast" else 1.0
+        p[P.METERING_START] = si(scene.sound).metering_start
     if sound.size:
-        p[at.P_SOUND_SIZE] = sound.size
-        p[at.P_SOUND_STATE] = places.state_size(sound)
-        p[at.P_SOUND_WORK] = places.work_size(sound)
-        p[at.P_MICS] = len(scene.microphones)
-        p[at.P_BANDS] = sound[places.H_BANDS]
+        p[P.SOUND_SIZE] = sound.size
+        p[P.SOUND_STATE] = SD.state_size(sound)
+        p[P.SOUND_WORK] = SD.work_size(sound)
+        p[P.MICS] = len(scene.microphones)
+        p[P.BANDS] = sound[SD.H_BANDS]
 
 
 def _mounting(scene: Scene, p: NDArray[np.float64]) -> None:
     mounting = si(scene.mounting)
     inner = bodies.inner_ring(scene) + bodies.rotor(scene)
     outer = bodies.outer_ring(scene) + bodies.housing(scene)
-    p[at.P_INNER_MASS], p[at.P_INNER_TRANSVERSE], p[at.P_INNER_POLAR] = (
+    p[P.INNER_MASS], p[P.INNER_TRANSVERSE], p[P.INNER_POLAR] = (
         inner.mass,
         inner.transverse,
         inner.polar,
     )
-    p[at.P_OUTER_MASS], p[at.P_OUTER_TRANSVERSE], p[at.P_OUTER_POLAR] = (
+    p[P.OUTER_MASS], p[P.OUTER_TRANSVERSE], p[P.OUTER_POLAR] = (
         outer.mass,
         outer.transverse,
         outer.polar,
     )
-    p[at.P_RIGID] = scene.mounting.preload_mode == "rigid"
-    p[at.P_MISALIGNMENT_Y] = mounting.misalignment_y
-    p[at.P_MISALIGNMENT_Z] = mounting.misalignment_z
-    p[at.P_AXIAL_RATIO] = mounting.pedestal_axial_ratio
-    p[at.P_ROTATIONAL_RATIO] = mounting.pedestal_rotational_ratio
-    p[at.P_PEDESTAL_ZETA] = mounting.pedestal_damping_ratio
+    p[P.RIGID] = scene.mounting.preload_mode == "rigid"
+    p[P.MISALIGNMENT_Y] = mounting.misalignment_y
+    p[P.MISALIGNMENT_Z] = mounting.misalignment_z
+    p[P.AXIAL_RATIO] = mounting.pedestal_axial_ratio
+    p[P.ROTATIONAL_RATIO] = mounting.pedestal_rotational_ratio
+    p[P.PEDESTAL_ZETA] = mounting.pedestal_damping_ratio
     if scene.mounting.tilt_support is not None:
         support = si(scene.mounting.tilt_support)
-        p[at.P_TILT_STIFFNESS] = support.stiffness
-        p[at.P_TILT_DAMPING] = 2.0 * support.damping_ratio * math.sqrt(support.stiffness * inner.transverse)
+        p[P.TILT_STIFFNESS] = support.stiffness
+        p[P.TILT_DAMPING] = 2.0 * support.damping_ratio * math.sqrt(support.stiffness * inner.transverse)
     if scene.imperfections is not None:
-        p[at.P_ECCENTRICITY] = si(scene.imperfections).unbalance
+        p[P.ECCENTRICITY] = si(scene.imperfections).unbalance
 
 
 def _cage(scene: Scene, cage_table: Cage, material: Material, p: NDArray[np.float64]) -> None:
     b, c = si(scene.bearing), si(cage_table)
     body = bodies.cage(scene)
-    p[at.P_CAGE] = 1.0
-    p[at.P_CAGE_MASS], p[at.P_CAGE_TRANSVERSE], p[at.P_CAGE_POLAR] = body.mass, body.transverse, body.polar
-    p[at.P_POCKET_CLEARANCE] = (c.pocket_diameter - b.ball_diameter) / 2
+    p[P.CAGE] = 1.0
+    p[P.CAGE_MASS], p[P.CAGE_TRANSVERSE], p[P.CAGE_POLAR] = body.mass, body.transverse, body.polar
+    p[P.POCKET_CLEARANCE] = (c.pocket_diameter - b.ball_diameter) / 2
     ball, cage = si(scene.materials.balls), si(material)
     modulus = effective_modulus(
         cage.youngs_modulus, cage.poisson_ratio, ball.youngs_modulus, ball.poisson_ratio
     )
     # ball in a radial bore: closely conforming around the bore, a plain ball along it
     across = 1.0 / (2.0 / b.ball_diameter - 2.0 / c.pocket_diameter)
-    p[at.P_POCKET_STIFFNESS] = point_contact(b.ball_diameter / 2, across, modulus).stiffness
-    p[at.P_POCKET_DAMPING] = _POCKET_DAMPING
-    p[at.P_POCKET_FRICTION] = c.pocket_friction if scene.fidelity.terms.pocket_friction else 0.0
-    p[at.P_POCKET_SLIP] = _POCKET_SLIP
-    p[at.P_POCKET_FILM] = c.pocket_damping
-    p[at.P_LAND_CLEARANCE] = c.land_clearance
-    p[at.P_LAND_RADIUS] = c.bore / 2 - c.land_clearance
-    p[at.P_LAND_LENGTH] = (c.width - c.pocket_diameter) / 2
-    p[at.P_LAND_OFFSET] = (c.width + c.pocket_diameter) / 4
+    p[P.POCKET_STIFFNESS] = point_contact(b.ball_diameter / 2, across, modulus).stiffness
+    p[P.POCKET_DAMPING] = _POCKET_DAMPING
+    p[P.POCKET_FRICTION] = c.pocket_friction if scene.fidelity.terms.pocket_friction else 0.0
+    p[P.POCKET_SLIP] = _POCKET_SLIP
+    p[P.POCKET_FILM] = c.pocket_damping
+    p[P.LAND_CLEARANCE] = c.land_clearance
+    p[P.LAND_RADIUS] = c.bore / 2 - c.land_clearance
+    p[P.LAND_LENGTH] = (c.width - c.pocket_diameter) / 2
+    p[P.LAND_OFFSET] = (c.width + c.pocket_diameter) / 4
     film = scene.fidelity.terms.land_film
-    p[at.P_LAND_VISCOSITY] = si(scene.lubricant).land_viscosity if film else 0.0
-    p[at.P_LAND_STOP_STIFFNESS] = _STOP_STIFFNESS
-    p[at.P_LAND_STOP_FRACTION] = _STOP_FRACTION
-    p[at.P_LAND_STOP_FRICTION] = _STOP_FRICTION
-    p[at.P_LAND_STOP_SLIP] = _STOP_SLIP
+    p[P.LAND_VISCOSITY] = si(scene.lubricant).land_viscosity if film else 0.0
+    p[P.LAND_STOP_STIFFNESS] = _STOP_STIFFNESS
+    p[P.LAND_STOP_FRACTION] = _STOP_FRACTION
+    p[P.LAND_STOP_FRICTION] = _STOP_FRICTION
+    p[P.LAND_STOP_SLIP] = _STOP_SLIP

@@ -20,7 +20,7 @@ from fmu_bearing.acoustics.filters.design import radiators_of
 from fmu_bearing.acoustics.filters.weighting import a_weighting_db, a_weighting_sections, level
 from fmu_bearing.acoustics.radiation.radiators import Air
 from fmu_bearing.elastic.modes import ring_modes
-from fmu_bearing.engine.layout_sound import COMPONENTS
+from fmu_bearing.engine.layout import SD
 from fmu_bearing.scene import Scene, si
 
 _ANGLES = ("contact.inner.angle_mean", "contact.outer.angle_mean")
@@ -195,7 +195,7 @@ class Heard:
         places = self._places(positions)
         found: dict[str, NDArray[np.float64]] = {}
         for circle, parts in self._heard(
-            places, rung, lambda path: COMPONENTS[path.component] if by == "component" else kind_of(path)
+            places, rung, lambda path: SD.COMPONENTS[path.component] if by == "component" else kind_of(path)
         ):
             for name, part in parts.items():
                 total = found.setdefault(name, np.zeros((len(places), self.size)))

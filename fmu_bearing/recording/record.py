@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.analysis.field import TAIL, form_of
 from fmu_bearing.acoustics.radiation.radiators import Air
-from fmu_bearing.engine import layout as at
-from fmu_bearing.engine import layout_sound as places
+from fmu_bearing.engine.layout import SD, P, S
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import Model, prepare
 from fmu_bearing.recording.recording import PRESSURE_STEP, Recording
@@ -114,15 +113,15 @@ def record(
         drives["shaft_speed"] = speed
     _drive(bearing, drives, 0.0)
     bearing.initialise()
-    first = round(settle * places.RATE)
-    size = round(duration * places.RATE)
+    first = round(settle * SD.RATE)
+    size = round(duration * SD.RATE)
     kept = _Kept(bearing, tuple(outputs), first + size + TAIL, watch)
-    _march(bearing, drives, kept, min(step, (kept.depth - 8) / places.RATE), progress)
+    _march(bearing, drives, kept, min(step, (kept.depth - 8) / SD.RATE), progress)
     return Recording(
-        scene, wanted, places.RATE, first / places.RATE, size, np.array(kept.time), np.array(kept.speed),
+        scene, wanted, SD.RATE, first / SD.RATE, size, np.array(kept.time), np.array(kept.speed),
         {name: np.array(values) for name, values in kept.outputs.items()}, kept.rows,
         microphones=tuple((place.name, place.position_m) for place in scene.microphones),
-        harmonics=int(kept.sound[places.H_HARMONICS]),
+        harmonics=int(kept.sound[SD.H_HARMONICS]),
     )  # fmt: skip
 
 
@@ -148,14 +147,14 @@ class _Kept:
         self, bearing: Instance, outputs: tuple[str, ...], rows: int, watch: Callable[[Instance], None] | None
     ) -> None:
         p = bearing.p
-        block = int(p[at.P_AT_SOUND])
+        block = int(p[P.AT_SOUND])
         if block == 0:
             raise ValueError("the model has no sound: give the scene, or leave microphones=False")
         self.bearing = bearing
         self.watch = watch
-        self.sound: NDArray[np.float64] = p[block : block + int(p[at.P_SOUND_SIZE])]
-        self.depth = int(self.sound[places.H_ROWS])
-        lanes, channels = int(self.sound[places.H_AT_LANES]), int(self.sound[places.H_CHANNELS])
+        self.sound: NDArray[np.float64] = p[block : block + int(p[P.SOUND_SIZE])]
+        self.depth = int(self.sound[SD.H_ROWS])
+        lanes, channels = int(self.sound[SD.H_AT_LANES]), int(self.sound[SD.H_CHANNELS])
         self.lanes = self.sound[lanes : lanes + channels].astype(int)
         self.rows = np.zeros((rows, channels))
         self.count = 0
@@ -170,16 +169,16 @@ class _Kept:
     def read(self) -> None:
         """Take over what has come since the last call."""
         self.time.append(self.bearing.time)
-        self.speed.append(float(self.bearing.s[at.S_SPEED]))
+        self.speed.append(float(self.bearing.s[S.SPEED]))
         for name, values in self.outputs.items():
             values.append(self.bearing.get(name))
         if self.watch is not None:
             self.watch(self.bearing)
-        state = self.bearing.s[at.S_SOUND :]
+        state = self.bearing.s[S.SOUND :]
         channels = self.rows.shape[1]
-        first = int(self.sound[places.H_S_CHANNELS])
+        first = int(self.sound[SD.H_S_CHANNELS])
         ring = state[first : first + channels * self.depth].reshape(self.depth, channels)
-        count = int(state[places.SS_COUNT])
+        count = int(state[SD.SS_COUNT])
         if count - self.count > self.depth:
             raise RuntimeError(f"{count - self.count} rows came in one step, the engine keeps {self.depth}")
         new = np.arange(self.count, min(count, len(self.rows)))
@@ -195,7 +194,7 @@ def _march(
     from rich.progress import Progress
 
     total = len(kept.rows)
-    shown = sys.stderr.isatty() and total > places.RATE / 2 if progress is None else progress
+    shown = sys.stderr.isatty() and total > SD.RATE / 2 if progress is None else progress
     with Progress(console=Console(stderr=True), transient=True, disable=not shown) as bar:
         task = bar.add_task(f"{bearing.model.scene.name}: recording", total=total)
         kept.read()

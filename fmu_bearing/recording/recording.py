@@ -11,14 +11,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.engine.layout_sound import LATENCY, RATE
+from fmu_bearing.engine.layout import SD
 from fmu_bearing.recording.heard import Heard
 from fmu_bearing.run.result import read_table
 from fmu_bearing.scene import Scene, read_scene_text, si
 
 #: Communication step (s) at which an FMU shows every pressure sample once: a hair longer than a sample, so
 #: that rounding of times never shows one twice and the next not at all.
-PRESSURE_STEP = (1.0 + 1e-9) / RATE
+PRESSURE_STEP = (1.0 + 1e-9) / SD.RATE
 _PRESSURE = re.compile(r"mic\[\d+\]\.pressure")
 _ENOUGH = 40_000.0  # Hz: pressures reach to 20 kHz
 _VERSION = 1
@@ -77,8 +77,8 @@ class Recording(Heard):
             raise ValueError(
                 f"times are {gaps.min():.3g} to {gaps.max():.3g} s apart: pressures must be evenly spaced"
             )
-        if abs(rate / RATE - 1.0) < 1e-6:
-            rate = RATE
+        if abs(rate / SD.RATE - 1.0) < 1e-6:
+            rate = SD.RATE
         if rate < _ENOUGH:
             warnings.warn(
                 f"pressures at {rate:g} Hz fold what lies above {rate / 2:g} Hz: run with "
@@ -95,7 +95,8 @@ class Recording(Heard):
         speed = table["shaft_speed"] if "shaft_speed" in names else _speed_of(scene, len(time))
         others = [name for name in names if name not in ("time", *pressures)]
         return cls(
-            scene, "recorded", rate, float(time[first]) - LATENCY / RATE, len(time) - first, time - time[0],
+            scene, "recorded", rate, float(time[first]) - SD.LATENCY / SD.RATE, len(time) - first,
+            time - time[0],
             np.asarray(speed, dtype=float),
             {name: np.asarray(table[name], dtype=np.float64) for name in others},
             recorded=np.array([table[name][first:] for name in pressures], dtype=float),

@@ -10,15 +10,16 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.engine import layout as at
 from fmu_bearing.engine.jit import entry
+from fmu_bearing.engine.layout import P, Q, S, Y, Z
+from fmu_bearing.engine.layout.sizes import STRIDE
 from fmu_bearing.engine.readout import outputs as observe
 from fmu_bearing.instance import Instance
 
 _CONTACTS = entry(observe.contacts.py_func)  # kept compiled, as what Python calls
 _ROWS = 9  # of the state, per ball
-_PER_RACE = at.BEARING_OUTPUTS.index("contact.outer.load_mean") - observe.Z_CONTACT
-_CAGE = at.S_Y + at.Y_Q + at.Q_CAGE
+_PER_RACE = Z.BEARING_OUTPUTS.index("contact.outer.load_mean") - observe.Z_CONTACT
+_CAGE = S.Y + Y.Q0 + Q.CAGE
 RACES = ("inner", "outer")
 _READ = [observe.Z_CONTACT + k for k in (0, 2, _PER_RACE, _PER_RACE + 2)]  # load and angle at both
 
@@ -66,28 +67,28 @@ class Reader:
 
     def __init__(self, bearing: Instance) -> None:
         # without the sound block behind the tables, which is large
-        end = int(bearing.p[at.P_AT_SOUND]) or len(bearing.p)
+        end = int(bearing.p[P.AT_SOUND]) or len(bearing.p)
         self._p: NDArray[np.float64] = bearing.p[:end].copy()
-        self._oversize = int(self._p[at.P_AT_OVERSIZE])
-        self.balls = int(self._p[at.P_BALLS])
-        self.has_cage = bool(self._p[at.P_CAGE])
+        self._oversize = int(self._p[P.AT_OVERSIZE])
+        self.balls = int(self._p[P.BALLS])
+        self.has_cage = bool(self._p[P.CAGE])
         self._diameters = self._p[self._oversize : self._oversize + self.balls].copy()
-        self._p[at.P_BALLS] = 1.0
-        self._rows = at.S_Y + at.STRIDE * np.arange(_ROWS)
-        self._z: NDArray[np.float64] = np.zeros(len(at.BEARING_OUTPUTS))
+        self._p[P.BALLS] = 1.0
+        self._rows = S.Y + STRIDE * np.arange(_ROWS)
+        self._z: NDArray[np.float64] = np.zeros(len(Z.BEARING_OUTPUTS))
 
     def read(self, bearing: Instance) -> NDArray[np.float64]:
         """Return azimuth (rad, from 12 o'clock about +X), load (N) and angle (rad) at inner and outer race.
 
         Shape (balls, 5).
         """
-        state = bearing.s[: at.S_AXES].copy()  # the kernel reads nothing behind
+        state = bearing.s[: S.AXES].copy()  # the kernel reads nothing behind
         places = state[self._rows[:, None] + np.arange(self.balls)]
         found = np.empty((self.balls, 1 + 2 * len(RACES)))
         for j in range(self.balls):
             state[self._rows] = places[:, j]
             self._p[self._oversize] = self._diameters[j]
             _CONTACTS(self._p, state, self._z)
-            found[j, 0] = places[at.B_TH, j] % (2.0 * math.pi)
+            found[j, 0] = places[Y.TH // STRIDE, j] % (2.0 * math.pi)
             found[j, 1:] = self._z[_READ]
         return found

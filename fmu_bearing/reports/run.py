@@ -3,22 +3,21 @@
 import math
 import warnings
 
-from fmu_bearing.engine import layout as at
-from fmu_bearing.engine.layout_sound import RATE
+from fmu_bearing.engine.layout import SD, Z
 from fmu_bearing.interface.outputs import internals, outputs
 from fmu_bearing.recording.record import Recording, record
 from fmu_bearing.reports.balls import Watch
 from fmu_bearing.scene import Scene
 
 #: Communication step (s): every second sound sample. At 20,000 r/min each ball that passes gets 11 points.
-STEP = 2.0 / RATE
+STEP = 2.0 / SD.RATE
 RPM = math.pi / 30.0  # rad/s
 
 
 def variables_of(scene: Scene) -> tuple[str, ...]:
     """Names of all that a run without microphones has to tell, but the balls' velocities."""
     table = [*outputs(scene), *internals(scene)]
-    return tuple(v.name for v in table if v.array == "z" and v.index < at.Z_BALLS)
+    return tuple(v.name for v in table if v.array == "z" and v.index < Z.BALLS)
 
 
 def observed(

@@ -7,7 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.engine import abi
-from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE
+from fmu_bearing.engine.layout import P, Q, S, U, W, Y, Z
+from fmu_bearing.engine.status import OK
 from fmu_bearing.instance import REASONS
 from fmu_bearing.interface.inputs import inputs
 from fmu_bearing.prepare.model import pack
@@ -15,7 +17,7 @@ from fmu_bearing.scene import Scene
 
 RPM = math.pi / 30.0  # rad/s
 #: Places in ``y`` of the six ring velocities: inner x, y, z, outer x, y, z.
-RINGS = np.array([at.Y_V, at.Y_V + 1, at.Y_V + 2, *(at.Y_V + at.Q_OUTER + k for k in range(3))])
+RINGS = np.array([Y.V0, Y.V0 + 1, Y.V0 + 2, *(Y.V0 + Q.OUTER + k for k in range(3))])
 
 
 class Refused(RuntimeError):
@@ -35,7 +37,7 @@ class Arrays:
     sound : ndarray, optional
         The scene's sound block (``acoustics.stream.sound_parameters``); default: no sound.
     parameters : float
-        Values for places of ``p`` by their names in ``layout``, for example ``P_TOLERANCE=1e-5``.
+        Values for places of ``p`` by their names in ``layout.p``, for example ``TOLERANCE=1e-5``.
     """
 
     def __init__(
@@ -44,19 +46,19 @@ class Arrays:
     ) -> None:  # fmt: skip
         self.p: NDArray[np.float64] = pack(scene, np.empty(0) if sound is None else sound)
         for name, value in parameters.items():
-            self.p[getattr(at, name)] = value
+            self.p[getattr(P, name)] = value
         # the compiled entries are specialised on read-only parameters
         self.p.setflags(write=False)
-        self.u = np.zeros(len(at.INPUTS))
-        self.u[at.U_SPEED] = rpm * RPM
-        self.u[at.U_PRELOAD] = scene.mounting.preload_N
-        self.u[at.U_PEDESTAL] = scene.mounting.pedestal_stiffness_N_m
-        self.u[at.U_LOAD_Y], self.u[at.U_LOAD_Z] = load_y, load_z
-        self.u[at.U_OIL_T : at.U_OUTER_T + 1] = at.REFERENCE_TEMPERATURE
-        self.s = np.zeros(at.state_size(self.p))
-        sizes = (int(self.p[place]) for place in (at.P_BALLS, at.P_MICS, at.P_BANDS, at.P_MODES))
-        self.z = np.zeros(at.z_size(*sizes))
-        self.w = np.zeros(at.work_size(self.p))
+        self.u = np.zeros(len(U.INPUTS))
+        self.u[U.SPEED] = rpm * RPM
+        self.u[U.PRELOAD] = scene.mounting.preload_N
+        self.u[U.PEDESTAL] = scene.mounting.pedestal_stiffness_N_m
+        self.u[U.LOAD_Y], self.u[U.LOAD_Z] = load_y, load_z
+        self.u[U.OIL_T : U.OUTER_T + 1] = REFERENCE_TEMPERATURE
+        self.s = np.zeros(S.size(self.p))
+        sizes = (int(self.p[place]) for place in (P.BALLS, P.MICS, P.BANDS, P.MODES))
+        self.z = np.zeros(Z.size(*sizes))
+        self.w = np.zeros(W.size(self.p))
 
     @classmethod
     def of(cls, scene: Scene, sound: NDArray[np.float64] | None = None, **parameters: float) -> Self:
@@ -70,14 +72,14 @@ class Arrays:
     def init(self) -> None:
         """Quasi-static state at the inputs; ``Refused`` if there is none."""
         status = abi.init(self.p, self.u, self.s, self.z, self.w, 0.0)
-        if status != at.OK:
+        if status != OK:
             raise Refused(f"initialisation: {REASONS[status]}")
 
     def step(self, h: float) -> None:
         """Advance by ``h`` (s); ``Refused`` if the engine does."""
-        begin = self.s[at.S_TIME]
+        begin = self.s[S.TIME]
         status = abi.step(self.p, self.u, self.s, self.z, self.w, h)
-        if status != at.OK:
+        if status != OK:
             raise Refused(f"step to {begin + h:.6g} s: {REASONS[status]}")
 
     def run(self, duration: float, h: float) -> None:
@@ -98,11 +100,11 @@ class Arrays:
         other = object.__new__(Arrays)
         other.p = self.p.copy()
         for name, value in parameters.items():
-            other.p[getattr(at, name)] = value
+            other.p[getattr(P, name)] = value
         other.p.setflags(write=False)
         other.u, other.s, other.z, other.w = (a.copy() for a in (self.u, self.s, self.z, self.w))
         # Newton's memory belongs to the old parameters: no factors, a first step that suits the new bound
-        other.s[at.S_FACTOR_STEP] = 0.0
-        other.s[at.S_JACOBIAN_TIME] = -1e300
-        other.s[at.S_STEP] = min(other.s[at.S_STEP], other.p[at.P_MAX_STEP])
+        other.s[S.FACTOR_STEP] = 0.0
+        other.s[S.JACOBIAN_TIME] = -1e300
+        other.s[S.STEP] = min(other.s[S.STEP], other.p[P.MAX_STEP])
         return other

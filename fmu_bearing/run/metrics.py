@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.layout import P, Z
 from fmu_bearing.run.arrays import Arrays
 from fmu_bearing.scene import Scene
 
@@ -18,11 +18,11 @@ SILENT = 2e-7
 #: dB(A); differences between sounds that nobody hears are none.
 INAUDIBLE = 0.0
 
-_LOAD = tuple(at.BEARING_OUTPUTS.index(f"contact.{side}.load_mean") for side in ("inner", "outer"))
-_ANGLE = tuple(at.BEARING_OUTPUTS.index(f"contact.{side}.angle_mean") for side in ("inner", "outer"))
-_TORQUE = at.BEARING_OUTPUTS.index("friction_torque")
-_CAGE = at.BEARING_OUTPUTS.index("cage.speed_ratio")
-_LEVEL = at.MIC_OUTPUTS.index("leq_a")
+_LOAD = tuple(Z.BEARING_OUTPUTS.index(f"contact.{side}.load_mean") for side in ("inner", "outer"))
+_ANGLE = tuple(Z.BEARING_OUTPUTS.index(f"contact.{side}.angle_mean") for side in ("inner", "outer"))
+_TORQUE = Z.BEARING_OUTPUTS.index("friction_torque")
+_CAGE = Z.BEARING_OUTPUTS.index("cage.speed_ratio")
+_LEVEL = Z.MIC_OUTPUTS.index("leq_a")
 
 
 @dataclass(frozen=True)
@@ -151,7 +151,7 @@ def measure(
     bearing.init()
     bearing.run(warm_up, COMMUNICATION)
     wall, cpu = speed(bearing, budget, 2, 1.0) if budget else (math.nan, math.nan)
-    z = np.empty((round(window / SAMPLE), len(at.BEARING_OUTPUTS)))
+    z = np.empty((round(window / SAMPLE), len(Z.BEARING_OUTPUTS)))
     for row in z:
         bearing.step(SAMPLE)
         row[:] = bearing.z[: row.size]
@@ -172,11 +172,11 @@ def _levels(
     scene: Scene, sound: NDArray[np.float64], warm_up: float, window: float, parameters: dict[str, float]
 ) -> tuple[float, ...]:
     """A-weighted equivalent levels (dB) over the window, as the engine's own meters show them."""
-    bearing = Arrays.of(scene, sound, **parameters, P_METERING_START=warm_up)
+    bearing = Arrays.of(scene, sound, **parameters, METERING_START=warm_up)
     bearing.init()
     bearing.run(warm_up + window, COMMUNICATION)
-    sizes = int(bearing.p[at.P_BALLS]), int(bearing.p[at.P_MICS])
-    levels = bearing.z[at.z_mics(sizes[0]) + _LEVEL : at.z_bands(*sizes) : len(at.MIC_OUTPUTS)]
+    sizes = int(bearing.p[P.BALLS]), int(bearing.p[P.MICS])
+    levels = bearing.z[Z.mics(sizes[0]) + _LEVEL : Z.bands(*sizes) : len(Z.MIC_OUTPUTS)]
     return tuple(float(level) for level in levels)
 
 

@@ -26,8 +26,7 @@ from typing import TYPE_CHECKING, Any
 from fmu_bearing.run.extras import need
 from fmu_bearing.scene import Scene
 from fmu_bearing.sweeps.axes import SweepError
-from fmu_bearing.sweeps.plan import SETTLE, WINDOW
-from fmu_bearing.sweeps.plan import plan as lay_out
+from fmu_bearing.sweeps.plan import SETTLE, WINDOW, plan as lay_out
 from fmu_bearing.sweeps.result import dataset, save
 from fmu_bearing.sweeps.runs import Interrupted, run_plan
 from fmu_bearing.sweeps.store import Store

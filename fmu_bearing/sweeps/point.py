@@ -12,8 +12,8 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.engine import layout as at
 from fmu_bearing.engine.jit import source_hash
+from fmu_bearing.engine.layout import U
 from fmu_bearing.files import sources_digest
 from fmu_bearing.prepare.sound import sound_block
 from fmu_bearing.run.arrays import Arrays, Refused
@@ -109,7 +109,7 @@ def run_point(task: Task, block: NDArray[np.float64] | None = None) -> Outcome:
 
 def _measured(task: Task, sound: NDArray[np.float64]) -> tuple[float, ...]:
     scene = task.scene
-    bearing = Arrays.of(scene, sound, P_METERING_START=task.settle)
+    bearing = Arrays.of(scene, sound, METERING_START=task.settle)
     bearing.init()
     if task.settle > 0.0:
         steps = math.ceil(task.settle / COMMUNICATION)
@@ -122,7 +122,7 @@ def _measured(task: Task, sound: NDArray[np.float64]) -> tuple[float, ...]:
         row[:] = bearing.z
     there = {figure.name: figure for figure in figures_of(scene, _names(task.figures, scene))}
     time = np.linspace(task.settle + h, task.settle + task.window, count)
-    found = dict(zip(there, read(tuple(there.values()), rows, time, bearing.u[at.U_SPEED]), strict=True))
+    found = dict(zip(there, read(tuple(there.values()), rows, time, bearing.u[U.SPEED]), strict=True))
     return tuple(found.get(name, math.nan) for name in task.figures)
 
 

@@ -11,7 +11,7 @@ from fmu_bearing.accuracy.reference import (
     reference_from,
     relative_error,
 )
-from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.layout import P
 from fmu_bearing.run.arrays import Arrays
 
 
@@ -57,7 +57,7 @@ def test_rates_and_jacobian_for_general_integrators(settled):
     problem = FirstOrder(settled)
     rates = np.empty(problem.size)
     problem.rate(0.0, problem.start, rates)
-    balls = int(settled.p[at.P_BALLS])
+    balls = int(settled.p[P.BALLS])
     np.testing.assert_array_equal(rates[: 3 * balls], problem.start[3 * balls : 6 * balls])
     np.testing.assert_array_equal(problem.start[problem.rings], settled.z[:6])
     out = np.empty((problem.size, problem.size))

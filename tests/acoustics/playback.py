@@ -7,8 +7,7 @@ from scipy.signal import sosfreqz
 from fmu_bearing.acoustics.filters.pack import MICROPHONE_LOW_LIMIT
 from fmu_bearing.acoustics.filters.weighting import high_pass_section
 from fmu_bearing.acoustics.radiation.radiators import Housing, Radiators, Ring
-from fmu_bearing.engine.layout import MIC_OUTPUTS, motion_size
-from fmu_bearing.engine.layout_sound import DECIMATION, H_BANDS, H_MICS, LATENCY, RATE, RAW_RATE
+from fmu_bearing.engine.layout import MO, SD, Z
 from fmu_bearing.engine.sound import meter, radiate
 
 RHO, C = 1.225, 340.0
@@ -28,7 +27,7 @@ HOUSED = Radiators(
     Housing(0.1, 0.16, 0.0595),
 )
 PAPER_POINTS = [(0.0, 0.105, 0.0), (0.0, 0.150, 0.0), (0.0, 0.0, 0.105), (-0.0805, 0.0, 0.0)]
-PLACE = {name: i for i, name in enumerate(MIC_OUTPUTS)}
+PLACE = {name: i for i, name in enumerate(Z.MIC_OUTPUTS)}
 
 
 @numba.njit
@@ -47,28 +46,28 @@ class Player:
 
     def __init__(self, ps, time_weighting=0.125, metering_start=0.0):
         self.ps, self.settings = ps, (time_weighting, metering_start)
-        self.ss, self.ws = np.zeros(radiate.state_size(ps)), np.zeros(radiate.work_size(ps))
-        self.mics = int(ps[H_MICS])
-        self.z = np.zeros(self.mics * (len(MIC_OUTPUTS) + int(ps[H_BANDS])))
+        self.ss, self.ws = np.zeros(SD.state_size(ps)), np.zeros(SD.work_size(ps))
+        self.mics = int(ps[SD.H_MICS])
+        self.z = np.zeros(self.mics * (len(Z.MIC_OUTPUTS) + int(ps[SD.H_BANDS])))
         self.first = 0
 
     def play(self, motion, samples):
         """Return pressures, shape (samples / 4, mics)."""
-        pressures = np.zeros((-(-samples // DECIMATION), self.mics))
+        pressures = np.zeros((-(-samples // SD.DECIMATION), self.mics))
         _play(
             self.ps, self.ss, self.ws, motion, samples, *self.settings, self.z, pressures, self.mics,
-            len(MIC_OUTPUTS), self.first,
+            len(Z.MIC_OUTPUTS), self.first,
         )  # fmt: skip
         self.first += samples
         return pressures
 
     def reading(self, name, mic=0):
-        return self.z[mic * len(MIC_OUTPUTS) + PLACE[name]]
+        return self.z[mic * len(Z.MIC_OUTPUTS) + PLACE[name]]
 
 
 def still(radiators, samples):
     """Motion samples at rest, shape (samples, motion size); balls evenly round the pitch circle."""
-    motion = np.zeros((samples, motion_size(radiators.ball_count)))
+    motion = np.zeros((samples, MO.size(radiators.ball_count)))
     for j in range(radiators.ball_count):
         angle = 2 * np.pi * j / radiators.ball_count
         motion[:, 36 + 14 * j + 12] = np.cos(angle)
@@ -77,19 +76,19 @@ def still(radiators, samples):
 
 
 def raw_time(samples):
-    return np.arange(samples) / RAW_RATE
+    return np.arange(samples) / SD.RAW_RATE
 
 
 def chain(frequency):
     """What every pressure passes besides its transfer function: microphone's low limit and latency."""
-    section = high_pass_section(RATE, MICROPHONE_LOW_LIMIT)[None]
-    limit = sosfreqz(section, frequency, fs=RATE)[1]
-    return limit * np.exp(-2j * np.pi * np.asarray(frequency) * LATENCY / RATE)
+    section = high_pass_section(SD.RATE, MICROPHONE_LOW_LIMIT)[None]
+    limit = sosfreqz(section, frequency, fs=SD.RATE)[1]
+    return limit * np.exp(-2j * np.pi * np.asarray(frequency) * SD.LATENCY / SD.RATE)
 
 
 def lines(pressure, frequencies):
     """Complex amplitudes of the last 0.01 s of a signal, which holds whole periods of 100 Hz multiples."""
     tail = pressure[-512:]
     n = np.arange(len(pressure) - 512, len(pressure))
-    turn = np.exp(-2j * np.pi * np.asarray(frequencies)[:, None] * n / RATE)
+    turn = np.exp(-2j * np.pi * np.asarray(frequencies)[:, None] * n / SD.RATE)
     return 2.0 / 512 * turn @ tail

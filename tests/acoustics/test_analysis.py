@@ -33,7 +33,7 @@ from fmu_bearing.acoustics.analysis.third_octave import (
 from fmu_bearing.acoustics.filters.weighting import a_weighting_db, a_weighting_sections
 from fmu_bearing.acoustics.radiation import sources
 from fmu_bearing.acoustics.radiation.radiators import Air
-from fmu_bearing.engine import layout_sound as places
+from fmu_bearing.engine.layout import SD
 from tests.acoustics.playback import SMALL
 
 RATE = 51_200.0
@@ -235,10 +235,10 @@ def test_power_over_a_reflecting_plane():
 
 def test_dipole_strengths_follow_the_channels():
     """A ball at 12 o'clock shaken upwards: radial there, order 1 cosine; the sum is V a along z."""
-    channels = places.vector_channels(4)
+    channels = SD.vector_channels(4)
     weights = dipoles(SMALL, channels)
     sample = np.zeros(channels)
-    sample[[places.C_BALLS + 1, places.C_BALLS + 4]] = 1.0  # a_r of one ball at angle 0: m = 0 and r cos
+    sample[[SD.C_BALLS + 1, SD.C_BALLS + 4]] = 1.0  # a_r of one ball at angle 0: m = 0 and r cos
     volume = 2 * np.pi * (SMALL.ball_diameter / 2) ** 3
     assert weights["balls"] @ sample == pytest.approx([0, 0, volume])
     assert set(weights) == {"inner_ring", "outer_ring", "cage", "balls"}

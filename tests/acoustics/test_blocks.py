@@ -8,16 +8,7 @@ from fmu_bearing.acoustics.filters.design import build
 from fmu_bearing.acoustics.filters.fir import decimator_response, delay_of, fit
 from fmu_bearing.acoustics.radiation.compact import Air, Path
 from fmu_bearing.acoustics.radiation.frequencies import fit_frequencies
-from fmu_bearing.engine.layout_sound import (
-    C_OUTER,
-    H_AT_LEVELS,
-    H_LEVELS,
-    LATENCY,
-    LEVEL_BLOCK,
-    LEVEL_SIZE,
-    RADIAL,
-    RATE,
-)
+from fmu_bearing.engine.layout import SD
 from fmu_bearing.engine.sound import transform
 from tests.acoustics.playback import LARGE, PAPER_POINTS, SMALL, Player, chain, lines, raw_time, still
 
@@ -48,8 +39,8 @@ def test_transform_against_numpy(block):
 
 
 def levels_of(ps):
-    first = int(ps[H_AT_LEVELS]) + LEVEL_BLOCK
-    return tuple(int(ps[first + LEVEL_SIZE * i]) for i in range(int(ps[H_LEVELS])))
+    first = int(ps[SD.H_AT_LEVELS]) + SD.LEVEL_BLOCK
+    return tuple(int(ps[first + SD.LEVEL_SIZE * i]) for i in range(int(ps[SD.H_LEVELS])))
 
 
 def ring_of(decay, frequency, late):
@@ -62,9 +53,9 @@ def ring_of(decay, frequency, late):
         ring = 0.01 * turn / (1 - (f / frequency) ** 2 + 1j * f / (np.pi * frequency**2 * decay))
         angles = np.asarray(azimuths)
         return [
-            Path(1, C_OUTER, flight, 0.3 * ring, np.ones(len(angles)), 1),
-            Path(1, C_OUTER + 1, flight, ring, -np.sin(angles), RADIAL),
-            Path(1, C_OUTER + 2, flight, ring, np.cos(angles), RADIAL),
+            Path(1, SD.C_OUTER, flight, 0.3 * ring, np.ones(len(angles)), 1),
+            Path(1, SD.C_OUTER + 1, flight, ring, -np.sin(angles), SD.RADIAL),
+            Path(1, SD.C_OUTER + 2, flight, ring, np.cos(angles), SD.RADIAL),
         ]
 
     return bem_paths
@@ -121,9 +112,9 @@ def test_length_grows_with_the_ringing_and_between_the_grid():
         taps, error = fit(response(f), 3e-4, np.abs(response(f)))
         assert error < 10 ** (-50 / 20)
         between = np.arange(1062.5, 6000.0, 125.0)
-        turn = np.exp(-2j * np.pi * np.outer(between, np.arange(len(taps))) / RATE)
+        turn = np.exp(-2j * np.pi * np.outer(between, np.arange(len(taps))) / SD.RATE)
         whole = turn @ taps * decimator_response(between)
-        whole *= np.exp(-2j * np.pi * between * (delay_of(3e-4) - LATENCY) / RATE)
+        whole *= np.exp(-2j * np.pi * between * (delay_of(3e-4) - SD.LATENCY) / SD.RATE)
         off = np.abs(whole - response(between)) / np.abs(response(between))
         assert 20 * np.log10(off.max()) < -40
         found.append(len(taps))

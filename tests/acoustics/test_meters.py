@@ -7,8 +7,7 @@ from scipy.signal import sosfreqz
 from fmu_bearing.acoustics.filters.design import build
 from fmu_bearing.acoustics.filters.weighting import band_centre, band_sections
 from fmu_bearing.acoustics.radiation.compact import Air
-from fmu_bearing.engine.layout import BANDS, MIC_OUTPUTS
-from fmu_bearing.engine.layout_sound import H_STATE, METERS, RATE, RAW_RATE
+from fmu_bearing.engine.layout import SD, Z
 from tests.acoustics.playback import LARGE, PAPER_POINTS, SMALL, Player, lines, raw_time, still
 
 PERIOD = 2048  # raw samples: 100 Hz
@@ -22,7 +21,7 @@ LIMITS = [
 
 
 def test_one_meter_per_name():
-    assert len(MIC_OUTPUTS) == METERS
+    assert len(Z.MIC_OUTPUTS) == SD.METERS
 
 
 def tone(frequency=1000.0, amplitude=1.0, radiators=SMALL):
@@ -40,30 +39,30 @@ def test_calibrator_on_all_meters():
     """1 Pa at 1 kHz: 93.98 dB and dB(A) everywhere, and in the 1 kHz band; its neighbours as the standard."""
     ps = build("compact", SMALL, Air(), PAPER_POINTS, thirds=True)
     player = Player(ps, metering_start=0.3)
-    player.play(tone(amplitude=pascal(ps)), int(1.5 * RAW_RATE))
+    player.play(tone(amplitude=pascal(ps)), int(1.5 * SD.RAW_RATE))
     names = ("spl", "spl_a", "leq", "leq_a", "spl_fast", "spl_fast_a", "spl_slow", "spl_slow_a")
     for name in (*names, "spl_energy_sum", "spl_radial", "spl_outer_ring"):
         assert player.reading(name) == pytest.approx(93.979, abs=0.02), name
     for name in ("spl_axial", "spl_rotation", "spl_flexure", "spl_balls"):
         assert player.reading(name) == pytest.approx(QUIET), name
-    bands = dict(zip(BANDS, player.z[4 * METERS : 4 * METERS + len(BANDS)], strict=True))
+    bands = dict(zip(Z.BANDS, player.z[4 * SD.METERS : 4 * SD.METERS + len(Z.BANDS)], strict=True))
     assert bands[1000.0] == pytest.approx(93.979, abs=0.02)
     # the next band's middle is a ratio of 10^0.1 away, between the standard's points 17.5 and 42 dB
     for neighbour, least in ((800.0, 17.0), (1250.0, 17.0), (500.0, 42.0), (2000.0, 42.0), (250.0, 61.0)):
         assert bands[neighbour] < 93.979 - least, neighbour
 
 
-@pytest.mark.parametrize("nominal", BANDS)
+@pytest.mark.parametrize("nominal", Z.BANDS)
 def test_third_octaves_keep_class_1(nominal):
     """Every band at the standard's break points, up to 25 kHz where sampling ends."""
     middle, edge = band_centre(nominal), 10**0.05
-    sections = band_sections(RATE, nominal)
+    sections = band_sections(SD.RATE, nominal)
     for power, least, most in LIMITS:
         octave = 10 ** (0.3 * power)
         ratio = 1.0 + (edge - 1.0) / (np.sqrt(10**0.3) - 1.0) * (octave - 1.0)
         for frequency in (middle * ratio, middle / ratio):
             if frequency < 25_000.0:
-                gain = abs(sosfreqz(sections, [frequency], fs=RATE)[1][0])
+                gain = abs(sosfreqz(sections, [frequency], fs=SD.RATE)[1][0])
                 attenuation = -20 * np.log10(max(gain, 1e-12))
                 assert least - 1e-6 <= attenuation <= most + 1e-6, (frequency, attenuation)
 
@@ -72,17 +71,17 @@ def test_bands_are_those_of_the_standard():
     assert [round(band_centre(n), 2) for n in (25.0, 31.5, 1000.0, 16_000.0)] == [
         25.12, 31.62, 1000.0, 15848.93,
     ]  # fmt: skip
-    assert len(BANDS) == 29
+    assert len(Z.BANDS) == 29
 
 
 def test_fast_and_slow_decay_at_their_rates():
     """IEC 61672-1: 34.7 and 4.3 dB/s after a sound has stopped, whatever the chosen weighting is."""
     ps = build("compact", SMALL, Air(), PAPER_POINTS[:1])
     player = Player(ps, time_weighting=0.4)
-    player.play(tone(amplitude=pascal(ps)), int(0.5 * RAW_RATE))
-    player.play(still(SMALL, 4), int(0.1 * RAW_RATE))
+    player.play(tone(amplitude=pascal(ps)), int(0.5 * SD.RAW_RATE))
+    player.play(still(SMALL, 4), int(0.1 * SD.RAW_RATE))
     before = {name: player.reading(name) for name in ("spl_fast", "spl_slow", "spl")}
-    player.play(still(SMALL, 4), int(0.2 * RAW_RATE))
+    player.play(still(SMALL, 4), int(0.2 * SD.RAW_RATE))
     fall = {name: (level - player.reading(name)) / 0.2 for name, level in before.items()}
     assert fall["spl_fast"] == pytest.approx(10 / np.log(10) / 0.125, rel=0.02)
     # these two still gather weight: the mean falls by as much more slowly as the weights' sum grows
@@ -137,12 +136,12 @@ def test_levels_without_details_cost_nothing_and_read_the_floor():
     player.play(tone(radiators=LARGE), 20 * PERIOD)
     whole = Player(build("compact", LARGE, Air(), PAPER_POINTS))
     whole.play(tone(radiators=LARGE), 20 * PERIOD)
-    for name in MIC_OUTPUTS[:9]:
+    for name in Z.MIC_OUTPUTS[:9]:
         assert player.reading(name) == whole.reading(name), name
-    for name in MIC_OUTPUTS[9:]:
+    for name in Z.MIC_OUTPUTS[9:]:
         assert player.reading(name) == pytest.approx(QUIET), name
     thirds = build("compact", LARGE, Air(), PAPER_POINTS, thirds=True)
-    assert thirds[H_STATE] > plain[H_STATE]
+    assert thirds[SD.H_STATE] > plain[SD.H_STATE]
 
 
 def test_opposite_bodies_of_the_paper_rung_do_not_cancel():

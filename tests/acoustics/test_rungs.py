@@ -11,8 +11,7 @@ from fmu_bearing.acoustics.radiation.compact import Air, Path, Radiators, compac
 from fmu_bearing.acoustics.radiation.frequencies import fit_frequencies
 from fmu_bearing.acoustics.radiation.table import Table, channels, read_table, select
 from fmu_bearing.acoustics.registry import RUNGS, Ladder
-from fmu_bearing.engine.layout import mo_flex
-from fmu_bearing.engine.layout_sound import FLEXURE, H_CHANNELS, c_flex, vector_channels
+from fmu_bearing.engine.layout import MO, SD
 from tests.acoustics.playback import PAPER_POINTS, RHO, SMALL, C, Player, chain, lines, raw_time, still
 
 PERIOD = 2048  # raw samples: 100 Hz
@@ -35,7 +34,7 @@ def flexing(radiators, air, radius, axial, azimuths, harmonics, modes=(), plane=
     for i, mode in enumerate(mode for mode in modes for _ in range(2)):
         weights = np.ones(len(azimuths))
         paths.append(
-            Path(mode.body, c_flex(harmonics) + i, distance / air.sound_speed, sound, weights, FLEXURE)
+            Path(mode.body, SD.c_flex(harmonics) + i, distance / air.sound_speed, sound, weights, SD.FLEXURE)
         )
     return paths
 
@@ -88,7 +87,7 @@ def test_every_rung_is_heard_and_none_is_another(elements):
         motion = shaken()
         if modes:
             motion = np.concatenate([motion, np.ones((PERIOD, 2))], axis=1)
-            motion[:, mo_flex(12)] = 10 * np.sin(2 * np.pi * 1700 * raw_time(PERIOD))
+            motion[:, MO.flexures(12)] = 10 * np.sin(2 * np.pi * 1700 * raw_time(PERIOD))
         pressures = Player(ps).play(motion, 41 * PERIOD)
         heard[rung] = pressures[-512:]
         assert np.sqrt(np.mean(heard[rung][:, 0] ** 2)) > 1e-5, rung
@@ -99,9 +98,9 @@ def test_every_rung_is_heard_and_none_is_another(elements):
 
 def test_flexure_is_heard_as_such(elements):
     ps = build("bem", SMALL, Air(), PAPER_POINTS[:1], 2, modes=(Mode(0), Mode(1)))
-    assert ps[H_CHANNELS] == vector_channels(2, 4) == 15 + 2 + 12 + 4
+    assert ps[SD.H_CHANNELS] == SD.vector_channels(2, 4) == 15 + 2 + 12 + 4
     motion = np.concatenate([still(SMALL, PERIOD), np.zeros((PERIOD, 4))], axis=1)
-    motion[:, mo_flex(12) + 3] = np.cos(2 * np.pi * 1000 * raw_time(PERIOD))
+    motion[:, MO.flexures(12) + 3] = np.cos(2 * np.pi * 1000 * raw_time(PERIOD))
     player = Player(ps)
     pressure = player.play(motion, 41 * PERIOD)[:, 0]
     expected = sources.pulsating_sphere(1000.0, 0.105, 0.01, RHO, C) * chain([1000.0])[0]

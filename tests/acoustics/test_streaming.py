@@ -10,7 +10,7 @@ from fmu_bearing.acoustics.filters.fir import decimator_response
 from fmu_bearing.acoustics.radiation import sources
 from fmu_bearing.acoustics.radiation.effective import ring_volumes
 from fmu_bearing.acoustics.radiation.radiators import Air
-from fmu_bearing.engine.layout_sound import H_BANKS, H_MICS, RATE, RAW_RATE
+from fmu_bearing.engine.layout import SD
 from tests.acoustics.playback import (
     HOUSED,
     LARGE,
@@ -146,7 +146,7 @@ def test_54_kilohertz_is_gone():
         motion[:, 16] = np.cos(2 * np.pi * frequency * t)
         amplitude.append(abs(lines(Player(ps).play(motion, LONG)[:, 0], [2800.0])[0]))
     assert amplitude[0] / amplitude[1] < 1e-4
-    folding = np.arange(RATE - 20_000.0, RAW_RATE / 2, 20.0)
+    folding = np.arange(SD.RATE - 20_000.0, SD.RAW_RATE / 2, 20.0)
     assert np.max(np.abs(decimator_response(folding))) < 1e-4
 
 
@@ -160,7 +160,7 @@ def test_calibrator(radiators):
     motion[:, 16] *= np.sqrt(2) / abs(lines(pressure, [1000.0])[0])
     for time_weighting in (0.125, 1.0):
         player = Player(ps, time_weighting, metering_start=0.3)
-        player.play(motion, int(1.5 * RAW_RATE))
+        player.play(motion, int(1.5 * SD.RAW_RATE))
         for name in ("spl", "spl_a", "leq", "leq_a"):
             assert player.reading(name) == pytest.approx(93.979, abs=0.02), name
         # a lone component's partial level is the level; the others read the floor
@@ -175,11 +175,11 @@ def test_tone_bursts_read_as_the_standard_says():
     quiet = motion.copy()
     motion[:, 16] = np.sin(2 * np.pi * 4000.0 * raw_time(PERIOD))
     steady = Player(ps)
-    steady.play(motion, int(0.5 * RAW_RATE))
+    steady.play(motion, int(0.5 * SD.RAW_RATE))
     for milliseconds, printed in ((500, -0.1), (200, -1.0), (50, -4.8), (10, -11.1)):
         player = Player(ps)
-        player.play(quiet, 4 * int(RAW_RATE / 2))  # the meter's weights have summed to 1
-        player.play(motion, int(milliseconds * 1e-3 * RAW_RATE))
+        player.play(quiet, 4 * int(SD.RAW_RATE / 2))  # the meter's weights have summed to 1
+        player.play(motion, int(milliseconds * 1e-3 * SD.RAW_RATE))
         highest = -200.0
         for _ in range(20):
             player.play(quiet, 16)
@@ -192,7 +192,7 @@ def test_meters_wait_for_their_start():
     ps = build("compact", SMALL, Air(), PAPER_POINTS)
     player = Player(ps, metering_start=0.02)
     motion = np.random.default_rng(2).standard_normal((PERIOD, len(still(SMALL, 1)[0])))
-    player.play(motion, int(0.0199 * RAW_RATE))
+    player.play(motion, int(0.0199 * SD.RAW_RATE))
     assert player.reading("leq", 3) == player.reading("spl_a", 2) == pytest.approx(-103.979 - 2.0, abs=0.1)
     player.play(motion, 100)
     assert player.reading("leq", 3) > -60
@@ -263,7 +263,7 @@ def test_paper_rung_adds_energies():
         motion[:, b + 9] = 10.0 * wave[1000.0] * np.cos(wave[1000.0] * t + j)
     point = (0.0, 0.15, 0.0)
     player = Player(build("paper", SMALL, Air(), [point]), metering_start=0.3)
-    player.play(motion, int(1.3 * RAW_RATE))
+    player.play(motion, int(1.3 * SD.RAW_RATE))
 
     def energy(response, amplitude, frequency):
         return 0.5 * abs(response * amplitude * chain([frequency])[0]) ** 2
@@ -290,7 +290,7 @@ def test_microphones_of_a_circle_share_filters_and_symmetry():
     angle = np.arange(24) * np.pi / 12
     circle = [(0.05, -0.21 * np.sin(a), 0.21 * np.cos(a)) for a in angle]
     ps = build("compact", LARGE, Air(), circle)
-    assert ps[H_BANKS] == build("compact", LARGE, Air(), circle[:1])[H_BANKS]
+    assert ps[SD.H_BANKS] == build("compact", LARGE, Air(), circle[:1])[SD.H_BANKS]
     levels = []
     for turn in (0, 6):
         motion = still(LARGE, PERIOD)
@@ -319,7 +319,7 @@ def test_example_scenes_have_sound_blocks(scene):
     from fmu_bearing.acoustics.filters.design import radiators_of, sound_parameters
 
     spindle = scene("7003C-spindle")
-    assert sound_parameters(spindle)[H_MICS] == len(spindle.microphones)
+    assert sound_parameters(spindle)[SD.H_MICS] == len(spindle.microphones)
     assert radiators_of(spindle).housing.centre == pytest.approx(-5e-3 - 15.5e-3 + 80e-3)
 
 
@@ -331,5 +331,5 @@ def test_cost_is_printed():
             motion = np.random.default_rng(4).standard_normal((1024, len(still(SMALL, 1)[0])))
             player.play(motion, 1000)
             begin = time.process_time()
-            player.play(motion, int(RAW_RATE / 4))
+            player.play(motion, int(SD.RAW_RATE / 4))
             print(f"{rung}, {name}: {4 * (time.process_time() - begin):.3f} s per simulated second")

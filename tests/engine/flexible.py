@@ -2,13 +2,11 @@
 
 import numpy as np
 
-from fmu_bearing.engine import layout as at
-from fmu_bearing.engine import layout_flexure as places
+from fmu_bearing.engine.layout import FL, C, F, P, S, W, Y
+from fmu_bearing.engine.layout.sizes import STRIDE
 from fmu_bearing.engine.mechanics.energy import stored_energy
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.mechanics.flexure import flexure_energy
-
-S = at.STRIDE
 
 
 def thin_ring(body, order, frequency, mass, damping=0.0, shape=(0.0, 1.0), tilt=0.0):
@@ -17,31 +15,31 @@ def thin_ring(body, order, frequency, mass, damping=0.0, shape=(0.0, 1.0), tilt=
     ``mass`` (kg) is the whole ring's: one coordinate has half of it times 1 + 1/n^2. ``shape``: axial and
     radial.
     """
-    row = np.zeros(places.MODE_SIZE)
+    row = np.zeros(P.MODE_SIZE)
     free = 2.0 * np.pi * frequency
-    row[places.MODE_BODY], row[places.MODE_ORDER] = body, order
-    row[places.MODE_MASS] = 0.5 * mass * (1.0 + 1.0 / order**2)
-    row[places.MODE_STIFFNESS] = row[places.MODE_MASS] * free**2
-    row[places.MODE_DAMPING] = 2.0 * damping * free
-    row[places.MODE_GYROSCOPIC] = -2.0 * order / (order**2 + 1.0)
-    row[places.MODE_X], row[places.MODE_R], row[places.MODE_T] = *shape, -shape[1] / order
-    row[places.MODE_TILT] = tilt
-    row[places.MODE_WEIGHT] = 0.5 * (row[places.MODE_X : places.MODE_TILT] ** 2).sum()
+    row[P.MODE_BODY], row[P.MODE_ORDER] = body, order
+    row[P.MODE_MASS] = 0.5 * mass * (1.0 + 1.0 / order**2)
+    row[P.MODE_STIFFNESS] = row[P.MODE_MASS] * free**2
+    row[P.MODE_DAMPING] = 2.0 * damping * free
+    row[P.MODE_GYROSCOPIC] = -2.0 * order / (order**2 + 1.0)
+    row[P.MODE_X], row[P.MODE_R], row[P.MODE_T] = *shape, -shape[1] / order
+    row[P.MODE_TILT] = tilt
+    row[P.MODE_WEIGHT] = 0.5 * (row[P.MODE_X : P.MODE_TILT] ** 2).sum()
     return row
 
 
 def untouched(row):
     """Return the mode with a groove that does not move: the balls neither drive nor feel it."""
     row = row.copy()
-    row[places.MODE_X : places.MODE_TILT + 1] = 0.0
-    row[places.MODE_WEIGHT] = 0.5
+    row[P.MODE_X : P.MODE_TILT + 1] = 0.0
+    row[P.MODE_WEIGHT] = 0.5
     return row
 
 
 def with_modes(p, rows, step=1e-5):
     """Parameters with the modes of ``rows`` and their longest internal step (s)."""
     longer = np.concatenate([p, np.ravel(rows)])
-    longer[at.P_MODES], longer[at.P_AT_MODES], longer[at.P_MODE_STEP] = len(rows), p.size, step
+    longer[P.MODES], longer[P.AT_MODES], longer[P.MODE_STEP] = len(rows), p.size, step
     return longer
 
 
@@ -49,13 +47,13 @@ class Flexure:
     """Where the flexure of a bearing stands in its state and in a work space ``w``."""
 
     def __init__(self, p, w):
-        self.count = 2 * int(p[at.P_MODES])
-        self.kept = at.S_SOUND + int(p[at.P_SOUND_STATE])
+        self.count = 2 * int(p[P.MODES])
+        self.kept = S.SOUND + int(p[P.SOUND_STATE])
         self.w = w
 
     def array(self, place):
         """One flat array over the coordinates, by its place in ``modes_layout``."""
-        begin = at.W_FLEX + place
+        begin = W.FLEX + place
         return self.w[begin : begin + self.count]
 
     def state(self, s):
@@ -67,26 +65,26 @@ class FirstOrder:
     """Balls, bodies and modes of a run as x' = F(t, x): places, rates and spins in one vector."""
 
     def __init__(self, run, speed_rate=0.0):
-        self.p, self.w = run.p, np.zeros(at.work_size(run.p))
-        self.c = run.s[at.S_C : at.S_C + at.C_SIZE].copy()
-        self.angle, self.speed, self.speed_rate = run.s[at.S_ANGLE], run.s[at.S_SPEED], speed_rate
+        self.p, self.w = run.p, np.zeros(W.size(run.p))
+        self.c = run.s[S.C : S.C + C.SIZE].copy()
+        self.angle, self.speed, self.speed_rate = run.s[S.ANGLE], run.s[S.SPEED], speed_rate
         self.flexure = Flexure(run.p, self.w)
-        self.f = np.zeros(at.F_SIZE)
-        self.balls = int(run.p[at.P_BALLS])
+        self.f = np.zeros(F.SIZE)
+        self.balls = int(run.p[P.BALLS])
         self.modes_at = 9 * self.balls + 34
-        y = run.s[at.S_Y : at.S_Y + at.Y_SIZE]
-        rows = y[: 9 * S].reshape(9, S)[:, : self.balls]
-        self.start = np.concatenate([rows.ravel(), y[at.Y_Q :], self.flexure.state(run.s)[:2].ravel()])
+        y = run.s[S.Y : S.Y + Y.SIZE]
+        rows = y[: 9 * STRIDE].reshape(9, STRIDE)[:, : self.balls]
+        self.start = np.concatenate([rows.ravel(), y[Y.Q0 :], self.flexure.state(run.s)[:2].ravel()])
 
     def evaluate(self, t, x):
         """Fill ``f`` and the work space; return ``y`` and the speed."""
-        y = np.zeros(at.Y_SIZE)
-        rows = y[: 9 * S].reshape(9, S)
+        y = np.zeros(Y.SIZE)
+        rows = y[: 9 * STRIDE].reshape(9, STRIDE)
         rows[:, : self.balls] = x[: 9 * self.balls].reshape(9, self.balls)
         rows[:, self.balls :] = rows[:, :1]
-        y[at.Y_Q :] = x[9 * self.balls : self.modes_at]
+        y[Y.Q0 :] = x[9 * self.balls : self.modes_at]
         places_and_rates = x[self.modes_at :].reshape(2, -1)
-        self.flexure.array(places.FW_Q)[:], self.flexure.array(places.FW_V)[:] = places_and_rates
+        self.flexure.array(FL.Q)[:], self.flexure.array(FL.V)[:] = places_and_rates
         speed = self.speed + self.speed_rate * t
         angle = self.angle + t * (self.speed + 0.5 * self.speed_rate * t)
         right_hand_side(self.p, self.c, y, angle, speed, self.speed_rate, self.w, self.f)
@@ -95,11 +93,11 @@ class FirstOrder:
     def __call__(self, t, x):
         """Rates of ``x``."""
         y, _ = self.evaluate(t, x)
-        rates = y[3 * S : 6 * S].reshape(3, S)[:, : self.balls]
-        balls = self.f[: 6 * S].reshape(6, S)[:, : self.balls]
-        v, a = self.flexure.array(places.FW_V), self.flexure.array(places.FW_A)
-        g = self.f[at.F_G : at.F_G + 17]
-        return np.concatenate([rates.ravel(), balls.ravel(), y[at.Y_V :], g, v, a])
+        rates = y[3 * STRIDE : 6 * STRIDE].reshape(3, STRIDE)[:, : self.balls]
+        balls = self.f[: 6 * STRIDE].reshape(6, STRIDE)[:, : self.balls]
+        v, a = self.flexure.array(FL.V), self.flexure.array(FL.A)
+        g = self.f[F.BODY : F.BODY + 17]
+        return np.concatenate([rates.ravel(), balls.ravel(), y[Y.V0 :], g, v, a])
 
     def energy(self, t, x):
         """Stored energy (J)."""
@@ -109,7 +107,7 @@ class FirstOrder:
     def contact_forces(self, x):
         """Generalised forces (N) of the balls on the modes."""
         self.evaluate(0.0, x)
-        return self.flexure.array(places.FW_FORCE).copy()
+        return self.flexure.array(FL.FORCE).copy()
 
 
 def shaken(problem, seed=1, size=1e-6):

@@ -3,7 +3,9 @@
 import numpy as np
 
 from fmu_bearing.engine import abi
-from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.layout import P, S, W, Z
+from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.status import OK
 from fmu_bearing.prepare.model import pack
 from tests.engine.flexible import with_modes
 
@@ -17,11 +19,11 @@ def quiet(scene):
 
 def wavy_balls(p, amplitudes, seed=5):
     """Parameters with ball waviness: amplitudes (m) of orders 1, 2, ... and random axes."""
-    axes = np.random.default_rng(seed).normal(size=(3, at.STRIDE))
+    axes = np.random.default_rng(seed).normal(size=(3, STRIDE))
     axes /= np.linalg.norm(axes, axis=0)
-    axes[:, int(p[at.P_BALLS]) :] = axes[:, :1]
+    axes[:, int(p[P.BALLS]) :] = axes[:, :1]
     longer = np.concatenate([p, amplitudes, axes.ravel()])
-    longer[at.P_BALL_WAVES], longer[at.P_AT_BALL_WAVES] = len(amplitudes), p.size
+    longer[P.BALL_WAVES], longer[P.AT_BALL_WAVES] = len(amplitudes), p.size
     return longer
 
 
@@ -40,7 +42,7 @@ class Run:
         if modes is not None:
             self.p = with_modes(self.p, modes)
         for name, value in parameters.items():
-            self.p[getattr(at, name)] = value
+            self.p[getattr(P, name)] = value
         self.p.setflags(write=False)
         mounting = scene.mounting
         self.u = np.array(
@@ -55,13 +57,13 @@ class Run:
                 293.15,
             ]
         )
-        self.s = np.zeros(at.state_size(self.p))
-        self.w = np.zeros(at.work_size(self.p))
-        self.z = np.zeros(at.z_size(int(self.p[at.P_BALLS]), 0, 0, int(self.p[at.P_MODES])))
+        self.s = np.zeros(S.size(self.p))
+        self.w = np.zeros(W.size(self.p))
+        self.z = np.zeros(Z.size(int(self.p[P.BALLS]), 0, 0, int(self.p[P.MODES])))
 
     def init(self):
         status = abi.init(self.p, self.u, self.s, self.z, self.w, 0.0)
-        assert status == at.OK
+        assert status == OK
         return self
 
     def step(self, h):
@@ -71,21 +73,21 @@ class Run:
         """Step for ``duration`` (s); rows of z after each step."""
         rows = []
         for _ in range(round(duration / h)):
-            assert self.step(h) == at.OK
+            assert self.step(h) == OK
             rows.append(self.z.copy())
         return np.array(rows)
 
     def value(self, name, rows=None):
         """An output by name, from rows of z or the last one."""
-        k = at.BEARING_OUTPUTS.index(name)
+        k = Z.BEARING_OUTPUTS.index(name)
         return self.z[k] if rows is None else rows[:, k]
 
     @property
     def heat(self):
         """Dissipated so far (J)."""
-        return self.s[at.S_HEAT_INNER : at.S_HEAT_INNER + 3].sum()
+        return self.s[S.HEAT : S.HEAT + 3].sum()
 
     @property
     def imbalance(self):
         """Work in less dissipation less change of stored energy (J)."""
-        return self.s[at.S_WORK] - self.heat - (self.s[at.S_ENERGY_NOW] - self.s[at.S_ENERGY_START])
+        return self.s[S.WORK] - self.heat - (self.s[S.ENERGY_NOW] - self.s[S.ENERGY_START])

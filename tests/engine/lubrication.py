@@ -4,7 +4,8 @@ import math
 
 import numpy as np
 
-from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.choices import TRACTION_LAWS
+from fmu_bearing.engine.layout import P
 from fmu_bearing.prepare.hertz import effective_modulus, point_contact
 from fmu_bearing.scene import si
 
@@ -12,9 +13,9 @@ from fmu_bearing.scene import si
 def film_places(scene, p, law):
     """Set traction law, its constants and the races' widths and central films in ``p``."""
     b, oil = si(scene.bearing), si(scene.lubricant)
-    p[at.P_TRACTION_LAW] = at.TRACTION_LAWS.index(law)
-    p[at.P_EYRING_STRESS] = 5e6
-    p[at.P_PRESSURE_VISCOSITY] = oil.pressure_viscosity
+    p[P.TRACTION_LAW] = TRACTION_LAWS.index(law)
+    p[P.EYRING_STRESS] = 5e6
+    p[P.PRESSURE_VISCOSITY] = oil.pressure_viscosity
     gamma = b.ball_diameter * math.cos(b.contact_angle) / b.pitch_diameter
     sides = (
         (scene.materials.inner_ring, b.inner_conformity, gamma / (1.0 - gamma)),
@@ -28,9 +29,9 @@ def film_places(scene, p, law):
         rx = b.ball_diameter / 2.0 / (1.0 + curvature)
         ry = 1.0 / (2.0 / b.ball_diameter - 1.0 / (conformity * b.ball_diameter))
         hertz = point_contact(rx, ry, modulus)
-        block = p[at.P_RACES + race * at.RACE_SIZE :][: at.RACE_SIZE]
-        block[at.RACE_HALF_WIDTH] = hertz.half_width
-        block[at.RACE_CENTRAL_FILM] = central_film(rx, modulus, oil.pressure_viscosity, hertz.ellipticity)
+        block = p[P.RACES + race * P.RACE_SIZE :][: P.RACE_SIZE]
+        block[P.RACE_HALF_WIDTH] = hertz.half_width
+        block[P.RACE_CENTRAL_FILM] = central_film(rx, modulus, oil.pressure_viscosity, hertz.ellipticity)
     return p
 
 

@@ -6,11 +6,10 @@ from numpy.polynomial import legendre
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.layout import P, W, Y, Z
+from fmu_bearing.engine.layout.sizes import STRIDE
 from fmu_bearing.engine.mechanics.ball_waves import advance_axes, turn_axes, turn_vector, zonal
 from tests.engine.helpers import RPM, Run, quiet
-
-S = at.STRIDE
 
 
 @pytest.mark.parametrize("orders", range(1, 9))
@@ -39,27 +38,27 @@ def test_vectors_turn_like_rotations(turn):
 def rolling(seed, rate):
     """Parameters, axes, and two states whose spins differ by ``rate`` (relative)."""
     rng = np.random.default_rng(seed)
-    p = np.zeros(at.P_TABLES)
-    p[at.P_BALL_WAVES], p[at.P_BALLS], p[at.P_LANES] = 2.0, 11.0, 12.0
-    axes = rng.normal(size=(3, S))
+    p = np.zeros(P.TABLES)
+    p[P.BALL_WAVES], p[P.BALLS], p[P.LANES] = 2.0, 11.0, 12.0
+    axes = rng.normal(size=(3, STRIDE))
     axes /= np.linalg.norm(axes, axis=0)
-    y0 = np.zeros(at.Y_SIZE)
-    rows = y0[: 9 * S].reshape(9, S)
-    rows[at.B_OM], rows[6:] = 900.0, 6000.0 * rng.normal(size=(3, S))
+    y0 = np.zeros(Y.SIZE)
+    rows = y0[: 9 * STRIDE].reshape(9, STRIDE)
+    rows[Y.OM // STRIDE], rows[6:] = 900.0, 6000.0 * rng.normal(size=(3, STRIDE))
     y1 = y0.copy()
-    y1[: 9 * S].reshape(9, S)[5:] *= 1.0 + rate * rng.normal(size=(4, S))
+    y1[: 9 * STRIDE].reshape(9, STRIDE)[5:] *= 1.0 + rate * rng.normal(size=(4, STRIDE))
     return p, axes, y0, y1
 
 
 def test_axes_of_a_stage_are_exact_at_constant_spin():
     p, axes, y0, _ = rolling(1, 0.0)
-    w, t = np.zeros(at.W_ROWS * S), 7e-6
+    w, t = np.zeros(W.ROWS), 7e-6
     turn_axes(p, axes.ravel(), y0, 12, t, w)
-    rows = y0[: 9 * S].reshape(9, S)
+    rows = y0[: 9 * STRIDE].reshape(9, STRIDE)
     for j in range(12):
         # inertial rotation first, then the orbiting axes turn away underneath
         inertial = Rotation.from_rotvec(t * (rows[6:, j] - [rows[5, j], 0.0, 0.0])).apply(axes[:, j])
-        np.testing.assert_allclose(w[at.W_AXES * S :][: 3 * S].reshape(3, S)[:, j], inertial, atol=1e-14)
+        np.testing.assert_allclose(w[W.AXES :][: 3 * STRIDE].reshape(3, STRIDE)[:, j], inertial, atol=1e-14)
 
 
 def test_accepted_axes_are_second_order():
@@ -67,7 +66,7 @@ def test_accepted_axes_are_second_order():
     errors = []
     for h in (2e-5, 1e-5):
         p, axes, y0, y1 = rolling(2, 0.02)
-        start, end = ((y[: 9 * S].reshape(9, S)) for y in (y0, y1))
+        start, end = ((y[: 9 * STRIDE].reshape(9, STRIDE)) for y in (y0, y1))
         end[5:] = start[5:] + (end[5:] - start[5:]) * h / 2e-5
         moved = axes.ravel().copy()
         advance_axes(p, moved, y0, y1, 12, h)
@@ -79,7 +78,7 @@ def test_accepted_axes_are_second_order():
                 return np.cross(spin[6:] - [spin[5], 0.0, 0.0], a)
 
             exact = solve_ivp(turning, (0.0, h), axes[:, j], rtol=1e-12, atol=1e-14).y[:, -1]
-            worst = max(worst, np.abs(moved.reshape(3, S)[:, j] - exact).max())
+            worst = max(worst, np.abs(moved.reshape(3, STRIDE)[:, j] - exact).max())
         errors.append(worst)
     assert errors[0] < 1e-4  # spin changed by some per cent while turning 0.2 rad
     assert errors[0] / errors[1] > 7.0  # local error of third order
@@ -87,8 +86,8 @@ def test_accepted_axes_are_second_order():
 
 def test_without_waviness_nothing_turns():
     p, axes, y0, y1 = rolling(3, 0.1)
-    p[at.P_BALL_WAVES] = 0.0
-    moved, w = axes.ravel().copy(), np.zeros(at.W_ROWS * S)
+    p[P.BALL_WAVES] = 0.0
+    moved, w = axes.ravel().copy(), np.zeros(W.ROWS)
     advance_axes(p, moved, y0, y1, 12, 1e-5)
     turn_axes(p, moved, y0, 12, 1e-5, w)
     assert (moved == axes.ravel()).all()
@@ -97,7 +96,7 @@ def test_without_waviness_nothing_turns():
 
 def lines(rows, name, h, frequency):
     """Amplitude (m/s) of an output near a frequency (Hz): the highest of three bins, Hann window."""
-    signal = rows[:, at.BEARING_OUTPUTS.index(name)]
+    signal = rows[:, Z.BEARING_OUTPUTS.index(name)]
     window = np.hanning(signal.size)
     spectrum = np.abs(np.fft.rfft((signal - signal.mean()) * window)) * 2.0 / window.sum()
     k = round(frequency * signal.size * h)
@@ -118,8 +117,8 @@ def test_wavy_balls_sound_at_twice_their_spin(scene):
     for run in (loud, still):
         run.init().run(0.02, 2e-4)
         spectra.append(run.run(0.05, h))
-    balls = loud.s[: 9 * S].reshape(9, S)[:, : int(loud.p[at.P_BALLS])]
-    orbit = balls[at.B_OM].mean() / (2 * np.pi)
+    balls = loud.s[: 9 * STRIDE].reshape(9, STRIDE)[:, : int(loud.p[P.BALLS])]
+    orbit = balls[Y.OM // STRIDE].mean() / (2 * np.pi)
     spin = np.sqrt((balls[6] - balls[5]) ** 2 + balls[7] ** 2 + balls[8] ** 2).mean() / (2 * np.pi)
     found = {}
     for name, tones in (("x", [2 * spin]), ("y", [2 * spin - orbit, 2 * spin + orbit])):

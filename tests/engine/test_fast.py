@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.choices import METHODS
 from fmu_bearing.engine.fidelities.full.fast import newmark
+from fmu_bearing.engine.layout import A, C, F, J, Q, S, U, W, Y
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.newton.block_arrow import factor
 from fmu_bearing.engine.newton.jacobian import jacobian
@@ -12,9 +13,9 @@ from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import prepare
 from tests.engine.helpers import Run, quiet
 
-RATES = [*range(at.Y_V, at.Y_V + 3), *range(at.Y_V + at.Q_OUTER, at.Y_V + at.Q_OUTER + 3)]
-FAST = at.METHODS.index("fast")
-TIGHT = {"P_TOLERANCE": 1e-5, "P_MAX_STEP": 4e-6}
+RATES = [*range(Y.V0, Y.V0 + 3), *range(Y.V0 + Q.OUTER, Y.V0 + Q.OUTER + 3)]
+FAST = METHODS.index("fast")
+TIGHT = {"TOLERANCE": 1e-5, "MAX_STEP": 4e-6}
 
 
 def smooth(scene):
@@ -38,25 +39,25 @@ class Motion:
 
     def __init__(self, run):
         self.run = run
-        self.c = run.s[at.S_C : at.S_C + at.C_SIZE].copy()
-        self.angle, self.speed = run.s[at.S_ANGLE], run.s[at.S_SPEED]
+        self.c = run.s[S.C : S.C + C.SIZE].copy()
+        self.angle, self.speed = run.s[S.ANGLE], run.s[S.SPEED]
 
     def f(self, t, y):
-        out = np.zeros(at.F_SIZE)
+        out = np.zeros(F.SIZE)
         right_hand_side(self.run.p, self.c, y, self.angle + self.speed * t, self.speed, 0.0, self.run.w, out)
         return out
 
     def rate(self, t, y):
         f, out = self.f(t, y), np.zeros_like(y)
         out[: newmark.PLACES] = y[newmark.PLACES : 2 * newmark.PLACES]
-        out[newmark.PLACES : at.Y_Q] = f[: at.F_G]
-        out[at.Y_Q : at.Y_V] = y[at.Y_V :]
-        out[at.Y_V :] = f[at.F_G : at.F_WORK]
+        out[newmark.PLACES : Y.Q0] = f[: F.BODY]
+        out[Y.Q0 : Y.V0] = y[Y.V0 :]
+        out[Y.V0 :] = f[F.BODY : F.WORK]
         return out
 
     def exact(self, times, h=4e-8):
         """States at ``times`` (multiples of ``h``) by classical Runge-Kutta steps of 40 ns."""
-        y, found, n = self.run.s[at.S_Y : at.S_Y + at.Y_SIZE].copy(), {}, 0
+        y, found, n = self.run.s[S.Y : S.Y + Y.SIZE].copy(), {}, 0
         for time in sorted(times):
             while n < round(time / h):
                 t = n * h
@@ -76,22 +77,22 @@ def test_newmark_converges_with_its_order(scene):
     motion = Motion(run)
     begin, end, steps = 16e-6, 96e-6, (8e-6, 4e-6, 2e-6)
     exact = motion.exact({begin, end, *(begin - k * h for h in steps for k in (1, 2))})
-    jac, w = np.zeros(at.J_SIZE), np.zeros(at.work_size(run.p))
+    jac, w = np.zeros(J.SIZE), np.zeros(W.size(run.p))
     start = exact[begin]
     angle = motion.angle + motion.speed * begin
     jacobian(run.p, motion.c, start.copy(), angle, motion.speed, 0.0, w, jac)
     errors = []
     for h in steps:
-        fac = np.zeros(at.A_SIZE)
+        fac = np.zeros(A.SIZE)
         # 1/4 for the balls: at 4 us their 140 kHz are beyond the range of 1/12
         square = h * h
         assert factor(run.p, jac, 0.5 * h, newmark.BETA * square, newmark.BETA_BALL * square, fac, w)
         history = [motion.f(begin - k * h, exact[begin - k * h]) for k in (2, 1)]
         history.append(motion.f(begin, start))
-        y = np.zeros(at.Y_SIZE)
+        y = np.zeros(Y.SIZE)
         newmark.true_rates(start, -h, history[2], history[1], history[0], y)
         for n in range(round((end - begin) / h)):
-            new, a = np.zeros(at.Y_SIZE), np.zeros(at.F_SIZE)
+            new, a = np.zeros(Y.SIZE), np.zeros(F.SIZE)
             newmark.predict(y, history[-1], h, new, a)
             t = begin + (n + 1) * h
             for _ in range(6):  # iterated to the end: the order is the method's, not Newton's
@@ -101,7 +102,7 @@ def test_newmark_converges_with_its_order(scene):
                 )  # fmt: skip
             y = new
             history.append(a)
-        read = np.zeros(at.Y_SIZE)
+        read = np.zeros(Y.SIZE)
         newmark.true_rates(y, h, history[-1], history[-2], history[-3], read)
         errors.append(np.abs(read - exact[end])[RATES].max())
     orders = np.log2(np.array(errors[:-1]) / errors[1:])
@@ -111,7 +112,7 @@ def test_newmark_converges_with_its_order(scene):
 
 def drive(run, duration, **inputs):
     for place, value in inputs.items():
-        run.u[getattr(at, place)] = value
+        run.u[getattr(U, place)] = value
     return run.run(duration, 1e-4)[:, :6]
 
 
@@ -122,27 +123,27 @@ def bearing(scene, **parameters):
 def test_it_serves_a_settled_bearing(scene):
     """Most of a settled run is made of its steps, and follows the tight run as the tolerance says."""
     silent = scene("7003C-spindle").model_copy(update={"sound": None})
-    run = bearing(silent, P_METHOD=FAST)
+    run = bearing(silent, METHOD=FAST)
     rows = drive(run, 0.03)
     exact = drive(bearing(silent, **TIGHT), 0.03)
     # a step of the path is 4 to 10 us, one of ESDIRK4 20 us
-    assert run.s[at.S_STEPS] > 0.03 / 12e-6
+    assert run.s[S.STEPS] > 0.03 / 12e-6
     late = slice(150, None)
     error = np.sqrt(np.mean((rows - exact)[late] ** 2)) / exact[late].std()
     # tolerance 1e-3 of 10 mm/s, rings move by 8 mm/s; two runs drift apart in the balls' places
     assert error < 1e-2
 
 
-@pytest.mark.parametrize("inputs", [{"U_LOAD_Y": 1000.0}, {"U_PRELOAD": 50.0}])
+@pytest.mark.parametrize("inputs", [{"LOAD_Y": 1000.0}, {"PRELOAD": 50.0}])
 def test_it_retreats_when_driven_out_of_range(scene, inputs):
     """A jump of the load sets everything ringing: the path is left, counted, and the result stays right."""
     silent = scene("7003C-spindle").model_copy(update={"sound": None})
-    run = bearing(silent, P_METHOD=FAST)
+    run = bearing(silent, METHOD=FAST)
     drive(run, 0.02)
-    before = run.s[at.S_FALLBACKS]
+    before = run.s[S.FALLBACKS]
     rows = drive(run, 5e-3, **inputs)
-    assert run.s[at.S_FALLBACKS] > before
-    assert run.value("solver.fallbacks") == run.s[at.S_FALLBACKS]
+    assert run.s[S.FALLBACKS] > before
+    assert run.value("solver.fallbacks") == run.s[S.FALLBACKS]
     assert np.isfinite(rows).all()
     reference = bearing(silent, **TIGHT)
     drive(reference, 0.02)
@@ -152,11 +153,11 @@ def test_it_retreats_when_driven_out_of_range(scene, inputs):
 
 
 def test_it_waits_until_the_start_has_died_away(scene):
-    run = bearing(quiet(scene("7003C-bare")), P_METHOD=FAST)
+    run = bearing(quiet(scene("7003C-bare")), METHOD=FAST)
     run.run(3e-3, 1e-3)
     # ESDIRK4's steps of up to 20 us, not the path's of 10 and less
-    assert run.s[at.S_STEPS] < 3e-3 / 12e-6
-    assert run.s[at.S_FALLBACKS] == 0.0
+    assert run.s[S.STEPS] < 3e-3 / 12e-6
+    assert run.s[S.FALLBACKS] == 0.0
 
 
 def test_the_balls_sound_as_they_do_by_the_default_method(scene):

@@ -6,8 +6,10 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import root
 
 from fmu_bearing.engine import abi
-from fmu_bearing.engine import layout as at
-from fmu_bearing.engine import layout_condensed as k
+from fmu_bearing.engine.constants import GRAVITY
+from fmu_bearing.engine.layout import C, L, P, S, U, Y, Z
+from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.status import NO_START, NOT_CONVERGED, OK
 from tests.engine.helpers import RPM, Run, quiet
 
 LEVELS = {"rings": 1.0, "response": 2.0}
@@ -20,7 +22,7 @@ def silent(scene):
 
 def block(run):
     """What the levels keep in the state."""
-    return run.s[at.S_LEVEL : at.S_LEVEL + at.L_SIZE]
+    return run.s[S.CONDENSED : S.CONDENSED + L.SIZE]
 
 
 def vibration(rows):
@@ -47,7 +49,7 @@ def vibration(rows):
 def test_vibration_is_that_of_level_full(scene, name, rpm, rings, response):
     figures = []
     for level in (0.0, 1.0, 2.0):
-        run = Run(silent(scene(name)), rpm, P_LEVEL=level).init()
+        run = Run(silent(scene(name)), rpm, FIDELITY=level).init()
         run.run(0.03)
         figures.append(vibration(run.run(0.08, 2e-5)))
     full = np.array(figures[0])
@@ -60,7 +62,7 @@ def test_a_perfect_bearing_is_silent_at_the_quasi_static_point(scene, level):
     from tests.engine.test_quasistatic import solve
 
     perfect = quiet(scene("7003C-bare"))
-    run = Run(perfect, 20000, P_LEVEL=LEVELS[level], P_GRAVITY=0.0).init()
+    run = Run(perfect, 20000, FIDELITY=LEVELS[level], GRAVITY=0.0).init()
     rows = run.run(0.005)
     assert np.abs(rows[-20:, :6]).max() < 1e-9
     theory = solve(perfect, 20000, perfect.mounting.preload_N)
@@ -77,13 +79,13 @@ def test_turned_backwards_it_is_the_mirror_image(scene, level):
     """Without gravity and waves (whose phases do not mirror), -n gives y and z velocities turned round."""
     scenes = silent(scene("7003C-bare"))
     ahead, back = (
-        Run(scenes, rpm, P_LEVEL=LEVELS[level], P_GRAVITY=0.0, P_WAVINESS=0.0) for rpm in (20000, -20000)
+        Run(scenes, rpm, FIDELITY=LEVELS[level], GRAVITY=0.0, WAVINESS=0.0) for rpm in (20000, -20000)
     )
     for run in (ahead, back):
         # unbalance alone: equal balls
-        first = int(run.p[at.P_AT_OVERSIZE])
+        first = int(run.p[P.AT_OVERSIZE])
         run.p.setflags(write=True)
-        run.p[first : first + at.STRIDE] = 0.0
+        run.p[first : first + STRIDE] = 0.0
         run.p.setflags(write=False)
         run.init()
     a, b = ahead.run(2e-3), back.run(2e-3)
@@ -106,23 +108,23 @@ def test_turned_backwards_it_is_the_mirror_image(scene, level):
     ],
 )
 def test_extremes_stay_finite(scene, level, rpm, preload, load):
-    run = Run(silent(scene("7003C-bare")), rpm, preload=preload, P_LEVEL=LEVELS[level])
-    run.u[at.U_LOAD_Z] = load
+    run = Run(silent(scene("7003C-bare")), rpm, preload=preload, FIDELITY=LEVELS[level])
+    run.u[U.LOAD_Z] = load
     run.init()
     for h in (1e-6, 1e-5, 1e-3, 3e-3):
-        assert run.step(h) == at.OK
+        assert run.step(h) == OK
         assert np.isfinite(run.z).all()
         assert np.abs(run.z[:6]).max() < 1.0
 
 
 @pytest.mark.parametrize("level", LEVELS)
 def test_inputs_may_change(scene, level):
-    run = Run(silent(scene("7003C-spindle")), 10000, P_LEVEL=LEVELS[level]).init()
+    run = Run(silent(scene("7003C-spindle")), 10000, FIDELITY=LEVELS[level]).init()
     run.run(1e-3)
-    run.u[at.U_SPEED] = 20000 * RPM
-    run.u[at.U_PRELOAD] = 300.0
+    run.u[U.SPEED] = 20000 * RPM
+    run.u[U.PRELOAD] = 300.0
     run.run(1e-3)
-    settled = Run(silent(scene("7003C-spindle")), 20000, preload=300.0, P_LEVEL=LEVELS[level]).init()
+    settled = Run(silent(scene("7003C-spindle")), 20000, preload=300.0, FIDELITY=LEVELS[level]).init()
     for name in ("friction_torque", "cage.speed_ratio"):
         assert run.value(name) == pytest.approx(settled.value(name), rel=2e-3)
 
@@ -131,7 +133,7 @@ def test_steps_do_not_matter_to_response(scene):
     """Phases are exact: any division into steps gives the same velocities."""
     rows = []
     for count in (1, 50):
-        run = Run(silent(scene("7003C-bare")), 20000, P_LEVEL=2.0).init()
+        run = Run(silent(scene("7003C-bare")), 20000, FIDELITY=2.0).init()
         rows.append(run.run(5e-3, 5e-3 / count)[-1, :6])
     np.testing.assert_allclose(rows[0], rows[1], atol=1e-9 * np.abs(rows[0]).max())
 
@@ -141,25 +143,25 @@ class Slow:
 
     def __init__(self, run):
         self.p, self.lv = run.p, block(run).copy()
-        self.c = run.s[at.S_C : at.S_C + at.C_SIZE].copy()
-        self.balls = int(self.p[at.P_BALLS])
-        self.speed = run.u[at.U_SPEED]
-        self.tau = self.p[at.P_CONTACT_DAMPING]
-        self.places = [np.array([self.lv[k.L_X + j], self.lv[k.L_R + j]]) for j in range(self.balls)]
+        self.c = run.s[S.C : S.C + C.SIZE].copy()
+        self.balls = int(self.p[P.BALLS])
+        self.speed = run.u[U.SPEED]
+        self.tau = self.p[P.CONTACT_DAMPING]
+        self.places = [np.array([self.lv[L.X + j], self.lv[L.R + j]]) for j in range(self.balls)]
 
     def matrix(self, where):
         """An 11 x 11 matrix of the state block."""
-        return self.lv[where : where + k.MATRIX].reshape(k.N, 12)[:, : k.N].T
+        return self.lv[where : where + L.MATRIX].reshape(L.N, 12)[:, : L.N].T
 
     def height(self, race, angle, derivative=0):
         """Race height under an angle, or its second derivative, from the table's cubic."""
-        table = self.p[int(self.p[at.P_AT_WAVES]) :][: 4 * at.WAVE_INTERVALS].reshape(2, -1, 2)[race]
-        place = angle * at.WAVE_INTERVALS / (2 * np.pi)
+        table = self.p[int(self.p[P.AT_WAVES]) :][: 4 * P.WAVE_INTERVALS].reshape(2, -1, 2)[race]
+        place = angle * P.WAVE_INTERVALS / (2 * np.pi)
         i, t = int(np.floor(place)), place - np.floor(place)
-        (h0, g0), (h1, g1) = table[i % at.WAVE_INTERVALS], table[(i + 1) % at.WAVE_INTERVALS]
+        (h0, g0), (h1, g1) = table[i % P.WAVE_INTERVALS], table[(i + 1) % P.WAVE_INTERVALS]
         a, b = g0 + g1 - 2 * (h1 - h0), 3 * (h1 - h0) - 2 * g0 - g1
         if derivative:
-            return (2 * b + 6 * a * t) * (at.WAVE_INTERVALS / (2 * np.pi)) ** 2
+            return (2 * b + 6 * a * t) * (P.WAVE_INTERVALS / (2 * np.pi)) ** 2
         return h0 + t * (g0 + t * (b + t * a))
 
     def contact(self, race, ball, height, u, tilt):
@@ -170,13 +172,13 @@ class Slow:
         h = q - axial * axis
         rho = np.linalg.norm(h)
         h /= rho
-        o = at.C_RACES + race * at.C_RACE_SIZE
+        o = C.RACES + race * C.RACE_SIZE
         s = np.array([axial - self.c[o], rho - self.c[o + 1]])
         distance = np.linalg.norm(s)
         sine, cosine = s / distance
         approach = max(distance - self.c[o + 2] + height, 0.0)
-        hertz = self.p[at.P_RACES + race * at.RACE_SIZE + at.RACE_STIFFNESS]
-        pair = self.lv[k.L_PAIR_INNER + race] * self.speed**2
+        hertz = self.p[P.RACES + race * P.RACE_SIZE + P.RACE_STIFFNESS]
+        pair = self.lv[L.PAIR_INNER + race] * self.speed**2
         e, m = sine * axis + cosine * h, cosine * axis - sine * h
         force = hertz * approach**1.5 * e + pair * m
         return force, np.cross(q, force), e, m, 1.5 * hertz * approach**0.5, hertz * approach**1.5 / distance
@@ -184,7 +186,7 @@ class Slow:
     def both(self, place, theta, heights, ahead):
         """Contacts of a ball at ``place`` (x, r) with both rings."""
         radial = np.array([0.0, -np.sin(theta), np.cos(theta)])
-        ball = place[0] * np.array([1.0, 0.0, 0.0]) + (self.p[at.P_PITCH_RADIUS] + place[1]) * radial
+        ball = place[0] * np.array([1.0, 0.0, 0.0]) + (self.p[P.PITCH_RADIUS] + place[1]) * radial
         inner = self.contact(0, ball, heights[0], ahead[:3], ahead[3:5])
         return inner, self.contact(1, ball, heights[1], ahead[5:8], ahead[9:11])
 
@@ -192,9 +194,9 @@ class Slow:
         """Net force (x, r) on a ball, with the inertia of what the waves make it do."""
         p = self.p
         plane = np.array([[1.0, 0.0, 0.0], [0.0, -np.sin(theta), np.cos(theta)]])
-        orbit = self.lv[k.L_RATIO] * self.speed
-        net = np.array([0.0, (p[at.P_PITCH_RADIUS] + place[1]) * orbit**2 * p[at.P_BALL_MASS]])
-        net[1] -= at.GRAVITY * p[at.P_BALL_MASS] * np.cos(theta)
+        orbit = self.lv[L.RATIO] * self.speed
+        net = np.array([0.0, (p[P.PITCH_RADIUS] + place[1]) * orbit**2 * p[P.BALL_MASS]])
+        net[1] -= GRAVITY * p[P.BALL_MASS] * np.cos(theta)
         stiffness, pushed = np.zeros((2, 2)), np.zeros(2)
         for contact, bend in zip(self.both(place, theta, heights, ahead), bends, strict=True):
             force, _, e, m, kn, kt = contact
@@ -202,18 +204,18 @@ class Slow:
             net -= plane @ force
             stiffness += kn * np.outer(e, e) + kt * np.outer(m, m)
             pushed += kn * bend * e
-        return net + p[at.P_BALL_MASS] * np.linalg.solve(stiffness, pushed)
+        return net + p[P.BALL_MASS] * np.linalg.solve(stiffness, pushed)
 
     def accelerations(self, t, q, v):
         """Accelerations of the 11 coordinates at time ``t`` from the start."""
         p, speed = self.p, self.speed
-        orbit = self.lv[k.L_RATIO] * speed
+        orbit = self.lv[L.RATIO] * speed
         ahead = q + self.tau * v
-        f = np.zeros(k.N)
+        f = np.zeros(L.N)
         for j in range(self.balls):
             theta = orbit * (t + self.tau) + 2 * np.pi * j / self.balls
             across = theta - speed * (t + self.tau), theta - q[8]
-            size = 0.5 * p[int(p[at.P_AT_OVERSIZE]) + j]
+            size = 0.5 * p[int(p[P.AT_OVERSIZE]) + j]
             heights = [size + self.height(race, across[race]) for race in range(2)]
             bends = [
                 self.height(0, across[0], 2) * (orbit - speed) ** 2,
@@ -233,28 +235,28 @@ class Slow:
     def rings(self, t, f, q, v, c):
         """Everything on the rings that does not come through the balls, then the mass matrix."""
         p, speed = self.p, self.speed
-        f[0] += c[at.C_PRELOAD]
-        heavy = p[at.P_INNER_MASS] * c[at.C_ECCENTRICITY] * speed**2
+        f[0] += c[C.PRELOAD]
+        heavy = p[P.INNER_MASS] * c[C.ECCENTRICITY] * speed**2
         f[1] -= heavy * np.sin(speed * t)
-        f[2] += heavy * np.cos(speed * t) - at.GRAVITY * p[at.P_INNER_MASS]
-        f[7] -= at.GRAVITY * p[at.P_OUTER_MASS]
-        f[3] += -p[at.P_INNER_POLAR] * speed * v[4] - p[at.P_TILT_STIFFNESS] * q[3]
-        f[4] += p[at.P_INNER_POLAR] * speed * v[3] - p[at.P_TILT_STIFFNESS] * q[4]
-        f[3:5] -= p[at.P_TILT_DAMPING] * v[3:5]
-        f[8] += self.lv[k.L_TWIST]
-        stiff = np.array([c[at.C_PEDESTAL_AXIAL], c[at.C_PEDESTAL], c[at.C_PEDESTAL]])
-        damp = np.array([c[at.C_DAMPING_AXIAL], c[at.C_DAMPING], c[at.C_DAMPING]])
+        f[2] += heavy * np.cos(speed * t) - GRAVITY * p[P.INNER_MASS]
+        f[7] -= GRAVITY * p[P.OUTER_MASS]
+        f[3] += -p[P.INNER_POLAR] * speed * v[4] - p[P.TILT_STIFFNESS] * q[3]
+        f[4] += p[P.INNER_POLAR] * speed * v[3] - p[P.TILT_STIFFNESS] * q[4]
+        f[3:5] -= p[P.TILT_DAMPING] * v[3:5]
+        f[8] += self.lv[L.TWIST]
+        stiff = np.array([c[C.PEDESTAL_AXIAL], c[C.PEDESTAL], c[C.PEDESTAL]])
+        damp = np.array([c[C.DAMPING_AXIAL], c[C.DAMPING], c[C.DAMPING]])
         f[5:8] -= stiff * q[5:8] + damp * v[5:8]
-        f[8] -= c[at.C_PEDESTAL_ROTATIONAL] * q[8] + c[at.C_DAMPING_SPIN] * v[8]
-        f[9:] -= c[at.C_PEDESTAL_ROTATIONAL] * q[9:] + c[at.C_DAMPING_ROTATIONAL] * v[9:]
+        f[8] -= c[C.PEDESTAL_ROTATIONAL] * q[8] + c[C.DAMPING_SPIN] * v[8]
+        f[9:] -= c[C.PEDESTAL_ROTATIONAL] * q[9:] + c[C.DAMPING_ROTATIONAL] * v[9:]
         own = p[
-            [at.P_INNER_MASS] * 3
-            + [at.P_INNER_TRANSVERSE] * 2
-            + [at.P_OUTER_MASS] * 3
-            + [at.P_OUTER_POLAR]
-            + [at.P_OUTER_TRANSVERSE] * 2
+            [P.INNER_MASS] * 3
+            + [P.INNER_TRANSVERSE] * 2
+            + [P.OUTER_MASS] * 3
+            + [P.OUTER_POLAR]
+            + [P.OUTER_TRANSVERSE] * 2
         ]
-        return np.linalg.solve(self.matrix(k.L_MASS), f / own + self.matrix(k.L_EXTRA) @ v)
+        return np.linalg.solve(self.matrix(L.MASS), f / own + self.matrix(L.EXTRA) @ v)
 
 
 @pytest.mark.heavy
@@ -263,22 +265,22 @@ def test_rings_against_scipy(scene):
 
     Steps of 2.5 us: at 20 us the first velocities after a start carry Newmark's h^2/12 term, 5e-3 here.
     """
-    run = Run(silent(scene("7003C-spindle")), 20000, P_LEVEL=1.0, P_MAX_STEP=2.5e-6).init()
+    run = Run(silent(scene("7003C-spindle")), 20000, FIDELITY=1.0, MAX_STEP=2.5e-6).init()
     slow = Slow(run)
     lv = block(run)
-    start = np.concatenate([lv[k.L_Q : k.L_Q + k.N], lv[k.L_V : k.L_V + k.N]])
+    start = np.concatenate([lv[L.Q0 : L.Q0 + L.N], lv[L.V0 : L.V0 + L.N]])
 
     def rate(t, y):
-        return np.concatenate([y[k.N :], slow.accelerations(t, y[: k.N], y[k.N :])])
+        return np.concatenate([y[L.N :], slow.accelerations(t, y[: L.N], y[L.N :])])
 
     # accelerations agree to the first-order treatment of the balls, so the solution may differ no more
-    np.testing.assert_allclose(rate(0.0, start)[k.N :], lv[k.L_A : k.L_A + k.N], atol=2e-2, rtol=1e-2)
+    np.testing.assert_allclose(rate(0.0, start)[L.N :], lv[L.A0 : L.A0 + L.N], atol=2e-2, rtol=1e-2)
     exact = solve_ivp(rate, (0.0, 4e-4), start, method="DOP853", rtol=1e-7, atol=1e-9).y[:, -1]
     run.run(4e-4, 2e-5)
     rings = [0, 1, 2, 5, 6, 7]
-    velocities = run.s[at.S_Y + at.Y_V :][rings]
-    moved = np.abs(exact[k.N :][rings]).max()
-    np.testing.assert_allclose(velocities, exact[k.N :][rings], atol=1e-3 * moved)
+    velocities = run.s[S.Y + Y.V0 :][rings]
+    moved = np.abs(exact[L.N :][rings]).max()
+    np.testing.assert_allclose(velocities, exact[L.N :][rings], atol=1e-3 * moved)
 
 
 def test_rings_converge_with_the_step(scene):
@@ -286,7 +288,7 @@ def test_rings_converge_with_the_step(scene):
     ends = []
     for tolerance, longest in ((1e-2, 2e-5), (1e-4, 2e-5), (1e-6, 2.5e-6)):
         run = Run(
-            silent(scene("7009C-full-ceramic")), 18000, P_LEVEL=1.0, P_TOLERANCE=tolerance, P_MAX_STEP=longest
+            silent(scene("7009C-full-ceramic")), 18000, FIDELITY=1.0, TOLERANCE=tolerance, MAX_STEP=longest
         ).init()
         run.run(0.04)
         ends.append(run.run(0.005)[:, :6])
@@ -304,7 +306,7 @@ def test_rings_error_of_the_default_step(scene, name, rpm):
     """
     rows = []
     for step, tolerance in ((2e-5, 1e-3), (2.5e-6, 1e-6)):
-        run = Run(silent(scene(name)), rpm, P_LEVEL=1.0, P_MAX_STEP=step, P_TOLERANCE=tolerance).init()
+        run = Run(silent(scene(name)), rpm, FIDELITY=1.0, MAX_STEP=step, TOLERANCE=tolerance).init()
         run.run(0.04)
         rows.append(run.run(0.01)[:, :6])
     error = np.sqrt(((rows[0] - rows[1]) ** 2).mean()) / np.sqrt((rows[1] ** 2).mean())
@@ -313,20 +315,20 @@ def test_rings_error_of_the_default_step(scene, name, rpm):
 
 def test_response_against_a_dense_solve(scene):
     """The unbalance line against NumPy's complex solve with the matrices of the engine."""
-    run = Run(silent(scene("7003C-spindle")), 20000, P_LEVEL=2.0).init()
+    run = Run(silent(scene("7003C-spindle")), 20000, FIDELITY=2.0).init()
     lv = block(run)
     mass, stiff, damp = (
-        lv[at0 : at0 + k.MATRIX].reshape(k.N, 12)[:, : k.N].T for at0 in (k.L_MASS, k.L_JX, k.L_JV)
+        lv[at0 : at0 + L.MATRIX].reshape(L.N, 12)[:, : L.N].T for at0 in (L.MASS, L.JX, L.JV)
     )
-    extra = lv[k.L_EXTRA : k.L_EXTRA + k.MATRIX].reshape(k.N, 12)[:, : k.N].T
+    extra = lv[L.EXTRA : L.EXTRA + L.MATRIX].reshape(L.N, 12)[:, : L.N].T
     speed = 20000 * RPM
-    force = np.zeros(k.N, complex)
-    push = run.s[at.S_C + at.C_ECCENTRICITY] * speed**2
+    force = np.zeros(L.N, complex)
+    push = run.s[S.C + C.ECCENTRICITY] * speed**2
     force[1], force[2] = 1j * push, push
     answer = np.linalg.solve(-(speed**2) * mass - stiff - 1j * speed * (damp + extra), force)
-    lines = lv[k.L_LINES :][: int(lv[k.L_COUNT]) * k.LINE_SIZE].reshape(-1, k.LINE_SIZE)
+    lines = lv[L.LINES :][: int(lv[L.COUNT]) * L.LINE_SIZE].reshape(-1, L.LINE_SIZE)
     (line,) = (row for row in lines if row[0] == 0.0 and row[1] == 1.0)
-    kept = [i for i in range(k.N) if i != 8]
+    kept = [i for i in range(L.N) if i != 8]
     np.testing.assert_allclose(line[2:12] + 1j * line[12:22], answer[kept], atol=1e-9 * np.abs(answer).max())
 
 
@@ -334,8 +336,8 @@ def test_response_follows_rings_under_radial_load(scene):
     """300 N radial: unequal balls, varying compliance and cross terms; the same class as without."""
     figures = []
     for level in (1.0, 2.0):
-        run = Run(silent(scene("7003C-spindle")), 12000, P_LEVEL=level)
-        run.u[at.U_LOAD_Z] = -300.0
+        run = Run(silent(scene("7003C-spindle")), 12000, FIDELITY=level)
+        run.u[U.LOAD_Z] = -300.0
         run.init()
         run.run(0.03)
         figures.append(vibration(run.run(0.05, 5e-5)))
@@ -346,7 +348,7 @@ def test_response_follows_rings_under_radial_load(scene):
 @pytest.mark.parametrize("rpm", [20_000, -9_000, 5])
 def test_heats_are_torque_times_speed(scene, level, rpm):
     """By definition of these levels; also the torques by source add up to it."""
-    run = Run(silent(scene("7003C-bare")), rpm, P_LEVEL=LEVELS[level]).init()
+    run = Run(silent(scene("7003C-bare")), rpm, FIDELITY=LEVELS[level]).init()
     run.run(1e-3)
     friction = run.value("friction_torque")
     heats = sum(run.value(f"heat.{part}") for part in ("inner_ring", "outer_ring", "oil"))
@@ -359,30 +361,30 @@ def test_heats_are_torque_times_speed(scene, level, rpm):
 @pytest.mark.parametrize(("name", "rpm"), [("7003C-bare", 20_000), ("7009C-full-ceramic", 18_000)])
 def test_response_after_a_step_of_the_load_is_that_of_a_start_under_it(scene, name, rpm):
     """3 kN radial: balls turn by a third of a round meanwhile and must be found again, however far."""
-    settled = Run(silent(scene(name)), rpm, P_LEVEL=2.0)
-    settled.u[at.U_LOAD_Z] = -3000.0
+    settled = Run(silent(scene(name)), rpm, FIDELITY=2.0)
+    settled.u[U.LOAD_Z] = -3000.0
     settled.init()
     most = settled.run(2e-3, 2e-5)
-    run = Run(silent(scene(name)), rpm, P_LEVEL=2.0).init()
+    run = Run(silent(scene(name)), rpm, FIDELITY=2.0).init()
     run.run(1e-3)
-    run.u[at.U_LOAD_Z] = -3000.0
+    run.u[U.LOAD_Z] = -3000.0
     for h in (1e-4, 1e-4, 1e-3, 1e-3):
-        assert run.step(h) == at.OK
+        assert run.step(h) == OK
         for side in ("inner", "outer"):
             loads = settled.value(f"contact.{side}.load_max", most)
             assert 0.9 * loads.min() <= run.value(f"contact.{side}.load_max") <= 1.1 * loads.max()
     np.testing.assert_allclose(
-        block(run)[k.L_MEAN :][: k.N], block(settled)[k.L_MEAN :][: k.N], atol=1e-9, rtol=1e-6
+        block(run)[L.MEAN :][: L.N], block(settled)[L.MEAN :][: L.N], atol=1e-9, rtol=1e-6
     )
 
 
 def test_response_follows_a_ramp_from_standstill(scene):
     """After 0 to 100,000 r/min within one step, amplitudes are those of a start at that speed."""
     scenes = silent(scene("7003C-spindle"))
-    run = Run(scenes, 0, P_LEVEL=2.0).init()
-    run.u[at.U_SPEED] = 100_000 * RPM
-    assert run.step(1e-3) == at.OK
-    fresh = Run(scenes, 100_000, P_LEVEL=2.0).init()
+    run = Run(scenes, 0, FIDELITY=2.0).init()
+    run.u[U.SPEED] = 100_000 * RPM
+    assert run.step(1e-3) == OK
+    fresh = Run(scenes, 100_000, FIDELITY=2.0).init()
     moving, settled = (vibration(r.run(2e-3, 2e-5)) for r in (run, fresh))
     assert min(settled) > 0.0
     # 2 ms are no whole number of turns of the cage
@@ -391,38 +393,38 @@ def test_response_follows_a_ramp_from_standstill(scene):
 
 def test_response_follows_a_steady_ramp(scene):
     """A ramp whose rate does not change leaves the speed that the lines were made for all the same."""
-    run = Run(silent(scene("7003C-spindle")), 10_000, P_LEVEL=2.0).init()
+    run = Run(silent(scene("7003C-spindle")), 10_000, FIDELITY=2.0).init()
     for i in range(1, 11):
-        run.u[at.U_SPEED] = (10_000 + 500 * i) * RPM
-        assert run.step(1e-3) == at.OK
-        assert block(run)[k.L_FOUND_SPEED] == pytest.approx(run.u[at.U_SPEED], rel=0.011)
+        run.u[U.SPEED] = (10_000 + 500 * i) * RPM
+        assert run.step(1e-3) == OK
+        assert block(run)[L.FOUND_SPEED] == pytest.approx(run.u[U.SPEED], rel=0.011)
 
 
 @pytest.mark.parametrize("level", LEVELS)
 def test_balls_that_carry_nothing_have_no_false_rates(scene, level):
     """Standstill without preload: no ball is faster than what the rings and gravity do in 4 ms, 0.04 m/s."""
-    run = Run(silent(scene("7003C-bare")), 0, preload=0.0, P_LEVEL=LEVELS[level]).init()
+    run = Run(silent(scene("7003C-bare")), 0, preload=0.0, FIDELITY=LEVELS[level]).init()
     for h in (1e-6, 1e-5, 1e-3, 3e-3):
-        assert run.step(h) == at.OK
-        balls = run.z[at.Z_BALLS : at.Z_BALLS + 3 * int(run.p[at.P_BALLS])]
+        assert run.step(h) == OK
+        balls = run.z[Z.BALLS : Z.BALLS + 3 * int(run.p[P.BALLS])]
         assert np.abs(balls).max() < (0.05 if level == "rings" else 1e-12)
 
 
 @pytest.mark.parametrize("level", LEVELS)
 def test_balls_move_in_their_races(scene, level):
     """Loaded balls do have rates across the track: those of level full at the same place within a third."""
-    run = Run(silent(scene("7003C-spindle")), 12_000, P_LEVEL=LEVELS[level])
-    run.u[at.U_LOAD_Z] = -300.0
+    run = Run(silent(scene("7003C-spindle")), 12_000, FIDELITY=LEVELS[level])
+    run.u[U.LOAD_Z] = -300.0
     run.init()
     full = Run(silent(scene("7003C-spindle")), 12_000)
-    full.u[at.U_LOAD_Z] = -300.0
+    full.u[U.LOAD_Z] = -300.0
     full.init()
     sizes = []
-    places = [at.B_VX * at.STRIDE, at.B_VR * at.STRIDE]
+    places = [Y.VX, Y.VR]
     for each in (run, full):
         rates = []
         for _ in range(100):
-            assert each.step(1e-4) == at.OK
+            assert each.step(1e-4) == OK
             rates.append(each.s[places])
         sizes.append(np.sqrt((np.array(rates) ** 2).mean(0)))
     np.testing.assert_allclose(sizes[0], sizes[1], rtol=0.33)
@@ -431,17 +433,17 @@ def test_balls_move_in_their_races(scene, level):
 @pytest.mark.parametrize("level", LEVELS)
 def test_a_start_fails_with_its_own_status_and_a_step_with_its_own(scene, level):
     """1 N of preload may have no rest on waves: then NO_START; from there on steps end in time."""
-    run = Run(silent(scene("7003C-bare")), 20_000, preload=1.0, P_LEVEL=LEVELS[level])
+    run = Run(silent(scene("7003C-bare")), 20_000, preload=1.0, FIDELITY=LEVELS[level])
     status = abi.init(run.p, run.u, run.s, run.z, run.w, 0.0)
-    assert status in (at.OK, at.NO_START)
-    if status == at.OK:
-        assert run.step(1e-4) in (at.OK, at.NOT_CONVERGED)
+    assert status in (OK, NO_START)
+    if status == OK:
+        assert run.step(1e-4) in (OK, NOT_CONVERGED)
 
 
 def test_late_times_and_odd_steps_end(scene):
     """Steps of a few rounding errors of the time are taken, not divided by zero."""
-    run = Run(silent(scene("7003C-bare")), 20_000, P_LEVEL=1.0).init()
-    run.s[at.S_TIME] = 1e5
+    run = Run(silent(scene("7003C-bare")), 20_000, FIDELITY=1.0).init()
+    run.s[S.TIME] = 1e5
     for h in (1e-3, 1e-10, 1e-3):
-        assert run.step(h) == at.OK
+        assert run.step(h) == OK
         assert np.isfinite(run.z).all()

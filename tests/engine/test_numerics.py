@@ -5,9 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from fmu_bearing.engine import layout as at
 from fmu_bearing.engine.fidelities.full.methods import tableaux
 from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.layout import A, C, F, J, P, R, W, X
+from fmu_bearing.engine.layout.sizes import STRIDE
 from fmu_bearing.engine.mechanics.cage import film_force
 from fmu_bearing.engine.mechanics.powers import exp2, log2
 from fmu_bearing.engine.mechanics.race import waves
@@ -16,18 +17,16 @@ from fmu_bearing.engine.newton import block_arrow
 from fmu_bearing.prepare.imperfections import wave_table
 from tests.oracles import journal
 
-S = at.STRIDE
-
 
 def test_sine_and_cosine_are_right_to_rounding():
     rng = np.random.default_rng(0)
     worst = 0.0
-    w = np.zeros(4 * S)
+    w = np.zeros(4 * STRIDE)
     for _ in range(500):
-        angles = rng.uniform(-4 * np.pi, 4 * np.pi, S)
-        ball_angles(angles, 0, S, w)
-        worst = max(worst, np.abs(w[at.W_COS * S :][:S] - np.cos(angles)).max())
-        worst = max(worst, np.abs(w[at.W_SIN * S :][:S] - np.sin(angles)).max())
+        angles = rng.uniform(-4 * np.pi, 4 * np.pi, STRIDE)
+        ball_angles(angles, 0, STRIDE, w)
+        worst = max(worst, np.abs(w[W.COS :][:STRIDE] - np.cos(angles)).max())
+        worst = max(worst, np.abs(w[W.SIN :][:STRIDE] - np.sin(angles)).max())
     # two units in the last place of 1, plus the split of pi over two turns
     assert worst < 5e-16
 
@@ -44,23 +43,23 @@ def test_wave_table_interpolates_harmonics():
     orders = np.arange(2, 21)
     amplitudes = np.full(orders.size, 1e-7)
     phases = np.random.default_rng(1).uniform(0, 2 * np.pi, orders.size)
-    p = np.zeros(at.P_TABLES + 4 * at.WAVE_INTERVALS)
-    p[at.P_WAVINESS] = 1.0
-    p[at.P_AT_WAVES] = at.P_TABLES
-    p[at.P_TABLES : at.P_TABLES + 2 * at.WAVE_INTERVALS] = wave_table(amplitudes, orders, phases)
-    c = np.zeros(at.C_SIZE)
-    c[at.C_OVERSIZE_SCALE] = 1.0
-    w = np.zeros(at.W_ROWS * S)
-    pose = at.W_POSE * S
-    w[pose + (at.X_H + 1) * S : pose + (at.X_H + 2) * S] = 1.0  # the ring is centred
-    angles = np.random.default_rng(2).uniform(-7, 7, S)
-    waves(p, c, angles, S, 0, 0.3, w)
-    row = at.W_RACE * S
+    p = np.zeros(P.TABLES + 4 * P.WAVE_INTERVALS)
+    p[P.WAVINESS] = 1.0
+    p[P.AT_WAVES] = P.TABLES
+    p[P.TABLES : P.TABLES + 2 * P.WAVE_INTERVALS] = wave_table(amplitudes, orders, phases)
+    c = np.zeros(C.SIZE)
+    c[C.OVERSIZE_SCALE] = 1.0
+    w = np.zeros(W.ROWS)
+    pose = W.POSE
+    w[pose + X.H + STRIDE : pose + X.H + 2 * STRIDE] = 1.0  # the ring is centred
+    angles = np.random.default_rng(2).uniform(-7, 7, STRIDE)
+    waves(p, c, angles, STRIDE, 0, 0.3, w)
+    row = W.RACE
     argument = np.outer(orders, angles - 0.3) + phases[:, None]
     # cubic Hermite error h^4/384 f'''' : (2 pi/2048)^4 20^4 / 384 is 4e-8 of the amplitude
-    np.testing.assert_allclose(w[row + at.R_WAVE * S :][:S], 1e-7 * np.cos(argument).sum(0), atol=1e-14)
+    np.testing.assert_allclose(w[row + R.WAVE :][:STRIDE], 1e-7 * np.cos(argument).sum(0), atol=1e-14)
     slope = -1e-7 * (orders[:, None] * np.sin(argument)).sum(0)
-    np.testing.assert_allclose(w[row + at.R_SLOPE * S :][:S], slope, atol=2e-11)
+    np.testing.assert_allclose(w[row + R.SLOPE :][:STRIDE], slope, atol=2e-11)
 
 
 @pytest.mark.parametrize("ratio", [0.05, 0.5, 0.9])
@@ -79,11 +78,11 @@ def test_land_film_against_the_integrated_pressure(ratio, rate, wedge):
 
 
 def random_blocks(rng, p, lanes, balls):
-    jac = np.zeros(at.J_SIZE)
-    jac[: at.J_E] = rng.normal(size=at.J_E)
+    jac = np.zeros(J.SIZE)
+    jac[: J.E] = rng.normal(size=J.E)
     # spare lanes put no forces on the bodies
-    jac[at.J_D : at.J_E].reshape(-1, S)[:, balls:] = 0.0
-    jac[at.J_E :] = rng.normal(size=17 * 34)
+    jac[J.D : J.E].reshape(-1, STRIDE)[:, balls:] = 0.0
+    jac[J.E :] = rng.normal(size=17 * 34)
     return jac
 
 
@@ -94,19 +93,19 @@ def dense(jac, balls, cv, cx):
 
     def block(base, rows, columns, lane):
         return np.array(
-            [[jac[base + (i * columns + k) * S + lane] for k in range(columns)] for i in range(rows)]
+            [[jac[base + (i * columns + k) * STRIDE + lane] for k in range(columns)] for i in range(rows)]
         )
 
     border = slice(6 * balls, n)
     for j in range(balls):
         own = slice(6 * j, 6 * j + 6)
-        b, c, d = block(at.J_B, 6, 9, j), block(at.J_C, 6, 34, j), block(at.J_D, 17, 9, j)
+        b, c, d = block(J.B, 6, 9, j), block(J.C, 6, 34, j), block(J.D, 17, 9, j)
         m[own, own] -= cv * b[:, 3:]
         m[own, 6 * j : 6 * j + 3] -= cx * b[:, :3]
         m[own, border] = -cv * c[:, 17:] - cx * c[:, :17]
         m[border, own] = -cv * d[:, 3:]
         m[border, 6 * j : 6 * j + 3] -= cx * d[:, :3]
-    e = jac[at.J_E :].reshape(17, 34)
+    e = jac[J.E :].reshape(17, 34)
     m[border, border] -= cv * e[:, 17:] + cx * e[:, :17]
     return m
 
@@ -114,39 +113,39 @@ def dense(jac, balls, cv, cx):
 def solve_both(p, springs, angle=0.0, balls=11, lanes=12):
     """Solution of a random system by the engine and by the dense matrix ``springs`` is added to."""
     rng = np.random.default_rng(3)
-    p[at.P_BALLS], p[at.P_LANES] = balls, lanes
+    p[P.BALLS], p[P.LANES] = balls, lanes
     jac = random_blocks(rng, p, lanes, balls)
     cv, cx = 0.03, 0.01
-    fac, w = np.zeros(at.A_SIZE), np.zeros(at.W_SOUND)
+    fac, w = np.zeros(A.SIZE), np.zeros(W.SOUND)
     assert block_arrow.factor(p, jac, cv, cx, cx, fac, w)
-    d = np.zeros(at.F_SIZE)
+    d = np.zeros(F.SIZE)
     rows = rng.normal(size=(6, balls))
     for i in range(6):
-        d[i * S : i * S + balls] = rows[i]
-    d[at.F_G : at.F_G + 17] = rng.normal(size=17)
+        d[i * STRIDE : i * STRIDE + balls] = rows[i]
+    d[F.BODY : F.BODY + 17] = rng.normal(size=17)
     turned = np.eye(6 * balls + 17)
     for k in (1, 3, 6, 9, 12, 15):
         at_k = slice(6 * balls + k, 6 * balls + k + 2)
         turned[at_k, at_k] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
-    right = np.concatenate([rows.T.ravel(), d[at.F_G : at.F_G + 17]])
+    right = np.concatenate([rows.T.ravel(), d[F.BODY : F.BODY + 17]])
     expected = turned @ np.linalg.solve(dense(jac, balls, cv, cx) + springs(cv, cx), turned.T @ right)
     block_arrow.solve(p, fac, math.cos(angle), math.sin(angle), d, w)
     got = np.concatenate(
-        [np.array([d[i * S : i * S + balls] for i in range(6)]).T.ravel(), d[at.F_G : at.F_G + 17]]
+        [np.array([d[i * STRIDE : i * STRIDE + balls] for i in range(6)]).T.ravel(), d[F.BODY : F.BODY + 17]]
     )
     return got, expected
 
 
 def test_block_arrow_solves_the_dense_system():
-    got, expected = solve_both(np.zeros(at.P_TABLES), lambda cv, cx: 0.0)
+    got, expected = solve_both(np.zeros(P.TABLES), lambda cv, cx: 0.0)
     np.testing.assert_allclose(got, expected, rtol=1e-10, atol=1e-12)
 
 
 @pytest.mark.parametrize("angle", [0.0, 0.6])
 @pytest.mark.parametrize("stiffness", [1.0, 1e6])
 def test_springs_between_balls_solve_the_dense_system(angle, stiffness):
-    p, balls = np.zeros(at.P_TABLES), 11
-    p[at.P_SPRINGS], p[at.P_SPRING_DAMPING], p[at.P_BALL_MASS] = stiffness, 7.0, 0.4
+    p, balls = np.zeros(P.TABLES), 11
+    p[P.SPRINGS], p[P.SPRING_DAMPING], p[P.BALL_MASS] = stiffness, 7.0, 0.4
 
     def springs(cv, cx):
         matrix = np.zeros((6 * balls + 17,) * 2)

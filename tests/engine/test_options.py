@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
-from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.layout import P, Q, R, S, U, W, Y
+from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.status import OK
 from tests.engine.helpers import Run, quiet
 from tests.engine.lubrication import film_places
 
@@ -38,11 +40,11 @@ def test_eyring_at_any_speed(scene, rpm):
 @pytest.mark.parametrize("stiffness", [1e5, 5e6, 2.5e7])
 def test_springs_hold_the_balls_apart(scene, stiffness):
     one = scene(NAME).model_copy(update={"sound": None})
-    run = Run(one, 20000, P_CAGE=0.0, P_SPRINGS=stiffness, P_SPRING_DAMPING=10.0, P_TOLERANCE=1e-4)
+    run = Run(one, 20000, CAGE=0.0, SPRINGS=stiffness, SPRING_DAMPING=10.0, TOLERANCE=1e-4)
     run.init()
     run.run(0.01)
-    balls = int(run.p[at.P_BALLS])
-    theta = np.unwrap(run.s[2 * at.STRIDE :][:balls])
+    balls = int(run.p[P.BALLS])
+    theta = np.unwrap(run.s[2 * STRIDE :][:balls])
     apart = np.diff([*theta, theta[0] + 2 * np.pi]) - 2 * np.pi / balls
     apart = (apart + np.pi) % (2 * np.pi) - np.pi
     assert np.abs(apart).max() < 1e-3
@@ -51,13 +53,13 @@ def test_springs_hold_the_balls_apart(scene, stiffness):
 
 def axial_load(scene, rpm, rigid, inner=293.15):
     """Axial force (N) of the balls on the inner ring, friction included, mean over the last 2 of 5 ms."""
-    run = Run(quiet(scene(NAME)), rpm, P_RIGID=float(rigid))
-    run.u[at.U_INNER_T] = inner
+    run = Run(quiet(scene(NAME)), rpm, RIGID=float(rigid))
+    run.u[U.INNER_T] = inner
     run.init().run(0.003)
     forces = []
     for _ in range(200):
         run.run(1e-5, 1e-5)
-        forces.append(-run.w[at.W_G * at.STRIDE :][: int(run.p[at.P_BALLS])].sum())
+        forces.append(-run.w[W.BODY :][: int(run.p[P.BALLS])].sum())
     # energy over a few milliseconds without imperfections: the heat is small, the gate is of its size
     assert abs(run.imbalance) < 1e-3 * run.heat
     return np.mean(forces)
@@ -79,11 +81,11 @@ def test_constant_force_stays(scene, rpm, inner):
 
 
 def test_rigid_preload_moves_with_its_input(scene):
-    run = Run(quiet(scene(NAME)), 20000, P_RIGID=1.0).init()
+    run = Run(quiet(scene(NAME)), 20000, RIGID=1.0).init()
     run.run(0.002)
     before, load = run.value("inner_ring.displacement.x"), run.value("contact.inner.load_mean")
-    run.u[at.U_PRELOAD] *= 0.5
-    assert run.step(1e-3) == at.OK
+    run.u[U.PRELOAD] *= 0.5
+    assert run.step(1e-3) == OK
     after = run.value("inner_ring.displacement.x")
     run.run(0.002)
     assert run.value("inner_ring.displacement.x") == after < before
@@ -99,12 +101,12 @@ def test_misalignment_makes_the_loads_uneven(scene):
     estimate of the start holds to a per cent at 1 mrad.
     """
     lean = 1e-3
-    run = Run(quiet(scene(NAME)), 20000, P_MISALIGNMENT_Y=lean).init()
-    at_outer = at.S_Y + at.Y_Q + at.Q_OUTER + 4
+    run = Run(quiet(scene(NAME)), 20000, MISALIGNMENT_Y=lean).init()
+    at_outer = S.Y + Y.Q0 + Q.OUTER + 4
     estimate = run.s[at_outer]
     assert 0.5 * lean < estimate < lean
     run.run(0.02)
-    load = run.w[(at.W_RACE + at.R_LOAD) * at.STRIDE :][: int(run.p[at.P_BALLS])]
+    load = run.w[W.RACE + R.LOAD :][: int(run.p[P.BALLS])]
     turns = np.abs(np.fft.rfft(load)) / load.sum()
     assert turns[2] > turns[1] > 10.0 * turns[3]
     assert 0.01 < turns[2] < 0.1
@@ -125,7 +127,7 @@ def test_torque_by_source_adds_up(scene):
     assert sum(parts.values()) == pytest.approx(run.value("friction_torque", rows).mean(), rel=0.02)
     assert run.value("contact.inner.spin_to_roll", rows).max() < 0.5
     assert 0.0 < run.value("contact.outer.slip", rows).mean() < 0.05
-    assert run.value("cage.whirl_radius", rows).max() < run.p[at.P_LAND_CLEARANCE]
+    assert run.value("cage.whirl_radius", rows).max() < run.p[P.LAND_CLEARANCE]
 
 
 def test_at_standstill_the_torque_has_no_sources(scene):

@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.layout import EQ, C, P, U, W
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.statics.quasistatic import equilibrium
+from fmu_bearing.engine.status import OK
 from fmu_bearing.prepare.model import pack
 from tests.oracles import B7003C, B7009C
 from tests.oracles.jones_harris import JonesHarris
@@ -20,15 +21,15 @@ class Bearing:
     def __init__(self, scene, **parameters):
         self.p = pack(scene, np.empty(0))
         for name, value in parameters.items():
-            self.p[getattr(at, name)] = value
+            self.p[getattr(P, name)] = value
         self.u = np.array([0.0, 0.0, 1e8, 0, 0, 293.15, 293.15, 293.15])
-        self.c = np.zeros(at.C_SIZE)
-        self.w = np.zeros(at.work_size(self.p))
-        self.out = np.zeros(at.Q5_SIZE)
-        self.balls = int(self.p[at.P_BALLS])
+        self.c = np.zeros(C.SIZE)
+        self.w = np.zeros(W.size(self.p))
+        self.out = np.zeros(EQ.SIZE)
+        self.balls = int(self.p[P.BALLS])
         conditions(self.p, self.u, 0.0, self.c)
 
-    def solve(self, rpm, load, offset=(0.0, 0.0), status=at.OK):
+    def solve(self, rpm, load, offset=(0.0, 0.0), status=OK):
         """Equilibrium under (Fx, Fy, Fz, My, Mz); the bearing itself, for its rows."""
         load, offset = np.array(load, dtype=float), np.array(offset, dtype=float)
         assert equilibrium(self.p, self.c, rpm * RPM, load, offset, self.out, self.w) == status
@@ -41,29 +42,29 @@ class Bearing:
     @property
     def shift(self):
         """Displacement of the inner ring against the outer: x, y, z, tilts y and z."""
-        return self.out[at.Q5_SHIFT : at.Q5_SHIFT + 5].copy()
+        return self.out[EQ.SHIFT : EQ.SHIFT + 5].copy()
 
     @property
     def stiffness(self):
         """The 5 x 5 matrix."""
-        return self.out[at.Q5_STIFFNESS : at.Q5_STIFFNESS + 25].reshape(5, 5).copy()
+        return self.out[EQ.STIFFNESS : EQ.STIFFNESS + 25].reshape(5, 5).copy()
 
 
 def solve(scene, rpm, preload, **temperatures):
     """Under axial load: loads (N), angles (deg), axial displacement (m), stiffness of equal balls."""
     bearing = Bearing(scene)
-    bearing.u[at.U_INNER_T] = temperatures.get("inner", 293.15)
-    bearing.u[at.U_OUTER_T] = temperatures.get("outer", 293.15)
+    bearing.u[U.INNER_T] = temperatures.get("inner", 293.15)
+    bearing.u[U.OUTER_T] = temperatures.get("outer", 293.15)
     conditions(bearing.p, bearing.u, rpm * RPM, bearing.c)
     bearing.solve(rpm, (preload, 0, 0, 0, 0))
     k = bearing.stiffness
     return {
-        "load_i": bearing.row(at.Q5_LOAD_I)[0],
-        "load_o": bearing.row(at.Q5_LOAD_O)[0],
-        "angle_i": np.degrees(bearing.row(at.Q5_ANGLE_I)[0]),
-        "angle_o": np.degrees(bearing.row(at.Q5_ANGLE_O)[0]),
+        "load_i": bearing.row(EQ.LOAD_I)[0],
+        "load_o": bearing.row(EQ.LOAD_O)[0],
+        "angle_i": np.degrees(bearing.row(EQ.ANGLE_I)[0]),
+        "angle_o": np.degrees(bearing.row(EQ.ANGLE_O)[0]),
         "shift": bearing.shift[0],
-        "orbit": bearing.row(at.Q5_OM)[0],
+        "orbit": bearing.row(EQ.OM)[0],
         # axial, radial, tilt, coupling of vertical force with the tilt about Y
         "stiffness": (k[0, 0], k[2, 2], k[3, 3], k[2, 3]),
     }
@@ -75,8 +76,8 @@ def test_hertz_constants(scene):
         ("7009C-full-ceramic", 3.575e10, 3.361e10),
     ):
         p = pack(scene(name), np.empty(0))
-        assert p[at.P_RACES + at.RACE_STIFFNESS] == pytest.approx(inner, rel=5e-3)
-        assert p[at.P_RACES + at.RACE_SIZE + at.RACE_STIFFNESS] == pytest.approx(outer, rel=5e-3)
+        assert p[P.RACES + P.RACE_STIFFNESS] == pytest.approx(inner, rel=5e-3)
+        assert p[P.RACES + P.RACE_SIZE + P.RACE_STIFFNESS] == pytest.approx(outer, rel=5e-3)
 
 
 def test_static_gate_of_the_7003c(scene):
@@ -148,7 +149,7 @@ def test_a_hotter_inner_ring_lowers_the_contact_angle(scene):
         apart = (13e-3 + (0.515 - 0.5) * 4.5e-3 * np.cos(start)) * growth - (
             13e-3 - 0.02 * 4.5e-3 * np.cos(start)
         )
-        k_i, k_o = p[at.P_RACES + at.RACE_STIFFNESS], p[at.P_RACES + at.RACE_SIZE + at.RACE_STIFFNESS]
+        k_i, k_o = p[P.RACES + P.RACE_STIFFNESS], p[P.RACES + P.RACE_SIZE + P.RACE_STIFFNESS]
 
         def open_loop(a):
             q = 500.0 / (12 * np.sin(a))

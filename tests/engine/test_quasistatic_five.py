@@ -3,10 +3,13 @@
 import numpy as np
 import pytest
 
-from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.choices import RACE_CONTROLS
+from fmu_bearing.engine.layout import EQ, C, F, P, Q, Y
+from fmu_bearing.engine.layout.sizes import STRIDE
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.statics.axial import quasistatic, stiffness_matrix
 from fmu_bearing.engine.statics.mounted import mounted_equilibrium
+from fmu_bearing.engine.status import OK
 from tests.engine.helpers import quiet
 from tests.engine.test_quasistatic import RPM, Bearing
 from tests.oracles import B7003C, B7009C
@@ -35,7 +38,7 @@ _LARGE = ("7009C-full-ceramic", B7009C, 12e3, (350, 150, -200, 3.0, 0))
     ],
 )
 def test_against_the_independent_solution(scene, name, geometry, rpm, load, control):
-    bearing = Bearing(scene(name), P_RACE_CONTROL=at.RACE_CONTROLS.index(control)).solve(rpm, load)
+    bearing = Bearing(scene(name), RACE_CONTROL=RACE_CONTROLS.index(control)).solve(rpm, load)
     theory = JonesHarris(geometry, CONTROL[control], control=control).solve(
         load[:3], rpm * RPM, moment=load[3:]
     )
@@ -48,27 +51,27 @@ def test_against_the_independent_solution(scene, name, geometry, rpm, load, cont
     turned *= np.sinc(size / np.pi)
     np.testing.assert_allclose(bearing.shift[3:], turned, rtol=0, atol=1e-6 * max(size, 1e-6))
     for row, field in (
-        (at.Q5_LOAD_I, "inner_load"),
-        (at.Q5_LOAD_O, "outer_load"),
-        (at.Q5_OM, "orbit_speed"),
+        (EQ.LOAD_I, "inner_load"),
+        (EQ.LOAD_O, "outer_load"),
+        (EQ.OM, "orbit_speed"),
     ):
         expected = np.array([getattr(b, field) for b in theory.balls])
         np.testing.assert_allclose(
             bearing.row(row), expected, rtol=1e-6, atol=1e-6 * np.abs(expected).max() + 1e-12
         )
-    held = bearing.row(at.Q5_LOAD_I) > 1.0
-    for row, field in ((at.Q5_ANGLE_I, "inner_angle"), (at.Q5_ANGLE_O, "outer_angle")):
+    held = bearing.row(EQ.LOAD_I) > 1.0
+    for row, field in ((EQ.ANGLE_I, "inner_angle"), (EQ.ANGLE_O, "outer_angle")):
         expected = np.array([getattr(b, field) for b in theory.balls])
         np.testing.assert_allclose(bearing.row(row)[held], expected[held], rtol=1e-6, atol=1e-7)
     spin = np.array([b.spin_speed * np.sin(b.pitch) for b in theory.balls])
-    np.testing.assert_allclose(bearing.row(at.Q5_WR), spin, rtol=1e-6, atol=1e-6 * np.abs(spin).max() + 1e-9)
+    np.testing.assert_allclose(bearing.row(EQ.WR), spin, rtol=1e-6, atol=1e-6 * np.abs(spin).max() + 1e-9)
 
 
 @pytest.mark.parametrize("name", ["7003C-bare", "7009C-full-ceramic"])
 @pytest.mark.parametrize("load", [(500, 0, 0, 0, 0), (500, 100, -300, 1.0, -0.5), (100, 0, -800, 0, 0)])
 def test_stiffness_is_the_derivative_of_the_load(scene, name, load):
     """The flexibility by central differences of the equilibrium at standstill is the matrix's inverse."""
-    bearing = Bearing(scene(name), P_TILT_STIFFNESS=0.0)
+    bearing = Bearing(scene(name), TILT_STIFFNESS=0.0)
     matrix = bearing.solve(0.0, load, (1e-4, -2e-4)).stiffness
     # 0.01 % of the loads: second-order error 1e-8, the solution's tolerance 1e-9 over 1e-4
     steps = np.array([0.05, 0.05, 0.05, 5e-4, 5e-4])
@@ -79,7 +82,7 @@ def test_stiffness_is_the_derivative_of_the_load(scene, name, load):
         plus = bearing.solve(0.0, load + move, (1e-4, -2e-4)).shift
         minus = bearing.solve(0.0, load - move, (1e-4, -2e-4)).shift
         flexibility[:, k] = (plus - minus) / (2 * steps[k])
-    lever = np.array([1, 1, 1, bearing.p[at.P_PITCH_RADIUS], bearing.p[at.P_PITCH_RADIUS]])
+    lever = np.array([1, 1, 1, bearing.p[P.PITCH_RADIUS], bearing.p[P.PITCH_RADIUS]])
     product = flexibility @ matrix * lever[:, None] / lever[None, :]
     np.testing.assert_allclose(product, np.eye(5), atol=2e-4)
 
@@ -88,17 +91,17 @@ def test_stiffness_is_the_derivative_of_the_load(scene, name, load):
 @pytest.mark.parametrize("name", ["7003C-bare", "7003C-spindle", "7009C-full-ceramic"])
 def test_extremes(scene, name, control):
     """Free, lost and crushed contacts: a solution with a small residual, in both senses of rotation."""
-    bearing = Bearing(scene(name), P_RACE_CONTROL=control)
+    bearing = Bearing(scene(name), RACE_CONTROL=control)
     for rpm in (0.0, 1.0, 100.0, 20e3, -40e3, 100e3):
         for axial in (0.0, 1.0, 500.0, 1e4):
             for radial, moment, tilt in ((0, 0, 0), (0, 0, 3e-3), (300, 2, 0), (3000, 0, 0), (3000, 0, 3e-3)):
                 load = (axial, 0.3 * radial, -radial, moment, 0.0)
                 bearing.solve(rpm, load, (tilt, -0.5 * tilt))
                 assert np.isfinite(bearing.out).all()
-                assert bearing.out[at.Q5_RESIDUAL] <= 1e-6 * (1 + sum(np.abs(load)))
+                assert bearing.out[EQ.RESIDUAL] <= 1e-6 * (1 + sum(np.abs(load)))
                 # a lost ball stays in the outer race and never passes through a groove
-                assert np.abs(bearing.row(at.Q5_R)).max() < 2e-4
-                assert (bearing.row(at.Q5_LOAD_O) >= 0).all()
+                assert np.abs(bearing.row(EQ.R)).max() < 2e-4
+                assert (bearing.row(EQ.LOAD_O) >= 0).all()
 
 
 def test_free_play_at_small_radial_loads(scene):
@@ -108,7 +111,7 @@ def test_free_play_at_small_radial_loads(scene):
         for rpm in (0.0, 100.0, 2e4):
             for weight in (0.3, 3.0):
                 bearing.solve(rpm, (0, 0, -weight, 0, 0))
-                held = bearing.row(at.Q5_LOAD_I) @ np.cos(bearing.row(at.Q5_ANGLE_I)).clip(0.5)
+                held = bearing.row(EQ.LOAD_I) @ np.cos(bearing.row(EQ.ANGLE_I)).clip(0.5)
                 assert held == pytest.approx(weight, rel=0.3)
 
 
@@ -118,13 +121,13 @@ def test_turning_backwards_is_the_mirror_image(scene):
     mirror = np.array([1, -1, 1, 1, -1])
     load = np.array([350, 80, -200, 3.0, -2.0])
     ahead = bearing.solve(12e3, load).shift
-    loads = bearing.row(at.Q5_LOAD_I)
-    orbits = bearing.row(at.Q5_OM)
+    loads = bearing.row(EQ.LOAD_I)
+    orbits = bearing.row(EQ.OM)
     back = bearing.solve(-12e3, load * mirror).shift
     np.testing.assert_allclose(back * mirror, ahead, rtol=1e-7, atol=1e-14)
     opposite = -np.arange(bearing.balls) % bearing.balls
-    np.testing.assert_allclose(bearing.row(at.Q5_LOAD_I)[opposite], loads, rtol=1e-6)
-    np.testing.assert_allclose(bearing.row(at.Q5_OM)[opposite], -orbits, rtol=1e-9)
+    np.testing.assert_allclose(bearing.row(EQ.LOAD_I)[opposite], loads, rtol=1e-6)
+    np.testing.assert_allclose(bearing.row(EQ.OM)[opposite], -orbits, rtol=1e-9)
 
 
 def test_race_control_moves_the_gyroscopic_friction(scene):
@@ -132,10 +135,10 @@ def test_race_control_moves_the_gyroscopic_friction(scene):
     load, rpm = (350, 0, 0, 0, 0), 18e3
     found = {}
     for control in (0, 1, 2):
-        bearing = Bearing(scene("7009C-full-ceramic"), P_RACE_CONTROL=control).solve(rpm, load)
-        x, r = bearing.row(at.Q5_X)[0], bearing.row(at.Q5_R)[0]
-        qi, qo = bearing.row(at.Q5_LOAD_I)[0], bearing.row(at.Q5_LOAD_O)[0]
-        ai, ao = bearing.row(at.Q5_ANGLE_I)[0], bearing.row(at.Q5_ANGLE_O)[0]
+        bearing = Bearing(scene("7009C-full-ceramic"), RACE_CONTROL=control).solve(rpm, load)
+        x, r = bearing.row(EQ.X)[0], bearing.row(EQ.R)[0]
+        qi, qo = bearing.row(EQ.LOAD_I)[0], bearing.row(EQ.LOAD_O)[0]
+        ai, ao = bearing.row(EQ.ANGLE_I)[0], bearing.row(EQ.ANGLE_O)[0]
         # friction along each race's major axis is what the axial load lacks
         found[control] = (
             load[0] / bearing.balls - qi * np.sin(ai),
@@ -150,14 +153,14 @@ def test_race_control_moves_the_gyroscopic_friction(scene):
 
 
 def test_without_gyroscopic_term_no_friction(scene):
-    bearing = Bearing(scene("7009C-full-ceramic"), P_GYROSCOPIC=0.0).solve(18e3, (350, 0, 0, 0, 0))
-    axial = bearing.row(at.Q5_LOAD_I) * np.sin(bearing.row(at.Q5_ANGLE_I))
+    bearing = Bearing(scene("7009C-full-ceramic"), GYROSCOPIC=0.0).solve(18e3, (350, 0, 0, 0, 0))
+    axial = bearing.row(EQ.LOAD_I) * np.sin(bearing.row(EQ.ANGLE_I))
     np.testing.assert_allclose(axial, 350 / bearing.balls, rtol=1e-7)
 
 
 def test_tilt_support_and_offset(scene):
     """A stiff support holds the inner ring upright while the outer one is tilted."""
-    bearing = Bearing(scene("7003C-bare"), P_TILT_STIFFNESS=1e9)
+    bearing = Bearing(scene("7003C-bare"), TILT_STIFFNESS=1e9)
     bearing.solve(0.0, (500, 0, 0, 0, 0), (5e-4, 0))
     assert bearing.shift[3] == pytest.approx(-5e-4, rel=1e-4)
     free = Bearing(scene("7003C-bare")).solve(0.0, (500, 0, 0, 0, 0), (5e-4, 0))
@@ -167,14 +170,14 @@ def test_tilt_support_and_offset(scene):
 
 def test_pedestal_tilt_balances_the_moments(scene):
     """Against a fixed-point iteration on the outer ring's tilt with the moments of all balls."""
-    bearing = Bearing(scene("7003C-spindle"), P_MISALIGNMENT_Y=1e-3)
+    bearing = Bearing(scene("7003C-spindle"), MISALIGNMENT_Y=1e-3)
     load = np.array([500.0, 0.0, -300.0, 0.0, 0.0])
     tilt = np.zeros(2)
     status = mounted_equilibrium(bearing.p, bearing.c, 0.0, load, 0.0, tilt, bearing.out, bearing.w)
-    assert status == at.OK
+    assert status == OK
     # the support takes the moment that the pedestal's springs give, but for loads on displaced centres
-    support = bearing.p[at.P_TILT_STIFFNESS] * (bearing.shift[3] + tilt[0])
-    spring = bearing.c[at.C_PEDESTAL_ROTATIONAL] * (tilt[0] - 1e-3)
+    support = bearing.p[P.TILT_STIFFNESS] * (bearing.shift[3] + tilt[0])
+    spring = bearing.c[C.PEDESTAL_ROTATIONAL] * (tilt[0] - 1e-3)
     displaced = bearing.shift[2] * load[0] - bearing.shift[0] * load[2]
     assert support + spring == pytest.approx(displaced, rel=1e-4, abs=1e-5 * abs(spring))
 
@@ -185,10 +188,10 @@ def test_pedestal_tilt_balances_the_moments(scene):
 def test_the_axial_solution_is_the_same(scene, name, rpm):
     """One unknown against five; the closed form leaves out how a tilt turns the loads."""
     bearing = Bearing(scene(name)).solve(rpm, (400, 0, 0, 0, 0))
-    bearing.c[at.C_PRELOAD] = 400.0
+    bearing.c[C.PRELOAD] = 400.0
     found = np.zeros(8)
-    assert quasistatic(bearing.p, bearing.c, rpm * RPM, found) == at.OK
-    rows = [bearing.row(k)[0] for k in (at.Q5_X, at.Q5_R, at.Q5_OM, at.Q5_WX, at.Q5_WR)]
+    assert quasistatic(bearing.p, bearing.c, rpm * RPM, found) == OK
+    rows = [bearing.row(k)[0] for k in (EQ.X, EQ.R, EQ.OM, EQ.WX, EQ.WR)]
     np.testing.assert_allclose(found[:6], [bearing.shift[0], *rows], rtol=1e-7, atol=1e-14)
     axial, radial, tilt, coupling = stiffness_matrix(bearing.p, bearing.c, found)
     k = bearing.stiffness
@@ -213,21 +216,21 @@ def test_static_gates_of_the_matrix(scene):
 @pytest.mark.parametrize("tilt", [0.0, 3e-3])
 def test_the_full_level_stands_still_there(scene, name, tilt):
     """Same geometry: at standstill the right-hand side leaves inner ring and balls (x, r) where they are."""
-    off = dict.fromkeys(("P_GRAVITY", "P_DRAG", "P_ROLLING", "P_CAGE", "P_WAVINESS"), 0.0)
+    off = dict.fromkeys(("GRAVITY", "DRAG", "ROLLING", "CAGE", "WAVINESS"), 0.0)
     bearing = Bearing(quiet(scene(name)), **off).solve(0.0, (500, 100, -300, 0, 0), (tilt, -0.5 * tilt))
-    bearing.c[[at.C_PRELOAD, at.C_LOAD_Y, at.C_LOAD_Z]] = 500, 100, -300
-    y, f = np.zeros(at.Y_SIZE), np.zeros(at.F_SIZE)
-    for row, found in ((at.B_X, at.Q5_X), (at.B_R, at.Q5_R)):
-        y[row * at.STRIDE :][: bearing.balls] = bearing.row(found)
-    y[at.B_TH * at.STRIDE :][: bearing.balls] = 2 * np.pi * np.arange(bearing.balls) / bearing.balls
-    outer = at.Y_Q + at.Q_OUTER
+    bearing.c[[C.PRELOAD, C.LOAD_Y, C.LOAD_Z]] = 500, 100, -300
+    y, f = np.zeros(Y.SIZE), np.zeros(F.SIZE)
+    for row, found in ((Y.X // STRIDE, EQ.X), (Y.R // STRIDE, EQ.R)):
+        y[row * STRIDE :][: bearing.balls] = bearing.row(found)
+    y[Y.TH :][: bearing.balls] = 2 * np.pi * np.arange(bearing.balls) / bearing.balls
+    outer = Y.Q0 + Q.OUTER
     y[outer + 4 : outer + 6] = tilt, -0.5 * tilt
-    y[at.Y_Q : at.Y_Q + 5] = bearing.shift
-    y[at.Y_Q + 3 : at.Y_Q + 5] += y[outer + 4 : outer + 6]
+    y[Y.Q0 : Y.Q0 + 5] = bearing.shift
+    y[Y.Q0 + 3 : Y.Q0 + 5] += y[outer + 4 : outer + 6]
     right_hand_side(bearing.p, bearing.c, y, 0.0, 0.0, 0.0, bearing.w, f)
     p = bearing.p
-    force = f[at.F_G : at.F_G + 3] * p[at.P_INNER_MASS]
-    moment = f[at.F_G + 3 : at.F_G + 5] * p[at.P_INNER_TRANSVERSE] / p[at.P_PITCH_RADIUS]
+    force = f[F.BODY : F.BODY + 3] * p[P.INNER_MASS]
+    moment = f[F.BODY + 3 : F.BODY + 5] * p[P.INNER_TRANSVERSE] / p[P.PITCH_RADIUS]
     np.testing.assert_allclose([*force, *moment], 0.0, atol=1e-5)
-    balls = f[: 2 * at.STRIDE].reshape(2, -1)[:, : bearing.balls] * p[at.P_BALL_MASS]
+    balls = f[: 2 * STRIDE].reshape(2, -1)[:, : bearing.balls] * p[P.BALL_MASS]
     np.testing.assert_allclose(balls, 0.0, atol=1e-6)

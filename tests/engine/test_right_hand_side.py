@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicHermiteSpline
 
-from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.layout import C, F, P, S, U, W, Y
+from fmu_bearing.engine.layout.sizes import STRIDE
 from fmu_bearing.engine.mechanics.cage import film_force
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.mechanics.energy import stored_energy
@@ -39,31 +40,31 @@ class Case:
 
     @property
     def n(self):
-        return int(self.p[at.P_BALLS])
+        return int(self.p[P.BALLS])
 
     @property
     def state(self):
-        rows = self.y[: 9 * at.STRIDE].reshape(9, at.STRIDE)[:, : self.n]
-        q, v = self.y[at.Y_Q : at.Y_V], self.y[at.Y_V :]
+        rows = self.y[: 9 * STRIDE].reshape(9, STRIDE)[:, : self.n]
+        q, v = self.y[Y.Q0 : Y.V0], self.y[Y.V0 :]
         bodies = np.array([[*q[:3], self.angle, *q[3:5]], q[5:11], q[11:]])
         rates = np.array([[*v[:3], self.speed, *v[3:5]], v[5:11], v[11:]])
         axes = None
-        if self.p[at.P_BALL_WAVES]:
-            own = self.w[at.W_AXES * at.STRIDE :][: 3 * at.STRIDE].reshape(3, at.STRIDE)
+        if self.p[P.BALL_WAVES]:
+            own = self.w[W.AXES :][: 3 * STRIDE].reshape(3, STRIDE)
             axes = np.array([np.array(oracle.directions(rows[2, j])).T @ own[:, j] for j in range(self.n)])
         return oracle.State(rows.T.copy(), bodies, rates, axes)
 
     def engine(self):
         """The engine's answer, in the oracle's shapes."""
-        f = np.zeros(at.F_SIZE)
+        f = np.zeros(F.SIZE)
         right_hand_side(self.p, self.c, self.y, self.angle, self.speed, SPEED_RATE, self.w, f)
-        g = f[at.F_G : at.F_WORK]
+        g = f[F.BODY : F.WORK]
         return oracle.Answer(
-            f[: 6 * at.STRIDE].reshape(6, at.STRIDE)[:, : self.n].T,
+            f[: 6 * STRIDE].reshape(6, STRIDE)[:, : self.n].T,
             np.array([[*g[:3], 0.0, *g[3:5]], g[5:11], g[11:]]),
-            f[at.F_TORQUE],
-            f[at.F_HEAT : at.F_HEAT + 3],
-            f[at.F_WORK],
+            f[F.TORQUE],
+            f[F.HEAT : F.HEAT + 3],
+            f[F.WORK],
         )
 
     def oracle(self):
@@ -72,7 +73,7 @@ class Case:
 
 def spline(table):
     """Race height and slope by SciPy's Hermite spline over the engine's table."""
-    grid = 2.0 * np.pi * np.arange(at.WAVE_INTERVALS + 1) / at.WAVE_INTERVALS
+    grid = 2.0 * np.pi * np.arange(P.WAVE_INTERVALS + 1) / P.WAVE_INTERVALS
     curve = CubicHermiteSpline(grid, [*table[0::2], table[0]], np.array([*table[1::2], table[1]]) / grid[1])
     slope = curve.derivative()
     return lambda angle: (curve(angle % (2.0 * np.pi)), slope(angle % (2.0 * np.pi)))
@@ -80,7 +81,7 @@ def spline(table):
 
 def harmonics(table):
     """Race height and slope as the harmonic sum of which the table holds the values."""
-    lines = np.fft.rfft(table[0::2])[:64] / at.WAVE_INTERVALS
+    lines = np.fft.rfft(table[0::2])[:64] / P.WAVE_INTERVALS
     lines[1:] *= 2.0
     orders = np.arange(64)
 
@@ -92,94 +93,92 @@ def harmonics(table):
 
 
 def race(p, c, k, wave):
-    block = p[at.P_RACES + k * at.RACE_SIZE :]
-    held = c[at.C_RACES + k * at.C_RACE_SIZE :]
-    table = p[int(p[at.P_AT_WAVES]) + 2 * k * at.WAVE_INTERVALS :][: 2 * at.WAVE_INTERVALS]
+    block = p[P.RACES + k * P.RACE_SIZE :]
+    held = c[C.RACES + k * C.RACE_SIZE :]
+    table = p[int(p[P.AT_WAVES]) + 2 * k * P.WAVE_INTERVALS :][: 2 * P.WAVE_INTERVALS]
     return oracle.Race(
         x=held[0],
         circle=held[1],
         free=held[2],
-        stiffness=block[at.RACE_STIFFNESS],
-        half_length=block[at.RACE_HALF_LENGTH],
-        profile=block[at.RACE_PROFILE_RADIUS],
-        rolling=held[3] if p[at.P_ROLLING] else 0.0,
-        wave=wave(c[at.C_OVERSIZE_SCALE] * table) if p[at.P_WAVINESS] else lambda angle: (0.0, 0.0),
+        stiffness=block[P.RACE_STIFFNESS],
+        half_length=block[P.RACE_HALF_LENGTH],
+        profile=block[P.RACE_PROFILE_RADIUS],
+        rolling=held[3] if p[P.ROLLING] else 0.0,
+        wave=wave(c[C.OVERSIZE_SCALE] * table) if p[P.WAVINESS] else lambda angle: (0.0, 0.0),
     )
 
 
 def pick(kind, p, prefix, names):
-    return kind(**{name: p[getattr(at, prefix + place)] for name, place in names.items()})
+    return kind(**{name: p[getattr(P, prefix + place)] for name, place in names.items()})
 
 
 def cage_parts(p):
-    if not p[at.P_CAGE]:
+    if not p[P.CAGE]:
         return None, None
     pocket = pick(
         oracle.Pocket,
         p,
-        "P_POCKET_",
+        "POCKET_",
         {name: name.upper() for name in ("clearance", "stiffness", "damping", "friction", "slip", "film")},
     )
     names = {name: name.upper() for name in ("radius", "length", "offset", "clearance", "viscosity")}
     stops = {"stop": "STIFFNESS", "fraction": "FRACTION", "friction": "FRICTION", "slip": "SLIP"}
     names |= {name: "STOP_" + place for name, place in stops.items()}
-    return pocket, pick(oracle.Land, p, "P_LAND_", names) if p[at.P_LAND] else None
+    return pocket, pick(oracle.Land, p, "LAND_", names) if p[P.LAND] else None
 
 
 def setup(p, c, wave=spline):
     pocket, land = cage_parts(p)
-    first = int(p[at.P_AT_OVERSIZE])
+    first = int(p[P.AT_OVERSIZE])
     masses = [
-        pick(oracle.Mass, p, f"P_{body}_", {"mass": "MASS", "transverse": "TRANSVERSE", "polar": "POLAR"})
+        pick(oracle.Mass, p, f"{body}_", {"mass": "MASS", "transverse": "TRANSVERSE", "polar": "POLAR"})
         for body in ("INNER", "OUTER", "CAGE")
     ]
     springs, dampers, load = np.zeros((3, 6)), np.zeros((3, 6)), np.zeros((3, 3))
     rest = np.zeros((3, 6))
-    rest[1, 4:] = p[at.P_MISALIGNMENT_Y], p[at.P_MISALIGNMENT_Z]
-    springs[0, 4:], dampers[0, 4:] = p[at.P_TILT_STIFFNESS], p[at.P_TILT_DAMPING]
-    radial, turn = c[at.C_PEDESTAL], c[at.C_PEDESTAL_ROTATIONAL]
-    springs[1] = c[at.C_PEDESTAL_AXIAL], radial, radial, turn, turn, turn
-    radial, turn = c[at.C_DAMPING], c[at.C_DAMPING_ROTATIONAL]
-    dampers[1] = c[at.C_DAMPING_AXIAL], radial, radial, c[at.C_DAMPING_SPIN], turn, turn
-    load[0] = c[at.C_PRELOAD], c[at.C_LOAD_Y], c[at.C_LOAD_Z]
+    rest[1, 4:] = p[P.MISALIGNMENT_Y], p[P.MISALIGNMENT_Z]
+    springs[0, 4:], dampers[0, 4:] = p[P.TILT_STIFFNESS], p[P.TILT_DAMPING]
+    radial, turn = c[C.PEDESTAL], c[C.PEDESTAL_ROTATIONAL]
+    springs[1] = c[C.PEDESTAL_AXIAL], radial, radial, turn, turn, turn
+    radial, turn = c[C.DAMPING], c[C.DAMPING_ROTATIONAL]
+    dampers[1] = c[C.DAMPING_AXIAL], radial, radial, c[C.DAMPING_SPIN], turn, turn
+    load[0] = c[C.PRELOAD], c[C.LOAD_Y], c[C.LOAD_Z]
     return oracle.Setup(
-        pitch=p[at.P_PITCH_RADIUS],
-        ball_radius=c[at.C_BALL_RADIUS],
-        ball_mass=p[at.P_BALL_MASS],
-        ball_inertia=p[at.P_BALL_INERTIA],
-        oversize=c[at.C_OVERSIZE_SCALE] * p[first : first + int(p[at.P_BALLS])],
+        pitch=p[P.PITCH_RADIUS],
+        ball_radius=c[C.BALL_RADIUS],
+        ball_mass=p[P.BALL_MASS],
+        ball_inertia=p[P.BALL_INERTIA],
+        oversize=c[C.OVERSIZE_SCALE] * p[first : first + int(p[P.BALLS])],
         races=tuple(race(p, c, k, wave) for k in range(2)),
-        damping=p[at.P_CONTACT_DAMPING],
-        friction=p[at.P_MU],
-        slide_to_roll=p[at.P_SLIDE_TO_ROLL],
-        floor=p[at.P_TRACTION_FLOOR],
-        strips=int(p[at.P_STRIPS]),
-        drag=p[at.P_DRAG_FACTOR] if p[at.P_DRAG] else 0.0,
-        gravity=bool(p[at.P_GRAVITY]),
-        gyroscopic=bool(p[at.P_GYROSCOPIC]),
+        damping=p[P.CONTACT_DAMPING],
+        friction=p[P.MU],
+        slide_to_roll=p[P.SLIDE_TO_ROLL],
+        floor=p[P.TRACTION_FLOOR],
+        strips=int(p[P.STRIPS]),
+        drag=p[P.DRAG_FACTOR] if p[P.DRAG] else 0.0,
+        gravity=bool(p[P.GRAVITY]),
+        gyroscopic=bool(p[P.GYROSCOPIC]),
         masses=tuple(masses),
         springs=springs,
         dampers=dampers,
-        eccentricity=c[at.C_ECCENTRICITY],
+        eccentricity=c[C.ECCENTRICITY],
         load=load,
         pocket=pocket,
         land=land,
         rest=rest,
-        bumps=c[at.C_OVERSIZE_SCALE] * p[int(p[at.P_AT_BALL_WAVES]) :][: int(p[at.P_BALL_WAVES])]
-        if p[at.P_BALL_WAVES]
+        bumps=c[C.OVERSIZE_SCALE] * p[int(p[P.AT_BALL_WAVES]) :][: int(p[P.BALL_WAVES])]
+        if p[P.BALL_WAVES]
         else None,
-        neighbours=(p[at.P_SPRINGS], p[at.P_SPRING_DAMPING])
-        if p[at.P_SPRINGS] and not p[at.P_CAGE]
-        else None,
+        neighbours=(p[P.SPRINGS], p[P.SPRING_DAMPING]) if p[P.SPRINGS] and not p[P.CAGE] else None,
     )
 
 
 def shake(y, run, rng, tilt, cage_offset, afloat):
     """Displace everything about the quasi-static state ``y``; the balls' oil film scale is 1e-6 m."""
-    p, n, size = run.p, int(run.p[at.P_BALLS]), at.STRIDE
+    p, n, size = run.p, int(run.p[P.BALLS]), STRIDE
     balls = y[: 9 * size].reshape(9, size)[:, :n]
     spread = rng.uniform(-1.0, 1.0, (9, n))
-    orbit, spin = balls[at.B_OM].copy(), np.hypot(balls[at.B_WX], balls[at.B_WR])
+    orbit, spin = balls[Y.OM // STRIDE].copy(), np.hypot(balls[Y.WX // STRIDE], balls[Y.WR // STRIDE])
     balls[0] += 1e-6 * spread[0]
     balls[1] += 0.5e-6 * spread[1]
     balls[2] += 0.7 + 2e-3 * spread[2]
@@ -189,27 +188,27 @@ def shake(y, run, rng, tilt, cage_offset, afloat):
     balls[1, LIFTED] -= 3e-6
     balls[0, LIFTED] -= 6e-6
     balls[2] = (balls[2] + np.pi) % (2.0 * np.pi) - np.pi
-    q, v = y[at.Y_Q : at.Y_V], y[at.Y_V :]
+    q, v = y[Y.Q0 : Y.V0], y[Y.V0 :]
     q[:3] += 0.5e-6 * rng.uniform(-1, 1, 3)
     q[5:8] += 0.5e-6 * rng.uniform(-1, 1, 3)
     for tilts in (q[3:5], q[9:11], q[15:17]):
         tilts[:] = tilt * rng.uniform(-1, 1, 2)
     q[8] = 1e-5
     # cage: behind its balls by less than the pocket's clearance but for one ball, off its land's middle
-    room = p[at.P_POCKET_CLEARANCE] / p[at.P_PITCH_RADIUS]
+    room = p[P.POCKET_CLEARANCE] / p[P.PITCH_RADIUS]
     q[14] = 0.7 - 0.3 * room
     way = rng.uniform(0, 2 * np.pi)
     q[11] = q[0] + afloat
-    q[12:14] = q[1:3] + cage_offset * p[at.P_LAND_CLEARANCE] * np.array([np.cos(way), np.sin(way)])
+    q[12:14] = q[1:3] + cage_offset * p[P.LAND_CLEARANCE] * np.array([np.cos(way), np.sin(way)])
     v[:] = 0.01 * rng.uniform(-1, 1, 17)
     v[8] = 2.0
     v[[3, 4, 9, 10, 15, 16]] *= 30
     v[14] = 1.01 * orbit.mean()
     trapped = 2.0 * np.pi * TRAPPED / n + q[14] + 1.15 * room
-    trapped += (np.cos(trapped) * q[12] + np.sin(trapped) * q[13]) * -1.0 / p[at.P_PITCH_RADIUS]
+    trapped += (np.cos(trapped) * q[12] + np.sin(trapped) * q[13]) * -1.0 / p[P.PITCH_RADIUS]
     balls[2, TRAPPED] = (trapped + np.pi) % (2.0 * np.pi) - np.pi
     # it closes in at a few cm/s: much faster apart, and the pocket would have let go
-    balls[5, TRAPPED] = v[14] + 0.05 / p[at.P_PITCH_RADIUS]
+    balls[5, TRAPPED] = v[14] + 0.05 / p[P.PITCH_RADIUS]
 
 
 @pytest.fixture
@@ -217,16 +216,16 @@ def case(scene):
     def make(name, seed=1, rpm=20000, tilt=1e-4, cage_offset=0.5, afloat=8e-6, wave=spline, **parameters):
         run = Run(scene(name), rpm, **parameters).init()
         rng = np.random.default_rng(seed)
-        run.u[at.U_LOAD_Y], run.u[at.U_LOAD_Z], run.u[at.U_OIL_T] = 70.0, -40.0, 310.0
-        run.u[at.U_INNER_T], run.u[at.U_OUTER_T] = 296.0, 294.0
-        c = np.zeros(at.C_SIZE)
-        conditions(run.p, run.u, run.u[at.U_SPEED], c)
-        y = run.s[at.S_Y : at.S_Y + at.Y_SIZE].copy()
+        run.u[U.LOAD_Y], run.u[U.LOAD_Z], run.u[U.OIL_T] = 70.0, -40.0, 310.0
+        run.u[U.INNER_T], run.u[U.OUTER_T] = 296.0, 294.0
+        c = np.zeros(C.SIZE)
+        conditions(run.p, run.u, run.u[U.SPEED], c)
+        y = run.s[S.Y : S.Y + Y.SIZE].copy()
         shake(y, run, rng, tilt, cage_offset, afloat)
-        rows = y[: 9 * at.STRIDE].reshape(9, at.STRIDE)
-        rows[:, int(run.p[at.P_BALLS]) :] = rows[:, :1]
+        rows = y[: 9 * STRIDE].reshape(9, STRIDE)
+        rows[:, int(run.p[P.BALLS]) :] = rows[:, :1]
         angle = rng.uniform(-np.pi, np.pi)
-        return Case(run.p, c, y, angle, run.u[at.U_SPEED], setup(run.p, c, wave), run.w)
+        return Case(run.p, c, y, angle, run.u[U.SPEED], setup(run.p, c, wave), run.w)
 
     return make
 
@@ -273,7 +272,7 @@ def test_states_are_what_they_should_be(case, name):
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("tilt", [0.0, 1e-5, 1e-4])
 def test_against_inertial_vectors(case, name, seed, tilt):
-    agree(case(name, seed=seed, tilt=tilt, P_LAND=0.0), ROUNDING)
+    agree(case(name, seed=seed, tilt=tilt, LAND=0.0), ROUNDING)
 
 
 @pytest.mark.parametrize("name", SCENES)
@@ -299,19 +298,19 @@ def test_film_against_pressure_quadrature(case, ratio, closing, wedge):
 
 @pytest.mark.parametrize("rpm", [0, 1000, -20000, 60000])
 def test_other_speeds(case, rpm):
-    agree(case(SCENES[0], rpm=rpm, P_LAND=0.0), ROUNDING)
+    agree(case(SCENES[0], rpm=rpm, LAND=0.0), ROUNDING)
 
 
 @pytest.mark.parametrize(
     "term", ["CAGE", "GRAVITY", "DRAG", "ROLLING", "GYROSCOPIC", "WAVINESS", "IMPERFECTION_SCALE"]
 )
 def test_without_a_term(case, term):
-    agree(case(SCENES[0], P_LAND=0.0, **{f"P_{term}": 0.0}), ROUNDING)
+    agree(case(SCENES[0], LAND=0.0, **{f"P_{term}": 0.0}), ROUNDING)
 
 
 def test_waviness_table_holds_the_harmonics(case):
     """Hermite interpolation over 2048 intervals: slope of order 20 to (2 pi 20/2048)^3/100 = 2e-6."""
-    agree(case(SCENES[0], P_LAND=0.0, wave=harmonics), 3e-6)
+    agree(case(SCENES[0], LAND=0.0, wave=harmonics), 3e-6)
 
 
 def pulls(case, found):
@@ -367,14 +366,14 @@ def test_angular_momentum(case, cage_offset):
 def test_losses_by_source(case):
     """Sources add up to all heat but the dampers'; rolling is what goes when the oracle leaves it out."""
     one = case(SCENES[0], cage_offset=1.02)
-    s = np.zeros(at.state_size(one.p))
-    s[at.S_Y : at.S_Y + at.Y_SIZE] = one.y
-    f = s[at.S_F : at.S_F + at.F_SIZE]
+    s = np.zeros(S.size(one.p))
+    s[S.Y : S.Y + Y.SIZE] = one.y
+    f = s[S.F : S.F + F.SIZE]
     right_hand_side(one.p, one.c, one.y, one.angle, one.speed, SPEED_RATE, one.w, f)
     summarise(one.p, s, one.w)
-    contacts, rolling, cage, drag = s[at.S_LOSS : at.S_LOSS + 4]
+    contacts, rolling, cage, drag = s[S.LOSS : S.LOSS + 4]
     dampers = (one.setup.dampers * one.state.rates**2).sum()
-    heats = f[at.F_HEAT : at.F_HEAT + 3].sum()
+    heats = f[F.HEAT : F.HEAT + 3].sum()
     assert contacts + rolling + cage + drag + dampers == pytest.approx(heats, rel=1e-12)
     for lost, change in (
         (rolling, {"races": tuple(replace(race, rolling=0.0) for race in one.setup.races)}),
@@ -392,7 +391,7 @@ BUMPS = 1e-7 * np.array([0.0, 1.0, -0.5, 0.3, 0.0, 0.2, -0.1, 0.1])  # m, orders
 @pytest.mark.parametrize("tilt", [0.0, 1e-4])
 def test_wavy_balls(case, name, tilt):
     """Forces and moments of wavy balls from the gradient of the approach, taken by complex steps."""
-    one = case(name, tilt=tilt, ball_waves=BUMPS, P_LAND=0.0)
+    one = case(name, tilt=tilt, ball_waves=BUMPS, LAND=0.0)
     smooth = one.oracle() if not tilt else None
     agree(one, ROUNDING)
     if smooth is not None:
@@ -410,7 +409,7 @@ def test_power_balance_of_wavy_balls(case, tilt, gate):
 
 
 def test_leaning_seat(case):
-    one = case(SCENES[0], tilt=1e-5, P_MISALIGNMENT_Y=3e-4, P_MISALIGNMENT_Z=-1e-4, P_LAND=0.0)
+    one = case(SCENES[0], tilt=1e-5, MISALIGNMENT_Y=3e-4, MISALIGNMENT_Z=-1e-4, LAND=0.0)
     agree(one, ROUNDING)
     energy = stored_energy(one.p, one.c, one.y, one.w)
     assert energy == pytest.approx(oracle.stored_energy(one.setup, one.state), rel=1e-12)
@@ -418,7 +417,7 @@ def test_leaning_seat(case):
 
 @pytest.mark.parametrize("stiffness", [1e5, 2.5e7])
 def test_springs_between_balls(case, stiffness):
-    one = case(SCENES[0], tilt=0.0, P_CAGE=0.0, P_SPRINGS=stiffness, P_SPRING_DAMPING=30.0)
+    one = case(SCENES[0], tilt=0.0, CAGE=0.0, SPRINGS=stiffness, SPRING_DAMPING=30.0)
     agree(one, ROUNDING)
     found = one.engine()
     stored = oracle.power_stored(one.setup, one.state, found.balls, found.bodies)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
-from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.layout import P
 from fmu_bearing.prepare.model import pack
 from tests.engine.test_quasistatic import solve
 
@@ -17,10 +17,10 @@ def test_first_lateral_mode_is_at_28000_rpm(scene):
     bearing = np.array([[radial, coupling], [coupling, tilt]])
     stiffness = np.block([[bearing, -bearing], [-bearing, bearing]])
     pedestal = spindle.mounting.pedestal_stiffness_N_m
-    stiffness[1, 1] += p[at.P_TILT_STIFFNESS]
+    stiffness[1, 1] += p[P.TILT_STIFFNESS]
     stiffness[2, 2] += pedestal
-    stiffness[3, 3] += p[at.P_ROTATIONAL_RATIO] * pedestal
-    mass = p[[at.P_INNER_MASS, at.P_INNER_TRANSVERSE, at.P_OUTER_MASS, at.P_OUTER_TRANSVERSE]]
+    stiffness[3, 3] += p[P.ROTATIONAL_RATIO] * pedestal
+    mass = p[[P.INNER_MASS, P.INNER_TRANSVERSE, P.OUTER_MASS, P.OUTER_TRANSVERSE]]
     squares, shapes = eigh(stiffness, np.diag(mass))
     share = (shapes**2 * mass[:, None])[[0, 2]].sum(0)  # kinetic energy in translation
     lateral = np.flatnonzero(share > 0.5)[0]

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from fmu_bearing.engine import layout as at
 from fmu_bearing.engine.fidelities.full.start import place_balls
+from fmu_bearing.engine.layout import EQ, P, Y
+from fmu_bearing.engine.layout.sizes import STRIDE
 from tests.engine.test_quasistatic import RPM, Bearing
 
 
@@ -12,11 +13,11 @@ from tests.engine.test_quasistatic import RPM, Bearing
 def test_balls_follow_the_outer_ring(scene, sag):
     """Against Cartesian places and velocities, for micrometres and for the millimetres of a soft pedestal."""
     bearing = Bearing(scene("7003C-bare")).solve(20e3, (500, 0, -300, 0, 0))
-    y = np.zeros(at.Y_SIZE)
+    y = np.zeros(Y.SIZE)
     centre = np.array([1e-5, 0.4 * sag, sag])
     place_balls(bearing.p, y, bearing.out, *centre)
-    rows = y[: 9 * at.STRIDE].reshape(9, -1)[:, : bearing.balls]
-    pitch = bearing.p[at.P_PITCH_RADIUS]
+    rows = y[: 9 * STRIDE].reshape(9, -1)[:, : bearing.balls]
+    pitch = bearing.p[P.PITCH_RADIUS]
 
     def cartesian(angle, axial, radial, tangential):
         """Vectors from components along x, r, theta."""
@@ -24,26 +25,31 @@ def test_balls_follow_the_outer_ring(scene, sag):
         return np.array([axial, -s * radial - c * tangential, c * radial - s * tangential])
 
     zero = np.zeros(bearing.balls)
-    theta = rows[at.B_TH]
+    theta = rows[Y.TH // STRIDE]
     nominal = 2 * np.pi * np.arange(bearing.balls) / bearing.balls
-    radius = pitch + bearing.row(at.Q5_R)
-    expected = cartesian(nominal, bearing.row(at.Q5_X), radius, zero) + centre[:, None]
-    placed = cartesian(theta, rows[at.B_X], pitch + rows[at.B_R], zero)
+    radius = pitch + bearing.row(EQ.R)
+    expected = cartesian(nominal, bearing.row(EQ.X), radius, zero) + centre[:, None]
+    placed = cartesian(theta, rows[Y.X // STRIDE], pitch + rows[Y.R // STRIDE], zero)
     np.testing.assert_allclose(placed, expected, rtol=0, atol=1e-16)
     # velocity: orbit and what the ball moves along and outwards as it goes round, from a Fourier series
-    orbit = bearing.row(at.Q5_OM)
+    orbit = bearing.row(EQ.OM)
     waves = np.fft.fftfreq(bearing.balls, 1 / bearing.balls)
 
     def around(values):
         return np.fft.ifft(1j * waves * np.fft.fft(values)).real
 
     wanted = cartesian(
-        nominal, orbit * around(bearing.row(at.Q5_X)), orbit * around(bearing.row(at.Q5_R)), radius * orbit
+        nominal, orbit * around(bearing.row(EQ.X)), orbit * around(bearing.row(EQ.R)), radius * orbit
     )
-    got = cartesian(theta, rows[at.B_VX], rows[at.B_VR], (pitch + rows[at.B_R]) * rows[at.B_OM])
+    got = cartesian(
+        theta,
+        rows[Y.VX // STRIDE],
+        rows[Y.VR // STRIDE],
+        (pitch + rows[Y.R // STRIDE]) * rows[Y.OM // STRIDE],
+    )
     # the differences lose up to a few per cent of the harmonics beyond the first: of 3 mm/s
     np.testing.assert_allclose(got, wanted, rtol=0, atol=1e-4)
-    spin = cartesian(theta, rows[at.B_WX], rows[at.B_WR], rows[at.B_WT])
-    still = cartesian(nominal, bearing.row(at.Q5_WX), bearing.row(at.Q5_WR), zero)
+    spin = cartesian(theta, rows[Y.WX // STRIDE], rows[Y.WR // STRIDE], rows[Y.WT // STRIDE])
+    still = cartesian(nominal, bearing.row(EQ.WX), bearing.row(EQ.WR), zero)
     np.testing.assert_allclose(spin, still, rtol=1e-12, atol=1e-9)
     assert orbit.mean() == pytest.approx(0.42 * 20e3 * RPM, rel=0.02)

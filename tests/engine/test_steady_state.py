@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.layout import C, F, S, U, Y
+from fmu_bearing.engine.layout.sizes import STRIDE
 from tests.engine.helpers import RPM, Run, quiet
 from tests.engine.test_quasistatic import solve
 
@@ -37,7 +38,7 @@ def test_steady_loads_angles_and_cage_speed(scene, name, rpm, load_gate, angle_g
 
 def test_energy_balance(scene):
     """Work in less dissipation less stored energy closes to 1e-5 of the dissipation over 0.1 s."""
-    run = Run(scene("7003C-spindle"), 20000, P_TOLERANCE=1e-5, P_MAX_STEP=5e-6).init()
+    run = Run(scene("7003C-spindle"), 20000, TOLERANCE=1e-5, MAX_STEP=5e-6).init()
     run.run(0.01)
     before, lost = run.imbalance, run.heat
     run.run(0.1, 1e-3)
@@ -65,7 +66,7 @@ def test_friction_torque_falls_with_viscosity(scene):
     torques = []
     for temperature in (293.15, 313.15, 333.15):
         run = Run(quiet(scene("7003C-bare")), 20000)
-        run.u[at.U_OIL_T] = temperature
+        run.u[U.OIL_T] = temperature
         rows = run.init().run(0.02, 2e-4)[-50:]
         torques.append(run.value("friction_torque", rows).mean())
     # 30, 9.7 and 4.3 mPa s. Bounded traction does not know viscosity; rolling resistance and lands do, and
@@ -109,20 +110,20 @@ def test_against_tiny_runge_kutta_steps(scene):
     """0.3 ms from the same state by classical RK4 at 20 ns on the same right-hand side."""
     from fmu_bearing.engine.mechanics.equations import right_hand_side
 
-    run = Run(scene("7003C-spindle"), 20000, P_TOLERANCE=1e-4, P_MAX_STEP=5e-6).init()
+    run = Run(scene("7003C-spindle"), 20000, TOLERANCE=1e-4, MAX_STEP=5e-6).init()
     run.run(2e-3)
-    y = run.s[at.S_Y : at.S_Y + at.Y_SIZE].copy()
-    c = run.s[at.S_C : at.S_C + at.C_SIZE].copy()
-    angle, speed = run.s[at.S_ANGLE], run.s[at.S_SPEED]
-    f = np.zeros(at.F_SIZE)
+    y = run.s[S.Y : S.Y + Y.SIZE].copy()
+    c = run.s[S.C : S.C + C.SIZE].copy()
+    angle, speed = run.s[S.ANGLE], run.s[S.SPEED]
+    f = np.zeros(F.SIZE)
 
     def rate(t, state):
         right_hand_side(run.p, c, state, angle + speed * t, speed, 0.0, run.w, f)
         out = np.zeros_like(state)
-        out[: 3 * at.STRIDE] = state[3 * at.STRIDE : 6 * at.STRIDE]
-        out[3 * at.STRIDE : 9 * at.STRIDE] = f[: 6 * at.STRIDE]
-        out[at.Y_Q : at.Y_V] = state[at.Y_V :]
-        out[at.Y_V :] = f[at.F_G : at.F_G + 17]
+        out[: 3 * STRIDE] = state[3 * STRIDE : 6 * STRIDE]
+        out[3 * STRIDE : 9 * STRIDE] = f[: 6 * STRIDE]
+        out[Y.Q0 : Y.V0] = state[Y.V0 :]
+        out[Y.V0 :] = f[F.BODY : F.BODY + 17]
         return out
 
     steps, h = 15000, 2e-8
@@ -135,7 +136,7 @@ def test_against_tiny_runge_kutta_steps(scene):
         y += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
     before = run.z[:6].copy()
     run.run(3e-4)
-    exact = y[[at.Y_V, at.Y_V + 1, at.Y_V + 2, at.Y_V + 5, at.Y_V + 6, at.Y_V + 7]]
+    exact = y[[Y.V0, Y.V0 + 1, Y.V0 + 2, Y.V0 + 5, Y.V0 + 6, Y.V0 + 7]]
     moved = np.abs(exact - before).max()
     # velocities move by millimetres per second; the tight run keeps 1e-3 of that
     assert np.abs(run.z[:6] - exact).max() < 1e-3 * moved

@@ -4,15 +4,15 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.layout import C, P, R, W
+from fmu_bearing.engine.layout.sizes import STRIDE
 from fmu_bearing.engine.mechanics.traction import lubricated_traction
 from fmu_bearing.prepare.model import pack
 from tests.engine.helpers import RPM, quiet
 from tests.engine.lubrication import film_places
 
-S = at.STRIDE
 ETA = 0.03  # Pa s, ambient
-SUMS = (at.R_FT, at.R_FM, at.R_MN, at.R_MT, at.R_MM)
+SUMS = (R.FT, R.FM, R.MN, R.MT, R.MM)
 
 
 class Contact:
@@ -22,54 +22,61 @@ class Contact:
         one = quiet(scene("7003C-spindle"))
         one = one.model_copy(update={"fidelity": one.fidelity.model_copy(update={"traction_strips": strips})})
         self.p = film_places(one, pack(one, np.empty(0)), law)
-        self.c = np.zeros(at.C_SIZE)
-        self.c[at.C_VISCOSITY] = ETA
-        self.w = np.zeros(at.W_ROWS * S)
+        self.c = np.zeros(C.SIZE)
+        self.c[C.VISCOSITY] = ETA
+        self.w = np.zeros(W.ROWS)
 
     def numbers(self, race):
-        return self.p[at.P_RACES + race * at.RACE_SIZE :][: at.RACE_SIZE]
+        return self.p[P.RACES + race * P.RACE_SIZE :][: P.RACE_SIZE]
 
     def row(self, race, place):
-        return self.w[(at.W_RACE + race * at.RACE_ROWS + place) * S :][:S]
+        return self.w[W.RACE + race * R.SIZE + place :][:STRIDE]
 
     def press(self, race, load, ut=0.0, um=0.0, an=0.0, rest=0.0, entrain=8.0):
         """Fill the rows for elastic loads (N), sliding (m/s), spin (rad/s) and entrainment (m/s)."""
         n = self.numbers(race)
-        approach = (np.asarray(load) / n[at.RACE_STIFFNESS]) ** (2 / 3)
-        self.row(race, at.R_LOAD)[:] = load
-        self.row(race, at.R_HALF)[:] = n[at.RACE_HALF_LENGTH] * np.sqrt(approach)
-        self.row(race, at.R_UT)[:] = ut
-        self.row(race, at.R_UM)[:] = um
-        self.row(race, at.R_AN)[:] = an
-        self.row(race, at.R_AT)[:] = 0.1 * rest
-        self.row(race, at.R_AM)[:] = rest
-        self.row(race, at.R_ENTRAIN)[:] = entrain
+        approach = (np.asarray(load) / n[P.RACE_STIFFNESS]) ** (2 / 3)
+        self.row(race, R.LOAD)[:] = load
+        self.row(race, R.HALF)[:] = n[P.RACE_HALF_LENGTH] * np.sqrt(approach)
+        self.row(race, R.UT)[:] = ut
+        self.row(race, R.UM)[:] = um
+        self.row(race, R.AN)[:] = an
+        self.row(race, R.AT)[:] = 0.1 * rest
+        self.row(race, R.AM)[:] = rest
+        self.row(race, R.ENTRAIN)[:] = entrain
         return self
 
     def run(self, race):
-        lubricated_traction(self.p, self.c, S, race, self.w)
+        lubricated_traction(self.p, self.c, STRIDE, race, self.w)
         return np.array([self.row(race, k) for k in SUMS])
 
     def film(self, race, lane):
-        u, load = self.row(race, at.R_ENTRAIN)[lane], self.row(race, at.R_LOAD)[lane]
+        u, load = self.row(race, R.ENTRAIN)[lane], self.row(race, R.LOAD)[lane]
         speed = ETA * mp.sqrt(mp.mpf(u) ** 2 + mp.mpf("1e-8"))
-        factor = mp.mpf(self.numbers(race)[at.RACE_CENTRAL_FILM])
+        factor = mp.mpf(self.numbers(race)[P.RACE_CENTRAL_FILM])
         return mp.mpf("1e-9") + factor * speed ** mp.mpf("0.67") * (load + mp.mpf("1e-3")) ** mp.mpf("-0.067")
 
     def pressures(self, race, lane):
         """Half axes (m) and peak pressure (Pa)."""
         n = self.numbers(race)
-        root = self.row(race, at.R_HALF)[lane] / n[at.RACE_HALF_LENGTH]
+        root = self.row(race, R.HALF)[lane] / n[P.RACE_HALF_LENGTH]
         return (
-            n[at.RACE_HALF_LENGTH] * root,
-            n[at.RACE_HALF_WIDTH] * root,
-            mp.mpf(n[at.RACE_PRESSURE]) * root,
+            n[P.RACE_HALF_LENGTH] * root,
+            n[P.RACE_HALF_WIDTH] * root,
+            mp.mpf(n[P.RACE_PRESSURE]) * root,
         )
 
     def sliding(self, race, lane, offset):
-        sag = offset**2 / (2 * self.numbers(race)[at.RACE_PROFILE_RADIUS])
+        sag = offset**2 / (2 * self.numbers(race)[P.RACE_PROFILE_RADIUS])
         ut, um, an, a_t, am = (
-            mp.mpf(self.row(race, k)[lane]) for k in (at.R_UT, at.R_UM, at.R_AN, at.R_AT, at.R_AM)
+            mp.mpf(self.row(race, k)[lane])
+            for k in (
+                R.UT,
+                R.UM,
+                R.AN,
+                R.AT,
+                R.AM,
+            )
         )
         return ut - offset * an - sag * am, um + sag * a_t, sag
 
@@ -77,8 +84,8 @@ class Contact:
         """The five sums of one lane, strip by strip, in 40 digits."""
         mp.mp.dps = 40
         a, b, peak = self.pressures(race, lane)
-        load, mu = mp.mpf(self.row(race, at.R_LOAD)[lane]), mp.mpf(self.p[at.P_MU])
-        count, first = int(self.p[at.P_STRIPS]), int(self.p[at.P_AT_STRIPS])
+        load, mu = mp.mpf(self.row(race, R.LOAD)[lane]), mp.mpf(self.p[P.MU])
+        count, first = int(self.p[P.STRIPS]), int(self.p[P.AT_STRIPS])
         film = self.film(race, lane)
         total = [mp.mpf(0)] * 5
         for node, share in zip(self.p[first:][:count], self.p[first + count :][:count], strict=True):
@@ -86,17 +93,17 @@ class Contact:
             mean = mp.pi / 4 * peak * mp.sqrt(1 - node**2)
             area = share * mp.mpf(8) / 3 * a * b / mp.sqrt(1 - node**2)
             ut, um, sag = self.sliding(race, lane, node * a)
-            spin = mp.mpf(self.row(race, at.R_AN)[lane])
+            spin = mp.mpf(self.row(race, R.AN)[lane])
             # half the strip's width, and the mean square of the place across it weighted with the pressure
             half = a * share / (mp.mpf(3) / 2 * (1 - node**2))
             across = b**2 / 4 * (1 - node**2)
             spread = half**2 + across if law == "eyring" else 0
-            floor = mp.mpf(self.p[at.P_TRACTION_FLOOR]) if law == "eyring" else 0
+            floor = mp.mpf(self.p[P.TRACTION_FLOOR]) if law == "eyring" else 0
             speed = mp.sqrt(ut**2 + um**2 + spread * spin**2 + floor**2)
             if speed == 0:
                 continue
             if law == "eyring":
-                eta, stress = roelands(mean, self.p[at.P_PRESSURE_VISCOSITY]), mp.mpf(5e6)
+                eta, stress = roelands(mean, self.p[P.PRESSURE_VISCOSITY]), mp.mpf(5e6)
                 shear = area * stress * mp.asinh(eta * speed / film / stress)
                 pull = shear / mp.sqrt(1 + (shear / (mu * share * load)) ** 2)
             else:
@@ -125,15 +132,15 @@ def test_against_every_strip_in_forty_digits(contact, law, race):
     rng = np.random.default_rng(race)
     one = contact(law).press(
         race,
-        10.0 ** rng.uniform(-2, 3, S),
-        ut=rng.normal(size=S) * 10.0 ** rng.uniform(-9, 1, S),
-        um=rng.normal(size=S) * 10.0 ** rng.uniform(-9, 0, S),
-        an=rng.normal(size=S) * 2000,
-        rest=rng.normal(size=S) * 5000,
-        entrain=rng.uniform(-20, 20, S),
+        10.0 ** rng.uniform(-2, 3, STRIDE),
+        ut=rng.normal(size=STRIDE) * 10.0 ** rng.uniform(-9, 1, STRIDE),
+        um=rng.normal(size=STRIDE) * 10.0 ** rng.uniform(-9, 0, STRIDE),
+        an=rng.normal(size=STRIDE) * 2000,
+        rest=rng.normal(size=STRIDE) * 5000,
+        entrain=rng.uniform(-20, 20, STRIDE),
     )
     found = one.run(race)
-    for lane in range(S):
+    for lane in range(STRIDE):
         wanted = np.array(one.slow(race, lane, law))
         # strips may cancel: each sum against the sum of its strips' sizes, which the load bounds or is of
         scale = np.abs(found[:2, lane]).max() * np.array([1, 1, 1e-4, 1e-6, 1e-6])
@@ -159,17 +166,17 @@ def test_strips_against_the_whole_ellipse(contact, slide, spin, gate):
     depends on it. With spin, five strips pull a tenth too hard while sliding is small against it.
     """
     one = contact("eyring").press(0, 60.0, ut=slide, um=0.0, an=spin)
-    one.p[at.P_TRACTION_FLOOR] = 0.0
+    one.p[P.TRACTION_FLOOR] = 0.0
     found, _, moment, *_ = one.run(0)[:, 0]
     a, b, peak = (float(x) for x in one.pressures(0, 0))
-    film, mu = float(one.film(0, 0)), one.p[at.P_MU]
+    film, mu = float(one.film(0, 0)), one.p[P.MU]
     x, y = np.meshgrid((np.arange(400) + 0.5) / 200 - 1, (np.arange(400) + 0.5) / 200 - 1)
     x, y = x[x**2 + y**2 < 1], y[x**2 + y**2 < 1]
     pressure = peak * np.sqrt(1 - x**2 - y**2)
     ut, um = slide - spin * a * x, spin * b * y
     speed = np.hypot(ut, um)
     log = np.log(ETA) + 9.67
-    index = one.p[at.P_PRESSURE_VISCOSITY] * 1.96e8 / log
+    index = one.p[P.PRESSURE_VISCOSITY] * 1.96e8 / log
     eta = ETA * np.exp(log * ((1 + pressure / 1.96e8) ** index - 1))
     tau = 5e6 * np.arcsinh(eta * speed / film / 5e6)
     tau /= np.sqrt(1 + (tau / (mu * pressure)) ** 2)
@@ -181,37 +188,41 @@ def test_strips_against_the_whole_ellipse(contact, slide, spin, gate):
 
 
 def test_creeping_is_newtonian(contact):
-    one = contact("eyring").press(0, 60.0, ut=np.array([1e-12, 1e-9] * (S // 2)))
-    one.p[at.P_TRACTION_FLOOR] = 0.0
+    one = contact("eyring").press(0, 60.0, ut=np.array([1e-12, 1e-9] * (STRIDE // 2)))
+    one.p[P.TRACTION_FLOOR] = 0.0
     force = one.run(0)[0]
     assert force[1] / force[0] == pytest.approx(1e3, rel=1e-6)
     a, b, peak = one.pressures(0, 0)
-    first = int(one.p[at.P_AT_STRIPS])
+    first = int(one.p[P.AT_STRIPS])
     drag = sum(
         mp.mpf(8) / 3 * a * b * share / mp.sqrt(1 - mp.mpf(node) ** 2)
-        * roelands(mp.pi / 4 * peak * mp.sqrt(1 - mp.mpf(node) ** 2), one.p[at.P_PRESSURE_VISCOSITY])
+        * roelands(mp.pi / 4 * peak * mp.sqrt(1 - mp.mpf(node) ** 2), one.p[P.PRESSURE_VISCOSITY])
         for node, share in zip(one.p[first:][:5], one.p[first + 5 :][:5], strict=True)
     )  # fmt: skip
     assert -force[0] == pytest.approx(float(drag / one.film(0, 0) * 1e-12), rel=1e-9)
 
 
 def test_gross_sliding_is_bounded(contact):
-    loads = np.geomspace(1e-3, 1e4, S)
+    loads = np.geomspace(1e-3, 1e4, STRIDE)
     one = contact("eyring").press(1, loads, ut=50.0, entrain=1e-3)
-    one.p[at.P_MU] = 0.005  # the law grows with the logarithm of the sliding: a low bound is met sooner
+    one.p[P.MU] = 0.005  # the law grows with the logarithm of the sliding: a low bound is met sooner
     force = one.run(1)[0]
-    assert (np.abs(force) < one.p[at.P_MU] * loads).all()
+    assert (np.abs(force) < one.p[P.MU] * loads).all()
     pressed = loads > 10.0  # a light load's oil is too thin to reach the bound
-    assert (np.abs(force[pressed]) > 0.97 * one.p[at.P_MU] * loads[pressed]).all()
+    assert (np.abs(force[pressed]) > 0.97 * one.p[P.MU] * loads[pressed]).all()
 
 
 @pytest.mark.parametrize("law", ["eyring", "paper"])
 @pytest.mark.parametrize("race", [0, 1])
 def test_traction_opposes_sliding_and_dissipates(contact, law, race):
     rng = np.random.default_rng(3)
-    motion = {"ut": rng.normal(size=S), "um": rng.normal(size=S), "an": 2000 * rng.normal(size=S)}
-    motion["rest"] = 5000 * rng.normal(size=S)
-    one = contact(law).press(race, rng.uniform(0, 300, S), **motion)
+    motion = {
+        "ut": rng.normal(size=STRIDE),
+        "um": rng.normal(size=STRIDE),
+        "an": 2000 * rng.normal(size=STRIDE),
+    }
+    motion["rest"] = 5000 * rng.normal(size=STRIDE)
+    one = contact(law).press(race, rng.uniform(0, 300, STRIDE), **motion)
     ft, fm, mn, mt, mm = one.run(race)
     lost = -(ft * motion["ut"] + fm * motion["um"] + mn * motion["an"])
     lost -= 0.1 * mt * motion["rest"] + mm * motion["rest"]
@@ -229,7 +240,7 @@ def test_extremes_stay_finite(contact, law):
         for slide in (0.0, 1e-30, 1e3):
             for entrain in (0.0, 100.0):
                 for eta in (1e-6, 0.03, 1e4):
-                    one.c[at.C_VISCOSITY] = eta
+                    one.c[C.VISCOSITY] = eta
                     found = one.press(0, load, ut=slide, an=slide, entrain=entrain).run(0)
                     assert np.isfinite(found).all()
                     assert load > 0.0 or not found.any()

@@ -6,7 +6,8 @@ import mpmath
 import numpy as np
 import pytest
 
-from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE
+from fmu_bearing.engine.layout import P
 from fmu_bearing.engine.mechanics.conditions import rolling_reduction, viscosity
 
 TEMPERATURES = [233.15, 263.15, 293.15, 313.15, 353.15, 373.15, 473.15]  # K, the range of the input
@@ -14,11 +15,11 @@ VOGEL, WALTHER = 0.0, 1.0
 
 
 def oil(law, eta=0.03, density=870.0, b=879.0, c=178.0, slope=3.7):
-    p = np.zeros(at.P_TABLES)
-    p[at.P_VISCOSITY_LAW] = law
-    p[at.P_VISCOSITY], p[at.P_OIL_DENSITY] = eta, density
-    p[at.P_VOGEL_B], p[at.P_VOGEL_C] = b, c
-    p[at.P_WALTHER_SLOPE] = slope
+    p = np.zeros(P.TABLES)
+    p[P.VISCOSITY_LAW] = law
+    p[P.VISCOSITY], p[P.OIL_DENSITY] = eta, density
+    p[P.VOGEL_B], p[P.VOGEL_C] = b, c
+    p[P.WALTHER_SLOPE] = slope
     return p
 
 
@@ -35,7 +36,7 @@ def walther(eta, density, slope, temperature):
 @pytest.mark.parametrize("eta", [1e-3, 0.03, 2.0])
 def test_both_laws_pass_through_the_reference_point(law, eta):
     # a logarithm and back: an ulp of the logarithm, 1e-16 times up to 8, and of v + 0.7 over v
-    assert viscosity(oil(law, eta), at.REFERENCE_TEMPERATURE) == pytest.approx(eta, rel=2e-15)
+    assert viscosity(oil(law, eta), REFERENCE_TEMPERATURE) == pytest.approx(eta, rel=2e-15)
 
 
 @pytest.mark.parametrize("temperature", TEMPERATURES)
@@ -85,9 +86,9 @@ def test_extremes_stay_finite_and_fall(law, extreme):
 
 def test_reduction_of_the_rolling_resistance():
     p = oil(VOGEL)
-    p[at.P_SHEAR_HEATING], p[at.P_STARVATION] = 1.84e-9 * 26.0**1.28, 6e-8 * 52.0 * math.sqrt(4.4 / 36.0)
+    p[P.SHEAR_HEATING], p[P.STARVATION] = 1.84e-9 * 26.0**1.28, 6e-8 * 52.0 * math.sqrt(4.4 / 36.0)
     assert rolling_reduction(p, 0.03, 2000.0) == 1.0  # left out
-    p[at.P_REDUCTION] = 1.0
+    p[P.REDUCTION] = 1.0
     n, nu = 2000.0 * 30.0 / math.pi, 0.03 / 870.0 * 1e6
     heating = 1.0 / (1.0 + 1.84e-9 * (n * 26.0) ** 1.28 * nu**0.64)
     starving = math.exp(-6e-8 * nu * n * 52.0 * math.sqrt(4.4 / (2.0 * 18.0)))

@@ -7,8 +7,7 @@ import re
 import numpy as np
 import pytest
 
-from examples.papers import case as case_module
-from examples.papers import circles, impact_noise, multi_source, page, sound_field
+from examples.papers import case as case_module, circles, impact_noise, multi_source, page, sound_field
 from examples.papers.calibration import calibrate
 from examples.papers.case import Case
 from examples.papers.hearing import Ear, a_weighted, equivalent, line, spectrum

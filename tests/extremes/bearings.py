@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.layout import Z
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.scene import Scene, read_scene
@@ -60,7 +60,7 @@ class Trace:
     def column(self, name: str, since: float = -np.inf):
         """An output over the points after ``since`` (s)."""
         rows = np.array(self.rows)[np.array(self.times) > since]
-        return rows[:, at.BEARING_OUTPUTS.index(name)]
+        return rows[:, Z.BEARING_OUTPUTS.index(name)]
 
     def columns(self, names, since: float = -np.inf):
         return np.array([self.column(name, since) for name in names]).T

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.layout import P, S, Z
 from fmu_bearing.instance import Instance
 from tests.extremes.bearings import RINGS, Trace
 
@@ -32,8 +32,8 @@ def plausible(instance: Instance, trace: Trace, fastest: float = FASTEST_RING) -
     assert (trace.column("film.lambda_min") >= 0.0).all()
     assert (trace.columns(_HEATS) >= -HEAT_SLACK * (1.0 + np.abs(trace.columns(_HEATS)).max())).all()
     assert (trace.column("stiffness.axial") >= 0.0).all() and (trace.column("stiffness.radial") >= 0.0).all()
-    balls = np.abs(rows[:, at.Z_BALLS : at.Z_BALLS + 3 * instance.model.n_balls]).max()
-    surface = np.abs(instance.get("shaft_speed")) * instance.p[at.P_PITCH_RADIUS]
+    balls = np.abs(rows[:, Z.BALLS : Z.BALLS + 3 * instance.model.n_balls]).max()
+    surface = np.abs(instance.get("shaft_speed")) * instance.p[P.PITCH_RADIUS]
     assert balls <= fastest + 2.0 * surface
 
 
@@ -44,11 +44,9 @@ HEAT_SLACK = 1e-6
 def balanced(instance: Instance, share: float) -> None:
     """Work in less dissipation less stored energy: within ``share`` of the energy that was turned over."""
     s = instance.s
-    lost = s[at.S_HEAT_INNER : at.S_HEAT_INNER + 3].sum()
-    stored = s[at.S_ENERGY_NOW] - s[at.S_ENERGY_START]
-    assert (
-        abs(s[at.S_WORK] - lost - stored) <= share * (lost + abs(s[at.S_WORK]) + abs(stored)) + ENERGY_FLOOR
-    )
+    lost = s[S.HEAT : S.HEAT + 3].sum()
+    stored = s[S.ENERGY_NOW] - s[S.ENERGY_START]
+    assert abs(s[S.WORK] - lost - stored) <= share * (lost + abs(s[S.WORK]) + abs(stored)) + ENERGY_FLOOR
 
 
 #: J: a thousandth of the 3 mJ that 24 contacts under 115 N store; standstill dissipates less than that.

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.layout import Q, S, Y
 from tests.extremes.bearings import RINGS, SILENT, bearing, drive
 from tests.extremes.cases import DRY, FULL, SLACK
 
@@ -16,7 +16,7 @@ def pair(changes, level, method, push, rpm=2e4):
     for given in (0.0, push):
         run = bearing("7003C-spindle", SILENT | changes, {"rpm": rpm}, level, method)
         run.initialise()
-        run.s[at.S_Y + at.Y_V + at.Q_CAGE + 1] += given
+        run.s[S.Y + Y.V0 + Q.CAGE + 1] += given
         runs.append(run)
     return runs
 

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from fmu_bearing.engine import abi
-from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.layout import U
+from fmu_bearing.engine.status import BAD_INPUT
 from fmu_bearing.instance import EngineError
 from fmu_bearing.scene import SceneError, read_scene_text
 from tests.conftest import SCENES
@@ -119,11 +120,11 @@ def test_inputs_beyond_the_extremes_are_refused_with_the_range(name, value):
 @pytest.mark.parametrize(
     ("place", "value"),
     [
-        (at.U_PEDESTAL, 0.0),
-        (at.U_PEDESTAL, -1.0),
-        (at.U_SPEED, 1.2e4),
-        (at.U_OIL_T, 100.0),
-        *((place, bad) for place in range(len(at.INPUTS)) for bad in (np.nan, np.inf)),
+        (U.PEDESTAL, 0.0),
+        (U.PEDESTAL, -1.0),
+        (U.SPEED, 1.2e4),
+        (U.OIL_T, 100.0),
+        *((place, bad) for place in range(len(U.INPUTS)) for bad in (np.nan, np.inf)),
     ],
 )
 def test_the_engine_refuses_such_inputs_by_itself(place, value):
@@ -132,8 +133,8 @@ def test_the_engine_refuses_such_inputs_by_itself(place, value):
     run.initialise()
     kept, shown = run.s.copy(), run.z.copy()
     run.u[place] = value
-    assert abi.step(run._p, run.u, run.s, run.z, run._w, 1e-4) == at.BAD_INPUT
-    assert abi.init(run._p, run.u, run.s, run.z, run._w, 0.0) == at.BAD_INPUT
+    assert abi.step(run._p, run.u, run.s, run.z, run._w, 1e-4) == BAD_INPUT
+    assert abi.init(run._p, run.u, run.s, run.z, run._w, 0.0) == BAD_INPUT
     np.testing.assert_array_equal(run.s, kept)
     np.testing.assert_array_equal(run.z, shown)
 

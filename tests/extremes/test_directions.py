@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.layout import Z
 from tests.extremes.bearings import PERFECT, RPM, bearing, drive
 from tests.extremes.cases import COMPUTED
 
@@ -13,7 +13,7 @@ def settled(changes=None, inputs=None, name="7003C-bare", rpm=2e4):
     run = bearing(name, PERFECT | (changes or {}), {"rpm": rpm} | (inputs or {}))
     run.initialise()
     rows = np.array(drive(run, 0.015, 1e-4).rows)[-50:]
-    return dict(zip(at.BEARING_OUTPUTS, rows.mean(0), strict=False))
+    return dict(zip(Z.BEARING_OUTPUTS, rows.mean(0), strict=False))
 
 
 @pytest.fixture(scope="module")

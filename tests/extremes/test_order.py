@@ -7,10 +7,11 @@ below is compiled with the engine's kernels (and kept in their cache), which tak
 import numpy as np
 import pytest
 
-from fmu_bearing.engine import layout as at
 from fmu_bearing.engine.fidelities.full.methods.tableaux import ESDIRK4, RK4, T_GAMMA, TABLEAUX, TRBDF2
 from fmu_bearing.engine.fidelities.full.runge_kutta import runge_kutta_step
 from fmu_bearing.engine.jit import entry
+from fmu_bearing.engine.layout import A, C, F, J, S, W, Y
+from fmu_bearing.engine.layout.sizes import STRIDE
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.newton.block_arrow import factor
 from fmu_bearing.engine.newton.jacobian import jacobian
@@ -39,18 +40,18 @@ def fixed_steps(p, c, y, axes, flexure, angle, speed, h, count, tableau, toleran
     jacobian(p, c, y, angle, speed, 0.0, w, jac)
     gh = TABLEAUX[tableau + T_GAMMA] * h
     factor(p, jac, gh, gh * gh, gh * gh, fac, w)
-    start = y[2 * at.STRIDE]
+    start = y[2 * STRIDE]
     for n in range(count):
-        turned = y[2 * at.STRIDE] - start
+        turned = y[2 * STRIDE] - start
         if not runge_kutta_step(
             p, c, y, f, axes, flexure, angle, speed, 0.0, h, tableau, fac, turned, tolerance, 0.1,
             True, w, report,
         ):  # fmt: skip
             return n
-        for i in range(at.Y_SIZE):
-            y[i] = w[at.W_Y + i]
-        for i in range(at.F_SIZE):
-            f[i] = w[at.W_LAST + i]
+        for i in range(Y.SIZE):
+            y[i] = w[W.STAGE + i]
+        for i in range(F.SIZE):
+            f[i] = w[W.LAST + i]
         angle += h * speed
     return count
 
@@ -61,24 +62,24 @@ def swinging():
     run = bearing("7003C-spindle", SMOOTH, {"rpm": 2e4}, tolerance=1e-5, max_internal_step=5e-6)
     run.initialise()
     drive(run, 0.02, 1e-3)
-    run.s[at.S_Y + at.Y_V : at.S_Y + at.Y_V + 3] += PUSH
+    run.s[S.Y + Y.V0 : S.Y + Y.V0 + 3] += PUSH
     return run
 
 
 def rings_after(run, h, tableau, tolerance=1e-13):
     """Ring velocities (m/s) after ``DURATION`` in steps of ``h`` (s)."""
     s = run.s
-    y = s[at.S_Y : at.S_Y + at.Y_SIZE].copy()
-    c, axes = s[at.S_C : at.S_C + at.C_SIZE].copy(), s[at.S_AXES : at.S_JAC].copy()
-    jac, fac, f = np.zeros(at.J_SIZE), np.zeros(at.A_SIZE), np.zeros(at.F_SIZE)
+    y = s[S.Y : S.Y + Y.SIZE].copy()
+    c, axes = s[S.C : S.C + C.SIZE].copy(), s[S.AXES : S.JAC].copy()
+    jac, fac, f = np.zeros(J.SIZE), np.zeros(A.SIZE), np.zeros(F.SIZE)
     rigid = np.zeros(0)  # rings without flexural modes
     count = round(DURATION / h)
-    angle, speed = s[at.S_ANGLE], s[at.S_SPEED]
+    angle, speed = s[S.ANGLE], s[S.SPEED]
     done = fixed_steps(
         run._p, c, y, axes, rigid, angle, speed, h, count, tableau, tolerance, run._w, jac, fac, f
     )
     assert done == count
-    return y[[at.Y_V, at.Y_V + 1, at.Y_V + 2, at.Y_V + 5, at.Y_V + 6, at.Y_V + 7]]
+    return y[[Y.V0, Y.V0 + 1, Y.V0 + 2, Y.V0 + 5, Y.V0 + 6, Y.V0 + 7]]
 
 
 def orders(run, tableau, steps, exact):

@@ -5,8 +5,7 @@ import re
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
+from hypothesis import HealthCheck, given, settings, strategies as st
 
 from fmu_bearing.instance import EngineError
 from tests.extremes.bearings import bearing, work

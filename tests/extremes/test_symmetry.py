@@ -7,7 +7,7 @@ their phase: cos(n a + p) seen from the other side is cos(n a - p).
 import numpy as np
 import pytest
 
-from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.layout import P, Z
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import Model, prepare
 from tests.extremes.bearings import PERFECT, RINGS, SILENT, drive, edited, feed
@@ -32,7 +32,7 @@ def turning(changes, rpm, mirror, level, method):
     model = prepare(edited("7003C-bare", changes), level=level, method=method)
     if mirror:
         numbers = model.parameters.copy()
-        first, balls = int(numbers[at.P_AT_OVERSIZE]), int(numbers[at.P_BALLS])
+        first, balls = int(numbers[P.AT_OVERSIZE]), int(numbers[P.BALLS])
         sizes = numbers[first : first + balls]
         numbers[first : first + balls] = np.roll(sizes[::-1], 1)
         numbers.setflags(write=False)
@@ -48,7 +48,7 @@ def turning(changes, rpm, mirror, level, method):
 
 def agree(one, other, share):
     """Outputs agree within ``share`` of the largest of their kind, ``FLIPPED`` ones with the other sign."""
-    for k, name in enumerate(at.BEARING_OUTPUTS):
+    for k, name in enumerate(Z.BEARING_OUTPUTS):
         if name.startswith(("solver.", "energy.", "cage.whirl")):
             continue
         left = one.column(name)

@@ -5,8 +5,7 @@ import pytest
 from fmu_bearing.fmi.session import DISCARD, ERROR, Phase, Session
 from fmu_bearing.instance import EngineError, Instance
 
-from .conftest import DISCARD as DISCARDED
-from .conftest import OK, STEP, Master
+from .conftest import DISCARD as DISCARDED, OK, STEP, Master
 
 
 @pytest.fixture

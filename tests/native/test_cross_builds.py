@@ -22,8 +22,7 @@ from fmu_bearing.fmi.native.compile import objects
 from fmu_bearing.fmi.native.link import library
 from fmu_bearing.fmi.native.model_file import model_bytes
 from fmu_bearing.fmi.native.optimise import MATHEMATICS, BuildError
-from fmu_bearing.fmi.native.platforms import PLATFORMS
-from fmu_bearing.fmi.native.platforms import host as own_platform
+from fmu_bearing.fmi.native.platforms import PLATFORMS, host as own_platform
 from fmu_bearing.fmi.resources import engine_digest
 
 from . import binaries, careless, toy

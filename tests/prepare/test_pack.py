@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.layout import P
+from fmu_bearing.engine.layout.sizes import STRIDE
 from fmu_bearing.prepare.hertz import effective_modulus, point_contact
 from fmu_bearing.prepare.model import pack, prepare
 from fmu_bearing.scene import SceneError, read_scene_text
@@ -23,49 +24,49 @@ def packed(*changes, text=TEXT):
 
 
 def places(*names):
-    return [getattr(at, name) for name in names]
+    return [getattr(P, name) for name in names]
 
 
 @pytest.mark.parametrize(
     ("old", "new", "place", "before", "after"),
     [
-        ('level = "full"', 'level = "rings"', "P_LEVEL", 0, 1),
-        ('level = "full"', 'level = "response"', "P_LEVEL", 0, 2),
-        ('method = "esdirk4"', 'method = "fast"', "P_METHOD", 0, 1),
-        ('method = "esdirk4"', 'method = "trbdf2"', "P_METHOD", 0, 2),
-        ('method = "esdirk4"', 'method = "rk4"', "P_METHOD", 0, 3),
-        ('race_control = "shared"', 'race_control = "outer"', "P_RACE_CONTROL", 0, 1),
-        ('race_control = "shared"', 'race_control = "inner"', "P_RACE_CONTROL", 0, 2),
-        ('traction_law = "regularised"', 'traction_law = "eyring"', "P_TRACTION_LAW", 0, 1),
-        ('traction_law = "regularised"', 'traction_law = "paper"', "P_TRACTION_LAW", 0, 2),
-        ('viscosity_law = "vogel"', 'viscosity_law = "walther"', "P_VISCOSITY_LAW", 0, 1),
-        ("walther_slope = 5.53", "walther_slope = 3.5", "P_WALTHER_SLOPE", 5.53, 3.5),
-        ("eyring_stress_MPa = 5.0", "eyring_stress_MPa = 7.0", "P_EYRING_STRESS", 5e6, 7e6),
-        ("_1_GPa = 20.0", "_1_GPa = 10.0", "P_PRESSURE_VISCOSITY", 2e-8, 1e-8),
-        ('preload_mode = "force"', 'preload_mode = "rigid"', "P_RIGID", 0, 1),
-        ("misalignment_y_mrad = 0.0", "misalignment_y_mrad = 0.5", "P_MISALIGNMENT_Y", 0, 5e-4),
-        ("misalignment_z_mrad = 0.0", "misalignment_z_mrad = -0.5", "P_MISALIGNMENT_Z", 0, -5e-4),
-        ("rolling_reduction = true", "rolling_reduction = false", "P_REDUCTION", 1, 0),
-        ("contact_damping = true", "contact_damping = false", "P_CONTACT_DAMPING", 5e-7, 0),
-        ("pocket_friction = true", "pocket_friction = false", "P_POCKET_FRICTION", 0.05, 0),
+        ('level = "full"', 'level = "rings"', "FIDELITY", 0, 1),
+        ('level = "full"', 'level = "response"', "FIDELITY", 0, 2),
+        ('method = "esdirk4"', 'method = "fast"', "METHOD", 0, 1),
+        ('method = "esdirk4"', 'method = "trbdf2"', "METHOD", 0, 2),
+        ('method = "esdirk4"', 'method = "rk4"', "METHOD", 0, 3),
+        ('race_control = "shared"', 'race_control = "outer"', "RACE_CONTROL", 0, 1),
+        ('race_control = "shared"', 'race_control = "inner"', "RACE_CONTROL", 0, 2),
+        ('traction_law = "regularised"', 'traction_law = "eyring"', "TRACTION_LAW", 0, 1),
+        ('traction_law = "regularised"', 'traction_law = "paper"', "TRACTION_LAW", 0, 2),
+        ('viscosity_law = "vogel"', 'viscosity_law = "walther"', "VISCOSITY_LAW", 0, 1),
+        ("walther_slope = 5.53", "walther_slope = 3.5", "WALTHER_SLOPE", 5.53, 3.5),
+        ("eyring_stress_MPa = 5.0", "eyring_stress_MPa = 7.0", "EYRING_STRESS", 5e6, 7e6),
+        ("_1_GPa = 20.0", "_1_GPa = 10.0", "PRESSURE_VISCOSITY", 2e-8, 1e-8),
+        ('preload_mode = "force"', 'preload_mode = "rigid"', "RIGID", 0, 1),
+        ("misalignment_y_mrad = 0.0", "misalignment_y_mrad = 0.5", "MISALIGNMENT_Y", 0, 5e-4),
+        ("misalignment_z_mrad = 0.0", "misalignment_z_mrad = -0.5", "MISALIGNMENT_Z", 0, -5e-4),
+        ("rolling_reduction = true", "rolling_reduction = false", "REDUCTION", 1, 0),
+        ("contact_damping = true", "contact_damping = false", "CONTACT_DAMPING", 5e-7, 0),
+        ("pocket_friction = true", "pocket_friction = false", "POCKET_FRICTION", 0.05, 0),
     ],
 )
 def test_an_option_changes_its_place_and_no_other(old, new, place, before, after):
     plain, other = packed(), packed((old, new))
-    assert plain[getattr(at, place)] == pytest.approx(before)
-    assert other[getattr(at, place)] == pytest.approx(after)
+    assert plain[getattr(P, place)] == pytest.approx(before)
+    assert other[getattr(P, place)] == pytest.approx(after)
     differ = set(np.flatnonzero(plain != other))
-    if place == "P_PRESSURE_VISCOSITY":  # films and rolling resistance follow from it
-        differ = {i for i in differ if i < at.P_RACES}
-    assert differ == {getattr(at, place)}
+    if place == "PRESSURE_VISCOSITY":  # films and rolling resistance follow from it
+        differ = {i for i in differ if i < P.RACES}
+    assert differ == {getattr(P, place)}
 
 
 def test_springs_instead_of_a_cage():
     start, end = TEXT.index("[bearing.cage]"), TEXT.index("[materials.inner_ring]")
     springs = "[bearing.ball_springs]\nstiffness_N_m = 5e6\ndamping_N_s_m = 2\n\n"
     p = packed(text=TEXT[:start] + springs + TEXT[end:])
-    assert list(p[places("P_SPRINGS", "P_SPRING_DAMPING", "P_CAGE", "P_CAGE_MASS")]) == [5e6, 2.0, 0.0, 0.0]
-    assert list(packed()[places("P_SPRINGS", "P_SPRING_DAMPING", "P_CAGE")]) == [0.0, 0.0, 1.0]
+    assert list(p[places("SPRINGS", "SPRING_DAMPING", "CAGE", "CAGE_MASS")]) == [5e6, 2.0, 0.0, 0.0]
+    assert list(packed()[places("SPRINGS", "SPRING_DAMPING", "CAGE")]) == [0.0, 0.0, 1.0]
 
 
 def test_ball_waves_stand_in_their_table():
@@ -74,39 +75,39 @@ def test_ball_waves_stand_in_their_table():
         ("ball_waviness_nm = 0.0", "ball_waviness_nm = 20.0"),
         ("ball_waviness_order = 2", "ball_waviness_order = 3"),
     )
-    assert p[at.P_BALL_WAVES] == 3
-    assert p.size == plain.size + 3 + 3 * at.STRIDE
-    table = p[int(p[at.P_AT_BALL_WAVES]) :][: 3 + 3 * at.STRIDE]
+    assert p[P.BALL_WAVES] == 3
+    assert p.size == plain.size + 3 + 3 * STRIDE
+    table = p[int(p[P.AT_BALL_WAVES]) :][: 3 + 3 * STRIDE]
     assert list(table[:3]) == [0.0, 0.0, pytest.approx(20e-9)]
-    axes = table[3:].reshape(3, at.STRIDE)
+    axes = table[3:].reshape(3, STRIDE)
     np.testing.assert_allclose(np.linalg.norm(axes, axis=0), 1.0, rtol=1e-15)
     assert np.array_equal(axes[:, 12:], np.repeat(axes[:, :1], 12, axis=1))  # spare lanes copy ball 0
     # the other tables have kept their numbers
-    for place, size in (("P_AT_OVERSIZE", at.STRIDE), ("P_AT_WAVES", 4 * at.WAVE_INTERVALS)):
-        old, new = (int(q[getattr(at, place)]) for q in (plain, p))
+    for place, size in (("AT_OVERSIZE", STRIDE), ("AT_WAVES", 4 * P.WAVE_INTERVALS)):
+        old, new = (int(q[getattr(P, place)]) for q in (plain, p))
         assert np.array_equal(plain[old : old + size], p[new : new + size])
 
 
 def test_what_is_left_out_takes_no_place(scene):
     bare = scene("7003C-bare")
     perfect = pack(bare.model_copy(update={"imperfections": None}), NO_SOUND)
-    assert perfect.size == at.P_TABLES + 2 * 5 + at.STRIDE  # five strips' nodes and weights, the balls' sizes
-    assert not perfect[places("P_AT_WAVES", "P_AT_BALL_WAVES", "P_AT_SOUND", "P_BALL_WAVES")].any()
-    assert perfect[at.P_WAVINESS] == 0.0
-    assert perfect[at.P_SOUND_SIZE] == 0.0
+    assert perfect.size == P.TABLES + 2 * 5 + STRIDE  # five strips' nodes and weights, the balls' sizes
+    assert not perfect[places("AT_WAVES", "AT_BALL_WAVES", "AT_SOUND", "BALL_WAVES")].any()
+    assert perfect[P.WAVINESS] == 0.0
+    assert perfect[P.SOUND_SIZE] == 0.0
 
 
 def test_sound_stands_last(scene):
     p = prepare(scene("7003C-bare")).parameters
-    assert p[at.P_SOUND_SIZE] > 0.0
-    assert p[at.P_AT_SOUND] + p[at.P_SOUND_SIZE] == p.size
+    assert p[P.SOUND_SIZE] > 0.0
+    assert p[P.AT_SOUND] + p[P.SOUND_SIZE] == p.size
 
 
 @pytest.mark.parametrize(("race", "side", "sign"), [(0, "inner_ring", 1.0), (1, "outer_ring", -1.0)])
 def test_contact_ellipse_and_central_film(scene, race, side, sign):
     bare = scene("7003C-bare")
     b, ring, ball = bare.bearing, getattr(bare.materials, side), bare.materials.balls
-    block = pack(bare, NO_SOUND)[at.P_RACES + race * at.RACE_SIZE :][: at.RACE_SIZE]
+    block = pack(bare, NO_SOUND)[P.RACES + race * P.RACE_SIZE :][: P.RACE_SIZE]
     # radii of the contact from the four principal radii of ball and groove (Harris 2001, eq. 2.28 ff)
     d, dm = b.ball_diameter_mm * 1e-3, b.pitch_diameter_mm * 1e-3
     gamma = d * math.cos(math.radians(15.0)) / dm
@@ -117,17 +118,15 @@ def test_contact_ellipse_and_central_film(scene, race, side, sign):
         ring.youngs_modulus_GPa * 1e9, ring.poisson_ratio, ball.youngs_modulus_GPa * 1e9, ball.poisson_ratio
     )
     hertz = point_contact(rx, ry, elastic)
-    assert block[at.RACE_HALF_WIDTH] == pytest.approx(hertz.half_width, rel=1e-12)
-    assert block[at.RACE_HALF_LENGTH] / block[at.RACE_HALF_WIDTH] == pytest.approx(
-        hertz.ellipticity, rel=1e-12
-    )
+    assert block[P.RACE_HALF_WIDTH] == pytest.approx(hertz.half_width, rel=1e-12)
+    assert block[P.RACE_HALF_LENGTH] / block[P.RACE_HALF_WIDTH] == pytest.approx(hertz.ellipticity, rel=1e-12)
     # Hamrock and Dowson (1977) with its dimensionless groups, at 0.02 Pa s, 8 m/s, 100 N
     eta, u, load, alpha = 0.02, 8.0, 100.0, 20e-9
     speed, force = eta * u / (elastic * rx), load / (elastic * rx**2)
     shape = 1.0 - 0.61 * math.exp(-0.73 * hertz.ellipticity)
     central = 2.69 * rx * speed**0.67 * (alpha * elastic) ** 0.53 * force**-0.067 * shape
-    assert block[at.RACE_CENTRAL_FILM] * (eta * u) ** 0.67 * load**-0.067 == pytest.approx(central, rel=1e-12)
-    thinnest = block[at.RACE_FILM] * (eta * u) ** 0.68 * load**-0.073
+    assert block[P.RACE_CENTRAL_FILM] * (eta * u) ** 0.67 * load**-0.067 == pytest.approx(central, rel=1e-12)
+    thinnest = block[P.RACE_FILM] * (eta * u) ** 0.68 * load**-0.073
     assert 1.0 < central / thinnest < 2.0  # the constriction at the outlet is thinner than the middle
 
 
@@ -144,7 +143,7 @@ def test_auto_must_be_resolved():
         ):
             attempt()
     model = prepare(auto, level="rings")
-    assert model.parameters[at.P_LEVEL] == 1.0
+    assert model.parameters[P.FIDELITY] == 1.0
     assert model.scene.fidelity.level == "rings"  # what is written into an FMU needs no resolving again
 
 
@@ -153,9 +152,9 @@ def test_overrides_of_level_method_and_step(scene):
     plain = prepare(bare)
     assert plain.scene is bare
     other = prepare(bare, level="response", method="rk4", max_step=5e-6)
-    assert list(other.parameters[places("P_LEVEL", "P_METHOD", "P_MAX_STEP")]) == [2.0, 3.0, 5e-6]
-    same = np.delete(other.parameters, places("P_LEVEL", "P_METHOD", "P_MAX_STEP"))
-    assert np.array_equal(same, np.delete(plain.parameters, places("P_LEVEL", "P_METHOD", "P_MAX_STEP")))
+    assert list(other.parameters[places("FIDELITY", "METHOD", "MAX_STEP")]) == [2.0, 3.0, 5e-6]
+    same = np.delete(other.parameters, places("FIDELITY", "METHOD", "MAX_STEP"))
+    assert np.array_equal(same, np.delete(plain.parameters, places("FIDELITY", "METHOD", "MAX_STEP")))
     assert bare.fidelity.level == "full"
 
 

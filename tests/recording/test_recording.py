@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fmu_bearing.engine.layout_sound import COMPONENTS, LATENCY, RATE
+from fmu_bearing.engine.layout import SD
 from fmu_bearing.recording.record import Recording, record
 from fmu_bearing.scene.read import with_fidelity
 
@@ -24,7 +24,7 @@ def own(spindle):
 
 def test_pressures_equal_the_engines(own):
     """The engine's filters are allowed -50 dB (acoustics.stream); its pressures come LATENCY late."""
-    rows = np.floor(own.output_time * RATE + 1e-6).astype(int) - LATENCY - own.first
+    rows = np.floor(own.output_time * SD.RATE + 1e-6).astype(int) - SD.LATENCY - own.first
     inside = (rows >= 0) & (rows < own.size)
     found = own.pressure()[:, rows[inside]]
     for mic, name in enumerate(HEARD):
@@ -45,7 +45,7 @@ def test_who_listens_changes_nothing(spindle, own):
 
 def test_parts_sum_to_the_whole(own):
     total = own.pressure([(0.05, -0.12, 0.17)])
-    for by, names in (("component", set(COMPONENTS)), ("kind", {"radial", "axial", "balls"})):
+    for by, names in (("component", set(SD.COMPONENTS)), ("kind", {"radial", "axial", "balls"})):
         parts = own.partial([(0.05, -0.12, 0.17)], by=by)
         assert names <= set(parts)
         assert sum(parts.values()) == pytest.approx(total, abs=1e-12)

@@ -7,8 +7,7 @@ from matplotlib.figure import Figure
 from fmu_bearing.acoustics.analysis.directivity import circle_points
 from fmu_bearing.acoustics.analysis.order import waterfall
 from fmu_bearing.acoustics.analysis.third_octave import third_octave_levels
-from fmu_bearing.engine import layout_sound as places
-from fmu_bearing.engine.layout_sound import LATENCY, RATE
+from fmu_bearing.engine.layout import SD
 from fmu_bearing.recording import measure, pictures, tables
 from fmu_bearing.recording.record import PRESSURE_STEP, Recording, record
 from fmu_bearing.run.table import markdown, write_csv
@@ -32,11 +31,11 @@ def run_up(scene):
 def made(recording, tones):
     """Return the recording with the outer ring shaken upwards (m/s2) in place of what was recorded."""
     history = np.zeros_like(recording.history)
-    t = np.arange(len(history)) / RATE
+    t = np.arange(len(history)) / SD.RATE
     for frequency, amplitude in tones.items():
-        history[:, places.C_OUTER + 2] += amplitude * np.cos(2 * np.pi * frequency * t)
+        history[:, SD.C_OUTER + 2] += amplitude * np.cos(2 * np.pi * frequency * t)
     return Recording(
-        recording.scene, "compact", RATE, recording.start, recording.size, recording.output_time,
+        recording.scene, "compact", SD.RATE, recording.start, recording.size, recording.output_time,
         recording.speed_points, {}, history, microphones=recording.microphones,
         harmonics=recording.harmonics,
     )  # fmt: skip
@@ -112,9 +111,9 @@ def test_fmu_pressures_are_the_recordings(scene, tmp_path):
     write_csv(tmp_path / "run.csv", rows.dtype.names, rows.tolist())
     for source in (rows, str(tmp_path / "run.csv")):
         heard = Recording.from_fmu(source, spindle)
-        assert heard.rate == RATE and [name for name, _ in heard.microphones] == ["P1", "P4"]
-        first = round(heard.start * RATE) - own.first
-        assert heard.start == pytest.approx(0.02 - LATENCY / RATE, abs=1.1 / RATE)
+        assert heard.rate == SD.RATE and [name for name, _ in heard.microphones] == ["P1", "P4"]
+        first = round(heard.start * SD.RATE) - own.first
+        assert heard.start == pytest.approx(0.02 - SD.LATENCY / SD.RATE, abs=1.1 / SD.RATE)
         count = own.size - max(first, 0)
         exact = own.pressure([own.positions[0], own.positions[3]])[:, max(first, 0) :]
         found = heard.pressure()[:, max(-first, 0) :][:, :count]
@@ -151,7 +150,7 @@ def test_paper_rung_adds_energies(scene):
     )
     assert paper.rung == "paper" and set(paper.partial()) == {"inner_ring", "outer_ring", "cage", "balls"}
     # the meter is read at the communication point next to the recording's end, up to 0.5 ms of 50 off
-    end = np.argmin(np.abs(paper.output_time - paper.time[-1] - LATENCY / RATE))
+    end = np.argmin(np.abs(paper.output_time - paper.time[-1] - SD.LATENCY / SD.RATE))
     assert paper.levels()[0] == pytest.approx(paper.outputs["mic[1].leq"][end], abs=0.1)
     assert np.array_equal(record(spindle, 0.05, rung="paper").channels, paper.channels)
     with pytest.raises(ValueError, match='rung="compact"'):

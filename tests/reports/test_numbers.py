@@ -10,7 +10,7 @@ from scipy.io import wavfile
 from fmu_bearing.acoustics.analysis.directivity import PLANES
 from fmu_bearing.acoustics.analysis.spectrum import amplitude_spectrum, level_spectrum
 from fmu_bearing.acoustics.filters.fir import decimator_response
-from fmu_bearing.engine.layout_sound import C_INNER, C_OUTER
+from fmu_bearing.engine.layout import SD
 from fmu_bearing.reports.balls import RACES, name_of
 from fmu_bearing.reports.contacts import by_place
 from fmu_bearing.reports.decimate import thinned
@@ -88,7 +88,7 @@ def test_the_cage_moves_as_its_velocity_says(full):
 def test_velocity_over_frequency_is_that_of_the_sound_channels(full):
     """Velocities read 25,600 times a second, and accelerations at 51.2 kHz behind a filter over 2 pi f."""
     subject = Subject(full, "compact")
-    for body, first in (("inner_ring", C_INNER), ("outer_ring", C_OUTER)):
+    for body, first in (("inner_ring", SD.C_INNER), ("outer_ring", SD.C_OUTER)):
         for k, axis in enumerate("xyz"):
             frequency, rms = velocity_spectrum(subject, f"{body}.velocity.{axis}", 20.0)
             f, acceleration = amplitude_spectrum(full.channels[:, first + k], full.rate, 20.0)

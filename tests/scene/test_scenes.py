@@ -4,8 +4,7 @@ import math
 import tomllib
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from fmu_bearing.scene import read_scene, read_scene_text, si
 from fmu_bearing.scene.bearing import Bearing

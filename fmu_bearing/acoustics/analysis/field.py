@@ -20,7 +20,7 @@ from fmu_bearing.acoustics.filters.fir import decimator_response
 from fmu_bearing.acoustics.radiation.frequencies import BAND, fit_frequencies
 from fmu_bearing.acoustics.radiation.radiators import Air, Path, Radiators
 from fmu_bearing.acoustics.registry import Ladder
-from fmu_bearing.engine import layout_sound as places
+from fmu_bearing.engine.layout import SD
 
 Position = tuple[float, float, float]
 _Responses = Callable[[NDArray[np.float64]], dict[tuple[int, float], NDArray[np.complex128]]]
@@ -80,7 +80,7 @@ def form_of(rung: str) -> str:
 
 def kind_of(path: Path) -> str:
     """Source type of a path: one of ``places.KINDS``."""
-    return places.KINDS[path.kind]
+    return SD.KINDS[path.kind]
 
 
 class Channels:
@@ -96,8 +96,8 @@ class Channels:
 
     def __init__(self, history: NDArray[np.float64], longest: float = 0.1) -> None:
         self.rows, self.longest = len(history), longest
-        self.size = int(next_fast_len(self.rows + _SETTLE + round(longest * places.RATE), real=True))
-        frequency = np.fft.rfftfreq(self.size, 1.0 / places.RATE).astype(np.float64)
+        self.size = int(next_fast_len(self.rows + _SETTLE + round(longest * SD.RATE), real=True))
+        frequency = np.fft.rfftfreq(self.size, 1.0 / SD.RATE).astype(np.float64)
         self.frequency = frequency[frequency < _STOP]
         fade = np.clip((self.frequency - BAND[1]) / (_STOP - BAND[1]), 0.0, 1.0)
         shape = np.empty(len(self.frequency), dtype=complex)
@@ -147,14 +147,14 @@ class Blocks:
     """
 
     def __init__(self, channels: NDArray[np.float64], resolution: float) -> None:
-        size = round(places.RATE / resolution)
+        size = round(SD.RATE / resolution)
         if size < 64 or size > len(channels):
             raise ValueError(
                 f"a resolution of {resolution:g} Hz needs blocks of {size} samples (64 or more), the "
                 f"recording has {len(channels)}"
             )
         window = get_window("hann", size)
-        frequency = np.fft.rfftfreq(size, 1.0 / places.RATE).astype(np.float64)
+        frequency = np.fft.rfftfreq(size, 1.0 / SD.RATE).astype(np.float64)
         keep = (frequency > 0.0) & (frequency <= BAND[1])
         self.frequency = frequency[keep]
         starts = range(0, len(channels) - size + 1, max(1, size // 2))

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from fmu_bearing.acoustics.filters.weighting import REFERENCE_PRESSURE
 from fmu_bearing.acoustics.radiation.effective import cylinder_volumes, ring_volumes
 from fmu_bearing.acoustics.radiation.radiators import Air, Radiators
-from fmu_bearing.engine import layout_sound as places
+from fmu_bearing.engine.layout import SD
 
 REFERENCE_POWER = 1e-12  # W
 _FLOOR = 1e-30  # W added, so that levels stay finite
@@ -99,20 +99,20 @@ def dipoles(radiators: Radiators, channels: int) -> dict[str, NDArray[np.float64
     air's density. Shape (3, channels) each; balls count by the sum over all of them, which their
     circumferential order 1 holds. What moves as a dipole only: tilts and flexure are left out.
     """
-    bodies = [("inner_ring", places.C_INNER, radiators.inner_ring), ("cage", places.C_CAGE, radiators.cage)]
+    bodies = [("inner_ring", SD.C_INNER, radiators.inner_ring), ("cage", SD.C_CAGE, radiators.cage)]
     found: dict[str, NDArray[np.float64]] = {}
     if radiators.housing is None:
-        bodies.append(("outer_ring", places.C_OUTER, radiators.outer_ring))
+        bodies.append(("outer_ring", SD.C_OUTER, radiators.outer_ring))
     else:
         found["outer_ring"] = _body(
-            channels, places.C_OUTER, cylinder_volumes(radiators.housing.diameter, radiators.housing.length)
+            channels, SD.C_OUTER, cylinder_volumes(radiators.housing.diameter, radiators.housing.length)
         )
     for name, channel, ring in bodies:
         if ring is not None:
             found[name] = _body(channels, channel, ring_volumes(ring.outer, ring.inner, ring.width))
     balls = np.zeros((3, channels))
-    first = places.C_BALLS + 2  # order 1: x cos, x sin, r cos, r sin, t cos, t sin
-    balls[0, places.C_BALLS] = 1.0
+    first = SD.C_BALLS + 2  # order 1: x cos, x sin, r cos, r sin, t cos, t sin
+    balls[0, SD.C_BALLS] = 1.0
     if channels >= first + 6:
         balls[1, [first + 3, first + 4]] = -1.0  # a_y = -a_r sin - a_t cos
         balls[2, first + 2], balls[2, first + 5] = 1.0, -1.0  # a_z = a_r cos - a_t sin

@@ -14,7 +14,7 @@ from fmu_bearing.acoustics.radiation.radiators import Air, Housing, Path, Radiat
 from fmu_bearing.acoustics.radiation.table import Table, read_table, select
 from fmu_bearing.acoustics.registry import Ladder, Position
 from fmu_bearing.elastic.modes import ring_modes
-from fmu_bearing.engine import layout_sound as at
+from fmu_bearing.engine.layout import SD
 from fmu_bearing.scene import Scene, si
 
 __all__ = ["FilterError", "build", "filter_errors", "ladder_of", "radiators_of", "sound_parameters"]
@@ -284,7 +284,7 @@ def _filters(
         if id(path.response) not in known:
             taps, error = fit(path.response, path.flight, strongest[path.component])
             off = 20 * np.log10(max(error, 1e-15))
-            component, kind = at.COMPONENTS[path.component], at.KINDS[path.kind]
+            component, kind = SD.COMPONENTS[path.component], SD.KINDS[path.kind]
             errors.append(FilterError(tuple(members), component, kind, path.channel, len(taps), off))
             if error > _TOLERANCE:
                 raise ValueError(

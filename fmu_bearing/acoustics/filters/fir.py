@@ -8,7 +8,7 @@ from scipy.linalg import solve, toeplitz
 from scipy.signal import remez
 
 from fmu_bearing.acoustics.radiation.frequencies import BAND, between, fit_frequencies
-from fmu_bearing.engine.layout_sound import DECIMATOR_TAPS, LATENCY, RATE, RAW_RATE
+from fmu_bearing.engine.layout import SD
 
 # Where a path lies this far below its component's strongest one, its error counts against that one (-30 dB).
 _WEAK = 10 ** (-30 / 20)
@@ -30,9 +30,13 @@ def decimator() -> NDArray[np.float64]:
     Everything above ``RATE`` - 20 kHz = 31.2 kHz, all that could fold below 20 kHz, is down by at least 80
     dB. The pass band's ripple is undone by the filters fitted behind it (`fit`).
     """
-    stop = RATE - BAND[1]
+    stop = SD.RATE - BAND[1]
     taps = remez(
-        DECIMATOR_TAPS, [0.0, BAND[1], stop, RAW_RATE / 2], [1.0, 0.0], weight=[1.0, 100.0], fs=RAW_RATE
+        SD.DECIMATOR_TAPS,
+        [0.0, BAND[1], stop, SD.RAW_RATE / 2],
+        [1.0, 0.0],
+        weight=[1.0, 100.0],
+        fs=SD.RAW_RATE,
     )
     taps /= taps.sum()
     taps.flags.writeable = False
@@ -41,13 +45,13 @@ def decimator() -> NDArray[np.float64]:
 
 def decimator_response(frequency: NDArray[np.float64]) -> NDArray[np.complex128]:
     """Complex response of the decimator at ``frequency`` in Hz."""
-    n = np.arange(DECIMATOR_TAPS)
-    return np.exp(-2j * np.pi * np.asarray(frequency)[..., None] * n / RAW_RATE) @ decimator()
+    n = np.arange(SD.DECIMATOR_TAPS)
+    return np.exp(-2j * np.pi * np.asarray(frequency)[..., None] * n / SD.RAW_RATE) @ decimator()
 
 
 def delay_of(flight: float) -> int:
     """Whole samples at ``RATE`` by which a path of ``flight`` seconds is delayed ahead of its filter."""
-    return int(np.floor(flight * RATE))
+    return int(np.floor(flight * SD.RATE))
 
 
 @functools.cache
@@ -62,14 +66,14 @@ def _grid(length: int) -> NDArray[np.float64]:
 
 @functools.cache
 def _basis(length: int) -> NDArray[np.complex128]:
-    turn = -2j * np.pi / RATE * np.arange(length)
+    turn = -2j * np.pi / SD.RATE * np.arange(length)
     return np.exp(_grid(length)[:, None] * turn)
 
 
 @functools.cache
 def _stop_rows(length: int) -> NDArray[np.complex128]:
-    turn = -2j * np.pi / RATE * np.arange(length)
-    return np.exp(np.linspace(_STOP, RATE / 2, 12)[:, None] * turn)
+    turn = -2j * np.pi / SD.RATE * np.arange(length)
+    return np.exp(np.linspace(_STOP, SD.RATE / 2, 12)[:, None] * turn)
 
 
 @functools.cache
@@ -119,7 +123,9 @@ def _fit_length(
         response = between(coarse, response, flight, grid)
         strongest = np.interp(grid, coarse, strongest)
     # what the filter must do so that the whole chain is `response`, LATENCY late
-    wanted = response * np.exp(2j * np.pi * grid * (delay_of(flight) - LATENCY) / RATE) / _decimated(length)
+    wanted = (
+        response * np.exp(2j * np.pi * grid * (delay_of(flight) - SD.LATENCY) / SD.RATE) / _decimated(length)
+    )
     weight = 1.0 / np.maximum(np.abs(response), _WEAK * strongest)
     basis, stop = _basis(length), _stop_rows(length)
     # Normal equations: far cheaper than an orthogonal solver, and the errors stay those of the filter

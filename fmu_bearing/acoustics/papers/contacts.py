@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from fmu_bearing.acoustics.radiation.compact import check_outside
 from fmu_bearing.acoustics.radiation.frequencies import fit_frequencies
 from fmu_bearing.acoustics.radiation.radiators import BALLS, CAGE, INNER, OUTER, Air, Path, Radiators
-from fmu_bearing.engine.layout_sound import BALLS_KIND, RADIAL
+from fmu_bearing.engine.layout import SD
 
 _ANGLES = 128  # angles between microphone and source: orders far above those kept
 
@@ -81,7 +81,7 @@ def contact_paths(
             channels[family.channels] = channels.get(family.channels, 0.0) + heard
         for channel, heard in channels.items():
             component = next(g.component for g in families if g.channels == channel)
-            kind = BALLS_KIND if component == BALLS else RADIAL
+            kind = SD.BALLS_KIND if component == BALLS else SD.RADIAL
             first = channel * wide + (0 if m == 0 else 2 * m - 1)
             paths.append(Path(component, first, flight, heard, np.cos(m * angles), kind))
             if m:

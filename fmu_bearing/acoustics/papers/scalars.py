@@ -9,16 +9,7 @@ import numpy as np
 from fmu_bearing.acoustics.radiation import sources
 from fmu_bearing.acoustics.radiation.frequencies import fit_frequencies
 from fmu_bearing.acoustics.radiation.radiators import BALLS, CAGE, INNER, OUTER, Air, Path, Radiators
-from fmu_bearing.engine.layout_sound import (
-    AXIAL,
-    BALLS_KIND,
-    C_CYLINDERS,
-    C_PAPER_BALLS,
-    C_PISTONS,
-    C_POINTS,
-    RADIAL,
-    ROTATION,
-)
+from fmu_bearing.engine.layout import SD
 
 
 def paper_paths(radiators: Radiators, air: Air, distance: float, count: int) -> list[Path]:
@@ -41,14 +32,14 @@ def paper_paths(radiators: Radiators, air: Air, distance: float, count: int) -> 
         cylinder = sources.paper_cylinder_causal(f, distance, ring.outer / 2, *medium)
         point = sources.paper_point(f, distance, ring.outer / 2, *medium)
         piston = sources.paper_piston(f, distance, ring.outer, ring.inner, *medium)
-        paths.append(Path(component, C_CYLINDERS + body, flight, cylinder, weights, RADIAL))
-        paths.append(Path(component, C_POINTS + body, flight, point, weights, ROTATION))
-        paths.append(Path(component, C_PISTONS + body, flight, piston, weights, AXIAL))
+        paths.append(Path(component, SD.C_CYLINDERS + body, flight, cylinder, weights, SD.RADIAL))
+        paths.append(Path(component, SD.C_POINTS + body, flight, point, weights, SD.ROTATION))
+        paths.append(Path(component, SD.C_PISTONS + body, flight, piston, weights, SD.AXIAL))
     ball = sources.paper_ball(f, distance, radiators.ball_diameter / 2, *medium)
     point = sources.paper_point(f, distance, radiators.ball_diameter / 2, *medium)
     for j in range(radiators.ball_count):
-        paths.append(Path(BALLS, C_PAPER_BALLS + 2 * j, flight, ball, weights, BALLS_KIND))
-        paths.append(Path(BALLS, C_PAPER_BALLS + 2 * j + 1, flight, point, weights, BALLS_KIND))
+        paths.append(Path(BALLS, SD.C_PAPER_BALLS + 2 * j, flight, ball, weights, SD.BALLS_KIND))
+        paths.append(Path(BALLS, SD.C_PAPER_BALLS + 2 * j + 1, flight, point, weights, SD.BALLS_KIND))
     return sorted(paths, key=lambda path: path.channel)
 
 

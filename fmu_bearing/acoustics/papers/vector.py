@@ -18,7 +18,7 @@ from fmu_bearing.acoustics.radiation import sources
 from fmu_bearing.acoustics.radiation.compact import ball_paths, check_outside
 from fmu_bearing.acoustics.radiation.frequencies import fit_frequencies
 from fmu_bearing.acoustics.radiation.radiators import CAGE, INNER, OUTER, Air, Path, Radiators
-from fmu_bearing.engine.layout_sound import AXIAL, C_TILTS, RADIAL, ROTATION
+from fmu_bearing.engine.layout import SD
 
 
 def paper_vector_paths(
@@ -58,13 +58,13 @@ def paper_vector_paths(
         face = along * sources.paper_piston(f, distance, ring.outer, ring.inner, *medium)
         point = across * sources.paper_point(f, distance, ring.outer / 2, *medium)
         point *= paper_scalars(radiators)[1 + body]
-        tilt = C_TILTS + 2 * body
+        tilt = SD.C_TILTS + 2 * body
         paths += [
-            Path(component, 3 * body, flight, face, level, AXIAL),
-            Path(component, 3 * body + 1, flight, mantle, sine, RADIAL),
-            Path(component, 3 * body + 2, flight, mantle, cosine, RADIAL),
-            Path(component, tilt, flight, point, sine, ROTATION),
-            Path(component, tilt + 1, flight, point, cosine, ROTATION),
+            Path(component, 3 * body, flight, face, level, SD.AXIAL),
+            Path(component, 3 * body + 1, flight, mantle, sine, SD.RADIAL),
+            Path(component, 3 * body + 2, flight, mantle, cosine, SD.RADIAL),
+            Path(component, tilt, flight, point, sine, SD.ROTATION),
+            Path(component, tilt + 1, flight, point, cosine, SD.ROTATION),
         ]
     ball = sources.paper_ball(f, distance, radiators.ball_diameter / 2, *medium)
     responses = np.zeros((3, min(harmonics, 1) + 1, len(f)), dtype=complex)

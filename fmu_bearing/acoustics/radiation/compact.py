@@ -22,15 +22,7 @@ from fmu_bearing.acoustics.radiation import sources
 from fmu_bearing.acoustics.radiation.effective import cylinder_volumes, ring_volumes
 from fmu_bearing.acoustics.radiation.frequencies import fit_frequencies
 from fmu_bearing.acoustics.radiation.radiators import BALLS, CAGE, INNER, OUTER, Air, Housing, Path, Radiators
-from fmu_bearing.engine.layout_sound import (
-    AXIAL,
-    BALLS_KIND,
-    C_BALLS,
-    C_CAGE,
-    C_INNER,
-    C_OUTER,
-    RADIAL,
-)
+from fmu_bearing.engine.layout import SD
 
 _HOUSING_SLICES = 16  # dipoles along the housing: a tenth of its length apart is ample outside its skin
 _ANGLES = 128  # source angles round the orbit: orders far above those kept
@@ -57,13 +49,13 @@ def compact_paths(
     """
     check_outside(radiators, radius, axial)
     angles = np.asarray(azimuths, dtype=float)
-    rings = [(INNER, C_INNER, radiators.inner_ring), (CAGE, C_CAGE, radiators.cage)]
+    rings = [(INNER, SD.C_INNER, radiators.inner_ring), (CAGE, SD.C_CAGE, radiators.cage)]
     paths = []
     if radiators.housing is None:
-        rings.append((OUTER, C_OUTER, radiators.outer_ring))
+        rings.append((OUTER, SD.C_OUTER, radiators.outer_ring))
     else:
         axially, radially, flight = housing_responses(radiators.housing, air, radius, axial)
-        paths += _body(OUTER, C_OUTER, flight, axially, radially, angles)
+        paths += _body(OUTER, SD.C_OUTER, flight, axially, radially, angles)
     distance = np.hypot(radius, axial)
     for component, channel, ring in rings:
         if ring is not None:
@@ -159,11 +151,11 @@ def ball_paths(responses: NDArray[np.complex128], flight: float, azimuths: NDArr
             if m == 0 and k == 2:
                 continue  # tangential accelerations alike all round make no sound
             first, second = (sine, -cosine) if k == 2 else (cosine, sine)
-            channel = C_BALLS + k if m == 0 else C_BALLS + 2 + 6 * (m - 1) + 2 * k
+            channel = SD.C_BALLS + k if m == 0 else SD.C_BALLS + 2 + 6 * (m - 1) + 2 * k
             response = responses[k, m]
-            paths.append(Path(BALLS, channel, flight, response, first, BALLS_KIND))
+            paths.append(Path(BALLS, channel, flight, response, first, SD.BALLS_KIND))
             if m > 0:
-                paths.append(Path(BALLS, channel + 1, flight, response, second, BALLS_KIND))
+                paths.append(Path(BALLS, channel + 1, flight, response, second, SD.BALLS_KIND))
     return paths
 
 
@@ -177,9 +169,9 @@ def _body(
 ) -> list[Path]:
     """Three paths of a body of revolution moving as a whole: y is -r sin(phi), z is r cos(phi)."""
     return [
-        Path(component, channel, flight, axially, np.ones(len(azimuths)), AXIAL),
-        Path(component, channel + 1, flight, radially, -np.sin(azimuths), RADIAL),
-        Path(component, channel + 2, flight, radially, np.cos(azimuths), RADIAL),
+        Path(component, channel, flight, axially, np.ones(len(azimuths)), SD.AXIAL),
+        Path(component, channel + 1, flight, radially, -np.sin(azimuths), SD.RADIAL),
+        Path(component, channel + 2, flight, radially, np.cos(azimuths), SD.RADIAL),
     ]
 
 

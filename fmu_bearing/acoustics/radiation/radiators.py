@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.engine.layout_sound import RADIAL
+from fmu_bearing.engine.layout import SD
 
 INNER, OUTER, CAGE, BALLS = range(4)
 
@@ -66,4 +66,4 @@ class Path:
     flight: float
     response: NDArray[np.complex128]
     weights: NDArray[np.float64]
-    kind: int = RADIAL
+    kind: int = SD.RADIAL

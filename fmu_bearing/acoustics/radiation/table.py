@@ -27,17 +27,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.radiation.frequencies import BAND, between, fit_frequencies
 from fmu_bearing.acoustics.radiation.radiators import BALLS, Path
-from fmu_bearing.engine.layout_sound import (
-    AXIAL,
-    BALLS_KIND,
-    C_BALLS,
-    C_TILTS,
-    FLEXURE,
-    RADIAL,
-    RATE,
-    ROTATION,
-    c_flex,
-)
+from fmu_bearing.engine.layout import SD
 
 _ARRAYS = ("frequencies", "inputs", "microphones", "positions", "H")
 _BODIES = {"inner_ring": 0, "outer_ring": 1, "housing": 1, "cage": 2}
@@ -45,7 +35,7 @@ _APART = 1e-3  # m by which a microphone may stand off its place in the scene
 _TURN = 0.5 * np.pi  # rad between neighbouring frequencies: beyond this the curve between them is a guess
 _HEARD = 10 ** (-40 / 20)  # turns count where the magnitude exceeds this share of the largest
 _SILENT = 1e-9  # an input this far below the loudest is what rounding has left
-_MARGIN = 4.0 / RATE  # s that a filter keeps ahead of the sound's mean arrival
+_MARGIN = 4.0 / SD.RATE  # s that a filter keeps ahead of the sound's mean arrival
 
 
 @dataclass(frozen=True)
@@ -161,18 +151,18 @@ def channels(harmonics: int, bodies_of_flexures: Sequence[int] = ()) -> dict[str
     known: dict[str, tuple[int, int, int]] = {}
     for body, index in _BODIES.items():
         for k, axis in enumerate("xyz"):
-            known[f"{body}.acceleration.{axis}"] = (index, 3 * index + k, RADIAL if k else AXIAL)
+            known[f"{body}.acceleration.{axis}"] = (index, 3 * index + k, SD.RADIAL if k else SD.AXIAL)
         for k, axis in enumerate("yz"):
-            known[f"{body}.angular_acceleration.{axis}"] = (index, C_TILTS + 2 * index + k, ROTATION)
+            known[f"{body}.angular_acceleration.{axis}"] = (index, SD.C_TILTS + 2 * index + k, SD.ROTATION)
     for k, axis in enumerate("xr"):
-        known[f"balls.acceleration.{axis}.cos[0]"] = (BALLS, C_BALLS + k, BALLS_KIND)
+        known[f"balls.acceleration.{axis}.cos[0]"] = (BALLS, SD.C_BALLS + k, SD.BALLS_KIND)
     for m in range(1, harmonics + 1):
         for k, axis in enumerate("xrt"):
             for i, shape in enumerate(("cos", "sin")):
-                channel = C_BALLS + 2 + 6 * (m - 1) + 2 * k + i
-                known[f"balls.acceleration.{axis}.{shape}[{m}]"] = (BALLS, channel, BALLS_KIND)
+                channel = SD.C_BALLS + 2 + 6 * (m - 1) + 2 * k + i
+                known[f"balls.acceleration.{axis}.{shape}[{m}]"] = (BALLS, channel, SD.BALLS_KIND)
     for i, ring in enumerate(bodies_of_flexures):
-        known[f"flexure[{i + 1}]"] = (ring, c_flex(harmonics) + i, FLEXURE)
+        known[f"flexure[{i + 1}]"] = (ring, SD.c_flex(harmonics) + i, SD.FLEXURE)
     return known
 
 

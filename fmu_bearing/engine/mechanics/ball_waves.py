@@ -15,50 +15,8 @@ ball's centre. Force and moment act on the race with the opposite sign at the sa
 import math
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import (
-    B_OM,
-    B_WR,
-    B_WT,
-    B_WX,
-    C_OVERSIZE_SCALE,
-    C_RACE_SIZE,
-    C_RACES,
-    P_AT_BALL_WAVES,
-    P_BALL_WAVES,
-    P_BALLS,
-    P_CONTACT_DAMPING,
-    P_RACES,
-    POSE_ROWS,
-    R_AM,
-    R_APPROACH,
-    R_AT,
-    R_BUMP_M,
-    R_BUMP_T,
-    R_COSA,
-    R_ELASTIC,
-    R_EM,
-    R_EN,
-    R_HALF,
-    R_LOAD,
-    R_RATE,
-    RACE_HALF_LENGTH,
-    RACE_ROWS,
-    RACE_SIZE,
-    RACE_STIFFNESS,
-    STRIDE,
-    W_AXES,
-    W_FORCE,
-    W_LOSS,
-    W_POSE,
-    W_RACE,
-    X_A,
-    X_DV,
-    X_DW,
-    X_RHO,
-    X_T,
-)
-
-_S = STRIDE
+from fmu_bearing.engine.layout import C, P, R, W, X, Y
+from fmu_bearing.engine.layout.sizes import STRIDE
 
 
 @kernel
@@ -88,8 +46,8 @@ def zonal(p, first, orders, x):
 @kernel
 def groove_distance(c, race, pose, w, j):
     """Distance (m) of ball ``j``'s centre from the circle of groove centres of ``race``."""
-    sx = w[pose + X_A * _S + j] - c[C_RACES + race * C_RACE_SIZE]
-    sr = w[pose + X_RHO * _S + j] - c[C_RACES + race * C_RACE_SIZE + 1]
+    sx = w[pose + X.A + j] - c[C.RACES + race * C.RACE_SIZE]
+    sr = w[pose + X.RHO + j] - c[C.RACES + race * C.RACE_SIZE + 1]
     return math.sqrt(sx * sx + sr * sr)
 
 
@@ -100,15 +58,15 @@ def add_ball_waves(p, c, lanes, race, w):
     Reads the axes in the rows ``W_AXES``; leaves the slope towards e_t and e_m for
     :func:`ball_wave_forces`.
     """
-    row = (W_RACE + race * RACE_ROWS) * _S
-    pose = (W_POSE + race * POSE_ROWS) * _S
-    axes = W_AXES * _S
-    first = int(p[P_AT_BALL_WAVES])
-    orders = int(p[P_BALL_WAVES])
-    scale = c[C_OVERSIZE_SCALE]
-    hertz = p[P_RACES + race * RACE_SIZE + RACE_STIFFNESS]
-    half = p[P_RACES + race * RACE_SIZE + RACE_HALF_LENGTH]
-    damping = 1.5 * p[P_CONTACT_DAMPING]
+    row = W.RACE + race * R.SIZE
+    pose = W.POSE + race * X.SIZE
+    axes = W.AXES
+    first = int(p[P.AT_BALL_WAVES])
+    orders = int(p[P.BALL_WAVES])
+    scale = c[C.OVERSIZE_SCALE]
+    hertz = p[P.RACES + race * P.RACE_SIZE + P.RACE_STIFFNESS]
+    half = p[P.RACES + race * P.RACE_SIZE + P.RACE_HALF_LENGTH]
+    damping = 1.5 * p[P.CONTACT_DAMPING]
     for j in range(lanes):
         along = 0.0
         across = 0.0
@@ -116,11 +74,11 @@ def add_ball_waves(p, c, lanes, race, w):
         speed_t = 0.0
         speed_m = 0.0
         for i in range(3):
-            a = w[axes + i * _S + j]
-            m = w[row + (R_EM + i) * _S + j]
-            t = w[pose + (X_T + i) * _S + j]
-            dv = w[pose + (X_DV + i) * _S + j]
-            outward += a * w[row + (R_EN + i) * _S + j]
+            a = w[axes + i * STRIDE + j]
+            m = w[row + R.EM + i * STRIDE + j]
+            t = w[pose + X.T + i * STRIDE + j]
+            dv = w[pose + X.DV + i * STRIDE + j]
+            outward += a * w[row + R.EN + i * STRIDE + j]
             along += a * t
             across += a * m
             speed_t += dv * t
@@ -128,46 +86,46 @@ def add_ball_waves(p, c, lanes, race, w):
         height, rise = zonal(p, first, orders, outward)
         bump_t = scale * rise * along
         bump_m = scale * rise * across
-        approach = w[row + R_APPROACH * _S + j] + scale * height
-        rate = w[row + R_RATE * _S + j]
-        rate += bump_t * w[row + R_COSA * _S + j] / w[pose + X_RHO * _S + j] * speed_t
+        approach = w[row + R.APPROACH + j] + scale * height
+        rate = w[row + R.RATE + j]
+        rate += bump_t * w[row + R.COSA + j] / w[pose + X.RHO + j] * speed_t
         rate += bump_m / groove_distance(c, race, pose, w, j) * speed_m
-        rate += bump_m * w[row + R_AT * _S + j] - bump_t * w[row + R_AM * _S + j]
+        rate += bump_m * w[row + R.AT + j] - bump_t * w[row + R.AM + j]
         pressed = max(approach, 0.0)
         root = math.sqrt(pressed)
         elastic = hertz * root * pressed
-        w[row + R_BUMP_T * _S + j] = bump_t
-        w[row + R_BUMP_M * _S + j] = bump_m
-        w[row + R_APPROACH * _S + j] = approach
-        w[row + R_RATE * _S + j] = rate
-        w[row + R_ELASTIC * _S + j] = elastic
-        w[row + R_LOAD * _S + j] = max(elastic + hertz * root * damping * rate, 0.0)
-        w[row + R_HALF * _S + j] = half * root
+        w[row + R.BUMP_T + j] = bump_t
+        w[row + R.BUMP_M + j] = bump_m
+        w[row + R.APPROACH + j] = approach
+        w[row + R.RATE + j] = rate
+        w[row + R.ELASTIC + j] = elastic
+        w[row + R.LOAD + j] = max(elastic + hertz * root * damping * rate, 0.0)
+        w[row + R.HALF + j] = half * root
 
 
 @kernel
 def ball_wave_forces(p, c, lanes, race, w):
     """Add lateral force and moment of the wavy balls to what ``race.collect`` gathered, loss included."""
-    row = (W_RACE + race * RACE_ROWS) * _S
-    pose = (W_POSE + race * POSE_ROWS) * _S
-    out = (W_FORCE + race * 6) * _S
-    balls = int(p[P_BALLS])
+    row = W.RACE + race * R.SIZE
+    pose = W.POSE + race * X.SIZE
+    out = W.FORCE + race * 6 * STRIDE
+    balls = int(p[P.BALLS])
     for j in range(lanes):
-        load = w[row + R_LOAD * _S + j]
-        bump_t = w[row + R_BUMP_T * _S + j]
-        bump_m = w[row + R_BUMP_M * _S + j]
-        force_t = -load * bump_t * w[row + R_COSA * _S + j] / w[pose + X_RHO * _S + j]
+        load = w[row + R.LOAD + j]
+        bump_t = w[row + R.BUMP_T + j]
+        bump_m = w[row + R.BUMP_M + j]
+        force_t = -load * bump_t * w[row + R.COSA + j] / w[pose + X.RHO + j]
         force_m = -load * bump_m / groove_distance(c, race, pose, w, j)
         power = 0.0
         for i in range(3):
-            m = w[row + (R_EM + i) * _S + j]
-            t = w[pose + (X_T + i) * _S + j]
+            m = w[row + R.EM + i * STRIDE + j]
+            t = w[pose + X.T + i * STRIDE + j]
             force = force_t * t + force_m * m
             moment = load * (bump_t * m - bump_m * t)
-            w[out + i * _S + j] += force
-            w[out + (3 + i) * _S + j] += moment
-            power += force * w[pose + (X_DV + i) * _S + j] + moment * w[pose + (X_DW + i) * _S + j]
-        w[(W_LOSS + race) * _S + j] -= power if j < balls else 0.0
+            w[out + i * STRIDE + j] += force
+            w[out + (3 + i) * STRIDE + j] += moment
+            power += force * w[pose + X.DV + i * STRIDE + j] + moment * w[pose + X.DW + i * STRIDE + j]
+        w[W.LOSS + race * STRIDE + j] -= power if j < balls else 0.0
 
 
 @kernel
@@ -202,22 +160,22 @@ def turn_axes(p, axes, y, lanes, t, w):
     rolling; else the direction is off by t^2/2 of the spin's rate, 5e-6 rad for 10 us at 1e5 rad/s2.
     Without ball waviness nothing is done.
     """
-    if p[P_BALL_WAVES] == 0.0:
+    if p[P.BALL_WAVES] == 0.0:
         return
-    to = W_AXES * _S
+    to = W.AXES
     for j in range(lanes):
         ax, ar, at = turn_vector(
             axes[j],
-            axes[_S + j],
-            axes[2 * _S + j],
-            y[B_WX * _S + j] - y[B_OM * _S + j],
-            y[B_WR * _S + j],
-            y[B_WT * _S + j],
+            axes[STRIDE + j],
+            axes[2 * STRIDE + j],
+            y[Y.WX + j] - y[Y.OM + j],
+            y[Y.WR + j],
+            y[Y.WT + j],
             t,
         )
         w[to + j] = ax
-        w[to + _S + j] = ar
-        w[to + 2 * _S + j] = at
+        w[to + STRIDE + j] = ar
+        w[to + 2 * STRIDE + j] = at
 
 
 @kernel
@@ -226,28 +184,28 @@ def advance_axes(p, axes, y0, y1, lanes, h):
 
     Second order: the local error is h^3/12 of (the spin's second rate + spin x its rate).
     """
-    if p[P_BALL_WAVES] == 0.0:
+    if p[P.BALL_WAVES] == 0.0:
         return
     for j in range(lanes):
         ax, ar, at = turn_vector(
             axes[j],
-            axes[_S + j],
-            axes[2 * _S + j],
-            0.5 * (y0[B_WX * _S + j] - y0[B_OM * _S + j] + y1[B_WX * _S + j] - y1[B_OM * _S + j]),
-            0.5 * (y0[B_WR * _S + j] + y1[B_WR * _S + j]),
-            0.5 * (y0[B_WT * _S + j] + y1[B_WT * _S + j]),
+            axes[STRIDE + j],
+            axes[2 * STRIDE + j],
+            0.5 * (y0[Y.WX + j] - y0[Y.OM + j] + y1[Y.WX + j] - y1[Y.OM + j]),
+            0.5 * (y0[Y.WR + j] + y1[Y.WR + j]),
+            0.5 * (y0[Y.WT + j] + y1[Y.WT + j]),
             h,
         )
         axes[j] = ax
-        axes[_S + j] = ar
-        axes[2 * _S + j] = at
+        axes[STRIDE + j] = ar
+        axes[2 * STRIDE + j] = at
 
 
 @kernel
 def first_axes(p, axes):
     """Axes at the start, from the table behind the amplitudes; spare lanes copy ball 0 there already."""
-    if p[P_BALL_WAVES] == 0.0:
+    if p[P.BALL_WAVES] == 0.0:
         return
-    table = int(p[P_AT_BALL_WAVES]) + int(p[P_BALL_WAVES])
-    for i in range(3 * _S):
+    table = int(p[P.AT_BALL_WAVES]) + int(p[P.BALL_WAVES])
+    for i in range(3 * STRIDE):
         axes[i] = p[table + i]

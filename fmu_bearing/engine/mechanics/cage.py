@@ -3,42 +3,11 @@
 import math
 
 from fmu_bearing.engine.jit import inlined, kernel
-from fmu_bearing.engine.layout import (
-    C_BALL_RADIUS,
-    P_BALLS,
-    P_LAND_CLEARANCE,
-    P_LAND_LENGTH,
-    P_LAND_RADIUS,
-    P_LAND_STOP_FRACTION,
-    P_LAND_STOP_FRICTION,
-    P_LAND_STOP_SLIP,
-    P_LAND_STOP_STIFFNESS,
-    P_LAND_VISCOSITY,
-    P_PITCH_RADIUS,
-    P_POCKET_CLEARANCE,
-    P_POCKET_DAMPING,
-    P_POCKET_FILM,
-    P_POCKET_FRICTION,
-    P_POCKET_SLIP,
-    P_POCKET_STIFFNESS,
-    POSE_ROWS,
-    STRIDE,
-    W_FORCE,
-    W_LOSS,
-    W_POCKET,
-    W_POSE,
-    X_A,
-    X_DV,
-    X_DW,
-    X_H,
-    X_N,
-    X_RHO,
-    X_T,
-)
+from fmu_bearing.engine.layout import C, P, W, X
+from fmu_bearing.engine.layout.sizes import STRIDE
 from fmu_bearing.engine.mechanics.pose import bearing_angle
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 
-_S = STRIDE
 _TWO_PI = 6.283185307179586
 
 
@@ -50,38 +19,38 @@ def pockets(p, c, angle, lanes, turned, w):
     is used up, Coulomb friction (regularised) on the spinning ball, and film damping at all times.
     ``turned`` is the cage's angle (rad).
     """
-    pose = (W_POSE + 2 * POSE_ROWS) * _S
-    out = (W_FORCE + 12) * _S
-    pitch = p[P_PITCH_RADIUS]
-    balls = p[P_BALLS]
-    clearance = p[P_POCKET_CLEARANCE]
-    stiffness = p[P_POCKET_STIFFNESS]
-    damping = p[P_POCKET_DAMPING]
-    film = p[P_POCKET_FILM]
-    mu = p[P_POCKET_FRICTION]
-    slip = p[P_POCKET_SLIP]
-    ball = c[C_BALL_RADIUS]
+    pose = W.POSE + 2 * X.SIZE
+    out = W.FORCE + 12 * STRIDE
+    pitch = p[P.PITCH_RADIUS]
+    balls = p[P.BALLS]
+    clearance = p[P.POCKET_CLEARANCE]
+    stiffness = p[P.POCKET_STIFFNESS]
+    damping = p[P.POCKET_DAMPING]
+    film = p[P.POCKET_FILM]
+    mu = p[P.POCKET_FRICTION]
+    slip = p[P.POCKET_SLIP]
+    ball = c[C.BALL_RADIUS]
     for j in range(lanes):
         pocket = j if j < balls else 0
-        nx = w[pose + X_N * _S + j]
-        nr = w[pose + (X_N + 1) * _S + j]
-        nt = w[pose + (X_N + 2) * _S + j]
-        tx = w[pose + X_T * _S + j]
-        tr = w[pose + (X_T + 1) * _S + j]
-        tt = w[pose + (X_T + 2) * _S + j]
-        dvx = w[pose + X_DV * _S + j]
-        dvr = w[pose + (X_DV + 1) * _S + j]
-        dvt = w[pose + (X_DV + 2) * _S + j]
-        dwx = w[pose + X_DW * _S + j]
-        dwr = w[pose + (X_DW + 1) * _S + j]
-        dwt = w[pose + (X_DW + 2) * _S + j]
-        lead = angle[j] + bearing_angle(w[pose + (X_H + 1) * _S + j], w[pose + (X_H + 2) * _S + j])
-        axial = w[pose + X_A * _S + j]
+        nx = w[pose + X.N + j]
+        nr = w[pose + X.N + STRIDE + j]
+        nt = w[pose + X.N + 2 * STRIDE + j]
+        tx = w[pose + X.T + j]
+        tr = w[pose + X.T + STRIDE + j]
+        tt = w[pose + X.T + 2 * STRIDE + j]
+        dvx = w[pose + X.DV + j]
+        dvr = w[pose + X.DV + STRIDE + j]
+        dvt = w[pose + X.DV + 2 * STRIDE + j]
+        dwx = w[pose + X.DW + j]
+        dwr = w[pose + X.DW + STRIDE + j]
+        dwt = w[pose + X.DW + 2 * STRIDE + j]
+        lead = angle[j] + bearing_angle(w[pose + X.H + STRIDE + j], w[pose + X.H + 2 * STRIDE + j])
+        axial = w[pose + X.A + j]
         around = pitch * wrap(lead - turned - pocket * (_TWO_PI / balls))
         apart = math.sqrt(axial * axial + around * around + 1e-30)
         px = axial / apart
         pt = around / apart
-        lever = pitch / w[pose + X_RHO * _S + j]
+        lever = pitch / w[pose + X.RHO + j]
         push = max(apart - clearance, 0.0)
         vn = nx * dvx + nr * dvr + nt * dvt
         vt = tx * dvx + tr * dvr + tt * dvt
@@ -111,19 +80,19 @@ def pockets(p, c, angle, lanes, turned, w):
         momentx = ball * (gr * ft - gt * fr)
         momentr = ball * (gt * fx - gx * ft)
         momentt = ball * (gx * fr - gr * fx)
-        w[W_POCKET * _S + j] = push
+        w[W.POCKET + j] = push
         w[out + j] = forcex
-        w[out + _S + j] = forcer
-        w[out + 2 * _S + j] = forcet
-        w[out + 3 * _S + j] = momentx
-        w[out + 4 * _S + j] = momentr
-        w[out + 5 * _S + j] = momentt
+        w[out + STRIDE + j] = forcer
+        w[out + 2 * STRIDE + j] = forcet
+        w[out + 3 * STRIDE + j] = momentx
+        w[out + 4 * STRIDE + j] = momentr
+        w[out + 5 * STRIDE + j] = momentt
         lost = (
             -(forcex * dvx + forcer * dvr + forcet * dvt)
             - (momentx * dwx + momentr * dwr + momentt * dwt)
             - elastic * rate
         )
-        w[(W_LOSS + 2) * _S + j] = lost if j < balls else 0.0
+        w[W.LOSS + 2 * STRIDE + j] = lost if j < balls else 0.0
 
 
 @kernel
@@ -158,11 +127,11 @@ def land(p, dy, dz, vy, vz, journal, sleeve):
     ``journal`` and ``sleeve`` the spin rates (rad/s) of inner ring and cage. Returns
     ``(fy, fz, torque on the inner ring, torque on the cage, energy, power lost)``.
     """
-    clearance = p[P_LAND_CLEARANCE]
-    radius = p[P_LAND_RADIUS]
-    length = p[P_LAND_LENGTH]
-    viscosity = p[P_LAND_VISCOSITY]
-    limit = p[P_LAND_STOP_FRACTION] * clearance
+    clearance = p[P.LAND_CLEARANCE]
+    radius = p[P.LAND_RADIUS]
+    length = p[P.LAND_LENGTH]
+    viscosity = p[P.LAND_VISCOSITY]
+    limit = p[P.LAND_STOP_FRACTION] * clearance
     apart2 = dy * dy + dz * dz
     apart = math.sqrt(apart2 + 1e-24)
     ey = dy / apart
@@ -185,12 +154,12 @@ def land(p, dy, dz, vy, vz, journal, sleeve):
     shear = _TWO_PI * viscosity * radius * radius * radius * length / clearance
     shear *= (journal - sleeve) / math.sqrt(1.0 - ratio * ratio)
     push = max(apart - limit, 0.0)
-    stiffness = p[P_LAND_STOP_STIFFNESS]
+    stiffness = p[P.LAND_STOP_STIFFNESS]
     stop = stiffness * push
-    slip = p[P_LAND_STOP_SLIP]
+    slip = p[P.LAND_STOP_SLIP]
     # Rubbing where the journal's surface meets the bore, a radius behind the inner ring's centre.
     rub = across + radius * journal - (radius + apart) * sleeve
-    friction = -p[P_LAND_STOP_FRICTION] * stop * rub / math.sqrt(rub * rub + slip * slip)
+    friction = -p[P.LAND_STOP_FRICTION] * stop * rub / math.sqrt(rub * rub + slip * slip)
     fy += -stop * ey - friction * ez
     fz += -stop * ez + friction * ey
     on_journal = -shear - couple + radius * friction

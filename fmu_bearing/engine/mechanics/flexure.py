@@ -24,83 +24,22 @@ is left out.
 import math
 
 from fmu_bearing.engine.jit import inlined, kernel
-from fmu_bearing.engine.layout import (
-    C_RACE_SIZE,
-    C_RACES,
-    F_G,
-    F_HEAT,
-    P_AT_MODES,
-    P_BALLS,
-    P_MODES,
-    P_SOUND_STATE,
-    POSE_ROWS,
-    Q_OUTER,
-    R_FT,
-    R_SLOPE,
-    R_UT,
-    RACE_ROWS,
-    S_SOUND,
-    STRIDE,
-    W_COS,
-    W_FLEX,
-    W_FORCE,
-    W_LOSS,
-    W_POSE,
-    W_RACE,
-    W_SIN,
-    X_A,
-    X_DV,
-    X_DW,
-    X_H,
-    X_N,
-    X_RHO,
-    X_T,
-    Y_V,
-)
-from fmu_bearing.engine.layout_flexure import (
-    FLEX_ROWS,
-    FR_COS,
-    FR_GR,
-    FR_GX,
-    FR_R,
-    FR_SIN,
-    FR_TURN,
-    FR_VR,
-    FR_VT,
-    FR_VX,
-    FR_X,
-    FW_A,
-    FW_FORCE,
-    FW_Q,
-    FW_V,
-    MODE_BODY,
-    MODE_DAMPING,
-    MODE_GYROSCOPIC,
-    MODE_MASS,
-    MODE_ORDER,
-    MODE_R,
-    MODE_SIZE,
-    MODE_STIFFNESS,
-    MODE_T,
-    MODE_TILT,
-    MODE_X,
-)
-
-_S = STRIDE
+from fmu_bearing.engine.layout import FL, C, F, P, Q, R, S, W, X, Y
+from fmu_bearing.engine.layout.sizes import STRIDE
 
 
 @kernel
 def flexure_state(p):
     """Place of the flexure's part in ``s``."""
-    return S_SOUND + int(p[P_SOUND_STATE])
+    return S.SOUND + int(p[P.SOUND_STATE])
 
 
 @kernel
 def bends(p, race):
     """Whether the ring of ``race`` has flexural modes."""
     found = False
-    for k in range(int(p[P_MODES])):
-        if int(p[int(p[P_AT_MODES]) + k * MODE_SIZE + MODE_BODY]) == race:
+    for k in range(int(p[P.MODES])):
+        if int(p[int(p[P.AT_MODES]) + k * P.MODE_SIZE + P.MODE_BODY]) == race:
             found = True
     return found
 
@@ -108,23 +47,23 @@ def bends(p, race):
 @kernel
 def show_flexure(p, s, w):
     """Places and velocities of the coordinates in ``s`` to where the right-hand side reads them."""
-    if p[P_MODES] == 0.0:
+    if p[P.MODES] == 0.0:
         return
-    count = 2 * int(p[P_MODES])
+    count = 2 * int(p[P.MODES])
     kept = s[flexure_state(p) :]
     for i in range(count):
-        w[W_FLEX + FW_Q + i] = kept[i]
-        w[W_FLEX + FW_V + i] = kept[count + i]
+        w[W.FLEX + FL.Q + i] = kept[i]
+        w[W.FLEX + FL.V + i] = kept[count + i]
 
 
 @kernel
 def keep_accelerations(p, s, w):
     """Accelerations of the coordinates, from the right-hand side just evaluated, into ``s``."""
-    if p[P_MODES] == 0.0:
+    if p[P.MODES] == 0.0:
         return
-    count = 2 * int(p[P_MODES])
+    count = 2 * int(p[P.MODES])
     kept = s[flexure_state(p) + 2 * count :]
-    own = w[W_FLEX + FW_A :]
+    own = w[W.FLEX + FL.A :]
     for i in range(count):
         kept[i] = own[i]
 
@@ -132,75 +71,75 @@ def keep_accelerations(p, s, w):
 @inlined
 def first_order(lanes, race, w, own):
     """Cosine and sine of each ball's angle about the displaced ring's own centre."""
-    pose = (W_POSE + race * POSE_ROWS) * _S
+    pose = W.POSE + race * X.SIZE
     for j in range(lanes):
-        c = w[W_COS * _S + j]
-        s = w[W_SIN * _S + j]
-        hr = w[pose + (X_H + 1) * _S + j]
-        ht = w[pose + (X_H + 2) * _S + j]
+        c = w[W.COS + j]
+        s = w[W.SIN + j]
+        hr = w[pose + X.H + STRIDE + j]
+        ht = w[pose + X.H + 2 * STRIDE + j]
         unit = 1.0 / math.sqrt(hr * hr + ht * ht)
-        own[FR_COS * _S + j] = (c * hr - s * ht) * unit
-        own[FR_SIN * _S + j] = (s * hr + c * ht) * unit
+        own[FL.COS + j] = (c * hr - s * ht) * unit
+        own[FL.SIN + j] = (s * hr + c * ht) * unit
 
 
 @kernel
 def raise_order(times, lanes, own, source, at):
     """Cosine and sine of the order ``times`` above that of the rows at ``source`` into those at ``at``."""
-    for j in range(2 * _S):
+    for j in range(2 * STRIDE):
         own[at + j] = own[source + j]
     for _ in range(times):
         for j in range(lanes):
             c = own[at + j]
-            s = own[at + _S + j]
-            c1 = own[FR_COS * _S + j]
-            s1 = own[FR_SIN * _S + j]
+            s = own[at + STRIDE + j]
+            c1 = own[FL.COS + j]
+            s1 = own[FL.SIN + j]
             own[at + j] = c * c1 - s * s1
-            own[at + _S + j] = s * c1 + c * s1
+            own[at + STRIDE + j] = s * c1 + c * s1
 
 
 @kernel
 def add_mode(p, mode, lanes, spin, own, at, a, b, va, vb):
     """Add one mode's share to the rows of the groove's motion; ``at``: its cosine and sine."""
-    n = p[mode + MODE_ORDER]
-    psi_x = p[mode + MODE_X]
-    psi_r = p[mode + MODE_R]
-    psi_t = p[mode + MODE_T]
-    tilt = p[mode + MODE_TILT]
+    n = p[mode + P.MODE_ORDER]
+    psi_x = p[mode + P.MODE_X]
+    psi_r = p[mode + P.MODE_R]
+    psi_t = p[mode + P.MODE_T]
+    tilt = p[mode + P.MODE_TILT]
     da = va + n * spin * b
     db = vb - n * spin * a
     for j in range(lanes):
         c = own[at + j]
-        s = own[at + _S + j]
+        s = own[at + STRIDE + j]
         along = a * c + b * s
         across = n * (a * s - b * c)
         moving = da * c + db * s
-        own[FR_X * _S + j] += psi_x * along
-        own[FR_R * _S + j] += psi_r * along
-        own[FR_GX * _S + j] -= psi_x * across
-        own[FR_GR * _S + j] -= psi_r * across
-        own[FR_VX * _S + j] += psi_x * moving
-        own[FR_VR * _S + j] += psi_r * moving
-        own[FR_VT * _S + j] += psi_t * (da * s - db * c)
-        own[FR_TURN * _S + j] += tilt * moving
+        own[FL.X + j] += psi_x * along
+        own[FL.R + j] += psi_r * along
+        own[FL.GX + j] -= psi_x * across
+        own[FL.GR + j] -= psi_r * across
+        own[FL.VX + j] += psi_x * moving
+        own[FL.VR + j] += psi_r * moving
+        own[FL.VT + j] += psi_t * (da * s - db * c)
+        own[FL.TURN + j] += tilt * moving
 
 
 @kernel
 def bend(p, lanes, race, spin, own):
     """Motion of the groove of one ring under each ball, into the rows of ``own``."""
-    table = int(p[P_AT_MODES])
-    q = FW_Q
-    v = FW_V
-    source = FR_COS * _S
+    table = int(p[P.AT_MODES])
+    q = FL.Q
+    v = FL.V
+    source = FL.COS
     order = 1
-    for i in range(FR_COS * _S):
+    for i in range(FL.COS):
         own[i] = 0.0
-    for k in range(int(p[P_MODES])):
-        mode = table + k * MODE_SIZE
-        if int(p[mode + MODE_BODY]) == race:
-            at = (FLEX_ROWS + 2 * k) * _S
-            n = int(p[mode + MODE_ORDER])
+    for k in range(int(p[P.MODES])):
+        mode = table + k * P.MODE_SIZE
+        if int(p[mode + P.MODE_BODY]) == race:
+            at = FL.MODES + 2 * k * STRIDE
+            n = int(p[mode + P.MODE_ORDER])
             if n < order:
-                source = FR_COS * _S
+                source = FL.COS
                 order = 1
             raise_order(n - order, lanes, own, source, at)
             source = at
@@ -218,96 +157,88 @@ def move_groove(p, c, lanes, race, spin, w):
     Leaves in the rows ``FR_GX`` and ``FR_GR`` the slope of the track and the ratio of the radii that
     :func:`lean` takes, in ``FR_VT`` the circumferential velocity.
     """
-    own = w[W_FLEX:]
-    pose = (W_POSE + race * POSE_ROWS) * _S
+    own = w[W.FLEX :]
+    pose = W.POSE + race * X.SIZE
     first_order(lanes, race, w, own)
     bend(p, lanes, race, spin, own)
-    groove_x = c[C_RACES + race * C_RACE_SIZE]
-    groove_r = c[C_RACES + race * C_RACE_SIZE + 1]
+    groove_x = c[C.RACES + race * C.RACE_SIZE]
+    groove_r = c[C.RACES + race * C.RACE_SIZE + 1]
     for j in range(lanes):
-        axial = w[pose + X_A * _S + j] - own[FR_X * _S + j]
-        before = w[pose + X_RHO * _S + j]
-        rho = before - own[FR_R * _S + j]
+        axial = w[pose + X.A + j] - own[FL.X + j]
+        before = w[pose + X.RHO + j]
+        rho = before - own[FL.R + j]
         sx = axial - groove_x
         sr = rho - groove_r
-        turn = own[FR_TURN * _S + j]
+        turn = own[FL.TURN + j]
         # the section turns about the centre of the groove's circle
-        vx = own[FR_VX * _S + j] - turn * sr
-        vr = own[FR_VR * _S + j] + turn * sx
-        slope = (sx * own[FR_GX * _S + j] + sr * own[FR_GR * _S + j]) / math.sqrt(sx * sx + sr * sr)
-        own[FR_GX * _S + j] = -slope
-        own[FR_GR * _S + j] = rho / before
-        w[pose + X_A * _S + j] = axial
-        w[pose + X_RHO * _S + j] = rho
-        hx = w[pose + X_H * _S + j]
-        hr = w[pose + (X_H + 1) * _S + j]
-        ht = w[pose + (X_H + 2) * _S + j]
-        w[pose + X_DV * _S + j] -= vx * w[pose + X_N * _S + j] + vr * hx
-        w[pose + (X_DV + 1) * _S + j] -= vx * w[pose + (X_N + 1) * _S + j] + vr * hr
-        w[pose + (X_DV + 2) * _S + j] -= vx * w[pose + (X_N + 2) * _S + j] + vr * ht
-        w[pose + X_DW * _S + j] -= turn * w[pose + X_T * _S + j]
-        w[pose + (X_DW + 1) * _S + j] -= turn * w[pose + (X_T + 1) * _S + j]
-        w[pose + (X_DW + 2) * _S + j] -= turn * w[pose + (X_T + 2) * _S + j]
+        vx = own[FL.VX + j] - turn * sr
+        vr = own[FL.VR + j] + turn * sx
+        slope = (sx * own[FL.GX + j] + sr * own[FL.GR + j]) / math.sqrt(sx * sx + sr * sr)
+        own[FL.GX + j] = -slope
+        own[FL.GR + j] = rho / before
+        w[pose + X.A + j] = axial
+        w[pose + X.RHO + j] = rho
+        hx = w[pose + X.H + j]
+        hr = w[pose + X.H + STRIDE + j]
+        ht = w[pose + X.H + 2 * STRIDE + j]
+        w[pose + X.DV + j] -= vx * w[pose + X.N + j] + vr * hx
+        w[pose + X.DV + STRIDE + j] -= vx * w[pose + X.N + STRIDE + j] + vr * hr
+        w[pose + X.DV + 2 * STRIDE + j] -= vx * w[pose + X.N + 2 * STRIDE + j] + vr * ht
+        w[pose + X.DW + j] -= turn * w[pose + X.T + j]
+        w[pose + X.DW + STRIDE + j] -= turn * w[pose + X.T + STRIDE + j]
+        w[pose + X.DW + 2 * STRIDE + j] -= turn * w[pose + X.T + 2 * STRIDE + j]
 
 
 @inlined
 def lean(p, lanes, race, w):
     """Add the flexed track's slope to the waviness'; both over the radius before the shift."""
-    own = w[W_FLEX:]
-    row = (W_RACE + race * RACE_ROWS) * _S
+    own = w[W.FLEX :]
+    row = W.RACE + race * R.SIZE
     for j in range(lanes):
-        slope = w[row + R_SLOPE * _S + j] + own[FR_GX * _S + j]
-        w[row + R_SLOPE * _S + j] = slope * own[FR_GR * _S + j]
+        slope = w[row + R.SLOPE + j] + own[FL.GX + j]
+        w[row + R.SLOPE + j] = slope * own[FL.GR + j]
 
 
 @inlined
 def slide(p, lanes, race, w):
     """Take the circumferential velocity of the groove from the sliding along the track."""
-    own = w[W_FLEX:]
-    row = (W_RACE + race * RACE_ROWS) * _S
+    own = w[W.FLEX :]
+    row = W.RACE + race * R.SIZE
     for j in range(lanes):
-        w[row + R_UT * _S + j] -= own[FR_VT * _S + j]
+        w[row + R.UT + j] -= own[FL.VT + j]
 
 
 @inlined
 def groove_forces(p, c, lanes, race, w, own):
     """Gather forces and moment of the balls on one ring's groove into four rows; spare lanes put none."""
-    balls = int(p[P_BALLS])
-    pose = (W_POSE + race * POSE_ROWS) * _S
-    force = (W_FORCE + race * 6) * _S
-    row = (W_RACE + race * RACE_ROWS) * _S
-    loss = (W_LOSS + race) * _S
-    groove_x = c[C_RACES + race * C_RACE_SIZE]
-    groove_r = c[C_RACES + race * C_RACE_SIZE + 1]
+    balls = int(p[P.BALLS])
+    pose = W.POSE + race * X.SIZE
+    force = W.FORCE + race * 6 * STRIDE
+    row = W.RACE + race * R.SIZE
+    loss = W.LOSS + race * STRIDE
+    groove_x = c[C.RACES + race * C.RACE_SIZE]
+    groove_r = c[C.RACES + race * C.RACE_SIZE + 1]
     for j in range(lanes):
         live = -1.0 if j < balls else 0.0
         fx = w[force + j]
-        fr = w[force + _S + j]
-        ft = w[force + 2 * _S + j]
-        fn = (
-            fx * w[pose + X_N * _S + j]
-            + fr * w[pose + (X_N + 1) * _S + j]
-            + ft * w[pose + (X_N + 2) * _S + j]
-        )
-        fh = (
-            fx * w[pose + X_H * _S + j]
-            + fr * w[pose + (X_H + 1) * _S + j]
-            + ft * w[pose + (X_H + 2) * _S + j]
-        )
+        fr = w[force + STRIDE + j]
+        ft = w[force + 2 * STRIDE + j]
+        fn = fx * w[pose + X.N + j] + fr * w[pose + X.N + STRIDE + j] + ft * w[pose + X.N + 2 * STRIDE + j]
+        fh = fx * w[pose + X.H + j] + fr * w[pose + X.H + STRIDE + j] + ft * w[pose + X.H + 2 * STRIDE + j]
         mt = (
-            w[force + 3 * _S + j] * w[pose + X_T * _S + j]
-            + w[force + 4 * _S + j] * w[pose + (X_T + 1) * _S + j]
-            + w[force + 5 * _S + j] * w[pose + (X_T + 2) * _S + j]
+            w[force + 3 * STRIDE + j] * w[pose + X.T + j]
+            + w[force + 4 * STRIDE + j] * w[pose + X.T + STRIDE + j]
+            + w[force + 5 * STRIDE + j] * w[pose + X.T + 2 * STRIDE + j]
         )
-        sx = w[pose + X_A * _S + j] - groove_x
-        sr = w[pose + X_RHO * _S + j] - groove_r
-        drag = live * w[row + R_FT * _S + j]
-        own[FR_X * _S + j] = live * fn
-        own[FR_R * _S + j] = live * fh
-        own[FR_GX * _S + j] = drag
-        own[FR_GR * _S + j] = live * (mt + sx * fh - sr * fn)
+        sx = w[pose + X.A + j] - groove_x
+        sr = w[pose + X.RHO + j] - groove_r
+        drag = live * w[row + R.FT + j]
+        own[FL.X + j] = live * fn
+        own[FL.R + j] = live * fh
+        own[FL.GX + j] = drag
+        own[FL.GR + j] = live * (mt + sx * fh - sr * fn)
         # the loss was taken from velocities without the groove's circumferential one
-        w[loss + j] -= drag * own[FR_VT * _S + j]
+        w[loss + j] -= drag * own[FL.VT + j]
 
 
 @kernel
@@ -332,31 +263,31 @@ def mode_force(p, mode, lanes, own, at, turning):
 
     ``turning``: 1 with the moment on the section, 0 without.
     """
-    psi_x = p[mode + MODE_X]
-    psi_r = p[mode + MODE_R]
-    psi_t = p[mode + MODE_T]
-    tilt = turning * p[mode + MODE_TILT]
+    psi_x = p[mode + P.MODE_X]
+    psi_r = p[mode + P.MODE_R]
+    psi_t = p[mode + P.MODE_T]
+    tilt = turning * p[mode + P.MODE_TILT]
     for j in range(lanes):
         c = own[at + j]
-        s = own[at + _S + j]
-        push = psi_x * own[FR_X * _S + j] + psi_r * own[FR_R * _S + j] + tilt * own[FR_GR * _S + j]
-        drag = psi_t * own[FR_GX * _S + j]
-        own[FR_VX * _S + j] = push * c + drag * s
-        own[FR_VR * _S + j] = push * s - drag * c
-    return row_sum(own, FR_VX * _S, lanes), row_sum(own, FR_VR * _S, lanes)
+        s = own[at + STRIDE + j]
+        push = psi_x * own[FL.X + j] + psi_r * own[FL.R + j] + tilt * own[FL.GR + j]
+        drag = psi_t * own[FL.GX + j]
+        own[FL.VX + j] = push * c + drag * s
+        own[FL.VR + j] = push * s - drag * c
+    return row_sum(own, FL.VX, lanes), row_sum(own, FL.VR, lanes)
 
 
 @inlined
 def press_modes(p, c, lanes, race, w):
     """Generalised forces of the balls on the modes of one ring, from the forces in the rows of ``w``."""
-    own = w[W_FLEX:]
+    own = w[W.FLEX :]
     groove_forces(p, c, lanes, race, w, own)
-    table = int(p[P_AT_MODES])
-    out = FW_FORCE
-    for k in range(int(p[P_MODES])):
-        mode = table + k * MODE_SIZE
-        if int(p[mode + MODE_BODY]) == race:
-            cosine, sine = mode_force(p, mode, lanes, own, (FLEX_ROWS + 2 * k) * _S, 1.0)
+    table = int(p[P.AT_MODES])
+    out = FL.FORCE
+    for k in range(int(p[P.MODES])):
+        mode = table + k * P.MODE_SIZE
+        if int(p[mode + P.MODE_BODY]) == race:
+            cosine, sine = mode_force(p, mode, lanes, own, FL.MODES + 2 * k * STRIDE, 1.0)
             own[out + 2 * k] = cosine
             own[out + 2 * k + 1] = sine
 
@@ -364,22 +295,22 @@ def press_modes(p, c, lanes, race, w):
 @kernel
 def flexure_equations(p, y, speed, speed_rate, w, f):
     """Accelerations of the coordinates from their forces; their damping heats the rings (rows of ``f``)."""
-    own = w[W_FLEX:]
-    table = int(p[P_AT_MODES])
-    q = FW_Q
-    v = FW_V
-    force = FW_FORCE
-    out = FW_A
-    for k in range(int(p[P_MODES])):
-        mode = table + k * MODE_SIZE
-        inner = p[mode + MODE_BODY] == 0.0
-        spin = speed if inner else y[Y_V + Q_OUTER + 3]
-        rate = speed_rate if inner else f[F_G + Q_OUTER + 3]
-        n = p[mode + MODE_ORDER]
-        mass = p[mode + MODE_MASS]
-        stiff = p[mode + MODE_STIFFNESS] / mass
-        damping = p[mode + MODE_DAMPING]
-        whirl = (n + 2.0 * p[mode + MODE_GYROSCOPIC]) * spin
+    own = w[W.FLEX :]
+    table = int(p[P.AT_MODES])
+    q = FL.Q
+    v = FL.V
+    force = FL.FORCE
+    out = FL.A
+    for k in range(int(p[P.MODES])):
+        mode = table + k * P.MODE_SIZE
+        inner = p[mode + P.MODE_BODY] == 0.0
+        spin = speed if inner else y[Y.V0 + Q.OUTER + 3]
+        rate = speed_rate if inner else f[F.BODY + Q.OUTER + 3]
+        n = p[mode + P.MODE_ORDER]
+        mass = p[mode + P.MODE_MASS]
+        stiff = p[mode + P.MODE_STIFFNESS] / mass
+        damping = p[mode + P.MODE_DAMPING]
+        whirl = (n + 2.0 * p[mode + P.MODE_GYROSCOPIC]) * spin
         a = own[q + 2 * k]
         b = own[q + 2 * k + 1]
         va = own[v + 2 * k]
@@ -392,24 +323,24 @@ def flexure_equations(p, y, speed, speed_rate, w, f):
         own[out + 2 * k + 1] = (
             own[force + 2 * k + 1] / mass - stiff * b - damping * db + whirl * da + n * (spin * va + rate * a)
         )
-        f[F_HEAT + (0 if inner else 1)] += damping * mass * (da * da + db * db)
+        f[F.HEAT + (0 if inner else 1)] += damping * mass * (da * da + db * db)
 
 
 @kernel
 def flexure_energy(p, y, speed, w):
     """Kinetic and strain energy (J) of the modes, seats included, for the coordinates last evaluated."""
-    own = w[W_FLEX:]
-    table = int(p[P_AT_MODES])
-    q = FW_Q
-    v = FW_V
+    own = w[W.FLEX :]
+    table = int(p[P.AT_MODES])
+    q = FL.Q
+    v = FL.V
     total = 0.0
-    for k in range(int(p[P_MODES])):
-        mode = table + k * MODE_SIZE
-        turn = p[mode + MODE_ORDER] * (speed if p[mode + MODE_BODY] == 0.0 else y[Y_V + Q_OUTER + 3])
+    for k in range(int(p[P.MODES])):
+        mode = table + k * P.MODE_SIZE
+        turn = p[mode + P.MODE_ORDER] * (speed if p[mode + P.MODE_BODY] == 0.0 else y[Y.V0 + Q.OUTER + 3])
         a = own[q + 2 * k]
         b = own[q + 2 * k + 1]
         da = own[v + 2 * k] + turn * b
         db = own[v + 2 * k + 1] - turn * a
-        total += 0.5 * p[mode + MODE_MASS] * (da * da + db * db)
-        total += 0.5 * p[mode + MODE_STIFFNESS] * (a * a + b * b)
+        total += 0.5 * p[mode + P.MODE_MASS] * (da * da + db * db)
+        total += 0.5 * p[mode + P.MODE_STIFFNESS] * (a * a + b * b)
     return total

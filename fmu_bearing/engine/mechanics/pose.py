@@ -3,32 +3,8 @@
 import math
 
 from fmu_bearing.engine.jit import inlined, kernel
-from fmu_bearing.engine.layout import (
-    B_OM,
-    B_R,
-    B_VR,
-    B_VX,
-    B_WR,
-    B_WT,
-    B_WX,
-    B_X,
-    P_PITCH_RADIUS,
-    POSE_ROWS,
-    STRIDE,
-    W_COS,
-    W_POSE,
-    W_SIN,
-    X_A,
-    X_DV,
-    X_DW,
-    X_H,
-    X_N,
-    X_Q,
-    X_RHO,
-    X_T,
-)
-
-_S = STRIDE
+from fmu_bearing.engine.layout import P, W, X, Y
+from fmu_bearing.engine.layout.sizes import STRIDE
 
 
 @kernel
@@ -50,13 +26,13 @@ def relative_pose(p, y, lanes, body, ux, uy, uz, by, bz, vx, vy, vz, spin, dby, 
     wy = spin * bz + dby
     wz = -spin * by + dbz
     wx = spin * nx
-    pitch = p[P_PITCH_RADIUS]
-    base = (W_POSE + body * POSE_ROWS) * _S
+    pitch = p[P.PITCH_RADIUS]
+    base = W.POSE + body * X.SIZE
     for j in range(lanes):
-        c = w[W_COS * _S + j]
-        s = w[W_SIN * _S + j]
-        radius = pitch + y[B_R * _S + j]
-        qx = y[B_X * _S + j] - ux
+        c = w[W.COS + j]
+        s = w[W.SIN + j]
+        radius = pitch + y[Y.R + j]
+        qx = y[Y.X + j] - ux
         qr = radius - (c * uz - s * uy)
         qt = c * uy + s * uz
         nr = -s * bz - c * by
@@ -72,26 +48,26 @@ def relative_pose(p, y, lanes, body, ux, uy, uz, by, bz, vx, vy, vz, spin, dby, 
         ht *= inv
         gr = c * wz - s * wy
         gt = -c * wy - s * wz
-        w[base + X_Q * _S + j] = qx
-        w[base + (X_Q + 1) * _S + j] = qr
-        w[base + (X_Q + 2) * _S + j] = qt
-        w[base + X_N * _S + j] = nx
-        w[base + (X_N + 1) * _S + j] = nr
-        w[base + (X_N + 2) * _S + j] = nt
-        w[base + X_H * _S + j] = hx
-        w[base + (X_H + 1) * _S + j] = hr
-        w[base + (X_H + 2) * _S + j] = ht
-        w[base + X_T * _S + j] = nr * ht - nt * hr
-        w[base + (X_T + 1) * _S + j] = nt * hx - nx * ht
-        w[base + (X_T + 2) * _S + j] = nx * hr - nr * hx
-        w[base + X_A * _S + j] = axial
-        w[base + X_RHO * _S + j] = rho
-        w[base + X_DV * _S + j] = y[B_VX * _S + j] - vx - (gr * qt - gt * qr)
-        w[base + (X_DV + 1) * _S + j] = y[B_VR * _S + j] - (c * vz - s * vy) - (gt * qx - wx * qt)
-        w[base + (X_DV + 2) * _S + j] = radius * y[B_OM * _S + j] + (c * vy + s * vz) - (wx * qr - gr * qx)
-        w[base + X_DW * _S + j] = y[B_WX * _S + j] - wx
-        w[base + (X_DW + 1) * _S + j] = y[B_WR * _S + j] - gr
-        w[base + (X_DW + 2) * _S + j] = y[B_WT * _S + j] - gt
+        w[base + X.Q + j] = qx
+        w[base + X.Q + STRIDE + j] = qr
+        w[base + X.Q + 2 * STRIDE + j] = qt
+        w[base + X.N + j] = nx
+        w[base + X.N + STRIDE + j] = nr
+        w[base + X.N + 2 * STRIDE + j] = nt
+        w[base + X.H + j] = hx
+        w[base + X.H + STRIDE + j] = hr
+        w[base + X.H + 2 * STRIDE + j] = ht
+        w[base + X.T + j] = nr * ht - nt * hr
+        w[base + X.T + STRIDE + j] = nt * hx - nx * ht
+        w[base + X.T + 2 * STRIDE + j] = nx * hr - nr * hx
+        w[base + X.A + j] = axial
+        w[base + X.RHO + j] = rho
+        w[base + X.DV + j] = y[Y.VX + j] - vx - (gr * qt - gt * qr)
+        w[base + X.DV + STRIDE + j] = y[Y.VR + j] - (c * vz - s * vy) - (gt * qx - wx * qt)
+        w[base + X.DV + 2 * STRIDE + j] = radius * y[Y.OM + j] + (c * vy + s * vz) - (wx * qr - gr * qx)
+        w[base + X.DW + j] = y[Y.WX + j] - wx
+        w[base + X.DW + STRIDE + j] = y[Y.WR + j] - gr
+        w[base + X.DW + 2 * STRIDE + j] = y[Y.WT + j] - gt
 
 
 @inlined

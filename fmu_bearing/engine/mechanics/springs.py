@@ -5,21 +5,10 @@ pitch radius gives both balls the same moment about the bearing's axis, whatever
 """
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import (
-    B_OM,
-    B_R,
-    B_TH,
-    P_BALL_MASS,
-    P_BALLS,
-    P_LANES,
-    P_PITCH_RADIUS,
-    P_SPRING_DAMPING,
-    P_SPRINGS,
-    STRIDE,
-)
+from fmu_bearing.engine.layout import P, Y
+from fmu_bearing.engine.layout.sizes import STRIDE
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 
-_S = STRIDE
 _TWO_PI = 6.283185307179586
 
 
@@ -29,28 +18,28 @@ def spring_forces(p, y, f):
 
     Spare lanes get what ball 0 gets.
     """
-    balls = int(p[P_BALLS])
-    pitch = p[P_PITCH_RADIUS]
-    stiffness = p[P_SPRINGS]
-    damping = p[P_SPRING_DAMPING]
+    balls = int(p[P.BALLS])
+    pitch = p[P.PITCH_RADIUS]
+    stiffness = p[P.SPRINGS]
+    damping = p[P.SPRING_DAMPING]
     gap = _TWO_PI / balls
-    per_mass = pitch * pitch / p[P_BALL_MASS]
+    per_mass = pitch * pitch / p[P.BALL_MASS]
     lost = 0.0
     before = 0.0
     for n in range(-1, balls):
         j = n if n >= 0 else balls - 1
         k = j + 1 if j + 1 < balls else 0
-        apart = wrap(y[B_TH * _S + k] - y[B_TH * _S + j] - gap)
-        opening = y[B_OM * _S + k] - y[B_OM * _S + j]
+        apart = wrap(y[Y.TH + k] - y[Y.TH + j] - gap)
+        opening = y[Y.OM + k] - y[Y.OM + j]
         pull = stiffness * apart + damping * opening
         if n >= 0:
-            radius = pitch + y[B_R * _S + j]
+            radius = pitch + y[Y.R + j]
             given = (pull - before) * per_mass / (radius * radius)
-            f[2 * _S + j] += given
+            f[2 * STRIDE + j] += given
             lost += damping * pitch * pitch * opening * opening
             if j == 0:
-                for lane in range(balls, int(p[P_LANES])):
-                    f[2 * _S + lane] += given
+                for lane in range(balls, int(p[P.LANES])):
+                    f[2 * STRIDE + lane] += given
         before = pull
     return lost
 
@@ -58,11 +47,11 @@ def spring_forces(p, y, f):
 @kernel
 def spring_energy(p, y):
     """Elastic energy (J) of the springs between the balls."""
-    balls = int(p[P_BALLS])
-    pitch = p[P_PITCH_RADIUS]
+    balls = int(p[P.BALLS])
+    pitch = p[P.PITCH_RADIUS]
     total = 0.0
     for j in range(balls):
         k = j + 1 if j + 1 < balls else 0
-        apart = pitch * wrap(y[B_TH * _S + k] - y[B_TH * _S + j] - _TWO_PI / balls)
-        total += 0.5 * p[P_SPRINGS] * apart * apart
+        apart = pitch * wrap(y[Y.TH + k] - y[Y.TH + j] - _TWO_PI / balls)
+        total += 0.5 * p[P.SPRINGS] * apart * apart
     return total

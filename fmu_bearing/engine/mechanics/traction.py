@@ -8,41 +8,8 @@ Dowson (1977) at the contact's present entrainment speed.
 import math
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import (
-    C_VISCOSITY,
-    P_AT_STRIPS,
-    P_EYRING_STRESS,
-    P_MU,
-    P_PRESSURE_VISCOSITY,
-    P_RACES,
-    P_STRIPS,
-    P_TRACTION_FLOOR,
-    P_TRACTION_LAW,
-    R_AM,
-    R_AN,
-    R_AT,
-    R_ENTRAIN,
-    R_FM,
-    R_FT,
-    R_HALF,
-    R_LOAD,
-    R_MM,
-    R_MN,
-    R_MT,
-    R_UM,
-    R_UT,
-    RACE_CENTRAL_FILM,
-    RACE_HALF_LENGTH,
-    RACE_HALF_WIDTH,
-    RACE_PRESSURE,
-    RACE_PROFILE_RADIUS,
-    RACE_ROWS,
-    RACE_SIZE,
-    STRIDE,
-    W_RACE,
-)
+from fmu_bearing.engine.layout import C, P, R, W
 
-_S = STRIDE
 _ROELANDS_PRESSURE = 1.96e8  # Pa, Roelands (1966)
 _ROELANDS_VISCOSITY = 9.67  # -log of the viscosity (Pa s) to which all his isotherms run
 _LARGEST_EXPONENT = 40.0  # 2e17 times ambient: a glass; keeps every product below far from overflow
@@ -135,28 +102,28 @@ def lubricated_traction(p, c, lanes, race, w):
     paper's law takes the ambient viscosity and has no bound; alone it is unusable (traction over load 3e-5
     at speed: it cannot drive a ball). Forces along e_t and e_m and moments on the ball, as ``traction``.
     """
-    row = (W_RACE + race * RACE_ROWS) * _S
-    numbers = P_RACES + race * RACE_SIZE
-    per_profile = 0.5 / p[numbers + RACE_PROFILE_RADIUS]
-    width = p[numbers + RACE_HALF_WIDTH] / p[numbers + RACE_HALF_LENGTH]
-    pressure = 0.25 * math.pi * p[numbers + RACE_PRESSURE] / p[numbers + RACE_HALF_LENGTH]
-    factor = p[numbers + RACE_CENTRAL_FILM]
-    eta = c[C_VISCOSITY]
-    index = roelands_index(p[P_PRESSURE_VISCOSITY], eta)
-    stress = p[P_EYRING_STRESS]
-    eyring = p[P_TRACTION_LAW] == 1.0
-    floor_2 = p[P_TRACTION_FLOOR] * p[P_TRACTION_FLOOR]
+    row = W.RACE + race * R.SIZE
+    numbers = P.RACES + race * P.RACE_SIZE
+    per_profile = 0.5 / p[numbers + P.RACE_PROFILE_RADIUS]
+    width = p[numbers + P.RACE_HALF_WIDTH] / p[numbers + P.RACE_HALF_LENGTH]
+    pressure = 0.25 * math.pi * p[numbers + P.RACE_PRESSURE] / p[numbers + P.RACE_HALF_LENGTH]
+    factor = p[numbers + P.RACE_CENTRAL_FILM]
+    eta = c[C.VISCOSITY]
+    index = roelands_index(p[P.PRESSURE_VISCOSITY], eta)
+    stress = p[P.EYRING_STRESS]
+    eyring = p[P.TRACTION_LAW] == 1.0
+    floor_2 = p[P.TRACTION_FLOOR] * p[P.TRACTION_FLOOR]
     across = 0.25 * width * width
-    mu = p[P_MU]
-    strips = int(p[P_STRIPS])
-    nodes = int(p[P_AT_STRIPS])
+    mu = p[P.MU]
+    strips = int(p[P.STRIPS])
+    nodes = int(p[P.AT_STRIPS])
     for j in range(lanes):
-        half = w[row + R_HALF * _S + j]
-        load = w[row + R_LOAD * _S + j]
-        film = central_film(factor, eta, w[row + R_ENTRAIN * _S + j], load)
+        half = w[row + R.HALF + j]
+        load = w[row + R.LOAD + j]
+        film = central_film(factor, eta, w[row + R.ENTRAIN + j], load)
         sum_t = 0.0
         sum_m = 0.0
-        spin = w[row + R_AN * _S + j]
+        spin = w[row + R.AN + j]
         moment_n = 0.0
         moment_t = 0.0
         moment_m = 0.0
@@ -165,8 +132,8 @@ def lubricated_traction(p, c, lanes, race, w):
             share = p[nodes + strips + k]
             offset = node * half
             sag = offset * offset * per_profile
-            ut = w[row + R_UT * _S + j] - offset * spin - sag * w[row + R_AM * _S + j]
-            um = w[row + R_UM * _S + j] + sag * w[row + R_AT * _S + j]
+            ut = w[row + R.UT + j] - offset * spin - sag * w[row + R.AM + j]
+            um = w[row + R.UM + j] + sag * w[row + R.AT + j]
             inside = 1.0 - node * node
             area = strip_area(half, half * width, share, node)
             if eyring:
@@ -187,8 +154,8 @@ def lubricated_traction(p, c, lanes, race, w):
             moment_n -= offset * ft
             moment_t += sag * fm
             moment_m -= sag * ft
-        w[row + R_FT * _S + j] = sum_t
-        w[row + R_FM * _S + j] = sum_m
-        w[row + R_MN * _S + j] = moment_n
-        w[row + R_MT * _S + j] = moment_t
-        w[row + R_MM * _S + j] = moment_m
+        w[row + R.FT + j] = sum_t
+        w[row + R.FM + j] = sum_m
+        w[row + R.MN + j] = moment_n
+        w[row + R.MT + j] = moment_t
+        w[row + R.MM + j] = moment_m

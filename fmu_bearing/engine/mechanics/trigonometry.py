@@ -1,7 +1,7 @@
 """Sine and cosine of the ball angles without a branch, so that the loop over balls stays a vector loop."""
 
 from fmu_bearing.engine.jit import inlined
-from fmu_bearing.engine.layout import STRIDE, W_COS, W_SIN
+from fmu_bearing.engine.layout import W
 from fmu_bearing.engine.mechanics.powers import ROUND
 
 # Cody-Waite split of pi/2: like the rounding constant it needs strict floating point.
@@ -66,5 +66,5 @@ def ball_angles(angle, at, lanes, w):
         odd = (quarter == 1.0) | (quarter == 3.0)
         sine = c if odd else s
         cosine = s if odd else c
-        w[W_SIN * STRIDE + j] = -sine if quarter >= 2.0 else sine
-        w[W_COS * STRIDE + j] = -cosine if (quarter == 1.0) | (quarter == 2.0) else cosine
+        w[W.SIN + j] = -sine if quarter >= 2.0 else sine
+        w[W.COS + j] = -cosine if (quarter == 1.0) | (quarter == 2.0) else cosine

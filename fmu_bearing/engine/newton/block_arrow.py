@@ -6,51 +6,30 @@ since, which keeps an old Jacobian exact for equal ball loads and an isotropic p
 """
 
 from fmu_bearing.engine.jit import inlined, kernel
-from fmu_bearing.engine.layout import (
-    A_GB,
-    A_INV,
-    A_S,
-    A_SIZE,
-    A_SPRING_BALLS,
-    A_W,
-    BORDER,
-    F_G,
-    J_B,
-    J_C,
-    J_D,
-    J_E,
-    N_BODY,
-    P_BALLS,
-    P_CAGE,
-    P_LANES,
-    P_SPRINGS,
-    STRIDE,
-    W_FORCE,
-)
+from fmu_bearing.engine.layout import A, F, J, P, Q, W
+from fmu_bearing.engine.layout.sizes import STRIDE
 from fmu_bearing.engine.newton.springs import couple_springs, spring_matrix
-
-_S = STRIDE
 
 
 @kernel
 def invert_blocks(a, at, lanes):
     """Invert the 6 x 6 blocks of all lanes in place (Gauss-Jordan; the blocks' diagonals dominate)."""
     for k in range(6):
-        kk = at + (k * 6 + k) * _S
+        kk = at + (k * 6 + k) * STRIDE
         for j in range(lanes):
             a[kk + j] = 1.0 / a[kk + j]
         for m in range(6):
             if m != k:
-                km = at + (k * 6 + m) * _S
+                km = at + (k * 6 + m) * STRIDE
                 for j in range(lanes):
                     a[km + j] *= a[kk + j]
         for i in range(6):
             if i != k:
-                ik = at + (i * 6 + k) * _S
+                ik = at + (i * 6 + k) * STRIDE
                 for m in range(6):
                     if m != k:
-                        im = at + (i * 6 + m) * _S
-                        km = at + (k * 6 + m) * _S
+                        im = at + (i * 6 + m) * STRIDE
+                        km = at + (k * 6 + m) * STRIDE
                         for j in range(lanes):
                             a[im + j] -= a[ik + j] * a[km + j]
                 for j in range(lanes):
@@ -104,19 +83,19 @@ def invert_border(a, at, n, w):
 def newton_row(jac, at, columns, cv, cx, out, to, lanes):
     """``out[to] = -cv jac[at + columns] - cx jac[at]``: minus rate and place derivative of one entry."""
     for j in range(lanes):
-        out[to + j] = -cv * jac[at + columns * _S + j] - cx * jac[at + j]
+        out[to + j] = -cv * jac[at + columns * STRIDE + j] - cx * jac[at + j]
 
 
 @kernel
 def border_column(jac, fac, w, scratch, g, cv, cx, cx_ball, lanes):
     """Column ``g`` of the border: W = Mb^-1 M_bG into ``fac``, and the row M_Gb beside it."""
     for i in range(6):
-        newton_row(jac, J_C + (i * 34 + g) * _S, N_BODY, cv, cx, w, scratch + i * _S, lanes)
+        newton_row(jac, J.C + (i * 34 + g) * STRIDE, Q.SIZE, cv, cx, w, scratch + i * STRIDE, lanes)
     for i in range(6):
-        times_six(fac, A_INV + i * 6 * _S, w, scratch, fac, A_W + (i * N_BODY + g) * _S, lanes)
+        times_six(fac, A.INVERSE + i * 6 * STRIDE, w, scratch, fac, A.W + (i * Q.SIZE + g) * STRIDE, lanes)
     for k in range(6):
-        out = A_GB + (g * 6 + k) * _S
-        newton_row(jac, J_D + (g * 9 + k) * _S, 3, cv, cx_ball if k < 3 else 0.0, fac, out, lanes)
+        out = A.GB + (g * 6 + k) * STRIDE
+        newton_row(jac, J.D + (g * 9 + k) * STRIDE, 3, cv, cx_ball if k < 3 else 0.0, fac, out, lanes)
 
 
 @kernel
@@ -125,46 +104,46 @@ def factor(p, jac, cv, cx, cx_ball, fac, w):
 
     ``cx_ball`` stands for ``cx`` in the columns of the balls' places.
     """
-    lanes = int(p[P_LANES])
-    scratch = W_FORCE * _S
+    lanes = int(p[P.LANES])
+    scratch = W.FORCE
     for i in range(6):
         for k in range(6):
-            out = A_INV + (i * 6 + k) * _S
-            newton_row(jac, J_B + (i * 9 + k) * _S, 3, cv, cx_ball if k < 3 else 0.0, fac, out, lanes)
-        own = A_INV + i * 7 * _S
+            out = A.INVERSE + (i * 6 + k) * STRIDE
+            newton_row(jac, J.B + (i * 9 + k) * STRIDE, 3, cv, cx_ball if k < 3 else 0.0, fac, out, lanes)
+        own = A.INVERSE + i * 7 * STRIDE
         for j in range(lanes):
             fac[own + j] += 1.0
-    invert_blocks(fac, A_INV, lanes)
-    for g in range(N_BODY):
+    invert_blocks(fac, A.INVERSE, lanes)
+    for g in range(Q.SIZE):
         border_column(jac, fac, w, scratch, g, cv, cx, cx_ball, lanes)
-    border = w[scratch : scratch + N_BODY * N_BODY]
-    for g in range(N_BODY):
-        left = A_GB + g * 6 * _S
-        for h in range(N_BODY):
+    border = w[scratch : scratch + Q.SIZE * Q.SIZE]
+    for g in range(Q.SIZE):
+        left = A.GB + g * 6 * STRIDE
+        for h in range(Q.SIZE):
             total = 1.0 if g == h else 0.0
-            total -= cv * jac[J_E + g * 34 + N_BODY + h] + cx * jac[J_E + g * 34 + h]
+            total -= cv * jac[J.E + g * 34 + Q.SIZE + h] + cx * jac[J.E + g * 34 + h]
             first = 0.0
             second = 0.0
             third = 0.0
             fourth = 0.0
             for k in range(6):
-                right = A_W + (k * N_BODY + h) * _S
-                row = left + k * _S
+                right = A.W + (k * Q.SIZE + h) * STRIDE
+                row = left + k * STRIDE
                 for quad in range(lanes // 4):
                     j = 4 * quad
                     first += fac[row + j] * fac[right + j]
                     second += fac[row + j + 1] * fac[right + j + 1]
                     third += fac[row + j + 2] * fac[right + j + 2]
                     fourth += fac[row + j + 3] * fac[right + j + 3]
-            border[g * N_BODY + h] = total - ((first + second) + (third + fourth))
-    fine = invert_border(border, 0, N_BODY, w[scratch + N_BODY * N_BODY :])
-    for g in range(N_BODY):
-        for h in range(N_BODY):
-            fac[A_S + h * BORDER + g] = border[g * N_BODY + h]
-    if fine and p[P_SPRINGS] != 0.0 and p[P_CAGE] == 0.0:
-        balls = int(p[P_BALLS])
+            border[g * Q.SIZE + h] = total - ((first + second) + (third + fourth))
+    fine = invert_border(border, 0, Q.SIZE, w[scratch + Q.SIZE * Q.SIZE :])
+    for g in range(Q.SIZE):
+        for h in range(Q.SIZE):
+            fac[A.S + h * A.BORDER + g] = border[g * Q.SIZE + h]
+    if fine and p[P.SPRINGS] != 0.0 and p[P.CAGE] == 0.0:
+        balls = int(p[P.BALLS])
         spring_matrix(p, cv, cx_ball, fac, w)
-        fine = invert_border(fac, A_SPRING_BALLS, balls, w[scratch : scratch + balls])
+        fine = invert_border(fac, A.SPRING_BALLS, balls, w[scratch : scratch + balls])
     return fine
 
 
@@ -193,9 +172,15 @@ def times_six(a, row, x, at, out, to, lanes):
     """``out[to + j] = sum over k of a[row + k] x[at + k]`` lane by lane, six products written out."""
     for j in range(lanes):
         out[to + j] = (
-            (a[row + j] * x[at + j] + a[row + _S + j] * x[at + _S + j])
-            + (a[row + 2 * _S + j] * x[at + 2 * _S + j] + a[row + 3 * _S + j] * x[at + 3 * _S + j])
-            + (a[row + 4 * _S + j] * x[at + 4 * _S + j] + a[row + 5 * _S + j] * x[at + 5 * _S + j])
+            (a[row + j] * x[at + j] + a[row + STRIDE + j] * x[at + STRIDE + j])
+            + (
+                a[row + 2 * STRIDE + j] * x[at + 2 * STRIDE + j]
+                + a[row + 3 * STRIDE + j] * x[at + 3 * STRIDE + j]
+            )
+            + (
+                a[row + 4 * STRIDE + j] * x[at + 4 * STRIDE + j]
+                + a[row + 5 * STRIDE + j] * x[at + 5 * STRIDE + j]
+            )
         )
 
 
@@ -204,19 +189,19 @@ def less_seventeen(a, row, x, at, t, source, out, to, lanes):
     """``out[to + j] = t[source + j] - sum over g of a[row + g] x[at + g]`` lane by lane, written out."""
     for j in range(lanes):
         first = (
-            (a[row + j] * x[at] + a[row + _S + j] * x[at + 1])
-            + (a[row + 2 * _S + j] * x[at + 2] + a[row + 3 * _S + j] * x[at + 3])
-            + (a[row + 4 * _S + j] * x[at + 4] + a[row + 5 * _S + j] * x[at + 5])
+            (a[row + j] * x[at] + a[row + STRIDE + j] * x[at + 1])
+            + (a[row + 2 * STRIDE + j] * x[at + 2] + a[row + 3 * STRIDE + j] * x[at + 3])
+            + (a[row + 4 * STRIDE + j] * x[at + 4] + a[row + 5 * STRIDE + j] * x[at + 5])
         )
         second = (
-            (a[row + 6 * _S + j] * x[at + 6] + a[row + 7 * _S + j] * x[at + 7])
-            + (a[row + 8 * _S + j] * x[at + 8] + a[row + 9 * _S + j] * x[at + 9])
-            + (a[row + 10 * _S + j] * x[at + 10] + a[row + 11 * _S + j] * x[at + 11])
+            (a[row + 6 * STRIDE + j] * x[at + 6] + a[row + 7 * STRIDE + j] * x[at + 7])
+            + (a[row + 8 * STRIDE + j] * x[at + 8] + a[row + 9 * STRIDE + j] * x[at + 9])
+            + (a[row + 10 * STRIDE + j] * x[at + 10] + a[row + 11 * STRIDE + j] * x[at + 11])
         )
         third = (
-            (a[row + 12 * _S + j] * x[at + 12] + a[row + 13 * _S + j] * x[at + 13])
-            + (a[row + 14 * _S + j] * x[at + 14] + a[row + 15 * _S + j] * x[at + 15])
-            + a[row + 16 * _S + j] * x[at + 16]
+            (a[row + 12 * STRIDE + j] * x[at + 12] + a[row + 13 * STRIDE + j] * x[at + 13])
+            + (a[row + 14 * STRIDE + j] * x[at + 14] + a[row + 15 * STRIDE + j] * x[at + 15])
+            + a[row + 16 * STRIDE + j] * x[at + 16]
         )
         out[to + j] = t[source + j] - ((first + second) + third)
 
@@ -224,16 +209,16 @@ def less_seventeen(a, row, x, at, t, source, out, to, lanes):
 @kernel
 def border_product(fac, w, source, d):
     """``d[F_G:] = S^-1 w[source:]``; S^-1 stands by columns of ``BORDER`` numbers, the spare ones zero."""
-    total = w[source + BORDER : source + 2 * BORDER]
-    for i in range(BORDER):
+    total = w[source + A.BORDER : source + 2 * A.BORDER]
+    for i in range(A.BORDER):
         total[i] = 0.0
-    for h in range(N_BODY):
+    for h in range(Q.SIZE):
         x = w[source + h]
-        column = fac[A_S + h * BORDER : A_SIZE]
-        for i in range(BORDER):
+        column = fac[A.S + h * A.BORDER : A.SIZE]
+        for i in range(A.BORDER):
             total[i] += column[i] * x
-    for g in range(N_BODY):
-        d[F_G + g] = total[g]
+    for g in range(Q.SIZE):
+        d[F.BODY + g] = total[g]
 
 
 @kernel
@@ -242,19 +227,19 @@ def solve(p, fac, c, s, d, w):
 
     ``c``, ``s``: cosine and sine of the orbit angle turned since the factors were made.
     """
-    lanes = int(p[P_LANES])
-    t = W_FORCE * _S
-    sums = t + 6 * _S
-    turn_pairs(d, F_G, c, -s)
-    times_six(fac, A_INV, d, 0, w, t, lanes)
-    times_six(fac, A_INV + 6 * _S, d, 0, w, t + _S, lanes)
-    times_six(fac, A_INV + 12 * _S, d, 0, w, t + 2 * _S, lanes)
-    times_six(fac, A_INV + 18 * _S, d, 0, w, t + 3 * _S, lanes)
-    times_six(fac, A_INV + 24 * _S, d, 0, w, t + 4 * _S, lanes)
-    times_six(fac, A_INV + 30 * _S, d, 0, w, t + 5 * _S, lanes)
-    products = w[sums + 2 * BORDER : sums + 2 * BORDER + _S]
-    for g in range(N_BODY):
-        times_six(fac[A_GB + g * 6 * _S : A_S], 0, w, t, products, 0, lanes)
+    lanes = int(p[P.LANES])
+    t = W.FORCE
+    sums = t + 6 * STRIDE
+    turn_pairs(d, F.BODY, c, -s)
+    times_six(fac, A.INVERSE, d, 0, w, t, lanes)
+    times_six(fac, A.INVERSE + 6 * STRIDE, d, 0, w, t + STRIDE, lanes)
+    times_six(fac, A.INVERSE + 12 * STRIDE, d, 0, w, t + 2 * STRIDE, lanes)
+    times_six(fac, A.INVERSE + 18 * STRIDE, d, 0, w, t + 3 * STRIDE, lanes)
+    times_six(fac, A.INVERSE + 24 * STRIDE, d, 0, w, t + 4 * STRIDE, lanes)
+    times_six(fac, A.INVERSE + 30 * STRIDE, d, 0, w, t + 5 * STRIDE, lanes)
+    products = w[sums + 2 * A.BORDER : sums + 2 * A.BORDER + STRIDE]
+    for g in range(Q.SIZE):
+        times_six(fac[A.GB + g * 6 * STRIDE : A.S], 0, w, t, products, 0, lanes)
         first = 0.0
         second = 0.0
         third = 0.0
@@ -264,14 +249,14 @@ def solve(p, fac, c, s, d, w):
             second += products[4 * k + 1]
             third += products[4 * k + 2]
             fourth += products[4 * k + 3]
-        w[sums + g] = d[F_G + g] - ((first + second) + (third + fourth))
+        w[sums + g] = d[F.BODY + g] - ((first + second) + (third + fourth))
     border_product(fac, w, sums, d)
-    if p[P_SPRINGS] != 0.0 and p[P_CAGE] == 0.0:
+    if p[P.SPRINGS] != 0.0 and p[P.CAGE] == 0.0:
         couple_springs(p, fac, d, w)
-    less_seventeen(fac, A_W, d, F_G, w, t, d, 0, lanes)
-    less_seventeen(fac, A_W + 17 * _S, d, F_G, w, t + _S, d, _S, lanes)
-    less_seventeen(fac, A_W + 34 * _S, d, F_G, w, t + 2 * _S, d, 2 * _S, lanes)
-    less_seventeen(fac, A_W + 51 * _S, d, F_G, w, t + 3 * _S, d, 3 * _S, lanes)
-    less_seventeen(fac, A_W + 68 * _S, d, F_G, w, t + 4 * _S, d, 4 * _S, lanes)
-    less_seventeen(fac, A_W + 85 * _S, d, F_G, w, t + 5 * _S, d, 5 * _S, lanes)
-    turn_pairs(d, F_G, c, s)
+    less_seventeen(fac, A.W, d, F.BODY, w, t, d, 0, lanes)
+    less_seventeen(fac, A.W + 17 * STRIDE, d, F.BODY, w, t + STRIDE, d, STRIDE, lanes)
+    less_seventeen(fac, A.W + 34 * STRIDE, d, F.BODY, w, t + 2 * STRIDE, d, 2 * STRIDE, lanes)
+    less_seventeen(fac, A.W + 51 * STRIDE, d, F.BODY, w, t + 3 * STRIDE, d, 3 * STRIDE, lanes)
+    less_seventeen(fac, A.W + 68 * STRIDE, d, F.BODY, w, t + 4 * STRIDE, d, 4 * STRIDE, lanes)
+    less_seventeen(fac, A.W + 85 * STRIDE, d, F.BODY, w, t + 5 * STRIDE, d, 5 * STRIDE, lanes)
+    turn_pairs(d, F.BODY, c, s)

@@ -10,40 +10,9 @@ equal ball loads.
 import math
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import (
-    A_INV,
-    B_TH,
-    J_C,
-    J_D,
-    N_BODY,
-    P_AT_MODES,
-    P_BALL_MASS,
-    P_BALLS,
-    P_INNER_MASS,
-    P_LANES,
-    P_MODES,
-    P_OUTER_MASS,
-    P_PITCH_RADIUS,
-    Q_OUTER,
-    STRIDE,
-    W_FLEX,
-)
-from fmu_bearing.engine.layout_flexure import (
-    FACTOR_ROWS,
-    MODE_BODY,
-    MODE_DAMPING,
-    MODE_GYROSCOPIC,
-    MODE_MASS,
-    MODE_ORDER,
-    MODE_R,
-    MODE_SIZE,
-    MODE_STIFFNESS,
-    MODE_T,
-    MODE_X,
-)
+from fmu_bearing.engine.layout import FL, A, J, P, Q, W, Y
+from fmu_bearing.engine.layout.sizes import STRIDE
 from fmu_bearing.engine.mechanics.flexure import bends
-
-_S = STRIDE
 
 
 @kernel
@@ -52,22 +21,22 @@ def local_row(jac, row, columns, first, k, c, s, axis, j):
 
     ``first``: the body's x column, ``k`` added to it; ``columns``: of the block.
     """
-    at = (row * columns + first + k) * _S + j
+    at = (row * columns + first + k) * STRIDE + j
     if axis == 0:
         return jac[at]
-    y = jac[at + _S]
-    z = jac[at + 2 * _S]
+    y = jac[at + STRIDE]
+    z = jac[at + 2 * STRIDE]
     return c * z - s * y if axis == 1 else -c * y - s * z
 
 
 @kernel
 def local_column(jac, first, column, c, s, axis, j):
     """Entry of block D for the force on a body along the ball's own axis; ``first``: the body's x row."""
-    at = J_D + (first * 9 + column) * _S + j
+    at = J.D + (first * 9 + column) * STRIDE + j
     if axis == 0:
         return jac[at]
-    y = jac[at + 9 * _S]
-    z = jac[at + 18 * _S]
+    y = jac[at + 9 * STRIDE]
+    z = jac[at + 18 * STRIDE]
     return c * z - s * y if axis == 1 else -c * y - s * z
 
 
@@ -77,13 +46,13 @@ def answers(p, jac, race, c, s, cv, cx, j, kept):
 
     The groove's motion along itself presses nothing: its place has no effect, only its velocity.
     """
-    first = 0 if race == 0 else Q_OUTER
+    first = 0 if race == 0 else Q.OUTER
     for i in range(6):
         for axis in range(3):
-            value = cv * local_row(jac[J_C:], i, 34, first, N_BODY, c, s, axis, j)
+            value = cv * local_row(jac[J.C :], i, 34, first, Q.SIZE, c, s, axis, j)
             if axis < 2:
-                value += cx * local_row(jac[J_C:], i, 34, first, 0, c, s, axis, j)
-            kept[(i * 3 + axis) * _S + j] = -value
+                value += cx * local_row(jac[J.C :], i, 34, first, 0, c, s, axis, j)
+            kept[(i * 3 + axis) * STRIDE + j] = -value
 
 
 @kernel
@@ -92,8 +61,8 @@ def returns(p, jac, fac, race, c, s, cv, cx, j, kept, row):
 
     18 more rows of ``kept``; ``row``: scratch for six numbers.
     """
-    first = 0 if race == 0 else Q_OUTER
-    mass = p[P_INNER_MASS] if race == 0 else p[P_OUTER_MASS]
+    first = 0 if race == 0 else Q.OUTER
+    mass = p[P.INNER_MASS] if race == 0 else p[P.OUTER_MASS]
     for axis in range(3):
         for m in range(6):
             value = cv * local_column(jac, first, 3 + m, c, s, axis, j)
@@ -103,15 +72,15 @@ def returns(p, jac, fac, race, c, s, cv, cx, j, kept, row):
         for k in range(6):
             total = 0.0
             for m in range(6):
-                total += row[m] * fac[A_INV + (m * 6 + k) * _S + j]
-            kept[(18 + axis * 6 + k) * _S + j] = total
+                total += row[m] * fac[A.INVERSE + (m * 6 + k) * STRIDE + j]
+            kept[(18 + axis * 6 + k) * STRIDE + j] = total
 
 
 @kernel
 def ring_answers(p, jac, fac, y, turned, race, cv, cx, kept, row):
     """Rows of one ring at all balls into ``kept``."""
-    for j in range(int(p[P_LANES])):
-        angle = y[B_TH * _S + j] - turned
+    for j in range(int(p[P.LANES])):
+        angle = y[Y.TH + j] - turned
         c = math.cos(angle)
         s = math.sin(angle)
         answers(p, jac, race, c, s, cv, cx, j, kept)
@@ -124,16 +93,16 @@ def groove_inertia(p, pushed, moved, same, total):
 
     ``pushed``, ``moved``: rows of the two rings as :func:`ring_answers` left them; ``same``: one ring.
     """
-    lever = p[P_PITCH_RADIUS]
+    lever = p[P.PITCH_RADIUS]
     for a in range(3):
         for b in range(3):
             value = 0.0
-            for j in range(int(p[P_BALLS])):
+            for j in range(int(p[P.BALLS])):
                 if same:
                     # what the ball is pushed by, the groove is pushed back by
-                    value -= p[P_BALL_MASS] * (lever if a == 2 else 1.0) * moved[(a * 3 + b) * _S + j]
+                    value -= p[P.BALL_MASS] * (lever if a == 2 else 1.0) * moved[(a * 3 + b) * STRIDE + j]
                 for k in range(6):
-                    value -= pushed[(18 + a * 6 + k) * _S + j] * moved[(k * 3 + b) * _S + j]
+                    value -= pushed[(18 + a * 6 + k) * STRIDE + j] * moved[(k * 3 + b) * STRIDE + j]
             total[a * 3 + b] = value
 
 
@@ -143,25 +112,25 @@ def coupling(p, mode, other, total):
 
     The mean over all places of the balls; (a + i b) of the other mode is multiplied by it.
     """
-    psi_x = p[other + MODE_X]
-    psi_r = p[other + MODE_R]
-    psi_t = p[other + MODE_T]
+    psi_x = p[other + P.MODE_X]
+    psi_r = p[other + P.MODE_R]
+    psi_t = p[other + P.MODE_T]
     x = psi_x * total[0] + psi_r * total[1]
     r = psi_x * total[3] + psi_r * total[4]
     t = psi_x * total[6] + psi_r * total[7]
-    in_phase = p[mode + MODE_X] * x + p[mode + MODE_R] * r + p[mode + MODE_T] * total[8] * psi_t
-    ahead = p[mode + MODE_X] * total[2] + p[mode + MODE_R] * total[5]
-    half = 0.5 / p[mode + MODE_MASS]
-    return half * in_phase, half * (ahead * psi_t - p[mode + MODE_T] * t)
+    in_phase = p[mode + P.MODE_X] * x + p[mode + P.MODE_R] * r + p[mode + P.MODE_T] * total[8] * psi_t
+    ahead = p[mode + P.MODE_X] * total[2] + p[mode + P.MODE_R] * total[5]
+    half = 0.5 / p[mode + P.MODE_MASS]
+    return half * in_phase, half * (ahead * psi_t - p[mode + P.MODE_T] * t)
 
 
 @kernel
 def mode_block(p, mode, spin, cv, cx, total):
     """Diagonal of the Newton matrix for one mode, the balls eliminated: real and imaginary part."""
-    n = p[mode + MODE_ORDER]
-    g = p[mode + MODE_GYROSCOPIC]
-    damping = p[mode + MODE_DAMPING]
-    stiff = p[mode + MODE_STIFFNESS] / p[mode + MODE_MASS] - (n * n + 2.0 * n * g) * spin * spin
+    n = p[mode + P.MODE_ORDER]
+    g = p[mode + P.MODE_GYROSCOPIC]
+    damping = p[mode + P.MODE_DAMPING]
+    stiff = p[mode + P.MODE_STIFFNESS] / p[mode + P.MODE_MASS] - (n * n + 2.0 * n * g) * spin * spin
     real, imaginary = coupling(p, mode, mode, total)
     real += 1.0 + cv * damping + cx * stiff
     return real, imaginary - 2.0 * cv * spin * (n + g) - cx * damping * n * spin
@@ -170,12 +139,15 @@ def mode_block(p, mode, spin, cv, cx, total):
 @kernel
 def partner(p, k):
     """Mode of the other ring with the order of mode ``k``; -1 where there is none."""
-    table = int(p[P_AT_MODES])
-    own = table + k * MODE_SIZE
+    table = int(p[P.AT_MODES])
+    own = table + k * P.MODE_SIZE
     found = -1
-    for m in range(int(p[P_MODES])):
-        other = table + m * MODE_SIZE
-        if p[other + MODE_ORDER] == p[own + MODE_ORDER] and p[other + MODE_BODY] != p[own + MODE_BODY]:
+    for m in range(int(p[P.MODES])):
+        other = table + m * P.MODE_SIZE
+        if (
+            p[other + P.MODE_ORDER] == p[own + P.MODE_ORDER]
+            and p[other + P.MODE_BODY] != p[own + P.MODE_BODY]
+        ):
             found = m
     return found
 
@@ -183,10 +155,10 @@ def partner(p, k):
 @kernel
 def invert_modes(p, speed, cv, cx, totals, inverse):
     """Inverse of the modes' blocks, four numbers each: own and partner's coefficient, real and imaginary."""
-    table = int(p[P_AT_MODES])
-    for k in range(int(p[P_MODES])):
-        mode = table + k * MODE_SIZE
-        race = int(p[mode + MODE_BODY])
+    table = int(p[P.AT_MODES])
+    for k in range(int(p[P.MODES])):
+        mode = table + k * P.MODE_SIZE
+        race = int(p[mode + P.MODE_BODY])
         ar, ai = mode_block(p, mode, speed if race == 0 else 0.0, cv, cx, totals[27 * race :])
         m = partner(p, k)
         br = 0.0
@@ -196,7 +168,7 @@ def invert_modes(p, speed, cv, cx, totals, inverse):
         er = ar
         ei = ai
         if m >= 0:
-            other = table + m * MODE_SIZE
+            other = table + m * P.MODE_SIZE
             br, bi = coupling(p, mode, other, totals[9 + 9 * race :])
             cr, ci = coupling(p, other, mode, totals[18 - 9 * race :])
             dr, di = mode_block(p, other, 0.0 if race == 0 else speed, cv, cx, totals[27 - 27 * race :])
@@ -215,14 +187,14 @@ def factor_modes(p, jac, fac, y, turned, speed, cv, cx, kept, w):
 
     ``turned``: orbit angle (rad) since the Jacobian was made; ``kept``: the flexure's part of the state.
     """
-    if p[P_MODES] == 0.0:
+    if p[P.MODES] == 0.0:
         return
-    modes = int(p[P_MODES])
+    modes = int(p[P.MODES])
     # inertia of inner on inner, inner on outer, outer on inner, outer on outer groove
-    totals = w[W_FLEX : W_FLEX + 36]
-    row = w[W_FLEX + 36 : W_FLEX + 42]
+    totals = w[W.FLEX : W.FLEX + 36]
+    row = w[W.FLEX + 36 : W.FLEX + 42]
     first = kept[6 * modes :]
-    second = kept[6 * modes + FACTOR_ROWS * _S :]
+    second = kept[6 * modes + FL.FACTOR_ROWS * STRIDE :]
     inner = bends(p, 0)
     outer = bends(p, 1)
     if inner:
@@ -234,4 +206,4 @@ def factor_modes(p, jac, fac, y, turned, speed, cv, cx, kept, w):
     if inner and outer:
         groove_inertia(p, first, second, False, totals[9:])
         groove_inertia(p, second, first, False, totals[18:])
-    invert_modes(p, speed, cv, cx, totals, kept[6 * modes + 2 * FACTOR_ROWS * _S :])
+    invert_modes(p, speed, cv, cx, totals, kept[6 * modes + 2 * FL.FACTOR_ROWS * STRIDE :])

@@ -10,27 +10,9 @@ inverse, both before the balls are substituted back.
 """
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import (
-    A_GB,
-    A_INV,
-    A_S,
-    A_SPRING,
-    A_SPRING_BALLS,
-    A_SPRING_BODY,
-    A_W,
-    BORDER,
-    F_G,
-    N_BODY,
-    P_BALL_MASS,
-    P_BALLS,
-    P_LANES,
-    P_SPRING_DAMPING,
-    P_SPRINGS,
-    STRIDE,
-    W_FORCE,
-)
+from fmu_bearing.engine.layout import A, F, P, Q, W
+from fmu_bearing.engine.layout.sizes import STRIDE
 
-_S = STRIDE
 _ORBIT = 2  # row of a ball's accelerations
 
 
@@ -41,33 +23,33 @@ def spring_matrix(p, cv, cx, fac, w):
     ``cv``, ``cx``: weights of velocity and position as in ``block_arrow.factor``, whose factors stand in
     ``fac`` already.
     """
-    balls = int(p[P_BALLS])
-    strength = (cv * p[P_SPRING_DAMPING] + cx * p[P_SPRINGS]) / p[P_BALL_MASS]
-    fac[A_SPRING] = strength
-    scratch = W_FORCE * _S
+    balls = int(p[P.BALLS])
+    strength = (cv * p[P.SPRING_DAMPING] + cx * p[P.SPRINGS]) / p[P.BALL_MASS]
+    fac[A.SPRING] = strength
+    scratch = W.FORCE
     for j in range(balls):
-        for h in range(N_BODY):
+        for h in range(Q.SIZE):
             total = 0.0
             for k in range(6):
-                own = fac[A_INV + (k * 6 + _ORBIT) * _S + j]
-                total += fac[A_GB + (h * 6 + k) * _S + j] * own
+                own = fac[A.INVERSE + (k * 6 + _ORBIT) * STRIDE + j]
+                total += fac[A.GB + (h * 6 + k) * STRIDE + j] * own
             w[scratch + h] = total
-        for g in range(N_BODY):
+        for g in range(Q.SIZE):
             total = 0.0
-            for h in range(N_BODY):
-                total -= fac[A_S + h * BORDER + g] * w[scratch + h]
-            fac[A_SPRING_BODY + g * _S + j] = total
+            for h in range(Q.SIZE):
+                total -= fac[A.S + h * A.BORDER + g] * w[scratch + h]
+            fac[A.SPRING_BODY + g * STRIDE + j] = total
     for j in range(balls):
         for i in range(balls):
-            total = fac[A_INV + (_ORBIT * 6 + _ORBIT) * _S + j] if i == j else 0.0
-            for g in range(N_BODY):
-                total -= fac[A_W + (_ORBIT * N_BODY + g) * _S + i] * fac[A_SPRING_BODY + g * _S + j]
+            total = fac[A.INVERSE + (_ORBIT * 6 + _ORBIT) * STRIDE + j] if i == j else 0.0
+            for g in range(Q.SIZE):
+                total -= fac[A.W + (_ORBIT * Q.SIZE + g) * STRIDE + i] * fac[A.SPRING_BODY + g * STRIDE + j]
             w[scratch + i] = total  # column j of G
         for i in range(balls):
             ahead = i + 1 if i + 1 < balls else 0
             behind = i - 1 if i > 0 else balls - 1
             second = 2.0 * w[scratch + i] - w[scratch + ahead] - w[scratch + behind]
-            fac[A_SPRING_BALLS + i * balls + j] = strength * second + (1.0 if i == j else 0.0)
+            fac[A.SPRING_BALLS + i * balls + j] = strength * second + (1.0 if i == j else 0.0)
 
 
 @kernel
@@ -77,32 +59,32 @@ def couple_springs(p, fac, d, w):
     On entry row k of ``w[W_FORCE:]`` holds the balls' own inverse times the residual and ``d[F_G:]`` the
     bodies' solution, both without springs.
     """
-    balls = int(p[P_BALLS])
-    scratch = W_FORCE * _S
-    orbit = scratch + 7 * _S
-    pull = scratch + 8 * _S
-    found = scratch + 9 * _S
+    balls = int(p[P.BALLS])
+    scratch = W.FORCE
+    orbit = scratch + 7 * STRIDE
+    pull = scratch + 8 * STRIDE
+    found = scratch + 9 * STRIDE
     for j in range(balls):
-        total = w[scratch + _ORBIT * _S + j]
-        for g in range(N_BODY):
-            total -= fac[A_W + (_ORBIT * N_BODY + g) * _S + j] * d[F_G + g]
+        total = w[scratch + _ORBIT * STRIDE + j]
+        for g in range(Q.SIZE):
+            total -= fac[A.W + (_ORBIT * Q.SIZE + g) * STRIDE + j] * d[F.BODY + g]
         w[orbit + j] = total
     for j in range(balls):
         ahead = j + 1 if j + 1 < balls else 0
         behind = j - 1 if j > 0 else balls - 1
-        w[pull + j] = -fac[A_SPRING] * (2.0 * w[orbit + j] - w[orbit + ahead] - w[orbit + behind])
+        w[pull + j] = -fac[A.SPRING] * (2.0 * w[orbit + j] - w[orbit + ahead] - w[orbit + behind])
     for i in range(balls):
         total = 0.0
         for j in range(balls):
-            total += fac[A_SPRING_BALLS + i * balls + j] * w[pull + j]
+            total += fac[A.SPRING_BALLS + i * balls + j] * w[pull + j]
         w[found + i] = total
-    for j in range(balls, int(p[P_LANES])):
+    for j in range(balls, int(p[P.LANES])):
         w[found + j] = w[found]
-    for g in range(N_BODY):
-        total = d[F_G + g]
+    for g in range(Q.SIZE):
+        total = d[F.BODY + g]
         for j in range(balls):
-            total += fac[A_SPRING_BODY + g * _S + j] * w[found + j]
-        d[F_G + g] = total
+            total += fac[A.SPRING_BODY + g * STRIDE + j] * w[found + j]
+        d[F.BODY + g] = total
     for k in range(6):
-        for j in range(int(p[P_LANES])):
-            w[scratch + k * _S + j] += fac[A_INV + (k * 6 + _ORBIT) * _S + j] * w[found + j]
+        for j in range(int(p[P.LANES])):
+            w[scratch + k * STRIDE + j] += fac[A.INVERSE + (k * 6 + _ORBIT) * STRIDE + j] * w[found + j]

@@ -6,33 +6,9 @@ Costs nothing inside a step: once per communication point, from what the evaluat
 import math
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import (
-    B_OM,
-    B_R,
-    F_HEAT,
-    P_BALLS,
-    P_DRAG,
-    P_DRAG_FACTOR,
-    P_PITCH_RADIUS,
-    R_AM,
-    R_AN,
-    R_ENTRAIN,
-    R_LOAD,
-    R_ROLL,
-    R_UM,
-    R_UT,
-    RACE_ROWS,
-    S_F,
-    S_LOSS,
-    S_SLIP,
-    S_SPIN_TO_ROLL,
-    S_Y,
-    STRIDE,
-    W_LOSS,
-    W_RACE,
-)
+from fmu_bearing.engine.layout import F, P, R, S, W, Y
+from fmu_bearing.engine.layout.sizes import STRIDE
 
-_S = STRIDE
 _TURNING_2 = 1.0  # rad2/s2: rolling rounded over 1 rad/s, as in the rolling resistance
 _ENTRAINED_2 = 1e-8  # m2/s2: entrainment rounded over 1e-4 m/s, likewise
 
@@ -40,17 +16,17 @@ _ENTRAINED_2 = 1e-8  # m2/s2: entrainment rounded over 1e-4 m/s, likewise
 @kernel
 def sliding(p, race, w):
     """Spin over rolling and slip at the contact's middle over entrainment, means of the loaded contacts."""
-    row = (W_RACE + race * RACE_ROWS) * _S
+    row = W.RACE + race * R.SIZE
     spin = 0.0
     slip = 0.0
     loaded = 0.0
-    for j in range(int(p[P_BALLS])):
-        if w[row + R_LOAD * _S + j] > 0.0:
-            an = w[row + R_AN * _S + j]
-            am = w[row + R_AM * _S + j]
-            ut = w[row + R_UT * _S + j]
-            um = w[row + R_UM * _S + j]
-            u = w[row + R_ENTRAIN * _S + j]
+    for j in range(int(p[P.BALLS])):
+        if w[row + R.LOAD + j] > 0.0:
+            an = w[row + R.AN + j]
+            am = w[row + R.AM + j]
+            ut = w[row + R.UT + j]
+            um = w[row + R.UM + j]
+            u = w[row + R.ENTRAIN + j]
             spin += abs(an) / math.sqrt(am * am + _TURNING_2)
             slip += math.sqrt((ut * ut + um * um) / (u * u + _ENTRAINED_2))
             loaded += 1.0
@@ -61,12 +37,12 @@ def sliding(p, race, w):
 @kernel
 def drag_loss(p, s):
     """Power (W) that the oil-air mixture takes from the orbiting balls."""
-    if p[P_DRAG] == 0.0:
+    if p[P.DRAG] == 0.0:
         return 0.0
     total = 0.0
-    for j in range(int(p[P_BALLS])):
-        around = (p[P_PITCH_RADIUS] + s[S_Y + B_R * _S + j]) * s[S_Y + B_OM * _S + j]
-        total += p[P_DRAG_FACTOR] * abs(around) * around * around
+    for j in range(int(p[P.BALLS])):
+        around = (p[P.PITCH_RADIUS] + s[S.Y + Y.R + j]) * s[S.Y + Y.OM + j]
+        total += p[P.DRAG_FACTOR] * abs(around) * around * around
     return total
 
 
@@ -81,15 +57,15 @@ def summarise(p, s, w):
     contacts = 0.0
     rolling = 0.0
     for race in range(2):
-        row = (W_RACE + race * RACE_ROWS) * _S
+        row = W.RACE + race * R.SIZE
         spin, slip = sliding(p, race, w)
-        s[S_SPIN_TO_ROLL + race] = spin
-        s[S_SLIP + race] = slip
-        for j in range(int(p[P_BALLS])):
-            contacts += w[(W_LOSS + race) * _S + j]
-            rolling -= w[row + R_ROLL * _S + j] * w[row + R_AM * _S + j]
+        s[S.SPIN_TO_ROLL + race] = spin
+        s[S.SLIP + race] = slip
+        for j in range(int(p[P.BALLS])):
+            contacts += w[W.LOSS + race * STRIDE + j]
+            rolling -= w[row + R.ROLL + j] * w[row + R.AM + j]
     drag = drag_loss(p, s)
-    s[S_LOSS] = contacts - rolling
-    s[S_LOSS + 1] = rolling
-    s[S_LOSS + 2] = s[S_F + F_HEAT + 2] - 0.5 * contacts - drag
-    s[S_LOSS + 3] = drag
+    s[S.LOSS] = contacts - rolling
+    s[S.LOSS + 1] = rolling
+    s[S.LOSS + 2] = s[S.F + F.HEAT + 2] - 0.5 * contacts - drag
+    s[S.LOSS + 3] = drag

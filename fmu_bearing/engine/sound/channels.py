@@ -3,51 +3,34 @@
 import math
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import MO_BALLS, MO_CAGE, MO_PER_BALL, STRIDE
-from fmu_bearing.engine.layout_sound import (
-    C_BALLS,
-    C_CYLINDERS,
-    C_PAPER_BALLS,
-    C_PISTONS,
-    C_POINTS,
-    C_TILTS,
-    H_AT_SCALARS,
-    H_BALLS,
-    H_FLEXURES,
-    H_HARMONICS,
-    H_W_TRANSFORM,
-    SCALAR_BALL,
-    SCALAR_COSINE,
-    SCALAR_ORBIT,
-    SCALAR_SINE,
-    SPEED_FLOOR,
-)
+from fmu_bearing.engine.layout import MO, SD
+from fmu_bearing.engine.layout.sizes import STRIDE
 
-_FLOOR2 = SPEED_FLOOR**2
+_FLOOR2 = SD.SPEED_FLOOR**2
 
 
 @kernel
 def accelerations(ps, ws, motion, fresh):
     """Channels of the vector rungs: accelerations, the balls' as circumferential harmonics."""
-    orders = int(ps[H_HARMONICS])
-    balls = int(ps[H_BALLS])
+    orders = int(ps[SD.H_HARMONICS])
+    balls = int(ps[SD.H_BALLS])
     for body in range(3):
         for k in range(3):
             fresh[3 * body + k] = motion[12 * body + 3 + k]
-        fresh[C_TILTS + 2 * body] = motion[12 * body + 10]
-        fresh[C_TILTS + 2 * body + 1] = motion[12 * body + 11]
-    at = int(ps[H_W_TRANSFORM])
+        fresh[SD.C_TILTS + 2 * body] = motion[12 * body + 10]
+        fresh[SD.C_TILTS + 2 * body + 1] = motion[12 * body + 11]
+    at = int(ps[SD.H_W_TRANSFORM])
     turns = ws[at : at + 2 * STRIDE]  # cosine and sine of the present multiple of every ball's angle
     x = 0.0
     r = 0.0
     for j in range(balls):
-        b = MO_BALLS + MO_PER_BALL * j
+        b = MO.BALLS + MO.PER_BALL * j
         x += motion[b + 3]
         r += motion[b + 4]
         turns[j] = motion[b + 12]
         turns[STRIDE + j] = motion[b + 13]
-    fresh[C_BALLS] = x
-    fresh[C_BALLS + 1] = r
+    fresh[SD.C_BALLS] = x
+    fresh[SD.C_BALLS + 1] = r
     for m in range(orders):
         xc = 0.0
         xs = 0.0
@@ -56,7 +39,7 @@ def accelerations(ps, ws, motion, fresh):
         tc = 0.0
         ts = 0.0
         for j in range(balls):
-            b = MO_BALLS + MO_PER_BALL * j
+            b = MO.BALLS + MO.PER_BALL * j
             c = turns[j]
             s = turns[STRIDE + j]
             xc += motion[b + 3] * c
@@ -67,23 +50,23 @@ def accelerations(ps, ws, motion, fresh):
             ts += motion[b + 5] * s
             turns[j] = c * motion[b + 12] - s * motion[b + 13]
             turns[STRIDE + j] = c * motion[b + 13] + s * motion[b + 12]
-        q = C_BALLS + 2 + 6 * m
+        q = SD.C_BALLS + 2 + 6 * m
         fresh[q] = xc
         fresh[q + 1] = xs
         fresh[q + 2] = rc
         fresh[q + 3] = rs
         fresh[q + 4] = tc
         fresh[q + 5] = ts
-    flex = MO_BALLS + MO_PER_BALL * balls
-    q = C_BALLS + 2 + 6 * orders
-    for i in range(int(ps[H_FLEXURES])):
+    flex = MO.BALLS + MO.PER_BALL * balls
+    q = SD.C_BALLS + 2 + 6 * orders
+    for i in range(int(ps[SD.H_FLEXURES])):
         fresh[q + i] = motion[flex + i]
 
 
 @kernel
 def scalars(ps, motion, fresh):
     """Channels of the paper rung: time derivatives of its eqs. 16, 19, 28 and 41."""
-    at = int(ps[H_AT_SCALARS]) + SCALAR_BALL
+    at = int(ps[SD.H_AT_SCALARS]) + SD.SCALAR_BALL
     for body in range(3):
         b = 12 * body
         spin = 4.0 * motion[b + 6] ** 2 + motion[b + 7] ** 2 + motion[b + 8] ** 2
@@ -92,19 +75,19 @@ def scalars(ps, motion, fresh):
             + motion[b + 7] * motion[b + 10]
             + motion[b + 8] * motion[b + 11]
         )
-        fresh[C_POINTS + body] = ps[at + 1 + body] * rate / math.sqrt(spin + _FLOOR2)
-        fresh[C_PISTONS + body] = motion[b + 3]
+        fresh[SD.C_POINTS + body] = ps[at + 1 + body] * rate / math.sqrt(spin + _FLOOR2)
+        fresh[SD.C_PISTONS + body] = motion[b + 3]
         across = motion[b + 1] ** 2 + motion[b + 2] ** 2
         power = motion[b + 1] * motion[b + 4] + motion[b + 2] * motion[b + 5]
-        fresh[C_CYLINDERS + body] = power / math.sqrt(across + _FLOOR2)
-    for j in range(int(ps[H_BALLS])):
-        b = MO_BALLS + MO_PER_BALL * j
+        fresh[SD.C_CYLINDERS + body] = power / math.sqrt(across + _FLOOR2)
+    for j in range(int(ps[SD.H_BALLS])):
+        b = MO.BALLS + MO.PER_BALL * j
         for part in range(2):
             v = b + 6 * part
             square = motion[v] ** 2 + motion[v + 1] ** 2 + motion[v + 2] ** 2
             power = motion[v] * motion[v + 3] + motion[v + 1] * motion[v + 4] + motion[v + 2] * motion[v + 5]
             scale = 1.0 if part == 0 else ps[at]
-            fresh[C_PAPER_BALLS + 2 * j + part] = scale * power / math.sqrt(square + _FLOOR2)
+            fresh[SD.C_PAPER_BALLS + 2 * j + part] = scale * power / math.sqrt(square + _FLOOR2)
 
 
 @kernel
@@ -115,16 +98,16 @@ def contacts(ps, motion, fresh):
     holds the change of the normal along the orbit as well: for a ring, a.n + omega v.dn/dtheta. The rate of
     v_n cos(m theta), not v_n' cos(m theta), is what a fixed filter needs, because the place moves too.
     """
-    orders = int(ps[H_HARMONICS])
-    scalar = int(ps[H_AT_SCALARS])
-    sine = ps[scalar + SCALAR_SINE]
-    cosine = ps[scalar + SCALAR_COSINE]
-    pitch = ps[scalar + SCALAR_ORBIT]
+    orders = int(ps[SD.H_HARMONICS])
+    scalar = int(ps[SD.H_AT_SCALARS])
+    sine = ps[scalar + SD.SCALAR_SINE]
+    cosine = ps[scalar + SD.SCALAR_COSINE]
+    pitch = ps[scalar + SD.SCALAR_ORBIT]
     wide = 1 + 2 * orders
     for i in range(len(fresh)):
         fresh[i] = 0.0
-    for j in range(int(ps[H_BALLS])):
-        b = MO_BALLS + MO_PER_BALL * j
+    for j in range(int(ps[SD.H_BALLS])):
+        b = MO.BALLS + MO.PER_BALL * j
         c = motion[b + 12]
         s = motion[b + 13]
         omega = motion[b + 2] / pitch
@@ -136,7 +119,7 @@ def contacts(ps, motion, fresh):
                     c * motion[o + 5] - s * motion[o + 4] - omega * (c * motion[o + 1] + s * motion[o + 2])
                 )
             elif family == 2:
-                o = MO_CAGE
+                o = MO.CAGE
                 value = -c * motion[o + 1] - s * motion[o + 2]
                 rate = (
                     -c * motion[o + 4] - s * motion[o + 5] + omega * (s * motion[o + 1] - c * motion[o + 2])

@@ -13,67 +13,29 @@ The work of a block falls on its first sample: one sample in B costs up to about
 """
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout_sound import (
-    BANK_AT_RUNS,
-    BANK_AT_TAPS,
-    BANK_COUNT,
-    BANK_DELAY,
-    BANK_LANE,
-    BANK_RUNS,
-    BANK_SIZE,
-    BANK_TAPS,
-    FILTER_AT,
-    FILTER_COUNT,
-    FILTER_FIRST,
-    FILTER_LANE,
-    FILTER_OUTPUT,
-    FILTER_SIZE,
-    H_AT_BANKS,
-    H_AT_LEVELS,
-    H_BANKS,
-    H_CHANNELS,
-    H_LEVELS,
-    H_OUTPUTS,
-    H_ROWS,
-    H_S_CHANNELS,
-    H_W_LANES,
-    H_W_OUTPUTS,
-    H_W_TRANSFORM,
-    LEVEL_AT_FILTERS,
-    LEVEL_AT_SEGMENTS,
-    LEVEL_AT_TURNS,
-    LEVEL_BLOCK,
-    LEVEL_FILTERS,
-    LEVEL_LANES,
-    LEVEL_S_FUTURE,
-    LEVEL_S_SPECTRA,
-    LEVEL_SEGMENTS,
-    LEVEL_SIZE,
-    LEVEL_SLOTS,
-    MAX_FREQUENCIES,
-)
+from fmu_bearing.engine.layout import SD
 from fmu_bearing.engine.sound.transform import butterflies, fold, reversed_bits, unfold
 
 
 @kernel
 def convolve(ps, ss, ws, place, count):
     """Filter outputs of sample ``count``, whose lanes stand in row ``place`` of the history."""
-    n_out = int(ps[H_OUTPUTS])
-    out = ws[int(ps[H_W_OUTPUTS]) : int(ps[H_W_OUTPUTS]) + n_out]
+    n_out = int(ps[SD.H_OUTPUTS])
+    out = ws[int(ps[SD.H_W_OUTPUTS]) : int(ps[SD.H_W_OUTPUTS]) + n_out]
     for i in range(n_out):
         out[i] = 0.0
-    banks = int(ps[H_AT_BANKS])
-    for bank in range(int(ps[H_BANKS])):
-        at = banks + BANK_SIZE * bank
-        if ps[at + BANK_TAPS] > 0.0:
+    banks = int(ps[SD.H_AT_BANKS])
+    for bank in range(int(ps[SD.H_BANKS])):
+        at = banks + SD.BANK_SIZE * bank
+        if ps[at + SD.BANK_TAPS] > 0.0:
             _direct(ps, ss, ws, at, place, out)
-    for level in range(int(ps[H_LEVELS])):
-        at = int(ps[H_AT_LEVELS]) + LEVEL_SIZE * level
-        block = int(ps[at + LEVEL_BLOCK])
+    for level in range(int(ps[SD.H_LEVELS])):
+        at = int(ps[SD.H_AT_LEVELS]) + SD.LEVEL_SIZE * level
+        block = int(ps[at + SD.LEVEL_BLOCK])
         step = count % block
         if step == 0 and count > 0:
             _renew(ps, ss, ws, at, place, count // block - 1)
-        future = int(ps[at + LEVEL_S_FUTURE]) + step * n_out
+        future = int(ps[at + SD.LEVEL_S_FUTURE]) + step * n_out
         row = ss[future : future + n_out]
         for i in range(n_out):
             out[i] += row[i]
@@ -86,19 +48,19 @@ def _direct(ps, ss, ws, at, place, out):
     Lanes of a bank lie side by side in history and taps, so the inner loop is one vector loop without a
     running sum, the same on every machine.
     """
-    n = int(ps[H_CHANNELS])
-    rows = int(ps[H_ROWS])
-    first = int(ps[H_S_CHANNELS]) + int(ps[at + BANK_LANE])
-    m = int(ps[at + BANK_COUNT])
-    row = place - int(ps[at + BANK_DELAY])
+    n = int(ps[SD.H_CHANNELS])
+    rows = int(ps[SD.H_ROWS])
+    first = int(ps[SD.H_S_CHANNELS]) + int(ps[at + SD.BANK_LANE])
+    m = int(ps[at + SD.BANK_COUNT])
+    row = place - int(ps[at + SD.BANK_DELAY])
     if row < 0:
         row += rows
-    taps = int(ps[at + BANK_AT_TAPS])
-    lanes = int(ps[H_W_LANES])
+    taps = int(ps[at + SD.BANK_AT_TAPS])
+    lanes = int(ps[SD.H_W_LANES])
     y = ws[lanes : lanes + m]
     for c in range(m):
         y[c] = 0.0
-    for block in range(int(ps[at + BANK_TAPS]) // 4):
+    for block in range(int(ps[at + SD.BANK_TAPS]) // 4):
         i = 4 * block
         p0 = first + row * n
         row = row - 1 if row > 0 else rows - 1  # a remainder would cost more than the sums
@@ -118,9 +80,9 @@ def _direct(ps, ss, ws, at, place, out):
         h3 = ps[taps + (i + 3) * m : taps + (i + 4) * m]
         for c in range(m):
             y[c] += (h0[c] * x0[c] + h1[c] * x1[c]) + (h2[c] * x2[c] + h3[c] * x3[c])
-    run = int(ps[at + BANK_AT_RUNS])
+    run = int(ps[at + SD.BANK_AT_RUNS])
     c = 0
-    for _ in range(int(ps[at + BANK_RUNS])):
+    for _ in range(int(ps[at + SD.BANK_RUNS])):
         count = int(ps[run + 1])
         even = 0.0
         odd = 0.0
@@ -141,14 +103,14 @@ def _renew(ps, ss, ws, at, place, newest):
 
     ``place`` is the history's row of the sample after that block.
     """
-    n = int(ps[at + LEVEL_LANES])
-    n_out = int(ps[H_OUTPUTS])
-    block = int(ps[at + LEVEL_BLOCK])
-    slots = int(ps[at + LEVEL_SLOTS])
-    table = int(ps[at + LEVEL_AT_TURNS])
+    n = int(ps[at + SD.LEVEL_LANES])
+    n_out = int(ps[SD.H_OUTPUTS])
+    block = int(ps[at + SD.LEVEL_BLOCK])
+    slots = int(ps[at + SD.LEVEL_SLOTS])
+    table = int(ps[at + SD.LEVEL_AT_TURNS])
     turns = ps[table : table + 2 * (block + 1)]
-    work = int(ps[H_W_TRANSFORM])
-    spectra = int(ps[at + LEVEL_S_SPECTRA])
+    work = int(ps[SD.H_W_TRANSFORM])
+    spectra = int(ps[at + SD.LEVEL_S_SPECTRA])
     rows = block + 1
     z = ws[work : work + 2 * block * n]
     x = ws[work + 2 * block * n : work + 2 * (block + rows) * n]
@@ -167,7 +129,7 @@ def _renew(ps, ss, ws, at, place, newest):
     z = ws[work + len(total) : work + len(total) + 2 * block * n_out]
     fold(total, n_out, block, turns, z)
     butterflies(z, n_out, block, turns, 1.0)
-    future = int(ps[at + LEVEL_S_FUTURE])
+    future = int(ps[at + SD.LEVEL_S_FUTURE])
     scale = 1.0 / block
     half = block // 2
     after = z[half * 2 * n_out :]  # the second half of the circle is free of wrapped samples
@@ -179,19 +141,19 @@ def _renew(ps, ss, ws, at, place, newest):
 @kernel
 def _gather(ps, ss, at, place, z):
     """Copy the level's lanes of the last two blocks before row ``place`` to ``z``, in bit-reversed order."""
-    n = int(ps[at + LEVEL_LANES])
-    block = int(ps[at + LEVEL_BLOCK])
-    segments = int(ps[at + LEVEL_AT_SEGMENTS])
-    channels = int(ps[H_S_CHANNELS])
-    width = int(ps[H_CHANNELS])
-    rows = int(ps[H_ROWS])
+    n = int(ps[at + SD.LEVEL_LANES])
+    block = int(ps[at + SD.LEVEL_BLOCK])
+    segments = int(ps[at + SD.LEVEL_AT_SEGMENTS])
+    channels = int(ps[SD.H_S_CHANNELS])
+    width = int(ps[SD.H_CHANNELS])
+    rows = int(ps[SD.H_ROWS])
     row = place - 2 * block
     if row < 0:
         row += rows
     for k in range(block):
         to = reversed_bits(k, block) * 2 * n
         for _ in range(2):
-            for segment in range(int(ps[at + LEVEL_SEGMENTS])):
+            for segment in range(int(ps[at + SD.LEVEL_SEGMENTS])):
                 lane = channels + row * width + int(ps[segments + 2 * segment])
                 count = int(ps[segments + 2 * segment + 1])
                 x = ss[lane : lane + count]
@@ -208,29 +170,29 @@ def _multiply(ps, ss, ws, at, newest, total):
 
     ``newest`` is the slot of the block that has just been transformed. Slots not yet filled are silent.
     """
-    block = int(ps[at + LEVEL_BLOCK])
-    slots = int(ps[at + LEVEL_SLOTS])
-    n_out = int(ps[H_OUTPUTS])
-    n_filters = int(ps[at + LEVEL_FILTERS])
+    block = int(ps[at + SD.LEVEL_BLOCK])
+    slots = int(ps[at + SD.LEVEL_SLOTS])
+    n_out = int(ps[SD.H_OUTPUTS])
+    n_filters = int(ps[at + SD.LEVEL_FILTERS])
     rows = block + 1
-    row = int(ps[at + LEVEL_AT_FILTERS])
-    y = ws[int(ps[H_W_LANES]) : int(ps[H_W_LANES]) + 2 * MAX_FREQUENCIES]
+    row = int(ps[at + SD.LEVEL_AT_FILTERS])
+    y = ws[int(ps[SD.H_W_LANES]) : int(ps[SD.H_W_LANES]) + 2 * SD.MAX_FREQUENCIES]
     left = n_filters
     for output in range(n_out):
         for k in range(rows):
             y[k] = 0.0
-            y[MAX_FREQUENCIES + k] = 0.0
-        while left > 0 and int(ps[row + FILTER_OUTPUT]) == output:
-            spectra = int(ps[at + LEVEL_S_SPECTRA]) + 2 * rows * slots * int(ps[row + FILTER_LANE])
-            slot = newest + 1 - int(ps[row + FILTER_FIRST])
+            y[SD.MAX_FREQUENCIES + k] = 0.0
+        while left > 0 and int(ps[row + SD.FILTER_OUTPUT]) == output:
+            spectra = int(ps[at + SD.LEVEL_S_SPECTRA]) + 2 * rows * slots * int(ps[row + SD.FILTER_LANE])
+            slot = newest + 1 - int(ps[row + SD.FILTER_FIRST])
             if slot < 0:
                 slot += slots
             _add_parts(ps, ss, y, row, spectra, slot, slots, rows)
-            row += FILTER_SIZE
+            row += SD.FILTER_SIZE
             left -= 1
         for k in range(rows):
             total[2 * n_out * k + output] = y[k]
-            total[2 * n_out * k + n_out + output] = y[MAX_FREQUENCIES + k]
+            total[2 * n_out * k + n_out + output] = y[SD.MAX_FREQUENCIES + k]
 
 
 @kernel
@@ -239,8 +201,8 @@ def _add_parts(ps, ss, y, row, spectra, slot, slots, rows):
 
     Sums at two places a constant apart in one slice, two parts at a time: only so is it a vector loop.
     """
-    count = int(ps[row + FILTER_COUNT])
-    h = int(ps[row + FILTER_AT])
+    count = int(ps[row + SD.FILTER_COUNT])
+    h = int(ps[row + SD.FILTER_AT])
     for _ in range(count // 2):
         p0 = spectra + 2 * rows * slot
         slot = slot - 1 if slot > 0 else slots - 1
@@ -257,7 +219,7 @@ def _add_parts(ps, ss, y, row, spectra, slot, slots, rows):
         h += 4 * rows
         for k in range(rows):
             y[k] += (hr[k] * xr[k] - hi[k] * xi[k]) + (gr[k] * vr[k] - gi[k] * vi[k])
-            y[MAX_FREQUENCIES + k] += (hr[k] * xi[k] + hi[k] * xr[k]) + (gr[k] * vi[k] + gi[k] * vr[k])
+            y[SD.MAX_FREQUENCIES + k] += (hr[k] * xi[k] + hi[k] * xr[k]) + (gr[k] * vi[k] + gi[k] * vr[k])
     if count % 2 == 1:
         p0 = spectra + 2 * rows * slot
         xr = ss[p0 : p0 + rows]
@@ -266,4 +228,4 @@ def _add_parts(ps, ss, y, row, spectra, slot, slots, rows):
         hi = ps[h + rows : h + 2 * rows]
         for k in range(rows):
             y[k] += hr[k] * xr[k] - hi[k] * xi[k]
-            y[MAX_FREQUENCIES + k] += hr[k] * xi[k] + hi[k] * xr[k]
+            y[SD.MAX_FREQUENCIES + k] += hr[k] * xi[k] + hi[k] * xr[k]

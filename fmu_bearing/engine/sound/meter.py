@@ -11,105 +11,57 @@ reads its level at once instead of climbing to it.
 import math
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import MIC_OUTPUTS
-from fmu_bearing.engine.layout_sound import (
-    GROUP_AT_WEIGHTS,
-    GROUP_COUNT,
-    GROUP_FIRST,
-    GROUP_LANE,
-    GROUP_MICS,
-    GROUP_SIZE,
-    H_AT_A_WEIGHTING,
-    H_AT_GROUPS,
-    H_AT_ORDER,
-    H_AT_OUTPUTS,
-    H_AT_SOURCES,
-    H_BANDS,
-    H_DETAILS,
-    H_GROUPS,
-    H_LANES,
-    H_MICS,
-    H_RUNG,
-    H_S_A_WEIGHTING,
-    H_S_BANDS,
-    H_S_METERS,
-    H_SOURCES,
-    H_W_METERS,
-    H_W_OUTPUTS,
-    H_W_SOURCES,
-    H_W_WEIGHTED,
-    M_ENERGY,
-    M_FAST,
-    M_FAST_A,
-    M_KIND,
-    M_LEVEL,
-    M_LEVEL_A,
-    M_PART,
-    M_PRESSURE,
-    M_SLOW,
-    M_SLOW_A,
-    M_SUM,
-    M_SUM_A,
-    METERS,
-    PLAIN,
-    RATE,
-    RUNG_PAPER,
-    SS_COUNT,
-    SS_FAST,
-    SS_METERED,
-    SS_SLOW,
-    SS_WEIGHT,
-)
+from fmu_bearing.engine.layout import SD, Z
 from fmu_bearing.engine.sound import thirds
 
-_N_OUT = len(MIC_OUTPUTS)
+_N_OUT = len(Z.MIC_OUTPUTS)
 _FLOOR = 1e-20  # Pa^2
 _REFERENCE = 4e-10  # Pa^2
-_FAST = 1.0 - math.exp(-1.0 / (RATE * 0.125))  # time constants of IEC 61672-1
-_SLOW = 1.0 - math.exp(-1.0 / (RATE * 1.0))
+_FAST = 1.0 - math.exp(-1.0 / (SD.RATE * 0.125))  # time constants of IEC 61672-1
+_SLOW = 1.0 - math.exp(-1.0 / (SD.RATE * 1.0))
 # Squares of one sample in ``ws`` from ``H_W_METERS`` on, one row of microphones each, places as in
 # ``MIC_OUTPUTS``: total and its A-weighted twin, components, energy sum, kinds.
-_TOTAL, _TOTAL_A = M_LEVEL, M_LEVEL_A
+_TOTAL, _TOTAL_A = SD.M_LEVEL, SD.M_LEVEL_A
 
 
 @kernel
 def update(ps, ss, ws, time_weighting, metering_start):
     """Move all meters by one sample; filter outputs stand in ``ws``."""
-    n = int(ps[H_MICS])
-    rows = int(ps[H_W_METERS])
-    size = METERS * n
+    n = int(ps[SD.H_MICS])
+    rows = int(ps[SD.H_W_METERS])
+    size = SD.METERS * n
     squares = ws[rows : rows + size]
     for i in range(size):
         squares[i] = 0.0
-    meters = ss[int(ps[H_S_METERS]) : int(ps[H_S_METERS]) + size]
-    if int(ps[H_RUNG]) == RUNG_PAPER:
+    meters = ss[int(ps[SD.H_S_METERS]) : int(ps[SD.H_S_METERS]) + size]
+    if int(ps[SD.H_RUNG]) == SD.RUNG_PAPER:
         _energies(ps, ss, ws, squares, n)
     else:
         _pressures(ps, ss, ws, squares, n)
     for i in range(n):
         meters[i] = squares[i]
-    metered = ss[SS_COUNT] >= metering_start * RATE
-    if int(ps[H_BANDS]) > 0:
+    metered = ss[SD.SS_COUNT] >= metering_start * SD.RATE
+    if int(ps[SD.H_BANDS]) > 0:
         thirds.update(ps, ss, ws, rows, _FAST if metered else 0.0)
     if not metered:
         return
     fraction = 1.0
     if time_weighting > 0.0:
-        fraction = 1.0 - math.exp(-1.0 / (RATE * time_weighting))
-    ss[SS_METERED] += 1.0
-    ss[SS_WEIGHT] += fraction * (1.0 - ss[SS_WEIGHT])
-    ss[SS_FAST] += _FAST * (1.0 - ss[SS_FAST])
-    ss[SS_SLOW] += _SLOW * (1.0 - ss[SS_SLOW])
-    _track(meters, M_LEVEL, squares, _TOTAL, 2, n, fraction)
-    _track(meters, M_PART, squares, M_PART, PLAIN - M_PART, n, fraction)
-    add = meters[M_SUM * n : (M_SUM + 2) * n]
+        fraction = 1.0 - math.exp(-1.0 / (SD.RATE * time_weighting))
+    ss[SD.SS_METERED] += 1.0
+    ss[SD.SS_WEIGHT] += fraction * (1.0 - ss[SD.SS_WEIGHT])
+    ss[SD.SS_FAST] += _FAST * (1.0 - ss[SD.SS_FAST])
+    ss[SD.SS_SLOW] += _SLOW * (1.0 - ss[SD.SS_SLOW])
+    _track(meters, SD.M_LEVEL, squares, _TOTAL, 2, n, fraction)
+    _track(meters, SD.M_PART, squares, SD.M_PART, SD.PLAIN - SD.M_PART, n, fraction)
+    add = meters[SD.M_SUM * n : (SD.M_SUM + 2) * n]
     seen = squares[_TOTAL * n : (_TOTAL + 2) * n]
     for i in range(2 * n):
         add[i] += seen[i]
-    if int(ps[H_DETAILS]) > 0:
-        _track(meters, M_FAST, squares, _TOTAL, 2, n, _FAST)
-        _track(meters, M_SLOW, squares, _TOTAL, 2, n, _SLOW)
-        _track(meters, M_ENERGY, squares, M_ENERGY, METERS - M_ENERGY, n, fraction)
+    if int(ps[SD.H_DETAILS]) > 0:
+        _track(meters, SD.M_FAST, squares, _TOTAL, 2, n, _FAST)
+        _track(meters, SD.M_SLOW, squares, _TOTAL, 2, n, _SLOW)
+        _track(meters, SD.M_ENERGY, squares, SD.M_ENERGY, SD.METERS - SD.M_ENERGY, n, fraction)
 
 
 @kernel
@@ -124,20 +76,20 @@ def _track(meters, row, squares, source, count, n, fraction):
 @kernel
 def _pressures(ps, ss, ws, squares, n):
     """Coherent sums: pressures of each source, of components, of kinds, of all; then their squares."""
-    at = int(ps[H_W_SOURCES])
-    n_sources = int(ps[H_SOURCES])
+    at = int(ps[SD.H_W_SOURCES])
+    n_sources = int(ps[SD.H_SOURCES])
     parts = ws[at : at + n_sources * n]
     for i in range(n_sources * n):
         parts[i] = 0.0
-    out_at = int(ps[H_W_OUTPUTS])
-    sources = int(ps[H_AT_OUTPUTS])
-    for group in range(int(ps[H_GROUPS])):
-        g = int(ps[H_AT_GROUPS]) + GROUP_SIZE * group
-        first = int(ps[g + GROUP_FIRST])
-        lane = int(ps[g + GROUP_LANE])
-        mics = int(ps[g + GROUP_MICS])
-        weights = int(ps[g + GROUP_AT_WEIGHTS])
-        for o in range(int(ps[g + GROUP_COUNT])):
+    out_at = int(ps[SD.H_W_OUTPUTS])
+    sources = int(ps[SD.H_AT_OUTPUTS])
+    for group in range(int(ps[SD.H_GROUPS])):
+        g = int(ps[SD.H_AT_GROUPS]) + SD.GROUP_SIZE * group
+        first = int(ps[g + SD.GROUP_FIRST])
+        lane = int(ps[g + SD.GROUP_LANE])
+        mics = int(ps[g + SD.GROUP_MICS])
+        weights = int(ps[g + SD.GROUP_AT_WEIGHTS])
+        for o in range(int(ps[g + SD.GROUP_COUNT])):
             value = ws[out_at + first + o]
             to = int(ps[sources + first + o]) * n + lane
             part = parts[to : to + mics]
@@ -145,20 +97,20 @@ def _pressures(ps, ss, ws, squares, n):
             for i in range(mics):
                 part[i] += w[i] * value
     total = squares[0:n]
-    table = int(ps[H_AT_SOURCES])
+    table = int(ps[SD.H_AT_SOURCES])
     for source in range(n_sources):
         part = parts[source * n : (source + 1) * n]
-        component = (M_PART + int(ps[table + 2 * source])) * n
-        kind = (M_KIND + int(ps[table + 2 * source + 1])) * n
+        component = (SD.M_PART + int(ps[table + 2 * source])) * n
+        kind = (SD.M_KIND + int(ps[table + 2 * source + 1])) * n
         whole = squares[component : component + n]
         for i in range(n):
             total[i] += part[i]
             whole[i] += part[i]
-        if kind < METERS * n:
+        if kind < SD.METERS * n:
             alike = squares[kind : kind + n]
             for i in range(n):
                 alike[i] += part[i]
-    at = int(ps[H_W_WEIGHTED])
+    at = int(ps[SD.H_W_WEIGHTED])
     weighted = ws[at : at + n]
     for i in range(n):
         weighted[i] = total[i]
@@ -166,7 +118,7 @@ def _pressures(ps, ss, ws, squares, n):
     for i in range(n):
         squares[_TOTAL * n + i] = total[i] * total[i]
         squares[_TOTAL_A * n + i] = weighted[i] * weighted[i]
-    for i in range(M_PART * n, METERS * n):
+    for i in range(SD.M_PART * n, SD.METERS * n):
         squares[i] = squares[i] * squares[i]
     _sum_components(squares, n)
 
@@ -174,46 +126,46 @@ def _pressures(ps, ss, ws, squares, n):
 @kernel
 def _energies(ps, ss, ws, squares, n):
     """Energy sums of the printed method: every filter output is squared by itself."""
-    out_at = int(ps[H_W_OUTPUTS])
-    lanes = int(ps[H_LANES])
-    at = int(ps[H_W_WEIGHTED])
+    out_at = int(ps[SD.H_W_OUTPUTS])
+    lanes = int(ps[SD.H_LANES])
+    at = int(ps[SD.H_W_WEIGHTED])
     weighted = ws[at : at + lanes]
     for i in range(lanes):
         weighted[i] = ws[out_at + i]
     _a_weight(ps, ss, weighted, lanes)
-    sources = int(ps[H_AT_OUTPUTS])
-    table = int(ps[H_AT_SOURCES])
-    for group in range(int(ps[H_GROUPS])):
-        g = int(ps[H_AT_GROUPS]) + GROUP_SIZE * group
-        first = int(ps[g + GROUP_FIRST])
-        lane = int(ps[g + GROUP_LANE])
-        mics = int(ps[g + GROUP_MICS])
-        weights = int(ps[g + GROUP_AT_WEIGHTS])
-        for o in range(int(ps[g + GROUP_COUNT])):
+    sources = int(ps[SD.H_AT_OUTPUTS])
+    table = int(ps[SD.H_AT_SOURCES])
+    for group in range(int(ps[SD.H_GROUPS])):
+        g = int(ps[SD.H_AT_GROUPS]) + SD.GROUP_SIZE * group
+        first = int(ps[g + SD.GROUP_FIRST])
+        lane = int(ps[g + SD.GROUP_LANE])
+        mics = int(ps[g + SD.GROUP_MICS])
+        weights = int(ps[g + SD.GROUP_AT_WEIGHTS])
+        for o in range(int(ps[g + SD.GROUP_COUNT])):
             source = int(ps[sources + first + o])
-            component = (M_PART + int(ps[table + 2 * source])) * n + lane
-            kind = (M_KIND + int(ps[table + 2 * source + 1])) * n + lane
+            component = (SD.M_PART + int(ps[table + 2 * source])) * n + lane
+            kind = (SD.M_KIND + int(ps[table + 2 * source + 1])) * n + lane
             for i in range(mics):
                 w = ps[weights + o * mics + i]
                 value = w * ws[out_at + first + o]
                 energy = value * value
                 squares[lane + i] += value
                 squares[component + i] += energy
-                if kind < METERS * n:
+                if kind < SD.METERS * n:
                     squares[kind + i] += energy
                 squares[_TOTAL_A * n + lane + i] += (w * weighted[first + o]) ** 2
     _sum_components(squares, n)
     for i in range(n):
-        squares[_TOTAL * n + i] = squares[M_ENERGY * n + i]
+        squares[_TOTAL * n + i] = squares[SD.M_ENERGY * n + i]
 
 
 @kernel
 def _sum_components(squares, n):
     """Eq. 46 of the multi-source paper: energies of the components added."""
-    total = squares[M_ENERGY * n : (M_ENERGY + 1) * n]
+    total = squares[SD.M_ENERGY * n : (SD.M_ENERGY + 1) * n]
     for i in range(n):
         total[i] = 0.0
-    for k in range(M_PART, PLAIN):
+    for k in range(SD.M_PART, SD.PLAIN):
         part = squares[k * n : (k + 1) * n]
         for i in range(n):
             total[i] += part[i]
@@ -223,13 +175,13 @@ def _sum_components(squares, n):
 def _a_weight(ps, ss, x, n):
     """A-weight the ``n`` signals ``x`` in place, lanes side by side."""
     for section in range(3):
-        at = int(ps[H_AT_A_WEIGHTING]) + 5 * section
+        at = int(ps[SD.H_AT_A_WEIGHTING]) + 5 * section
         b0 = ps[at]
         b1 = ps[at + 1]
         b2 = ps[at + 2]
         a1 = ps[at + 3]
         a2 = ps[at + 4]
-        state = int(ps[H_S_A_WEIGHTING]) + 2 * n * section
+        state = int(ps[SD.H_S_A_WEIGHTING]) + 2 * n * section
         s1 = ss[state : state + n]
         s2 = ss[state + n : state + 2 * n]
         for c in range(n):
@@ -251,33 +203,33 @@ def levels(ps, ss, z, offset):
     Levels in dB re 20 uPa, never below -106 dB and always finite; the floor before metering has begun, and
     where the scene keeps no such meter.
     """
-    n = int(ps[H_MICS])
-    meters = int(ps[H_S_METERS])
+    n = int(ps[SD.H_MICS])
+    meters = int(ps[SD.H_S_METERS])
     count = 1.0
     weight = 1.0
     fast = 1.0
     slow = 1.0
-    if ss[SS_METERED] > 0.0:
-        count = ss[SS_METERED]
-        weight = ss[SS_WEIGHT]
-        fast = ss[SS_FAST]
-        slow = ss[SS_SLOW]
-    kept = METERS if int(ps[H_DETAILS]) > 0 else PLAIN
-    bands = int(ps[H_BANDS])
+    if ss[SD.SS_METERED] > 0.0:
+        count = ss[SD.SS_METERED]
+        weight = ss[SD.SS_WEIGHT]
+        fast = ss[SD.SS_FAST]
+        slow = ss[SD.SS_SLOW]
+    kept = SD.METERS if int(ps[SD.H_DETAILS]) > 0 else SD.PLAIN
+    bands = int(ps[SD.H_BANDS])
     for mic in range(n):
-        lane = int(ps[int(ps[H_AT_ORDER]) + mic])
+        lane = int(ps[int(ps[SD.H_AT_ORDER]) + mic])
         out = offset + _N_OUT * mic
-        z[out + M_PRESSURE] = ss[meters + lane]
-        for row in range(1, METERS):
+        z[out + SD.M_PRESSURE] = ss[meters + lane]
+        for row in range(1, SD.METERS):
             by = weight
-            if row == M_SUM or row == M_SUM_A:
+            if row == SD.M_SUM or row == SD.M_SUM_A:
                 by = count
-            elif row == M_FAST or row == M_FAST_A:
+            elif row == SD.M_FAST or row == SD.M_FAST_A:
                 by = fast
-            elif row == M_SLOW or row == M_SLOW_A:
+            elif row == SD.M_SLOW or row == SD.M_SLOW_A:
                 by = slow
             z[out + row] = _decibel(ss[meters + row * n + lane] / by if row < kept else 0.0)
-        mean = int(ps[H_S_BANDS]) + thirds.SIZE * lane + thirds.MEAN
+        mean = int(ps[SD.H_S_BANDS]) + thirds.SIZE * lane + thirds.MEAN
         first = offset + _N_OUT * n + bands * mic
         for k in range(bands):
             z[first + k] = _decibel(ss[mean + k] / fast)

@@ -6,31 +6,13 @@ all filters and moves the meters. State depends on the samples alone, never on h
 """
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout_sound import (
-    DECIMATION,
-    DECIMATOR_TAPS,
-    H_AT_DECIMATOR,
-    H_AT_HIGH_PASS,
-    H_AT_LANES,
-    H_CHANNELS,
-    H_ROWS,
-    H_RUNG,
-    H_S_CHANNELS,
-    H_S_HIGH_PASS,
-    RUNG_CONTACTS,
-    RUNG_PAPER,
-    SS_COUNT,
-    SS_RAW,
-    SS_TABLES,
-    state_size,
-    work_size,
-)
+from fmu_bearing.engine.layout import SD
 from fmu_bearing.engine.sound import channels, meter
 from fmu_bearing.engine.sound.convolve import convolve
 
-__all__ = ["push", "reset", "state_size", "work_size"]
+__all__ = ["push", "reset"]
 
-_WRAP = DECIMATOR_TAPS - 1  # the raw history is a power of two long
+_WRAP = SD.DECIMATOR_TAPS - 1  # the raw history is a power of two long
 
 
 @kernel
@@ -48,45 +30,45 @@ def push(ps, ss, ws, motion, time_weighting, metering_start):
     sample on at which they begin. The first sample is taken to have lasted for ever, so that constant
     accelerations (the balls' centripetal one) make no start-up step.
     """
-    n = int(ps[H_CHANNELS])
-    raw = int(ss[SS_RAW])
-    history = SS_TABLES
+    n = int(ps[SD.H_CHANNELS])
+    raw = int(ss[SD.SS_RAW])
+    history = SD.SS_TABLES
     row = raw & _WRAP
     fresh = ss[history + row * n : history + (row + 1) * n]
-    rung = int(ps[H_RUNG])
-    if rung == RUNG_PAPER:
+    rung = int(ps[SD.H_RUNG])
+    if rung == SD.RUNG_PAPER:
         channels.scalars(ps, motion, fresh)
-    elif rung == RUNG_CONTACTS:
+    elif rung == SD.RUNG_CONTACTS:
         channels.contacts(ps, motion, fresh)
     else:
         channels.accelerations(ps, ws, motion, fresh)
-    high_pass = int(ps[H_S_HIGH_PASS])
+    high_pass = int(ps[SD.H_S_HIGH_PASS])
     if raw == 0:
         _settle(ps, ss, fresh, history, high_pass, n)
-    ss[SS_RAW] = raw + 1.0
-    if raw % DECIMATION != 0:
+    ss[SD.SS_RAW] = raw + 1.0
+    if raw % SD.DECIMATION != 0:
         return
-    count = int(ss[SS_COUNT])
-    place = count % int(ps[H_ROWS])
+    count = int(ss[SD.SS_COUNT])
+    place = count % int(ps[SD.H_ROWS])
     _decimate(ps, ss, ws, history, row, n)
-    _high_pass(ps, ss, ws, high_pass, int(ps[H_S_CHANNELS]) + place * n, n)
+    _high_pass(ps, ss, ws, high_pass, int(ps[SD.H_S_CHANNELS]) + place * n, n)
     convolve(ps, ss, ws, place, count)
     meter.update(ps, ss, ws, time_weighting, metering_start)
-    ss[SS_COUNT] = count + 1.0
+    ss[SD.SS_COUNT] = count + 1.0
 
 
 @kernel
 def _settle(ps, ss, fresh, history, high_pass, n):
     """Fill the raw history with the first sample and let the high-pass rest on it."""
-    for row in range(1, DECIMATOR_TAPS):
+    for row in range(1, SD.DECIMATOR_TAPS):
         older = ss[history + row * n : history + (row + 1) * n]
         for c in range(n):
             older[c] = fresh[c]
-    at = int(ps[H_AT_DECIMATOR])
+    at = int(ps[SD.H_AT_DECIMATOR])
     gain = 0.0
-    for i in range(DECIMATOR_TAPS):
+    for i in range(SD.DECIMATOR_TAPS):
         gain += ps[at + i]
-    at = int(ps[H_AT_HIGH_PASS])
+    at = int(ps[SD.H_AT_HIGH_PASS])
     # A high-pass puts out zero at rest: its first state then cancels b0 x, its second b0 x + b1 x.
     for c in range(n):
         x = gain * fresh[c]
@@ -97,11 +79,11 @@ def _settle(ps, ss, fresh, history, high_pass, n):
 @kernel
 def _decimate(ps, ss, ws, history, row, n):
     """Low-pass the raw history into the first ``n`` places of ``ws``, four rows at a time."""
-    at = int(ps[H_AT_DECIMATOR])
+    at = int(ps[SD.H_AT_DECIMATOR])
     out = ws[0:n]
     for c in range(n):
         out[c] = 0.0
-    for block in range(DECIMATOR_TAPS // 4):
+    for block in range(SD.DECIMATOR_TAPS // 4):
         i = 4 * block
         p0 = history + ((row - i) & _WRAP) * n
         p1 = history + ((row - i - 1) & _WRAP) * n
@@ -125,7 +107,7 @@ def _high_pass(ps, ss, ws, state, place, n):
 
     The channels stand in the first ``n`` places of ``ws``.
     """
-    at = int(ps[H_AT_HIGH_PASS])
+    at = int(ps[SD.H_AT_HIGH_PASS])
     b0 = ps[at]
     b1 = ps[at + 1]
     b2 = ps[at + 2]
@@ -140,6 +122,6 @@ def _high_pass(ps, ss, ws, state, place, n):
         s1[c] = b1 * x[c] - a1 * value + s2[c]
         s2[c] = b2 * x[c] - a2 * value
         x[c] = value
-    lanes = int(ps[H_AT_LANES])
+    lanes = int(ps[SD.H_AT_LANES])
     for c in range(n):
         y[int(ps[lanes + c])] = x[c]

@@ -1,27 +1,27 @@
 """Third octaves of every microphone's pressure: four second-order sections per band, bands side by side."""
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout_sound import BAND_LANES, H_AT_BANDS, H_MICS, H_S_BANDS, H_W_TRANSFORM
+from fmu_bearing.engine.layout import SD
 
 SECTIONS = 4
 # Per microphone: two states of each section, then the running mean square; all BAND_LANES wide.
-MEAN = 2 * SECTIONS * BAND_LANES
-SIZE = MEAN + BAND_LANES
-_L = BAND_LANES
+MEAN = 2 * SECTIONS * SD.BAND_LANES
+SIZE = MEAN + SD.BAND_LANES
+_L = SD.BAND_LANES
 
 
 @kernel
 def update(ps, ss, ws, pressures, fraction):
     """Move all bands by one sample of the pressures at ``ws[pressures]``; means by ``fraction``."""
-    scratch = int(ps[H_W_TRANSFORM])
+    scratch = int(ps[SD.H_W_TRANSFORM])
     x = ws[scratch : scratch + _L]
-    for mic in range(int(ps[H_MICS])):
-        at = int(ps[H_S_BANDS]) + SIZE * mic
+    for mic in range(int(ps[SD.H_MICS])):
+        at = int(ps[SD.H_S_BANDS]) + SIZE * mic
         pressure = ws[pressures + mic]
         for i in range(_L):
             x[i] = pressure
         for section in range(SECTIONS):
-            q = int(ps[H_AT_BANDS]) + 5 * _L * section
+            q = int(ps[SD.H_AT_BANDS]) + 5 * _L * section
             _section(ps[q : q + 5 * _L], ss[at + 2 * _L * section : at + 2 * _L * (section + 1)], x)
         mean = ss[at + MEAN : at + SIZE]
         for i in range(_L):

@@ -4,17 +4,10 @@ The same balls as in ``quasistatic``; for those who need the axial curve many ti
 """
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import (
-    C_PRELOAD,
-    C_RACE_SIZE,
-    C_RACES,
-    NO_START,
-    OK,
-    P_BALLS,
-    P_PITCH_RADIUS,
-)
+from fmu_bearing.engine.layout import C, P
 from fmu_bearing.engine.statics.ball_balance import ball_equilibrium, ball_state
 from fmu_bearing.engine.statics.stiffness import series_stiffness
+from fmu_bearing.engine.status import NO_START, OK
 
 _ROUNDS = 100
 
@@ -31,7 +24,7 @@ def axial_force(p, c, speed, shift, x, r):
     pose = upright(shift)
     x, r, size = ball_equilibrium(p, c, speed, pose, x, r)
     state = ball_state(p, c, speed, pose, x, r)
-    return -p[P_BALLS] * (state[5] * state[6] - state[17] * state[11]), x, r, size
+    return -p[P.BALLS] * (state[5] * state[6] - state[17] * state[11]), x, r, size
 
 
 @kernel
@@ -41,7 +34,7 @@ def quasistatic(p, c, speed, out):
     ``out``: inner ring's axial displacement against the outer (m), ball x and r (m), orbit speed, spin x and
     r (rad/s), residual of a ball (N). Bracketing and bisection-safe secant steps: bounded work.
     """
-    target = c[C_PRELOAD]
+    target = c[C.PRELOAD]
     low = -2e-5
     high = 1e-5
     x = 0.0
@@ -93,16 +86,16 @@ def stiffness_matrix(p, c, out):
     Returns axial, radial (N/m), tilt (N m/rad) and the radial-tilt coupling (N), each with the other
     motions held, in closed form for equal balls.
     """
-    radius = p[P_PITCH_RADIUS] + out[2]
-    xi = out[1] - out[0] - c[C_RACES]
-    ri = radius - c[C_RACES + 1]
-    xo = out[1] - c[C_RACES + C_RACE_SIZE]
-    ro = radius - c[C_RACES + C_RACE_SIZE + 1]
+    radius = p[P.PITCH_RADIUS] + out[2]
+    xi = out[1] - out[0] - c[C.RACES]
+    ri = radius - c[C.RACES + 1]
+    xo = out[1] - c[C.RACES + C.RACE_SIZE]
+    ro = radius - c[C.RACES + C.RACE_SIZE + 1]
     kxx, kxr, krr = series_stiffness(p, c, xi, ri, xo, ro)
     # a tilt b about the tangent moves the groove centre by (-b R_c, b x_c)
-    gx = -c[C_RACES + 1]
-    gr = c[C_RACES]
-    half = 0.5 * p[P_BALLS]
+    gx = -c[C.RACES + 1]
+    gr = c[C.RACES]
+    half = 0.5 * p[P.BALLS]
     tilt = half * (kxx * gx * gx + 2.0 * kxr * gx * gr + krr * gr * gr)
     coupling = half * (kxr * gx + krr * gr)
-    return p[P_BALLS] * kxx, half * krr, tilt, coupling
+    return p[P.BALLS] * kxx, half * krr, tilt, coupling

@@ -9,20 +9,7 @@ oversize and the race's waviness deepen the approach, inside and outside.
 import math
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import (
-    C_BALL_RADIUS,
-    C_RACE_SIZE,
-    C_RACES,
-    P_BALL_INERTIA,
-    P_BALL_MASS,
-    P_GYROSCOPIC,
-    P_MU,
-    P_PITCH_RADIUS,
-    P_RACE_CONTROL,
-    P_RACES,
-    RACE_SIZE,
-    RACE_STIFFNESS,
-)
+from fmu_bearing.engine.layout import C, P
 from fmu_bearing.engine.mechanics.pose import axis_cosine
 
 _ITERATIONS = 60
@@ -59,8 +46,8 @@ def seat(p, c, race, extra, qx, qr, qt, nx, nr, nt):
     (m). Returns load (N), normal stiffness (N/m), distances from groove centre and axis (m), the unit
     vectors e (from the ball into the race) and m (along the major axis), and the cosine towards the axis.
     """
-    held = C_RACES + race * C_RACE_SIZE
-    hertz = p[P_RACES + race * RACE_SIZE + RACE_STIFFNESS]
+    held = C.RACES + race * C.RACE_SIZE
+    hertz = p[P.RACES + race * P.RACE_SIZE + P.RACE_STIFFNESS]
     axial = qx * nx + qr * nr + qt * nt
     hx = qx - axial * nx
     hr = qr - axial * nr
@@ -121,15 +108,15 @@ def friction(p, c, orbit, spin, load_i, load_o):
 
     Shared equally, or all at the race in control. ``spin``: about r (rad/s).
     """
-    if p[P_GYROSCOPIC] == 0.0:
+    if p[P.GYROSCOPIC] == 0.0:
         return 0.0, 0.0
-    control = p[P_RACE_CONTROL]
-    force = p[P_BALL_INERTIA] * orbit * spin / c[C_BALL_RADIUS]
+    control = p[P.RACE_CONTROL]
+    force = p[P.BALL_INERTIA] * orbit * spin / c[C.BALL_RADIUS]
     bound = load_o if control == 1.0 else load_i
     if control == 0.0:
         force *= 0.5
         bound = min(load_i, load_o)
-    bound *= p[P_MU]
+    bound *= p[P.MU]
     force = min(max(force, -bound), bound)
     return (0.0 if control == 1.0 else force), (0.0 if control == 2.0 else force)
 
@@ -141,7 +128,7 @@ def ball_state(p, c, speed, pose, x, r):
     Net force (x, r), its in-plane stiffness xx, xr, rr, inner load and direction e (3), outer load, sines
     and cosines of inner and outer contact angle, orbit, spin x and r, inner friction, outer e (3).
     """
-    radius = p[P_PITCH_RADIUS] + r
+    radius = p[P.PITCH_RADIUS] + r
     qi, ki, di, _, ex, er, et, _, _, _, _ = seat(
         p, c, 0, pose[9], x - pose[0], radius - pose[1], -pose[2], pose[3], pose[4], pose[5]
     )
@@ -154,10 +141,10 @@ def ball_state(p, c, speed, pose, x, r):
     ci = er * plane_i
     so = ox * plane_o
     co = o_r * plane_o
-    orbit, wx, wr = rolling_kinematics(c[C_BALL_RADIUS], p[P_RACE_CONTROL], speed, si, ci, so, co, radius)
+    orbit, wx, wr = rolling_kinematics(c[C.BALL_RADIUS], p[P.RACE_CONTROL], speed, si, ci, so, co, radius)
     pi, po = friction(p, c, orbit, wr, qi, qo)
     fx = -qi * ex - qo * ox + pi * ci - po * co
-    fr = -qi * er - qo * o_r - pi * si + po * so + p[P_BALL_MASS] * radius * orbit * orbit
+    fr = -qi * er - qo * o_r - pi * si + po * so + p[P.BALL_MASS] * radius * orbit * orbit
     ti = qi / di
     to = qo / do
     kxx = ki * si * si + ti * ci * ci + ko * so * so + to * co * co
@@ -169,10 +156,10 @@ def ball_state(p, c, speed, pose, x, r):
 @kernel
 def thrown_out(p, c, pose, orbit):
     """Place (x, r) where a ball that only the outer race holds is balanced by the centrifugal force."""
-    held = C_RACES + C_RACE_SIZE
-    pitch = p[P_PITCH_RADIUS]
-    force = p[P_BALL_MASS] * pitch * orbit * orbit
-    press = force / p[P_RACES + RACE_SIZE + RACE_STIFFNESS]
+    held = C.RACES + C.RACE_SIZE
+    pitch = p[P.PITCH_RADIUS]
+    force = p[P.BALL_MASS] * pitch * orbit * orbit
+    press = force / p[P.RACES + P.RACE_SIZE + P.RACE_STIFFNESS]
     radius = c[held + 1] + c[held + 2] - pose[10] + math.exp(2.0 / 3.0 * math.log(press + 1e-30))
     # a tilted ring's groove circle stands beside that of the upright one
     return c[held] - c[held + 1] * pose[7], radius - pitch + c[held] * pose[7]

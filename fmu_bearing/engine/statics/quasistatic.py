@@ -19,48 +19,15 @@ ball weight, drag, cage, rolling resistance and traction along the rolling direc
 
 import math
 
+from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.elimination import eliminate
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import (
-    C_BALL_RADIUS,
-    C_OVERSIZE_SCALE,
-    C_RACE_SIZE,
-    C_RACES,
-    NO_START,
-    OK,
-    P_AT_OVERSIZE,
-    P_AT_WAVES,
-    P_BALLS,
-    P_GYROSCOPIC,
-    P_PITCH_RADIUS,
-    P_RACES,
-    P_TILT_STIFFNESS,
-    P_WAVINESS,
-    PI,
-    Q5_ANGLE_I,
-    Q5_ANGLE_O,
-    Q5_ITERATIONS,
-    Q5_LOAD_I,
-    Q5_LOAD_O,
-    Q5_OM,
-    Q5_R,
-    Q5_RESIDUAL,
-    Q5_SHIFT,
-    Q5_SIZE,
-    Q5_STIFFNESS,
-    Q5_WR,
-    Q5_WX,
-    Q5_X,
-    RACE_SIZE,
-    RACE_STIFFNESS,
-    STRIDE,
-    W_POSE,
-    WAVE_INTERVALS,
-)
+from fmu_bearing.engine.layout import EQ, C, P, W
+from fmu_bearing.engine.layout.sizes import STRIDE
 from fmu_bearing.engine.statics.ball_balance import ball_equilibrium, ball_state, poses
 from fmu_bearing.engine.statics.stiffness import add_turned, ball_share
+from fmu_bearing.engine.status import NO_START, OK
 
-_S = STRIDE
 _ITERATIONS = 200
 _BACKTRACKS = 10
 # Longest step of the ring (m; tilts times pitch radius): some tenths of the groove centres' distance.
@@ -79,14 +46,14 @@ _ROWS = _A + 35  # linear system: 5 x 6
 @kernel
 def axial_guess(p, c, force):
     """Axial displacement (m) of equal static balls under ``force`` (N); coarse: it starts a Newton method."""
-    o = C_RACES + C_RACE_SIZE
-    apart = c[C_RACES] - c[o]
-    across = c[C_RACES + 1] - c[o + 1]
-    free = c[C_RACES + 2] + c[o + 2]
+    o = C.RACES + C.RACE_SIZE
+    apart = c[C.RACES] - c[o]
+    across = c[C.RACES + 1] - c[o + 1]
+    free = c[C.RACES + 2] + c[o + 2]
     k = 2.0 / 3.0
-    series = math.exp(-k * math.log(p[P_RACES + RACE_STIFFNESS]))
-    series += math.exp(-k * math.log(p[P_RACES + RACE_SIZE + RACE_STIFFNESS]))
-    series = p[P_BALLS] * math.exp(-1.5 * math.log(series))
+    series = math.exp(-k * math.log(p[P.RACES + P.RACE_STIFFNESS]))
+    series += math.exp(-k * math.log(p[P.RACES + P.RACE_SIZE + P.RACE_STIFFNESS]))
+    series = p[P.BALLS] * math.exp(-1.5 * math.log(series))
     side = 1.0 if force >= 0.0 else -1.0
     # distance of the groove centres along x, where the balls just touch and where they certainly carry it
     low = math.sqrt(max(free * free - across * across, 0.0))
@@ -108,15 +75,15 @@ def deeper(p, c, race, j, angle):
 
     Both rings' own angles are zero. The table is that of ``mechanics.race.waves``, linear between its points.
     """
-    scale = c[C_OVERSIZE_SCALE]
-    height = 0.5 * p[int(p[P_AT_OVERSIZE]) + j]
-    if p[P_WAVINESS] != 0.0:
-        table = int(p[P_AT_WAVES]) + race * 2 * WAVE_INTERVALS
-        place = angle / (2.0 * PI) * WAVE_INTERVALS
+    scale = c[C.OVERSIZE_SCALE]
+    height = 0.5 * p[int(p[P.AT_OVERSIZE]) + j]
+    if p[P.WAVINESS] != 0.0:
+        table = int(p[P.AT_WAVES]) + race * 2 * P.WAVE_INTERVALS
+        place = angle / (2.0 * PI) * P.WAVE_INTERVALS
         below = int(place)
         part = place - below
-        first = p[table + 2 * (below % WAVE_INTERVALS)]
-        second = p[table + 2 * ((below + 1) % WAVE_INTERVALS)]
+        first = p[table + 2 * (below % P.WAVE_INTERVALS)]
+        second = p[table + 2 * ((below + 1) % P.WAVE_INTERVALS)]
         height += first + part * (second - first)
     return scale * height
 
@@ -124,14 +91,14 @@ def deeper(p, c, race, j, angle):
 @kernel
 def place_first(p, c, shift, offset, share, v):
     """Angles and first places of the balls: on the line of groove centres, approach shared by compliance."""
-    balls = int(p[P_BALLS])
-    o = C_RACES + C_RACE_SIZE
-    sx = c[C_RACES] + shift - c[o]
-    sr = c[C_RACES + 1] - c[o + 1]
+    balls = int(p[P.BALLS])
+    o = C.RACES + C.RACE_SIZE
+    sx = c[C.RACES] + shift - c[o]
+    sr = c[C.RACES + 1] - c[o + 1]
     length = math.sqrt(sx * sx + sr * sr)
-    ratio = p[P_RACES + RACE_SIZE + RACE_STIFFNESS] / p[P_RACES + RACE_STIFFNESS]
+    ratio = p[P.RACES + P.RACE_SIZE + P.RACE_STIFFNESS] / p[P.RACES + P.RACE_STIFFNESS]
     part = 1.0 / (1.0 + math.exp(2.0 / 3.0 * math.log(ratio)))
-    reach = (c[o + 2] + part * max(length - c[o + 2] - c[C_RACES + 2], 0.0)) / length
+    reach = (c[o + 2] + part * max(length - c[o + 2] - c[C.RACES + 2], 0.0)) / length
     for j in range(balls):
         angle = 2.0 * PI * j / balls
         cj = math.cos(angle)
@@ -139,12 +106,12 @@ def place_first(p, c, shift, offset, share, v):
         lean = sj * offset[1] + cj * offset[0]
         x = c[o] + reach * sx
         radius = c[o + 1] + reach * sr
-        v[_COS * _S + j] = cj
-        v[_SIN * _S + j] = sj
+        v[_COS * STRIDE + j] = cj
+        v[_SIN * STRIDE + j] = sj
         for race in range(2):
-            v[(DEEPER + race) * _S + j] = share * deeper(p, c, race, j, angle)
-        v[_X * _S + j] = x + radius * lean
-        v[_R * _S + j] = radius - x * lean - p[P_PITCH_RADIUS]
+            v[(DEEPER + race) * STRIDE + j] = share * deeper(p, c, race, j, angle)
+        v[_X * STRIDE + j] = x + radius * lean
+        v[_R * STRIDE + j] = radius - x * lean - p[P.PITCH_RADIUS]
 
 
 @kernel
@@ -153,17 +120,17 @@ def ring_forces(p, c, speed, load, offset, ring, v, share, g):
 
     Balls start where the last tangent and ``share`` of the step put them; returns their worst residual.
     """
-    ball = c[C_BALL_RADIUS]
+    ball = c[C.BALL_RADIUS]
     worst = 0.0
     for i in range(5):
         g[i] = load[i]
     step = v[_STEP : _STEP + 5]
-    for j in range(int(p[P_BALLS])):
-        cj = v[_COS * _S + j]
-        sj = v[_SIN * _S + j]
-        pose = poses(cj, sj, ring, offset, v[DEEPER * _S + j], v[(DEEPER + 1) * _S + j])
-        x = v[_X * _S + j]
-        r = v[_R * _S + j]
+    for j in range(int(p[P.BALLS])):
+        cj = v[_COS * STRIDE + j]
+        sj = v[_SIN * STRIDE + j]
+        pose = poses(cj, sj, ring, offset, v[DEEPER * STRIDE + j], v[(DEEPER + 1) * STRIDE + j])
+        x = v[_X * STRIDE + j]
+        r = v[_R * STRIDE + j]
         if share > 0.0:
             across = -cj * step[1] - sj * step[2]
             along = cj * step[2] - sj * step[1]
@@ -179,11 +146,11 @@ def ring_forces(p, c, speed, load, offset, ring, v, share, g):
                     move = lean_r
                 elif k == 4:
                     move = lean_t
-                x += share * move * v[(_PX + k) * _S + j]
-                r += share * move * v[(_PR + k) * _S + j]
+                x += share * move * v[(_PX + k) * STRIDE + j]
+                r += share * move * v[(_PR + k) * STRIDE + j]
         x, r, size = ball_equilibrium(p, c, speed, pose, x, r)
-        v[_X1 * _S + j] = x
-        v[_R1 * _S + j] = r
+        v[_X1 * STRIDE + j] = x
+        v[_R1 * STRIDE + j] = r
         worst = max(worst, size)
         state = ball_state(p, c, speed, pose, x, r)
         qi = state[5]
@@ -193,7 +160,7 @@ def ring_forces(p, c, speed, load, offset, ring, v, share, g):
         ft = qi * state[8]
         # about the ring's centre, at the contact's middle
         ax = x - pose[0] + ball * state[6]
-        ar = p[P_PITCH_RADIUS] + r - pose[1] + ball * state[7]
+        ar = p[P.PITCH_RADIUS] + r - pose[1] + ball * state[7]
         at = -pose[2] + ball * state[8]
         mr = at * fx - ax * ft
         mt = ax * fr - ar * fx
@@ -203,8 +170,8 @@ def ring_forces(p, c, speed, load, offset, ring, v, share, g):
         g[3] += -sj * mr - cj * mt
         g[4] += cj * mr - sj * mt
     for k in range(2):
-        g[3 + k] -= p[P_TILT_STIFFNESS] * (ring[3 + k] + offset[k])
-        g[3 + k] /= p[P_PITCH_RADIUS]
+        g[3 + k] -= p[P.TILT_STIFFNESS] * (ring[3 + k] + offset[k])
+        g[3 + k] /= p[P.PITCH_RADIUS]
     return worst
 
 
@@ -212,24 +179,24 @@ def ring_forces(p, c, speed, load, offset, ring, v, share, g):
 def tangent(p, c, offset, ring, v, out):
     """Stiffness of the inner ring against the outer into ``out``; motion of the balls with it into ``v``."""
     for i in range(25):
-        out[Q5_STIFFNESS + i] = 0.0
+        out[EQ.STIFFNESS + i] = 0.0
     a = v[_A : _A + 35]
-    for j in range(int(p[P_BALLS])):
-        cj = v[_COS * _S + j]
-        sj = v[_SIN * _S + j]
-        pose = poses(cj, sj, ring, offset, v[DEEPER * _S + j], v[(DEEPER + 1) * _S + j])
-        ball_share(p, c, pose, v[_X * _S + j], v[_R * _S + j], a)
+    for j in range(int(p[P.BALLS])):
+        cj = v[_COS * STRIDE + j]
+        sj = v[_SIN * STRIDE + j]
+        pose = poses(cj, sj, ring, offset, v[DEEPER * STRIDE + j], v[(DEEPER + 1) * STRIDE + j])
+        ball_share(p, c, pose, v[_X * STRIDE + j], v[_R * STRIDE + j], a)
         for k in range(5):
-            v[(_PX + k) * _S + j] = a[25 + k]
-            v[(_PR + k) * _S + j] = a[30 + k]
-        add_turned(cj, sj, a, out, Q5_STIFFNESS)
+            v[(_PX + k) * STRIDE + j] = a[25 + k]
+            v[(_PR + k) * STRIDE + j] = a[30 + k]
+        add_turned(cj, sj, a, out, EQ.STIFFNESS)
 
 
 @kernel
 def difference(p, c, speed, load, offset, ring, v, out):
     """As ``tangent`` but with all forces moving, by differences, the tilt support left out again."""
     g1 = v[_G1 : _G1 + 5]
-    pitch = p[P_PITCH_RADIUS]
+    pitch = p[P.PITCH_RADIUS]
     for k in range(5):
         scale = 1.0 if k < 3 else pitch
         kept = ring[k]
@@ -238,20 +205,20 @@ def difference(p, c, speed, load, offset, ring, v, out):
         ring[k] = kept
         for i in range(5):
             slope = (v[_G + i] - g1[i]) / _MOVE * scale * (1.0 if i < 3 else pitch)
-            out[Q5_STIFFNESS + 5 * i + k] = slope - (p[P_TILT_STIFFNESS] if i == k and i > 2 else 0.0)
+            out[EQ.STIFFNESS + 5 * i + k] = slope - (p[P.TILT_STIFFNESS] if i == k and i > 2 else 0.0)
 
 
 @kernel
 def newton_step(p, out, damping, v):
     """Step of the ring into ``v``, at most ``_LONGEST``; the work along it (N m), not positive if unfit."""
-    pitch = p[P_PITCH_RADIUS]
+    pitch = p[P.PITCH_RADIUS]
     rows = v[_ROWS : _ROWS + 30]
     step = v[_STEP : _STEP + 5]
     for i in range(5):
         scale = 1.0 if i < 3 else 1.0 / pitch
         for k in range(5):
-            rows[6 * i + k] = scale * (1.0 if k < 3 else 1.0 / pitch) * out[Q5_STIFFNESS + 5 * i + k]
-        rows[7 * i] += damping + (p[P_TILT_STIFFNESS] / (pitch * pitch) if i > 2 else 0.0)
+            rows[6 * i + k] = scale * (1.0 if k < 3 else 1.0 / pitch) * out[EQ.STIFFNESS + 5 * i + k]
+        rows[7 * i] += damping + (p[P.TILT_STIFFNESS] / (pitch * pitch) if i > 2 else 0.0)
         rows[6 * i + 5] = v[_G + i]
     if not eliminate(rows, 0, 5):
         return -1.0
@@ -270,23 +237,23 @@ def newton_step(p, out, damping, v):
 @kernel
 def report(p, c, speed, offset, v, out):
     """Write each ball's place, motion, loads and contact angles into ``out``."""
-    ring = out[Q5_SHIFT : Q5_SHIFT + 5]
-    for j in range(int(p[P_BALLS])):
-        x = v[_X * _S + j]
-        r = v[_R * _S + j]
-        cj = v[_COS * _S + j]
-        sj = v[_SIN * _S + j]
-        pose = poses(cj, sj, ring, offset, v[DEEPER * _S + j], v[(DEEPER + 1) * _S + j])
+    ring = out[EQ.SHIFT : EQ.SHIFT + 5]
+    for j in range(int(p[P.BALLS])):
+        x = v[_X * STRIDE + j]
+        r = v[_R * STRIDE + j]
+        cj = v[_COS * STRIDE + j]
+        sj = v[_SIN * STRIDE + j]
+        pose = poses(cj, sj, ring, offset, v[DEEPER * STRIDE + j], v[(DEEPER + 1) * STRIDE + j])
         state = ball_state(p, c, speed, pose, x, r)
-        out[Q5_X + j] = x
-        out[Q5_R + j] = r
-        out[Q5_OM + j] = state[14]
-        out[Q5_WX + j] = state[15]
-        out[Q5_WR + j] = state[16]
-        out[Q5_LOAD_I + j] = state[5]
-        out[Q5_LOAD_O + j] = state[9]
-        out[Q5_ANGLE_I + j] = math.atan2(state[10], state[11])
-        out[Q5_ANGLE_O + j] = math.atan2(state[12], state[13])
+        out[EQ.X + j] = x
+        out[EQ.R + j] = r
+        out[EQ.OM + j] = state[14]
+        out[EQ.WX + j] = state[15]
+        out[EQ.WR + j] = state[16]
+        out[EQ.LOAD_I + j] = state[5]
+        out[EQ.LOAD_O + j] = state[9]
+        out[EQ.ANGLE_I + j] = math.atan2(state[10], state[11])
+        out[EQ.ANGLE_O + j] = math.atan2(state[12], state[13])
 
 
 @kernel
@@ -298,9 +265,9 @@ def norm(g):
 @kernel
 def keep_trial(p, v):
     """Make the trial place of the balls and the forces there the present ones."""
-    for j in range(int(p[P_BALLS])):
-        v[_X * _S + j] = v[_X1 * _S + j]
-        v[_R * _S + j] = v[_R1 * _S + j]
+    for j in range(int(p[P.BALLS])):
+        v[_X * STRIDE + j] = v[_X1 * STRIDE + j]
+        v[_R * STRIDE + j] = v[_R1 * STRIDE + j]
     for i in range(5):
         v[_RING + i] = v[_TRIAL + i]
         v[_G + i] = v[_G1 + i]
@@ -320,7 +287,7 @@ def search(p, c, speed, load, offset, size, ahead, v):
         ring_forces(p, c, speed, load, offset, v[_TRIAL : _TRIAL + 5], v, share, g1)
         after = 0.0
         for i in range(5):
-            after += g1[i] * v[_STEP + i] * (1.0 if i < 3 else p[P_PITCH_RADIUS])
+            after += g1[i] * v[_STEP + i] * (1.0 if i < 3 else p[P.PITCH_RADIUS])
         if after >= -0.9 * ahead or norm(g1) < 0.5 * size:
             return share
         if n < _BACKTRACKS - 1:
@@ -331,8 +298,8 @@ def search(p, c, speed, load, offset, size, ahead, v):
 @kernel
 def solve_ring(p, c, speed, load, offset, share, out, w):
     """As ``equilibrium``, with ``share`` of the imperfections: ball sizes, race waviness (0: none)."""
-    v = w[W_POSE * _S :]
-    for i in range(Q5_SIZE):
+    v = w[W.POSE :]
+    for i in range(EQ.SIZE):
         out[i] = 0.0
     shift = axial_guess(p, c, load[0])
     place_first(p, c, shift, offset, share, v)
@@ -346,9 +313,9 @@ def solve_ring(p, c, speed, load, offset, share, out, w):
         v[_TRIAL + i] = ring[i]
         v[_G1 + i] = g[i]
     keep_trial(p, v)
-    pitch = p[P_PITCH_RADIUS]
+    pitch = p[P.PITCH_RADIUS]
     total = abs(load[0]) + abs(load[1]) + abs(load[2]) + (abs(load[3]) + abs(load[4])) / pitch
-    rubbed = speed != 0.0 and p[P_GYROSCOPIC] != 0.0
+    rubbed = speed != 0.0 and p[P.GYROSCOPIC] != 0.0
     limit = 1e-8 + 1e-9 * total
     damping = _FLOOR
     done = 0.0
@@ -369,9 +336,9 @@ def solve_ring(p, c, speed, load, offset, share, out, w):
             difference(p, c, speed, load, offset, ring, v, out)
     tangent(p, c, offset, ring, v, out)
     for i in range(5):
-        out[Q5_SHIFT + i] = ring[i]
-    out[Q5_RESIDUAL] = size
-    out[Q5_ITERATIONS] = done
+        out[EQ.SHIFT + i] = ring[i]
+    out[EQ.RESIDUAL] = size
+    out[EQ.ITERATIONS] = done
     report(p, c, speed, offset, v, out)
     return OK if size <= 1e-6 * (1.0 + total) else NO_START
 

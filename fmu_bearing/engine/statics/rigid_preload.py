@@ -5,25 +5,12 @@ curve of the bearing plus the pedestal's deflection. Speed and temperature then 
 the place. A new preload moves the ring to its new place at constant speed over one communication step.
 """
 
+from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import (
-    C_PEDESTAL_AXIAL,
-    C_PRELOAD,
-    C_SIZE,
-    OK,
-    REFERENCE_TEMPERATURE,
-    S_C,
-    S_PLACE,
-    S_Y,
-    U_INNER_T,
-    U_OIL_T,
-    U_OUTER_T,
-    U_SPEED,
-    W_D,
-    Y_Q,
-)
+from fmu_bearing.engine.layout import C, S, U, W, Y
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.statics.axial import quasistatic
+from fmu_bearing.engine.status import OK
 
 _INPUTS = 8
 _ROUNDS = 60
@@ -34,7 +21,7 @@ _TOUCHING = 0.01  # N: without preload the ring stands where the balls just touc
 def place_under(p, c, speed, found):
     """Axial place (m) of the inner ring under the preload in ``c``, pedestal included; second: status."""
     status = quasistatic(p, c, speed, found)
-    return found[0] + c[C_PRELOAD] / c[C_PEDESTAL_AXIAL], status
+    return found[0] + c[C.PRELOAD] / c[C.PEDESTAL_AXIAL], status
 
 
 @kernel
@@ -43,17 +30,17 @@ def static_place(p, u, w):
 
     Scratch: ``w[W_D:]``.
     """
-    still = w[W_D : W_D + _INPUTS]
-    c = w[W_D + _INPUTS : W_D + _INPUTS + C_SIZE]
-    found = w[W_D + _INPUTS + C_SIZE : W_D + 2 * _INPUTS + C_SIZE]
+    still = w[W.D : W.D + _INPUTS]
+    c = w[W.D + _INPUTS : W.D + _INPUTS + C.SIZE]
+    found = w[W.D + _INPUTS + C.SIZE : W.D + 2 * _INPUTS + C.SIZE]
     for i in range(_INPUTS):
         still[i] = u[i]
-    still[U_SPEED] = 0.0
-    still[U_OIL_T] = REFERENCE_TEMPERATURE
-    still[U_INNER_T] = REFERENCE_TEMPERATURE
-    still[U_OUTER_T] = REFERENCE_TEMPERATURE
+    still[U.SPEED] = 0.0
+    still[U.OIL_T] = REFERENCE_TEMPERATURE
+    still[U.INNER_T] = REFERENCE_TEMPERATURE
+    still[U.OUTER_T] = REFERENCE_TEMPERATURE
     conditions(p, still, 0.0, c)
-    c[C_PRELOAD] = max(c[C_PRELOAD], _TOUCHING)
+    c[C.PRELOAD] = max(c[C.PRELOAD], _TOUCHING)
     return place_under(p, c, 0.0, found)
 
 
@@ -64,16 +51,16 @@ def load_at_place(p, c, place, speed, found):
     Bisection with secant steps on the increasing curve of place over load, the quasi-static equilibrium in
     ``found``. A place that asks for a pull ends at no load: the ring then stands free of its balls.
     """
-    wanted = c[C_PRELOAD]
+    wanted = c[C.PRELOAD]
     low = 0.0
-    c[C_PRELOAD] = low
+    c[C.PRELOAD] = low
     below, status = place_under(p, c, speed, found)
     if status != OK or below >= place:
         return status
     high = max(wanted, 1.0)
     above = place
     for _ in range(_ROUNDS):
-        c[C_PRELOAD] = high
+        c[C.PRELOAD] = high
         above, status = place_under(p, c, speed, found)
         if status != OK:
             return status
@@ -87,7 +74,7 @@ def load_at_place(p, c, place, speed, found):
         margin = 0.02 * (high - low)
         if n % 3 == 2 or load <= low + 1e-3 * margin or load >= high - 1e-3 * margin:
             load = 0.5 * (low + high)
-        c[C_PRELOAD] = load
+        c[C.PRELOAD] = load
         here, status = place_under(p, c, speed, found)
         if status != OK or abs(here - place) < 1e-15 or high - low < 1e-9 * (1.0 + high):
             return status
@@ -106,8 +93,8 @@ def rigid_start(p, u, c, s, w, found):
     place, status = static_place(p, u, w)
     if status != OK:
         return status
-    s[S_PLACE] = place
-    return load_at_place(p, c, place, u[U_SPEED], found)
+    s[S.PLACE] = place
+    return load_at_place(p, c, place, u[U.SPEED], found)
 
 
 @kernel
@@ -117,11 +104,11 @@ def axial_speed(p, u, fresh, s, w, h):
     ``fresh``: the new conditions; the old ones in ``s`` tell whether the preload has changed. Where the
     static equilibrium is not found the ring stays.
     """
-    if fresh[C_PRELOAD] != s[S_C + C_PRELOAD]:
+    if fresh[C.PRELOAD] != s[S.C + C.PRELOAD]:
         place, status = static_place(p, u, w)
         if status == OK:
-            s[S_PLACE] = place
-    away = s[S_PLACE] - s[S_Y + Y_Q]
+            s[S.PLACE] = place
+    away = s[S.PLACE] - s[S.Y + Y.Q0]
     # rounding of the place is not worth a new speed, which would cost an evaluation each step
     if abs(away) < 1e-15:
         return 0.0

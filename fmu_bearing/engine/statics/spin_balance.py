@@ -9,10 +9,10 @@ import math
 
 from fmu_bearing.engine.elimination import eliminate
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import B_OM, J_B, P_LANES, STRIDE, W_ACC, W_F0, W_FORCE
+from fmu_bearing.engine.layout import J, P, W, Y
+from fmu_bearing.engine.layout.sizes import STRIDE
 from fmu_bearing.engine.newton.jacobian import jacobian
 
-_S = STRIDE
 _ROUNDS = 40
 # Largest change per round over the spin speed: half the default slide-to-roll ratio at which traction
 # saturates, so that one round does not cross from one sign of sliding to the other's plateau.
@@ -25,33 +25,33 @@ def residual(f, lanes):
     total = 0.0
     for i in range(2, 6):
         for j in range(lanes):
-            total += f[i * _S + j] * f[i * _S + j]
+            total += f[i * STRIDE + j] * f[i * STRIDE + j]
     return total
 
 
 @kernel
 def balance_spins(p, c, y, angle, speed, w, jac):
     """Move orbit and spin rates in ``y`` to their balance; leave them where Newton does not get there."""
-    lanes = int(p[P_LANES])
-    rows = w[W_FORCE * _S : (W_FORCE + 4) * _S]
+    lanes = int(p[P.LANES])
+    rows = w[W.FORCE : W.FORCE + 4 * STRIDE]
     first = 0.0
     last = 0.0
     for n in range(_ROUNDS):
         jacobian(p, c, y, angle, speed, 0.0, w, jac)
-        f = w[W_F0:]
+        f = w[W.F0 :]
         last = residual(f, lanes)
         if n == 0:
             first = last
-            for i in range(4 * _S):
-                w[W_ACC + i] = y[B_OM * _S + i]
+            for i in range(4 * STRIDE):
+                w[W.ACC + i] = y[Y.OM + i]
         if not (last > 1e-16 * first):
             break
         for j in range(lanes):
-            spin = math.sqrt(y[6 * _S + j] ** 2 + y[7 * _S + j] ** 2 + y[8 * _S + j] ** 2) + 1e-3
+            spin = math.sqrt(y[6 * STRIDE + j] ** 2 + y[7 * STRIDE + j] ** 2 + y[8 * STRIDE + j] ** 2) + 1e-3
             for i in range(4):
                 for k in range(4):
-                    rows[i * 5 + k] = jac[J_B + ((2 + i) * 9 + 5 + k) * _S + j]
-                rows[i * 5 + 4] = -f[(2 + i) * _S + j]
+                    rows[i * 5 + k] = jac[J.B + ((2 + i) * 9 + 5 + k) * STRIDE + j]
+                rows[i * 5 + 4] = -f[(2 + i) * STRIDE + j]
             if not eliminate(rows, 0, 4):
                 continue
             largest = 0.0
@@ -59,7 +59,7 @@ def balance_spins(p, c, y, angle, speed, w, jac):
                 largest = max(largest, abs(rows[i * 5 + 4]))
             share = min(1.0, _STRIDE_LIMIT * spin / (largest + 1e-300))
             for i in range(4):
-                y[(B_OM + i) * _S + j] += share * rows[i * 5 + 4]
+                y[Y.OM + i * STRIDE + j] += share * rows[i * 5 + 4]
     if not (last < 1e-4 * first):
-        for i in range(4 * _S):
-            y[B_OM * _S + i] = w[W_ACC + i]
+        for i in range(4 * STRIDE):
+            y[Y.OM + i] = w[W.ACC + i]

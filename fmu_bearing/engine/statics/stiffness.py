@@ -6,14 +6,7 @@ The ball is massless and free in its axial plane; centrifugal and friction force
 import math
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import (
-    C_RACE_SIZE,
-    C_RACES,
-    P_PITCH_RADIUS,
-    P_RACES,
-    RACE_SIZE,
-    RACE_STIFFNESS,
-)
+from fmu_bearing.engine.layout import C, P
 from fmu_bearing.engine.statics.ball_balance import seat
 
 
@@ -24,8 +17,8 @@ def contact(p, c, race, sx, sr):
     ``sx``, ``sr``: the ball's centre from the race's groove centre, axial and radial (m).
     """
     distance = math.sqrt(sx * sx + sr * sr)
-    approach = max(distance - c[C_RACES + race * C_RACE_SIZE + 2], 0.0)
-    load = p[P_RACES + race * RACE_SIZE + RACE_STIFFNESS] * approach * math.sqrt(approach)
+    approach = max(distance - c[C.RACES + race * C.RACE_SIZE + 2], 0.0)
+    load = p[P.RACES + race * P.RACE_SIZE + P.RACE_STIFFNESS] * approach * math.sqrt(approach)
     return load, sx / distance, sr / distance, approach, distance
 
 
@@ -51,8 +44,8 @@ def series_stiffness(p, c, x_i, r_i, x_o, r_o):
     qo, so, co, do, lo = contact(p, c, 1, x_o, r_o)
     if qi <= 0.0 or qo <= 0.0:
         return 0.0, 0.0, 0.0
-    ixx, ixr, irr = contact_stiffness(p[P_RACES + RACE_STIFFNESS], qi, di, li, si, ci)
-    oxx, oxr, orr = contact_stiffness(p[P_RACES + RACE_SIZE + RACE_STIFFNESS], qo, do, lo, so, co)
+    ixx, ixr, irr = contact_stiffness(p[P.RACES + P.RACE_STIFFNESS], qi, di, li, si, ci)
+    oxx, oxr, orr = contact_stiffness(p[P.RACES + P.RACE_SIZE + P.RACE_STIFFNESS], qo, do, lo, so, co)
     sxx = ixx + oxx
     sxr = ixr + oxr
     srr = irr + orr
@@ -96,7 +89,7 @@ def ball_share(p, c, pose, x, r, a):
     """
     for i in range(35):
         a[i] = 0.0
-    radius = p[P_PITCH_RADIUS] + r
+    radius = p[P.PITCH_RADIUS] + r
     qx = x - pose[0]
     qr = radius - pose[1]
     qt = -pose[2]

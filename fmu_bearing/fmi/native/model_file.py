@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from fmu_bearing.engine import layout
+from fmu_bearing.engine.layout import P, S, U, W, Z
 from fmu_bearing.fmi.description import LOG_CATEGORIES
 from fmu_bearing.fmi.resources import fingerprint
 from fmu_bearing.instance import CAUTIONS, REASONS, Caution
@@ -221,7 +221,7 @@ def model_bytes(model: "Model", guid: str, kernels_hash: str) -> bytes:
     -------
     bytes
     """
-    inputs = np.zeros(len(layout.INPUTS))
+    inputs = np.zeros(len(U.INPUTS))
     for variable in model.variables:
         if variable.array == "u" and variable.start is not None:
             inputs[variable.index] = variable.start
@@ -233,13 +233,13 @@ def model_bytes(model: "Model", guid: str, kernels_hash: str) -> bytes:
             fingerprint=fingerprint(model),
             parameters=parameters,
             inputs=inputs,
-            state_size=layout.state_size(parameters),
-            output_size=layout.z_size(model.n_balls, model.n_mics, model.n_bands, model.n_modes),
-            work_size=layout.work_size(parameters),
-            time=layout.S_TIME,
-            tunables=layout.P_VISCOSITY + 1,
+            state_size=S.size(parameters),
+            output_size=Z.size(model.n_balls, model.n_mics, model.n_bands, model.n_modes),
+            work_size=W.size(parameters),
+            time=S.TIME,
+            tunables=P.VISCOSITY + 1,
             variables=model.variables,
-            ramped=layout.U_SPEED,
+            ramped=U.SPEED,
             journal=_JOURNAL,
             journal_span=_JOURNAL_SPAN,
             reasons=REASONS,

@@ -14,7 +14,7 @@ from fmu_bearing.acoustics.radiation.bem.paths import bem_paths, task_of
 from fmu_bearing.acoustics.radiation.compact import compact_paths
 from fmu_bearing.acoustics.radiation.frequencies import fit_frequencies
 from fmu_bearing.acoustics.radiation.radiators import BALLS, CAGE, INNER, OUTER, Air, Housing, Radiators, Ring
-from fmu_bearing.engine import layout_sound as at
+from fmu_bearing.engine.layout import SD
 
 AIR = Air()
 BARE = Radiators(
@@ -39,14 +39,14 @@ def at_frequency(path, frequency):
 
 
 def test_channels_components_and_weights(paths):
-    assert sorted(paths) == [*range(6), *range(9, 13), *range(at.C_BALLS, at.c_flex(HARMONICS))]
+    assert sorted(paths) == [*range(6), *range(9, 13), *range(SD.C_BALLS, SD.c_flex(HARMONICS))]
     assert {paths[channel].component for channel in (0, 1, 2, 9, 10)} == {INNER}
     assert {paths[channel].component for channel in (3, 4, 5, 11, 12)} == {OUTER}
-    assert {path.component for channel, path in paths.items() if channel >= at.C_BALLS} == {BALLS}
+    assert {path.component for channel, path in paths.items() if channel >= SD.C_BALLS} == {BALLS}
     # y is -r sin(phi), z is r cos(phi)
     assert paths[4].weights == pytest.approx([0.0, -np.sin(0.5), -1.0])
     assert paths[5].weights == pytest.approx([1.0, np.cos(0.5), 0.0])
-    kinds = [at.KINDS[paths[channel].kind] for channel in (3, 4, 5, 11, 12, at.C_BALLS)]
+    kinds = [SD.KINDS[paths[channel].kind] for channel in (3, 4, 5, 11, 12, SD.C_BALLS)]
     assert kinds == ["axial", "radial", "radial", "rotation", "rotation", "balls"]
 
 
@@ -69,7 +69,7 @@ def test_interpolation_between_solved_frequencies(paths):
 
 def test_filters_follow_the_rings(paths):
     """-50 dB with at most 256 taps: a bare bearing has no resonance that rings longer than 5 ms."""
-    for channel in (0, 2, 3, 5, at.C_BALLS + 2):
+    for channel in (0, 2, 3, 5, SD.C_BALLS + 2):
         path = paths[channel]
         family = [np.abs(other.response) for other in paths.values() if other.component == path.component]
         taps, error = fit(path.response, path.flight, np.max(family, axis=0))
@@ -82,7 +82,7 @@ def test_outer_ring_shields_what_is_inside(paths):
     compact = {path.channel: path for path in compact_paths(BARE, AIR, 0.105, 0.02, [0.0], HARMONICS)}
     outer = abs(at_frequency(compact[5], 1000.0) / at_frequency(paths[5], 1000.0))
     assert 1.0 < outer < 1.41
-    radial_ball = at.C_BALLS + 2 + 2
+    radial_ball = SD.C_BALLS + 2 + 2
     assert abs(at_frequency(compact[radial_ball], 1000.0)) > 5.0 * abs(
         at_frequency(paths[radial_ball], 1000.0)
     )
@@ -101,7 +101,7 @@ def test_housing_moves_as_its_compact_twin_at_low_frequency():
     band.surface[0] = band.solve(200.0)
     found = abs(band.field(np.array([[0.0, 0.105]]))[0, solved.RADIAL + OUTER, 0])
     twin = compact_paths(radiators, AIR, 0.105, 0.0, [0.0], 0)
-    exact = abs(at_frequency(next(path for path in twin if path.channel == at.C_OUTER + 2), 200.0))
+    exact = abs(at_frequency(next(path for path in twin if path.channel == SD.C_OUTER + 2), 200.0))
     assert abs(20.0 * np.log10(found / exact)) < 1.1
 
 

@@ -21,7 +21,7 @@ from fmu_bearing.acoustics.radiation.bem.solution import (
 )
 from fmu_bearing.acoustics.radiation.frequencies import fit_frequencies
 from fmu_bearing.acoustics.radiation.radiators import BALLS, Air, Path, Radiators
-from fmu_bearing.engine import layout_sound as at
+from fmu_bearing.engine.layout import SD
 
 
 def task_of(
@@ -104,11 +104,11 @@ def _body_paths(response: NDArray[np.complex128], flight: float, angles: NDArray
     paths = []
     for body in range(BODIES):
         parts = (
-            (3 * body, AXIAL + body, one, at.AXIAL),
-            (3 * body + 1, RADIAL + body, -sine, at.RADIAL),
-            (3 * body + 2, RADIAL + body, cosine, at.RADIAL),
-            (at.C_TILTS + 2 * body, TILT + body, cosine, at.ROTATION),
-            (at.C_TILTS + 2 * body + 1, TILT + body, sine, at.ROTATION),
+            (3 * body, AXIAL + body, one, SD.AXIAL),
+            (3 * body + 1, RADIAL + body, -sine, SD.RADIAL),
+            (3 * body + 2, RADIAL + body, cosine, SD.RADIAL),
+            (SD.C_TILTS + 2 * body, TILT + body, cosine, SD.ROTATION),
+            (SD.C_TILTS + 2 * body + 1, TILT + body, sine, SD.ROTATION),
         )
         for channel, drive, weights, kind in parts:
             if np.any(response[drive]):
@@ -125,11 +125,11 @@ def _mode_paths(
 ) -> list[Path]:
     """Two coordinates of every flexural mode: cos and sin of n times the angle."""
     paths = []
-    first = at.c_flex(harmonics)
+    first = SD.c_flex(harmonics)
     for i, mode in enumerate(modes):
         for k, weights in enumerate((np.cos(mode.order * angles), np.sin(mode.order * angles))):
             drive = response[3 * BODIES + i]
-            paths.append(Path(int(mode.body), first + 2 * i + k, flight, drive, weights, at.FLEXURE))
+            paths.append(Path(int(mode.body), first + 2 * i + k, flight, drive, weights, SD.FLEXURE))
     return paths
 
 
@@ -149,10 +149,10 @@ def _ball_paths(
                 continue  # tangential accelerations alike all round make no sound
             drive = response[solved.ball_drive(m, axis)]
             first, second = (sine, -cosine) if axis == 2 else (cosine, sine)
-            channel = at.C_BALLS + axis if m == 0 else at.C_BALLS + 2 + 6 * (m - 1) + 2 * axis
-            paths.append(Path(BALLS, channel, flight, drive, first, at.BALLS_KIND))
+            channel = SD.C_BALLS + axis if m == 0 else SD.C_BALLS + 2 + 6 * (m - 1) + 2 * axis
+            paths.append(Path(BALLS, channel, flight, drive, first, SD.BALLS_KIND))
             if m > 0:
-                paths.append(Path(BALLS, channel + 1, flight, drive, second, at.BALLS_KIND))
+                paths.append(Path(BALLS, channel + 1, flight, drive, second, SD.BALLS_KIND))
     return paths
 
 

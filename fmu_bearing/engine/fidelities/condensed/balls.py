@@ -18,62 +18,15 @@ import math
 
 import numpy as np
 
+from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.dense import times
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import (
-    C_OVERSIZE_SCALE,
-    C_RACE_SIZE,
-    C_RACES,
-    F_G,
-    F_SIZE,
-    F_WORK,
-    GRAVITY,
-    P_AT_WAVES,
-    P_BALL_MASS,
-    P_CONTACT_DAMPING,
-    P_GRAVITY,
-    P_LANES,
-    P_PITCH_RADIUS,
-    P_RACES,
-    P_WAVINESS,
-    Q_OUTER,
-    RACE_SIZE,
-    RACE_STIFFNESS,
-    STRIDE,
-    W_F,
-    W_Y,
-    WAVE_INTERVALS,
-    Y_Q,
-    Y_SIZE,
-    Y_V,
-)
-from fmu_bearing.engine.layout_condensed import (
-    E_BEND,
-    E_COS,
-    E_FORCE,
-    E_INNER,
-    E_MOVED,
-    E_R,
-    E_SIN,
-    E_STEP,
-    E_X,
-    L_COS,
-    L_EXTRA,
-    L_MASK,
-    L_PAIR_INNER,
-    L_PAIR_OUTER,
-    L_PHI,
-    L_RATIO,
-    L_SETTLED,
-    L_SIN,
-    L_SIZES,
-    L_TWIST,
-)
+from fmu_bearing.engine.layout import C, F, L, P, Q, T, W, Y
+from fmu_bearing.engine.layout.sizes import STRIDE
 from fmu_bearing.engine.mechanics.bodies import inner_ring, outer_ring
 from fmu_bearing.engine.mechanics.pose import axis_cosine
 
-_S = STRIDE
-_PER_RADIAN = WAVE_INTERVALS / 6.283185307179586
+_PER_RADIAN = P.WAVE_INTERVALS / 6.283185307179586
 _FLOOR = 1e3  # N/m: keeps a ball without contact from being thrown far; 1e-5 of a loaded contact
 _LONGEST = 2e-6  # m: move of a ball in one sweep, about the approach of a loaded contact
 # Sum over the balls of squared moves (m2) below which the first-order forces serve: 9 nm each, whose second
@@ -90,37 +43,37 @@ def stand(p, c, lv, theta, inner_angle, outer_angle, speed, w):
     ``theta``: angle of ball 0; all are evenly spaced. Heights contain half the ball's diameter deviation;
     their second derivatives by time (m/s2) are those of the table's cubics at the ``speed`` of the shaft.
     """
-    lanes = int(p[P_LANES])
+    lanes = int(p[P.LANES])
     c0 = math.cos(theta)
     s0 = math.sin(theta)
-    scale = c[C_OVERSIZE_SCALE]
+    scale = c[C.OVERSIZE_SCALE]
     for j in range(lanes):
-        co = lv[L_COS + j]
-        si = lv[L_SIN + j]
-        size = scale * lv[L_SIZES + j]
-        w[E_COS * _S + j] = c0 * co - s0 * si
-        w[E_SIN * _S + j] = s0 * co + c0 * si
-        w[E_INNER * _S + j] = size
-        w[(E_INNER + 1) * _S + j] = size
-        w[E_BEND * _S + j] = 0.0
-        w[(E_BEND + 1) * _S + j] = 0.0
-    if p[P_WAVINESS] == 0.0 or scale == 0.0:
+        co = lv[L.COS + j]
+        si = lv[L.SIN + j]
+        size = scale * lv[L.SIZES + j]
+        w[T.COS + j] = c0 * co - s0 * si
+        w[T.SIN + j] = s0 * co + c0 * si
+        w[T.INNER + j] = size
+        w[T.INNER + STRIDE + j] = size
+        w[T.BEND + j] = 0.0
+        w[T.BEND + STRIDE + j] = 0.0
+    if p[P.WAVINESS] == 0.0 or scale == 0.0:
         return
     for race in range(2):
-        table = int(p[P_AT_WAVES]) + race * 2 * WAVE_INTERVALS
+        table = int(p[P.AT_WAVES]) + race * 2 * P.WAVE_INTERVALS
         start = (theta - (inner_angle if race == 0 else outer_angle)) * _PER_RADIAN
-        row = (E_INNER + race) * _S
-        bend = (E_BEND + race) * _S
-        rate = (lv[L_RATIO] - (1.0 if race == 0 else 0.0)) * speed * _PER_RADIAN
+        row = T.INNER + race * STRIDE
+        bend = T.BEND + race * STRIDE
+        rate = (lv[L.RATIO] - (1.0 if race == 0 else 0.0)) * speed * _PER_RADIAN
         scale2 = 2.0 * scale * rate * rate
         for j in range(lanes):
-            place = start + lv[L_PHI + j]
+            place = start + lv[L.PHI + j]
             floor = math.floor(place)
             t = place - floor
             # 32-bit integers: conversion and gathered loads are then vector instructions
             whole = np.int32(floor)
-            i0 = 2 * (whole & np.int32(WAVE_INTERVALS - 1))
-            i1 = 2 * ((whole + np.int32(1)) & np.int32(WAVE_INTERVALS - 1))
+            i0 = 2 * (whole & np.int32(P.WAVE_INTERVALS - 1))
+            i1 = 2 * ((whole + np.int32(1)) & np.int32(P.WAVE_INTERVALS - 1))
             h0 = p[table + i0]
             g0 = p[table + i0 + 1]
             h1 = p[table + i1]
@@ -168,36 +121,36 @@ def sweep(p, c, lv, speed, q, w):
     ``E_X``, ``E_R`` of ``w`` and are moved; rows ``E_FORCE`` on take forces and moments, ``E_STEP`` the
     squares of the moves that matter, ``E_MOVED`` of all.
     """
-    lanes = int(p[P_LANES])
-    pitch = p[P_PITCH_RADIUS]
+    lanes = int(p[P.LANES])
+    pitch = p[P.PITCH_RADIUS]
     ux, uy, uz, uby, ubz = q[0], q[1], q[2], q[3], q[4]
     vx, vy, vz, vby, vbz = q[5], q[6], q[7], q[9], q[10]
     un = axis_cosine(uby, ubz)
     vn = axis_cosine(vby, vbz)
-    hertz_i = p[P_RACES + RACE_STIFFNESS]
-    hertz_o = p[P_RACES + RACE_SIZE + RACE_STIFFNESS]
-    gx_i, gr_i, free_i = c[C_RACES], c[C_RACES + 1], c[C_RACES + 2]
-    o = C_RACES + C_RACE_SIZE
+    hertz_i = p[P.RACES + P.RACE_STIFFNESS]
+    hertz_o = p[P.RACES + P.RACE_SIZE + P.RACE_STIFFNESS]
+    gx_i, gr_i, free_i = c[C.RACES], c[C.RACES + 1], c[C.RACES + 2]
+    o = C.RACES + C.RACE_SIZE
     gx_o, gr_o, free_o = c[o], c[o + 1], c[o + 2]
-    pair_i = lv[L_PAIR_INNER] * speed * speed
-    pair_o = lv[L_PAIR_OUTER] * speed * speed
-    orbit = lv[L_RATIO] * speed
-    mass = p[P_BALL_MASS]
+    pair_i = lv[L.PAIR_INNER] * speed * speed
+    pair_o = lv[L.PAIR_OUTER] * speed * speed
+    orbit = lv[L.RATIO] * speed
+    mass = p[P.BALL_MASS]
     pull = mass * orbit * orbit
-    weight = GRAVITY * p[P_BALL_MASS] if p[P_GRAVITY] != 0.0 else 0.0
+    weight = GRAVITY * p[P.BALL_MASS] if p[P.GRAVITY] != 0.0 else 0.0
     for j in range(lanes):
-        co = w[E_COS * _S + j]
-        si = w[E_SIN * _S + j]
-        x = w[E_X * _S + j]
-        r = w[E_R * _S + j]
+        co = w[T.COS + j]
+        si = w[T.SIN + j]
+        x = w[T.X + j]
+        r = w[T.R + j]
         radius = pitch + r
         qx, qr, qt, nr, nt, axial, rho, hx, hr, ht = seen(co, si, x, radius, ux, uy, uz, uby, ubz, un)
-        load, kn, kt, sa, ca = pressed_by(hertz_i, free_i, w[E_INNER * _S + j], axial - gx_i, rho - gr_i)
+        load, kn, kt, sa, ca = pressed_by(hertz_i, free_i, w[T.INNER + j], axial - gx_i, rho - gr_i)
         ex, er, et = sa * un + ca * hx, sa * nr + ca * hr, sa * nt + ca * ht
         mx, mr, mt = ca * un - sa * hx, ca * nr - sa * hr, ca * nt - sa * ht
         px, pr, pt, lr, lt, axial2, rho2, kx, kr, k_t = seen(co, si, x, radius, vx, vy, vz, vby, vbz, vn)
         load2, kn2, kt2, sa2, ca2 = pressed_by(
-            hertz_o, free_o, w[(E_INNER + 1) * _S + j], axial2 - gx_o, rho2 - gr_o
+            hertz_o, free_o, w[T.INNER + STRIDE + j], axial2 - gx_o, rho2 - gr_o
         )
         fx, fr, ft = sa2 * vn + ca2 * kx, sa2 * lr + ca2 * kr, sa2 * lt + ca2 * k_t
         tx, tr, tt = ca2 * vn - sa2 * kx, ca2 * lr - sa2 * kr, ca2 * lt - sa2 * k_t
@@ -210,8 +163,8 @@ def sweep(p, c, lv, speed, q, w):
         per = 1.0 / (kxx * krr - kxr * kxr)
         # waves push the ball away from their race; the ball's inertia resists
         # (not where a contact carries less than about 1 N: with a jump there, balls would find no rest)
-        pushed_i = kn * w[E_BEND * _S + j] * (load * load / (load * load + 1.0))
-        pushed_o = kn2 * w[(E_BEND + 1) * _S + j] * (load2 * load2 / (load2 * load2 + 1.0))
+        pushed_i = kn * w[T.BEND + j] * (load * load / (load * load + 1.0))
+        pushed_o = kn2 * w[T.BEND + STRIDE + j] * (load2 * load2 / (load2 * load2 + 1.0))
         bx0 = pushed_i * ex + pushed_o * fx
         br0 = pushed_i * er + pushed_o * fr
         netx += mass * (bx0 * krr - br0 * kxr) * per
@@ -222,15 +175,15 @@ def sweep(p, c, lv, speed, q, w):
         share = min(1.0, _LONGEST / (length + 1e-300))
         dx *= share
         dr *= share
-        w[E_X * _S + j] = x + dx
-        w[E_R * _S + j] = r + dr
-        mask = lv[L_MASK + j]
+        w[T.X + j] = x + dx
+        w[T.R + j] = r + dr
+        mask = lv[L.MASK + j]
         # a ball that touches neither race goes towards one, but nothing waits for it
         touching = mask if load + load2 > 0.0 else 0.0
         # one that barely touches moves far for forces that nobody feels: 3e-8 m times _SOFT is 0.03 N
         felt = (netx * netx + netr * netr) * (1.0 / (_SOFT * _SOFT))
-        w[E_MOVED * _S + j] = dx * dx + dr * dr
-        w[E_STEP * _S + j] = touching * min(dx * dx + dr * dr, felt)
+        w[T.MOVED + j] = dx * dx + dr * dr
+        w[T.STEP + j] = touching * min(dx * dx + dr * dr, felt)
         # on the inner ring, at the moved ball
         along = load + kn * (ex * dx + er * dr)
         across = pair_i + kt * (mx * dx + mr * dr)
@@ -239,11 +192,11 @@ def sweep(p, c, lv, speed, q, w):
         at = mask * (along * et + across * mt)
         gr = qt * ax - (qx + dx) * at
         gt = (qx + dx) * ar - (qr + dr) * ax
-        w[E_FORCE * _S + j] = ax
-        w[(E_FORCE + 1) * _S + j] = -si * ar - co * at
-        w[(E_FORCE + 2) * _S + j] = co * ar - si * at
-        w[(E_FORCE + 3) * _S + j] = -si * gr - co * gt
-        w[(E_FORCE + 4) * _S + j] = co * gr - si * gt
+        w[T.FORCE + j] = ax
+        w[T.FORCE + STRIDE + j] = -si * ar - co * at
+        w[T.FORCE + 2 * STRIDE + j] = co * ar - si * at
+        w[T.FORCE + 3 * STRIDE + j] = -si * gr - co * gt
+        w[T.FORCE + 4 * STRIDE + j] = co * gr - si * gt
         along2 = load2 + kn2 * (fx * dx + fr * dr)
         across2 = pair_o + kt2 * (tx * dx + tr * dr)
         bx = mask * (along2 * fx + across2 * tx)
@@ -251,11 +204,11 @@ def sweep(p, c, lv, speed, q, w):
         bt = mask * (along2 * ft + across2 * tt)
         hr2 = pt * bx - (px + dx) * bt
         ht2 = (px + dx) * br - (pr + dr) * bx
-        w[(E_FORCE + 5) * _S + j] = bx
-        w[(E_FORCE + 6) * _S + j] = -si * br - co * bt
-        w[(E_FORCE + 7) * _S + j] = co * br - si * bt
-        w[(E_FORCE + 8) * _S + j] = -si * hr2 - co * ht2
-        w[(E_FORCE + 9) * _S + j] = co * hr2 - si * ht2
+        w[T.FORCE + 5 * STRIDE + j] = bx
+        w[T.FORCE + 6 * STRIDE + j] = -si * br - co * bt
+        w[T.FORCE + 7 * STRIDE + j] = co * br - si * bt
+        w[T.FORCE + 8 * STRIDE + j] = -si * hr2 - co * ht2
+        w[T.FORCE + 9 * STRIDE + j] = co * hr2 - si * ht2
 
 
 @kernel
@@ -265,7 +218,7 @@ def sum_row(row, lanes, w):
     b = 0.0
     d = 0.0
     e = 0.0
-    at = row * _S
+    at = row
     for j in range(0, lanes, 4):
         a += w[at + j]
         b += w[at + j + 1]
@@ -278,8 +231,8 @@ def sum_row(row, lanes, w):
 def sum_forces(lanes, w, f):
     """Write the sums of the force rows over the balls, four at a time, into the rings' rows of ``f``."""
     for i in range(5):
-        a = (E_FORCE + i) * _S
-        b = (E_FORCE + 5 + i) * _S
+        a = T.FORCE + i * STRIDE
+        b = T.FORCE + 5 * STRIDE + i * STRIDE
         a0 = w[a]
         a1 = w[a + 1]
         a2 = w[a + 2]
@@ -297,17 +250,17 @@ def sum_forces(lanes, w, f):
             b1 += w[b + j + 1]
             b2 += w[b + j + 2]
             b3 += w[b + j + 3]
-        f[F_G + i] = (a0 + a1) + (a2 + a3)
-        f[F_G + Q_OUTER + (i if i < 3 else i + 1)] = (b0 + b1) + (b2 + b3)
+        f[F.BODY + i] = (a0 + a1) + (a2 + a3)
+        f[F.BODY + Q.OUTER + (i if i < 3 else i + 1)] = (b0 + b1) + (b2 + b3)
 
 
 @kernel
 def carried(p, c, lv, speed, q, w):
     """Sweep until the first-order forces serve; False where the balls find no rest in bounded work."""
-    lanes = int(p[P_LANES])
+    lanes = int(p[P.LANES])
     for _ in range(_SWEEPS):
         sweep(p, c, lv, speed, q, w)
-        if sum_row(E_STEP, lanes, w) < _CLOSE:
+        if sum_row(T.STEP, lanes, w) < _CLOSE:
             return True
     return False
 
@@ -316,8 +269,8 @@ def carried(p, c, lv, speed, q, w):
 def count_settled(lv, lanes, w):
     """Count per ball the places in a row that are places of rest: only between those is there a rate."""
     for j in range(lanes):
-        resting = w[E_MOVED * _S + j] < _CLOSE
-        lv[L_SETTLED + j] = lv[L_SETTLED + j] + 1.0 if resting else 0.0
+        resting = w[T.MOVED + j] < _CLOSE
+        lv[L.SETTLED + j] = lv[L.SETTLED + j] + 1.0 if resting else 0.0
 
 
 @kernel
@@ -326,21 +279,21 @@ def accelerations(p, c, lv, angle, speed, speed_rate, q, w):
 
     ``q``: scratch for 12 numbers. Balls, angles and race heights stand in the rows of ``w`` (:func:`stand`).
     """
-    tau = p[P_CONTACT_DAMPING]
+    tau = p[P.CONTACT_DAMPING]
     for i in range(11):
-        q[i] = w[W_Y + Y_Q + i] + tau * w[W_Y + Y_V + i]
+        q[i] = w[W.STAGE + Y.Q0 + i] + tau * w[W.STAGE + Y.V0 + i]
     if not carried(p, c, lv, speed, q, w):
         return False
-    lanes = int(p[P_LANES])
-    f = w[W_F : W_F + F_SIZE]
-    for i in range(F_WORK, F_SIZE):
+    lanes = int(p[P.LANES])
+    f = w[W.F : W.F + F.SIZE]
+    for i in range(F.WORK, F.SIZE):
         f[i] = 0.0
     sum_forces(lanes, w, f)
-    f[F_G + Q_OUTER + 3] = lv[L_TWIST]
-    y = w[W_Y : W_Y + Y_SIZE]
+    f[F.BODY + Q.OUTER + 3] = lv[L.TWIST]
+    y = w[W.STAGE : W.STAGE + Y.SIZE]
     inner_ring(p, c, y, angle, speed, speed_rate, f)
     outer_ring(p, c, y, f)
-    times(lv, L_EXTRA, y, Y_V, q, 0)
+    times(lv, L.EXTRA, y, Y.V0, q, 0)
     for i in range(11):
-        f[F_G + i] += q[i]
+        f[F.BODY + i] += q[i]
     return True

@@ -11,22 +11,10 @@ import math
 
 from fmu_bearing.engine.dense import eigenvectors, solve_complex
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import C_SIZE, J_B, J_C, J_D, J_E, P_BALLS, S_JAC, S_LEVEL, STRIDE, Y_SIZE
-from fmu_bearing.engine.layout_condensed import (
-    L_C,
-    L_EXTRA,
-    L_FOUND_SPEED,
-    L_JV,
-    L_JX,
-    L_MASS,
-    L_Y,
-    MATRIX,
-    T_SPARE,
-    N,
-)
+from fmu_bearing.engine.layout import C, J, L, P, S, T, Y
+from fmu_bearing.engine.layout.sizes import STRIDE
 from fmu_bearing.engine.newton.jacobian import inertia, jacobian
 
-_S = STRIDE
 _SLOWEST = 300.0  # rad/s: slower motions feel the supports, not the balls
 _MOST = 0.6  # damping added to a mode at most, over its frequency: a ratio of 0.3
 
@@ -38,25 +26,25 @@ def taken(p, jac, shape, omega, w):
     ``shape``: 11 numbers, then the same times the rings' masses, scaled to modal mass 1. Returns minus the
     imaginary part of the projected accelerations over ``omega``; -1 where a ball cannot be eliminated.
     """
-    re = w[T_SPARE + 400 : T_SPARE + 442]
-    im = w[T_SPARE + 442 : T_SPARE + 484]
+    re = w[T.SPARE + 400 : T.SPARE + 442]
+    im = w[T.SPARE + 442 : T.SPARE + 484]
     total = 0.0
-    for i in range(N):
-        for k in range(N):
-            total += shape[N + i] * jac[J_E + i * 34 + 17 + k] * shape[k] * omega
-    for j in range(int(p[P_BALLS])):
+    for i in range(L.N):
+        for k in range(L.N):
+            total += shape[L.N + i] * jac[J.E + i * 34 + 17 + k] * shape[k] * omega
+    for j in range(int(p[P.BALLS])):
         for i in range(6):
             for k in range(6):
-                row = J_B + i * 9 * _S + j
-                re[i * 7 + k] = -jac[row + (3 + k) * _S]
+                row = J.B + i * 9 * STRIDE + j
+                re[i * 7 + k] = -jac[row + (3 + k) * STRIDE]
                 im[i * 7 + k] = omega if i == k else 0.0
                 if k < 3:
-                    im[i * 7 + k] += jac[row + k * _S] / omega
+                    im[i * 7 + k] += jac[row + k * STRIDE] / omega
             still = 0.0
             moving = 0.0
-            for k in range(N):
-                still += jac[J_C + (i * 34 + k) * _S + j] * shape[k]
-                moving += jac[J_C + (i * 34 + 17 + k) * _S + j] * shape[k]
+            for k in range(L.N):
+                still += jac[J.C + (i * 34 + k) * STRIDE + j] * shape[k]
+                moving += jac[J.C + (i * 34 + 17 + k) * STRIDE + j] * shape[k]
             re[i * 7 + 6] = still
             im[i * 7 + 6] = omega * moving
         if not solve_complex(re, im, 6):
@@ -64,10 +52,10 @@ def taken(p, jac, shape, omega, w):
         for k in range(6):
             by_rate = 0.0
             by_place = 0.0
-            for i in range(N):
-                by_rate += shape[N + i] * jac[J_D + (i * 9 + 3 + k) * _S + j]
+            for i in range(L.N):
+                by_rate += shape[L.N + i] * jac[J.D + (i * 9 + 3 + k) * STRIDE + j]
                 if k < 3:
-                    by_place += shape[N + i] * jac[J_D + (i * 9 + k) * _S + j]
+                    by_place += shape[L.N + i] * jac[J.D + (i * 9 + k) * STRIDE + j]
             # a ball's place is its rate over i omega
             total += by_rate * im[k * 7 + 6] - by_place * re[k * 7 + 6] / omega
     return -total / omega
@@ -76,40 +64,39 @@ def taken(p, jac, shape, omega, w):
 @kernel
 def add_damping(p, s, w):
     """Fill ``L_EXTRA`` from the derivatives in ``lv`` (made with it at zero) and the quasi-static point."""
-    lv = s[S_LEVEL:]
-    jac = s[S_JAC:S_LEVEL]
-    jacobian(
-        p, lv[L_C : L_C + C_SIZE], lv[L_Y : L_Y + Y_SIZE], 0.0, lv[L_FOUND_SPEED], 0.0, w, jac
-    )  # fmt: skip
-    values = T_SPARE
-    vectors = T_SPARE + N * N
-    mass = vectors + N * N
-    shape = w[mass + N * N : mass + N * N + 2 * N]
+    lv = s[S.CONDENSED :]
+    jac = s[S.JAC : S.CONDENSED]
+    c = lv[L.CONDITIONS : L.CONDITIONS + C.SIZE]
+    jacobian(p, c, lv[L.Y0 : L.Y0 + Y.SIZE], 0.0, lv[L.FOUND_SPEED], 0.0, w, jac)
+    values = T.SPARE
+    vectors = T.SPARE + L.N * L.N
+    mass = vectors + L.N * L.N
+    shape = w[mass + L.N * L.N : mass + L.N * L.N + 2 * L.N]
     modes(p, lv, w, values, vectors, mass)
-    for k in range(N):
-        squared = w[values + k * N + k]
+    for k in range(L.N):
+        squared = w[values + k * L.N + k]
         if not (squared > _SLOWEST * _SLOWEST and squared < 1e14):
             continue
         omega = math.sqrt(squared)
         own = 0.0
-        for i in range(N):
-            shape[i] = w[vectors + i * N + k]
-            shape[N + i] = shape[i] * inertia(p, i)
-        for i in range(N):
-            for m in range(N):
-                own -= shape[N + i] * lv[L_JV + i + 12 * m] * shape[m]
+        for i in range(L.N):
+            shape[i] = w[vectors + i * L.N + k]
+            shape[L.N + i] = shape[i] * inertia(p, i)
+        for i in range(L.N):
+            for m in range(L.N):
+                own -= shape[L.N + i] * lv[L.JV + i + 12 * m] * shape[m]
         extra = taken(p, jac, shape, omega, w) - own
         if not (extra > 0.0):
             continue
         extra = min(extra, _MOST * omega)
-        for i in range(N):
+        for i in range(L.N):
             left = 0.0
-            for m in range(N):
-                left += lv[L_MASS + i + 12 * m] * shape[m]
+            for m in range(L.N):
+                left += lv[L.MASS + i + 12 * m] * shape[m]
             w[mass + i] = left
-        for i in range(N):
-            for m in range(N):
-                lv[L_EXTRA + i + 12 * m] -= w[mass + i] * extra * w[mass + m] * inertia(p, m)
+        for i in range(L.N):
+            for m in range(L.N):
+                lv[L.EXTRA + i + 12 * m] -= w[mass + i] * extra * w[mass + m] * inertia(p, m)
 
 
 @kernel
@@ -119,38 +106,40 @@ def modes(p, lv, w, values, vectors, mass):
     The mass matrix is own masses times ``L_MASS``, symmetric; the stiffness is symmetrised. First the mass
     matrix is diagonalised, then the stiffness in the coordinates where the mass is the identity.
     """
-    for i in range(N):
-        for k in range(N):
+    for i in range(L.N):
+        for k in range(L.N):
             scale = math.sqrt(inertia(p, i) / inertia(p, k))
             back = 1.0 / scale
-            w[values + i * N + k] = 0.5 * (scale * lv[L_MASS + i + 12 * k] + back * lv[L_MASS + k + 12 * i])
-    eigenvectors(w, values, w, vectors, N)
+            w[values + i * L.N + k] = 0.5 * (scale * lv[L.MASS + i + 12 * k] + back * lv[L.MASS + k + 12 * i])
+    eigenvectors(w, values, w, vectors, L.N)
     # columns over the roots of the values: U with U^T M U = 1
-    for k in range(N):
-        root = 1.0 / math.sqrt(max(w[values + k * N + k], 1e-12))
-        for i in range(N):
-            w[mass + i * N + k] = w[vectors + i * N + k] * root / math.sqrt(inertia(p, i))
-    for i in range(N):
-        for k in range(N):
+    for k in range(L.N):
+        root = 1.0 / math.sqrt(max(w[values + k * L.N + k], 1e-12))
+        for i in range(L.N):
+            w[mass + i * L.N + k] = w[vectors + i * L.N + k] * root / math.sqrt(inertia(p, i))
+    for i in range(L.N):
+        for k in range(L.N):
             total = 0.0
-            for m in range(N):
-                for n in range(N):
-                    total -= w[mass + m * N + i] * inertia(p, m) * lv[L_JX + m + 12 * n] * w[mass + n * N + k]
-            w[values + i * N + k] = total
-    for i in range(N):
+            for m in range(L.N):
+                for n in range(L.N):
+                    total -= (
+                        w[mass + m * L.N + i] * inertia(p, m) * lv[L.JX + m + 12 * n] * w[mass + n * L.N + k]
+                    )
+            w[values + i * L.N + k] = total
+    for i in range(L.N):
         for k in range(i):
-            mean = 0.5 * (w[values + i * N + k] + w[values + k * N + i])
-            w[values + i * N + k] = mean
-            w[values + k * N + i] = mean
-    eigenvectors(w, values, w, vectors, N)
+            mean = 0.5 * (w[values + i * L.N + k] + w[values + k * L.N + i])
+            w[values + i * L.N + k] = mean
+            w[values + k * L.N + i] = mean
+    eigenvectors(w, values, w, vectors, L.N)
     # back to ring coordinates, row by row through the columns just found
-    for i in range(N):
-        for k in range(N):
+    for i in range(L.N):
+        for k in range(L.N):
             total = 0.0
-            for m in range(N):
-                total += w[mass + i * N + m] * w[vectors + m * N + k]
-            lv[L_EXTRA + i * N + k] = total
-    for i in range(N * N):
-        w[vectors + i] = lv[L_EXTRA + i]
-    for i in range(MATRIX):
-        lv[L_EXTRA + i] = 0.0
+            for m in range(L.N):
+                total += w[mass + i * L.N + m] * w[vectors + m * L.N + k]
+            lv[L.EXTRA + i * L.N + k] = total
+    for i in range(L.N * L.N):
+        w[vectors + i] = lv[L.EXTRA + i]
+    for i in range(L.MATRIX):
+        lv[L.EXTRA + i] = 0.0

@@ -12,70 +12,15 @@ renewal costs some 30 evaluations of the full right-hand side with its Jacobian.
 
 from fmu_bearing.engine.fidelities.full.start import place_balls, place_cage
 from fmu_bearing.engine.jit import inlined, kernel
-from fmu_bearing.engine.layout import (
-    B_OM,
-    B_R,
-    B_WX,
-    C_BALL_RADIUS,
-    C_LOAD_Y,
-    C_LOAD_Z,
-    C_OVERSIZE_SCALE,
-    C_PEDESTAL,
-    C_PEDESTAL_AXIAL,
-    C_PRELOAD,
-    C_RACE_SIZE,
-    C_RACES,
-    C_SIZE,
-    C_VISCOSITY,
-    F_HEAT,
-    F_SIZE,
-    OK,
-    P_BALL_INERTIA,
-    P_BALLS,
-    P_CAGE,
-    P_GYROSCOPIC,
-    P_LANES,
-    P_RACE_CONTROL,
-    Q5_OM,
-    Q5_SHIFT,
-    Q5_SIZE,
-    Q5_WR,
-    Q_CAGE,
-    Q_OUTER,
-    S_F,
-    S_JAC,
-    S_LEVEL,
-    S_LOSS,
-    S_Y,
-    STRIDE,
-    W_ACC,
-    W_BLOCK_A,
-    W_G,
-    W_SCALARS,
-    W_VEL,
-    Y_Q,
-    Y_SIZE,
-    Y_V,
-)
-from fmu_bearing.engine.layout_condensed import (
-    L_C,
-    L_FOUND_SPEED,
-    L_HEAT,
-    L_PAIR_INNER,
-    L_PAIR_OUTER,
-    L_RATIO,
-    L_SPIN,
-    L_TORQUE,
-    L_TWIST,
-    L_Y,
-)
+from fmu_bearing.engine.layout import EQ, C, F, L, P, Q, S, W, Y
+from fmu_bearing.engine.layout.sizes import STRIDE
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.readout.losses import summarise
 from fmu_bearing.engine.statics.mounted import mounted_equilibrium
 from fmu_bearing.engine.statics.spin_balance import balance_spins
+from fmu_bearing.engine.status import OK
 
-_S = STRIDE
 _STANDSTILL = 1.0  # rad/s: slower shafts are given the ratios of this speed
 
 
@@ -86,12 +31,12 @@ def quasistatic_point(p, c, speed, y, w):
     Returns ``(status, mean over the balls of orbit speed times spin about r, (rad/s)^2)``. The one place
     that knows the quasi-static kernel.
     """
-    load = w[W_SCALARS + 8 : W_SCALARS + 13]
-    tilt = w[W_SCALARS + 13 : W_SCALARS + 15]
-    found = w[W_VEL : W_VEL + Q5_SIZE]
+    load = w[W.SCALARS + 8 : W.SCALARS + 13]
+    tilt = w[W.SCALARS + 13 : W.SCALARS + 15]
+    found = w[W.VEL : W.VEL + EQ.SIZE]
     for i in range(1, 5):
         load[i] = 0.0
-    load[0] = c[C_PRELOAD]
+    load[0] = c[C.PRELOAD]
     status = mounted_equilibrium(p, c, speed, load, 0.0, tilt, found, w)
     if status != OK:
         # as in `start`: a ring without axial load is given a little
@@ -99,22 +44,22 @@ def quasistatic_point(p, c, speed, y, w):
         status = mounted_equilibrium(p, c, speed, load, 0.0, tilt, found, w)
     if status != OK:
         return status, 0.0
-    for i in range(Y_SIZE):
+    for i in range(Y.SIZE):
         y[i] = 0.0
-    o = Y_Q + Q_OUTER
-    y[o] = c[C_PRELOAD] / c[C_PEDESTAL_AXIAL]
+    o = Y.Q0 + Q.OUTER
+    y[o] = c[C.PRELOAD] / c[C.PEDESTAL_AXIAL]
     for i in range(2):
         y[o + 4 + i] = tilt[i]
-        y[Y_Q + 3 + i] = tilt[i] + found[Q5_SHIFT + 3 + i]
+        y[Y.Q0 + 3 + i] = tilt[i] + found[EQ.SHIFT + 3 + i]
     for i in range(3):
-        y[Y_Q + i] = y[o + i] + found[Q5_SHIFT + i]
+        y[Y.Q0 + i] = y[o + i] + found[EQ.SHIFT + i]
     place_balls(p, y, found, y[o], y[o + 1], y[o + 2])
-    if p[P_CAGE] != 0.0:
+    if p[P.CAGE] != 0.0:
         place_cage(p, y, found, y[o])
     gyroscopic = 0.0
-    balls = int(p[P_BALLS])
+    balls = int(p[P.BALLS])
     for j in range(balls):
-        gyroscopic += found[Q5_OM + j] * found[Q5_WR + j] / balls
+        gyroscopic += found[EQ.OM + j] * found[EQ.WR + j] / balls
     return OK, gyroscopic
 
 
@@ -124,84 +69,84 @@ def summarise_held(p, s, y, f, w):
 
     A step's first sound sample is interpolated from what ``s`` was published with.
     """
-    heat = s[S_F + F_HEAT + 2]
-    s[S_F + F_HEAT + 2] = f[F_HEAT + 2]
-    for j in range(_S):
-        w[W_ACC + j] = s[S_Y + B_OM * _S + j]
-        w[W_ACC + _S + j] = s[S_Y + B_R * _S + j]
-        s[S_Y + B_OM * _S + j] = y[B_OM * _S + j]
-        s[S_Y + B_R * _S + j] = y[B_R * _S + j]
+    heat = s[S.F + F.HEAT + 2]
+    s[S.F + F.HEAT + 2] = f[F.HEAT + 2]
+    for j in range(STRIDE):
+        w[W.ACC + j] = s[S.Y + Y.OM + j]
+        w[W.ACC + STRIDE + j] = s[S.Y + Y.R + j]
+        s[S.Y + Y.OM + j] = y[Y.OM + j]
+        s[S.Y + Y.R + j] = y[Y.R + j]
     summarise(p, s, w)
-    s[S_F + F_HEAT + 2] = heat
-    for j in range(_S):
-        s[S_Y + B_OM * _S + j] = w[W_ACC + j]
-        s[S_Y + B_R * _S + j] = w[W_ACC + _S + j]
+    s[S.F + F.HEAT + 2] = heat
+    for j in range(STRIDE):
+        s[S.Y + Y.OM + j] = w[W.ACC + j]
+        s[S.Y + Y.R + j] = w[W.ACC + STRIDE + j]
 
 
 @kernel
 def hold(p, u, speed, s, w):
     """Renew everything held at ``speed`` (rad/s) and the inputs ``u``; status code, old values on failure."""
-    lv = s[S_LEVEL:]
-    c = lv[L_C : L_C + C_SIZE]
-    y = lv[L_Y : L_Y + Y_SIZE]
+    lv = s[S.CONDENSED :]
+    c = lv[L.CONDITIONS : L.CONDITIONS + C.SIZE]
+    y = lv[L.Y0 : L.Y0 + Y.SIZE]
     turning = speed
     if abs(speed) < _STANDSTILL:
         turning = -_STANDSTILL if speed < 0.0 else _STANDSTILL
     conditions(p, u, speed, c)
-    lv[L_FOUND_SPEED] = speed
-    c[C_OVERSIZE_SCALE] = 0.0
+    lv[L.FOUND_SPEED] = speed
+    c[C.OVERSIZE_SCALE] = 0.0
     status, gyroscopic = quasistatic_point(p, c, turning, y, w)
     if status != OK:
         return status
     square = turning * turning
-    pair = p[P_BALL_INERTIA] * gyroscopic / (c[C_BALL_RADIUS] * square)
-    if p[P_GYROSCOPIC] == 0.0:
+    pair = p[P.BALL_INERTIA] * gyroscopic / (c[C.BALL_RADIUS] * square)
+    if p[P.GYROSCOPIC] == 0.0:
         pair = 0.0
     outer = 0.5
-    if p[P_RACE_CONTROL] == 1.0:
+    if p[P.RACE_CONTROL] == 1.0:
         outer = 1.0
-    elif p[P_RACE_CONTROL] == 2.0:
+    elif p[P.RACE_CONTROL] == 2.0:
         outer = 0.0
-    lv[L_PAIR_INNER] = (1.0 - outer) * pair
-    lv[L_PAIR_OUTER] = outer * pair
-    balance_spins(p, c, y, 0.0, turning, w, s[S_JAC:S_LEVEL])
-    balls = int(p[P_BALLS])
+    lv[L.PAIR_INNER] = (1.0 - outer) * pair
+    lv[L.PAIR_OUTER] = outer * pair
+    balance_spins(p, c, y, 0.0, turning, w, s[S.JAC : S.CONDENSED])
+    balls = int(p[P.BALLS])
     mean = 0.0
     for j in range(balls):
-        mean += y[B_OM * _S + j] / balls
-    lv[L_RATIO] = mean / turning
-    if p[P_CAGE] != 0.0:
-        y[Y_V + Q_CAGE + 3] = mean
-    for j in range(int(p[P_LANES])):
+        mean += y[Y.OM + j] / balls
+    lv[L.RATIO] = mean / turning
+    if p[P.CAGE] != 0.0:
+        y[Y.V0 + Q.CAGE + 3] = mean
+    for j in range(int(p[P.LANES])):
         for i in range(3):
-            lv[L_SPIN + i * _S + j] = y[(B_WX + i) * _S + j] / turning
-    f = w[W_BLOCK_A : W_BLOCK_A + F_SIZE]
+            lv[L.SPIN + i * STRIDE + j] = y[Y.WX + i * STRIDE + j] / turning
+    f = w[W.BLOCK_A : W.BLOCK_A + F.SIZE]
     right_hand_side(p, c, y, 0.0, turning, 0.0, w, f)
     summarise_held(p, s, y, f, w)
     share = speed / turning
-    lv[L_TORQUE] = share * (f[F_HEAT] + f[F_HEAT + 1] + f[F_HEAT + 2]) / turning
+    lv[L.TORQUE] = share * (f[F.HEAT] + f[F.HEAT + 1] + f[F.HEAT + 2]) / turning
     for i in range(3):
-        lv[L_HEAT + i] = share * share * f[F_HEAT + i]
+        lv[L.HEAT + i] = share * share * f[F.HEAT + i]
     for i in range(4):
-        s[S_LOSS + i] *= share * share
+        s[S.LOSS + i] *= share * share
     twist = 0.0
     for j in range(balls):
-        twist += w[(W_G + Q_OUTER + 3) * _S + j]
-    lv[L_TWIST] = share * twist
+        twist += w[W.BODY + Q.OUTER * STRIDE + 3 * STRIDE + j]
+    lv[L.TWIST] = share * twist
     return OK
 
 
 @kernel
 def out_of_date(lv, c, speed):
     """Whether speed or a condition has left the neighbourhood of the held values."""
-    far = abs(speed - lv[L_FOUND_SPEED]) > 0.01 * abs(lv[L_FOUND_SPEED]) + 1e-3
-    for i in (C_PRELOAD, C_LOAD_Y, C_LOAD_Z, C_VISCOSITY, C_PEDESTAL, C_BALL_RADIUS):
-        if abs(c[i] - lv[L_C + i]) > 1e-3 * abs(lv[L_C + i]) + 1e-12:
+    far = abs(speed - lv[L.FOUND_SPEED]) > 0.01 * abs(lv[L.FOUND_SPEED]) + 1e-3
+    for i in (C.PRELOAD, C.LOAD_Y, C.LOAD_Z, C.VISCOSITY, C.PEDESTAL, C.BALL_RADIUS):
+        if abs(c[i] - lv[L.CONDITIONS + i]) > 1e-3 * abs(lv[L.CONDITIONS + i]) + 1e-12:
             far = True
     for race in range(2):
         # groove circles and free distance move by micrometres: 1e-3 of a contact's approach
         for i in range(3):
-            k = C_RACES + race * C_RACE_SIZE + i
-            if abs(c[k] - lv[L_C + k]) > 1e-9:
+            k = C.RACES + race * C.RACE_SIZE + i
+            if abs(c[k] - lv[L.CONDITIONS + k]) > 1e-9:
                 far = True
     return far

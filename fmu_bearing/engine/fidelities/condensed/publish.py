@@ -1,55 +1,11 @@
 """From a level's own state to the one that outputs and sound read."""
 
+from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import (
-    B_OM,
-    B_R,
-    B_TH,
-    B_VR,
-    B_VX,
-    B_WX,
-    B_X,
-    F_G,
-    F_HEAT,
-    F_TORQUE,
-    F_WORK,
-    P_BALLS,
-    P_CAGE,
-    P_LANES,
-    P_PITCH_RADIUS,
-    PI,
-    Q_CAGE,
-    STRIDE,
-    Y_Q,
-    Y_V,
-)
-from fmu_bearing.engine.layout_condensed import (
-    L_A,
-    L_A1,
-    L_A2,
-    L_FOUND_SPEED,
-    L_HEAT,
-    L_JERK,
-    L_KNOWN,
-    L_Q,
-    L_R,
-    L_R1,
-    L_R2,
-    L_RATIO,
-    L_SETTLED,
-    L_SPACING,
-    L_SPIN,
-    L_THETA,
-    L_TORQUE,
-    L_V,
-    L_X,
-    L_X1,
-    L_X2,
-    N,
-)
+from fmu_bearing.engine.layout import F, L, P, Q, Y
+from fmu_bearing.engine.layout.sizes import STRIDE
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 
-_S = STRIDE
 # What a ball in its races can do: its place varies by 0.3 mm per radian of turning at most (ten times what a
 # load of 3 kN does), and follows the rings by at most ten times their velocity.
 _PER_RADIAN = 3e-4
@@ -59,37 +15,37 @@ _PER_RING = 10.0
 @kernel
 def rate_error(lv, i):
     """By how much Newmark's velocity exceeds the true one: h^2/12 times the rate of acceleration (m/s)."""
-    h = lv[L_SPACING]
-    if lv[L_KNOWN] >= 2.0:
-        return h / 24.0 * (3.0 * lv[L_A + i] - 4.0 * lv[L_A1 + i] + lv[L_A2 + i])
-    return h * h / 12.0 * lv[L_JERK + i]
+    h = lv[L.SPACING]
+    if lv[L.KNOWN] >= 2.0:
+        return h / 24.0 * (3.0 * lv[L.A0 + i] - 4.0 * lv[L.A1 + i] + lv[L.A2 + i])
+    return h * h / 12.0 * lv[L.JERK + i]
 
 
 @kernel
 def publish_rings(lv, newmark, y, f):
     """Displacements, velocities and accelerations of the rings; ``newmark``: velocities are Newmark's."""
-    for i in range(N):
-        y[Y_Q + i] = lv[L_Q + i]
-        y[Y_V + i] = lv[L_V + i] - (rate_error(lv, i) if newmark else 0.0)
-        f[F_G + i] = lv[L_A + i]
+    for i in range(L.N):
+        y[Y.Q0 + i] = lv[L.Q0 + i]
+        y[Y.V0 + i] = lv[L.V0 + i] - (rate_error(lv, i) if newmark else 0.0)
+        f[F.BODY + i] = lv[L.A0 + i]
 
 
 @kernel
 def publish_cage(p, lv, speed, speed_rate, y, f):
     """Turn the cage with the balls about the place it had at the start."""
-    k = Q_CAGE + 3
-    y[Y_Q + k] = wrap(lv[L_THETA])
-    y[Y_V + k] = lv[L_RATIO] * speed if p[P_CAGE] != 0.0 else 0.0
-    f[F_G + k] = lv[L_RATIO] * speed_rate if p[P_CAGE] != 0.0 else 0.0
+    k = Q.CAGE + 3
+    y[Y.Q0 + k] = wrap(lv[L.THETA])
+    y[Y.V0 + k] = lv[L.RATIO] * speed if p[P.CAGE] != 0.0 else 0.0
+    f[F.BODY + k] = lv[L.RATIO] * speed_rate if p[P.CAGE] != 0.0 else 0.0
 
 
 @kernel
 def fastest_ball(p, speed, y):
     """Bound (m/s) on what differences of the balls' places may show: see above."""
     most = 0.0
-    for i in range(N):
+    for i in range(L.N):
         tilt = i == 3 or i == 4 or i >= 8
-        most = max(most, abs(y[Y_V + i]) * (p[P_PITCH_RADIUS] if tilt else 1.0))
+        most = max(most, abs(y[Y.V0 + i]) * (p[P.PITCH_RADIUS] if tilt else 1.0))
     return _PER_RADIAN * abs(speed) + _PER_RING * most
 
 
@@ -100,8 +56,8 @@ def publish_balls(p, lv, speed, speed_rate, y, f):
     A ball that carries nothing has no place of its own to have a rate: zero there, and where the difference
     is more than a ball can do.
     """
-    h = lv[L_SPACING]
-    known = lv[L_KNOWN]
+    h = lv[L.SPACING]
+    known = lv[L.KNOWN]
     # weights of the places now, one and two steps before, in velocity and acceleration
     v0 = 0.0
     v1 = 0.0
@@ -115,45 +71,45 @@ def publish_balls(p, lv, speed, speed_rate, y, f):
     elif known == 1.0:
         v0 = 1.0 / h
         v1 = -1.0 / h
-    orbit = lv[L_RATIO] * speed
+    orbit = lv[L.RATIO] * speed
     limit = fastest_ball(p, speed, y)
     needed = min(known, 2.0) + 1.0
-    balls = p[P_BALLS]
-    for j in range(int(p[P_LANES])):
+    balls = p[P.BALLS]
+    for j in range(int(p[P.LANES])):
         place = j if j < balls else 0
-        x = lv[L_X + j]
-        r = lv[L_R + j]
-        x1 = lv[L_X1 + j]
-        r1 = lv[L_R1 + j]
-        x2 = lv[L_X2 + j]
-        r2 = lv[L_R2 + j]
-        y[B_X * _S + j] = x
-        y[B_R * _S + j] = r
-        y[B_TH * _S + j] = wrap(lv[L_THETA] + 2.0 * PI * place / balls)
+        x = lv[L.X + j]
+        r = lv[L.R + j]
+        x1 = lv[L.X1 + j]
+        r1 = lv[L.R1 + j]
+        x2 = lv[L.X2 + j]
+        r2 = lv[L.R2 + j]
+        y[Y.X + j] = x
+        y[Y.R + j] = r
+        y[Y.TH + j] = wrap(lv[L.THETA] + 2.0 * PI * place / balls)
         vx = v0 * x + v1 * x1 + v2 * x2
         vr = v0 * r + v1 * r1 + v2 * r2
-        told = 1.0 if lv[L_SETTLED + j] >= needed and max(abs(vx), abs(vr)) <= limit else 0.0
-        y[B_VX * _S + j] = told * vx
-        y[B_VR * _S + j] = told * vr
-        y[B_OM * _S + j] = orbit
+        told = 1.0 if lv[L.SETTLED + j] >= needed and max(abs(vx), abs(vr)) <= limit else 0.0
+        y[Y.VX + j] = told * vx
+        y[Y.VR + j] = told * vr
+        y[Y.OM + j] = orbit
         f[j] = told * per2 * (x - 2.0 * x1 + x2)
-        f[_S + j] = told * per2 * (r - 2.0 * r1 + r2)
-        f[2 * _S + j] = lv[L_RATIO] * speed_rate
+        f[STRIDE + j] = told * per2 * (r - 2.0 * r1 + r2)
+        f[2 * STRIDE + j] = lv[L.RATIO] * speed_rate
         for i in range(3):
-            y[(B_WX + i) * _S + j] = lv[L_SPIN + i * _S + j] * speed
-            f[(3 + i) * _S + j] = lv[L_SPIN + i * _S + j] * speed_rate
+            y[Y.WX + i * STRIDE + j] = lv[L.SPIN + i * STRIDE + j] * speed
+            f[(3 + i) * STRIDE + j] = lv[L.SPIN + i * STRIDE + j] * speed_rate
 
 
 @kernel
 def publish_losses(lv, speed, f):
     """Heats held from the quasi-static point, and the torque that puts them in at ``speed``."""
-    f[F_WORK] = lv[L_HEAT] + lv[L_HEAT + 1] + lv[L_HEAT + 2]
-    found = lv[L_FOUND_SPEED]
+    f[F.WORK] = lv[L.HEAT] + lv[L.HEAT + 1] + lv[L.HEAT + 2]
+    found = lv[L.FOUND_SPEED]
     # in a ramp from far below, the speed that the heats belong to is still to come
     near = found != 0.0 and speed * found > 0.5 * found * found
-    f[F_TORQUE] = f[F_WORK] / speed if near else lv[L_TORQUE]
+    f[F.TORQUE] = f[F.WORK] / speed if near else lv[L.TORQUE]
     for i in range(3):
-        f[F_HEAT + i] = lv[L_HEAT + i]
+        f[F.HEAT + i] = lv[L.HEAT + i]
 
 
 @kernel

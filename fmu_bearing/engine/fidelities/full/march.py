@@ -25,50 +25,8 @@ from fmu_bearing.engine.fidelities.full.progress import (
 )
 from fmu_bearing.engine.fidelities.full.runge_kutta import integrate_power, runge_kutta_step
 from fmu_bearing.engine.jit import inlined
-from fmu_bearing.engine.layout import (
-    BLOCK,
-    C_SIZE,
-    F_SIZE,
-    FAST_Y,
-    NOT_CONVERGED,
-    OK,
-    P_MAX_STEP,
-    P_METHOD,
-    P_MODE_STEP,
-    P_MODES,
-    P_RIGID,
-    S_ANGLE,
-    S_AXES,
-    S_C,
-    S_CONTRACTION,
-    S_ENERGY_NOW,
-    S_F,
-    S_FAC,
-    S_FACTOR_STEP,
-    S_FAST,
-    S_HEAT_INNER,
-    S_JAC,
-    S_JACOBIAN_ANGLE,
-    S_JACOBIAN_TIME,
-    S_MEAN_INNER,
-    S_NEWTON,
-    S_REJECTED,
-    S_SPEED,
-    S_SPEED_RATE,
-    S_STEP,
-    S_STEPS,
-    S_TIME,
-    S_WORK,
-    S_Y,
-    STRIDE,
-    U_SPEED,
-    W_ACC,
-    W_D,
-    W_F0,
-    W_SCALARS,
-    Y_SIZE,
-    Y_V,
-)
+from fmu_bearing.engine.layout import C, F, P, S, U, W, Y
+from fmu_bearing.engine.layout.sizes import BLOCK, STRIDE
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.mechanics.flexure import flexure_state
 from fmu_bearing.engine.newton.block_arrow import factor
@@ -76,8 +34,8 @@ from fmu_bearing.engine.newton.modes import factor_modes
 from fmu_bearing.engine.readout.losses import summarise
 from fmu_bearing.engine.readout.motion import emit_samples
 from fmu_bearing.engine.statics.rigid_preload import axial_speed
+from fmu_bearing.engine.status import NOT_CONVERGED, OK
 
-_S = STRIDE
 _SHORTEST = 1e-10  # s: a step that must be shorter has not converged
 _OLDEST = 5e-3  # s: age at which the Jacobian is renewed in any case
 _PROBE = 16  # steps between measurements of the contraction
@@ -90,30 +48,30 @@ _SLOW = 0.3  # contraction beyond which a new Jacobian pays: three iterations ag
 @inlined
 def take_inputs(p, u, s, w, h):
     """Set conditions and speed ramp; what a jump of a held input does to stored energy counts as work."""
-    rate = (u[U_SPEED] - s[S_SPEED]) / h
-    fresh = w[W_SCALARS + 8 : W_SCALARS + 8 + C_SIZE]
-    conditions(p, u, 0.5 * (s[S_SPEED] + u[U_SPEED]), fresh)
-    axial = axial_speed(p, u, fresh, s, w, h) if p[P_RIGID] != 0.0 else s[S_Y + Y_V]
-    changed = axial != s[S_Y + Y_V]
-    for i in range(C_SIZE):
-        if fresh[i] != s[S_C + i]:
+    rate = (u[U.SPEED] - s[S.SPEED]) / h
+    fresh = w[W.SCALARS + 8 : W.SCALARS + 8 + C.SIZE]
+    conditions(p, u, 0.5 * (s[S.SPEED] + u[U.SPEED]), fresh)
+    axial = axial_speed(p, u, fresh, s, w, h) if p[P.RIGID] != 0.0 else s[S.Y + Y.V0]
+    changed = axial != s[S.Y + Y.V0]
+    for i in range(C.SIZE):
+        if fresh[i] != s[S.C + i]:
             changed = True
     if changed:
         # the rows of w are scratch for both evaluations, so the new conditions wait in the stage area
-        for i in range(C_SIZE):
-            w[W_F0 + i] = fresh[i]
+        for i in range(C.SIZE):
+            w[W.F0 + i] = fresh[i]
         before = total_energy(p, s, w)
-        for i in range(C_SIZE):
-            s[S_C + i] = w[W_F0 + i]
-        s[S_SPEED_RATE] = rate
-        for i in range(F_SIZE):
-            w[W_D + i] = s[S_F + i]
-        s[S_FAST + FAST_Y + Y_V] += axial - s[S_Y + Y_V]
-        s[S_Y + Y_V] = axial
-        s[S_WORK] += total_energy(p, s, w) - before
-        shift_history(s, w[W_D : W_D + F_SIZE])
-    elif rate != s[S_SPEED_RATE]:
-        s[S_SPEED_RATE] = rate
+        for i in range(C.SIZE):
+            s[S.C + i] = w[W.F0 + i]
+        s[S.SPEED_RATE] = rate
+        for i in range(F.SIZE):
+            w[W.D + i] = s[S.F + i]
+        s[S.FAST_Y + Y.V0] += axial - s[S.Y + Y.V0]
+        s[S.Y + Y.V0] = axial
+        s[S.WORK] += total_energy(p, s, w) - before
+        shift_history(s, w[W.D : W.D + F.SIZE])
+    elif rate != s[S.SPEED_RATE]:
+        s[S.SPEED_RATE] = rate
         total_energy(p, s, w)
 
 
@@ -123,36 +81,36 @@ def try_step(p, s, w, h, tableau, tolerance):
 
     Returns the error over the tolerance, or -1 where Newton failed with a fresh Jacobian.
     """
-    report = w[W_SCALARS + 40 : W_SCALARS + 44]
+    report = w[W.SCALARS + 40 : W.SCALARS + 44]
     explicit = TABLEAUX[tableau + T_GAMMA] == 0.0
     for attempt in range(2):
-        fresh = s[S_JACOBIAN_TIME] == s[S_TIME] or explicit
-        too_old = s[S_TIME] - s[S_JACOBIAN_TIME] > _OLDEST or s[S_CONTRACTION] > _SLOW
+        fresh = s[S.JACOBIAN_TIME] == s[S.TIME] or explicit
+        too_old = s[S.TIME] - s[S.JACOBIAN_TIME] > _OLDEST or s[S.CONTRACTION] > _SLOW
         if not fresh and (attempt == 1 or too_old):
             renew_jacobian(p, s, w)
             fresh = True
-        ratio = h / (s[S_FACTOR_STEP] + 1e-300)
+        ratio = h / (s[S.FACTOR_STEP] + 1e-300)
         if not explicit and (ratio < _SAME_STEP[0] or ratio > _SAME_STEP[1]):
             gh = TABLEAUX[tableau + T_GAMMA] * h
-            if not factor(p, s[S_JAC:S_FAC], gh, gh * gh, gh * gh, s[S_FAC:S_FAST], w):
+            if not factor(p, s[S.JAC : S.FAC], gh, gh * gh, gh * gh, s[S.FAC : S.FAST], w):
                 if fresh:
                     return -1.0
                 continue
             factor_modes(
-                p, s[S_JAC:S_FAC], s[S_FAC:S_FAST], s[S_Y : S_Y + Y_SIZE],
-                s[S_Y + 2 * _S] - s[S_JACOBIAN_ANGLE], s[S_SPEED], gh, gh * gh, s[flexure_state(p) :], w,
+                p, s[S.JAC:S.FAC], s[S.FAC:S.FAST], s[S.Y : S.Y + Y.SIZE],
+                s[S.Y + 2 * STRIDE] - s[S.JACOBIAN_ANGLE], s[S.SPEED], gh, gh * gh, s[flexure_state(p) :], w,
             )  # fmt: skip
-            s[S_FACTOR_STEP] = h
-        probe = s[S_STEPS] % _PROBE == 0.0
+            s[S.FACTOR_STEP] = h
+        probe = s[S.STEPS] % _PROBE == 0.0
         fine = runge_kutta_step(
-            p, s[S_C : S_C + C_SIZE], s[S_Y : S_Y + Y_SIZE], s[S_F : S_F + F_SIZE], s[S_AXES:S_JAC],
-            s[flexure_state(p) :], s[S_ANGLE], s[S_SPEED], s[S_SPEED_RATE], h, tableau, s[S_FAC:S_FAST],
-            s[S_Y + 2 * _S] - s[S_JACOBIAN_ANGLE], 0.5 * tolerance, s[S_CONTRACTION], probe, w, report,
+            p, s[S.C : S.C + C.SIZE], s[S.Y : S.Y + Y.SIZE], s[S.F : S.F + F.SIZE], s[S.AXES:S.JAC],
+            s[flexure_state(p) :], s[S.ANGLE], s[S.SPEED], s[S.SPEED_RATE], h, tableau, s[S.FAC:S.FAST],
+            s[S.Y + 2 * STRIDE] - s[S.JACOBIAN_ANGLE], 0.5 * tolerance, s[S.CONTRACTION], probe, w, report,
         )  # fmt: skip
         if fine:
             if report[1] > 0.0:
-                s[S_CONTRACTION] = report[1]
-            s[S_NEWTON] += report[2]
+                s[S.CONTRACTION] = report[1]
+            s[S.NEWTON] += report[2]
             return report[0] / tolerance
         if fresh:
             return -1.0
@@ -163,22 +121,22 @@ def try_step(p, s, w, h, tableau, tolerance):
 def march(p, u, s, w, h):
     """Advance the state by the communication step ``h`` (s); status code."""
     for i in range(3):
-        s[S_MEAN_INNER + i] = s[S_HEAT_INNER + i]
+        s[S.MEAN_HEAT + i] = s[S.HEAT + i]
     take_inputs(p, u, s, w, h)
-    tolerance = velocity_tolerance(p, u[U_SPEED])
-    tableau = TRBDF2 if p[P_METHOD] == 2.0 else RK4 if p[P_METHOD] == 3.0 else ESDIRK4
+    tolerance = velocity_tolerance(p, u[U.SPEED])
+    tableau = TRBDF2 if p[P.METHOD] == 2.0 else RK4 if p[P.METHOD] == 3.0 else ESDIRK4
     power = -1.0 / TABLEAUX[tableau + T_ORDER]
-    begin = s[S_TIME]
+    begin = s[S.TIME]
     end = begin + h
-    longest = p[P_MAX_STEP] if p[P_MODES] == 0.0 else min(p[P_MAX_STEP], p[P_MODE_STEP])
+    longest = p[P.MAX_STEP] if p[P.MODES] == 0.0 else min(p[P.MAX_STEP], p[P.MODE_STEP])
     # bounded work: no more attempts than a hundred times what the largest internal step would need
     # (a thousand times for explicit steps, which stability keeps below 0.1 us)
     left = 2000.0 + (1000.0 if tableau == RK4 else 100.0) * math.ceil(h / longest)
     remaining = h
-    fast = p[P_METHOD] == 1.0
+    fast = p[P.METHOD] == 1.0
     # the clock's own rounding must not count as time left
     while remaining > 1e-12 * h + 4e-16 * abs(end):
-        proposed = min(s[S_STEP], longest)
+        proposed = min(s[S.STEP], longest)
         length = remaining / max(1.0, math.ceil(remaining / proposed - 1e-9))
         short = fast_length(p, s, remaining) if fast else 0.0
         if short > 0.0 and short <= 1.000001 * length:
@@ -187,36 +145,36 @@ def march(p, u, s, w, h):
             if fast_history(s, short):
                 count = min(BLOCK, int(remaining / short + 0.5))
                 if fast_block(p, s, w, count, tolerance):
-                    remaining = end - s[S_TIME]
+                    remaining = end - s[S.TIME]
                     continue
         left -= 1.0
         if left < 0.0:
             return NOT_CONVERGED
         error = try_step(p, s, w, length, tableau, tolerance)
         if error < 0.0 or not (error <= 1.0):
-            s[S_REJECTED] += 1.0
+            s[S.REJECTED] += 1.0
             shrink = 0.25 if not (error > 0.0) else max(0.2, 0.9 * error**power)
-            s[S_STEP] = length * shrink
-            if s[S_STEP] < min(_SHORTEST, 0.01 * h):
+            s[S.STEP] = length * shrink
+            if s[S.STEP] < min(_SHORTEST, 0.01 * h):
                 return NOT_CONVERGED
             continue
-        integrate_power(length, tableau, w, s[S_WORK : S_WORK + 4])
+        integrate_power(length, tableau, w, s[S.WORK : S.WORK + 4])
         emit_samples(p, s, w, length)
         accept(p, s, w, length)
         if fast:
-            remember(s, length, w[W_ACC : W_ACC + F_SIZE])
-        remaining = end - s[S_TIME]
+            remember(s, length, w[W.ACC : W.ACC + F.SIZE])
+        remaining = end - s[S.TIME]
         grow = min(2.0, max(0.3, 0.9 * (error + 1e-6) ** power))
         # a step cut to meet the communication point says nothing against a longer one
         if grow < 1.0 or length > 0.5 * proposed:
             wanted = length * grow
-            s[S_STEP] = min(longest, wanted if grow < 1.0 or wanted > 1.2 * length else proposed)
-    s[S_TIME] = end
-    s[S_SPEED] = u[U_SPEED]
+            s[S.STEP] = min(longest, wanted if grow < 1.0 or wanted > 1.2 * length else proposed)
+    s[S.TIME] = end
+    s[S.SPEED] = u[U.SPEED]
     # One evaluation at the end point: stored energy for the balance, and accelerations and torque that do
     # not carry the last Newton iteration's remainder.
-    s[S_ENERGY_NOW] = total_energy(p, s, w)
+    s[S.ENERGY_NOW] = total_energy(p, s, w)
     summarise(p, s, w)
     for i in range(3):
-        s[S_MEAN_INNER + i] = (s[S_HEAT_INNER + i] - s[S_MEAN_INNER + i]) / h
+        s[S.MEAN_HEAT + i] = (s[S.HEAT + i] - s[S.MEAN_HEAT + i]) / h
     return OK

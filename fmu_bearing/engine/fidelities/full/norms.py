@@ -3,22 +3,21 @@
 import math
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import C_BALL_RADIUS, F_G, N_BODY, P_LANES, P_PITCH_RADIUS, Q_CAGE, STRIDE
+from fmu_bearing.engine.layout import C, F, P, Q
+from fmu_bearing.engine.layout.sizes import STRIDE
 from fmu_bearing.engine.newton.jacobian import is_angle
-
-_S = STRIDE
 
 
 @kernel
 def body_size(p, d, at):
     """Sum of squares of the bodies' velocities (m2/s2): tilts at the pitch radius, the cage a tenth."""
-    lever = p[P_PITCH_RADIUS]
+    lever = p[P.PITCH_RADIUS]
     total = 0.0
-    for i in range(N_BODY):
+    for i in range(Q.SIZE):
         value = d[at + i]
         if is_angle(i):
             value *= lever
-        if i >= Q_CAGE:
+        if i >= Q.CAGE:
             value *= 0.1
         total += value * value
     return total
@@ -34,7 +33,7 @@ def row_size(d, first, count, lanes):
         c = 0.0
         e = 0.0
         for k in range(lanes // 4):
-            j = (first + i) * _S + 4 * k
+            j = (first + i) * STRIDE + 4 * k
             a += d[j] * d[j]
             b += d[j + 1] * d[j + 1]
             c += d[j + 2] * d[j + 2]
@@ -50,9 +49,9 @@ def newton_size(p, c, d, factor):
     The cage and the balls' axial and radial motion count a tenth, their orbit and spin a tenth and 3 % of
     their surface speeds: they matter through what they do to the rings.
     """
-    lanes = int(p[P_LANES])
-    orbit = 0.1 * p[P_PITCH_RADIUS]
-    spin = 0.03 * c[C_BALL_RADIUS]
-    total = body_size(p, d, F_G) + 0.03 * row_size(d, 0, 2, lanes)
+    lanes = int(p[P.LANES])
+    orbit = 0.1 * p[P.PITCH_RADIUS]
+    spin = 0.03 * c[C.BALL_RADIUS]
+    total = body_size(p, d, F.BODY) + 0.03 * row_size(d, 0, 2, lanes)
     total += orbit * orbit * row_size(d, 2, 1, lanes) + spin * spin * row_size(d, 3, 3, lanes)
     return math.sqrt(total) * abs(factor)

@@ -30,32 +30,12 @@ from fmu_bearing.engine.fidelities.full.methods.tableaux import (
 )
 from fmu_bearing.engine.fidelities.full.norms import body_size, newton_size, row_size
 from fmu_bearing.engine.jit import inlined, kernel
-from fmu_bearing.engine.layout import (
-    F_G,
-    F_HEAT,
-    F_SIZE,
-    F_WORK,
-    N_BODY,
-    P_LANES,
-    P_MODES,
-    STRIDE,
-    W_ACC,
-    W_D,
-    W_F,
-    W_F0,
-    W_LAST,
-    W_MOTION,
-    W_VEL,
-    W_Y,
-    Y_Q,
-    Y_SIZE,
-    Y_V,
-)
+from fmu_bearing.engine.layout import F, P, Q, W, Y
+from fmu_bearing.engine.layout.sizes import STRIDE
 from fmu_bearing.engine.mechanics.ball_waves import turn_axes
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.newton.block_arrow import solve
 
-_S = STRIDE
 _PLACES = 3 * STRIDE  # rows of ball coordinates that have both place and rate in the state
 _RATES = 6 * STRIDE
 MAX_ITERATIONS = 8
@@ -84,60 +64,60 @@ def error_size(p, c, h, tableau, w):
     """
     stages = int(TABLEAUX[tableau + T_STAGES])
     explicit = TABLEAUX[tableau + T_GAMMA] == 0.0
-    rows = _RATES if explicit else 2 * _S
-    d = w[W_D : W_D + F_SIZE]
-    for i in range(F_SIZE):
+    rows = _RATES if explicit else 2 * STRIDE
+    d = w[W.D : W.D + F.SIZE]
+    for i in range(F.SIZE):
         d[i] = 0.0
     for m in range(stages):
         e = h * TABLEAUX[tableau + T_ERROR + m]
-        acc = W_ACC + m * F_SIZE
+        acc = W.ACC + m * F.SIZE
         add_scaled(e, w[acc : acc + rows], d, rows)
-        add_scaled(e, w[acc + F_G : acc + F_WORK], d[F_G:], N_BODY)
+        add_scaled(e, w[acc + F.BODY : acc + F.WORK], d[F.BODY :], Q.SIZE)
     if explicit:
         return newton_size(p, c, d, 1.0)
-    return math.sqrt(body_size(p, d, F_G) + 0.01 * row_size(d, 0, 2, int(p[P_LANES])))
+    return math.sqrt(body_size(p, d, F.BODY) + 0.01 * row_size(d, 0, 2, int(p[P.LANES])))
 
 
 @kernel
 def predict(y, h, gh, stage, tableau, w):
     """State of a stage into ``w[W_Y:]`` from the stages before and its first guess of the accelerations."""
-    here = W_ACC + stage * F_SIZE
-    acc = w[here : here + F_SIZE]
-    places = w[W_Y : W_Y + _PLACES]
-    rates = w[W_Y + _PLACES : W_Y + _PLACES + _RATES]
-    q = w[W_Y + Y_Q : W_Y + Y_V]
-    v = w[W_Y + Y_V : W_Y + Y_SIZE]
-    before = w[here - F_SIZE : here]
-    for i in range(F_SIZE):
+    here = W.ACC + stage * F.SIZE
+    acc = w[here : here + F.SIZE]
+    places = w[W.STAGE : W.STAGE + _PLACES]
+    rates = w[W.STAGE + _PLACES : W.STAGE + _PLACES + _RATES]
+    q = w[W.STAGE + Y.Q0 : W.STAGE + Y.V0]
+    v = w[W.STAGE + Y.V0 : W.STAGE + Y.SIZE]
+    before = w[here - F.SIZE : here]
+    for i in range(F.SIZE):
         acc[i] = before[i]
     sum_scaled(y[_PLACES : _PLACES + _RATES], gh, acc, rates, _RATES)
-    sum_scaled(y[Y_V:Y_SIZE], gh, acc[F_G:], v, N_BODY)
+    sum_scaled(y[Y.V0 : Y.SIZE], gh, acc[F.BODY :], v, Q.SIZE)
     for i in range(_PLACES):
         places[i] = y[i]
-    for i in range(N_BODY):
-        q[i] = y[Y_Q + i]
+    for i in range(Q.SIZE):
+        q[i] = y[Y.Q0 + i]
     for m in range(stage):
         a = h * TABLEAUX[tableau + T_A + stage * 5 + m]
         if a != 0.0:
-            at = m * F_SIZE
-            add_scaled(a, w[W_ACC + at : W_VEL], rates, _RATES)
-            add_scaled(a, w[W_ACC + at + F_G : W_VEL], v, N_BODY)
-            add_scaled(a, w[W_VEL + at : W_MOTION], places, _PLACES)
-            add_scaled(a, w[W_VEL + at + F_G : W_MOTION], q, N_BODY)
+            at = m * F.SIZE
+            add_scaled(a, w[W.ACC + at : W.VEL], rates, _RATES)
+            add_scaled(a, w[W.ACC + at + F.BODY : W.VEL], v, Q.SIZE)
+            add_scaled(a, w[W.VEL + at : W.MOTION], places, _PLACES)
+            add_scaled(a, w[W.VEL + at + F.BODY : W.MOTION], q, Q.SIZE)
     add_scaled(gh, rates, places, _PLACES)
-    add_scaled(gh, v, q, N_BODY)
+    add_scaled(gh, v, q, Q.SIZE)
 
 
 @kernel
 def correct(acc, gh, w):
     """Add the increment in ``w[W_D:]`` to a stage's accelerations ``acc`` and to its state."""
-    d = w[W_D : W_D + F_SIZE]
+    d = w[W.D : W.D + F.SIZE]
     square = gh * gh
-    add_scaled(1.0, d, acc, _RATES + N_BODY)
-    add_scaled(gh, d, w[W_Y + _PLACES : W_Y + Y_Q], _RATES)
-    add_scaled(square, d, w[W_Y : W_Y + _PLACES], _PLACES)
-    add_scaled(gh, d[F_G:], w[W_Y + Y_V : W_Y + Y_SIZE], N_BODY)
-    add_scaled(square, d[F_G:], w[W_Y + Y_Q : W_Y + Y_V], N_BODY)
+    add_scaled(1.0, d, acc, _RATES + Q.SIZE)
+    add_scaled(gh, d, w[W.STAGE + _PLACES : W.STAGE + Y.Q0], _RATES)
+    add_scaled(square, d, w[W.STAGE : W.STAGE + _PLACES], _PLACES)
+    add_scaled(gh, d[F.BODY :], w[W.STAGE + Y.V0 : W.STAGE + Y.SIZE], Q.SIZE)
+    add_scaled(square, d[F.BODY :], w[W.STAGE + Y.Q0 : W.STAGE + Y.V0], Q.SIZE)
 
 
 @kernel
@@ -146,16 +126,16 @@ def keep_velocities(y, kept):
     rates = y[_PLACES : 2 * _PLACES]
     for i in range(_PLACES):
         kept[i] = rates[i]
-    for i in range(N_BODY):
-        kept[F_G + i] = y[Y_V + i]
+    for i in range(Q.SIZE):
+        kept[F.BODY + i] = y[Y.V0 + i]
 
 
 @kernel
 def newton_residual(acc, w):
     """Right-hand side less the stage's accelerations ``acc`` into ``w[W_D:]``."""
-    d = w[W_D : W_D + F_SIZE]
-    f = w[W_F : W_F + F_SIZE]
-    for i in range(_RATES + N_BODY):
+    d = w[W.D : W.D + F.SIZE]
+    f = w[W.F : W.F + F.SIZE]
+    for i in range(_RATES + Q.SIZE):
         d[i] = f[i] - acc[i]
 
 
@@ -174,26 +154,26 @@ def runge_kutta_step(
     """
     gh = TABLEAUX[tableau + T_GAMMA] * h
     stages = int(TABLEAUX[tableau + T_STAGES])
-    stage_y = w[W_Y : W_Y + Y_SIZE]
-    result = w[W_F:W_F0]
-    increment = w[W_D : W_D + F_SIZE]
-    for i in range(F_SIZE):
-        w[W_ACC + i] = f[i]
+    stage_y = w[W.STAGE : W.STAGE + Y.SIZE]
+    result = w[W.F : W.F0]
+    increment = w[W.D : W.D + F.SIZE]
+    for i in range(F.SIZE):
+        w[W.ACC + i] = f[i]
         result[i] = 0.0
-    keep_velocities(y, w[W_VEL:W_MOTION])
-    flexible = p[P_MODES] != 0.0
+    keep_velocities(y, w[W.VEL : W.MOTION])
+    flexible = p[P.MODES] != 0.0
     begin_modes(p, flexure, w)
-    orbit = y[5 * _S]
+    orbit = y[5 * STRIDE]
     iterations = 0.0
     worst = 0.0
     for stage in range(1, stages):
-        here = W_ACC + stage * F_SIZE
-        acc = w[here : here + F_SIZE]
+        here = W.ACC + stage * F.SIZE
+        acc = w[here : here + F.SIZE]
         predict(y, h, gh, stage, tableau, w)
         if flexible:
             predict_modes(p, flexure, h, gh, stage, tableau, w)
         t = h * TABLEAUX[tableau + T_NODES + stage]
-        turn_axes(p, axes, y, int(p[P_LANES]), t, w)
+        turn_axes(p, axes, y, int(p[P.LANES]), t, w)
         angle_t = angle + t * (speed + 0.5 * t * speed_rate)
         speed_t = speed + t * speed_rate
         co = math.cos(turned + orbit * t)
@@ -202,7 +182,7 @@ def runge_kutta_step(
         done = gh == 0.0
         if done:
             right_hand_side(p, c, stage_y, angle_t, speed_t, speed_rate, w, result)
-            for i in range(_RATES + N_BODY):
+            for i in range(_RATES + Q.SIZE):
                 acc[i] = result[i]
             if flexible:
                 take_accelerations(p, stage, w)
@@ -234,15 +214,15 @@ def runge_kutta_step(
             before = size
         if not done:
             return False
-        for i in range(F_WORK, F_SIZE):
+        for i in range(F.WORK, F.SIZE):
             acc[i] = result[i]
-        keep_velocities(stage_y, w[W_VEL + stage * F_SIZE : W_MOTION])
+        keep_velocities(stage_y, w[W.VEL + stage * F.SIZE : W.MOTION])
         if flexible:
             keep_mode_velocities(p, stage, w)
-    last = W_ACC + (stages - 1) * F_SIZE
-    if last != W_LAST:
-        for i in range(F_SIZE):
-            w[W_LAST + i] = w[last + i]
+    last = W.ACC + (stages - 1) * F.SIZE
+    if last != W.LAST:
+        for i in range(F.SIZE):
+            w[W.LAST + i] = w[last + i]
     end_modes(p, stages, w)
     report[0] = modes_error(p, error_size(p, c, h, tableau, w), h, tableau, w)
     report[1] = worst
@@ -258,5 +238,5 @@ def integrate_power(h, tableau, w, totals):
         total = 0.0
         for stage in range(stages):
             weight = TABLEAUX[tableau + T_B + stage]
-            total += weight * w[W_ACC + stage * F_SIZE + (F_WORK if k == 0 else F_HEAT + k - 1)]
+            total += weight * w[W.ACC + stage * F.SIZE + (F.WORK if k == 0 else F.HEAT + k - 1)]
         totals[k] += h * total

@@ -15,52 +15,14 @@ combinations that add up to multiples of their number Z:
 
 import math
 
+from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.dense import solve_complex
 from fmu_bearing.engine.fidelities.condensed.balls import carried, stand
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import (
-    C_ECCENTRICITY,
-    C_OVERSIZE_SCALE,
-    C_SIZE,
-    L_SIZE,
-    P_AT_OVERSIZE,
-    P_AT_WAVES,
-    P_BALLS,
-    P_CONTACT_DAMPING,
-    P_INNER_MASS,
-    P_LANES,
-    P_WAVINESS,
-    PI,
-    S_C,
-    S_JAC,
-    S_LEVEL,
-    STRIDE,
-    W_Y,
-    WAVE_INTERVALS,
-    Y_Q,
-)
-from fmu_bearing.engine.layout_condensed import (
-    E_BEND,
-    E_FORCE,
-    E_INNER,
-    L_COUNT,
-    L_EXTRA,
-    L_JV,
-    L_JX,
-    L_LINES,
-    L_MASS,
-    L_RATIO,
-    L_WAVES,
-    LINE_SIZE,
-    LINES,
-    ORDERS,
-    T_Q,
-    T_SPARE,
-    N,
-)
+from fmu_bearing.engine.layout import C, L, P, S, T, W, Y
+from fmu_bearing.engine.layout.sizes import STRIDE
 from fmu_bearing.engine.newton.jacobian import inertia
 
-_S = STRIDE
 REACH = 8  # highest circumferential order l of the balls' unequal loads
 _HEIGHT = 1e-9  # m, for differences; heights' accelerations by (3e4 rad/s)^2 times that
 _BEND = 1.0  # m/s2
@@ -79,25 +41,25 @@ X_FORCE = 20  # one line's excitation: real 10, imaginary 10
 def order_amplitudes(p, lv):
     """Complex amplitudes W_n of the race heights, h = Re sum W_n e^(i n psi), by the discrete transform."""
     for race in range(2):
-        for n in range(1, ORDERS + 1):
-            at = L_WAVES + race * 2 * ORDERS + 2 * (n - 1)
+        for n in range(1, L.ORDERS + 1):
+            at = L.WAVES + race * 2 * L.ORDERS + 2 * (n - 1)
             lv[at] = 0.0
             lv[at + 1] = 0.0
-            if p[P_WAVINESS] == 0.0:
+            if p[P.WAVINESS] == 0.0:
                 continue
-            table = int(p[P_AT_WAVES]) + race * 2 * WAVE_INTERVALS
-            cr = math.cos(2.0 * PI * n / WAVE_INTERVALS)
-            ci = -math.sin(2.0 * PI * n / WAVE_INTERVALS)
+            table = int(p[P.AT_WAVES]) + race * 2 * P.WAVE_INTERVALS
+            cr = math.cos(2.0 * PI * n / P.WAVE_INTERVALS)
+            ci = -math.sin(2.0 * PI * n / P.WAVE_INTERVALS)
             er = 1.0
             ei = 0.0
-            for i in range(WAVE_INTERVALS):
+            for i in range(P.WAVE_INTERVALS):
                 lv[at] += p[table + 2 * i] * er
                 lv[at + 1] += p[table + 2 * i] * ei
                 kept = er
                 er = er * cr - ei * ci
                 ei = kept * ci + ei * cr
-            lv[at] *= 2.0 / WAVE_INTERVALS
-            lv[at + 1] *= 2.0 / WAVE_INTERVALS
+            lv[at] *= 2.0 / P.WAVE_INTERVALS
+            lv[at + 1] *= 2.0 / P.WAVE_INTERVALS
 
 
 @kernel
@@ -106,35 +68,35 @@ def sample_orbit(p, c, lv, speed, x, w):
 
     The rings stand at ``w[W_Y:]``. All balls are moved through one spacing in equal parts.
     """
-    balls = int(p[P_BALLS])
-    lanes = int(p[P_LANES])
+    balls = int(p[P.BALLS])
+    lanes = int(p[P.LANES])
     parts = max(_SAMPLES // balls, 1)
-    q = w[T_Q : T_Q + 12]
-    for i in range(N):
-        q[i] = w[W_Y + Y_Q + i]
-    kept = c[C_OVERSIZE_SCALE]
-    c[C_OVERSIZE_SCALE] = 0.0
+    q = w[T.Q : T.Q + 12]
+    for i in range(L.N):
+        q[i] = w[W.STAGE + Y.Q0 + i]
+    kept = c[C.OVERSIZE_SCALE]
+    c[C.OVERSIZE_SCALE] = 0.0
     for part in range(parts):
         stand(p, c, lv, 2.0 * PI * part / (balls * parts), 0.0, 0.0, speed, w)
         for kind in range(_KINDS):
-            row = E_INNER + kind - 1 if kind < 3 else E_BEND + kind - 3
+            row = T.INNER + (kind - 1) * STRIDE if kind < 3 else T.BEND + (kind - 3) * STRIDE
             step = _HEIGHT if kind < 3 else _BEND
             if kind > 0:
                 for j in range(lanes):
-                    w[row * _S + j] = step
+                    w[row + j] = step
             carried(p, c, lv, speed, q, w)
             carried(p, c, lv, speed, q, w)
             if kind > 0:
                 for j in range(lanes):
-                    w[row * _S + j] = 0.0
+                    w[row + j] = 0.0
             for i in range(10):
                 for j in range(balls):
                     at = (kind * 10 + i) * _SAMPLES + j * parts + part
-                    x[X_SAMPLES + at] = w[(E_FORCE + i) * _S + j]
+                    x[X_SAMPLES + at] = w[T.FORCE + i * STRIDE + j]
                     if kind > 0:
                         x[X_SAMPLES + at] -= x[X_SAMPLES + i * _SAMPLES + j * parts + part]
                         x[X_SAMPLES + at] /= step
-    c[C_OVERSIZE_SCALE] = kept
+    c[C.OVERSIZE_SCALE] = kept
     return balls * parts
 
 
@@ -168,34 +130,34 @@ def keep(p, lv, a, b, omega, force, w):
     """Answer to one line's force (``w[force:]``: 10 real, 10 imaginary parts) kept among the lines."""
     if abs(omega) < 1e-3:
         return
-    re = w[T_SPARE : T_SPARE + 132]
-    im = w[T_SPARE + 132 : T_SPARE + 264]
-    for i in range(N):
-        for k in range(N):
+    re = w[T.SPARE : T.SPARE + 132]
+    im = w[T.SPARE + 132 : T.SPARE + 264]
+    for i in range(L.N):
+        for k in range(L.N):
             at = i + 12 * k
-            re[i * 12 + k] = -omega * omega * lv[L_MASS + at] - lv[L_JX + at]
-            im[i * 12 + k] = -omega * (lv[L_JV + at] + lv[L_EXTRA + at])
+            re[i * 12 + k] = -omega * omega * lv[L.MASS + at] - lv[L.JX + at]
+            im[i * 12 + k] = -omega * (lv[L.JV + at] + lv[L.EXTRA + at])
         per = 1.0 / inertia(p, i)
         place = i if i < 8 else i - 1
         re[i * 12 + 11] = w[force + place] * per if i != 8 else 0.0
         im[i * 12 + 11] = w[force + 10 + place] * per if i != 8 else 0.0
-    if not solve_complex(re, im, N):
+    if not solve_complex(re, im, L.N):
         return
-    into = int(lv[L_COUNT])
+    into = int(lv[L.COUNT])
     size = answer_size(omega, re, im)
     if not (size < 1e9):
         return
-    if into == LINES:
+    if into == L.MOST_LINES:
         # full: the weakest line makes room, if it is weaker than this one
         into = weakest(lv)
         if stored_size(lv, into) >= size:
             return
     else:
-        lv[L_COUNT] += 1.0
-    at = L_LINES + into * LINE_SIZE
+        lv[L.COUNT] += 1.0
+    at = L.LINES + into * L.LINE_SIZE
     lv[at] = a
     lv[at + 1] = b
-    for i in range(N):
+    for i in range(L.N):
         if i != 8:
             place = i if i < 8 else i - 1
             lv[at + 2 + place] = re[i * 12 + 11]
@@ -215,7 +177,7 @@ def answer_size(omega, re, im):
 @kernel
 def stored_size(lv, k):
     """Displacement of the rings' translations squared (m2) in a kept line."""
-    at = L_LINES + k * LINE_SIZE
+    at = L.LINES + k * L.LINE_SIZE
     size = 0.0
     for i in range(8):
         if i < 3 or i >= 5:
@@ -227,7 +189,7 @@ def stored_size(lv, k):
 def weakest(lv):
     """Index of the kept line with the least displacement."""
     best = 0
-    for k in range(1, int(lv[L_COUNT])):
+    for k in range(1, int(lv[L.COUNT])):
         if stored_size(lv, k) < stored_size(lv, best):
             best = k
     return best
@@ -237,18 +199,18 @@ def weakest(lv):
 def drop_weak(lv, orbit, speed):
     """Leave out lines whose velocity is nothing beside the strongest."""
     most = 0.0
-    count = int(lv[L_COUNT])
+    count = int(lv[L.COUNT])
     for k in range(count):
-        at = L_LINES + k * LINE_SIZE
+        at = L.LINES + k * L.LINE_SIZE
         most = max(most, (lv[at] * orbit + lv[at + 1] * speed) ** 2 * stored_size(lv, k))
     into = 0
     for k in range(count):
-        at = L_LINES + k * LINE_SIZE
+        at = L.LINES + k * L.LINE_SIZE
         if (lv[at] * orbit + lv[at + 1] * speed) ** 2 * stored_size(lv, k) > _WEAK * _WEAK * most:
-            for i in range(LINE_SIZE):
-                lv[L_LINES + into * LINE_SIZE + i] = lv[at + i]
+            for i in range(L.LINE_SIZE):
+                lv[L.LINES + into * L.LINE_SIZE + i] = lv[at + i]
             into += 1
-    lv[L_COUNT] = into
+    lv[L.COUNT] = into
 
 
 @kernel
@@ -257,13 +219,13 @@ def add_wave(lv, x, race, n, order, factor, rate, tau, force, w):
 
     ``rate``: of the balls against the race (rad/s); contact damping advances the height by ``tau``.
     """
-    at = L_WAVES + race * 2 * ORDERS + 2 * (n - 1)
+    at = L.WAVES + race * 2 * L.ORDERS + 2 * (n - 1)
     co = math.cos(n * rate * tau)
     si = math.sin(n * rate * tau)
     hr = factor * (lv[at] * co - lv[at + 1] * si)
     hi = factor * (lv[at] * si + lv[at + 1] * co)
     squared = n * rate * n * rate
-    g = T_SPARE + 300
+    g = T.SPARE + 300
     coefficients(x, 1 + race, order, g, w)
     coefficients(x, 3 + race, order, g + 20, w)
     for i in range(10):
@@ -276,13 +238,13 @@ def add_wave(lv, x, race, n, order, factor, rate, tau, force, w):
 @kernel
 def steady_lines(p, c, lv, x, count, orbit, speed, w):
     """Lines that turn with the balls alone: outer race, varying compliance, unequal balls."""
-    balls = int(p[P_BALLS])
-    scale = c[C_OVERSIZE_SCALE]
-    tau = p[P_CONTACT_DAMPING]
-    force = T_SPARE + 270
-    sizes = int(p[P_AT_OVERSIZE])
-    g = T_SPARE + 300
-    for a in range(1, ORDERS + REACH + 1):
+    balls = int(p[P.BALLS])
+    scale = c[C.OVERSIZE_SCALE]
+    tau = p[P.CONTACT_DAMPING]
+    force = T.SPARE + 270
+    sizes = int(p[P.AT_OVERSIZE])
+    g = T.SPARE + 300
+    for a in range(1, L.ORDERS + REACH + 1):
         for i in range(20):
             w[force + i] = 0.0
         if a % balls == 0:
@@ -290,7 +252,7 @@ def steady_lines(p, c, lv, x, count, orbit, speed, w):
                 transform(x, 0, a, count, X_G + 4 * (REACH + 1) * 20)
                 for i in range(20):
                     w[force + i] += 2.0 * balls * x[X_G + 4 * (REACH + 1) * 20 + i]
-            for n in range(max(a - REACH, 1), min(a + REACH, ORDERS) + 1):
+            for n in range(max(a - REACH, 1), min(a + REACH, L.ORDERS) + 1):
                 add_wave(lv, x, 1, n, a - n, balls * scale, orbit, tau, force, w)
         if a <= REACH:
             dr = 0.0
@@ -310,18 +272,18 @@ def steady_lines(p, c, lv, x, count, orbit, speed, w):
 @kernel
 def shaft_lines(p, c, lv, x, orbit, speed, w):
     """Lines that turn with the shaft: unbalance and the waves of the inner race."""
-    balls = int(p[P_BALLS])
-    scale = c[C_OVERSIZE_SCALE]
-    tau = p[P_CONTACT_DAMPING]
-    force = T_SPARE + 270
+    balls = int(p[P.BALLS])
+    scale = c[C.OVERSIZE_SCALE]
+    tau = p[P.CONTACT_DAMPING]
+    force = T.SPARE + 270
     for i in range(20):
         w[force + i] = 0.0
-    push = p[P_INNER_MASS] * c[C_ECCENTRICITY] * speed * speed
+    push = p[P.INNER_MASS] * c[C.ECCENTRICITY] * speed * speed
     # (0, -sin, cos) of the shaft's angle
     w[force + 11] = push
     w[force + 2] = push
     keep(p, lv, 0.0, 1.0, speed, force, w)
-    for n in range(1, ORDERS + 1):
+    for n in range(1, L.ORDERS + 1):
         lowest = max((n - REACH + balls - 1) // balls, 0)
         for k in range(lowest, (n + REACH) // balls + 1):
             for i in range(20):
@@ -333,10 +295,10 @@ def shaft_lines(p, c, lv, x, orbit, speed, w):
 @kernel
 def renew_lines(p, s, speed, w):
     """All lines at ``speed`` (rad/s) about the equilibrium in ``w[W_Y:]``, with the derivatives in ``lv``."""
-    lv = s[S_LEVEL : S_LEVEL + L_SIZE]
-    c = s[S_C : S_C + C_SIZE]
-    x = s[S_JAC:S_LEVEL]
-    orbit = lv[L_RATIO] * speed
+    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
+    c = s[S.C : S.C + C.SIZE]
+    x = s[S.JAC : S.CONDENSED]
+    orbit = lv[L.RATIO] * speed
     count = sample_orbit(p, c, lv, speed, x, w)
     for m in range(count):
         x[X_COS + m] = math.cos(2.0 * PI * m / count)
@@ -344,7 +306,7 @@ def renew_lines(p, s, speed, w):
     for kind in range(1, _KINDS):
         for order in range(REACH + 1):
             transform(x, kind, order, count, X_G + ((kind - 1) * (REACH + 1) + order) * 20)
-    lv[L_COUNT] = 0.0
+    lv[L.COUNT] = 0.0
     shaft_lines(p, c, lv, x, orbit, speed, w)
     steady_lines(p, c, lv, x, count, orbit, speed, w)
     drop_weak(lv, orbit, speed)

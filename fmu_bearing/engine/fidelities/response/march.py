@@ -11,6 +11,7 @@ between states 19.5 us apart.
 
 import math
 
+from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.fidelities.condensed.balls import carried, count_settled, stand
 from fmu_bearing.engine.fidelities.condensed.damping import add_damping
 from fmu_bearing.engine.fidelities.condensed.held import hold
@@ -26,59 +27,10 @@ from fmu_bearing.engine.fidelities.condensed.shared import (
 )
 from fmu_bearing.engine.fidelities.response.lines import order_amplitudes, renew_lines
 from fmu_bearing.engine.jit import inlined, kernel
-from fmu_bearing.engine.layout import (
-    C_SIZE,
-    F_SIZE,
-    L_SIZE,
-    NO_START,
-    NOT_CONVERGED,
-    OK,
-    P_BALLS,
-    P_CONTACT_DAMPING,
-    P_LANES,
-    P_SOUND_SIZE,
-    PI,
-    S_ANGLE,
-    S_C,
-    S_F,
-    S_HEAT_INNER,
-    S_LEVEL,
-    S_MEAN_INNER,
-    S_SPEED,
-    S_SPEED_RATE,
-    S_TIME,
-    S_Y,
-    STRIDE,
-    U_SPEED,
-    W_Y,
-    Y_Q,
-    Y_SIZE,
-)
-from fmu_bearing.engine.layout_condensed import (
-    E_X,
-    L_A,
-    L_COUNT,
-    L_EXTRA,
-    L_HEAT,
-    L_KNOWN,
-    L_LINES,
-    L_MEAN,
-    L_Q,
-    L_RATIO,
-    L_SPACING,
-    L_THETA,
-    L_V,
-    L_X,
-    L_X1,
-    L_X2,
-    L_X3,
-    LINE_SIZE,
-    MATRIX,
-    T_Q,
-    N,
-)
+from fmu_bearing.engine.layout import C, F, L, P, S, T, U, W, Y
+from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.status import NO_START, NOT_CONVERGED, OK
 
-_S = STRIDE
 _SAMPLING = 51_200.0  # Hz of the states that samples are interpolated between, with sound
 _TRIES = 8  # of 30 sweeps
 _BACK = 2e-6  # s between the two states a ball's rate is taken from, without sound
@@ -87,10 +39,10 @@ _BACK = 2e-6  # s between the two states a ball's rate is taken from, without so
 @kernel
 def linearise(p, s, speed, w):
     """Renew derivatives, damping and lines at ``speed`` about ``L_MEAN``; False where there are none."""
-    lv = s[S_LEVEL : S_LEVEL + L_SIZE]
-    c = s[S_C : S_C + C_SIZE]
-    for i in range(MATRIX):
-        lv[L_EXTRA + i] = 0.0
+    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
+    c = s[S.C : S.C + C.SIZE]
+    for i in range(L.MATRIX):
+        lv[L.EXTRA + i] = 0.0
     still(p, c, lv, w)
     if not derivatives(p, c, lv, 0.0, speed, 0.0, w):
         return False
@@ -103,12 +55,12 @@ def linearise(p, s, speed, w):
 @kernel
 def still(p, c, lv, w):
     """Trial state at the equilibrium without motion, ball 0 at angle 0, even races."""
-    for i in range(Y_SIZE):
-        w[W_Y + i] = 0.0
-    for i in range(N):
-        w[W_Y + Y_Q + i] = lv[L_MEAN + i]
-    for i in range(2 * _S):
-        w[E_X * _S + i] = lv[L_X3 + i]
+    for i in range(Y.SIZE):
+        w[W.STAGE + i] = 0.0
+    for i in range(L.N):
+        w[W.STAGE + Y.Q0 + i] = lv[L.MEAN + i]
+    for i in range(2 * STRIDE):
+        w[T.X + i] = lv[L.X3 + i]
     flat(p, c, lv, w)
 
 
@@ -118,16 +70,16 @@ def start_response(p, u, s, w, t):
     status = start_condensed(p, u, s, w, t)
     if status != OK:
         return status
-    lv = s[S_LEVEL : S_LEVEL + L_SIZE]
-    for i in range(2 * _S):
-        lv[L_X + i] = w[E_X * _S + i]
-        lv[L_X3 + i] = w[E_X * _S + i]
+    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
+    for i in range(2 * STRIDE):
+        lv[L.X + i] = w[T.X + i]
+        lv[L.X3 + i] = w[T.X + i]
     order_amplitudes(p, lv)
-    if not linearise(p, s, u[U_SPEED], w):
+    if not linearise(p, s, u[U.SPEED], w):
         return NO_START
     show(p, s, w)
     for i in range(3):
-        s[S_MEAN_INNER + i] = lv[L_HEAT + i]
+        s[S.MEAN_HEAT + i] = lv[L.HEAT + i]
     return OK
 
 
@@ -138,13 +90,13 @@ def renew_equilibrium(p, u, s, w):
     Where Newton does not come from the old equilibrium to the new one, it starts from the quasi-static one,
     which serves itself where there is no rest (as at the start).
     """
-    lv = s[S_LEVEL : S_LEVEL + L_SIZE]
-    speed = u[U_SPEED]
+    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
+    speed = u[U.SPEED]
     if hold(p, u, speed, s, w) != OK:
         return NOT_CONVERGED
-    c = s[S_C : S_C + C_SIZE]
-    for i in range(MATRIX):
-        lv[L_EXTRA + i] = 0.0
+    c = s[S.C : S.C + C.SIZE]
+    for i in range(L.MATRIX):
+        lv[L.EXTRA + i] = 0.0
     still(p, c, lv, w)
     if not at_rest(p, c, lv, speed, w):
         for part in range(2):
@@ -153,22 +105,22 @@ def renew_equilibrium(p, u, s, w):
             flat(p, c, lv, w)
             if part == 1 or at_rest(p, c, lv, speed, w):
                 break
-    for i in range(N):
-        lv[L_MEAN + i] = w[W_Y + Y_Q + i]
-    for i in range(2 * _S):
-        lv[L_X3 + i] = w[E_X * _S + i]
+    for i in range(L.N):
+        lv[L.MEAN + i] = w[W.STAGE + Y.Q0 + i]
+    for i in range(2 * STRIDE):
+        lv[L.X3 + i] = w[T.X + i]
     return OK if linearise(p, s, speed, w) else NOT_CONVERGED
 
 
 @kernel
 def sum_lines(lv, theta, angle, orbit, speed, w):
     """Displacements, velocities and accelerations of the rings at the angles of ball 0 and shaft (rad)."""
-    for i in range(N):
-        lv[L_Q + i] = lv[L_MEAN + i]
-        lv[L_V + i] = 0.0
-        lv[L_A + i] = 0.0
-    for k in range(int(lv[L_COUNT])):
-        at = L_LINES + k * LINE_SIZE
+    for i in range(L.N):
+        lv[L.Q0 + i] = lv[L.MEAN + i]
+        lv[L.V0 + i] = 0.0
+        lv[L.A0 + i] = 0.0
+    for k in range(int(lv[L.COUNT])):
+        at = L.LINES + k * L.LINE_SIZE
         a = lv[at]
         b = lv[at + 1]
         phase = a * theta + b * angle
@@ -180,24 +132,24 @@ def sum_lines(lv, theta, angle, orbit, speed, w):
             into = i if i < 8 else i + 1
             real = lv[at + 2 + i] * co - lv[at + 12 + i] * si
             turned = lv[at + 2 + i] * si + lv[at + 12 + i] * co
-            lv[L_Q + into] += real
-            lv[L_V + into] -= omega * turned
-            lv[L_A + into] -= omega * omega * real
+            lv[L.Q0 + into] += real
+            lv[L.V0 + into] -= omega * turned
+            lv[L.A0 + into] -= omega * omega * real
 
 
 @kernel
 def from_equilibrium(p, lv, theta, w):
     """Balls' places between those at the equilibrium, for ball 0 at ``theta`` (rad): linear in the angle."""
-    balls = int(p[P_BALLS])
+    balls = int(p[P.BALLS])
     turned = theta * balls / (2.0 * PI)
     whole = math.floor(turned)
     part = turned - whole
-    for j in range(int(p[P_LANES])):
+    for j in range(int(p[P.LANES])):
         near = int((j + whole) % balls)
         next_one = (near + 1) % balls
         for i in range(2):
-            row = L_X3 + i * _S
-            w[(E_X + i) * _S + j] = (1.0 - part) * lv[row + near] + part * lv[row + next_one]
+            row = L.X3 + i * STRIDE
+            w[T.X + i * STRIDE + j] = (1.0 - part) * lv[row + near] + part * lv[row + next_one]
 
 
 @kernel
@@ -208,8 +160,8 @@ def find_places(p, c, lv, theta, speed, q, w):
     one left behind by 50 um would show 30 times its load. What is found in the end is shown in any case:
     nearer than anything older.
     """
-    for i in range(2 * _S):
-        w[E_X * _S + i] = lv[L_X + i]
+    for i in range(2 * STRIDE):
+        w[T.X + i] = lv[L.X + i]
     if carried(p, c, lv, speed, q, w):
         return
     from_equilibrium(p, lv, theta, w)
@@ -221,71 +173,71 @@ def find_places(p, c, lv, theta, speed, q, w):
 @kernel
 def place(p, s, ahead, w):
     """Rings and balls at ``ahead`` (s, may be negative) from the present time into ``lv``."""
-    lv = s[S_LEVEL : S_LEVEL + L_SIZE]
-    c = s[S_C : S_C + C_SIZE]
-    speed = s[S_SPEED] + ahead * s[S_SPEED_RATE]
-    turned = ahead * (s[S_SPEED] + 0.5 * ahead * s[S_SPEED_RATE])
-    theta = lv[L_THETA] + lv[L_RATIO] * turned
-    angle = s[S_ANGLE] + turned
-    sum_lines(lv, theta, angle, lv[L_RATIO] * speed, speed, w)
-    tau = p[P_CONTACT_DAMPING]
-    stand(p, c, lv, theta + tau * lv[L_RATIO] * speed, angle + tau * speed, lv[L_Q + 8], speed, w)
-    q = w[T_Q : T_Q + 12]
-    for i in range(N):
-        q[i] = lv[L_Q + i] + tau * lv[L_V + i]
+    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
+    c = s[S.C : S.C + C.SIZE]
+    speed = s[S.SPEED] + ahead * s[S.SPEED_RATE]
+    turned = ahead * (s[S.SPEED] + 0.5 * ahead * s[S.SPEED_RATE])
+    theta = lv[L.THETA] + lv[L.RATIO] * turned
+    angle = s[S.ANGLE] + turned
+    sum_lines(lv, theta, angle, lv[L.RATIO] * speed, speed, w)
+    tau = p[P.CONTACT_DAMPING]
+    stand(p, c, lv, theta + tau * lv[L.RATIO] * speed, angle + tau * speed, lv[L.Q0 + 8], speed, w)
+    q = w[T.Q : T.Q + 12]
+    for i in range(L.N):
+        q[i] = lv[L.Q0 + i] + tau * lv[L.V0 + i]
     find_places(p, c, lv, theta, speed, q, w)
-    for i in range(2 * _S):
-        lv[L_X + i] = w[E_X * _S + i]
-    count_settled(lv, int(p[P_LANES]), w)
+    for i in range(2 * STRIDE):
+        lv[L.X + i] = w[T.X + i]
+    count_settled(lv, int(p[P.LANES]), w)
 
 
 @kernel
 def show(p, s, w):
     """State for outputs at the present time, the balls' rates from two places a little apart."""
-    lv = s[S_LEVEL : S_LEVEL + L_SIZE]
+    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     place(p, s, -_BACK, w)
-    for i in range(2 * _S):
-        lv[L_X1 + i] = lv[L_X + i]
+    for i in range(2 * STRIDE):
+        lv[L.X1 + i] = lv[L.X + i]
     place(p, s, 0.0, w)
-    lv[L_SPACING] = _BACK
-    lv[L_KNOWN] = 1.0
-    publish(p, lv, s[S_SPEED], s[S_SPEED_RATE], False, s[S_Y : S_Y + Y_SIZE], s[S_F : S_F + F_SIZE])
+    lv[L.SPACING] = _BACK
+    lv[L.KNOWN] = 1.0
+    publish(p, lv, s[S.SPEED], s[S.SPEED_RATE], False, s[S.Y : S.Y + Y.SIZE], s[S.F : S.F + F.SIZE])
 
 
 @inlined
 def march_response(p, u, s, w, h):
     """Advance the state by the communication step ``h`` (s); status code."""
-    lv = s[S_LEVEL : S_LEVEL + L_SIZE]
+    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     for i in range(3):
-        s[S_MEAN_INNER + i] = s[S_HEAT_INNER + i]
+        s[S.MEAN_HEAT + i] = s[S.HEAT + i]
     if set_inputs(p, u, s, w, h):
         status = renew_equilibrium(p, u, s, w)
         if status != OK:
             return status
-        lv[L_KNOWN] = 0.0
-    end = s[S_TIME] + h
-    if p[P_SOUND_SIZE] != 0.0:
+        lv[L.KNOWN] = 0.0
+    end = s[S.TIME] + h
+    if p[P.SOUND_SIZE] != 0.0:
         count = math.ceil(h * _SAMPLING - 1e-9)
         step = h / count
-        if abs(step - lv[L_SPACING]) > 1e-6 * step:
-            lv[L_SPACING] = step
-            lv[L_KNOWN] = 0.0
+        if abs(step - lv[L.SPACING]) > 1e-6 * step:
+            lv[L.SPACING] = step
+            lv[L.KNOWN] = 0.0
         for _ in range(int(count)):
-            for i in range(2 * _S):
-                lv[L_X2 + i] = lv[L_X1 + i]
-                lv[L_X1 + i] = lv[L_X + i]
+            for i in range(2 * STRIDE):
+                lv[L.X2 + i] = lv[L.X1 + i]
+                lv[L.X1 + i] = lv[L.X + i]
             place(p, s, step, w)
-            lv[L_KNOWN] += 1.0
-            lv[L_THETA] += lv[L_RATIO] * step * (s[S_SPEED] + 0.5 * step * s[S_SPEED_RATE])
+            lv[L.KNOWN] += 1.0
+            lv[L.THETA] += lv[L.RATIO] * step * (s[S.SPEED] + 0.5 * step * s[S.SPEED_RATE])
             emit(p, s, w, step, False)
             advance(s, step)
     else:
-        lv[L_THETA] += lv[L_RATIO] * h * (s[S_SPEED] + 0.5 * h * s[S_SPEED_RATE])
+        lv[L.THETA] += lv[L.RATIO] * h * (s[S.SPEED] + 0.5 * h * s[S.SPEED_RATE])
         advance(s, h)
-    s[S_TIME] = end
-    s[S_SPEED] = u[U_SPEED]
-    if p[P_SOUND_SIZE] == 0.0:
+    s[S.TIME] = end
+    s[S.SPEED] = u[U.SPEED]
+    if p[P.SOUND_SIZE] == 0.0:
         show(p, s, w)
     for i in range(3):
-        s[S_MEAN_INNER + i] = (s[S_HEAT_INNER + i] - s[S_MEAN_INNER + i]) / h
+        s[S.MEAN_HEAT + i] = (s[S.HEAT + i] - s[S.MEAN_HEAT + i]) / h
     return OK

@@ -30,77 +30,11 @@ from fmu_bearing.engine.fidelities.condensed.shared import advance, emit, set_in
 from fmu_bearing.engine.fidelities.full.progress import velocity_tolerance
 from fmu_bearing.engine.fidelities.rings.predictor import change_spacing, predict
 from fmu_bearing.engine.jit import inlined, kernel
-from fmu_bearing.engine.layout import (
-    C_SIZE,
-    F_G,
-    F_SIZE,
-    L_SIZE,
-    NO_START,
-    NOT_CONVERGED,
-    OK,
-    P_CONTACT_DAMPING,
-    P_LANES,
-    P_MAX_STEP,
-    P_PITCH_RADIUS,
-    P_SOUND_SIZE,
-    S_ANGLE,
-    S_C,
-    S_F,
-    S_HEAT_INNER,
-    S_JACOBIANS,
-    S_LEVEL,
-    S_MEAN_INNER,
-    S_NEWTON,
-    S_REJECTED,
-    S_SPEED,
-    S_SPEED_RATE,
-    S_STEP,
-    S_STEPS,
-    S_TIME,
-    S_Y,
-    STRIDE,
-    U_SPEED,
-    W_F,
-    W_Y,
-    Y_Q,
-    Y_SIZE,
-    Y_V,
-)
-from fmu_bearing.engine.layout_condensed import (
-    E_X,
-    L_A,
-    L_A1,
-    L_A2,
-    L_CALM,
-    L_CONTRACTION,
-    L_EXTRA,
-    L_FACTOR_STEP,
-    L_FRESH,
-    L_HEAT,
-    L_HIGHEST,
-    L_INVERSE,
-    L_KNOWN,
-    L_MASS,
-    L_MEAN,
-    L_ORDER,
-    L_Q,
-    L_RATIO,
-    L_THETA,
-    L_V,
-    L_X,
-    L_X1,
-    L_X2,
-    L_X3,
-    MATRIX,
-    T_A,
-    T_D,
-    T_Q,
-    T_V,
-    N,
-)
+from fmu_bearing.engine.layout import C, F, L, P, S, T, U, W, Y
+from fmu_bearing.engine.layout.sizes import STRIDE
 from fmu_bearing.engine.mechanics.trigonometry import wrap
+from fmu_bearing.engine.status import NO_START, NOT_CONVERGED, OK
 
-_S = STRIDE
 _LONGEST = 2e-5  # s
 _SHORTEST = 1e-10  # s
 # Radians per step. The highest ring mode: below the 2.45 at which the method turns unstable, with room for
@@ -121,10 +55,10 @@ _PATIENCE = 8  # steps before a longer one is tried
 @kernel
 def longest_step(p, lv, speed):
     """Longest internal step (s) at ``speed``: see the limits above."""
-    h = min(_LONGEST, p[P_MAX_STEP])
-    h = min(h, _MODE / (lv[L_HIGHEST] + 1.0))
-    fastest = max(abs(lv[L_RATIO]), abs(1.0 - lv[L_RATIO])) * abs(speed)
-    return min(h, _WAVE / (lv[L_ORDER] * fastest + 1.0))
+    h = min(_LONGEST, p[P.MAX_STEP])
+    h = min(h, _MODE / (lv[L.HIGHEST] + 1.0))
+    fastest = max(abs(lv[L.RATIO]), abs(1.0 - lv[L.RATIO])) * abs(speed)
+    return min(h, _WAVE / (lv[L.ORDER] * fastest + 1.0))
 
 
 @inlined
@@ -133,73 +67,73 @@ def start_rings(p, u, s, w, t):
     status = start_condensed(p, u, s, w, t)
     if status != OK:
         return status
-    lv = s[S_LEVEL : S_LEVEL + L_SIZE]
+    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     # from the even races' equilibrium to the one on waves and unequal balls, or the start would ring
-    c = s[S_C : S_C + C_SIZE]
-    balls_of(w, lv, L_X3)
-    stand(p, c, lv, 0.0, 0.0, 0.0, s[S_SPEED], w)
-    if not at_rest(p, c, lv, s[S_SPEED], w):
-        for i in range(N):
-            w[W_Y + Y_Q + i] = lv[L_MEAN + i]
-        for i in range(2 * _S):
-            w[E_X * _S + i] = lv[L_X3 + i]
-    for i in range(N):
-        lv[L_Q + i] = w[W_Y + Y_Q + i]
-        lv[L_V + i] = 0.0
-        lv[L_A + i] = 0.0
-    for row in (L_X, L_X1, L_X2):
+    c = s[S.C : S.C + C.SIZE]
+    balls_of(w, lv, L.X3)
+    stand(p, c, lv, 0.0, 0.0, 0.0, s[S.SPEED], w)
+    if not at_rest(p, c, lv, s[S.SPEED], w):
+        for i in range(L.N):
+            w[W.STAGE + Y.Q0 + i] = lv[L.MEAN + i]
+        for i in range(2 * STRIDE):
+            w[T.X + i] = lv[L.X3 + i]
+    for i in range(L.N):
+        lv[L.Q0 + i] = w[W.STAGE + Y.Q0 + i]
+        lv[L.V0 + i] = 0.0
+        lv[L.A0 + i] = 0.0
+    for row in (L.X, L.X1, L.X2):
         balls_of(w, lv, row)
-    lv[L_THETA] = 0.0
+    lv[L.THETA] = 0.0
     if not renew(p, s, w):
         return NO_START
     for _ in range(4):
-        count_settled(lv, int(p[P_LANES]), w)
-    s[S_STEP] = longest_step(p, lv, s[S_SPEED])
-    publish(p, lv, s[S_SPEED], 0.0, True, s[S_Y : S_Y + Y_SIZE], s[S_F : S_F + F_SIZE])
+        count_settled(lv, int(p[P.LANES]), w)
+    s[S.STEP] = longest_step(p, lv, s[S.SPEED])
+    publish(p, lv, s[S.SPEED], 0.0, True, s[S.Y : S.Y + Y.SIZE], s[S.F : S.F + F.SIZE])
     for i in range(3):
-        s[S_MEAN_INNER + i] = lv[L_HEAT + i]
+        s[S.MEAN_HEAT + i] = lv[L.HEAT + i]
     return OK
 
 
 @kernel
 def renew(p, s, w):
     """Jacobian and accelerations at the present state, and the highest mode; False if there are none."""
-    lv = s[S_LEVEL : S_LEVEL + L_SIZE]
-    c = s[S_C : S_C + C_SIZE]
-    for i in range(N):
-        w[W_Y + Y_Q + i] = lv[L_Q + i]
-        w[W_Y + Y_V + i] = lv[L_V + i]
-    for i in range(2 * _S):
-        w[E_X * _S + i] = lv[L_X + i]
-    tau = p[P_CONTACT_DAMPING]
-    speed = s[S_SPEED]
-    theta = lv[L_THETA] + tau * lv[L_RATIO] * speed
-    stand(p, c, lv, theta, s[S_ANGLE] + tau * speed, lv[L_Q + 8], speed, w)
-    if not derivatives(p, c, lv, s[S_ANGLE], s[S_SPEED], s[S_SPEED_RATE], w):
+    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
+    c = s[S.C : S.C + C.SIZE]
+    for i in range(L.N):
+        w[W.STAGE + Y.Q0 + i] = lv[L.Q0 + i]
+        w[W.STAGE + Y.V0 + i] = lv[L.V0 + i]
+    for i in range(2 * STRIDE):
+        w[T.X + i] = lv[L.X + i]
+    tau = p[P.CONTACT_DAMPING]
+    speed = s[S.SPEED]
+    theta = lv[L.THETA] + tau * lv[L.RATIO] * speed
+    stand(p, c, lv, theta, s[S.ANGLE] + tau * speed, lv[L.Q0 + 8], speed, w)
+    if not derivatives(p, c, lv, s[S.ANGLE], s[S.SPEED], s[S.SPEED_RATE], w):
         return False
-    lv[L_HIGHEST] = highest_mode(lv, w)
-    times(lv, L_INVERSE, w, W_F + F_G, w, T_A)
-    for i in range(N):
-        lv[L_A + i] = w[T_A + i]
-    lv[L_FACTOR_STEP] = 0.0
-    lv[L_CONTRACTION] = 0.1
-    lv[L_FRESH] = 1.0
-    s[S_JACOBIANS] += 1.0
+    lv[L.HIGHEST] = highest_mode(lv, w)
+    times(lv, L.INVERSE, w, W.F + F.BODY, w, T.A)
+    for i in range(L.N):
+        lv[L.A0 + i] = w[T.A + i]
+    lv[L.FACTOR_STEP] = 0.0
+    lv[L.CONTRACTION] = 0.1
+    lv[L.FRESH] = 1.0
+    s[S.JACOBIANS] += 1.0
     return True
 
 
 @inlined
 def take_inputs(p, u, s, w, h):
     """Set conditions and speed ramp; renew what is held where it is out of date. Status code."""
-    lv = s[S_LEVEL : S_LEVEL + L_SIZE]
+    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     if not set_inputs(p, u, s, w, h):
         return OK
-    status = hold(p, u, u[U_SPEED], s, w)
+    status = hold(p, u, u[U.SPEED], s, w)
     if status != OK:
         return NOT_CONVERGED
-    lv[L_KNOWN] = 0.0
-    for i in range(MATRIX):
-        lv[L_EXTRA + i] = 0.0
+    lv[L.KNOWN] = 0.0
+    for i in range(L.MATRIX):
+        lv[L.EXTRA + i] = 0.0
     if not renew(p, s, w):
         return NOT_CONVERGED
     add_damping(p, s, w)
@@ -209,16 +143,16 @@ def take_inputs(p, u, s, w, h):
 @kernel
 def size_of(p, w, at):
     """Largest of the 11 numbers at ``w[at:]``, tilts at the pitch radius."""
-    lever = p[P_PITCH_RADIUS]
+    lever = p[P.PITCH_RADIUS]
     size = 0.0
-    for i in range(N):
+    for i in range(L.N):
         value = abs(w[at + i])
         if is_tilt(i):
             value *= lever
         size = max(size, value)
     # a comparison drops what is not a number, a sum does not
     total = 0.0
-    for i in range(N):
+    for i in range(L.N):
         total += w[at + i]
     return size + 0.0 * total
 
@@ -226,48 +160,48 @@ def size_of(p, w, at):
 @kernel
 def correct(p, s, h, tolerance, probe, w):
     """Trial state of a step by predictor and corrections; what the last leaves (m/s), or -1."""
-    lv = s[S_LEVEL : S_LEVEL + L_SIZE]
-    c = s[S_C : S_C + C_SIZE]
-    rate = s[S_SPEED_RATE]
-    speed = s[S_SPEED] + h * rate
-    turned = h * (s[S_SPEED] + 0.5 * h * rate)
-    angle = s[S_ANGLE] + turned
+    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
+    c = s[S.C : S.C + C.SIZE]
+    rate = s[S.SPEED_RATE]
+    speed = s[S.SPEED] + h * rate
+    turned = h * (s[S.SPEED] + 0.5 * h * rate)
+    angle = s[S.ANGLE] + turned
     predict(lv, h, w)
     stand(
-        p, c, lv, lv[L_THETA] + lv[L_RATIO] * turned + p[P_CONTACT_DAMPING] * lv[L_RATIO] * speed,
-        angle + p[P_CONTACT_DAMPING] * speed, w[W_Y + Y_Q + 8], speed, w,
+        p, c, lv, lv[L.THETA] + lv[L.RATIO] * turned + p[P.CONTACT_DAMPING] * lv[L.RATIO] * speed,
+        angle + p[P.CONTACT_DAMPING] * speed, w[W.STAGE + Y.Q0 + 8], speed, w,
     )  # fmt: skip
-    q = w[T_Q : T_Q + 12]
+    q = w[T.Q : T.Q + 12]
     before = 0.0
     worst = 0.0
     for n in range(_ITERATIONS):
         # dampers and gyroscopic moments see the true velocity, or they would be wrong by (omega h)^2 / 12
-        known = lv[L_KNOWN] >= 1.0
-        for i in range(N):
-            change = w[T_A + i] - lv[L_A + i]
+        known = lv[L.KNOWN] >= 1.0
+        for i in range(L.N):
+            change = w[T.A + i] - lv[L.A0 + i]
             if known:
-                change = 0.5 * (3.0 * change - (lv[L_A + i] - lv[L_A1 + i]))
-            w[T_V + i] = w[W_Y + Y_V + i]
-            w[W_Y + Y_V + i] -= h / 12.0 * change
+                change = 0.5 * (3.0 * change - (lv[L.A0 + i] - lv[L.A1 + i]))
+            w[T.V + i] = w[W.STAGE + Y.V0 + i]
+            w[W.STAGE + Y.V0 + i] -= h / 12.0 * change
         fine = accelerations(p, c, lv, angle, speed, rate, q, w)
-        for i in range(N):
-            w[W_Y + Y_V + i] = w[T_V + i]
+        for i in range(L.N):
+            w[W.STAGE + Y.V0 + i] = w[T.V + i]
         if not fine:
             return -1.0
-        times(lv, L_MASS, w, T_A, w, T_D)
-        for i in range(N):
-            w[W_F + F_G + i] -= w[T_D + i]
-        times(lv, L_INVERSE, w, W_F + F_G, w, T_D)
-        for i in range(N):
-            d = w[T_D + i]
-            w[T_A + i] += d
-            w[W_Y + Y_V + i] += 0.5 * h * d
-            w[W_Y + Y_Q + i] += h * h / 12.0 * d
-        size = 0.5 * h * size_of(p, w, T_D)
-        s[S_NEWTON] += 1.0
+        times(lv, L.MASS, w, T.A, w, T.D)
+        for i in range(L.N):
+            w[W.F + F.BODY + i] -= w[T.D + i]
+        times(lv, L.INVERSE, w, W.F + F.BODY, w, T.D)
+        for i in range(L.N):
+            d = w[T.D + i]
+            w[T.A + i] += d
+            w[W.STAGE + Y.V0 + i] += 0.5 * h * d
+            w[W.STAGE + Y.Q0 + i] += h * h / 12.0 * d
+        size = 0.5 * h * size_of(p, w, T.D)
+        s[S.NEWTON] += 1.0
         if not (size < 1e6):
             return -1.0
-        contraction = lv[L_CONTRACTION]
+        contraction = lv[L.CONTRACTION]
         if n > 0:
             contraction = size / (before + 1e-300)
             if before > 1e-2 * tolerance:
@@ -276,7 +210,7 @@ def correct(p, s, h, tolerance, probe, w):
                 return -1.0
         if (n > 0 or not probe) and size * contraction <= tolerance:
             if worst > 0.0:
-                lv[L_CONTRACTION] = worst
+                lv[L.CONTRACTION] = worst
             return size * contraction
         before = size
     return -1.0
@@ -285,97 +219,97 @@ def correct(p, s, h, tolerance, probe, w):
 @kernel
 def truncation(p, lv, h, w):
     """Estimate of a step's error in velocity (m/s) from the third difference of the accelerations."""
-    if lv[L_KNOWN] < 2.0:
+    if lv[L.KNOWN] < 2.0:
         return 0.0
-    for i in range(N):
-        w[T_D + i] = w[T_A + i] - 3.0 * (lv[L_A + i] - lv[L_A1 + i]) - lv[L_A2 + i]
-    return 0.01 * h * size_of(p, w, T_D)
+    for i in range(L.N):
+        w[T.D + i] = w[T.A + i] - 3.0 * (lv[L.A0 + i] - lv[L.A1 + i]) - lv[L.A2 + i]
+    return 0.01 * h * size_of(p, w, T.D)
 
 
 @kernel
 def accept(p, s, h, w):
     """Move the level's state, time and angles to the end of the step."""
-    lv = s[S_LEVEL : S_LEVEL + L_SIZE]
-    for i in range(N):
-        lv[L_A2 + i] = lv[L_A1 + i]
-        lv[L_A1 + i] = lv[L_A + i]
-        lv[L_A + i] = w[T_A + i]
-        lv[L_Q + i] = w[W_Y + Y_Q + i]
-        lv[L_V + i] = w[W_Y + Y_V + i]
-    for i in range(2 * _S):
-        lv[L_X3 + i] = lv[L_X2 + i]
-        lv[L_X2 + i] = lv[L_X1 + i]
-        lv[L_X1 + i] = lv[L_X + i]
-        lv[L_X + i] = w[E_X * _S + i]
-    count_settled(lv, int(p[P_LANES]), w)
-    lv[L_KNOWN] += 1.0
-    lv[L_CALM] += 1.0
-    lv[L_FRESH] = 0.0
-    turned = h * (s[S_SPEED] + 0.5 * h * s[S_SPEED_RATE])
-    lv[L_THETA] = wrap(lv[L_THETA] + lv[L_RATIO] * turned)
+    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
+    for i in range(L.N):
+        lv[L.A2 + i] = lv[L.A1 + i]
+        lv[L.A1 + i] = lv[L.A0 + i]
+        lv[L.A0 + i] = w[T.A + i]
+        lv[L.Q0 + i] = w[W.STAGE + Y.Q0 + i]
+        lv[L.V0 + i] = w[W.STAGE + Y.V0 + i]
+    for i in range(2 * STRIDE):
+        lv[L.X3 + i] = lv[L.X2 + i]
+        lv[L.X2 + i] = lv[L.X1 + i]
+        lv[L.X1 + i] = lv[L.X + i]
+        lv[L.X + i] = w[T.X + i]
+    count_settled(lv, int(p[P.LANES]), w)
+    lv[L.KNOWN] += 1.0
+    lv[L.CALM] += 1.0
+    lv[L.FRESH] = 0.0
+    turned = h * (s[S.SPEED] + 0.5 * h * s[S.SPEED_RATE])
+    lv[L.THETA] = wrap(lv[L.THETA] + lv[L.RATIO] * turned)
 
 
 @inlined
 def try_step(p, s, h, tolerance, w):
     """One attempt of length ``h``: its error over the allowed one, or -1 with a fresh Jacobian in vain."""
-    lv = s[S_LEVEL : S_LEVEL + L_SIZE]
+    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     change_spacing(lv, h)
     for _ in range(2):
-        if lv[L_CONTRACTION] > _SLOW and lv[L_FRESH] == 0.0 and not renew(p, s, w):
+        if lv[L.CONTRACTION] > _SLOW and lv[L.FRESH] == 0.0 and not renew(p, s, w):
             return -1.0
-        if abs(h - lv[L_FACTOR_STEP]) > 0.05 * h:
+        if abs(h - lv[L.FACTOR_STEP]) > 0.05 * h:
             if not factor_step(lv, 0.5 * h, h * h / 12.0, w):
                 return -1.0
-            lv[L_FACTOR_STEP] = h
-        probe = s[S_STEPS] % _PROBE == 0.0
+            lv[L.FACTOR_STEP] = h
+        probe = s[S.STEPS] % _PROBE == 0.0
         left = correct(p, s, h, _CORRECTION * tolerance, probe, w)
         if left >= 0.0:
             return truncation(p, lv, h, w) / (_TRUNCATION * tolerance)
-        if lv[L_FRESH] != 0.0:
+        if lv[L.FRESH] != 0.0:
             return -1.0
-        lv[L_CONTRACTION] = 1.0
+        lv[L.CONTRACTION] = 1.0
     return -1.0
 
 
 @inlined
 def march_rings(p, u, s, w, h):
     """Advance the state by the communication step ``h`` (s); status code."""
-    lv = s[S_LEVEL : S_LEVEL + L_SIZE]
+    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     for i in range(3):
-        s[S_MEAN_INNER + i] = s[S_HEAT_INNER + i]
+        s[S.MEAN_HEAT + i] = s[S.HEAT + i]
     status = take_inputs(p, u, s, w, h)
     if status != OK:
         return status
-    tolerance = velocity_tolerance(p, u[U_SPEED])
-    longest = longest_step(p, lv, max(abs(s[S_SPEED]), abs(u[U_SPEED])))
-    end = s[S_TIME] + h
+    tolerance = velocity_tolerance(p, u[U.SPEED])
+    longest = longest_step(p, lv, max(abs(s[S.SPEED]), abs(u[U.SPEED])))
+    end = s[S.TIME] + h
     left = 2000.0 + 100.0 * math.ceil(h / longest)
     remaining = h
     # what is left after rounding of the time itself is no step
     while remaining > 1e-12 * h + 4e-16 * abs(end):
-        cap = min(s[S_STEP], longest)
+        cap = min(s[S.STEP], longest)
         count = max(1.0, math.ceil(remaining / cap - 1e-9))
         length = remaining / count
         error = try_step(p, s, length, tolerance, w)
         left -= 1.0
         if not (0.0 <= error <= 1.0):
-            s[S_REJECTED] += 1.0
-            s[S_STEP] = 0.5 * length
-            if s[S_STEP] < min(_SHORTEST, 0.01 * h) or left < 0.0:
+            s[S.REJECTED] += 1.0
+            s[S.STEP] = 0.5 * length
+            if s[S.STEP] < min(_SHORTEST, 0.01 * h) or left < 0.0:
                 return NOT_CONVERGED
             continue
         if left < 0.0:
             return NOT_CONVERGED
         accept(p, s, length, w)
-        if p[P_SOUND_SIZE] != 0.0:
+        if p[P.SOUND_SIZE] != 0.0:
             emit(p, s, w, length, True)
         advance(s, length)
-        remaining = end - s[S_TIME]
-        if error < _GROW and lv[L_CALM] >= _PATIENCE and lv[L_KNOWN] >= 3.0:
-            s[S_STEP] = min(longest, 2.0 * cap)
-    s[S_TIME] = end
-    s[S_SPEED] = u[U_SPEED]
-    publish(p, lv, s[S_SPEED], s[S_SPEED_RATE], True, s[S_Y : S_Y + Y_SIZE], s[S_F : S_F + F_SIZE])
+        remaining = end - s[S.TIME]
+        if error < _GROW and lv[L.CALM] >= _PATIENCE and lv[L.KNOWN] >= 3.0:
+            s[S.STEP] = min(longest, 2.0 * cap)
+    s[S.TIME] = end
+    s[S.SPEED] = u[U.SPEED]
+    publish(p, lv, s[S.SPEED], s[S.SPEED_RATE], True, s[S.Y : S.Y + Y.SIZE], s[S.F : S.F + F.SIZE])
     for i in range(3):
-        s[S_MEAN_INNER + i] = (s[S_HEAT_INNER + i] - s[S_MEAN_INNER + i]) / h
+        s[S.MEAN_HEAT + i] = (s[S.HEAT + i] - s[S.MEAN_HEAT + i]) / h
     return OK

@@ -11,62 +11,13 @@ from fmu_bearing.engine.fidelities.full.fast.newmark import BETA, BETA_BALL, ite
 from fmu_bearing.engine.fidelities.full.norms import body_size, newton_size
 from fmu_bearing.engine.fidelities.full.progress import accept, renew_jacobian, wrap_angles
 from fmu_bearing.engine.jit import inlined, kernel
-from fmu_bearing.engine.layout import (
-    C_SIZE,
-    F_G,
-    F_HEAT,
-    F_SIZE,
-    F_WORK,
-    FAST_A0,
-    FAST_A1,
-    FAST_A2,
-    FAST_Y,
-    J_B,
-    J_E,
-    N_BODY,
-    P_BALL_MASS,
-    P_BALLS,
-    P_INNER_MASS,
-    P_LANES,
-    P_MAX_STEP,
-    P_OUTER_MASS,
-    S_ANGLE,
-    S_AXES,
-    S_C,
-    S_F,
-    S_FAC,
-    S_FACTOR_STEP,
-    S_FALLBACKS,
-    S_FAST,
-    S_FAST_BETA,
-    S_FAST_COUNT,
-    S_FAST_HOLD,
-    S_FAST_LENGTH,
-    S_FAST_PATIENCE,
-    S_FAST_STEP,
-    S_JAC,
-    S_JACOBIAN_ANGLE,
-    S_JACOBIAN_TIME,
-    S_NEWTON,
-    S_SPEED,
-    S_SPEED_RATE,
-    S_TIME,
-    S_WORK,
-    S_Y,
-    STRIDE,
-    W_BLOCK_A,
-    W_BLOCK_Y,
-    W_D,
-    W_LAST,
-    W_Y,
-    Y_SIZE,
-)
+from fmu_bearing.engine.layout import C, F, J, P, Q, S, W, Y
+from fmu_bearing.engine.layout.sizes import STRIDE
 from fmu_bearing.engine.mechanics.ball_waves import turn_axes
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 from fmu_bearing.engine.newton.block_arrow import factor
 from fmu_bearing.engine.readout.motion import emit_samples
 
-_S = STRIDE
 LONGEST = 1e-5  # s: beyond it the rings' modes of the example bearings leave the method's range
 SHORTEST = 4e-6  # s: below it ESDIRK4 costs no more
 _SETTLING = 4e-3  # s after the start before the first try
@@ -82,26 +33,26 @@ _HOLDS = (1e-3, 3.2e-2)  # s: pause after leaving, doubled each time it is soon 
 @kernel
 def begin(s, t):
     """Set the path's own numbers at initialisation, time ``t`` (s)."""
-    s[S_FALLBACKS] = 0.0
-    s[S_FAST_STEP] = LONGEST
-    s[S_FAST_COUNT] = 0.0
-    s[S_FAST_HOLD] = t + _SETTLING
-    s[S_FAST_PATIENCE] = _HOLDS[0]
+    s[S.FALLBACKS] = 0.0
+    s[S.FAST_STEP] = LONGEST
+    s[S.FAST_COUNT] = 0.0
+    s[S.FAST_HOLD] = t + _SETTLING
+    s[S.FAST_PATIENCE] = _HOLDS[0]
 
 
 @kernel
 def leave(s, shorter, h):
     """Leave the path: for steps shorter than ``h`` at once, otherwise for a pause."""
-    s[S_FALLBACKS] += 1.0
-    s[S_FAST_COUNT] = 0.0
-    s[S_FACTOR_STEP] = 0.0
+    s[S.FALLBACKS] += 1.0
+    s[S.FAST_COUNT] = 0.0
+    s[S.FACTOR_STEP] = 0.0
     if shorter:
-        s[S_FAST_STEP] = h / 1.5
-        s[S_FAST_HOLD] = s[S_TIME]
+        s[S.FAST_STEP] = h / 1.5
+        s[S.FAST_HOLD] = s[S.TIME]
     else:
-        s[S_FAST_STEP] = LONGEST
-        s[S_FAST_HOLD] = s[S_TIME] + s[S_FAST_PATIENCE]
-        s[S_FAST_PATIENCE] = min(2.0 * s[S_FAST_PATIENCE], _HOLDS[1])
+        s[S.FAST_STEP] = LONGEST
+        s[S.FAST_HOLD] = s[S.TIME] + s[S.FAST_PATIENCE]
+        s[S.FAST_PATIENCE] = min(2.0 * s[S.FAST_PATIENCE], _HOLDS[1])
 
 
 @kernel
@@ -109,51 +60,48 @@ def ring_range(s):
     """Upper bound (rad/s) of the rings' frequencies: diagonal of the Jacobian, the balls held."""
     most = 0.0
     for i in range(11):
-        most = max(most, -s[S_JAC + J_E + i * 34 + i])
+        most = max(most, -s[S.JAC + J.E + i * 34 + i])
     return math.sqrt(most)
 
 
 @kernel
 def remember(s, h, before):
     """Take an ESDIRK4 step of length ``h`` into the history; ``before``: the accelerations it began with."""
-    if s[S_FAST_COUNT] == 0.0 or abs(h - s[S_FAST_LENGTH]) > 1e-6 * h:
-        s[S_FAST_COUNT] = 0.0
-        s[S_FAST_LENGTH] = h
-    fast = S_FAST
-    for i in range(F_SIZE):
-        s[fast + FAST_A2 + i] = s[fast + FAST_A1 + i]
-        s[fast + FAST_A1 + i] = before[i]
-        s[fast + FAST_A0 + i] = s[S_F + i]
-    s[S_FAST_COUNT] += 1.0
-    if s[S_FAST_COUNT] == 2.0:
-        a = s[fast + FAST_A0 : fast + FAST_A1]
+    if s[S.FAST_COUNT] == 0.0 or abs(h - s[S.FAST_LENGTH]) > 1e-6 * h:
+        s[S.FAST_COUNT] = 0.0
+        s[S.FAST_LENGTH] = h
+    for i in range(F.SIZE):
+        s[S.FAST_A2 + i] = s[S.FAST_A1 + i]
+        s[S.FAST_A1 + i] = before[i]
+        s[S.FAST_A0 + i] = s[S.F + i]
+    s[S.FAST_COUNT] += 1.0
+    if s[S.FAST_COUNT] == 2.0:
+        a = s[S.FAST_A0 : S.FAST_A1]
         true_rates(
-            s[S_Y : S_Y + Y_SIZE], -h, a, s[fast + FAST_A1 : fast + FAST_A2],
-            s[fast + FAST_A2 : fast + FAST_A2 + F_SIZE], s[fast + FAST_Y : fast + FAST_A0],
+            s[S.Y : S.Y + Y.SIZE], -h, a, s[S.FAST_A1 : S.FAST_A2],
+            s[S.FAST_A2 : S.FAST_A2 + F.SIZE], s[S.FAST_Y : S.FAST_A0],
         )  # fmt: skip
 
 
 @kernel
 def shift_history(s, before):
     """After a jump of the inputs the whole history moves by that of the accelerations since ``before``."""
-    fast = S_FAST
-    for i in range(F_G + N_BODY):
-        jump = s[S_F + i] - before[i]
-        s[fast + FAST_A0 + i] += jump
-        s[fast + FAST_A1 + i] += jump
-        s[fast + FAST_A2 + i] += jump
+    for i in range(F.BODY + Q.SIZE):
+        jump = s[S.F + i] - before[i]
+        s[S.FAST_A0 + i] += jump
+        s[S.FAST_A1 + i] += jump
+        s[S.FAST_A2 + i] += jump
 
 
 @kernel
 def load_block(s, w):
     """History, state and accelerations of the path into the block's first places."""
-    fast = S_FAST
-    for i in range(F_SIZE):
-        w[W_BLOCK_A + i] = s[fast + FAST_A2 + i]
-        w[W_BLOCK_A + F_SIZE + i] = s[fast + FAST_A1 + i]
-        w[W_BLOCK_A + 2 * F_SIZE + i] = s[fast + FAST_A0 + i]
-    for i in range(Y_SIZE):
-        w[W_BLOCK_Y + i] = s[fast + FAST_Y + i]
+    for i in range(F.SIZE):
+        w[W.BLOCK_A + i] = s[S.FAST_A2 + i]
+        w[W.BLOCK_A + F.SIZE + i] = s[S.FAST_A1 + i]
+        w[W.BLOCK_A + 2 * F.SIZE + i] = s[S.FAST_A0 + i]
+    for i in range(Y.SIZE):
+        w[W.BLOCK_Y + i] = s[S.FAST_Y + i]
 
 
 @kernel
@@ -161,22 +109,22 @@ def ball_beta(p, s, h):
     """Newmark's beta for the balls' places: 1/12 while the step resolves their modes, else 1/4."""
     most = 0.0
     for k in range(2):
-        for j in range(int(p[P_LANES])):
-            most = max(most, -s[S_JAC + J_B + k * 10 * _S + j])
+        for j in range(int(p[P.LANES])):
+            most = max(most, -s[S.JAC + J.B + k * 10 * STRIDE + j])
     return BETA if most * h * h < _BALL_RANGE * _BALL_RANGE else BETA_BALL
 
 
 @kernel
 def difference(p, h, k, third, w):
     """First or third difference of the bodies' accelerations up to step ``k`` of the block (m/s, times h)."""
-    d = w[W_D : W_D + F_SIZE]
-    for i in range(F_G, F_G + N_BODY):
-        now = W_BLOCK_A + (k + 2) * F_SIZE + i
+    d = w[W.D : W.D + F.SIZE]
+    for i in range(F.BODY, F.BODY + Q.SIZE):
+        now = W.BLOCK_A + (k + 2) * F.SIZE + i
         if third:
-            d[i] = w[now] - 3.0 * w[now - F_SIZE] + 3.0 * w[now - 2 * F_SIZE] - w[now - 3 * F_SIZE]
+            d[i] = w[now] - 3.0 * w[now - F.SIZE] + 3.0 * w[now - 2 * F.SIZE] - w[now - 3 * F.SIZE]
         else:
-            d[i] = w[now] - w[now - F_SIZE]
-    return h * math.sqrt(body_size(p, d, F_G))
+            d[i] = w[now] - w[now - F.SIZE]
+    return h * math.sqrt(body_size(p, d, F.BODY))
 
 
 @kernel
@@ -188,7 +136,7 @@ def method_error(p, h, beta_ball, k, w):
     """
     error = difference(p, h, k, True, w) / 240.0
     if beta_ball != BETA:
-        share = p[P_BALLS] * p[P_BALL_MASS] / min(p[P_INNER_MASS], p[P_OUTER_MASS])
+        share = p[P.BALLS] * p[P.BALL_MASS] / min(p[P.INNER_MASS], p[P.OUTER_MASS])
         error += share / 6.0 * difference(p, h, k, False, w)
     return error
 
@@ -196,30 +144,30 @@ def method_error(p, h, beta_ball, k, w):
 @inlined
 def try_block(p, s, w, h, beta_ball, count, tolerance):
     """Compute ``count`` steps of length ``h`` into the block; 0 good, 1 shorter steps, 2 leave."""
-    c = s[S_C : S_C + C_SIZE]
-    fac = s[S_FAC:S_FAST]
+    c = s[S.C : S.C + C.SIZE]
+    fac = s[S.FAC : S.FAST]
     load_block(s, w)
-    turned = s[S_Y + 2 * _S] - s[S_JACOBIAN_ANGLE]
-    orbit = s[S_Y + 5 * _S]
+    turned = s[S.Y + 2 * STRIDE] - s[S.JACOBIAN_ANGLE]
+    orbit = s[S.Y + 5 * STRIDE]
     size = 0.0
     for k in range(count):
-        y = w[W_BLOCK_Y + k * Y_SIZE : W_BLOCK_Y + (k + 1) * Y_SIZE]
-        new = w[W_BLOCK_Y + (k + 1) * Y_SIZE : W_BLOCK_Y + (k + 2) * Y_SIZE]
-        a = w[W_BLOCK_A + (k + 2) * F_SIZE : W_BLOCK_A + (k + 3) * F_SIZE]
-        new_a = w[W_BLOCK_A + (k + 3) * F_SIZE : W_BLOCK_A + (k + 4) * F_SIZE]
+        y = w[W.BLOCK_Y + k * Y.SIZE : W.BLOCK_Y + (k + 1) * Y.SIZE]
+        new = w[W.BLOCK_Y + (k + 1) * Y.SIZE : W.BLOCK_Y + (k + 2) * Y.SIZE]
+        a = w[W.BLOCK_A + (k + 2) * F.SIZE : W.BLOCK_A + (k + 3) * F.SIZE]
+        new_a = w[W.BLOCK_A + (k + 3) * F.SIZE : W.BLOCK_A + (k + 4) * F.SIZE]
         t = (k + 1) * h
-        rate = s[S_SPEED_RATE]
-        angle = s[S_ANGLE] + t * (s[S_SPEED] + 0.5 * t * rate)
+        rate = s[S.SPEED_RATE]
+        angle = s[S.ANGLE] + t * (s[S.SPEED] + 0.5 * t * rate)
         co = math.cos(turned + t * orbit)
         si = math.sin(turned + t * orbit)
         predict(y, a, h, new, new_a)
-        turn_axes(p, s[S_AXES:S_JAC], s[S_Y : S_Y + Y_SIZE], int(p[P_LANES]), t, w)
-        iterate(p, c, angle, s[S_SPEED] + t * rate, rate, h, beta_ball, fac, co, si, new, new_a, w)
+        turn_axes(p, s[S.AXES : S.JAC], s[S.Y : S.Y + Y.SIZE], int(p[P.LANES]), t, w)
+        iterate(p, c, angle, s[S.SPEED] + t * rate, rate, h, beta_ball, fac, co, si, new, new_a, w)
         if k == count - 1:
-            size = newton_size(p, c, w[W_D : W_D + F_SIZE], 0.5 * h)
-            iterate(p, c, angle, s[S_SPEED] + t * rate, rate, h, beta_ball, fac, co, si, new, new_a, w)
-    left = newton_size(p, c, w[W_D : W_D + F_SIZE], 0.5 * h)
-    s[S_NEWTON] += count + 1.0
+            size = newton_size(p, c, w[W.D : W.D + F.SIZE], 0.5 * h)
+            iterate(p, c, angle, s[S.SPEED] + t * rate, rate, h, beta_ball, fac, co, si, new, new_a, w)
+    left = newton_size(p, c, w[W.D : W.D + F.SIZE], 0.5 * h)
+    s[S.NEWTON] += count + 1.0
     if not (size < 1e3 and left < 1e3):
         return 2
     if left > _CONTRACTION * size and left > 1e-2 * tolerance:
@@ -232,34 +180,33 @@ def try_block(p, s, w, h, beta_ball, count, tolerance):
 @inlined
 def commit_step(p, s, w, h, k):
     """Make step ``k`` of the block the state: true rates, sound samples, work and heat by the trapezoid."""
-    here = W_BLOCK_A + (k + 3) * F_SIZE
-    for i in range(F_SIZE):
-        w[W_LAST + i] = w[here + i]
+    here = W.BLOCK_A + (k + 3) * F.SIZE
+    for i in range(F.SIZE):
+        w[W.LAST + i] = w[here + i]
     true_rates(
-        w[W_BLOCK_Y + (k + 1) * Y_SIZE : W_BLOCK_Y + (k + 2) * Y_SIZE], h, w[here : here + F_SIZE],
-        w[here - F_SIZE : here], w[here - 2 * F_SIZE : here - F_SIZE], w[W_Y : W_Y + Y_SIZE],
+        w[W.BLOCK_Y + (k + 1) * Y.SIZE : W.BLOCK_Y + (k + 2) * Y.SIZE], h, w[here : here + F.SIZE],
+        w[here - F.SIZE : here], w[here - 2 * F.SIZE : here - F.SIZE], w[W.STAGE : W.STAGE + Y.SIZE],
     )  # fmt: skip
     # the block's angles run on while the state's are brought back into one turn after each step
-    for j in range(2 * _S, 3 * _S):
-        w[W_Y + j] = s[S_Y + j] + wrap(w[W_Y + j] - s[S_Y + j])
+    for j in range(2 * STRIDE, 3 * STRIDE):
+        w[W.STAGE + j] = s[S.Y + j] + wrap(w[W.STAGE + j] - s[S.Y + j])
     emit_samples(p, s, w, h)
     for i in range(4):
-        place = F_WORK if i == 0 else F_HEAT + i - 1
-        s[S_WORK + i] += 0.5 * h * (w[here - F_SIZE + place] + w[here + place])
+        place = F.WORK if i == 0 else F.HEAT + i - 1
+        s[S.WORK + i] += 0.5 * h * (w[here - F.SIZE + place] + w[here + place])
 
 
 @kernel
 def keep_block(s, w, count):
     """Take the end of the block over as the path's history."""
-    fast = S_FAST
-    last = W_BLOCK_A + (count + 2) * F_SIZE
-    for i in range(F_SIZE):
-        s[fast + FAST_A2 + i] = w[last - 2 * F_SIZE + i]
-        s[fast + FAST_A1 + i] = w[last - F_SIZE + i]
-        s[fast + FAST_A0 + i] = w[last + i]
-    y = s[fast + FAST_Y : fast + FAST_A0]
-    for i in range(Y_SIZE):
-        y[i] = w[W_BLOCK_Y + count * Y_SIZE + i]
+    last = W.BLOCK_A + (count + 2) * F.SIZE
+    for i in range(F.SIZE):
+        s[S.FAST_A2 + i] = w[last - 2 * F.SIZE + i]
+        s[S.FAST_A1 + i] = w[last - F.SIZE + i]
+        s[S.FAST_A0 + i] = w[last + i]
+    y = s[S.FAST_Y : S.FAST_A0]
+    for i in range(Y.SIZE):
+        y[i] = w[W.BLOCK_Y + count * Y.SIZE + i]
     wrap_angles(y)
 
 
@@ -271,32 +218,32 @@ def fast_block(p, s, w, count, tolerance):
     large an error of the method asks for shorter steps at once; anything else for a pause.
     """
     verdict = 2
-    h = s[S_FAST_LENGTH]
+    h = s[S.FAST_LENGTH]
     for _ in range(2):
-        if s[S_TIME] - s[S_JACOBIAN_TIME] > _OLDEST:
+        if s[S.TIME] - s[S.JACOBIAN_TIME] > _OLDEST:
             renew_jacobian(p, s, w)
-        fresh = s[S_JACOBIAN_TIME] == s[S_TIME]
-        if s[S_FACTOR_STEP] != -h:
+        fresh = s[S.JACOBIAN_TIME] == s[S.TIME]
+        if s[S.FACTOR_STEP] != -h:
             beta = ball_beta(p, s, h)
             square = h * h
-            if not factor(p, s[S_JAC:S_FAC], 0.5 * h, BETA * square, beta * square, s[S_FAC:S_FAST], w):
+            if not factor(p, s[S.JAC : S.FAC], 0.5 * h, BETA * square, beta * square, s[S.FAC : S.FAST], w):
                 break
-            s[S_FACTOR_STEP] = -h
-            s[S_FAST_BETA] = beta
-        verdict = try_block(p, s, w, h, s[S_FAST_BETA], count, tolerance)
+            s[S.FACTOR_STEP] = -h
+            s[S.FAST_BETA] = beta
+        verdict = try_block(p, s, w, h, s[S.FAST_BETA], count, tolerance)
         if verdict == 0 or fresh:
             break
-        s[S_JACOBIAN_TIME] = -1e300
+        s[S.JACOBIAN_TIME] = -1e300
     if verdict == 0:
         for k in range(count):
             commit_step(p, s, w, h, k)
             accept(p, s, w, h)
         keep_block(s, w, count)
-        if s[S_TIME] - s[S_FAST_HOLD] > _TRUSTED:
-            s[S_FAST_PATIENCE] = _HOLDS[0]
-            if s[S_FAST_STEP] < LONGEST:
-                s[S_FAST_STEP] = min(1.5 * s[S_FAST_STEP], LONGEST)
-                s[S_FAST_HOLD] = s[S_TIME]
+        if s[S.TIME] - s[S.FAST_HOLD] > _TRUSTED:
+            s[S.FAST_PATIENCE] = _HOLDS[0]
+            if s[S.FAST_STEP] < LONGEST:
+                s[S.FAST_STEP] = min(1.5 * s[S.FAST_STEP], LONGEST)
+                s[S.FAST_HOLD] = s[S.TIME]
         return True
     leave(s, verdict == 1 and h >= 1.5 * SHORTEST, h)
     return False
@@ -305,9 +252,9 @@ def fast_block(p, s, w, count, tolerance):
 @kernel
 def fast_length(p, s, remaining):
     """Step (s) that the path would take towards a communication point ``remaining`` away; 0 if it rests."""
-    if s[S_TIME] < s[S_FAST_HOLD]:
+    if s[S.TIME] < s[S.FAST_HOLD]:
         return 0.0
-    wanted = min(s[S_FAST_STEP], p[P_MAX_STEP])
+    wanted = min(s[S.FAST_STEP], p[P.MAX_STEP])
     length = remaining / max(1.0, math.ceil(remaining / wanted - 1e-6))
     if ring_range(s) * length > _RANGE:
         return 0.0
@@ -317,4 +264,4 @@ def fast_length(p, s, remaining):
 @kernel
 def fast_history(s, length):
     """Whether the history serves steps of this ``length`` (s)."""
-    return s[S_FAST_COUNT] >= 2.0 and abs(length - s[S_FAST_LENGTH]) <= 1e-6 * length
+    return s[S.FAST_COUNT] >= 2.0 and abs(length - s[S.FAST_LENGTH]) <= 1e-6 * length

@@ -7,19 +7,8 @@ that away for what people read. It gives no estimate of its error: ``fast`` meas
 """
 
 from fmu_bearing.engine.jit import inlined, kernel
-from fmu_bearing.engine.layout import (
-    F_G,
-    F_SIZE,
-    F_WORK,
-    N_BODY,
-    STRIDE,
-    W_D,
-    W_F,
-    W_F0,
-    Y_Q,
-    Y_SIZE,
-    Y_V,
-)
+from fmu_bearing.engine.layout import F, Q, W, Y
+from fmu_bearing.engine.layout.sizes import STRIDE
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.newton.block_arrow import solve
 
@@ -48,14 +37,14 @@ def add(x, scale, y, n):
 def predict(y, a, h, new, new_a):
     """Places and rates after ``h`` at unchanged accelerations ``a``."""
     advance(y[:PLACES], y[PLACES:], a, h, new[:PLACES], PLACES)
-    advance(y[Y_Q:Y_V], y[Y_V:], a[F_G:], h, new[Y_Q:Y_V], N_BODY)
+    advance(y[Y.Q0 : Y.V0], y[Y.V0 :], a[F.BODY :], h, new[Y.Q0 : Y.V0], Q.SIZE)
     rates = new[PLACES : PLACES + RATES]
     old = y[PLACES : PLACES + RATES]
     for i in range(RATES):
         rates[i] = old[i] + h * a[i]
-    for i in range(N_BODY):
-        new[Y_V + i] = y[Y_V + i] + h * a[F_G + i]
-    for i in range(F_SIZE):
+    for i in range(Q.SIZE):
+        new[Y.V0 + i] = y[Y.V0 + i] + h * a[F.BODY + i]
+    for i in range(F.SIZE):
         new_a[i] = a[i]
 
 
@@ -65,18 +54,18 @@ def iterate(p, c, angle, speed, speed_rate, h, beta_ball, fac, co, si, new, new_
 
     ``angle``, ``speed`` at the end of the step; ``co``, ``si`` of the orbit angle since the Jacobian.
     """
-    d = w[W_D : W_D + F_SIZE]
-    f = w[W_F:W_F0]
+    d = w[W.D : W.D + F.SIZE]
+    f = w[W.F : W.F0]
     right_hand_side(p, c, new, angle, speed, speed_rate, w, f)
-    for i in range(RATES + N_BODY):
+    for i in range(RATES + Q.SIZE):
         d[i] = f[i] - new_a[i]
     solve(p, fac, co, si, d, w)
-    add(new_a, 1.0, d, RATES + N_BODY)
+    add(new_a, 1.0, d, RATES + Q.SIZE)
     add(new[PLACES : PLACES + RATES], 0.5 * h, d, RATES)
     add(new[:PLACES], beta_ball * h * h, d, PLACES)
-    add(new[Y_V:], 0.5 * h, d[F_G:], N_BODY)
-    add(new[Y_Q:Y_V], BETA * h * h, d[F_G:], N_BODY)
-    for i in range(F_WORK, F_SIZE):
+    add(new[Y.V0 :], 0.5 * h, d[F.BODY :], Q.SIZE)
+    add(new[Y.Q0 : Y.V0], BETA * h * h, d[F.BODY :], Q.SIZE)
+    for i in range(F.WORK, F.SIZE):
         new_a[i] = f[i]
 
 
@@ -86,11 +75,11 @@ def true_rates(kept, h, a, before, earlier, y):
 
     ``h`` negative turns true rates into the method's own.
     """
-    for i in range(Y_SIZE):
+    for i in range(Y.SIZE):
         y[i] = kept[i]
     third = h / 24.0
     rates = y[PLACES : PLACES + RATES]
     for i in range(RATES):
         rates[i] -= third * (3.0 * a[i] - 4.0 * before[i] + earlier[i])
-    for i in range(N_BODY):
-        y[Y_V + i] -= third * (3.0 * a[F_G + i] - 4.0 * before[F_G + i] + earlier[F_G + i])
+    for i in range(Q.SIZE):
+        y[Y.V0 + i] -= third * (3.0 * a[F.BODY + i] - 4.0 * before[F.BODY + i] + earlier[F.BODY + i])

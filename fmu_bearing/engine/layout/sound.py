@@ -33,7 +33,7 @@ RADIAL, AXIAL, ROTATION, FLEXURE, BALLS_KIND = range(5)
 # How the engine forms the channels: printed scalars; accelerations (compact, bem, table, paper_vector);
 # volume velocities at the contact points.
 RUNG_PAPER, RUNG_VECTORS, RUNG_CONTACTS = 1, 2, 3
-BAND_LANES = 32  # lanes kept for the third octaves ``layout.BANDS``: whole vectors
+BAND_LANES = 32  # lanes kept for the third octaves ``z.BANDS``: whole vectors
 
 # --- head of ps ---------------------------------------------------------------------------------
 (
@@ -153,7 +153,7 @@ SS_FAST = 4
 SS_SLOW = 5
 SS_TABLES = 6  # history of the decimator begins here
 
-# Meters: one row per name of ``layout.MIC_OUTPUTS``, one lane per microphone.
+# Meters: one row per name of ``z.MIC_OUTPUTS``, one lane per microphone.
 (
     M_PRESSURE,
     M_LEVEL,

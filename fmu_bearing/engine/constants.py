@@ -1,0 +1,7 @@
+"""Constants of nature and convention."""
+
+import math
+
+REFERENCE_TEMPERATURE = 293.15  # K: viscosity is the reference one, expansion is zero
+GRAVITY = 9.81  # m/s2, along -Z
+PI = math.pi

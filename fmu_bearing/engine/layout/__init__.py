@@ -1,0 +1,60 @@
+"""Places in the flat arrays that every kernel shares: one module per array, named by a capital.
+
+After ``from fmu_bearing.engine.layout import P, S, W`` a kernel line shows which array it touches:
+``p[P.MU]``, ``s[S.TIME]``, ``w[W.LOSS + j]``.
+
+================  ====  ==========================================================================
+module            as    array
+================  ====  ==========================================================================
+``sizes``               lengths that several arrays share, and `Places`, which hands out places
+``q``             Q     the bodies' 17 coordinates, wherever they stand
+``y``             Y     positions and velocities of the mechanics: head of ``s``, and each stage
+``f``             F     right-hand side: accelerations, power, heat, torque
+``c``             C     conditions held over a communication step
+``u``             U     inputs
+``z``             Z     outputs
+``sound``         SD    sound blocks: parameters ``ps``, state ``ss``, work ``ws``
+``motion``        MO    one motion sample for the sound kernels
+``flexure``       FL    bending rings: their rows and numbers in ``w``, what ``s`` keeps of them
+``p``             P     parameters: written once by ``prepare``, read only in the engine
+``jacobian``      J     blocks of the Jacobian
+``factors``       A     factors of the Newton matrix
+``condensed``     L     what fidelities rings and response keep in ``s``
+``s``             S     state: all that a later step needs, and nothing else
+``equilibrium``   EQ    result of the quasi-static kernel
+``pose``          X     where a ball stands in a body's frame: rows of ``w``
+``race``          R     contact of the balls with one race: rows of ``w``
+``w``             W     work space: scratch, no value survives a call; its ledger of overlays
+``trial``         T     work space of fidelities rings and response
+``tableau``       TAB   coefficients of one Runge-Kutta method
+================  ====  ==========================================================================
+
+All arrays are one-dimensional, of float64, in SI units. Per-ball quantities are structures of arrays: the
+*row* of a quantity is the place of ball 0, ball j stands ``j`` places on, the next row ``STRIDE`` places on;
+one loop over balls is then one vector loop. Places are computed from sizes, never counted by hand.
+"""
+
+from fmu_bearing.engine.layout import (
+    c as C,
+    condensed as L,
+    equilibrium as EQ,
+    f as F,
+    factors as A,
+    flexure as FL,
+    jacobian as J,
+    motion as MO,
+    p as P,
+    pose as X,
+    q as Q,
+    race as R,
+    s as S,
+    sound as SD,
+    tableau as TAB,
+    trial as T,
+    u as U,
+    w as W,
+    y as Y,
+    z as Z,
+)
+
+__all__ = "A C EQ F FL J L MO P Q R S SD T TAB U W X Y Z".split()

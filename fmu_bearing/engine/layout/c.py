@@ -1,0 +1,29 @@
+"""C: conditions, held over a communication step."""
+
+from fmu_bearing.engine.layout.sizes import Places
+
+_race = Places()
+GROOVE_X = _race()  # m: circle of groove centres, its place along the axis
+GROOVE_RADIUS = _race()  # m: and its radius
+FREE = _race()  # m: distance of ball and groove centre without load
+ROLLING = _race()  # N m: rolling moment factor at the oil's viscosity
+RACE_SIZE = _race.next
+
+_at = Places()
+PRELOAD = _at()  # N
+LOAD_Y = _at()  # N
+LOAD_Z = _at()  # N
+PEDESTAL = _at()  # N/m, radial
+PEDESTAL_AXIAL = _at()  # N/m
+PEDESTAL_ROTATIONAL = _at()  # N m/rad
+DAMPING = _at()  # N s/m, radial
+DAMPING_AXIAL = _at()  # N s/m
+DAMPING_ROTATIONAL = _at()  # N m s/rad, of tilts
+DAMPING_SPIN = _at()  # N m s/rad, about the axis
+VISCOSITY = _at()  # Pa s
+OVERSIZE_SCALE = _at()  # factor on ball sizes and waviness
+ECCENTRICITY = _at()  # m
+RACES = _at(2 * RACE_SIZE)  # inner, outer
+BALL_RADIUS = _at()  # m
+_SPARE = _at(10)
+SIZE = _at.next

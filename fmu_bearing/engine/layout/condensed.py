@@ -1,0 +1,70 @@
+"""L: what fidelities rings and response keep in the state, from ``S.CONDENSED`` on (``lv`` in kernels)."""
+
+from fmu_bearing.engine.layout import c as C, q as Q, y as Y
+from fmu_bearing.engine.layout.sizes import STRIDE, Places
+
+N = Q.RINGS  # coordinates: inner x y z by bz, outer x y z angle by bz
+COLUMN = 12  # numbers per vector or matrix column: N, rounded up to whole vectors
+MATRIX = COLUMN * N
+ORDERS = 64  # of race waviness that fidelity response knows
+
+_line = Places()
+LINE_BALL = _line()  # multiple of ball 0's angle,
+LINE_SHAFT = _line()  # and of the shaft's
+_LINE_OTHERS = _line(20)  # complex displacements without the spin
+LINE_SIZE = _line.next
+
+_at = Places()
+RATIO = _at()  # orbit over shaft speed
+PAIR_INNER = _at()  # kg m: friction force that balances the gyroscopic moment over shaft speed squared
+PAIR_OUTER = _at()
+TORQUE = _at()  # N m at FOUND_SPEED
+HEAT = _at(3)  # W: inner ring, outer ring, oil
+TWIST = _at()  # N m on the outer ring about its axis
+FOUND_SPEED = _at()  # rad/s of the held values
+HIGHEST = _at()  # rad/s: highest mode of the rings
+ORDER = _at()  # waves per turn that the step has to follow
+SPACING = _at()  # s between the kept accelerations; 0: none
+KNOWN = _at()  # how many earlier steps of that spacing are kept
+CONTRACTION = _at()
+FACTOR_STEP = _at()  # s: step the inverse holds for; 0: none
+CALM = _at()  # steps since the last rejection or change of step
+THETA = _at()  # rad: angle of ball 0
+COUNT = _at()  # of lines (fidelity response)
+FRESH = _at()  # 1 while the Jacobian is that of the present state
+_SPARE = _at(13)
+CONDITIONS = _at(C.SIZE)  # that the held values were found at
+Q0 = _at(COLUMN)  # m, rad: displacements,
+V0 = _at(COLUMN)  # their Newmark velocities,
+A0 = _at(COLUMN)  # accelerations now
+A1 = _at(COLUMN)  # and two steps before
+A2 = _at(COLUMN)
+MEAN = _at(COLUMN)  # static equilibrium of the rings
+JERK = _at(COLUMN)  # rates of acceleration, kept over a change of step
+# Matrices of 11 x 11 by columns of 12, so that a product is a few vector instructions.
+JX = _at(MATRIX)  # derivatives of accelerations by displacements
+JV = _at(MATRIX)  # and by velocities
+INVERSE = _at(MATRIX)  # of mass - cv J_v - cx J_x
+MASS = _at(MATRIX)  # identity plus the balls' mass over the rings' own
+EXTRA = _at(MATRIX)  # 1/s: damping that traction adds, per own mass
+# rows per ball
+X = _at(STRIDE)  # m: place now
+R = _at(STRIDE)
+X1 = _at(STRIDE)  # and at the steps before
+R1 = _at(STRIDE)
+X2 = _at(STRIDE)
+R2 = _at(STRIDE)
+X3 = _at(STRIDE)  # fidelity response: places at its equilibrium, ball 0 at angle 0
+R3 = _at(STRIDE)
+PHI = _at(STRIDE)  # angle from ball 0 in table intervals,
+COS = _at(STRIDE)  # its cosine
+SIN = _at(STRIDE)  # and sine
+SIZES = _at(STRIDE)  # m: half the diameter deviation, at scale 1
+MASK = _at(STRIDE)  # 1 for a ball, 0 for a spare lane
+SPIN = _at(3 * STRIDE)  # spin over shaft speed: x, r, theta
+SETTLED = _at(STRIDE)  # how many of the latest places are places of rest
+Y0 = _at(Y.SIZE)  # state of the quasi-static point
+WAVES = _at(4 * ORDERS)  # m: complex amplitudes of orders 1 .. ORDERS, inner then outer
+LINES = _at.next  # table of lines: LINE_SIZE numbers each
+SIZE = 4992  # of the block: the lines take what is left
+MOST_LINES = (SIZE - LINES) // LINE_SIZE

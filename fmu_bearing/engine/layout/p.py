@@ -1,0 +1,139 @@
+"""P: parameters, written once by ``prepare``, read only in the engine."""
+
+from fmu_bearing.engine.layout.sizes import Places
+
+_at = Places()
+# head: tunable before initialisation
+FIDELITY = _at()  # see choices.FIDELITIES
+TOLERANCE = _at()  # relative, on ring velocities
+MAX_STEP = _at()  # s
+IMPERFECTION_SCALE = _at()
+TIME_WEIGHTING = _at()  # s: 0.125 Fast, 1 Slow
+METERING_START = _at()  # s after initialisation
+VISCOSITY = _at()  # Pa s at the reference temperature
+# counts and choices
+METHOD = _at()  # integrator of fidelity full: see choices.METHODS
+RACE_CONTROL = _at()  # see choices.RACE_CONTROLS
+TRACTION_LAW = _at()  # see choices.TRACTION_LAWS
+VISCOSITY_LAW = _at()  # see choices.VISCOSITY_LAWS
+BALLS = _at()  # number of balls
+LANES = _at()  # balls rounded up to a multiple of 4; the lanes beyond copy ball 0
+MICS = _at()  # number of microphones
+BANDS = _at()  # third octaves per microphone; 0: none
+STRIPS = _at()  # over a contact's major axis
+MODES = _at()  # flexural modes of both rings; 0: rigid rings
+BALL_WAVES = _at()  # zonal orders of the balls' waviness; 0: none
+# switches: 1 computed, 0 left out
+CAGE = _at()
+GRAVITY = _at()
+DRAG = _at()
+ROLLING = _at()
+REDUCTION = _at()  # thermal and starvation factors of the rolling resistance
+LAND = _at()
+GYROSCOPIC = _at()
+WAVINESS = _at()
+RIGID = _at()  # rigid preload
+# offsets into p
+AT_STRIPS = _at()  # strip nodes, then weights
+AT_OVERSIZE = _at()  # m: ball diameter deviations, one per lane
+AT_WAVES = _at()  # m: race tables: inner then outer, values and slopes interleaved
+AT_BALL_WAVES = _at()  # m: amplitudes of orders 1.., then the bodies' axes, 3 rows
+AT_MODES = _at()  # MODE_SIZE numbers per mode
+AT_SOUND = _at()  # sound block; 0: there is none
+SOUND_SIZE = _at()  # its length, and those of its state and work space
+SOUND_STATE = _at()
+SOUND_WORK = _at()
+# balls, contacts, oil
+PITCH_RADIUS = _at()  # m
+DIAMETER = _at()  # m, of a ball
+BALL_MASS = _at()  # kg
+BALL_INERTIA = _at()  # kg m2
+BALL_EXPANSION = _at()  # 1/K
+CONTACT_DAMPING = _at()  # s: damping coefficient over contact stiffness
+MU = _at()  # largest traction over load
+SLIDE_TO_ROLL = _at()  # at which traction levels off
+TRACTION_FLOOR = _at()  # m/s
+EYRING_STRESS = _at()  # Pa
+PRESSURE_VISCOSITY = _at()  # 1/Pa
+VOGEL_B = _at()  # K
+VOGEL_C = _at()  # K
+WALTHER_SLOPE = _at()
+OIL_DENSITY = _at()  # kg/m3
+SHEAR_HEATING = _at()  # constants of the SKF reduction factors, for speed in r/min and viscosity in mm2/s
+STARVATION = _at()
+DRAG_FACTOR = _at()  # N/(m/s)^2
+ROUGHNESS = _at()  # m rms, both surfaces
+# bodies
+INNER_MASS = _at()  # kg, with the rotor
+INNER_TRANSVERSE = _at()  # kg m2
+INNER_POLAR = _at()  # kg m2
+OUTER_MASS = _at()  # kg, with the housing
+OUTER_TRANSVERSE = _at()  # kg m2
+OUTER_POLAR = _at()  # kg m2
+CAGE_MASS = _at()  # kg
+CAGE_TRANSVERSE = _at()  # kg m2
+CAGE_POLAR = _at()  # kg m2
+ECCENTRICITY = _at()  # m: centre of mass of the rotating parts
+TILT_STIFFNESS = _at()  # N m/rad
+TILT_DAMPING = _at()  # N m s/rad
+AXIAL_RATIO = _at()  # pedestal stiffness, axial over radial
+ROTATIONAL_RATIO = _at()  # m2: rotational over radial
+PEDESTAL_ZETA = _at()  # damping ratio
+MISALIGNMENT_Y = _at()  # rad, of the outer ring's seat against the shaft
+MISALIGNMENT_Z = _at()  # rad
+# cage, or springs in its place
+POCKET_CLEARANCE = _at()  # m
+POCKET_STIFFNESS = _at()  # N/m^1.5
+POCKET_DAMPING = _at()  # s/m: Hunt-Crossley
+POCKET_FRICTION = _at()
+POCKET_SLIP = _at()  # m/s
+POCKET_FILM = _at()  # N s/m
+LAND_RADIUS = _at()  # m
+LAND_LENGTH = _at()  # m
+LAND_OFFSET = _at()  # m
+LAND_CLEARANCE = _at()  # m
+LAND_VISCOSITY = _at()  # Pa s
+LAND_STOP_STIFFNESS = _at()  # N/m
+LAND_STOP_FRACTION = _at()  # of the clearance
+LAND_STOP_FRICTION = _at()
+LAND_STOP_SLIP = _at()  # m/s
+SPRINGS = _at()  # N/m between adjacent balls; 0: none
+SPRING_DAMPING = _at()  # N s/m
+MODE_STEP = _at()  # s: longest internal step that resolves the modes
+
+# per race
+_race = Places()
+RACE_STIFFNESS = _race()  # N/m^1.5
+RACE_HALF_LENGTH = _race()  # m^0.5: semi-major axis over sqrt(approach)
+RACE_PRESSURE = _race()  # Pa/m^0.5: peak pressure over sqrt(approach)
+RACE_PROFILE_RADIUS = _race()  # m: of the deformed contact surface across the rolling direction
+RACE_ROLLING = _race()  # rolling moment factor at viscosity 1 Pa s
+RACE_FILM = _race()  # minimum film factor at viscosity 1 Pa s
+RACE_GROOVE_X = _race()  # m: circle of groove centres
+RACE_GROOVE_RADIUS = _race()  # m: its radius
+RACE_GROOVE = _race()  # m: groove radius
+RACE_EXPANSION = _race()  # 1/K
+RACE_HALF_WIDTH = _race()  # m^0.5: semi-minor axis over sqrt(approach)
+RACE_CENTRAL_FILM = _race()  # central film factor at viscosity 1 Pa s
+RACE_SHOULDER = _race()  # rad: contact angle at which the groove ends
+RACE_SIZE = _race.next
+RACES = _at(2 * RACE_SIZE)  # inner, outer
+TABLES = _at.next  # tables of variable length begin here
+
+WAVE_INTERVALS = 2048  # of a race table
+
+# per flexural mode, at AT_MODES
+_mode = Places()
+MODE_BODY = _mode()  # 0 inner ring, 1 outer ring
+MODE_ORDER = _mode()  # circumferential, 2 or more
+MODE_MASS = _mode()  # kg, of one coordinate
+MODE_STIFFNESS = _mode()  # N/m, with the seat's
+MODE_DAMPING = _mode()  # 1/s: twice damping ratio times free frequency
+MODE_GYROSCOPIC = _mode()
+MODE_X = _mode()  # shape at the centre of the groove's circle: axial,
+MODE_R = _mode()  # radial,
+MODE_T = _mode()  # circumferential,
+MODE_TILT = _mode()  # 1/m: and rotation about the circumferential direction
+MODE_WEIGHT = _mode()  # mean square of the shape, for Newton's method and the error
+_SPARE = _mode()
+MODE_SIZE = _mode.next

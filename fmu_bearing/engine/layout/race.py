@@ -1,0 +1,32 @@
+"""R: contact of the balls with one race: rows of ``w`` per race. Forces and moments are those on the ball."""
+
+from fmu_bearing.engine.layout.sizes import STRIDE, Places
+
+_at = Places()
+EN = _at(3 * STRIDE)  # unit vector from groove centre to ball centre, in the ball's orbiting axes
+EM = _at(3 * STRIDE)  # across the track
+APPROACH = _at(STRIDE)  # m
+RATE = _at(STRIDE)  # m/s
+LOAD = _at(STRIDE)  # N, with damping
+ELASTIC = _at(STRIDE)  # N, without
+UT = _at(STRIDE)  # m/s: sliding along the track,
+UM = _at(STRIDE)  # and across
+AN = _at(STRIDE)  # rad/s: spin of the ball against the race,
+AT = _at(STRIDE)  # about the track's direction,
+AM = _at(STRIDE)  # and rolling
+SCALE = _at(STRIDE)  # m/s: sliding at which traction levels off
+FT = _at(STRIDE)  # N: traction along the track,
+FM = _at(STRIDE)  # and across
+MN = _at(STRIDE)  # N m: moments of traction about the normal,
+MT = _at(STRIDE)  # the track's direction,
+MM = _at(STRIDE)  # and the rolling axis
+HALF = _at(STRIDE)  # m: semi-major axis
+WAVE = _at(STRIDE)  # m: height of the race under the ball
+SLOPE = _at(STRIDE)  # its slope along the track
+ENTRAIN = _at(STRIDE)  # m/s: entrainment speed
+ROLL = _at(STRIDE)  # N m: rolling resistance
+SINA = _at(STRIDE)  # of the contact angle
+COSA = _at(STRIDE)
+BUMP_T = _at(STRIDE)  # slope of the ball's own waviness towards e_t and e_m
+BUMP_M = _at(STRIDE)
+SIZE = _at.next

@@ -1,0 +1,67 @@
+"""S: state, all that a later step needs and nothing else."""
+
+from fmu_bearing.engine.layout import (
+    c as _C,
+    condensed as _L,
+    f as _F,
+    factors as _A,
+    flexure as _FL,
+    jacobian as _J,
+    p as _P,
+    y as _Y,
+)
+from fmu_bearing.engine.layout.sizes import STRIDE, Places
+
+_at = Places()
+Y = _at(_Y.SIZE)  # positions and velocities
+F = _at(_F.SIZE)  # right-hand side at the state: accelerations start the next step
+C = _at(_C.SIZE)  # conditions
+TIME = _at()  # s
+ANGLE = _at()  # rad, of the inner ring
+SPEED = _at()  # rad/s, reached at TIME
+SPEED_RATE = _at()  # rad/s2
+WORK = _at()  # J
+HEAT = _at(3)  # J: given to inner ring, outer ring, oil
+ENERGY_START = _at()  # J
+STEP = _at()  # s: internal step proposed next
+FACTOR_STEP = _at()  # s: step for which the factors hold; 0: none
+JACOBIAN_TIME = _at()  # s
+JACOBIAN_ANGLE = _at()  # rad: orbit angle of the Jacobian
+CONTRACTION = _at()  # of Newton's method
+STEPS = _at()
+REJECTED = _at()
+MEAN_HEAT = _at(3)  # W: heats averaged over the last communication step
+SAMPLE = _at()  # index of the next sound sample
+START = _at()  # s: time of initialisation
+NEWTON = _at()  # iterations so far
+JACOBIANS = _at()
+ENERGY_NOW = _at()  # J
+FALLBACKS = _at()  # times the one-evaluation path was left
+FAST_STEP = _at()  # s: its step: wanted,
+FAST_LENGTH = _at()  # s: and that of the history
+FAST_COUNT = _at()  # history's length in steps, 0 to 3
+FAST_HOLD = _at()  # s: time before which it is not tried
+FAST_PATIENCE = _at()  # s: the next hold
+FAST_BETA = _at()  # Newmark's beta of the balls
+SPIN_TO_ROLL = _at(2)  # inner, outer: means over the loaded contacts at the last communication point
+SLIP = _at(2)  # m/s
+LOSS = _at(4)  # W: contacts, rolling, cage, drag
+PLACE = _at()  # m: where rigid preload takes the inner ring
+_SPARE = _at(8)
+AXES = _at(3 * STRIDE)  # the balls' body-fixed axes in their orbiting axes
+JAC = _at(_J.SIZE)  # Jacobian
+FAC = _at(_A.SIZE)  # factors
+# the one-evaluation path: its own rates (trapezoidal rule), accelerations now and two steps back
+FAST_Y = _at(_Y.SIZE)
+FAST_A0 = _at(_F.SIZE)
+FAST_A1 = _at(_F.SIZE)
+FAST_A2 = _at(_F.SIZE)
+CONDENSED = _at(_L.SIZE)  # what fidelities rings and response keep
+SOUND = _at.next  # sound state, then flexure
+
+FAST = FAST_Y  # the path's whole block, to CONDENSED
+
+
+def size(p):
+    """Length of ``s`` for the parameters ``p``."""
+    return SOUND + int(p[_P.SOUND_STATE]) + _FL.state_size(int(p[_P.MODES]))

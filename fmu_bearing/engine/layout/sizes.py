@@ -1,0 +1,31 @@
+"""Lengths that several arrays share, and :class:`Places`, which hands out places one after the other."""
+
+STRIDE = 24  # lanes per ball quantity: no power of two, so that rows spread over cache sets
+MAX_BALLS = STRIDE
+STAGES = 6  # of a Runge-Kutta method at most
+MAX_MODES = 16  # flexural modes of both rings
+BLOCK = 8  # one-evaluation steps proved together
+
+
+class Places:
+    """Hands out places one after the other: ``MASS = at()``, ``AXIS = at(3)``.
+
+    Parameters
+    ----------
+    first : int
+        The first place.
+
+    Attributes
+    ----------
+    next : int
+        The first place not handed out yet.
+    """
+
+    def __init__(self, first: int = 0) -> None:
+        self.next = first
+
+    def __call__(self, count: int = 1) -> int:
+        """Return the first of ``count`` places and move on behind them."""
+        place = self.next
+        self.next += count
+        return place

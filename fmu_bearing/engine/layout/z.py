@@ -1,0 +1,79 @@
+"""Z: outputs. The bearing's in the order of :data:`BEARING_OUTPUTS`, then balls, microphones, modes."""
+
+BEARING_OUTPUTS = (
+    "inner_ring.velocity.x", "inner_ring.velocity.y", "inner_ring.velocity.z", "outer_ring.velocity.x",
+    "outer_ring.velocity.y", "outer_ring.velocity.z", "cage.velocity.x", "cage.velocity.y",
+    "cage.velocity.z", "friction_torque", "heat.inner_ring", "heat.outer_ring", "heat.oil",
+    "cage.speed_ratio", "inner_ring.displacement.x", "inner_ring.displacement.y",
+    "inner_ring.displacement.z", "outer_ring.displacement.x", "outer_ring.displacement.y",
+    "outer_ring.displacement.z", "contact.inner.load_mean", "contact.inner.load_max",
+    "contact.inner.angle_mean", "contact.inner.pressure_max", "contact.outer.load_mean",
+    "contact.outer.load_max", "contact.outer.angle_mean", "contact.outer.pressure_max", "film.lambda_min",
+    "stiffness.axial", "stiffness.radial", "solver.steps", "solver.rejected", "energy.residual",
+    "solver.fallbacks", "inner_ring.tilt.y", "inner_ring.tilt.z", "contact.inner.spin_to_roll",
+    "contact.outer.spin_to_roll", "contact.inner.slip", "contact.outer.slip", "cage.whirl_radius",
+    "cage.whirl_speed", "friction_torque.contacts", "friction_torque.rolling", "friction_torque.cage",
+    "friction_torque.drag", "contact.inner.shoulder_margin", "contact.outer.shoulder_margin",
+)  # fmt: skip
+INNER_VELOCITY = BEARING_OUTPUTS.index("inner_ring.velocity.x")  # m/s, three
+OUTER_VELOCITY = BEARING_OUTPUTS.index("outer_ring.velocity.x")
+CAGE_VELOCITY = BEARING_OUTPUTS.index("cage.velocity.x")
+TORQUE = BEARING_OUTPUTS.index("friction_torque")  # N m
+HEAT = BEARING_OUTPUTS.index("heat.inner_ring")  # W, then outer ring, oil
+CAGE_RATIO = BEARING_OUTPUTS.index("cage.speed_ratio")
+INNER_PLACE = BEARING_OUTPUTS.index("inner_ring.displacement.x")  # m, three
+OUTER_PLACE = BEARING_OUTPUTS.index("outer_ring.displacement.x")
+CONTACT = BEARING_OUTPUTS.index("contact.inner.load_mean")  # four of the inner, four of the outer race
+LOAD_MEAN = 0  # N: places among a race's four
+LOAD_MAX = BEARING_OUTPUTS.index("contact.inner.load_max") - CONTACT
+ANGLE_MEAN = BEARING_OUTPUTS.index("contact.inner.angle_mean") - CONTACT  # rad
+PRESSURE_MAX = BEARING_OUTPUTS.index("contact.inner.pressure_max") - CONTACT  # Pa
+CONTACT_SIZE = BEARING_OUTPUTS.index("contact.outer.load_mean") - CONTACT
+LAMBDA = BEARING_OUTPUTS.index("film.lambda_min")
+AXIAL_STIFFNESS = BEARING_OUTPUTS.index("stiffness.axial")  # N/m
+RADIAL_STIFFNESS = BEARING_OUTPUTS.index("stiffness.radial")
+STEPS = BEARING_OUTPUTS.index("solver.steps")
+REJECTED = BEARING_OUTPUTS.index("solver.rejected")
+RESIDUAL = BEARING_OUTPUTS.index("energy.residual")
+FALLBACKS = BEARING_OUTPUTS.index("solver.fallbacks")
+TILT = BEARING_OUTPUTS.index("inner_ring.tilt.y")  # rad, about y and z
+SPIN_TO_ROLL = BEARING_OUTPUTS.index("contact.inner.spin_to_roll")  # inner, outer
+SLIP = BEARING_OUTPUTS.index("contact.inner.slip")  # m/s: inner, outer
+WHIRL_RADIUS = BEARING_OUTPUTS.index("cage.whirl_radius")  # m
+WHIRL_SPEED = BEARING_OUTPUTS.index("cage.whirl_speed")  # rad/s
+SHOULDER = BEARING_OUTPUTS.index("contact.inner.shoulder_margin")  # rad: inner, outer
+TORQUE_CONTACTS = BEARING_OUTPUTS.index("friction_torque.contacts")  # N m, then rolling, cage, drag
+BALLS = len(BEARING_OUTPUTS)  # m/s: ball[j].velocity.x|y|z at BALLS + PER_BALL j
+PER_BALL = 3
+
+MIC_OUTPUTS = (
+    "pressure", "spl", "spl_a", "leq", "leq_a", "spl_inner_ring", "spl_outer_ring", "spl_cage", "spl_balls",
+    "spl_fast", "spl_fast_a", "spl_slow", "spl_slow_a", "spl_energy_sum", "spl_radial", "spl_axial",
+    "spl_rotation", "spl_flexure",
+)  # fmt: skip
+PER_MIC = len(MIC_OUTPUTS)
+#: Third octaves: nominal mid-band frequencies in Hz, IEC 61260-1; the exact ones are 10^(n/10).
+BANDS = (
+    25.0, 31.5, 40.0, 50.0, 63.0, 80.0, 100.0, 125.0, 160.0, 200.0, 250.0, 315.0, 400.0, 500.0, 630.0, 800.0,
+    1000.0, 1250.0, 1600.0, 2000.0, 2500.0, 3150.0, 4000.0, 5000.0, 6300.0, 8000.0, 10000.0, 12500.0, 16000.0,
+)  # fmt: skip
+
+
+def mics(n_balls):
+    """Place of the first microphone's first output for ``n_balls`` balls."""
+    return BALLS + PER_BALL * n_balls
+
+
+def bands(n_balls, n_mics):
+    """Place of the first microphone's first third octave: after all its other outputs."""
+    return mics(n_balls) + PER_MIC * n_mics
+
+
+def flexures(n_balls, n_mics, n_bands=0):
+    """Place of the flexural velocities: two for each mode, cosine then sine."""
+    return bands(n_balls, n_mics) + n_bands * n_mics
+
+
+def size(n_balls, n_mics, n_bands=0, n_modes=0):
+    """Length of ``z`` for microphones of ``n_bands`` third octaves each, and ``n_modes`` flexural modes."""
+    return flexures(n_balls, n_mics, n_bands) + 2 * n_modes

@@ -3,6 +3,10 @@
 =====================  =======================================================================
 ``jit``                compiler flags and the cache of compiled kernels
 ``layout``             places in the flat arrays ``p u s z w``
+``constants``          constants of nature and convention
+``status``             status codes of the entries
+``choices``            what a scene may choose, with its numbers in ``p``: one table each
+``lanes``              four balls at a time
 ``elimination``        small linear systems by elimination
 ``dense``              small dense matrices: product, inverse, eigenvectors, complex equations
 ``mechanics``          forces and equations of motion of balls, cage and rings

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fmu_bearing.engine.fidelities.full.start import place_balls
+from fmu_bearing.engine.statics.place import place_balls
 from fmu_bearing.engine.layout import EQ, P, Y
 from fmu_bearing.engine.layout.sizes import STRIDE
 from tests.engine.test_quasistatic import RPM, Bearing

@@ -57,4 +57,6 @@ from fmu_bearing.engine.layout import (
     z as Z,
 )
 
-__all__ = "A C EQ F FL J L MO P Q R S SD T TAB U W X Y Z".split()
+__all__ = [
+    "A", "C", "EQ", "F", "FL", "J", "L", "MO", "P", "Q", "R", "S", "SD", "T", "TAB", "U", "W", "X", "Y", "Z",
+]  # fmt: skip

@@ -2,6 +2,7 @@
 
 STRIDE = 24  # lanes per ball quantity: no power of two, so that rows spread over cache sets
 MAX_BALLS = STRIDE
+FOUR = 4  # balls computed at a time: numbers of lanes are multiples of it
 STAGES = 6  # of a Runge-Kutta method at most
 MAX_MODES = 16  # flexural modes of both rings
 BLOCK = 8  # one-evaluation steps proved together

@@ -13,6 +13,34 @@ def axis_cosine(by, bz):
     return 1.0 - 0.5 * (by * by + bz * bz)
 
 
+@kernel
+def resolved(co, si, x, radius, ux, uy, uz, by, bz, nx):
+    """Ball centre from a body's centre, the body's axis n and their product, in the ball's orbiting axes.
+
+    ``co``, ``si``: of the ball's angle; ``x``, ``radius``: its place (m); ``u``: the body's displacement
+    (m); ``by``, ``bz``: its tilts (rad); ``nx``: its axis along X. Returns q (x, r, theta),
+    n (r, theta), q n.
+    """
+    qx = x - ux
+    qr = radius - (co * uz - si * uy)
+    qt = co * uy + si * uz
+    nr = -si * bz - co * by
+    nt = -co * bz + si * by
+    return qx, qr, qt, nr, nt, qx * nx + qr * nr + qt * nt
+
+
+@kernel
+def seen(co, si, x, radius, ux, uy, uz, by, bz, nx):
+    """What :func:`resolved` returns, then distance from the axis (m) and radial unit vector h (x, r, theta)."""
+    qx, qr, qt, nr, nt, axial = resolved(co, si, x, radius, ux, uy, uz, by, bz, nx)
+    hx = qx - axial * nx
+    hr = qr - axial * nr
+    ht = qt - axial * nt
+    rho = math.sqrt(hx * hx + hr * hr + ht * ht)
+    inv = 1.0 / rho
+    return qx, qr, qt, nr, nt, axial, rho, hx * inv, hr * inv, ht * inv
+
+
 @inlined
 def relative_pose(p, y, lanes, body, ux, uy, uz, by, bz, vx, vy, vz, spin, dby, dbz, w):
     """Ball centres and velocities relative to one body, in each ball's orbiting axes (x, r, theta).
@@ -32,20 +60,7 @@ def relative_pose(p, y, lanes, body, ux, uy, uz, by, bz, vx, vy, vz, spin, dby, 
         c = w[W.COS + j]
         s = w[W.SIN + j]
         radius = pitch + y[Y.R + j]
-        qx = y[Y.X + j] - ux
-        qr = radius - (c * uz - s * uy)
-        qt = c * uy + s * uz
-        nr = -s * bz - c * by
-        nt = -c * bz + s * by
-        axial = qx * nx + qr * nr + qt * nt
-        hx = qx - axial * nx
-        hr = qr - axial * nr
-        ht = qt - axial * nt
-        rho = math.sqrt(hx * hx + hr * hr + ht * ht)
-        inv = 1.0 / rho
-        hx *= inv
-        hr *= inv
-        ht *= inv
+        qx, qr, qt, nr, nt, axial, rho, hx, hr, ht = seen(c, s, y[Y.X + j], radius, ux, uy, uz, by, bz, nx)
         gr = c * wz - s * wy
         gt = -c * wy - s * wz
         w[base + X.Q + j] = qx

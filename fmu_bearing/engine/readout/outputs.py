@@ -5,7 +5,7 @@ import math
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import C, F, P, Q, S, Y, Z
 from fmu_bearing.engine.mechanics.flexure import flexure_state
-from fmu_bearing.engine.mechanics.pose import axis_cosine
+from fmu_bearing.engine.mechanics.pose import axis_cosine, resolved
 from fmu_bearing.engine.sound.meter import levels
 from fmu_bearing.engine.statics.stiffness import series_stiffness
 
@@ -92,17 +92,12 @@ def losses(s, z):
 
 
 @kernel
-def seen_from(s, ring, tilt, x, r, across, c, n, pitch):
-    """Axial and radial place (m) of a ball in a ring's frame and the ring's tilt axis resolved there."""
+def place_in(s, ring, tilt, x, radius, co, si):
+    """Axial and radial place (m) of a ball in a ring's frame; ``ring``, ``tilt``: its coordinates in ``s``."""
     by = s[tilt]
     bz = s[tilt + 1]
-    qx = x - s[ring]
-    qr = pitch + r - (c * s[ring + 2] - n * s[ring + 1])
-    qt = across + c * s[ring + 1] + n * s[ring + 2]
     nx = axis_cosine(by, bz)
-    nr = -n * bz - c * by
-    nt = -c * bz + n * by
-    axial = qx * nx + qr * nr + qt * nt
+    qx, qr, qt, _, _, axial = resolved(co, si, x, radius, s[ring], s[ring + Q.Y], s[ring + Q.Z], by, bz, nx)
     return axial, math.sqrt(max(qx * qx + qr * qr + qt * qt - axial * axial, 0.0))
 
 
@@ -120,6 +115,8 @@ def contacts(p, s, z):
     ball = c[C.BALL_RADIUS]
     oversize = int(p[P.AT_OVERSIZE])
     thinnest = 1e30
+    inner = S.Y + Y.Q0
+    outer = inner + Q.OUTER
     for i in range(8):
         z[Z_CONTACT + i] = 0.0
     z[Z_AXIAL_STIFFNESS] = 0.0
@@ -130,8 +127,8 @@ def contacts(p, s, z):
         si = math.sin(angle)
         x = s[S.Y + Y.X + j]
         r = s[S.Y + Y.R + j]
-        ax, ar = seen_from(s, S.Y + Y.Q0, S.Y + Y.Q0 + 3, x, r, 0.0, co, si, pitch)
-        bx, br = seen_from(s, S.Y + Y.Q0 + Q.OUTER, S.Y + Y.Q0 + Q.OUTER + 4, x, r, 0.0, co, si, pitch)
+        ax, ar = place_in(s, inner, inner + Q.INNER_BY, x, pitch + r, co, si)
+        bx, br = place_in(s, outer, outer + Q.BY, x, pitch + r, co, si)
         om = s[S.Y + Y.OM + j]
         for race in range(2):
             held = C.RACES + race * C.RACE_SIZE

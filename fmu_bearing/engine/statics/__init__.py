@@ -7,6 +7,7 @@
 ``axial``          the same for axial load alone: one unknown
 ``mounted``        the equilibrium with the outer ring on its pedestal
 ``rigid_preload``  the inner ring's place under rigid preload, and the load it means
+``place``          from an equilibrium to the state: rings, balls, cage
 ``spin_balance``   orbit and spin, where friction, drag and gyroscopic moments balance
 =================  ==========================================================================
 """

@@ -24,7 +24,7 @@ from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import C, F, L, P, Q, T, W, Y
 from fmu_bearing.engine.layout.sizes import STRIDE
 from fmu_bearing.engine.mechanics.bodies import inner_ring, outer_ring
-from fmu_bearing.engine.mechanics.pose import axis_cosine
+from fmu_bearing.engine.mechanics.pose import axis_cosine, seen
 
 _PER_RADIAN = P.WAVE_INTERVALS / 6.283185307179586
 _FLOOR = 1e3  # N/m: keeps a ball without contact from being thrown far; 1e-5 of a loaded contact
@@ -83,23 +83,6 @@ def stand(p, c, lv, theta, inner_angle, outer_angle, speed, w):
             b = 3.0 * d - 2.0 * g0 - g1
             w[row + j] += scale * (h0 + t * (g0 + t * (b + t * a)))
             w[bend + j] = scale2 * (b + 3.0 * t * a)
-
-
-@kernel
-def seen(co, si, x, radius, ux, uy, uz, by, bz, nx):
-    """Ball centre from a ring's centre, the ring's axis and the radial unit vector, in orbiting axes."""
-    qx = x - ux
-    qr = radius - (co * uz - si * uy)
-    qt = co * uy + si * uz
-    nr = -si * bz - co * by
-    nt = -co * bz + si * by
-    axial = qx * nx + qr * nr + qt * nt
-    hx = qx - axial * nx
-    hr = qr - axial * nr
-    ht = qt - axial * nt
-    rho = math.sqrt(hx * hx + hr * hr + ht * ht)
-    inv = 1.0 / rho
-    return qx, qr, qt, nr, nt, axial, rho, hx * inv, hr * inv, ht * inv
 
 
 @kernel

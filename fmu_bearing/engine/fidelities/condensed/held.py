@@ -10,14 +10,13 @@ gyroscopic friction its square, and the heats stay (below 1 rad/s they go to zer
 renewal costs some 30 evaluations of the full right-hand side with its Jacobian.
 """
 
-from fmu_bearing.engine.fidelities.full.start import place_balls, place_cage
 from fmu_bearing.engine.jit import inlined, kernel
 from fmu_bearing.engine.layout import EQ, C, F, L, P, Q, S, W, Y
 from fmu_bearing.engine.layout.sizes import STRIDE
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.readout.losses import summarise
-from fmu_bearing.engine.statics.mounted import mounted_equilibrium
+from fmu_bearing.engine.statics.place import equilibrium, place_balls, place_cage, place_rings
 from fmu_bearing.engine.statics.spin_balance import balance_spins
 from fmu_bearing.engine.status import OK
 
@@ -37,25 +36,15 @@ def quasistatic_point(p, c, speed, y, w):
     for i in range(1, 5):
         load[i] = 0.0
     load[0] = c[C.PRELOAD]
-    status = mounted_equilibrium(p, c, speed, load, 0.0, tilt, found, w)
-    if status != OK:
-        # as in `start`: a ring without axial load is given a little
-        load[0] += 1.0 + 0.05 * abs(load[0])
-        status = mounted_equilibrium(p, c, speed, load, 0.0, tilt, found, w)
+    status = equilibrium(p, c, speed, load, 0.0, tilt, found, w)
     if status != OK:
         return status, 0.0
     for i in range(Y.SIZE):
         y[i] = 0.0
-    o = Y.Q0 + Q.OUTER
-    y[o] = c[C.PRELOAD] / c[C.PEDESTAL_AXIAL]
-    for i in range(2):
-        y[o + 4 + i] = tilt[i]
-        y[Y.Q0 + 3 + i] = tilt[i] + found[EQ.SHIFT + 3 + i]
-    for i in range(3):
-        y[Y.Q0 + i] = y[o + i] + found[EQ.SHIFT + i]
-    place_balls(p, y, found, y[o], y[o + 1], y[o + 2])
+    place_rings(c, y, found, tilt, 0.0, 0.0)
+    place_balls(p, y, found)
     if p[P.CAGE] != 0.0:
-        place_cage(p, y, found, y[o])
+        place_cage(p, y, found)
     gyroscopic = 0.0
     balls = int(p[P.BALLS])
     for j in range(balls):

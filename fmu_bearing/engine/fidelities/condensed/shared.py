@@ -11,13 +11,14 @@ from fmu_bearing.engine.fidelities.condensed.linearised import (
     derivatives,
 )
 from fmu_bearing.engine.fidelities.condensed.publish import publish
-from fmu_bearing.engine.fidelities.full.start import find, loads, place_balls, start
+from fmu_bearing.engine.fidelities.full.start import start
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import EQ, C, F, L, P, Q, S, T, U, W, Y
+from fmu_bearing.engine.layout import EQ, C, F, L, P, S, T, U, W, Y
 from fmu_bearing.engine.layout.sizes import STRIDE
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 from fmu_bearing.engine.readout.motion import emit_samples
+from fmu_bearing.engine.statics.place import equilibrium, loads, place_balls, place_rings
 from fmu_bearing.engine.status import OK
 
 
@@ -124,22 +125,14 @@ def quasistatic_places(p, c, speed, w):
     tilt = w[W.SCALARS + 13 : W.SCALARS + 15]
     found = w[W.VEL : W.VEL + EQ.SIZE]
     carried = loads(p, c, load)
-    status = find(p, c, speed, load, tilt, found, w)
+    status = equilibrium(p, c, speed, load, 1.0, tilt, found, w)
     if status != OK:
         return status
     y = w[W.STAGE : W.STAGE + Y.SIZE]
     for i in range(Y.SIZE):
         y[i] = 0.0
-    o = Y.Q0 + Q.OUTER
-    y[o] = c[C.PRELOAD] / c[C.PEDESTAL_AXIAL]
-    y[o + 1] = c[C.LOAD_Y] / c[C.PEDESTAL]
-    y[o + 2] = carried / c[C.PEDESTAL]
-    for i in range(2):
-        y[o + 4 + i] = tilt[i]
-        y[Y.Q0 + 3 + i] = tilt[i] + found[EQ.SHIFT + 3 + i]
-    for i in range(3):
-        y[Y.Q0 + i] = y[o + i] + found[EQ.SHIFT + i]
-    place_balls(p, y, found, y[o], y[o + 1], y[o + 2])
+    place_rings(c, y, found, tilt, c[C.LOAD_Y], carried)
+    place_balls(p, y, found)
     for j in range(STRIDE):
         w[T.X + j] = y[Y.X + j]
         w[T.R + j] = y[Y.R + j]

@@ -5,7 +5,6 @@ and the flexural coordinates until no acceleration is left; the bodies' places, 
 redistributed loads then lack of balance on the bodies is small and rings down with the start's other remains.
 """
 
-from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.fidelities.full.flexible import solve_modes
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import FL, A, F, J, P, Q, S, W, Y
@@ -15,22 +14,11 @@ from fmu_bearing.engine.mechanics.flexure import flexure_state, show_flexure
 from fmu_bearing.engine.newton.block_arrow import factor
 from fmu_bearing.engine.newton.jacobian import jacobian
 from fmu_bearing.engine.newton.modes import factor_modes
+from fmu_bearing.engine.statics.place import around
 
 _ROUNDS = 60
 _SETTLED = 1e-12  # m: a millionth of the contacts' approach
 _LONGEST = 1e-6  # m: change per round, of the size of the approach, so that no contact opens on the way
-
-
-@kernel
-def around(p, found, row, j):
-    """Change of a ball quantity with the angle round the bearing (1/rad) between the neighbours of ``j``."""
-    balls = int(p[P.BALLS])
-    ahead = found[row + (j + 1) % balls]
-    behind = found[row + (j + balls - 1) % balls]
-    ahead2 = found[row + (j + 2) % balls]
-    behind2 = found[row + (j + balls - 2) % balls]
-    # fourth order: the first harmonic, that of a radial load or tilt, comes out within 0.3 % for 12 balls
-    return (8.0 * (ahead - behind) - (ahead2 - behind2)) * balls / (24.0 * PI)
 
 
 @kernel

@@ -1,0 +1,117 @@
+"""From a quasi-static equilibrium to the state: where rings, balls and cage stand, for all fidelities."""
+
+import math
+
+from fmu_bearing.engine.constants import GRAVITY, PI
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.layout import EQ, C, P, Q, Y
+from fmu_bearing.engine.statics.mounted import mounted_equilibrium
+from fmu_bearing.engine.status import OK
+
+
+@kernel
+def loads(p, c, load):
+    """Set the loads on the inner ring with its weight (N, N m); return the pedestal's load in z (N)."""
+    load[0] = c[C.PRELOAD]
+    load[1] = c[C.LOAD_Y]
+    load[2] = c[C.LOAD_Z]
+    load[3] = 0.0
+    load[4] = 0.0
+    carried = load[2]
+    if p[P.GRAVITY] != 0.0:
+        load[2] -= GRAVITY * p[P.INNER_MASS]
+        carried = load[2] - GRAVITY * (p[P.OUTER_MASS] + p[P.BALLS] * p[P.BALL_MASS])
+        if p[P.CAGE] != 0.0:
+            carried -= GRAVITY * p[P.CAGE_MASS]
+    return carried
+
+
+@kernel
+def equilibrium(p, c, speed, load, share, tilt, found, w):
+    """Equilibrium on the pedestal with ``share`` of the imperfections (0 or 1); status code.
+
+    A ring that hangs on a few balls at speed, with no axial load, may have none that can be found: then
+    one with a little axial load stands in, a start from which such a ring sets itself moving anyway.
+    """
+    status = mounted_equilibrium(p, c, speed, load, share, tilt, found, w)
+    if status != OK:
+        load[0] += 1.0 + 0.05 * (abs(load[0]) + abs(load[1]) + abs(load[2]))
+        status = mounted_equilibrium(p, c, speed, load, share, tilt, found, w)
+    return status
+
+
+@kernel
+def place_rings(c, y, found, tilt, load_y, load_z):
+    """Outer ring where preload and pedestal loads (N) push it, inner ring against it; both tilted."""
+    o = Y.Q0 + Q.OUTER
+    y[o] = c[C.PRELOAD] / c[C.PEDESTAL_AXIAL]
+    y[o + Q.Y] = load_y / c[C.PEDESTAL]
+    y[o + Q.Z] = load_z / c[C.PEDESTAL]
+    for i in range(2):
+        y[o + Q.BY + i] = tilt[i]
+        y[Y.Q0 + Q.INNER_BY + i] = tilt[i] + found[EQ.SHIFT + Q.INNER_BY + i]
+    for i in range(3):
+        y[Y.Q0 + i] = y[o + i] + found[EQ.SHIFT + i]
+
+
+@kernel
+def around(p, found, row, j):
+    """Change of a ball quantity with the angle round the bearing (1/rad) between the neighbours of ``j``."""
+    balls = int(p[P.BALLS])
+    ahead = found[row + (j + 1) % balls]
+    behind = found[row + (j + balls - 1) % balls]
+    ahead2 = found[row + (j + 2) % balls]
+    behind2 = found[row + (j + balls - 2) % balls]
+    # fourth order: the first harmonic, that of a radial load or tilt, comes out within 0.3 % for 12 balls
+    return (8.0 * (ahead - behind) - (ahead2 - behind2)) * balls / (24.0 * PI)
+
+
+@kernel
+def place_balls(p, y, found):
+    """Balls about the displaced outer ring, each in its own equilibrium; spare lanes copy the first.
+
+    The first ball is at 12 o'clock. Under radial load or tilt a ball moves along and outwards as it orbits.
+    """
+    x_outer = y[Y.Q0 + Q.OUTER]
+    y_outer = y[Y.Q0 + Q.OUTER + Q.Y]
+    z_outer = y[Y.Q0 + Q.OUTER + Q.Z]
+    balls = p[P.BALLS]
+    pitch = p[P.PITCH_RADIUS]
+    for j in range(int(p[P.LANES])):
+        place = j if j < balls else 0
+        angle = 2.0 * PI * place / balls
+        # the ball's place and velocity, from the axes about the outer ring's centre to the inertial ones
+        radius = pitch + found[EQ.R + place]
+        orbit = found[EQ.OM + place]
+        outwards = orbit * around(p, found, EQ.R, place)
+        yb = y_outer - radius * math.sin(angle)
+        zb = z_outer + radius * math.cos(angle)
+        apart = math.sqrt(yb * yb + zb * zb)
+        c = (zb * math.cos(angle) - yb * math.sin(angle)) / apart
+        s = (-yb * math.cos(angle) - zb * math.sin(angle)) / apart
+        y[Y.X + j] = found[EQ.X + place] + x_outer
+        y[Y.TH + j] = angle + math.atan2(s, c)
+        y[Y.R + j] = apart - pitch
+        y[Y.VX + j] = orbit * around(p, found, EQ.X, place)
+        y[Y.VR + j] = outwards * c + radius * orbit * s
+        y[Y.OM + j] = (radius * orbit * c - outwards * s) / apart
+        y[Y.WX + j] = found[EQ.WX + place]
+        y[Y.WR + j] = found[EQ.WR + place] * c
+        y[Y.WT + j] = -found[EQ.WR + place] * s
+
+
+@kernel
+def place_cage(p, y, found):
+    """Cage about the inner ring, in the plane of the balls and with their mean orbit speed."""
+    balls = p[P.BALLS]
+    k = Y.Q0 + Q.CAGE
+    y[k] = y[Y.Q0 + Q.OUTER]
+    y[k + 1] = y[Y.Q0 + 1]
+    y[k + 2] = y[Y.Q0 + 2]
+    for j in range(int(balls)):
+        angle = 2.0 * PI * j / balls
+        x = found[EQ.X + j] / balls
+        y[k] += x
+        y[k + 4] += 2.0 * x * math.cos(angle) / p[P.PITCH_RADIUS]
+        y[k + 5] += 2.0 * x * math.sin(angle) / p[P.PITCH_RADIUS]
+        y[Y.V0 + Q.CAGE + 3] += found[EQ.OM + j] / balls

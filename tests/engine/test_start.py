@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from fmu_bearing.engine.statics.place import place_balls
-from fmu_bearing.engine.layout import EQ, P, Y
+from fmu_bearing.engine.layout import EQ, P, Q, Y
 from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.statics.place import place_balls
 from tests.engine.test_quasistatic import RPM, Bearing
 
 
@@ -15,7 +15,8 @@ def test_balls_follow_the_outer_ring(scene, sag):
     bearing = Bearing(scene("7003C-bare")).solve(20e3, (500, 0, -300, 0, 0))
     y = np.zeros(Y.SIZE)
     centre = np.array([1e-5, 0.4 * sag, sag])
-    place_balls(bearing.p, y, bearing.out, *centre)
+    y[Y.Q0 + Q.OUTER :][:3] = centre
+    place_balls(bearing.p, y, bearing.out)
     rows = y[: 9 * STRIDE].reshape(9, -1)[:, : bearing.balls]
     pitch = bearing.p[P.PITCH_RADIUS]
 

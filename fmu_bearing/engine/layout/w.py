@@ -68,6 +68,10 @@ class Area(NamedTuple):
     uses: frozenset[str]
 
 
+#: All areas of ``w``.
+LEDGER: tuple[Area, ...] = ()
+
+
 def size(p):
     """Length of ``w`` for the parameters ``p``."""
     return SOUND + int(p[_P.SOUND_WORK]) + 8

@@ -31,7 +31,7 @@ def resolved(co, si, x, radius, ux, uy, uz, by, bz, nx):
 
 @kernel
 def seen(co, si, x, radius, ux, uy, uz, by, bz, nx):
-    """What :func:`resolved` returns, then distance from the axis (m) and radial unit vector h (x, r, theta)."""
+    """Return the same, then the distance from the axis (m) and the radial unit vector h (x, r, theta)."""
     qx, qr, qt, nr, nt, axial = resolved(co, si, x, radius, ux, uy, uz, by, bz, nx)
     hx = qx - axial * nx
     hr = qr - axial * nr

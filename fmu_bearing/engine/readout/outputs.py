@@ -93,7 +93,7 @@ def losses(s, z):
 
 @kernel
 def place_in(s, ring, tilt, x, radius, co, si):
-    """Axial and radial place (m) of a ball in a ring's frame; ``ring``, ``tilt``: its coordinates in ``s``."""
+    """Axial and radial place (m) of a ball in a ring's frame; ``ring``, ``tilt``: of ``s``."""
     by = s[tilt]
     bz = s[tilt + 1]
     nx = axis_cosine(by, bz)

@@ -1,0 +1,97 @@
+"""Places in the flat arrays have names: no kernel counts them by hand, and no two areas in use share one."""
+
+import ast
+import itertools
+import pathlib
+
+import pytest
+
+from fmu_bearing.engine.layout import W
+
+ENGINE = pathlib.Path(__file__).parents[1] / "fmu_bearing" / "engine"
+FILES = sorted(path for path in ENGINE.rglob("*.py") if path.parent.name != "layout")
+LAYOUT = set("A C EQ F FL J L MO P Q R S SD T TAB U W X Y Z".split())
+LARGEST = 2  # 0, 1, 2 are components of a vector, neighbours, pairs
+#: Functions whose numbers are not places of an array, with the reason.
+FREE: dict[str, str] = {}
+
+
+def literals(node):
+    """Integer literals above `LARGEST` in an index, not within its calls, comparisons and own indices."""
+    if isinstance(node, ast.Constant):
+        return [node] if type(node.value) is int and node.value > LARGEST else []
+    if isinstance(node, ast.Subscript | ast.Call | ast.Compare):
+        return []
+    return [found for child in ast.iter_child_nodes(node) for found in literals(child)]
+
+
+def names(node):
+    """Names that an index is made of."""
+    return {one.id for one in ast.walk(node) if isinstance(one, ast.Name)}
+
+
+def indices(function):
+    """Every index in a function; bounds of slices count."""
+    for node in ast.walk(function):
+        if isinstance(node, ast.Subscript):
+            part = node.slice
+            yield from (
+                one for one in ([part.lower, part.upper] if isinstance(part, ast.Slice) else [part]) if one
+            )
+
+
+def counted(function):
+    """Literals that are places, or added to one: in an index, in what it is made of, beside a named place."""
+    found = [one for index in indices(function) for one in literals(index)]
+    used = set().union(*(names(index) for index in indices(function)))
+    for node in ast.walk(function):
+        if isinstance(node, ast.Assign | ast.AugAssign):
+            targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+            if any(isinstance(one, ast.Name) and one.id in used for one in targets):
+                found += literals(node.value)
+        elif isinstance(node, ast.BinOp):
+            places = [one for one in ast.walk(node) if isinstance(one, ast.Attribute) and names(one) & LAYOUT]
+            if places:
+                found += literals(node)
+    return found
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.relative_to(ENGINE).as_posix())
+def test_no_place_is_counted_by_hand(path):
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    functions = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)]
+    lines = {
+        f"{path.relative_to(ENGINE).as_posix()}:{one.lineno} {function.name}: {one.value}"
+        for function in functions
+        if function.name not in FREE
+        for one in counted(function)
+    }
+    assert not lines
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.relative_to(ENGINE).as_posix())
+def test_no_star_imports(path):
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    imports = [node for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)]
+    assert not [node.lineno for node in imports if any(one.name == "*" for one in node.names)]
+
+
+def test_the_engine_is_no_list_of_imports():
+    """Import lines, continued ones too, are under 5 % of the engine's lines."""
+    lines = imports = 0
+    for path in ENGINE.rglob("*.py"):
+        text = path.read_text(encoding="utf-8")
+        lines += len(text.splitlines())
+        imports += sum(
+            node.end_lineno - node.lineno + 1
+            for node in ast.parse(text).body
+            if isinstance(node, ast.Import | ast.ImportFrom)
+        )
+    assert imports < 0.05 * lines, f"{imports} of {lines}"
+
+
+def test_areas_in_use_together_share_no_place():
+    for one, other in itertools.combinations(W.LEDGER, 2):
+        if one.uses & other.uses:
+            apart = one.first + one.size <= other.first or other.first + other.size <= one.first
+            assert apart, f"{one.name} and {other.name} overlap in {sorted(one.uses & other.uses)}"

@@ -29,6 +29,7 @@ _LINK = re.compile(r"(?<=\]\()((?:\.\./)+[^)#\s]+)")
 _PICTURE = re.compile(r'<p>(<img alt="([^"]+)" src="[^"]+" */?>)</p>')
 _ROLE = re.compile(r":(?:func|class|meth|mod):(?=<code|`)")
 _FORMULA = re.compile(r'<(span|div) class="arithmatex">\\[(\[](.*?)\\[)\]]</\1>', re.DOTALL)
+_SIGN = re.compile(r"(?<=&#x000(?:3D|2C|28);</mo>)<mo>(?=&#x0(?:2212|002B);)")
 _FUNCTION = re.compile(r"<mi>(sin|cos|log)</mi>")
 _LANGUAGES = {".py": "python", ".toml": "toml", ".c": "c", ".h": "c"}
 
@@ -81,6 +82,7 @@ def _mathml(match, page):
     shown = convert(tex, display="block" if tag == "div" else "inline")
     if "\\" in shown or "&</" in shown:
         _log.warning("%s: formula not understood: %s", page, tex)
+    shown = _SIGN.sub('<mo form="prefix">', shown)  # x = -y, not x = - y
     shown = _FUNCTION.sub(r'<mo lspace="0.17em" rspace="0.17em">\1</mo>', shown)  # r sin x, not rsinx
     return f'<{tag} class="formula">{shown}</{tag}>'
 

@@ -1,15 +1,18 @@
-"""What MkDocs does not do by itself: generated references, links to files outside docs, captions.
+"""What MkDocs does not do by itself: generated references, links to files outside docs, captions, formulas.
 
 A page says ``<!-- generated: scene -->`` where ``reference.scene()`` belongs; the text is made when the site
-is built and kept nowhere else.
+is built and kept nowhere else. Formulas between dollar signs become MathML when the site is built, so that no
+script has to set them in the browser.
 """
 
 import html
 import importlib.util
+import logging
 import posixpath
 import re
 from pathlib import Path
 
+from latex2mathml.converter import convert
 from mkdocs.structure.files import File, InclusionLevel
 
 ROOT = Path(__file__).parents[2]
@@ -19,10 +22,15 @@ _spec = importlib.util.spec_from_file_location("docs_reference", Path(__file__).
 reference = importlib.util.module_from_spec(_spec)
 _spec.loader.exec_module(reference)
 
+_log = logging.getLogger("mkdocs.hooks")
+
 _GENERATED = re.compile(r"<!-- generated: (\w+) -->")
 _LINK = re.compile(r"(?<=\]\()((?:\.\./)+[^)#\s]+)")
 _PICTURE = re.compile(r'<p>(<img alt="([^"]+)" src="[^"]+" */?>)</p>')
 _ROLE = re.compile(r":(?:func|class|meth|mod):(?=<code|`)")
+_FORMULA = re.compile(r'<(span|div) class="arithmatex">\\[(\[](.*?)\\[)\]]</\1>', re.DOTALL)
+_SIGN = re.compile(r"(?<=&#x000(?:3D|2C|28);</mo>)<mo>(?=&#x0(?:2212|002B);)")
+_FUNCTION = re.compile(r"<mi>(sin|cos|log)</mi>")
 _LANGUAGES = {".py": "python", ".toml": "toml", ".c": "c", ".h": "c"}
 
 
@@ -61,10 +69,22 @@ def on_page_markdown(markdown, page, config, files):
 
 
 def on_page_content(content, page, config, files):
-    """Turn a picture that stands alone into a figure; its text becomes the caption."""
+    """Set formulas, and turn a picture that stands alone into a figure; its text becomes the caption."""
+    content = _FORMULA.sub(lambda match: _mathml(match, page.file.src_uri), content)
     content = _ROLE.sub("", content)
     content = _PICTURE.sub(r"<figure>\1<figcaption>\2</figcaption></figure>", content)
     return f'<div class="results">{content}</div>' if page.file.src_uri.startswith("results/") else content
+
+
+def _mathml(match, page):
+    """Return a formula as MathML; one that the converter does not know is a warning, an error if strict."""
+    tag, tex = match[1], html.unescape(match[2])
+    shown = convert(tex, display="block" if tag == "div" else "inline")
+    if "\\" in shown or "&</" in shown:
+        _log.warning("%s: formula not understood: %s", page, tex)
+    shown = _SIGN.sub('<mo form="prefix">', shown)  # x = -y, not x = - y
+    shown = _FUNCTION.sub(r'<mo lspace="0.17em" rspace="0.17em">\1</mo>', shown)  # r sin x, not rsinx
+    return f'<{tag} class="formula">{shown}</{tag}>'
 
 
 def _outside(page, link):

@@ -1,8 +1,9 @@
-"""Three steel balls in a row: what a microphone 285 mm beside the middle one hears, and on what it depends.
+"""Three steel balls in a row: the pressure 285 mm beside the middle one, and its sensitivity.
 
 The test of Kuan, Chen, Shen and Chang (2026), section 3: balls O1, O2, O3 of 22.2 mm on the x axis, in
 contact; O1 starts towards O2 and O3 at 0.5 m/s; the microphone stands on the z axis, square to the row,
-285 mm from O2. Here: Hertz contacts, and exact scattering of sound between the balls. Nothing is fitted.
+285 mm from O2. The model has Hertz contacts, and exact scattering of sound between the balls. Nothing is
+fitted.
 Writes
 
 * ``three_balls.md`` and ``three_balls.csv`` - peaks beside the paper's, and their sensitivity;
@@ -161,7 +162,7 @@ def main(
     for case, (_, free, rigid, elastic) in zip(listed, results, strict=True):
         peaks = (free.max(), rigid.max(), rigid.min(), elastic.max(), elastic.min())
         rows.append([case.name, "", *[f"{value:.3f}" for value in peaks]])
-    title = "Three steel balls of 22.2 mm, 285 mm beside the middle one: pressures in Pa"
+    title = "Three steel balls of 22.2 mm: pressures in Pa, 285 mm beside the middle ball"
     show(title, COLUMNS, rows)
     motion = []
     for case, (chain, *_) in zip(listed, results, strict=True):
@@ -171,10 +172,10 @@ def main(
         )
     heads = (
         "case",
-        "O2's greatest speed, m/s",
-        "greatest acceleration, m/s2",
-        "peak O1-O2, N",
-        "peak O2-O3, N",
+        "largest speed of O2, m/s",
+        "largest acceleration, m/s2",
+        "peak force O1-O2, N",
+        "peak force O2-O3, N",
     )
     output_dir.mkdir(parents=True, exist_ok=True)
     page = f"# {title}\n\n{markdown(COLUMNS, rows)}\nMotion:\n\n{markdown(heads, motion)}"

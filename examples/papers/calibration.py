@@ -31,11 +31,11 @@ class Calibration:
 
     @property
     def words(self) -> str:
-        """One sentence."""
-        tried = ", ".join(f"{db:+.1f} dB gives {found:.1f} dB" for db, found in self.tries)
+        """Sentences, with a line for each try."""
+        tried = ",\n".join(f"{db:+.1f} dB gives {found:.1f} dB" for db, found in self.tries)
         return (
-            f"Factor on all imperfections: {self.scale:.3g} ({tried}; wanted {self.target:.1f} dB, "
-            f"left over {self.reached - self.target:+.1f} dB)."
+            f"Factor on all imperfections: {self.scale:.3g}. Factors tried:\n{tried}.\n"
+            f"Wanted: {self.target:.1f} dB; left over: {self.reached - self.target:+.1f} dB."
         )
 
 

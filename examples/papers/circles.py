@@ -54,7 +54,7 @@ def orderings(results: dict[int, dict[str, Any]], directive: bool = True) -> lis
         return found
     silent = ("DA", "DL", "DV", "zone")
     return [
-        Ordering(one.statement, page.UNSEEN, "beyond the reach of this rung")
+        Ordering(one.statement, page.UNSEEN, "this radiation model gives no directivity")
         if any(word in one.statement for word in silent)
         else one
         for one in found
@@ -192,5 +192,5 @@ def twins(ceramic: dict[int, dict[str, Any]], steel: dict[int, dict[str, Any]], 
     )
     words = "ceramic more directive than steel (DV)"
     if not directive:
-        return [louder, Ordering(words, page.UNSEEN, "beyond the reach of this rung")]
+        return [louder, Ordering(words, page.UNSEEN, "this radiation model gives no directivity")]
     return [louder, verdict(words, [(n, c.dv - s.dv) for n, c, s in both])]

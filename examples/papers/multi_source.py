@@ -281,9 +281,9 @@ def _pictures(results, output: Output) -> None:
     for row, (rung, by_speed) in enumerate(results.items()):
         speeds = sorted(by_speed)
         lines = {p: [by_speed[n]["levels"]["total"][k] for n in speeds] for k, p in enumerate(POINTS)}
-        charts.curves(axes[2 * row], speeds, lines, f"total, rung {rung}", "r/min")
+        charts.curves(axes[2 * row], speeds, lines, f"total, radiation model {rung}", "r/min")
         parts = {NAMES[c]: [by_speed[n]["levels"][c][0] for n in speeds] for c in PARTS}
-        charts.curves(axes[2 * row + 1], speeds, parts, f"components at P1, rung {rung}", "r/min")
+        charts.curves(axes[2 * row + 1], speeds, parts, f"components at P1, radiation model {rung}", "r/min")
         axes[2 * row].legend(fontsize=8)
         axes[2 * row + 1].legend(fontsize=8)
     charts.save(drawn, output.images / "multi-source-levels.png")

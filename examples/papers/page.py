@@ -147,12 +147,12 @@ def timing(settle: float, duration: float) -> str:
 
 
 def caution(rung: str) -> str:
-    """Say what a reader has to know about the rung before reading any figure."""
+    """Limits of the radiation model, to be read before any figure."""
     if rung == "compact":
         return (
-            "> Rung `compact` has no scattering between rings, balls and housing. It leaves boundary "
-            "elements by 1 dB at 2 kHz (7003C) and 1 kHz (7009C) in the bearing's plane and by far more "
-            "above: read "
-            "trends with speed and components from it, no directivity of the 7009C.\n"
+            "> Radiation model `compact` has no scattering between rings, balls and housing. In the\n"
+            "> bearing's plane it differs from boundary elements by 1 dB at 2 kHz (7003C) and at 1 kHz\n"
+            "> (7009C), and by far more above. Use it for trends with speed and for components, not for\n"
+            "> the directivity of the 7009C.\n"
         )
     return ""

@@ -165,7 +165,7 @@ def write(
 
 
 PICTURE = "\n![Circles: speeds, radii, ceramic and steel](../images/papers/sound-field.png)\n"
-NO_CIRCLE = "Not shown: beyond the reach of this rung.\n"
+NO_CIRCLE = "Not shown: this radiation model gives no directivity.\n"
 
 
 def _circle_table(results: Results) -> str:

@@ -1,20 +1,21 @@
-"""Where explicit coupling of the bearing diverges: speed and torque, heat and temperature.
+"""Stability of explicit coupling of the bearing: speed and torque, heat and temperature.
 
-``python stability.py [--quick]`` steps the bearing FMU (7003C in its spindle, level full, 20,000 r/min)
-beside
+``python stability.py [--quick]`` steps the bearing FMU (7003C in its spindle, fidelity ``full``,
+20,000 r/min) beside
 
 * a shaft, ``J dw/dt = drive torque - friction torque``, over communication step and inertia;
 * the thermal FMU, over communication step and cooling of the oil,
 
-with every value held over a step, as in the co-simulation. Each cell of a map tells by which factor a
-disturbance changes from step to step: within -1 and 1 it dies away (below 0 in turns of sign), beyond it
-grows. Written are ``coupling.md``, ``coupling.csv`` and ``coupling.png``.
+with every value held over a step, as in the co-simulation. Each cell of a map is the factor by which a
+disturbance changes from step to step. Between -1 and 1 it decays (below 0 with alternating sign), beyond it
+grows. The script writes ``coupling.md``, ``coupling.csv`` and ``coupling.png``.
 
-Result: the spindle's own inertia (8.4e-6 kg m2) settles at every step from 0.01 to 10 ms, nearly at once. The
-bound of a torque that follows the speed, h < 2 J / (dT/dw), is 60 s there, for dT/dw is only 2.8e-7 N m s.
-What limits the coupling is the inertia of balls and cage, Jb = 1.19e-7 kg m2, which comes back as torque: the
-factor is -Jb / J, so a shaft lighter than Jb diverges at every step from 0.1 ms on. Heat against temperature
-settles at every step: the oil's cooling takes 5 to 9 times as much per kelvin as friction heat falls.
+Result: with the spindle's own inertia (8.4e-6 kg m2) the disturbance decays at every step from 0.01 to
+10 ms, nearly at once. The bound of a torque that follows the speed, h < 2 J / (dT/dw), is 60 s there,
+because dT/dw is only 2.8e-7 N m s. The inertia of balls and cage, Jb = 1.19e-7 kg m2, limits the coupling,
+because it comes back as torque: the factor is -Jb / J, so a shaft lighter than Jb diverges at every step
+from 0.1 ms on. Heat against temperature is stable at every step: the oil's cooling takes 5 to 9 times as
+much per kelvin as friction heat falls.
 """
 
 import math
@@ -239,45 +240,48 @@ def _seconds(bound: float) -> str:
     return f"{number(bound)} s" if bound > 0.0 else "none"
 
 
-PAGE = """# Explicit coupling of the bearing: where it settles
+PAGE = """# Explicit coupling of the bearing: stability
 
-Written by `examples/spindle_cosimulation/stability.py`: 7003C in its spindle, level full, 20,000 r/min,
-without imperfections, so that no ripple hides the disturbance. All values are held over a communication step
-h. A number is the factor by which the increments of a disturbance change from one step to the next, over
-{exchanges} steps: within -1 and 1 it dies away, negative ones in turns of sign, **bold** ones grow.
+Written by `examples/spindle_cosimulation/stability.py`. The 7003C in its spindle runs with fidelity `full` at
+20,000 r/min, without imperfections, so that no ripple hides the disturbance. All values are held over a
+communication step h. Each number is the factor by which the increments of a disturbance change from one step
+to the next, over {exchanges} steps. Between -1 and 1 the disturbance decays, with alternating sign where the
+number is negative. **Bold** numbers mean that it grows.
 
 ![Factors over step and inertia, over step and cooling]({picture})
 
 ## Speed and torque
 
-The master integrates `J dw/dt = T_drive - T` with the torque of the last step, from {disturbance:g} rad/s
-beside
-{torque:.2f} N mm. Measured on the bearing alone: c = dT/dw = {c:.2g} N m s (between speeds 4 % apart), and
-Jb = {mass:.3g} kg m2, what balls and cage add while the speed changes (on a ramp of 2000 rad/s2).
+The master integrates `J dw/dt = T_drive - T` with the torque of the last step.
+It starts {disturbance:g} rad/s away from the equilibrium, at a torque of {torque:.2f} N mm.
+Two values were measured on the bearing alone: c = dT/dw = {c:.2g} N m s (between speeds 4 % apart), and
+Jb = {mass:.3g} kg m2, the inertia that balls and cage add while the speed changes (on a ramp of
+2000 rad/s2).
 
 {table}
-With T = T0 + c (w - w0) the factor is 1 - h c / J, and h < 2 J / c is the bound. The bearing's torque also
-holds Jb dw/dt, and an explicit exchange returns that a step late: the increments change by -Jb / J, whatever
-the step, and what is left of the bound is h < 2 (J - Jb) / c. **A shaft is safe when it is heavier than balls
-and cage**, a few times for comfort; the spindle of the scene has 70 times as much. Steps below 0.1 ms are
-milder than the formula, for the balls do not follow at once; steps of 10 ms are a quarter harsher. Level
-`rings` moves balls and cage kinematically: their inertia is not in its torque.
+With T = T0 + c (w - w0) the factor is 1 - h c / J, and the bound is h < 2 J / c. The bearing's torque also
+holds Jb dw/dt, and an explicit exchange returns this part a step late. The increments then change by -Jb / J,
+whatever the step, and the bound falls to h < 2 (J - Jb) / c. **A shaft is safe when its inertia exceeds
+that of balls and cage**, preferably by a few times; the spindle of the scene has 70 times as much. Steps
+below 0.1 ms are milder than the formula, because the balls do not follow at once. Steps of 10 ms are a
+quarter harsher.
+Fidelity `rings` moves balls and cage kinematically, so their inertia is not in its torque.
 
 Where a shaft must be lighter, let its equation take over Jb: `(J + Jb) dw/dt = T_drive - (T - Jb a)`, with
-the acceleration a of the last step. The same cells then:
+the acceleration a of the last step. The same cells are then:
 
 {taken}
 ## Heat and temperature
 
-The thermal FMU gets the heats of the step and returns temperatures for the next. Its capacities are a
-hundredth of the spindle's and so are the steps, which leaves the factors alone and the runs short; the table
-names the real steps, and the oil's conductances (1.53 W/K) are multiplied by the first column.
+The thermal FMU gets the heats of the step and returns temperatures for the next step. Its capacities are a
+hundredth of the spindle's, and so are the steps. This leaves the factors unchanged and keeps the runs short.
+The table names the real steps. The first column multiplies the oil's conductances (1.53 W/K).
 
 {heat}
 For one lump of capacity C and conductance G, the factor is e - (1 - e) r, with e = exp(-h G / C) and r the
-fall of heat with temperature over G. Where r < 1, as here, no step is too long for stability; where r > 1 the
-bound is h < C / G ln((r + 1) / (r - 1)). Accuracy asks for more: a fifth of the fastest lump's C / G, 0.05 s
-for this oil.
+fall of heat with temperature over G. Where r < 1, as here, no step is too long for stability. Where r > 1 the
+bound is h < C / G ln((r + 1) / (r - 1)). Accuracy needs shorter steps: a fifth of the fastest lump's C / G,
+which is 0.05 s for this oil.
 """
 
 

@@ -1,9 +1,10 @@
-"""Where the critical speed goes when the pedestal gets softer or stiffer: maps over speed and stiffness.
+"""Critical speed over the stiffness of the pedestal: maps over speed and stiffness.
 
-The 7003C in its spindle at level ``rings`` with compact sound, over shaft speed and pedestal stiffness,
-twice: as the scene has it, and with round rings and equal balls, so that unbalance alone shakes it. The first
-lateral mode, at 467 Hz (28,000 r/min) on the scene's pedestal, moves with about the square root of the
-stiffness; where the unbalance finds it is held against the mode computed from masses and springs.
+The 7003C in its spindle runs with fidelity ``rings`` and compact sound, over shaft speed and pedestal
+stiffness, twice: as the scene has it, and with round rings and equal balls, so that unbalance alone excites
+it. The first lateral mode, at 467 Hz (28,000 r/min) on the scene's pedestal, moves with about the square root
+of the stiffness. The speed at which the unbalance excites it is compared with the mode computed from masses
+and springs.
 Writes
 
 * ``sweep.md`` and ``sweep.csv`` - mode and ridges for each stiffness;
@@ -48,7 +49,7 @@ COLUMNS = (
 
 
 def scenes() -> dict[str, Scene]:
-    """Return the spindle as it is, and shaken by unbalance alone."""
+    """Return the spindle as it is, and excited by unbalance alone."""
     found = with_fidelity(read_scene(SCENE), level="rings")
     assert found.sound is not None and found.imperfections is not None
     sound = found.sound.model_copy(update={"rung": "compact", "details": False})
@@ -158,9 +159,10 @@ def main(
     points = sum(data["wall"].size for data in found.values())
     busy = sum(float(data["wall"].sum()) for data in found.values())
     text = (
-        f"# {title}\n\n{machine()}\n\nMade by `examples/sweep/critical_speed.py`: level rings, rung compact, "
-        f"{points} points, {1e3 * window:g} ms after 20 ms each, {busy:.0f} s of one core. What the columns "
-        f"mean: `docs/sweeps.md`.\n\n{markdown(COLUMNS, rows)}"
+        f"# {title}\n\n{machine()}\n\n"
+        "Made by `examples/sweep/critical_speed.py` with fidelity `rings` and radiation model `compact`:\n"
+        f"{points} points of {1e3 * window:g} ms after 20 ms each, {busy:.0f} s of one core.\n"
+        f"`docs/sweeps.md` explains the columns.\n\n{markdown(COLUMNS, rows)}"
     )
     (output_dir / "sweep.md").write_text(text, encoding="utf-8")
     write_csv(output_dir / "sweep.csv", COLUMNS, rows)

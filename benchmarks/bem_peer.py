@@ -1,4 +1,4 @@
-"""Three-dimensional boundary elements (bempp-cl) on a rigid ring: the peer of rung bem.
+"""Three-dimensional boundary elements (bempp-cl) on a rigid ring: the peer of radiation model bem.
 
 bempp-cl takes e^{-j omega t}; what it returns is conjugated here.
 """

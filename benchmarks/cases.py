@@ -46,9 +46,9 @@ class Case:
 
 @dataclass(frozen=True)
 class Solver:
-    """A level and an integrator of the engine, with the goals set for it (simulated s per wall s)."""
+    """A fidelity and an integrator of the engine, with the goals set for it (simulated s per wall s)."""
 
-    level: str
+    fidelity: str
     method: str
     goal: float
     goal_hard: float = 0.0  # under radial load and in the first milliseconds; 0: none set
@@ -56,12 +56,12 @@ class Solver:
     @property
     def name(self) -> str:
         """As in a scene's fidelity table."""
-        return f"{self.level} / {self.method}" if self.level == "full" else self.level
+        return f"{self.fidelity} / {self.method}" if self.fidelity == "full" else self.fidelity
 
     @property
     def parameters(self) -> dict[str, float]:
         """Places of ``p`` that choose it."""
-        return {"FIDELITY": FIDELITIES.index(self.level), "METHOD": METHODS.index(self.method)}
+        return {"FIDELITY": FIDELITIES.index(self.fidelity), "METHOD": METHODS.index(self.method)}
 
 
 SOLVERS = (

@@ -12,13 +12,13 @@ from fmu_bearing.run.arrays import Arrays, Refused
 from fmu_bearing.run.metrics import COMMUNICATION, SAMPLE, ring_rms, speed
 
 #: Tolerance and largest internal step (s): the scenes' default, then finer until the error is met.
-LADDER = ((1e-3, 20e-6), (3e-4, 10e-6), (1e-4, 10e-6), (1e-4, 5e-6), (3e-5, 2.5e-6), (1e-5, 1e-6))
+SETTINGS = ((1e-3, 20e-6), (3e-4, 10e-6), (1e-4, 10e-6), (1e-4, 5e-6), (3e-5, 2.5e-6), (1e-5, 1e-6))
 LIMIT = 1e-3
 
 
 def started(case: Case, solver: Solver, warm_up: float) -> Arrays:
     """Bearing of a case that has run by ``solver`` from its start for ``warm_up`` (s)."""
-    scene = silent(case.scene, level=solver.level, method=solver.method)
+    scene = silent(case.scene, model=solver.fidelity, method=solver.method)
     bearing = Arrays(scene, case.rpm, load_y=case.load_y, **solver.parameters)
     bearing.init()
     bearing.run(warm_up, COMMUNICATION)
@@ -28,16 +28,16 @@ def started(case: Case, solver: Solver, warm_up: float) -> Arrays:
 def full_rows(
     case: Case, solver: Solver, start: Arrays, exact: Reference, budget: float, repeats: int
 ) -> list[Row]:
-    """Rows of one integrator of level ``full``: at the scene's settings, and where the error is met."""
+    """Rows of one integrator of fidelity ``full``: at the scene's settings, and where the error is met."""
     goal = solver.goal if case.kind == "settled" else solver.goal_hard
     rows = []
-    for rung, (tolerance, step) in enumerate(LADDER):
+    for place, (tolerance, step) in enumerate(SETTINGS):
         row = Row(case.name, solver.name, f"tol {tolerance:g}, h <= {1e6 * step:g} us", goal=goal)
         bearing = start.with_parameters(**solver.parameters, TOLERANCE=tolerance, MAX_STEP=step)
         try:
             row.error = relative_error(bearing.with_parameters().rings(case.window, SAMPLE), exact.velocities)
             met = row.error <= LIMIT
-            if rung == 0 or met or rung == len(LADDER) - 1:
+            if place == 0 or met or place == len(SETTINGS) - 1:
                 longest = case.window if case.kind == "start" else 1.0
                 row.wall, row.cpu = speed(bearing, budget, repeats, longest)
                 rows.append(row)
@@ -85,7 +85,7 @@ def rows_of(
     exact = reference_from(start, case.window, sample=SAMPLE)
     rows = []
     for solver in solvers:
-        if solver.level == "full":
+        if solver.fidelity == "full":
             rows += full_rows(case, solver, start, exact, budget, repeats)
         elif case.kind != "start":
             rows.append(level_row(case, solver, start, budget, repeats))

@@ -2,7 +2,7 @@
 
 SciPy's Radau, LSODA and BDF, and SUNDIALS' CVODE through scikit-sundae. Each gets the right-hand side as one
 compiled call on flat arrays, the engine's own Jacobian (43 evaluations instead of 142), and absolute
-tolerances by component. The tolerance is loosened from rung to rung as far as the error allows.
+tolerances by component. The tolerance is loosened step by step as far as the error allows.
 """
 
 import importlib.metadata
@@ -17,8 +17,8 @@ from fmu_bearing.accuracy.first_order import FirstOrder
 from fmu_bearing.accuracy.reference import relative_error
 
 #: Relative tolerances; absolute ones are these times the scale of each component. Each solver starts at the
-#: rung that usually meets the error and moves by what it finds there.
-RUNGS = (3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 1e-8)
+#: one that usually meets the error and moves by what it finds there.
+TOLERANCES = (3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 1e-8)
 SCIPY = {"Radau": 1e-3, "LSODA": 1e-4, "BDF": 3e-5}
 CVODE = 3e-5
 
@@ -121,14 +121,14 @@ def peer_row(
     solve, first = entry
     warm(problem)
     deadline = time.perf_counter() + seconds
-    rung = RUNGS.index(first)
+    place = TOLERANCES.index(first)
     best: Row | None = None
     tried: dict[int, float] = {}
-    while 0 <= rung < len(RUNGS) and rung not in tried:
-        setting = f"rtol {RUNGS[rung]:g}"
+    while 0 <= place < len(TOLERANCES) and place not in tried:
+        setting = f"rtol {TOLERANCES[place]:g}"
         clock, used = time.perf_counter(), time.process_time()
         try:
-            found = solve(problem, times, RUNGS[rung], deadline)
+            found = solve(problem, times, TOLERANCES[place], deadline)
         except OverTime:
             row.remark = f"stopped after {seconds:g} s"
             break
@@ -137,17 +137,17 @@ def peer_row(
             break
         wall, cpu = time.perf_counter() - clock, time.process_time() - used
         if len(found) < len(times):
-            tried[rung] = float("inf")
+            tried[place] = float("inf")
         else:
-            tried[rung] = relative_error(found[:, problem.rings], exact)
-            trial = Row(case, name, setting, tried[rung], times[-1] / wall, times[-1] / cpu, ours=False)
+            tried[place] = relative_error(found[:, problem.rings], exact)
+            trial = Row(case, name, setting, tried[place], times[-1] / wall, times[-1] / cpu, ours=False)
             fits = trial.error <= limit
             better = best is None or (
                 (trial.wall > best.wall or best.error > limit) if fits else trial.error < best.error
             )
             if better:
                 best = trial
-        rung += -1 if tried[rung] <= limit else 1
+        place += -1 if tried[place] <= limit else 1
     if best is None:
         return row
     best.remark = row.remark

@@ -130,8 +130,8 @@ def main(arguments: list[str] | None = None) -> None:
     if not given.quick:
         costs += terms.rows("7009C-full-ceramic", 18000.0, budget, repeats)
     sizes = memory.rows(("7003C-spindle", "7009C-full-ceramic"))
-    rungs = ("compact",) if given.quick else ("bem", "compact", "paper", "paper_contacts")
-    sounds = sound.rows("7003C-spindle", rungs, repeats)
+    models = ("compact",) if given.quick else ("bem", "compact", "paper", "paper_contacts")
+    sounds = sound.rows("7003C-spindle", models, repeats)
     if not given.quick:
         sounds += sound.rows("7009C-full-ceramic", ("bem", "compact"), repeats)
     solved = bem.rows(given.quick)

@@ -1,4 +1,4 @@
-"""What sound costs: CPU seconds per simulated second, by rung and number of microphones."""
+"""What sound costs: CPU seconds per simulated second, by radiation model and number of microphones."""
 
 import time
 
@@ -14,7 +14,7 @@ from fmu_bearing.scene import read_scene
 from fmu_bearing.scene.sound import cylindrical
 
 COLUMNS = (
-    "scene", "microphones", "rung", "channels", "blocks", "CPU s per s", "direct form", "goal", "verdict",
+    "scene", "microphones", "radiation_model", "channels", "blocks", "CPU s per s", "direct form", "goal", "verdict",
 )  # fmt: skip
 GOAL = 0.1  # s per simulated s, four microphones
 _BATCH = 8192  # motion samples: 40 ms
@@ -60,23 +60,23 @@ def block_lengths(ps) -> str:
     return " + ".join(lengths) or "none"
 
 
-def rows(name: str, rungs: tuple[str, ...], repeats: int) -> list[list[str]]:
-    """One row per rung and set of microphones of a scene."""
+def rows(name: str, models: tuple[str, ...], repeats: int) -> list[list[str]]:
+    """One row per radiation model and set of microphones of a scene."""
     scene = read_scene(SCENES / f"{name}.toml")
     given = ladder_of(scene)
     found = []
     for words, points in microphones(scene).items():
-        for rung in rungs:
-            ladder = Ladder(rung, given.radiators, given.air, given.harmonics)
+        for radiation_model in models:
+            ladder = Ladder(radiation_model, given.radiators, given.air, given.harmonics)
             block, direct = (
-                build(rung, ladder.radiators, ladder.air, points, ladder.harmonics, levels=levels)
+                build(radiation_model, ladder.radiators, ladder.air, points, ladder.harmonics, levels=levels)
                 for levels in (None, ())
             )
             here = cost(block, repeats)
             goal = words == "4"
             verdict = "" if not goal else "met" if here <= GOAL else "missed"
             found.append(
-                [name, words, rung, f"{block[SD.H_CHANNELS]:.0f}", block_lengths(block), f"{here:.3f}",
+                [name, words, radiation_model, f"{block[SD.H_CHANNELS]:.0f}", block_lengths(block), f"{here:.3f}",
                  f"{cost(direct, repeats):.3f}", f"{GOAL:g}" if goal else "", verdict]
             )  # fmt: skip
     return found

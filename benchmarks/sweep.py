@@ -1,7 +1,7 @@
 """Sweeps on 1 and more workers: pace, what handing a point over costs, how much data goes back and forth.
 
 Worker processes of this machine and a Dask cluster of this machine run the same points, 7003C in its spindle
-at level rings with compact sound. Starting workers is told apart: it is paid once. Usage, on a machine that
+at fidelity rings with compact sound. Starting workers is told apart: it is paid once. Usage, on a machine that
 does nothing else: ``python -m benchmarks.sweep [--points 16] [--repeats 10]``.
 """
 
@@ -29,8 +29,8 @@ def nothing_to_do(task: Task, block: object = None) -> Outcome:
 
 
 def points(count: int) -> Plan:
-    scene: Scene = with_fidelity(read_scene(SCENE), level="rings")
-    sound = scene.sound.model_copy(update={"rung": "compact", "details": False})
+    scene: Scene = with_fidelity(read_scene(SCENE), fidelity="rings")
+    sound = scene.sound.model_copy(update={"radiation_model": "compact", "details": False})
     return plan(scene.model_copy(update={"sound": sound}), {"speed": f"10000:40000:{count}"})
 
 
@@ -86,7 +86,7 @@ def main() -> None:
     ]
     load = " ".join(f"{x:.1f}" for x in os.getloadavg())
     print(f"{machine()}; load average at the end {load}\n")
-    print(f"{given.points} points of 120 ms, level rings, 4 microphones; best of {given.repeats}\n")
+    print(f"{given.points} points of 120 ms, fidelity rings, 4 microphones; best of {given.repeats}\n")
     print(markdown(("on", "workers", "a point, ms", "over 1 worker"), rows))
     bare = paces(points(EMPTY).tasks, 3, nothing_to_do)
     rows = [[name, str(workers), f"{1e3 * pace:.2f}"] for name, workers, pace in bare]

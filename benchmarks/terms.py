@@ -64,7 +64,7 @@ def variants(name: str):
 
 
 def rows(name: str, rpm: float, budget: float, repeats: int) -> list[list[str]]:
-    """One row per variant of a scene, level ``full`` by the default method.
+    """One row per variant of a scene, fidelity ``full`` by the default method.
 
     The variants take turns, so that what else the machine does falls on all of them.
     """

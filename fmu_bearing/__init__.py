@@ -5,6 +5,7 @@ One way through, with no way back::
     scene.toml -> Scene -> Model (flat numbers + names) -> engine: init / step / outputs -> outputs by name
 
 ==================  =========================================================================
+``renamed``         old names, each answered with the new one
 ``files``           writing files that other processes may read; hashes of sources
 ``engine``          Numba kernels on flat arrays: mechanics, fidelities, sound
 ``scene``           WHAT is simulated: frozen models read from TOML, catalogue

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu_bearing import renamed
 from fmu_bearing.engine import abi
 from fmu_bearing.engine.layout import S, U, W, Z
 from fmu_bearing.engine.status import BAD_INPUT, BAD_STEP, NO_START, NOT_CONVERGED, OK, RIGID_ONLY, TOO_SOFT
@@ -24,7 +25,7 @@ REASONS = {
     BAD_STEP: "the communication step must be a positive, finite number of seconds",
     NO_START: "no quasi-static equilibrium was found for the initial inputs; "
     "give more preload or less radial load",
-    RIGID_ONLY: "its rings bend, which needs level full and method esdirk4, trbdf2 or rk4",
+    RIGID_ONLY: "its rings bend, which needs fidelity full and method esdirk4, trbdf2 or rk4",
     TOO_SOFT: "the loads push the outer ring sideways by more than 0.3 of the pitch radius; "
     "give a stiffer pedestal or less radial load",
 }
@@ -66,7 +67,7 @@ def _shoulder(ring: str, other: str) -> Caution:
     )
 
 
-#: What a state is warned of once it has been reached by initialisation.
+#: Warnings checked after initialisation.
 CAUTIONS = (_shoulder("inner", "outer"), _shoulder("outer", "inner"))
 _RELATIVE_SLACK = 1e-12  # a value at a bound may carry rounding from a unit conversion
 
@@ -125,7 +126,8 @@ class Instance:
         try:
             return self.by_name[name]
         except KeyError:
-            raise KeyError(f"this bearing has no variable '{name}'") from None
+            now = f"; it is now '{renamed.VARIABLES[name]}'" if name in renamed.VARIABLES else ""
+            raise KeyError(f"this bearing has no variable '{name}'{now}") from None
 
     def check(self, variable: Variable, value: float) -> None:
         """Raise ``ValueError`` unless ``value`` may be set."""

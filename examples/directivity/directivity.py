@@ -1,7 +1,7 @@
 """Directivity of the full-ceramic 7009C: levels on a circle of 210 mm, 50 mm in front, beside its steel twin.
 
-``python directivity.py [--quick]`` records both bearings (level full, rung bem; ``--quick``: a short run of
-the ceramic one, rung compact) and writes ``directivity.png``, each circle about its mean, and
+``python directivity.py [--quick]`` records both bearings (fidelity full, radiation model bem; ``--quick``: a short run of
+the ceramic one, radiation model compact) and writes ``directivity.png``, each circle about its mean, and
 ``directivity.csv``.
 
 Result: the ceramic bearing's circle is loudest at 45 deg from 12 o'clock at all speeds, 1.1 dB(A) above its
@@ -33,10 +33,16 @@ CASES = (
 COLUMNS = ("case", "highest, dB", "at, deg", "lowest, dB", "DL, dB", "DV, dB")
 
 
-def circle(scene: str, rpm: float, duration: float, rung: str) -> Round:
+def circle(scene: str, rpm: float, duration: float, radiation_model: str) -> Round:
     """Levels round the circle of a scene at a speed."""
     speed = rpm * np.pi / 30.0
-    recording = record(read_scene(SCENES / f"{scene}.toml"), duration, speed=speed, settle=0.03, rung=rung)
+    recording = record(
+        read_scene(SCENES / f"{scene}.toml"),
+        duration,
+        speed=speed,
+        settle=0.03,
+        radiation_model=radiation_model,
+    )
     return sound_measure.circle(recording, RADIUS, AXIAL, COUNT, weighting="A")
 
 
@@ -68,12 +74,12 @@ def levels(circles: dict[str, Round]) -> tuple[Sequence[str], list[list[str]]]:
 
 
 def main(
-    quick: Annotated[bool, typer.Option("--quick", help="One short run, rung compact.")] = False,
+    quick: Annotated[bool, typer.Option("--quick", help="One short run, radiation model compact.")] = False,
     output: Annotated[Path, typer.Option(help="Folder for picture and table.")] = Path("out/directivity"),
 ) -> None:
     """Record the bearings, and measure and draw their circles."""
-    cases, duration, rung = (CASES[2:3], 0.05, "compact") if quick else (CASES, 0.4, "bem")
-    circles = {name: circle(scene, rpm, duration, rung) for name, scene, rpm in cases}
+    cases, duration, radiation_model = (CASES[2:3], 0.05, "compact") if quick else (CASES, 0.4, "bem")
+    circles = {name: circle(scene, rpm, duration, radiation_model) for name, scene, rpm in cases}
     title = f"dB(A) beside the circle's mean, r {1e3 * RADIUS:g} mm, l {1e3 * AXIAL:g} mm"
     shown = {name: about_mean(one) for name, one in circles.items()}
     sound_pictures.save(sound_pictures.circle_picture(shown, title), output / "directivity.png")

@@ -3,7 +3,7 @@
 ================  =========================================================================================
 ``run``           the command: calibrates, runs all cases on the cores given, writes the pages
 ``case``          one operating point of a scene and its recording, kept on disk so that runs continue
-``hearing``       levels of a recording, source by source; the papers' rungs add energies
+``hearing``       levels of a recording, source by source; the papers' radiation models add energies
 ``calibration``   the one scalar of each page, the amplitude of the imperfections
 ``page``          verdicts, tables, Markdown, CSV
 ``charts``        the pictures
@@ -13,6 +13,6 @@
 ``impact_noise``  the impact-noise paper: dry 7003C held all round, springs for a cage
 ================  =========================================================================================
 
-One dynamic run per operating point serves all microphones and all rungs but the papers' own, whose scalars
+One dynamic run per operating point serves all microphones and all radiation models but the papers' own, whose scalars
 are formed while the bearing runs.
 """

@@ -68,18 +68,18 @@ class Case:
             data["imperfections"][key] *= self.scale
         return read_scene_text(_toml(data), self.scene)
 
-    def key(self, rung: str) -> str:
+    def key(self, radiation_model: str) -> str:
         """Hash (16 hex digits) of all that the recording depends on."""
-        kind = "paper" if rung == "paper" else "vector"
+        kind = "paper" if radiation_model == "paper" else "vector"
         text = f"{_toml(_motion(self.build()))} {self.settle} {self.duration} {kind} {source_hash()}"
         return hashlib.sha256(text.encode()).hexdigest()[:16]
 
-    def recording(self, rung: str, cache: pathlib.Path) -> Recording:
-        """Return the recording for a rung: taken from ``cache``, or run and put there.
+    def recording(self, radiation_model: str, cache: pathlib.Path) -> Recording:
+        """Return the recording for a radiation model: taken from ``cache``, or run and put there.
 
-        All rungs but ``paper`` take accelerations and share one recording.
+        All radiation models but ``paper`` take accelerations and share one recording.
         """
-        path = cache / f"{self.key(rung)}.npz"
+        path = cache / f"{self.key(radiation_model)}.npz"
         if path.exists():
             return Recording.load(path)
         # ears are chosen afterwards: what the recording is made with is the cheapest of its kind
@@ -87,7 +87,7 @@ class Case:
         made = record(
             scene, self.duration, settle=self.settle, progress=False,
             outputs=(*OUTPUTS, *(["cage.speed_ratio"] if scene.bearing.cage is not None else [])),
-            rung="paper" if rung == "paper" else "compact",
+            radiation_model="paper" if radiation_model == "paper" else "compact",
         )  # fmt: skip
         cache.mkdir(parents=True, exist_ok=True)
         part = path.with_suffix(f".{os.getpid()}")  # an interrupted write leaves no half recording

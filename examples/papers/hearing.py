@@ -1,6 +1,6 @@
 """Levels of a recording, source by source.
 
-Most rungs add pressures: a component is one source, the total is the coherent sum. The rung ``paper`` adds
+Most radiation models add pressures: a component is one source, the total is the coherent sum. The radiation model ``paper`` adds
 energies: each component is several sources (multi-source paper, eqs. 43 and 46).
 
 Paths depend on bodies and places, not on the run: they are made once per scene and kept, since boundary
@@ -32,7 +32,7 @@ from fmu_bearing.scene import Scene
 
 #: Keys of ``sound`` that change no motion and no path.
 LISTENING = (
-    "rung", "microphone", "circle", "metering_start_s", "time_weighting", "third_octaves", "details",
+    "radiation_model", "microphone", "circle", "metering_start_s", "time_weighting", "third_octaves", "details",
 )  # fmt: skip
 Sources = dict[str, NDArray[np.float64]]
 Places = Sequence[Sequence[float]]
@@ -47,15 +47,15 @@ class Ear:
     Parameters
     ----------
     recording : Recording
-    rung : str
+    radiation model : str
     cache : pathlib.Path
         Folder of the kept paths.
     """
 
-    def __init__(self, recording: Recording, rung: str, cache: pathlib.Path) -> None:
+    def __init__(self, recording: Recording, radiation_model: str, cache: pathlib.Path) -> None:
         if recording.scene is None:
             raise ValueError("this recording has no scene: nothing says what radiates")
-        self.recording, self.rung, self.cache = recording, rung, cache
+        self.recording, self.radiation_model, self.cache = recording, radiation_model, cache
         self.scene: Scene = recording.scene
         self.channels = Channels(recording.history)
 
@@ -65,7 +65,7 @@ class Ear:
         record = self.recording
         window = slice(record.first, record.first + record.size)
         found: dict[int, NDArray[np.float64]] = {}
-        for circle in _kept_paths(self.scene, self.rung, points, record.harmonics, self.cache):
+        for circle in _kept_paths(self.scene, self.radiation_model, points, record.harmonics, self.cache):
             for name, part in self.channels.pressures(circle, label).items():
                 total = found.setdefault(name, np.zeros((len(points), record.size)))
                 total[list(circle.members)] += part[:, window]
@@ -74,10 +74,10 @@ class Ear:
     def sources(self, places: Places) -> Sources:
         """Pressures of each component's sources, shape (sources, mics, size) by component, and ``total``.
 
-        Within an entry energies add: the total of a vector rung is one coherent sum, the total of rung
+        Within an entry energies add: the total of a vector radiation model is one coherent sum, the total of radiation model
         ``paper`` all its sources.
         """
-        if self.rung != "paper":
+        if self.radiation_model != "paper":
             parts = self.parts(places, lambda path: path.component)
             found = {SD.COMPONENTS[k]: part[None] for k, part in parts.items()}
             return found | {"total": np.sum(list(parts.values()), axis=0)[None]}
@@ -96,7 +96,7 @@ class Ear:
 
     def levels(self, places: Places) -> NDArray[np.float64]:
         """Equivalent level (dB) of the total, shape (mics,)."""
-        if self.rung == "paper":
+        if self.radiation_model == "paper":
             return equivalent(self.sources(places)["total"])
         return level((self.pressure(places) ** 2).mean(axis=1))
 
@@ -107,7 +107,7 @@ def _read(path: pathlib.Path) -> list[Circle]:
 
 
 def _kept_paths(
-    scene: Scene, rung: str, places: tuple[tuple[float, float, float], ...], harmonics: int,
+    scene: Scene, radiation_model: str, places: tuple[tuple[float, float, float], ...], harmonics: int,
     cache: pathlib.Path,
 ) -> list[Circle]:  # fmt: skip
     """Paths to places: from the cache, or made and put there."""
@@ -117,14 +117,16 @@ def _kept_paths(
         scene.materials.model_dump_json(),
         scene.mounting.model_dump_json(include={"housing", "flexure"}),
     )
-    text = repr((rung, sound, body, places, harmonics, sources_hash()))
+    text = repr((radiation_model, sound, body, places, harmonics, sources_hash()))
     path = cache / "paths" / f"{hashlib.sha256(text.encode()).hexdigest()[:16]}.pickle"
     path.parent.mkdir(parents=True, exist_ok=True)
     with path.with_suffix(".lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)  # other workers want the same paths: one makes them
         if not path.exists():
-            modes = ring_modes(scene) if rung != "paper" else ()
-            made = list(circles(rung, radiators_of(scene), air_of(scene), places, harmonics, modes=modes))
+            modes = ring_modes(scene) if radiation_model != "paper" else ()
+            made = list(
+                circles(radiation_model, radiators_of(scene), air_of(scene), places, harmonics, modes=modes)
+            )
             part = path.with_suffix(f".{os.getpid()}")
             part.write_bytes(pickle.dumps(made))
             part.replace(path)

@@ -18,7 +18,7 @@ from fmu_bearing.run.table import markdown
 NAME = "impact-noise"
 TITLE = "Impact-noise paper: dry 7003C, held all round, springs for a cage"
 MODULES = ("impact_noise", "hearing")
-PAPER_RUNG_TOO = False
+PAPER_MODEL_TOO = False
 SPEEDS = (10000, 15000, 20000)
 SPRINGS = (1e5, 5e6, 2.5e7)  # N/m; the paper keeps the last
 ABOVE = (0.0, 0.0, 0.1)  # m
@@ -212,12 +212,15 @@ def values(results: dict[tuple[int, float], dict[str, Any]], calibration: Calibr
 
 
 def write(
-    found: dict[str, dict[Case, dict[str, Any]]], calibration: Calibration, rung: str, output: Output
+    found: dict[str, dict[Case, dict[str, Any]]],
+    calibration: Calibration,
+    radiation_model: str,
+    output: Output,
 ) -> str:
     """Write pictures and CSV; return the page."""
     results = {
         (int(case.rpm), spring): result
-        for case, result in found[rung].items()
+        for case, result in found[radiation_model].items()
         for spring in SPRINGS
         if case.label == f"{spring:.3g} N/m"
     }
@@ -240,13 +243,13 @@ def write(
         "Leq",
         "average peak",
     ]
-    any_case = next(iter(found[rung]))
+    any_case = next(iter(found[radiation_model]))
     return page.template(NAME).format(
         timing=page.timing(any_case.settle, any_case.duration),
-        title=TITLE, caution=page.caution(rung), rung=rung, counts=page.counted(judged),
+        title=TITLE, caution=page.caution(radiation_model), radiation_model=radiation_model, counts=page.counted(judged),
         target=CALIBRATION[1],
         calibration=calibration.words, values=page.values_table(values(results, calibration)),
-        orderings=page.orderings_table([rung], [judged]), above=markdown(columns, rows),
+        orderings=page.orderings_table([radiation_model], [judged]), above=markdown(columns, rows),
     )  # fmt: skip
 
 

@@ -14,7 +14,7 @@ from fmu_bearing.run.table import markdown
 NAME = "multi-source"
 TITLE = "Multi-source paper: 7003C in a spindle, 10,000 to 40,000 r/min"
 MODULES = ("multi_source", "hearing")
-PAPER_RUNG_TOO = True
+PAPER_MODEL_TOO = True
 SPEEDS = tuple(range(10000, 40001, 1000))
 SPECTRA = (20000, 25000, 28000, 30000)
 POINTS = ("P1", "P2", "P3", "P4")
@@ -77,7 +77,7 @@ def reduce(ear: Ear, quick: bool) -> dict[str, Any]:
 
 
 def orderings(results: dict[int, dict[str, Any]]) -> list[Ordering]:
-    """Judge the paper's statements for one rung; results by speed."""
+    """Judge the paper's statements for one radiation model; results by speed."""
     total = {rpm: dict(zip(POINTS, found["levels"]["total"], strict=True)) for rpm, found in results.items()}
     speeds = sorted(results)
 
@@ -210,41 +210,45 @@ def values(results: dict[int, dict[str, Any]], calibration: Calibration) -> list
 
 
 def write(
-    found: dict[str, dict[Case, dict[str, Any]]], calibration: Calibration, rung: str, output: Output
+    found: dict[str, dict[Case, dict[str, Any]]],
+    calibration: Calibration,
+    radiation_model: str,
+    output: Output,
 ) -> str:
     """Write pictures and CSV; return the page."""
     results = {name: {int(case.rpm): r for case, r in cases.items()} for name, cases in found.items()}
-    rungs = list(results)
+    models = list(results)
     _pictures(results, output)
     _csv(results, output)
-    judged = [orderings(results[name]) for name in rungs]
+    judged = [orderings(results[name]) for name in models]
     counts = ", ".join(
-        f"{page.counted(verdicts)} with `{name}`" for name, verdicts in zip(rungs, judged, strict=True)
+        f"{page.counted(verdicts)} with `{name}`" for name, verdicts in zip(models, judged, strict=True)
     )
-    speeds = sorted(results[rung])
+    speeds = sorted(results[radiation_model])
     table = [
-        [f"{rpm:,}", *(f"{v:.1f}" for v in results[rung][rpm]["levels"]["total"])]
-        + [f"{results[rung][rpm]['levels'][c][0]:.1f}" for c in PARTS]
+        [f"{rpm:,}", *(f"{v:.1f}" for v in results[radiation_model][rpm]["levels"]["total"])]
+        + [f"{results[radiation_model][rpm]['levels'][c][0]:.1f}" for c in PARTS]
         for rpm in speeds
     ]
     tones = [
-        [f"{rpm:,}", NAMES.get(c, c)] + [f"{results[rung][rpm]['lines'][c][key]:.1f}" for key in LINES]
+        [f"{rpm:,}", NAMES.get(c, c)]
+        + [f"{results[radiation_model][rpm]['lines'][c][key]:.1f}" for key in LINES]
         for rpm in SPECTRA
-        if rpm in results[rung]
+        if rpm in results[radiation_model]
         for c in (*PARTS, "total")
     ]
     frequencies = [
-        [f"{rpm:,}", *(f"{results[rung][rpm]['frequencies'][key]:.1f}" for key in LINES)]
+        [f"{rpm:,}", *(f"{results[radiation_model][rpm]['frequencies'][key]:.1f}" for key in LINES)]
         for rpm in SPECTRA
-        if rpm in results[rung]
+        if rpm in results[radiation_model]
     ]
-    any_case = next(iter(found[rung]))
+    any_case = next(iter(found[radiation_model]))
     return page.template(NAME).format(
         timing=page.timing(any_case.settle, any_case.duration),
-        title=TITLE, caution=page.caution(rung), rung=rung, counts=counts, calibration=calibration.words,
+        title=TITLE, caution=page.caution(radiation_model), radiation_model=radiation_model, counts=counts, calibration=calibration.words,
         target=CALIBRATION[1],
-        values=page.values_table(values(results[rung], calibration)),
-        orderings=page.orderings_table(rungs, judged),
+        values=page.values_table(values(results[radiation_model], calibration)),
+        orderings=page.orderings_table(models, judged),
         levels=markdown(
             ["r/min", *POINTS, *(f"P1 {NAMES[c]}" for c in PARTS)], table
         ),
@@ -255,15 +259,15 @@ def write(
 
 def _csv(results, output: Output) -> None:
     rows = [
-        [rung, str(rpm), name, *(f"{value:.2f}" for value in levels)]
-        for rung, by_speed in results.items()
+        [radiation_model, str(rpm), name, *(f"{value:.2f}" for value in levels)]
+        for radiation_model, by_speed in results.items()
         for rpm in sorted(by_speed)
         for name, levels in by_speed[rpm]["levels"].items()
     ]
-    output.csv("multi-source-levels", ["rung", "rpm", "component", *POINTS], rows)
+    output.csv("multi-source-levels", ["radiation_model", "rpm", "component", *POINTS], rows)
     columns = {
-        f"{rung} {rpm} {name}": values
-        for rung, by_speed in results.items()
+        f"{radiation_model} {rpm} {name}": values
+        for radiation_model, by_speed in results.items()
         for rpm in SPECTRA
         if rpm in by_speed
         for name, values in by_speed[rpm]["spectra"].items()
@@ -276,18 +280,20 @@ def _csv(results, output: Output) -> None:
 
 
 def _pictures(results, output: Output) -> None:
-    """Levels over speed for each rung; spectra of each component at the paper's four speeds."""
+    """Levels over speed for each radiation model; spectra of each component at the paper's four speeds."""
     drawn, axes = charts.figure(10.5, 3.6 * len(results), len(results), 2)
-    for row, (rung, by_speed) in enumerate(results.items()):
+    for row, (radiation_model, by_speed) in enumerate(results.items()):
         speeds = sorted(by_speed)
         lines = {p: [by_speed[n]["levels"]["total"][k] for n in speeds] for k, p in enumerate(POINTS)}
-        charts.curves(axes[2 * row], speeds, lines, f"total, radiation model {rung}", "r/min")
+        charts.curves(axes[2 * row], speeds, lines, f"total, radiation model {radiation_model}", "r/min")
         parts = {NAMES[c]: [by_speed[n]["levels"][c][0] for n in speeds] for c in PARTS}
-        charts.curves(axes[2 * row + 1], speeds, parts, f"components at P1, radiation model {rung}", "r/min")
+        charts.curves(
+            axes[2 * row + 1], speeds, parts, f"components at P1, radiation model {radiation_model}", "r/min"
+        )
         axes[2 * row].legend(fontsize=8)
         axes[2 * row + 1].legend(fontsize=8)
     charts.save(drawn, output.images / "multi-source-levels.png")
-    rung, by_speed = next(iter(results.items()))
+    radiation_model, by_speed = next(iter(results.items()))
     speeds = [rpm for rpm in SPECTRA if rpm in by_speed]
     drawn, axes = charts.figure(11.0, 2.6 * len(PARTS), len(PARTS), max(len(speeds), 1))
     for i, part in enumerate(PARTS):

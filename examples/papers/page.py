@@ -61,11 +61,11 @@ def verdict(statement: str, margins: Sequence[tuple[str, float]], unit: str = "d
     return Ordering(statement, NOT, f"{share}: {spread}; not at {shown}")
 
 
-def orderings_table(rungs: Sequence[str], found: Sequence[Sequence[Ordering]]) -> str:
-    """Statements down, one pair of columns per rung."""
+def orderings_table(models: Sequence[str], found: Sequence[Sequence[Ordering]]) -> str:
+    """Statements down, one pair of columns per radiation model."""
     columns = ["what the paper states"]
-    for rung in rungs:
-        columns += [f"`{rung}`", "figures"]
+    for radiation_model in models:
+        columns += [f"`{radiation_model}`", "figures"]
     rows = []
     for number, same in enumerate(zip(*found, strict=True)):
         row = [f"{number + 1}. {same[0].statement}"]
@@ -146,9 +146,9 @@ def timing(settle: float, duration: float) -> str:
     return f"{1e3 * settle:.0f} ms left out, {1e3 * duration:.0f} ms measured"
 
 
-def caution(rung: str) -> str:
+def caution(radiation_model: str) -> str:
     """Limits of the radiation model, to be read before any figure."""
-    if rung == "compact":
+    if radiation_model == "compact":
         return (
             "> Radiation model `compact` has no scattering between rings, balls and housing. In the\n"
             "> bearing's plane it differs from boundary elements by 1 dB at 2 kHz (7003C) and at 1 kHz\n"

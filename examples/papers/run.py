@@ -1,7 +1,7 @@
 """Write the validation pages of the three papers: ``python -m examples.papers.run [PAGE ...]``.
 
 Recordings and reductions are kept under ``--cache``: a run that is interrupted, or repeated with another
-rung, goes on from there.
+radiation model, goes on from there.
 """
 
 import argparse
@@ -19,46 +19,58 @@ from examples.papers.hearing import Ear
 from examples.papers.page import Output
 
 PAGES: dict[str, ModuleType] = {module.NAME: module for module in (multi_source, sound_field, impact_noise)}
-RUNGS = ("compact", "bem")  # those that evaluate recordings at any place
-DEFAULT_RUNG = "bem"
+MODELS = ("compact", "bem")  # those that evaluate recordings at any place
+DEFAULT_MODEL = "bem"
 
 
-def evaluate(name: str, case: Case, rung: str, quick: bool, cache: pathlib.Path) -> dict[str, Any]:
-    """Return the result of one case with one rung (worker)."""
+def evaluate(name: str, case: Case, radiation_model: str, quick: bool, cache: pathlib.Path) -> dict[str, Any]:
+    """Return the result of one case with one radiation model (worker)."""
     module = PAGES[name]
-    place = cache / name / f"{case.key(rung)}-{rung}-{code_hash(*module.MODULES)}.json"
-    return kept(place, lambda: module.reduce(Ear(case.recording(rung, cache), rung, cache), quick))
+    place = cache / name / f"{case.key(radiation_model)}-{radiation_model}-{code_hash(*module.MODULES)}.json"
+    return kept(
+        place,
+        lambda: module.reduce(Ear(case.recording(radiation_model, cache), radiation_model, cache), quick),
+    )
 
 
-def calibration_of(name: str, rung: str, quick: bool, cache: pathlib.Path) -> Calibration:
+def calibration_of(name: str, radiation_model: str, quick: bool, cache: pathlib.Path) -> Calibration:
     """Calibration of one page (worker)."""
     module = PAGES[name]
 
     def level(scale: float) -> float:
         case = module.calibration_case(scale, quick)
-        place = cache / name / f"{case.key(rung)}-{rung}-{code_hash(*module.MODULES)}-level.json"
+        place = (
+            cache
+            / name
+            / f"{case.key(radiation_model)}-{radiation_model}-{code_hash(*module.MODULES)}-level.json"
+        )
         found = kept(
-            place, lambda: {"dB": module.calibration_level(Ear(case.recording(rung, cache), rung, cache))}
+            place,
+            lambda: {
+                "dB": module.calibration_level(
+                    Ear(case.recording(radiation_model, cache), radiation_model, cache)
+                )
+            },
         )
         return float(found["dB"])
 
     return calibrate(module.CALIBRATION[1], level, 3 if quick else ROUNDS)
 
 
-def rungs_of(module: ModuleType, rung: str) -> list[str]:
-    """Rungs a page shows."""
-    return [rung, *(["paper"] if module.PAPER_RUNG_TOO and rung != "paper" else [])]
+def models_of(module: ModuleType, radiation_model: str) -> list[str]:
+    """Radiation models a page shows."""
+    return [radiation_model, *(["paper"] if module.PAPER_MODEL_TOO and radiation_model != "paper" else [])]
 
 
 def run(
-    names: list[str], rung: str, *, quick: bool, jobs: int, cache: pathlib.Path, root: pathlib.Path
+    names: list[str], radiation_model: str, *, quick: bool, jobs: int, cache: pathlib.Path, root: pathlib.Path
 ) -> list[pathlib.Path]:
     """Run all cases of the pages and write them; returns the pages written."""
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     results: dict[str, dict[str, dict[Case, dict[str, Any]]]] = {
-        name: {one: {} for one in rungs_of(PAGES[name], rung)} for name in names
+        name: {one: {} for one in models_of(PAGES[name], radiation_model)} for name in names
     }
     calibrations: dict[str, Calibration] = {}
     # linear algebra libraries must not start threads of their own beside the workers
@@ -66,7 +78,7 @@ def run(
     with ProcessPoolExecutor(jobs) as pool, Progress(*columns) as bar:
         tasks = {name: bar.add_task(f"{name}: calibration", total=1) for name in names}
         waiting: dict[Future[Any], tuple[Any, ...]] = {
-            pool.submit(calibration_of, name, rung, quick, cache): (name,) for name in names
+            pool.submit(calibration_of, name, radiation_model, quick, cache): (name,) for name in names
         }
         while waiting:
             done = next(as_completed(waiting))
@@ -85,7 +97,7 @@ def run(
     output = Output(root)
     output.make()
     return [
-        output.write(name, PAGES[name].write(results[name], calibrations[name], rung, output))
+        output.write(name, PAGES[name].write(results[name], calibrations[name], radiation_model, output))
         for name in names
     ]
 
@@ -95,7 +107,10 @@ def main(arguments: list[str] | None = None) -> None:
     parser = argparse.ArgumentParser(prog="python -m examples.papers.run", description=__doc__)
     parser.add_argument("pages", nargs="*", metavar="PAGE", help=f"of {', '.join(PAGES)}; default: all")
     parser.add_argument(
-        "--rung", choices=RUNGS, default=DEFAULT_RUNG, help=f"physical rung (default {DEFAULT_RUNG})"
+        "--radiation-model",
+        choices=MODELS,
+        default=DEFAULT_MODEL,
+        help=f"physical radiation model (default {DEFAULT_MODEL})",
     )
     parser.add_argument("--quick", action="store_true", help="tiny cases: to see that it works")
     parser.add_argument("--jobs", type=int, default=2, help="processes (default 2)")
@@ -107,7 +122,7 @@ def main(arguments: list[str] | None = None) -> None:
         parser.error(f"no page named {', '.join(unknown)}; there are {', '.join(PAGES)}")
     clock = time.perf_counter()
     pages = run(
-        given.pages or list(PAGES), given.rung, quick=given.quick, jobs=given.jobs, cache=given.cache,
+        given.pages or list(PAGES), given.radiation_model, quick=given.quick, jobs=given.jobs, cache=given.cache,
         root=given.output,
     )  # fmt: skip
     for path in pages:

@@ -29,7 +29,7 @@ from fmu_bearing.scene.sound import cylindrical
 NAME = "sound-field"
 TITLE = "Sound-field paper: full-ceramic 7009C, circles of 24 points"
 MODULES = ("sound_field", "circles", "hearing")
-PAPER_RUNG_TOO = False
+PAPER_MODEL_TOO = False
 CERAMIC, STEEL = "7009C-full-ceramic", "7009C-steel"
 SPEEDS = (3000, 6000, 9000, 12000, 15000, 18000)
 STEEL_SPEEDS = (9000, 18000)
@@ -133,24 +133,27 @@ def values(results: Results, variant: str, calibration: Calibration, directive: 
 
 
 def write(
-    found: dict[str, dict[Case, dict[str, Any]]], calibration: Calibration, rung: str, output: Output
+    found: dict[str, dict[Case, dict[str, Any]]],
+    calibration: Calibration,
+    radiation_model: str,
+    output: Output,
 ) -> str:
     """Write pictures and CSV; return the page."""
     every: Results = {}
-    for case, result in found[rung].items():
+    for case, result in found[radiation_model].items():
         every.setdefault(case.label, {})[int(case.rpm)] = result
     results = {name: every[name] for name in VARIANTS if name in every}
     ceramic = [name for name in VARIANTS[:2] if name in results]
-    directive = rung != "compact"  # see page.caution
+    directive = radiation_model != "compact"  # see page.caution
     judged = [orderings(results[name], directive) for name in ceramic]
     _csv(every, output)
     if directive:
         _pictures(results, output)
     counts = ", ".join(f"{page.counted(o)} ({name})" for name, o in zip(ceramic, judged, strict=True))
-    any_case = next(iter(found[rung]))
+    any_case = next(iter(found[radiation_model]))
     steel = twins(results[VARIANTS[0]], results.get(VARIANTS[2], {}), directive)
     return page.template(NAME).format(
-        title=TITLE, caution=page.caution(rung), rung=rung, pull=PULL, calibration=calibration.words,
+        title=TITLE, caution=page.caution(radiation_model), radiation_model=radiation_model, pull=PULL, calibration=calibration.words,
         timing=page.timing(any_case.settle, any_case.duration), counts=counts, target=CALIBRATION[1],
         values="\n".join(
             f"{name}:\n\n{page.values_table(values(results, name, calibration, directive))}"

@@ -1,7 +1,7 @@
 """Run-up of the 7003C in its spindle: waterfall and order map of the sound at P1, 105 mm beside the bearing.
 
-``python run_up.py [--quick]`` runs the scene from 4,000 to 36,000 r/min in a second (level full, rung bem;
-``--quick``: level rings, rung compact, a third of the time) and writes ``waterfall.png``, ``orders.png``,
+``python run_up.py [--quick]`` runs the scene from 4,000 to 36,000 r/min in a second (fidelity full, radiation model bem;
+``--quick``: fidelity rings, radiation model compact, a third of the time) and writes ``waterfall.png``, ``orders.png``,
 ``orders.csv`` and ``peaks.md``.
 
 Result: the shaft's order is loudest at 28,800 r/min, 71 dB: the critical speed at 28,000 r/min, a little
@@ -48,17 +48,21 @@ def levels_at(orders: OrderMap, order: float) -> NDArray[np.float64]:
 
 def main(
     quick: Annotated[
-        bool, typer.Option("--quick", help="A short run by a faster level, rung compact.")
+        bool, typer.Option("--quick", help="A short run by a faster level, radiation model compact.")
     ] = False,
     output: Annotated[Path, typer.Option(help="Folder for pictures and table.")] = Path("out/run_up"),
 ) -> None:
     """Record a run-up and draw what is heard."""
-    scene, duration, rung = read_scene(SCENE), 1.0, "bem"
+    scene, duration, radiation_model = read_scene(SCENE), 1.0, "bem"
     if quick:
-        scene, duration, rung = with_fidelity(scene, level="rings"), 0.3, "compact"
+        scene, duration, radiation_model = with_fidelity(scene, model="rings"), 0.3, "compact"
     rate = (TO - FROM) / duration
     recording = record(
-        scene, duration, speed=lambda t: FROM + rate * max(t - SETTLE, 0.0), settle=SETTLE, rung=rung
+        scene,
+        duration,
+        speed=lambda t: FROM + rate * max(t - SETTLE, 0.0),
+        settle=SETTLE,
+        radiation_model=radiation_model,
     )
     place = recording.positions[0]
     orders = sound_measure.run_up(recording, place, highest=HIGHEST)

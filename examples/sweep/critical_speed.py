@@ -50,9 +50,9 @@ COLUMNS = (
 
 def scenes() -> dict[str, Scene]:
     """Return the spindle as it is, and excited by unbalance alone."""
-    found = with_fidelity(read_scene(SCENE), level="rings")
+    found = with_fidelity(read_scene(SCENE), fidelity="rings")
     assert found.sound is not None and found.imperfections is not None
-    sound = found.sound.model_copy(update={"rung": "compact", "details": False})
+    sound = found.sound.model_copy(update={"radiation_model": "compact", "details": False})
     found = found.model_copy(update={"sound": sound})
     smooth = {
         "inner_race_amplitude_um": 0.0,

@@ -1,8 +1,8 @@
 """Spread of sound and vibration among bearings of one tolerance class: 7003C in its spindle, P5, P4 and P2.
 
 ``python tolerance.py [--quick]`` builds bearings from seeds (phases of the waviness, diameters of the balls)
-and records each at 20,000 r/min: 12 of each class at level full and rung bem, 0.2 s after 0.05 s;
-``--quick``: 3 of each at level rings, rung compact, 0.05 s. It writes ``tolerance.csv``, ``tolerance.md`` and
+and records each at 20,000 r/min: 12 of each class at fidelity full and radiation model bem, 0.2 s after 0.05 s;
+``--quick``: 3 of each at fidelity rings, radiation model compact, 0.05 s. It writes ``tolerance.csv``, ``tolerance.md`` and
 ``tolerance.png``.
 
 Assumed are the amplitudes of each class: a standard limits runout, not waviness, and the catalogue scales one
@@ -46,12 +46,14 @@ def of_grade(scene: Scene, grade: str, seed: int) -> Scene:
     return scene.model_copy(update={"imperfections": imperfections})
 
 
-def sample(scene: Scene, duration: float, rung: str) -> tuple[float, float, float]:
+def sample(scene: Scene, duration: float, radiation_model: str) -> tuple[float, float, float]:
     """Level at P1 (dB(A)), rms velocity of the outer ring in its plane (mm/s), mean torque (N mm)."""
     velocities = ("outer_ring.velocity.y", "outer_ring.velocity.z")
     kept = ("friction_torque", *velocities)
     # torque and velocities at 10 kHz: the pedestal's modes are far below
-    recording = record(scene, duration, settle=0.05, step=1e-4, rung=rung, outputs=kept, progress=False)
+    recording = record(
+        scene, duration, settle=0.05, step=1e-4, radiation_model=radiation_model, outputs=kept, progress=False
+    )
     later = recording.output_time >= recording.start
     squares = sum(np.mean(recording.outputs[name][later] ** 2) for name in velocities)
     level = recording.levels([recording.positions[0]], weighting="A")[0]
@@ -95,12 +97,12 @@ def main(
     output: Annotated[Path, typer.Option(help="Folder for table and picture.")] = Path("out/tolerance_study"),
 ) -> None:
     """Draw bearings of each class, record them, and tell how they spread."""
-    scene, seeds, duration, rung = read_scene(SCENE), SEEDS, 0.2, "bem"
+    scene, seeds, duration, radiation_model = read_scene(SCENE), SEEDS, 0.2, "bem"
     if quick:
-        scene, seeds, duration, rung = with_fidelity(scene, level="rings"), 3, 0.05, "compact"
+        scene, seeds, duration, radiation_model = with_fidelity(scene, model="rings"), 3, 0.05, "compact"
     wanted = [(grade, seed) for grade in GRADES for seed in range(1, seeds + 1)]
     samples: list[Sample] = [
-        (grade, seed, *sample(of_grade(scene, grade, seed), duration, rung))
+        (grade, seed, *sample(of_grade(scene, grade, seed), duration, radiation_model))
         for grade, seed in track(wanted, "bearings", console=Console(stderr=True))
     ]
     output.mkdir(parents=True, exist_ok=True)

@@ -1,4 +1,4 @@
-"""Level ``full`` as x' = g(t, x), for integrators that know nothing of bearings.
+"""Fidelity ``full`` as x' = g(t, x), for integrators that know nothing of bearings.
 
 ``x`` holds nine rows of one number per ball (x, r, theta, their rates, spin), then 17 coordinates of the
 bodies and their 17 rates, as ``y`` in ``engine.layout`` without its spare lanes.

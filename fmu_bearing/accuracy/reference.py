@@ -1,4 +1,4 @@
-"""The trajectory that others are held against: level ``full`` by two integrators that share no code.
+"""The trajectory that others are held against: fidelity ``full`` by two integrators that share no code.
 
 One is classical Runge-Kutta of fourth order, explicit, at tens of nanoseconds; it knows only the right-hand
 side. The other is the engine's own implicit method at a tight tolerance. What they agree to bounds the

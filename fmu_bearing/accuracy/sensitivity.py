@@ -1,6 +1,6 @@
 """How much rests on what the sources leave open: every assumed value of a scene, moved one by one.
 
-Each change is run at level ``full`` from its own quasi-static state, and its figures are held against those
+Each change is run at fidelity ``full`` from its own quasi-static state, and its figures are held against those
 of the scene as it is. A value is moved down and up by a fifth; where a fifth of the value is no fair step, by
 what ``ASSUMED`` says.
 """
@@ -157,8 +157,8 @@ class Sensitivity:
         sound = ", ".join(f"{level:.1f}" for level in b.levels)
         return (
             f"# What rests on assumed values: {self.scene}, {self.rpm:,.0f} r/min\n\n{machine()}\n\n"
-            "Made by `fmu-bearing sensitivity`. One value at a time, level `full`, figures over "
-            f"{1e3 * self.window:g} ms after {1e3 * self.warm_up:g} ms; sound by rung compact. Unmoved: "
+            "Made by `fmu-bearing sensitivity`. One value at a time, fidelity `full`, figures over "
+            f"{1e3 * self.window:g} ms after {1e3 * self.warm_up:g} ms; sound by radiation model compact. Unmoved: "
             f"rms ring velocity {1e3 * b.ring_rms[0]:.3g} (inner) and {1e3 * b.ring_rms[1]:.3g} mm/s "
             f"(outer), contact load {b.load[0]:.4g} N, contact angle {math.degrees(b.angle[0]):.2f} deg "
             "(both inner race), "
@@ -191,7 +191,7 @@ def sensitivity(
     Parameters
     ----------
     scene : Scene
-        Computed at level full, whatever its own; its sound by rung compact where it asks for boundary
+        Computed at fidelity full, whatever its own; its sound by radiation model compact where it asks for boundary
         elements, which would be solved anew for every geometry.
     warm_up, window : float
         Time (s) that each run takes before it is measured, and over which it is.
@@ -203,9 +203,9 @@ def sensitivity(
     Refused
         If the engine refuses the scene as it is.
     """
-    scene = with_fidelity(scene, level="full")
-    if scene.sound is not None and scene.sound.rung == "bem" and scene.sound.radiator != "baffle":
-        plain = {"rung": "compact", "reflecting_plane_mm": None}
+    scene = with_fidelity(scene, model="full")
+    if scene.sound is not None and scene.sound.radiation_model == "bem" and scene.sound.radiator != "baffle":
+        plain = {"radiation_model": "compact", "reflecting_plane_mm": None}
         scene = scene.model_copy(update={"sound": scene.sound.model_copy(update=plain)})
     blocks: dict[str, NDArray[np.float64]] = {}
     base = measure(scene, _sound(scene, blocks), warm_up, window).figures

@@ -1,7 +1,7 @@
-"""What accuracy costs: levels, methods, steps, strips and terms against a reference, with their speed.
+"""What accuracy costs: fidelities, methods, steps, strips and terms against a reference, with their speed.
 
 Every variant runs from its own quasi-static state through its own warm-up; then its figures are taken over
-the same window as the reference's. The reference is level ``full`` by the default method at ``REFERENCE``,
+the same window as the reference's. The reference is fidelity ``full`` by the default method at ``REFERENCE``,
 and two things are held against it: over the whole run, warm-up included, the explicit method at ``WITNESS``,
 which the study asks to agree to 1e-6; and over ``CHECK`` after the warm-up, from one state, the two
 integrators of :mod:`fmu_bearing.accuracy.reference`. The first is larger: where balls stand on their orbit is
@@ -56,7 +56,7 @@ SETTINGS = (
 QUICK = (_FULL, _FAST, Setting("rings"), Setting("response"), replace(_FULL, strips=1))
 
 COLUMNS = (
-    "level", "method", "tolerance", "max step, us", "strips", "left out", "trajectory", "ring rms", "load",
+    "fidelity", "method", "tolerance", "max step, us", "strips", "left out", "trajectory", "ring rms", "load",
     "torque", "dB(A)", "sim/wall", "sim/CPU", "remark",
 )  # fmt: skip
 
@@ -70,7 +70,7 @@ class Row:
     errors : Errors or None
         None where the engine refused or does not have it; ``remark`` then says so.
     trajectory : float
-        Rms difference of the six ring velocities over the rms of their fluctuation; NaN for levels that are
+        Rms difference of the six ring velocities over the rms of their fluctuation; NaN for fidelities that are
         not ``full``: their phases are their own.
     wall, cpu : float
         Simulated s per s, without sound.
@@ -87,11 +87,11 @@ class Row:
         """Texts in the order of ``COLUMNS``."""
         s, e = self.setting, self.errors
         found = [""] * 4 if e is None else [number(x) for x in (e.ring_rms, e.load, e.torque, e.level)]
-        method = s.method if s.level == "full" else ""
+        method = s.method if s.fidelity == "full" else ""
         # the linear response is a sum of lines: nothing is stepped
-        steps = ["", ""] if s.level == "response" else [f"{s.tolerance:g}", f"{1e6 * s.max_step:g}"]
+        steps = ["", ""] if s.fidelity == "response" else [f"{s.tolerance:g}", f"{1e6 * s.max_step:g}"]
         return [
-            s.level, method, *steps, str(s.strips), s.left_out,
+            s.fidelity, method, *steps, str(s.strips), s.left_out,
             number(self.trajectory), *found, number(self.wall), number(self.cpu), self.remark,
         ]  # fmt: skip
 
@@ -142,7 +142,7 @@ Made by `fmu-bearing tradeoff`, which `docs/tradeoff.md` explains. Figures over 
 of {warm_up:g} ms. Errors of trajectory, rms ring velocity, contact load and friction torque are relative;
 those of sound are in dB(A) at the worst microphone. Speeds are without sound.
 
-Reference: level `full`, `esdirk4`, {step:g} us, tolerance {tolerance:g}. Trajectories of it and of `rk4` at
+Reference: fidelity `full`, `esdirk4`, {step:g} us, tolerance {tolerance:g}. Trajectories of it and of `rk4` at
 0.5 us, each with its own warm-up, agree to {agreement} over the whole window. Over {check:g} ms from one
 state Runge-Kutta at 40 ns and ESDIRK4 at 0.5 us agree to {pair:.0e}; the reference's settings are {own:.0e}
 from them.
@@ -207,7 +207,7 @@ def tradeoff(
         except Refused as problem:
             rows.append(Row(setting, remark=f"refused: {problem}"))
             continue
-        error = relative_error(run.rings, truth.rings) if setting.level == "full" else np.nan
+        error = relative_error(run.rings, truth.rings) if setting.fidelity == "full" else np.nan
         rows.append(Row(setting, errors(run.figures, truth.figures), error, run.wall, run.cpu))
     rpm = scene.operation.speed_rpm
     return Tradeoff(scene.name, rpm, warm_up, window, agreement, pair, own, tuple(rows))

@@ -18,11 +18,28 @@ from typing import Annotated, Any
 import typer
 from rich.console import Console
 from rich.progress import track
+from typer.core import TyperGroup
+
+from fmu_bearing import renamed
 
 RPM = math.pi / 30.0  # rad/s
 FOUND, REFUSED, ENDED_EARLY, INTERRUPTED = 1, 2, 3, 130
 
+
+class Commands(TyperGroup):
+    """The commands; an option of an old name is answered with its new one."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Refuse old options before any command sees them."""
+        for name in (word.partition("=")[0] for word in args):
+            if name in renamed.OPTIONS:
+                typer.echo(f"error: {name} is now {renamed.OPTIONS[name]}", err=True)
+                raise typer.Exit(REFUSED)
+        return super().parse_args(ctx, args)
+
+
 app = typer.Typer(
+    cls=Commands,
     help="Angular contact ball bearings and their sound: scenes, runs, FMUs, studies, reports.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,

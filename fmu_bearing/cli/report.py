@@ -33,7 +33,7 @@ def report(
     ] = None,
     duration: Annotated[float, typer.Option(metavar="S", help="Length of the run that is shown.")] = 0.5,
     settle: Annotated[float, typer.Option(metavar="S", help="Time left out before it.")] = 0.1,
-    rung: Annotated[
+    radiation_model: Annotated[
         str | None,
         typer.Option(
             metavar="NAME", help="How sound is radiated: bem, compact, paper ...; default: the scene's."
@@ -57,7 +57,7 @@ def report(
         from fmu_bearing.reports import make  # loads slowly, and no other command has use for it
 
         made = make(
-            source, output, duration=duration, settle=settle, rung=rung, radius=radius, title=title,
+            source, output, duration=duration, settle=settle, radiation_model=radiation_model, radius=radius, title=title,
             speed=None if speed is None else speed * RPM,
             run_up=None if speeds is None else (speeds[0] * RPM, speeds[1] * RPM),
             run_up_time=run_up_time, tell=tell, progress=errors.is_terminal,

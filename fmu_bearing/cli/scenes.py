@@ -148,8 +148,8 @@ def _silent(scene: Scene) -> "Model":
     """Return the model without its sound: boundary elements may take minutes."""
     from fmu_bearing.prepare.model import prepare
 
-    level = "full" if scene.fidelity.level == "auto" else None
-    return prepare(scene.model_copy(update={"sound": None}), level=level)
+    fidelity = "full" if scene.fidelity.model == "auto" else None
+    return prepare(scene.model_copy(update={"sound": None}), fidelity=fidelity)
 
 
 def _shown(one: Origin) -> str:
@@ -167,7 +167,7 @@ def _sizes(found: Scene) -> dict[str, Any]:
     """Return what a scene is computed with, and its sizes, in words."""
     from fmu_bearing.engine.layout import S, W, Z
 
-    auto = found.fidelity.level == "auto"
+    auto = found.fidelity.model == "auto"
     model = _silent(found)
     p, fidelity = model.parameters, found.fidelity
     # an instance copies the parameters and keeps its last state beside the present one
@@ -175,22 +175,22 @@ def _sizes(found: Scene) -> dict[str, Any]:
     places += Z.size(model.n_balls, model.n_mics, model.n_bands, model.n_modes)
     if auto:
         bounds = fidelity.accuracy
-        level = (
-            f"auto, within {bounds.level_dB:g} dB and {bounds.relative:g} of level full; "
+        words = (
+            f"auto, within {bounds.level_dB:g} dB and {bounds.relative:g} of fidelity full; "
             "`fmu-bearing choose` tells which; sizes are those of full"
         )
     else:
-        method = f", method {fidelity.method}" if fidelity.level == "full" else ""
-        level = (
-            f"{fidelity.level}{method}, internal steps up to {fidelity.max_internal_step_us:g} us, "
+        method = f", method {fidelity.method}" if fidelity.model == "full" else ""
+        words = (
+            f"{fidelity.model}{method}, internal steps up to {fidelity.max_internal_step_us:g} us, "
             f"tolerance {fidelity.tolerance:g}"
         )
     sound = "none"
     if found.sound is not None:
-        sound = f"{found.sound.rung}, {found.sound.radiator}, {len(found.microphones)} microphones"
+        sound = f"{found.sound.radiation_model}, {found.sound.radiator}, {len(found.microphones)} microphones"
     return {
         "scene": f"{found.name}: {found.bearing.designation}, {found.operation.speed_rpm:g} r/min",
-        "level": level,
+        "fidelity": words,
         "balls": f"{model.n_balls}, traction strips {fidelity.traction_strips}",
         "sound": sound,
         "memory": f"{8e-6 * places:.2f} MB for the arrays of one instance, without sound",

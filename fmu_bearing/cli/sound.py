@@ -20,8 +20,8 @@ def sound(
     duration: Annotated[float, typer.Option("--duration", "-t", help="Length of the recording, s.")] = 0.5,
     settle: Annotated[float, typer.Option(help="Time left out at the beginning, s.")] = 0.02,
     speed: Annotated[float | None, typer.Option(help="Shaft speed, r/min.")] = None,
-    level: Annotated[str | None, typer.Option(help="Level of the dynamics in place of the scene's.")] = None,
-    rung: Annotated[
+    fidelity: Annotated[str | None, typer.Option(help="Fidelity in place of the scene's.")] = None,
+    radiation_model: Annotated[
         str | None, typer.Option(help="How radiation is computed, in place of the scene's.")
     ] = None,
     microphone: Annotated[
@@ -56,17 +56,17 @@ def sound(
                     f"not {duration:g} s"
                 )
             found = read_scene(source)
-            if level is not None:
-                found = with_fidelity(found, level=level)
+            if fidelity is not None:
+                found = with_fidelity(found, model=fidelity)
             chosen_microphones([(place.name, place.position_m) for place in found.microphones], microphone)
             output.mkdir(parents=True, exist_ok=True)  # whatever is wrong there, before the run
             recording = record(
-                found, duration, speed=None if speed is None else speed * RPM, settle=settle, rung=rung,
+                found, duration, speed=None if speed is None else speed * RPM, settle=settle, radiation_model=radiation_model,
                 progress=False if as_json else None,
             )  # fmt: skip
             recording.save(output / "recording.npz")
-        heard = listen(recording, microphone, rung, resolution)
-        files = write_all(recording, heard, output, rung, wav, directivity, tell)
+        heard = listen(recording, microphone, radiation_model, resolution)
+        files = write_all(recording, heard, output, radiation_model, wav, directivity, tell)
     if as_json:
         print_json({"levels": heard.summary(), "files": files})
     else:

@@ -12,7 +12,7 @@ from fmu_bearing.cli.base import Folder, Json, Quick, SceneFile, app, print_json
 
 @app.command()
 def choose(scene: SceneFile, as_json: Json = False) -> None:
-    """Tell which level, method and step meet the scene's accuracy, and how every candidate did."""
+    """Tell which fidelity, method and step meet the scene's accuracy, and how every candidate did."""
     from fmu_bearing.run import choose as choosing
     from fmu_bearing.run.table import show
     from fmu_bearing.scene import read_scene
@@ -22,7 +22,7 @@ def choose(scene: SceneFile, as_json: Json = False) -> None:
     if as_json:
         print_json({"chosen": choice.summary, "candidates": named(choosing.COLUMNS, choice.cells())})
     else:
-        show(f"{choice.scene}: errors against level full", choosing.COLUMNS, choice.cells(), width=110)
+        show(f"{choice.scene}: errors against fidelity full", choosing.COLUMNS, choice.cells(), width=110)
         typer.echo(choice.summary)
 
 
@@ -36,7 +36,7 @@ def tradeoff(
     ] = None,
     as_json: Json = False,
 ) -> None:
-    """Measure error and speed of levels, methods, steps, strips and terms; write table and chart."""
+    """Measure error and speed of fidelities, methods, steps, strips and terms; write table and chart."""
     from fmu_bearing.accuracy import tradeoff as trading
     from fmu_bearing.accuracy.chart import draw
     from fmu_bearing.run.table import show

@@ -19,7 +19,7 @@ AxisTexts = Annotated[
         "-a",
         metavar="KEY=VALUES",
         help="What is varied: KEY=LOW:HIGH:COUNT, KEY=LOW:HIGH:COUNTlog, KEY=VALUE,VALUE,... KEY is dotted "
-        "(mounting.preload_N) or speed, preload, pedestal, viscosity, seed, level. Once per axis.",
+        "(mounting.preload_N) or speed, preload, pedestal, viscosity, seed, fidelity. Once per axis.",
     ),
 ]
 Names = Annotated[

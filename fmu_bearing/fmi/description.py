@@ -71,8 +71,8 @@ LOG_CATEGORIES = {
 
 #: Integers of the table that read better by name: type name, then (item, value, what it means).
 ENUMERATIONS: dict[str, tuple[str, tuple[tuple[str, int, str], ...]]] = {
-    "level": (
-        "Level",
+    "fidelity": (
+        "Fidelity",
         (
             ("full", 0, "Six degrees of freedom for every ball, the rings and the cage."),
             ("rings", 1, "Rings are dynamic; balls and cage move kinematically."),

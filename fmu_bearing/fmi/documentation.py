@@ -60,7 +60,7 @@ def _fields(model: "Model", flavour: str) -> dict[str, str]:
         sound = "This scene has no microphones: nothing is computed about its sound."
     else:
         sound = (
-            f"Sound is radiated by the rungs &quot;{escape(str(scene.sound.rung))}&quot; and "
+            f"Sound is radiated by the radiation models &quot;{escape(str(scene.sound.radiation_model))}&quot; and "
             f"&quot;{escape(str(scene.sound.radiator))}&quot; of the model into a free field: no room, "
             "no floor, no other machine. Levels are re 20 &micro;Pa."
         )

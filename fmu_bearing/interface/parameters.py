@@ -1,13 +1,15 @@
 """What is set before initialisation, and what is fixed when the model is built."""
 
-from typing import Any
+from typing import Any, get_args
 
 from fmu_bearing.engine.choices import FIDELITIES, METHODS
 from fmu_bearing.engine.layout import P
 from fmu_bearing.interface.variable import Variable, usual
 from fmu_bearing.scene import Scene, si
+from fmu_bearing.scene.sound import Radiator
 
-RADIATORS = {"none": 0, "bare": 1, "housing": 2, "baffle": 3}
+#: Numbers of what radiates.
+RADIATORS = {name: number for number, name in enumerate(("none", *get_args(Radiator)))}
 
 
 def parameters(scene: Scene) -> list[Variable]:
@@ -48,12 +50,10 @@ def constants(scene: Scene, rotor_inertia: float) -> list[Variable]:
     """Return the constants: what was chosen when the model was built, for those who read results."""
     radiator = RADIATORS["none" if scene.sound is None else scene.sound.radiator]
     table = [
-        _whole(
-            "level", "Level of the dynamics: " + _numbered(FIDELITIES), FIDELITIES.index(scene.fidelity.level)
-        ),
+        _whole("fidelity", "Fidelity: " + _numbered(FIDELITIES), FIDELITIES.index(scene.fidelity.model)),
         _whole(
             "method",
-            "Integrator of level full: " + _numbered(METHODS),
+            "Integrator of fidelity full: " + _numbered(METHODS),
             METHODS.index(scene.fidelity.method),
         ),
         _whole(

@@ -5,7 +5,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.engine.choices import TRACTION_LAWS
+from fmu_bearing.engine.choices import TRACTION_LAWS, VISCOSITY_LAWS
 from fmu_bearing.engine.layout import P
 from fmu_bearing.prepare import bodies
 from fmu_bearing.prepare.hertz import PointContact, effective_modulus, point_contact
@@ -14,8 +14,6 @@ from fmu_bearing.scene import Scene, si
 # SKF friction model (SKF rolling bearings catalogue 2018, p. 65 ff): inlet shear heating, starvation
 _SHEAR_HEATING = 1.84e-9
 _ANGULAR_CONTACT_KZ = 4.4
-
-VISCOSITY_LAWS = ("vogel", "walther")
 
 
 def oil(scene: Scene, p: NDArray[np.float64]) -> None:

@@ -42,7 +42,7 @@ class Model:
         Flat parameter array ``p`` of the engine, read-only.
     variables : tuple of Variable
     note : str
-        What readers of its documentation should know, such as why its level was chosen.
+        What readers of its documentation should know, such as why its fidelity was chosen.
     """
 
     scene: Scene
@@ -72,7 +72,7 @@ class Model:
 
 
 def prepare(
-    scene: Scene, *, level: str | None = None, method: str | None = None, max_step: float | None = None,
+    scene: Scene, *, fidelity: str | None = None, method: str | None = None, max_step: float | None = None,
     note: str = "",
 ) -> Model:  # fmt: skip
     """Turn a scene into a model.
@@ -80,9 +80,9 @@ def prepare(
     Parameters
     ----------
     scene : Scene
-    level, method : str, optional
-        Level of the dynamics and integrator in place of the scene's. A scene whose level is ``auto`` needs
-        ``level``: which level is accurate enough has to be found by running it.
+    fidelity, method : str, optional
+        Fidelity and integrator in place of the scene's. A scene whose fidelity is ``auto`` needs
+        ``fidelity``: which one is accurate enough has to be found by running it.
     max_step : float, optional
         Largest internal step (s) in place of the scene's.
     note : str, optional
@@ -96,17 +96,17 @@ def prepare(
     Raises
     ------
     SceneError
-        Where a value is refused, the level is still ``auto``, or the sound cannot be computed.
+        Where a value is refused, the fidelity is still ``auto``, or the sound cannot be computed.
     """
     keys = {
-        "level": level,
+        "model": fidelity,
         "method": method,
         "max_internal_step_us": None if max_step is None else 1e6 * max_step,
     }
     given = {key: value for key, value in keys.items() if value is not None}
     if given:
         scene = with_fidelity(scene, **given)
-    _require_level(scene)
+    _require_fidelity(scene)
     try:
         sound = sound_block(scene)
     except ValueError as problem:
@@ -117,10 +117,10 @@ def prepare(
     return Model(scene, parameters, variables(scene, rotor_inertia=rotating.polar), note)
 
 
-def _require_level(scene: Scene) -> None:
-    if scene.fidelity.level not in FIDELITIES:
+def _require_fidelity(scene: Scene) -> None:
+    if scene.fidelity.model not in FIDELITIES:
         raise SceneError(
-            f"{scene.name}: fidelity.level = '{scene.fidelity.level}' must be resolved first, to one of "
+            f"{scene.name}: fidelity.model = '{scene.fidelity.model}' must be resolved first, to one of "
             + ", ".join(FIDELITIES)
         )
 
@@ -131,9 +131,9 @@ def pack(scene: Scene, sound: NDArray[np.float64]) -> NDArray[np.float64]:
     Raises
     ------
     SceneError
-        If the scene's level is ``auto``.
+        If the scene's fidelity is ``auto``.
     """
-    _require_level(scene)
+    _require_fidelity(scene)
     nodes, weights = roots_jacobi(scene.fidelity.traction_strips, 1.0, 1.0)
     # what the scene leaves out is an empty table: it takes no place, and its offset is 0
     tables = {
@@ -194,7 +194,7 @@ def _ball_wave_table(scene: Scene) -> NDArray[np.float64]:
 
 def _fidelity(scene: Scene, p: NDArray[np.float64]) -> None:
     fidelity = si(scene.fidelity)
-    p[P.FIDELITY] = FIDELITIES.index(fidelity.level)
+    p[P.FIDELITY] = FIDELITIES.index(fidelity.model)
     p[P.METHOD] = METHODS.index(fidelity.method)
     p[P.RACE_CONTROL] = RACE_CONTROLS.index(fidelity.race_control)
     p[P.STRIPS] = fidelity.traction_strips

@@ -38,7 +38,7 @@ def sound_block(scene: Scene) -> NDArray[np.float64]:
     """
     if scene.sound is None or not scene.microphones:
         return np.zeros(0)
-    if scene.sound.rung == "table":  # a table may change under its name
+    if scene.sound.radiation_model == "table":  # a table may change under its name
         return sound_parameters(scene)
     path = cache_directory().parent / "sound" / f"block-{_key(scene)}.npy"
     try:

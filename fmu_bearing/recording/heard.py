@@ -37,7 +37,7 @@ class Heard:
     ----------
     scene : Scene or None
         What was run.
-    rung : str
+    radiation model : str
         How radiation is computed unless a call says otherwise; ``"recorded"``: pressures only.
     rate : float
         Samples per second.
@@ -62,7 +62,7 @@ class Heard:
     """
 
     scene: Scene | None
-    rung: str
+    radiation_model: str
     rate: float
     start: float
     size: int
@@ -78,7 +78,7 @@ class Heard:
     def __repr__(self) -> str:
         name = "no scene" if self.scene is None else self.scene.name
         return (
-            f"{type(self).__name__}({name}, rung {self.rung}, {self.size / self.rate:g} s at "
+            f"{type(self).__name__}({name}, radiation model {self.radiation_model}, {self.size / self.rate:g} s at "
             f"{self.rate:g} Hz from {self.start:g} s on, {self.history.shape[1]} channels)"
         )
 
@@ -147,7 +147,7 @@ class Heard:
         )
 
     def pressure(
-        self, positions: Sequence[ArrayLike] | None = None, rung: str | None = None
+        self, positions: Sequence[ArrayLike] | None = None, radiation_model: str | None = None
     ) -> NDArray[np.float64]:
         """Sound pressure (Pa) at places of your choice, shape (mics, size): the coherent sum of all sources.
 
@@ -155,32 +155,35 @@ class Heard:
         ----------
         positions : sequence of (x, y, z), optional
             Places in m, bearing centre at the origin; default: the scene's microphones.
-        rung : str, optional
-            In place of `rung`.
+        radiation model : str, optional
+            In place of `radiation model`.
 
         Raises
         ------
         ValueError
-            For a place inside a body, a rung the channels do not serve, or a place at which a recording of
+            For a place inside a body, a radiation model the channels do not serve, or a place at which a recording of
             pressures has no microphone.
         """
         places = self._places(positions)
         if self.history.size == 0:
             return self.recorded[self._recorded_rows(places)]
         total = np.zeros((len(places), self.size))
-        for circle, parts in self._heard(places, rung, lambda path: ""):
+        for circle, parts in self._heard(places, radiation_model, lambda path: ""):
             for part in parts.values():
                 total[list(circle.members)] += part
         return total
 
     def partial(
-        self, positions: Sequence[ArrayLike] | None = None, rung: str | None = None, by: str = "component"
+        self,
+        positions: Sequence[ArrayLike] | None = None,
+        radiation_model: str | None = None,
+        by: str = "component",
     ) -> dict[str, NDArray[np.float64]]:
         """Sound pressure (Pa) of each source alone, shape (mics, size) by name; the sum is `pressure`.
 
         Parameters
         ----------
-        positions, rung
+        positions, radiation model
             As for `pressure`.
         by : str
             ``"component"`` (inner_ring, outer_ring, cage, balls) or ``"kind"`` of source (radial, axial ...).
@@ -195,7 +198,9 @@ class Heard:
         places = self._places(positions)
         found: dict[str, NDArray[np.float64]] = {}
         for circle, parts in self._heard(
-            places, rung, lambda path: SD.COMPONENTS[path.component] if by == "component" else kind_of(path)
+            places,
+            radiation_model,
+            lambda path: SD.COMPONENTS[path.component] if by == "component" else kind_of(path),
         ):
             for name, part in parts.items():
                 total = found.setdefault(name, np.zeros((len(places), self.size)))
@@ -205,17 +210,17 @@ class Heard:
     def levels(
         self,
         positions: Sequence[ArrayLike] | None = None,
-        rung: str | None = None,
+        radiation_model: str | None = None,
         weighting: str = "Z",
         resolution: float | None = None,
     ) -> NDArray[np.float64]:
         """Equivalent level (dB re 20 uPa) over the recording at each place, shape (mics,).
 
-        Rungs of the papers add energies, source by source (multi-source paper, eqs. 43 and 46).
+        Radiation models of the papers add energies, source by source (multi-source paper, eqs. 43 and 46).
 
         Parameters
         ----------
-        positions, rung
+        positions, radiation model
             As for `pressure`.
         weighting : str
             ``"Z"`` (none) or ``"A"``.
@@ -225,16 +230,19 @@ class Heard:
         """
         places = self._places(positions)
         if resolution is not None and self.history.size:
-            return self._quick_levels(places, rung, weighting, resolution)
+            return self._quick_levels(places, radiation_model, weighting, resolution)
         mean_square = np.zeros(len(places))
         if self.history.size == 0:
             mean_square[:] = self.mean_square(self.pressure(places), weighting)
             return level(mean_square)
-        energies = (rung or self.rung).startswith("paper")
+        energies = (radiation_model or self.radiation_model).startswith("paper")
         for low in range(0, len(places), _TOGETHER):
             some = places[low : low + _TOGETHER]
             for circle, parts in self._heard(
-                some, rung, (lambda path: path.channel) if energies else (lambda path: 0), whole=True
+                some,
+                radiation_model,
+                (lambda path: path.channel) if energies else (lambda path: 0),
+                whole=True,
             ):
                 rows = [low + i for i in circle.members]
                 for part in parts.values():
@@ -242,7 +250,10 @@ class Heard:
         return level(mean_square)
 
     def mean_squares(
-        self, positions: Sequence[ArrayLike] | None = None, rung: str | None = None, resolution: float = 20.0
+        self,
+        positions: Sequence[ArrayLike] | None = None,
+        radiation_model: str | None = None,
+        resolution: float = 20.0,
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Frequencies (Hz), and mean square pressure (Pa^2) in each bin at each place, (mics, bins).
 
@@ -251,20 +262,20 @@ class Heard:
         """
         places = self._places(positions)
         blocks = Blocks(self.channels, resolution)
-        energies = (rung or self.rung).startswith("paper")
+        energies = (radiation_model or self.radiation_model).startswith("paper")
         found = np.zeros((len(places), len(blocks.frequency)))
-        for circle in self._circles(places, rung):
+        for circle in self._circles(places, radiation_model):
             parts = blocks.mean_squares(circle, (lambda path: path.channel) if energies else (lambda path: 0))
             found[list(circle.members)] = sum(parts.values())
         return blocks.frequency, found
 
     def _quick_levels(
-        self, places: list[Position], rung: str | None, weighting: str, resolution: float
+        self, places: list[Position], radiation_model: str | None, weighting: str, resolution: float
     ) -> NDArray[np.float64]:
         """Levels by short-time spectra of the channels."""
         if weighting not in ("A", "Z"):
             raise ValueError(_NO_WEIGHTING.format(weighting))
-        frequency, squares = self.mean_squares(places, rung, resolution)
+        frequency, squares = self.mean_squares(places, radiation_model, resolution)
         weights = 10.0 ** (a_weighting_db(frequency) / 10.0) if weighting == "A" else np.ones(len(frequency))
         return level(squares @ weights)
 
@@ -280,10 +291,10 @@ class Heard:
         return np.asarray(np.mean(pressure[..., -self.size :] ** 2, axis=-1))
 
     def _heard(
-        self, places: list[Position], rung: str | None, label, whole: bool = False
+        self, places: list[Position], radiation_model: str | None, label, whole: bool = False
     ) -> Iterator[tuple[Circle, dict[Any, NDArray[np.float64]]]]:
         """Yield each circle with its pressures by label; ``whole``: with what was before the first sample."""
-        found = self._circles(places, rung)
+        found = self._circles(places, radiation_model)
         self._prepare(places)
         assert self._spectra is not None
         begin = 0 if whole else self.first
@@ -306,20 +317,20 @@ class Heard:
         if self._spectra is None or self._spectra.longest != room:
             self._spectra = Channels(self.history, room)
 
-    def _circles(self, places: list[Position], rung: str | None) -> Iterator[Circle]:
+    def _circles(self, places: list[Position], radiation_model: str | None) -> Iterator[Circle]:
         """Paths from the channels to places, circle by circle."""
         if self.history.size == 0 or self.scene is None:
             raise ValueError(
                 "only pressures were recorded: components and other places need the channels that "
                 "fmu_bearing.record keeps"
             )
-        rung = self.rung if rung is None else rung
-        if form_of(rung) != form_of(self.rung):
+        radiation_model = self.radiation_model if radiation_model is None else radiation_model
+        if form_of(radiation_model) != form_of(self.radiation_model):
             raise ValueError(
-                f'rung = "{rung}" needs other channels than "{self.rung}": record with rung="{rung}"'
+                f'radiation_model = "{radiation_model}" needs other channels than "{self.radiation_model}": record with radiation_model="{radiation_model}"'
             )
         radiators, air = radiators_of(self.scene), air_of(self.scene)
-        return circles(rung, radiators, air, places, self.harmonics, **_options(self.scene))
+        return circles(radiation_model, radiators, air, places, self.harmonics, **_options(self.scene))
 
     def _places(self, positions: Sequence[ArrayLike] | None) -> list[Position]:
         """Places as plain tuples."""

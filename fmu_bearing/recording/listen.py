@@ -38,7 +38,7 @@ class Listened:
     names : tuple of str
         Microphones.
     levels : ndarray, shape (mics, 2)
-        Equivalent level in dB and dB(A), as `Heard.levels` has it: the papers' rungs add energies.
+        Equivalent level in dB and dB(A), as `Heard.levels` has it: the papers' radiation models add energies.
     parts : dict of str to ndarray, shape (mics,)
         Level (dB(A)) of each component alone; empty for a recording of pressures.
     frequency : ndarray, shape (bins,)
@@ -102,7 +102,7 @@ class Listened:
 def listen(
     recording: Heard,
     microphones: Sequence[str] | None = None,
-    rung: str | None = None,
+    radiation_model: str | None = None,
     resolution: float | None = None,
 ) -> Listened:
     """Measure levels, spectra, third octaves and lines at the scene's microphones.
@@ -112,7 +112,7 @@ def listen(
     recording : Heard
     microphones : sequence of str, optional
         Names of some of them; default: all.
-    rung : str, optional
+    radiation model : str, optional
         In place of the recording's.
     resolution : float, optional
         Of the spectra (Hz); default: 5, or what a shorter recording allows.
@@ -126,7 +126,7 @@ def listen(
     places = [place for _, place in chosen]
     known = recording.history.size > 0
     if known:
-        parts = recording.partial(places, rung)
+        parts = recording.partial(places, radiation_model)
         signals = {"total": sum(parts.values(), np.zeros((len(places), recording.size)))} | parts
     else:
         parts, signals = {}, {"total": recording.pressure(places)}
@@ -142,7 +142,7 @@ def listen(
     )
     return Listened(
         tuple(name for name, _ in chosen),
-        np.column_stack([recording.levels(places, rung, w) for w in "ZA"]),
+        np.column_stack([recording.levels(places, radiation_model, w) for w in "ZA"]),
         {name: level(recording.mean_square(part, "A")) for name, part in parts.items()},
         frequency, spectra, bands, thirds, lines,
     )  # fmt: skip
@@ -175,7 +175,7 @@ def write_all(
     recording: Heard,
     found: Listened,
     folder: pathlib.Path,
-    rung: str | None = None,
+    radiation_model: str | None = None,
     wav: bool = True,
     directivity: bool = True,
     tell: Tell = lambda text: None,
@@ -188,7 +188,7 @@ def write_all(
         As given to and returned by `listen`.
     folder : Path
         Made where it is missing.
-    rung : str, optional
+    radiation model : str, optional
         For the directivity.
     wav, directivity : bool
         Leave out what takes time or space; a recording of pressures has no directivity.
@@ -223,9 +223,9 @@ def write_all(
         (folder / "lines.md").write_text(markdown(*tables.lines_table(found.lines)), "utf-8")
         files.append("lines.md")
     if wav:
-        files += _sounds(recording, found.names, folder, rung)
+        files += _sounds(recording, found.names, folder, radiation_model)
     if directivity and recording.history.size:
-        files += _directivity(recording, folder, rung)
+        files += _directivity(recording, folder, radiation_model)
     try:
         need("h5netcdf", "netCDF")
         found.to_xarray().to_netcdf(folder / "spectra.nc", engine="h5netcdf")
@@ -235,10 +235,12 @@ def write_all(
     return [folder / file for file in files]
 
 
-def _sounds(recording: Heard, names: Sequence[str], folder: pathlib.Path, rung: str | None) -> list[str]:
+def _sounds(
+    recording: Heard, names: Sequence[str], folder: pathlib.Path, radiation_model: str | None
+) -> list[str]:
     """Write one WAV file per microphone, all at one scale so that they compare by ear."""
     places = dict(recording.microphones)
-    pressures = recording.pressure([places[name] for name in names], rung)
+    pressures = recording.pressure([places[name] for name in names], radiation_model)
     peak = float(np.max(np.abs(pressures)))
     scale = 10.0 ** math.ceil(math.log10(max(peak, 1e-6)))
     files = []
@@ -248,12 +250,12 @@ def _sounds(recording: Heard, names: Sequence[str], folder: pathlib.Path, rung: 
     return files
 
 
-def _directivity(recording: Heard, folder: pathlib.Path, rung: str | None) -> list[str]:
+def _directivity(recording: Heard, folder: pathlib.Path, radiation_model: str | None) -> list[str]:
     """Write levels round a sphere that holds the nearest microphone, in three planes."""
     from fmu_bearing.recording import pictures
 
     radius = min(math.hypot(*place) for place in recording.positions)
-    planes = measure.planes(recording, radius, count=36, weighting="A", rung=rung)
+    planes = measure.planes(recording, radius, count=36, weighting="A", radiation_model=radiation_model)
     write_csv(folder / "planes.csv", *tables.round_table(planes))
     title = f"dB(A) at {1e3 * radius:.0f} mm"
     pictures.save(pictures.planes_picture(planes, title), folder / "planes.png")

@@ -90,7 +90,7 @@ class MotionPower:
 
 
 def component_spectra(
-    recording: Heard, position: ArrayLike, resolution: float = RESOLUTION, rung: str | None = None
+    recording: Heard, position: ArrayLike, resolution: float = RESOLUTION, radiation_model: str | None = None
 ) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]]]:
     """Frequencies (Hz) and levels (dB) at one place (m), in all (``"total"``) and by component.
 
@@ -98,7 +98,7 @@ def component_spectra(
     """
     place = [np.asarray(position, dtype=float)]
     if recording.history.size:
-        parts = recording.partial(place, rung)
+        parts = recording.partial(place, radiation_model)
         signals = {"total": sum(parts.values(), np.zeros((1, recording.size)))} | parts
     else:
         signals = {"total": recording.pressure(place)}
@@ -124,11 +124,13 @@ def circle(
     count: int = 24,
     weighting: str = "Z",
     resolution: float | None = RESOLUTION,
-    rung: str | None = None,
+    radiation_model: str | None = None,
 ) -> Round:
     """Levels at ``count`` places on a circle about the axis (m), the first at 12 o'clock."""
     angles = circle_angles(count)
-    levels = recording.levels(list(circle_points(radius, axial, count)), rung, weighting, resolution)
+    levels = recording.levels(
+        list(circle_points(radius, axial, count)), radiation_model, weighting, resolution
+    )
     return Round(angles, levels, directivity(angles, levels))
 
 
@@ -138,13 +140,13 @@ def planes(
     count: int = 360,
     weighting: str = "Z",
     resolution: float | None = RESOLUTION,
-    rung: str | None = None,
+    radiation_model: str | None = None,
 ) -> dict[str, Round]:
     """Levels round the bearing centre at ``radius`` (m) in the planes YZ, XY and XZ, by plane."""
     angles = circle_angles(count)
     # all at once: planes through the axis meet the same circles about it
     points = [point for plane in PLANES for point in plane_points(plane, radius, count)]
-    together = recording.levels(points, rung, weighting, resolution).reshape(len(PLANES), count)
+    together = recording.levels(points, radiation_model, weighting, resolution).reshape(len(PLANES), count)
     return {
         plane: Round(angles, levels, directivity(angles, levels))
         for plane, levels in zip(PLANES, together, strict=True)
@@ -158,7 +160,7 @@ def sweep(
     count: int = 24,
     weighting: str = "Z",
     resolution: float | None = RESOLUTION,
-    rung: str | None = None,
+    radiation_model: str | None = None,
 ) -> Sweep:
     """Circles over radial and axial distances (m), with the attenuation along both.
 
@@ -166,7 +168,8 @@ def sweep(
     per doubling of that coordinate (the sound-field paper's sweeps).
     """
     circles = tuple(
-        tuple(circle(recording, r, x, count, weighting, resolution, rung) for x in axials) for r in radii
+        tuple(circle(recording, r, x, count, weighting, resolution, radiation_model) for x in axials)
+        for r in radii
     )
     highest = np.array([[at.directivity.highest for at in row] for row in circles])
     r, x = np.asarray(radii, dtype=float), np.asarray(axials, dtype=float)
@@ -182,7 +185,7 @@ def sound_power(
     many: bool = False,
     weighting: str = "Z",
     resolution: float | None = RESOLUTION,
-    rung: str | None = None,
+    radiation_model: str | None = None,
 ) -> Power:
     """Sound power by the measurement points of ISO 3744, corrections K1 = K2 = 0.
 
@@ -208,7 +211,7 @@ def sound_power(
     air = air_of(recording.scene)
     if plane is None:
         points = sphere_points(radius, many)
-        squares = _squares(recording.levels(list(points), rung, weighting, resolution))
+        squares = _squares(recording.levels(list(points), radiation_model, weighting, resolution))
         return power_from_pressure(squares, radius, air)
     radiators = radiators_of(recording.scene)
     rear = -radiators.outer_ring.width / 2
@@ -218,7 +221,9 @@ def sound_power(
         raise ValueError(f"plane = {plane:g} m cuts the bearing, which reaches back to {rear:g} m: go behind")
     points = hemisphere_points(radius, many) + np.array([plane, 0.0, 0.0])
     mirrored = points * np.array([-1.0, 1.0, 1.0]) + np.array([2.0 * plane, 0.0, 0.0])
-    heard = recording.pressure(list(points), rung) + recording.pressure(list(mirrored), rung)
+    heard = recording.pressure(list(points), radiation_model) + recording.pressure(
+        list(mirrored), radiation_model
+    )
     squares = recording.mean_square(heard, weighting)
     return power_from_pressure(squares, radius, air, hemisphere=True)
 
@@ -235,8 +240,10 @@ def motion_power(recording: Heard, resolution: float = RESOLUTION, highest: floa
     ValueError
         For a recording without channels of accelerations.
     """
-    if recording.scene is None or not recording.history.size or recording.rung.startswith("paper"):
-        raise ValueError("power from motion needs accelerations: record with a rung that is not a paper's")
+    if recording.scene is None or not recording.history.size or recording.radiation_model.startswith("paper"):
+        raise ValueError(
+            "power from motion needs accelerations: record with a radiation model that is not a paper's"
+        )
     blocks = Blocks(recording.channels, resolution)
     keep = blocks.frequency <= highest
     frequency = blocks.frequency[keep]
@@ -259,10 +266,10 @@ def run_up(
     position: ArrayLike,
     highest: float = 40.0,
     resolution: float = 0.1,
-    rung: str | None = None,
+    radiation_model: str | None = None,
 ) -> OrderMap:
     """Order map of the pressure at one place (m), up to order ``highest``."""
-    pressure = recording.pressure([np.asarray(position, dtype=float)], rung)[0]
+    pressure = recording.pressure([np.asarray(position, dtype=float)], radiation_model)[0]
     return order_map(pressure, recording.angle, recording.rate, highest, resolution)
 
 

@@ -40,7 +40,7 @@ def record(
     inputs: Mapping[str, Signal] | None = None,
     settle: float = 0.02,
     step: float = 4e-4,
-    rung: str | None = None,
+    radiation_model: str | None = None,
     outputs: Iterable[str] = OUTPUTS,
     microphones: bool = False,
     progress: bool | None = None,
@@ -51,7 +51,7 @@ def record(
     Parameters
     ----------
     source : Scene or Model
-        Level ``auto`` is resolved first.
+        Fidelity ``auto`` is resolved first.
     duration : float
         Length of the recording (s), counted from the end of ``settle``.
     speed : float or callable, optional
@@ -63,8 +63,8 @@ def record(
         Time (s) left out at the beginning, in which the start-up dies away.
     step : float
         Communication step (s). Longer ones than the engine keeps rows for are cut: 0.48 ms at least.
-    rung : str, optional
-        In place of the scene's ``sound.rung`` (``compact`` without sound). The papers' rungs have channels of
+    radiation model : str, optional
+        In place of the scene's ``sound.radiation_model`` (``compact`` without sound). The papers' radiation models have channels of
         their own, so they must be told before the run; all others share theirs.
     outputs : iterable of str
         Variables kept at the communication points.
@@ -89,8 +89,8 @@ def record(
     Examples
     --------
     >>> from fmu_bearing import Bearing, record
-    >>> bearing = Bearing("examples/scenes/7003C-bare.toml", level="rings")
-    >>> recording = record(bearing.scene, 0.05, rung="compact")
+    >>> bearing = Bearing("examples/scenes/7003C-bare.toml", fidelity="rings")
+    >>> recording = record(bearing.scene, 0.05, radiation_model="compact")
     >>> [round(float(level)) for level in recording.levels(weighting="A")]  # dB(A) at the scene's microphones
     [50, 47, 50, 57]
     """
@@ -98,11 +98,11 @@ def record(
     for name, value, low in (("duration", duration, 0.0), ("step", step, 0.0), ("settle", settle, -1e-300)):
         if not (math.isfinite(value) and value > low):
             raise ValueError(f"{name} = {value} s: it must be a finite, positive number of seconds")
-    wanted = rung or ("compact" if scene.sound is None else scene.sound.rung)
-    if microphones and (scene.sound is None or form_of(wanted) != form_of(scene.sound.rung)):
+    wanted = radiation_model or ("compact" if scene.sound is None else scene.sound.radiation_model)
+    if microphones and (scene.sound is None or form_of(wanted) != form_of(scene.sound.radiation_model)):
         raise ValueError(
-            f'microphones=True runs the scene as it is, which has no channels for rung = "{wanted}": '
-            "leave it out, or set sound.rung in the scene"
+            f'microphones=True runs the scene as it is, which has no channels for radiation_model = "{wanted}": '
+            "leave it out, or set sound.radiation_model in the scene"
         )
     model = source if isinstance(source, Model) and microphones else prepare(
         scene if microphones else listened(scene, "compact" if form_of(wanted) == "vectors" else wanted)
@@ -125,16 +125,16 @@ def record(
     )  # fmt: skip
 
 
-def listened(scene: Scene, rung: str) -> Scene:
+def listened(scene: Scene, radiation_model: str) -> Scene:
     """Return the scene with one far microphone: all the engine needs to form its channels."""
     one = Microphone(name="far", x_mm=0.0, y_mm=_FAR, z_mm=0.0)
     sound = scene.sound or Sound(
-        rung="compact", radiator="bare", air_density_kg_m3=Air.density, sound_speed_m_s=Air.sound_speed,
+        radiation_model="compact", radiator="bare", air_density_kg_m3=Air.density, sound_speed_m_s=Air.sound_speed,
         time_weighting="fast", metering_start_s=0.0, microphone=(one,),
     )  # fmt: skip
     # channels are motion: they do not depend on what radiates, and a bare bearing is the cheapest
     sound = sound.model_copy(
-        update={"rung": rung, "radiator": "bare", "microphone": (one,), "circle": None}
+        update={"radiation_model": radiation_model, "radiator": "bare", "microphone": (one,), "circle": None}
         | {"reflecting_plane_mm": None, "table_file": None, "third_octaves": False, "details": False}
     )
     return scene.model_copy(update={"sound": sound})

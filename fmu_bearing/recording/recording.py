@@ -32,8 +32,8 @@ class Recording(Heard):
     Examples
     --------
     >>> from fmu_bearing import Bearing, Recording, record
-    >>> bearing = Bearing("examples/scenes/7003C-bare.toml", level="rings")
-    >>> record(bearing.scene, 0.02, rung="compact").save("run.npz")
+    >>> bearing = Bearing("examples/scenes/7003C-bare.toml", fidelity="rings")
+    >>> record(bearing.scene, 0.02, radiation_model="compact").save("run.npz")
     >>> recording = Recording.load("run.npz")
     >>> recording.pressure([(0.0, 0.2, 0.0)]).shape  # Pa, anywhere (m)
     (1, 1024)
@@ -108,7 +108,7 @@ class Recording(Heard):
         head = {
             "version": _VERSION,
             "scene": None if self.scene is None else self.scene.to_toml(),
-            "rung": self.rung,
+            "radiation_model": self.radiation_model,
             "rate": self.rate,
             "start": self.start,
             "size": self.size,
@@ -137,7 +137,7 @@ class Recording(Heard):
             scene = head["scene"]
             return cls(
                 None if scene is None else read_scene_text(scene, str(path)),
-                head["rung"], head["rate"], head["start"], head["size"], data["output_time"],
+                head["radiation_model"], head["rate"], head["start"], head["size"], data["output_time"],
                 data["speed_points"],
                 {name[7:]: data[name] for name in data.files if name.startswith("output:")},
                 data["history"], data["recorded"],

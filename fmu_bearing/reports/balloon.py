@@ -61,8 +61,8 @@ def sphere(subject: Subject) -> Sphere:
     recording = subject.recording
     if not recording.history.size:
         raise Absent("only pressures were recorded: levels elsewhere need the channels a run of ours keeps")
-    if subject.rung == "paper":
-        raise Absent("rung paper hears a bearing alike from all directions")
+    if subject.radiation_model == "paper":
+        raise Absent("radiation model paper hears a bearing alike from all directions")
     polar = np.linspace(0.0, math.pi, _LATITUDES)
     azimuth = 2.0 * math.pi * np.arange(_AROUND) / _AROUND
     bare = Sphere(polar, azimuth, {})
@@ -70,7 +70,9 @@ def sphere(subject: Subject) -> Sphere:
     inner = points[1:-1].reshape(-1, 3)
     ends = subject.radius * np.array([[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]])
     try:
-        frequency, squares = recording.mean_squares([*ends, *inner], subject.rung, _resolution(subject))
+        frequency, squares = recording.mean_squares(
+            [*ends, *inner], subject.radiation_model, _resolution(subject)
+        )
     except ValueError as problem:
         raise Absent(str(problem)) from None
     found = {}
@@ -140,7 +142,7 @@ def _balloon(subject: Subject, found: Sphere) -> Chart:
         note=f"Drag to turn, scroll to zoom. Distance from the centre and colour both are the level; the "
         f"centre stands "
         f"{_RANGE:g} dB below the loudest direction. {_LATITUDES * _AROUND - 2 * (_AROUND - 1)} "
-        f"directions, rung {subject.rung}, "
+        f"directions, radiation model {subject.radiation_model}, "
         f"{_resolution(subject):.3g} Hz blocks.",
     )  # fmt: skip
 
@@ -201,7 +203,7 @@ def _circle(subject: Subject, heard: Microphones) -> Chart | None:
     if not radius > 1e-6:
         return None
     points = list(circle_points(radius, axial, _CIRCLE))
-    frequency, squares = subject.recording.mean_squares(points, subject.rung, _resolution(subject))
+    frequency, squares = subject.recording.mean_squares(points, subject.radiation_model, _resolution(subject))
     found = {name: level(squares @ weights) for name, weights in _bands(frequency).items()}
     figure = look.polar(480, {"range": list(_scale(found["A-weighted"]))})
     angle = np.linspace(0.0, 360.0, _CIRCLE + 1)

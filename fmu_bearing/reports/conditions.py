@@ -8,7 +8,7 @@ from fmu_bearing.reports.marks import OTHER_NAMES
 from fmu_bearing.reports.subject import RPM, Subject
 from fmu_bearing.scene import Scene
 
-_LEVELS = {
+_FIDELITIES = {
     "full": "all bodies move: rings, cage and every ball, with sliding, film, pockets and lands",
     "rings": "rings move in time; each ball stands where both contacts balance it, the cage turns with "
     "them; torque and "
@@ -17,7 +17,7 @@ _LEVELS = {
     "motion of the "
     "cage, nothing that a change sets ringing",
 }
-_RUNGS = {
+_MODELS = {
     "bem": "boundary elements on bodies of revolution, everything scattering on everything",
     "compact": "rings, cage and housing as dipoles, balls as spheres on their orbit; no body shields another",
     "paper": "the multi-source paper as printed; energies are added",
@@ -69,7 +69,7 @@ def _operation(subject: Subject) -> Table:
          f"seed {imperfections.seed}, unbalance {imperfections.unbalance_um:g} um, balls within "
          f"+-{imperfections.ball_diameter_spread_nm:g} nm, waviness orders {imperfections.lowest_order} to "
          f"{imperfections.highest_order}"],
-        ["level", f"{scene.fidelity.level}: {_LEVELS.get(scene.fidelity.level, '')}"],
+        ["fidelity", f"{scene.fidelity.model}: {_FIDELITIES.get(scene.fidelity.model, '')}"],
         ["method", _method(scene)],
         ["sound", _sound(subject)],
     ]  # fmt: skip
@@ -84,7 +84,7 @@ def _variation(subject: Subject) -> str:
 
 def _method(scene: Scene) -> str:
     f = scene.fidelity
-    name = f"{f.method}, " if f.level == "full" else ""
+    name = f"{f.method}, " if f.model == "full" else ""
     return (
         f"{name}internal steps up to {f.max_internal_step_us:g} us, tolerance {f.tolerance:g}, "
         f"{f.traction_strips} strips per contact"
@@ -94,7 +94,7 @@ def _method(scene: Scene) -> str:
 def _sound(subject: Subject) -> str:
     scene = subject.scene
     radiator = "" if scene.sound is None else f"; radiator: {_RADIATORS[scene.sound.radiator]}"
-    return f"rung {subject.rung}: {_RUNGS.get(subject.rung, '')}{radiator}"
+    return f"radiation model {subject.radiation_model}: {_MODELS.get(subject.radiation_model, '')}{radiator}"
 
 
 def _kinematics(subject: Subject) -> Table:
@@ -112,7 +112,7 @@ def _kinematics(subject: Subject) -> Table:
         "at the mean of the computed contact angles" if angle is not None else "at the nominal contact angle"
     )
     ratio = ""
-    if subject.has("cage.speed_ratio") and subject.level == "full":
+    if subject.has("cage.speed_ratio") and subject.fidelity == "full":
         found = subject.mean("cage.speed_ratio")
         rolling = kinematics.f_c / kinematics.f_r if kinematics.f_r else math.nan
         slip = 100.0 * (found / rolling - 1.0)
@@ -140,8 +140,8 @@ def _choices(subject: Subject) -> Table:
     off = [name.replace("_", " ") for name, on in scene.fidelity.terms.model_dump().items() if not on]
     steps = f"{1e6 * subject.step:.4g} us" if subject.time.size > 1 else ""
     rows = [
-        ["level of the dynamics", scene.fidelity.level, _LEVELS.get(scene.fidelity.level, "")],
-        ["radiation", subject.rung, _RUNGS.get(subject.rung, "")],
+        ["fidelity", scene.fidelity.model, _FIDELITIES.get(scene.fidelity.model, "")],
+        ["radiation", subject.radiation_model, _MODELS.get(subject.radiation_model, "")],
         ["forces left out", ", ".join(off) or "none", "fidelity.terms"],
         ["rings", "bending" if scene.bends else "rigid", "mounting.flexure"],
         ["oil", scene.lubricant.viscosity_law, f"viscosity {scene.lubricant.viscosity_Pa_s:g} Pa s at 20 "

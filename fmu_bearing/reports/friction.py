@@ -28,10 +28,10 @@ def friction(subject: Subject) -> Section:
     if subject.has("heat.inner_ring"):
         blocks.append(_heats(subject))
     blocks.append(_table(subject))
-    if subject.level in ("rings", "response"):
+    if subject.fidelity in ("rings", "response"):
         blocks.append(
             Words(
-                f"Level {subject.level} holds torque and heats at those of the quasi-static state at the "
+                f"Fidelity {subject.fidelity} holds torque and heats at those of the quasi-static state at the "
                 f"present inputs.",
                 "note",
             )

@@ -68,12 +68,12 @@ class Microphones:
     def levels(self) -> dict[str, dict[str, NDArray[np.float64]]]:
         """Equivalent levels (dB) by weighting ``"Z"``, ``"A"`` and component, at each microphone.
 
-        Totals are the recording's own; rungs of the papers add energies there.
+        Totals are the recording's own; radiation models of the papers add energies there.
         """
         recording, found = self.subject.recording, {}
         for weighting in ("Z", "A"):
             if recording.history.size:
-                total = recording.levels(self.positions, self.subject.rung, weighting)
+                total = recording.levels(self.positions, self.subject.radiation_model, weighting)
             else:  # places may be unknown
                 total = level(recording.mean_square(self.pressure, weighting))
             found[weighting] = {"total": total}
@@ -134,6 +134,6 @@ def listen(subject: Subject) -> Microphones:
     names, positions = [name for name, _ in places], [place for _, place in places]
     if not recording.history.size:
         return Microphones(subject, names, positions, {}, recording.recorded[: len(places)])
-    parts = recording.partial(positions, subject.rung)
+    parts = recording.partial(positions, subject.radiation_model)
     pressure = sum(parts.values(), np.zeros((len(places), recording.size)))
     return Microphones(subject, names, positions, parts, pressure)

@@ -67,8 +67,8 @@ def report(source: Source, output: str | os.PathLike[str], **options: Any) -> pa
     --------
     >>> from fmu_bearing import Bearing
     >>> from fmu_bearing.reports import report
-    >>> bearing = Bearing("examples/scenes/7003C-bare.toml", level="rings")
-    >>> page = report(bearing.scene, "report.html", duration=0.05, rung="compact")
+    >>> bearing = Bearing("examples/scenes/7003C-bare.toml", fidelity="rings")
+    >>> page = report(bearing.scene, "report.html", duration=0.05, radiation_model="compact")
     >>> page.name, 5e6 < page.stat().st_size < 8e6
     ('report.html', True)
     """
@@ -82,7 +82,7 @@ def make(
     duration: float = 0.5,
     settle: float = SETTLE,
     speed: float | None = None,
-    rung: str | None = None,
+    radiation_model: str | None = None,
     run_up: tuple[float, float] | None = None,
     run_up_time: float = RUN_UP,
     radius: float = 1.0,
@@ -103,8 +103,8 @@ def make(
         Length of the run (s), and the time left out before it.
     speed : float, optional
         Shaft speed (rad/s) in place of the scene's.
-    rung : str, optional
-        In place of the scene's ``sound.rung``.
+    radiation model : str, optional
+        In place of the scene's ``sound.radiation_model``.
     run_up : (float, float), optional
         Shaft speeds (rad/s) of a second run that rises evenly from one to the other, for the waterfall.
     run_up_time : float
@@ -136,7 +136,7 @@ def make(
     path = pathlib.Path(output)
     check_writable(path)
     _check(duration, settle, radius, run_up, run_up_time)
-    subject = _subject(source, duration, settle, speed, rung, radius, tell, progress)
+    subject = _subject(source, duration, settle, speed, radiation_model, radius, tell, progress)
     rising = _run_up(subject, run_up, run_up_time, tell, progress) if run_up else None
     with python_warnings.catch_warnings(record=True) as caught:
         python_warnings.simplefilter("always", UserWarning)
@@ -187,7 +187,7 @@ def _check(
 
 
 def _subject(
-    source: Source, duration: float, settle: float, speed: float | None, rung: str | None, radius: float,
+    source: Source, duration: float, settle: float, speed: float | None, radiation_model: str | None, radius: float,
     tell: Tell, progress: bool | None,
 ) -> Subject:  # fmt: skip
     """Take a recording as it is, or make one of a scene."""
@@ -196,22 +196,24 @@ def _subject(
         file = pathlib.Path(source)
         if file.suffix == ".npz":
             tell(f"reading {file.name}")
-            return _taken(_load(file), f"recording {file.name}", rung, radius, speed)
+            return _taken(_load(file), f"recording {file.name}", radiation_model, radius, speed)
         source = read_scene(file)
         text, whence = file.read_text("utf-8-sig"), origins(file)
     if isinstance(source, Recording):
-        return _taken(source, "a recording in memory", rung, radius, speed)
-    if source.fidelity.level == "auto":
-        tell("level auto: finding the cheapest within the scene's accuracy")
+        return _taken(source, "a recording in memory", radiation_model, radius, speed)
+    if source.fidelity.model == "auto":
+        tell("fidelity auto: finding the cheapest within the scene's accuracy")
     scene, choice = resolve(source)
     if choice is not None:
         tell(choice.summary)
-    tell(f"running {scene.name}, level {scene.fidelity.level}, for {settle + duration:g} s")
-    recording, notes = observed(scene, duration, speed=speed, settle=settle, rung=rung, progress=progress)
+    tell(f"running {scene.name}, level {scene.fidelity.model}, for {settle + duration:g} s")
+    recording, notes = observed(
+        scene, duration, speed=speed, settle=settle, radiation_model=radiation_model, progress=progress
+    )
     origin = f"scene {scene.name}, run for {settle + duration:g} s of which the last {duration:g} s are shown"
     if choice is not None:
         origin += f"; {choice.summary}"
-    return Subject(recording, recording.rung, origin, text, whence, notes, radius)
+    return Subject(recording, recording.radiation_model, origin, text, whence, notes, radius)
 
 
 def _load(file: pathlib.Path) -> Recording:
@@ -224,19 +226,19 @@ def _load(file: pathlib.Path) -> Recording:
 
 
 def _taken(
-    recording: Recording, origin: str, rung: str | None, radius: float, speed: float | None
+    recording: Recording, origin: str, radiation_model: str | None, radius: float, speed: float | None
 ) -> Subject:
     """Take a recording; ``ValueError`` for what can no longer be changed about it."""
     if speed is not None:
         raise ValueError(
             "the speed of a recording cannot be changed: give the scene to run it at another one"
         )
-    if rung is not None and form_of(rung) != form_of(recording.rung):
+    if radiation_model is not None and form_of(radiation_model) != form_of(recording.radiation_model):
         raise ValueError(
-            f'rung = "{rung}" needs other channels than this recording of rung "{recording.rung}" has: '
+            f'radiation_model = "{radiation_model}" needs other channels than this recording of radiation model "{recording.radiation_model}" has: '
             "give the scene"
         )
-    return Subject(recording, rung or recording.rung, origin, radius=radius)
+    return Subject(recording, radiation_model or recording.radiation_model, origin, radius=radius)
 
 
 def _run_up(
@@ -248,9 +250,9 @@ def _run_up(
     tell(f"running up: {words}")
     recording = record(
         scene, duration, speed=fall.ramp(*speeds, duration, SETTLE), settle=SETTLE, step=4.0 * STEP,
-        rung=subject.rung, progress=progress,
+        radiation_model=subject.radiation_model, progress=progress,
     )  # fmt: skip
-    return Subject(recording, subject.rung, words, radius=subject.radius)
+    return Subject(recording, subject.radiation_model, words, radius=subject.radius)
 
 
 def _sections(

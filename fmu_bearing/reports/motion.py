@@ -29,7 +29,7 @@ def bodies_of(subject: Subject) -> list[str]:
     found = [name for name in names if subject.has(f"{name}.velocity.x")]
     if not found:
         subject.output("inner_ring.velocity.x")  # says what is missing
-    if "cage" in found and subject.level in ("rings", "response"):
+    if "cage" in found and subject.fidelity in ("rings", "response"):
         found.remove("cage")
     return found
 
@@ -49,11 +49,11 @@ def velocities(subject: Subject) -> Section:
 
 def no_cage(subject: Subject) -> str:
     """Why the cage does not move here."""
-    if subject.level in ("rings", "response"):
+    if subject.fidelity in ("rings", "response"):
         return (
-            f"Level {subject.level} turns the cage with the balls and holds its centre, and puts each ball "
+            f"Fidelity {subject.fidelity} turns the cage with the balls and holds its centre, and puts each ball "
             f"where both "
-            "contacts balance it: take level full for the motion of cage and balls."
+            "contacts balance it: take fidelity full for the motion of cage and balls."
         )
     return "The scene has no cage, or its motion was not kept."
 
@@ -208,7 +208,7 @@ def orbits(subject: Subject) -> Section:
 
 
 def _has_cage(subject: Subject) -> bool:
-    return subject.has("cage.displacement.y") and subject.level not in ("rings", "response")
+    return subject.has("cage.displacement.y") and subject.fidelity not in ("rings", "response")
 
 
 def _paths(subject: Subject) -> dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]]:

@@ -26,7 +26,7 @@ def observed(
     *,
     speed: float | None = None,
     settle: float = 0.1,
-    rung: str | None = None,
+    radiation_model: str | None = None,
     progress: bool | None = None,
 ) -> tuple[Recording, list[str]]:
     """Record a scene with all that a report shows.
@@ -34,12 +34,12 @@ def observed(
     Parameters
     ----------
     scene : Scene
-        Its level is not ``auto``.
+        Its fidelity is not ``auto``.
     duration, settle : float
         In s, as for ``fmu_bearing.record``.
     speed : float, optional
         Shaft speed (rad/s); default: the scene's.
-    rung : str, optional
+    radiation model : str, optional
         In place of the scene's.
 
     Returns
@@ -58,7 +58,7 @@ def observed(
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         recording = record(
-            scene, duration, speed=speed, settle=settle, step=STEP, rung=rung,
+            scene, duration, speed=speed, settle=settle, step=STEP, radiation_model=radiation_model,
             outputs=variables_of(scene), progress=progress, watch=watch,
         )  # fmt: skip
     recording.outputs.update(watch.outputs())

@@ -26,7 +26,7 @@ class Subject:
     Attributes
     ----------
     recording : Recording
-    rung : str
+    radiation model : str
         How its sound is computed in this report.
     source : str
         Where it came from, in words.
@@ -41,7 +41,7 @@ class Subject:
     """
 
     recording: Recording
-    rung: str
+    radiation_model: str
     source: str = ""
     scene_text: str = ""
     origins: list[Origin] = field(default_factory=list)
@@ -56,9 +56,9 @@ class Subject:
         return self.recording.scene
 
     @property
-    def level(self) -> str:
-        """Level of the dynamics; empty without scene."""
-        return "" if self.recording.scene is None else self.recording.scene.fidelity.level
+    def fidelity(self) -> str:
+        """Fidelity; empty without scene."""
+        return "" if self.recording.scene is None else self.recording.scene.fidelity.model
 
     @cached_property
     def kept(self) -> NDArray[np.bool_]:

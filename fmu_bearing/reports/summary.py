@@ -133,7 +133,7 @@ def warnings_of(subject: Subject) -> list[str]:
 
 def _reach(subject: Subject) -> list[str]:
     """How far in frequency the radiation can be trusted."""
-    if subject.recording.scene is None or subject.rung != "compact":
+    if subject.recording.scene is None or subject.radiation_model != "compact":
         return []
     scene = subject.recording.scene
     sound_speed = 340.0 if scene.sound is None else scene.sound.sound_speed_m_s
@@ -142,9 +142,9 @@ def _reach(subject: Subject) -> list[str]:
         radius = scene.mounting.housing.diameter_mm / 2e3
     highest = sound_speed / (2.0 * math.pi * radius)
     return [
-        f"Rung compact takes bodies as small beside the wavelength: above about {0.5 * highest:,.0f} Hz "
+        f"Radiation model compact takes bodies as small beside the wavelength: above about {0.5 * highest:,.0f} Hz "
         f"(ka = 0.5) levels and "
-        "directions mean less and less. Rung bem has no such limit up to 20 kHz."
+        "directions mean less and less. Radiation model bem has no such limit up to 20 kHz."
     ]
 
 

@@ -20,9 +20,10 @@ class Bearing(Mapping[str, float]):
     Parameters
     ----------
     source : Scene, Model or path
-        Scene file (TOML) or scene in memory; level ``auto`` is resolved.
+        Scene file (TOML) or scene in memory; fidelity ``auto`` is resolved.
     **fidelity
-        Other values for keys of ``[fidelity]``, such as ``level="rings"`` or ``tolerance=1e-4``.
+        Other values for keys of ``[fidelity]``, such as ``tolerance=1e-4``; ``fidelity="rings"`` stands for
+        its ``model``.
 
     Raises
     ------
@@ -32,7 +33,7 @@ class Bearing(Mapping[str, float]):
     Examples
     --------
     >>> from fmu_bearing import Bearing
-    >>> bearing = Bearing("examples/scenes/7003C-bare.toml", level="rings")
+    >>> bearing = Bearing("examples/scenes/7003C-bare.toml", fidelity="rings")
     >>> bearing.init(shaft_speed=2000.0, preload=300.0)  # rad/s, N
     >>> bearing.step(1e-3)
     >>> round(bearing["contact.inner.load_mean"])  # N
@@ -47,7 +48,9 @@ class Bearing(Mapping[str, float]):
             return
         scene = source if isinstance(source, Scene) else read_scene(source)
         if fidelity:
-            scene = with_fidelity(scene, **fidelity)
+            scene = with_fidelity(
+                scene, **{"model" if k == "fidelity" else k: v for k, v in fidelity.items()}
+            )
         self._instance = Instance(prepare(resolve(scene)[0]))
 
     @property
@@ -131,7 +134,7 @@ class Bearing(Mapping[str, float]):
         return len(self._instance.by_name)
 
     def __repr__(self) -> str:
-        return f"Bearing({self.scene.name}, level {self.scene.fidelity.level}, t = {self.time:g} s)"
+        return f"Bearing({self.scene.name}, level {self.scene.fidelity.model}, t = {self.time:g} s)"
 
     def _repr_html_(self) -> str:
         units = self._instance.by_name

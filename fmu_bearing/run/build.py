@@ -1,4 +1,4 @@
-"""The FMU of a scene in one call: level ``auto`` resolved, model prepared, file written."""
+"""The FMU of a scene in one call: fidelity ``auto`` resolved, model prepared, file written."""
 
 import os
 from collections.abc import Sequence
@@ -11,7 +11,7 @@ from fmu_bearing.scene import Scene, read_scene
 
 
 def model_of(source: Scene | str | os.PathLike[str], tell: Tell = silent) -> Model:
-    """Return the model of a scene; one of level ``auto`` is resolved, and the choice noted in the model.
+    """Return the model of a scene; one of fidelity ``auto`` is resolved, and the choice noted in the model.
 
     Raises
     ------
@@ -19,8 +19,8 @@ def model_of(source: Scene | str | os.PathLike[str], tell: Tell = silent) -> Mod
         For a scene that is refused.
     """
     scene = source if isinstance(source, Scene) else read_scene(source)
-    if scene.fidelity.level == "auto":
-        tell("level auto: probing the scene against level full (kept for the next time)")
+    if scene.fidelity.model == "auto":
+        tell("fidelity auto: probing the scene against fidelity full (kept for the next time)")
     resolved, choice = resolve(scene)
     note = "" if choice is None else choice.summary
     if note:
@@ -44,7 +44,7 @@ def build_fmu(
     output, flavour, platforms
         As for :func:`fmu_bearing.fmi.package.build`.
     tell : callable, optional
-        Takes a line of text before work that takes minutes, and the choice of level ``auto``.
+        Takes a line of text before work that takes minutes, and the choice of fidelity ``auto``.
 
     Returns
     -------

@@ -1,6 +1,6 @@
-"""Level ``auto``: the cheapest level, method and step whose measured error meets the scene's accuracy.
+"""Fidelity ``auto``: the cheapest fidelity, method and step whose measured error meets the accuracy asked for.
 
-A scene is probed once, when its model is built: every candidate runs beside level ``full`` at the settings of
+A scene is probed once, when its model is built: every candidate runs beside fidelity ``full`` at the settings of
 ``FINEST``, at the scene's speed, loads and temperatures. A candidate is accurate where
 
 * the rms velocity of each ring, in dB, and with sound the A-weighted equivalent level at each microphone
@@ -61,7 +61,7 @@ CANDIDATES = (
 FINEST = Setting("full", "esdirk4", 1e-5, 2e-6)
 
 COLUMNS = (
-    "level", "method", "tolerance", "max step, us", "ring level, dB", "dB(A)", "load", "torque", "sim/CPU",
+    "fidelity", "method", "tolerance", "max step, us", "ring level, dB", "dB(A)", "load", "torque", "sim/CPU",
     "verdict",
 )  # fmt: skip
 
@@ -73,7 +73,7 @@ class Probe:
     ``tolerance`` and ``max_step`` (s) are those it ran with; ``pace``: simulated s per CPU s, without sound.
     """
 
-    level: str
+    fidelity: str
     method: str
     tolerance: float
     max_step: float
@@ -83,16 +83,16 @@ class Probe:
 
     @property
     def name(self) -> str:
-        """Level, and for level full the method."""
-        return f"{self.level} / {self.method}" if self.level == "full" else self.level
+        """Fidelity, and for full the method."""
+        return f"{self.fidelity} / {self.method}" if self.fidelity == "full" else self.fidelity
 
     def cells(self) -> list[str]:
         """Texts in the order of ``COLUMNS``."""
         e = self.errors
         found = [""] * 4 if e is None else [number(x) for x in (e.ring_level, e.level, e.load, e.torque)]
-        method = self.method if self.level == "full" else ""
+        method = self.method if self.fidelity == "full" else ""
         return [
-            self.level, method, f"{self.tolerance:g}", f"{1e6 * self.max_step:g}", *found,
+            self.fidelity, method, f"{self.tolerance:g}", f"{1e6 * self.max_step:g}", *found,
             number(self.pace), self.reason or "accurate",
         ]  # fmt: skip
 
@@ -125,21 +125,21 @@ class Choice:
         return self.probes[self.chosen]
 
     def apply(self, scene: Scene) -> Scene:
-        """Return the scene with the chosen level, method, tolerance and largest step."""
+        """Return the scene with the chosen fidelity, method, tolerance and largest step."""
         p = self.probe
-        return bounded(Setting(p.level, p.method, p.tolerance, p.max_step), scene)
+        return bounded(Setting(p.fidelity, p.method, p.tolerance, p.max_step), scene)
 
     @property
     def summary(self) -> str:
         """One line: which, and why."""
-        p, asked = self.probe, f"{self.level_dB:g} dB and {self.relative:g} of loads and torque"
+        p, asked = self.probe, f"{self.fidelity_dB:g} dB and {self.relative:g} of loads and torque"
         how = f"{p.name}, internal steps up to {1e6 * p.max_step:g} us, tolerance {p.tolerance:g}"
         if self.chosen == len(self.probes) - 1 or p.errors is None:
-            return f"level auto: {how}: nothing cheaper is within {asked} of level full"
+            return f"fidelity auto: {how}: nothing cheaper is within {asked} of fidelity full"
         e = p.errors
         sound = "" if math.isnan(e.level) else f", {number(e.level)} dB(A) at the worst microphone"
         return (
-            f"level auto: {how}: the cheapest within {asked} of level full; measured "
+            f"fidelity auto: {how}: the cheapest within {asked} of fidelity full; measured "
             f"{number(e.ring_level)} dB of ring velocity{sound}, {number(e.load)} of the contact load, "
             f"{number(e.torque)} of the friction torque"
         )
@@ -168,7 +168,7 @@ def choose(
     scene: Scene, candidates: Sequence[Setting] = CANDIDATES, *, warm_up: float = WARM_UP,
     window: float = WINDOW, budget: float = BUDGET,
 ) -> Choice:  # fmt: skip
-    """Probe a scene, whatever its level, and choose.
+    """Probe a scene, whatever its fidelity, and choose.
 
     ``warm_up``, ``window`` (s): how long each candidate runs before and while it is measured; ``budget``
     (s): wall time of each of two timed runs.
@@ -176,7 +176,7 @@ def choose(
     Raises
     ------
     Refused
-        If level ``full`` itself is refused.
+        If fidelity ``full`` itself is refused.
     """
     sound = sound_block(scene)
     candidates = [c for c in candidates if c.carries(scene)]
@@ -194,12 +194,12 @@ def choose(
         except Refused as problem:
             reason = f"refused: {problem}"
         probes.append(
-            Probe(fidelity.level, fidelity.method, fidelity.tolerance, 1e-6 * fidelity.max_internal_step_us,
+            Probe(fidelity.model, fidelity.method, fidelity.tolerance, 1e-6 * fidelity.max_internal_step_us,
                   found, pace, reason)
         )  # fmt: skip
     f = finest.fidelity
     none = errors(truth.figures, truth.figures)
-    probes.append(Probe(f.level, f.method, f.tolerance, 1e-6 * f.max_internal_step_us, none, truth.cpu))
+    probes.append(Probe(f.model, f.method, f.tolerance, 1e-6 * f.max_internal_step_us, none, truth.cpu))
     accuracy = scene.fidelity.accuracy
     return Choice(scene.name, accuracy.level_dB, accuracy.relative, tuple(probes), _cheapest(probes))
 
@@ -234,8 +234,8 @@ def chosen(scene: Scene) -> Choice:
 
 
 def resolve(scene: Scene) -> tuple[Scene, Choice | None]:
-    """Return the scene with a concrete level; one whose level is not ``auto`` as it is, without a choice."""
-    if scene.fidelity.level != "auto":
+    """Return the scene with a concrete fidelity; one that is not ``auto`` as it is, without a choice."""
+    if scene.fidelity.model != "auto":
         return scene, None
     choice = chosen(scene)
     return choice.apply(scene), choice

@@ -13,7 +13,7 @@ TERMS = tuple(Terms.model_fields)
 class Setting:
     """One way to compute a scene; ``max_step`` in s, ``without``: names of terms left out."""
 
-    level: str = "full"
+    fidelity: str = "full"
     method: str = "esdirk4"
     tolerance: float = 1e-3
     max_step: float = 20e-6
@@ -24,7 +24,7 @@ class Setting:
         """Return the scene computed this way."""
         return with_fidelity(
             scene,
-            level=self.level,
+            model=self.fidelity,
             method=self.method,
             tolerance=self.tolerance,
             max_internal_step_us=1e6 * self.max_step,
@@ -34,12 +34,12 @@ class Setting:
 
     def carries(self, scene: Scene) -> bool:
         """Whether what the scene models can be computed this way: rings that bend need full, not ``fast``."""
-        return not scene.bends or (self.level == "full" and self.method != "fast")
+        return not scene.bends or (self.fidelity == "full" and self.method != "fast")
 
     @property
     def name(self) -> str:
-        """Level and, for level full, method."""
-        return f"{self.level} / {self.method}" if self.level == "full" else self.level
+        """Fidelity and, for full, method."""
+        return f"{self.fidelity} / {self.method}" if self.fidelity == "full" else self.fidelity
 
     @property
     def left_out(self) -> str:

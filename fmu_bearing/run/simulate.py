@@ -45,7 +45,7 @@ def simulate(
     Parameters
     ----------
     source : Scene, Model or path
-        A scene file (``.toml``), an FMU (``.fmu``), or a scene in memory; level ``auto`` is resolved first.
+        A scene file (``.toml``), an FMU (``.fmu``), or a scene in memory; fidelity ``auto`` is resolved first.
     stop_time : float
         End of the run (s).
     step : float

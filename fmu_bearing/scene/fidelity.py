@@ -5,6 +5,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from fmu_bearing.engine import choices
 from fmu_bearing.scene.base import Conflict, Part
 
 STRIPS = (1, 3, 5)
@@ -45,7 +46,7 @@ class Terms(Part):
 
 
 class Accuracy(Part):
-    """What level ``auto`` may differ by from ``full``."""
+    """What fidelity ``auto`` may differ by from ``full``."""
 
     level_dB: float = Field(
         default=1.0,
@@ -64,21 +65,21 @@ class Accuracy(Part):
 
 
 class Fidelity(Part):
-    """Level, integrator, error bounds and detail."""
+    """Physics, integrator, error bounds and detail."""
 
-    level: Literal["full", "rings", "response", "auto"] = Field(
+    model: choices.Fidelity | Literal["auto"] = Field(
         default="full",
-        description="Level of the dynamics: all bodies, the rings alone, the linear response, or the fastest "
+        description="Physics: all bodies, the rings alone, the linear response, or the fastest "
         "within the accuracy.",
         examples=["full"],
     )
-    method: Literal["esdirk4", "fast", "trbdf2", "rk4"] = Field(
-        default="esdirk4", description="Integrator of level full.", examples=["esdirk4"]
+    method: choices.Method = Field(
+        default="esdirk4", description="Integrator of fidelity full.", examples=["esdirk4"]
     )
     accuracy: Accuracy = Field(
-        default_factory=Accuracy, description="Differences from level full that level auto may make."
+        default_factory=Accuracy, description="Differences from fidelity full that fidelity auto may make."
     )
-    race_control: Literal["shared", "outer", "inner"] = Field(
+    race_control: choices.RaceControl = Field(
         default="shared",
         description="Which race balances the gyroscopic moment in the quasi-static state.",
         examples=["shared"],

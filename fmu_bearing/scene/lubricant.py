@@ -1,9 +1,8 @@
 """Oil and what it does in contacts, lands and around the balls."""
 
-from typing import Literal
-
 from pydantic import Field
 
+from fmu_bearing.engine.choices import TractionLaw, ViscosityLaw
 from fmu_bearing.scene.base import Part
 
 
@@ -17,7 +16,7 @@ class Lubricant(Part):
         ge=1, le=50, examples=[20.0], description="Pressure-viscosity coefficient, 1/GPa."
     )
     density_kg_m3: float = Field(ge=500, le=2000, examples=[870.0], description="Density of the oil, kg/m3.")
-    viscosity_law: Literal["vogel", "walther"] = Field(
+    viscosity_law: ViscosityLaw = Field(
         default="vogel",
         examples=["vogel"],
         description="How viscosity falls with temperature: Vogel's law or Walther's (ASTM D341).",
@@ -40,7 +39,7 @@ class Lubricant(Part):
         description="Slope B of Walther's lg lg(v + 0.7) = A - B lg T, v in mm2/s; 0: the same viscosity at "
         "any temperature.",
     )
-    traction_law: Literal["regularised", "eyring", "paper"] = Field(
+    traction_law: TractionLaw = Field(
         default="regularised",
         examples=["regularised"],
         description="Traction: regularised Coulomb friction, Eyring's law with Roelands' viscosity, or the "

@@ -9,6 +9,7 @@ from typing import Any, get_args
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 
+from fmu_bearing import renamed
 from fmu_bearing.scene.base import LABEL
 from fmu_bearing.scene.scene import NAME, Scene
 from fmu_bearing.scene.units import symbol
@@ -165,6 +166,8 @@ def _unknown(path: Location) -> str:
     elif table == ("imperfections",):
         known.append("grade")
     near = difflib.get_close_matches(key, known, n=1, cutoff=_ALIKE)
+    if dotted(path) in renamed.KEYS:
+        return f"{dotted(path)} is now {renamed.KEYS[dotted(path)]}; its values are the same"
     elsewhere = [where for where, other in _tables(Scene) if key in other.model_fields and where != table]
     if len(elsewhere) == 1:
         hint = f"; it belongs in [{dotted(elsewhere[0])}]" if elsewhere[0] else "; it stands above all tables"

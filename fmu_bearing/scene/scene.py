@@ -81,11 +81,11 @@ class Scene(Part):
         """Yield a level or method that does not carry the bending of the rings."""
         if not self.bends:
             return
-        level, method = self.fidelity.level, self.fidelity.method
+        level, method = self.fidelity.model, self.fidelity.method
         way_out = "or leave out [mounting.flexure]"
         if level not in ("full", "auto"):
             yield Conflict(
-                "fidelity.level", f"'{level}' has rigid rings only: bending needs 'full' or 'auto', {way_out}"
+                "fidelity.model", f"'{level}' has rigid rings only: bending needs 'full' or 'auto', {way_out}"
             )
         elif level == "full" and method == "fast":
             yield Conflict(

@@ -9,6 +9,8 @@ from pydantic import Field
 from fmu_bearing.scene.base import Conflict, Label, Part
 
 Point = tuple[float, float, float]
+#: What radiates: the bare bearing, the housing, or the bearing's face in a rigid plane.
+Radiator = Literal["bare", "housing", "baffle"]
 
 _CARTESIAN = ("x_mm", "y_mm", "z_mm")
 _CYLINDRICAL = ("theta_deg", "r_mm", "l_mm")
@@ -92,13 +94,13 @@ class Circle(Part):
 class Sound(Part):
     """Radiation and metering."""
 
-    rung: Literal["paper", "paper_vector", "paper_contacts", "compact", "bem", "table"] = Field(
+    radiation_model: Literal["paper", "paper_vector", "paper_contacts", "compact", "bem", "table"] = Field(
         default="bem",
         description="How radiation is computed: by the papers' methods, compact bodies, boundary elements "
         "or the user's table.",
         examples=["bem"],
     )
-    radiator: Literal["bare", "baffle", "housing"] = Field(
+    radiator: Radiator = Field(
         default="bare",
         description="What radiates: the bare bearing, its face flush in a rigid plane, or the housing.",
         examples=["bare"],
@@ -115,7 +117,7 @@ class Sound(Part):
         min_length=1,
         max_length=1000,
         examples=["housing.npz"],
-        description="File of the rung table, seen from the scene file.",
+        description="File of the radiation model table, seen from the scene file.",
     )
     third_octaves: bool = Field(
         default=False, description="Third-octave levels of every microphone.", examples=[True]
@@ -166,17 +168,23 @@ class Sound(Part):
             )
         for name in sorted({name for name in names if names.count(name) > 1}):
             yield Conflict("", f"microphone names must differ: {name} stands more than once")
-        if self.rung == "table" and self.table_file is None:
+        if self.radiation_model == "table" and self.table_file is None:
             yield Conflict(
-                "table_file", 'is missing, for example table_file = "housing.npz"; rung table reads it'
+                "table_file",
+                'is missing, for example table_file = "housing.npz"; radiation model table reads it',
             )
-        if self.rung != "table" and self.table_file is not None:
-            yield Conflict("table_file", f'is read by rung "table" only, not by "{self.rung}"')
-        if self.rung != "bem":
+        if self.radiation_model != "table" and self.table_file is not None:
+            yield Conflict(
+                "table_file", f'is read by radiation model "table" only, not by "{self.radiation_model}"'
+            )
+        if self.radiation_model != "bem":
             if self.radiator == "baffle":
-                yield Conflict("radiator", f'needs rung = "bem"; rung "{self.rung}" knows no rigid planes')
+                yield Conflict(
+                    "radiator",
+                    f'needs radiation_model = "bem"; radiation model "{self.radiation_model}" knows no rigid planes',
+                )
             if self.reflecting_plane_mm is not None:
-                words = f'needs rung = "bem"; rung "{self.rung}" knows no rigid planes'
+                words = f'needs radiation_model = "bem"; radiation model "{self.radiation_model}" knows no rigid planes'
                 yield Conflict("reflecting_plane_mm", words)
 
     def points(self) -> list[Place]:

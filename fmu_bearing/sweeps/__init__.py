@@ -54,7 +54,7 @@ def sweep(
     Parameters
     ----------
     source : Scene or path
-        Scene file (TOML) or scene in memory; level ``auto`` is resolved once, for the scene as it is.
+        Scene file (TOML) or scene in memory; fidelity ``auto`` is resolved once, for the scene as it is.
     axes : mapping
         Values by dotted key of the scene (``"mounting.preload_N"``) or short name (``speed``, ``preload``,
         ``pedestal``, ``viscosity``, ``seed``, ``level``), in the key's unit: a list, or text such as
@@ -96,13 +96,13 @@ def sweep(
     >>> scene = read_scene("examples/scenes/7003C-bare.toml")
     >>> data = sweep(
     ...     scene.model_copy(update={"sound": None}),
-    ...     {"level": ["rings"], "preload": [200, 500]},
+    ...     {"fidelity": ["rings"], "preload": [200, 500]},
     ...     settle=0.005,
     ...     window=0.01,
     ...     figures=["contact.inner.load_mean"],
     ...     workers=1,
     ... )
-    >>> data["contact.inner.load_mean"].sel(level="rings").round().values.tolist()  # N
+    >>> data["contact.inner.load_mean"].sel(fidelity="rings").round().values.tolist()  # N
     [51.0, 115.0]
     """
     need("xarray", "a sweep")

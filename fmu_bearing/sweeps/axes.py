@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu_bearing import renamed
 from fmu_bearing.run.names import UnknownName, known
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.units import symbol
@@ -21,7 +22,7 @@ ALIASES = {
     "pedestal": "mounting.pedestal_stiffness_N_m",
     "viscosity": "lubricant.viscosity_Pa_s",
     "seed": "imperfections.seed",
-    "level": "fidelity.level",
+    "fidelity": "fidelity.model",
 }
 _RANGE = re.compile(r"([^:,]+):([^:,]+):(\d+)(log)?")
 _SYNTAX = "KEY=LOW:HIGH:COUNT, KEY=LOW:HIGH:COUNTlog or KEY=VALUE,VALUE,..."
@@ -55,7 +56,7 @@ class Axis:
 
 
 def parse_axis(text: str) -> tuple[str, list[Any]]:
-    """Read an axis as the command line takes it: ``speed=8000:40000:9``, ``level=rings,full``.
+    """Read an axis as the command line takes it: ``speed=8000:40000:9``, ``fidelity=rings,full``.
 
     Raises
     ------
@@ -113,6 +114,9 @@ def axes_of(scene: Scene, wanted: Mapping[str, Sequence[Any] | str]) -> tuple[Ax
     problems: list[str] = []
     found: dict[str, list[Any]] = {}
     for given, values in wanted.items():
+        if given in renamed.AXES or given in renamed.KEYS:
+            problems.append(f"axis {given} is now {renamed.AXES.get(given) or renamed.KEYS[given]}")
+            continue
         key = ALIASES.get(given, given)
         try:
             known(key, [*fields, *ALIASES], "key of a scene")

@@ -30,7 +30,7 @@ class Plan:
     Attributes
     ----------
     scene : Scene
-        What is varied; level ``auto`` resolved.
+        What is varied; fidelity ``auto`` resolved.
     axes : tuple of Axis
     settle, window : float
         In s.
@@ -38,7 +38,7 @@ class Plan:
     tasks : tuple of Task
         One per point, the last axis fastest.
     note : str
-        What level ``auto`` became, and why.
+        What fidelity ``auto`` became, and why.
     """
 
     scene: Scene
@@ -82,7 +82,7 @@ def plan(
     scene = source if isinstance(source, Scene) else read_scene(source)
     found = axes_of(scene, axes)
     note = ""
-    if "fidelity.level" not in {axis.key for axis in found}:
+    if "fidelity.model" not in {axis.key for axis in found}:
         scene, choice = resolve(scene)
         note = "" if choice is None else choice.summary
     scenes = _scenes(scene, found)
@@ -102,9 +102,9 @@ def _scenes(scene: Scene, axes: tuple[Axis, ...]) -> list[Scene]:
     found, problems = [], []
     for values in itertools.product(*(axis.values for axis in axes)):
         chosen = {axis.key: value for axis, value in zip(axes, values, strict=True)}
-        if chosen.get("fidelity.level") == "auto":
+        if chosen.get("fidelity.model") == "auto":
             problems.append(
-                "fidelity.level = 'auto' is refused as a value of an axis: it is decided by timing; give "
+                "fidelity.model = 'auto' is refused as a value of an axis: it is decided by timing; give "
                 "full, rings or response"
             )
             continue

@@ -306,10 +306,10 @@ def test_refusals():
         Ladder("none", SMALL)
     with pytest.raises(ValueError, match="needs a table"):
         Ladder("table", SMALL)
-    with pytest.raises(ValueError, match='needs rung "bem"'):
+    with pytest.raises(ValueError, match='needs radiation model "bem"'):
         Ladder("compact", SMALL, plane=0.1)
     baffled = Radiators(**{**SMALL.__dict__, "baffle": True})
-    with pytest.raises(ValueError, match='needs rung "bem"'):
+    with pytest.raises(ValueError, match='needs radiation model "bem"'):
         build("paper", baffled, Air(), PAPER_POINTS)
     for rung in ("compact", "paper_vector", "paper_contacts"):
         with pytest.raises(ValueError, match="inside the bearing"):

@@ -34,7 +34,7 @@ def silent_file(scene, tmp_path_factory):
 
 @pytest.fixture(scope="session")
 def rings_file(scene, tmp_path_factory):
-    """The bare 7003C at level rings, with compact sound."""
+    """The bare 7003C at fidelity rings, with compact sound."""
     path = tmp_path_factory.mktemp("scene") / "rings.toml"
-    path.write_text(with_fidelity(scene("7003C-bare"), level="rings").to_toml(), "utf-8")
+    path.write_text(with_fidelity(scene("7003C-bare"), fidelity="rings").to_toml(), "utf-8")
     return path

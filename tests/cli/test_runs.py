@@ -193,8 +193,8 @@ def test_sound_refuses_in_a_line(run, rings_file, heard, silent_file, tmp_path):
         ((rings_file, "-t", 0.05, "--resolution", 5), "needs --duration 0.2 s or more"),
         ((folder / "levels.csv",), "is no table of numbers"),
         ((folder / "third-octaves.csv",), "the first column must be 'time'"),
-        ((rings_file, "--rung", "loud"), "loud"),
-        ((rings_file, "--level", "best"), "fidelity.level"),
+        ((rings_file, "--radiation-model", "loud"), "loud"),
+        ((rings_file, "--level", "best"), "fidelity.model"),
         ((silent_file, "-t", 0.01), "give the scene [sound]"),
     ):
         refused = run("sound", *arguments, "-o", tmp_path)
@@ -203,7 +203,7 @@ def test_sound_refuses_in_a_line(run, rings_file, heard, silent_file, tmp_path):
 
 
 def test_listening_to_pressures_alone(scene):
-    whole = record(with_fidelity(scene("7003C-bare"), level="rings"), 0.05)
+    whole = record(with_fidelity(scene("7003C-bare"), fidelity="rings"), 0.05)
     heard = listen(whole)
     alone = Recording(
         whole.scene, "recorded", whole.rate, whole.start, whole.size, whole.output_time, whole.speed_points,
@@ -214,9 +214,9 @@ def test_listening_to_pressures_alone(scene):
     assert set(heard.parts) == {"inner_ring", "outer_ring", "cage", "balls"} and again.parts == {}
 
 
-def test_levels_of_a_papers_rung_add_energies(scene):
+def test_levels_of_a_papers_radiation_model_add_energies(scene):
     """As the paper does (eqs. 43 and 46); the pressures of its sources added would read 0.3 dB more here."""
-    whole = record(with_fidelity(scene("7003C-bare"), level="rings"), 0.05, rung="paper")
+    whole = record(with_fidelity(scene("7003C-bare"), fidelity="rings"), 0.05, radiation_model="paper")
     heard = listen(whole)
     np.testing.assert_array_equal(heard.levels[:, 1], whole.levels(weighting="A"))
     added = level(whole.mean_square(whole.pressure()))

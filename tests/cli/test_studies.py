@@ -14,8 +14,8 @@ from tests.conftest import SCENES
 
 @pytest.fixture
 def auto_file(scene, tmp_path, monkeypatch):
-    """A scene of level auto whose choice is given, not probed."""
-    found = with_fidelity(scene("7003C-spindle").model_copy(update={"sound": None}), level="auto")
+    """A scene of fidelity auto whose choice is given, not probed."""
+    found = with_fidelity(scene("7003C-spindle").model_copy(update={"sound": None}), fidelity="auto")
     probe = Probe("full", "esdirk4", 1e-4, 1e-5, Errors(0.0, 0.0, 0.0, 0.0, math.nan), 1.0)
     choice = Choice(found.name, 1.0, 0.1, (probe, probe), 0)
     monkeypatch.setattr(choosing, "chosen", lambda scene: choice)
@@ -52,18 +52,18 @@ def test_what_a_scene_is_computed_with(run, silent_file, auto_file):
 def test_build_of_a_scene_of_level_auto_notes_the_choice(run, auto_file, tmp_path):
     result = run("build", auto_file, "-o", tmp_path / "auto.fmu")
     assert result.exit_code == 0, result.output
-    assert "level auto: full / esdirk4, internal steps up to 10 us" in result.output
+    assert "fidelity auto: full / esdirk4, internal steps up to 10 us" in result.output
     with zipfile.ZipFile(tmp_path / "auto.fmu") as fmu:
-        assert b"level auto: full / esdirk4" in fmu.read("documentation/index.html")
+        assert b"fidelity auto: full / esdirk4" in fmu.read("documentation/index.html")
         assert b'level = "full"' in fmu.read("resources/scene.toml")
 
 
 def test_choose_prints_table_and_reason(run, auto_file):
     result = run("choose", auto_file)
     assert result.exit_code == 0, result.output
-    assert "chosen" in result.output and "level auto: full / esdirk4" in result.output
+    assert "chosen" in result.output and "fidelity auto: full / esdirk4" in result.output
     data = run("choose", auto_file, "--json").data
-    assert data["chosen"].startswith("level auto: full / esdirk4") and len(data["candidates"]) == 2
+    assert data["chosen"].startswith("fidelity auto: full / esdirk4") and len(data["candidates"]) == 2
 
 
 def test_quick_studies_write_their_tables(run, silent_file, tmp_path):

@@ -23,7 +23,7 @@ def test_a_sweep_writes_its_results_and_goes_on_from_its_own_file(run, silent_fi
         "sweep", tmp_path / "sweep.toml", "-a", "speed=5000,7000,9000", "-w", 1, "-o", tmp_path, "--json"
     )
     assert more.data["points"] == more.data["finished"] == 3 and more.data["reasons"] == []
-    assert more.data["axes"] == {"operation.speed_rpm": [5000, 7000, 9000], "fidelity.level": ["rings"]}
+    assert more.data["axes"] == {"operation.speed_rpm": [5000, 7000, 9000], "fidelity.model": ["rings"]}
     torque = more.data["figures"]["friction_torque"]
     assert torque["unit"] == "N.m" and 0.0 < torque["least"] < torque["largest"] < 0.1
     now = {path.name: path.stat().st_mtime_ns for path in (tmp_path / "points").iterdir()}

@@ -442,7 +442,7 @@ def test_level_auto_leaves_out_what_cannot_bend(scene):
     left = [c for c in CANDIDATES if c.carries(flexible)]
     assert left
     assert {(c.level, c.method) for c in left} == {("full", "esdirk4")}
-    with_fidelity(flexible, level="auto", method="fast")  # the candidates bring their own methods
+    with_fidelity(flexible, model="auto", method="fast")  # the candidates bring their own methods
 
 
 @pytest.mark.parametrize("values", [{"FIDELITY": 1.0}, {"FIDELITY": 2.0}, {"METHOD": 1.0}])

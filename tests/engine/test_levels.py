@@ -1,4 +1,4 @@
-"""Levels `rings` and `response`: against level full, quasi-static theory, SciPy and a dense solve."""
+"""Fidelities `rings` and `response`: against fidelity full, quasi-static theory, SciPy and a dense solve."""
 
 import numpy as np
 import pytest
@@ -139,7 +139,7 @@ def test_steps_do_not_matter_to_response(scene):
 
 
 class Slow:
-    """The equations of level rings written out with NumPy: balls by SciPy's root, forces ball by ball."""
+    """The equations of fidelity rings written out with NumPy: balls by SciPy's root, forces ball by ball."""
 
     def __init__(self, run):
         self.p, self.lv = run.p, block(run).copy()
@@ -412,7 +412,7 @@ def test_balls_that_carry_nothing_have_no_false_rates(scene, level):
 
 @pytest.mark.parametrize("level", LEVELS)
 def test_balls_move_in_their_races(scene, level):
-    """Loaded balls do have rates across the track: those of level full at the same place within a third."""
+    """Loaded balls do have rates across the track: those of fidelity full at the same place within a third."""
     run = Run(silent(scene("7003C-spindle")), 12_000, FIDELITY=LEVELS[level])
     run.u[U.LOAD_Z] = -300.0
     run.init()

@@ -1,4 +1,4 @@
-"""Options of level full over milliseconds: traction, springs, rigid preload, misalignment, outputs."""
+"""Options of fidelity full over milliseconds: traction, springs, rigid preload, misalignment, outputs."""
 
 import numpy as np
 import pytest

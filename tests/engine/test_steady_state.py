@@ -1,4 +1,4 @@
-"""Steady runs of level full against quasi-static theory, kinematics and energy."""
+"""Steady runs of fidelity full against quasi-static theory, kinematics and energy."""
 
 import numpy as np
 import pytest

@@ -222,7 +222,7 @@ def test_tiny_pages_are_whole(tiny):
             assert (root / "docs" / "images" / "papers" / picture).stat().st_size < 200_000
     for module in PAGES.values():
         assert module.CALIBRATION[0].split(",")[0] in (root / "docs/papers" / f"{module.NAME}.md").read_text()
-    # rung compact shows no circle of the 7009C, and says so
+    # radiation model compact shows no circle of the 7009C, and says so
     field = (root / "docs" / "papers" / "sound-field.md").read_text("utf-8")
     assert sound_field.NO_CIRCLE in field and "sound-field.png" not in field
 
@@ -231,8 +231,8 @@ def test_tiny_results_stand_in_csv(tiny):
     root, _ = tiny
     with (root / "docs" / "results" / "papers" / "multi-source-levels.csv").open() as file:
         rows = list(csv.DictReader(file))
-    assert {row["rung"] for row in rows} == {"compact", "paper"}
-    total = next(row for row in rows if (row["rung"], row["component"]) == ("compact", "total"))
+    assert {row["radiation_model"] for row in rows} == {"compact", "paper"}
+    total = next(row for row in rows if (row["radiation_model"], row["component"]) == ("compact", "total"))
     assert float(total["P1"]) > float(total["P2"]) > 40.0  # a spindle, 105 and 150 mm from it
     with (root / "docs" / "results" / "papers" / "impact-noise-planes.csv").open() as file:
         angles = [float(row["angle_deg"]) for row in csv.DictReader(file)]
@@ -251,23 +251,25 @@ def test_a_repeated_run_takes_what_is_kept(tiny, monkeypatch):
     assert [path.read_text("utf-8") for path in again] == before
 
 
-@pytest.mark.parametrize("rung", ["compact", "paper"])
-def test_sources_add_up_to_the_recordings_own_level(tiny, rung, tmp_path):
+@pytest.mark.parametrize("radiation_model", ["compact", "paper"])
+def test_sources_add_up_to_the_recordings_own_level(tiny, radiation_model, tmp_path):
     root, _ = tiny
     one = next(iter(multi_source.cases(1.0, True)))
     kept = sorted((root / "cache").glob("*.npz"))
     names = {path.stem for path in kept}
     scale = next(
         s for s in (10 ** (k / 40) for k in range(-40, 41))
-        if multi_source.cases(s, True)[0].key(rung) in names
+        if multi_source.cases(s, True)[0].key(radiation_model) in names
     )  # fmt: skip
     recording = Case(one.scene, one.rpm, one.changes, scale, one.settle, one.duration).recording(
-        rung, root / "cache"
+        radiation_model, root / "cache"
     )
-    sources = Ear(recording, rung, tmp_path).sources(recording.positions)
+    sources = Ear(recording, radiation_model, tmp_path).sources(recording.positions)
     assert set(sources) == {"inner_ring", "outer_ring", "cage", "balls", "total"}
     # the paper's energy sum, or the coherent one: two ways through the same paths
-    assert equivalent(sources["total"]) == pytest.approx(recording.levels(rung=rung), abs=0.01)
+    assert equivalent(sources["total"]) == pytest.approx(
+        recording.levels(radiation_model=radiation_model), abs=0.01
+    )
 
 
 @pytest.mark.heavy

@@ -31,9 +31,11 @@ def edited(name: str, changes: dict) -> Scene:
     return Scene.model_validate(data)
 
 
-def bearing(name: str, changes: dict, inputs: dict, level="full", method="esdirk4", **settings) -> Instance:
+def bearing(
+    name: str, changes: dict, inputs: dict, fidelity="full", method="esdirk4", **settings
+) -> Instance:
     """Return a bearing, not yet initialised; ``inputs`` and ``settings`` in SI, speed as ``rpm``."""
-    instance = Instance(prepare(edited(name, changes), level=level, method=method))
+    instance = Instance(prepare(edited(name, changes), fidelity=fidelity, method=method))
     feed(instance, inputs)
     for key, value in settings.items():
         instance.set(key, value)

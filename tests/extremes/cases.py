@@ -45,7 +45,7 @@ class Case:
     start: dict = field(default_factory=dict)
     legs: tuple = ((5e-3, {}, 1e-4),)
     per_ms: float = 300.0
-    per_ms_rings: float = 700.0  # the same for level rings, whose steps follow the rings' modes
+    per_ms_rings: float = 700.0  # the same for fidelity rings, whose steps follow the rings' modes
     refusing: tuple = ()  # levels that may refuse the case: they have no equations for open contacts
     perfect: bool = False
     energy: float = 1e-3  # bound on the energy residual over the energy turned over

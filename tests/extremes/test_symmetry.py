@@ -29,7 +29,7 @@ def wavy(phase):
 
 def turning(changes, rpm, mirror, level, method):
     """A bearing under a load in both directions, or its mirror image."""
-    model = prepare(edited("7003C-bare", changes), level=level, method=method)
+    model = prepare(edited("7003C-bare", changes), fidelity=level, method=method)
     if mirror:
         numbers = model.parameters.copy()
         first, balls = int(numbers[P.AT_OVERSIZE]), int(numbers[P.BALLS])

@@ -66,7 +66,7 @@ def test_without_a_scene_the_default_one_is_built(tmp_path):
     assert built.returncode == 0, built.stderr
     assert fmpy.read_model_description(str(target)).modelName == "7003C-spindle"
     with zipfile.ZipFile(target) as archive:
-        assert b'rung = "bem"' in archive.read("resources/scene.toml")
+        assert b'radiation_model = "bem"' in archive.read("resources/scene.toml")
 
 
 @pytest.mark.parametrize("case", ["missing", "broken", "wrong value", "no place", "folder"])

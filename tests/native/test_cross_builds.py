@@ -227,7 +227,9 @@ def spindle(tmp_path_factory):
 
     path = toy.HERE.parents[1] / "examples" / "scenes" / "7003C-spindle.toml"
     found = read_scene(path)
-    model = prepare(found.model_copy(update={"sound": found.sound.model_copy(update={"rung": "compact"})}))
+    model = prepare(
+        found.model_copy(update={"sound": found.sound.model_copy(update={"radiation_model": "compact"})})
+    )
     guid = interface_guid(model, "native")
     folder = tmp_path_factory.mktemp("spindle")
     (folder / "model.bin").write_bytes(model_bytes(model, guid, engine_digest().hex()))

@@ -142,26 +142,26 @@ def test_auto_must_be_resolved():
             SceneError, match=r"level = 'auto' must be resolved first, to one of full, rings, resp"
         ):
             attempt()
-    model = prepare(auto, level="rings")
+    model = prepare(auto, fidelity="rings")
     assert model.parameters[P.FIDELITY] == 1.0
-    assert model.scene.fidelity.level == "rings"  # what is written into an FMU needs no resolving again
+    assert model.scene.fidelity.model == "rings"  # what is written into an FMU needs no resolving again
 
 
 def test_overrides_of_level_method_and_step(scene):
     bare = scene("7003C-bare").model_copy(update={"sound": None})
     plain = prepare(bare)
     assert plain.scene is bare
-    other = prepare(bare, level="response", method="rk4", max_step=5e-6)
+    other = prepare(bare, fidelity="response", method="rk4", max_step=5e-6)
     assert list(other.parameters[places("FIDELITY", "METHOD", "MAX_STEP")]) == [2.0, 3.0, 5e-6]
     same = np.delete(other.parameters, places("FIDELITY", "METHOD", "MAX_STEP"))
     assert np.array_equal(same, np.delete(plain.parameters, places("FIDELITY", "METHOD", "MAX_STEP")))
-    assert bare.fidelity.level == "full"
+    assert bare.fidelity.model == "full"
 
 
 @pytest.mark.parametrize(
     ("keys", "message"),
     [
-        ({"level": "ring"}, "fidelity.level = 'ring' is refused; allowed: full, rings, response, auto"),
+        ({"level": "ring"}, "fidelity.model = 'ring' is refused; allowed: full, rings, response, auto"),
         ({"method": "euler"}, "fidelity.method = 'euler' is refused; allowed: esdirk4"),
         ({"max_step": 1.0}, "max_internal_step_us = 1000000.0 is refused; allowed: 0.1 to 100 us"),
         ({"level": "auto"}, "must be resolved first"),

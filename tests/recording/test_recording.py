@@ -14,12 +14,12 @@ SHORT = 0.04
 @pytest.fixture(scope="module")
 def spindle(scene):
     """Return the 7003C in its spindle, the rings alone: a tenth of a second in no time."""
-    return with_fidelity(scene("7003C-spindle"), level="rings")
+    return with_fidelity(scene("7003C-spindle"), fidelity="rings")
 
 
 @pytest.fixture(scope="module")
 def own(spindle):
-    return record(spindle, SHORT, microphones=True, outputs=(*HEARD, "mic[1].leq"), rung="compact")
+    return record(spindle, SHORT, microphones=True, outputs=(*HEARD, "mic[1].leq"), radiation_model="compact")
 
 
 def test_pressures_equal_the_engines(own):
@@ -77,7 +77,7 @@ def test_far_places(spindle, own):
 
 
 def test_boundary_elements_are_asked_by_name(own, monkeypatch):
-    """Rung bem gets what all rungs get."""
+    """Radiation model bem gets what all radiation models get."""
     from fmu_bearing.acoustics.radiation.compact import compact_paths
 
     asked = []

@@ -18,14 +18,14 @@ P1 = (0.0, 0.105, 0.0)
 
 @pytest.fixture(scope="module")
 def bare(scene):
-    return record(with_fidelity(scene("7003C-bare"), level="rings"), 0.25)
+    return record(with_fidelity(scene("7003C-bare"), fidelity="rings"), 0.25)
 
 
 @pytest.fixture(scope="module")
 def run_up(scene):
-    """From 7,000 to 19,000 r/min in half a second, level rings."""
-    spindle = with_fidelity(scene("7003C-spindle"), level="rings")
-    return record(spindle, 0.5, speed=lambda t: 733.0 + 2417.0 * t, rung="compact")
+    """From 7,000 to 19,000 r/min in half a second, fidelity rings."""
+    spindle = with_fidelity(scene("7003C-spindle"), fidelity="rings")
+    return record(spindle, 0.5, speed=lambda t: 733.0 + 2417.0 * t, radiation_model="compact")
 
 
 def made(recording, tones):
@@ -101,9 +101,11 @@ def test_run_up_follows_the_shaft(run_up):
 
 def test_fmu_pressures_are_the_recordings(scene, tmp_path):
     """What an FMU shows at every sample is what the channels give, LATENCY earlier; CSV included."""
-    spindle = with_fidelity(scene("7003C-spindle"), level="rings")
+    spindle = with_fidelity(scene("7003C-spindle"), fidelity="rings")
     names = ("mic[1].pressure", "mic[4].pressure")
-    own = record(spindle, 0.01, rung="compact", microphones=True, step=PRESSURE_STEP, outputs=names)
+    own = record(
+        spindle, 0.01, radiation_model="compact", microphones=True, step=PRESSURE_STEP, outputs=names
+    )
     rows = np.array(
         list(zip(own.output_time, own.speed_points, *(own.outputs[name] for name in names), strict=True)),
         dtype=[(name, float) for name in ("time", "shaft_speed", *names)],
@@ -141,22 +143,29 @@ def test_fmu_results_that_do_not_serve():
         Recording.from_fmu(coarse[["time"]])
 
 
-def test_paper_rung_adds_energies(scene):
+def test_paper_radiation_model_adds_energies(scene):
     """Its level is the engine's own (eqs. 43, 46: energy sums over sources), though filters are not used."""
-    spindle = with_fidelity(scene("7003C-spindle"), level="rings")
-    printed = spindle.model_copy(update={"sound": spindle.sound.model_copy(update={"rung": "paper"})})
+    spindle = with_fidelity(scene("7003C-spindle"), fidelity="rings")
+    printed = spindle.model_copy(
+        update={"sound": spindle.sound.model_copy(update={"radiation_model": "paper"})}
+    )
     paper = record(
         printed, 0.05, settle=spindle.sound.metering_start_s, microphones=True, outputs=("mic[1].leq",)
     )
-    assert paper.rung == "paper" and set(paper.partial()) == {"inner_ring", "outer_ring", "cage", "balls"}
+    assert paper.radiation_model == "paper" and set(paper.partial()) == {
+        "inner_ring",
+        "outer_ring",
+        "cage",
+        "balls",
+    }
     # the meter is read at the communication point next to the recording's end, up to 0.5 ms of 50 off
     end = np.argmin(np.abs(paper.output_time - paper.time[-1] - SD.LATENCY / SD.RATE))
     assert paper.levels()[0] == pytest.approx(paper.outputs["mic[1].leq"][end], abs=0.1)
-    assert np.array_equal(record(spindle, 0.05, rung="paper").channels, paper.channels)
-    with pytest.raises(ValueError, match='rung="compact"'):
+    assert np.array_equal(record(spindle, 0.05, radiation_model="paper").channels, paper.channels)
+    with pytest.raises(ValueError, match='radiation_model="compact"'):
         paper.pressure([P1], "compact")
     with pytest.raises(ValueError, match="microphones=True"):
-        record(printed, 0.05, rung="compact", microphones=True)
+        record(printed, 0.05, radiation_model="compact", microphones=True)
 
 
 def test_places_that_do_not_serve(bare):
@@ -164,7 +173,7 @@ def test_places_that_do_not_serve(bare):
         bare.pressure([(0.0, 0.0, 0.01)])
     with pytest.raises(ValueError, match=r"\(x, y, z\)"):
         bare.pressure([(0.0, 0.1)])
-    with pytest.raises(ValueError, match="rung"):
+    with pytest.raises(ValueError, match="radiation_model"):
         bare.pressure([P1], "none")
     with pytest.raises(ValueError, match="cuts the bearing"):
         measure.sound_power(bare, plane=0.0)

@@ -1,4 +1,4 @@
-"""Reports for the tests: one of level full, one of level rings, each made once."""
+"""Reports for the tests: one of fidelity full, one of fidelity rings, each made once."""
 
 import pytest
 
@@ -29,4 +29,4 @@ def full_page(full_report):
 @pytest.fixture(scope="session")
 def rings(scene):
     """Recording of the 7003C in its spindle, the rings alone."""
-    return observed(with_fidelity(scene("7003C-spindle"), level="rings"), SECONDS, settle=0.02)[0]
+    return observed(with_fidelity(scene("7003C-spindle"), fidelity="rings"), SECONDS, settle=0.02)[0]

@@ -58,7 +58,9 @@ def test_what_is_said_is_said_to_the_end(full, full_page):
 
 
 def test_assumed_values_carry_the_files_remarks(tmp_path):
-    made = make(SCENES / "7003C-bare.toml", tmp_path / "a.html", duration=0.02, settle=0.0, rung="compact")
+    made = make(
+        SCENES / "7003C-bare.toml", tmp_path / "a.html", duration=0.02, settle=0.0, radiation_model="compact"
+    )
     page = Page(made.path)
     (caption,) = [caption for caption in page.tables if caption.endswith("values are assumed")]
     rows = {row[0]: row for row in page.tables[caption][1:]}
@@ -72,7 +74,7 @@ def test_level_rings_says_what_does_not_move(rings, tmp_path):
     page = Page(report(rings, tmp_path / "rings.html"))
     assert {t["meta"]["orbit"] for t in page.traces("orbits")} == {"inner_ring", "outer_ring"}
     for section in ("velocities", "orbits", "friction"):
-        assert "Level rings" in page.sections[section]
+        assert "Fidelity rings" in page.sections[section]
     assert "cage" not in {row[0] for row in page.tables["Velocity of the centres about its mean, mm/s"]}
     assert "many of these was measured" not in page.text
     assert any("values that the papers leave open" in caption for caption in page.tables)
@@ -110,9 +112,9 @@ def test_pressures_of_an_fmu_alone(tmp_path):
     assert float(page.tables["Strongest lines at mic[1].pressure"][1][0]) == pytest.approx(1000.0, abs=1.0)
 
 
-def test_a_recording_of_few_variables_and_a_papers_rung(scene, tmp_path):
-    rings = with_fidelity(scene("7003C-spindle"), level="rings")
-    recording = record(rings, 0.03, rung="paper", outputs=("inner_ring.velocity.x",))
+def test_a_recording_of_few_variables_and_a_papers_radiation_model(scene, tmp_path):
+    rings = with_fidelity(scene("7003C-spindle"), fidelity="rings")
+    recording = record(rings, 0.03, radiation_model="paper", outputs=("inner_ring.velocity.x",))
     recording.outputs |= {
         f"inner_ring.velocity.{a}": recording.outputs["inner_ring.velocity.x"] for a in "yz"
     }
@@ -147,7 +149,7 @@ def test_errors_name_the_way_out(rings, tmp_path, monkeypatch):
     with pytest.raises(ValueError, match="cannot be changed"):
         make(rings, page, speed=100.0)
     with pytest.raises(ValueError, match="needs other channels"):
-        make(rings, page, rung="paper")
+        make(rings, page, radiation_model="paper")
     with pytest.raises(ValueError, match="duration = 0"):
         make(rings, page, duration=0.0)
     with pytest.raises(ValueError, match="two speeds that differ"):

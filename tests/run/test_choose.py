@@ -1,4 +1,4 @@
-"""Level auto: what is chosen, why, and how it is kept."""
+"""Fidelity auto: what is chosen, why, and how it is kept."""
 
 import dataclasses
 import math
@@ -49,7 +49,7 @@ def test_the_resolved_scene_is_concrete(automatic, tight):
     made = tight.apply(automatic(0.01, 1e-3)).fidelity
     assert made.level == "full" and made.method == tight.probe.method
     assert made.max_internal_step_us == pytest.approx(1e6 * tight.probe.max_step)
-    assert prepare(tight.apply(automatic(0.01, 1e-3))).scene.fidelity.level == "full"
+    assert prepare(tight.apply(automatic(0.01, 1e-3))).scene.fidelity.model == "full"
 
 
 def test_the_scenes_tolerance_and_step_are_upper_bounds(automatic):
@@ -125,7 +125,7 @@ def test_a_cache_that_cannot_be_written_costs_time_only(automatic, counted, monk
 def test_resolve_tells_in_the_fmu(automatic, silent, counted):
     assert resolve(silent) == (silent, None)
     scene, choice = resolve(automatic(1.0, 0.1))
-    assert scene.fidelity.level == "full"
+    assert scene.fidelity.model == "full"
     page = documentation.pages(prepare(scene, note=choice.summary))["index.html"].decode()
-    assert "level auto: full / esdirk4" in page
-    assert "level auto" not in documentation.pages(prepare(scene))["index.html"].decode().split("<pre>")[0]
+    assert "fidelity auto: full / esdirk4" in page
+    assert "fidelity auto" not in documentation.pages(prepare(scene))["index.html"].decode().split("<pre>")[0]

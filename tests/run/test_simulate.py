@@ -19,12 +19,12 @@ from fmu_bearing.scene.read import with_fidelity
 
 @pytest.fixture(scope="module")
 def rings(silent):
-    return with_fidelity(silent, level="rings")
+    return with_fidelity(silent, model="rings")
 
 
 @pytest.fixture(scope="module")
 def built(rings, tmp_path_factory):
-    """A function that returns the path of an FMU of the silent scene at level rings."""
+    """A function that returns the path of an FMU of the silent scene at fidelity rings."""
     folder = tmp_path_factory.mktemp("fmu")
 
     def of(flavour):

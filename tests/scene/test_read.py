@@ -87,31 +87,43 @@ def test_a_catalogue_name_fills_what_the_file_leaves_out():
         ("preload_N = 500.0", "preload_N = inf", ["mounting.preload_N = inf", "allowed: 0 to 10000"]),
         ("preload_N = 500.0", 'preload_N = "x"', ["mounting.preload_N = 'x'", "allowed: 0 to 10000"]),
         ("= 1e8 #", "= 0 #", ["mounting.pedestal_stiffness_N_m = 0", "allowed: 10000 to 1e+12"]),
-        ('rung = "bem"', 'rung = "fem"', ["sound.rung = 'fem'", "allowed: paper, paper_vector"]),
-        ('rung = "bem"', 'rung = "table"', ["sound.table_file is missing", '"housing.npz"']),
         (
-            'rung = "bem"',
-            'rung = "bem"\ntable_file = "a.npz"',
-            ["sound.table_file = 'a.npz' is read", 'rung "table" only'],
+            'radiation_model = "bem"',
+            'radiation_model = "fem"',
+            ["sound.radiation_model = 'fem'", "allowed: paper, paper_vector"],
         ),
         (
-            'rung = "bem"\nradiator = "bare"',
-            'rung = "compact"\nradiator = "baffle"',
-            ["sound.radiator = 'baffle' needs", 'rung = "bem"', 'rung "compact" knows no rigid planes'],
+            'radiation_model = "bem"',
+            'radiation_model = "table"',
+            ["sound.table_file is missing", '"housing.npz"'],
         ),
         (
-            'rung = "bem"\nradiator = "bare"',
-            'rung = "compact"\nradiator = "bare"\nreflecting_plane_mm = -50.0',
-            ["sound.reflecting_plane_mm = -50.0 needs", 'rung = "bem"'],
+            'radiation_model = "bem"',
+            'radiation_model = "bem"\ntable_file = "a.npz"',
+            ["sound.table_file = 'a.npz' is read", 'radiation model "table" only'],
         ),
         (
-            'rung = "bem"',
-            'rung = "bem"\nreflecting_plane_mm = -50.0',
+            'radiation_model = "bem"\nradiator = "bare"',
+            'radiation_model = "compact"\nradiator = "baffle"',
+            [
+                "sound.radiator = 'baffle' needs",
+                'radiation_model = "bem"',
+                'radiation model "compact" knows no rigid planes',
+            ],
+        ),
+        (
+            'radiation_model = "bem"\nradiator = "bare"',
+            'radiation_model = "compact"\nradiator = "bare"\nreflecting_plane_mm = -50.0',
+            ["sound.reflecting_plane_mm = -50.0 needs", 'radiation_model = "bem"'],
+        ),
+        (
+            'radiation_model = "bem"',
+            'radiation_model = "bem"\nreflecting_plane_mm = -50.0',
             ["sound.reflecting_plane_mm = -50.0 stands between", "microphone 'P4' at x = -80.5 mm"],
         ),
         (
-            'rung = "bem"',
-            'rung = "bem"\nreflecting_plane_mm = 4.0',
+            'radiation_model = "bem"',
+            'radiation_model = "bem"\nreflecting_plane_mm = 4.0',
             ["sound.reflecting_plane_mm = 4.0 cuts the bearing", "x = -5 to 5 mm"],
         ),
         (
@@ -153,7 +165,9 @@ def test_scenes_are_frozen(scene):
 
 def test_a_table_is_sought_beside_the_scene(tmp_path):
     """Its path counts from the scene file, and one that is not there is refused in one line."""
-    new = text().replace('rung = "bem"', 'rung = "table"\ntable_file = "sub/housing.npz"')
+    new = text().replace(
+        'radiation_model = "bem"', 'radiation_model = "table"\ntable_file = "sub/housing.npz"'
+    )
     file = tmp_path / "scene.toml"
     file.write_text(new, "utf-8")
     found = read_scene(file)

@@ -12,7 +12,7 @@ def test_text_of_the_command_line():
     assert key == "pedestal" and values == pytest.approx([1e6, 10**6.5, 1e7, 10**7.5, 1e8], rel=1e-11)
     assert values[2] == 1e7  # not 10000000.000000002
     assert parse_axis("mounting.preload_N = 500,800, 1200") == ("mounting.preload_N", [500, 800, 1200])
-    assert parse_axis("fidelity.level=rings,full")[1] == ["rings", "full"]
+    assert parse_axis("fidelity.model=rings,full")[1] == ["rings", "full"]
     assert parse_axis("fidelity.terms.drag=true,false")[1] == [True, False]
 
 

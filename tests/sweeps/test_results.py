@@ -39,7 +39,7 @@ def test_dataset_has_axes_units_reasons_and_what_made_it(given):
     )
     torque = data["friction_torque"]
     assert torque.attrs["units"] == "N.m" and torque.attrs["statistic"].startswith("mean")
-    assert float(torque.sel(level="response", speed_rpm=2000, pedestal_stiffness_N_m=1e7)) == 16.0
+    assert float(torque.sel(fidelity="response", speed_rpm=2000, pedestal_stiffness_N_m=1e7)) == 16.0
     flat = torque.values.ravel()
     assert math.isnan(flat[5]) and math.isnan(flat[6]) and np.isfinite(np.delete(flat, [5, 6])).all()
     assert data["reason"].values.ravel()[[4, 5, 6]].tolist() == ["", "no equilibrium", "not run"]

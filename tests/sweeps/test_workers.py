@@ -31,7 +31,7 @@ def test_two_workers_give_the_bits_of_one(silent):
     """Also in another order, and whatever else is in the sweep."""
     axes = {"seed": [1, 2], "speed": [9000, 12000]}
     options = {"settle": 2e-3, "window": 3e-3}
-    rings = with_fidelity(silent, level="rings")
+    rings = with_fidelity(silent, model="rings")
     one = sweep(rings, axes, workers=1, **options)
     two = sweep(rings, {name: values[::-1] for name, values in axes.items()}, workers=2, **options)
     alike = two.sortby(["seed", "speed_rpm"])

@@ -41,7 +41,7 @@ def of(results, outcome):
 
 @pytest.fixture(scope="module")
 def model(scene):
-    return prepare(with_fidelity(scene("7003C-spindle"), level="rings"))
+    return prepare(with_fidelity(scene("7003C-spindle"), fidelity="rings"))
 
 
 @pytest.fixture(scope="module")

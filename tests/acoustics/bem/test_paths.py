@@ -1,4 +1,4 @@
-"""Rung bem on a scene's bodies: paths to microphones, kept solutions, flush faces, refusals."""
+"""Radiation model bem on a scene's bodies: paths to microphones, kept solutions, flush faces, refusals."""
 
 import dataclasses
 import types

@@ -1,0 +1,30 @@
+"""Names that were changed before the first release: whoever uses an old one is told the new one."""
+
+import functools
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+#: Keys of a scene.
+KEYS = {"fidelity.level": "fidelity.model", "sound.rung": "sound.radiation_model"}
+#: Options of the command line.
+OPTIONS = {"--level": "--fidelity", "--rung": "--radiation-model"}
+#: Variables of a bearing.
+VARIABLES = {"level": "fidelity"}
+#: Short names of a sweep's axes.
+AXES = {"level": "fidelity"}
+#: Arguments of public functions.
+ARGUMENTS = {"level": "fidelity", "rung": "radiation_model"}
+
+
+def arguments(function: Function) -> Function:
+    """Decorate a public function: an old argument is refused with a ``TypeError`` that names the new one."""
+
+    @functools.wraps(function)
+    def checked(*given: Any, **named: Any) -> Any:
+        for old in ARGUMENTS.keys() & named.keys():
+            raise TypeError(f"{function.__name__}() has no argument '{old}': it is now '{ARGUMENTS[old]}'")
+        return function(*given, **named)
+
+    return checked  # type: ignore[return-value]

@@ -57,7 +57,7 @@ def test_vibration_is_that_of_level_full(scene, name, rpm, rings, response):
 
 @pytest.mark.parametrize("level", LEVELS)
 def test_a_perfect_bearing_is_silent_at_the_quasi_static_point(scene, level):
-    from tests.engine.test_quasistatic import solve
+    from tests.engine.quasistatic import solve
 
     perfect = quiet(scene("7003C-bare"))
     run = Run(perfect, 20000, P_LEVEL=LEVELS[level], P_GRAVITY=0.0).init()

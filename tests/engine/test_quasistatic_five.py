@@ -7,8 +7,8 @@ from fmu_bearing.engine import layout as at
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.solvers.axial import quasistatic, stiffness_matrix
 from fmu_bearing.engine.solvers.mounted import mounted_equilibrium
-from tests.engine.helpers import quiet
-from tests.engine.test_quasistatic import RPM, Bearing
+from tests.engine.helpers import RPM, quiet
+from tests.engine.quasistatic import Bearing
 from tests.oracles import B7003C, B7009C
 from tests.oracles.jones_harris import JonesHarris
 

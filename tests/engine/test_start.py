@@ -5,7 +5,8 @@ import pytest
 
 from fmu_bearing.engine import layout as at
 from fmu_bearing.engine.start import place_balls
-from tests.engine.test_quasistatic import RPM, Bearing
+from tests.engine.helpers import RPM
+from tests.engine.quasistatic import Bearing
 
 
 @pytest.mark.parametrize("sag", [-3e-6, -2e-3])

@@ -5,7 +5,7 @@ import pytest
 
 from fmu_bearing.engine import layout as at
 from tests.engine.helpers import RPM, Run, quiet
-from tests.engine.test_quasistatic import solve
+from tests.engine.quasistatic import solve
 
 
 @pytest.mark.parametrize(

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from fmu_bearing.engine import layout as at
-from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.solvers import newmark
 from fmu_bearing.engine.solvers.block_arrow import factor
 from fmu_bearing.engine.solvers.jacobian import jacobian
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import prepare
+from tests.engine.explicit import Motion
 from tests.engine.helpers import Run, quiet
 
 RATES = [*range(at.Y_V, at.Y_V + 3), *range(at.Y_V + at.Q_OUTER, at.Y_V + at.Q_OUTER + 3)]
@@ -33,49 +33,12 @@ def smooth(scene):
     return run
 
 
-class Motion:
-    """The right-hand side of one run, and tiny Runge-Kutta steps on it."""
-
-    def __init__(self, run):
-        self.run = run
-        self.c = run.s[at.S_C : at.S_C + at.C_SIZE].copy()
-        self.angle, self.speed = run.s[at.S_ANGLE], run.s[at.S_SPEED]
-
-    def f(self, t, y):
-        out = np.zeros(at.F_SIZE)
-        right_hand_side(self.run.p, self.c, y, self.angle + self.speed * t, self.speed, 0.0, self.run.w, out)
-        return out
-
-    def rate(self, t, y):
-        f, out = self.f(t, y), np.zeros_like(y)
-        out[: newmark.PLACES] = y[newmark.PLACES : 2 * newmark.PLACES]
-        out[newmark.PLACES : at.Y_Q] = f[: at.F_G]
-        out[at.Y_Q : at.Y_V] = y[at.Y_V :]
-        out[at.Y_V :] = f[at.F_G : at.F_WORK]
-        return out
-
-    def exact(self, times, h=4e-8):
-        """States at ``times`` (multiples of ``h``) by classical Runge-Kutta steps of 40 ns."""
-        y, found, n = self.run.s[at.S_Y : at.S_Y + at.Y_SIZE].copy(), {}, 0
-        for time in sorted(times):
-            while n < round(time / h):
-                t = n * h
-                k1 = self.rate(t, y)
-                k2 = self.rate(t + h / 2, y + h / 2 * k1)
-                k3 = self.rate(t + h / 2, y + h / 2 * k2)
-                k4 = self.rate(t + h, y + h * k3)
-                y = y + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
-                n += 1
-            found[time] = y.copy()
-        return found
-
-
 @pytest.mark.heavy
 def test_newmark_converges_with_its_order(scene):
     run = smooth(scene)
     motion = Motion(run)
     begin, end, steps = 16e-6, 96e-6, (8e-6, 4e-6, 2e-6)
-    exact = motion.exact({begin, end, *(begin - k * h for h in steps for k in (1, 2))})
+    exact = motion.exact({begin, end, *(begin - k * h for h in steps for k in (1, 2))}, 4e-8)
     jac, w = np.zeros(at.J_SIZE), np.zeros(at.work_size(run.p))
     start = exact[begin]
     angle = motion.angle + motion.speed * begin

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from fmu_bearing.engine import layout as at
+from tests.engine.explicit import Motion
 from tests.engine.helpers import RPM, Run, quiet
 from tests.engine.quasistatic import solve
 
@@ -107,32 +108,9 @@ def test_results_do_not_depend_on_the_communication_step(scene):
 
 def test_against_tiny_runge_kutta_steps(scene):
     """0.3 ms from the same state by classical RK4 at 20 ns on the same right-hand side."""
-    from fmu_bearing.engine.mechanics.equations import right_hand_side
-
     run = Run(scene("7003C-spindle"), 20000, P_TOLERANCE=1e-4, P_MAX_STEP=5e-6).init()
     run.run(2e-3)
-    y = run.s[at.S_Y : at.S_Y + at.Y_SIZE].copy()
-    c = run.s[at.S_C : at.S_C + at.C_SIZE].copy()
-    angle, speed = run.s[at.S_ANGLE], run.s[at.S_SPEED]
-    f = np.zeros(at.F_SIZE)
-
-    def rate(t, state):
-        right_hand_side(run.p, c, state, angle + speed * t, speed, 0.0, run.w, f)
-        out = np.zeros_like(state)
-        out[: 3 * at.STRIDE] = state[3 * at.STRIDE : 6 * at.STRIDE]
-        out[3 * at.STRIDE : 9 * at.STRIDE] = f[: 6 * at.STRIDE]
-        out[at.Y_Q : at.Y_V] = state[at.Y_V :]
-        out[at.Y_V :] = f[at.F_G : at.F_G + 17]
-        return out
-
-    steps, h = 15000, 2e-8
-    for n in range(steps):
-        t = n * h
-        k1 = rate(t, y)
-        k2 = rate(t + h / 2, y + h / 2 * k1)
-        k3 = rate(t + h / 2, y + h / 2 * k2)
-        k4 = rate(t + h, y + h * k3)
-        y += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+    y = Motion(run).exact({3e-4}, 2e-8)[3e-4]
     before = run.z[:6].copy()
     run.run(3e-4)
     exact = y[[at.Y_V, at.Y_V + 1, at.Y_V + 2, at.Y_V + 5, at.Y_V + 6, at.Y_V + 7]]

@@ -1,0 +1,52 @@
+"""Classical Runge-Kutta steps in plain Python on the engine's right-hand side, for one run at constant speed.
+
+The tests' only integrator: it shares nothing with the engine but the right-hand side, nor with the compiled
+one of the studies' reference trajectory, which is itself held against the engine's.
+"""
+
+import numpy as np
+
+from fmu_bearing.engine import layout as at
+from fmu_bearing.engine.mechanics.equations import right_hand_side
+
+_PLACES = 3 * at.STRIDE  # of the balls: x, r, theta
+
+
+class Motion:
+    """The right-hand side of a run with rigid rings from its present state on, and tiny steps on it."""
+
+    def __init__(self, run):
+        self.p, self.w = run.p, np.zeros(at.work_size(run.p))
+        self.start = run.s[at.S_Y : at.S_Y + at.Y_SIZE].copy()
+        self.c = run.s[at.S_C : at.S_C + at.C_SIZE].copy()
+        self.angle, self.speed = run.s[at.S_ANGLE], run.s[at.S_SPEED]
+
+    def f(self, t, y):
+        """Accelerations, and what else the right-hand side gives, ``t`` (s) after the start."""
+        out = np.zeros(at.F_SIZE)
+        right_hand_side(self.p, self.c, y, self.angle + self.speed * t, self.speed, 0.0, self.w, out)
+        return out
+
+    def rate(self, t, y):
+        """Rates of the state ``y``."""
+        f, out = self.f(t, y), np.zeros_like(y)
+        out[:_PLACES] = y[_PLACES : 2 * _PLACES]
+        out[_PLACES : at.Y_Q] = f[: at.F_G]
+        out[at.Y_Q : at.Y_V] = y[at.Y_V :]
+        out[at.Y_V :] = f[at.F_G : at.F_G + at.N_BODY]
+        return out
+
+    def exact(self, times, h):
+        """States at ``times`` (s, multiples of ``h``) by steps of ``h`` (s)."""
+        y, found, n = self.start.copy(), {}, 0
+        for time in sorted(times):
+            while n < round(time / h):
+                t = n * h
+                k1 = self.rate(t, y)
+                k2 = self.rate(t + h / 2, y + h / 2 * k1)
+                k3 = self.rate(t + h / 2, y + h / 2 * k2)
+                k4 = self.rate(t + h, y + h * k3)
+                y = y + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+                n += 1
+            found[time] = y.copy()
+        return found

@@ -14,6 +14,7 @@ import fmpy
 import pytest
 
 import fmu_bearing
+from fmu_bearing.engine import layout as at
 from fmu_bearing.engine.jit import cache_directory
 from fmu_bearing.fmi import resources
 from fmu_bearing.fmi.native.platforms import host
@@ -186,12 +187,17 @@ def test_two_scenes_in_one_process(unpacked, flavour, scene_file, tmp_path, mast
 
 def test_library_serves_every_scene(unpack, model, tmp_path):
     # of a native build, only model.bin differs
-    other = build(dataclasses.replace(model, parameters=model.parameters * 1.0), tmp_path / "o.fmu", "native")
+    numbers = model.parameters.copy()
+    numbers[at.P_MU] *= 0.5
+    other = build(dataclasses.replace(model, parameters=numbers), tmp_path / "o.fmu", "native")
     unpacked = unpack("native")
+    libraries = list(unpacked.glob("binaries/*/*"))
+    assert libraries
     with zipfile.ZipFile(other.path) as archive:
-        for library in unpacked.glob("binaries/*/*"):
+        for library in libraries:
             name = library.relative_to(unpacked).as_posix()
             assert archive.read(name) == library.read_bytes()
+        assert archive.read("resources/model.bin") != (unpacked / "resources" / "model.bin").read_bytes()
 
 
 def test_blanks_in_paths(fmu, tmp_path):

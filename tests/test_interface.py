@@ -41,7 +41,7 @@ def test_names_of_the_contract_are_there(scene):
     assert {
         "friction_torque", "heat.inner_ring", "heat.outer_ring", "heat.oil", "cage.speed_ratio",
         "film.lambda_min", "stiffness.axial", "stiffness.radial", "rotor.inertia", "solver.steps",
-        "solver.rejected", "energy.residual", "level", "tolerance", "max_internal_step",
+        "solver.rejected", "energy.residual", "fidelity", "tolerance", "max_internal_step",
         "imperfection.scale", "imperfection.seed", "sound.time_weighting", "sound.metering_start",
         "lubricant.viscosity_ref", "radiator",
     } <= names  # fmt: skip
@@ -82,15 +82,15 @@ def test_what_a_scene_leaves_out_has_no_variable(scene):
 def test_what_the_model_was_built_as_is_a_constant(scene):
     bare = scene("7003C-bare")
     found = table(bare)
-    for name in ("level", "method"):
+    for name in ("fidelity", "method"):
         variable = found[name]
         assert (variable.causality, variable.variability, variable.type) == ("local", "constant", "Integer")
         assert (variable.array, variable.value) == ("", 0)
-    fidelity = bare.fidelity.model_copy(update={"level": "response", "method": "rk4"})
+    fidelity = bare.fidelity.model_copy(update={"model": "response", "method": "rk4"})
     found = table(bare.model_copy(update={"fidelity": fidelity}))
-    assert (found["level"].value, found["method"].value) == (2, 3)
+    assert (found["fidelity"].value, found["method"].value) == (2, 3)
     assert found["method"].description == "Integrator of fidelity full: 0 esdirk4, 1 fast, 2 trbdf2, 3 rk4"
-    assert found["level"].description == "Fidelity: 0 full, 1 rings, 2 response"
+    assert found["fidelity"].description == "Fidelity: 0 full, 1 rings, 2 response"
 
 
 def test_details_of_contacts_cage_and_torque(scene):

@@ -21,10 +21,12 @@ def test_errors_shrink_with_the_step_and_the_reference_is_sure(study):
     coarse, fine, response, strip = study.rows
     assert study.pair < 1e-6 and study.agreement < 1e-5 and study.reference_error < 1e-6
     assert 0.0 < fine.trajectory < 0.3 * coarse.trajectory < 1e-3
-    assert fine.errors.ring_rms < coarse.errors.ring_rms + 1e-6
+    # a quarter of the step at a tenth of the tolerance: 1e-5 after 6e-4
+    assert fine.errors.ring_rms < 0.1 * coarse.errors.ring_rms
     assert coarse.wall > 0.0 and coarse.cpu > 0.0
-    assert math.isnan(response.trajectory)
-    assert (response.errors is None) == bool(response.remark)
+    # the settled answer, in 2 ms after a start that still rings: 29 % of the rings' motion is missing
+    assert math.isnan(response.trajectory) and response.remark == ""
+    assert 0.1 < response.errors.ring_rms < 0.5
     # one strip knows no spin: it loses a good part of the torque
     assert strip.errors.torque > 0.02 > coarse.errors.torque
 
@@ -53,8 +55,8 @@ def test_the_sweep_is_no_factorial_and_every_setting_is_a_scene(silent):
     assert 25 <= len(SETTINGS) <= 40 and len(set(SETTINGS)) == len(SETTINGS)
     for setting in (*SETTINGS, *QUICK, REFERENCE, WITNESS):
         made = setting.scene(silent).fidelity
-        assert (made.level, made.method, made.traction_strips) == (
-            setting.level,
+        assert (made.model, made.method, made.traction_strips) == (
+            setting.fidelity,
             setting.method,
             setting.strips,
         )

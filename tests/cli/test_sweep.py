@@ -13,7 +13,9 @@ QUICK = ("--settle", 0, "--window", 0.002, "-v", "friction_torque,contact.*.load
 
 
 def test_a_sweep_writes_its_results_and_goes_on_from_its_own_file(run, silent_file, tmp_path):
-    first = run("sweep", silent_file, "-a", "speed=5000:9000:2", "-a", "level=rings", *QUICK, "-o", tmp_path)
+    first = run(
+        "sweep", silent_file, "-a", "speed=5000:9000:2", "-a", "fidelity=rings", *QUICK, "-o", tmp_path
+    )
     assert first.exit_code == 0 and "2 of 2 points, 0 refused" in first.stdout
     assert {path.name for path in tmp_path.iterdir()} == {
         "points", "scene.toml", "sweep.toml", "sweep.nc", "sweep.csv", "sweep.png",
@@ -32,7 +34,7 @@ def test_a_sweep_writes_its_results_and_goes_on_from_its_own_file(run, silent_fi
 
 def test_a_dry_run_runs_one_point_and_writes_nothing(run, silent_file, tmp_path):
     folder = tmp_path / "none"
-    axes = ("-a", "level=response", "-a", "preload=100:1000:10", "-a", "speed=1000:9000:100")
+    axes = ("-a", "fidelity=response", "-a", "preload=100:1000:10", "-a", "speed=1000:9000:100")
     result = run("sweep", silent_file, *axes, *QUICK, "-o", folder, "--dry-run", "--json")
     assert result.exit_code == 0 and not folder.exists()
     data = result.data
@@ -48,7 +50,7 @@ def test_a_dry_run_runs_one_point_and_writes_nothing(run, silent_file, tmp_path)
         (("-a", "speed=1,2", "-a", "speed=3"), "an axis is given twice"),
         ((), "a sweep needs an axis, for example --axis speed=8000:40000:9"),
         (("-a", "speed=1,2", "-v", "frction_torque"), "did you mean 'friction_torque'?"),
-        (("-a", "level=rings", "-a", "speed=1,2", "--scheduler", "here"), "such as tcp://host:8786"),
+        (("-a", "fidelity=rings", "-a", "speed=1,2", "--scheduler", "here"), "such as tcp://host:8786"),
     ],
 )  # fmt: skip
 def test_refusals_are_one_line(run, silent_file, tmp_path, arguments, told):
@@ -59,7 +61,7 @@ def test_refusals_are_one_line(run, silent_file, tmp_path, arguments, told):
 
 
 def test_refused_points_are_counted_with_their_reason(run, silent_file, tmp_path):
-    axes = ("-a", "level=rings", "-a", "mounting.radial_load_z_N=0,-3000", "-a", "pedestal=1e4")
+    axes = ("-a", "fidelity=rings", "-a", "mounting.radial_load_z_N=0,-3000", "-a", "pedestal=1e4")
     result = run("sweep", silent_file, *axes, *QUICK, "-o", tmp_path, "--json")
     assert result.exit_code == 0
     assert result.data["finished"] == 2 and result.data["refused"] >= 1
@@ -72,7 +74,17 @@ def test_ctrl_c_ends_with_130_and_says_how_to_go_on(silent_file, tmp_path, monke
         raise KeyboardInterrupt
 
     monkeypatch.setattr(runs, "here", one_then_ctrl_c)
-    arguments = ["sweep", silent_file, "-a", "speed=5000,9000", "-a", "level=rings", *QUICK, "-o", tmp_path]
+    arguments = [
+        "sweep",
+        silent_file,
+        "-a",
+        "speed=5000,9000",
+        "-a",
+        "fidelity=rings",
+        *QUICK,
+        "-o",
+        tmp_path,
+    ]
     result = CliRunner().invoke(cli.app, [str(argument) for argument in arguments])
     assert result.exit_code == 130
     again = f"fmu-bearing sweep {tmp_path / 'sweep.toml'} -o {tmp_path}"

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from fmu_bearing.engine.choices import METHODS
-from fmu_bearing.engine.fidelities.full.fast import newmark
-from fmu_bearing.engine.layout import A, C, F, J, Q, S, U, W, Y
-from fmu_bearing.engine.mechanics.equations import right_hand_side
+from fmu_bearing.engine.fidelities.full.methods import newmark
+from fmu_bearing.engine.layout import A, F, J, Q, S, U, W, Y
 from fmu_bearing.engine.newton.block_arrow import factor
 from fmu_bearing.engine.newton.jacobian import jacobian
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import prepare
+from tests.engine.explicit import Motion
 from tests.engine.helpers import Run, quiet
 
 RATES = [*range(Y.V0, Y.V0 + 3), *range(Y.V0 + Q.OUTER, Y.V0 + Q.OUTER + 3)]
@@ -34,49 +34,12 @@ def smooth(scene):
     return run
 
 
-class Motion:
-    """The right-hand side of one run, and tiny Runge-Kutta steps on it."""
-
-    def __init__(self, run):
-        self.run = run
-        self.c = run.s[S.C : S.C + C.SIZE].copy()
-        self.angle, self.speed = run.s[S.ANGLE], run.s[S.SPEED]
-
-    def f(self, t, y):
-        out = np.zeros(F.SIZE)
-        right_hand_side(self.run.p, self.c, y, self.angle + self.speed * t, self.speed, 0.0, self.run.w, out)
-        return out
-
-    def rate(self, t, y):
-        f, out = self.f(t, y), np.zeros_like(y)
-        out[: newmark.PLACES] = y[newmark.PLACES : 2 * newmark.PLACES]
-        out[newmark.PLACES : Y.Q0] = f[: F.BODY]
-        out[Y.Q0 : Y.V0] = y[Y.V0 :]
-        out[Y.V0 :] = f[F.BODY : F.WORK]
-        return out
-
-    def exact(self, times, h=4e-8):
-        """States at ``times`` (multiples of ``h``) by classical Runge-Kutta steps of 40 ns."""
-        y, found, n = self.run.s[S.Y : S.Y + Y.SIZE].copy(), {}, 0
-        for time in sorted(times):
-            while n < round(time / h):
-                t = n * h
-                k1 = self.rate(t, y)
-                k2 = self.rate(t + h / 2, y + h / 2 * k1)
-                k3 = self.rate(t + h / 2, y + h / 2 * k2)
-                k4 = self.rate(t + h, y + h * k3)
-                y = y + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
-                n += 1
-            found[time] = y.copy()
-        return found
-
-
 @pytest.mark.heavy
 def test_newmark_converges_with_its_order(scene):
     run = smooth(scene)
     motion = Motion(run)
     begin, end, steps = 16e-6, 96e-6, (8e-6, 4e-6, 2e-6)
-    exact = motion.exact({begin, end, *(begin - k * h for h in steps for k in (1, 2))})
+    exact = motion.exact({begin, end, *(begin - k * h for h in steps for k in (1, 2))}, 4e-8)
     jac, w = np.zeros(J.SIZE), np.zeros(W.size(run.p))
     start = exact[begin]
     angle = motion.angle + motion.speed * begin

@@ -425,7 +425,7 @@ def test_shape_at_the_groove_centre(scene):
 
 @pytest.mark.parametrize(
     ("values", "key"),
-    [({"level": "rings"}, "level"), ({"level": "response"}, "level"), ({"method": "fast"}, "method")],
+    [({"model": "rings"}, "model"), ({"model": "response"}, "model"), ({"method": "fast"}, "method")],
 )
 def test_what_knows_rigid_rings_only_is_refused(scene, values, key):
     flexible = bending(quiet(scene(SCENE)), outer=(2,))
@@ -441,7 +441,7 @@ def test_level_auto_leaves_out_what_cannot_bend(scene):
     assert all(c.carries(rigid) for c in CANDIDATES)
     left = [c for c in CANDIDATES if c.carries(flexible)]
     assert left
-    assert {(c.level, c.method) for c in left} == {("full", "esdirk4")}
+    assert {(c.fidelity, c.method) for c in left} == {("full", "esdirk4")}
     with_fidelity(flexible, model="auto", method="fast")  # the candidates bring their own methods
 
 

@@ -6,7 +6,7 @@ from scipy.linalg import eigh
 
 from fmu_bearing.engine.layout import P
 from fmu_bearing.prepare.model import pack
-from tests.engine.test_quasistatic import solve
+from tests.engine.quasistatic import solve
 
 
 def test_first_lateral_mode_is_at_28000_rpm(scene):

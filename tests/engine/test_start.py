@@ -6,7 +6,8 @@ import pytest
 from fmu_bearing.engine.layout import EQ, P, Q, Y
 from fmu_bearing.engine.layout.sizes import STRIDE
 from fmu_bearing.engine.statics.place import place_balls
-from tests.engine.test_quasistatic import RPM, Bearing
+from tests.engine.helpers import RPM
+from tests.engine.quasistatic import Bearing
 
 
 @pytest.mark.parametrize("sag", [-3e-6, -2e-3])

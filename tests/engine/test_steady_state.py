@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from fmu_bearing.engine.layout import C, F, S, U, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import U, Y
+from tests.engine.explicit import Motion
 from tests.engine.helpers import RPM, Run, quiet
-from tests.engine.test_quasistatic import solve
+from tests.engine.quasistatic import solve
 
 
 @pytest.mark.parametrize(
@@ -108,32 +108,9 @@ def test_results_do_not_depend_on_the_communication_step(scene):
 
 def test_against_tiny_runge_kutta_steps(scene):
     """0.3 ms from the same state by classical RK4 at 20 ns on the same right-hand side."""
-    from fmu_bearing.engine.mechanics.equations import right_hand_side
-
     run = Run(scene("7003C-spindle"), 20000, TOLERANCE=1e-4, MAX_STEP=5e-6).init()
     run.run(2e-3)
-    y = run.s[S.Y : S.Y + Y.SIZE].copy()
-    c = run.s[S.C : S.C + C.SIZE].copy()
-    angle, speed = run.s[S.ANGLE], run.s[S.SPEED]
-    f = np.zeros(F.SIZE)
-
-    def rate(t, state):
-        right_hand_side(run.p, c, state, angle + speed * t, speed, 0.0, run.w, f)
-        out = np.zeros_like(state)
-        out[: 3 * STRIDE] = state[3 * STRIDE : 6 * STRIDE]
-        out[3 * STRIDE : 9 * STRIDE] = f[: 6 * STRIDE]
-        out[Y.Q0 : Y.V0] = state[Y.V0 :]
-        out[Y.V0 :] = f[F.BODY : F.BODY + 17]
-        return out
-
-    steps, h = 15000, 2e-8
-    for n in range(steps):
-        t = n * h
-        k1 = rate(t, y)
-        k2 = rate(t + h / 2, y + h / 2 * k1)
-        k3 = rate(t + h / 2, y + h / 2 * k2)
-        k4 = rate(t + h, y + h * k3)
-        y += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+    y = Motion(run).exact({3e-4}, 2e-8)[3e-4]
     before = run.z[:6].copy()
     run.run(3e-4)
     exact = y[[Y.V0, Y.V0 + 1, Y.V0 + 2, Y.V0 + 5, Y.V0 + 6, Y.V0 + 7]]

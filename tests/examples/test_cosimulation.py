@@ -84,8 +84,9 @@ def test_communication_step_does_not_matter(together):
     coarse, _ = together(communication_step=1e-3)
     for name in ("shaft_speed", "friction_torque", "oil_temperature"):
         there = np.interp(coarse["time"], fine["time"], fine[name])
-        # exchange once per step is of first order: 1 ms on a loop of 8 ms and heat that grows in 0.3 s
-        assert coarse[name] == pytest.approx(there, rel=5e-3)
+        # Exchange once per step is of first order: 1 ms on a loop of 8 ms and heat that grows in 0.3 s. Held
+        # against what each changes by, 3 K of 298 K; the oil is 0.14 % of that off.
+        assert coarse[name] == pytest.approx(there, rel=0, abs=5e-3 * np.ptp(there)), name
 
 
 def test_a_refusal_names_the_fmu_and_ends_the_run(together):

@@ -1,11 +1,12 @@
-"""The table of extreme cases. A level or a method that arrives later joins ``COMPUTED`` and runs them all.
+"""The table of extreme cases. A fidelity or a method that arrives later joins ``COMPUTED`` and runs them all.
 
 Each case: a scene, changes to it, inputs at the start, then legs (duration in s, new inputs, communication
-step in s). ``per_ms`` bounds the internal steps, accepted and rejected, in any leg per simulated ms: about
-three times what ESDIRK4 needs, so that a policy that begins to thrash is seen, on any machine.
+step in s). Every fidelity and method finishes it but those in ``refused``. ``per_ms`` bounds the internal steps,
+accepted and rejected, in any leg per simulated ms: about three times what ESDIRK4 needs, so that a policy
+that begins to thrash is seen, on any machine.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from tests.extremes.bearings import PERFECT, SILENT
 
@@ -20,6 +21,7 @@ COMPUTED = (
 FULL = tuple(pair for pair in COMPUTED if pair[0] == "full")
 #: Explicit steps are as short as 0.1 us: a few cases, in the heavy tests.
 EXPLICIT = ("full", "rk4")
+RINGS = ("rings", "esdirk4")
 #: Their internal steps against ESDIRK4's: TR-BDF2 is of second order and needs up to five times as many.
 WORK = {
     ("full", "esdirk4"): 1.0,
@@ -32,7 +34,42 @@ WORK = {
 #: Differences between runs of the same case: TR-BDF2 damps the rings' modes where its steps are long.
 SLACK = {"trbdf2": 3.0}
 
+# What a refusal says.
+UNSOLVED = "the equations could not be solved"
+NO_START = "no quasi-static equilibrium was found"
+
+
+@dataclass(frozen=True)
+class Refusal:
+    """How a case ends that a fidelity or method does not carry.
+
+    Attributes
+    ----------
+    reason : str
+        Pattern of what the refusal says.
+    legs : int
+        Legs that are computed before it.
+    """
+
+    reason: str
+    legs: int = 0
+
+
+# Where cases are hard for fidelity rings or explicit steps, speed, loads and temperatures were moved at
+# random by 1e-12 to 1e-6 of themselves, a dozen times: no verdict changed, so rounding (1e-16), which differs
+# between machines, turns none.
+
+#: Fidelity rings balances each ball between both races: a ball that leaves the inner one has no place there.
+LIFTED = Refusal(UNSOLVED)
+#: The same for all balls from the start on. Rounding decides whether the start or the first leg says so.
+ALL_LIFTED = Refusal(f"{NO_START}|{UNSOLVED}")
+#: Sliding friction at rest, as stiff as load over mass of a ball: steps of 12 ns on the 7003C, of which the
+#: 7,000 that a call of 100 us may take reach 81 us. The 7009C's balls, less loaded and heavier, allow 120 ns.
+TOO_STIFF = Refusal(UNSOLVED)
+
 DRY = {"fidelity.terms.land_film": False, "bearing.cage.pocket_damping_N_s_m": 0.0}
+#: Surfaces that both run forwards through a contact slide by no more than twice their mean speed.
+FORWARDS = 2.0
 
 
 @dataclass(frozen=True)
@@ -46,8 +83,9 @@ class Case:
     legs: tuple = ((5e-3, {}, 1e-4),)
     per_ms: float = 300.0
     per_ms_rings: float = 700.0  # the same for fidelity rings, whose steps follow the rings' modes
-    refusing: tuple = ()  # levels that may refuse the case: they have no equations for open contacts
+    refused: dict = field(default_factory=dict)  # fidelity and method: Refusal
     perfect: bool = False
+    slip: float = FORWARDS  # bound on the mean sliding over entrainment at a race
     energy: float = 1e-3  # bound on the energy residual over the energy turned over
 
     @property
@@ -56,24 +94,28 @@ class Case:
         return (PERFECT if self.perfect else SILENT) | self.changes
 
 
-def _both(name, **more):
-    """One case for either bearing."""
+def _both(name, small=None, large=None, **more):
+    """One case for either bearing; ``small``, ``large``: what refuses it on the 7003C, on the 7009C."""
     return [
-        Case(f"{name}, 7003C", **more),
-        Case(f"{name}, 7009C", scene="7009C-full-ceramic", **more),
+        Case(f"{name}, 7003C", refused=small or {}, **more),
+        Case(f"{name}, 7009C", scene="7009C-full-ceramic", refused=large or {}, **more),
     ]
 
 
 CASES = [
-    *_both("standstill", start={"rpm": 0.0}),
-    *_both("1 r/min", start={"rpm": 1.0}),
+    *_both("standstill", {EXPLICIT: TOO_STIFF}, start={"rpm": 0.0}),
+    *_both("1 r/min", {EXPLICIT: TOO_STIFF}, start={"rpm": 1.0}),
     *_both("100 r/min", start={"rpm": 100.0}),
-    *_both("100000 r/min", start={"rpm": 1e5}, per_ms=500.0, refusing=("rings",)),
+    # 650 N of centrifugal force on each of the 7009C's balls, 21 N of preload: some leave the inner race
+    *_both("100000 r/min", large={RINGS: LIFTED}, start={"rpm": 1e5}, per_ms=500.0),
     *_both("backwards", start={"rpm": -2e4}),
     *_both(
         "reversal in 5 ms",
         start={"rpm": 2e4},
         legs=((1e-3, {}, 1e-4), (5e-3, {"rpm": -2e4}, 5e-3), (3e-3, {}, 1e-4)),
+        # balls that still spin as before against a ring that turns the other way: entrainment passes zero
+        # while all of the surface speed slides. 2.9 on the 7009C, whose light preload lets its balls skid.
+        slip=10.0,
     ),
     *_both(
         "10000 to 40000 r/min in 1 ms",
@@ -85,27 +127,34 @@ CASES = [
         start={"rpm": 0.0},
         legs=((1e-3, {}, 1e-4), (1e-3, {"rpm": 1e5}, 1e-3), (2e-3, {}, 1e-4)),
     ),
-    *_both("no preload at speed", start={"rpm": 2e4, "preload": 0.0}, refusing=("rings",)),
-    *_both("no preload at standstill", start={"rpm": 0.0, "preload": 0.0}, refusing=("rings",)),
-    Case("no preload at 100000 r/min", start={"rpm": 1e5, "preload": 0.0}, per_ms=600.0, refusing=("rings",)),
+    *_both("no preload at speed", start={"rpm": 2e4, "preload": 0.0}),
+    # nothing rolls there, and loose balls slide by millimetres per second as the rings settle, over the
+    # 0.1 mm/s by which entrainment is rounded: 23 at most
+    *_both("no preload at standstill", start={"rpm": 0.0, "preload": 0.0}, slip=50.0),
+    Case(
+        "no preload at 100000 r/min",
+        start={"rpm": 1e5, "preload": 0.0},
+        per_ms=600.0,
+        refused={RINGS: ALL_LIFTED},
+    ),
     Case(
         "preload taken away and given back",
         start={"rpm": 2e4},
         legs=((1e-3, {}, 1e-4), (2e-3, {"preload": 0.0}, 1e-4), (2e-3, {"preload": 500.0}, 1e-4)),
         per_ms=1000.0,
-        refusing=("rings",),
+        refused={RINGS: replace(LIFTED, legs=1)},  # in the leg without preload
     ),
     *_both("preload 10 kN", start={"rpm": 2e4, "preload": 1e4}),
     *_both("radial 3 kN at the start", start={"rpm": 2e4, "radial_load.y": 3e3}, per_ms=700.0),
     *_both(
         "radial 3 kN from one step to the next",
+        large={RINGS: replace(LIFTED, legs=2)},  # freed of the load the rings spring apart
         start={"rpm": 2e4},
         legs=((1e-3, {}, 1e-4), (3e-3, {"radial_load.z": -3e3}, 1e-4), (1e-3, {"radial_load.z": 0.0}, 1e-4)),
         per_ms=1800.0,
         per_ms_rings=3000.0,  # balls leave the races and come back
-        refusing=("rings",),
     ),
-    *_both("soft pedestal", start={"rpm": 2e4, "pedestal_stiffness": 1e4}, refusing=("rings",)),
+    *_both("soft pedestal", start={"rpm": 2e4, "pedestal_stiffness": 1e4}),
     *_both("rigid pedestal", start={"rpm": 2e4, "pedestal_stiffness": 1e12}, per_ms_rings=12e3),
     *_both("no contact damping", changes={"bearing.contact_damping_us": 0.0}),
     *_both("contact damping 25 us", changes={"bearing.contact_damping_us": 25.0}),
@@ -116,3 +165,5 @@ CASES = [
     Case("rings 150 K apart, inner hot", start={"inner_ring_temperature": 443.15}),
     Case("rings 150 K apart, outer hot", start={"outer_ring_temperature": 443.15}),
 ]
+#: Slow and reversing: where explicit steps are shortest.
+SLOW = [case for case in CASES if case.name.startswith(("standstill", "1 r/min", "backwards", "reversal"))]

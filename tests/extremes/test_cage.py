@@ -10,20 +10,20 @@ from tests.extremes.cases import DRY, FULL, SLACK
 CAGE = [f"cage.velocity.{axis}" for axis in "xyz"]
 
 
-def pair(changes, level, method, push, rpm=2e4):
+def pair(changes, fidelity, method, push, rpm=2e4):
     """Two bearings alike but for the cage's first velocity, m/s."""
     runs = []
     for given in (0.0, push):
-        run = bearing("7003C-spindle", SILENT | changes, {"rpm": rpm}, level, method)
+        run = bearing("7003C-spindle", SILENT | changes, {"rpm": rpm}, fidelity, method)
         run.initialise()
         run.s[S.Y + Y.V0 + Q.CAGE + 1] += given
         runs.append(run)
     return runs
 
 
-@pytest.mark.parametrize(("level", "method"), FULL)
-def test_a_lubricated_cage_is_contractive(level, method):
-    one, other = pair({}, level, method, 1e-3)
+@pytest.mark.parametrize(("fidelity", "method"), FULL)
+def test_a_lubricated_cage_is_contractive(fidelity, method):
+    one, other = pair({}, fidelity, method, 1e-3)
     first = drive(one, 2e-3, 1e-4), drive(other, 2e-3, 1e-4)
     drive(one, 0.05, 1e-3), drive(other, 0.05, 1e-3)
     last = drive(one, 2e-3, 1e-4), drive(other, 2e-3, 1e-4)
@@ -36,10 +36,10 @@ def test_a_lubricated_cage_is_contractive(level, method):
 
 
 @pytest.mark.heavy
-@pytest.mark.parametrize(("level", "method"), FULL)
-def test_a_dry_cage_keeps_its_statistics(level, method):
+@pytest.mark.parametrize(("fidelity", "method"), FULL)
+def test_a_dry_cage_keeps_its_statistics(fidelity, method):
     """Trajectories part, so only means and rms over 0.2 s are compared, two starts of the same bearing."""
-    runs = pair(DRY, level, method, 1e-3)
+    runs = pair(DRY, fidelity, method, 1e-3)
     found = []
     for run in runs:
         drive(run, 0.05, 1e-3)

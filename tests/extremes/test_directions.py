@@ -97,11 +97,11 @@ def test_pedestal():
         assert found["outer_ring.displacement.x"] == pytest.approx(500.0 / stiffness, rel=2e-3)
 
 
-@pytest.mark.parametrize(("level", "method"), COMPUTED)
+@pytest.mark.parametrize(("fidelity", "method"), COMPUTED)
 @pytest.mark.parametrize("rpm", [2e4, -2e4])
-def test_heats_carry_the_shaft_power(level, method, rpm):
+def test_heats_carry_the_shaft_power(fidelity, method, rpm):
     """Settled, all of the shaft's power becomes heat: torque times speed against the three heats."""
-    run = bearing("7003C-bare", PERFECT, {"rpm": rpm}, level, method)
+    run = bearing("7003C-bare", PERFECT, {"rpm": rpm}, fidelity, method)
     run.initialise()
     drive(run, 0.02, 1e-4)
     trace = drive(run, 0.01, 1e-4)

@@ -67,9 +67,9 @@ def astray(run):
     return max(across, wanted) > 1e-3
 
 
-def walk(scene, start, moves, level, method):
+def walk(scene, start, moves, fidelity, method):
     """Initialise, then one input and one step after the other; every refusal is undone and gone on from."""
-    run = bearing(scene, {"sound": None}, {}, level, method)
+    run = bearing(scene, {"sound": None}, {}, fidelity, method)
     for name, value in start.items():
         put(run, name, value)
     try:
@@ -96,7 +96,7 @@ def walk(scene, start, moves, level, method):
                 run.reset()
                 run.initialise()
             run.step(1e-6)
-        assert work(run) - before <= most * WORK[level, method]
+        assert work(run) - before <= most * WORK[fidelity, method]
         assert np.isfinite(run.z).all() and np.isfinite(run.s).all()
         for side in ("inner", "outer"):
             assert run.get(f"contact.{side}.load_mean") >= 0.0
@@ -115,33 +115,33 @@ LONG = {"deadline": None, "suppress_health_check": _HEALTH}
 CONDENSED = [pair for pair in COMPUTED if pair not in FULL]
 
 
-@pytest.mark.parametrize(("level", "method"), FULL)
+@pytest.mark.parametrize(("fidelity", "method"), FULL)
 @settings(max_examples=25, **QUICK)
 @given(start=STARTS, moves=st.lists(MOVES, min_size=1, max_size=12))
-def test_a_short_walk(level, method, start, moves):
-    walk("7003C-bare", start, moves, level, method)
+def test_a_short_walk(fidelity, method, start, moves):
+    walk("7003C-bare", start, moves, fidelity, method)
 
 
-@pytest.mark.parametrize(("level", "method"), CONDENSED)
+@pytest.mark.parametrize(("fidelity", "method"), CONDENSED)
 @settings(max_examples=10, **QUICK)
 @given(start=STARTS, moves=st.lists(MOVES, min_size=1, max_size=6))
-def test_a_short_walk_of_condensed_levels(level, method, start, moves):
-    walk("7003C-bare", start, moves, level, method)
+def test_a_short_walk_of_condensed_fidelities(fidelity, method, start, moves):
+    walk("7003C-bare", start, moves, fidelity, method)
 
 
 @pytest.mark.heavy
-@pytest.mark.parametrize(("level", "method"), FULL)
+@pytest.mark.parametrize(("fidelity", "method"), FULL)
 @pytest.mark.parametrize("scene", ["7003C-bare", "7003C-spindle", "7009C-full-ceramic"])
 @settings(max_examples=8, **LONG)
 @given(start=STARTS, moves=st.lists(MOVES, min_size=10, max_size=30))
-def test_a_long_walk(scene, level, method, start, moves):
-    walk(scene, start, moves, level, method)
+def test_a_long_walk(scene, fidelity, method, start, moves):
+    walk(scene, start, moves, fidelity, method)
 
 
 @pytest.mark.heavy
-@pytest.mark.parametrize(("level", "method"), CONDENSED)
+@pytest.mark.parametrize(("fidelity", "method"), CONDENSED)
 @pytest.mark.parametrize("scene", ["7003C-spindle", "7009C-full-ceramic"])
 @settings(max_examples=5, **LONG)
 @given(start=STARTS, moves=st.lists(MOVES, min_size=5, max_size=12))
-def test_a_long_walk_of_condensed_levels(scene, level, method, start, moves):
-    walk(scene, start, moves, level, method)
+def test_a_long_walk_of_condensed_fidelities(scene, fidelity, method, start, moves):
+    walk(scene, start, moves, fidelity, method)

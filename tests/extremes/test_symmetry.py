@@ -27,9 +27,9 @@ def wavy(phase):
     return {**flaws, "inner_race_harmonic": rows, "outer_race_harmonic": rows[1:]}
 
 
-def turning(changes, rpm, mirror, level, method):
+def turning(changes, rpm, mirror, fidelity, method):
     """A bearing under a load in both directions, or its mirror image."""
-    model = prepare(edited("7003C-bare", changes), fidelity=level, method=method)
+    model = prepare(edited("7003C-bare", changes), fidelity=fidelity, method=method)
     if mirror:
         numbers = model.parameters.copy()
         first, balls = int(numbers[P.AT_OVERSIZE]), int(numbers[P.BALLS])
@@ -60,25 +60,25 @@ def agree(one, other, share):
         size = np.abs(left).max()
         if name in RINGS:
             size = np.abs(one.columns(RINGS)).max()
-        # 1 nm/s, 1 pm and such are rounding: a perfect bearing on a condensed level hardly moves at all
+        # 1 nm/s, 1 pm and such are rounding: a perfect bearing on a condensed fidelity hardly moves at all
         floor = 1e-9 if "velocity" in name else 1e-12
         assert np.abs(left - right).max() <= share * size + floor, (k, name)
 
 
-@pytest.mark.parametrize(("level", "method"), COMPUTED)
-def test_a_perfect_bearing_turned_backwards_is_the_mirror_image(level, method):
-    forward, backward = (turning(PERFECT, 2e4, mirror, level, method) for mirror in (False, True))
+@pytest.mark.parametrize(("fidelity", "method"), COMPUTED)
+def test_a_perfect_bearing_turned_backwards_is_the_mirror_image(fidelity, method):
+    forward, backward = (turning(PERFECT, 2e4, mirror, fidelity, method) for mirror in (False, True))
     agree(forward, backward, 1e-4)
 
 
-@pytest.mark.parametrize(("level", "method"), COMPUTED)
-def test_an_imperfect_bearing_and_its_mirror_image(level, method):
+@pytest.mark.parametrize(("fidelity", "method"), COMPUTED)
+def test_an_imperfect_bearing_and_its_mirror_image(fidelity, method):
     runs = [
-        turning(SILENT | {"imperfections": wavy(phase)}, 2e4, phase < 0.0, level, method)
+        turning(SILENT | {"imperfections": wavy(phase)}, 2e4, phase < 0.0, fidelity, method)
         for phase in (1.0, -1.0)
     ]
     agree(*runs, 1e-4)
     # it is the mirrored waviness that does it: the same waves turned backwards are another bearing
-    same = turning(SILENT | {"imperfections": wavy(1.0)}, 2e4, True, level, method)
+    same = turning(SILENT | {"imperfections": wavy(1.0)}, 2e4, True, fidelity, method)
     with pytest.raises(AssertionError):
         agree(runs[0], same, 1e-2)

@@ -170,7 +170,7 @@ def test_unknown_unit_is_named(model):
 
 def test_level_is_chosen_by_name(tree):
     declared = {v.get("name"): v[0].get("declaredType") for v in tree.iter("ScalarVariable")}
-    assert declared["level"] == ENUMERATIONS["level"][0]
+    assert declared["fidelity"] == ENUMERATIONS["fidelity"][0]
     assert tree.find("TypeDefinitions/SimpleType/Enumeration/Item").attrib["name"] == "full"
 
 

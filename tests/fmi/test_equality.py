@@ -12,26 +12,7 @@ from fmu_bearing.prepare.model import prepare
 from fmu_bearing.scene import read_scene
 
 from .conftest import DEFAULT_SCENE, OK, Master
-
-SIZE = 1e-4  # s
-STEPS = 60
-FROM, TO = 200.0, 2000.0  # rad/s
-
-
-def speed(i):
-    """Of the shaft at the end of step i: it rises each step."""
-    return FROM + (TO - FROM) * (i + 1) / STEPS
-
-
-def run_up(bearing, begin=0, end=STEPS):
-    """All values after each step; the preload changes on the way as well."""
-    taken = []
-    for i in range(begin, end):
-        assert bearing.set("shaft_speed", speed(i)) == OK
-        assert bearing.set("preload", 500.0 - i) == OK
-        assert bearing.step(i * SIZE, SIZE) == OK
-        taken.append(bearing.everything())
-    return taken
+from .run_up import FROM, SIZE, STEPS, TO, run_up, speed
 
 
 @pytest.fixture
@@ -81,7 +62,7 @@ import sys
 from pathlib import Path
 sys.path.insert(0, sys.argv[1])
 from tests.fmi.conftest import Master
-from tests.fmi.test_equality import FROM, STEPS, run_up
+from tests.fmi.run_up import FROM, STEPS, run_up
 bearing = Master(Path(sys.argv[2]))
 if len(sys.argv) > 3:
     state = bearing.from_bytes(Path(sys.argv[3]).read_bytes())[1]

@@ -93,7 +93,7 @@ def test_parameters_are_fixed_after_initialisation(master, expected):
 
 
 @pytest.mark.parametrize(
-    "name", ["friction_torque", "rotor.inertia", "mic[1].position.x", "solver.steps", "level"]
+    "name", ["friction_torque", "rotor.inertia", "mic[1].position.x", "solver.steps", "fidelity"]
 )
 def test_what_is_computed_or_constant_cannot_be_set(master, expected, name):
     bearing = master().start()

@@ -161,10 +161,10 @@ def test_overrides_of_level_method_and_step(scene):
 @pytest.mark.parametrize(
     ("keys", "message"),
     [
-        ({"level": "ring"}, "fidelity.model = 'ring' is refused; allowed: full, rings, response, auto"),
+        ({"fidelity": "ring"}, "fidelity.model = 'ring' is refused; allowed: full, rings, response, auto"),
         ({"method": "euler"}, "fidelity.method = 'euler' is refused; allowed: esdirk4"),
         ({"max_step": 1.0}, "max_internal_step_us = 1000000.0 is refused; allowed: 0.1 to 100 us"),
-        ({"level": "auto"}, "must be resolved first"),
+        ({"fidelity": "auto"}, "must be resolved first"),
     ],
 )
 def test_overrides_are_held_against_the_same_ranges(scene, keys, message):

@@ -62,7 +62,7 @@ def test_orbits_have_the_extent_of_the_motion(full, full_page):
             assert np.ptp(numbers(whole[shown])) == pytest.approx(np.ptp(place), rel=1e-5)
 
 
-@pytest.mark.parametrize("level", ["full", "rings"])
+@pytest.mark.parametrize("fidelity", ["full", "rings"])
 def test_balls_add_up_to_the_bearing(level, request):
     """One kernel for one ball and for all: mean and extreme over the balls are the variables'."""
     recording = request.getfixturevalue(level)

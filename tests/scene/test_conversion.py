@@ -68,7 +68,7 @@ def test_every_suffix_has_a_case():
     assert {split_unit(key)[1] for key, *_ in CASES} == set(UNITS)
 
 
-@pytest.mark.parametrize("key", ["ball_count", "level", "name", "mm", "_mm", "terms", "drag"])
+@pytest.mark.parametrize("key", ["ball_count", "model", "name", "mm", "_mm", "terms", "drag"])
 def test_keys_without_unit_pass_through(key):
     assert split_unit(key) == (key, "")
 

@@ -47,7 +47,7 @@ def test_a_file_that_names_no_option_means_what_it_meant_before():
 @pytest.mark.parametrize(
     ("table", "key", "value"),
     [
-        *(("fidelity", "level", name) for name in ("rings", "response", "auto")),
+        *(("fidelity", "model", name) for name in ("rings", "response", "auto")),
         *(("fidelity", "method", name) for name in ("fast", "trbdf2", "rk4")),
         *(("fidelity", "race_control", name) for name in ("outer", "inner")),
         *(("lubricant", "traction_law", name) for name in ("eyring", "paper")),
@@ -56,7 +56,7 @@ def test_a_file_that_names_no_option_means_what_it_meant_before():
     ],
 )
 def test_choices(table, key, value):
-    today = {"level": "full", "method": "esdirk4", "race_control": "shared", "traction_law": "regularised"}
+    today = {"model": "full", "method": "esdirk4", "race_control": "shared", "traction_law": "regularised"}
     today |= {"viscosity_law": "vogel", "preload_mode": "force"}
     scene = read_scene_text(changed((f'{key} = "{today[key]}"', f'{key} = "{value}"')))
     assert getattr(getattr(scene, table), key) == value

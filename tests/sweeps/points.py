@@ -16,7 +16,7 @@ SPEEDS = range(1000, 7000, 1000)
 def small(scene, **axes):
     """Silent points of a few milliseconds, told apart by their speed."""
     made = {
-        "level": ["response"],
+        "fidelity": ["response"],
         "speed": [float(rpm) for rpm in axes.pop("speeds", range(1000, 7000, 1000))],
     }
     return plan(scene, made | axes, settle=0.0, window=1e-3, figures=["contact.inner.load_mean"])

@@ -54,7 +54,7 @@ def test_a_range_of_whole_numbers_serves_a_whole_number(scene):
 
 
 def test_all_that_is_wrong_is_told_at_once(scene):
-    wrong = {"spede": [1], "mounting.preload": [1], "speed": [1, 1], "pedestal": [], "level": [None]}
+    wrong = {"spede": [1], "mounting.preload": [1], "speed": [1, 1], "pedestal": [], "fidelity": [None]}
     with pytest.raises(SweepError) as caught:
         axes_of(scene("7003C-spindle"), wrong)
     told = str(caught.value).splitlines()

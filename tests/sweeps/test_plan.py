@@ -51,7 +51,7 @@ def test_values_that_do_not_fit_together_are_told(rings):
     with pytest.raises(SweepError, match=r"no table \[mounting.flexure\]"):
         plan(rings, {"mounting.flexure.damping_ratio": [0.01, 0.02]})
     with pytest.raises(SweepError, match="decided by timing"):
-        plan(rings, {"level": ["rings", "auto"]})
+        plan(rings, {"fidelity": ["rings", "auto"]})
 
 
 @pytest.mark.parametrize(

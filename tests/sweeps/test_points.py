@@ -79,7 +79,7 @@ def test_a_figure_that_only_some_points_have(scene):
     """An axis may take a ball away: its figures are missing there."""
     made = small(scene("7003C-bare").model_copy(update={"sound": None}), speeds=[5000])
     data = sweep(
-        made.scene, {"bearing.ball_count": [12, 11], "level": ["response"]}, settle=0.0, window=1e-3,
+        made.scene, {"bearing.ball_count": [12, 11], "fidelity": ["response"]}, settle=0.0, window=1e-3,
         figures=["ball[12].velocity", "friction_torque"], workers=1,
     ).squeeze()  # fmt: skip
     assert np.isfinite(data["friction_torque"]).all()

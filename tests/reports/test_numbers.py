@@ -63,9 +63,9 @@ def test_orbits_have_the_extent_of_the_motion(full, full_page):
 
 
 @pytest.mark.parametrize("fidelity", ["full", "rings"])
-def test_balls_add_up_to_the_bearing(level, request):
+def test_balls_add_up_to_the_bearing(fidelity, request):
     """One kernel for one ball and for all: mean and extreme over the balls are the variables'."""
-    recording = request.getfixturevalue(level)
+    recording = request.getfixturevalue(fidelity)
     balls = range(1, recording.scene.bearing.ball_count + 1)
     for race in RACES:
         load = np.array([recording.outputs[name_of(j, "load", race)] for j in balls])

@@ -16,6 +16,7 @@ from fmu_bearing.cli.base import (
     quiet_warnings,
     refusals,
 )
+from fmu_bearing.engine.constants import RPM
 
 Source = Annotated[Path, typer.Argument(metavar="SCENE|FMU", help="Scene file (.toml) or FMU (.fmu).")]
 Settings = Annotated[

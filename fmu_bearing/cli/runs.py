@@ -8,7 +8,6 @@ import typer
 from fmu_bearing.cli.base import (
     ENDED_EARLY,
     INTERRUPTED,
-    RPM,
     Json,
     Refusal,
     app,

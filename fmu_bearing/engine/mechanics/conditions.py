@@ -2,6 +2,7 @@
 
 import math
 
+from fmu_bearing.engine.choices import WALTHER
 from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import C, P, U
@@ -41,7 +42,7 @@ def walther(p, temperature):
 @kernel
 def viscosity(p, temperature):
     """Dynamic viscosity (Pa s) of the oil at ``temperature`` (K) and ambient pressure."""
-    if p[P.VISCOSITY_LAW] == 1.0:
+    if p[P.VISCOSITY_LAW] == WALTHER:
         return walther(p, temperature)
     return vogel(p, temperature)
 
@@ -78,10 +79,10 @@ def conditions(p, u, speed, c):
         numbers = P.RACES + race * P.RACE_SIZE
         held = C.RACES + race * C.RACE_SIZE
         growth = 1.0 + p[numbers + P.RACE_EXPANSION] * (rise_i if race == 0 else rise_o)
-        c[held] = p[numbers + P.RACE_GROOVE_X] * growth
-        c[held + 1] = p[numbers + P.RACE_GROOVE_RADIUS] * growth
-        c[held + 2] = p[numbers + P.RACE_GROOVE] * growth - ball
-        c[held + 3] = p[numbers + P.RACE_ROLLING] * math.exp(0.66 * math.log(eta)) * reduced
+        c[held + C.GROOVE_X] = p[numbers + P.RACE_GROOVE_X] * growth
+        c[held + C.GROOVE_RADIUS] = p[numbers + P.RACE_GROOVE_RADIUS] * growth
+        c[held + C.FREE] = p[numbers + P.RACE_GROOVE] * growth - ball
+        c[held + C.ROLLING] = p[numbers + P.RACE_ROLLING] * math.exp(0.66 * math.log(eta)) * reduced
     c[C.BALL_RADIUS] = ball
     c[C.PRELOAD] = u[U.PRELOAD]
     c[C.LOAD_Y] = u[U.LOAD_Y]

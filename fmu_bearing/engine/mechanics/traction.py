@@ -7,6 +7,7 @@ Dowson (1977) at the contact's present entrainment speed.
 
 import math
 
+from fmu_bearing.engine.choices import EYRING
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import C, P, R, W
 
@@ -96,7 +97,7 @@ def strip_area(half_length, half_width, share, node):
 
 @kernel
 def lubricated_traction(p, c, lanes, race, w):
-    """Traction by ``P_TRACTION_LAW``: 1 Eyring, 2 the multi-source paper's eta V S / h.
+    """Traction by ``P.TRACTION_LAW``: `eyring`, or `paper`, the multi-source paper's eta V S / h.
 
     Eyring (1936) with Roelands' viscosity at the strip's mean pressure, bounded by mu Q of the strip. The
     paper's law takes the ambient viscosity and has no bound; alone it is unusable (traction over load 3e-5
@@ -111,7 +112,7 @@ def lubricated_traction(p, c, lanes, race, w):
     eta = c[C.VISCOSITY]
     index = roelands_index(p[P.PRESSURE_VISCOSITY], eta)
     stress = p[P.EYRING_STRESS]
-    eyring = p[P.TRACTION_LAW] == 1.0
+    eyring = p[P.TRACTION_LAW] == EYRING
     floor_2 = p[P.TRACTION_FLOOR] * p[P.TRACTION_FLOOR]
     across = 0.25 * width * width
     mu = p[P.MU]

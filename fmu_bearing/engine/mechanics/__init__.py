@@ -4,7 +4,7 @@
 ``powers``        logarithm and exponential to base 2, branch-free
 ``trigonometry``  sine and cosine of the ball angles, branch-free
 ``conditions``    inputs turned into constants of one communication step
-``pose``          where a ball stands in a body's own frame, and how fast it moves there
+``pose``          where a ball is in a body's own frame, and how fast it moves there
 ``race``          Hertz contact, damping, traction strips and rolling resistance
 ``traction``      Eyring's law and the multi-source paper's on the same strips
 ``ball_waves``    waviness that turns with the balls, and the turning of their axes

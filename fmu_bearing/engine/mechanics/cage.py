@@ -144,7 +144,8 @@ def land(p, dy, dz, vy, vz, journal, sleeve):
     radial, tangential = film_force(
         viscosity, radius, length, clearance, ratio, rate, journal + sleeve - 2.0 * whirl
     )
-    # Seen from the sleeve the journal stands at -d; the film pushes it back and on, the cage the other way.
+    # Seen from the sleeve the journal is at -d. The film pushes it back and across, the cage takes the
+    # opposite force.
     fy = -radial * ey - tangential * ez
     fz = -radial * ez + tangential * ey
     # The pair acts half-way between the centres, so that its moments balance as well.

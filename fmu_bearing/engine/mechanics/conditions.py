@@ -8,7 +8,7 @@ from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import C, P, U
 
 _TO_RPM = 30.0 / math.pi
-# Both laws grow without bound in the cold: twelve decades stand for an oil that has set.
+# Both laws grow without bound in the cold: the exponent ends at twelve decades, an oil that flows no more.
 _SET = 12.0 * math.log(10.0)
 _CLEAR = 1.0  # K: Vogel's law is held short of its pole by this much
 
@@ -32,7 +32,7 @@ def walther(p, temperature):
     Walther (1931) as in ASTM D341; A follows from the reference viscosity, the density is constant.
     """
     to_mm2_s = 1e6 / p[P.OIL_DENSITY]
-    # the law knows oils above 0.3 mm2/s only: below, the inner logarithm has no logarithm
+    # the law holds above 0.3 mm2/s only: below, ln(v + 0.7) is negative and has no logarithm
     known = math.log(max(p[P.VISCOSITY] * to_mm2_s + 0.7, 1.0 + 1e-6))
     fall = p[P.WALTHER_SLOPE] * math.log(max(temperature, 1.0) / REFERENCE_TEMPERATURE)
     raised = known * math.exp(-fall)

@@ -58,7 +58,7 @@ def react(lanes, balls, body, first, spin, last, w):
 
 @inlined
 def race_forces(p, c, y, lanes, race, turned, w):
-    """Evaluate the forces between balls and one race, whose poses stand in ``w``; ``turned``: its angle.
+    """Evaluate the forces between balls and one race, whose poses are in ``w``; ``turned``: its angle (rad).
 
     ``race`` has to be a literal: only with constant places do the loops become vector loops.
     """
@@ -197,7 +197,8 @@ def add_up(p, c, y, angle, speed, speed_rate, w, f):
     outer = sum_lanes(w, W.LOSS + STRIDE, lanes)
     cage = sum_lanes(w, W.LOSS_CAGE, lanes)
     drag = sum_lanes(w, W.LOSS_DRAG, lanes)
-    # half of each contact's loss heats its ring, the balls' half goes to the oil with all that stirs it
+    # Half of each contact's loss heats its ring. The other half heats the balls, which give it to the oil;
+    # the losses of cage and drag arise in the oil.
     f[F.HEAT] = 0.5 * inner
     f[F.HEAT_OUTER] = 0.5 * outer
     f[F.HEAT_OIL] = 0.5 * (inner + outer) + cage + drag

@@ -1,6 +1,6 @@
 """Springs and dampers between neighbouring balls in place of a cage (impact-noise paper, 1e5 to 2.5e7 N/m).
 
-Each joins two balls along the pitch circle and is slack where they stand 2 pi / Z apart. The pull on the
+Each joins two balls along the pitch circle and is slack where they are 2 pi / Z apart. The pull on the
 pitch radius gives both balls the same moment about the bearing's axis, whatever their own radius.
 """
 

@@ -14,11 +14,11 @@ from fmu_bearing.engine.layout import C, P, R, W
 _ROELANDS_PRESSURE = 1.96e8  # Pa, Roelands (1966)
 _ROELANDS_VISCOSITY = 9.67  # -log of the viscosity (Pa s) to which all his isotherms run
 _LARGEST_EXPONENT = 40.0  # 2e17 times ambient: a glass; keeps every product below far from overflow
-_THINNEST = 1e-9  # m, added to the film: a molecular layer stays where nothing entrains oil
+_THINNEST = 1e-9  # m, added to the film: a molecular layer stays at standstill
 _SLOWEST_2 = 1e-8  # m2/s2: entrainment rounded over 1e-4 m/s, as in the rolling resistance
 _LIGHTEST = 1e-3  # N: the film formula's load, where a contact opens
 _STILL_2 = 1e-40  # m2/s2: only keeps 0/0 away
-_PRESSED_2 = 1e-60  # N2: likewise
+_PRESSED_2 = 1e-60  # N2: only keeps 0/0 away
 
 
 @kernel

@@ -3,7 +3,7 @@
 import math
 
 from fmu_bearing.engine.constants import PI
-from fmu_bearing.engine.elimination import eliminate
+from fmu_bearing.engine.dense import eliminate
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import EQ, C, P, W
 from fmu_bearing.engine.layout.sizes import STRIDE

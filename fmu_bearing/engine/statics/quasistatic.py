@@ -20,7 +20,7 @@ ball weight, drag, cage, rolling resistance and traction along the rolling direc
 import math
 
 from fmu_bearing.engine.constants import PI
-from fmu_bearing.engine.elimination import eliminate
+from fmu_bearing.engine.dense import eliminate
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import EQ, C, P, W
 from fmu_bearing.engine.layout.sizes import STRIDE

@@ -7,7 +7,7 @@ removes it; places and loads stay as the quasi-static kernel found them.
 
 import math
 
-from fmu_bearing.engine.elimination import eliminate
+from fmu_bearing.engine.dense import eliminate
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import J, P, W, Y
 from fmu_bearing.engine.layout.sizes import STRIDE

@@ -10,7 +10,7 @@ from fmu_bearing.engine.layout import W
 
 ENGINE = pathlib.Path(__file__).parents[1] / "fmu_bearing" / "engine"
 FILES = sorted(path for path in ENGINE.rglob("*.py") if path.parent.name != "layout")
-LAYOUT = set("A C EQ F FL J L MO P Q R S SD T TAB U W X Y Z".split())
+LAYOUT = set("A C EQ F FL J L MO P Q R S SD ST T TAB U W X Y Z".split())
 LARGEST = 2  # 0, 1, 2 are components of a vector, neighbours, pairs
 #: Functions whose numbers are not places of an array, with the reason.
 FREE: dict[str, str] = {}

@@ -22,6 +22,7 @@ module            as    array
 ``condensed``     L     what fidelities rings and response keep in ``s``
 ``s``             S     state: all that a later step needs, and nothing else
 ``equilibrium``   EQ    result of the quasi-static kernel
+``statics``       ST    work space of the quasi-static kernels
 ``pose``          X     where a ball stands in a body's frame: rows of ``w``
 ``race``          R     contact of the balls with one race: rows of ``w``
 ``w``             W     work space: scratch, no value survives a call; its ledger of overlays
@@ -49,6 +50,7 @@ from fmu_bearing.engine.layout import (
     race as R,
     s as S,
     sound as SD,
+    statics as ST,
     tableau as TAB,
     trial as T,
     u as U,
@@ -58,5 +60,6 @@ from fmu_bearing.engine.layout import (
 )
 
 __all__ = [
-    "A", "C", "EQ", "F", "FL", "J", "L", "MO", "P", "Q", "R", "S", "SD", "T", "TAB", "U", "W", "X", "Y", "Z",
+    "A", "C", "EQ", "F", "FL", "J", "L", "MO", "P", "Q", "R", "S", "SD", "ST", "T", "TAB", "U", "W", "X", "Y",
+    "Z",
 ]  # fmt: skip

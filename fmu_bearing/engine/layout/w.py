@@ -8,12 +8,15 @@ holds that no two of one use overlap.
 from typing import NamedTuple
 
 from fmu_bearing.engine.layout import (
+    c as _C,
     f as _F,
     motion as _MO,
     p as _P,
     pose as _X,
     q as _Q,
     race as _R,
+    statics as _ST,
+    u as _U,
     y as _Y,
 )
 from fmu_bearing.engine.layout.sizes import BLOCK, STAGES, STRIDE, Places
@@ -59,7 +62,17 @@ SOUND = _at.next  # work space of the sound kernels
 
 LAST = ACC + (STAGES - 1) * _F.SIZE  # accelerations at the end of a step, of any method
 FLEX = BLOCK_A  # flexible rings: never together with one-evaluation steps; see flexure
-FOUND = VEL  # result of the quasi-static kernel at a start
+# where a run starts
+FOUND = VEL  # result of the quasi-static kernel
+STATICS = POSE  # its work space: see statics
+SPIN_SYSTEM = FORCE  # equations for orbit and spin of one ball
+SPINS_FIRST = ACC  # rad/s: those rates of all balls before they are balanced
+# rigid preload at a start, and whenever the preload changes: see statics/rigid_preload
+_still = Places(D)
+STILL_INPUTS = _still(_U.SIZE)  # inputs at standstill and reference temperature,
+STILL_CONDITIONS = _still(_C.SIZE)  # what they mean,
+STILL_FOUND = _still(_ST.AXIAL_SIZE)  # and the equilibrium under axial load there
+STILL_END = _still.next
 
 
 class Area(NamedTuple):
@@ -101,6 +114,11 @@ LEDGER: tuple[Area, ...] = (
     Area("F0", F0, _F.SIZE, frozenset({"jacobian"})),
     Area("BODY_0", BODY_0, _Q.SIZE * STRIDE, frozenset({"jacobian"})),
     Area("D", D, _F.SIZE, frozenset({"solve", "step", "block"})),
+    Area("STATICS", STATICS, _ST.SIZE, frozenset({"start"})),
+    Area("SPIN_SYSTEM", SPIN_SYSTEM, _ST.SPIN_SYSTEM_SIZE, frozenset({"start"})),
+    Area("SPINS_FIRST", SPINS_FIRST, _ST.SPIN_RATES * STRIDE, frozenset({"start", "jacobian", "evaluation"})),
+    Area("MOTION", MOTION, _MO.MAX_SIZE, frozenset({"sample"})),
+    Area("STILL", STILL_INPUTS, STILL_END - STILL_INPUTS, frozenset({"start", "inputs"})),
 )
 
 

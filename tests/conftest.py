@@ -6,6 +6,8 @@ import pytest
 
 ROOT = pathlib.Path(__file__).parents[1]
 SCENES = ROOT / "examples" / "scenes"
+#: Gates of all kinds run on these: every value is written out, so that a better default moves no gate.
+GATES = ROOT / "tests" / "scenes" / "gates"
 
 
 @pytest.fixture(scope="session")

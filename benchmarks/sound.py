@@ -4,7 +4,7 @@ import time
 
 import numpy as np
 
-from benchmarks.cases import SCENES
+from benchmarks.cases import GATES
 from fmu_bearing.acoustics.filters.design import build, ladder_of
 from fmu_bearing.acoustics.registry import Ladder
 from fmu_bearing.engine.jit import entry
@@ -62,7 +62,7 @@ def block_lengths(ps) -> str:
 
 def rows(name: str, models: tuple[str, ...], repeats: int) -> list[list[str]]:
     """One row per radiation model and set of microphones of a scene."""
-    scene = read_scene(SCENES / f"{name}.toml")
+    scene = read_scene(GATES / f"{name}.toml")
     given = ladder_of(scene)
     found = []
     for words, points in microphones(scene).items():

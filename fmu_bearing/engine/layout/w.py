@@ -8,6 +8,9 @@ holds that no two of one use overlap.
 from typing import NamedTuple
 
 from fmu_bearing.engine.layout import (
+    c as _C,
+    condensed as _L,
+    equilibrium as _EQ,
     f as _F,
     motion as _MO,
     p as _P,
@@ -41,6 +44,10 @@ LOSS = _at(4 * STRIDE)  # W: dissipated at inner race, outer race, cage, and by 
 AXES = _at(3 * STRIDE)  # the balls' body-fixed axes at the state evaluated
 ROWS = _at.next
 SCALARS = _at(64)
+LOAD = _at(_EQ.FREEDOMS)  # N, N m: on the inner ring, for the quasi-static kernel
+TILT = _at(2)  # rad: tilts y z of the outer ring that it found
+CONDITIONS = _at(_C.SIZE)  # at the inputs just taken, see c
+TRIAL = _at(4 * _L.COLUMN)  # trial numbers of fidelities rings and response: see trial
 STAGE = _at(_Y.SIZE)  # stage state
 F = _at(_F.SIZE)  # right-hand side
 F0 = _at(_F.SIZE)  # unperturbed right-hand side
@@ -69,7 +76,11 @@ class Area(NamedTuple):
 
 
 #: All areas of ``w``.
-LEDGER: tuple[Area, ...] = ()
+LEDGER: tuple[Area, ...] = (
+    Area("LOAD", LOAD, _EQ.FREEDOMS, frozenset({"start", "inputs", "evaluation"})),
+    Area("TILT", TILT, 2, frozenset({"start", "inputs", "evaluation"})),
+    Area("CONDITIONS", CONDITIONS, _C.SIZE, frozenset({"start", "inputs", "evaluation"})),
+)
 
 
 def size(p):

@@ -20,6 +20,7 @@ module            as    array
 ``jacobian``      J     blocks of the Jacobian
 ``factors``       A     factors of the Newton matrix
 ``condensed``     L     what fidelities rings and response keep in ``s``
+``lines``         LN    scratch of fidelity response in ``s`` while it renews its lines
 ``s``             S     state: all that a later step needs, and nothing else
 ``equilibrium``   EQ    result of the quasi-static kernel
 ``statics``       ST    work space of the quasi-static kernels
@@ -43,6 +44,7 @@ from fmu_bearing.engine.layout import (
     factors as A,
     flexure as FL,
     jacobian as J,
+    lines as LN,
     motion as MO,
     p as P,
     pose as X,
@@ -60,6 +62,6 @@ from fmu_bearing.engine.layout import (
 )
 
 __all__ = [
-    "A", "C", "EQ", "F", "FL", "J", "L", "MO", "P", "Q", "R", "S", "SD", "ST", "T", "TAB", "U", "W", "X", "Y",
-    "Z",
+    "A", "C", "EQ", "F", "FL", "J", "L", "LN", "MO", "P", "Q", "R", "S", "SD", "ST", "T", "TAB", "U", "W", "X",
+    "Y", "Z",
 ]  # fmt: skip

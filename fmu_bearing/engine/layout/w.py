@@ -9,6 +9,8 @@ from typing import NamedTuple
 
 from fmu_bearing.engine.layout import (
     c as _C,
+    condensed as _L,
+    equilibrium as _EQ,
     f as _F,
     motion as _MO,
     p as _P,
@@ -47,6 +49,10 @@ AXES = _at(3 * STRIDE)  # the balls' body-fixed axes at the state evaluated
 ROWS = _at.next
 SCALARS = _at(64)
 LANDS_ENERGY = _at()  # J: stored in the cage's lands
+LOAD = _at(_EQ.FREEDOMS)  # N, N m: on the inner ring, for the quasi-static kernel
+TILT = _at(2)  # rad: tilts y z of the outer ring that it found
+CONDITIONS = _at(_C.SIZE)  # at the inputs just taken, see c
+TRIAL = _at(4 * _L.COLUMN)  # trial numbers of fidelities rings and response: see trial
 STAGE = _at(_Y.SIZE)  # stage state
 F = _at(_F.SIZE)  # right-hand side
 F0 = _at(_F.SIZE)  # unperturbed right-hand side
@@ -119,6 +125,9 @@ LEDGER: tuple[Area, ...] = (
     Area("SPINS_FIRST", SPINS_FIRST, _ST.SPIN_RATES * STRIDE, frozenset({"start", "jacobian", "evaluation"})),
     Area("MOTION", MOTION, _MO.MAX_SIZE, frozenset({"sample"})),
     Area("STILL", STILL_INPUTS, STILL_END - STILL_INPUTS, frozenset({"start", "inputs"})),
+    Area("LOAD", LOAD, _EQ.FREEDOMS, frozenset({"start", "inputs", "evaluation"})),
+    Area("TILT", TILT, 2, frozenset({"start", "inputs", "evaluation"})),
+    Area("CONDITIONS", CONDITIONS, _C.SIZE, frozenset({"start", "inputs", "evaluation"})),
 )
 
 

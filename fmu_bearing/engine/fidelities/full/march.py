@@ -21,9 +21,9 @@ from fmu_bearing.engine.fidelities.full.progress import (
     accept,
     renew_jacobian,
     total_energy,
-    velocity_tolerance,
 )
 from fmu_bearing.engine.fidelities.full.runge_kutta import integrate_power, runge_kutta_step
+from fmu_bearing.engine.fidelities.steps import velocity_tolerance
 from fmu_bearing.engine.jit import inlined
 from fmu_bearing.engine.layout import C, F, P, S, U, W, Y
 from fmu_bearing.engine.layout.sizes import BLOCK, STRIDE

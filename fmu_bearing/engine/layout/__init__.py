@@ -62,6 +62,6 @@ from fmu_bearing.engine.layout import (
 )
 
 __all__ = [
-    "A", "C", "EQ", "F", "FL", "J", "L", "LN", "MO", "P", "Q", "R", "S", "SD", "ST", "T", "TAB", "U", "W", "X",
-    "Y", "Z",
+    "A", "C", "EQ", "F", "FL", "J", "L", "LN", "MO", "P", "Q", "R", "S", "SD", "ST", "T", "TAB", "U", "W",
+    "X", "Y", "Z",
 ]  # fmt: skip

@@ -49,8 +49,8 @@ class Motion:
 
     def rate(self, t, y):
         f, out = self.f(t, y), np.zeros_like(y)
-        out[: newmark.PLACES] = y[newmark.PLACES : 2 * newmark.PLACES]
-        out[newmark.PLACES : Y.Q0] = f[: F.BODY]
+        out[: Y.PLACES] = y[Y.VX : Y.VX + Y.PLACES]
+        out[Y.VX : Y.Q0] = f[: F.BODY]
         out[Y.Q0 : Y.V0] = y[Y.V0 :]
         out[Y.V0 :] = f[F.BODY : F.WORK]
         return out

@@ -52,7 +52,7 @@ class Flexure:
         self.w = w
 
     def array(self, place):
-        """One flat array over the coordinates, by its place in ``modes_layout``."""
+        """One flat array over the coordinates, by its place in ``FL``."""
         begin = W.FLEX + place
         return self.w[begin : begin + self.count]
 

@@ -30,7 +30,7 @@ def velocity_tolerance(p, speed):
 
 @kernel
 def show_axes(p, s, w):
-    """Rows ``W_AXES`` of the state in ``s``, for wavy balls, and the coordinates of flexible rings."""
+    """Rows ``W.AXES`` of the state in ``s``, for wavy balls, and the coordinates of flexible rings."""
     turn_axes(p, s[S.AXES : S.JAC], s[S.Y : S.Y + Y.SIZE], int(p[P.LANES]), 0.0, w)
     show_flexure(p, s, w)
 
@@ -54,8 +54,9 @@ def total_energy(p, s, w):
 def wrap_angles(y):
     """Bring the balls' angles and the cage's back into one turn."""
     for j in range(STRIDE):
-        y[2 * STRIDE + j] = wrap(y[2 * STRIDE + j])
-    y[Y.Q0 + Q.CAGE + 3] = wrap(y[Y.Q0 + Q.CAGE + 3])
+        y[Y.TH + j] = wrap(y[Y.TH + j])
+    cage = Y.Q0 + Q.CAGE + Q.TURN
+    y[cage] = wrap(y[cage])
 
 
 @inlined
@@ -67,7 +68,7 @@ def renew_jacobian(p, s, w):
         s[S.JAC:S.FAC],
     )  # fmt: skip
     s[S.JACOBIAN_TIME] = s[S.TIME]
-    s[S.JACOBIAN_ANGLE] = s[S.Y + 2 * STRIDE]
+    s[S.JACOBIAN_ANGLE] = s[S.Y + Y.TH]
     s[S.FACTOR_STEP] = 0.0
     s[S.JACOBIANS] += 1.0
     s[S.CONTRACTION] = 0.1
@@ -83,7 +84,7 @@ def accept(p, s, w, h):
     for i in range(F.SIZE):
         s[S.F + i] = w[W.LAST + i]
     accept_modes(p, s, flexure_state(p), w)
-    turn = wrap(s[S.Y + 2 * STRIDE]) - s[S.Y + 2 * STRIDE]
+    turn = wrap(s[S.Y + Y.TH]) - s[S.Y + Y.TH]
     if turn != 0.0:
         # the orbit angle at the Jacobian turns back with the balls
         s[S.JACOBIAN_ANGLE] += turn

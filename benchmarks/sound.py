@@ -55,8 +55,8 @@ def microphones(scene) -> dict[str, list[tuple[float, float, float]]]:
 
 def block_lengths(ps) -> str:
     """Block lengths of the convolution, as text."""
-    first = int(ps[SD.H_AT_LEVELS]) + SD.LEVEL_BLOCK
-    lengths = [f"{ps[first + SD.LEVEL_SIZE * i]:g}" for i in range(int(ps[SD.H_LEVELS]))]
+    first = int(ps[SD.H_AT_SPANS]) + SD.SPAN_BLOCK
+    lengths = [f"{ps[first + SD.SPAN_SIZE * i]:g}" for i in range(int(ps[SD.H_SPANS]))]
     return " + ".join(lengths) or "none"
 
 

@@ -25,6 +25,7 @@ from fmu_bearing.acoustics.radiation.bem.paths import bem_paths
 from fmu_bearing.acoustics.radiation.compact import compact_paths
 from fmu_bearing.acoustics.radiation.radiators import Air, Path, Radiators
 from fmu_bearing.acoustics.radiation.table import Table, table_paths
+from fmu_bearing.engine.choices import CONTACTS, SCALARS, VECTORS
 from fmu_bearing.engine.layout import SD
 
 Position = tuple[float, float, float]
@@ -60,14 +61,14 @@ class Ladder:
     @property
     def form(self) -> int:
         """How the engine forms the channels."""
-        return {"paper": SD.RUNG_PAPER, "paper_contacts": SD.RUNG_CONTACTS}.get(self.rung, SD.RUNG_VECTORS)
+        return {"paper": SCALARS, "paper_contacts": CONTACTS}.get(self.rung, VECTORS)
 
     @property
     def channels(self) -> int:
         """Number of channels."""
-        if self.form == SD.RUNG_PAPER:
-            return SD.paper_channels(self.radiators.ball_count)
-        if self.form == SD.RUNG_CONTACTS:
+        if self.form == SCALARS:
+            return SD.scalar_channels(self.radiators.ball_count)
+        if self.form == CONTACTS:
             return SD.contact_channels(self.harmonics)
         return SD.vector_channels(self.harmonics, 2 * len(self.modes))
 

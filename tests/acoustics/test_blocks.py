@@ -39,8 +39,8 @@ def test_transform_against_numpy(block):
 
 
 def levels_of(ps):
-    first = int(ps[SD.H_AT_LEVELS]) + SD.LEVEL_BLOCK
-    return tuple(int(ps[first + SD.LEVEL_SIZE * i]) for i in range(int(ps[SD.H_LEVELS])))
+    first = int(ps[SD.H_AT_SPANS]) + SD.SPAN_BLOCK
+    return tuple(int(ps[first + SD.SPAN_SIZE * i]) for i in range(int(ps[SD.H_SPANS])))
 
 
 def ring_of(decay, frequency, late):

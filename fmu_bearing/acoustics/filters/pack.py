@@ -12,9 +12,9 @@ from fmu_bearing.acoustics.filters.fir import decimator
 from fmu_bearing.acoustics.filters.weighting import a_weighting_sections, band_sections, high_pass_section
 from fmu_bearing.acoustics.papers.scalars import paper_scalars
 from fmu_bearing.acoustics.registry import Ladder
+from fmu_bearing.engine.choices import SCALARS
 from fmu_bearing.engine.layout import SD, Z
 from fmu_bearing.engine.layout.sizes import STRIDE
-from fmu_bearing.engine.sound import thirds as bands
 
 MICROPHONE_LOW_LIMIT = 5.0  # Hz, second order: of a half-inch measurement microphone (assumed)
 _KEEP = [0, 1, 2, 4, 5]  # of a section: the leading denominator coefficient is 1
@@ -90,17 +90,17 @@ def pack(
         raise ValueError(f"blocks of {max(levels)} samples are too long: 512 at most")
     block = _Block()
     found = block.head
-    found[SD.H_RUNG] = ladder.form
+    found[SD.H_FORM] = ladder.form
     found[SD.H_BALLS] = ladder.radiators.ball_count
     found[SD.H_HARMONICS] = ladder.harmonics
     found[SD.H_FLEXURES] = 2 * len(ladder.modes)
     found[SD.H_CHANNELS] = channels
     found[SD.H_BANKS] = len(banks)
-    found[SD.H_LEVELS] = len(levels)
+    found[SD.H_SPANS] = len(levels)
     found[SD.H_OUTPUTS] = len(sources)
     found[SD.H_MICS] = sum(len(group.members) for group in groups)
     found[SD.H_GROUPS] = len(groups)
-    found[SD.H_LANES] = len(sources) if ladder.form == SD.RUNG_PAPER else found[SD.H_MICS]
+    found[SD.H_LANES] = len(sources) if ladder.form == SCALARS else found[SD.H_MICS]
     found[SD.H_DETAILS] = details
     found[SD.H_BANDS] = len(Z.BANDS) if thirds else 0
     found[SD.H_AT_DECIMATOR] = block.put(decimator())
@@ -125,7 +125,7 @@ def pack(
 
 def _band_table() -> NDArray[np.float64]:
     """Sections, then coefficients, then bands side by side; spare lanes stay silent."""
-    table = np.zeros((bands.SECTIONS, 5, SD.BAND_LANES))
+    table = np.zeros((SD.BAND_SECTIONS, SD.SECTION, SD.BAND_LANES))
     for lane, nominal in enumerate(Z.BANDS):
         table[:, :, lane] = band_sections(SD.RATE, nominal)[:, _KEEP]
     return table
@@ -205,10 +205,10 @@ def _place_state(block: _Block, levels: Sequence[list[int]]) -> None:
         length, slots, lanes = row[:3]
         spectra = room(slots * 2 * (length + 1) * lanes)
         rows.append([*row, spectra, room(length * found[SD.H_OUTPUTS])])
-    found[SD.H_AT_LEVELS] = block.put(rows)
+    found[SD.H_AT_SPANS] = block.put(rows)
     found[SD.H_S_A_WEIGHTING] = room(6 * found[SD.H_LANES])
     found[SD.H_S_METERS] = room(SD.METERS * mics)
-    found[SD.H_S_BANDS] = room(bands.SIZE * mics if found[SD.H_BANDS] else 0)
+    found[SD.H_S_BANDS] = room(SD.BAND_SIZE * mics if found[SD.H_BANDS] else 0)
     found[SD.H_STATE] = end
 
 

@@ -5,8 +5,8 @@ import time
 import numpy as np
 
 from benchmarks.cases import SCENES
-from fmu_bearing.acoustics.filters.design import build, ladder_of
-from fmu_bearing.acoustics.registry import Ladder
+from fmu_bearing.acoustics.filters.design import build, radiation_of
+from fmu_bearing.acoustics.registry import Radiation
 from fmu_bearing.engine.jit import entry
 from fmu_bearing.engine.layout import MO, SD
 from fmu_bearing.engine.sound import radiate
@@ -63,14 +63,14 @@ def block_lengths(ps) -> str:
 def rows(name: str, rungs: tuple[str, ...], repeats: int) -> list[list[str]]:
     """One row per rung and set of microphones of a scene."""
     scene = read_scene(SCENES / f"{name}.toml")
-    given = ladder_of(scene)
+    given = radiation_of(scene)
     found = []
     for words, points in microphones(scene).items():
         for rung in rungs:
-            ladder = Ladder(rung, given.radiators, given.air, given.harmonics)
+            made = Radiation(rung, given.radiators, given.air, given.harmonics)
             block, direct = (
-                build(rung, ladder.radiators, ladder.air, points, ladder.harmonics, levels=levels)
-                for levels in (None, ())
+                build(rung, made.radiators, made.air, points, made.harmonics, lengths=lengths)
+                for lengths in (None, ())
             )
             here = cost(block, repeats)
             goal = words == "4"

@@ -199,10 +199,10 @@ def test_meters_wait_for_their_start():
     assert np.isfinite(player.z).all()
 
 
-@pytest.mark.parametrize("rung", ["compact", "paper"])
-def test_state_carries_everything(rung):
+@pytest.mark.parametrize("model", ["compact", "paper"])
+def test_state_carries_everything(model):
     """Saved, spoilt work space, restored: bit for bit the same, however the samples are cut."""
-    ps = build(rung, HOUSED, Air(), PAPER_POINTS)
+    ps = build(model, HOUSED, Air(), PAPER_POINTS)
     motion = np.random.default_rng(3).standard_normal((5000, len(still(HOUSED, 1)[0])))
     whole = Player(ps, metering_start=0.002)
     whole.play(motion, 5000)
@@ -241,7 +241,7 @@ def test_components_add_as_pressures():
     assert player.reading("spl") < player.reading("spl_inner_ring") - 150
 
 
-def test_paper_rung_adds_energies():
+def test_paper_model_adds_energies():
     """Eqs. 43-46 computed directly from the printed formulas, for motions whose scalars are tones.
 
     0.01 dB: filters keep 0.005 dB, the meters' ripple over whole periods is below that.
@@ -311,7 +311,7 @@ def test_refusals():
         build("compact", SMALL, Air(), [(0.0, 0.0, 0.01)])
     with pytest.raises(ValueError, match="inside the housing"):
         build("compact", HOUSED, Air(), [(0.05, 0.0, 0.04)])
-    with pytest.raises(ValueError, match="rung"):
+    with pytest.raises(ValueError, match="sound.radiation_model"):
         build("none", SMALL, Air(), PAPER_POINTS)
 
 
@@ -326,10 +326,10 @@ def test_example_scenes_have_sound_blocks(scene):
 def test_cost_is_printed():
     circle = [(0.05, -0.21 * np.sin(a), 0.21 * np.cos(a)) for a in np.arange(24) * np.pi / 12]
     for name, points in (("4 points", PAPER_POINTS), ("circle of 24", circle)):
-        for rung in ("compact", "paper"):
-            player = Player(build(rung, SMALL, Air(), points))
+        for model in ("compact", "paper"):
+            player = Player(build(model, SMALL, Air(), points))
             motion = np.random.default_rng(4).standard_normal((1024, len(still(SMALL, 1)[0])))
             player.play(motion, 1000)
             begin = time.process_time()
             player.play(motion, int(SD.RAW_RATE / 4))
-            print(f"{rung}, {name}: {4 * (time.process_time() - begin):.3f} s per simulated second")
+            print(f"{model}, {name}: {4 * (time.process_time() - begin):.3f} s per simulated second")

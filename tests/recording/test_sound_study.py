@@ -164,7 +164,7 @@ def test_places_that_do_not_serve(bare):
         bare.pressure([(0.0, 0.0, 0.01)])
     with pytest.raises(ValueError, match=r"\(x, y, z\)"):
         bare.pressure([(0.0, 0.1)])
-    with pytest.raises(ValueError, match="rung"):
+    with pytest.raises(ValueError, match="radiation_model"):
         bare.pressure([P1], "none")
     with pytest.raises(ValueError, match="cuts the bearing"):
         measure.sound_power(bare, plane=0.0)

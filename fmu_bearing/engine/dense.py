@@ -3,8 +3,7 @@
 import math
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import L
-from fmu_bearing.engine.layout.sizes import FOUR
+from fmu_bearing.engine.layout import FOUR, L
 
 _SWEEPS = 12  # of Jacobi's method: more than any matrix here needs
 _LARGEST = 1e300  # a pivot beyond it is no number to divide by

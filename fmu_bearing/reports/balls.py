@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.engine.jit import entry
-from fmu_bearing.engine.layout import P, Q, S, Y, Z
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import P, Q, S, STRIDE, Y, Z
 from fmu_bearing.engine.readout import outputs as observe
 from fmu_bearing.instance import Instance
 

@@ -8,8 +8,7 @@ import pytest
 from fmu_bearing.engine.fidelities.full.methods.esdirk4 import ESDIRK4
 from fmu_bearing.engine.fidelities.full.methods.trbdf2 import TRBDF2
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import TAB, A, C, F, J, P, R, W, X
-from fmu_bearing.engine.layout.sizes import STAGES, STRIDE
+from fmu_bearing.engine.layout import STAGES, STRIDE, TAB, A, C, F, J, P, R, W, X
 from fmu_bearing.engine.mechanics.cage import film_force
 from fmu_bearing.engine.mechanics.powers import exp2, log2
 from fmu_bearing.engine.mechanics.race import waves

@@ -10,8 +10,7 @@ import pytest
 from fmu_bearing.engine.fidelities.full.methods.table import AT_ESDIRK4, AT_RK4, AT_TRBDF2, TABLEAUX
 from fmu_bearing.engine.fidelities.full.runge_kutta import runge_kutta_step
 from fmu_bearing.engine.jit import entry
-from fmu_bearing.engine.layout import TAB, A, C, F, J, S, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, TAB, A, C, F, J, S, W, Y
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.newton.block_arrow import factor
 from fmu_bearing.engine.newton.jacobian import jacobian

@@ -6,7 +6,7 @@ import tomllib
 
 import pytest
 
-from fmu_bearing.engine.layout.sizes import MAX_BALLS
+from fmu_bearing.engine.layout import MAX_BALLS
 from fmu_bearing.scene import Scene, SceneError, read_scene, read_scene_text
 from fmu_bearing.scene.bearing import Bearing, most_balls
 from tests.conftest import GATES

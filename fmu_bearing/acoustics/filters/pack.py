@@ -13,8 +13,7 @@ from fmu_bearing.acoustics.filters.weighting import a_weighting_sections, band_s
 from fmu_bearing.acoustics.papers.scalars import paper_scalars
 from fmu_bearing.acoustics.registry import Radiation
 from fmu_bearing.engine.choices import CHANNEL_FORMS
-from fmu_bearing.engine.layout import SD, Z
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import SD, STRIDE, Z
 
 MICROPHONE_LOW_LIMIT = 5.0  # Hz, second order: of a half-inch measurement microphone (assumed)
 _KEEP = [0, 1, 2, 4, 5]  # of a section: the leading denominator coefficient is 1

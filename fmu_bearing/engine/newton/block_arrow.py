@@ -7,8 +7,7 @@ since, which keeps an old Jacobian exact for equal ball loads and an isotropic p
 
 from fmu_bearing.engine.jit import inlined, kernel
 from fmu_bearing.engine.lanes import sum_lanes
-from fmu_bearing.engine.layout import A, F, J, P, Q, W
-from fmu_bearing.engine.layout.sizes import FOUR, MAX_BALLS, STRIDE
+from fmu_bearing.engine.layout import FOUR, MAX_BALLS, STRIDE, A, F, J, P, Q, W
 from fmu_bearing.engine.newton.springs import couple_springs, spring_matrix
 
 _PAIR = 2 * STRIDE  # from one pair of entries to the next

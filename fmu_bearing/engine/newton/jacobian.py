@@ -6,8 +6,7 @@ bodies only the forces of the body that moves are evaluated.
 """
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import F, J, P, Q, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, F, J, P, Q, W, Y
 from fmu_bearing.engine.mechanics.equations import (
     add_up,
     ball_accelerations,

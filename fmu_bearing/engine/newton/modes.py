@@ -10,8 +10,7 @@ equal ball loads.
 import math
 
 from fmu_bearing.engine.jit import inlined, kernel
-from fmu_bearing.engine.layout import FL, A, J, P, Q, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import FL, STRIDE, A, J, P, Q, W, Y
 from fmu_bearing.engine.mechanics.flexure import bends
 
 

@@ -10,8 +10,7 @@ inverse, both before the balls are substituted back.
 """
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import A, F, J, P, Q, W
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, A, F, J, P, Q, W
 
 _ORBIT = 2  # row of a ball's accelerations
 

@@ -6,8 +6,7 @@ Costs nothing inside a step: once per communication point, from what the evaluat
 import math
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import F, P, R, S, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, F, P, R, S, W, Y
 
 _TURNING_2 = 1.0  # rad2/s2: rolling rounded over 1 rad/s, as in the rolling resistance
 _ENTRAINED_2 = 1e-8  # m2/s2: entrainment rounded over 1e-4 m/s, likewise

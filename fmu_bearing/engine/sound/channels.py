@@ -6,8 +6,7 @@ Which radiation model takes which form stands in `acoustics.registry`, the forms
 import math
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import MO, SD
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import MO, SD, STRIDE
 
 _FLOOR2 = SD.SPEED_FLOOR**2
 _RATE = MO.ACCELERATION - MO.VELOCITY  # from a velocity of a body to its rate; the same for its spin

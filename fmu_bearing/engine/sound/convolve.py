@@ -13,8 +13,7 @@ The work of a block falls on its first sample: one sample in B costs up to about
 """
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import SD
-from fmu_bearing.engine.layout.sizes import FOUR
+from fmu_bearing.engine.layout import FOUR, SD
 from fmu_bearing.engine.sound.transform import butterflies, fold, reversed_bits, unfold
 
 

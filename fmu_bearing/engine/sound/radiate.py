@@ -7,8 +7,7 @@ all filters and moves the meters. State depends on the samples alone, never on h
 
 from fmu_bearing.engine.choices import CONTACTS, SCALARS
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import SD
-from fmu_bearing.engine.layout.sizes import FOUR
+from fmu_bearing.engine.layout import FOUR, SD
 from fmu_bearing.engine.sound import channels, meter
 from fmu_bearing.engine.sound.convolve import convolve
 from fmu_bearing.engine.sound.section import filter_section

@@ -22,8 +22,7 @@ import math
 from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.dense import eliminate
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import EQ, ST, C, P, Q, W
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import EQ, ST, STRIDE, C, P, Q, W
 from fmu_bearing.engine.statics.ball_balance import ball_equilibrium, ball_state, pose_at
 from fmu_bearing.engine.statics.stiffness import add_turned, ball_share
 from fmu_bearing.engine.status import NO_START, OK

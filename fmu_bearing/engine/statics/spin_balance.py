@@ -9,8 +9,7 @@ import math
 
 from fmu_bearing.engine.dense import eliminate
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import ST, F, J, P, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import ST, STRIDE, F, J, P, W, Y
 from fmu_bearing.engine.newton.jacobian import jacobian
 
 _ROUNDS = 40

@@ -23,8 +23,7 @@ from fmu_bearing.engine.dense import times
 from fmu_bearing.engine.fidelities.condensed.rows import coordinate
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import sum_lanes
-from fmu_bearing.engine.layout import C, F, L, P, Q, T, W, Y
-from fmu_bearing.engine.layout.sizes import FOUR, STRIDE
+from fmu_bearing.engine.layout import FOUR, STRIDE, C, F, L, P, Q, T, W, Y
 from fmu_bearing.engine.mechanics.bodies import inner_ring, outer_ring
 from fmu_bearing.engine.mechanics.pose import axis_cosine, seen
 

@@ -12,8 +12,7 @@ import math
 
 from fmu_bearing.engine.dense import eigenvectors, solve_complex
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import C, J, L, P, Q, S, T, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, C, J, L, P, Q, S, T, Y
 from fmu_bearing.engine.newton.jacobian import inertia, jacobian
 
 _SLOWEST = 300.0  # rad/s: slower motions feel the supports, not the balls

@@ -12,8 +12,7 @@ renewal costs some 30 evaluations of the full right-hand side with its Jacobian.
 
 from fmu_bearing.engine.choices import INNER_CONTROL, OUTER_CONTROL
 from fmu_bearing.engine.jit import inlined, kernel
-from fmu_bearing.engine.layout import EQ, C, F, L, P, Q, S, T, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import EQ, STRIDE, C, F, L, P, Q, S, T, W, Y
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.readout.losses import summarise

@@ -6,8 +6,7 @@ from fmu_bearing.engine.dense import invert, times
 from fmu_bearing.engine.fidelities.condensed.balls import accelerations
 from fmu_bearing.engine.fidelities.condensed.rows import component
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import C, F, L, P, Q, T, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, C, F, L, P, Q, T, W, Y
 from fmu_bearing.engine.newton.jacobian import inertia, is_angle
 
 # Differences: displacement 1 nm (0.1 N in 100), tilt the same at the pitch circle, and rates that move the

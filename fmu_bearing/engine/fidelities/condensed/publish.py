@@ -2,8 +2,7 @@
 
 from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import F, L, P, Q, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, F, L, P, Q, Y
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 from fmu_bearing.engine.newton.jacobian import is_angle
 

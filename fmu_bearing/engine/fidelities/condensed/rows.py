@@ -1,8 +1,7 @@
 """The rings' coordinates and the balls' force components; the balls' places between ``lv`` and ``w``."""
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import L, T
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, L, T
 
 
 @kernel

@@ -12,8 +12,7 @@ from fmu_bearing.engine.fidelities.condensed.rows import keep_balls, show_balls
 from fmu_bearing.engine.fidelities.full.start import start
 from fmu_bearing.engine.fidelities.steps import advance_clock
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import EQ, C, F, L, P, S, T, U, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import EQ, STRIDE, C, F, L, P, S, T, U, W, Y
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 from fmu_bearing.engine.readout.motion import emit_samples

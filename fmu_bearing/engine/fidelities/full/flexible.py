@@ -8,8 +8,7 @@ import math
 
 from fmu_bearing.engine.fidelities.full.methods.table import TABLEAUX
 from fmu_bearing.engine.jit import inlined, kernel
-from fmu_bearing.engine.layout import FL, TAB, J, P, W
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import FL, STRIDE, TAB, J, P, W
 from fmu_bearing.engine.mechanics.flexure import bends, mode_force
 from fmu_bearing.engine.newton.block_arrow import times_six
 from fmu_bearing.engine.newton.modes import inverse_of_modes, partner, ring_factors

@@ -1,26 +1,13 @@
 """From one communication point to the next: inputs, internal steps, Jacobian policy, sound samples."""
 
-import math
-
 from fmu_bearing.engine.choices import FAST, RK4, TRBDF2
-from fmu_bearing.engine.fidelities.full.fast.blocks import (
-    fast_block,
-    fast_history,
-    fast_length,
-    remember,
-    shift_history,
-)
+from fmu_bearing.engine.fidelities import steps
+from fmu_bearing.engine.fidelities.full.fast import blocks
 from fmu_bearing.engine.fidelities.full.methods.table import AT_ESDIRK4, AT_RK4, AT_TRBDF2, TABLEAUX
-from fmu_bearing.engine.fidelities.full.progress import (
-    accept,
-    renew_jacobian,
-    total_energy,
-)
+from fmu_bearing.engine.fidelities.full.progress import accept, renew_jacobian, total_energy
 from fmu_bearing.engine.fidelities.full.runge_kutta import integrate_power, runge_kutta_step
-from fmu_bearing.engine.fidelities.steps import velocity_tolerance
 from fmu_bearing.engine.jit import inlined
-from fmu_bearing.engine.layout import TAB, C, F, P, S, U, W, Y
-from fmu_bearing.engine.layout.sizes import BLOCK
+from fmu_bearing.engine.layout import BLOCK, TAB, C, F, P, S, U, W, Y
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.mechanics.flexure import flexure_state
 from fmu_bearing.engine.newton.block_arrow import factor
@@ -30,7 +17,6 @@ from fmu_bearing.engine.readout.motion import emit_samples
 from fmu_bearing.engine.statics.rigid_preload import axial_speed
 from fmu_bearing.engine.status import NOT_CONVERGED, OK
 
-_SHORTEST = 1e-10  # s: a step that must be shorter has not converged
 _OLDEST = 5e-3  # s: age at which the Jacobian is renewed in any case
 _PROBE = 16  # steps between measurements of the contraction
 # Factors serve a step within 15 % of theirs: the wrong scale then contracts by about the same 0.15, which a
@@ -60,7 +46,7 @@ def take_inputs(p, u, s, w, h):
         s[S.FAST_Y + Y.V0] += axial - s[S.Y + Y.V0]
         s[S.Y + Y.V0] = axial
         s[S.WORK] += total_energy(p, s, w) - before
-        shift_history(s, w[W.BEFORE : W.BEFORE + F.SIZE])
+        blocks.shift_history(s, w[W.BEFORE : W.BEFORE + F.SIZE])
     elif rate != s[S.SPEED_RATE]:
         s[S.SPEED_RATE] = rate
         total_energy(p, s, w)
@@ -111,10 +97,9 @@ def try_step(p, s, w, h, tableau, tolerance):
 @inlined
 def march(p, u, s, w, h):
     """Advance the state by the communication step ``h`` (s); status code."""
-    for i in range(3):
-        s[S.MEAN_HEAT + i] = s[S.HEAT + i]
+    steps.begin_heats(s)
     take_inputs(p, u, s, w, h)
-    tolerance = velocity_tolerance(p, u[U.SPEED])
+    tolerance = steps.velocity_tolerance(p, u[U.SPEED])
     tableau = AT_TRBDF2 if p[P.METHOD] == TRBDF2 else AT_RK4 if p[P.METHOD] == RK4 else AT_ESDIRK4
     power = -1.0 / TABLEAUX[tableau + TAB.ORDER]
     begin = s[S.TIME]
@@ -122,20 +107,19 @@ def march(p, u, s, w, h):
     longest = p[P.MAX_STEP] if p[P.MODES] == 0.0 else min(p[P.MAX_STEP], p[P.MODE_STEP])
     # bounded work: no more attempts than a hundred times what the largest internal step would need
     # (a thousand times for explicit steps, which stability keeps below 0.1 us)
-    left = 2000.0 + (1000.0 if tableau == AT_RK4 else 100.0) * math.ceil(h / longest)
+    left = steps.most_attempts(h, longest, 1000.0 if tableau == AT_RK4 else 100.0)
     remaining = h
     fast = p[P.METHOD] == FAST
-    # the clock's own rounding must not count as time left
-    while remaining > 1e-12 * h + 4e-16 * abs(end):
+    while steps.unfinished(remaining, h, end):
         proposed = min(s[S.STEP], longest)
-        length = remaining / max(1.0, math.ceil(remaining / proposed - 1e-9))
-        short = fast_length(p, s, remaining) if fast else 0.0
+        length = steps.even_length(remaining, proposed)
+        short = blocks.fast_length(p, s, remaining) if fast else 0.0
         if short > 0.0 and short <= 1.000001 * length:
             # ESDIRK4 takes the same steps until the history suffices
             length = short
-            if fast_history(s, short):
+            if blocks.fast_history(s, short):
                 count = min(BLOCK, int(remaining / short + 0.5))
-                if fast_block(p, s, w, count, tolerance):
+                if blocks.fast_block(p, s, w, count, tolerance):
                     remaining = end - s[S.TIME]
                     continue
         left -= 1.0
@@ -143,17 +127,15 @@ def march(p, u, s, w, h):
             return NOT_CONVERGED
         error = try_step(p, s, w, length, tableau, tolerance)
         if error < 0.0 or not (error <= 1.0):
-            s[S.REJECTED] += 1.0
             shrink = 0.25 if not (error > 0.0) else max(0.2, 0.9 * error**power)
-            s[S.STEP] = length * shrink
-            if s[S.STEP] < min(_SHORTEST, 0.01 * h):
+            if not steps.rejected(s, length * shrink, h):
                 return NOT_CONVERGED
             continue
         integrate_power(length, tableau, w, s[S.WORK : S.WORK + F.POWERS])
         emit_samples(p, s, w, length)
         accept(p, s, w, length)
         if fast:
-            remember(s, length, w[W.ACC : W.ACC + F.SIZE])
+            blocks.remember(s, length, w[W.ACC : W.ACC + F.SIZE])
         remaining = end - s[S.TIME]
         grow = min(2.0, max(0.3, 0.9 * (error + 1e-6) ** power))
         # a step cut to meet the communication point says nothing against a longer one
@@ -166,6 +148,5 @@ def march(p, u, s, w, h):
     # not carry the last Newton iteration's remainder.
     s[S.ENERGY_NOW] = total_energy(p, s, w)
     summarise(p, s, w)
-    for i in range(3):
-        s[S.MEAN_HEAT + i] = (s[S.HEAT + i] - s[S.MEAN_HEAT + i]) / h
+    steps.mean_heats(s, h)
     return OK

@@ -4,8 +4,7 @@ import math
 
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import dot_lanes
-from fmu_bearing.engine.layout import C, F, P, Q
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, C, F, P, Q
 from fmu_bearing.engine.newton.jacobian import is_angle
 
 

@@ -1,9 +1,9 @@
 """What every way of stepping does to the state: renew the Jacobian, take a step over, add up energy."""
 
 from fmu_bearing.engine.fidelities.full.flexible import accept_modes
+from fmu_bearing.engine.fidelities.steps import advance_clock
 from fmu_bearing.engine.jit import inlined, kernel
-from fmu_bearing.engine.layout import C, F, P, Q, S, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, C, F, P, Q, S, W, Y
 from fmu_bearing.engine.mechanics.ball_waves import advance_axes, turn_axes
 from fmu_bearing.engine.mechanics.energy import stored_energy
 from fmu_bearing.engine.mechanics.equations import right_hand_side
@@ -15,17 +15,6 @@ from fmu_bearing.engine.mechanics.flexure import (
 )
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 from fmu_bearing.engine.newton.jacobian import jacobian
-
-# Amplitude (m) whose velocity at shaft speed the relative tolerance refers to: 10 mm/s at 20,000 r/min, as
-# rings vibrate there; the slowest speed (rad/s) for which it shrinks with speed.
-_AMPLITUDE = 5e-6
-_SLOWEST = 20.0
-
-
-@kernel
-def velocity_tolerance(p, speed):
-    """Error (m/s) allowed in the rings' velocities at a shaft speed (rad/s)."""
-    return p[P.TOLERANCE] * _AMPLITUDE * max(abs(speed), _SLOWEST)
 
 
 @kernel
@@ -89,7 +78,4 @@ def accept(p, s, w, h):
         # the orbit angle at the Jacobian turns back with the balls
         s[S.JACOBIAN_ANGLE] += turn
     wrap_angles(s[S.Y : S.Y + Y.SIZE])
-    s[S.ANGLE] = wrap(s[S.ANGLE] + h * (s[S.SPEED] + 0.5 * h * s[S.SPEED_RATE]))
-    s[S.SPEED] += h * s[S.SPEED_RATE]
-    s[S.TIME] += h
-    s[S.STEPS] += 1.0
+    advance_clock(s, h)

@@ -12,8 +12,7 @@ from fmu_bearing.engine.fidelities.full.methods.table import TABLEAUX
 from fmu_bearing.engine.fidelities.full.norms import body_size, newton_size, row_size
 from fmu_bearing.engine.fidelities.full.vectors import add_scaled, sum_scaled
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import TAB, F, P, Q, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, TAB, F, P, Q, W, Y
 from fmu_bearing.engine.mechanics.ball_waves import turn_axes
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.newton.block_arrow import solve

@@ -7,8 +7,7 @@ redistributed loads then lack of balance on the bodies is small and rings down w
 
 from fmu_bearing.engine.fidelities.full.flexible import solve_modes
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import FL, A, F, J, P, Q, S, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import FL, STRIDE, A, F, J, P, Q, S, W, Y
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.mechanics.flexure import flexure_state, show_flexure
 from fmu_bearing.engine.newton.block_arrow import factor

@@ -20,8 +20,7 @@ from fmu_bearing.engine.dense import solve_complex
 from fmu_bearing.engine.fidelities.condensed.balls import carried, stand
 from fmu_bearing.engine.fidelities.condensed.rows import component
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import LN, C, L, P, Q, S, T, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import LN, STRIDE, C, L, P, Q, S, T, W, Y
 from fmu_bearing.engine.newton.jacobian import inertia, is_angle
 
 _HEIGHT = 1e-9  # m, for differences; heights' accelerations by (3e4 rad/s)^2 times that

@@ -29,8 +29,7 @@ from fmu_bearing.engine.fidelities.condensed.shared import (
 from fmu_bearing.engine.fidelities.response.lines import order_amplitudes, renew_lines
 from fmu_bearing.engine.fidelities.steps import begin_heats, mean_heats
 from fmu_bearing.engine.jit import inlined, kernel
-from fmu_bearing.engine.layout import C, F, L, P, S, T, U, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, C, F, L, P, S, T, U, W, Y
 from fmu_bearing.engine.status import NO_START, NOT_CONVERGED, OK
 
 _SAMPLING = 51_200.0  # Hz of the states that samples are interpolated between, with sound

@@ -22,8 +22,7 @@ from fmu_bearing.engine.fidelities.condensed.rows import keep_balls, show_balls
 from fmu_bearing.engine.fidelities.condensed.shared import advance, emit, set_inputs, start_condensed
 from fmu_bearing.engine.fidelities.rings.predictor import change_spacing, predict
 from fmu_bearing.engine.jit import inlined, kernel
-from fmu_bearing.engine.layout import C, F, L, P, S, T, U, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, C, F, L, P, S, T, U, W, Y
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 from fmu_bearing.engine.newton.jacobian import is_angle
 from fmu_bearing.engine.status import NO_START, NOT_CONVERGED, OK

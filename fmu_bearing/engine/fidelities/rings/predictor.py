@@ -3,8 +3,7 @@
 from fmu_bearing.engine.fidelities.condensed.publish import rate_error
 from fmu_bearing.engine.fidelities.condensed.rows import show_balls
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import L, T, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, L, T, W, Y
 
 
 @kernel

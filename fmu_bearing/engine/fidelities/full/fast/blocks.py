@@ -11,8 +11,7 @@ from fmu_bearing.engine.fidelities.full.fast.newmark import BETA, BETA_BALL, ite
 from fmu_bearing.engine.fidelities.full.norms import body_size, newton_size
 from fmu_bearing.engine.fidelities.full.progress import accept, renew_jacobian, wrap_angles
 from fmu_bearing.engine.jit import inlined, kernel
-from fmu_bearing.engine.layout import C, F, J, P, Q, S, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, C, F, J, P, Q, S, W, Y
 from fmu_bearing.engine.mechanics.ball_waves import turn_axes
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 from fmu_bearing.engine.newton.block_arrow import factor

@@ -1,4 +1,4 @@
-"""Time the engine's levels and integrators, and take their errors from the reference trajectory."""
+"""Time the engine's fidelities and integrators, and take their errors from the reference trajectory."""
 
 from collections.abc import Sequence
 
@@ -51,7 +51,7 @@ def full_rows(
 
 
 def level_row(case: Case, solver: Solver, start: Arrays, budget: float, repeats: int) -> Row:
-    """Row of a level that approximates ``full``: error is that of the rings' rms velocity, larger ring.
+    """Row of a fidelity that approximates ``full``: error is that of the rings' rms velocity, larger ring.
 
     The remark gives both rings, and the integration error against itself at a quarter of the step.
     """

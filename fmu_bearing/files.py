@@ -1,4 +1,4 @@
-"""Files: written whole, as other processes may read them; the package's own, by their digest."""
+"""Writing files in one step, because other processes may read them; digests of source files."""
 
 import hashlib
 import os
@@ -25,7 +25,7 @@ def write_whole(path: Path, data: bytes) -> Path:
 
 
 def sources_digest(rooms: Iterable[str]) -> str:
-    """Return a digest (64 hex digits) of all Python sources of some rooms of the package: names and bytes."""
+    """Return a digest (64 hex digits) of all Python sources of some subpackages: names and bytes."""
     root = Path(__file__).parent
     digest = hashlib.sha256()
     for room in rooms:

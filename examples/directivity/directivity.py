@@ -1,8 +1,8 @@
 """Directivity of the full-ceramic 7009C: levels on a circle of 210 mm, 50 mm in front, beside its steel twin.
 
-``python directivity.py [--quick]`` records both bearings (fidelity full, radiation model bem; ``--quick``: a short run of
-the ceramic one, radiation model compact) and writes ``directivity.png``, each circle about its mean, and
-``directivity.csv``.
+``python directivity.py [--quick]`` records both bearings with fidelity full and radiation model bem;
+``--quick``: a short run of the ceramic bearing with radiation model compact. It writes ``directivity.png``,
+each circle about its mean, and ``directivity.csv``.
 
 Result: the ceramic bearing's circle is loudest at 45 deg from 12 o'clock at all speeds, 1.1 dB(A) above its
 quietest place at 6,000 and 12,000 r/min and 2.1 at 18,000 r/min, where the level is 69.9 dB(A). The steel

@@ -1,9 +1,9 @@
 """Spread of sound and vibration among bearings of one tolerance class: 7003C in its spindle, P5, P4 and P2.
 
 ``python tolerance.py [--quick]`` builds bearings from seeds (phases of the waviness, diameters of the balls)
-and records each at 20,000 r/min: 12 of each class at fidelity full and radiation model bem, 0.2 s after 0.05 s;
-``--quick``: 3 of each at fidelity rings, radiation model compact, 0.05 s. It writes ``tolerance.csv``, ``tolerance.md`` and
-``tolerance.png``.
+and records each at 20,000 r/min: 12 of each class with fidelity full and radiation model bem, 0.2 s after
+0.05 s; ``--quick``: 3 of each with fidelity rings and radiation model compact, 0.05 s. It writes
+``tolerance.csv``, ``tolerance.md`` and ``tolerance.png``.
 
 Assumed are the amplitudes of each class: a standard limits runout, not waviness, and the catalogue scales one
 set of amplitudes by the runout allowed (P5 : P4 : P2 = 1.6 : 1 : 0.6), the unbalance with it. All amplitudes
@@ -93,7 +93,7 @@ def draw(samples: list[Sample]) -> Figure:
 
 
 def main(
-    quick: Annotated[bool, typer.Option("--quick", help="Few bearings, short, by a faster level.")] = False,
+    quick: Annotated[bool, typer.Option("--quick", help="Few bearings, short runs, fidelity rings.")] = False,
     output: Annotated[Path, typer.Option(help="Folder for table and picture.")] = Path("out/tolerance_study"),
 ) -> None:
     """Draw bearings of each class, record them, and tell how they spread."""

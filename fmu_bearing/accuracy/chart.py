@@ -130,7 +130,7 @@ def _overlap(one: tuple[float, ...], other: tuple[float, ...]) -> bool:
 
 
 def _words(row: Row) -> str:
-    """Step and tolerance; fidelity and method are told by colour and marker."""
+    """Step and tolerance; colour and marker show fidelity and method."""
     s = row.setting
     if s.fidelity == "response":
         return "response"

@@ -1,4 +1,4 @@
-"""Fidelity ``full`` as x' = g(t, x), for integrators that know nothing of bearings.
+"""Fidelity ``full`` as x' = g(t, x), for general-purpose integrators.
 
 ``x`` holds nine rows of one number per ball (x, r, theta, their rates, spin), then 17 coordinates of the
 bodies and their 17 rates, as ``y`` in ``engine.layout`` without its spare lanes.
@@ -80,7 +80,7 @@ class FirstOrder:
     start : ndarray
         ``x`` at t = 0.
     scale : ndarray
-        Size of what moves in each component, for absolute tolerances.
+        Typical size of each component, for absolute tolerances.
     rings : ndarray of int
         Places in ``x`` of the six ring velocities.
     """

@@ -33,7 +33,7 @@ _STOP_SLIP = 0.1  # m/s
 
 @dataclass(frozen=True)
 class Model:
-    """What a run needs: numbers for the engine and the variables people see.
+    """Input of a run: numbers for the engine and the table of variables.
 
     Attributes
     ----------
@@ -42,7 +42,7 @@ class Model:
         Flat parameter array ``p`` of the engine, read-only.
     variables : tuple of Variable
     note : str
-        What readers of its documentation should know, such as why its fidelity was chosen.
+        Remark for the documentation, such as why its fidelity was chosen.
     """
 
     scene: Scene
@@ -82,7 +82,7 @@ def prepare(
     scene : Scene
     fidelity, method : str, optional
         Fidelity and integrator in place of the scene's. A scene whose fidelity is ``auto`` needs
-        ``fidelity``: which one is accurate enough has to be found by running it.
+        ``fidelity``, because only runs of the scene tell which one is accurate enough.
     max_step : float, optional
         Largest internal step (s) in place of the scene's.
     note : str, optional

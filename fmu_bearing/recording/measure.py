@@ -1,7 +1,7 @@
-"""What is measured on a recording: spectra by component, circles, planes, sweeps, sound power, run-ups.
+"""Measurements on a recording: spectra by component, circles, planes, sweeps, sound power, run-ups.
 
-Each function places its own microphones (``Recording.pressure`` takes any) and hands the numbers to
-``acoustics``. Those with ``resolution`` average over blocks of 1 / resolution s: fast at many places.
+Each function places its own microphones and evaluates the pressures with ``acoustics.analysis``. Functions
+with ``resolution`` average over blocks of 1 / resolution s, which is fast at many places.
 """
 
 from collections.abc import Sequence
@@ -42,7 +42,7 @@ RESOLUTION = 20.0  # Hz, as in the multi-source paper's spectra
 
 @dataclass(frozen=True)
 class Round:
-    """Levels (dB) at ``angles`` (rad) round a circle, shape (points,), and what they say together."""
+    """Levels (dB) at ``angles`` (rad) round a circle, shape (points,), and their directivity."""
 
     angles: NDArray[np.float64]
     levels: NDArray[np.float64]
@@ -111,7 +111,7 @@ def strongest(
 ) -> list[Line]:
     """Return the strongest lines of a spectrum of the recording and the kinematic line behind each.
 
-    The finer the spectrum, the surer the explanation: 5 Hz rather than 20.
+    A fine spectrum, such as 5 Hz, tells neighbouring lines apart better than one of 20 Hz.
     """
     lines = kinematic_lines(recording.kinematics(), float(frequency[-1]))
     return strongest_lines(frequency, levels, count, lines)
@@ -196,8 +196,8 @@ def sound_power(
         and 1 m.
     plane : float, optional
         Place along the axis (m) of a rigid plane behind the bearing (-X): the points then stand on a
-        hemisphere about the plane's centre. The plane is heard as an image: pressures at the mirrored
-        points are added. Without it, the points stand on a full sphere in the open.
+        hemisphere about the plane's centre. Its reflection is added as the pressures at the
+        mirrored points. Without a plane the points stand on a full sphere in a free field.
     many : bool
         With the standard's second set of points.
 
@@ -231,8 +231,8 @@ def sound_power(
 def motion_power(recording: Heard, resolution: float = RESOLUTION, highest: float = 20_000.0) -> MotionPower:
     """Sound power from surface velocity: bodies as compact dipoles with effective masses of air.
 
-    An upper estimate: bodies do not shield each other, and their own size, which makes them radiate less, is
-    left out. It ends where ka reaches about 0.5 (ring d35: 1.5 kHz; housing d100 x 160: 0.5 kHz); a d100
+    This is an upper estimate, because it leaves out shielding between bodies, and their size, which lowers
+    the radiation. It is valid up to ka of about 0.5 (ring d35: 1.5 kHz; housing d100 x 160: 0.5 kHz); a d100
     housing at 2.3 kHz reads 14 dB too high.
 
     Raises

@@ -88,7 +88,7 @@ def waterfall_picture(found: Waterfall, title: str = "") -> Figure:
 
 
 def circle_picture(circles: Mapping[str, Round], title: str = "") -> Figure:
-    """Draw levels (dB) round one or more circles: 12 o'clock on top, as seen from +X."""
+    """Draw levels (dB) round one or more circles, as seen from +X, with 12 o'clock on top."""
     figure = empty((6.5, 6.5))
     _polar(figure.add_subplot(projection="polar"), circles, "N", title)
     return figure

@@ -1,4 +1,4 @@
-"""Recordings: what a run leaves behind for the ears, kept in files, or taken from an FMU's run."""
+"""Recordings: channels of a run, kept in files, or pressures taken from the run of an FMU."""
 
 import json
 import math
@@ -25,7 +25,7 @@ _VERSION = 1
 
 
 class Recording(Heard):
-    """Pressures, levels and channels of a run (`Heard` has all that can be asked of it), with files.
+    """Channels of a run, and pressures and levels at any place; can be saved and loaded.
 
     Made by ``fmu_bearing.record``, from a file (`load`) or from an FMU's run (`from_fmu`).
 

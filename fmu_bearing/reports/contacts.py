@@ -1,4 +1,4 @@
-"""Loads and angles of the balls around the circle, and what follows from them."""
+"""Loads and angles of the balls around the circle, and the figures derived from them."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""What a report is about: a recording, and how sections ask it for things it may not have."""
+"""The recording of a report, with checks for values that it may lack."""
 
 import math
 from collections.abc import Callable
@@ -15,19 +15,19 @@ from fmu_bearing.scene import Scene
 from fmu_bearing.scene.origins import Origin
 
 RPM = math.pi / 30.0  # rad/s
-#: What reports are told while they are made.
+#: Function that takes progress messages.
 Tell = Callable[[str], None]
 
 
 @dataclass(eq=False)
 class Subject:
-    """A recording with what was said about it.
+    """A recording with its origin, remarks and warnings.
 
     Attributes
     ----------
     recording : Recording
-    radiation model : str
-        How its sound is computed in this report.
+    radiation_model : str
+        Used in this report.
     source : str
         Where it came from, in words.
     scene_text : str
@@ -35,7 +35,7 @@ class Subject:
     origins : list of Origin
         Where each value of that file comes from.
     warnings : list of str
-        Told while it was made.
+        Warnings of the run.
     radius : float
         Of the sphere on which directivity is shown (m).
     """

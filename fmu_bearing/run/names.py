@@ -1,4 +1,4 @@
-"""Names of variables as people write them: with a star for any text, or nearly right."""
+"""Names of variables: patterns with a star for any text, and suggestions for misspelt names."""
 
 import difflib
 import fnmatch
@@ -16,7 +16,7 @@ _INDEX = re.compile(r"\[\d+\]")
 
 @functools.cache
 def _usual_units() -> dict[str, str]:
-    """Return units by name of the variables of a scene that has everything, indices left out."""
+    """Return units by name of the variables of a scene with all options, without indices."""
     scene = read_scene_text(new_scene("any", "7003C"))
     return {_INDEX.sub("[]", variable.name): variable.unit for variable in variables(scene, 0.0)}
 
@@ -27,11 +27,11 @@ def unit_of(name: str) -> str:
 
 
 class UnknownName(ValueError):
-    """A name that is not among those there are; the message says which is nearest."""
+    """An unknown name; the message suggests the nearest one."""
 
 
 def known(name: str, names: Sequence[str], what: str) -> str:
-    """Return ``name`` if it is one of ``names``; else ``UnknownName`` tells the nearest."""
+    """Return ``name`` if it is one of ``names``; else `UnknownName` suggests the nearest."""
     if name in names:
         return name
     near = difflib.get_close_matches(name, names, n=1, cutoff=0.5)

@@ -1,4 +1,4 @@
-"""TOML in, a scene or a ``SceneError`` out, with one line per problem."""
+"""From TOML to a scene, or to a ``SceneError`` with one line per problem."""
 
 import difflib
 import tomllib
@@ -103,7 +103,8 @@ def with_fidelity(scene: Scene, **keys: Any) -> Scene:
 def _resolve(data: dict[str, Any], lines: list[str], unresolved: list[Location]) -> None:
     """Replace catalogue names by their values; keys given in the file win.
 
-    Unknown names go to ``lines``, and to ``unresolved`` the tables about which nothing more can be said.
+    Messages about unknown names are added to ``lines``; their tables, which cannot be checked further, to
+    ``unresolved``.
     """
     for table, kind in (("bearing", "bearings"), ("lubricant", "lubricants")):
         _fill(data, (table,), kind, lines, unresolved)
@@ -150,7 +151,7 @@ def _fill(
 
 
 def _beside_harmonics(entry: dict[str, Any], given: dict[str, Any]) -> dict[str, Any]:
-    """Return a grade without what the file's own harmonics stand for."""
+    """Return a grade without the values that the file's own harmonics replace."""
     explicit = [race for race in RACES if given.get(f"{race}_race_harmonic")]
     unused = {f"{race}_race_amplitude_um" for race in explicit}
     if len(explicit) == len(RACES):

@@ -15,7 +15,7 @@ from fmu_bearing.scene import Scene
 from fmu_bearing.scene.units import symbol
 from fmu_bearing.scene.values import fields_of, value_at
 
-#: Short names of what is swept most.
+#: Short names of frequent axes.
 ALIASES = {
     "speed": "operation.speed_rpm",
     "preload": "mounting.preload_N",
@@ -34,7 +34,7 @@ class SweepError(ValueError):
 
 @dataclass(frozen=True)
 class Axis:
-    """One thing that is varied.
+    """One varied key.
 
     Attributes
     ----------
@@ -61,7 +61,7 @@ def parse_axis(text: str) -> tuple[str, list[Any]]:
     Raises
     ------
     SweepError
-        For what is no axis.
+        For text that is not an axis.
     """
     key, equals, values = (part.strip() for part in text.partition("="))
     if not (key and equals and values):
@@ -75,7 +75,7 @@ def parse_values(key: str, text: str) -> list[Any]:
     Raises
     ------
     SweepError
-        Naming the axis and what is wrong with it.
+        With the axis and the reason.
     """
     match = _RANGE.fullmatch(text.strip())
     if match is None:
@@ -96,7 +96,7 @@ def parse_values(key: str, text: str) -> list[Any]:
 
 
 def _round(values: NDArray[np.float64]) -> list[float]:
-    """Return numbers as people would write them: 2e7 rather than 20000000.000000004."""
+    """Return numbers rounded to 12 digits: 2e7 rather than 20000000.000000004."""
     return [float(f"{value:.12g}") for value in values]
 
 

@@ -105,7 +105,7 @@ def test_error_survives_pickling():
             "paper, paper_vector, paper_contacts, compact, bem",
         ),
         ('radiation_model = "bem"', "radiation model = 2", "2", "paper, paper_vector"),
-        ('level = "full"', 'level = "ring"', "'ring'", "full, rings, response, auto"),
+        ('model = "full"', 'model = "ring"', "'ring'", "full, rings, response, auto"),
         ('method = "esdirk4"', 'method = "bdf"', "'bdf'", "esdirk4, fast, trbdf2, rk4"),
         ('race_control = "shared"', 'race_control = "both"', "'both'", "shared, outer, inner"),
         ("level_dB = 1.0", "level_dB = 0", "0", "0.01 to 40 dB"),

@@ -2,8 +2,9 @@
 
 ============== =====================================================================================
 entries        the three entries of the engine with the signature of C
+platforms      systems and processors of FMI 2.0, with the names that compilers use
+optimise       LLVM code -> object file of one instruction set
 compile        kernels -> LLVM -> object files, kept by a hash of the engine
-platforms      targets of FMI 2.0 and what compiles for them
 link           objects and shim -> one shared library per platform
 model_file     a model as the bytes of ``resources/model.bin``
 shim/          FMI 2.0 co-simulation in C99, the same for every scene and platform

@@ -29,7 +29,7 @@ Tell = Callable[[str], None]
 
 
 def silent(text: str) -> None:
-    """Tell nobody."""
+    """Discard a message."""
 
 
 def kernel_folder() -> Path:

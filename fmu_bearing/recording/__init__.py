@@ -7,6 +7,7 @@
 ``measure``     spectra by component, circles, planes, power, run-ups
 ``tables``      such measurements as tables
 ``pictures``    such measurements as pictures
+``audio``       pressures as WAV files in pascals
 ``listen``      levels, spectra, third octaves and lines in one call, and their files
 ==============  ==========================================================================
 """

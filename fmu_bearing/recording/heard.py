@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.signal import sosfilt
 
+from fmu_bearing import renamed
 from fmu_bearing.acoustics.analysis.field import Blocks, Channels, Circle, Position, circles, form_of, kind_of
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies, kinematic_frequencies
 from fmu_bearing.acoustics.filters.design import radiators_of
@@ -147,6 +148,7 @@ class Heard:
             w, int(bearing.ball_count), bearing.ball_diameter, bearing.pitch_diameter, contact_angle
         )
 
+    @renamed.arguments
     def pressure(
         self, positions: Sequence[ArrayLike] | None = None, radiation_model: str | None = None
     ) -> NDArray[np.float64]:
@@ -174,6 +176,7 @@ class Heard:
                 total[list(circle.members)] += part
         return total
 
+    @renamed.arguments
     def partial(
         self,
         positions: Sequence[ArrayLike] | None = None,
@@ -208,6 +211,7 @@ class Heard:
                 total[list(circle.members)] += part
         return found
 
+    @renamed.arguments
     def levels(
         self,
         positions: Sequence[ArrayLike] | None = None,
@@ -250,6 +254,7 @@ class Heard:
                     mean_square[rows] += self.mean_square(part, weighting)
         return level(mean_square)
 
+    @renamed.arguments
     def mean_squares(
         self,
         positions: Sequence[ArrayLike] | None = None,

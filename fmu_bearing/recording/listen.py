@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu_bearing import renamed
 from fmu_bearing.acoustics.analysis.audio import write_wav
 from fmu_bearing.acoustics.analysis.field import Position
 from fmu_bearing.acoustics.analysis.lines import Line
@@ -99,6 +100,7 @@ class Listened:
         )
 
 
+@renamed.arguments
 def listen(
     recording: Heard,
     microphones: Sequence[str] | None = None,
@@ -171,6 +173,7 @@ def _spectra(
     return frequency, {name: np.array([levels for _, levels in rows]) for name, rows in found.items()}
 
 
+@renamed.arguments
 def write_all(
     recording: Heard,
     found: Listened,

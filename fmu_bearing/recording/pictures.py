@@ -1,4 +1,11 @@
-"""Pictures of sound measurements: each function returns a Matplotlib figure, `save` writes it."""
+"""Pictures of sound measurements: each function returns a Matplotlib figure, `save` writes it.
+
+Examples
+--------
+>>> from fmu_bearing import pictures
+>>> figure = pictures.third_octave_picture([500.0, 1000.0, 2000.0], {"total": [60.0, 72.5, 65.0]})
+>>> pictures.save(figure, "third-octaves.png")
+"""
 
 import math
 from collections.abc import Mapping, Sequence

@@ -7,17 +7,18 @@ from collections.abc import Callable, Iterable, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu_bearing import renamed
 from fmu_bearing.acoustics.analysis.field import TAIL, form_of
 from fmu_bearing.acoustics.radiation.radiators import Air
 from fmu_bearing.engine.layout import SD, P, S
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import Model, prepare
-from fmu_bearing.recording.recording import PRESSURE_STEP, Recording
+from fmu_bearing.recording.recording import Recording
 from fmu_bearing.run.choose import resolve
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.sound import Microphone, Sound
 
-__all__ = ["OUTPUTS", "PRESSURE_STEP", "Recording", "record"]
+__all__ = ["OUTPUTS", "Recording", "record"]
 
 Signal = float | Callable[[float], float]
 
@@ -32,6 +33,7 @@ OUTPUTS = (
 _FAR = 2000.0  # mm: where the one microphone of a recording stands; its flight lengthens the channel history
 
 
+@renamed.arguments
 def record(
     source: Model | Scene,
     duration: float,

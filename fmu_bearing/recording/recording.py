@@ -16,9 +16,6 @@ from fmu_bearing.recording.heard import Heard
 from fmu_bearing.run.result import read_table
 from fmu_bearing.scene import Scene, read_scene_text, si
 
-#: Communication step (s) at which an FMU shows every pressure sample once: a hair longer than a sample, so
-#: that rounding of times never shows one twice and the next not at all.
-PRESSURE_STEP = (1.0 + 1e-9) / SD.RATE
 _PRESSURE = re.compile(r"mic\[\d+\]\.pressure")
 _ENOUGH = 40_000.0  # Hz: pressures reach to 20 kHz
 _VERSION = 1
@@ -39,6 +36,10 @@ class Recording(Heard):
     (1, 1024)
     """
 
+    #: Communication step (s) at which an FMU gives every pressure sample once. It is slightly longer than a
+    #: sample, so that rounding of times never repeats one sample and skips the next.
+    PRESSURE_STEP = (1.0 + 1e-9) / SD.RATE
+
     @classmethod
     def from_fmu(
         cls,
@@ -52,7 +53,8 @@ class Recording(Heard):
         ----------
         result : structured array or path
             What ``fmpy.simulate_fmu`` returns, with ``mic[1].pressure`` and so on among its outputs, or a CSV
-            file of it. Run with ``output_interval=PRESSURE_STEP``, so that every sample is there once.
+            file of it. Run with ``output_interval=Recording.PRESSURE_STEP``, so that every sample is there
+            once.
         scene : Scene, optional
             The scene the FMU was built from: places of microphones, kinematic frequencies.
         settle : float
@@ -82,7 +84,7 @@ class Recording(Heard):
         if rate < _ENOUGH:
             warnings.warn(
                 f"pressures at {rate:g} Hz fold what lies above {rate / 2:g} Hz: run with "
-                "output_interval=PRESSURE_STEP",
+                "output_interval=Recording.PRESSURE_STEP",
                 stacklevel=2,
             )
         first = int(np.searchsorted(time, time[0] + settle - 1e-9))

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from fmu_bearing import renamed
 from fmu_bearing.acoustics.analysis.field import form_of
 from fmu_bearing.files import write_whole
 from fmu_bearing.recording.record import Recording, record
@@ -58,6 +59,7 @@ class Report:
     recording: Recording
 
 
+@renamed.arguments
 def report(source: Source, output: str | os.PathLike[str], **options: Any) -> pathlib.Path:
     """Write the report of a run as one HTML page that needs no network, and return its path.
 
@@ -75,6 +77,7 @@ def report(source: Source, output: str | os.PathLike[str], **options: Any) -> pa
     return make(source, output, **options).path
 
 
+@renamed.arguments
 def make(
     source: Source,
     output: str | os.PathLike[str],

@@ -6,6 +6,7 @@ import functools
 import re
 from collections.abc import Iterable, Sequence
 
+from fmu_bearing import renamed
 from fmu_bearing.interface import variables
 from fmu_bearing.scene import read_scene_text
 from fmu_bearing.scene.template import new_scene
@@ -31,11 +32,15 @@ class UnknownName(ValueError):
 
 
 def known(name: str, names: Sequence[str], what: str) -> str:
-    """Return ``name`` if it is one of ``names``; else `UnknownName` suggests the nearest."""
+    """Return ``name`` if it is one of ``names``; else raise `UnknownName` with the new or nearest name."""
     if name in names:
         return name
+    now = renamed.VARIABLES.get(name)
     near = difflib.get_close_matches(name, names, n=1, cutoff=0.5)
-    hint = f"did you mean '{near[0]}'?" if near else f"there are {_some(names)}"
+    if now in names:
+        hint = f"it is now '{now}'"
+    else:
+        hint = f"did you mean '{near[0]}'?" if near else f"there are {_some(names)}"
     raise UnknownName(f"there is no {what} '{name}'; {hint}")
 
 

@@ -12,6 +12,7 @@ import numpy as np
 from fmpy.util import read_csv, write_csv
 from numpy.typing import NDArray
 
+from fmu_bearing import renamed
 from fmu_bearing.files import write_whole
 from fmu_bearing.run.extras import need
 from fmu_bearing.scene import Scene, read_scene_text
@@ -85,7 +86,8 @@ class Run:
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
         if name not in (self.table.dtype.names or ()):
-            raise KeyError(f"'{name}' was not kept; kept were {', '.join(self.names)}")
+            now = f"it is now '{renamed.VARIABLES[name]}'; " if name in renamed.VARIABLES else ""
+            raise KeyError(f"'{name}' was not kept; {now}kept were {', '.join(self.names)}")
         return np.asarray(self.table[name], dtype=float)
 
     def __iter__(self) -> Iterator[str]:

@@ -67,7 +67,7 @@ class Accuracy(Part):
 class Fidelity(Part):
     """Physics, integrator, error bounds and detail."""
 
-    model: choices.Fidelity | Literal["auto"] = Field(
+    model: Literal[choices.Fidelity, "auto"] = Field(
         default="full",
         description="Physics: all bodies, the rings alone, the linear response, or the fastest "
         "within the accuracy.",

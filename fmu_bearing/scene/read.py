@@ -84,12 +84,19 @@ def read_scene_text(text: str, name: str = "scene", folder: Path | None = None) 
 
 
 def with_fidelity(scene: Scene, **keys: Any) -> Scene:
-    """Return the scene with other values at keys of ``fidelity``, held against the same ranges.
+    """Return the scene with other values at keys of ``[fidelity]``, checked against the same ranges.
 
     Raises
     ------
     SceneError
-        If a value is refused.
+        If a key or a value is refused.
+
+    Examples
+    --------
+    >>> from fmu_bearing import read_scene, with_fidelity
+    >>> scene = with_fidelity(read_scene("examples/scenes/7003C-bare.toml"), model="rings", tolerance=1e-4)
+    >>> scene.fidelity.model, scene.fidelity.tolerance
+    ('rings', 0.0001)
     """
     data = scene.model_dump()
     data["fidelity"] |= keys

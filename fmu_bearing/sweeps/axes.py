@@ -24,6 +24,8 @@ ALIASES = {
     "seed": "imperfections.seed",
     "fidelity": "fidelity.model",
 }
+#: Dimensions whose name is not the last part of the key.
+_NAMES = {"fidelity.model": "fidelity"}
 _RANGE = re.compile(r"([^:,]+):([^:,]+):(\d+)(log)?")
 _SYNTAX = "KEY=LOW:HIGH:COUNT, KEY=LOW:HIGH:COUNTlog or KEY=VALUE,VALUE,..."
 
@@ -41,7 +43,8 @@ class Axis:
     key : str
         Dotted key of the scene.
     name : str
-        Of the dimension: the key's last part, or all of it where two axes end alike.
+        Of the dimension: the key's last part, ``fidelity`` for ``fidelity.model``; the whole key where two
+        axes end alike.
     values : tuple
         Numbers, texts or truth values, in the key's unit.
     unit, words : str
@@ -129,7 +132,7 @@ def axes_of(scene: Scene, wanted: Mapping[str, Sequence[Any] | str]) -> tuple[Ax
         found[key] = listed
     if problems:
         raise SweepError("\n".join(problems))
-    ends = [key.rpartition(".")[2] for key in found]
+    ends = [_NAMES.get(key, key.rpartition(".")[2]) for key in found]
     names = [end if ends.count(end) == 1 else key for key, end in zip(found, ends, strict=True)]
     return tuple(
         Axis(key, name, tuple(values), symbol(key), fields[key].description or "")

@@ -203,7 +203,7 @@ def test_sound_refuses_in_a_line(run, rings_file, heard, silent_file, tmp_path):
 
 
 def test_listening_to_pressures_alone(scene):
-    whole = record(with_fidelity(scene("7003C-bare"), fidelity="rings"), 0.05)
+    whole = record(with_fidelity(scene("7003C-bare"), model="rings"), 0.05)
     heard = listen(whole)
     alone = Recording(
         whole.scene, "recorded", whole.rate, whole.start, whole.size, whole.output_time, whole.speed_points,
@@ -216,7 +216,7 @@ def test_listening_to_pressures_alone(scene):
 
 def test_levels_of_a_papers_radiation_model_add_energies(scene):
     """As the paper does (eqs. 43 and 46); the pressures of its sources added would read 0.3 dB more here."""
-    whole = record(with_fidelity(scene("7003C-bare"), fidelity="rings"), 0.05, radiation_model="paper")
+    whole = record(with_fidelity(scene("7003C-bare"), model="rings"), 0.05, radiation_model="paper")
     heard = listen(whole)
     np.testing.assert_array_equal(heard.levels[:, 1], whole.levels(weighting="A"))
     added = level(whole.mean_square(whole.pressure()))

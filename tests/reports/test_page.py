@@ -113,7 +113,7 @@ def test_pressures_of_an_fmu_alone(tmp_path):
 
 
 def test_a_recording_of_few_variables_and_a_papers_radiation_model(scene, tmp_path):
-    rings = with_fidelity(scene("7003C-spindle"), fidelity="rings")
+    rings = with_fidelity(scene("7003C-spindle"), model="rings")
     recording = record(rings, 0.03, radiation_model="paper", outputs=("inner_ring.velocity.x",))
     recording.outputs |= {
         f"inner_ring.velocity.{a}": recording.outputs["inner_ring.velocity.x"] for a in "yz"

@@ -104,7 +104,7 @@ def test_error_survives_pickling():
             "'fem'",
             "paper, paper_vector, paper_contacts, compact, bem",
         ),
-        ('radiation_model = "bem"', "radiation model = 2", "2", "paper, paper_vector"),
+        ('radiation_model = "bem"', "radiation_model = 2", "2", "paper, paper_vector"),
         ('model = "full"', 'model = "ring"', "'ring'", "full, rings, response, auto"),
         ('method = "esdirk4"', 'method = "bdf"', "'bdf'", "esdirk4, fast, trbdf2, rk4"),
         ('race_control = "shared"', 'race_control = "both"', "'both'", "shared, outer, inner"),

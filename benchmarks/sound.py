@@ -1,4 +1,4 @@
-"""What sound costs: CPU seconds per simulated second, by radiation model and number of microphones."""
+"""Cost of sound: CPU seconds per simulated second, by radiation model and number of microphones."""
 
 import time
 

@@ -52,7 +52,7 @@ def main(
     ] = False,
     output: Annotated[Path, typer.Option(help="Folder for pictures and table.")] = Path("out/run_up"),
 ) -> None:
-    """Record a run-up and draw what is heard."""
+    """Record a run-up and draw its sound."""
     scene, duration, radiation_model = read_scene(SCENE), 1.0, "bem"
     if quick:
         scene, duration, radiation_model = with_fidelity(scene, model="rings"), 0.3, "compact"

@@ -7,12 +7,12 @@ and records each at 20,000 r/min: 12 of each class with fidelity full and radiat
 
 Assumed are the amplitudes of each class: a standard limits runout, not waviness, and the catalogue scales one
 set of amplitudes by the runout allowed (P5 : P4 : P2 = 1.6 : 1 : 0.6), the unbalance with it. All amplitudes
-are at their limit; what a seed draws is where on the races they lie. No other tolerance (clearance,
+are at their limit; the seed draws where on the races they lie. No other tolerance (clearance,
 conformity, contact angle) is varied.
 
 Result, mean and standard deviation of 12 bearings: P5 79.1 +/- 0.7 dB(A), P4 74.2 +/- 0.8, P2 69.3 +/- 0.9 at
-P1; outer ring 0.82, 0.50, 0.29 mm/s rms, each within 0.02; torque 21.1 to 21.2 N mm, whatever the class. A
-class is worth 5 dB(A); two bearings of one class may lie 2.4 dB(A) apart.
+P1; outer ring 0.82, 0.50, 0.29 mm/s rms, each within 0.02; torque 21.1 to 21.2 N mm, whatever the class. From
+one class to the next it is 5 dB(A); two bearings of one class differ by up to 2.4 dB(A).
 """
 
 from pathlib import Path
@@ -96,7 +96,7 @@ def main(
     quick: Annotated[bool, typer.Option("--quick", help="Few bearings, short runs, fidelity rings.")] = False,
     output: Annotated[Path, typer.Option(help="Folder for table and picture.")] = Path("out/tolerance_study"),
 ) -> None:
-    """Draw bearings of each class, record them, and tell how they spread."""
+    """Draw bearings of each class, record them, and write their spread."""
     scene, seeds, duration, radiation_model = read_scene(SCENE), SEEDS, 0.2, "bem"
     if quick:
         scene, seeds, duration, radiation_model = with_fidelity(scene, model="rings"), 3, 0.05, "compact"

@@ -14,7 +14,7 @@ from fmu_bearing.run.pictures import empty, save
 Point = tuple[Row, float, float]  # row, speed, error
 
 _FLOOR = 1e-7  # smaller errors are drawn here
-#: Colour and marker of each fidelity and method (colours: Okabe and Ito, 2008, told apart by all eyes).
+#: Colour and marker of each fidelity and method (colours by Okabe and Ito, 2008, for all colour vision).
 _STYLES = {
     "full / esdirk4": ("#0072B2", "o"),
     "full / fast": ("#D55E00", "s"),

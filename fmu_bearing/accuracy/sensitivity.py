@@ -195,7 +195,7 @@ def sensitivity(
         Always computed with fidelity full. Radiation model bem is replaced by compact, because boundary
         elements would have to be solved again for every geometry.
     warm_up, window : float
-        Time (s) that each run takes before it is measured, and over which it is.
+        Time (s) of each run before its figures are taken, and over which they are taken.
     track : callable
         Wraps the changes (key and new value), for a progress bar.
 

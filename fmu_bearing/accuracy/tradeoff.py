@@ -2,10 +2,10 @@
 
 Every variant runs from its own quasi-static state through its own warm-up; then its figures are taken over
 the same window as the reference's. The reference is fidelity ``full`` by the default method at ``REFERENCE``,
-and two things are held against it: over the whole run, warm-up included, the explicit method at ``WITNESS``,
-which the study asks to agree to 1e-6; and over ``CHECK`` after the warm-up, from one state, the two
-integrators of :mod:`fmu_bearing.accuracy.reference`. The first is larger: where balls stand on their orbit is
-what nothing pulls back, so differences of the warm-up stay.
+and two results are compared with it: over the whole run, warm-up included, the explicit method at
+``WITNESS``, which has to agree to 1e-6; and over ``CHECK`` after the warm-up, from one state, the two
+integrators of :mod:`fmu_bearing.accuracy.reference`. The first difference is larger, because no force
+restores the places of the balls on their orbit, so that differences from the warm-up remain.
 """
 
 import pathlib
@@ -98,7 +98,7 @@ class Row:
 
 @dataclass(frozen=True)
 class Tradeoff:
-    """The rows of one scene, and what is known of the reference they are held against.
+    """The rows of one scene, and the accuracy of the reference.
 
     Attributes
     ----------
@@ -175,10 +175,10 @@ def tradeoff(
     Parameters
     ----------
     scene : Scene
-        At its own speed, loads and temperatures; whatever its ``fidelity`` says but for terms left out.
+        Run at its own speed, loads and temperatures. Of its ``fidelity`` only the left-out terms count.
     settings : sequence of Setting
     warm_up, window : float
-        Time (s) that each variant runs before it is measured, and over which it is.
+        Time (s) that each variant runs before its figures are taken, and over which they are taken.
     budget : float
         Wall time (s) of each of two timed runs.
     track : callable

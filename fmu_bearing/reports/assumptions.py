@@ -11,7 +11,7 @@ from fmu_bearing.scene import Scene
 from fmu_bearing.scene.origins import Origin
 from fmu_bearing.scene.units import symbol
 
-_WORTH = "What each is worth is told by fmu-bearing sensitivity, which moves them one by one."
+_WORTH = "fmu-bearing sensitivity changes them one by one and shows the effect of each."
 
 
 def assumed_table(scene: Scene, origins: Sequence[Origin] = ()) -> Table:

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-#: Colours told apart by all eyes (Okabe and Ito, 2008); the total is black.
+#: Colours for all kinds of colour vision (Okabe and Ito, 2008); the total is black.
 COLOURS = {
     "total": "#000000",
     "inner_ring": "#0072B2",

@@ -122,7 +122,7 @@ def test_a_recording_of_few_variables_and_a_papers_radiation_model(scene, tmp_pa
     page = Page(made.path)
     assert "velocity-time" in page.figures and "velocity-spectrum" not in page.figures
     assert "kept every 400 us" in page.sections["velocities"]
-    assert "alike from all directions" in made.sections["directivity"]
+    assert "the same level in all directions" in made.sections["directivity"]
     assert "contact.inner.load_mean" in made.sections["contacts"]
 
 

@@ -3,7 +3,7 @@
 import math
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import FOUR, L
+from fmu_bearing.engine.layout import L
 
 _SWEEPS = 12  # of Jacobi's method: more than any matrix here needs
 _LARGEST = 1e300  # a pivot beyond it is no number to divide by
@@ -13,28 +13,47 @@ _LARGEST = 1e300  # a pivot beyond it is no number to divide by
 def times(m, at, x, source, y, target):
     """``y[target:] = matrix x[source:]``, the matrix of 11 columns of 12 at ``m[at:]``; writes 12 numbers.
 
-    Four sums by name stay in one vector register, where an inner loop would go through memory. What is
-    written must not overlap what is read.
+    Twelve sums by name stay in three vector registers, where an inner loop would go through memory.
     """
-    for group in range(L.COLUMN // FOUR):
-        a = 0.0
-        b = 0.0
-        c = 0.0
-        d = 0.0
-        for k in range(L.N):
-            value = x[source + k]
-            i = at + L.COLUMN * k + FOUR * group
-            j = i + 2
-            a += m[i] * value
-            b += m[i + 1] * value
-            c += m[j] * value
-            d += m[j + 1] * value
-        i = target + FOUR * group
-        j = i + 2
-        y[i] = a
-        y[i + 1] = b
-        y[j] = c
-        y[j + 1] = d
+    a0 = 0.0
+    a1 = 0.0
+    a2 = 0.0
+    a3 = 0.0
+    a4 = 0.0
+    a5 = 0.0
+    a6 = 0.0
+    a7 = 0.0
+    a8 = 0.0
+    a9 = 0.0
+    a10 = 0.0
+    a11 = 0.0
+    for k in range(L.N):
+        value = x[source + k]
+        column = at + L.COLUMN * k
+        a0 += m[column + 0] * value
+        a1 += m[column + 1] * value
+        a2 += m[column + 2] * value
+        a3 += m[column + 3] * value
+        a4 += m[column + 4] * value
+        a5 += m[column + 5] * value
+        a6 += m[column + 6] * value
+        a7 += m[column + 7] * value
+        a8 += m[column + 8] * value
+        a9 += m[column + 9] * value
+        a10 += m[column + 10] * value
+        a11 += m[column + 11] * value
+    y[target + 0] = a0
+    y[target + 1] = a1
+    y[target + 2] = a2
+    y[target + 3] = a3
+    y[target + 4] = a4
+    y[target + 5] = a5
+    y[target + 6] = a6
+    y[target + 7] = a7
+    y[target + 8] = a8
+    y[target + 9] = a9
+    y[target + 10] = a10
+    y[target + 11] = a11
 
 
 @kernel

@@ -5,12 +5,42 @@ Which radiation model takes which form stands in `acoustics.registry`, the forms
 
 import math
 
-from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.jit import inlined, kernel
 from fmu_bearing.engine.layout import MO, SD, STRIDE
 
 _FLOOR2 = SD.SPEED_FLOOR**2
 _RATE = MO.ACCELERATION - MO.VELOCITY  # from a velocity of a body to its rate; the same for its spin
 _TURNING = MO.SPIN - MO.VELOCITY  # from a velocity of a body to its angular velocity
+
+
+@inlined
+def _harmonic(motion, turns, balls, harmonic):
+    """One harmonic of the balls' accelerations; then ``turns`` moves on to the next."""
+    xc = 0.0
+    xs = 0.0
+    rc = 0.0
+    rs = 0.0
+    tc = 0.0
+    ts = 0.0
+    for j in range(balls):
+        b = MO.BALLS + MO.PER_BALL * j
+        a = b + MO.ACCELERATION
+        c = turns[j]
+        s = turns[STRIDE + j]
+        xc += motion[a] * c
+        xs += motion[a] * s
+        rc += motion[a + 1] * c
+        rs += motion[a + 1] * s
+        tc += motion[a + 2] * c
+        ts += motion[a + 2] * s
+        turns[j] = c * motion[b + MO.COS] - s * motion[b + MO.SIN]
+        turns[STRIDE + j] = c * motion[b + MO.SIN] + s * motion[b + MO.COS]
+    harmonic[SD.HARMONIC_X_COS] = xc
+    harmonic[SD.HARMONIC_X_SIN] = xs
+    harmonic[SD.HARMONIC_R_COS] = rc
+    harmonic[SD.HARMONIC_R_SIN] = rs
+    harmonic[SD.HARMONIC_T_COS] = tc
+    harmonic[SD.HARMONIC_T_SIN] = ts
 
 
 @kernel
@@ -43,36 +73,6 @@ def accelerations(ps, ws, motion, fresh):
     q = SD.C_HARMONICS + SD.HARMONIC_SIZE * orders
     for i in range(int(ps[SD.H_FLEXURES])):
         fresh[q + i] = motion[flex + i]
-
-
-@kernel
-def _harmonic(motion, turns, balls, harmonic):
-    """One harmonic of the balls' accelerations; then ``turns`` moves on to the next."""
-    xc = 0.0
-    xs = 0.0
-    rc = 0.0
-    rs = 0.0
-    tc = 0.0
-    ts = 0.0
-    for j in range(balls):
-        b = MO.BALLS + MO.PER_BALL * j
-        a = b + MO.ACCELERATION
-        c = turns[j]
-        s = turns[STRIDE + j]
-        xc += motion[a] * c
-        xs += motion[a] * s
-        rc += motion[a + 1] * c
-        rs += motion[a + 1] * s
-        tc += motion[a + 2] * c
-        ts += motion[a + 2] * s
-        turns[j] = c * motion[b + MO.COS] - s * motion[b + MO.SIN]
-        turns[STRIDE + j] = c * motion[b + MO.SIN] + s * motion[b + MO.COS]
-    harmonic[SD.HARMONIC_X_COS] = xc
-    harmonic[SD.HARMONIC_X_SIN] = xs
-    harmonic[SD.HARMONIC_R_COS] = rc
-    harmonic[SD.HARMONIC_R_SIN] = rs
-    harmonic[SD.HARMONIC_T_COS] = tc
-    harmonic[SD.HARMONIC_T_SIN] = ts
 
 
 @kernel

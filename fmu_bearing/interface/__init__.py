@@ -4,11 +4,11 @@ Everything people meet by name comes from here: the FMU's XML and value referenc
 and ``set``, the documentation's table. Names are a contract: harnesses depend on them.
 
 ==============  ======================================================================
-``table``       all of it, in the order of the value references
 ``variable``    one variable, and what is usual for its unit
 ``inputs``      what drives the bearing
 ``outputs``     what is read after each step: outputs and local variables
 ``parameters``  what is set before initialisation, and constants
+``table``       all of it, in the order of the value references
 ==============  ======================================================================
 """
 

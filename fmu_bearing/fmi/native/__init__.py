@@ -1,13 +1,14 @@
 """The native build: the engine's kernels compiled ahead of time behind a C shim, no Python at run time.
 
-============== =====================================================================================
-entries        the three entries of the engine with the signature of C
-compile        kernels -> LLVM -> object files, kept by a hash of the engine
-platforms      targets of FMI 2.0 and what compiles for them
-link           objects and shim -> one shared library per platform
-model_file     a model as the bytes of ``resources/model.bin``
-shim/          FMI 2.0 co-simulation in C99, the same for every scene and platform
-============== =====================================================================================
+==============  ====================================================================================
+``platforms``   targets of FMI 2.0 and what compiles for them
+``entries``     the three entries of the engine with the signature of C, as LLVM code
+``optimise``    that code optimised for one instruction set, as an object file
+``compile``     both steps for all instruction sets of a platform, kept by a hash of the engine
+``shim``        FMI 2.0 co-simulation in C99, the same for every scene and platform
+``link``        objects and shim -> one shared library per platform
+``model_file``  a model as the bytes of ``resources/model.bin``
+==============  ====================================================================================
 
 The shim, one file per task: ``fmi2_life``, ``fmi2_values``, ``fmi2_step``, ``fmi2_rates``, ``fmi2_status``
 and ``fmi2_state`` hold the functions of FMI and nothing else; ``calls`` says which is allowed in which

@@ -6,7 +6,8 @@ One way through, with no way back::
 
 ==================  =========================================================================
 ``renamed``         old names, each answered with the new one
-``files``           writing files that other processes may read; hashes of sources
+``progress``        progress of long work, told line by line
+``files``           writing files that other processes may read
 ``engine``          Numba kernels on flat arrays: mechanics, fidelities, sound
 ``scene``           WHAT is simulated: frozen models read from TOML, catalogue
 ``elastic``         bending of the rings: sections, finite elements, modes

@@ -1,12 +1,10 @@
-"""Files: written whole, as other processes may read them; the package's own, by their digest."""
+"""Files written whole, as other processes may read them."""
 
-import hashlib
 import os
 import tempfile
-from collections.abc import Iterable
 from pathlib import Path
 
-__all__ = ["sources_digest", "write_whole"]
+__all__ = ["write_whole"]
 
 
 def write_whole(path: Path, data: bytes) -> Path:
@@ -22,13 +20,3 @@ def write_whole(path: Path, data: bytes) -> Path:
         Path(temporary).unlink(missing_ok=True)
         raise
     return path
-
-
-def sources_digest(rooms: Iterable[str]) -> str:
-    """Return a digest (64 hex digits) of all Python sources of some rooms of the package: names and bytes."""
-    root = Path(__file__).parent
-    digest = hashlib.sha256()
-    for room in rooms:
-        for path in sorted((root / room).rglob("*.py")):
-            digest.update(path.relative_to(root).as_posix().encode() + path.read_bytes())
-    return digest.hexdigest()

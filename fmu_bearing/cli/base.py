@@ -22,7 +22,6 @@ from typer.core import TyperGroup
 
 from fmu_bearing import renamed
 
-RPM = math.pi / 30.0  # rad/s
 FOUND, REFUSED, ENDED_EARLY, INTERRUPTED = 1, 2, 3, 130
 
 

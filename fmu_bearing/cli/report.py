@@ -5,7 +5,8 @@ from typing import Annotated
 
 import typer
 
-from fmu_bearing.cli.base import RPM, Json, Refusal, app, errors, print_json, refusals, tell
+from fmu_bearing.cli.base import Json, Refusal, app, errors, print_json, refusals, tell
+from fmu_bearing.engine.constants import RPM
 
 Source = Annotated[
     Path, typer.Argument(metavar="SCENE|RUN.npz", help="Scene file (TOML), or a recording of a run (.npz).")

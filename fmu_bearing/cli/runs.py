@@ -8,7 +8,6 @@ import typer
 from fmu_bearing.cli.base import (
     ENDED_EARLY,
     INTERRUPTED,
-    RPM,
     Json,
     Refusal,
     app,
@@ -16,6 +15,7 @@ from fmu_bearing.cli.base import (
     quiet_warnings,
     refusals,
 )
+from fmu_bearing.engine.constants import RPM
 
 Source = Annotated[Path, typer.Argument(metavar="SCENE|FMU", help="Scene file (.toml) or FMU (.fmu).")]
 Settings = Annotated[

@@ -5,7 +5,8 @@ from typing import Annotated
 
 import typer
 
-from fmu_bearing.cli.base import RPM, Folder, Json, Refusal, app, print_json, quiet_warnings, refusals, tell
+from fmu_bearing.cli.base import Folder, Json, Refusal, app, print_json, quiet_warnings, refusals, tell
+from fmu_bearing.engine.constants import RPM
 
 
 @app.command()

@@ -1,6 +1,7 @@
 """The engine: Numba kernels on flat float64 arrays. No scene, no file, no FMI.
 
 =====================  =======================================================================
+``sources``             hash of source files, for caches and for what must fit together
 ``jit``                compiler flags and the cache of compiled kernels
 ``layout``             places in the flat arrays ``p u s z w``
 ``constants``          constants of nature and convention

@@ -9,11 +9,12 @@ directory under a hash of the engine's sources, so that a changed helper never m
 read-only installation works, and an FMU that is unzipped anew compiles nothing.
 """
 
-import hashlib
 import os
 import pathlib
 
 import numba
+
+from fmu_bearing.engine.sources import engine_digest
 
 FLAGS = {"error_model": "numpy", "nogil": True, "fastmath": False, "boundscheck": False}
 
@@ -22,13 +23,8 @@ inlined = numba.njit(inline="always", **FLAGS)
 
 
 def source_hash() -> str:
-    """Hash (16 hex digits) of every source file of the engine, in name order."""
-    root = pathlib.Path(__file__).parent
-    digest = hashlib.sha256()
-    for path in sorted(root.rglob("*.py")):
-        digest.update(path.relative_to(root).as_posix().encode())
-        digest.update(path.read_bytes())
-    return digest.hexdigest()[:16]
+    """Hash (16 hex digits) of every source file of the engine."""
+    return engine_digest().hex()[:16]
 
 
 def cache_directory() -> pathlib.Path:

@@ -11,15 +11,16 @@ from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from fmu_bearing.engine.sources import engine_digest
 from fmu_bearing.files import write_whole
 from fmu_bearing.fmi import documentation, resources
 from fmu_bearing.fmi.description import FLAVOURS, description_xml, identifier, interface_guid
-from fmu_bearing.fmi.native.compile import Tell, silent
 from fmu_bearing.fmi.native.link import library
 from fmu_bearing.fmi.native.model_file import MODEL_FILE, model_bytes
 from fmu_bearing.fmi.native.optimise import BuildError
 from fmu_bearing.fmi.native.platforms import PLATFORMS, host
 from fmu_bearing.fmi.reference import NoReference, reference_files, run_instance, run_library
+from fmu_bearing.progress import Tell, silent
 
 if TYPE_CHECKING:
     from fmu_bearing.prepare.model import Model
@@ -213,7 +214,7 @@ def contents(model: "Model", flavour: str, libraries: Mapping[str, Path] | None 
     for platform, path in (libraries or {}).items():
         inside[f"binaries/{platform}/{name}{PLATFORMS[platform].suffix}"] = path.read_bytes()
     guid = interface_guid(model, flavour)
-    inside[f"resources/{MODEL_FILE}"] = model_bytes(model, guid, resources.engine_digest().hex())
+    inside[f"resources/{MODEL_FILE}"] = model_bytes(model, guid, engine_digest().hex())
     return inside
 
 

@@ -7,13 +7,13 @@ from pathlib import Path
 
 import numpy as np
 
-from fmu_bearing.engine import jit
 from fmu_bearing.engine.layout import P
+from fmu_bearing.engine.sources import engine_digest
 from fmu_bearing.interface import variables
 from fmu_bearing.prepare.model import Model
 from fmu_bearing.scene import read_scene
 
-__all__ = ["PARAMETERS", "SCENE", "engine_digest", "fingerprint", "load", "parameter_bytes"]
+__all__ = ["PARAMETERS", "SCENE", "fingerprint", "load", "parameter_bytes"]
 
 SCENE = "scene.toml"
 PARAMETERS = "parameters.npy"
@@ -24,21 +24,6 @@ def parameter_bytes(model: Model) -> bytes:
     buffer = io.BytesIO()
     np.save(buffer, np.ascontiguousarray(model.parameters, dtype="<f8"), allow_pickle=False)
     return buffer.getvalue()
-
-
-@functools.cache
-def engine_digest() -> bytes:
-    """Return a hash of the engine's source.
-
-    The kernels trust the offsets in the parameter array: read by another version of them, an old array
-    would not give an error but a damaged process.
-    """
-    root = Path(jit.__file__).parent
-    digest = hashlib.sha256()
-    for path in sorted(root.rglob("*.py")):
-        digest.update(path.relative_to(root).as_posix().encode("utf-8") + b"\0")
-        digest.update(path.read_bytes() + b"\0")
-    return digest.digest()
 
 
 def fingerprint(model: Model) -> str:

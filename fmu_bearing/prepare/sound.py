@@ -10,7 +10,8 @@ import scipy
 from numpy.typing import NDArray
 
 from fmu_bearing.engine.jit import cache_directory, source_hash
-from fmu_bearing.files import sources_digest, write_whole
+from fmu_bearing.engine.sources import rooms_digest
+from fmu_bearing.files import write_whole
 from fmu_bearing.scene import Scene
 
 __all__ = ["sound_block", "sound_key"]
@@ -79,4 +80,4 @@ def _key(scene: Scene) -> str:
 @functools.cache
 def _code() -> str:
     """Name what computes the numbers: sources and libraries."""
-    return f"{source_hash()} {np.__version__} {scipy.__version__} {sources_digest(_ROOMS)}"
+    return f"{source_hash()} {np.__version__} {scipy.__version__} {rooms_digest(*_ROOMS)}"

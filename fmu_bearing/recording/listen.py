@@ -2,7 +2,7 @@
 
 import math
 import pathlib
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +15,7 @@ from fmu_bearing.acoustics.analysis.lines import Line
 from fmu_bearing.acoustics.analysis.spectrum import level_spectrum
 from fmu_bearing.acoustics.analysis.third_octave import third_octave_levels
 from fmu_bearing.acoustics.filters.weighting import level
+from fmu_bearing.progress import Tell, silent
 from fmu_bearing.recording import measure, tables
 from fmu_bearing.recording.heard import Heard
 from fmu_bearing.run.extras import MissingExtra, need
@@ -26,7 +27,6 @@ if TYPE_CHECKING:
 _SETTLE = 0.02  # s left to filters of third octaves, at most a fifth of the recording
 _LINES = 12
 _RESOLUTION = 5.0  # Hz
-Tell = Callable[[str], None]
 
 
 @dataclass(frozen=True)
@@ -178,7 +178,7 @@ def write_all(
     radiation_model: str | None = None,
     wav: bool = True,
     directivity: bool = True,
-    tell: Tell = lambda text: None,
+    tell: Tell = silent,
 ) -> list[pathlib.Path]:
     """Write tables (CSV), pictures (PNG), spectra (netCDF where xarray is there) and sounds (WAV).
 

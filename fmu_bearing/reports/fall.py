@@ -8,10 +8,11 @@ from scipy.signal import sosfilt
 
 from fmu_bearing.acoustics.analysis.order import Waterfall, waterfall
 from fmu_bearing.acoustics.filters.weighting import a_weighting_sections, level
+from fmu_bearing.engine.constants import RPM
 from fmu_bearing.reports import look
 from fmu_bearing.reports.blocks import Absent, Block, Chart, Section, Words, small
 from fmu_bearing.reports.heard import Microphones, listen
-from fmu_bearing.reports.subject import RPM, Subject
+from fmu_bearing.reports.subject import Subject
 
 _HIGHEST = 8000.0  # Hz
 _RANGE = 70.0  # dB

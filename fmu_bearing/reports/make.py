@@ -9,14 +9,16 @@ from dataclasses import dataclass
 from typing import Any
 
 from fmu_bearing.acoustics.analysis.field import form_of
+from fmu_bearing.engine.constants import RPM
 from fmu_bearing.files import write_whole
+from fmu_bearing.progress import Tell, silent
 from fmu_bearing.recording.record import Recording, record
 from fmu_bearing.reports import audio, balloon, conditions, contacts, fall, friction, motion, sound, summary
 from fmu_bearing.reports.blocks import Absent, Section
 from fmu_bearing.reports.heard import Microphones, listen
 from fmu_bearing.reports.page import render
 from fmu_bearing.reports.run import STEP, observed
-from fmu_bearing.reports.subject import RPM, Subject, Tell
+from fmu_bearing.reports.subject import Subject
 from fmu_bearing.run.choose import resolve
 from fmu_bearing.run.extras import need
 from fmu_bearing.scene import Scene, SceneError, read_scene
@@ -26,10 +28,6 @@ Source = Recording | Scene | str | os.PathLike[str]
 SETTLE = 0.1  # s left out at the beginning: the sound's high-pass at 5 Hz forgets the start in 0.03 s
 RUN_UP = 1.0  # s a run-up takes
 _SHORTEST = 0.02  # s
-
-
-def silent(text: str) -> None:
-    """Tell nobody."""
 
 
 @dataclass(frozen=True)

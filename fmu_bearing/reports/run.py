@@ -1,6 +1,5 @@
 """The run a report is made from: sound channels, all variables at 25.6 kHz, what every ball carries."""
 
-import math
 import warnings
 
 from fmu_bearing.engine.layout import SD, Z
@@ -11,7 +10,6 @@ from fmu_bearing.scene import Scene
 
 #: Communication step (s): every second sound sample. At 20,000 r/min each ball that passes gets 11 points.
 STEP = 2.0 / SD.RATE
-RPM = math.pi / 30.0  # rad/s
 
 
 def variables_of(scene: Scene) -> tuple[str, ...]:

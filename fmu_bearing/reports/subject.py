@@ -1,7 +1,6 @@
 """What a report is about: a recording, and how sections ask it for things it may not have."""
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -14,9 +13,7 @@ from fmu_bearing.reports.blocks import Absent
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.origins import Origin
 
-RPM = math.pi / 30.0  # rad/s
 #: What reports are told while they are made.
-Tell = Callable[[str], None]
 
 
 @dataclass(eq=False)

@@ -1,13 +1,12 @@
 """A bearing on bare flat arrays: what ``Instance`` holds, open to loops that save and restore the state."""
 
-import math
 from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.engine import abi
-from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE
+from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE, RPM
 from fmu_bearing.engine.layout import P, Q, S, U, W, Y, Z
 from fmu_bearing.engine.status import OK
 from fmu_bearing.instance import REASONS
@@ -15,7 +14,6 @@ from fmu_bearing.interface.inputs import inputs
 from fmu_bearing.prepare.model import pack
 from fmu_bearing.scene import Scene
 
-RPM = math.pi / 30.0  # rad/s
 #: Places in ``y`` of the six ring velocities: inner x, y, z, outer x, y, z.
 RINGS = np.array([Y.V0, Y.V0 + 1, Y.V0 + 2, *(Y.V0 + Q.OUTER + k for k in range(3))])
 

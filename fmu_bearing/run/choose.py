@@ -132,7 +132,7 @@ class Choice:
     @property
     def summary(self) -> str:
         """One line: which, and why."""
-        p, asked = self.probe, f"{self.fidelity_dB:g} dB and {self.relative:g} of loads and torque"
+        p, asked = self.probe, f"{self.level_dB:g} dB and {self.relative:g} of loads and torque"
         how = f"{p.name}, internal steps up to {1e6 * p.max_step:g} us, tolerance {p.tolerance:g}"
         if self.chosen == len(self.probes) - 1 or p.errors is None:
             return f"fidelity auto: {how}: nothing cheaper is within {asked} of fidelity full"

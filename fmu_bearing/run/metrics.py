@@ -107,8 +107,8 @@ def relative(value: float, true: float) -> float:
 
 
 @dataclass(frozen=True)
-class Run:
-    """One run from a scene's quasi-static state.
+class Measured:
+    """What was measured on one run from a scene's quasi-static state.
 
     Attributes
     ----------
@@ -128,7 +128,7 @@ class Run:
 def measure(
     scene: Scene, sound: NDArray[np.float64], warm_up: float, window: float, *, budget: float = 0.0,
     **parameters: float,
-) -> Run:  # fmt: skip
+) -> Measured:  # fmt: skip
     """Run a scene from its quasi-static state for ``warm_up`` (s), then read its figures over ``window`` (s).
 
     Parameters
@@ -165,7 +165,7 @@ def measure(
         float(mean[_CAGE]),
         _levels(scene, sound, warm_up, window, parameters) if sound.size else (),
     )
-    return Run(figures, z[:, :6], wall, cpu)
+    return Measured(figures, z[:, :6], wall, cpu)
 
 
 def _levels(

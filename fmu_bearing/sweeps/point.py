@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.engine.jit import source_hash
 from fmu_bearing.engine.layout import U
-from fmu_bearing.files import sources_digest
+from fmu_bearing.engine.sources import rooms_digest
 from fmu_bearing.prepare.sound import sound_block
 from fmu_bearing.run.arrays import Arrays, Refused
 from fmu_bearing.run.metrics import COMMUNICATION, SAMPLE
@@ -147,7 +147,7 @@ def block_of(scene: Scene | None) -> NDArray[np.float64]:
 @functools.cache
 def code_digest() -> str:
     """Digest (16 hex digits) of what figures come from: sources, NumPy's and Numba's version."""
-    parts = f"{source_hash()} {np.__version__} {numba.__version__} {sources_digest(_ROOMS)}"
+    parts = f"{source_hash()} {np.__version__} {numba.__version__} {rooms_digest(*_ROOMS)}"
     return hashlib.sha256(parts.encode()).hexdigest()[:16]
 
 

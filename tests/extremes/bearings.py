@@ -4,13 +4,13 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import Z
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.scene import Scene, read_scene
 from tests.conftest import SCENES
 
-RPM = np.pi / 30
 SILENT = {"sound": None}
 PERFECT = {"sound": None, "imperfections": None}
 RINGS = [f"{ring}_ring.velocity.{axis}" for ring in ("inner", "outer") for axis in "xyz"]

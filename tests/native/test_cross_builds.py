@@ -17,13 +17,13 @@ import pytest
 from typer.testing import CliRunner
 
 from fmu_bearing import cli
+from fmu_bearing.engine.sources import engine_digest
 from fmu_bearing.fmi.native import link
 from fmu_bearing.fmi.native.compile import objects
 from fmu_bearing.fmi.native.link import library
 from fmu_bearing.fmi.native.model_file import model_bytes
 from fmu_bearing.fmi.native.optimise import MATHEMATICS, BuildError
 from fmu_bearing.fmi.native.platforms import PLATFORMS, host as own_platform
-from fmu_bearing.fmi.resources import engine_digest
 
 from . import binaries, careless, toy
 from .master import SIGNATURES

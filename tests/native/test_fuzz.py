@@ -8,10 +8,10 @@ import subprocess
 
 import pytest
 
+from fmu_bearing.engine.sources import engine_digest
 from fmu_bearing.fmi.native import compile as ahead
 from fmu_bearing.fmi.native.model_file import model_bytes
 from fmu_bearing.fmi.native.platforms import host as own_platform
-from fmu_bearing.fmi.resources import engine_digest
 
 from . import toy
 from .careless import build, hostile_kernels, play

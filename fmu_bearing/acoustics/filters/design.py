@@ -111,11 +111,11 @@ def ladder_of(scene: Scene, modes: Sequence[Any] | None = None) -> Ladder:
         raise ValueError(f"{scene.name} has no sound: add [sound]")
     sound = si(scene.sound)
     table = None
-    if scene.sound.rung == "table":
+    if scene.sound.radiation_model == "table":
         where = f"sound.table_file {scene.sound.table_file}"
         table = select(read_table(str(scene.sound.table_file)), scene.microphones, where)
     return Ladder(
-        scene.sound.rung, radiators_of(scene), Air(sound.air_density, sound.sound_speed),
+        scene.sound.radiation_model, radiators_of(scene), Air(sound.air_density, sound.sound_speed),
         int(scene.fidelity.ball_harmonics), ring_modes(scene) if modes is None else tuple(modes),
         None if scene.sound.reflecting_plane_mm is None else sound.reflecting_plane, table,
     )  # fmt: skip
@@ -290,7 +290,7 @@ def _filters(
                 raise ValueError(
                     f"no filter follows the sound of the {component.replace('_', ' ')} at ({place}) mm: it "
                     f"is off by {off:.0f} dB, allowed are {20 * np.log10(_TOLERANCE):.0f}; move that "
-                    "microphone or choose another sound.rung"
+                    "microphone or choose another sound.radiation_model"
                 )
             known[id(path.response)] = (taps, error)
         filters.append(known[id(path.response)][0])

@@ -34,13 +34,16 @@ SIN = _at(STRIDE)
 POSE = _at(3 * _X.SIZE)  # of the balls in inner ring, outer ring, cage: see pose
 RACE = _at(2 * _R.SIZE)  # contacts with inner and outer race: see race
 POCKET = _at(2 * STRIDE)  # m: penetration of the pocket, ahead and behind
-FORCE = _at(3 * FORCE_SIZE)  # on the balls from inner ring, outer ring, cage
+FORCE = _at(3 * FORCE_SIZE)  # on the balls from inner ring, outer ring, cage: FX .. MT each
 BODY = _at(_Q.SIZE * STRIDE)  # N, N m: generalised forces of each ball on the bodies
 SHAFT = _at(STRIDE)  # N m on the inner ring about its own axis
-LOSS = _at(4 * STRIDE)  # W: dissipated at inner race, outer race, cage, and by drag
+LOSS = _at(2 * STRIDE)  # W: dissipated at inner race, outer race,
+LOSS_CAGE = _at(STRIDE)  # in the pockets,
+LOSS_DRAG = _at(STRIDE)  # by drag on the balls and by the dampers between them
 AXES = _at(3 * STRIDE)  # the balls' body-fixed axes at the state evaluated
 ROWS = _at.next
 SCALARS = _at(64)
+LANDS_ENERGY = _at()  # J: stored in the cage's lands
 STAGE = _at(_Y.SIZE)  # stage state
 F = _at(_F.SIZE)  # right-hand side
 F0 = _at(_F.SIZE)  # unperturbed right-hand side
@@ -68,8 +71,37 @@ class Area(NamedTuple):
     uses: frozenset[str]
 
 
+# The right-hand side is evaluated in the course of all these; what is read from its rows afterwards (energy,
+# losses) is read before anything else begins.
+_EVALUATED = frozenset({"evaluation", "jacobian", "step", "block", "inputs"})
 #: All areas of ``w``.
-LEDGER: tuple[Area, ...] = ()
+LEDGER: tuple[Area, ...] = (
+    Area("COS", COS, STRIDE, _EVALUATED),
+    Area("SIN", SIN, STRIDE, _EVALUATED),
+    Area("POSE", POSE, 3 * _X.SIZE, _EVALUATED),
+    Area("RACE", RACE, 2 * _R.SIZE, _EVALUATED),
+    Area("POCKET", POCKET, 2 * STRIDE, _EVALUATED),
+    Area("FORCE", FORCE, 3 * FORCE_SIZE, _EVALUATED),
+    Area("BODY", BODY, _Q.SIZE * STRIDE, _EVALUATED),
+    Area("SHAFT", SHAFT, STRIDE, _EVALUATED),
+    Area("LOSS", LOSS, 2 * STRIDE, _EVALUATED),
+    Area("LOSS_CAGE", LOSS_CAGE, STRIDE, _EVALUATED),
+    Area("LOSS_DRAG", LOSS_DRAG, STRIDE, _EVALUATED),
+    Area("LANDS_ENERGY", LANDS_ENERGY, 1, _EVALUATED),
+    # turned once per stage, then read by every evaluation between solutions; at a start between factors too
+    Area("AXES", AXES, 3 * STRIDE, _EVALUATED | {"factor", "solve"}),
+    # the state at the end of a step is sampled; in fidelities rings and response the trial state
+    Area(
+        "STAGE",
+        STAGE,
+        _Y.SIZE,
+        frozenset({"evaluation", "solve", "step", "block", "sample", "start", "condensed", "lines"}),
+    ),
+    Area("F", F, _F.SIZE, frozenset({"evaluation", "jacobian", "solve", "step", "block", "condensed"})),
+    Area("F0", F0, _F.SIZE, frozenset({"jacobian"})),
+    Area("BODY_0", BODY_0, _Q.SIZE * STRIDE, frozenset({"jacobian"})),
+    Area("D", D, _F.SIZE, frozenset({"solve", "step", "block"})),
+)
 
 
 def size(p):

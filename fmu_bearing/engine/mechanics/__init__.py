@@ -1,18 +1,19 @@
 """Forces and equations of motion.
 
 ================  ===========================================================================
+``powers``        logarithm and exponential to base 2, branch-free
 ``trigonometry``  sine and cosine of the ball angles, branch-free
 ``conditions``    inputs turned into constants of one communication step
-``pose``          where a ball stands in a body's own frame, and how fast it moves there
+``pose``          where a ball is in a body's own frame, and how fast it moves there
 ``race``          Hertz contact, damping, traction strips and rolling resistance
 ``traction``      Eyring's law and the multi-source paper's on the same strips
 ``ball_waves``    waviness that turns with the balls, and the turning of their axes
 ``cage``          pockets and land guidance
 ``springs``       springs between neighbouring balls in place of a cage
+``flexure``       flexural modes of the rings
 ``bodies``        forces on rings and cage that do not come through the balls
 ``equations``     the right-hand side: accelerations, power and heat
 ``energy``        stored energy
-``summary``       sliding and losses by source, for people to read
 ================  ===========================================================================
 
 Sign rules: forces and moments are those *on the ball*; the body takes their opposite at the same

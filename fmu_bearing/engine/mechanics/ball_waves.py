@@ -46,8 +46,9 @@ def zonal(p, first, orders, x):
 @kernel
 def groove_distance(c, race, pose, w, j):
     """Distance (m) of ball ``j``'s centre from the circle of groove centres of ``race``."""
-    sx = w[pose + X.A + j] - c[C.RACES + race * C.RACE_SIZE]
-    sr = w[pose + X.RHO + j] - c[C.RACES + race * C.RACE_SIZE + 1]
+    held = C.RACES + race * C.RACE_SIZE
+    sx = w[pose + X.A + j] - c[held + C.GROOVE_X]
+    sr = w[pose + X.RHO + j] - c[held + C.GROOVE_RADIUS]
     return math.sqrt(sx * sx + sr * sr)
 
 
@@ -55,12 +56,11 @@ def groove_distance(c, race, pose, w, j):
 def add_ball_waves(p, c, lanes, race, w):
     """Put the balls' waviness into approach, its rate, load and ellipse that ``race.normal`` left.
 
-    Reads the axes in the rows ``W_AXES``; leaves the slope towards e_t and e_m for
+    Reads the axes in the rows ``W.AXES``; leaves the slope towards e_t and e_m for
     :func:`ball_wave_forces`.
     """
     row = W.RACE + race * R.SIZE
     pose = W.POSE + race * X.SIZE
-    axes = W.AXES
     first = int(p[P.AT_BALL_WAVES])
     orders = int(p[P.BALL_WAVES])
     scale = c[C.OVERSIZE_SCALE]
@@ -74,7 +74,7 @@ def add_ball_waves(p, c, lanes, race, w):
         speed_t = 0.0
         speed_m = 0.0
         for i in range(3):
-            a = w[axes + i * STRIDE + j]
+            a = w[W.AXES + i * STRIDE + j]
             m = w[row + R.EM + i * STRIDE + j]
             t = w[pose + X.T + i * STRIDE + j]
             dv = w[pose + X.DV + i * STRIDE + j]
@@ -108,7 +108,7 @@ def ball_wave_forces(p, c, lanes, race, w):
     """Add lateral force and moment of the wavy balls to what ``race.collect`` gathered, loss included."""
     row = W.RACE + race * R.SIZE
     pose = W.POSE + race * X.SIZE
-    out = W.FORCE + race * 6 * STRIDE
+    out = W.FORCE + race * W.FORCE_SIZE
     balls = int(p[P.BALLS])
     for j in range(lanes):
         load = w[row + R.LOAD + j]
@@ -122,8 +122,8 @@ def ball_wave_forces(p, c, lanes, race, w):
             t = w[pose + X.T + i * STRIDE + j]
             force = force_t * t + force_m * m
             moment = load * (bump_t * m - bump_m * t)
-            w[out + i * STRIDE + j] += force
-            w[out + (3 + i) * STRIDE + j] += moment
+            w[out + W.FX + i * STRIDE + j] += force
+            w[out + W.MX + i * STRIDE + j] += moment
             power += force * w[pose + X.DV + i * STRIDE + j] + moment * w[pose + X.DW + i * STRIDE + j]
         w[W.LOSS + race * STRIDE + j] -= power if j < balls else 0.0
 
@@ -154,7 +154,7 @@ def turn_vector(ax, ay, az, wx, wy, wz, t):
 
 @kernel
 def turn_axes(p, axes, y, lanes, t, w):
-    """Rows ``W_AXES``: the axes (3 rows, orbiting axes) turned with the spin in ``y`` for the time ``t`` (s).
+    """Rows ``W.AXES``: the axes (3 rows, orbiting axes) turned with the spin in ``y`` for the time ``t`` (s).
 
     In the orbiting axes a' = (w - theta' e_x) x a. Exact while that spin is constant, as it nearly is in
     rolling; else the direction is off by t^2/2 of the spin's rate, 5e-6 rad for 10 us at 1e5 rad/s2.
@@ -162,7 +162,6 @@ def turn_axes(p, axes, y, lanes, t, w):
     """
     if p[P.BALL_WAVES] == 0.0:
         return
-    to = W.AXES
     for j in range(lanes):
         ax, ar, at = turn_vector(
             axes[j],
@@ -173,9 +172,9 @@ def turn_axes(p, axes, y, lanes, t, w):
             y[Y.WT + j],
             t,
         )
-        w[to + j] = ax
-        w[to + STRIDE + j] = ar
-        w[to + 2 * STRIDE + j] = at
+        w[W.AXES + j] = ax
+        w[W.AXES + STRIDE + j] = ar
+        w[W.AXES + 2 * STRIDE + j] = at
 
 
 @kernel

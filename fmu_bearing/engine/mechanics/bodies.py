@@ -17,26 +17,26 @@ def lands(p, y, speed, f, w):
     vk = Y.V0 + Q.CAGE
     gi = F.BODY
     gk = F.BODY + Q.CAGE
-    w[W.SCALARS] = 0.0
+    w[W.LANDS_ENERGY] = 0.0
     for side in range(2):
         x = p[P.LAND_OFFSET] if side == 0 else -p[P.LAND_OFFSET]
-        dy = y[k + 1] - y[i + 1] + x * (y[k + 5] - y[i + 4])
-        dz = y[k + 2] - y[i + 2] - x * (y[k + 4] - y[i + 3])
-        vy = y[vk + 1] - y[vi + 1] + x * (y[vk + 5] - y[vi + 4])
-        vz = y[vk + 2] - y[vi + 2] - x * (y[vk + 4] - y[vi + 3])
-        fy, fz, on_inner, on_cage, stored, lost = land(p, dy, dz, vy, vz, speed, y[vk + 3])
-        f[gk + 1] += fy
-        f[gk + 2] += fz
-        f[gk + 3] += on_cage
-        f[gk + 4] -= x * fz
-        f[gk + 5] += x * fy
-        f[gi + 1] -= fy
-        f[gi + 2] -= fz
-        f[gi + 3] += x * fz
-        f[gi + 4] -= x * fy
+        dy = y[k + Q.Y] - y[i + Q.Y] + x * (y[k + Q.BZ] - y[i + Q.INNER_BZ])
+        dz = y[k + Q.Z] - y[i + Q.Z] - x * (y[k + Q.BY] - y[i + Q.INNER_BY])
+        vy = y[vk + Q.Y] - y[vi + Q.Y] + x * (y[vk + Q.BZ] - y[vi + Q.INNER_BZ])
+        vz = y[vk + Q.Z] - y[vi + Q.Z] - x * (y[vk + Q.BY] - y[vi + Q.INNER_BY])
+        fy, fz, on_inner, on_cage, stored, lost = land(p, dy, dz, vy, vz, speed, y[vk + Q.TURN])
+        f[gk + Q.Y] += fy
+        f[gk + Q.Z] += fz
+        f[gk + Q.TURN] += on_cage
+        f[gk + Q.BY] -= x * fz
+        f[gk + Q.BZ] += x * fy
+        f[gi + Q.Y] -= fy
+        f[gi + Q.Z] -= fz
+        f[gi + Q.INNER_BY] += x * fz
+        f[gi + Q.INNER_BZ] -= x * fy
         f[F.TORQUE] -= on_inner
-        f[F.HEAT + 2] += lost
-        w[W.SCALARS] += stored
+        f[F.HEAT_OIL] += lost
+        w[W.LANDS_ENERGY] += stored
 
 
 @kernel
@@ -55,24 +55,24 @@ def inner_ring(p, c, y, angle, speed, speed_rate, f):
     fx = c[C.PRELOAD] if p[P.RIGID] == 0.0 else -f[g]
     fy = c[C.LOAD_Y] + push_y
     fz = c[C.LOAD_Z] + push_z
-    f[F.WORK] += fx * y[v] + fy * y[v + 1] + fz * y[v + 2] + f[F.TORQUE] * speed
+    f[F.WORK] += fx * y[v] + fy * y[v + Q.Y] + fz * y[v + Q.Z] + f[F.TORQUE] * speed
     if p[P.GRAVITY] != 0.0:
         fz -= GRAVITY * mass
     f[g] += fx
-    f[g + 1] += fy
-    f[g + 2] += fz
+    f[g + Q.Y] += fy
+    f[g + Q.Z] += fz
     polar = p[P.INNER_POLAR] * speed
     k = p[P.TILT_STIFFNESS]
     d = p[P.TILT_DAMPING]
-    dby = y[v + 3]
-    dbz = y[v + 4]
-    f[g + 3] += -polar * dbz - k * y[Y.Q0 + 3] - d * dby
-    f[g + 4] += polar * dby - k * y[Y.Q0 + 4] - d * dbz
+    dby = y[v + Q.INNER_BY]
+    dbz = y[v + Q.INNER_BZ]
+    f[g + Q.INNER_BY] += -polar * dbz - k * y[Y.Q0 + Q.INNER_BY] - d * dby
+    f[g + Q.INNER_BZ] += polar * dby - k * y[Y.Q0 + Q.INNER_BZ] - d * dbz
     f[F.HEAT] += d * (dby * dby + dbz * dbz)
     for i in range(3):
         f[g + i] /= mass
-    f[g + 3] /= p[P.INNER_TRANSVERSE]
-    f[g + 4] /= p[P.INNER_TRANSVERSE]
+    f[g + Q.INNER_BY] /= p[P.INNER_TRANSVERSE]
+    f[g + Q.INNER_BZ] /= p[P.INNER_TRANSVERSE]
 
 
 @kernel
@@ -83,25 +83,26 @@ def outer_ring(p, c, y, f):
     v = Y.V0 + Q.OUTER
     mass = p[P.OUTER_MASS]
     transverse = p[P.OUTER_TRANSVERSE]
-    polar = p[P.OUTER_POLAR] * y[v + 3]
+    polar = p[P.OUTER_POLAR] * y[v + Q.TURN]
     lost = (
         c[C.DAMPING_AXIAL] * y[v] * y[v]
-        + c[C.DAMPING] * (y[v + 1] * y[v + 1] + y[v + 2] * y[v + 2])
-        + c[C.DAMPING_SPIN] * y[v + 3] * y[v + 3]
-        + c[C.DAMPING_ROTATIONAL] * (y[v + 4] * y[v + 4] + y[v + 5] * y[v + 5])
+        + c[C.DAMPING] * (y[v + Q.Y] * y[v + Q.Y] + y[v + Q.Z] * y[v + Q.Z])
+        + c[C.DAMPING_SPIN] * y[v + Q.TURN] * y[v + Q.TURN]
+        + c[C.DAMPING_ROTATIONAL] * (y[v + Q.BY] * y[v + Q.BY] + y[v + Q.BZ] * y[v + Q.BZ])
     )
-    f[F.HEAT + 1] += lost
+    f[F.HEAT_OUTER] += lost
     weight = GRAVITY * mass if p[P.GRAVITY] != 0.0 else 0.0
     turn = c[C.PEDESTAL_ROTATIONAL]
     f[g] = (f[g] - c[C.PEDESTAL_AXIAL] * y[q] - c[C.DAMPING_AXIAL] * y[v]) / mass
-    f[g + 1] = (f[g + 1] - c[C.PEDESTAL] * y[q + 1] - c[C.DAMPING] * y[v + 1]) / mass
-    f[g + 2] = (f[g + 2] - c[C.PEDESTAL] * y[q + 2] - c[C.DAMPING] * y[v + 2] - weight) / mass
-    f[g + 3] = (f[g + 3] - turn * y[q + 3] - c[C.DAMPING_SPIN] * y[v + 3]) / p[P.OUTER_POLAR]
+    f[g + Q.Y] = (f[g + Q.Y] - c[C.PEDESTAL] * y[q + Q.Y] - c[C.DAMPING] * y[v + Q.Y]) / mass
+    f[g + Q.Z] = (f[g + Q.Z] - c[C.PEDESTAL] * y[q + Q.Z] - c[C.DAMPING] * y[v + Q.Z] - weight) / mass
+    damped = c[C.DAMPING_SPIN]
+    f[g + Q.TURN] = (f[g + Q.TURN] - turn * y[q + Q.TURN] - damped * y[v + Q.TURN]) / p[P.OUTER_POLAR]
     damped = c[C.DAMPING_ROTATIONAL]
-    lean_y = y[q + 4] - p[P.MISALIGNMENT_Y]
-    lean_z = y[q + 5] - p[P.MISALIGNMENT_Z]
-    f[g + 4] = (f[g + 4] - polar * y[v + 5] - turn * lean_y - damped * y[v + 4]) / transverse
-    f[g + 5] = (f[g + 5] + polar * y[v + 4] - turn * lean_z - damped * y[v + 5]) / transverse
+    lean_y = y[q + Q.BY] - p[P.MISALIGNMENT_Y]
+    lean_z = y[q + Q.BZ] - p[P.MISALIGNMENT_Z]
+    f[g + Q.BY] = (f[g + Q.BY] - polar * y[v + Q.BZ] - turn * lean_y - damped * y[v + Q.BY]) / transverse
+    f[g + Q.BZ] = (f[g + Q.BZ] + polar * y[v + Q.BY] - turn * lean_z - damped * y[v + Q.BZ]) / transverse
 
 
 @kernel
@@ -110,14 +111,14 @@ def cage_body(p, y, f):
     g = F.BODY + Q.CAGE
     v = Y.V0 + Q.CAGE
     mass = p[P.CAGE_MASS]
-    polar = p[P.CAGE_POLAR] * y[v + 3]
+    polar = p[P.CAGE_POLAR] * y[v + Q.TURN]
     weight = GRAVITY * mass if p[P.GRAVITY] != 0.0 else 0.0
     f[g] /= mass
-    f[g + 1] /= mass
-    f[g + 2] = (f[g + 2] - weight) / mass
-    f[g + 3] /= p[P.CAGE_POLAR]
-    f[g + 4] = (f[g + 4] - polar * y[v + 5]) / p[P.CAGE_TRANSVERSE]
-    f[g + 5] = (f[g + 5] + polar * y[v + 4]) / p[P.CAGE_TRANSVERSE]
+    f[g + Q.Y] /= mass
+    f[g + Q.Z] = (f[g + Q.Z] - weight) / mass
+    f[g + Q.TURN] /= p[P.CAGE_POLAR]
+    f[g + Q.BY] = (f[g + Q.BY] - polar * y[v + Q.BZ]) / p[P.CAGE_TRANSVERSE]
+    f[g + Q.BZ] = (f[g + Q.BZ] + polar * y[v + Q.BY]) / p[P.CAGE_TRANSVERSE]
 
 
 @kernel
@@ -126,13 +127,13 @@ def body_equations(p, c, y, angle, speed, speed_rate, w, f):
 
     Tilts are those of a non-spinning frame: I_t b'' + I_p Omega x b' = moment.
     """
-    w[W.SCALARS] = 0.0
+    w[W.LANDS_ENERGY] = 0.0
     if p[P.CAGE] != 0.0:
         if p[P.LAND] != 0.0:
             lands(p, y, speed, f, w)
         cage_body(p, y, f)
     else:
-        for i in range(6):
+        for i in range(Q.SIZE - Q.CAGE):
             f[F.BODY + Q.CAGE + i] = 0.0
     inner_ring(p, c, y, angle, speed, speed_rate, f)
     outer_ring(p, c, y, f)

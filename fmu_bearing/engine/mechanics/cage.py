@@ -6,9 +6,7 @@ from fmu_bearing.engine.jit import inlined, kernel
 from fmu_bearing.engine.layout import C, P, W, X
 from fmu_bearing.engine.layout.sizes import STRIDE
 from fmu_bearing.engine.mechanics.pose import bearing_angle
-from fmu_bearing.engine.mechanics.trigonometry import wrap
-
-_TWO_PI = 6.283185307179586
+from fmu_bearing.engine.mechanics.trigonometry import TWO_PI, wrap
 
 
 @inlined
@@ -20,7 +18,7 @@ def pockets(p, c, angle, lanes, turned, w):
     ``turned`` is the cage's angle (rad).
     """
     pose = W.POSE + 2 * X.SIZE
-    out = W.FORCE + 12 * STRIDE
+    out = W.FORCE + 2 * W.FORCE_SIZE
     pitch = p[P.PITCH_RADIUS]
     balls = p[P.BALLS]
     clearance = p[P.POCKET_CLEARANCE]
@@ -46,7 +44,7 @@ def pockets(p, c, angle, lanes, turned, w):
         dwt = w[pose + X.DW + 2 * STRIDE + j]
         lead = angle[j] + bearing_angle(w[pose + X.H + STRIDE + j], w[pose + X.H + 2 * STRIDE + j])
         axial = w[pose + X.A + j]
-        around = pitch * wrap(lead - turned - pocket * (_TWO_PI / balls))
+        around = pitch * wrap(lead - turned - pocket * (TWO_PI / balls))
         apart = math.sqrt(axial * axial + around * around + 1e-30)
         px = axial / apart
         pt = around / apart
@@ -81,18 +79,18 @@ def pockets(p, c, angle, lanes, turned, w):
         momentr = ball * (gt * fx - gx * ft)
         momentt = ball * (gx * fr - gr * fx)
         w[W.POCKET + j] = push
-        w[out + j] = forcex
-        w[out + STRIDE + j] = forcer
-        w[out + 2 * STRIDE + j] = forcet
-        w[out + 3 * STRIDE + j] = momentx
-        w[out + 4 * STRIDE + j] = momentr
-        w[out + 5 * STRIDE + j] = momentt
+        w[out + W.FX + j] = forcex
+        w[out + W.FR + j] = forcer
+        w[out + W.FT + j] = forcet
+        w[out + W.MX + j] = momentx
+        w[out + W.MR + j] = momentr
+        w[out + W.MT + j] = momentt
         lost = (
             -(forcex * dvx + forcer * dvr + forcet * dvt)
             - (momentx * dwx + momentr * dwr + momentt * dwt)
             - elastic * rate
         )
-        w[W.LOSS + 2 * STRIDE + j] = lost if j < balls else 0.0
+        w[W.LOSS_CAGE + j] = lost if j < balls else 0.0
 
 
 @kernel
@@ -146,12 +144,13 @@ def land(p, dy, dz, vy, vz, journal, sleeve):
     radial, tangential = film_force(
         viscosity, radius, length, clearance, ratio, rate, journal + sleeve - 2.0 * whirl
     )
-    # Seen from the sleeve the journal stands at -d; the film pushes it back and on, the cage the other way.
+    # Seen from the sleeve the journal is at -d. The film pushes it back and across, the cage takes the
+    # opposite force.
     fy = -radial * ey - tangential * ez
     fz = -radial * ez + tangential * ey
     # The pair acts half-way between the centres, so that its moments balance as well.
     couple = 0.5 * (dy * fz - dz * fy)
-    shear = _TWO_PI * viscosity * radius * radius * radius * length / clearance
+    shear = TWO_PI * viscosity * radius * radius * radius * length / clearance
     shear *= (journal - sleeve) / math.sqrt(1.0 - ratio * ratio)
     push = max(apart - limit, 0.0)
     stiffness = p[P.LAND_STOP_STIFFNESS]

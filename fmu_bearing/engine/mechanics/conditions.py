@@ -2,12 +2,13 @@
 
 import math
 
+from fmu_bearing.engine.choices import WALTHER
 from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import C, P, U
 
 _TO_RPM = 30.0 / math.pi
-# Both laws grow without bound in the cold: twelve decades stand for an oil that has set.
+# Both laws grow without bound in the cold: the exponent ends at twelve decades, an oil that flows no more.
 _SET = 12.0 * math.log(10.0)
 _CLEAR = 1.0  # K: Vogel's law is held short of its pole by this much
 
@@ -31,7 +32,7 @@ def walther(p, temperature):
     Walther (1931) as in ASTM D341; A follows from the reference viscosity, the density is constant.
     """
     to_mm2_s = 1e6 / p[P.OIL_DENSITY]
-    # the law knows oils above 0.3 mm2/s only: below, the inner logarithm has no logarithm
+    # the law holds above 0.3 mm2/s only: below, ln(v + 0.7) is negative and has no logarithm
     known = math.log(max(p[P.VISCOSITY] * to_mm2_s + 0.7, 1.0 + 1e-6))
     fall = p[P.WALTHER_SLOPE] * math.log(max(temperature, 1.0) / REFERENCE_TEMPERATURE)
     raised = known * math.exp(-fall)
@@ -41,7 +42,7 @@ def walther(p, temperature):
 @kernel
 def viscosity(p, temperature):
     """Dynamic viscosity (Pa s) of the oil at ``temperature`` (K) and ambient pressure."""
-    if p[P.VISCOSITY_LAW] == 1.0:
+    if p[P.VISCOSITY_LAW] == WALTHER:
         return walther(p, temperature)
     return vogel(p, temperature)
 
@@ -78,10 +79,10 @@ def conditions(p, u, speed, c):
         numbers = P.RACES + race * P.RACE_SIZE
         held = C.RACES + race * C.RACE_SIZE
         growth = 1.0 + p[numbers + P.RACE_EXPANSION] * (rise_i if race == 0 else rise_o)
-        c[held] = p[numbers + P.RACE_GROOVE_X] * growth
-        c[held + 1] = p[numbers + P.RACE_GROOVE_RADIUS] * growth
-        c[held + 2] = p[numbers + P.RACE_GROOVE] * growth - ball
-        c[held + 3] = p[numbers + P.RACE_ROLLING] * math.exp(0.66 * math.log(eta)) * reduced
+        c[held + C.GROOVE_X] = p[numbers + P.RACE_GROOVE_X] * growth
+        c[held + C.GROOVE_RADIUS] = p[numbers + P.RACE_GROOVE_RADIUS] * growth
+        c[held + C.FREE] = p[numbers + P.RACE_GROOVE] * growth - ball
+        c[held + C.ROLLING] = p[numbers + P.RACE_ROLLING] * math.exp(0.66 * math.log(eta)) * reduced
     c[C.BALL_RADIUS] = ball
     c[C.PRELOAD] = u[U.PRELOAD]
     c[C.LOAD_Y] = u[U.LOAD_Y]

@@ -3,7 +3,6 @@
 from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import C, P, Q, R, W, Y
-from fmu_bearing.engine.mechanics.equations import kinetic_spin
 from fmu_bearing.engine.mechanics.springs import spring_energy
 
 
@@ -13,6 +12,18 @@ def squares(y, at, count):
     total = 0.0
     for i in range(count):
         total += y[at + i] * y[at + i]
+    return total
+
+
+@kernel
+def kinetic_spin(p, y):
+    """Sum over the balls of spin speed squared (rad2/s2)."""
+    total = 0.0
+    for j in range(int(p[P.BALLS])):
+        wx = y[Y.WX + j]
+        wr = y[Y.WR + j]
+        wt = y[Y.WT + j]
+        total += wx * wx + wr * wr + wt * wt
     return total
 
 
@@ -49,25 +60,25 @@ def stored_energy(p, c, y, w):
     cage = Y.Q0 + Q.CAGE
     vo = Y.V0 + Q.OUTER
     vc = Y.V0 + Q.CAGE
-    total = ball_energy(p, y, w) + w[W.SCALARS]
+    total = ball_energy(p, y, w) + w[W.LANDS_ENERGY]
     if p[P.SPRINGS] != 0.0 and p[P.CAGE] == 0.0:
         total += spring_energy(p, y)
     total += 0.5 * p[P.INNER_MASS] * squares(y, Y.V0, 3)
-    total += 0.5 * p[P.INNER_TRANSVERSE] * squares(y, Y.V0 + 3, 2)
-    total += 0.5 * p[P.TILT_STIFFNESS] * squares(y, Y.Q0 + 3, 2)
-    total += 0.5 * p[P.OUTER_MASS] * squares(y, vo, 3) + 0.5 * p[P.OUTER_POLAR] * squares(y, vo + 3, 1)
-    total += 0.5 * p[P.OUTER_TRANSVERSE] * squares(y, vo + 4, 2)
+    total += 0.5 * p[P.INNER_TRANSVERSE] * squares(y, Y.V0 + Q.INNER_BY, 2)
+    total += 0.5 * p[P.TILT_STIFFNESS] * squares(y, Y.Q0 + Q.INNER_BY, 2)
+    total += 0.5 * p[P.OUTER_MASS] * squares(y, vo, 3) + 0.5 * p[P.OUTER_POLAR] * squares(y, vo + Q.TURN, 1)
+    total += 0.5 * p[P.OUTER_TRANSVERSE] * squares(y, vo + Q.BY, 2)
     total += 0.5 * c[C.PEDESTAL_AXIAL] * squares(y, outer, 1)
-    total += 0.5 * c[C.PEDESTAL] * squares(y, outer + 1, 2)
-    lean_y = y[outer + 4] - p[P.MISALIGNMENT_Y]
-    lean_z = y[outer + 5] - p[P.MISALIGNMENT_Z]
-    turned = squares(y, outer + 3, 1) + lean_y * lean_y + lean_z * lean_z
+    total += 0.5 * c[C.PEDESTAL] * squares(y, outer + Q.Y, 2)
+    lean_y = y[outer + Q.BY] - p[P.MISALIGNMENT_Y]
+    lean_z = y[outer + Q.BZ] - p[P.MISALIGNMENT_Z]
+    turned = squares(y, outer + Q.TURN, 1) + lean_y * lean_y + lean_z * lean_z
     total += 0.5 * c[C.PEDESTAL_ROTATIONAL] * turned
-    heavy = p[P.INNER_MASS] * y[Y.Q0 + 2] + p[P.OUTER_MASS] * y[outer + 2]
+    heavy = p[P.INNER_MASS] * y[Y.Q0 + Q.Z] + p[P.OUTER_MASS] * y[outer + Q.Z]
     if p[P.CAGE] != 0.0:
-        total += 0.5 * p[P.CAGE_MASS] * squares(y, vc, 3) + 0.5 * p[P.CAGE_POLAR] * squares(y, vc + 3, 1)
-        total += 0.5 * p[P.CAGE_TRANSVERSE] * squares(y, vc + 4, 2)
-        heavy += p[P.CAGE_MASS] * y[cage + 2]
+        total += 0.5 * p[P.CAGE_MASS] * squares(y, vc, 3) + 0.5 * p[P.CAGE_POLAR] * squares(y, vc + Q.TURN, 1)
+        total += 0.5 * p[P.CAGE_TRANSVERSE] * squares(y, vc + Q.BY, 2)
+        heavy += p[P.CAGE_MASS] * y[cage + Q.Z]
     if p[P.GRAVITY] != 0.0:
         total += GRAVITY * heavy
     return total

@@ -24,6 +24,7 @@ is left out.
 import math
 
 from fmu_bearing.engine.jit import inlined, kernel
+from fmu_bearing.engine.lanes import sum_lanes
 from fmu_bearing.engine.layout import FL, C, F, P, Q, R, S, W, X, Y
 from fmu_bearing.engine.layout.sizes import STRIDE
 
@@ -154,15 +155,16 @@ def bend(p, lanes, race, spin, own):
 def move_groove(p, c, lanes, race, spin, w):
     """Shift by its flexure what ``relative_pose`` left of the balls' places and velocities against a ring.
 
-    Leaves in the rows ``FR_GX`` and ``FR_GR`` the slope of the track and the ratio of the radii that
-    :func:`lean` takes, in ``FR_VT`` the circumferential velocity.
+    Leaves in the rows ``FL.GX`` and ``FL.GR`` the slope of the track and the ratio of the radii that
+    :func:`lean` takes, in ``FL.VT`` the circumferential velocity.
     """
     own = w[W.FLEX :]
     pose = W.POSE + race * X.SIZE
     first_order(lanes, race, w, own)
     bend(p, lanes, race, spin, own)
-    groove_x = c[C.RACES + race * C.RACE_SIZE]
-    groove_r = c[C.RACES + race * C.RACE_SIZE + 1]
+    held = C.RACES + race * C.RACE_SIZE
+    groove_x = c[held + C.GROOVE_X]
+    groove_r = c[held + C.GROOVE_RADIUS]
     for j in range(lanes):
         axial = w[pose + X.A + j] - own[FL.X + j]
         before = w[pose + X.RHO + j]
@@ -213,22 +215,23 @@ def groove_forces(p, c, lanes, race, w, own):
     """Gather forces and moment of the balls on one ring's groove into four rows; spare lanes put none."""
     balls = int(p[P.BALLS])
     pose = W.POSE + race * X.SIZE
-    force = W.FORCE + race * 6 * STRIDE
+    force = W.FORCE + race * W.FORCE_SIZE
     row = W.RACE + race * R.SIZE
     loss = W.LOSS + race * STRIDE
-    groove_x = c[C.RACES + race * C.RACE_SIZE]
-    groove_r = c[C.RACES + race * C.RACE_SIZE + 1]
+    held = C.RACES + race * C.RACE_SIZE
+    groove_x = c[held + C.GROOVE_X]
+    groove_r = c[held + C.GROOVE_RADIUS]
     for j in range(lanes):
         live = -1.0 if j < balls else 0.0
-        fx = w[force + j]
-        fr = w[force + STRIDE + j]
-        ft = w[force + 2 * STRIDE + j]
+        fx = w[force + W.FX + j]
+        fr = w[force + W.FR + j]
+        ft = w[force + W.FT + j]
         fn = fx * w[pose + X.N + j] + fr * w[pose + X.N + STRIDE + j] + ft * w[pose + X.N + 2 * STRIDE + j]
         fh = fx * w[pose + X.H + j] + fr * w[pose + X.H + STRIDE + j] + ft * w[pose + X.H + 2 * STRIDE + j]
         mt = (
-            w[force + 3 * STRIDE + j] * w[pose + X.T + j]
-            + w[force + 4 * STRIDE + j] * w[pose + X.T + STRIDE + j]
-            + w[force + 5 * STRIDE + j] * w[pose + X.T + 2 * STRIDE + j]
+            w[force + W.MX + j] * w[pose + X.T + j]
+            + w[force + W.MR + j] * w[pose + X.T + STRIDE + j]
+            + w[force + W.MT + j] * w[pose + X.T + 2 * STRIDE + j]
         )
         sx = w[pose + X.A + j] - groove_x
         sr = w[pose + X.RHO + j] - groove_r
@@ -239,22 +242,6 @@ def groove_forces(p, c, lanes, race, w, own):
         own[FL.GR + j] = live * (mt + sx * fh - sr * fn)
         # the loss was taken from velocities without the groove's circumferential one
         w[loss + j] -= drag * own[FL.VT + j]
-
-
-@kernel
-def row_sum(own, at, lanes):
-    """Sum of one row over the lanes, in four partial sums of fixed order."""
-    a = 0.0
-    b = 0.0
-    c = 0.0
-    d = 0.0
-    for k in range(lanes // 4):
-        j = at + 4 * k
-        a += own[j]
-        b += own[j + 1]
-        c += own[j + 2]
-        d += own[j + 3]
-    return (a + b) + (c + d)
 
 
 @kernel
@@ -274,7 +261,7 @@ def mode_force(p, mode, lanes, own, at, turning):
         drag = psi_t * own[FL.GX + j]
         own[FL.VX + j] = push * c + drag * s
         own[FL.VR + j] = push * s - drag * c
-    return row_sum(own, FL.VX, lanes), row_sum(own, FL.VR, lanes)
+    return sum_lanes(own, FL.VX, lanes), sum_lanes(own, FL.VR, lanes)
 
 
 @inlined
@@ -304,8 +291,8 @@ def flexure_equations(p, y, speed, speed_rate, w, f):
     for k in range(int(p[P.MODES])):
         mode = table + k * P.MODE_SIZE
         inner = p[mode + P.MODE_BODY] == 0.0
-        spin = speed if inner else y[Y.V0 + Q.OUTER + 3]
-        rate = speed_rate if inner else f[F.BODY + Q.OUTER + 3]
+        spin = speed if inner else y[Y.V0 + Q.OUTER + Q.TURN]
+        rate = speed_rate if inner else f[F.BODY + Q.OUTER + Q.TURN]
         n = p[mode + P.MODE_ORDER]
         mass = p[mode + P.MODE_MASS]
         stiff = p[mode + P.MODE_STIFFNESS] / mass
@@ -323,7 +310,7 @@ def flexure_equations(p, y, speed, speed_rate, w, f):
         own[out + 2 * k + 1] = (
             own[force + 2 * k + 1] / mass - stiff * b - damping * db + whirl * da + n * (spin * va + rate * a)
         )
-        f[F.HEAT + (0 if inner else 1)] += damping * mass * (da * da + db * db)
+        f[F.HEAT if inner else F.HEAT_OUTER] += damping * mass * (da * da + db * db)
 
 
 @kernel
@@ -336,7 +323,8 @@ def flexure_energy(p, y, speed, w):
     total = 0.0
     for k in range(int(p[P.MODES])):
         mode = table + k * P.MODE_SIZE
-        turn = p[mode + P.MODE_ORDER] * (speed if p[mode + P.MODE_BODY] == 0.0 else y[Y.V0 + Q.OUTER + 3])
+        spin = speed if p[mode + P.MODE_BODY] == 0.0 else y[Y.V0 + Q.OUTER + Q.TURN]
+        turn = p[mode + P.MODE_ORDER] * spin
         a = own[q + 2 * k]
         b = own[q + 2 * k + 1]
         da = own[v + 2 * k] + turn * b

@@ -1,4 +1,4 @@
-"""Where a ball stands in the frame of a ring or the cage, and how fast it moves there."""
+"""Where a ball is in the frame of a ring or the cage, and how fast it moves there."""
 
 import math
 
@@ -31,7 +31,10 @@ def resolved(co, si, x, radius, ux, uy, uz, by, bz, nx):
 
 @kernel
 def seen(co, si, x, radius, ux, uy, uz, by, bz, nx):
-    """Return the same, then the distance from the axis (m) and the radial unit vector h (x, r, theta)."""
+    """Return what :func:`resolved` does, then the distance from the axis (m) and the radial unit vector h.
+
+    In order: q (x, r, theta), n (r, theta), q n, distance, h (x, r, theta). Arguments as there.
+    """
     qx, qr, qt, nr, nt, axial = resolved(co, si, x, radius, ux, uy, uz, by, bz, nx)
     hx = qx - axial * nx
     hr = qr - axial * nr

@@ -64,9 +64,9 @@ def normal(p, c, y, lanes, race, w):
     hertz = p[numbers + P.RACE_STIFFNESS]
     half = p[numbers + P.RACE_HALF_LENGTH]
     held = C.RACES + race * C.RACE_SIZE
-    groove_x = c[held]
-    groove_r = c[held + 1]
-    free = c[held + 2]
+    groove_x = c[held + C.GROOVE_X]
+    groove_r = c[held + C.GROOVE_RADIUS]
+    free = c[held + C.FREE]
     ball = c[C.BALL_RADIUS]
     damping = 1.5 * p[P.CONTACT_DAMPING]
     oversize = int(p[P.AT_OVERSIZE])
@@ -185,7 +185,7 @@ def rolling(p, c, lanes, race, w):
     pair dissipates twice that force times the entrainment speed; reduction factors are in ``c``.
     """
     row = W.RACE + race * R.SIZE
-    factor = c[C.RACES + race * C.RACE_SIZE + 3]
+    factor = c[C.RACES + race * C.RACE_SIZE + C.ROLLING]
     if p[P.ROLLING] == 0.0:
         for j in range(lanes):
             w[row + R.ROLL + j] = 0.0
@@ -204,7 +204,7 @@ def collect(p, c, lanes, race, w):
     balls = int(p[P.BALLS])
     row = W.RACE + race * R.SIZE
     pose = W.POSE + race * X.SIZE
-    out = W.FORCE + race * 6 * STRIDE
+    out = W.FORCE + race * W.FORCE_SIZE
     ball = c[C.BALL_RADIUS]
     for j in range(lanes):
         load = w[row + R.LOAD + j]
@@ -231,12 +231,12 @@ def collect(p, c, lanes, race, w):
         gx = mn * ex + mt * tx + mm * mx
         gr = mn * er + mt * tr + mm * mr
         ge = mn * et + mt * tt + mm * me
-        w[out + j] = fx
-        w[out + STRIDE + j] = fr
-        w[out + 2 * STRIDE + j] = fe
-        w[out + 3 * STRIDE + j] = gx
-        w[out + 4 * STRIDE + j] = gr
-        w[out + 5 * STRIDE + j] = ge
+        w[out + W.FX + j] = fx
+        w[out + W.FR + j] = fr
+        w[out + W.FT + j] = fe
+        w[out + W.MX + j] = gx
+        w[out + W.MR + j] = gr
+        w[out + W.MT + j] = ge
         power -= fx * w[pose + X.DV + j] + gx * w[pose + X.DW + j]
         power -= fr * w[pose + X.DV + STRIDE + j] + gr * w[pose + X.DW + STRIDE + j]
         power -= fe * w[pose + X.DV + 2 * STRIDE + j] + ge * w[pose + X.DW + 2 * STRIDE + j]

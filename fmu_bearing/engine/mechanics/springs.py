@@ -1,15 +1,12 @@
 """Springs and dampers between neighbouring balls in place of a cage (impact-noise paper, 1e5 to 2.5e7 N/m).
 
-Each joins two balls along the pitch circle and is slack where they stand 2 pi / Z apart. The pull on the
+Each joins two balls along the pitch circle and is slack where they are 2 pi / Z apart. The pull on the
 pitch radius gives both balls the same moment about the bearing's axis, whatever their own radius.
 """
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import P, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
-from fmu_bearing.engine.mechanics.trigonometry import wrap
-
-_TWO_PI = 6.283185307179586
+from fmu_bearing.engine.layout import F, P, Y
+from fmu_bearing.engine.mechanics.trigonometry import TWO_PI, wrap
 
 
 @kernel
@@ -22,7 +19,7 @@ def spring_forces(p, y, f):
     pitch = p[P.PITCH_RADIUS]
     stiffness = p[P.SPRINGS]
     damping = p[P.SPRING_DAMPING]
-    gap = _TWO_PI / balls
+    gap = TWO_PI / balls
     per_mass = pitch * pitch / p[P.BALL_MASS]
     lost = 0.0
     before = 0.0
@@ -35,11 +32,11 @@ def spring_forces(p, y, f):
         if n >= 0:
             radius = pitch + y[Y.R + j]
             given = (pull - before) * per_mass / (radius * radius)
-            f[2 * STRIDE + j] += given
+            f[F.TH + j] += given
             lost += damping * pitch * pitch * opening * opening
             if j == 0:
                 for lane in range(balls, int(p[P.LANES])):
-                    f[2 * STRIDE + lane] += given
+                    f[F.TH + lane] += given
         before = pull
     return lost
 
@@ -52,6 +49,6 @@ def spring_energy(p, y):
     total = 0.0
     for j in range(balls):
         k = j + 1 if j + 1 < balls else 0
-        apart = pitch * wrap(y[Y.TH + k] - y[Y.TH + j] - _TWO_PI / balls)
+        apart = pitch * wrap(y[Y.TH + k] - y[Y.TH + j] - TWO_PI / balls)
         total += 0.5 * p[P.SPRINGS] * apart * apart
     return total

@@ -7,17 +7,18 @@ Dowson (1977) at the contact's present entrainment speed.
 
 import math
 
+from fmu_bearing.engine.choices import EYRING
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import C, P, R, W
 
 _ROELANDS_PRESSURE = 1.96e8  # Pa, Roelands (1966)
 _ROELANDS_VISCOSITY = 9.67  # -log of the viscosity (Pa s) to which all his isotherms run
 _LARGEST_EXPONENT = 40.0  # 2e17 times ambient: a glass; keeps every product below far from overflow
-_THINNEST = 1e-9  # m, added to the film: a molecular layer stays where nothing entrains oil
+_THINNEST = 1e-9  # m, added to the film: a molecular layer stays at standstill
 _SLOWEST_2 = 1e-8  # m2/s2: entrainment rounded over 1e-4 m/s, as in the rolling resistance
 _LIGHTEST = 1e-3  # N: the film formula's load, where a contact opens
 _STILL_2 = 1e-40  # m2/s2: only keeps 0/0 away
-_PRESSED_2 = 1e-60  # N2: likewise
+_PRESSED_2 = 1e-60  # N2: only keeps 0/0 away
 
 
 @kernel
@@ -96,7 +97,7 @@ def strip_area(half_length, half_width, share, node):
 
 @kernel
 def lubricated_traction(p, c, lanes, race, w):
-    """Traction by ``P_TRACTION_LAW``: 1 Eyring, 2 the multi-source paper's eta V S / h.
+    """Traction by ``P.TRACTION_LAW``: `eyring`, or `paper`, the multi-source paper's eta V S / h.
 
     Eyring (1936) with Roelands' viscosity at the strip's mean pressure, bounded by mu Q of the strip. The
     paper's law takes the ambient viscosity and has no bound; alone it is unusable (traction over load 3e-5
@@ -111,7 +112,7 @@ def lubricated_traction(p, c, lanes, race, w):
     eta = c[C.VISCOSITY]
     index = roelands_index(p[P.PRESSURE_VISCOSITY], eta)
     stress = p[P.EYRING_STRESS]
-    eyring = p[P.TRACTION_LAW] == 1.0
+    eyring = p[P.TRACTION_LAW] == EYRING
     floor_2 = p[P.TRACTION_FLOOR] * p[P.TRACTION_FLOOR]
     across = 0.25 * width * width
     mu = p[P.MU]

@@ -8,14 +8,14 @@ from fmu_bearing.engine.mechanics.powers import ROUND
 _TWO_OVER_PI = 0.6366197723675814
 _HALF_PI_HIGH = 1.5707963267341256
 _HALF_PI_LOW = 6.077100506506192e-11
-_TWO_PI = 6.283185307179586
+TWO_PI = 6.283185307179586
 
 
 @inlined
 def wrap(angle):
     """Angle brought into [-pi, pi] (rad); exact to rounding for a few turns."""
-    turns = (angle * (1.0 / _TWO_PI) + ROUND) - ROUND
-    return angle - turns * _TWO_PI
+    turns = (angle * (1.0 / TWO_PI) + ROUND) - ROUND
+    return angle - turns * TWO_PI
 
 
 @inlined

@@ -9,36 +9,30 @@ import os
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable
 from pathlib import Path
 
 import llvmlite
 import numba
 
 from fmu_bearing.engine.jit import cache_directory
+from fmu_bearing.engine.sources import engine_digest
 from fmu_bearing.files import write_whole
 from fmu_bearing.fmi.native import entries, optimise
 from fmu_bearing.fmi.native.entries import SETTINGS
 from fmu_bearing.fmi.native.optimise import BuildError
 from fmu_bearing.fmi.native.platforms import Platform
-from fmu_bearing.fmi.resources import engine_digest
+from fmu_bearing.progress import Tell, silent
 
-__all__ = ["BuildError", "Tell", "kernel_folder", "objects", "portable_code", "silent"]
-
-Tell = Callable[[str], None]
-
-
-def silent(text: str) -> None:
-    """Tell nobody."""
+__all__ = ["BuildError", "kernel_folder", "objects", "portable_code"]
 
 
 def kernel_folder() -> Path:
     """Folder of everything compiled ahead of time from these sources by these compilers."""
-    digest = hashlib.sha256(engine_digest())
+    found = hashlib.sha256(engine_digest())
     for source in (Path(entries.__file__), Path(optimise.__file__)):
-        digest.update(source.read_bytes())
-    digest.update(f"{numba.__version__} {llvmlite.__version__}".encode())
-    return cache_directory().parent / f"native-{digest.hexdigest()[:16]}"
+        found.update(source.read_bytes())
+    found.update(f"{numba.__version__} {llvmlite.__version__}".encode())
+    return cache_directory().parent / f"native-{found.hexdigest()[:16]}"
 
 
 def portable_code(tell: Tell = silent) -> Path:

@@ -16,11 +16,12 @@ from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
 
+from fmu_bearing.engine.sources import digest, engine_digest
 from fmu_bearing.files import write_whole
-from fmu_bearing.fmi.native.compile import Tell, kernel_folder, objects, silent
+from fmu_bearing.fmi.native.compile import kernel_folder, objects
 from fmu_bearing.fmi.native.optimise import BuildError
 from fmu_bearing.fmi.native.platforms import Platform, host
-from fmu_bearing.fmi.resources import engine_digest
+from fmu_bearing.progress import Tell, silent
 
 __all__ = ["Compiler", "compiler_for", "headers", "library", "shim_sources"]
 
@@ -120,7 +121,7 @@ def library(platform: Platform, prefer: str = "auto", tell: Tell = silent) -> Pa
         If it is not there and cannot be made.
     """
     folder = kernel_folder() / platform.name
-    sources = _sources_digest()
+    sources = digest(Path(__file__).parent / "shim", suffixes=(".c", ".h")).hex()[:16]
     try:
         compiler = compiler_for(platform, prefer)
     except BuildError:
@@ -135,15 +136,6 @@ def library(platform: Platform, prefer: str = "auto", tell: Tell = silent) -> Pa
         tell(f"linking {platform.name} ({compiler.name})")
         write_whole(path, link(compiler, platform, shim_sources(), kernels, engine_digest().hex()))
     return path
-
-
-def _sources_digest() -> str:
-    """Hash (16 hex digits) of the shim."""
-    digest = hashlib.sha256()
-    for path in sorted((Path(__file__).parent / "shim").iterdir()):
-        if path.suffix in (".c", ".h"):
-            digest.update(path.name.encode() + path.read_bytes())
-    return digest.hexdigest()[:16]
 
 
 def link(

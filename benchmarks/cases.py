@@ -7,7 +7,8 @@ from fmu_bearing.engine.choices import FIDELITIES, METHODS
 from fmu_bearing.run.arrays import Arrays
 from fmu_bearing.scene import Scene, read_scene
 
-SCENES = pathlib.Path(__file__).parents[1] / "examples" / "scenes"
+#: Frozen scenes with every value written out: a better default does not change what a goal measures.
+GATES = pathlib.Path(__file__).parents[1] / "tests" / "scenes" / "gates"
 WARM_UP = 0.05  # s: ringing of the start has died away
 
 
@@ -89,9 +90,9 @@ QUICK = (Case("7003C-spindle", 20000),)
 
 
 def silent(name: str, **fidelity: str) -> Scene:
-    """Example scene without its sound, with other choices of ``fidelity`` (not checked) and rigid rings.
+    """Gate scene without its sound, with other choices of ``fidelity`` (not checked) and rigid rings.
 
     The peers' rings are rigid, too.
     """
-    scene = read_scene(SCENES / f"{name}.toml").with_rigid_rings()
+    scene = read_scene(GATES / f"{name}.toml").with_rigid_rings()
     return scene.model_copy(update={"sound": None, "fidelity": scene.fidelity.model_copy(update=fidelity)})

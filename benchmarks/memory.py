@@ -4,7 +4,7 @@ import tracemalloc
 
 import numpy as np
 
-from benchmarks.cases import SCENES, silent
+from benchmarks.cases import GATES, silent
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.scene import read_scene
@@ -17,7 +17,7 @@ def rows(names: tuple[str, ...]) -> list[list[str]]:
     """One row per scene, without and with its sound: bytes of arrays, and all that Python allocated."""
     found = []
     for name in names:
-        for radiator, scene in (("none", silent(name)), ("with sound", read_scene(SCENES / f"{name}.toml"))):
+        for radiator, scene in (("none", silent(name)), ("with sound", read_scene(GATES / f"{name}.toml"))):
             model = prepare(scene)
             tracemalloc.start()
             instance = Instance(model)

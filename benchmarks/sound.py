@@ -4,9 +4,9 @@ import time
 
 import numpy as np
 
-from benchmarks.cases import SCENES
-from fmu_bearing.acoustics.filters.design import build, ladder_of
-from fmu_bearing.acoustics.registry import Ladder
+from benchmarks.cases import GATES
+from fmu_bearing.acoustics.filters.design import build, radiation_of
+from fmu_bearing.acoustics.registry import Radiation
 from fmu_bearing.engine.jit import entry
 from fmu_bearing.engine.layout import MO, SD
 from fmu_bearing.engine.sound import radiate
@@ -55,22 +55,22 @@ def microphones(scene) -> dict[str, list[tuple[float, float, float]]]:
 
 def block_lengths(ps) -> str:
     """Block lengths of the convolution, as text."""
-    first = int(ps[SD.H_AT_LEVELS]) + SD.LEVEL_BLOCK
-    lengths = [f"{ps[first + SD.LEVEL_SIZE * i]:g}" for i in range(int(ps[SD.H_LEVELS]))]
+    first = int(ps[SD.H_AT_SPANS]) + SD.SPAN_BLOCK
+    lengths = [f"{ps[first + SD.SPAN_SIZE * i]:g}" for i in range(int(ps[SD.H_SPANS]))]
     return " + ".join(lengths) or "none"
 
 
 def rows(name: str, models: tuple[str, ...], repeats: int) -> list[list[str]]:
     """One row per radiation model and set of microphones of a scene."""
-    scene = read_scene(SCENES / f"{name}.toml")
-    given = ladder_of(scene)
+    scene = read_scene(GATES / f"{name}.toml")
+    given = radiation_of(scene)
     found = []
     for words, points in microphones(scene).items():
         for radiation_model in models:
-            ladder = Ladder(radiation_model, given.radiators, given.air, given.harmonics)
+            made = Radiation(radiation_model, given.radiators, given.air, given.harmonics)
             block, direct = (
-                build(radiation_model, ladder.radiators, ladder.air, points, ladder.harmonics, levels=levels)
-                for levels in (None, ())
+                build(radiation_model, made.radiators, made.air, points, made.harmonics, lengths=lengths)
+                for lengths in (None, ())
             )
             here = cost(block, repeats)
             goal = words == "4"

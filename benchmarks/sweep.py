@@ -12,6 +12,7 @@ import pickle
 import time
 from collections.abc import Callable, Iterator
 
+from benchmarks.cases import GATES
 from fmu_bearing.run.table import machine, markdown
 from fmu_bearing.scene import Scene, read_scene
 from fmu_bearing.scene.read import with_fidelity
@@ -20,7 +21,7 @@ from fmu_bearing.sweeps.local import here, hired, spread
 from fmu_bearing.sweeps.plan import Plan, plan
 from fmu_bearing.sweeps.point import Outcome, Task, run_point
 
-SCENE = "examples/scenes/7003C-spindle.toml"
+SCENE = GATES / "7003C-spindle.toml"
 EMPTY = 400  # points that compute nothing, to time the handing over
 
 

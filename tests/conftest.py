@@ -1,23 +1,25 @@
-"""Shared by all tests: the example scenes, prepared once per process."""
+"""Shared by all tests: the gate scenes, which are frozen, and the example scenes, which may become better."""
 
 import pathlib
 
 import pytest
 
 ROOT = pathlib.Path(__file__).parents[1]
-SCENES = ROOT / "examples" / "scenes"
+#: Gates of all kinds run on these: every value is written out, so that a better default moves no gate.
+GATES = ROOT / "tests" / "scenes" / "gates"
+#: For tests of the examples themselves, of the documentation and of the catalogue.
+EXAMPLES = ROOT / "examples" / "scenes"
 
 
-@pytest.fixture(scope="session")
-def scene():
-    """Read an example scene by name, with compact sound.
+def _compact(folder):
+    """Return a function that reads a scene of a folder by name, with compact sound.
 
     Boundary elements take up to a minute per geometry; radiation model bem has tests of its own.
     """
     from fmu_bearing.scene import read_scene
 
     def read(name):
-        found = read_scene(SCENES / f"{name}.toml")
+        found = read_scene(folder / f"{name}.toml")
         return found.model_copy(
             update={"sound": found.sound.model_copy(update={"radiation_model": "compact"})}
         )
@@ -25,13 +27,36 @@ def scene():
     return read
 
 
-@pytest.fixture(scope="session")
-def scene_file(tmp_path_factory):
-    """File of the default scene with compact sound: its housing takes boundary elements over a minute."""
-    text = (SCENES / "7003C-spindle.toml").read_text(encoding="utf-8")
-    file = tmp_path_factory.mktemp("scene") / "7003C-spindle.toml"
+def _compact_file(folder, target):
+    """Write the spindle scene of a folder with compact sound: its housing takes bem over a minute."""
+    text = (folder / "7003C-spindle.toml").read_text(encoding="utf-8")
+    file = target / "7003C-spindle.toml"
     file.write_text(text.replace('radiation_model = "bem"', 'radiation_model = "compact"'), encoding="utf-8")
     return file
+
+
+@pytest.fixture(scope="session")
+def scene():
+    """Read a gate scene by name, with compact sound."""
+    return _compact(GATES)
+
+
+@pytest.fixture(scope="session")
+def example():
+    """Read an example scene by name, with compact sound."""
+    return _compact(EXAMPLES)
+
+
+@pytest.fixture(scope="session")
+def scene_file(tmp_path_factory):
+    """File of the gate scene of the spindle, with compact sound."""
+    return _compact_file(GATES, tmp_path_factory.mktemp("scene"))
+
+
+@pytest.fixture(scope="session")
+def example_file(tmp_path_factory):
+    """File of the default scene, an example, with compact sound."""
+    return _compact_file(EXAMPLES, tmp_path_factory.mktemp("example"))
 
 
 @pytest.fixture(scope="session")

@@ -14,7 +14,7 @@ from fmu_bearing.cli import app, base
 from fmu_bearing.interface import variables
 from fmu_bearing.scene import Scene, read_scene
 from fmu_bearing.scene.units import symbol
-from tests.conftest import SCENES
+from tests.conftest import EXAMPLES
 from tests.pages import DOCS, ROOT, blocks, commands, parse, run_page
 
 PAGES = sorted(
@@ -174,7 +174,7 @@ def test_every_key_of_a_scene_is_described_with_its_unit(scene_rows):
     described = {key.rsplit(".", 1)[-1] for key in scene_rows}
     for table, key in schema_keys():
         assert key in described, f"{table}.{key}"
-    for path in SCENES.glob("*.toml"):
+    for path in EXAMPLES.glob("*.toml"):
         for dotted in keys(tomllib.loads(path.read_text(encoding="utf-8"))):
             assert dotted in scene_rows, dotted
     for dotted, cells in scene_rows.items():
@@ -192,10 +192,10 @@ def test_ranges_of_the_reference_are_those_that_are_refused(scene_rows):
     assert scene_rows["mounting.flexure.outer_ring"][1] == "list, each 2 to 8"
 
 
-@pytest.mark.parametrize("name", [path.stem for path in sorted(SCENES.glob("*.toml"))])
+@pytest.mark.parametrize("name", [path.stem for path in sorted(EXAMPLES.glob("*.toml"))])
 def test_every_variable_is_described(name, reference, site):
     page = text(site, "fmu-reference.html")
-    for variable in variables(read_scene(SCENES / f"{name}.toml"), 1e-5):
+    for variable in variables(read_scene(EXAMPLES / f"{name}.toml"), 1e-5):
         shown = variable.name
         for pattern, index in (
             (r"ball\[\d+\]", "ball[i]"),

@@ -27,12 +27,12 @@ def test_make_knows_the_target(command):
     assert done.returncode == 0, done.stderr
 
 
-def test_python_of_the_readme_runs(scene_file, tmp_path, monkeypatch):
+def test_python_of_the_readme_runs(example_file, tmp_path, monkeypatch):
     code = blocks("python")[0]
     assert len(code.strip().splitlines()) <= 12
     (tmp_path / "out").mkdir()
     # of the scene that make demo builds, but for the sound of boundary elements
-    command = [sys.executable, str(ROOT / "build_fmu.py"), str(scene_file), "-o", "out/Bearing7003C.fmu"]
+    command = [sys.executable, str(ROOT / "build_fmu.py"), str(example_file), "-o", "out/Bearing7003C.fmu"]
     subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, text=True)
     monkeypatch.chdir(tmp_path)
     printed = io.StringIO()

@@ -18,7 +18,7 @@ from pathlib import Path
 import fmpy
 import fmpy.fmi2
 
-from benchmarks.cases import SCENES, silent
+from benchmarks.cases import GATES, silent
 from fmu_bearing.fmi.native.link import FLAGS, Compiler, compiler_for, headers, link, shim_sources
 from fmu_bearing.fmi.native.model_file import MODEL_FILE, Contents, contents_bytes
 from fmu_bearing.fmi.native.platforms import Platform, host
@@ -80,7 +80,7 @@ def compiled(folder: Path, platform: Platform, compiler: Compiler) -> Iterator[C
 
 def packed(folder: Path, name: str, flavour: str, sounding: bool) -> Case:
     """The FMU of a scene, unpacked."""
-    scene = read_scene(SCENES / f"{name}.toml") if sounding else silent(name)
+    scene = read_scene(GATES / f"{name}.toml") if sounding else silent(name)
     where = folder / f"{name} {flavour} {sounding}"
     fmu = build(prepare(scene), folder / "one.fmu", flavour)
     with zipfile.ZipFile(fmu.path) as archive:

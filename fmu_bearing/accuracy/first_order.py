@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.engine.jit import entry, kernel
-from fmu_bearing.engine.layout import C, F, J, P, Q, S, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import C, F, J, P, Q, S, STRIDE, Y
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.newton.jacobian import jacobian
 from fmu_bearing.run.arrays import RINGS, Arrays

@@ -8,8 +8,7 @@
 ``status``             status codes of the entries
 ``choices``            what a scene may choose, with its numbers in ``p``: one table each
 ``lanes``              four balls at a time
-``elimination``        small linear systems by elimination
-``dense``              small dense matrices: product, inverse, eigenvectors, complex equations
+``dense``              small dense matrices: product, elimination, inverse, eigenvectors, complex equations
 ``mechanics``          forces and equations of motion of balls, cage and rings
 ``newton``             the Newton system in accelerations: Jacobian, factors, solution
 ``statics``            quasi-static equilibrium, where a run starts

@@ -1,4 +1,4 @@
-"""What the outside calls: ``init``, ``step``, ``outputs`` over the flat arrays of ``layout``.
+"""Public entry points: ``init``, ``step``, ``outputs`` over the flat arrays of ``layout``.
 
 Each returns a status code; none raises or allocates. A refused call leaves the state as it was, except
 that a step which fails to converge leaves it at the time it reached: the caller restores its copy.
@@ -6,6 +6,7 @@ that a step which fails to converge leaves it at the time it reached: the caller
 
 import math
 
+from fmu_bearing.engine.choices import FAST, FULL, RESPONSE, RINGS
 from fmu_bearing.engine.fidelities.full.march import march
 from fmu_bearing.engine.fidelities.full.start import start
 from fmu_bearing.engine.fidelities.response.march import march_response, start_response
@@ -15,19 +16,25 @@ from fmu_bearing.engine.layout import P, U
 from fmu_bearing.engine.readout.outputs import observe
 from fmu_bearing.engine.status import BAD_INPUT, BAD_STEP, OK, RIGID_ONLY
 
+_LARGEST = 1e15  # of any input, in its unit
+_FASTEST = 1.1e4  # rad/s
+_COLDEST_OIL = 230.0  # K
+_COLDEST_RING = 200.0  # K
+_LONGEST = 1e6  # s: communication step
+
 
 @kernel
 def inputs_usable(u):
     """Whether every input is finite and within what the equations can take."""
-    for i in range(8):
-        if not (abs(u[i]) < 1e15):
+    for i in range(U.SIZE):
+        if not (abs(u[i]) < _LARGEST):
             return False
     return (
         u[U.PEDESTAL] > 0.0
-        and abs(u[U.SPEED]) <= 1.1e4
-        and u[U.OIL_T] >= 230.0
-        and u[U.INNER_T] >= 200.0
-        and u[U.OUTER_T] >= 200.0
+        and abs(u[U.SPEED]) <= _FASTEST
+        and u[U.OIL_T] >= _COLDEST_OIL
+        and u[U.INNER_T] >= _COLDEST_RING
+        and u[U.OUTER_T] >= _COLDEST_RING
     )
 
 
@@ -36,11 +43,11 @@ def init(p, u, s, z, w, t):
     """Put the state to the quasi-static one at the inputs' values and time ``t`` (s); fill the outputs."""
     if not inputs_usable(u) or not math.isfinite(t):
         return BAD_INPUT
-    if p[P.MODES] != 0.0 and (p[P.FIDELITY] != 0.0 or p[P.METHOD] == 1.0):
+    if p[P.MODES] != 0.0 and (p[P.FIDELITY] != FULL or p[P.METHOD] == FAST):
         return RIGID_ONLY
-    if p[P.FIDELITY] == 1.0:
+    if p[P.FIDELITY] == RINGS:
         status = start_rings(p, u, s, w, t)
-    elif p[P.FIDELITY] == 2.0:
+    elif p[P.FIDELITY] == RESPONSE:
         status = start_response(p, u, s, w, t)
     else:
         status = start(p, u, s, w, t)
@@ -52,13 +59,13 @@ def init(p, u, s, z, w, t):
 @entry
 def step(p, u, s, z, w, h):
     """Advance the state by ``h`` (s) with the speed ramping to its input and the other inputs held."""
-    if not (h > 0.0 and h < 1e6):
+    if not (h > 0.0 and h < _LONGEST):
         return BAD_STEP
     if not inputs_usable(u):
         return BAD_INPUT
-    if p[P.FIDELITY] == 1.0:
+    if p[P.FIDELITY] == RINGS:
         status = march_rings(p, u, s, w, h)
-    elif p[P.FIDELITY] == 2.0:
+    elif p[P.FIDELITY] == RESPONSE:
         status = march_response(p, u, s, w, h)
     else:
         status = march(p, u, s, w, h)

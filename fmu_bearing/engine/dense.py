@@ -1,56 +1,90 @@
-"""Small dense matrices: product, inverse, eigenvectors and complex equations."""
+"""Small dense matrices: product, elimination, inverse, eigenvectors and complex equations."""
 
 import math
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import L
+from fmu_bearing.engine.layout import FOUR, L
+
+_SWEEPS = 12  # of Jacobi's method: more than any matrix here needs
+_LARGEST = 1e300  # a pivot beyond it is no number to divide by
 
 
 @kernel
 def times(m, at, x, source, y, target):
     """``y[target:] = matrix x[source:]``, the matrix of 11 columns of 12 at ``m[at:]``; writes 12 numbers.
 
-    Twelve sums by name stay in three vector registers, where an inner loop would go through memory.
+    Four sums by name stay in one vector register, where an inner loop would go through memory. What is
+    written must not overlap what is read.
     """
-    a0 = 0.0
-    a1 = 0.0
-    a2 = 0.0
-    a3 = 0.0
-    a4 = 0.0
-    a5 = 0.0
-    a6 = 0.0
-    a7 = 0.0
-    a8 = 0.0
-    a9 = 0.0
-    a10 = 0.0
-    a11 = 0.0
-    for k in range(L.N):
-        value = x[source + k]
-        column = at + 12 * k
-        a0 += m[column + 0] * value
-        a1 += m[column + 1] * value
-        a2 += m[column + 2] * value
-        a3 += m[column + 3] * value
-        a4 += m[column + 4] * value
-        a5 += m[column + 5] * value
-        a6 += m[column + 6] * value
-        a7 += m[column + 7] * value
-        a8 += m[column + 8] * value
-        a9 += m[column + 9] * value
-        a10 += m[column + 10] * value
-        a11 += m[column + 11] * value
-    y[target + 0] = a0
-    y[target + 1] = a1
-    y[target + 2] = a2
-    y[target + 3] = a3
-    y[target + 4] = a4
-    y[target + 5] = a5
-    y[target + 6] = a6
-    y[target + 7] = a7
-    y[target + 8] = a8
-    y[target + 9] = a9
-    y[target + 10] = a10
-    y[target + 11] = a11
+    for group in range(L.COLUMN // FOUR):
+        a = 0.0
+        b = 0.0
+        c = 0.0
+        d = 0.0
+        for k in range(L.N):
+            value = x[source + k]
+            i = at + L.COLUMN * k + FOUR * group
+            j = i + 2
+            a += m[i] * value
+            b += m[i + 1] * value
+            c += m[j] * value
+            d += m[j + 1] * value
+        i = target + FOUR * group
+        j = i + 2
+        y[i] = a
+        y[i + 1] = b
+        y[j] = c
+        y[j + 1] = d
+
+
+@kernel
+def pivot_row(a, at, n, width, k):
+    """Row, of those from ``k`` on, with the largest number in column ``k``.
+
+    The ``n`` rows of ``width`` numbers stand at ``a[at:]``.
+    """
+    pivot = k
+    for i in range(k + 1, n):
+        if abs(a[at + i * width + k]) > abs(a[at + pivot * width + k]):
+            pivot = i
+    return pivot
+
+
+@kernel
+def swap(a, one, other, count):
+    """Exchange ``count`` numbers at ``a[one:]`` and ``a[other:]``."""
+    for j in range(count):
+        kept = a[one + j]
+        a[one + j] = a[other + j]
+        a[other + j] = kept
+
+
+@kernel
+def subtract(a, one, factor, other, count):
+    """``a[one:] -= factor a[other:]``, ``count`` numbers."""
+    for j in range(count):
+        a[one + j] -= factor * a[other + j]
+
+
+@kernel
+def eliminate(a, at, n):
+    """Solve in place the ``n`` equations, rows of ``n + 1`` numbers at ``a[at:]``; False if singular.
+
+    Gauss-Jordan elimination with row pivoting; the solution stands in the last column.
+    """
+    m = n + 1
+    for k in range(n):
+        pivot = pivot_row(a, at, n, m, k)
+        if not (abs(a[at + pivot * m + k]) > 0.0):
+            return False
+        swap(a, at + k * m, at + pivot * m, m)
+        for i in range(n):
+            if i != k:
+                factor = a[at + i * m + k] / a[at + k * m + k]
+                subtract(a, at + i * m + k, factor, at + k * m + k, m - k)
+    for k in range(n):
+        a[at + k * m + n] /= a[at + k * m + k]
+    return True
 
 
 @kernel
@@ -60,27 +94,21 @@ def invert(a, at, n, out, to):
         for j in range(n):
             out[to + i * n + j] = 1.0 if i == j else 0.0
     for k in range(n):
-        pivot = k
-        for i in range(k + 1, n):
-            if abs(a[at + i * n + k]) > abs(a[at + pivot * n + k]):
-                pivot = i
+        pivot = pivot_row(a, at, n, n, k)
         size = a[at + pivot * n + k]
-        if not (abs(size) > 0.0 and abs(size) < 1e300):
+        if not (abs(size) > 0.0 and abs(size) < _LARGEST):
             return False
         per = 1.0 / size
+        swap(a, at + k * n, at + pivot * n, n)
+        swap(out, to + k * n, to + pivot * n, n)
         for j in range(n):
-            kept = a[at + k * n + j]
-            a[at + k * n + j] = a[at + pivot * n + j] * per
-            a[at + pivot * n + j] = kept if pivot != k else a[at + k * n + j]
-            kept = out[to + k * n + j]
-            out[to + k * n + j] = out[to + pivot * n + j] * per
-            out[to + pivot * n + j] = kept if pivot != k else out[to + k * n + j]
+            a[at + k * n + j] *= per
+            out[to + k * n + j] *= per
         for i in range(n):
             if i != k:
                 factor = a[at + i * n + k]
-                for j in range(n):
-                    a[at + i * n + j] -= factor * a[at + k * n + j]
-                    out[to + i * n + j] -= factor * out[to + k * n + j]
+                subtract(a, at + i * n, factor, at + k * n, n)
+                subtract(out, to + i * n, factor, to + k * n, n)
     return True
 
 
@@ -91,7 +119,7 @@ def eigenvectors(a, at, v, to, n):
         v[to + i] = 0.0
     for i in range(n):
         v[to + i * n + i] = 1.0
-    for _ in range(12):
+    for _ in range(_SWEEPS):
         for p in range(n - 1):
             for q in range(p + 1, n):
                 apq = a[at + p * n + q]
@@ -130,15 +158,15 @@ def solve_complex(re, im, n):
             if size > best:
                 best = size
                 pivot = i
-        if not (best > 0.0 and best < 1e300):
+        if not (best > 0.0 and best < _LARGEST):
             return False
         pr = re[pivot * m + k] / best
         pi = -im[pivot * m + k] / best
+        swap(re, k * m + k, pivot * m + k, m - k)
+        swap(im, k * m + k, pivot * m + k, m - k)
         for j in range(k, m):
-            xr = re[pivot * m + j]
-            xi = im[pivot * m + j]
-            re[pivot * m + j] = re[k * m + j]
-            im[pivot * m + j] = im[k * m + j]
+            xr = re[k * m + j]
+            xi = im[k * m + j]
             re[k * m + j] = xr * pr - xi * pi
             im[k * m + j] = xr * pi + xi * pr
         for i in range(n):

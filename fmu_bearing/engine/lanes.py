@@ -1,7 +1,7 @@
 """Four balls at a time: sums over lanes in four partial sums of fixed order, so that bits never change."""
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout.sizes import FOUR
+from fmu_bearing.engine.layout import FOUR
 
 
 @kernel

@@ -7,8 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.elastic.modes import RingMode
-from fmu_bearing.engine.layout import P
-from fmu_bearing.engine.layout.sizes import MAX_MODES
+from fmu_bearing.engine.layout import MAX_MODES, P
 from fmu_bearing.scene import Scene, SceneError, si
 
 # Internal steps over the period of the highest mode at rest. The methods then lower a free mode's frequency

@@ -9,8 +9,7 @@ from scipy.special import roots_jacobi
 
 from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.engine.choices import FIDELITIES, METHODS, RACE_CONTROLS
-from fmu_bearing.engine.layout import SD, P
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import P, SD, STRIDE
 from fmu_bearing.interface import Variable, variables
 from fmu_bearing.prepare import bodies, contacts
 from fmu_bearing.prepare.flexure import longest_step, mode_table

@@ -11,17 +11,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.engine.jit import entry
-from fmu_bearing.engine.layout import P, Q, S, Y, Z
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import P, Q, S, STRIDE, Y, Z
 from fmu_bearing.engine.readout import outputs as observe
 from fmu_bearing.instance import Instance
 
 _CONTACTS = entry(observe.contacts.py_func)  # kept compiled, as what Python calls
 _ROWS = 9  # of the state, per ball
-_PER_RACE = Z.BEARING_OUTPUTS.index("contact.outer.load_mean") - observe.Z_CONTACT
 _CAGE = S.Y + Y.Q0 + Q.CAGE
 RACES = ("inner", "outer")
-_READ = [observe.Z_CONTACT + k for k in (0, 2, _PER_RACE, _PER_RACE + 2)]  # load and angle at both
+# load and angle at both races
+_READ = [Z.CONTACT + race * Z.CONTACT_SIZE + k for race in range(2) for k in (Z.LOAD_MEAN, Z.ANGLE_MEAN)]
 
 
 def name_of(ball: int, what: str, race: str = "") -> str:

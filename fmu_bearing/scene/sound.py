@@ -6,6 +6,7 @@ from typing import Literal, NamedTuple
 
 from pydantic import Field
 
+from fmu_bearing.engine.choices import RadiationModel
 from fmu_bearing.scene.base import Conflict, Label, Part
 
 Point = tuple[float, float, float]
@@ -94,7 +95,7 @@ class Circle(Part):
 class Sound(Part):
     """Radiation and metering."""
 
-    radiation_model: Literal["paper", "paper_vector", "paper_contacts", "compact", "bem", "table"] = Field(
+    radiation_model: RadiationModel = Field(
         default="bem",
         description="How radiation is computed: by the papers' methods, compact bodies, boundary elements "
         "or the user's table.",

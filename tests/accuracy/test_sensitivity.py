@@ -7,7 +7,7 @@ import pytest
 
 from fmu_bearing.accuracy import sensitivity as moving
 from fmu_bearing.accuracy.sensitivity import ASSUMED, QUICK, changed, sensitivity, value_at
-from tests.conftest import SCENES
+from tests.conftest import EXAMPLES
 
 #: Order of a waviness whose amplitude is zero.
 IDLE = {"imperfections.ball_waviness_order"}
@@ -16,7 +16,7 @@ IDLE = {"imperfections.ball_waviness_order"}
 def assumed_keys(name):
     """Keys that a scene file's comments call assumed, alone or by their table."""
     table, whole, keys = "", False, set()
-    for line in (SCENES / f"{name}.toml").read_text("utf-8").splitlines():
+    for line in (EXAMPLES / f"{name}.toml").read_text("utf-8").splitlines():
         code, _, remark = line.partition("#")
         word = re.search(r"\bassumed\b", remark) is not None
         if not code.strip():
@@ -29,12 +29,12 @@ def assumed_keys(name):
 
 
 @pytest.mark.parametrize("name", ["7003C-spindle", "7003C-bare", "7009C-full-ceramic"])
-def test_no_assumed_value_is_forgotten(scene, name):
+def test_no_assumed_value_is_forgotten(example, name):
     found = assumed_keys(name)
     assert len(found) > 25
     assert found <= set(ASSUMED)
     for key in found:
-        assert value_at(scene(name), key) is not None
+        assert value_at(example(name), key) is not None
 
 
 def test_every_move_changes_what_it_names(scene):

@@ -6,14 +6,15 @@ import pytest
 from fmu_bearing.acoustics.filters import blocks
 from fmu_bearing.acoustics.filters.design import build
 from fmu_bearing.acoustics.filters.fir import decimator_response, delay_of, fit
-from fmu_bearing.acoustics.radiation.compact import Air, Path
+from fmu_bearing.acoustics.radiation.circle import translation_paths
 from fmu_bearing.acoustics.radiation.frequencies import fit_frequencies
+from fmu_bearing.acoustics.radiation.radiators import OUTER, Air
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.engine.sound import transform
 from tests.acoustics.playback import LARGE, PAPER_POINTS, SMALL, Player, chain, lines, raw_time, still
 
 PERIOD = 2048  # raw samples: 100 Hz
-LEVELS = [(16,), (64,), (256,), (16, 128), (32, 512)]
+LENGTHS = [(16,), (64,), (256,), (16, 128), (32, 512)]
 
 
 @pytest.mark.parametrize("block", [8, 64])
@@ -38,25 +39,20 @@ def test_transform_against_numpy(block):
     assert np.max(np.abs(flat.reshape(2 * block, n) / block - x)) < 1e-13
 
 
-def levels_of(ps):
-    first = int(ps[SD.H_AT_LEVELS]) + SD.LEVEL_BLOCK
-    return tuple(int(ps[first + SD.LEVEL_SIZE * i]) for i in range(int(ps[SD.H_LEVELS])))
+def lengths_of(ps):
+    first = int(ps[SD.H_AT_SPANS]) + SD.SPAN_BLOCK
+    return tuple(int(ps[first + SD.SPAN_SIZE * i]) for i in range(int(ps[SD.H_SPANS])))
 
 
 def ring_of(decay, frequency, late):
     """Stand-in for boundary elements: the outer ring heard through a resonance, two other paths plain."""
 
-    def bem_paths(radiators, air, radius, axial, azimuths, harmonics, modes=(), plane=None):
+    def bem_paths(radiators, air, circle, harmonics, modes=(), plane=None):
         f = fit_frequencies()
-        flight = np.hypot(radius, axial) / air.sound_speed + late
+        flight = circle.flight(air) + late
         turn = np.exp(-2j * np.pi * f * flight)
         ring = 0.01 * turn / (1 - (f / frequency) ** 2 + 1j * f / (np.pi * frequency**2 * decay))
-        angles = np.asarray(azimuths)
-        return [
-            Path(1, SD.C_OUTER, flight, 0.3 * ring, np.ones(len(angles)), 1),
-            Path(1, SD.C_OUTER + 1, flight, ring, -np.sin(angles), SD.RADIAL),
-            Path(1, SD.C_OUTER + 2, flight, ring, np.cos(angles), SD.RADIAL),
-        ]
+        return translation_paths(OUTER, flight, 0.3 * ring, ring, circle)
 
     return bem_paths
 
@@ -69,16 +65,16 @@ def ringing(monkeypatch):
     return put
 
 
-@pytest.mark.parametrize("levels", LEVELS)
-@pytest.mark.parametrize("rung", ["compact", "bem"])
-def test_blocks_equal_the_direct_form(rung, levels, ringing):
+@pytest.mark.parametrize("lengths", LENGTHS)
+@pytest.mark.parametrize("model", ["compact", "bem"])
+def test_blocks_equal_the_direct_form(model, lengths, ringing):
     """Sample for sample, nothing later: 1e-12 of the largest pressure, the gate for any way of cutting."""
     ringing()
     motion = np.random.default_rng(5).standard_normal((8000, len(still(SMALL, 1)[0])))
     points = [*PAPER_POINTS, (0.3, 0.4, 0.5), (0.0, 2.0, 0.0)]  # the last ones are later than a block
-    direct = Player(build(rung, SMALL, Air(), points, levels=())).play(motion, 8000)
-    ps = build(rung, SMALL, Air(), points, levels=levels)
-    assert levels_of(ps) == levels
+    direct = Player(build(model, SMALL, Air(), points, lengths=())).play(motion, 8000)
+    ps = build(model, SMALL, Air(), points, lengths=lengths)
+    assert lengths_of(ps) == lengths
     found = Player(ps).play(motion, 8000)
     assert np.max(np.abs(direct[-200:])) > 1e-4
     assert np.max(np.abs(found - direct)) < 1e-12 * np.max(np.abs(direct))
@@ -88,7 +84,7 @@ def test_ringing_filters_follow_the_frequency_domain(ringing):
     """A ring of 0.5 ms (Q = 5) needs hundreds of taps; -50 dB at any tone, on the resonance and beside."""
     ringing()
     ps = build("bem", SMALL, Air(), PAPER_POINTS)
-    assert levels_of(ps), "a long filter goes by blocks"
+    assert lengths_of(ps), "a long filter goes by blocks"
     frequencies = np.array([100.0, 1500.0, 2900.0, 3000.0, 3100.0, 8000.0, 15_000.0])
     motion = still(SMALL, PERIOD)
     motion[:, 16] = np.cos(2 * np.pi * frequencies * raw_time(PERIOD)[:, None]).sum(axis=1)
@@ -131,14 +127,14 @@ def test_sound_that_no_filter_follows_is_refused_in_words(ringing):
 
 def test_blocks_beyond_the_kernels_room_are_refused():
     with pytest.raises(ValueError, match="blocks of 1024 samples are too long: 512 at most"):
-        build("compact", SMALL, Air(), PAPER_POINTS, levels=(1024,))
+        build("compact", SMALL, Air(), PAPER_POINTS, lengths=(1024,))
 
 
-@pytest.mark.parametrize("levels", [(), (16,), (16, 128)])
-def test_state_carries_everything_with_blocks(levels, ringing):
+@pytest.mark.parametrize("lengths", [(), (16,), (16, 128)])
+def test_state_carries_everything_with_blocks(lengths, ringing):
     """Saved in the middle of a block, spoilt work space, restored: bit for bit, however it is cut."""
     ringing()
-    ps = build("bem", LARGE, Air(), PAPER_POINTS, levels=levels, thirds=True)
+    ps = build("bem", LARGE, Air(), PAPER_POINTS, lengths=lengths, thirds=True)
     motion = np.random.default_rng(3).standard_normal((6000, len(still(LARGE, 1)[0])))
     whole = Player(ps, metering_start=0.002)
     whole.play(motion, 6000)
@@ -168,11 +164,11 @@ def test_parts_hold_every_lag_once():
     taps = np.random.default_rng(2).standard_normal((500, 3))
     taps[60:, 1] = 0.0
     bank = blocks.Bank(4, 21, taps, (0, 1, 2))
-    for levels in LEVELS:
+    for lengths in LENGTHS:
         total = np.zeros((2048, 3))
-        direct = blocks.head(bank, levels)
+        direct = blocks.head(bank, lengths)
         total[21 : 21 + len(direct)] += direct
-        for block, low, high in blocks.spans(levels):
+        for block, low, high in blocks.spans(lengths):
             for found in blocks.filters([bank], block, low, high):
                 column = found.lane - 4
                 lags = np.fft.irfft(found.spectra[:, 0] + 1j * found.spectra[:, 1], axis=1)

@@ -91,10 +91,10 @@ def test_fast_and_slow_decay_at_their_rates():
         assert fall[name] == pytest.approx(expected, rel=0.02), name
 
 
-@pytest.mark.parametrize("rung", ["compact", "paper_vector"])
-def test_energy_sum_beside_the_coherent_one(rung):
+@pytest.mark.parametrize("model", ["compact", "paper_vector"])
+def test_energy_sum_beside_the_coherent_one(model):
     """Two bodies driven against each other with equal sound: silence, and by eq. 46 each plus 3 dB."""
-    ps = build(rung, SMALL, Air(), PAPER_POINTS[:1])
+    ps = build(model, SMALL, Air(), PAPER_POINTS[:1])
     levels = {}
     for body in (0, 1):
         player = Player(ps)
@@ -144,7 +144,7 @@ def test_levels_without_details_cost_nothing_and_read_the_floor():
     assert thirds[SD.H_STATE] > plain[SD.H_STATE]
 
 
-def test_opposite_bodies_of_the_paper_rung_do_not_cancel():
+def test_opposite_bodies_of_the_paper_model_do_not_cancel():
     """Eq. 46 is the paper's own law: energies add, and the energy sum is the level."""
     ps = build("paper", SMALL, Air(), PAPER_POINTS[:1])
     motion = still(SMALL, PERIOD)

@@ -149,7 +149,7 @@ def test_papers_cylinder_departs_from_the_exact_one_as_known():
     ],
 )
 def test_effective_volumes_of_rings(diameters, radial, axial):
-    """Boundary-element values; 3 % is 0.26 dB, less than the compact rung's reach is worth."""
+    """Boundary-element values; 3 % is 0.26 dB, less than the compact model's reach is worth."""
     outer, inner, width = diameters
     displaced = np.pi / 4 * (outer**2 - inner**2) * width
     found = np.array(ring_volumes(outer, inner, width)) / displaced

@@ -197,10 +197,10 @@ def test_meters_wait_for_their_start():
     assert np.isfinite(player.z).all()
 
 
-@pytest.mark.parametrize("rung", ["compact", "paper"])
-def test_state_carries_everything(rung):
+@pytest.mark.parametrize("model", ["compact", "paper"])
+def test_state_carries_everything(model):
     """Saved, spoilt work space, restored: bit for bit the same, however the samples are cut."""
-    ps = build(rung, HOUSED, Air(), PAPER_POINTS)
+    ps = build(model, HOUSED, Air(), PAPER_POINTS)
     motion = np.random.default_rng(3).standard_normal((5000, len(still(HOUSED, 1)[0])))
     whole = Player(ps, metering_start=0.002)
     whole.play(motion, 5000)
@@ -239,7 +239,7 @@ def test_components_add_as_pressures():
     assert player.reading("spl") < player.reading("spl_inner_ring") - 150
 
 
-def test_paper_rung_adds_energies():
+def test_paper_model_adds_energies():
     """Eqs. 43-46 computed directly from the printed formulas, for motions whose scalars are tones.
 
     0.01 dB: filters keep 0.005 dB, the meters' ripple over whole periods is below that.
@@ -309,7 +309,7 @@ def test_refusals():
         build("compact", SMALL, Air(), [(0.0, 0.0, 0.01)])
     with pytest.raises(ValueError, match="inside the housing"):
         build("compact", HOUSED, Air(), [(0.05, 0.0, 0.04)])
-    with pytest.raises(ValueError, match="rung"):
+    with pytest.raises(ValueError, match="sound.radiation_model"):
         build("none", SMALL, Air(), PAPER_POINTS)
 
 
@@ -321,12 +321,12 @@ def test_example_scenes_have_sound_blocks(scene):
     assert radiators_of(spindle).housing.centre == pytest.approx(-5e-3 - 15.5e-3 + 80e-3)
 
 
-@pytest.mark.parametrize("rung", ["compact", "paper"])
-def test_filters_are_made_once_per_distance(rung):
+@pytest.mark.parametrize("model", ["compact", "paper"])
+def test_filters_are_made_once_per_distance(model):
     """What a sample costs grows with the filters; seconds are the benchmark's business."""
     angle = np.arange(24) * np.pi / 12
     circle = [(0.05, -0.21 * np.sin(a), 0.21 * np.cos(a)) for a in angle]
     cone = [(0.05 + 0.01 * k, y, z) for k, (_, y, z) in enumerate(circle)]
     # of the paper's four, two stand 105 mm from the axis in the bearing's middle plane
     for points, banks in ((PAPER_POINTS, 3), (circle, 1), (cone, 24)):
-        assert build(rung, SMALL, Air(), points)[SD.H_BANKS] == banks
+        assert build(model, SMALL, Air(), points)[SD.H_BANKS] == banks

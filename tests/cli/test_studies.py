@@ -9,7 +9,7 @@ from fmu_bearing.run import choose as choosing
 from fmu_bearing.run.choose import Choice, Probe
 from fmu_bearing.run.metrics import Errors
 from fmu_bearing.scene.read import with_fidelity
-from tests.conftest import SCENES
+from tests.conftest import GATES
 
 
 @pytest.fixture
@@ -37,7 +37,7 @@ def test_an_unknown_file_is_told_in_one_line(run, command, tmp_path):
 
 def test_a_faulty_scene_is_told_by_key(run, tmp_path):
     path = tmp_path / "faulty.toml"
-    path.write_text((SCENES / "7003C-bare.toml").read_text().replace("ball_count = 12", "ball_count = -3"))
+    path.write_text((GATES / "7003C-bare.toml").read_text().replace("ball_count = 12", "ball_count = -3"))
     result = run("scene", "show", path)
     assert result.exit_code == 2 and "ball_count" in result.output and "Traceback" not in result.output
 

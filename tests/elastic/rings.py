@@ -1,4 +1,4 @@
-"""Rings the tests share: exact cases, the examples' rings, and a ring as a curved beam."""
+"""Rings the tests share: exact cases, rings of the gate scenes, and a ring as a curved beam."""
 
 from functools import lru_cache
 
@@ -9,7 +9,7 @@ from fmu_bearing.elastic.fourier import Elastic, solid
 from fmu_bearing.elastic.modes import elastic
 from fmu_bearing.elastic.section import FINENESS, INNER, OUTER, Section, grid, ring_section
 from fmu_bearing.scene import read_scene_text
-from tests.conftest import SCENES
+from tests.conftest import GATES
 
 STEEL = Elastic(208e9, 0.3, 7800.0)
 HOLLOW = Section(OUTER, 0.0148, 0.0175, 0.010)  # plain hollow cylinder
@@ -23,20 +23,20 @@ RINGS = [
 
 
 def text_with(name, flexure):
-    """Text of an example scene with this table of flexure instead of its own, if any."""
-    text = (SCENES / f"{name}.toml").read_text(encoding="utf-8")
+    """Text of a gate scene with this table of flexure instead of its own, if any."""
+    text = (GATES / f"{name}.toml").read_text(encoding="utf-8")
     head, mark, tail = text.partition("# Standard imperfections")
     head = head.partition("[mounting.flexure]")[0]
     return f"{head}[mounting.flexure]\n{flexure}\n\n{mark}{tail}"
 
 
 def bent(name, flexure):
-    """An example scene with this table of flexure."""
+    """A gate scene with this table of flexure."""
     return read_scene_text(text_with(name, flexure))
 
 
 def ring(name, body):
-    """Section and material of a ring of an example scene."""
+    """Section and material of a ring of a gate scene."""
     scene = bent(name, "")
     material = scene.materials.inner_ring if body == INNER else scene.materials.outer_ring
     return ring_section(scene, body), elastic(material)
@@ -44,7 +44,7 @@ def ring(name, body):
 
 @lru_cache(maxsize=8)
 def solid_of(name, body, fineness=FINENESS):
-    """Matrices of a ring of an example scene."""
+    """Matrices of a ring of a gate scene."""
     section, material = ring(name, body)
     return solid(grid(section, fineness), material)
 

@@ -10,10 +10,10 @@ import pytest
 from fmu_bearing.elastic.section import INNER, OUTER, grid, ring_section
 from fmu_bearing.prepare import bodies
 from fmu_bearing.scene import read_scene_text, si
-from tests.conftest import SCENES
+from tests.conftest import GATES
 from tests.elastic.rings import HOLLOW, RINGS, ring
 
-TEXT = (SCENES / "7003C-bare.toml").read_text(encoding="utf-8")
+TEXT = (GATES / "7003C-bare.toml").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(("name", "body"), RINGS)

@@ -6,8 +6,7 @@ one of the studies' reference trajectory, which is itself held against the engin
 
 import numpy as np
 
-from fmu_bearing.engine.layout import C, F, Q, S, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, C, F, Q, S, W, Y
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 
 _PLACES = 3 * STRIDE  # of the balls: x, r, theta

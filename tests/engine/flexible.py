@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from fmu_bearing.engine.layout import FL, C, F, P, S, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import FL, STRIDE, C, F, P, S, W, Y
 from fmu_bearing.engine.mechanics.energy import stored_energy
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.mechanics.flexure import flexure_energy
@@ -52,7 +51,7 @@ class Flexure:
         self.w = w
 
     def array(self, place):
-        """One flat array over the coordinates, by its place in ``modes_layout``."""
+        """One flat array over the coordinates, by its place in ``FL``."""
         begin = W.FLEX + place
         return self.w[begin : begin + self.count]
 

@@ -4,8 +4,7 @@ import numpy as np
 
 from fmu_bearing.engine import abi
 from fmu_bearing.engine.constants import RPM
-from fmu_bearing.engine.layout import P, S, W, Z
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, P, S, W, Z
 from fmu_bearing.engine.status import OK
 from fmu_bearing.prepare.model import pack
 from tests.engine.flexible import with_modes

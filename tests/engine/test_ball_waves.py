@@ -6,8 +6,7 @@ from numpy.polynomial import legendre
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from fmu_bearing.engine.layout import P, W, Y, Z
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, P, W, Y, Z
 from fmu_bearing.engine.mechanics.ball_waves import advance_axes, turn_axes, turn_vector, zonal
 from tests.engine.helpers import RPM, Run, quiet
 

@@ -7,8 +7,7 @@ from scipy.optimize import root
 
 from fmu_bearing.engine import abi
 from fmu_bearing.engine.constants import GRAVITY
-from fmu_bearing.engine.layout import C, L, P, S, U, Y, Z
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, C, L, P, S, U, Y, Z
 from fmu_bearing.engine.status import NO_START, NOT_CONVERGED, OK
 from tests.engine.helpers import RPM, Run, quiet
 

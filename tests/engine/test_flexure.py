@@ -9,8 +9,7 @@ from scipy.integrate import solve_ivp
 from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.engine import abi
 from fmu_bearing.engine.choices import METHODS
-from fmu_bearing.engine.layout import FL, MO, F, P, Q, S, U, W, Z
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import FL, MO, STRIDE, F, P, Q, S, U, W, Z
 from fmu_bearing.engine.readout.motion import flexure_motion
 from fmu_bearing.engine.status import OK, RIGID_ONLY
 from fmu_bearing.instance import REASONS, Instance

@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from fmu_bearing.engine.fidelities.full.methods import tableaux
+from fmu_bearing.engine.fidelities.full.methods.esdirk4 import ESDIRK4
+from fmu_bearing.engine.fidelities.full.methods.trbdf2 import TRBDF2
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import A, C, F, J, P, R, W, X
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STAGES, STRIDE, TAB, A, C, F, J, P, R, W, X
 from fmu_bearing.engine.mechanics.cage import film_force
 from fmu_bearing.engine.mechanics.powers import exp2, log2
 from fmu_bearing.engine.mechanics.race import waves
@@ -160,17 +160,16 @@ def test_springs_between_balls_solve_the_dense_system(angle, stiffness):
     np.testing.assert_allclose(got, expected, rtol=1e-9, atol=1e-10)
 
 
-@pytest.mark.parametrize(("place", "order", "companion"), [(tableaux.ESDIRK4, 4, 3), (tableaux.TRBDF2, 2, 3)])
-def test_tableaux_meet_the_order_conditions(place, order, companion):
-    block = tableaux.TABLEAUX[place : place + tableaux.SIZE]
-    stages = int(block[tableaux.T_STAGES])
-    a = np.zeros((6, 6))
-    a[:, :5] = block[tableaux.T_A : tableaux.T_B].reshape(6, 5)
-    a = a[:stages, :stages] + np.diag([0.0] + [block[tableaux.T_GAMMA]] * (stages - 1))
+@pytest.mark.parametrize(("block", "order", "companion"), [(ESDIRK4, 4, 3), (TRBDF2, 2, 3)])
+def test_tableaux_meet_the_order_conditions(block, order, companion):
+    stages = int(block[TAB.COUNT])
+    a = np.zeros((STAGES, STAGES))
+    a[:, : TAB.ROW] = block[TAB.A : TAB.B].reshape(STAGES, TAB.ROW)
+    a = a[:stages, :stages] + np.diag([0.0] + [block[TAB.GAMMA]] * (stages - 1))
     c = a.sum(1)
-    b = block[tableaux.T_B : tableaux.T_ERROR][:stages]
-    low = b - block[tableaux.T_ERROR :][:stages]
-    np.testing.assert_allclose(c, block[tableaux.T_NODES :][:stages], atol=1e-14)
+    b = block[TAB.B : TAB.ERROR][:stages]
+    low = b - block[TAB.ERROR :][:stages]
+    np.testing.assert_allclose(c, block[TAB.NODES :][:stages], atol=1e-14)
     np.testing.assert_allclose(a[-1], b, atol=1e-14)  # stiffly accurate
     for weights, reached in ((b, order), (low, companion)):
         conditions = [

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from fmu_bearing.engine.layout import P, Q, R, S, U, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, P, Q, R, S, U, W, Y
 from fmu_bearing.engine.status import OK
 from tests.engine.helpers import Run, quiet
 from tests.engine.lubrication import film_places

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from fmu_bearing.engine.choices import RACE_CONTROLS
-from fmu_bearing.engine.layout import EQ, C, F, P, Q, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import EQ, STRIDE, C, F, P, Q, Y
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.statics.axial import quasistatic, stiffness_matrix
 from fmu_bearing.engine.statics.mounted import mounted_equilibrium

@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicHermiteSpline
 
-from fmu_bearing.engine.layout import C, F, P, S, U, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, C, F, P, S, U, W, Y
 from fmu_bearing.engine.mechanics.cage import film_force
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.mechanics.energy import stored_energy

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from fmu_bearing.engine.layout import EQ, P, Q, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import EQ, STRIDE, P, Q, Y
 from fmu_bearing.engine.statics.place import place_balls
 from tests.engine.helpers import RPM
 from tests.engine.quasistatic import Bearing

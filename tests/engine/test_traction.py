@@ -4,8 +4,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from fmu_bearing.engine.layout import C, P, R, W
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, C, P, R, W
 from fmu_bearing.engine.mechanics.traction import lubricated_traction
 from fmu_bearing.prepare.model import pack
 from tests.engine.helpers import RPM, quiet

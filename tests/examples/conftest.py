@@ -41,12 +41,12 @@ def fmus(builder, tmp_path_factory):
 
 
 @pytest.fixture(scope="session")
-def real_fmus(builder, scene_file, tmp_path_factory):
+def real_fmus(builder, example_file, tmp_path_factory):
     """Folder with all three FMUs, the bearing built from the example scene with compact sound."""
     folder = tmp_path_factory.mktemp("real")
     for model in builder.MODELS:
         builder.build(SPINDLE / f"{model}.py", folder)
     bearing = folder / "Bearing7003C.fmu"
-    command = [sys.executable, str(ROOT / "build_fmu.py"), str(scene_file), "-o", str(bearing)]
+    command = [sys.executable, str(ROOT / "build_fmu.py"), str(example_file), "-o", str(bearing)]
     subprocess.run(command, check=True, capture_output=True, text=True)
     return folder

@@ -9,7 +9,7 @@ from fmu_bearing.engine.layout import Z
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.scene import Scene, read_scene
-from tests.conftest import SCENES
+from tests.conftest import GATES
 
 SILENT = {"sound": None}
 PERFECT = {"sound": None, "imperfections": None}
@@ -17,11 +17,11 @@ RINGS = [f"{ring}_ring.velocity.{axis}" for ring in ("inner", "outer") for axis 
 
 
 def edited(name: str, changes: dict) -> Scene:
-    """Scene ``name`` of the examples with ``table.table.key`` replaced, held against the scene's rules.
+    """Gate scene ``name`` with ``table.table.key`` replaced, held against the scene's rules.
 
     Rings are rigid unless ``changes`` give ``mounting.flexure``.
     """
-    data = read_scene(SCENES / f"{name}.toml").with_rigid_rings().model_dump()
+    data = read_scene(GATES / f"{name}.toml").with_rigid_rings().model_dump()
     for path, value in changes.items():
         *tables, key = path.split(".")
         table = data

@@ -8,7 +8,7 @@ from fmu_bearing.engine.layout import U
 from fmu_bearing.engine.status import BAD_INPUT
 from fmu_bearing.instance import EngineError
 from fmu_bearing.scene import SceneError, read_scene_text
-from tests.conftest import SCENES
+from tests.conftest import GATES
 from tests.extremes.bearings import PERFECT, RINGS, RPM, Trace, bearing, drive, feed
 from tests.extremes.cases import CASES, COMPUTED, EXPLICIT, FULL, SLACK, SLOW, WORK
 from tests.extremes.checks import balanced, finite, plausible
@@ -102,7 +102,7 @@ def test_a_jump_that_stores_megajoules_is_refused_within_bounds(fidelity, method
     ],
 )
 def test_scenes_beyond_the_extremes_are_refused_with_their_key(key, value, reason):
-    lines = (SCENES / "7003C-bare.toml").read_text(encoding="utf-8").splitlines()
+    lines = (GATES / "7003C-bare.toml").read_text(encoding="utf-8").splitlines()
     changed = [f"{key} = {value}" if line.split(" = ")[0] == key else line for line in lines]
     assert changed != lines
     with pytest.raises(SceneError, match=reason):

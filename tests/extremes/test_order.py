@@ -7,11 +7,10 @@ below is compiled with the engine's kernels (and kept in their cache), which tak
 import numpy as np
 import pytest
 
-from fmu_bearing.engine.fidelities.full.methods.tableaux import ESDIRK4, RK4, T_GAMMA, TABLEAUX, TRBDF2
+from fmu_bearing.engine.fidelities.full.methods.table import AT_ESDIRK4, AT_RK4, AT_TRBDF2, TABLEAUX
 from fmu_bearing.engine.fidelities.full.runge_kutta import runge_kutta_step
 from fmu_bearing.engine.jit import entry
-from fmu_bearing.engine.layout import A, C, F, J, S, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, TAB, A, C, F, J, S, W, Y
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.newton.block_arrow import factor
 from fmu_bearing.engine.newton.jacobian import jacobian
@@ -35,10 +34,10 @@ PUSH = 1e-3  # m/s
 @entry
 def fixed_steps(p, c, y, axes, flexure, angle, speed, h, count, tableau, tolerance, w, jac, fac, f):
     """Advance ``y`` by ``count`` steps of ``h`` (s); number of steps that converged."""
-    report = np.zeros(4)
+    report = np.zeros(W.REPORT_SIZE)
     right_hand_side(p, c, y, angle, speed, 0.0, w, f)
     jacobian(p, c, y, angle, speed, 0.0, w, jac)
-    gh = TABLEAUX[tableau + T_GAMMA] * h
+    gh = TABLEAUX[tableau + TAB.GAMMA] * h
     factor(p, jac, gh, gh * gh, gh * gh, fac, w)
     start = y[2 * STRIDE]
     for n in range(count):
@@ -90,12 +89,12 @@ def orders(run, tableau, steps, exact):
 
 @pytest.mark.heavy
 def test_order_of_convergence(swinging):
-    exact = rings_after(swinging, 6.25e-8, ESDIRK4)
+    exact = rings_after(swinging, 6.25e-8, AT_ESDIRK4)
     # ESDIRK4 at 0.5 us is right to 5e-14 m/s, where rounding begins
-    found = orders(swinging, ESDIRK4, [2e-6, 1e-6, 5e-7], exact)
+    found = orders(swinging, AT_ESDIRK4, [2e-6, 1e-6, 5e-7], exact)
     assert found == pytest.approx(4.0, abs=0.2)
-    found = orders(swinging, TRBDF2, [2e-6, 1e-6, 5e-7, 2.5e-7], exact)
+    found = orders(swinging, AT_TRBDF2, [2e-6, 1e-6, 5e-7, 2.5e-7], exact)
     assert found == pytest.approx(2.0, abs=0.01)
     # traction at 20,000 r/min is stable below 1.4 us only; at 0.2 us the error is 9e-15 m/s, rounding's own
-    found = orders(swinging, RK4, [4e-7, 2e-7], exact)
+    found = orders(swinging, AT_RK4, [4e-7, 2e-7], exact)
     assert found == pytest.approx(4.0, abs=0.3)

@@ -18,12 +18,13 @@ from fmu_bearing.fmi.native.platforms import host
 from fmu_bearing.fmi.package import build
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.scene import read_scene
+from tests.conftest import GATES
 from tests.native import master as calls
 
 from .differences import DIFFERENCES
 
 ROOT = pathlib.Path(__file__).parents[2]
-DEFAULT_SCENE = ROOT / "examples" / "scenes" / "7003C-spindle.toml"
+SPINDLE_SCENE = GATES / "7003C-spindle.toml"
 STEP = 2e-4  # s
 OK, WARNING, DISCARD, ERROR = calls.OK, calls.WARNING, calls.DISCARD, calls.ERROR
 

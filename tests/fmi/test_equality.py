@@ -11,7 +11,7 @@ from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.scene import read_scene
 
-from .conftest import DEFAULT_SCENE, OK, Master
+from .conftest import OK, SPINDLE_SCENE, Master
 from .run_up import FROM, SIZE, STEPS, TO, run_up, speed
 
 
@@ -107,7 +107,7 @@ def test_instruction_sets_give_the_same_bits(unpack, pytestconfig, monkeypatch):
 
 @pytest.mark.heavy
 def test_long_run_up_with_the_sound_of_boundary_elements(tmp_path):
-    model = prepare(read_scene(DEFAULT_SCENE))
+    model = prepare(read_scene(SPINDLE_SCENE))
     made = []
     for flavour in ("native", "python"):
         with zipfile.ZipFile(build(model, tmp_path / f"{flavour}.fmu", flavour).path) as archive:

@@ -14,8 +14,9 @@ from lxml import etree
 from fmu_bearing.fmi.package import build
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.scene import read_scene
+from tests.conftest import GATES
 
-from .conftest import EXACT_STEP, ROOT, STEPS, needs_linux64
+from .conftest import EXACT_STEP, STEPS, needs_linux64
 
 pytestmark = needs_linux64
 
@@ -128,11 +129,11 @@ def test_another_step_changes_no_more_than_rounding_at_first(archives):
 
 
 @pytest.mark.heavy
-def test_the_default_scene_for_a_fifth_of_a_second(tmp_path):
+def test_the_spindle_scene_for_a_fifth_of_a_second(tmp_path):
     from run import ENGINES
     from write import write
 
-    model = prepare(read_scene(ROOT / "examples" / "scenes" / "7003C-spindle.toml"))
+    model = prepare(read_scene(GATES / "7003C-spindle.toml"))
     bearing = build(model, tmp_path / "Bearing7003C.fmu", flavour="native").path
     archive = write(bearing, tmp_path / "spindle.ssp", target_speed=2300.0, ramp_time=0.1, stop_time=0.2)
     expected, *others = (engine(archive, 100, EXACT_STEP) for engine in ENGINES.values())

@@ -24,6 +24,7 @@ from fmu_bearing.fmi.native.link import library
 from fmu_bearing.fmi.native.model_file import model_bytes
 from fmu_bearing.fmi.native.optimise import MATHEMATICS, BuildError
 from fmu_bearing.fmi.native.platforms import PLATFORMS, host as own_platform
+from tests.conftest import GATES
 
 from . import binaries, careless, toy
 from .master import SIGNATURES
@@ -103,7 +104,7 @@ def test_platform_without_its_compiler_names_the_extra(no_zig):
 def test_command_without_the_compiler_ends_with_one_line(no_zig, monkeypatch, tmp_path):
     monkeypatch.setattr(link, "kernel_folder", lambda: tmp_path / "no libraries kept")
     other = next(name for name in PLATFORMS if PLATFORMS[name] != own_platform())
-    path = toy.HERE.parents[1] / "examples" / "scenes" / "7003C-bare.toml"
+    path = GATES / "7003C-bare.toml"
     ran = CliRunner().invoke(
         cli.app, ["build", str(path), "--platforms", other, "-o", str(tmp_path / "bearing.fmu")]
     )
@@ -225,7 +226,7 @@ def spindle(tmp_path_factory):
     from fmu_bearing.prepare.model import prepare
     from fmu_bearing.scene import read_scene
 
-    path = toy.HERE.parents[1] / "examples" / "scenes" / "7003C-spindle.toml"
+    path = GATES / "7003C-spindle.toml"
     found = read_scene(path)
     model = prepare(
         found.model_copy(update={"sound": found.sound.model_copy(update={"radiation_model": "compact"})})

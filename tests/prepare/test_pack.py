@@ -5,14 +5,13 @@ import math
 import numpy as np
 import pytest
 
-from fmu_bearing.engine.layout import P
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, P
 from fmu_bearing.prepare.hertz import effective_modulus, point_contact
 from fmu_bearing.prepare.model import pack, prepare
 from fmu_bearing.scene import SceneError, read_scene_text
-from tests.conftest import SCENES
+from tests.conftest import GATES
 
-TEXT = (SCENES / "7003C-bare.toml").read_text(encoding="utf-8")
+TEXT = (GATES / "7003C-bare.toml").read_text(encoding="utf-8")
 NO_SOUND = np.empty(0)
 
 

@@ -83,7 +83,7 @@ def test_boundary_elements_are_asked_by_name(own, monkeypatch):
     asked = []
 
     def bem_paths(*arguments, **options):
-        asked.append((arguments[2:4], options))
+        asked.append(((arguments[2].radius, arguments[2].axial), options))
         return compact_paths(*arguments)
 
     monkeypatch.setattr("fmu_bearing.acoustics.registry.bem_paths", bem_paths)

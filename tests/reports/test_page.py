@@ -13,7 +13,7 @@ from fmu_bearing.reports import make, report
 from fmu_bearing.reports.page import POLICY
 from fmu_bearing.run.extras import MissingExtra
 from fmu_bearing.scene.read import with_fidelity
-from tests.conftest import SCENES
+from tests.conftest import EXAMPLES, GATES
 from tests.reports.reading import Page
 
 LARGEST = 8e6  # bytes
@@ -42,7 +42,7 @@ def test_the_page_is_in_order(full_page, full_report):
 
 
 def test_the_example_runs(tmp_path, monkeypatch):
-    (tmp_path / "examples").symlink_to(SCENES.parent)
+    (tmp_path / "examples").symlink_to(EXAMPLES.parent)
     monkeypatch.chdir(tmp_path)
     (test,) = doctest.DocTestFinder().find(report, "report", globs={}, module=False)
     assert test.examples and doctest.DocTestRunner().run(test).failed == 0
@@ -59,7 +59,7 @@ def test_what_is_said_is_said_to_the_end(full, full_page):
 
 def test_assumed_values_carry_the_files_remarks(tmp_path):
     made = make(
-        SCENES / "7003C-bare.toml", tmp_path / "a.html", duration=0.02, settle=0.0, radiation_model="compact"
+        GATES / "7003C-bare.toml", tmp_path / "a.html", duration=0.02, settle=0.0, radiation_model="compact"
     )
     page = Page(made.path)
     (caption,) = [caption for caption in page.tables if caption.endswith("values are assumed")]

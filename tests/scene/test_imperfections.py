@@ -7,9 +7,9 @@ from fmu_bearing.prepare.imperfections import ball_oversizes, ball_waves, race_h
 from fmu_bearing.scene import SceneError, read_scene_text
 from fmu_bearing.scene.imperfections import Imperfections
 from fmu_bearing.scene.read import catalogue
-from tests.conftest import SCENES
+from tests.conftest import GATES
 
-TEXT = (SCENES / "7003C-bare.toml").read_text(encoding="utf-8")
+TEXT = (GATES / "7003C-bare.toml").read_text(encoding="utf-8")
 FROM, TO = TEXT.index("[imperfections]"), TEXT.index("[operation]")
 GRADES = ["P0", "P6", "P5", "P4", "P2"]
 BY_HAND = """seed = 1
@@ -47,8 +47,8 @@ def test_every_grade_is_valid():
         assert Imperfections.model_validate({"seed": 1, **entry}), name
 
 
-def test_p4_is_the_standard_set(scene):
-    standard = scene("7003C-bare").imperfections
+def test_p4_is_the_standard_set(example):
+    standard = example("7003C-bare").imperfections
     flaws = flawed('seed = 1\ngrade = "P4"').imperfections
     assert flaws.ball_waviness_nm == 20.0
     assert flaws.model_copy(update={"ball_waviness_nm": 0.0}) == standard

@@ -5,13 +5,13 @@ import pytest
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.scene import SceneError, read_scene, read_scene_text
 from fmu_bearing.scene.read import catalogue
-from tests.conftest import SCENES
+from tests.conftest import EXAMPLES, GATES
 
 NAMES = ["7003C-spindle", "7003C-bare", "7009C-full-ceramic"]
 
 
 def text(name="7003C-bare"):
-    return (SCENES / f"{name}.toml").read_text()
+    return (GATES / f"{name}.toml").read_text()
 
 
 def refused(changed):
@@ -25,7 +25,7 @@ def refused(changed):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_examples_read_and_survive_the_way_through_toml(name):
-    scene = read_scene(SCENES / f"{name}.toml")
+    scene = read_scene(EXAMPLES / f"{name}.toml")
     assert scene.name == name
     assert read_scene_text(scene.to_toml()) == scene
     assert read_scene_text(scene.to_toml()).to_toml() == scene.to_toml()
@@ -33,7 +33,7 @@ def test_examples_read_and_survive_the_way_through_toml(name):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_examples_agree_with_the_catalogue(name):
-    scene = read_scene(SCENES / f"{name}.toml")
+    scene = read_scene(EXAMPLES / f"{name}.toml")
     assert scene.bearing.model_dump(exclude_none=True) == catalogue("bearings")[name.split("-")[0]]
     materials = catalogue("materials")
     for part in ("inner_ring", "outer_ring", "balls", "cage"):
@@ -41,28 +41,28 @@ def test_examples_agree_with_the_catalogue(name):
     assert scene.lubricant.model_dump() == catalogue("lubricants")["spindle-oil"]
 
 
-def test_table_1_of_the_papers(scene):
-    b = scene("7003C-bare").bearing
+def test_table_1_of_the_papers(example):
+    b = example("7003C-bare").bearing
     assert (b.bore_mm, b.outside_diameter_mm, b.width_mm, b.pitch_diameter_mm) == (17.0, 35.0, 10.0, 26.0)
     assert (b.ball_diameter_mm, b.ball_count, b.contact_angle_deg) == (4.5, 12, 15.0)
     c = b.cage
     assert (c.outside_diameter_mm, c.bore_mm, c.width_mm, c.pocket_diameter_mm) == (27.6, 23.4, 9.1, 4.6)
-    b = scene("7009C-full-ceramic").bearing
+    b = example("7009C-full-ceramic").bearing
     assert (b.bore_mm, b.outside_diameter_mm, b.width_mm) == (45.0, 75.0, 16.0)
     assert (b.ball_diameter_mm, b.ball_count, b.contact_angle_deg) == (8.731, 17, 15.0)
     c = b.cage
     assert (c.outside_diameter_mm, c.width_mm, c.pocket_diameter_mm) == (63.5, 14.0, 8.9)
 
 
-def test_microphones_of_the_papers(scene):
-    points = dict(scene("7003C-spindle").microphones)
+def test_microphones_of_the_papers(example):
+    points = dict(example("7003C-spindle").microphones)
     assert points == {
         "P1": pytest.approx((0.0, 0.105, 0.0)),
         "P2": pytest.approx((0.0, 0.150, 0.0)),
         "P3": pytest.approx((0.0, 0.0, 0.105)),
         "P4": pytest.approx((-0.0805, 0.0, 0.0)),
     }
-    circle = scene("7009C-full-ceramic").microphones
+    circle = example("7009C-full-ceramic").microphones
     assert len(circle) == 24
     assert circle[0][1] == pytest.approx((0.05, 0.0, 0.21))  # 12 o'clock
     assert circle[6][1] == pytest.approx((0.05, -0.21, 0.0))  # 90 degrees with positive rotation: -Y

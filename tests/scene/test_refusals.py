@@ -6,12 +6,12 @@ import tomllib
 
 import pytest
 
-from fmu_bearing.engine.layout.sizes import MAX_BALLS
+from fmu_bearing.engine.layout import MAX_BALLS
 from fmu_bearing.scene import Scene, SceneError, read_scene, read_scene_text
 from fmu_bearing.scene.bearing import Bearing, most_balls
-from tests.conftest import SCENES
+from tests.conftest import GATES
 
-TEXT = (SCENES / "7003C-spindle.toml").read_text(encoding="utf-8")
+TEXT = (GATES / "7003C-spindle.toml").read_text(encoding="utf-8")
 
 
 def problems(*changes, text=TEXT):

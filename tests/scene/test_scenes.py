@@ -14,7 +14,7 @@ from fmu_bearing.scene.read import catalogue
 from fmu_bearing.scene.scene import Scene
 from fmu_bearing.scene.sound import cylindrical
 from fmu_bearing.scene.units import split_unit, symbol
-from tests.conftest import SCENES
+from tests.conftest import EXAMPLES
 
 CATALOGUED = ["7003C-spindle", "7003C-bare", "7009C-full-ceramic", "7009C-steel"]
 NAMES = [*CATALOGUED, "7003C-impact"]
@@ -42,7 +42,7 @@ catalogue = "spindle-oil"
 
 
 def text_of(name):
-    return (SCENES / f"{name}.toml").read_text(encoding="utf-8")
+    return (EXAMPLES / f"{name}.toml").read_text(encoding="utf-8")
 
 
 def short(bearing="", lubricant=""):
@@ -87,13 +87,13 @@ def test_example_pins_every_value(name):
     written["sound"].setdefault("microphone", [])
     for race in ("inner", "outer"):
         written["imperfections"].setdefault(f"{race}_race_harmonic", [])
-    resolved = tomllib.loads(read_scene(SCENES / f"{name}.toml").to_toml())
+    resolved = tomllib.loads(read_scene(EXAMPLES / f"{name}.toml").to_toml())
     assert written == resolved
 
 
 @pytest.mark.parametrize("name", CATALOGUED)
-def test_example_agrees_with_the_catalogue(name, scene):
-    read = scene(name)
+def test_example_agrees_with_the_catalogue(name, example):
+    read = example(name)
     assert read.name == name
     entry = catalogue("bearings")[read.bearing.designation]
     assert read.bearing == Bearing.model_validate(entry)
@@ -108,10 +108,10 @@ def test_example_agrees_with_the_catalogue(name, scene):
     assert made_of == tuple(Material.model_validate(entries[material]) for material in MATERIALS[name])
 
 
-def test_first_lateral_mode_of_the_spindle(scene):
+def test_first_lateral_mode_of_the_spindle(example):
     # one mass on the pedestal: 467 Hz = 28,000 r/min, the paper's critical speed. 1 %: the scene's stiffness
     # is rounded, and the bearing's own radial stiffness is in series.
-    spindle = scene("7003C-spindle")
+    spindle = example("7003C-spindle")
     b, mounting = si(spindle.bearing), si(spindle.mounting)
     section = math.pi / 4 * (b.outside_diameter**2 - b.outer_ring_inner_diameter**2)
     section += math.pi / 4 * (b.inner_ring_outer_diameter**2 - b.bore**2)
@@ -120,14 +120,14 @@ def test_first_lateral_mode_of_the_spindle(scene):
     assert math.sqrt(mounting.pedestal_stiffness / mass) / (2 * math.pi) == pytest.approx(467.0, rel=0.01)
 
 
-def test_rotor_of_the_spindle_is_a_steel_cylinder(scene):
-    rotor = si(scene("7003C-spindle").mounting.rotor)
+def test_rotor_of_the_spindle_is_a_steel_cylinder(example):
+    rotor = si(example("7003C-spindle").mounting.rotor)
     density = rotor.mass / (math.pi / 4 * rotor.diameter**2 * rotor.length)
     assert density == pytest.approx(7850.0, rel=0.01)  # the mass is rounded to 0.25 kg
 
 
-def test_points_of_the_multi_source_paper(scene):
-    spindle = scene("7003C-spindle")
+def test_points_of_the_multi_source_paper(example):
+    spindle = example("7003C-spindle")
     assert [tuple(place) for place in spindle.microphones] == [
         ("P1", (0.0, 0.105, 0.0)),
         ("P2", (0.0, 0.15, 0.0)),
@@ -143,8 +143,8 @@ def test_points_of_the_multi_source_paper(scene):
     assert spindle.sound.microphone[0].y_mm - housing.diameter_mm / 2 == pytest.approx(55.0)
 
 
-def test_points_of_the_sound_field_paper(scene):
-    places = scene("7009C-full-ceramic").microphones
+def test_points_of_the_sound_field_paper(example):
+    places = example("7009C-full-ceramic").microphones
     assert [place.name for place in places] == [f"{15 * k} deg" for k in range(24)]
     assert places[0].position_m == (0.05, 0.0, 0.21)
     assert places[6].position_m == (0.05, -0.21, 0.0)  # y = -r sin(theta): no rounding left at 90 degrees
@@ -152,8 +152,8 @@ def test_points_of_the_sound_field_paper(scene):
     assert {round(math.hypot(*place.position_m[1:]), 12) for place in places} == {0.21}
 
 
-def test_what_the_scenes_leave_out(scene):
-    bare, spindle, ceramic = (scene(name) for name in ("7003C-bare", "7003C-spindle", "7009C-full-ceramic"))
+def test_what_the_scenes_leave_out(example):
+    bare, spindle, ceramic = (example(name) for name in ("7003C-bare", "7003C-spindle", "7009C-full-ceramic"))
     for lone in (bare, ceramic):
         assert lone.mounting.rotor is lone.mounting.housing is lone.mounting.tilt_support is None
         assert lone.sound.radiator == "bare"
@@ -166,15 +166,15 @@ def test_what_the_scenes_leave_out(scene):
     assert bare.imperfections == spindle.imperfections == ceramic.imperfections
 
 
-def test_steel_twin_differs_in_name_and_materials_alone(scene):
-    ceramic, steel = scene("7009C-full-ceramic"), scene("7009C-steel")
+def test_steel_twin_differs_in_name_and_materials_alone(example):
+    ceramic, steel = example("7009C-full-ceramic"), example("7009C-steel")
     assert steel.materials.cage == ceramic.materials.cage
     same = {"name": ceramic.name, "materials": ceramic.materials}
     assert steel.model_copy(update=same) == ceramic
 
 
-def test_assumptions_of_the_impact_paper(scene):
-    bare, impact = scene("7003C-bare"), scene("7003C-impact")
+def test_assumptions_of_the_impact_paper(example):
+    bare, impact = example("7003C-bare"), example("7003C-impact")
     assert impact.bearing.cage is None and impact.materials.cage is None
     assert impact.bearing.ball_springs.stiffness_N_m == 2.5e7  # what the paper keeps
     assert impact.bearing.ball_springs.damping_N_s_m == 0.0
@@ -204,8 +204,8 @@ def test_every_catalogue_entry_is_valid(kind, model):
         assert model.model_validate(entry), name
 
 
-def test_scene_from_the_catalogue_equals_the_example(scene):
-    bare = read_scene(SCENES / "7003C-bare.toml")
+def test_scene_from_the_catalogue_equals_the_example():
+    bare = read_scene(EXAMPLES / "7003C-bare.toml")
     assert read_scene_text(short()) == bare.model_copy(update={"name": "short"})
 
 
@@ -269,10 +269,10 @@ def test_names_on_a_circle_differ(count):
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_written_scene_reads_back_equal(name, scene):
-    text = scene(name).to_toml()
+def test_written_scene_reads_back_equal(name, example):
+    text = example(name).to_toml()
     again = read_scene_text(text, name)
-    assert again == scene(name)
+    assert again == example(name)
     assert again.to_toml() == text
 
 
@@ -293,8 +293,8 @@ def test_written_scene_keeps_every_bit(preload, stiffness, seed, microphone, gra
     assert read_scene_text(scene.to_toml()) == scene
 
 
-def test_scene_without_optional_tables(scene):
-    perfect = scene("7003C-bare").model_copy(update={"imperfections": None, "sound": None})
+def test_scene_without_optional_tables(example):
+    perfect = example("7003C-bare").model_copy(update={"imperfections": None, "sound": None})
     again = read_scene_text(perfect.to_toml())
     assert again == perfect
     assert again.microphones == []

@@ -13,7 +13,7 @@ from fmu_bearing.sweeps.picture import sweep_picture
 from fmu_bearing.sweeps.plan import plan
 from fmu_bearing.sweeps.point import Outcome, nothing
 from fmu_bearing.sweeps.result import dataset, extremes
-from tests.conftest import SCENES
+from tests.conftest import GATES
 
 xarray = pytest.importorskip("xarray", reason="xarray is not installed: extra 'results'")
 
@@ -97,7 +97,7 @@ def test_a_sweep_as_a_file(tmp_path):
     assert found.axes == {"speed": "1000:2000:2", "mounting.preload_N": [300, 500]}
     path.write_text(found.to_toml())
     assert read_description(path) == found
-    assert is_description(path) and not is_description(SCENES / "7003C-bare.toml")
+    assert is_description(path) and not is_description(GATES / "7003C-bare.toml")
     assert isinstance(found, Description)
 
 

@@ -89,8 +89,8 @@ def test_a_run_that_lacks_something_is_no_match():
 
 
 @pytest.fixture(scope="module")
-def fmu(scene, tmp_path_factory):
-    return build(prepare(scene("7003C-spindle")), tmp_path_factory.mktemp("fmu") / "Bearing.fmu").path
+def fmu(example, tmp_path_factory):
+    return build(prepare(example("7003C-spindle")), tmp_path_factory.mktemp("fmu") / "Bearing.fmu").path
 
 
 def test_example_passes_and_a_departure_is_told(pytester, fmu):

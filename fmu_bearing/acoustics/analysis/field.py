@@ -19,7 +19,8 @@ from scipy.signal import get_window
 from fmu_bearing.acoustics.filters.fir import decimator_response
 from fmu_bearing.acoustics.radiation.frequencies import BAND, fit_frequencies
 from fmu_bearing.acoustics.radiation.radiators import Air, Path, Radiators
-from fmu_bearing.acoustics.registry import Ladder
+from fmu_bearing.acoustics.registry import Radiation, recipe_of
+from fmu_bearing.engine.choices import ChannelForm
 from fmu_bearing.engine.layout import SD
 
 Position = tuple[float, float, float]
@@ -41,7 +42,7 @@ class Circle:
 
 
 def circles(
-    rung: str,
+    model: str,
     radiators: Radiators,
     air: Air,
     positions: Sequence[Position],
@@ -52,34 +53,42 @@ def circles(
 
     Parameters
     ----------
-    rung : str
-        Any but ``"table"``, which knows its own microphones only.
+    model : str
+        Radiation model, any but ``"table"``, which knows its own microphones only.
     positions : sequence of (x, y, z)
         Places in m, bearing centre at the origin.
     harmonics : int
         Highest circumferential order of the balls among the channels.
     options
-        Fields of `rungs.Ladder` beyond these: reflecting plane, flexural modes.
+        Fields of `Radiation` beyond these: reflecting plane, flexural modes.
 
     Raises
     ------
     ValueError
-        On the rung ``table``, an unknown rung, or a microphone inside a body.
+        On the radiation model ``table``, an unknown one, or a microphone inside a body.
     """
-    if rung == "table":
-        raise ValueError('rung = "table" cannot be evaluated at other places: use "bem" or "compact"')
-    ladder = Ladder(rung, radiators, air, harmonics, **options)
-    for members in ladder.circles(positions):
-        yield Circle(tuple(members), tuple(ladder.paths(positions, members)))
+    if model == "table":
+        raise ValueError(
+            'sound.radiation_model = "table" cannot be evaluated at other places: use "bem" or "compact"'
+        )
+    radiation = Radiation(model, radiators, air, harmonics, **options)
+    for members in radiation.circles(positions):
+        yield Circle(tuple(members), tuple(radiation.paths(positions, members)))
 
 
-def form_of(rung: str) -> str:
-    """Return which channels a rung hears: accelerations (``"vectors"``), or a paper's own, by its name."""
-    return rung if rung in ("paper", "paper_contacts") else "vectors"
+def form_of(model: str) -> ChannelForm:
+    """Return which form of channels a radiation model hears: ``"vectors"``, or a paper's own.
+
+    Raises
+    ------
+    ValueError
+        When there is no such model.
+    """
+    return recipe_of(model).form
 
 
 def kind_of(path: Path) -> str:
-    """Source type of a path: one of ``places.KINDS``."""
+    """Source type of a path: one of ``layout.sound.KINDS``."""
     return SD.KINDS[path.kind]
 
 

@@ -111,15 +111,15 @@ def _bank(side: dict[int, Wire]) -> Bank:
     return Bank(first, one.delay, table, targets)
 
 
-def spans(levels: Sequence[int]) -> list[tuple[int, int, float]]:
-    """Block length, first lag and lag after the last of each level."""
-    ends = [*levels[1:], np.inf][: len(levels)]
-    return [(block, block, end) for block, end in zip(levels, ends, strict=True)]
+def spans(lengths: Sequence[int]) -> list[tuple[int, int, float]]:
+    """Block length, first lag and lag after the last of each span."""
+    ends = [*lengths[1:], np.inf][: len(lengths)]
+    return [(block, block, end) for block, end in zip(lengths, ends, strict=True)]
 
 
-def head(bank: Bank, levels: Sequence[int]) -> NDArray[np.float64]:
+def head(bank: Bank, lengths: Sequence[int]) -> NDArray[np.float64]:
     """Taps that stay with the direct form, filled up to a multiple of four."""
-    limit = len(bank.taps) if not levels else max(min(levels[0] - bank.delay, len(bank.taps)), 0)
+    limit = len(bank.taps) if not lengths else max(min(lengths[0] - bank.delay, len(bank.taps)), 0)
     rows = bank.taps[:limit]
     return np.concatenate([rows, np.zeros((-limit % 4, rows.shape[1]))])
 
@@ -164,10 +164,10 @@ def segments(lanes: Iterable[int]) -> list[tuple[int, int]]:
     return runs
 
 
-def cost(banks: Sequence[Bank], levels: Sequence[int], outputs: int) -> float:
+def cost(banks: Sequence[Bank], lengths: Sequence[int], outputs: int) -> float:
     """Rough work per sample, in products of one lane."""
-    total = sum(len(head(bank, levels)) * (bank.taps.shape[1] + _ROW) for bank in banks)
-    for block, low, high in spans(levels):
+    total = sum(len(head(bank, lengths)) * (bank.taps.shape[1] + _ROW) for bank in banks)
+    for block, low, high in spans(lengths):
         lanes = set()
         for bank in banks:
             for column in range(bank.taps.shape[1]):
@@ -181,4 +181,4 @@ def cost(banks: Sequence[Bank], levels: Sequence[int], outputs: int) -> float:
 
 def choose(banks: Sequence[Bank], outputs: int) -> tuple[int, ...]:
     """Block lengths with the least work; empty: the direct form."""
-    return min(CHOICES, key=lambda levels: cost(banks, levels, outputs))
+    return min(CHOICES, key=lambda lengths: cost(banks, lengths, outputs))

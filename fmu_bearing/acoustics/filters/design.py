@@ -12,12 +12,12 @@ from fmu_bearing.acoustics.filters.fir import delay_of, fit
 from fmu_bearing.acoustics.filters.pack import pack
 from fmu_bearing.acoustics.radiation.radiators import Air, Housing, Path, Radiators, Ring
 from fmu_bearing.acoustics.radiation.table import Table, read_table, select
-from fmu_bearing.acoustics.registry import Ladder, Position
+from fmu_bearing.acoustics.registry import Position, Radiation
 from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.scene import Scene, si
 
-__all__ = ["FilterError", "build", "filter_errors", "ladder_of", "radiators_of", "sound_parameters"]
+__all__ = ["FilterError", "build", "filter_errors", "radiation_of", "radiators_of", "sound_parameters"]
 
 # Paths this far below their component's strongest one, at all frequencies, are left out.
 _NEGLIGIBLE = 1e-7
@@ -37,7 +37,7 @@ class FilterError:
     microphones : tuple of int
         Indices of the microphones that share it.
     component, kind : str
-        Whose sound it carries, see ``engine.sound.places``.
+        Whose sound it carries, see ``engine.layout.sound``.
     channel, taps : int
         Channel it filters and its length.
     error : float
@@ -80,8 +80,8 @@ def sound_parameters(scene: Scene, modes: Sequence[Any] | None = None) -> NDArra
     if scene.sound is None or not scene.microphones:
         return np.zeros(0)
     positions = [position for _, position in scene.microphones]
-    ladder = ladder_of(scene, modes)
-    return _block(ladder, positions, details=scene.sound.details, thirds=scene.sound.third_octaves)
+    radiation = radiation_of(scene, modes)
+    return _block(radiation, positions, details=scene.sound.details, thirds=scene.sound.third_octaves)
 
 
 def filter_errors(scene: Scene, modes: Sequence[Any] | None = None) -> list[FilterError]:
@@ -95,11 +95,11 @@ def filter_errors(scene: Scene, modes: Sequence[Any] | None = None) -> list[Filt
     if scene.sound is None or not scene.microphones:
         return []
     errors: list[FilterError] = []
-    _design(ladder_of(scene, modes), [position for _, position in scene.microphones], errors)
+    _design(radiation_of(scene, modes), [position for _, position in scene.microphones], errors)
     return sorted(errors, key=lambda found: -found.error)
 
 
-def ladder_of(scene: Scene, modes: Sequence[Any] | None = None) -> Ladder:
+def radiation_of(scene: Scene, modes: Sequence[Any] | None = None) -> Radiation:
     """Return what the paths of a scene with sound depend on besides its microphones.
 
     Raises
@@ -114,7 +114,7 @@ def ladder_of(scene: Scene, modes: Sequence[Any] | None = None) -> Ladder:
     if scene.sound.radiation_model == "table":
         where = f"sound.table_file {scene.sound.table_file}"
         table = select(read_table(str(scene.sound.table_file)), scene.microphones, where)
-    return Ladder(
+    return Radiation(
         scene.sound.radiation_model, radiators_of(scene), Air(sound.air_density, sound.sound_speed),
         int(scene.fidelity.ball_harmonics), ring_modes(scene) if modes is None else tuple(modes),
         None if scene.sound.reflecting_plane_mm is None else sound.reflecting_plane, table,
@@ -153,7 +153,7 @@ def radiators_of(scene: Scene) -> Radiators:
 
 
 def build(
-    rung: str,
+    model: str,
     radiators: Radiators,
     air: Air,
     microphones: Sequence[Position],
@@ -164,63 +164,63 @@ def build(
     table: Table | None = None,
     details: bool = True,
     thirds: bool = False,
-    levels: Sequence[int] | None = None,
+    lengths: Sequence[int] | None = None,
 ) -> NDArray[np.float64]:
     """Sound block from plain numbers.
 
     Parameters
     ----------
-    rung
-        See `rungs`.
+    model
+        Radiation model, see `registry`.
     microphones
         Places (x, y, z) in m, bearing centre at the origin.
     harmonics
         Highest circumferential order of the balls' sound.
     modes, plane, table
-        See `rungs.Ladder`.
+        See `registry.Radiation`.
     details
         Whether Fast, Slow, energy sum and levels per source type are metered.
     thirds
         Whether third octaves are.
-    levels
+    lengths
         Block lengths of the convolution (powers of two up to 512, ascending); empty: direct form; default:
         the cheapest.
 
     Raises
     ------
     ValueError
-        On another rung, a microphone inside a body, a block that is too long, or a filter that misses its
-        transfer function by more than -30 dB.
+        On another radiation model, a microphone inside a body, a block that is too long, or a filter that
+        misses its transfer function by more than -30 dB.
     """
-    ladder = Ladder(rung, radiators, air, harmonics, tuple(modes), plane, table)
-    return _block(ladder, microphones, details=details, thirds=thirds, levels=levels)
+    radiation = Radiation(model, radiators, air, harmonics, tuple(modes), plane, table)
+    return _block(radiation, microphones, details=details, thirds=thirds, lengths=lengths)
 
 
 def _block(
-    ladder: Ladder,
+    radiation: Radiation,
     microphones: Sequence[Position],
     *,
     details: bool,
     thirds: bool,
-    levels: Sequence[int] | None = None,
+    lengths: Sequence[int] | None = None,
 ) -> NDArray[np.float64]:
-    wires, groups, sources = _design(ladder, microphones, [])
-    return pack(ladder, wires, groups, sources, details=details, thirds=thirds, levels=levels)
+    wires, groups, sources = _design(radiation, microphones, [])
+    return pack(radiation, wires, groups, sources, details=details, thirds=thirds, lengths=lengths)
 
 
 def _design(
-    ladder: Ladder, microphones: Sequence[Position], errors: list[FilterError]
+    radiation: Radiation, microphones: Sequence[Position], errors: list[FilterError]
 ) -> tuple[list[Wire], list[Group], list[tuple[int, int]]]:
     """Design filters; groups of microphones; component and kind of every output. Adds to ``errors``."""
     wires: list[Wire] = []
     groups: list[Group] = []
     sources: list[tuple[int, int]] = []
-    for members in ladder.circles(microphones):
-        paths = _audible(ladder.paths(microphones, members))
+    for members in radiation.circles(microphones):
+        paths = _audible(radiation.paths(microphones, members))
         place = ", ".join(f"{1e3 * length:g}" for length in microphones[members[0]])
         filters = _filters(paths, place, members, errors)
         first = len(sources)
-        targets, rows = _outputs(ladder, paths, sources)
+        targets, rows = _outputs(radiation, paths, sources)
         for path, taps, (target, factor) in zip(paths, filters, targets, strict=True):
             wires.append(Wire(len(groups), path.channel, delay_of(path.flight), factor * taps, target))
         groups.append(Group(tuple(members), first, np.array(rows).reshape(-1, len(members))))
@@ -247,7 +247,7 @@ def _strongest(paths: list[Path]) -> dict[int, NDArray[np.float64]]:
 
 
 def _outputs(
-    ladder: Ladder, paths: list[Path], sources: list[tuple[int, int]]
+    radiation: Radiation, paths: list[Path], sources: list[tuple[int, int]]
 ) -> tuple[list[tuple[int, float]], list[NDArray[np.float64]]]:
     """Output and factor of each path, and the weights of the new outputs, whose sources are appended.
 
@@ -262,7 +262,7 @@ def _outputs(
         row = path.weights / factor
         key = (
             (number,)
-            if ladder.rung == "paper"
+            if radiation.form == "scalars"
             else (path.component, path.kind, tuple(np.round(row, _ALIKE) + 0.0))
         )
         if key not in known:

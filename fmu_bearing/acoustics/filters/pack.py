@@ -11,17 +11,16 @@ from fmu_bearing.acoustics.filters.blocks import Bank, Wire, choose, filters, he
 from fmu_bearing.acoustics.filters.fir import decimator
 from fmu_bearing.acoustics.filters.weighting import a_weighting_sections, band_sections, high_pass_section
 from fmu_bearing.acoustics.papers.scalars import paper_scalars
-from fmu_bearing.acoustics.registry import Ladder
-from fmu_bearing.engine.layout import SD, Z
-from fmu_bearing.engine.layout.sizes import STRIDE
-from fmu_bearing.engine.sound import thirds as bands
+from fmu_bearing.acoustics.registry import Radiation
+from fmu_bearing.engine.choices import CHANNEL_FORMS
+from fmu_bearing.engine.layout import SD, STRIDE, Z
 
 MICROPHONE_LOW_LIMIT = 5.0  # Hz, second order: of a half-inch measurement microphone (assumed)
 _KEEP = [0, 1, 2, 4, 5]  # of a section: the leading denominator coefficient is 1
 
 
 class Members(Protocol):
-    """Microphones that share filters, see `stream.Group`."""
+    """Microphones that share filters, see `design.Group`."""
 
     @property
     def members(self) -> tuple[int, ...]:
@@ -57,14 +56,14 @@ class _Block:
 
 
 def pack(
-    ladder: Ladder,
+    radiation: Radiation,
     wires: Sequence[Wire],
     groups: Sequence[Members],
     sources: Sequence[tuple[int, int]],
     *,
     details: bool,
     thirds: bool,
-    levels: Sequence[int] | None,
+    lengths: Sequence[int] | None,
 ) -> NDArray[np.float64]:
     """Lay out a sound block.
 
@@ -74,7 +73,7 @@ def pack(
         Component and kind of every output.
     details, thirds
         Which meters are kept.
-    levels
+    lengths
         Block lengths of the convolution; default: the cheapest.
 
     Raises
@@ -82,42 +81,42 @@ def pack(
     ValueError
         When a block is longer than 512 samples.
     """
-    channels = ladder.channels
+    channels = radiation.channels
     banks, lanes = wired(wires, channels)
-    if levels is None:
-        levels = choose(banks, len(sources))
-    if max(levels, default=0) >= SD.MAX_FREQUENCIES:
-        raise ValueError(f"blocks of {max(levels)} samples are too long: 512 at most")
+    if lengths is None:
+        lengths = choose(banks, len(sources))
+    if max(lengths, default=0) >= SD.MAX_FREQUENCIES:
+        raise ValueError(f"blocks of {max(lengths)} samples are too long: 512 at most")
     block = _Block()
     found = block.head
-    found[SD.H_RUNG] = ladder.form
-    found[SD.H_BALLS] = ladder.radiators.ball_count
-    found[SD.H_HARMONICS] = ladder.harmonics
-    found[SD.H_FLEXURES] = 2 * len(ladder.modes)
+    found[SD.H_FORM] = CHANNEL_FORMS[radiation.form]
+    found[SD.H_BALLS] = radiation.radiators.ball_count
+    found[SD.H_HARMONICS] = radiation.harmonics
+    found[SD.H_FLEXURES] = 2 * len(radiation.modes)
     found[SD.H_CHANNELS] = channels
     found[SD.H_BANKS] = len(banks)
-    found[SD.H_LEVELS] = len(levels)
+    found[SD.H_SPANS] = len(lengths)
     found[SD.H_OUTPUTS] = len(sources)
     found[SD.H_MICS] = sum(len(group.members) for group in groups)
     found[SD.H_GROUPS] = len(groups)
-    found[SD.H_LANES] = len(sources) if ladder.form == SD.RUNG_PAPER else found[SD.H_MICS]
+    found[SD.H_LANES] = len(sources) if radiation.form == "scalars" else found[SD.H_MICS]
     found[SD.H_DETAILS] = details
     found[SD.H_BANDS] = len(Z.BANDS) if thirds else 0
     found[SD.H_AT_DECIMATOR] = block.put(decimator())
     found[SD.H_AT_HIGH_PASS] = block.put(high_pass_section(SD.RATE, MICROPHONE_LOW_LIMIT)[_KEEP])
     found[SD.H_AT_A_WEIGHTING] = block.put(a_weighting_sections(SD.RATE)[:, _KEEP])
     found[SD.H_AT_BANDS] = block.put(_band_table() if thirds else [])
-    angle = ladder.radiators.contact_angle
-    orbit = 0.5 * ladder.radiators.pitch_diameter
+    angle = radiation.radiators.contact_angle
+    orbit = 0.5 * radiation.radiators.pitch_diameter
     found[SD.H_AT_SCALARS] = block.put(
-        [*paper_scalars(ladder.radiators), np.sin(angle), np.cos(angle), orbit]
+        [*paper_scalars(radiation.radiators), np.sin(angle), np.cos(angle), orbit]
     )
     _put_sources(block, sources)
     _put_groups(block, groups)
     found[SD.H_AT_LANES] = block.put(lanes)
-    deepest = _put_banks(block, banks, levels)
-    rows = _put_levels(block, banks, levels)
-    found[SD.H_ROWS] = max([deepest, *(2 * length + 1 for length in levels)])
+    deepest = _put_banks(block, banks, lengths)
+    rows = _put_spans(block, banks, lengths)
+    found[SD.H_ROWS] = max([deepest, *(2 * length + 1 for length in lengths)])
     _place_state(block, rows)
     _place_work(block, rows)
     return block.flat()
@@ -125,7 +124,7 @@ def pack(
 
 def _band_table() -> NDArray[np.float64]:
     """Sections, then coefficients, then bands side by side; spare lanes stay silent."""
-    table = np.zeros((bands.SECTIONS, 5, SD.BAND_LANES))
+    table = np.zeros((SD.BAND_SECTIONS, SD.SECTION, SD.BAND_LANES))
     for lane, nominal in enumerate(Z.BANDS):
         table[:, :, lane] = band_sections(SD.RATE, nominal)[:, _KEEP]
     return table
@@ -151,12 +150,12 @@ def _put_groups(block: _Block, groups: Sequence[Members]) -> None:
     block.head[SD.H_AT_ORDER] = block.put(order)
 
 
-def _put_banks(block: _Block, banks: Sequence[Bank], levels: Sequence[int]) -> int:
+def _put_banks(block: _Block, banks: Sequence[Bank], lengths: Sequence[int]) -> int:
     """Put the direct parts of all banks; return how much history they need."""
     rows = []
     deepest = 1
     for bank in banks:
-        direct = head(bank, levels)
+        direct = head(bank, lengths)
         if len(direct):
             deepest = max(deepest, bank.delay + len(direct))
         place = block.put(direct)
@@ -167,10 +166,10 @@ def _put_banks(block: _Block, banks: Sequence[Bank], levels: Sequence[int]) -> i
     return deepest
 
 
-def _put_levels(block: _Block, banks: Sequence[Bank], levels: Sequence[int]) -> list[list[int]]:
-    """Put the filters of every level; return the beginning of each level's row."""
+def _put_spans(block: _Block, banks: Sequence[Bank], lengths: Sequence[int]) -> list[list[int]]:
+    """Put the filters of every block length; return the beginning of each span's row."""
     found = []
-    for span in spans(levels):
+    for span in spans(lengths):
         served = filters(banks, *span)
         runs = segments(one.lane for one in served)
         lanes = [lane for first, count in runs for lane in range(first, first + count)]
@@ -187,8 +186,8 @@ def _put_levels(block: _Block, banks: Sequence[Bank], levels: Sequence[int]) -> 
     return found
 
 
-def _place_state(block: _Block, levels: Sequence[list[int]]) -> None:
-    """Give every part of the state its place, complete the rows of ``levels`` with them and put these."""
+def _place_state(block: _Block, rows: Sequence[list[int]]) -> None:
+    """Give every part of the state its place, complete the spans' ``rows`` with them and put these."""
     found = block.head
     channels, mics = int(found[SD.H_CHANNELS]), int(found[SD.H_MICS])
     end = SD.SS_TABLES + SD.DECIMATOR_TAPS * channels
@@ -198,26 +197,28 @@ def _place_state(block: _Block, levels: Sequence[list[int]]) -> None:
         place, end = end, end + int(size)
         return place
 
-    found[SD.H_S_HIGH_PASS] = room(2 * channels)
+    found[SD.H_S_HIGH_PASS] = room(SD.SECTION_STATES * channels)
     found[SD.H_S_CHANNELS] = room(found[SD.H_ROWS] * channels)
-    rows = []
-    for row in levels:
-        length, slots, lanes = row[:3]
+    complete = []
+    for row in rows:
+        length, slots, lanes = row[SD.SPAN_BLOCK], row[SD.SPAN_SLOTS], row[SD.SPAN_LANES]
         spectra = room(slots * 2 * (length + 1) * lanes)
-        rows.append([*row, spectra, room(length * found[SD.H_OUTPUTS])])
-    found[SD.H_AT_LEVELS] = block.put(rows)
-    found[SD.H_S_A_WEIGHTING] = room(6 * found[SD.H_LANES])
+        complete.append([*row, spectra, room(length * found[SD.H_OUTPUTS])])
+    found[SD.H_AT_SPANS] = block.put(complete)
+    found[SD.H_S_A_WEIGHTING] = room(SD.A_SECTIONS * SD.SECTION_STATES * found[SD.H_LANES])
     found[SD.H_S_METERS] = room(SD.METERS * mics)
-    found[SD.H_S_BANDS] = room(bands.SIZE * mics if found[SD.H_BANDS] else 0)
+    found[SD.H_S_BANDS] = room(SD.BAND_SIZE * mics if found[SD.H_BANDS] else 0)
     found[SD.H_STATE] = end
 
 
-def _place_work(block: _Block, levels: Sequence[list[int]]) -> None:
+def _place_work(block: _Block, rows: Sequence[list[int]]) -> None:
     """Give every part of the work space its place; the decimated channels stand first."""
     found = block.head
     channels, outputs, mics = (int(found[k]) for k in (SD.H_CHANNELS, SD.H_OUTPUTS, SD.H_MICS))
     scratch = [2 * STRIDE, SD.BAND_LANES]
-    scratch += [(4 * length + 2) * max(lanes, outputs) for length, _, lanes in (row[:3] for row in levels)]
+    for row in rows:
+        length, lanes = row[SD.SPAN_BLOCK], row[SD.SPAN_LANES]
+        scratch.append((4 * length + 2) * max(lanes, outputs))
     end = channels
     for place, size in (
         (SD.H_W_OUTPUTS, outputs),

@@ -1,4 +1,4 @@
-"""Rung ``paper_contacts``: the sound-field paper's own method, sources at the contact points.
+"""Radiation model ``paper_contacts``: the sound-field paper's own method, sources at the contact points.
 
 "Circumferential sound field of full-ceramic angular contact ball bearings" puts its boundary elements at the
 contact points: surface pressures from the system of eq. 7, field pressures from eq. 8, distances by eq. 12.
@@ -14,13 +14,12 @@ strengths; evenly spaced patches make eq. 7 circulant, one small system per harm
 shielded nor scattered by anything but the patches. For comparison, not for prediction.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.acoustics.radiation.compact import check_outside
+from fmu_bearing.acoustics.radiation.circle import MicrophoneCircle, check_outside
 from fmu_bearing.acoustics.radiation.frequencies import fit_frequencies
 from fmu_bearing.acoustics.radiation.radiators import BALLS, CAGE, INNER, OUTER, Air, Path, Radiators
 from fmu_bearing.engine.layout import SD
@@ -43,33 +42,23 @@ class _Family:
     sign: float
 
 
-def contact_paths(
-    radiators: Radiators, air: Air, radius: float, axial: float, azimuths: Sequence[float], harmonics: int
-) -> list[Path]:
+def contact_paths(radiators: Radiators, air: Air, circle: MicrophoneCircle, harmonics: int) -> list[Path]:
     """Paths from the normal accelerations at the contacts to microphones on a circle.
 
-    Parameters
-    ----------
-    radius, axial
-        Distance of the circle from the axis and place along it, m.
-    azimuths
-        Angles of its microphones from 12 o'clock in rad.
-    harmonics
-        Highest circumferential order kept.
+    ``harmonics`` is the highest circumferential order kept.
 
     Raises
     ------
     ValueError
         When the circle runs through the bearing or its housing.
     """
-    check_outside(radiators, radius, axial)
+    check_outside(radiators, circle)
     families = _families(radiators)
     f = fit_frequencies()
     k = 2.0 * np.pi * f / air.sound_speed
-    single, double = _field(families, k, radius, axial, harmonics)
-    flight = float(np.hypot(radius, axial)) / air.sound_speed
-    angles = np.asarray(azimuths, dtype=float)
-    wide = 1 + 2 * harmonics
+    single, double = _field(families, k, circle.radius, circle.axial, harmonics)
+    flight = circle.flight(air)
+    wide = SD.family_size(harmonics)
     paths: list[Path] = []
     for m in range(harmonics + 1):
         # single, double: (cosine part, sine part) x family x frequency; a patch of family i answers j
@@ -79,14 +68,15 @@ def contact_paths(
             heard = single[m, i] + np.einsum("jf,jf->f", double[m], answers[:, i])
             heard = heard * (air.density * family.sign)
             channels[family.channels] = channels.get(family.channels, 0.0) + heard
+        cosine, sine = circle.order(m)
         for channel, heard in channels.items():
             component = next(g.component for g in families if g.channels == channel)
             kind = SD.BALLS_KIND if component == BALLS else SD.RADIAL
             first = channel * wide + (0 if m == 0 else 2 * m - 1)
-            paths.append(Path(component, first, flight, heard, np.cos(m * angles), kind))
+            paths.append(Path(component, first, flight, heard, cosine, kind))
             if m:
-                paths.append(Path(component, first + 1, flight, heard, np.sin(m * angles), kind))
-    return sorted(paths, key=lambda path: path.channel)
+                paths.append(Path(component, first + 1, flight, heard, sine, kind))
+    return paths
 
 
 def _families(radiators: Radiators) -> list[_Family]:
@@ -95,16 +85,31 @@ def _families(radiators: Radiators) -> list[_Family]:
     share = 2.0 * np.pi / radiators.ball_count
     inner, outer = orbit - ball * cosine, orbit + ball * cosine
     half = 2.0 * np.pi * ball**2
+    out, inwards = (sine, cosine, 0.0), (-sine, -cosine, 0.0)
     # the normal of a ring's channel points from the inner race to the outer; the outer race looks inwards
     families = [
-        _Family(0, INNER, inner, share * inner * radiators.inner_ring.width, (sine, cosine, 0.0), 1.0),
-        _Family(1, OUTER, outer, share * outer * radiators.outer_ring.width, (-sine, -cosine, 0.0), -1.0),
-        _Family(3, BALLS, outer, half, (sine, cosine, 0.0), 1.0),
-        _Family(3, BALLS, inner, half, (-sine, -cosine, 0.0), -1.0),
+        _Family(
+            SD.FAMILY_INNER,
+            INNER,
+            inner,
+            share * inner * radiators.inner_ring.width,
+            (sine, cosine, 0.0),
+            1.0,
+        ),
+        _Family(
+            SD.FAMILY_OUTER,
+            OUTER,
+            outer,
+            share * outer * radiators.outer_ring.width,
+            (-sine, -cosine, 0.0),
+            -1.0,
+        ),
+        _Family(SD.FAMILY_BALLS, BALLS, outer, half, out, 1.0),
+        _Family(SD.FAMILY_BALLS, BALLS, inner, half, inwards, -1.0),
     ]
     if radiators.cage is not None:
         area = share * orbit * radiators.cage.width
-        families.append(_Family(2, CAGE, orbit, area, (0.0, 0.0, 1.0), 1.0))
+        families.append(_Family(SD.FAMILY_CAGE, CAGE, orbit, area, (0.0, 0.0, 1.0), 1.0))
     return families
 
 

@@ -4,6 +4,7 @@
 ``frequencies``  where transfer functions are evaluated, and interpolation between
 ``sources``      single bodies: exact, compact, and the multi-source paper's as printed
 ``radiators``    what sounds, the air, and a path from one channel to microphones
+``circle``       microphones on one circle, and the paths that radiation models share
 ``bem``          boundary elements on bodies of revolution
 ``effective``    effective volumes of rings and cylinders
 ``compact``      the radiation model ``compact``: dipoles and exact spheres

@@ -39,9 +39,15 @@ class Radiators:
     outer_ring: Ring
     cage: Ring | None = None
     housing: Housing | None = None
-    contact_angle: float = np.pi / 12  # rad; only the rung paper_contacts asks for it
-    baffle: bool = False  # the face at -X lies flush in a rigid plane: only the rung bem can
-    shaft: bool = False  # fills the inner ring's bore: only the rung bem knows it
+    contact_angle: float = np.pi / 12  # rad; only the radiation model paper_contacts asks for it
+    baffle: bool = False  # the face at -X lies flush in a rigid plane: only the model bem can
+    shaft: bool = False  # fills the inner ring's bore: only the model bem knows it
+
+    @property
+    def rings(self) -> list[tuple[int, Ring]]:
+        """Inner ring, outer ring, and the cage if there is one, each behind its component's number."""
+        known = ((INNER, self.inner_ring), (OUTER, self.outer_ring), (CAGE, self.cage))
+        return [(body, ring) for body, ring in known if ring is not None]
 
 
 @dataclass(frozen=True)
@@ -58,7 +64,7 @@ class Path:
 
     ``response`` is pressure per channel at `fit_frequencies`, flight time included; ``flight`` the time in s
     to take out before the fit; ``weights`` one factor per microphone; ``kind`` the source type, a place in
-    ``engine.sound.places.KINDS``.
+    ``engine.layout.sound.KINDS``.
     """
 
     component: int

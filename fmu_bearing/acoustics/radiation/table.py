@@ -1,4 +1,6 @@
-"""Rung ``table``: transfer functions that the user brings, for housings that are no bodies of revolution.
+"""Radiation model ``table``: transfer functions that the user brings.
+
+For housings that are no bodies of revolution.
 
 A NumPy archive (``numpy.savez``) with five arrays:
 
@@ -151,16 +153,16 @@ def channels(harmonics: int, bodies_of_flexures: Sequence[int] = ()) -> dict[str
     known: dict[str, tuple[int, int, int]] = {}
     for body, index in _BODIES.items():
         for k, axis in enumerate("xyz"):
-            known[f"{body}.acceleration.{axis}"] = (index, 3 * index + k, SD.RADIAL if k else SD.AXIAL)
+            known[f"{body}.acceleration.{axis}"] = (index, SD.c_body(index, k), SD.RADIAL if k else SD.AXIAL)
         for k, axis in enumerate("yz"):
-            known[f"{body}.angular_acceleration.{axis}"] = (index, SD.C_TILTS + 2 * index + k, SD.ROTATION)
+            known[f"{body}.angular_acceleration.{axis}"] = (index, SD.c_tilt(index, k), SD.ROTATION)
     for k, axis in enumerate("xr"):
-        known[f"balls.acceleration.{axis}.cos[0]"] = (BALLS, SD.C_BALLS + k, SD.BALLS_KIND)
+        known[f"balls.acceleration.{axis}.cos[0]"] = (BALLS, SD.c_ball(0, k), SD.BALLS_KIND)
     for m in range(1, harmonics + 1):
         for k, axis in enumerate("xrt"):
             for i, shape in enumerate(("cos", "sin")):
-                channel = SD.C_BALLS + 2 + 6 * (m - 1) + 2 * k + i
-                known[f"balls.acceleration.{axis}.{shape}[{m}]"] = (BALLS, channel, SD.BALLS_KIND)
+                name = f"balls.acceleration.{axis}.{shape}[{m}]"
+                known[name] = (BALLS, SD.c_ball(m, k) + i, SD.BALLS_KIND)
     for i, ring in enumerate(bodies_of_flexures):
         known[f"flexure[{i + 1}]"] = (ring, SD.c_flex(harmonics) + i, SD.FLEXURE)
     return known
@@ -169,7 +171,7 @@ def channels(harmonics: int, bodies_of_flexures: Sequence[int] = ()) -> dict[str
 def table_paths(
     table: Table, microphone: int, harmonics: int, bodies_of_flexures: Sequence[int] = ()
 ) -> list[Path]:
-    """Paths to one microphone of a table, in the order of channels.
+    """Paths to one microphone of a table.
 
     Raises
     ------
@@ -195,7 +197,7 @@ def table_paths(
             _check_spacing(table, microphone, name, response, flight)
             heard = between(table.frequencies, response, flight, f)
             found[channel] = Path(component, channel, flight, heard, np.ones(1), kind)
-    return [found[channel] for channel in sorted(found)]
+    return list(found.values())
 
 
 def _flight(frequency: NDArray[np.float64], responses: NDArray[np.complex128]) -> float:

@@ -5,5 +5,6 @@
 ``condensed``  what the two cheaper fidelities share: balls in static equilibrium between the races
 ``rings``      the rings' 11 degrees of freedom, stepped in time
 ``response``   the linear answer to every excitation, as a sum of lines
+``steps``      below them all: allowed error, division of a communication step, clock, mean heats
 =============  ===================================================================================
 """

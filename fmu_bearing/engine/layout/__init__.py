@@ -20,8 +20,10 @@ module            as    array
 ``jacobian``      J     blocks of the Jacobian
 ``factors``       A     factors of the Newton matrix
 ``condensed``     L     what fidelities rings and response keep in ``s``
+``lines``         LN    scratch of fidelity response in ``s`` while it renews its lines
 ``s``             S     state: all that a later step needs, and nothing else
 ``equilibrium``   EQ    result of the quasi-static kernel
+``statics``       ST    work space of the quasi-static kernels
 ``pose``          X     where a ball stands in a body's frame: rows of ``w``
 ``race``          R     contact of the balls with one race: rows of ``w``
 ``w``             W     work space: scratch, no value survives a call; its ledger of overlays
@@ -42,6 +44,7 @@ from fmu_bearing.engine.layout import (
     factors as A,
     flexure as FL,
     jacobian as J,
+    lines as LN,
     motion as MO,
     p as P,
     pose as X,
@@ -49,6 +52,7 @@ from fmu_bearing.engine.layout import (
     race as R,
     s as S,
     sound as SD,
+    statics as ST,
     tableau as TAB,
     trial as T,
     u as U,
@@ -56,7 +60,9 @@ from fmu_bearing.engine.layout import (
     y as Y,
     z as Z,
 )
+from fmu_bearing.engine.layout.sizes import BLOCK, FOUR, MAX_BALLS, MAX_MODES, STAGES, STRIDE
 
 __all__ = [
-    "A", "C", "EQ", "F", "FL", "J", "L", "MO", "P", "Q", "R", "S", "SD", "T", "TAB", "U", "W", "X", "Y", "Z",
+    "A", "C", "EQ", "F", "FL", "J", "L", "LN", "MO", "P", "Q", "R", "S", "SD", "ST", "T", "TAB", "U", "W",
+    "X", "Y", "Z", "BLOCK", "FOUR", "MAX_BALLS", "MAX_MODES", "STAGES", "STRIDE",
 ]  # fmt: skip

@@ -25,5 +25,6 @@ OVERSIZE_SCALE = _at()  # factor on ball sizes and waviness
 ECCENTRICITY = _at()  # m
 RACES = _at(2 * RACE_SIZE)  # inner, outer
 BALL_RADIUS = _at()  # m
+USED = _at.next  # places from here on are spare: nothing writes them
 _SPARE = _at(10)
 SIZE = _at.next

@@ -1,17 +1,21 @@
 """L: what fidelities rings and response keep in the state, from ``S.CONDENSED`` on (``lv`` in kernels)."""
 
 from fmu_bearing.engine.layout import c as C, q as Q, y as Y
-from fmu_bearing.engine.layout.sizes import STRIDE, Places
+from fmu_bearing.engine.layout.sizes import FOUR, STRIDE, Places
 
 N = Q.RINGS  # coordinates: inner x y z by bz, outer x y z angle by bz
-COLUMN = 12  # numbers per vector or matrix column: N, rounded up to whole vectors
-MATRIX = COLUMN * N
+TURN = Q.OUTER + Q.TURN  # coordinate of the outer ring's rotation: no ball force acts on it
+FORCES = N - 1  # components of the balls' forces: the coordinates without TURN, in their order
+COLUMN = -(-N // FOUR) * FOUR  # numbers per vector or matrix column: N, rounded up to whole vectors
+DIAGONAL = COLUMN + 1  # from one entry of a matrix's diagonal to the next
+MATRIX = COLUMN * N  # entry (i, k) at i + COLUMN * k
 ORDERS = 64  # of race waviness that fidelity response knows
 
 _line = Places()
 LINE_BALL = _line()  # multiple of ball 0's angle,
 LINE_SHAFT = _line()  # and of the shaft's
-_LINE_OTHERS = _line(20)  # complex displacements without the spin
+LINE_REAL = _line(FORCES)  # m, rad: complex displacements in the order of the forces: real parts,
+LINE_IMAGINARY = _line(FORCES)  # imaginary parts
 LINE_SIZE = _line.next
 
 _at = Places()
@@ -41,7 +45,7 @@ A1 = _at(COLUMN)  # and two steps before
 A2 = _at(COLUMN)
 MEAN = _at(COLUMN)  # static equilibrium of the rings
 JERK = _at(COLUMN)  # rates of acceleration, kept over a change of step
-# Matrices of 11 x 11 by columns of 12, so that a product is a few vector instructions.
+# Matrices of N x N by columns of COLUMN, so that a product is a few vector instructions.
 JX = _at(MATRIX)  # derivatives of accelerations by displacements
 JV = _at(MATRIX)  # and by velocities
 INVERSE = _at(MATRIX)  # of mass - cv J_v - cx J_x
@@ -67,4 +71,7 @@ Y0 = _at(Y.SIZE)  # state of the quasi-static point
 WAVES = _at(4 * ORDERS)  # m: complex amplitudes of orders 1 .. ORDERS, inner then outer
 LINES = _at.next  # table of lines: LINE_SIZE numbers each
 SIZE = 4992  # of the block: the lines take what is left
+
+HEAT_OUTER = HEAT + 1
+HEAT_OIL = HEAT + 2
 MOST_LINES = (SIZE - LINES) // LINE_SIZE

@@ -16,5 +16,6 @@ HEAT = _at(3)  # W: dissipated, given to inner ring, outer ring, oil
 TORQUE = _at()  # N m: taken from the shaft
 SIZE = _at.next
 
+POWERS = TORQUE - WORK  # work and heats, in the order of the sums from S.WORK on
 HEAT_OUTER = HEAT + 1
 HEAT_OIL = HEAT + 2

@@ -5,13 +5,23 @@ accelerations of the coordinates, then what Newton's method keeps of the contact
 to the groove's motion (6 x 3 rows) and the groove's to the balls' (3 x 6), and four numbers per mode.
 """
 
+from fmu_bearing.engine.layout.jacobian import BALL
 from fmu_bearing.engine.layout.sizes import MAX_MODES, STAGES, STRIDE, Places
 
 COORDINATES = 2 * MAX_MODES  # two per mode, cosine and sine
 GROOVE = 3  # directions of the groove: axial, radial, circumferential
-ANSWERS = 6 * GROOVE  # rows of the balls' answer to the groove's motion
-FACTOR_ROWS = 2 * ANSWERS  # and of the groove's to the balls'
-PER_INVERSE = 4  # numbers of the inverse per mode: own and partner's, real and imaginary
+# rows of the balls' answer to the groove's motion, entry (i, k) at (i * GROOVE + k) * STRIDE, then of the
+# groove's to the balls', entry (i, k) at (ANSWERS + i * BALL + k) * STRIDE
+ANSWERS = BALL * GROOVE
+FACTOR_ROWS = 2 * ANSWERS
+INERTIA = GROOVE * GROOVE  # numbers of a groove's inertia against the motion of its own or the other ring's
+INERTIAS = 4 * INERTIA  # inner on inner, inner on outer, outer on inner, outer on outer ring
+PER_MODE = 6  # numbers of a mode's state: places, velocities, accelerations of two coordinates
+# numbers of the inverse per mode: real and imaginary part each
+_inverse = Places()
+OWN = _inverse(2)  # of the mode's own residual,
+PARTNER = _inverse(2)  # and of its partner's
+PER_INVERSE = _inverse.next
 
 # rows under each ball
 _at = Places()
@@ -39,4 +49,4 @@ SIZE = _at.next
 
 def state_size(modes):
     """Numbers that ``modes`` flexural modes take in ``s``."""
-    return 0 if modes == 0 else 6 * modes + 2 * FACTOR_ROWS * STRIDE + PER_INVERSE * modes
+    return 0 if modes == 0 else PER_MODE * modes + 2 * FACTOR_ROWS * STRIDE + PER_INVERSE * modes

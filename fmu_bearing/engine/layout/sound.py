@@ -1,26 +1,30 @@
-"""Places in the sound blocks: parameters ``ps``, state ``ss``, work ``ws``; rates and sizes of the filters.
+"""SD: the sound blocks: parameters ``ps``, state ``ss``, work ``ws``; rates and sizes of the filters.
 
-``ps`` begins with a head (``H_*``: sizes, then offsets into ``ps``, ``ss`` and ``ws``), followed by tables:
+``ps`` begins with a head (``H_*``: sizes, then places in ``ps``, ``ss`` and ``ws``), followed by tables:
 
-* decimator, ``DECIMATOR_TAPS`` numbers, symmetric; high-pass b0 b1 b2 a1 a2; A-weighting 3 x (b0 b1 b2 a1
-  a2); third octaves: 4 sections x (b0 b1 b2 a1 a2) x ``BAND_LANES`` bands;
-* scalars that the paper rungs need to form their channels;
+* decimator, ``DECIMATOR_TAPS`` numbers, symmetric; then sections of second order, ``SECTION`` numbers each:
+  one high-pass, ``A_SECTIONS`` of A-weighting, ``BAND_SECTIONS`` of the third octaves, these with
+  ``BAND_LANES`` bands side by side;
+* scalars that the papers' radiation models need to form their channels;
 * lane of each channel in the history: channels that the same microphones hear lie side by side, the unheard
   last;
 * banks, ``BANK_SIZE`` numbers each: runs of neighbouring lanes, filtered side by side;
-* taps of the direct part: per bank ``BANK_TAPS`` rows (a multiple of 4) of one number per lane, newest
-  sample first; then runs (output, count) of neighbouring lanes that add to one output;
-* levels of the partitioned convolution, ``LEVEL_SIZE`` numbers each, with their tables of cosines and
-  sines, their segments (first lane, count: the lanes they transform) and their filters, ``FILTER_SIZE``
-  numbers each, in the order of their outputs, with the spectra of their parts: part, real then imaginary,
-  frequency;
-* sources: component and kind of each, and the source of each output;
+* taps of the direct part: per bank ``BANK_TAPS`` rows (a multiple of ``FOUR``) of one number per lane, newest
+  sample first; then runs, ``RUN_SIZE`` numbers each: neighbouring lanes that add to one output;
+* spans of lags that the convolution by blocks serves with one block length, ``SPAN_SIZE`` numbers each, with
+  their tables of cosines and sines, their segments (``SEGMENT_SIZE`` numbers: the lanes they transform) and
+  their filters, ``FILTER_SIZE`` numbers each, in the order of their outputs, with the spectra of their parts:
+  part, real then imaginary, frequency;
+* sources, ``SOURCE_SIZE`` numbers each, and the source of each output;
 * groups of microphones, ``GROUP_SIZE`` numbers each, with weights: one row of microphones per output;
 * for each microphone of the scene its lane: microphones of a group lie side by side.
 
 Microphones on one circle about the bearing axis share their filters: a body of revolution sounds the same
 all round, up to cos(m phi) and sin(m phi), which are the weights.
 """
+
+from fmu_bearing.engine.layout import z as _Z
+from fmu_bearing.engine.layout.sizes import Places
 
 RAW_RATE = 204_800.0  # Hz, of motion samples
 DECIMATION = 4
@@ -29,142 +33,255 @@ DECIMATOR_TAPS = 64
 LATENCY = 24  # samples at RATE by which every pressure comes late: 0.47 ms
 COMPONENTS = ("inner_ring", "outer_ring", "cage", "balls")
 KINDS = ("radial", "axial", "rotation", "flexure", "balls")  # source types
-RADIAL, AXIAL, ROTATION, FLEXURE, BALLS_KIND = range(5)
-# How the engine forms the channels: printed scalars; accelerations (compact, bem, table, paper_vector);
-# volume velocities at the contact points.
-RUNG_PAPER, RUNG_VECTORS, RUNG_CONTACTS = 1, 2, 3
+RADIAL, AXIAL, ROTATION, FLEXURE, BALLS_KIND = range(len(KINDS))
 BAND_LANES = 32  # lanes kept for the third octaves ``z.BANDS``: whole vectors
 
-# --- head of ps ---------------------------------------------------------------------------------
-(
-    H_RUNG,
-    H_BALLS,
-    H_HARMONICS,  # highest circumferential order of the balls (contacts: of all sources)
-    H_FLEXURES,  # count of flexural coordinates
-    H_CHANNELS,
-    H_ROWS,  # of the channel history
-    H_BANKS,
-    H_LEVELS,  # of the partitioned convolution; 0: direct form
-    H_OUTPUTS,  # filter outputs
-    H_SOURCES,
-    H_MICS,
-    H_GROUPS,
-    H_LANES,  # A-weighting filters: paper one per filter output, others one per microphone
-    H_DETAILS,  # switch: meters beyond the first `PLAIN` are kept
-    H_BANDS,  # third octaves; 0: none
-    H_AT_DECIMATOR,
-    H_AT_HIGH_PASS,
-    H_AT_A_WEIGHTING,
-    H_AT_BANDS,
-    H_AT_SCALARS,
-    H_AT_LANES,
-    H_AT_BANKS,
-    H_AT_LEVELS,
-    H_AT_SOURCES,
-    H_AT_OUTPUTS,
-    H_AT_GROUPS,
-    H_AT_ORDER,
-    H_S_HIGH_PASS,  # offsets into ss
-    H_S_CHANNELS,
-    H_S_A_WEIGHTING,
-    H_S_METERS,
-    H_S_BANDS,
-    H_W_OUTPUTS,  # offsets into ws
-    H_W_LANES,  # of one bank
-    H_W_WEIGHTED,
-    H_W_SOURCES,
-    H_W_METERS,
-    H_W_TRANSFORM,
-    H_STATE,  # sizes
-    H_WORK,
-) = range(40)
-HEAD_SIZE = 40
+# --- head of ps -----------------------------------------------------------------------------------
+_head = Places()
+H_FORM = _head()  # how the channels are formed: see choices.CHANNEL_FORMS
+H_BALLS = _head()  # number of balls
+H_HARMONICS = _head()  # highest circumferential order of the balls (form contacts: of all sources)
+H_FLEXURES = _head()  # number of flexural coordinates
+H_CHANNELS = _head()  # number of channels
+H_ROWS = _head()  # of the channel history
+H_BANKS = _head()  # number of banks
+H_SPANS = _head()  # block lengths of the convolution; 0: direct form
+H_OUTPUTS = _head()  # number of filter outputs
+H_SOURCES = _head()  # number of sources
+H_MICS = _head()  # number of microphones
+H_GROUPS = _head()  # number of groups of microphones
+H_LANES = _head()  # A-weighting filters: form scalars one per filter output, others one per microphone
+H_DETAILS = _head()  # switch: meters beyond the first `PLAIN` are kept
+H_BANDS = _head()  # third octaves; 0: none
+# places in ps
+H_AT_DECIMATOR = _head()
+H_AT_HIGH_PASS = _head()
+H_AT_A_WEIGHTING = _head()
+H_AT_BANDS = _head()
+H_AT_SCALARS = _head()
+H_AT_LANES = _head()
+H_AT_BANKS = _head()
+H_AT_SPANS = _head()
+H_AT_SOURCES = _head()
+H_AT_OUTPUTS = _head()
+H_AT_GROUPS = _head()
+H_AT_ORDER = _head()
+# places in ss
+H_S_HIGH_PASS = _head()
+H_S_CHANNELS = _head()  # channel history
+H_S_A_WEIGHTING = _head()
+H_S_METERS = _head()
+H_S_BANDS = _head()
+# places in ws
+H_W_OUTPUTS = _head()
+H_W_LANES = _head()  # of one bank
+H_W_WEIGHTED = _head()
+H_W_SOURCES = _head()
+H_W_METERS = _head()
+H_W_TRANSFORM = _head()
+# sizes
+H_STATE = _head()  # of ss
+H_WORK = _head()  # of ws
+HEAD_SIZE = _head.next
+
+# --- tables in ps ---------------------------------------------------------------------------------
+# section of second order: (B0 + B1/z + B2/z2) / (1 + A1/z + A2/z2)
+_section = Places()
+B0 = _section()
+B1 = _section()
+B2 = _section()
+A1 = _section()
+A2 = _section()
+SECTION = _section.next
+SECTION_STATES = 2  # numbers that a section keeps per lane
+A_SECTIONS = 3  # of A-weighting
+BAND_SECTIONS = 4  # of a third octave
 
 MAX_CHANNELS = 256  # side by side in one bank
 MAX_FREQUENCIES = 520  # of one block, 512 samples long: real and imaginary sums lie this far apart
-(BANK_LANE, BANK_COUNT, BANK_DELAY, BANK_TAPS, BANK_AT_TAPS, BANK_RUNS, BANK_AT_RUNS) = range(7)
-BANK_SIZE = 7
-(
-    LEVEL_BLOCK,
-    LEVEL_SLOTS,
-    LEVEL_LANES,
-    LEVEL_SEGMENTS,
-    LEVEL_AT_SEGMENTS,
-    LEVEL_FILTERS,
-    LEVEL_AT_FILTERS,
-    LEVEL_AT_TURNS,
-    LEVEL_S_SPECTRA,  # lane of the level, slot, real then imaginary, frequency
-    LEVEL_S_FUTURE,
-) = range(10)
-LEVEL_SIZE = 10
-FILTER_LANE, FILTER_OUTPUT, FILTER_FIRST, FILTER_COUNT, FILTER_AT = range(5)  # first part, parts
-FILTER_SIZE = 5
-GROUP_FIRST, GROUP_COUNT, GROUP_LANE, GROUP_MICS, GROUP_AT_WEIGHTS = range(5)  # outputs, then microphones
-GROUP_SIZE = 5
 
-# --- channels of the vector rungs: accelerations x y z of inner ring, outer ring, cage; angular
-# accelerations about y, z of the same; the balls' sums over cos(m theta), sin(m theta): x r for m = 0, then
-# per m: x cos, x sin, r cos, r sin, t cos, t sin; then flexural coordinates.
-C_INNER, C_OUTER, C_CAGE, C_TILTS, C_BALLS = 0, 3, 6, 9, 15
+_bank = Places()
+BANK_LANE = _bank()  # first lane
+BANK_COUNT = _bank()  # number of lanes
+BANK_DELAY = _bank()  # samples
+BANK_TAPS = _bank()  # rows of the direct part
+BANK_AT_TAPS = _bank()
+BANK_RUNS = _bank()  # number of runs
+BANK_AT_RUNS = _bank()
+BANK_SIZE = _bank.next
 
-# --- channels of rung paper: cylinders of inner ring, outer ring, cage; their points; their pistons; then
-# per ball: ball, point.
-C_CYLINDERS, C_POINTS, C_PISTONS, C_PAPER_BALLS = 0, 3, 6, 9
+_run = Places()
+RUN_OUTPUT = _run()
+RUN_COUNT = _run()  # number of lanes
+RUN_SIZE = _run.next
+
+_span = Places()
+SPAN_BLOCK = _span()  # samples: block length
+SPAN_SLOTS = _span()  # blocks of inputs kept
+SPAN_LANES = _span()  # number of lanes transformed
+SPAN_SEGMENTS = _span()  # number of segments
+SPAN_AT_SEGMENTS = _span()
+SPAN_FILTERS = _span()  # number of filters
+SPAN_AT_FILTERS = _span()
+SPAN_AT_TURNS = _span()  # cosines, then sines
+SPAN_S_SPECTRA = _span()  # in ss: lane of the span, slot, real then imaginary, frequency
+SPAN_S_FUTURE = _span()  # in ss: the next block of outputs
+SPAN_SIZE = _span.next
+
+_segment = Places()
+SEGMENT_LANE = _segment()  # first lane
+SEGMENT_COUNT = _segment()  # number of lanes
+SEGMENT_SIZE = _segment.next
+
+_filter = Places()
+FILTER_LANE = _filter()  # of the span
+FILTER_OUTPUT = _filter()
+FILTER_FIRST = _filter()  # first part
+FILTER_COUNT = _filter()  # number of parts
+FILTER_AT = _filter()  # spectra of the parts
+FILTER_SIZE = _filter.next
+
+_source = Places()
+SOURCE_COMPONENT = _source()  # see COMPONENTS
+SOURCE_KIND = _source()  # see KINDS
+SOURCE_SIZE = _source.next
+
+_group = Places()
+GROUP_FIRST = _group()  # first output
+GROUP_COUNT = _group()  # number of outputs
+GROUP_LANE = _group()  # first microphone's lane
+GROUP_MICS = _group()  # number of microphones
+GROUP_AT_WEIGHTS = _group()
+GROUP_SIZE = _group.next
+
+_scalar = Places()
+SCALAR_BALL = _scalar()  # m: D/4, eq. 19 of the multi-source paper
+SCALAR_BODY = _scalar(3)  # m: half the outer radii of inner ring, outer ring, cage
+SCALAR_SINE = _scalar()  # of the contact angle
+SCALAR_COSINE = _scalar()
+SCALAR_ORBIT = _scalar()  # m: pitch radius
+SCALARS = _scalar.next
+
+# --- channels -------------------------------------------------------------------------------------
+BODIES = 3  # inner ring, outer ring, cage
+AXES = 3  # x y z; for balls x r theta
+
+# Form vectors. The balls' harmonics are sums over all balls of acceleration times cos or sin(m theta).
+_at = Places()
+C_INNER = _at(AXES)  # m/s2: inner ring
+C_OUTER = _at(AXES)  # outer ring
+C_CAGE = _at(AXES)  # cage
+TILTS = 2  # about y, about z
+C_TILTS = _at(TILTS * BODIES)  # rad/s2: of the same bodies
+C_BALLS = _at.next  # m/s2: harmonic 0, then per order m from 1 on a harmonic, then flexural coordinates
+
+_mean = Places()  # harmonic 0
+MEAN_X = _mean()  # m/s2
+MEAN_R = _mean()
+MEAN_SIZE = _mean.next
+
+_harmonic = Places()  # harmonic m
+HARMONIC_X_COS = _harmonic()  # m/s2
+HARMONIC_X_SIN = _harmonic()
+HARMONIC_R_COS = _harmonic()
+HARMONIC_R_SIN = _harmonic()
+HARMONIC_T_COS = _harmonic()
+HARMONIC_T_SIN = _harmonic()
+HARMONIC_SIZE = _harmonic.next
+C_HARMONICS = C_BALLS + MEAN_SIZE  # harmonic 1
+
+# Form scalars: rates of the multi-source paper's magnitudes.
+_at = Places()
+C_CYLINDERS = _at(BODIES)  # m/s2: across the axis
+C_POINTS = _at(BODIES)  # m/s2: rotation
+C_PISTONS = _at(BODIES)  # m/s2: along the axis
+C_PAPER_BALLS = _at.next  # m/s2: two per ball
+PAPER_BALL = 2  # sphere, point
 SPEED_FLOOR = 1e-9  # m/s or rad/s in the root of |v|, so that its derivative exists at rest
 
-# --- channels of rung paper_contacts: per family (contacts of the inner ring, of the outer ring, pockets of
-# the cage, balls) the rates of normal velocity summed over the contacts: m = 0, then cos, sin per order m.
+# Form contacts: per family the rates (m/s2) of normal velocity summed over the contacts: m = 0, then cos, sin
+# per order m.
+FAMILY_INNER = 0  # contacts of the inner ring
+FAMILY_OUTER = 1  # contacts of the outer ring
+FAMILY_CAGE = 2  # pockets of the cage
+FAMILY_BALLS = 3  # balls
 FAMILIES = 4
 
-# --- scalars --------------------------------------------------------------------------------------
-SCALAR_BALL = 0  # eq. 19: D/4, then half the radii of inner ring, outer ring, cage
-SCALAR_SINE = 4  # of the contact angle
-SCALAR_COSINE = 5
-SCALAR_ORBIT = 6  # m: pitch radius
-SCALARS = 7
+
+def c_body(body: int, axis: int = 0) -> int:
+    """Channel of a body's acceleration along x (0), y (1) or z (2); see `BODIES`."""
+    return C_INNER + AXES * body + axis
+
+
+def c_tilt(body: int, axis: int) -> int:
+    """Channel of a body's angular acceleration about y (0) or z (1)."""
+    return C_TILTS + TILTS * body + axis
+
+
+def c_ball(order: int, axis: int) -> int:
+    """Channel of the balls' acceleration along x (0), r (1) or theta (2) times cos(order theta).
+
+    The one with the sine is the next; order 0 has neither sine nor theta.
+    """
+    return C_BALLS + axis if order == 0 else C_HARMONICS + HARMONIC_SIZE * (order - 1) + 2 * axis
 
 
 def c_flex(harmonics: int) -> int:
-    """First flexural channel of the vector rungs with the balls' circumferential orders 0 .. harmonics."""
-    return C_BALLS + 2 + 6 * harmonics
+    """First flexural channel of form vectors with the balls' circumferential orders 0 .. harmonics."""
+    return C_HARMONICS + HARMONIC_SIZE * harmonics
 
 
 def vector_channels(harmonics: int, flexures: int = 0) -> int:
-    """Count of channels of the vector rungs with ``flexures`` flexural coordinates."""
+    """Count of channels of form vectors with ``flexures`` flexural coordinates."""
     return c_flex(harmonics) + flexures
 
 
-def paper_channels(n_balls: int) -> int:
-    """Count of channels of the paper rung."""
-    return C_PAPER_BALLS + 2 * n_balls
+def scalar_channels(n_balls: int) -> int:
+    """Count of channels of form scalars."""
+    return C_PAPER_BALLS + PAPER_BALL * n_balls
+
+
+def family_size(harmonics: int) -> int:
+    """Channels of one family of contacts."""
+    return 1 + 2 * harmonics
 
 
 def contact_channels(harmonics: int) -> int:
-    """Count of channels of the rung paper_contacts."""
-    return FAMILIES * (1 + 2 * harmonics)
+    """Count of channels of form contacts."""
+    return FAMILIES * family_size(harmonics)
 
 
 # --- state ss -------------------------------------------------------------------------------------
-SS_RAW = 0  # motion samples so far
-SS_COUNT = 1  # samples at RATE so far
-SS_METERED = 2  # of which metered
-SS_WEIGHT = 3  # sum of weights of the exponential meter: of the chosen time constant, Fast, Slow
-SS_FAST = 4
-SS_SLOW = 5
-SS_TABLES = 6  # history of the decimator begins here
+_at = Places()
+SS_RAW = _at()  # motion samples so far
+SS_COUNT = _at()  # samples at RATE so far
+SS_METERED = _at()  # of which metered
+SS_WEIGHT = _at()  # sum of weights of the exponential meter with the chosen time constant,
+SS_FAST = _at()  # Fast,
+SS_SLOW = _at()  # and Slow
+SS_TABLES = _at.next  # history of the decimator begins here
+
+# Third octaves of one microphone: states of each section, then running mean squares.
+_at = Places()
+BAND_STATE = _at(SECTION_STATES * BAND_SECTIONS * BAND_LANES)  # Pa
+BAND_MEAN = _at(BAND_LANES)  # Pa2
+BAND_SIZE = _at.next
 
 # Meters: one row per name of ``z.MIC_OUTPUTS``, one lane per microphone.
-(
-    M_PRESSURE,
-    M_LEVEL,
-    M_LEVEL_A,
-    M_SUM,
-    M_SUM_A,
-    M_PART,  # four components
-) = range(6)
-PLAIN = M_PART + len(COMPONENTS)  # meters that every scene has
-M_FAST, M_FAST_A, M_SLOW, M_SLOW_A, M_ENERGY, M_KIND = range(PLAIN, PLAIN + 6)
-METERS = M_KIND + len(KINDS) - 1  # the kind "balls" is the component
+M_PRESSURE = _Z.MIC_OUTPUTS.index("pressure")  # Pa
+M_LEVEL = _Z.MIC_OUTPUTS.index("spl")  # Pa2: running mean squares, chosen time constant,
+M_LEVEL_A = _Z.MIC_OUTPUTS.index("spl_a")  # A-weighted
+M_SUM = _Z.MIC_OUTPUTS.index("leq")  # Pa2: sums of squares,
+M_SUM_A = _Z.MIC_OUTPUTS.index("leq_a")  # A-weighted
+M_PART = _Z.MIC_OUTPUTS.index("spl_inner_ring")  # Pa2: running mean squares of the components
+M_FAST = _Z.MIC_OUTPUTS.index("spl_fast")  # Pa2: with other time constants
+M_FAST_A = _Z.MIC_OUTPUTS.index("spl_fast_a")
+M_SLOW = _Z.MIC_OUTPUTS.index("spl_slow")
+M_SLOW_A = _Z.MIC_OUTPUTS.index("spl_slow_a")
+M_ENERGY = _Z.MIC_OUTPUTS.index("spl_energy_sum")  # Pa2: energy sum over the components
+M_KIND = _Z.MIC_OUTPUTS.index("spl_radial")  # Pa2: source types but the kind "balls", which is a component
+METERS = _Z.PER_MIC
+PLAIN = M_FAST  # meters that every scene has
 
 
 def state_size(ps) -> int:

@@ -1,13 +1,22 @@
 """T: work space of fidelities rings and response.
 
-Its rows are the first ones of the full force evaluation, which is not in use meanwhile.
+Its rows are the first ones of the full force evaluation, which is not in use meanwhile. The trial numbers
+have places of their own. What is needed now and then (matrices, derivatives, lines) shares those of a
+Runge-Kutta step's stages.
 """
 
-from fmu_bearing.engine.layout import w as W
-from fmu_bearing.engine.layout.condensed import COLUMN
+from fmu_bearing.engine.layout import condensed as _L, f as _F, jacobian as _J, lines as _LN, w as _W
 from fmu_bearing.engine.layout.sizes import STRIDE, Places
+from fmu_bearing.engine.layout.w import Area
 
-FORCES = 5  # of a ball on one ring: x y z, moments y z
+# forces of the balls on one ring: rows
+_force = Places()
+FX = _force(STRIDE)  # N
+FY = _force(STRIDE)
+FZ = _force(STRIDE)
+MY = _force(STRIDE)  # N m
+MZ = _force(STRIDE)
+FORCE_SIZE = _force.next
 
 _at = Places()
 COS = _at(STRIDE)  # of the balls' angles
@@ -16,15 +25,79 @@ X = _at(STRIDE)  # m: places of the balls
 R = _at(STRIDE)
 INNER = _at(STRIDE)  # m: race heights
 OUTER = _at(STRIDE)
-STEP = _at(STRIDE)  # m2: a ball's move in the last sweep, squared
-MOVED = _at(STRIDE)
-FORCE = _at(2 * FORCES * STRIDE)  # N, N m: on inner ring, then on outer ring
+STEP = _at(STRIDE)  # m2: a ball's move in the last sweep, squared, as far as it is felt
+MOVED = _at(STRIDE)  # m2: all of it
+FORCE = _at(2 * FORCE_SIZE)  # on inner ring, then on outer ring: one row per component, see L.FORCES
 BEND = _at(2 * STRIDE)  # m/s2: second time derivative of the race heights, inner and outer
 ROWS = _at.next
 
-_at = Places(W.SCALARS + 16)
-Q = _at(COLUMN)  # trial numbers of a step
-D = _at(COLUMN)
-A = _at(COLUMN)
-V = _at(COLUMN)
-SPARE = W.ACC  # for matrices and balls' derivatives
+FORCE_OUTER = FORCE + FORCE_SIZE
+BEND_OUTER = BEND + STRIDE
+
+# trial numbers of a step
+_at = Places(_W.TRIAL)
+Q = _at(_L.COLUMN)  # m, rad: displacements advanced by the contacts' damping time
+D = _at(_L.COLUMN)  # increment, and other short-lived vectors
+A = _at(_L.COLUMN)  # m/s2, rad/s2: accelerations
+V = _at(_L.COLUMN)  # m/s, rad/s: velocities set aside
+
+_at = Places(_W.ACC)
+# derivatives of the accelerations
+BASE = _at(_L.N)  # accelerations at the unmoved state
+BALLS = _at(2 * STRIDE)  # m: balls' places there, x and r
+FOLLOW_SIZE = 2 * STRIDE  # rows x and r
+FOLLOW = _at(_L.N * FOLLOW_SIZE)  # their change with coordinate i at FOLLOW + i * FOLLOW_SIZE
+# inverse of a matrix of the rings, both by rows
+MATRIX = _at(_L.N * _L.N)
+INVERSE = _at(_L.N * _L.N)
+# damping by traction: matrices by rows
+VALUES = _at(_L.N * _L.N)  # squared frequencies on the diagonal
+VECTORS = _at(_L.N * _L.N)  # mode shapes in columns
+ROOT = _at(_L.N * _L.N)  # columns that bring the mass matrix to the identity
+SHAPE = _at(2 * _L.N)  # one mode shape, then the same times the rings' masses
+MOVING = _at(_L.N)  # mass matrix times a mode shape
+BALL_ROW = _J.BALL + 1  # numbers per equation of a ball: coefficients, then right side
+BALL_RE = _at(_J.BALL * BALL_ROW)
+BALL_IM = _at(_J.BALL * BALL_ROW)
+# lines of fidelity response
+LINE_ROW = _L.N + 1  # numbers per equation of the rings: coefficients, then right side
+LINE_RE = _at(_L.N * LINE_ROW)
+LINE_IM = _at(_L.N * LINE_ROW)
+LINE_FORCE = _at(_LN.COMPLEX)  # N, N m: one line's excitation
+BY_HEIGHT = _at(_LN.COMPLEX)  # one order of the force per height,
+BY_BEND = _at(_LN.COMPLEX)  # and per second time derivative of the height
+# held values
+HELD_F = _at(_F.SIZE)  # right-hand side at the quasi-static point
+HELD_ROWS = _at(2 * STRIDE)  # orbit speeds and places of the published state, set aside
+
+_CONDENSED = frozenset({"condensed"})
+_LINES = frozenset({"lines"})
+_BOTH = _CONDENSED | _LINES
+_HELD = frozenset({"start", "inputs"})  # what is held is found with the full right-hand side
+#: Areas of ``w`` that only these fidelities use; see W.LEDGER.
+LEDGER: tuple[Area, ...] = (
+    Area("T rows", 0, ROWS, _BOTH),
+    Area("T.Q", Q, _L.COLUMN, _BOTH),
+    Area("T.D", D, _L.COLUMN, _BOTH),
+    Area("T.A", A, _L.COLUMN, _BOTH),
+    Area("T.V", V, _L.COLUMN, _BOTH),
+    Area("T.BASE", BASE, _L.N, _CONDENSED),
+    Area("T.BALLS", BALLS, 2 * STRIDE, _CONDENSED),
+    Area("T.FOLLOW", FOLLOW, _L.N * FOLLOW_SIZE, _CONDENSED),
+    Area("T.MATRIX", MATRIX, _L.N * _L.N, _CONDENSED),
+    Area("T.INVERSE", INVERSE, _L.N * _L.N, _CONDENSED),
+    Area("T.VALUES", VALUES, _L.N * _L.N, _CONDENSED),
+    Area("T.VECTORS", VECTORS, _L.N * _L.N, _CONDENSED),
+    Area("T.ROOT", ROOT, _L.N * _L.N, _CONDENSED),
+    Area("T.SHAPE", SHAPE, 2 * _L.N, _CONDENSED),
+    Area("T.MOVING", MOVING, _L.N, _CONDENSED),
+    Area("T.BALL_RE", BALL_RE, _J.BALL * BALL_ROW, _CONDENSED),
+    Area("T.BALL_IM", BALL_IM, _J.BALL * BALL_ROW, _CONDENSED),
+    Area("T.LINE_RE", LINE_RE, _L.N * LINE_ROW, _LINES),
+    Area("T.LINE_IM", LINE_IM, _L.N * LINE_ROW, _LINES),
+    Area("T.LINE_FORCE", LINE_FORCE, _LN.COMPLEX, _LINES),
+    Area("T.BY_HEIGHT", BY_HEIGHT, _LN.COMPLEX, _LINES),
+    Area("T.BY_BEND", BY_BEND, _LN.COMPLEX, _LINES),
+    Area("T.HELD_F", HELD_F, _F.SIZE, _HELD),
+    Area("T.HELD_ROWS", HELD_ROWS, 2 * STRIDE, _HELD),
+)

@@ -8,15 +8,23 @@ holds that no two of one use overlap.
 from typing import NamedTuple
 
 from fmu_bearing.engine.layout import (
+    c as _C,
+    condensed as _L,
+    equilibrium as _EQ,
     f as _F,
+    factors as _A,
+    flexure as _FL,
+    jacobian as _J,
     motion as _MO,
     p as _P,
     pose as _X,
     q as _Q,
     race as _R,
+    statics as _ST,
+    u as _U,
     y as _Y,
 )
-from fmu_bearing.engine.layout.sizes import BLOCK, STAGES, STRIDE, Places
+from fmu_bearing.engine.layout.sizes import BLOCK, HISTORY, MAX_BALLS, STAGES, STRIDE, Places
 
 # force and moment of one body on the balls: rows
 _force = Places()
@@ -27,6 +35,13 @@ MX = _force(STRIDE)  # N m
 MR = _force(STRIDE)
 MT = _force(STRIDE)
 FORCE_SIZE = _force.next
+
+# report of a Runge-Kutta step
+_report = Places()
+ERROR = _report()  # m/s: its estimate
+CONTRACTION = _report()  # of Newton's method: the worst measured, 0: none
+ITERATIONS = _report()
+REPORT_SIZE = _report.next
 
 _at = Places()
 COS = _at(STRIDE)  # of the balls' angles
@@ -44,22 +59,62 @@ AXES = _at(3 * STRIDE)  # the balls' body-fixed axes at the state evaluated
 ROWS = _at.next
 SCALARS = _at(64)
 LANDS_ENERGY = _at()  # J: stored in the cage's lands
+LOAD = _at(_EQ.FREEDOMS)  # N, N m: on the inner ring, for the quasi-static kernel
+TILT = _at(2)  # rad: tilts y z of the outer ring that it found
+CONDITIONS = _at(_C.SIZE)  # at the inputs just taken, see c
+TRIAL = _at(4 * _L.COLUMN)  # trial numbers of fidelities rings and response: see trial
+REPORT = _at(REPORT_SIZE)  # of a Runge-Kutta step: ERROR, CONTRACTION, ITERATIONS
 STAGE = _at(_Y.SIZE)  # stage state
 F = _at(_F.SIZE)  # right-hand side
 F0 = _at(_F.SIZE)  # unperturbed right-hand side
 D = _at(_F.SIZE)  # Newton increment
 ACC = _at(STAGES * _F.SIZE)  # stage accelerations
 VEL = _at(STAGES * _F.SIZE)  # stage velocities in the layout of accelerations
-# a block of one-evaluation steps: accelerations two and one step back, now and new; their states
-BLOCK_A = _at((BLOCK + 3) * _F.SIZE)
-BLOCK_Y = _at((BLOCK + 1) * _Y.SIZE)
+# a block of one-evaluation steps: accelerations two and one step back, now and new; states now and new
+BLOCK_A = _at((HISTORY + BLOCK) * _F.SIZE)
+BLOCK_Y = _at((1 + BLOCK) * _Y.SIZE)
 MOTION = _at(_MO.MAX_SIZE)  # motion sample: see motion
 BODY_0 = _at(_Q.SIZE * STRIDE)  # unperturbed generalised forces
 SOUND = _at.next  # work space of the sound kernels
 
 LAST = ACC + (STAGES - 1) * _F.SIZE  # accelerations at the end of a step, of any method
+BLOCK_NOW = BLOCK_A + (HISTORY - 1) * _F.SIZE  # step k of a block ends at BLOCK_NOW + k * F.SIZE
 FLEX = BLOCK_A  # flexible rings: never together with one-evaluation steps; see flexure
-FOUND = VEL  # result of the quasi-static kernel at a start
+# where a run starts
+FOUND = VEL  # result of the quasi-static kernel
+STATICS = POSE  # its work space: see statics
+SPIN_SYSTEM = FORCE  # equations for orbit and spin of one ball
+SPINS_FIRST = ACC  # rad/s: those rates of all balls before they are balanced
+# rigid preload at a start, and whenever the preload changes: see statics/rigid_preload
+_still = Places(D)
+STILL_INPUTS = _still(_U.SIZE)  # inputs at standstill and reference temperature,
+STILL_CONDITIONS = _still(_C.SIZE)  # what they mean,
+STILL_FOUND = _still(_ST.AXIAL_SIZE)  # and the equilibrium under axial load there
+STILL_END = _still.next
+
+# the Newton system, over forces on balls that the evaluation before has added up: while it is factored
+_factor = Places(FORCE)
+COLUMN = _factor(_J.BALL * STRIDE)  # a column of the border, later of the springs between balls
+BORDER = _factor(_Q.SIZE * _Q.SIZE)  # what the balls leave of the bodies' block, row by row
+PIVOTS = _factor(MAX_BALLS)  # of inverting it, or the springs' matrix
+FACTOR_END = _factor.next
+# and while it is solved
+_solve = Places(FORCE)
+OWN = _solve(_J.BALL * STRIDE)  # the balls' own inverses times their residual
+REST = _solve(_A.BORDER)  # the bodies' residual less the balls' answers
+BODIES = _solve(_A.BORDER)  # the bodies' increment
+LANE_SUMS = _solve(STRIDE)  # one body coordinate's products with all balls
+SPRING_ORBIT = _solve(STRIDE)  # of springs between balls: U^T x, T U^T x and z of newton/springs
+SPRING_PULL = _solve(STRIDE)
+SPRING_ANSWER = _solve(STRIDE)
+SOLVE_END = _solve.next
+# flexible rings while their modes are factored, over rows that the evaluation before has done with
+_grooves = Places(FLEX + _FL.X)
+GROOVE_INERTIA = _grooves(_FL.INERTIAS)  # kg: of each groove against each
+GROOVE_ROW = _grooves(_J.BALL)  # kg: one direction of a groove against one ball's motion
+GROOVES_END = _grooves.next
+BEFORE = ACC  # accelerations before a change of the inputs
+FIRST_PLACES = ACC + _F.SIZE  # m: places x, r of the balls between rigid rings, while flexible ones settle
 
 
 class Area(NamedTuple):
@@ -71,6 +126,7 @@ class Area(NamedTuple):
     uses: frozenset[str]
 
 
+_FLEXED = frozenset({"evaluation", "jacobian", "factor", "solve", "step", "inputs", "start", "sample"})
 # The right-hand side is evaluated in the course of all these; what is read from its rows afterwards (energy,
 # losses) is read before anything else begins.
 _EVALUATED = frozenset({"evaluation", "jacobian", "step", "block", "inputs"})
@@ -101,6 +157,30 @@ LEDGER: tuple[Area, ...] = (
     Area("F0", F0, _F.SIZE, frozenset({"jacobian"})),
     Area("BODY_0", BODY_0, _Q.SIZE * STRIDE, frozenset({"jacobian"})),
     Area("D", D, _F.SIZE, frozenset({"solve", "step", "block"})),
+    Area("STATICS", STATICS, _ST.SIZE, frozenset({"start"})),
+    Area("SPIN_SYSTEM", SPIN_SYSTEM, _ST.SPIN_SYSTEM_SIZE, frozenset({"start"})),
+    Area("SPINS_FIRST", SPINS_FIRST, _ST.SPIN_RATES * STRIDE, frozenset({"start", "jacobian", "evaluation"})),
+    Area("MOTION", MOTION, _MO.MAX_SIZE, frozenset({"sample"})),
+    Area("STILL", STILL_INPUTS, STILL_END - STILL_INPUTS, frozenset({"start", "inputs"})),
+    Area("LOAD", LOAD, _EQ.FREEDOMS, frozenset({"start", "inputs", "evaluation"})),
+    Area("TILT", TILT, 2, frozenset({"start", "inputs", "evaluation"})),
+    Area("CONDITIONS", CONDITIONS, _C.SIZE, frozenset({"start", "inputs", "evaluation"})),
+    Area("REPORT", REPORT, REPORT_SIZE, frozenset({"step"})),
+    Area("ACC", ACC, (STAGES - 1) * _F.SIZE, frozenset({"step", "solve"})),
+    # the last stage of ACC: the sound samples of a step and the new state are taken from it, by any method
+    Area("LAST", LAST, _F.SIZE, frozenset({"step", "solve", "block", "sample"})),
+    Area("VEL", VEL, STAGES * _F.SIZE, frozenset({"step", "solve"})),
+    Area("BLOCK_A", BLOCK_A, (HISTORY + BLOCK) * _F.SIZE, frozenset({"block"})),
+    Area("BLOCK_Y", BLOCK_Y, (1 + BLOCK) * _Y.SIZE, frozenset({"block"})),
+    Area("FOUND", FOUND, _EQ.SIZE, frozenset({"start"})),
+    Area("BEFORE", BEFORE, _F.SIZE, frozenset({"inputs"})),
+    Area("FIRST_PLACES", FIRST_PLACES, 2 * STRIDE, frozenset({"start", "evaluation", "jacobian", "factor"})),
+    Area("factor", FORCE, FACTOR_END - FORCE, frozenset({"factor"})),
+    Area("solve", FORCE, SOLVE_END - FORCE, frozenset({"solve"})),
+    Area("FLEX rows", FLEX, _FL.COS, frozenset({"evaluation", "solve"})),
+    Area("GROOVES", GROOVE_INERTIA, GROOVES_END - GROOVE_INERTIA, frozenset({"factor"})),
+    # over BLOCK_A and BLOCK_Y: method fast, the only one with blocks, refuses flexible rings
+    Area("FLEX", FLEX + _FL.COS, _FL.SIZE - _FL.COS, _FLEXED),
 )
 
 

@@ -15,8 +15,7 @@ ball's centre. Force and moment act on the race with the opposite sign at the sa
 import math
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import C, P, R, W, X, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, C, P, R, W, X, Y
 
 
 @kernel

@@ -3,8 +3,7 @@
 import math
 
 from fmu_bearing.engine.jit import inlined, kernel
-from fmu_bearing.engine.layout import C, P, W, X
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, C, P, W, X
 from fmu_bearing.engine.mechanics.pose import bearing_angle
 from fmu_bearing.engine.mechanics.trigonometry import TWO_PI, wrap
 

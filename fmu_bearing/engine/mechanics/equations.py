@@ -4,8 +4,7 @@ from fmu_bearing.engine.choices import REGULARISED
 from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.jit import entry, inlined, kernel
 from fmu_bearing.engine.lanes import sum_lanes
-from fmu_bearing.engine.layout import F, P, Q, W, X, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, F, P, Q, W, X, Y
 from fmu_bearing.engine.mechanics.ball_waves import add_ball_waves, ball_wave_forces
 from fmu_bearing.engine.mechanics.bodies import body_equations
 from fmu_bearing.engine.mechanics.cage import pockets

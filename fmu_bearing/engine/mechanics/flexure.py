@@ -25,8 +25,7 @@ import math
 
 from fmu_bearing.engine.jit import inlined, kernel
 from fmu_bearing.engine.lanes import sum_lanes
-from fmu_bearing.engine.layout import FL, C, F, P, Q, R, S, W, X, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import FL, STRIDE, C, F, P, Q, R, S, W, X, Y
 
 
 @kernel

@@ -3,8 +3,7 @@
 import math
 
 from fmu_bearing.engine.jit import inlined, kernel
-from fmu_bearing.engine.layout import P, W, X, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, P, W, X, Y
 
 
 @kernel

@@ -9,8 +9,7 @@ import math
 import numpy as np
 
 from fmu_bearing.engine.jit import inlined
-from fmu_bearing.engine.layout import C, P, R, W, X, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, C, P, R, W, X, Y
 from fmu_bearing.engine.mechanics.pose import bearing_angle
 from fmu_bearing.engine.mechanics.powers import ROUND, exp2, log2
 

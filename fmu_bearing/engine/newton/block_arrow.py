@@ -6,30 +6,34 @@ since, which keeps an old Jacobian exact for equal ball loads and an isotropic p
 """
 
 from fmu_bearing.engine.jit import inlined, kernel
-from fmu_bearing.engine.layout import A, F, J, P, Q, W
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.lanes import sum_lanes
+from fmu_bearing.engine.layout import FOUR, MAX_BALLS, STRIDE, A, F, J, P, Q, W
 from fmu_bearing.engine.newton.springs import couple_springs, spring_matrix
+
+_PAIR = 2 * STRIDE  # from one pair of entries to the next
+_OWN = J.BALL * STRIDE  # a row of a ball's own inverse
+_BODIES = Q.SIZE * STRIDE  # a row of that times the ball's rows for the bodies
 
 
 @kernel
 def invert_blocks(a, at, lanes):
     """Invert the 6 x 6 blocks of all lanes in place (Gauss-Jordan; the blocks' diagonals dominate)."""
-    for k in range(6):
-        kk = at + (k * 6 + k) * STRIDE
+    for k in range(J.BALL):
+        kk = at + (k * J.BALL + k) * STRIDE
         for j in range(lanes):
             a[kk + j] = 1.0 / a[kk + j]
-        for m in range(6):
+        for m in range(J.BALL):
             if m != k:
-                km = at + (k * 6 + m) * STRIDE
+                km = at + (k * J.BALL + m) * STRIDE
                 for j in range(lanes):
                     a[km + j] *= a[kk + j]
-        for i in range(6):
+        for i in range(J.BALL):
             if i != k:
-                ik = at + (i * 6 + k) * STRIDE
-                for m in range(6):
+                ik = at + (i * J.BALL + k) * STRIDE
+                for m in range(J.BALL):
                     if m != k:
-                        im = at + (i * 6 + m) * STRIDE
-                        km = at + (k * 6 + m) * STRIDE
+                        im = at + (i * J.BALL + m) * STRIDE
+                        km = at + (k * J.BALL + m) * STRIDE
                         for j in range(lanes):
                             a[im + j] -= a[ik + j] * a[km + j]
                 for j in range(lanes):
@@ -87,15 +91,36 @@ def newton_row(jac, at, columns, cv, cx, out, to, lanes):
 
 
 @kernel
-def border_column(jac, fac, w, scratch, g, cv, cx, cx_ball, lanes):
+def border_column(jac, fac, w, g, cv, cx, cx_ball, lanes):
     """Column ``g`` of the border: W = Mb^-1 M_bG into ``fac``, and the row M_Gb beside it."""
-    for i in range(6):
-        newton_row(jac, J.C + (i * 34 + g) * STRIDE, Q.SIZE, cv, cx, w, scratch + i * STRIDE, lanes)
-    for i in range(6):
-        times_six(fac, A.INVERSE + i * 6 * STRIDE, w, scratch, fac, A.W + (i * Q.SIZE + g) * STRIDE, lanes)
-    for k in range(6):
-        out = A.GB + (g * 6 + k) * STRIDE
-        newton_row(jac, J.D + (g * 9 + k) * STRIDE, 3, cv, cx_ball if k < 3 else 0.0, fac, out, lanes)
+    for i in range(J.BALL):
+        newton_row(jac, J.C + (i * J.BODIES + g) * STRIDE, Q.SIZE, cv, cx, w, W.COLUMN + i * STRIDE, lanes)
+    for i in range(J.BALL):
+        times_six(fac, A.INVERSE + i * _OWN, w, W.COLUMN, fac, A.W + (i * Q.SIZE + g) * STRIDE, lanes)
+    for k in range(J.BALL):
+        entry = J.D + (g * J.STATES + k) * STRIDE
+        out = A.GB + (g * J.BALL + k) * STRIDE
+        newton_row(jac, entry, J.PLACED, cv, cx_ball if k < J.PLACED else 0.0, fac, out, lanes)
+
+
+@inlined
+def through_balls(fac, g, h, lanes):
+    """Row ``g`` for the balls times column ``h`` of W, over all balls: four partial sums of fixed order."""
+    a = 0.0
+    b = 0.0
+    c = 0.0
+    d = 0.0
+    for k in range(J.BALL):
+        row = A.GB + (g * J.BALL + k) * STRIDE
+        right = A.W + (k * Q.SIZE + h) * STRIDE
+        for quad in range(lanes // FOUR):
+            i = FOUR * quad
+            j = i + 2
+            a += fac[row + i] * fac[right + i]
+            b += fac[row + i + 1] * fac[right + i + 1]
+            c += fac[row + j] * fac[right + j]
+            d += fac[row + j + 1] * fac[right + j + 1]
+    return (a + b) + (c + d)
 
 
 @kernel
@@ -105,45 +130,32 @@ def factor(p, jac, cv, cx, cx_ball, fac, w):
     ``cx_ball`` stands for ``cx`` in the columns of the balls' places.
     """
     lanes = int(p[P.LANES])
-    scratch = W.FORCE
-    for i in range(6):
-        for k in range(6):
-            out = A.INVERSE + (i * 6 + k) * STRIDE
-            newton_row(jac, J.B + (i * 9 + k) * STRIDE, 3, cv, cx_ball if k < 3 else 0.0, fac, out, lanes)
-        own = A.INVERSE + i * 7 * STRIDE
+    for i in range(J.BALL):
+        for k in range(J.BALL):
+            entry = J.B + (i * J.STATES + k) * STRIDE
+            out = A.INVERSE + (i * J.BALL + k) * STRIDE
+            newton_row(jac, entry, J.PLACED, cv, cx_ball if k < J.PLACED else 0.0, fac, out, lanes)
+        own = A.INVERSE + i * (J.BALL + 1) * STRIDE
         for j in range(lanes):
             fac[own + j] += 1.0
     invert_blocks(fac, A.INVERSE, lanes)
     for g in range(Q.SIZE):
-        border_column(jac, fac, w, scratch, g, cv, cx, cx_ball, lanes)
-    border = w[scratch : scratch + Q.SIZE * Q.SIZE]
+        border_column(jac, fac, w, g, cv, cx, cx_ball, lanes)
+    border = w[W.BORDER : W.BORDER + Q.SIZE * Q.SIZE]
     for g in range(Q.SIZE):
-        left = A.GB + g * 6 * STRIDE
         for h in range(Q.SIZE):
+            entry = J.E + g * J.BODIES + h
             total = 1.0 if g == h else 0.0
-            total -= cv * jac[J.E + g * 34 + Q.SIZE + h] + cx * jac[J.E + g * 34 + h]
-            first = 0.0
-            second = 0.0
-            third = 0.0
-            fourth = 0.0
-            for k in range(6):
-                right = A.W + (k * Q.SIZE + h) * STRIDE
-                row = left + k * STRIDE
-                for quad in range(lanes // 4):
-                    j = 4 * quad
-                    first += fac[row + j] * fac[right + j]
-                    second += fac[row + j + 1] * fac[right + j + 1]
-                    third += fac[row + j + 2] * fac[right + j + 2]
-                    fourth += fac[row + j + 3] * fac[right + j + 3]
-            border[g * Q.SIZE + h] = total - ((first + second) + (third + fourth))
-    fine = invert_border(border, 0, Q.SIZE, w[scratch + Q.SIZE * Q.SIZE :])
+            total -= cv * jac[entry + Q.SIZE] + cx * jac[entry]
+            border[g * Q.SIZE + h] = total - through_balls(fac, g, h, lanes)
+    pivots = w[W.PIVOTS : W.PIVOTS + MAX_BALLS]
+    fine = invert_border(border, 0, Q.SIZE, pivots)
     for g in range(Q.SIZE):
         for h in range(Q.SIZE):
             fac[A.S + h * A.BORDER + g] = border[g * Q.SIZE + h]
     if fine and p[P.SPRINGS] != 0.0 and p[P.CAGE] == 0.0:
-        balls = int(p[P.BALLS])
         spring_matrix(p, cv, cx_ball, fac, w)
-        fine = invert_border(fac, A.SPRING_BALLS, balls, w[scratch : scratch + balls])
+        fine = invert_border(fac, A.SPRING_BALLS, int(p[P.BALLS]), pivots)
     return fine
 
 
@@ -159,61 +171,62 @@ def turn_pair(x, i, c, s):
 @kernel
 def turn_pairs(x, at, c, s):
     """Turn the y, z pairs of translations and tilts of the three bodies by the angle of (c, s)."""
-    turn_pair(x, at + 1, c, s)
-    turn_pair(x, at + 3, c, s)
-    turn_pair(x, at + 6, c, s)
-    turn_pair(x, at + 9, c, s)
-    turn_pair(x, at + 12, c, s)
-    turn_pair(x, at + 15, c, s)
+    turn_pair(x, at + Q.INNER + Q.Y, c, s)
+    turn_pair(x, at + Q.INNER + Q.INNER_BY, c, s)
+    turn_pair(x, at + Q.OUTER + Q.Y, c, s)
+    turn_pair(x, at + Q.OUTER + Q.BY, c, s)
+    turn_pair(x, at + Q.CAGE + Q.Y, c, s)
+    turn_pair(x, at + Q.CAGE + Q.BY, c, s)
+
+
+@inlined
+def pair(a, row, x, at, step):
+    """Products of two entries of ``a``, at ``row`` and in the next row, with two numbers of ``x``."""
+    return a[row] * x[at] + a[row + STRIDE] * x[at + step]
+
+
+@inlined
+def six(a, row, x, at, step):
+    """Sum of six products as three pairs: entries of ``a`` in rows, numbers of ``x`` ``step`` apart."""
+    return (
+        pair(a, row, x, at, step)
+        + pair(a, row + _PAIR, x, at + 2 * step, step)
+        + pair(a, row + 2 * _PAIR, x, at + 2 * 2 * step, step)
+    )
 
 
 @inlined
 def times_six(a, row, x, at, out, to, lanes):
-    """``out[to + j] = sum over k of a[row + k] x[at + k]`` lane by lane, six products written out."""
+    """``out[to + j] = sum over k of a[row + k] x[at + k]`` lane by lane, ``k`` counting rows."""
     for j in range(lanes):
-        out[to + j] = (
-            (a[row + j] * x[at + j] + a[row + STRIDE + j] * x[at + STRIDE + j])
-            + (
-                a[row + 2 * STRIDE + j] * x[at + 2 * STRIDE + j]
-                + a[row + 3 * STRIDE + j] * x[at + 3 * STRIDE + j]
-            )
-            + (
-                a[row + 4 * STRIDE + j] * x[at + 4 * STRIDE + j]
-                + a[row + 5 * STRIDE + j] * x[at + 5 * STRIDE + j]
-            )
-        )
+        out[to + j] = six(a, row + j, x, at + j, STRIDE)
 
 
 @inlined
 def less_seventeen(a, row, x, at, t, source, out, to, lanes):
-    """``out[to + j] = t[source + j] - sum over g of a[row + g] x[at + g]`` lane by lane, written out."""
+    """``out[to + j] = t[source + j] - sum over g of a[row + g] x[at + g]``: two sixes and the other five.
+
+    ``g`` counts rows of ``a`` and numbers of ``x``.
+    """
+    second = row + J.BALL * STRIDE
+    third = second + J.BALL * STRIDE
+    last = third + 2 * _PAIR
+    x_second = at + J.BALL
+    x_third = x_second + J.BALL
     for j in range(lanes):
-        first = (
-            (a[row + j] * x[at] + a[row + STRIDE + j] * x[at + 1])
-            + (a[row + 2 * STRIDE + j] * x[at + 2] + a[row + 3 * STRIDE + j] * x[at + 3])
-            + (a[row + 4 * STRIDE + j] * x[at + 4] + a[row + 5 * STRIDE + j] * x[at + 5])
-        )
-        second = (
-            (a[row + 6 * STRIDE + j] * x[at + 6] + a[row + 7 * STRIDE + j] * x[at + 7])
-            + (a[row + 8 * STRIDE + j] * x[at + 8] + a[row + 9 * STRIDE + j] * x[at + 9])
-            + (a[row + 10 * STRIDE + j] * x[at + 10] + a[row + 11 * STRIDE + j] * x[at + 11])
-        )
-        third = (
-            (a[row + 12 * STRIDE + j] * x[at + 12] + a[row + 13 * STRIDE + j] * x[at + 13])
-            + (a[row + 14 * STRIDE + j] * x[at + 14] + a[row + 15 * STRIDE + j] * x[at + 15])
-            + a[row + 16 * STRIDE + j] * x[at + 16]
-        )
-        out[to + j] = t[source + j] - ((first + second) + third)
+        total = six(a, row + j, x, at, 1) + six(a, second + j, x, x_second, 1)
+        others = pair(a, third + j, x, x_third, 1) + pair(a, third + _PAIR + j, x, x_third + 2, 1)
+        out[to + j] = t[source + j] - (total + (others + a[last + j] * x[x_third + 2 * 2]))
 
 
 @kernel
-def border_product(fac, w, source, d):
-    """``d[F_G:] = S^-1 w[source:]``; S^-1 stands by columns of ``BORDER`` numbers, the spare ones zero."""
-    total = w[source + A.BORDER : source + 2 * A.BORDER]
+def border_product(fac, w, d):
+    """Bodies' part of ``d`` from their residual in ``w``: S^-1 stands by columns of ``BORDER`` numbers."""
+    total = w[W.BODIES : W.BODIES + A.BORDER]
     for i in range(A.BORDER):
         total[i] = 0.0
     for h in range(Q.SIZE):
-        x = w[source + h]
+        x = w[W.REST + h]
         column = fac[A.S + h * A.BORDER : A.SIZE]
         for i in range(A.BORDER):
             total[i] += column[i] * x
@@ -228,35 +241,16 @@ def solve(p, fac, c, s, d, w):
     ``c``, ``s``: cosine and sine of the orbit angle turned since the factors were made.
     """
     lanes = int(p[P.LANES])
-    t = W.FORCE
-    sums = t + 6 * STRIDE
     turn_pairs(d, F.BODY, c, -s)
-    times_six(fac, A.INVERSE, d, 0, w, t, lanes)
-    times_six(fac, A.INVERSE + 6 * STRIDE, d, 0, w, t + STRIDE, lanes)
-    times_six(fac, A.INVERSE + 12 * STRIDE, d, 0, w, t + 2 * STRIDE, lanes)
-    times_six(fac, A.INVERSE + 18 * STRIDE, d, 0, w, t + 3 * STRIDE, lanes)
-    times_six(fac, A.INVERSE + 24 * STRIDE, d, 0, w, t + 4 * STRIDE, lanes)
-    times_six(fac, A.INVERSE + 30 * STRIDE, d, 0, w, t + 5 * STRIDE, lanes)
-    products = w[sums + 2 * A.BORDER : sums + 2 * A.BORDER + STRIDE]
+    for i in range(J.BALL):
+        times_six(fac, A.INVERSE + i * _OWN, d, 0, w, W.OWN + i * STRIDE, lanes)
+    products = w[W.LANE_SUMS : W.LANE_SUMS + STRIDE]
     for g in range(Q.SIZE):
-        times_six(fac[A.GB + g * 6 * STRIDE : A.S], 0, w, t, products, 0, lanes)
-        first = 0.0
-        second = 0.0
-        third = 0.0
-        fourth = 0.0
-        for k in range(lanes // 4):
-            first += products[4 * k]
-            second += products[4 * k + 1]
-            third += products[4 * k + 2]
-            fourth += products[4 * k + 3]
-        w[sums + g] = d[F.BODY + g] - ((first + second) + (third + fourth))
-    border_product(fac, w, sums, d)
+        times_six(fac[A.GB + g * _OWN : A.S], 0, w, W.OWN, products, 0, lanes)
+        w[W.REST + g] = d[F.BODY + g] - sum_lanes(products, 0, lanes)
+    border_product(fac, w, d)
     if p[P.SPRINGS] != 0.0 and p[P.CAGE] == 0.0:
         couple_springs(p, fac, d, w)
-    less_seventeen(fac, A.W, d, F.BODY, w, t, d, 0, lanes)
-    less_seventeen(fac, A.W + 17 * STRIDE, d, F.BODY, w, t + STRIDE, d, STRIDE, lanes)
-    less_seventeen(fac, A.W + 34 * STRIDE, d, F.BODY, w, t + 2 * STRIDE, d, 2 * STRIDE, lanes)
-    less_seventeen(fac, A.W + 51 * STRIDE, d, F.BODY, w, t + 3 * STRIDE, d, 3 * STRIDE, lanes)
-    less_seventeen(fac, A.W + 68 * STRIDE, d, F.BODY, w, t + 4 * STRIDE, d, 4 * STRIDE, lanes)
-    less_seventeen(fac, A.W + 85 * STRIDE, d, F.BODY, w, t + 5 * STRIDE, d, 5 * STRIDE, lanes)
+    for i in range(J.BALL):
+        less_seventeen(fac, A.W + i * _BODIES, d, F.BODY, w, W.OWN + i * STRIDE, d, i * STRIDE, lanes)
     turn_pairs(d, F.BODY, c, s)

@@ -9,19 +9,18 @@ equal ball loads.
 
 import math
 
-from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import FL, A, J, P, Q, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.jit import inlined, kernel
+from fmu_bearing.engine.layout import FL, STRIDE, A, J, P, Q, W, Y
 from fmu_bearing.engine.mechanics.flexure import bends
 
 
 @kernel
-def local_row(jac, row, columns, first, k, c, s, axis, j):
-    """Entry of a ball's row for motion of a body along the ball's own axis x, r or theta (0, 1, 2).
+def local_row(jac, row, column, c, s, axis, j):
+    """Entry of block C for motion of a body along the ball's own axis x, r or theta (0, 1, 2).
 
-    ``first``: the body's x column, ``k`` added to it; ``columns``: of the block.
+    ``row``: of the ball; ``column``: the body's displacement or velocity along x.
     """
-    at = (row * columns + first + k) * STRIDE + j
+    at = J.C + (row * J.BODIES + column) * STRIDE + j
     if axis == 0:
         return jac[at]
     y = jac[at + STRIDE]
@@ -32,48 +31,49 @@ def local_row(jac, row, columns, first, k, c, s, axis, j):
 @kernel
 def local_column(jac, first, column, c, s, axis, j):
     """Entry of block D for the force on a body along the ball's own axis; ``first``: the body's x row."""
-    at = J.D + (first * 9 + column) * STRIDE + j
+    next_row = J.STATES * STRIDE
+    at = J.D + (first * J.STATES + column) * STRIDE + j
     if axis == 0:
         return jac[at]
-    y = jac[at + 9 * STRIDE]
-    z = jac[at + 18 * STRIDE]
+    y = jac[at + next_row]
+    z = jac[at + 2 * next_row]
     return c * z - s * y if axis == 1 else -c * y - s * z
 
 
 @kernel
 def answers(p, jac, race, c, s, cv, cx, j, kept):
-    """Ball ``j``'s rows of the Newton matrix for motion of the groove under it: 18 rows of ``kept``.
+    """Ball ``j``'s rows of the Newton matrix for motion of the groove under it, into ``kept``.
 
     The groove's motion along itself presses nothing: its place has no effect, only its velocity.
     """
-    first = 0 if race == 0 else Q.OUTER
-    for i in range(6):
-        for axis in range(3):
-            value = cv * local_row(jac[J.C :], i, 34, first, Q.SIZE, c, s, axis, j)
+    first = Q.INNER if race == 0 else Q.OUTER
+    for i in range(J.BALL):
+        for axis in range(FL.GROOVE):
+            value = cv * local_row(jac, i, first + Q.SIZE, c, s, axis, j)
             if axis < 2:
-                value += cx * local_row(jac[J.C :], i, 34, first, 0, c, s, axis, j)
-            kept[(i * 3 + axis) * STRIDE + j] = -value
+                value += cx * local_row(jac, i, first, c, s, axis, j)
+            kept[(i * FL.GROOVE + axis) * STRIDE + j] = -value
 
 
 @kernel
 def returns(p, jac, fac, race, c, s, cv, cx, j, kept, row):
     """Groove's rows for the ball's motion, times the inverse of the ball's own block.
 
-    18 more rows of ``kept``; ``row``: scratch for six numbers.
+    They follow in ``kept``; ``row``: scratch for ``J.BALL`` numbers.
     """
-    first = 0 if race == 0 else Q.OUTER
+    first = Q.INNER if race == 0 else Q.OUTER
     mass = p[P.INNER_MASS] if race == 0 else p[P.OUTER_MASS]
-    for axis in range(3):
-        for m in range(6):
-            value = cv * local_column(jac, first, 3 + m, c, s, axis, j)
-            if m < 3:
+    for axis in range(FL.GROOVE):
+        for m in range(J.BALL):
+            value = cv * local_column(jac, first, J.PLACED + m, c, s, axis, j)
+            if m < J.PLACED:
                 value += cx * local_column(jac, first, m, c, s, axis, j)
             row[m] = -mass * value
-        for k in range(6):
+        for k in range(J.BALL):
             total = 0.0
-            for m in range(6):
-                total += row[m] * fac[A.INVERSE + (m * 6 + k) * STRIDE + j]
-            kept[(18 + axis * 6 + k) * STRIDE + j] = total
+            for m in range(J.BALL):
+                total += row[m] * fac[A.INVERSE + (m * J.BALL + k) * STRIDE + j]
+            kept[(FL.ANSWERS + axis * J.BALL + k) * STRIDE + j] = total
 
 
 @kernel
@@ -94,32 +94,37 @@ def groove_inertia(p, pushed, moved, same, total):
     ``pushed``, ``moved``: rows of the two rings as :func:`ring_answers` left them; ``same``: one ring.
     """
     lever = p[P.PITCH_RADIUS]
-    for a in range(3):
-        for b in range(3):
+    for a in range(FL.GROOVE):
+        for b in range(FL.GROOVE):
+            own = (a * FL.GROOVE + b) * STRIDE
             value = 0.0
             for j in range(int(p[P.BALLS])):
                 if same:
                     # what the ball is pushed by, the groove is pushed back by
-                    value -= p[P.BALL_MASS] * (lever if a == 2 else 1.0) * moved[(a * 3 + b) * STRIDE + j]
-                for k in range(6):
-                    value -= pushed[(18 + a * 6 + k) * STRIDE + j] * moved[(k * 3 + b) * STRIDE + j]
-            total[a * 3 + b] = value
+                    value -= p[P.BALL_MASS] * (lever if a == 2 else 1.0) * moved[own + j]
+                for k in range(J.BALL):
+                    back = (FL.ANSWERS + a * J.BALL + k) * STRIDE
+                    value -= pushed[back + j] * moved[(k * FL.GROOVE + b) * STRIDE + j]
+            total[a * FL.GROOVE + b] = value
 
 
 @kernel
 def coupling(p, mode, other, total):
     """How a mode answers another of its order through the balls: real and imaginary part.
 
-    The mean over all places of the balls; (a + i b) of the other mode is multiplied by it.
+    ``total``: inertia (kg) of the mode's groove against the motion of the other's, row by row. The mean over
+    all places of the balls; (a + i b) of the other mode is multiplied by it.
     """
     psi_x = p[other + P.MODE_X]
     psi_r = p[other + P.MODE_R]
     psi_t = p[other + P.MODE_T]
+    radial = total[FL.GROOVE :]
+    along = total[2 * FL.GROOVE :]
     x = psi_x * total[0] + psi_r * total[1]
-    r = psi_x * total[3] + psi_r * total[4]
-    t = psi_x * total[6] + psi_r * total[7]
-    in_phase = p[mode + P.MODE_X] * x + p[mode + P.MODE_R] * r + p[mode + P.MODE_T] * total[8] * psi_t
-    ahead = p[mode + P.MODE_X] * total[2] + p[mode + P.MODE_R] * total[5]
+    r = psi_x * radial[0] + psi_r * radial[1]
+    t = psi_x * along[0] + psi_r * along[1]
+    in_phase = p[mode + P.MODE_X] * x + p[mode + P.MODE_R] * r + p[mode + P.MODE_T] * along[2] * psi_t
+    ahead = p[mode + P.MODE_X] * total[2] + p[mode + P.MODE_R] * radial[2]
     half = 0.5 / p[mode + P.MODE_MASS]
     return half * in_phase, half * (ahead * psi_t - p[mode + P.MODE_T] * t)
 
@@ -152,14 +157,32 @@ def partner(p, k):
     return found
 
 
+@inlined
+def between(pushed, moved):
+    """Return the place of one groove's inertia against the motion of one (0 inner, 1 outer ring)."""
+    return (2 * pushed + moved) * FL.INERTIA
+
+
+@inlined
+def ring_factors(kept, modes, race):
+    """Return what Newton's method keeps of one ring's groove and the balls, in the flexure's state."""
+    return kept[FL.PER_MODE * modes + race * FL.FACTOR_ROWS * STRIDE :]
+
+
+@inlined
+def inverse_of_modes(kept, modes):
+    """Return the modes' inverse, behind what is kept of both rings."""
+    return kept[FL.PER_MODE * modes + 2 * FL.FACTOR_ROWS * STRIDE :]
+
+
 @kernel
 def invert_modes(p, speed, cv, cx, totals, inverse):
-    """Inverse of the modes' blocks, four numbers each: own and partner's coefficient, real and imaginary."""
+    """Inverse of the modes' blocks: coefficients of own and partner's residual, real and imaginary part."""
     table = int(p[P.AT_MODES])
     for k in range(int(p[P.MODES])):
         mode = table + k * P.MODE_SIZE
         race = int(p[mode + P.MODE_BODY])
-        ar, ai = mode_block(p, mode, speed if race == 0 else 0.0, cv, cx, totals[27 * race :])
+        ar, ai = mode_block(p, mode, speed if race == 0 else 0.0, cv, cx, totals[between(race, race) :])
         m = partner(p, k)
         br = 0.0
         bi = 0.0
@@ -169,16 +192,20 @@ def invert_modes(p, speed, cv, cx, totals, inverse):
         ei = ai
         if m >= 0:
             other = table + m * P.MODE_SIZE
-            br, bi = coupling(p, mode, other, totals[9 + 9 * race :])
-            cr, ci = coupling(p, other, mode, totals[18 - 9 * race :])
-            dr, di = mode_block(p, other, 0.0 if race == 0 else speed, cv, cx, totals[27 - 27 * race :])
+            opposite = 1 - race
+            spin = 0.0 if race == 0 else speed
+            br, bi = coupling(p, mode, other, totals[between(race, opposite) :])
+            cr, ci = coupling(p, other, mode, totals[between(opposite, race) :])
+            dr, di = mode_block(p, other, spin, cv, cx, totals[between(opposite, opposite) :])
             er = ar * dr - ai * di - (br * cr - bi * ci)
             ei = ar * di + ai * dr - (br * ci + bi * cr)
         per = 1.0 / (er * er + ei * ei)
-        inverse[4 * k] = (dr * er + di * ei) * per
-        inverse[4 * k + 1] = (di * er - dr * ei) * per
-        inverse[4 * k + 2] = -(br * er + bi * ei) * per
-        inverse[4 * k + 3] = -(bi * er - br * ei) * per
+        own = k * FL.PER_INVERSE + FL.OWN
+        others = k * FL.PER_INVERSE + FL.PARTNER
+        inverse[own] = (dr * er + di * ei) * per
+        inverse[own + 1] = (di * er - dr * ei) * per
+        inverse[others] = -(br * er + bi * ei) * per
+        inverse[others + 1] = -(bi * er - br * ei) * per
 
 
 @kernel
@@ -190,11 +217,10 @@ def factor_modes(p, jac, fac, y, turned, speed, cv, cx, kept, w):
     if p[P.MODES] == 0.0:
         return
     modes = int(p[P.MODES])
-    # inertia of inner on inner, inner on outer, outer on inner, outer on outer groove
-    totals = w[W.FLEX : W.FLEX + 36]
-    row = w[W.FLEX + 36 : W.FLEX + 42]
-    first = kept[6 * modes :]
-    second = kept[6 * modes + FL.FACTOR_ROWS * STRIDE :]
+    totals = w[W.GROOVE_INERTIA : W.GROOVE_INERTIA + FL.INERTIAS]
+    row = w[W.GROOVE_ROW : W.GROOVE_ROW + J.BALL]
+    first = ring_factors(kept, modes, 0)
+    second = ring_factors(kept, modes, 1)
     inner = bends(p, 0)
     outer = bends(p, 1)
     if inner:
@@ -202,8 +228,8 @@ def factor_modes(p, jac, fac, y, turned, speed, cv, cx, kept, w):
         groove_inertia(p, first, first, True, totals)
     if outer:
         ring_answers(p, jac, fac, y, turned, 1, cv, cx, second, row)
-        groove_inertia(p, second, second, True, totals[27:])
+        groove_inertia(p, second, second, True, totals[between(1, 1) :])
     if inner and outer:
-        groove_inertia(p, first, second, False, totals[9:])
-        groove_inertia(p, second, first, False, totals[18:])
-    invert_modes(p, speed, cv, cx, totals, kept[6 * modes + 2 * FL.FACTOR_ROWS * STRIDE :])
+        groove_inertia(p, first, second, False, totals[between(0, 1) :])
+        groove_inertia(p, second, first, False, totals[between(1, 0) :])
+    invert_modes(p, speed, cv, cx, totals, inverse_of_modes(kept, modes))

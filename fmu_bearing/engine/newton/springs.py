@@ -10,15 +10,14 @@ inverse, both before the balls are substituted back.
 """
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import A, F, P, Q, W
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, A, F, J, P, Q, W
 
 _ORBIT = 2  # row of a ball's accelerations
 
 
 @kernel
 def spring_matrix(p, cv, cx, fac, w):
-    """Bodies' answers b_j and the matrix I - T G into ``fac`` (Z x Z at ``A_SPRING_BALLS``, to be inverted).
+    """Bodies' answers b_j and the matrix I - T G into ``fac`` (Z x Z at ``A.SPRING_BALLS``, to be inverted).
 
     ``cv``, ``cx``: weights of velocity and position as in ``block_arrow.factor``, whose factors stand in
     ``fac`` already.
@@ -26,29 +25,28 @@ def spring_matrix(p, cv, cx, fac, w):
     balls = int(p[P.BALLS])
     strength = (cv * p[P.SPRING_DAMPING] + cx * p[P.SPRINGS]) / p[P.BALL_MASS]
     fac[A.SPRING] = strength
-    scratch = W.FORCE
     for j in range(balls):
         for h in range(Q.SIZE):
             total = 0.0
-            for k in range(6):
-                own = fac[A.INVERSE + (k * 6 + _ORBIT) * STRIDE + j]
-                total += fac[A.GB + (h * 6 + k) * STRIDE + j] * own
-            w[scratch + h] = total
+            for k in range(J.BALL):
+                own = fac[A.INVERSE + (k * J.BALL + _ORBIT) * STRIDE + j]
+                total += fac[A.GB + (h * J.BALL + k) * STRIDE + j] * own
+            w[W.COLUMN + h] = total
         for g in range(Q.SIZE):
             total = 0.0
             for h in range(Q.SIZE):
-                total -= fac[A.S + h * A.BORDER + g] * w[scratch + h]
+                total -= fac[A.S + h * A.BORDER + g] * w[W.COLUMN + h]
             fac[A.SPRING_BODY + g * STRIDE + j] = total
     for j in range(balls):
         for i in range(balls):
-            total = fac[A.INVERSE + (_ORBIT * 6 + _ORBIT) * STRIDE + j] if i == j else 0.0
+            total = fac[A.INVERSE + (_ORBIT * J.BALL + _ORBIT) * STRIDE + j] if i == j else 0.0
             for g in range(Q.SIZE):
                 total -= fac[A.W + (_ORBIT * Q.SIZE + g) * STRIDE + i] * fac[A.SPRING_BODY + g * STRIDE + j]
-            w[scratch + i] = total  # column j of G
+            w[W.COLUMN + i] = total  # column j of G
         for i in range(balls):
             ahead = i + 1 if i + 1 < balls else 0
             behind = i - 1 if i > 0 else balls - 1
-            second = 2.0 * w[scratch + i] - w[scratch + ahead] - w[scratch + behind]
+            second = 2.0 * w[W.COLUMN + i] - w[W.COLUMN + ahead] - w[W.COLUMN + behind]
             fac[A.SPRING_BALLS + i * balls + j] = strength * second + (1.0 if i == j else 0.0)
 
 
@@ -56,35 +54,33 @@ def spring_matrix(p, cv, cx, fac, w):
 def couple_springs(p, fac, d, w):
     """Correct the bodies' part in ``d`` and the balls' in the scratch rows, before the back substitution.
 
-    On entry row k of ``w[W_FORCE:]`` holds the balls' own inverse times the residual and ``d[F_G:]`` the
+    On entry the rows ``W.OWN`` hold the balls' own inverses times their residual and ``d[F.BODY:]`` the
     bodies' solution, both without springs.
     """
     balls = int(p[P.BALLS])
-    scratch = W.FORCE
-    orbit = scratch + 7 * STRIDE
-    pull = scratch + 8 * STRIDE
-    found = scratch + 9 * STRIDE
     for j in range(balls):
-        total = w[scratch + _ORBIT * STRIDE + j]
+        total = w[W.OWN + _ORBIT * STRIDE + j]
         for g in range(Q.SIZE):
             total -= fac[A.W + (_ORBIT * Q.SIZE + g) * STRIDE + j] * d[F.BODY + g]
-        w[orbit + j] = total
+        w[W.SPRING_ORBIT + j] = total
     for j in range(balls):
         ahead = j + 1 if j + 1 < balls else 0
         behind = j - 1 if j > 0 else balls - 1
-        w[pull + j] = -fac[A.SPRING] * (2.0 * w[orbit + j] - w[orbit + ahead] - w[orbit + behind])
+        second = 2.0 * w[W.SPRING_ORBIT + j] - w[W.SPRING_ORBIT + ahead] - w[W.SPRING_ORBIT + behind]
+        w[W.SPRING_PULL + j] = -fac[A.SPRING] * second
     for i in range(balls):
         total = 0.0
         for j in range(balls):
-            total += fac[A.SPRING_BALLS + i * balls + j] * w[pull + j]
-        w[found + i] = total
+            total += fac[A.SPRING_BALLS + i * balls + j] * w[W.SPRING_PULL + j]
+        w[W.SPRING_ANSWER + i] = total
     for j in range(balls, int(p[P.LANES])):
-        w[found + j] = w[found]
+        w[W.SPRING_ANSWER + j] = w[W.SPRING_ANSWER]
     for g in range(Q.SIZE):
         total = d[F.BODY + g]
         for j in range(balls):
-            total += fac[A.SPRING_BODY + g * STRIDE + j] * w[found + j]
+            total += fac[A.SPRING_BODY + g * STRIDE + j] * w[W.SPRING_ANSWER + j]
         d[F.BODY + g] = total
-    for k in range(6):
+    for k in range(J.BALL):
+        own = A.INVERSE + (k * J.BALL + _ORBIT) * STRIDE
         for j in range(int(p[P.LANES])):
-            w[scratch + k * STRIDE + j] += fac[A.INVERSE + (k * 6 + _ORBIT) * STRIDE + j] * w[found + j]
+            w[W.OWN + k * STRIDE + j] += fac[own + j] * w[W.SPRING_ANSWER + j]

@@ -1,4 +1,4 @@
-"""From the state to what leaves the engine.
+"""From the state to outputs, losses and motion samples.
 
 ============  =====================================================================
 ``losses``    sliding and losses by source, once per communication step

@@ -1,4 +1,4 @@
-"""What people read of contacts and losses, taken from the rows of the last right-hand side.
+"""Sliding and losses, taken from the rows of the last right-hand side.
 
 Costs nothing inside a step: once per communication point, from what the evaluation there left in ``w``.
 """
@@ -6,8 +6,7 @@ Costs nothing inside a step: once per communication point, from what the evaluat
 import math
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import F, P, R, S, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, F, P, R, S, W, Y
 
 _TURNING_2 = 1.0  # rad2/s2: rolling rounded over 1 rad/s, as in the rolling resistance
 _ENTRAINED_2 = 1e-8  # m2/s2: entrainment rounded over 1e-4 m/s, likewise
@@ -65,7 +64,7 @@ def summarise(p, s, w):
             contacts += w[W.LOSS + race * STRIDE + j]
             rolling -= w[row + R.ROLL + j] * w[row + R.AM + j]
     drag = drag_loss(p, s)
-    s[S.LOSS] = contacts - rolling
-    s[S.LOSS + 1] = rolling
-    s[S.LOSS + 2] = s[S.F + F.HEAT + 2] - 0.5 * contacts - drag
-    s[S.LOSS + 3] = drag
+    s[S.LOSS_CONTACTS] = contacts - rolling
+    s[S.LOSS_ROLLING] = rolling
+    s[S.LOSS_CAGE] = s[S.F + F.HEAT_OIL] - 0.5 * contacts - drag
+    s[S.LOSS_DRAG] = drag

@@ -4,7 +4,6 @@ import math
 
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import FL, MO, SD, F, P, Q, S, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
 from fmu_bearing.engine.mechanics.flexure import flexure_state
 from fmu_bearing.engine.sound.radiate import push
 
@@ -23,74 +22,75 @@ def hermite(v0, a0, v1, a1, h, t):
 
 
 @kernel
+def during(s, w, value, rate, h, t):
+    """Value and derivative of one number of the mechanics at the share ``t`` of the step ``h`` (s).
+
+    ``value``: its place in ``y``; ``rate``: that of its derivative in ``f``.
+    """
+    return hermite(s[S.Y + value], s[S.F + rate], w[W.STAGE + value], w[W.LAST + rate], h, t)
+
+
+@kernel
 def body_motion(s, w, first, at, tilt, spin, spin_rate, h, t):
     """Velocity, acceleration, angular velocity and acceleration of one body into ``w[at:]``.
 
     ``first``: its coordinates; ``tilt``: its tilt coordinates. The spin is taken about X: tilts are small.
     """
-    last = W.LAST + F.BODY
     for i in range(3):
-        k = first + i
-        v, a = hermite(s[S.Y + Y.V0 + k], s[S.F + F.BODY + k], w[W.STAGE + Y.V0 + k], w[last + k], h, t)
-        w[at + i] = v
-        w[at + 3 + i] = a
-    w[at + 6] = spin
-    w[at + 9] = spin_rate
+        v, a = during(s, w, Y.V0 + first + i, F.BODY + first + i, h, t)
+        w[at + MO.VELOCITY + i] = v
+        w[at + MO.ACCELERATION + i] = a
+    w[at + MO.SPIN] = spin
+    w[at + MO.SPIN_RATE] = spin_rate
     for i in range(2):
-        k = tilt + i
-        v, a = hermite(s[S.Y + Y.V0 + k], s[S.F + F.BODY + k], w[W.STAGE + Y.V0 + k], w[last + k], h, t)
-        w[at + 7 + i] = v
-        w[at + 10 + i] = a
+        v, a = during(s, w, Y.V0 + tilt + i, F.BODY + tilt + i, h, t)
+        w[at + MO.SPIN + 1 + i] = v
+        w[at + MO.SPIN_RATE + 1 + i] = a
+
+
+@kernel
+def turning_body(s, w, first, at, h, t):
+    """As `body_motion` for a body whose rotation about X is a coordinate: outer ring and cage."""
+    turn = first + Q.TURN
+    spin, rate = during(s, w, Y.V0 + turn, F.BODY + turn, h, t)
+    body_motion(s, w, first, at, first + Q.BY, spin, rate, h, t)
 
 
 @kernel
 def ball_motion(p, s, w, h, t):
     """Inertial velocity, acceleration, spin and its rate of every ball, resolved in its orbiting axes."""
-    last = W.LAST
     pitch = p[P.PITCH_RADIUS]
     for j in range(int(p[P.BALLS])):
         at = W.MOTION + MO.BALLS + MO.PER_BALL * j
-        v0 = S.Y + 3 * STRIDE + j
-        v1 = W.STAGE + 3 * STRIDE + j
-        a0 = S.F + j
-        a1 = last + j
-        vx, ax = hermite(s[v0], s[a0], w[v1], w[a1], h, t)
-        vr, ar = hermite(s[v0 + STRIDE], s[a0 + STRIDE], w[v1 + STRIDE], w[a1 + STRIDE], h, t)
-        om, aom = hermite(
-            s[v0 + 2 * STRIDE], s[a0 + 2 * STRIDE], w[v1 + 2 * STRIDE], w[a1 + 2 * STRIDE], h, t
-        )
-        wx, dwx = hermite(
-            s[v0 + 3 * STRIDE], s[a0 + 3 * STRIDE], w[v1 + 3 * STRIDE], w[a1 + 3 * STRIDE], h, t
-        )
-        wr, dwr = hermite(
-            s[v0 + 4 * STRIDE], s[a0 + 4 * STRIDE], w[v1 + 4 * STRIDE], w[a1 + 4 * STRIDE], h, t
-        )
-        wt, dwt = hermite(
-            s[v0 + 5 * STRIDE], s[a0 + 5 * STRIDE], w[v1 + 5 * STRIDE], w[a1 + 5 * STRIDE], h, t
-        )
-        radius = pitch + s[S.Y + STRIDE + j] + t * (w[W.STAGE + STRIDE + j] - s[S.Y + STRIDE + j])
-        angle, _ = hermite(
-            s[S.Y + 2 * STRIDE + j],
-            s[S.Y + 5 * STRIDE + j],
-            w[W.STAGE + 2 * STRIDE + j],
-            w[W.STAGE + 5 * STRIDE + j],
-            h,
-            t,
-        )
-        w[at] = vx
-        w[at + 1] = vr
-        w[at + 2] = radius * om
-        w[at + 3] = ax
-        w[at + 4] = ar - radius * om * om
-        w[at + 5] = radius * aom + 2.0 * vr * om
-        w[at + 6] = wx
-        w[at + 7] = wr
-        w[at + 8] = wt
-        w[at + 9] = dwx
-        w[at + 10] = dwr - om * wt
-        w[at + 11] = dwt + om * wr
-        w[at + 12] = math.cos(angle)
-        w[at + 13] = math.sin(angle)
+        vx, ax = during(s, w, Y.VX + j, F.X + j, h, t)
+        vr, ar = during(s, w, Y.VR + j, F.R + j, h, t)
+        om, aom = during(s, w, Y.OM + j, F.TH + j, h, t)
+        wx, dwx = during(s, w, Y.WX + j, F.WX + j, h, t)
+        wr, dwr = during(s, w, Y.WR + j, F.WR + j, h, t)
+        wt, dwt = during(s, w, Y.WT + j, F.WT + j, h, t)
+        old = s[S.Y + Y.R + j]
+        radius = pitch + old + t * (w[W.STAGE + Y.R + j] - old)
+        th = Y.TH + j
+        rate = Y.OM + j
+        angle, _ = hermite(s[S.Y + th], s[S.Y + rate], w[W.STAGE + th], w[W.STAGE + rate], h, t)
+        to = at + MO.VELOCITY
+        w[to] = vx
+        w[to + 1] = vr
+        w[to + 2] = radius * om
+        to = at + MO.ACCELERATION
+        w[to] = ax
+        w[to + 1] = ar - radius * om * om
+        w[to + 2] = radius * aom + 2.0 * vr * om
+        to = at + MO.SPIN
+        w[to] = wx
+        w[to + 1] = wr
+        w[to + 2] = wt
+        to = at + MO.SPIN_RATE
+        w[to] = dwx
+        w[to + 1] = dwr - om * wt
+        w[to + 2] = dwt + om * wr
+        w[at + MO.COS] = math.cos(angle)
+        w[at + MO.SIN] = math.sin(angle)
 
 
 @kernel
@@ -115,22 +115,12 @@ def emit_samples(p, s, w, h):
     block = int(p[P.AT_SOUND])
     ps = p[block : block + int(p[P.SOUND_SIZE])]
     elapsed = s[S.TIME] - s[S.START]
-    last = W.LAST
     while s[S.SAMPLE] <= (elapsed + h) * SD.RAW_RATE:
         t = min(max((s[S.SAMPLE] / SD.RAW_RATE - elapsed) / h, 0.0), 1.0)
-        body_motion(
-            s, w, 0, W.MOTION + MO.INNER, 3, s[S.SPEED] + t * h * s[S.SPEED_RATE], s[S.SPEED_RATE], h, t
-        )
-        k = Q.OUTER + 3
-        spin, rate = hermite(
-            s[S.Y + Y.V0 + k], s[S.F + F.BODY + k], w[W.STAGE + Y.V0 + k], w[last + F.BODY + k], h, t
-        )
-        body_motion(s, w, Q.OUTER, W.MOTION + MO.OUTER, k + 1, spin, rate, h, t)
-        k = Q.CAGE + 3
-        spin, rate = hermite(
-            s[S.Y + Y.V0 + k], s[S.F + F.BODY + k], w[W.STAGE + Y.V0 + k], w[last + F.BODY + k], h, t
-        )
-        body_motion(s, w, Q.CAGE, W.MOTION + MO.CAGE, k + 1, spin, rate, h, t)
+        spin = s[S.SPEED] + t * h * s[S.SPEED_RATE]
+        body_motion(s, w, Q.INNER, W.MOTION + MO.INNER, Q.INNER_BY, spin, s[S.SPEED_RATE], h, t)
+        turning_body(s, w, Q.OUTER, W.MOTION + MO.OUTER, h, t)
+        turning_body(s, w, Q.CAGE, W.MOTION + MO.CAGE, h, t)
         ball_motion(p, s, w, h, t)
         flexure_motion(p, s, w, h, t)
         push(ps, s[S.SOUND :], w[W.SOUND :], w[W.MOTION : W.SOUND], p[P.TIME_WEIGHTING], p[P.METERING_START])

@@ -1,98 +1,111 @@
-"""Channels of the sound filters, formed from one motion sample: one kernel per rung that needs its own."""
+"""Channels of the sound filters, formed from one motion sample: one kernel per form.
+
+Which radiation model takes which form stands in `acoustics.registry`, the forms in `choices.CHANNEL_FORMS`.
+"""
 
 import math
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import MO, SD
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import MO, SD, STRIDE
 
 _FLOOR2 = SD.SPEED_FLOOR**2
+_RATE = MO.ACCELERATION - MO.VELOCITY  # from a velocity of a body to its rate; the same for its spin
+_TURNING = MO.SPIN - MO.VELOCITY  # from a velocity of a body to its angular velocity
 
 
 @kernel
 def accelerations(ps, ws, motion, fresh):
-    """Channels of the vector rungs: accelerations, the balls' as circumferential harmonics."""
+    """Form vectors: accelerations, the balls' as circumferential harmonics."""
     orders = int(ps[SD.H_HARMONICS])
     balls = int(ps[SD.H_BALLS])
-    for body in range(3):
-        for k in range(3):
-            fresh[3 * body + k] = motion[12 * body + 3 + k]
-        fresh[SD.C_TILTS + 2 * body] = motion[12 * body + 10]
-        fresh[SD.C_TILTS + 2 * body + 1] = motion[12 * body + 11]
+    for body in range(SD.BODIES):
+        b = MO.PER_BODY * body
+        for k in range(SD.AXES):
+            fresh[SD.C_INNER + SD.AXES * body + k] = motion[b + MO.ACCELERATION + k]
+        fresh[SD.C_TILTS + SD.TILTS * body] = motion[b + MO.SPIN_RATE + 1]
+        fresh[SD.C_TILTS + SD.TILTS * body + 1] = motion[b + MO.SPIN_RATE + 2]
     at = int(ps[SD.H_W_TRANSFORM])
     turns = ws[at : at + 2 * STRIDE]  # cosine and sine of the present multiple of every ball's angle
     x = 0.0
     r = 0.0
     for j in range(balls):
         b = MO.BALLS + MO.PER_BALL * j
-        x += motion[b + 3]
-        r += motion[b + 4]
-        turns[j] = motion[b + 12]
-        turns[STRIDE + j] = motion[b + 13]
-    fresh[SD.C_BALLS] = x
-    fresh[SD.C_BALLS + 1] = r
+        x += motion[b + MO.ACCELERATION]
+        r += motion[b + MO.ACCELERATION + 1]
+        turns[j] = motion[b + MO.COS]
+        turns[STRIDE + j] = motion[b + MO.SIN]
+    fresh[SD.C_BALLS + SD.MEAN_X] = x
+    fresh[SD.C_BALLS + SD.MEAN_R] = r
     for m in range(orders):
-        xc = 0.0
-        xs = 0.0
-        rc = 0.0
-        rs = 0.0
-        tc = 0.0
-        ts = 0.0
-        for j in range(balls):
-            b = MO.BALLS + MO.PER_BALL * j
-            c = turns[j]
-            s = turns[STRIDE + j]
-            xc += motion[b + 3] * c
-            xs += motion[b + 3] * s
-            rc += motion[b + 4] * c
-            rs += motion[b + 4] * s
-            tc += motion[b + 5] * c
-            ts += motion[b + 5] * s
-            turns[j] = c * motion[b + 12] - s * motion[b + 13]
-            turns[STRIDE + j] = c * motion[b + 13] + s * motion[b + 12]
-        q = SD.C_BALLS + 2 + 6 * m
-        fresh[q] = xc
-        fresh[q + 1] = xs
-        fresh[q + 2] = rc
-        fresh[q + 3] = rs
-        fresh[q + 4] = tc
-        fresh[q + 5] = ts
+        q = SD.C_HARMONICS + SD.HARMONIC_SIZE * m
+        _harmonic(motion, turns, balls, fresh[q : q + SD.HARMONIC_SIZE])
     flex = MO.BALLS + MO.PER_BALL * balls
-    q = SD.C_BALLS + 2 + 6 * orders
+    q = SD.C_HARMONICS + SD.HARMONIC_SIZE * orders
     for i in range(int(ps[SD.H_FLEXURES])):
         fresh[q + i] = motion[flex + i]
 
 
 @kernel
+def _harmonic(motion, turns, balls, harmonic):
+    """One harmonic of the balls' accelerations; then ``turns`` moves on to the next."""
+    xc = 0.0
+    xs = 0.0
+    rc = 0.0
+    rs = 0.0
+    tc = 0.0
+    ts = 0.0
+    for j in range(balls):
+        b = MO.BALLS + MO.PER_BALL * j
+        a = b + MO.ACCELERATION
+        c = turns[j]
+        s = turns[STRIDE + j]
+        xc += motion[a] * c
+        xs += motion[a] * s
+        rc += motion[a + 1] * c
+        rs += motion[a + 1] * s
+        tc += motion[a + 2] * c
+        ts += motion[a + 2] * s
+        turns[j] = c * motion[b + MO.COS] - s * motion[b + MO.SIN]
+        turns[STRIDE + j] = c * motion[b + MO.SIN] + s * motion[b + MO.COS]
+    harmonic[SD.HARMONIC_X_COS] = xc
+    harmonic[SD.HARMONIC_X_SIN] = xs
+    harmonic[SD.HARMONIC_R_COS] = rc
+    harmonic[SD.HARMONIC_R_SIN] = rs
+    harmonic[SD.HARMONIC_T_COS] = tc
+    harmonic[SD.HARMONIC_T_SIN] = ts
+
+
+@kernel
 def scalars(ps, motion, fresh):
-    """Channels of the paper rung: time derivatives of its eqs. 16, 19, 28 and 41."""
-    at = int(ps[SD.H_AT_SCALARS]) + SD.SCALAR_BALL
-    for body in range(3):
-        b = 12 * body
-        spin = 4.0 * motion[b + 6] ** 2 + motion[b + 7] ** 2 + motion[b + 8] ** 2
-        rate = (
-            4.0 * motion[b + 6] * motion[b + 9]
-            + motion[b + 7] * motion[b + 10]
-            + motion[b + 8] * motion[b + 11]
-        )
-        fresh[SD.C_POINTS + body] = ps[at + 1 + body] * rate / math.sqrt(spin + _FLOOR2)
-        fresh[SD.C_PISTONS + body] = motion[b + 3]
-        across = motion[b + 1] ** 2 + motion[b + 2] ** 2
-        power = motion[b + 1] * motion[b + 4] + motion[b + 2] * motion[b + 5]
+    """Form scalars: time derivatives of the multi-source paper's eqs. 16, 19, 28 and 41."""
+    at = int(ps[SD.H_AT_SCALARS])
+    for body in range(SD.BODIES):
+        v = MO.PER_BODY * body
+        a = v + _RATE
+        w = v + _TURNING
+        g = w + _RATE
+        spin = 4.0 * motion[w] ** 2 + motion[w + 1] ** 2 + motion[w + 2] ** 2
+        rate = 4.0 * motion[w] * motion[g] + motion[w + 1] * motion[g + 1] + motion[w + 2] * motion[g + 2]
+        fresh[SD.C_POINTS + body] = ps[at + SD.SCALAR_BODY + body] * rate / math.sqrt(spin + _FLOOR2)
+        fresh[SD.C_PISTONS + body] = motion[a]
+        across = motion[v + 1] ** 2 + motion[v + 2] ** 2
+        power = motion[v + 1] * motion[a + 1] + motion[v + 2] * motion[a + 2]
         fresh[SD.C_CYLINDERS + body] = power / math.sqrt(across + _FLOOR2)
     for j in range(int(ps[SD.H_BALLS])):
         b = MO.BALLS + MO.PER_BALL * j
-        for part in range(2):
-            v = b + 6 * part
+        for part in range(SD.PAPER_BALL):
+            v = b + _TURNING * part
+            a = v + _RATE
             square = motion[v] ** 2 + motion[v + 1] ** 2 + motion[v + 2] ** 2
-            power = motion[v] * motion[v + 3] + motion[v + 1] * motion[v + 4] + motion[v + 2] * motion[v + 5]
-            scale = 1.0 if part == 0 else ps[at]
-            fresh[SD.C_PAPER_BALLS + 2 * j + part] = scale * power / math.sqrt(square + _FLOOR2)
+            power = motion[v] * motion[a] + motion[v + 1] * motion[a + 1] + motion[v + 2] * motion[a + 2]
+            scale = 1.0 if part == 0 else ps[at + SD.SCALAR_BALL]
+            q = SD.C_PAPER_BALLS + SD.PAPER_BALL * j + part
+            fresh[q] = scale * power / math.sqrt(square + _FLOOR2)
 
 
 @kernel
 def contacts(ps, motion, fresh):
-    """Channels of the rung paper_contacts: rates of normal velocities at the contacts, by harmonics.
+    """Form contacts: rates of normal velocities at the contacts, by harmonics.
 
     The sources orbit with the balls. Their strength is the normal velocity of the body there, so its rate
     holds the change of the normal along the orbit as well: for a ring, a.n + omega v.dn/dtheta. The rate of
@@ -108,25 +121,25 @@ def contacts(ps, motion, fresh):
         fresh[i] = 0.0
     for j in range(int(ps[SD.H_BALLS])):
         b = MO.BALLS + MO.PER_BALL * j
-        c = motion[b + 12]
-        s = motion[b + 13]
+        c = motion[b + MO.COS]
+        s = motion[b + MO.SIN]
         omega = motion[b + 2] / pitch
-        for family in range(4):
-            if family < 2:
-                o = 12 * family
-                value = sine * motion[o] + cosine * (c * motion[o + 2] - s * motion[o + 1])
-                rate = sine * motion[o + 3] + cosine * (
-                    c * motion[o + 5] - s * motion[o + 4] - omega * (c * motion[o + 1] + s * motion[o + 2])
-                )
-            elif family == 2:
-                o = MO.CAGE
-                value = -c * motion[o + 1] - s * motion[o + 2]
+        for family in range(SD.FAMILIES):
+            v = b if family == SD.FAMILY_BALLS else MO.PER_BODY * family
+            a = v + _RATE
+            if family == SD.FAMILY_BALLS:
+                value = sine * motion[v] + cosine * motion[v + 1]
+                rate = sine * motion[a] + cosine * (motion[a + 1] + omega * motion[v + 2])
+            elif family == SD.FAMILY_CAGE:
+                value = -c * motion[v + 1] - s * motion[v + 2]
                 rate = (
-                    -c * motion[o + 4] - s * motion[o + 5] + omega * (s * motion[o + 1] - c * motion[o + 2])
+                    -c * motion[a + 1] - s * motion[a + 2] + omega * (s * motion[v + 1] - c * motion[v + 2])
                 )
             else:
-                value = sine * motion[b] + cosine * motion[b + 1]
-                rate = sine * motion[b + 3] + cosine * (motion[b + 4] + omega * motion[b + 2])
+                value = sine * motion[v] + cosine * (c * motion[v + 2] - s * motion[v + 1])
+                rate = sine * motion[a] + cosine * (
+                    c * motion[a + 2] - s * motion[a + 1] - omega * (c * motion[v + 1] + s * motion[v + 2])
+                )
             q = family * wide
             fresh[q] += rate
             cm = 1.0

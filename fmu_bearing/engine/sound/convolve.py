@@ -13,7 +13,7 @@ The work of a block falls on its first sample: one sample in B costs up to about
 """
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import SD
+from fmu_bearing.engine.layout import FOUR, SD
 from fmu_bearing.engine.sound.transform import butterflies, fold, reversed_bits, unfold
 
 
@@ -29,13 +29,13 @@ def convolve(ps, ss, ws, place, count):
         at = banks + SD.BANK_SIZE * bank
         if ps[at + SD.BANK_TAPS] > 0.0:
             _direct(ps, ss, ws, at, place, out)
-    for level in range(int(ps[SD.H_LEVELS])):
-        at = int(ps[SD.H_AT_LEVELS]) + SD.LEVEL_SIZE * level
-        block = int(ps[at + SD.LEVEL_BLOCK])
+    for span in range(int(ps[SD.H_SPANS])):
+        at = int(ps[SD.H_AT_SPANS]) + SD.SPAN_SIZE * span
+        block = int(ps[at + SD.SPAN_BLOCK])
         step = count % block
         if step == 0 and count > 0:
             _renew(ps, ss, ws, at, place, count // block - 1)
-        future = int(ps[at + SD.LEVEL_S_FUTURE]) + step * n_out
+        future = int(ps[at + SD.SPAN_S_FUTURE]) + step * n_out
         row = ss[future : future + n_out]
         for i in range(n_out):
             out[i] += row[i]
@@ -55,13 +55,12 @@ def _direct(ps, ss, ws, at, place, out):
     row = place - int(ps[at + SD.BANK_DELAY])
     if row < 0:
         row += rows
-    taps = int(ps[at + SD.BANK_AT_TAPS])
+    h = int(ps[at + SD.BANK_AT_TAPS])
     lanes = int(ps[SD.H_W_LANES])
     y = ws[lanes : lanes + m]
     for c in range(m):
         y[c] = 0.0
-    for block in range(int(ps[at + SD.BANK_TAPS]) // 4):
-        i = 4 * block
+    for _ in range(int(ps[at + SD.BANK_TAPS]) // FOUR):
         p0 = first + row * n
         row = row - 1 if row > 0 else rows - 1  # a remainder would cost more than the sums
         p1 = first + row * n
@@ -74,16 +73,20 @@ def _direct(ps, ss, ws, at, place, out):
         x1 = ss[p1 : p1 + m]
         x2 = ss[p2 : p2 + m]
         x3 = ss[p3 : p3 + m]
-        h0 = ps[taps + i * m : taps + (i + 1) * m]
-        h1 = ps[taps + (i + 1) * m : taps + (i + 2) * m]
-        h2 = ps[taps + (i + 2) * m : taps + (i + 3) * m]
-        h3 = ps[taps + (i + 3) * m : taps + (i + 4) * m]
+        h0 = ps[h : h + m]
+        h += m
+        h1 = ps[h : h + m]
+        h += m
+        h2 = ps[h : h + m]
+        h += m
+        h3 = ps[h : h + m]
+        h += m
         for c in range(m):
             y[c] += (h0[c] * x0[c] + h1[c] * x1[c]) + (h2[c] * x2[c] + h3[c] * x3[c])
     run = int(ps[at + SD.BANK_AT_RUNS])
     c = 0
     for _ in range(int(ps[at + SD.BANK_RUNS])):
-        count = int(ps[run + 1])
+        count = int(ps[run + SD.RUN_COUNT])
         even = 0.0
         odd = 0.0
         for _ in range(count // 2):
@@ -93,8 +96,8 @@ def _direct(ps, ss, ws, at, place, out):
         if count % 2 == 1:
             even += y[c]
             c += 1
-        out[int(ps[run])] += even + odd
-        run += 2
+        out[int(ps[run + SD.RUN_OUTPUT])] += even + odd
+        run += SD.RUN_SIZE
 
 
 @kernel
@@ -103,14 +106,14 @@ def _renew(ps, ss, ws, at, place, newest):
 
     ``place`` is the history's row of the sample after that block.
     """
-    n = int(ps[at + SD.LEVEL_LANES])
+    n = int(ps[at + SD.SPAN_LANES])
     n_out = int(ps[SD.H_OUTPUTS])
-    block = int(ps[at + SD.LEVEL_BLOCK])
-    slots = int(ps[at + SD.LEVEL_SLOTS])
-    table = int(ps[at + SD.LEVEL_AT_TURNS])
+    block = int(ps[at + SD.SPAN_BLOCK])
+    slots = int(ps[at + SD.SPAN_SLOTS])
+    table = int(ps[at + SD.SPAN_AT_TURNS])
     turns = ps[table : table + 2 * (block + 1)]
     work = int(ps[SD.H_W_TRANSFORM])
-    spectra = int(ps[at + SD.LEVEL_S_SPECTRA])
+    spectra = int(ps[at + SD.SPAN_S_SPECTRA])
     rows = block + 1
     z = ws[work : work + 2 * block * n]
     x = ws[work + 2 * block * n : work + 2 * (block + rows) * n]
@@ -129,7 +132,7 @@ def _renew(ps, ss, ws, at, place, newest):
     z = ws[work + len(total) : work + len(total) + 2 * block * n_out]
     fold(total, n_out, block, turns, z)
     butterflies(z, n_out, block, turns, 1.0)
-    future = int(ps[at + SD.LEVEL_S_FUTURE])
+    future = int(ps[at + SD.SPAN_S_FUTURE])
     scale = 1.0 / block
     half = block // 2
     after = z[half * 2 * n_out :]  # the second half of the circle is free of wrapped samples
@@ -140,10 +143,10 @@ def _renew(ps, ss, ws, at, place, newest):
 
 @kernel
 def _gather(ps, ss, at, place, z):
-    """Copy the level's lanes of the last two blocks before row ``place`` to ``z``, in bit-reversed order."""
-    n = int(ps[at + SD.LEVEL_LANES])
-    block = int(ps[at + SD.LEVEL_BLOCK])
-    segments = int(ps[at + SD.LEVEL_AT_SEGMENTS])
+    """Copy the span's lanes of the last two blocks before row ``place`` to ``z``, in bit-reversed order."""
+    n = int(ps[at + SD.SPAN_LANES])
+    block = int(ps[at + SD.SPAN_BLOCK])
+    segments = int(ps[at + SD.SPAN_AT_SEGMENTS])
     channels = int(ps[SD.H_S_CHANNELS])
     width = int(ps[SD.H_CHANNELS])
     rows = int(ps[SD.H_ROWS])
@@ -153,9 +156,10 @@ def _gather(ps, ss, at, place, z):
     for k in range(block):
         to = reversed_bits(k, block) * 2 * n
         for _ in range(2):
-            for segment in range(int(ps[at + SD.LEVEL_SEGMENTS])):
-                lane = channels + row * width + int(ps[segments + 2 * segment])
-                count = int(ps[segments + 2 * segment + 1])
+            for segment in range(int(ps[at + SD.SPAN_SEGMENTS])):
+                run = segments + SD.SEGMENT_SIZE * segment
+                lane = channels + row * width + int(ps[run + SD.SEGMENT_LANE])
+                count = int(ps[run + SD.SEGMENT_COUNT])
                 x = ss[lane : lane + count]
                 y = z[to : to + count]
                 for c in range(count):
@@ -166,16 +170,16 @@ def _gather(ps, ss, at, place, z):
 
 @kernel
 def _multiply(ps, ss, ws, at, newest, total):
-    """Write the outputs' spectra ``total``: the sums over all filters of the level at ``ps[at]``.
+    """Write the outputs' spectra ``total``: the sums over all filters of the span at ``ps[at]``.
 
     ``newest`` is the slot of the block that has just been transformed. Slots not yet filled are silent.
     """
-    block = int(ps[at + SD.LEVEL_BLOCK])
-    slots = int(ps[at + SD.LEVEL_SLOTS])
+    block = int(ps[at + SD.SPAN_BLOCK])
+    slots = int(ps[at + SD.SPAN_SLOTS])
     n_out = int(ps[SD.H_OUTPUTS])
-    n_filters = int(ps[at + SD.LEVEL_FILTERS])
+    n_filters = int(ps[at + SD.SPAN_FILTERS])
     rows = block + 1
-    row = int(ps[at + SD.LEVEL_AT_FILTERS])
+    row = int(ps[at + SD.SPAN_AT_FILTERS])
     y = ws[int(ps[SD.H_W_LANES]) : int(ps[SD.H_W_LANES]) + 2 * SD.MAX_FREQUENCIES]
     left = n_filters
     for output in range(n_out):
@@ -183,7 +187,7 @@ def _multiply(ps, ss, ws, at, newest, total):
             y[k] = 0.0
             y[SD.MAX_FREQUENCIES + k] = 0.0
         while left > 0 and int(ps[row + SD.FILTER_OUTPUT]) == output:
-            spectra = int(ps[at + SD.LEVEL_S_SPECTRA]) + 2 * rows * slots * int(ps[row + SD.FILTER_LANE])
+            spectra = int(ps[at + SD.SPAN_S_SPECTRA]) + 2 * rows * slots * int(ps[row + SD.FILTER_LANE])
             slot = newest + 1 - int(ps[row + SD.FILTER_FIRST])
             if slot < 0:
                 slot += slots
@@ -212,11 +216,12 @@ def _add_parts(ps, ss, y, row, spectra, slot, slots, rows):
         xi = ss[p0 + rows : p0 + 2 * rows]
         hr = ps[h : h + rows]
         hi = ps[h + rows : h + 2 * rows]
+        h += 2 * rows
         vr = ss[p1 : p1 + rows]
         vi = ss[p1 + rows : p1 + 2 * rows]
-        gr = ps[h + 2 * rows : h + 3 * rows]
-        gi = ps[h + 3 * rows : h + 4 * rows]
-        h += 4 * rows
+        gr = ps[h : h + rows]
+        gi = ps[h + rows : h + 2 * rows]
+        h += 2 * rows
         for k in range(rows):
             y[k] += (hr[k] * xr[k] - hi[k] * xi[k]) + (gr[k] * vr[k] - gi[k] * vi[k])
             y[SD.MAX_FREQUENCIES + k] += (hr[k] * xi[k] + hi[k] * xr[k]) + (gr[k] * vi[k] + gi[k] * vr[k])

@@ -1,8 +1,9 @@
 """Sound level meters: one per microphone, moved by one pressure sample at a time.
 
-Rung paper: components and their sources add as energies (multi-source paper, eqs. 43 and 46), only the
-instantaneous pressure, and with it the third octaves, is a plain sum. Other rungs: everything adds as
-pressures, and levels are of the sum; the energy sum over the components is metered beside it.
+Form scalars (radiation model ``paper``): components and their sources add as energies (multi-source paper,
+eqs. 43 and 46), only the instantaneous pressure, and with it the third octaves, is a plain sum. Other forms:
+everything adds as pressures, and levels are of the sum; the energy sum over the components is metered beside
+it.
 
 Exponential averages are divided by the sum of their weights since metering began, so that a steady sound
 reads its level at once instead of climbing to it.
@@ -10,11 +11,12 @@ reads its level at once instead of climbing to it.
 
 import math
 
+from fmu_bearing.engine.choices import SCALARS
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SD, Z
 from fmu_bearing.engine.sound import thirds
+from fmu_bearing.engine.sound.section import filter_section
 
-_N_OUT = len(Z.MIC_OUTPUTS)
 _FLOOR = 1e-20  # Pa^2
 _REFERENCE = 4e-10  # Pa^2
 _FAST = 1.0 - math.exp(-1.0 / (SD.RATE * 0.125))  # time constants of IEC 61672-1
@@ -34,7 +36,7 @@ def update(ps, ss, ws, time_weighting, metering_start):
     for i in range(size):
         squares[i] = 0.0
     meters = ss[int(ps[SD.H_S_METERS]) : int(ps[SD.H_S_METERS]) + size]
-    if int(ps[SD.H_RUNG]) == SD.RUNG_PAPER:
+    if int(ps[SD.H_FORM]) == SCALARS:
         _energies(ps, ss, ws, squares, n)
     else:
         _pressures(ps, ss, ws, squares, n)
@@ -97,11 +99,11 @@ def _pressures(ps, ss, ws, squares, n):
             for i in range(mics):
                 part[i] += w[i] * value
     total = squares[0:n]
-    table = int(ps[SD.H_AT_SOURCES])
     for source in range(n_sources):
+        at = int(ps[SD.H_AT_SOURCES]) + SD.SOURCE_SIZE * source
         part = parts[source * n : (source + 1) * n]
-        component = (SD.M_PART + int(ps[table + 2 * source])) * n
-        kind = (SD.M_KIND + int(ps[table + 2 * source + 1])) * n
+        component = (SD.M_PART + int(ps[at + SD.SOURCE_COMPONENT])) * n
+        kind = (SD.M_KIND + int(ps[at + SD.SOURCE_KIND])) * n
         whole = squares[component : component + n]
         for i in range(n):
             total[i] += part[i]
@@ -142,9 +144,9 @@ def _energies(ps, ss, ws, squares, n):
         mics = int(ps[g + SD.GROUP_MICS])
         weights = int(ps[g + SD.GROUP_AT_WEIGHTS])
         for o in range(int(ps[g + SD.GROUP_COUNT])):
-            source = int(ps[sources + first + o])
-            component = (SD.M_PART + int(ps[table + 2 * source])) * n + lane
-            kind = (SD.M_KIND + int(ps[table + 2 * source + 1])) * n + lane
+            at = table + SD.SOURCE_SIZE * int(ps[sources + first + o])
+            component = (SD.M_PART + int(ps[at + SD.SOURCE_COMPONENT])) * n + lane
+            kind = (SD.M_KIND + int(ps[at + SD.SOURCE_KIND])) * n + lane
             for i in range(mics):
                 w = ps[weights + o * mics + i]
                 value = w * ws[out_at + first + o]
@@ -174,21 +176,10 @@ def _sum_components(squares, n):
 @kernel
 def _a_weight(ps, ss, x, n):
     """A-weight the ``n`` signals ``x`` in place, lanes side by side."""
-    for section in range(3):
-        at = int(ps[SD.H_AT_A_WEIGHTING]) + 5 * section
-        b0 = ps[at]
-        b1 = ps[at + 1]
-        b2 = ps[at + 2]
-        a1 = ps[at + 3]
-        a2 = ps[at + 4]
-        state = int(ps[SD.H_S_A_WEIGHTING]) + 2 * n * section
-        s1 = ss[state : state + n]
-        s2 = ss[state + n : state + 2 * n]
-        for c in range(n):
-            value = b0 * x[c] + s1[c]
-            s1[c] = b1 * x[c] - a1 * value + s2[c]
-            s2[c] = b2 * x[c] - a2 * value
-            x[c] = value
+    for section in range(SD.A_SECTIONS):
+        at = int(ps[SD.H_AT_A_WEIGHTING]) + SD.SECTION * section
+        state = int(ps[SD.H_S_A_WEIGHTING]) + SD.SECTION_STATES * n * section
+        filter_section(ps, at, ss, state, x, n)
 
 
 @kernel
@@ -218,7 +209,7 @@ def levels(ps, ss, z, offset):
     bands = int(ps[SD.H_BANDS])
     for mic in range(n):
         lane = int(ps[int(ps[SD.H_AT_ORDER]) + mic])
-        out = offset + _N_OUT * mic
+        out = offset + Z.PER_MIC * mic
         z[out + SD.M_PRESSURE] = ss[meters + lane]
         for row in range(1, SD.METERS):
             by = weight
@@ -229,7 +220,7 @@ def levels(ps, ss, z, offset):
             elif row == SD.M_SLOW or row == SD.M_SLOW_A:
                 by = slow
             z[out + row] = _decibel(ss[meters + row * n + lane] / by if row < kept else 0.0)
-        mean = int(ps[SD.H_S_BANDS]) + thirds.SIZE * lane + thirds.MEAN
-        first = offset + _N_OUT * n + bands * mic
+        mean = int(ps[SD.H_S_BANDS]) + SD.BAND_SIZE * lane + SD.BAND_MEAN
+        first = offset + Z.PER_MIC * n + bands * mic
         for k in range(bands):
             z[first + k] = _decibel(ss[mean + k] / fast)

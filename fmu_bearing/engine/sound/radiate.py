@@ -5,10 +5,12 @@ comes out of the decimator, passes the microphones' low-frequency limit, enters 
 all filters and moves the meters. State depends on the samples alone, never on how steps are cut.
 """
 
+from fmu_bearing.engine.choices import CONTACTS, SCALARS
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import SD
+from fmu_bearing.engine.layout import FOUR, SD
 from fmu_bearing.engine.sound import channels, meter
 from fmu_bearing.engine.sound.convolve import convolve
+from fmu_bearing.engine.sound.section import filter_section
 
 __all__ = ["push", "reset"]
 
@@ -24,7 +26,7 @@ def reset(ss):
 
 @kernel
 def push(ps, ss, ws, motion, time_weighting, metering_start):
-    """Take one motion sample (layout ``MO_*``) and update filters and meters.
+    """Take one motion sample (see `layout.motion`) and update filters and meters.
 
     ``time_weighting`` is the meters' time constant in s, ``metering_start`` the time in s from the first
     sample on at which they begin. The first sample is taken to have lasted for ever, so that constant
@@ -35,10 +37,10 @@ def push(ps, ss, ws, motion, time_weighting, metering_start):
     history = SD.SS_TABLES
     row = raw & _WRAP
     fresh = ss[history + row * n : history + (row + 1) * n]
-    rung = int(ps[SD.H_RUNG])
-    if rung == SD.RUNG_PAPER:
+    form = int(ps[SD.H_FORM])
+    if form == SCALARS:
         channels.scalars(ps, motion, fresh)
-    elif rung == SD.RUNG_CONTACTS:
+    elif form == CONTACTS:
         channels.contacts(ps, motion, fresh)
     else:
         channels.accelerations(ps, ws, motion, fresh)
@@ -72,8 +74,8 @@ def _settle(ps, ss, fresh, history, high_pass, n):
     # A high-pass puts out zero at rest: its first state then cancels b0 x, its second b0 x + b1 x.
     for c in range(n):
         x = gain * fresh[c]
-        ss[high_pass + c] = -ps[at] * x
-        ss[high_pass + n + c] = ps[at + 2] * x
+        ss[high_pass + c] = -ps[at + SD.B0] * x
+        ss[high_pass + n + c] = ps[at + SD.B2] * x
 
 
 @kernel
@@ -83,20 +85,21 @@ def _decimate(ps, ss, ws, history, row, n):
     out = ws[0:n]
     for c in range(n):
         out[c] = 0.0
-    for block in range(SD.DECIMATOR_TAPS // 4):
-        i = 4 * block
+    for block in range(SD.DECIMATOR_TAPS // FOUR):
+        i = FOUR * block
+        k = i + 2
         p0 = history + ((row - i) & _WRAP) * n
         p1 = history + ((row - i - 1) & _WRAP) * n
-        p2 = history + ((row - i - 2) & _WRAP) * n
-        p3 = history + ((row - i - 3) & _WRAP) * n
+        p2 = history + ((row - k) & _WRAP) * n
+        p3 = history + ((row - k - 1) & _WRAP) * n
         x0 = ss[p0 : p0 + n]
         x1 = ss[p1 : p1 + n]
         x2 = ss[p2 : p2 + n]
         x3 = ss[p3 : p3 + n]
         g0 = ps[at + i]
         g1 = ps[at + i + 1]
-        g2 = ps[at + i + 2]
-        g3 = ps[at + i + 3]
+        g2 = ps[at + k]
+        g3 = ps[at + k + 1]
         for c in range(n):
             out[c] += (g0 * x0[c] + g1 * x1[c]) + (g2 * x2[c] + g3 * x3[c])
 
@@ -108,20 +111,9 @@ def _high_pass(ps, ss, ws, state, place, n):
     The channels stand in the first ``n`` places of ``ws``.
     """
     at = int(ps[SD.H_AT_HIGH_PASS])
-    b0 = ps[at]
-    b1 = ps[at + 1]
-    b2 = ps[at + 2]
-    a1 = ps[at + 3]
-    a2 = ps[at + 4]
     x = ws[0:n]
-    s1 = ss[state : state + n]
-    s2 = ss[state + n : state + 2 * n]
+    filter_section(ps, at, ss, state, x, n)
     y = ss[place : place + n]
-    for c in range(n):
-        value = b0 * x[c] + s1[c]
-        s1[c] = b1 * x[c] - a1 * value + s2[c]
-        s2[c] = b2 * x[c] - a2 * value
-        x[c] = value
     lanes = int(ps[SD.H_AT_LANES])
     for c in range(n):
         y[int(ps[lanes + c])] = x[c]

@@ -3,11 +3,9 @@
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SD
 
-SECTIONS = 4
-# Per microphone: two states of each section, then the running mean square; all BAND_LANES wide.
-MEAN = 2 * SECTIONS * SD.BAND_LANES
-SIZE = MEAN + SD.BAND_LANES
 _L = SD.BAND_LANES
+_NUMBERS = SD.SECTION * _L  # of one section, all bands side by side
+_STATES = SD.SECTION_STATES * _L
 
 
 @kernel
@@ -16,26 +14,27 @@ def update(ps, ss, ws, pressures, fraction):
     scratch = int(ps[SD.H_W_TRANSFORM])
     x = ws[scratch : scratch + _L]
     for mic in range(int(ps[SD.H_MICS])):
-        at = int(ps[SD.H_S_BANDS]) + SIZE * mic
+        at = int(ps[SD.H_S_BANDS]) + SD.BAND_SIZE * mic
         pressure = ws[pressures + mic]
         for i in range(_L):
             x[i] = pressure
-        for section in range(SECTIONS):
-            q = int(ps[SD.H_AT_BANDS]) + 5 * _L * section
-            _section(ps[q : q + 5 * _L], ss[at + 2 * _L * section : at + 2 * _L * (section + 1)], x)
-        mean = ss[at + MEAN : at + SIZE]
+        for section in range(SD.BAND_SECTIONS):
+            q = int(ps[SD.H_AT_BANDS]) + _NUMBERS * section
+            state = at + SD.BAND_STATE + _STATES * section
+            _section(ps[q : q + _NUMBERS], ss[state : state + _STATES], x)
+        mean = ss[at + SD.BAND_MEAN : at + SD.BAND_SIZE]
         for i in range(_L):
             mean[i] += fraction * (x[i] * x[i] - mean[i])
 
 
 @kernel
 def _section(k, s, x):
-    """One section of every band, in place; rows of ``k`` are b0, b1, b2, a1, a2.
+    """One section of every band, in place; rows of ``k`` as in `SD.SECTION`.
 
     One slice each for numbers and states, with constant rows: only so is the loop a vector loop.
     """
     for i in range(_L):
-        y = k[i] * x[i] + s[i]
-        s[i] = k[_L + i] * x[i] - k[3 * _L + i] * y + s[_L + i]
-        s[_L + i] = k[2 * _L + i] * x[i] - k[4 * _L + i] * y
+        y = k[SD.B0 * _L + i] * x[i] + s[i]
+        s[i] = k[SD.B1 * _L + i] * x[i] - k[SD.A1 * _L + i] * y + s[_L + i]
+        s[_L + i] = k[SD.B2 * _L + i] * x[i] - k[SD.A2 * _L + i] * y
         x[i] = y

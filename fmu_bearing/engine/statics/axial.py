@@ -1,11 +1,11 @@
 """Equilibrium of equal balls under axial load alone: one unknown, no work space.
 
-The same balls as in ``quasistatic``; for those who need the axial curve many times over.
+The same balls as in ``quasistatic``, for rigid preload, which needs the axial curve many times over.
 """
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import C, P
-from fmu_bearing.engine.statics.ball_balance import ball_equilibrium, ball_state
+from fmu_bearing.engine.layout import ST, C, P
+from fmu_bearing.engine.statics.ball_balance import Pose, ball_equilibrium, ball_state
 from fmu_bearing.engine.statics.stiffness import series_stiffness
 from fmu_bearing.engine.status import NO_START, OK
 
@@ -14,8 +14,8 @@ _ROUNDS = 100
 
 @kernel
 def upright(shift):
-    """Pose (see ``ball_balance``) of every ball for two upright rings ``shift`` (m) apart."""
-    return shift, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0
+    """`Pose` of every ball for two upright rings ``shift`` (m) apart."""
+    return Pose(shift, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0)
 
 
 @kernel
@@ -23,16 +23,17 @@ def axial_force(p, c, speed, shift, x, r):
     """Axial force (N) by which all balls hold the inner ring at ``shift``; the ball's place and residual."""
     pose = upright(shift)
     x, r, size = ball_equilibrium(p, c, speed, pose, x, r)
-    state = ball_state(p, c, speed, pose, x, r)
-    return -p[P.BALLS] * (state[5] * state[6] - state[17] * state[11]), x, r, size
+    ball = ball_state(p, c, speed, pose, x, r)
+    force = ball.load_inner * ball.inner_ex - ball.friction_inner * ball.cosine_inner
+    return -p[P.BALLS] * force, x, r, size
 
 
 @kernel
 def quasistatic(p, c, speed, out):
     """Equilibrium under the axial preload at ``speed`` (rad/s); status code.
 
-    ``out``: inner ring's axial displacement against the outer (m), ball x and r (m), orbit speed, spin x and
-    r (rad/s), residual of a ball (N). Bracketing and bisection-safe secant steps: bounded work.
+    ``out``: places ``ST.AXIAL_SHIFT`` to ``ST.AXIAL_RESIDUAL``. Bracketing and bisection-safe secant steps:
+    bounded work.
     """
     target = c[C.PRELOAD]
     low = -2e-5
@@ -68,14 +69,14 @@ def quasistatic(p, c, speed, out):
                 above = here
             if abs(here) < 1e-9 * (1.0 + target) or high - low < 1e-18:
                 break
-    state = ball_state(p, c, speed, upright(shift), x, r)
-    out[0] = shift
-    out[1] = x
-    out[2] = r
-    out[3] = state[14]
-    out[4] = state[15]
-    out[5] = state[16]
-    out[6] = size
+    ball = ball_state(p, c, speed, upright(shift), x, r)
+    out[ST.AXIAL_SHIFT] = shift
+    out[ST.AXIAL_X] = x
+    out[ST.AXIAL_R] = r
+    out[ST.AXIAL_OM] = ball.orbit
+    out[ST.AXIAL_WX] = ball.wx
+    out[ST.AXIAL_WR] = ball.wr
+    out[ST.AXIAL_RESIDUAL] = size
     return OK if abs(here) <= 1e-4 * (1.0 + target) and size < 1e-3 else NO_START
 
 
@@ -86,15 +87,17 @@ def stiffness_matrix(p, c, out):
     Returns axial, radial (N/m), tilt (N m/rad) and the radial-tilt coupling (N), each with the other
     motions held, in closed form for equal balls.
     """
-    radius = p[P.PITCH_RADIUS] + out[2]
-    xi = out[1] - out[0] - c[C.RACES]
-    ri = radius - c[C.RACES + 1]
-    xo = out[1] - c[C.RACES + C.RACE_SIZE]
-    ro = radius - c[C.RACES + C.RACE_SIZE + 1]
+    inner = C.RACES
+    outer = C.RACES + C.RACE_SIZE
+    radius = p[P.PITCH_RADIUS] + out[ST.AXIAL_R]
+    xi = out[ST.AXIAL_X] - out[ST.AXIAL_SHIFT] - c[inner + C.GROOVE_X]
+    ri = radius - c[inner + C.GROOVE_RADIUS]
+    xo = out[ST.AXIAL_X] - c[outer + C.GROOVE_X]
+    ro = radius - c[outer + C.GROOVE_RADIUS]
     kxx, kxr, krr = series_stiffness(p, c, xi, ri, xo, ro)
     # a tilt b about the tangent moves the groove centre by (-b R_c, b x_c)
-    gx = -c[C.RACES + 1]
-    gr = c[C.RACES]
+    gx = -c[inner + C.GROOVE_RADIUS]
+    gr = c[inner + C.GROOVE_X]
     half = 0.5 * p[P.BALLS]
     tilt = half * (kxx * gx * gx + 2.0 * kxr * gx * gr + krr * gr * gr)
     coupling = half * (kxr * gx + krr * gr)

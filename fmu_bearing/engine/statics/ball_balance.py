@@ -1,15 +1,15 @@
 """One ball between two displaced rings: contacts, rolling, gyroscopic friction, and its place.
 
 The ball may move along x and radially; its angle round the bearing is held. Vectors stand in the ball's
-axes (x, r, theta). ``pose`` holds eleven numbers: the inner ring's centre, its axis and the outer ring's
-axis, all in the ball's axes, the outer ring's centre at the origin; then by how much (m) the ball's
-oversize and the race's waviness deepen the approach, inside and outside.
+axes (x, r, theta), the outer ring's centre at the origin.
 """
 
 import math
+from typing import NamedTuple
 
+from fmu_bearing.engine.choices import INNER_CONTROL, OUTER_CONTROL, SHARED_CONTROL
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import C, P
+from fmu_bearing.engine.layout import C, P, Q
 from fmu_bearing.engine.mechanics.pose import axis_cosine
 
 _ITERATIONS = 60
@@ -20,31 +20,101 @@ _LONGEST = 8e-6
 _LEAST_ARM = 0.05
 
 
+class Pose(NamedTuple):
+    """Both rings as a ball sees them: inner ring's centre (m), both axes.
+
+    ``deeper``: by how much (m) the ball's oversize and the race's waviness deepen the approach.
+    """
+
+    x: float
+    r: float
+    t: float
+    inner_nx: float
+    inner_nr: float
+    inner_nt: float
+    outer_nx: float
+    outer_nr: float
+    outer_nt: float
+    deeper_inner: float
+    deeper_outer: float
+
+
+class Seat(NamedTuple):
+    """Load (N) and geometry of the contact with one race.
+
+    ``stiffness``: normal (N/m); ``distance``, ``rho``: of the ball from groove centre and axis (m);
+    ``e``: unit vector from the ball into the race; ``m``: along the major axis; ``cosine``: of the angle
+    between ``e`` and the direction away from the ring's axis.
+    """
+
+    load: float
+    stiffness: float
+    distance: float
+    rho: float
+    ex: float
+    er: float
+    et: float
+    mx: float
+    mr: float
+    mt: float
+    cosine: float
+
+
+class Ball(NamedTuple):
+    """Forces on a ball at one place and all that follows from the place.
+
+    Net force (N) and its in-plane stiffness (N/m); loads (N) and the unit vectors ``e`` of `Seat`; sines and
+    cosines of the contact angles; orbit speed and spin (rad/s); friction (N) that carries the gyroscopic
+    moment.
+    """
+
+    fx: float
+    fr: float
+    kxx: float
+    kxr: float
+    krr: float
+    load_inner: float
+    inner_ex: float
+    inner_er: float
+    inner_et: float
+    load_outer: float
+    outer_ex: float
+    outer_er: float
+    outer_et: float
+    sine_inner: float
+    cosine_inner: float
+    sine_outer: float
+    cosine_outer: float
+    orbit: float
+    wx: float
+    wr: float
+    friction_inner: float
+    friction_outer: float
+
+
 @kernel
-def poses(c, s, ring, offset, deeper_i, deeper_o):
-    """Eleven numbers ``pose`` of a ball at the angle of (cos, sin) = (c, s).
+def pose_at(c, s, ring, offset, deeper_inner, deeper_outer):
+    """`Pose` of a ball at the angle of (cos, sin) = (c, s).
 
     ``ring``: x y z by bz of the inner ring against the outer (m, rad); ``offset``: outer ring's tilts (rad).
     """
-    by = ring[3] + offset[0]
-    bz = ring[4] + offset[1]
+    by = ring[Q.INNER_BY] + offset[0]
+    bz = ring[Q.INNER_BZ] + offset[1]
     oy = offset[0]
     oz = offset[1]
-    return (
-        ring[0], c * ring[2] - s * ring[1], -c * ring[1] - s * ring[2],
+    return Pose(
+        ring[Q.X], c * ring[Q.Z] - s * ring[Q.Y], -c * ring[Q.Y] - s * ring[Q.Z],
         axis_cosine(by, bz), -s * bz - c * by, -c * bz + s * by,
         axis_cosine(oy, oz), -s * oz - c * oy, -c * oz + s * oy,
-        deeper_i, deeper_o,
+        deeper_inner, deeper_outer,
     )  # fmt: skip
 
 
 @kernel
-def seat(p, c, race, extra, qx, qr, qt, nx, nr, nt):
-    """Load and geometry of the contact with one race, exact for a torus and a sphere.
+def seat(p, c, race, deeper, qx, qr, qt, nx, nr, nt):
+    """`Seat` of a ball in one race, exact for a torus and a sphere.
 
-    ``q``: ball's centre from the ring's (m), ``n``: ring's axis, ``extra``: see above
-    (m). Returns load (N), normal stiffness (N/m), distances from groove centre and axis (m), the unit
-    vectors e (from the ball into the race) and m (along the major axis), and the cosine towards the axis.
+    ``q``: ball's centre from the ring's (m), ``n``: ring's axis, ``deeper``: see `Pose` (m).
     """
     held = C.RACES + race * C.RACE_SIZE
     hertz = p[P.RACES + race * P.RACE_SIZE + P.RACE_STIFFNESS]
@@ -56,14 +126,14 @@ def seat(p, c, race, extra, qx, qr, qt, nx, nr, nt):
     hx /= rho
     hr /= rho
     ht /= rho
-    sx = axial - c[held]
-    sr = rho - c[held + 1]
+    sx = axial - c[held + C.GROOVE_X]
+    sr = rho - c[held + C.GROOVE_RADIUS]
     distance = math.sqrt(sx * sx + sr * sr)
     sine = sx / distance
     cosine = sr / distance
-    approach = max(distance - c[held + 2] + extra, 0.0)
+    approach = max(distance - c[held + C.FREE] + deeper, 0.0)
     root = math.sqrt(approach)
-    return (
+    return Seat(
         hertz * approach * root, 1.5 * hertz * root, distance, rho,
         sine * nx + cosine * hx, sine * nr + cosine * hr, sine * nt + cosine * ht,
         cosine * nx - sine * hx, cosine * nr - sine * hr, cosine * nt - sine * ht,
@@ -72,17 +142,32 @@ def seat(p, c, race, extra, qx, qr, qt, nx, nr, nt):
 
 
 @kernel
+def inner_seat(p, c, pose, x, radius):
+    """`Seat` in the inner race of a ball at ``x`` and ``radius`` from the outer ring's centre (m)."""
+    return seat(
+        p, c, 0, pose.deeper_inner, x - pose.x, radius - pose.r, -pose.t,
+        pose.inner_nx, pose.inner_nr, pose.inner_nt,
+    )  # fmt: skip
+
+
+@kernel
+def outer_seat(p, c, pose, x, radius):
+    """`Seat` of the same ball in the outer race."""
+    return seat(p, c, 1, pose.deeper_outer, x, radius, 0.0, pose.outer_nx, pose.outer_nr, pose.outer_nt)
+
+
+@kernel
 def rolling_kinematics(ball, control, speed, sin_i, cos_i, sin_o, cos_o, radius):
     """Orbit and spin (rad/s) of a ball that rolls without slip at the middle of both contacts.
 
-    ``control``: 0 spin axis halfway between the contact angles; 1 no spinning on the outer race, 2 none on
-    the inner one (Harris 2006, ch. 5: tan b = sin a / (cos a +- D / (2 r))). Returns orbit speed, absolute
-    spin about x and r, and what the gyroscopic moment needs: orbit speed times spin about r.
+    ``control`` (see ``choices.RACE_CONTROLS``): shared, the spin axis halfway between the contact angles; no
+    spinning on the outer race; or none on the inner one (Harris 2006, ch. 5: tan b = sin a / (cos a +-
+    D / (2 r))). Returns orbit speed, absolute spin about x and about r.
     """
-    if control == 1.0:
+    if control == OUTER_CONTROL:
         sb = sin_o
         cb = cos_o + ball / radius
-    elif control == 2.0:
+    elif control == INNER_CONTROL:
         sb = sin_i
         cb = cos_i - ball / radius
     else:
@@ -103,7 +188,7 @@ def rolling_kinematics(ball, control, speed, sin_i, cos_i, sin_o, cos_o, radius)
 
 
 @kernel
-def friction(p, c, orbit, spin, load_i, load_o):
+def friction(p, c, orbit, spin, load_inner, load_outer):
     """Friction (N) at inner and outer contact that carries the gyroscopic moment, bounded by traction.
 
     Shared equally, or all at the race in control. ``spin``: about r (rad/s).
@@ -112,57 +197,60 @@ def friction(p, c, orbit, spin, load_i, load_o):
         return 0.0, 0.0
     control = p[P.RACE_CONTROL]
     force = p[P.BALL_INERTIA] * orbit * spin / c[C.BALL_RADIUS]
-    bound = load_o if control == 1.0 else load_i
-    if control == 0.0:
+    bound = load_outer if control == OUTER_CONTROL else load_inner
+    if control == SHARED_CONTROL:
         force *= 0.5
-        bound = min(load_i, load_o)
+        bound = min(load_inner, load_outer)
     bound *= p[P.MU]
     force = min(max(force, -bound), bound)
-    return (0.0 if control == 1.0 else force), (0.0 if control == 2.0 else force)
+    return (0.0 if control == OUTER_CONTROL else force), (0.0 if control == INNER_CONTROL else force)
 
 
 @kernel
 def ball_state(p, c, speed, pose, x, r):
-    """Return the forces on a ball at (x, r) and all that follows from its place.
-
-    Net force (x, r), its in-plane stiffness xx, xr, rr, inner load and direction e (3), outer load, sines
-    and cosines of inner and outer contact angle, orbit, spin x and r, inner friction, outer e (3).
-    """
+    """`Ball` at (x, r) (m) between the rings at ``pose``; ``speed`` of the inner one (rad/s)."""
     radius = p[P.PITCH_RADIUS] + r
-    qi, ki, di, _, ex, er, et, _, _, _, _ = seat(
-        p, c, 0, pose[9], x - pose[0], radius - pose[1], -pose[2], pose[3], pose[4], pose[5]
-    )
-    qo, ko, do, _, ox, o_r, o_t, _, _, _, _ = seat(
-        p, c, 1, pose[10], x, radius, 0.0, pose[6], pose[7], pose[8]
-    )
-    plane_i = -1.0 / math.sqrt(ex * ex + er * er)
-    plane_o = 1.0 / math.sqrt(ox * ox + o_r * o_r)
-    si = ex * plane_i
-    ci = er * plane_i
-    so = ox * plane_o
-    co = o_r * plane_o
+    inner = inner_seat(p, c, pose, x, radius)
+    outer = outer_seat(p, c, pose, x, radius)
+    qi = inner.load
+    qo = outer.load
+    plane_i = -1.0 / math.sqrt(inner.ex * inner.ex + inner.er * inner.er)
+    plane_o = 1.0 / math.sqrt(outer.ex * outer.ex + outer.er * outer.er)
+    si = inner.ex * plane_i
+    ci = inner.er * plane_i
+    so = outer.ex * plane_o
+    co = outer.er * plane_o
     orbit, wx, wr = rolling_kinematics(c[C.BALL_RADIUS], p[P.RACE_CONTROL], speed, si, ci, so, co, radius)
     pi, po = friction(p, c, orbit, wr, qi, qo)
-    fx = -qi * ex - qo * ox + pi * ci - po * co
-    fr = -qi * er - qo * o_r - pi * si + po * so + p[P.BALL_MASS] * radius * orbit * orbit
-    ti = qi / di
-    to = qo / do
+    fx = -qi * inner.ex - qo * outer.ex + pi * ci - po * co
+    fr = -qi * inner.er - qo * outer.er - pi * si + po * so + p[P.BALL_MASS] * radius * orbit * orbit
+    ki = inner.stiffness
+    ko = outer.stiffness
+    ti = qi / inner.distance
+    to = qo / outer.distance
     kxx = ki * si * si + ti * ci * ci + ko * so * so + to * co * co
     kxr = (ki - ti) * si * ci + (ko - to) * so * co
     krr = ki * ci * ci + ti * si * si + ko * co * co + to * so * so
-    return fx, fr, kxx, kxr, krr, qi, ex, er, et, qo, si, ci, so, co, orbit, wx, wr, pi, ox, o_r, o_t
+    return Ball(
+        fx, fr, kxx, kxr, krr,
+        qi, inner.ex, inner.er, inner.et, qo, outer.ex, outer.er, outer.et,
+        si, ci, so, co, orbit, wx, wr, pi, po,
+    )  # fmt: skip
 
 
 @kernel
 def thrown_out(p, c, pose, orbit):
     """Place (x, r) where a ball that only the outer race holds is balanced by the centrifugal force."""
     held = C.RACES + C.RACE_SIZE
+    groove_x = c[held + C.GROOVE_X]
+    groove_radius = c[held + C.GROOVE_RADIUS]
     pitch = p[P.PITCH_RADIUS]
     force = p[P.BALL_MASS] * pitch * orbit * orbit
     press = force / p[P.RACES + P.RACE_SIZE + P.RACE_STIFFNESS]
-    radius = c[held + 1] + c[held + 2] - pose[10] + math.exp(2.0 / 3.0 * math.log(press + 1e-30))
+    approach = math.exp(2.0 / 3.0 * math.log(press + 1e-30))
+    radius = groove_radius + c[held + C.FREE] - pose.deeper_outer + approach
     # a tilted ring's groove circle stands beside that of the upright one
-    return c[held] - c[held + 1] * pose[7], radius - pitch + c[held] * pose[7]
+    return groove_x - groove_radius * pose.outer_nr, radius - pitch + groove_x * pose.outer_nr
 
 
 @kernel
@@ -174,25 +262,26 @@ def ball_equilibrium(p, c, speed, pose, x, r):
     """
     thrown = False
     size = 0.0
-    fx, fr, kxx, kxr, krr, qi, _, _, _, qo, _, _, _, _, orbit, _, _, _, _, _, _ = ball_state(
-        p, c, speed, pose, x, r
-    )
+    here = ball_state(p, c, speed, pose, x, r)
     for _ in range(_ITERATIONS):
+        fx = here.fx
+        fr = here.fr
         size = math.sqrt(fx * fx + fr * fr)
-        if size <= 1e-11 + 2e-12 * (qi + qo):
+        if size <= 1e-11 + 2e-12 * (here.load_inner + here.load_outer):
             break
-        if qi == 0.0 and not thrown:
+        if here.load_inner == 0.0 and not thrown:
             thrown = True
-            tx, tr = thrown_out(p, c, pose, orbit)
-            gx, gr, gxx, gxr, grr, gi, _, _, _, go, _, _, _, _, orbit, _, _, _, _, _, _ = ball_state(
-                p, c, speed, pose, tx, tr
-            )
-            if gi == 0.0:
-                x, r, fx, fr, kxx, kxr, krr, qo = tx, tr, gx, gr, gxx, gxr, grr, go
+            tx, tr = thrown_out(p, c, pose, here.orbit)
+            there = ball_state(p, c, speed, pose, tx, tr)
+            if there.load_inner == 0.0:
+                x = tx
+                r = tr
+                here = there
                 continue
         # a floor far below any contact's stiffness for a ball that nothing holds
-        kxx += 1e-3
-        krr += 1e-3
+        kxx = here.kxx + 1e-3
+        kxr = here.kxr
+        krr = here.krr + 1e-3
         det = kxx * krr - kxr * kxr
         dx = (fx * krr - fr * kxr) / det
         dr = (fr * kxx - fx * kxr) / det
@@ -200,17 +289,17 @@ def ball_equilibrium(p, c, speed, pose, x, r):
         share = min(1.0, _LONGEST / (length + 1e-300))
         ahead = fx * dx + fr * dr
         for n in range(_BACKTRACKS):
-            gx, gr, kxx, kxr, krr, qi, _, _, _, qo, _, _, _, _, orbit, _, _, _, _, _, _ = ball_state(
-                p, c, speed, pose, x + share * dx, r + share * dr
-            )
-            after = gx * dx + gr * dr
-            if after >= -0.9 * ahead or gx * gx + gr * gr < 0.25 * size * size or n == _BACKTRACKS - 1:
+            here = ball_state(p, c, speed, pose, x + share * dx, r + share * dr)
+            after = here.fx * dx + here.fr * dr
+            if (
+                after >= -0.9 * ahead
+                or here.fx * here.fx + here.fr * here.fr < 0.25 * size * size
+                or n == _BACKTRACKS - 1
+            ):
                 break
             share *= min(max(ahead / (ahead - after), 0.1), 0.7)
         x += share * dx
         r += share * dr
-        fx = gx
-        fr = gr
         if share * length < 1e-17:
             break
-    return x, r, math.sqrt(fx * fx + fr * fr)
+    return x, r, math.sqrt(here.fx * here.fx + here.fr * here.fr)

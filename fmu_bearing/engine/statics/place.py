@@ -12,15 +12,15 @@ from fmu_bearing.engine.status import OK
 @kernel
 def loads(p, c, load):
     """Set the loads on the inner ring with its weight (N, N m); return the pedestal's load in z (N)."""
-    load[0] = c[C.PRELOAD]
-    load[1] = c[C.LOAD_Y]
-    load[2] = c[C.LOAD_Z]
-    load[3] = 0.0
-    load[4] = 0.0
-    carried = load[2]
+    load[Q.X] = c[C.PRELOAD]
+    load[Q.Y] = c[C.LOAD_Y]
+    load[Q.Z] = c[C.LOAD_Z]
+    load[Q.INNER_BY] = 0.0
+    load[Q.INNER_BZ] = 0.0
+    carried = load[Q.Z]
     if p[P.GRAVITY] != 0.0:
-        load[2] -= GRAVITY * p[P.INNER_MASS]
-        carried = load[2] - GRAVITY * (p[P.OUTER_MASS] + p[P.BALLS] * p[P.BALL_MASS])
+        load[Q.Z] -= GRAVITY * p[P.INNER_MASS]
+        carried = load[Q.Z] - GRAVITY * (p[P.OUTER_MASS] + p[P.BALLS] * p[P.BALL_MASS])
         if p[P.CAGE] != 0.0:
             carried -= GRAVITY * p[P.CAGE_MASS]
     return carried
@@ -35,7 +35,7 @@ def equilibrium(p, c, speed, load, share, tilt, found, w):
     """
     status = mounted_equilibrium(p, c, speed, load, share, tilt, found, w)
     if status != OK:
-        load[0] += 1.0 + 0.05 * (abs(load[0]) + abs(load[1]) + abs(load[2]))
+        load[Q.X] += 1.0 + 0.05 * (abs(load[Q.X]) + abs(load[Q.Y]) + abs(load[Q.Z]))
         status = mounted_equilibrium(p, c, speed, load, share, tilt, found, w)
     return status
 
@@ -106,12 +106,12 @@ def place_cage(p, y, found):
     balls = p[P.BALLS]
     k = Y.Q0 + Q.CAGE
     y[k] = y[Y.Q0 + Q.OUTER]
-    y[k + 1] = y[Y.Q0 + 1]
-    y[k + 2] = y[Y.Q0 + 2]
+    y[k + Q.Y] = y[Y.Q0 + Q.Y]
+    y[k + Q.Z] = y[Y.Q0 + Q.Z]
     for j in range(int(balls)):
         angle = 2.0 * PI * j / balls
         x = found[EQ.X + j] / balls
         y[k] += x
-        y[k + 4] += 2.0 * x * math.cos(angle) / p[P.PITCH_RADIUS]
-        y[k + 5] += 2.0 * x * math.sin(angle) / p[P.PITCH_RADIUS]
-        y[Y.V0 + Q.CAGE + 3] += found[EQ.OM + j] / balls
+        y[k + Q.BY] += 2.0 * x * math.cos(angle) / p[P.PITCH_RADIUS]
+        y[k + Q.BZ] += 2.0 * x * math.sin(angle) / p[P.PITCH_RADIUS]
+        y[Y.V0 + Q.CAGE + Q.TURN] += found[EQ.OM + j] / balls

@@ -7,12 +7,11 @@ the place. A new preload moves the ring to its new place at constant speed over 
 
 from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import C, S, U, W, Y
+from fmu_bearing.engine.layout import ST, C, S, U, W, Y
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.statics.axial import quasistatic
 from fmu_bearing.engine.status import OK
 
-_INPUTS = 8
 _ROUNDS = 60
 _TOUCHING = 0.01  # N: without preload the ring stands where the balls just touch, not anywhere free
 
@@ -21,19 +20,16 @@ _TOUCHING = 0.01  # N: without preload the ring stands where the balls just touc
 def place_under(p, c, speed, found):
     """Axial place (m) of the inner ring under the preload in ``c``, pedestal included; second: status."""
     status = quasistatic(p, c, speed, found)
-    return found[0] + c[C.PRELOAD] / c[C.PEDESTAL_AXIAL], status
+    return found[ST.AXIAL_SHIFT] + c[C.PRELOAD] / c[C.PEDESTAL_AXIAL], status
 
 
 @kernel
 def static_place(p, u, w):
-    """Place (m) of the inner ring at standstill and reference temperature for the inputs ``u``; status.
-
-    Scratch: ``w[W_D:]``.
-    """
-    still = w[W.D : W.D + _INPUTS]
-    c = w[W.D + _INPUTS : W.D + _INPUTS + C.SIZE]
-    found = w[W.D + _INPUTS + C.SIZE : W.D + 2 * _INPUTS + C.SIZE]
-    for i in range(_INPUTS):
+    """Place (m) of the inner ring at standstill and reference temperature for the inputs ``u``; status."""
+    still = w[W.STILL_INPUTS : W.STILL_CONDITIONS]
+    c = w[W.STILL_CONDITIONS : W.STILL_FOUND]
+    found = w[W.STILL_FOUND : W.STILL_END]
+    for i in range(U.SIZE):
         still[i] = u[i]
     still[U.SPEED] = 0.0
     still[U.OIL_T] = REFERENCE_TEMPERATURE

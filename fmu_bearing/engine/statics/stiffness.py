@@ -6,8 +6,8 @@ The ball is massless and free in its axial plane; centrifugal and friction force
 import math
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import C, P
-from fmu_bearing.engine.statics.ball_balance import seat
+from fmu_bearing.engine.layout import EQ, ST, C, P
+from fmu_bearing.engine.statics.ball_balance import inner_seat, outer_seat
 
 
 @kernel
@@ -17,7 +17,7 @@ def contact(p, c, race, sx, sr):
     ``sx``, ``sr``: the ball's centre from the race's groove centre, axial and radial (m).
     """
     distance = math.sqrt(sx * sx + sr * sr)
-    approach = max(distance - c[C.RACES + race * C.RACE_SIZE + 2], 0.0)
+    approach = max(distance - c[C.RACES + race * C.RACE_SIZE + C.FREE], 0.0)
     load = p[P.RACES + race * P.RACE_SIZE + P.RACE_STIFFNESS] * approach * math.sqrt(approach)
     return load, sx / distance, sr / distance, approach, distance
 
@@ -63,10 +63,16 @@ def series_stiffness(p, c, x_i, r_i, x_o, r_o):
 
 
 @kernel
-def contact_tensor(load, kn, distance, rho, ex, er, et, mx, mr, mt, cosine):
-    """Stiffness of one contact (N/m) as six numbers xx, xr, xt, rr, rt, tt: kn ee + Q/d mm + Q cos/rho tt."""
-    kt = load / distance
-    kc = load * cosine / rho
+def contact_tensor(seat):
+    """Stiffness of one contact (N/m) as six numbers xx, xr, xt, rr, rt, tt: kn ee + Q/d mm + Q cos/rho tt.
+
+    ``seat``: a `Seat`; t = e x m.
+    """
+    kn = seat.stiffness
+    ex, er, et = seat.ex, seat.er, seat.et
+    mx, mr, mt = seat.mx, seat.mr, seat.mt
+    kt = seat.load / seat.distance
+    kc = seat.load * seat.cosine / seat.rho
     tx = er * mt - et * mr
     tr = et * mx - ex * mt
     tt = ex * mr - er * mx
@@ -82,74 +88,73 @@ def contact_tensor(load, kn, distance, rho, ex, er, et, mx, mr, mt, cosine):
 
 @kernel
 def ball_share(p, c, pose, x, r, a):
-    """Stiffness of the inner ring through one ball into ``a[:25]``, the ball's own motion into ``a[25:35]``.
+    """Stiffness of the inner ring through one ball and the ball's own motion into ``a`` (``ST.SHARE_SIZE``).
 
-    Both in the ball's axes: rows force x, r, theta and moment r, theta; columns displacements x, r, theta
-    and tilts r, theta. ``pose``: see ``ball_balance``; ``x``, ``r``: the ball's place (m).
+    Rows ``ST.FX`` to ``ST.DR``: forces and moments on the ring, then the ball's place; columns ``ST.ALONG``
+    to ``ST.TILT_T``: displacements and tilts of the ring, all in the ball's axes. ``pose``: see `Pose`;
+    ``x``, ``r``: the ball's place (m). Zero where the inner contact is open.
     """
-    for i in range(35):
+    for i in range(ST.SHARE_SIZE):
         a[i] = 0.0
     radius = p[P.PITCH_RADIUS] + r
-    qx = x - pose[0]
-    qr = radius - pose[1]
-    qt = -pose[2]
-    load, kn, distance, rho, ex, er, et, mx, mr, mt, cosine = seat(
-        p, c, 0, pose[9], qx, qr, qt, pose[3], pose[4], pose[5]
-    )
-    if load <= 0.0:
+    qx = x - pose.x
+    qr = radius - pose.r
+    qt = -pose.t
+    inner = inner_seat(p, c, pose, x, radius)
+    if inner.load <= 0.0:
         return
-    fx = -load * ex
-    fr = -load * er
-    ft = -load * et
-    xx, xr, xt, rr, rt, tt = contact_tensor(load, kn, distance, rho, ex, er, et, mx, mr, mt, cosine)
-    load, kn, distance, rho, ex, er, et, mx, mr, mt, cosine = seat(
-        p, c, 1, pose[10], x, radius, 0.0, pose[6], pose[7], pose[8]
-    )
-    oxx, oxr, _, orr, _, _ = contact_tensor(load, kn, distance, rho, ex, er, et, mx, mr, mt, cosine)
+    fx = -inner.load * inner.ex
+    fr = -inner.load * inner.er
+    ft = -inner.load * inner.et
+    xx, xr, xt, rr, rt, tt = contact_tensor(inner)
+    oxx, oxr, _, orr, _, _ = contact_tensor(outer_seat(p, c, pose, x, radius))
     sxx = xx + oxx + 1e-3
     sxr = xr + oxr
     srr = rr + orr + 1e-3
     det = sxx * srr - sxr * sxr
-    for k in range(5):
+    for k in range(EQ.FREEDOMS):
         # what the ring's material at the ball does, and what its turning does to the load
-        px = 1.0 if k == 0 else qt if k == 3 else -qr if k == 4 else 0.0
-        pr = 1.0 if k == 1 else qx if k == 4 else 0.0
-        pt = 1.0 if k == 2 else -qx if k == 3 else 0.0
-        bx = xx * px + xr * pr + xt * pt + (ft if k == 3 else -fr if k == 4 else 0.0)
-        br = xr * px + rr * pr + rt * pt + (fx if k == 4 else 0.0)
-        bt = xt * px + rt * pr + tt * pt + (-fx if k == 3 else 0.0)
+        tilt_r = k == ST.TILT_R
+        tilt_t = k == ST.TILT_T
+        px = 1.0 if k == ST.ALONG else qt if tilt_r else -qr if tilt_t else 0.0
+        pr = 1.0 if k == ST.OUTWARDS else qx if tilt_t else 0.0
+        pt = 1.0 if k == ST.AROUND else -qx if tilt_r else 0.0
+        bx = xx * px + xr * pr + xt * pt + (ft if tilt_r else -fr if tilt_t else 0.0)
+        br = xr * px + rr * pr + rt * pt + (fx if tilt_t else 0.0)
+        bt = xt * px + rt * pr + tt * pt + (-fx if tilt_r else 0.0)
         dx = (srr * bx - sxr * br) / det
         dr = (sxx * br - sxr * bx) / det
         gx = bx - xx * dx - xr * dr
         gr = br - xr * dx - rr * dr
         gt = bt - xt * dx - rt * dr
-        ux = dx - (1.0 if k == 0 else 0.0)
-        ur = dr - (1.0 if k == 1 else 0.0)
-        ut = -1.0 if k == 2 else 0.0
-        a[k] = gx
-        a[5 + k] = gr
-        a[10 + k] = gt
+        ux = dx - (1.0 if k == ST.ALONG else 0.0)
+        ur = dr - (1.0 if k == ST.OUTWARDS else 0.0)
+        ut = -1.0 if k == ST.AROUND else 0.0
+        a[ST.FX + k] = gx
+        a[ST.FR + k] = gr
+        a[ST.FT + k] = gt
         # moment of the force about the ring's own, moving, centre
-        a[15 + k] = ut * fx - ux * ft + qt * gx - qx * gt
-        a[20 + k] = ux * fr - ur * fx + qx * gr - qr * gx
-        a[25 + k] = dx
-        a[30 + k] = dr
+        a[ST.MR + k] = ut * fx - ux * ft + qt * gx - qx * gt
+        a[ST.MT + k] = ux * fr - ur * fx + qx * gr - qr * gx
+        a[ST.DX + k] = dx
+        a[ST.DR + k] = dr
 
 
 @kernel
 def add_turned(c, s, a, out, at):
-    """Add the 5 x 5 of a ball's axes in ``a`` to ``out[at:]`` in inertial axes; overwrites ``a``."""
-    for i in range(5):
-        for k in range(1, 4, 2):
-            along = a[5 * i + k]
-            across = a[5 * i + k + 1]
-            a[5 * i + k] = -s * along - c * across
-            a[5 * i + k + 1] = c * along - s * across
-    for i in range(5):
-        for k in range(1, 4, 2):
-            along = a[5 * k + i]
-            across = a[5 * (k + 1) + i]
-            a[5 * k + i] = -s * along - c * across
-            a[5 * (k + 1) + i] = c * along - s * across
-    for i in range(25):
+    """Add the stiffness of a ball's axes in ``a`` to ``out[at:]`` in inertial axes; overwrites ``a``."""
+    n = EQ.FREEDOMS
+    for i in range(n):
+        for k in (ST.OUTWARDS, ST.TILT_R):  # the pairs that turn: r, theta and the tilts about them
+            along = a[n * i + k]
+            across = a[n * i + k + 1]
+            a[n * i + k] = -s * along - c * across
+            a[n * i + k + 1] = c * along - s * across
+    for i in range(n):
+        for k in (ST.OUTWARDS, ST.TILT_R):
+            along = a[n * k + i]
+            across = a[n * (k + 1) + i]
+            a[n * k + i] = -s * along - c * across
+            a[n * (k + 1) + i] = c * along - s * across
+    for i in range(ST.STIFFNESS_SIZE):
         out[at + i] += a[i]

@@ -11,6 +11,7 @@ from fmu_bearing.acoustics.radiation import sources
 from fmu_bearing.acoustics.radiation.bem import solution as solved
 from fmu_bearing.acoustics.radiation.bem.bodies import bodies_of
 from fmu_bearing.acoustics.radiation.bem.paths import bem_paths, task_of
+from fmu_bearing.acoustics.radiation.circle import MicrophoneCircle
 from fmu_bearing.acoustics.radiation.compact import compact_paths
 from fmu_bearing.acoustics.radiation.frequencies import fit_frequencies
 from fmu_bearing.acoustics.radiation.radiators import BALLS, CAGE, INNER, OUTER, Air, Housing, Radiators, Ring
@@ -30,7 +31,7 @@ HARMONICS = 2
 @pytest.fixture(scope="module")
 def paths():
     """Paths of the bare rings to three microphones at 105 mm, by channel."""
-    found = bem_paths(BARE, AIR, 0.105, 0.02, [0.0, 0.5, np.pi / 2], HARMONICS)
+    found = bem_paths(BARE, AIR, MicrophoneCircle(0.105, 0.02, [0.0, 0.5, np.pi / 2]), HARMONICS)
     return {path.channel: path for path in found}
 
 
@@ -69,7 +70,7 @@ def test_interpolation_between_solved_frequencies(paths):
 
 def test_filters_follow_the_rings(paths):
     """-50 dB with at most 256 taps: a bare bearing has no resonance that rings longer than 5 ms."""
-    for channel in (0, 2, 3, 5, SD.C_BALLS + 2):
+    for channel in (0, 2, 3, 5, SD.c_ball(1, 0)):
         path = paths[channel]
         family = [np.abs(other.response) for other in paths.values() if other.component == path.component]
         taps, error = fit(path.response, path.flight, np.max(family, axis=0))
@@ -79,10 +80,11 @@ def test_filters_follow_the_rings(paths):
 
 def test_outer_ring_shields_what_is_inside(paths):
     """At 1 kHz compact, where nothing scatters, is within 3 dB for the outer ring, too loud for balls."""
-    compact = {path.channel: path for path in compact_paths(BARE, AIR, 0.105, 0.02, [0.0], HARMONICS)}
+    circle = MicrophoneCircle(0.105, 0.02, [0.0])
+    compact = {path.channel: path for path in compact_paths(BARE, AIR, circle, HARMONICS)}
     outer = abs(at_frequency(compact[5], 1000.0) / at_frequency(paths[5], 1000.0))
     assert 1.0 < outer < 1.41
-    radial_ball = SD.C_BALLS + 2 + 2
+    radial_ball = SD.c_ball(1, 1)
     assert abs(at_frequency(compact[radial_ball], 1000.0)) > 5.0 * abs(
         at_frequency(paths[radial_ball], 1000.0)
     )
@@ -100,7 +102,7 @@ def test_housing_moves_as_its_compact_twin_at_low_frequency():
     band = solved.Band(task, [200.0])
     band.surface[0] = band.solve(200.0)
     found = abs(band.field(np.array([[0.0, 0.105]]))[0, solved.RADIAL + OUTER, 0])
-    twin = compact_paths(radiators, AIR, 0.105, 0.0, [0.0], 0)
+    twin = compact_paths(radiators, AIR, MicrophoneCircle(0.105, 0.0, [0.0]), 0)
     exact = abs(at_frequency(next(path for path in twin if path.channel == SD.C_OUTER + 2), 200.0))
     assert abs(20.0 * np.log10(found / exact)) < 1.1
 
@@ -108,7 +110,8 @@ def test_housing_moves_as_its_compact_twin_at_low_frequency():
 def test_flush_faces_on_the_axis():
     """Rayleigh's integral in closed form; moving towards +X, a face that looks to -X draws air in."""
     radiators = dataclasses.replace(BARE, baffle=True)
-    paths = {path.channel: path for path in bem_paths(radiators, AIR, 0.0, -0.085, [0.0], HARMONICS)}
+    axis = MicrophoneCircle(0.0, -0.085, [0.0])
+    paths = {path.channel: path for path in bem_paths(radiators, AIR, axis, HARMONICS)}
     assert all(path.component in (INNER, OUTER) for path in paths.values())
     assert not {1, 2, 4, 5} & set(paths)  # sideways motion of a flush face is silent
     f = fit_frequencies()
@@ -165,14 +168,14 @@ def test_solutions_are_kept_on_disk_and_damaged_ones_made_anew(short, monkeypatc
 
 def test_refusals():
     with pytest.raises(ValueError, match="105 mm.*lies inside the outer ring|lies inside the outer ring"):
-        bem_paths(BARE, AIR, 0.016, 0.0, [0.0], HARMONICS)
+        bem_paths(BARE, AIR, MicrophoneCircle(0.016, 0.0, [0.0]), HARMONICS)
     touching = dataclasses.replace(BARE, cage=Ring(0.0297, 0.0234, 0.0091))
     with pytest.raises(ValueError, match="the outer ring touches or intersects the cage"):
-        bem_paths(touching, AIR, 0.105, 0.0, [0.0], HARMONICS)
+        bem_paths(touching, AIR, MicrophoneCircle(0.105, 0.0, [0.0]), HARMONICS)
     with pytest.raises(ValueError, match="the reflecting plane at 2 mm cuts the outer ring"):
-        bem_paths(BARE, AIR, 0.105, 0.0, [0.0], HARMONICS, plane=0.002)
+        bem_paths(BARE, AIR, MicrophoneCircle(0.105, 0.0, [0.0]), HARMONICS, plane=0.002)
     with pytest.raises(ValueError, match="lies behind the rigid wall at 20 mm"):
-        bem_paths(BARE, AIR, 0.105, 0.03, [0.0], HARMONICS, plane=0.02)
+        bem_paths(BARE, AIR, MicrophoneCircle(0.105, 0.03, [0.0]), HARMONICS, plane=0.02)
     with pytest.raises(ValueError, match="does not hold the bearing"):
         bodies_of(dataclasses.replace(BARE, housing=Housing(0.06, 0.05, 0.2)))
     assert CAGE == solved.BODIES - 1  # the cage is the last of the bodies: its nodes are left out for balls

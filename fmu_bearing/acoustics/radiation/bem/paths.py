@@ -1,4 +1,4 @@
-"""Rung ``bem``: from a scene's bodies to the paths of `transfer.Path`."""
+"""Radiation model ``bem``: from a scene's bodies to paths (`radiators.Path`)."""
 
 from collections.abc import Sequence
 
@@ -14,13 +14,13 @@ from fmu_bearing.acoustics.radiation.bem.solution import (
     BODIES,
     RADIAL,
     TILT,
-    Solution,
     Task,
     shapes_of,
     solution,
 )
+from fmu_bearing.acoustics.radiation.circle import MicrophoneCircle, ball_paths, tilt_paths, translation_paths
 from fmu_bearing.acoustics.radiation.frequencies import fit_frequencies
-from fmu_bearing.acoustics.radiation.radiators import BALLS, Air, Path, Radiators
+from fmu_bearing.acoustics.radiation.radiators import Air, Path, Radiators
 from fmu_bearing.engine.layout import SD
 
 
@@ -53,21 +53,17 @@ def task_of(
 def bem_paths(
     radiators: Radiators,
     air: Air,
-    radius: float,
-    axial: float,
-    azimuths: Sequence[float],
+    circle: MicrophoneCircle,
     harmonics: int,
     modes: Sequence = (),
     plane: float | None = None,
 ) -> list[Path]:
-    """Paths of the rung ``bem`` to microphones on a circle, in the order of channels.
+    """Paths of the radiation model ``bem`` to microphones on a circle.
 
     Parameters
     ----------
-    radius, axial
-        Distance of the circle from the axis and place along it, m.
-    azimuths
-        Angles of its microphones from 12 o'clock in rad, growing with positive rotation about X.
+    radiators, air, circle
+        What sounds, in what, and where it is heard.
     harmonics
         Highest circumferential order kept of the balls' sound.
     modes
@@ -81,45 +77,38 @@ def bem_paths(
         When the circle runs through a body or behind the plane, or bodies intersect.
     """
     task = task_of(radiators, air, harmonics, modes, plane)
-    _check_outside(task, radius, axial)
+    _check_outside(task, circle)
     solved = solution(task)
-    field = solved.field(np.array([[axial, radius]]))[0]
-    nearest = float(np.hypot(*(solved.points - (axial, radius)).T).min())
+    here = (circle.axial, circle.radius)
+    field = solved.field(np.array([here]))[0]
+    nearest = float(np.hypot(*(solved.points - here).T).min())
     flight = nearest / air.sound_speed
     field *= np.exp(2j * np.pi * solved.frequencies * flight)  # smooth enough to interpolate
     f = fit_frequencies()
     response = CubicSpline(solved.frequencies, field, axis=1)(f) * np.exp(-2j * np.pi * f * flight)
-    angles = np.asarray(azimuths, dtype=float)
-    paths = _body_paths(response, flight, angles) + _mode_paths(response, flight, angles, modes, harmonics)
+    paths = _body_paths(response, flight, circle) + _mode_paths(response, flight, circle, modes, harmonics)
     if task.orbit > 0.0:
-        radius_of_ball = 0.5 * radiators.ball_diameter
-        strength = 2.0 * np.pi * radius_of_ball**3 * sources.sphere_factor(f, radius_of_ball, air.sound_speed)
-        paths += _ball_paths(solved, response * strength, flight, angles, harmonics)
-    return sorted(paths, key=lambda path: path.channel)
-
-
-def _body_paths(response: NDArray[np.complex128], flight: float, angles: NDArray[np.float64]) -> list[Path]:
-    """Rigid motion: y is -r sin(phi), z is r cos(phi); a turn about y lifts z, one about z lowers y."""
-    one, cosine, sine = np.ones(len(angles)), np.cos(angles), np.sin(angles)
-    paths = []
-    for body in range(BODIES):
-        parts = (
-            (3 * body, AXIAL + body, one, SD.AXIAL),
-            (3 * body + 1, RADIAL + body, -sine, SD.RADIAL),
-            (3 * body + 2, RADIAL + body, cosine, SD.RADIAL),
-            (SD.C_TILTS + 2 * body, TILT + body, cosine, SD.ROTATION),
-            (SD.C_TILTS + 2 * body + 1, TILT + body, sine, SD.ROTATION),
-        )
-        for channel, drive, weights, kind in parts:
-            if np.any(response[drive]):
-                paths.append(Path(body, channel, flight, response[drive], weights, kind))
+        radius = 0.5 * radiators.ball_diameter
+        strength = 2.0 * np.pi * radius**3 * sources.sphere_factor(f, radius, air.sound_speed)
+        orders = range(harmonics + 1)
+        drives = np.array([[solved.ball_drive(m, axis) for m in orders] for axis in range(SD.AXES)])
+        paths += ball_paths((response * strength)[drives], flight, circle)
     return paths
+
+
+def _body_paths(response: NDArray[np.complex128], flight: float, circle: MicrophoneCircle) -> list[Path]:
+    """Rigid motion that is heard; a turn about y lifts z, one about z lowers y."""
+    paths: list[Path] = []
+    for body in range(BODIES):
+        paths += translation_paths(body, flight, response[AXIAL + body], response[RADIAL + body], circle)
+        paths += tilt_paths(body, flight, response[TILT + body], circle.order(1))
+    return [path for path in paths if np.any(path.response)]
 
 
 def _mode_paths(
     response: NDArray[np.complex128],
     flight: float,
-    angles: NDArray[np.float64],
+    circle: MicrophoneCircle,
     modes: Sequence,
     harmonics: int,
 ) -> list[Path]:
@@ -127,45 +116,22 @@ def _mode_paths(
     paths = []
     first = SD.c_flex(harmonics)
     for i, mode in enumerate(modes):
-        for k, weights in enumerate((np.cos(mode.order * angles), np.sin(mode.order * angles))):
-            drive = response[3 * BODIES + i]
+        drive = response[3 * BODIES + i]
+        for k, weights in enumerate(circle.order(mode.order)):
             paths.append(Path(int(mode.body), first + 2 * i + k, flight, drive, weights, SD.FLEXURE))
     return paths
 
 
-def _ball_paths(
-    solved: Solution,
-    response: NDArray[np.complex128],
-    flight: float,
-    angles: NDArray[np.float64],
-    harmonics: int,
-) -> list[Path]:
-    """Circumferential harmonics of the balls' accelerations, as in `transfer.ball_harmonics`."""
-    paths = []
-    for m in range(harmonics + 1):
-        cosine, sine = np.cos(m * angles), np.sin(m * angles)
-        for axis in range(3):
-            if m == 0 and axis == 2:
-                continue  # tangential accelerations alike all round make no sound
-            drive = response[solved.ball_drive(m, axis)]
-            first, second = (sine, -cosine) if axis == 2 else (cosine, sine)
-            channel = SD.C_BALLS + axis if m == 0 else SD.C_BALLS + 2 + 6 * (m - 1) + 2 * axis
-            paths.append(Path(BALLS, channel, flight, drive, first, SD.BALLS_KIND))
-            if m > 0:
-                paths.append(Path(BALLS, channel + 1, flight, drive, second, SD.BALLS_KIND))
-    return paths
-
-
-def _check_outside(task: Task, radius: float, axial: float) -> None:
-    where = f"microphone at {1e3 * radius:g} mm from the axis, {1e3 * axial:g} mm along it"
+def _check_outside(task: Task, circle: MicrophoneCircle) -> None:
     for body in task.bodies:
         inside: Body = body
-        if not task.baffled and inside.contains(axial, radius):
-            raise ValueError(f"{where}, lies inside the {body.name}")
+        if not task.baffled and inside.contains(circle.axial, circle.radius):
+            raise ValueError(f"{circle.words}, lies inside the {body.name}")
     if task.plane is None:
         return
     front = -1.0 if task.baffled else np.sign(task.bodies[0].contour[0, 0] - task.plane)
-    if (axial - task.plane) * front <= 0.0:
+    if (circle.axial - task.plane) * front <= 0.0:
         raise ValueError(
-            f"{where}, lies behind the rigid wall at {1e3 * task.plane:g} mm: move it to the other side"
+            f"{circle.words}, lies behind the rigid wall at {1e3 * task.plane:g} mm: move it to the other "
+            "side"
         )

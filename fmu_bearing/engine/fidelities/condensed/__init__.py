@@ -1,6 +1,7 @@
 """What fidelities rings and response share: balls in static equilibrium between the races.
 
 ==============  =============================================================================
+``rows``        coordinates and components; places of the balls between state and work space
 ``balls``       each ball at rest between the races, and what it puts on the rings
 ``held``        cage speed, friction and heats, evaluated at the quasi-static point and held
 ``linearised``  derivatives of the rings' accelerations, and their static equilibrium

@@ -1,18 +1,18 @@
-"""What the levels hold between changes of the inputs: cage speed, gyroscopic friction, torque and heats.
+"""What is held between changes of the inputs: cage speed, gyroscopic friction, torque and heats.
 
 All come from one evaluation of the full right-hand side at the quasi-static point under the axial load
 alone, with the balls' spins balanced and without imperfections. (Under a radial load the balls' own orbit
 speeds differ, and before a cage has evened them out the same evaluation shows several times the settled
 losses.) The torque is what puts in the heats: at that point the lands' drag still speeds up a cage that the
-balls do not hold back yet, which would be 15 % more; level `full` settles at the heats. They are renewed when
-the speed has moved by 1 % or a condition by 0.1 %; in between orbit and spins follow the speed, the
+balls do not hold back yet, which would be 15 % more; fidelity `full` settles at the heats. They are renewed
+when the speed has moved by 1 % or a condition by 0.1 %; in between orbit and spins follow the speed, the
 gyroscopic friction its square, and the heats stay (below 1 rad/s they go to zero with the speed squared). A
 renewal costs some 30 evaluations of the full right-hand side with its Jacobian.
 """
 
+from fmu_bearing.engine.choices import INNER_CONTROL, OUTER_CONTROL
 from fmu_bearing.engine.jit import inlined, kernel
-from fmu_bearing.engine.layout import EQ, C, F, L, P, Q, S, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import EQ, STRIDE, C, F, L, P, Q, S, T, W, Y
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.readout.losses import summarise
@@ -30,10 +30,10 @@ def quasistatic_point(p, c, speed, y, w):
     Returns ``(status, mean over the balls of orbit speed times spin about r, (rad/s)^2)``. The one place
     that knows the quasi-static kernel.
     """
-    load = w[W.SCALARS + 8 : W.SCALARS + 13]
-    tilt = w[W.SCALARS + 13 : W.SCALARS + 15]
-    found = w[W.VEL : W.VEL + EQ.SIZE]
-    for i in range(1, 5):
+    load = w[W.LOAD : W.LOAD + EQ.FREEDOMS]
+    tilt = w[W.TILT : W.TILT + 2]
+    found = w[W.FOUND : W.FOUND + EQ.SIZE]
+    for i in range(1, EQ.FREEDOMS):
         load[i] = 0.0
     load[0] = c[C.PRELOAD]
     status = equilibrium(p, c, speed, load, 0.0, tilt, found, w)
@@ -58,18 +58,18 @@ def summarise_held(p, s, y, f, w):
 
     A step's first sound sample is interpolated from what ``s`` was published with.
     """
-    heat = s[S.F + F.HEAT + 2]
-    s[S.F + F.HEAT + 2] = f[F.HEAT + 2]
+    heat = s[S.F + F.HEAT_OIL]
+    s[S.F + F.HEAT_OIL] = f[F.HEAT_OIL]
     for j in range(STRIDE):
-        w[W.ACC + j] = s[S.Y + Y.OM + j]
-        w[W.ACC + STRIDE + j] = s[S.Y + Y.R + j]
+        w[T.HELD_ROWS + j] = s[S.Y + Y.OM + j]
+        w[T.HELD_ROWS + STRIDE + j] = s[S.Y + Y.R + j]
         s[S.Y + Y.OM + j] = y[Y.OM + j]
         s[S.Y + Y.R + j] = y[Y.R + j]
     summarise(p, s, w)
-    s[S.F + F.HEAT + 2] = heat
+    s[S.F + F.HEAT_OIL] = heat
     for j in range(STRIDE):
-        s[S.Y + Y.OM + j] = w[W.ACC + j]
-        s[S.Y + Y.R + j] = w[W.ACC + STRIDE + j]
+        s[S.Y + Y.OM + j] = w[T.HELD_ROWS + j]
+        s[S.Y + Y.R + j] = w[T.HELD_ROWS + STRIDE + j]
 
 
 @kernel
@@ -92,9 +92,9 @@ def hold(p, u, speed, s, w):
     if p[P.GYROSCOPIC] == 0.0:
         pair = 0.0
     outer = 0.5
-    if p[P.RACE_CONTROL] == 1.0:
+    if p[P.RACE_CONTROL] == OUTER_CONTROL:
         outer = 1.0
-    elif p[P.RACE_CONTROL] == 2.0:
+    elif p[P.RACE_CONTROL] == INNER_CONTROL:
         outer = 0.0
     lv[L.PAIR_INNER] = (1.0 - outer) * pair
     lv[L.PAIR_OUTER] = outer * pair
@@ -105,22 +105,22 @@ def hold(p, u, speed, s, w):
         mean += y[Y.OM + j] / balls
     lv[L.RATIO] = mean / turning
     if p[P.CAGE] != 0.0:
-        y[Y.V0 + Q.CAGE + 3] = mean
+        y[Y.V0 + Q.CAGE + Q.TURN] = mean
     for j in range(int(p[P.LANES])):
         for i in range(3):
             lv[L.SPIN + i * STRIDE + j] = y[Y.WX + i * STRIDE + j] / turning
-    f = w[W.BLOCK_A : W.BLOCK_A + F.SIZE]
+    f = w[T.HELD_F : T.HELD_F + F.SIZE]
     right_hand_side(p, c, y, 0.0, turning, 0.0, w, f)
     summarise_held(p, s, y, f, w)
     share = speed / turning
-    lv[L.TORQUE] = share * (f[F.HEAT] + f[F.HEAT + 1] + f[F.HEAT + 2]) / turning
+    lv[L.TORQUE] = share * (f[F.HEAT] + f[F.HEAT_OUTER] + f[F.HEAT_OIL]) / turning
     for i in range(3):
         lv[L.HEAT + i] = share * share * f[F.HEAT + i]
     for i in range(4):
         s[S.LOSS + i] *= share * share
     twist = 0.0
     for j in range(balls):
-        twist += w[W.BODY + Q.OUTER * STRIDE + 3 * STRIDE + j]
+        twist += w[W.BODY + (Q.OUTER + Q.TURN) * STRIDE + j]
     lv[L.TWIST] = share * twist
     return OK
 
@@ -134,7 +134,7 @@ def out_of_date(lv, c, speed):
             far = True
     for race in range(2):
         # groove circles and free distance move by micrometres: 1e-3 of a contact's approach
-        for i in range(3):
+        for i in (C.GROOVE_X, C.GROOVE_RADIUS, C.FREE):
             k = C.RACES + race * C.RACE_SIZE + i
             if abs(c[k] - lv[L.CONDITIONS + k]) > 1e-9:
                 far = True

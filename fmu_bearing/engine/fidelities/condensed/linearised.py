@@ -4,10 +4,10 @@ import math
 
 from fmu_bearing.engine.dense import invert, times
 from fmu_bearing.engine.fidelities.condensed.balls import accelerations
+from fmu_bearing.engine.fidelities.condensed.rows import component
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import C, F, L, P, T, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
-from fmu_bearing.engine.newton.jacobian import inertia
+from fmu_bearing.engine.layout import STRIDE, C, F, L, P, Q, T, W, Y
+from fmu_bearing.engine.newton.jacobian import inertia, is_angle
 
 # Differences: displacement 1 nm (0.1 N in 100), tilt the same at the pitch circle, and rates that move the
 # advanced displacements by as much. The condensed forces are smooth to 1e-9 N, so differences hold 1e-7.
@@ -18,116 +18,107 @@ _LONGEST = 3e-6  # m: move of a ring in one round, about the approach of a loade
 
 
 @kernel
-def is_tilt(i):
-    """Whether coordinate ``i`` is an angle."""
-    return i == 3 or i == 4 or i >= 8
-
-
-@kernel
 def derivatives(p, c, lv, angle, speed, speed_rate, w):
-    """Fill ``L_JX``, ``L_JV`` and ``L_MASS`` at the state in ``w[W_Y:]``; False where balls find no rest.
+    """Fill ``L.JX``, ``L.JV`` and ``L.MASS`` at the state in ``w[W.STAGE:]``; False where balls find no rest.
 
-    The balls' places in ``w`` are those of the state before and after. ``w[W_F + F_G:]`` keeps its
+    The balls' places in ``w`` are those of the state before and after. ``w[W.F + F.BODY:]`` keeps its
     accelerations.
     """
-    q = w[T.Q : T.Q + 12]
+    q = w[T.Q : T.Q + L.COLUMN]
     lever = p[P.PITCH_RADIUS]
     if not accelerations(p, c, lv, angle, speed, speed_rate, q, w):
         return False
-    base = T.SPARE
-    balls = T.SPARE + L.N
-    follow = balls + 2 * STRIDE
     for i in range(L.N):
-        w[base + i] = w[W.F + F.BODY + i]
+        w[T.BASE + i] = w[W.F + F.BODY + i]
     for i in range(2 * STRIDE):
-        w[balls + i] = w[T.X + i]
+        w[T.BALLS + i] = w[T.X + i]
     for k in range(2 * L.N):
         i = k if k < L.N else k - L.N
         at = W.STAGE + (Y.Q0 if k < L.N else Y.V0) + i
         step = _MOVE if k < L.N else _RATE
-        if is_tilt(i):
+        if is_angle(i):
             step /= lever
         kept = w[at]
         w[at] = kept + step
         fine = accelerations(p, c, lv, angle, speed, speed_rate, q, w)
         w[at] = kept
-        into = (L.JX if k < L.N else L.JV) + 12 * i
+        into = (L.JX if k < L.N else L.JV) + L.COLUMN * i
         for m in range(L.N):
-            lv[into + m] = (w[W.F + F.BODY + m] - w[base + m]) / step
+            lv[into + m] = (w[W.F + F.BODY + m] - w[T.BASE + m]) / step
         for m in range(2 * STRIDE):
             if k < L.N:
-                w[follow + i * 2 * STRIDE + m] = (w[T.X + m] - w[balls + m]) / step
-            w[T.X + m] = w[balls + m]
+                w[T.FOLLOW + i * T.FOLLOW_SIZE + m] = (w[T.X + m] - w[T.BALLS + m]) / step
+            w[T.X + m] = w[T.BALLS + m]
         if not fine:
             return False
     for i in range(L.N):
-        w[W.F + F.BODY + i] = w[base + i]
-    added_mass(p, c, lv, follow, w)
+        w[W.F + F.BODY + i] = w[T.BASE + i]
+    added_mass(p, c, lv, w)
     return True
 
 
 @kernel
 def across_track(w, j, i, contact_x):
-    """Velocity along the track at a contact per unit rate of ring coordinate ``i`` (0-2 x y z, 3 4 tilts)."""
+    """Velocity along the track at a contact per unit rate of one ring's motion ``i``: x y z by bz."""
     co = w[T.COS + j]
     si = w[T.SIN + j]
-    if i == 1:
+    if i == Q.Y:
         return -co
-    if i == 2:
+    if i == Q.Z:
         return -si
-    if i == 3:
+    if i == Q.INNER_BY:
         return si * contact_x
-    if i == 4:
+    if i == Q.INNER_BZ:
         return -co * contact_x
     return 0.0
 
 
 @kernel
-def added_mass(p, c, lv, follow, w):
-    """Identity plus the balls' share of the mass matrix over the rings' own masses, into ``lv[L_MASS:]``.
+def added_mass(p, c, lv, w):
+    """Identity plus the balls' share of the mass matrix over the rings' own masses, into ``L.MASS``.
 
-    In the axial plane the balls follow as their static equilibrium does (``w[follow:]``, derivatives of
-    (x, r) by the 11 coordinates). Along the track they roll: the centre goes with the mean of both races,
+    In the axial plane the balls follow as their static equilibrium does (``T.FOLLOW``, derivatives of
+    (x, r) by the coordinates). Along the track they roll: the centre goes with the mean of both races,
     and half their difference turns the ball, which counts 2/5 of its mass.
     """
     ball = p[P.BALL_MASS]
     # contacts lie off the bearing's middle by the ball's radius times the sine of about the free angle
-    x_o = c[C.BALL_RADIUS] * c[C.RACES] / (c[C.RACES + 2] + 1e-12)
+    x_o = c[C.BALL_RADIUS] * c[C.RACES + C.GROOVE_X] / (c[C.RACES + C.FREE] + 1e-12)
     x_i = -x_o
     for i in range(L.N):
         for k in range(L.N):
             total = 0.0
             for j in range(int(p[P.BALLS])):
-                a = follow + i * 2 * STRIDE + j
-                b = follow + k * 2 * STRIDE + j
+                a = T.FOLLOW + i * T.FOLLOW_SIZE + j
+                b = T.FOLLOW + k * T.FOLLOW_SIZE + j
                 total += w[a] * w[b] + w[a + STRIDE] * w[b + STRIDE]
-                ti = across_track(w, j, i, x_i) if i < 5 else 0.0
-                tk = across_track(w, j, k, x_i) if k < 5 else 0.0
-                oi = across_track(w, j, i - 5 if i < 8 else i - 6, x_o) if i >= 5 and i != 8 else 0.0
-                ok = across_track(w, j, k - 5 if k < 8 else k - 6, x_o) if k >= 5 and k != 8 else 0.0
+                ti = across_track(w, j, i, x_i) if i < Q.OUTER else 0.0
+                tk = across_track(w, j, k, x_i) if k < Q.OUTER else 0.0
+                oi = across_track(w, j, component(i) - Q.OUTER, x_o) if i >= Q.OUTER and i != L.TURN else 0.0
+                ok = across_track(w, j, component(k) - Q.OUTER, x_o) if k >= Q.OUTER and k != L.TURN else 0.0
                 total += 0.25 * (ti + oi) * (tk + ok) + 0.1 * (ti - oi) * (tk - ok)
-            lv[L.MASS + i + 12 * k] = (1.0 if i == k else 0.0) + ball * total / inertia(p, i)
+            lv[L.MASS + i + L.COLUMN * k] = (1.0 if i == k else 0.0) + ball * total / inertia(p, i)
 
 
 @kernel
 def invert_into(lv, w):
-    """Inverse of the matrix in ``w[T_SPARE:]`` (rows of 11) into ``lv[L_INVERSE:]``; False if singular."""
-    if not invert(w, T.SPARE, L.N, w, T.SPARE + L.N * L.N):
+    """Inverse of ``T.MATRIX`` in ``w`` into ``L.INVERSE`` of ``lv``; False if singular."""
+    if not invert(w, T.MATRIX, L.N, w, T.INVERSE):
         return False
     for k in range(L.N):
         for i in range(L.N):
-            lv[L.INVERSE + 12 * k + i] = w[T.SPARE + L.N * L.N + i * L.N + k]
-        lv[L.INVERSE + 12 * k + 11] = 0.0
+            lv[L.INVERSE + L.COLUMN * k + i] = w[T.INVERSE + i * L.N + k]
+        lv[L.INVERSE + L.COLUMN * k + L.N] = 0.0
     return True
 
 
 @kernel
 def factor_step(lv, cv, cx, w):
-    """Inverse of ``B - cv J_v - cx J_x`` into ``lv[L_INVERSE:]``; False if singular."""
+    """Inverse of ``B - cv J_v - cx J_x`` into ``L.INVERSE``; False if singular."""
     for i in range(L.N):
         for k in range(L.N):
-            at = i + 12 * k
-            w[T.SPARE + i * L.N + k] = lv[L.MASS + at] - cv * lv[L.JV + at] - cx * lv[L.JX + at]
+            at = i + L.COLUMN * k
+            w[T.MATRIX + i * L.N + k] = lv[L.MASS + at] - cv * lv[L.JV + at] - cx * lv[L.JX + at]
     return invert_into(lv, w)
 
 
@@ -155,7 +146,7 @@ def highest_mode(lv, w):
 
 @kernel
 def at_rest(p, c, lv, speed, w):
-    """Find the rings' static equilibrium without unbalance from the guess in ``w[W_Y:]``; whether found.
+    """Find the rings' static equilibrium without unbalance from the guess in ``w[W.STAGE:]``; whether found.
 
     Newton's method with moves of a few micrometres at most; soft directions (no preload) are held by a
     floor of (50 rad/s)^2 on the diagonal, a hundredth of the lowest spring that a scene's pedestal makes.
@@ -168,7 +159,7 @@ def at_rest(p, c, lv, speed, w):
         if not derivatives(p, c, lv, 0.0, speed, 0.0, w):
             break
         for i in range(L.N):
-            lv[L.JX + 13 * i] -= 2500.0
+            lv[L.JX + L.DIAGONAL * i] -= 2500.0
         if not factor_step_static(lv, w):
             break
         for i in range(L.N):
@@ -176,7 +167,7 @@ def at_rest(p, c, lv, speed, w):
         times(lv, L.INVERSE, w, T.A, w, T.D)
         longest = 0.0
         for i in range(L.N):
-            longest = max(longest, abs(w[T.D + i]) * (lever if is_tilt(i) else 1.0))
+            longest = max(longest, abs(w[T.D + i]) * (lever if is_angle(i) else 1.0))
         if not (longest < 1e3):
             break
         share = min(1.0, _LONGEST / (longest + 1e-300))
@@ -191,16 +182,8 @@ def at_rest(p, c, lv, speed, w):
 
 @kernel
 def factor_step_static(lv, w):
-    """Inverse of ``-J_x`` into ``lv[L_INVERSE:]``; False if singular."""
+    """Inverse of ``-J_x`` into ``L.INVERSE``; False if singular."""
     for i in range(L.N):
         for k in range(L.N):
-            w[T.SPARE + i * L.N + k] = -lv[L.JX + i + 12 * k]
+            w[T.MATRIX + i * L.N + k] = -lv[L.JX + i + L.COLUMN * k]
     return invert_into(lv, w)
-
-
-@kernel
-def balls_of(w, lv, at):
-    """Copy the balls' places from ``w`` to rows ``at`` and the next of ``lv``."""
-    for i in range(STRIDE):
-        lv[at + i] = w[T.X + i]
-        lv[at + STRIDE + i] = w[T.R + i]

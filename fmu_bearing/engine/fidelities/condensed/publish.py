@@ -1,10 +1,10 @@
-"""From a level's own state to the one that outputs and sound read."""
+"""From the rings' own state to the one that outputs and sound are made of."""
 
 from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import F, L, P, Q, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, F, L, P, Q, Y
 from fmu_bearing.engine.mechanics.trigonometry import wrap
+from fmu_bearing.engine.newton.jacobian import is_angle
 
 # What a ball in its races can do: its place varies by 0.3 mm per radian of turning at most (ten times what a
 # load of 3 kN does), and follows the rings by at most ten times their velocity.
@@ -33,7 +33,7 @@ def publish_rings(lv, newmark, y, f):
 @kernel
 def publish_cage(p, lv, speed, speed_rate, y, f):
     """Turn the cage with the balls about the place it had at the start."""
-    k = Q.CAGE + 3
+    k = Q.CAGE + Q.TURN
     y[Y.Q0 + k] = wrap(lv[L.THETA])
     y[Y.V0 + k] = lv[L.RATIO] * speed if p[P.CAGE] != 0.0 else 0.0
     f[F.BODY + k] = lv[L.RATIO] * speed_rate if p[P.CAGE] != 0.0 else 0.0
@@ -44,8 +44,7 @@ def fastest_ball(p, speed, y):
     """Bound (m/s) on what differences of the balls' places may show: see above."""
     most = 0.0
     for i in range(L.N):
-        tilt = i == 3 or i == 4 or i >= 8
-        most = max(most, abs(y[Y.V0 + i]) * (p[P.PITCH_RADIUS] if tilt else 1.0))
+        most = max(most, abs(y[Y.V0 + i]) * (p[P.PITCH_RADIUS] if is_angle(i) else 1.0))
     return _PER_RADIAN * abs(speed) + _PER_RING * most
 
 
@@ -92,18 +91,18 @@ def publish_balls(p, lv, speed, speed_rate, y, f):
         y[Y.VX + j] = told * vx
         y[Y.VR + j] = told * vr
         y[Y.OM + j] = orbit
-        f[j] = told * per2 * (x - 2.0 * x1 + x2)
-        f[STRIDE + j] = told * per2 * (r - 2.0 * r1 + r2)
-        f[2 * STRIDE + j] = lv[L.RATIO] * speed_rate
+        f[F.X + j] = told * per2 * (x - 2.0 * x1 + x2)
+        f[F.R + j] = told * per2 * (r - 2.0 * r1 + r2)
+        f[F.TH + j] = lv[L.RATIO] * speed_rate
         for i in range(3):
             y[Y.WX + i * STRIDE + j] = lv[L.SPIN + i * STRIDE + j] * speed
-            f[(3 + i) * STRIDE + j] = lv[L.SPIN + i * STRIDE + j] * speed_rate
+            f[F.WX + i * STRIDE + j] = lv[L.SPIN + i * STRIDE + j] * speed_rate
 
 
 @kernel
 def publish_losses(lv, speed, f):
     """Heats held from the quasi-static point, and the torque that puts them in at ``speed``."""
-    f[F.WORK] = lv[L.HEAT] + lv[L.HEAT + 1] + lv[L.HEAT + 2]
+    f[F.WORK] = lv[L.HEAT] + lv[L.HEAT_OUTER] + lv[L.HEAT_OIL]
     found = lv[L.FOUND_SPEED]
     # in a ramp from far below, the speed that the heats belong to is still to come
     near = found != 0.0 and speed * found > 0.5 * found * found
@@ -114,7 +113,7 @@ def publish_losses(lv, speed, f):
 
 @kernel
 def publish(p, lv, speed, speed_rate, newmark, y, f):
-    """Write the whole state ``y`` and its right-hand side ``f`` (layout of level full)."""
+    """Write the whole state ``y`` and its right-hand side ``f`` (of fidelity full: see the layout)."""
     publish_rings(lv, newmark, y, f)
     publish_cage(p, lv, speed, speed_rate, y, f)
     publish_balls(p, lv, speed, speed_rate, y, f)

@@ -1,4 +1,4 @@
-"""What the levels `rings` and `response` share: start, inputs, and the end of a step."""
+"""What fidelities `rings` and `response` share: start, inputs, and the end of a step."""
 
 import math
 
@@ -6,15 +6,13 @@ from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.fidelities.condensed.balls import stand
 from fmu_bearing.engine.fidelities.condensed.damping import add_damping
 from fmu_bearing.engine.fidelities.condensed.held import hold, out_of_date
-from fmu_bearing.engine.fidelities.condensed.linearised import (
-    at_rest,
-    derivatives,
-)
+from fmu_bearing.engine.fidelities.condensed.linearised import at_rest, derivatives
 from fmu_bearing.engine.fidelities.condensed.publish import publish
+from fmu_bearing.engine.fidelities.condensed.rows import keep_balls, show_balls
 from fmu_bearing.engine.fidelities.full.start import start
+from fmu_bearing.engine.fidelities.steps import advance_clock
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import EQ, C, F, L, P, S, T, U, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import EQ, STRIDE, C, F, L, P, S, T, U, W, Y
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 from fmu_bearing.engine.readout.motion import emit_samples
@@ -71,9 +69,9 @@ def flat(p, c, lv, w):
 
 @kernel
 def start_condensed(p, u, s, w, t):
-    """Start shared with level response: full's start, held values, then the rings' own equilibrium.
+    """Start of both: the start of fidelity full, held values, then the rings' own equilibrium.
 
-    Leaves that equilibrium in ``w[W_Y:]`` and the balls' places in ``w``; race heights are not applied.
+    Leaves that equilibrium in ``w[W.STAGE:]`` and the balls' places in ``w``; race heights are not applied.
     Status code.
     """
     status = start(p, u, s, w, t)
@@ -91,25 +89,23 @@ def start_condensed(p, u, s, w, t):
     for i in range(L.N):
         w[W.STAGE + Y.Q0 + i] = s[S.Y + Y.Q0 + i]
     for j in range(STRIDE):
-        w[T.X + j] = s[S.Y + j]
-        w[T.R + j] = s[S.Y + STRIDE + j]
+        w[T.X + j] = s[S.Y + Y.X + j]
+        w[T.R + j] = s[S.Y + Y.R + j]
     flat(p, c, lv, w)
     if not at_rest(p, c, lv, u[U.SPEED], w):
         # no rest (no preload, no pull): the quasi-static place serves, the first steps do what follows
         for i in range(L.N):
             w[W.STAGE + Y.Q0 + i] = s[S.Y + Y.Q0 + i]
         for j in range(STRIDE):
-            w[T.X + j] = s[S.Y + j]
-            w[T.R + j] = s[S.Y + STRIDE + j]
+            w[T.X + j] = s[S.Y + Y.X + j]
+            w[T.R + j] = s[S.Y + Y.R + j]
     for i in range(L.N):
         lv[L.MEAN + i] = w[W.STAGE + Y.Q0 + i]
     if derivatives(p, c, lv, 0.0, u[U.SPEED], 0.0, w):
         # the trial state and the balls' places outlast the full evaluations in there only if kept
-        for i in range(2 * STRIDE):
-            lv[L.X + i] = w[T.X + i]
+        keep_balls(w, lv, L.X)
         add_damping(p, s, w)
-        for i in range(2 * STRIDE):
-            w[T.X + i] = lv[L.X + i]
+        show_balls(lv, L.X, w)
         for i in range(Y.SIZE):
             w[W.STAGE + i] = 0.0
         for i in range(L.N):
@@ -121,9 +117,9 @@ def start_condensed(p, u, s, w, t):
 @kernel
 def quasistatic_places(p, c, speed, w):
     """Rings and balls at the quasi-static equilibrium under all loads into the trial state; status code."""
-    load = w[W.SCALARS + 8 : W.SCALARS + 13]
-    tilt = w[W.SCALARS + 13 : W.SCALARS + 15]
-    found = w[W.VEL : W.VEL + EQ.SIZE]
+    load = w[W.LOAD : W.LOAD + EQ.FREEDOMS]
+    tilt = w[W.TILT : W.TILT + 2]
+    found = w[W.FOUND : W.FOUND + EQ.SIZE]
     carried = loads(p, c, load)
     status = equilibrium(p, c, speed, load, 1.0, tilt, found, w)
     if status != OK:
@@ -146,11 +142,11 @@ def set_inputs(p, u, s, w, h):
     """Set conditions and speed ramp; True where what is held is out of date."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     rate = (u[U.SPEED] - s[S.SPEED]) / h
-    fresh = w[W.SCALARS + 16 : W.SCALARS + 16 + C.SIZE]
+    fresh = w[W.CONDITIONS : W.CONDITIONS + C.SIZE]
     conditions(p, u, 0.5 * (s[S.SPEED] + u[U.SPEED]), fresh)
     # a ramp that goes on as before also leaves the speed that all was found at
     changed = rate != s[S.SPEED_RATE] or u[U.SPEED] != s[S.SPEED]
-    for i in range(C.SIZE):
+    for i in range(C.USED):
         if fresh[i] != s[S.C + i]:
             changed = True
             s[S.C + i] = fresh[i]
@@ -162,10 +158,7 @@ def set_inputs(p, u, s, w, h):
 def advance(s, h):
     """Time, angle, speed and the sums of heat at the end of the step."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    s[S.ANGLE] = wrap(s[S.ANGLE] + h * (s[S.SPEED] + 0.5 * h * s[S.SPEED_RATE]))
-    s[S.SPEED] += h * s[S.SPEED_RATE]
-    s[S.TIME] += h
-    s[S.STEPS] += 1.0
+    advance_clock(s, h)
     for i in range(3):
         s[S.HEAT + i] += h * lv[L.HEAT + i]
         s[S.WORK] += h * lv[L.HEAT + i]

@@ -2,6 +2,7 @@
 
 ===============  =============================================================================
 ``norms``        how large a change of the state is
+``vectors``      sums of scaled vectors
 ``methods``      the Runge-Kutta methods as data
 ``flexible``     flexural modes in a Runge-Kutta step
 ``runge_kutta``  one step of such a method, implicit or explicit

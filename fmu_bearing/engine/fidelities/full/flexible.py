@@ -1,54 +1,43 @@
 """Flexural coordinates in the Runge-Kutta step: stages, and their place in Newton's method.
 
 The coordinates stand beside the state ``y`` in flat arrays of their own, so the block-arrow factors of balls
-and bodies stay as they are; ``mode_factors`` tells how both go together.
+and bodies stay as they are; ``newton.modes`` tells how both go together.
 """
 
 import math
 
-from fmu_bearing.engine.fidelities.full.methods.tableaux import T_A, T_ERROR, T_STAGES, TABLEAUX
+from fmu_bearing.engine.fidelities.full.methods.table import TABLEAUX
 from fmu_bearing.engine.jit import inlined, kernel
-from fmu_bearing.engine.layout import FL, P, W
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import FL, STRIDE, TAB, J, P, W
 from fmu_bearing.engine.mechanics.flexure import bends, mode_force
-from fmu_bearing.engine.newton.modes import partner
+from fmu_bearing.engine.newton.block_arrow import times_six
+from fmu_bearing.engine.newton.modes import inverse_of_modes, partner, ring_factors
 
 
 @inlined
 def groove_residual(rows, d, lanes, balls, own):
     """Force rows that the balls' residual ``d`` puts on the groove once the balls have answered."""
-    for axis in range(3):
-        at = (18 + axis * 6) * STRIDE
-        for j in range(lanes):
-            own[axis * STRIDE + j] = (
-                (rows[at + j] * d[j] + rows[at + STRIDE + j] * d[STRIDE + j])
-                + (
-                    rows[at + 2 * STRIDE + j] * d[2 * STRIDE + j]
-                    + rows[at + 3 * STRIDE + j] * d[3 * STRIDE + j]
-                )
-                + (
-                    rows[at + 4 * STRIDE + j] * d[4 * STRIDE + j]
-                    + rows[at + 5 * STRIDE + j] * d[5 * STRIDE + j]
-                )
-            )
+    for axis in range(FL.GROOVE):
+        out = FL.X + axis * STRIDE
+        times_six(rows, (FL.ANSWERS + axis * J.BALL) * STRIDE, d, 0, own, out, lanes)
         for j in range(balls, lanes):
-            own[axis * STRIDE + j] = 0.0
+            own[out + j] = 0.0
 
 
 @inlined
 def ball_residual(rows, d, lanes, own):
     """Take from the balls' residual ``d`` what the groove's increment in three rows of ``own`` does."""
-    for i in range(6):
-        at = i * 3 * STRIDE
+    for i in range(J.BALL):
+        at = i * FL.GROOVE * STRIDE
+        last = at + 2 * STRIDE
         for j in range(lanes):
-            d[i * STRIDE + j] -= (rows[at + j] * own[j] + rows[at + STRIDE + j] * own[STRIDE + j]) + rows[
-                at + 2 * STRIDE + j
-            ] * own[2 * STRIDE + j]
+            two = rows[at + j] * own[FL.X + j] + rows[at + STRIDE + j] * own[FL.R + j]
+            d[i * STRIDE + j] -= two + rows[last + j] * own[FL.GX + j]
 
 
 @kernel
 def spread(p, mode, lanes, own, at, a, b):
-    """Add the groove's increment by one mode's coordinates ``a``, ``b`` to three rows."""
+    """Add the groove's increment by one mode's coordinates ``a``, ``b`` to the rows X, R, GX."""
     psi_x = p[mode + P.MODE_X]
     psi_r = p[mode + P.MODE_R]
     psi_t = p[mode + P.MODE_T]
@@ -56,9 +45,9 @@ def spread(p, mode, lanes, own, at, a, b):
         c = own[at + j]
         s = own[at + STRIDE + j]
         along = a * c + b * s
-        own[j] += psi_x * along
-        own[STRIDE + j] += psi_r * along
-        own[2 * STRIDE + j] += psi_t * (a * s - b * c)
+        own[FL.X + j] += psi_x * along
+        own[FL.R + j] += psi_r * along
+        own[FL.GX + j] += psi_t * (a * s - b * c)
 
 
 @kernel
@@ -66,14 +55,16 @@ def combine(p, inverse, residual, out):
     """Increments of all modes from their residuals: each from its own and its partner's."""
     for k in range(int(p[P.MODES])):
         i = 2 * k
-        re = inverse[4 * k]
-        im = inverse[4 * k + 1]
+        at = k * FL.PER_INVERSE + FL.OWN
+        re = inverse[at]
+        im = inverse[at + 1]
         a = re * residual[i] - im * residual[i + 1]
         b = re * residual[i + 1] + im * residual[i]
         m = partner(p, k)
         if m >= 0:
-            re = inverse[4 * k + 2]
-            im = inverse[4 * k + 3]
+            at = k * FL.PER_INVERSE + FL.PARTNER
+            re = inverse[at]
+            im = inverse[at + 1]
             a += re * residual[2 * m] - im * residual[2 * m + 1]
             b += re * residual[2 * m + 1] + im * residual[2 * m]
         out[i] = a
@@ -99,7 +90,7 @@ def solve_modes(p, kept, stage, d, w):
     for race in range(2):
         if not bends(p, race):
             continue
-        groove_residual(kept[6 * modes + race * FL.FACTOR_ROWS * STRIDE :], d, lanes, balls, own)
+        groove_residual(ring_factors(kept, modes, race), d, lanes, balls, own)
         for k in range(modes):
             mode = table + k * P.MODE_SIZE
             if int(p[mode + P.MODE_BODY]) == race:
@@ -107,18 +98,18 @@ def solve_modes(p, kept, stage, d, w):
                 cosine, sine = mode_force(p, mode, lanes, own, FL.MODES + i * STRIDE, 0.0)
                 own[residual + i] = own[found + i] - own[acc + i] - cosine / p[mode + P.MODE_MASS]
                 own[residual + i + 1] = own[found + i + 1] - own[acc + i + 1] - sine / p[mode + P.MODE_MASS]
-    combine(p, kept[6 * modes + 2 * FL.FACTOR_ROWS * STRIDE :], own[residual:], own[out:])
+    combine(p, inverse_of_modes(kept, modes), own[residual:], own[out:])
     for race in range(2):
         if not bends(p, race):
             continue
-        for i in range(3 * STRIDE):
-            own[i] = 0.0
+        for i in range(FL.GROOVE * STRIDE):
+            own[FL.X + i] = 0.0
         for k in range(modes):
             mode = table + k * P.MODE_SIZE
             if int(p[mode + P.MODE_BODY]) == race:
                 at = FL.MODES + 2 * k * STRIDE
                 spread(p, mode, lanes, own, at, own[out + 2 * k], own[out + 2 * k + 1])
-        ball_residual(kept[6 * modes + race * FL.FACTOR_ROWS * STRIDE :], d, lanes, own)
+        ball_residual(ring_factors(kept, modes, race), d, lanes, own)
 
 
 @kernel
@@ -128,11 +119,9 @@ def begin_modes(p, kept, w):
         return
     count = 2 * int(p[P.MODES])
     own = w[W.FLEX :]
-    acc = FL.ACC
-    vel = FL.VEL
     for i in range(count):
-        own[acc + i] = kept[2 * count + i]
-        own[vel + i] = kept[count + i]
+        own[FL.ACC + i] = kept[2 * count + i]
+        own[FL.VEL + i] = kept[count + i]
 
 
 @kernel
@@ -140,24 +129,22 @@ def predict_modes(p, kept, h, gh, stage, tableau, w):
     """Coordinates of a stage from the stages before and its first guess of the accelerations."""
     count = 2 * int(p[P.MODES])
     own = w[W.FLEX :]
-    q = FL.Q
-    v = FL.V
     here = FL.ACC + stage * FL.COORDINATES
     for i in range(count):
         guess = own[here - FL.COORDINATES + i]
         own[here + i] = guess
-        own[v + i] = kept[count + i] + gh * guess
-        own[q + i] = kept[i]
+        own[FL.V + i] = kept[count + i] + gh * guess
+        own[FL.Q + i] = kept[i]
     for m in range(stage):
-        a = h * TABLEAUX[tableau + T_A + stage * 5 + m]
+        a = h * TABLEAUX[tableau + TAB.A + stage * TAB.ROW + m]
         if a != 0.0:
             acc = FL.ACC + m * FL.COORDINATES
             vel = FL.VEL + m * FL.COORDINATES
             for i in range(count):
-                own[v + i] += a * own[acc + i]
-                own[q + i] += a * own[vel + i]
+                own[FL.V + i] += a * own[acc + i]
+                own[FL.Q + i] += a * own[vel + i]
     for i in range(count):
-        own[q + i] += gh * own[v + i]
+        own[FL.Q + i] += gh * own[FL.V + i]
 
 
 @kernel
@@ -165,14 +152,11 @@ def correct_modes(p, stage, gh, w):
     """Add the increments to a stage's accelerations and coordinates."""
     count = 2 * int(p[P.MODES])
     own = w[W.FLEX :]
-    q = FL.Q
-    v = FL.V
-    d = FL.D
     here = FL.ACC + stage * FL.COORDINATES
     for i in range(count):
-        own[here + i] += own[d + i]
-        own[v + i] += gh * own[d + i]
-        own[q + i] += gh * gh * own[d + i]
+        own[here + i] += own[FL.D + i]
+        own[FL.V + i] += gh * own[FL.D + i]
+        own[FL.Q + i] += gh * gh * own[FL.D + i]
 
 
 @kernel
@@ -180,10 +164,9 @@ def take_accelerations(p, stage, w):
     """Accelerations of an explicit stage: those just evaluated."""
     count = 2 * int(p[P.MODES])
     own = w[W.FLEX :]
-    found = FL.A
     here = FL.ACC + stage * FL.COORDINATES
     for i in range(count):
-        own[here + i] = own[found + i]
+        own[here + i] = own[FL.A + i]
 
 
 @kernel
@@ -191,10 +174,9 @@ def keep_mode_velocities(p, stage, w):
     """Velocities of a finished stage for those that follow."""
     count = 2 * int(p[P.MODES])
     own = w[W.FLEX :]
-    v = FL.V
     vel = FL.VEL + stage * FL.COORDINATES
     for i in range(count):
-        own[vel + i] = own[v + i]
+        own[vel + i] = own[FL.V + i]
 
 
 @kernel
@@ -205,9 +187,8 @@ def end_modes(p, stages, w):
     count = 2 * int(p[P.MODES])
     own = w[W.FLEX :]
     last = FL.ACC + (stages - 1) * FL.COORDINATES
-    out = FL.A
     for i in range(count):
-        own[out + i] = own[last + i]
+        own[FL.A + i] = own[last + i]
 
 
 @kernel
@@ -238,15 +219,14 @@ def modes_error(p, error, h, tableau, w):
         return error
     count = 2 * int(p[P.MODES])
     own = w[W.FLEX :]
-    d = FL.D
     for i in range(count):
-        own[d + i] = 0.0
-    for m in range(int(TABLEAUX[tableau + T_STAGES])):
-        e = h * TABLEAUX[tableau + T_ERROR + m]
+        own[FL.D + i] = 0.0
+    for m in range(int(TABLEAUX[tableau + TAB.COUNT])):
+        e = h * TABLEAUX[tableau + TAB.ERROR + m]
         acc = FL.ACC + m * FL.COORDINATES
         for i in range(count):
-            own[d + i] += e * own[acc + i]
-    return math.sqrt(error * error + grooves_size(p, own, d))
+            own[FL.D + i] += e * own[acc + i]
+    return math.sqrt(error * error + grooves_size(p, own, FL.D))
 
 
 @kernel
@@ -256,10 +236,7 @@ def accept_modes(p, s, at, w):
         return
     count = 2 * int(p[P.MODES])
     own = w[W.FLEX :]
-    q = FL.Q
-    v = FL.V
-    a = FL.A
     for i in range(count):
-        s[at + i] = own[q + i]
-        s[at + count + i] = own[v + i]
-        s[at + 2 * count + i] = own[a + i]
+        s[at + i] = own[FL.Q + i]
+        s[at + count + i] = own[FL.V + i]
+        s[at + 2 * count + i] = own[FL.A + i]

@@ -1,32 +1,13 @@
 """From one communication point to the next: inputs, internal steps, Jacobian policy, sound samples."""
 
-import math
-
-from fmu_bearing.engine.fidelities.full.fast.blocks import (
-    fast_block,
-    fast_history,
-    fast_length,
-    remember,
-    shift_history,
-)
-from fmu_bearing.engine.fidelities.full.methods.tableaux import (
-    ESDIRK4,
-    RK4,
-    T_GAMMA,
-    T_ORDER,
-    TABLEAUX,
-    TRBDF2,
-)
-from fmu_bearing.engine.fidelities.full.progress import (
-    accept,
-    renew_jacobian,
-    total_energy,
-    velocity_tolerance,
-)
+from fmu_bearing.engine.choices import FAST, RK4, TRBDF2
+from fmu_bearing.engine.fidelities import steps
+from fmu_bearing.engine.fidelities.full.fast import blocks
+from fmu_bearing.engine.fidelities.full.methods.table import AT_ESDIRK4, AT_RK4, AT_TRBDF2, TABLEAUX
+from fmu_bearing.engine.fidelities.full.progress import accept, renew_jacobian, total_energy
 from fmu_bearing.engine.fidelities.full.runge_kutta import integrate_power, runge_kutta_step
 from fmu_bearing.engine.jit import inlined
-from fmu_bearing.engine.layout import C, F, P, S, U, W, Y
-from fmu_bearing.engine.layout.sizes import BLOCK, STRIDE
+from fmu_bearing.engine.layout import BLOCK, TAB, C, F, P, S, U, W, Y
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.mechanics.flexure import flexure_state
 from fmu_bearing.engine.newton.block_arrow import factor
@@ -36,7 +17,6 @@ from fmu_bearing.engine.readout.motion import emit_samples
 from fmu_bearing.engine.statics.rigid_preload import axial_speed
 from fmu_bearing.engine.status import NOT_CONVERGED, OK
 
-_SHORTEST = 1e-10  # s: a step that must be shorter has not converged
 _OLDEST = 5e-3  # s: age at which the Jacobian is renewed in any case
 _PROBE = 16  # steps between measurements of the contraction
 # Factors serve a step within 15 % of theirs: the wrong scale then contracts by about the same 0.15, which a
@@ -49,7 +29,7 @@ _SLOW = 0.3  # contraction beyond which a new Jacobian pays: three iterations ag
 def take_inputs(p, u, s, w, h):
     """Set conditions and speed ramp; what a jump of a held input does to stored energy counts as work."""
     rate = (u[U.SPEED] - s[S.SPEED]) / h
-    fresh = w[W.SCALARS + 8 : W.SCALARS + 8 + C.SIZE]
+    fresh = w[W.CONDITIONS : W.CONDITIONS + C.SIZE]
     conditions(p, u, 0.5 * (s[S.SPEED] + u[U.SPEED]), fresh)
     axial = axial_speed(p, u, fresh, s, w, h) if p[P.RIGID] != 0.0 else s[S.Y + Y.V0]
     changed = axial != s[S.Y + Y.V0]
@@ -57,19 +37,16 @@ def take_inputs(p, u, s, w, h):
         if fresh[i] != s[S.C + i]:
             changed = True
     if changed:
-        # the rows of w are scratch for both evaluations, so the new conditions wait in the stage area
-        for i in range(C.SIZE):
-            w[W.F0 + i] = fresh[i]
         before = total_energy(p, s, w)
         for i in range(C.SIZE):
-            s[S.C + i] = w[W.F0 + i]
+            s[S.C + i] = fresh[i]
         s[S.SPEED_RATE] = rate
         for i in range(F.SIZE):
-            w[W.D + i] = s[S.F + i]
+            w[W.BEFORE + i] = s[S.F + i]
         s[S.FAST_Y + Y.V0] += axial - s[S.Y + Y.V0]
         s[S.Y + Y.V0] = axial
         s[S.WORK] += total_energy(p, s, w) - before
-        shift_history(s, w[W.D : W.D + F.SIZE])
+        blocks.shift_history(s, w[W.BEFORE : W.BEFORE + F.SIZE])
     elif rate != s[S.SPEED_RATE]:
         s[S.SPEED_RATE] = rate
         total_energy(p, s, w)
@@ -81,8 +58,8 @@ def try_step(p, s, w, h, tableau, tolerance):
 
     Returns the error over the tolerance, or -1 where Newton failed with a fresh Jacobian.
     """
-    report = w[W.SCALARS + 40 : W.SCALARS + 44]
-    explicit = TABLEAUX[tableau + T_GAMMA] == 0.0
+    report = w[W.REPORT : W.REPORT + W.REPORT_SIZE]
+    explicit = TABLEAUX[tableau + TAB.GAMMA] == 0.0
     for attempt in range(2):
         fresh = s[S.JACOBIAN_TIME] == s[S.TIME] or explicit
         too_old = s[S.TIME] - s[S.JACOBIAN_TIME] > _OLDEST or s[S.CONTRACTION] > _SLOW
@@ -91,27 +68,27 @@ def try_step(p, s, w, h, tableau, tolerance):
             fresh = True
         ratio = h / (s[S.FACTOR_STEP] + 1e-300)
         if not explicit and (ratio < _SAME_STEP[0] or ratio > _SAME_STEP[1]):
-            gh = TABLEAUX[tableau + T_GAMMA] * h
+            gh = TABLEAUX[tableau + TAB.GAMMA] * h
             if not factor(p, s[S.JAC : S.FAC], gh, gh * gh, gh * gh, s[S.FAC : S.FAST], w):
                 if fresh:
                     return -1.0
                 continue
             factor_modes(
                 p, s[S.JAC:S.FAC], s[S.FAC:S.FAST], s[S.Y : S.Y + Y.SIZE],
-                s[S.Y + 2 * STRIDE] - s[S.JACOBIAN_ANGLE], s[S.SPEED], gh, gh * gh, s[flexure_state(p) :], w,
+                s[S.Y + Y.TH] - s[S.JACOBIAN_ANGLE], s[S.SPEED], gh, gh * gh, s[flexure_state(p) :], w,
             )  # fmt: skip
             s[S.FACTOR_STEP] = h
         probe = s[S.STEPS] % _PROBE == 0.0
         fine = runge_kutta_step(
             p, s[S.C : S.C + C.SIZE], s[S.Y : S.Y + Y.SIZE], s[S.F : S.F + F.SIZE], s[S.AXES:S.JAC],
             s[flexure_state(p) :], s[S.ANGLE], s[S.SPEED], s[S.SPEED_RATE], h, tableau, s[S.FAC:S.FAST],
-            s[S.Y + 2 * STRIDE] - s[S.JACOBIAN_ANGLE], 0.5 * tolerance, s[S.CONTRACTION], probe, w, report,
+            s[S.Y + Y.TH] - s[S.JACOBIAN_ANGLE], 0.5 * tolerance, s[S.CONTRACTION], probe, w, report,
         )  # fmt: skip
         if fine:
-            if report[1] > 0.0:
-                s[S.CONTRACTION] = report[1]
-            s[S.NEWTON] += report[2]
-            return report[0] / tolerance
+            if report[W.CONTRACTION] > 0.0:
+                s[S.CONTRACTION] = report[W.CONTRACTION]
+            s[S.NEWTON] += report[W.ITERATIONS]
+            return report[W.ERROR] / tolerance
         if fresh:
             return -1.0
     return -1.0
@@ -120,31 +97,29 @@ def try_step(p, s, w, h, tableau, tolerance):
 @inlined
 def march(p, u, s, w, h):
     """Advance the state by the communication step ``h`` (s); status code."""
-    for i in range(3):
-        s[S.MEAN_HEAT + i] = s[S.HEAT + i]
+    steps.begin_heats(s)
     take_inputs(p, u, s, w, h)
-    tolerance = velocity_tolerance(p, u[U.SPEED])
-    tableau = TRBDF2 if p[P.METHOD] == 2.0 else RK4 if p[P.METHOD] == 3.0 else ESDIRK4
-    power = -1.0 / TABLEAUX[tableau + T_ORDER]
+    tolerance = steps.velocity_tolerance(p, u[U.SPEED])
+    tableau = AT_TRBDF2 if p[P.METHOD] == TRBDF2 else AT_RK4 if p[P.METHOD] == RK4 else AT_ESDIRK4
+    power = -1.0 / TABLEAUX[tableau + TAB.ORDER]
     begin = s[S.TIME]
     end = begin + h
     longest = p[P.MAX_STEP] if p[P.MODES] == 0.0 else min(p[P.MAX_STEP], p[P.MODE_STEP])
     # bounded work: no more attempts than a hundred times what the largest internal step would need
     # (a thousand times for explicit steps, which stability keeps below 0.1 us)
-    left = 2000.0 + (1000.0 if tableau == RK4 else 100.0) * math.ceil(h / longest)
+    left = steps.most_attempts(h, longest, 1000.0 if tableau == AT_RK4 else 100.0)
     remaining = h
-    fast = p[P.METHOD] == 1.0
-    # the clock's own rounding must not count as time left
-    while remaining > 1e-12 * h + 4e-16 * abs(end):
+    fast = p[P.METHOD] == FAST
+    while steps.unfinished(remaining, h, end):
         proposed = min(s[S.STEP], longest)
-        length = remaining / max(1.0, math.ceil(remaining / proposed - 1e-9))
-        short = fast_length(p, s, remaining) if fast else 0.0
+        length = steps.even_length(remaining, proposed)
+        short = blocks.fast_length(p, s, remaining) if fast else 0.0
         if short > 0.0 and short <= 1.000001 * length:
             # ESDIRK4 takes the same steps until the history suffices
             length = short
-            if fast_history(s, short):
+            if blocks.fast_history(s, short):
                 count = min(BLOCK, int(remaining / short + 0.5))
-                if fast_block(p, s, w, count, tolerance):
+                if blocks.fast_block(p, s, w, count, tolerance):
                     remaining = end - s[S.TIME]
                     continue
         left -= 1.0
@@ -152,17 +127,15 @@ def march(p, u, s, w, h):
             return NOT_CONVERGED
         error = try_step(p, s, w, length, tableau, tolerance)
         if error < 0.0 or not (error <= 1.0):
-            s[S.REJECTED] += 1.0
             shrink = 0.25 if not (error > 0.0) else max(0.2, 0.9 * error**power)
-            s[S.STEP] = length * shrink
-            if s[S.STEP] < min(_SHORTEST, 0.01 * h):
+            if not steps.rejected(s, length * shrink, h):
                 return NOT_CONVERGED
             continue
-        integrate_power(length, tableau, w, s[S.WORK : S.WORK + 4])
+        integrate_power(length, tableau, w, s[S.WORK : S.WORK + F.POWERS])
         emit_samples(p, s, w, length)
         accept(p, s, w, length)
         if fast:
-            remember(s, length, w[W.ACC : W.ACC + F.SIZE])
+            blocks.remember(s, length, w[W.ACC : W.ACC + F.SIZE])
         remaining = end - s[S.TIME]
         grow = min(2.0, max(0.3, 0.9 * (error + 1e-6) ** power))
         # a step cut to meet the communication point says nothing against a longer one
@@ -175,6 +148,5 @@ def march(p, u, s, w, h):
     # not carry the last Newton iteration's remainder.
     s[S.ENERGY_NOW] = total_energy(p, s, w)
     summarise(p, s, w)
-    for i in range(3):
-        s[S.MEAN_HEAT + i] = (s[S.HEAT + i] - s[S.MEAN_HEAT + i]) / h
+    steps.mean_heats(s, h)
     return OK

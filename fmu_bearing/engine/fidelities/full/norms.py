@@ -3,8 +3,8 @@
 import math
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import C, F, P, Q
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.lanes import dot_lanes
+from fmu_bearing.engine.layout import STRIDE, C, F, P, Q
 from fmu_bearing.engine.newton.jacobian import is_angle
 
 
@@ -25,20 +25,11 @@ def body_size(p, d, at):
 
 @kernel
 def row_size(d, first, count, lanes):
-    """Mean over the lanes of the sum of squares of ``count`` rows."""
+    """Mean over the lanes of the sum of squares of ``count`` rows from that at ``first`` on."""
     total = 0.0
     for i in range(count):
-        a = 0.0
-        b = 0.0
-        c = 0.0
-        e = 0.0
-        for k in range(lanes // 4):
-            j = (first + i) * STRIDE + 4 * k
-            a += d[j] * d[j]
-            b += d[j + 1] * d[j + 1]
-            c += d[j + 2] * d[j + 2]
-            e += d[j + 3] * d[j + 3]
-        total += (a + b) + (c + e)
+        row = first + i * STRIDE
+        total += dot_lanes(d, row, d, row, lanes)
     return total / lanes
 
 
@@ -52,6 +43,6 @@ def newton_size(p, c, d, factor):
     lanes = int(p[P.LANES])
     orbit = 0.1 * p[P.PITCH_RADIUS]
     spin = 0.03 * c[C.BALL_RADIUS]
-    total = body_size(p, d, F.BODY) + 0.03 * row_size(d, 0, 2, lanes)
-    total += orbit * orbit * row_size(d, 2, 1, lanes) + spin * spin * row_size(d, 3, 3, lanes)
+    total = body_size(p, d, F.BODY) + 0.03 * row_size(d, F.X, 2, lanes)
+    total += orbit * orbit * row_size(d, F.TH, 1, lanes) + spin * spin * row_size(d, F.WX, 3, lanes)
     return math.sqrt(total) * abs(factor)

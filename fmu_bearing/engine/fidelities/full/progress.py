@@ -1,9 +1,9 @@
 """What every way of stepping does to the state: renew the Jacobian, take a step over, add up energy."""
 
 from fmu_bearing.engine.fidelities.full.flexible import accept_modes
+from fmu_bearing.engine.fidelities.steps import advance_clock
 from fmu_bearing.engine.jit import inlined, kernel
-from fmu_bearing.engine.layout import C, F, P, Q, S, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, C, F, P, Q, S, W, Y
 from fmu_bearing.engine.mechanics.ball_waves import advance_axes, turn_axes
 from fmu_bearing.engine.mechanics.energy import stored_energy
 from fmu_bearing.engine.mechanics.equations import right_hand_side
@@ -16,21 +16,10 @@ from fmu_bearing.engine.mechanics.flexure import (
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 from fmu_bearing.engine.newton.jacobian import jacobian
 
-# Amplitude (m) whose velocity at shaft speed the relative tolerance refers to: 10 mm/s at 20,000 r/min, as
-# rings vibrate there; the slowest speed (rad/s) for which it shrinks with speed.
-_AMPLITUDE = 5e-6
-_SLOWEST = 20.0
-
-
-@kernel
-def velocity_tolerance(p, speed):
-    """Error (m/s) allowed in the rings' velocities at a shaft speed (rad/s)."""
-    return p[P.TOLERANCE] * _AMPLITUDE * max(abs(speed), _SLOWEST)
-
 
 @kernel
 def show_axes(p, s, w):
-    """Rows ``W_AXES`` of the state in ``s``, for wavy balls, and the coordinates of flexible rings."""
+    """Rows ``W.AXES`` of the state in ``s``, for wavy balls, and the coordinates of flexible rings."""
     turn_axes(p, s[S.AXES : S.JAC], s[S.Y : S.Y + Y.SIZE], int(p[P.LANES]), 0.0, w)
     show_flexure(p, s, w)
 
@@ -54,8 +43,9 @@ def total_energy(p, s, w):
 def wrap_angles(y):
     """Bring the balls' angles and the cage's back into one turn."""
     for j in range(STRIDE):
-        y[2 * STRIDE + j] = wrap(y[2 * STRIDE + j])
-    y[Y.Q0 + Q.CAGE + 3] = wrap(y[Y.Q0 + Q.CAGE + 3])
+        y[Y.TH + j] = wrap(y[Y.TH + j])
+    cage = Y.Q0 + Q.CAGE + Q.TURN
+    y[cage] = wrap(y[cage])
 
 
 @inlined
@@ -67,7 +57,7 @@ def renew_jacobian(p, s, w):
         s[S.JAC:S.FAC],
     )  # fmt: skip
     s[S.JACOBIAN_TIME] = s[S.TIME]
-    s[S.JACOBIAN_ANGLE] = s[S.Y + 2 * STRIDE]
+    s[S.JACOBIAN_ANGLE] = s[S.Y + Y.TH]
     s[S.FACTOR_STEP] = 0.0
     s[S.JACOBIANS] += 1.0
     s[S.CONTRACTION] = 0.1
@@ -83,12 +73,9 @@ def accept(p, s, w, h):
     for i in range(F.SIZE):
         s[S.F + i] = w[W.LAST + i]
     accept_modes(p, s, flexure_state(p), w)
-    turn = wrap(s[S.Y + 2 * STRIDE]) - s[S.Y + 2 * STRIDE]
+    turn = wrap(s[S.Y + Y.TH]) - s[S.Y + Y.TH]
     if turn != 0.0:
         # the orbit angle at the Jacobian turns back with the balls
         s[S.JACOBIAN_ANGLE] += turn
     wrap_angles(s[S.Y : S.Y + Y.SIZE])
-    s[S.ANGLE] = wrap(s[S.ANGLE] + h * (s[S.SPEED] + 0.5 * h * s[S.SPEED_RATE]))
-    s[S.SPEED] += h * s[S.SPEED_RATE]
-    s[S.TIME] += h
-    s[S.STEPS] += 1.0
+    advance_clock(s, h)

@@ -2,57 +2,22 @@
 
 With base values from the stages before, V = v_base + g h A and X = x_base + g h V, so Newton's method needs
 one solve with I - g h Jv - (g h)^2 Jx per iteration. The first stage is the last one of the step before.
-The loops over all coordinates run over spare lanes too: they hold zeros. They work on slices whose indices
-begin at zero: with an offset inside the index the compiler finds no vector loop.
+The loops over all coordinates run over spare lanes too: they hold zeros.
 """
 
 import math
 
-from fmu_bearing.engine.fidelities.full.flexible import (
-    begin_modes,
-    correct_modes,
-    end_modes,
-    keep_mode_velocities,
-    modes_error,
-    modes_size,
-    predict_modes,
-    solve_modes,
-    take_accelerations,
-)
-from fmu_bearing.engine.fidelities.full.methods.tableaux import (
-    T_A,
-    T_B,
-    T_ERROR,
-    T_GAMMA,
-    T_NODES,
-    T_STAGES,
-    TABLEAUX,
-)
+from fmu_bearing.engine.fidelities.full import flexible
+from fmu_bearing.engine.fidelities.full.methods.table import TABLEAUX
 from fmu_bearing.engine.fidelities.full.norms import body_size, newton_size, row_size
-from fmu_bearing.engine.jit import inlined, kernel
-from fmu_bearing.engine.layout import F, P, Q, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.fidelities.full.vectors import add_scaled, sum_scaled
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.layout import STRIDE, TAB, F, P, Q, W, Y
 from fmu_bearing.engine.mechanics.ball_waves import turn_axes
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.newton.block_arrow import solve
 
-_PLACES = 3 * STRIDE  # rows of ball coordinates that have both place and rate in the state
-_RATES = 6 * STRIDE
 MAX_ITERATIONS = 8
-
-
-@inlined
-def add_scaled(scale, x, y, n):
-    """``y += scale * x`` over ``n`` numbers."""
-    for i in range(n):
-        y[i] += scale * x[i]
-
-
-@inlined
-def sum_scaled(x, scale, y, out, n):
-    """``out = x + scale * y`` over ``n`` numbers."""
-    for i in range(n):
-        out[i] = x[i] + scale * y[i]
 
 
 @kernel
@@ -62,60 +27,61 @@ def error_size(p, c, h, tableau, w):
     The balls' orbit and spin are left out for implicit methods: their stiff share of the estimate means
     nothing. For explicit ones it is what tells of instability.
     """
-    stages = int(TABLEAUX[tableau + T_STAGES])
-    explicit = TABLEAUX[tableau + T_GAMMA] == 0.0
-    rows = _RATES if explicit else 2 * STRIDE
+    stages = int(TABLEAUX[tableau + TAB.COUNT])
+    explicit = TABLEAUX[tableau + TAB.GAMMA] == 0.0
+    rows = Y.RATES if explicit else 2 * STRIDE
     d = w[W.D : W.D + F.SIZE]
     for i in range(F.SIZE):
         d[i] = 0.0
     for m in range(stages):
-        e = h * TABLEAUX[tableau + T_ERROR + m]
+        e = h * TABLEAUX[tableau + TAB.ERROR + m]
         acc = W.ACC + m * F.SIZE
         add_scaled(e, w[acc : acc + rows], d, rows)
         add_scaled(e, w[acc + F.BODY : acc + F.WORK], d[F.BODY :], Q.SIZE)
     if explicit:
         return newton_size(p, c, d, 1.0)
-    return math.sqrt(body_size(p, d, F.BODY) + 0.01 * row_size(d, 0, 2, int(p[P.LANES])))
+    return math.sqrt(body_size(p, d, F.BODY) + 0.01 * row_size(d, F.X, 2, int(p[P.LANES])))
 
 
 @kernel
 def predict(y, h, gh, stage, tableau, w):
-    """State of a stage into ``w[W_Y:]`` from the stages before and its first guess of the accelerations."""
+    """State of a stage into ``w[W.STAGE:]`` from the stages before and a first guess of its accelerations."""
     here = W.ACC + stage * F.SIZE
     acc = w[here : here + F.SIZE]
-    places = w[W.STAGE : W.STAGE + _PLACES]
-    rates = w[W.STAGE + _PLACES : W.STAGE + _PLACES + _RATES]
+    places = w[W.STAGE : W.STAGE + Y.PLACES]
+    rates = w[W.STAGE + Y.VX : W.STAGE + Y.Q0]
     q = w[W.STAGE + Y.Q0 : W.STAGE + Y.V0]
     v = w[W.STAGE + Y.V0 : W.STAGE + Y.SIZE]
     before = w[here - F.SIZE : here]
     for i in range(F.SIZE):
         acc[i] = before[i]
-    sum_scaled(y[_PLACES : _PLACES + _RATES], gh, acc, rates, _RATES)
+    sum_scaled(y[Y.VX : Y.Q0], gh, acc, rates, Y.RATES)
     sum_scaled(y[Y.V0 : Y.SIZE], gh, acc[F.BODY :], v, Q.SIZE)
-    for i in range(_PLACES):
+    for i in range(Y.PLACES):
         places[i] = y[i]
     for i in range(Q.SIZE):
         q[i] = y[Y.Q0 + i]
     for m in range(stage):
-        a = h * TABLEAUX[tableau + T_A + stage * 5 + m]
+        a = h * TABLEAUX[tableau + TAB.A + stage * TAB.ROW + m]
         if a != 0.0:
-            at = m * F.SIZE
-            add_scaled(a, w[W.ACC + at : W.VEL], rates, _RATES)
-            add_scaled(a, w[W.ACC + at + F.BODY : W.VEL], v, Q.SIZE)
-            add_scaled(a, w[W.VEL + at : W.MOTION], places, _PLACES)
-            add_scaled(a, w[W.VEL + at + F.BODY : W.MOTION], q, Q.SIZE)
-    add_scaled(gh, rates, places, _PLACES)
+            earlier = w[W.ACC + m * F.SIZE : W.ACC + (m + 1) * F.SIZE]
+            moving = w[W.VEL + m * F.SIZE : W.VEL + (m + 1) * F.SIZE]
+            add_scaled(a, earlier, rates, Y.RATES)
+            add_scaled(a, earlier[F.BODY :], v, Q.SIZE)
+            add_scaled(a, moving, places, Y.PLACES)
+            add_scaled(a, moving[F.BODY :], q, Q.SIZE)
+    add_scaled(gh, rates, places, Y.PLACES)
     add_scaled(gh, v, q, Q.SIZE)
 
 
 @kernel
 def correct(acc, gh, w):
-    """Add the increment in ``w[W_D:]`` to a stage's accelerations ``acc`` and to its state."""
+    """Add the increment in ``w[W.D:]`` to a stage's accelerations ``acc`` and to its state."""
     d = w[W.D : W.D + F.SIZE]
     square = gh * gh
-    add_scaled(1.0, d, acc, _RATES + Q.SIZE)
-    add_scaled(gh, d, w[W.STAGE + _PLACES : W.STAGE + Y.Q0], _RATES)
-    add_scaled(square, d, w[W.STAGE : W.STAGE + _PLACES], _PLACES)
+    add_scaled(1.0, d, acc, Y.RATES + Q.SIZE)
+    add_scaled(gh, d, w[W.STAGE + Y.VX : W.STAGE + Y.Q0], Y.RATES)
+    add_scaled(square, d, w[W.STAGE : W.STAGE + Y.PLACES], Y.PLACES)
     add_scaled(gh, d[F.BODY :], w[W.STAGE + Y.V0 : W.STAGE + Y.SIZE], Q.SIZE)
     add_scaled(square, d[F.BODY :], w[W.STAGE + Y.Q0 : W.STAGE + Y.V0], Q.SIZE)
 
@@ -123,8 +89,8 @@ def correct(acc, gh, w):
 @kernel
 def keep_velocities(y, kept):
     """Copy the rates of all places of a state into ``kept``, laid out like accelerations."""
-    rates = y[_PLACES : 2 * _PLACES]
-    for i in range(_PLACES):
+    rates = y[Y.VX : Y.VX + Y.PLACES]
+    for i in range(Y.PLACES):
         kept[i] = rates[i]
     for i in range(Q.SIZE):
         kept[F.BODY + i] = y[Y.V0 + i]
@@ -132,10 +98,10 @@ def keep_velocities(y, kept):
 
 @kernel
 def newton_residual(acc, w):
-    """Right-hand side less the stage's accelerations ``acc`` into ``w[W_D:]``."""
+    """Right-hand side less the stage's accelerations ``acc`` into ``w[W.D:]``."""
     d = w[W.D : W.D + F.SIZE]
     f = w[W.F : W.F + F.SIZE]
-    for i in range(_RATES + Q.SIZE):
+    for i in range(Y.RATES + Q.SIZE):
         d[i] = f[i] - acc[i]
 
 
@@ -144,35 +110,35 @@ def runge_kutta_step(
     p, c, y, f, axes, flexure, angle, speed, speed_rate, h, tableau, fac, turned, tolerance, contraction,
     probe, w, report,
 ):  # fmt: skip
-    """One step of length ``h`` from (y, f); the new state is left in ``w[W_Y:]`` and its f in the last stage.
+    """One step of length ``h`` from (y, f); the new state goes to ``w[W.STAGE:]``, its f to ``w[W.LAST:]``.
 
     ``axes``: of wavy balls, at the step's start; ``flexure``: the rings' part of the state; ``tableau``:
     place in TABLEAUX; ``fac``: factors for about this ``h``; ``turned``: orbit angle (rad) since they were
     made; ``tolerance`` (m/s): Newton's error; ``contraction``: rate known so far; ``probe``: measure it anew.
-    ``report`` takes the error estimate (m/s), contraction and iterations. Returns False where Newton does not
-    converge.
+    ``report`` takes ``W.ERROR``, ``W.CONTRACTION`` and ``W.ITERATIONS``. Returns False where Newton's method
+    does not converge.
     """
-    gh = TABLEAUX[tableau + T_GAMMA] * h
-    stages = int(TABLEAUX[tableau + T_STAGES])
+    gh = TABLEAUX[tableau + TAB.GAMMA] * h
+    stages = int(TABLEAUX[tableau + TAB.COUNT])
     stage_y = w[W.STAGE : W.STAGE + Y.SIZE]
-    result = w[W.F : W.F0]
+    result = w[W.F : W.F + F.SIZE]
     increment = w[W.D : W.D + F.SIZE]
     for i in range(F.SIZE):
         w[W.ACC + i] = f[i]
         result[i] = 0.0
-    keep_velocities(y, w[W.VEL : W.MOTION])
-    flexible = p[P.MODES] != 0.0
-    begin_modes(p, flexure, w)
-    orbit = y[5 * STRIDE]
+    keep_velocities(y, w[W.VEL : W.VEL + F.SIZE])
+    bending = p[P.MODES] != 0.0
+    flexible.begin_modes(p, flexure, w)
+    orbit = y[Y.OM]
     iterations = 0.0
     worst = 0.0
     for stage in range(1, stages):
         here = W.ACC + stage * F.SIZE
         acc = w[here : here + F.SIZE]
         predict(y, h, gh, stage, tableau, w)
-        if flexible:
-            predict_modes(p, flexure, h, gh, stage, tableau, w)
-        t = h * TABLEAUX[tableau + T_NODES + stage]
+        if bending:
+            flexible.predict_modes(p, flexure, h, gh, stage, tableau, w)
+        t = h * TABLEAUX[tableau + TAB.NODES + stage]
         turn_axes(p, axes, y, int(p[P.LANES]), t, w)
         angle_t = angle + t * (speed + 0.5 * t * speed_rate)
         speed_t = speed + t * speed_rate
@@ -182,21 +148,21 @@ def runge_kutta_step(
         done = gh == 0.0
         if done:
             right_hand_side(p, c, stage_y, angle_t, speed_t, speed_rate, w, result)
-            for i in range(_RATES + Q.SIZE):
+            for i in range(Y.RATES + Q.SIZE):
                 acc[i] = result[i]
-            if flexible:
-                take_accelerations(p, stage, w)
+            if bending:
+                flexible.take_accelerations(p, stage, w)
         for n in range(0 if done else MAX_ITERATIONS):
             right_hand_side(p, c, stage_y, angle_t, speed_t, speed_rate, w, result)
             newton_residual(acc, w)
-            if flexible:
-                solve_modes(p, flexure, stage, increment, w)
+            if bending:
+                flexible.solve_modes(p, flexure, stage, increment, w)
             solve(p, fac, co, si, increment, w)
             correct(acc, gh, w)
-            if flexible:
-                correct_modes(p, stage, gh, w)
+            if bending:
+                flexible.correct_modes(p, stage, gh, w)
             iterations += 1.0
-            size = modes_size(p, newton_size(p, c, increment, gh), gh, w)
+            size = flexible.modes_size(p, newton_size(p, c, increment, gh), gh, w)
             if not (size < 1e6):
                 return False
             rate = contraction
@@ -216,27 +182,27 @@ def runge_kutta_step(
             return False
         for i in range(F.WORK, F.SIZE):
             acc[i] = result[i]
-        keep_velocities(stage_y, w[W.VEL + stage * F.SIZE : W.MOTION])
-        if flexible:
-            keep_mode_velocities(p, stage, w)
+        keep_velocities(stage_y, w[W.VEL + stage * F.SIZE : W.VEL + (stage + 1) * F.SIZE])
+        if bending:
+            flexible.keep_mode_velocities(p, stage, w)
     last = W.ACC + (stages - 1) * F.SIZE
     if last != W.LAST:
         for i in range(F.SIZE):
             w[W.LAST + i] = w[last + i]
-    end_modes(p, stages, w)
-    report[0] = modes_error(p, error_size(p, c, h, tableau, w), h, tableau, w)
-    report[1] = worst
-    report[2] = iterations
+    flexible.end_modes(p, stages, w)
+    report[W.ERROR] = flexible.modes_error(p, error_size(p, c, h, tableau, w), h, tableau, w)
+    report[W.CONTRACTION] = worst
+    report[W.ITERATIONS] = iterations
     return True
 
 
 @kernel
 def integrate_power(h, tableau, w, totals):
     """Add work, and heat to inner ring, outer ring and oil (J) over the last step, by the same quadrature."""
-    stages = int(TABLEAUX[tableau + T_STAGES])
-    for k in range(4):
+    stages = int(TABLEAUX[tableau + TAB.COUNT])
+    for k in range(F.POWERS):
         total = 0.0
         for stage in range(stages):
-            weight = TABLEAUX[tableau + T_B + stage]
-            total += weight * w[W.ACC + stage * F.SIZE + (F.WORK if k == 0 else F.HEAT + k - 1)]
+            weight = TABLEAUX[tableau + TAB.B + stage]
+            total += weight * w[W.ACC + stage * F.SIZE + F.WORK + k]
         totals[k] += h * total

@@ -7,8 +7,7 @@ redistributed loads then lack of balance on the bodies is small and rings down w
 
 from fmu_bearing.engine.fidelities.full.flexible import solve_modes
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import FL, A, F, J, P, Q, S, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import FL, STRIDE, A, F, J, P, Q, S, W, Y
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.mechanics.flexure import flexure_state, show_flexure
 from fmu_bearing.engine.newton.block_arrow import factor
@@ -16,6 +15,7 @@ from fmu_bearing.engine.newton.jacobian import jacobian
 from fmu_bearing.engine.newton.modes import factor_modes
 from fmu_bearing.engine.statics.place import around
 
+_ORBIT = 2  # row of a ball's orbit, behind its places along x and r
 _ROUNDS = 60
 _SETTLED = 1e-12  # m: a millionth of the contacts' approach
 _LONGEST = 1e-6  # m: change per round, of the size of the approach, so that no contact opens on the way
@@ -24,28 +24,28 @@ _LONGEST = 1e-6  # m: change per round, of the size of the approach, so that no 
 @kernel
 def hold_orbit(jac):
     """Take the balls' orbit and spin out of a Jacobian: they neither answer nor act."""
-    for i in range(6):
-        for k in range(9):
-            if i >= 2 or k == 2:
+    for i in range(J.BALL):
+        for k in range(J.STATES):
+            if i >= _ORBIT or k == _ORBIT:
                 for j in range(STRIDE):
-                    jac[J.B + (i * 9 + k) * STRIDE + j] = 0.0
-    for i in range(2 * 34 * STRIDE, 6 * 34 * STRIDE):
+                    jac[J.B + (i * J.STATES + k) * STRIDE + j] = 0.0
+    for i in range(_ORBIT * J.BODIES * STRIDE, J.BALL * J.BODIES * STRIDE):
         jac[J.C + i] = 0.0
     for i in range(Q.SIZE):
         for j in range(STRIDE):
-            jac[J.D + (i * 9 + 2) * STRIDE + j] = 0.0
+            jac[J.D + (i * J.STATES + _ORBIT) * STRIDE + j] = 0.0
 
 
 @kernel
 def settling(p, c, y, angle, speed, s, w):
-    """One round of Newton's method; returns the largest increment (m) it asks for, left in ``w[W_D:]``."""
+    """One round of Newton's method; returns the largest increment (m) it asks for, left in ``w[W.D:]``."""
     lanes = int(p[P.LANES])
     jac = s[S.JAC : S.FAC]
     fac = s[S.FAC : S.FAST]
     kept = s[flexure_state(p) :]
     own = w[W.FLEX :]
     d = w[W.D : W.D + F.SIZE]
-    f = w[W.F : W.F0]
+    f = w[W.F : W.F + F.SIZE]
     jacobian(p, c, y, angle, speed, 0.0, w, jac)
     hold_orbit(jac)
     # accelerations over a time of 1 s: the inertia beside the contacts' stiffness is 1e-11 then
@@ -53,7 +53,7 @@ def settling(p, c, y, angle, speed, s, w):
     factor_modes(p, jac, fac, y, 0.0, speed, 0.0, 1.0, kept, w)
     right_hand_side(p, c, y, angle, speed, 0.0, w, f)
     for i in range(F.SIZE):
-        d[i] = f[i] if i < 2 * STRIDE else 0.0
+        d[i] = f[i] if i < F.TH else 0.0
     for i in range(2 * int(p[P.MODES])):
         own[FL.ACC + i] = 0.0
     solve_modes(p, kept, 0, d, w)
@@ -61,9 +61,9 @@ def settling(p, c, y, angle, speed, s, w):
     for j in range(lanes):
         x = 0.0
         r = 0.0
-        for k in range(2):
+        for k in range(_ORBIT):
             x += fac[A.INVERSE + k * STRIDE + j] * d[k * STRIDE + j]
-            r += fac[A.INVERSE + (6 + k) * STRIDE + j] * d[k * STRIDE + j]
+            r += fac[A.INVERSE + (J.BALL + k) * STRIDE + j] * d[k * STRIDE + j]
         d[j] = x
         d[STRIDE + j] = r
         largest = max(largest, abs(x), abs(r))
@@ -79,7 +79,7 @@ def settle(p, c, y, angle, speed, s, w):
         return
     lanes = int(p[P.LANES])
     at = flexure_state(p)
-    before = w[W.ACC : W.ACC + 2 * STRIDE]
+    before = w[W.FIRST_PLACES : W.FIRST_PLACES + 2 * STRIDE]
     for i in range(2 * STRIDE):
         before[i] = y[i]
     largest = 1.0

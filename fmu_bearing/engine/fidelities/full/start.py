@@ -29,9 +29,9 @@ def start(p, u, s, w, t):
         w[i] = 0.0
     c = s[S.C : S.C + C.SIZE]
     conditions(p, u, u[U.SPEED], c)
-    load = w[W.SCALARS + 8 : W.SCALARS + 13]
-    tilt = w[W.SCALARS + 13 : W.SCALARS + 15]
-    found = w[W.VEL : W.VEL + EQ.SIZE]
+    load = w[W.LOAD : W.LOAD + EQ.FREEDOMS]
+    tilt = w[W.TILT : W.TILT + 2]
+    found = w[W.FOUND : W.FOUND + EQ.SIZE]
     if p[P.RIGID] != 0.0:
         status = rigid_start(p, u, c, s, w, found)
         if status != OK:
@@ -58,7 +58,7 @@ def start(p, u, s, w, t):
         orbit = 0.0
         for j in range(int(p[P.BALLS])):
             orbit += y[Y.OM + j] / p[P.BALLS]
-        y[Y.V0 + Q.CAGE + 3] = orbit
+        y[Y.V0 + Q.CAGE + Q.TURN] = orbit
     s[S.TIME] = t
     s[S.START] = t
     s[S.SPEED] = u[U.SPEED]

@@ -1,4 +1,4 @@
-"""Excitation of the rings line by line, and the linear answer to it (level `response`).
+"""Excitation of the rings line by line, and the linear answer to it (fidelity `response`).
 
 Held at their equilibrium, the rings feel from a ball at azimuth theta a force f(theta), and by a height h
 under it g(theta) h + m(theta) h'' (the ball's inertia). Both vary with theta where a radial load makes the
@@ -18,23 +18,15 @@ import math
 from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.dense import solve_complex
 from fmu_bearing.engine.fidelities.condensed.balls import carried, stand
+from fmu_bearing.engine.fidelities.condensed.rows import component
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import C, L, P, S, T, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
-from fmu_bearing.engine.newton.jacobian import inertia
+from fmu_bearing.engine.layout import LN, STRIDE, C, L, P, Q, S, T, W, Y
+from fmu_bearing.engine.newton.jacobian import inertia, is_angle
 
-REACH = 8  # highest circumferential order l of the balls' unequal loads
 _HEIGHT = 1e-9  # m, for differences; heights' accelerations by (3e4 rad/s)^2 times that
 _BEND = 1.0  # m/s2
 _WEAK = 1e-5  # of the strongest line's velocity: left out
-# scratch in the Jacobian's block, which these levels do not use: samples over the orbit, then transforms
-_KINDS = 5  # force; by height inner, outer; by its acceleration inner, outer
-_SAMPLES = 96
-X_SAMPLES = 0  # kind, component, azimuth
-X_COS = X_SAMPLES + _KINDS * 10 * _SAMPLES
-X_SIN = X_COS + _SAMPLES
-X_G = X_SIN + _SAMPLES  # kind, order 0 .. REACH (0 .. 2 Z for the force), real 10, imaginary 10
-X_FORCE = 20  # one line's excitation: real 10, imaginary 10
+_STILL = 1e-3  # rad/s: a line as slow as that is none
 
 
 @kernel
@@ -66,81 +58,89 @@ def order_amplitudes(p, lv):
 def sample_orbit(p, c, lv, speed, x, w):
     """Fill ``x`` with the forces of one ball on the rings all round, and their derivatives; the count.
 
-    The rings stand at ``w[W_Y:]``. All balls are moved through one spacing in equal parts.
+    The rings stand at ``w[W.STAGE:]``. All balls are moved through one spacing in equal parts.
     """
     balls = int(p[P.BALLS])
     lanes = int(p[P.LANES])
-    parts = max(_SAMPLES // balls, 1)
-    q = w[T.Q : T.Q + 12]
+    parts = max(LN.AZIMUTHS // balls, 1)
+    q = w[T.Q : T.Q + L.COLUMN]
     for i in range(L.N):
         q[i] = w[W.STAGE + Y.Q0 + i]
     kept = c[C.OVERSIZE_SCALE]
     c[C.OVERSIZE_SCALE] = 0.0
     for part in range(parts):
         stand(p, c, lv, 2.0 * PI * part / (balls * parts), 0.0, 0.0, speed, w)
-        for kind in range(_KINDS):
-            row = T.INNER + (kind - 1) * STRIDE if kind < 3 else T.BEND + (kind - 3) * STRIDE
-            step = _HEIGHT if kind < 3 else _BEND
-            if kind > 0:
+        for kind in range(LN.KINDS):
+            row = T.BEND + (kind - LN.BY_BEND) * STRIDE
+            if kind < LN.BY_BEND:
+                row = T.INNER + (kind - LN.BY_HEIGHT) * STRIDE
+            step = _HEIGHT if kind < LN.BY_BEND else _BEND
+            if kind != LN.FORCE:
                 for j in range(lanes):
                     w[row + j] = step
             carried(p, c, lv, speed, q, w)
             carried(p, c, lv, speed, q, w)
-            if kind > 0:
+            if kind != LN.FORCE:
                 for j in range(lanes):
                     w[row + j] = 0.0
-            for i in range(10):
+            for i in range(LN.COMPONENTS):
                 for j in range(balls):
-                    at = (kind * 10 + i) * _SAMPLES + j * parts + part
-                    x[X_SAMPLES + at] = w[T.FORCE + i * STRIDE + j]
-                    if kind > 0:
-                        x[X_SAMPLES + at] -= x[X_SAMPLES + i * _SAMPLES + j * parts + part]
-                        x[X_SAMPLES + at] /= step
+                    at = LN.SAMPLES + (kind * LN.COMPONENTS + i) * LN.AZIMUTHS + j * parts + part
+                    x[at] = w[T.FORCE + i * STRIDE + j]
+                    if kind != LN.FORCE:
+                        x[at] -= x[LN.SAMPLES + i * LN.AZIMUTHS + j * parts + part]
+                        x[at] /= step
     c[C.OVERSIZE_SCALE] = kept
     return balls * parts
 
 
 @kernel
 def transform(x, kind, order, count, out):
-    """Circumferential order of one kind of sample: real parts of 10 components, then imaginary parts."""
-    for i in range(20):
+    """Circumferential order of one kind of sample into the complex vector ``x[out:]``."""
+    for i in range(LN.COMPLEX):
         x[out + i] = 0.0
     for m in range(count):
         place = (order * m) % count
-        co = x[X_COS + place] / count
-        si = x[X_SIN + place] / count
-        for i in range(10):
-            value = x[X_SAMPLES + (kind * 10 + i) * _SAMPLES + m]
+        co = x[LN.COS + place] / count
+        si = x[LN.SIN + place] / count
+        for i in range(LN.COMPONENTS):
+            value = x[LN.SAMPLES + (kind * LN.COMPONENTS + i) * LN.AZIMUTHS + m]
             x[out + i] += value * co
-            x[out + 10 + i] -= value * si
+            x[out + LN.IMAGINARY + i] -= value * si
+
+
+@kernel
+def order_of(kind, order):
+    """Place in ``x`` of ``order`` (0 .. ``LN.REACH``) of one kind of sample from ``LN.BY_HEIGHT`` on."""
+    return LN.TABLE + ((kind - LN.BY_HEIGHT) * (LN.REACH + 1) + order) * LN.COMPLEX
 
 
 @kernel
 def coefficients(x, kind, order, target, w):
-    """Transform at any order in the table, of either sign, into ``w[target:]`` (20 numbers)."""
-    at = X_G + ((kind - 1) * (REACH + 1) + abs(order)) * 20
+    """Complex vector of any order in the table, of either sign, into ``w[target:]``."""
+    at = order_of(kind, abs(order))
     sign = 1.0 if order >= 0 else -1.0
-    for i in range(10):
+    for i in range(LN.COMPONENTS):
         w[target + i] = x[at + i]
-        w[target + 10 + i] = sign * x[at + 10 + i]
+        w[target + LN.IMAGINARY + i] = sign * x[at + LN.IMAGINARY + i]
 
 
 @kernel
-def keep(p, lv, a, b, omega, force, w):
-    """Answer to one line's force (``w[force:]``: 10 real, 10 imaginary parts) kept among the lines."""
-    if abs(omega) < 1e-3:
+def keep(p, lv, a, b, omega, w):
+    """Keep the answer at ``omega`` (rad/s) to the force ``T.LINE_FORCE`` as line ``a``, ``b``."""
+    if abs(omega) < _STILL:
         return
-    re = w[T.SPARE : T.SPARE + 132]
-    im = w[T.SPARE + 132 : T.SPARE + 264]
+    re = w[T.LINE_RE : T.LINE_RE + L.N * T.LINE_ROW]
+    im = w[T.LINE_IM : T.LINE_IM + L.N * T.LINE_ROW]
     for i in range(L.N):
         for k in range(L.N):
-            at = i + 12 * k
-            re[i * 12 + k] = -omega * omega * lv[L.MASS + at] - lv[L.JX + at]
-            im[i * 12 + k] = -omega * (lv[L.JV + at] + lv[L.EXTRA + at])
+            at = i + L.COLUMN * k
+            re[i * T.LINE_ROW + k] = -omega * omega * lv[L.MASS + at] - lv[L.JX + at]
+            im[i * T.LINE_ROW + k] = -omega * (lv[L.JV + at] + lv[L.EXTRA + at])
         per = 1.0 / inertia(p, i)
-        place = i if i < 8 else i - 1
-        re[i * 12 + 11] = w[force + place] * per if i != 8 else 0.0
-        im[i * 12 + 11] = w[force + 10 + place] * per if i != 8 else 0.0
+        at = T.LINE_FORCE + component(i)
+        re[i * T.LINE_ROW + L.N] = w[at] * per if i != L.TURN else 0.0
+        im[i * T.LINE_ROW + L.N] = w[at + LN.IMAGINARY] * per if i != L.TURN else 0.0
     if not solve_complex(re, im, L.N):
         return
     into = int(lv[L.COUNT])
@@ -155,22 +155,21 @@ def keep(p, lv, a, b, omega, force, w):
     else:
         lv[L.COUNT] += 1.0
     at = L.LINES + into * L.LINE_SIZE
-    lv[at] = a
-    lv[at + 1] = b
+    lv[at + L.LINE_BALL] = a
+    lv[at + L.LINE_SHAFT] = b
     for i in range(L.N):
-        if i != 8:
-            place = i if i < 8 else i - 1
-            lv[at + 2 + place] = re[i * 12 + 11]
-            lv[at + 12 + place] = im[i * 12 + 11]
+        if i != L.TURN:
+            lv[at + L.LINE_REAL + component(i)] = re[i * T.LINE_ROW + L.N]
+            lv[at + L.LINE_IMAGINARY + component(i)] = im[i * T.LINE_ROW + L.N]
 
 
 @kernel
 def answer_size(omega, re, im):
     """Velocity of the rings' translations squared (m2/s2) in a solved system."""
     size = 0.0
-    for i in range(8):
-        if i < 3 or i >= 5:
-            size += re[i * 12 + 11] ** 2 + im[i * 12 + 11] ** 2
+    for i in range(L.TURN):
+        if not is_angle(i):
+            size += re[i * T.LINE_ROW + L.N] ** 2 + im[i * T.LINE_ROW + L.N] ** 2
     return omega * omega * size
 
 
@@ -179,9 +178,9 @@ def stored_size(lv, k):
     """Displacement of the rings' translations squared (m2) in a kept line."""
     at = L.LINES + k * L.LINE_SIZE
     size = 0.0
-    for i in range(8):
-        if i < 3 or i >= 5:
-            size += lv[at + 2 + i] ** 2 + lv[at + 12 + i] ** 2
+    for i in range(L.TURN):
+        if not is_angle(i):
+            size += lv[at + L.LINE_REAL + i] ** 2 + lv[at + L.LINE_IMAGINARY + i] ** 2
     return size
 
 
@@ -202,11 +201,13 @@ def drop_weak(lv, orbit, speed):
     count = int(lv[L.COUNT])
     for k in range(count):
         at = L.LINES + k * L.LINE_SIZE
-        most = max(most, (lv[at] * orbit + lv[at + 1] * speed) ** 2 * stored_size(lv, k))
+        omega = lv[at + L.LINE_BALL] * orbit + lv[at + L.LINE_SHAFT] * speed
+        most = max(most, omega**2 * stored_size(lv, k))
     into = 0
     for k in range(count):
         at = L.LINES + k * L.LINE_SIZE
-        if (lv[at] * orbit + lv[at + 1] * speed) ** 2 * stored_size(lv, k) > _WEAK * _WEAK * most:
+        omega = lv[at + L.LINE_BALL] * orbit + lv[at + L.LINE_SHAFT] * speed
+        if omega**2 * stored_size(lv, k) > _WEAK * _WEAK * most:
             for i in range(L.LINE_SIZE):
                 lv[L.LINES + into * L.LINE_SIZE + i] = lv[at + i]
             into += 1
@@ -214,8 +215,8 @@ def drop_weak(lv, orbit, speed):
 
 
 @kernel
-def add_wave(lv, x, race, n, order, factor, rate, tau, force, w):
-    """Add ``factor`` times wave ``n`` of a race through order ``order`` of the balls to ``w[force:]``.
+def add_wave(lv, x, race, n, order, factor, rate, tau, w):
+    """Add ``factor`` times wave ``n`` of a race through order ``order`` of the balls to ``T.LINE_FORCE``.
 
     ``rate``: of the balls against the race (rad/s); contact damping advances the height by ``tau``.
     """
@@ -225,14 +226,13 @@ def add_wave(lv, x, race, n, order, factor, rate, tau, force, w):
     hr = factor * (lv[at] * co - lv[at + 1] * si)
     hi = factor * (lv[at] * si + lv[at + 1] * co)
     squared = n * rate * n * rate
-    g = T.SPARE + 300
-    coefficients(x, 1 + race, order, g, w)
-    coefficients(x, 3 + race, order, g + 20, w)
-    for i in range(10):
-        gr = w[g + i] - squared * w[g + 20 + i]
-        gi = w[g + 10 + i] - squared * w[g + 30 + i]
-        w[force + i] += gr * hr - gi * hi
-        w[force + 10 + i] += gr * hi + gi * hr
+    coefficients(x, LN.BY_HEIGHT + race, order, T.BY_HEIGHT, w)
+    coefficients(x, LN.BY_BEND + race, order, T.BY_BEND, w)
+    for i in range(LN.COMPONENTS):
+        gr = w[T.BY_HEIGHT + i] - squared * w[T.BY_BEND + i]
+        gi = w[T.BY_HEIGHT + LN.IMAGINARY + i] - squared * w[T.BY_BEND + LN.IMAGINARY + i]
+        w[T.LINE_FORCE + i] += gr * hr - gi * hi
+        w[T.LINE_FORCE + LN.IMAGINARY + i] += gr * hi + gi * hr
 
 
 @kernel
@@ -241,32 +241,32 @@ def steady_lines(p, c, lv, x, count, orbit, speed, w):
     balls = int(p[P.BALLS])
     scale = c[C.OVERSIZE_SCALE]
     tau = p[P.CONTACT_DAMPING]
-    force = T.SPARE + 270
     sizes = int(p[P.AT_OVERSIZE])
-    g = T.SPARE + 300
-    for a in range(1, L.ORDERS + REACH + 1):
-        for i in range(20):
-            w[force + i] = 0.0
+    for a in range(1, L.ORDERS + LN.REACH + 1):
+        for i in range(LN.COMPLEX):
+            w[T.LINE_FORCE + i] = 0.0
         if a % balls == 0:
             if 2 * a < count:
-                transform(x, 0, a, count, X_G + 4 * (REACH + 1) * 20)
-                for i in range(20):
-                    w[force + i] += 2.0 * balls * x[X_G + 4 * (REACH + 1) * 20 + i]
-            for n in range(max(a - REACH, 1), min(a + REACH, L.ORDERS) + 1):
-                add_wave(lv, x, 1, n, a - n, balls * scale, orbit, tau, force, w)
-        if a <= REACH:
+                transform(x, LN.FORCE, a, count, LN.FORCE_ORDER)
+                for i in range(LN.COMPLEX):
+                    w[T.LINE_FORCE + i] += 2.0 * balls * x[LN.FORCE_ORDER + i]
+            for n in range(max(a - LN.REACH, 1), min(a + LN.REACH, L.ORDERS) + 1):
+                add_wave(lv, x, 1, n, a - n, balls * scale, orbit, tau, w)
+        if a <= LN.REACH:
             dr = 0.0
             di = 0.0
             for j in range(balls):
                 dr += scale * p[sizes + j] * math.cos(2.0 * PI * a * j / balls)
                 di += scale * p[sizes + j] * math.sin(2.0 * PI * a * j / balls)
             for race in range(2):
-                coefficients(x, 1 + race, a, g, w)
-                for i in range(10):
+                coefficients(x, LN.BY_HEIGHT + race, a, T.BY_HEIGHT, w)
+                for i in range(LN.COMPONENTS):
                     # half a diameter under either race, and both signs of the order
-                    w[force + i] += w[g + i] * dr - w[g + 10 + i] * di
-                    w[force + 10 + i] += w[g + i] * di + w[g + 10 + i] * dr
-        keep(p, lv, a, 0.0, a * orbit, force, w)
+                    gr = w[T.BY_HEIGHT + i]
+                    gi = w[T.BY_HEIGHT + LN.IMAGINARY + i]
+                    w[T.LINE_FORCE + i] += gr * dr - gi * di
+                    w[T.LINE_FORCE + LN.IMAGINARY + i] += gr * di + gi * dr
+        keep(p, lv, a, 0.0, a * orbit, w)
 
 
 @kernel
@@ -275,37 +275,36 @@ def shaft_lines(p, c, lv, x, orbit, speed, w):
     balls = int(p[P.BALLS])
     scale = c[C.OVERSIZE_SCALE]
     tau = p[P.CONTACT_DAMPING]
-    force = T.SPARE + 270
-    for i in range(20):
-        w[force + i] = 0.0
+    for i in range(LN.COMPLEX):
+        w[T.LINE_FORCE + i] = 0.0
     push = p[P.INNER_MASS] * c[C.ECCENTRICITY] * speed * speed
     # (0, -sin, cos) of the shaft's angle
-    w[force + 11] = push
-    w[force + 2] = push
-    keep(p, lv, 0.0, 1.0, speed, force, w)
+    w[T.LINE_FORCE + LN.IMAGINARY + Q.Y] = push
+    w[T.LINE_FORCE + Q.Z] = push
+    keep(p, lv, 0.0, 1.0, speed, w)
     for n in range(1, L.ORDERS + 1):
-        lowest = max((n - REACH + balls - 1) // balls, 0)
-        for k in range(lowest, (n + REACH) // balls + 1):
-            for i in range(20):
-                w[force + i] = 0.0
-            add_wave(lv, x, 0, n, k * balls - n, balls * scale, orbit - speed, tau, force, w)
-            keep(p, lv, k * balls, -1.0 * n, k * balls * orbit - n * speed, force, w)
+        lowest = max((n - LN.REACH + balls - 1) // balls, 0)
+        for k in range(lowest, (n + LN.REACH) // balls + 1):
+            for i in range(LN.COMPLEX):
+                w[T.LINE_FORCE + i] = 0.0
+            add_wave(lv, x, 0, n, k * balls - n, balls * scale, orbit - speed, tau, w)
+            keep(p, lv, k * balls, -1.0 * n, k * balls * orbit - n * speed, w)
 
 
 @kernel
 def renew_lines(p, s, speed, w):
-    """All lines at ``speed`` (rad/s) about the equilibrium in ``w[W_Y:]``, with the derivatives in ``lv``."""
+    """All lines at ``speed`` (rad/s) about the equilibrium in ``w[W.STAGE:]`` with derivatives in ``lv``."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     c = s[S.C : S.C + C.SIZE]
-    x = s[S.JAC : S.CONDENSED]
+    x = s[S.JAC : S.JAC + LN.SIZE]
     orbit = lv[L.RATIO] * speed
     count = sample_orbit(p, c, lv, speed, x, w)
     for m in range(count):
-        x[X_COS + m] = math.cos(2.0 * PI * m / count)
-        x[X_SIN + m] = math.sin(2.0 * PI * m / count)
-    for kind in range(1, _KINDS):
-        for order in range(REACH + 1):
-            transform(x, kind, order, count, X_G + ((kind - 1) * (REACH + 1) + order) * 20)
+        x[LN.COS + m] = math.cos(2.0 * PI * m / count)
+        x[LN.SIN + m] = math.sin(2.0 * PI * m / count)
+    for kind in range(LN.BY_HEIGHT, LN.KINDS):
+        for order in range(LN.REACH + 1):
+            transform(x, kind, order, count, order_of(kind, order))
     lv[L.COUNT] = 0.0
     shaft_lines(p, c, lv, x, orbit, speed, w)
     steady_lines(p, c, lv, x, count, orbit, speed, w)

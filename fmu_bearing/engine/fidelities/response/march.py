@@ -1,6 +1,6 @@
-"""Level `response`: the rings' steady linear answer to every excitation, as a sum of lines.
+"""Fidelity `response`: the rings' steady linear answer to every excitation, as a sum of lines.
 
-The rings stand at their static equilibrium; mass, damping and stiffness are those of level `rings` there,
+The rings stand at their static equilibrium; mass, damping and stiffness are those of fidelity `rings` there,
 with the balls' stiffness averaged over the orbit. Each line turns with a ball 0's angle + b shaft's angle for
 whole a and b, so that phases run on through changes of speed; amplitudes are renewed with what is ``held``
 (speed by 1 %, conditions by 0.1 %), and at once: the transient of the change is left out.
@@ -17,6 +17,7 @@ from fmu_bearing.engine.fidelities.condensed.damping import add_damping
 from fmu_bearing.engine.fidelities.condensed.held import hold
 from fmu_bearing.engine.fidelities.condensed.linearised import at_rest, derivatives
 from fmu_bearing.engine.fidelities.condensed.publish import publish
+from fmu_bearing.engine.fidelities.condensed.rows import coordinate, keep_balls, show_balls
 from fmu_bearing.engine.fidelities.condensed.shared import (
     advance,
     emit,
@@ -26,9 +27,9 @@ from fmu_bearing.engine.fidelities.condensed.shared import (
     start_condensed,
 )
 from fmu_bearing.engine.fidelities.response.lines import order_amplitudes, renew_lines
+from fmu_bearing.engine.fidelities.steps import begin_heats, mean_heats
 from fmu_bearing.engine.jit import inlined, kernel
-from fmu_bearing.engine.layout import C, F, L, P, S, T, U, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, C, F, L, P, S, T, U, W, Y
 from fmu_bearing.engine.status import NO_START, NOT_CONVERGED, OK
 
 _SAMPLING = 51_200.0  # Hz of the states that samples are interpolated between, with sound
@@ -38,7 +39,7 @@ _BACK = 2e-6  # s between the two states a ball's rate is taken from, without so
 
 @kernel
 def linearise(p, s, speed, w):
-    """Renew derivatives, damping and lines at ``speed`` about ``L_MEAN``; False where there are none."""
+    """Renew derivatives, damping and lines at ``speed`` about ``L.MEAN``; False where there are none."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     c = s[S.C : S.C + C.SIZE]
     for i in range(L.MATRIX):
@@ -59,8 +60,7 @@ def still(p, c, lv, w):
         w[W.STAGE + i] = 0.0
     for i in range(L.N):
         w[W.STAGE + Y.Q0 + i] = lv[L.MEAN + i]
-    for i in range(2 * STRIDE):
-        w[T.X + i] = lv[L.X3 + i]
+    show_balls(lv, L.X3, w)
     flat(p, c, lv, w)
 
 
@@ -71,9 +71,8 @@ def start_response(p, u, s, w, t):
     if status != OK:
         return status
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    for i in range(2 * STRIDE):
-        lv[L.X + i] = w[T.X + i]
-        lv[L.X3 + i] = w[T.X + i]
+    keep_balls(w, lv, L.X)
+    keep_balls(w, lv, L.X3)
     order_amplitudes(p, lv)
     if not linearise(p, s, u[U.SPEED], w):
         return NO_START
@@ -107,8 +106,7 @@ def renew_equilibrium(p, u, s, w):
                 break
     for i in range(L.N):
         lv[L.MEAN + i] = w[W.STAGE + Y.Q0 + i]
-    for i in range(2 * STRIDE):
-        lv[L.X3 + i] = w[T.X + i]
+    keep_balls(w, lv, L.X3)
     return OK if linearise(p, s, speed, w) else NOT_CONVERGED
 
 
@@ -121,17 +119,16 @@ def sum_lines(lv, theta, angle, orbit, speed, w):
         lv[L.A0 + i] = 0.0
     for k in range(int(lv[L.COUNT])):
         at = L.LINES + k * L.LINE_SIZE
-        a = lv[at]
-        b = lv[at + 1]
+        a = lv[at + L.LINE_BALL]
+        b = lv[at + L.LINE_SHAFT]
         phase = a * theta + b * angle
         omega = a * orbit + b * speed
         co = math.cos(phase)
         si = math.sin(phase)
-        for i in range(10):
-            # the spin of the outer ring, coordinate 8, takes no part
-            into = i if i < 8 else i + 1
-            real = lv[at + 2 + i] * co - lv[at + 12 + i] * si
-            turned = lv[at + 2 + i] * si + lv[at + 12 + i] * co
+        for i in range(L.FORCES):
+            into = coordinate(i)
+            real = lv[at + L.LINE_REAL + i] * co - lv[at + L.LINE_IMAGINARY + i] * si
+            turned = lv[at + L.LINE_REAL + i] * si + lv[at + L.LINE_IMAGINARY + i] * co
             lv[L.Q0 + into] += real
             lv[L.V0 + into] -= omega * turned
             lv[L.A0 + into] -= omega * omega * real
@@ -160,8 +157,7 @@ def find_places(p, c, lv, theta, speed, q, w):
     one left behind by 50 um would show 30 times its load. What is found in the end is shown in any case:
     nearer than anything older.
     """
-    for i in range(2 * STRIDE):
-        w[T.X + i] = lv[L.X + i]
+    show_balls(lv, L.X, w)
     if carried(p, c, lv, speed, q, w):
         return
     from_equilibrium(p, lv, theta, w)
@@ -181,13 +177,12 @@ def place(p, s, ahead, w):
     angle = s[S.ANGLE] + turned
     sum_lines(lv, theta, angle, lv[L.RATIO] * speed, speed, w)
     tau = p[P.CONTACT_DAMPING]
-    stand(p, c, lv, theta + tau * lv[L.RATIO] * speed, angle + tau * speed, lv[L.Q0 + 8], speed, w)
-    q = w[T.Q : T.Q + 12]
+    stand(p, c, lv, theta + tau * lv[L.RATIO] * speed, angle + tau * speed, lv[L.Q0 + L.TURN], speed, w)
+    q = w[T.Q : T.Q + L.COLUMN]
     for i in range(L.N):
         q[i] = lv[L.Q0 + i] + tau * lv[L.V0 + i]
     find_places(p, c, lv, theta, speed, q, w)
-    for i in range(2 * STRIDE):
-        lv[L.X + i] = w[T.X + i]
+    keep_balls(w, lv, L.X)
     count_settled(lv, int(p[P.LANES]), w)
 
 
@@ -208,8 +203,7 @@ def show(p, s, w):
 def march_response(p, u, s, w, h):
     """Advance the state by the communication step ``h`` (s); status code."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    for i in range(3):
-        s[S.MEAN_HEAT + i] = s[S.HEAT + i]
+    begin_heats(s)
     if set_inputs(p, u, s, w, h):
         status = renew_equilibrium(p, u, s, w)
         if status != OK:
@@ -238,6 +232,5 @@ def march_response(p, u, s, w, h):
     s[S.SPEED] = u[U.SPEED]
     if p[P.SOUND_SIZE] == 0.0:
         show(p, s, w)
-    for i in range(3):
-        s[S.MEAN_HEAT + i] = (s[S.HEAT + i] - s[S.MEAN_HEAT + i]) / h
+    mean_heats(s, h)
     return OK

@@ -1,4 +1,4 @@
-"""Level `rings`: the rings' 11 degrees of freedom in time, the balls condensed.
+"""Fidelity `rings`: the rings' 11 degrees of freedom in time, the balls condensed.
 
 Newmark's method with beta = 1/12 (Fox and Goodwin 1949; the same as Numerov's for the positions): fourth
 order in the positions for any force that depends on position and time, second order in the small terms
@@ -11,32 +11,23 @@ A step is repeated at half its length when the correction does not settle, when 
 the third difference of the accelerations shows that it is too long.
 """
 
-import math
-
 from fmu_bearing.engine.dense import times
+from fmu_bearing.engine.fidelities import steps
 from fmu_bearing.engine.fidelities.condensed.balls import accelerations, count_settled, stand
 from fmu_bearing.engine.fidelities.condensed.damping import add_damping
 from fmu_bearing.engine.fidelities.condensed.held import hold
-from fmu_bearing.engine.fidelities.condensed.linearised import (
-    at_rest,
-    balls_of,
-    derivatives,
-    factor_step,
-    highest_mode,
-    is_tilt,
-)
+from fmu_bearing.engine.fidelities.condensed.linearised import at_rest, derivatives, factor_step, highest_mode
 from fmu_bearing.engine.fidelities.condensed.publish import publish
+from fmu_bearing.engine.fidelities.condensed.rows import keep_balls, show_balls
 from fmu_bearing.engine.fidelities.condensed.shared import advance, emit, set_inputs, start_condensed
-from fmu_bearing.engine.fidelities.full.progress import velocity_tolerance
 from fmu_bearing.engine.fidelities.rings.predictor import change_spacing, predict
 from fmu_bearing.engine.jit import inlined, kernel
-from fmu_bearing.engine.layout import C, F, L, P, S, T, U, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, C, F, L, P, S, T, U, W, Y
 from fmu_bearing.engine.mechanics.trigonometry import wrap
+from fmu_bearing.engine.newton.jacobian import is_angle
 from fmu_bearing.engine.status import NO_START, NOT_CONVERGED, OK
 
 _LONGEST = 2e-5  # s
-_SHORTEST = 1e-10  # s
 # Radians per step. The highest ring mode: below the 2.45 at which the method turns unstable, with room for
 # stiffness that varies. What the races' highest waves excite: 4th order error (0.6)^4/240 = 5e-4.
 _MODE = 2.2
@@ -70,19 +61,18 @@ def start_rings(p, u, s, w, t):
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     # from the even races' equilibrium to the one on waves and unequal balls, or the start would ring
     c = s[S.C : S.C + C.SIZE]
-    balls_of(w, lv, L.X3)
+    keep_balls(w, lv, L.X3)
     stand(p, c, lv, 0.0, 0.0, 0.0, s[S.SPEED], w)
     if not at_rest(p, c, lv, s[S.SPEED], w):
         for i in range(L.N):
             w[W.STAGE + Y.Q0 + i] = lv[L.MEAN + i]
-        for i in range(2 * STRIDE):
-            w[T.X + i] = lv[L.X3 + i]
+        show_balls(lv, L.X3, w)
     for i in range(L.N):
         lv[L.Q0 + i] = w[W.STAGE + Y.Q0 + i]
         lv[L.V0 + i] = 0.0
         lv[L.A0 + i] = 0.0
     for row in (L.X, L.X1, L.X2):
-        balls_of(w, lv, row)
+        keep_balls(w, lv, row)
     lv[L.THETA] = 0.0
     if not renew(p, s, w):
         return NO_START
@@ -103,12 +93,11 @@ def renew(p, s, w):
     for i in range(L.N):
         w[W.STAGE + Y.Q0 + i] = lv[L.Q0 + i]
         w[W.STAGE + Y.V0 + i] = lv[L.V0 + i]
-    for i in range(2 * STRIDE):
-        w[T.X + i] = lv[L.X + i]
+    show_balls(lv, L.X, w)
     tau = p[P.CONTACT_DAMPING]
     speed = s[S.SPEED]
     theta = lv[L.THETA] + tau * lv[L.RATIO] * speed
-    stand(p, c, lv, theta, s[S.ANGLE] + tau * speed, lv[L.Q0 + 8], speed, w)
+    stand(p, c, lv, theta, s[S.ANGLE] + tau * speed, lv[L.Q0 + L.TURN], speed, w)
     if not derivatives(p, c, lv, s[S.ANGLE], s[S.SPEED], s[S.SPEED_RATE], w):
         return False
     lv[L.HIGHEST] = highest_mode(lv, w)
@@ -142,12 +131,12 @@ def take_inputs(p, u, s, w, h):
 
 @kernel
 def size_of(p, w, at):
-    """Largest of the 11 numbers at ``w[at:]``, tilts at the pitch radius."""
+    """Largest of the ``L.N`` numbers at ``w[at:]``, tilts at the pitch radius."""
     lever = p[P.PITCH_RADIUS]
     size = 0.0
     for i in range(L.N):
         value = abs(w[at + i])
-        if is_tilt(i):
+        if is_angle(i):
             value *= lever
         size = max(size, value)
     # a comparison drops what is not a number, a sum does not
@@ -169,9 +158,9 @@ def correct(p, s, h, tolerance, probe, w):
     predict(lv, h, w)
     stand(
         p, c, lv, lv[L.THETA] + lv[L.RATIO] * turned + p[P.CONTACT_DAMPING] * lv[L.RATIO] * speed,
-        angle + p[P.CONTACT_DAMPING] * speed, w[W.STAGE + Y.Q0 + 8], speed, w,
+        angle + p[P.CONTACT_DAMPING] * speed, w[W.STAGE + Y.Q0 + L.TURN], speed, w,
     )  # fmt: skip
-    q = w[T.Q : T.Q + 12]
+    q = w[T.Q : T.Q + L.COLUMN]
     before = 0.0
     worst = 0.0
     for n in range(_ITERATIONS):
@@ -228,7 +217,7 @@ def truncation(p, lv, h, w):
 
 @kernel
 def accept(p, s, h, w):
-    """Move the level's state, time and angles to the end of the step."""
+    """Move the rings' and balls' state and the angle of ball 0 to the end of the step."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     for i in range(L.N):
         lv[L.A2 + i] = lv[L.A1 + i]
@@ -275,27 +264,22 @@ def try_step(p, s, h, tolerance, w):
 def march_rings(p, u, s, w, h):
     """Advance the state by the communication step ``h`` (s); status code."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    for i in range(3):
-        s[S.MEAN_HEAT + i] = s[S.HEAT + i]
+    steps.begin_heats(s)
     status = take_inputs(p, u, s, w, h)
     if status != OK:
         return status
-    tolerance = velocity_tolerance(p, u[U.SPEED])
+    tolerance = steps.velocity_tolerance(p, u[U.SPEED])
     longest = longest_step(p, lv, max(abs(s[S.SPEED]), abs(u[U.SPEED])))
     end = s[S.TIME] + h
-    left = 2000.0 + 100.0 * math.ceil(h / longest)
+    left = steps.most_attempts(h, longest, 100.0)
     remaining = h
-    # what is left after rounding of the time itself is no step
-    while remaining > 1e-12 * h + 4e-16 * abs(end):
+    while steps.unfinished(remaining, h, end):
         cap = min(s[S.STEP], longest)
-        count = max(1.0, math.ceil(remaining / cap - 1e-9))
-        length = remaining / count
+        length = steps.even_length(remaining, cap)
         error = try_step(p, s, length, tolerance, w)
         left -= 1.0
         if not (0.0 <= error <= 1.0):
-            s[S.REJECTED] += 1.0
-            s[S.STEP] = 0.5 * length
-            if s[S.STEP] < min(_SHORTEST, 0.01 * h) or left < 0.0:
+            if not steps.rejected(s, 0.5 * length, h) or left < 0.0:
                 return NOT_CONVERGED
             continue
         if left < 0.0:
@@ -310,6 +294,5 @@ def march_rings(p, u, s, w, h):
     s[S.TIME] = end
     s[S.SPEED] = u[U.SPEED]
     publish(p, lv, s[S.SPEED], s[S.SPEED_RATE], True, s[S.Y : S.Y + Y.SIZE], s[S.F : S.F + F.SIZE])
-    for i in range(3):
-        s[S.MEAN_HEAT + i] = (s[S.HEAT + i] - s[S.MEAN_HEAT + i]) / h
+    steps.mean_heats(s, h)
     return OK

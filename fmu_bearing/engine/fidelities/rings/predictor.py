@@ -1,9 +1,9 @@
-"""First guess of a step of level `rings`, and what a change of its length does to the velocities."""
+"""First guess of a step of fidelity `rings`, and what a change of its length does to the velocities."""
 
 from fmu_bearing.engine.fidelities.condensed.publish import rate_error
+from fmu_bearing.engine.fidelities.condensed.rows import show_balls
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import L, T, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, L, T, W, Y
 
 
 @kernel
@@ -22,7 +22,7 @@ def change_spacing(lv, h):
 
 @kernel
 def predict(lv, h, w):
-    """Trial state in ``w[W_Y:]``, trial accelerations in ``T_A``, balls' places continued from four."""
+    """Trial state in ``w[W.STAGE:]``, trial accelerations in ``T.A``, balls' places continued from four."""
     for i in range(L.N):
         a = lv[L.A0 + i]
         w[T.A + i] = a
@@ -45,9 +45,8 @@ def continue_places(lv, known, w):
         for i in range(2 * STRIDE):
             w[T.X + i] = 2.0 * lv[L.X + i] - lv[L.X1 + i]
     else:
-        for i in range(2 * STRIDE):
-            w[T.X + i] = lv[L.X + i]
+        show_balls(lv, L.X, w)
     for j in range(STRIDE):
         if lv[L.SETTLED + j] < known + 1.0 and lv[L.SETTLED + j] < 4.0:
             w[T.X + j] = lv[L.X + j]
-            w[T.X + STRIDE + j] = lv[L.X + STRIDE + j]
+            w[T.R + j] = lv[L.R + j]

@@ -11,8 +11,7 @@ from fmu_bearing.engine.fidelities.full.fast.newmark import BETA, BETA_BALL, ite
 from fmu_bearing.engine.fidelities.full.norms import body_size, newton_size
 from fmu_bearing.engine.fidelities.full.progress import accept, renew_jacobian, wrap_angles
 from fmu_bearing.engine.jit import inlined, kernel
-from fmu_bearing.engine.layout import C, F, J, P, Q, S, W, Y
-from fmu_bearing.engine.layout.sizes import STRIDE
+from fmu_bearing.engine.layout import STRIDE, C, F, J, P, Q, S, W, Y
 from fmu_bearing.engine.mechanics.ball_waves import turn_axes
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 from fmu_bearing.engine.newton.block_arrow import factor
@@ -28,6 +27,10 @@ _BALL_RANGE = 2.1  # rad: the same for the balls
 _OLDEST = 1e-2  # s: age of the Jacobian; the contraction usually asks for a new one earlier
 _TRUSTED = 5e-2  # s without a refusal: the pauses are short again, and longer steps are tried
 _HOLDS = (1e-3, 3.2e-2)  # s: pause after leaving, doubled each time it is soon left again
+# what a block of steps turned out to be
+_GOOD = 0
+_SHORTER = 1  # asks for shorter steps
+_LEAVE = 2  # asks for a pause
 
 
 @kernel
@@ -59,8 +62,8 @@ def leave(s, shorter, h):
 def ring_range(s):
     """Upper bound (rad/s) of the rings' frequencies: diagonal of the Jacobian, the balls held."""
     most = 0.0
-    for i in range(11):
-        most = max(most, -s[S.JAC + J.E + i * 34 + i])
+    for i in range(Q.RINGS):
+        most = max(most, -s[S.JAC + J.E + i * J.BODIES + i])
     return math.sqrt(most)
 
 
@@ -99,7 +102,7 @@ def load_block(s, w):
     for i in range(F.SIZE):
         w[W.BLOCK_A + i] = s[S.FAST_A2 + i]
         w[W.BLOCK_A + F.SIZE + i] = s[S.FAST_A1 + i]
-        w[W.BLOCK_A + 2 * F.SIZE + i] = s[S.FAST_A0 + i]
+        w[W.BLOCK_NOW + i] = s[S.FAST_A0 + i]
     for i in range(Y.SIZE):
         w[W.BLOCK_Y + i] = s[S.FAST_Y + i]
 
@@ -110,7 +113,7 @@ def ball_beta(p, s, h):
     most = 0.0
     for k in range(2):
         for j in range(int(p[P.LANES])):
-            most = max(most, -s[S.JAC + J.B + k * 10 * STRIDE + j])
+            most = max(most, -s[S.JAC + J.B + k * (J.STATES + 1) * STRIDE + j])
     return BETA if most * h * h < _BALL_RANGE * _BALL_RANGE else BETA_BALL
 
 
@@ -119,11 +122,13 @@ def difference(p, h, k, third, w):
     """First or third difference of the bodies' accelerations up to step ``k`` of the block (m/s, times h)."""
     d = w[W.D : W.D + F.SIZE]
     for i in range(F.BODY, F.BODY + Q.SIZE):
-        now = W.BLOCK_A + (k + 2) * F.SIZE + i
+        now = W.BLOCK_NOW + k * F.SIZE + i
+        before = now - F.SIZE
         if third:
-            d[i] = w[now] - 3.0 * w[now - F.SIZE] + 3.0 * w[now - 2 * F.SIZE] - w[now - 3 * F.SIZE]
+            earlier = before - F.SIZE
+            d[i] = w[now] - 3.0 * w[before] + 3.0 * w[earlier] - w[earlier - F.SIZE]
         else:
-            d[i] = w[now] - w[now - F.SIZE]
+            d[i] = w[now] - w[before]
     return h * math.sqrt(body_size(p, d, F.BODY))
 
 
@@ -143,18 +148,18 @@ def method_error(p, h, beta_ball, k, w):
 
 @inlined
 def try_block(p, s, w, h, beta_ball, count, tolerance):
-    """Compute ``count`` steps of length ``h`` into the block; 0 good, 1 shorter steps, 2 leave."""
+    """Compute ``count`` steps of length ``h`` into the block; ``_GOOD``, ``_SHORTER`` or ``_LEAVE``."""
     c = s[S.C : S.C + C.SIZE]
     fac = s[S.FAC : S.FAST]
     load_block(s, w)
-    turned = s[S.Y + 2 * STRIDE] - s[S.JACOBIAN_ANGLE]
-    orbit = s[S.Y + 5 * STRIDE]
+    turned = s[S.Y + Y.TH] - s[S.JACOBIAN_ANGLE]
+    orbit = s[S.Y + Y.OM]
     size = 0.0
     for k in range(count):
         y = w[W.BLOCK_Y + k * Y.SIZE : W.BLOCK_Y + (k + 1) * Y.SIZE]
         new = w[W.BLOCK_Y + (k + 1) * Y.SIZE : W.BLOCK_Y + (k + 2) * Y.SIZE]
-        a = w[W.BLOCK_A + (k + 2) * F.SIZE : W.BLOCK_A + (k + 3) * F.SIZE]
-        new_a = w[W.BLOCK_A + (k + 3) * F.SIZE : W.BLOCK_A + (k + 4) * F.SIZE]
+        a = w[W.BLOCK_NOW + k * F.SIZE : W.BLOCK_NOW + (k + 1) * F.SIZE]
+        new_a = w[W.BLOCK_NOW + (k + 1) * F.SIZE : W.BLOCK_NOW + (k + 2) * F.SIZE]
         t = (k + 1) * h
         rate = s[S.SPEED_RATE]
         angle = s[S.ANGLE] + t * (s[S.SPEED] + 0.5 * t * rate)
@@ -169,18 +174,18 @@ def try_block(p, s, w, h, beta_ball, count, tolerance):
     left = newton_size(p, c, w[W.D : W.D + F.SIZE], 0.5 * h)
     s[S.NEWTON] += count + 1.0
     if not (size < 1e3 and left < 1e3):
-        return 2
+        return _LEAVE
     if left > _CONTRACTION * size and left > 1e-2 * tolerance:
-        return 2
+        return _LEAVE
     if left > _LEFT * tolerance:
-        return 1
-    return 0 if method_error(p, h, beta_ball, count, w) <= tolerance else 1
+        return _SHORTER
+    return _GOOD if method_error(p, h, beta_ball, count, w) <= tolerance else _SHORTER
 
 
 @inlined
 def commit_step(p, s, w, h, k):
     """Make step ``k`` of the block the state: true rates, sound samples, work and heat by the trapezoid."""
-    here = W.BLOCK_A + (k + 3) * F.SIZE
+    here = W.BLOCK_NOW + (k + 1) * F.SIZE
     for i in range(F.SIZE):
         w[W.LAST + i] = w[here + i]
     true_rates(
@@ -188,18 +193,18 @@ def commit_step(p, s, w, h, k):
         w[here - F.SIZE : here], w[here - 2 * F.SIZE : here - F.SIZE], w[W.STAGE : W.STAGE + Y.SIZE],
     )  # fmt: skip
     # the block's angles run on while the state's are brought back into one turn after each step
-    for j in range(2 * STRIDE, 3 * STRIDE):
+    for j in range(Y.TH, Y.VX):
         w[W.STAGE + j] = s[S.Y + j] + wrap(w[W.STAGE + j] - s[S.Y + j])
     emit_samples(p, s, w, h)
-    for i in range(4):
-        place = F.WORK if i == 0 else F.HEAT + i - 1
-        s[S.WORK + i] += 0.5 * h * (w[here - F.SIZE + place] + w[here + place])
+    for i in range(F.POWERS):
+        place = here + F.WORK + i
+        s[S.WORK + i] += 0.5 * h * (w[place - F.SIZE] + w[place])
 
 
 @kernel
 def keep_block(s, w, count):
     """Take the end of the block over as the path's history."""
-    last = W.BLOCK_A + (count + 2) * F.SIZE
+    last = W.BLOCK_NOW + count * F.SIZE
     for i in range(F.SIZE):
         s[S.FAST_A2 + i] = w[last - 2 * F.SIZE + i]
         s[S.FAST_A1 + i] = w[last - F.SIZE + i]
@@ -217,7 +222,7 @@ def fast_block(p, s, w, count, tolerance):
     A refusal leaves the state as it was. One with an old Jacobian is tried once more with a new one. Too
     large an error of the method asks for shorter steps at once; anything else for a pause.
     """
-    verdict = 2
+    verdict = _LEAVE
     h = s[S.FAST_LENGTH]
     for _ in range(2):
         if s[S.TIME] - s[S.JACOBIAN_TIME] > _OLDEST:
@@ -231,10 +236,10 @@ def fast_block(p, s, w, count, tolerance):
             s[S.FACTOR_STEP] = -h
             s[S.FAST_BETA] = beta
         verdict = try_block(p, s, w, h, s[S.FAST_BETA], count, tolerance)
-        if verdict == 0 or fresh:
+        if verdict == _GOOD or fresh:
             break
         s[S.JACOBIAN_TIME] = -1e300
-    if verdict == 0:
+    if verdict == _GOOD:
         for k in range(count):
             commit_step(p, s, w, h, k)
             accept(p, s, w, h)
@@ -245,7 +250,7 @@ def fast_block(p, s, w, count, tolerance):
                 s[S.FAST_STEP] = min(1.5 * s[S.FAST_STEP], LONGEST)
                 s[S.FAST_HOLD] = s[S.TIME]
         return True
-    leave(s, verdict == 1 and h >= 1.5 * SHORTEST, h)
+    leave(s, verdict == _SHORTER and h >= 1.5 * SHORTEST, h)
     return False
 
 

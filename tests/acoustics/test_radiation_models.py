@@ -1,4 +1,6 @@
-"""Every rung of the ladder is selectable and heard; the papers' two other rungs, and the user's tables."""
+"""Every radiation model is selectable and heard; the papers' two other models, and the user's tables."""
+
+import itertools
 
 import numpy as np
 import pytest
@@ -7,10 +9,13 @@ from fmu_bearing.acoustics.filters.design import build, filter_errors
 from fmu_bearing.acoustics.papers.contacts import contact_paths
 from fmu_bearing.acoustics.papers.scalars import paper_scalars
 from fmu_bearing.acoustics.radiation import sources
-from fmu_bearing.acoustics.radiation.compact import Air, Path, Radiators, compact_paths
+from fmu_bearing.acoustics.radiation.circle import MicrophoneCircle
+from fmu_bearing.acoustics.radiation.compact import compact_paths
 from fmu_bearing.acoustics.radiation.frequencies import fit_frequencies
+from fmu_bearing.acoustics.radiation.radiators import Air, Path, Radiators
 from fmu_bearing.acoustics.radiation.table import Table, channels, read_table, select
-from fmu_bearing.acoustics.registry import RUNGS, Ladder
+from fmu_bearing.acoustics.registry import RECIPES, Radiation
+from fmu_bearing.engine.choices import RADIATION_MODELS
 from fmu_bearing.engine.layout import MO, SD
 from tests.acoustics.playback import PAPER_POINTS, RHO, SMALL, C, Player, chain, lines, raw_time, still
 
@@ -25,17 +30,14 @@ class Mode:
         self.body = body
 
 
-def flexing(radiators, air, radius, axial, azimuths, harmonics, modes=(), plane=None):
+def flexing(radiators, air, circle, harmonics, modes=(), plane=None):
     """Stand-in for boundary elements: compact bodies, and each flexural coordinate a monopole."""
-    paths = compact_paths(radiators, air, radius, axial, azimuths, harmonics)
+    paths = compact_paths(radiators, air, circle, harmonics)
     f = fit_frequencies()
-    distance = np.hypot(radius, axial)
-    sound = sources.pulsating_sphere(f, distance, 0.01, air.density, air.sound_speed)
+    sound = sources.pulsating_sphere(f, circle.distance, 0.01, air.density, air.sound_speed)
     for i, mode in enumerate(mode for mode in modes for _ in range(2)):
-        weights = np.ones(len(azimuths))
-        paths.append(
-            Path(mode.body, SD.c_flex(harmonics) + i, distance / air.sound_speed, sound, weights, SD.FLEXURE)
-        )
+        channel, flight = SD.c_flex(harmonics) + i, circle.flight(air)
+        paths.append(Path(mode.body, channel, flight, sound, circle.uniform(), SD.FLEXURE))
     return paths
 
 
@@ -45,7 +47,7 @@ def elements(monkeypatch):
 
 
 def table_of(points, inputs, frequencies=GRID):
-    """The compact rung's transfer functions as a user's table."""
+    """The compact model's transfer functions as a user's table."""
     known = channels(2)
     response = np.zeros((len(points), len(inputs), len(frequencies)), dtype=complex)
     for m, (x, y, z) in enumerate(points):
@@ -53,7 +55,7 @@ def table_of(points, inputs, frequencies=GRID):
         distance = np.hypot(radius, x)
         found = {
             path.channel: path.response * path.weights[0]
-            for path in compact_paths(SMALL, Air(), radius, x, [azimuth], 2)
+            for path in compact_paths(SMALL, Air(), MicrophoneCircle(radius, x, [azimuth]), 2)
         }
         f = fit_frequencies()
         for i, name in enumerate(inputs):
@@ -78,22 +80,22 @@ def shaken():
     return motion
 
 
-def test_every_rung_is_heard_and_none_is_another(elements):
+def test_every_model_is_heard_and_none_is_another(elements):
     heard = {}
-    for rung in RUNGS:
-        table = table_of(PAPER_POINTS, ["housing.acceleration.y"]) if rung == "table" else None
-        modes = (Mode(1),) if rung == "bem" else ()
-        ps = build(rung, SMALL, Air(), PAPER_POINTS, 2, table=table, modes=modes)
+    assert tuple(RECIPES) == RADIATION_MODELS
+    for model in RADIATION_MODELS:
+        table = table_of(PAPER_POINTS, ["housing.acceleration.y"]) if model == "table" else None
+        modes = (Mode(1),) if model == "bem" else ()
+        ps = build(model, SMALL, Air(), PAPER_POINTS, 2, table=table, modes=modes)
         motion = shaken()
         if modes:
             motion = np.concatenate([motion, np.ones((PERIOD, 2))], axis=1)
             motion[:, MO.flexures(12)] = 10 * np.sin(2 * np.pi * 1700 * raw_time(PERIOD))
         pressures = Player(ps).play(motion, 41 * PERIOD)
-        heard[rung] = pressures[-512:]
-        assert np.sqrt(np.mean(heard[rung][:, 0] ** 2)) > 1e-5, rung
-    for one in RUNGS:
-        for other in RUNGS[: RUNGS.index(one)]:
-            assert np.max(np.abs(heard[one] - heard[other])) > 1e-5, (one, other)
+        heard[model] = pressures[-512:]
+        assert np.sqrt(np.mean(heard[model][:, 0] ** 2)) > 1e-5, model
+    for one, other in itertools.combinations(RADIATION_MODELS, 2):
+        assert np.max(np.abs(heard[one] - heard[other])) > 1e-5, (one, other)
 
 
 def test_flexure_is_heard_as_such(elements):
@@ -179,7 +181,7 @@ def dense_contact_pressure(motion_of, frequency, point):
 
 @pytest.mark.parametrize("frequency", [300.0, 3000.0])
 @pytest.mark.parametrize("point", [(0.0, 0.105, 0.02), (0.05, -0.1, 0.18)])
-def test_contact_rung_is_the_papers_system_of_equations(frequency, point):
+def test_contact_model_is_the_papers_system_of_equations(frequency, point):
     """Harmonic by harmonic against all patches at once; balls at rest. 1 %: filters, orders beyond 8."""
     motions = {"inner": (0.3, 1.0, -0.5), "outer": (-0.2, 0.4, 1.0)}
     t = raw_time(PERIOD)
@@ -220,11 +222,11 @@ def test_contact_sources_that_orbit_keep_their_strength():
 
 def test_contact_paths_need_a_place_outside():
     with pytest.raises(ValueError, match="inside the bearing"):
-        contact_paths(SMALL, Air(), 0.01, 0.0, [0.0], 4)
+        contact_paths(SMALL, Air(), MicrophoneCircle(0.01, 0.0, [0.0]), 4)
 
 
 def test_table_makes_the_sound_of_its_transfer_functions(tmp_path):
-    """The compact rung sent round by a file: -45 dB, of which the linear interpolation makes the most."""
+    """The compact model sent round by a file: -45 dB, of which the linear interpolation makes the most."""
     inputs = ["outer_ring.acceleration.x", "housing.acceleration.y", "cage.acceleration.z"]
     inputs += ["balls.acceleration.r.cos[1]", "balls.acceleration.t.sin[2]"]
     table = table_of(PAPER_POINTS, inputs)
@@ -302,18 +304,18 @@ def test_files_that_are_no_tables(tmp_path):
 
 
 def test_refusals():
-    with pytest.raises(ValueError, match="rung must be one of paper, paper_vector"):
-        Ladder("none", SMALL)
+    with pytest.raises(ValueError, match="sound.radiation_model must be one of paper, paper_vector"):
+        Radiation("none", SMALL)
     with pytest.raises(ValueError, match="needs a table"):
-        Ladder("table", SMALL)
-    with pytest.raises(ValueError, match='needs radiation model "bem"'):
-        Ladder("compact", SMALL, plane=0.1)
+        Radiation("table", SMALL)
+    with pytest.raises(ValueError, match='needs sound.radiation_model = "bem"'):
+        Radiation("compact", SMALL, plane=0.1)
     baffled = Radiators(**{**SMALL.__dict__, "baffle": True})
-    with pytest.raises(ValueError, match='needs radiation model "bem"'):
+    with pytest.raises(ValueError, match='needs sound.radiation_model = "bem"'):
         build("paper", baffled, Air(), PAPER_POINTS)
-    for rung in ("compact", "paper_vector", "paper_contacts"):
+    for model in ("compact", "paper_vector", "paper_contacts"):
         with pytest.raises(ValueError, match="inside the bearing"):
-            build(rung, SMALL, Air(), [(0.0, 0.0, 0.01)])
+            build(model, SMALL, Air(), [(0.0, 0.0, 0.01)])
 
 
 def test_filters_say_how_well_they_follow(scene):

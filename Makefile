@@ -1,7 +1,7 @@
 # make demo    install, build the FMU, run the spindle co-simulation; results under out/
 # make test    install with test tools and run the tests that take seconds
 # make heavy   the tests that take minutes
-# make bench   time the levels beside other programs; writes docs/results/benchmark.md and .csv
+# make bench   time the fidelities beside other programs; writes docs/results/benchmark.md and .csv
 # make papers  run the papers' cases and write docs/papers; some minutes, kept under out/papers
 # make docs    build the documentation site into out/site; opens from the disk, works offline
 # make clean   remove what was made here

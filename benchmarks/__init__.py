@@ -1,4 +1,4 @@
-"""Simulated seconds per wall second, error and cost of each level, beside its peers."""
+"""Simulated seconds per wall second, error and cost of each fidelity, beside its peers."""
 
 import os
 

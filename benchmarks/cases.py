@@ -1,4 +1,4 @@
-"""What is run: bearings, speeds, loads, and the levels and methods to time in each."""
+"""Bearings, speeds and loads of the benchmarks, and the fidelities and methods to time in each."""
 
 import pathlib
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""Time the engine's levels and integrators, and take their errors from the reference trajectory."""
+"""Time the engine's fidelities and integrators, and take their errors from the reference trajectory."""
 
 from collections.abc import Sequence
 
@@ -50,8 +50,8 @@ def full_rows(
     return rows
 
 
-def level_row(case: Case, solver: Solver, start: Arrays, budget: float, repeats: int) -> Row:
-    """Row of a level that approximates ``full``: error is that of the rings' rms velocity, larger ring.
+def fidelity_row(case: Case, solver: Solver, start: Arrays, budget: float, repeats: int) -> Row:
+    """Row of a fidelity that approximates ``full``: error is that of the rings' rms velocity, larger ring.
 
     The remark gives both rings, and the integration error against itself at a quarter of the step.
     """
@@ -88,5 +88,5 @@ def rows_of(
         if solver.fidelity == "full":
             rows += full_rows(case, solver, start, exact, budget, repeats)
         elif case.kind != "start":
-            rows.append(level_row(case, solver, start, budget, repeats))
+            rows.append(fidelity_row(case, solver, start, budget, repeats))
     return rows, start, exact

@@ -1,4 +1,4 @@
-"""Print simulated s per wall s of each level beside its peers: ``python -m benchmarks.run``.
+"""Print simulated s per wall s of each fidelity beside its peers: ``python -m benchmarks.run``.
 
 One process, one machine, one run. Timings are printed, never asserted.
 """

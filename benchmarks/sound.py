@@ -1,4 +1,4 @@
-"""What sound costs: CPU seconds per simulated second, by radiation model and number of microphones."""
+"""Cost of sound: CPU seconds per simulated second, by radiation model and number of microphones."""
 
 import time
 
@@ -14,7 +14,8 @@ from fmu_bearing.scene import read_scene
 from fmu_bearing.scene.sound import cylindrical
 
 COLUMNS = (
-    "scene", "microphones", "radiation_model", "channels", "blocks", "CPU s per s", "direct form", "goal", "verdict",
+    "scene", "microphones", "radiation model", "channels", "blocks", "CPU s per s", "direct form", "goal",
+    "verdict",
 )  # fmt: skip
 GOAL = 0.1  # s per simulated s, four microphones
 _BATCH = 8192  # motion samples: 40 ms
@@ -76,7 +77,7 @@ def rows(name: str, models: tuple[str, ...], repeats: int) -> list[list[str]]:
             goal = words == "4"
             verdict = "" if not goal else "met" if here <= GOAL else "missed"
             found.append(
-                [name, words, radiation_model, f"{block[SD.H_CHANNELS]:.0f}", block_lengths(block), f"{here:.3f}",
-                 f"{cost(direct, repeats):.3f}", f"{GOAL:g}" if goal else "", verdict]
+                [name, words, radiation_model, f"{block[SD.H_CHANNELS]:.0f}", block_lengths(block),
+                 f"{here:.3f}", f"{cost(direct, repeats):.3f}", f"{GOAL:g}" if goal else "", verdict]
             )  # fmt: skip
     return found

@@ -1,8 +1,9 @@
-"""Sweeps on 1 and more workers: pace, what handing a point over costs, how much data goes back and forth.
+"""Sweeps on 1 and more workers: pace, cost of handing over a point, amount of data exchanged.
 
-Worker processes of this machine and a Dask cluster of this machine run the same points, 7003C in its spindle
-at fidelity rings with compact sound. Starting workers is told apart: it is paid once. Usage, on a machine that
-does nothing else: ``python -m benchmarks.sweep [--points 16] [--repeats 10]``.
+Worker processes of this machine and a Dask cluster of this machine run the same points: the 7003C in its
+spindle with fidelity rings and radiation model compact. The start of the workers is timed separately, because
+it happens once. Usage, on a machine that does nothing else: ``python -m benchmarks.sweep [--points 16]
+[--repeats 10]``.
 """
 
 import argparse
@@ -30,7 +31,7 @@ def nothing_to_do(task: Task, block: object = None) -> Outcome:
 
 
 def points(count: int) -> Plan:
-    scene: Scene = with_fidelity(read_scene(SCENE), fidelity="rings")
+    scene: Scene = with_fidelity(read_scene(SCENE), model="rings")
     sound = scene.sound.model_copy(update={"radiation_model": "compact", "details": False})
     return plan(scene.model_copy(update={"sound": sound}), {"speed": f"10000:40000:{count}"})
 

@@ -23,7 +23,7 @@ class Row:
     wall: float = math.nan
     cpu: float = math.nan
     goal: float = 0.0
-    limit: float = 1e-3  # error that the goal allows; infinite where the level is an approximation
+    limit: float = 1e-3  # error that the goal allows; infinite where the fidelity is an approximation
     remark: str = ""
     ours: bool = True
     ratios: dict[str, float] = field(default_factory=dict)

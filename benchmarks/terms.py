@@ -1,4 +1,4 @@
-"""What each term costs: one right-hand side, and the run, with it and without it."""
+"""Cost of each term: one right-hand side, and the run, with the term and without it."""
 
 import time
 

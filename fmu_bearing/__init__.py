@@ -1,27 +1,27 @@
 """Angular contact ball bearings of steel and ceramics, with their sound, as FMI 2.0 co-simulation FMUs.
 
-One way through, with no way back::
+Data flow in one direction::
 
     scene.toml -> Scene -> Model (flat numbers + names) -> engine: init / step / outputs -> outputs by name
 
 ==================  =========================================================================
-``renamed``         old names, each answered with the new one
+``renamed``         old names, which are refused with their new names
 ``progress``        progress of long work, told line by line
 ``files``           writing files that other processes may read
 ``engine``          Numba kernels on flat arrays: mechanics, fidelities, sound
-``scene``           WHAT is simulated: frozen models read from TOML, catalogue
+``scene``           scenes: frozen models read from TOML, catalogue
 ``elastic``         bending of the rings: sections, finite elements, modes
 ``acoustics``       transfer functions from motion to microphones, filters, analysis
-``interface``       THE table of variables
-``prepare``         scene to numbers, once: contacts, masses, imperfections, the model
-``instance``        one running bearing, for the library and for the FMU alike
-``fmi``             the FMI face: XML, native library, slave, the written ``.fmu``
+``interface``       the table of variables
+``prepare``         from a scene to the numbers of the engine: contacts, masses, imperfections
+``instance``        one running bearing, for the library and for the FMU
+``fmi``             FMI 2.0: XML, native library, slave, the ``.fmu`` file
 ``run``             a scene or an FMU run over inputs; results; fidelity ``auto``
-``recording``       runs with the sound channels kept, and what is measured on them
-``accuracy``        reference trajectories, what accuracy costs, what rests on assumed values
+``recording``       runs that keep the sound channels; measurements, pictures, tables, WAV files
+``accuracy``        reference trajectories, error against cost, sensitivity to assumed values
 ``sweeps``          a scene over a grid of its values
 ``reports``         one HTML page about a run
-``validation``      what FMI 2.0 asks of an FMU, checked
+``validation``      checks of an FMU against FMI 2.0
 ``testing``         fixtures for pytest: FMUs against recorded references
 ``cli``             the command ``fmu-bearing``
 ==================  =========================================================================
@@ -40,6 +40,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from fmu_bearing.recording import audio, measure, pictures, tables
     from fmu_bearing.recording.record import Recording, record
     from fmu_bearing.reports import report
     from fmu_bearing.run.bearing import Bearing
@@ -47,6 +48,7 @@ if TYPE_CHECKING:
     from fmu_bearing.run.result import Run
     from fmu_bearing.run.simulate import simulate
     from fmu_bearing.scene import Scene, SceneError, read_scene
+    from fmu_bearing.scene.read import with_fidelity
     from fmu_bearing.sweeps import sweep
 
 __version__ = "0.1.0"
@@ -58,12 +60,17 @@ _PLACES = {
     "Run": "run.result",
     "Scene": "scene",
     "SceneError": "scene",
+    "audio": "recording",
     "build_fmu": "run.build",
+    "measure": "recording",
+    "pictures": "recording",
     "read_scene": "scene",
     "record": "recording.record",
     "report": "reports",
     "simulate": "run.simulate",
     "sweep": "sweeps",
+    "tables": "recording",
+    "with_fidelity": "scene.read",
 }
 
 __all__ = [
@@ -72,19 +79,27 @@ __all__ = [
     "Run",
     "Scene",
     "SceneError",
+    "audio",
     "build_fmu",
+    "measure",
+    "pictures",
     "read_scene",
     "record",
     "report",
     "simulate",
     "sweep",
+    "tables",
+    "with_fidelity",
 ]
 
 
 def __getattr__(name: str) -> Any:
     if name not in _PLACES:
         raise AttributeError(f"fmu_bearing has no '{name}'; public names are {', '.join(__all__)}")
-    return getattr(import_module(f"fmu_bearing.{_PLACES[name]}"), name)
+    place = import_module(f"fmu_bearing.{_PLACES[name]}")
+    if not hasattr(place, name):  # a module that nothing has imported yet
+        return import_module(f"{place.__name__}.{name}")
+    return getattr(place, name)
 
 
 def __dir__() -> list[str]:

@@ -1,4 +1,4 @@
-"""Files written whole, as other processes may read them."""
+"""Writing files in one step, because other processes may read them."""
 
 import os
 import tempfile

@@ -17,7 +17,7 @@ from fmu_bearing.engine.status import BAD_INPUT, BAD_STEP, NO_START, NOT_CONVERG
 from fmu_bearing.interface import Variable
 from fmu_bearing.prepare.model import Model
 
-#: What the status codes of the engine mean to who called it.
+#: Messages for the status codes of the engine.
 REASONS = {
     NOT_CONVERGED: "the equations could not be solved: even the shortest internal steps failed; "
     "change inputs by less at a time, or over more steps",
@@ -122,7 +122,7 @@ class Instance:
         return float(self.s[S.TIME])
 
     def variable(self, name: str) -> Variable:
-        """Variable of that name; ``KeyError`` names what is missing."""
+        """Variable of that name; ``KeyError`` for an unknown name, with the new name of an old one."""
         try:
             return self.by_name[name]
         except KeyError:
@@ -165,7 +165,7 @@ class Instance:
         return float({"u": self.u, "z": self.z, "p": self.p}[variable.array][variable.index])
 
     def initialise(self, time: float = 0.0) -> None:
-        """Put the bearing to its quasi-static state at the inputs; ``EngineError`` if there is none."""
+        """Put the bearing into its quasi-static state at the inputs; ``EngineError`` if there is none."""
         status = abi.init(self._p, self.u, self.s, self.z, self._w, float(time))
         if status != OK:
             raise EngineError(f"initialisation at t = {time} s: {REASONS[status]}; {self._inputs()}")

@@ -1,4 +1,4 @@
-"""Names that were changed before the first release: whoever uses an old one is told the new one."""
+"""Names that changed before the first release. An old one is refused by a message with the new one."""
 
 import functools
 from collections.abc import Callable
@@ -7,15 +7,15 @@ from typing import Any, TypeVar
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 #: Keys of a scene.
-KEYS = {"fidelity.model": "fidelity.model", "sound.radiation_model": "sound.radiation_model"}
+KEYS = {"fidelity.level": "fidelity.model", "sound.rung": "sound.radiation_model"}
 #: Options of the command line.
-OPTIONS = {"--level": "--fidelity", "--radiation-model": "--radiation-model"}
+OPTIONS = {"--level": "--fidelity", "--rung": "--radiation-model"}
 #: Variables of a bearing.
 VARIABLES = {"level": "fidelity"}
 #: Short names of a sweep's axes.
 AXES = {"level": "fidelity"}
 #: Arguments of public functions.
-ARGUMENTS = {"level": "fidelity", "radiation_model": "radiation_model"}
+ARGUMENTS = {"level": "fidelity", "rung": "radiation_model"}
 
 
 def arguments(function: Function) -> Function:

@@ -1,7 +1,9 @@
 """The package's public face: every name is there, is documented, and its example runs."""
 
 import doctest
+import importlib
 import inspect
+import pkgutil
 import subprocess
 import sys
 
@@ -34,6 +36,20 @@ def test_public_names_are_listed_and_others_refused():
     assert set(fmu_bearing.__all__) <= set(dir(fmu_bearing))
     with pytest.raises(AttributeError, match="public names are Bearing"):
         fmu_bearing.Gear  # noqa: B018
+
+
+def test_no_module_hides_a_public_name():
+    """Importing ``fmu_bearing.x`` sets the attribute ``x`` of the package, whatever ``x`` is to be."""
+    names = set(fmu_bearing.__all__)
+    assert not names & {module.name for module in pkgutil.iter_modules(fmu_bearing.__path__)}
+    for name in names:
+        importlib.import_module(f"fmu_bearing.{fmu_bearing._PLACES[name]}")
+    modules = {"audio", "measure", "pictures", "tables"}
+    assert {name for name in names if inspect.ismodule(getattr(fmu_bearing, name))} == modules
+    functions = {name for name in names - modules if name.islower()}
+    assert functions >= {"record", "report", "simulate", "sweep", "with_fidelity"}
+    assert all(inspect.isfunction(getattr(fmu_bearing, name)) for name in functions)
+    assert all(inspect.isclass(getattr(fmu_bearing, name)) for name in names - modules - functions)
 
 
 def test_importing_the_package_costs_nothing():

@@ -1,1 +1,1 @@
-"""What the calls of an FMU cost: native build, Python build, and a minimal FMU written by hand in C."""
+"""Cost of the calls of an FMU: native build, Python build, and a minimal FMU written by hand in C."""

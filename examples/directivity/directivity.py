@@ -1,12 +1,12 @@
 """Directivity of the full-ceramic 7009C: levels on a circle of 210 mm, 50 mm in front, beside its steel twin.
 
-``python directivity.py [--quick]`` records both bearings (fidelity full, radiation model bem; ``--quick``: a short run of
-the ceramic one, radiation model compact) and writes ``directivity.png``, each circle about its mean, and
-``directivity.csv``.
+``python directivity.py [--quick]`` records both bearings with fidelity full and radiation model bem;
+``--quick``: a short run of the ceramic bearing with radiation model compact. It writes ``directivity.png``,
+each circle about its mean, and ``directivity.csv``.
 
 Result: the ceramic bearing's circle is loudest at 45 deg from 12 o'clock at all speeds, 1.1 dB(A) above its
 quietest place at 6,000 and 12,000 r/min and 2.1 at 18,000 r/min, where the level is 69.9 dB(A). The steel
-twin, whose weight, stiffness and modes are others, is at 88.2 dB(A) there and even within 0.2 dB.
+twin, with other weight, stiffness and modes, has 88.2 dB(A) there and is even within 0.2 dB.
 """
 
 from collections.abc import Sequence
@@ -58,7 +58,7 @@ def cells(circles: dict[str, Round]) -> list[list[str]]:
 
 
 def about_mean(one: Round) -> Round:
-    """Take the mean of its levels from a circle: circles of loud and quiet bearings then lie side by side."""
+    """Subtract the mean of a circle's levels, so that loud and quiet bearings can be compared."""
     relative = one.levels - one.levels.mean()
     return Round(one.angles, relative, directivity(one.angles, relative))
 

@@ -1,4 +1,4 @@
-"""What the tests of this folder share: how the bearing is run."""
+"""The run that the tests of this folder share."""
 
 import pytest
 

@@ -1,13 +1,13 @@
-"""Test harness of a bearing FMU: it runs, does what it did when it was accepted, stays within its limits.
+"""Test harness of a bearing FMU: it runs, matches the accepted reference, and stays within limits.
 
 Run it from this folder or from any other::
 
     pytest examples/harness --fmu out/Bearing7003C.fmu     (or --fmu examples/scenes/7003C-spindle.toml)
-    pytest examples/harness --fmu ... --record-references  (after a change that is meant)
+    pytest examples/harness --fmu ... --record-references  (after an intended change)
 
 Shows: a run within tolerances of a recorded reference (51 points of 8 variables at the start of the 7003C in
-its spindle), and limits of one's own on friction and heat. Fixtures come with fmu-bearing, no plugin need be
-named.
+its spindle), and limits chosen by the user on friction and heat. The fixtures come with fmu-bearing; no
+plugin has to be named.
 """
 
 

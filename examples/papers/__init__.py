@@ -13,6 +13,6 @@
 ``impact_noise``  the impact-noise paper: dry 7003C held all round, springs for a cage
 ================  =========================================================================================
 
-One dynamic run per operating point serves all microphones and all radiation models but the papers' own, whose scalars
-are formed while the bearing runs.
+One dynamic run per operating point serves all microphones and all radiation models but ``paper``. The
+scalars of ``paper`` are formed while the bearing runs.
 """

@@ -1,4 +1,4 @@
-"""One operating point of a scene: what is run, and its recording on disk."""
+"""One operating point of a scene, and its recording on disk."""
 
 import hashlib
 import json
@@ -82,7 +82,7 @@ class Case:
         path = cache / f"{self.key(radiation_model)}.npz"
         if path.exists():
             return Recording.load(path)
-        # ears are chosen afterwards: what the recording is made with is the cheapest of its kind
+        # microphones are chosen afterwards: the cheapest radiation model with these channels serves
         scene = self.build()
         made = record(
             scene, self.duration, settle=self.settle, progress=False,
@@ -117,7 +117,7 @@ def code_hash(*modules: str) -> str:
 
 
 def _motion(scene: Scene) -> dict[str, Any]:
-    """Return the scene without what only listens: its motion does not depend on it."""
+    """Return the scene without the keys of ``sound`` that do not affect the motion."""
     data = scene.model_dump(mode="json", exclude_none=True)
     sound = data.get("sound", {})
     for key in LISTENING:

@@ -1,4 +1,4 @@
-"""Pictures of the pages: small PNG files, colours told apart by all eyes (Okabe and Ito, 2008)."""
+"""Pictures of the pages: small PNG files, colours for all kinds of colour vision (Okabe and Ito, 2008)."""
 
 import io
 import pathlib

@@ -45,7 +45,7 @@ def apart(one: float, other: float) -> float:
 def orderings(results: dict[int, dict[str, Any]], directive: bool = True) -> list[Ordering]:
     """Judge the paper's statements for one variant; results by speed.
 
-    ``directive``: whether the radiation model says anything about angles; if not, statements on them are not judged.
+    ``directive``: whether the radiation model resolves angles; if not, statements on angles are not judged.
     """
     speeds = sorted(results)
     round_ = {rpm: circle_at(results[rpm]) for rpm in speeds}

@@ -1,7 +1,7 @@
 """Levels of a recording, source by source.
 
-Most radiation models add pressures: a component is one source, the total is the coherent sum. The radiation model ``paper`` adds
-energies: each component is several sources (multi-source paper, eqs. 43 and 46).
+Most radiation models add pressures: a component is one source, and the total is the coherent sum. Radiation
+model ``paper`` adds energies: each component is several sources (multi-source paper, eqs. 43 and 46).
 
 Paths depend on bodies and places, not on the run: they are made once per scene and kept, since boundary
 elements take a second per circle.
@@ -32,7 +32,8 @@ from fmu_bearing.scene import Scene
 
 #: Keys of ``sound`` that change no motion and no path.
 LISTENING = (
-    "radiation_model", "microphone", "circle", "metering_start_s", "time_weighting", "third_octaves", "details",
+    "radiation_model", "microphone", "circle", "metering_start_s", "time_weighting", "third_octaves",
+    "details",
 )  # fmt: skip
 Sources = dict[str, NDArray[np.float64]]
 Places = Sequence[Sequence[float]]
@@ -47,7 +48,7 @@ class Ear:
     Parameters
     ----------
     recording : Recording
-    radiation model : str
+    radiation_model : str
     cache : pathlib.Path
         Folder of the kept paths.
     """
@@ -74,8 +75,8 @@ class Ear:
     def sources(self, places: Places) -> Sources:
         """Pressures of each component's sources, shape (sources, mics, size) by component, and ``total``.
 
-        Within an entry energies add: the total of a vector radiation model is one coherent sum, the total of radiation model
-        ``paper`` all its sources.
+        The energies of an entry's sources add. The total of radiation model ``paper`` holds all its sources;
+        that of every other model holds one, the coherent sum.
         """
         if self.radiation_model != "paper":
             parts = self.parts(places, lambda path: path.component)

@@ -246,8 +246,8 @@ def write(
     any_case = next(iter(found[radiation_model]))
     return page.template(NAME).format(
         timing=page.timing(any_case.settle, any_case.duration),
-        title=TITLE, caution=page.caution(radiation_model), radiation_model=radiation_model, counts=page.counted(judged),
-        target=CALIBRATION[1],
+        title=TITLE, caution=page.caution(radiation_model), radiation_model=radiation_model,
+        counts=page.counted(judged), target=CALIBRATION[1],
         calibration=calibration.words, values=page.values_table(values(results, calibration)),
         orderings=page.orderings_table([radiation_model], [judged]), above=markdown(columns, rows),
     )  # fmt: skip

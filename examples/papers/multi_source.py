@@ -245,8 +245,8 @@ def write(
     any_case = next(iter(found[radiation_model]))
     return page.template(NAME).format(
         timing=page.timing(any_case.settle, any_case.duration),
-        title=TITLE, caution=page.caution(radiation_model), radiation_model=radiation_model, counts=counts, calibration=calibration.words,
-        target=CALIBRATION[1],
+        title=TITLE, caution=page.caution(radiation_model), radiation_model=radiation_model,
+        counts=counts, calibration=calibration.words, target=CALIBRATION[1],
         values=page.values_table(values(results[radiation_model], calibration)),
         orderings=page.orderings_table(models, judged),
         levels=markdown(

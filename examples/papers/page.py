@@ -1,4 +1,4 @@
-"""What all pages are written with: verdicts, comparisons, tables in Markdown and CSV."""
+"""Parts of all pages: verdicts, comparisons, tables in Markdown and CSV."""
 
 import pathlib
 from collections.abc import Iterable, Sequence

@@ -122,8 +122,8 @@ def main(arguments: list[str] | None = None) -> None:
         parser.error(f"no page named {', '.join(unknown)}; there are {', '.join(PAGES)}")
     clock = time.perf_counter()
     pages = run(
-        given.pages or list(PAGES), given.radiation_model, quick=given.quick, jobs=given.jobs, cache=given.cache,
-        root=given.output,
+        given.pages or list(PAGES), given.radiation_model,
+        quick=given.quick, jobs=given.jobs, cache=given.cache, root=given.output,
     )  # fmt: skip
     for path in pages:
         print(path)

@@ -153,7 +153,8 @@ def write(
     any_case = next(iter(found[radiation_model]))
     steel = twins(results[VARIANTS[0]], results.get(VARIANTS[2], {}), directive)
     return page.template(NAME).format(
-        title=TITLE, caution=page.caution(radiation_model), radiation_model=radiation_model, pull=PULL, calibration=calibration.words,
+        title=TITLE, caution=page.caution(radiation_model), radiation_model=radiation_model,
+        pull=PULL, calibration=calibration.words,
         timing=page.timing(any_case.settle, any_case.duration), counts=counts, target=CALIBRATION[1],
         values="\n".join(
             f"{name}:\n\n{page.values_table(values(results, name, calibration, directive))}"

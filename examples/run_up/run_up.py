@@ -1,8 +1,8 @@
 """Run-up of the 7003C in its spindle: waterfall and order map of the sound at P1, 105 mm beside the bearing.
 
-``python run_up.py [--quick]`` runs the scene from 4,000 to 36,000 r/min in a second (fidelity full, radiation model bem;
-``--quick``: fidelity rings, radiation model compact, a third of the time) and writes ``waterfall.png``, ``orders.png``,
-``orders.csv`` and ``peaks.md``.
+``python run_up.py [--quick]`` runs the scene from 4,000 to 36,000 r/min in a second, with fidelity full and
+radiation model bem; ``--quick``: fidelity rings, radiation model compact, a third of the time. It writes
+``waterfall.png``, ``orders.png``, ``orders.csv`` and ``peaks.md``.
 
 Result: the shaft's order is loudest at 28,800 r/min, 71 dB: the critical speed at 28,000 r/min, a little
 late, as the ramp goes by at 32,000 r/min per second. Far louder is order 8, the balls passing the inner race
@@ -48,11 +48,11 @@ def levels_at(orders: OrderMap, order: float) -> NDArray[np.float64]:
 
 def main(
     quick: Annotated[
-        bool, typer.Option("--quick", help="A short run by a faster level, radiation model compact.")
+        bool, typer.Option("--quick", help="A short run: fidelity rings, radiation model compact.")
     ] = False,
     output: Annotated[Path, typer.Option(help="Folder for pictures and table.")] = Path("out/run_up"),
 ) -> None:
-    """Record a run-up and draw what is heard."""
+    """Record a run-up and draw its sound."""
     scene, duration, radiation_model = read_scene(SCENE), 1.0, "bem"
     if quick:
         scene, duration, radiation_model = with_fidelity(scene, model="rings"), 0.3, "compact"

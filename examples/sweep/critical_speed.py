@@ -50,7 +50,7 @@ COLUMNS = (
 
 def scenes() -> dict[str, Scene]:
     """Return the spindle as it is, and excited by unbalance alone."""
-    found = with_fidelity(read_scene(SCENE), fidelity="rings")
+    found = with_fidelity(read_scene(SCENE), model="rings")
     assert found.sound is not None and found.imperfections is not None
     sound = found.sound.model_copy(update={"radiation_model": "compact", "details": False})
     found = found.model_copy(update={"sound": sound})

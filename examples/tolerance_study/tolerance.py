@@ -1,18 +1,18 @@
 """Spread of sound and vibration among bearings of one tolerance class: 7003C in its spindle, P5, P4 and P2.
 
 ``python tolerance.py [--quick]`` builds bearings from seeds (phases of the waviness, diameters of the balls)
-and records each at 20,000 r/min: 12 of each class at fidelity full and radiation model bem, 0.2 s after 0.05 s;
-``--quick``: 3 of each at fidelity rings, radiation model compact, 0.05 s. It writes ``tolerance.csv``, ``tolerance.md`` and
-``tolerance.png``.
+and records each at 20,000 r/min: 12 of each class with fidelity full and radiation model bem, 0.2 s after
+0.05 s; ``--quick``: 3 of each with fidelity rings and radiation model compact, 0.05 s. It writes
+``tolerance.csv``, ``tolerance.md`` and ``tolerance.png``.
 
 Assumed are the amplitudes of each class: a standard limits runout, not waviness, and the catalogue scales one
 set of amplitudes by the runout allowed (P5 : P4 : P2 = 1.6 : 1 : 0.6), the unbalance with it. All amplitudes
-are at their limit; what a seed draws is where on the races they lie. No other tolerance (clearance,
+are at their limit; the seed draws where on the races they lie. No other tolerance (clearance,
 conformity, contact angle) is varied.
 
 Result, mean and standard deviation of 12 bearings: P5 79.1 +/- 0.7 dB(A), P4 74.2 +/- 0.8, P2 69.3 +/- 0.9 at
-P1; outer ring 0.82, 0.50, 0.29 mm/s rms, each within 0.02; torque 21.1 to 21.2 N mm, whatever the class. A
-class is worth 5 dB(A); two bearings of one class may lie 2.4 dB(A) apart.
+P1; outer ring 0.82, 0.50, 0.29 mm/s rms, each within 0.02; torque 21.1 to 21.2 N mm, whatever the class. From
+one class to the next it is 5 dB(A); two bearings of one class differ by up to 2.4 dB(A).
 """
 
 from pathlib import Path
@@ -93,10 +93,10 @@ def draw(samples: list[Sample]) -> Figure:
 
 
 def main(
-    quick: Annotated[bool, typer.Option("--quick", help="Few bearings, short, by a faster level.")] = False,
+    quick: Annotated[bool, typer.Option("--quick", help="Few bearings, short runs, fidelity rings.")] = False,
     output: Annotated[Path, typer.Option(help="Folder for table and picture.")] = Path("out/tolerance_study"),
 ) -> None:
-    """Draw bearings of each class, record them, and tell how they spread."""
+    """Draw bearings of each class, record them, and write their spread."""
     scene, seeds, duration, radiation_model = read_scene(SCENE), SEEDS, 0.2, "bem"
     if quick:
         scene, seeds, duration, radiation_model = with_fidelity(scene, model="rings"), 3, 0.05, "compact"

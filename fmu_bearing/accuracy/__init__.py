@@ -1,10 +1,10 @@
-"""What accuracy costs, and what rests on assumed values.
+"""Studies of accuracy: error against cost, and sensitivity to assumed values.
 
 ================  =============================================================================
-``first_order``   fidelity ``full`` as x' = g(t, x), for general-purpose integrators
-``reference``     the trajectory that other results are held against, by two integrators
+``first_order``   fidelity ``full`` as x' = g(t, x), for other integrators
+``reference``     reference trajectory from two integrators, to which other results are compared
 ``tradeoff``      fidelities, methods, steps, strips, terms against the reference
 ``chart``         error against speed, drawn
-``sensitivity``   what rests on assumed values
+``sensitivity``   changes of the figures when an assumed value changes
 ================  =============================================================================
 """

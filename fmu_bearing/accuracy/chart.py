@@ -14,7 +14,7 @@ from fmu_bearing.run.pictures import empty, save
 Point = tuple[Row, float, float]  # row, speed, error
 
 _FLOOR = 1e-7  # smaller errors are drawn here
-#: Colour and marker of each fidelity and method (colours: Okabe and Ito, 2008, told apart by all eyes).
+#: Colour and marker of each fidelity and method (colours by Okabe and Ito, 2008, for all colour vision).
 _STYLES = {
     "full / esdirk4": ("#0072B2", "o"),
     "full / fast": ("#D55E00", "s"),
@@ -130,7 +130,7 @@ def _overlap(one: tuple[float, ...], other: tuple[float, ...]) -> bool:
 
 
 def _words(row: Row) -> str:
-    """Step and tolerance; fidelity and method are told by colour and marker."""
+    """Step and tolerance; colour and marker show fidelity and method."""
     s = row.setting
     if s.fidelity == "response":
         return "response"

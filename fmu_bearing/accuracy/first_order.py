@@ -1,4 +1,4 @@
-"""Fidelity ``full`` as x' = g(t, x), for integrators that know nothing of bearings.
+"""Fidelity ``full`` as x' = g(t, x), for general-purpose integrators.
 
 ``x`` holds nine rows of one number per ball (x, r, theta, their rates, spin), then 17 coordinates of the
 bodies and their 17 rates, as ``y`` in ``engine.layout`` without its spare lanes.
@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.engine.jit import entry, kernel
-from fmu_bearing.engine.layout import C, F, J, P, Q, S, STRIDE, Y
+from fmu_bearing.engine.layout import STRIDE, C, F, J, P, Q, S, Y
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.newton.jacobian import jacobian
 from fmu_bearing.run.arrays import RINGS, Arrays
@@ -79,7 +79,7 @@ class FirstOrder:
     start : ndarray
         ``x`` at t = 0.
     scale : ndarray
-        Size of what moves in each component, for absolute tolerances.
+        Typical size of each component, for absolute tolerances.
     rings : ndarray of int
         Places in ``x`` of the six ring velocities.
     """

@@ -1,8 +1,8 @@
-"""The trajectory that others are held against: fidelity ``full`` by two integrators that share no code.
+"""Reference trajectory: fidelity ``full`` by two integrators that share no code.
 
 One is classical Runge-Kutta of fourth order, explicit, at tens of nanoseconds; it knows only the right-hand
-side. The other is the engine's own implicit method at a tight tolerance. What they agree to bounds the
-error of both.
+side. The other is the engine's own implicit method at a tight tolerance. Their difference bounds the error of
+both.
 
 Measured on the scene 7003C-spindle at 20,000 r/min over 5 ms after 50 ms: Runge-Kutta at 40 ns and at 20 ns
 agree to 6e-11; ESDIRK4 differs from them by 2.0e-6, 2.6e-7, 5e-8 and 2e-8 at 4, 2, 1 and 0.5 us (tolerance
@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.engine.jit import entry, kernel
-from fmu_bearing.engine.layout import C, F, P, Q, S, STRIDE, Y
+from fmu_bearing.engine.layout import STRIDE, C, F, P, Q, S, Y
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.run.arrays import RINGS, Arrays
 from fmu_bearing.scene import Scene
@@ -75,7 +75,7 @@ def explicit_rings(
 ) -> tuple[NDArray[np.float64], float]:
     """Ring velocities (m/s, six columns) every ``sample`` (s) from the bearing's state, and the CPU time (s).
 
-    The bearing's state is left as it is; ``step`` (s) is shortened to divide ``sample``.
+    The bearing's state is not changed; ``step`` (s) is shortened to divide ``sample``.
     """
     y = bearing.s[S.Y : S.Y + Y.SIZE].copy()
     c = bearing.s[S.C : S.C + C.SIZE].copy()
@@ -109,7 +109,7 @@ def relative_error(rows: NDArray[np.float64], exact: NDArray[np.float64]) -> flo
 
 @dataclass(frozen=True)
 class Reference:
-    """A reference trajectory and what is known of its error.
+    """A reference trajectory and an estimate of its error.
 
     Attributes
     ----------
@@ -139,7 +139,7 @@ def reference_from(
     implicit_step: float = 5e-7,
     implicit_tolerance: float = 1e-8,
 ) -> Reference:
-    """Integrate from the bearing's present state, which is left as it is, by both methods.
+    """Integrate from the bearing's present state by both methods; that state is not changed.
 
     Parameters
     ----------

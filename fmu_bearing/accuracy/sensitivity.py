@@ -1,8 +1,8 @@
-"""How much rests on what the sources leave open: every assumed value of a scene, moved one by one.
+"""Sensitivity of a scene's figures to its assumed values, which are changed one by one.
 
-Each change is run at fidelity ``full`` from its own quasi-static state, and its figures are held against those
-of the scene as it is. A value is moved down and up by a fifth; where a fifth of the value is no fair step, by
-what ``ASSUMED`` says.
+Each changed scene is run with fidelity ``full`` from its own quasi-static state, and its figures are compared
+with those of the unchanged scene. A value is changed by a fifth down and up, or by the step in ``ASSUMED``
+where a fifth would be too much or too little.
 """
 
 import math
@@ -112,7 +112,7 @@ COLUMNS = (
 
 @dataclass(frozen=True)
 class Row:
-    """One move: what it changed, or why there is nothing to say.
+    """One changed value: the relative changes it causes, or the reason why there are none.
 
     ``changes``: of rms velocity of inner and outer ring, load, angle (rad), torque, cage speed, all but the
     angle relative, and of the level (dB) at the microphone where it changed most; NaN: does not apply.
@@ -138,7 +138,7 @@ class Row:
 
 @dataclass(frozen=True)
 class Sensitivity:
-    """Rows of one scene, and the figures of the scene as it is."""
+    """Rows of one scene, and the figures of the unchanged scene."""
 
     scene: str
     rpm: float
@@ -158,9 +158,10 @@ class Sensitivity:
         return (
             f"# What rests on assumed values: {self.scene}, {self.rpm:,.0f} r/min\n\n{machine()}\n\n"
             "Made by `fmu-bearing sensitivity`. One value at a time, fidelity `full`, figures over "
-            f"{1e3 * self.window:g} ms after {1e3 * self.warm_up:g} ms; sound by radiation model compact. Unmoved: "
-            f"rms ring velocity {1e3 * b.ring_rms[0]:.3g} (inner) and {1e3 * b.ring_rms[1]:.3g} mm/s "
-            f"(outer), contact load {b.load[0]:.4g} N, contact angle {math.degrees(b.angle[0]):.2f} deg "
+            f"{1e3 * self.window:g} ms after {1e3 * self.warm_up:g} ms; sound by radiation model "
+            f"`compact`. Unchanged: rms ring velocity {1e3 * b.ring_rms[0]:.3g} (inner) and "
+            f"{1e3 * b.ring_rms[1]:.3g} mm/s (outer), contact load {b.load[0]:.4g} N, "
+            f"contact angle {math.degrees(b.angle[0]):.2f} deg "
             "(both inner race), "
             f"friction torque {1e3 * b.torque:.3g} N mm, cage speed {b.cage_ratio:.4f} of the shaft's"
             + (f", sound {sound} dB(A) at the microphones" if sound else "")
@@ -186,22 +187,22 @@ def sensitivity(
     window: float = 0.06,
     track: Callable[[Sequence[tuple[str, Any]]], Iterable[tuple[str, Any]]] = iter,
 ) -> Sensitivity:
-    """Move each of ``keys`` that the scene has.
+    """Change each of ``keys`` that the scene has, and compare the figures.
 
     Parameters
     ----------
     scene : Scene
-        Computed at fidelity full, whatever its own; its sound by radiation model compact where it asks for boundary
-        elements, which would be solved anew for every geometry.
+        Always computed with fidelity full. Radiation model bem is replaced by compact, because boundary
+        elements would have to be solved again for every geometry.
     warm_up, window : float
-        Time (s) that each run takes before it is measured, and over which it is.
+        Time (s) of each run before its figures are taken, and over which they are taken.
     track : callable
-        Wraps the moves (key and new value), for a progress bar.
+        Wraps the changes (key and new value), for a progress bar.
 
     Raises
     ------
     Refused
-        If the engine refuses the scene as it is.
+        If the engine refuses the unchanged scene.
     """
     scene = with_fidelity(scene, model="full")
     if scene.sound is not None and scene.sound.radiation_model == "bem" and scene.sound.radiator != "baffle":

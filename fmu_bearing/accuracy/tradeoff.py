@@ -1,11 +1,11 @@
-"""What accuracy costs: fidelities, methods, steps, strips and terms against a reference, with their speed.
+"""Error and speed of fidelities, methods, steps, strips and left-out terms, against a reference.
 
 Every variant runs from its own quasi-static state through its own warm-up; then its figures are taken over
 the same window as the reference's. The reference is fidelity ``full`` by the default method at ``REFERENCE``,
-and two things are held against it: over the whole run, warm-up included, the explicit method at ``WITNESS``,
-which the study asks to agree to 1e-6; and over ``CHECK`` after the warm-up, from one state, the two
-integrators of :mod:`fmu_bearing.accuracy.reference`. The first is larger: where balls stand on their orbit is
-what nothing pulls back, so differences of the warm-up stay.
+and two results are compared with it: over the whole run, warm-up included, the explicit method at
+``WITNESS``, which has to agree to 1e-6; and over ``CHECK`` after the warm-up, from one state, the two
+integrators of :mod:`fmu_bearing.accuracy.reference`. The first difference is larger, because no force
+restores the places of the balls on their orbit, so that differences from the warm-up remain.
 """
 
 import pathlib
@@ -70,8 +70,8 @@ class Row:
     errors : Errors or None
         None where the engine refused or does not have it; ``remark`` then says so.
     trajectory : float
-        Rms difference of the six ring velocities over the rms of their fluctuation; NaN for fidelities that are
-        not ``full``: their phases are their own.
+        Rms difference of the six ring velocities over the rms of their fluctuation. NaN for fidelities other
+        than ``full``, whose phases differ.
     wall, cpu : float
         Simulated s per s, without sound.
     """
@@ -98,7 +98,7 @@ class Row:
 
 @dataclass(frozen=True)
 class Tradeoff:
-    """The rows of one scene, and what is known of the reference they are held against.
+    """The rows of one scene, and the accuracy of the reference.
 
     Attributes
     ----------
@@ -142,10 +142,10 @@ Made by `fmu-bearing tradeoff`, which `docs/tradeoff.md` explains. Figures over 
 of {warm_up:g} ms. Errors of trajectory, rms ring velocity, contact load and friction torque are relative;
 those of sound are in dB(A) at the worst microphone. Speeds are without sound.
 
-Reference: fidelity `full`, `esdirk4`, {step:g} us, tolerance {tolerance:g}. Trajectories of it and of `rk4` at
-0.5 us, each with its own warm-up, agree to {agreement} over the whole window. Over {check:g} ms from one
-state Runge-Kutta at 40 ns and ESDIRK4 at 0.5 us agree to {pair:.0e}; the reference's settings are {own:.0e}
-from them.
+Reference: fidelity `full`, `esdirk4`, {step:g} us, tolerance {tolerance:g}. Its trajectory and that of `rk4`
+at 0.5 us, each with its own warm-up, agree to {agreement} over the whole window. Over {check:g} ms from one
+state, Runge-Kutta at 40 ns and ESDIRK4 at 0.5 us agree to {pair:.0e}; the reference's settings differ from
+them by {own:.0e}.
 
 {table}"""
 
@@ -175,10 +175,10 @@ def tradeoff(
     Parameters
     ----------
     scene : Scene
-        At its own speed, loads and temperatures; whatever its ``fidelity`` says but for terms left out.
+        Run at its own speed, loads and temperatures. Of its ``fidelity`` only the left-out terms count.
     settings : sequence of Setting
     warm_up, window : float
-        Time (s) that each variant runs before it is measured, and over which it is.
+        Time (s) that each variant runs before its figures are taken, and over which they are taken.
     budget : float
         Wall time (s) of each of two timed runs.
     track : callable

@@ -1,9 +1,9 @@
-"""The application, what its commands share, and how refusals are told.
+"""The application, options that commands share, and error messages.
 
-Exit codes: 0 done; 1 a check found something; 2 refused (a scene, an option, a file); 3 the computation ended
-early, what was computed is written; 130 interrupted, what was computed is written.
+Exit codes: 0 done; 1 a check has findings; 2 refused (a scene, an option, a file); 3 the computation ended
+early; 130 interrupted. In the last two cases the results so far are written.
 
-Commands import what they work with when they run, so that help and completion answer at once.
+Commands import their modules when they run, so that help and completion answer at once.
 """
 
 import json
@@ -26,10 +26,10 @@ FOUND, REFUSED, ENDED_EARLY, INTERRUPTED = 1, 2, 3, 130
 
 
 class Commands(TyperGroup):
-    """The commands; an option of an old name is answered with its new one."""
+    """The commands. An option under its old name is refused with the new name."""
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        """Refuse old options before any command sees them."""
+        """Refuse old options before any command parses them."""
         for name in (word.partition("=")[0] for word in args):
             if name in renamed.OPTIONS:
                 typer.echo(f"error: {name} is now {renamed.OPTIONS[name]}", err=True)
@@ -58,7 +58,7 @@ tell = partial(typer.echo, err=True)
 
 @contextmanager
 def refusals() -> Iterator[None]:
-    """Tell refusals in a line of the user's own terms and end with code 2; no traceback."""
+    """Print a refusal in one line, without traceback, and end with code 2."""
     try:
         yield
     except Exception as error:
@@ -71,7 +71,7 @@ def refusals() -> Iterator[None]:
 
 @contextmanager
 def quiet_warnings() -> Iterator[None]:
-    """Tell warnings in a line each, without the place in the code."""
+    """Print each warning in one line, without its place in the code."""
     with warnings.catch_warnings():
         warnings.simplefilter("always", UserWarning)
         warnings.showwarning = _caution  # type: ignore[assignment]
@@ -85,7 +85,7 @@ def _caution(message: Warning | str, category: type[Warning], *place: Any) -> No
 
 
 def _refused() -> tuple[type[Exception], ...]:
-    """Return what counts as a refusal; imported only once something has gone wrong."""
+    """Return the exceptions that count as refusals. They are imported only after an error."""
     from fmu_bearing.fmi.native.optimise import BuildError
     from fmu_bearing.run.arrays import Refused
     from fmu_bearing.run.extras import MissingExtra
@@ -94,11 +94,11 @@ def _refused() -> tuple[type[Exception], ...]:
 
 
 class Refusal(ValueError):
-    """Something a command cannot do with what it was given; the message says what and the way out."""
+    """A command cannot work with its arguments; the message says why and what to do."""
 
 
 def print_json(result: Any) -> None:
-    """Print ``result`` as JSON; what is no finite number becomes null, as JSON knows none."""
+    """Print ``result`` as JSON; NaN and infinity become null, because JSON does not have them."""
     typer.echo(json.dumps(_plain(result), indent=2, ensure_ascii=False))
 
 

@@ -58,8 +58,8 @@ def report(
         from fmu_bearing.reports import make  # loads slowly, and no other command has use for it
 
         made = make(
-            source, output, duration=duration, settle=settle, radiation_model=radiation_model, radius=radius, title=title,
-            speed=None if speed is None else speed * RPM,
+            source, output, duration=duration, settle=settle, radiation_model=radiation_model,
+            radius=radius, title=title, speed=None if speed is None else speed * RPM,
             run_up=None if speeds is None else (speeds[0] * RPM, speeds[1] * RPM),
             run_up_time=run_up_time, tell=tell, progress=errors.is_terminal,
         )  # fmt: skip

@@ -44,7 +44,7 @@ def simulate(
     ] = Path("result.csv"),
     as_json: Json = False,
 ) -> None:
-    """Run a scene or an FMU; a run that is refused or interrupted (Ctrl-C) keeps what it has computed."""
+    """Run a scene or an FMU. After a refused step or Ctrl-C the results so far are kept."""
     from fmu_bearing.run import result as results
     from fmu_bearing.run.simulate import simulate as run_it
 

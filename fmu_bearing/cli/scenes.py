@@ -1,4 +1,4 @@
-"""``fmu-bearing scene``: new files, what is wrong with one, what is in one, what the catalogue has."""
+"""``fmu-bearing scene``: write a scene, check it, show its values, show the catalogue."""
 
 import warnings
 from dataclasses import asdict
@@ -69,7 +69,7 @@ def check(
     paths: Annotated[list[Path], typer.Argument(metavar="SCENE...", help="Scene files.")],
     as_json: Json = False,
 ) -> None:
-    """Read scenes and find their equilibrium; tell what is refused and what to look at."""
+    """Read scenes and find their equilibrium; print errors and warnings."""
     found = {str(path): _findings(path) for path in paths}
     if as_json:
         print_json({path: {"ok": ok, "findings": lines} for path, (ok, lines) in found.items()})
@@ -84,7 +84,7 @@ def check(
 
 
 def _findings(path: Path) -> tuple[bool, list[str]]:
-    """Whether a scene can be run, and what there is to say."""
+    """Return whether a scene can be run, and the messages about it."""
     from fmu_bearing.instance import EngineError, Instance
 
     try:
@@ -164,7 +164,7 @@ def _remark(one: Origin) -> str:
 
 
 def _sizes(found: Scene) -> dict[str, Any]:
-    """Return what a scene is computed with, and its sizes, in words."""
+    """Return fidelity, method, sound and sizes of a scene, in words."""
     from fmu_bearing.engine.layout import S, W, Z
 
     auto = found.fidelity.model == "auto"

@@ -60,10 +60,10 @@ def sound(
             if fidelity is not None:
                 found = with_fidelity(found, model=fidelity)
             chosen_microphones([(place.name, place.position_m) for place in found.microphones], microphone)
-            output.mkdir(parents=True, exist_ok=True)  # whatever is wrong there, before the run
+            output.mkdir(parents=True, exist_ok=True)  # an unusable folder is reported before the run
             recording = record(
-                found, duration, speed=None if speed is None else speed * RPM, settle=settle, radiation_model=radiation_model,
-                progress=False if as_json else None,
+                found, duration, speed=None if speed is None else speed * RPM, settle=settle,
+                radiation_model=radiation_model, progress=False if as_json else None,
             )  # fmt: skip
             recording.save(output / "recording.npz")
         heard = listen(recording, microphone, radiation_model, resolution)

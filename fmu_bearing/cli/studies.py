@@ -1,4 +1,4 @@
-"""``fmu-bearing choose``, ``tradeoff``, ``sensitivity``: what accuracy costs, what rests on assumptions."""
+"""``fmu-bearing choose``, ``tradeoff``, ``sensitivity``: error against cost, influence of assumed values."""
 
 from collections.abc import Sequence
 from functools import partial
@@ -12,7 +12,7 @@ from fmu_bearing.cli.base import Folder, Json, Quick, SceneFile, app, print_json
 
 @app.command()
 def choose(scene: SceneFile, as_json: Json = False) -> None:
-    """Tell which fidelity, method and step meet the scene's accuracy, and how every candidate did."""
+    """Find the cheapest fidelity, method and step within the scene's accuracy; print all candidates."""
     from fmu_bearing.run import choose as choosing
     from fmu_bearing.run.table import show
     from fmu_bearing.scene import read_scene
@@ -65,7 +65,7 @@ def tradeoff(
 def sensitivity(
     scene: SceneFile, output: Folder = Path("out/sensitivity"), quick: Quick = False, as_json: Json = False
 ) -> None:
-    """Move every assumed value of a scene and tell what changes."""
+    """Change every assumed value of a scene, one at a time, and print the effect."""
     from fmu_bearing.accuracy import sensitivity as moving
     from fmu_bearing.run.table import show
     from fmu_bearing.scene import read_scene

@@ -82,7 +82,7 @@ def _plan(
     source: Path, axis: list[str] | None, variables: str | None, settle: float | None,
     window: float | None, folder: Path | None,
 ) -> "Plan":  # fmt: skip
-    """Lay out what file and options ask for; options win. The folder gets a file to do it again."""
+    """Make the plan from file and options; options win. The folder gets a file that repeats the sweep."""
     from fmu_bearing.sweeps.axes import ALIASES, SweepError, parse_axis
     from fmu_bearing.sweeps.description import Description, is_description, read_description
     from fmu_bearing.sweeps.plan import plan
@@ -133,7 +133,7 @@ def _run(made: "Plan", output: Path, workers: int | None, scheduler: str | None,
 
 
 def _write(made: "Plan", outcomes: "Outcomes", output: Path, as_json: bool) -> None:
-    """Write what there is and tell it."""
+    """Write the results so far and print a summary."""
     from fmu_bearing.run.table import show
     from fmu_bearing.sweeps.picture import save as save_picture, sweep_picture
     from fmu_bearing.sweeps.result import COLUMNS, dataset, extremes, save

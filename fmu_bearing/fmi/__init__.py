@@ -1,4 +1,4 @@
-"""The FMI face of the bearing: FMI 2.0 co-simulation, compiled or run by Python.
+"""FMI 2.0 co-simulation of the bearing, compiled or run by Python.
 
 =================  ===================================================================================
 ``units``          units and display units in the terms of FMI

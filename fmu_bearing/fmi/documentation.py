@@ -1,4 +1,4 @@
-"""The pages inside the FMU: what the bearing is, its validity range, its variables, what it needs."""
+"""Pages inside the FMU: the bearing, ranges of validity, variables, requirements."""
 
 import sys
 from collections.abc import Iterator
@@ -57,11 +57,11 @@ def _fields(model: "Model", flavour: str) -> dict[str, str]:
         if v.causality in ("input", "parameter") and v.type == "Real"
     )
     if scene.sound is None:
-        sound = "This scene has no microphones: nothing is computed about its sound."
+        sound = "This scene has no microphones, so no sound is computed."
     else:
         sound = (
-            f"Sound is radiated by the radiation models &quot;{escape(str(scene.sound.radiation_model))}&quot; and "
-            f"&quot;{escape(str(scene.sound.radiator))}&quot; of the model into a free field: no room, "
+            f"The sound of the radiator &quot;{escape(scene.sound.radiator)}&quot; is computed with "
+            f"radiation model &quot;{escape(scene.sound.radiation_model)}&quot; in a free field: no room, "
             "no floor, no other machine. Levels are re 20 &micro;Pa."
         )
     return {

@@ -1,4 +1,4 @@
-"""What pythonfmu 0.7.0 gets wrong in the process that loaded the FMU, and the remedies."""
+"""Workarounds for errors of pythonfmu 0.7.0 in the process that loads the FMU."""
 
 import ctypes
 import sys

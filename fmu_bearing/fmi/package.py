@@ -61,7 +61,7 @@ class BuiltFmu:
     platforms : tuple of str
         Folders of the libraries inside.
     remarks : tuple of str
-        What was not built, and why.
+        Parts that were not built, and why.
     """
 
     path: Path
@@ -74,7 +74,7 @@ class BuiltFmu:
     remarks: tuple[str, ...] = ()
 
     def __str__(self) -> str:
-        """Return what was built in one line, and what was not in another for each."""
+        """Return one line about what was built, and one for each part that was not."""
         counts = ", ".join(f"{count} {causality}" for causality, count in self.variables.items())
         line = (
             f"{self.path}: {self.flavour} build for {', '.join(self.platforms)}; "
@@ -160,11 +160,11 @@ def build(
 
 
 class ChoiceError(ValueError):
-    """A flavour or platform that there is not."""
+    """An unknown flavour or platform."""
 
 
 def check_choice(flavour: str | None, platforms: Sequence[str] | None) -> None:
-    """Raise :class:`ChoiceError` unless an FMU of that flavour can be for those platforms."""
+    """Raise :class:`ChoiceError` unless an FMU of that flavour can be built for those platforms."""
     if flavour not in (None, *FLAVOURS):
         raise ChoiceError(f"there is no flavour '{flavour}': choose {' or '.join(FLAVOURS)}")
     for name in platforms or ():
@@ -219,7 +219,7 @@ def contents(model: "Model", flavour: str, libraries: Mapping[str, Path] | None 
 
 
 def _python_parts(model: "Model") -> dict[str, bytes]:
-    """Return what only the Python build holds: the stub, the parameters, pythonfmu's libraries."""
+    """Return the files of the Python build only: stub, parameters, pythonfmu's libraries."""
     name = identifier(model)
     fingerprint = resources.fingerprint(model)
     # Python keeps modules by name for the life of the process: two FMUs must not share one.

@@ -1,8 +1,8 @@
-"""The bearing as a pythonfmu slave: what the stub module inside the FMU inherits from.
+"""The bearing as a pythonfmu slave: base class of the stub module inside the FMU.
 
-pythonfmu 0.7.0 sets the terms. An exception that leaves one of these methods becomes fmi2Fatal and
-frees the Python objects twice, so none may leave; refusing a step is all that a slave can do
-(``do_step`` returns ``False``: fmi2Discard). Reset makes a new object of this class.
+With pythonfmu 0.7.0, an exception that leaves one of these methods becomes fmi2Fatal and frees the Python
+objects twice. Therefore none may leave. The only way to refuse anything is to refuse a step (``do_step``
+returns ``False``: fmi2Discard). Reset makes a new object of this class.
 """
 
 import functools
@@ -48,7 +48,7 @@ def _zeros(references: list[int]) -> list[float]:
 
 
 class BearingSlave(Fmi2Slave):
-    """Slave whose model stands beside the stub, in the FMU's resources.
+    """Slave that reads its model from the FMU's resources, beside the stub.
 
     A stub names the model it was built for by its fingerprint; resources with another one are refused.
     """
@@ -91,7 +91,7 @@ class BearingSlave(Fmi2Slave):
 
     @_contained(None)
     def exit_initialization_mode(self) -> None:
-        """Settle the state at the inputs' values."""
+        """Put the bearing into its quasi-static state at the inputs."""
         self.session.exit_initialisation()
 
     @_contained(False)

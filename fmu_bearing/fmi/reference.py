@@ -1,4 +1,4 @@
-"""Reference results inside the FMU: a short run that whoever imports it can repeat and compare.
+"""Reference results inside the FMU: a short run that importers can repeat and compare.
 
 The layout is that of the layered standard FMI-LS-REF 1.0.0-alpha.1 (Modelica Association): a manifest that
 names an experiment of role ``experiment/smoke-test`` and the results it refers to.

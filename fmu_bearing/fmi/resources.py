@@ -27,7 +27,7 @@ def parameter_bytes(model: Model) -> bytes:
 
 
 def fingerprint(model: Model) -> str:
-    """Return a hash of what makes the numbers mean what they mean: variables, engine, the numbers.
+    """Return a hash of all that determines the meaning of the numbers: variables, engine, the numbers.
 
     Wording is left out, so an FMU goes on working under a later package as long as the engine, the
     variables and their places are the same.

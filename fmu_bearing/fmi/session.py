@@ -1,8 +1,8 @@
 """One FMU instance from instantiation to termination: the rules of FMI around an :class:`Instance`.
 
-Knows value references, phases and refusals, but no FMU tool: every call returns normally, whatever it was
-given, and says in the log what it did not do. What is wrong stays noted, and every step is refused until
-it is put right, because pythonfmu gives no way to refuse a single value.
+A session handles value references, phases and refusals, and is independent of the FMU tool. Every call
+returns normally, whatever its arguments, and logs what it refused. A refused value stays noted, and every
+step is refused until a valid value replaces it, because pythonfmu cannot refuse a single value.
 """
 
 import math
@@ -28,7 +28,7 @@ _TUNABLES = slice(0, P.VISCOSITY + 1)  # the head of p, all that can be set ther
 
 
 class Phase(Enum):
-    """Where in its life an instance is (FMI 2.0.5, section 4.2.4)."""
+    """Phase of an instance (FMI 2.0.5, section 4.2.4)."""
 
     INSTANTIATED = "before initialisation"
     INITIALISING = "in initialisation"
@@ -73,7 +73,7 @@ class Session:
     def get(self, references: Sequence[int], kind: str) -> list[Any]:
         """Return values of variables of one type, ``Real``, ``Integer`` or ``String``.
 
-        Outputs asked for in initialisation are those of its end.
+        Outputs read during initialisation are those at its end.
         """
         if self.phase is Phase.INITIALISING and not self._computed.isdisjoint(references):
             self._settle()
@@ -96,7 +96,7 @@ class Session:
         return shown
 
     def set(self, references: Sequence[int], values: Sequence[Any], kind: str) -> None:
-        """Take values; one that cannot be taken is noted and refuses every step until a good one comes."""
+        """Set values. A refused value is noted, and steps are refused until a valid one replaces it."""
         self._shown = None
         for reference, value in zip(references, values, strict=True):
             if reference not in self._kinds.get(kind, _NONE):
@@ -151,7 +151,7 @@ class Session:
             self.fail(f"enterInitializationMode called {self.phase.value}")
 
     def exit_initialisation(self) -> None:
-        """Settle the state at the inputs' values."""
+        """Put the bearing into its quasi-static state at the inputs."""
         if self.phase is not Phase.INITIALISING:
             self.fail(f"exitInitializationMode called {self.phase.value}")
             return
@@ -159,7 +159,7 @@ class Session:
         self.phase = Phase.STEPPING
 
     def _settle(self) -> None:
-        """Put the engine to its quasi-static state at the inputs set so far, once."""
+        """Put the engine into its quasi-static state at the inputs set so far, once."""
         if self._instance.initialised or _UNSETTLED in self._wrong:
             return
         self._shown = None
@@ -174,7 +174,7 @@ class Session:
             self._log(ERROR, str(error))
 
     def _unsettle(self) -> None:
-        """Undo an initialisation that was only made to show outputs: another value is coming."""
+        """Undo an initialisation that was made to read outputs, because another value is set."""
         self._wrong.pop(_UNSETTLED, None)
         instance = self._instance
         if instance.initialised:
@@ -217,7 +217,7 @@ class Session:
         self.phase = Phase.TERMINATED
 
     def fail(self, message: str) -> None:
-        """Note what only a reset or an earlier state can put right."""
+        """Note an error that only a reset or an earlier state can clear."""
         self._wrong[_FAILED] = message
         self._log(ERROR, message)
 

@@ -1,4 +1,4 @@
-"""The state of an FMU instance: kept aside, put back, written to bytes and read again.
+"""The state of an FMU instance: copied, restored, written to bytes and read again.
 
 Layout of the bytes: magic and version, the model's fingerprint, a checksum of what follows, then the
 arrays, little-endian, each with its length.

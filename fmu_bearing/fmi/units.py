@@ -1,4 +1,4 @@
-"""Units of the interface in the terms of FMI: base units, and what a display unit does to a value.
+"""Units of the interface as FMI describes them: base units, factor and offset of display units.
 
 FMI 2.0 describes a unit by the exponents of the SI base units, and a display unit by
 ``shown = factor * value + offset`` (FMI 2.0.5, section 2.2.2).

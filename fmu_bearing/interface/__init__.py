@@ -1,14 +1,14 @@
-"""THE table of variables: name, unit, causality, range, sentence, place in the engine's flat arrays.
+"""The table of variables: name, unit, causality, range, description, place in the engine's flat arrays.
 
-Everything people meet by name comes from here: the FMU's XML and value references, the library's ``get``
-and ``set``, the documentation's table. Names are a contract: harnesses depend on them.
+The FMU's XML and value references, ``get`` and ``set`` of the library, and the table in the documentation are
+all made from it. Names are a contract, because users' harnesses depend on them.
 
 ==============  ======================================================================
-``variable``    one variable, and what is usual for its unit
-``inputs``      what drives the bearing
-``outputs``     what is read after each step: outputs and local variables
-``parameters``  what is set before initialisation, and constants
-``table``       all of it, in the order of the value references
+``variable``    one variable, and defaults for its unit
+``inputs``      speed, loads, temperatures and other inputs
+``outputs``     outputs and local variables, computed in each step
+``parameters``  parameters, set before initialisation, and constants
+``table``       all variables, in the order of the value references
 ==============  ======================================================================
 """
 

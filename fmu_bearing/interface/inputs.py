@@ -1,4 +1,4 @@
-"""What drives the bearing: continuous inputs, started at the scene's values."""
+"""Continuous inputs, with the scene's values as start values."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""What is read after each step: outputs, and local variables for those who look inside."""
+"""Outputs and local variables, computed in each step."""
 
 from dataclasses import replace
 from typing import Any
@@ -202,7 +202,7 @@ def _flexure(scene: Scene) -> list[Variable]:
 
 
 def _microphones(scene: Scene, causality: str) -> list[Variable]:
-    """Return what is heard at each microphone: totals are outputs, partial levels local."""
+    """Return the variables of each microphone: totals are outputs, partial levels are local."""
     if scene.sound is None:
         return []
     balls, mics = scene.bearing.ball_count, len(scene.microphones)

@@ -1,4 +1,4 @@
-"""What is set before initialisation, and what is fixed when the model is built."""
+"""Parameters, which are set before initialisation, and constants, which are fixed when the model is built."""
 
 from typing import Any, get_args
 
@@ -8,7 +8,7 @@ from fmu_bearing.interface.variable import Variable, usual
 from fmu_bearing.scene import Scene, si
 from fmu_bearing.scene.sound import Radiator
 
-#: Numbers of what radiates.
+#: Numbers of the radiators.
 RADIATORS = {name: number for number, name in enumerate(("none", *get_args(Radiator)))}
 
 
@@ -47,7 +47,7 @@ def parameters(scene: Scene) -> list[Variable]:
 
 
 def constants(scene: Scene, rotor_inertia: float) -> list[Variable]:
-    """Return the constants: what was chosen when the model was built, for those who read results."""
+    """Return the constants: choices made when the model was built."""
     radiator = RADIATORS["none" if scene.sound is None else scene.sound.radiator]
     table = [
         _whole("fidelity", "Fidelity: " + _numbered(FIDELITIES), FIDELITIES.index(scene.fidelity.model)),

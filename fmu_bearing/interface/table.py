@@ -11,7 +11,7 @@ def variables(scene: Scene, rotor_inertia: float) -> tuple[Variable, ...]:
     """All variables of a scene, in the order of their value references.
 
     ``rotor_inertia`` is the polar inertia (kg m2) of inner ring and rotor, for the variable of that name.
-    What the scene leaves out (cage, sound, imperfections) has no variable.
+    Parts that the scene leaves out (cage, sound, imperfections) have no variables.
     """
     table = [
         *inputs(scene),

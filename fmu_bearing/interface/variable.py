@@ -1,4 +1,4 @@
-"""One variable, and what is usual for its unit."""
+"""One variable, and defaults for its unit."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -50,5 +50,5 @@ USUAL = {
 
 
 def usual(unit: str, more: dict[str, Any]) -> dict[str, Any]:
-    """Keywords of a variable, completed by what is usual for its unit."""
+    """Keywords of a variable, completed by the defaults for its unit."""
     return {**dict(zip(("quantity", "min", "max", "nominal"), USUAL[unit], strict=True)), **more}

@@ -1,4 +1,4 @@
-"""Scene to numbers, once per scene: ordinary Python, may be slow, may raise.
+"""From a scene to the numbers of the engine, once per scene; plain Python, which may be slow and may raise.
 
 ===================  ==================================================================
 ``hertz``            constants of elliptical point contacts

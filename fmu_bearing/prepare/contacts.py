@@ -17,7 +17,7 @@ _ANGULAR_CONTACT_KZ = 4.4
 
 
 def oil(scene: Scene, p: NDArray[np.float64]) -> None:
-    """Write what the oil does: viscosity, traction, reduction of the rolling resistance, drag."""
+    """Write viscosity, traction, reduction of the rolling resistance, and drag."""
     b, values = si(scene.bearing), si(scene.lubricant)
     p[P.VISCOSITY] = values.viscosity
     p[P.PRESSURE_VISCOSITY] = values.pressure_viscosity
@@ -43,7 +43,7 @@ def oil(scene: Scene, p: NDArray[np.float64]) -> None:
 
 
 def balls(scene: Scene, p: NDArray[np.float64]) -> None:
-    """Write size and mass of the balls and what both their contacts share."""
+    """Write size and mass of the balls and the constants that both contacts share."""
     b = si(scene.bearing)
     p[P.PITCH_RADIUS] = b.pitch_diameter / 2
     p[P.DIAMETER] = b.ball_diameter

@@ -7,9 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import roots_jacobi
 
+from fmu_bearing import renamed
 from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.engine.choices import FIDELITIES, METHODS, RACE_CONTROLS
-from fmu_bearing.engine.layout import P, SD, STRIDE
+from fmu_bearing.engine.layout import SD, STRIDE, P
 from fmu_bearing.interface import Variable, variables
 from fmu_bearing.prepare import bodies, contacts
 from fmu_bearing.prepare.flexure import longest_step, mode_table
@@ -32,7 +33,7 @@ _STOP_SLIP = 0.1  # m/s
 
 @dataclass(frozen=True)
 class Model:
-    """What a run needs: numbers for the engine and the variables people see.
+    """Input of a run: numbers for the engine and the table of variables.
 
     Attributes
     ----------
@@ -41,7 +42,7 @@ class Model:
         Flat parameter array ``p`` of the engine, read-only.
     variables : tuple of Variable
     note : str
-        What readers of its documentation should know, such as why its fidelity was chosen.
+        Remark for the documentation, such as why its fidelity was chosen.
     """
 
     scene: Scene
@@ -70,6 +71,7 @@ class Model:
         return int(self.parameters[P.MODES])
 
 
+@renamed.arguments
 def prepare(
     scene: Scene, *, fidelity: str | None = None, method: str | None = None, max_step: float | None = None,
     note: str = "",
@@ -81,7 +83,7 @@ def prepare(
     scene : Scene
     fidelity, method : str, optional
         Fidelity and integrator in place of the scene's. A scene whose fidelity is ``auto`` needs
-        ``fidelity``: which one is accurate enough has to be found by running it.
+        ``fidelity``, because only runs of the scene tell which one is accurate enough.
     max_step : float, optional
         Largest internal step (s) in place of the scene's.
     note : str, optional

@@ -16,21 +16,21 @@ from fmu_bearing.scene import Scene
 
 __all__ = ["sound_block", "sound_key"]
 
-#: Rooms whose code the numbers come from, beside the engine's.
+#: Packages whose code computes the numbers, beside the engine.
 _ROOMS = ("acoustics", "elastic", "prepare", "scene")
 #: Parts of a scene that its sound block depends on, with one number of its fidelity.
 _PARTS = {"bearing", "materials", "mounting", "sound", "microphones"}
 
 
 def sound_parameters(scene: Scene) -> NDArray[np.float64]:
-    """Compute the block; what that needs of SciPy takes half a second to load, so it is loaded here."""
+    """Compute the block. SciPy is imported here, because that takes half a second."""
     from fmu_bearing.acoustics.filters import design as stream
 
     return stream.sound_parameters(scene)
 
 
 def sound_block(scene: Scene) -> NDArray[np.float64]:
-    """Sound block of a scene (`acoustics.filters.design.sound_parameters`), from the cache where it is there.
+    """Sound block of a scene (`acoustics.filters.design.sound_parameters`), from the cache if possible.
 
     Raises
     ------
@@ -57,9 +57,10 @@ def sound_block(scene: Scene) -> NDArray[np.float64]:
 
 
 def sound_key(scene: Scene) -> str:
-    """Tell what a scene's sound block depends on; empty without sound.
+    """Key of a scene's sound block; empty without sound.
 
-    Speed, loads, oil, springs and imperfections are not among it: a sweep over those solves the sound once.
+    It does not depend on speed, loads, oil, springs and imperfections: a sweep over those prepares the sound
+    once.
     """
     from fmu_bearing.acoustics.filters.design import radiators_of
 
@@ -79,5 +80,5 @@ def _key(scene: Scene) -> str:
 
 @functools.cache
 def _code() -> str:
-    """Name what computes the numbers: sources and libraries."""
+    """Versions of the code that computes the numbers: sources and libraries."""
     return f"{source_hash()} {np.__version__} {scipy.__version__} {rooms_digest(*_ROOMS)}"

@@ -1,12 +1,13 @@
-"""A recording: a run with the engine's sound channels kept, and what is measured on it.
+"""Recordings of sound channels, and measurements on them.
 
 ==============  ==========================================================================
-``heard``       pressures and levels at any microphone
-``recording``   `Recording`: what such a run or an FMU's leaves behind, in files
-``record``      `record`: a run with the channels kept
+``heard``       pressures and levels at any microphone, from recorded channels
+``recording``   `Recording`: the same with files, also from the run of an FMU
+``record``      `record`: a run of a scene that keeps the channels
 ``measure``     spectra by component, circles, planes, power, run-ups
 ``tables``      such measurements as tables
 ``pictures``    such measurements as pictures
-``listen``      all that is usually asked of a recording, measured at once
+``audio``       pressures as WAV files in pascals
+``listen``      levels, spectra, third octaves and lines in one call, and their files
 ==============  ==========================================================================
 """

@@ -1,7 +1,7 @@
-"""Pressures and levels at any microphone, from the channels that a run has left behind.
+"""Pressures and levels at any microphone, computed from the recorded channels of a run.
 
-A run's motion does not depend on who listens: what the engine fed to its filters gives the pressure anywhere
-(``acoustics.field``).
+The motion does not depend on the microphones, so the channels give the pressure at any place
+(``acoustics.analysis.field``).
 """
 
 import math
@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.signal import sosfilt
 
+from fmu_bearing import renamed
 from fmu_bearing.acoustics.analysis.field import Blocks, Channels, Circle, Position, circles, form_of, kind_of
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies, kinematic_frequencies
 from fmu_bearing.acoustics.filters.design import radiators_of
@@ -31,14 +32,14 @@ _NO_WEIGHTING = 'weighting = "{}": only "A" and "Z" (none) are known'
 
 @dataclass(repr=False)
 class Heard:
-    """What a run leaves behind for the ears; `recorded.Recording` is it, and knows files.
+    """Channels of a run, and the sound they give at any place; `Recording` adds files.
 
     Attributes
     ----------
     scene : Scene or None
-        What was run.
-    radiation model : str
-        How radiation is computed unless a call says otherwise; ``"recorded"``: pressures only.
+        The scene that was run.
+    radiation_model : str
+        Used unless a call names another one; ``"recorded"``: pressures only.
     rate : float
         Samples per second.
     start : float
@@ -78,8 +79,9 @@ class Heard:
     def __repr__(self) -> str:
         name = "no scene" if self.scene is None else self.scene.name
         return (
-            f"{type(self).__name__}({name}, radiation model {self.radiation_model}, {self.size / self.rate:g} s at "
-            f"{self.rate:g} Hz from {self.start:g} s on, {self.history.shape[1]} channels)"
+            f"{type(self).__name__}({name}, radiation model {self.radiation_model}, "
+            f"{self.size / self.rate:g} s at {self.rate:g} Hz from {self.start:g} s on, "
+            f"{self.history.shape[1]} channels)"
         )
 
     @property
@@ -131,7 +133,7 @@ class Heard:
         Raises
         ------
         ValueError
-            When the recording does not say which bearing it is of.
+            When the recording has no scene, and so no bearing.
         """
         if self.scene is None:
             raise ValueError(
@@ -146,6 +148,7 @@ class Heard:
             w, int(bearing.ball_count), bearing.ball_diameter, bearing.pitch_diameter, contact_angle
         )
 
+    @renamed.arguments
     def pressure(
         self, positions: Sequence[ArrayLike] | None = None, radiation_model: str | None = None
     ) -> NDArray[np.float64]:
@@ -155,14 +158,14 @@ class Heard:
         ----------
         positions : sequence of (x, y, z), optional
             Places in m, bearing centre at the origin; default: the scene's microphones.
-        radiation model : str, optional
-            In place of `radiation model`.
+        radiation_model : str, optional
+            In place of the recording's own.
 
         Raises
         ------
         ValueError
-            For a place inside a body, a radiation model the channels do not serve, or a place at which a recording of
-            pressures has no microphone.
+            For a place inside a body, for a radiation model that needs other channels, or, with a recording
+            of pressures, for a place without microphone.
         """
         places = self._places(positions)
         if self.history.size == 0:
@@ -173,6 +176,7 @@ class Heard:
                 total[list(circle.members)] += part
         return total
 
+    @renamed.arguments
     def partial(
         self,
         positions: Sequence[ArrayLike] | None = None,
@@ -183,7 +187,7 @@ class Heard:
 
         Parameters
         ----------
-        positions, radiation model
+        positions, radiation_model
             As for `pressure`.
         by : str
             ``"component"`` (inner_ring, outer_ring, cage, balls) or ``"kind"`` of source (radial, axial ...).
@@ -191,7 +195,7 @@ class Heard:
         Raises
         ------
         ValueError
-            As `pressure`; also for a recording of pressures, which cannot be taken apart.
+            As `pressure`; also for a recording of pressures, which has no components.
         """
         if by not in ("component", "kind"):
             raise ValueError(f'by = "{by}": sources are split by "component" or by "kind"')
@@ -207,6 +211,7 @@ class Heard:
                 total[list(circle.members)] += part
         return found
 
+    @renamed.arguments
     def levels(
         self,
         positions: Sequence[ArrayLike] | None = None,
@@ -220,7 +225,7 @@ class Heard:
 
         Parameters
         ----------
-        positions, radiation model
+        positions, radiation_model
             As for `pressure`.
         weighting : str
             ``"Z"`` (none) or ``"A"``.
@@ -249,6 +254,7 @@ class Heard:
                     mean_square[rows] += self.mean_square(part, weighting)
         return level(mean_square)
 
+    @renamed.arguments
     def mean_squares(
         self,
         positions: Sequence[ArrayLike] | None = None,
@@ -257,8 +263,8 @@ class Heard:
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Frequencies (Hz), and mean square pressure (Pa^2) in each bin at each place, (mics, bins).
 
-        By short-time spectra of the channels: fast at many places. Sums over bins are what `levels` with a
-        ``resolution`` gives, whole or by bands.
+        From short-time spectra of the channels, which is fast at many places. Sums over all bins agree with
+        `levels` at the same ``resolution``; sums over some bins give bands.
         """
         places = self._places(positions)
         blocks = Blocks(self.channels, resolution)
@@ -282,7 +288,7 @@ class Heard:
     def mean_square(self, pressure: NDArray[np.float64], weighting: str = "Z") -> NDArray[np.float64]:
         """Mean square (Pa^2) over the recording's samples, the last ones of ``pressure``, shape (...,).
 
-        What ``pressure`` holds before them lets the filter of the A-weighting settle.
+        Earlier samples let the filter of the A-weighting settle.
         """
         if weighting == "A":
             pressure = sosfilt(a_weighting_sections(self.rate), pressure, axis=-1)
@@ -293,7 +299,7 @@ class Heard:
     def _heard(
         self, places: list[Position], radiation_model: str | None, label, whole: bool = False
     ) -> Iterator[tuple[Circle, dict[Any, NDArray[np.float64]]]]:
-        """Yield each circle with its pressures by label; ``whole``: with what was before the first sample."""
+        """Yield each circle with its pressures by label; ``whole``: with the samples before the first one."""
         found = self._circles(places, radiation_model)
         self._prepare(places)
         assert self._spectra is not None
@@ -327,7 +333,8 @@ class Heard:
         radiation_model = self.radiation_model if radiation_model is None else radiation_model
         if form_of(radiation_model) != form_of(self.radiation_model):
             raise ValueError(
-                f'radiation_model = "{radiation_model}" needs other channels than "{self.radiation_model}": record with radiation_model="{radiation_model}"'
+                f'radiation_model = "{radiation_model}" needs other channels than '
+                f'"{self.radiation_model}": record with radiation_model="{radiation_model}"'
             )
         radiators, air = radiators_of(self.scene), air_of(self.scene)
         return circles(radiation_model, radiators, air, places, self.harmonics, **_options(self.scene))
@@ -357,7 +364,7 @@ class Heard:
 
 
 def _options(scene: Scene) -> dict[str, Any]:
-    """Return what paths take beyond radiators and air, if the scene has it: reflecting plane (m), modes."""
+    """Return further arguments of the paths, if the scene has them: reflecting plane (m), modes."""
     found: dict[str, Any] = {}
     if scene.sound is not None and scene.sound.reflecting_plane_mm is not None:
         found["plane"] = si(scene.sound).reflecting_plane
@@ -366,7 +373,7 @@ def _options(scene: Scene) -> dict[str, Any]:
 
 
 def air_of(scene: Scene) -> Air:
-    """Return the scene's air; without sound, the papers'."""
+    """Return the scene's air, or that of the papers where the scene has no sound."""
     if scene.sound is None:
         return Air()
     sound = si(scene.sound)

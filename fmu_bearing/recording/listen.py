@@ -1,4 +1,4 @@
-"""All that is usually asked of a recording, measured at once and written to a folder."""
+"""Levels, spectra, third octaves and lines of a recording in one call, and their files."""
 
 import math
 import pathlib
@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu_bearing import renamed
 from fmu_bearing.acoustics.analysis.audio import write_wav
 from fmu_bearing.acoustics.analysis.field import Position
 from fmu_bearing.acoustics.analysis.lines import Line
@@ -31,14 +32,14 @@ _RESOLUTION = 5.0  # Hz
 
 @dataclass(frozen=True)
 class Listened:
-    """What is heard at the microphones of a recording.
+    """Levels, spectra and lines at the microphones of a recording.
 
     Attributes
     ----------
     names : tuple of str
         Microphones.
     levels : ndarray, shape (mics, 2)
-        Equivalent level in dB and dB(A), as `Heard.levels` has it: the papers' radiation models add energies.
+        Equivalent level in dB and dB(A), as `Heard.levels` computes it.
     parts : dict of str to ndarray, shape (mics,)
         Level (dB(A)) of each component alone; empty for a recording of pressures.
     frequency : ndarray, shape (bins,)
@@ -99,6 +100,7 @@ class Listened:
         )
 
 
+@renamed.arguments
 def listen(
     recording: Heard,
     microphones: Sequence[str] | None = None,
@@ -112,7 +114,7 @@ def listen(
     recording : Heard
     microphones : sequence of str, optional
         Names of some of them; default: all.
-    radiation model : str, optional
+    radiation_model : str, optional
         In place of the recording's.
     resolution : float, optional
         Of the spectra (Hz); default: 5, or what a shorter recording allows.
@@ -120,7 +122,7 @@ def listen(
     Raises
     ------
     ValueError
-        For a microphone there is not, or a recording too short for the resolution.
+        For an unknown microphone, or a recording too short for the resolution.
     """
     chosen = chosen_microphones(recording.microphones, microphones)
     places = [place for _, place in chosen]
@@ -151,7 +153,7 @@ def listen(
 def chosen_microphones(
     there: Sequence[tuple[str, Position]], wanted: Sequence[str] | None
 ) -> list[tuple[str, Position]]:
-    """Return the microphones of some names, all without names; ``ValueError`` where one is not there."""
+    """Return the microphones of these names, or all; ``ValueError`` for an unknown name."""
     chosen = [one for one in there if wanted is None or one[0] in wanted]
     unknown = set(wanted or ()) - {name for name, _ in chosen}
     if unknown or not chosen:
@@ -171,6 +173,7 @@ def _spectra(
     return frequency, {name: np.array([levels for _, levels in rows]) for name, rows in found.items()}
 
 
+@renamed.arguments
 def write_all(
     recording: Heard,
     found: Listened,
@@ -180,7 +183,7 @@ def write_all(
     directivity: bool = True,
     tell: Tell = silent,
 ) -> list[pathlib.Path]:
-    """Write tables (CSV), pictures (PNG), spectra (netCDF where xarray is there) and sounds (WAV).
+    """Write tables (CSV), pictures (PNG), spectra (netCDF, if xarray is installed) and sounds (WAV).
 
     Parameters
     ----------
@@ -188,12 +191,12 @@ def write_all(
         As given to and returned by `listen`.
     folder : Path
         Made where it is missing.
-    radiation model : str, optional
+    radiation_model : str, optional
         For the directivity.
     wav, directivity : bool
-        Leave out what takes time or space; a recording of pressures has no directivity.
+        Whether to write these; a recording of pressures has no directivity.
     tell : callable
-        Takes a line about what was left out.
+        Takes a line about each file that is left out.
 
     Returns
     -------
@@ -238,7 +241,7 @@ def write_all(
 def _sounds(
     recording: Heard, names: Sequence[str], folder: pathlib.Path, radiation_model: str | None
 ) -> list[str]:
-    """Write one WAV file per microphone, all at one scale so that they compare by ear."""
+    """Write one WAV file per microphone, all with one scale so that their loudness can be compared."""
     places = dict(recording.microphones)
     pressures = recording.pressure([places[name] for name in names], radiation_model)
     peak = float(np.max(np.abs(pressures)))
@@ -251,7 +254,7 @@ def _sounds(
 
 
 def _directivity(recording: Heard, folder: pathlib.Path, radiation_model: str | None) -> list[str]:
-    """Write levels round a sphere that holds the nearest microphone, in three planes."""
+    """Write levels in three planes, at the distance of the nearest microphone."""
     from fmu_bearing.recording import pictures
 
     radius = min(math.hypot(*place) for place in recording.positions)

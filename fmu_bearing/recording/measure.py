@@ -1,7 +1,16 @@
-"""What is measured on a recording: spectra by component, circles, planes, sweeps, sound power, run-ups.
+"""Measurements on a recording: spectra by component, circles, planes, sweeps, sound power, run-ups.
 
-Each function places its own microphones (``Recording.pressure`` takes any) and hands the numbers to
-``acoustics``. Those with ``resolution`` average over blocks of 1 / resolution s: fast at many places.
+Each function places its own microphones and evaluates the pressures with ``acoustics.analysis``. Functions
+with ``resolution`` average over blocks of 1 / resolution s, which is fast at many places.
+
+Examples
+--------
+>>> import numpy as np
+>>> from fmu_bearing import measure
+>>> time = np.arange(25600) / 51200.0
+>>> centres, levels = measure.third_octave_levels(np.sin(2000.0 * np.pi * time), 51200.0)  # 1 Pa at 1 kHz
+>>> round(float(centres[levels.argmax()])), round(float(levels.max()))  # Hz, dB re 20 uPa
+(1000, 91)
 """
 
 from collections.abc import Sequence
@@ -10,6 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from fmu_bearing import renamed
 from fmu_bearing.acoustics.analysis.directivity import (
     PLANES,
     Attenuation,
@@ -22,7 +32,7 @@ from fmu_bearing.acoustics.analysis.directivity import (
 )
 from fmu_bearing.acoustics.analysis.field import Blocks
 from fmu_bearing.acoustics.analysis.lines import Line, kinematic_lines, strongest_lines
-from fmu_bearing.acoustics.analysis.order import OrderMap, order_map
+from fmu_bearing.acoustics.analysis.order import OrderMap, order_map, order_spectrum, waterfall
 from fmu_bearing.acoustics.analysis.power import (
     Power,
     dipoles,
@@ -32,17 +42,38 @@ from fmu_bearing.acoustics.analysis.power import (
     power_level,
     sphere_points,
 )
+from fmu_bearing.acoustics.analysis.psychoacoustics import sensation
 from fmu_bearing.acoustics.analysis.spectrum import level_spectrum
+from fmu_bearing.acoustics.analysis.third_octave import third_octave_levels
 from fmu_bearing.acoustics.filters.design import radiators_of
 from fmu_bearing.acoustics.filters.weighting import REFERENCE_PRESSURE
 from fmu_bearing.recording.heard import Heard, air_of
+
+__all__ = [
+    "MotionPower",
+    "Round",
+    "Sweep",
+    "circle",
+    "component_spectra",
+    "directivity",
+    "motion_power",
+    "order_spectrum",
+    "planes",
+    "run_up",
+    "sensation",
+    "sound_power",
+    "strongest",
+    "sweep",
+    "third_octave_levels",
+    "waterfall",
+]
 
 RESOLUTION = 20.0  # Hz, as in the multi-source paper's spectra
 
 
 @dataclass(frozen=True)
 class Round:
-    """Levels (dB) at ``angles`` (rad) round a circle, shape (points,), and what they say together."""
+    """Levels (dB) at ``angles`` (rad) round a circle, shape (points,), and their directivity."""
 
     angles: NDArray[np.float64]
     levels: NDArray[np.float64]
@@ -89,6 +120,7 @@ class MotionPower:
     levels: dict[str, float]
 
 
+@renamed.arguments
 def component_spectra(
     recording: Heard, position: ArrayLike, resolution: float = RESOLUTION, radiation_model: str | None = None
 ) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]]]:
@@ -111,12 +143,13 @@ def strongest(
 ) -> list[Line]:
     """Return the strongest lines of a spectrum of the recording and the kinematic line behind each.
 
-    The finer the spectrum, the surer the explanation: 5 Hz rather than 20.
+    A fine spectrum, such as 5 Hz, tells neighbouring lines apart better than one of 20 Hz.
     """
     lines = kinematic_lines(recording.kinematics(), float(frequency[-1]))
     return strongest_lines(frequency, levels, count, lines)
 
 
+@renamed.arguments
 def circle(
     recording: Heard,
     radius: float,
@@ -134,6 +167,7 @@ def circle(
     return Round(angles, levels, directivity(angles, levels))
 
 
+@renamed.arguments
 def planes(
     recording: Heard,
     radius: float,
@@ -153,6 +187,7 @@ def planes(
     }
 
 
+@renamed.arguments
 def sweep(
     recording: Heard,
     radii: Sequence[float],
@@ -178,6 +213,7 @@ def sweep(
     return Sweep(r, x, circles, over_r, over_l)
 
 
+@renamed.arguments
 def sound_power(
     recording: Heard,
     radius: float = 1.0,
@@ -196,8 +232,8 @@ def sound_power(
         and 1 m.
     plane : float, optional
         Place along the axis (m) of a rigid plane behind the bearing (-X): the points then stand on a
-        hemisphere about the plane's centre. The plane is heard as an image: pressures at the mirrored
-        points are added. Without it, the points stand on a full sphere in the open.
+        hemisphere about the plane's centre. Its reflection is added as the pressures at the
+        mirrored points. Without a plane the points stand on a full sphere in a free field.
     many : bool
         With the standard's second set of points.
 
@@ -231,8 +267,8 @@ def sound_power(
 def motion_power(recording: Heard, resolution: float = RESOLUTION, highest: float = 20_000.0) -> MotionPower:
     """Sound power from surface velocity: bodies as compact dipoles with effective masses of air.
 
-    An upper estimate: bodies do not shield each other, and their own size, which makes them radiate less, is
-    left out. It ends where ka reaches about 0.5 (ring d35: 1.5 kHz; housing d100 x 160: 0.5 kHz); a d100
+    This is an upper estimate, because it leaves out shielding between bodies, and their size, which lowers
+    the radiation. It is valid up to ka of about 0.5 (ring d35: 1.5 kHz; housing d100 x 160: 0.5 kHz); a d100
     housing at 2.3 kHz reads 14 dB too high.
 
     Raises
@@ -261,6 +297,7 @@ def motion_power(recording: Heard, resolution: float = RESOLUTION, highest: floa
     return MotionPower(frequency, watts, levels)
 
 
+@renamed.arguments
 def run_up(
     recording: Heard,
     position: ArrayLike,

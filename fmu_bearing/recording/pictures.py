@@ -1,4 +1,11 @@
-"""Pictures of sound measurements: each function returns a Matplotlib figure, `save` writes it."""
+"""Pictures of sound measurements: each function returns a Matplotlib figure, `save` writes it.
+
+Examples
+--------
+>>> from fmu_bearing import pictures
+>>> figure = pictures.third_octave_picture([500.0, 1000.0, 2000.0], {"total": [60.0, 72.5, 65.0]})
+>>> pictures.save(figure, "third-octaves.png")
+"""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -88,7 +95,7 @@ def waterfall_picture(found: Waterfall, title: str = "") -> Figure:
 
 
 def circle_picture(circles: Mapping[str, Round], title: str = "") -> Figure:
-    """Draw levels (dB) round one or more circles: 12 o'clock on top, as seen from +X."""
+    """Draw levels (dB) round one or more circles, as seen from +X, with 12 o'clock on top."""
     figure = empty((6.5, 6.5))
     _polar(figure.add_subplot(projection="polar"), circles, "N", title)
     return figure

@@ -7,21 +7,22 @@ from collections.abc import Callable, Iterable, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu_bearing import renamed
 from fmu_bearing.acoustics.analysis.field import TAIL, form_of
 from fmu_bearing.acoustics.radiation.radiators import Air
 from fmu_bearing.engine.layout import SD, P, S
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import Model, prepare
-from fmu_bearing.recording.recording import PRESSURE_STEP, Recording
+from fmu_bearing.recording.recording import Recording
 from fmu_bearing.run.choose import resolve
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.sound import Microphone, Sound
 
-__all__ = ["OUTPUTS", "PRESSURE_STEP", "Recording", "record"]
+__all__ = ["OUTPUTS", "Recording", "record"]
 
 Signal = float | Callable[[float], float]
 
-#: What a recording keeps besides speed and channels unless told otherwise.
+#: Default variables of a recording, besides speed and channels.
 OUTPUTS = (
     "friction_torque",
     "contact.inner.load_mean",
@@ -32,6 +33,7 @@ OUTPUTS = (
 _FAR = 2000.0  # mm: where the one microphone of a recording stands; its flight lengthens the channel history
 
 
+@renamed.arguments
 def record(
     source: Model | Scene,
     duration: float,
@@ -51,7 +53,7 @@ def record(
     Parameters
     ----------
     source : Scene or Model
-        Fidelity ``auto`` is resolved first.
+        A scene with fidelity ``auto`` is resolved first.
     duration : float
         Length of the recording (s), counted from the end of ``settle``.
     speed : float or callable, optional
@@ -62,20 +64,20 @@ def record(
     settle : float
         Time (s) left out at the beginning, in which the start-up dies away.
     step : float
-        Communication step (s). Longer ones than the engine keeps rows for are cut: 0.48 ms at least.
-    radiation model : str, optional
-        In place of the scene's ``sound.radiation_model`` (``compact`` without sound). The papers' radiation models have channels of
-        their own, so they must be told before the run; all others share theirs.
+        Communication step (s). It is limited to the length of the engine's channel history, 0.48 ms or more.
+    radiation_model : str, optional
+        In place of the scene's ``sound.radiation_model`` (``compact`` without sound). Each radiation model of
+        the papers needs its own channels and must be chosen here; all others share one set of channels.
     outputs : iterable of str
         Variables kept at the communication points.
     microphones : bool
-        Run the scene's own microphones, so that ``mic[1].leq`` and the like can be kept; else the engine
-        streams to a single one and runs faster.
+        Compute the scene's own microphones during the run, so that variables such as ``mic[1].leq`` can be
+        kept. Without them the engine computes a single far microphone and runs faster.
     progress : bool, optional
         Show a progress bar; default: when the run is long and a terminal is there.
     watch : callable, optional
-        Called with the running bearing after initialisation and after each communication step: for what is
-        in the state but no variable.
+        Called with the running bearing after initialisation and after each communication step, to read
+        values of the state that are not variables.
 
     Returns
     -------
@@ -84,7 +86,7 @@ def record(
     Raises
     ------
     ValueError
-        For a refused time or input; `EngineError` and `SceneError` are of this kind.
+        For a refused time or input; `EngineError` and `SceneError` are subclasses.
 
     Examples
     --------
@@ -101,8 +103,8 @@ def record(
     wanted = radiation_model or ("compact" if scene.sound is None else scene.sound.radiation_model)
     if microphones and (scene.sound is None or form_of(wanted) != form_of(scene.sound.radiation_model)):
         raise ValueError(
-            f'microphones=True runs the scene as it is, which has no channels for radiation_model = "{wanted}": '
-            "leave it out, or set sound.radiation_model in the scene"
+            "microphones=True runs the scene as it is, which has no channels for "
+            f'radiation_model = "{wanted}": leave out microphones, or set sound.radiation_model in the scene'
         )
     model = source if isinstance(source, Model) and microphones else prepare(
         scene if microphones else listened(scene, "compact" if form_of(wanted) == "vectors" else wanted)
@@ -126,10 +128,11 @@ def record(
 
 
 def listened(scene: Scene, radiation_model: str) -> Scene:
-    """Return the scene with one far microphone: all the engine needs to form its channels."""
+    """Return the scene with one far microphone, which is enough for the engine to form its channels."""
     one = Microphone(name="far", x_mm=0.0, y_mm=_FAR, z_mm=0.0)
     sound = scene.sound or Sound(
-        radiation_model="compact", radiator="bare", air_density_kg_m3=Air.density, sound_speed_m_s=Air.sound_speed,
+        radiation_model="compact", radiator="bare",
+        air_density_kg_m3=Air.density, sound_speed_m_s=Air.sound_speed,
         time_weighting="fast", metering_start_s=0.0, microphone=(one,),
     )  # fmt: skip
     # channels are motion: they do not depend on what radiates, and a bare bearing is the cheapest
@@ -141,7 +144,7 @@ def listened(scene: Scene, radiation_model: str) -> Scene:
 
 
 class _Kept:
-    """What is read at communication points: rows of the engine's channel history, speed, outputs."""
+    """Values read at communication points: rows of the engine's channel history, speed, outputs."""
 
     def __init__(
         self, bearing: Instance, outputs: tuple[str, ...], rows: int, watch: Callable[[Instance], None] | None
@@ -167,7 +170,7 @@ class _Kept:
         return self.count >= len(self.rows)
 
     def read(self) -> None:
-        """Take over what has come since the last call."""
+        """Read the rows that are new since the last call."""
         self.time.append(self.bearing.time)
         self.speed.append(float(self.bearing.s[S.SPEED]))
         for name, values in self.outputs.items():
@@ -189,7 +192,7 @@ class _Kept:
 def _march(
     bearing: Instance, drives: Mapping[str, Signal], kept: _Kept, step: float, progress: bool | None
 ) -> None:
-    """Step until all rows have come."""
+    """Step until all rows are read."""
     from rich.console import Console
     from rich.progress import Progress
 
@@ -208,6 +211,6 @@ def _march(
 
 
 def _drive(bearing: Instance, drives: Mapping[str, Signal], time: float) -> None:
-    """Set inputs to what they are to be at ``time``."""
+    """Set inputs to their values at ``time``."""
     for name, signal in drives.items():
         bearing.set(name, float(signal(time)) if callable(signal) else float(signal))

@@ -1,4 +1,4 @@
-"""Recordings: what a run leaves behind for the ears, kept in files, or taken from an FMU's run."""
+"""Recordings: channels of a run, kept in files, or pressures taken from the run of an FMU."""
 
 import json
 import math
@@ -16,16 +16,13 @@ from fmu_bearing.recording.heard import Heard
 from fmu_bearing.run.result import read_table
 from fmu_bearing.scene import Scene, read_scene_text, si
 
-#: Communication step (s) at which an FMU shows every pressure sample once: a hair longer than a sample, so
-#: that rounding of times never shows one twice and the next not at all.
-PRESSURE_STEP = (1.0 + 1e-9) / SD.RATE
 _PRESSURE = re.compile(r"mic\[\d+\]\.pressure")
 _ENOUGH = 40_000.0  # Hz: pressures reach to 20 kHz
-_VERSION = 1
+_VERSION = 2  # 1 had other names
 
 
 class Recording(Heard):
-    """Pressures, levels and channels of a run (`Heard` has all that can be asked of it), with files.
+    """Channels of a run, and pressures and levels at any place; can be saved and loaded.
 
     Made by ``fmu_bearing.record``, from a file (`load`) or from an FMU's run (`from_fmu`).
 
@@ -38,6 +35,10 @@ class Recording(Heard):
     >>> recording.pressure([(0.0, 0.2, 0.0)]).shape  # Pa, anywhere (m)
     (1, 1024)
     """
+
+    #: Communication step (s) at which an FMU gives every pressure sample once. It is slightly longer than a
+    #: sample, so that rounding of times never repeats one sample and skips the next.
+    PRESSURE_STEP = (1.0 + 1e-9) / SD.RATE
 
     @classmethod
     def from_fmu(
@@ -52,7 +53,8 @@ class Recording(Heard):
         ----------
         result : structured array or path
             What ``fmpy.simulate_fmu`` returns, with ``mic[1].pressure`` and so on among its outputs, or a CSV
-            file of it. Run with ``output_interval=PRESSURE_STEP``, so that every sample is there once.
+            file of it. Run with ``output_interval=Recording.PRESSURE_STEP``, so that every sample is there
+            once.
         scene : Scene, optional
             The scene the FMU was built from: places of microphones, kinematic frequencies.
         settle : float
@@ -82,7 +84,7 @@ class Recording(Heard):
         if rate < _ENOUGH:
             warnings.warn(
                 f"pressures at {rate:g} Hz fold what lies above {rate / 2:g} Hz: run with "
-                "output_interval=PRESSURE_STEP",
+                "output_interval=Recording.PRESSURE_STEP",
                 stacklevel=2,
             )
         first = int(np.searchsorted(time, time[0] + settle - 1e-9))

@@ -1,4 +1,14 @@
-"""Tables of sound measurements: columns and rows of text, for ``table.markdown``, ``show``, ``write_csv``."""
+"""Tables of sound measurements: columns and rows of text, for `markdown` and `write_csv`.
+
+Examples
+--------
+>>> from fmu_bearing import tables
+>>> print(tables.markdown(*tables.third_octave_table([500.0, 1000.0], {"total": [60.0, 72.5]})), end="")
+| band, Hz | total, dB |
+| --- | --- |
+| 500 | 60.00 |
+| 1000 | 72.50 |
+"""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -11,6 +21,22 @@ from fmu_bearing.acoustics.analysis.order import OrderMap
 from fmu_bearing.acoustics.analysis.power import Power
 from fmu_bearing.acoustics.analysis.third_octave import nominal_frequency
 from fmu_bearing.recording.measure import MotionPower, Round, Sweep
+from fmu_bearing.run.table import markdown, write_csv
+
+__all__ = [
+    "Table",
+    "attenuation_table",
+    "directivity_table",
+    "lines_table",
+    "markdown",
+    "order_table",
+    "power_table",
+    "round_table",
+    "spectrum_table",
+    "sweep_table",
+    "third_octave_table",
+    "write_csv",
+]
 
 Table = tuple[list[str], list[list[str]]]
 

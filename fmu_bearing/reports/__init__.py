@@ -1,25 +1,25 @@
-"""One page about a run: HTML that needs nothing but a browser, for whoever was not there.
+"""A report about a run: one HTML page that needs a browser only.
 
-``run``          the run that has all a report shows
-``balls``        what every ball carries, out of the state
-``subject``      the recording that sections ask
-``heard``        what microphones heard, computed once for all sections of sound
-``blocks``       what sections are made of: words, tables, charts, sounds
+``balls``        place, load and contact angle of every ball, read from the state
+``run``          the run of a scene with all variables that a report shows
+``subject``      the recording, as the sections read it
+``blocks``       parts of a section: words, tables, charts, sounds
 ``look``         colours, fonts, an empty figure
+``marks``        lines at the kinematic frequencies
 ``decimate``     fewer points with all peaks
-``marks``        upright lines at the kinematic frequencies
-``summary``      the figures on top, and what to be warned of
+``summary``      the figures at the top, and the warnings
 ``conditions``   operating point, kinematic frequencies, choices
 ``assumptions``  which values are assumed
 ``motion``       velocities, orbits
 ``contacts``     loads and angles around the circle
 ``friction``     torque, shares, heats
+``heard``        pressures, levels and spectra at the microphones, computed once for all sections
 ``sound``        levels, spectra, third octaves, ranking, lines
 ``fall``         waterfall over time or speed
 ``balloon``      level over direction
 ``audio``        sounds to play
-``page``         the page out of its sections; ``page.html.j2``, ``page.css``, ``page.js``
-``make``         `report`: run or recording in, page out
+``page``         the page from its sections; ``page.html.j2``, ``page.css``, ``page.js``
+``make``         `report`: from a run or a recording to the page
 """
 
 from fmu_bearing.reports.make import Report, make, report

@@ -1,4 +1,4 @@
-"""Which values of a scene are assumed, and what its file says about them."""
+"""The assumed values of a scene, with the remarks of its file."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -11,11 +11,11 @@ from fmu_bearing.scene import Scene
 from fmu_bearing.scene.origins import Origin
 from fmu_bearing.scene.units import symbol
 
-_WORTH = "What each is worth is told by fmu-bearing sensitivity, which moves them one by one."
+_WORTH = "fmu-bearing sensitivity changes them one by one and shows the effect of each."
 
 
 def assumed_table(scene: Scene, origins: Sequence[Origin] = ()) -> Table:
-    """Values that are assumed: by the remarks of the scene's file, or those that the papers leave open.
+    """Table of the values that are assumed by the remarks of the scene's file, or that the papers leave open.
 
     Parameters
     ----------

@@ -60,9 +60,9 @@ def sphere(subject: Subject) -> Sphere:
     """Levels at the report's radius; `Absent` where the recording does not allow other places."""
     recording = subject.recording
     if not recording.history.size:
-        raise Absent("only pressures were recorded: levels elsewhere need the channels a run of ours keeps")
+        raise Absent("only pressures were recorded: levels at other places need recorded channels")
     if subject.radiation_model == "paper":
-        raise Absent("radiation model paper hears a bearing alike from all directions")
+        raise Absent("radiation model paper gives the same level in all directions")
     polar = np.linspace(0.0, math.pi, _LATITUDES)
     azimuth = 2.0 * math.pi * np.arange(_AROUND) / _AROUND
     bare = Sphere(polar, azimuth, {})

@@ -1,8 +1,8 @@
-"""Place, load and contact angle of every ball and the cage's place, out of the state.
+"""Place, load and contact angle of every ball, and the cage's place, read from the state.
 
 The table of variables has means and extremes over the balls. The engine computes those in one kernel from
-each ball's place; here the same kernel reads a bearing that has one ball, the one asked for, so that no
-formula stands twice.
+each ball's place. Here the same kernel is applied to a bearing with one ball, so that no formula is written
+twice.
 """
 
 import math
@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.engine.jit import entry
-from fmu_bearing.engine.layout import P, Q, S, STRIDE, Y, Z
+from fmu_bearing.engine.layout import STRIDE, P, Q, S, Y, Z
 from fmu_bearing.engine.readout import outputs as observe
 from fmu_bearing.instance import Instance
 
@@ -40,14 +40,14 @@ class Watch:
         self._reader: Reader | None = None
 
     def __call__(self, bearing: Instance) -> None:
-        """Read the state as it is."""
+        """Read the present state."""
         if self._reader is None:
             self._reader = Reader(bearing)
         self._balls.append(self._reader.read(bearing))
         self._cage.append(bearing.s[_CAGE : _CAGE + 3].copy())
 
     def outputs(self) -> dict[str, NDArray[np.float64]]:
-        """Return what was read, over the calls, by `name_of` (rad, N, rad), and the cage's place (m)."""
+        """Return the values of all calls by `name_of` (rad, N, rad), and the cage's place (m)."""
         table = np.array(self._balls)
         found = {}
         for j in range(table.shape[1]):

@@ -1,4 +1,4 @@
-"""What a section is made of. Everything here is data: the page's template turns it into HTML."""
+"""Parts of a section, as data; the page's template turns them into HTML."""
 
 import base64
 import json
@@ -48,7 +48,7 @@ class Option:
 class Choice:
     """A selection above a chart.
 
-    Of traces whose ``meta`` has ``key``, those are shown whose value is the chosen option's.
+    Among traces whose ``meta`` has ``key``, those with the value of the chosen option are shown.
     """
 
     key: str
@@ -58,7 +58,7 @@ class Choice:
 
 @dataclass(frozen=True)
 class Chart:
-    """A Plotly figure, with what it shows in words for those who do not see it.
+    """A Plotly figure with a description for screen readers.
 
     ``solid``: drawn by WebGL, so that print takes a picture of it.
     """
@@ -112,7 +112,7 @@ Block = Words | Table | Chart | Sound | Folded
 
 @dataclass(frozen=True)
 class Section:
-    """A heading and what stands under it; ``missing``: why there is nothing."""
+    """A heading and its blocks; ``missing``: why there are none."""
 
     key: str
     title: str
@@ -131,5 +131,5 @@ def packed(data: Any) -> str:
 
 
 def small(values: Any) -> NDArray[np.float32]:
-    """Numbers for a chart, in half the room: seven digits are more than a screen shows."""
+    """Numbers for a chart as 32-bit floats: seven digits are more than a screen shows."""
     return np.asarray(values, dtype=np.float32)

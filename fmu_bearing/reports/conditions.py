@@ -1,4 +1,4 @@
-"""Operating point, kinematic frequencies, and the choices that stand behind the figures."""
+"""Operating point, kinematic frequencies, assumptions and choices."""
 
 import math
 
@@ -128,7 +128,7 @@ def assumptions(subject: Subject) -> Section:
     """Assumed values, choices, the scene itself."""
     scene = subject.scene
     blocks: list[Block] = [
-        Words("A computed figure is worth what went into it. Here is what was assumed, chosen and left out."),
+        Words("The figures depend on the assumptions and choices listed here."),
         assumed_table(scene, subject.origins),
         _choices(subject),
         Folded("The scene, to run it again", subject.scene_text or scene.to_toml()),
@@ -148,7 +148,7 @@ def _choices(subject: Subject) -> Table:
         ["oil", scene.lubricant.viscosity_law, f"viscosity {scene.lubricant.viscosity_Pa_s:g} Pa s at 20 "
         f"degC; "
          f"traction law {scene.lubricant.traction_law}"],
-        ["temperatures", "held", "the run does not warm up: heats are told, not fed back"],
+        ["temperatures", "held", "temperatures are constant during the run; the heats do not change them"],
         ["recorded", f"{recording.size / recording.rate:.4g} s", f"after {recording.start:.3g} s in which "
         f"the start dies away"],
         ["communication step", steps, "between the points at which variables were read"],

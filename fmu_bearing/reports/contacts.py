@@ -1,4 +1,4 @@
-"""Loads and angles of the balls around the circle, and what follows from them."""
+"""Loads and angles of the balls around the circle, and the figures derived from them."""
 
 import math
 
@@ -40,7 +40,7 @@ def contacts(subject: Subject) -> Section:
     else:
         blocks.append(
             Words(
-                "Ball by ball there is nothing to show: this recording kept means and extremes over the "
+                "Single balls cannot be shown: this recording kept means and extremes over the "
                 "balls only. "
                 "Make the report from the scene to see each ball.",
                 "absent",

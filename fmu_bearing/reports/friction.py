@@ -31,8 +31,8 @@ def friction(subject: Subject) -> Section:
     if subject.fidelity in ("rings", "response"):
         blocks.append(
             Words(
-                f"Fidelity {subject.fidelity} holds torque and heats at those of the quasi-static state at the "
-                f"present inputs.",
+                f"With fidelity {subject.fidelity}, torque and heats are those of the quasi-static state at "
+                "the present inputs.",
                 "note",
             )
         )

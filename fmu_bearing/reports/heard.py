@@ -1,4 +1,4 @@
-"""What the microphones heard: computed once, shown by several sections."""
+"""Pressures, levels and spectra at the microphones, computed once for several sections."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -48,7 +48,7 @@ class Microphones:
 
     @property
     def components(self) -> list[str]:
-        """``"total"``, then the components that sound at all."""
+        """``"total"``, then the components that are not silent."""
         loud = [name for name, part in self.parts.items() if np.any(part)]
         return ["total", *loud]
 
@@ -116,7 +116,7 @@ class Microphones:
 
 
 def listen(subject: Subject) -> Microphones:
-    """Put the recording to its microphones.
+    """Compute the pressures at the recording's microphones.
 
     Raises
     ------

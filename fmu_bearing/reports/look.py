@@ -1,4 +1,4 @@
-"""How figures look: colours that all eyes tell apart, one style for light pages and one for dark."""
+"""Style of the figures: colours for all kinds of colour vision, for light and dark pages."""
 
 from typing import Any
 
@@ -38,7 +38,7 @@ def faint(name: str, alpha: float = 0.18) -> str:
 
 
 def words(name: str) -> str:
-    """Name of a component as people write it."""
+    """Name of a component in words."""
     return "all together" if name == "total" else name.replace("_", " ")
 
 

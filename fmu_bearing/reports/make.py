@@ -1,4 +1,4 @@
-"""Reports: from a scene, a recording or a file of one to a page."""
+"""`report`: from a scene, a recording, or a file of either, to a page."""
 
 import os
 import pathlib
@@ -8,6 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from fmu_bearing import renamed
 from fmu_bearing.acoustics.analysis.field import form_of
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.files import write_whole
@@ -32,7 +33,7 @@ _SHORTEST = 0.02  # s
 
 @dataclass(frozen=True)
 class Report:
-    """What was written.
+    """The report that was written.
 
     Attributes
     ----------
@@ -42,10 +43,10 @@ class Report:
     sections : dict
         Why a section is missing, by its key; empty text: it is there.
     figures : dict
-        The figures on top of the page, by name with unit.
+        The figures at the top of the page, by name with unit.
     warnings : list of str
     recording : Recording
-        What the page is about.
+        The recording that the page shows.
     """
 
     path: pathlib.Path
@@ -56,10 +57,11 @@ class Report:
     recording: Recording
 
 
+@renamed.arguments
 def report(source: Source, output: str | os.PathLike[str], **options: Any) -> pathlib.Path:
     """Write the report of a run as one HTML page that needs no network, and return its path.
 
-    Parameters are those of `make`, which also tells what was written.
+    The parameters are those of `make`, which also returns sections, figures and warnings.
 
     Examples
     --------
@@ -73,6 +75,7 @@ def report(source: Source, output: str | os.PathLike[str], **options: Any) -> pa
     return make(source, output, **options).path
 
 
+@renamed.arguments
 def make(
     source: Source,
     output: str | os.PathLike[str],
@@ -101,7 +104,7 @@ def make(
         Length of the run (s), and the time left out before it.
     speed : float, optional
         Shaft speed (rad/s) in place of the scene's.
-    radiation model : str, optional
+    radiation_model : str, optional
         In place of the scene's ``sound.radiation_model``.
     run_up : (float, float), optional
         Shaft speeds (rad/s) of a second run that rises evenly from one to the other, for the waterfall.
@@ -125,7 +128,7 @@ def make(
     MissingExtra
         Without the extra ``report`` (plotly, jinja2).
     OSError
-        When the page cannot be written; told before the run.
+        When the page cannot be written; raised before the run.
     ValueError
         For a source, a time or a speed that is refused.
     """
@@ -185,10 +188,10 @@ def _check(
 
 
 def _subject(
-    source: Source, duration: float, settle: float, speed: float | None, radiation_model: str | None, radius: float,
-    tell: Tell, progress: bool | None,
+    source: Source, duration: float, settle: float, speed: float | None, radiation_model: str | None,
+    radius: float, tell: Tell, progress: bool | None,
 ) -> Subject:  # fmt: skip
-    """Take a recording as it is, or make one of a scene."""
+    """Load a recording, or run a scene."""
     text, whence = "", []
     if isinstance(source, str | os.PathLike):
         file = pathlib.Path(source)
@@ -204,7 +207,7 @@ def _subject(
     scene, choice = resolve(source)
     if choice is not None:
         tell(choice.summary)
-    tell(f"running {scene.name}, level {scene.fidelity.model}, for {settle + duration:g} s")
+    tell(f"running {scene.name}, fidelity {scene.fidelity.model}, for {settle + duration:g} s")
     recording, notes = observed(
         scene, duration, speed=speed, settle=settle, radiation_model=radiation_model, progress=progress
     )
@@ -226,15 +229,15 @@ def _load(file: pathlib.Path) -> Recording:
 def _taken(
     recording: Recording, origin: str, radiation_model: str | None, radius: float, speed: float | None
 ) -> Subject:
-    """Take a recording; ``ValueError`` for what can no longer be changed about it."""
+    """Take a recording; ``ValueError`` for an option that needs another run."""
     if speed is not None:
         raise ValueError(
             "the speed of a recording cannot be changed: give the scene to run it at another one"
         )
     if radiation_model is not None and form_of(radiation_model) != form_of(recording.radiation_model):
         raise ValueError(
-            f'radiation_model = "{radiation_model}" needs other channels than this recording of radiation model "{recording.radiation_model}" has: '
-            "give the scene"
+            f'radiation_model = "{radiation_model}" needs other channels than this recording with '
+            f'"{recording.radiation_model}" has: give the scene'
         )
     return Subject(recording, radiation_model or recording.radiation_model, origin, radius=radius)
 
@@ -256,7 +259,7 @@ def _run_up(
 def _sections(
     subject: Subject, rising: Subject | None, tell: Tell
 ) -> tuple[list[Section], Microphones | None]:
-    """All sections in the page's order; one that cannot be made says why."""
+    """All sections in the page's order; one that cannot be made gives the reason."""
     heard: Microphones | None = None
     reason = ""
     tell("listening at the microphones")

@@ -1,4 +1,4 @@
-"""How rings and cage move: velocities over time and frequency, orbits of their centres."""
+"""Motion of rings and cage: velocities over time and frequency, orbits of their centres."""
 
 from typing import Any
 
@@ -52,9 +52,8 @@ def no_cage(subject: Subject) -> str:
     """Why the cage does not move here."""
     if subject.fidelity in ("rings", "response"):
         return (
-            f"Fidelity {subject.fidelity} turns the cage with the balls and holds its centre, and puts each ball "
-            f"where both "
-            "contacts balance it: take fidelity full for the motion of cage and balls."
+            f"With fidelity {subject.fidelity}, the cage turns with the balls, its centre does not move, and "
+            "each ball sits where its contacts balance. Fidelity full computes the motion of cage and balls."
         )
     return "The scene has no cage, or its motion was not kept."
 

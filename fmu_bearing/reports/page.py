@@ -1,4 +1,4 @@
-"""The page out of its sections: one HTML file with all it needs inside."""
+"""The page from its sections: one self-contained HTML file."""
 
 import datetime
 import platform
@@ -9,7 +9,7 @@ from fmu_bearing.reports.blocks import Chart, Section, packed
 from fmu_bearing.reports.look import styles
 from fmu_bearing.run.extras import need
 
-#: What a browser may load for the page: nothing from anywhere. Plotly makes code for its 3-D drawing.
+#: Content security policy: the page loads nothing from outside. Plotly generates code for its 3-D drawing.
 POLICY = (
     "default-src 'none'; script-src 'unsafe-inline' 'unsafe-eval'; style-src 'unsafe-inline'; "
     "img-src data: blob:; media-src data:; font-src data:"

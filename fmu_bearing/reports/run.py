@@ -1,4 +1,4 @@
-"""The run a report is made from: sound channels, all variables at 25.6 kHz, what every ball carries."""
+"""The run for a report: sound channels, all variables at 25.6 kHz, load and angle of every ball."""
 
 import warnings
 
@@ -13,7 +13,7 @@ STEP = 2.0 / SD.RATE
 
 
 def variables_of(scene: Scene) -> tuple[str, ...]:
-    """Names of all that a run without microphones has to tell, but the balls' velocities."""
+    """Names of all variables of a run without microphones, except the balls' velocities."""
     table = [*outputs(scene), *internals(scene)]
     return tuple(v.name for v in table if v.array == "z" and v.index < Z.BALLS)
 
@@ -27,7 +27,7 @@ def observed(
     radiation_model: str | None = None,
     progress: bool | None = None,
 ) -> tuple[Recording, list[str]]:
-    """Record a scene with all that a report shows.
+    """Record a scene with all variables that a report shows.
 
     Parameters
     ----------
@@ -37,7 +37,7 @@ def observed(
         In s, as for ``fmu_bearing.record``.
     speed : float, optional
         Shaft speed (rad/s); default: the scene's.
-    radiation model : str, optional
+    radiation_model : str, optional
         In place of the scene's.
 
     Returns
@@ -45,7 +45,7 @@ def observed(
     recording : Recording
         Contacts of the balls are among its outputs under the names of `balls.name_of`.
     warnings : list of str
-        What the run warned of.
+        Warnings of the run.
 
     Raises
     ------

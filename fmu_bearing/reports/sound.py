@@ -25,7 +25,7 @@ def levels(subject: Subject, heard: Microphones) -> Section:
     if len(heard.components) > 1:
         blocks.append(_ranking(heard))
     else:
-        blocks.append(Words("Components cannot be told apart: only pressures were recorded.", "absent"))
+        blocks.append(Words("There are no components, because only pressures were recorded.", "absent"))
     total = len(subject.recording.microphones)
     if total > len(heard.names):
         blocks.append(Words(f"The first {len(heard.names)} of {total} microphones.", "note"))

@@ -1,4 +1,4 @@
-"""What a report is about: a recording, and how sections ask it for things it may not have."""
+"""The recording of a report, with checks for values that it may lack."""
 
 import math
 from dataclasses import dataclass, field
@@ -13,18 +13,16 @@ from fmu_bearing.reports.blocks import Absent
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.origins import Origin
 
-#: What reports are told while they are made.
-
 
 @dataclass(eq=False)
 class Subject:
-    """A recording with what was said about it.
+    """A recording with its origin, remarks and warnings.
 
     Attributes
     ----------
     recording : Recording
-    radiation model : str
-        How its sound is computed in this report.
+    radiation_model : str
+        Used in this report.
     source : str
         Where it came from, in words.
     scene_text : str
@@ -32,7 +30,7 @@ class Subject:
     origins : list of Origin
         Where each value of that file comes from.
     warnings : list of str
-        Told while it was made.
+        Warnings of the run.
     radius : float
         Of the sphere on which directivity is shown (m).
     """

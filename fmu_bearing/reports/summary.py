@@ -1,4 +1,4 @@
-"""The figures on top of the page, and what the reader must be warned of."""
+"""The figures at the top of the page, and the warnings."""
 
 import math
 from collections.abc import Callable
@@ -79,7 +79,7 @@ def _largest(subject: Subject, name: str) -> float:
 
 
 def sentences(subject: Subject, heard: Microphones | None) -> list[str]:
-    """Say what stands out."""
+    """Describe the loudest component, the strongest line and other main results."""
     if heard is None:
         return []
     k, found = heard.loudest, []
@@ -107,7 +107,7 @@ def sentences(subject: Subject, heard: Microphones | None) -> list[str]:
 
 
 def warnings_of(subject: Subject) -> list[str]:
-    """All that the figures should be read with, the run's own warnings first."""
+    """Return the limits of the figures, the warnings of the run first."""
     found = list(subject.warnings)
     for race in RACES:
         name = f"contact.{race}.shoulder_margin"
@@ -143,9 +143,9 @@ def _reach(subject: Subject) -> list[str]:
         radius = scene.mounting.housing.diameter_mm / 2e3
     highest = sound_speed / (2.0 * math.pi * radius)
     return [
-        f"Radiation model compact takes bodies as small beside the wavelength: above about {0.5 * highest:,.0f} Hz "
-        f"(ka = 0.5) levels and "
-        "directions mean less and less. Radiation model bem has no such limit up to 20 kHz."
+        "Radiation model compact assumes bodies that are small against the wavelength. Its levels and "
+        f"directions lose accuracy above about {0.5 * highest:,.0f} Hz (ka = 0.5). Radiation model bem has "
+        "no such limit up to 20 kHz."
     ]
 
 

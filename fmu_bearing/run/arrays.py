@@ -1,4 +1,4 @@
-"""A bearing on bare flat arrays: what ``Instance`` holds, open to loops that save and restore the state."""
+"""A bearing as flat arrays, for loops that save and restore the state."""
 
 from typing import Self
 
@@ -33,7 +33,7 @@ class Arrays:
     load_y, load_z : float
         Radial load on the inner ring (N).
     sound : ndarray, optional
-        The scene's sound block (``acoustics.stream.sound_parameters``); default: no sound.
+        The scene's sound block (``prepare.sound.sound_block``); default: no sound.
     parameters : float
         Values for places of ``p`` by their names in ``layout.p``, for example ``TOLERANCE=1e-5``.
     """

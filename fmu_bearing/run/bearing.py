@@ -55,7 +55,7 @@ class Bearing(Mapping[str, float]):
 
     @property
     def scene(self) -> Scene:
-        """What is simulated."""
+        """The scene of this bearing."""
         return self._instance.model.scene
 
     @property
@@ -69,7 +69,7 @@ class Bearing(Mapping[str, float]):
         Raises
         ------
         ValueError
-            For a name there is not, or a value outside its range.
+            For an unknown name, or a value outside its range.
         """
         for name, value in {**(values or {}), **named}.items():
             known(name, self._settable, "input or parameter")
@@ -77,14 +77,14 @@ class Bearing(Mapping[str, float]):
         return self
 
     def init(self, values: Mapping[str, float] | None = None, /, **named: float) -> None:
-        """Put the bearing to its quasi-static state, at inputs as for `set`; also to begin anew.
+        """Put the bearing into its quasi-static state, with inputs as for `set`; a second call starts again.
 
         Inputs and parameters that were set before stay set.
 
         Raises
         ------
         ValueError
-            As `set`; `EngineError`, one of them, when there is no equilibrium.
+            As `set`; the subclass `EngineError` when there is no equilibrium.
         """
         if self._instance.initialised:
             kept = {name: self._instance.get(name) for name in self._settable}
@@ -99,7 +99,7 @@ class Bearing(Mapping[str, float]):
         Raises
         ------
         ValueError
-            As `set`; `EngineError`, one of them, for a step that is refused: the state is then as before.
+            As `set`; the subclass `EngineError` for a refused step, which leaves the state as it was.
         """
         self.set(values, **named)
         self._instance.step(h)
@@ -134,7 +134,7 @@ class Bearing(Mapping[str, float]):
         return len(self._instance.by_name)
 
     def __repr__(self) -> str:
-        return f"Bearing({self.scene.name}, level {self.scene.fidelity.model}, t = {self.time:g} s)"
+        return f"Bearing({self.scene.name}, fidelity {self.scene.fidelity.model}, t = {self.time:g} s)"
 
     def _repr_html_(self) -> str:
         units = self._instance.by_name

@@ -11,7 +11,7 @@ from fmu_bearing.scene import Scene, read_scene
 
 
 def model_of(source: Scene | str | os.PathLike[str], tell: Tell = silent) -> Model:
-    """Return the model of a scene; one of fidelity ``auto`` is resolved, and the choice noted in the model.
+    """Return the model of a scene. Fidelity ``auto`` is resolved, and the choice is noted in the model.
 
     Raises
     ------
@@ -49,7 +49,7 @@ def build_fmu(
     Returns
     -------
     BuiltFmu
-        ``path`` of the file, its GUID, what was built and what was not.
+        ``path`` of the file, its GUID, the platforms built, and remarks on parts that were not built.
 
     Raises
     ------

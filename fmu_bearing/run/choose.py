@@ -1,18 +1,18 @@
-"""Fidelity ``auto``: the cheapest fidelity, method and step whose measured error meets the accuracy asked for.
+"""Fidelity ``auto``: the cheapest fidelity, method and step whose measured error meets the required accuracy.
 
-A scene is probed once, when its model is built: every candidate runs beside fidelity ``full`` at the settings of
-``FINEST``, at the scene's speed, loads and temperatures. A candidate is accurate where
+A scene is probed once, when its model is built. Every candidate, and fidelity ``full`` with the settings of
+``FINEST``, runs at the scene's speed, loads and temperatures. A candidate is accurate where
 
 * the rms velocity of each ring, in dB, and with sound the A-weighted equivalent level at each microphone
   differ by no more than ``fidelity.accuracy.level_dB``;
 * the mean contact load at each race and the mean friction torque differ by no more than
   ``fidelity.accuracy.relative`` of themselves.
 
-Of those the first in ``CANDIDATES`` is taken, which stand in the order of what they usually cost, unless
-another is faster by ``CLEARLY``: noise of the clock then does not change the choice. Tolerance and largest
-step of the scene are upper bounds. ``FINEST`` stands last and is accurate by definition. Other speeds and
-loads than the scene's are not probed, and nothing is decided at run time.
-Where the rings bend, the candidates that know rigid rings only are left out.
+``CANDIDATES`` are in the order of their usual cost. The first accurate one is taken, unless another is faster
+by the factor ``CLEARLY``, so that noise of the clock does not change the choice. Tolerance and largest step
+of the scene are upper bounds. ``FINEST`` is last and is accurate by definition. Only the scene's own speed
+and loads are probed, and nothing is decided at run time. Where the rings bend, candidates with rigid rings
+are left out.
 """
 
 import dataclasses
@@ -68,7 +68,7 @@ COLUMNS = (
 
 @dataclass(frozen=True)
 class Probe:
-    """What one candidate gave; ``errors`` None and ``reason`` where it could not run.
+    """Result of one candidate; ``errors`` is None, with a ``reason``, where it could not run.
 
     ``tolerance`` and ``max_step`` (s) are those it ran with; ``pace``: simulated s per CPU s, without sound.
     """
@@ -99,14 +99,14 @@ class Probe:
 
 @dataclass(frozen=True)
 class Choice:
-    """What was chosen for a scene, and the figures it was chosen by.
+    """The choice for a scene, and the figures of all candidates.
 
     Attributes
     ----------
     scene : str
         Name of the scene.
     level_dB, relative : float
-        Accuracy asked for.
+        Required accuracy.
     probes : tuple of Probe
         In the order of ``CANDIDATES``, ``FINEST`` last.
     chosen : int
@@ -152,7 +152,7 @@ class Choice:
 
 
 def too_far(found: Errors, scene: Scene) -> str:
-    """Say which figures are farther off than the scene's accuracy allows; empty: none."""
+    """Name the figures whose error exceeds the scene's accuracy; empty: none."""
     bounds = scene.fidelity.accuracy
     checks = (
         ("ring velocity", found.ring_level, bounds.level_dB),
@@ -215,14 +215,14 @@ def _cheapest(probes: list[Probe]) -> int:
 
 
 def cache_file(scene: Scene) -> pathlib.Path:
-    """Where the choice for a scene is kept: under a hash of scene, engine and the way to choose."""
+    """Cache file of a scene's choice, named by a hash of scene, engine and candidates."""
     way = repr((CANDIDATES, FINEST, WARM_UP, WINDOW, CLEARLY))
     key = hashlib.sha256("\0".join((scene.to_toml(), source_hash(), way)).encode()).hexdigest()
     return cache_directory().parent / "choices" / f"{key}.json"
 
 
 def chosen(scene: Scene) -> Choice:
-    """Choice for a scene, from the cache or probed now; what the cache holds and cannot be read is remade."""
+    """Choice for a scene, from the cache or probed now; a damaged cache entry is replaced."""
     path = cache_file(scene)
     try:
         return _from_text(path.read_text("utf-8"))
@@ -234,7 +234,7 @@ def chosen(scene: Scene) -> Choice:
 
 
 def resolve(scene: Scene) -> tuple[Scene, Choice | None]:
-    """Return the scene with a concrete fidelity; one that is not ``auto`` as it is, without a choice."""
+    """Return the scene with a concrete fidelity, and the choice; None where the fidelity was not ``auto``."""
     if scene.fidelity.model != "auto":
         return scene, None
     choice = chosen(scene)
@@ -255,7 +255,7 @@ def _from_text(text: str) -> Choice:
 
 
 def _keep(path: pathlib.Path, text: str) -> None:
-    """Write whole or not at all; a cache that cannot be written costs time, no more."""
+    """Write the cache entry. A failure to write is ignored, because it only costs time later."""
     try:
         write_whole(path, text.encode("utf-8"))
     except OSError:

@@ -1,4 +1,4 @@
-"""Packages that only some studies need: imported where they are used, named where they are missing."""
+"""Optional packages: imported where they are used; an error names the missing one."""
 
 import importlib
 from types import ModuleType
@@ -15,7 +15,7 @@ EXTRAS = {
 
 
 class MissingExtra(ImportError):
-    """A package is needed that was not installed; the message says which extra brings it."""
+    """A required package is not installed; the message names the extra that installs it."""
 
 
 def need(name: str, purpose: str) -> ModuleType:

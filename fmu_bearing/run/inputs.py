@@ -1,4 +1,4 @@
-"""Inputs of a run over time: numbers, functions of time, tables, CSV files, held against their ranges."""
+"""Inputs of a run over time: numbers, functions of time, tables, CSV files, checked against their ranges."""
 
 import math
 import os
@@ -50,7 +50,7 @@ def input_table(
     Raises
     ------
     ValueError
-        Naming an input there is not, or a value outside its range with its time.
+        For an unknown input, or a value outside its range, with its time.
     """
     if inputs is None:
         return None

@@ -1,4 +1,4 @@
-"""The figures by which runs are compared: vibration, loads, friction, sound; and the pace of a run."""
+"""Figures that compare runs: vibration, loads, friction, sound; and the speed of a run."""
 
 import math
 import time
@@ -15,7 +15,7 @@ SAMPLE = 1e-4  # s between the points at which velocities, loads and torque are 
 COMMUNICATION = 1e-3  # s, of what is timed or only passed through
 #: A perfect bearing's rings move by no more (m/s): below it, relative errors of velocity mean nothing.
 SILENT = 2e-7
-#: dB(A); differences between sounds that nobody hears are none.
+#: dB(A); differences between inaudible sounds are not counted.
 INAUDIBLE = 0.0
 
 _LOAD = tuple(Z.BEARING_OUTPUTS.index(f"contact.{side}.load_mean") for side in ("inner", "outer"))
@@ -27,7 +27,7 @@ _LEVEL = Z.MIC_OUTPUTS.index("leq_a")
 
 @dataclass(frozen=True)
 class Figures:
-    """What a bearing does over a window of time; pairs are inner, outer.
+    """Figures of a bearing over a window of time; pairs are inner, outer.
 
     Attributes
     ----------
@@ -53,7 +53,7 @@ class Figures:
 
 @dataclass(frozen=True)
 class Errors:
-    """How far figures are from others; the worse ring, race and microphone count.
+    """Differences between figures; those of the worse ring, race and microphone count.
 
     Attributes
     ----------
@@ -134,7 +134,7 @@ def measure(
     Parameters
     ----------
     scene : Scene
-        Its level is not ``auto``.
+        Its fidelity is not ``auto``.
     sound : ndarray
         Its sound block; empty: no sound levels. Sound is computed in a second run of the same motion.
     budget : float

@@ -1,4 +1,4 @@
-"""Names of variables as people write them: with a star for any text, or nearly right."""
+"""Names of variables: patterns with a star for any text, and suggestions for misspelt names."""
 
 import difflib
 import fnmatch
@@ -6,6 +6,7 @@ import functools
 import re
 from collections.abc import Iterable, Sequence
 
+from fmu_bearing import renamed
 from fmu_bearing.interface import variables
 from fmu_bearing.scene import read_scene_text
 from fmu_bearing.scene.template import new_scene
@@ -16,7 +17,7 @@ _INDEX = re.compile(r"\[\d+\]")
 
 @functools.cache
 def _usual_units() -> dict[str, str]:
-    """Return units by name of the variables of a scene that has everything, indices left out."""
+    """Return units by name of the variables of a scene with all options, without indices."""
     scene = read_scene_text(new_scene("any", "7003C"))
     return {_INDEX.sub("[]", variable.name): variable.unit for variable in variables(scene, 0.0)}
 
@@ -27,15 +28,19 @@ def unit_of(name: str) -> str:
 
 
 class UnknownName(ValueError):
-    """A name that is not among those there are; the message says which is nearest."""
+    """An unknown name; the message suggests the nearest one."""
 
 
 def known(name: str, names: Sequence[str], what: str) -> str:
-    """Return ``name`` if it is one of ``names``; else ``UnknownName`` tells the nearest."""
+    """Return ``name`` if it is one of ``names``; else raise `UnknownName` with the new or nearest name."""
     if name in names:
         return name
+    now = renamed.VARIABLES.get(name)
     near = difflib.get_close_matches(name, names, n=1, cutoff=0.5)
-    hint = f"did you mean '{near[0]}'?" if near else f"there are {_some(names)}"
+    if now in names:
+        hint = f"it is now '{now}'"
+    else:
+        hint = f"did you mean '{near[0]}'?" if near else f"there are {_some(names)}"
     raise UnknownName(f"there is no {what} '{name}'; {hint}")
 
 

@@ -1,4 +1,4 @@
-"""What all pictures share: figures without pyplot's global state, colours, labels, files."""
+"""Parts of all pictures: figures without pyplot's global state, colours, labels, files."""
 
 import os
 import pathlib
@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-#: Colours told apart by all eyes (Okabe and Ito, 2008); the total is black.
+#: Colours for all kinds of colour vision (Okabe and Ito, 2008); the total is black.
 COLOURS = {
     "total": "#000000",
     "inner_ring": "#0072B2",
@@ -18,7 +18,7 @@ COLOURS = {
 }
 OTHERS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 
-#: Endings of files, and what is left out of each: dates and versions.
+#: Endings of files, and metadata left out of each: dates and versions.
 _METADATA: dict[str, dict[str, None]] = {
     ".png": {"Software": None},
     ".svg": {"Date": None, "Creator": None},

@@ -1,4 +1,4 @@
-"""What a run leaves behind, and the files it goes to: CSV as FMPy reads and writes it, netCDF."""
+"""Results of a run, and their files: CSV as FMPy reads and writes it, netCDF."""
 
 import os
 import pathlib
@@ -12,6 +12,7 @@ import numpy as np
 from fmpy.util import read_csv, write_csv
 from numpy.typing import NDArray
 
+from fmu_bearing import renamed
 from fmu_bearing.files import write_whole
 from fmu_bearing.run.extras import need
 from fmu_bearing.scene import Scene, read_scene_text
@@ -26,7 +27,7 @@ ENDINGS = (".csv", ".nc")
 
 
 class ResultError(ValueError):
-    """A file that is no result, or a name that is not in one."""
+    """A file that is not a result, or a name that a result does not have."""
 
 
 @dataclass(repr=False)
@@ -42,7 +43,7 @@ class Run:
     units : dict
         Unit of each column, ``""`` for plain numbers.
     scene : Scene, optional
-        What was run, where it is known.
+        The scene, where it is known.
     wall : float
         Seconds it took; NaN where it is not known.
     ended : str
@@ -85,7 +86,8 @@ class Run:
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
         if name not in (self.table.dtype.names or ()):
-            raise KeyError(f"'{name}' was not kept; kept were {', '.join(self.names)}")
+            now = f"it is now '{renamed.VARIABLES[name]}'; " if name in renamed.VARIABLES else ""
+            raise KeyError(f"'{name}' was not kept; {now}kept were {', '.join(self.names)}")
         return np.asarray(self.table[name], dtype=float)
 
     def __iter__(self) -> Iterator[str]:
@@ -171,7 +173,7 @@ class Run:
         )  # fmt: skip
 
     def summary(self) -> dict[str, Any]:
-        """Return what a machine wants to know: how it ended, and the last values with their units."""
+        """Return how the run ended, and the last values with their units, for machines."""
         return {
             "name": self.name,
             "ended": self.ended,
@@ -184,7 +186,7 @@ class Run:
 
 
 def check_target(path: str | os.PathLike[str]) -> pathlib.Path:
-    """Return where a result is to go, if it can be written: to be asked before a long run, not after it.
+    """Return the path of a result, or raise if it cannot be written there; called before a long run.
 
     Raises
     ------
@@ -246,7 +248,7 @@ def read_table(path: str | os.PathLike[str]) -> NDArray[Any]:
 
 
 def _written(write: Any, suffix: str) -> bytes:
-    """Return what a writer puts into a file of its own."""
+    """Return the bytes that a writer puts into a file."""
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder) / f"result{suffix}"
         write(file)

@@ -33,7 +33,7 @@ class Setting:
         )
 
     def carries(self, scene: Scene) -> bool:
-        """Whether what the scene models can be computed this way: rings that bend need full, not ``fast``."""
+        """Whether the scene can be computed this way: bending rings need full, but not method ``fast``."""
         return not scene.bends or (self.fidelity == "full" and self.method != "fast")
 
     @property

@@ -38,14 +38,15 @@ def simulate(
 ) -> Run:
     """Run a bearing from its quasi-static state and keep its variables at the communication points.
 
-    A scene is run by the library and gives the bits that ``fmpy.simulate_fmu`` gives on its FMU; an FMU is
-    run by FMPy. Inputs are set at the beginning of each step, as FMPy does; the speed then ramps to its value
-    over the step.
+    The library runs a scene, with results that equal those of ``fmpy.simulate_fmu`` on its FMU to the last
+    bit; FMPy runs an FMU. Inputs are set at the beginning of each step, as FMPy does; the speed then ramps to
+    its value over the step.
 
     Parameters
     ----------
     source : Scene, Model or path
-        A scene file (``.toml``), an FMU (``.fmu``), or a scene in memory; fidelity ``auto`` is resolved first.
+        A scene file (``.toml``), an FMU (``.fmu``), or a scene in memory.
+        Fidelity ``auto`` is resolved first.
     stop_time : float
         End of the run (s).
     step : float
@@ -110,12 +111,12 @@ class Player(Protocol):
 
     @property
     def scene(self) -> Scene | None:
-        """What is run, where it is known."""
+        """The scene, where it is known."""
         ...
 
     @property
     def inputs(self) -> Mapping[str, Input]:
-        """Each input."""
+        """Inputs by name."""
         ...
 
     @property
@@ -130,7 +131,7 @@ class Player(Protocol):
 
     @property
     def outputs(self) -> Sequence[str]:
-        """What is kept unless told otherwise."""
+        """Default variables of a result."""
         ...
 
     def run(
@@ -189,7 +190,7 @@ class _Library:
 
 
 class _Feed:
-    """A table of inputs, laid out once for all steps; values and jumps as FMPy finds them."""
+    """A table of inputs, prepared once for all steps; values and jumps are those of FMPy."""
 
     def __init__(self, table: NDArray[Any] | None) -> None:
         self.names = [] if table is None else columns_of(table)
@@ -227,7 +228,7 @@ def _check_times(stop_time: float, step: float) -> None:
 
 @contextmanager
 def stoppable() -> Iterator[Callable[[], bool]]:
-    """Turn the first Ctrl-C into a request that the yielded function tells; a second interrupts at once."""
+    """Turn the first Ctrl-C into a request to stop, told by the yielded function; a second interrupts."""
     asked = threading.Event()
     if threading.current_thread() is not threading.main_thread():
         yield asked.is_set  # only the main thread may handle signals

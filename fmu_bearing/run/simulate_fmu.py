@@ -1,4 +1,4 @@
-"""A run of an FMU by FMPy: what its log says, and what had been computed when it refused."""
+"""A run of an FMU by FMPy, with its log, and with the results so far when a step is refused."""
 
 import pathlib
 import tempfile
@@ -63,7 +63,7 @@ class FmuPlayer:
         return structured(columns), watch.ended, watch.note
 
     def _whole(self, table: NDArray[Any] | None, start: Mapping[str, float]) -> NDArray[Any] | None:
-        """Return the table with a column for every input, those not given held: FMPy complains else."""
+        """Return the table with a column for every input, as FMPy needs it; inputs not given are held."""
         if table is None:
             return None
         given = ["time", *columns_of(table)]
@@ -74,7 +74,7 @@ class FmuPlayer:
 
 
 class _Watch:
-    """What FMPy calls during a run."""
+    """Callbacks of FMPy during a run."""
 
     def __init__(self, stop: Callable[[], bool], tell: Callable[[float], None], stop_time: float) -> None:
         self.stop, self.tell, self.stop_time = stop, tell, stop_time
@@ -90,7 +90,7 @@ class _Watch:
             self.lines.append(message.decode("utf-8", "replace"))
 
     def step_finished(self, time: float, recorder: Any) -> bool:
-        """Return whether to go on; FMPy itself would repeat a refused step for ever."""
+        """Return whether to continue; FMPy itself would repeat a refused step for ever."""
         self.recorder = recorder
         if time <= self.time:
             self.refused(f"the step from t = {time:.9g} s was refused")
@@ -103,7 +103,7 @@ class _Watch:
         return self.ended == COMPLETE
 
     def refused(self, why: str) -> None:
-        """Note why the run ends here, with what the FMU says of it."""
+        """Note why the run ends here, with the FMU's messages."""
         self.ended = REFUSED
         self.note = "; ".join([why, *self.lines[-_LAST_LINES:]])
 

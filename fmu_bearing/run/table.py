@@ -1,4 +1,4 @@
-"""Tables of results, and where they go: terminal, Markdown, CSV; and the machine they were made on."""
+"""Tables of results for terminal, Markdown and CSV; description of the machine."""
 
 import csv
 import math

@@ -9,7 +9,7 @@ from fmu_bearing.run.names import UnknownName, chosen_names, unit_of
 from fmu_bearing.run.pictures import OTHERS, empty, label, save
 from fmu_bearing.run.result import Run
 
-#: What is drawn unless told otherwise, as far as the run has it.
+#: Variables drawn by default, as far as the run has them.
 USUAL = (
     "shaft_speed", "friction_torque", "heat.*", "inner_ring.velocity.*", "outer_ring.velocity.*",
     "cage.velocity.*", "mic[*].spl_a", "cage.speed_ratio",
@@ -25,7 +25,7 @@ def time_picture(run: Run, patterns: Sequence[str] | None = None, title: str = "
     ----------
     run : Run
     patterns : sequence of str, optional
-        Names, with ``*`` for any text; default: what is usual of what the run has.
+        Names, with ``*`` for any text; default: those of `usual_names`.
     title : str
         Default: the run's name.
 
@@ -54,7 +54,7 @@ def time_picture(run: Run, patterns: Sequence[str] | None = None, title: str = "
 
 
 def usual_names(run: Run) -> list[str]:
-    """Return what is usually looked at of what the run has; everything where it has nothing of that."""
+    """Return the variables drawn by default that the run has, or all where it has none of them."""
     found: list[str] = []
     for pattern in USUAL:
         try:

@@ -1,24 +1,24 @@
-"""WHAT is simulated: frozen models read from TOML, in the units of the field.
+"""Scenes: frozen models of what is simulated, read from TOML, in the units of the field.
 
 ================  =====================================================================
-``base``          what all tables share: frozen, strict, all conflicts reported at once
-``units``         the one place that converts to SI
 ``catalogue``     bearings, materials, lubricants and grades by name
+``estimate``      a bearing from its boundary dimensions
+``template``      the text of a new scene
+``base``          base class of all tables: frozen, strict, reports all conflicts at once
 ``bearing``       geometry of rings, balls and cage
 ``material``      elastic and thermal constants; catalogue names
 ``lubricant``     oil, traction and film constants
 ``mounting``      preload, loads, pedestal, rotor, housing, bending of the rings
 ``imperfections`` waviness, ball spread, unbalance, by values or by grade, with a seed
 ``operation``     speed and temperatures at the start
-``sound``         what radiates, how it is computed, where the microphones stand
+``sound``         radiator, radiation model, metering, microphones
 ``fidelity``      physics, integrator, accuracy, terms left out
-``scene``         all of it together, with the checks that span several parts
-``problems``      one line per problem, in the words of the scene file
+``scene``         all tables together, with the checks that span several tables
 ``read``          TOML in; catalogue names become values
-``values``        values of a scene by dotted key
+``problems``      error messages, one line per problem, with the keys of the file
 ``origins``       where each value comes from, and which are assumed
-``estimate``      a bearing from its boundary dimensions
-``template``      the text of a new scene
+``values``        values by dotted key
+``units``         conversion of field units to SI
 ================  =====================================================================
 """
 

@@ -1,4 +1,4 @@
-"""What all parts of a scene share: frozen, no unknown keys, no silent conversion, finite numbers only."""
+"""Base class of all tables of a scene: frozen, no unknown keys, no silent conversion, finite numbers only."""
 
 from collections.abc import Iterator
 from typing import Annotated, Any, NamedTuple, Self
@@ -12,7 +12,7 @@ Label = Annotated[str, Field(pattern=LABEL)]
 
 
 class Conflict(NamedTuple):
-    """A value that is fine alone and wrong beside another; ``key`` is dotted, seen from the table."""
+    """A value that conflicts with another one; ``key`` is dotted, relative to the table."""
 
     key: str
     reason: str
@@ -21,7 +21,8 @@ class Conflict(NamedTuple):
 class Part(BaseModel):
     """One table of a scene file.
 
-    Strict: a number in quotes or a truth value is no number; whole numbers serve where a number is wanted.
+    Strict: a number in quotes or a truth value is refused as a number; a whole number is accepted as any
+    number.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
@@ -34,7 +35,7 @@ class Part(BaseModel):
     def _fits_together(self) -> Self:
         found = tuple(self.conflicts())
         if found:
-            # All at once: whoever corrects a file wants to see every line of it.
+            # All at once, so that one run shows every error of a file.
             context: dict[str, Any] = {
                 "conflicts": found,
                 "text": "; ".join(f"{conflict.key}: {conflict.reason}" for conflict in found),

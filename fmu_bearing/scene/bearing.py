@@ -94,7 +94,7 @@ class Bearing(Part):
     )
 
     def conflicts(self) -> Iterator[Conflict]:
-        """Yield dimensions of which no bearing can be made."""
+        """Yield dimensions that contradict each other."""
         yield from below(self, "bore_mm", "inner_ring_outer_diameter_mm")
         yield from below(self, "inner_ring_outer_diameter_mm", "pitch_diameter_mm")
         yield from below(self, "pitch_diameter_mm", "outer_ring_inner_diameter_mm")

@@ -1,6 +1,6 @@
-"""A bearing from its boundary dimensions: what a catalogue does not print, by rules of thumb.
+"""A bearing from its boundary dimensions, with rules of thumb for the dimensions that catalogues leave out.
 
-Each rule says from which bearings it was taken and how far those scatter; every value it gives is assumed.
+Each rule names the bearings it was derived from, and their scatter. All its values are assumed.
 """
 
 import math
@@ -20,7 +20,7 @@ class Estimate(NamedTuple):
 
 
 def estimates(bore: float, outside: float, width: float, angle: float) -> Iterator[Estimate]:
-    """Yield what stands in ``[bearing]`` for a bearing of these dimensions.
+    """Yield the values of ``[bearing]`` for these dimensions.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ def estimates(bore: float, outside: float, width: float, angle: float) -> Iterat
 
 
 def cage_estimates(bore: float, outside: float, width: float) -> Iterator[Estimate]:
-    """Yield what stands in ``[bearing.cage]`` for a bearing of these dimensions (mm)."""
+    """Yield the values of ``[bearing.cage]`` for a bearing of these dimensions (mm)."""
     ball = 0.27 * (outside - bore)
     pitch = 0.5 * (bore + outside)
     yield Estimate("outside_diameter_mm", round(pitch + 0.38 * ball, 2), "0.38 ball diameters above pitch")

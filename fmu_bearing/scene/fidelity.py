@@ -1,4 +1,4 @@
-"""How finely the scene is computed, and which terms are left out."""
+"""Physics, integrator and accuracy of a scene, and the terms that are left out."""
 
 from collections.abc import Iterator
 from typing import Literal
@@ -12,9 +12,9 @@ STRIPS = (1, 3, 5)
 
 
 class Terms(Part):
-    """Forces that a scene may leave out; what is left out is not computed.
+    """Forces that a scene may leave out; they are then not computed.
 
-    What is no term here is left out where it is described: traction by ``lubricant.traction_max = 0``, the
+    Other forces are left out in their own tables: traction by ``lubricant.traction_max = 0``, the
     film in pockets by ``pocket_damping_N_s_m = 0``, the cage by ``bearing.cage = false``, pedestal damping by
     its ratio, thermal effects by ``expansion_1e6_K = 0`` and ``vogel_B_K = 0`` or ``walther_slope = 0``,
     imperfections, rotor and supports by leaving out their tables. Contact of balls and races and the inertia
@@ -46,7 +46,7 @@ class Terms(Part):
 
 
 class Accuracy(Part):
-    """What fidelity ``auto`` may differ by from ``full``."""
+    """Largest differences of fidelity ``auto`` from ``full``."""
 
     level_dB: float = Field(
         default=1.0,
@@ -67,7 +67,7 @@ class Accuracy(Part):
 class Fidelity(Part):
     """Physics, integrator, error bounds and detail."""
 
-    model: choices.Fidelity | Literal["auto"] = Field(
+    model: Literal[choices.Fidelity, "auto"] = Field(
         default="full",
         description="Physics: all bodies, the rings alone, the linear response, or the fastest "
         "within the accuracy.",

@@ -22,7 +22,7 @@ class Harmonic(Part):
 
 
 class Imperfections(Part):
-    """Race waviness, ball spread, ball waviness and unbalance; what is random is drawn from a seed.
+    """Race waviness, ball spread, ball waviness and unbalance; random values are drawn from a seed.
 
     Each race's waviness is either one amplitude for all orders from ``lowest_order`` to ``highest_order``
     with random phases, or a list of harmonics.
@@ -80,7 +80,7 @@ class Imperfections(Part):
     )
 
     def conflicts(self) -> Iterator[Conflict]:
-        """Yield waviness given by halves or twice, and orders that stand the wrong way round."""
+        """Yield waviness that is incomplete or given twice, and orders in the wrong sequence."""
         amplitudes = []
         for race in RACES:
             key, table = f"{race}_race_amplitude_um", f"{race}_race_harmonic"

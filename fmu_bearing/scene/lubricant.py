@@ -1,4 +1,4 @@
-"""Oil and what it does in contacts, lands and around the balls."""
+"""Oil: viscosity, traction, films, drag."""
 
 from pydantic import Field
 

@@ -17,7 +17,7 @@ class Material(Part):
 
 
 class Materials(Part):
-    """Which material each component is made of: a catalogue name or a table of constants."""
+    """Material of each component: a catalogue name or a table of constants."""
 
     inner_ring: Material = Field(examples=["GCr15"], description="Material of the inner ring.")
     outer_ring: Material = Field(examples=["GCr15"], description="Material of the outer ring.")

@@ -18,7 +18,7 @@ class Rotor(Part):
 
 
 class TiltSupport(Part):
-    """What holds the rotor against tilting: the far bearing of the spindle."""
+    """Support of the rotor against tilting: the far bearing of the spindle."""
 
     stiffness_N_m_rad: float = Field(
         ge=0, le=1e9, examples=[1e5], description="Stiffness against tilting, N m/rad."
@@ -53,7 +53,7 @@ _MOST = _HIGHEST - _LOWEST + 1
 class Flexure(Part):
     """Bending of the rings in their plane: which orders move, how they are damped, how seats hold them.
 
-    A tight seat, or a solid shaft, leaves no bending that could be heard: model none then.
+    On a tight seat or a solid shaft the bending is too small to be heard; leave this table out then.
     """
 
     # A file's array arrives as a list: the one conversion that strictness may let pass.
@@ -167,7 +167,7 @@ class Mounting(Part):
     flexure: Flexure | None = Field(default=None, description="Bending of the rings; absent: rigid rings.")
 
     def conflicts(self) -> Iterator[Conflict]:
-        """Yield rings that are to bend although a solid body on a tight seat holds them round."""
+        """Yield rings that bend although a solid body on a tight seat keeps them round."""
         if self.flexure is None:
             return
         held = (("inner", "rotor", self.rotor), ("outer", "housing", self.housing))

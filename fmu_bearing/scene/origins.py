@@ -1,4 +1,4 @@
-"""Where each value of a scene file comes from, and which are assumed: by the remarks the files carry."""
+"""Origin of each value of a scene file, and whether it is assumed, from the remarks in the files."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -13,9 +13,9 @@ from fmu_bearing.scene.problems import allowed
 from fmu_bearing.scene.read import catalogue_text, read_scene
 from fmu_bearing.scene.units import symbol
 
-#: What a file names instead of values: key of the name, kind of catalogue.
+#: Names that a file may give instead of values: key of the name, kind of catalogue.
 _NAMED = {"bearing": "bearings", "lubricant": "lubricants", "materials": "materials"}
-#: Tables whose defaults describe how a scene is computed, not what it is: nothing assumed there.
+#: Tables whose defaults say how a scene is computed; these defaults are not assumptions.
 _CHOICES = ("fidelity", "sound", "name")
 _MARK = "assumed"
 
@@ -33,7 +33,7 @@ class Origin:
     origin : str
         ``file``, ``catalogue NAME``, ``grade NAME`` or ``default``.
     assumed : bool
-        Whether its remark says so, or it is a default of what is simulated.
+        Whether its remark says so, or it is a default of a physical value.
     remark : str
         Rest of the remark.
     allowed : str

@@ -1,4 +1,4 @@
-"""What is wrong with a scene, in the words of who wrote it: one line per problem."""
+"""Error messages about a scene: one line per problem, with the keys and values of the file."""
 
 import difflib
 import types
@@ -14,13 +14,13 @@ from fmu_bearing.scene.base import LABEL
 from fmu_bearing.scene.scene import NAME, Scene
 from fmu_bearing.scene.units import symbol
 
-#: Where a table can take its values from.
+#: Sources from which a table can take its values.
 _SOURCES = {
     "bearing": 'catalogue = "7003C"',
     "lubricant": 'catalogue = "spindle-oil"',
     "imperfections": 'grade = "P4"',
 }
-#: Keys that no source has.
+#: Keys that are in no source.
 _OWN = {"seed", "ball_springs", "inner_race_harmonic", "outer_race_harmonic"}
 _TEXTS = {
     LABEL: "40 letters, digits, blanks and . , + - ( ) / _",

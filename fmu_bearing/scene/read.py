@@ -1,4 +1,4 @@
-"""TOML in, a scene or a ``SceneError`` out, with one line per problem."""
+"""From TOML to a scene, or to a ``SceneError`` with one line per problem."""
 
 import difflib
 import tomllib
@@ -84,12 +84,19 @@ def read_scene_text(text: str, name: str = "scene", folder: Path | None = None) 
 
 
 def with_fidelity(scene: Scene, **keys: Any) -> Scene:
-    """Return the scene with other values at keys of ``fidelity``, held against the same ranges.
+    """Return the scene with other values at keys of ``[fidelity]``, checked against the same ranges.
 
     Raises
     ------
     SceneError
-        If a value is refused.
+        If a key or a value is refused.
+
+    Examples
+    --------
+    >>> from fmu_bearing import read_scene, with_fidelity
+    >>> scene = with_fidelity(read_scene("examples/scenes/7003C-bare.toml"), model="rings", tolerance=1e-4)
+    >>> scene.fidelity.model, scene.fidelity.tolerance
+    ('rings', 0.0001)
     """
     data = scene.model_dump()
     data["fidelity"] |= keys
@@ -103,7 +110,8 @@ def with_fidelity(scene: Scene, **keys: Any) -> Scene:
 def _resolve(data: dict[str, Any], lines: list[str], unresolved: list[Location]) -> None:
     """Replace catalogue names by their values; keys given in the file win.
 
-    Unknown names go to ``lines``, and to ``unresolved`` the tables about which nothing more can be said.
+    Messages about unknown names are added to ``lines``; their tables, which cannot be checked further, to
+    ``unresolved``.
     """
     for table, kind in (("bearing", "bearings"), ("lubricant", "lubricants")):
         _fill(data, (table,), kind, lines, unresolved)
@@ -150,7 +158,7 @@ def _fill(
 
 
 def _beside_harmonics(entry: dict[str, Any], given: dict[str, Any]) -> dict[str, Any]:
-    """Return a grade without what the file's own harmonics stand for."""
+    """Return a grade without the values that the file's own harmonics replace."""
     explicit = [race for race in RACES if given.get(f"{race}_race_harmonic")]
     unused = {f"{race}_race_amplitude_um" for race in explicit}
     if len(explicit) == len(RACES):

@@ -1,4 +1,4 @@
-"""A scene: one bearing, its mounting, its oil, its microphones, what to model and how finely."""
+"""A scene: one bearing, its mounting, oil and microphones, and the fidelity of the model."""
 
 import math
 from collections.abc import Iterator
@@ -21,7 +21,7 @@ NAME = r"^[A-Za-z0-9][A-Za-z0-9._ -]{0,59}$"
 
 
 class Scene(Part):
-    """Everything a model is made from; the units stand in the names of the values.
+    """All input of a model; the units are in the names of the values.
 
     Examples
     --------
@@ -43,12 +43,12 @@ class Scene(Part):
     lubricant: Lubricant = Field(description="Oil in contacts and lands.")
     mounting: Mounting = Field(description="Preload, loads, pedestal and what is fixed to the rings.")
     operation: Operation = Field(description="Speed and temperatures at the start.")
-    fidelity: Fidelity = Field(default_factory=Fidelity, description="Level, error bounds and terms.")
+    fidelity: Fidelity = Field(default_factory=Fidelity, description="Physics, error bounds and terms.")
     imperfections: Imperfections | None = Field(default=None, description="Absent: a perfect bearing.")
     sound: Sound | None = Field(default=None, description="Absent: no sound and no microphones.")
 
     def conflicts(self) -> Iterator[Conflict]:
-        """Yield what one table asks of another and does not find."""
+        """Yield conflicts between tables."""
         if self.bearing.cage is not None and self.materials.cage is None:
             yield Conflict("materials.cage", 'is missing, for example cage = "bakelite"; the bearing has one')
         housing = self.mounting.housing
@@ -78,16 +78,16 @@ class Scene(Part):
                 )
 
     def _flexure(self) -> Iterator[Conflict]:
-        """Yield a level or method that does not carry the bending of the rings."""
+        """Yield a fidelity or method that cannot compute the bending of the rings."""
         if not self.bends:
             return
-        level, method = self.fidelity.model, self.fidelity.method
+        model, method = self.fidelity.model, self.fidelity.method
         way_out = "or leave out [mounting.flexure]"
-        if level not in ("full", "auto"):
+        if model not in ("full", "auto"):
             yield Conflict(
-                "fidelity.model", f"'{level}' has rigid rings only: bending needs 'full' or 'auto', {way_out}"
+                "fidelity.model", f"'{model}' has rigid rings only: bending needs 'full' or 'auto', {way_out}"
             )
-        elif level == "full" and method == "fast":
+        elif model == "full" and method == "fast":
             yield Conflict(
                 "fidelity.method",
                 f"'fast' has rigid rings only: bending needs 'esdirk4', 'trbdf2' or 'rk4', {way_out}",

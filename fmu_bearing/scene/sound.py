@@ -1,4 +1,4 @@
-"""What radiates, how it is computed, where the microphones stand."""
+"""Radiator, radiation model, metering and microphones."""
 
 import math
 from collections.abc import Iterator
@@ -10,7 +10,7 @@ from fmu_bearing.engine.choices import RadiationModel
 from fmu_bearing.scene.base import Conflict, Label, Part
 
 Point = tuple[float, float, float]
-#: What radiates: the bare bearing, the housing, or the bearing's face in a rigid plane.
+#: The radiating body: the bare bearing, the housing, or the bearing's face in a rigid plane.
 Radiator = Literal["bare", "housing", "baffle"]
 
 _CARTESIAN = ("x_mm", "y_mm", "z_mm")
@@ -19,7 +19,7 @@ _FAR = 1e5  # mm
 
 
 class Place(NamedTuple):
-    """A microphone as the rest of the package sees it: its name and (x, y, z) in m."""
+    """Name of a microphone, and its place (x, y, z) in m."""
 
     name: str
     position_m: Point
@@ -59,7 +59,7 @@ class Microphone(Part):
     )
 
     def conflicts(self) -> Iterator[Conflict]:
-        """Yield a place that is given by halves or twice."""
+        """Yield a place that is incomplete or given twice."""
         given = tuple(key for key in _CARTESIAN + _CYLINDRICAL if getattr(self, key) is not None)
         if given not in (_CARTESIAN, _CYLINDRICAL):
             yield Conflict(
@@ -118,7 +118,7 @@ class Sound(Part):
         min_length=1,
         max_length=1000,
         examples=["housing.npz"],
-        description="File of the radiation model table, seen from the scene file.",
+        description="File that radiation model table reads, relative to the scene file.",
     )
     third_octaves: bool = Field(
         default=False, description="Third-octave levels of every microphone.", examples=[True]
@@ -161,7 +161,7 @@ class Sound(Part):
     circle: Circle | None = Field(default=None, description="Microphones on a circle about the axis.")
 
     def conflicts(self) -> Iterator[Conflict]:
-        """Yield an absence of microphones and names that stand twice."""
+        """Yield missing microphones, repeated names, and options that the radiation model lacks."""
         names = [place.name for place in self.points()]
         if not names:
             yield Conflict(
@@ -172,20 +172,20 @@ class Sound(Part):
         if self.radiation_model == "table" and self.table_file is None:
             yield Conflict(
                 "table_file",
-                'is missing, for example table_file = "housing.npz"; radiation model table reads it',
+                'is missing, for example table_file = "housing.npz"; radiation_model = "table" reads it',
             )
         if self.radiation_model != "table" and self.table_file is not None:
             yield Conflict(
-                "table_file", f'is read by radiation model "table" only, not by "{self.radiation_model}"'
+                "table_file", f'is read with radiation_model = "table" only, not "{self.radiation_model}"'
             )
         if self.radiation_model != "bem":
+            words = f'needs radiation_model = "bem"; "{self.radiation_model}" has no rigid planes'
             if self.radiator == "baffle":
                 yield Conflict(
                     "radiator",
-                    f'needs radiation_model = "bem"; radiation model "{self.radiation_model}" knows no rigid planes',
+                    words,
                 )
             if self.reflecting_plane_mm is not None:
-                words = f'needs radiation_model = "bem"; radiation model "{self.radiation_model}" knows no rigid planes'
                 yield Conflict("reflecting_plane_mm", words)
 
     def points(self) -> list[Place]:

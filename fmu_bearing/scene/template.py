@@ -7,7 +7,7 @@ from fmu_bearing.scene.estimate import Estimate, cage_estimates, estimates
 from fmu_bearing.scene.problems import SceneError
 from fmu_bearing.scene.read import catalogue, read_scene_text
 
-#: Materials of rings, balls and cage by what a bearing is called.
+#: Materials of rings, balls and cage, by kind of bearing.
 MATERIALS = {
     "steel": ("GCr15", "GCr15", "GCr15", "bakelite"),
     "hybrid": ("GCr15", "GCr15", "Si3N4", "bakelite"),
@@ -82,7 +82,7 @@ def new_scene(
 
 
 def _outside(bearing: str | Dimensions) -> float:
-    """Return the outside diameter (mm); of an unknown name any, as reading the text will refuse it."""
+    """Return the outside diameter (mm), or any number for an unknown name, which is refused later."""
     if isinstance(bearing, Dimensions):
         return bearing.outside
     return float(catalogue("bearings").get(bearing, {}).get("outside_diameter_mm", 30.0))

@@ -1,4 +1,4 @@
-"""Field units in key names to SI: the one place that converts."""
+"""Conversion of field units, given in key names, to SI."""
 
 import math
 from functools import lru_cache

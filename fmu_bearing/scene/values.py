@@ -50,7 +50,7 @@ def replaced(scene: Scene, values: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def fields_of(scene: Scene) -> dict[str, FieldInfo]:
-    """Return every dotted key that a scene may have, with what pydantic knows of it; tables are no keys."""
+    """Return every dotted key that a scene may have, with its pydantic field; tables are left out."""
     return dict(_fields(type(scene), scene, ""))
 
 

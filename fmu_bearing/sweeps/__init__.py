@@ -1,21 +1,21 @@
 """Sweeps: a scene over a grid of its values, on all cores or a cluster, resumable.
 
 =================  =======================================================================
-``axes``           what is varied: keys, values, their text on the command line
-``figures``        what is kept of a run: variables with a statistic
-``plan``           the points, all checked before the first is run
-``point``          one point: run, and its key
-``store``          finished points on disk
+``description``    a sweep as a TOML file
+``axes``           the varied keys, their values, their text on the command line
+``figures``        the figures of a run: variables with a statistic
+``plan``           all points, checked before the first is run
+``point``          one point: its key, its run
 ``local``          points in this process or on worker processes
 ``cluster``        points on a Dask cluster
-``runs``           what is not there yet is run; progress; Ctrl-C
+``store``          finished points on disk
+``runs``           runs the points that are not finished; progress; Ctrl-C
 ``result``         the dataset, netCDF and CSV
 ``picture``        curves and maps
-``description``    a sweep as a TOML file
 =================  =======================================================================
 
-Equal keys give equal figures: each point is a run of its own from its quasi-static state, with the scene's
-own seed unless the seed is an axis, so order, number of workers and restarts change no bit.
+Equal keys give equal figures. Each point is a separate run from its quasi-static state, with the scene's own
+seed unless the seed is an axis. Order, number of workers and restarts therefore do not change the results.
 """
 
 import os
@@ -57,15 +57,15 @@ def sweep(
         Scene file (TOML) or scene in memory; fidelity ``auto`` is resolved once, for the scene as it is.
     axes : mapping
         Values by dotted key of the scene (``"mounting.preload_N"``) or short name (``speed``, ``preload``,
-        ``pedestal``, ``viscosity``, ``seed``, ``level``), in the key's unit: a list, or text such as
+        ``pedestal``, ``viscosity``, ``seed``, ``fidelity``), in the key's unit: a list, or text such as
         ``"8000:40000:9"`` and ``"1e7:1e8:5log"``.
     settle, window : float
-        Time (s) that each point runs before it is read, and over which it is.
+        Time (s) that each point runs before its figures are taken, and over which they are taken.
     figures : sequence of str, optional
         Variables of the table, with ``*`` for any text, and a statistic behind a colon where another than the
         usual is wanted (``"friction_torque:max"``); default: levels, velocities, loads, friction, heat.
     folder : path, optional
-        Finished points are kept there, and what is there is not run again. Default: nothing is written.
+        Finished points are kept there and are not run again. Default: nothing is written.
     workers : int, optional
         Processes; 1: all in this one. Default: one per core. A script needs
         ``if __name__ == "__main__":`` then.
@@ -78,12 +78,12 @@ def sweep(
     -------
     xarray.Dataset
         Figures over the axes with units in attributes, SI; ``seed``, ``wall`` (s) and ``reason`` of each
-        point. A point that cannot be run has NaN and the reason, and stops nothing.
+        point. A point that cannot be run has NaN and the reason; the others are run.
 
     Raises
     ------
     ValueError
-        For keys, values and figures that are refused, all told before anything is run (`SweepError`,
+        For keys, values and figures that are refused, all reported before anything is run (`SweepError`,
         `SceneError`), and for a scheduler that does not answer.
     MissingExtra
         Without xarray, or without Dask where a scheduler is given.

@@ -15,7 +15,7 @@ from fmu_bearing.scene import Scene
 from fmu_bearing.scene.units import symbol
 from fmu_bearing.scene.values import fields_of, value_at
 
-#: Short names of what is swept most.
+#: Short names of frequent axes.
 ALIASES = {
     "speed": "operation.speed_rpm",
     "preload": "mounting.preload_N",
@@ -24,6 +24,8 @@ ALIASES = {
     "seed": "imperfections.seed",
     "fidelity": "fidelity.model",
 }
+#: Dimensions whose name is not the last part of the key.
+_NAMES = {"fidelity.model": "fidelity"}
 _RANGE = re.compile(r"([^:,]+):([^:,]+):(\d+)(log)?")
 _SYNTAX = "KEY=LOW:HIGH:COUNT, KEY=LOW:HIGH:COUNTlog or KEY=VALUE,VALUE,..."
 
@@ -34,14 +36,15 @@ class SweepError(ValueError):
 
 @dataclass(frozen=True)
 class Axis:
-    """One thing that is varied.
+    """One varied key.
 
     Attributes
     ----------
     key : str
         Dotted key of the scene.
     name : str
-        Of the dimension: the key's last part, or all of it where two axes end alike.
+        Of the dimension: the key's last part, ``fidelity`` for ``fidelity.model``; the whole key where two
+        axes end alike.
     values : tuple
         Numbers, texts or truth values, in the key's unit.
     unit, words : str
@@ -61,7 +64,7 @@ def parse_axis(text: str) -> tuple[str, list[Any]]:
     Raises
     ------
     SweepError
-        For what is no axis.
+        For text that is not an axis.
     """
     key, equals, values = (part.strip() for part in text.partition("="))
     if not (key and equals and values):
@@ -75,7 +78,7 @@ def parse_values(key: str, text: str) -> list[Any]:
     Raises
     ------
     SweepError
-        Naming the axis and what is wrong with it.
+        With the axis and the reason.
     """
     match = _RANGE.fullmatch(text.strip())
     if match is None:
@@ -96,7 +99,7 @@ def parse_values(key: str, text: str) -> list[Any]:
 
 
 def _round(values: NDArray[np.float64]) -> list[float]:
-    """Return numbers as people would write them: 2e7 rather than 20000000.000000004."""
+    """Return numbers rounded to 12 digits: 2e7 rather than 20000000.000000004."""
     return [float(f"{value:.12g}") for value in values]
 
 
@@ -129,7 +132,7 @@ def axes_of(scene: Scene, wanted: Mapping[str, Sequence[Any] | str]) -> tuple[Ax
         found[key] = listed
     if problems:
         raise SweepError("\n".join(problems))
-    ends = [key.rpartition(".")[2] for key in found]
+    ends = [_NAMES.get(key, key.rpartition(".")[2]) for key in found]
     names = [end if ends.count(end) == 1 else key for key, end in zip(found, ends, strict=True)]
     return tuple(
         Axis(key, name, tuple(values), symbol(key), fields[key].description or "")

@@ -1,4 +1,4 @@
-"""Points on the workers of a Dask cluster; results come back to the client, which alone writes them."""
+"""Points on the workers of a Dask cluster; only the client writes results."""
 
 import contextlib
 import logging
@@ -27,7 +27,7 @@ def cluster(
     """Run points on a cluster and yield each as it ends.
 
     The scheduler gives the points of a lost worker to others; one that has taken several workers with it (the
-    scheduler's ``allowed-failures``, 3) is told as failed. Each sound is prepared by one worker, once.
+    scheduler's ``allowed-failures``, 3) is reported as failed. Each sound is prepared by one worker, once.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ def cluster(
     Raises
     ------
     SweepError
-        When none answers, none works, or workers have other code than this side.
+        When no scheduler answers, it has no workers, or their code differs from the client's.
     MissingExtra
         Without Dask.
     """
@@ -80,7 +80,7 @@ def cluster(
 
 
 def _outcome(task: Task, result: Any) -> Outcome:
-    """Return the outcome of a task, or of what it met in its place."""
+    """Return the outcome of a task, or one that reports its failure."""
     if isinstance(result, Outcome):
         return result
     if isinstance(result, ValueError):  # of its sound, which another task prepared
@@ -90,7 +90,7 @@ def _outcome(task: Task, result: Any) -> Outcome:
 
 @contextlib.contextmanager
 def _client(distributed: Any, address: str, timeout: float) -> Iterator[Any]:
-    """Connect to a scheduler; what it holds for us is let go at the end, whatever that was."""
+    """Connect to a scheduler; the data it holds for this client are released at the end in every case."""
     if _ADDRESS.fullmatch(address) is None:
         raise SweepError(f"scheduler = '{address}' is refused: write its address, such as tcp://host:8786")
     quiet = logging.getLogger("distributed")

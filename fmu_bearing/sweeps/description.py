@@ -15,12 +15,12 @@ Value = int | float | str | bool
 
 
 class Description(BaseModel):
-    """What a sweep file holds.
+    """Contents of a sweep file.
 
     Attributes
     ----------
     scene : str
-        Scene file, seen from the sweep file.
+        Scene file, relative to the sweep file.
     axes : dict
         Values by dotted key of the scene: an array, or text as on the command line.
     figures : tuple of str, optional
@@ -54,7 +54,7 @@ def is_description(path: str | os.PathLike[str]) -> bool:
 
 
 def read_description(path: str | os.PathLike[str]) -> Description:
-    """Read a sweep file; the scene's place is then seen from here.
+    """Read a sweep file; the scene's path is then relative to the current folder.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Figures: what is kept of a run, as variables of the table with a statistic over the window."""
+"""Figures of a run: variables of the table with a statistic over the window."""
 
 import math
 from collections.abc import Sequence
@@ -12,7 +12,7 @@ from fmu_bearing.run.names import chosen_names, known
 from fmu_bearing.scene import Scene
 from fmu_bearing.sweeps.axes import SweepError
 
-#: What is kept unless told otherwise.
+#: Default figures.
 DEFAULT = (
     "mic[*].leq_a",
     "mic[*].leq",
@@ -75,9 +75,9 @@ def figures_of(scene: Scene, patterns: Sequence[str] | None = None) -> tuple[Fig
     Raises
     ------
     UnknownName
-        For a name or statistic there is not; it says which is nearest.
+        For an unknown name or statistic; the message suggests the nearest.
     SweepError
-        For a statistic that a variable has not.
+        For a statistic that a variable does not have.
     """
     table = _table(scene)
     found: dict[str, Figure] = {}
@@ -129,7 +129,7 @@ def _value(figure: Figure, signals: NDArray[np.float64], time: NDArray[np.float6
 
 
 def _once_per_turn(signals: NDArray[np.float64], time: NDArray[np.float64], speed: float) -> float:
-    """Rms of what goes round with the shaft; Hann's window keeps out lines that are two of its bins away."""
+    """Rms of the part at shaft speed; Hann's window suppresses lines two of its bins away."""
     turns = abs(speed) * (time[-1] - time[0]) / (2.0 * math.pi)
     if turns < 3.0:  # the line would not be apart from the mean
         return math.nan
@@ -141,7 +141,7 @@ def _once_per_turn(signals: NDArray[np.float64], time: NDArray[np.float64], spee
 
 
 def _table(scene: Scene) -> dict[str, list[Variable]]:
-    """Return what can be asked for: outputs and local variables, velocities as vectors."""
+    """Return the variables that figures can use: outputs and local variables, velocities as vectors."""
     read = {v.name: v for v in variables(scene, rotor_inertia=0.0) if v.array == "z"}
     table: dict[str, list[Variable]] = {}
     for name, variable in read.items():

@@ -1,4 +1,4 @@
-"""Points on processes of this machine; a process that dies loses nothing but the try."""
+"""Points on processes of this machine; the point of a process that dies is run again."""
 
 import os
 import signal
@@ -49,12 +49,12 @@ def processes(
 ) -> Iterator[tuple[Task, Outcome]]:  # fmt: skip
     """Run points in worker processes and yield each as it ends.
 
-    A point whose worker dies is run again, ``TRIES`` times in all; then its reason says so.
+    A point whose worker dies is run ``TRIES`` times at most; then this is its reason.
 
     Raises
     ------
     SweepError
-        When no worker comes to life.
+        When no worker starts.
     """
     sounds = list(dict.fromkeys(task.sound for task in tasks if task.sound is not None))
     with _one_thread(), hired(min(workers, len(tasks))) as crew:
@@ -66,18 +66,18 @@ def processes(
 
 
 def failed(fault: BaseException) -> str:
-    """Return the reason of a point that met a fault of the program."""
+    """Return the outcome of a point that failed by an error of the program."""
     return f"failed: {type(fault).__name__}: {' '.join(str(fault).split())}"
 
 
 def _prepare_sound(scene: Any) -> None:
-    """Fill the cache on disk; a sound that cannot be made is told by each of its points."""
+    """Fill the cache on disk; a sound that cannot be prepared is reported by each of its points."""
     with suppress(ValueError):
         block_of(scene)
 
 
 class _Worker:
-    """One process. A pool of its own, so that its death is known to be its task's."""
+    """One process. It has a pool of its own, so that its death belongs to a known task."""
 
     def __init__(self) -> None:
         self.task: Future[Any] | None = None
@@ -90,7 +90,7 @@ class _Worker:
 
     @property
     def alive(self) -> bool:
-        """Whether it has ever come to life."""
+        """Whether it has ever started."""
         return self.greeting.done() and self.greeting.exception() is None
 
     def give(self, run: Callable[[Any], Any], item: Any) -> Future[Any]:
@@ -113,14 +113,14 @@ class _Worker:
 
 
 def _begin() -> int:
-    """Leave Ctrl-C to the parent, which gets it too; return the process's number."""
+    """Leave Ctrl-C to the parent, which also receives it; return the process's number."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     return os.getpid()
 
 
 @contextmanager
 def hired(count: int) -> Iterator[list[_Worker]]:
-    """Start workers and end them: at once where something went wrong meanwhile."""
+    """Start workers and end them, at once after an error."""
     crew = [_Worker() for _ in range(count)]
     finished = False
     try:
@@ -134,7 +134,7 @@ def hired(count: int) -> Iterator[list[_Worker]]:
 def spread(
     crew: list[_Worker], jobs: Iterable[tuple[Any, Callable[[Any], Any]]]
 ) -> Iterator[tuple[Any, Any]]:  # fmt: skip
-    """Give each job's item to its function on the next free worker; yield items with what came of them."""
+    """Give each job's item to its function on the next free worker; yield items with their results."""
     waiting = deque((item, run, 1) for item, run in jobs)
     busy: dict[Future[Any], tuple[_Worker, Any, Callable[[Any], Any], int]] = {}
     free = list(crew)
@@ -162,7 +162,7 @@ def spread(
 
 @contextmanager
 def _one_thread() -> Iterator[None]:
-    """Let processes that start meanwhile use one thread each: there is one per core."""
+    """Limit processes that start meanwhile to one thread each, because there is one process per core."""
     before = {name: os.environ.get(name) for name in _ONE_THREAD}
     os.environ.update(dict.fromkeys(_ONE_THREAD, "1"))
     try:
@@ -177,7 +177,7 @@ def _one_thread() -> Iterator[None]:
 
 @contextmanager
 def _deaf() -> Iterator[None]:
-    """Let a process that starts meanwhile inherit that Ctrl-C is not for it."""
+    """Make processes that start meanwhile ignore Ctrl-C."""
     if threading.current_thread() is not threading.main_thread():
         yield  # only the main thread may handle signals
         return

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 __all__ = ["draw_map", "label_of", "save", "shown", "sweep_picture"]
 
-#: Drawn unless told otherwise, as far as they are there.
+#: Figures drawn by default, as far as the dataset has them.
 DEFAULT = ("mic[1].leq_a", "outer_ring.velocity", "outer_ring.velocity:1x", "friction_torque")
 _MOST = 9  # panels
 #: Factor and unit in pictures, where SI gives awkward numbers.
@@ -38,7 +38,7 @@ def sweep_picture(data: "xarray.Dataset", figures: Sequence[str] | None = None) 
     data : xarray.Dataset
         Of `sweep`.
     figures : sequence of str, optional
-        Names in the dataset, with ``*`` for any text; default: those of `DEFAULT` that are there.
+        Names in the dataset, with ``*`` for any text; default: those of `DEFAULT` that the dataset has.
 
     Raises
     ------

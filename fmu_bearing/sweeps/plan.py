@@ -1,4 +1,4 @@
-"""The points of a sweep, all checked before the first is run."""
+"""The points of a sweep, which are all checked before the first is run."""
 
 import itertools
 import math
@@ -25,12 +25,12 @@ _MOST = 20  # lines of a refusal
 
 @dataclass(frozen=True)
 class Plan:
-    """What a sweep runs.
+    """All points of a sweep.
 
     Attributes
     ----------
     scene : Scene
-        What is varied; fidelity ``auto`` resolved.
+        The varied scene, with fidelity ``auto`` resolved.
     axes : tuple of Axis
     settle, window : float
         In s.
@@ -38,7 +38,7 @@ class Plan:
     tasks : tuple of Task
         One per point, the last axis fastest.
     note : str
-        What fidelity ``auto`` became, and why.
+        How fidelity ``auto`` was resolved, and why.
     """
 
     scene: Scene
@@ -56,7 +56,7 @@ class Plan:
 
     @property
     def sounds(self) -> tuple[Scene, ...]:
-        """Scenes whose sound has to be prepared, once each."""
+        """Scenes whose sound is prepared, once each."""
         return tuple(dict.fromkeys(task.sound for task in self.tasks if task.sound is not None))
 
 
@@ -76,7 +76,7 @@ def plan(
     SceneError
         For a scene file that is refused.
     UnknownName
-        For a figure there is not.
+        For an unknown figure.
     """
     _check_times(settle, window)
     scene = source if isinstance(source, Scene) else read_scene(source)
@@ -98,7 +98,7 @@ def plan(
 
 
 def _scenes(scene: Scene, axes: tuple[Axis, ...]) -> list[Scene]:
-    """Return the scene of each point, or tell all that is refused."""
+    """Return the scene of each point, or raise with all refusals."""
     found, problems = [], []
     for values in itertools.product(*(axis.values for axis in axes)):
         chosen = {axis.key: value for axis, value in zip(axes, values, strict=True)}

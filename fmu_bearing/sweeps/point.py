@@ -1,4 +1,4 @@
-"""One point of a sweep: a scene is run from its quasi-static state and read over a window."""
+"""One point of a sweep: a run of a scene from its quasi-static state, and its figures over a window."""
 
 import functools
 import hashlib
@@ -21,13 +21,13 @@ from fmu_bearing.run.metrics import COMMUNICATION, SAMPLE
 from fmu_bearing.scene import Scene
 from fmu_bearing.sweeps.figures import figures_of, read
 
-#: Rooms whose code the figures come from, beside the engine's.
+#: Packages whose code computes the figures, beside the engine.
 _ROOMS = ("acoustics", "elastic", "interface", "prepare", "scene", "study/sweep")
 
 
 @dataclass(frozen=True)
 class Task:
-    """What a worker needs to run one point.
+    """Input of a worker for one point.
 
     Attributes
     ----------
@@ -38,7 +38,7 @@ class Task:
         Time (s) left out, and over which figures are taken.
     figures : tuple of str
     sound : Scene or None
-        A scene of the sweep that sounds alike, whose sound block serves; None: no sound.
+        A scene of the sweep with the same sound block; None: no sound.
     code : str
         Digest of the code that is to run it.
     """
@@ -54,7 +54,7 @@ class Task:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What came of a point.
+    """Result of a point.
 
     Attributes
     ----------
@@ -65,7 +65,7 @@ class Outcome:
     wall : float
         Seconds it took.
     lasting : bool
-        Whether another try would end alike; lost workers are no property of the point.
+        Whether another try would give the same result; False after the loss of a worker.
     """
 
     figures: tuple[float, ...]
@@ -91,7 +91,7 @@ def task_of(
 
 
 def run_point(task: Task, block: NDArray[np.float64] | None = None) -> Outcome:
-    """Run one point; what cannot be run has its reason in the outcome.
+    """Run one point; where that fails the outcome has the reason.
 
     ``block``: the sound block, where it came with the task; default: from this machine's cache.
     """
@@ -127,7 +127,7 @@ def _measured(task: Task, sound: NDArray[np.float64]) -> tuple[float, ...]:
 
 
 def _names(wanted: tuple[str, ...], scene: Scene) -> list[str]:
-    """Return those of the figures that this scene has: an axis may take the cage or a ball away."""
+    """Return those of the figures that this scene has: an axis may remove the cage or a ball."""
     names = []
     for name in wanted:
         try:
@@ -146,7 +146,7 @@ def block_of(scene: Scene | None) -> NDArray[np.float64]:
 
 @functools.cache
 def code_digest() -> str:
-    """Digest (16 hex digits) of what figures come from: sources, NumPy's and Numba's version."""
+    """Digest (16 hex digits) of the code that computes figures: sources, versions of NumPy and Numba."""
     parts = f"{source_hash()} {np.__version__} {numba.__version__} {rooms_digest(*_ROOMS)}"
     return hashlib.sha256(parts.encode()).hexdigest()[:16]
 

@@ -20,12 +20,12 @@ if TYPE_CHECKING:
     import xarray
 
 NOT_RUN = "not run"
-#: Beside the figures: what each point has.
+#: Values of each point, beside the figures.
 SEED, WALL, REASON = "seed", "wall", "reason"
 
 
 def dataset(plan: Plan, outcomes: dict[str, Outcome]) -> "xarray.Dataset":
-    """Return figures over the axes; points without have NaN and a ``reason``."""
+    """Return figures over the axes; points without figures have NaN and a ``reason``."""
     xr = need("xarray", "a sweep")
     rows = [outcomes.get(task.key) for task in plan.tasks]
     blank = (math.nan,) * len(plan.figures)
@@ -62,7 +62,7 @@ def _values(values: tuple[Any, ...]) -> np.ndarray:
 
 
 def _attributes(plan: Plan) -> dict[str, Any]:
-    """Return what is needed to make the sweep again, or to doubt it."""
+    """Return the attributes of the dataset: scene, settings, versions, to repeat the sweep."""
     return {
         "title": f"Sweep of {plan.scene.name} over " + ", ".join(axis.key for axis in plan.axes),
         "scene": plan.scene.to_toml(),

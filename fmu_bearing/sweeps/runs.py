@@ -1,4 +1,4 @@
-"""Running the points that are not there yet, wherever, and telling how far it is."""
+"""Running the points that are not finished, with progress."""
 
 import sys
 import time as clock
@@ -14,7 +14,7 @@ Outcomes = dict[str, Outcome]
 
 
 class Interrupted(KeyboardInterrupt):
-    """Ctrl-C in the middle; ``outcomes`` holds what was finished by key."""
+    """Ctrl-C during a sweep; ``outcomes`` holds the finished points by key."""
 
     def __init__(self, outcomes: Outcomes, total: int) -> None:
         super().__init__(f"interrupted: {len(outcomes)} of {total} points are finished")
@@ -30,9 +30,9 @@ def run_plan(
     Raises
     ------
     Interrupted
-        On Ctrl-C; what was finished is in the store.
+        On Ctrl-C; finished points are in the store.
     SweepError
-        When no worker can be had.
+        When no worker is available.
     """
     outcomes = finished(plan, store)
     # points that sound alike follow each other, so that a worker keeps one sound at a time
@@ -59,7 +59,7 @@ def run_plan(
 
 
 def finished(plan: Plan, store: Store | None) -> Outcomes:
-    """Return what the store holds of a plan."""
+    """Return the points of a plan that are in the store."""
     if store is None:
         return {}
     found = ((task.key, store.load(task)) for task in plan.tasks)

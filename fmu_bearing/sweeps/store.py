@@ -14,8 +14,8 @@ FOLDER = "points"
 class Store:
     """Outcomes by key under a folder.
 
-    A key names scene, settings and code, so that a point of another version or of other settings is simply
-    another one. What cannot be read back, or whose checksum differs, counts as not there.
+    A key identifies scene, settings and code, so points of other versions or settings have other keys. A file
+    that cannot be read, or whose checksum differs, is ignored.
     """
 
     def __init__(self, folder: pathlib.Path) -> None:
@@ -23,7 +23,7 @@ class Store:
         self.folder.mkdir(parents=True, exist_ok=True)
 
     def load(self, task: Task) -> Outcome | None:
-        """Return what was kept for a point; None: it has to be run."""
+        """Return the kept outcome of a point, or None."""
         try:
             data = json.loads(self._path(task).read_text("utf-8"))
             point = data["point"]
@@ -37,7 +37,7 @@ class Store:
             return None
 
     def keep(self, task: Task, outcome: Outcome) -> None:
-        """Write a point, unless another try may end better."""
+        """Write a point, unless another try may give another result."""
         if not outcome.lasting:
             return
         figures = zip(task.figures, outcome.figures, strict=True)

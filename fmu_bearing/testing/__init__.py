@@ -1,10 +1,10 @@
-"""FMUs in the tests of whoever uses them: fixtures for pytest, and comparison with recorded references.
+"""Tests of FMUs: fixtures for pytest, and comparison with recorded references.
 
-``plan``        `Plan`: what to run; `step_fmu`
-``comparison``  `compare` a run with a reference: where it departs first, and by how much
+``plan``        `Plan`: inputs, times and outputs of a run; `step_fmu`
+``comparison``  `compare`: where a run first departs from a reference, and by how much
 ``plugin``      options, marker and fixtures; pytest finds it by itself once the package is installed
 
-pytest reads this file in every project of the environment: names are imported when they are asked for.
+pytest reads this file in every project of the environment, so names are imported on first use.
 """
 
 from importlib import import_module

@@ -1,7 +1,7 @@
 """Comparison of a run with a reference: tolerances by unit, time grids that may differ, readable reports.
 
-Allowed is ``atol + rtol * (largest magnitude in the reference's column)``. The column's magnitude, not each
-value, scales the relative part: what oscillates passes through zero, where a ratio means nothing.
+Allowed is ``atol + rtol * (largest magnitude in the reference's column)``. The relative part is scaled by the
+column's magnitude and not by each value, because oscillating values pass through zero.
 """
 
 from collections.abc import Mapping
@@ -19,8 +19,8 @@ Tolerance = float | Mapping[str, float]
 #: library or instruction set changes the last ones. Measured on the 7003C in its spindle: the last bit of the
 #: preload moves torque and velocities by at most 7e-9 of their largest in 30 ms at 20,000 r/min.
 RTOL = 1e-5
-#: Absolute tolerance by unit where none is given: levels are logarithms, which a ratio does not suit; a
-#: temperature's magnitude is 300 K whatever it does.
+#: Absolute tolerance by unit where none is given. Levels are logarithms, so ratios do not suit them; a
+#: temperature is always about 300 K.
 ATOL = {"dB": 0.01, "K": 0.01}
 _NOT_RELATIVE = ("dB", "K")
 _SAME_TIME = 1e-9  # s, or of the last time where that is larger
@@ -28,7 +28,7 @@ _SAME_TIME = 1e-9  # s, or of the last time where that is larger
 
 @dataclass(frozen=True)
 class Departure:
-    """A variable that leaves its reference.
+    """A variable that departs from its reference.
 
     Attributes
     ----------
@@ -85,7 +85,7 @@ def compare(
     Returns
     -------
     list of Departure
-        Those that leave the tolerance, by time of the first point.
+        Variables beyond the tolerance, by time of the first point.
 
     Raises
     ------
@@ -165,7 +165,7 @@ def _departure(
 
 
 def report(run: Run, reference: Run, source: str, departures: list[Departure]) -> str:
-    """Say in words how a run departs from a reference; empty where it does not."""
+    """Describe how a run departs from a reference; empty where it does not."""
     if not departures:
         return ""
     grid = "" if same_times(run.time, reference.time) else ", the run's values interpolated to them"

@@ -1,4 +1,4 @@
-"""What to run, and running it."""
+"""The plan of a test run, and its execution."""
 
 import os
 import warnings
@@ -43,9 +43,9 @@ def step_fmu(fmu: str | os.PathLike[str], plan: Plan) -> Run:
     Raises
     ------
     AssertionError
-        When it refuses a step before the end of the plan.
+        When the FMU refuses a step before the end of the plan.
     ValueError
-        For a plan that does not fit the FMU, or a file that is none.
+        For a plan that does not fit the FMU, or a file that is not an FMU.
     """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # an early end is told below

@@ -1,8 +1,8 @@
 """pytest plugin: ``--fmu``, ``--record-references``, marker ``fmu``, and the fixtures.
 
-Nothing heavy is imported before a fixture is asked for: pytest loads this file in every project of the
-environment. It also rewrites the assert statements of a package that has a plugin; kernels have none, so
-their compiled copies keep their keys.
+Slow imports wait until a fixture is used, because pytest loads this file in every project of the environment.
+pytest also rewrites the assert statements of a package with a plugin. Kernels have no assert statements, so
+their compiled copies stay valid.
 """
 
 import os
@@ -43,7 +43,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> None:
-    """Say which references were written."""
+    """List the references that were written."""
     for line in config.stash[_RECORDED]:
         terminalreporter.write_line(f"reference recorded: {line}", yellow=True)
 

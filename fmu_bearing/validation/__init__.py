@@ -1,19 +1,19 @@
-"""Does an FMU do what FMI 2.0 co-simulation asks of it? `validate` runs every check and tells.
+"""Checks of an FMU against FMI 2.0 co-simulation; `validate` runs them all.
 
 ============  =================================================================================
-``subject``   the FMU under test, its instances, the status of every call
-``remarks``   what a check tells: findings, notes
-``life``      checks of instances: loading, start values, independence, reset
-``refusals``  checks of what should be refused: values, steps, times
-``abilities`` checks of what the description declares: states, steps, derivatives, reference results
-``checks``    all checks in their order
-``worker``    that process: runs checks one after the other, tells after each
+``run``       `validate`: runs the tools, and the checks in a separate process
 ``tools``     FMPy's validation, the checker of fmu-manipulation-toolbox
-``run``       `validate`: tools for the description, a process of its own for the behaviour
+``worker``    the separate process: runs the checks in turn and reports each
+``checks``    list of all checks, in their order
+``life``      checks of instances: loading, start values, independence, reset
+``refusals``  checks with values, steps and times that should be refused
+``abilities`` checks of declared capabilities: states, steps, derivatives, reference results
+``subject``   the FMU under test, its instances, the status of every call
+``remarks``   results of a check: findings, notes
 ============  =================================================================================
 
-A *finding* is something FMI 2.0 requires and the FMU does not do, a call that ends the process, or one that
-does not return. A *note* is a behaviour FMI leaves open that a master had better know.
+A *finding* is a violation of FMI 2.0, a call that ends the process, or one that does not return. A *note* is
+a behaviour that FMI leaves open and that matters to a master.
 """
 
 from fmu_bearing.validation.remarks import FINDING, NOTE, PASSED, SKIPPED, Result

@@ -1,4 +1,4 @@
-"""Checks of what the description declares: variable steps, derivatives, states, reference results."""
+"""Checks of declared capabilities: variable steps, derivatives, states, reference results."""
 
 import csv
 import math
@@ -174,5 +174,5 @@ def reference_results(subject: Subject) -> Iterator[Remark]:
 
 
 def _tiny(column: tuple[float, ...]) -> float:
-    """Return a floor of the range, for what does not move."""
+    """Return a lower bound of the range, for constant variables."""
     return 1e-3 * max(abs(value) for value in column)

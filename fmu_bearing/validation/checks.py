@@ -35,10 +35,10 @@ NEEDED = (life.instantiates, life.finite)
 
 
 def name_of(check: Check) -> str:
-    """Return the name of a check as people read it."""
+    """Return the name of a check in words."""
     return check.__name__.replace("_", " ")
 
 
 def meaning_of(check: Check) -> str:
-    """Return what a check asks of the FMU: the first line of its docstring."""
+    """Return the requirement of a check: the first line of its docstring."""
     return (inspect.getdoc(check) or "").splitlines()[0]

@@ -1,6 +1,6 @@
 """Checks of instances: loading, start values, a first step, independence, reset.
 
-Each check yields what it came upon; the first line of its docstring is what the FMU is to do.
+Each check yields its remarks; the first line of its docstring is the requirement on the FMU.
 """
 
 import math

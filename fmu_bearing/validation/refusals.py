@@ -1,7 +1,7 @@
-"""Checks of what an FMU does with values, steps and times that make no sense.
+"""Checks of an FMU with invalid values, steps and times.
 
-FMI 2.0 puts these on the host and leaves open what an FMU answers; so taking them silently is a note. A host
-that goes on with a refusing instance relies on its state being kept.
+FMI 2.0 asks the host to avoid them and leaves the answer of the FMU open, so silent acceptance is a note. A
+host that continues after a refusal relies on the state being unchanged.
 """
 
 import math

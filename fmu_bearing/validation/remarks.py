@@ -1,8 +1,8 @@
-"""What a check tells."""
+"""Results of checks."""
 
 from dataclasses import dataclass, field
 
-#: How a check ended, from good to bad.
+#: Outcomes of a check, from good to bad.
 PASSED, SKIPPED, NOTE, FINDING = "passed", "skipped", "note", "finding"
 _ORDER = (PASSED, SKIPPED, NOTE, FINDING)
 
@@ -13,16 +13,16 @@ class Skip(Exception):
 
 @dataclass(frozen=True)
 class Remark:
-    """Something a check came upon.
+    """A finding or note of a check.
 
     Attributes
     ----------
     called, returned, expected : str
         What was called, what came back, what was expected instead.
     where : str
-        Section of FMI 2.0 that says so; empty where no call was out of line with it.
+        Section of FMI 2.0 with the requirement; empty where there is none.
     severity : str
-        ``finding`` for what FMI requires, ``note`` for what it leaves open.
+        ``finding`` where FMI requires it, ``note`` where FMI leaves it open.
     """
 
     called: str
@@ -46,11 +46,11 @@ class Result:
     check : str
         Its name.
     meaning : str
-        What it asks of the FMU, in a sentence.
+        The requirement on the FMU, in a sentence.
     outcome : str
         ``passed``, ``skipped`` (it does not apply), ``note`` or ``finding``.
     details : list of str
-        What was found, or why it was skipped.
+        Findings and notes, or why it was skipped.
     """
 
     check: str

@@ -1,4 +1,4 @@
-"""`validate`: all checks of one FMU, none of which can end the process that asks."""
+"""`validate`: all checks of one FMU, in separate processes, so that a crash does not end the caller's."""
 
 import json
 import os
@@ -25,13 +25,13 @@ _LAST_WORDS = 2  # lines of standard error that a finding repeats
 
 
 class NotAnFmu(ValueError):
-    """A file that is no FMU, or none for FMI 2.0 co-simulation."""
+    """A file that is not an FMU for FMI 2.0 co-simulation."""
 
 
 def validate(
     path: str | os.PathLike[str], limit: float = LIMIT, tell: Callable[[str], None] = lambda _: None
 ) -> list[Result]:
-    """Check an FMI 2.0 co-simulation FMU: its description by others' tools, its behaviour by our checks.
+    """Check an FMI 2.0 co-simulation FMU: its description by other tools, its behaviour by own checks.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ def validate(
     Raises
     ------
     NotAnFmu
-        For a file that is none, or for another version or kind of FMI.
+        For a file that is not an FMU, or for another version or kind of FMI.
 
     Examples
     --------
@@ -89,7 +89,7 @@ def _unpack(path: Path, folder: Path) -> None:
 
 
 def _kind(path: Path, folder: Path) -> str:
-    """Return what keeps the description from being read; another version or kind is refused."""
+    """Return why the description cannot be read; another version or kind is refused."""
     try:
         root = ElementTree.parse(folder / _DESCRIPTION).getroot()
     except ElementTree.ParseError as problem:
@@ -110,7 +110,7 @@ def _kind(path: Path, folder: Path) -> str:
 
 
 class _Behaviour:
-    """Runs the checks in processes of their own: one for all, a new one after each that was ended."""
+    """Runs the checks in one separate process; after a check that ended it, in a new one."""
 
     def __init__(self, folder: Path, limit: float, tell: Callable[[str], None]) -> None:
         self.folder, self.limit, self.tell = folder, limit, tell
@@ -142,7 +142,7 @@ class _Behaviour:
         return self.found
 
     def _process(self, first: int, count: int) -> tuple[int, str]:
-        """Run some checks; return which one ended the process and how, in words; none if nothing did."""
+        """Run some checks; return which one ended the process, and how; None if all came to an end."""
         command = [sys.executable, "-m", "fmu_bearing.validation.worker"]
         command += [str(self.folder), str(first), str(count)]
         with (
@@ -159,7 +159,7 @@ class _Behaviour:
             return at, f"the process ended {_how(code)}{_last_words(errors)}" if code else ""
 
     def _listen(self, stream: IO[bytes], first: int) -> tuple[int, bool]:
-        """Take what the process tells until it ends; return the check it was at, and whether it is late."""
+        """Read the reports of the process until it ends; return its last check, and whether it was late."""
         lines: queue.Queue[bytes] = queue.Queue()
         threading.Thread(target=_forward, args=(stream, lines), daemon=True).start()
         at, wait = first, self.limit + _LOADING

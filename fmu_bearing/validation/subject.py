@@ -1,4 +1,4 @@
-"""The FMU under test, and instances of it whose every call tells its status."""
+"""The FMU under test, and instances of it whose calls return their status."""
 
 import itertools
 import math
@@ -39,7 +39,7 @@ class Answer(NamedTuple):
 
     @property
     def good(self) -> bool:
-        """Whether the call did what it was asked."""
+        """Whether the call succeeded."""
         return self.status == OK
 
     @property
@@ -89,7 +89,7 @@ class Instance:
 
 
 class Subject:
-    """An unpacked FMU: what its description says, and instances of it.
+    """An unpacked FMU: its description, and instances of it.
 
     Attributes
     ----------
@@ -134,7 +134,7 @@ class Subject:
         Raises
         ------
         NoInstance
-            When it cannot be initialised: a check of its own tells that.
+            When it cannot be initialised, which a separate check reports.
         """
         with self.instances() as (one,):
             self.initialise(one, changes)

@@ -1,4 +1,4 @@
-"""Validation of the description by others' tools."""
+"""Validation of the description by other tools."""
 
 import logging
 from pathlib import Path

@@ -36,5 +36,5 @@ def silent_file(scene, tmp_path_factory):
 def rings_file(scene, tmp_path_factory):
     """The bare 7003C at fidelity rings, with compact sound."""
     path = tmp_path_factory.mktemp("scene") / "rings.toml"
-    path.write_text(with_fidelity(scene("7003C-bare"), fidelity="rings").to_toml(), "utf-8")
+    path.write_text(with_fidelity(scene("7003C-bare"), model="rings").to_toml(), "utf-8")
     return path

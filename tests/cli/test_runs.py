@@ -58,7 +58,7 @@ def test_a_refused_run_writes_what_it_has(run, silent_file, tmp_path):
     (tmp_path / "load.csv").write_text(
         "time,radial_load.z,pedestal_stiffness\n0,0,1e5\n2e-3,0,1e5\n2e-3,3000,1e5\n"
     )
-    text = silent_file.read_text().replace('level = "full"', 'level = "rings"')
+    text = silent_file.read_text().replace('model = "full"', 'model = "rings"')
     (tmp_path / "rings.toml").write_text(text)
     done = run("simulate", tmp_path / "rings.toml", "-t", 0.05, "-i", tmp_path / "load.csv", "-o", result)
     assert done.exit_code == 3 and "could not be solved" in done.stderr and "written" in done.stdout
@@ -194,7 +194,7 @@ def test_sound_refuses_in_a_line(run, rings_file, heard, silent_file, tmp_path):
         ((folder / "levels.csv",), "is no table of numbers"),
         ((folder / "third-octaves.csv",), "the first column must be 'time'"),
         ((rings_file, "--radiation-model", "loud"), "loud"),
-        ((rings_file, "--level", "best"), "fidelity.model"),
+        ((rings_file, "--fidelity", "best"), "fidelity.model"),
         ((silent_file, "-t", 0.01), "give the scene [sound]"),
     ):
         refused = run("sound", *arguments, "-o", tmp_path)
@@ -203,7 +203,7 @@ def test_sound_refuses_in_a_line(run, rings_file, heard, silent_file, tmp_path):
 
 
 def test_listening_to_pressures_alone(scene):
-    whole = record(with_fidelity(scene("7003C-bare"), fidelity="rings"), 0.05)
+    whole = record(with_fidelity(scene("7003C-bare"), model="rings"), 0.05)
     heard = listen(whole)
     alone = Recording(
         whole.scene, "recorded", whole.rate, whole.start, whole.size, whole.output_time, whole.speed_points,
@@ -216,7 +216,7 @@ def test_listening_to_pressures_alone(scene):
 
 def test_levels_of_a_papers_radiation_model_add_energies(scene):
     """As the paper does (eqs. 43 and 46); the pressures of its sources added would read 0.3 dB more here."""
-    whole = record(with_fidelity(scene("7003C-bare"), fidelity="rings"), 0.05, radiation_model="paper")
+    whole = record(with_fidelity(scene("7003C-bare"), model="rings"), 0.05, radiation_model="paper")
     heard = listen(whole)
     np.testing.assert_array_equal(heard.levels[:, 1], whole.levels(weighting="A"))
     added = level(whole.mean_square(whole.pressure()))

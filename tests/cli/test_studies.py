@@ -15,7 +15,7 @@ from tests.conftest import GATES
 @pytest.fixture
 def auto_file(scene, tmp_path, monkeypatch):
     """A scene of fidelity auto whose choice is given, not probed."""
-    found = with_fidelity(scene("7003C-spindle").model_copy(update={"sound": None}), fidelity="auto")
+    found = with_fidelity(scene("7003C-spindle").model_copy(update={"sound": None}), model="auto")
     probe = Probe("full", "esdirk4", 1e-4, 1e-5, Errors(0.0, 0.0, 0.0, 0.0, math.nan), 1.0)
     choice = Choice(found.name, 1.0, 0.1, (probe, probe), 0)
     monkeypatch.setattr(choosing, "chosen", lambda scene: choice)
@@ -45,17 +45,17 @@ def test_a_faulty_scene_is_told_by_key(run, tmp_path):
 def test_what_a_scene_is_computed_with(run, silent_file, auto_file):
     told = run("scene", "show", silent_file)
     assert told.exit_code == 0
-    assert "level      full, method esdirk4" in told.output and "sound      none" in told.output
-    assert "level      auto, within 1 dB and 0.1" in run("scene", "show", auto_file).output
+    assert "fidelity   full, method esdirk4" in told.output and "sound      none" in told.output
+    assert "fidelity   auto, within 1 dB and 0.1" in run("scene", "show", auto_file).output
 
 
-def test_build_of_a_scene_of_level_auto_notes_the_choice(run, auto_file, tmp_path):
+def test_build_of_a_scene_of_fidelity_auto_notes_the_choice(run, auto_file, tmp_path):
     result = run("build", auto_file, "-o", tmp_path / "auto.fmu")
     assert result.exit_code == 0, result.output
     assert "fidelity auto: full / esdirk4, internal steps up to 10 us" in result.output
     with zipfile.ZipFile(tmp_path / "auto.fmu") as fmu:
         assert b"fidelity auto: full / esdirk4" in fmu.read("documentation/index.html")
-        assert b'level = "full"' in fmu.read("resources/scene.toml")
+        assert b'model = "full"' in fmu.read("resources/scene.toml")
 
 
 def test_choose_prints_table_and_reason(run, auto_file):

@@ -1,16 +1,16 @@
 """The table of extreme cases. A fidelity or a method that arrives later joins ``COMPUTED`` and runs them all.
 
 Each case: a scene, changes to it, inputs at the start, then legs (duration in s, new inputs, communication
-step in s). Every fidelity and method finishes it but those in ``refused``. ``per_ms`` bounds the internal steps,
-accepted and rejected, in any leg per simulated ms: about three times what ESDIRK4 needs, so that a policy
-that begins to thrash is seen, on any machine.
+step in s). Every fidelity and method finishes it but those in ``refused``. ``per_ms`` bounds the internal
+steps, accepted and rejected, in any leg per simulated ms. It is about three times what ESDIRK4 needs, so that
+a step control that rejects too often fails on any machine.
 """
 
 from dataclasses import dataclass, field, replace
 
 from tests.extremes.bearings import PERFECT, SILENT
 
-#: Levels and methods that the engine computes at present.
+#: Fidelities and methods that the engine computes at present.
 COMPUTED = (
     ("full", "esdirk4"),
     ("full", "fast"),

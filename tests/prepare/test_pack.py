@@ -29,8 +29,8 @@ def places(*names):
 @pytest.mark.parametrize(
     ("old", "new", "place", "before", "after"),
     [
-        ('level = "full"', 'level = "rings"', "FIDELITY", 0, 1),
-        ('level = "full"', 'level = "response"', "FIDELITY", 0, 2),
+        ('model = "full"', 'model = "rings"', "FIDELITY", 0, 1),
+        ('model = "full"', 'model = "response"', "FIDELITY", 0, 2),
         ('method = "esdirk4"', 'method = "fast"', "METHOD", 0, 1),
         ('method = "esdirk4"', 'method = "trbdf2"', "METHOD", 0, 2),
         ('method = "esdirk4"', 'method = "rk4"', "METHOD", 0, 3),
@@ -129,16 +129,16 @@ def test_contact_ellipse_and_central_film(scene, race, side, sign):
     assert 1.0 < central / thinnest < 2.0  # the constriction at the outlet is thinner than the middle
 
 
-# --- levels and overrides ------------------------------------------------------------------------
+# --- fidelities and overrides --------------------------------------------------------------------
 
 
 def test_auto_must_be_resolved():
-    auto = read_scene_text(TEXT.replace('level = "full"', 'level = "auto"')).model_copy(
+    auto = read_scene_text(TEXT.replace('model = "full"', 'model = "auto"')).model_copy(
         update={"sound": None}
     )
     for attempt in (lambda: prepare(auto), lambda: pack(auto, NO_SOUND)):
         with pytest.raises(
-            SceneError, match=r"level = 'auto' must be resolved first, to one of full, rings, resp"
+            SceneError, match=r"model = 'auto' must be resolved first, to one of full, rings, resp"
         ):
             attempt()
     model = prepare(auto, fidelity="rings")
@@ -146,7 +146,7 @@ def test_auto_must_be_resolved():
     assert model.scene.fidelity.model == "rings"  # what is written into an FMU needs no resolving again
 
 
-def test_overrides_of_level_method_and_step(scene):
+def test_overrides_of_fidelity_method_and_step(scene):
     bare = scene("7003C-bare").model_copy(update={"sound": None})
     plain = prepare(bare)
     assert plain.scene is bare

@@ -14,7 +14,7 @@ SHORT = 0.04
 @pytest.fixture(scope="module")
 def spindle(scene):
     """Return the 7003C in its spindle, the rings alone: a tenth of a second in no time."""
-    return with_fidelity(scene("7003C-spindle"), fidelity="rings")
+    return with_fidelity(scene("7003C-spindle"), model="rings")
 
 
 @pytest.fixture(scope="module")

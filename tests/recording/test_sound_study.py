@@ -9,7 +9,7 @@ from fmu_bearing.acoustics.analysis.order import waterfall
 from fmu_bearing.acoustics.analysis.third_octave import third_octave_levels
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.recording import measure, pictures, tables
-from fmu_bearing.recording.record import PRESSURE_STEP, Recording, record
+from fmu_bearing.recording.record import Recording, record
 from fmu_bearing.run.table import markdown, write_csv
 from fmu_bearing.scene.read import with_fidelity
 
@@ -18,13 +18,13 @@ P1 = (0.0, 0.105, 0.0)
 
 @pytest.fixture(scope="module")
 def bare(scene):
-    return record(with_fidelity(scene("7003C-bare"), fidelity="rings"), 0.25)
+    return record(with_fidelity(scene("7003C-bare"), model="rings"), 0.25)
 
 
 @pytest.fixture(scope="module")
 def run_up(scene):
     """From 7,000 to 19,000 r/min in half a second, fidelity rings."""
-    spindle = with_fidelity(scene("7003C-spindle"), fidelity="rings")
+    spindle = with_fidelity(scene("7003C-spindle"), model="rings")
     return record(spindle, 0.5, speed=lambda t: 733.0 + 2417.0 * t, radiation_model="compact")
 
 
@@ -101,10 +101,15 @@ def test_run_up_follows_the_shaft(run_up):
 
 def test_fmu_pressures_are_the_recordings(scene, tmp_path):
     """What an FMU shows at every sample is what the channels give, LATENCY earlier; CSV included."""
-    spindle = with_fidelity(scene("7003C-spindle"), fidelity="rings")
+    spindle = with_fidelity(scene("7003C-spindle"), model="rings")
     names = ("mic[1].pressure", "mic[4].pressure")
     own = record(
-        spindle, 0.01, radiation_model="compact", microphones=True, step=PRESSURE_STEP, outputs=names
+        spindle,
+        0.01,
+        radiation_model="compact",
+        microphones=True,
+        step=Recording.PRESSURE_STEP,
+        outputs=names,
     )
     rows = np.array(
         list(zip(own.output_time, own.speed_points, *(own.outputs[name] for name in names), strict=True)),
@@ -145,7 +150,7 @@ def test_fmu_results_that_do_not_serve():
 
 def test_paper_radiation_model_adds_energies(scene):
     """Its level is the engine's own (eqs. 43, 46: energy sums over sources), though filters are not used."""
-    spindle = with_fidelity(scene("7003C-spindle"), fidelity="rings")
+    spindle = with_fidelity(scene("7003C-spindle"), model="rings")
     printed = spindle.model_copy(
         update={"sound": spindle.sound.model_copy(update={"radiation_model": "paper"})}
     )

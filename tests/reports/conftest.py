@@ -29,4 +29,4 @@ def full_page(full_report):
 @pytest.fixture(scope="session")
 def rings(scene):
     """Recording of the 7003C in its spindle, the rings alone."""
-    return observed(with_fidelity(scene("7003C-spindle"), fidelity="rings"), SECONDS, settle=0.02)[0]
+    return observed(with_fidelity(scene("7003C-spindle"), model="rings"), SECONDS, settle=0.02)[0]

@@ -16,7 +16,7 @@ def run(*arguments):
 
 def test_a_scene_at_another_speed_with_run_up_and_its_recording_again(scene, tmp_path):
     file, page, kept = tmp_path / "s.toml", tmp_path / "new" / "page.html", tmp_path / "run.npz"
-    file.write_text(with_fidelity(scene("7003C-spindle"), fidelity="rings").to_toml(), "utf-8")
+    file.write_text(with_fidelity(scene("7003C-spindle"), model="rings").to_toml(), "utf-8")
     made = run(
         file, "-o", page, "--speed", 12_000, "--duration", 0.05, "--title", "Try <1>", "--keep", kept,
         "--run-up", "6000:12000", "--run-up-time", 0.2, "--json",

@@ -85,9 +85,9 @@ def test_terms_can_be_left_out(term):
 
 
 def test_accuracy_may_be_given_in_part():
-    scene = read_scene_text(changed(('level = "full"', 'level = "auto"'), ("relative = 0.1\n", "")))
+    scene = read_scene_text(changed(('model = "full"', 'model = "auto"'), ("relative = 0.1\n", "")))
     assert scene.fidelity.accuracy.relative == 0.1
-    (line,) = refused(changed(("[fidelity.accuracy]", "[fidelity.accuracy]\nmodel = 3")))
+    (line,) = refused(changed(("[fidelity.accuracy]", "[fidelity.accuracy]\nlevel = 3")))
     assert line.startswith("fidelity.accuracy.level is not a key of a scene")
 
 

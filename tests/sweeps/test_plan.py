@@ -13,7 +13,7 @@ from fmu_bearing.sweeps.plan import plan
 
 @pytest.fixture(scope="module")
 def rings(scene):
-    return with_fidelity(scene("7003C-spindle"), fidelity="rings")
+    return with_fidelity(scene("7003C-spindle"), model="rings")
 
 
 def test_points_go_through_the_last_axis_fastest(rings):

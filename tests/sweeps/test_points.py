@@ -14,7 +14,7 @@ from tests.sweeps.points import small
 
 @pytest.fixture(scope="module")
 def rings(scene):
-    return with_fidelity(scene("7003C-bare"), fidelity="rings")
+    return with_fidelity(scene("7003C-bare"), model="rings")
 
 
 def test_figures_are_those_of_a_run_beside(rings):
@@ -60,7 +60,7 @@ def test_the_part_at_shaft_speed_is_found_beside_a_stronger_line():
 
 
 def test_a_point_without_equilibrium_is_refused_and_stops_nothing(scene):
-    quiet = with_fidelity(scene("7003C-bare").model_copy(update={"sound": None}), fidelity="rings")
+    quiet = with_fidelity(scene("7003C-bare").model_copy(update={"sound": None}), model="rings")
     loose = quiet.model_copy(
         update={"mounting": quiet.mounting.model_copy(update={"radial_load_z_N": -2000.0})}
     )

@@ -32,7 +32,7 @@ def given(scene):
 
 def test_dataset_has_axes_units_reasons_and_what_made_it(given):
     made, data = given
-    assert dict(data.sizes) == {"model": 2, "speed_rpm": 4, "pedestal_stiffness_N_m": 3}
+    assert dict(data.sizes) == {"fidelity": 2, "speed_rpm": 4, "pedestal_stiffness_N_m": 3}
     assert (
         data["speed_rpm"].attrs["units"] == "r/min"
         and data["speed_rpm"].attrs["key"] == "operation.speed_rpm"
@@ -56,20 +56,20 @@ def test_netcdf_reads_back_and_the_table_has_a_row_per_point(given, tmp_path):
     with xarray.open_dataset(files["netcdf"], engine="h5netcdf") as read:
         for name in data.data_vars:
             np.testing.assert_array_equal(read[name].values, data[name].values, err_msg=name)
-        assert read["model"].values.tolist() == ["rings", "response"]
+        assert read["fidelity"].values.tolist() == ["rings", "response"]
         assert read.attrs["scene"] == data.attrs["scene"]
         assert read["friction_torque"].attrs["units"] == "N.m"
     with files["csv"].open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     assert len(rows) == 24
-    assert rows[16]["model"] == "response" and float(rows[16]["friction_torque [N.m]"]) == 16.0
+    assert rows[16]["fidelity"] == "response" and float(rows[16]["friction_torque [N.m]"]) == 16.0
     assert rows[5]["friction_torque [N.m]"] == "" and rows[5]["reason"] == "no equilibrium"
     assert {path.name for path in (tmp_path / "new").iterdir()} == {"sweep.nc", "sweep.csv"}
 
 
 def test_maps_curves_and_what_has_neither(given):
     _, data = given
-    map_ = sweep_picture(data.isel(model=0))
+    map_ = sweep_picture(data.isel(fidelity=0))
     assert [ax.get_title() for ax in map_.axes][:2] == ["outer_ring.velocity", "friction_torque"]
     assert map_.axes[0].get_yscale() == "log" and map_.axes[0].get_xscale() == "linear"
     assert map_.axes[0].get_xlabel() == "speed, r/min"
@@ -82,10 +82,10 @@ def test_maps_curves_and_what_has_neither(given):
     assert [line.get_label() for line in ax.get_lines()] == ["rings", "response"]
     np.testing.assert_allclose(ax.get_lines()[1].get_ydata(), 1e3 * np.array([13.0, 16.0, 19.0, 22.0]))
     assert ax.get_ylabel() == "N.mm"
-    with pytest.raises(SweepError, match=r"data.isel\(model=0\)"):
+    with pytest.raises(SweepError, match=r"data.isel\(fidelity=0\)"):
         sweep_picture(data)
     with pytest.raises(SweepError, match="single point"):
-        sweep_picture(data.isel(model=0, speed_rpm=0, pedestal_stiffness_N_m=0))
+        sweep_picture(data.isel(fidelity=0, speed_rpm=0, pedestal_stiffness_N_m=0))
 
 
 def test_a_sweep_as_a_file(tmp_path):

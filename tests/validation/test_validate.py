@@ -41,7 +41,7 @@ def of(results, outcome):
 
 @pytest.fixture(scope="module")
 def model(scene):
-    return prepare(with_fidelity(scene("7003C-spindle"), fidelity="rings"))
+    return prepare(with_fidelity(scene("7003C-spindle"), model="rings"))
 
 
 @pytest.fixture(scope="module")

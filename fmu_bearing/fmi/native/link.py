@@ -38,7 +38,7 @@ class Compiler:
     command : tuple of str
         Its call, without files.
     name : str
-        What it is, for people and for the hash of what it makes.
+        Name and version, for messages and for the hash of the libraries it makes.
     """
 
     command: tuple[str, ...]
@@ -113,12 +113,12 @@ def _version(command: str) -> str:
 def library(platform: Platform, prefer: str = "auto", tell: Tell = silent) -> Path:
     """Shared library for a platform, made unless it is in the cache.
 
-    Where the cache holds one by another compiler and there is none now, that one serves.
+    Where there is no compiler now, a cached library from another compiler is used.
 
     Raises
     ------
     BuildError
-        If it is not there and cannot be made.
+        If it is not in the cache and cannot be made.
     """
     folder = kernel_folder() / platform.name
     sources = digest(Path(__file__).parent / "shim", suffixes=(".c", ".h")).hex()[:16]
@@ -148,7 +148,7 @@ def link(
     Raises
     ------
     BuildError
-        With what the compiler complained of.
+        With the messages of the compiler.
     """
     defines = [f'-DFB_KERNELS="{digest}"']
     if len(platform.instruction_sets) > 1:

@@ -1,7 +1,7 @@
 """A model as the bytes of ``resources/model.bin``, which the C shim reads (``shim/model.h``).
 
-The lower half knows no bearing: :class:`Contents` is what the file holds, whatever the model, and
-:func:`contents_bytes` lays it out. :func:`model_bytes` fills it from a model.
+The lower half is independent of bearings: :class:`Contents` holds the data of the file for any model, and
+:func:`contents_bytes` lays them out. :func:`model_bytes` fills it from a model.
 """
 
 import hashlib
@@ -56,13 +56,13 @@ _STATUS_OF_CATEGORY = {"logAll": 0, "logStatusWarning": 1, "logStatusDiscard": 2
 
 @dataclass(frozen=True)
 class Contents:
-    """What the file holds.
+    """Contents of the file.
 
     Attributes
     ----------
     guid : str
     kernels : str
-        64 hexadecimal digits that name the equations; a library of others refuses the file.
+        64 hexadecimal digits that identify the equations; a library with other equations refuses the file.
     fingerprint : str
         64 hexadecimal digits that bind states to the model.
     parameters, inputs : array_like

@@ -4,8 +4,8 @@ Run as ``python -m fmu_bearing.fmi.native.optimise BITCODE PLATFORM SET FILE``: 
 interpreter, so several objects are made by several processes.
 
 Numba's code for a function that might raise calls back into Python. The kernels never raise; once every
-symbol but the entries is internal, LLVM proves that and drops those calls. The proof is checked: an object
-may ask for nothing but the C library's mathematics.
+symbol but the entries is internal, LLVM proves that and drops those calls. The result is checked: an object
+may call the C library's mathematics only.
 """
 
 import re
@@ -20,7 +20,7 @@ from fmu_bearing.fmi.native.platforms import PLATFORMS, Platform
 
 __all__ = ["BuildError", "check", "object_code"]
 
-#: What an object may leave to the C library; calls of the compilers' own are memory's.
+#: Functions of the C library that an object may call; compilers add those on memory.
 MATHEMATICS = frozenset(
     "acos asin atan atan2 cbrt ceil copysign cos cosh exp exp2 expm1 fabs floor fmod hypot log log10 log1p "
     "log2 pow round sin sincos sinh sqrt tan tanh trunc memcpy memmove memset".split()

@@ -1,8 +1,8 @@
 """What MkDocs does not do by itself: generated references, links to files outside docs, captions, formulas.
 
-A page says ``<!-- generated: scene -->`` where ``reference.scene()`` belongs; the text is made when the site
-is built and kept nowhere else. Formulas between dollar signs become MathML when the site is built, so that no
-script has to set them in the browser.
+A page says ``<!-- generated: scene -->`` where ``reference.scene()`` belongs, or a function of ``structure``;
+the text is made when the site is built and kept nowhere else. Formulas between dollar signs become MathML
+when the site is built, so that no script has to set them in the browser.
 """
 
 import html
@@ -17,10 +17,19 @@ from mkdocs.structure.files import File, InclusionLevel
 
 ROOT = Path(__file__).parents[2]
 
-# Loaded by its path: MkDocs puts no folder of hooks on the import path.
-_spec = importlib.util.spec_from_file_location("docs_reference", Path(__file__).with_name("reference.py"))
-reference = importlib.util.module_from_spec(_spec)
-_spec.loader.exec_module(reference)
+#: Pages of the root of the repository that have a place in the site.
+_ROOT_PAGES = {"CHANGELOG.md": "changes.md", "CONTRIBUTING.md": "contributing.md"}
+
+
+def _beside(name):
+    """Load a module beside this one by its path: MkDocs puts no folder of hooks on the import path."""
+    spec = importlib.util.spec_from_file_location(f"docs_{name}", Path(__file__).with_name(f"{name}.py"))
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+_makers = vars(_beside("reference")) | vars(_beside("structure"))
 
 _log = logging.getLogger("mkdocs.hooks")
 
@@ -35,15 +44,16 @@ _LANGUAGES = {".py": "python", ".toml": "toml", ".c": "c", ".h": "c"}
 
 
 def on_files(files, config):
-    """Add the changelog, and each file outside docs that a page links to as a page of its own."""
-    changes = (ROOT / "CHANGELOG.md").read_text("utf-8").replace("](docs/", "](")
-    files.append(File.generated(config, "changes.md", content=changes))
+    """Add pages of the root, and each file outside docs that a page links to as a page of its own."""
+    for name, page in _ROOT_PAGES.items():
+        content = (ROOT / name).read_text("utf-8").replace("](docs/", "](")
+        files.append(File.generated(config, page, content=content))
     linked = {
         _outside(file.src_uri, link)
         for file in files.documentation_pages()
         for link in _LINK.findall(file.content_string)
     } - {None}
-    for path in sorted(linked):
+    for path in sorted(linked - set(_ROOT_PAGES)):
         files.append(
             File.generated(
                 config, _source_page(path), content=_shown(path), inclusion=InclusionLevel.NOT_IN_NAV
@@ -56,7 +66,7 @@ def on_page_markdown(markdown, page, config, files):
     """Put generated references in their places, and point links to files outside docs at their pages."""
     if page.file.src_uri.startswith("results/"):
         page.meta.setdefault("hide", ["toc"])  # room for wide tables
-    markdown = _GENERATED.sub(lambda match: getattr(reference, match[1])(), markdown)
+    markdown = _GENERATED.sub(lambda match: _makers[match[1]](), markdown)
     here = page.file.src_uri
 
     def pointed(match):
@@ -94,6 +104,8 @@ def _outside(page, link):
 
 
 def _source_page(path):
+    if path in _ROOT_PAGES:
+        return _ROOT_PAGES[path]
     return f"source/{path}" if path.endswith(".md") else f"source/{path}.md"
 
 

@@ -19,9 +19,9 @@ from fmu_bearing.run.result import Run, structured
 from fmu_bearing.scene import SceneError, read_scene, read_scene_text
 from fmu_bearing.scene.values import fields_of
 from fmu_bearing.sweeps.axes import ALIASES, SweepError, axes_of
-from tests.conftest import SCENES
+from tests.conftest import GATES
 
-FILE = SCENES / "7003C-bare.toml"
+FILE = GATES / "7003C-bare.toml"
 #: Functions that took an old argument, each with that argument.
 FUNCTIONS = [
     *((function, "rung") for function in (fmu_bearing.record, make, listen.listen, listen.write_all)),

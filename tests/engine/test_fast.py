@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fmu_bearing.engine.choices import METHODS
-from fmu_bearing.engine.fidelities.full.methods import newmark
+from fmu_bearing.engine.fidelities.full.fast import newmark
 from fmu_bearing.engine.layout import A, F, J, Q, S, U, W, Y
 from fmu_bearing.engine.newton.block_arrow import factor
 from fmu_bearing.engine.newton.jacobian import jacobian

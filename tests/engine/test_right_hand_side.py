@@ -304,7 +304,7 @@ def test_other_speeds(case, rpm):
     "term", ["CAGE", "GRAVITY", "DRAG", "ROLLING", "GYROSCOPIC", "WAVINESS", "IMPERFECTION_SCALE"]
 )
 def test_without_a_term(case, term):
-    agree(case(SCENES[0], LAND=0.0, **{f"P_{term}": 0.0}), ROUNDING)
+    agree(case(SCENES[0], LAND=0.0, **{term: 0.0}), ROUNDING)
 
 
 def test_waviness_table_holds_the_harmonics(case):

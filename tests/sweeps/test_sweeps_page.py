@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 from fmu_bearing import cli
 from fmu_bearing.sweeps.description import read_description
 
-ROOT = pathlib.Path(__file__).parents[3]
+ROOT = pathlib.Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "sweeps.md").read_text("utf-8")
 
 

@@ -129,7 +129,7 @@ def test_fmu_pressures_are_the_recordings(scene, tmp_path):
     assert heard.levels() == pytest.approx(own.levels([own.positions[0], own.positions[3]]), abs=1.0)
     assert heard.kinematics().f_r == pytest.approx(own.kinematics().f_r)
     for call in (heard.partial, lambda: heard.pressure([(9.0, 9.0, 9.0)])):
-        with pytest.raises(ValueError, match=r"study\.recording\.record"):
+        with pytest.raises(ValueError, match=r"fmu_bearing\.record"):
             call()
     with pytest.raises(ValueError, match="motion"):
         measure.motion_power(heard)

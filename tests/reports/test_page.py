@@ -70,11 +70,12 @@ def test_assumed_values_carry_the_files_remarks(tmp_path):
     assert any("turns of the cage" in warning for warning in made.warnings)
 
 
-def test_level_rings_says_what_does_not_move(rings, tmp_path):
+def test_fidelity_rings_says_what_does_not_move(rings, tmp_path):
     page = Page(report(rings, tmp_path / "rings.html"))
     assert {t["meta"]["orbit"] for t in page.traces("orbits")} == {"inner_ring", "outer_ring"}
-    for section in ("velocities", "orbits", "friction"):
-        assert "Fidelity rings" in page.sections[section]
+    for section in ("velocities", "orbits"):
+        assert "Fidelity full computes the motion of cage and balls" in page.sections[section]
+    assert "With fidelity rings, torque and heats" in page.sections["friction"]
     assert "cage" not in {row[0] for row in page.tables["Velocity of the centres about its mean, mm/s"]}
     assert "many of these was measured" not in page.text
     assert any("values that the papers leave open" in caption for caption in page.tables)

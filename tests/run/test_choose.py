@@ -10,7 +10,17 @@ from fmu_bearing.fmi import documentation
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.run import choose as choosing
-from fmu_bearing.run.choose import CANDIDATES, FINEST, Choice, Probe, choose, chosen, resolve, too_far
+from fmu_bearing.run.choose import (
+    CANDIDATES,
+    FINEST,
+    Choice,
+    Probe,
+    bounded,
+    choose,
+    chosen,
+    resolve,
+    too_far,
+)
 from fmu_bearing.run.metrics import Errors
 from fmu_bearing.scene import SceneError
 
@@ -92,7 +102,7 @@ def test_the_resolved_scene_is_the_one_written_by_hand(automatic, silent, loose,
 def test_the_scenes_tolerance_and_step_are_upper_bounds(automatic):
     scene = automatic(1.0, 0.1)
     for candidate in (*CANDIDATES, FINEST):
-        made = candidate.scene(scene).fidelity
+        made = bounded(candidate, scene).fidelity
         assert made.tolerance <= scene.fidelity.tolerance
         assert made.max_internal_step_us <= scene.fidelity.max_internal_step_us
 

@@ -240,3 +240,24 @@ def test_bash_blocks_hold_only_what_cannot_be_run():
             if language == "bash":
                 first = {words[0] for words in commands(script)}
                 assert first <= {"python3", ".", "pip", "python", "make", "git"}, page
+
+
+def test_pages_are_narrow():
+    """Prose keeps within 110 columns; rows of tables cannot be broken, generated pages are a run's."""
+    pages = [*PAGES, ROOT / "CHANGELOG.md", ROOT / "CONTRIBUTING.md", ROOT / "benchmarks" / "README.md"]
+    wide = {
+        f"{page.relative_to(ROOT).as_posix()}:{number}"
+        for page in pages
+        if page.parent.name not in ("results", "papers")
+        for number, line in enumerate(page.read_text(encoding="utf-8").splitlines(), 1)
+        if len(line) > 110 and not line.startswith(("|", "["))
+    }
+    assert not wide
+
+
+def test_the_page_on_analysis_uses_public_names():
+    found = re.findall(
+        r"^from (fmu_bearing\S*) import (.+)$", (DOCS / "analysis.md").read_text("utf-8"), re.M
+    )
+    assert found and {module for module, _ in found} == {"fmu_bearing"}
+    assert {name.strip() for _, names in found for name in names.split(",")} <= set(fmu_bearing.__all__)

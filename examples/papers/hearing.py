@@ -26,6 +26,7 @@ from fmu_bearing.acoustics.filters.weighting import a_weighting_sections, level
 from fmu_bearing.acoustics.radiation.compact import Path
 from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.engine.layout import SD
+from fmu_bearing.engine.sources import rooms_digest
 from fmu_bearing.recording.heard import air_of
 from fmu_bearing.recording.record import Recording
 from fmu_bearing.scene import Scene
@@ -137,12 +138,7 @@ def _kept_paths(
 @functools.cache
 def sources_hash() -> str:
     """Hash (12 hex digits) of the sources of sound and elasticity: what is kept follows the code."""
-    digest = hashlib.sha256()
-    root = pathlib.Path(circles.__code__.co_filename).parents[1]
-    for room in ("acoustics", "elastic"):
-        for path in sorted((root / room).rglob("*.py")):
-            digest.update(path.read_bytes())
-    return digest.hexdigest()[:12]
+    return rooms_digest("acoustics", "elastic")[:12]
 
 
 def equivalent(sources: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -15,6 +15,7 @@ from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 import numpy as np
 
+from fmu_bearing.engine.choices import FIDELITIES
 from fmu_bearing.fmi.units import NO_UNIT, UNITS
 from fmu_bearing.interface import Variable
 
@@ -69,16 +70,14 @@ LOG_CATEGORIES = {
     "logAll": "All messages.",
 }
 
+_FIDELITIES = {
+    "full": "Six degrees of freedom for every ball, the rings and the cage.",
+    "rings": "Rings are dynamic; balls and cage move kinematically.",
+    "response": "Linear response around the quasi-static state.",
+}
 #: Integers of the table that read better by name: type name, then (item, value, what it means).
 ENUMERATIONS: dict[str, tuple[str, tuple[tuple[str, int, str], ...]]] = {
-    "fidelity": (
-        "Fidelity",
-        (
-            ("full", 0, "Six degrees of freedom for every ball, the rings and the cage."),
-            ("rings", 1, "Rings are dynamic; balls and cage move kinematically."),
-            ("response", 2, "Linear response around the quasi-static state."),
-        ),
-    ),
+    "fidelity": ("Fidelity", tuple((name, k, _FIDELITIES[name]) for k, name in enumerate(FIDELITIES))),
 }
 
 # Default experiment, assumed: a few shaft turns after the start has died away (10-20 ms), at a

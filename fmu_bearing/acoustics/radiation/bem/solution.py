@@ -31,6 +31,7 @@ from fmu_bearing.acoustics.radiation.bem.solver import (
     wall_admittance,
 )
 from fmu_bearing.engine.jit import cache_directory
+from fmu_bearing.engine.sources import digest
 
 Complex = NDArray[np.complex128]
 
@@ -97,17 +98,15 @@ class Task:
 
     def key(self) -> str:
         """Hash of all numbers and of the sources that solve them."""
-        digest = hashlib.sha256()
-        for path in sorted(pathlib.Path(__file__).parent.glob("*.py")):
-            digest.update(path.read_bytes())
+        found = hashlib.sha256(digest(pathlib.Path(__file__).parent))
         numbers = [self.sound_speed, self.density, self.orbit, self.harmonics, self.baffled]
-        digest.update(repr((numbers, self.plane)).encode())
+        found.update(repr((numbers, self.plane)).encode())
         for body in self.bodies:
-            digest.update(body.contour.tobytes() + repr(body.sides).encode())
+            found.update(body.contour.tobytes() + repr(body.sides).encode())
         for shape in self.shapes:
-            digest.update(repr((shape.component, shape.order)).encode())
-            digest.update(shape.points.tobytes() + shape.shape.tobytes())
-        return digest.hexdigest()[:24]
+            found.update(repr((shape.component, shape.order)).encode())
+            found.update(shape.points.tobytes() + shape.shape.tobytes())
+        return found.hexdigest()[:24]
 
     @property
     def orders(self) -> int:

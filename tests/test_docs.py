@@ -261,3 +261,10 @@ def test_the_page_on_analysis_uses_public_names():
     )
     assert found and {module for module, _ in found} == {"fmu_bearing"}
     assert {name.strip() for _, names in found for name in names.split(",")} <= set(fmu_bearing.__all__)
+
+
+def test_formulas_are_set_as_mathematics(site):
+    """MathML, made when the site is built: nothing is left to a script, which offline would not run."""
+    theory = (site / "theory.html").read_text(encoding="utf-8")
+    assert theory.count("<math") > 50
+    assert "arithmatex" not in theory

@@ -18,7 +18,7 @@ FILES = sorted(
 LAYOUT = set("A C EQ F FL J L LN MO P Q R S SD ST T TAB U W X Y Z".split())
 LARGEST = 2  # 0, 1, 2 are components of a vector, neighbours, pairs
 #: Functions whose numbers are not places of an array, with the reason.
-FREE = {"times": "twelve sums by name stay in registers; three groups of four cost 5 % of fidelity rings"}
+FREE = {"times": "twelve sums by name stay in registers; groups of four take 5 % longer"}
 
 
 def literals(node):

@@ -89,8 +89,10 @@ def test_what_the_model_was_built_as_is_a_constant(scene):
     fidelity = bare.fidelity.model_copy(update={"model": "response", "method": "rk4"})
     found = table(bare.model_copy(update={"fidelity": fidelity}))
     assert (found["fidelity"].value, found["method"].value) == (2, 3)
-    assert found["method"].description == "Integrator of fidelity full: 0 esdirk4, 1 fast, 2 trbdf2, 3 rk4"
-    assert found["fidelity"].description == "Fidelity: 0 full, 1 rings, 2 response"
+    # the numbers that FMUs give out are a contract: what is added comes behind them
+    words = "Integrator of fidelity full: 0 esdirk4, 1 fast, 2 trbdf2, 3 rk4"
+    assert found["method"].description.startswith(words)
+    assert found["fidelity"].description.startswith("Fidelity: 0 full, 1 rings, 2 response")
 
 
 def test_details_of_contacts_cage_and_torque(scene):

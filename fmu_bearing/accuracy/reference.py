@@ -51,7 +51,7 @@ def _moved(y, a, k, out):
 def runge_kutta(p, c, y, angle, speed, h, steps, w, k):
     """Take ``steps`` steps of ``h`` (s) by the classical method of Kutta (1901), in place on ``y``.
 
-    ``angle`` (rad) of the shaft at the start, ``speed`` (rad/s) constant; ``k``: scratch, 6 x Y_SIZE.
+    ``angle`` (rad) of the shaft at the start, ``speed`` (rad/s) constant; ``k``: scratch, 6 x Y.SIZE.
     """
     f = k[5]
     new = k[4]

@@ -289,5 +289,5 @@ def test_short_pages_say_what_is_known(tmp_path, monkeypatch):
     assert "level grows with speed | holds" in text["impact-noise"]
     # one scalar, one point: reached to the half decibel where sound follows the scalar
     for name in ("multi-source", "sound-field"):
-        left = re.search(r"left over ([+-]\d+\.\d) dB", text[name])
+        left = re.search(r"left over: ([+-]\d+\.\d) dB", text[name])
         assert abs(float(left.group(1))) <= 0.5

@@ -57,7 +57,6 @@ LOSS_CAGE = _at(STRIDE)  # in the pockets,
 LOSS_DRAG = _at(STRIDE)  # by drag on the balls and by the dampers between them
 AXES = _at(3 * STRIDE)  # the balls' body-fixed axes at the state evaluated
 ROWS = _at.next
-SCALARS = _at(64)
 LANDS_ENERGY = _at()  # J: stored in the cage's lands
 LOAD = _at(_EQ.FREEDOMS)  # N, N m: on the inner ring, for the quasi-static kernel
 TILT = _at(2)  # rad: tilts y z of the outer ring that it found

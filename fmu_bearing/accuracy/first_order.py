@@ -1,7 +1,7 @@
 """Fidelity ``full`` as x' = g(t, x), for general-purpose integrators.
 
 ``x`` holds nine rows of one number per ball (x, r, theta, their rates, spin), then 17 coordinates of the
-bodies and their 17 rates, as ``y`` in ``engine.layout`` without its spare lanes.
+bodies and their 17 rates, as ``y`` in ``engine.layout.y`` without its spare lanes.
 """
 
 import numpy as np
@@ -18,11 +18,11 @@ from fmu_bearing.run.arrays import RINGS, Arrays
 def spread(p, x, y):
     """Copy ``x`` into ``y``; the spare lanes take ball 0, as everywhere in the engine."""
     balls = int(p[P.BALLS])
-    for i in range(9):
+    for i in range(J.STATES):
         for j in range(int(p[P.LANES])):
             y[i * STRIDE + j] = x[i * balls + (j if j < balls else 0)]
-    for i in range(2 * Q.SIZE):
-        y[Y.Q0 + i] = x[9 * balls + i]
+    for i in range(J.BODIES):
+        y[Y.Q0 + i] = x[J.STATES * balls + i]
 
 
 @entry
@@ -32,43 +32,46 @@ def first_order(p, c, angle, speed, t, x, w, f, y, dx):
     ``p`` parameters, ``c`` conditions, ``speed`` of the shaft (rad/s, constant); ``w``, ``f``, ``y`` scratch.
     """
     balls = int(p[P.BALLS])
+    rates = J.PLACED * balls
+    body = J.STATES * balls
     spread(p, x, y)
     right_hand_side(p, c, y, angle + speed * t, speed, 0.0, w, f)
-    for i in range(3 * balls):
-        dx[i] = x[3 * balls + i]
-    for i in range(6):
+    for i in range(rates):
+        dx[i] = x[rates + i]
+    for i in range(J.BALL):
         for j in range(balls):
-            dx[(3 + i) * balls + j] = f[i * STRIDE + j]
+            dx[rates + i * balls + j] = f[i * STRIDE + j]
     for i in range(Q.SIZE):
-        dx[9 * balls + i] = y[Y.V0 + i]
-        dx[9 * balls + Q.SIZE + i] = f[F.BODY + i]
+        dx[body + i] = y[Y.V0 + i]
+        dx[body + Q.SIZE + i] = f[F.BODY + i]
 
 
 @entry
 def first_order_jacobian(p, c, angle, speed, t, x, w, blocks, y, out):
     """Fill the dense matrix ``out`` with d(dx)/dx from the blocks of the engine's own Jacobian."""
     balls = int(p[P.BALLS])
-    body = 9 * balls
+    rates = J.PLACED * balls
+    body = J.STATES * balls
     spread(p, x, y)
     jacobian(p, c, y, angle + speed * t, speed, 0.0, w, blocks)
     for i in range(out.shape[0]):
         for k in range(out.shape[0]):
             out[i, k] = 0.0
     for j in range(balls):
-        for k in range(3):
-            out[k * balls + j, (3 + k) * balls + j] = 1.0
-        for i in range(6):
-            for k in range(9):
-                out[(3 + i) * balls + j, k * balls + j] = blocks[J.B + (i * 9 + k) * STRIDE + j]
-            for g in range(2 * Q.SIZE):
-                out[(3 + i) * balls + j, body + g] = blocks[J.C + (i * 34 + g) * STRIDE + j]
+        for k in range(J.PLACED):
+            out[k * balls + j, rates + k * balls + j] = 1.0
+        for i in range(J.BALL):
+            for k in range(J.STATES):
+                out[rates + i * balls + j, k * balls + j] = blocks[J.B + (i * J.STATES + k) * STRIDE + j]
+            for g in range(J.BODIES):
+                out[rates + i * balls + j, body + g] = blocks[J.C + (i * J.BODIES + g) * STRIDE + j]
         for i in range(Q.SIZE):
-            for k in range(9):
-                out[body + Q.SIZE + i, k * balls + j] = blocks[J.D + (i * 9 + k) * STRIDE + j]
+            for k in range(J.STATES):
+                out[body + Q.SIZE + i, k * balls + j] = blocks[J.D + (i * J.STATES + k) * STRIDE + j]
     for i in range(Q.SIZE):
         out[body + i, body + Q.SIZE + i] = 1.0
-        for g in range(2 * Q.SIZE):
-            out[body + Q.SIZE + i, body + g] = blocks[J.E + i * 34 + g]
+        for g in range(J.BODIES):
+            out[body + Q.SIZE + i, body + g] = blocks[J.E + i * J.BODIES + g]
 
 
 class FirstOrder:
@@ -91,10 +94,10 @@ class FirstOrder:
         self.angle = float(bearing.s[S.ANGLE])
         self.speed = float(bearing.s[S.SPEED])
         y = bearing.s[S.Y : S.Y + Y.SIZE]
-        rows = y[: 9 * STRIDE].reshape(9, STRIDE)[:, :balls]
+        rows = y[: Y.Q0].reshape(J.STATES, STRIDE)[:, :balls]
         self.start = np.concatenate([rows.ravel(), y[Y.Q0 :]])
         self.size = self.start.size
-        self.rings = RINGS - Y.Q0 + 9 * balls
+        self.rings = RINGS - Y.Q0 + J.STATES * balls
         self.scale = np.concatenate([_BALL_SCALE.repeat(balls), _BODY_SCALE, 1e4 * _BODY_SCALE])
         self._w = np.zeros(bearing.w.size)
         self._f = np.zeros(F.SIZE)

@@ -47,7 +47,7 @@ def outputs(scene: Scene) -> list[Variable]:
         table.append(_read("cage.speed_ratio", "output", "Speed of the cage over the shaft's", nominal=0.4))
     for j in range(scene.bearing.ball_count):
         words = f"Velocity of ball {j + 1}, orbit included,"
-        place = Z.BALLS + 3 * j
+        place = Z.BALLS + Z.PER_BALL * j
         table += _vector(f"ball[{j + 1}]", "velocity", "output", words, "m/s", place, nominal=10.0)
     table += _microphones(scene, "output")
     table += _flexure(scene)

@@ -10,7 +10,7 @@ from scipy.special import roots_jacobi
 from fmu_bearing import renamed
 from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.engine.choices import FIDELITIES, METHODS, RACE_CONTROLS
-from fmu_bearing.engine.layout import SD, STRIDE, P
+from fmu_bearing.engine.layout import FOUR, SD, STRIDE, P
 from fmu_bearing.interface import Variable, variables
 from fmu_bearing.prepare import bodies, contacts
 from fmu_bearing.prepare.flexure import longest_step, mode_table
@@ -153,7 +153,7 @@ def pack(scene: Scene, sound: NDArray[np.float64]) -> NDArray[np.float64]:
             p[start : start + table.size] = table
             start += table.size
     p[P.BALLS] = scene.bearing.ball_count
-    p[P.LANES] = 4 * math.ceil(scene.bearing.ball_count / 4)
+    p[P.LANES] = FOUR * math.ceil(scene.bearing.ball_count / FOUR)
     p[P.WAVINESS] = float(tables[P.AT_WAVES].size > 0)
     if tables[P.AT_BALL_WAVES].size:
         p[P.BALL_WAVES] = tables[P.AT_BALL_WAVES].size - 3 * STRIDE

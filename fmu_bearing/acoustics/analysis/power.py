@@ -111,11 +111,14 @@ def dipoles(radiators: Radiators, channels: int) -> dict[str, NDArray[np.float64
         if ring is not None:
             found[name] = _body(channels, channel, ring_volumes(ring.outer, ring.inner, ring.width))
     balls = np.zeros((3, channels))
-    first = SD.C_BALLS + 2  # order 1: x cos, x sin, r cos, r sin, t cos, t sin
-    balls[0, SD.C_BALLS] = 1.0
-    if channels >= first + 6:
-        balls[1, [first + 3, first + 4]] = -1.0  # a_y = -a_r sin - a_t cos
-        balls[2, first + 2], balls[2, first + 5] = 1.0, -1.0  # a_z = a_r cos - a_t sin
+    first = SD.C_HARMONICS  # of order 1
+    balls[0, SD.C_BALLS + SD.MEAN_X] = 1.0
+    if channels >= first + SD.HARMONIC_SIZE:
+        balls[1, [first + SD.HARMONIC_R_SIN, first + SD.HARMONIC_T_COS]] = -1.0  # a_y = -a_r sin - a_t cos
+        balls[2, first + SD.HARMONIC_R_COS], balls[2, first + SD.HARMONIC_T_SIN] = (
+            1.0,
+            -1.0,
+        )  # a_z = a_r cos - a_t sin
     found["balls"] = balls * (2.0 * np.pi * (radiators.ball_diameter / 2.0) ** 3)
     return found
 

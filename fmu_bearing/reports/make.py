@@ -234,6 +234,11 @@ def _taken(
         raise ValueError(
             "the speed of a recording cannot be changed: give the scene to run it at another one"
         )
+    if radiation_model is not None and recording.history.size == 0:
+        raise ValueError(
+            f'radiation_model = "{radiation_model}" needs channels, and this recording holds pressures only: '
+            "leave radiation_model out, or give the scene"
+        )
     if radiation_model is not None and form_of(radiation_model) != form_of(recording.radiation_model):
         raise ValueError(
             f'radiation_model = "{radiation_model}" needs other channels than this recording with '

@@ -95,6 +95,8 @@ def test_pressures_of_an_fmu_alone(tmp_path):
         None, "recorded", rate, 0.0, size, time, np.full(size, math.nan), {}, recorded=tone[None],
         microphones=(("mic[1].pressure", (math.nan,) * 3),),
     )  # fmt: skip
+    with pytest.raises(ValueError, match='radiation_model = "compact".*pressures only.*give the scene'):
+        make(recording, tmp_path / "other.html", radiation_model="compact")
     made = make(recording, tmp_path / "fmu.html")
     page = Page(made.path)
     missing = {key for key, reason in made.sections.items() if reason}

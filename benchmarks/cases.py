@@ -62,12 +62,11 @@ class Solver:
     @property
     def parameters(self) -> dict[str, float]:
         """Places of ``p`` that choose it."""
-        return {"FIDELITY": FIDELITIES.index(self.fidelity), "METHOD": METHODS.index(self.method)}
+        return {"FIDELITY": FIDELITIES.index(self.fidelity), "METHOD": METHODS[self.method]}
 
 
 SOLVERS = (
     Solver("full", "esdirk4", 2.0, 0.5),
-    Solver("full", "fast", 4.0, 0.5),
     Solver("full", "trbdf2", 0.0),
     Solver("full", "rk4", 0.0),
     Solver("rings", "esdirk4", 20.0),

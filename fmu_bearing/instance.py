@@ -25,7 +25,7 @@ REASONS = {
     BAD_STEP: "the communication step must be a positive, finite number of seconds",
     NO_START: "no quasi-static equilibrium was found for the initial inputs; "
     "give more preload or less radial load",
-    RIGID_ONLY: "its rings bend, which needs fidelity full and method esdirk4, trbdf2 or rk4",
+    RIGID_ONLY: "its rings bend, which needs fidelity full",
     TOO_SOFT: "the loads push the outer ring sideways by more than 0.3 of the pitch radius; "
     "give a stiffer pedestal or less radial load",
 }

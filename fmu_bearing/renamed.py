@@ -1,4 +1,4 @@
-"""Names that changed before the first release. An old one is refused by a message with the new one."""
+"""Names that changed before the first release, and values that were removed: refused with what serves."""
 
 import functools
 from collections.abc import Callable
@@ -8,6 +8,8 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 
 #: Keys of a scene.
 KEYS = {"fidelity.level": "fidelity.model", "sound.rung": "sound.radiation_model"}
+#: Values of a scene's keys that were removed, each with the one to use instead.
+VALUES = {"fidelity.method": {"fast": "esdirk4"}}
 #: Options of the command line.
 OPTIONS = {"--level": "--fidelity", "--rung": "--radiation-model"}
 #: Variables of a bearing.

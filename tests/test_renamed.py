@@ -1,6 +1,7 @@
 """An old name is refused with a message that gives the new name, and the new name exists."""
 
 import inspect
+from typing import get_args
 
 import pytest
 import typer.main
@@ -57,6 +58,24 @@ def test_keys_by_keyword():
         with pytest.raises(SceneError, match=r"fidelity\.level is now fidelity\.model"):
             call()
     assert Bearing(read_scene(FILE).model_copy(update={"sound": None}), fidelity="rings")["fidelity"] == 1.0
+
+
+@pytest.mark.parametrize(
+    ("key", "old", "new"), [(key, *pair) for key, pairs in renamed.VALUES.items() for pair in pairs.items()]
+)
+def test_values(key, old, new):
+    table, _, name = key.rpartition(".")
+    present = fields_of(read_scene(FILE))[key]
+    before, after = (f'\n{name} = "{value}"\n' for value in (new, old))
+    text = FILE.read_text("utf-8")
+    assert table == "fidelity" and text.count(before) == 1 and new in get_args(present.annotation)
+    for call in (lambda: read_scene_text(text.replace(before, after), "a.toml"),
+                 lambda: fmu_bearing.with_fidelity(read_scene(FILE), **{name: old}),
+                 lambda: Bearing(FILE, **{name: old})):  # fmt: skip
+        with pytest.raises(
+            SceneError, match=rf"{key} = '{old}' is refused; .*'{old}' was removed, use '{new}'$"
+        ):
+            call()
 
 
 @pytest.mark.parametrize(("old", "new"), renamed.OPTIONS.items())

@@ -17,7 +17,6 @@ _FLOOR = 1e-7  # smaller errors are drawn here
 #: Colour and marker of each fidelity and method (colours by Okabe and Ito, 2008, for all colour vision).
 _STYLES = {
     "full / esdirk4": ("#0072B2", "o"),
-    "full / fast": ("#D55E00", "s"),
     "full / trbdf2": ("#56B4E9", "v"),
     "full / rk4": ("#000000", "x"),
     "rings": ("#009E73", "D"),

@@ -31,7 +31,6 @@ REFERENCE = Setting(tolerance=1e-6, max_step=1e-6)
 #: What it has to agree with: 0.5 us and 0.25 us agree to 2e-8 there.
 WITNESS = Setting(method="rk4", tolerance=1e-6, max_step=5e-7)
 _FULL = Setting()
-_FAST = Setting(method="fast")
 
 
 def _steps(base: Setting, *pairs: tuple[float, float]) -> tuple[Setting, ...]:
@@ -42,7 +41,6 @@ def _steps(base: Setting, *pairs: tuple[float, float]) -> tuple[Setting, ...]:
 #: What is swept: one thing at a time from the scenes' default, and a small grid of tolerance and step.
 SETTINGS = (
     *_steps(_FULL, (1e-2, 40), (1e-2, 20), (1e-3, 20), (1e-3, 10), (1e-4, 10), (1e-4, 5), (1e-5, 4)),
-    *_steps(_FAST, (1e-2, 40), (1e-2, 20), (1e-3, 20), (1e-3, 10), (1e-4, 10), (1e-4, 5), (1e-5, 4)),
     *_steps(Setting(method="trbdf2"), (1e-3, 20), (1e-3, 10), (1e-4, 5)),
     *_steps(Setting(method="rk4"), (1e-3, 1), (1e-3, 0.5)),
     *_steps(Setting("rings"), (1e-3, 20), (1e-3, 10), (1e-4, 5)),
@@ -51,9 +49,8 @@ SETTINGS = (
     replace(_FULL, strips=1),
     *(replace(_FULL, without=(term,)) for term in TERMS),
     replace(_FULL, strips=1, without=TERMS),
-    replace(_FAST, strips=1, without=TERMS),
 )
-QUICK = (_FULL, _FAST, Setting("rings"), Setting("response"), replace(_FULL, strips=1))
+QUICK = (_FULL, Setting("rings"), Setting("response"), replace(_FULL, strips=1))
 
 COLUMNS = (
     "fidelity", "method", "tolerance", "max step, us", "strips", "left out", "trajectory", "ring rms", "load",

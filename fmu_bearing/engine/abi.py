@@ -6,7 +6,7 @@ that a step which fails to converge leaves it at the time it reached: the caller
 
 import math
 
-from fmu_bearing.engine.choices import FAST, FULL, RESPONSE, RINGS
+from fmu_bearing.engine.choices import FULL, RESPONSE, RINGS
 from fmu_bearing.engine.fidelities.full.march import march
 from fmu_bearing.engine.fidelities.full.start import start
 from fmu_bearing.engine.fidelities.response.march import march_response, start_response
@@ -43,7 +43,7 @@ def init(p, u, s, z, w, t):
     """Put the state to the quasi-static one at the inputs' values and time ``t`` (s); fill the outputs."""
     if not inputs_usable(u) or not math.isfinite(t):
         return BAD_INPUT
-    if p[P.MODES] != 0.0 and (p[P.FIDELITY] != FULL or p[P.METHOD] == FAST):
+    if p[P.MODES] != 0.0 and p[P.FIDELITY] != FULL:
         return RIGID_ONLY
     if p[P.FIDELITY] == RINGS:
         status = start_rings(p, u, s, w, t)

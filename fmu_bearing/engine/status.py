@@ -6,4 +6,4 @@ BAD_INPUT = 2  # an input is not finite or out of range
 BAD_STEP = 3  # communication step not positive or not finite
 NO_START = 4  # the quasi-static start did not converge
 TOO_SOFT = 5  # the loads push the outer ring sideways by more than 0.3 of the pitch radius
-RIGID_ONLY = 6  # flexible rings, and a fidelity or method that knows rigid ones only
+RIGID_ONLY = 6  # flexible rings, and a fidelity that knows rigid ones only

@@ -86,7 +86,6 @@ def internals(scene: Scene) -> list[Variable]:
         ),
         _count("solver.steps", "Internal steps so far"),
         _count("solver.rejected", "Internal steps refused so far"),
-        _count("solver.fallbacks", "Internal steps left to the default method so far, by a faster one"),
     ]
     return table + _microphones(scene, "local")
 

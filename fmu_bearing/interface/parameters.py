@@ -1,5 +1,6 @@
 """Parameters, which are set before initialisation, and constants, which are fixed when the model is built."""
 
+from collections.abc import Iterable
 from typing import Any, get_args
 
 from fmu_bearing.engine.choices import FIDELITIES, METHODS
@@ -50,11 +51,15 @@ def constants(scene: Scene, rotor_inertia: float) -> list[Variable]:
     """Return the constants: choices made when the model was built."""
     radiator = RADIATORS["none" if scene.sound is None else scene.sound.radiator]
     table = [
-        _whole("fidelity", "Fidelity: " + _numbered(FIDELITIES), FIDELITIES.index(scene.fidelity.model)),
+        _whole(
+            "fidelity",
+            "Fidelity: " + _numbered(enumerate(FIDELITIES)),
+            FIDELITIES.index(scene.fidelity.model),
+        ),
         _whole(
             "method",
-            "Integrator of fidelity full: " + _numbered(METHODS),
-            METHODS.index(scene.fidelity.method),
+            "Integrator of fidelity full: " + _numbered((number, name) for name, number in METHODS.items()),
+            METHODS[scene.fidelity.method],
         ),
         _whole(
             "radiator",
@@ -119,5 +124,5 @@ def _whole(name: str, description: str, value: int) -> Variable:
     return Variable(name, "local", "constant", description, type="Integer", value=value)
 
 
-def _numbered(names: tuple[str, ...]) -> str:
-    return ", ".join(f"{number} {name}" for number, name in enumerate(names))
+def _numbered(choices: Iterable[tuple[int, str]]) -> str:
+    return ", ".join(f"{number} {name}" for number, name in choices)

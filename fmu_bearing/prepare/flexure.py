@@ -13,7 +13,7 @@ from fmu_bearing.scene import Scene, SceneError, si
 # Internal steps over the period of the highest mode at rest. The methods then lower a free mode's frequency
 # by 0.5 % (esdirk4, which damps it like a damping ratio of 1e-4), 1 % (trbdf2, 5e-4) or 0.03 % (rk4, 1e-4);
 # lower modes fare better by the square of the frequency at least.
-_STEPS = {"esdirk4": 4.0, "trbdf2": 12.5, "fast": 4.0, "rk4": 14.0}
+_STEPS = {"esdirk4": 4.0, "trbdf2": 12.5, "rk4": 14.0}
 
 
 def mode_table(scene: Scene, modes: Sequence[RingMode]) -> NDArray[np.float64]:

@@ -196,7 +196,7 @@ def _ball_wave_table(scene: Scene) -> NDArray[np.float64]:
 def _fidelity(scene: Scene, p: NDArray[np.float64]) -> None:
     fidelity = si(scene.fidelity)
     p[P.FIDELITY] = FIDELITIES.index(fidelity.model)
-    p[P.METHOD] = METHODS.index(fidelity.method)
+    p[P.METHOD] = METHODS[fidelity.method]
     p[P.RACE_CONTROL] = RACE_CONTROLS.index(fidelity.race_control)
     p[P.STRIPS] = fidelity.traction_strips
     p[P.TOLERANCE] = fidelity.tolerance

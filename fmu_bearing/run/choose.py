@@ -52,9 +52,7 @@ def bounded(setting: Setting, scene: Scene) -> Scene:
 CANDIDATES = (
     Setting("response", tolerance=1e-2, max_step=40e-6),
     Setting("rings", tolerance=1e-2),
-    Setting("full", "fast", 1e-2),
     Setting("full", "esdirk4", 1e-2),
-    Setting("full", "fast", 1e-3, 10e-6),
     Setting("full", "esdirk4", 1e-3, 10e-6),
     Setting("full", "esdirk4", 1e-4, 5e-6),
 )

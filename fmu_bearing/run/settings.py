@@ -33,8 +33,8 @@ class Setting:
         )
 
     def carries(self, scene: Scene) -> bool:
-        """Whether the scene can be computed this way: bending rings need full, but not method ``fast``."""
-        return not scene.bends or (self.fidelity == "full" and self.method != "fast")
+        """Whether the scene can be computed this way: bending rings need full."""
+        return not scene.bends or self.fidelity == "full"
 
     @property
     def name(self) -> str:

@@ -67,7 +67,15 @@ def explain(failure: ValidationError, data: dict[str, Any], skip: Iterable[Locat
         elif error["type"] == "extra_forbidden":
             yield _unknown(path)
         else:
-            yield f"{dotted(path)} = {shown(error['input'])} is refused; allowed: {allowed(path)}"
+            yield (
+                f"{dotted(path)} = {shown(error['input'])} is refused; allowed: {allowed(path)}"
+                f"{_instead(path, error['input'])}"
+            )
+
+
+def _instead(path: Location, value: Any) -> str:
+    new = renamed.VALUES.get(dotted(path), {}).get(value) if isinstance(value, str) else None
+    return f"; '{value}' was removed, use '{new}'" if new else ""
 
 
 def dotted(path: Location) -> str:

@@ -78,19 +78,15 @@ class Scene(Part):
                 )
 
     def _flexure(self) -> Iterator[Conflict]:
-        """Yield a fidelity or method that cannot compute the bending of the rings."""
+        """Yield a fidelity that cannot compute the bending of the rings."""
         if not self.bends:
             return
-        model, method = self.fidelity.model, self.fidelity.method
-        way_out = "or leave out [mounting.flexure]"
+        model = self.fidelity.model
         if model not in ("full", "auto"):
             yield Conflict(
-                "fidelity.model", f"'{model}' has rigid rings only: bending needs 'full' or 'auto', {way_out}"
-            )
-        elif model == "full" and method == "fast":
-            yield Conflict(
-                "fidelity.method",
-                f"'fast' has rigid rings only: bending needs 'esdirk4', 'trbdf2' or 'rk4', {way_out}",
+                "fidelity.model",
+                f"'{model}' has rigid rings only: bending needs 'full' or 'auto', or leave out "
+                "[mounting.flexure]",
             )
 
     def _buried_microphones(self) -> Iterator[Conflict]:

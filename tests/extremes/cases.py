@@ -13,7 +13,6 @@ from tests.extremes.bearings import PERFECT, SILENT
 #: Fidelities and methods that the engine computes at present.
 COMPUTED = (
     ("full", "esdirk4"),
-    ("full", "fast"),
     ("full", "trbdf2"),
     ("rings", "esdirk4"),
     ("response", "esdirk4"),
@@ -25,7 +24,6 @@ RINGS = ("rings", "esdirk4")
 #: Their internal steps against ESDIRK4's: TR-BDF2 is of second order and needs up to five times as many.
 WORK = {
     ("full", "esdirk4"): 1.0,
-    ("full", "fast"): 1.5,  # one evaluation each: steps of 4 us where ESDIRK4 would take 20
     ("full", "trbdf2"): 5.0,
     ("full", "rk4"): 300.0,  # 20 ns at standstill
     ("rings", "esdirk4"): 30.0,  # on a very stiff pedestal the outer ring's mode sets the step

@@ -31,7 +31,6 @@ def places(*names):
     [
         ('model = "full"', 'model = "rings"', "FIDELITY", 0, 1),
         ('model = "full"', 'model = "response"', "FIDELITY", 0, 2),
-        ('method = "esdirk4"', 'method = "fast"', "METHOD", 0, 1),
         ('method = "esdirk4"', 'method = "trbdf2"', "METHOD", 0, 2),
         ('method = "esdirk4"', 'method = "rk4"', "METHOD", 0, 3),
         ('race_control = "shared"', 'race_control = "outer"', "RACE_CONTROL", 0, 1),

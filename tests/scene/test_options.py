@@ -49,7 +49,7 @@ def test_a_file_that_names_no_option_means_what_it_meant_before():
     ("table", "key", "value"),
     [
         *(("fidelity", "model", name) for name in ("rings", "response", "auto")),
-        *(("fidelity", "method", name) for name in ("fast", "trbdf2", "rk4")),
+        *(("fidelity", "method", name) for name in ("trbdf2", "rk4")),
         *(("fidelity", "race_control", name) for name in ("outer", "inner")),
         *(("lubricant", "traction_law", name) for name in ("eyring", "paper")),
         ("lubricant", "viscosity_law", "walther"),

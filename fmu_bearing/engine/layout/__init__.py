@@ -60,9 +60,9 @@ from fmu_bearing.engine.layout import (
     y as Y,
     z as Z,
 )
-from fmu_bearing.engine.layout.sizes import BLOCK, FOUR, MAX_BALLS, MAX_MODES, STAGES, STRIDE
+from fmu_bearing.engine.layout.sizes import FOUR, MAX_BALLS, MAX_MODES, STAGES, STRIDE
 
 __all__ = [
     "A", "C", "EQ", "F", "FL", "J", "L", "LN", "MO", "P", "Q", "R", "S", "SD", "ST", "T", "TAB", "U", "W",
-    "X", "Y", "Z", "BLOCK", "FOUR", "MAX_BALLS", "MAX_MODES", "STAGES", "STRIDE",
+    "X", "Y", "Z", "FOUR", "MAX_BALLS", "MAX_MODES", "STAGES", "STRIDE",
 ]  # fmt: skip

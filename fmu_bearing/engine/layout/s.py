@@ -36,13 +36,6 @@ START = _at()  # s: time of initialisation
 NEWTON = _at()  # iterations so far
 JACOBIANS = _at()
 ENERGY_NOW = _at()  # J
-FALLBACKS = _at()  # times the one-evaluation path was left
-FAST_STEP = _at()  # s: its step: wanted,
-FAST_LENGTH = _at()  # s: and that of the history
-FAST_COUNT = _at()  # history's length in steps, 0 to 3
-FAST_HOLD = _at()  # s: time before which it is not tried
-FAST_PATIENCE = _at()  # s: the next hold
-FAST_BETA = _at()  # Newmark's beta of the balls
 SPIN_TO_ROLL = _at(2)  # inner, outer: means over the loaded contacts at the last communication point
 SLIP = _at(2)  # m/s
 LOSS = _at.next  # losses by source
@@ -52,19 +45,12 @@ LOSS_CAGE = _at()
 LOSS_DRAG = _at()
 LOSSES = _at.next - LOSS  # number of sources
 PLACE = _at()  # m: where rigid preload takes the inner ring
-_SPARE = _at(8)
+_SPARE = _at(7)  # the rows behind begin at whole vectors
 AXES = _at(3 * STRIDE)  # the balls' body-fixed axes in their orbiting axes
 JAC = _at(_J.SIZE)  # Jacobian
 FAC = _at(_A.SIZE)  # factors
-# the one-evaluation path: its own rates (trapezoidal rule), accelerations now and two steps back
-FAST_Y = _at(_Y.SIZE)
-FAST_A0 = _at(_F.SIZE)
-FAST_A1 = _at(_F.SIZE)
-FAST_A2 = _at(_F.SIZE)
 CONDENSED = _at(_L.SIZE)  # what fidelities rings and response keep
 SOUND = _at.next  # sound state, then flexure
-
-FAST = FAST_Y  # the path's whole block, to CONDENSED
 
 
 def size(p):

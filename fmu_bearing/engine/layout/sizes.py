@@ -5,8 +5,6 @@ MAX_BALLS = STRIDE
 FOUR = 4  # balls computed at a time: numbers of lanes are multiples of it
 STAGES = 6  # of a Runge-Kutta method at most
 MAX_MODES = 16  # flexural modes of both rings
-BLOCK = 8  # one-evaluation steps proved together
-HISTORY = 3  # accelerations known when such a block begins: now, one and two steps back
 
 
 class Places:

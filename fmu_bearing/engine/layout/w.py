@@ -24,7 +24,7 @@ from fmu_bearing.engine.layout import (
     u as _U,
     y as _Y,
 )
-from fmu_bearing.engine.layout.sizes import BLOCK, HISTORY, MAX_BALLS, STAGES, STRIDE, Places
+from fmu_bearing.engine.layout.sizes import MAX_BALLS, STAGES, STRIDE, Places
 
 # force and moment of one body on the balls: rows
 _force = Places()
@@ -69,16 +69,12 @@ F0 = _at(_F.SIZE)  # unperturbed right-hand side
 D = _at(_F.SIZE)  # Newton increment
 ACC = _at(STAGES * _F.SIZE)  # stage accelerations
 VEL = _at(STAGES * _F.SIZE)  # stage velocities in the layout of accelerations
-# a block of one-evaluation steps: accelerations two and one step back, now and new; states now and new
-BLOCK_A = _at((HISTORY + BLOCK) * _F.SIZE)
-BLOCK_Y = _at((1 + BLOCK) * _Y.SIZE)
+FLEX = _at(_FL.SIZE)  # flexible rings: see flexure
 MOTION = _at(_MO.MAX_SIZE)  # motion sample: see motion
 BODY_0 = _at(_Q.SIZE * STRIDE)  # unperturbed generalised forces
 SOUND = _at.next  # work space of the sound kernels
 
 LAST = ACC + (STAGES - 1) * _F.SIZE  # accelerations at the end of a step, of any method
-BLOCK_NOW = BLOCK_A + (HISTORY - 1) * _F.SIZE  # step k of a block ends at BLOCK_NOW + k * F.SIZE
-FLEX = BLOCK_A  # flexible rings: never together with one-evaluation steps; see flexure
 # where a run starts
 FOUND = VEL  # result of the quasi-static kernel
 STATICS = POSE  # its work space: see statics
@@ -112,7 +108,6 @@ _grooves = Places(FLEX + _FL.X)
 GROOVE_INERTIA = _grooves(_FL.INERTIAS)  # kg: of each groove against each
 GROOVE_ROW = _grooves(_J.BALL)  # kg: one direction of a groove against one ball's motion
 GROOVES_END = _grooves.next
-BEFORE = ACC  # accelerations before a change of the inputs
 FIRST_PLACES = ACC + _F.SIZE  # m: places x, r of the balls between rigid rings, while flexible ones settle
 
 
@@ -128,7 +123,7 @@ class Area(NamedTuple):
 _FLEXED = frozenset({"evaluation", "jacobian", "factor", "solve", "step", "inputs", "start", "sample"})
 # The right-hand side is evaluated in the course of all these; what is read from its rows afterwards (energy,
 # losses) is read before anything else begins.
-_EVALUATED = frozenset({"evaluation", "jacobian", "step", "block", "inputs"})
+_EVALUATED = frozenset({"evaluation", "jacobian", "step", "inputs"})
 #: All areas of ``w``.
 LEDGER: tuple[Area, ...] = (
     Area("COS", COS, STRIDE, _EVALUATED),
@@ -150,12 +145,12 @@ LEDGER: tuple[Area, ...] = (
         "STAGE",
         STAGE,
         _Y.SIZE,
-        frozenset({"evaluation", "solve", "step", "block", "sample", "start", "condensed", "lines"}),
+        frozenset({"evaluation", "solve", "step", "sample", "start", "condensed", "lines"}),
     ),
-    Area("F", F, _F.SIZE, frozenset({"evaluation", "jacobian", "solve", "step", "block", "condensed"})),
+    Area("F", F, _F.SIZE, frozenset({"evaluation", "jacobian", "solve", "step", "condensed"})),
     Area("F0", F0, _F.SIZE, frozenset({"jacobian"})),
     Area("BODY_0", BODY_0, _Q.SIZE * STRIDE, frozenset({"jacobian"})),
-    Area("D", D, _F.SIZE, frozenset({"solve", "step", "block"})),
+    Area("D", D, _F.SIZE, frozenset({"solve", "step"})),
     Area("STATICS", STATICS, _ST.SIZE, frozenset({"start"})),
     Area("SPIN_SYSTEM", SPIN_SYSTEM, _ST.SPIN_SYSTEM_SIZE, frozenset({"start"})),
     Area("SPINS_FIRST", SPINS_FIRST, _ST.SPIN_RATES * STRIDE, frozenset({"start", "jacobian", "evaluation"})),
@@ -167,18 +162,14 @@ LEDGER: tuple[Area, ...] = (
     Area("REPORT", REPORT, REPORT_SIZE, frozenset({"step"})),
     Area("ACC", ACC, (STAGES - 1) * _F.SIZE, frozenset({"step", "solve"})),
     # the last stage of ACC: the sound samples of a step and the new state are taken from it, by any method
-    Area("LAST", LAST, _F.SIZE, frozenset({"step", "solve", "block", "sample"})),
+    Area("LAST", LAST, _F.SIZE, frozenset({"step", "solve", "sample"})),
     Area("VEL", VEL, STAGES * _F.SIZE, frozenset({"step", "solve"})),
-    Area("BLOCK_A", BLOCK_A, (HISTORY + BLOCK) * _F.SIZE, frozenset({"block"})),
-    Area("BLOCK_Y", BLOCK_Y, (1 + BLOCK) * _Y.SIZE, frozenset({"block"})),
     Area("FOUND", FOUND, _EQ.SIZE, frozenset({"start"})),
-    Area("BEFORE", BEFORE, _F.SIZE, frozenset({"inputs"})),
     Area("FIRST_PLACES", FIRST_PLACES, 2 * STRIDE, frozenset({"start", "evaluation", "jacobian", "factor"})),
     Area("factor", FORCE, FACTOR_END - FORCE, frozenset({"factor"})),
     Area("solve", FORCE, SOLVE_END - FORCE, frozenset({"solve"})),
     Area("FLEX rows", FLEX, _FL.COS, frozenset({"evaluation", "solve"})),
     Area("GROOVES", GROOVE_INERTIA, GROOVES_END - GROOVE_INERTIA, frozenset({"factor"})),
-    # over BLOCK_A and BLOCK_Y: method fast, the only one with blocks, refuses flexible rings
     Area("FLEX", FLEX + _FL.COS, _FL.SIZE - _FL.COS, _FLEXED),
 )
 

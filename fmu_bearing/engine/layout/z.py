@@ -10,7 +10,7 @@ BEARING_OUTPUTS = (
     "contact.inner.angle_mean", "contact.inner.pressure_max", "contact.outer.load_mean",
     "contact.outer.load_max", "contact.outer.angle_mean", "contact.outer.pressure_max", "film.lambda_min",
     "stiffness.axial", "stiffness.radial", "solver.steps", "solver.rejected", "energy.residual",
-    "solver.fallbacks", "inner_ring.tilt.y", "inner_ring.tilt.z", "contact.inner.spin_to_roll",
+    "inner_ring.tilt.y", "inner_ring.tilt.z", "contact.inner.spin_to_roll",
     "contact.outer.spin_to_roll", "contact.inner.slip", "contact.outer.slip", "cage.whirl_radius",
     "cage.whirl_speed", "friction_torque.contacts", "friction_torque.rolling", "friction_torque.cage",
     "friction_torque.drag", "contact.inner.shoulder_margin", "contact.outer.shoulder_margin",
@@ -35,7 +35,6 @@ RADIAL_STIFFNESS = BEARING_OUTPUTS.index("stiffness.radial")
 STEPS = BEARING_OUTPUTS.index("solver.steps")
 REJECTED = BEARING_OUTPUTS.index("solver.rejected")
 RESIDUAL = BEARING_OUTPUTS.index("energy.residual")
-FALLBACKS = BEARING_OUTPUTS.index("solver.fallbacks")
 TILT = BEARING_OUTPUTS.index("inner_ring.tilt.y")  # rad, about y and z
 SPIN_TO_ROLL = BEARING_OUTPUTS.index("contact.inner.spin_to_roll")  # inner, outer
 SLIP = BEARING_OUTPUTS.index("contact.inner.slip")  # m/s: inner, outer

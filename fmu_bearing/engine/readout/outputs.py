@@ -167,7 +167,6 @@ def observe(p, s, z):
     flexure(p, s, z)
     z[Z.STEPS] = s[S.STEPS]
     z[Z.REJECTED] = s[S.REJECTED]
-    z[Z.FALLBACKS] = s[S.FALLBACKS]
     lost = s[S.HEAT] + s[S.HEAT + 1] + s[S.HEAT + 2]
     gained = s[S.ENERGY_NOW] - s[S.ENERGY_START]
     z[Z.RESIDUAL] = (s[S.WORK] - lost - gained) / lost if lost > 1e-12 else 0.0

@@ -6,8 +6,7 @@
 ``methods``      the Runge-Kutta methods as data
 ``flexible``     flexural modes in a Runge-Kutta step
 ``runge_kutta``  one step of such a method, implicit or explicit
-``progress``     what every way of stepping does to the state: Jacobian, energy, next step
-``fast``         method fast: blocks of one-evaluation steps
+``progress``     what a step does to the state: Jacobian, energy, acceptance
 ``settle``       flexible rings at the start
 ``start``        the state at initialisation
 ``march``        from one communication point to the next

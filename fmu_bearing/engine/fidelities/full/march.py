@@ -1,13 +1,12 @@
 """From one communication point to the next: inputs, internal steps, Jacobian policy, sound samples."""
 
-from fmu_bearing.engine.choices import FAST, RK4, TRBDF2
+from fmu_bearing.engine.choices import RK4, TRBDF2
 from fmu_bearing.engine.fidelities import steps
-from fmu_bearing.engine.fidelities.full.fast import blocks
 from fmu_bearing.engine.fidelities.full.methods.table import AT_ESDIRK4, AT_RK4, AT_TRBDF2, TABLEAUX
 from fmu_bearing.engine.fidelities.full.progress import accept, renew_jacobian, total_energy
 from fmu_bearing.engine.fidelities.full.runge_kutta import integrate_power, runge_kutta_step
 from fmu_bearing.engine.jit import inlined
-from fmu_bearing.engine.layout import BLOCK, TAB, C, F, P, S, U, W, Y
+from fmu_bearing.engine.layout import TAB, C, F, P, S, U, W, Y
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.mechanics.flexure import flexure_state
 from fmu_bearing.engine.newton.block_arrow import factor
@@ -41,12 +40,8 @@ def take_inputs(p, u, s, w, h):
         for i in range(C.SIZE):
             s[S.C + i] = fresh[i]
         s[S.SPEED_RATE] = rate
-        for i in range(F.SIZE):
-            w[W.BEFORE + i] = s[S.F + i]
-        s[S.FAST_Y + Y.V0] += axial - s[S.Y + Y.V0]
         s[S.Y + Y.V0] = axial
         s[S.WORK] += total_energy(p, s, w) - before
-        blocks.shift_history(s, w[W.BEFORE : W.BEFORE + F.SIZE])
     elif rate != s[S.SPEED_RATE]:
         s[S.SPEED_RATE] = rate
         total_energy(p, s, w)
@@ -69,19 +64,19 @@ def try_step(p, s, w, h, tableau, tolerance):
         ratio = h / (s[S.FACTOR_STEP] + 1e-300)
         if not explicit and (ratio < _SAME_STEP[0] or ratio > _SAME_STEP[1]):
             gh = TABLEAUX[tableau + TAB.GAMMA] * h
-            if not factor(p, s[S.JAC : S.FAC], gh, gh * gh, gh * gh, s[S.FAC : S.FAST], w):
+            if not factor(p, s[S.JAC : S.FAC], gh, gh * gh, gh * gh, s[S.FAC : S.CONDENSED], w):
                 if fresh:
                     return -1.0
                 continue
             factor_modes(
-                p, s[S.JAC:S.FAC], s[S.FAC:S.FAST], s[S.Y : S.Y + Y.SIZE],
+                p, s[S.JAC:S.FAC], s[S.FAC:S.CONDENSED], s[S.Y : S.Y + Y.SIZE],
                 s[S.Y + Y.TH] - s[S.JACOBIAN_ANGLE], s[S.SPEED], gh, gh * gh, s[flexure_state(p) :], w,
             )  # fmt: skip
             s[S.FACTOR_STEP] = h
         probe = s[S.STEPS] % _PROBE == 0.0
         fine = runge_kutta_step(
             p, s[S.C : S.C + C.SIZE], s[S.Y : S.Y + Y.SIZE], s[S.F : S.F + F.SIZE], s[S.AXES:S.JAC],
-            s[flexure_state(p) :], s[S.ANGLE], s[S.SPEED], s[S.SPEED_RATE], h, tableau, s[S.FAC:S.FAST],
+            s[flexure_state(p) :], s[S.ANGLE], s[S.SPEED], s[S.SPEED_RATE], h, tableau, s[S.FAC:S.CONDENSED],
             s[S.Y + Y.TH] - s[S.JACOBIAN_ANGLE], 0.5 * tolerance, s[S.CONTRACTION], probe, w, report,
         )  # fmt: skip
         if fine:
@@ -109,19 +104,9 @@ def march(p, u, s, w, h):
     # (a thousand times for explicit steps, which stability keeps below 0.1 us)
     left = steps.most_attempts(h, longest, 1000.0 if tableau == AT_RK4 else 100.0)
     remaining = h
-    fast = p[P.METHOD] == FAST
     while steps.unfinished(remaining, h, end):
         proposed = min(s[S.STEP], longest)
         length = steps.even_length(remaining, proposed)
-        short = blocks.fast_length(p, s, remaining) if fast else 0.0
-        if short > 0.0 and short <= 1.000001 * length:
-            # ESDIRK4 takes the same steps until the history suffices
-            length = short
-            if blocks.fast_history(s, short):
-                count = min(BLOCK, int(remaining / short + 0.5))
-                if blocks.fast_block(p, s, w, count, tolerance):
-                    remaining = end - s[S.TIME]
-                    continue
         left -= 1.0
         if left < 0.0:
             return NOT_CONVERGED
@@ -134,8 +119,6 @@ def march(p, u, s, w, h):
         integrate_power(length, tableau, w, s[S.WORK : S.WORK + F.POWERS])
         emit_samples(p, s, w, length)
         accept(p, s, w, length)
-        if fast:
-            blocks.remember(s, length, w[W.ACC : W.ACC + F.SIZE])
         remaining = end - s[S.TIME]
         grow = min(2.0, max(0.3, 0.9 * (error + 1e-6) ** power))
         # a step cut to meet the communication point says nothing against a longer one

@@ -1,4 +1,4 @@
-"""What every way of stepping does to the state: renew the Jacobian, take a step over, add up energy."""
+"""What a step does to the state: renew the Jacobian, accept the step, add up energy."""
 
 from fmu_bearing.engine.fidelities.full.flexible import accept_modes
 from fmu_bearing.engine.fidelities.steps import advance_clock

@@ -41,7 +41,7 @@ def settling(p, c, y, angle, speed, s, w):
     """One round of Newton's method; returns the largest increment (m) it asks for, left in ``w[W.D:]``."""
     lanes = int(p[P.LANES])
     jac = s[S.JAC : S.FAC]
-    fac = s[S.FAC : S.FAST]
+    fac = s[S.FAC : S.CONDENSED]
     kept = s[flexure_state(p) :]
     own = w[W.FLEX :]
     d = w[W.D : W.D + F.SIZE]

@@ -4,7 +4,6 @@ Rings rest on their springs, bent by their loads where they are flexible; each b
 and spin.
 """
 
-from fmu_bearing.engine.fidelities.full.fast.blocks import begin
 from fmu_bearing.engine.fidelities.full.progress import show_axes, total_energy
 from fmu_bearing.engine.fidelities.full.settle import settle
 from fmu_bearing.engine.jit import inlined
@@ -67,7 +66,6 @@ def start(p, u, s, w, t):
     s[S.FACTOR_STEP] = 0.0
     s[S.JACOBIAN_TIME] = -1e300
     s[S.CONTRACTION] = 0.1
-    begin(s, t)
     s[S.JACOBIANS] = 0.0
     s[S.ENERGY_START] = total_energy(p, s, w)
     s[S.ENERGY_NOW] = s[S.ENERGY_START]

@@ -129,6 +129,22 @@ def test_a_short_walk_of_condensed_fidelities(fidelity, method, start, moves):
     walk("7003C-bare", start, moves, fidelity, method)
 
 
+@pytest.mark.parametrize(("fidelity", "method"), FULL)
+def test_a_cage_flung_through_its_film(fidelity, method):
+    """A pedestal that stiffens 3000 times throws the outer ring at 10 m/s, which turns the inner ring.
+
+    The lands' film then changes sides within 0.3 ns: steps of 0.1 ns are too long for it.
+    """
+    start = {
+        "shaft_speed": 0.0, "preload": 233.0, "pedestal_stiffness": 10**6.5, "radial_load.y": 349.0,
+        "radial_load.z": 234.0, "outer_ring_temperature": 233.0,
+    }  # fmt: skip
+    before = [("preload", 233.0, 2.5e-4), ("oil_temperature", 233.0, 1e-5)]
+    inner = ("inner_ring_temperature", 233.0, 1e-5)
+    after = [("inner_ring_temperature", 233.0, 2e-4), ("pedestal_stiffness", 1e10, 1e-5), *4 * [inner]]
+    walk("7009C-full-ceramic", start, [*before, *5 * [inner], *after], fidelity, method)
+
+
 @pytest.mark.heavy
 @pytest.mark.parametrize(("fidelity", "method"), FULL)
 @pytest.mark.parametrize("scene", ["7003C-bare", "7003C-spindle", "7009C-full-ceramic"])

@@ -66,8 +66,9 @@ kernels: $(VENV)/.installed-test
 	wait $$native || echo "no native library: see above"
 
 # Stamps: pip runs again only when the requirements change.
+# The demo and the papers draw pictures; rings of the papers' bearings bend.
 $(VENV)/.installed: pyproject.toml constraints.txt | $(BIN)/python
-	$(PIP) --editable .
+	$(PIP) --editable ".[elastic,plots]"
 	@touch $@
 
 $(VENV)/.installed-test: pyproject.toml constraints.txt | $(BIN)/python

@@ -8,6 +8,7 @@ Data flow in one direction::
 ``renamed``         old names, which are refused with their new names
 ``progress``        progress of long work, told line by line
 ``files``           writing files that other processes may read
+``extras``          optional packages, imported where they are used
 ``engine``          Numba kernels on flat arrays: mechanics, fidelities, sound
 ``scene``           scenes: frozen models read from TOML, catalogue
 ``elastic``         bending of the rings: sections, finite elements, modes

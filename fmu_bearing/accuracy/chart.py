@@ -4,12 +4,14 @@ import itertools
 import math
 import pathlib
 from collections.abc import Sequence
-
-from matplotlib.axes import Axes
-from matplotlib.lines import Line2D
+from typing import TYPE_CHECKING
 
 from fmu_bearing.accuracy.tradeoff import Row, Tradeoff
+from fmu_bearing.extras import need
 from fmu_bearing.run.pictures import empty, save
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 Point = tuple[Row, float, float]  # row, speed, error
 
@@ -42,6 +44,7 @@ def front(points: Sequence[tuple[float, float]]) -> list[int]:
 
 def draw(study: Tradeoff, path: pathlib.Path) -> None:
     """Draw the four kinds of error against simulated s per wall s (log-log) into a PNG file."""
+    Line2D = need("matplotlib.lines", "the chart").Line2D
     figure = empty((13.0, 9.5))
     axes = figure.subplots(2, 2, sharex=True).ravel()
     drawn = []
@@ -70,7 +73,7 @@ def draw(study: Tradeoff, path: pathlib.Path) -> None:
     save(figure, path)
 
 
-def _panel(ax: Axes, rows: Sequence[Row], kind: str) -> tuple[list[Point], list[Point]]:
+def _panel(ax: "Axes", rows: Sequence[Row], kind: str) -> tuple[list[Point], list[Point]]:
     """Draw one kind of error; return the points of the front and all points."""
     shown = [
         (row, row.wall, max(getattr(row.errors, kind), _FLOOR))
@@ -99,7 +102,7 @@ def _reduced(row: Row) -> bool:
     return bool(row.setting.without) or row.setting.strips < 5
 
 
-def _label(ax: Axes, best: Sequence[Point], points: Sequence[Point]) -> None:
+def _label(ax: "Axes", best: Sequence[Point], points: Sequence[Point]) -> None:
     """Name the points of the front, each at the nearest place that hides no point and no other name."""
     if not points:
         return

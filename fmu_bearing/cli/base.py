@@ -1,7 +1,7 @@
 """The application, options that commands share, and error messages.
 
-Exit codes: 0 done; 1 a check has findings; 2 refused (a scene, an option, a file); 3 the computation ended
-early; 130 interrupted. In the last two cases the results so far are written.
+Exit codes: 0 done; 1 a check has findings; 2 refused (a scene, an option, a file, a missing extra); 3 the
+computation ended early; 130 interrupted. In the last two cases the results so far are written.
 
 Commands import their modules when they run, so that help and completion answer at once.
 """
@@ -86,9 +86,9 @@ def _caution(message: Warning | str, category: type[Warning], *place: Any) -> No
 
 def _refused() -> tuple[type[Exception], ...]:
     """Return the exceptions that count as refusals. They are imported only after an error."""
+    from fmu_bearing.extras import MissingExtra
     from fmu_bearing.fmi.native.optimise import BuildError
     from fmu_bearing.run.arrays import Refused
-    from fmu_bearing.run.extras import MissingExtra
 
     return (ValueError, OSError, BuildError, Refused, MissingExtra)
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from fmu_bearing.cli.base import FOUND, Json, Refusal, SceneFile, app, print_json, refusals
+from fmu_bearing.cli.base import FOUND, Json, Refusal, SceneFile, app, print_json, refusals, tell
 from fmu_bearing.files import write_whole
 from fmu_bearing.scene import Scene, SceneError, read_scene
 from fmu_bearing.scene.origins import Origin, origins
@@ -70,7 +70,8 @@ def check(
     as_json: Json = False,
 ) -> None:
     """Read scenes and find their equilibrium; print errors and warnings."""
-    found = {str(path): _findings(path) for path in paths}
+    with refusals():
+        found = {str(path): _findings(path) for path in paths}
     if as_json:
         print_json({path: {"ok": ok, "findings": lines} for path, (ok, lines) in found.items()})
     else:
@@ -107,12 +108,15 @@ def show(
     as_json: Json = False,
 ) -> None:
     """Show every value of a scene, its unit and range, where it comes from, and what is assumed."""
+    from fmu_bearing.elastic.section import BENDING
+    from fmu_bearing.extras import available
     from fmu_bearing.run.table import show as show_table
 
     with refusals():
         scene = read_scene(path)
         values = [one for one in origins(path) if one.assumed or not assumed]
-        sizes = _sizes(scene)
+        known = not scene.bends or available("skfem", BENDING, "fidelity and sizes", tell)
+        sizes = _sizes(scene) if known else {}
     if as_json:
         print_json({"scene": scene.name, "computed": sizes, "values": [asdict(one) for one in values]})
         return

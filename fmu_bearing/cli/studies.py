@@ -39,10 +39,12 @@ def tradeoff(
     """Measure error and speed of fidelities, methods, steps, strips and terms; write table and chart."""
     from fmu_bearing.accuracy import tradeoff as trading
     from fmu_bearing.accuracy.chart import draw
+    from fmu_bearing.extras import need
     from fmu_bearing.run.table import show
     from fmu_bearing.scene import read_scene
 
     with refusals():
+        need("matplotlib", "the chart")  # told before minutes of measuring
         bar = partial(progress, description="variants")
         if quick:
             study = trading.tradeoff(

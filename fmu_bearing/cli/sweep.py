@@ -64,7 +64,7 @@ def sweep(
 
     Finished points are kept in the folder: the same command goes on where an earlier one was interrupted.
     """
-    from fmu_bearing.run.extras import need
+    from fmu_bearing.extras import need
 
     with refusals():
         need("xarray", "a sweep")
@@ -134,13 +134,15 @@ def _run(made: "Plan", output: Path, workers: int | None, scheduler: str | None,
 
 def _write(made: "Plan", outcomes: "Outcomes", output: Path, as_json: bool) -> None:
     """Write the results so far and print a summary."""
+    from fmu_bearing.extras import available
     from fmu_bearing.run.table import show
     from fmu_bearing.sweeps.picture import save as save_picture, sweep_picture
     from fmu_bearing.sweeps.result import COLUMNS, dataset, extremes, save
 
     data = dataset(made, outcomes)
     files = save(data, output)
-    if outcomes and sum(size > 1 for size in made.shape) in (1, 2):
+    drawable = outcomes and sum(size > 1 for size in made.shape) in (1, 2)
+    if drawable and available("matplotlib", "a picture", "sweep.png", tell):
         files["picture"] = output / "sweep.png"
         save_picture(sweep_picture(data), files["picture"])
     bad = {key: outcome.reason for key, outcome in outcomes.items() if outcome.reason}

@@ -13,4 +13,6 @@ order n has two amplitudes a, b (m)::
 
     u_x, u_r = psi_x, psi_r (a cos n theta + b sin n theta)
     u_t      = psi_t        (a sin n theta - b cos n theta)
+
+Only rings that bend need scikit-fem (extra ``elastic``).
 """

@@ -8,14 +8,18 @@ torsion.
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_matrix, csc_matrix, kron
 from scipy.sparse.linalg import eigsh
-from skfem import Basis, ElementQuad2
 
-from fmu_bearing.elastic.section import Grid
+from fmu_bearing.elastic.section import BENDING, Grid
+from fmu_bearing.extras import need
+
+if TYPE_CHECKING:
+    from skfem import Basis
 
 _X, _R, _T = range(3)
 _COMPONENTS = 3
@@ -98,8 +102,10 @@ class Solid:
 
 def solid(grid: Grid, material: Elastic) -> Solid:
     """Assemble the matrices of a ring."""
-    basis = Basis(grid.mesh, ElementQuad2(), intorder=5)
-    half = np.rint(2.0 * Basis(grid.reference, ElementQuad2(), intorder=1).doflocs).astype(int)
+    skfem = need("skfem", BENDING)
+    basis = skfem.Basis(grid.mesh, skfem.ElementQuad2(), intorder=5)
+    whole = skfem.Basis(grid.reference, skfem.ElementQuad2(), intorder=1)
+    half = np.rint(2.0 * whole.doflocs).astype(int)
     place = np.zeros((2 * grid.columns + 1, 2 * grid.rows + 1), dtype=np.int64)
     place[half[0], half[1]] = np.arange(basis.N)
     value, weight, constant, growing = _strains(basis)
@@ -127,7 +133,7 @@ def solid(grid: Grid, material: Elastic) -> Solid:
     )
 
 
-def _strains(basis: Basis) -> tuple[NDArray[np.float64], ...]:
+def _strains(basis: "Basis") -> tuple[NDArray[np.float64], ...]:
     """Strains xx, rr, tt, xr, rt, xt (shears doubled) of the elements' shape functions.
 
     Returns

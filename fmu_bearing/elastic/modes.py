@@ -99,6 +99,8 @@ def ring_modes(scene: Scene) -> tuple[RingMode, ...]:
     ------
     ValueError
         When a ring's dimensions leave no groove, or it has no such mode among its lowest.
+    MissingExtra
+        Without scikit-fem (extra ``elastic``), where a ring bends.
     """
     flexure = scene.mounting.flexure
     if flexure is None:

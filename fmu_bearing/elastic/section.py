@@ -2,14 +2,20 @@
 
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
-from skfem import MeshQuad, MeshQuad2
 
+from fmu_bearing.extras import need
 from fmu_bearing.scene import Scene, si
 
+if TYPE_CHECKING:
+    from skfem import MeshQuad2
+
+#: What the extra ``elastic`` is for, in its error message.
+BENDING = "bending of the rings ([mounting.flexure])"
 INNER, OUTER = 0, 1  # bodies, as the engine counts them
 RACES = ("inner", "outer")
 
@@ -108,8 +114,8 @@ class Grid:
     place of the contact in half columns; ``race_row`` and ``seat_row`` are the surfaces in half rows.
     """
 
-    mesh: MeshQuad2
-    reference: MeshQuad2
+    mesh: "MeshQuad2"
+    reference: "MeshQuad2"
     columns: int
     rows: int
     contact: int
@@ -189,17 +195,24 @@ def grid(section: Section, fineness: int = FINENESS) -> Grid:
 
     Rows run from the lower to the upper surface, columns from end face to end face; the contact and the
     groove's edges lie between columns, and curved sides follow the circle to third order.
+
+    Raises
+    ------
+    MissingExtra
+        Without scikit-fem (extra ``elastic``).
     """
+    skfem = need("skfem", BENDING)
     size = max(section.width, section.high - section.low) / fineness
     stations, contact = _stations(section, size)
     columns = (len(stations) - 1) // 2
     rows = max(2, math.ceil((section.high - section.low) / size))
-    reference = MeshQuad2.from_mesh(MeshQuad.init_tensor(np.arange(columns + 1.0), np.arange(rows + 1.0)))
+    squares = skfem.MeshQuad.init_tensor(np.arange(columns + 1.0), np.arange(rows + 1.0))
+    reference = skfem.MeshQuad2.from_mesh(squares)
     half = np.rint(2.0 * reference.doflocs).astype(int)
     x, share = stations[half[0]], half[1] / (2.0 * rows)
     race = section.race(x)
     low, high = (race, section.high) if section.body == OUTER else (section.low, race)
-    mesh = MeshQuad2(np.vstack((x, low + share * (high - low))), reference.t)
+    mesh = skfem.MeshQuad2(np.vstack((x, low + share * (high - low))), reference.t)
     race_row, seat_row = (0, 2 * rows) if section.body == OUTER else (2 * rows, 0)
     return Grid(mesh, reference, columns, rows, contact, race_row, seat_row)
 

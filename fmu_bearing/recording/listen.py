@@ -16,10 +16,10 @@ from fmu_bearing.acoustics.analysis.lines import Line
 from fmu_bearing.acoustics.analysis.spectrum import level_spectrum
 from fmu_bearing.acoustics.analysis.third_octave import third_octave_levels
 from fmu_bearing.acoustics.filters.weighting import level
+from fmu_bearing.extras import available, need
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.recording import measure, tables
 from fmu_bearing.recording.heard import Heard
-from fmu_bearing.run.extras import MissingExtra, need
 from fmu_bearing.run.table import markdown, write_csv
 
 if TYPE_CHECKING:
@@ -183,7 +183,7 @@ def write_all(
     directivity: bool = True,
     tell: Tell = silent,
 ) -> list[pathlib.Path]:
-    """Write tables (CSV), pictures (PNG), spectra (netCDF, if xarray is installed) and sounds (WAV).
+    """Write tables (CSV) and sounds (WAV), and as far as installed pictures (PNG) and spectra (netCDF).
 
     Parameters
     ----------
@@ -209,32 +209,29 @@ def write_all(
     write_csv(folder / "levels.csv", *found.rows())
     first = {name: levels[0] for name, levels in found.spectra.items()}
     write_csv(folder / "spectrum.csv", *tables.spectrum_table(found.frequency, first))
-    audible = found.frequency <= 20_000.0
-    kinematics = None if recording.scene is None else recording.kinematics()
-    pictures.save(
-        pictures.spectrum_picture(
-            found.frequency[audible], {name: values[audible] for name, values in first.items()}, kinematics,
-            found.names[0],
-        ),
-        folder / "spectrum.png",
-    )  # fmt: skip
     thirds = dict(zip(found.names, found.third_octaves, strict=True))
     write_csv(folder / "third-octaves.csv", *tables.third_octave_table(found.bands, thirds))
-    pictures.save(pictures.third_octave_picture(found.bands, thirds), folder / "third-octaves.png")
-    files = ["levels.csv", "spectrum.csv", "spectrum.png", "third-octaves.csv", "third-octaves.png"]
+    files = ["levels.csv", "spectrum.csv", "third-octaves.csv"]
+    drawn = available("matplotlib", "a picture", "pictures", tell)
+    if drawn:
+        audible = found.frequency <= 20_000.0
+        kinematics = None if recording.scene is None else recording.kinematics()
+        shown = {name: values[audible] for name, values in first.items()}
+        picture = pictures.spectrum_picture(found.frequency[audible], shown, kinematics, found.names[0])
+        pictures.save(picture, folder / "spectrum.png")
+        pictures.save(pictures.third_octave_picture(found.bands, thirds), folder / "third-octaves.png")
+        files += ["spectrum.png", "third-octaves.png"]
     if found.lines:
         (folder / "lines.md").write_text(markdown(*tables.lines_table(found.lines)), "utf-8")
         files.append("lines.md")
     if wav:
         files += _sounds(recording, found.names, folder, radiation_model)
     if directivity and recording.history.size:
-        files += _directivity(recording, folder, radiation_model)
-    try:
-        need("h5netcdf", "netCDF")
+        files += _directivity(recording, folder, radiation_model, drawn)
+    netcdf = available("xarray", "netCDF", "spectra.nc", tell)
+    if netcdf and available("h5netcdf", "netCDF", "spectra.nc", tell):
         found.to_xarray().to_netcdf(folder / "spectra.nc", engine="h5netcdf")
         files.append("spectra.nc")
-    except MissingExtra as absent:
-        tell(f"spectra.nc is left out: {absent}")
     return [folder / file for file in files]
 
 
@@ -253,13 +250,17 @@ def _sounds(
     return files
 
 
-def _directivity(recording: Heard, folder: pathlib.Path, radiation_model: str | None) -> list[str]:
-    """Write levels in three planes, at the distance of the nearest microphone."""
+def _directivity(
+    recording: Heard, folder: pathlib.Path, radiation_model: str | None, drawn: bool
+) -> list[str]:
+    """Write levels in three planes, at the distance of the nearest microphone; ``drawn``: a picture too."""
     from fmu_bearing.recording import pictures
 
     radius = min(math.hypot(*place) for place in recording.positions)
     planes = measure.planes(recording, radius, count=36, weighting="A", radiation_model=radiation_model)
     write_csv(folder / "planes.csv", *tables.round_table(planes))
+    if not drawn:
+        return ["planes.csv"]
     title = f"dB(A) at {1e3 * radius:.0f} mm"
     pictures.save(pictures.planes_picture(planes, title), folder / "planes.png")
     return ["planes.csv", "planes.png"]

@@ -9,10 +9,9 @@ Examples
 
 import math
 from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
 from fmu_bearing.acoustics.analysis.order import OrderMap, Waterfall
@@ -20,6 +19,10 @@ from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 from fmu_bearing.acoustics.analysis.third_octave import nominal_frequency
 from fmu_bearing.recording.measure import MotionPower, Round, Sweep
 from fmu_bearing.run.pictures import COLOURS, OTHERS, empty, label, save, single
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 __all__ = [
     "circle_picture",
@@ -42,7 +45,7 @@ def spectrum_picture(
     spectra: Mapping[str, ArrayLike],
     kinematics: KinematicFrequencies | None = None,
     title: str = "",
-) -> Figure:
+) -> "Figure":
     """Draw levels (dB) over frequency (Hz), one curve each, kinematic frequencies and harmonics marked."""
     figure, ax = single((10.0, 5.0))
     f = np.asarray(frequency, dtype=float)
@@ -59,7 +62,7 @@ def spectrum_picture(
     return figure
 
 
-def third_octave_picture(centres: ArrayLike, levels: Mapping[str, ArrayLike], title: str = "") -> Figure:
+def third_octave_picture(centres: ArrayLike, levels: Mapping[str, ArrayLike], title: str = "") -> "Figure":
     """Draw third-octave levels (dB) as bars side by side."""
     figure, ax = single((10.0, 4.5))
     bands = np.arange(len(np.asarray(centres)))
@@ -74,7 +77,9 @@ def third_octave_picture(centres: ArrayLike, levels: Mapping[str, ArrayLike], ti
     return figure
 
 
-def order_picture(found: OrderMap, kinematics: KinematicFrequencies | None = None, title: str = "") -> Figure:
+def order_picture(
+    found: OrderMap, kinematics: KinematicFrequencies | None = None, title: str = ""
+) -> "Figure":
     """Draw an order map: colour is the level (dB), upright lines are the kinematic orders."""
     figure, ax = single((9.0, 5.5))
     rpm = found.speed * 30.0 / math.pi
@@ -86,7 +91,7 @@ def order_picture(found: OrderMap, kinematics: KinematicFrequencies | None = Non
     return figure
 
 
-def waterfall_picture(found: Waterfall, title: str = "") -> Figure:
+def waterfall_picture(found: Waterfall, title: str = "") -> "Figure":
     """Draw spectra over time: colour is the level (dB)."""
     figure, ax = single((9.0, 5.5))
     _colour_map(figure, ax, found.frequency, found.time, found.levels)
@@ -94,14 +99,14 @@ def waterfall_picture(found: Waterfall, title: str = "") -> Figure:
     return figure
 
 
-def circle_picture(circles: Mapping[str, Round], title: str = "") -> Figure:
+def circle_picture(circles: Mapping[str, Round], title: str = "") -> "Figure":
     """Draw levels (dB) round one or more circles, as seen from +X, with 12 o'clock on top."""
     figure = empty((6.5, 6.5))
     _polar(figure.add_subplot(projection="polar"), circles, "N", title)
     return figure
 
 
-def planes_picture(found: Mapping[str, Round], title: str = "") -> Figure:
+def planes_picture(found: Mapping[str, Round], title: str = "") -> "Figure":
     """Draw levels (dB) in three planes; 0 deg is 12 o'clock in YZ and +X in the others."""
     figure = empty((13.0, 4.8))
     for k, (name, each) in enumerate(found.items()):
@@ -111,7 +116,7 @@ def planes_picture(found: Mapping[str, Round], title: str = "") -> Figure:
     return figure
 
 
-def sweep_picture(found: Sweep, title: str = "") -> Figure:
+def sweep_picture(found: Sweep, title: str = "") -> "Figure":
     """Draw largest level, DL and DV over the radial distance, one curve per axial distance."""
     figure = empty((13.0, 4.2))
     axes = figure.subplots(1, 3)
@@ -128,7 +133,7 @@ def sweep_picture(found: Sweep, title: str = "") -> Figure:
     return figure
 
 
-def power_picture(motion: MotionPower, measured: Mapping[str, float], title: str = "") -> Figure:
+def power_picture(motion: MotionPower, measured: Mapping[str, float], title: str = "") -> "Figure":
     """Draw power levels (dB) of the bodies' motion, and, by name, those measured by pressure."""
     figure, ax = single((8.0, 4.2))
     levels = {f"motion, {_words(name)}": value for name, value in motion.levels.items()} | dict(measured)
@@ -147,7 +152,7 @@ def _coloured(names: Mapping[str, object]) -> dict[str, str]:
     return {name: COLOURS.get(name, OTHERS[k % len(OTHERS)]) for k, name in enumerate(names)}
 
 
-def _mark(ax: Axes, kinematics: KinematicFrequencies, highest: float, colour: str = "black") -> None:
+def _mark(ax: "Axes", kinematics: KinematicFrequencies, highest: float, colour: str = "black") -> None:
     """Upright lines at the kinematic frequencies and their harmonics, named on top."""
     low, high = ax.get_ylim()
     for k, (name, base) in enumerate(zip(kinematics._fields, kinematics, strict=True)):
@@ -162,7 +167,7 @@ def _mark(ax: Axes, kinematics: KinematicFrequencies, highest: float, colour: st
 
 
 def _colour_map(
-    figure: Figure, ax: Axes, x: NDArray[np.float64], y: NDArray[np.float64], levels: NDArray[np.float64]
+    figure: "Figure", ax: "Axes", x: NDArray[np.float64], y: NDArray[np.float64], levels: NDArray[np.float64]
 ) -> None:
     order: Sequence[int] = np.argsort(y).tolist()
     top = float(levels.max())
@@ -173,7 +178,7 @@ def _colour_map(
     figure.colorbar(drawn, ax=ax, label="level, dB re 20 uPa")
 
 
-def _polar(ax: Axes, circles: Mapping[str, Round], zero: str, title: str) -> None:
+def _polar(ax: "Axes", circles: Mapping[str, Round], zero: str, title: str) -> None:
     """Levels round a circle; the largest one's direction is marked."""
     low = min(float(each.levels.min()) for each in circles.values())
     high = max(float(each.levels.max()) for each in circles.values())

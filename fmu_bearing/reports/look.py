@@ -2,8 +2,8 @@
 
 from typing import Any
 
+from fmu_bearing.extras import need
 from fmu_bearing.recording.pictures import COLOURS
-from fmu_bearing.run.extras import need
 
 #: Colours of things that are no component of sound.
 FURTHER = {

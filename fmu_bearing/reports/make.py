@@ -11,6 +11,7 @@ from typing import Any
 from fmu_bearing import renamed
 from fmu_bearing.acoustics.analysis.field import form_of
 from fmu_bearing.engine.constants import RPM
+from fmu_bearing.extras import need
 from fmu_bearing.files import write_whole
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.recording.record import Recording, record
@@ -21,7 +22,6 @@ from fmu_bearing.reports.page import render
 from fmu_bearing.reports.run import STEP, observed
 from fmu_bearing.reports.subject import Subject
 from fmu_bearing.run.choose import resolve
-from fmu_bearing.run.extras import need
 from fmu_bearing.scene import Scene, SceneError, read_scene
 from fmu_bearing.scene.origins import origins
 

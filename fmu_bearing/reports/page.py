@@ -5,9 +5,9 @@ import platform
 from importlib import metadata, resources
 from typing import Any
 
+from fmu_bearing.extras import need
 from fmu_bearing.reports.blocks import Chart, Section, packed
 from fmu_bearing.reports.look import styles
-from fmu_bearing.run.extras import need
 
 #: Content security policy: the page loads nothing from outside. Plotly generates code for its 3-D drawing.
 POLICY = (

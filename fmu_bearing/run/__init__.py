@@ -1,7 +1,6 @@
 """Runs: from a scene and its inputs to the values of its variables.
 
 ================  ===========================================================================
-``extras``        packages that only some commands need
 ``names``         names of variables, with patterns and suggestions
 ``table``         tables to terminal, Markdown, CSV; the machine they were made on
 ``result``        `Run`: the results of a run, as CSV, netCDF, xarray

@@ -2,11 +2,13 @@
 
 import os
 import pathlib
+from typing import TYPE_CHECKING
 
-from matplotlib import rc_context
-from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
+from fmu_bearing.extras import need
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 #: Colours for all kinds of colour vision (Okabe and Ito, 2008); the total is black.
 COLOURS = {
@@ -26,7 +28,7 @@ _METADATA: dict[str, dict[str, None]] = {
 }
 
 
-def save(figure: Figure, path: str | os.PathLike[str]) -> None:
+def save(figure: "Figure", path: str | os.PathLike[str]) -> None:
     """Write a figure to a file, its folder made where it is missing; the same figure gives the same bytes.
 
     Raises
@@ -38,24 +40,30 @@ def save(figure: Figure, path: str | os.PathLike[str]) -> None:
     if target.suffix not in _METADATA:
         raise ValueError(f"{target}: pictures are written as {', '.join(_METADATA)}")
     target.parent.mkdir(parents=True, exist_ok=True)
-    with rc_context({"svg.hashsalt": "fmu-bearing"}):
+    with need("matplotlib", "a picture").rc_context({"svg.hashsalt": "fmu-bearing"}):
         figure.savefig(target, dpi=120, metadata=_METADATA[target.suffix])
 
 
-def empty(size: tuple[float, float]) -> Figure:
-    """Return a figure of a size (inches) that needs no screen."""
-    figure = Figure(figsize=size, layout="constrained")
-    FigureCanvasAgg(figure)
+def empty(size: tuple[float, float]) -> "Figure":
+    """Return a figure of a size (inches) that needs no screen.
+
+    Raises
+    ------
+    MissingExtra
+        Without Matplotlib (extra ``plots``).
+    """
+    figure: Figure = need("matplotlib.figure", "a picture").Figure(figsize=size, layout="constrained")
+    need("matplotlib.backends.backend_agg", "a picture").FigureCanvasAgg(figure)
     return figure
 
 
-def single(size: tuple[float, float]) -> tuple[Figure, Axes]:
+def single(size: tuple[float, float]) -> "tuple[Figure, Axes]":
     """Return such a figure with one set of axes."""
     figure = empty(size)
     return figure, figure.add_subplot()
 
 
-def label(ax: Axes, x: str, y: str, title: str, grid: bool = True) -> None:
+def label(ax: "Axes", x: str, y: str, title: str, grid: bool = True) -> None:
     """Name axes and picture, with a faint grid behind the curves."""
     ax.set_xlabel(x)
     ax.set_ylabel(y)

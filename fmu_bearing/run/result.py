@@ -13,8 +13,8 @@ from fmpy.util import read_csv, write_csv
 from numpy.typing import NDArray
 
 from fmu_bearing import renamed
+from fmu_bearing.extras import need
 from fmu_bearing.files import write_whole
-from fmu_bearing.run.extras import need
 from fmu_bearing.scene import Scene, read_scene_text
 
 if TYPE_CHECKING:

@@ -2,12 +2,14 @@
 
 import os
 from collections.abc import Sequence
-
-from matplotlib.figure import Figure
+from typing import TYPE_CHECKING
 
 from fmu_bearing.run.names import UnknownName, chosen_names, unit_of
 from fmu_bearing.run.pictures import OTHERS, empty, label, save
 from fmu_bearing.run.result import Run
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 #: Variables drawn by default, as far as the run has them.
 USUAL = (
@@ -18,7 +20,7 @@ _MOST = 14  # curves in a panel whose legend can still be read
 _WIDTHS = (1.2, 0.7)
 
 
-def time_picture(run: Run, patterns: Sequence[str] | None = None, title: str = "") -> Figure:
+def time_picture(run: Run, patterns: Sequence[str] | None = None, title: str = "") -> "Figure":
     """Draw variables over time, one panel per unit.
 
     Parameters

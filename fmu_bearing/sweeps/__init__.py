@@ -23,7 +23,7 @@ import pathlib
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from fmu_bearing.run.extras import need
+from fmu_bearing.extras import need
 from fmu_bearing.scene import Scene
 from fmu_bearing.sweeps.axes import SweepError
 from fmu_bearing.sweeps.plan import SETTLE, WINDOW, plan as lay_out

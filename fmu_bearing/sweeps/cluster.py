@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator, Sequence
 from importlib.metadata import version
 from typing import Any
 
-from fmu_bearing.run.extras import need
+from fmu_bearing.extras import need
 from fmu_bearing.sweeps.axes import SweepError
 from fmu_bearing.sweeps.local import failed
 from fmu_bearing.sweeps.point import Outcome, Task, block_of, code_digest, nothing, run_point

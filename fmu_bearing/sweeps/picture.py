@@ -5,8 +5,6 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from fmu_bearing.run.names import chosen_names
@@ -17,6 +15,8 @@ from fmu_bearing.sweeps.result import REASON, SEED, WALL
 
 if TYPE_CHECKING:
     import xarray
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 __all__ = ["draw_map", "label_of", "save", "shown", "sweep_picture"]
 
@@ -27,7 +27,7 @@ _MOST = 9  # panels
 _SHOWN = {"m/s": (1e3, "mm/s"), "N.m": (1e3, "N.mm"), "Pa": (1e-9, "GPa"), "rad": (180.0 / math.pi, "deg")}
 
 
-def sweep_picture(data: "xarray.Dataset", figures: Sequence[str] | None = None) -> Figure:
+def sweep_picture(data: "xarray.Dataset", figures: Sequence[str] | None = None) -> "Figure":
     """Draw figures of a sweep, a panel each: curves over one axis, maps over two.
 
     An axis of texts, or one of fewer than three values beside a longer one, makes curves side by side. Axes
@@ -80,7 +80,7 @@ def shown(values: "xarray.DataArray") -> tuple["xarray.DataArray", str]:
 
 
 def draw_map(
-    ax: Axes, data: "xarray.Dataset", over: str, beside: str, values: NDArray[np.float64], **options: Any
+    ax: "Axes", data: "xarray.Dataset", over: str, beside: str, values: NDArray[np.float64], **options: Any
 ) -> Any:
     """Draw values (rows along ``beside``) as a map; points without a figure stay grey. Return its colours."""
     ax.set_facecolor("0.75")
@@ -104,7 +104,7 @@ def label_of(data: "xarray.Dataset", name: str) -> str:
 
 
 def _curves(
-    ax: Axes, data: "xarray.Dataset", over: str, beside: str | None, values: "xarray.DataArray"
+    ax: "Axes", data: "xarray.Dataset", over: str, beside: str | None, values: "xarray.DataArray"
 ) -> None:  # fmt: skip
     x = data[over].values
     if x.dtype.kind in "biuf" and _is_geometric(x.astype(float)):

@@ -9,6 +9,8 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from fmu_bearing.elastic.section import BENDING
+from fmu_bearing.extras import need
 from fmu_bearing.prepare.sound import sound_key
 from fmu_bearing.run.choose import resolve
 from fmu_bearing.scene import Scene, SceneError, read_scene
@@ -77,6 +79,8 @@ def plan(
         For a scene file that is refused.
     UnknownName
         For an unknown figure.
+    MissingExtra
+        Where a ring bends, without scikit-fem.
     """
     _check_times(settle, window)
     scene = source if isinstance(source, Scene) else read_scene(source)
@@ -86,6 +90,8 @@ def plan(
         scene, choice = resolve(scene)
         note = "" if choice is None else choice.summary
     scenes = _scenes(scene, found)
+    if any(one.bends for one in scenes):
+        need("skfem", BENDING)  # told once, and not as the reason of every point
     kept = figures_of(scene, figures)
     names = tuple(figure.name for figure in kept)
     first: dict[str, Scene] = {}  # the first scene of all that sound alike

@@ -10,7 +10,7 @@ import numba
 import numpy as np
 
 from fmu_bearing.engine.jit import source_hash
-from fmu_bearing.run.extras import need
+from fmu_bearing.extras import need
 from fmu_bearing.run.table import write_csv
 from fmu_bearing.sweeps.figures import STATISTICS
 from fmu_bearing.sweeps.plan import Plan

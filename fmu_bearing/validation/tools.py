@@ -5,7 +5,7 @@ from pathlib import Path
 
 from fmpy.validation import validate_fmu
 
-from fmu_bearing.run.extras import MissingExtra, need
+from fmu_bearing.extras import MissingExtra, need
 from fmu_bearing.validation.remarks import FINDING, SKIPPED, Result
 
 

@@ -97,7 +97,8 @@ def test_platform_without_its_compiler_names_the_extra(no_zig):
     with pytest.raises(BuildError) as refusal:
         link.compiler_for(PLATFORMS[other])
     assert str(refusal.value) == (
-        f"{other}: another platform than this machine's needs pip install fmu-bearing[cross]"
+        f"{other}: another platform than this machine's needs the package ziglang: "
+        "pip install 'fmu-bearing[cross]'"
     )
 
 
@@ -110,7 +111,8 @@ def test_command_without_the_compiler_ends_with_one_line(no_zig, monkeypatch, tm
     )
     assert ran.exit_code == 2
     assert [line for line in ran.output.splitlines() if line.startswith("error: ")] == [
-        f"error: {other}: another platform than this machine's needs pip install fmu-bearing[cross]"
+        f"error: {other}: another platform than this machine's needs the package ziglang: "
+        "pip install 'fmu-bearing[cross]'"
     ]
     assert not (tmp_path / "bearing.fmu").exists()
 
@@ -143,7 +145,7 @@ def test_named_platform_without_zig_takes_the_own_compiler(no_zig, compiler):
 @pytest.fixture(scope="session")
 def zig():
     if importlib.util.find_spec("ziglang") is None:
-        pytest.skip("Zig is not installed: pip install fmu-bearing[cross]")
+        pytest.skip("Zig is not installed: pip install 'fmu-bearing[cross]'")
     return (sys.executable, "-m", "ziglang", "cc")
 
 

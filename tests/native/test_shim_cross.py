@@ -14,7 +14,7 @@ from . import toy
 @pytest.mark.parametrize("platform", platforms.PLATFORMS)
 def test_shim_and_host_compile_for(platform, tmp_path):
     if importlib.util.find_spec("ziglang") is None:
-        pytest.skip("needs pip install fmu-bearing[cross]")
+        pytest.skip("needs pip install 'fmu-bearing[cross]'")
     target = platforms.PLATFORMS[platform]
     compiler = (sys.executable, "-m", "ziglang", "cc", "-target", target.zig)
     flags = [*toy.WARNINGS, "-O2", f"-I{toy.HEADERS}", f'-DFB_KERNELS="{toy.KERNELS}"']

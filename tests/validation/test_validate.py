@@ -11,13 +11,12 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from fmu_bearing import cli
+from fmu_bearing import cli, extras
 from fmu_bearing.fmi import reference
 from fmu_bearing.fmi.native.optimise import BuildError
 from fmu_bearing.fmi.native.platforms import host
 from fmu_bearing.fmi.package import build
 from fmu_bearing.prepare.model import prepare
-from fmu_bearing.run import extras
 from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.validation import NotAnFmu, Result, abilities, life, tools, validate
 from fmu_bearing.validation.checks import CHECKS, meaning_of, name_of

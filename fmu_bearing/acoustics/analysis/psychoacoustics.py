@@ -1,13 +1,12 @@
 """Loudness, sharpness and roughness by MoSQITo (extra ``psychoacoustics``)."""
 
 from dataclasses import dataclass
-from importlib import import_module
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from fmu_bearing.acoustics.analysis.audio import WAV_RATE, resample
+from fmu_bearing.extras import need
 
 
 @dataclass(frozen=True)
@@ -34,17 +33,12 @@ def sensation(pressure: ArrayLike, sample_rate: float) -> Sensation:
 
     Raises
     ------
-    ImportError
-        Without the package `mosqito`; the message names the extra.
+    MissingExtra
+        Without MoSQITo.
     ValueError
         For less than 0.05 s.
     """
-    try:
-        metrics: Any = import_module("mosqito.sq_metrics")
-    except ImportError:
-        raise ImportError(
-            'loudness, sharpness and roughness need MoSQITo: pip install "fmu-bearing[psychoacoustics]"'
-        ) from None
+    metrics = need("mosqito.sq_metrics", "a figure of loudness, sharpness and roughness")
     signal = resample(pressure, sample_rate)
     if signal.ndim != 1 or signal.size < 0.05 * WAV_RATE:
         raise ValueError(

@@ -17,6 +17,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 from fmu_bearing.engine.sources import digest, engine_digest
+from fmu_bearing.extras import install_command
 from fmu_bearing.files import write_whole
 from fmu_bearing.fmi.native.compile import kernel_folder, objects
 from fmu_bearing.fmi.native.optimise import BuildError
@@ -85,11 +86,12 @@ def compiler_for(platform: Platform, prefer: str = "auto") -> Compiler:
         return Compiler((*zig, *_zig_flags(platform)), f"zig {version('ziglang')}")
     if own:
         raise BuildError(
-            f"{platform.name}: there is no C compiler; install one (Debian: gcc), or pip install "
-            "fmu-bearing[cross]"
+            f"{platform.name}: there is no C compiler; install one (Debian: gcc), or "
+            + install_command("ziglang")
         )
     raise BuildError(
-        f"{platform.name}: another platform than this machine's needs pip install fmu-bearing[cross]"
+        f"{platform.name}: another platform than this machine's needs the package ziglang: "
+        + install_command("ziglang")
     )
 
 

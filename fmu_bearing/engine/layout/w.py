@@ -24,7 +24,7 @@ from fmu_bearing.engine.layout import (
     u as _U,
     y as _Y,
 )
-from fmu_bearing.engine.layout.sizes import MAX_BALLS, STAGES, STRIDE, Places
+from fmu_bearing.engine.layout.sizes import FOUR, MAX_BALLS, STAGES, STRIDE, Places
 
 # force and moment of one body on the balls: rows
 _force = Places()
@@ -89,7 +89,8 @@ STILL_END = _still.next
 
 # the Newton system, over forces on balls that the evaluation before has added up: while it is factored
 _factor = Places(FORCE)
-COLUMN = _factor(_J.BALL * STRIDE)  # a column of the border, later of the springs between balls
+COLUMN = _factor(STRIDE)  # a column of the springs between balls
+BORDER_SUMS = _factor(_Q.SIZE * FOUR)  # a row of the border through the balls, in four partial sums each
 BORDER = _factor(_Q.SIZE * _Q.SIZE)  # what the balls leave of the bodies' block, row by row
 PIVOTS = _factor(MAX_BALLS)  # of inverting it, or the springs' matrix
 FACTOR_END = _factor.next
@@ -98,7 +99,7 @@ _solve = Places(FORCE)
 OWN = _solve(_J.BALL * STRIDE)  # the balls' own inverses times their residual
 REST = _solve(_A.BORDER)  # the bodies' residual less the balls' answers
 BODIES = _solve(_A.BORDER)  # the bodies' increment
-LANE_SUMS = _solve(STRIDE)  # one body coordinate's products with all balls
+BODY_SUMS = _solve(_Q.SIZE * FOUR)  # what the balls put on the bodies, in four partial sums each
 SPRING_ORBIT = _solve(STRIDE)  # of springs between balls: U^T x, T U^T x and z of newton/springs
 SPRING_PULL = _solve(STRIDE)
 SPRING_ANSWER = _solve(STRIDE)

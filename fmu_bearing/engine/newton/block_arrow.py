@@ -3,41 +3,38 @@
 The balls are eliminated first; what remains for the bodies is inverted once per factorisation. Between
 factorisations the bearing turns: the solve turns the bodies' y, z pairs back by the orbit angle passed
 since, which keeps an old Jacobian exact for equal ball loads and an isotropic pedestal.
+
+Everything that belongs to balls is done for four of them at a time.
 """
 
 from fmu_bearing.engine.jit import inlined, kernel
-from fmu_bearing.engine.lanes import sum_lanes
+from fmu_bearing.engine.lanes import dot_six, in_groups, load, six, splat, store, store_six, sum_four
 from fmu_bearing.engine.layout import FOUR, MAX_BALLS, STRIDE, A, F, J, P, Q, W
 from fmu_bearing.engine.newton.springs import couple_springs, spring_matrix
 
-_PAIR = 2 * STRIDE  # from one pair of entries to the next
-_OWN = J.BALL * STRIDE  # a row of a ball's own inverse
-_BODIES = Q.SIZE * STRIDE  # a row of that times the ball's rows for the bodies
+_ROW = J.STATES * STRIDE  # from one row of blocks B and D to the next
+_BODIES = J.BODIES * STRIDE  # and of block C
 
 
 @kernel
-def invert_blocks(a, at, lanes):
-    """Invert the 6 x 6 blocks of all lanes in place (Gauss-Jordan; the blocks' diagonals dominate)."""
+def invert_block(a, at):
+    """Invert the 6 x 6 blocks of a group at ``a[at:]`` in place (Gauss-Jordan; their diagonals dominate)."""
     for k in range(J.BALL):
-        kk = at + (k * J.BALL + k) * STRIDE
-        for j in range(lanes):
-            a[kk + j] = 1.0 / a[kk + j]
+        row = at + k * A.SIX
+        pivot = 1.0 / load(a, row + k * FOUR)
+        store(a, row + k * FOUR, pivot)
         for m in range(J.BALL):
             if m != k:
-                km = at + (k * J.BALL + m) * STRIDE
-                for j in range(lanes):
-                    a[km + j] *= a[kk + j]
+                store(a, row + m * FOUR, load(a, row + m * FOUR) * pivot)
         for i in range(J.BALL):
             if i != k:
-                ik = at + (i * J.BALL + k) * STRIDE
+                other = at + i * A.SIX
+                factor = load(a, other + k * FOUR)
                 for m in range(J.BALL):
                     if m != k:
-                        im = at + (i * J.BALL + m) * STRIDE
-                        km = at + (k * J.BALL + m) * STRIDE
-                        for j in range(lanes):
-                            a[im + j] -= a[ik + j] * a[km + j]
-                for j in range(lanes):
-                    a[ik + j] *= -a[kk + j]
+                        entry = other + m * FOUR
+                        store(a, entry, load(a, entry) - factor * load(a, row + m * FOUR))
+                store(a, other + k * FOUR, -(factor * pivot))
 
 
 @kernel
@@ -84,43 +81,50 @@ def invert_border(a, at, n, w):
 
 
 @inlined
-def newton_row(jac, at, columns, cv, cx, out, to, lanes):
-    """``out[to] = -cv jac[at + columns] - cx jac[at]``: minus rate and place derivative of one entry."""
-    for j in range(lanes):
-        out[to + j] = -cv * jac[at + columns * STRIDE + j] - cx * jac[at + j]
-
-
-@kernel
-def border_column(jac, fac, w, g, cv, cx, cx_ball, lanes):
-    """Column ``g`` of the border: W = Mb^-1 M_bG into ``fac``, and the row M_Gb beside it."""
-    for i in range(J.BALL):
-        newton_row(jac, J.C + (i * J.BODIES + g) * STRIDE, Q.SIZE, cv, cx, w, W.COLUMN + i * STRIDE, lanes)
-    for i in range(J.BALL):
-        times_six(fac, A.INVERSE + i * _OWN, w, W.COLUMN, fac, A.W + (i * Q.SIZE + g) * STRIDE, lanes)
-    for k in range(J.BALL):
-        entry = J.D + (g * J.STATES + k) * STRIDE
-        out = A.GB + (g * J.BALL + k) * STRIDE
-        newton_row(jac, entry, J.PLACED, cv, cx_ball if k < J.PLACED else 0.0, fac, out, lanes)
+def entry(jac, place, rate, cv, cx):
+    """Four balls' entry of the Newton matrix off its diagonal, from the derivatives by place and by rate."""
+    return -cv * load(jac, rate) - cx * load(jac, place)
 
 
 @inlined
-def through_balls(fac, g, h, lanes):
-    """Row ``g`` for the balls times column ``h`` of W, over all balls: four partial sums of fixed order."""
-    a = 0.0
-    b = 0.0
-    c = 0.0
-    d = 0.0
+def rows_by_ball(jac, first, cv, cx, fac, to):
+    """Entries of one acceleration for a ball's own six into ``fac[to:]``; ``first``: its row of B or D."""
     for k in range(J.BALL):
-        row = A.GB + (g * J.BALL + k) * STRIDE
-        right = A.W + (k * Q.SIZE + h) * STRIDE
-        for quad in range(lanes // FOUR):
-            i = FOUR * quad
-            j = i + 2
-            a += fac[row + i] * fac[right + i]
-            b += fac[row + i + 1] * fac[right + i + 1]
-            c += fac[row + j] * fac[right + j]
-            d += fac[row + j + 1] * fac[right + j + 1]
-    return (a + b) + (c + d)
+        place = first + k * STRIDE
+        # orbit and translations have places, the spins have none
+        weight = cx if k < J.PLACED else 0.0
+        store(fac, to + k * FOUR, entry(jac, place, place + J.PLACED * STRIDE, cv, weight))
+
+
+@kernel
+def factor_group(jac, j, cv, cx, cx_ball, fac, at):
+    """Factors of the four balls from lane ``j`` on into their group at ``fac[at:]``."""
+    for i in range(J.BALL):
+        own = at + A.INVERSE + i * A.SIX
+        rows_by_ball(jac, J.B + i * _ROW + j, cv, cx_ball, fac, own)
+        store(fac, own + i * FOUR, load(fac, own + i * FOUR) + 1.0)
+    invert_block(fac, at + A.INVERSE)
+    for g in range(Q.SIZE):
+        rows_by_ball(jac, J.D + g * _ROW + j, cv, cx_ball, fac, at + A.GB + g * A.SIX)
+        place = J.C + g * STRIDE + j
+        column = at + A.W + g * A.SIX
+        for i in range(J.BALL):
+            row = place + i * _BODIES
+            store(fac, column + i * FOUR, entry(jac, row, row + Q.SIZE * STRIDE, cv, cx))
+        store_six(fac, column, FOUR, times_six(fac, at + A.INVERSE, six(fac, column, FOUR)))
+
+
+@kernel
+def through_balls(fac, g, lanes, sums):
+    """Row ``g`` for the balls times all columns of W, over all balls: four partial sums each."""
+    for h in range(Q.SIZE):
+        store(sums, h * FOUR, 0.0)
+    for j in range(0, lanes, FOUR):
+        at = in_groups(j, A.GROUP)
+        row = six(fac, at + A.GB + g * A.SIX, FOUR)
+        for h in range(Q.SIZE):
+            column = six(fac, at + A.W + h * A.SIX, FOUR)
+            store(sums, h * FOUR, load(sums, h * FOUR) + dot_six(row, column))
 
 
 @kernel
@@ -130,24 +134,17 @@ def factor(p, jac, cv, cx, cx_ball, fac, w):
     ``cx_ball`` stands for ``cx`` in the columns of the balls' places.
     """
     lanes = int(p[P.LANES])
-    for i in range(J.BALL):
-        for k in range(J.BALL):
-            entry = J.B + (i * J.STATES + k) * STRIDE
-            out = A.INVERSE + (i * J.BALL + k) * STRIDE
-            newton_row(jac, entry, J.PLACED, cv, cx_ball if k < J.PLACED else 0.0, fac, out, lanes)
-        own = A.INVERSE + i * (J.BALL + 1) * STRIDE
-        for j in range(lanes):
-            fac[own + j] += 1.0
-    invert_blocks(fac, A.INVERSE, lanes)
-    for g in range(Q.SIZE):
-        border_column(jac, fac, w, g, cv, cx, cx_ball, lanes)
+    for j in range(0, lanes, FOUR):
+        factor_group(jac, j, cv, cx, cx_ball, fac, in_groups(j, A.GROUP))
     border = w[W.BORDER : W.BORDER + Q.SIZE * Q.SIZE]
+    sums = w[W.BORDER_SUMS : W.BORDER_SUMS + Q.SIZE * FOUR]
     for g in range(Q.SIZE):
+        through_balls(fac, g, lanes, sums)
         for h in range(Q.SIZE):
-            entry = J.E + g * J.BODIES + h
+            place = J.E + g * J.BODIES + h
             total = 1.0 if g == h else 0.0
-            total -= cv * jac[entry + Q.SIZE] + cx * jac[entry]
-            border[g * Q.SIZE + h] = total - through_balls(fac, g, h, lanes)
+            total -= cv * jac[place + Q.SIZE] + cx * jac[place]
+            border[g * Q.SIZE + h] = total - sum_four(load(sums, h * FOUR))
     pivots = w[W.PIVOTS : W.PIVOTS + MAX_BALLS]
     fine = invert_border(border, 0, Q.SIZE, pivots)
     for g in range(Q.SIZE):
@@ -180,58 +177,65 @@ def turn_pairs(x, at, c, s):
 
 
 @inlined
-def pair(a, row, x, at, step):
-    """Products of two entries of ``a``, at ``row`` and in the next row, with two numbers of ``x``."""
-    return a[row] * x[at] + a[row + STRIDE] * x[at + step]
-
-
-@inlined
-def six(a, row, x, at, step):
-    """Sum of six products as three pairs: entries of ``a`` in rows, numbers of ``x`` ``step`` apart."""
+def times_six(fac, at, x):
+    """Six by six entries at ``fac[at:]`` times six numbers of each of four balls."""
+    step = A.SIX
     return (
-        pair(a, row, x, at, step)
-        + pair(a, row + _PAIR, x, at + 2 * step, step)
-        + pair(a, row + 2 * _PAIR, x, at + 2 * 2 * step, step)
+        dot_six(six(fac, at, FOUR), x),
+        dot_six(six(fac, at + step, FOUR), x),
+        dot_six(six(fac, at + 2 * step, FOUR), x),
+        dot_six(six(fac, at + 3 * step, FOUR), x),
+        dot_six(six(fac, at + 4 * step, FOUR), x),
+        dot_six(six(fac, at + 5 * step, FOUR), x),
     )
 
 
 @inlined
-def times_six(a, row, x, at, out, to, lanes):
-    """``out[to + j] = sum over k of a[row + k] x[at + k]`` lane by lane, ``k`` counting rows."""
-    for j in range(lanes):
-        out[to + j] = six(a, row + j, x, at + j, STRIDE)
+def less_scaled(t, column, x):
+    """Six numbers of each ball less ``x`` times another six."""
+    t0, t1, t2, t3, t4, t5 = t
+    c0, c1, c2, c3, c4, c5 = column
+    return t0 - c0 * x, t1 - c1 * x, t2 - c2 * x, t3 - c3 * x, t4 - c4 * x, t5 - c5 * x
 
 
 @inlined
-def less_seventeen(a, row, x, at, t, source, out, to, lanes):
-    """``out[to + j] = t[source + j] - sum over g of a[row + g] x[at + g]``: two sixes and the other five.
-
-    ``g`` counts rows of ``a`` and numbers of ``x``.
-    """
-    second = row + J.BALL * STRIDE
-    third = second + J.BALL * STRIDE
-    last = third + 2 * _PAIR
-    x_second = at + J.BALL
-    x_third = x_second + J.BALL
-    for j in range(lanes):
-        total = six(a, row + j, x, at, 1) + six(a, second + j, x, x_second, 1)
-        others = pair(a, third + j, x, x_third, 1) + pair(a, third + _PAIR + j, x, x_third + 2, 1)
-        out[to + j] = t[source + j] - (total + (others + a[last + j] * x[x_third + 2 * 2]))
+def border_product(fac, w, d):
+    """Bodies' part of ``d`` from their residual in ``w``: S^-1 stands by columns of ``BORDER`` numbers."""
+    for i in range(0, A.BORDER, FOUR):
+        total = splat(0.0)
+        for h in range(Q.SIZE):
+            total += load(fac, A.S + h * A.BORDER + i) * w[W.REST + h]
+        store(w, W.BODIES + i, total)
+    for g in range(Q.SIZE):
+        d[F.BODY + g] = w[W.BODIES + g]
 
 
 @kernel
-def border_product(fac, w, d):
-    """Bodies' part of ``d`` from their residual in ``w``: S^-1 stands by columns of ``BORDER`` numbers."""
-    total = w[W.BODIES : W.BODIES + A.BORDER]
-    for i in range(A.BORDER):
-        total[i] = 0.0
-    for h in range(Q.SIZE):
-        x = w[W.REST + h]
-        column = fac[A.S + h * A.BORDER : A.SIZE]
-        for i in range(A.BORDER):
-            total[i] += column[i] * x
+def answer_alone(fac, lanes, d, w):
+    """Put what each ball answers to its residual in ``d``, the bodies held, into the rows ``W.OWN``.
+
+    What that puts on the bodies goes to ``W.BODY_SUMS``, in four partial sums each.
+    """
     for g in range(Q.SIZE):
-        d[F.BODY + g] = total[g]
+        store(w, W.BODY_SUMS + g * FOUR, 0.0)
+    for j in range(0, lanes, FOUR):
+        at = in_groups(j, A.GROUP)
+        own = times_six(fac, at + A.INVERSE, six(d, j, STRIDE))
+        store_six(w, W.OWN + j, STRIDE, own)
+        for g in range(Q.SIZE):
+            total = W.BODY_SUMS + g * FOUR
+            store(w, total, load(w, total) + dot_six(six(fac, at + A.GB + g * A.SIX, FOUR), own))
+
+
+@kernel
+def follow_bodies(fac, lanes, d, w):
+    """Put the balls' increments into ``d``: their own answer less what the bodies' increments there do."""
+    for j in range(0, lanes, FOUR):
+        at = in_groups(j, A.GROUP)
+        own = six(w, W.OWN + j, STRIDE)
+        for g in range(Q.SIZE):
+            own = less_scaled(own, six(fac, at + A.W + g * A.SIX, FOUR), d[F.BODY + g])
+        store_six(d, j, STRIDE, own)
 
 
 @kernel
@@ -242,15 +246,11 @@ def solve(p, fac, c, s, d, w):
     """
     lanes = int(p[P.LANES])
     turn_pairs(d, F.BODY, c, -s)
-    for i in range(J.BALL):
-        times_six(fac, A.INVERSE + i * _OWN, d, 0, w, W.OWN + i * STRIDE, lanes)
-    products = w[W.LANE_SUMS : W.LANE_SUMS + STRIDE]
+    answer_alone(fac, lanes, d, w)
     for g in range(Q.SIZE):
-        times_six(fac[A.GB + g * _OWN : A.S], 0, w, W.OWN, products, 0, lanes)
-        w[W.REST + g] = d[F.BODY + g] - sum_lanes(products, 0, lanes)
+        w[W.REST + g] = d[F.BODY + g] - sum_four(load(w, W.BODY_SUMS + g * FOUR))
     border_product(fac, w, d)
     if p[P.SPRINGS] != 0.0 and p[P.CAGE] == 0.0:
         couple_springs(p, fac, d, w)
-    for i in range(J.BALL):
-        less_seventeen(fac, A.W + i * _BODIES, d, F.BODY, w, W.OWN + i * STRIDE, d, i * STRIDE, lanes)
+    follow_bodies(fac, lanes, d, w)
     turn_pairs(d, F.BODY, c, s)

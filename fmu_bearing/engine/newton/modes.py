@@ -10,7 +10,8 @@ equal ball loads.
 import math
 
 from fmu_bearing.engine.jit import inlined, kernel
-from fmu_bearing.engine.layout import FL, STRIDE, A, J, P, Q, W, Y
+from fmu_bearing.engine.lanes import in_groups
+from fmu_bearing.engine.layout import FL, FOUR, STRIDE, A, J, P, Q, W, Y
 from fmu_bearing.engine.mechanics.flexure import bends
 
 
@@ -72,7 +73,7 @@ def returns(p, jac, fac, race, c, s, cv, cx, j, kept, row):
         for k in range(J.BALL):
             total = 0.0
             for m in range(J.BALL):
-                total += row[m] * fac[A.INVERSE + (m * J.BALL + k) * STRIDE + j]
+                total += row[m] * fac[in_groups(j, A.GROUP) + A.INVERSE + m * A.SIX + k * FOUR]
             kept[(FL.ANSWERS + axis * J.BALL + k) * STRIDE + j] = total
 
 

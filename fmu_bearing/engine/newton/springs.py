@@ -10,7 +10,8 @@ inverse, both before the balls are substituted back.
 """
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import STRIDE, A, F, J, P, Q, W
+from fmu_bearing.engine.lanes import in_groups
+from fmu_bearing.engine.layout import FOUR, STRIDE, A, F, J, P, Q, W
 
 _ORBIT = 2  # row of a ball's accelerations
 
@@ -26,11 +27,12 @@ def spring_matrix(p, cv, cx, fac, w):
     strength = (cv * p[P.SPRING_DAMPING] + cx * p[P.SPRINGS]) / p[P.BALL_MASS]
     fac[A.SPRING] = strength
     for j in range(balls):
+        ball = in_groups(j, A.GROUP)
         for h in range(Q.SIZE):
             total = 0.0
             for k in range(J.BALL):
-                own = fac[A.INVERSE + (k * J.BALL + _ORBIT) * STRIDE + j]
-                total += fac[A.GB + (h * J.BALL + k) * STRIDE + j] * own
+                own = fac[ball + A.INVERSE + k * A.SIX + _ORBIT * FOUR]
+                total += fac[ball + A.GB + h * A.SIX + k * FOUR] * own
             w[W.COLUMN + h] = total
         for g in range(Q.SIZE):
             total = 0.0
@@ -39,9 +41,10 @@ def spring_matrix(p, cv, cx, fac, w):
             fac[A.SPRING_BODY + g * STRIDE + j] = total
     for j in range(balls):
         for i in range(balls):
-            total = fac[A.INVERSE + (_ORBIT * J.BALL + _ORBIT) * STRIDE + j] if i == j else 0.0
+            ball = in_groups(i, A.GROUP)
+            total = fac[ball + A.INVERSE + _ORBIT * A.SIX + _ORBIT * FOUR] if i == j else 0.0
             for g in range(Q.SIZE):
-                total -= fac[A.W + (_ORBIT * Q.SIZE + g) * STRIDE + i] * fac[A.SPRING_BODY + g * STRIDE + j]
+                total -= fac[ball + A.W + g * A.SIX + _ORBIT * FOUR] * fac[A.SPRING_BODY + g * STRIDE + j]
             w[W.COLUMN + i] = total  # column j of G
         for i in range(balls):
             ahead = i + 1 if i + 1 < balls else 0
@@ -59,9 +62,10 @@ def couple_springs(p, fac, d, w):
     """
     balls = int(p[P.BALLS])
     for j in range(balls):
+        ball = in_groups(j, A.GROUP)
         total = w[W.OWN + _ORBIT * STRIDE + j]
         for g in range(Q.SIZE):
-            total -= fac[A.W + (_ORBIT * Q.SIZE + g) * STRIDE + j] * d[F.BODY + g]
+            total -= fac[ball + A.W + g * A.SIX + _ORBIT * FOUR] * d[F.BODY + g]
         w[W.SPRING_ORBIT + j] = total
     for j in range(balls):
         ahead = j + 1 if j + 1 < balls else 0
@@ -80,7 +84,7 @@ def couple_springs(p, fac, d, w):
         for j in range(balls):
             total += fac[A.SPRING_BODY + g * STRIDE + j] * w[W.SPRING_ANSWER + j]
         d[F.BODY + g] = total
-    for k in range(J.BALL):
-        own = A.INVERSE + (k * J.BALL + _ORBIT) * STRIDE
-        for j in range(int(p[P.LANES])):
-            w[W.OWN + k * STRIDE + j] += fac[own + j] * w[W.SPRING_ANSWER + j]
+    for j in range(int(p[P.LANES])):
+        own = in_groups(j, A.GROUP) + A.INVERSE + _ORBIT * FOUR
+        for k in range(J.BALL):
+            w[W.OWN + k * STRIDE + j] += fac[own + k * A.SIX] * w[W.SPRING_ANSWER + j]

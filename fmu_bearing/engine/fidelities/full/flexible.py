@@ -8,9 +8,9 @@ import math
 
 from fmu_bearing.engine.fidelities.full.methods.table import TABLEAUX
 from fmu_bearing.engine.jit import inlined, kernel
-from fmu_bearing.engine.layout import FL, STRIDE, TAB, J, P, W
+from fmu_bearing.engine.lanes import consecutive, dot_six, select, six, store
+from fmu_bearing.engine.layout import FL, FOUR, STRIDE, TAB, J, P, W
 from fmu_bearing.engine.mechanics.flexure import bends, mode_force
-from fmu_bearing.engine.newton.block_arrow import times_six
 from fmu_bearing.engine.newton.modes import inverse_of_modes, partner, ring_factors
 
 
@@ -19,9 +19,11 @@ def groove_residual(rows, d, lanes, balls, own):
     """Force rows that the balls' residual ``d`` puts on the groove once the balls have answered."""
     for axis in range(FL.GROOVE):
         out = FL.X + axis * STRIDE
-        times_six(rows, (FL.ANSWERS + axis * J.BALL) * STRIDE, d, 0, own, out, lanes)
-        for j in range(balls, lanes):
-            own[out + j] = 0.0
+        row = (FL.ANSWERS + axis * J.BALL) * STRIDE
+        for j in range(0, lanes, FOUR):
+            # spare lanes put none
+            force = dot_six(six(rows, row + j, STRIDE), six(d, j, STRIDE))
+            store(own, out + j, select(consecutive(j) < balls, force, 0.0))
 
 
 @inlined
@@ -79,7 +81,6 @@ def solve_modes(p, kept, stage, d, w):
     """
     modes = int(p[P.MODES])
     lanes = int(p[P.LANES])
-    balls = int(p[P.BALLS])
     table = int(p[P.AT_MODES])
     own = w[W.FLEX :]
     found = FL.A
@@ -90,7 +91,7 @@ def solve_modes(p, kept, stage, d, w):
     for race in range(2):
         if not bends(p, race):
             continue
-        groove_residual(ring_factors(kept, modes, race), d, lanes, balls, own)
+        groove_residual(ring_factors(kept, modes, race), d, lanes, p[P.BALLS], own)
         for k in range(modes):
             mode = table + k * P.MODE_SIZE
             if int(p[mode + P.MODE_BODY]) == race:

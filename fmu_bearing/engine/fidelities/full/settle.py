@@ -7,7 +7,8 @@ redistributed loads then lack of balance on the bodies is small and rings down w
 
 from fmu_bearing.engine.fidelities.full.flexible import solve_modes
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import FL, STRIDE, A, F, J, P, Q, S, W, Y
+from fmu_bearing.engine.lanes import in_groups
+from fmu_bearing.engine.layout import FL, FOUR, STRIDE, A, F, J, P, Q, S, W, Y
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.mechanics.flexure import flexure_state, show_flexure
 from fmu_bearing.engine.newton.block_arrow import factor
@@ -61,9 +62,10 @@ def settling(p, c, y, angle, speed, s, w):
     for j in range(lanes):
         x = 0.0
         r = 0.0
+        inverse = in_groups(j, A.GROUP) + A.INVERSE
         for k in range(_ORBIT):
-            x += fac[A.INVERSE + k * STRIDE + j] * d[k * STRIDE + j]
-            r += fac[A.INVERSE + (J.BALL + k) * STRIDE + j] * d[k * STRIDE + j]
+            x += fac[inverse + k * FOUR] * d[k * STRIDE + j]
+            r += fac[inverse + A.SIX + k * FOUR] * d[k * STRIDE + j]
         d[j] = x
         d[STRIDE + j] = r
         largest = max(largest, abs(x), abs(r))

@@ -1,6 +1,7 @@
 """What a step does to the state: renew the Jacobian, accept the step, add up energy."""
 
 from fmu_bearing.engine.fidelities.full.flexible import accept_modes
+from fmu_bearing.engine.fidelities.full.vectors import copy_rows
 from fmu_bearing.engine.fidelities.steps import advance_clock
 from fmu_bearing.engine.jit import inlined, kernel
 from fmu_bearing.engine.layout import STRIDE, C, F, P, Q, S, W, Y
@@ -66,11 +67,14 @@ def renew_jacobian(p, s, w):
 @kernel
 def accept(p, s, w, h):
     """Move the state to the end of the step just made; angles are brought back into one turn."""
+    lanes = int(p[P.LANES])
     y = s[S.Y : S.Y + Y.SIZE]
-    advance_axes(p, s[S.AXES : S.JAC], y, w[W.STAGE : W.STAGE + Y.SIZE], int(p[P.LANES]), h)
-    for i in range(Y.SIZE):
-        s[S.Y + i] = w[W.STAGE + i]
-    for i in range(F.SIZE):
+    advance_axes(p, s[S.AXES : S.JAC], y, w[W.STAGE : W.STAGE + Y.SIZE], lanes, h)
+    copy_rows(w[W.STAGE :], y, Y.Q0 // STRIDE, lanes)
+    for i in range(Y.Q0, Y.SIZE):
+        y[i] = w[W.STAGE + i]
+    copy_rows(w[W.LAST :], s[S.F :], F.BODY // STRIDE, lanes)
+    for i in range(F.BODY, F.SIZE):
         s[S.F + i] = w[W.LAST + i]
     accept_modes(p, s, flexure_state(p), w)
     turn = wrap(s[S.Y + Y.TH]) - s[S.Y + Y.TH]

@@ -2,7 +2,7 @@
 
 With base values from the stages before, V = v_base + g h A and X = x_base + g h V, so Newton's method needs
 one solve with I - g h Jv - (g h)^2 Jx per iteration. The first stage is the last one of the step before.
-The loops over all coordinates run over spare lanes too: they hold zeros.
+Only ``accept`` of ``progress`` lets anything into the state, which holds zeros beyond the last lane.
 """
 
 import math
@@ -10,9 +10,10 @@ import math
 from fmu_bearing.engine.fidelities.full import flexible
 from fmu_bearing.engine.fidelities.full.methods.table import TABLEAUX
 from fmu_bearing.engine.fidelities.full.norms import body_size, newton_size, row_size
-from fmu_bearing.engine.fidelities.full.vectors import add_scaled, sum_scaled
-from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import STRIDE, TAB, F, P, Q, W, Y
+from fmu_bearing.engine.fidelities.full.vectors import add_scaled, copy_rows, sum_scaled
+from fmu_bearing.engine.jit import inlined, kernel
+from fmu_bearing.engine.lanes import load, store
+from fmu_bearing.engine.layout import FOUR, STRIDE, TAB, F, P, Q, W, Y
 from fmu_bearing.engine.mechanics.ball_waves import turn_axes
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.newton.block_arrow import solve
@@ -43,66 +44,87 @@ def error_size(p, c, h, tableau, w):
     return math.sqrt(body_size(p, d, F.BODY) + 0.01 * row_size(d, F.X, 2, int(p[P.LANES])))
 
 
-@kernel
-def predict(y, h, gh, stage, tableau, w):
-    """State of a stage into ``w[W.STAGE:]`` from the stages before and a first guess of its accelerations."""
+@inlined
+def predict_balls(y, lanes, h, gh, stage, tableau, w):
+    """Rows of a stage's state from the stages before, and of its first guess: the accelerations before it."""
     here = W.ACC + stage * F.SIZE
-    acc = w[here : here + F.SIZE]
-    places = w[W.STAGE : W.STAGE + Y.PLACES]
-    rates = w[W.STAGE + Y.VX : W.STAGE + Y.Q0]
+    weights = tableau + TAB.A + stage * TAB.ROW
+    for row in range(Y.RATES // STRIDE):
+        for k in range(row * STRIDE, row * STRIDE + lanes, FOUR):
+            guess = load(w, here - F.SIZE + k)
+            rate = load(y, Y.VX + k) + gh * guess
+            for m in range(stage):
+                rate += h * TABLEAUX[weights + m] * load(w, W.ACC + m * F.SIZE + k)
+            store(w, here + k, guess)
+            store(w, W.STAGE + Y.VX + k, rate)
+    for row in range(Y.PLACES // STRIDE):
+        for k in range(row * STRIDE, row * STRIDE + lanes, FOUR):
+            place = load(y, k)
+            for m in range(stage):
+                place += h * TABLEAUX[weights + m] * load(w, W.VEL + m * F.SIZE + k)
+            store(w, W.STAGE + k, place + gh * load(w, W.STAGE + Y.VX + k))
+
+
+@inlined
+def predict_bodies(y, h, gh, stage, tableau, w):
+    """Do for the bodies what :func:`predict_balls` does for the balls."""
+    here = W.ACC + stage * F.SIZE
+    acc = w[here + F.BODY : here + F.WORK]
+    before = w[here - F.SIZE + F.BODY : here]
     q = w[W.STAGE + Y.Q0 : W.STAGE + Y.V0]
     v = w[W.STAGE + Y.V0 : W.STAGE + Y.SIZE]
-    before = w[here - F.SIZE : here]
-    for i in range(F.SIZE):
-        acc[i] = before[i]
-    sum_scaled(y[Y.VX : Y.Q0], gh, acc, rates, Y.RATES)
-    sum_scaled(y[Y.V0 : Y.SIZE], gh, acc[F.BODY :], v, Q.SIZE)
-    for i in range(Y.PLACES):
-        places[i] = y[i]
     for i in range(Q.SIZE):
+        acc[i] = before[i]
         q[i] = y[Y.Q0 + i]
+    sum_scaled(y[Y.V0 : Y.SIZE], gh, acc, v, Q.SIZE)
     for m in range(stage):
         a = h * TABLEAUX[tableau + TAB.A + stage * TAB.ROW + m]
-        if a != 0.0:
-            earlier = w[W.ACC + m * F.SIZE : W.ACC + (m + 1) * F.SIZE]
-            moving = w[W.VEL + m * F.SIZE : W.VEL + (m + 1) * F.SIZE]
-            add_scaled(a, earlier, rates, Y.RATES)
-            add_scaled(a, earlier[F.BODY :], v, Q.SIZE)
-            add_scaled(a, moving, places, Y.PLACES)
-            add_scaled(a, moving[F.BODY :], q, Q.SIZE)
-    add_scaled(gh, rates, places, Y.PLACES)
+        earlier = m * F.SIZE + F.BODY
+        add_scaled(a, w[W.ACC + earlier :], v, Q.SIZE)
+        add_scaled(a, w[W.VEL + earlier :], q, Q.SIZE)
     add_scaled(gh, v, q, Q.SIZE)
 
 
 @kernel
-def correct(acc, gh, w):
-    """Add the increment in ``w[W.D:]`` to a stage's accelerations ``acc`` and to its state."""
-    d = w[W.D : W.D + F.SIZE]
-    square = gh * gh
-    add_scaled(1.0, d, acc, Y.RATES + Q.SIZE)
-    add_scaled(gh, d, w[W.STAGE + Y.VX : W.STAGE + Y.Q0], Y.RATES)
-    add_scaled(square, d, w[W.STAGE : W.STAGE + Y.PLACES], Y.PLACES)
-    add_scaled(gh, d[F.BODY :], w[W.STAGE + Y.V0 : W.STAGE + Y.SIZE], Q.SIZE)
-    add_scaled(square, d[F.BODY :], w[W.STAGE + Y.Q0 : W.STAGE + Y.V0], Q.SIZE)
+def predict(y, lanes, h, gh, stage, tableau, w):
+    """State of a stage into ``w[W.STAGE:]`` from the stages before and a first guess of its accelerations."""
+    predict_balls(y, lanes, h, gh, stage, tableau, w)
+    predict_bodies(y, h, gh, stage, tableau, w)
 
 
 @kernel
-def keep_velocities(y, kept):
+def correct(acc, lanes, gh, w):
+    """Add the increment in ``w[W.D:]`` to a stage's accelerations ``acc`` and to its state."""
+    rates = W.STAGE + Y.VX
+    square = gh * gh
+    for row in range(Y.RATES // STRIDE):
+        for k in range(row * STRIDE, row * STRIDE + lanes, FOUR):
+            d = load(w, W.D + k)
+            store(acc, k, load(acc, k) + d)
+            store(w, rates + k, load(w, rates + k) + gh * d)
+            if row < Y.PLACES // STRIDE:
+                store(w, W.STAGE + k, load(w, W.STAGE + k) + square * d)
+    bodies = w[W.D + F.BODY : W.D + F.WORK]
+    add_scaled(1.0, bodies, acc[F.BODY :], Q.SIZE)
+    add_scaled(gh, bodies, w[W.STAGE + Y.V0 : W.STAGE + Y.SIZE], Q.SIZE)
+    add_scaled(square, bodies, w[W.STAGE + Y.Q0 : W.STAGE + Y.V0], Q.SIZE)
+
+
+@kernel
+def keep_velocities(y, lanes, kept):
     """Copy the rates of all places of a state into ``kept``, laid out like accelerations."""
-    rates = y[Y.VX : Y.VX + Y.PLACES]
-    for i in range(Y.PLACES):
-        kept[i] = rates[i]
+    copy_rows(y[Y.VX :], kept, Y.PLACES // STRIDE, lanes)
     for i in range(Q.SIZE):
         kept[F.BODY + i] = y[Y.V0 + i]
 
 
 @kernel
-def newton_residual(acc, w):
+def newton_residual(acc, lanes, w):
     """Right-hand side less the stage's accelerations ``acc`` into ``w[W.D:]``."""
-    d = w[W.D : W.D + F.SIZE]
-    f = w[W.F : W.F + F.SIZE]
-    for i in range(Y.RATES + Q.SIZE):
-        d[i] = f[i] - acc[i]
+    for row in range(Y.RATES // STRIDE):
+        for k in range(row * STRIDE, row * STRIDE + lanes, FOUR):
+            store(w, W.D + k, load(w, W.F + k) - load(acc, k))
+    sum_scaled(w[W.F + F.BODY :], -1.0, acc[F.BODY :], w[W.D + F.BODY :], Q.SIZE)
 
 
 @kernel
@@ -120,13 +142,14 @@ def runge_kutta_step(
     """
     gh = TABLEAUX[tableau + TAB.GAMMA] * h
     stages = int(TABLEAUX[tableau + TAB.COUNT])
+    lanes = int(p[P.LANES])
     stage_y = w[W.STAGE : W.STAGE + Y.SIZE]
     result = w[W.F : W.F + F.SIZE]
     increment = w[W.D : W.D + F.SIZE]
     for i in range(F.SIZE):
         w[W.ACC + i] = f[i]
         result[i] = 0.0
-    keep_velocities(y, w[W.VEL : W.VEL + F.SIZE])
+    keep_velocities(y, lanes, w[W.VEL : W.VEL + F.SIZE])
     bending = p[P.MODES] != 0.0
     flexible.begin_modes(p, flexure, w)
     orbit = y[Y.OM]
@@ -135,11 +158,11 @@ def runge_kutta_step(
     for stage in range(1, stages):
         here = W.ACC + stage * F.SIZE
         acc = w[here : here + F.SIZE]
-        predict(y, h, gh, stage, tableau, w)
+        predict(y, lanes, h, gh, stage, tableau, w)
         if bending:
             flexible.predict_modes(p, flexure, h, gh, stage, tableau, w)
         t = h * TABLEAUX[tableau + TAB.NODES + stage]
-        turn_axes(p, axes, y, int(p[P.LANES]), t, w)
+        turn_axes(p, axes, y, lanes, t, w)
         angle_t = angle + t * (speed + 0.5 * t * speed_rate)
         speed_t = speed + t * speed_rate
         co = math.cos(turned + orbit * t)
@@ -154,11 +177,11 @@ def runge_kutta_step(
                 flexible.take_accelerations(p, stage, w)
         for n in range(0 if done else MAX_ITERATIONS):
             right_hand_side(p, c, stage_y, angle_t, speed_t, speed_rate, w, result)
-            newton_residual(acc, w)
+            newton_residual(acc, lanes, w)
             if bending:
                 flexible.solve_modes(p, flexure, stage, increment, w)
             solve(p, fac, co, si, increment, w)
-            correct(acc, gh, w)
+            correct(acc, lanes, gh, w)
             if bending:
                 flexible.correct_modes(p, stage, gh, w)
             iterations += 1.0
@@ -182,7 +205,7 @@ def runge_kutta_step(
             return False
         for i in range(F.WORK, F.SIZE):
             acc[i] = result[i]
-        keep_velocities(stage_y, w[W.VEL + stage * F.SIZE : W.VEL + (stage + 1) * F.SIZE])
+        keep_velocities(stage_y, lanes, w[W.VEL + stage * F.SIZE : W.VEL + (stage + 1) * F.SIZE])
         if bending:
             flexible.keep_mode_velocities(p, stage, w)
     last = W.ACC + (stages - 1) * F.SIZE

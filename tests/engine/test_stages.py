@@ -1,0 +1,121 @@
+"""Stages of a Runge-Kutta step against the same sums by NumPy."""
+
+import numpy as np
+import pytest
+
+from fmu_bearing.engine.fidelities.full.methods.table import AT_ESDIRK4, TABLEAUX
+from fmu_bearing.engine.fidelities.full.norms import newton_size
+from fmu_bearing.engine.fidelities.full.runge_kutta import correct, keep_velocities, newton_residual, predict
+from fmu_bearing.engine.fidelities.full.vectors import add_scaled, sum_scaled
+from fmu_bearing.engine.layout import STRIDE, TAB, C, F, P, Q, S, W, Y
+from fmu_bearing.engine.status import OK
+from tests.engine.helpers import Run
+
+LANES, STAGE, H, GH = 12, 3, 2e-5, 5e-6
+BODIES = slice(F.BODY, F.BODY + Q.SIZE)
+# sums of some ten products of numbers of size 1: rounding of each is 1e-16
+ROUNDING = {"rtol": 1e-14, "atol": 1e-15}
+
+
+@pytest.fixture
+def w():
+    return np.random.default_rng(4).normal(size=W.SOUND)
+
+
+@pytest.fixture
+def y():
+    return np.random.default_rng(5).normal(size=Y.SIZE)
+
+
+def area(w, first, number=0, size=F.SIZE):
+    """One vector of a row of vectors in ``w``."""
+    return w[first + number * size : first + (number + 1) * size]
+
+
+def parts(vector):
+    """Live rows of balls, then bodies, of a vector in the layout of accelerations."""
+    return vector[: 6 * STRIDE].reshape(6, STRIDE)[:, :LANES], vector[BODIES]
+
+
+def test_predicted_stage_is_the_sum_over_the_stages_before(w, y):
+    before = w.copy()
+    predict(y, LANES, H, GH, STAGE, AT_ESDIRK4, w)
+    weights = H * TABLEAUX[AT_ESDIRK4 + TAB.A + STAGE * TAB.ROW :][:STAGE]
+    acc = [parts(area(before, W.ACC, m)) for m in range(STAGE)]
+    vel = [parts(area(before, W.VEL, m)) for m in range(STAGE)]
+    places = y[: 3 * STRIDE].reshape(3, STRIDE)[:, :LANES]
+    rates = y[Y.VX : Y.Q0].reshape(6, STRIDE)[:, :LANES]
+    v = [known + GH * acc[-1][k] for k, known in enumerate((rates, y[Y.V0 :]))]
+    x = [places.copy(), y[Y.Q0 : Y.V0].copy()]
+    for m, a in enumerate(weights):
+        v = [v[k] + a * acc[m][k] for k in range(2)]
+        x = [x[0] + a * vel[m][0][:3], x[1] + a * vel[m][1]]
+    x = [x[0] + GH * v[0][:3], x[1] + GH * v[1]]
+    stage = area(w, W.STAGE, size=Y.SIZE)
+    np.testing.assert_allclose(stage[: 3 * STRIDE].reshape(3, STRIDE)[:, :LANES], x[0], **ROUNDING)
+    np.testing.assert_allclose(stage[Y.VX : Y.Q0].reshape(6, STRIDE)[:, :LANES], v[0], **ROUNDING)
+    np.testing.assert_allclose(stage[Y.Q0 : Y.V0], x[1], **ROUNDING)
+    np.testing.assert_allclose(stage[Y.V0 :], v[1], **ROUNDING)
+    for found, guess in zip(parts(area(w, W.ACC, STAGE)), acc[-1], strict=True):
+        np.testing.assert_array_equal(found, guess)
+
+
+def test_increment_moves_accelerations_rates_and_places(w):
+    before = w.copy()
+    correct(area(w, W.ACC, STAGE), LANES, GH, w)
+    d, bodies = parts(area(before, W.D))
+    changes = [parts(area(w, W.ACC, STAGE))[k] - parts(area(before, W.ACC, STAGE))[k] for k in range(2)]
+    np.testing.assert_allclose(changes[0], d, rtol=0, atol=2e-15)
+    np.testing.assert_allclose(changes[1], bodies, rtol=0, atol=2e-15)
+    stage = area(w, W.STAGE, size=Y.SIZE) - area(before, W.STAGE, size=Y.SIZE)
+    rates, places = stage[Y.VX : Y.Q0].reshape(6, STRIDE), stage[: Y.VX].reshape(3, STRIDE)
+    np.testing.assert_allclose(rates[:, :LANES], GH * d, rtol=0, atol=2e-15)
+    np.testing.assert_allclose(places[:, :LANES], GH**2 * d[:3], rtol=0, atol=2e-15)
+    np.testing.assert_allclose(stage[Y.V0 :], GH * bodies, rtol=0, atol=2e-15)
+    np.testing.assert_allclose(stage[Y.Q0 : Y.V0], GH**2 * bodies, rtol=0, atol=2e-15)
+    assert not rates[:, LANES:].any() and not places[:, LANES:].any()
+
+
+def test_residual_and_kept_velocities(w, y):
+    newton_residual(area(w, W.ACC, STAGE), LANES, w)
+    for got, f, acc in zip(*(parts(area(w, *at)) for at in ((W.D,), (W.F,), (W.ACC, STAGE))), strict=True):
+        np.testing.assert_array_equal(got, f - acc)
+    kept = np.full(F.SIZE, np.nan)
+    keep_velocities(y, LANES, kept)
+    np.testing.assert_array_equal(parts(kept)[0][:3], y[Y.VX :][: 3 * STRIDE].reshape(3, STRIDE)[:, :LANES])
+    np.testing.assert_array_equal(kept[BODIES], y[Y.V0 :])
+
+
+def test_size_of_an_increment(w):
+    p, c = np.zeros(P.TABLES), np.zeros(C.SIZE)
+    p[P.LANES], p[P.PITCH_RADIUS], c[C.BALL_RADIUS] = LANES, 0.013, 0.002
+    d = area(w, W.D)
+    rows, bodies = parts(d)
+    mean = (rows**2).sum(1) / LANES
+    tilts = np.isin(np.arange(Q.SIZE), [3, 4, 8, 9, 10, 14, 15, 16])
+    weights = np.where(tilts, 0.013, 1.0) * np.where(np.arange(Q.SIZE) < Q.CAGE, 1.0, 0.1)
+    square = ((weights * bodies) ** 2).sum() + 0.03 * mean[:2].sum()
+    square += (0.1 * 0.013) ** 2 * mean[2] + (0.03 * 0.002) ** 2 * mean[3:].sum()
+    assert newton_size(p, c, d, -2.0) == pytest.approx(2.0 * np.sqrt(square), rel=1e-14)
+
+
+@pytest.mark.parametrize("n", [3, 17, 24])
+def test_scaled_sums_touch_what_they_are_asked_to(w, n):
+    x, out = w[1:60].copy(), w[100:160].copy()
+    y = out.copy()
+    add_scaled(0.3, x, out, n)
+    np.testing.assert_array_equal(out, [*(y[:n] + 0.3 * x[:n]), *y[n:]])
+    sum_scaled(x, 0.7, y, out, n)
+    np.testing.assert_array_equal(out[:n], x[:n] + 0.7 * y[:n])
+
+
+def test_scratch_does_not_get_into_the_state(silent):
+    """Stages fill lanes in use alone: beyond them the work space holds anything, and the state zeros."""
+    clean, dirty = Run(silent, 20000).init(), Run(silent, 20000).init()
+    for _ in range(3):
+        dirty.w[:] = 7.0
+        assert clean.step(1e-4) == dirty.step(1e-4) == OK
+    np.testing.assert_array_equal(clean.s[: S.C], dirty.s[: S.C])
+    lanes = int(clean.p[P.LANES])
+    for first, rows in ((S.Y, 9), (S.F, 6)):
+        assert not dirty.s[first : first + rows * STRIDE].reshape(rows, STRIDE)[:, lanes:].any()

@@ -20,7 +20,8 @@ letters = [f"x{i}" for i in range(len(kinds))]
 arguments = [f"carray({x}, (1000000,))" if kind == "a" else x for x, kind in zip(letters, kinds)]
 scope = {"carray": carray, "function": function}
 exec(f"def entry({', '.join(letters)}):\\n function({', '.join(arguments)})", scope)
-signature = [types.CPointer(types.float64) if kind == "a" else types.float64 for kind in kinds]
+given = {"a": types.CPointer(types.float64), "d": types.float64, "i": types.int64}
+signature = [given[kind] for kind in sys.argv[3]]
 entry = cfunc(types.void(*signature), **FLAGS)(scope["entry"])
 bitcode = llvm.parse_assembly(entry.inspect_llvm()).as_bitcode()
 llvm.initialize_all_targets()
@@ -45,7 +46,7 @@ for triple, processor in (
 
 
 def assembly(module, kernel, kinds):
-    """Assembly by processor of a kernel; ``kinds``: ``a`` for an array, ``d`` for a double, per argument.
+    """Assembly by processor of a kernel; ``kinds``: per argument ``a`` array, ``d`` double or ``i`` integer.
 
     The native library's own check holds: no call of Python and no address of this process.
     """

@@ -1,6 +1,7 @@
 """Forces and equations of motion.
 
 ================  ===========================================================================
+``triples``       vectors of three components, of four balls at a time
 ``powers``        logarithm and exponential to base 2, branch-free
 ``trigonometry``  sine and cosine of the ball angles, branch-free
 ``conditions``    inputs turned into constants of one communication step

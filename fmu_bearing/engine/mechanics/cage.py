@@ -3,9 +3,11 @@
 import math
 
 from fmu_bearing.engine.jit import inlined, kernel
-from fmu_bearing.engine.layout import STRIDE, C, P, W, X
+from fmu_bearing.engine.lanes import consecutive, load, select, store
+from fmu_bearing.engine.layout import FOUR, C, P, W, X
 from fmu_bearing.engine.mechanics.pose import bearing_angle
 from fmu_bearing.engine.mechanics.trigonometry import TWO_PI, wrap
+from fmu_bearing.engine.mechanics.triples import added, cross, dot, scaled, store_three, three
 
 
 @inlined
@@ -19,77 +21,49 @@ def pockets(p, c, angle, lanes, turned, w):
     pose = W.POSE + 2 * X.SIZE
     out = W.FORCE + 2 * W.FORCE_SIZE
     pitch = p[P.PITCH_RADIUS]
-    balls = p[P.BALLS]
+    spacing = TWO_PI / p[P.BALLS]
     clearance = p[P.POCKET_CLEARANCE]
     stiffness = p[P.POCKET_STIFFNESS]
     damping = p[P.POCKET_DAMPING]
     film = p[P.POCKET_FILM]
     mu = p[P.POCKET_FRICTION]
-    slip = p[P.POCKET_SLIP]
+    floor = p[P.POCKET_SLIP]
     ball = c[C.BALL_RADIUS]
-    for j in range(lanes):
-        pocket = j if j < balls else 0
-        nx = w[pose + X.N + j]
-        nr = w[pose + X.N + STRIDE + j]
-        nt = w[pose + X.N + 2 * STRIDE + j]
-        tx = w[pose + X.T + j]
-        tr = w[pose + X.T + STRIDE + j]
-        tt = w[pose + X.T + 2 * STRIDE + j]
-        dvx = w[pose + X.DV + j]
-        dvr = w[pose + X.DV + STRIDE + j]
-        dvt = w[pose + X.DV + 2 * STRIDE + j]
-        dwx = w[pose + X.DW + j]
-        dwr = w[pose + X.DW + STRIDE + j]
-        dwt = w[pose + X.DW + 2 * STRIDE + j]
-        lead = angle[j] + bearing_angle(w[pose + X.H + STRIDE + j], w[pose + X.H + 2 * STRIDE + j])
-        axial = w[pose + X.A + j]
-        around = pitch * wrap(lead - turned - pocket * (TWO_PI / balls))
+    for j in range(0, lanes, FOUR):
+        number = consecutive(j)
+        live = number < p[P.BALLS]
+        n = three(w, pose + X.N + j)
+        t = three(w, pose + X.T + j)
+        dv = three(w, pose + X.DV + j)
+        dw = three(w, pose + X.DW + j)
+        hx, hr, ht = three(w, pose + X.H + j)
+        lead = load(angle, j) + bearing_angle(hr, ht)
+        axial = load(w, pose + X.A + j)
+        around = pitch * wrap(lead - turned - select(live, number, 0.0) * spacing)
         apart = math.sqrt(axial * axial + around * around + 1e-30)
         px = axial / apart
         pt = around / apart
-        lever = pitch / w[pose + X.RHO + j]
+        lever = pitch / load(w, pose + X.RHO + j)
         push = max(apart - clearance, 0.0)
-        vn = nx * dvx + nr * dvr + nt * dvt
-        vt = tx * dvx + tr * dvr + tt * dvt
+        vn = dot(n, dv)
+        vt = dot(t, dv)
         rate = px * vn + pt * lever * vt
         elastic = stiffness * push * math.sqrt(push)
-        load = max(elastic * (1.0 + damping * rate), 0.0)
+        pressing = max(elastic * (1.0 + damping * rate), 0.0)
         # contact point on the ball: radius along g; sliding there without its normal part
-        gx = px * nx + pt * tx
-        gr = px * nr + pt * tr
-        gt = px * nt + pt * tt
-        sx = dvx + ball * (dwr * gt - dwt * gr)
-        sr = dvr + ball * (dwt * gx - dwx * gt)
-        st = dvt + ball * (dwx * gr - dwr * gx)
-        sn = sx * gx + sr * gr + st * gt
-        sx -= sn * gx
-        sr -= sn * gr
-        st -= sn * gt
-        drag = -mu * load / math.sqrt(sx * sx + sr * sr + st * st + slip * slip)
-        fx = drag * sx
-        fr = drag * sr
-        ft = drag * st
-        fn = -load * px - film * vn
-        fa = -load * pt * lever - film * vt
-        forcex = fx + fn * nx + fa * tx
-        forcer = fr + fn * nr + fa * tr
-        forcet = ft + fn * nt + fa * tt
-        momentx = ball * (gr * ft - gt * fr)
-        momentr = ball * (gt * fx - gx * ft)
-        momentt = ball * (gx * fr - gr * fx)
-        w[W.POCKET + j] = push
-        w[out + W.FX + j] = forcex
-        w[out + W.FR + j] = forcer
-        w[out + W.FT + j] = forcet
-        w[out + W.MX + j] = momentx
-        w[out + W.MR + j] = momentr
-        w[out + W.MT + j] = momentt
-        lost = (
-            -(forcex * dvx + forcer * dvr + forcet * dvt)
-            - (momentx * dwx + momentr * dwr + momentt * dwt)
-            - elastic * rate
-        )
-        w[W.LOSS_CAGE + j] = lost if j < balls else 0.0
+        g = added(scaled(px, n), scaled(pt, t))
+        slip = added(dv, scaled(ball, cross(dw, g)))
+        slip = added(slip, scaled(-dot(slip, g), g))
+        drag = scaled(-mu * pressing / math.sqrt(dot(slip, slip) + floor * floor), slip)
+        fn = -pressing * px - film * vn
+        ft = -pressing * pt * lever - film * vt
+        force = added(added(drag, scaled(fn, n)), scaled(ft, t))
+        moment = scaled(ball, cross(g, drag))
+        store(w, W.POCKET + j, push)
+        store_three(w, out + W.FX + j, force)
+        store_three(w, out + W.MX + j, moment)
+        lost = -dot(force, dv) - dot(moment, dw) - elastic * rate
+        store(w, W.LOSS_CAGE + j, select(live, lost, 0.0))
 
 
 @kernel

@@ -3,8 +3,8 @@
 from fmu_bearing.engine.choices import REGULARISED
 from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.jit import entry, inlined, kernel
-from fmu_bearing.engine.lanes import sum_lanes
-from fmu_bearing.engine.layout import STRIDE, F, P, Q, W, X, Y
+from fmu_bearing.engine.lanes import consecutive, load, select, store, sum_lanes
+from fmu_bearing.engine.layout import FOUR, STRIDE, F, P, Q, W, X, Y
 from fmu_bearing.engine.mechanics.ball_waves import add_ball_waves, ball_wave_forces
 from fmu_bearing.engine.mechanics.bodies import body_equations
 from fmu_bearing.engine.mechanics.cage import pockets
@@ -21,6 +21,7 @@ from fmu_bearing.engine.mechanics.race import collect, normal, rolling, traction
 from fmu_bearing.engine.mechanics.springs import spring_forces
 from fmu_bearing.engine.mechanics.traction import lubricated_traction
 from fmu_bearing.engine.mechanics.trigonometry import ball_angles
+from fmu_bearing.engine.mechanics.triples import added, cross, dot, scaled, three
 
 
 @inlined
@@ -32,34 +33,28 @@ def react(lanes, balls, body, first, spin, last, w):
     """
     force = W.FORCE + body * W.FORCE_SIZE
     pose = W.POSE + body * X.SIZE
-    for j in range(lanes):
-        live = -1.0 if j < balls else 0.0
-        c = w[W.COS + j]
-        s = w[W.SIN + j]
-        fx = live * w[force + W.FX + j]
-        fr = live * w[force + W.FR + j]
-        ft = live * w[force + W.FT + j]
-        qx = w[pose + X.Q + j]
-        qr = w[pose + X.Q + STRIDE + j]
-        qt = w[pose + X.Q + 2 * STRIDE + j]
-        mx = qr * ft - qt * fr + live * w[force + W.MX + j]
-        mr = qt * fx - qx * ft + live * w[force + W.MR + j]
-        mt = qx * fr - qr * fx + live * w[force + W.MT + j]
-        w[first + j] = fx
-        w[first + STRIDE + j] = -s * fr - c * ft
-        w[first + 2 * STRIDE + j] = c * fr - s * ft
-        w[spin + j] = (
-            mx * w[pose + X.N + j] + mr * w[pose + X.N + STRIDE + j] + mt * w[pose + X.N + 2 * STRIDE + j]
-        )
-        w[last + j] = -s * mr - c * mt
-        w[last + STRIDE + j] = c * mr - s * mt
+    for j in range(0, lanes, FOUR):
+        live = select(consecutive(j) < balls, -1.0, 0.0)
+        c = load(w, W.COS + j)
+        s = load(w, W.SIN + j)
+        on_body = scaled(live, three(w, force + W.FX + j))
+        turning = scaled(live, three(w, force + W.MX + j))
+        about = added(cross(three(w, pose + X.Q + j), on_body), turning)
+        fx, fr, ft = on_body
+        mx, mr, mt = about
+        store(w, first + j, fx)
+        store(w, first + STRIDE + j, -s * fr - c * ft)
+        store(w, first + 2 * STRIDE + j, c * fr - s * ft)
+        store(w, spin + j, dot(about, three(w, pose + X.N + j)))
+        store(w, last + j, -s * mr - c * mt)
+        store(w, last + STRIDE + j, c * mr - s * mt)
 
 
 @inlined
 def race_forces(p, c, y, lanes, race, turned, w):
     """Evaluate the forces between balls and one race, whose poses are in ``w``; ``turned``: its angle (rad).
 
-    ``race`` has to be a literal: only with constant places do the loops become vector loops.
+    ``race`` has to be a literal: places are then constants.
     """
     waves(p, c, y[Y.TH : Y.TH + STRIDE], lanes, race, turned, w)
     flexible = bends(p, race)
@@ -95,7 +90,7 @@ def inner_forces(p, c, y, angle, speed, w):
     if bends(p, 0):
         move_groove(p, c, lanes, 0, speed, w)
     race_forces(p, c, y, lanes, 0, angle, w)
-    react(lanes, int(p[P.BALLS]), 0, W.BODY, W.SHAFT, W.BODY + Q.INNER_BY * STRIDE, w)
+    react(lanes, p[P.BALLS], 0, W.BODY, W.SHAFT, W.BODY + Q.INNER_BY * STRIDE, w)
 
 
 @kernel
@@ -112,7 +107,7 @@ def outer_forces(p, c, y, w):
         move_groove(p, c, lanes, 1, y[v + Q.TURN], w)
     race_forces(p, c, y, lanes, 1, y[q + Q.TURN], w)
     rows = W.BODY + Q.OUTER * STRIDE
-    react(lanes, int(p[P.BALLS]), 1, rows, rows + Q.TURN * STRIDE, rows + Q.BY * STRIDE, w)
+    react(lanes, p[P.BALLS], 1, rows, rows + Q.TURN * STRIDE, rows + Q.BY * STRIDE, w)
 
 
 @kernel
@@ -134,7 +129,7 @@ def cage_forces(p, c, y, w):
     )  # fmt: skip
     pockets(p, c, y[Y.TH : Y.TH + STRIDE], lanes, y[q + Q.TURN], w)
     rows = W.BODY + Q.CAGE * STRIDE
-    react(lanes, int(p[P.BALLS]), 2, rows, rows + Q.TURN * STRIDE, rows + Q.BY * STRIDE, w)
+    react(lanes, p[P.BALLS], 2, rows, rows + Q.TURN * STRIDE, rows + Q.BY * STRIDE, w)
 
 
 @kernel
@@ -150,7 +145,6 @@ def ball_forces(p, c, y, angle, speed, w):
 def ball_accelerations(p, y, w, f):
     """Accelerations of the balls in the orbiting axes (rows of ``f``); the power lost to drag into ``w``."""
     lanes = int(p[P.LANES])
-    balls = int(p[P.BALLS])
     weight = GRAVITY * p[P.BALL_MASS] if p[P.GRAVITY] != 0.0 else 0.0
     drag = p[P.DRAG_FACTOR] if p[P.DRAG] != 0.0 else 0.0
     gyro = 1.0 if p[P.GYROSCOPIC] != 0.0 else 0.0
@@ -159,27 +153,25 @@ def ball_accelerations(p, y, w, f):
     pitch = p[P.PITCH_RADIUS]
     one = W.FORCE
     two = W.FORCE + W.FORCE_SIZE
-    three = W.FORCE + 2 * W.FORCE_SIZE
-    for j in range(lanes):
-        om = y[Y.OM + j]
-        vr = y[Y.VR + j]
-        radius = pitch + y[Y.R + j]
+    last = W.FORCE + 2 * W.FORCE_SIZE
+    for j in range(0, lanes, FOUR):
+        om = load(y, Y.OM + j)
+        radius = pitch + load(y, Y.R + j)
         around = radius * om
         pull = drag * around * abs(around)
-        fx = w[one + W.FX + j] + w[two + W.FX + j] + w[three + W.FX + j]
-        fr = w[one + W.FR + j] + w[two + W.FR + j] + w[three + W.FR + j] - weight * w[W.COS + j]
-        ft = w[one + W.FT + j] + w[two + W.FT + j] + w[three + W.FT + j]
-        ft += weight * w[W.SIN + j] - pull
-        f[F.X + j] = fx * per_mass
-        f[F.R + j] = fr * per_mass + radius * om * om
-        f[F.TH + j] = (ft * per_mass - 2.0 * vr * om) / radius
-        mx = w[one + W.MX + j] + w[two + W.MX + j] + w[three + W.MX + j]
-        mr = w[one + W.MR + j] + w[two + W.MR + j] + w[three + W.MR + j]
-        mt = w[one + W.MT + j] + w[two + W.MT + j] + w[three + W.MT + j]
-        f[F.WX + j] = mx * per_inertia
-        f[F.WR + j] = mr * per_inertia + gyro * om * y[Y.WT + j]
-        f[F.WT + j] = mt * per_inertia - gyro * om * y[Y.WR + j]
-        w[W.LOSS_DRAG + j] = pull * around if j < balls else 0.0
+        force = added(added(three(w, one + W.FX + j), three(w, two + W.FX + j)), three(w, last + W.FX + j))
+        moment = added(added(three(w, one + W.MX + j), three(w, two + W.MX + j)), three(w, last + W.MX + j))
+        fx, fr, ft = force
+        mx, mr, mt = moment
+        fr -= weight * load(w, W.COS + j)
+        ft += weight * load(w, W.SIN + j) - pull
+        store(f, F.X + j, fx * per_mass)
+        store(f, F.R + j, fr * per_mass + radius * om * om)
+        store(f, F.TH + j, (ft * per_mass - 2.0 * load(y, Y.VR + j) * om) / radius)
+        store(f, F.WX + j, mx * per_inertia)
+        store(f, F.WR + j, mr * per_inertia + gyro * om * load(y, Y.WT + j))
+        store(f, F.WT + j, mt * per_inertia - gyro * om * load(y, Y.WR + j))
+        store(w, W.LOSS_DRAG + j, select(consecutive(j) < p[P.BALLS], pull * around, 0.0))
     if p[P.SPRINGS] != 0.0 and p[P.CAGE] == 0.0:
         w[W.LOSS_DRAG] += spring_forces(p, y, f)
 

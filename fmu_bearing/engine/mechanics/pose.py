@@ -3,7 +3,9 @@
 import math
 
 from fmu_bearing.engine.jit import inlined, kernel
-from fmu_bearing.engine.layout import STRIDE, P, W, X, Y
+from fmu_bearing.engine.lanes import load, splat, store
+from fmu_bearing.engine.layout import FOUR, P, W, X, Y
+from fmu_bearing.engine.mechanics.triples import cross, store_three
 
 
 @kernel
@@ -58,33 +60,33 @@ def relative_pose(p, y, lanes, body, ux, uy, uz, by, bz, vx, vy, vz, spin, dby, 
     wx = spin * nx
     pitch = p[P.PITCH_RADIUS]
     base = W.POSE + body * X.SIZE
-    for j in range(lanes):
-        c = w[W.COS + j]
-        s = w[W.SIN + j]
-        radius = pitch + y[Y.R + j]
-        qx, qr, qt, nr, nt, axial, rho, hx, hr, ht = seen(c, s, y[Y.X + j], radius, ux, uy, uz, by, bz, nx)
-        gr = c * wz - s * wy
-        gt = -c * wy - s * wz
-        w[base + X.Q + j] = qx
-        w[base + X.Q + STRIDE + j] = qr
-        w[base + X.Q + 2 * STRIDE + j] = qt
-        w[base + X.N + j] = nx
-        w[base + X.N + STRIDE + j] = nr
-        w[base + X.N + 2 * STRIDE + j] = nt
-        w[base + X.H + j] = hx
-        w[base + X.H + STRIDE + j] = hr
-        w[base + X.H + 2 * STRIDE + j] = ht
-        w[base + X.T + j] = nr * ht - nt * hr
-        w[base + X.T + STRIDE + j] = nt * hx - nx * ht
-        w[base + X.T + 2 * STRIDE + j] = nx * hr - nr * hx
-        w[base + X.A + j] = axial
-        w[base + X.RHO + j] = rho
-        w[base + X.DV + j] = y[Y.VX + j] - vx - (gr * qt - gt * qr)
-        w[base + X.DV + STRIDE + j] = y[Y.VR + j] - (c * vz - s * vy) - (gt * qx - wx * qt)
-        w[base + X.DV + 2 * STRIDE + j] = radius * y[Y.OM + j] + (c * vy + s * vz) - (wx * qr - gr * qx)
-        w[base + X.DW + j] = y[Y.WX + j] - wx
-        w[base + X.DW + STRIDE + j] = y[Y.WR + j] - gr
-        w[base + X.DW + 2 * STRIDE + j] = y[Y.WT + j] - gt
+    for j in range(0, lanes, FOUR):
+        c = load(w, W.COS + j)
+        s = load(w, W.SIN + j)
+        radius = pitch + load(y, Y.R + j)
+        x = load(y, Y.X + j)
+        qx, qr, qt, nr, nt, axial, rho, hx, hr, ht = seen(c, s, x, radius, ux, uy, uz, by, bz, nx)
+        q = (qx, qr, qt)
+        n = (splat(nx), nr, nt)
+        h = (hx, hr, ht)
+        spin_r = c * wz - s * wy
+        spin_t = -c * wy - s * wz
+        # the body's material moves with its centre and turns about it
+        mx, mr, mt = cross((splat(wx), spin_r, spin_t), q)
+        store_three(w, base + X.Q + j, q)
+        store_three(w, base + X.N + j, n)
+        store_three(w, base + X.H + j, h)
+        store_three(w, base + X.T + j, cross(n, h))
+        store(w, base + X.A + j, axial)
+        store(w, base + X.RHO + j, rho)
+        dvx = load(y, Y.VX + j) - vx - mx
+        dvr = load(y, Y.VR + j) - (c * vz - s * vy) - mr
+        dvt = radius * load(y, Y.OM + j) + (c * vy + s * vz) - mt
+        store_three(w, base + X.DV + j, (dvx, dvr, dvt))
+        dwx = load(y, Y.WX + j) - wx
+        dwr = load(y, Y.WR + j) - spin_r
+        dwt = load(y, Y.WT + j) - spin_t
+        store_three(w, base + X.DW + j, (dwx, dwr, dwt))
 
 
 @inlined

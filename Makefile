@@ -36,8 +36,8 @@ $(OUT)/SpindleMotor.fmu: $(VENV)/.installed $(wildcard $(SPINDLE)/*.py)
 	@mkdir -p $(OUT)
 	$(BIN)/python $(SPINDLE)/build.py --output-dir $(OUT)
 
-# Kernels are compiled once (six minutes of two cores), before the parallel tests share them: for Python, and
-# ahead of time for native FMUs. Without a C compiler there is no library; tests of it then say so.
+# Kernels are compiled once, before the parallel tests share them. Without a C compiler there is no library
+# for FMUs; tests of it then say so.
 # Files stay together: what a file compiles or prepares for itself is made by one worker, not by each.
 test: kernels
 	$(BIN)/python -m pytest -n $(JOBS) --dist loadfile -m "not heavy"
@@ -47,12 +47,12 @@ heavy: kernels
 
 # A few minutes of one core; on a machine that does nothing else.
 bench: $(VENV)/.installed-bench
-	$(BIN)/python -m fmu_bearing.engine
+	$(BIN)/fmu-bearing warm-up
 	$(BIN)/python -m benchmarks.run --output docs/results
 
 # Interrupted, it goes on from what is under out/papers.
 papers: $(VENV)/.installed
-	$(BIN)/python -m fmu_bearing.engine
+	$(BIN)/fmu-bearing warm-up
 	$(BIN)/python -m examples.papers.run --jobs $(JOBS)
 
 # References are made from the code here, so it is installed too.
@@ -61,9 +61,7 @@ docs: $(VENV)/.installed-docs
 	@echo "open $(OUT)/site/index.html"
 
 kernels: $(VENV)/.installed-test
-	$(BIN)/python -m fmu_bearing.fmi.native & native=$$!; \
-	$(BIN)/python -m fmu_bearing.engine || exit 1; \
-	wait $$native || echo "no native library: see above"
+	$(BIN)/fmu-bearing warm-up
 
 # Stamps: pip runs again only when the requirements change.
 # The demo and the papers draw pictures; rings of the papers' bearings bend.

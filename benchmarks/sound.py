@@ -7,9 +7,8 @@ import numpy as np
 from benchmarks.cases import GATES
 from fmu_bearing.acoustics.filters.design import build, radiation_of
 from fmu_bearing.acoustics.registry import Radiation
-from fmu_bearing.engine.jit import entry
-from fmu_bearing.engine.layout import MO, SD
-from fmu_bearing.engine.sound import radiate
+from fmu_bearing.compiled import call
+from fmu_bearing.engine.layout import MO, SD, Z
 from fmu_bearing.scene import read_scene
 from fmu_bearing.scene.sound import cylindrical
 
@@ -22,23 +21,20 @@ _BATCH = 8192  # motion samples: 40 ms
 _ROWS = 32  # of them differ: few, because a run's sample has just been made and is still at hand
 
 
-@entry
-def pushes(ps, ss, ws, motion, samples):
-    """Push ``samples`` motion samples, the rows of ``motion`` over and over."""
-    for i in range(samples):
-        radiate.push(ps, ss, ws, motion[i % len(motion)], 0.125, 0.0)
-
-
 def cost(ps, repeats: int) -> float:
     """CPU s per simulated s of one sound block."""
     size = MO.size(int(ps[SD.H_BALLS]), int(ps[SD.H_FLEXURES]))
     motion = np.random.default_rng(1).standard_normal((_ROWS, size))
     ss, ws = np.zeros(SD.state_size(ps)), np.zeros(SD.work_size(ps))
-    pushes(ps, ss, ws, motion, _BATCH)  # compiled, and past the start
+    mics = int(ps[SD.H_MICS])
+    numbers = len(Z.MIC_OUTPUTS) + int(ps[SD.H_BANDS])
+    z = np.zeros(mics * numbers)
+    arguments = ps, ss, ws, motion, z, np.empty(0), _BATCH, size, 0.125, 0.0, mics, numbers, 0
+    call("play", *arguments)  # past the start
     best = float("inf")
     for _ in range(repeats):
         clock = time.process_time()
-        pushes(ps, ss, ws, motion, _BATCH)
+        call("play", *arguments)
         best = min(best, time.process_time() - clock)
     return best * SD.RAW_RATE / _BATCH
 

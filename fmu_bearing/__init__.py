@@ -10,6 +10,7 @@ Data flow in one direction::
 ``files``           writing files that other processes may read
 ``extras``          optional packages, imported where they are used
 ``engine``          Numba kernels on flat arrays: mechanics, fidelities, sound
+``compiled``        these kernels compiled ahead of time, for Python and FMUs alike
 ``scene``           scenes: frozen models read from TOML, catalogue
 ``elastic``         bending of the rings: sections, finite elements, modes
 ``acoustics``       transfer functions from motion to microphones, filters, analysis

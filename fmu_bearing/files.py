@@ -1,10 +1,19 @@
-"""Writing files in one step, because other processes may read them."""
+"""Writing files in one step, because other processes may read them, and where what is kept lies."""
 
 import os
 import tempfile
 from pathlib import Path
 
-__all__ = ["write_whole"]
+__all__ = ["cache_root", "write_whole"]
+
+
+def cache_root() -> Path:
+    """Folder of all that is kept: ``FMU_BEARING_CACHE``, else ``fmu-bearing`` in the user's cache folder."""
+    named = os.environ.get("FMU_BEARING_CACHE")
+    if named:
+        return Path(named)
+    base = os.environ.get("XDG_CACHE_HOME") or os.environ.get("LOCALAPPDATA")
+    return Path(base or os.path.expanduser("~/.cache")) / "fmu-bearing"
 
 
 def write_whole(path: Path, data: bytes) -> Path:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing import renamed
-from fmu_bearing.engine import abi
+from fmu_bearing.compiled import Calls
 from fmu_bearing.engine.layout import S, U, W, Z
 from fmu_bearing.engine.status import BAD_INPUT, BAD_STEP, NO_START, NOT_CONVERGED, OK, RIGID_ONLY, TOO_SOFT
 from fmu_bearing.interface import Variable
@@ -106,10 +106,7 @@ class Instance:
         sizes = (model.n_balls, model.n_mics, model.n_bands, model.n_modes)
         self.z: NDArray[np.float64] = np.zeros(Z.size(*sizes))
         self.s: NDArray[np.float64] = np.zeros(S.size(self.p))
-        # The compiled entries are specialised on read-only parameters; settings still reach them through p.
-        self._p = self.p.view()
-        self._p.setflags(write=False)
-        self._w: NDArray[np.float64] = np.zeros(W.size(self.p))
+        self._calls = Calls(self.p, self.u, self.s, self.z, np.zeros(W.size(self.p)))
         self._kept = self.s.copy()
         self.initialised = False
         for variable in model.variables:
@@ -166,7 +163,7 @@ class Instance:
 
     def initialise(self, time: float = 0.0) -> None:
         """Put the bearing into its quasi-static state at the inputs; ``EngineError`` if there is none."""
-        status = abi.init(self._p, self.u, self.s, self.z, self._w, float(time))
+        status = self._calls.init(float(time))
         if status != OK:
             raise EngineError(f"initialisation at t = {time} s: {REASONS[status]}; {self._inputs()}")
         self.initialised = True
@@ -186,7 +183,7 @@ class Instance:
         if not self.initialised:
             raise EngineError("the bearing must be initialised before it is stepped")
         self._kept[:] = self.s
-        status = abi.step(self._p, self.u, self.s, self.z, self._w, float(h))
+        status = self._calls.step(float(h))
         if status != OK:
             reached = self.time
             self.s[:] = self._kept

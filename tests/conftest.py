@@ -1,8 +1,14 @@
 """Shared by all tests: the gate scenes, which are frozen, and the example scenes, which may become better."""
 
+import os
 import pathlib
 
 import pytest
+
+from fmu_bearing.files import cache_root
+
+# Kernels that tests call one by one are compiled once, not by each worker and each run.
+os.environ.setdefault("FMU_BEARING_KEEP_KERNELS", str(cache_root() / "kernels"))
 
 ROOT = pathlib.Path(__file__).parents[1]
 #: Gates of all kinds run on these: every value is written out, so that a better default moves no gate.

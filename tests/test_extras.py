@@ -100,10 +100,10 @@ for module in pkgutil.walk_packages(fmu_bearing.__path__, "fmu_bearing."):
 from typer.testing import CliRunner
 from fmu_bearing import cli, extras
 from fmu_bearing.fmi.native import link
-from fmu_bearing.fmi.native.platforms import PLATFORMS, host
+from fmu_bearing.compiled.platforms import PLATFORMS, host
 
 # a library that was made before needs no compiler
-link.kernel_folder = lambda: pathlib.Path("no libraries kept")
+link.folder = lambda: pathlib.Path("no libraries kept")
 other = next(name for name in PLATFORMS if PLATFORMS[name] != host())
 
 def command(line):

@@ -153,7 +153,7 @@ def test_recipe_without_kernels(title, copy):
 
 @pytest.mark.heavy
 def test_recipes_with_kernels(copy):
-    copy.run([sys.executable, "-m", "fmu_bearing.engine"])
+    copy.run([sys.executable, "-m", "fmu_bearing", "warm-up"])
     for title in COMPILED:
         for command in RECIPES[title].commands:
             copy.run(command)

@@ -19,9 +19,9 @@ import fmpy
 import fmpy.fmi2
 
 from benchmarks.cases import GATES, silent
+from fmu_bearing.compiled.platforms import Platform, host
 from fmu_bearing.fmi.native.link import FLAGS, Compiler, compiler_for, headers, link, shim_sources
 from fmu_bearing.fmi.native.model_file import MODEL_FILE, Contents, contents_bytes
-from fmu_bearing.fmi.native.platforms import Platform, host
 from fmu_bearing.fmi.package import build
 from fmu_bearing.interface import Variable
 from fmu_bearing.prepare.model import prepare

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from examples.papers.hearing import LISTENING, sources_hash
-from fmu_bearing.engine.jit import source_hash
+from fmu_bearing.engine.sources import source_hash
 from fmu_bearing.recording.record import OUTPUTS, Recording, record
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.read import read_scene_text

@@ -7,71 +7,9 @@ bodies and their 17 rates, as ``y`` in ``engine.layout.y`` without its spare lan
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.engine.jit import entry, kernel
-from fmu_bearing.engine.layout import STRIDE, C, F, J, P, Q, S, Y
-from fmu_bearing.engine.mechanics.equations import right_hand_side
-from fmu_bearing.engine.newton.jacobian import jacobian
+from fmu_bearing.compiled import call
+from fmu_bearing.engine.layout import STRIDE, C, F, J, P, S, Y
 from fmu_bearing.run.arrays import RINGS, Arrays
-
-
-@kernel
-def spread(p, x, y):
-    """Copy ``x`` into ``y``; the spare lanes take ball 0, as everywhere in the engine."""
-    balls = int(p[P.BALLS])
-    for i in range(J.STATES):
-        for j in range(int(p[P.LANES])):
-            y[i * STRIDE + j] = x[i * balls + (j if j < balls else 0)]
-    for i in range(J.BODIES):
-        y[Y.Q0 + i] = x[J.STATES * balls + i]
-
-
-@entry
-def first_order(p, c, angle, speed, t, x, w, f, y, dx):
-    """Fill ``dx`` with the rates of ``x`` (SI) at ``t`` (s) after the shaft stood at ``angle`` (rad).
-
-    ``p`` parameters, ``c`` conditions, ``speed`` of the shaft (rad/s, constant); ``w``, ``f``, ``y`` scratch.
-    """
-    balls = int(p[P.BALLS])
-    rates = J.PLACED * balls
-    body = J.STATES * balls
-    spread(p, x, y)
-    right_hand_side(p, c, y, angle + speed * t, speed, 0.0, w, f)
-    for i in range(rates):
-        dx[i] = x[rates + i]
-    for i in range(J.BALL):
-        for j in range(balls):
-            dx[rates + i * balls + j] = f[i * STRIDE + j]
-    for i in range(Q.SIZE):
-        dx[body + i] = y[Y.V0 + i]
-        dx[body + Q.SIZE + i] = f[F.BODY + i]
-
-
-@entry
-def first_order_jacobian(p, c, angle, speed, t, x, w, blocks, y, out):
-    """Fill the dense matrix ``out`` with d(dx)/dx from the blocks of the engine's own Jacobian."""
-    balls = int(p[P.BALLS])
-    rates = J.PLACED * balls
-    body = J.STATES * balls
-    spread(p, x, y)
-    jacobian(p, c, y, angle + speed * t, speed, 0.0, w, blocks)
-    for i in range(out.shape[0]):
-        for k in range(out.shape[0]):
-            out[i, k] = 0.0
-    for j in range(balls):
-        for k in range(J.PLACED):
-            out[k * balls + j, rates + k * balls + j] = 1.0
-        for i in range(J.BALL):
-            for k in range(J.STATES):
-                out[rates + i * balls + j, k * balls + j] = blocks[J.B + (i * J.STATES + k) * STRIDE + j]
-            for g in range(J.BODIES):
-                out[rates + i * balls + j, body + g] = blocks[J.C + (i * J.BODIES + g) * STRIDE + j]
-        for i in range(Q.SIZE):
-            for k in range(J.STATES):
-                out[body + Q.SIZE + i, k * balls + j] = blocks[J.D + (i * J.STATES + k) * STRIDE + j]
-    for i in range(Q.SIZE):
-        out[body + i, body + Q.SIZE + i] = 1.0
-        for g in range(J.BODIES):
-            out[body + Q.SIZE + i, body + g] = blocks[J.E + i * J.BODIES + g]
 
 
 class FirstOrder:
@@ -106,13 +44,13 @@ class FirstOrder:
 
     def rate(self, t: float, x: NDArray[np.float64], dx: NDArray[np.float64]) -> None:
         """Fill ``dx`` with the rates at ``t`` (s), ``x``."""
-        first_order(self.p, self.c, self.angle, self.speed, t, x, self._w, self._f, self._y, dx)
+        arrays = self.p, self.c, x, self._w, self._f, self._y, dx
+        call("first_order", *arrays, self.angle, self.speed, t)
 
     def jacobian(self, t: float, x: NDArray[np.float64], out: NDArray[np.float64]) -> None:
         """Fill ``out`` (size x size, C order) with the Jacobian of the rates."""
-        first_order_jacobian(
-            self.p, self.c, self.angle, self.speed, t, x, self._w, self._blocks, self._y, out
-        )
+        arrays = self.p, self.c, x, self._w, self._blocks, self._y, out
+        call("first_order_jacobian", *arrays, self.angle, self.speed, t)
 
 
 # Micrometres, and the velocities that go with them at some 1e4 rad/s; a ball's orbit and spin wander more.

@@ -17,60 +17,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.engine.jit import entry, kernel
-from fmu_bearing.engine.layout import STRIDE, C, F, J, P, Q, S, Y
-from fmu_bearing.engine.mechanics.equations import right_hand_side
+from fmu_bearing.compiled import call, ready
+from fmu_bearing.engine.layout import C, F, S, Y
+from fmu_bearing.engine.reference.runge_kutta import ROWS
 from fmu_bearing.run.arrays import RINGS, Arrays
 from fmu_bearing.scene import Scene
-
-# rows of scratch: rates at four places, the state at the next of them, right-hand side
-_LAST, _NEW, _F, _ROWS = 3, 4, 5, 6
-
-
-@kernel
-def _rates(p, c, y, angle, speed, w, f, k):
-    """Rates of ``y`` into ``k``, both with the spare lanes of ``layout``."""
-    right_hand_side(p, c, y, angle, speed, 0.0, w, f)
-    lanes = int(p[P.LANES])
-    for i in range(J.PLACED):
-        for j in range(lanes):
-            k[i * STRIDE + j] = y[Y.VX + i * STRIDE + j]
-    for i in range(J.BALL):
-        for j in range(lanes):
-            k[Y.VX + i * STRIDE + j] = f[i * STRIDE + j]
-    for i in range(Q.SIZE):
-        k[Y.Q0 + i] = y[Y.V0 + i]
-        k[Y.V0 + i] = f[F.BODY + i]
-
-
-@kernel
-def _moved(y, a, k, out):
-    """``out = y + a k``."""
-    for i in range(Y.SIZE):
-        out[i] = y[i] + a * k[i]
-
-
-@entry
-def runge_kutta(p, c, y, angle, speed, h, steps, w, k):
-    """Take ``steps`` steps of ``h`` (s) by the classical method of Kutta (1901), in place on ``y``.
-
-    ``angle`` (rad) of the shaft at the start, ``speed`` (rad/s) constant; ``k``: scratch, 6 x Y.SIZE.
-    """
-    f = k[_F]
-    new = k[_NEW]
-    for n in range(steps):
-        at_start = angle + speed * (n * h)
-        at_middle = angle + speed * ((n + 0.5) * h)
-        at_end = angle + speed * ((n + 1) * h)
-        _rates(p, c, y, at_start, speed, w, f, k[0])
-        _moved(y, 0.5 * h, k[0], new)
-        _rates(p, c, new, at_middle, speed, w, f, k[1])
-        _moved(y, 0.5 * h, k[1], new)
-        _rates(p, c, new, at_middle, speed, w, f, k[2])
-        _moved(y, h, k[2], new)
-        _rates(p, c, new, at_end, speed, w, f, k[_LAST])
-        for i in range(Y.SIZE):
-            y[i] += h / 6.0 * (k[0, i] + 2.0 * (k[1, i] + k[2, i]) + k[_LAST, i])
 
 
 def explicit_rings(
@@ -85,12 +36,13 @@ def explicit_rings(
     angle, speed = float(bearing.s[S.ANGLE]), float(bearing.s[S.SPEED])
     steps = int(np.ceil(sample / step - 1e-9))
     w = np.zeros(bearing.w.size)
-    k = np.zeros((_ROWS, max(Y.SIZE, F.SIZE)))
-    runge_kutta(bearing.p, c, y, angle, speed, sample / steps, 0, w, k)  # compiled or loaded before the clock
+    k = np.zeros(ROWS * max(Y.SIZE, F.SIZE))
+    ready("study")  # before the clock
     rows = np.empty((round(duration / sample), 6))
     begin = time.process_time()
     for n, row in enumerate(rows):
-        runge_kutta(bearing.p, c, y, angle + speed * (n * sample), speed, sample / steps, steps, w, k)
+        at = angle + speed * (n * sample)
+        call("runge_kutta", bearing.p, c, y, w, k, at, speed, sample / steps, steps)
         row[:] = y[RINGS]
     return rows, time.process_time() - begin
 

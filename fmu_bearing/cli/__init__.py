@@ -10,11 +10,12 @@
 ``sweep``       a scene over a grid of its values
 ``validate``    checks of an FMU
 ``report``      a page about a run
+``warm_up``     compile before the first run needs it
 ==============  ==================================================================
 """
 
 # importing a file registers its commands
-from fmu_bearing.cli import build, report, runs, scenes, sound, studies, sweep, validate  # noqa: F401
+from fmu_bearing.cli import build, report, runs, scenes, sound, studies, sweep, validate, warm_up  # noqa: F401
 from fmu_bearing.cli.base import app
 
 __all__ = ["app"]

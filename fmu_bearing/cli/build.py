@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from fmu_bearing.cli.base import Json, SceneFile, app, print_json, refusals, tell
-from fmu_bearing.fmi.native.platforms import PLATFORMS
+from fmu_bearing.compiled.platforms import PLATFORMS
 
 Output = Annotated[
     Path | None,

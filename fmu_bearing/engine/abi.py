@@ -11,7 +11,7 @@ from fmu_bearing.engine.fidelities.full.march import march
 from fmu_bearing.engine.fidelities.full.start import start
 from fmu_bearing.engine.fidelities.response.march import march_response, start_response
 from fmu_bearing.engine.fidelities.rings.march import march_rings, start_rings
-from fmu_bearing.engine.jit import entry, kernel
+from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import P, U
 from fmu_bearing.engine.readout.outputs import observe
 from fmu_bearing.engine.status import BAD_INPUT, BAD_STEP, OK, RIGID_ONLY
@@ -38,7 +38,7 @@ def inputs_usable(u):
     )
 
 
-@entry
+@kernel
 def init(p, u, s, z, w, t):
     """Put the state to the quasi-static one at the inputs' values and time ``t`` (s); fill the outputs."""
     if not inputs_usable(u) or not math.isfinite(t):
@@ -56,7 +56,7 @@ def init(p, u, s, z, w, t):
     return status
 
 
-@entry
+@kernel
 def step(p, u, s, z, w, h):
     """Advance the state by ``h`` (s) with the speed ramping to its input and the other inputs held."""
     if not (h > 0.0 and h < _LONGEST):
@@ -74,7 +74,7 @@ def step(p, u, s, z, w, h):
     return status
 
 
-@entry
+@kernel
 def outputs(p, s, z):
     """Fill the outputs ``z`` from the state ``s``."""
     observe(p, s, z)

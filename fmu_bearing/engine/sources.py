@@ -25,6 +25,11 @@ def engine_digest() -> bytes:
     return digest(pathlib.Path(__file__).parent)
 
 
+def source_hash() -> str:
+    """Hash (16 hex digits) of every source file of the engine."""
+    return engine_digest().hex()[:16]
+
+
 def rooms_digest(*rooms: str) -> str:
     """Hash (64 hex digits) of packages of the project, by their names."""
     root = pathlib.Path(__file__).parents[1]

@@ -11,14 +11,14 @@ from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from fmu_bearing.compiled import BuildError
+from fmu_bearing.compiled.platforms import PLATFORMS, host
 from fmu_bearing.engine.sources import engine_digest
 from fmu_bearing.files import write_whole
 from fmu_bearing.fmi import documentation, resources
 from fmu_bearing.fmi.description import FLAVOURS, description_xml, identifier, interface_guid
 from fmu_bearing.fmi.native.link import library
 from fmu_bearing.fmi.native.model_file import MODEL_FILE, model_bytes
-from fmu_bearing.fmi.native.optimise import BuildError
-from fmu_bearing.fmi.native.platforms import PLATFORMS, host
 from fmu_bearing.fmi.reference import NoReference, reference_files, run_instance, run_library
 from fmu_bearing.progress import Tell, silent
 
@@ -105,7 +105,7 @@ def build(
         package, through pythonfmu. Default: native where a library can be made or is kept for at least one
         platform, else python; the remarks of the result tell why.
     platforms : sequence of str, optional
-        Platforms of a native FMU (names as in ``native.platforms.PLATFORMS``). Default: this machine's.
+        Platforms of a native FMU (names as in ``compiled.platforms.PLATFORMS``). Default: this machine's.
     tell : callable, optional
         Takes a line of text before work that takes minutes.
 
@@ -127,7 +127,7 @@ def build(
         raise IsADirectoryError(f"{path} is a folder: name the file to write")
     check_choice(flavour, platforms)
     remarks: tuple[str, ...] = ()
-    binaries: dict[str, Path] = {}
+    binaries: dict[str, bytes] = {}
     if flavour != "python":
         try:
             binaries = _libraries(platforms, tell)
@@ -174,7 +174,7 @@ def check_choice(flavour: str | None, platforms: Sequence[str] | None) -> None:
         raise ChoiceError("platforms cannot be chosen for a python build: it holds pythonfmu's libraries")
 
 
-def _libraries(platforms: Sequence[str] | None, tell: Tell) -> dict[str, Path]:
+def _libraries(platforms: Sequence[str] | None, tell: Tell) -> dict[str, bytes]:
     """Return the library of each platform, this machine's if none is named."""
     own = host()
     if not platforms and own is None:
@@ -187,7 +187,7 @@ def _libraries(platforms: Sequence[str] | None, tell: Tell) -> dict[str, Path]:
 
 
 def _reference(
-    model: "Model", flavour: str, libraries: Mapping[str, Path], inside: Mapping[str, bytes]
+    model: "Model", flavour: str, libraries: Mapping[str, bytes], inside: Mapping[str, bytes]
 ) -> dict[str, bytes]:
     """Return the files of the reference results, run by this machine's library if it is inside."""
     own = host()
@@ -197,7 +197,7 @@ def _reference(
     return reference_files(model, partial(run_library, libraries[own.name], guid, numbers))
 
 
-def contents(model: "Model", flavour: str, libraries: Mapping[str, Path] | None = None) -> dict[str, bytes]:
+def contents(model: "Model", flavour: str, libraries: Mapping[str, bytes] | None = None) -> dict[str, bytes]:
     """Return all files of the FMU of a model but its reference results, by path inside the zip.
 
     ``libraries``: by platform, for a native build.
@@ -211,8 +211,8 @@ def contents(model: "Model", flavour: str, libraries: Mapping[str, Path] | None 
     if flavour == "python":
         return inside | _python_parts(model)
     name = identifier(model)
-    for platform, path in (libraries or {}).items():
-        inside[f"binaries/{platform}/{name}{PLATFORMS[platform].suffix}"] = path.read_bytes()
+    for platform, data in (libraries or {}).items():
+        inside[f"binaries/{platform}/{name}{PLATFORMS[platform].suffix}"] = data
     guid = interface_guid(model, flavour)
     inside[f"resources/{MODEL_FILE}"] = model_bytes(model, guid, engine_digest().hex())
     return inside

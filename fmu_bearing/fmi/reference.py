@@ -144,13 +144,13 @@ _CO_SIMULATION = 1
 
 
 def run_library(
-    library: Path, guid: str, contents: bytes, model: "Model", references: Sequence[int]
+    library: bytes, guid: str, contents: bytes, model: "Model", references: Sequence[int]
 ) -> list[list[float]]:
     """Step a model by its native library: no kernel need be compiled or loaded in this process.
 
     Parameters
     ----------
-    library : Path
+    library : bytes
         For this machine.
     guid : str
     contents : bytes
@@ -158,10 +158,13 @@ def run_library(
     model, references
         As for :func:`run_instance`.
     """
-    with tempfile.TemporaryDirectory() as folder:
+    # Windows does not remove a library that is loaded
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         (Path(folder) / MODEL_FILE).write_bytes(contents)
+        file = Path(folder) / "library"
+        file.write_bytes(library)
         try:
-            loaded = ctypes.CDLL(str(library))
+            loaded = ctypes.CDLL(str(file))
         except OSError as problem:
             raise NoReference(f"the library does not load: {problem}") from problem
         callbacks = (c_void_p * 5)()  # no logger, no memory functions: the library needs none

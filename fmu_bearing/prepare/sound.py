@@ -9,9 +9,8 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from fmu_bearing.engine.jit import cache_directory, source_hash
-from fmu_bearing.engine.sources import rooms_digest
-from fmu_bearing.files import write_whole
+from fmu_bearing.engine.sources import rooms_digest, source_hash
+from fmu_bearing.files import cache_root, write_whole
 from fmu_bearing.scene import Scene
 
 __all__ = ["sound_block", "sound_key"]
@@ -41,7 +40,7 @@ def sound_block(scene: Scene) -> NDArray[np.float64]:
         return np.zeros(0)
     if scene.sound.radiation_model == "table":  # a table may change under its name
         return sound_parameters(scene)
-    path = cache_directory().parent / "sound" / f"block-{_key(scene)}.npy"
+    path = cache_root() / "sound" / f"block-{_key(scene)}.npy"
     try:
         kept: NDArray[np.float64] = np.load(path, allow_pickle=False)
         return kept

@@ -10,12 +10,10 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.engine.jit import entry
+from fmu_bearing.compiled import call
 from fmu_bearing.engine.layout import STRIDE, P, Q, S, Y, Z
-from fmu_bearing.engine.readout import outputs as observe
 from fmu_bearing.instance import Instance
 
-_CONTACTS = entry(observe.contacts.py_func)  # kept compiled, as what Python calls
 _ROWS = 9  # of the state, per ball
 _CAGE = S.Y + Y.Q0 + Q.CAGE
 RACES = ("inner", "outer")
@@ -87,7 +85,7 @@ class Reader:
         for j in range(self.balls):
             state[self._rows] = places[:, j]
             self._p[self._oversize] = self._diameters[j]
-            _CONTACTS(self._p, state, self._z)
+            call("contacts", self._p, state, self._z)
             found[j, 0] = places[Y.TH // STRIDE, j] % (2.0 * math.pi)
             found[j, 1:] = self._z[_READ]
         return found

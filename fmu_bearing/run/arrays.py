@@ -5,7 +5,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.engine import abi
+from fmu_bearing.compiled import Calls
 from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE, RPM
 from fmu_bearing.engine.layout import P, Q, S, U, W, Y, Z
 from fmu_bearing.engine.status import OK
@@ -45,8 +45,6 @@ class Arrays:
         self.p: NDArray[np.float64] = pack(scene, np.empty(0) if sound is None else sound)
         for name, value in parameters.items():
             self.p[getattr(P, name)] = value
-        # the compiled entries are specialised on read-only parameters
-        self.p.setflags(write=False)
         self.u = np.zeros(len(U.INPUTS))
         self.u[U.SPEED] = rpm * RPM
         self.u[U.PRELOAD] = scene.mounting.preload_N
@@ -57,6 +55,12 @@ class Arrays:
         sizes = (int(self.p[place]) for place in (P.BALLS, P.MICS, P.BANDS, P.MODES))
         self.z = np.zeros(Z.size(*sizes))
         self.w = np.zeros(W.size(self.p))
+        self._freeze()
+
+    def _freeze(self) -> None:
+        """Bind the arrays to the compiled entries; they stay where they are."""
+        self.p.setflags(write=False)
+        self._calls = Calls(self.p, self.u, self.s, self.z, self.w)
 
     @classmethod
     def of(cls, scene: Scene, sound: NDArray[np.float64] | None = None, **parameters: float) -> Self:
@@ -69,14 +73,14 @@ class Arrays:
 
     def init(self) -> None:
         """Quasi-static state at the inputs; ``Refused`` if there is none."""
-        status = abi.init(self.p, self.u, self.s, self.z, self.w, 0.0)
+        status = self._calls.init(0.0)
         if status != OK:
             raise Refused(f"initialisation: {REASONS[status]}")
 
     def step(self, h: float) -> None:
         """Advance by ``h`` (s); ``Refused`` if the engine does."""
         begin = self.s[S.TIME]
-        status = abi.step(self.p, self.u, self.s, self.z, self.w, h)
+        status = self._calls.step(h)
         if status != OK:
             raise Refused(f"step to {begin + h:.6g} s: {REASONS[status]}")
 
@@ -99,8 +103,8 @@ class Arrays:
         other.p = self.p.copy()
         for name, value in parameters.items():
             other.p[getattr(P, name)] = value
-        other.p.setflags(write=False)
         other.u, other.s, other.z, other.w = (a.copy() for a in (self.u, self.s, self.z, self.w))
+        other._freeze()
         # Newton's memory belongs to the old parameters: no factors, a first step that suits the new bound
         other.s[S.FACTOR_STEP] = 0.0
         other.s[S.JACOBIAN_TIME] = -1e300

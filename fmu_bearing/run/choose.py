@@ -23,8 +23,8 @@ import pathlib
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from fmu_bearing.engine.jit import cache_directory, source_hash
-from fmu_bearing.files import write_whole
+from fmu_bearing.engine.sources import source_hash
+from fmu_bearing.files import cache_root, write_whole
 from fmu_bearing.prepare.sound import sound_block
 from fmu_bearing.run.arrays import Refused
 from fmu_bearing.run.metrics import Errors, errors, measure
@@ -216,7 +216,7 @@ def cache_file(scene: Scene) -> pathlib.Path:
     """Cache file of a scene's choice, named by a hash of scene, engine and candidates."""
     way = repr((CANDIDATES, FINEST, WARM_UP, WINDOW, CLEARLY))
     key = hashlib.sha256("\0".join((scene.to_toml(), source_hash(), way)).encode()).hexdigest()
-    return cache_directory().parent / "choices" / f"{key}.json"
+    return cache_root() / "choices" / f"{key}.json"
 
 
 def chosen(scene: Scene) -> Choice:

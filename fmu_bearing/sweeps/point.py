@@ -12,9 +12,8 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.engine.jit import source_hash
 from fmu_bearing.engine.layout import U
-from fmu_bearing.engine.sources import rooms_digest
+from fmu_bearing.engine.sources import rooms_digest, source_hash
 from fmu_bearing.prepare.sound import sound_block
 from fmu_bearing.run.arrays import Arrays, Refused
 from fmu_bearing.run.metrics import COMMUNICATION, SAMPLE
@@ -22,7 +21,7 @@ from fmu_bearing.scene import Scene
 from fmu_bearing.sweeps.figures import figures_of, read
 
 #: Packages whose code computes the figures, beside the engine.
-_ROOMS = ("acoustics", "elastic", "interface", "prepare", "scene", "study/sweep")
+_ROOMS = ("acoustics", "elastic", "interface", "prepare", "scene", "sweeps")
 
 
 @dataclass(frozen=True)

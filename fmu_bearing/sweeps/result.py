@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numba
 import numpy as np
 
-from fmu_bearing.engine.jit import source_hash
+from fmu_bearing.engine.sources import source_hash
 from fmu_bearing.extras import need
 from fmu_bearing.run.table import write_csv
 from fmu_bearing.sweeps.figures import STATISTICS

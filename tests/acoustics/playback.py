@@ -1,14 +1,13 @@
 """Shared by the acoustics tests: two bearings in plain numbers, and a player of motion samples."""
 
-import numba
 import numpy as np
 from scipy.signal import sosfreqz
 
 from fmu_bearing.acoustics.filters.pack import MICROPHONE_LOW_LIMIT
 from fmu_bearing.acoustics.filters.weighting import high_pass_section
 from fmu_bearing.acoustics.radiation.radiators import Housing, Radiators, Ring
+from fmu_bearing.compiled import call
 from fmu_bearing.engine.layout import MO, SD, Z
-from fmu_bearing.engine.sound import meter, radiate
 
 RHO, C = 1.225, 340.0
 SMALL = Radiators(
@@ -30,17 +29,6 @@ PAPER_POINTS = [(0.0, 0.105, 0.0), (0.0, 0.150, 0.0), (0.0, 0.0, 0.105), (-0.080
 PLACE = {name: i for i, name in enumerate(Z.MIC_OUTPUTS)}
 
 
-@numba.njit
-def _play(ps, ss, ws, motion, samples, time_weighting, start, z, pressures, mics, outputs, first):
-    for i in range(samples):
-        radiate.push(ps, ss, ws, motion[(first + i) % len(motion)], time_weighting, start)
-        if i % 4 == 0:
-            meter.levels(ps, ss, z, 0)
-            for m in range(mics):
-                pressures[i // 4, m] = z[outputs * m]
-    meter.levels(ps, ss, z, 0)
-
-
 class Player:
     """Feeds motion samples, repeated as often as needed, and keeps what the microphones read."""
 
@@ -54,9 +42,9 @@ class Player:
     def play(self, motion, samples):
         """Return pressures, shape (samples / 4, mics)."""
         pressures = np.zeros((-(-samples // SD.DECIMATION), self.mics))
-        _play(
-            self.ps, self.ss, self.ws, motion, samples, *self.settings, self.z, pressures, self.mics,
-            len(Z.MIC_OUTPUTS), self.first,
+        call(
+            "play", self.ps, self.ss, self.ws, motion, self.z, pressures, samples, motion.shape[1],
+            *self.settings, self.mics, len(Z.MIC_OUTPUTS), self.first,
         )  # fmt: skip
         self.first += samples
         return pressures

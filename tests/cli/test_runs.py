@@ -12,7 +12,7 @@ from scipy.io import wavfile
 
 from fmu_bearing import Run, build_fmu
 from fmu_bearing.acoustics.filters.weighting import level
-from fmu_bearing.fmi.native.optimise import BuildError
+from fmu_bearing.compiled.errors import BuildError
 from fmu_bearing.instance import Instance
 from fmu_bearing.recording.listen import listen
 from fmu_bearing.recording.record import Recording, record

@@ -5,14 +5,14 @@ import re
 import subprocess
 import sys
 
-from fmu_bearing.fmi.native.entries import SETTINGS
+from fmu_bearing.compiled.settings import SETTINGS
 
 _SCRIPT = """
 import importlib, sys
 import llvmlite.binding as llvm
 from numba import carray, cfunc, types
 from fmu_bearing.engine.jit import FLAGS
-from fmu_bearing.fmi.native import optimise
+from fmu_bearing.compiled import optimise
 
 module, name, kinds = sys.argv[1:]
 function = getattr(importlib.import_module(module), name)
@@ -37,8 +37,7 @@ for triple, processor in (
     for one in made.functions:
         if not one.is_declaration and one.name != entry.native_name:
             one.linkage = "internal"
-    for _ in range(2):
-        optimise._optimise(made, target)
+    optimise.improve(made, target)
     optimise.check(made)
     print("====", processor)
     print(target.emit_assembly(made))

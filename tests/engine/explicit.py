@@ -6,8 +6,8 @@ one of the studies' reference trajectory, which is itself held against the engin
 
 import numpy as np
 
+from fmu_bearing.compiled import call
 from fmu_bearing.engine.layout import STRIDE, C, F, Q, S, W, Y
-from fmu_bearing.engine.mechanics.equations import right_hand_side
 
 _PLACES = 3 * STRIDE  # of the balls: x, r, theta
 
@@ -24,7 +24,8 @@ class Motion:
     def f(self, t, y):
         """Accelerations, and what else the right-hand side gives, ``t`` (s) after the start."""
         out = np.zeros(F.SIZE)
-        right_hand_side(self.p, self.c, y, self.angle + self.speed * t, self.speed, 0.0, self.w, out)
+        angle = self.angle + self.speed * t
+        call("right_hand_side", self.p, self.c, y, self.w, out, angle, self.speed, 0.0)
         return out
 
     def rate(self, t, y):

@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from fmu_bearing.compiled import call
 from fmu_bearing.engine.layout import FL, STRIDE, C, F, P, S, W, Y
 from fmu_bearing.engine.mechanics.energy import stored_energy
-from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.mechanics.flexure import flexure_energy
 
 
@@ -86,7 +86,7 @@ class FirstOrder:
         self.flexure.array(FL.Q)[:], self.flexure.array(FL.V)[:] = places_and_rates
         speed = self.speed + self.speed_rate * t
         angle = self.angle + t * (self.speed + 0.5 * self.speed_rate * t)
-        right_hand_side(self.p, self.c, y, angle, speed, self.speed_rate, self.w, self.f)
+        call("right_hand_side", self.p, self.c, y, self.w, self.f, angle, speed, self.speed_rate)
         return y, speed
 
     def __call__(self, t, x):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from fmu_bearing.engine import abi
+from fmu_bearing.compiled import call
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import STRIDE, P, S, W, Z
 from fmu_bearing.engine.status import OK
@@ -60,12 +60,12 @@ class Run:
         self.z = np.zeros(Z.size(int(self.p[P.BALLS]), 0, 0, int(self.p[P.MODES])))
 
     def init(self):
-        status = abi.init(self.p, self.u, self.s, self.z, self.w, 0.0)
+        status = call("init", self.p, self.u, self.s, self.z, self.w, 0.0)
         assert status == OK
         return self
 
     def step(self, h):
-        return abi.step(self.p, self.u, self.s, self.z, self.w, h)
+        return call("step", self.p, self.u, self.s, self.z, self.w, h)
 
     def run(self, duration, h=1e-4):
         """Step for ``duration`` (s); rows of z after each step."""

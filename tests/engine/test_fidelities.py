@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import root
 
-from fmu_bearing.engine import abi
+from fmu_bearing.compiled import call
 from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.layout import STRIDE, C, L, P, S, U, Y, Z
 from fmu_bearing.engine.status import NO_START, NOT_CONVERGED, OK
@@ -434,7 +434,7 @@ def test_a_start_fails_with_its_own_status(scene):
     rigid = scene("7009C-full-ceramic").with_rigid_rings()
     run = Run(silent(rigid), 60_000, preload=1.0, FIDELITY=FIDELITIES["rings"])
     # the same with speed and preload moved by up to a hundredth of themselves
-    assert abi.init(run.p, run.u, run.s, run.z, run.w, 0.0) == NO_START
+    assert call("init", run.p, run.u, run.s, run.z, run.w, 0.0) == NO_START
 
 
 def test_a_step_fails_with_its_own_status(scene):

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from fmu_bearing.compiled import call
 from fmu_bearing.elastic.modes import ring_modes
-from fmu_bearing.engine import abi
 from fmu_bearing.engine.choices import METHODS
 from fmu_bearing.engine.layout import FL, MO, STRIDE, F, P, Q, S, U, W, Z
 from fmu_bearing.engine.readout.motion import flexure_motion
@@ -445,6 +445,6 @@ def test_level_auto_leaves_out_what_cannot_bend(scene):
 def test_the_engine_refuses_them_too(scene, fidelity):
     run = Run(scene(SCENE), 20000, modes=MODES, FIDELITY=fidelity)
     before = run.s.copy()
-    assert abi.init(run.p, run.u, run.s, run.z, run.w, 0.0) == RIGID_ONLY
+    assert call("init", run.p, run.u, run.s, run.z, run.w, 0.0) == RIGID_ONLY
     np.testing.assert_array_equal(run.s, before)
     assert RIGID_ONLY in REASONS

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from fmu_bearing.compiled import call
 from fmu_bearing.engine.choices import RACE_CONTROLS
 from fmu_bearing.engine.layout import EQ, STRIDE, C, F, P, Q, Y
-from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.statics.axial import quasistatic, stiffness_matrix
 from fmu_bearing.engine.statics.mounted import mounted_equilibrium
 from fmu_bearing.engine.status import OK
@@ -232,7 +232,7 @@ def test_the_full_level_stands_still_there(scene, name, tilt):
     y[outer + 4 : outer + 6] = tilt, -0.5 * tilt
     y[Y.Q0 : Y.Q0 + 5] = bearing.shift
     y[Y.Q0 + 3 : Y.Q0 + 5] += y[outer + 4 : outer + 6]
-    right_hand_side(bearing.p, bearing.c, y, 0.0, 0.0, 0.0, bearing.w, f)
+    call("right_hand_side", bearing.p, bearing.c, y, bearing.w, f, 0.0, 0.0, 0.0)
     p = bearing.p
     force = f[F.BODY : F.BODY + 3] * p[P.INNER_MASS]
     moment = f[F.BODY + 3 : F.BODY + 5] * p[P.INNER_TRANSVERSE] / p[P.PITCH_RADIUS]

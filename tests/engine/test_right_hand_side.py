@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicHermiteSpline
 
+from fmu_bearing.compiled import call
 from fmu_bearing.engine.layout import STRIDE, C, F, P, S, U, W, Y
 from fmu_bearing.engine.mechanics.cage import film_force
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.mechanics.energy import stored_energy
-from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.readout.losses import summarise
 from tests.engine.helpers import Run
 from tests.oracles import cartesian as oracle
@@ -56,7 +56,7 @@ class Case:
     def engine(self):
         """The engine's answer, in the oracle's shapes."""
         f = np.zeros(F.SIZE)
-        right_hand_side(self.p, self.c, self.y, self.angle, self.speed, SPEED_RATE, self.w, f)
+        call("right_hand_side", self.p, self.c, self.y, self.w, f, self.angle, self.speed, SPEED_RATE)
         g = f[F.BODY : F.WORK]
         return oracle.Answer(
             f[: 6 * STRIDE].reshape(6, STRIDE)[:, : self.n].T,
@@ -368,7 +368,7 @@ def test_losses_by_source(case):
     s = np.zeros(S.size(one.p))
     s[S.Y : S.Y + Y.SIZE] = one.y
     f = s[S.F : S.F + F.SIZE]
-    right_hand_side(one.p, one.c, one.y, one.angle, one.speed, SPEED_RATE, one.w, f)
+    call("right_hand_side", one.p, one.c, one.y, one.w, f, one.angle, one.speed, SPEED_RATE)
     summarise(one.p, s, one.w)
     contacts, rolling, cage, drag = s[S.LOSS : S.LOSS + 4]
     dampers = (one.setup.dampers * one.state.rates**2).sum()

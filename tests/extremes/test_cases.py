@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from fmu_bearing.engine import abi
 from fmu_bearing.engine.layout import U
 from fmu_bearing.engine.status import BAD_INPUT
 from fmu_bearing.instance import EngineError
@@ -145,8 +144,8 @@ def test_the_engine_refuses_such_inputs_by_itself(place, value):
     run.initialise()
     kept, shown = run.s.copy(), run.z.copy()
     run.u[place] = value
-    assert abi.step(run._p, run.u, run.s, run.z, run._w, 1e-4) == BAD_INPUT
-    assert abi.init(run._p, run.u, run.s, run.z, run._w, 0.0) == BAD_INPUT
+    assert run._calls.step(1e-4) == BAD_INPUT
+    assert run._calls.init(0.0) == BAD_INPUT
     np.testing.assert_array_equal(run.s, kept)
     np.testing.assert_array_equal(run.z, shown)
 

@@ -12,9 +12,9 @@ import zipfile
 import fmpy
 import pytest
 
+from fmu_bearing.compiled.errors import BuildError
+from fmu_bearing.compiled.platforms import host
 from fmu_bearing.fmi.description import FLAVOURS
-from fmu_bearing.fmi.native.optimise import BuildError
-from fmu_bearing.fmi.native.platforms import host
 from fmu_bearing.fmi.package import build
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.scene import read_scene

@@ -14,10 +14,10 @@ import fmpy
 import pytest
 
 import fmu_bearing
-from fmu_bearing.engine.jit import cache_directory
+from fmu_bearing.compiled.platforms import host
 from fmu_bearing.engine.layout import P
+from fmu_bearing.files import cache_root
 from fmu_bearing.fmi import resources
-from fmu_bearing.fmi.native.platforms import host
 from fmu_bearing.fmi.package import build
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.scene import read_scene
@@ -224,7 +224,7 @@ def test_many_instances_one_after_another(master):
 
 def test_nothing_inside_points_to_where_it_was_built(fmu, flavour):
     """Neither the repository, nor the installed package, nor where kernels are kept is needed elsewhere."""
-    places = {str(ROOT), str(Path(fmu_bearing.__file__).parent), str(cache_directory().parent)}
+    places = {str(ROOT), str(Path(fmu_bearing.__file__).parent), str(cache_root())}
     seen = set()
     with zipfile.ZipFile(fmu) as archive:
         for name in archive.namelist():

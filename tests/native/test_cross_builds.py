@@ -17,13 +17,13 @@ import pytest
 from typer.testing import CliRunner
 
 from fmu_bearing import cli
+from fmu_bearing.compiled.errors import BuildError
+from fmu_bearing.compiled.optimise import MATHEMATICS
+from fmu_bearing.compiled.platforms import PLATFORMS, host as own_platform
 from fmu_bearing.engine.sources import engine_digest
 from fmu_bearing.fmi.native import link
-from fmu_bearing.fmi.native.compile import objects
 from fmu_bearing.fmi.native.link import library
 from fmu_bearing.fmi.native.model_file import model_bytes
-from fmu_bearing.fmi.native.optimise import MATHEMATICS, BuildError
-from fmu_bearing.fmi.native.platforms import PLATFORMS, host as own_platform
 from tests.conftest import GATES
 
 from . import binaries, careless, toy
@@ -70,7 +70,7 @@ def test_library_of_this_machine(compiler):
     platform = own_platform()
     if platform is None:
         pytest.skip("there is no native build for this machine")
-    check_symbols(platform, library(platform).read_bytes())
+    check_symbols(platform, library(platform))
 
 
 def test_reader_tells_what_is_too_much(compiler, tmp_path):
@@ -103,7 +103,7 @@ def test_platform_without_its_compiler_names_the_extra(no_zig):
 
 
 def test_command_without_the_compiler_ends_with_one_line(no_zig, monkeypatch, tmp_path):
-    monkeypatch.setattr(link, "kernel_folder", lambda: tmp_path / "no libraries kept")
+    monkeypatch.setattr(link, "folder", lambda: tmp_path / "no libraries kept")
     other = next(name for name in PLATFORMS if PLATFORMS[name] != own_platform())
     path = GATES / "7003C-bare.toml"
     ran = CliRunner().invoke(
@@ -153,7 +153,7 @@ def zig():
 @pytest.mark.parametrize("name", PLATFORMS)
 def test_library_of_every_platform(zig, name):
     platform = PLATFORMS[name]
-    data = library(platform, prefer="zig").read_bytes()
+    data = library(platform, prefer="zig")
     found = check_symbols(platform, data)
     for version in found.versions:
         assert tuple(map(int, version.removeprefix("GLIBC_").split("."))) <= (*OLDEST_GLIBC, 0), version
@@ -167,7 +167,7 @@ def test_library_of_every_platform(zig, name):
         link.compiler_for(platform, "zig"),
         platform,
         link.shim_sources(),
-        objects(platform),
+        link.kernels_of(platform),
         engine_digest().hex(),
     )
     assert again == data
@@ -260,9 +260,9 @@ def test_library_runs_under_an_emulator(emulator, zig, host, spindle, tmp_path, 
     name, command = emulator
     folder, guid, commands, names = spindle
     platform = PLATFORMS[name]
-    own = subprocess.run(
-        [host, library(own_platform()), guid, folder.as_uri(), *commands], capture_output=True, text=True
-    )
+    mine = tmp_path / "own"
+    mine.write_bytes(library(own_platform()))
+    own = subprocess.run([host, mine, guid, folder.as_uri(), *commands], capture_output=True, text=True)
     expected = _values(own)
     assert expected.shape == (len(_SPEEDS), len(names))
     program = tmp_path / ("host.exe" if name == "win64" else "host")
@@ -270,7 +270,8 @@ def test_library_runs_under_an_emulator(emulator, zig, host, spindle, tmp_path, 
         [*zig, "-target", platform.zig, "-std=c99", "-O2", f"-I{toy.HEADERS}", str(toy.HERE / "host.c"), "-o",
          str(program), *(() if name == "win64" else ("-ldl", "-lpthread"))]
     )  # fmt: skip
-    made = shutil.copy(library(platform, prefer="zig"), tmp_path / f"bearing{platform.suffix}")
+    made = tmp_path / f"bearing{platform.suffix}"
+    made.write_bytes(library(platform, prefer="zig"))
     place, where = (f"Z:{made}", f"file:///Z:{folder}") if name == "win64" else (made, folder.as_uri())
     monkeypatch.setenv("WINEPREFIX", str(tmp_path / "wine"))
     monkeypatch.setenv("WINEDEBUG", "-all")

@@ -8,10 +8,10 @@ import subprocess
 
 import pytest
 
+from fmu_bearing.compiled.platforms import host as own_platform
 from fmu_bearing.engine.sources import engine_digest
-from fmu_bearing.fmi.native import compile as ahead
+from fmu_bearing.fmi.native.link import kernels_of
 from fmu_bearing.fmi.native.model_file import model_bytes
-from fmu_bearing.fmi.native.platforms import host as own_platform
 
 from . import toy
 from .careless import build, hostile_kernels, play
@@ -77,11 +77,14 @@ def test_real_kernels_bear_a_careless_host(compiler, sanitizers, scene, tmp_path
     if platform is None:
         pytest.skip("there are no compiled kernels for this machine")
     model = prepare(scene("7003C-spindle"))
+    files = [tmp_path / f"kernels{k}.o" for k in range(len(kernels_of(platform)))]
+    for file, data in zip(files, kernels_of(platform), strict=True):
+        file.write_bytes(data)
     digest, guid = engine_digest().hex(), interface_guid(model, "native")
     good = tmp_path / "good"
     good.mkdir()
     (good / "model.bin").write_bytes(model_bytes(model, guid, digest))
-    program = build(tmp_path, [compiler], ahead.objects(platform), digest, *sanitizers)
+    program = build(tmp_path, [compiler], files, digest, *sanitizers)
     step, count = 1e-5, len(model.variables)
     options = {"guid": guid, "count": count, "step": step, "forge": False, "seconds": 900}
     counts = play(program, good, tmp_path / "bad", seed=1, rounds=100, **options)

@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from fmu_bearing.fmi.native import platforms
+from fmu_bearing.compiled import platforms
 
 from . import toy
 

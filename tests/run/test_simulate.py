@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from fmu_bearing import Bearing, Run, build_fmu, simulate
+from fmu_bearing.compiled.errors import BuildError
 from fmu_bearing.fmi.description import FLAVOURS
-from fmu_bearing.fmi.native.optimise import BuildError
 from fmu_bearing.run.inputs import input_table
 from fmu_bearing.run.names import UnknownName, chosen_names, unit_of
 from fmu_bearing.run.result import INTERRUPTED, REFUSED, ResultError, read_table, structured

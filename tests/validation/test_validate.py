@@ -12,9 +12,9 @@ import pytest
 from typer.testing import CliRunner
 
 from fmu_bearing import cli, extras
+from fmu_bearing.compiled.errors import BuildError
+from fmu_bearing.compiled.platforms import host
 from fmu_bearing.fmi import reference
-from fmu_bearing.fmi.native.optimise import BuildError
-from fmu_bearing.fmi.native.platforms import host
 from fmu_bearing.fmi.package import build
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.scene.read import with_fidelity

@@ -2,7 +2,7 @@
 
 from fmu_bearing.engine.choices import REGULARISED
 from fmu_bearing.engine.constants import GRAVITY
-from fmu_bearing.engine.jit import entry, inlined, kernel
+from fmu_bearing.engine.jit import inlined, kernel
 from fmu_bearing.engine.lanes import consecutive, load, select, store, sum_lanes
 from fmu_bearing.engine.layout import FOUR, STRIDE, F, P, Q, W, X, Y
 from fmu_bearing.engine.mechanics.ball_waves import add_ball_waves, ball_wave_forces
@@ -200,7 +200,7 @@ def add_up(p, c, y, angle, speed, speed_rate, w, f):
         flexure_equations(p, y, speed, speed_rate, w, f)
 
 
-@entry
+@kernel
 def right_hand_side(p, c, y, angle, speed, speed_rate, w, f):
     """Accelerations, power, heat and shaft torque at one state.
 

@@ -1,10 +1,6 @@
-"""The native build: the engine's kernels compiled ahead of time behind a C shim, no Python at run time.
+"""The native build: the compiled kernels behind a C shim, no Python at run time.
 
 ==============  ====================================================================================
-``platforms``   targets of FMI 2.0 and what compiles for them
-``entries``     the three entries of the engine with the signature of C, as LLVM code
-``optimise``    that code optimised for one instruction set, as an object file
-``compile``     both steps for all instruction sets of a platform, kept by a hash of the engine
 ``shim``        FMI 2.0 co-simulation in C99, the same for every scene and platform
 ``link``        objects and shim -> one shared library per platform
 ``model_file``  a model as the bytes of ``resources/model.bin``

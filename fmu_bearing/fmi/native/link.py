@@ -16,16 +16,26 @@ from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
 
+from fmu_bearing.compiled import BuildError, kept
+from fmu_bearing.compiled.make import folder, objects, prebuilt
+from fmu_bearing.compiled.platforms import Platform, host
 from fmu_bearing.engine.sources import digest, engine_digest
 from fmu_bearing.extras import install_command
-from fmu_bearing.files import write_whole
-from fmu_bearing.fmi.native.compile import kernel_folder, objects
-from fmu_bearing.fmi.native.optimise import BuildError
-from fmu_bearing.fmi.native.platforms import Platform, host
 from fmu_bearing.progress import Tell, silent
 
-__all__ = ["Compiler", "compiler_for", "headers", "library", "shim_sources"]
+__all__ = [
+    "LINKED",
+    "Compiler",
+    "compiler_for",
+    "headers",
+    "kernels_of",
+    "library",
+    "library_name",
+    "shim_sources",
+]
 
+#: Units of the kernels that an FMU needs.
+LINKED = ("init", "step")
 #: Strict C; contraction of a * b + c would change bits between processors.
 FLAGS = ("-std=c99", "-O2", "-Wall", "-Wextra", "-ffp-contract=off", "-fvisibility=hidden")
 
@@ -112,36 +122,55 @@ def _version(command: str) -> str:
     return ran.stdout.splitlines()[0] if ran.returncode == 0 and ran.stdout else command
 
 
-def library(platform: Platform, prefer: str = "auto", tell: Tell = silent) -> Path:
-    """Shared library for a platform, made unless it is in the cache.
+def library(platform: Platform, prefer: str = "auto", tell: Tell = silent) -> bytes:
+    """Shared library for a platform: from the wheel, from the cache, or made now.
 
     Where there is no compiler now, a cached library from another compiler is used.
 
     Raises
     ------
     BuildError
-        If it is not in the cache and cannot be made.
+        If it is not there and cannot be made.
     """
-    folder = kernel_folder() / platform.name
-    sources = digest(Path(__file__).parent / "shim", suffixes=(".c", ".h")).hex()[:16]
+    if prefer in ("auto", "portable") and (brought := prebuilt(library_name(platform))) is not None:
+        return brought
+    made = folder() / platform.name
     try:
         compiler = compiler_for(platform, prefer)
     except BuildError:
-        kept = sorted(folder.glob(f"{sources}-*{platform.suffix}"))
-        if kept and prefer in ("auto", "portable"):
-            return kept[0]
+        found = (kept.read(path, tell) for path in sorted(made.glob(f"{_shim_key()}-*{platform.suffix}")))
+        for data in found:
+            if data is not None and prefer in ("auto", "portable"):
+                return data
         raise
     made_by = hashlib.sha256(f"{compiler.name} {compiler.command[1:]}".encode()).hexdigest()[:8]
-    path = folder / f"{sources}-{made_by}{platform.suffix}"
-    if not path.is_file():
-        kernels = objects(platform, tell)
+    path = made / f"{_shim_key()}-{made_by}{platform.suffix}"
+    data = kept.read(path, tell)
+    if data is None:
+        kernels = kernels_of(platform)
         tell(f"linking {platform.name} ({compiler.name})")
-        write_whole(path, link(compiler, platform, shim_sources(), kernels, engine_digest().hex()))
-    return path
+        data = link(compiler, platform, shim_sources(), kernels, engine_digest().hex())
+        kept.write(path, data, tell)
+    return data
+
+
+def kernels_of(platform: Platform) -> list[bytes]:
+    """Object files of the kernels that a library of a platform holds."""
+    sets = [suffix for suffix, _ in platform.instruction_sets]
+    return list(objects(platform, LINKED, sets).values())
+
+
+def library_name(platform: Platform) -> str:
+    """Name of a linked library in a wheel, with the hash of the C sources that it was made from."""
+    return f"{platform.name}-{_shim_key()}{platform.suffix}"
+
+
+def _shim_key() -> str:
+    return digest(Path(__file__).parent / "shim", suffixes=(".c", ".h")).hex()[:16]
 
 
 def link(
-    compiler: Compiler, platform: Platform, sources: Sequence[Path], kernels: Sequence[Path], digest: str
+    compiler: Compiler, platform: Platform, sources: Sequence[Path], kernels: Sequence[bytes], digest: str
 ) -> bytes:
     """Compile C sources, link them with objects, and return the shared library.
 
@@ -155,11 +184,14 @@ def link(
     defines = [f'-DFB_KERNELS="{digest}"']
     if len(platform.instruction_sets) > 1:
         defines.append("-DFB_X86")
-    with tempfile.TemporaryDirectory() as folder:
-        made = Path(folder) / f"bearing{platform.suffix}"
+    with tempfile.TemporaryDirectory() as temporary:
+        made = Path(temporary) / f"bearing{platform.suffix}"
+        files = [Path(temporary) / f"kernels{k}.o" for k in range(len(kernels))]
+        for file, data in zip(files, kernels, strict=True):
+            file.write_bytes(data)
         command = [
             *compiler.command, *FLAGS, *defines, f"-I{headers()}", "-shared",
-            *map(str, sources), *map(str, kernels), "-o", str(made), "-lm",
+            *map(str, sources), *map(str, files), "-o", str(made), "-lm",
         ]  # fmt: skip
         ran = subprocess.run(command, capture_output=True, text=True)
         if ran.returncode != 0:

@@ -30,8 +30,8 @@ from fmu_bearing.acoustics.radiation.bem.solver import (
     orbit_dipoles,
     wall_admittance,
 )
-from fmu_bearing.engine.jit import cache_directory
 from fmu_bearing.engine.sources import digest
+from fmu_bearing.files import cache_root
 
 Complex = NDArray[np.complex128]
 
@@ -298,7 +298,7 @@ def _remembered(key: str) -> list[Solution]:
 def solution(task: Task) -> Solution:
     """Solution of a task: from memory, from disk, or solved now with a progress bar on a terminal.
 
-    Solutions are kept beside the compiled kernels, in the folder ``sound`` (`engine.jit.cache_directory`).
+    Solutions are kept beside the compiled kernels, in the folder ``sound`` (`files.cache_root`).
     """
     key = task.key()
     known = _remembered(key)
@@ -306,7 +306,7 @@ def solution(task: Task) -> Solution:
         return known[0]
     found = Solution(task)
     if not task.baffled:  # faces in a rigid wall do not hear each other: nothing to solve
-        path = cache_directory().parent / "sound" / f"{key}.npz"
+        path = cache_root() / "sound" / f"{key}.npz"
         if not _load(path, found):
             _solve_all(found)
             _save(path, found)

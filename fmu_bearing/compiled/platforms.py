@@ -1,10 +1,11 @@
 """The machines a library can be built for."""
 
+import os
 import platform as machine
 import sys
 from dataclasses import dataclass
 
-__all__ = ["PLATFORMS", "Platform", "host"]
+__all__ = ["PLATFORMS", "Platform", "host", "instruction_set", "own"]
 
 # Levels of the x86-64 psABI: v2 (2009) is the least asked for, v3 (2015, AVX2) is used where it is there.
 _X86 = (("v2", "x86-64-v2"), ("v3", "x86-64-v3"))
@@ -62,3 +63,26 @@ def host() -> Platform | None:
     names = systems.get(sys.platform, ("win64", None))
     name = names[arm]
     return PLATFORMS[name] if name else None
+
+
+def own() -> Platform:
+    """Return what this process needs kernels for, on machines without an FMU platform too."""
+    import llvmlite.binding as llvm
+
+    return host() or Platform("own", llvm.get_process_triple(), "", "", (("base", ""),))
+
+
+def instruction_set(platform: Platform) -> str:
+    """Return the instruction set of a platform that this processor runs; ``FMU_BEARING_ISA=v2`` takes v2.
+
+    The same rule as in the shim (``kernels.c``).
+    """
+    sets = [suffix for suffix, _ in platform.instruction_sets]
+    if "v3" not in sets:
+        return sets[0]
+    import llvmlite.binding as llvm
+
+    features = llvm.get_host_cpu_features()
+    needed = ("avx", "avx2", "bmi", "bmi2", "f16c", "fma", "lzcnt", "movbe")
+    fits = all(features.get(one, False) for one in needed)
+    return "v3" if fits and os.environ.get("FMU_BEARING_ISA") != "v2" else "v2"

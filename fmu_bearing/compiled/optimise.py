@@ -1,40 +1,42 @@
 """From portable code to the object file of one instruction set, by LLVM.
 
-Run as ``python -m fmu_bearing.fmi.native.optimise BITCODE PLATFORM SET FILE``: LLVM's passes hold the
-interpreter, so several objects are made by several processes.
-
 Numba's code for a function that might raise calls back into Python. The kernels never raise; once every
 symbol but the entries is internal, LLVM proves that and drops those calls. The result is checked: an object
 may call the C library's mathematics only.
 """
 
 import re
-import sys
-from pathlib import Path
+from collections.abc import Callable
 
 import llvmlite.binding as llvm
 
-from fmu_bearing.files import write_whole
-from fmu_bearing.fmi.native.entries import ENTRIES, symbol
-from fmu_bearing.fmi.native.platforms import PLATFORMS, Platform
+from fmu_bearing.compiled.errors import BuildError
+from fmu_bearing.compiled.platforms import Platform
+from fmu_bearing.compiled.units import ENTRIES, symbol
 
-__all__ = ["BuildError", "check", "object_code"]
+__all__ = ["MATHEMATICS", "check", "improve", "object_code"]
 
 #: Functions of the C library that an object may call; compilers add those on memory.
 MATHEMATICS = frozenset(
     "acos asin atan atan2 cbrt ceil copysign cos cosh exp exp2 expm1 fabs floor fmod hypot log log10 log1p "
     "log2 pow round sin sincos sinh sqrt tan tanh trunc memcpy memmove memset".split()
 )
-#: Passes over the module: the second sees the entries without Python's error paths, and halves them.
-_PASSES = 2
+#: Part of the time that has passed after each task, measured: each kernel made simple, the whole without
+#: Python's error paths, the whole with vector loops, machine code.
+_THROUGH = (0.1, 0.35, 0.75)
 
 
-class BuildError(RuntimeError):
-    """A library that could not be built, and why."""
+def object_code(bitcode: bytes, platform: Platform, suffix: str, tell: Callable[[float], None]) -> bytes:
+    """Optimise a unit's bitcode for one instruction set of a platform and return its object file.
 
-
-def object_code(bitcode: bytes, platform: Platform, suffix: str) -> bytes:
-    """Optimise bitcode for one instruction set of a platform and return its object file.
+    Parameters
+    ----------
+    bitcode : bytes
+    platform : Platform
+    suffix : str
+        Of the instruction set; the entries' names end in it.
+    tell : callable
+        Takes the part (0 to 1) of the work that is done.
 
     Raises
     ------
@@ -62,16 +64,40 @@ def object_code(bitcode: bytes, platform: Platform, suffix: str) -> bytes:
     for variable in module.global_variables:
         if not variable.is_declaration:
             variable.linkage = "internal"
-    for _ in range(_PASSES):
-        _optimise(module, target)
+    improve(module, target, tell)
     check(module)
     return target.emit_object(module)
 
 
-def _optimise(module: llvm.ModuleRef, target: llvm.TargetMachine) -> None:
-    """Run LLVM's standard passes of the highest level."""
-    tuning = llvm.create_pipeline_tuning_options(speed_level=3)
-    tuning.loop_vectorization = tuning.slp_vectorization = tuning.loop_unrolling = True
+def improve(
+    module: llvm.ModuleRef, target: llvm.TargetMachine, tell: Callable[[float], None] = lambda done: None
+) -> None:
+    """Optimise a module whose functions but the entries are internal."""
+    # Numba's code keeps every variable in memory: in registers it is a fifth as long for all that follows
+    _simplify(module, target)
+    tell(_THROUGH[0])
+    _optimise(module, target, last=False)
+    tell(_THROUGH[1])
+    _optimise(module, target, last=True)
+    tell(_THROUGH[2])
+
+
+def _simplify(module: llvm.ModuleRef, target: llvm.TargetMachine) -> None:
+    """Make each function simple by itself."""
+    builder = llvm.create_pass_builder(target, llvm.create_pipeline_tuning_options(speed_level=3))
+    passes = llvm.create_new_module_pass_manager()
+    passes.add_sroa_pass()
+    passes.add_simplify_cfg_pass()
+    passes.add_instruction_combine_pass()
+    passes.add_simplify_cfg_pass()
+    passes.add_sroa_pass()
+    passes.run(module, builder)
+
+
+def _optimise(module: llvm.ModuleRef, target: llvm.TargetMachine, last: bool) -> None:
+    """Run LLVM's standard passes: first against error paths, last with vector loops."""
+    tuning = llvm.create_pipeline_tuning_options(speed_level=3 if last else 2)
+    tuning.loop_vectorization = tuning.slp_vectorization = tuning.loop_unrolling = last
     builder = llvm.create_pass_builder(target, tuning)
     builder.getModulePassManager().run(module, builder)
 
@@ -88,16 +114,3 @@ def check(module: llvm.ModuleRef) -> None:
         raise BuildError(f"the kernels are not free of Python: they call {', '.join(strange)}")
     if re.search(r"inttoptr \(i64 \d+", str(module)):
         raise BuildError("the kernels hold an address of the process that compiled them")
-
-
-def main() -> None:
-    """Write one object file."""
-    code, name, suffix, path = sys.argv[1:]
-    try:
-        write_whole(Path(path), object_code(Path(code).read_bytes(), PLATFORMS[name], suffix))
-    except BuildError as problem:
-        sys.exit(str(problem))
-
-
-if __name__ == "__main__":
-    main()

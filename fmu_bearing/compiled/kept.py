@@ -1,0 +1,75 @@
+"""Files of the user's cache: whole or absent, checked when read, and never needed.
+
+A file stands beside its checksum. One that was cut short or changed is told, removed and made anew. Where
+nothing can be written (a full disk, a read-only home) the caller goes on with what it holds in memory.
+"""
+
+import contextlib
+import hashlib
+from collections.abc import Iterator
+from pathlib import Path
+
+from filelock import FileLock, Timeout
+
+from fmu_bearing.files import write_whole
+from fmu_bearing.progress import Tell
+
+__all__ = ["alone", "read", "write"]
+
+_CHECKSUM = ".sha256"
+
+
+def read(path: Path, tell: Tell) -> bytes | None:
+    """Content of a kept file; ``None`` where there is none, or a damaged one, which is told."""
+    try:
+        data = path.read_bytes()
+        expected = _beside(path).read_text(encoding="ascii").strip()
+    except (OSError, UnicodeDecodeError):
+        return None
+    if hashlib.sha256(data).hexdigest() == expected:
+        return data
+    tell(f"the kept file {path} is damaged: it is made anew")
+    with contextlib.suppress(OSError):
+        path.unlink()
+    return None
+
+
+def write(path: Path, data: bytes, tell: Tell) -> bool:
+    """Keep a file with its checksum; where that fails, say so and return ``False``."""
+    try:
+        write_whole(path, data)
+        write_whole(_beside(path), f"{hashlib.sha256(data).hexdigest()}\n".encode("ascii"))
+    except OSError as problem:
+        tell(
+            f"{path.name} cannot be kept in {path.parent} ({problem.strerror}): the next process compiles it "
+            "again; make room there, or name another folder in FMU_BEARING_CACHE"
+        )
+        return False
+    return True
+
+
+@contextlib.contextmanager
+def alone(folder: Path, tell: Tell) -> Iterator[None]:
+    """Hold a folder's lock, so that of two processes one compiles and the other reads.
+
+    A folder in which no lock can be made is used without one.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        lock = FileLock(folder / "lock")
+        try:
+            lock.acquire(timeout=0)
+        except Timeout:
+            tell("another process is compiling the kernels: waiting for it")
+            lock.acquire()
+    except (OSError, NotImplementedError):
+        yield
+        return
+    try:
+        yield
+    finally:
+        lock.release()
+
+
+def _beside(path: Path) -> Path:
+    return path.with_name(path.name + _CHECKSUM)

@@ -1,0 +1,134 @@
+"""Numba as a front end alone: each kernel to LLVM code once, nothing optimised or made executable on the way.
+
+For every kernel Numba also makes a wrapper for Python and one for C, links the kernel with all that it calls,
+optimises the whole and emits machine code. An ahead-of-time build needs none of that: 345 times. Here the
+code of each kernel is kept as text, and what an entry reaches is linked once.
+
+Left out besides, because kernels neither allocate nor raise: counting of references (each array that is
+passed on would be counted up and down) and wrapping of negative indices, which every access would have to
+ask for. Types that Numba found for an operator are remembered.
+
+This reaches into Numba: it is used with the versions that `settings` names; `lower` has the plain way for
+others.
+"""
+
+import operator
+from typing import Any
+
+import llvmlite.binding as llvm
+from numba import _dynfunc, types  # type: ignore[attr-defined]
+from numba.core import cgutils, codegen, compiler_machinery
+from numba.core.cpu import CPUContext
+from numba.core.registry import cpu_target
+from numba.core.runtime.context import NRTContext
+from numba.core.typing.context import BaseContext
+from numba.extending import lower_builtin
+
+__all__ = ["install", "modules"]
+
+
+class Library(codegen.JITCodeLibrary):
+    """Keeps the code of one kernel as text, and the libraries of the kernels that it calls."""
+
+    texts: list[str]
+
+    def add_ir_module(self, ir_module: Any) -> None:
+        """Keep a module."""
+        self.__dict__.setdefault("texts", []).append(cgutils.normalize_ir_text(str(ir_module)))
+
+    def add_linking_library(self, library: Any) -> None:
+        """Remember a library that is called."""
+        self._linking_libraries.append(library)
+
+    def finalize(self) -> None:
+        """Take no more code."""
+        self._finalized = True
+
+    def get_pointer_to_function(self, name: str) -> int:
+        """Return no address: nothing is executable."""
+        return 0
+
+
+def install() -> None:
+    """Turn Numba in this process into a front end; not to be undone."""
+    cpu_target.target_context.codegen()._library_class = Library
+    context: Any = CPUContext
+    counting: Any = NRTContext
+    context.get_executable = _no_executable
+    context.create_cpython_wrapper = _nothing
+    wrap = context.create_cfunc_wrapper
+
+    def wrap_entries(self: Any, library: Any, fndesc: Any, env: Any, call_helper: Any) -> None:
+        if any(isinstance(one, types.CPointer) for one in fndesc.argtypes):
+            wrap(self, library, fndesc, env, call_helper)
+
+    context.create_cfunc_wrapper = wrap_entries
+    counting.incref = counting.decref = _nothing
+    # Consistency of Numba's own passes is checked after each of them: 15 % of the time.
+    compiler_machinery.PassManager._ENFORCING = False
+    _remember_operators()
+    _plain_access()
+
+
+def modules(function: Any) -> list[llvm.ModuleRef]:
+    """Return the code of a compiled C function and of all that it reaches, one module per kernel."""
+    found: list[Any] = []
+    due = [function._library]
+    while due:
+        library = due.pop()
+        if library not in found:
+            found.append(library)
+            due += [one for one in library._linking_libraries if isinstance(one, Library)]
+    return [llvm.parse_assembly(text) for library in found for text in library.__dict__.get("texts", ())]
+
+
+def _nothing(*arguments: Any, **named: Any) -> None:
+    """Do nothing."""
+
+
+def _no_executable(self: CPUContext, library: Any, fndesc: Any, env: Any) -> Any:
+    """Return what stands for the compiled kernel in Numba's tables; never called."""
+    name = fndesc.qualname.split(".")[-1]
+    return _dynfunc.make_function(fndesc.lookup_module(), name, "not executable", 1, env, (library,))
+
+
+def _remember_operators() -> None:
+    """Let operators and functions of numbers alone be resolved once per types."""
+    context: Any = BaseContext
+    resolve = context._resolve_user_function_type
+    known: dict[Any, Any] = {}
+
+    def resolved(self: Any, func: Any, args: Any, kws: Any, literals: Any = None) -> Any:
+        numbers = type(func) is types.Function and not kws
+        if not numbers or not all(isinstance(one, (types.Number, types.Boolean)) for one in args):
+            return resolve(self, func, args, kws, literals)
+        found = known.get((func, args))
+        if found is None:
+            found = resolve(self, func, args, kws, literals)
+            if found is not None:
+                known[func, args] = found
+        return found
+
+    context._resolve_user_function_type = resolved
+
+
+def _plain_access() -> None:
+    """Read and write numbers of flat arrays by their place, which is never negative."""
+
+    def address(context: Any, builder: Any, array_type: Any, array: Any, place: Any) -> Any:
+        model = context.data_model_manager[array_type]
+        data = builder.extract_value(array, model.get_field_position("data"))
+        return builder.gep(data, [place], inbounds=True)
+
+    def read(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        return builder.load(address(context, builder, signature.args[0], args[0], args[1]))
+
+    def write(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        builder.store(args[2], address(context, builder, signature.args[0], args[0], args[1]))
+        return context.get_dummy_value()
+
+    flat = types.Array(types.float64, 1, "C")
+    constant = types.Array(types.float64, 1, "C", readonly=True)
+    for one in (flat, constant):
+        lower_builtin(operator.getitem, one, types.intp)(read)
+    lower_builtin(operator.setitem, flat, types.intp, types.float64)(write)

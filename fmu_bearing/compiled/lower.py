@@ -1,0 +1,124 @@
+"""From kernels to LLVM code for no machine in particular, in a process whose Numba does nothing else.
+
+What Numba generates depends on settings that it reads when it is loaded. With its optimisation off and no
+processor named, the code is the same wherever it is made; `optimise` turns it into each target's.
+"""
+
+import contextlib
+import gc
+import os
+import re
+import warnings
+from collections.abc import Callable, Iterator
+from typing import Any
+
+from fmu_bearing.compiled.settings import SETTINGS
+from fmu_bearing.compiled.units import ENTRIES, functions, symbol
+
+__all__ = ["portable_code"]
+
+_TARGET = re.compile(r"^target (triple|datalayout) = .*$", re.MULTILINE)
+
+
+def portable_code(unit: str, tell: Callable[[float], None], lean: bool) -> bytes:
+    """LLVM bitcode of a unit's entries in one module; what they share stands in it once.
+
+    Parameters
+    ----------
+    unit : str
+    tell : callable
+        Takes the part (0 to 1) of the kernels that are through.
+    lean : bool
+        Whether to use `lean`; the plain way links and optimises each kernel, and takes four times as long.
+
+    Raises
+    ------
+    RuntimeError
+        If Numba was loaded with other settings than `settings.SETTINGS`.
+    """
+    if any(os.environ.get(key) != value for key, value in SETTINGS.items()):
+        raise RuntimeError("portable code needs Numba loaded under the settings of this module")
+    gc.disable()  # millions of small objects stay: looking through them often is vain
+    import llvmlite.binding as llvm
+
+    if lean:
+        from fmu_bearing.compiled import lean as front
+
+        front.install()
+    made = functions(unit)
+    whole = llvm.parse_assembly("")
+    with _counted(list(made.values()), tell):
+        for name, function in made.items():
+            compiled = _c_function(name, function)
+            wrapper = compiled.native_name
+            if lean:
+                parts = front.modules(compiled)
+            else:
+                # names of the machine that generated it: each target sets its own
+                parts = [llvm.parse_assembly(_TARGET.sub("", compiled.inspect_llvm()))]
+            present = {one.name for one in whole.functions if not one.is_declaration}
+            for part in parts:
+                part.triple = ""
+                for one in part.functions:
+                    if one.name == wrapper:
+                        one.name = symbol(name)
+                    elif not one.is_declaration and lean and one.name in present:
+                        one.linkage = "linkonce_odr"  # shared with an entry before: stands in the whole
+                whole.link_in(part)
+    whole.verify()
+    return whole.as_bitcode()
+
+
+def _c_function(name: str, function: Callable[..., Any]) -> Any:
+    """Compile an entry for pointers."""
+    import numba
+    from numba import types
+
+    from fmu_bearing.engine.jit import FLAGS
+
+    entry = ENTRIES[name]
+    pointers = [types.CPointer(types.float64)] * len(entry.arrays)
+    arguments = [*pointers, types.CPointer(types.int64), *[types.float64] * entry.scalars]
+    flags: dict[str, Any] = dict(FLAGS)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", numba.core.errors.NumbaWarning)
+        return numba.cfunc(types.int32(*arguments), **flags)(function)
+
+
+@contextlib.contextmanager
+def _counted(entries: list[Any], tell: Callable[[float], None]) -> Iterator[None]:
+    """Tell the part of the kernels reached by ``entries`` whose compilation has ended."""
+    from numba.core import event
+
+    total = len(_reached(entries)) or 1
+    through = set()
+
+    class Listener(event.Listener):
+        def on_start(self, found: Any) -> None:
+            pass
+
+        def on_end(self, found: Any) -> None:
+            dispatcher = found.data["dispatcher"]
+            if dispatcher.py_func not in through:
+                through.add(dispatcher.py_func)
+                tell(min(1.0, len(through) / total))
+
+    with event.install_listener("numba:compile", Listener()):
+        yield
+
+
+def _reached(entries: list[Any]) -> set[Any]:
+    """Python functions of all kernels that functions reach through their globals and closures."""
+    found: set[Any] = set()
+    due = list(entries)
+    while due:
+        function = due.pop()
+        names = function.__code__.co_names
+        values = [function.__globals__.get(name) for name in names]
+        values += [cell.cell_contents for cell in function.__closure__ or ()]
+        for value in values:
+            kernel = getattr(value, "py_func", None)
+            if kernel is not None and kernel not in found:
+                found.add(kernel)
+                due.append(kernel)
+    return found

@@ -1,0 +1,211 @@
+"""Objects of the kernels: taken from the wheel, read from the cache, or compiled now with progress.
+
+The cache is keyed by the sources of the engine and of this package and by the versions of Python, Numba and
+llvmlite, never by the place of the installation: a checkout, a wheel and an FMU that is built share it.
+"""
+
+import functools
+import hashlib
+import json
+import os
+import queue
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Iterable
+from importlib.metadata import version
+from pathlib import Path
+
+from fmu_bearing.compiled import kept
+from fmu_bearing.compiled.errors import BuildError
+from fmu_bearing.compiled.platforms import Platform
+from fmu_bearing.compiled.settings import SETTINGS, TESTED, lean
+from fmu_bearing.compiled.show import Display
+from fmu_bearing.engine.sources import engine_digest
+from fmu_bearing.files import cache_root
+
+__all__ = ["PREBUILT", "folder", "objects", "prebuilt", "sources_key"]
+
+#: Objects and bitcode that a wheel brings along, with the key of the sources they were made from.
+PREBUILT = Path(__file__).parent / "prebuilt"
+#: Modules of this package that decide what is in an object.
+_MAKERS = ("units", "settings", "lower", "lean", "platforms", "optimise")
+_TICK = 0.2  # s
+_LONGEST_GUESS = 0.1  # of the whole: how far the bar may run ahead of what was reported
+
+
+@functools.cache
+def sources_key() -> str:
+    """Hash (64 hex digits) of all sources that objects are made from."""
+    found = hashlib.sha256(engine_digest())
+    for name in _MAKERS:
+        found.update((Path(__file__).parent / f"{name}.py").read_bytes())
+    return found.hexdigest()
+
+
+def folder() -> Path:
+    """Folder of what these sources and these compilers make."""
+    versions = f"{sys.version_info[:2]} {version('numba')} {version('llvmlite')}"
+    key = hashlib.sha256(f"{sources_key()} {versions}".encode()).hexdigest()
+    return cache_root() / f"compiled-{key[:16]}"
+
+
+def objects(platform: Platform, units: Iterable[str], sets: Iterable[str]) -> dict[tuple[str, str], bytes]:
+    """Object files by unit and instruction set, compiled unless they are there.
+
+    Raises
+    ------
+    BuildError
+        If the kernels cannot be compiled.
+    """
+    wanted = {(unit, one): f"{unit}-{platform.name}-{one}.o" for unit in units for one in sets}
+    found = {key: data for key, name in wanted.items() if (data := _there(name)) is not None}
+    if len(found) < len(wanted):
+        with kept.alone(folder(), _tell):
+            for key, name in wanted.items():  # another process may have made them meanwhile
+                if key not in found and (data := _there(name)) is not None:
+                    found[key] = data
+            missing = [key for key in wanted if key not in found]
+            if missing:
+                found |= _compile(platform, missing)
+    return found
+
+
+def _tell(text: str) -> None:
+    if sys.stderr is not None:
+        print(text, file=sys.stderr, flush=True)
+
+
+def _there(name: str) -> bytes | None:
+    """Return a file that the wheel brought or the cache keeps."""
+    brought = prebuilt(name)
+    return kept.read(folder() / name, _tell) if brought is None else brought
+
+
+def prebuilt(name: str) -> bytes | None:
+    """Return a file that the wheel brought along; ``None`` without one made from these sources."""
+    try:
+        if (PREBUILT / "key").read_text(encoding="ascii").strip() == sources_key():
+            return (PREBUILT / name).read_bytes()
+    except OSError:
+        pass
+    return None
+
+
+def _compile(platform: Platform, missing: list[tuple[str, str]]) -> dict[tuple[str, str], bytes]:
+    """Compile units side by side, each in a process of its own, and keep what they make."""
+    sets: dict[str, list[str]] = {}
+    for unit, one in missing:
+        sets.setdefault(unit, []).append(one)
+    due = [_Worker(unit, platform, sets[unit]) for unit in sets]
+    with Display(f"compiling the kernels for {platform.name}, once for this version") as display:
+        if not lean(version("numba")):
+            display.tell(
+                f"Numba {version('numba')} is not one of the versions tested "
+                f"({', '.join(TESTED)}): the kernels are compiled the plain way, which takes "
+                "minutes"
+            )
+        files = _run(due, display)
+        for name, data in files.items():
+            if not kept.write(folder() / name, data, display.tell):
+                break
+    return {(unit, one): files[f"{unit}-{platform.name}-{one}.o"] for unit, one in missing}
+
+
+def _run(due: list["_Worker"], display: Display) -> dict[str, bytes]:
+    """Run workers, as many at a time as there are cores; end them all if one fails or on Ctrl-C."""
+    waiting = list(due)
+    running: list[_Worker] = []
+    at_once = max(1, os.cpu_count() or 1)
+    try:
+        while waiting or running:
+            while waiting and len(running) < at_once:
+                worker = waiting.pop(0)
+                worker.start()
+                running.append(worker)
+            time.sleep(_TICK)
+            for worker in list(running):
+                if worker.ended():
+                    running.remove(worker)
+            display.at(sum(worker.part() for worker in due) / len(due))
+    finally:
+        for worker in running:
+            worker.kill()
+    return {name: data for worker in due for name, data in worker.files.items()}
+
+
+class _Worker:
+    """A process that compiles one unit, and what it has sent so far."""
+
+    def __init__(self, unit: str, platform: Platform, sets: list[str]) -> None:
+        self.unit, self.platform, self.sets = unit, platform, sets
+        self.files: dict[str, bytes] = {}
+        self._messages: queue.SimpleQueue[float] = queue.SimpleQueue()
+        self._done, self._since, self._begin = 0.0, 0.0, 0.0
+        self._process: subprocess.Popen[bytes] | None = None
+
+    def start(self) -> None:
+        """Start the process."""
+        way = "lean" if lean(version("numba")) else "plain"
+        command = [sys.executable, "-m", "fmu_bearing.compiled.worker", self.unit, way, self.platform.name]
+        code = _there(f"{self.unit}.bc") or b""
+        package = str(Path(__file__).parents[2])
+        path = os.pathsep.join([package, *filter(None, [os.environ.get("PYTHONPATH")])])
+        self._process = subprocess.Popen(
+            [*command, *self.sets],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            env={**os.environ, **SETTINGS, "PYTHONPATH": path},
+        )
+        self._complaint = b""
+        self._begin = self._since = time.monotonic()
+        self._readers = [threading.Thread(target=one, daemon=True) for one in (self._listen, self._collect)]
+        for reader in self._readers:
+            reader.start()
+        assert self._process.stdin is not None
+        with self._process.stdin as stdin:
+            stdin.write(code)
+
+    def _listen(self) -> None:
+        assert self._process is not None and self._process.stdout is not None
+        for line in self._process.stdout:
+            message = json.loads(line)
+            if "file" in message:
+                self.files[message["file"]] = self._process.stdout.read(message["size"])
+            else:
+                self._messages.put(message["done"])
+
+    def _collect(self) -> None:
+        assert self._process is not None and self._process.stderr is not None
+        self._complaint = self._process.stderr.read()
+
+    def ended(self) -> bool:
+        """Whether it is through; ``BuildError`` with its last words if it failed."""
+        assert self._process is not None
+        if self._process.poll() is None:
+            return False
+        for reader in self._readers:
+            reader.join()
+        if self._process.returncode != 0:
+            words = self._complaint.decode(errors="replace").strip()[-2000:]
+            raise BuildError(f"the kernels could not be compiled ({self.unit}): {words or 'no reason given'}")
+        self._done = 1.0
+        return True
+
+    def part(self) -> float:
+        """Part that is done (0 to 1); between two reports it goes on at the pace so far."""
+        now = time.monotonic()
+        while not self._messages.empty():
+            self._done, self._since = max(self._done, self._messages.get()), now
+        if not 0.0 < self._done < 1.0:
+            return self._done
+        pace = self._done / max(self._since - self._begin, 1e-3)
+        return min(self._done + min(pace * (now - self._since), _LONGEST_GUESS), 0.99)
+
+    def kill(self) -> None:
+        """End the process at once."""
+        if self._process is not None and self._process.poll() is None:
+            self._process.kill()
+            self._process.wait()

@@ -1,0 +1,180 @@
+"""What is compiled: entries with C's calling convention, in units that are compiled side by side.
+
+An entry takes pointers to doubles, then a pointer to the lengths of its arrays (int64), then doubles, and
+returns a status (int32). Units ``init`` and ``step`` make up an FMU; ``study`` serves Python alone.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+__all__ = ["ENTRIES", "UNITS", "Entry", "functions", "symbol"]
+
+
+@dataclass(frozen=True)
+class Entry:
+    """An entry of the compiled library.
+
+    Attributes
+    ----------
+    unit : str
+    arrays : str
+        Its arrays by one letter each, in order.
+    scalars : int
+        Number of doubles behind the lengths.
+    lengths : tuple of int
+        Place of each array's length among the lengths passed; the entries of an FMU share the lengths of
+        p, u, s, z, w.
+    """
+
+    unit: str
+    arrays: str
+    scalars: int = 0
+    lengths: tuple[int, ...] = ()
+
+    def places(self) -> tuple[int, ...]:
+        """Place of each array's length."""
+        return self.lengths or tuple(range(len(self.arrays)))
+
+
+ENTRIES = {
+    "init": Entry("init", "puszw", 1),
+    "step": Entry("step", "puszw", 1),
+    "outputs": Entry("step", "psz", 0, (0, 2, 3)),
+    "right_hand_side": Entry("study", "pcywf", 3),
+    "repeat": Entry("study", "pcywf", 3),
+    "jacobian": Entry("study", "pcywb", 3),
+    "runge_kutta": Entry("study", "pcywk", 4),
+    "first_order": Entry("study", "pcxwfyd", 3),
+    "first_order_jacobian": Entry("study", "pcxwbyd", 3),
+    "contacts": Entry("study", "psz"),
+    "play": Entry("study", "pswmzr", 7),
+}
+#: Units, the longest to compile first.
+UNITS = ("step", "init", "study")
+
+
+def symbol(entry: str, instruction_set: str = "") -> str:
+    """Name of an entry in object files and in the shim."""
+    return f"fb_{entry}_{instruction_set}" if instruction_set else f"fb_{entry}"
+
+
+def functions(unit: str) -> dict[str, Callable[..., Any]]:
+    """Return the entries of a unit as functions that Numba can compile for pointers."""
+    return {"init": _init, "step": _step, "study": _study}[unit]()
+
+
+def _init() -> dict[str, Callable[..., Any]]:
+    from numba import carray
+
+    from fmu_bearing.engine import abi
+
+    kernel = abi.init
+
+    def init(p, u, s, z, w, n, time):
+        return kernel(
+            carray(p, (n[0],)), carray(u, (n[1],)), carray(s, (n[2],)), carray(z, (n[3],)),
+            carray(w, (n[4],)), time,
+        )  # fmt: skip
+
+    return {"init": init}
+
+
+def _step() -> dict[str, Callable[..., Any]]:
+    from numba import carray
+
+    from fmu_bearing.engine import abi
+
+    step_kernel, outputs_kernel = abi.step, abi.outputs
+
+    def step(p, u, s, z, w, n, h):
+        return step_kernel(
+            carray(p, (n[0],)), carray(u, (n[1],)), carray(s, (n[2],)), carray(z, (n[3],)),
+            carray(w, (n[4],)), h,
+        )  # fmt: skip
+
+    def outputs(p, s, z, n):
+        return outputs_kernel(carray(p, (n[0],)), carray(s, (n[2],)), carray(z, (n[3],)))
+
+    return {"step": step, "outputs": outputs}
+
+
+def _study() -> dict[str, Callable[..., Any]]:
+    from numba import carray
+
+    from fmu_bearing.engine.mechanics import equations
+    from fmu_bearing.engine.newton import jacobian as newton
+    from fmu_bearing.engine.readout import outputs
+    from fmu_bearing.engine.reference import first_order as rates, playback, runge_kutta as explicit
+
+    rhs, blocks, observe = equations.right_hand_side, newton.jacobian, outputs.contacts
+    rk4, rows = explicit.runge_kutta, explicit.ROWS
+    sound = playback.play
+    first, first_jacobian = rates.first_order, rates.first_order_jacobian
+
+    def right_hand_side(p, c, y, w, f, n, angle, speed, rate):
+        rhs(
+            carray(p, (n[0],)), carray(c, (n[1],)), carray(y, (n[2],)), angle, speed, rate,
+            carray(w, (n[3],)), carray(f, (n[4],)),
+        )  # fmt: skip
+        return 0
+
+    def repeat(p, c, y, w, f, n, angle, speed, times):
+        for k in range(int(times)):
+            rhs(
+                carray(p, (n[0],)), carray(c, (n[1],)), carray(y, (n[2],)), angle + 1e-9 * k, speed, 0.0,
+                carray(w, (n[3],)), carray(f, (n[4],)),
+            )  # fmt: skip
+        return 0
+
+    def jacobian(p, c, y, w, b, n, angle, speed, rate):
+        blocks(
+            carray(p, (n[0],)), carray(c, (n[1],)), carray(y, (n[2],)), angle, speed, rate,
+            carray(w, (n[3],)), carray(b, (n[4],)),
+        )  # fmt: skip
+        return 0
+
+    def runge_kutta(p, c, y, w, k, n, angle, speed, h, steps):
+        rk4(
+            carray(p, (n[0],)), carray(c, (n[1],)), carray(y, (n[2],)), angle, speed, h, int(steps),
+            carray(w, (n[3],)), carray(k, (rows, n[4] // rows)),
+        )  # fmt: skip
+        return 0
+
+    def first_order(p, c, x, w, f, y, d, n, angle, speed, t):
+        first(
+            carray(p, (n[0],)), carray(c, (n[1],)), angle, speed, t, carray(x, (n[2],)),
+            carray(w, (n[3],)), carray(f, (n[4],)), carray(y, (n[5],)), carray(d, (n[6],)),
+        )  # fmt: skip
+        return 0
+
+    def first_order_jacobian(p, c, x, w, b, y, d, n, angle, speed, t):
+        first_jacobian(
+            carray(p, (n[0],)), carray(c, (n[1],)), angle, speed, t, carray(x, (n[2],)),
+            carray(w, (n[3],)), carray(b, (n[4],)), carray(y, (n[5],)), carray(d, (n[2], n[2])),
+        )  # fmt: skip
+        return 0
+
+    def contacts(p, s, z, n):
+        observe(carray(p, (n[0],)), carray(s, (n[1],)), carray(z, (n[2],)))
+        return 0
+
+    def play(p, s, w, m, z, r, n, samples, columns, weighting, start, mics, numbers, first):
+        sound(
+            carray(p, (n[0],)), carray(s, (n[1],)), carray(w, (n[2],)),
+            carray(m, (n[3] // int(columns), int(columns))), carray(z, (n[4],)),
+            carray(r, (n[5] // max(int(mics), 1), int(mics))), int(samples), weighting, start, int(mics),
+            int(numbers), int(first),
+        )  # fmt: skip
+        return 0
+
+    return {
+        "right_hand_side": right_hand_side,
+        "repeat": repeat,
+        "jacobian": jacobian,
+        "runge_kutta": runge_kutta,
+        "first_order": first_order,
+        "first_order_jacobian": first_order_jacobian,
+        "contacts": contacts,
+        "play": play,
+    }

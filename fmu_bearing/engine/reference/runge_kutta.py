@@ -1,0 +1,54 @@
+"""The classical method of Kutta (1901): explicit, and it knows the right-hand side only."""
+
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.layout import STRIDE, F, J, P, Q, Y
+from fmu_bearing.engine.mechanics.equations import right_hand_side
+
+# rows of scratch: rates at four places, the state at the next of them, right-hand side
+_LAST, _NEW, _F, ROWS = 3, 4, 5, 6
+
+
+@kernel
+def _rates(p, c, y, angle, speed, w, f, k):
+    """Rates of ``y`` into ``k``, both with the spare lanes of ``layout``."""
+    right_hand_side(p, c, y, angle, speed, 0.0, w, f)
+    lanes = int(p[P.LANES])
+    for i in range(J.PLACED):
+        for j in range(lanes):
+            k[i * STRIDE + j] = y[Y.VX + i * STRIDE + j]
+    for i in range(J.BALL):
+        for j in range(lanes):
+            k[Y.VX + i * STRIDE + j] = f[i * STRIDE + j]
+    for i in range(Q.SIZE):
+        k[Y.Q0 + i] = y[Y.V0 + i]
+        k[Y.V0 + i] = f[F.BODY + i]
+
+
+@kernel
+def _moved(y, a, k, out):
+    """``out = y + a k``."""
+    for i in range(Y.SIZE):
+        out[i] = y[i] + a * k[i]
+
+
+@kernel
+def runge_kutta(p, c, y, angle, speed, h, steps, w, k):
+    """Take ``steps`` steps of ``h`` (s) by the classical method of Kutta (1901), in place on ``y``.
+
+    ``angle`` (rad) of the shaft at the start, ``speed`` (rad/s) constant; ``k``: scratch, 6 x Y.SIZE.
+    """
+    f = k[_F]
+    new = k[_NEW]
+    for n in range(steps):
+        at_start = angle + speed * (n * h)
+        at_middle = angle + speed * ((n + 0.5) * h)
+        at_end = angle + speed * ((n + 1) * h)
+        _rates(p, c, y, at_start, speed, w, f, k[0])
+        _moved(y, 0.5 * h, k[0], new)
+        _rates(p, c, new, at_middle, speed, w, f, k[1])
+        _moved(y, 0.5 * h, k[1], new)
+        _rates(p, c, new, at_middle, speed, w, f, k[2])
+        _moved(y, h, k[2], new)
+        _rates(p, c, new, at_end, speed, w, f, k[_LAST])
+        for i in range(Y.SIZE):
+            y[i] += h / 6.0 * (k[0, i] + 2.0 * (k[1, i] + k[2, i]) + k[_LAST, i])

@@ -4,6 +4,7 @@
 # make bench   time the fidelities beside other programs; writes docs/results/benchmark.md and .csv
 # make papers  run the papers' cases and write docs/papers; some minutes, kept under out/papers
 # make docs    build the documentation site into out/site; opens from the disk, works offline
+# make wheels  one wheel per platform with compiled kernels inside, and a universal one, into out/wheels
 # make clean   remove what was made here
 
 PYTHON ?= python3
@@ -21,7 +22,7 @@ SOURCES := $(shell find fmu_bearing modelDescription -type f ! -name '*.pyc' 2>/
 # Two test workers on two cores: linear algebra libraries must not start threads of their own.
 test heavy papers: export OPENBLAS_NUM_THREADS = 1
 
-.PHONY: demo test heavy bench papers docs kernels clean
+.PHONY: demo test heavy bench papers docs kernels wheels clean
 .DELETE_ON_ERROR:
 
 demo: $(BEARING) $(OUT)/SpindleMotor.fmu
@@ -59,6 +60,17 @@ papers: $(VENV)/.installed
 docs: $(VENV)/.installed-docs
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict --quiet --config-file docs/site/mkdocs.yml --site-dir $(abspath $(OUT))/site
 	@echo "open $(OUT)/site/index.html"
+
+# The universal wheel last: it and the source distribution compile on first use.
+PLATFORMS ?= linux64 aarch64-linux win64 darwin64 aarch64-darwin
+wheels: $(VENV)/.installed-test
+	@rm -rf $(OUT)/prebuilt && mkdir -p $(OUT)/wheels
+	for platform in $(PLATFORMS); do \
+		$(BIN)/python -m fmu_bearing.fmi.native.prebuilt $(OUT)/prebuilt/$$platform $$platform || exit 1; \
+		FMU_BEARING_PREBUILT=$(abspath $(OUT))/prebuilt/$$platform \
+			$(BIN)/python -m pip wheel --quiet --no-deps --wheel-dir $(OUT)/wheels . || exit 1; \
+	done
+	$(BIN)/python -m pip wheel --quiet --no-deps --wheel-dir $(OUT)/wheels .
 
 kernels: $(VENV)/.installed-test
 	$(BIN)/fmu-bearing warm-up

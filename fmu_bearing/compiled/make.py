@@ -25,7 +25,7 @@ from fmu_bearing.compiled.show import Display
 from fmu_bearing.engine.sources import engine_digest
 from fmu_bearing.files import cache_root
 
-__all__ = ["PREBUILT", "folder", "objects", "prebuilt", "sources_key"]
+__all__ = ["PREBUILT", "bitcode", "folder", "objects", "prebuilt", "sources_key"]
 
 #: Objects and bitcode that a wheel brings along, with the key of the sources they were made from.
 PREBUILT = Path(__file__).parent / "prebuilt"
@@ -70,6 +70,20 @@ def objects(platform: Platform, units: Iterable[str], sets: Iterable[str]) -> di
             if missing:
                 found |= _compile(platform, missing)
     return found
+
+
+def bitcode(unit: str) -> bytes:
+    """Portable code of a unit, which the objects of every platform are made from.
+
+    Raises
+    ------
+    BuildError
+        If no object was made from it here; `objects` makes both.
+    """
+    data = _there(f"{unit}.bc")
+    if data is None:
+        raise BuildError(f"the portable code of {unit} is not kept: clear {folder()} and compile again")
+    return data
 
 
 def _tell(text: str) -> None:
@@ -145,15 +159,18 @@ class _Worker:
         self._done, self._since, self._begin = 0.0, 0.0, 0.0
         self._process: subprocess.Popen[bytes] | None = None
 
+    def _command(self) -> list[str]:
+        way = "lean" if lean(version("numba")) else "plain"
+        module = "fmu_bearing.compiled.worker"
+        return [sys.executable, "-m", module, self.unit, way, self.platform.name, *self.sets]
+
     def start(self) -> None:
         """Start the process."""
-        way = "lean" if lean(version("numba")) else "plain"
-        command = [sys.executable, "-m", "fmu_bearing.compiled.worker", self.unit, way, self.platform.name]
         code = _there(f"{self.unit}.bc") or b""
         package = str(Path(__file__).parents[2])
         path = os.pathsep.join([package, *filter(None, [os.environ.get("PYTHONPATH")])])
         self._process = subprocess.Popen(
-            [*command, *self.sets],
+            self._command(),
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,

@@ -147,6 +147,8 @@ CASES = [
     *_both(
         "radial 3 kN from one step to the next",
         large={RINGS: replace(LIFTED, legs=2)},  # freed of the load the rings spring apart
+        # trbdf2 leaves 0.99e-3 to 1.2e-3 of the energy open, as rounding decides which ball lifts off first
+        energy=2e-3,
         start={"rpm": 2e4},
         legs=((1e-3, {}, 1e-4), (3e-3, {"radial_load.z": -3e3}, 1e-4), (1e-3, {"radial_load.z": 0.0}, 1e-4)),
         per_ms=1800.0,

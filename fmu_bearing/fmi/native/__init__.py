@@ -3,6 +3,7 @@
 ==============  ====================================================================================
 ``shim``        FMI 2.0 co-simulation in C99, the same for every scene and platform
 ``link``        objects and shim -> one shared library per platform
+``prebuilt``    what a wheel brings along for one platform
 ``model_file``  a model as the bytes of ``resources/model.bin``
 ==============  ====================================================================================
 

@@ -1,0 +1,140 @@
+"""The user's cache: damaged files, no room, no right to write, two processes at once."""
+
+import errno
+import os
+import subprocess
+import sys
+
+import pytest
+
+from fmu_bearing import files
+from fmu_bearing.compiled import kept, make
+from fmu_bearing.compiled.platforms import own
+
+DATA = b"machine code" * 100
+_COMPILE = """
+import pathlib, sys, time
+from fmu_bearing.compiled import make
+from fmu_bearing.compiled.platforms import own
+log = pathlib.Path(sys.argv[1])
+
+def run(due, display):
+    with log.open("a") as file:
+        file.write("compiled\\n")
+    time.sleep(1.5)
+    return {f"step-{own().name}-v0.o": b"made once"}
+
+make._run = run
+print(make.objects(own(), ["step"], ["v0"])["step", "v0"].decode())
+"""
+
+
+@pytest.fixture
+def told():
+    return []
+
+
+def test_what_was_written_is_read(tmp_path, told):
+    path = tmp_path / "new folder" / "step.o"
+    assert kept.read(path, told.append) is None
+    assert kept.write(path, DATA, told.append)
+    assert kept.read(path, told.append) == DATA
+    assert not told
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        lambda path: path.write_bytes(DATA[:-1]),
+        lambda path: path.write_bytes(DATA[:7] + b"X" + DATA[8:]),
+        lambda path: path.write_bytes(b""),
+        lambda path: path.with_name(path.name + ".sha256").write_bytes(b"\xff\xfe"),
+    ],
+    ids=["cut short", "one byte", "empty", "checksum"],
+)
+def test_a_damaged_file_is_never_used(tmp_path, told, damage):
+    path = tmp_path / "step.o"
+    kept.write(path, DATA, told.append)
+    damage(path)
+    assert kept.read(path, told.append) is None
+    assert kept.write(path, DATA, told.append)  # made anew in its place
+    assert kept.read(path, told.append) == DATA
+
+
+def test_a_damaged_file_is_told(tmp_path, told):
+    path = tmp_path / "step.o"
+    kept.write(path, DATA, told.append)
+    path.write_bytes(DATA[:-1])
+    kept.read(path, told.append)
+    (line,) = told
+    assert str(path) in line
+    assert "damaged" in line
+
+
+def test_a_full_disk_is_told_and_nothing_half_remains(tmp_path, told, monkeypatch):
+    def no_room(descriptor, *arguments, **named):
+        os.close(descriptor)
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(files.os, "fdopen", no_room)
+    assert not kept.write(tmp_path / "step.o", DATA, told.append)
+    (line,) = told
+    assert "step.o" in line
+    assert os.strerror(errno.ENOSPC) in line
+    assert "FMU_BEARING_CACHE" in line
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_where_nothing_can_be_written_kernels_are_used_all_the_same(tmp_path, monkeypatch, capfd):
+    """No folder can be made below a file: like a read-only home, also for the super-user."""
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("FMU_BEARING_CACHE", str(tmp_path / "file" / "cache"))
+    name = f"step-{own().name}-v0.o"
+    monkeypatch.setattr(make, "_run", lambda due, display: {name: DATA})
+    assert make.objects(own(), ["step"], ["v0"]) == {("step", "v0"): DATA}
+    assert f"{name} cannot be kept in {tmp_path}" in capfd.readouterr().err
+
+
+def test_two_processes_compile_once(tmp_path):
+    """The second waits for the first, says so, and reads what that one made."""
+    log = tmp_path / "log"
+    environment = {**os.environ, "FMU_BEARING_CACHE": str(tmp_path / "cache")}
+    running = [
+        subprocess.Popen(
+            [sys.executable, "-c", _COMPILE, str(log)], env=environment, text=True,
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+        )
+        for _ in range(2)
+    ]  # fmt: skip
+    answers = [process.communicate(timeout=60) for process in running]
+    assert [process.returncode for process in running] == [0, 0], answers
+    assert [out.strip() for out, _ in answers] == ["made once"] * 2
+    assert log.read_text().splitlines() == ["compiled"]
+
+
+def test_objects_of_other_sources_or_compilers_lie_elsewhere(monkeypatch):
+    here = make.folder()
+    monkeypatch.setattr(make, "version", lambda name: f"{name} of tomorrow")
+    assert make.folder() != here
+    monkeypatch.undo()
+    monkeypatch.setattr(make, "sources_key", lambda: "0" * 64)
+    assert make.folder() != here
+
+
+def test_the_key_does_not_know_the_place_of_the_installation(tmp_path):
+    """A copy elsewhere, as in a wheel, finds what this one compiled."""
+    import shutil
+
+    from fmu_bearing import __file__ as package
+
+    shutil.copytree(
+        os.path.dirname(package), tmp_path / "fmu_bearing", ignore=shutil.ignore_patterns("__pycache__")
+    )
+    code = "import fmu_bearing.compiled.make as m; print(m.__file__); print(m.folder().name)"
+    ran = subprocess.run(
+        [sys.executable, "-c", code], env={**os.environ, "PYTHONPATH": str(tmp_path)}, cwd=tmp_path,
+        capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    place, name = ran.stdout.split()
+    assert place.startswith(str(tmp_path))
+    assert name == make.folder().name

@@ -23,8 +23,7 @@ _ROWS = 32  # of them differ: few, because a run's sample has just been made and
 
 def cost(ps, repeats: int) -> float:
     """CPU s per simulated s of one sound block."""
-    size = MO.size(int(ps[SD.H_BALLS]), int(ps[SD.H_FLEXURES]))
-    motion = np.random.default_rng(1).standard_normal((_ROWS, size))
+    motion = np.random.default_rng(1).standard_normal((_ROWS, MO.SIZE))
     ss, ws = np.zeros(SD.state_size(ps)), np.zeros(SD.work_size(ps))
     mics = int(ps[SD.H_MICS])
     numbers = len(Z.MIC_OUTPUTS) + int(ps[SD.H_BANDS])

@@ -7,7 +7,7 @@ from fmu_bearing.acoustics.filters.pack import MICROPHONE_LOW_LIMIT
 from fmu_bearing.acoustics.filters.weighting import high_pass_section
 from fmu_bearing.acoustics.radiation.radiators import Housing, Radiators, Ring
 from fmu_bearing.compiled import call
-from fmu_bearing.engine.layout import MO, SD, Z
+from fmu_bearing.engine.layout import MO, SD, STRIDE, Z
 
 RHO, C = 1.225, 340.0
 SMALL = Radiators(
@@ -55,12 +55,17 @@ class Player:
 
 def still(radiators, samples):
     """Motion samples at rest, shape (samples, motion size); balls evenly round the pitch circle."""
-    motion = np.zeros((samples, MO.size(radiators.ball_count)))
+    motion = np.zeros((samples, MO.SIZE))
     for j in range(radiators.ball_count):
         angle = 2 * np.pi * j / radiators.ball_count
-        motion[:, 36 + 14 * j + 12] = np.cos(angle)
-        motion[:, 36 + 14 * j + 13] = np.sin(angle)
+        motion[:, MO.COS + j] = np.cos(angle)
+        motion[:, MO.SIN + j] = np.sin(angle)
     return motion
+
+
+def ball(j, row, axis=0):
+    """Column of ball ``j`` in the rows x, r, theta of a quantity, by its place in a motion sample."""
+    return row + STRIDE * axis + j
 
 
 def raw_time(samples):

@@ -7,7 +7,7 @@ from scipy.signal import sosfreqz
 from fmu_bearing.acoustics.filters.design import build
 from fmu_bearing.acoustics.filters.weighting import band_centre, band_sections
 from fmu_bearing.acoustics.radiation.compact import Air
-from fmu_bearing.engine.layout import SD, Z
+from fmu_bearing.engine.layout import MO, SD, Z
 from tests.acoustics.playback import LARGE, PAPER_POINTS, SMALL, Player, lines, raw_time, still
 
 PERIOD = 2048  # raw samples: 100 Hz
@@ -118,7 +118,7 @@ def test_energy_sum_beside_the_coherent_one(model):
 
 def test_kinds_are_told_apart():
     ps = build("compact", SMALL, Air(), [(0.05, 0.06, 0.07)])
-    place = {"spl_axial": 12 + 3, "spl_radial": 12 + 4, "spl_balls": 36 + 3}
+    place = {"spl_axial": 12 + 3, "spl_radial": 12 + 4, "spl_balls": MO.BALL_ACCELERATION}
     for heard, column in place.items():
         motion = still(SMALL, PERIOD)
         motion[:, column] = 1000 * np.sin(2 * np.pi * 1000 * raw_time(PERIOD))

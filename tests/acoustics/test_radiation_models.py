@@ -16,8 +16,19 @@ from fmu_bearing.acoustics.radiation.radiators import Air, Path, Radiators
 from fmu_bearing.acoustics.radiation.table import Table, channels, read_table, select
 from fmu_bearing.acoustics.registry import RECIPES, Radiation
 from fmu_bearing.engine.choices import RADIATION_MODELS
-from fmu_bearing.engine.layout import MO, SD
-from tests.acoustics.playback import PAPER_POINTS, RHO, SMALL, C, Player, chain, lines, raw_time, still
+from fmu_bearing.engine.layout import MO, SD, STRIDE
+from tests.acoustics.playback import (
+    PAPER_POINTS,
+    RHO,
+    SMALL,
+    C,
+    Player,
+    ball,
+    chain,
+    lines,
+    raw_time,
+    still,
+)
 
 PERIOD = 2048  # raw samples: 100 Hz
 GRID = np.concatenate([np.arange(0.0, 1000.0, 10.0), np.arange(1000.0, 20_001.0, 100.0)])
@@ -89,8 +100,8 @@ def test_every_model_is_heard_and_none_is_another(elements):
         ps = build(model, SMALL, Air(), PAPER_POINTS, 2, table=table, modes=modes)
         motion = shaken()
         if modes:
-            motion = np.concatenate([motion, np.ones((PERIOD, 2))], axis=1)
-            motion[:, MO.flexures(12)] = 10 * np.sin(2 * np.pi * 1700 * raw_time(PERIOD))
+            motion[:, MO.FLEXURES + 1] = 1.0
+            motion[:, MO.FLEXURES] = 10 * np.sin(2 * np.pi * 1700 * raw_time(PERIOD))
         pressures = Player(ps).play(motion, 41 * PERIOD)
         heard[model] = pressures[-512:]
         assert np.sqrt(np.mean(heard[model][:, 0] ** 2)) > 1e-5, model
@@ -101,8 +112,8 @@ def test_every_model_is_heard_and_none_is_another(elements):
 def test_flexure_is_heard_as_such(elements):
     ps = build("bem", SMALL, Air(), PAPER_POINTS[:1], 2, modes=(Mode(0), Mode(1)))
     assert ps[SD.H_CHANNELS] == SD.vector_channels(2, 4) == 15 + 2 + 12 + 4
-    motion = np.concatenate([still(SMALL, PERIOD), np.zeros((PERIOD, 4))], axis=1)
-    motion[:, MO.flexures(12) + 3] = np.cos(2 * np.pi * 1000 * raw_time(PERIOD))
+    motion = still(SMALL, PERIOD)
+    motion[:, MO.FLEXURES + 3] = np.cos(2 * np.pi * 1000 * raw_time(PERIOD))
     player = Player(ps)
     pressure = player.play(motion, 41 * PERIOD)[:, 0]
     expected = sources.pulsating_sphere(1000.0, 0.105, 0.01, RHO, C) * chain([1000.0])[0]
@@ -122,9 +133,9 @@ def test_paper_vector_uses_real_direction_cosines():
     motion[:, 12 + 4] = np.cos(2 * np.pi * 500 * t)
     motion[:, 12 + 3] = np.cos(2 * np.pi * 1000 * t)
     motion[:, 12 + 11] = np.cos(2 * np.pi * 2000 * t)
-    b, angle = 36 + 14 * 2, 1.1  # one ball at an angle, shaken radially
-    motion[:, b + 4] = np.cos(2 * np.pi * 3000 * t)
-    motion[:, b + 12], motion[:, b + 13] = np.cos(angle), np.sin(angle)
+    angle = 1.1  # one ball at an angle, shaken radially
+    motion[:, ball(2, MO.BALL_ACCELERATION, 1)] = np.cos(2 * np.pi * 3000 * t)
+    motion[:, MO.COS + 2], motion[:, MO.SIN + 2] = np.cos(angle), np.sin(angle)
     pressure = Player(build("paper_vector", SMALL, Air(), [tuple(point)], 2)).play(motion, 41 * PERIOD)
     f, medium = frequencies, (RHO, C)
     radial = np.array([0.0, -np.sin(angle), np.cos(angle)])
@@ -204,14 +215,15 @@ def test_contact_sources_that_orbit_keep_their_strength():
     motion[:, 13] = 1.0
     omega = 2 * np.pi * 200.0
     for j in range(12):
-        b = 36 + 14 * j
         angle = 2 * np.pi * j / 12 + omega * t
-        motion[:, b + 2] = omega * 13e-3
-        motion[:, b + 12], motion[:, b + 13] = np.cos(angle), np.sin(angle)
-        motion[:, b + 4] = -(omega**2) * 13e-3  # the balls' own motion makes no sound: v_n is 0
+        motion[:, ball(j, MO.BALL_VELOCITY, 2)] = omega * 13e-3
+        motion[:, MO.COS + j], motion[:, MO.SIN + j] = np.cos(angle), np.sin(angle)
+        motion[:, ball(j, MO.BALL_ACCELERATION, 1)] = (
+            -(omega**2) * 13e-3
+        )  # the balls' own motion makes no sound: v_n is 0
     one = motion.copy()
     for j in range(1, 12):
-        one[:, 36 + 14 * j : 50 + 14 * j] = 0.0
+        one[:, MO.BALL_VELOCITY + j : MO.FLEXURES : STRIDE] = 0.0
     ps = build("paper_contacts", SMALL, Air(), [(0.0, 0.15, 0.0)], 8)
     frequencies = [200.0, 400.0, 2400.0]
     whole = np.abs(lines(Player(ps).play(motion, 41 * PERIOD)[:, 0], frequencies))
@@ -241,7 +253,12 @@ def test_table_makes_the_sound_of_its_transfer_functions(tmp_path):
     ps = build("table", SMALL, Air(), PAPER_POINTS[::-1], 2, table=read)
     motion = still(SMALL, PERIOD)
     t = raw_time(PERIOD)
-    for column, frequency in ((15, 500.0), (16, 1200.0), (29, 4300.0), (36 + 14 + 4, 7000.0)):
+    for column, frequency in (
+        (15, 500.0),
+        (16, 1200.0),
+        (29, 4300.0),
+        (ball(1, MO.BALL_ACCELERATION, 1), 7000.0),
+    ):
         motion[:, column] = np.cos(2 * np.pi * frequency * t)
     found = Player(ps).play(motion, 41 * PERIOD)
     only = still(SMALL, PERIOD)

@@ -4,11 +4,10 @@ import numpy as np
 import pytest
 
 from fmu_bearing.acoustics.filters.design import build
-from fmu_bearing.acoustics.filters.fir import decimator_response
 from fmu_bearing.acoustics.radiation import sources
 from fmu_bearing.acoustics.radiation.effective import ring_volumes
 from fmu_bearing.acoustics.radiation.radiators import Air
-from fmu_bearing.engine.layout import SD
+from fmu_bearing.engine.layout import MO, SD
 from tests.acoustics.playback import (
     HOUSED,
     LARGE,
@@ -17,6 +16,7 @@ from tests.acoustics.playback import (
     SMALL,
     C,
     Player,
+    ball,
     chain,
     lines,
     raw_time,
@@ -100,10 +100,11 @@ def orbit_error(radiators, point, turns, harmonics, tones):
         )
 
     t = raw_time(PERIOD)
-    motion = np.zeros((PERIOD, 36 + 14 * radiators.ball_count))
-    motion[:, 39:42] = acceleration(t).T
-    motion[:, 48] = np.cos(0.3 + 2 * np.pi * turns * t)
-    motion[:, 49] = np.sin(0.3 + 2 * np.pi * turns * t)
+    motion = np.zeros((PERIOD, MO.SIZE))
+    for axis, along in enumerate(acceleration(t)):
+        motion[:, ball(0, MO.BALL_ACCELERATION, axis)] = along
+    motion[:, MO.COS] = np.cos(0.3 + 2 * np.pi * turns * t)
+    motion[:, MO.SIN] = np.sin(0.3 + 2 * np.pi * turns * t)
     pressure = Player(build("compact", radiators, Air(), [point], harmonics)).play(motion, LONG)[:, 0]
     frequency, expected = orbit_by_retarded_time(radiators, point, turns, acceleration, 0.3)
     found = lines(pressure, frequency)
@@ -135,7 +136,7 @@ def test_default_harmonics_suffice_for_the_paper_band():
 
 
 def test_54_kilohertz_is_gone():
-    """An outer ring's mode at 54 kHz would fold to 2.8 kHz; the filters alone give it -80 dB."""
+    """An outer ring's mode at 54 kHz would fold to 2.8 kHz; the decimator gives it -80 dB."""
     motion = still(SMALL, PERIOD)
     t = raw_time(PERIOD)
     ps = build("compact", SMALL, Air(), PAPER_POINTS[:1])
@@ -144,8 +145,6 @@ def test_54_kilohertz_is_gone():
         motion[:, 16] = np.cos(2 * np.pi * frequency * t)
         amplitude.append(abs(lines(Player(ps).play(motion, LONG)[:, 0], [2800.0])[0]))
     assert amplitude[0] / amplitude[1] < 1e-4
-    folding = np.arange(SD.RATE - 20_000.0, SD.RAW_RATE / 2, 20.0)
-    assert np.max(np.abs(decimator_response(folding))) < 1e-4
 
 
 @pytest.mark.parametrize("radiators", [SMALL, HOUSED], ids=["bare", "housing"])
@@ -219,7 +218,7 @@ def test_steady_acceleration_makes_no_start_up_step():
     """Balls' centripetal acceleration is there from the first sample on; -120 dB re its dipole's pressure."""
     motion = still(SMALL, 4)
     for j in range(12):
-        motion[:, 36 + 14 * j + 4] = -18_000.0
+        motion[:, ball(j, MO.BALL_ACCELERATION, 1)] = -18_000.0
     motion[:, 15] = 3.0
     pressures = Player(build("compact", SMALL, Air(), PAPER_POINTS)).play(motion, 4000)
     assert np.max(np.abs(pressures)) < 1e-9
@@ -254,11 +253,10 @@ def test_paper_model_adds_energies():
     motion[:, 6] = 2000.0 + 5.0 * np.sin(wave[2000.0] * t)
     motion[:, 9] = 5.0 * wave[2000.0] * np.cos(wave[2000.0] * t)
     for j in range(12):
-        b = 36 + 14 * j
-        motion[:, b + 2] = -17.0 + 0.02 * np.sin(wave[3000.0] * t + j)
-        motion[:, b + 5] = 0.02 * wave[3000.0] * np.cos(wave[3000.0] * t + j)
-        motion[:, b + 6] = 6000.0 + 10.0 * np.sin(wave[1000.0] * t + j)
-        motion[:, b + 9] = 10.0 * wave[1000.0] * np.cos(wave[1000.0] * t + j)
+        motion[:, ball(j, MO.BALL_VELOCITY, 2)] = -17.0 + 0.02 * np.sin(wave[3000.0] * t + j)
+        motion[:, ball(j, MO.BALL_ACCELERATION, 2)] = 0.02 * wave[3000.0] * np.cos(wave[3000.0] * t + j)
+        motion[:, ball(j, MO.BALL_SPIN)] = 6000.0 + 10.0 * np.sin(wave[1000.0] * t + j)
+        motion[:, ball(j, MO.BALL_SPIN_RATE)] = 10.0 * wave[1000.0] * np.cos(wave[1000.0] * t + j)
     point = (0.0, 0.15, 0.0)
     player = Player(build("paper", SMALL, Air(), [point]), metering_start=0.3)
     player.play(motion, int(1.3 * SD.RAW_RATE))
@@ -294,9 +292,8 @@ def test_microphones_of_a_circle_share_filters_and_symmetry():
         motion = still(LARGE, PERIOD)
         tone = np.sin(2 * np.pi * 2000 * raw_time(PERIOD))
         motion[:, 4], motion[:, 5] = -np.sin(angle[turn]) * tone, np.cos(angle[turn]) * tone
-        b = 36 + 14 * 3
-        motion[:, b + 12], motion[:, b + 13] = np.cos(1.0 + angle[turn]), np.sin(1.0 + angle[turn])
-        motion[:, b + 5] = 300 * tone
+        motion[:, MO.COS + 3], motion[:, MO.SIN + 3] = np.cos(1.0 + angle[turn]), np.sin(1.0 + angle[turn])
+        motion[:, ball(3, MO.BALL_ACCELERATION, 2)] = 300 * tone
         player = Player(ps)
         player.play(motion, LONG)
         levels.append(np.array([player.reading("spl", (m + turn) % 24) for m in range(24)]))

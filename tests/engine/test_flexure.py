@@ -371,7 +371,7 @@ def test_motion_sample_holds_the_accelerations(scene):
     flexure = Flexure(run.p, run.w)
     rng = np.random.default_rng(3)
     flexure.array(FL.V)[:], flexure.array(FL.A)[:] = rng.normal(size=(2, flexure.count))
-    first = W.MOTION + MO.flexures(12)
+    first = W.MOTION + MO.FLEXURES
     sample = run.w[first : first + flexure.count]
     _, v0, a0 = flexure.state(run.s)
     h = 1e-5

@@ -3,7 +3,8 @@
 The engine streams sound to the scene's microphones through short filters. This module takes the channels that
 such a run leaves behind (one row per sample at ``RATE``, behind decimator and high-pass) to microphones that
 the run did not know, through the same paths, without filters: one long transform of the channels, the
-decimator's response divided out, times each path's transfer function between its tabulated frequencies.
+decimator's response divided out, the microphones' band limit put in, times each path's transfer function
+between its tabulated frequencies.
 """
 
 from collections.abc import Callable, Hashable, Iterator, Sequence
@@ -16,8 +17,8 @@ from scipy.fft import irfft, next_fast_len, rfft
 from scipy.interpolate import CubicSpline
 from scipy.signal import get_window
 
-from fmu_bearing.acoustics.filters.fir import decimator_response
-from fmu_bearing.acoustics.radiation.frequencies import BAND, fit_frequencies
+from fmu_bearing.acoustics.filters.fir import band_limit, decimator_response
+from fmu_bearing.acoustics.radiation.frequencies import STOP, fit_frequencies
 from fmu_bearing.acoustics.radiation.radiators import Air, Path, Radiators
 from fmu_bearing.acoustics.registry import Radiation, recipe_of
 from fmu_bearing.engine.choices import ChannelForm
@@ -28,7 +29,6 @@ _Responses = Callable[[NDArray[np.float64]], dict[tuple[int, float], NDArray[np.
 
 #: Rows that a recording must reach beyond the last pressure wanted: the band limit rings that long (5 ms).
 TAIL = 256
-_STOP = 24_000.0  # Hz: between the end of the band and here everything fades out
 _SETTLE = 4096  # rows of zeros behind the recording, so that the end does not reach round to the beginning
 _BLOCK = 16_384  # frequencies worked on at once: bounds the memory
 
@@ -107,11 +107,11 @@ class Channels:
         self.rows, self.longest = len(history), longest
         self.size = int(next_fast_len(self.rows + _SETTLE + round(longest * SD.RATE), real=True))
         frequency = np.fft.rfftfreq(self.size, 1.0 / SD.RATE).astype(np.float64)
-        self.frequency = frequency[frequency < _STOP]
-        fade = np.clip((self.frequency - BAND[1]) / (_STOP - BAND[1]), 0.0, 1.0)
+        self.frequency = frequency[frequency < STOP]
         shape = np.empty(len(self.frequency), dtype=complex)
         for block in _blocks(len(shape)):
-            shape[block] = np.cos(0.5 * np.pi * fade[block]) ** 2 / decimator_response(self.frequency[block])
+            part = self.frequency[block]
+            shape[block] = band_limit(part) / decimator_response(part)
         self.spectra = np.empty((history.shape[1], len(shape)), dtype=complex)
         for c in range(history.shape[1]):
             self.spectra[c] = rfft(history[:, c], self.size)[: len(shape)] * shape
@@ -164,10 +164,11 @@ class Blocks:
             )
         window = get_window("hann", size)
         frequency = np.fft.rfftfreq(size, 1.0 / SD.RATE).astype(np.float64)
-        keep = (frequency > 0.0) & (frequency <= BAND[1])
+        keep = (frequency > 0.0) & (frequency < STOP)
         self.frequency = frequency[keep]
         starts = range(0, len(channels) - size + 1, max(1, size // 2))
-        scale = np.sqrt(2.0 / size / np.sum(window**2) / len(starts)) / decimator_response(self.frequency)
+        scale = np.sqrt(2.0 / size / np.sum(window**2) / len(starts)) * band_limit(self.frequency)
+        scale = scale / decimator_response(self.frequency)
         # shape (channels, blocks, frequencies): rms per bin once squared and summed over blocks
         self.spectra = np.array(
             [rfft(channels[start : start + size].T * window, axis=1)[:, keep] * scale for start in starts]

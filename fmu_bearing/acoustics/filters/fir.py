@@ -7,15 +7,19 @@ from numpy.typing import NDArray
 from scipy.linalg import solve, toeplitz
 from scipy.signal import remez
 
-from fmu_bearing.acoustics.radiation.frequencies import BAND, between, fit_frequencies
+from fmu_bearing.acoustics.radiation.frequencies import BAND, STOP, between, fit_frequencies
 from fmu_bearing.engine.layout import SD
 
 # Where a path lies this far below its component's strongest one, its error counts against that one (-30 dB).
 _WEAK = 10 ** (-30 / 20)
-_STOP = 24_000.0  # Hz: filters let little through from here on; nothing is fitted between the bands
-_STOP_WEIGHT = 0.02
+_LIMIT_TAPS = 93  # odd: the filter has a middle
+_LIMIT_WEIGHT = 3.0  # of the stop band against the pass band
+# Weights of a frequency above the band against one at its upper end. In between the limit is steep, and an
+# error of -40 dB at 21 kHz changes no level; above, it is the stop band.
+_EDGE_WEIGHT, _STOP_WEIGHT = 0.1, 0.3
+_ABOVE = 62.5  # Hz: spacing of frequencies there
 _RIDGE = 1e-12  # relative: keeps the normal equations of long filters solvable
-_LENGTHS = (48, 64, 96, 128, 192, 256, 384, 512, 768, 1024)
+_LENGTHS = (104, 128, 160, 192, 256, 384, 512, 768, 1024)
 # Beyond this length the grid of `fit_frequencies` (62.5 Hz: 16 ms, 820 taps) no longer determines the taps.
 _GRID_SERVES = 512
 _FINER = 4
@@ -23,30 +27,72 @@ _GOOD = 10 ** (-55 / 20)  # error at which a filter is long enough
 _LITTLE = 10 ** (0.5 / 20)  # where none is: what a longer one must better, 0.5 dB
 
 
+def _half_band(taps: int, edge: float) -> NDArray[np.float64]:
+    """Half-band filter of ``taps`` (4 k - 1) taps, flat up to ``edge`` (in sample rates).
+
+    Equiripple: twice the outer taps are an equiripple filter of half the rate with one band (Vaidyanathan and
+    Nguyen 1987).
+    """
+    outer = remez((taps + 1) // 2, [0.0, 2.0 * edge, 0.5 - 1e-9, 0.5], [1.0, 0.0], weight=[1.0, 1e-9], fs=1.0)
+    found = np.zeros(taps)
+    found[::2] = 0.5 * outer
+    found[taps // 2] = 0.5
+    return found
+
+
+@functools.cache
+def decimator_stages() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return both half-band filters, at ``RAW_RATE`` and at half of it, symmetric; read only.
+
+    Each takes down by 84 dB or more what would fold below 22 kHz when every other sample goes: the first
+    above ``RAW_RATE`` / 2 - 22 kHz = 80.4 kHz, the second above ``RATE`` - 22 kHz = 29.2 kHz. Beyond the 20
+    kHz that are heard this serves the balls' sound, which shifts by up to 2 kHz when it is projected onto
+    circumferential harmonics behind the decimator.
+    """
+    first = _half_band(SD.FIRST_TAPS, STOP / SD.RAW_RATE)
+    second = _half_band(SD.SECOND_TAPS, STOP * SD.HALF / SD.RAW_RATE)
+    for taps in (first, second):
+        taps.flags.writeable = False
+    return first, second
+
+
+def outer_taps(taps: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the taps of a half-band filter that the engine needs: one half, without zeros and middle."""
+    return taps[: len(taps) // 2 : 2]
+
+
 @functools.cache
 def decimator() -> NDArray[np.float64]:
-    """Return the anti-alias filter at ``RAW_RATE``, shape (DECIMATOR_TAPS,), symmetric; read only.
-
-    Everything above ``RATE`` - 20 kHz = 31.2 kHz, all that could fold below 20 kHz, is down by at least 80
-    dB. The pass band's ripple is undone by the filters fitted behind it (`fit`).
-    """
-    stop = SD.RATE - BAND[1]
-    taps = remez(
-        SD.DECIMATOR_TAPS,
-        [0.0, BAND[1], stop, SD.RAW_RATE / 2],
-        [1.0, 0.0],
-        weight=[1.0, 100.0],
-        fs=SD.RAW_RATE,
-    )
-    taps /= taps.sum()
+    """Return the whole anti-alias filter at ``RAW_RATE``, shape (n,), symmetric; read only."""
+    first, second = decimator_stages()
+    apart = np.zeros(SD.HALF * (len(second) - 1) + 1)
+    apart[:: SD.HALF] = second
+    taps = np.convolve(first, apart)
     taps.flags.writeable = False
     return taps
 
 
 def decimator_response(frequency: NDArray[np.float64]) -> NDArray[np.complex128]:
     """Complex response of the decimator at ``frequency`` in Hz."""
-    n = np.arange(SD.DECIMATOR_TAPS)
+    n = np.arange(len(decimator()))
     return np.exp(-2j * np.pi * np.asarray(frequency)[..., None] * n / SD.RAW_RATE) @ decimator()
+
+
+@functools.cache
+def _limit_taps() -> NDArray[np.float64]:
+    edges = [0.0, BAND[1], STOP, SD.RATE / 2]
+    return remez(_LIMIT_TAPS, edges, [1.0, 0.0], weight=[1.0, _LIMIT_WEIGHT], fs=SD.RATE)
+
+
+def band_limit(frequency: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Upper limit of the microphones at ``frequency`` in Hz, real: no phase.
+
+    Flat to 20 kHz within 0.008 dB, -70 dB from 22 kHz on. It is the response of a short symmetric filter, so
+    that the filters fitted to it (`fit`) need few taps. The engine's filters and the spectra of recordings
+    (`analysis.field`) share it: both hear the same.
+    """
+    n = np.arange(_LIMIT_TAPS) - _LIMIT_TAPS // 2
+    return np.cos(2.0 * np.pi * np.asarray(frequency)[..., None] * n / SD.RATE) @ _limit_taps()
 
 
 def delay_of(flight: float) -> int:
@@ -65,21 +111,22 @@ def _grid(length: int) -> NDArray[np.float64]:
 
 
 @functools.cache
+def _fitted_grid(length: int) -> NDArray[np.float64]:
+    """`_grid`, and above it frequencies up to half of ``RATE``."""
+    return np.append(_grid(length), np.arange(BAND[1] + _ABOVE, SD.RATE / 2, _ABOVE))
+
+
+@functools.cache
 def _basis(length: int) -> NDArray[np.complex128]:
     turn = -2j * np.pi / SD.RATE * np.arange(length)
-    return np.exp(_grid(length)[:, None] * turn)
+    return np.exp(_fitted_grid(length)[:, None] * turn)
 
 
 @functools.cache
-def _stop_rows(length: int) -> NDArray[np.complex128]:
-    turn = -2j * np.pi / SD.RATE * np.arange(length)
-    return np.exp(np.linspace(_STOP, SD.RATE / 2, 12)[:, None] * turn)
-
-
-@functools.cache
-def _decimated(length: int) -> NDArray[np.complex128]:
-    """Response of the decimator on the grid of a filter of ``length`` taps."""
-    return decimator_response(_grid(length))
+def _undone(length: int) -> NDArray[np.complex128]:
+    """Band limit over the decimator's response, on the grid of a filter of ``length`` taps."""
+    grid = _fitted_grid(length)
+    return band_limit(grid) / decimator_response(grid)
 
 
 def fit(
@@ -122,16 +169,22 @@ def _fit_length(
     if len(grid) > len(coarse):
         response = between(coarse, response, flight, grid)
         strongest = np.interp(grid, coarse, strongest)
-    # what the filter must do so that the whole chain is `response`, LATENCY late
-    wanted = (
-        response * np.exp(2j * np.pi * grid * (delay_of(flight) - SD.LATENCY) / SD.RATE) / _decimated(length)
-    )
+    # Above the band the response is held at its last value, without its flight time.
+    above = _fitted_grid(length)[len(grid) :]
+    still = response * np.exp(2j * np.pi * grid * flight)
+    still = np.append(still, np.full(len(above), still[-1]))
+    grid = _fitted_grid(length)
+    # what the filter must do so that the whole chain is `response`, band-limited and LATENCY late
+    late = flight - (delay_of(flight) - SD.LATENCY) / SD.RATE
+    wanted = still * np.exp(-2j * np.pi * grid * late) * _undone(length)
     weight = 1.0 / np.maximum(np.abs(response), _WEAK * strongest)
-    basis, stop = _basis(length), _stop_rows(length)
+    heard = len(weight)
+    weight = np.append(weight, weight[-1] * np.where(above < STOP, _EDGE_WEIGHT, _STOP_WEIGHT))
+    basis = _basis(length)
     # Normal equations: far cheaper than an orthogonal solver, and the errors stay those of the filter
     # length. Their matrix depends on the distance of two taps alone: one column tells all.
     square = weight**2
-    column = (square @ basis).real + (_STOP_WEIGHT * weight[-1]) ** 2 * stop.sum(axis=0).real
+    column = (square @ basis).real
     column[0] *= 1.0 + _RIDGE
     taps = solve(toeplitz(column), ((square * wanted.conj()) @ basis).real, assume_a="pos")
-    return taps, float(np.max(np.abs(basis @ taps - wanted) * weight))
+    return taps, float(np.max((np.abs(basis @ taps - wanted) * weight)[:heard]))

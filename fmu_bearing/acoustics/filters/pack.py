@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.filters.blocks import Bank, Wire, choose, filters, head, segments, spans, wired
-from fmu_bearing.acoustics.filters.fir import decimator
+from fmu_bearing.acoustics.filters.fir import decimator_stages, outer_taps
 from fmu_bearing.acoustics.filters.weighting import a_weighting_sections, band_sections, high_pass_section
 from fmu_bearing.acoustics.papers.scalars import paper_scalars
 from fmu_bearing.acoustics.registry import Radiation
 from fmu_bearing.engine.choices import CHANNEL_FORMS
-from fmu_bearing.engine.layout import SD, STRIDE, Z
+from fmu_bearing.engine.layout import FOUR, SD, Z
 
 MICROPHONE_LOW_LIMIT = 5.0  # Hz, second order: of a half-inch measurement microphone (assumed)
 _KEEP = [0, 1, 2, 4, 5]  # of a section: the leading denominator coefficient is 1
@@ -82,7 +82,7 @@ def pack(
         When a block is longer than 512 samples.
     """
     channels = radiation.channels
-    banks, lanes = wired(wires, channels)
+    banks, order = wired(wires, channels)
     if lengths is None:
         lengths = choose(banks, len(sources))
     if max(lengths, default=0) >= SD.MAX_FREQUENCIES:
@@ -91,8 +91,11 @@ def pack(
     found = block.head
     found[SD.H_FORM] = CHANNEL_FORMS[radiation.form]
     found[SD.H_BALLS] = radiation.radiators.ball_count
+    lanes = -(-radiation.radiators.ball_count // FOUR) * FOUR
+    found[SD.H_BALL_LANES] = lanes
     found[SD.H_HARMONICS] = radiation.harmonics
     found[SD.H_FLEXURES] = 2 * len(radiation.modes)
+    found[SD.H_RAW] = _raw(radiation, lanes)
     found[SD.H_CHANNELS] = channels
     found[SD.H_BANKS] = len(banks)
     found[SD.H_SPANS] = len(lengths)
@@ -102,7 +105,9 @@ def pack(
     found[SD.H_LANES] = len(sources) if radiation.form == "scalars" else found[SD.H_MICS]
     found[SD.H_DETAILS] = details
     found[SD.H_BANDS] = len(Z.BANDS) if thirds else 0
-    found[SD.H_AT_DECIMATOR] = block.put(decimator())
+    first, second = decimator_stages()
+    found[SD.H_AT_FIRST] = block.put(outer_taps(first))
+    found[SD.H_AT_SECOND] = block.put(outer_taps(second))
     found[SD.H_AT_HIGH_PASS] = block.put(high_pass_section(SD.RATE, MICROPHONE_LOW_LIMIT)[_KEEP])
     found[SD.H_AT_A_WEIGHTING] = block.put(a_weighting_sections(SD.RATE)[:, _KEEP])
     found[SD.H_AT_BANDS] = block.put(_band_table() if thirds else [])
@@ -113,13 +118,22 @@ def pack(
     )
     _put_sources(block, sources)
     _put_groups(block, groups)
-    found[SD.H_AT_LANES] = block.put(lanes)
+    found[SD.H_AT_LANES] = block.put(order)
     deepest = _put_banks(block, banks, lengths)
     rows = _put_spans(block, banks, lengths)
     found[SD.H_ROWS] = max([deepest, *(2 * length + 1 for length in lengths)])
     _place_state(block, rows)
     _place_work(block, rows)
     return block.flat()
+
+
+def _raw(radiation: Radiation, lanes: int) -> int:
+    """Count of the numbers of a motion sample that are decimated; ``lanes``: of the balls."""
+    if radiation.form == "scalars":
+        return radiation.channels
+    if radiation.form == "contacts":
+        return SD.contact_row(lanes)
+    return SD.vector_row(lanes, 2 * len(radiation.modes))
 
 
 def _band_table() -> NDArray[np.float64]:
@@ -190,13 +204,15 @@ def _place_state(block: _Block, rows: Sequence[list[int]]) -> None:
     """Give every part of the state its place, complete the spans' ``rows`` with them and put these."""
     found = block.head
     channels, mics = int(found[SD.H_CHANNELS]), int(found[SD.H_MICS])
-    end = SD.SS_TABLES + SD.DECIMATOR_TAPS * channels
+    end = SD.SS_TABLES + SD.FIRST_ROWS * int(found[SD.H_RAW])
 
     def room(size: float) -> int:
         nonlocal end
         place, end = end, end + int(size)
         return place
 
+    found[SD.H_S_SECOND] = room(SD.SECOND_ROWS * found[SD.H_RAW])
+    found[SD.H_S_TURNS] = room(SD.TURN_ROWS * 2 * found[SD.H_BALL_LANES])
     found[SD.H_S_HIGH_PASS] = room(SD.SECTION_STATES * channels)
     found[SD.H_S_CHANNELS] = room(found[SD.H_ROWS] * channels)
     complete = []
@@ -211,15 +227,17 @@ def _place_state(block: _Block, rows: Sequence[list[int]]) -> None:
     found[SD.H_STATE] = end
 
 
-def _place_work(block: _Block, rows: Sequence[list[int]]) -> None:
-    """Give every part of the work space its place; the decimated channels stand first."""
+def _place_work(block: _Block, served: Sequence[list[int]]) -> None:
+    """Give every part of the work space its place; the decimated row stands first, then the channels."""
     found = block.head
     channels, outputs, mics = (int(found[k]) for k in (SD.H_CHANNELS, SD.H_OUTPUTS, SD.H_MICS))
-    scratch = [2 * STRIDE, SD.BAND_LANES]
-    for row in rows:
+    # of the balls' harmonics: sums and multiples
+    rows = SD.FAMILIES * SD.FAMILY_ROWS + found[SD.H_BALL_LANES]
+    scratch = [2 * int(found[SD.H_HARMONICS] * rows), SD.BAND_LANES]
+    for row in served:
         length, lanes = row[SD.SPAN_BLOCK], row[SD.SPAN_LANES]
         scratch.append((4 * length + 2) * max(lanes, outputs))
-    end = channels
+    end = int(found[SD.H_RAW]) + channels
     for place, size in (
         (SD.H_W_OUTPUTS, outputs),
         (SD.H_W_LANES, max(SD.MAX_CHANNELS, 2 * SD.MAX_FREQUENCIES)),

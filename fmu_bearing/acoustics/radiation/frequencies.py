@@ -5,6 +5,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 BAND = (20.0, 20_000.0)  # Hz: hearing, and where filters follow their transfer functions
+STOP = 22_000.0  # Hz: from here on nothing is heard, see `filters.fir.band_limit`
 
 
 def fit_frequencies() -> NDArray[np.float64]:

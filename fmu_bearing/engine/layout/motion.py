@@ -1,12 +1,12 @@
 """MO: one motion sample for the sound kernels.
 
 Bodies inner ring, outer ring, cage: velocity, acceleration, angular velocity and acceleration in inertial
-axes (x, y, z). Then per ball the same four vectors in its orbiting axes (x, r, theta) - inertial quantities,
-only resolved there - and cosine and sine of its angle; then the second time derivatives (m/s2) of the
-flexural coordinates, two per mode.
+axes (x, y, z). Then the same four vectors of the balls in their orbiting axes (x, r, theta) - inertial
+quantities, only resolved there - and cosine and sine of their angles, one row of balls each; rows of spare
+lanes hold zeros. Then the second time derivatives (m/s2) of the flexural coordinates, two per mode.
 """
 
-from fmu_bearing.engine.layout.sizes import MAX_BALLS, MAX_MODES, Places
+from fmu_bearing.engine.layout.sizes import MAX_MODES, STRIDE, Places
 
 _body = Places()
 VELOCITY = _body(3)  # m/s
@@ -14,25 +14,16 @@ ACCELERATION = _body(3)  # m/s2
 SPIN = _body(3)  # rad/s
 SPIN_RATE = _body(3)  # rad/s2
 PER_BODY = _body.next
-COS = _body()  # of a ball's angle
-SIN = _body()
-PER_BALL = _body.next
 
 _at = Places()
 INNER = _at(PER_BODY)
 OUTER = _at(PER_BODY)
 CAGE = _at(PER_BODY)
-BALLS = _at.next
-
-
-def flexures(n_balls):
-    """Place of the flexural accelerations in a motion sample for ``n_balls`` balls."""
-    return BALLS + PER_BALL * n_balls
-
-
-def size(n_balls, n_modes=0):
-    """Length of a motion sample for ``n_balls`` balls and ``n_modes`` flexural modes."""
-    return flexures(n_balls) + 2 * n_modes
-
-
-MAX_SIZE = size(MAX_BALLS, MAX_MODES)
+BALL_VELOCITY = _at(3 * STRIDE)  # m/s: rows x, r, theta
+BALL_ACCELERATION = _at(3 * STRIDE)  # m/s2
+BALL_SPIN = _at(3 * STRIDE)  # rad/s
+BALL_SPIN_RATE = _at(3 * STRIDE)  # rad/s2
+COS = _at(STRIDE)  # of the balls' angles
+SIN = _at(STRIDE)
+FLEXURES = _at(2 * MAX_MODES)  # m/s2
+SIZE = _at.next

@@ -2,8 +2,9 @@
 
 ``ps`` begins with a head (``H_*``: sizes, then places in ``ps``, ``ss`` and ``ws``), followed by tables:
 
-* decimator, ``DECIMATOR_TAPS`` numbers, symmetric; then sections of second order, ``SECTION`` numbers each:
-  one high-pass, ``A_SECTIONS`` of A-weighting, ``BAND_SECTIONS`` of the third octaves, these with
+* decimator: the outer taps of its two half-band filters, which are symmetric, outermost first, every other
+  one being zero and the middle one 1/2; then sections of second order, ``SECTION`` numbers each: one
+  high-pass, ``A_SECTIONS`` of A-weighting, ``BAND_SECTIONS`` of the third octaves, these with
   ``BAND_LANES`` bands side by side;
 * scalars that the papers' radiation models need to form their channels;
 * lane of each channel in the history: channels that the same microphones hear lie side by side, the unheard
@@ -27,10 +28,17 @@ from fmu_bearing.engine.layout import z as _Z
 from fmu_bearing.engine.layout.sizes import Places
 
 RAW_RATE = 204_800.0  # Hz, of motion samples
-DECIMATION = 4
+HALF = 2  # each stage of the decimator keeps every other sample
+DECIMATION = HALF * HALF
 RATE = RAW_RATE / DECIMATION  # Hz, of pressures and meters
-DECIMATOR_TAPS = 64
-LATENCY = 24  # samples at RATE by which every pressure comes late: 0.47 ms
+FIRST_TAPS = 15  # of the decimator's first stage, RAW_RATE to RAW_RATE / 2,
+SECOND_TAPS = 71  # and of its second, to RATE
+FIRST_ROWS = FIRST_TAPS + 1  # samples that each stage keeps
+SECOND_ROWS = SECOND_TAPS + 1
+MIDDLE = FIRST_TAPS // 2 + HALF * (SECOND_TAPS // 2)  # motion samples by which the decimator is late
+TURNING = -MIDDLE % DECIMATION  # motion samples whose number leaves this rest stand in its middle once
+TURN_ROWS = -(-MIDDLE // DECIMATION)  # angles kept until then
+LATENCY = 68  # samples at RATE by which every pressure comes late: 1.33 ms
 COMPONENTS = ("inner_ring", "outer_ring", "cage", "balls")
 KINDS = ("radial", "axial", "rotation", "flexure", "balls")  # source types
 RADIAL, AXIAL, ROTATION, FLEXURE, BALLS_KIND = range(len(KINDS))
@@ -40,8 +48,10 @@ BAND_LANES = 32  # lanes kept for the third octaves ``z.BANDS``: whole vectors
 _head = Places()
 H_FORM = _head()  # how the channels are formed: see choices.CHANNEL_FORMS
 H_BALLS = _head()  # number of balls
+H_BALL_LANES = _head()  # the same, filled up to a multiple of FOUR
 H_HARMONICS = _head()  # highest circumferential order of the balls (form contacts: of all sources)
 H_FLEXURES = _head()  # number of flexural coordinates
+H_RAW = _head()  # numbers of a motion sample that are decimated
 H_CHANNELS = _head()  # number of channels
 H_ROWS = _head()  # of the channel history
 H_BANKS = _head()  # number of banks
@@ -54,7 +64,8 @@ H_LANES = _head()  # A-weighting filters: form scalars one per filter output, ot
 H_DETAILS = _head()  # switch: meters beyond the first `PLAIN` are kept
 H_BANDS = _head()  # third octaves; 0: none
 # places in ps
-H_AT_DECIMATOR = _head()
+H_AT_FIRST = _head()  # of the decimator
+H_AT_SECOND = _head()
 H_AT_HIGH_PASS = _head()
 H_AT_A_WEIGHTING = _head()
 H_AT_BANDS = _head()
@@ -67,6 +78,8 @@ H_AT_OUTPUTS = _head()
 H_AT_GROUPS = _head()
 H_AT_ORDER = _head()
 # places in ss
+H_S_SECOND = _head()  # history of the decimator's second stage
+H_S_TURNS = _head()  # cosines, then sines of the balls' angles, until their sample is in the middle
 H_S_HIGH_PASS = _head()
 H_S_CHANNELS = _head()  # channel history
 H_S_A_WEIGHTING = _head()
@@ -163,6 +176,9 @@ SCALAR_ORBIT = _scalar()  # m: pitch radius
 SCALARS = _scalar.next
 
 # --- channels -------------------------------------------------------------------------------------
+# A motion sample is decimated as a raw row, and channels are formed of it at RATE. Form scalars: the row is
+# the channels. Form vectors: channels of the bodies, accelerations of the balls (rows of ball lanes x r
+# theta), flexural coordinates. Form contacts: two rows of ball lanes per family.
 BODIES = 3  # inner ring, outer ring, cage
 AXES = 3  # x y z; for balls x r theta
 
@@ -206,6 +222,9 @@ FAMILY_OUTER = 1  # contacts of the outer ring
 FAMILY_CAGE = 2  # pockets of the cage
 FAMILY_BALLS = 3  # balls
 FAMILIES = 4
+FAMILY_RATE = 0  # m/s2: rows of a family: rate of the normal velocity,
+FAMILY_TURN = 1  # and normal velocity times the orbit's speed
+FAMILY_ROWS = 2
 
 
 def c_body(body: int, axis: int = 0) -> int:
@@ -236,6 +255,16 @@ def vector_channels(harmonics: int, flexures: int = 0) -> int:
     return c_flex(harmonics) + flexures
 
 
+def vector_row(lanes: int, flexures: int = 0) -> int:
+    """Numbers of a raw row of form vectors; ``lanes``: of the balls."""
+    return C_BALLS + AXES * lanes + flexures
+
+
+def contact_row(lanes: int) -> int:
+    """Numbers of a raw row of form contacts; ``lanes``: of the balls."""
+    return FAMILIES * FAMILY_ROWS * lanes
+
+
 def scalar_channels(n_balls: int) -> int:
     """Count of channels of form scalars."""
     return C_PAPER_BALLS + PAPER_BALL * n_balls
@@ -259,7 +288,7 @@ SS_METERED = _at()  # of which metered
 SS_WEIGHT = _at()  # sum of weights of the exponential meter with the chosen time constant,
 SS_FAST = _at()  # Fast,
 SS_SLOW = _at()  # and Slow
-SS_TABLES = _at.next  # history of the decimator begins here
+SS_TABLES = _at.next  # history of the decimator's first stage begins here
 
 # Third octaves of one microphone: states of each section, then running mean squares.
 _at = Places()

@@ -70,7 +70,7 @@ D = _at(_F.SIZE)  # Newton increment
 ACC = _at(STAGES * _F.SIZE)  # stage accelerations
 VEL = _at(STAGES * _F.SIZE)  # stage velocities in the layout of accelerations
 FLEX = _at(_FL.SIZE)  # flexible rings: see flexure
-MOTION = _at(_MO.MAX_SIZE)  # motion sample: see motion
+MOTION = _at(_MO.SIZE)  # motion sample: see motion
 BODY_0 = _at(_Q.SIZE * STRIDE)  # unperturbed generalised forces
 SOUND = _at.next  # work space of the sound kernels
 
@@ -155,7 +155,7 @@ LEDGER: tuple[Area, ...] = (
     Area("STATICS", STATICS, _ST.SIZE, frozenset({"start"})),
     Area("SPIN_SYSTEM", SPIN_SYSTEM, _ST.SPIN_SYSTEM_SIZE, frozenset({"start"})),
     Area("SPINS_FIRST", SPINS_FIRST, _ST.SPIN_RATES * STRIDE, frozenset({"start", "jacobian", "evaluation"})),
-    Area("MOTION", MOTION, _MO.MAX_SIZE, frozenset({"sample"})),
+    Area("MOTION", MOTION, _MO.SIZE, frozenset({"sample"})),
     Area("STILL", STILL_INPUTS, STILL_END - STILL_INPUTS, frozenset({"start", "inputs"})),
     Area("LOAD", LOAD, _EQ.FREEDOMS, frozenset({"start", "inputs", "evaluation"})),
     Area("TILT", TILT, 2, frozenset({"start", "inputs", "evaluation"})),

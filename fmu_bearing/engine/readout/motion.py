@@ -1,110 +1,167 @@
-"""Motion samples for the sound filters, at a fixed rate, interpolated within the internal step."""
+"""Motion samples for the sound filters, at a fixed rate, interpolated within the internal step.
 
-import math
+Velocities follow the cubic through velocities and accelerations at both ends of the step, accelerations its
+derivative: both run on without a jump from step to step. All numbers of one instant share the cubic's
+weights.
+"""
 
-from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import FL, MO, SD, F, P, Q, S, W, Y
+from fmu_bearing.engine.choices import VECTORS
+from fmu_bearing.engine.jit import inlined, kernel
+from fmu_bearing.engine.lanes import load, store
+from fmu_bearing.engine.layout import FL, FOUR, MO, SD, STRIDE, F, P, Q, S, W, Y
 from fmu_bearing.engine.mechanics.flexure import flexure_state
+from fmu_bearing.engine.mechanics.trigonometry import cosine_and_sine
 from fmu_bearing.engine.sound.radiate import push
 
 
 @kernel
-def hermite(v0, a0, v1, a1, h, t):
-    """Value and derivative at ``t`` in [0, 1] of the cubic through values and rates at both ends."""
-    d = v1 - v0
-    b0 = h * a0
-    b1 = h * a1
-    c2 = 3.0 * d - 2.0 * b0 - b1
-    c3 = b0 + b1 - 2.0 * d
-    value = v0 + t * (b0 + t * (c2 + t * c3))
-    rate = (b0 + t * (2.0 * c2 + t * 3.0 * c3)) / h
-    return value, rate
+def value_weights(h, t):
+    """Weights of change, first and last rate for the cubic's value at the share ``t`` of the step ``h``."""
+    u = 1.0 - t
+    return t * t * (3.0 - 2.0 * t), h * t * u * u, -h * t * t * u
 
 
 @kernel
-def during(s, w, value, rate, h, t):
-    """Value and derivative of one number of the mechanics at the share ``t`` of the step ``h`` (s).
+def rate_weights(h, t):
+    """Weights of change, first and last rate for the cubic's rate at the share ``t`` of the step ``h``."""
+    u = 1.0 - t
+    return 6.0 * t * u / h, u * (1.0 - 3.0 * t), t * (3.0 * t - 2.0)
 
-    ``value``: its place in ``y``; ``rate``: that of its derivative in ``f``.
+
+@inlined
+def blend(change, first, last, v0, a0, v1, a1):
+    """Sum over change and rates of one number, from ``v0`` and ``a0`` to ``v1`` and ``a1``."""
+    return change * (v1 - v0) + (first * a0 + last * a1)
+
+
+@kernel
+def body_motion(s, w, first, count, at, whole, h, t):
+    """``count`` velocities (where the ``whole`` motion is wanted) and accelerations of one body.
+
+    ``first``: its first coordinate; ``at``: place of the velocities in ``w``.
     """
-    return hermite(s[S.Y + value], s[S.F + rate], w[W.STAGE + value], w[W.LAST + rate], h, t)
+    c, b, e = value_weights(h, t)
+    dc, db, de = rate_weights(h, t)
+    rates = at + MO.ACCELERATION - MO.VELOCITY  # the same distance for spins
+    for i in range(count):
+        v = Y.V0 + first + i
+        f = F.BODY + first + i
+        v0 = s[S.Y + v]
+        v1 = w[W.STAGE + v]
+        a0 = s[S.F + f]
+        a1 = w[W.LAST + f]
+        w[rates + i] = blend(dc, db, de, v0, a0, v1, a1)
+        if whole:
+            w[at + i] = v0 + blend(c, b, e, v0, a0, v1, a1)
 
 
 @kernel
-def body_motion(s, w, first, at, tilt, spin, spin_rate, h, t):
-    """Velocity, acceleration, angular velocity and acceleration of one body into ``w[at:]``.
-
-    ``first``: its coordinates; ``tilt``: its tilt coordinates. The spin is taken about X: tilts are small.
-    """
-    for i in range(3):
-        v, a = during(s, w, Y.V0 + first + i, F.BODY + first + i, h, t)
-        w[at + MO.VELOCITY + i] = v
-        w[at + MO.ACCELERATION + i] = a
-    w[at + MO.SPIN] = spin
-    w[at + MO.SPIN_RATE] = spin_rate
-    for i in range(2):
-        v, a = during(s, w, Y.V0 + tilt + i, F.BODY + tilt + i, h, t)
-        w[at + MO.SPIN + 1 + i] = v
-        w[at + MO.SPIN_RATE + 1 + i] = a
+def bodies_motion(s, w, whole, h, t):
+    """Motion of the rings and the cage. The inner ring's spin is taken about X: tilts are small."""
+    inner = W.MOTION + MO.INNER
+    body_motion(s, w, Q.INNER, 3, inner + MO.VELOCITY, whole, h, t)
+    body_motion(s, w, Q.INNER + Q.INNER_BY, 2, inner + MO.SPIN + 1, whole, h, t)
+    w[inner + MO.SPIN] = s[S.SPEED] + t * h * s[S.SPEED_RATE]
+    w[inner + MO.SPIN_RATE] = s[S.SPEED_RATE]
+    for body in range(2):
+        first = Q.OUTER if body == 0 else Q.CAGE
+        at = W.MOTION + (MO.OUTER if body == 0 else MO.CAGE)
+        body_motion(s, w, first, 3, at + MO.VELOCITY, whole, h, t)
+        body_motion(s, w, first + Q.TURN, 3, at + MO.SPIN, whole, h, t)
 
 
 @kernel
-def turning_body(s, w, first, at, h, t):
-    """As `body_motion` for a body whose rotation about X is a coordinate: outer ring and cage."""
-    turn = first + Q.TURN
-    spin, rate = during(s, w, Y.V0 + turn, F.BODY + turn, h, t)
-    body_motion(s, w, first, at, first + Q.BY, spin, rate, h, t)
+def ball_accelerations(p, s, w, h, t):
+    """Inertial accelerations of the balls, resolved in their orbiting axes; zeros in spare lanes."""
+    c, b, e = value_weights(h, t)
+    dc, db, de = rate_weights(h, t)
+    pitch = p[P.PITCH_RADIUS]
+    for j in range(int(p[P.LANES])):
+        vr0 = s[S.Y + Y.VR + j]
+        vr1 = w[W.STAGE + Y.VR + j]
+        ar0 = s[S.F + F.R + j]
+        ar1 = w[W.LAST + F.R + j]
+        om0 = s[S.Y + Y.OM + j]
+        om1 = w[W.STAGE + Y.OM + j]
+        at0 = s[S.F + F.TH + j]
+        at1 = w[W.LAST + F.TH + j]
+        r0 = s[S.Y + Y.R + j]
+        radius = pitch + (r0 + t * (w[W.STAGE + Y.R + j] - r0))
+        vr = vr0 + blend(c, b, e, vr0, ar0, vr1, ar1)
+        om = om0 + blend(c, b, e, om0, at0, om1, at1)
+        w[W.MOTION + MO.BALL_ACCELERATION + j] = blend(
+            dc, db, de, s[S.Y + Y.VX + j], s[S.F + F.X + j], w[W.STAGE + Y.VX + j], w[W.LAST + F.X + j]
+        )
+        w[W.MOTION + MO.BALL_ACCELERATION + STRIDE + j] = (
+            blend(dc, db, de, vr0, ar0, vr1, ar1) - radius * om * om
+        )
+        w[W.MOTION + MO.BALL_ACCELERATION + 2 * STRIDE + j] = (
+            radius * blend(dc, db, de, om0, at0, om1, at1) + 2.0 * vr * om
+        )
+    for j in range(int(p[P.BALLS]), int(p[P.LANES])):
+        for k in range(3):
+            w[W.MOTION + MO.BALL_ACCELERATION + STRIDE * k + j] = 0.0
 
 
 @kernel
-def ball_motion(p, s, w, h, t):
-    """Inertial velocity, acceleration, spin and its rate of every ball, resolved in its orbiting axes."""
+def ball_velocities(p, s, w, h, t):
+    """Inertial velocities, spins and their rates of the balls, resolved in their orbiting axes."""
+    c, b, e = value_weights(h, t)
+    dc, db, de = rate_weights(h, t)
     pitch = p[P.PITCH_RADIUS]
     for j in range(int(p[P.BALLS])):
-        at = W.MOTION + MO.BALLS + MO.PER_BALL * j
-        vx, ax = during(s, w, Y.VX + j, F.X + j, h, t)
-        vr, ar = during(s, w, Y.VR + j, F.R + j, h, t)
-        om, aom = during(s, w, Y.OM + j, F.TH + j, h, t)
-        wx, dwx = during(s, w, Y.WX + j, F.WX + j, h, t)
-        wr, dwr = during(s, w, Y.WR + j, F.WR + j, h, t)
-        wt, dwt = during(s, w, Y.WT + j, F.WT + j, h, t)
-        old = s[S.Y + Y.R + j]
-        radius = pitch + old + t * (w[W.STAGE + Y.R + j] - old)
-        th = Y.TH + j
-        rate = Y.OM + j
-        angle, _ = hermite(s[S.Y + th], s[S.Y + rate], w[W.STAGE + th], w[W.STAGE + rate], h, t)
-        to = at + MO.VELOCITY
-        w[to] = vx
-        w[to + 1] = vr
-        w[to + 2] = radius * om
-        to = at + MO.ACCELERATION
-        w[to] = ax
-        w[to + 1] = ar - radius * om * om
-        w[to + 2] = radius * aom + 2.0 * vr * om
-        to = at + MO.SPIN
-        w[to] = wx
-        w[to + 1] = wr
-        w[to + 2] = wt
-        to = at + MO.SPIN_RATE
-        w[to] = dwx
-        w[to + 1] = dwr - om * wt
-        w[to + 2] = dwt + om * wr
-        w[at + MO.COS] = math.cos(angle)
-        w[at + MO.SIN] = math.sin(angle)
+        om0 = s[S.Y + Y.OM + j]
+        om = om0 + blend(c, b, e, om0, s[S.F + F.TH + j], w[W.STAGE + Y.OM + j], w[W.LAST + F.TH + j])
+        r0 = s[S.Y + Y.R + j]
+        radius = pitch + (r0 + t * (w[W.STAGE + Y.R + j] - r0))
+        for k in range(2):
+            row = STRIDE * k + j
+            v0 = s[S.Y + Y.VX + row]
+            w[W.MOTION + MO.BALL_VELOCITY + row] = v0 + blend(
+                c, b, e, v0, s[S.F + F.X + row], w[W.STAGE + Y.VX + row], w[W.LAST + F.X + row]
+            )
+        w[W.MOTION + MO.BALL_VELOCITY + 2 * STRIDE + j] = radius * om
+        for k in range(3):
+            row = STRIDE * k + j
+            v0 = s[S.Y + Y.WX + row]
+            a0 = s[S.F + F.WX + row]
+            v1 = w[W.STAGE + Y.WX + row]
+            a1 = w[W.LAST + F.WX + row]
+            w[W.MOTION + MO.BALL_SPIN + row] = v0 + blend(c, b, e, v0, a0, v1, a1)
+            w[W.MOTION + MO.BALL_SPIN_RATE + row] = blend(dc, db, de, v0, a0, v1, a1)
+        # the axes turn with the orbit
+        r = STRIDE + j
+        th = r + STRIDE
+        w[W.MOTION + MO.BALL_SPIN_RATE + r] -= om * w[W.MOTION + MO.BALL_SPIN + th]
+        w[W.MOTION + MO.BALL_SPIN_RATE + th] += om * w[W.MOTION + MO.BALL_SPIN + r]
+
+
+@kernel
+def ball_turns(p, s, w, h, t):
+    """Cosine and sine of the balls' angles."""
+    c, b, e = value_weights(h, t)
+    for j in range(0, int(p[P.LANES]), FOUR):
+        old = S.Y + j
+        new = W.STAGE + j
+        th0 = load(s, old + Y.TH)
+        angle = th0 + blend(c, b, e, th0, load(s, old + Y.OM), load(w, new + Y.TH), load(w, new + Y.OM))
+        cosine, sine = cosine_and_sine(angle)
+        store(w, W.MOTION + MO.COS + j, cosine)
+        store(w, W.MOTION + MO.SIN + j, sine)
 
 
 @kernel
 def flexure_motion(p, s, w, h, t):
-    """Second time derivatives of the flexural coordinates, behind the balls."""
+    """Second time derivatives of the flexural coordinates."""
     count = 2 * int(p[P.MODES])
-    at = W.MOTION + MO.BALLS + MO.PER_BALL * int(p[P.BALLS])
+    dc, db, de = rate_weights(h, t)
     old = flexure_state(p)
-    new = W.FLEX
-    v = new + FL.V
-    a = new + FL.A
+    v = W.FLEX + FL.V
+    a = W.FLEX + FL.A
     for i in range(count):
-        _, rate = hermite(s[old + count + i], s[old + 2 * count + i], w[v + i], w[a + i], h, t)
-        w[at + i] = rate
+        w[W.MOTION + MO.FLEXURES + i] = blend(
+            dc, db, de, s[old + count + i], s[old + 2 * count + i], w[v + i], w[a + i]
+        )
 
 
 @kernel
@@ -114,14 +171,17 @@ def emit_samples(p, s, w, h):
         return
     block = int(p[P.AT_SOUND])
     ps = p[block : block + int(p[P.SOUND_SIZE])]
+    whole = int(ps[SD.H_FORM]) != VECTORS
     elapsed = s[S.TIME] - s[S.START]
     while s[S.SAMPLE] <= (elapsed + h) * SD.RAW_RATE:
         t = min(max((s[S.SAMPLE] / SD.RAW_RATE - elapsed) / h, 0.0), 1.0)
-        spin = s[S.SPEED] + t * h * s[S.SPEED_RATE]
-        body_motion(s, w, Q.INNER, W.MOTION + MO.INNER, Q.INNER_BY, spin, s[S.SPEED_RATE], h, t)
-        turning_body(s, w, Q.OUTER, W.MOTION + MO.OUTER, h, t)
-        turning_body(s, w, Q.CAGE, W.MOTION + MO.CAGE, h, t)
-        ball_motion(p, s, w, h, t)
+        bodies_motion(s, w, whole, h, t)
+        ball_accelerations(p, s, w, h, t)
+        if whole:
+            ball_velocities(p, s, w, h, t)
+        sample = int(s[S.SAMPLE])
+        if whole or sample == 0 or sample % SD.DECIMATION == SD.TURNING:
+            ball_turns(p, s, w, h, t)
         flexure_motion(p, s, w, h, t)
         push(ps, s[S.SOUND :], w[W.SOUND :], w[W.MOTION : W.SOUND], p[P.TIME_WEIGHTING], p[P.METERING_START])
         s[S.SAMPLE] += 1.0

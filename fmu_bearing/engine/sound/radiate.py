@@ -1,20 +1,19 @@
-"""From one motion sample to the pressure at every microphone: channels, decimation, filters.
+"""From one motion sample to the pressure at every microphone: decimation, channels, filters.
 
-One call of `push` takes one sample of the motion at ``RAW_RATE``. Every fourth call a sample at ``RATE``
-comes out of the decimator, passes the microphones' low-frequency limit, enters the history, runs through
-all filters and moves the meters. State depends on the samples alone, never on how steps are cut.
+One call of `push` takes one sample of the motion at ``RAW_RATE``. Two half-band filters, one behind the
+other, halve the rate of its numbers twice: every fourth call a row at ``RATE`` comes out. The channels are
+formed of it, pass the microphones' low-frequency limit, enter the history, run through all filters and move
+the meters. State depends on the samples alone, never on how steps are cut.
 """
 
-from fmu_bearing.engine.choices import CONTACTS, SCALARS
+from fmu_bearing.engine.choices import SCALARS
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import FOUR, SD
+from fmu_bearing.engine.layout import FOUR, MO, SD
 from fmu_bearing.engine.sound import channels, meter
 from fmu_bearing.engine.sound.convolve import convolve
 from fmu_bearing.engine.sound.section import filter_section
 
 __all__ = ["push", "reset"]
-
-_WRAP = SD.DECIMATOR_TAPS - 1  # the raw history is a power of two long
 
 
 @kernel
@@ -32,86 +31,130 @@ def push(ps, ss, ws, motion, time_weighting, metering_start):
     sample on at which they begin. The first sample is taken to have lasted for ever, so that constant
     accelerations (the balls' centripetal one) make no start-up step.
     """
-    n = int(ps[SD.H_CHANNELS])
     raw = int(ss[SD.SS_RAW])
-    history = SD.SS_TABLES
-    row = raw & _WRAP
-    fresh = ss[history + row * n : history + (row + 1) * n]
-    form = int(ps[SD.H_FORM])
-    if form == SCALARS:
-        channels.scalars(ps, motion, fresh)
-    elif form == CONTACTS:
-        channels.contacts(ps, motion, fresh)
-    else:
-        channels.accelerations(ps, ws, motion, fresh)
-    high_pass = int(ps[SD.H_S_HIGH_PASS])
+    wide = int(ps[SD.H_RAW])
+    row = SD.SS_TABLES + raw % SD.FIRST_ROWS * wide
+    channels.keep(ps, motion, ss[row : row + wide])
     if raw == 0:
-        _settle(ps, ss, fresh, history, high_pass, n)
+        _settle(ps, ss, ws, motion)
+    elif raw % SD.DECIMATION == SD.TURNING:
+        _keep_turns(ps, ss, motion, raw // SD.DECIMATION % SD.TURN_ROWS)
     ss[SD.SS_RAW] = raw + 1.0
-    if raw % SD.DECIMATION != 0:
+    if raw % SD.HALF != 0:
         return
+    half = raw // SD.HALF
+    newest = half % SD.SECOND_ROWS
+    second = int(ps[SD.H_S_SECOND])
+    row = second + newest * wide
+    halve(
+        ps, int(ps[SD.H_AT_FIRST]), SD.FIRST_TAPS, ss, SD.SS_TABLES, raw % SD.FIRST_ROWS, ss[row : row + wide]
+    )
+    if half % SD.HALF != 0:
+        return
+    x = ws[0:wide]
+    halve(ps, int(ps[SD.H_AT_SECOND]), SD.SECOND_TAPS, ss, second, newest, x)
     count = int(ss[SD.SS_COUNT])
     place = count % int(ps[SD.H_ROWS])
-    _decimate(ps, ss, ws, history, row, n)
-    _high_pass(ps, ss, ws, high_pass, int(ps[SD.H_S_CHANNELS]) + place * n, n)
+    _form(ps, ss, ws, count % SD.TURN_ROWS)
+    n = int(ps[SD.H_CHANNELS])
+    _high_pass(ps, ss, ws, int(ps[SD.H_S_HIGH_PASS]), int(ps[SD.H_S_CHANNELS]) + place * n, n)
     convolve(ps, ss, ws, place, count)
     meter.update(ps, ss, ws, time_weighting, metering_start)
     ss[SD.SS_COUNT] = count + 1.0
 
 
 @kernel
-def _settle(ps, ss, fresh, history, high_pass, n):
-    """Fill the raw history with the first sample and let the high-pass rest on it."""
-    for row in range(1, SD.DECIMATOR_TAPS):
-        older = ss[history + row * n : history + (row + 1) * n]
-        for c in range(n):
-            older[c] = fresh[c]
-    at = int(ps[SD.H_AT_DECIMATOR])
-    gain = 0.0
-    for i in range(SD.DECIMATOR_TAPS):
-        gain += ps[at + i]
-    at = int(ps[SD.H_AT_HIGH_PASS])
-    # A high-pass puts out zero at rest: its first state then cancels b0 x, its second b0 x + b1 x.
-    for c in range(n):
-        x = gain * fresh[c]
-        ss[high_pass + c] = -ps[at + SD.B0] * x
-        ss[high_pass + n + c] = ps[at + SD.B2] * x
+def _keep_turns(ps, ss, motion, row):
+    """Keep cosines and sines of the balls' angles until their sample is in the decimator's middle."""
+    if int(ps[SD.H_FORM]) == SCALARS:
+        return
+    lanes = int(ps[SD.H_BALL_LANES])
+    at = int(ps[SD.H_S_TURNS]) + 2 * lanes * row
+    for j in range(lanes):
+        ss[at + j] = motion[MO.COS + j]
+        ss[at + lanes + j] = motion[MO.SIN + j]
 
 
 @kernel
-def _decimate(ps, ss, ws, history, row, n):
-    """Low-pass the raw history into the first ``n`` places of ``ws``, four rows at a time."""
-    at = int(ps[SD.H_AT_DECIMATOR])
-    out = ws[0:n]
+def _form(ps, ss, ws, row):
+    """Form the channels behind the raw row at the head of ``ws``, with the angles of ``row``."""
+    wide = int(ps[SD.H_RAW])
+    lanes = int(ps[SD.H_BALL_LANES])
+    turns = int(ps[SD.H_S_TURNS]) + 2 * lanes * row
+    out = ws[wide : wide + int(ps[SD.H_CHANNELS])]
+    channels.form(ps, ws, ws[0:wide], ss[turns : turns + 2 * lanes], out)
+
+
+@kernel
+def _settle(ps, ss, ws, motion):
+    """Fill the decimator's histories with the first sample and let the high-pass rest on it."""
+    wide = int(ps[SD.H_RAW])
+    first = ss[SD.SS_TABLES : SD.SS_TABLES + wide]
+    for row in range(1, SD.FIRST_ROWS):
+        at = SD.SS_TABLES + row * wide
+        ss[at : at + wide] = first
+    second = int(ps[SD.H_S_SECOND])
+    x = ss[second : second + wide]
+    halve(ps, int(ps[SD.H_AT_FIRST]), SD.FIRST_TAPS, ss, SD.SS_TABLES, 0, x)
+    for row in range(1, SD.SECOND_ROWS):
+        ss[second + row * wide : second + (row + 1) * wide] = x
+    for row in range(SD.TURN_ROWS):
+        _keep_turns(ps, ss, motion, row)
+    halve(ps, int(ps[SD.H_AT_SECOND]), SD.SECOND_TAPS, ss, second, 0, ws[0:wide])
+    _form(ps, ss, ws, 0)
+    n = int(ps[SD.H_CHANNELS])
+    high_pass = int(ps[SD.H_S_HIGH_PASS])
+    at = int(ps[SD.H_AT_HIGH_PASS])
+    # A high-pass puts out zero at rest: its first state then cancels b0 x, its second b0 x + b1 x.
     for c in range(n):
-        out[c] = 0.0
-    for block in range(SD.DECIMATOR_TAPS // FOUR):
-        i = FOUR * block
-        k = i + 2
-        p0 = history + ((row - i) & _WRAP) * n
-        p1 = history + ((row - i - 1) & _WRAP) * n
-        p2 = history + ((row - k) & _WRAP) * n
-        p3 = history + ((row - k - 1) & _WRAP) * n
-        x0 = ss[p0 : p0 + n]
-        x1 = ss[p1 : p1 + n]
-        x2 = ss[p2 : p2 + n]
-        x3 = ss[p3 : p3 + n]
-        g0 = ps[at + i]
-        g1 = ps[at + i + 1]
-        g2 = ps[at + k]
-        g3 = ps[at + k + 1]
-        for c in range(n):
-            out[c] += (g0 * x0[c] + g1 * x1[c]) + (g2 * x2[c] + g3 * x3[c])
+        x0 = ws[wide + c]
+        ss[high_pass + c] = -ps[at + SD.B0] * x0
+        ss[high_pass + n + c] = ps[at + SD.B2] * x0
+
+
+@kernel
+def halve(ps, at, taps, ss, history, newest, out):
+    """Half-band filter over the last ``taps`` rows of the ring ``ss[history:]``, which has one row more.
+
+    ``ps[at:]`` holds the outer taps (see `layout.sound`), ``newest`` is the newest row. Two pairs of rows at
+    a time.
+    """
+    wide = len(out)
+    rows = taps + 1
+    p = history + (newest + rows - taps // 2) % rows * wide
+    x = ss[p : p + wide]
+    for c in range(wide):
+        out[c] = 0.5 * x[c]
+    left = newest  # row before the sum's first half moves back in time, that of the second half forward
+    right = (newest + 2) % rows
+    for i in range(at, at + rows // FOUR, 2):
+        p0 = history + left * wide
+        q0 = history + right * wide
+        left = (left + rows - 2) % rows
+        right = (right + 2) % rows
+        p1 = history + left * wide
+        q1 = history + right * wide
+        left = (left + rows - 2) % rows
+        right = (right + 2) % rows
+        x0 = ss[p0 : p0 + wide]
+        y0 = ss[q0 : q0 + wide]
+        x1 = ss[p1 : p1 + wide]
+        y1 = ss[q1 : q1 + wide]
+        g0 = ps[i]
+        g1 = ps[i + 1]
+        for c in range(wide):
+            out[c] += g0 * (x0[c] + y0[c]) + g1 * (x1[c] + y1[c])
 
 
 @kernel
 def _high_pass(ps, ss, ws, state, place, n):
     """Lower limit of the microphones; writes the row of the channel history that starts at ``place``.
 
-    The channels stand in the first ``n`` places of ``ws``.
+    The channels stand in ``ws`` behind the raw row.
     """
     at = int(ps[SD.H_AT_HIGH_PASS])
-    x = ws[0:n]
+    wide = int(ps[SD.H_RAW])
+    x = ws[wide : wide + n]
     filter_section(ps, at, ss, state, x, n)
     y = ss[place : place + n]
     lanes = int(ps[SD.H_AT_LANES])

@@ -18,7 +18,7 @@ from fmu_bearing.scene import Scene, read_scene_text, si
 
 _PRESSURE = re.compile(r"mic\[\d+\]\.pressure")
 _ENOUGH = 40_000.0  # Hz: pressures reach to 20 kHz
-_VERSION = 2  # 1 had other names
+_VERSION = 3  # 1 had other names, 2 another decimator
 
 
 class Recording(Heard):

@@ -76,7 +76,7 @@ def test_whole_decimator_in_the_stream_against_scipy():
 
 
 def test_what_folds_is_rejected():
-    """Whatever folds below 22 kHz when the rate falls to 51.2 kHz; both ripples leave the band flat to 0.002 dB."""
+    """Whatever folds below 22 kHz when the rate falls to 51.2 kHz; the band is flat to 0.002 dB."""
     heard = np.arange(0.0, STOP + 1.0, 20.0)
     for image in (SD.RATE - heard, SD.RATE + heard, 2 * SD.RATE - heard):
         assert np.max(np.abs(decimator_response(image))) < BEFORE

@@ -14,10 +14,9 @@ from fmu_bearing.engine.layout import SD
 _WEAK = 10 ** (-30 / 20)
 _LIMIT_TAPS = 93  # odd: the filter has a middle
 _LIMIT_WEIGHT = 3.0  # of the stop band against the pass band
-# Weights of a frequency above the band against one at its upper end. In between the limit is steep, and an
-# error of -40 dB at 21 kHz changes no level; above, it is the stop band.
+# Weights of a frequency against one in the band: where the limit falls, an error of -40 dB changes no level.
 _EDGE_WEIGHT, _STOP_WEIGHT = 0.1, 0.3
-_ABOVE = 62.5  # Hz: spacing of frequencies there
+_STOPPED = 64  # frequencies in the stop band
 _RIDGE = 1e-12  # relative: keeps the normal equations of long filters solvable
 _LENGTHS = (104, 128, 160, 192, 256, 384, 512, 768, 1024)
 # Beyond this length the grid of `fit_frequencies` (62.5 Hz: 16 ms, 820 taps) no longer determines the taps.
@@ -111,21 +110,16 @@ def _grid(length: int) -> NDArray[np.float64]:
 
 
 @functools.cache
-def _fitted_grid(length: int) -> NDArray[np.float64]:
-    """`_grid`, and above it frequencies up to half of ``RATE``."""
-    return np.append(_grid(length), np.arange(BAND[1] + _ABOVE, SD.RATE / 2, _ABOVE))
-
-
-@functools.cache
 def _basis(length: int) -> NDArray[np.complex128]:
-    turn = -2j * np.pi / SD.RATE * np.arange(length)
-    return np.exp(_fitted_grid(length)[:, None] * turn)
+    """Responses of the taps on the grid, then in the stop band."""
+    grid = np.append(_grid(length), np.linspace(STOP, SD.RATE / 2, _STOPPED))
+    return np.exp(-2j * np.pi / SD.RATE * grid[:, None] * np.arange(length))
 
 
 @functools.cache
 def _undone(length: int) -> NDArray[np.complex128]:
     """Band limit over the decimator's response, on the grid of a filter of ``length`` taps."""
-    grid = _fitted_grid(length)
+    grid = _grid(length)
     return band_limit(grid) / decimator_response(grid)
 
 
@@ -169,17 +163,13 @@ def _fit_length(
     if len(grid) > len(coarse):
         response = between(coarse, response, flight, grid)
         strongest = np.interp(grid, coarse, strongest)
-    # Above the band the response is held at its last value, without its flight time.
-    above = _fitted_grid(length)[len(grid) :]
-    still = response * np.exp(2j * np.pi * grid * flight)
-    still = np.append(still, np.full(len(above), still[-1]))
-    grid = _fitted_grid(length)
     # what the filter must do so that the whole chain is `response`, band-limited and LATENCY late
-    late = flight - (delay_of(flight) - SD.LATENCY) / SD.RATE
-    wanted = still * np.exp(-2j * np.pi * grid * late) * _undone(length)
+    late = np.exp(2j * np.pi * grid * (delay_of(flight) - SD.LATENCY) / SD.RATE)
+    wanted = np.append(response * late * _undone(length), np.zeros(_STOPPED))
     weight = 1.0 / np.maximum(np.abs(response), _WEAK * strongest)
-    heard = len(weight)
-    weight = np.append(weight, weight[-1] * np.where(above < STOP, _EDGE_WEIGHT, _STOP_WEIGHT))
+    heard = grid <= BAND[1]
+    weight[~heard] *= _EDGE_WEIGHT
+    weight = np.append(weight, np.full(_STOPPED, _STOP_WEIGHT * weight[heard][-1]))
     basis = _basis(length)
     # Normal equations: far cheaper than an orthogonal solver, and the errors stay those of the filter
     # length. Their matrix depends on the distance of two taps alone: one column tells all.
@@ -187,4 +177,5 @@ def _fit_length(
     column = (square @ basis).real
     column[0] *= 1.0 + _RIDGE
     taps = solve(toeplitz(column), ((square * wanted.conj()) @ basis).real, assume_a="pos")
-    return taps, float(np.max((np.abs(basis @ taps - wanted) * weight)[:heard]))
+    error = np.abs(basis @ taps - wanted) * weight
+    return taps, float(np.max(error[: len(grid)][heard]))

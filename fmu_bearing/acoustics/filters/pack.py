@@ -119,6 +119,8 @@ def pack(
     _put_sources(block, sources)
     _put_groups(block, groups)
     found[SD.H_AT_LANES] = block.put(order)
+    formed = SD.formed(int(found[SD.H_FORM]), radiation.harmonics, channels)
+    found[SD.H_AT_FORMED] = block.put([order[channel] for channel in formed])
     deepest = _put_banks(block, banks, lengths)
     rows = _put_spans(block, banks, lengths)
     found[SD.H_ROWS] = max([deepest, *(2 * length + 1 for length in lengths)])

@@ -8,7 +8,7 @@
   ``BAND_LANES`` bands side by side;
 * scalars that the papers' radiation models need to form their channels;
 * lane of each channel in the history: channels that the same microphones hear lie side by side, the unheard
-  last;
+  last; once in the order of the channels, once in that in which they are formed (`formed`);
 * banks, ``BANK_SIZE`` numbers each: runs of neighbouring lanes, filtered side by side;
 * taps of the direct part: per bank ``BANK_TAPS`` rows (a multiple of ``FOUR``) of one number per lane, newest
   sample first; then runs, ``RUN_SIZE`` numbers each: neighbouring lanes that add to one output;
@@ -24,6 +24,7 @@ Microphones on one circle about the bearing axis share their filters: a body of 
 all round, up to cos(m phi) and sin(m phi), which are the weights.
 """
 
+from fmu_bearing.engine.choices import VECTORS
 from fmu_bearing.engine.layout import z as _Z
 from fmu_bearing.engine.layout.sizes import Places
 
@@ -71,6 +72,7 @@ H_AT_A_WEIGHTING = _head()
 H_AT_BANDS = _head()
 H_AT_SCALARS = _head()
 H_AT_LANES = _head()
+H_AT_FORMED = _head()  # the same in the order in which the channels are formed
 H_AT_BANKS = _head()
 H_AT_SPANS = _head()
 H_AT_SOURCES = _head()
@@ -248,6 +250,19 @@ def c_ball(order: int, axis: int) -> int:
 def c_flex(harmonics: int) -> int:
     """First flexural channel of form vectors with the balls' circumferential orders 0 .. harmonics."""
     return C_HARMONICS + HARMONIC_SIZE * harmonics
+
+
+def formed(form: int, harmonics: int, channels: int) -> list[int]:
+    """Return the channels in the order in which the engine forms them.
+
+    Form vectors gives the balls' harmonics row by row: all orders with the cosine along x, then with the
+    sine, then along r and theta.
+    """
+    order = list(range(channels))
+    if form == VECTORS:
+        inside = [HARMONIC_SIZE * m + i for i in range(HARMONIC_SIZE) for m in range(harmonics)]
+        order[C_HARMONICS : c_flex(harmonics)] = [C_HARMONICS + place for place in inside]
+    return order
 
 
 def vector_channels(harmonics: int, flexures: int = 0) -> int:

@@ -38,15 +38,18 @@ def keep(ps, motion, row):
 
 @kernel
 def form(ps, ws, x, turns, out):
-    """Form the channels ``out`` from a decimated raw row ``x`` and the balls' cosines and sines ``turns``."""
+    """Form the channels ``out`` from a decimated raw row ``x`` and the balls' cosines and sines ``turns``.
+
+    For their order see `layout.sound.formed`.
+    """
     chosen = int(ps[SD.H_FORM])
     if chosen == SCALARS:
         for c in range(len(out)):
             out[c] = x[c]
     elif chosen == CONTACTS:
-        _form_contacts(ps, ws, x, turns, out)
+        _form_contacts(ps, x, turns, ws[int(ps[SD.H_W_TRANSFORM]) :], out)
     else:
-        _form_accelerations(ps, ws, x, turns, out)
+        _form_accelerations(ps, x, turns, ws[int(ps[SD.H_W_TRANSFORM]) :], out)
 
 
 @kernel
@@ -67,14 +70,12 @@ def _multiples(turns, lanes, orders, table):
 
 
 @kernel
-def _project(x, rows, lanes, turns, orders, scratch):
+def _project(x, rows, lanes, turns, orders, sums, table):
     """Sum each row of ``x`` over the balls times cosines, then times sines of ``orders`` multiples.
 
-    The sums stand at the head of ``scratch``, row after row. Four balls at a time.
+    ``sums`` takes row after row, ``table`` the multiples. Four balls at a time.
     """
     size = 2 * orders
-    sums = scratch[0 : rows * size]
-    table = scratch[rows * size : (rows + lanes) * size]
     _multiples(turns, lanes, orders, table)
     for i in range(rows * size):
         sums[i] = 0.0
@@ -85,11 +86,11 @@ def _project(x, rows, lanes, turns, orders, scratch):
         t2 = table[size * k : size * (k + 1)]
         t3 = table[size * (k + 1) : size * (k + 2)]
         for row in range(rows):
-            y = x[lanes * row : lanes * (row + 1)]
-            x0 = y[j]
-            x1 = y[j + 1]
-            x2 = y[k]
-            x3 = y[k + 1]
+            first = lanes * row + j
+            x0 = x[first]
+            x1 = x[first + 1]
+            x2 = x[first + 2]
+            x3 = x[lanes * row + k + 1]
             out = sums[size * row : size * (row + 1)]
             for i in range(size):
                 out[i] += (x0 * t0[i] + x1 * t1[i]) + (x2 * t2[i] + x3 * t3[i])
@@ -118,8 +119,11 @@ def _keep_accelerations(ps, motion, row):
 
 
 @kernel
-def _form_accelerations(ps, ws, x, turns, out):
-    """Form vectors: the balls' accelerations as circumferential harmonics, the rest as it is."""
+def _form_accelerations(ps, x, turns, table, out):
+    """Form vectors: the balls' accelerations as circumferential harmonics, the rest as it is.
+
+    For their order see `layout.sound.formed`.
+    """
     lanes = int(ps[SD.H_BALL_LANES])
     orders = int(ps[SD.H_HARMONICS])
     for c in range(SD.C_BALLS):
@@ -127,17 +131,11 @@ def _form_accelerations(ps, ws, x, turns, out):
     balls = x[SD.C_BALLS : SD.C_BALLS + SD.AXES * lanes]
     out[SD.C_BALLS + SD.MEAN_X] = sum_lanes(balls, 0, lanes)
     out[SD.C_BALLS + SD.MEAN_R] = sum_lanes(balls, lanes, lanes)
-    scratch = ws[int(ps[SD.H_W_TRANSFORM]) :]
-    _project(balls, SD.AXES, lanes, turns, orders, scratch)
-    harmonics = out[SD.C_HARMONICS :]
-    for i in range(SD.HARMONIC_SIZE):
-        sums = scratch[orders * i : orders * (i + 1)]
-        for m in range(orders):
-            harmonics[SD.HARMONIC_SIZE * m + i] = sums[m]
+    harmonics = SD.HARMONIC_SIZE * orders
+    _project(balls, SD.AXES, lanes, turns, orders, out[SD.C_HARMONICS : SD.C_HARMONICS + harmonics], table)
     first = SD.C_BALLS + SD.AXES * lanes
-    q = SD.C_HARMONICS + SD.HARMONIC_SIZE * orders
     for i in range(int(ps[SD.H_FLEXURES])):
-        out[q + i] = x[first + i]
+        out[SD.C_HARMONICS + harmonics + i] = x[first + i]
 
 
 @kernel
@@ -215,7 +213,7 @@ def _keep_contacts(ps, motion, row):
 
 
 @kernel
-def _form_contacts(ps, ws, x, turns, out):
+def _form_contacts(ps, x, turns, table, out):
     """Form contacts: rates of normal velocities times cosine and sine, by harmonics.
 
     The rate of v_n cos(m theta), not v_n' cos(m theta), is what a fixed filter needs, because the place
@@ -224,13 +222,14 @@ def _form_contacts(ps, ws, x, turns, out):
     lanes = int(ps[SD.H_BALL_LANES])
     orders = int(ps[SD.H_HARMONICS])
     size = 2 * orders
-    scratch = ws[int(ps[SD.H_W_TRANSFORM]) :]
-    _project(x, SD.FAMILIES * SD.FAMILY_ROWS, lanes, turns, orders, scratch)
+    rows = SD.FAMILIES * SD.FAMILY_ROWS
+    sums = table[size * lanes : size * (lanes + rows)]
+    _project(x, rows, lanes, turns, orders, sums, table)
     for family in range(SD.FAMILIES):
         rate = SD.FAMILY_ROWS * family + SD.FAMILY_RATE
         turn = SD.FAMILY_ROWS * family + SD.FAMILY_TURN
         q = (size + 1) * family
         out[q] = sum_lanes(x, lanes * rate, lanes)
         for m in range(orders):
-            out[q + 1 + 2 * m] = scratch[size * rate + m] - (m + 1.0) * scratch[size * turn + orders + m]
-            out[q + 2 + 2 * m] = scratch[size * rate + orders + m] + (m + 1.0) * scratch[size * turn + m]
+            out[q + 1 + 2 * m] = sums[size * rate + m] - (m + 1.0) * sums[size * turn + orders + m]
+            out[q + 2 + 2 * m] = sums[size * rate + orders + m] + (m + 1.0) * sums[size * turn + m]

@@ -157,6 +157,6 @@ def _high_pass(ps, ss, ws, state, place, n):
     x = ws[wide : wide + n]
     filter_section(ps, at, ss, state, x, n)
     y = ss[place : place + n]
-    lanes = int(ps[SD.H_AT_LANES])
+    lanes = int(ps[SD.H_AT_FORMED])
     for c in range(n):
         y[int(ps[lanes + c])] = x[c]

@@ -46,7 +46,7 @@ _GAP_ELEMENTS = 0.4  # longest element in a gap over the thickness of the thinne
 #: intervals are halved where interpolation fails.
 BASE_FREQUENCIES = (
     (20.0, 50.0, 100.0, 200.0, 350.0, 500.0, 750.0, *np.arange(1000.0, 6001.0, 1000.0)),
-    tuple(np.arange(6000.0, 20_001.0, 1000.0)),
+    tuple(np.arange(6000.0, 22_001.0, 1000.0)),
 )
 # Largest error of the cubic at the middle of an interval. The middle is then added, which makes the error of
 # what is used about sixteen times smaller: -50 dB.

@@ -269,11 +269,11 @@ def test_paper_model_adds_energies():
     # eq. 19: u = R_i / 2 sqrt(4 w_x^2) = R_i w_x
     inner += energy(sources.paper_point(f[2000.0], 0.15, 11e-3, RHO, C), 11e-3 * 5.0 * wave[2000.0], 2000.0)
     outer = energy(sources.paper_piston(f[1000.0], 0.15, 35e-3, 30e-3, RHO, C), 7.0, 1000.0)
-    ball = energy(sources.paper_ball(f[3000.0], 0.15, 2.25e-3, RHO, C), 0.02 * wave[3000.0], 3000.0)
-    ball += energy(
+    rolling = energy(sources.paper_ball(f[3000.0], 0.15, 2.25e-3, RHO, C), 0.02 * wave[3000.0], 3000.0)
+    rolling += energy(
         sources.paper_point(f[1000.0], 0.15, 2.25e-3, RHO, C), 4.5e-3 / 4 * 10 * wave[1000.0], 1000.0
     )
-    parts = {"spl_inner_ring": inner, "spl_outer_ring": outer, "spl_balls": 12 * ball}
+    parts = {"spl_inner_ring": inner, "spl_outer_ring": outer, "spl_balls": 12 * rolling}
     for name, value in parts.items():
         assert player.reading(name) == pytest.approx(10 * np.log10(value / 4e-10), abs=0.01), name
     total = 10 * np.log10(sum(parts.values()) / 4e-10)

@@ -156,8 +156,8 @@ def _keep_scalars(ps, motion, row):
         row[SD.C_CYLINDERS + body] = power / math.sqrt(across + _FLOOR2)
     for part in range(SD.PAPER_BALL):
         first = MO.BALL_VELOCITY + _BALL_TURNING * part
-        v = motion[first : first + 3 * STRIDE]
-        a = motion[first + _BALL_RATE : first + _BALL_RATE + 3 * STRIDE]
+        v = motion[first : first + SD.AXES * STRIDE]
+        a = motion[first + _BALL_RATE : first + _BALL_RATE + SD.AXES * STRIDE]
         scale = 1.0 if part == 0 else ps[at + SD.SCALAR_BALL]
         for j in range(int(ps[SD.H_BALLS])):
             r = STRIDE + j

@@ -122,9 +122,9 @@ def pack(
     formed = SD.formed(int(found[SD.H_FORM]), radiation.harmonics, channels)
     found[SD.H_AT_FORMED] = block.put([order[channel] for channel in formed])
     deepest = _put_banks(block, banks, lengths)
-    rows = _put_spans(block, banks, lengths)
+    rows, kept = _put_spans(block, banks, lengths)
     found[SD.H_ROWS] = max([deepest, *(2 * length + 1 for length in lengths)])
-    _place_state(block, rows)
+    _place_state(block, rows, kept)
     _place_work(block, rows)
     return block.flat()
 
@@ -182,9 +182,12 @@ def _put_banks(block: _Block, banks: Sequence[Bank], lengths: Sequence[int]) -> 
     return deepest
 
 
-def _put_spans(block: _Block, banks: Sequence[Bank], lengths: Sequence[int]) -> list[list[int]]:
-    """Put the filters of every block length; return the beginning of each span's row."""
+def _put_spans(
+    block: _Block, banks: Sequence[Bank], lengths: Sequence[int]
+) -> tuple[list[list[int]], list[list[int]]]:
+    """Put the filters of every block length; return each span's row, begun, and its lanes' slots."""
     found = []
+    kept = []
     for span in spans(lengths):
         served = filters(banks, *span)
         runs = segments(one.lane for one in served)
@@ -193,17 +196,20 @@ def _put_spans(block: _Block, banks: Sequence[Bank], lengths: Sequence[int]) -> 
             [lanes.index(one.lane), one.output, one.first, one.count, block.put(one.spectra)]
             for one in served
         ]
-        slots = max([1, *(one.first + one.count - 1 for one in served)])
+        kept.append([max(one.first + one.count - 1 for one in served if one.lane == lane) for lane in lanes])
         turns = np.pi * np.arange(span[0] + 1) / span[0]
         found.append(
-            [span[0], slots, len(lanes), len(runs), block.put(runs), len(rows), block.put(rows)]
+            [span[0], len(lanes), len(runs), block.put(runs), len(rows), block.put(rows)]
             + [block.put([np.cos(turns), np.sin(turns)])]
         )
-    return found
+    return found, kept
 
 
-def _place_state(block: _Block, rows: Sequence[list[int]]) -> None:
-    """Give every part of the state its place, complete the spans' ``rows`` with them and put these."""
+def _place_state(block: _Block, rows: Sequence[list[int]], kept: Sequence[list[int]]) -> None:
+    """Give every part of the state its place, complete the spans' ``rows`` with them and put these.
+
+    ``kept``: slots of each lane of each span.
+    """
     found = block.head
     channels, mics = int(found[SD.H_CHANNELS]), int(found[SD.H_MICS])
     end = SD.SS_TABLES + SD.FIRST_ROWS * int(found[SD.H_RAW])
@@ -218,10 +224,10 @@ def _place_state(block: _Block, rows: Sequence[list[int]]) -> None:
     found[SD.H_S_HIGH_PASS] = room(SD.SECTION_STATES * channels)
     found[SD.H_S_CHANNELS] = room(found[SD.H_ROWS] * channels)
     complete = []
-    for row in rows:
-        length, slots, lanes = row[SD.SPAN_BLOCK], row[SD.SPAN_SLOTS], row[SD.SPAN_LANES]
-        spectra = room(slots * 2 * (length + 1) * lanes)
-        complete.append([*row, spectra, room(length * found[SD.H_OUTPUTS])])
+    for row, slots in zip(rows, kept, strict=True):
+        length = row[SD.SPAN_BLOCK]
+        lanes = [[count, room(count * 2 * (length + 1))] for count in slots]
+        complete.append([*row, block.put(lanes), room(length * found[SD.H_OUTPUTS])])
     found[SD.H_AT_SPANS] = block.put(complete)
     found[SD.H_S_A_WEIGHTING] = room(SD.A_SECTIONS * SD.SECTION_STATES * found[SD.H_LANES])
     found[SD.H_S_METERS] = room(SD.METERS * mics)

@@ -13,9 +13,9 @@
 * taps of the direct part: per bank ``BANK_TAPS`` rows (a multiple of ``FOUR``) of one number per lane, newest
   sample first; then runs, ``RUN_SIZE`` numbers each: neighbouring lanes that add to one output;
 * spans of lags that the convolution by blocks serves with one block length, ``SPAN_SIZE`` numbers each, with
-  their tables of cosines and sines, their segments (``SEGMENT_SIZE`` numbers: the lanes they transform) and
-  their filters, ``FILTER_SIZE`` numbers each, in the order of their outputs, with the spectra of their parts:
-  part, real then imaginary, frequency;
+  their tables of cosines and sines, their segments (``SEGMENT_SIZE`` numbers: the lanes they transform), what
+  they keep of each lane (``KEPT_SIZE`` numbers) and their filters, ``FILTER_SIZE`` numbers each, in the order
+  of their outputs, with the spectra of their parts: part, real then imaginary, frequency;
 * sources, ``SOURCE_SIZE`` numbers each, and the source of each output;
 * groups of microphones, ``GROUP_SIZE`` numbers each, with weights: one row of microphones per output;
 * for each microphone of the scene its lane: microphones of a group lie side by side.
@@ -132,14 +132,13 @@ RUN_SIZE = _run.next
 
 _span = Places()
 SPAN_BLOCK = _span()  # samples: block length
-SPAN_SLOTS = _span()  # blocks of inputs kept
 SPAN_LANES = _span()  # number of lanes transformed
 SPAN_SEGMENTS = _span()  # number of segments
 SPAN_AT_SEGMENTS = _span()
 SPAN_FILTERS = _span()  # number of filters
 SPAN_AT_FILTERS = _span()
 SPAN_AT_TURNS = _span()  # cosines, then sines
-SPAN_S_SPECTRA = _span()  # in ss: lane of the span, slot, real then imaginary, frequency
+SPAN_AT_KEPT = _span()  # what is kept of each lane
 SPAN_S_FUTURE = _span()  # in ss: the next block of outputs
 SPAN_SIZE = _span.next
 
@@ -147,6 +146,11 @@ _segment = Places()
 SEGMENT_LANE = _segment()  # first lane
 SEGMENT_COUNT = _segment()  # number of lanes
 SEGMENT_SIZE = _segment.next
+
+_kept = Places()
+KEPT_SLOTS = _kept()  # blocks of inputs: as many as the lane's longest filter has parts behind its first lag
+KEPT_S_SPECTRA = _kept()  # in ss: slot, real then imaginary, frequency
+KEPT_SIZE = _kept.next
 
 _filter = Places()
 FILTER_LANE = _filter()  # of the span

@@ -109,26 +109,26 @@ def _renew(ps, ss, ws, at, place, newest):
     n = int(ps[at + SD.SPAN_LANES])
     n_out = int(ps[SD.H_OUTPUTS])
     block = int(ps[at + SD.SPAN_BLOCK])
-    slots = int(ps[at + SD.SPAN_SLOTS])
     table = int(ps[at + SD.SPAN_AT_TURNS])
     turns = ps[table : table + 2 * (block + 1)]
     work = int(ps[SD.H_W_TRANSFORM])
-    spectra = int(ps[at + SD.SPAN_S_SPECTRA])
+    kept = int(ps[at + SD.SPAN_AT_KEPT])
     rows = block + 1
     z = ws[work : work + 2 * block * n]
     x = ws[work + 2 * block * n : work + 2 * (block + rows) * n]
     _gather(ps, ss, at, place, z)
     butterflies(z, n, block, turns, -1.0)
     unfold(z, n, block, turns, x)
-    slot = newest % slots
     for lane in range(n):
-        first = spectra + 2 * rows * (slots * lane + slot)
-        kept = ss[first : first + 2 * rows]
+        slot = newest % int(ps[kept + SD.KEPT_SLOTS])
+        first = int(ps[kept + SD.KEPT_S_SPECTRA]) + 2 * rows * slot
+        spectrum = ss[first : first + 2 * rows]
         for k in range(rows):
-            kept[k] = x[2 * n * k + lane]
-            kept[rows + k] = x[2 * n * k + n + lane]
+            spectrum[k] = x[2 * n * k + lane]
+            spectrum[rows + k] = x[2 * n * k + n + lane]
+        kept += SD.KEPT_SIZE
     total = ws[work : work + 2 * rows * n_out]
-    _multiply(ps, ss, ws, at, slot, total)
+    _multiply(ps, ss, ws, at, newest, total)
     z = ws[work + len(total) : work + len(total) + 2 * block * n_out]
     fold(total, n_out, block, turns, z)
     butterflies(z, n_out, block, turns, 1.0)
@@ -172,10 +172,9 @@ def _gather(ps, ss, at, place, z):
 def _multiply(ps, ss, ws, at, newest, total):
     """Write the outputs' spectra ``total``: the sums over all filters of the span at ``ps[at]``.
 
-    ``newest`` is the slot of the block that has just been transformed. Slots not yet filled are silent.
+    ``newest`` is the number of the block that has just been transformed. Slots not yet filled are silent.
     """
     block = int(ps[at + SD.SPAN_BLOCK])
-    slots = int(ps[at + SD.SPAN_SLOTS])
     n_out = int(ps[SD.H_OUTPUTS])
     n_filters = int(ps[at + SD.SPAN_FILTERS])
     rows = block + 1
@@ -187,8 +186,10 @@ def _multiply(ps, ss, ws, at, newest, total):
             y[k] = 0.0
             y[SD.MAX_FREQUENCIES + k] = 0.0
         while left > 0 and int(ps[row + SD.FILTER_OUTPUT]) == output:
-            spectra = int(ps[at + SD.SPAN_S_SPECTRA]) + 2 * rows * slots * int(ps[row + SD.FILTER_LANE])
-            slot = newest + 1 - int(ps[row + SD.FILTER_FIRST])
+            kept = int(ps[at + SD.SPAN_AT_KEPT]) + SD.KEPT_SIZE * int(ps[row + SD.FILTER_LANE])
+            slots = int(ps[kept + SD.KEPT_SLOTS])
+            spectra = int(ps[kept + SD.KEPT_S_SPECTRA])
+            slot = newest % slots + 1 - int(ps[row + SD.FILTER_FIRST])
             if slot < 0:
                 slot += slots
             _add_parts(ps, ss, y, row, spectra, slot, slots, rows)

@@ -94,6 +94,9 @@ def _pressures(ps, ss, ws, squares, n):
         for o in range(int(ps[g + SD.GROUP_COUNT])):
             value = ws[out_at + first + o]
             to = int(ps[sources + first + o]) * n + lane
+            if mics == 1:  # a loop of its own costs ten times this product
+                parts[to] += ps[weights + o] * value
+                continue
             part = parts[to : to + mics]
             w = ps[weights + o * mics : weights + (o + 1) * mics]
             for i in range(mics):

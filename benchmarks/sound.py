@@ -28,7 +28,7 @@ def cost(ps, repeats: int) -> float:
     mics = int(ps[SD.H_MICS])
     numbers = len(Z.MIC_OUTPUTS) + int(ps[SD.H_BANDS])
     z = np.zeros(mics * numbers)
-    arguments = ps, ss, ws, motion, z, np.empty(0), _BATCH, size, 0.125, 0.0, mics, numbers, 0
+    arguments = ps, ss, ws, motion, z, np.empty(0), _BATCH, MO.SIZE, 0.125, 0.0, mics, numbers, 0
     call("play", *arguments)  # past the start
     best = float("inf")
     for _ in range(repeats):

@@ -89,15 +89,15 @@ def _form(ps, ss, ws, row):
 def _settle(ps, ss, ws, motion):
     """Fill the decimator's histories with the first sample and let the high-pass rest on it."""
     wide = int(ps[SD.H_RAW])
-    first = ss[SD.SS_TABLES : SD.SS_TABLES + wide]
     for row in range(1, SD.FIRST_ROWS):
-        at = SD.SS_TABLES + row * wide
-        ss[at : at + wide] = first
+        for i in range(wide):
+            ss[SD.SS_TABLES + row * wide + i] = ss[SD.SS_TABLES + i]
     second = int(ps[SD.H_S_SECOND])
     x = ss[second : second + wide]
     halve(ps, int(ps[SD.H_AT_FIRST]), SD.FIRST_TAPS, ss, SD.SS_TABLES, 0, x)
     for row in range(1, SD.SECOND_ROWS):
-        ss[second + row * wide : second + (row + 1) * wide] = x
+        for i in range(wide):
+            ss[second + row * wide + i] = x[i]
     for row in range(SD.TURN_ROWS):
         _keep_turns(ps, ss, motion, row)
     halve(ps, int(ps[SD.H_AT_SECOND]), SD.SECOND_TAPS, ss, second, 0, ws[0:wide])

@@ -29,6 +29,3 @@ def kernel(function):
         return numba.njit(cache=True, **FLAGS)(function)
     finally:
         numba.config.CACHE_DIR = before
-
-
-inlined = kernel

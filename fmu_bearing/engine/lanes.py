@@ -26,7 +26,7 @@ from numba.core.datamodel import PrimitiveModel
 from numba.core.typing.templates import AbstractTemplate, infer_global, signature
 from numba.extending import lower_builtin, lower_cast, register_model
 
-from fmu_bearing.engine.jit import inlined
+from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import FOUR
 
 _DOUBLE = ir.DoubleType()
@@ -279,7 +279,7 @@ def _emit_gather(context, builder, sig, args):
     return found
 
 
-@inlined
+@kernel
 def sum_lanes(x, at, lanes):
     """Sum of ``lanes`` numbers, a multiple of four, at ``x[at:]``."""
     total = splat(0.0)
@@ -288,7 +288,7 @@ def sum_lanes(x, at, lanes):
     return sum_four(total)
 
 
-@inlined
+@kernel
 def dot_lanes(x, at, y, to, lanes):
     """Sum of the products of ``lanes`` numbers, a multiple of four, at ``x[at:]`` and ``y[to:]``."""
     total = splat(0.0)
@@ -297,13 +297,13 @@ def dot_lanes(x, at, y, to, lanes):
     return sum_four(total)
 
 
-@inlined
+@kernel
 def in_groups(j, size):
     """Place of lane ``j`` among groups of four lanes with ``size`` numbers each."""
     return (j >> 2) * size + (j & (FOUR - 1))
 
 
-@inlined
+@kernel
 def six(x, at, step):
     """Load four lanes each of six rows of ``x``, ``step`` apart."""
     return (
@@ -316,7 +316,7 @@ def six(x, at, step):
     )
 
 
-@inlined
+@kernel
 def store_six(x, at, step, values):
     """Write six times four lanes into rows ``step`` apart."""
     v0, v1, v2, v3, v4, v5 = values
@@ -328,7 +328,7 @@ def store_six(x, at, step, values):
     store(x, at + 5 * step, v5)
 
 
-@inlined
+@kernel
 def dot_six(a, b):
     """Sum of six products, as three pairs."""
     a0, a1, a2, a3, a4, a5 = a

@@ -2,7 +2,7 @@
 
 import math
 
-from fmu_bearing.engine.jit import inlined, kernel
+from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import consecutive, load, select, store
 from fmu_bearing.engine.layout import FOUR, C, P, W, X
 from fmu_bearing.engine.mechanics.pose import bearing_angle
@@ -10,7 +10,7 @@ from fmu_bearing.engine.mechanics.trigonometry import TWO_PI, wrap
 from fmu_bearing.engine.mechanics.triples import added, cross, dot, scaled, store_three, three
 
 
-@inlined
+@kernel
 def pockets(p, c, angle, lanes, turned, w):
     """Pocket forces and moments on the balls and the power lost there.
 

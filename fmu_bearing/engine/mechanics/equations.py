@@ -2,7 +2,7 @@
 
 from fmu_bearing.engine.choices import REGULARISED
 from fmu_bearing.engine.constants import GRAVITY
-from fmu_bearing.engine.jit import inlined, kernel
+from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import consecutive, load, select, store, sum_lanes
 from fmu_bearing.engine.layout import FOUR, STRIDE, F, P, Q, W, X, Y
 from fmu_bearing.engine.mechanics.ball_waves import add_ball_waves, ball_wave_forces
@@ -24,7 +24,7 @@ from fmu_bearing.engine.mechanics.trigonometry import ball_angles
 from fmu_bearing.engine.mechanics.triples import added, cross, dot, scaled, three
 
 
-@inlined
+@kernel
 def react(lanes, balls, body, first, spin, last, w):
     """Generalised forces that each ball puts on one body; spare lanes put none.
 
@@ -50,7 +50,7 @@ def react(lanes, balls, body, first, spin, last, w):
         store(w, last + STRIDE + j, c * mr - s * mt)
 
 
-@inlined
+@kernel
 def race_forces(p, c, y, lanes, race, turned, w):
     """Evaluate the forces between balls and one race, whose poses are in ``w``; ``turned``: its angle (rad).
 

@@ -23,7 +23,7 @@ is left out.
 
 import math
 
-from fmu_bearing.engine.jit import inlined, kernel
+from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import sum_lanes
 from fmu_bearing.engine.layout import FL, STRIDE, C, F, P, Q, R, S, W, X, Y
 
@@ -68,7 +68,7 @@ def keep_accelerations(p, s, w):
         kept[i] = own[i]
 
 
-@inlined
+@kernel
 def first_order(lanes, race, w, own):
     """Cosine and sine of each ball's angle about the displaced ring's own centre."""
     pose = W.POSE + race * X.SIZE
@@ -150,7 +150,7 @@ def bend(p, lanes, race, spin, own):
             )  # fmt: skip
 
 
-@inlined
+@kernel
 def move_groove(p, c, lanes, race, spin, w):
     """Shift by its flexure what ``relative_pose`` left of the balls' places and velocities against a ring.
 
@@ -190,7 +190,7 @@ def move_groove(p, c, lanes, race, spin, w):
         w[pose + X.DW + 2 * STRIDE + j] -= turn * w[pose + X.T + 2 * STRIDE + j]
 
 
-@inlined
+@kernel
 def lean(p, lanes, race, w):
     """Add the flexed track's slope to the waviness'; both over the radius before the shift."""
     own = w[W.FLEX :]
@@ -200,7 +200,7 @@ def lean(p, lanes, race, w):
         w[row + R.SLOPE + j] = slope * own[FL.GR + j]
 
 
-@inlined
+@kernel
 def slide(p, lanes, race, w):
     """Take the circumferential velocity of the groove from the sliding along the track."""
     own = w[W.FLEX :]
@@ -209,7 +209,7 @@ def slide(p, lanes, race, w):
         w[row + R.UT + j] -= own[FL.VT + j]
 
 
-@inlined
+@kernel
 def groove_forces(p, c, lanes, race, w, own):
     """Gather forces and moment of the balls on one ring's groove into four rows; spare lanes put none."""
     balls = int(p[P.BALLS])
@@ -263,7 +263,7 @@ def mode_force(p, mode, lanes, own, at, turning):
     return sum_lanes(own, FL.VX, lanes), sum_lanes(own, FL.VR, lanes)
 
 
-@inlined
+@kernel
 def press_modes(p, c, lanes, race, w):
     """Generalised forces of the balls on the modes of one ring, from the forces in the rows of ``w``."""
     own = w[W.FLEX :]

@@ -2,7 +2,7 @@
 
 import math
 
-from fmu_bearing.engine.jit import inlined, kernel
+from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, splat, store
 from fmu_bearing.engine.layout import FOUR, P, W, X, Y
 from fmu_bearing.engine.mechanics.triples import cross, store_three
@@ -45,7 +45,7 @@ def seen(co, si, x, radius, ux, uy, uz, by, bz, nx):
     return qx, qr, qt, nr, nt, axial, rho, hx * inv, hr * inv, ht * inv
 
 
-@inlined
+@kernel
 def relative_pose(p, y, lanes, body, ux, uy, uz, by, bz, vx, vy, vz, spin, dby, dbz, w):
     """Ball centres and velocities relative to one body, in each ball's orbiting axes (x, r, theta).
 
@@ -89,7 +89,7 @@ def relative_pose(p, y, lanes, body, ux, uy, uz, by, bz, vx, vy, vz, spin, dby, 
         store_three(w, base + X.DW + j, (dwx, dwr, dwt))
 
 
-@inlined
+@kernel
 def bearing_angle(hr, ht):
     """Angle (rad) by which a direction leaves the ball's radial one: arctangent series, 1e-18 up to 4e-3."""
     a = ht / hr

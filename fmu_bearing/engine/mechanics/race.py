@@ -6,7 +6,7 @@ Velocities are those of the ball's surface against the race's.
 
 import math
 
-from fmu_bearing.engine.jit import inlined
+from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import consecutive, gather, load, select, splat, store, to_bits
 from fmu_bearing.engine.layout import FOUR, STRIDE, C, P, R, W, X, Y
 from fmu_bearing.engine.mechanics.pose import bearing_angle
@@ -16,7 +16,7 @@ from fmu_bearing.engine.mechanics.triples import added, along, dot, scaled, stor
 _PER_RADIAN = P.WAVE_INTERVALS / 6.283185307179586
 
 
-@inlined
+@kernel
 def waves(p, c, y_angle, lanes, race, turned, w):
     """Race height (m, towards the ball) and slope (m/rad) under each ball.
 
@@ -53,7 +53,7 @@ def waves(p, c, y_angle, lanes, race, turned, w):
         store(w, row + R.SLOPE + j, scale * _PER_RADIAN * (g0 + t * (2.0 * b + t * 3.0 * a)))
 
 
-@inlined
+@kernel
 def normal(p, c, y, lanes, race, w):
     """Contact direction, approach and its rate, load and sliding at the contact's middle."""
     row = W.RACE + race * R.SIZE
@@ -118,7 +118,7 @@ def normal(p, c, y, lanes, race, w):
         store(w, row + R.SCALE + j, slide_to_roll * math.sqrt(entrain * entrain + 1e-8) + slip_floor)
 
 
-@inlined
+@kernel
 def traction(p, lanes, race, w):
     """Traction of the strips over the major axis: forces along e_t and e_m and moments on the ball.
 
@@ -166,7 +166,7 @@ def traction(p, lanes, race, w):
         store(w, row + R.MM + j, moment_m)
 
 
-@inlined
+@kernel
 def rolling(p, c, lanes, race, w):
     """Hydrodynamic rolling moment (N m) about e_m, opposing the relative rolling of the two surfaces.
 
@@ -187,7 +187,7 @@ def rolling(p, c, lanes, race, w):
         store(w, row + R.ROLL + j, -size * turning / math.sqrt(turning * turning + 1.0))
 
 
-@inlined
+@kernel
 def collect(p, c, lanes, race, w):
     """Force and moment on each ball and the power lost in the contact; spare lanes lose none."""
     row = W.RACE + race * R.SIZE

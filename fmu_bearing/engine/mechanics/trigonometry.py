@@ -1,6 +1,6 @@
 """Sine and cosine of four balls' angles without a branch, and angles within one turn."""
 
-from fmu_bearing.engine.jit import inlined
+from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, select, store
 from fmu_bearing.engine.layout import FOUR, W
 from fmu_bearing.engine.mechanics.powers import ROUND
@@ -12,14 +12,14 @@ _HALF_PI_LOW = 6.077100506506192e-11
 TWO_PI = 6.283185307179586
 
 
-@inlined
+@kernel
 def wrap(angle):
     """Angle brought into [-pi, pi] (rad); exact to rounding for a few turns."""
     turns = (angle * (1.0 / TWO_PI) + ROUND) - ROUND
     return angle - turns * TWO_PI
 
 
-@inlined
+@kernel
 def cosine_and_sine(x):
     """Cosine and sine of four angles (rad, a few turns at most).
 
@@ -44,7 +44,7 @@ def cosine_and_sine(x):
     return cosine, select(quarter >= 2.0, -sine, sine)
 
 
-@inlined
+@kernel
 def ball_angles(angle, at, lanes, w):
     """Write cosine and sine of ``angle[at + j]`` (rad, a few turns at most) into their rows of ``w``."""
     for j in range(0, lanes, FOUR):

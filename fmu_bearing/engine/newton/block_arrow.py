@@ -7,7 +7,7 @@ since, which keeps an old Jacobian exact for equal ball loads and an isotropic p
 Everything that belongs to balls is done for four of them at a time.
 """
 
-from fmu_bearing.engine.jit import inlined, kernel
+from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import dot_six, in_groups, load, six, splat, store, store_six, sum_four
 from fmu_bearing.engine.layout import FOUR, MAX_BALLS, STRIDE, A, F, J, P, Q, W
 from fmu_bearing.engine.newton.springs import couple_springs, spring_matrix
@@ -80,13 +80,13 @@ def invert_border(a, at, n, w):
     return True
 
 
-@inlined
+@kernel
 def entry(jac, place, rate, cv, cx):
     """Four balls' entry of the Newton matrix off its diagonal, from the derivatives by place and by rate."""
     return -cv * load(jac, rate) - cx * load(jac, place)
 
 
-@inlined
+@kernel
 def rows_by_ball(jac, first, cv, cx, fac, to):
     """Entries of one acceleration for a ball's own six into ``fac[to:]``; ``first``: its row of B or D."""
     for k in range(J.BALL):
@@ -156,7 +156,7 @@ def factor(p, jac, cv, cx, cx_ball, fac, w):
     return fine
 
 
-@inlined
+@kernel
 def turn_pair(x, i, c, s):
     """Turn the vector ``(x[i], x[i + 1])`` by the angle of cosine ``c`` and sine ``s``."""
     y = x[i]
@@ -176,7 +176,7 @@ def turn_pairs(x, at, c, s):
     turn_pair(x, at + Q.CAGE + Q.BY, c, s)
 
 
-@inlined
+@kernel
 def times_six(fac, at, x):
     """Six by six entries at ``fac[at:]`` times six numbers of each of four balls."""
     step = A.SIX
@@ -190,7 +190,7 @@ def times_six(fac, at, x):
     )
 
 
-@inlined
+@kernel
 def less_scaled(t, column, x):
     """Six numbers of each ball less ``x`` times another six."""
     t0, t1, t2, t3, t4, t5 = t
@@ -198,7 +198,7 @@ def less_scaled(t, column, x):
     return t0 - c0 * x, t1 - c1 * x, t2 - c2 * x, t3 - c3 * x, t4 - c4 * x, t5 - c5 * x
 
 
-@inlined
+@kernel
 def border_product(fac, w, d):
     """Bodies' part of ``d`` from their residual in ``w``: S^-1 stands by columns of ``BORDER`` numbers."""
     for i in range(0, A.BORDER, FOUR):

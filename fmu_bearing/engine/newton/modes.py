@@ -9,7 +9,7 @@ equal ball loads.
 
 import math
 
-from fmu_bearing.engine.jit import inlined, kernel
+from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import in_groups
 from fmu_bearing.engine.layout import FL, FOUR, STRIDE, A, J, P, Q, W, Y
 from fmu_bearing.engine.mechanics.flexure import bends
@@ -158,19 +158,19 @@ def partner(p, k):
     return found
 
 
-@inlined
+@kernel
 def between(pushed, moved):
     """Return the place of one groove's inertia against the motion of one (0 inner, 1 outer ring)."""
     return (2 * pushed + moved) * FL.INERTIA
 
 
-@inlined
+@kernel
 def ring_factors(kept, modes, race):
     """Return what Newton's method keeps of one ring's groove and the balls, in the flexure's state."""
     return kept[FL.PER_MODE * modes + race * FL.FACTOR_ROWS * STRIDE :]
 
 
-@inlined
+@kernel
 def inverse_of_modes(kept, modes):
     """Return the modes' inverse, behind what is kept of both rings."""
     return kept[FL.PER_MODE * modes + 2 * FL.FACTOR_ROWS * STRIDE :]

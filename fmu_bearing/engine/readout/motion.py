@@ -6,7 +6,7 @@ weights.
 """
 
 from fmu_bearing.engine.choices import VECTORS
-from fmu_bearing.engine.jit import inlined, kernel
+from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
 from fmu_bearing.engine.layout import FL, FOUR, MO, SD, STRIDE, F, P, Q, S, W, Y
 from fmu_bearing.engine.mechanics.flexure import flexure_state
@@ -28,7 +28,7 @@ def rate_weights(h, t):
     return 6.0 * t * u / h, u * (1.0 - 3.0 * t), t * (3.0 * t - 2.0)
 
 
-@inlined
+@kernel
 def blend(change, first, last, v0, a0, v1, a1):
     """Sum over change and rates of one number, from ``v0`` and ``a0`` to ``v1`` and ``a1``."""
     return change * (v1 - v0) + (first * a0 + last * a1)

@@ -1,10 +1,10 @@
 """One section of second order, on lanes side by side: high-pass and A-weighting."""
 
-from fmu_bearing.engine.jit import inlined
+from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SD
 
 
-@inlined
+@kernel
 def filter_section(ps, at, ss, state, x, n):
     """Filter the ``n`` signals ``x`` in place; numbers at ``ps[at:]``, states at ``ss[state:]``.
 

@@ -11,7 +11,7 @@ renewal costs some 30 evaluations of the full right-hand side with its Jacobian.
 """
 
 from fmu_bearing.engine.choices import INNER_CONTROL, OUTER_CONTROL
-from fmu_bearing.engine.jit import inlined, kernel
+from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import EQ, STRIDE, C, F, L, P, Q, S, T, W, Y
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.mechanics.equations import right_hand_side
@@ -23,7 +23,7 @@ from fmu_bearing.engine.status import OK
 _STANDSTILL = 1.0  # rad/s: slower shafts are given the ratios of this speed
 
 
-@inlined
+@kernel
 def quasistatic_point(p, c, speed, y, w):
     """State ``y`` at the quasi-static point under the axial load in ``c``; orbit times spin r there.
 

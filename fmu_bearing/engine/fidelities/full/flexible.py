@@ -7,14 +7,14 @@ and bodies stay as they are; ``newton.modes`` tells how both go together.
 import math
 
 from fmu_bearing.engine.fidelities.full.methods.table import TABLEAUX
-from fmu_bearing.engine.jit import inlined, kernel
+from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import consecutive, dot_six, select, six, store
 from fmu_bearing.engine.layout import FL, FOUR, STRIDE, TAB, J, P, W
 from fmu_bearing.engine.mechanics.flexure import bends, mode_force
 from fmu_bearing.engine.newton.modes import inverse_of_modes, partner, ring_factors
 
 
-@inlined
+@kernel
 def groove_residual(rows, d, lanes, balls, own):
     """Force rows that the balls' residual ``d`` puts on the groove once the balls have answered."""
     for axis in range(FL.GROOVE):
@@ -26,7 +26,7 @@ def groove_residual(rows, d, lanes, balls, own):
             store(own, out + j, select(consecutive(j) < balls, force, 0.0))
 
 
-@inlined
+@kernel
 def ball_residual(rows, d, lanes, own):
     """Take from the balls' residual ``d`` what the groove's increment in three rows of ``own`` does."""
     for i in range(J.BALL):

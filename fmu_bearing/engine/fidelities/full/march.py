@@ -5,7 +5,7 @@ from fmu_bearing.engine.fidelities import steps
 from fmu_bearing.engine.fidelities.full.methods.table import AT_ESDIRK4, AT_RK4, AT_TRBDF2, TABLEAUX
 from fmu_bearing.engine.fidelities.full.progress import accept, renew_jacobian, total_energy
 from fmu_bearing.engine.fidelities.full.runge_kutta import integrate_power, runge_kutta_step
-from fmu_bearing.engine.jit import inlined
+from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import TAB, C, F, P, S, U, W, Y
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.mechanics.flexure import flexure_state
@@ -24,7 +24,7 @@ _SAME_STEP = (0.87, 1.15)
 _SLOW = 0.3  # contraction beyond which a new Jacobian pays: three iterations against two
 
 
-@inlined
+@kernel
 def take_inputs(p, u, s, w, h):
     """Set conditions and speed ramp; what a jump of a held input does to stored energy counts as work."""
     rate = (u[U.SPEED] - s[S.SPEED]) / h
@@ -47,7 +47,7 @@ def take_inputs(p, u, s, w, h):
         total_energy(p, s, w)
 
 
-@inlined
+@kernel
 def try_step(p, s, w, h, tableau, tolerance):
     """One attempt of length ``h`` with Jacobian and factors kept as long as they serve.
 
@@ -89,7 +89,7 @@ def try_step(p, s, w, h, tableau, tolerance):
     return -1.0
 
 
-@inlined
+@kernel
 def march(p, u, s, w, h):
     """Advance the state by the communication step ``h`` (s); status code."""
     steps.begin_heats(s)

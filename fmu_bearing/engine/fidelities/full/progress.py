@@ -3,7 +3,7 @@
 from fmu_bearing.engine.fidelities.full.flexible import accept_modes
 from fmu_bearing.engine.fidelities.full.vectors import copy_rows
 from fmu_bearing.engine.fidelities.steps import advance_clock
-from fmu_bearing.engine.jit import inlined, kernel
+from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import STRIDE, C, F, P, Q, S, W, Y
 from fmu_bearing.engine.mechanics.ball_waves import advance_axes, turn_axes
 from fmu_bearing.engine.mechanics.energy import stored_energy
@@ -25,7 +25,7 @@ def show_axes(p, s, w):
     show_flexure(p, s, w)
 
 
-@inlined
+@kernel
 def total_energy(p, s, w):
     """Return the stored energy (J) of the state in ``s``; refresh its right-hand side on the way."""
     show_axes(p, s, w)
@@ -49,7 +49,7 @@ def wrap_angles(y):
     y[cage] = wrap(y[cage])
 
 
-@inlined
+@kernel
 def renew_jacobian(p, s, w):
     """Jacobian at the present state; marks the factors as out of date."""
     show_axes(p, s, w)

@@ -11,7 +11,7 @@ from fmu_bearing.engine.fidelities.full import flexible
 from fmu_bearing.engine.fidelities.full.methods.table import TABLEAUX
 from fmu_bearing.engine.fidelities.full.norms import body_size, newton_size, row_size
 from fmu_bearing.engine.fidelities.full.vectors import add_scaled, copy_rows, sum_scaled
-from fmu_bearing.engine.jit import inlined, kernel
+from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
 from fmu_bearing.engine.layout import FOUR, STRIDE, TAB, F, P, Q, W, Y
 from fmu_bearing.engine.mechanics.ball_waves import turn_axes
@@ -44,7 +44,7 @@ def error_size(p, c, h, tableau, w):
     return math.sqrt(body_size(p, d, F.BODY) + 0.01 * row_size(d, F.X, 2, int(p[P.LANES])))
 
 
-@inlined
+@kernel
 def predict_balls(y, lanes, h, gh, stage, tableau, w):
     """Rows of a stage's state from the stages before, and of its first guess: the accelerations before it."""
     here = W.ACC + stage * F.SIZE
@@ -65,7 +65,7 @@ def predict_balls(y, lanes, h, gh, stage, tableau, w):
             store(w, W.STAGE + k, place + gh * load(w, W.STAGE + Y.VX + k))
 
 
-@inlined
+@kernel
 def predict_bodies(y, h, gh, stage, tableau, w):
     """Do for the bodies what :func:`predict_balls` does for the balls."""
     here = W.ACC + stage * F.SIZE

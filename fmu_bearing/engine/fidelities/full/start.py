@@ -6,7 +6,7 @@ and spin.
 
 from fmu_bearing.engine.fidelities.full.progress import show_axes, total_energy
 from fmu_bearing.engine.fidelities.full.settle import settle
-from fmu_bearing.engine.jit import inlined
+from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import EQ, C, F, P, Q, S, U, W, Y
 from fmu_bearing.engine.mechanics.ball_waves import first_axes
 from fmu_bearing.engine.mechanics.conditions import conditions
@@ -19,7 +19,7 @@ from fmu_bearing.engine.status import OK, TOO_SOFT
 _FAR = 0.3  # of the pitch radius: beyond it the angles of pockets and waves, series in it, lose a micrometre
 
 
-@inlined
+@kernel
 def start(p, u, s, w, t):
     """Fill the state ``s`` for the inputs ``u`` at time ``t`` (s); status code."""
     for i in range(s.size):

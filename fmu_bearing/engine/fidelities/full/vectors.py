@@ -1,17 +1,17 @@
 """Sums of scaled vectors, and copies of rows."""
 
-from fmu_bearing.engine.jit import inlined
+from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
 from fmu_bearing.engine.layout import FOUR, STRIDE
 
 
-@inlined
+@kernel
 def whole(n):
     """Return how many of ``n`` numbers make up whole groups of four."""
     return n - n % FOUR
 
 
-@inlined
+@kernel
 def add_scaled(scale, x, y, n):
     """``y += scale * x`` over ``n`` numbers."""
     for i in range(0, whole(n), FOUR):
@@ -20,7 +20,7 @@ def add_scaled(scale, x, y, n):
         y[i] += scale * x[i]
 
 
-@inlined
+@kernel
 def sum_scaled(x, scale, y, out, n):
     """``out = x + scale * y`` over ``n`` numbers."""
     for i in range(0, whole(n), FOUR):
@@ -29,7 +29,7 @@ def sum_scaled(x, scale, y, out, n):
         out[i] = x[i] + scale * y[i]
 
 
-@inlined
+@kernel
 def copy_rows(x, out, rows, lanes):
     """``out = x`` over the first ``lanes`` of each of some rows."""
     for row in range(0, rows * STRIDE, STRIDE):

@@ -28,7 +28,7 @@ from fmu_bearing.engine.fidelities.condensed.shared import (
 )
 from fmu_bearing.engine.fidelities.response.lines import order_amplitudes, renew_lines
 from fmu_bearing.engine.fidelities.steps import begin_heats, mean_heats
-from fmu_bearing.engine.jit import inlined, kernel
+from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import STRIDE, C, F, L, P, S, T, U, W, Y
 from fmu_bearing.engine.status import NO_START, NOT_CONVERGED, OK
 
@@ -64,7 +64,7 @@ def still(p, c, lv, w):
     flat(p, c, lv, w)
 
 
-@inlined
+@kernel
 def start_response(p, u, s, w, t):
     """Fill the state ``s`` for the inputs ``u`` at time ``t`` (s); status code."""
     status = start_condensed(p, u, s, w, t)
@@ -82,7 +82,7 @@ def start_response(p, u, s, w, t):
     return OK
 
 
-@inlined
+@kernel
 def renew_equilibrium(p, u, s, w):
     """Renew held values, equilibrium from the old one, and lines for the speed to come; status code.
 
@@ -199,7 +199,7 @@ def show(p, s, w):
     publish(p, lv, s[S.SPEED], s[S.SPEED_RATE], False, s[S.Y : S.Y + Y.SIZE], s[S.F : S.F + F.SIZE])
 
 
-@inlined
+@kernel
 def march_response(p, u, s, w, h):
     """Advance the state by the communication step ``h`` (s); status code."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]

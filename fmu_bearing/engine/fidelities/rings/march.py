@@ -21,7 +21,7 @@ from fmu_bearing.engine.fidelities.condensed.publish import publish
 from fmu_bearing.engine.fidelities.condensed.rows import keep_balls, show_balls
 from fmu_bearing.engine.fidelities.condensed.shared import advance, emit, set_inputs, start_condensed
 from fmu_bearing.engine.fidelities.rings.predictor import change_spacing, predict
-from fmu_bearing.engine.jit import inlined, kernel
+from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import STRIDE, C, F, L, P, S, T, U, W, Y
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 from fmu_bearing.engine.newton.jacobian import is_angle
@@ -52,7 +52,7 @@ def longest_step(p, lv, speed):
     return min(h, _WAVE / (lv[L.ORDER] * fastest + 1.0))
 
 
-@inlined
+@kernel
 def start_rings(p, u, s, w, t):
     """Fill the state ``s`` for the inputs ``u`` at time ``t`` (s); status code."""
     status = start_condensed(p, u, s, w, t)
@@ -111,7 +111,7 @@ def renew(p, s, w):
     return True
 
 
-@inlined
+@kernel
 def take_inputs(p, u, s, w, h):
     """Set conditions and speed ramp; renew what is held where it is out of date. Status code."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
@@ -238,7 +238,7 @@ def accept(p, s, h, w):
     lv[L.THETA] = wrap(lv[L.THETA] + lv[L.RATIO] * turned)
 
 
-@inlined
+@kernel
 def try_step(p, s, h, tolerance, w):
     """One attempt of length ``h``: its error over the allowed one, or -1 with a fresh Jacobian in vain."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
@@ -260,7 +260,7 @@ def try_step(p, s, h, tolerance, w):
     return -1.0
 
 
-@inlined
+@kernel
 def march_rings(p, u, s, w, h):
     """Advance the state by the communication step ``h`` (s); status code."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]

@@ -7,7 +7,8 @@ from scipy.optimize import root
 
 from fmu_bearing.compiled import call
 from fmu_bearing.engine.constants import GRAVITY
-from fmu_bearing.engine.layout import STRIDE, C, L, P, S, U, Y, Z
+from fmu_bearing.engine.fidelities.condensed.balls import stand
+from fmu_bearing.engine.layout import STRIDE, C, L, P, S, T, U, Y, Z
 from fmu_bearing.engine.status import NO_START, NOT_CONVERGED, OK
 from tests.engine.helpers import RPM, Run, quiet
 
@@ -256,6 +257,28 @@ class Slow:
             + [P.OUTER_TRANSVERSE] * 2
         ]
         return np.linalg.solve(self.matrix(L.MASS), f / own + self.matrix(L.EXTRA) @ v)
+
+
+@pytest.mark.parametrize("theta", [-3.0, 0.0, 1e-9, 2.7])
+def test_race_heights_are_those_of_the_tables_cubics(scene, theta):
+    run = Run(silent(scene("7009C-full-ceramic")), 18000, FIDELITY=1.0).init()
+    slow, lv, w = Slow(run), block(run), run.w
+    inner, outer, speed = 2.2, -1e-3, 1885.0
+    stand(run.p, run.s[S.C : S.C + C.SIZE], lv, theta, inner, outer, speed, w)
+    for j in range(slow.balls):
+        angle = theta + 2 * np.pi * j / slow.balls
+        # angles are rounded at 1e-15 rad, the steepest slope is some 1e-5 m/rad
+        assert w[T.COS + j] == pytest.approx(np.cos(angle), abs=1e-14)
+        assert w[T.SIN + j] == pytest.approx(np.sin(angle), abs=1e-14)
+        size = 0.5 * run.p[int(run.p[P.AT_OVERSIZE]) + j]
+        orbit = lv[L.RATIO] * speed
+        for race, (turned, rate) in enumerate(((inner, orbit - speed), (outer, orbit))):
+            row = race * STRIDE + j
+            height = size + slow.height(race, angle - turned)
+            assert w[T.INNER + row] == pytest.approx(height, abs=1e-18)
+            bend = slow.height(race, angle - turned, 2) * rate**2
+            # a cubic's second derivative changes by a few times itself over one of 2048 intervals
+            assert w[T.BEND + row] == pytest.approx(bend, rel=1e-9, abs=1e-9)
 
 
 @pytest.mark.heavy

@@ -18,6 +18,22 @@ MY = _force(STRIDE)  # N m
 MZ = _force(STRIDE)
 FORCE_SIZE = _force.next
 
+# contact of the balls with one race: rows
+_contact = Places()
+QX = _contact(STRIDE)  # m: ball from the ring's centre, in its orbiting axes
+QR = _contact(STRIDE)
+QT = _contact(STRIDE)
+LOAD = _contact(STRIDE)  # N
+STIFF = _contact(STRIDE)  # N/m: along the contact,
+ACROSS = _contact(STRIDE)  # and across the track
+EX = _contact(STRIDE)  # direction from the ball into the race
+ER = _contact(STRIDE)
+ET = _contact(STRIDE)
+MX = _contact(STRIDE)  # direction across the track
+MR = _contact(STRIDE)
+MT = _contact(STRIDE)
+CONTACT_SIZE = _contact.next
+
 _at = Places()
 COS = _at(STRIDE)  # of the balls' angles
 SIN = _at(STRIDE)
@@ -29,10 +45,14 @@ STEP = _at(STRIDE)  # m2: a ball's move in the last sweep, squared, as far as it
 MOVED = _at(STRIDE)  # m2: all of it
 FORCE = _at(2 * FORCE_SIZE)  # on inner ring, then on outer ring: one row per component, see L.FORCES
 BEND = _at(2 * STRIDE)  # m/s2: second time derivative of the race heights, inner and outer
+CONTACT = _at(2 * CONTACT_SIZE)  # with inner race, then with outer race
+DX = _at(STRIDE)  # m: a ball's move in the last sweep
+DR = _at(STRIDE)
 ROWS = _at.next
 
 FORCE_OUTER = FORCE + FORCE_SIZE
 BEND_OUTER = BEND + STRIDE
+CONTACT_OUTER = CONTACT + CONTACT_SIZE
 
 # trial numbers of a step
 _at = Places(_W.TRIAL)

@@ -16,23 +16,24 @@ times their rates, which is how the kernels below are called; waviness is advanc
 
 import math
 
-import numpy as np
-
 from fmu_bearing.engine.constants import GRAVITY, PI
 from fmu_bearing.engine.dense import times
 from fmu_bearing.engine.fidelities.condensed.rows import coordinate
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.lanes import sum_lanes
+from fmu_bearing.engine.lanes import gather, load, select, store, sum_four, sum_lanes, to_bits
 from fmu_bearing.engine.layout import FOUR, STRIDE, C, F, L, P, Q, T, W, Y
 from fmu_bearing.engine.mechanics.bodies import inner_ring, outer_ring
 from fmu_bearing.engine.mechanics.pose import axis_cosine, seen
+from fmu_bearing.engine.mechanics.powers import ROUND
 
 _PER_RADIAN = P.WAVE_INTERVALS / (2.0 * PI)  # table intervals
+_WITHIN = P.WAVE_INTERVALS - 1  # low bits of a place in the table
 _FLOOR = 1e3  # N/m: keeps a ball without contact from being thrown far; 1e-5 of a loaded contact
 _LONGEST = 2e-6  # m: move of a ball in one sweep, about the approach of a loaded contact
-# Sum over the balls of squared moves (m2) below which the first-order forces serve: 9 nm each, whose second
-# order is 9 nm squared over four approaches of 1.5 um, or 1e-11 m of ring motion, 1e-4 of what it vibrates.
-_CLOSE = 1e-15
+# Sum over the balls of squared moves (m2) below which the first-order forces serve: 18 nm each, whose second
+# order is 18 nm squared over four approaches of 1.5 um, or 5e-11 m of ring motion, at frequencies above those
+# the rings answer to: on the gate scenes 1e-16 makes no smaller error.
+_CLOSE = 4e-15
 _SWEEPS = 30  # at most
 _LAST = FOUR - 1  # of four lanes
 _SOFT = 1e6  # N/m: moves count as if against this stiffness at most; loaded contacts have 1e8
@@ -49,16 +50,16 @@ def stand(p, c, lv, theta, inner_angle, outer_angle, speed, w):
     c0 = math.cos(theta)
     s0 = math.sin(theta)
     scale = c[C.OVERSIZE_SCALE]
-    for j in range(lanes):
-        co = lv[L.COS + j]
-        si = lv[L.SIN + j]
-        size = scale * lv[L.SIZES + j]
-        w[T.COS + j] = c0 * co - s0 * si
-        w[T.SIN + j] = s0 * co + c0 * si
-        w[T.INNER + j] = size
-        w[T.OUTER + j] = size
-        w[T.BEND + j] = 0.0
-        w[T.BEND_OUTER + j] = 0.0
+    for j in range(0, lanes, FOUR):
+        co = load(lv, L.COS + j)
+        si = load(lv, L.SIN + j)
+        size = scale * load(lv, L.SIZES + j)
+        store(w, T.COS + j, c0 * co - s0 * si)
+        store(w, T.SIN + j, s0 * co + c0 * si)
+        store(w, T.INNER + j, size)
+        store(w, T.OUTER + j, size)
+        store(w, T.BEND + j, 0.0)
+        store(w, T.BEND_OUTER + j, 0.0)
     if p[P.WAVINESS] == 0.0 or scale == 0.0:
         return
     for race in range(2):
@@ -68,132 +69,182 @@ def stand(p, c, lv, theta, inner_angle, outer_angle, speed, w):
         bend = T.BEND + race * STRIDE
         rate = (lv[L.RATIO] - (1.0 if race == 0 else 0.0)) * speed * _PER_RADIAN
         scale2 = 2.0 * scale * rate * rate
-        for j in range(lanes):
-            place = start + lv[L.PHI + j]
-            floor = math.floor(place)
-            t = place - floor
-            # 32-bit integers: conversion and gathered loads are then vector instructions
-            whole = np.int32(floor)
-            i0 = 2 * (whole & np.int32(P.WAVE_INTERVALS - 1))
-            i1 = 2 * ((whole + np.int32(1)) & np.int32(P.WAVE_INTERVALS - 1))
-            h0 = p[table + i0]
-            g0 = p[table + i0 + 1]
-            h1 = p[table + i1]
-            g1 = p[table + i1 + 1]
-            d = h1 - h0
+        for j in range(0, lanes, FOUR):
+            place = start + load(lv, L.PHI + j)
+            # adding ROUND leaves the whole part in the low bits; beside a whole number either one will do
+            shifted = place - 0.5 + ROUND
+            t = place - (shifted - ROUND)
+            whole = to_bits(shifted)
+            one = (whole & _WITHIN) << 1
+            two = (whole + 1 & _WITHIN) << 1
+            h0 = gather(p, table, one)
+            g0 = gather(p, table + 1, one)
+            d = gather(p, table, two) - h0
+            g1 = gather(p, table + 1, two)
             a = g0 + g1 - 2.0 * d
             b = 3.0 * d - 2.0 * g0 - g1
-            w[row + j] += scale * (h0 + t * (g0 + t * (b + t * a)))
-            w[bend + j] = scale2 * (b + 3.0 * t * a)
+            store(w, row + j, load(w, row + j) + scale * (h0 + t * (g0 + t * (b + t * a))))
+            store(w, bend + j, scale2 * (b + 3.0 * t * a))
 
 
 @kernel
-def pressed_by(hertz, free, height, sx, sr):
-    """Load (N), stiffness along and across (N/m), sine and cosine of the contact angle."""
-    distance = math.sqrt(sx * sx + sr * sr)
-    per = 1.0 / distance
-    approach = max(distance - free + height, 0.0)
-    root = math.sqrt(approach)
-    load = hertz * root * approach
-    return load, 1.5 * hertz * root, load * per, sx * per, sr * per
+def touch(hertz, groove_x, groove_r, free, pitch, ux, uy, uz, by, bz, lanes, heights, row, w):
+    """Write the contacts of all balls with one race into its rows from ``row`` on, see ``T.CONTACT``.
+
+    ``u``: the ring's displacement (m), ``by``, ``bz``: its tilts (rad), both advanced by tau; ``heights``:
+    row of the race's heights.
+    """
+    nx = axis_cosine(by, bz)
+    for j in range(0, lanes, FOUR):
+        x = load(w, T.X + j)
+        radius = pitch + load(w, T.R + j)
+        qx, qr, qt, nr, nt, axial, rho, hx, hr, ht = seen(
+            load(w, T.COS + j), load(w, T.SIN + j), x, radius, ux, uy, uz, by, bz, nx
+        )
+        sx = axial - groove_x
+        sr = rho - groove_r
+        distance = math.sqrt(sx * sx + sr * sr)
+        per = 1.0 / distance
+        approach = max(distance - free + load(w, heights + j), 0.0)
+        root = math.sqrt(approach)
+        pressed = hertz * root * approach
+        sa = sx * per
+        ca = sr * per
+        at = row + j
+        store(w, at + T.QX, qx)
+        store(w, at + T.QR, qr)
+        store(w, at + T.QT, qt)
+        store(w, at + T.LOAD, pressed)
+        store(w, at + T.STIFF, 1.5 * hertz * root)
+        store(w, at + T.ACROSS, pressed * per)
+        store(w, at + T.EX, sa * nx + ca * hx)
+        store(w, at + T.ER, sa * nr + ca * hr)
+        store(w, at + T.ET, sa * nt + ca * ht)
+        store(w, at + T.MX, ca * nx - sa * hx)
+        store(w, at + T.MR, ca * nr - sa * hr)
+        store(w, at + T.MT, ca * nt - sa * ht)
+
+
+@kernel
+def balance(p, lv, speed, w):
+    """Move every ball by one Newton step towards its rest, from the contacts in ``T.CONTACT``.
+
+    Writes the moves ``T.DX``, ``T.DR`` and their squares, the new places and the forces that the contacts
+    have there.
+    """
+    mass = p[P.BALL_MASS]
+    orbit = lv[L.RATIO] * speed
+    pull = mass * orbit * orbit
+    weight = GRAVITY * mass if p[P.GRAVITY] != 0.0 else 0.0
+    pair_i = lv[L.PAIR_INNER] * speed * speed
+    pair_o = lv[L.PAIR_OUTER] * speed * speed
+    for j in range(0, int(p[P.LANES]), FOUR):
+        i = T.CONTACT + j
+        o = T.CONTACT_OUTER + j
+        load_i, kn, kt = load(w, i + T.LOAD), load(w, i + T.STIFF), load(w, i + T.ACROSS)
+        ex, er, mx, mr = load(w, i + T.EX), load(w, i + T.ER), load(w, i + T.MX), load(w, i + T.MR)
+        load_o, kn2, kt2 = load(w, o + T.LOAD), load(w, o + T.STIFF), load(w, o + T.ACROSS)
+        fx, fr, tx, tr = load(w, o + T.EX), load(w, o + T.ER), load(w, o + T.MX), load(w, o + T.MR)
+        x = load(w, T.X + j)
+        r = load(w, T.R + j)
+        # net force on the ball and its stiffness
+        netx = -load_i * ex - pair_i * mx - load_o * fx - pair_o * tx
+        netr = -load_i * er - pair_i * mr - load_o * fr - pair_o * tr
+        netr += pull * (p[P.PITCH_RADIUS] + r) - weight * load(w, T.COS + j)
+        kxx = kn * ex * ex + kt * mx * mx + kn2 * fx * fx + kt2 * tx * tx + _FLOOR
+        kxr = kn * ex * er + kt * mx * mr + kn2 * fx * fr + kt2 * tx * tr
+        krr = kn * er * er + kt * mr * mr + kn2 * fr * fr + kt2 * tr * tr + _FLOOR
+        # waves push the ball away from their race; the ball's inertia resists
+        # (not where a contact carries less than about 1 N: with a jump there, balls would find no rest)
+        square_i = load_i * load_i
+        square_o = load_o * load_o
+        both = 1.0 / ((square_i + 1.0) * (square_o + 1.0))
+        pushed_i = kn * load(w, T.BEND + j) * (square_i * (square_o + 1.0) * both)
+        pushed_o = kn2 * load(w, T.BEND_OUTER + j) * (square_o * (square_i + 1.0) * both)
+        bx = pushed_i * ex + pushed_o * fx
+        br = pushed_i * er + pushed_o * fr
+        per = 1.0 / (kxx * krr - kxr * kxr)
+        netx += mass * (bx * krr - br * kxr) * per
+        netr += mass * (br * kxx - bx * kxr) * per
+        dx = (netx * krr - netr * kxr) * per
+        dr = (netr * kxx - netx * kxr) * per
+        moved = dx * dx + dr * dr
+        if not (sum_four(moved) <= _LONGEST * _LONGEST):
+            share = min(1.0, _LONGEST / (math.sqrt(moved) + 1e-300))
+            dx *= share
+            dr *= share
+            moved = dx * dx + dr * dr
+        store(w, T.X + j, x + dx)
+        store(w, T.R + j, r + dr)
+        store(w, T.DX + j, dx)
+        store(w, T.DR + j, dr)
+        # a ball that touches neither race goes towards one, but nothing waits for it
+        touching = select(load_i + load_o > 0.0, load(lv, L.MASK + j), 0.0)
+        # one that barely touches moves far for forces that nobody feels: 3e-8 m times _SOFT is 0.03 N
+        felt = (netx * netx + netr * netr) * (1.0 / (_SOFT * _SOFT))
+        store(w, T.MOVED + j, moved)
+        store(w, T.STEP + j, touching * min(moved, felt))
+
+
+@kernel
+def push(lv, lanes, pair, row, force, w):
+    """Write forces and moments of the moved balls on one ring into its rows from ``force`` on.
+
+    ``pair``: friction (N) across the track; ``row``: of the contacts with the ring.
+    """
+    for j in range(0, lanes, FOUR):
+        at = row + j
+        co = load(w, T.COS + j)
+        si = load(w, T.SIN + j)
+        dx = load(w, T.DX + j)
+        dr = load(w, T.DR + j)
+        mask = load(lv, L.MASK + j)
+        ex, er, et = load(w, at + T.EX), load(w, at + T.ER), load(w, at + T.ET)
+        mx, mr, mt = load(w, at + T.MX), load(w, at + T.MR), load(w, at + T.MT)
+        qx = load(w, at + T.QX) + dx
+        qr = load(w, at + T.QR) + dr
+        qt = load(w, at + T.QT)
+        along = mask * (load(w, at + T.LOAD) + load(w, at + T.STIFF) * (ex * dx + er * dr))
+        across = mask * (pair + load(w, at + T.ACROSS) * (mx * dx + mr * dr))
+        fx = along * ex + across * mx
+        fr = along * er + across * mr
+        ft = along * et + across * mt
+        gr = qt * fx - qx * ft
+        gt = qx * fr - qr * fx
+        into = force + j
+        store(w, into + T.FX, fx)
+        store(w, into + T.FY, -si * fr - co * ft)
+        store(w, into + T.FZ, co * fr - si * ft)
+        store(w, into + T.MY, -si * gr - co * gt)
+        store(w, into + T.MZ, co * gr - si * gt)
 
 
 @kernel
 def sweep(p, c, lv, speed, q, w):
-    """Move every ball by one Newton step and write the forces on the rings; one vector loop.
+    """Move every ball by one Newton step and write the forces on the rings, four balls at a time.
 
     ``q``: the rings' ``L.N`` displacements (advanced by tau, see above); the balls' places stand in the rows
     ``T.X``, ``T.R`` of ``w`` and are moved; rows ``T.FORCE`` on take forces and moments, ``T.STEP`` the
-    squares of the moves that matter, ``T.MOVED`` of all.
+    squares of the moves that matter, ``T.MOVED`` of all. Each loop is short: one ball's roots and divisions
+    wait for each other, and the processor fills the time with the next balls only if it sees them.
     """
     lanes = int(p[P.LANES])
     pitch = p[P.PITCH_RADIUS]
-    ux, uy, uz, uby, ubz = q[Q.X], q[Q.Y], q[Q.Z], q[Q.INNER_BY], q[Q.INNER_BZ]
+    i = C.RACES
+    touch(
+        p[P.RACES + P.RACE_STIFFNESS], c[i + C.GROOVE_X], c[i + C.GROOVE_RADIUS], c[i + C.FREE], pitch,
+        q[Q.X], q[Q.Y], q[Q.Z], q[Q.INNER_BY], q[Q.INNER_BZ], lanes, T.INNER, T.CONTACT, w,
+    )  # fmt: skip
+    i = C.RACES + C.RACE_SIZE
     o = Q.OUTER
-    vx, vy, vz, vby, vbz = q[o + Q.X], q[o + Q.Y], q[o + Q.Z], q[o + Q.BY], q[o + Q.BZ]
-    un = axis_cosine(uby, ubz)
-    vn = axis_cosine(vby, vbz)
-    hertz_i = p[P.RACES + P.RACE_STIFFNESS]
-    hertz_o = p[P.RACES + P.RACE_SIZE + P.RACE_STIFFNESS]
-    one = C.RACES
-    gx_i, gr_i, free_i = c[one + C.GROOVE_X], c[one + C.GROOVE_RADIUS], c[one + C.FREE]
-    two = C.RACES + C.RACE_SIZE
-    gx_o, gr_o, free_o = c[two + C.GROOVE_X], c[two + C.GROOVE_RADIUS], c[two + C.FREE]
-    pair_i = lv[L.PAIR_INNER] * speed * speed
-    pair_o = lv[L.PAIR_OUTER] * speed * speed
-    orbit = lv[L.RATIO] * speed
-    mass = p[P.BALL_MASS]
-    pull = mass * orbit * orbit
-    weight = GRAVITY * p[P.BALL_MASS] if p[P.GRAVITY] != 0.0 else 0.0
-    for j in range(lanes):
-        co = w[T.COS + j]
-        si = w[T.SIN + j]
-        x = w[T.X + j]
-        r = w[T.R + j]
-        radius = pitch + r
-        qx, qr, qt, nr, nt, axial, rho, hx, hr, ht = seen(co, si, x, radius, ux, uy, uz, uby, ubz, un)
-        load, kn, kt, sa, ca = pressed_by(hertz_i, free_i, w[T.INNER + j], axial - gx_i, rho - gr_i)
-        ex, er, et = sa * un + ca * hx, sa * nr + ca * hr, sa * nt + ca * ht
-        mx, mr, mt = ca * un - sa * hx, ca * nr - sa * hr, ca * nt - sa * ht
-        px, pr, pt, lr, lt, axial2, rho2, kx, kr, k_t = seen(co, si, x, radius, vx, vy, vz, vby, vbz, vn)
-        load2, kn2, kt2, sa2, ca2 = pressed_by(hertz_o, free_o, w[T.OUTER + j], axial2 - gx_o, rho2 - gr_o)
-        fx, fr, ft = sa2 * vn + ca2 * kx, sa2 * lr + ca2 * kr, sa2 * lt + ca2 * k_t
-        tx, tr, tt = ca2 * vn - sa2 * kx, ca2 * lr - sa2 * kr, ca2 * lt - sa2 * k_t
-        # net force on the ball and its stiffness
-        netx = -load * ex - pair_i * mx - load2 * fx - pair_o * tx
-        netr = -load * er - pair_i * mr - load2 * fr - pair_o * tr + pull * radius - weight * co
-        kxx = kn * ex * ex + kt * mx * mx + kn2 * fx * fx + kt2 * tx * tx + _FLOOR
-        kxr = kn * ex * er + kt * mx * mr + kn2 * fx * fr + kt2 * tx * tr
-        krr = kn * er * er + kt * mr * mr + kn2 * fr * fr + kt2 * tr * tr + _FLOOR
-        per = 1.0 / (kxx * krr - kxr * kxr)
-        # waves push the ball away from their race; the ball's inertia resists
-        # (not where a contact carries less than about 1 N: with a jump there, balls would find no rest)
-        pushed_i = kn * w[T.BEND + j] * (load * load / (load * load + 1.0))
-        pushed_o = kn2 * w[T.BEND_OUTER + j] * (load2 * load2 / (load2 * load2 + 1.0))
-        bx0 = pushed_i * ex + pushed_o * fx
-        br0 = pushed_i * er + pushed_o * fr
-        netx += mass * (bx0 * krr - br0 * kxr) * per
-        netr += mass * (br0 * kxx - bx0 * kxr) * per
-        dx = (netx * krr - netr * kxr) * per
-        dr = (netr * kxx - netx * kxr) * per
-        length = math.sqrt(dx * dx + dr * dr)
-        share = min(1.0, _LONGEST / (length + 1e-300))
-        dx *= share
-        dr *= share
-        w[T.X + j] = x + dx
-        w[T.R + j] = r + dr
-        mask = lv[L.MASK + j]
-        # a ball that touches neither race goes towards one, but nothing waits for it
-        touching = mask if load + load2 > 0.0 else 0.0
-        # one that barely touches moves far for forces that nobody feels: 3e-8 m times _SOFT is 0.03 N
-        felt = (netx * netx + netr * netr) * (1.0 / (_SOFT * _SOFT))
-        w[T.MOVED + j] = dx * dx + dr * dr
-        w[T.STEP + j] = touching * min(dx * dx + dr * dr, felt)
-        # on the inner ring, at the moved ball
-        along = load + kn * (ex * dx + er * dr)
-        across = pair_i + kt * (mx * dx + mr * dr)
-        ax = mask * (along * ex + across * mx)
-        ar = mask * (along * er + across * mr)
-        at = mask * (along * et + across * mt)
-        gr = qt * ax - (qx + dx) * at
-        gt = (qx + dx) * ar - (qr + dr) * ax
-        w[T.FORCE + T.FX + j] = ax
-        w[T.FORCE + T.FY + j] = -si * ar - co * at
-        w[T.FORCE + T.FZ + j] = co * ar - si * at
-        w[T.FORCE + T.MY + j] = -si * gr - co * gt
-        w[T.FORCE + T.MZ + j] = co * gr - si * gt
-        along2 = load2 + kn2 * (fx * dx + fr * dr)
-        across2 = pair_o + kt2 * (tx * dx + tr * dr)
-        bx = mask * (along2 * fx + across2 * tx)
-        br = mask * (along2 * fr + across2 * tr)
-        bt = mask * (along2 * ft + across2 * tt)
-        hr2 = pt * bx - (px + dx) * bt
-        ht2 = (px + dx) * br - (pr + dr) * bx
-        w[T.FORCE_OUTER + T.FX + j] = bx
-        w[T.FORCE_OUTER + T.FY + j] = -si * br - co * bt
-        w[T.FORCE_OUTER + T.FZ + j] = co * br - si * bt
-        w[T.FORCE_OUTER + T.MY + j] = -si * hr2 - co * ht2
-        w[T.FORCE_OUTER + T.MZ + j] = co * hr2 - si * ht2
+    touch(
+        p[P.RACES + P.RACE_SIZE + P.RACE_STIFFNESS], c[i + C.GROOVE_X], c[i + C.GROOVE_RADIUS], c[i + C.FREE],
+        pitch, q[o + Q.X], q[o + Q.Y], q[o + Q.Z], q[o + Q.BY], q[o + Q.BZ], lanes, T.OUTER,
+        T.CONTACT_OUTER, w,
+    )  # fmt: skip
+    balance(p, lv, speed, w)
+    push(lv, lanes, lv[L.PAIR_INNER] * speed * speed, T.CONTACT, T.FORCE, w)
+    push(lv, lanes, lv[L.PAIR_OUTER] * speed * speed, T.CONTACT_OUTER, T.FORCE_OUTER, w)
 
 
 @kernel
@@ -240,9 +291,9 @@ def carried(p, c, lv, speed, q, w):
 @kernel
 def count_settled(lv, lanes, w):
     """Count per ball the places in a row that are places of rest: only between those is there a rate."""
-    for j in range(lanes):
-        resting = w[T.MOVED + j] < _CLOSE
-        lv[L.SETTLED + j] = lv[L.SETTLED + j] + 1.0 if resting else 0.0
+    for j in range(0, lanes, FOUR):
+        resting = load(w, T.MOVED + j) < _CLOSE
+        store(lv, L.SETTLED + j, select(resting, load(lv, L.SETTLED + j) + 1.0, 0.0))
 
 
 @kernel

@@ -35,6 +35,7 @@ _LONGEST = 2e-6  # m: move of a ball in one sweep, about the approach of a loade
 # the rings answer to: on the gate scenes 1e-16 makes no smaller error.
 _CLOSE = 4e-15
 _SWEEPS = 30  # at most
+_WHOLE = 10  # sweeps with whole steps: a ball that still finds no rest jumps to and fro, and takes half steps
 _LAST = FOUR - 1  # of four lanes
 _SOFT = 1e6  # N/m: moves count as if against this stiffness at most; loaded contacts have 1e8
 
@@ -126,8 +127,8 @@ def touch(hertz, groove_x, groove_r, free, pitch, ux, uy, uz, by, bz, lanes, hei
 
 
 @kernel
-def balance(p, lv, speed, w):
-    """Move every ball by one Newton step towards its rest, from the contacts in ``T.CONTACT``.
+def balance(p, lv, speed, part, w):
+    """Move every ball by a ``part`` of a Newton step towards its rest, from the contacts in ``T.CONTACT``.
 
     Writes the moves ``T.DX``, ``T.DR`` and their squares, the new places and the forces that the contacts
     have there.
@@ -166,8 +167,8 @@ def balance(p, lv, speed, w):
         per = 1.0 / (kxx * krr - kxr * kxr)
         netx += mass * (bx * krr - br * kxr) * per
         netr += mass * (br * kxx - bx * kxr) * per
-        dx = (netx * krr - netr * kxr) * per
-        dr = (netr * kxx - netx * kxr) * per
+        dx = part * (netx * krr - netr * kxr) * per
+        dr = part * (netr * kxx - netx * kxr) * per
         moved = dx * dx + dr * dr
         if not (sum_four(moved) <= _LONGEST * _LONGEST):
             share = min(1.0, _LONGEST / (math.sqrt(moved) + 1e-300))
@@ -220,8 +221,8 @@ def push(lv, lanes, pair, row, force, w):
 
 
 @kernel
-def sweep(p, c, lv, speed, q, w):
-    """Move every ball by one Newton step and write the forces on the rings, four balls at a time.
+def sweep(p, c, lv, speed, part, q, w):
+    """Move every ball by a ``part`` of a Newton step and write the forces on the rings, four balls at a time.
 
     ``q``: the rings' ``L.N`` displacements (advanced by tau, see above); the balls' places stand in the rows
     ``T.X``, ``T.R`` of ``w`` and are moved; rows ``T.FORCE`` on take forces and moments, ``T.STEP`` the
@@ -242,7 +243,7 @@ def sweep(p, c, lv, speed, q, w):
         pitch, q[o + Q.X], q[o + Q.Y], q[o + Q.Z], q[o + Q.BY], q[o + Q.BZ], lanes, T.OUTER,
         T.CONTACT_OUTER, w,
     )  # fmt: skip
-    balance(p, lv, speed, w)
+    balance(p, lv, speed, part, w)
     push(lv, lanes, lv[L.PAIR_INNER] * speed * speed, T.CONTACT, T.FORCE, w)
     push(lv, lanes, lv[L.PAIR_OUTER] * speed * speed, T.CONTACT_OUTER, T.FORCE_OUTER, w)
 
@@ -281,8 +282,8 @@ def sum_forces(lanes, w, f):
 def carried(p, c, lv, speed, q, w):
     """Sweep until the first-order forces serve; False where the balls find no rest in bounded work."""
     lanes = int(p[P.LANES])
-    for _ in range(_SWEEPS):
-        sweep(p, c, lv, speed, q, w)
+    for n in range(_SWEEPS):
+        sweep(p, c, lv, speed, 1.0 if n < _WHOLE else 0.5, q, w)
         if sum_lanes(w, T.STEP, lanes) < _CLOSE:
             return True
     return False

@@ -6,7 +6,7 @@ from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.fidelities.condensed.balls import stand
 from fmu_bearing.engine.fidelities.condensed.damping import add_damping
 from fmu_bearing.engine.fidelities.condensed.held import hold, out_of_date
-from fmu_bearing.engine.fidelities.condensed.linearised import at_rest, derivatives
+from fmu_bearing.engine.fidelities.condensed.linearised import added_mass, at_rest, derivatives
 from fmu_bearing.engine.fidelities.condensed.publish import publish
 from fmu_bearing.engine.fidelities.condensed.rows import keep_balls, show_balls
 from fmu_bearing.engine.fidelities.full.start import start
@@ -102,6 +102,7 @@ def start_condensed(p, u, s, w, t):
     for i in range(L.N):
         lv[L.MEAN + i] = w[W.STAGE + Y.Q0 + i]
     if derivatives(p, c, lv, 0.0, u[U.SPEED], 0.0, w):
+        added_mass(p, c, lv, w)
         # the trial state and the balls' places outlast the full evaluations in there only if kept
         keep_balls(w, lv, L.X)
         add_damping(p, s, w)

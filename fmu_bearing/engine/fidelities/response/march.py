@@ -15,7 +15,7 @@ from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.fidelities.condensed.balls import carried, count_settled, stand
 from fmu_bearing.engine.fidelities.condensed.damping import add_damping
 from fmu_bearing.engine.fidelities.condensed.held import hold
-from fmu_bearing.engine.fidelities.condensed.linearised import at_rest, derivatives
+from fmu_bearing.engine.fidelities.condensed.linearised import added_mass, at_rest, derivatives
 from fmu_bearing.engine.fidelities.condensed.publish import publish
 from fmu_bearing.engine.fidelities.condensed.rows import coordinate, keep_balls, show_balls
 from fmu_bearing.engine.fidelities.condensed.shared import (
@@ -47,6 +47,7 @@ def linearise(p, s, speed, w):
     still(p, c, lv, w)
     if not derivatives(p, c, lv, 0.0, speed, 0.0, w):
         return False
+    added_mass(p, c, lv, w)
     add_damping(p, s, w)
     still(p, c, lv, w)
     renew_lines(p, s, speed, w)

@@ -2,10 +2,12 @@
 
 Newmark's method with beta = 1/12 (Fox and Goodwin 1949; the same as Numerov's for the positions): fourth
 order in the positions for any force that depends on position and time, second order in the small terms
-that depend on velocity. Linearly implicit: one evaluation per step, corrected with the inverse of
-I - h/2 J_v - h^2/12 J_x, whose J is renewed only when the correction stops contracting. Newmark's own
-velocity is true but for h^2/12 times the rate of acceleration, which outputs take away again, and which is
-exchanged when the step changes.
+that depend on velocity. Beta's next term, which depends on the mode, keeps resonances in their place
+(:func:`predictor.displace`). Linearly implicit: the accelerations are guessed from earlier ones and corrected
+by one evaluation with the inverse of B - h/2 J_v - h^2 beta J_x (B: masses), whose J is renewed only when the
+correction stops contracting. A second evaluation follows where the first correction, times the contraction
+measured now and then, would leave too much. Newmark's own velocity is true but for h^2/12 times the rate of
+acceleration, which outputs take away again, and which is exchanged when the step changes.
 
 A step is repeated at half its length when the correction does not settle, when balls find no rest, or when
 the third difference of the accelerations shows that it is too long.
@@ -16,13 +18,20 @@ from fmu_bearing.engine.fidelities import steps
 from fmu_bearing.engine.fidelities.condensed.balls import accelerations, count_settled, stand
 from fmu_bearing.engine.fidelities.condensed.damping import add_damping
 from fmu_bearing.engine.fidelities.condensed.held import hold
-from fmu_bearing.engine.fidelities.condensed.linearised import at_rest, derivatives, factor_step, highest_mode
+from fmu_bearing.engine.fidelities.condensed.linearised import (
+    added_mass,
+    at_rest,
+    derivatives,
+    factor_step,
+    highest_mode,
+)
 from fmu_bearing.engine.fidelities.condensed.publish import publish
 from fmu_bearing.engine.fidelities.condensed.rows import keep_balls, show_balls
 from fmu_bearing.engine.fidelities.condensed.shared import advance, emit, set_inputs, start_condensed
-from fmu_bearing.engine.fidelities.rings.predictor import change_spacing, predict
+from fmu_bearing.engine.fidelities.rings.predictor import change_spacing, displace, judge, predict
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import STRIDE, C, F, L, P, S, T, U, W, Y
+from fmu_bearing.engine.lanes import load, store
+from fmu_bearing.engine.layout import FOUR, STRIDE, C, F, L, P, S, T, U, W, Y
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 from fmu_bearing.engine.newton.jacobian import is_angle
 from fmu_bearing.engine.status import NO_START, NOT_CONVERGED, OK
@@ -33,13 +42,14 @@ _LONGEST = 2e-5  # s
 _MODE = 2.2
 _WAVE = 0.6
 _ITERATIONS = 6
-_PROBE = 16  # steps between measurements of the contraction
+_PROBE = 32  # steps between measurements of the contraction
 _SLOW = 0.25  # contraction beyond which a new Jacobian (23 evaluations) pays
 # Shares of the tolerance: what the correction may leave in a step, and what the step's own error estimate
 # may reach. Both repeat at every step and mostly alternate in sign.
-_CORRECTION = 0.03
+_CORRECTION = 0.01
 _TRUNCATION = 1.0
 _GROW = 1.0 / 40  # of the allowed error: twice the step makes 16 times the error
+_FIRST = 1.0 / 16  # of the longest step: the first one
 _PATIENCE = 8  # steps before a longer one is tried
 
 
@@ -71,14 +81,16 @@ def start_rings(p, u, s, w, t):
         lv[L.Q0 + i] = w[W.STAGE + Y.Q0 + i]
         lv[L.V0 + i] = 0.0
         lv[L.A0 + i] = 0.0
+        lv[L.LEVERS + i] = p[P.PITCH_RADIUS] if is_angle(i) else 1.0
     for row in (L.X, L.X1, L.X2):
         keep_balls(w, lv, row)
     lv[L.THETA] = 0.0
-    if not renew(p, s, w):
+    if not begin_anew(p, s, w):
         return NO_START
-    for _ in range(4):
+    for _ in range(L.HISTORY):
         count_settled(lv, int(p[P.LANES]), w)
-    s[S.STEP] = longest_step(p, lv, s[S.SPEED])
+    # nothing is known of the rate of acceleration yet, which Newmark's velocity contains: begin finely
+    s[S.STEP] = _FIRST * longest_step(p, lv, s[S.SPEED])
     publish(p, lv, s[S.SPEED], 0.0, True, s[S.Y : S.Y + Y.SIZE], s[S.F : S.F + F.SIZE])
     for i in range(3):
         s[S.MEAN_HEAT + i] = lv[L.HEAT + i]
@@ -87,7 +99,7 @@ def start_rings(p, u, s, w, t):
 
 @kernel
 def renew(p, s, w):
-    """Jacobian and accelerations at the present state, and the highest mode; False if there are none."""
+    """Jacobian at the present state, and the highest mode; False if there are none."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     c = s[S.C : S.C + C.SIZE]
     for i in range(L.N):
@@ -101,13 +113,27 @@ def renew(p, s, w):
     if not derivatives(p, c, lv, s[S.ANGLE], s[S.SPEED], s[S.SPEED_RATE], w):
         return False
     lv[L.HIGHEST] = highest_mode(lv, w)
-    times(lv, L.INVERSE, w, W.F + F.BODY, w, T.A)
-    for i in range(L.N):
-        lv[L.A0 + i] = w[T.A + i]
     lv[L.FACTOR_STEP] = 0.0
     lv[L.CONTRACTION] = 0.1
     lv[L.FRESH] = 1.0
     s[S.JACOBIANS] += 1.0
+    return True
+
+
+@kernel
+def begin_anew(p, s, w):
+    """After a jump: Jacobian, masses and accelerations at the present state; False if there are none.
+
+    A mere renewal of the Jacobian leaves the masses as they are: they belong to the equations.
+    """
+    if not renew(p, s, w):
+        return False
+    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
+    added_mass(p, s[S.C : S.C + C.SIZE], lv, w)
+    lv[L.HIGHEST] = highest_mode(lv, w)
+    times(lv, L.INVERSE, w, W.F + F.BODY, w, T.A)
+    for i in range(L.N):
+        lv[L.A0 + i] = w[T.A + i]
     return True
 
 
@@ -123,10 +149,10 @@ def take_inputs(p, u, s, w, h):
     lv[L.KNOWN] = 0.0
     for i in range(L.MATRIX):
         lv[L.EXTRA + i] = 0.0
-    if not renew(p, s, w):
+    if not begin_anew(p, s, w):
         return NOT_CONVERGED
     add_damping(p, s, w)
-    return OK if renew(p, s, w) else NOT_CONVERGED
+    return OK if begin_anew(p, s, w) else NOT_CONVERGED
 
 
 @kernel
@@ -155,7 +181,7 @@ def correct(p, s, h, tolerance, probe, w):
     speed = s[S.SPEED] + h * rate
     turned = h * (s[S.SPEED] + 0.5 * h * rate)
     angle = s[S.ANGLE] + turned
-    predict(lv, h, w)
+    predict(p, lv, h, w)
     stand(
         p, c, lv, lv[L.THETA] + lv[L.RATIO] * turned + p[P.CONTACT_DAMPING] * lv[L.RATIO] * speed,
         angle + p[P.CONTACT_DAMPING] * speed, w[W.STAGE + Y.Q0 + L.TURN], speed, w,
@@ -185,7 +211,7 @@ def correct(p, s, h, tolerance, probe, w):
             d = w[T.D + i]
             w[T.A + i] += d
             w[W.STAGE + Y.V0 + i] += 0.5 * h * d
-            w[W.STAGE + Y.Q0 + i] += h * h / 12.0 * d
+        displace(lv, h, w)
         size = 0.5 * h * size_of(p, w, T.D)
         s[S.NEWTON] += 1.0
         if not (size < 1e6):
@@ -193,7 +219,8 @@ def correct(p, s, h, tolerance, probe, w):
         contraction = lv[L.CONTRACTION]
         if n > 0:
             contraction = size / (before + 1e-300)
-            if before > 1e-2 * tolerance:
+            # the ratio of smaller corrections is that of the balls' first-order forces
+            if before > tolerance:
                 worst = max(worst, contraction)
             if contraction > 0.9 and size > tolerance:
                 return -1.0
@@ -206,31 +233,26 @@ def correct(p, s, h, tolerance, probe, w):
 
 
 @kernel
-def truncation(p, lv, h, w):
-    """Estimate of a step's error in velocity (m/s) from the third difference of the accelerations."""
-    if lv[L.KNOWN] < 2.0:
-        return 0.0
-    for i in range(L.N):
-        w[T.D + i] = w[T.A + i] - 3.0 * (lv[L.A0 + i] - lv[L.A1 + i]) - lv[L.A2 + i]
-    return 0.01 * h * size_of(p, w, T.D)
-
-
-@kernel
 def accept(p, s, h, w):
     """Move the rings' and balls' state and the angle of ball 0 to the end of the step."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
+    lanes = int(p[P.LANES])
     for i in range(L.N):
+        lv[L.A4 + i] = lv[L.A3 + i]
+        lv[L.A3 + i] = lv[L.A2 + i]
         lv[L.A2 + i] = lv[L.A1 + i]
         lv[L.A1 + i] = lv[L.A0 + i]
         lv[L.A0 + i] = w[T.A + i]
         lv[L.Q0 + i] = w[W.STAGE + Y.Q0 + i]
         lv[L.V0 + i] = w[W.STAGE + Y.V0 + i]
-    for i in range(2 * STRIDE):
-        lv[L.X3 + i] = lv[L.X2 + i]
-        lv[L.X2 + i] = lv[L.X1 + i]
-        lv[L.X1 + i] = lv[L.X + i]
-        lv[L.X + i] = w[T.X + i]
-    count_settled(lv, int(p[P.LANES]), w)
+    for row in range(0, 2 * STRIDE, STRIDE):
+        for j in range(row, row + lanes, FOUR):
+            store(lv, L.X4 + j, load(lv, L.X3 + j))
+            store(lv, L.X3 + j, load(lv, L.X2 + j))
+            store(lv, L.X2 + j, load(lv, L.X1 + j))
+            store(lv, L.X1 + j, load(lv, L.X + j))
+            store(lv, L.X + j, load(w, T.X + j))
+    count_settled(lv, lanes, w)
     lv[L.KNOWN] += 1.0
     lv[L.CALM] += 1.0
     lv[L.FRESH] = 0.0
@@ -247,13 +269,13 @@ def try_step(p, s, h, tolerance, w):
         if lv[L.CONTRACTION] > _SLOW and lv[L.FRESH] == 0.0 and not renew(p, s, w):
             return -1.0
         if abs(h - lv[L.FACTOR_STEP]) > 0.05 * h:
-            if not factor_step(lv, 0.5 * h, h * h / 12.0, w):
+            if not factor_step(lv, 0.5 * h, h * h / 12.0, h**4 / 240.0, w):
                 return -1.0
             lv[L.FACTOR_STEP] = h
         probe = s[S.STEPS] % _PROBE == 0.0
         left = correct(p, s, h, _CORRECTION * tolerance, probe, w)
         if left >= 0.0:
-            return truncation(p, lv, h, w) / (_TRUNCATION * tolerance)
+            return 0.01 * h * judge(lv, w) / (_TRUNCATION * tolerance)
         if lv[L.FRESH] != 0.0:
             return -1.0
         lv[L.CONTRACTION] = 1.0

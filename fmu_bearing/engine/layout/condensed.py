@@ -15,8 +15,8 @@ ORDERS = 64  # of race waviness that fidelity response knows
 _line = Places()
 LINE_BALL = _line()  # multiple of ball 0's angle,
 LINE_SHAFT = _line()  # and of the shaft's
-LINE_REAL = _line(FORCES)  # m, rad: complex displacements in the order of the forces: real parts,
-LINE_IMAGINARY = _line(FORCES)  # imaginary parts
+LINE_REAL = _line(COLUMN)  # m, rad: complex displacements of the coordinates, zero for TURN: real parts,
+LINE_IMAGINARY = _line(COLUMN)  # imaginary parts
 LINE_SIZE = _line.next
 
 _at = Places()
@@ -79,7 +79,7 @@ SETTLED = _at(STRIDE)  # how many of the latest places are places of rest
 Y0 = _at(Y.SIZE)  # state of the quasi-static point
 WAVES = _at(4 * ORDERS)  # m: complex amplitudes of orders 1 .. ORDERS, inner then outer
 LINES = _at.next  # table of lines: LINE_SIZE numbers each
-SIZE = 5208  # of the block: the lines take what is left
+SIZE = 5788  # of the block: the lines take what is left
 
 HEAT_OUTER = HEAT + 1
 HEAT_OIL = HEAT + 2

@@ -48,6 +48,7 @@ BEND = _at(2 * STRIDE)  # m/s2: second time derivative of the race heights, inne
 CONTACT = _at(2 * CONTACT_SIZE)  # with inner race, then with outer race
 DX = _at(STRIDE)  # m: a ball's move in the last sweep
 DR = _at(STRIDE)
+PHASES = _at(STRIDE)  # rad: of one row of lines
 ROWS = _at.next
 
 FORCE_OUTER = FORCE + FORCE_SIZE

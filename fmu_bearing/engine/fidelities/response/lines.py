@@ -157,10 +157,10 @@ def keep(p, lv, a, b, omega, w):
     at = L.LINES + into * L.LINE_SIZE
     lv[at + L.LINE_BALL] = a
     lv[at + L.LINE_SHAFT] = b
-    for i in range(L.N):
-        if i != L.TURN:
-            lv[at + L.LINE_REAL + component(i)] = re[i * T.LINE_ROW + L.N]
-            lv[at + L.LINE_IMAGINARY + component(i)] = im[i * T.LINE_ROW + L.N]
+    for i in range(L.COLUMN):
+        moves = i < L.N and i != L.TURN
+        lv[at + L.LINE_REAL + i] = re[i * T.LINE_ROW + L.N] if moves else 0.0
+        lv[at + L.LINE_IMAGINARY + i] = im[i * T.LINE_ROW + L.N] if moves else 0.0
 
 
 @kernel

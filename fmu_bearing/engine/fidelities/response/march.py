@@ -17,7 +17,7 @@ from fmu_bearing.engine.fidelities.condensed.damping import add_damping
 from fmu_bearing.engine.fidelities.condensed.held import hold
 from fmu_bearing.engine.fidelities.condensed.linearised import added_mass, at_rest, derivatives
 from fmu_bearing.engine.fidelities.condensed.publish import publish
-from fmu_bearing.engine.fidelities.condensed.rows import coordinate, keep_balls, show_balls
+from fmu_bearing.engine.fidelities.condensed.rows import keep_balls, show_balls
 from fmu_bearing.engine.fidelities.condensed.shared import (
     advance,
     emit,
@@ -29,11 +29,14 @@ from fmu_bearing.engine.fidelities.condensed.shared import (
 from fmu_bearing.engine.fidelities.response.lines import order_amplitudes, renew_lines
 from fmu_bearing.engine.fidelities.steps import begin_heats, mean_heats
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import STRIDE, C, F, L, P, S, T, U, W, Y
+from fmu_bearing.engine.lanes import load, splat, store
+from fmu_bearing.engine.layout import FOUR, STRIDE, C, F, L, P, S, T, U, W, Y
+from fmu_bearing.engine.mechanics.trigonometry import ball_angles, wrap
 from fmu_bearing.engine.status import NO_START, NOT_CONVERGED, OK
 
 _SAMPLING = 51_200.0  # Hz of the states that samples are interpolated between, with sound
 _TRIES = 8  # of 30 sweeps
+_NEAR = 0.05  # rad of orbit: a radially loaded ball moves by 15 um at most meanwhile, mostly by 0.5
 _BACK = 2e-6  # s between the two states a ball's rate is taken from, without sound
 
 
@@ -77,7 +80,7 @@ def start_response(p, u, s, w, t):
     order_amplitudes(p, lv)
     if not linearise(p, s, u[U.SPEED], w):
         return NO_START
-    show(p, s, w)
+    show(p, s, True, w)
     for i in range(3):
         s[S.MEAN_HEAT + i] = lv[L.HEAT + i]
     return OK
@@ -113,26 +116,58 @@ def renew_equilibrium(p, u, s, w):
 
 @kernel
 def sum_lines(lv, theta, angle, orbit, speed, w):
-    """Displacements, velocities and accelerations of the rings at the angles of ball 0 and shaft (rad)."""
-    for i in range(L.N):
-        lv[L.Q0 + i] = lv[L.MEAN + i]
-        lv[L.V0 + i] = 0.0
-        lv[L.A0 + i] = 0.0
-    for k in range(int(lv[L.COUNT])):
-        at = L.LINES + k * L.LINE_SIZE
-        a = lv[at + L.LINE_BALL]
-        b = lv[at + L.LINE_SHAFT]
-        phase = a * theta + b * angle
-        omega = a * orbit + b * speed
-        co = math.cos(phase)
-        si = math.sin(phase)
-        for i in range(L.FORCES):
-            into = coordinate(i)
-            real = lv[at + L.LINE_REAL + i] * co - lv[at + L.LINE_IMAGINARY + i] * si
-            turned = lv[at + L.LINE_REAL + i] * si + lv[at + L.LINE_IMAGINARY + i] * co
-            lv[L.Q0 + into] += real
-            lv[L.V0 + into] -= omega * turned
-            lv[L.A0 + into] -= omega * omega * real
+    """Displacements, velocities and accelerations of the rings at the angles of ball 0 and shaft (rad).
+
+    Cosines and sines are taken for a row of lines at a time, the coordinates of a line four at a time.
+    """
+    count = int(lv[L.COUNT])
+    q0, q1, q2 = load(lv, L.MEAN), load(lv, L.MEAN + FOUR), load(lv, L.MEAN + 2 * FOUR)
+    v0, v1, v2 = splat(0.0), splat(0.0), splat(0.0)
+    a0, a1, a2 = splat(0.0), splat(0.0), splat(0.0)
+    for first in range(0, count, STRIDE):
+        many = min(count - first, STRIDE)
+        for k in range(many):
+            at = L.LINES + (first + k) * L.LINE_SIZE
+            w[T.PHASES + k] = lv[at + L.LINE_BALL] * theta + lv[at + L.LINE_SHAFT] * angle
+        # what stands behind the last line is a phase of another time, and not used
+        ball_angles(w, T.PHASES, (many + FOUR - 1) // FOUR * FOUR, w)
+        for k in range(many):
+            at = L.LINES + (first + k) * L.LINE_SIZE
+            omega = lv[at + L.LINE_BALL] * orbit + lv[at + L.LINE_SHAFT] * speed
+            co = w[T.COS + k]
+            si = w[T.SIN + k]
+            x0, y0 = turned(lv, at, co, si)
+            x1, y1 = turned(lv, at + FOUR, co, si)
+            x2, y2 = turned(lv, at + 2 * FOUR, co, si)
+            squared = omega * omega
+            q0 += x0
+            q1 += x1
+            q2 += x2
+            v0 -= omega * y0
+            v1 -= omega * y1
+            v2 -= omega * y2
+            a0 -= squared * x0
+            a1 -= squared * x1
+            a2 -= squared * x2
+    store_twelve(lv, L.Q0, q0, q1, q2)
+    store_twelve(lv, L.V0, v0, v1, v2)
+    store_twelve(lv, L.A0, a0, a1, a2)
+
+
+@kernel
+def turned(lv, at, co, si):
+    """Real and imaginary parts of four coordinates of the line ``lv[at:]``, turned by a phase."""
+    real = load(lv, at + L.LINE_REAL)
+    imaginary = load(lv, at + L.LINE_IMAGINARY)
+    return real * co - imaginary * si, real * si + imaginary * co
+
+
+@kernel
+def store_twelve(lv, at, first, second, third):
+    """Write ``L.COLUMN`` numbers."""
+    store(lv, at, first)
+    store(lv, at + FOUR, second)
+    store(lv, at + 2 * FOUR, third)
 
 
 @kernel
@@ -151,16 +186,17 @@ def from_equilibrium(p, lv, theta, w):
 
 
 @kernel
-def find_places(p, c, lv, theta, speed, q, w):
-    """Places of rest for the rings at ``q``: from the last ones, else from the equilibrium's.
+def find_places(p, c, lv, theta, speed, near, q, w):
+    """Places of rest for the rings at ``q``: from the last ones if ``near``, or else from the equilibrium's.
 
     The last ones are far off after a long step or a jump of the load: a ball moves by 2 um per sweep, and
     one left behind by 50 um would show 30 times its load. What is found in the end is shown in any case:
     nearer than anything older.
     """
-    show_balls(lv, L.X, w)
-    if carried(p, c, lv, speed, q, w):
-        return
+    if near:
+        show_balls(lv, L.X, w)
+        if carried(p, c, lv, speed, q, w):
+            return
     from_equilibrium(p, lv, theta, w)
     for _ in range(_TRIES):
         if carried(p, c, lv, speed, q, w):
@@ -168,8 +204,18 @@ def find_places(p, c, lv, theta, speed, q, w):
 
 
 @kernel
-def place(p, s, ahead, w):
-    """Rings and balls at ``ahead`` (s, may be negative) from the present time into ``lv``."""
+def turn_balls(s, h):
+    """Angle of ball 0 after the time ``h`` (s), within one turn, where its rounding does not grow."""
+    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
+    lv[L.THETA] = wrap(lv[L.THETA] + lv[L.RATIO] * h * (s[S.SPEED] + 0.5 * h * s[S.SPEED_RATE]))
+
+
+@kernel
+def place(p, s, ahead, near, w):
+    """Rings and balls at ``ahead`` (s, may be negative) from the present time into ``lv``.
+
+    ``near``: whether the balls' last places are good guesses.
+    """
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     c = s[S.C : S.C + C.SIZE]
     speed = s[S.SPEED] + ahead * s[S.SPEED_RATE]
@@ -182,19 +228,19 @@ def place(p, s, ahead, w):
     q = w[T.Q : T.Q + L.COLUMN]
     for i in range(L.N):
         q[i] = lv[L.Q0 + i] + tau * lv[L.V0 + i]
-    find_places(p, c, lv, theta, speed, q, w)
+    find_places(p, c, lv, theta, speed, near, q, w)
     keep_balls(w, lv, L.X)
     count_settled(lv, int(p[P.LANES]), w)
 
 
 @kernel
-def show(p, s, w):
+def show(p, s, near, w):
     """State for outputs at the present time, the balls' rates from two places a little apart."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    place(p, s, -_BACK, w)
+    place(p, s, -_BACK, near, w)
     for i in range(2 * STRIDE):
         lv[L.X1 + i] = lv[L.X + i]
-    place(p, s, 0.0, w)
+    place(p, s, 0.0, True, w)
     lv[L.SPACING] = _BACK
     lv[L.KNOWN] = 1.0
     publish(p, lv, s[S.SPEED], s[S.SPEED_RATE], False, s[S.Y : S.Y + Y.SIZE], s[S.F : S.F + F.SIZE])
@@ -205,7 +251,9 @@ def march_response(p, u, s, w, h):
     """Advance the state by the communication step ``h`` (s); status code."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     begin_heats(s)
+    near = abs(h * lv[L.RATIO]) * max(abs(s[S.SPEED]), abs(u[U.SPEED])) < _NEAR
     if set_inputs(p, u, s, w, h):
+        near = False
         status = renew_equilibrium(p, u, s, w)
         if status != OK:
             return status
@@ -221,17 +269,18 @@ def march_response(p, u, s, w, h):
             for i in range(2 * STRIDE):
                 lv[L.X2 + i] = lv[L.X1 + i]
                 lv[L.X1 + i] = lv[L.X + i]
-            place(p, s, step, w)
+            place(p, s, step, near, w)
+            near = True
             lv[L.KNOWN] += 1.0
-            lv[L.THETA] += lv[L.RATIO] * step * (s[S.SPEED] + 0.5 * step * s[S.SPEED_RATE])
+            turn_balls(s, step)
             emit(p, s, w, step, False)
             advance(s, step)
     else:
-        lv[L.THETA] += lv[L.RATIO] * h * (s[S.SPEED] + 0.5 * h * s[S.SPEED_RATE])
+        turn_balls(s, h)
         advance(s, h)
     s[S.TIME] = end
     s[S.SPEED] = u[U.SPEED]
     if p[P.SOUND_SIZE] == 0.0:
-        show(p, s, w)
+        show(p, s, near, w)
     mean_heats(s, h)
     return OK

@@ -1,5 +1,6 @@
 """A wheel with kernels inside: its first run compiles nothing."""
 
+import compileall
 import os
 import subprocess
 import sys
@@ -36,6 +37,7 @@ def test_the_first_run_from_a_wheel_compiles_nothing(tmp_path, scene_file):
     assert WHEEL_TAGS[host().name].split("-")[-1] in wheel.name
     with zipfile.ZipFile(wheel) as archive:
         archive.extractall(tmp_path / "site")
+    compileall.compile_dir(tmp_path / "site", quiet=1)  # as an installation does
     lonely = {
         "PATH": "",
         "CC": "",
@@ -48,5 +50,6 @@ def test_the_first_run_from_a_wheel_compiles_nothing(tmp_path, scene_file):
     assert ran.returncode == 0, ran.stderr
     assert "compiling" not in ran.stderr
     assert not list((tmp_path / "empty").glob("compiled-*/*.o"))
-    # imports, filters and the run; 2.8 s of the processor measured, which other processes do not lengthen
-    assert float(ran.stdout.split()[0]) < 5.0
+    # Imports, filters and the run: 2.8 s of an idle machine's processor, up to 7.5 s where others work on the
+    # second core. Compiling would take 90 s.
+    assert float(ran.stdout.split()[0]) < 15.0

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 #: Block lengths that are tried: none, one, two.
 CHOICES: tuple[tuple[int, ...], ...] = (
-    (), (16,), (32,), (64,), (128,), (256,), (16, 64), (16, 128), (32, 128), (32, 256), (64, 512),
+    (), (16,), (32,), (64,), (128,), (256,), (16, 64), (16, 128), (32, 64), (32, 128), (32, 256), (64, 512),
 )  # fmt: skip
 # Cost of a loop before its first pass, in products with their sums: measured, x86-64 with AVX2.
 _ROW, _PART = 20.0, 30.0

@@ -12,7 +12,7 @@ from fmu_bearing.run.arrays import Arrays, Refused
 from fmu_bearing.run.metrics import COMMUNICATION, SAMPLE, ring_rms, speed
 
 #: Tolerance and largest internal step (s): the scenes' default, then finer until the error is met.
-SETTINGS = ((1e-3, 20e-6), (3e-4, 10e-6), (1e-4, 10e-6), (1e-4, 5e-6), (3e-5, 2.5e-6), (1e-5, 1e-6))
+SETTINGS = ((1e-3, 25e-6), (3e-4, 10e-6), (1e-4, 10e-6), (1e-4, 5e-6), (3e-5, 2.5e-6), (1e-5, 1e-6))
 LIMIT = 1e-3
 
 

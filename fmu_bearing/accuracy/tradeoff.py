@@ -38,7 +38,7 @@ def _steps(base: Setting, *pairs: tuple[float, float]) -> tuple[Setting, ...]:
     return tuple(replace(base, tolerance=tolerance, max_step=step / 1e6) for tolerance, step in pairs)
 
 
-#: What is swept: one thing at a time from the scenes' default, and a small grid of tolerance and step.
+#: What is swept: one thing at a time from the gate scenes' setting, and a small grid of tolerance and step.
 SETTINGS = (
     *_steps(_FULL, (1e-2, 40), (1e-2, 20), (1e-3, 20), (1e-3, 10), (1e-4, 10), (1e-4, 5), (1e-5, 4)),
     *_steps(Setting(method="trbdf2"), (1e-3, 20), (1e-3, 10), (1e-4, 5)),

@@ -92,7 +92,7 @@ class Fidelity(Part):
         description="Relative error allowed in ring velocities.",
     )
     max_internal_step_us: float = Field(
-        default=20.0, ge=0.1, le=100, examples=[20.0], description="Largest internal step of the solver, us."
+        default=25.0, ge=0.1, le=100, examples=[25.0], description="Largest internal step of the solver, us."
     )
     traction_strips: int = Field(
         default=5, ge=1, le=5, examples=[5], description="Strips over a contact's major axis: 1, 3 or 5."

@@ -132,7 +132,7 @@ CASES = [
     Case(
         "no preload at 100000 r/min",
         start={"rpm": 1e5, "preload": 0.0},
-        per_ms=600.0,
+        per_ms=1800.0,
         refused={RINGS: ALL_LIFTED},
     ),
     Case(
@@ -155,7 +155,8 @@ CASES = [
     ),
     *_both("soft pedestal", start={"rpm": 2e4, "pedestal_stiffness": 1e4}),
     *_both("rigid pedestal", start={"rpm": 2e4, "pedestal_stiffness": 1e12}, per_ms_rings=12e3),
-    *_both("no contact damping", changes={"bearing.contact_damping_us": 0.0}),
+    # balls that bounce undamped at 20 kHz and more: steps of 2 us resolve what they do to the rings
+    *_both("no contact damping", changes={"bearing.contact_damping_us": 0.0}, per_ms=1700.0),
     *_both("contact damping 25 us", changes={"bearing.contact_damping_us": 25.0}),
     *_both("dry cage", changes=DRY),
     *_both("oil at -40 degC", start={"oil_temperature": 233.15}),

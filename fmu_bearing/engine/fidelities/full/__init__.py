@@ -9,6 +9,7 @@
 ``progress``     what a step does to the state: Jacobian, energy, acceptance
 ``settle``       flexible rings at the start
 ``start``        the state at initialisation
+``control``      how large an error may be, and how long the next step is
 ``march``        from one communication point to the next
 ===============  =============================================================================
 """

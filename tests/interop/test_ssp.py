@@ -115,8 +115,9 @@ def test_the_system_does_what_it_is_for(runs):
     assert np.all(np.diff(run["thermal.oil_temperature"]) > 0.0)
     power = run["bearing.friction_torque"] * run["motor.shaft_speed"]
     heat = sum(run[f"bearing.heat.{part}"] for part in ("inner_ring", "outer_ring", "oil"))
-    # Torque at an instant against heat as a mean of the step: means over some ball passages come close.
-    assert heat[4:].mean() == pytest.approx(power[4:].mean(), rel=0.15)
+    # Torque at twelve instants, which scatter by 17 of 57 W, against heat as a mean of the step: a standard
+    # error of 9 %, and the run-up spins balls and cage up as well.
+    assert heat[4:].mean() == pytest.approx(power[4:].mean(), rel=0.2)
 
 
 def test_another_step_changes_no_more_than_rounding_at_first(archives):

@@ -63,6 +63,7 @@ TILT = _at(2)  # rad: tilts y z of the outer ring that it found
 CONDITIONS = _at(_C.SIZE)  # at the inputs just taken, see c
 TRIAL = _at(4 * _L.COLUMN)  # trial numbers of fidelities rings and response: see trial
 REPORT = _at(REPORT_SIZE)  # of a Runge-Kutta step: ERROR, CONTRACTION, ITERATIONS
+WEIGHTS = _at(STAGES * FOUR)  # s: what the stages before count in this one, each for four lanes
 STAGE = _at(_Y.SIZE)  # stage state
 F = _at(_F.SIZE)  # right-hand side
 F0 = _at(_F.SIZE)  # unperturbed right-hand side
@@ -161,6 +162,7 @@ LEDGER: tuple[Area, ...] = (
     Area("TILT", TILT, 2, frozenset({"start", "inputs", "evaluation"})),
     Area("CONDITIONS", CONDITIONS, _C.SIZE, frozenset({"start", "inputs", "evaluation"})),
     Area("REPORT", REPORT, REPORT_SIZE, frozenset({"step"})),
+    Area("WEIGHTS", WEIGHTS, STAGES * FOUR, frozenset({"step"})),
     Area("ACC", ACC, (STAGES - 1) * _F.SIZE, frozenset({"step", "solve"})),
     # the last stage of ACC: the sound samples of a step and the new state are taken from it, by any method
     Area("LAST", LAST, _F.SIZE, frozenset({"step", "solve", "sample"})),

@@ -10,7 +10,7 @@ from fmu_bearing.engine.newton.jacobian import is_angle
 
 @kernel
 def body_size(p, d, at, cage):
-    """Sum of squares of the bodies' velocities (m2/s2): tilts at the pitch radius, the cage times ``cage``."""
+    """Sum of squares of the bodies' velocities (m2/s2): tilts at the pitch radius, cage times ``cage``."""
     lever = p[P.PITCH_RADIUS]
     total = 0.0
     for i in range(Q.SIZE):

@@ -48,20 +48,21 @@ def error_size(p, c, h, tableau, fac, co, si, w):
 def predict_balls(y, lanes, h, gh, stage, tableau, w):
     """Rows of a stage's state from the stages before, and of its first guess: the accelerations before it."""
     here = W.ACC + stage * F.SIZE
-    weights = tableau + TAB.A + stage * TAB.ROW
+    for m in range(stage):
+        store(w, W.WEIGHTS + m * FOUR, h * TABLEAUX[tableau + TAB.A + stage * TAB.ROW + m])
     for row in range(Y.RATES // STRIDE):
         for k in range(row * STRIDE, row * STRIDE + lanes, FOUR):
             guess = load(w, here - F.SIZE + k)
             rate = load(y, Y.VX + k) + gh * guess
             for m in range(stage):
-                rate += h * TABLEAUX[weights + m] * load(w, W.ACC + m * F.SIZE + k)
+                rate += load(w, W.WEIGHTS + m * FOUR) * load(w, W.ACC + m * F.SIZE + k)
             store(w, here + k, guess)
             store(w, W.STAGE + Y.VX + k, rate)
     for row in range(Y.PLACES // STRIDE):
         for k in range(row * STRIDE, row * STRIDE + lanes, FOUR):
             place = load(y, k)
             for m in range(stage):
-                place += h * TABLEAUX[weights + m] * load(w, W.VEL + m * F.SIZE + k)
+                place += load(w, W.WEIGHTS + m * FOUR) * load(w, W.VEL + m * F.SIZE + k)
             store(w, W.STAGE + k, place + gh * load(w, W.STAGE + Y.VX + k))
 
 

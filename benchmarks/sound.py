@@ -13,8 +13,8 @@ from fmu_bearing.scene import read_scene
 from fmu_bearing.scene.sound import cylindrical
 
 COLUMNS = (
-    "scene", "microphones", "radiation model", "channels", "blocks", "CPU s per s", "direct form", "goal",
-    "verdict",
+    "scene", "microphones", "radiation model", "channels", "blocks", "CPU s per s", "each more, ms per s",
+    "direct form", "goal", "verdict",
 )  # fmt: skip
 GOAL = 0.1  # s per simulated s, four microphones
 _BATCH = 8192  # motion samples: 40 ms
@@ -39,14 +39,15 @@ def cost(ps, repeats: int) -> float:
 
 
 def microphones(scene) -> dict[str, list[tuple[float, float, float]]]:
-    """Sets of microphones: the scene's own four or the multi-source paper's, and circles of 24 and 360."""
+    """Sets of microphones: one and all of four, the scene's or a paper's; circles of 24 and 360."""
     four = [(0.0, 0.105, 0.0), (0.0, 0.150, 0.0), (0.0, 0.0, 0.105), (-0.0805, 0.0, 0.0)]
     own = [place for _, place in scene.microphones]
     circles = {
         f"circle of {count}": [cylindrical(360.0 * k / count, 210.0, 50.0) for k in range(count)]
         for count in (24, 360)
     }
-    return {"4": own if len(own) == 4 else four, **circles}
+    all_four = own if len(own) == 4 else four
+    return {"1": all_four[:1], "4": all_four, **circles}
 
 
 def block_lengths(ps) -> str:
@@ -61,6 +62,7 @@ def rows(name: str, models: tuple[str, ...], repeats: int) -> list[list[str]]:
     scene = read_scene(GATES / f"{name}.toml")
     given = radiation_of(scene)
     found = []
+    one: dict[str, float] = {}
     for words, points in microphones(scene).items():
         for radiation_model in models:
             made = Radiation(radiation_model, given.radiators, given.air, given.harmonics)
@@ -69,10 +71,12 @@ def rows(name: str, models: tuple[str, ...], repeats: int) -> list[list[str]]:
                 for lengths in (None, ())
             )
             here = cost(block, repeats)
+            one.setdefault(radiation_model, here)
+            more = f"{1e3 * (here - one[radiation_model]) / (len(points) - 1):.1f}" if len(points) > 1 else ""
             goal = words == "4"
             verdict = "" if not goal else "met" if here <= GOAL else "missed"
             found.append(
                 [name, words, radiation_model, f"{block[SD.H_CHANNELS]:.0f}", block_lengths(block),
-                 f"{here:.3f}", f"{cost(direct, repeats):.3f}", f"{GOAL:g}" if goal else "", verdict]
+                 f"{here:.3f}", more, f"{cost(direct, repeats):.3f}", f"{GOAL:g}" if goal else "", verdict]
             )  # fmt: skip
     return found

@@ -35,7 +35,7 @@ class Row:
             return ""
         missed = [
             word
-            for word, bad in (("speed", self.wall < self.goal), ("error", not self.error <= self.limit))
+            for word, bad in (("speed", self.cpu < self.goal), ("error", not self.error <= self.limit))
             if bad
         ]
         return "missed: " + ", ".join(missed) if missed else "met"

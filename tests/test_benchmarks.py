@@ -14,7 +14,7 @@ from fmu_bearing.accuracy.reference import reference_from
 from fmu_bearing.run.metrics import SAMPLE
 from fmu_bearing.run.table import markdown, write_csv
 
-TINY = Case("7003C-spindle", 20000, "start", window=2e-4)
+TINY = Case("7003C-spindle", 20000, (1.0, 0.0, 0.0), "start", window=2e-4, communication=1e-4)
 
 
 def test_one_case_through_to_the_table(tmp_path):
@@ -42,9 +42,9 @@ def test_one_case_through_to_the_table(tmp_path):
 
 
 def test_a_missed_goal_is_named():
-    row = table.Row("c", "s", error=2e-3, wall=1.0, goal=2.0)
+    row = table.Row("c", "s", error=2e-3, wall=1.0, cpu=1.0, goal=2.0)
     assert row.verdict == "missed: speed, error"
-    assert dataclasses.replace(row, error=1e-4, wall=2.5).verdict == "met"
+    assert dataclasses.replace(row, error=1e-4, cpu=2.5).verdict == "met"
     assert dataclasses.replace(row, error=math.nan).verdict == "missed: speed, error"
     assert dataclasses.replace(row, goal=0.0).verdict == ""
 

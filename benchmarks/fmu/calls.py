@@ -175,6 +175,14 @@ def _keep(one: fmpy.fmi2.FMU2Slave) -> None:
     one.freeFMUState(state)
 
 
+def host_program(folder: Path) -> Path:
+    """Compile the host in C into ``folder``."""
+    program = folder / "host"
+    command = ["cc", "-O2", f"-I{headers()}", str(HOST), "-o", str(program), "-ldl", "-lpthread"]
+    subprocess.run(command, check=True)
+    return program
+
+
 def rows(quick: bool) -> list[list[str]]:
     """One row per FMU and host; the reason alone where no library can be built."""
     platform = host()
@@ -184,9 +192,7 @@ def rows(quick: bool) -> list[list[str]]:
     found = []
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        program = folder / "host"
-        command = ["cc", "-O2", f"-I{headers()}", str(HOST), "-o", str(program), "-ldl", "-lpthread"]
-        subprocess.run(command, check=True)
+        program = host_program(folder)
         cases = list(compiled(folder, platform, compiler))
         if not quick:
             cases += [packed(folder, "7003C-spindle", "native", sounding) for sounding in (False, True)]

@@ -180,23 +180,26 @@ def _levels(
     return tuple(float(level) for level in levels)
 
 
-def speed(bearing: Arrays, budget: float, repeats: int, longest: float) -> tuple[float, float]:
+def speed(
+    bearing: Arrays, budget: float, repeats: int, longest: float, communication: float = COMMUNICATION
+) -> tuple[float, float]:
     """Return simulated s per wall s and per CPU s, best of ``repeats`` runs from the bearing's state.
 
-    A run lasts about ``budget`` s of wall time and at most ``longest`` s of simulated time.
+    A run lasts about ``budget`` s of wall time and at most ``longest`` s of simulated time, in communication
+    steps of ``communication`` (s).
     """
     state = bearing.s.copy()
     clock = time.perf_counter()
-    bearing.run(2 * COMMUNICATION, COMMUNICATION)
+    bearing.run(2 * communication, communication)
     pilot = (time.perf_counter() - clock) / 2
-    steps = max(1, min(round(longest / COMMUNICATION), round(budget / pilot)))
+    steps = max(1, min(round(longest / communication), round(budget / pilot)))
     wall = cpu = float("inf")
     for _ in range(repeats):
         bearing.s[:] = state
         clock, used = time.perf_counter(), time.process_time()
-        bearing.run(steps * COMMUNICATION, COMMUNICATION)
+        bearing.run(steps * communication, communication)
         wall = min(wall, time.perf_counter() - clock)
         cpu = min(cpu, time.process_time() - used)
     bearing.s[:] = state
-    simulated = steps * COMMUNICATION
+    simulated = steps * communication
     return simulated / wall, simulated / cpu

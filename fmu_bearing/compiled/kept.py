@@ -1,7 +1,8 @@
 """Files of the user's cache: whole or absent, checked when read, and never needed.
 
-A file stands beside its checksum. One that was cut short or changed is told, removed and made anew. Where
-nothing can be written (a full disk, a read-only home) the caller goes on with what it holds in memory.
+A file stands beside its checksum, which is written first. A file that was cut short or changed, or whose
+checksum is missing or cannot be read, is told, removed and made anew. Where nothing can be written (a full
+disk, a read-only home) the caller goes on with what it holds in memory.
 """
 
 import contextlib
@@ -17,17 +18,23 @@ from fmu_bearing.progress import Tell
 __all__ = ["alone", "read", "write"]
 
 _CHECKSUM = ".sha256"
+#: Where no lock can be made: the folder or its file cannot be written, or the file system has no locks, for
+#: which versions of FileLock raise NotImplementedError.
+_NO_LOCK = (OSError, NotImplementedError)
 
 
 def read(path: Path, tell: Tell) -> bytes | None:
-    """Content of a kept file; ``None`` where there is none, or a damaged one, which is told."""
+    """Content of a kept file; ``None`` where there is none, or a damaged one, which is told and removed."""
     try:
         data = path.read_bytes()
-        expected = _beside(path).read_text(encoding="ascii").strip()
-    except (OSError, UnicodeDecodeError):
+    except (FileNotFoundError, NotADirectoryError):
         return None
-    if hashlib.sha256(data).hexdigest() == expected:
-        return data
+    except OSError as problem:
+        tell(f"the kept file {path} cannot be read ({problem.strerror}): it is made anew")
+        return None
+    with contextlib.suppress(OSError, UnicodeDecodeError):
+        if hashlib.sha256(data).hexdigest() == _beside(path).read_text(encoding="ascii").strip():
+            return data
     tell(f"the kept file {path} is damaged: it is made anew")
     with contextlib.suppress(OSError):
         path.unlink()
@@ -37,8 +44,9 @@ def read(path: Path, tell: Tell) -> bytes | None:
 def write(path: Path, data: bytes, tell: Tell) -> bool:
     """Keep a file with its checksum; where that fails, say so and return ``False``."""
     try:
-        write_whole(path, data)
+        # the checksum first: who reads meanwhile finds no file rather than one without its checksum
         write_whole(_beside(path), f"{hashlib.sha256(data).hexdigest()}\n".encode("ascii"))
+        write_whole(path, data)
     except OSError as problem:
         tell(
             f"{path.name} cannot be kept in {path.parent} ({problem.strerror}): the next process compiles it "
@@ -54,21 +62,23 @@ def alone(folder: Path, tell: Tell) -> Iterator[None]:
 
     A folder in which no lock can be made is used without one.
     """
+    lock = FileLock(folder / "lock")
+    held_elsewhere = False
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        lock = FileLock(folder / "lock")
-        try:
-            lock.acquire(timeout=0)
-        except Timeout:
-            tell("another process is compiling the kernels: waiting for it")
+        lock.acquire(timeout=0)
+    except Timeout:
+        held_elsewhere = True
+    except _NO_LOCK:
+        pass
+    if held_elsewhere:
+        tell("another process is compiling the kernels: waiting for it")
+        with contextlib.suppress(*_NO_LOCK):
             lock.acquire()
-    except (OSError, NotImplementedError):
-        yield
-        return
     try:
         yield
     finally:
-        lock.release()
+        lock.release()  # does nothing where none was made
 
 
 def _beside(path: Path) -> Path:

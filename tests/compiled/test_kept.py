@@ -42,33 +42,76 @@ def test_what_was_written_is_read(tmp_path, told):
     assert not told
 
 
+def beside(path):
+    return path.with_name(path.name + ".sha256")
+
+
 @pytest.mark.parametrize(
     "damage",
     [
         lambda path: path.write_bytes(DATA[:-1]),
         lambda path: path.write_bytes(DATA[:7] + b"X" + DATA[8:]),
         lambda path: path.write_bytes(b""),
-        lambda path: path.with_name(path.name + ".sha256").write_bytes(b"\xff\xfe"),
+        lambda path: beside(path).write_bytes(b"\xff\xfe"),
+        lambda path: beside(path).unlink(),
     ],
-    ids=["cut short", "one byte", "empty", "checksum"],
+    ids=["cut short", "one byte", "empty", "checksum", "no checksum"],
 )
-def test_a_damaged_file_is_never_used(tmp_path, told, damage):
+def test_a_damaged_file_is_told_and_never_used(tmp_path, told, damage):
     path = tmp_path / "step.o"
     kept.write(path, DATA, told.append)
     damage(path)
     assert kept.read(path, told.append) is None
-    assert kept.write(path, DATA, told.append)  # made anew in its place
-    assert kept.read(path, told.append) == DATA
-
-
-def test_a_damaged_file_is_told(tmp_path, told):
-    path = tmp_path / "step.o"
-    kept.write(path, DATA, told.append)
-    path.write_bytes(DATA[:-1])
-    kept.read(path, told.append)
     (line,) = told
     assert str(path) in line
     assert "damaged" in line
+    assert kept.write(path, DATA, told.append)  # made anew in its place
+    assert kept.read(path, told.append) == DATA
+    assert len(told) == 1
+
+
+def test_a_file_that_cannot_be_read_is_told(tmp_path, told):
+    path = tmp_path / "step.o"
+    path.mkdir()  # refused for the super-user too
+    assert kept.read(path, told.append) is None
+    assert told == [f"the kept file {path} cannot be read ({os.strerror(errno.EISDIR)}): it is made anew"]
+
+
+def test_who_reads_while_a_file_is_written_sees_no_damage(tmp_path, told, monkeypatch):
+    path, found = tmp_path / "step.o", []
+
+    def write_and_read(one, data):
+        files.write_whole(one, data)
+        found.append(kept.read(path, told.append))
+
+    monkeypatch.setattr(kept, "write_whole", write_and_read)
+    kept.write(path, DATA, told.append)
+    assert found == [None, DATA]
+    assert not told
+
+
+class _NoLocks(kept.FileLock):
+    """A lock on a file system that has none, as earlier versions of `FileLock` meet it."""
+
+    def acquire(self, *arguments, **named):
+        raise NotImplementedError("FileSystem does not appear to support flock")
+
+
+def test_a_folder_without_locks_is_used_without_one(tmp_path, told, monkeypatch):
+    monkeypatch.setattr(kept, "FileLock", _NoLocks)
+    with pytest.raises(KeyError) as found, kept.alone(tmp_path / "new", told.append):
+        raise KeyError("of the work done there")
+    assert found.value.__context__ is None  # the missing lock is no part of that failure
+    assert not told
+
+
+def test_what_fails_beside_the_lock_is_not_taken_for_a_missing_lock(tmp_path):
+    def broken(text):
+        raise BrokenPipeError
+
+    with kept.FileLock(tmp_path / "lock"), pytest.raises(BrokenPipeError):
+        with kept.alone(tmp_path, broken):
+            pytest.fail("went on without the lock that another holds")
 
 
 def test_a_full_disk_is_told_and_nothing_half_remains(tmp_path, told, monkeypatch):

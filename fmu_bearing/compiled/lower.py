@@ -7,7 +7,6 @@ processor named, the code is the same wherever it is made; `optimise` turns it i
 import contextlib
 import gc
 import os
-import re
 import warnings
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -16,8 +15,6 @@ from fmu_bearing.compiled.settings import SETTINGS
 from fmu_bearing.compiled.units import ENTRIES, functions, symbol
 
 __all__ = ["portable_code"]
-
-_TARGET = re.compile(r"^target (triple|datalayout) = .*$", re.MULTILINE)
 
 
 def portable_code(unit: str, tell: Callable[[float], None], lean: bool) -> bytes:
@@ -29,7 +26,7 @@ def portable_code(unit: str, tell: Callable[[float], None], lean: bool) -> bytes
     tell : callable
         Takes the part (0 to 1) of the kernels that are through.
     lean : bool
-        Whether to use `lean`; the plain way links and optimises each kernel, and takes four times as long.
+        Whether to use `lean`; the plain way optimises each kernel and makes it executable on the way.
 
     Raises
     ------
@@ -54,11 +51,12 @@ def portable_code(unit: str, tell: Callable[[float], None], lean: bool) -> bytes
             if lean:
                 parts = front.modules(compiled)
             else:
-                # names of the machine that generated it: each target sets its own
-                parts = [llvm.parse_assembly(_TARGET.sub("", compiled.inspect_llvm()))]
+                parts = [llvm.parse_assembly(compiled.inspect_llvm())]
             present = {one.name for one in whole.functions if not one.is_declaration}
             for part in parts:
-                part.triple = ""
+                # Of the machine that generated it: `optimise` sets each target's. Read with it, as the layout
+                # gives loads and stores their alignment, which is the same on all platforms.
+                part.triple = part.data_layout = ""
                 for one in part.functions:
                     if one.name == wrapper:
                         one.name = symbol(name)

@@ -4,6 +4,7 @@ The cache is keyed by the sources of the engine and of this package and by the v
 llvmlite, never by the place of the installation: a checkout, a wheel and an FMU that is built share it.
 """
 
+import contextlib
 import functools
 import hashlib
 import json
@@ -22,6 +23,7 @@ from fmu_bearing.compiled.errors import BuildError
 from fmu_bearing.compiled.platforms import Platform
 from fmu_bearing.compiled.settings import SETTINGS, TESTED, lean
 from fmu_bearing.compiled.show import Display
+from fmu_bearing.compiled.units import object_name
 from fmu_bearing.engine.sources import engine_digest
 from fmu_bearing.files import cache_root
 
@@ -59,7 +61,7 @@ def objects(platform: Platform, units: Iterable[str], sets: Iterable[str]) -> di
     BuildError
         If the kernels cannot be compiled.
     """
-    wanted = {(unit, one): f"{unit}-{platform.name}-{one}.o" for unit in units for one in sets}
+    wanted = {(unit, one): object_name(unit, platform.name, one) for unit in units for one in sets}
     found = {key: data for key, name in wanted.items() if (data := _there(name)) is not None}
     if len(found) < len(wanted):
         with kept.alone(folder(), _tell):
@@ -115,6 +117,7 @@ def _compile(platform: Platform, missing: list[tuple[str, str]]) -> dict[tuple[s
     due = [_Worker(unit, platform, sets[unit]) for unit in sets]
     with Display(f"compiling the kernels for {platform.name}, once for this version") as display:
         if not lean(version("numba")):
+            # Portable code with Numba 0.68, processor's time: init 79 s, step 116 s; lean 22 s and 34 s.
             display.tell(
                 f"Numba {version('numba')} is not one of the versions tested "
                 f"({', '.join(TESTED)}): the kernels are compiled the plain way, which takes "
@@ -124,7 +127,7 @@ def _compile(platform: Platform, missing: list[tuple[str, str]]) -> dict[tuple[s
         for name, data in files.items():
             if not kept.write(folder() / name, data, display.tell):
                 break
-    return {(unit, one): files[f"{unit}-{platform.name}-{one}.o"] for unit, one in missing}
+    return {(unit, one): files[object_name(unit, platform.name, one)] for unit, one in missing}
 
 
 def _run(due: list["_Worker"], display: Display) -> dict[str, bytes]:
@@ -182,7 +185,8 @@ class _Worker:
         for reader in self._readers:
             reader.start()
         assert self._process.stdin is not None
-        with self._process.stdin as stdin:
+        # a process that is gone already leaves a broken pipe; its reason is told by `ended`
+        with contextlib.suppress(OSError), self._process.stdin as stdin:
             stdin.write(code)
 
     def _listen(self) -> None:
@@ -207,7 +211,11 @@ class _Worker:
             reader.join()
         if self._process.returncode != 0:
             words = self._complaint.decode(errors="replace").strip()[-2000:]
-            raise BuildError(f"the kernels could not be compiled ({self.unit}): {words or 'no reason given'}")
+            words = words or f"the process ended with code {self._process.returncode} and gave no reason"
+            raise BuildError(f"the kernels could not be compiled ({self.unit}): {words}")
+        due = {object_name(self.unit, self.platform.name, one) for one in self.sets}
+        if lost := sorted(due - self.files.keys()):
+            raise BuildError(f"the kernels could not be compiled ({self.unit}): {', '.join(lost)} never came")
         self._done = 1.0
         return True
 

@@ -5,7 +5,9 @@ import platform as machine
 import sys
 from dataclasses import dataclass
 
-__all__ = ["PLATFORMS", "Platform", "host", "instruction_set", "own"]
+from fmu_bearing.compiled.errors import BuildError
+
+__all__ = ["OWN", "PLATFORMS", "Platform", "host", "instruction_set", "own", "platform_named"]
 
 # Levels of the x86-64 psABI: v2 (2009) is the least asked for, v3 (2015, AVX2) is used where it is there.
 _X86 = (("v2", "x86-64-v2"), ("v3", "x86-64-v3"))
@@ -54,6 +56,23 @@ PLATFORMS = {
 }  # fmt: skip
 
 
+#: Name of a machine that is none of these: it compiles for itself alone.
+OWN = "own"
+
+
+def platform_named(name: str) -> Platform:
+    """Return a platform of FMUs by its name.
+
+    Raises
+    ------
+    BuildError
+        For an unknown name, with the known ones.
+    """
+    if name not in PLATFORMS:
+        raise BuildError(f"there is no platform '{name}': choose from {', '.join(PLATFORMS)}")
+    return PLATFORMS[name]
+
+
 def host() -> Platform | None:
     """Return the platform of this process; ``None`` where no library can be built for it."""
     arm = machine.machine().lower() in ("arm64", "aarch64")
@@ -69,7 +88,7 @@ def own() -> Platform:
     """Return what this process needs kernels for, on machines without an FMU platform too."""
     import llvmlite.binding as llvm
 
-    return host() or Platform("own", llvm.get_process_triple(), "", "", (("base", ""),))
+    return host() or Platform(OWN, llvm.get_process_triple(), "", "", (("base", ""),))
 
 
 def instruction_set(platform: Platform) -> str:

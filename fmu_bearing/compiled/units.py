@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-__all__ = ["ENTRIES", "UNITS", "Entry", "functions", "symbol"]
+__all__ = ["ENTRIES", "UNITS", "Entry", "functions", "object_name", "symbol"]
 
 
 @dataclass(frozen=True)
@@ -59,25 +59,20 @@ def symbol(entry: str, instruction_set: str = "") -> str:
     return f"fb_{entry}_{instruction_set}" if instruction_set else f"fb_{entry}"
 
 
+def object_name(unit: str, platform: str, instruction_set: str) -> str:
+    """Name of a unit's object file for an instruction set of a platform, in the cache and in a wheel."""
+    return f"{unit}-{platform}-{instruction_set}.o"
+
+
 def functions(unit: str) -> dict[str, Callable[..., Any]]:
     """Return the entries of a unit as functions that Numba can compile for pointers."""
     return {"init": _init, "step": _step, "study": _study}[unit]()
 
 
 def _init() -> dict[str, Callable[..., Any]]:
-    from numba import carray
-
     from fmu_bearing.engine import abi
 
-    kernel = abi.init
-
-    def init(p, u, s, z, w, n, time):
-        return kernel(
-            carray(p, (n[0],)), carray(u, (n[1],)), carray(s, (n[2],)), carray(z, (n[3],)),
-            carray(w, (n[4],)), time,
-        )  # fmt: skip
-
-    return {"init": init}
+    return {"init": _of_bearing(abi.init)}
 
 
 def _step() -> dict[str, Callable[..., Any]]:
@@ -85,18 +80,39 @@ def _step() -> dict[str, Callable[..., Any]]:
 
     from fmu_bearing.engine import abi
 
-    step_kernel, outputs_kernel = abi.step, abi.outputs
-
-    def step(p, u, s, z, w, n, h):
-        return step_kernel(
-            carray(p, (n[0],)), carray(u, (n[1],)), carray(s, (n[2],)), carray(z, (n[3],)),
-            carray(w, (n[4],)), h,
-        )  # fmt: skip
+    outputs_kernel = abi.outputs
 
     def outputs(p, s, z, n):
         return outputs_kernel(carray(p, (n[0],)), carray(s, (n[2],)), carray(z, (n[3],)))
 
-    return {"step": step, "outputs": outputs}
+    return {"step": _of_bearing(abi.step), "outputs": outputs}
+
+
+def _of_bearing(kernel: Callable[..., Any]) -> Callable[..., Any]:
+    """Return the entry of a kernel of all arrays of a bearing and one number."""
+    from numba import carray
+
+    def entry(p, u, s, z, w, n, number):
+        return kernel(
+            carray(p, (n[0],)), carray(u, (n[1],)), carray(s, (n[2],)), carray(z, (n[3],)),
+            carray(w, (n[4],)), number,
+        )  # fmt: skip
+
+    return entry
+
+
+def _of_motion(kernel: Callable[..., Any]) -> Callable[..., Any]:
+    """Return the entry of a kernel that fills its last array from a position and velocity at one time."""
+    from numba import carray
+
+    def entry(p, c, y, w, out, n, angle, speed, rate):
+        kernel(
+            carray(p, (n[0],)), carray(c, (n[1],)), carray(y, (n[2],)), angle, speed, rate,
+            carray(w, (n[3],)), carray(out, (n[4],)),
+        )  # fmt: skip
+        return 0
+
+    return entry
 
 
 def _study() -> dict[str, Callable[..., Any]]:
@@ -107,17 +123,10 @@ def _study() -> dict[str, Callable[..., Any]]:
     from fmu_bearing.engine.readout import outputs
     from fmu_bearing.engine.reference import first_order as rates, playback, runge_kutta as explicit
 
-    rhs, blocks, observe = equations.right_hand_side, newton.jacobian, outputs.contacts
+    rhs, observe = equations.right_hand_side, outputs.contacts
     rk4, rows = explicit.runge_kutta, explicit.ROWS
     sound = playback.play
     first, first_jacobian = rates.first_order, rates.first_order_jacobian
-
-    def right_hand_side(p, c, y, w, f, n, angle, speed, rate):
-        rhs(
-            carray(p, (n[0],)), carray(c, (n[1],)), carray(y, (n[2],)), angle, speed, rate,
-            carray(w, (n[3],)), carray(f, (n[4],)),
-        )  # fmt: skip
-        return 0
 
     def repeat(p, c, y, w, f, n, angle, speed, times):
         for k in range(int(times)):
@@ -125,13 +134,6 @@ def _study() -> dict[str, Callable[..., Any]]:
                 carray(p, (n[0],)), carray(c, (n[1],)), carray(y, (n[2],)), angle + 1e-9 * k, speed, 0.0,
                 carray(w, (n[3],)), carray(f, (n[4],)),
             )  # fmt: skip
-        return 0
-
-    def jacobian(p, c, y, w, b, n, angle, speed, rate):
-        blocks(
-            carray(p, (n[0],)), carray(c, (n[1],)), carray(y, (n[2],)), angle, speed, rate,
-            carray(w, (n[3],)), carray(b, (n[4],)),
-        )  # fmt: skip
         return 0
 
     def runge_kutta(p, c, y, w, k, n, angle, speed, h, steps):
@@ -169,9 +171,9 @@ def _study() -> dict[str, Callable[..., Any]]:
         return 0
 
     return {
-        "right_hand_side": right_hand_side,
+        "right_hand_side": _of_motion(rhs),
         "repeat": repeat,
-        "jacobian": jacobian,
+        "jacobian": _of_motion(newton.jacobian),
         "runge_kutta": runge_kutta,
         "first_order": first_order,
         "first_order_jacobian": first_order_jacobian,

@@ -14,12 +14,15 @@ from collections.abc import Callable
 
 from fmu_bearing.compiled.errors import BuildError
 from fmu_bearing.compiled.optimise import object_code
-from fmu_bearing.compiled.platforms import PLATFORMS, own
+from fmu_bearing.compiled.platforms import OWN, own, platform_named
+from fmu_bearing.compiled.units import object_name
 
 __all__ = ["main"]
 
-#: Part of the time that goes into portable code where one object is made from it; measured.
-_PORTABLE = 0.5
+#: Part of the processor's time that goes into portable code, made the lean way, where one object is made from
+#: it. Measured on x86-64-v3: 0.67 for the unit init (21.5 s of 32.2 s), 0.63 for step (34.0 s of 53.7 s),
+#: 0.60 for study (12.5 s of 20.8 s).
+_PORTABLE = 0.65
 
 
 def _send(message: dict[str, object], data: bytes = b"") -> None:
@@ -38,17 +41,17 @@ def main() -> None:
     given = sys.stdin.buffer.read()
     begin = 0.0
     try:
+        platform = own() if name == OWN else platform_named(name)
         if not given:
             from fmu_bearing.compiled.lower import portable_code
 
             begin = _PORTABLE if sets else 1.0
             given = portable_code(unit, _part(0.0, begin), lean == "lean")
             _send({"file": f"{unit}.bc", "size": len(given)}, given)
-        platform = PLATFORMS.get(name) or own()
         for k, one in enumerate(sets):
             share = (1.0 - begin) / len(sets)
             made = object_code(given, platform, one, _part(begin + k * share, begin + (k + 1) * share))
-            _send({"file": f"{unit}-{platform.name}-{one}.o", "size": len(made)}, made)
+            _send({"file": object_name(unit, platform.name, one), "size": len(made)}, made)
     except BuildError as problem:
         sys.exit(str(problem))
     _send({"done": 1.0})

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from fmu_bearing.compiled import BuildError
-from fmu_bearing.compiled.platforms import PLATFORMS, host
+from fmu_bearing.compiled.platforms import PLATFORMS, host, platform_named
 from fmu_bearing.engine.sources import engine_digest
 from fmu_bearing.files import write_whole
 from fmu_bearing.fmi import documentation, resources
@@ -168,8 +168,10 @@ def check_choice(flavour: str | None, platforms: Sequence[str] | None) -> None:
     if flavour not in (None, *FLAVOURS):
         raise ChoiceError(f"there is no flavour '{flavour}': choose {' or '.join(FLAVOURS)}")
     for name in platforms or ():
-        if name not in PLATFORMS:
-            raise ChoiceError(f"there is no platform '{name}': choose from {', '.join(PLATFORMS)}")
+        try:
+            platform_named(name)
+        except BuildError as unknown:
+            raise ChoiceError(str(unknown)) from None
     if flavour == "python" and platforms:
         raise ChoiceError("platforms cannot be chosen for a python build: it holds pythonfmu's libraries")
 

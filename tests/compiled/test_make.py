@@ -11,9 +11,10 @@ import numpy as np
 import pytest
 
 from fmu_bearing.compiled import BuildError, call, make, show
-from fmu_bearing.compiled.platforms import own
+from fmu_bearing.compiled.platforms import PLATFORMS, instruction_set, own
 from fmu_bearing.compiled.settings import SETTINGS, TESTED, lean
 from fmu_bearing.compiled.units import ENTRIES, UNITS
+from tests.conftest import GATES
 
 #: Compiles one entry of two kernels both ways; prints what it computes.
 _BOTH_WAYS = """
@@ -42,6 +43,39 @@ a = np.random.default_rng(7).standard_normal(25)
 b, n = np.zeros(25), np.array([25, 25])
 call(a.ctypes.data, b.ctypes.data, n.ctypes.data)
 print(b.tobytes().hex())
+"""
+
+
+#: Compiles a unit the plain way and keeps its object.
+_PLAIN = """
+import pathlib, sys
+from fmu_bearing.compiled.lower import portable_code
+from fmu_bearing.compiled.optimise import object_code
+from fmu_bearing.compiled.platforms import own
+
+unit, suffix, target = sys.argv[1:]
+code = portable_code(unit, lambda done: None, False)
+pathlib.Path(target).write_bytes(object_code(code, own(), suffix, lambda done: None))
+"""
+
+#: Runs scenes for 2 ms, with objects of a folder if one is named; prints state and outputs at each step.
+_RUN = """
+import hashlib, pathlib, sys
+from fmu_bearing.compiled import load
+from fmu_bearing.run.arrays import Arrays
+from fmu_bearing.scene import read_scene
+
+scenes, folders = sys.argv[1].split(":"), sys.argv[2:]
+for folder in folders:
+    load.objects = lambda platform, units, sets: {
+        (unit, one): pathlib.Path(folder, f"{unit}.o").read_bytes() for unit in units for one in sets
+    }
+for path in scenes:
+    bearing = Arrays.of(read_scene(path).model_copy(update={"sound": None}))
+    bearing.init()
+    for _ in range(20):
+        bearing.step(1e-4)
+        print(hashlib.sha256(bearing.s.tobytes() + bearing.z.tobytes()).hexdigest())
 """
 
 
@@ -106,6 +140,38 @@ def test_a_failure_names_the_unit_and_the_reason(tmp_path, monkeypatch):
     assert str(refusal.value) == "the kernels could not be compiled (study): no such thing"
 
 
+@pytest.mark.parametrize(
+    ("code", "reason"),
+    [(3, "the process ended with code 3 and gave no reason"), (0, "study-{platform}-v0.o never came")],
+)
+def test_a_worker_that_ends_at_once_is_a_failure_of_the_compilation(code, reason, tmp_path, monkeypatch):
+    """It leaves a broken pipe: portable code larger than any pipe is on its way to it."""
+    monkeypatch.setenv("FMU_BEARING_CACHE", str(tmp_path))
+    monkeypatch.setattr(make, "_there", lambda name: bytes(10**7) if name.endswith(".bc") else None)
+    command = [sys.executable, "-c", f"import os; os._exit({code})"]
+    monkeypatch.setattr(make._Worker, "_command", lambda self: command)
+    with pytest.raises(BuildError) as refusal:
+        make.objects(own(), ["study"], ["v0"])
+    reason = reason.format(platform=own().name)
+    assert str(refusal.value) == f"the kernels could not be compiled (study): {reason}"
+
+
+@pytest.mark.parametrize(
+    "module",
+    [["fmu_bearing.compiled.worker", "init", "lean"], ["fmu_bearing.fmi.native.prebuilt", "folder"]],
+    ids=["worker", "prebuilt"],
+)
+def test_an_unknown_platform_is_refused_by_name(module, tmp_path):
+    ran = subprocess.run(
+        [sys.executable, "-m", *module, "linux32"], cwd=tmp_path, stdin=subprocess.DEVNULL,
+        capture_output=True, text=True,
+    )  # fmt: skip
+    assert ran.returncode == 1
+    assert f"there is no platform 'linux32': choose from {', '.join(PLATFORMS)}" in ran.stderr
+    assert "Traceback" not in ran.stderr
+    assert not (tmp_path / "folder").exists()
+
+
 @pytest.mark.skipif(os.name == "nt", reason="no SIGINT for a child process on Windows")
 def test_ctrl_c_ends_within_a_second(tmp_path):
     environment = {**os.environ, "FMU_BEARING_CACHE": str(tmp_path)}
@@ -139,6 +205,35 @@ def test_the_lean_way_computes_the_plain_ways_bits():
     a = np.random.default_rng(7).standard_normal(25).reshape(5, 5)
     np.testing.assert_allclose(found["plain"].reshape(5, 5) @ a, np.eye(5), atol=1e-12)
     assert found["lean"].tobytes() == found["plain"].tobytes()
+
+
+@pytest.mark.heavy
+@pytest.mark.skipif(not lean(make.version("numba")), reason="this Numba is compiled with the plain way only")
+def test_a_run_has_the_same_bits_both_ways(tmp_path):
+    """Fidelity full on rigid and on bending rings; the plain way takes 4 minutes of a processor."""
+    suffix = instruction_set(own())
+    units = ("init", "step")
+    lean_objects = make.objects(own(), units, [suffix])
+    compiling = [
+        subprocess.Popen(
+            [sys.executable, "-c", _PLAIN, unit, suffix, str(tmp_path / f"{unit}.o")],
+            env={**os.environ, **SETTINGS}, stderr=subprocess.PIPE, text=True,
+        )
+        for unit in units
+    ]  # fmt: skip
+    complaints = [process.communicate()[1] for process in compiling]
+    assert [process.returncode for process in compiling] == [0, 0], complaints
+    for unit in units:
+        assert (tmp_path / f"{unit}.o").read_bytes() != lean_objects[unit, suffix]  # two ways, two objects
+    scenes = ":".join(str(GATES / f"{name}.toml") for name in ("7003C-spindle", "7009C-steel"))
+    lean_run, plain_run = (
+        subprocess.run(
+            [sys.executable, "-c", _RUN, scenes, *folder], check=True, stdout=subprocess.PIPE, text=True
+        ).stdout.splitlines()
+        for folder in ([], [str(tmp_path)])
+    )
+    assert len(set(lean_run)) == 40  # 20 steps of two scenes, none of which stands still
+    assert plain_run == lean_run
 
 
 def test_other_numbas_get_the_plain_way():

@@ -9,8 +9,8 @@ from pathlib import Path
 
 from fmu_bearing.compiled import BuildError
 from fmu_bearing.compiled.make import PREBUILT, bitcode, objects, sources_key
-from fmu_bearing.compiled.platforms import PLATFORMS, Platform, host
-from fmu_bearing.compiled.units import UNITS
+from fmu_bearing.compiled.platforms import Platform, host, platform_named
+from fmu_bearing.compiled.units import UNITS, object_name
 from fmu_bearing.fmi.native.link import library, library_name
 
 __all__ = ["WHEEL_TAGS", "fill"]
@@ -38,7 +38,7 @@ def fill(folder: Path, platform: Platform) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     sets = [suffix for suffix, _ in platform.instruction_sets]
     for (unit, one), data in objects(platform, UNITS, sets).items():
-        (folder / f"{unit}-{platform.name}-{one}.o").write_bytes(data)
+        (folder / object_name(unit, platform.name, one)).write_bytes(data)
     for unit in UNITS:
         (folder / f"{unit}.bc").write_bytes(bitcode(unit))
     (folder / library_name(platform)).write_bytes(library(platform, "portable", print))
@@ -59,7 +59,7 @@ def main() -> None:
     """Fill the folder named on the command line."""
     folder, name = sys.argv[1:]
     try:
-        fill(Path(folder), PLATFORMS[name])
+        fill(Path(folder), platform_named(name))
     except BuildError as problem:
         sys.exit(f"error: {problem}")
 

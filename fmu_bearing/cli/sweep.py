@@ -65,10 +65,13 @@ def sweep(
     Finished points are kept in the folder: the same command goes on where an earlier one was interrupted.
     """
     from fmu_bearing.extras import need
+    from fmu_bearing.sweeps.cluster import checked
 
     with refusals():
         need("xarray", "a sweep")
         need("h5netcdf", "netCDF")
+        if scheduler is not None:  # refused before a file is written
+            checked(scheduler)
         made = _plan(source, axis, variables, settle, window, output if not dry_run else None)
         if made.note:
             tell(made.note)

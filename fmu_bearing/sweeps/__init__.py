@@ -26,6 +26,7 @@ from typing import TYPE_CHECKING, Any
 from fmu_bearing.extras import need
 from fmu_bearing.scene import Scene
 from fmu_bearing.sweeps.axes import SweepError
+from fmu_bearing.sweeps.cluster import checked
 from fmu_bearing.sweeps.plan import SETTLE, WINDOW, plan as lay_out
 from fmu_bearing.sweeps.result import dataset, save
 from fmu_bearing.sweeps.runs import Interrupted, run_plan
@@ -106,6 +107,8 @@ def sweep(
     [51.0, 115.0]
     """
     need("xarray", "a sweep")
+    if scheduler is not None:
+        checked(scheduler)
     made = lay_out(source, axes, settle, window, figures)
     if workers is not None and workers < 1:
         raise SweepError(f"workers = {workers} is refused: give 1 or more")

@@ -7,6 +7,7 @@ import re
 import time as clock
 from collections.abc import Callable, Iterator, Sequence
 from importlib.metadata import version
+from types import ModuleType
 from typing import Any
 
 from fmu_bearing.extras import need
@@ -39,11 +40,12 @@ def cluster(
     Raises
     ------
     SweepError
-        When no scheduler answers, it has no workers, or their code differs from the client's.
+        For what is no address; when no scheduler answers, it has no workers, or their code differs from the
+        client's.
     MissingExtra
         Without Dask.
     """
-    distributed = need("distributed", "a sweep on a Dask cluster")
+    distributed = checked(address)
     with _client(distributed, address, timeout) as client:
         _check_workers(client, address, timeout)
         sounds = {
@@ -79,6 +81,22 @@ def cluster(
             more()
 
 
+def checked(address: str) -> ModuleType:
+    """Return Dask's package, and refuse what can be refused before anything is written or run.
+
+    Raises
+    ------
+    SweepError
+        For what is no address of a scheduler.
+    MissingExtra
+        Without Dask.
+    """
+    distributed = need("distributed", "a sweep on a Dask cluster")
+    if _ADDRESS.fullmatch(address) is None:
+        raise SweepError(f"scheduler = '{address}' is refused: write its address, such as tcp://host:8786")
+    return distributed
+
+
 def _outcome(task: Task, result: Any) -> Outcome:
     """Return the outcome of a task, or one that reports its failure."""
     if isinstance(result, Outcome):
@@ -91,8 +109,6 @@ def _outcome(task: Task, result: Any) -> Outcome:
 @contextlib.contextmanager
 def _client(distributed: Any, address: str, timeout: float) -> Iterator[Any]:
     """Connect to a scheduler; the data it holds for this client are released at the end in every case."""
-    if _ADDRESS.fullmatch(address) is None:
-        raise SweepError(f"scheduler = '{address}' is refused: write its address, such as tcp://host:8786")
     quiet = logging.getLogger("distributed")
     level = quiet.level
     try:

@@ -1,5 +1,6 @@
 """sweep: what it prints, writes and refuses."""
 
+import re
 import subprocess
 import sys
 
@@ -7,9 +8,34 @@ import pytest
 from typer.testing import CliRunner
 
 from fmu_bearing import cli
-from fmu_bearing.sweeps import local, runs
+from fmu_bearing.extras import MissingExtra
+from fmu_bearing.sweeps import SweepError, local, runs, sweep
 
 QUICK = ("--settle", 0, "--window", 0.002, "-v", "friction_torque,contact.*.load_mean", "--workers", 1)
+
+
+@pytest.mark.parametrize(
+    ("scheduler", "words"),
+    [
+        ("tcp://host:8786", "needs the package distributed: pip install 'fmu-bearing[cluster]'"),
+        ("somewhere", "scheduler = 'somewhere' is refused: write its address, such as tcp://host:8786"),
+    ],
+)
+def test_a_scheduler_is_refused_before_anything_is_written(
+    scheduler, words, run, silent_file, tmp_path, monkeypatch
+):
+    if "package" in words:
+        monkeypatch.setitem(sys.modules, "distributed", None)  # as if it were not installed
+    else:
+        pytest.importorskip("distributed")
+    folder = tmp_path / "out"
+    result = run("sweep", silent_file, "-a", "speed=5000", "--scheduler", scheduler, "-o", folder)
+    assert result.exit_code == 2
+    assert words in result.stderr
+    assert not folder.exists()
+    with pytest.raises((MissingExtra, SweepError), match=re.escape(words)):
+        sweep(silent_file, {"speed": [5000]}, scheduler=scheduler, folder=folder)
+    assert not folder.exists()
 
 
 def test_a_sweep_writes_its_results_and_goes_on_from_its_own_file(run, silent_file, tmp_path):

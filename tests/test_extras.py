@@ -71,10 +71,9 @@ CORE = [
     ["scene", "catalogue"],
 ]
 
-#: Runs in a process that finds none of the optional packages; prints what came of each line.
-SCRIPT = '''
-import contextlib, io, json, pathlib, pkgutil, sys
-from importlib import import_module
+#: Begins a process that finds none of the optional packages; what is asked comes as JSON.
+HIDDEN = '''
+import json, sys
 
 asked = json.loads(sys.argv[1])
 
@@ -89,6 +88,14 @@ class Without:
         return None if absent else self.finder.find_spec(name, path, target)
 
 sys.meta_path[:] = [Without(finder) for finder in sys.meta_path]
+'''
+
+#: Prints what came of each line.
+SCRIPT = (
+    HIDDEN
+    + """
+import contextlib, io, pathlib, pkgutil
+from importlib import import_module
 import fmu_bearing
 
 for name in fmu_bearing.__all__:
@@ -124,7 +131,8 @@ def python(text):
 
 results = [command(line) if isinstance(line, list) else python(line) for line in asked["lines"]]
 print(json.dumps(results))
-'''
+"""
+)
 
 
 @pytest.fixture(scope="module")
@@ -169,6 +177,51 @@ def test_whatever_needs_a_package_names_its_extra(told, package):
         goes_on = package == "fmu_manipulation_toolbox"
         assert code == (0 if goes_on else 2), line
         assert goes_on or sum(text.startswith("error: ") for text in output.splitlines()) == 1, line
+
+
+#: Scripts that draw or sweep. They refuse before they compute, for some take minutes.
+SCRIPTS = [
+    "directivity/directivity.py", "impact/three_balls.py", "run_up/run_up.py",
+    "spindle_cosimulation/adaptive.py", "spindle_cosimulation/cosimulate.py",
+    "spindle_cosimulation/stability.py", "sweep/critical_speed.py", "tolerance_study/tolerance.py",
+    "papers/run.py",
+]  # fmt: skip
+
+#: Runs such a script.
+ALONE = (
+    HIDDEN
+    + """
+import pathlib, runpy
+
+script = pathlib.Path(asked["root"], "examples", asked["script"])
+sys.path[:0] = [str(script.parent), asked["root"]]
+sys.argv = [str(script)]
+runpy.run_path(str(script), run_name="__main__")
+"""
+)
+
+
+@pytest.mark.parametrize("script", SCRIPTS)
+def test_an_example_names_the_extra_that_it_needs(script, tmp_path):
+    asked = {"absent": list(EXTRAS), "root": str(ROOT), "script": script}
+    done = subprocess.run(
+        [sys.executable, "-c", ALONE, json.dumps(asked)], cwd=tmp_path, capture_output=True, text=True
+    )
+    package = "xarray" if script.startswith("sweep") else "matplotlib"
+    assert done.returncode == 2, done.stderr
+    assert f"needs the package {package}: pip install 'fmu-bearing[{EXTRAS[package]}]'" in done.stderr
+    assert "Traceback" not in done.stderr + done.stdout
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_examples_import_no_extra_by_a_statement():
+    wrong = [
+        f"{path.name}: {package}"
+        for path in sorted((ROOT / "examples").rglob("*.py"))
+        for package, unread in imports(path)
+        if package in EXTRAS and not unread
+    ]
+    assert not wrong
 
 
 def imports(path):

@@ -18,6 +18,8 @@ import typer
 
 from fmu_bearing import read_scene, record
 from fmu_bearing.acoustics.analysis.directivity import directivity
+from fmu_bearing.cli.base import refusals
+from fmu_bearing.extras import need
 from fmu_bearing.recording import measure as sound_measure, pictures as sound_pictures
 from fmu_bearing.recording.measure import Round
 from fmu_bearing.run.table import markdown, write_csv
@@ -78,6 +80,8 @@ def main(
     output: Annotated[Path, typer.Option(help="Folder for picture and table.")] = Path("out/directivity"),
 ) -> None:
     """Record the bearings, and measure and draw their circles."""
+    with refusals():  # before minutes of computing
+        need("matplotlib", "the picture")
     cases, duration, radiation_model = (CASES[2:3], 0.05, "compact") if quick else (CASES, 0.4, "bem")
     circles = {name: circle(scene, rpm, duration, radiation_model) for name, scene, rpm in cases}
     title = f"dB(A) beside the circle's mean, r {1e3 * RADIUS:g} mm, l {1e3 * AXIAL:g} mm"

@@ -19,8 +19,6 @@ from typing import Annotated
 
 import numpy as np
 import typer
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.papers.impact.chain import (
@@ -34,6 +32,9 @@ from fmu_bearing.acoustics.papers.impact.scattering import SphereRow
 from fmu_bearing.acoustics.papers.impact.sound import BAND, impact_pressure
 from fmu_bearing.acoustics.papers.impact.sphere_field import sphere_pressure
 from fmu_bearing.acoustics.radiation.radiators import Air
+from fmu_bearing.cli.base import refusals
+from fmu_bearing.extras import need
+from fmu_bearing.run.pictures import empty
 from fmu_bearing.run.table import markdown, show, write_csv
 
 Array = NDArray[np.float64]
@@ -126,8 +127,7 @@ def compute(case: Case) -> tuple[Collision, Array, Array, Array]:
 
 def draw(path: Path, gaps: Sequence[float], results: Sequence[tuple[Collision, Array, Array, Array]]) -> None:
     """Histories without gap, and largest pressures over the gap."""
-    figure = Figure(figsize=(11.0, 4.2), layout="constrained")
-    FigureCanvasAgg(figure)
+    figure = empty((11.0, 4.2))
     left, right = figure.subplots(1, 2)
     names, colors = ("no scattering", "rigid", "elastic"), ("0.5", "#0072B2", "#D55E00")
     for k, (name, color) in enumerate(zip(names, colors, strict=True), start=1):
@@ -156,6 +156,8 @@ def main(
     short: Annotated[bool, typer.Option(help="Three gaps only.")] = False,
 ) -> None:
     """Compute all cases, print the table, write table and picture."""
+    with refusals():  # before minutes of computing
+        need("matplotlib", "the picture")
     listed = cases(short)
     results = [compute(case) for case in listed]
     rows = [[name, f"{value:.3f}", *[""] * (len(COLUMNS) - 2)] for name, value in PAPER]

@@ -3,12 +3,15 @@
 import io
 import pathlib
 from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
-from PIL import Image
+
+from fmu_bearing.run.pictures import empty
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 MARKERS = "osDv^Px"
@@ -17,22 +20,23 @@ _DPI = 80
 
 def figure(width: float, height: float, rows: int, columns: int, polar: bool = False, share_y: bool = False):
     """Return an empty figure and its axes, flat."""
-    drawn = Figure(figsize=(width, height), layout="constrained")
-    FigureCanvasAgg(drawn)
+    drawn = empty((width, height))
     kind = {"projection": "polar"} if polar else {}
     axes = drawn.subplots(rows, columns, squeeze=False, subplot_kw=kind, sharey=share_y)
     return drawn, list(np.ravel(axes))
 
 
-def save(drawn: Figure, path: pathlib.Path) -> None:
+def save(drawn: "Figure", path: pathlib.Path) -> None:
     """Write the PNG with few colours and without a date: small, and equal pictures are equal files."""
+    from PIL import Image  # comes with Matplotlib
+
     buffer = io.BytesIO()
     drawn.savefig(buffer, dpi=_DPI, format="png")
     Image.open(buffer).convert("RGB").quantize(96).save(path, optimize=True)
 
 
 def curves(
-    ax: Axes, x: Sequence[float], lines: Mapping[str, Sequence[float]], title: str, x_label: str,
+    ax: "Axes", x: Sequence[float], lines: Mapping[str, Sequence[float]], title: str, x_label: str,
     y_label: str = "SPL, dB", first: int = 0, **style,
 ) -> None:  # fmt: skip
     """Draw named lines over one abscissa."""
@@ -46,7 +50,7 @@ def curves(
 
 
 def circle(
-    ax: Axes, degrees: Sequence[float], lines: Mapping[str, Sequence[float]], title: str, zero: str = "N"
+    ax: "Axes", degrees: Sequence[float], lines: Mapping[str, Sequence[float]], title: str, zero: str = "N"
 ) -> None:
     """Draw levels round a circle, angles growing to the left; ``zero``: the compass point of the first."""
     ax.set_theta_zero_location(zero)

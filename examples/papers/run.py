@@ -17,6 +17,7 @@ from examples.papers.calibration import ROUNDS, Calibration, calibrate
 from examples.papers.case import ROOT, Case, code_hash, kept
 from examples.papers.hearing import Ear
 from examples.papers.page import Output
+from fmu_bearing.extras import MissingExtra, need
 
 PAGES: dict[str, ModuleType] = {module.NAME: module for module in (multi_source, sound_field, impact_noise)}
 MODELS = ("compact", "bem")  # those that evaluate recordings at any place
@@ -120,6 +121,10 @@ def main(arguments: list[str] | None = None) -> None:
     unknown = [name for name in given.pages if name not in PAGES]
     if unknown:
         parser.error(f"no page named {', '.join(unknown)}; there are {', '.join(PAGES)}")
+    try:
+        need("matplotlib", "a page with pictures")  # told before minutes of computing
+    except MissingExtra as missing:
+        parser.error(str(missing))
     clock = time.perf_counter()
     pages = run(
         given.pages or list(PAGES), given.radiation_model,

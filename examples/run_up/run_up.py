@@ -18,6 +18,8 @@ from numpy.typing import NDArray
 
 from fmu_bearing import read_scene, record
 from fmu_bearing.acoustics.analysis.order import OrderMap, waterfall
+from fmu_bearing.cli.base import refusals
+from fmu_bearing.extras import need
 from fmu_bearing.recording import measure as sound_measure, pictures as sound_pictures, tables as sound_tables
 from fmu_bearing.run.table import markdown, write_csv
 from fmu_bearing.scene.read import with_fidelity
@@ -53,6 +55,8 @@ def main(
     output: Annotated[Path, typer.Option(help="Folder for pictures and table.")] = Path("out/run_up"),
 ) -> None:
     """Record a run-up and draw its sound."""
+    with refusals():  # before minutes of computing
+        need("matplotlib", "the picture")
     scene, duration, radiation_model = read_scene(SCENE), 1.0, "bem"
     if quick:
         scene, duration, radiation_model = with_fidelity(scene, model="rings"), 0.3, "compact"

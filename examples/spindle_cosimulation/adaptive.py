@@ -21,19 +21,23 @@ import time as clock
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 import typer
 from build import MODELS, build
 from coupling import TEMPERATURES, Fmu, Plan, SimulationError, exchanger, initialise
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from fmu_bearing import build_fmu, read_scene
-from fmu_bearing.recording.pictures import save
+from fmu_bearing.cli.base import refusals
+from fmu_bearing.extras import need
+from fmu_bearing.run.pictures import empty, save
 from fmu_bearing.run.result import structured
 from fmu_bearing.run.table import markdown, number, write_csv
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 ROOT = Path(__file__).resolve().parents[2]
 SCENE = ROOT / "examples" / "scenes" / "7003C-spindle.toml"
@@ -178,9 +182,9 @@ def cells(outcomes: list[Outcome], reference: Outcome) -> list[list[str]]:
     return rows
 
 
-def draw(outcomes: list[Outcome], reference: Outcome) -> Figure:
+def draw(outcomes: list[Outcome], reference: Outcome) -> "Figure":
     """Speed, lengths of the steps, and errors over time."""
-    figure = Figure(figsize=(9.0, 8.0), layout="constrained")
+    figure = empty((9.0, 8.0))
     top, middle, bottom = figure.subplots(3, 1, sharex=True)
     top.plot(1e3 * reference.table["time"], RPM * reference.table["shaft_speed"], color="black")
     top.set_ylabel("speed, r/min")
@@ -205,6 +209,8 @@ def main(
     output: Annotated[Path, typer.Option(help="Folder for table and picture.")] = Path("out/adaptive"),
 ) -> None:
     """Compare adaptive communication steps with fixed ones."""
+    with refusals():  # before minutes of computing
+        need("matplotlib", "the picture")
     scene = read_scene(SCENE).model_copy(update={"sound": None})
     end, fixed, tolerances = (0.06, FIXED[3:4], SPEEDS[1:2]) if quick else (END, FIXED, SPEEDS)
     with tempfile.TemporaryDirectory() as place:

@@ -31,6 +31,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
+from fmu_bearing.extras import MissingExtra, need
 
 RPM = 30.0 / np.pi
 BEARING, MOTOR, THERMAL = "Bearing7003C.fmu", "SpindleMotor.fmu", "SpindleThermal.fmu"
@@ -116,9 +117,10 @@ def main(
         metering_start=min(studies.METERING_START, 0.2 * end_time),
     )
     try:
+        need("matplotlib", "the pictures")  # told before the run
         output_dir.mkdir(parents=True, exist_ok=True)
         _demo(console, fmu_dir, output_dir, plan, short)
-    except (OSError, SimulationError) as error:
+    except (MissingExtra, OSError, SimulationError) as error:
         typer.echo(f"error: {error}", err=True)
         raise typer.Exit(2) from None
 

@@ -1,16 +1,18 @@
 """Figures of the spindle co-simulation, drawn without a display."""
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-import matplotlib
 import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies, level_spectrum
+from fmu_bearing.extras import need
+from fmu_bearing.run.pictures import empty
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402 (after the choice of the backend)
-from matplotlib.axes import Axes  # noqa: E402
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 RPM = 30.0 / np.pi
 STYLE = {
@@ -46,8 +48,9 @@ def overview(
     sample_rate : float
     marks : KinematicFrequencies or None
     """
-    with plt.rc_context(STYLE):
-        figure, axes = plt.subplots(2, 2, figsize=(10.0, 6.4), layout="constrained")
+    with need("matplotlib", "a picture").rc_context(STYLE):
+        figure = empty((10.0, 6.4))
+        axes = figure.subplots(2, 2)
         _speed_and_torque(axes[0, 0], run)
         _temperatures(axes[0, 1], run)
         _levels(axes[1, 0], run, labels)
@@ -63,15 +66,9 @@ def effects(
     ``studies`` maps the parameter's name to its axis label, the factor from SI to that label's unit, and
     the rows of `studies.vary`.
     """
-    with plt.rc_context(STYLE):
-        figure, axes = plt.subplots(
-            3,
-            len(studies),
-            figsize=(4.6 * len(studies), 7.2),
-            layout="constrained",
-            squeeze=False,
-            sharex="col",
-        )
+    with need("matplotlib", "a picture").rc_context(STYLE):
+        figure = empty((4.6 * len(studies), 7.2))
+        axes = figure.subplots(3, len(studies), squeeze=False, sharex="col")
         for column, (parameter, (label, factor, rows)) in zip(axes.T, studies.items(), strict=True):
             x = rows[parameter] * factor
             for race in ("inner", "outer"):
@@ -97,7 +94,7 @@ def effects(
         _save(figure, path)
 
 
-def _speed_and_torque(axis: Axes, run: NDArray[np.void]) -> None:
+def _speed_and_torque(axis: "Axes", run: NDArray[np.void]) -> None:
     time = run["time"]
     axis.plot(time, RPM * run["shaft_speed"], color="C0", label="speed")
     axis.set_ylabel("shaft speed [r/min]")
@@ -111,7 +108,7 @@ def _speed_and_torque(axis: Axes, run: NDArray[np.void]) -> None:
     _legend(axis, torque)
 
 
-def _temperatures(axis: Axes, run: NDArray[np.void]) -> None:
+def _temperatures(axis: "Axes", run: NDArray[np.void]) -> None:
     for lump in LUMPS:
         axis.plot(run["time"], run[f"{lump}_temperature"] - 273.15, label=lump.replace("_", " "))
     axis.set_ylabel("temperature [degC]")
@@ -119,7 +116,7 @@ def _temperatures(axis: Axes, run: NDArray[np.void]) -> None:
     _legend(axis)
 
 
-def _levels(axis: Axes, run: NDArray[np.void], labels: dict[str, str]) -> None:
+def _levels(axis: "Axes", run: NDArray[np.void], labels: dict[str, str]) -> None:
     # The first tenth of a second shows the meters filling, not the bearing.
     shown = run[run["time"] >= min(0.1, 0.2 * run["time"][-1])]
     for prefix, text in labels.items():
@@ -130,7 +127,7 @@ def _levels(axis: Axes, run: NDArray[np.void], labels: dict[str, str]) -> None:
 
 
 def _spectrum(
-    axis: Axes,
+    axis: "Axes",
     sound: NDArray[np.void] | None,
     sample_rate: float,
     labels: dict[str, str],
@@ -162,14 +159,14 @@ def _moving_mean(time: NDArray[np.float64], values: NDArray[np.float64]) -> NDAr
     return np.convolve(values, window, "same") / np.convolve(np.ones(len(values)), window, "same")
 
 
-def _twin(axis: Axes) -> Axes:
+def _twin(axis: "Axes") -> "Axes":
     twin = axis.twinx()
     twin.spines["right"].set_visible(True)
     twin.grid(False)
     return twin
 
 
-def _legend(*axes: Axes) -> None:
+def _legend(*axes: "Axes") -> None:
     found = [pair for axis in axes for pair in zip(*axis.get_legend_handles_labels(), strict=True)]
     if found:
         handles, labels = zip(*found, strict=True)
@@ -182,6 +179,5 @@ def _legend(*axes: Axes) -> None:
         axes[0].legend(handles, labels, fontsize=8, frameon=False, **place)
 
 
-def _save(figure: plt.Figure, path: Path) -> None:
+def _save(figure: "Figure", path: Path) -> None:
     figure.savefig(path, dpi=130, metadata={"Software": None})
-    plt.close(figure)

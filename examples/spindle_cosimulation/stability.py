@@ -24,20 +24,23 @@ import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 import typer
 from build import build
 from coupling import HEATS, TEMPERATURES, Fmu, SimulationError
-from matplotlib.axes import Axes
-from matplotlib.colors import TwoSlopeNorm
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from fmu_bearing import build_fmu, read_scene
-from fmu_bearing.recording.pictures import save
+from fmu_bearing.cli.base import refusals
+from fmu_bearing.extras import need
+from fmu_bearing.run.pictures import empty, save
 from fmu_bearing.run.table import markdown, number, write_csv
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 ROOT = Path(__file__).resolve().parents[2]
 SCENE = ROOT / "examples" / "scenes" / "7003C-spindle.toml"
@@ -301,9 +304,9 @@ def cells(maps: Maps) -> list[list[str]]:
 COLUMNS = ("coupling", "step_s", "inertia_kg_m2_or_cooling", "factor", "predicted", "factor_taken_over")
 
 
-def draw(maps: Maps) -> Figure:
+def draw(maps: Maps) -> "Figure":
     """Both maps side by side, with the inertia of balls and cage as a line."""
-    figure = Figure(figsize=(11.0, 4.6), layout="constrained")
+    figure = empty((11.0, 4.6))
     left, right = figure.subplots(1, 2, width_ratios=(3, 2))
     _panel(left, [1e3 * h for h in maps.steps], maps.inertias, maps.torque)
     mass = maps.slopes.by_acceleration
@@ -322,8 +325,8 @@ def draw(maps: Maps) -> Figure:
     return figure
 
 
-def _panel(ax: Axes, steps: Sequence[float], others: Sequence[float], factors: NDArray[np.float64]) -> None:
-    norm = TwoSlopeNorm(vcenter=1.0, vmin=0.0, vmax=2.0)
+def _panel(ax: "Axes", steps: Sequence[float], others: Sequence[float], factors: NDArray[np.float64]) -> None:
+    norm = need("matplotlib.colors", "the picture").TwoSlopeNorm(vcenter=1.0, vmin=0.0, vmax=2.0)
     ax.imshow(np.abs(factors), cmap="RdBu_r", norm=norm, alpha=0.8, aspect="auto", origin="lower")
     for (row, column), factor in np.ndenumerate(factors):
         ax.annotate(f"{factor:.2f}", (column, row), ha="center", va="center", fontsize=8)
@@ -339,6 +342,8 @@ def main(
     ] = None,
 ) -> None:
     """Measure where explicit coupling settles, and write page, table and picture."""
+    with refusals():  # before minutes of computing
+        need("matplotlib", "the picture")
     scene = read_scene(SCENE).model_copy(update={"sound": None})
     with tempfile.TemporaryDirectory() as place:
         network = build(Path(__file__).with_name("thermal.py"), Path(place))

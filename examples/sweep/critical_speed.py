@@ -23,7 +23,9 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh
 from scipy.signal import find_peaks
 
+from fmu_bearing.cli.base import refusals
 from fmu_bearing.engine.layout import P
+from fmu_bearing.extras import need
 from fmu_bearing.run.arrays import RPM, Arrays
 from fmu_bearing.run.pictures import empty, save
 from fmu_bearing.run.table import machine, markdown, show, write_csv
@@ -143,6 +145,9 @@ def main(
     scheduler: Annotated[str | None, typer.Option(help="Dask scheduler in their place.")] = None,
 ) -> None:
     """Sweep both scenes, print the table, write table and picture."""
+    with refusals():  # before minutes of computing
+        need("xarray", "a sweep")
+        need("matplotlib", "the picture")
     stiffnesses, speeds = SHORT if short else (STIFFNESSES, SPEEDS)
     axes = {"pedestal": stiffnesses, "speed": speeds}
     window = 0.03 if short else 0.1

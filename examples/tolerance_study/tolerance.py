@@ -16,19 +16,23 @@ one class to the next it is 5 dB(A); two bearings of one class differ by up to 2
 """
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 import typer
-from matplotlib.figure import Figure
 from rich.console import Console
 from rich.progress import track
 
 from fmu_bearing import Scene, read_scene, record
-from fmu_bearing.recording.pictures import save
+from fmu_bearing.cli.base import refusals
+from fmu_bearing.extras import need
+from fmu_bearing.run.pictures import empty, save
 from fmu_bearing.run.table import markdown, write_csv
 from fmu_bearing.scene.imperfections import Imperfections
 from fmu_bearing.scene.read import catalogue, with_fidelity
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 SCENE = Path(__file__).resolve().parents[1] / "scenes" / "7003C-spindle.toml"
 GRADES = ("P5", "P4", "P2")
@@ -74,9 +78,9 @@ def summary(samples: list[Sample]) -> str:
     return markdown(("class", "bearings", *TITLES), rows)
 
 
-def draw(samples: list[Sample]) -> Figure:
+def draw(samples: list[Sample]) -> "Figure":
     """Boxes over classes, and every bearing as a point."""
-    figure = Figure(figsize=(10.0, 4.0), layout="constrained")
+    figure = empty((10.0, 4.0))
     grades = list(dict.fromkeys(one[0] for one in samples))
     for number, (ax, title) in enumerate(zip(figure.subplots(1, 3), TITLES, strict=True), start=2):
         groups = [[one[number] for one in samples if one[0] == grade] for grade in grades]
@@ -97,6 +101,8 @@ def main(
     output: Annotated[Path, typer.Option(help="Folder for table and picture.")] = Path("out/tolerance_study"),
 ) -> None:
     """Draw bearings of each class, record them, and write their spread."""
+    with refusals():  # before minutes of computing
+        need("matplotlib", "the picture")
     scene, seeds, duration, radiation_model = read_scene(SCENE), SEEDS, 0.2, "bem"
     if quick:
         scene, seeds, duration, radiation_model = with_fidelity(scene, model="rings"), 3, 0.05, "compact"

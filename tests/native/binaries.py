@@ -44,6 +44,22 @@ def read(data):
     raise ValueError("neither ELF nor PE nor Mach-O of 64 bits")
 
 
+def object_format(data):
+    """Format (``ELF``, ``COFF``, ``Mach-O``) and processor of an object file, which is not linked yet."""
+    if data[:4] == b"\x7fELF":
+        kind, machine = struct.unpack_from("<2H", data, 16)
+        found, relocatable = ("ELF", {62: "x86-64", 183: "aarch64"}[machine]), kind == 1
+    elif data[:4] == b"\xcf\xfa\xed\xfe":
+        machine, _, kind = struct.unpack_from("<3I", data, 4)
+        found, relocatable = ("Mach-O", {0x01000007: "x86-64", 0x0100000C: "aarch64"}[machine]), kind == 1
+    else:
+        machine, _, _, _, _, optional, _ = struct.unpack_from("<2H3I2H", data)
+        found, relocatable = ("COFF", {0x8664: "x86-64", 0xAA64: "aarch64"}[machine]), optional == 0
+    if not relocatable:
+        raise ValueError("not an object file")
+    return found
+
+
 def _text(data, at):
     return data[at : data.index(b"\0", at)].decode()
 

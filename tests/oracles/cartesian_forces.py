@@ -18,6 +18,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.polynomial import legendre
 
+from . import cross
+
 EX = np.array([1.0, 0.0, 0.0])
 INNER, OUTER, CAGE = range(3)
 STILL, TURNING = 1e-4, 1.0  # m/s, rad/s
@@ -161,12 +163,12 @@ class Loads:
         """Velocity of the material of a ball or body at a point."""
         n = len(self.state.balls)
         own = ball_velocity(self.setup, self.state.balls[row]) if row < n else self.state.rates[row - n, :3]
-        return own + np.cross(self.spin(row), point - self.centre(row))
+        return own + cross(self.spin(row), point - self.centre(row))
 
     def push(self, row: int, point: np.ndarray, force: np.ndarray, couple: np.ndarray) -> float:
         """Load one body; power it receives (W)."""
         self.force[row] += force
-        self.moment[row] += np.cross(point - self.centre(row), force) + couple
+        self.moment[row] += cross(point - self.centre(row), force) + couple
         return force @ self.velocity(row, point) + couple @ self.spin(row)
 
     def act(self, one: int, other: int, point, force, couple=(0.0, 0.0, 0.0)) -> float:
@@ -206,7 +208,7 @@ def seen_from(setup: Setup, ball, body):
     h = h / radius
     _, radial, around = directions(ball[2])
     azimuth = ball[2] + np.arctan((h @ around) / (h @ radial)) - body[3]
-    return n, h, np.cross(n, h), axial, radius, azimuth
+    return n, h, cross(n, h), axial, radius, azimuth
 
 
 def height(wave: Wave, angle):
@@ -246,7 +248,7 @@ def bump_gradient(setup: Setup, state: State, j: int, k: int) -> tuple[np.ndarra
         moved += direction * bump(setup, replace(state, balls=balls), j, k).imag / step.imag
     for i, direction in enumerate(np.eye(3)):
         axes = state.axes.astype(complex)
-        axes[j] += step * np.cross(direction, state.axes[j])
+        axes[j] += step * cross(direction, state.axes[j])
         turned[i] = bump(setup, replace(state, axes=axes), j, k).imag / step.imag
     return moved, turned
 
@@ -273,7 +275,7 @@ def in_race(loads: Loads, j: int, k: int) -> float:
     n, h, t, axial, radius, azimuth = seen_from(setup, state.balls[j], state.bodies[k])
     e = (axial - race.x) * n + (radius - race.circle) * h
     e /= np.linalg.norm(e)
-    m = np.cross(e, t)
+    m = cross(e, t)
     gap = approach(setup, state, j, k)
     if gap <= 0.0:
         return 0.0
@@ -291,7 +293,7 @@ def in_race(loads: Loads, j: int, k: int) -> float:
     power = loads.act(j, ring, centre, -load * uphill, -load * twist)
     # both surfaces as seen from the contact, which travels with the ball's centre around the X axis
     foot = setup.ball_radius * e
-    on_ball = np.cross(loads.spin(j) - state.balls[j, 5] * EX, foot) @ t
+    on_ball = cross(loads.spin(j) - state.balls[j, 5] * EX, foot) @ t
     on_race = on_ball - (loads.velocity(j, centre + foot) - loads.velocity(ring, centre + foot)) @ t
     entrainment = np.hypot(0.5 * (on_ball + on_race), STILL)
     still = setup.slide_to_roll * entrainment + setup.floor
@@ -389,7 +391,7 @@ def on_land(loads: Loads, side: float) -> float:
     moving = (loads.velocity(cage, plane[1]) - loads.velocity(ring, plane[0])) * [0, 1, 1]
     distance = np.linalg.norm(apart)
     e = apart / distance
-    t = np.cross(EX, e)
+    t = cross(EX, e)
     limit = land.fraction * land.clearance
     wet = min(distance, limit)
     whirl = moving @ t / distance

@@ -23,6 +23,7 @@ still and fixed; ball j sits at its angle theta_j and may move along X and radia
 * Left out: traction along the rolling direction, drag, cage forces, gravity; both rings are rigid.
 """
 
+import functools
 from dataclasses import dataclass
 from math import asin, atan2, cos, hypot, pi, sin, tan
 
@@ -30,7 +31,7 @@ import numpy as np
 from scipy.optimize import brentq, root
 from scipy.spatial.transform import Rotation
 
-from . import Bearing
+from . import Bearing, cross
 from .hertz import race_contact
 from .kinematics import pitch_angle, rolling
 
@@ -108,18 +109,20 @@ class JonesHarris:
         self.control = control
         self.inner_constant = race_contact(bearing, "inner").constant
         self.outer_constant = race_contact(bearing, "outer").constant
+        # a column of the Jacobian moves one ball: the others are where they were
+        self._known = functools.lru_cache(maxsize=64)(self.ball)
         self.angles = [2.0 * pi * j / bearing.ball_count for j in range(bearing.ball_count)]
 
     # ---- one ball ------------------------------------------------------------------------------------------
 
-    def ball(self, angle: float, axial: float, radial: float, displacement: np.ndarray, speed: float) -> Ball:
+    def ball(self, angle: float, axial: float, radial: float, displacement: tuple, speed: float) -> Ball:
         """Return the ball centred at (axial, radial) with all its forces; `residual` is left over."""
         bearing = self.bearing
         e_x = np.array([1.0, 0.0, 0.0])
         e_r = np.array([0.0, -sin(angle), cos(angle)])
         centre = axial * e_x + radial * e_r
 
-        turn = Rotation.from_rotvec([0.0, displacement[3], displacement[4]]).as_matrix()
+        turn = _turn(displacement[3], displacement[4])
         shift = np.asarray(displacement[:3])
         inner_normal, inner_length = _towards_groove(bearing.inner_groove_centre, turn.T @ (centre - shift))
         inner_normal = turn @ inner_normal
@@ -164,7 +167,7 @@ class JonesHarris:
             gyroscopic_moment=moment,
             residual=(on_ball @ e_x, on_ball @ e_r),
             ring_force=tuple(-on_ball_inner),
-            ring_moment=tuple(np.cross(contact - shift, -on_ball_inner)),
+            ring_moment=tuple(cross(contact - shift, -on_ball_inner)),
         )
 
     # ---- balls under a given displacement of the ring ------------------------------------------------------
@@ -173,7 +176,7 @@ class JonesHarris:
         self, displacement: np.ndarray, speed: float = 0.0, start: Equilibrium | None = None
     ) -> Equilibrium:
         """Ball equilibria under a prescribed ring displacement (m, rad); each ball stands alone."""
-        displacement = np.asarray(displacement, dtype=float)
+        displacement = tuple(np.asarray(displacement, dtype=float))
         half_pitch = 0.5 * self.bearing.pitch_diameter
         balls = []
         for j, angle in enumerate(self.angles):
@@ -188,7 +191,7 @@ class JonesHarris:
 
             u = _solve(residual, guess)
             balls.append(self.ball(angle, u[0] * MICRO, half_pitch + u[1] * MICRO, displacement, speed))
-        return Equilibrium(tuple(displacement), tuple(balls))
+        return Equilibrium(displacement, tuple(balls))
 
     # ---- ring and balls at once ----------------------------------------------------------------------------
 
@@ -249,13 +252,13 @@ class JonesHarris:
 
     def _state(self, u: np.ndarray, speed: float) -> Equilibrium:
         half_pitch = 0.5 * self.bearing.pitch_diameter
-        displacement = np.concatenate([u[:3] * MICRO, u[3:5] * MICRO / half_pitch])
+        displacement = (*(u[:3] * MICRO), *(u[3:5] * MICRO / half_pitch))
         places = u[5:].reshape(-1, 2) * MICRO
         balls = (
-            self.ball(angle, x, half_pitch + r, displacement, speed)
+            self._known(angle, x, half_pitch + r, displacement, speed)
             for angle, (x, r) in zip(self.angles, places, strict=True)
         )
-        return Equilibrium(tuple(displacement), tuple(balls))
+        return Equilibrium(displacement, tuple(balls))
 
     # ---- what follows from it ------------------------------------------------------------------------------
 
@@ -291,6 +294,12 @@ class JonesHarris:
 
         angle = brentq(excess, free, asin(0.95), xtol=1e-15, rtol=1e-14)
         return load(angle), angle, distance * cos(free) * (tan(angle) - tan(free))
+
+
+@functools.lru_cache(maxsize=64)
+def _turn(tilt_y: float, tilt_z: float) -> np.ndarray:
+    """Matrix of a ring's tilts (rad), one rotation about their common axis."""
+    return Rotation.from_rotvec([0.0, tilt_y, tilt_z]).as_matrix()
 
 
 def _towards_groove(groove: tuple[float, float], point: np.ndarray) -> tuple[np.ndarray, float]:

@@ -15,6 +15,7 @@ revolution in which the wedge term alone presses, so the squeeze may leave sucti
 of F_t jumps by 4 eps eps'/(1 - eps^2)^2 where W changes sign.
 """
 
+import functools
 from dataclasses import dataclass
 from math import copysign, cos, pi, sin
 
@@ -70,15 +71,18 @@ def force_by_quadrature(film: Film, motion: Motion) -> tuple[float, float]:
     # the film is thinnest at phi; W > 0 drags oil towards there from behind
     start = motion.angle - pi if motion.wedge_speed >= 0.0 else motion.angle
 
+    @functools.cache
+    def along_axis(around: float) -> float:
+        half = 0.5 * film.length
+        return quad(lambda z: pressure(film, motion, around, z), -half, half, epsabs=0.0)[0]
+
     def around_integral(direction: float) -> float:
         def ring(around: float) -> float:
-            axial, _ = quad(
-                lambda z: pressure(film, motion, around, z), -0.5 * film.length, 0.5 * film.length, epsabs=0.0
-            )
-            return -axial * cos(around - direction) * film.radius
+            return -along_axis(around) * cos(around - direction) * film.radius
 
-        # integrand parts cancel: the tolerance has to be absolute, so it is taken from the integrand
-        size = max(abs(ring(start + 0.001 * pi * (k + 0.5))) for k in range(1000))
+        # Integrand parts cancel: the tolerance has to be absolute, so it is taken from the integrand. At 95 %
+        # eccentricity the pressure's peak is 0.3 rad wide, ten of these places.
+        size = max(abs(ring(start + 0.01 * pi * (k + 0.5))) for k in range(100))
         total, _ = quad(ring, start, start + pi, epsabs=1e-12 * size, epsrel=1e-12, limit=500)
         return total
 

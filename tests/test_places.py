@@ -3,6 +3,7 @@
 import ast
 import itertools
 import pathlib
+import textwrap
 
 import pytest
 
@@ -88,6 +89,45 @@ def test_no_star_imports(path):
     tree = ast.parse(path.read_text(encoding="utf-8"))
     imports = [node for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)]
     assert not [node.lineno for node in imports if any(one.name == "*" for one in node.names)]
+
+
+def copies(tree):
+    """Lines that assign to a slice: ``x[a:b] = y``, ``x[:] += 1.0``.
+
+    Compiled ahead of time, a slice from a slice allocates a copy in case both overlap, and raises where sizes
+    differ; called by itself, a kernel does so without a word. Slices of one number are refused with them.
+    """
+    for node in ast.walk(tree):
+        targets = node.targets if isinstance(node, ast.Assign) else [getattr(node, "target", None)]
+        for target in targets:
+            for one in [] if target is None else ast.walk(target):
+                if isinstance(one, ast.Subscript) and isinstance(one.ctx, ast.Store):
+                    part = one.slice
+                    if any(isinstance(axis, ast.Slice) for axis in getattr(part, "elts", [part])):
+                        yield one.lineno
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.relative_to(ENGINE).as_posix())
+def test_kernels_copy_number_by_number(path):
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    functions = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)]
+    kernels = [one for one in functions if any(getattr(d, "id", "") == "kernel" for d in one.decorator_list)]
+    name = path.relative_to(ENGINE.parent).as_posix()
+    assert not [f"{name}:{line} {kernel.name}" for kernel in kernels for line in copies(kernel)]
+
+
+def test_copies_of_slices_are_found():
+    sample = """
+    def kernel(x, y, n):
+        x[0] = y[1]
+        part = x[2:n]
+        x[2:n] = y[0:n]
+        x[:] = 0.0
+        x[1:] += y[1:]
+        x[0, :], z = y[0], 1.0
+        x[y[0]] = sum(y[1:])
+    """
+    assert list(copies(ast.parse(textwrap.dedent(sample)))) == [5, 6, 7, 8]
 
 
 def test_the_engine_is_no_list_of_imports():

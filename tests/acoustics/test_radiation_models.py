@@ -17,18 +17,7 @@ from fmu_bearing.acoustics.radiation.table import Table, channels, read_table, s
 from fmu_bearing.acoustics.registry import RECIPES, Radiation
 from fmu_bearing.engine.choices import RADIATION_MODELS
 from fmu_bearing.engine.layout import MO, SD, STRIDE
-from tests.acoustics.playback import (
-    PAPER_POINTS,
-    RHO,
-    SMALL,
-    C,
-    Player,
-    ball,
-    chain,
-    lines,
-    raw_time,
-    still,
-)
+from tests.acoustics.playback import PAPER_POINTS, RHO, SMALL, C, Player, ball, chain, lines, raw_time, still
 
 PERIOD = 2048  # raw samples: 100 Hz
 GRID = np.concatenate([np.arange(0.0, 1000.0, 10.0), np.arange(1000.0, 20_001.0, 100.0)])

@@ -15,7 +15,7 @@ from .conftest import DISCARD, ERROR, OK, STEP
 
 # Nothing holds the outer ring against this load: it gives way until the engine gives up, after 4 ms.
 HARD = {"radial_load.y": 3000.0, "pedestal_stiffness": 1e4}
-HARD_STEP = 0.5  # s
+HARD_STEP = 0.05  # s, most of it never reached
 
 
 def test_fmu_gives_the_bits_of_the_library(master, model):
@@ -173,7 +173,11 @@ def test_step_that_does_not_converge(master, expected):
     changed = bearing.everything()
     assert bearing.step(STEP, HARD_STEP) == DISCARD
     assert bearing.log[-1][:2] == (DISCARD, "logStatusDiscard")
-    for part in (f"step from {STEP!r} s by 0.5 s refused", "could not be solved", "radial_load.y = 3000"):
+    for part in (
+        f"step from {STEP!r} s by {HARD_STEP:g} s refused",
+        "could not be solved",
+        "radial_load.y = 3000",
+    ):
         assert part in bearing.messages
     assert bearing.everything() == changed
     status, reached = bearing.last_time()

@@ -1,0 +1,146 @@
+"""Fidelities `rings` and `response`: what their tests share, and the equations of `rings` written slowly."""
+
+import numpy as np
+from scipy.optimize import root
+
+from fmu_bearing.engine.constants import GRAVITY
+from fmu_bearing.engine.layout import C, L, P, S, U
+
+FIDELITIES = {"rings": 1.0, "response": 2.0}
+
+
+def silent(scene):
+    """The scene with its imperfections but without sound."""
+    return scene.model_copy(update={"sound": None})
+
+
+def block(run):
+    """What the fidelities keep in the state."""
+    return run.s[S.CONDENSED : S.CONDENSED + L.SIZE]
+
+
+def vibration(rows):
+    """Root mean square velocity of inner and outer ring (m/s), all axes together, mean removed."""
+    v = rows[:, :6] - rows[:, :6].mean(0)
+    return np.sqrt((v[:, :3] ** 2).sum(1).mean()), np.sqrt((v[:, 3:] ** 2).sum(1).mean())
+
+
+class Slow:
+    """The equations of fidelity rings written out with NumPy: balls by SciPy's root, forces ball by ball."""
+
+    def __init__(self, run):
+        self.p, self.lv = run.p, block(run).copy()
+        self.c = run.s[S.C : S.C + C.SIZE].copy()
+        self.balls = int(self.p[P.BALLS])
+        self.speed = run.u[U.SPEED]
+        self.tau = self.p[P.CONTACT_DAMPING]
+        self.places = [np.array([self.lv[L.X + j], self.lv[L.R + j]]) for j in range(self.balls)]
+
+    def matrix(self, where):
+        """An 11 x 11 matrix of the state block."""
+        return self.lv[where : where + L.MATRIX].reshape(L.N, 12)[:, : L.N].T
+
+    def height(self, race, angle, derivative=0):
+        """Race height under an angle, or its second derivative, from the table's cubic."""
+        table = self.p[int(self.p[P.AT_WAVES]) :][: 4 * P.WAVE_INTERVALS].reshape(2, -1, 2)[race]
+        place = angle * P.WAVE_INTERVALS / (2 * np.pi)
+        i, t = int(np.floor(place)), place - np.floor(place)
+        (h0, g0), (h1, g1) = table[i % P.WAVE_INTERVALS], table[(i + 1) % P.WAVE_INTERVALS]
+        a, b = g0 + g1 - 2 * (h1 - h0), 3 * (h1 - h0) - 2 * g0 - g1
+        if derivative:
+            return (2 * b + 6 * a * t) * (P.WAVE_INTERVALS / (2 * np.pi)) ** 2
+        return h0 + t * (g0 + t * (b + t * a))
+
+    def contact(self, race, ball, height, u, tilt):
+        """Force of the ball at ``ball`` (orbiting plane turned into x y z) on one ring, and its moment."""
+        axis = np.array([1 - 0.5 * tilt @ tilt, tilt[1], -tilt[0]])
+        q = ball - u
+        axial = q @ axis
+        h = q - axial * axis
+        rho = np.linalg.norm(h)
+        h /= rho
+        o = C.RACES + race * C.RACE_SIZE
+        s = np.array([axial - self.c[o], rho - self.c[o + 1]])
+        distance = np.linalg.norm(s)
+        sine, cosine = s / distance
+        approach = max(distance - self.c[o + 2] + height, 0.0)
+        hertz = self.p[P.RACES + race * P.RACE_SIZE + P.RACE_STIFFNESS]
+        pair = self.lv[L.PAIR_INNER + race] * self.speed**2
+        e, m = sine * axis + cosine * h, cosine * axis - sine * h
+        force = hertz * approach**1.5 * e + pair * m
+        return force, np.cross(q, force), e, m, 1.5 * hertz * approach**0.5, hertz * approach**1.5 / distance
+
+    def both(self, place, theta, heights, ahead):
+        """Contacts of a ball at ``place`` (x, r) with both rings."""
+        radial = np.array([0.0, -np.sin(theta), np.cos(theta)])
+        ball = place[0] * np.array([1.0, 0.0, 0.0]) + (self.p[P.PITCH_RADIUS] + place[1]) * radial
+        inner = self.contact(0, ball, heights[0], ahead[:3], ahead[3:5])
+        return inner, self.contact(1, ball, heights[1], ahead[5:8], ahead[9:11])
+
+    def residual(self, place, theta, heights, bends, ahead):
+        """Net force (x, r) on a ball, with the inertia of what the waves make it do."""
+        p = self.p
+        plane = np.array([[1.0, 0.0, 0.0], [0.0, -np.sin(theta), np.cos(theta)]])
+        orbit = self.lv[L.RATIO] * self.speed
+        net = np.array([0.0, (p[P.PITCH_RADIUS] + place[1]) * orbit**2 * p[P.BALL_MASS]])
+        net[1] -= GRAVITY * p[P.BALL_MASS] * np.cos(theta)
+        stiffness, pushed = np.zeros((2, 2)), np.zeros(2)
+        for contact, bend in zip(self.both(place, theta, heights, ahead), bends, strict=True):
+            force, _, e, m, kn, kt = contact
+            e, m = plane @ e, plane @ m
+            net -= plane @ force
+            stiffness += kn * np.outer(e, e) + kt * np.outer(m, m)
+            pushed += kn * bend * e
+        return net + p[P.BALL_MASS] * np.linalg.solve(stiffness, pushed)
+
+    def accelerations(self, t, q, v):
+        """Accelerations of the 11 coordinates at time ``t`` from the start."""
+        p, speed = self.p, self.speed
+        orbit = self.lv[L.RATIO] * speed
+        ahead = q + self.tau * v
+        f = np.zeros(L.N)
+        for j in range(self.balls):
+            theta = orbit * (t + self.tau) + 2 * np.pi * j / self.balls
+            across = theta - speed * (t + self.tau), theta - q[8]
+            size = 0.5 * p[int(p[P.AT_OVERSIZE]) + j]
+            heights = [size + self.height(race, across[race]) for race in range(2)]
+            bends = [
+                self.height(0, across[0], 2) * (orbit - speed) ** 2,
+                self.height(1, across[1], 2) * orbit**2,
+            ]
+            state = (theta, heights, bends, ahead)
+            found = root(
+                lambda x, state=state: self.residual(1e-6 * x, *state), 1e6 * self.places[j], tol=1e-13
+            )
+            self.places[j] = 1e-6 * found.x
+            contacts = self.both(self.places[j], theta, heights, ahead)
+            for first, tilt, (force, moment, *_) in zip((0, 5), (3, 9), contacts, strict=True):
+                f[first : first + 3] += force
+                f[tilt : tilt + 2] += moment[1:]
+        return self.rings(t, f, q, v, self.c)
+
+    def rings(self, t, f, q, v, c):
+        """Everything on the rings that does not come through the balls, then the mass matrix."""
+        p, speed = self.p, self.speed
+        f[0] += c[C.PRELOAD]
+        heavy = p[P.INNER_MASS] * c[C.ECCENTRICITY] * speed**2
+        f[1] -= heavy * np.sin(speed * t)
+        f[2] += heavy * np.cos(speed * t) - GRAVITY * p[P.INNER_MASS]
+        f[7] -= GRAVITY * p[P.OUTER_MASS]
+        f[3] += -p[P.INNER_POLAR] * speed * v[4] - p[P.TILT_STIFFNESS] * q[3]
+        f[4] += p[P.INNER_POLAR] * speed * v[3] - p[P.TILT_STIFFNESS] * q[4]
+        f[3:5] -= p[P.TILT_DAMPING] * v[3:5]
+        f[8] += self.lv[L.TWIST]
+        stiff = np.array([c[C.PEDESTAL_AXIAL], c[C.PEDESTAL], c[C.PEDESTAL]])
+        damp = np.array([c[C.DAMPING_AXIAL], c[C.DAMPING], c[C.DAMPING]])
+        f[5:8] -= stiff * q[5:8] + damp * v[5:8]
+        f[8] -= c[C.PEDESTAL_ROTATIONAL] * q[8] + c[C.DAMPING_SPIN] * v[8]
+        f[9:] -= c[C.PEDESTAL_ROTATIONAL] * q[9:] + c[C.DAMPING_ROTATIONAL] * v[9:]
+        own = p[
+            [P.INNER_MASS] * 3
+            + [P.INNER_TRANSVERSE] * 2
+            + [P.OUTER_MASS] * 3
+            + [P.OUTER_POLAR]
+            + [P.OUTER_TRANSVERSE] * 2
+        ]
+        return np.linalg.solve(self.matrix(L.MASS), f / own + self.matrix(L.EXTRA) @ v)

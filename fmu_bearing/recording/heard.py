@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.signal import sosfilt
 
 from fmu_bearing import renamed
 from fmu_bearing.acoustics.analysis.field import Blocks, Channels, Circle, Position, circles, form_of, kind_of
@@ -291,7 +291,7 @@ class Heard:
         Earlier samples let the filter of the A-weighting settle.
         """
         if weighting == "A":
-            pressure = sosfilt(a_weighting_sections(self.rate), pressure, axis=-1)
+            pressure = scipy.signal.sosfilt(a_weighting_sections(self.rate), pressure, axis=-1)
         elif weighting != "Z":
             raise ValueError(_NO_WEIGHTING.format(weighting))
         return np.asarray(np.mean(pressure[..., -self.size :] ** 2, axis=-1))

@@ -3,8 +3,8 @@
 import math
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.signal import sosfilt
 
 from fmu_bearing.acoustics.analysis.order import Waterfall, waterfall
 from fmu_bearing.acoustics.filters.weighting import a_weighting_sections, level
@@ -145,7 +145,7 @@ def _over_speed(heard: Microphones) -> Chart:
 
 
 def _weighted(heard: Microphones, k: int) -> NDArray[np.float64]:
-    return np.asarray(sosfilt(a_weighting_sections(heard.rate), heard.pressure[k]))
+    return np.asarray(scipy.signal.sosfilt(a_weighting_sections(heard.rate), heard.pressure[k]))
 
 
 def ramp(first: float, last: float, duration: float, settle: float):

@@ -12,9 +12,9 @@ import struct
 import warnings
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
 from scipy.io import wavfile
-from scipy.signal import firwin, resample_poly
 
 WAV_RATE = 48_000
 FULL_SCALE = 20.0  # Pa: 117 dB of a sine, above any bearing
@@ -44,8 +44,8 @@ def resample(pressure: ArrayLike, sample_rate: float, wanted: float = WAV_RATE) 
     width = 2.0 * math.pi * (_STOP - _PASS) * low / fine
     taps = 2 * math.ceil(0.5 * (_ATTENUATION - 8.0) / (2.285 * width)) + 1
     beta = 0.1102 * (_ATTENUATION - 8.7)
-    kernel = firwin(taps, 0.5 * (_PASS + _STOP) * low, window=("kaiser", beta), fs=fine)
-    return resample_poly(signal, up, down, axis=-1, window=kernel)
+    kernel = scipy.signal.firwin(taps, 0.5 * (_PASS + _STOP) * low, window=("kaiser", beta), fs=fine)
+    return scipy.signal.resample_poly(signal, up, down, axis=-1, window=kernel)
 
 
 def write_wav(

@@ -12,10 +12,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
 from scipy.fft import irfft, next_fast_len, rfft
 from scipy.interpolate import CubicSpline
-from scipy.signal import get_window
 
 from fmu_bearing.acoustics.filters.fir import band_limit, decimator_response
 from fmu_bearing.acoustics.radiation.frequencies import STOP, fit_frequencies
@@ -162,7 +162,7 @@ class Blocks:
                 f"a resolution of {resolution:g} Hz needs blocks of {size} samples (64 or more), the "
                 f"recording has {len(channels)}"
             )
-        window = get_window("hann", size)
+        window = scipy.signal.get_window("hann", size)
         frequency = np.fft.rfftfreq(size, 1.0 / SD.RATE).astype(np.float64)
         keep = (frequency > 0.0) & (frequency < STOP)
         self.frequency = frequency[keep]

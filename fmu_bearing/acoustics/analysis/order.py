@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import CubicSpline
-from scipy.signal import get_window, resample_poly
 
 from fmu_bearing.acoustics.analysis.spectrum import amplitude_spectrum
 from fmu_bearing.acoustics.filters.weighting import level
@@ -99,7 +99,7 @@ def on_angle(
         )
     grid = np.arange(turned[0], turned[-1], 2.0 * np.pi / per_turn)
     places = np.interp(grid, turned, np.arange(len(x)))
-    fine = resample_poly(np.pad(x, 64, mode="reflect"), _FINER, 1, window=("kaiser", 8.0))
+    fine = scipy.signal.resample_poly(np.pad(x, 64, mode="reflect"), _FINER, 1, window=("kaiser", 8.0))
     spline = CubicSpline(np.arange(len(fine)) / _FINER - 64.0, fine)
     return spline(places), places, per_turn
 
@@ -200,7 +200,7 @@ def _levels(
     signal: NDArray[np.float64], starts: NDArray[np.int64], size: int, rate: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Bins and levels of each block: flat-top window, so that lines read true between bins."""
-    window = get_window("flattop", size)
+    window = scipy.signal.get_window("flattop", size)
     window /= window.sum()
     blocks = np.array([signal[start : start + size] for start in starts])
     spectra = np.abs(np.fft.rfft((blocks - blocks.mean(axis=1, keepdims=True)) * window, axis=1)) ** 2

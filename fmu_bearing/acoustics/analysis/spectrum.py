@@ -3,8 +3,8 @@
 from typing import NamedTuple
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.signal import get_window, welch
 
 from fmu_bearing.acoustics.filters.weighting import level
 
@@ -56,7 +56,9 @@ def amplitude_spectrum(
     """
     signal = np.asarray(pressure, dtype=float)
     size = _block(signal, sample_rate, resolution)
-    frequency, power = welch(signal, sample_rate, "flattop", size, detrend="constant", scaling="spectrum")
+    frequency, power = scipy.signal.welch(
+        signal, sample_rate, "flattop", size, detrend="constant", scaling="spectrum"
+    )
     return frequency, np.sqrt(power)
 
 
@@ -72,7 +74,9 @@ def power_spectral_density(
     """
     signal = np.asarray(pressure, dtype=float)
     size = _block(signal, sample_rate, resolution)
-    return welch(signal, sample_rate, get_window("hann", size), size, detrend="constant")
+    return scipy.signal.welch(
+        signal, sample_rate, scipy.signal.get_window("hann", size), size, detrend="constant"
+    )
 
 
 def level_spectrum(

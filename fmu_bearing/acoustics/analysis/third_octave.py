@@ -5,8 +5,8 @@ filter is that of the meters (`weighting.band_sections`): it keeps the limits of
 """
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.signal import sosfilt
 
 from fmu_bearing.acoustics.filters.weighting import band_sections, level
 
@@ -82,7 +82,7 @@ def third_octave_levels(
             "longer recording"
         )
     centres, sections = band_filters(sample_rate)
-    power = [np.mean(sosfilt(band, signal)[..., first:] ** 2, axis=-1) for band in sections]
+    power = [np.mean(scipy.signal.sosfilt(band, signal)[..., first:] ** 2, axis=-1) for band in sections]
     return centres, level(np.stack(power, axis=-1))
 
 

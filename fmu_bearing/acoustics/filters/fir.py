@@ -3,9 +3,9 @@
 import functools
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
 from scipy.linalg import solve, toeplitz
-from scipy.signal import remez
 
 from fmu_bearing.acoustics.radiation.frequencies import BAND, STOP, between, fit_frequencies
 from fmu_bearing.engine.layout import SD
@@ -35,7 +35,9 @@ def _half_band(taps: int, edge: float) -> NDArray[np.float64]:
     Equiripple: twice the outer taps are an equiripple filter of half the rate with one band (Vaidyanathan and
     Nguyen 1987).
     """
-    outer = remez((taps + 1) // 2, [0.0, 2.0 * edge, 0.5 - 1e-9, 0.5], [1.0, 0.0], weight=[1.0, 1e-9], fs=1.0)
+    outer = scipy.signal.remez(
+        (taps + 1) // 2, [0.0, 2.0 * edge, 0.5 - 1e-9, 0.5], [1.0, 0.0], weight=[1.0, 1e-9], fs=1.0
+    )
     found = np.zeros(taps)
     found[::2] = 0.5 * outer
     found[taps // 2] = 0.5
@@ -83,7 +85,7 @@ def decimator_response(frequency: NDArray[np.float64]) -> NDArray[np.complex128]
 @functools.cache
 def _limit_taps() -> NDArray[np.float64]:
     edges = [0.0, BAND[1], STOP, SD.RATE / 2]
-    return remez(_LIMIT_TAPS, edges, [1.0, 0.0], weight=[1.0, _LIMIT_WEIGHT], fs=SD.RATE)
+    return scipy.signal.remez(_LIMIT_TAPS, edges, [1.0, 0.0], weight=[1.0, _LIMIT_WEIGHT], fs=SD.RATE)
 
 
 def band_limit(frequency: NDArray[np.float64]) -> NDArray[np.float64]:

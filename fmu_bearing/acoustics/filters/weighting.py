@@ -8,9 +8,9 @@ double pole at 12.2 kHz one free section fitted so that the magnitude follows th
 import functools
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import least_squares
-from scipy.signal import butter, sosfreqz
 
 FAST, SLOW = 0.125, 1.0  # s, IEC 61672-1
 REFERENCE_PRESSURE = 2e-5  # Pa
@@ -46,14 +46,14 @@ def _fitted(sample_rate: float) -> NDArray[np.float64]:
     f1, f2, f3, f4 = (np.exp(-2.0 * np.pi * f / sample_rate) for f in _POLES)
     fixed = np.array([[1.0, -2.0, 1.0, *np.poly([f1, f1])], [1.0, -2.0, 1.0, *np.poly([f2, f3])]])
     frequency = np.append(np.geomspace(20.0, min(20_000.0, 0.45 * sample_rate), 400), 1000.0)
-    here = sosfreqz(fixed, frequency, fs=sample_rate)[1]
+    here = scipy.signal.sosfreqz(fixed, frequency, fs=sample_rate)[1]
     wanted = a_weighting_db(frequency)
 
     def last(x: NDArray[np.float64]) -> NDArray[np.float64]:
         return np.array([[x[0], x[1], x[2], *np.poly(x[3:])]])
 
     def error(x: NDArray[np.float64]) -> NDArray[np.float64]:
-        response = here * sosfreqz(last(x), frequency, fs=sample_rate)[1]
+        response = here * scipy.signal.sosfreqz(last(x), frequency, fs=sample_rate)[1]
         return 20.0 * np.log10(np.abs(response)) - wanted
 
     gain = 10 ** (-error(np.array([1.0, 0.0, 0.0, f4, f4]))[-1] / 20.0)
@@ -77,14 +77,14 @@ def band_sections(sample_rate: float, nominal: float) -> NDArray[np.float64]:
     """
     centre = band_centre(nominal)
     edges = (centre * 10**-0.05, centre * 10**0.05)
-    sections: NDArray[np.float64] = butter(4, edges, "bandpass", fs=sample_rate, output="sos")
-    sections[0, :3] /= abs(sosfreqz(sections, [centre], fs=sample_rate)[1][0])
+    sections: NDArray[np.float64] = scipy.signal.butter(4, edges, "bandpass", fs=sample_rate, output="sos")
+    sections[0, :3] /= abs(scipy.signal.sosfreqz(sections, [centre], fs=sample_rate)[1][0])
     return sections
 
 
 def high_pass_section(sample_rate: float, frequency: float) -> NDArray[np.float64]:
     """Second-order Butterworth high-pass section, shape (6,): the lower limit of a measurement microphone."""
-    return butter(2, frequency, "highpass", fs=sample_rate, output="sos")[0]
+    return scipy.signal.butter(2, frequency, "highpass", fs=sample_rate, output="sos")[0]
 
 
 def level(mean_square: ArrayLike) -> NDArray[np.float64]:

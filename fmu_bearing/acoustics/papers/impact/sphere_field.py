@@ -3,8 +3,8 @@
 import math
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.signal import lsim
 
 from fmu_bearing.acoustics.radiation.radiators import Air
 
@@ -60,7 +60,9 @@ def sphere_pressure(
     late = (distance - radius) / air.sound_speed
     delayed = np.interp(t - late, t, a, left=0.0)
     ringing = radius / air.sound_speed  # the unit of time in which the coefficients are near 1
-    _, shape, _ = lsim(([distance / radius, 1.0], [1.0, 2.0, 2.0]), delayed, (t - t[0]) / ringing)
+    _, shape, _ = scipy.signal.lsim(
+        ([distance / radius, 1.0], [1.0, 2.0, 2.0]), delayed, (t - t[0]) / ringing
+    )
     heard: NDArray[np.float64] = (
         air.density * radius**3 * cosine / distance**2 * np.asarray(shape, dtype=float)
     )

@@ -15,10 +15,10 @@ a thin layer on them. They matter in narrow gaps only, whose resonances would ot
 from collections.abc import Sequence
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
 from scipy.linalg import cho_solve, cholesky
 from scipy.linalg.blas import zherk
-from scipy.stats import qmc
 
 from fmu_bearing.acoustics.radiation.bem.integrals import Potentials
 from fmu_bearing.acoustics.radiation.bem.meridian import NODES, Body, mesh_of
@@ -174,7 +174,7 @@ def _spread(
 ) -> NDArray[np.float64]:
     """Evenly spread points (Halton's) inside a body, away from its skin."""
     depth = _DEPTH * float(min(high - low))
-    draw = qmc.Halton(2, scramble=False)
+    draw = scipy.stats.qmc.Halton(2, scramble=False)
     kept: list[NDArray[np.float64]] = []
     for _ in range(20):
         candidates = low + draw.random(count * 4) * (high - low)

@@ -71,7 +71,7 @@ class Case:
     def key(self, radiation_model: str) -> str:
         """Hash (16 hex digits) of all that the recording depends on."""
         kind = "paper" if radiation_model == "paper" else "vector"
-        text = f"{_toml(_motion(self.build()))} {self.settle} {self.duration} {kind} {source_hash()}"
+        text = f"{json.dumps(_motion(self.build()))} {self.settle} {self.duration} {kind} {source_hash()}"
         return hashlib.sha256(text.encode()).hexdigest()[:16]
 
     def recording(self, radiation_model: str, cache: pathlib.Path) -> Recording:

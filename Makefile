@@ -21,6 +21,9 @@ SOURCES := $(shell find fmu_bearing modelDescription -type f ! -name '*.pyc' 2>/
 
 # Two test workers on two cores: linear algebra libraries must not start threads of their own.
 test heavy papers: export OPENBLAS_NUM_THREADS = 1
+# Tests start some hundred processes: none of them has to compile the sources again, whatever the user's shell
+# says.
+test heavy: export PYTHONDONTWRITEBYTECODE =
 
 .PHONY: demo test heavy bench papers docs kernels wheels clean
 .DELETE_ON_ERROR:
@@ -39,9 +42,10 @@ $(OUT)/SpindleMotor.fmu: $(VENV)/.installed $(wildcard $(SPINDLE)/*.py)
 
 # Kernels are compiled once, before the parallel tests share them. Without a C compiler there is no library
 # for FMUs; tests of it then say so.
-# Files stay together: what a file compiles or prepares for itself is made by one worker, not by each.
+# Files stay together: what a file compiles or prepares for itself is made by one worker, not by each. They go
+# in the order of tests/conftest.py: the long ones first.
 test: kernels
-	$(BIN)/python -m pytest -n $(JOBS) --dist loadfile -m "not heavy"
+	$(BIN)/python -m pytest -n $(JOBS) --dist loadfile --no-loadscope-reorder -m "not heavy"
 
 heavy: kernels
 	$(BIN)/python -m pytest -n $(JOBS) -m heavy

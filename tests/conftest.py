@@ -13,8 +13,38 @@ os.environ.setdefault("FMU_BEARING_KEEP_KERNELS", str(cache_root() / "kernels"))
 ROOT = pathlib.Path(__file__).parents[1]
 #: Gates of all kinds run on these: every value is written out, so that a better default moves no gate.
 GATES = ROOT / "tests" / "scenes" / "gates"
+#: Files that take more than 5 s of CPU, the longest first. They go before all others, so that the last files
+#: are short and no worker waits for the other. The first
+#: one solves the boundary elements that test_readme.py reads.
+LONG = (
+    "test_docs.py",
+    "test_architecture.py",
+    "examples/test_cosimulation.py",
+    "test_recipes.py",
+    "test_readme.py",
+    "engine/test_fidelities.py",
+    "fmi/test_package.py",
+    "testing/test_plugin.py",
+    "examples/test_papers.py",
+    "fmi/test_calls.py",
+    "engine/test_vector_code.py",
+    "sweeps/test_workers.py",
+    "engine/test_numerics.py",
+    "reports/test_page.py",
+    "examples/test_demo.py",
+    "sweeps/test_cluster.py",
+    "compiled/test_make.py",
+    "cli/test_runs.py",
+    "examples/test_critical_speed.py",
+)
 #: For tests of the examples themselves, of the documentation and of the catalogue.
 EXAMPLES = ROOT / "examples" / "scenes"
+
+
+def pytest_collection_modifyitems(items):
+    """Put the tests of long files first."""
+    rank = {ROOT / "tests" / name: place for place, name in enumerate(LONG)}
+    items.sort(key=lambda item: rank.get(item.path, len(LONG)))  # a sort keeps the order of equals
 
 
 def _compact(folder):

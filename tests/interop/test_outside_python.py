@@ -10,15 +10,16 @@ import fmpy
 import numpy as np
 import pytest
 
-from .conftest import CSV_ERROR, EXACT_STEP, ROOT, STEPS, WATCHED, alone, needs_linux64, read_csv
+from tests.native.toy import HOST
+
+from .conftest import CSV_ERROR, EXACT_STEP, STEPS, WATCHED, alone, needs_linux64, read_csv
 
 
 @pytest.fixture(scope="session")
 def host(compiler, headers, tmp_path_factory):
     """The host program; it links nothing but the C library."""
     program = tmp_path_factory.mktemp("host") / "host"
-    source = ROOT / "tests" / "native" / "host.c"
-    command = [compiler, "-std=c99", f"-I{headers}", str(source), "-o", str(program), "-ldl", "-lpthread"]
+    command = [compiler, "-std=c99", f"-I{headers}", *HOST, "-o", str(program), "-ldl", "-lpthread"]
     subprocess.run(command, check=True)
     return program
 

@@ -49,8 +49,6 @@ def master(functions, resources):
 def host(compiler, tmp_path_factory):
     """The host written in C."""
     program = tmp_path_factory.mktemp("host") / "host"
-    source = str(toy.HERE / "host.c")
-    toy.run(
-        [compiler, *toy.WARNINGS, "-O2", f"-I{toy.HEADERS}", source, "-o", str(program), "-ldl", "-lpthread"]
-    )
+    made = [*toy.HOST, "-o", str(program), "-ldl", "-lpthread"]
+    toy.run([compiler, *toy.WARNINGS, "-O2", f"-I{toy.HEADERS}", *made])
     return program

@@ -13,7 +13,7 @@
  * It leaves with 0 if every call answered as expected, 1 if one did not, 2 if it could not begin. */
 #define _POSIX_C_SOURCE 200112L
 
-#include "fmi2Functions.h"
+#include "host.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -24,40 +24,7 @@
 #include <windows.h>
 #else
 #include <dlfcn.h>
-#include <pthread.h>
-#include <time.h>
 #endif
-
-enum { MOST_REFERENCES = 1000, MOST_THREADS = 64, ROUNDS = 5 };
-
-typedef struct Library {
-    fmi2InstantiateTYPE *instantiate;
-    fmi2FreeInstanceTYPE *free_instance;
-    fmi2SetupExperimentTYPE *setup;
-    fmi2EnterInitializationModeTYPE *enter;
-    fmi2ExitInitializationModeTYPE *exit;
-    fmi2TerminateTYPE *terminate;
-    fmi2ResetTYPE *reset;
-    fmi2SetRealTYPE *set_real;
-    fmi2GetRealTYPE *get_real;
-    fmi2SetRealInputDerivativesTYPE *set_rate;
-    fmi2DoStepTYPE *step;
-    fmi2GetFMUstateTYPE *get_state;
-    fmi2SetFMUstateTYPE *set_state;
-    fmi2FreeFMUstateTYPE *free_state;
-    fmi2SerializedFMUstateSizeTYPE *state_size;
-    fmi2SerializeFMUstateTYPE *serialise;
-    fmi2DeSerializeFMUstateTYPE *deserialise;
-} Library;
-
-typedef struct Host {
-    Library library;
-    const char *guid, *resources;
-    fmi2Component instance;
-    double time;
-    fmi2Status expected;
-    int surprises;
-} Host;
 
 /* Print what the FMU says, with its arguments filled in. */
 static void logger(fmi2ComponentEnvironment environment, fmi2String name, fmi2Status status, fmi2String category,
@@ -73,21 +40,6 @@ static void logger(fmi2ComponentEnvironment environment, fmi2String name, fmi2St
 }
 
 static const fmi2CallbackFunctions CALLBACKS = {logger, calloc, free, NULL, NULL};
-
-/* Monotonic seconds. */
-static double now(void)
-{
-#ifdef _WIN32
-    LARGE_INTEGER ticks, rate;
-    QueryPerformanceCounter(&ticks);
-    QueryPerformanceFrequency(&rate);
-    return (double)ticks.QuadPart / (double)rate.QuadPart;
-#else
-    struct timespec moment;
-    clock_gettime(CLOCK_MONOTONIC, &moment);
-    return (double)moment.tv_sec + 1e-9 * (double)moment.tv_nsec;
-#endif
-}
 
 /* Load a library; NULL with the reason printed. */
 static void *load(const char *path)
@@ -133,7 +85,7 @@ static int find_all(void *from, Library *to)
 }
 
 /* Note whether a call answered as expected. */
-static fmi2Status check(Host *host, const char *call, fmi2Status status)
+fmi2Status check(Host *host, const char *call, fmi2Status status)
 {
     if (status != host->expected) {
         printf("%s answered %d instead of %d\n", call, (int)status, (int)host->expected);
@@ -144,14 +96,14 @@ static fmi2Status check(Host *host, const char *call, fmi2Status status)
 }
 
 /* Make an instance. */
-static fmi2Component instantiate(const Host *host)
+fmi2Component instantiate(const Host *host)
 {
     return host->library.instantiate("host", fmi2CoSimulation, host->guid, host->resources, &CALLBACKS, fmi2False,
                                      fmi2True);
 }
 
 /* Carry an instance from instantiation to its first step. */
-static void start(Host *host, double time)
+void start(Host *host, double time)
 {
     host->time = time;
     check(host, "setupExperiment", host->library.setup(host->instance, fmi2False, 0.0, time, fmi2False, 0.0));
@@ -160,7 +112,7 @@ static void start(Host *host, double time)
 }
 
 /* Take so many steps. */
-static void step(Host *host, double size, long count)
+void step(Host *host, double size, long count)
 {
     for (; count > 0; count--) {
         fmi2Status status = host->library.step(host->instance, host->time, size, fmi2True);
@@ -169,7 +121,7 @@ static void step(Host *host, double size, long count)
 }
 
 /* Read numbers with commas between them. */
-static size_t read_references(const char *text, fmi2ValueReference *found)
+size_t read_references(const char *text, fmi2ValueReference *found)
 {
     size_t count = 0;
     char *end;
@@ -234,148 +186,6 @@ static void restore(Host *host, const char *path)
     check(host, "freeFMUstate", host->library.free_state(host->instance, &state));
     free(bytes);
 }
-
-/* Print the least of several rounds, which is what the machine's other work disturbed least. */
-static void print_time(const char *name, const double *seconds, long count)
-{
-    double least = seconds[0];
-    int i;
-    for (i = 1; i < ROUNDS; i++) least = seconds[i] < least ? seconds[i] : least;
-    printf("%s %.2f ns\n", name, 1e9 * least / (double)count);
-}
-
-/* Time steps. */
-static void time_steps(Host *host, double size, long count)
-{
-    fmi2DoStepTYPE *call = host->library.step;
-    double seconds[ROUNDS];
-    int round;
-    long i;
-    for (round = 0; round < ROUNDS; round++) {
-        double begin = now();
-        unsigned answers = 0;
-        for (i = 0; i < count; i++) {
-            answers |= (unsigned)call(host->instance, host->time, size, fmi2True);
-            host->time += size;
-        }
-        seconds[round] = now() - begin;
-        check(host, "doStep", (fmi2Status)answers);
-    }
-    print_time("doStep", seconds, count);
-}
-
-/* Time reading some Reals at once. */
-static void time_get(Host *host, long count, const char *text)
-{
-    fmi2ValueReference references[MOST_REFERENCES];
-    fmi2Real values[MOST_REFERENCES];
-    size_t n = read_references(text, references);
-    double seconds[ROUNDS];
-    int round;
-    long i;
-    for (round = 0; round < ROUNDS; round++) {
-        double begin = now();
-        unsigned answers = 0;
-        for (i = 0; i < count; i++) {
-            answers |= (unsigned)host->library.get_real(host->instance, references, n, values);
-        }
-        seconds[round] = now() - begin;
-        check(host, "getReal", (fmi2Status)answers);
-    }
-    print_time("getReal", seconds, count);
-}
-
-/* Time keeping a state aside in the same block and going back to it. */
-static void time_state(Host *host, long count)
-{
-    fmi2FMUstate state = NULL;
-    double seconds[ROUNDS];
-    int round;
-    long i;
-    for (round = 0; round < ROUNDS; round++) {
-        double begin = now();
-        unsigned answers = 0;
-        for (i = 0; i < count; i++) {
-            answers |= (unsigned)host->library.get_state(host->instance, &state);
-            answers |= (unsigned)host->library.set_state(host->instance, state);
-        }
-        seconds[round] = now() - begin;
-        check(host, "getFMUstate and setFMUstate", (fmi2Status)answers);
-    }
-    check(host, "freeFMUstate", host->library.free_state(host->instance, &state));
-    print_time("state", seconds, count);
-}
-
-/* Time making and freeing instances. */
-static void time_instantiate(Host *host, long count)
-{
-    double seconds[ROUNDS];
-    int round;
-    long i;
-    for (round = 0; round < ROUNDS; round++) {
-        double begin = now();
-        for (i = 0; i < count; i++) {
-            fmi2Component one = instantiate(host);
-            if (!one) host->surprises++;
-            host->library.free_instance(one);
-        }
-        seconds[round] = now() - begin;
-    }
-    print_time("instantiate", seconds, count);
-}
-
-#ifdef _WIN32
-/* Threads are timed where there is pthread. */
-static void time_threads(Host *host, long threads, double size, long count)
-{
-    (void)threads, (void)size, (void)count;
-    printf("threads are not timed on Windows\n");
-    host->surprises++;
-}
-#else
-typedef struct Run {
-    Host host;
-    double size;
-    long count;
-} Run;
-
-/* Let one instance take its steps. */
-static void *run(void *argument)
-{
-    Run *one = argument;
-    step(&one->host, one->size, one->count);
-    return NULL;
-}
-
-/* Time several instances in turn and in threads. */
-static void time_threads(Host *host, long threads, double size, long count)
-{
-    static Run runs[MOST_THREADS];
-    pthread_t handles[MOST_THREADS];
-    double begin, in_turn;
-    long i;
-    if (threads < 1 || threads > MOST_THREADS) threads = MOST_THREADS;
-    for (i = 0; i < threads; i++) {
-        runs[i].host = *host;
-        runs[i].host.surprises = 0;
-        runs[i].host.instance = instantiate(host);
-        runs[i].size = size;
-        runs[i].count = count;
-        start(&runs[i].host, 0.0);
-    }
-    begin = now();
-    for (i = 0; i < threads; i++) run(&runs[i]);
-    in_turn = now() - begin;
-    begin = now();
-    for (i = 0; i < threads; i++) pthread_create(&handles[i], NULL, run, &runs[i]);
-    for (i = 0; i < threads; i++) pthread_join(handles[i], NULL);
-    printf("threads %.2f times as fast\n", in_turn / (now() - begin));
-    for (i = 0; i < threads; i++) {
-        host->surprises += runs[i].host.surprises;
-        host->library.free_instance(runs[i].host.instance);
-    }
-}
-#endif
 
 /* The part of a command behind so many colons, empty if there are not so many. */
 static const char *argument(const char *command, int place)

@@ -267,7 +267,7 @@ def test_library_runs_under_an_emulator(emulator, zig, host, spindle, tmp_path, 
     assert expected.shape == (len(_SPEEDS), len(names))
     program = tmp_path / ("host.exe" if name == "win64" else "host")
     toy.run(
-        [*zig, "-target", platform.zig, "-std=c99", "-O2", f"-I{toy.HEADERS}", str(toy.HERE / "host.c"), "-o",
+        [*zig, "-target", platform.zig, "-std=c99", "-O2", f"-I{toy.HEADERS}", *toy.HOST, "-o",
          str(program), *(() if name == "win64" else ("-ldl", "-lpthread"))]
     )  # fmt: skip
     made = tmp_path / f"bearing{platform.suffix}"

@@ -2,6 +2,7 @@
 
 import importlib.util
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -20,7 +21,7 @@ def test_shim_and_host_compile_for(platform, tmp_path):
     flags = [*toy.WARNINGS, "-O2", f"-I{toy.HEADERS}", f'-DFB_KERNELS="{toy.KERNELS}"']
     if len(target.instruction_sets) > 1:
         flags.append("-DFB_X86")
-    sources = [*sorted(toy.SHIM.glob("*.c")), toy.HERE / "host.c"]
+    sources = [*sorted(toy.SHIM.glob("*.c")), *map(Path, toy.HOST)]
     for source in sources:
         made = tmp_path / f"{source.stem}.o"
         toy.run([*compiler, *flags, "-c", str(source), "-o", str(made)])

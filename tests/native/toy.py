@@ -12,6 +12,8 @@ from fmu_bearing.fmi.native.model_file import Caution, Contents, contents_bytes
 from fmu_bearing.interface import Variable
 
 HERE = Path(__file__).parent
+#: Sources of the host in C.
+HOST = tuple(str(HERE / name) for name in ("host.c", "host_times.c"))
 SHIM = HERE.parents[1] / "fmu_bearing" / "fmi" / "native" / "shim"
 HEADERS = Path(importlib.util.find_spec("fmpy").origin).parent / "c-code"
 KERNELS = hashlib.sha256(b"toy kernels").hexdigest()

@@ -1,4 +1,4 @@
-"""The generated parts of the page on architecture name everything there is."""
+"""The generated parts of the page on architecture name everything there is; lists of files name files."""
 
 import importlib
 import importlib.util
@@ -7,6 +7,7 @@ import re
 import pytest
 
 from fmu_bearing.engine.choices import FIDELITIES, METHODS
+from tests.conftest import LONG
 from tests.pages import DOCS, ROOT
 
 
@@ -52,3 +53,7 @@ def test_every_method_has_its_column(structure):
     table = structure.fidelities().splitlines()
     assert table[0] == "| fidelity | " + " | ".join(f"`{method}`" for method in METHODS) + " |"
     assert [row.split(" | ")[0] for row in table[2:]] == [f"| `{model}`" for model in FIDELITIES]
+
+
+def test_files_that_run_first_are_there():
+    assert all((ROOT / "tests" / name).is_file() for name in LONG)

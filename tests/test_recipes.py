@@ -109,7 +109,9 @@ def copy(tmp_path_factory):
     made = Copy(tmp_path_factory.mktemp("recipes"))
     for name in COPIED:
         if (ROOT / name).is_dir():
-            shutil.copytree(ROOT / name, made.folder / name, ignore=shutil.ignore_patterns("__pycache__"))
+            # with the compiled files: they know the time and the size of their source, and a copy keeps both
+            unfinished = shutil.ignore_patterns("*.pyc.*", "*.tmp.*")  # another worker may be writing them
+            shutil.copytree(ROOT / name, made.folder / name, ignore=unfinished)
         else:
             shutil.copy(ROOT / name, made.folder / name)
     for title, recipe in RECIPES.items():

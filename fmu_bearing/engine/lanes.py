@@ -329,6 +329,21 @@ def store_six(x, at, step, values):
 
 
 @kernel
+def scaled_six(x, a):
+    """``x`` times six numbers."""
+    a0, a1, a2, a3, a4, a5 = a
+    return x * a0, x * a1, x * a2, x * a3, x * a4, x * a5
+
+
+@kernel
+def plus_scaled(a, x, b):
+    """Six numbers plus ``x`` times another six."""
+    a0, a1, a2, a3, a4, a5 = a
+    b0, b1, b2, b3, b4, b5 = b
+    return a0 + x * b0, a1 + x * b1, a2 + x * b2, a3 + x * b3, a4 + x * b4, a5 + x * b5
+
+
+@kernel
 def dot_six(a, b):
     """Sum of six products, as three pairs."""
     a0, a1, a2, a3, a4, a5 = a

@@ -26,6 +26,7 @@ module            as    array
 ``statics``       ST    work space of the quasi-static kernels
 ``pose``          X     where a ball stands in a body's frame: rows of ``w``
 ``race``          R     contact of the balls with one race: rows of ``w``
+``contact``       K     how a contact answers motion: scratch of the Jacobian in ``w``
 ``w``             W     work space: scratch, no value survives a call; its ledger of overlays
 ``trial``         T     work space of fidelities rings and response
 ``tableau``       TAB   coefficients of one Runge-Kutta method
@@ -39,6 +40,7 @@ one loop over balls is then one vector loop. Places are computed from sizes, nev
 from fmu_bearing.engine.layout import (
     c as C,
     condensed as L,
+    contact as K,
     equilibrium as EQ,
     f as F,
     factors as A,
@@ -63,6 +65,6 @@ from fmu_bearing.engine.layout import (
 from fmu_bearing.engine.layout.sizes import FOUR, MAX_BALLS, MAX_MODES, STAGES, STRIDE
 
 __all__ = [
-    "A", "C", "EQ", "F", "FL", "J", "L", "LN", "MO", "P", "Q", "R", "S", "SD", "ST", "T", "TAB", "U", "W",
-    "X", "Y", "Z", "FOUR", "MAX_BALLS", "MAX_MODES", "STAGES", "STRIDE",
+    "A", "C", "EQ", "F", "FL", "J", "K", "L", "LN", "MO", "P", "Q", "R", "S", "SD", "ST", "T", "TAB", "U",
+    "W", "X", "Y", "Z", "FOUR", "MAX_BALLS", "MAX_MODES", "STAGES", "STRIDE",
 ]  # fmt: skip

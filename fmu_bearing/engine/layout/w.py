@@ -10,6 +10,7 @@ from typing import NamedTuple
 from fmu_bearing.engine.layout import (
     c as _C,
     condensed as _L,
+    contact as _K,
     equilibrium as _EQ,
     f as _F,
     factors as _A,
@@ -66,13 +67,13 @@ REPORT = _at(REPORT_SIZE)  # of a Runge-Kutta step: ERROR, CONTRACTION, ITERATIO
 WEIGHTS = _at(STAGES * FOUR)  # s: what the stages before count in this one, each for four lanes
 STAGE = _at(_Y.SIZE)  # stage state
 F = _at(_F.SIZE)  # right-hand side
-F0 = _at(_F.SIZE)  # unperturbed right-hand side
+F0 = _at(_F.SIZE)  # right-hand side where the Jacobian was made
 D = _at(_F.SIZE)  # Newton increment
 ACC = _at(STAGES * _F.SIZE)  # stage accelerations
 VEL = _at(STAGES * _F.SIZE)  # stage velocities in the layout of accelerations
 FLEX = _at(_FL.SIZE)  # flexible rings: see flexure
 MOTION = _at(_MO.SIZE)  # motion sample: see motion
-BODY_0 = _at(_Q.SIZE * STRIDE)  # unperturbed generalised forces
+CONTACT = _at(_K.SIZE)  # how contacts answer motion: see contact
 SOUND = _at.next  # work space of the sound kernels
 
 LAST = ACC + (STAGES - 1) * _F.SIZE  # accelerations at the end of a step, of any method
@@ -151,7 +152,7 @@ LEDGER: tuple[Area, ...] = (
     ),
     Area("F", F, _F.SIZE, frozenset({"evaluation", "jacobian", "solve", "step", "condensed"})),
     Area("F0", F0, _F.SIZE, frozenset({"jacobian"})),
-    Area("BODY_0", BODY_0, _Q.SIZE * STRIDE, frozenset({"jacobian"})),
+    Area("CONTACT", CONTACT, _K.SIZE, frozenset({"jacobian"})),
     Area("D", D, _F.SIZE, frozenset({"solve", "step"})),
     Area("STATICS", STATICS, _ST.SIZE, frozenset({"start"})),
     Area("SPIN_SYSTEM", SPIN_SYSTEM, _ST.SPIN_SYSTEM_SIZE, frozenset({"start"})),

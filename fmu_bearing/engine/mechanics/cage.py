@@ -11,6 +11,22 @@ from fmu_bearing.engine.mechanics.triples import added, cross, dot, scaled, stor
 
 
 @kernel
+def in_pocket(p, angle, turned, j, w):
+    """Place of four balls from their pockets' middles: along the axis, along the track, and distance (m).
+
+    ``angle``: of the balls, ``turned``: of the cage (rad).
+    """
+    pose = W.POSE + 2 * X.SIZE
+    number = consecutive(j)
+    _, hr, ht = three(w, pose + X.H + j)
+    lead = load(angle, j) + bearing_angle(hr, ht)
+    axial = load(w, pose + X.A + j)
+    spacing = TWO_PI / p[P.BALLS]
+    around = p[P.PITCH_RADIUS] * wrap(lead - turned - select(number < p[P.BALLS], number, 0.0) * spacing)
+    return axial, around, math.sqrt(axial * axial + around * around + 1e-30)
+
+
+@kernel
 def pockets(p, c, angle, lanes, turned, w):
     """Pocket forces and moments on the balls and the power lost there.
 
@@ -21,7 +37,6 @@ def pockets(p, c, angle, lanes, turned, w):
     pose = W.POSE + 2 * X.SIZE
     out = W.FORCE + 2 * W.FORCE_SIZE
     pitch = p[P.PITCH_RADIUS]
-    spacing = TWO_PI / p[P.BALLS]
     clearance = p[P.POCKET_CLEARANCE]
     stiffness = p[P.POCKET_STIFFNESS]
     damping = p[P.POCKET_DAMPING]
@@ -30,17 +45,12 @@ def pockets(p, c, angle, lanes, turned, w):
     floor = p[P.POCKET_SLIP]
     ball = c[C.BALL_RADIUS]
     for j in range(0, lanes, FOUR):
-        number = consecutive(j)
-        live = number < p[P.BALLS]
+        live = consecutive(j) < p[P.BALLS]
         n = three(w, pose + X.N + j)
         t = three(w, pose + X.T + j)
         dv = three(w, pose + X.DV + j)
         dw = three(w, pose + X.DW + j)
-        hx, hr, ht = three(w, pose + X.H + j)
-        lead = load(angle, j) + bearing_angle(hr, ht)
-        axial = load(w, pose + X.A + j)
-        around = pitch * wrap(lead - turned - select(live, number, 0.0) * spacing)
-        apart = math.sqrt(axial * axial + around * around + 1e-30)
+        axial, around, apart = in_pocket(p, angle, turned, j, w)
         px = axial / apart
         pt = around / apart
         lever = pitch / load(w, pose + X.RHO + j)

@@ -17,40 +17,49 @@ _PER_RADIAN = P.WAVE_INTERVALS / 6.283185307179586
 
 
 @kernel
-def waves(p, c, y_angle, lanes, race, turned, w):
-    """Race height (m, towards the ball) and slope (m/rad) under each ball.
+def wave_under(p, c, y_angle, race, turned, j, w):
+    """Race height (m, towards the ball), slope (m/rad) and curvature (m/rad2) under four balls.
 
     Cubic Hermite interpolation of a table of ``WAVE_INTERVALS`` values and slopes; the slope is the exact
     derivative of the interpolant, so waviness conserves energy. ``turned`` is the race's own angle (rad).
     """
-    row = W.RACE + race * R.SIZE
     pose = W.POSE + race * X.SIZE
+    table = int(p[P.AT_WAVES]) + race * 2 * P.WAVE_INTERVALS
+    scale = c[C.OVERSIZE_SCALE]
+    # The ball's angle seen from the displaced ring's centre: h leaves the radial direction by ht/hr.
+    _, hr, ht = three(w, pose + X.H + j)
+    angle = load(y_angle, j) + bearing_angle(hr, ht) - turned
+    # Adding ROUND leaves the interval's number in the low bits: no conversion, no branch.
+    place = angle * _PER_RADIAN
+    number = (place - 0.5) + ROUND
+    t = place - (number - ROUND)
+    i0 = to_bits(number) & (P.WAVE_INTERVALS - 1)
+    i1 = (i0 + 1) & (P.WAVE_INTERVALS - 1)
+    h0 = gather(p, table, i0 << 1)
+    g0 = gather(p, table + 1, i0 << 1)
+    h1 = gather(p, table, i1 << 1)
+    g1 = gather(p, table + 1, i1 << 1)
+    d = h1 - h0
+    a = g0 + g1 - 2.0 * d
+    b = 3.0 * d - 2.0 * g0 - g1
+    height = scale * (h0 + t * (g0 + t * (b + t * a)))
+    slope = scale * _PER_RADIAN * (g0 + t * (2.0 * b + t * 3.0 * a))
+    return height, slope, scale * _PER_RADIAN * _PER_RADIAN * (2.0 * b + t * 6.0 * a)
+
+
+@kernel
+def waves(p, c, y_angle, lanes, race, turned, w):
+    """Write race height (m, towards the ball) and slope (m/rad) under each ball into their rows."""
+    row = W.RACE + race * R.SIZE
     if p[P.WAVINESS] == 0.0:
         for j in range(0, lanes, FOUR):
             store(w, row + R.WAVE + j, 0.0)
             store(w, row + R.SLOPE + j, 0.0)
         return
-    table = int(p[P.AT_WAVES]) + race * 2 * P.WAVE_INTERVALS
-    scale = c[C.OVERSIZE_SCALE]
     for j in range(0, lanes, FOUR):
-        # The ball's angle seen from the displaced ring's centre: h leaves the radial direction by ht/hr.
-        hx, hr, ht = three(w, pose + X.H + j)
-        angle = load(y_angle, j) + bearing_angle(hr, ht) - turned
-        # Adding ROUND leaves the interval's number in the low bits: no conversion, no branch.
-        place = angle * _PER_RADIAN
-        number = (place - 0.5) + ROUND
-        t = place - (number - ROUND)
-        i0 = to_bits(number) & (P.WAVE_INTERVALS - 1)
-        i1 = (i0 + 1) & (P.WAVE_INTERVALS - 1)
-        h0 = gather(p, table, i0 << 1)
-        g0 = gather(p, table + 1, i0 << 1)
-        h1 = gather(p, table, i1 << 1)
-        g1 = gather(p, table + 1, i1 << 1)
-        d = h1 - h0
-        a = g0 + g1 - 2.0 * d
-        b = 3.0 * d - 2.0 * g0 - g1
-        store(w, row + R.WAVE + j, scale * (h0 + t * (g0 + t * (b + t * a))))
-        store(w, row + R.SLOPE + j, scale * _PER_RADIAN * (g0 + t * (2.0 * b + t * 3.0 * a)))
+        height, slope, _ = wave_under(p, c, y_angle, race, turned, j, w)
+        store(w, row + R.WAVE + j, height)
+        store(w, row + R.SLOPE + j, slope)
 
 
 @kernel

@@ -1,9 +1,12 @@
 """The Newton system in accelerations: (I - cv Jv - cx Jx) d = r.
 
-===============  ==============================================================================
-``jacobian``     blocks of the Jacobian by differences, all balls per perturbation
-``springs``      springs between balls in that system: a small dense correction
-``block_arrow``  factors and solves it: a small block per ball, one border for the bodies
-``modes``        flexural modes in it: their rows and columns, and the inverse of what the balls leave
-===============  ==============================================================================
+===================  ==========================================================================
+``traction_slopes``  what a contact's traction answers to sliding, spin, entrainment and load
+``contact_slopes``   what force and moment on a ball answer to its motion against one body
+``body_slopes``      the bodies' own share: supports, gyroscopes, the cage's lands
+``jacobian``         blocks of the Jacobian from these, by the levers of ball and bodies
+``springs``          springs between balls in that system: a small dense correction
+``block_arrow``      factors and solves it: a small block per ball, one border for the bodies
+``modes``            flexural modes in it: rows, columns, and the inverse of what the balls leave
+===================  ==========================================================================
 """

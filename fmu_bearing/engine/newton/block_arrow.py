@@ -8,7 +8,17 @@ Everything that belongs to balls is done for four of them at a time.
 """
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.lanes import dot_six, in_groups, load, six, splat, store, store_six, sum_four
+from fmu_bearing.engine.lanes import (
+    dot_six,
+    in_groups,
+    load,
+    plus_scaled,
+    six,
+    splat,
+    store,
+    store_six,
+    sum_four,
+)
 from fmu_bearing.engine.layout import FOUR, MAX_BALLS, STRIDE, A, F, J, P, Q, W
 from fmu_bearing.engine.newton.springs import couple_springs, spring_matrix
 
@@ -191,14 +201,6 @@ def times_six(fac, at, x):
 
 
 @kernel
-def less_scaled(t, column, x):
-    """Six numbers of each ball less ``x`` times another six."""
-    t0, t1, t2, t3, t4, t5 = t
-    c0, c1, c2, c3, c4, c5 = column
-    return t0 - c0 * x, t1 - c1 * x, t2 - c2 * x, t3 - c3 * x, t4 - c4 * x, t5 - c5 * x
-
-
-@kernel
 def border_product(fac, w, d):
     """Bodies' part of ``d`` from their residual in ``w``: S^-1 stands by columns of ``BORDER`` numbers."""
     for i in range(0, A.BORDER, FOUR):
@@ -234,7 +236,7 @@ def follow_bodies(fac, lanes, d, w):
         at = in_groups(j, A.GROUP)
         own = six(w, W.OWN + j, STRIDE)
         for g in range(Q.SIZE):
-            own = less_scaled(own, six(fac, at + A.W + g * A.SIX, FOUR), d[F.BODY + g])
+            own = plus_scaled(own, -d[F.BODY + g], six(fac, at + A.W + g * A.SIX, FOUR))
         store_six(d, j, STRIDE, own)
 
 

@@ -13,7 +13,8 @@ import math
 from fmu_bearing.engine.dense import eigenvectors, solve_complex
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import STRIDE, C, J, L, P, Q, S, T, Y
-from fmu_bearing.engine.newton.jacobian import inertia, jacobian
+from fmu_bearing.engine.newton.body_slopes import inertia
+from fmu_bearing.engine.newton.jacobian import jacobian
 
 _SLOWEST = 300.0  # rad/s: slower motions feel the supports, not the balls
 _STIFFEST = 1e14  # (rad/s)^2: faster ones are no modes of the rings

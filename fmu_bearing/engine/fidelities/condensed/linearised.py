@@ -7,7 +7,8 @@ from fmu_bearing.engine.fidelities.condensed.balls import accelerations
 from fmu_bearing.engine.fidelities.condensed.rows import component
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import STRIDE, C, F, L, P, Q, T, W, Y
-from fmu_bearing.engine.newton.jacobian import inertia, is_angle
+from fmu_bearing.engine.newton.body_slopes import inertia
+from fmu_bearing.engine.newton.jacobian import is_angle
 
 # Differences: displacement 1 nm (0.1 N in 100), tilt the same at the pitch circle, and rates that move the
 # advanced displacements by as much. The condensed forces are smooth to 1e-9 N, so differences hold 1e-7.

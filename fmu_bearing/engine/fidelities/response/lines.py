@@ -21,7 +21,8 @@ from fmu_bearing.engine.fidelities.condensed.balls import carried, stand
 from fmu_bearing.engine.fidelities.condensed.rows import component
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import LN, STRIDE, C, L, P, Q, S, T, W, Y
-from fmu_bearing.engine.newton.jacobian import inertia, is_angle
+from fmu_bearing.engine.newton.body_slopes import inertia
+from fmu_bearing.engine.newton.jacobian import is_angle
 
 _HEIGHT = 1e-9  # m, for differences; heights' accelerations by (3e4 rad/s)^2 times that
 _BEND = 1.0  # m/s2

@@ -1,0 +1,335 @@
+"""How force and moment on a ball change with its motion against one body: races and pockets alike.
+
+Each contact has three axes: e along the normal, t and m across it. Moving the ball along e presses it in;
+moving it across turns the whole contact: axes, velocities and force keep their components in axes that turn.
+What load and traction answer to approach, sliding and spin is found in those axes and then turned into the
+ball's own. Lanes are four balls from ``j`` on.
+"""
+
+import math
+
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.lanes import load, plus_scaled, scaled_six, select, six, splat, store, store_six
+from fmu_bearing.engine.layout import FOUR, STRIDE, A, C, K, P, R, W, X, Y
+from fmu_bearing.engine.mechanics.cage import in_pocket
+from fmu_bearing.engine.mechanics.race import wave_under
+from fmu_bearing.engine.mechanics.triples import added, along, cross, dot, scaled, three
+from fmu_bearing.engine.newton.traction_slopes import clear_traction
+
+# m^0.5: root of the approach; where a contact opens, the slope of its damping has no bound
+_SHALLOWEST = 1e-5
+_NEAREST = 1e-9  # m: a ball in the middle of its pocket touches nothing, whatever the direction
+
+
+@kernel
+def components(v, frame):
+    """Components of a vector along three axes."""
+    e, t, m = frame
+    return dot(v, e), dot(v, t), dot(v, m)
+
+
+@kernel
+def product(w, first, x):
+    """Three columns from ``first`` on times three numbers."""
+    a0, a1, a2, a3, a4, a5 = six(w, first, FOUR)
+    b0, b1, b2, b3, b4, b5 = six(w, first + A.SIX, FOUR)
+    c0, c1, c2, c3, c4, c5 = six(w, first + 2 * A.SIX, FOUR)
+    return (
+        dot((a0, b0, c0), x),
+        dot((a1, b1, c1), x),
+        dot((a2, b2, c2), x),
+        dot((a3, b3, c3), x),
+        dot((a4, b4, c4), x),
+        dot((a5, b5, c5), x),
+    )
+
+
+@kernel
+def both(force, moment):
+    """Force and moment as six numbers."""
+    fx, fr, ft = force
+    mx, mr, mt = moment
+    return fx, fr, ft, mx, mr, mt
+
+
+@kernel
+def levered(w, column, j, ball):
+    """Column of traction as force and moment on the ball, of radius ``ball``, in the contact's axes."""
+    at = W.CONTACT + K.TRACTION + column * K.TRACTION_SIZE + j
+    ft = load(w, at)
+    fm = load(w, at + STRIDE)
+    mn, mt, mm = three(w, at + 2 * STRIDE)
+    return splat(0.0), ft, fm, mn, mt - ball * fm, mm + ball * ft
+
+
+@kernel
+def answers_to_motion(ball, gradient, bumps, stiffness, film, j, w):
+    """Fill the columns of velocity, spin and entrainment; return those of load and approach.
+
+    ``gradient`` of the approach by the ball's place; ``bumps``: slopes of the ball's own surface towards t
+    and m; ``stiffness``: load by approach and by its rate, and logarithm of the ellipse by approach;
+    ``film`` (N s/m): damping along e and m. ``ball``: its radius (m).
+    """
+    ge, gt, gm = gradient
+    bump_t, bump_m = bumps
+    by_approach, by_rate, growth = stiffness
+    at = W.CONTACT
+    _, ft, fm, me, mt, mm = levered(w, K.LOAD, j, ball)
+    loaded = (-ge, ft - gt, fm - gm, me, mt - bump_m, mm + bump_t)
+    entrained = levered(w, K.ENTRAIN, j, ball)
+    # half the sliding is taken from the entrainment speed
+    slid = plus_scaled(levered(w, K.UT, j, ball), -0.5, entrained)
+    across = levered(w, K.UM, j, ball)
+    about_t = plus_scaled(levered(w, K.AT, j, ball), -ball, across)
+    about_m = plus_scaled(levered(w, K.AM, j, ball), ball, slid)
+    fe, ft, fm, me, mt, mm = scaled_six(by_rate * ge, loaded)
+    store_six(w, at + K.RATE, FOUR, (fe - film, ft, fm, me, mt, mm))
+    store_six(w, at + K.RATE + A.SIX, FOUR, plus_scaled(slid, by_rate * gt, loaded))
+    fe, ft, fm, me, mt, mm = plus_scaled(across, by_rate * gm, loaded)
+    store_six(w, at + K.RATE + 2 * A.SIX, FOUR, (fe, ft, fm - film, me, mt, mm))
+    store_six(w, at + K.SPIN, FOUR, levered(w, K.AN, j, ball))
+    store_six(w, at + K.SPIN + A.SIX, FOUR, plus_scaled(about_t, by_rate * bump_m, loaded))
+    store_six(w, at + K.SPIN + 2 * A.SIX, FOUR, plus_scaled(about_m, -by_rate * bump_t, loaded))
+    store_six(w, at + K.ENTRAINED, FOUR, entrained)
+    return loaded, plus_scaled(scaled_six(by_approach, loaded), growth, levered(w, K.HALF, j, ball))
+
+
+@kernel
+def bent_gradient(change, pressing, by_rate, v, loaded):
+    """Answer to a ``change`` (1/m) of the approach's gradient: the load leans, the approach's rate differs.
+
+    ``pressing``: load (N); ``v``: velocity against the body; ``loaded``: answer to the load; all in the
+    contact's axes.
+    """
+    none = splat(0.0)
+    leaning = both(scaled(-pressing, change), (none, none, none))
+    return plus_scaled(leaning, by_rate * dot(change, v), loaded)
+
+
+@kernel
+def turned_contact(turn, ball, motion, w):
+    """Change of force and moment where the contact turns by ``turn``; all in the contact's axes.
+
+    ``motion``: velocity and spin against the body, own spin, force and moment.
+    """
+    v, spin, own, force, moment = motion
+    at = W.CONTACT
+    _, _, rolled = cross(turn, own)
+    carried = both(cross(turn, force), cross(turn, moment))
+    carried = plus_scaled(carried, -ball * rolled, six(w, at + K.ENTRAINED, FOUR))
+    carried = plus_scaled(carried, -1.0, product(w, at + K.RATE, cross(turn, v)))
+    return plus_scaled(carried, -1.0, product(w, at + K.SPIN, cross(turn, spin)))
+
+
+@kernel
+def place_column(i, along_axis, pressed, turned, tipped, material, w):
+    """Fill the column of the ball's place along the contact's axis ``i``.
+
+    ``along_axis``: approach, turn about the body's axis and turn about -t by that place, of which the
+    answers are ``pressed``, ``turned`` and ``tipped``; ``material``: velocity of the body's material under
+    the ball by that place.
+    """
+    approach, around, over = along_axis
+    column = plus_scaled(scaled_six(approach, pressed), around, turned)
+    column = plus_scaled(column, over, tipped)
+    column = plus_scaled(column, -1.0, product(w, W.CONTACT + K.RATE, material))
+    store_six(w, W.CONTACT + K.PLACE + i * A.SIX, FOUR, column)
+
+
+@kernel
+def answers_to_place(y, body, ball, frame, gradient, pressed, bent, bent_over, about, around, over, j, w):
+    """Fill the columns of the ball's place, the body's motion and the ball's velocity held.
+
+    ``pressed``: answer to the approach; ``about``: the body's axis in the contact's axes; ``around``,
+    ``over``: turns about it and about -t, in rad per m along each of the three axes; ``bent``,
+    ``bent_over``: answers to the gradient's own change, see :func:`bent_gradient`, along t and by that turn.
+    """
+    pose = W.POSE + body * X.SIZE
+    force = W.FORCE + body * W.FORCE_SIZE
+    dw = three(w, pose + X.DW + j)
+    spin = three(y, Y.WX + j)
+    wx, wr, wt = spin
+    motion = (
+        components(three(w, pose + X.DV + j), frame),
+        components(dw, frame),
+        components((wx - load(y, Y.OM + j), wr, wt), frame),
+        components(three(w, force + W.FX + j), frame),
+        components(three(w, force + W.MX + j), frame),
+    )
+    bx, br, bt = components(added(spin, scaled(-1.0, dw)), frame)
+    turned = turned_contact(about, ball, motion, w)
+    none = splat(0.0)
+    tipped = plus_scaled(bent_over, 1.0, turned_contact((none, splat(-1.0), none), ball, motion, w))
+    ge, gt, gm = gradient
+    ae, at, am = around
+    oe, ot, om = over
+    # the body's material moves under a ball that goes along an axis: the body's spin times that axis
+    place_column(0, (ge, ae, oe), pressed, turned, tipped, (none, bt, -br), w)
+    place_column(1, (gt, at, ot), pressed, turned, tipped, (-bt, none, bx), w)
+    along_t = W.CONTACT + K.PLACE + A.SIX
+    store_six(w, along_t, FOUR, plus_scaled(six(w, along_t, FOUR), 1.0, bent))
+    place_column(2, (gm, am, om), pressed, turned, tipped, (br, -bx, none), w)
+
+
+@kernel
+def into_ball_axes(frame, w):
+    """Turn all columns from the contact's axes into the ball's."""
+    e, t, m = frame
+    for i in range(K.COLUMNS):
+        at = W.CONTACT + K.PLACE + i * A.SIX
+        fe, ft, fm, me, mt, mm = six(w, at, FOUR)
+        store_six(w, at, FOUR, both(along(fe, e, ft, t, fm, m), along(me, e, mt, t, mm, m)))
+    ex, er, et = e
+    tx, tr, tt = t
+    mx, mr, mt = m
+    for first in (K.PLACE, K.RATE, K.SPIN):
+        at = W.CONTACT + first
+        x = product(w, at, (ex, tx, mx))
+        r = product(w, at, (er, tr, mr))
+        theta = product(w, at, (et, tt, mt))
+        store_six(w, at, FOUR, x)
+        store_six(w, at + A.SIX, FOUR, r)
+        store_six(w, at + 2 * A.SIX, FOUR, theta)
+
+
+@kernel
+def own_spin(arm, w):
+    """Add to the columns of spin what the ball's own does through entrainment; ``arm``: by how much (m)."""
+    entrained = six(w, W.CONTACT + K.ENTRAINED, FOUR)
+    x, r, theta = arm
+    at = W.CONTACT + K.SPIN
+    store_six(w, at, FOUR, plus_scaled(six(w, at, FOUR), x, entrained))
+    store_six(w, at + A.SIX, FOUR, plus_scaled(six(w, at + A.SIX, FOUR), r, entrained))
+    store_six(w, at + 2 * A.SIX, FOUR, plus_scaled(six(w, at + 2 * A.SIX, FOUR), theta, entrained))
+    store(w, W.CONTACT + K.ARM, x)
+    store(w, W.CONTACT + K.ARM + FOUR, r)
+    store(w, W.CONTACT + K.ARM + 2 * FOUR, theta)
+
+
+@kernel
+def race_columns(p, c, y, race, turned, j, w):
+    """Fill the columns of the contact with one race, turned by ``turned`` (rad); those of traction are there.
+
+    Left out: the change of a flexed groove's place and of a wavy ball's slope with the ball's own place, and
+    that a flexed groove's slope does not turn with its ring; at most 4e-4 of the largest entries.
+    """
+    row = W.RACE + race * R.SIZE
+    pose = W.POSE + race * X.SIZE
+    numbers = P.RACES + race * P.RACE_SIZE
+    held = C.RACES + race * C.RACE_SIZE
+    ball = c[C.BALL_RADIUS]
+    hertz = p[numbers + P.RACE_STIFFNESS]
+    damping = 1.5 * p[P.CONTACT_DAMPING]
+    m = three(w, row + R.EM + j)
+    frame = (three(w, row + R.EN + j), three(w, pose + X.T + j), m)
+    sina = load(w, row + R.SINA + j)
+    cosa = load(w, row + R.COSA + j)
+    rho = load(w, pose + X.RHO + j)
+    sx = load(w, pose + X.A + j) - c[held + C.GROOVE_X]
+    per_distance = 1.0 / (sx * sina + (rho - c[held + C.GROOVE_RADIUS]) * cosa)
+    per_rho = 1.0 / rho
+    root = math.sqrt(max(load(w, row + R.APPROACH + j), 0.0))
+    per_root = 1.0 / max(root, _SHALLOWEST)
+    touching = load(w, row + R.LOAD + j) > 0.0
+    by_approach = hertz * (1.5 * root + 0.5 * damping * load(w, row + R.RATE + j) * per_root)
+    stiffness = (
+        select(touching, by_approach, 0.0),
+        select(touching, hertz * damping * root, 0.0),
+        0.5 * per_root * per_root,
+    )
+    none = splat(0.0)
+    lean = load(w, row + R.SLOPE + j) * per_rho
+    tip = none
+    bump_t = none
+    bump_m = none
+    if p[P.BALL_WAVES] != 0.0:
+        bump_t = load(w, row + R.BUMP_T + j)
+        bump_m = load(w, row + R.BUMP_M + j)
+        lean += bump_t * cosa * per_rho
+        tip = bump_m * per_distance
+    gradient = (splat(1.0), lean, tip)
+    loaded, pressed = answers_to_motion(splat(ball), gradient, (bump_t, bump_m), stiffness, none, j, w)
+    curvature = none
+    if p[P.WAVINESS] != 0.0:
+        _, _, curvature = wave_under(p, c, y[Y.TH : Y.TH + STRIDE], race, turned, j, w)
+    _, by_rate, _ = stiffness
+    v = components(three(w, pose + X.DV + j), frame)
+    change = (none, curvature * per_rho * per_rho, none)
+    bent = bent_gradient(change, load(w, row + R.LOAD + j), by_rate, v, loaded)
+    around = (none, per_rho, none)
+    over = (none, none, per_distance)
+    about = (sina, none, cosa)
+    nothing = (none, none, none, none, none, none)
+    answers_to_place(y, race, splat(ball), frame, gradient, pressed, bent, nothing, about, around, over, j, w)
+    into_ball_axes(frame, w)
+    own_spin(scaled(ball, m), w)
+
+
+@kernel
+def pocket_traction(p, pressing, ut, um, j, w):
+    """Columns of the friction in a pocket: one point of contact, the law of ``cage.pockets``."""
+    floor = p[P.POCKET_SLIP]
+    per_square = 1.0 / (ut * ut + um * um + floor * floor)
+    share = -p[P.POCKET_FRICTION] * math.sqrt(per_square)
+    pull = share * pressing
+    at = W.CONTACT + K.TRACTION + j
+    by_um = at + K.UM * K.TRACTION_SIZE
+    by_load = at + K.LOAD * K.TRACTION_SIZE
+    store(w, at, pull * (1.0 - ut * ut * per_square))
+    store(w, at + STRIDE, -pull * ut * um * per_square)
+    store(w, by_um, -pull * ut * um * per_square)
+    store(w, by_um + STRIDE, pull * (1.0 - um * um * per_square))
+    store(w, by_load, share * ut)
+    store(w, by_load + STRIDE, share * um)
+
+
+@kernel
+def pocket_columns(p, c, y, turned, j, w):
+    """Fill the columns of the contact with a pocket and its film; the cage is turned by ``turned`` (rad)."""
+    if j == 0:
+        clear_traction(w)
+    pose = W.POSE + 2 * X.SIZE
+    ball = c[C.BALL_RADIUS]
+    n = three(w, pose + X.N + j)
+    h = three(w, pose + X.H + j)
+    t = three(w, pose + X.T + j)
+    axial, along_track, apart = in_pocket(p, y[Y.TH : Y.TH + STRIDE], turned, j, w)
+    px = axial / apart
+    pt = along_track / apart
+    frame = (added(scaled(px, n), scaled(pt, t)), h, added(scaled(px, t), scaled(-pt, n)))
+    ve, vt, vm = components(three(w, pose + X.DV + j), frame)
+    _, wt, wm = components(three(w, pose + X.DW + j), frame)
+    # the lever by which the pitch circle is longer than the ball's own
+    per_rho = 1.0 / load(w, pose + X.RHO + j)
+    extra = p[P.PITCH_RADIUS] * per_rho - 1.0
+    none = splat(0.0)
+    gradient = (1.0 + extra * pt * pt, none, extra * pt * px)
+    ge, _, gm = gradient
+    push = max(apart - p[P.POCKET_CLEARANCE], 0.0)
+    root = math.sqrt(push)
+    damped = 1.0 + p[P.POCKET_DAMPING] * (ge * ve + gm * vm)
+    touching = damped > 0.0
+    rigid = p[P.POCKET_STIFFNESS] * root
+    pressing = max(rigid * push * damped, 0.0)
+    stiffness = (
+        select(touching, 1.5 * rigid * damped, 0.0),
+        select(touching, rigid * push * p[P.POCKET_DAMPING], 0.0),
+        none,
+    )
+    pocket_traction(p, pressing, vt + ball * wm, vm - ball * wt, j, w)
+    film = splat(p[P.POCKET_FILM])
+    loaded, pressed = answers_to_motion(splat(ball), gradient, (none, none), stiffness, film, j, w)
+    per_apart = 1.0 / max(apart, _NEAREST)
+    around = (pt * per_rho, none, px * per_rho)
+    over = (extra * px * pt * per_apart, none, (1.0 + extra * px * px) * per_apart)
+    _, by_rate, _ = stiffness
+    v = (ve, vt, vm)
+    # the lever shortens as the ball moves outwards; its share of the gradient stays along the track
+    shorter = -(1.0 + extra) * pt * per_rho
+    bent = bent_gradient((pt * shorter, none, px * shorter), pressing, by_rate, v, loaded)
+    aside = (2.0 * extra * px * pt, none, extra * (px * px - pt * pt))
+    bent_over = bent_gradient(aside, pressing, by_rate, v, loaded)
+    about = (px, none, -pt)
+    answers_to_place(y, 2, splat(ball), frame, gradient, pressed, bent, bent_over, about, around, over, j, w)
+    into_ball_axes(frame, w)
+    own_spin((none, none, none), w)

@@ -101,8 +101,8 @@ def bent_gradient(change, pressing, by_rate, v, loaded):
     ``pressing``: load (N); ``v``: velocity against the body; ``loaded``: answer to the load; all in the
     contact's axes.
     """
-    none = splat(0.0)
-    leaning = both(scaled(-pressing, change), (none, none, none))
+    zero = splat(0.0)
+    leaning = both(scaled(-pressing, change), (zero, zero, zero))
     return plus_scaled(leaning, by_rate * dot(change, v), loaded)
 
 
@@ -158,17 +158,17 @@ def answers_to_place(y, body, ball, frame, gradient, pressed, bent, bent_over, a
     )
     bx, br, bt = components(added(spin, scaled(-1.0, dw)), frame)
     turned = turned_contact(about, ball, motion, w)
-    none = splat(0.0)
-    tipped = plus_scaled(bent_over, 1.0, turned_contact((none, splat(-1.0), none), ball, motion, w))
+    zero = splat(0.0)
+    tipped = plus_scaled(bent_over, 1.0, turned_contact((zero, splat(-1.0), zero), ball, motion, w))
     ge, gt, gm = gradient
     ae, at, am = around
     oe, ot, om = over
     # the body's material moves under a ball that goes along an axis: the body's spin times that axis
-    place_column(0, (ge, ae, oe), pressed, turned, tipped, (none, bt, -br), w)
-    place_column(1, (gt, at, ot), pressed, turned, tipped, (-bt, none, bx), w)
+    place_column(0, (ge, ae, oe), pressed, turned, tipped, (zero, bt, -br), w)
+    place_column(1, (gt, at, ot), pressed, turned, tipped, (-bt, zero, bx), w)
     along_t = W.CONTACT + K.PLACE + A.SIX
     store_six(w, along_t, FOUR, plus_scaled(six(w, along_t, FOUR), 1.0, bent))
-    place_column(2, (gm, am, om), pressed, turned, tipped, (br, -bx, none), w)
+    place_column(2, (gm, am, om), pressed, turned, tipped, (br, -bx, zero), w)
 
 
 @kernel
@@ -237,29 +237,29 @@ def race_columns(p, c, y, race, turned, j, w):
         select(touching, hertz * damping * root, 0.0),
         0.5 * per_root * per_root,
     )
-    none = splat(0.0)
+    zero = splat(0.0)
     lean = load(w, row + R.SLOPE + j) * per_rho
-    tip = none
-    bump_t = none
-    bump_m = none
+    tip = zero
+    bump_t = zero
+    bump_m = zero
     if p[P.BALL_WAVES] != 0.0:
         bump_t = load(w, row + R.BUMP_T + j)
         bump_m = load(w, row + R.BUMP_M + j)
         lean += bump_t * cosa * per_rho
         tip = bump_m * per_distance
     gradient = (splat(1.0), lean, tip)
-    loaded, pressed = answers_to_motion(splat(ball), gradient, (bump_t, bump_m), stiffness, none, j, w)
-    curvature = none
+    loaded, pressed = answers_to_motion(splat(ball), gradient, (bump_t, bump_m), stiffness, zero, j, w)
+    curvature = zero
     if p[P.WAVINESS] != 0.0:
         _, _, curvature = wave_under(p, c, y[Y.TH : Y.TH + STRIDE], race, turned, j, w)
     _, by_rate, _ = stiffness
     v = components(three(w, pose + X.DV + j), frame)
-    change = (none, curvature * per_rho * per_rho, none)
+    change = (zero, curvature * per_rho * per_rho, zero)
     bent = bent_gradient(change, load(w, row + R.LOAD + j), by_rate, v, loaded)
-    around = (none, per_rho, none)
-    over = (none, none, per_distance)
-    about = (sina, none, cosa)
-    nothing = (none, none, none, none, none, none)
+    around = (zero, per_rho, zero)
+    over = (zero, zero, per_distance)
+    about = (sina, zero, cosa)
+    nothing = (zero, zero, zero, zero, zero, zero)
     answers_to_place(y, race, splat(ball), frame, gradient, pressed, bent, nothing, about, around, over, j, w)
     into_ball_axes(frame, w)
     own_spin(scaled(ball, m), w)
@@ -302,8 +302,8 @@ def pocket_columns(p, c, y, turned, j, w):
     # the lever by which the pitch circle is longer than the ball's own
     per_rho = 1.0 / load(w, pose + X.RHO + j)
     extra = p[P.PITCH_RADIUS] * per_rho - 1.0
-    none = splat(0.0)
-    gradient = (1.0 + extra * pt * pt, none, extra * pt * px)
+    zero = splat(0.0)
+    gradient = (1.0 + extra * pt * pt, zero, extra * pt * px)
     ge, _, gm = gradient
     push = max(apart - p[P.POCKET_CLEARANCE], 0.0)
     root = math.sqrt(push)
@@ -314,22 +314,22 @@ def pocket_columns(p, c, y, turned, j, w):
     stiffness = (
         select(touching, 1.5 * rigid * damped, 0.0),
         select(touching, rigid * push * p[P.POCKET_DAMPING], 0.0),
-        none,
+        zero,
     )
     pocket_traction(p, pressing, vt + ball * wm, vm - ball * wt, j, w)
     film = splat(p[P.POCKET_FILM])
-    loaded, pressed = answers_to_motion(splat(ball), gradient, (none, none), stiffness, film, j, w)
+    loaded, pressed = answers_to_motion(splat(ball), gradient, (zero, zero), stiffness, film, j, w)
     per_apart = 1.0 / max(apart, _NEAREST)
-    around = (pt * per_rho, none, px * per_rho)
-    over = (extra * px * pt * per_apart, none, (1.0 + extra * px * px) * per_apart)
+    around = (pt * per_rho, zero, px * per_rho)
+    over = (extra * px * pt * per_apart, zero, (1.0 + extra * px * px) * per_apart)
     _, by_rate, _ = stiffness
     v = (ve, vt, vm)
     # the lever shortens as the ball moves outwards; its share of the gradient stays along the track
     shorter = -(1.0 + extra) * pt * per_rho
-    bent = bent_gradient((pt * shorter, none, px * shorter), pressing, by_rate, v, loaded)
-    aside = (2.0 * extra * px * pt, none, extra * (px * px - pt * pt))
+    bent = bent_gradient((pt * shorter, zero, px * shorter), pressing, by_rate, v, loaded)
+    aside = (2.0 * extra * px * pt, zero, extra * (px * px - pt * pt))
     bent_over = bent_gradient(aside, pressing, by_rate, v, loaded)
-    about = (px, none, -pt)
+    about = (px, zero, -pt)
     answers_to_place(y, 2, splat(ball), frame, gradient, pressed, bent, bent_over, about, around, over, j, w)
     into_ball_axes(frame, w)
-    own_spin((none, none, none), w)
+    own_spin((zero, zero, zero), w)

@@ -118,7 +118,7 @@ def add_arm(body, moved, column, j, w):
 def body_column(per, live, k, motion, column, reacting, j, w, jac):
     """Put the answer to a body's ``motion`` into column ``k`` of block C and the reaction into its sums.
 
-    ``live``: 0 for spare lanes, else 1.
+    ``per``: see :func:`per_inertia`; ``live``: 0 for spare lanes, else 1.
     """
     store_six(jac, J.C + k * STRIDE + j, J.BODIES * STRIDE, as_accelerations(per, column))
     sums = W.CONTACT + K.SUMS + motion * A.SIX
@@ -149,65 +149,79 @@ def direction(k, n, c, s):
 
 
 @kernel
-def body_columns(p, y, body, turning, j, w, jac):
-    """Blocks C and E by what one body's motion does; ``turning``: its spin (rad/s)."""
+def shift_columns(body, per, live, j, w, jac):
+    """Put what a body does by its translation and velocity into blocks C and E."""
+    at = W.CONTACT
+    zero = splat(0.0)
+    along_x = (splat(1.0), zero, zero)
+    c = load(w, W.COS + j)
+    s = load(w, W.SIN + j)
+    for i in range(Q.TURN):
+        k = coordinate(body, i)
+        # the ball's motion against the body
+        back = scaled(-1.0, direction(i, along_x, c, s))
+        place = product(w, at + K.PLACE, back)
+        reacting = reaction(body, add_arm(body, back, place, j, w), j, w)
+        body_column(per, live, k, i, place, reacting, j, w, jac)
+        rate = product(w, at + K.RATE, back)
+        body_column(per, live, k + Q.SIZE, i + K.MOTIONS, rate, reaction(body, rate, j, w), j, w, jac)
+
+
+@kernel
+def turn_rate(d, q, arm, w):
+    """Answer of force and moment to a body's angular velocity about ``d``.
+
+    ``q``: the ball from the body's centre (m); ``arm``: entrainment speed by the ball's own spin (m), which
+    the body's does not change.
+    """
+    at = W.CONTACT
+    rate = plus_scaled(product(w, at + K.RATE, cross(q, d)), dot(arm, d), six(w, at + K.ENTRAINED, FOUR))
+    return plus_scaled(rate, -1.0, product(w, at + K.SPIN, d))
+
+
+@kernel
+def turn_columns(y, body, turning, per, live, j, w, jac):
+    """Put what a body does by its rotation and angular velocity into blocks C and E.
+
+    The body's place turns about its centre: that is the ball's turning back, its velocity, spin, force and
+    moment seen from the body. ``turning``: the body's spin (rad/s).
+    """
     pose = W.POSE + body * X.SIZE
     force = W.FORCE + body * W.FORCE_SIZE
     at = W.CONTACT
     q = three(w, pose + X.Q + j)
     n = three(w, pose + X.N + j)
     h = three(w, pose + X.H + j)
-    c = load(w, W.COS + j)
-    s = load(w, W.SIN + j)
-    zero = splat(0.0)
-    dw = three(w, pose + X.DW + j)
-    own = three(y, Y.WX + j)
-    turn = added(own, scaled(-1.0, dw))
-    tilting = added(turn, scaled(-turning, n))
-    # what turns with a body that tilts: the ball's velocity against its centre, and its spin, but not the
-    # rate of the tilt itself
-    v = added(three(w, pose + X.DV + j), cross(turn, q))
-    seen = added(own, scaled(-1.0, tilting))
     on_ball = three(w, force + W.FX + j)
     about_ball = three(w, force + W.MX + j)
-    arm = (load(w, at + K.ARM), load(w, at + K.ARM + FOUR), load(w, at + K.ARM + 2 * FOUR))
-    entrained = six(w, at + K.ENTRAINED, FOUR)
-    along_x = (splat(1.0), zero, zero)
+    own = three(y, Y.WX + j)
+    whole_turn = added(own, scaled(-1.0, three(w, pose + X.DW + j)))
+    # the rate of the tilt itself is told in fixed axes and does not turn with the body
+    tilting = added(whole_turn, scaled(-turning, n))
+    v = added(three(w, pose + X.DV + j), cross(whole_turn, q))
+    spin = added(own, scaled(-1.0, tilting))
+    zero = splat(0.0)
     orbit = added((load(y, Y.OM + j), zero, zero), scaled(-1.0, tilting))
-    per = per_inertia(p, y, j)
-    live = select(consecutive(j) < p[P.BALLS], 1.0, 0.0)
-    for i in range(Q.TURN):
-        k = coordinate(body, i)
-        d = direction(i, along_x, c, s)
-        back = scaled(-1.0, d)
-        place = product(w, at + K.PLACE, back)
-        reacting = reaction(body, add_arm(body, back, place, j, w), j, w)
-        body_column(per, live, k, i, place, reacting, j, w, jac)
-        rate = product(w, at + K.RATE, back)
-        body_column(per, live, k + Q.SIZE, i + K.MOTIONS, rate, reaction(body, rate, j, w), j, w, jac)
+    arm = (load(w, at + K.ARM), load(w, at + K.ARM + FOUR), load(w, at + K.ARM + 2 * FOUR))
     whole = added(cross(q, on_ball), about_ball)
     hx, _, _ = h
     for i in range(K.MOTIONS - Q.TURN):
-        k = coordinate(body, Q.TURN + i)
+        motion = Q.TURN + i
+        k = coordinate(body, motion)
         if k >= 0:
-            d = direction(i, n, c, s)
-            back = cross(q, d)
-            # the ball's own spin also entrains, the body's does not
-            rate = plus_scaled(product(w, at + K.RATE, back), dot(arm, d), entrained)
-            rate = plus_scaled(rate, -1.0, product(w, at + K.SPIN, d))
-            motion = Q.TURN + i
+            d = direction(i, n, load(w, W.COS + j), load(w, W.SIN + j))
+            rate = turn_rate(d, q, arm, w)
             reacting = reaction(body, rate, j, w)
             body_column(per, live, k + Q.SIZE, motion + K.MOTIONS, rate, reacting, j, w, jac)
             if i > 0:
                 # a tilt leaves the angle about X from which the place along the body is told
                 d = added(d, scaled(hx * dot(h, d), n))
-                back = cross(q, d)
             place = both(cross(d, on_ball), cross(d, about_ball))
-            place = plus_scaled(place, 1.0, product(w, at + K.PLACE, back))
+            place = plus_scaled(place, 1.0, product(w, at + K.PLACE, cross(q, d)))
             against = added(cross(v, d), cross(cross(d, tilting), q))
             place = plus_scaled(place, 1.0, product(w, at + K.RATE, against))
-            place = plus_scaled(place, 1.0, product(w, at + K.SPIN, cross(seen, d)))
-            place = plus_scaled(place, dot(arm, cross(d, orbit)), entrained)
+            place = plus_scaled(place, 1.0, product(w, at + K.SPIN, cross(spin, d)))
+            place = plus_scaled(place, dot(arm, cross(d, orbit)), six(w, at + K.ENTRAINED, FOUR))
             rx, ry, rz, spinning, mx, my = reaction(body, place, j, w)
             # the axis about which the body's own rotation is counted tilts, too
             spinning -= dot(whole, cross(d, n))
@@ -215,8 +229,12 @@ def body_columns(p, y, body, turning, j, w, jac):
 
 
 @kernel
-def ball_columns(p, y, body, j, w, jac):
-    """Block D, and one body's share of B: the columns of a contact become those of the ball's nine states."""
+def ball_columns(p, y, body, per, live, j, w, jac):
+    """Block D, and one body's share of B: the columns of a contact become those of the ball's nine states.
+
+    ``per``: see :func:`per_inertia`; ``live``: 0 for spare lanes, which follow ball 0 and put nothing on the
+    bodies, else 1.
+    """
     at = W.CONTACT
     zero = splat(0.0)
     om = load(y, Y.OM + j)
@@ -244,14 +262,14 @@ def ball_columns(p, y, body, j, w, jac):
         for i in range(K.MOTIONS):
             row = coordinate(body, i)
             if row >= 0:
-                value = load(w, at + K.REACTION + i * FOUR) * w[at + K.PER_INERTIA + row]
+                share = live * w[at + K.PER_INERTIA + row]
+                value = load(w, at + K.REACTION + i * FOUR) * share
                 store(jac, J.D + (row * J.STATES + k) * STRIDE + j, value)
     # the axes in which the ball's force is told turn with it, too
     force = W.FORCE + body * W.FORCE_SIZE
     _, fr, ft = three(w, force + W.FX + j)
     _, mr, mt = three(w, force + W.MX + j)
     store_six(w, by_th, FOUR, plus_scaled(turned, 1.0, (zero, ft, -fr, zero, mt, -mr)))
-    per = per_inertia(p, y, j)
     for k in range(J.STATES):
         answer = as_accelerations(per, six(w, at + K.PLACE + k * A.SIX, FOUR))
         own = J.B + k * STRIDE + j
@@ -273,6 +291,17 @@ def without_cage(lanes, jac):
 
 
 @kernel
+def clear(p, jac, w):
+    """Begin a Jacobian: no sums in block E, and what the bodies' forces are divided by."""
+    for i in range(Q.SIZE * J.BODIES):
+        jac[J.E + i] = 0.0
+    for i in range(Q.SIZE):
+        # rigid preload: no force moves the inner ring along its axis
+        held = i == Q.X and p[P.RIGID] != 0.0
+        w[W.CONTACT + K.PER_INERTIA + i] = 0.0 if held else 1.0 / inertia(p, i)
+
+
+@kernel
 def jacobian(p, c, y, angle, speed, speed_rate, w, jac):
     """Fill the blocks B, C, D, E of ``jac`` at state ``y``, as ``layout.jacobian`` places them.
 
@@ -280,12 +309,7 @@ def jacobian(p, c, y, angle, speed, speed_rate, w, jac):
     """
     lanes = int(p[P.LANES])
     right_hand_side(p, c, y, angle, speed, speed_rate, w, w[W.F0 : W.F0 + F.SIZE])
-    for i in range(Q.SIZE * J.BODIES):
-        jac[J.E + i] = 0.0
-    for i in range(Q.SIZE):
-        # rigid preload: no force moves the inner ring along its axis
-        held = i == Q.X and p[P.RIGID] != 0.0
-        w[W.CONTACT + K.PER_INERTIA + i] = 0.0 if held else 1.0 / inertia(p, i)
+    clear(p, jac, w)
     for j in range(0, lanes, FOUR):
         free_ball(p, y, j, w, jac)
     for body in range(2 if p[P.CAGE] == 0.0 else 3):
@@ -303,8 +327,11 @@ def jacobian(p, c, y, angle, speed, speed_rate, w, jac):
                 race_columns(p, c, y, body, turned, j, w)
             else:
                 pocket_columns(p, c, y, turned, j, w)
-            body_columns(p, y, body, turning, j, w, jac)
-            ball_columns(p, y, body, j, w, jac)
+            per = per_inertia(p, y, j)
+            live = select(consecutive(j) < p[P.BALLS], 1.0, 0.0)
+            shift_columns(body, per, live, j, w, jac)
+            turn_columns(y, body, turning, per, live, j, w, jac)
+            ball_columns(p, y, body, per, live, j, w, jac)
         sum_reactions(body, w, jac)
     body_slopes(p, c, y, speed, jac)
     if p[P.CAGE] == 0.0:

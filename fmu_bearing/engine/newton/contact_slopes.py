@@ -14,7 +14,6 @@ from fmu_bearing.engine.layout import FOUR, STRIDE, A, C, K, P, R, W, X, Y
 from fmu_bearing.engine.mechanics.cage import in_pocket
 from fmu_bearing.engine.mechanics.race import wave_under
 from fmu_bearing.engine.mechanics.triples import added, along, cross, dot, scaled, three
-from fmu_bearing.engine.newton.traction_slopes import clear_traction
 
 # m^0.5: root of the approach; where a contact opens, the slope of its damping has no bound
 _SHALLOWEST = 1e-5
@@ -207,8 +206,29 @@ def own_spin(arm, w):
 
 
 @kernel
-def race_columns(p, c, y, race, turned, j, w):
-    """Fill the columns of the contact with one race, turned by ``turned`` (rad); those of traction are there.
+def contact_columns(y, body, ball, contact, j, w):
+    """Fill all columns of a contact, in the ball's axes; those of traction are there.
+
+    ``ball``: its radius (m); ``contact``: as :func:`race_contact` and :func:`pocket_contact` tell it. That
+    is its axes; the gradient of the approach by the ball's place, and the ball's own slopes towards t and m;
+    load by approach, load by its rate and logarithm of the ellipse by approach; load, and damping of a film
+    along e and m; the body's axis; turns about it and about -t, by places along the three axes; changes of
+    the gradient along t and by the latter turn; entrainment speed by the ball's spin.
+    """
+    frame, gradient, bumps, stiffness, pressing, film, about, around, over, change, aside, arm = contact
+    loaded, pressed = answers_to_motion(ball, gradient, bumps, stiffness, film, j, w)
+    _, by_rate, _ = stiffness
+    v = components(three(w, W.POSE + body * X.SIZE + X.DV + j), frame)
+    bent = bent_gradient(change, pressing, by_rate, v, loaded)
+    bent_over = bent_gradient(aside, pressing, by_rate, v, loaded)
+    answers_to_place(y, body, ball, frame, gradient, pressed, bent, bent_over, about, around, over, j, w)
+    into_ball_axes(frame, w)
+    own_spin(arm, w)
+
+
+@kernel
+def race_contact(p, c, y, race, turned, j, w):
+    """Tell :func:`contact_columns` of the contact with one race, turned by ``turned`` (rad).
 
     Left out: the change of a flexed groove's place and of a wavy ball's slope with the ball's own place, and
     that a flexed groove's slope does not turn with its ring; at most 4e-4 of the largest entries.
@@ -247,22 +267,23 @@ def race_columns(p, c, y, race, turned, j, w):
         bump_m = load(w, row + R.BUMP_M + j)
         lean += bump_t * cosa * per_rho
         tip = bump_m * per_distance
-    gradient = (splat(1.0), lean, tip)
-    loaded, pressed = answers_to_motion(splat(ball), gradient, (bump_t, bump_m), stiffness, zero, j, w)
     curvature = zero
     if p[P.WAVINESS] != 0.0:
         _, _, curvature = wave_under(p, c, y[Y.TH : Y.TH + STRIDE], race, turned, j, w)
-    _, by_rate, _ = stiffness
-    v = components(three(w, pose + X.DV + j), frame)
-    change = (zero, curvature * per_rho * per_rho, zero)
-    bent = bent_gradient(change, load(w, row + R.LOAD + j), by_rate, v, loaded)
-    around = (zero, per_rho, zero)
-    over = (zero, zero, per_distance)
-    about = (sina, zero, cosa)
-    nothing = (zero, zero, zero, zero, zero, zero)
-    answers_to_place(y, race, splat(ball), frame, gradient, pressed, bent, nothing, about, around, over, j, w)
-    into_ball_axes(frame, w)
-    own_spin(scaled(ball, m), w)
+    return (
+        frame,
+        (splat(1.0), lean, tip),
+        (bump_t, bump_m),
+        stiffness,
+        load(w, row + R.LOAD + j),
+        zero,
+        (sina, zero, cosa),
+        (zero, per_rho, zero),
+        (zero, zero, per_distance),
+        (zero, curvature * per_rho * per_rho, zero),
+        (zero, zero, zero),
+        scaled(ball, m),
+    )
 
 
 @kernel
@@ -284,10 +305,11 @@ def pocket_traction(p, pressing, ut, um, j, w):
 
 
 @kernel
-def pocket_columns(p, c, y, turned, j, w):
-    """Fill the columns of the contact with a pocket and its film; the cage is turned by ``turned`` (rad)."""
-    if j == 0:
-        clear_traction(w)
+def pocket_contact(p, c, y, turned, j, w):
+    """Tell :func:`contact_columns` of the contact with a pocket of the cage, turned by ``turned`` (rad).
+
+    The columns of its friction are filled here.
+    """
     pose = W.POSE + 2 * X.SIZE
     ball = c[C.BALL_RADIUS]
     n = three(w, pose + X.N + j)
@@ -317,19 +339,20 @@ def pocket_columns(p, c, y, turned, j, w):
         zero,
     )
     pocket_traction(p, pressing, vt + ball * wm, vm - ball * wt, j, w)
-    film = splat(p[P.POCKET_FILM])
-    loaded, pressed = answers_to_motion(splat(ball), gradient, (zero, zero), stiffness, film, j, w)
     per_apart = 1.0 / max(apart, _NEAREST)
-    around = (pt * per_rho, zero, px * per_rho)
-    over = (extra * px * pt * per_apart, zero, (1.0 + extra * px * px) * per_apart)
-    _, by_rate, _ = stiffness
-    v = (ve, vt, vm)
     # the lever shortens as the ball moves outwards; its share of the gradient stays along the track
     shorter = -(1.0 + extra) * pt * per_rho
-    bent = bent_gradient((pt * shorter, zero, px * shorter), pressing, by_rate, v, loaded)
-    aside = (2.0 * extra * px * pt, zero, extra * (px * px - pt * pt))
-    bent_over = bent_gradient(aside, pressing, by_rate, v, loaded)
-    about = (px, zero, -pt)
-    answers_to_place(y, 2, splat(ball), frame, gradient, pressed, bent, bent_over, about, around, over, j, w)
-    into_ball_axes(frame, w)
-    own_spin((zero, zero, zero), w)
+    return (
+        frame,
+        gradient,
+        (zero, zero),
+        stiffness,
+        pressing,
+        splat(p[P.POCKET_FILM]),
+        (px, zero, -pt),
+        (pt * per_rho, zero, px * per_rho),
+        (extra * px * pt * per_apart, zero, (1.0 + extra * px * px) * per_apart),
+        (pt * shorter, zero, px * shorter),
+        (2.0 * extra * px * pt, zero, extra * (px * px - pt * pt)),
+        (zero, zero, zero),
+    )

@@ -23,12 +23,18 @@ from fmu_bearing.engine.lanes import (
     store_six,
     sum_four,
 )
-from fmu_bearing.engine.layout import FOUR, STRIDE, A, F, J, K, P, Q, W, X, Y
+from fmu_bearing.engine.layout import FOUR, STRIDE, A, C, F, J, K, P, Q, W, X, Y
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.mechanics.triples import added, cross, dot, scaled, three
 from fmu_bearing.engine.newton.body_slopes import body_slopes, inertia
-from fmu_bearing.engine.newton.contact_slopes import both, pocket_columns, product, race_columns
-from fmu_bearing.engine.newton.traction_slopes import traction_slopes
+from fmu_bearing.engine.newton.contact_slopes import (
+    both,
+    contact_columns,
+    pocket_contact,
+    product,
+    race_contact,
+)
+from fmu_bearing.engine.newton.traction_slopes import clear_traction, traction_slopes
 
 
 @kernel
@@ -315,6 +321,7 @@ def jacobian(p, c, y, angle, speed, speed_rate, w, jac):
     for body in range(2 if p[P.CAGE] == 0.0 else 3):
         turning = speed
         turned = angle
+        clear_traction(w)
         if body < 2:
             traction_slopes(p, c, lanes, body, w)
         if body > 0:
@@ -324,9 +331,10 @@ def jacobian(p, c, y, angle, speed, speed_rate, w, jac):
             w[W.CONTACT + K.SUMS + i] = 0.0
         for j in range(0, lanes, FOUR):
             if body < 2:
-                race_columns(p, c, y, body, turned, j, w)
+                contact = race_contact(p, c, y, body, turned, j, w)
             else:
-                pocket_columns(p, c, y, turned, j, w)
+                contact = pocket_contact(p, c, y, turned, j, w)
+            contact_columns(y, body, splat(c[C.BALL_RADIUS]), contact, j, w)
             per = per_inertia(p, y, j)
             live = select(consecutive(j) < p[P.BALLS], 1.0, 0.0)
             shift_columns(body, per, live, j, w, jac)

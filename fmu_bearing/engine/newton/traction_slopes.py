@@ -159,8 +159,7 @@ def clear_traction(w):
 
 @kernel
 def traction_slopes(p, c, lanes, race, w):
-    """Fill the columns of traction of one race for the state that the right-hand side left in ``w``."""
-    clear_traction(w)
+    """Fill the columns of traction of one race, zero before, at the state that the rows of ``w`` hold."""
     if p[P.TRACTION_LAW] == REGULARISED:
         strip_slopes(p, lanes, race, w)
     else:

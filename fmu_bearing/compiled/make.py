@@ -33,6 +33,9 @@ __all__ = ["PREBUILT", "bitcode", "folder", "objects", "prebuilt", "sources_key"
 PREBUILT = Path(__file__).parent / "prebuilt"
 #: Modules of this package that decide what is in an object.
 _MAKERS = ("units", "settings", "lower", "lean", "platforms", "optimise")
+#: Units that one process compiles in turn: most kernels of the second are already through with the first, and
+#: two processes then have about as much to do.
+_TOGETHER = (("step",), ("init", "study"))
 _TICK = 0.2  # s
 _LONGEST_GUESS = 0.1  # of the whole: how far the bar may run ahead of what was reported
 
@@ -110,11 +113,15 @@ def prebuilt(name: str) -> bytes | None:
 
 
 def _compile(platform: Platform, missing: list[tuple[str, str]]) -> dict[tuple[str, str], bytes]:
-    """Compile units side by side, each in a process of its own, and keep what they make."""
+    """Compile units side by side in processes of their own, and keep what they make."""
     sets: dict[str, list[str]] = {}
     for unit, one in missing:
         sets.setdefault(unit, []).append(one)
-    due = [_Worker(unit, platform, sets[unit]) for unit in sets]
+    due = [
+        _Worker({unit: sets[unit] for unit in together if unit in sets}, platform)
+        for together in _TOGETHER
+        if any(unit in sets for unit in together)
+    ]
     with Display(f"compiling the kernels for {platform.name}, once for this version") as display:
         if not lean(version("numba")):
             # Portable code with Numba 0.68, processor's time: init 79 s, step 116 s; lean 22 s and 34 s.
@@ -153,27 +160,27 @@ def _run(due: list["_Worker"], display: Display) -> dict[str, bytes]:
 
 
 class _Worker:
-    """A process that compiles one unit, and what it has sent so far."""
+    """A process that compiles units for instruction sets, ``jobs``, and what it has sent so far."""
 
-    def __init__(self, unit: str, platform: Platform, sets: list[str]) -> None:
-        self.unit, self.platform, self.sets = unit, platform, sets
+    def __init__(self, jobs: dict[str, list[str]], platform: Platform) -> None:
+        self.jobs, self.platform = jobs, platform
         self.files: dict[str, bytes] = {}
         self._messages: queue.SimpleQueue[float] = queue.SimpleQueue()
         self._done, self._since, self._begin = 0.0, 0.0, 0.0
         self._process: subprocess.Popen[bytes] | None = None
 
-    def _command(self) -> list[str]:
+    def _command(self, sizes: dict[str, int]) -> list[str]:
         way = "lean" if lean(version("numba")) else "plain"
-        module = "fmu_bearing.compiled.worker"
-        return [sys.executable, "-m", module, self.unit, way, self.platform.name, *self.sets]
+        jobs = [f"{unit}={','.join(sets)}={sizes[unit]}" for unit, sets in self.jobs.items()]
+        return [sys.executable, "-m", "fmu_bearing.compiled.worker", way, self.platform.name, *jobs]
 
     def start(self) -> None:
         """Start the process."""
-        code = _there(f"{self.unit}.bc") or b""
+        codes = {unit: _there(f"{unit}.bc") or b"" for unit in self.jobs}
         package = str(Path(__file__).parents[2])
         path = os.pathsep.join([package, *filter(None, [os.environ.get("PYTHONPATH")])])
         self._process = subprocess.Popen(
-            self._command(),
+            self._command({unit: len(code) for unit, code in codes.items()}),
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
@@ -187,7 +194,7 @@ class _Worker:
         assert self._process.stdin is not None
         # a process that is gone already leaves a broken pipe; its reason is told by `ended`
         with contextlib.suppress(OSError), self._process.stdin as stdin:
-            stdin.write(code)
+            stdin.write(b"".join(codes.values()))
 
     def _listen(self) -> None:
         assert self._process is not None and self._process.stdout is not None
@@ -209,13 +216,14 @@ class _Worker:
             return False
         for reader in self._readers:
             reader.join()
+        units = " and ".join(self.jobs)
         if self._process.returncode != 0:
             words = self._complaint.decode(errors="replace").strip()[-2000:]
             words = words or f"the process ended with code {self._process.returncode} and gave no reason"
-            raise BuildError(f"the kernels could not be compiled ({self.unit}): {words}")
-        due = {object_name(self.unit, self.platform.name, one) for one in self.sets}
+            raise BuildError(f"the kernels could not be compiled ({units}): {words}")
+        due = {object_name(unit, self.platform.name, one) for unit, sets in self.jobs.items() for one in sets}
         if lost := sorted(due - self.files.keys()):
-            raise BuildError(f"the kernels could not be compiled ({self.unit}): {', '.join(lost)} never came")
+            raise BuildError(f"the kernels could not be compiled ({units}): {', '.join(lost)} never came")
         self._done = 1.0
         return True
 

@@ -1,20 +1,23 @@
-"""One unit, compiled by a process of its own.
+"""Units, compiled in turn by a process of its own.
 
-Called as ``python -m fmu_bearing.compiled.worker UNIT lean|plain PLATFORM SET ...``.
+Called as ``python -m fmu_bearing.compiled.worker lean|plain PLATFORM UNIT=SET,...=SIZE ...``.
 
 Numba and LLVM hold the interpreter, so units are compiled side by side by several processes, which the parent
-can end at once. What is made goes through standard output, so that no disk is needed: lines of JSON, each
-with the part of the work that is done or with the name and size of a file whose bytes follow. Where the
-bitcode is there already, it comes through standard input.
+can end at once. A process that compiles two units keeps the kernels that both use. What is made goes through
+standard output, so that no disk is needed: lines of JSON, each with the part of the work that is done or with
+the name and size of a file whose bytes follow. Where a unit's bitcode is there already, it comes through
+standard input, SIZE bytes of it.
 """
 
+import functools
 import json
+import os
 import sys
 from collections.abc import Callable
 
 from fmu_bearing.compiled.errors import BuildError
 from fmu_bearing.compiled.optimise import object_code
-from fmu_bearing.compiled.platforms import OWN, own, platform_named
+from fmu_bearing.compiled.platforms import OWN, Platform, own, platform_named
 from fmu_bearing.compiled.units import object_name
 
 __all__ = ["main"]
@@ -31,27 +34,42 @@ def _send(message: dict[str, object], data: bytes = b"") -> None:
     out.flush()
 
 
-def _part(begin: float, end: float) -> Callable[[float], None]:
-    return lambda share: _send({"done": begin + (end - begin) * share})
+def _tell(job: int, jobs: int, share: float) -> None:
+    """Send that a share of one of several jobs is done."""
+    _send({"done": (job + share) / jobs})
+
+
+def _between(part: Callable[[float], None], begin: float, k: int, count: int) -> Callable[[float], None]:
+    """Return what tells ``part`` of the ``k``-th of ``count`` equal pieces behind ``begin``."""
+    return lambda share: part(begin + (1.0 - begin) * (k + share) / count)
+
+
+def _compile(
+    unit: str, code: bytes, sets: list[str], platform: Platform, lean: bool, part: Callable[[float], None]
+) -> None:
+    """Compile one unit and send its bitcode, unless ``code`` is that, and its objects."""
+    begin = 0.0
+    if not code:
+        from fmu_bearing.compiled.lower import portable_code
+
+        begin = _PORTABLE if sets else 1.0
+        code = portable_code(unit, lambda share: part(begin * share), lean)
+        _send({"file": f"{unit}.bc", "size": len(code)}, code)
+    for k, one in enumerate(sets):
+        made = object_code(code, platform, one, _between(part, begin, k, len(sets)))
+        _send({"file": object_name(unit, platform.name, one), "size": len(made)}, made)
 
 
 def main() -> None:
-    """Compile one unit for instruction sets of a platform."""
-    unit, lean, name, *sets = sys.argv[1:]
-    given = sys.stdin.buffer.read()
-    begin = 0.0
+    """Compile units for instruction sets of a platform."""
+    way, name, *jobs = sys.argv[1:]
     try:
         platform = own() if name == OWN else platform_named(name)
-        if not given:
-            from fmu_bearing.compiled.lower import portable_code
-
-            begin = _PORTABLE if sets else 1.0
-            given = portable_code(unit, _part(0.0, begin), lean == "lean")
-            _send({"file": f"{unit}.bc", "size": len(given)}, given)
-        for k, one in enumerate(sets):
-            share = (1.0 - begin) / len(sets)
-            made = object_code(given, platform, one, _part(begin + k * share, begin + (k + 1) * share))
-            _send({"file": object_name(unit, platform.name, one), "size": len(made)}, made)
+        for k, job in enumerate(jobs):
+            unit, sets, size = job.split("=")
+            code = sys.stdin.buffer.read(int(size))
+            part = functools.partial(_tell, k, len(jobs))
+            _compile(unit, code, sets.split(",") if sets else [], platform, way == "lean", part)
     except BuildError as problem:
         sys.exit(str(problem))
     _send({"done": 1.0})
@@ -59,3 +77,6 @@ def main() -> None:
 
 if __name__ == "__main__":
     main()
+    # all is sent; taking millions of Numba's objects apart one by one would take three seconds
+    sys.stdout.flush()
+    os._exit(0)

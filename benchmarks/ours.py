@@ -97,8 +97,8 @@ def full_rows(
 def fidelity_row(case: Case, solver: Solver, start: Arrays, budget: float, repeats: int) -> Row:
     """Row of a fidelity that approximates ``full``: its error is that of integration.
 
-    It is taken against itself at a quarter of the step. The remark gives the difference of both rings' rms
-    velocity from ``full``.
+    It is taken against itself at a quarter of the step, the speed in communication steps of 1 ms: each costs
+    as much as many internal steps. The remark gives the difference of both rings' rms velocity from ``full``.
     """
     row = Row(case.name, solver.name, goal=case.goal(solver))
     window = 0.05
@@ -114,7 +114,7 @@ def fidelity_row(case: Case, solver: Solver, start: Arrays, budget: float, repea
         few = round(case.window / SAMPLE)
         row.error = relative_error(own[:few], finer.rings(case.window, SAMPLE))
         row.remark = f"rms from full: inner {apart[0]:+.1%}, outer {apart[1]:+.1%}"
-        row.wall, row.cpu = speed(bearing, budget, repeats, 1.0, case.communication)
+        row.wall, row.cpu = speed(bearing, budget, repeats, 1.0)
     except Refused as problem:
         row.remark = f"refused: {problem}"
     return row

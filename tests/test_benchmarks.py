@@ -7,8 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from benchmarks import ours, peers, table
+from benchmarks import memory, ours, peers, sound, table, terms
 from benchmarks.cases import CASES, SOLVERS, Case
+from benchmarks.fmu import calls, whole
 from fmu_bearing.accuracy.first_order import FirstOrder
 from fmu_bearing.accuracy.reference import reference_from
 from fmu_bearing.run.metrics import SAMPLE
@@ -39,6 +40,19 @@ def test_one_case_through_to_the_table(tmp_path):
         read = list(csv.reader(file))
     assert read[0] == list(table.COLUMNS) and len(read) == 1 + len(rows)
     assert markdown(table.COLUMNS, read[1:]).count("\n") == 2 + len(rows)
+
+
+@pytest.mark.heavy
+def test_every_table_of_the_benchmark_can_be_made():
+    """Each part reaches into the package; figures are not asserted."""
+    for columns, rows in (
+        (memory.COLUMNS, memory.rows(("7003C-spindle",))),
+        (terms.COLUMNS, terms.rows("7003C-spindle", 20000.0, 1e-3, 1)),
+        (sound.COLUMNS, sound.rows("7003C-spindle", ("compact",), 1)),
+        (whole.COLUMNS, whole.rows(quick=True)),
+        (calls.COLUMNS, calls.rows(quick=True)),
+    ):
+        assert rows and all(len(row) == len(columns) for row in rows)
 
 
 def test_a_missed_goal_is_named():

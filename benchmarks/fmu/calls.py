@@ -59,9 +59,10 @@ def compiled(folder: Path, platform: Platform, compiler: Compiler) -> Iterator[C
     yield Case("minimal, C by hand", minimal, GUID, resources, INPUTS, empty=True)
     objects = []
     for suffix, _ in platform.instruction_sets:
-        objects.append(folder / f"empty_{suffix}.o")
-        source = [str(HERE / "empty_kernel.c"), f"-DISA={suffix}", "-c", "-o", str(objects[-1])]
+        made = folder / f"empty_{suffix}.o"
+        source = [str(HERE / "empty_kernel.c"), f"-DISA={suffix}", "-c", "-o", str(made)]
         subprocess.run([*compiler.command, *FLAGS, *source], check=True)
+        objects.append(made.read_bytes())
     digest = hashlib.sha256(b"empty kernels").hexdigest()
     library = folder / f"Empty{platform.suffix}"
     library.write_bytes(link(compiler, platform, shim_sources(), objects, digest))

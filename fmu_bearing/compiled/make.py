@@ -172,7 +172,9 @@ class _Worker:
     def _command(self, sizes: dict[str, int]) -> list[str]:
         way = "lean" if lean(version("numba")) else "plain"
         jobs = [f"{unit}={','.join(sets)}={sizes[unit]}" for unit, sets in self.jobs.items()]
-        return [sys.executable, "-m", "fmu_bearing.compiled.worker", way, self.platform.name, *jobs]
+        # -P: not from the current folder, where another checkout may lie, whose kernels have another key
+        worker = [sys.executable, "-P", "-m", "fmu_bearing.compiled.worker"]
+        return [*worker, way, self.platform.name, *jobs]
 
     def start(self) -> None:
         """Start the process."""

@@ -156,6 +156,19 @@ def test_a_worker_that_ends_at_once_is_a_failure_of_the_compilation(code, reason
     assert str(refusal.value) == f"the kernels could not be compiled (study): {reason}"
 
 
+def test_another_checkout_in_the_current_folder_is_not_compiled(tmp_path, monkeypatch):
+    """Its kernels would be kept under the key of these."""
+    (tmp_path / "fmu_bearing").mkdir()
+    (tmp_path / "fmu_bearing" / "__init__.py").write_text("raise SystemExit('another checkout')")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("FMU_BEARING_CACHE", str(tmp_path))
+    monkeypatch.setattr(make, "_there", lambda name: b"no code" if name.endswith(".bc") else None)
+    with pytest.raises(BuildError) as refusal:
+        make.objects(own(), ["study"], ["v0"])
+    assert "another checkout" not in str(refusal.value)
+    assert "fmu_bearing/compiled" in str(refusal.value).replace("\\", "/")
+
+
 @pytest.mark.parametrize(
     "module",
     [["fmu_bearing.compiled.worker", "lean"], ["fmu_bearing.fmi.native.prebuilt", "folder"]],

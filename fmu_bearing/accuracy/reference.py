@@ -105,7 +105,7 @@ def reference_from(
     explicit_step, implicit_step : float
         Steps (s) of Runge-Kutta and of the engine's implicit method.
     implicit_tolerance : float
-        Tolerance of the latter, relative to 10 mm/s.
+        Tolerance of the latter, relative to the rings' own velocity.
     """
     exact, explicit = explicit_rings(bearing, duration, sample, explicit_step)
     other, implicit = implicit_rings(bearing, duration, sample, implicit_step, implicit_tolerance)

@@ -26,7 +26,7 @@ from fmu_bearing.scene import Scene, SceneError, read_scene
 from fmu_bearing.scene.origins import origins
 
 Source = Recording | Scene | str | os.PathLike[str]
-SETTLE = 0.1  # s left out at the beginning: the sound's high-pass at 5 Hz forgets the start in 0.03 s
+SETTLE = 0.1  # s left out at the beginning, in which the start-up dies away
 RUN_UP = 1.0  # s a run-up takes
 _SHORTEST = 0.02  # s
 

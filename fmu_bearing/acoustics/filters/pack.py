@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.filters.blocks import Bank, Wire, choose, filters, head, segments, spans, wired
 from fmu_bearing.acoustics.filters.fir import decimator_stages, outer_taps
-from fmu_bearing.acoustics.filters.weighting import a_weighting_sections, band_sections, high_pass_section
+from fmu_bearing.acoustics.filters.weighting import a_weighting_sections, band_sections, high_pass_gains
 from fmu_bearing.acoustics.papers.scalars import paper_scalars
 from fmu_bearing.acoustics.registry import Radiation
 from fmu_bearing.engine.choices import CHANNEL_FORMS
@@ -108,7 +108,7 @@ def pack(
     first, second = decimator_stages()
     found[SD.H_AT_FIRST] = block.put(outer_taps(first))
     found[SD.H_AT_SECOND] = block.put(outer_taps(second))
-    found[SD.H_AT_HIGH_PASS] = block.put(high_pass_section(SD.RATE, MICROPHONE_LOW_LIMIT)[_KEEP])
+    found[SD.H_AT_HIGH_PASS] = block.put(high_pass_gains(SD.RATE, MICROPHONE_LOW_LIMIT))
     found[SD.H_AT_A_WEIGHTING] = block.put(a_weighting_sections(SD.RATE)[:, _KEEP])
     found[SD.H_AT_BANDS] = block.put(_band_table() if thirds else [])
     angle = radiation.radiators.contact_angle
@@ -221,7 +221,7 @@ def _place_state(block: _Block, rows: Sequence[list[int]], kept: Sequence[list[i
 
     found[SD.H_S_SECOND] = room(SD.SECOND_ROWS * found[SD.H_RAW])
     found[SD.H_S_TURNS] = room(SD.TURN_ROWS * 2 * found[SD.H_BALL_LANES])
-    found[SD.H_S_HIGH_PASS] = room(SD.SECTION_STATES * channels)
+    found[SD.H_S_HIGH_PASS] = room(SD.HIGH_PASS_STATES * channels)
     found[SD.H_S_CHANNELS] = room(found[SD.H_ROWS] * channels)
     complete = []
     for row, slots in zip(rows, kept, strict=True):

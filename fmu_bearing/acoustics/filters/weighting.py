@@ -82,9 +82,15 @@ def band_sections(sample_rate: float, nominal: float) -> NDArray[np.float64]:
     return sections
 
 
-def high_pass_section(sample_rate: float, frequency: float) -> NDArray[np.float64]:
-    """Second-order Butterworth high-pass section, shape (6,): the lower limit of a measurement microphone."""
-    return scipy.signal.butter(2, frequency, "highpass", fs=sample_rate, output="sos")[0]
+def high_pass_gains(sample_rate: float, frequency: float) -> NDArray[np.float64]:
+    """Gains of the microphones' high-pass as a tracker, shape (3,), in the order of `layout.sound`.
+
+    The second-order Butterworth high-pass with its corner at ``frequency`` (bilinear) has the denominator
+    1 - (2 - follow - steer) / z + (1 - follow) / z^2 and the numerator gain (1 - 1 / z)^2.
+    """
+    c = np.tan(np.pi * frequency / sample_rate)
+    gain = 1.0 / (1.0 + np.sqrt(2.0) * c + c**2)
+    return gain * np.array([1.0, 2.0 * np.sqrt(2.0) * c, 4.0 * c**2])
 
 
 def level(mean_square: ArrayLike) -> NDArray[np.float64]:

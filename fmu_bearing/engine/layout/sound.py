@@ -3,9 +3,9 @@
 ``ps`` begins with a head (``H_*``: sizes, then places in ``ps``, ``ss`` and ``ws``), followed by tables:
 
 * decimator: the outer taps of its two half-band filters, which are symmetric, outermost first, every other
-  one being zero and the middle one 1/2; then sections of second order, ``SECTION`` numbers each: one
-  high-pass, ``A_SECTIONS`` of A-weighting, ``BAND_SECTIONS`` of the third octaves, these with
-  ``BAND_LANES`` bands side by side;
+  one being zero and the middle one 1/2; then the high-pass, ``HIGH_PASS`` numbers; then sections of second
+  order, ``SECTION`` numbers each: ``A_SECTIONS`` of A-weighting, ``BAND_SECTIONS`` of the third octaves,
+  these with ``BAND_LANES`` bands side by side;
 * scalars that the papers' radiation models need to form their channels;
 * lane of each channel in the history: channels that the same microphones hear lie side by side, the unheard
   last; once in the order of the channels, once in that in which they are formed (`formed`);
@@ -100,6 +100,13 @@ H_WORK = _head()  # of ws
 HEAD_SIZE = _head.next
 
 # --- tables in ps ---------------------------------------------------------------------------------
+_gain = Places()
+HIGH_PASS_GAIN = _gain()  # of what the slow part leaves
+HIGH_PASS_FOLLOW = _gain()  # of the slow part's value, per sample
+HIGH_PASS_STEER = _gain()  # of its slope
+HIGH_PASS = _gain.next
+HIGH_PASS_STATES = 2  # numbers kept per channel: value and slope of its slow part
+
 # section of second order: (B0 + B1/z + B2/z2) / (1 + A1/z + A2/z2)
 _section = Places()
 B0 = _section()

@@ -3,6 +3,7 @@
 =============  ===========================================================================
 ``radiate``    `radiate.push`: one motion sample in, filters and meters moved on
 ``channels``   what each form of channels takes from a motion sample
+``high_pass``  lower limit of the microphones
 ``convolve``   filters: direct form, and blocks in the frequency domain
 ``section``    one section of second order, lanes side by side
 ``transform``  Fourier transforms of many signals at once

@@ -11,7 +11,7 @@ from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import FOUR, MO, SD
 from fmu_bearing.engine.sound import channels, meter
 from fmu_bearing.engine.sound.convolve import convolve
-from fmu_bearing.engine.sound.section import filter_section
+from fmu_bearing.engine.sound.high_pass import high_pass
 
 __all__ = ["push", "reset"]
 
@@ -28,15 +28,15 @@ def push(ps, ss, ws, motion, time_weighting, metering_start):
     """Take one motion sample (see `layout.motion`) and update filters and meters.
 
     ``time_weighting`` is the meters' time constant in s, ``metering_start`` the time in s from the first
-    sample on at which they begin. The first sample is taken to have lasted for ever, so that constant
-    accelerations (the balls' centripetal one) make no start-up step.
+    sample on at which they begin. The decimator takes the first sample to have lasted for ever; for the
+    high-pass see `high_pass`.
     """
     raw = int(ss[SD.SS_RAW])
     wide = int(ps[SD.H_RAW])
     row = SD.SS_TABLES + raw % SD.FIRST_ROWS * wide
     channels.keep(ps, motion, ss[row : row + wide])
     if raw == 0:
-        _settle(ps, ss, ws, motion)
+        _settle(ps, ss, motion)
     elif raw % SD.DECIMATION == SD.TURNING:
         _keep_turns(ps, ss, motion, raw // SD.DECIMATION % SD.TURN_ROWS)
     ss[SD.SS_RAW] = raw + 1.0
@@ -56,8 +56,7 @@ def push(ps, ss, ws, motion, time_weighting, metering_start):
     count = int(ss[SD.SS_COUNT])
     place = count % int(ps[SD.H_ROWS])
     _form(ps, ss, ws, count % SD.TURN_ROWS)
-    n = int(ps[SD.H_CHANNELS])
-    _high_pass(ps, ss, ws, int(ps[SD.H_S_HIGH_PASS]), int(ps[SD.H_S_CHANNELS]) + place * n, n)
+    high_pass(ps, ss, ws[wide : wide + int(ps[SD.H_CHANNELS])], place, count)
     convolve(ps, ss, ws, place, count)
     meter.update(ps, ss, ws, time_weighting, metering_start)
     ss[SD.SS_COUNT] = count + 1.0
@@ -86,8 +85,8 @@ def _form(ps, ss, ws, row):
 
 
 @kernel
-def _settle(ps, ss, ws, motion):
-    """Fill the decimator's histories with the first sample and let the high-pass rest on it."""
+def _settle(ps, ss, motion):
+    """Fill the histories of the decimator and of the balls' angles with the first sample."""
     wide = int(ps[SD.H_RAW])
     for row in range(1, SD.FIRST_ROWS):
         for i in range(wide):
@@ -100,16 +99,6 @@ def _settle(ps, ss, ws, motion):
             ss[second + row * wide + i] = x[i]
     for row in range(SD.TURN_ROWS):
         _keep_turns(ps, ss, motion, row)
-    halve(ps, int(ps[SD.H_AT_SECOND]), SD.SECOND_TAPS, ss, second, 0, ws[0:wide])
-    _form(ps, ss, ws, 0)
-    n = int(ps[SD.H_CHANNELS])
-    high_pass = int(ps[SD.H_S_HIGH_PASS])
-    at = int(ps[SD.H_AT_HIGH_PASS])
-    # A high-pass puts out zero at rest: its first state then cancels b0 x, its second b0 x + b1 x.
-    for c in range(n):
-        x0 = ws[wide + c]
-        ss[high_pass + c] = -ps[at + SD.B0] * x0
-        ss[high_pass + n + c] = ps[at + SD.B2] * x0
 
 
 @kernel
@@ -144,19 +133,3 @@ def halve(ps, at, taps, ss, history, newest, out):
         g1 = ps[i + 1]
         for c in range(wide):
             out[c] += g0 * (x0[c] + y0[c]) + g1 * (x1[c] + y1[c])
-
-
-@kernel
-def _high_pass(ps, ss, ws, state, place, n):
-    """Lower limit of the microphones; writes the row of the channel history that starts at ``place``.
-
-    The channels stand in ``ws`` behind the raw row.
-    """
-    at = int(ps[SD.H_AT_HIGH_PASS])
-    wide = int(ps[SD.H_RAW])
-    x = ws[wide : wide + n]
-    filter_section(ps, at, ss, state, x, n)
-    y = ss[place : place + n]
-    lanes = int(ps[SD.H_AT_FORMED])
-    for c in range(n):
-        y[int(ps[lanes + c])] = x[c]

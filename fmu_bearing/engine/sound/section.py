@@ -1,4 +1,4 @@
-"""One section of second order, on lanes side by side: high-pass and A-weighting."""
+"""One section of second order, on lanes side by side: A-weighting."""
 
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SD

@@ -9,6 +9,7 @@ Runs the spindle up, holds the speed, and writes under the output folder
 The FMUs come from ``build_fmu.py`` (bearing) and ``build.py`` in this folder (the other two).
 """
 
+import math
 import signal
 import sys
 import time
@@ -32,6 +33,7 @@ from rich.table import Table
 
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 from fmu_bearing.extras import MissingExtra, need
+from fmu_bearing.run.levels import present
 
 RPM = 30.0 / np.pi
 BEARING, MOTOR, THERMAL = "Bearing7003C.fmu", "SpindleMotor.fmu", "SpindleThermal.fmu"
@@ -265,7 +267,7 @@ def _sound_table(run: NDArray[np.void], labels: dict[str, str], plan: Plan) -> T
         "cage": "spl_cage",
         "balls": "spl_balls",
     }
-    present = {
+    shown = {
         title: name for title, name in columns.items() if f"{next(iter(labels))}.{name}" in run.dtype.names
     }
     sound = Table(
@@ -274,12 +276,13 @@ def _sound_table(run: NDArray[np.void], labels: dict[str, str], plan: Plan) -> T
         pad_edge=False,
     )
     sound.add_column("microphone, mm", no_wrap=True)
-    for title in (*present, "Leq", "Leq(A)"):
+    for title in (*shown, "Leq", "Leq(A)"):
         sound.add_column(title, justify="right")
     for prefix, label in labels.items():
-        levels = [last[f"{prefix}.{name}"] for name in present.values()]
+        levels = [last[f"{prefix}.{name}"] for name in shown.values()]
         levels += [studies.later_leq(run, f"{prefix}.{name}", plan) for name in ("leq", "leq_a")]
-        sound.add_row(label.removesuffix(" mm"), *(f"{level:.1f}" for level in levels))
+        texts = ("-" if math.isnan(level) else f"{level:.1f}" for level in present(levels, "dB"))
+        sound.add_row(label.removesuffix(" mm"), *texts)
     return sound
 
 

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies, level_spectrum
 from fmu_bearing.extras import need
+from fmu_bearing.run.levels import present
 from fmu_bearing.run.pictures import empty
 
 if TYPE_CHECKING:
@@ -120,7 +121,7 @@ def _levels(axis: "Axes", run: NDArray[np.void], labels: dict[str, str]) -> None
     # The first tenth of a second shows the meters filling, not the bearing.
     shown = run[run["time"] >= min(0.1, 0.2 * run["time"][-1])]
     for prefix, text in labels.items():
-        axis.plot(shown["time"], shown[f"{prefix}.spl"], label=text)
+        axis.plot(shown["time"], present(shown[f"{prefix}.spl"], "dB"), label=text)
     axis.set_ylabel("sound pressure level, Fast [dB]")
     axis.set_xlabel("time [s]")
     _legend(axis)

@@ -31,6 +31,7 @@ _MIC_WORDS = (
     ("spl_rotation", "Time-weighted partial level of the tilting of rings and cage at microphone {}"),
     ("spl_flexure", "Time-weighted partial level of the bending of the rings at microphone {}"),
 )
+_FLOOR = "; -106 dB: none, or metering has not begun"
 _PLAIN = 9  # of these, what every scene has; the rest need sound.details
 _PARTIAL = tuple(f"spl_{part}" for part in (
     "inner_ring", "outer_ring", "cage", "balls", "radial", "axial", "rotation", "flexure",
@@ -214,7 +215,8 @@ def _microphones(scene: Scene, causality: str) -> list[Variable]:
                 continue
             unit = "Pa" if label == "pressure" else "dB"
             place = Z.mics(balls) + len(Z.MIC_OUTPUTS) * k + i
-            table.append(_read(f"mic[{k + 1}].{label}", causality, words.format(name), unit, place))
+            text = words.format(name) + ("" if label == "pressure" else _FLOOR)
+            table.append(_read(f"mic[{k + 1}].{label}", causality, text, unit, place))
         if causality == "output" and scene.sound.third_octaves:
             table += _third_octaves(k, name, Z.bands(balls, mics) + len(Z.BANDS) * k)
     return table
@@ -226,7 +228,7 @@ def _third_octaves(mic: int, name: str, first: int) -> list[Variable]:
         _read(
             f"mic[{mic + 1}].third_octave[{int(nominal)}]",
             "output",
-            f"Fast third-octave level around {nominal:g} Hz at microphone {name}",
+            f"Fast third-octave level around {nominal:g} Hz at microphone {name}{_FLOOR}",
             "dB",
             first + band,
         )

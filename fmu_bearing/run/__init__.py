@@ -3,6 +3,7 @@
 ================  ===========================================================================
 ``names``         names of variables, with patterns and suggestions
 ``table``         tables to terminal, Markdown, CSV; the machine they were made on
+``levels``        sound levels as they are drawn: absent before metering begins
 ``result``        `Run`: the results of a run, as CSV, netCDF, xarray
 ``inputs``        inputs over time, checked against their ranges
 ``settings``      `Setting`: one way to compute a scene

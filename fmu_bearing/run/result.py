@@ -1,5 +1,6 @@
 """Results of a run, and their files: CSV as FMPy reads and writes it, netCDF."""
 
+import math
 import os
 import pathlib
 import tempfile
@@ -15,6 +16,8 @@ from numpy.typing import NDArray
 from fmu_bearing import renamed
 from fmu_bearing.extras import need
 from fmu_bearing.files import write_whole
+from fmu_bearing.run.levels import present
+from fmu_bearing.run.names import unit_of
 from fmu_bearing.scene import Scene, read_scene_text
 
 if TYPE_CHECKING:
@@ -102,12 +105,18 @@ class Run:
         return f"Run({self.name}, {points}, {len(self.names)} variables{ended})"
 
     def _repr_html_(self) -> str:
+        texts = {name: "-" if math.isnan(value) else f"{value:.6g}" for name, value in self._last().items()}
         rows = "".join(
-            f"<tr><td>{name}</td><td>{self[name][-1]:.6g}</td><td>{self.units.get(name, '')}</td></tr>"
-            for name in self.names
+            f"<tr><td>{name}</td><td>{text}</td><td>{self.units.get(name, '')}</td></tr>"
+            for name, text in texts.items()
         )
         head = f"<caption>{self.name} at {self._reached():g} s</caption>"
         return f"<table>{head}<tr><th>variable</th><th>last value</th><th>unit</th></tr>{rows}</table>"
+
+    def _last(self) -> dict[str, float]:
+        """Last values by name; NaN for levels that are not there."""
+        units = {name: self.units.get(name) or unit_of(name) for name in self.names}
+        return {name: float(present(self[name][-1], unit)) for name, unit in units.items()}
 
     def _reached(self) -> float:
         return float(self.time[-1]) if len(self) else float("nan")
@@ -173,7 +182,10 @@ class Run:
         )  # fmt: skip
 
     def summary(self) -> dict[str, Any]:
-        """Return how the run ended, and the last values with their units, for machines."""
+        """Return how the run ended, and the last values with their units, for machines.
+
+        The value of a level is None where metering has not begun.
+        """
         return {
             "name": self.name,
             "ended": self.ended,
@@ -181,7 +193,10 @@ class Run:
             "points": len(self),
             "time_s": self._reached(),
             "wall_s": self.wall,
-            "last": {n: {"value": float(self[n][-1]), "unit": self.units.get(n, "")} for n in self.names},
+            "last": {
+                name: {"value": None if math.isnan(value) else value, "unit": self.units.get(name, "")}
+                for name, value in self._last().items()
+            },
         }
 
 

@@ -4,6 +4,9 @@ import os
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from fmu_bearing.run.levels import present
 from fmu_bearing.run.names import UnknownName, chosen_names, unit_of
 from fmu_bearing.run.pictures import OTHERS, empty, label, save
 from fmu_bearing.run.result import Run
@@ -21,7 +24,7 @@ _WIDTHS = (1.2, 0.7)
 
 
 def time_picture(run: Run, patterns: Sequence[str] | None = None, title: str = "") -> "Figure":
-    """Draw variables over time, one panel per unit.
+    """Draw variables over time, one panel per unit; levels from the beginning of metering on.
 
     Parameters
     ----------
@@ -44,10 +47,17 @@ def time_picture(run: Run, patterns: Sequence[str] | None = None, title: str = "
     axes = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
     for ax, (unit, members) in zip(axes, panels.items(), strict=True):
         width = _WIDTHS[len(run) > 500]
+        drawn = False
         for k, name in enumerate(members):
             style = "-" if k < len(OTHERS) else "--"
-            ax.plot(run.time, run[name], style, color=OTHERS[k % len(OTHERS)], linewidth=width, label=name)
+            values = present(run[name], unit)
+            drawn |= not np.isnan(values).all()
+            ax.plot(run.time, values, style, color=OTHERS[k % len(OTHERS)], linewidth=width, label=name)
         label(ax, "", unit or "1", "")
+        if not drawn:
+            words = "no level: metering has not begun" if unit == "dB" else "no values"
+            ax.text(0.5, 0.5, words, ha="center", va="center", transform=ax.transAxes)
+            ax.set_yticks([])
         if len(members) <= _MOST:
             ax.legend(frameon=False, fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5))
     axes[-1].set_xlabel("time, s")

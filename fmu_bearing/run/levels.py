@@ -1,0 +1,22 @@
+"""Sound levels as they are drawn and listed: absent where there is none.
+
+A variable has to hold a number at all times, so a meter that has heard nothing, because metering has not
+begun or because its source is silent, reads the floor of -106 dB. That is no level: pictures leave a gap.
+"""
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+#: What a meter reads of nothing (dB re 20 uPa): 1e-20 Pa^2, see `acoustics.filters.weighting.level`.
+SILENCE = 10.0 * math.log10(1e-20 / 4e-10)
+_ROOM = 1.0  # dB above: there four fifths of what is read is the floor itself
+
+
+def present(values: ArrayLike, unit: str) -> NDArray[np.float64]:
+    """Return values of a variable with NaN in place of levels (unit ``"dB"``) that are not there."""
+    found = np.array(values, dtype=float)
+    if unit == "dB":
+        found[found < SILENCE + _ROOM] = np.nan
+    return found

@@ -153,7 +153,7 @@ GROUPS = (
 #: What differs between variables of one kind: in the name, and in the sentence.
 _INDICES = (
     (r"ball\[\d+\]", "ball[i]", r"ball \d+", "ball i"),
-    (r"mic\[\d+\]", "mic[k]", r"microphone [^,]+", "microphone k"),
+    (r"mic\[\d+\]", "mic[k]", r"microphone [^,;]+", "microphone k"),
     (r"third_octave\[\d+\]", "third_octave[f]", r"around [\d.]+ Hz", "around f Hz"),
     (r"flexure\.n\d+", "flexure.n*", r"of order \d+", "of order *"),
 )

@@ -31,7 +31,7 @@ _MIC_WORDS = (
     ("spl_rotation", "Time-weighted partial level of the tilting of rings and cage at microphone {}"),
     ("spl_flexure", "Time-weighted partial level of the bending of the rings at microphone {}"),
 )
-_FLOOR = "; -106 dB: none, or metering has not begun"
+_FLOOR = "; -106 dB: silence, or no metering yet"
 _PLAIN = 9  # of these, what every scene has; the rest need sound.details
 _PARTIAL = tuple(f"spl_{part}" for part in (
     "inner_ring", "outer_ring", "cage", "balls", "radial", "axial", "rotation", "flexure",

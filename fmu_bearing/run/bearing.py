@@ -7,6 +7,7 @@ from typing import Any, Self
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import Model, prepare
 from fmu_bearing.run.choose import resolve
+from fmu_bearing.run.levels import shown
 from fmu_bearing.run.names import chosen_names, known
 from fmu_bearing.run.result import Run
 from fmu_bearing.run.simulate import simulate
@@ -139,7 +140,7 @@ class Bearing(Mapping[str, float]):
     def _repr_html_(self) -> str:
         units = self._instance.by_name
         rows = "".join(
-            f"<tr><td>{name}</td><td>{value:.6g}</td><td>{units[name].unit}</td></tr>"
+            f"<tr><td>{name}</td><td>{shown(value, units[name].unit)}</td><td>{units[name].unit}</td></tr>"
             for name, value in self.read().items()
         )
         head = f"<caption>{self!r}</caption><tr><th>output</th><th>value</th><th>unit</th></tr>"

@@ -20,3 +20,9 @@ def present(values: ArrayLike, unit: str) -> NDArray[np.float64]:
     if unit == "dB":
         found[found < SILENCE + _ROOM] = np.nan
     return found
+
+
+def shown(value: float, unit: str) -> str:
+    """Return a value as text for a table, six digits; a dash for a level that is not there."""
+    there = float(present(value, unit))
+    return "-" if math.isnan(there) else f"{there:.6g}"

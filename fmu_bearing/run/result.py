@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from fmu_bearing import renamed
 from fmu_bearing.extras import need
 from fmu_bearing.files import write_whole
-from fmu_bearing.run.levels import present
+from fmu_bearing.run.levels import present, shown
 from fmu_bearing.run.names import unit_of
 from fmu_bearing.scene import Scene, read_scene_text
 
@@ -105,18 +105,16 @@ class Run:
         return f"Run({self.name}, {points}, {len(self.names)} variables{ended})"
 
     def _repr_html_(self) -> str:
-        texts = {name: "-" if math.isnan(value) else f"{value:.6g}" for name, value in self._last().items()}
         rows = "".join(
-            f"<tr><td>{name}</td><td>{text}</td><td>{self.units.get(name, '')}</td></tr>"
-            for name, text in texts.items()
+            f"<tr><td>{name}</td><td>{shown(self[name][-1], unit)}</td><td>{unit}</td></tr>"
+            for name, unit in self._units().items()
         )
         head = f"<caption>{self.name} at {self._reached():g} s</caption>"
         return f"<table>{head}<tr><th>variable</th><th>last value</th><th>unit</th></tr>{rows}</table>"
 
-    def _last(self) -> dict[str, float]:
-        """Last values by name; NaN for levels that are not there."""
-        units = {name: self.units.get(name) or unit_of(name) for name in self.names}
-        return {name: float(present(self[name][-1], unit)) for name, unit in units.items()}
+    def _units(self) -> dict[str, str]:
+        """Units by name, where the run has none those of our FMUs."""
+        return {name: self.units.get(name) or unit_of(name) for name in self.names}
 
     def _reached(self) -> float:
         return float(self.time[-1]) if len(self) else float("nan")
@@ -194,8 +192,9 @@ class Run:
             "time_s": self._reached(),
             "wall_s": self.wall,
             "last": {
-                name: {"value": None if math.isnan(value) else value, "unit": self.units.get(name, "")}
-                for name, value in self._last().items()
+                name: {"value": None if math.isnan(value) else value, "unit": unit}
+                for name, unit in self._units().items()
+                for value in present(self[name][-1:], unit).tolist()
             },
         }
 

@@ -24,7 +24,7 @@ _WIDTHS = (1.2, 0.7)
 
 
 def time_picture(run: Run, patterns: Sequence[str] | None = None, title: str = "") -> "Figure":
-    """Draw variables over time, one panel per unit; levels from the beginning of metering on.
+    """Draw variables over time, one panel per unit; levels where there are any.
 
     Parameters
     ----------

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fmu_bearing import simulate
+from fmu_bearing import Bearing, simulate
 from fmu_bearing.acoustics.filters.weighting import level
 from fmu_bearing.run.levels import SILENCE, present
 from fmu_bearing.run.result import Run
@@ -56,3 +56,11 @@ def test_results_stay_finite_and_summaries_keep_levels(run):
 def test_other_units_keep_small_numbers():
     assert np.array_equal(present([-200.0, 1.0], "N"), [-200.0, 1.0])
     assert np.isnan(present(SILENCE, "dB")) and present(-80.0, "dB") == -80.0
+
+
+def test_a_bearing_shows_a_dash_before_metering(scene):
+    bearing = Bearing(scene("7003C-bare"), fidelity="rings")
+    bearing.init()
+    table = bearing._repr_html_()
+    assert "<td>mic[1].leq</td><td>-</td><td>dB</td>" in table and "-106" not in table
+    assert bearing["mic[1].leq"] == pytest.approx(SILENCE)

@@ -5,6 +5,7 @@ The same object serves the library and the FMU, so that both give the same bits.
 
 import math
 import warnings
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -33,7 +34,7 @@ REASONS = {
 
 @dataclass(frozen=True)
 class Caution:
-    """A warning after initialisation where ``z[index] < threshold``: ``before``, ``scale`` z, ``after``.
+    """A warning where ``z[index] < threshold``: ``before``, ``scale`` z, ``after``.
 
     Attributes
     ----------
@@ -67,8 +68,16 @@ def _shoulder(ring: str, other: str) -> Caution:
     )
 
 
-#: Warnings checked after initialisation.
-CAUTIONS = (_shoulder("inner", "outer"), _shoulder("outer", "inner"))
+_WAVES = Caution(
+    Z.BEARING_OUTPUTS.index("solver.wave_time"),
+    9e-6,
+    1e6,
+    "the fastest wave of races and balls turns by one radian in ",
+    " us, which internal steps have to follow: its frequency lies above 17 kHz; for speed give a lower "
+    "imperfections.highest_order or highest_frequency_kHz, or one scene for low and one for high speeds",
+)
+#: Warnings checked after initialisation and after each step, each given once.
+CAUTIONS: tuple[Caution, ...] = (_shoulder("inner", "outer"), _shoulder("outer", "inner"), _WAVES)
 _RELATIVE_SLACK = 1e-12  # a value at a bound may carry rounding from a unit conversion
 
 
@@ -83,6 +92,8 @@ class Instance:
     ----------
     model : Model
         Prepared scene; never changed, so any number of instances may share it.
+    tell : callable, optional
+        Takes each warning, once; default: ``warnings.warn``.
 
     Examples
     --------
@@ -93,8 +104,9 @@ class Instance:
     >>> bearing.get("friction_torque")                # doctest: +SKIP
     """
 
-    def __init__(self, model: Model) -> None:
+    def __init__(self, model: Model, tell: Callable[[str], None] | None = None) -> None:
         self.model = model
+        self.tell = tell or (lambda text: warnings.warn(text, stacklevel=4))
         self.by_name = {variable.name: variable for variable in model.variables}
         self.reset()
 
@@ -109,6 +121,7 @@ class Instance:
         self._calls = Calls(self.p, self.u, self.s, self.z, np.zeros(W.size(self.p)))
         self._kept = self.s.copy()
         self.initialised = False
+        self._due = CAUTIONS
         for variable in model.variables:
             if variable.array == "u" and variable.start is not None:
                 self.u[variable.index] = variable.start
@@ -167,13 +180,15 @@ class Instance:
         if status != OK:
             raise EngineError(f"initialisation at t = {time} s: {REASONS[status]}; {self._inputs()}")
         self.initialised = True
-        for caution in self._cautions():
-            warnings.warn(caution, stacklevel=2)
+        self._due = CAUTIONS
+        self._warn()
 
-    def _cautions(self) -> list[str]:
-        """Warnings about the state reached."""
-        due = [caution for caution in CAUTIONS if self.z[caution.index] < caution.threshold]
-        return [f"{one.before}{one.scale * self.z[one.index]:.{one.decimals}f}{one.after}" for one in due]
+    def _warn(self) -> None:
+        """Give the warnings about the state reached that were not given yet."""
+        for one in self._due:
+            if self.z[one.index] < one.threshold:
+                self._due = tuple(other for other in self._due if other is not one)
+                self.tell(f"{one.before}{one.scale * self.z[one.index]:.{one.decimals}f}{one.after}")
 
     def step(self, h: float) -> None:
         """Advance by ``h`` (s). The speed ramps to its input over the step; other inputs are held.
@@ -191,6 +206,7 @@ class Instance:
                 f"step of {h} s from t = {self.time:.9g} s (reached {reached:.9g} s): {REASONS[status]}; "
                 f"{self._inputs()}"
             )
+        self._warn()
 
     def _inputs(self) -> str:
         named = zip(U.INPUTS, self.u, strict=True)

@@ -6,7 +6,6 @@ step is refused until a valid value replaces it, because pythonfmu cannot refuse
 """
 
 import math
-import warnings
 from collections.abc import Callable, Sequence
 from enum import Enum
 from typing import Any
@@ -53,7 +52,7 @@ class Session:
         self.phase = Phase.INSTANTIATED
         self.time = 0.0
         self._variables = model.variables
-        self._instance = Instance(model)
+        self._instance = Instance(model, lambda text: self._log(WARNING, text))
         self._log = log
         self._wrong: dict[int, str] = {}  # by value reference
         self._shown: list[Any] | None = None  # all values, until something changes
@@ -164,11 +163,7 @@ class Session:
             return
         self._shown = None
         try:
-            with warnings.catch_warnings(record=True) as cautions:
-                warnings.simplefilter("always")
-                self._instance.initialise(self.time)
-            for caution in cautions:
-                self._log(WARNING, str(caution.message))
+            self._instance.initialise(self.time)
         except EngineError as error:
             self._wrong[_UNSETTLED] = str(error)
             self._log(ERROR, str(error))

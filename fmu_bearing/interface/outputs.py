@@ -87,6 +87,15 @@ def internals(scene: Scene) -> list[Variable]:
         ),
         _count("solver.steps", "Internal steps so far"),
         _count("solver.rejected", "Internal steps refused so far"),
+        _read(
+            "solver.wave_time",
+            "local",
+            "Time in which the fastest wave of races and balls turns by one radian, 1 s at most: internal "
+            "steps are not longer than 1.6 times that, once with fidelity rings",
+            "s",
+            display_unit="us",
+            nominal=2e-5,
+        ),
     ]
     return table + _microphones(scene, "local")
 

@@ -4,6 +4,7 @@
 ``hertz``            constants of elliptical point contacts
 ``bodies``           masses and inertias from the scene's dimensions
 ``contacts``         oil and friction, rolling resistance and films of the races
+``surfaces``         power law, contact filter and highest orders of races and balls
 ``imperfections``    waviness of races and balls, ball sizes, from a seed
 ``flexure``          bending modes of the rings as the engine's coordinates
 ``sound``            the sound block, kept on disk

@@ -58,24 +58,17 @@ def balls(scene: Scene, p: NDArray[np.float64]) -> None:
 
 def races(scene: Scene, p: NDArray[np.float64]) -> None:
     """Write the blocks of inner and outer race; constants of the contact hold at the free contact angle."""
-    b, ball = si(scene.bearing), si(scene.materials.balls)
+    b = si(scene.bearing)
     d, dm, angle = b.ball_diameter, b.pitch_diameter, b.contact_angle
-    gamma = d * math.cos(angle) / dm
     sides = (
-        (-1.0, b.inner_conformity, scene.materials.inner_ring, gamma / (1.0 - gamma),
-         b.inner_ring_outer_diameter),
-        (1.0, b.outer_conformity, scene.materials.outer_ring, -gamma / (1.0 + gamma),
-         b.outer_ring_inner_diameter),
-    )  # fmt: skip
-    for race, (side, conformity, material, curvature, shoulder) in enumerate(sides):
+        (-1.0, b.inner_conformity, scene.materials.inner_ring, b.inner_ring_outer_diameter),
+        (1.0, b.outer_conformity, scene.materials.outer_ring, b.outer_ring_inner_diameter),
+    )
+    for race, (side, conformity, material, shoulder) in enumerate(sides):
         block = p[P.RACES + race * P.RACE_SIZE :][: P.RACE_SIZE]
         ring = si(material)
-        modulus = effective_modulus(
-            ring.youngs_modulus, ring.poisson_ratio, ball.youngs_modulus, ball.poisson_ratio
-        )
-        rx = d / 2.0 / (1.0 + curvature)
-        ry = 1.0 / (2.0 / d - 1.0 / (conformity * d))
-        hertz = point_contact(rx, ry, modulus)
+        rx, _, modulus = _surfaces(scene, race)
+        hertz = race_contacts(scene)[race]
         block[P.RACE_STIFFNESS] = hertz.stiffness
         block[P.RACE_HALF_LENGTH] = hertz.half_length
         block[P.RACE_HALF_WIDTH] = hertz.half_width
@@ -89,6 +82,26 @@ def races(scene: Scene, p: NDArray[np.float64]) -> None:
         block[P.RACE_EXPANSION] = ring.expansion
         height = side * (0.5 * shoulder - block[P.RACE_GROOVE_RADIUS]) / block[P.RACE_GROOVE]
         block[P.RACE_SHOULDER] = math.acos(max(-1.0, min(1.0, height)))
+
+
+def race_contacts(scene: Scene) -> tuple[PointContact, PointContact]:
+    """Hertzian contacts of a ball with inner and outer race, at the free contact angle."""
+    return point_contact(*_surfaces(scene, 0)), point_contact(*_surfaces(scene, 1))
+
+
+def _surfaces(scene: Scene, race: int) -> tuple[float, float, float]:
+    """Effective radii along and across rolling (m) and E' (Pa) of a ball on a race."""
+    b, ball = si(scene.bearing), si(scene.materials.balls)
+    ring = si((scene.materials.inner_ring, scene.materials.outer_ring)[race])
+    conformity = (b.inner_conformity, b.outer_conformity)[race]
+    gamma = b.ball_diameter * math.cos(b.contact_angle) / b.pitch_diameter
+    curvature = gamma / (1.0 - gamma) if race == 0 else -gamma / (1.0 + gamma)
+    modulus = effective_modulus(
+        ring.youngs_modulus, ring.poisson_ratio, ball.youngs_modulus, ball.poisson_ratio
+    )
+    rx = b.ball_diameter / 2.0 / (1.0 + curvature)
+    ry = 1.0 / (2.0 / b.ball_diameter - 1.0 / (conformity * b.ball_diameter))
+    return rx, ry, modulus
 
 
 def films(block: NDArray[np.float64], hertz: PointContact, rx: float, modulus: float, alpha: float) -> None:

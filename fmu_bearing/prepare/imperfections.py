@@ -1,65 +1,108 @@
 """Imperfections as numbers: waviness of races and balls, ball sizes; drawn once from the scene's seed."""
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.engine.layout import P
+from fmu_bearing.prepare.surfaces import ball_profile, frequencies, highest_orders, law, mean_patches
 from fmu_bearing.scene import Scene, si
-from fmu_bearing.scene.imperfections import RACES, Imperfections
+from fmu_bearing.scene.imperfections import HIGHEST_ORDER, RACES
+
+_INTERVALS = 2048  # of a race's table at least
+#: Intervals per wave at least: the table's cubics then follow the shortest wave within 0.1 %.
+_PER_WAVE = 8
 
 
-def wave_table(amplitudes: NDArray[np.float64], orders: NDArray[np.int64], phases: NDArray[np.float64]):
-    """Height and slope of a wavy race at ``WAVE_INTERVALS`` equal angles.
+class Harmonics(NamedTuple):
+    """Waviness of a race, one entry per harmonic: amplitudes (m), waves per turn, phases (rad)."""
 
-    Parameters
-    ----------
-    amplitudes, orders, phases
-        One entry per harmonic: m, waves per turn, rad.
+    amplitudes: NDArray[np.float64]
+    orders: NDArray[np.int64]
+    phases: NDArray[np.float64]
+
+
+NONE = Harmonics(np.empty(0), np.empty(0, dtype=np.int64), np.empty(0))
+
+
+def intervals(highest: int) -> int:
+    """Intervals of a table for waves up to the order ``highest``: a power of two, 2048 or more."""
+    count = _INTERVALS
+    while count < _PER_WAVE * highest:
+        count *= 2
+    return count
+
+
+def wave_table(harmonics: Harmonics, count: int) -> NDArray[np.float64]:
+    """Height and slope of a wavy race at ``count`` equal angles.
 
     Returns
     -------
     ndarray
-        Shape ``(2 * WAVE_INTERVALS,)``: height (m, positive towards the ball) and slope (m per interval)
-        interleaved, as the engine's Hermite interpolation wants them.
+        Shape ``(2 * count,)``: height (m, positive towards the ball) and slope (m per interval) interleaved,
+        as the engine's Hermite interpolation wants them.
     """
-    angle = 2.0 * np.pi * np.arange(P.WAVE_INTERVALS) / P.WAVE_INTERVALS
+    amplitudes, orders, phases = harmonics
+    angle = 2.0 * np.pi * np.arange(count) / count
     argument = np.outer(orders, angle) + phases[:, None]
-    table = np.empty(2 * P.WAVE_INTERVALS)
+    table = np.empty(2 * count)
     table[0::2] = amplitudes @ np.cos(argument)
-    table[1::2] = -(amplitudes * orders) @ np.sin(argument) * (2.0 * np.pi / P.WAVE_INTERVALS)
+    table[1::2] = -(amplitudes * orders) @ np.sin(argument) * (2.0 * np.pi / count)
     return table
 
 
-def race_waves(scene: Scene) -> NDArray[np.float64]:
-    """Tables of inner and outer race one after the other; empty where the scene has no waviness."""
+def order_table(harmonics: Harmonics, highest: int) -> NDArray[np.float64]:
+    """Complex amplitudes W_n (m) of orders 1 .. ``highest``, real and imaginary parts interleaved.
+
+    The height is the real part of the sum of W_n e^(i n angle).
+    """
+    table = np.zeros(highest, dtype=complex)
+    table[harmonics.orders - 1] = harmonics.amplitudes * np.exp(1j * harmonics.phases)
+    return table.view(np.float64)
+
+
+def race_harmonics(scene: Scene) -> tuple[Harmonics, Harmonics]:
+    """Waviness of inner and outer race; no harmonics where there is none."""
     if scene.imperfections is None:
-        return np.empty(0)
-    found = [race_harmonics(scene.imperfections, race) for race in RACES]
-    if not any(amplitudes.any() for amplitudes, _, _ in found):
-        return np.empty(0)
-    return np.concatenate([wave_table(*harmonics) for harmonics in found])
+        return NONE, NONE
+    inner, outer = (_harmonics(scene, race) for race in range(len(RACES)))
+    return inner, outer
 
 
-def race_harmonics(
-    flaws: Imperfections, race: str
-) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.float64]]:
-    """Amplitudes (m), orders and phases (rad) of the ``inner`` or ``outer`` race's waviness."""
-    explicit = getattr(flaws, f"{race}_race_harmonic")
-    amplitude = getattr(si(flaws), f"{race}_race_amplitude")
+def _harmonics(scene: Scene, race: int) -> Harmonics:
+    flaws = scene.imperfections
+    assert flaws is not None
+    explicit = getattr(flaws, f"{RACES[race]}_race_harmonic")
     if explicit:
         rows = [si(harmonic) for harmonic in explicit]
-        return (
+        return Harmonics(
             np.array([row.amplitude for row in rows]),
             np.array([row.order for row in rows], dtype=np.int64),
             np.array([row.phase for row in rows]),
         )
-    if not amplitude:
-        return np.empty(0), np.empty(0, dtype=np.int64), np.empty(0)
-    # the scene has checked that an amplitude comes with its orders
-    assert flaws.lowest_order is not None and flaws.highest_order is not None
-    orders = np.arange(flaws.lowest_order, flaws.highest_order + 1)
-    draw = np.random.default_rng([flaws.seed, RACES.index(race)])
-    return np.full(orders.size, amplitude), orders, draw.uniform(0.0, 2.0 * np.pi, orders.size)
+    first = getattr(si(flaws), f"{RACES[race]}_race_amplitude")
+    if not first:
+        return NONE
+    # the scene has checked that an amplitude has its exponent
+    assert flaws.waviness_exponent is not None
+    orders = np.arange(flaws.lowest_order, highest_orders(scene)[race] + 1)
+    patch = mean_patches(scene)[race]
+    wave_length = patch.half_width / patch.radius if flaws.contact_filter else 0.0
+    return Harmonics(
+        law(first, flaws.waviness_exponent, orders, wave_length), orders, _phases(scene, race)[orders - 1]
+    )
+
+
+def _phases(scene: Scene, race: int) -> NDArray[np.float64]:
+    """Phases (rad) of all orders from 1 on: a phase belongs to its order, whatever the band.
+
+    Those of orders from 2 on are one draw; order 1 has a draw of its own.
+    """
+    assert scene.imperfections is not None
+    seed, turn = scene.imperfections.seed, 2.0 * np.pi
+    first = np.random.default_rng([seed, race, 1]).uniform(0.0, turn, 1)
+    others = np.random.default_rng([seed, race]).uniform(0.0, turn, HIGHEST_ORDER - 1)
+    return np.concatenate([first, others])
 
 
 def ball_oversizes(scene: Scene) -> NDArray[np.float64]:
@@ -84,10 +127,24 @@ def ball_waves(scene: Scene) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         (x, r, theta), uniform on the sphere.
     """
     flaws = scene.imperfections
-    if flaws is None or flaws.ball_waviness_nm == 0.0:
+    if flaws is None or (flaws.ball_form_nm == 0.0 and flaws.ball_waviness_nm == 0.0):
         return np.empty(0), np.empty((3, 0))
-    amplitudes = np.zeros(flaws.ball_waviness_order)
-    amplitudes[-1] = si(flaws).ball_waviness
+    if flaws.ball_form_nm > 0.0:
+        width = mean_patches(scene)[0].half_width if flaws.contact_filter else 0.0
+        amplitudes = ball_profile(
+            flaws, highest_orders(scene).balls, 2.0 * width / si(scene.bearing).ball_diameter
+        )
+    else:
+        amplitudes = np.zeros(flaws.ball_waviness_order)
+        amplitudes[-1] = si(flaws).ball_waviness
     # three normal deviates, normalised, point equally often into every direction
     drawn = np.random.default_rng([flaws.seed, 3]).normal(size=(scene.bearing.ball_count, 3))
     return amplitudes, (drawn / np.linalg.norm(drawn, axis=1)[:, None]).T
+
+
+def fastest_wave(scene: Scene, races: tuple[Harmonics, Harmonics], ball_orders: int) -> float:
+    """Fastest phase of a wave under the balls, in rad per rad of the shaft; 0: there are no waves."""
+    rates = frequencies(scene, 2.0 * np.pi)  # at one turn per second
+    passing = (rates.f_r - rates.f_c, rates.f_c)
+    found = [rate * max(race.orders, default=0) for rate, race in zip(passing, races, strict=True)]
+    return float(max(*found, rates.f_b * ball_orders))

@@ -52,7 +52,7 @@ def estimates(bore: float, outside: float, width: float, angle: float) -> Iterat
     yield Estimate("outer_conformity", 0.52, "usual for hybrid and ceramic bearings")
     yield Estimate("inner_ring_outer_diameter_mm", round(pitch - land, 2), "0.7 ball diameters below pitch")
     yield Estimate("outer_ring_inner_diameter_mm", round(pitch + land, 2), "0.7 ball diameters above pitch")
-    yield Estimate("contact_damping_us", 0.5, "")
+    yield Estimate("contact_damping_us", 2.5, "")
     yield Estimate("race_roughness_um", 0.02, "fine honing")
     yield Estimate("ball_roughness_um", 0.01, "grade 5 or better")
 

@@ -8,24 +8,27 @@ from pydantic import Field
 from fmu_bearing.scene.base import Conflict, Part
 
 RACES = ("inner", "outer")
-_HARMONICS = 200  # most per race, and the highest order
+#: Highest order of a race's waviness: at 1,000 waves per turn a wave is as long as a contact is wide.
+HIGHEST_ORDER = 1000
+_HARMONICS = 200  # most per race
 
 
 class Harmonic(Part):
     """One harmonic of a race's waviness: amplitude times cos(order times angle + phase)."""
 
-    order: int = Field(ge=1, le=_HARMONICS, examples=[2], description="Waves per turn.")
-    amplitude_um: float = Field(ge=0, le=5, examples=[0.1], description="Amplitude of the harmonic, um.")
+    order: int = Field(ge=1, le=HIGHEST_ORDER, examples=[2], description="Waves per turn.")
+    amplitude_um: float = Field(ge=0, le=20, examples=[0.1], description="Amplitude of the harmonic, um.")
     phase_deg: float = Field(
         default=0.0, ge=-720, le=720, examples=[0.0], description="Phase at the race's own zero angle, deg."
     )
 
 
 class Imperfections(Part):
-    """Race waviness, ball spread, ball waviness and unbalance; random values are drawn from a seed.
+    """Race waviness, ball form, ball spread and unbalance; random values are drawn from a seed.
 
-    Each race's waviness is either one amplitude for all orders from ``lowest_order`` to ``highest_order``
-    with random phases, or a list of harmonics.
+    Each race's waviness is a power law or a list of harmonics. The power law gives order n the amplitude
+    A_1 n^-p times the contact filter, with a random phase, from ``lowest_order`` up to ``highest_order``, or
+    to the order that sounds at ``highest_frequency_kHz`` at the scene's speed.
     """
 
     seed: int = Field(
@@ -40,22 +43,49 @@ class Imperfections(Part):
     inner_race_amplitude_um: float | None = Field(
         default=None,
         ge=0,
-        le=5,
-        examples=[0.1],
-        description="Waviness amplitude of the inner race in each order, um.",
+        le=20,
+        examples=[0.3],
+        description="Waviness of the inner race: amplitude A_1 of order 1 in A_n = A_1 n^-p W(n), um.",
     )
     outer_race_amplitude_um: float | None = Field(
         default=None,
         ge=0,
-        le=5,
-        examples=[0.1],
-        description="Waviness amplitude of the outer race in each order, um.",
+        le=20,
+        examples=[0.3],
+        description="Waviness of the outer race: amplitude A_1 of order 1 in A_n = A_1 n^-p W(n), um.",
     )
-    lowest_order: int | None = Field(
-        default=None, ge=1, le=200, examples=[2], description="Lowest order of waviness, in waves per turn."
+    waviness_exponent: float | None = Field(
+        default=None,
+        ge=0,
+        le=4,
+        examples=[1.35],
+        description="Exponent p of the law A_n = A_1 n^-p W(n) for races and balls; 0: all orders alike.",
+    )
+    lowest_order: int = Field(
+        default=2,
+        ge=1,
+        le=HIGHEST_ORDER,
+        examples=[2],
+        description="Lowest order of waviness, waves per turn.",
     )
     highest_order: int | None = Field(
-        default=None, ge=1, le=200, examples=[20], description="Highest order of waviness, in waves per turn."
+        default=None,
+        ge=1,
+        le=HIGHEST_ORDER,
+        examples=[60],
+        description="Highest order of the races' waviness; absent: by highest_frequency_kHz, waves per turn.",
+    )
+    highest_frequency_kHz: float = Field(
+        default=10.0,
+        ge=0.1,
+        le=100,
+        examples=[10.0],
+        description="Frequency up to which waves of races and balls excite the bearing at its speed, kHz.",
+    )
+    contact_filter: bool = Field(
+        default=True,
+        examples=[True],
+        description="W(n): a contact does not follow waves that are shorter than itself; false: W = 1.",
     )
     # A file's array arrives as a list: the one conversion that strictness may let pass.
     inner_race_harmonic: tuple[Harmonic, ...] = Field(
@@ -64,24 +94,30 @@ class Imperfections(Part):
     outer_race_harmonic: tuple[Harmonic, ...] = Field(
         default=(), max_length=_HARMONICS, strict=False, description="Harmonics of the outer race."
     )
+    ball_form_nm: float = Field(
+        default=0.0,
+        ge=0,
+        le=5000,
+        examples=[80.0],
+        description="Deviation of the balls from spherical form, peak to valley; 0: round balls, nm.",
+    )
     ball_waviness_nm: float = Field(
         default=0.0,
         ge=0,
         le=5000,
         examples=[20.0],
-        description="Waviness amplitude of the balls; 0: round balls, nm.",
+        description="Amplitude of one order of the balls' waviness, in place of ball_form_nm; 0: none, nm.",
     )
     ball_waviness_order: int = Field(
         default=2,
         ge=1,
         le=8,
         examples=[2],
-        description="Order of the balls' waviness, a zonal harmonic about one axis fixed in each ball.",
+        description="Order of ball_waviness_nm, a zonal harmonic about one axis fixed in each ball.",
     )
 
     def conflicts(self) -> Iterator[Conflict]:
         """Yield waviness that is incomplete or given twice, and orders in the wrong sequence."""
-        amplitudes = []
         for race in RACES:
             key, table = f"{race}_race_amplitude_um", f"{race}_race_harmonic"
             amplitude, harmonics = getattr(self, key), getattr(self, table)
@@ -90,13 +126,18 @@ class Imperfections(Part):
             elif amplitude is None and not harmonics:
                 yield Conflict(
                     key,
-                    f"is missing, for example {key} = 0.1; or give [[imperfections.{table}]], or "
+                    f"is missing, for example {key} = 0.3; or give [[imperfections.{table}]], or "
                     'grade = "P4" for all',
                 )
-            if amplitude is not None:
-                amplitudes.append(amplitude)
             yield from self._repeated(table)
-        yield from self._order_conflicts(amplitudes)
+        if self.ball_form_nm > 0.0 and self.ball_waviness_nm > 0.0:
+            yield Conflict("ball_waviness_nm", "stands beside ball_form_nm: leave out one of the two")
+        yield from self._law_conflicts()
+
+    @property
+    def follows_law(self) -> bool:
+        """Whether a race or the balls have waviness by the power law."""
+        return bool(self.inner_race_amplitude_um or self.outer_race_amplitude_um or self.ball_form_nm)
 
     def _repeated(self, table: str) -> Iterator[Conflict]:
         counted = Counter(harmonic.order for harmonic in getattr(self, table))
@@ -104,13 +145,17 @@ class Imperfections(Part):
             if count > 1:
                 yield Conflict(table, f"order {order} stands more than once")
 
-    def _order_conflicts(self, amplitudes: list[float]) -> Iterator[Conflict]:
-        for key, example in (("lowest_order", 2), ("highest_order", 20)):
-            given = getattr(self, key) is not None
-            if any(amplitudes) and not given:
-                yield Conflict(key, f"is missing, for example {key} = {example}")
-            elif given and all((self.inner_race_harmonic, self.outer_race_harmonic)):
-                yield Conflict(key, "has no meaning where both races have explicit harmonics: leave it out")
-        low, high = self.lowest_order, self.highest_order
-        if low is not None and high is not None and high < low:
-            yield Conflict("highest_order", f"must not be below lowest_order = {low}")
+    def _law_conflicts(self) -> Iterator[Conflict]:
+        if self.follows_law and self.waviness_exponent is None:
+            yield Conflict(
+                "waviness_exponent",
+                "is missing, for example waviness_exponent = 1.35: amplitudes are A_1 of the law "
+                "A_n = A_1 n^-p; 0 gives every order the same amplitude, as files before the law had",
+            )
+        if self.highest_order is not None:
+            if all((self.inner_race_harmonic, self.outer_race_harmonic)):
+                yield Conflict(
+                    "highest_order", "has no meaning where both races have explicit harmonics: leave it out"
+                )
+            elif self.highest_order < self.lowest_order:
+                yield Conflict("highest_order", f"must not be below lowest_order = {self.lowest_order}")

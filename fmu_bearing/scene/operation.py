@@ -11,16 +11,26 @@ class Operation(Part):
     speed_rpm: float = Field(
         ge=-1e5, le=1e5, examples=[20000.0], description="Shaft speed, right-handed about +X, r/min."
     )
+    lowest_speed_rpm: float | None = Field(
+        default=None,
+        ge=10,
+        le=1e5,
+        examples=[3000.0],
+        description=(
+            "Lowest speed of a run-up, to which imperfections.highest_frequency_kHz refers; absent: the "
+            "amount of speed_rpm, r/min."
+        ),
+    )
     oil_temperature_degC: float = Field(
-        default=20.0,
+        default=40.0,
         ge=-40,
         le=199,
-        examples=[20.0],
+        examples=[40.0],
         description="Temperature that sets the oil's viscosity, degC.",
     )
     inner_ring_temperature_degC: float = Field(
-        default=20.0, ge=-40, le=199, examples=[20.0], description="Temperature of the inner ring, degC."
+        default=40.0, ge=-40, le=199, examples=[40.0], description="Temperature of the inner ring, degC."
     )
     outer_ring_temperature_degC: float = Field(
-        default=20.0, ge=-40, le=199, examples=[20.0], description="Temperature of the outer ring, degC."
+        default=40.0, ge=-40, le=199, examples=[40.0], description="Temperature of the outer ring, degC."
     )

@@ -162,5 +162,5 @@ def _beside_harmonics(entry: dict[str, Any], given: dict[str, Any]) -> dict[str,
     explicit = [race for race in RACES if given.get(f"{race}_race_harmonic")]
     unused = {f"{race}_race_amplitude_um" for race in explicit}
     if len(explicit) == len(RACES):
-        unused |= {"lowest_order", "highest_order"}
+        unused |= {"highest_order"}
     return {name: value for name, value in entry.items() if name not in unused}

@@ -18,6 +18,7 @@ from fmu_bearing.scene.sound import Place, Sound
 
 #: The name goes into file names and into the FMU's model name: ASCII only.
 NAME = r"^[A-Za-z0-9][A-Za-z0-9._ -]{0,59}$"
+_SLOW_RPM = 100.0  # below it waves up to 10 kHz would be of higher orders than any race is known for
 
 
 class Scene(Part):
@@ -58,6 +59,7 @@ class Scene(Part):
                 "mounting.housing.diameter_mm", f"must exceed bearing.outside_diameter_mm = {limit:g}"
             )
         yield from self._flexure()
+        yield from self._orders()
         if self.sound is not None:
             if self.sound.radiator == "housing" and housing is None:
                 yield Conflict("sound.radiator", "needs a table [mounting.housing]")
@@ -87,6 +89,21 @@ class Scene(Part):
                 "fidelity.model",
                 f"'{model}' has rigid rings only: bending needs 'full' or 'auto', or leave out "
                 "[mounting.flexure]",
+            )
+
+    def _orders(self) -> Iterator[Conflict]:
+        """Yield waviness whose highest order nothing decides, because the scene stands still."""
+        flaws, operation = self.imperfections, self.operation
+        if flaws is None or not flaws.follows_law or operation.lowest_speed_rpm is not None:
+            return
+        if abs(operation.speed_rpm) >= _SLOW_RPM:
+            return
+        by_order = flaws.highest_order is not None and not flaws.ball_form_nm
+        if not by_order:
+            yield Conflict(
+                "operation.lowest_speed_rpm",
+                f"is missing, for example lowest_speed_rpm = 3000: below {_SLOW_RPM:g} r/min the speed does "
+                "not decide the highest order of waviness (imperfections.highest_frequency_kHz)",
             )
 
     def _buried_microphones(self) -> Iterator[Conflict]:

@@ -42,13 +42,14 @@ class Slow:
 
     def height(self, race, angle, derivative=0):
         """Race height under an angle, or its second derivative, from the table's cubic."""
-        table = self.p[int(self.p[P.AT_WAVES]) :][: 4 * P.WAVE_INTERVALS].reshape(2, -1, 2)[race]
-        place = angle * P.WAVE_INTERVALS / (2 * np.pi)
+        count = int(self.p[P.WAVE_INTERVALS])
+        table = self.p[int(self.p[P.AT_WAVES]) :][: 4 * count].reshape(2, -1, 2)[race]
+        place = angle * count / (2 * np.pi)
         i, t = int(np.floor(place)), place - np.floor(place)
-        (h0, g0), (h1, g1) = table[i % P.WAVE_INTERVALS], table[(i + 1) % P.WAVE_INTERVALS]
+        (h0, g0), (h1, g1) = table[i % count], table[(i + 1) % count]
         a, b = g0 + g1 - 2 * (h1 - h0), 3 * (h1 - h0) - 2 * g0 - g1
         if derivative:
-            return (2 * b + 6 * a * t) * (P.WAVE_INTERVALS / (2 * np.pi)) ** 2
+            return (2 * b + 6 * a * t) * (count / (2 * np.pi)) ** 2
         return h0 + t * (g0 + t * (b + t * a))
 
     def contact(self, race, ball, height, u, tilt):

@@ -6,18 +6,38 @@ from numpy.polynomial import legendre
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from fmu_bearing.engine.layout import STRIDE, P, W, Y, Z
-from fmu_bearing.engine.mechanics.ball_waves import advance_axes, turn_axes, turn_vector, zonal
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.lanes import load, splat, store
+from fmu_bearing.engine.layout import FOUR, STRIDE, P, W, Y, Z
+from fmu_bearing.engine.mechanics.ball_waves import advance_axes, turn_axes, turned_vector, zonal
+from fmu_bearing.engine.mechanics.triples import store_three
 from tests.engine.helpers import RPM, Run, quiet
 
 
-@pytest.mark.parametrize("orders", range(1, 9))
+@kernel
+def series_at(p, orders, x, out):
+    """Heights, then slopes, of zonal harmonics ``p[1:]`` at four places."""
+    height, rise = zonal(p, 1, orders, load(x, 0))
+    store(out, 0, height)
+    store(out, FOUR, rise)
+
+
+@kernel
+def turned(vector, rate, t, out):
+    """One vector turned, in the first of four lanes."""
+    a = splat(vector[0]), splat(vector[1]), splat(vector[2])
+    store_three(out, 0, turned_vector(a, (splat(rate[0]), splat(rate[1]), splat(rate[2])), t))
+
+
+@pytest.mark.parametrize("orders", [1, 2, 3, 8, 40, 200])
 def test_zonal_harmonics_are_legendre_polynomials(orders):
     amplitudes = np.random.default_rng(orders).normal(size=orders)
     series = [0.0, *amplitudes]
-    for x in np.linspace(-1.0, 1.0, 41):
-        found = zonal(np.array([9.0, *amplitudes]), 1, orders, x)
-        wanted = legendre.legval(x, series), legendre.legval(x, legendre.legder(series))
+    for x in np.linspace(-1.0, 1.0, 44).reshape(-1, FOUR):
+        found = np.zeros(2 * FOUR)
+        series_at(np.array([9.0, *amplitudes]), orders, x, found)
+        wanted = [*legendre.legval(x, series), *legendre.legval(x, legendre.legder(series))]
+        # a slope reaches n^2/2 per harmonic
         np.testing.assert_allclose(found, wanted, rtol=1e-12, atol=1e-13 * orders**2)
 
 
@@ -29,9 +49,10 @@ def test_vectors_turn_like_rotations(turn):
         vector /= np.linalg.norm(vector)
         rate = 3e4 * way / np.linalg.norm(way)
         wanted = Rotation.from_rotvec(rate * (turn / 3e4)).apply(vector)
-        found = turn_vector(*vector, *rate, turn / 3e4)
-        # the series is cut at turn^5/120 of 1e-20; the angle of 40 rad is good to 40 roundings
-        np.testing.assert_allclose(found, wanted, atol=2e-14)
+        rows = np.zeros(3 * STRIDE)
+        turned(vector, rate, turn / 3e4, rows)
+        # the angle of 40 rad is good to 40 roundings
+        np.testing.assert_allclose(rows[::STRIDE], wanted, atol=2e-14)
 
 
 def rolling(seed, rate):

@@ -249,8 +249,9 @@ def test_selection_rule(scene, race, order):
     modes = [thin_ring(1, 2, 6640.0, 0.022, damping=0.05)]
     run = Run(quiet(scene(SCENE)), 12000, modes=modes, GRAVITY=0.0)
     p, balls, n = run.p.copy(), 12, 2
-    grid = 2.0 * np.pi * np.arange(P.WAVE_INTERVALS) / P.WAVE_INTERVALS
-    table = np.zeros((2, P.WAVE_INTERVALS, 2))
+    count = int(p[P.WAVE_INTERVALS])
+    grid = 2.0 * np.pi * np.arange(count) / count
+    table = np.zeros((2, count, 2))
     table[race, :, 0] = 2e-8 * np.cos(order * grid)
     table[race, :, 1] = -2e-8 * order * np.sin(order * grid) * grid[1]
     run.p = np.concatenate([p, table.ravel()])

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from fmu_bearing.engine.fidelities.response.lines import line_table
 from fmu_bearing.engine.layout import STRIDE, C, L, S, U
 from fmu_bearing.engine.status import OK
 from tests.engine.condensed import block, silent, vibration
@@ -18,6 +19,11 @@ def test_steps_do_not_matter_to_response(scene):
     np.testing.assert_allclose(rows[0], rows[1], atol=1e-9 * np.abs(rows[0]).max())
 
 
+def table(run, count):
+    """Lines of a run, one row each."""
+    return run.s[line_table(run.p) :][: count * L.LINE_SIZE].reshape(-1, L.LINE_SIZE)
+
+
 def test_response_is_the_sum_of_its_lines(scene):
     """Displacements, velocities and accelerations by NumPy at the angles in the state, after a long run."""
     run = Run(silent(scene("7003C-spindle")), 20000, FIDELITY=2.0)
@@ -29,7 +35,7 @@ def test_response_is_the_sum_of_its_lines(scene):
     count = int(lv[L.COUNT])
     assert count > STRIDE  # more than one row of phases
     assert abs(lv[L.THETA]) <= np.pi  # 1e5 turns later
-    lines = lv[L.LINES :][: count * L.LINE_SIZE].reshape(-1, L.LINE_SIZE)
+    lines = table(run, count)
     real, imaginary = (lines[:, at : at + L.N] for at in (L.LINE_REAL, L.LINE_IMAGINARY))
     speed = run.s[S.SPEED]
     turns = lines[:, [L.LINE_BALL, L.LINE_SHAFT]]
@@ -55,7 +61,7 @@ def test_response_against_a_dense_solve(scene):
     push = run.s[S.C + C.ECCENTRICITY] * speed**2
     force[1], force[2] = 1j * push, push
     answer = np.linalg.solve(-(speed**2) * mass - stiff - 1j * speed * (damp + extra), force)
-    lines = lv[L.LINES :][: int(lv[L.COUNT]) * L.LINE_SIZE].reshape(-1, L.LINE_SIZE)
+    lines = table(run, int(lv[L.COUNT]))
     (line,) = (row for row in lines if row[0] == 0.0 and row[1] == 1.0)
     solved = line[L.LINE_REAL :][: L.N] + 1j * line[L.LINE_IMAGINARY :][: L.N]
     answer[L.TURN] = 0.0  # no line turns the outer ring

@@ -72,7 +72,8 @@ class Case:
 
 def spline(table):
     """Race height and slope by SciPy's Hermite spline over the engine's table."""
-    grid = 2.0 * np.pi * np.arange(P.WAVE_INTERVALS + 1) / P.WAVE_INTERVALS
+    count = table.size // 2
+    grid = 2.0 * np.pi * np.arange(count + 1) / count
     curve = CubicHermiteSpline(grid, [*table[0::2], table[0]], np.array([*table[1::2], table[1]]) / grid[1])
     slope = curve.derivative()
     return lambda angle: (curve(angle % (2.0 * np.pi)), slope(angle % (2.0 * np.pi)))
@@ -80,7 +81,7 @@ def spline(table):
 
 def harmonics(table):
     """Race height and slope as the harmonic sum of which the table holds the values."""
-    lines = np.fft.rfft(table[0::2])[:64] / P.WAVE_INTERVALS
+    lines = np.fft.rfft(table[0::2])[:64] / (table.size // 2)
     lines[1:] *= 2.0
     orders = np.arange(64)
 
@@ -94,7 +95,8 @@ def harmonics(table):
 def race(p, c, k, wave):
     block = p[P.RACES + k * P.RACE_SIZE :]
     held = c[C.RACES + k * C.RACE_SIZE :]
-    table = p[int(p[P.AT_WAVES]) + 2 * k * P.WAVE_INTERVALS :][: 2 * P.WAVE_INTERVALS]
+    count = int(p[P.WAVE_INTERVALS])
+    table = p[int(p[P.AT_WAVES]) + 2 * k * count :][: 2 * count]
     return oracle.Race(
         x=held[0],
         circle=held[1],

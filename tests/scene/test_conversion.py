@@ -35,13 +35,14 @@ CASES = [
     ("pressure_viscosity_1_GPa", 20.0, "pressure_viscosity", 20e-9),
     ("expansion_1e6_K", 11.8, "expansion", 11.8e-6),
     ("level_dB", 1.0, "level", 1.0),
+    ("highest_frequency_kHz", 10.0, "highest_frequency", 1e4),
 ]
 
 # the only numbers of a scene without a unit
 DIMENSIONLESS = set(
     """ball_count inner_conformity outer_conformity pocket_friction poisson_ratio traction_max
     traction_slide_to_roll replenishment_constant drag_coefficient pedestal_axial_ratio pedestal_damping_ratio
-    damping_ratio seed lowest_order highest_order order ball_waviness_order tolerance traction_strips
+    damping_ratio seed lowest_order highest_order order ball_waviness_order waviness_exponent tolerance traction_strips
     ball_harmonics count walther_slope relative""".split()
 )
 

@@ -15,11 +15,11 @@ from tests.conftest import GATES
 
 #: SHA-256 of what each file is read as: remarks and layout do not count, every value does.
 FROZEN = {
-    "7003C-bare": "f042b3388f1bfe3d87d199409637e166da3bf5bddb3cc19e0e6dd4660341cf8e",
-    "7003C-impact": "a9ed533c36fdd3839e7ffeb2f31c656c97657d802069d2a140de56c77aa9046c",
-    "7003C-spindle": "7ce8286ce5cc055b56ef97edb0e901e44c01f06556c91766673f3220a438469d",
-    "7009C-full-ceramic": "4be0568babdeacf809f1769aaa77a269eb588be9df94f509b8ab3894ff7d0f66",
-    "7009C-steel": "d40e153f06ebdcb6dc9629144d035dd625fb87ccbec8fab41da150c6a939ba50",
+    "7003C-bare": "a444baf543277b05ad4fb0ce227b7a72736a8a717fd62b5af39d44b0594ef2a3",
+    "7003C-impact": "f13bdd562820afd0f2608ad38bf8f09fbf1a65ea3b551c340c791106787d51d3",
+    "7003C-spindle": "5d1986668644ce1e8fbbca63eae69ca9a61d539c7149d3fb072e20bf79a09bc1",
+    "7009C-full-ceramic": "91b658480f0f2ec81f2ae817b89ed511d869a649c10cc178a968e9e3c273e2ad",
+    "7009C-steel": "33176f053746ed028716ae98aa6e23301f40ded9e49b8819858c6cd4d3859be6",
 }
 #: Keys that stand for values elsewhere.
 REFERENCES = {"catalogue", "grade"}

@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
-from fmu_bearing.prepare.imperfections import ball_oversizes, ball_waves, race_harmonics, race_waves
+from fmu_bearing.engine.layout import P
+from fmu_bearing.prepare.imperfections import ball_oversizes, ball_waves, race_harmonics
+from fmu_bearing.prepare.model import pack
 from fmu_bearing.scene import SceneError, read_scene_text
 from fmu_bearing.scene.imperfections import Imperfections
 from fmu_bearing.scene.read import catalogue
@@ -29,6 +31,12 @@ def refused(lines):
     return [line.removeprefix("a: ") for line in caught.value.problems]
 
 
+def race_waves(scene):
+    """Tables of inner and outer race one after the other; empty where there are none."""
+    p = pack(scene, np.empty(0))
+    return p[int(p[P.AT_WAVES]) :][: 4 * int(p[P.WAVE_INTERVALS]) * int(p[P.WAVINESS])]
+
+
 def harmonics(race, rows):
     return "".join(
         f"[[imperfections.{race}_race_harmonic]]\norder = {order}\n"
@@ -49,9 +57,7 @@ def test_every_grade_is_valid():
 
 def test_p4_is_the_standard_set(example):
     standard = example("7003C-bare").imperfections
-    flaws = flawed('seed = 1\ngrade = "P4"').imperfections
-    assert flaws.ball_waviness_nm == 20.0
-    assert flaws.model_copy(update={"ball_waviness_nm": 0.0}) == standard
+    assert flawed('seed = 1\ngrade = "P4"').imperfections == standard
 
 
 def test_finer_grades_have_smaller_imperfections():
@@ -60,19 +66,17 @@ def test_finer_grades_have_smaller_imperfections():
         "ball_diameter_spread_nm",
         "inner_race_amplitude_um",
         "outer_race_amplitude_um",
-        "ball_waviness_nm",
     ]
     rows = np.array([[catalogue("grades")[grade][key] for key in keys] for grade in GRADES])
     assert np.all(np.diff(rows, axis=0) < 0.0)
-    # one ratio for all keys of a grade, that of the tolerances of radial runout over P4's
-    ratios = rows / rows[GRADES.index("P4")]
-    np.testing.assert_allclose(ratios, np.outer(np.array([10, 7, 4, 2.5, 1.5]) / 2.5, np.ones(5)), rtol=1e-12)
+    forms = [catalogue("grades")[grade]["ball_form_nm"] for grade in GRADES]
+    assert forms == [250.0, 250.0, 130.0, 80.0, 80.0]  # G10, G10, G5, G3, G3 (ISO 3290-2)
 
 
 def test_the_files_keys_win_over_the_grade():
     flaws = flawed('grade = "P0"\nseed = 7\nunbalance_um = 0\nhighest_order = 30').imperfections
     assert (flaws.unbalance_um, flaws.highest_order, flaws.seed) == (0.0, 30, 7)
-    assert flaws.inner_race_amplitude_um == 0.4
+    assert flaws.inner_race_amplitude_um == 1.5
 
 
 def test_grade_survives_the_way_through_toml_as_values():
@@ -109,8 +113,7 @@ def test_grades_that_are_none(lines, expected):
 def test_harmonics_with_the_numbers_of_a_band_give_its_table(scene):
     bare = scene("7003C-bare")
     lines = BY_HAND
-    for race in ("inner", "outer"):
-        amplitudes, orders, phases = race_harmonics(bare.imperfections, race)
+    for race, (amplitudes, orders, phases) in zip(("inner", "outer"), race_harmonics(bare), strict=True):
         assert list(orders) == list(range(2, 21)) and amplitudes == pytest.approx(0.1e-6)
         lines += harmonics(race, zip(orders, amplitudes * 1e6, np.degrees(phases), strict=True))
     # phases through degrees and back: a few ulp of 2 pi times order 20 on 19 harmonics of 0.1 um
@@ -119,6 +122,7 @@ def test_harmonics_with_the_numbers_of_a_band_give_its_table(scene):
 
 def test_one_race_by_harmonics_leaves_the_others_draw_alone(scene):
     lines = BY_HAND + "outer_race_amplitude_um = 0.1\nlowest_order = 2\nhighest_order = 20\n"
+    lines += "waviness_exponent = 0\ncontact_filter = false\n"
     mixed, bare = (
         race_waves(flawed(lines + harmonics("inner", [(3, 0.2, 90.0)]))),
         race_waves(scene("7003C-bare")),
@@ -132,11 +136,11 @@ def test_one_race_by_harmonics_leaves_the_others_draw_alone(scene):
 
 def test_harmonics_beside_a_grade_stand_for_its_band():
     flaws = flawed('seed = 1\ngrade = "P4"\n' + harmonics("outer", [(5, 1.0, 0.0)])).imperfections
-    assert (flaws.inner_race_amplitude_um, flaws.outer_race_amplitude_um) == (0.1, None)
-    assert (flaws.lowest_order, flaws.highest_order) == (2, 20)
+    assert (flaws.inner_race_amplitude_um, flaws.outer_race_amplitude_um) == (0.3, None)
+    assert (flaws.lowest_order, flaws.highest_order) == (2, None)
     both = harmonics("inner", [(5, 1.0, 0.0)]) + harmonics("outer", [(5, 1.0, 0.0)])
     flaws = flawed('seed = 1\ngrade = "P4"\n' + both).imperfections
-    assert flaws.lowest_order is flaws.highest_order is flaws.inner_race_amplitude_um is None
+    assert flaws.highest_order is flaws.inner_race_amplitude_um is None
 
 
 INNER, OUTER = (harmonics(race, [(5, 1.0, 0.0)]) for race in ("inner", "outer"))
@@ -151,13 +155,17 @@ INNER, OUTER = (harmonics(race, [(5, 1.0, 0.0)]) for race in ("inner", "outer"))
         ),
         (
             INNER,
-            "imperfections.outer_race_amplitude_um is missing, for example outer_race_amplitude_um = 0.1",
+            "imperfections.outer_race_amplitude_um is missing, for example outer_race_amplitude_um = 0.3",
         ),
         (INNER, 'or give [[imperfections.outer_race_harmonic]], or grade = "P4" for all'),
-        ("outer_race_amplitude_um = 0.1\n" + INNER, "lowest_order is missing, for example lowest_order = 2"),
         (
             "outer_race_amplitude_um = 0.1\n" + INNER,
-            "highest_order is missing, for example highest_order = 20",
+            "waviness_exponent is missing, for example waviness_exponent = 1.35: amplitudes are A_1",
+        ),
+        ("ball_form_nm = 80\n" + INNER + OUTER, "waviness_exponent is missing"),
+        (
+            "ball_form_nm = 80\nball_waviness_nm = 20\nwaviness_exponent = 1\n" + INNER + OUTER,
+            "ball_waviness_nm = 20 stands beside ball_form_nm",
         ),
         (
             "highest_order = 9\n" + INNER + OUTER,
@@ -166,11 +174,11 @@ INNER, OUTER = (harmonics(race, [(5, 1.0, 0.0)]) for race in ("inner", "outer"))
         (INNER + INNER + OUTER, "imperfections.inner_race_harmonic: order 5 stands more than once"),
         (
             INNER + OUTER.replace("order = 5", "order = 0"),
-            "imperfections.outer_race_harmonic[1].order = 0 is refused; allowed: 1 to 200, whole",
+            "imperfections.outer_race_harmonic[1].order = 0 is refused; allowed: 1 to 1000, whole",
         ),
         (
-            INNER + OUTER.replace("amplitude_um = 1.0", "amplitude_um = 6"),
-            "outer_race_harmonic[1].amplitude_um = 6 is refused; allowed: 0 to 5 um",
+            INNER + OUTER.replace("amplitude_um = 1.0", "amplitude_um = 21"),
+            "outer_race_harmonic[1].amplitude_um = 21 is refused; allowed: 0 to 20 um",
         ),
         (
             INNER + OUTER.replace("phase_deg = 0.0", "phase_deg = 721"),
@@ -199,7 +207,7 @@ def test_a_smooth_race_needs_no_orders():
 def test_draws_are_those_of_the_first_release(scene):
     # pinned: a scene's numbers must not change under its feet
     bare = scene("7003C-bare")
-    _, _, phases = race_harmonics(bare.imperfections, "inner")
+    phases = race_harmonics(bare)[0].phases
     assert phases[0] == np.random.default_rng([1, 0]).uniform(0.0, 2.0 * np.pi, 19)[0]
     drawn = np.random.default_rng([1, 2]).uniform(-50e-9, 50e-9, 12)
     assert np.array_equal(ball_oversizes(bare), drawn - drawn.mean())
@@ -218,7 +226,8 @@ def test_round_balls_have_no_table(scene):
 
 
 def test_wavy_balls():
-    scene = flawed('grade = "P4"\nseed = 1\nball_waviness_order = 4')
+    lines = "ball_form_nm = 0\nball_waviness_nm = 20\nball_waviness_order = 4"
+    scene = flawed('grade = "P4"\nseed = 1\n' + lines)
     amplitudes, axes = ball_waves(scene)
     assert list(amplitudes) == [0.0, 0.0, 0.0, 20e-9]
     assert axes.shape == (3, 12)

@@ -127,7 +127,7 @@ def test_error_survives_pickling():
         ("misalignment_z_mrad = 0.0", "misalignment_z_mrad = nan", "nan", "-10 to 10 mrad"),
         ("ball_waviness_nm = 0.0", "ball_waviness_nm = -1", "-1", "0 to 5000 nm"),
         ("ball_waviness_order = 2", "ball_waviness_order = 9", "9", "1 to 8, whole numbers only"),
-        ("lowest_order = 2", "lowest_order = 2.5", "2.5", "1 to 200, whole numbers only"),
+        ("lowest_order = 2", "lowest_order = 2.5", "2.5", "1 to 1000, whole numbers only"),
         ("density_kg_m3 = 870.0", "density_kg_m3 = 0", "0", "500 to 2000 kg/m3"),
         ("expansion_1e6_K = 11.8", "expansion_1e6_K = 1e9", "1000000000.0", "0 to 200 1e-6/K"),
         ("x_mm = -80.5", "x_mm = 1e9", "1000000000.0", "-100000 to 100000 mm"),

@@ -24,7 +24,7 @@ def test_the_least_scene_is_the_usual_one():
     scene = read_scene_text(LEAST)
     assert scene.fidelity.model == "full" and scene.fidelity.tolerance == 1e-3
     assert all(scene.fidelity.terms.model_dump().values())
-    assert scene.operation.oil_temperature_degC == 20.0 and scene.sound is None
+    assert scene.operation.oil_temperature_degC == 40.0 and scene.sound is None
     bearing = Instance(prepare(scene))
     bearing.initialise()
     # two contacts in series carry the preload: 12 Q sin(alpha) = 300 N, alpha somewhat over 15 degrees

@@ -23,6 +23,9 @@ BANDS = _at()  # third octaves per microphone; 0: none
 STRIPS = _at()  # over a contact's major axis
 MODES = _at()  # flexural modes of both rings; 0: rigid rings
 BALL_WAVES = _at()  # zonal orders of the balls' waviness; 0: none
+WAVE_ORDERS = _at()  # highest order of the races' waviness; 0: none
+WAVE_INTERVALS = _at()  # of a race table: a power of two
+MOST_LINES = _at()  # that fidelity response keeps; 0 in others
 # switches: 1 computed, 0 left out
 CAGE = _at()
 GRAVITY = _at()
@@ -37,6 +40,7 @@ RIGID = _at()  # rigid preload
 AT_STRIPS = _at()  # strip nodes, then weights
 AT_OVERSIZE = _at()  # m: ball diameter deviations, one per lane
 AT_WAVES = _at()  # m: race tables: inner then outer, values and slopes interleaved
+AT_ORDERS = _at()  # m: complex amplitudes of orders 1 .. WAVE_ORDERS, inner then outer
 AT_BALL_WAVES = _at()  # m: amplitudes of orders 1.., then the bodies' axes, 3 rows
 AT_MODES = _at()  # MODE_SIZE numbers per mode
 AT_SOUND = _at()  # sound block; 0: there is none
@@ -100,6 +104,7 @@ LAND_STOP_SLIP = _at()  # m/s
 SPRINGS = _at()  # N/m between adjacent balls; 0: none
 SPRING_DAMPING = _at()  # N s/m
 MODE_STEP = _at()  # s: longest internal step that resolves the modes
+WAVE_RATE = _at()  # rad per rad of the shaft: the fastest phase of a wave under the balls; 0: none
 
 # per race
 _race = Places()
@@ -119,8 +124,6 @@ RACE_SHOULDER = _race()  # rad: contact angle at which the groove ends
 RACE_SIZE = _race.next
 RACES = _at(2 * RACE_SIZE)  # inner, outer
 TABLES = _at.next  # tables of variable length begin here
-
-WAVE_INTERVALS = 2048  # of a race table
 
 # per flexural mode, at AT_MODES
 _mode = Places()

@@ -52,9 +52,10 @@ AXES = _at(3 * STRIDE)  # the balls' body-fixed axes in their orbiting axes
 JAC = _at(_J.SIZE)  # Jacobian
 FAC = _at(_A.SIZE)  # factors
 CONDENSED = _at(_L.SIZE)  # what fidelities rings and response keep
-SOUND = _at.next  # sound state, then flexure
+SOUND = _at.next  # sound state, then flexure (fidelity full) or lines (response)
 
 
 def size(p):
     """Length of ``s`` for the parameters ``p``."""
-    return SOUND + int(p[_P.SOUND_STATE]) + _FL.state_size(int(p[_P.MODES]))
+    lines = int(p[_P.MOST_LINES]) * _L.LINE_SIZE
+    return SOUND + int(p[_P.SOUND_STATE]) + _FL.state_size(int(p[_P.MODES])) + lines

@@ -15,24 +15,32 @@ ball's centre. Force and moment act on the race with the opposite sign at the sa
 import math
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import STRIDE, C, P, R, W, X, Y
+from fmu_bearing.engine.lanes import consecutive, load, select, splat, store
+from fmu_bearing.engine.layout import FOUR, STRIDE, C, P, R, W, X, Y
+from fmu_bearing.engine.mechanics.trigonometry import cosine_and_sine
+from fmu_bearing.engine.mechanics.triples import added, along, cross, dot, scaled, store_three, three
+
+_STILL = 1e-24  # rad2: below this turn sin x / x is 1
 
 
 @kernel
 def zonal(p, first, orders, x):
     """Height and its derivative by ``x`` (m) of the zonal harmonics ``p[first:]`` of orders 1, 2, ... at x.
 
-    Bonnet's recurrence; derivatives by P'_(n+1) = P'_(n-1) + (2n + 1) P_n, which has no pole at the axis.
+    ``x``: of four balls. Bonnet's recurrence; derivatives by P'_(n+1) = P'_(n-1) + (2n + 1) P_n, which has
+    no pole at the axis.
     """
-    before = 1.0
+    before = splat(1.0)
     here = x
-    slope_before = 0.0
-    slope = 1.0
+    slope_before = splat(0.0)
+    slope = splat(1.0)
     height = p[first] * here
-    rise = p[first]
+    rise = p[first] * slope
     for n in range(1, orders):
-        after = ((2.0 * n + 1.0) * x * here - n * before) / (n + 1.0)
-        slope_after = slope_before + (2.0 * n + 1.0) * here
+        twice = 2.0 * n + 1.0
+        per = 1.0 / (n + 1.0)
+        after = (twice * per) * x * here - (n * per) * before
+        slope_after = slope_before + twice * here
         before = here
         here = after
         slope_before = slope
@@ -43,12 +51,12 @@ def zonal(p, first, orders, x):
 
 
 @kernel
-def groove_distance(c, race, pose, w, j):
-    """Distance (m) of ball ``j``'s centre from the circle of groove centres of ``race``."""
+def per_groove_distance(c, race, pose, w, j):
+    """One over the distance (m) of four balls' centres from the circle of groove centres of ``race``."""
     held = C.RACES + race * C.RACE_SIZE
-    sx = w[pose + X.A + j] - c[held + C.GROOVE_X]
-    sr = w[pose + X.RHO + j] - c[held + C.GROOVE_RADIUS]
-    return math.sqrt(sx * sx + sr * sr)
+    sx = load(w, pose + X.A + j) - c[held + C.GROOVE_X]
+    sr = load(w, pose + X.RHO + j) - c[held + C.GROOVE_RADIUS]
+    return 1.0 / math.sqrt(sx * sx + sr * sr)
 
 
 @kernel
@@ -66,40 +74,29 @@ def add_ball_waves(p, c, lanes, race, w):
     hertz = p[P.RACES + race * P.RACE_SIZE + P.RACE_STIFFNESS]
     half = p[P.RACES + race * P.RACE_SIZE + P.RACE_HALF_LENGTH]
     damping = 1.5 * p[P.CONTACT_DAMPING]
-    for j in range(lanes):
-        along = 0.0
-        across = 0.0
-        outward = 0.0
-        speed_t = 0.0
-        speed_m = 0.0
-        for i in range(3):
-            a = w[W.AXES + i * STRIDE + j]
-            m = w[row + R.EM + i * STRIDE + j]
-            t = w[pose + X.T + i * STRIDE + j]
-            dv = w[pose + X.DV + i * STRIDE + j]
-            outward += a * w[row + R.EN + i * STRIDE + j]
-            along += a * t
-            across += a * m
-            speed_t += dv * t
-            speed_m += dv * m
-        height, rise = zonal(p, first, orders, outward)
-        bump_t = scale * rise * along
-        bump_m = scale * rise * across
-        approach = w[row + R.APPROACH + j] + scale * height
-        rate = w[row + R.RATE + j]
-        rate += bump_t * w[row + R.COSA + j] / w[pose + X.RHO + j] * speed_t
-        rate += bump_m / groove_distance(c, race, pose, w, j) * speed_m
-        rate += bump_m * w[row + R.AT + j] - bump_t * w[row + R.AM + j]
+    for j in range(0, lanes, FOUR):
+        a = three(w, W.AXES + j)
+        m = three(w, row + R.EM + j)
+        t = three(w, pose + X.T + j)
+        dv = three(w, pose + X.DV + j)
+        height, rise = zonal(p, first, orders, dot(a, three(w, row + R.EN + j)))
+        bump_t = scale * rise * dot(a, t)
+        bump_m = scale * rise * dot(a, m)
+        approach = load(w, row + R.APPROACH + j) + scale * height
+        rate = load(w, row + R.RATE + j)
+        rate += bump_t * load(w, row + R.COSA + j) / load(w, pose + X.RHO + j) * dot(dv, t)
+        rate += bump_m * per_groove_distance(c, race, pose, w, j) * dot(dv, m)
+        rate += bump_m * load(w, row + R.AT + j) - bump_t * load(w, row + R.AM + j)
         pressed = max(approach, 0.0)
         root = math.sqrt(pressed)
         elastic = hertz * root * pressed
-        w[row + R.BUMP_T + j] = bump_t
-        w[row + R.BUMP_M + j] = bump_m
-        w[row + R.APPROACH + j] = approach
-        w[row + R.RATE + j] = rate
-        w[row + R.ELASTIC + j] = elastic
-        w[row + R.LOAD + j] = max(elastic + hertz * root * damping * rate, 0.0)
-        w[row + R.HALF + j] = half * root
+        store(w, row + R.BUMP_T + j, bump_t)
+        store(w, row + R.BUMP_M + j, bump_m)
+        store(w, row + R.APPROACH + j, approach)
+        store(w, row + R.RATE + j, rate)
+        store(w, row + R.ELASTIC + j, elastic)
+        store(w, row + R.LOAD + j, max(elastic + hertz * root * damping * rate, 0.0))
+        store(w, row + R.HALF + j, half * root)
 
 
 @kernel
@@ -108,47 +105,43 @@ def ball_wave_forces(p, c, lanes, race, w):
     row = W.RACE + race * R.SIZE
     pose = W.POSE + race * X.SIZE
     out = W.FORCE + race * W.FORCE_SIZE
-    balls = int(p[P.BALLS])
-    for j in range(lanes):
-        load = w[row + R.LOAD + j]
-        bump_t = w[row + R.BUMP_T + j]
-        bump_m = w[row + R.BUMP_M + j]
-        force_t = -load * bump_t * w[row + R.COSA + j] / w[pose + X.RHO + j]
-        force_m = -load * bump_m / groove_distance(c, race, pose, w, j)
-        power = 0.0
-        for i in range(3):
-            m = w[row + R.EM + i * STRIDE + j]
-            t = w[pose + X.T + i * STRIDE + j]
-            force = force_t * t + force_m * m
-            moment = load * (bump_t * m - bump_m * t)
-            w[out + W.FX + i * STRIDE + j] += force
-            w[out + W.MX + i * STRIDE + j] += moment
-            power += force * w[pose + X.DV + i * STRIDE + j] + moment * w[pose + X.DW + i * STRIDE + j]
-        w[W.LOSS + race * STRIDE + j] -= power if j < balls else 0.0
+    zero = splat(0.0)
+    for j in range(0, lanes, FOUR):
+        pressing = load(w, row + R.LOAD + j)
+        bump_t = load(w, row + R.BUMP_T + j)
+        bump_m = load(w, row + R.BUMP_M + j)
+        m = three(w, row + R.EM + j)
+        t = three(w, pose + X.T + j)
+        force_t = -pressing * bump_t * load(w, row + R.COSA + j) / load(w, pose + X.RHO + j)
+        force_m = -pressing * bump_m * per_groove_distance(c, race, pose, w, j)
+        force = along(force_t, t, force_m, m, zero, m)
+        moment = along(pressing * bump_t, m, -pressing * bump_m, t, zero, m)
+        store_three(w, out + W.FX + j, added(three(w, out + W.FX + j), force))
+        store_three(w, out + W.MX + j, added(three(w, out + W.MX + j), moment))
+        power = dot(force, three(w, pose + X.DV + j)) + dot(moment, three(w, pose + X.DW + j))
+        lost = load(w, W.LOSS + race * STRIDE + j)
+        store(w, W.LOSS + race * STRIDE + j, lost - select(consecutive(j) < p[P.BALLS], power, 0.0))
 
 
 @kernel
-def turn_vector(ax, ay, az, wx, wy, wz, t):
-    """Vector (ax, ay, az) turned at the rate w (rad/s) for ``t`` (s), then of unit length; Rodrigues."""
-    rate2 = wx * wx + wy * wy + wz * wz
-    turn2 = rate2 * t * t
+def turned_vector(a, rate, t):
+    """Vectors ``a`` of four balls, turned at the ``rate`` (rad/s) for ``t`` (s); of unit length (Rodrigues).
+
+    With half the angle nothing cancels where it is small.
+    """
+    turn2 = max(dot(rate, rate) * (t * t), _STILL)
     turn = math.sqrt(turn2)
-    if turn < 1e-4:
-        # series to turn^3 of sin x / x and (1 - cos x) / x^2
-        s = t * (1.0 - turn2 / 6.0)
-        v = t * t * (0.5 - turn2 / 24.0)
-        c = 1.0 - turn2 * (0.5 - turn2 / 24.0)
-    else:
-        rate = math.sqrt(rate2)
-        c = math.cos(turn)
-        s = math.copysign(math.sin(turn), t) / rate
-        v = (1.0 - c) / rate2
-    along = v * (wx * ax + wy * ay + wz * az)
-    bx = c * ax + s * (wy * az - wz * ay) + along * wx
-    by = c * ay + s * (wz * ax - wx * az) + along * wy
-    bz = c * az + s * (wx * ay - wy * ax) + along * wz
-    unit = 1.0 / math.sqrt(bx * bx + by * by + bz * bz)
-    return bx * unit, by * unit, bz * unit
+    cosine, sine = cosine_and_sine(0.5 * turn)
+    by_cross = t * (2.0 * sine * cosine) / turn
+    by_along = (t * t) * (2.0 * sine * sine) / turn2 * dot(rate, a)
+    b = along(1.0 - 2.0 * sine * sine, a, by_cross, cross(rate, a), by_along, rate)
+    return scaled(1.0 / math.sqrt(dot(b, b)), b)
+
+
+@kernel
+def turning(y, j):
+    """Spin (rad/s) of four balls against their orbiting axes, from the state ``y``."""
+    return load(y, Y.WX + j) - load(y, Y.OM + j), load(y, Y.WR + j), load(y, Y.WT + j)
 
 
 @kernel
@@ -161,19 +154,8 @@ def turn_axes(p, axes, y, lanes, t, w):
     """
     if p[P.BALL_WAVES] == 0.0:
         return
-    for j in range(lanes):
-        ax, ar, at = turn_vector(
-            axes[j],
-            axes[STRIDE + j],
-            axes[2 * STRIDE + j],
-            y[Y.WX + j] - y[Y.OM + j],
-            y[Y.WR + j],
-            y[Y.WT + j],
-            t,
-        )
-        w[W.AXES + j] = ax
-        w[W.AXES + STRIDE + j] = ar
-        w[W.AXES + 2 * STRIDE + j] = at
+    for j in range(0, lanes, FOUR):
+        store_three(w, W.AXES + j, turned_vector(three(axes, j), turning(y, j), t))
 
 
 @kernel
@@ -184,19 +166,9 @@ def advance_axes(p, axes, y0, y1, lanes, h):
     """
     if p[P.BALL_WAVES] == 0.0:
         return
-    for j in range(lanes):
-        ax, ar, at = turn_vector(
-            axes[j],
-            axes[STRIDE + j],
-            axes[2 * STRIDE + j],
-            0.5 * (y0[Y.WX + j] - y0[Y.OM + j] + y1[Y.WX + j] - y1[Y.OM + j]),
-            0.5 * (y0[Y.WR + j] + y1[Y.WR + j]),
-            0.5 * (y0[Y.WT + j] + y1[Y.WT + j]),
-            h,
-        )
-        axes[j] = ax
-        axes[STRIDE + j] = ar
-        axes[2 * STRIDE + j] = at
+    for j in range(0, lanes, FOUR):
+        mean = scaled(0.5, added(turning(y0, j), turning(y1, j)))
+        store_three(axes, j, turned_vector(three(axes, j), mean, h))
 
 
 @kernel

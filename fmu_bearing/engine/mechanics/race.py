@@ -13,28 +13,37 @@ from fmu_bearing.engine.mechanics.pose import bearing_angle
 from fmu_bearing.engine.mechanics.powers import ROUND, exp2, log2
 from fmu_bearing.engine.mechanics.triples import added, along, dot, scaled, store_three, three
 
-_PER_RADIAN = P.WAVE_INTERVALS / 6.283185307179586
+_TURN = 6.283185307179586
+
+
+@kernel
+def wave_time(p, speed):
+    """Time (s) in which the fastest wave of races and balls turns by one radian at a shaft speed (rad/s)."""
+    return 1.0 / (p[P.WAVE_RATE] * abs(speed) + 1.0)
 
 
 @kernel
 def wave_under(p, c, y_angle, race, turned, j, w):
     """Race height (m, towards the ball), slope (m/rad) and curvature (m/rad2) under four balls.
 
-    Cubic Hermite interpolation of a table of ``WAVE_INTERVALS`` values and slopes; the slope is the exact
+    Cubic Hermite interpolation of a table of ``P.WAVE_INTERVALS`` values and slopes; the slope is the exact
     derivative of the interpolant, so waviness conserves energy. ``turned`` is the race's own angle (rad).
     """
     pose = W.POSE + race * X.SIZE
-    table = int(p[P.AT_WAVES]) + race * 2 * P.WAVE_INTERVALS
+    intervals = int(p[P.WAVE_INTERVALS])
+    within = intervals - 1
+    per_radian = p[P.WAVE_INTERVALS] / _TURN
+    table = int(p[P.AT_WAVES]) + race * 2 * intervals
     scale = c[C.OVERSIZE_SCALE]
     # The ball's angle seen from the displaced ring's centre: h leaves the radial direction by ht/hr.
     _, hr, ht = three(w, pose + X.H + j)
     angle = load(y_angle, j) + bearing_angle(hr, ht) - turned
     # Adding ROUND leaves the interval's number in the low bits: no conversion, no branch.
-    place = angle * _PER_RADIAN
+    place = angle * per_radian
     number = (place - 0.5) + ROUND
     t = place - (number - ROUND)
-    i0 = to_bits(number) & (P.WAVE_INTERVALS - 1)
-    i1 = (i0 + 1) & (P.WAVE_INTERVALS - 1)
+    i0 = to_bits(number) & within
+    i1 = (i0 + 1) & within
     h0 = gather(p, table, i0 << 1)
     g0 = gather(p, table + 1, i0 << 1)
     h1 = gather(p, table, i1 << 1)
@@ -43,8 +52,8 @@ def wave_under(p, c, y_angle, race, turned, j, w):
     a = g0 + g1 - 2.0 * d
     b = 3.0 * d - 2.0 * g0 - g1
     height = scale * (h0 + t * (g0 + t * (b + t * a)))
-    slope = scale * _PER_RADIAN * (g0 + t * (2.0 * b + t * 3.0 * a))
-    return height, slope, scale * _PER_RADIAN * _PER_RADIAN * (2.0 * b + t * 6.0 * a)
+    slope = scale * per_radian * (g0 + t * (2.0 * b + t * 3.0 * a))
+    return height, slope, scale * per_radian * per_radian * (2.0 * b + t * 6.0 * a)
 
 
 @kernel

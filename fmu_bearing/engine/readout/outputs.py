@@ -6,6 +6,7 @@ from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import C, F, P, Q, S, Y, Z
 from fmu_bearing.engine.mechanics.flexure import flexure_state
 from fmu_bearing.engine.mechanics.pose import axis_cosine, resolved
+from fmu_bearing.engine.mechanics.race import wave_time
 from fmu_bearing.engine.sound.meter import levels
 from fmu_bearing.engine.statics.stiffness import series_stiffness
 
@@ -167,6 +168,7 @@ def observe(p, s, z):
     flexure(p, s, z)
     z[Z.STEPS] = s[S.STEPS]
     z[Z.REJECTED] = s[S.REJECTED]
+    z[Z.WAVE_TIME] = wave_time(p, s[S.SPEED])
     lost = s[S.HEAT] + s[S.HEAT + 1] + s[S.HEAT + 2]
     gained = s[S.ENERGY_NOW] - s[S.ENERGY_START]
     z[Z.RESIDUAL] = (s[S.WORK] - lost - gained) / lost if lost > 1e-12 else 0.0

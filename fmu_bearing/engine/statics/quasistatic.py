@@ -72,12 +72,13 @@ def deeper(p, c, race, j, angle):
     scale = c[C.OVERSIZE_SCALE]
     height = 0.5 * p[int(p[P.AT_OVERSIZE]) + j]
     if p[P.WAVINESS] != 0.0:
-        table = int(p[P.AT_WAVES]) + race * 2 * P.WAVE_INTERVALS
-        place = angle / (2.0 * PI) * P.WAVE_INTERVALS
+        intervals = int(p[P.WAVE_INTERVALS])
+        table = int(p[P.AT_WAVES]) + race * 2 * intervals
+        place = angle / (2.0 * PI) * intervals
         below = int(place)
         part = place - below
-        first = p[table + 2 * (below % P.WAVE_INTERVALS)]
-        second = p[table + 2 * ((below + 1) % P.WAVE_INTERVALS)]
+        first = p[table + 2 * (below % intervals)]
+        second = p[table + 2 * ((below + 1) % intervals)]
         height += first + part * (second - first)
     return scale * height
 

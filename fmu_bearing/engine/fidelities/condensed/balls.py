@@ -26,8 +26,6 @@ from fmu_bearing.engine.mechanics.bodies import inner_ring, outer_ring
 from fmu_bearing.engine.mechanics.pose import axis_cosine, seen
 from fmu_bearing.engine.mechanics.powers import ROUND
 
-_PER_RADIAN = P.WAVE_INTERVALS / (2.0 * PI)  # table intervals
-_WITHIN = P.WAVE_INTERVALS - 1  # low bits of a place in the table
 _FLOOR = 1e3  # N/m: keeps a ball without contact from being thrown far; 1e-5 of a loaded contact
 _LONGEST = 2e-6  # m: move of a ball in one sweep, about the approach of a loaded contact
 # Sum over the balls of squared moves (m2) below which the first-order forces serve: 18 nm each, whose second
@@ -63,12 +61,15 @@ def stand(p, c, lv, theta, inner_angle, outer_angle, speed, w):
         store(w, T.BEND_OUTER + j, 0.0)
     if p[P.WAVINESS] == 0.0 or scale == 0.0:
         return
+    intervals = int(p[P.WAVE_INTERVALS])
+    within = intervals - 1  # low bits of a place in the table
+    per_radian = p[P.WAVE_INTERVALS] / (2.0 * PI)
     for race in range(2):
-        table = int(p[P.AT_WAVES]) + race * 2 * P.WAVE_INTERVALS
-        start = (theta - (inner_angle if race == 0 else outer_angle)) * _PER_RADIAN
+        table = int(p[P.AT_WAVES]) + race * 2 * intervals
+        start = (theta - (inner_angle if race == 0 else outer_angle)) * per_radian
         row = T.INNER + race * STRIDE
         bend = T.BEND + race * STRIDE
-        rate = (lv[L.RATIO] - (1.0 if race == 0 else 0.0)) * speed * _PER_RADIAN
+        rate = (lv[L.RATIO] - (1.0 if race == 0 else 0.0)) * speed * per_radian
         scale2 = 2.0 * scale * rate * rate
         for j in range(0, lanes, FOUR):
             place = start + load(lv, L.PHI + j)
@@ -76,8 +77,8 @@ def stand(p, c, lv, theta, inner_angle, outer_angle, speed, w):
             shifted = place - 0.5 + ROUND
             t = place - (shifted - ROUND)
             whole = to_bits(shifted)
-            one = (whole & _WITHIN) << 1
-            two = (whole + 1 & _WITHIN) << 1
+            one = (whole & within) << 1
+            two = (whole + 1 & within) << 1
             h0 = gather(p, table, one)
             g0 = gather(p, table + 1, one)
             d = gather(p, table, two) - h0

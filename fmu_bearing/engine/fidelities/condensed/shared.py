@@ -21,29 +21,6 @@ from fmu_bearing.engine.status import OK
 
 
 @kernel
-def highest_order(p):
-    """Waves per turn that matter to the step: the rms curvature of the race heights over their rms slope.
-
-    For one harmonic its order; for a flat spectrum about 0.8 of the highest, whence the factor 1.25.
-    """
-    if p[P.WAVINESS] == 0.0:
-        return 1.0
-    worst = 1.0
-    for race in range(2):
-        table = int(p[P.AT_WAVES]) + race * 2 * P.WAVE_INTERVALS
-        slopes = 0.0
-        changes = 0.0
-        for i in range(P.WAVE_INTERVALS):
-            g = p[table + 2 * i + 1]
-            d = p[table + 2 * ((i + 1) % P.WAVE_INTERVALS) + 1] - g
-            slopes += g * g
-            changes += d * d
-        if slopes > 0.0:
-            worst = max(worst, 1.25 * math.sqrt(changes / slopes) * P.WAVE_INTERVALS / (2.0 * PI))
-    return worst
-
-
-@kernel
 def even_spacing(p, lv):
     """Rows of the balls' angles from ball 0, of their sizes and of the mask of spare lanes."""
     balls = p[P.BALLS]
@@ -51,7 +28,7 @@ def even_spacing(p, lv):
     for j in range(int(p[P.LANES])):
         place = j if j < balls else 0
         angle = 2.0 * PI * place / balls
-        lv[L.PHI + j] = P.WAVE_INTERVALS * place / balls
+        lv[L.PHI + j] = p[P.WAVE_INTERVALS] * place / balls
         lv[L.COS + j] = math.cos(angle)
         lv[L.SIN + j] = math.sin(angle)
         lv[L.SIZES + j] = 0.5 * p[sizes + j]
@@ -83,7 +60,6 @@ def start_condensed(p, u, s, w, t):
         return status
     c = s[S.C : S.C + C.SIZE]
     even_spacing(p, lv)
-    lv[L.ORDER] = highest_order(p)
     for i in range(Y.SIZE):
         w[W.STAGE + i] = 0.0
     for i in range(L.N):

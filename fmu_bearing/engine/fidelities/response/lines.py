@@ -26,33 +26,15 @@ from fmu_bearing.engine.newton.jacobian import is_angle
 
 _HEIGHT = 1e-9  # m, for differences; heights' accelerations by (3e4 rad/s)^2 times that
 _BEND = 1.0  # m/s2
-_WEAK = 1e-5  # of the strongest line's velocity: left out
+_WEAK = 1e-5  # of the strongest line's weight, as an amplitude: left out
+_SOUNDS = 6300.0  # rad/s: from here on lines count by their acceleration
 _STILL = 1e-3  # rad/s: a line as slow as that is none
 
 
 @kernel
-def order_amplitudes(p, lv):
-    """Complex amplitudes W_n of the race heights, h = Re sum W_n e^(i n psi), by the discrete transform."""
-    for race in range(2):
-        for n in range(1, L.ORDERS + 1):
-            at = L.WAVES + race * 2 * L.ORDERS + 2 * (n - 1)
-            lv[at] = 0.0
-            lv[at + 1] = 0.0
-            if p[P.WAVINESS] == 0.0:
-                continue
-            table = int(p[P.AT_WAVES]) + race * 2 * P.WAVE_INTERVALS
-            cr = math.cos(2.0 * PI * n / P.WAVE_INTERVALS)
-            ci = -math.sin(2.0 * PI * n / P.WAVE_INTERVALS)
-            er = 1.0
-            ei = 0.0
-            for i in range(P.WAVE_INTERVALS):
-                lv[at] += p[table + 2 * i] * er
-                lv[at + 1] += p[table + 2 * i] * ei
-                kept = er
-                er = er * cr - ei * ci
-                ei = kept * ci + ei * cr
-            lv[at] *= 2.0 / P.WAVE_INTERVALS
-            lv[at + 1] *= 2.0 / P.WAVE_INTERVALS
+def line_table(p):
+    """Place of the lines in ``s``: behind the sound's part, where fidelity full has its flexure."""
+    return S.SOUND + int(p[P.SOUND_STATE])
 
 
 @kernel
@@ -127,7 +109,7 @@ def coefficients(x, kind, order, target, w):
 
 
 @kernel
-def keep(p, lv, a, b, omega, w):
+def keep(p, lv, lines, a, b, omega, w):
     """Keep the answer at ``omega`` (rad/s) to the force ``T.LINE_FORCE`` as line ``a``, ``b``."""
     if abs(omega) < _STILL:
         return
@@ -145,87 +127,78 @@ def keep(p, lv, a, b, omega, w):
     if not solve_complex(re, im, L.N):
         return
     into = int(lv[L.COUNT])
-    size = answer_size(omega, re, im)
+    size = loudness(omega, re, im)
     if not (size < 1e9):
         return
-    if into == L.MOST_LINES:
+    if into == int(p[P.MOST_LINES]):
         # full: the weakest line makes room, if it is weaker than this one
-        into = weakest(lv)
-        if stored_size(lv, into) >= size:
+        into = weakest(lines, into)
+        if lines[into * L.LINE_SIZE + L.LINE_LOUDNESS] >= size:
             return
     else:
         lv[L.COUNT] += 1.0
-    at = L.LINES + into * L.LINE_SIZE
-    lv[at + L.LINE_BALL] = a
-    lv[at + L.LINE_SHAFT] = b
+    at = into * L.LINE_SIZE
+    lines[at + L.LINE_BALL] = a
+    lines[at + L.LINE_SHAFT] = b
+    lines[at + L.LINE_LOUDNESS] = size
     for i in range(L.COLUMN):
         moves = i < L.N and i != L.TURN
-        lv[at + L.LINE_REAL + i] = re[i * T.LINE_ROW + L.N] if moves else 0.0
-        lv[at + L.LINE_IMAGINARY + i] = im[i * T.LINE_ROW + L.N] if moves else 0.0
+        lines[at + L.LINE_REAL + i] = re[i * T.LINE_ROW + L.N] if moves else 0.0
+        lines[at + L.LINE_IMAGINARY + i] = im[i * T.LINE_ROW + L.N] if moves else 0.0
 
 
 @kernel
-def answer_size(omega, re, im):
-    """Velocity of the rings' translations squared (m2/s2) in a solved system."""
+def loudness(omega, re, im):
+    """Weight of a solved system: velocity squared (m2/s2) of the rings' translations, more where it sounds.
+
+    A compact body's pressure grows with its acceleration, so above 1 kHz a line counts by that.
+    """
     size = 0.0
     for i in range(L.TURN):
         if not is_angle(i):
             size += re[i * T.LINE_ROW + L.N] ** 2 + im[i * T.LINE_ROW + L.N] ** 2
-    return omega * omega * size
+    squared = omega * omega
+    return squared * (1.0 + squared / (_SOUNDS * _SOUNDS)) * size
 
 
 @kernel
-def stored_size(lv, k):
-    """Displacement of the rings' translations squared (m2) in a kept line."""
-    at = L.LINES + k * L.LINE_SIZE
-    size = 0.0
-    for i in range(L.TURN):
-        if not is_angle(i):
-            size += lv[at + L.LINE_REAL + i] ** 2 + lv[at + L.LINE_IMAGINARY + i] ** 2
-    return size
-
-
-@kernel
-def weakest(lv):
-    """Index of the kept line with the least displacement."""
+def weakest(lines, count):
+    """Index of the kept line that weighs least."""
     best = 0
-    for k in range(1, int(lv[L.COUNT])):
-        if stored_size(lv, k) < stored_size(lv, best):
+    for k in range(1, count):
+        if lines[k * L.LINE_SIZE + L.LINE_LOUDNESS] < lines[best * L.LINE_SIZE + L.LINE_LOUDNESS]:
             best = k
     return best
 
 
 @kernel
-def drop_weak(lv, orbit, speed):
-    """Leave out lines whose velocity is nothing beside the strongest."""
+def drop_weak(lv, lines):
+    """Leave out lines that are nothing beside the strongest."""
     most = 0.0
     count = int(lv[L.COUNT])
     for k in range(count):
-        at = L.LINES + k * L.LINE_SIZE
-        omega = lv[at + L.LINE_BALL] * orbit + lv[at + L.LINE_SHAFT] * speed
-        most = max(most, omega**2 * stored_size(lv, k))
+        most = max(most, lines[k * L.LINE_SIZE + L.LINE_LOUDNESS])
     into = 0
     for k in range(count):
-        at = L.LINES + k * L.LINE_SIZE
-        omega = lv[at + L.LINE_BALL] * orbit + lv[at + L.LINE_SHAFT] * speed
-        if omega**2 * stored_size(lv, k) > _WEAK * _WEAK * most:
+        at = k * L.LINE_SIZE
+        if lines[at + L.LINE_LOUDNESS] > _WEAK * _WEAK * most:
             for i in range(L.LINE_SIZE):
-                lv[L.LINES + into * L.LINE_SIZE + i] = lv[at + i]
+                lines[into * L.LINE_SIZE + i] = lines[at + i]
             into += 1
     lv[L.COUNT] = into
 
 
 @kernel
-def add_wave(lv, x, race, n, order, factor, rate, tau, w):
+def add_wave(p, x, race, n, order, factor, rate, tau, w):
     """Add ``factor`` times wave ``n`` of a race through order ``order`` of the balls to ``T.LINE_FORCE``.
 
     ``rate``: of the balls against the race (rad/s); contact damping advances the height by ``tau``.
     """
-    at = L.WAVES + race * 2 * L.ORDERS + 2 * (n - 1)
+    at = int(p[P.AT_ORDERS]) + race * 2 * int(p[P.WAVE_ORDERS]) + 2 * (n - 1)
     co = math.cos(n * rate * tau)
     si = math.sin(n * rate * tau)
-    hr = factor * (lv[at] * co - lv[at + 1] * si)
-    hi = factor * (lv[at] * si + lv[at + 1] * co)
+    hr = factor * (p[at] * co - p[at + 1] * si)
+    hi = factor * (p[at] * si + p[at + 1] * co)
     squared = n * rate * n * rate
     coefficients(x, LN.BY_HEIGHT + race, order, T.BY_HEIGHT, w)
     coefficients(x, LN.BY_BEND + race, order, T.BY_BEND, w)
@@ -237,13 +210,16 @@ def add_wave(lv, x, race, n, order, factor, rate, tau, w):
 
 
 @kernel
-def steady_lines(p, c, lv, x, count, orbit, speed, w):
+def steady_lines(p, c, lv, lines, x, count, orbit, w):
     """Lines that turn with the balls alone: outer race, varying compliance, unequal balls."""
     balls = int(p[P.BALLS])
     scale = c[C.OVERSIZE_SCALE]
     tau = p[P.CONTACT_DAMPING]
     sizes = int(p[P.AT_OVERSIZE])
-    for a in range(1, L.ORDERS + LN.REACH + 1):
+    highest = int(p[P.WAVE_ORDERS])
+    for a in range(1, max(highest, LN.AZIMUTHS // 2) + LN.REACH + 1):
+        if a % balls != 0 and a > LN.REACH:
+            continue
         for i in range(LN.COMPLEX):
             w[T.LINE_FORCE + i] = 0.0
         if a % balls == 0:
@@ -251,8 +227,8 @@ def steady_lines(p, c, lv, x, count, orbit, speed, w):
                 transform(x, LN.FORCE, a, count, LN.FORCE_ORDER)
                 for i in range(LN.COMPLEX):
                     w[T.LINE_FORCE + i] += 2.0 * balls * x[LN.FORCE_ORDER + i]
-            for n in range(max(a - LN.REACH, 1), min(a + LN.REACH, L.ORDERS) + 1):
-                add_wave(lv, x, 1, n, a - n, balls * scale, orbit, tau, w)
+            for n in range(max(a - LN.REACH, 1), min(a + LN.REACH, highest) + 1):
+                add_wave(p, x, 1, n, a - n, balls * scale, orbit, tau, w)
         if a <= LN.REACH:
             dr = 0.0
             di = 0.0
@@ -267,11 +243,11 @@ def steady_lines(p, c, lv, x, count, orbit, speed, w):
                     gi = w[T.BY_HEIGHT + LN.IMAGINARY + i]
                     w[T.LINE_FORCE + i] += gr * dr - gi * di
                     w[T.LINE_FORCE + LN.IMAGINARY + i] += gr * di + gi * dr
-        keep(p, lv, a, 0.0, a * orbit, w)
+        keep(p, lv, lines, a, 0.0, a * orbit, w)
 
 
 @kernel
-def shaft_lines(p, c, lv, x, orbit, speed, w):
+def shaft_lines(p, c, lv, lines, x, orbit, speed, w):
     """Lines that turn with the shaft: unbalance and the waves of the inner race."""
     balls = int(p[P.BALLS])
     scale = c[C.OVERSIZE_SCALE]
@@ -282,14 +258,14 @@ def shaft_lines(p, c, lv, x, orbit, speed, w):
     # (0, -sin, cos) of the shaft's angle
     w[T.LINE_FORCE + LN.IMAGINARY + Q.Y] = push
     w[T.LINE_FORCE + Q.Z] = push
-    keep(p, lv, 0.0, 1.0, speed, w)
-    for n in range(1, L.ORDERS + 1):
+    keep(p, lv, lines, 0.0, 1.0, speed, w)
+    for n in range(1, int(p[P.WAVE_ORDERS]) + 1):
         lowest = max((n - LN.REACH + balls - 1) // balls, 0)
         for k in range(lowest, (n + LN.REACH) // balls + 1):
             for i in range(LN.COMPLEX):
                 w[T.LINE_FORCE + i] = 0.0
-            add_wave(lv, x, 0, n, k * balls - n, balls * scale, orbit - speed, tau, w)
-            keep(p, lv, k * balls, -1.0 * n, k * balls * orbit - n * speed, w)
+            add_wave(p, x, 0, n, k * balls - n, balls * scale, orbit - speed, tau, w)
+            keep(p, lv, lines, k * balls, -1.0 * n, k * balls * orbit - n * speed, w)
 
 
 @kernel
@@ -306,7 +282,8 @@ def renew_lines(p, s, speed, w):
     for kind in range(LN.BY_HEIGHT, LN.KINDS):
         for order in range(LN.REACH + 1):
             transform(x, kind, order, count, order_of(kind, order))
+    lines = s[line_table(p) :]
     lv[L.COUNT] = 0.0
-    shaft_lines(p, c, lv, x, orbit, speed, w)
-    steady_lines(p, c, lv, x, count, orbit, speed, w)
-    drop_weak(lv, orbit, speed)
+    shaft_lines(p, c, lv, lines, x, orbit, speed, w)
+    steady_lines(p, c, lv, lines, x, count, orbit, w)
+    drop_weak(lv, lines)

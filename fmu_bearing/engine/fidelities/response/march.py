@@ -12,6 +12,7 @@ between states 19.5 us apart.
 import math
 
 from fmu_bearing.engine.constants import PI
+from fmu_bearing.engine.fidelities import steps
 from fmu_bearing.engine.fidelities.condensed.balls import carried, count_settled, stand
 from fmu_bearing.engine.fidelities.condensed.damping import add_damping
 from fmu_bearing.engine.fidelities.condensed.held import hold
@@ -26,15 +27,16 @@ from fmu_bearing.engine.fidelities.condensed.shared import (
     set_inputs,
     start_condensed,
 )
-from fmu_bearing.engine.fidelities.response.lines import order_amplitudes, renew_lines
-from fmu_bearing.engine.fidelities.steps import begin_heats, mean_heats
+from fmu_bearing.engine.fidelities.response.lines import line_table, renew_lines
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, splat, store
 from fmu_bearing.engine.layout import FOUR, STRIDE, C, F, L, P, S, T, U, W, Y
+from fmu_bearing.engine.mechanics.race import wave_time
 from fmu_bearing.engine.mechanics.trigonometry import ball_angles, wrap
 from fmu_bearing.engine.status import NO_START, NOT_CONVERGED, OK
 
-_SAMPLING = 51_200.0  # Hz of the states that samples are interpolated between, with sound
+_SAMPLING = 51_200.0  # Hz of the states that samples are interpolated between, with sound: no fewer
+_WAVE = 1.26  # rad of the fastest wave between two such states: the cubic between them errs by 0.6 %
 _TRIES = 8  # of 30 sweeps
 _NEAR = 0.05  # rad of orbit: a radially loaded ball moves by 15 um at most meanwhile, mostly by 0.5
 _BACK = 2e-6  # s between the two states a ball's rate is taken from, without sound
@@ -77,7 +79,6 @@ def start_response(p, u, s, w, t):
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     keep_balls(w, lv, L.X)
     keep_balls(w, lv, L.X3)
-    order_amplitudes(p, lv)
     if not linearise(p, s, u[U.SPEED], w):
         return NO_START
     show(p, s, True, w)
@@ -115,7 +116,7 @@ def renew_equilibrium(p, u, s, w):
 
 
 @kernel
-def sum_lines(lv, theta, angle, orbit, speed, w):
+def sum_lines(lv, lines, theta, angle, orbit, speed, w):
     """Displacements, velocities and accelerations of the rings at the angles of ball 0 and shaft (rad).
 
     Cosines and sines are taken for a row of lines at a time, the coordinates of a line four at a time.
@@ -127,18 +128,18 @@ def sum_lines(lv, theta, angle, orbit, speed, w):
     for first in range(0, count, STRIDE):
         many = min(count - first, STRIDE)
         for k in range(many):
-            at = L.LINES + (first + k) * L.LINE_SIZE
-            w[T.PHASES + k] = lv[at + L.LINE_BALL] * theta + lv[at + L.LINE_SHAFT] * angle
+            at = (first + k) * L.LINE_SIZE
+            w[T.PHASES + k] = lines[at + L.LINE_BALL] * theta + lines[at + L.LINE_SHAFT] * angle
         # what stands behind the last line is a phase of another time, and not used
         ball_angles(w, T.PHASES, (many + FOUR - 1) // FOUR * FOUR, w)
         for k in range(many):
-            at = L.LINES + (first + k) * L.LINE_SIZE
-            omega = lv[at + L.LINE_BALL] * orbit + lv[at + L.LINE_SHAFT] * speed
+            at = (first + k) * L.LINE_SIZE
+            omega = lines[at + L.LINE_BALL] * orbit + lines[at + L.LINE_SHAFT] * speed
             co = w[T.COS + k]
             si = w[T.SIN + k]
-            x0, y0 = turned(lv, at, co, si)
-            x1, y1 = turned(lv, at + FOUR, co, si)
-            x2, y2 = turned(lv, at + 2 * FOUR, co, si)
+            x0, y0 = turned(lines, at, co, si)
+            x1, y1 = turned(lines, at + FOUR, co, si)
+            x2, y2 = turned(lines, at + 2 * FOUR, co, si)
             squared = omega * omega
             q0 += x0
             q1 += x1
@@ -155,10 +156,10 @@ def sum_lines(lv, theta, angle, orbit, speed, w):
 
 
 @kernel
-def turned(lv, at, co, si):
-    """Real and imaginary parts of four coordinates of the line ``lv[at:]``, turned by a phase."""
-    real = load(lv, at + L.LINE_REAL)
-    imaginary = load(lv, at + L.LINE_IMAGINARY)
+def turned(lines, at, co, si):
+    """Real and imaginary parts of four coordinates of the line ``lines[at:]``, turned by a phase."""
+    real = load(lines, at + L.LINE_REAL)
+    imaginary = load(lines, at + L.LINE_IMAGINARY)
     return real * co - imaginary * si, real * si + imaginary * co
 
 
@@ -222,7 +223,7 @@ def place(p, s, ahead, near, w):
     turned = ahead * (s[S.SPEED] + 0.5 * ahead * s[S.SPEED_RATE])
     theta = lv[L.THETA] + lv[L.RATIO] * turned
     angle = s[S.ANGLE] + turned
-    sum_lines(lv, theta, angle, lv[L.RATIO] * speed, speed, w)
+    sum_lines(lv, s[line_table(p) :], theta, angle, lv[L.RATIO] * speed, speed, w)
     tau = p[P.CONTACT_DAMPING]
     stand(p, c, lv, theta + tau * lv[L.RATIO] * speed, angle + tau * speed, lv[L.Q0 + L.TURN], speed, w)
     q = w[T.Q : T.Q + L.COLUMN]
@@ -250,7 +251,7 @@ def show(p, s, near, w):
 def march_response(p, u, s, w, h):
     """Advance the state by the communication step ``h`` (s); status code."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    begin_heats(s)
+    steps.begin_heats(s)
     near = abs(h * lv[L.RATIO]) * max(abs(s[S.SPEED]), abs(u[U.SPEED])) < _NEAR
     if set_inputs(p, u, s, w, h):
         near = False
@@ -260,7 +261,8 @@ def march_response(p, u, s, w, h):
         lv[L.KNOWN] = 0.0
     end = s[S.TIME] + h
     if p[P.SOUND_SIZE] != 0.0:
-        count = math.ceil(h * _SAMPLING - 1e-9)
+        spacing = min(1.0 / _SAMPLING, _WAVE * wave_time(p, max(abs(s[S.SPEED]), abs(u[U.SPEED]))))
+        count = math.ceil(h / spacing - 1e-9)
         step = h / count
         if abs(step - lv[L.SPACING]) > 1e-6 * step:
             lv[L.SPACING] = step
@@ -282,5 +284,5 @@ def march_response(p, u, s, w, h):
     s[S.SPEED] = u[U.SPEED]
     if p[P.SOUND_SIZE] == 0.0:
         show(p, s, near, w)
-    mean_heats(s, h)
+    steps.mean_heats(s, h)
     return OK

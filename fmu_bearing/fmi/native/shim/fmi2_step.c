@@ -126,6 +126,7 @@ static inline fmi2Status advance(Instance *it, double time, double size, const d
     }
     it->last_step = size;
     it->reached = it->time = time + size;
+    instance_warn(it);
     return fmi2OK;
 }
 

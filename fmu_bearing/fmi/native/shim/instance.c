@@ -186,15 +186,15 @@ void instance_add_inputs(const Instance *it, Text *text)
     }
 }
 
-/* Warn of what the state reached is beyond. */
-static void warn(Instance *it)
+void instance_warn(Instance *it)
 {
     uint64_t i;
     for (i = 0; i < it->model.head->n_cautions; i++) {
         const ModelCaution *caution = &it->model.cautions[i];
         double value = it->z[caution->index];
         Text text = {0};
-        if (!(value < caution->threshold)) continue;
+        if (!(value < caution->threshold) || it->told >> i & 1) continue;
+        it->told |= (uint64_t)1 << i;
         text_add(&text, model_text(&it->model, caution->before), NULL);
         text_add_fixed(&text, caution->scale * value, (int)caution->decimals);
         text_add(&text, model_text(&it->model, caution->after), NULL);
@@ -213,7 +213,8 @@ fmi2Status instance_settle(Instance *it, fmi2Status otherwise)
     status = it->kernels->init(it->p, it->u, it->s, it->z, it->w, it->sizes, it->time);
     if (status == 0) {
         it->settled = 1;
-        warn(it);
+        it->told = 0;
+        instance_warn(it);
         return fmi2OK;
     }
     text_add(&text, "initialisation at t = ", NULL);

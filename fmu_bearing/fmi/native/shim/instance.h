@@ -25,6 +25,7 @@ typedef struct Instance {
     unsigned phase;
     int settled; /* the engine has been initialised at the present values */
     int rated;   /* some input has a rate */
+    uint64_t told; /* one bit per warning that was given */
     double time; /* at which the master stands (s) */
     double reached, last_step; /* time the engine reached; step behind, 0 if there is none to look back on */
     KernelStep *step;
@@ -61,6 +62,9 @@ void instance_reset(Instance *it);
 
 /* Put the engine to its quasi-static state at the values so far, once; fmi2OK, or `otherwise` said. */
 fmi2Status instance_settle(Instance *it, fmi2Status otherwise);
+
+/* Give the warnings about the state reached that were not given yet. */
+void instance_warn(Instance *it);
 
 /* Forget the state some steps ago: the present one did not come from it by steps. */
 void instance_forget(Instance *it);

@@ -48,7 +48,7 @@ typedef struct ModelReason {
     uint32_t status, text;
 } ModelReason;
 
-/* A warning after initialisation where z[index] < threshold: before, scale * z, after. */
+/* A warning, given once, where z[index] < threshold: before, scale * z, after. */
 typedef struct ModelCaution {
     uint32_t index, before, after, decimals;
     double threshold, scale;

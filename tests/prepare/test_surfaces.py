@@ -1,0 +1,131 @@
+"""Surfaces: power law, contact filter, highest orders, form of the balls."""
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from fmu_bearing.prepare.imperfections import fastest_wave, intervals, race_harmonics
+from fmu_bearing.prepare.surfaces import (
+    HIGHEST_BALL_ORDER,
+    ball_profile,
+    contact_filter,
+    highest_orders,
+    law,
+    mean_patches,
+)
+from tests.oracles import B7003C, B7009C
+from tests.oracles.hertz import race_contact
+from tests.oracles.jones_harris import JonesHarris
+
+
+def flawed(scene, operation=None, **values):
+    """The scene with the law of grade P4, and other values."""
+    given = {"waviness_exponent": 1.35, "highest_order": None, "contact_filter": True} | values
+    made = scene.model_copy(update={"imperfections": scene.imperfections.model_copy(update=given)})
+    return made.model_copy(update={"operation": scene.operation.model_copy(update=operation or {})})
+
+
+@pytest.mark.parametrize("u", [0.0, 1e-6, 0.0099, 0.0101, 0.3, 1.0, 3.0, 4.4934094579, 10.0, 60.0])
+def test_filter_is_the_mean_over_the_contact(u):
+    # weight 3/4 (1 - x^2) of a Hertzian contact over its half-width
+    mean, _ = quad(lambda x: 0.75 * (1.0 - x * x) * np.cos(u * x), -1.0, 1.0, epsabs=1e-13, limit=200)
+    # the series' next term is u^4/280 where it ends; (sin u - u cos u) / u^3 loses 1e-16 / u^2 to rounding
+    assert contact_filter(u) == pytest.approx(mean, abs=1e-10)
+
+
+def test_law_is_a_straight_line_without_filter():
+    orders = np.array([1, 2, 10, 100])
+    assert law(0.3, 1.35, orders, 0.0) == pytest.approx(0.3 * orders**-1.35, rel=1e-15)
+    # order 12 of grade P4: 10 nm
+    assert 1e3 * law(0.3, 1.35, [12], 0.0)[0] == pytest.approx(10.5, abs=0.1)
+
+
+def test_filter_acts_where_waves_are_as_short_as_the_contact(scene):
+    """W = 0.9 at order 220 of the 7003C and 480 of the 7009C, as published for contacts of 50 to 70 um."""
+    for name, order in (("7003C-bare", 220), ("7009C-steel", 480)):
+        inner, _ = mean_patches(scene(name))
+        assert 4.5e-5 < inner.half_width < 8e-5
+        # W falls from 0.95 to 0.85 within a factor of 1.7 in order
+        assert float(contact_filter(order * inner.half_width / inner.radius)) == pytest.approx(0.9, abs=0.05)
+
+
+@pytest.mark.parametrize(("name", "bearing"), [("7003C-bare", B7003C), ("7009C-full-ceramic", B7009C)])
+@pytest.mark.parametrize("rpm", [0.0, 20000.0])
+def test_contacts_against_the_five_freedoms(scene, name, bearing, rpm):
+    at = flawed(scene(name), {"speed_rpm": rpm})
+    force = (at.mounting.preload_N, 0.0, 0.0)
+    ball = JonesHarris(bearing, gyroscopic=False).solve(force, rpm * np.pi / 30.0).balls[0]
+    inner, outer = mean_patches(at)
+    for patch, race, load, angle, side in (
+        (inner, "inner", ball.inner_load, ball.inner_angle, -1.0),
+        (outer, "outer", ball.outer_load, ball.outer_angle, 1.0),
+    ):
+        # the kinematic orbit is that of the free contact angle: 1 % of the centrifugal force
+        assert patch.half_width == pytest.approx(race_contact(bearing, race, load).semi_minor, rel=3e-3)
+        radius = 0.5 * (bearing.pitch_diameter + side * bearing.ball_diameter * np.cos(angle))
+        assert patch.radius == pytest.approx(radius, rel=1e-3)
+
+
+@pytest.mark.parametrize("rpm", [3000.0, 20000.0, -20000.0])
+def test_highest_orders_sound_at_the_highest_frequency(scene, rpm):
+    bare = flawed(scene("7003C-bare"), {"speed_rpm": rpm}, highest_frequency_kHz=8.0)
+    orders = highest_orders(bare)
+    shaft = abs(rpm) / 60.0
+    orbit, spin = kinematics_of(bare, shaft)
+    for order, rate, limit in (
+        (orders.inner, shaft - orbit, 1000),
+        (orders.outer, orbit, 1000),
+        (orders.balls, spin, 80),
+    ):
+        assert order * rate <= 8000.0 * (1 + 1e-9)
+        assert order == limit or (order + 1) * rate > 8000.0
+
+
+def test_the_lowest_speed_decides(scene):
+    bare = scene("7003C-bare")
+    slow = flawed(bare, {"speed_rpm": 5000.0})
+    assert highest_orders(flawed(bare, {"lowest_speed_rpm": 5000.0})) == highest_orders(slow)
+    assert highest_orders(flawed(bare, highest_order=77))[:2] == (77, 77)
+
+
+def test_a_phase_belongs_to_its_order(scene):
+    bare = scene("7003C-bare")
+    low, high, all_of_them = (
+        race_harmonics(flawed(bare, highest_order=order, lowest_order=lowest))
+        for order, lowest in ((20, 2), (400, 2), (400, 1))
+    )
+    for race in range(2):
+        assert np.array_equal(low[race].phases, high[race].phases[:19])
+        assert np.array_equal(low[race].amplitudes, high[race].amplitudes[:19])
+        assert np.array_equal(all_of_them[race].phases[1:], high[race].phases)
+
+
+def test_balls_deviate_by_their_form(scene):
+    flaws = flawed(scene("7003C-bare"), ball_form_nm=80.0).imperfections
+    for highest in (2, 12, HIGHEST_BALL_ORDER):
+        amplitudes = ball_profile(flaws, highest, 0.0)
+        assert amplitudes.size == highest and amplitudes[0] == 0.0
+        x = np.random.default_rng(1).uniform(-1.0, 1.0, 200_000)
+        heights = np.polynomial.legendre.legval(x, [0.0, *amplitudes])
+        # the extremes of the random places miss the true ones by little
+        assert np.ptp(heights) == pytest.approx(80e-9, rel=2e-3)
+    n = np.arange(2, HIGHEST_BALL_ORDER + 1)
+    assert np.abs(amplitudes[1:]) * n**1.35 == pytest.approx(abs(amplitudes[1]) * 2**1.35, rel=1e-12)
+
+
+def test_tables_resolve_their_waves():
+    assert [intervals(n) for n in (0, 20, 256, 257, 1000)] == [2048, 2048, 2048, 4096, 8192]
+
+
+def test_fastest_wave(scene):
+    bare = flawed(scene("7003C-bare"), highest_order=50)
+    orbit, spin = kinematics_of(bare, 1.0)
+    assert fastest_wave(bare, race_harmonics(bare), 0) == pytest.approx(50 * (1.0 - orbit), rel=1e-12)
+    assert fastest_wave(bare, race_harmonics(bare), 40) == pytest.approx(40 * spin, rel=1e-12)
+
+
+def kinematics_of(scene, shaft):
+    """Orbit and spin frequency (Hz) of rolling balls."""
+    b = scene.bearing
+    ratio = b.ball_diameter_mm / b.pitch_diameter_mm * np.cos(np.radians(b.contact_angle_deg))
+    return 0.5 * shaft * (1 - ratio), 0.5 * shaft * b.pitch_diameter_mm / b.ball_diameter_mm * (1 - ratio**2)

@@ -127,7 +127,7 @@ def test_rotor_of_the_spindle_is_a_steel_cylinder(example):
 
 
 def test_shaft_of_the_spindle_weighs_about_half_a_kilogram(example):
-    # thirds of 28, 23 and 15 mm thickness (the paper's Table 1); the rest of the rotor is the motor's, assumed
+    # thirds of 28, 23 and 15 mm thickness (the paper's Table 1); the rest of the rotor is the motor's
     shaft = 7850.0 * 0.1795 * math.pi / 4 * (0.028**2 + 0.023**2 + 0.015**2) / 3
     assert shaft == pytest.approx(0.5, abs=0.1)
     assert 1.0 <= example("7003C-spindle").mounting.rotor.mass_kg <= 1.5

@@ -44,6 +44,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from fmu_bearing.recording import audio, measure, pictures, tables
     from fmu_bearing.recording.record import Recording, record
+    from fmu_bearing.recording.spread import spread
     from fmu_bearing.reports import report
     from fmu_bearing.run.bearing import Bearing
     from fmu_bearing.run.build import build_fmu
@@ -70,6 +71,7 @@ _PLACES = {
     "record": "recording.record",
     "report": "reports",
     "simulate": "run.simulate",
+    "spread": "recording.spread",
     "sweep": "sweeps",
     "tables": "recording",
     "with_fidelity": "scene.read",
@@ -89,6 +91,7 @@ __all__ = [
     "record",
     "report",
     "simulate",
+    "spread",
     "sweep",
     "tables",
     "with_fidelity",

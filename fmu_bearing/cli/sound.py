@@ -1,12 +1,27 @@
 """``fmu-bearing sound``: levels, spectra, directivity and WAV files of a scene or a recording."""
 
+from functools import partial
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fmu_bearing.cli.base import Folder, Json, Refusal, app, print_json, quiet_warnings, refusals, tell
+from fmu_bearing.cli.base import (
+    Folder,
+    Json,
+    Refusal,
+    app,
+    print_json,
+    progress,
+    quiet_warnings,
+    refusals,
+    tell,
+)
 from fmu_bearing.engine.constants import RPM
+
+if TYPE_CHECKING:
+    from fmu_bearing.recording.recording import Recording
+    from fmu_bearing.recording.spread import Spread
 
 
 @app.command()
@@ -36,6 +51,9 @@ def sound(
     ] = None,
     wav: Annotated[bool, typer.Option(help="Write WAV files.")] = True,
     directivity: Annotated[bool, typer.Option(help="Measure three planes.")] = True,
+    spread: Annotated[
+        bool, typer.Option(help="Range of the levels over seeds and assumed surfaces, some seconds more.")
+    ] = True,
     output: Folder = Path("out/sound"),
     as_json: Json = False,
 ) -> None:
@@ -68,8 +86,27 @@ def sound(
             recording.save(output / "recording.npz")
         heard = listen(recording, microphone, radiation_model, resolution)
         files = write_all(recording, heard, output, radiation_model, wav, directivity, tell)
+        sure = _spread(recording, microphone, radiation_model, as_json) if spread else None
     if as_json:
-        print_json({"levels": heard.summary(), "files": files})
+        print_json({"levels": heard.summary(), "files": files} | ({"spread": sure.summary()} if sure else {}))
     else:
         show("levels", *heard.rows(), width=80)
+        if sure is not None:
+            show("how sure these levels are", *sure.rows(), width=80)
+            tell(sure.remark())
         tell(f"written: {output}: {', '.join(path.name for path in files)}")
+
+
+def _spread(
+    recording: "Recording", microphones: list[str] | None, radiation_model: str | None, quiet: bool
+) -> "Spread | None":
+    """Range of the levels, or None with a line why there is none."""
+    from fmu_bearing.recording.spread import spread
+
+    bar = partial(progress, description="range of levels", disable=quiet, transient=True)
+    try:
+        return spread(recording, microphones, radiation_model=radiation_model, bar=bar)
+    except ValueError as reason:
+        if not quiet:
+            tell(f"no range of the levels: {reason}")
+        return None

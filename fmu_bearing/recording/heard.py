@@ -323,6 +323,15 @@ class Heard:
         if self._spectra is None or self._spectra.longest != room:
             self._spectra = Channels(self.history, room)
 
+    def paths(
+        self, positions: Sequence[ArrayLike] | None = None, radiation_model: str | None = None
+    ) -> list[Circle]:
+        """Paths from the channels to places, for use with other recordings of the same bodies.
+
+        ``positions``, ``radiation_model`` and errors as for `pressure`.
+        """
+        return list(self._circles(self._places(positions), radiation_model))
+
     def _circles(self, places: list[Position], radiation_model: str | None) -> Iterator[Circle]:
         """Paths from the channels to places, circle by circle."""
         if self.history.size == 0 or self.scene is None:

@@ -15,6 +15,7 @@ from fmu_bearing.extras import need
 from fmu_bearing.files import write_whole
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.recording.record import Recording, record
+from fmu_bearing.recording.spread import Spread, spread
 from fmu_bearing.reports import audio, balloon, conditions, contacts, fall, friction, motion, sound, summary
 from fmu_bearing.reports.blocks import Absent, Section
 from fmu_bearing.reports.heard import Microphones, listen
@@ -144,13 +145,14 @@ def make(
         sections, heard = _sections(subject, rising, tell)
     subject.warnings += [str(each.message) for each in caught if issubclass(each.category, UserWarning)]
     notes = summary.warnings_of(subject)
-    shown = summary.tiles(subject, heard)
+    sure = _spread(subject, heard, tell)
+    shown = summary.tiles(subject, heard, sure)
     scene = subject.recording.scene
     heading = title or ("Recording" if scene is None else scene.name)
     tell("writing the page")
     text = render(
         heading, conditions.source_words(subject), subject.source, sections, shown,
-        summary.sentences(subject, heard), notes,
+        summary.sentences(subject, heard, sure), notes,
     )  # fmt: skip
     data = text.encode("utf-8")
     write_whole(path, data)
@@ -215,6 +217,19 @@ def _subject(
     if choice is not None:
         origin += f"; {choice.summary}"
     return Subject(recording, recording.radiation_model, origin, text, whence, notes, radius)
+
+
+def _spread(subject: Subject, heard: Microphones | None, tell: Tell) -> Spread | None:
+    """Range of the level at the loudest microphone; None where there is none."""
+    if heard is None:
+        return None
+    tell("range of the level over seeds and assumed surfaces")
+    try:
+        return spread(
+            subject.recording, [heard.names[heard.loudest]], radiation_model=subject.radiation_model
+        )
+    except ValueError:
+        return None  # no scene, no waviness, or a speed that changes
 
 
 def _load(file: pathlib.Path) -> Recording:

@@ -9,6 +9,7 @@ import numpy as np
 
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.recording.measure import strongest
+from fmu_bearing.recording.spread import Spread
 from fmu_bearing.reports import look
 from fmu_bearing.reports.balls import RACES
 from fmu_bearing.reports.blocks import Absent
@@ -25,7 +26,7 @@ def _tile(key: str, label: str, value: float, unit: str, digits: str) -> Tile:
     return {"key": key, "label": label, "value": value, "unit": unit, "text": format(value, digits)}
 
 
-def tiles(subject: Subject, heard: Microphones | None) -> list[Tile]:
+def tiles(subject: Subject, heard: Microphones | None, sure: Spread | None = None) -> list[Tile]:
     """Return the most wanted figures; what the recording does not have is left out."""
     found: list[Tile] = []
 
@@ -43,7 +44,8 @@ def tiles(subject: Subject, heard: Microphones | None) -> list[Tile]:
         k = heard.loudest
         add(
             "laeq_dB",
-            f"loudest, at {heard.names[k]}",
+            f"loudest, at {heard.names[k]}"
+            + (f"; {sure.low[0]:.0f} to {sure.high[0]:.0f} as far as is known" if sure else ""),
             "dB(A)",
             ".1f",
             lambda: float(heard.levels["A"]["total"][k]),
@@ -78,7 +80,7 @@ def _largest(subject: Subject, name: str) -> float:
     return float(subject.output(name).max())
 
 
-def sentences(subject: Subject, heard: Microphones | None) -> list[str]:
+def sentences(subject: Subject, heard: Microphones | None, sure: Spread | None = None) -> list[str]:
     """Describe the loudest component, the strongest line and other main results."""
     if heard is None:
         return []
@@ -100,9 +102,19 @@ def sentences(subject: Subject, heard: Microphones | None) -> list[str]:
         if lines:
             line = lines[0]
             why = f", {line.name}" if line.name else ", which no kinematic frequency explains"
-            found.append(
-                f"Its strongest line stands at {line.frequency:.0f} Hz with {line.level:.1f} dB{why}."
-            )
+            text = f"Its strongest line stands at {line.frequency:.0f} Hz with {line.level:.1f} dB{why}"
+            if sure is not None:
+                kept, drawn = sure.stays
+                words = (
+                    "it stays the strongest" if sure.line_is_found else "no finding: it stays the strongest"
+                )
+                text += f"; {words} in {kept} of {drawn} draws"
+            found.append(text + ".")
+    if sure is not None:
+        found.append(
+            f"That level lies between {sure.low[0]:.0f} and {sure.high[0]:.0f} dB(A). What decides: "
+            f"{sure.decides(0)}. {sure.remark()}"
+        )
     return found
 
 

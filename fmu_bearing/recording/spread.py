@@ -1,0 +1,289 @@
+"""How sure a level is: its range over seeds and over what is assumed of the surfaces, and what decides it.
+
+The phases of waviness are drawn from a seed that means nothing, and the power law of the surfaces is assumed.
+Both are drawn anew in cheap runs (fidelity ``response``, rigid rings), and the differences of their levels
+are added to the level in question.
+"""
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.acoustics.analysis.field import Blocks, Circle, Position
+from fmu_bearing.acoustics.filters.weighting import a_weighting_db, level
+from fmu_bearing.engine.constants import RPM
+from fmu_bearing.recording.record import record
+from fmu_bearing.recording.recording import Recording
+from fmu_bearing.scene import Scene
+from fmu_bearing.scene.imperfections import Imperfections
+from fmu_bearing.scene.read import with_fidelity
+
+#: Wraps a list of draws and yields them.
+Bar = Callable[[Sequence[Imperfections]], Iterable[Imperfections]]
+SEEDS = 8
+_SETTLE, _DURATION = 0.03, 0.1  # s
+_RESOLUTION = 20.0  # Hz
+_EXPONENTS = (1.0, 1.6)  # assumed range of p, where the scene's lies within
+_AROUND = 0.3  # else: this much to either side
+_FACTOR = 2.0  # on A_1, either way
+#: What makes noise, and the keys that take it away.
+_SOURCES = {
+    "unbalance": ("unbalance_um",),
+    "inner race": ("inner_race_amplitude_um",),
+    "outer race": ("outer_race_amplitude_um",),
+    "ball sizes": ("ball_diameter_spread_nm",),
+}
+
+
+@dataclass(frozen=True)
+class Spread:
+    """Range of levels over seeds and the assumed surface law.
+
+    Attributes
+    ----------
+    names : tuple of str
+        Microphones.
+    weighting : str
+        ``"A"`` or ``"Z"``.
+    levels : ndarray, shape (mics,)
+        The levels in question (dB).
+    low, high : ndarray, shape (mics,)
+        Their range over all draws.
+    seeds, exponent, amplitude : ndarray, shape (mics,)
+        Range (dB) over the seeds; change from the lower to the higher exponent p, and over a factor of 4 in
+        A_1.
+    sources : dict of str to ndarray, shape (mics,)
+        Share of the energy that each imperfection makes alone, by name.
+    line : float
+        Frequency (Hz) of the strongest line at the loudest microphone.
+    stays : tuple of int
+        In how many draws, of how many, that line stays the strongest.
+    drawn : int
+        How many other seeds were drawn.
+    """
+
+    names: tuple[str, ...]
+    weighting: str
+    levels: NDArray[np.float64]
+    low: NDArray[np.float64]
+    high: NDArray[np.float64]
+    seeds: NDArray[np.float64]
+    exponent: NDArray[np.float64]
+    amplitude: NDArray[np.float64]
+    sources: dict[str, NDArray[np.float64]]
+    line: float
+    stays: tuple[int, int]
+    drawn: int = SEEDS
+
+    @property
+    def line_is_found(self) -> bool:
+        """Whether the strongest line stays the strongest in most draws."""
+        return 2 * self.stays[0] > self.stays[1]
+
+    def remark(self) -> str:
+        """Return what the range holds, in one sentence."""
+        return (
+            f"Range over {self.drawn} seeds and, where waviness follows the law, over its exponent and a "
+            "factor of two in its amplitude either way. Both are assumed: two published spindles lie some "
+            "19 dB above grade P4."
+        )
+
+    def decides(self, mic: int) -> str:
+        """Return what moves the level at a microphone most, and the imperfection that makes most of it."""
+        causes = {
+            "phases and sizes drawn from the seed": self.seeds[mic],
+            "exponent of the surfaces": abs(self.exponent[mic]),
+            "amplitude of the surfaces": abs(self.amplitude[mic]),
+        }
+        cause = max(causes, key=lambda name: causes[name])
+        words = f"{cause} ({causes[cause]:.1f} dB)"
+        if self.sources:
+            source = max(self.sources, key=lambda name: self.sources[name][mic])
+            words += f"; {source} {100.0 * self.sources[source][mic]:.0f} % of the energy"
+        return words
+
+    def rows(self) -> tuple[list[str], list[list[str]]]:
+        """Columns and rows of a table."""
+        unit = "dB(A)" if self.weighting == "A" else "dB"
+        columns = ["microphone", unit, "range", "seeds, dB", "what decides"]
+        return columns, [
+            [
+                name,
+                f"{self.levels[k]:.1f}",
+                f"{self.low[k]:.0f} to {self.high[k]:.0f}",
+                f"{self.seeds[k]:.1f}",
+                self.decides(k),
+            ]
+            for k, name in enumerate(self.names)
+        ]
+
+    def summary(self) -> dict[str, Any]:
+        """Return the ranges by microphone, for machines."""
+        return {
+            name: {
+                "level_dB": float(self.levels[k]),
+                "low_dB": float(self.low[k]),
+                "high_dB": float(self.high[k]),
+                "seeds_dB": float(self.seeds[k]),
+                "exponent_dB": float(self.exponent[k]),
+                "amplitude_dB": float(self.amplitude[k]),
+                "energy_share": {source: float(share[k]) for source, share in self.sources.items()},
+            }
+            for k, name in enumerate(self.names)
+        } | {"strongest_line_Hz": self.line, "line_stays_in_draws": list(self.stays)}
+
+
+def spread(
+    recording: Recording,
+    microphones: Sequence[str] | None = None,
+    *,
+    radiation_model: str | None = None,
+    weighting: str = "A",
+    seeds: int = SEEDS,
+    bar: Bar = iter,
+) -> Spread:
+    """Find the range of a recording's levels over seeds and the assumed surface law.
+
+    Parameters
+    ----------
+    recording : Recording
+        With its scene; recorded at one speed.
+    microphones : sequence of str, optional
+        Names of some of the scene's; default: all.
+    radiation_model, weighting
+        As for `Recording.levels`.
+    seeds : int
+        How many other seeds are drawn.
+    bar : callable
+        Wraps the list of draws, to show progress; default: no progress is shown.
+
+    Returns
+    -------
+    Spread
+
+    Raises
+    ------
+    ValueError
+        Without scene, imperfections or microphones, or where the speed changes.
+
+    Examples
+    --------
+    >>> from fmu_bearing import Bearing, record, spread
+    >>> bearing = Bearing("examples/scenes/7003C-bare.toml", fidelity="rings")
+    >>> recording = record(bearing.scene, 0.05, radiation_model="compact")
+    >>> found = spread(recording, ["P1"], seeds=2)
+    >>> bool(found.low[0] <= found.levels[0] <= found.high[0])
+    True
+    """
+    scene = _at_speed(recording)
+    if seeds < 1:
+        raise ValueError(f"seeds = {seeds}: give 1 or more")
+    if scene.imperfections is None:
+        raise ValueError("the scene has no imperfections: its level has no spread over them")
+    chosen = [one for one in recording.microphones if microphones is None or one[0] in microphones]
+    if not chosen:
+        raise ValueError("there is no microphone to listen at: name one of the scene's")
+    places = [place for _, place in chosen]
+    heard = _Listener(places, radiation_model or recording.radiation_model, weighting)
+    flaws = scene.imperfections
+    draws = [flaws, *_seeds(flaws, seeds), *_corners(flaws)]
+    spectra = [heard.spectrum(_cheap(scene, draw)) for draw in bar(draws)]
+    levels = level(np.array([each.sum(axis=1) for each in spectra]))
+    change = levels - levels[0]
+    here = recording.levels(places, radiation_model, weighting)
+    corners = change[1 + seeds :].reshape(-1, 2, len(places)) if flaws.follows_law else np.zeros((2, 2, 1))
+    loudest = int(np.argmax(here))
+    strongest = np.array([each[loudest].argmax() for each in spectra])
+    stays = int((np.abs(strongest[1:] - strongest[0]) <= 1).sum())
+    return Spread(
+        tuple(name for name, _ in chosen),
+        weighting,
+        here,
+        here + change.min(axis=0),
+        here + change.max(axis=0),
+        np.ptp(change[: 1 + seeds], axis=0),
+        (corners[1] - corners[0]).mean(axis=0) * np.ones(len(places)),
+        (corners[:, 1] - corners[:, 0]).mean(axis=0) * np.ones(len(places)),
+        _shares(scene, flaws, heard),
+        float(heard.frequency[strongest[0]]),
+        (stays, len(draws) - 1),
+        seeds,
+    )
+
+
+class _Listener:
+    """Energies in bins at some places, of many recordings through the same paths."""
+
+    def __init__(self, places: Sequence[Position], radiation_model: str, weighting: str) -> None:
+        self.places, self.radiation_model, self.weighting = places, radiation_model, weighting
+        self.frequency: NDArray[np.float64] = np.empty(0)
+        self._circles: list[Circle] = []
+
+    def spectrum(self, scene: Scene) -> NDArray[np.float64]:
+        """Mean square pressure (Pa^2), shape (mics, bins)."""
+        made = record(scene, _DURATION, settle=_SETTLE, progress=False, radiation_model="compact", outputs=())
+        blocks = Blocks(made.channels, _RESOLUTION)
+        self.frequency = blocks.frequency
+        self._circles = self._circles or made.paths(self.places, self.radiation_model)
+        found = np.zeros((len(self.places), len(blocks.frequency)))
+        for circle in self._circles:
+            found[list(circle.members)] = blocks.mean_squares(circle)[""]
+        if self.weighting == "A":
+            found *= 10.0 ** (a_weighting_db(blocks.frequency) / 10.0)
+        return found
+
+
+def _at_speed(recording: Recording) -> Scene:
+    """Scene of a recording at the recording's speed."""
+    if recording.scene is None or not recording.history.size:
+        raise ValueError("a spread needs a recording with its scene and channels: fmu_bearing.record")
+    if recording.radiation_model.startswith("paper"):
+        raise ValueError(
+            f'a spread is not computed with radiation_model = "{recording.radiation_model}": record with '
+            '"bem" or "compact"'
+        )
+    speed = recording.speed
+    mean = float(np.mean(speed))
+    if np.ptp(speed) > 0.01 * abs(mean):
+        raise ValueError("the recording's speed changes: its level at one operating point has a spread")
+    operation = recording.scene.operation.model_copy(update={"speed_rpm": mean / RPM})
+    return recording.scene.model_copy(update={"operation": operation})
+
+
+def _cheap(scene: Scene, flaws: Imperfections) -> Scene:
+    """Return the scene with other imperfections, in the fidelity that is computed fastest."""
+    return with_fidelity(
+        scene.with_rigid_rings().model_copy(update={"imperfections": flaws}), model="response"
+    )
+
+
+def _seeds(flaws: Imperfections, count: int) -> Iterator[Imperfections]:
+    for k in range(count):
+        yield flaws.model_copy(update={"seed": (flaws.seed + 1 + k) % 2**31})
+
+
+def _corners(flaws: Imperfections) -> Iterator[Imperfections]:
+    """Lower, then higher exponent, each with the lower, then the higher amplitude."""
+    if not flaws.follows_law:
+        return
+    p = flaws.waviness_exponent or 0.0
+    low, high = _EXPONENTS if _EXPONENTS[0] <= p <= _EXPONENTS[1] else (max(p - _AROUND, 0.0), p + _AROUND)
+    keys = [f"{race}_race_amplitude_um" for race in ("inner", "outer")]
+    for exponent in (low, high):
+        for factor in (1.0 / _FACTOR, _FACTOR):
+            scaled = {key: factor * getattr(flaws, key) for key in keys if getattr(flaws, key) is not None}
+            yield flaws.model_copy(update={"waviness_exponent": exponent} | scaled)
+
+
+def _shares(scene: Scene, flaws: Imperfections, heard: _Listener) -> dict[str, NDArray[np.float64]]:
+    """Share of the energy that each imperfection makes alone."""
+    there = {name: keys for name, keys in _SOURCES.items() if any(getattr(flaws, key) for key in keys)}
+    energies = {}
+    for name in there:
+        others = {key: 0.0 for other, gone in there.items() if other != name for key in gone}
+        energies[name] = heard.spectrum(_cheap(scene, flaws.model_copy(update=others))).sum(axis=1)
+    whole = sum(energies.values(), np.full(len(heard.places), 1e-30))
+    return {name: energy / whole for name, energy in energies.items()}

@@ -1,0 +1,95 @@
+"""How sure a level is: ranges over seeds and surfaces against runs made one by one."""
+
+import numpy as np
+import pytest
+
+from fmu_bearing import record, spread
+from fmu_bearing.scene.read import with_fidelity
+
+
+def changed(scene, **keys):
+    """The scene in fidelity response with other imperfections."""
+    flaws = scene.imperfections.model_copy(update=keys)
+    return with_fidelity(scene.model_copy(update={"imperfections": flaws}), model="response")
+
+
+def heard(scene, places=None, **keys):
+    made = record(changed(scene, **keys), 0.1, settle=0.03, progress=False, radiation_model="compact")
+    return made if places is None else made.levels(places, weighting="A", resolution=20.0)
+
+
+@pytest.fixture(scope="module")
+def bare(example):
+    return example("7003C-bare")
+
+
+@pytest.fixture(scope="module")
+def found(bare):
+    return spread(heard(bare), ["P1", "P4"], seeds=3)
+
+
+def test_range_holds_the_runs_made_one_by_one(bare, found):
+    places = [place.position_m for place in bare.microphones if place.name in ("P1", "P4")]
+    own = heard(bare, places)
+    runs = [heard(bare, places, seed=seed) for seed in (2, 3, 4)]
+    law = [
+        heard(bare, places, waviness_exponent=p, inner_race_amplitude_um=a, outer_race_amplitude_um=a)
+        for p in (1.0, 1.6)
+        for a in (0.15, 0.6)
+    ]
+    every = np.array([own, *runs, *law]) - own
+    # the same runs and the same short-time spectra: rounding of sums
+    assert found.low - found.levels == pytest.approx(every.min(axis=0), abs=1e-6)
+    assert found.high - found.levels == pytest.approx(every.max(axis=0), abs=1e-6)
+    assert found.seeds == pytest.approx(np.ptp(every[:4], axis=0), abs=1e-6)
+
+
+def test_amplitude_counts_in_proportion(found):
+    # waviness makes nearly all of it, and the answer is linear: a factor of 4 is 12 dB
+    assert found.amplitude == pytest.approx([20.0 * np.log10(4.0)] * 2, abs=0.1)
+    assert np.all(found.exponent < -5.0)  # steeper surfaces are quieter at the rings' modes
+    assert "exponent" in found.decides(0)
+
+
+def test_shares_are_those_of_each_imperfection_alone(bare, found):
+    places = [place.position_m for place in bare.microphones if place.name in ("P1", "P4")]
+    alone = {
+        "inner race": {"outer_race_amplitude_um": 0.0, "unbalance_um": 0.0, "ball_diameter_spread_nm": 0.0},
+        "outer race": {"inner_race_amplitude_um": 0.0, "unbalance_um": 0.0, "ball_diameter_spread_nm": 0.0},
+    }
+    levels = {name: heard(bare, places, **keys) for name, keys in alone.items()}
+    ratio = 10.0 ** ((levels["inner race"] - levels["outer race"]) / 10.0)
+    assert found.sources["inner race"] / found.sources["outer race"] == pytest.approx(ratio, rel=1e-6)
+    assert sum(found.sources.values()) == pytest.approx([1.0, 1.0], abs=1e-12)
+
+
+def test_a_line_is_a_finding_where_it_stays(found):
+    kept, drawn = found.stays
+    assert drawn == 3 + 4 and 0 <= kept <= drawn
+    assert found.line_is_found == (kept > drawn / 2)
+
+
+def test_table_names_every_microphone(found):
+    columns, rows = found.rows()
+    assert columns[1] == "dB(A)" and [row[0] for row in rows] == ["P1", "P4"]
+    low, high = (float(word) for word in rows[0][2].split(" to "))
+    assert low <= float(rows[0][1]) <= high
+    assert set(found.summary()) == {"P1", "P4", "strongest_line_Hz", "line_stays_in_draws"}
+
+
+def test_refusals(bare):
+    recording = heard(bare)
+    with pytest.raises(ValueError, match="no microphone to listen at"):
+        spread(recording, ["nowhere"])
+    with pytest.raises(ValueError, match="seeds = 0"):
+        spread(recording, seeds=0)
+    perfect = bare.model_copy(update={"imperfections": None})
+    with pytest.raises(ValueError, match="no imperfections"):
+        spread(
+            record(with_fidelity(perfect, model="response"), 0.02, radiation_model="compact", progress=False)
+        )
+    rising = record(
+        changed(bare), 0.02, speed=lambda t: 1000.0 + 2e4 * t, radiation_model="compact", progress=False
+    )
+    with pytest.raises(ValueError, match="speed changes"):
+        spread(rising)

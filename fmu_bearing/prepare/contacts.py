@@ -37,6 +37,7 @@ def oil(scene: Scene, p: NDArray[np.float64]) -> None:
         * (bore + outside)
         * math.sqrt(_ANGULAR_CONTACT_KZ / (2.0 * (outside - bore)))
     )
+    p[P.STARVATION_HELD] = scene.lubricant.replenishment_held
     p[P.DRAG_FACTOR] = (
         0.5 * values.oil_air_density * values.drag_coefficient * math.pi * b.ball_diameter**2 / 4
     )

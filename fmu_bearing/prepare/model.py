@@ -265,6 +265,12 @@ def _mounting(scene: Scene, p: NDArray[np.float64]) -> None:
     p[P.AXIAL_RATIO] = mounting.pedestal_axial_ratio
     p[P.ROTATIONAL_RATIO] = mounting.pedestal_rotational_ratio
     p[P.PEDESTAL_ZETA] = mounting.pedestal_damping_ratio
+    # along the turned axes y', z' as stiff as told, so their damping goes with the root
+    ratio, angle = mounting.pedestal_stiffness_ratio, mounting.pedestal_axis_angle
+    for first, along in ((P.PEDESTAL_Y, ratio), (P.PEDESTAL_DAMPING_Y, math.sqrt(ratio))):
+        p[first] = along * math.cos(angle) ** 2 + math.sin(angle) ** 2
+        p[first + 1] = along * math.sin(angle) ** 2 + math.cos(angle) ** 2
+        p[first + 2] = (along - 1.0) * math.sin(angle) * math.cos(angle)
     if scene.mounting.tilt_support is not None:
         support = si(scene.mounting.tilt_support)
         p[P.TILT_STIFFNESS] = support.stiffness
@@ -278,6 +284,7 @@ def _cage(scene: Scene, cage_table: Cage, material: Material, p: NDArray[np.floa
     body = bodies.cage(scene)
     p[P.CAGE] = 1.0
     p[P.CAGE_MASS], p[P.CAGE_TRANSVERSE], p[P.CAGE_POLAR] = body.mass, body.transverse, body.polar
+    p[P.CAGE_ECCENTRICITY] = c.mass_eccentricity
     p[P.POCKET_CLEARANCE] = (c.pocket_diameter - b.ball_diameter) / 2
     ball, cage = si(scene.materials.balls), si(material)
     modulus = effective_modulus(

@@ -20,6 +20,14 @@ class Cage(Part):
     land_clearance_mm: float = Field(
         ge=0.005, le=2, examples=[0.04], description="Radial clearance between cage bore and lands, mm."
     )
+    # Assumed: a tenth of what a moulded or turned cage of a precision bearing may have.
+    mass_eccentricity_um: float = Field(
+        default=5.0,
+        ge=0,
+        le=1000,
+        examples=[5.0],
+        description="Distance of the cage's centre of mass from its middle (default assumed), um.",
+    )
     pocket_damping_N_s_m: float = Field(
         ge=0, le=10, examples=[0.02], description="Damping by the film in a pocket; 0: none, N s/m."
     )

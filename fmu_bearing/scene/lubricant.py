@@ -73,6 +73,12 @@ class Lubricant(Part):
         examples=[6e-8],
         description="Replenishment constant K_rs of SKF's friction model; 0: no starvation.",
     )
+    replenishment_held: bool = Field(
+        default=True,
+        examples=[True],
+        description="Starvation in cold oil no further than to the largest rolling resistance; false: the "
+        "resistance falls again as the oil gets thicker.",
+    )
     oil_air_density_kg_m3: float = Field(
         ge=0, le=1000, examples=[5.0], description="Density of the oil-air mixture around the balls, kg/m3."
     )

@@ -116,6 +116,21 @@ class Mounting(Part):
     pedestal_stiffness_N_m: float = Field(
         ge=1e4, le=1e12, examples=[1e8], description="Radial stiffness under the outer ring, N/m."
     )
+    pedestal_stiffness_ratio: float = Field(
+        default=1.0,
+        ge=0.01,
+        le=100,
+        examples=[1.0],
+        description="Radial stiffness along the pedestal's axis y' over the one along z', which is the "
+        "pedestal's stiffness; 1: the same all round.",
+    )
+    pedestal_axis_angle_deg: float = Field(
+        default=0.0,
+        ge=-90,
+        le=90,
+        examples=[0.0],
+        description="Turn of the pedestal's axes y', z' about X against Y, Z, deg.",
+    )
     pedestal_axial_ratio: float = Field(
         default=1.0,
         ge=0.01,

@@ -5,6 +5,7 @@ from scipy.optimize import root
 
 from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.layout import C, L, P, S, U
+from tests.oracles.cartesian_forces import turned_axes
 
 FIDELITIES = {"rings": 1.0, "response": 2.0}
 
@@ -28,7 +29,9 @@ def vibration(rows):
 class Slow:
     """The equations of fidelity rings written out with NumPy: balls by SciPy's root, forces ball by ball."""
 
-    def __init__(self, run):
+    def __init__(self, run, ratio=1.0, angle=0.0):
+        """``ratio``, ``angle`` (rad): of the pedestal's stiffnesses, and of its axes."""
+        self.ratio, self.angle = ratio, angle
         self.p, self.lv = run.p, block(run).copy()
         self.c = run.s[S.C : S.C + C.SIZE].copy()
         self.balls = int(self.p[P.BALLS])
@@ -132,9 +135,10 @@ class Slow:
         f[4] += p[P.INNER_POLAR] * speed * v[3] - p[P.TILT_STIFFNESS] * q[4]
         f[3:5] -= p[P.TILT_DAMPING] * v[3:5]
         f[8] += self.lv[L.TWIST]
-        stiff = np.array([c[C.PEDESTAL_AXIAL], c[C.PEDESTAL], c[C.PEDESTAL]])
-        damp = np.array([c[C.DAMPING_AXIAL], c[C.DAMPING], c[C.DAMPING]])
-        f[5:8] -= stiff * q[5:8] + damp * v[5:8]
+        f[5] -= c[C.PEDESTAL_AXIAL] * q[5] + c[C.DAMPING_AXIAL] * v[5]
+        along = np.array([self.ratio * c[C.PEDESTAL], c[C.PEDESTAL]])
+        damping = 2.0 * p[P.PEDESTAL_ZETA] * np.sqrt(along * p[P.OUTER_MASS])
+        f[6:8] -= turned_axes(*along, self.angle) @ q[6:8] + turned_axes(*damping, self.angle) @ v[6:8]
         f[8] -= c[C.PEDESTAL_ROTATIONAL] * q[8] + c[C.DAMPING_SPIN] * v[8]
         f[9:] -= c[C.PEDESTAL_ROTATIONAL] * q[9:] + c[C.DAMPING_ROTATIONAL] * v[9:]
         own = p[

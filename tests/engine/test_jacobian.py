@@ -207,6 +207,19 @@ def test_cage_on_its_dry_stop(scene):
     agree(shaken(scene("7003C-spindle"), cage_offset=1.02, WAVINESS=0.0))
 
 
+@pytest.mark.parametrize("eccentricity", [5e-6, 1e-3])
+def test_heavy_spot_of_the_cage(scene, eccentricity):
+    agree(shaken(scene("7003C-spindle"), WAVINESS=0.0, CAGE_ECCENTRICITY=eccentricity))
+
+
+def test_orthotropic_pedestal(scene):
+    """A pedestal a hundred times as stiff as the scene's, so that its entries count beside the contacts'."""
+    one = scene("7003C-spindle")
+    keys = {"pedestal_stiffness_ratio": 0.3, "pedestal_axis_angle_deg": 30.0, "pedestal_stiffness_N_m": 2e9}
+    one = one.model_copy(update={"mounting": one.mounting.model_copy(update=keys)})
+    agree(shaken(one, WAVINESS=0.0))
+
+
 def test_standstill(scene):
     agree(shaken(scene("7003C-spindle"), rpm=0, WAVINESS=0.0), 1e-4)
 

@@ -33,12 +33,13 @@ from tests.oracles.cartesian_forces import (
     on_cage,
     on_land,
     stretch,
+    turned_axes,
 )
 
 __all__ = [
     "CAGE", "INNER", "OUTER", "Answer", "Land", "Loads", "Mass", "Pocket", "Race", "Setup", "State",
     "approach", "ball_velocity", "directions", "equations", "film_push", "in_pocket", "power_stored",
-    "stored_energy", "unbalance",
+    "stored_energy", "turned_axes", "unbalance",
 ]  # fmt: skip
 
 GRAVITY = 9.81
@@ -75,15 +76,17 @@ def equations(setup: Setup, state: State, spin_rate: float = 0.0) -> Answer:
     for j in range(count):
         balls[j], drag = ball_motion(setup, state.balls[j], loads.force[j], loads.moment[j])
         oil += drag
-    spring_loss = (setup.dampers * state.rates**2).sum(axis=1)
+    spring_loss = [rate @ damper @ rate for rate, damper in zip(state.rates, setup.dampers, strict=True)]
     heats = np.array([contact[0] / 2.0 + spring_loss[0], contact[1] / 2.0 + spring_loss[1], oil])
     bodies = np.zeros((3, 6))
     for k in range(3 if setup.pocket is not None else 2):
-        outside = -setup.springs[k] * (state.bodies[k] - setup.rest[k]) - setup.dampers[k] * state.rates[k]
+        outside = -setup.springs[k] @ (state.bodies[k] - setup.rest[k]) - setup.dampers[k] @ state.rates[k]
         outside[:3] += setup.load[k]
         if k == INNER:
             outside[:3] += unbalance(setup, state, spin_rate)
         bodies[k] = body_motion(setup, state, loads, k, outside)
+    if setup.pocket is not None:
+        bodies[CAGE] = heavy_spot(setup, state, loads, bodies[CAGE])
     driven = (setup.load[INNER] + unbalance(setup, state, spin_rate)) @ state.rates[INNER, :3]
     return Answer(balls, bodies, torque, heats, driven + torque * state.rates[INNER, 3])
 
@@ -135,6 +138,25 @@ def body_motion(setup: Setup, state: State, loads: Loads, k: int, outside: np.nd
     )
 
 
+def heavy_spot(setup: Setup, state: State, loads: Loads, bodies: np.ndarray) -> np.ndarray:
+    """Accelerations of a cage whose centre of mass is at ``e u`` from its centre, u at its angle.
+
+    Lagrange's equations of T = m |v + e w u'|^2/2 + I w^2/2 in y, z and the angle, solved together; weight
+    pulls at the centre of mass. ``bodies``: the accelerations without it, of which the others stay.
+    """
+    cage, mass, e = loads.row(CAGE), setup.masses[CAGE], setup.cage_eccentricity
+    _, spot, ahead = directions(state.bodies[CAGE, 3])
+    speed = state.rates[CAGE, 3]
+    weight = np.array([0.0, 0.0, -GRAVITY * mass.mass if setup.gravity else 0.0])
+    inertia = np.diag([mass.mass, mass.mass, mass.polar + mass.mass * e**2])
+    inertia[2, :2] = inertia[:2, 2] = mass.mass * e * ahead[1:]
+    push = loads.force[cage] + weight + mass.mass * e * speed**2 * spot
+    turning = loads.moment[cage] @ axis(state.bodies[CAGE]) + e * ahead @ weight
+    found = bodies.copy()
+    found[1:4] = np.linalg.solve(inertia, [*push[1:], turning])
+    return found
+
+
 def stored_energy(setup: Setup, state: State):
     """Kinetic, gravitational and elastic energy (J); the inner ring's prescribed rotation is not counted."""
     gravity = GRAVITY if setup.gravity else 0.0
@@ -149,9 +171,15 @@ def stored_energy(setup: Setup, state: State):
             gap = approach(setup, state, j, k)
             total += 0.4 * setup.races[k].stiffness * gap**2.5 if gap.real > 0.0 else 0.0
         if setup.pocket is not None:
-            axial, around = in_pocket(setup, state, j)
-            push = np.sqrt(axial * axial + around * around) - setup.pocket.clearance
+            offset = in_pocket(setup, state, j)
+            push = np.sqrt(offset @ offset) - setup.pocket.clearance
             total += 0.4 * setup.pocket.stiffness * push**2.5 if push.real > 0.0 else 0.0
+    if setup.pocket is not None:
+        _, spot, ahead = directions(state.bodies[CAGE, 3])
+        cage, (velocity, speed) = setup.masses[CAGE], (state.rates[CAGE, :3], state.rates[CAGE, 3])
+        carried = velocity + setup.cage_eccentricity * speed * ahead
+        total += 0.5 * cage.mass * (carried @ carried - velocity @ velocity)
+        total += cage.mass * gravity * setup.cage_eccentricity * spot[2]
     if setup.neighbours is not None:
         total += 0.5 * setup.neighbours[0] * (stretch(setup, state) ** 2).sum()
     for k in range(3 if setup.pocket is not None else 2):
@@ -161,7 +189,7 @@ def stored_energy(setup: Setup, state: State):
             0.5 * body.mass * (rate[:3] @ rate[:3]) + turning + 0.5 * body.transverse * (rate[4:] @ rate[4:])
         )
         off = at - setup.rest[k]
-        total += body.mass * gravity * at[2] + 0.5 * (setup.springs[k] * off) @ off
+        total += body.mass * gravity * at[2] + 0.5 * off @ setup.springs[k] @ off
     if setup.land is not None:
         for side in (1.0, -1.0):
             reach = [

@@ -79,7 +79,7 @@ class Land:
 
 @dataclass(frozen=True)
 class Setup:
-    """The whole bearing (SI). Springs and dampers are diagonals over (x, y, z, angle, tilt y, tilt z)."""
+    """The whole bearing (SI). Springs and dampers are matrices over (x, y, z, angle, tilt y, tilt z)."""
 
     pitch: float
     ball_radius: float
@@ -99,6 +99,7 @@ class Setup:
     springs: np.ndarray
     dampers: np.ndarray
     eccentricity: float
+    cage_eccentricity: float
     load: np.ndarray
     pocket: Pocket | None
     land: Land | None
@@ -183,6 +184,12 @@ def directions(theta) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return EX, np.array([0.0, -s, c]), np.array([0.0, -c, -s])
 
 
+def turned_axes(along_y: float, along_z: float, angle: float) -> np.ndarray:
+    """Stiffness or damping (2 x 2, in y and z) of springs along axes y', z' turned by ``angle`` about X."""
+    first, second = np.array([np.cos(angle), np.sin(angle)]), np.array([-np.sin(angle), np.cos(angle)])
+    return along_y * np.outer(first, first) + along_z * np.outer(second, second)
+
+
 def axis(body: np.ndarray) -> np.ndarray:
     """Axis of a slightly tilted body."""
     return np.array([1.0 - 0.5 * (body[4] ** 2 + body[5] ** 2), body[5], -body[4]])
@@ -253,11 +260,20 @@ def bump_gradient(setup: Setup, state: State, j: int, k: int) -> tuple[np.ndarra
     return moved, turned
 
 
-def in_pocket(setup: Setup, state: State, j: int):
-    """Axial and circumferential offset of ball j from the middle of its pocket (m)."""
-    *_, axial, _, azimuth = seen_from(setup, state.balls[j], state.bodies[CAGE])
-    angle = azimuth - 2.0 * np.pi * j / len(state.balls)
-    return axial, setup.pitch * (angle - 2.0 * np.pi * np.round(angle.real / (2.0 * np.pi)))
+def pocket_axis(state: State, j: int) -> np.ndarray:
+    """Direction of the bore of pocket j: across the cage's axis, its azimuth read in the plane YZ."""
+    cage = state.bodies[CAGE]
+    n = axis(cage)
+    _, radial, _ = directions(cage[3] + 2.0 * np.pi * j / len(state.balls))
+    bore = radial - (radial @ n) / n[0] * EX
+    return bore / np.sqrt(bore @ bore)
+
+
+def in_pocket(setup: Setup, state: State, j: int) -> np.ndarray:
+    """Vector (m) from the bore's axis of pocket j, which goes through the cage's centre, to ball j."""
+    bore = pocket_axis(state, j)
+    from_centre = ball_centre(setup, state.balls[j]) - state.bodies[CAGE, :3]
+    return from_centre - (from_centre @ bore) * bore
 
 
 def strip_points(count: int) -> tuple[np.ndarray, np.ndarray]:
@@ -336,25 +352,23 @@ def between_balls(loads: Loads) -> float:
 
 
 def on_cage(loads: Loads, j: int) -> float:
-    """Load ball j and its pocket; heat (W)."""
+    """Load ball j and its pocket, a bore whose wall is everywhere as far from its axis; heat (W)."""
     setup, state, pocket = loads.setup, loads.state, loads.setup.pocket
     cage = loads.row(CAGE)
-    n, _, t, _, radius, _ = seen_from(setup, state.balls[j], state.bodies[CAGE])
-    offset = np.array(in_pocket(setup, state, j))
+    bore = pocket_axis(state, j)
+    offset = in_pocket(setup, state, j)
     apart = np.linalg.norm(offset)
     centre = loads.centre(j)
     sliding = loads.velocity(j, centre) - loads.velocity(cage, centre)
-    power = loads.act(j, cage, centre, -pocket.film * ((sliding @ n) * n + (sliding @ t) * t))
+    power = loads.act(j, cage, centre, -pocket.film * (sliding - (sliding @ bore) * bore))
     push = apart - pocket.clearance
     if push <= 0.0:
         return -power
-    # offsets are measured on the pitch circle, the ball may stand on another one
-    uphill = (offset[0] * n + offset[1] * setup.pitch / radius * t) / apart
-    rate = uphill @ sliding
+    normal = offset / apart
+    rate = normal @ sliding
     elastic = pocket.stiffness * push**1.5
     load = max(elastic * (1.0 + pocket.damping * rate), 0.0)
-    power += loads.act(j, cage, centre, -load * uphill)
-    normal = (offset[0] * n + offset[1] * t) / apart
+    power += loads.act(j, cage, centre, -load * normal)
     point = centre + setup.ball_radius * normal
     slip = loads.velocity(j, point) - loads.velocity(cage, point)
     slip -= (slip @ normal) * normal
@@ -365,18 +379,16 @@ def on_cage(loads: Loads, j: int) -> float:
 def film_push(land: Land, journal, velocity, journal_speed: float, sleeve_speed: float) -> np.ndarray:
     """Force (N) in y, z of a short film on the journal, which stands at ``journal`` (y, z) in the sleeve.
 
-    Reynolds, flow only along the axis: d/dz(h^3/(12 eta) dp/dz) = (w1 + w2)/2 dh/dphi + dh/dt; integrated
-    over the length by hand and over the half turn where the wedge presses by quadrature.
+    Reynolds, flow only along the axis: d/dz(h^3/(12 eta) dp/dz) = (w1 + w2)/2 dh/dphi + dh/dt = -u out with
+    u of the journal's motion; integrated over the length by hand and by quadrature over the half turn about
+    u where the pressure is positive.
     """
-    wedge = journal_speed + sleeve_speed
-    wedge -= 2.0 * (journal[0] * velocity[1] - journal[1] * velocity[0]) / (journal @ journal)
-    thinnest = np.arctan2(journal[1], journal[0])
+    along = np.array([journal[1], -journal[0]])
+    u = np.asarray(velocity) + 0.5 * (journal_speed + sleeve_speed) * along
     points, weights = legendre.leggauss(400)
-    phi = thinnest - np.sign(wedge) * 0.5 * np.pi * (points + 1.0)
-    out, along = np.array([np.cos(phi), np.sin(phi)]), np.array([-np.sin(phi), np.cos(phi)])
-    film = land.clearance - journal @ out
-    closing = -0.5 * (journal_speed + sleeve_speed) * (journal @ along) - velocity @ out
-    pressed = -land.viscosity * land.length**3 * closing / film**3
+    phi = np.arctan2(u[1], u[0]) + 0.5 * np.pi * points
+    out = np.array([np.cos(phi), np.sin(phi)])
+    pressed = land.viscosity * land.length**3 * (u @ out) / (land.clearance - journal @ out) ** 3
     return -(out * pressed) @ weights * 0.5 * np.pi * land.radius
 
 

@@ -1,25 +1,31 @@
-"""Film force of a short, plain journal bearing (Ocvirk) with squeeze, by quadrature and in closed form.
+"""Film force of a short, plain journal bearing (Ocvirk) with squeeze, cavitating, by quadrature.
 
-Sources: G. B. DuBois and F. W. Ocvirk (1953), NACA report 1157; half-Sommerfeld (Guembel) film boundary.
+Sources: G. B. DuBois and F. W. Ocvirk (1953), NACA report 1157; a film that carries no suction (Guembel's
+boundary condition, on wedge and squeeze together).
 
 Signs. The journal (inner body, surface speed w1) sits displaced by e along the unit vector n from the centre
 of the sleeve (outer body, surface speed w2); n has the angle phi, t is n turned by +90 degrees, all in the
 sense of positive rotation. Returned is the force ON THE JOURNAL along n and t; the sleeve feels the opposite.
-With eps = e/c, d(eps)/dt = e'/c, W = w1 + w2 - 2 phi' and s = +1 for W >= 0, -1 otherwise:
 
-    F_n = -eta R L^3 / c^2 . [ |W| eps^2 / (1 - eps^2)^2  +  pi (1 + 2 eps^2) eps' / (2 (1 - eps^2)^(5/2)) ]
-    F_t = +eta R L^3 / c^2 . [ pi W eps / (4 (1 - eps^2)^(3/2))  +  2 s eps eps' / (1 - eps^2)^2 ]
+Closed forms are known for the two pure motions. With eps = e/c and W = w1 + w2 - 2 phi':
 
-F_n pushes the journal back to the middle, F_t drives it forward: half-speed whirl. The film is the half
-revolution in which the wedge term alone presses, so the squeeze may leave suction there, and the second part
-of F_t jumps by 4 eps eps'/(1 - eps^2)^2 where W changes sign.
+* wedge alone (eps' = 0), the half Sommerfeld solution:
+  F_n = -K |W| eps^2 / (1 - eps^2)^2,  F_t = +K pi W eps / (4 (1 - eps^2)^(3/2));
+* squeeze alone (W = 0), r^2 = 1 - eps^2, s = +1 for eps' > 0 (closing) and -1 for eps' < 0 (opening):
+  F_n = -K eps' [(1 + 2 eps^2)(pi/2 + s asin eps) + 3 s eps r] / r^5,  F_t = 0,
+
+with K = eta R L^3 / c^2. F_n of the wedge pushes the journal back to the middle, F_t drives it forward:
+half-speed whirl.
 """
 
 import functools
 from dataclasses import dataclass
-from math import copysign, cos, pi, sin
+from itertools import pairwise
+from math import asin, copysign, cos, pi, sin, sqrt
 
+import numpy as np
 from scipy.integrate import quad
+from scipy.optimize import brentq
 
 
 @dataclass(frozen=True)
@@ -67,14 +73,24 @@ def pressure(film: Film, motion: Motion, around: float, along: float) -> float:
 
 
 def force_by_quadrature(film: Film, motion: Motion) -> tuple[float, float]:
-    """Force on the journal along n and t in N: pressure over the length and the pressing half turn."""
-    # the film is thinnest at phi; W > 0 drags oil towards there from behind
-    start = motion.angle - pi if motion.wedge_speed >= 0.0 else motion.angle
+    """Force on the journal along n and t in N: pressure, where it is positive, over length and turn."""
 
     @functools.cache
     def along_axis(around: float) -> float:
+        """Integral over the length (N/m); a parabola of one sign, whose suction the oil does not carry."""
         half = 0.5 * film.length
-        return quad(lambda z: pressure(film, motion, around, z), -half, half, epsabs=0.0)[0]
+        return max(quad(lambda z: pressure(film, motion, around, z), -half, half, epsabs=0.0)[0], 0.0)
+
+    def middle(around: float) -> float:
+        return pressure(film, motion, around, 0.0)
+
+    # the film ends where the pressure changes sign: twice per turn
+    grid = motion.angle + np.linspace(-pi, pi, 73)
+    ends = [
+        brentq(middle, one, other, xtol=1e-15)
+        for one, other in pairwise(grid)
+        if middle(one) * middle(other) < 0.0
+    ]
 
     def around_integral(direction: float) -> float:
         def ring(around: float) -> float:
@@ -82,24 +98,28 @@ def force_by_quadrature(film: Film, motion: Motion) -> tuple[float, float]:
 
         # Integrand parts cancel: the tolerance has to be absolute, so it is taken from the integrand. At 95 %
         # eccentricity the pressure's peak is 0.3 rad wide, ten of these places.
-        size = max(abs(ring(start + 0.01 * pi * (k + 0.5))) for k in range(100))
-        total, _ = quad(ring, start, start + pi, epsabs=1e-12 * size, epsrel=1e-12, limit=500)
-        return total
+        size = max(abs(ring(float(place))) for place in np.linspace(grid[0], grid[-1], 200))
+        return sum(
+            quad(ring, one, other, epsabs=1e-12 * size, epsrel=1e-12, limit=500)[0]
+            for one, other in pairwise([grid[0], *ends, grid[-1]])
+        )
 
     return around_integral(motion.angle), around_integral(motion.angle + 0.5 * pi)
 
 
-def force_closed_form(film: Film, motion: Motion) -> tuple[float, float]:
-    """Force on the journal along n and t in N from the expressions in the module's docstring."""
-    eps = motion.eccentricity / film.clearance
-    rate = motion.eccentricity_rate / film.clearance
-    wedge = motion.wedge_speed
-    side = copysign(1.0, wedge) if wedge != 0.0 else 1.0
+def wedge_alone(film: Film, eps: float, wedge: float) -> tuple[float, float]:
+    """Force along n and t in N of a journal whose eccentricity stays, from the module's docstring."""
     room = 1.0 - eps**2
     scale = film.viscosity * film.radius * film.length**3 / film.clearance**2
-    along_n = -scale * (abs(wedge) * eps**2 / room**2 + pi * (1.0 + 2.0 * eps**2) * rate / (2.0 * room**2.5))
-    along_t = scale * (pi * wedge * eps / (4.0 * room**1.5) + 2.0 * side * eps * rate / room**2)
-    return along_n, along_t
+    return -scale * abs(wedge) * eps**2 / room**2, scale * pi * wedge * eps / (4.0 * room**1.5)
+
+
+def squeeze_alone(film: Film, eps: float, rate: float) -> float:
+    """Force along n in N of a film without wedge; ``rate``: of eps, in 1/s."""
+    root, side = sqrt(1.0 - eps**2), copysign(1.0, rate)
+    scale = film.viscosity * film.radius * film.length**3 / film.clearance**2
+    shape = (1.0 + 2.0 * eps**2) * (0.5 * pi + side * asin(eps)) + 3.0 * side * eps * root
+    return -scale * rate * shape / root**5
 
 
 def film_force_numeric(

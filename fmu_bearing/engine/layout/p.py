@@ -65,6 +65,7 @@ WALTHER_SLOPE = _at()
 OIL_DENSITY = _at()  # kg/m3
 SHEAR_HEATING = _at()  # constants of the SKF reduction factors, for speed in r/min and viscosity in mm2/s
 STARVATION = _at()
+STARVATION_HELD = _at()  # 1: no further than to the largest rolling resistance over viscosity
 DRAG_FACTOR = _at()  # N/(m/s)^2
 ROUGHNESS = _at()  # m rms, both surfaces
 # bodies
@@ -77,12 +78,19 @@ OUTER_POLAR = _at()  # kg m2
 CAGE_MASS = _at()  # kg
 CAGE_TRANSVERSE = _at()  # kg m2
 CAGE_POLAR = _at()  # kg m2
+CAGE_ECCENTRICITY = _at()  # m: centre of mass of the cage
 ECCENTRICITY = _at()  # m: centre of mass of the rotating parts
 TILT_STIFFNESS = _at()  # N m/rad
 TILT_DAMPING = _at()  # N m s/rad
 AXIAL_RATIO = _at()  # pedestal stiffness, axial over radial
 ROTATIONAL_RATIO = _at()  # m2: rotational over radial
 PEDESTAL_ZETA = _at()  # damping ratio
+PEDESTAL_Y = _at()  # radial stiffness along y, along z and between both, over the pedestal's,
+PEDESTAL_Z = _at()
+PEDESTAL_YZ = _at()
+PEDESTAL_DAMPING_Y = _at()  # and its damping
+PEDESTAL_DAMPING_Z = _at()
+PEDESTAL_DAMPING_YZ = _at()
 MISALIGNMENT_Y = _at()  # rad, of the outer ring's seat against the shaft
 MISALIGNMENT_Z = _at()  # rad
 # cage, or springs in its place

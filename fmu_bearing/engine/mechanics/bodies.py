@@ -86,7 +86,9 @@ def outer_ring(p, c, y, f):
     polar = p[P.OUTER_POLAR] * y[v + Q.TURN]
     lost = (
         c[C.DAMPING_AXIAL] * y[v] * y[v]
-        + c[C.DAMPING] * (y[v + Q.Y] * y[v + Q.Y] + y[v + Q.Z] * y[v + Q.Z])
+        + c[C.DAMPING_Z] * (y[v + Q.Y] * y[v + Q.Y] + y[v + Q.Z] * y[v + Q.Z])
+        + (c[C.DAMPING_Y] - c[C.DAMPING_Z]) * y[v + Q.Y] * y[v + Q.Y]
+        + 2.0 * c[C.DAMPING_YZ] * y[v + Q.Y] * y[v + Q.Z]
         + c[C.DAMPING_SPIN] * y[v + Q.TURN] * y[v + Q.TURN]
         + c[C.DAMPING_ROTATIONAL] * (y[v + Q.BY] * y[v + Q.BY] + y[v + Q.BZ] * y[v + Q.BZ])
     )
@@ -94,8 +96,12 @@ def outer_ring(p, c, y, f):
     weight = GRAVITY * mass if p[P.GRAVITY] != 0.0 else 0.0
     turn = c[C.PEDESTAL_ROTATIONAL]
     f[g] = (f[g] - c[C.PEDESTAL_AXIAL] * y[q] - c[C.DAMPING_AXIAL] * y[v]) / mass
-    f[g + Q.Y] = (f[g + Q.Y] - c[C.PEDESTAL] * y[q + Q.Y] - c[C.DAMPING] * y[v + Q.Y]) / mass
-    f[g + Q.Z] = (f[g + Q.Z] - c[C.PEDESTAL] * y[q + Q.Z] - c[C.DAMPING] * y[v + Q.Z] - weight) / mass
+    between = c[C.PEDESTAL_YZ]
+    damped = c[C.DAMPING_YZ]
+    f[g + Q.Y] -= c[C.PEDESTAL_Y] * y[q + Q.Y] + between * y[q + Q.Z]
+    f[g + Q.Y] = (f[g + Q.Y] - c[C.DAMPING_Y] * y[v + Q.Y] - damped * y[v + Q.Z]) / mass
+    f[g + Q.Z] -= c[C.PEDESTAL_Z] * y[q + Q.Z] + between * y[q + Q.Y]
+    f[g + Q.Z] = (f[g + Q.Z] - c[C.DAMPING_Z] * y[v + Q.Z] - damped * y[v + Q.Y] - weight) / mass
     damped = c[C.DAMPING_SPIN]
     f[g + Q.TURN] = (f[g + Q.TURN] - turn * y[q + Q.TURN] - damped * y[v + Q.TURN]) / p[P.OUTER_POLAR]
     damped = c[C.DAMPING_ROTATIONAL]
@@ -106,14 +112,29 @@ def outer_ring(p, c, y, f):
 
 
 @kernel
-def cage_body(p, y, f):
-    """Weight and gyroscopic moments of the cage."""
+def cage_body(p, c, y, f):
+    """Weight, heavy spot and gyroscopic moments of the cage.
+
+    The heavy spot is at 12 o'clock where the cage's angle is zero and moves in the plane of the balls. It
+    pulls at the centre, and what balls and lands put on the centre turns the cage about its centre of mass,
+    where its weight acts.
+    """
     g = F.BODY + Q.CAGE
     v = Y.V0 + Q.CAGE
     mass = p[P.CAGE_MASS]
     polar = p[P.CAGE_POLAR] * y[v + Q.TURN]
     weight = GRAVITY * mass if p[P.GRAVITY] != 0.0 else 0.0
     f[g] /= mass
+    eccentric = c[C.CAGE_ECCENTRICITY]
+    if eccentric != 0.0:
+        angle = y[Y.Q0 + Q.CAGE + Q.TURN]
+        ca = math.cos(angle)
+        sa = math.sin(angle)
+        f[g + Q.TURN] += eccentric * (ca * f[g + Q.Y] + sa * f[g + Q.Z])
+        ahead = eccentric * f[g + Q.TURN] / p[P.CAGE_POLAR]
+        outwards = eccentric * y[v + Q.TURN] * y[v + Q.TURN]
+        f[g + Q.Y] += mass * (ca * ahead - sa * outwards)
+        f[g + Q.Z] += mass * (sa * ahead + ca * outwards)
     f[g + Q.Y] /= mass
     f[g + Q.Z] = (f[g + Q.Z] - weight) / mass
     f[g + Q.TURN] /= p[P.CAGE_POLAR]
@@ -131,7 +152,7 @@ def body_equations(p, c, y, angle, speed, speed_rate, w, f):
     if p[P.CAGE] != 0.0:
         if p[P.LAND] != 0.0:
             lands(p, y, speed, f, w)
-        cage_body(p, y, f)
+        cage_body(p, c, y, f)
     else:
         for i in range(Q.SIZE - Q.CAGE):
             f[F.BODY + Q.CAGE + i] = 0.0

@@ -2,28 +2,40 @@
 
 import math
 
+from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import consecutive, load, select, store
 from fmu_bearing.engine.layout import FOUR, C, P, W, X
-from fmu_bearing.engine.mechanics.pose import bearing_angle
-from fmu_bearing.engine.mechanics.trigonometry import TWO_PI, wrap
+from fmu_bearing.engine.mechanics.trigonometry import TWO_PI, cosine_and_sine
 from fmu_bearing.engine.mechanics.triples import added, cross, dot, scaled, store_three, three
+
+# 1/s: a land's film turns its pressing side round where it moves by less than this share of its clearance
+_CALM = 0.01
+_NOWHERE = 1e-30  # m
 
 
 @kernel
 def in_pocket(p, angle, turned, j, w):
-    """Place of four balls from their pockets' middles: along the axis, along the track, and distance (m).
+    """Where four balls are in their pockets: offsets from the bores' axes, and the bores' own directions.
 
-    ``angle``: of the balls, ``turned``: of the cage (rad).
+    ``angle``: of the balls, ``turned``: of the cage (rad). Returns the offset along the cage's axis and
+    around (m), its length, and the unit vectors along the bore and around, in the balls' orbiting axes. A
+    bore is fixed in the cage: its azimuth in the plane YZ is that of the cage, and it stands across the axis.
     """
     pose = W.POSE + 2 * X.SIZE
     number = consecutive(j)
-    _, hr, ht = three(w, pose + X.H + j)
-    lead = load(angle, j) + bearing_angle(hr, ht)
-    axial = load(w, pose + X.A + j)
     spacing = TWO_PI / p[P.BALLS]
-    around = p[P.PITCH_RADIUS] * wrap(lead - turned - select(number < p[P.BALLS], number, 0.0) * spacing)
-    return axial, around, math.sqrt(axial * axial + around * around + 1e-30)
+    ahead = turned + select(number < p[P.BALLS], number, 0.0) * spacing - load(angle, j)
+    co, si = cosine_and_sine(ahead)
+    n = three(w, pose + X.N + j)
+    nx, nr, nt = n
+    lean = -(nr * co + nt * si) / nx
+    per = 1.0 / math.sqrt(1.0 + lean * lean)
+    bore = (lean * per, co * per, si * per)
+    t = cross(n, bore)
+    axial = load(w, pose + X.A + j)
+    around = dot(three(w, pose + X.Q + j), t)
+    return axial, around, math.sqrt(axial * axial + around * around + 1e-30), bore, t
 
 
 @kernel
@@ -36,7 +48,6 @@ def pockets(p, c, angle, lanes, turned, w):
     """
     pose = W.POSE + 2 * X.SIZE
     out = W.FORCE + 2 * W.FORCE_SIZE
-    pitch = p[P.PITCH_RADIUS]
     clearance = p[P.POCKET_CLEARANCE]
     stiffness = p[P.POCKET_STIFFNESS]
     damping = p[P.POCKET_DAMPING]
@@ -47,17 +58,15 @@ def pockets(p, c, angle, lanes, turned, w):
     for j in range(0, lanes, FOUR):
         live = consecutive(j) < p[P.BALLS]
         n = three(w, pose + X.N + j)
-        t = three(w, pose + X.T + j)
         dv = three(w, pose + X.DV + j)
         dw = three(w, pose + X.DW + j)
-        axial, around, apart = in_pocket(p, angle, turned, j, w)
+        axial, around, apart, _, t = in_pocket(p, angle, turned, j, w)
         px = axial / apart
         pt = around / apart
-        lever = pitch / load(w, pose + X.RHO + j)
         push = max(apart - clearance, 0.0)
         vn = dot(n, dv)
         vt = dot(t, dv)
-        rate = px * vn + pt * lever * vt
+        rate = px * vn + pt * vt
         elastic = stiffness * push * math.sqrt(push)
         pressing = max(elastic * (1.0 + damping * rate), 0.0)
         # contact point on the ball: radius along g; sliding there without its normal part
@@ -66,7 +75,7 @@ def pockets(p, c, angle, lanes, turned, w):
         slip = added(slip, scaled(-dot(slip, g), g))
         drag = scaled(-mu * pressing / math.sqrt(dot(slip, slip) + floor * floor), slip)
         fn = -pressing * px - film * vn
-        ft = -pressing * pt * lever - film * vt
+        ft = -pressing * pt - film * vt
         force = added(added(drag, scaled(fn, n)), scaled(ft, t))
         moment = scaled(ball, cross(g, drag))
         store(w, W.POCKET + j, push)
@@ -77,27 +86,34 @@ def pockets(p, c, angle, lanes, turned, w):
 
 
 @kernel
-def film_force(viscosity, radius, length, clearance, ratio, ratio_rate, wedge):
-    """Radial and tangential force (N) of a short journal film, half-Sommerfeld (Ocvirk 1952; with squeeze).
+def film_force(viscosity, radius, length, clearance, ratio, closing, carried):
+    """Radial and tangential force (N) of a short, cavitating journal film with wedge and squeeze.
 
-    ``ratio`` is eccentricity over clearance (below 1), ``ratio_rate`` its rate (1/s), ``wedge`` the sum of
-    both surfaces' speeds less twice the whirl speed (rad/s). The journal is pushed back along the line of
-    centres by the first and across it, in the sense of ``wedge``, by the second.
+    Short bearing (Ocvirk 1952); pressure counts where it is positive. ``ratio`` is eccentricity over
+    clearance (below 1), ``closing`` its rate (1/s), ``carried`` the journal's speed across the line of
+    centres over the clearance, less half the sum of both surfaces' speeds times ``ratio`` (1/s). The journal
+    is pushed back along the line of centres by the first and forward across it by the second.
+
+    At an angle a from the thinnest place the pressure goes as (closing cos a + carried sin a)/(1 - ratio
+    cos a)^3, positive over the half turn about its own direction (cosine ``k``, sine ``s``). Integrals over
+    that half turn by Sommerfeld's substitution, whose variable passes through twice ``half`` there. The
+    direction is rounded where nothing moves; elsewhere nothing is.
     """
-    gap = 1.0 - ratio * ratio
+    square = ratio * ratio
+    gap = 1.0 - square
     root = math.sqrt(gap)
+    per_size = 1.0 / math.sqrt(closing * closing + carried * carried + _CALM * _CALM)
+    k = closing * per_size
+    s = carried * per_size
+    flat = s * s * square
+    per = 1.0 / (1.0 - flat)
+    half = 0.5 * PI + math.atan(ratio * k / root)
+    swing = ratio * root * k * (s * s - k * k - flat) * per * per
+    cc = ((1.0 + 2.0 * square) * half + swing + 4.0 * ratio * root * k * per) / (gap * gap * root)
+    cs = 2.0 * ratio * s * s * s * per * per
+    ss = (half - swing) / (gap * root)
     factor = viscosity * radius * length * length * length / (clearance * clearance)
-    # |wedge| rounded over 1 rad/s: the force stays smooth where the wedge changes sign
-    size = math.sqrt(wedge * wedge + 1.0)
-    radial = factor * (
-        size * ratio * ratio / (gap * gap)
-        + 0.5 * math.pi * ratio_rate * (1.0 + 2.0 * ratio * ratio) / (gap * gap * root)
-    )
-    tangential = factor * (
-        0.25 * math.pi * wedge * ratio / (gap * root)
-        + 2.0 * ratio * ratio_rate / (gap * gap) * (wedge / size)
-    )
-    return radial, tangential
+    return factor * (closing * cc + carried * cs), -factor * (closing * cs + carried * ss)
 
 
 @kernel
@@ -113,20 +129,19 @@ def land(p, dy, dz, vy, vz, journal, sleeve):
     length = p[P.LAND_LENGTH]
     viscosity = p[P.LAND_VISCOSITY]
     limit = p[P.LAND_STOP_FRACTION] * clearance
-    apart2 = dy * dy + dz * dz
-    apart = math.sqrt(apart2 + 1e-24)
-    ey = dy / apart
-    ez = dz / apart
+    apart = math.sqrt(dy * dy + dz * dz)
+    # in the very middle the film is the same all round: any direction serves
+    per_apart = 1.0 / apart if apart > _NOWHERE else 0.0
+    ey = dy * per_apart if apart > _NOWHERE else 1.0
+    ez = dz * per_apart
     # beyond the dry stop the film keeps the thickness it has there
     wet = min(apart, limit)
     ratio = wet / clearance
     rate = (ey * vy + ez * vz) / clearance
     across = ey * vz - ez * vy
-    # the whirl of a nearly centred cage is undefined but harmless: its force vanishes with the offset
-    whirl = across * apart / (apart2 + 1e-16)
-    radial, tangential = film_force(
-        viscosity, radius, length, clearance, ratio, rate, journal + sleeve - 2.0 * whirl
-    )
+    within = limit * per_apart if apart > limit else 1.0
+    carried = within * across / clearance - 0.5 * (journal + sleeve) * ratio
+    radial, tangential = film_force(viscosity, radius, length, clearance, ratio, rate, carried)
     # Seen from the sleeve the journal is at -d. The film pushes it back and across, the cage takes the
     # opposite force.
     fy = -radial * ey - tangential * ez

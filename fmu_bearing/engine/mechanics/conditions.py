@@ -11,6 +11,9 @@ _TO_RPM = 30.0 / math.pi
 # Both laws grow without bound in the cold: the exponent ends at twelve decades, an oil that flows no more.
 _SET = 12.0 * math.log(10.0)
 _CLEAR = 1.0  # K: Vogel's law is held short of its pole by this much
+_ROLLING = 0.66  # power of the viscosity in the rolling resistance,
+_SHEARED = 0.64  # and in its loss to inlet shear heating
+_ROUNDS = 8  # of Newton's method: 1e-12 after six
 
 
 @kernel
@@ -48,19 +51,48 @@ def viscosity(p, temperature):
 
 
 @kernel
+def thickest_useful(heated, starved, nu):
+    """Viscosity (mm2/s) of the largest rolling resistance, or ``nu`` if that lies below it.
+
+    Resistance goes as nu^0.66 exp(-starved nu)/(1 + heated nu^0.64); its logarithm rises with the one of nu
+    by 0.66 - 0.64 x/(1 + x) - starved nu, x = heated nu^0.64. Newton's method in the logarithm of nu comes
+    down from where the first and the last part cancel.
+    """
+    x = heated * math.exp(_SHEARED * math.log(nu))
+    if starved * nu + _SHEARED * x / (1.0 + x) <= _ROLLING:
+        return nu
+    at = math.log(min(nu, _ROLLING / starved))
+    for _ in range(_ROUNDS):
+        x = heated * math.exp(_SHEARED * at)
+        share = x / (1.0 + x)
+        dry = starved * math.exp(at)
+        at -= (dry + _SHEARED * share - _ROLLING) / (dry + _SHEARED * _SHEARED * share / (1.0 + x))
+    return math.exp(at)
+
+
+@kernel
 def rolling_reduction(p, eta, speed):
     """Reduction of the rolling resistance by inlet shear heating and kinematic starvation.
 
     SKF friction model (SKF rolling bearings catalogue 2018): 1/(1 + 1.84e-9 (n d_m)^1.28 nu^0.64) and
     exp(-K_rs nu n (d + D) sqrt(K_z / (2 (D - d)))), n in r/min, d_m in mm, nu in mm2/s. ``speed`` in rad/s.
     1 where the scene leaves the reduction out.
+
+    In cold oil the second factor would make the rolling resistance fall as the oil gets thicker. Held, the
+    largest resistance over viscosity stays from there on.
     """
     if p[P.REDUCTION] == 0.0:
         return 1.0
     n = abs(speed) * _TO_RPM
     nu = max(eta / p[P.OIL_DENSITY] * 1e6, 1e-6)
-    heating = 1.0 / (1.0 + p[P.SHEAR_HEATING] * math.exp(1.28 * math.log(n + 1e-6) + 0.64 * math.log(nu)))
-    return heating * math.exp(-p[P.STARVATION] * nu * n)
+    fast = 1.28 * math.log(n + 1e-6)
+    thick = 1.0
+    if p[P.STARVATION_HELD] != 0.0:
+        useful = thickest_useful(p[P.SHEAR_HEATING] * math.exp(fast), p[P.STARVATION] * n, nu)
+        thick = math.exp(_ROLLING * math.log(useful / nu))
+        nu = useful
+    heating = 1.0 / (1.0 + p[P.SHEAR_HEATING] * math.exp(fast + _SHEARED * math.log(nu)))
+    return thick * heating * math.exp(-p[P.STARVATION] * nu * n)
 
 
 @kernel
@@ -82,7 +114,7 @@ def conditions(p, u, speed, c):
         c[held + C.GROOVE_X] = p[numbers + P.RACE_GROOVE_X] * growth
         c[held + C.GROOVE_RADIUS] = p[numbers + P.RACE_GROOVE_RADIUS] * growth
         c[held + C.FREE] = p[numbers + P.RACE_GROOVE] * growth - ball
-        c[held + C.ROLLING] = p[numbers + P.RACE_ROLLING] * math.exp(0.66 * math.log(eta)) * reduced
+        c[held + C.ROLLING] = p[numbers + P.RACE_ROLLING] * math.exp(_ROLLING * math.log(eta)) * reduced
     c[C.BALL_RADIUS] = ball
     c[C.PRELOAD] = u[U.PRELOAD]
     c[C.LOAD_Y] = u[U.LOAD_Y]
@@ -94,11 +126,18 @@ def conditions(p, u, speed, c):
     twice = 2.0 * p[P.PEDESTAL_ZETA]
     mass = p[P.OUTER_MASS]
     c[C.PEDESTAL] = radial
+    c[C.PEDESTAL_Y] = radial * p[P.PEDESTAL_Y]
+    c[C.PEDESTAL_Z] = radial * p[P.PEDESTAL_Z]
+    c[C.PEDESTAL_YZ] = radial * p[P.PEDESTAL_YZ]
     c[C.PEDESTAL_AXIAL] = axial
     c[C.PEDESTAL_ROTATIONAL] = rotational
-    c[C.DAMPING] = twice * math.sqrt(radial * mass)
+    damping = twice * math.sqrt(radial * mass)
+    c[C.DAMPING_Y] = damping * p[P.PEDESTAL_DAMPING_Y]
+    c[C.DAMPING_Z] = damping * p[P.PEDESTAL_DAMPING_Z]
+    c[C.DAMPING_YZ] = damping * p[P.PEDESTAL_DAMPING_YZ]
     c[C.DAMPING_AXIAL] = twice * math.sqrt(axial * mass)
     c[C.DAMPING_ROTATIONAL] = twice * math.sqrt(rotational * p[P.OUTER_TRANSVERSE])
     c[C.DAMPING_SPIN] = twice * math.sqrt(rotational * p[P.OUTER_POLAR])
     c[C.OVERSIZE_SCALE] = p[P.IMPERFECTION_SCALE]
     c[C.ECCENTRICITY] = p[P.IMPERFECTION_SCALE] * p[P.ECCENTRICITY]
+    c[C.CAGE_ECCENTRICITY] = p[P.IMPERFECTION_SCALE] * p[P.CAGE_ECCENTRICITY]

@@ -1,5 +1,7 @@
 """Stored energy, for the balance work in = dissipation + change of energy."""
 
+import math
+
 from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import C, P, Q, R, W, Y
@@ -69,7 +71,9 @@ def stored_energy(p, c, y, w):
     total += 0.5 * p[P.OUTER_MASS] * squares(y, vo, 3) + 0.5 * p[P.OUTER_POLAR] * squares(y, vo + Q.TURN, 1)
     total += 0.5 * p[P.OUTER_TRANSVERSE] * squares(y, vo + Q.BY, 2)
     total += 0.5 * c[C.PEDESTAL_AXIAL] * squares(y, outer, 1)
-    total += 0.5 * c[C.PEDESTAL] * squares(y, outer + Q.Y, 2)
+    total += 0.5 * c[C.PEDESTAL_Z] * squares(y, outer + Q.Y, 2)
+    total += 0.5 * (c[C.PEDESTAL_Y] - c[C.PEDESTAL_Z]) * squares(y, outer + Q.Y, 1)
+    total += c[C.PEDESTAL_YZ] * y[outer + Q.Y] * y[outer + Q.Z]
     lean_y = y[outer + Q.BY] - p[P.MISALIGNMENT_Y]
     lean_z = y[outer + Q.BZ] - p[P.MISALIGNMENT_Z]
     turned = squares(y, outer + Q.TURN, 1) + lean_y * lean_y + lean_z * lean_z
@@ -79,6 +83,15 @@ def stored_energy(p, c, y, w):
         total += 0.5 * p[P.CAGE_MASS] * squares(y, vc, 3) + 0.5 * p[P.CAGE_POLAR] * squares(y, vc + Q.TURN, 1)
         total += 0.5 * p[P.CAGE_TRANSVERSE] * squares(y, vc + Q.BY, 2)
         heavy += p[P.CAGE_MASS] * y[cage + Q.Z]
+        eccentric = c[C.CAGE_ECCENTRICITY]
+        if eccentric != 0.0:
+            # the mass moves with the heavy spot, not with the centre
+            ca = math.cos(y[cage + Q.TURN])
+            sa = math.sin(y[cage + Q.TURN])
+            around = eccentric * y[vc + Q.TURN]
+            carried = 0.5 * around - ca * y[vc + Q.Y] - sa * y[vc + Q.Z]
+            total += p[P.CAGE_MASS] * around * carried
+            heavy += p[P.CAGE_MASS] * eccentric * ca
     if p[P.GRAVITY] != 0.0:
         total += GRAVITY * heavy
     return total

@@ -4,13 +4,17 @@ The film of a land is differentiated by differences: five evaluations of one for
 page of derivatives.
 """
 
+import math
+
+from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import C, J, P, Q, Y
+from fmu_bearing.engine.lanes import load, store
+from fmu_bearing.engine.layout import FOUR, STRIDE, C, F, J, P, Q, W, Y
 from fmu_bearing.engine.mechanics.cage import land
 
 # steps of the differences: small against clearance and surface speeds, large against rounding
 _PLACE = 1e-6  # of the clearance
-_VELOCITY = 1e-6  # m/s
+_VELOCITY = 1e-8  # m/s: the film's force bends with it
 _RATE = 1e-3  # rad/s
 
 
@@ -124,6 +128,66 @@ def land_slopes(p, y, speed, x, jac):
 
 
 @kernel
+def heavy_spot(by, ca, sa, turned, moved_y, moved_z):
+    """Changes of the cage's three accelerations (turn, y, z) with the heavy spot from those without.
+
+    ``by``: eccentricity (m); its mass over the polar moment times it (1/m). ``ca``, ``sa``: of its angle.
+    """
+    eccentric, pull = by
+    turned = turned + pull * (ca * moved_y + sa * moved_z)
+    return turned, moved_y + eccentric * ca * turned, moved_z + eccentric * sa * turned
+
+
+@kernel
+def cage_unbalance(p, c, y, lanes, w, jac):
+    """Put the heavy spot of the cage into its rows of blocks D and E, which are those without it."""
+    eccentric = c[C.CAGE_ECCENTRICITY]
+    by = (eccentric, eccentric * p[P.CAGE_MASS] / p[P.CAGE_POLAR])
+    angle = y[Y.Q0 + Q.CAGE + Q.TURN]
+    ca = math.cos(angle)
+    sa = math.sin(angle)
+    row = J.STATES * STRIDE
+    first = J.D + Q.CAGE * row
+    for k in range(J.STATES):
+        for j in range(0, lanes, FOUR):
+            at = first + k * STRIDE + j
+            turned, moved_y, moved_z = heavy_spot(
+                by, ca, sa, load(jac, at + Q.TURN * row), load(jac, at + Q.Y * row), load(jac, at + Q.Z * row)
+            )
+            store(jac, at + Q.TURN * row, turned)
+            store(jac, at + Q.Y * row, moved_y)
+            store(jac, at + Q.Z * row, moved_z)
+    first = J.E + Q.CAGE * J.BODIES
+    turn = first + Q.TURN * J.BODIES
+    for k in range(J.BODIES):
+        at = first + k
+        turned, moved_y, moved_z = heavy_spot(
+            by, ca, sa, jac[turn + k], jac[at + Q.Y * J.BODIES], jac[at + Q.Z * J.BODIES]
+        )
+        jac[turn + k] = turned
+        jac[at + Q.Y * J.BODIES] = moved_y
+        jac[at + Q.Z * J.BODIES] = moved_z
+    # the spot's own way: its direction by the angle, its pull by the speed
+    body = W.F0 + F.BODY + Q.CAGE
+    speed = y[Y.V0 + Q.CAGE + Q.TURN]
+    ahead = eccentric * w[body + Q.TURN]
+    outwards = eccentric * speed * speed
+    free_y = w[body + Q.Y] - ca * ahead + sa * outwards
+    free_z = w[body + Q.Z] - sa * ahead - ca * outwards
+    if p[P.GRAVITY] != 0.0:
+        free_z += GRAVITY  # the weight has no lever about the centre of mass
+    _, pull = by
+    turned = pull * (ca * free_z - sa * free_y)
+    at = first + Q.CAGE + Q.TURN
+    jac[at + Q.TURN * J.BODIES] += turned
+    jac[at + Q.Y * J.BODIES] += ca * (eccentric * turned - outwards) - sa * ahead
+    jac[at + Q.Z * J.BODIES] += sa * (eccentric * turned - outwards) + ca * ahead
+    at += Q.SIZE
+    jac[at + Q.Y * J.BODIES] -= 2.0 * eccentric * speed * sa
+    jac[at + Q.Z * J.BODIES] += 2.0 * eccentric * speed * ca
+
+
+@kernel
 def body_slopes(p, c, y, speed, jac):
     """Add to block E what ``bodies.body_equations`` adds to the forces of the balls."""
     gyroscope(p, Q.INNER + Q.INNER_BY, p[P.INNER_POLAR] * speed, jac)
@@ -133,8 +197,12 @@ def body_slopes(p, c, y, speed, jac):
     gyroscope(p, outer + Q.BY, p[P.OUTER_POLAR] * y[Y.V0 + outer + Q.TURN], jac)
     spun_up(p, y, outer + Q.TURN, p[P.OUTER_POLAR], jac)
     support(p, outer, c[C.PEDESTAL_AXIAL], c[C.DAMPING_AXIAL], jac)
-    support(p, outer + Q.Y, c[C.PEDESTAL], c[C.DAMPING], jac)
-    support(p, outer + Q.Z, c[C.PEDESTAL], c[C.DAMPING], jac)
+    support(p, outer + Q.Y, c[C.PEDESTAL_Y], c[C.DAMPING_Y], jac)
+    support(p, outer + Q.Z, c[C.PEDESTAL_Z], c[C.DAMPING_Z], jac)
+    for i in (Q.Y, Q.Z):
+        across = J.E + (outer + i) * J.BODIES + outer + (Q.Z if i == Q.Y else Q.Y)
+        jac[across] -= c[C.PEDESTAL_YZ] / p[P.OUTER_MASS]
+        jac[across + Q.SIZE] -= c[C.DAMPING_YZ] / p[P.OUTER_MASS]
     support(p, outer + Q.TURN, c[C.PEDESTAL_ROTATIONAL], c[C.DAMPING_SPIN], jac)
     support(p, outer + Q.BY, c[C.PEDESTAL_ROTATIONAL], c[C.DAMPING_ROTATIONAL], jac)
     support(p, outer + Q.BZ, c[C.PEDESTAL_ROTATIONAL], c[C.DAMPING_ROTATIONAL], jac)

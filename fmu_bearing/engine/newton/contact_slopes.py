@@ -136,12 +136,12 @@ def place_column(i, along_axis, pressed, turned, tipped, material, w):
 
 
 @kernel
-def answers_to_place(y, body, ball, frame, gradient, pressed, bent, bent_over, about, around, over, j, w):
+def answers_to_place(y, body, ball, frame, gradient, pressed, bent, about, around, over, j, w):
     """Fill the columns of the ball's place, the body's motion and the ball's velocity held.
 
     ``pressed``: answer to the approach; ``about``: the body's axis in the contact's axes; ``around``,
-    ``over``: turns about it and about -t, in rad per m along each of the three axes; ``bent``,
-    ``bent_over``: answers to the gradient's own change, see :func:`bent_gradient`, along t and by that turn.
+    ``over``: turns about it and about -t, in rad per m along each of the three axes; ``bent``: answer to the
+    gradient's own change along t, see :func:`bent_gradient`.
     """
     pose = W.POSE + body * X.SIZE
     force = W.FORCE + body * W.FORCE_SIZE
@@ -158,7 +158,7 @@ def answers_to_place(y, body, ball, frame, gradient, pressed, bent, bent_over, a
     bx, br, bt = components(added(spin, scaled(-1.0, dw)), frame)
     turned = turned_contact(about, ball, motion, w)
     zero = splat(0.0)
-    tipped = plus_scaled(bent_over, 1.0, turned_contact((zero, splat(-1.0), zero), ball, motion, w))
+    tipped = turned_contact((zero, splat(-1.0), zero), ball, motion, w)
     ge, gt, gm = gradient
     ae, at, am = around
     oe, ot, om = over
@@ -212,16 +212,15 @@ def contact_columns(y, body, ball, contact, j, w):
     ``ball``: its radius (m); ``contact``: as :func:`race_contact` and :func:`pocket_contact` tell it. That
     is its axes; the gradient of the approach by the ball's place, and the ball's own slopes towards t and m;
     load by approach, load by its rate and logarithm of the ellipse by approach; load, and damping of a film
-    along e and m; the body's axis; turns about it and about -t, by places along the three axes; changes of
-    the gradient along t and by the latter turn; entrainment speed by the ball's spin.
+    along e and m; the body's axis; turns about it and about -t, by places along the three axes; change of
+    the gradient along t; entrainment speed by the ball's spin.
     """
-    frame, gradient, bumps, stiffness, pressing, film, about, around, over, change, aside, arm = contact
+    frame, gradient, bumps, stiffness, pressing, film, about, around, over, change, arm = contact
     loaded, pressed = answers_to_motion(ball, gradient, bumps, stiffness, film, j, w)
     _, by_rate, _ = stiffness
     v = components(three(w, W.POSE + body * X.SIZE + X.DV + j), frame)
     bent = bent_gradient(change, pressing, by_rate, v, loaded)
-    bent_over = bent_gradient(aside, pressing, by_rate, v, loaded)
-    answers_to_place(y, body, ball, frame, gradient, pressed, bent, bent_over, about, around, over, j, w)
+    answers_to_place(y, body, ball, frame, gradient, pressed, bent, about, around, over, j, w)
     into_ball_axes(frame, w)
     own_spin(arm, w)
 
@@ -281,7 +280,6 @@ def race_contact(p, c, y, race, turned, j, w):
         (zero, per_rho, zero),
         (zero, zero, per_distance),
         (zero, curvature * per_rho * per_rho, zero),
-        (zero, zero, zero),
         scaled(ball, m),
     )
 
@@ -313,46 +311,37 @@ def pocket_contact(p, c, y, turned, j, w):
     pose = W.POSE + 2 * X.SIZE
     ball = c[C.BALL_RADIUS]
     n = three(w, pose + X.N + j)
-    h = three(w, pose + X.H + j)
-    t = three(w, pose + X.T + j)
-    axial, along_track, apart = in_pocket(p, y[Y.TH : Y.TH + STRIDE], turned, j, w)
+    axial, along_track, apart, bore, t = in_pocket(p, y[Y.TH : Y.TH + STRIDE], turned, j, w)
     px = axial / apart
     pt = along_track / apart
-    frame = (added(scaled(px, n), scaled(pt, t)), h, added(scaled(px, t), scaled(-pt, n)))
+    frame = (added(scaled(px, n), scaled(pt, t)), bore, added(scaled(px, t), scaled(-pt, n)))
     ve, vt, vm = components(three(w, pose + X.DV + j), frame)
     _, wt, wm = components(three(w, pose + X.DW + j), frame)
-    # the lever by which the pitch circle is longer than the ball's own
-    per_rho = 1.0 / load(w, pose + X.RHO + j)
-    extra = p[P.PITCH_RADIUS] * per_rho - 1.0
-    zero = splat(0.0)
-    gradient = (1.0 + extra * pt * pt, zero, extra * pt * px)
-    ge, _, gm = gradient
     push = max(apart - p[P.POCKET_CLEARANCE], 0.0)
     root = math.sqrt(push)
-    damped = 1.0 + p[P.POCKET_DAMPING] * (ge * ve + gm * vm)
+    damped = 1.0 + p[P.POCKET_DAMPING] * ve
     touching = damped > 0.0
     rigid = p[P.POCKET_STIFFNESS] * root
     pressing = max(rigid * push * damped, 0.0)
+    zero = splat(0.0)
     stiffness = (
         select(touching, 1.5 * rigid * damped, 0.0),
         select(touching, rigid * push * p[P.POCKET_DAMPING], 0.0),
         zero,
     )
     pocket_traction(p, pressing, vt + ball * wm, vm - ball * wt, j, w)
-    per_apart = 1.0 / max(apart, _NEAREST)
-    # the lever shortens as the ball moves outwards; its share of the gradient stays along the track
-    shorter = -(1.0 + extra) * pt * per_rho
+    nothing = (zero, zero, zero)
+    # the bore is fixed in the cage: the contact turns only as the ball goes round the bore's axis
     return (
         frame,
-        gradient,
+        (splat(1.0), zero, zero),
         (zero, zero),
         stiffness,
         pressing,
         splat(p[P.POCKET_FILM]),
-        (px, zero, -pt),
-        (pt * per_rho, zero, px * per_rho),
-        (extra * px * pt * per_apart, zero, (1.0 + extra * px * px) * per_apart),
-        (pt * shorter, zero, px * shorter),
-        (2.0 * extra * px * pt, zero, extra * (px * px - pt * pt)),
-        (zero, zero, zero),
+        nothing,
+        nothing,
+        (zero, zero, 1.0 / max(apart, _NEAREST)),
+        nothing,
+        nothing,
     )

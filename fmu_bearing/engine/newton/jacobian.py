@@ -26,7 +26,7 @@ from fmu_bearing.engine.lanes import (
 from fmu_bearing.engine.layout import FOUR, STRIDE, A, C, F, J, K, P, Q, W, X, Y
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.mechanics.triples import added, cross, dot, scaled, three
-from fmu_bearing.engine.newton.body_slopes import body_slopes, inertia
+from fmu_bearing.engine.newton.body_slopes import body_slopes, cage_unbalance, inertia
 from fmu_bearing.engine.newton.contact_slopes import (
     both,
     contact_columns,
@@ -344,3 +344,5 @@ def jacobian(p, c, y, angle, speed, speed_rate, w, jac):
     body_slopes(p, c, y, speed, jac)
     if p[P.CAGE] == 0.0:
         without_cage(lanes, jac)
+    elif c[C.CAGE_ECCENTRICITY] != 0.0:
+        cage_unbalance(p, c, y, lanes, w, jac)

@@ -45,8 +45,9 @@ def place_rings(c, y, found, tilt, load_y, load_z):
     """Outer ring where preload and pedestal loads (N) push it, inner ring against it; both tilted."""
     o = Y.Q0 + Q.OUTER
     y[o] = c[C.PRELOAD] / c[C.PEDESTAL_AXIAL]
-    y[o + Q.Y] = load_y / c[C.PEDESTAL]
-    y[o + Q.Z] = load_z / c[C.PEDESTAL]
+    share = c[C.PEDESTAL_YZ] / c[C.PEDESTAL_Z]
+    y[o + Q.Y] = (load_y - share * load_z) / (c[C.PEDESTAL_Y] - share * c[C.PEDESTAL_YZ])
+    y[o + Q.Z] = (load_z - c[C.PEDESTAL_YZ] * y[o + Q.Y]) / c[C.PEDESTAL_Z]
     for i in range(2):
         y[o + Q.BY + i] = tilt[i]
         y[Y.Q0 + Q.INNER_BY + i] = tilt[i] + found[EQ.SHIFT + Q.INNER_BY + i]

@@ -95,3 +95,32 @@ def test_reduction_of_the_rolling_resistance():
     for speed in (2000.0, -2000.0):  # 1e-6 r/min of the speed's floor is 7e-11 of the factor
         assert rolling_reduction(p, 0.03, speed) == pytest.approx(heating * starving, rel=1e-9)
     assert rolling_reduction(p, 0.03, 0.0) == pytest.approx(1.0, abs=1e-12)
+
+
+@pytest.mark.parametrize("rpm", [200.0, 5_000.0, 20_000.0, 60_000.0])
+def test_thick_oil_lowers_no_rolling_resistance_where_starvation_is_held(rpm):
+    """The resistance nu^0.66/(1 + a nu^0.64) exp(-b nu) up to its maximum, found on a grid, then that."""
+    p = oil(VOGEL)
+    p[P.REDUCTION], p[P.SHEAR_HEATING] = 1.0, 1.84e-9 * 26.0**1.28
+    p[P.STARVATION] = 6e-8 * 52.0 * math.sqrt(4.4 / (2.0 * 18.0))
+    speed = rpm * math.pi / 30.0
+    nu = np.geomspace(0.1, 1e6, 7001)  # mm2/s, from hot water to pitch
+    heated, starved = p[P.SHEAR_HEATING] * rpm**1.28, p[P.STARVATION] * rpm
+    resistance = nu**0.66 / (1.0 + heated * nu**0.64) * np.exp(-starved * nu)
+    most = np.maximum.accumulate(resistance)
+    assert most[-1] > 2.0 * resistance[-1]  # the cold end is beyond the maximum at every speed
+    for held, wanted in ((0.0, resistance), (1.0, most)):
+        p[P.STARVATION_HELD] = held
+        found = nu**0.66 * [rolling_reduction(p, 870e-6 * one, speed) for one in nu]
+        # the grid of 0.23 % misses a maximum by its square at most
+        np.testing.assert_allclose(found, wanted, rtol=1e-5, atol=1e-300)
+
+
+def test_held_starvation_at_standstill_and_without_any():
+    p = oil(VOGEL)
+    p[P.REDUCTION], p[P.SHEAR_HEATING], p[P.STARVATION_HELD] = 1.0, 1.84e-9 * 26.0**1.28, 1.0
+    for starvation in (0.0, 1e-6):
+        p[P.STARVATION] = starvation
+        assert rolling_reduction(p, 1e9, 0.0) == pytest.approx(1.0, abs=1e-3)
+    p[P.STARVATION] = 0.0
+    assert 0.0 < rolling_reduction(p, 1e3, 2000.0) < 0.1  # inlet shear heating alone

@@ -112,7 +112,11 @@ def ring_modes(scene: Scene) -> tuple[RingMode, ...]:
     )
     for body, orders, material in rings:
         if orders:
-            section, constants = ring_section(scene, body), elastic(material)
+            try:
+                section = ring_section(scene, body)
+            except ValueError as problem:
+                raise ValueError(f"{problem}, or leave the ring out of [mounting.flexure]") from None
+            constants = elastic(material)
             found += [in_plane_mode(section, constants, order) for order in orders]
     return tuple(found)
 

@@ -164,7 +164,7 @@ def ring_section(scene: Scene, body: int) -> Section:
     elif not ends[0] < whole < ends[1]:
         problem = _no_shoulder(body, seat, b.width, ends)
     if problem is not None:
-        raise ValueError(f"the {RACES[body]} ring's {problem}, or leave the ring out of [mounting.flexure]")
+        raise ValueError(f"the {RACES[body]} ring's {problem}")
     shoulder = brentq(
         lambda height: _section(body, seat, height, b.width, groove).moment - whole,
         contact[1],

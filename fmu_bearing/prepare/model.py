@@ -9,6 +9,7 @@ from scipy.special import roots_jacobi
 
 from fmu_bearing import renamed
 from fmu_bearing.elastic.modes import ring_modes
+from fmu_bearing.elastic.section import INNER, ring_section
 from fmu_bearing.engine.choices import FIDELITIES, METHODS, RACE_CONTROLS
 from fmu_bearing.engine.layout import FOUR, SD, STRIDE, P
 from fmu_bearing.interface import Variable, variables
@@ -38,6 +39,7 @@ _STOP_FRACTION = 0.96
 _STOP_FRICTION = 0.05
 _STOP_SLIP = 0.1  # m/s
 _MOST_LINES = 384  # of fidelity response: a 7003C at 3,000 r/min has some 200 up to 10 kHz
+_NARROWEST, _WIDEST = 5e-6, 2e-3  # m: clearance of a land, as the scene's key is bounded
 
 
 @dataclass(frozen=True)
@@ -279,6 +281,34 @@ def _mounting(scene: Scene, p: NDArray[np.float64]) -> None:
         p[P.ECCENTRICITY] = si(scene.imperfections).unbalance
 
 
+def land_clearance(scene: Scene, cage: Cage) -> float:
+    """Radial clearance (m) between the cage's bore and its lands: the scene's, or what the bore leaves.
+
+    The lands are the inner ring's shoulders, which stand where the grooved ring has the mass that its
+    effective diameter gives it (`elastic.section`): as good as that diameter is.
+
+    Raises
+    ------
+    SceneError
+        Where the scene gives none and the bore leaves none that a cage can have.
+    """
+    if cage.land_clearance_mm is not None:
+        return float(si(cage).land_clearance)
+    absent = f"{scene.name}: bearing.cage.land_clearance_mm is absent, and"
+    try:
+        shoulder = ring_section(scene, INNER).high
+    except ValueError as problem:
+        raise SceneError(f"{absent} {problem}, or give land_clearance_mm") from None
+    clearance = cage.bore_mm / 2e3 - shoulder
+    if not _NARROWEST <= clearance <= _WIDEST:
+        raise SceneError(
+            f"{absent} bore_mm = {cage.bore_mm:g} leaves {1e3 * clearance:.3f} mm above the inner ring's "
+            f"shoulders of {2e3 * shoulder:.2f} mm (from inner_ring_outer_diameter_mm and the groove), not "
+            f"{1e3 * _NARROWEST:g} to {1e3 * _WIDEST:g}: give land_clearance_mm, or correct a diameter"
+        )
+    return clearance
+
+
 def _cage(scene: Scene, cage_table: Cage, material: Material, p: NDArray[np.float64]) -> None:
     b, c = si(scene.bearing), si(cage_table)
     body = bodies.cage(scene)
@@ -297,8 +327,8 @@ def _cage(scene: Scene, cage_table: Cage, material: Material, p: NDArray[np.floa
     p[P.POCKET_FRICTION] = c.pocket_friction if scene.fidelity.terms.pocket_friction else 0.0
     p[P.POCKET_SLIP] = _POCKET_SLIP
     p[P.POCKET_FILM] = c.pocket_damping
-    p[P.LAND_CLEARANCE] = c.land_clearance
-    p[P.LAND_RADIUS] = c.bore / 2 - c.land_clearance
+    p[P.LAND_CLEARANCE] = clearance = land_clearance(scene, cage_table)
+    p[P.LAND_RADIUS] = c.bore / 2 - clearance
     p[P.LAND_LENGTH] = (c.width - c.pocket_diameter) / 2
     p[P.LAND_OFFSET] = (c.width + c.pocket_diameter) / 4
     film = scene.fidelity.terms.land_film

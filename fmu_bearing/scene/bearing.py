@@ -17,10 +17,14 @@ class Cage(Part):
     bore_mm: float = Field(ge=1, le=1000, examples=[23.4], description="Bore of the cage, mm.")
     width_mm: float = Field(ge=0.5, le=300, examples=[9.1], description="Width of the cage, mm.")
     pocket_diameter_mm: float = Field(ge=0.5, le=120, examples=[4.6], description="Diameter of a pocket, mm.")
-    land_clearance_mm: float = Field(
-        ge=0.005, le=2, examples=[0.04], description="Radial clearance between cage bore and lands, mm."
+    land_clearance_mm: float | None = Field(
+        default=None,
+        ge=0.005,
+        le=2,
+        examples=[0.04],
+        description="Radial clearance between cage bore and lands; absent: what the bore leaves above the "
+        "inner ring's shoulders, mm.",
     )
-    # Assumed: a tenth of what a moulded or turned cage of a precision bearing may have.
     mass_eccentricity_um: float = Field(
         default=5.0,
         ge=0,
@@ -128,11 +132,11 @@ class Bearing(Part):
             )
 
     def _cage_conflicts(self, cage: Cage) -> Iterator[Conflict]:
-        land = self.inner_ring_outer_diameter_mm + 2.0 * cage.land_clearance_mm
+        land = self.inner_ring_outer_diameter_mm + 2.0 * (cage.land_clearance_mm or 0.0)
         if cage.bore_mm <= land:
+            and_clearance = "" if cage.land_clearance_mm is None else " and twice the land's clearance"
             yield Conflict(
-                "cage.bore_mm",
-                f"must exceed {land:g}: inner_ring_outer_diameter_mm and twice the land's clearance",
+                "cage.bore_mm", f"must exceed {land:g}: inner_ring_outer_diameter_mm{and_clearance}"
             )
         if cage.outside_diameter_mm >= self.outer_ring_inner_diameter_mm:
             limit = self.outer_ring_inner_diameter_mm

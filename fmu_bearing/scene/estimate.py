@@ -52,7 +52,7 @@ def estimates(bore: float, outside: float, width: float, angle: float) -> Iterat
     yield Estimate("outer_conformity", 0.52, "usual for hybrid and ceramic bearings")
     yield Estimate("inner_ring_outer_diameter_mm", round(pitch - land, 2), "0.7 ball diameters below pitch")
     yield Estimate("outer_ring_inner_diameter_mm", round(pitch + land, 2), "0.7 ball diameters above pitch")
-    yield Estimate("contact_damping_us", 2.5, "")
+    yield Estimate("contact_damping_us", 2.5, "Kraemer (1993): 2.5 to 25 us")
     yield Estimate("race_roughness_um", 0.02, "fine honing")
     yield Estimate("ball_roughness_um", 0.01, "grade 5 or better")
 
@@ -66,5 +66,6 @@ def cage_estimates(bore: float, outside: float, width: float) -> Iterator[Estima
     yield Estimate("width_mm", round(0.9 * width, 2), "0.9 of the rings' width")
     yield Estimate("pocket_diameter_mm", round(1.02 * ball, 3), "2 % larger than a ball")
     yield Estimate("land_clearance_mm", round(0.025 + 0.001 * bore, 3), "25 um and 1 um per mm of bore")
+    yield Estimate("mass_eccentricity_um", 5.0, "")
     yield Estimate("pocket_damping_N_s_m", 0.02, "")
     yield Estimate("pocket_friction", 0.05, "")

@@ -101,9 +101,7 @@ def variant(**keys):
 )
 def test_effective_diameter_that_no_grooved_ring_has(body, key, light, heavy):
     for value in (light, heavy):
-        with pytest.raises(
-            ValueError, match=rf"bearing\.{key} gives; allowed .* \[mounting\.flexure\]"
-        ) as told:
+        with pytest.raises(ValueError, match=rf"bearing\.{key} gives; allowed ") as told:
             ring_section(variant(**{key: value}), body)
         low, high = map(float, re.search(r"angle: (\S+) to ([\d.]+)", str(told.value)).groups())
         assert not low <= value <= high

@@ -45,6 +45,8 @@ def places(*names):
         ("misalignment_y_mrad = 0.0", "misalignment_y_mrad = 0.5", "MISALIGNMENT_Y", 0, 5e-4),
         ("misalignment_z_mrad = 0.0", "misalignment_z_mrad = -0.5", "MISALIGNMENT_Z", 0, -5e-4),
         ("rolling_reduction = true", "rolling_reduction = false", "REDUCTION", 1, 0),
+        ("replenishment_held = false", "replenishment_held = true", "STARVATION_HELD", 0, 1),
+        ("mass_eccentricity_um = 0.0", "mass_eccentricity_um = 5.0", "CAGE_ECCENTRICITY", 0, 5e-6),
         ("contact_damping = true", "contact_damping = false", "CONTACT_DAMPING", 5e-7, 0),
         ("pocket_friction = true", "pocket_friction = false", "POCKET_FRICTION", 0.05, 0),
     ],
@@ -175,3 +177,49 @@ def test_overrides_are_held_against_the_same_ranges(scene, keys, message):
     with pytest.raises(SceneError, match="7003C-bare: ") as caught:
         prepare(scene("7003C-bare"), **keys)
     assert message in str(caught.value)
+
+
+GIVEN = "land_clearance_mm = 0.04 # assumed\n"
+
+
+def test_lands_of_a_cage_from_the_shoulders_that_guide_it():
+    """7003C: shoulders of 22.924 mm (docs/elastic.md) under a bore of 23.4 mm."""
+    given, found = packed(), packed((GIVEN, ""))
+    assert given[P.LAND_CLEARANCE] == pytest.approx(40e-6)
+    assert found[P.LAND_CLEARANCE] == pytest.approx(0.5e-3 * (23.4 - 22.924), abs=1e-6)
+    assert found[P.LAND_RADIUS] + found[P.LAND_CLEARANCE] == pytest.approx(11.7e-3, rel=1e-12)
+    assert set(np.flatnonzero(given != found)) == set(places("LAND_CLEARANCE", "LAND_RADIUS"))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "told"),
+    [
+        ("bore_mm = 23.4", "bore_mm = 22.9", r"bore_mm = 22\.9 leaves -0\.012 mm .* shoulders of 22\.92 mm"),
+        (
+            "inner_ring_outer_diameter_mm = 22.6",
+            "inner_ring_outer_diameter_mm = 20.5",
+            r"groove fits no ring of the mass .* or give land_clearance_mm",
+        ),
+    ],
+)
+def test_diameters_that_leave_no_land_are_refused(old, new, told):
+    with pytest.raises(
+        SceneError, match=r"7003C-bare: bearing\.cage\.land_clearance_mm is absent, .*" + told
+    ):
+        packed((GIVEN, ""), (old, new))
+
+
+def test_pedestal_axes():
+    """Stiffness along y' three times that along z', turned by a quarter and by an eighth of a turn."""
+    ratio = ("pedestal_stiffness_ratio = 1.0", "pedestal_stiffness_ratio = 3.0")
+    names = "PEDESTAL_Y", "PEDESTAL_Z", "PEDESTAL_YZ"
+    assert list(packed(ratio)[places(*names)]) == [3.0, 1.0, 0.0]
+    for angle, wanted in ((90.0, [1.0, 3.0, 0.0]), (45.0, [2.0, 2.0, 1.0]), (-45.0, [2.0, 2.0, -1.0])):
+        turned = ("pedestal_axis_angle_deg = 0.0", f"pedestal_axis_angle_deg = {angle}")
+        p = packed(ratio, turned)
+        assert list(p[places(*names)]) == pytest.approx(wanted, abs=1e-12)
+        damping = p[places("PEDESTAL_DAMPING_Y", "PEDESTAL_DAMPING_Z", "PEDESTAL_DAMPING_YZ")]
+        # as stiff as damped: the roots of 3 and 1 along the same axes
+        root = np.sqrt(3.0)
+        share = (np.array(wanted) - [1.0, 1.0, 0.0]) / 2.0 * (root - 1.0) + [1.0, 1.0, 0.0]
+        assert list(damping) == pytest.approx(list(share), abs=1e-12)

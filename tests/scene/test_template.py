@@ -45,7 +45,6 @@ def test_rules_of_thumb_against_the_catalogue(name):
     cage = {one.key: one.value for one in cage_estimates(*size)}
     for key in ("outside_diameter_mm", "bore_mm", "width_mm"):
         assert cage[key] == pytest.approx(real["cage"][key], rel=0.12)
-    assert cage["land_clearance_mm"] == pytest.approx(real["cage"]["land_clearance_mm"], rel=0.1)
 
 
 @pytest.mark.parametrize(

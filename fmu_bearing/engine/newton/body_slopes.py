@@ -129,9 +129,9 @@ def land_slopes(p, y, speed, x, jac):
 
 @kernel
 def heavy_spot(by, ca, sa, turned, moved_y, moved_z):
-    """Changes of the cage's three accelerations (turn, y, z) with the heavy spot from those without.
+    """Return the cage's accelerations (turn, y, z), or their slopes, with the heavy spot from those without.
 
-    ``by``: eccentricity (m); its mass over the polar moment times it (1/m). ``ca``, ``sa``: of its angle.
+    ``by``: the eccentricity e (m), and e m over the polar moment (1/m); ``ca``, ``sa``: of the cage's angle.
     """
     eccentric, pull = by
     turned = turned + pull * (ca * moved_y + sa * moved_z)

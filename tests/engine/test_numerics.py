@@ -73,7 +73,7 @@ def test_wave_table_interpolates_harmonics(highest):
 
 
 FILM = journal.Film(viscosity=0.006, radius=11.66e-3, length=2.25e-3, clearance=0.04e-3)
-NUMBERS = (FILM.viscosity, FILM.radius, FILM.length, FILM.clearance)
+FACTOR = FILM.viscosity * FILM.radius * FILM.length**3 / FILM.clearance**2
 
 
 @pytest.mark.parametrize("ratio", [0.0, 1e-6, 0.05, 0.5, 0.9, 0.96])
@@ -87,11 +87,11 @@ def test_land_film_against_the_integrated_pressure(ratio, rate, wedge):
         return  # no film moves
     c = FILM.clearance
     motion = journal.Motion(ratio * c, rate * c, 0.7, 0.0, wedge, 0.0)
-    radial, tangential = film_force(*NUMBERS, ratio, rate, -0.5 * wedge * ratio)
+    radial, tangential = FACTOR * np.array(film_force(ratio, rate, -0.5 * wedge * ratio))
     along, across = journal.force_by_quadrature(FILM, motion)
     # the kernel rounds the motion's direction over 0.01 1/s; the slowest motion that turns it here is 20 1/s,
     # but for the nearly centred wedge, whose force is 1e-5 of any other in the table
-    size = np.hypot(along, across) + 1e-4 * film_force(*NUMBERS, ratio, 20.0, 0.0)[0]
+    size = np.hypot(along, across) + 1e-4 * FACTOR * film_force(ratio, 20.0, 0.0)[0]
     np.testing.assert_allclose((-radial, tangential), (along, across), rtol=0.0, atol=2e-6 * size)
 
 
@@ -100,7 +100,7 @@ def test_land_film_is_smooth_where_the_motion_turns(ratio):
     """Through a reversal of wedge and squeeze the slope of the force changes by bounded steps."""
     angles = np.linspace(0.0, 2.0 * np.pi, 2001)
     for size in (1e-3, 1.0, 1e3):
-        push = np.array([film_force(*NUMBERS, ratio, size * np.cos(a), size * np.sin(a)) for a in angles])
+        push = np.array([film_force(ratio, size * np.cos(a), size * np.sin(a)) for a in angles])
         bend = np.abs(np.diff(push, 2, axis=0)).max()
         # a harmonic of order n bends by (n pi/1000)^2 of its size; a corner would be 300 times as sharp
         assert bend < (10.0 * np.pi / 1000) ** 2 * np.abs(push).max()

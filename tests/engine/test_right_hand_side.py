@@ -310,9 +310,8 @@ def test_film_against_pressure_quadrature(case, ratio, closing, wedge):
     """At 1e6 rad/s the engine's rounding of the motion's direction is below 1e-11."""
     land = case(SCENES[0]).setup.land
     eccentric, whirl = ratio * land.clearance, 150.0
-    back, on = film_force(
-        land.viscosity, land.radius, land.length, land.clearance, ratio, closing, -0.5 * wedge * ratio
-    )
+    factor = land.viscosity * land.radius * land.length**3 / land.clearance**2
+    back, on = factor * np.array(film_force(ratio, closing, -0.5 * wedge * ratio))
     out, ahead = np.array([0.6, -0.8]), np.array([0.8, 0.6])
     velocity = closing * land.clearance * out + whirl * eccentric * ahead
     push = oracle.film_push(land, eccentric * out, velocity, 0.7 * wedge, 0.3 * wedge + 2.0 * whirl)

@@ -28,9 +28,12 @@ def in_pocket(p, angle, turned, j, w):
     ahead = turned + select(number < p[P.BALLS], number, 0.0) * spacing - load(angle, j)
     co, si = cosine_and_sine(ahead)
     n = three(w, pose + X.N + j)
-    nx, nr, nt = n
-    lean = -(nr * co + nt * si) / nx
-    per = 1.0 / math.sqrt(1.0 + lean * lean)
+    _, nr, nt = n
+    # 1/nx and the root of 1 + lean^2 by their series for small tilts, 1e-16 up to 2 mrad
+    small = 0.5 * (nr * nr + nt * nt)
+    lean = -(nr * co + nt * si) * (1.0 + small * (1.0 + small))
+    square = lean * lean
+    per = 1.0 - square * (0.5 - 0.375 * square)
     bore = (lean * per, co * per, si * per)
     t = cross(n, bore)
     axial = load(w, pose + X.A + j)
@@ -86,13 +89,13 @@ def pockets(p, c, angle, lanes, turned, w):
 
 
 @kernel
-def film_force(viscosity, radius, length, clearance, ratio, closing, carried):
-    """Radial and tangential force (N) of a short, cavitating journal film with wedge and squeeze.
+def film_force(ratio, closing, carried):
+    """Radial and tangential force of a short, cavitating journal film, over eta R L^3/c^2 (N s).
 
-    Short bearing (Ocvirk 1952); pressure counts where it is positive. ``ratio`` is eccentricity over
-    clearance (below 1), ``closing`` its rate (1/s), ``carried`` the journal's speed across the line of
-    centres over the clearance, less half the sum of both surfaces' speeds times ``ratio`` (1/s). The journal
-    is pushed back along the line of centres by the first and forward across it by the second.
+    Short bearing (Ocvirk 1952) with wedge and squeeze; pressure counts where it is positive. ``ratio`` is
+    eccentricity over clearance (below 1), ``closing`` its rate (1/s), ``carried`` the journal's speed across
+    the line of centres over the clearance, less half the sum of both surfaces' speeds times ``ratio`` (1/s).
+    The journal is pushed back along the line of centres by the first and forward across it by the second.
 
     At an angle a from the thinnest place the pressure goes as (closing cos a + carried sin a)/(1 - ratio
     cos a)^3, positive over the half turn about its own direction (cosine ``k``, sine ``s``). Integrals over
@@ -100,20 +103,21 @@ def film_force(viscosity, radius, length, clearance, ratio, closing, carried):
     direction is rounded where nothing moves; elsewhere nothing is.
     """
     square = ratio * ratio
-    gap = 1.0 - square
-    root = math.sqrt(gap)
+    root = math.sqrt(1.0 - square)
+    per_gap = 1.0 / (1.0 - square)
+    per_cube = per_gap * per_gap * root
     per_size = 1.0 / math.sqrt(closing * closing + carried * carried + _CALM * _CALM)
     k = closing * per_size
     s = carried * per_size
     flat = s * s * square
     per = 1.0 / (1.0 - flat)
-    half = 0.5 * PI + math.atan(ratio * k / root)
-    swing = ratio * root * k * (s * s - k * k - flat) * per * per
-    cc = ((1.0 + 2.0 * square) * half + swing + 4.0 * ratio * root * k * per) / (gap * gap * root)
+    along = ratio * k * root
+    half = 0.5 * PI + math.atan(along * per_gap)
+    swing = along * (s * s - k * k - flat) * per * per
+    cc = ((1.0 + 2.0 * square) * half + swing + 4.0 * along * per) * per_cube * per_gap
     cs = 2.0 * ratio * s * s * s * per * per
-    ss = (half - swing) / (gap * root)
-    factor = viscosity * radius * length * length * length / (clearance * clearance)
-    return factor * (closing * cc + carried * cs), -factor * (closing * cs + carried * ss)
+    ss = (half - swing) * per_cube
+    return closing * cc + carried * cs, -(closing * cs + carried * ss)
 
 
 @kernel
@@ -136,19 +140,22 @@ def land(p, dy, dz, vy, vz, journal, sleeve):
     ez = dz * per_apart
     # beyond the dry stop the film keeps the thickness it has there
     wet = min(apart, limit)
-    ratio = wet / clearance
-    rate = (ey * vy + ez * vz) / clearance
+    per_clearance = 1.0 / clearance
+    ratio = wet * per_clearance
+    rate = (ey * vy + ez * vz) * per_clearance
     across = ey * vz - ez * vy
     within = limit * per_apart if apart > limit else 1.0
-    carried = within * across / clearance - 0.5 * (journal + sleeve) * ratio
-    radial, tangential = film_force(viscosity, radius, length, clearance, ratio, rate, carried)
+    back, on = film_force(ratio, rate, within * across * per_clearance - 0.5 * (journal + sleeve) * ratio)
+    factor = viscosity * radius * length * length * length * per_clearance * per_clearance
+    radial = factor * back
+    tangential = factor * on
     # Seen from the sleeve the journal is at -d. The film pushes it back and across, the cage takes the
     # opposite force.
     fy = -radial * ey - tangential * ez
     fz = -radial * ez + tangential * ey
     # The pair acts half-way between the centres, so that its moments balance as well.
     couple = 0.5 * (dy * fz - dz * fy)
-    shear = TWO_PI * viscosity * radius * radius * radius * length / clearance
+    shear = TWO_PI * viscosity * radius * radius * radius * length * per_clearance
     shear *= (journal - sleeve) / math.sqrt(1.0 - ratio * ratio)
     push = max(apart - limit, 0.0)
     stiffness = p[P.LAND_STOP_STIFFNESS]

@@ -6,7 +6,7 @@ steps, accepted and rejected, in any leg per simulated ms. It is about three tim
 a step control that rejects too often fails on any machine.
 """
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 from tests.extremes.bearings import PERFECT, SILENT
 
@@ -141,7 +141,7 @@ CASES = [
         start={"rpm": 2e4},
         legs=((1e-3, {}, 1e-4), (2e-3, {"preload": 0.0}, 1e-4), (2e-3, {"preload": 500.0}, 1e-4)),
         per_ms=1000.0,
-        refused={RINGS: replace(LIFTED, legs=1)},  # in the leg without preload
+        # rings ends here, but by chance: of seven speeds within 10 r/min of this one it refuses two
     ),
     *_both("preload 10 kN", start={"rpm": 2e4, "preload": 1e4}),
     *_both("radial 3 kN at the start", start={"rpm": 2e4, "radial_load.y": 3e3}, per_ms=700.0),

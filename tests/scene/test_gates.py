@@ -15,11 +15,11 @@ from tests.conftest import GATES
 
 #: SHA-256 of what each file is read as: remarks and layout do not count, every value does.
 FROZEN = {
-    "7003C-bare": "a444baf543277b05ad4fb0ce227b7a72736a8a717fd62b5af39d44b0594ef2a3",
-    "7003C-impact": "f13bdd562820afd0f2608ad38bf8f09fbf1a65ea3b551c340c791106787d51d3",
-    "7003C-spindle": "5d1986668644ce1e8fbbca63eae69ca9a61d539c7149d3fb072e20bf79a09bc1",
-    "7009C-full-ceramic": "91b658480f0f2ec81f2ae817b89ed511d869a649c10cc178a968e9e3c273e2ad",
-    "7009C-steel": "33176f053746ed028716ae98aa6e23301f40ded9e49b8819858c6cd4d3859be6",
+    "7003C-bare": "85c479c00070e443764620a9f9b7116f6e718459c97ee1a9e7d0346552b8e658",
+    "7003C-impact": "2596ca40c6b1affe91cfc9d631c170a6a7f2a0a3134173cc105504e674297953",
+    "7003C-spindle": "118380d3142d7aed0eedb991fe629366d1b26a09331ee3942f5b9c71cca944e8",
+    "7009C-full-ceramic": "40b3931537bd4f5ab485d9b3d0cba6e2db5bdd103b94a1b892c981d55d467b2d",
+    "7009C-steel": "401d41efa2ad7e21b663b063753bdba999a67d02686cb21f0c3734eb36ed1796",
 }
 #: Keys that stand for values elsewhere.
 REFERENCES = {"catalogue", "grade"}

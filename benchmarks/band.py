@@ -75,8 +75,7 @@ def main(arguments: list[str] | None = None) -> None:
     write_csv(given.output / "band.csv", COLUMNS, rows)
     text = (
         "# Band of excitation\n\n7003C-spindle, four microphones, radiation model `bem`; "
-        f"{machine()}; made by `python -m benchmarks.band`.\n\n"
-        + markdown(COLUMNS, rows)
+        f"{machine()}; made by `python -m benchmarks.band`.\n\n" + markdown(COLUMNS, rows)
     )
     (given.output / "band.md").write_text(text, "utf-8")
 

@@ -35,7 +35,7 @@ units in their key names.
 >>> from fmu_bearing import Bearing, simulate
 >>> run = simulate("examples/scenes/7003C-bare.toml", 2e-3)
 >>> round(1e3 * run["friction_torque"][-1])  # N.mm
-23
+16
 """
 
 from importlib import import_module

@@ -101,9 +101,15 @@ ASSUMED: dict[str, Moves] = {
     "imperfections.ball_diameter_spread_nm": by_share,
     "imperfections.inner_race_amplitude_um": by_share,
     "imperfections.outer_race_amplitude_um": by_share,
+    "imperfections.waviness_exponent": by(0.25),
     "imperfections.lowest_order": to(1, 3),
-    "imperfections.highest_order": by(4),
+    "imperfections.highest_frequency_kHz": to(5.0, 20.0),
+    "imperfections.contact_filter": to(False, True),
+    "imperfections.ball_form_nm": by_share,
     "imperfections.ball_waviness_nm": to(0.0, 20.0),
+    "operation.oil_temperature_degC": by(20.0),
+    "operation.inner_ring_temperature_degC": by(20.0),
+    "operation.outer_ring_temperature_degC": by(20.0),
 }
 QUICK = ("bearing.inner_conformity", "lubricant.traction_max", "lubricant.walther_slope")
 

@@ -78,7 +78,7 @@ def simulate(
     ...     "examples/scenes/7003C-bare.toml", 3e-3, inputs={"shaft_speed": lambda t: 2000.0 + 1e4 * t}
     ... )
     >>> len(run), f"{1e3 * run['friction_torque'][-1]:.0f} N.mm"
-    (4, '23 N.mm')
+    (4, '17 N.mm')
     """
     _check_times(stop_time, step)
     if isinstance(source, str | os.PathLike) and pathlib.Path(source).suffix == ".fmu":

@@ -1,0 +1,106 @@
+"""Identification: numbers of a scene found from measured sound and vibration.
+
+=================  =======================================================================
+``errors``         what is refused; an interrupted search
+``quantities``     levels, third octaves, lines: how data name them
+``data``           measured values from files and tables
+``free``           free keys, their bounds and their scale
+``sensors``        paths from recorded channels to the measured places, and levels there
+``kept``           evaluations on disk, so that a search can go on
+``model``          computed levels for values of the free keys, over conditions and seeds
+``statistics``     covariance of levels and of values, what cannot be told apart
+``search``         least squares from several starts
+``result``         identified values, tables
+``files``          the scene with its new values, tables, report
+``picture``        measured against computed
+=================  =======================================================================
+
+Every evaluation is a run of the scene. With fidelity ``response`` one costs as much as a superposition of unit
+excitations would (`docs/identification.md` has the figures), so there is no second way to compute a level.
+"""
+
+import os
+import pathlib
+
+from fmu_bearing.identification.data import Source, read_data
+from fmu_bearing.identification.errors import IdentifyError, Interrupted
+from fmu_bearing.identification.free import Wanted, free_numbers
+from fmu_bearing.identification.result import Identified
+from fmu_bearing.scene import Scene, read_scene
+
+__all__ = ["Identified", "IdentifyError", "Interrupted", "identify"]
+
+SEEDS, STARTS = 4, 3
+
+
+def identify(
+    scene: Scene | str | os.PathLike[str],
+    data: Source,
+    free: Wanted,
+    *,
+    background: Source | None = None,
+    fidelity: str | None = None,
+    seeds: int = SEEDS,
+    starts: int = STARTS,
+    duration: float | None = None,
+    settle: float | None = None,
+    few: bool = False,
+    folder: str | os.PathLike[str] | None = None,
+    workers: int = 1,
+    progress: bool | None = None,
+) -> Identified:
+    """Find the values of some keys of a scene from measured levels.
+
+    Parameters
+    ----------
+    scene : Scene or path
+        Where the search starts; fidelity ``auto`` is resolved once.
+    data : path, pandas.DataFrame, xarray.Dataset or sequence of mapping
+        Measured values: microphone, conditions, quantity, ``value_dB``, ``std_dB``, role ``fit`` or
+        ``check`` (`fmu_bearing.identification.data.read_data`).
+    free : sequence of str, or mapping
+        Dotted keys, ``"KEY"`` or ``"KEY=LOW:HIGH"``, or bounds (low, high) or None by key. ``*`` in a key
+        stands for any text: one common factor acts on all keys that match. Without bounds: a decade to
+        either side of the scene's value.
+    background : like data, optional
+        Levels that are there without the bearing; they are added as energy.
+    fidelity : str, optional
+        Of the search; default: ``response`` where it carries the scene, else ``full``. The levels before and
+        after are computed in the scene's own.
+    seeds : int
+        Levels are averaged over so many seeds of the imperfections, from the scene's own on.
+    starts : int
+        Starting points: the scene, and others within the bounds.
+    duration, settle : float, optional
+        Length (s) of each run that is measured, and of what is left out before it.
+    few : bool
+        Allow fewer than three fitted values per free key. The result then repeats the values rather than
+        explaining them, and says so.
+    folder : path, optional
+        Computed levels are kept there: the same call goes on where an earlier one ended.
+    workers : int
+        Threads.
+    progress : bool, optional
+        Show progress; default: on a terminal.
+
+    Returns
+    -------
+    Identified
+
+    Raises
+    ------
+    IdentifyError
+        For data, keys or settings that are refused, all problems at once.
+    Interrupted
+        On Ctrl-C, a `KeyboardInterrupt` with the ``best`` values so far.
+    """
+    from fmu_bearing.identification.search import search
+
+    start = scene if isinstance(scene, Scene) else read_scene(scene)
+    measured = read_data(data, start, background)
+    held = {key for one in measured for key, _ in one.conditions}
+    return search(
+        start, measured, free_numbers(start, free, held),
+        fidelity=fidelity, seeds=seeds, starts=starts, duration=duration, settle=settle, few=few,
+        folder=None if folder is None else pathlib.Path(folder), workers=workers, progress=progress,
+    )  # fmt: skip

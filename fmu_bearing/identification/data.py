@@ -1,0 +1,342 @@
+"""Measured values: files and tables read into rows, checked, with all problems told at once."""
+
+import csv
+import io
+import math
+import os
+import pathlib
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from fmu_bearing.acoustics.analysis.field import Position
+from fmu_bearing.identification.errors import IdentifyError
+from fmu_bearing.identification.quantities import Quantity, parse_quantity
+from fmu_bearing.run.names import UnknownName, known
+from fmu_bearing.scene import Scene
+from fmu_bearing.scene.values import fields_of
+
+#: Short names of frequent conditions, with the unit that a table carries.
+CONDITIONS = {"speed_rpm": "operation.speed_rpm", "preload_N": "mounting.preload_N"}
+PLACE = ("x_mm", "y_mm", "z_mm")
+COLUMNS = ("microphone", *PLACE, *CONDITIONS, "quantity", "value_dB", "value_mm_s", "std_dB", "role")
+FIT, CHECK = "fit", "check"
+STD = 2.0  # dB, assumed where the data give no standard deviation: repeated set-ups of one machine differ so
+BACKGROUND = "background_"
+VELOCITY_REFERENCE = 1e-9  # m/s, ISO 1683
+_LOWEST, _HIGHEST = -60.0, 220.0  # dB: beyond is no level of a bearing but another unit
+_MOST = 12  # problems told at once
+
+
+@dataclass(frozen=True)
+class Datum:
+    """One measured value.
+
+    Attributes
+    ----------
+    quantity : Quantity
+    place : str
+        Name of the microphone, or its coordinates in words; empty for a velocity.
+    position : (x, y, z) or None
+        Of the microphone, in m; None for a velocity.
+    conditions : tuple of (key, value)
+        Values of the scene under which it was measured: dotted keys, in the scene's units.
+    value, std : float
+        Level and its standard deviation (dB; pressure re 20 uPa, velocity re 1 nm/s).
+    fit : bool
+        Whether it is fitted; False: checked only.
+    background : float
+        Level (dB) that is there without the bearing, added to the computed one as energy; -inf: none.
+    source : str
+        Where it stands, for messages.
+    """
+
+    quantity: Quantity
+    place: str
+    position: Position | None
+    conditions: tuple[tuple[str, float], ...]
+    value: float
+    std: float = STD
+    fit: bool = True
+    background: float = -math.inf
+    source: str = ""
+
+    @property
+    def label(self) -> str:
+        """Place, conditions and quantity in a few words."""
+        short = {key: name for name, key in CONDITIONS.items()}
+        parts = [f"{short.get(key, key)} {value:g}" for key, value in self.conditions]
+        return " ".join(word for word in (self.place, *parts, self.quantity.text) if word)
+
+
+Source = str | os.PathLike[str] | Iterable[Any] | Any
+
+
+def read_data(source: Source, scene: Scene, background: Source | None = None) -> tuple[Datum, ...]:
+    """Return the measured values in a table, checked against a scene.
+
+    Parameters
+    ----------
+    source : path, pandas.DataFrame, xarray.Dataset, sequence of mapping, or sequence of Datum
+        Columns as in `COLUMNS`; any other column is a dotted key of the scene. A file has commas or
+        semicolons between its values (with semicolons, a decimal comma is read too) and may have lines of
+        remarks that begin with #. In a dataset, NaN means that nothing was measured.
+    scene : Scene
+        Its microphones are known by name; a condition that is left out is the scene's.
+    background : like source, optional
+        Background levels with the same columns, without ``std_dB`` and ``role``. They may also stand among
+        the data, as quantities ``background_leq``, ``background_line[f_r]`` and so on.
+
+    Raises
+    ------
+    IdentifyError
+        With a line per problem: place, value, what is allowed.
+    """
+    problems: list[str] = []
+    rows = _rows(source, scene, problems)
+    extra = () if background is None else _rows(background, scene, problems, background=True)
+    if problems:
+        more = [f"and {len(problems) - _MOST} more"] if len(problems) > _MOST else []
+        raise IdentifyError("\n".join(problems[:_MOST] + more))
+    if not rows:
+        raise IdentifyError(f"{_name(source)} holds no measured value: give rows with {', '.join(COLUMNS)}")
+    loud = {_identity(row): row for row in (*rows, *extra) if row.quantity.text.startswith(BACKGROUND)}
+    found = []
+    for row in rows:
+        if row.quantity.text.startswith(BACKGROUND):
+            continue
+        noise = loud.pop(_identity(row, BACKGROUND), None)
+        found.append(row if noise is None else replace(row, background=noise.value))
+    if loud:
+        lost = ", ".join(f"{row.source} ({row.label})" for row in list(loud.values())[:3])
+        raise IdentifyError(f"background without a measured value beside it: {lost}")
+    if not found:
+        raise IdentifyError(f"{_name(source)} holds backgrounds only: give measured values too")
+    return tuple(found)
+
+
+def _identity(row: Datum, prefix: str = "") -> tuple[Any, ...]:
+    return row.position, row.conditions, prefix + row.quantity.text
+
+
+def _name(source: Source) -> str:
+    return str(source) if isinstance(source, str | os.PathLike) else "the data"
+
+
+def _rows(source: Source, scene: Scene, problems: list[str], background: bool = False) -> list[Datum]:
+    """Read rows; problems are added to the list."""
+    listed = list(source) if isinstance(source, Sequence) and not isinstance(source, str) else None
+    if listed and all(isinstance(one, Datum) for one in listed):
+        return listed
+    found = []
+    reader = _Reader(scene, background)
+    try:
+        table = list(_records(source))
+    except IdentifyError as problem:
+        problems.append(str(problem))
+        return []
+    if table:
+        try:
+            reader.check_columns(_name(source), list(dict.fromkeys(key for _, row in table for key in row)))
+        except IdentifyError as problem:
+            problems.append(str(problem))
+            return []
+    for where, row in table:
+        try:
+            found.append(reader.read(where, row))
+        except IdentifyError as problem:
+            problems += [f"{where}: {line}" for line in str(problem).splitlines()]
+    twice: dict[Any, Datum] = {}
+    for one in found:
+        first = twice.setdefault(_identity(one), one)
+        if first is not one:
+            problems.append(f"{one.source}: {one.label} was given before, in {first.source}; give a mean once")
+    return found
+
+
+def _records(source: Source) -> Iterable[tuple[str, dict[str, Any]]]:
+    """Yield where each row stands, and the row as a mapping."""
+    if isinstance(source, str | os.PathLike):
+        yield from _file(pathlib.Path(source))
+        return
+    if hasattr(source, "to_dataframe"):  # xarray: a grid has holes
+        frame = source.to_dataframe().reset_index()
+        values = [name for name in ("value_dB", "value_mm_s") if name in frame]
+        if not values:
+            raise IdentifyError("the dataset has no variable value_dB")
+        source = frame.dropna(subset=values, how="all")
+    if hasattr(source, "to_dict") and hasattr(source, "columns"):  # pandas
+        source = source.to_dict("records")
+    if not isinstance(source, Iterable) or isinstance(source, Mapping):
+        raise IdentifyError(
+            f"data of type {type(source).__name__} cannot be read: give a CSV file, a DataFrame, a Dataset, "
+            "or a list of mappings"
+        )
+    for place, row in enumerate(source):
+        if not isinstance(row, Mapping):
+            raise IdentifyError(f"row {place} of the data is a {type(row).__name__}, not a mapping by column")
+        yield f"row {place}", {str(key): value for key, value in row.items()}
+
+
+def _file(path: pathlib.Path) -> Iterable[tuple[str, dict[str, Any]]]:
+    try:
+        text = path.read_text("utf-8-sig")
+    except FileNotFoundError:
+        raise IdentifyError(f"{path}: there is no such file") from None
+    except (OSError, UnicodeDecodeError) as problem:
+        raise IdentifyError(f"{path}: cannot be read as text in UTF-8: {problem}") from None
+    # remarks become empty lines, so that the lines keep their numbers
+    lines = ["" if line.lstrip().startswith("#") else line for line in text.splitlines()]
+    head = next((line for line in lines if line.strip()), None)
+    if head is None:
+        raise IdentifyError(f"{path}: is empty; its first line names the columns: {', '.join(COLUMNS)}")
+    semicolons = head.count(";") > head.count(",")
+    reader = csv.reader(io.StringIO("\n".join(lines)), delimiter=";" if semicolons else ",")
+    columns: list[str] = []
+    for cells in reader:
+        cells = [cell.strip() for cell in cells]
+        if not any(cells):
+            continue
+        if not columns:
+            columns = cells
+            continue
+        where = f"{path}, line {reader.line_num}"
+        if len(cells) != len(columns):
+            raise IdentifyError(f"{where}: {len(cells)} values stand under {len(columns)} columns")
+        if semicolons:
+            cells = [_decimal_point(cell) for cell in cells]
+        yield where, dict(zip(columns, cells, strict=True))
+
+
+def _decimal_point(cell: str) -> str:
+    """Return 87.5 for 87,5."""
+    whole, comma, part = cell.partition(",")
+    return f"{whole}.{part}" if comma and part.isdigit() and whole.lstrip("+-").isdigit() else cell
+
+
+class _Reader:
+    """Reads rows for one scene."""
+
+    def __init__(self, scene: Scene, background: bool) -> None:
+        self.scene, self.background = scene, background
+        self.places: dict[str, Position] = {place.name: place.position_m for place in scene.microphones}
+        self.fields = fields_of(scene)
+
+    def check_columns(self, name: str, columns: list[str]) -> None:
+        """Refuse columns that are neither of ours nor keys of the scene, and tables without values."""
+        for column in columns:
+            if column not in COLUMNS:
+                try:
+                    known(column, [*COLUMNS, *self.fields], "column")
+                except UnknownName as problem:
+                    raise IdentifyError(
+                        f"{name}: {problem}; columns are {', '.join(COLUMNS)} and dotted keys of the scene"
+                    ) from None
+        missing = [one for one in ("quantity",) if one not in columns]
+        if "value_dB" not in columns and "value_mm_s" not in columns:
+            missing.append("value_dB")
+        if "microphone" not in columns and "x_mm" not in columns and "value_mm_s" not in columns:
+            missing.append("microphone")
+        if missing:
+            raise IdentifyError(f"{name}: column {' and '.join(missing)} is missing; there are {columns}")
+
+    def read(self, where: str, row: dict[str, Any]) -> Datum:
+        """Return one row; IdentifyError where a value is refused."""
+        text = str(row.get("quantity", "") or "").strip()
+        quiet = text.startswith(BACKGROUND)
+        quantity = parse_quantity(text.removeprefix(BACKGROUND))
+        if quiet or self.background:
+            quantity = replace(quantity, text=BACKGROUND + text.removeprefix(BACKGROUND))
+        place, position = ("", None) if quantity.channel is not None else self._position(row)
+        std = _number(row, "std_dB", STD)
+        if not std > 0.0:
+            raise IdentifyError(f"std_dB = {std:g} must be above 0; an exact value does not exist: try 0.5")
+        role = str(row.get("role") or FIT).strip()
+        if role not in (FIT, CHECK):
+            raise IdentifyError(f"role = '{role}' is unknown: write {FIT} or {CHECK}")
+        conditions = self._conditions(row)
+        value = _value(row, quantity)
+        return Datum(quantity, place, position, conditions, value, std, role == FIT, -math.inf, where)
+
+    def _position(self, row: dict[str, Any]) -> tuple[str, Position]:
+        given = [axis for axis in PLACE if not _blank(row.get(axis))]
+        name = "" if _blank(row.get("microphone")) else str(row["microphone"]).strip()
+        if given and name:
+            raise IdentifyError(f"microphone = '{name}' and {', '.join(given)} are given: leave out one")
+        if given:
+            if len(given) < 3:
+                raise IdentifyError(f"{', '.join(given)} alone is no place: give {', '.join(PLACE)}")
+            x, y, z = (1e-3 * _number(row, axis) for axis in PLACE)
+            return f"({1e3 * x:g}, {1e3 * y:g}, {1e3 * z:g}) mm", (x, y, z)
+        if name not in self.places:
+            there = ", ".join(self.places) or "none"
+            raise IdentifyError(
+                f"there is no microphone '{name}'; the scene has {there}; or give {', '.join(PLACE)}"
+            )
+        return name, self.places[name]
+
+    def _conditions(self, row: dict[str, Any]) -> tuple[tuple[str, float], ...]:
+        found = {}
+        for column, cell in row.items():
+            key = CONDITIONS.get(column, column)
+            if (column in COLUMNS and column not in CONDITIONS) or _blank(cell):
+                continue
+            if key in found:
+                raise IdentifyError(f"{column} and {key} are the same condition: give one column")
+            value = _number(row, column)
+            for low, high in (limits(self.fields[key]),):
+                if not low <= value <= high:
+                    raise IdentifyError(f"{column} = {value:g} lies outside {low:g} to {high:g}")
+            found[key] = value
+        return tuple(sorted(found.items()))
+
+
+def limits(field: Any) -> tuple[float, float]:
+    """Lowest and highest value that a field of a scene allows; infinite where it has no limit."""
+    low, high = -math.inf, math.inf
+    for rule in field.metadata:
+        low = max([low, *(float(getattr(rule, name)) for name in ("ge", "gt") if hasattr(rule, name))])
+        high = min([high, *(float(getattr(rule, name)) for name in ("le", "lt") if hasattr(rule, name))])
+    return low, high
+
+
+def _blank(cell: Any) -> bool:
+    return cell is None or (isinstance(cell, str) and not cell.strip()) or (
+        isinstance(cell, float) and math.isnan(cell)
+    )  # fmt: skip
+
+
+def _number(row: dict[str, Any], column: str, default: float | None = None) -> float:
+    cell = row.get(column)
+    if default is not None and (cell is None or (isinstance(cell, str) and not cell.strip())):
+        return default
+    try:
+        value = float(cell)  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        raise IdentifyError(f"{column} = '{cell}' is no number") from None
+    if not math.isfinite(value):
+        raise IdentifyError(f"{column} = {cell} is not finite: leave the row out where nothing was measured")
+    return value
+
+
+def _value(row: dict[str, Any], quantity: Quantity) -> float:
+    """Level (dB) of a row."""
+    speed = row.get("value_mm_s")
+    if not _blank(speed) and _blank(row.get("value_dB")):
+        if quantity.channel is None:
+            raise IdentifyError(f"value_mm_s belongs to a velocity, '{quantity.text}' is a sound level: value_dB")
+        rms = 1e-3 * _number(row, "value_mm_s")
+        if not rms > 0.0:
+            raise IdentifyError(f"value_mm_s = {1e3 * rms:g} must be above 0")
+        return 20.0 * float(np.log10(rms / VELOCITY_REFERENCE))
+    if not _blank(speed):
+        raise IdentifyError("value_dB and value_mm_s are both given: leave out one")
+    value = _number(row, "value_dB")
+    if not _LOWEST <= value <= _HIGHEST:
+        raise IdentifyError(
+            f"value_dB = {value:g} is no level in dB (re 20 uPa, velocities re 1 nm/s), which lies between "
+            f"{_LOWEST:g} and {_HIGHEST:g}"
+        )
+    return value

@@ -1,0 +1,224 @@
+"""What an identification found: values with their uncertainty, levels before and after, sentences."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.identification.data import Datum
+from fmu_bearing.identification.free import Free
+from fmu_bearing.run.table import number
+from fmu_bearing.scene import Scene
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """One identified number.
+
+    Attributes
+    ----------
+    free : Free
+        Key, unit, start, bounds.
+    value : float
+        In the key's unit.
+    std : float
+        Standard deviation of ln(value) where the key is logarithmic, else in the key's unit; NaN: unknown.
+    determined : bool
+        Whether the data determine it: its standard deviation is less than a factor of two, or than a quarter
+        of the width of the bounds.
+    at_bound : str
+        ``"low"``, ``"high"`` or empty.
+    """
+
+    free: Free
+    value: float
+    std: float
+    determined: bool
+    at_bound: str = ""
+
+    @property
+    def key(self) -> str:
+        """As it was asked for."""
+        return self.free.key
+
+    def interval(self, deviations: float = 2.0) -> tuple[float, float]:
+        """Lower and upper value, so many standard deviations away, within the bounds."""
+        if math.isnan(self.std):
+            return math.nan, math.nan
+        if self.free.log:
+            # a factor beyond e^50 is no number worth showing
+            factor = math.exp(min(deviations * self.std, 50.0))
+            low, high = self.value / factor, self.value * factor
+        else:
+            low, high = self.value - deviations * self.std, self.value + deviations * self.std
+        return max(low, self.free.low), min(high, self.free.high)
+
+    @property
+    def words(self) -> str:
+        """Value with its uncertainty in words, as the scene's comment has it."""
+        before = f"before: {number(self.free.start)}"
+        if math.isnan(self.std):
+            return f"identified, uncertainty unknown; {before}"
+        if not self.determined:
+            return f"not determined by the data; {before}"
+        low, high = self.interval()
+        bound = f", at its {self.at_bound} bound" if self.at_bound else ""
+        return f"identified: {number(low)} to {number(high)} (2 standard deviations){bound}; {before}"
+
+
+@dataclass(frozen=True)
+class Compared:
+    """One measured value beside the computed ones.
+
+    Attributes
+    ----------
+    datum : Datum
+    before, after : float
+        Computed with the scene as it was, and with the identified values, in the scene's own fidelity, mean
+        over seeds, background added (dB).
+    spread : float
+        Standard deviation of the computed level over seeds (dB).
+    """
+
+    datum: Datum
+    before: float
+    after: float
+    spread: float
+
+
+@dataclass(frozen=True)
+class Identified:
+    """Result of `identify`.
+
+    Attributes
+    ----------
+    scene : Scene
+        With the identified values, in its own fidelity.
+    start : Scene
+        As it was, fidelity ``auto`` resolved.
+    estimates : tuple of Estimate
+        One per free key.
+    compared : tuple of Compared
+        One per measured value, in the order of the data.
+    jacobian : ndarray, shape (fitted values, free keys)
+        Change of each fitted level (dB) per unit of ln(value), or per width of the bounds for a key that is
+        not logarithmic.
+    covariance : ndarray, shape (free keys, free keys)
+        Of these coordinates; linearised at the solution.
+    singular_values : ndarray, shape (free keys,)
+        Of the jacobian divided by the standard deviations of the levels, largest first: inverse standard
+        deviations along `directions`.
+    directions : ndarray, shape (free keys, free keys)
+        Combinations of the coordinates, one per row.
+    residual_scale : float
+        Factor by which residuals exceed the stated standard deviations; at least 1. Covariance holds it.
+    remarks : tuple of str
+        What cannot be told apart, what stands at a bound, what the data cannot carry.
+    fidelity : str
+        Of the search.
+    seeds : tuple of int
+        Seeds averaged over.
+    evaluations : int
+        Runs computed, without those that were kept from before.
+    complete : bool
+        False: the search was interrupted.
+    """
+
+    scene: Scene
+    start: Scene
+    estimates: tuple[Estimate, ...]
+    compared: tuple[Compared, ...]
+    jacobian: NDArray[np.float64]
+    covariance: NDArray[np.float64]
+    singular_values: NDArray[np.float64]
+    directions: NDArray[np.float64]
+    residual_scale: float
+    remarks: tuple[str, ...]
+    fidelity: str
+    seeds: tuple[int, ...]
+    evaluations: int = 0
+    complete: bool = True
+    values: dict[str, float] = field(default_factory=dict)
+
+    @property
+    def correlation(self) -> NDArray[np.float64]:
+        """Correlation of the coordinates, shape (free keys, free keys)."""
+        deviations = np.sqrt(np.diag(self.covariance))
+        found: NDArray[np.float64] = self.covariance / np.outer(deviations, deviations)
+        return found
+
+    def rms(self, fit: bool = True, before: bool = False) -> float:
+        """Root mean square of computed minus measured (dB) over fitted or checked values; NaN: there are none."""
+        off = [(one.before if before else one.after) - one.datum.value for one in self.compared
+               if one.datum.fit is fit]  # fmt: skip
+        return float(np.sqrt(np.mean(np.square(off)))) if off else math.nan
+
+    def __getitem__(self, key: str) -> Estimate:
+        for one in self.estimates:
+            if key == one.key or key in one.free.keys:
+                return one
+        raise KeyError(f"'{key}' was not free; free were {', '.join(one.key for one in self.estimates)}")
+
+    def summary(self) -> dict[str, Any]:
+        """Return values, misfits and remarks, for machines."""
+        return {
+            "scene": self.scene.name,
+            "complete": self.complete,
+            "fidelity": self.fidelity,
+            "seeds": self.seeds,
+            "runs": self.evaluations,
+            "rms_dB": {
+                f"{role}_{when}": self.rms(role == "fit", when == "before")
+                for role in ("fit", "check")
+                for when in ("before", "after")
+            },
+            "residual_scale": self.residual_scale,
+            "values": {
+                one.key: {
+                    "value": one.value,
+                    "unit": one.free.unit,
+                    "before": one.free.start,
+                    "std_ln" if one.free.log else "std": one.std,
+                    "interval": one.interval(),
+                    "determined": one.determined,
+                    "at_bound": one.at_bound,
+                }
+                for one in self.estimates
+            },
+            "singular_values": self.singular_values,
+            "correlation": self.correlation,
+            "remarks": self.remarks,
+        }
+
+
+def values_table(found: Identified) -> tuple[list[str], list[list[str]]]:
+    """Columns and rows of the identified values."""
+    rows = []
+    for one in found.estimates:
+        low, high = one.interval()
+        known = "not determined" if not one.determined else f"at its {one.at_bound} bound" if one.at_bound else ""
+        rows.append(
+            [one.key, one.free.unit, number(one.free.start), number(one.value), number(low), number(high), known]
+        )
+    return ["key", "unit", "before", "identified", "from", "to (2 std)", ""], rows
+
+
+def levels_table(found: Sequence[Compared]) -> tuple[list[str], list[list[str]]]:
+    """Columns and rows of measured and computed levels."""
+    rows = [
+        [
+            "fit" if one.datum.fit else "check",
+            one.datum.label,
+            f"{one.datum.value:.1f}",
+            f"{one.datum.std:.1f}",
+            f"{one.before:.1f}",
+            f"{one.after:.1f}",
+            f"{one.after - one.datum.value:+.1f}",
+            f"{one.spread:.1f}",
+        ]
+        for one in found
+    ]
+    return ["role", "value", "measured, dB", "std", "before", "after", "after - measured", "over seeds"], rows

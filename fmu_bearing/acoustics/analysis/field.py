@@ -192,6 +192,29 @@ class Blocks:
         return found
 
 
+class Transfer:
+    """Transfer functions from channels to the microphones of one circle, for use at many frequencies.
+
+    Parameters
+    ----------
+    circle : Circle
+    channels : int
+        Number of channels of the recordings it is used for.
+    """
+
+    def __init__(self, circle: Circle, channels: int) -> None:
+        self.circle, self.channels = circle, channels
+        self._responses = _interpolated(circle.paths)
+
+    def __call__(self, frequency: NDArray[np.float64]) -> NDArray[np.complex128]:
+        """Pressure per channel (Pa per unit of the channel), shape (members, channels, frequencies)."""
+        known = self._responses(frequency)
+        found = np.zeros((len(self.circle.members), self.channels, len(frequency)), complex)
+        for path in self.circle.paths:
+            found[:, path.channel] += np.outer(path.weights, known[_key(path)])
+        return found
+
+
 def _key(path: Path) -> tuple[int, float]:
     """Identity of a transfer function: sources that share a response share its interpolant."""
     return id(path.response), path.flight

@@ -1,0 +1,213 @@
+"""Computed levels for values of the free keys: one run per condition and seed."""
+
+import functools
+import hashlib
+import math
+import pathlib
+import threading
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import ValidationError
+
+from fmu_bearing.acoustics.filters.design import radiators_of
+from fmu_bearing.engine.layout import SD
+from fmu_bearing.engine.sources import rooms_digest, source_hash
+from fmu_bearing.identification.data import Datum
+from fmu_bearing.identification.errors import IdentifyError
+from fmu_bearing.identification.free import Free, scene_values
+from fmu_bearing.identification.kept import Kept
+from fmu_bearing.identification.quantities import LINE, THIRD_OCTAVE
+from fmu_bearing.identification.sensors import Sensors
+from fmu_bearing.prepare.sound import sound_key
+from fmu_bearing.recording.record import Recording, record
+from fmu_bearing.run.arrays import Refused
+from fmu_bearing.scene import Scene, SceneError
+from fmu_bearing.scene.problems import explain
+from fmu_bearing.scene.read import with_fidelity
+from fmu_bearing.scene.values import replaced
+
+_ROOMS = ("acoustics", "elastic", "identification", "prepare", "recording", "scene")
+_TURNS = 8  # of the shaft in a run, at least: lines of the shaft stand apart
+_LENGTH = 0.1  # s, at least
+_BINS = 6  # in a third octave, at least
+_SETTLE = {"response": 0.01, "rings": 0.04}  # s: response is steady from the start; the sound has to arrive
+_SETTLE_FULL = 0.05  # s
+_THIRD = 0.23  # width of a third octave over its centre
+
+
+class Levels:
+    """Levels that a scene gives at the measured places.
+
+    Parameters
+    ----------
+    scene : Scene
+        With a fidelity that is not ``auto``.
+    data : sequence of Datum
+    free : sequence of Free
+    duration, settle : float, optional
+        In s.
+    folder : Path, optional
+        Where runs are kept.
+    workers : int
+        Threads.
+    told : callable
+        Called after each new run.
+
+    Attributes
+    ----------
+    runs : int
+        Runs computed, kept ones left out.
+    """
+
+    def __init__(
+        self, scene: Scene, data: Sequence[Datum], free: Sequence[Free], *, duration: float | None = None,
+        settle: float | None = None, folder: pathlib.Path | None = None, workers: int = 1,
+        told: Callable[[], None] = lambda: None,
+    ) -> None:  # fmt: skip
+        self.scene, self.data, self.free, self.workers, self.told = scene, data, free, workers, told
+        self.kept = Kept(folder)
+        self.groups: dict[tuple[tuple[str, float], ...], list[int]] = {}
+        for place, row in enumerate(data):
+            self.groups.setdefault(row.conditions, []).append(place)
+        self.duration, self.settle = duration or self._length(), settle
+        self.background = 10.0 ** (np.array([row.background for row in data]) / 10.0)
+        self.runs = 0
+        self._sensors: dict[str, Sensors] = {}
+        self._lock = threading.Lock()
+
+    def _length(self) -> float:
+        """Length (s) of a run: turns of the shaft, and bins in the narrowest band."""
+        own = self.scene.operation.speed_rpm
+        speeds = [dict(group).get("operation.speed_rpm", own) for group in self.groups]
+        slowest = min(abs(speed) for speed in speeds) / 60.0
+        bands = [row.quantity.frequency for row in self.data if row.quantity.kind == THIRD_OCTAVE]
+        turns = _TURNS / slowest if any(row.quantity.kind == LINE for row in self.data) and slowest else 0.0
+        return max(_LENGTH, min(turns, 1.0), *(_BINS / (_THIRD * band) for band in bands), 0.0)
+
+    def at(self, x: NDArray[np.float64], seeds: Sequence[int], fidelity: str) -> NDArray[np.float64]:
+        """Levels (dB) without background, shape (seeds, values); NaN where the scene cannot be run."""
+        values = scene_values(self.free, x)
+        jobs = [(k, seed, group) for k, seed in enumerate(seeds) for group in self.groups]
+        found = np.full((len(seeds), len(self.data)), np.nan)
+
+        def run(job: tuple[int, int, tuple[tuple[str, float], ...]]) -> tuple[float, ...]:
+            return self._run(values | dict(job[2]), job[1], fidelity, self.groups[job[2]])
+
+        if self.workers == 1:
+            rows = [run(job) for job in jobs]
+        else:
+            with ThreadPoolExecutor(self.workers) as pool:
+                try:
+                    rows = list(pool.map(run, jobs))
+                except KeyboardInterrupt:
+                    pool.shutdown(cancel_futures=True)
+                    raise
+        for (k, _, group), levels in zip(jobs, rows, strict=True):
+            found[k, self.groups[group]] = levels
+        return found
+
+    def heard(self, raw: NDArray[np.float64], offset: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Levels (dB) with an offset (dB) of the bearing's sound, and the background, shape of ``raw``."""
+        return np.asarray(10.0 * np.log10(10.0 ** ((raw + offset) / 10.0) + self.background))
+
+    def scene_at(self, x: NDArray[np.float64]) -> Scene:
+        """Return the scene with the values of the free keys, conditions as they were.
+
+        Raises
+        ------
+        SceneError
+            Where the values are refused.
+        """
+        return changed(self.scene, scene_values(self.free, x))
+
+    def _run(
+        self, values: dict[str, float], seed: int, fidelity: str, places: Sequence[int]
+    ) -> tuple[float, ...]:
+        rows = [self.data[k] for k in places]
+        try:
+            scene = changed(self.scene, values | ({} if self.scene.imperfections is None else
+                                                  {"imperfections.seed": seed}))  # fmt: skip
+            scene = with_fidelity(scene, model=fidelity) if scene.fidelity.model != fidelity else scene
+        except ValueError:  # a combination that no scene may have
+            return (math.nan,) * len(rows)
+        settle = self._settle(fidelity)
+        key = self._key(scene, rows, settle)
+        levels = self.kept.get(key)
+        if levels is None:
+            try:
+                levels = tuple(map(float, self._measure(scene, rows, settle)))
+            except (Refused, ValueError, ArithmeticError):
+                levels = (math.nan,) * len(rows)
+            self.kept.put(key, levels)
+            with self._lock:
+                self.runs += 1
+            self.told()
+        return levels
+
+    def reason(self, x: NDArray[np.float64], seed: int, fidelity: str) -> str:
+        """Why levels cannot be computed, in words; empty: they can."""
+        for group, places in self.groups.items():
+            try:
+                values = scene_values(self.free, x) | dict(group)
+                scene = with_fidelity(changed(self.scene, values), model=fidelity)
+                self._measure(scene, [self.data[k] for k in places], self._settle(fidelity))
+            except (Refused, ValueError, ArithmeticError) as problem:
+                where = ", ".join(f"{key} = {value:g}" for key, value in group)
+                return f"{where}: {problem}" if where else str(problem)
+        return ""
+
+    def _settle(self, fidelity: str) -> float:
+        return _SETTLE.get(fidelity, _SETTLE_FULL) if self.settle is None else self.settle
+
+    def _measure(self, scene: Scene, rows: Sequence[Datum], settle: float) -> NDArray[np.float64]:
+        made = record(scene, self.duration, settle=settle, progress=False)
+        return self._sensors_of(scene, made).levels(made, rows)
+
+    def _sensors_of(self, scene: Scene, made: Recording) -> Sensors:
+        """Paths of the geometry: made once, as boundary elements take seconds."""
+        key = f"{sound_key(scene)} {radiators_of(scene)}"
+        with self._lock:
+            if key not in self._sensors:
+                if len(self._sensors) > 2:  # a free geometry: few are needed again
+                    self._sensors.pop(next(iter(self._sensors)))
+                self._sensors[key] = Sensors(made, self.data)
+            return self._sensors[key]
+
+    def _key(self, scene: Scene, rows: Sequence[Datum], settle: float) -> str:
+        asked = [(row.position, row.quantity.text) for row in rows]
+        text = f"{scene.model_dump_json()} {asked} {self.duration} {settle} {code_digest()}"
+        return hashlib.sha256(text.encode()).hexdigest()[:24]
+
+
+def changed(scene: Scene, values: dict[str, float]) -> Scene:
+    """Return a scene with other values at dotted keys, checked.
+
+    Raises
+    ------
+    SceneError
+        With a line per problem.
+    """
+    data = replaced(scene, values)
+    try:
+        return Scene.model_validate(data)
+    except ValidationError as problem:
+        lines = explain(problem, data)
+        raise SceneError("\n".join(f"{scene.name}: {line}" for line in lines)) from None
+
+
+def check_length(duration: float | None, settle: float | None) -> None:
+    """Refuse lengths (s) that make no run."""
+    for name, value, low in (("duration", duration, 64.0 / SD.RATE), ("settle", settle, 0.0)):
+        if value is not None and not (math.isfinite(value) and low <= value <= 60.0):
+            raise IdentifyError(f"{name} = {value} s lies outside {low:.3g} to 60 s")
+
+
+@functools.cache
+def code_digest() -> str:
+    """Digest (16 hex digits) of the code that computes levels: sources, versions of NumPy and Numba."""
+    parts = f"{source_hash()} {np.__version__} {numba.__version__} {rooms_digest(*_ROOMS)}"
+    return hashlib.sha256(parts.encode()).hexdigest()[:16]

@@ -1,0 +1,357 @@
+"""The search: bounded least squares on logarithms, from several starts, averaged over seeds.
+
+1. From the scene and from places spread over the bounds, a search with one seed each: resonances make the
+   misfit bumpy.
+2. From the best, a search with all seeds, levels weighted by noise and by their spread over seeds.
+3. Where the scene's own fidelity is another than the search's, the difference between both at the solution is
+   added to every later level, and the search goes on, until the difference stays.
+4. Direct runs in the scene's own fidelity give the levels that are reported.
+"""
+
+import math
+import pathlib
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import least_squares
+from scipy.stats import qmc
+
+from fmu_bearing.engine.choices import FIDELITIES
+from fmu_bearing.identification.data import Datum
+from fmu_bearing.identification.errors import IdentifyError, Interrupted
+from fmu_bearing.identification.free import Free, box, scene_values, start_point
+from fmu_bearing.identification.model import Levels, check_length
+from fmu_bearing.identification.result import Compared, Estimate, Identified
+from fmu_bearing.identification.statistics import (
+    Spread,
+    at_bound,
+    determined,
+    level_covariance,
+    remarks,
+    uncertainty,
+    whitener,
+)
+from fmu_bearing.run.choose import resolve
+from fmu_bearing.run.settings import Setting
+from fmu_bearing.scene import Scene
+
+PER_KEY = 3  # fitted values that one free key needs
+_STEP = {"response": 0.02}  # of ln, or of the width of the bounds, for derivatives
+_STEP_NOISY = 0.05  # where the integrator's error has to be drowned
+_OUTSIDE = 2.0  # standard deviations from which soft_l1 counts a residual less
+_LOST = 50.0  # standard deviations, in place of a level that cannot be computed
+_SPREAD_SEEDS = 12  # for the covariance of levels
+_TRIED = 8  # places per further start; the best of them start a search
+_ROUGH = {"max_nfev": 8, "ftol": 1e-2, "xtol": 1e-2, "gtol": 1e-3}
+_FINE = {"max_nfev": 12, "ftol": 1e-3, "xtol": 1e-3, "gtol": 1e-4}
+_CORRECTIONS = 3
+_SETTLED = 0.2  # dB rms: the difference between fidelities stays
+
+
+def search(
+    scene: Scene, data: Sequence[Datum], free: Sequence[Free], *, fidelity: str | None, seeds: int, starts: int,
+    duration: float | None, settle: float | None, few: bool, folder: pathlib.Path | None, workers: int,
+    progress: bool | None,
+) -> Identified:  # fmt: skip
+    """Identify free numbers from data; see `fmu_bearing.identify`.
+
+    Raises
+    ------
+    IdentifyError
+        For settings that are refused, too few data, and a scene that cannot be run as it is.
+    Interrupted
+        On Ctrl-C, with the best so far.
+    """
+    for name, value in (("seeds", seeds), ("starts", starts), ("workers", workers)):
+        if not (isinstance(value, int) and value >= 1):
+            raise IdentifyError(f"{name} = {value} is refused: give 1 or more")
+    check_length(duration, settle)
+    check_count(sum(row.fit for row in data), len(free), few)
+    own = resolve(scene)[0]
+    chosen = _fidelity(own, fidelity)
+    with _bar(progress) as told:
+        levels = Levels(
+            own, data, free, duration=duration, settle=settle, folder=folder, workers=workers, told=told.ran
+        )
+        found = _Search(levels, chosen, seeds, starts, told)
+        try:
+            return found.run()
+        except KeyboardInterrupt:
+            raise Interrupted(found.interrupted()) from None
+
+
+def check_count(fitted: int, free: int, few: bool) -> None:
+    """Refuse fewer fitted values than the free keys need.
+
+    Raises
+    ------
+    IdentifyError
+        With the number of keys that the data carry.
+    """
+    if fitted < free:
+        raise IdentifyError(
+            f"{fitted} fitted values cannot determine {free} free keys: free at most {fitted}, or measure more"
+        )
+    if fitted < PER_KEY * free and not few:
+        carried = fitted // PER_KEY
+        fewer = f"free {carried} of them" if carried else "measure more"
+        raise IdentifyError(
+            f"{fitted} fitted values carry {carried} free keys ({PER_KEY} values each), and {free} are free: "
+            f"{fewer}{', measure more' if carried else ''}, or allow it knowingly with few=True (--few): the "
+            "result then repeats the values rather than explaining them"
+        )
+
+
+def _fidelity(scene: Scene, wanted: str | None) -> str:
+    """Fidelity of the search."""
+    if wanted is None:
+        return "response" if Setting("response").carries(scene) else "full"
+    if wanted not in FIDELITIES:
+        raise IdentifyError(f"fidelity '{wanted}' is unknown: there are {', '.join(FIDELITIES)}")
+    if not Setting(wanted).carries(scene):
+        raise IdentifyError(f"fidelity '{wanted}' does not compute bending rings: use full")
+    return wanted
+
+
+@dataclass
+class _Best:
+    """Best point so far."""
+
+    x: NDArray[np.float64]
+    cost: float = math.inf
+    computed: NDArray[np.float64] | None = None
+    spread: Spread | None = None
+
+
+class _Search:
+    """State of one search."""
+
+    def __init__(self, levels: Levels, fidelity: str, seeds: int, starts: int, told: "_Told") -> None:
+        self.levels, self.fidelity, self.starts, self.told = levels, fidelity, starts, told
+        self.own = levels.scene.fidelity.model
+        self.free, self.data = levels.free, levels.data
+        flaws = levels.scene.imperfections
+        first = 0 if flaws is None else flaws.seed
+        self.seeds = tuple(range(first, first + (1 if flaws is None else seeds)))
+        self.more = tuple(range(first, first + (1 if flaws is None else max(seeds, _SPREAD_SEEDS))))
+        self.value = np.array([row.value for row in self.data])
+        self.std = np.array([row.std for row in self.data])
+        self.fit = np.array([row.fit for row in self.data])
+        self.low, self.high = box(self.free)
+        self.offset = np.zeros(len(self.data))
+        self.white = np.diag(1.0 / self.std[self.fit])
+        self.start = self._inside(start_point(self.free))
+        self.best = _Best(self.start)
+        self.before = np.full(len(self.data), np.nan)
+        self.jacobian: NDArray[np.float64] | None = None
+
+    def run(self) -> Identified:
+        """Search and report."""
+        self.told.say("the scene as it is")
+        self.before = self._mean(self.start, self.seeds, self.own)
+        self._require(self.before, self.own)
+        self._require(self._mean(self.start, self.seeds[:1]), self.fidelity)
+        self._weigh(self.start)
+        x = self._from_several_starts()
+        for number in range(_CORRECTIONS):
+            self.told.say(f"all seeds, round {number + 1}")
+            self._weigh(x)
+            x = self._descend(x, self.seeds, **_FINE)
+            if self.own == self.fidelity:
+                if number:
+                    break
+                continue
+            if self._correct(x) < _SETTLED and number:
+                break
+        return self._report(x)
+
+    def _from_several_starts(self) -> NDArray[np.float64]:
+        """Best of rough searches with one seed."""
+        tries = [self.start]
+        if self.starts > 1:
+            self.told.say("places within the bounds")
+            tries += self._promising((self.starts - 1))
+        found = []
+        for number, x in enumerate(tries):
+            self.told.say(f"start {number + 1} of {len(tries)}")
+            end = self._descend(x, self.seeds[:1], **_ROUGH)
+            found.append((self._cost(end, self.seeds), number, end))
+        return min(found, key=lambda one: one[:2])[2]
+
+    def _promising(self, count: int) -> list[NDArray[np.float64]]:
+        """Return the best of places spread over the middle of the bounds.
+
+        Where amplitudes are free, a common difference in dB costs nothing: the first step takes it away.
+        """
+        size = 2 ** math.ceil(math.log2(_TRIED * count))
+        unit = qmc.Sobol(len(self.free), rng=np.random.default_rng(0)).random(size)
+        places = self.low + (0.2 + 0.6 * unit) * (self.high - self.low)
+        levelled = any(key.startswith("imperfections.") for one in self.free for key in one.keys)
+        costs = []
+        for x in places:
+            residual = self._residual(x, self.seeds[:1])
+            costs.append(float(np.sum((residual - levelled * residual.mean()) ** 2)))
+        return [places[k] for k in np.argsort(costs)[:count]]
+
+    def _descend(self, x: NDArray[np.float64], seeds: Sequence[int], **ends: Any) -> NDArray[np.float64]:
+        result = least_squares(
+            lambda at: self._residual(at, seeds), self._inside(x), lambda at: self._slopes(at, seeds),
+            (self.low, self.high), loss="soft_l1", f_scale=_OUTSIDE, **ends,
+        )  # fmt: skip
+        return np.asarray(result.x)
+
+    def _mean(
+        self, x: NDArray[np.float64], seeds: Sequence[int], fidelity: str | None = None
+    ) -> NDArray[np.float64]:
+        """Mean level (dB) over seeds of every value."""
+        fidelity = fidelity or self.fidelity
+        offset = self.offset if fidelity == self.fidelity else np.zeros_like(self.offset)
+        return np.asarray(self.levels.heard(self.levels.at(x, seeds, fidelity), offset).mean(axis=0))
+
+    def _residual(self, x: NDArray[np.float64], seeds: Sequence[int]) -> NDArray[np.float64]:
+        """Weighted residuals of the fitted values."""
+        computed = self._mean(x, seeds)
+        off = (computed - self.value)[self.fit]
+        if np.isnan(off).any():
+            return np.full(len(off), _LOST)
+        residual: NDArray[np.float64] = self.white @ off
+        if len(seeds) == len(self.seeds):
+            cost = _soft(residual)
+            self.told.misfit(float(np.sqrt(np.mean(off**2))))
+            if cost < self.best.cost:
+                self.best.x, self.best.cost, self.best.computed = x.copy(), cost, computed
+        return residual
+
+    def _cost(self, x: NDArray[np.float64], seeds: Sequence[int]) -> float:
+        return _soft(self._residual(x, seeds))
+
+    def _slopes(self, x: NDArray[np.float64], seeds: Sequence[int]) -> NDArray[np.float64]:
+        """Weighted slopes of the fitted values, shape (values, keys)."""
+        slopes = self._raw_slopes(x, seeds)[self.fit]
+        return np.asarray(self.white @ np.nan_to_num(slopes))
+
+    def _raw_slopes(self, x: NDArray[np.float64], seeds: Sequence[int]) -> NDArray[np.float64]:
+        """Slopes (dB per unit of the coordinate) of all values, by differences, shape (values, keys)."""
+        here = self._mean(x, seeds)
+        step = _STEP.get(self.fidelity, _STEP_NOISY)
+        columns = []
+        for k in range(len(self.free)):
+            way = step if x[k] + step <= self.high[k] else -step
+            moved = x.copy()
+            moved[k] += way
+            columns.append((self._mean(moved, seeds) - here) / way)
+        return np.column_stack(columns)
+
+    def _weigh(self, x: NDArray[np.float64]) -> None:
+        """Renew the weights of the levels: noise of the data, and spread over seeds at ``x``."""
+        over = self.levels.heard(self.levels.at(x, self.more, self.fidelity), self.offset)
+        over = over[~np.isnan(over).any(axis=1)][:, self.fit]
+        covariance = level_covariance(self.std[self.fit], over, len(self.seeds))
+        self.white = whitener(covariance)
+        self.best.cost = math.inf  # costs of other weights do not compare
+        self._residual(x, self.seeds)
+
+    def _correct(self, x: NDArray[np.float64]) -> float:
+        """Renew the difference between the scene's fidelity and the search's; its change (dB rms)."""
+        own = self.levels.at(x, self.seeds, self.own).mean(axis=0)
+        new = own - self.levels.at(x, self.seeds, self.fidelity).mean(axis=0)
+        if np.isnan(new).any():
+            self._require(new, self.own, x)
+        change = float(np.sqrt(np.mean((new - self.offset)[self.fit] ** 2)))
+        self.offset = new
+        return change
+
+    def _require(self, levels: NDArray[np.float64], fidelity: str, x: NDArray[np.float64] | None = None) -> None:
+        if np.isnan(levels).any():
+            reason = self.levels.reason(self.start if x is None else x, self.seeds[0], fidelity)
+            where = "the scene as it is" if x is None else "the solution"
+            raise IdentifyError(f"{where} cannot be run with fidelity {fidelity}: {reason or 'no reason found'}")
+
+    def _inside(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
+        margin = 1e-6 * (self.high - self.low)
+        return np.clip(x, self.low + margin, self.high - margin)
+
+    def _report(self, x: NDArray[np.float64]) -> Identified:
+        self.told.say("uncertainty")
+        self._weigh(x)
+        slopes = np.nan_to_num(self._raw_slopes(x, self.seeds))
+        after = self._mean(x, self.seeds, self.own)
+        self._require(after, self.own, x)
+        off = (after - self.value)[self.fit]
+        spread = uncertainty(self.white @ slopes[self.fit], self.white @ off)
+        over = self.levels.heard(self.levels.at(x, self.more, self.fidelity), self.offset)
+        return self._identified(x, after, np.nanstd(over, axis=0, ddof=min(1, len(over) - 1)), slopes, spread)
+
+    def interrupted(self) -> Identified:
+        """Return the best so far; nothing more is run, and the uncertainty is unknown."""
+        keys, values = len(self.free), len(self.data)
+        unknown = np.full((keys, keys), np.nan)
+        spread = Spread(unknown, np.full(keys, np.nan), unknown, 1.0)
+        after = np.full(values, np.nan) if self.best.computed is None else self.best.computed
+        slopes = np.full((values, keys), np.nan)
+        return self._identified(self.best.x, after, np.full(values, np.nan), slopes, spread, complete=False)
+
+    def _identified(
+        self, x: NDArray[np.float64], after: NDArray[np.float64], over: NDArray[np.float64],
+        slopes: NDArray[np.float64], spread: Spread, complete: bool = True,
+    ) -> Identified:  # fmt: skip
+        deviations = np.sqrt(np.diag(spread.covariance))
+        values = [one.value(at) for one, at in zip(self.free, x, strict=True)]
+        estimates = tuple(
+            Estimate(one, value, float(deviation * one.scale), determined(one, float(deviation)), at_bound(one, value))
+            for one, value, deviation in zip(self.free, values, deviations, strict=True)
+        )
+        said = remarks(self.free, spread, values, int(self.fit.sum())) if complete else [
+            "interrupted: the best values so far, their uncertainty is unknown"
+        ]  # fmt: skip
+        return Identified(
+            self.levels.scene_at(x), self.levels.scene, estimates,
+            tuple(Compared(*row) for row in zip(self.data, map(float, self.before), map(float, after),
+                                                map(float, over), strict=True)),
+            slopes[self.fit], spread.covariance, spread.singular_values, spread.directions, spread.scale,
+            tuple(said), self.fidelity, self.seeds, self.levels.runs, complete, scene_values(self.free, x),
+        )  # fmt: skip
+
+
+def _soft(residual: NDArray[np.float64]) -> float:
+    """Cost of soft_l1, as `scipy.optimize.least_squares` has it."""
+    return float(_OUTSIDE**2 * np.sum(np.sqrt(1.0 + (residual / _OUTSIDE) ** 2) - 1.0))
+
+
+@dataclass
+class _Told:
+    """What is shown while a search runs."""
+
+    say: Callable[[str], None]
+    ran: Callable[[], None]
+    misfit: Callable[[float], None]
+
+
+@contextmanager
+def _bar(shown: bool | None) -> Iterator[_Told]:
+    """Show stage, number of runs, misfit now and at best."""
+    from rich.console import Console
+    from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+
+    shown = sys.stderr.isatty() if shown is None else shown
+    columns = (
+        SpinnerColumn(), TextColumn("{task.description}"), TextColumn("{task.completed:.0f} runs"),
+        TextColumn("{task.fields[misfit]}"), TimeElapsedColumn(),
+    )  # fmt: skip
+    with Progress(*columns, console=Console(stderr=True), transient=True, disable=not shown) as display:
+        task = display.add_task("identify", total=None, misfit="")
+        best = math.inf
+
+        def misfit(rms: float) -> None:
+            nonlocal best
+            best = min(best, rms)
+            display.update(task, misfit=f"{rms:.2f} dB rms, best {best:.2f} dB")
+
+        yield _Told(
+            lambda text: display.update(task, description=text), lambda: display.advance(task), misfit
+        )

@@ -88,10 +88,16 @@ class Levels:
         turns = _TURNS / slowest if any(row.quantity.kind == LINE for row in self.data) and slowest else 0.0
         return max(_LENGTH, min(turns, 1.0), *(_BINS / (_THIRD * band) for band in bands), 0.0)
 
-    def at(self, x: NDArray[np.float64], seeds: Sequence[int], fidelity: str) -> NDArray[np.float64]:
-        """Levels (dB) without background, shape (seeds, values); NaN where the scene cannot be run."""
+    def at(
+        self, x: NDArray[np.float64], seeds: Sequence[int], fidelity: str, check: bool = False
+    ) -> NDArray[np.float64]:
+        """Levels (dB) without background, shape (seeds, values); NaN where the scene cannot be run.
+
+        Conditions under which nothing is fitted are run with ``check`` only, and have NaN otherwise.
+        """
         values = scene_values(self.free, x)
-        jobs = [(k, seed, group) for k, seed in enumerate(seeds) for group in self.groups]
+        asked = [group for group, rows in self.groups.items() if check or any(self.data[k].fit for k in rows)]
+        jobs = [(k, seed, group) for k, seed in enumerate(seeds) for group in asked]
         found = np.full((len(seeds), len(self.data)), np.nan)
 
         def run(job: tuple[int, int, tuple[tuple[str, float], ...]]) -> tuple[float, ...]:

@@ -11,6 +11,7 @@
 import math
 import pathlib
 import sys
+import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -74,7 +75,9 @@ def search(
     check_count(sum(row.fit for row in data), len(free), few)
     own = resolve(scene)[0]
     chosen = _fidelity(own, fidelity)
-    with _bar(progress) as told:
+    # a search passes through values that nobody will run; those of the result are told when it is run
+    with _bar(progress) as told, warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)
         levels = Levels(
             own, data, free, duration=duration, settle=settle, folder=folder, workers=workers, told=told.ran
         )
@@ -153,15 +156,15 @@ class _Search:
     def run(self) -> Identified:
         """Search and report."""
         self.told.say("the scene as it is")
-        self.before = self._mean(self.start, self.seeds, self.own)
+        self.before = self._mean(self.start, self.seeds, self.own, check=True)
         self._require(self.before, self.own)
-        self._require(self._mean(self.start, self.seeds[:1]), self.fidelity)
+        self._require(self._mean(self.start, self.seeds[:1])[self.fit], self.fidelity)
         self._weigh(self.start)
         x = self._from_several_starts()
         for number in range(_CORRECTIONS):
             self.told.say(f"all seeds, round {number + 1}")
             self._weigh(x)
-            x = self._descend(x, self.seeds, **_FINE)
+            x = self._descend(x, self.seeds, **(_FINE if number else _ROUGH))
             if self.own == self.fidelity:
                 if number:
                     break
@@ -206,12 +209,12 @@ class _Search:
         return np.asarray(result.x)
 
     def _mean(
-        self, x: NDArray[np.float64], seeds: Sequence[int], fidelity: str | None = None
+        self, x: NDArray[np.float64], seeds: Sequence[int], fidelity: str | None = None, check: bool = False
     ) -> NDArray[np.float64]:
-        """Mean level (dB) over seeds of every value."""
+        """Mean level (dB) over seeds of every value; of checked ones too if asked for."""
         fidelity = fidelity or self.fidelity
         offset = self.offset if fidelity == self.fidelity else np.zeros_like(self.offset)
-        return np.asarray(self.levels.heard(self.levels.at(x, seeds, fidelity), offset).mean(axis=0))
+        return np.asarray(self.levels.heard(self.levels.at(x, seeds, fidelity, check), offset).mean(axis=0))
 
     def _residual(self, x: NDArray[np.float64], seeds: Sequence[int]) -> NDArray[np.float64]:
         """Weighted residuals of the fitted values."""
@@ -250,7 +253,8 @@ class _Search:
     def _weigh(self, x: NDArray[np.float64]) -> None:
         """Renew the weights of the levels: noise of the data, and spread over seeds at ``x``."""
         over = self.levels.heard(self.levels.at(x, self.more, self.fidelity), self.offset)
-        over = over[~np.isnan(over).any(axis=1)][:, self.fit]
+        over = over[:, self.fit]
+        over = over[~np.isnan(over).any(axis=1)]
         covariance = level_covariance(self.std[self.fit], over, len(self.seeds))
         self.white = whitener(covariance)
         self.best.cost = math.inf  # costs of other weights do not compare
@@ -260,10 +264,9 @@ class _Search:
         """Renew the difference between the scene's fidelity and the search's; its change (dB rms)."""
         own = self.levels.at(x, self.seeds, self.own).mean(axis=0)
         new = own - self.levels.at(x, self.seeds, self.fidelity).mean(axis=0)
-        if np.isnan(new).any():
-            self._require(new, self.own, x)
+        self._require(new[self.fit], self.own, x)
         change = float(np.sqrt(np.mean((new - self.offset)[self.fit] ** 2)))
-        self.offset = new
+        self.offset = np.nan_to_num(new)  # of what is checked only, nothing is known nor needed
         return change
 
     def _require(self, levels: NDArray[np.float64], fidelity: str, x: NDArray[np.float64] | None = None) -> None:
@@ -280,11 +283,11 @@ class _Search:
         self.told.say("uncertainty")
         self._weigh(x)
         slopes = np.nan_to_num(self._raw_slopes(x, self.seeds))
-        after = self._mean(x, self.seeds, self.own)
+        after = self._mean(x, self.seeds, self.own, check=True)
         self._require(after, self.own, x)
         off = (after - self.value)[self.fit]
         spread = uncertainty(self.white @ slopes[self.fit], self.white @ off)
-        over = self.levels.heard(self.levels.at(x, self.more, self.fidelity), self.offset)
+        over = self.levels.heard(self.levels.at(x, self.more, self.fidelity, check=True), self.offset)
         return self._identified(x, after, np.nanstd(over, axis=0, ddof=min(1, len(over) - 1)), slopes, spread)
 
     def interrupted(self) -> Identified:

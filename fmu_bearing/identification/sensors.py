@@ -138,8 +138,10 @@ class _Lines:
             around = frequency * (1.0 + _SEARCH * np.linspace(-1.0, 1.0, _STEPS))
             window = self.sensors.window * (np.sqrt(2.0) / self.sensors.window.sum())
             time = np.arange(len(window)) / SD.RATE
-            turn = np.exp(-2j * np.pi * around[:, None] * time) * window
-            spectra = (turn @ (self.channels - self.channels.mean(axis=0))).T * _shape(around)
+            angle = 2.0 * np.pi * around[:, None] * time
+            motion = self.channels - self.channels.mean(axis=0)
+            spectra = ((np.cos(angle) * window) @ motion - 1j * ((np.sin(angle) * window) @ motion)).T
+            spectra = spectra * _shape(around)
             squares = self.sensors.squares(self.sensors.at(around), spectra)
             self.known[frequency] = (around, spectra, squares)
         return self.known[frequency]

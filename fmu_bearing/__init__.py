@@ -21,6 +21,7 @@ Data flow in one direction::
 ``run``             a scene or an FMU run over inputs; results; fidelity ``auto``
 ``recording``       runs that keep the sound channels; measurements, pictures, tables, WAV files
 ``accuracy``        reference trajectories, error against cost, sensitivity to assumed values
+``identification``  numbers of a scene from measured sound and vibration
 ``sweeps``          a scene over a grid of its values
 ``reports``         one HTML page about a run
 ``validation``      checks of an FMU against FMI 2.0
@@ -42,6 +43,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from fmu_bearing.identification import identify
     from fmu_bearing.recording import audio, measure, pictures, tables
     from fmu_bearing.recording.record import Recording, record
     from fmu_bearing.recording.spread import spread
@@ -65,6 +67,7 @@ _PLACES = {
     "SceneError": "scene",
     "audio": "recording",
     "build_fmu": "run.build",
+    "identify": "identification",
     "measure": "recording",
     "pictures": "recording",
     "read_scene": "scene",
@@ -85,6 +88,7 @@ __all__ = [
     "SceneError",
     "audio",
     "build_fmu",
+    "identify",
     "measure",
     "pictures",
     "read_scene",

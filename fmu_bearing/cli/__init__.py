@@ -8,6 +8,7 @@
 ``sound``       levels, spectra, directivity, WAV
 ``studies``     choose, tradeoff, sensitivity
 ``sweep``       a scene over a grid of its values
+``identify``    numbers of a scene from measured levels
 ``validate``    checks of an FMU
 ``report``      a page about a run
 ``warm_up``     compile before the first run needs it
@@ -15,7 +16,7 @@
 """
 
 # importing a file registers its commands
-from fmu_bearing.cli import build, report, runs, scenes, sound, studies, sweep, validate, warm_up  # noqa: F401
+from fmu_bearing.cli import build, identify, report, runs, scenes, sound, studies, sweep, validate, warm_up  # noqa: F401
 from fmu_bearing.cli.base import app
 
 __all__ = ["app"]

@@ -15,8 +15,8 @@
 ``picture``        measured against computed
 =================  =======================================================================
 
-Every evaluation is a run of the scene. With fidelity ``response`` one costs as much as a superposition of unit
-excitations would (`docs/identification.md` has the figures), so there is no second way to compute a level.
+Every computed level is that of a run of the scene: with fidelity ``response`` a step of the search costs half
+as many runs as recordings of each excitation alone would (``docs/identification.md`` has the count).
 """
 
 import os

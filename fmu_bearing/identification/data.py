@@ -152,7 +152,9 @@ def _rows(source: Source, scene: Scene, problems: list[str], background: bool = 
     for one in found:
         first = twice.setdefault(_identity(one), one)
         if first is not one:
-            problems.append(f"{one.source}: {one.label} was given before, in {first.source}; give a mean once")
+            problems.append(
+                f"{one.source}: {one.label} was given before, in {first.source}; give a mean once"
+            )
     return found
 
 
@@ -326,7 +328,9 @@ def _value(row: dict[str, Any], quantity: Quantity) -> float:
     speed = row.get("value_mm_s")
     if not _blank(speed) and _blank(row.get("value_dB")):
         if quantity.channel is None:
-            raise IdentifyError(f"value_mm_s belongs to a velocity, '{quantity.text}' is a sound level: value_dB")
+            raise IdentifyError(
+                f"value_mm_s belongs to a velocity, '{quantity.text}' is a sound level: value_dB"
+            )
         rms = 1e-3 * _number(row, "value_mm_s")
         if not rms > 0.0:
             raise IdentifyError(f"value_mm_s = {1e3 * rms:g} must be above 0")

@@ -36,6 +36,7 @@ _LENGTH = 0.1  # s, at least
 _BINS = 6  # in a third octave, at least
 _SETTLE = {"response": 0.01, "rings": 0.04}  # s: response is steady from the start; the sound has to arrive
 _SETTLE_FULL = 0.05  # s
+_STEP = 4e-3  # s: inputs are held, so long steps cost nothing but the history of the channels
 _THIRD = 0.23  # width of a third octave over its centre
 
 
@@ -170,7 +171,7 @@ class Levels:
         return _SETTLE.get(fidelity, _SETTLE_FULL) if self.settle is None else self.settle
 
     def _measure(self, scene: Scene, rows: Sequence[Datum], settle: float) -> NDArray[np.float64]:
-        made = record(scene, self.duration, settle=settle, progress=False)
+        made = record(scene, self.duration, settle=settle, step=_STEP, progress=False)
         return self._sensors_of(scene, made).levels(made, rows)
 
     def _sensors_of(self, scene: Scene, made: Recording) -> Sensors:

@@ -91,8 +91,8 @@ def _channel(text: str, body: str) -> int:
     name, _, axis = body.partition(".")
     if name not in _BODIES or axis not in _AXES:
         raise IdentifyError(
-            f"quantity '{text}': '{body}' is no direction of a body; write one of {', '.join(_BODIES)}, a dot "
-            "and x, y or z, such as velocity[outer_ring.z]"
+            f"quantity '{text}': '{body}' is no direction of a body; write one of {', '.join(_BODIES)}, a "
+            "dot and x, y or z, such as velocity[outer_ring.z]"
         )
     return SD.c_body(_BODIES[name], _AXES[axis])
 
@@ -126,7 +126,8 @@ def _line(text: str, channel: int | None, inside: str) -> Quantity:
         if not 20.0 <= frequency <= 20_000.0:
             raise IdentifyError(f"quantity '{text}': {frequency:g} Hz lies outside 20 Hz to 20 kHz")
         return Quantity(text, LINE, channel, frequency)
-    terms, end = [], 0
+    terms: list[tuple[int, str]] = []
+    end = 0
     while inside and end < len(inside):
         match = _TERM.match(inside, end)
         if match is None or (terms and not match[1]):

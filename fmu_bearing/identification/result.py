@@ -151,7 +151,7 @@ class Identified:
         return found
 
     def rms(self, fit: bool = True, before: bool = False) -> float:
-        """Root mean square of computed minus measured (dB) over fitted or checked values; NaN: there are none."""
+        """Root mean square of computed minus measured (dB), fitted or checked values; NaN: there are none."""
         off = [(one.before if before else one.after) - one.datum.value for one in self.compared
                if one.datum.fit is fit]  # fmt: skip
         return float(np.sqrt(np.mean(np.square(off)))) if off else math.nan
@@ -199,9 +199,19 @@ def values_table(found: Identified) -> tuple[list[str], list[list[str]]]:
     rows = []
     for one in found.estimates:
         low, high = one.interval()
-        known = "not determined" if not one.determined else f"at its {one.at_bound} bound" if one.at_bound else ""
+        known = (
+            "not determined" if not one.determined else f"at its {one.at_bound} bound" if one.at_bound else ""
+        )
         rows.append(
-            [one.key, one.free.unit, number(one.free.start), number(one.value), number(low), number(high), known]
+            [
+                one.key,
+                one.free.unit,
+                number(one.free.start),
+                number(one.value),
+                number(low),
+                number(high),
+                known,
+            ]
         )
     return ["key", "unit", "before", "identified", "from", "to (2 std)", ""], rows
 

@@ -55,9 +55,9 @@ _SETTLED = 0.2  # dB rms: the difference between fidelities stays
 
 
 def search(
-    scene: Scene, data: Sequence[Datum], free: Sequence[Free], *, fidelity: str | None, seeds: int, starts: int,
-    duration: float | None, settle: float | None, few: bool, folder: pathlib.Path | None, workers: int,
-    progress: bool | None,
+    scene: Scene, data: Sequence[Datum], free: Sequence[Free], *, fidelity: str | None, seeds: int,
+    starts: int, duration: float | None, settle: float | None, few: bool, folder: pathlib.Path | None,
+    workers: int, progress: bool | None,
 ) -> Identified:  # fmt: skip
     """Identify free numbers from data; see `fmu_bearing.identify`.
 
@@ -98,7 +98,8 @@ def check_count(fitted: int, free: int, few: bool) -> None:
     """
     if fitted < free:
         raise IdentifyError(
-            f"{fitted} fitted values cannot determine {free} free keys: free at most {fitted}, or measure more"
+            f"{fitted} fitted values cannot determine {free} free keys: free at most {fitted}, or measure "
+            "more"
         )
     if fitted < PER_KEY * free and not few:
         carried = fitted // PER_KEY
@@ -178,7 +179,7 @@ class _Search:
         tries = [self.start]
         if self.starts > 1:
             self.told.say("places within the bounds")
-            tries += self._promising((self.starts - 1))
+            tries += self._promising(self.starts - 1)
         found = []
         for number, x in enumerate(tries):
             self.told.say(f"start {number + 1} of {len(tries)}")
@@ -269,11 +270,15 @@ class _Search:
         self.offset = np.nan_to_num(new)  # of what is checked only, nothing is known nor needed
         return change
 
-    def _require(self, levels: NDArray[np.float64], fidelity: str, x: NDArray[np.float64] | None = None) -> None:
+    def _require(
+        self, levels: NDArray[np.float64], fidelity: str, x: NDArray[np.float64] | None = None
+    ) -> None:
         if np.isnan(levels).any():
             reason = self.levels.reason(self.start if x is None else x, self.seeds[0], fidelity)
             where = "the scene as it is" if x is None else "the solution"
-            raise IdentifyError(f"{where} cannot be run with fidelity {fidelity}: {reason or 'no reason found'}")
+            raise IdentifyError(
+                f"{where} cannot be run with fidelity {fidelity}: {reason or 'no reason found'}"
+            )
 
     def _inside(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
         margin = 1e-6 * (self.high - self.low)
@@ -306,7 +311,13 @@ class _Search:
         deviations = np.sqrt(np.diag(spread.covariance))
         values = [one.value(at) for one, at in zip(self.free, x, strict=True)]
         estimates = tuple(
-            Estimate(one, value, float(deviation * one.scale), determined(one, float(deviation)), at_bound(one, value))
+            Estimate(
+                one,
+                value,
+                float(deviation * one.scale),
+                determined(one, float(deviation)),
+                at_bound(one, value),
+            )
             for one, value, deviation in zip(self.free, values, deviations, strict=True)
         )
         said = remarks(self.free, spread, values, int(self.fit.sum())) if complete else [

@@ -1,8 +1,8 @@
 """Levels of a recording at the measured places: paths made once per geometry, one spectrum per run.
 
-Each run is one block under a Hann window. Level, third octave and line are sums over one spectrum, which costs
-milliseconds where filters over the samples cost tenths of a second. Against `Heard.levels` a steady sound
-differs by hundredths of a dB.
+Each run is one block under a Hann window. Level, third octave and line are sums over one spectrum, which
+costs milliseconds where filters over the samples cost tenths of a second. Against `Heard.levels` a steady
+sound differs by hundredths of a dB.
 """
 
 from collections.abc import Sequence
@@ -45,10 +45,11 @@ class Sensors:
         channels = recording.history.shape[1]
         found = recording.paths(self.positions) if places else ()
         self.transfers = [Transfer(circle, channels) for circle in found]
-        bodies = {} if self.energies else {row.quantity.channel for row in rows} - {None}
+        # the papers' own channels hold no accelerations of bodies
+        bodies = [] if self.energies else [row.quantity.channel for row in rows]
         heard = {path.channel for transfer in self.transfers for path in transfer.circle.paths}
         #: Channels that anything here depends on: a housing hides the balls.
-        self.used = np.array(sorted({int(c) for c in heard | bodies if c is not None}))
+        self.used = np.array(sorted({int(c) for c in (*heard, *bodies) if c is not None}))
         frequency = np.fft.rfftfreq(self.size, 1.0 / SD.RATE).astype(np.float64)
         self.keep = (frequency > 0.0) & (frequency < STOP)
         self.frequency = frequency[self.keep]
@@ -68,6 +69,7 @@ class Sensors:
 
     def place(self, channel: int | None) -> int:
         """Place of a channel among the used ones."""
+        assert channel is not None
         return int(np.searchsorted(self.used, channel))
 
     def levels(self, recording: Heard, rows: Sequence[Datum]) -> NDArray[np.float64]:

@@ -53,8 +53,8 @@ class Spread:
 def shrunk_covariance(samples: NDArray[np.float64]) -> NDArray[np.float64]:
     """Covariance of columns from few rows, correlations shrunk towards zero.
 
-    Source: Schaefer and Strimmer, Stat. Appl. Genet. Mol. Biol. 4 (2005), 32, target D: the share of shrinkage is
-    the sum of the variances of the correlations over the sum of their squares.
+    Source: Schaefer and Strimmer, Stat. Appl. Genet. Mol. Biol. 4 (2005), 32, target D: the share of
+    shrinkage is the sum of the variances of the correlations over the sum of their squares.
 
     Parameters
     ----------
@@ -147,13 +147,13 @@ def remarks(
             "little is left over that could contradict them"
         )  # fmt: skip
         found.append(
-            f"{fitted} fitted values carry {fitted // 3} free keys, three each, and {len(free)} {keys} are free: "
-            f"the result repeats the values, {left}"
+            f"{fitted} fitted values carry {fitted // 3} free keys, three each, and {len(free)} {keys} are "
+            f"free: the result repeats the values, {left}"
         )
     if spread.scale > 1.2:
         found.append(
-            f"residuals are {spread.scale:.1f} times what the standard deviations of data and seeds allow: the "
-            "uncertainties are widened by that, and the model may lack something"
+            f"residuals are {spread.scale:.1f} times what the standard deviations of data and seeds allow: "
+            "the uncertainties are widened by that, and the model may lack something"
         )
     deviations = np.sqrt(np.diag(spread.covariance))
     for one, value in zip(free, values, strict=True):
@@ -191,8 +191,8 @@ def _pairs(names: Sequence[str], covariance: NDArray[np.float64], known: Sequenc
             if abs(correlation[i, k]) >= _ALIKE and known[i] and known[k]:
                 way = "trade against each other" if correlation[i, k] < 0.0 else "rise and fall together"
                 found.append(
-                    f"{names[k]} and {names[i]} {way} (correlation {correlation[i, k]:+.2f}): both are known less "
-                    "well than one would be with the other fixed"
+                    f"{names[k]} and {names[i]} {way} (correlation {correlation[i, k]:+.2f}): both are known "
+                    "less well than one would be with the other fixed"
                 )
     return found
 

@@ -19,7 +19,7 @@ class NoSuchPlace(ValueError):
 def value_at(scene: Scene, key: str) -> Any:
     """Value at a dotted key of a scene; None where the scene has no such table or value."""
     part: Any = scene
-    for name, place in _steps(key):
+    for name, place in steps(key):
         part = getattr(part, name, None)
         if place is not None and part is not None:
             part = part[place] if place < len(part) else None
@@ -36,7 +36,7 @@ def replaced(scene: Scene, values: Mapping[str, Any]) -> dict[str, Any]:
     """
     data = scene.model_dump()
     for key, value in values.items():
-        *tables, (last, _) = _steps(key)
+        *tables, (last, _) = steps(key)
         part: Any = data
         for name, place in tables:
             part = part.get(name)
@@ -74,7 +74,7 @@ def _table(annotation: Any) -> type[BaseModel] | None:
     return next((found for part in get_args(annotation) if (found := _table(part)) is not None), None)
 
 
-def _steps(key: str) -> list[tuple[str, int | None]]:
+def steps(key: str) -> list[tuple[str, int | None]]:
     """Names along a dotted key, each with its place (from 0) where it is a member of an array."""
     steps = []
     for text in key.split("."):

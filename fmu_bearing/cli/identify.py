@@ -1,0 +1,94 @@
+"""``fmu-bearing identify``: numbers of a scene from measured levels."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from fmu_bearing.cli.base import INTERRUPTED, Json, SceneFile, app, print_json, quiet_warnings, refusals, tell
+
+if TYPE_CHECKING:
+    from fmu_bearing.identification import Identified
+
+Data = Annotated[
+    Path,
+    typer.Argument(
+        metavar="MEASURED",
+        help="Measured values (CSV): microphone, speed_rpm, quantity, value_dB, std_dB, role and more.",
+    ),
+]
+Keys = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--free",
+        "-f",
+        metavar="KEY[=LOW:HIGH]",
+        help="Dotted key to identify, * for any text; once per key. Default bounds: a decade each way.",
+    ),
+]
+
+
+@app.command()
+def identify(
+    scene: SceneFile,
+    measured: Data,
+    free: Keys = None,
+    background: Annotated[
+        Path | None, typer.Option(help="Background levels (CSV with the same columns), added as energy.")
+    ] = None,
+    fidelity: Annotated[
+        str | None, typer.Option(help="Of the search; default: response, full where rings bend.")
+    ] = None,
+    seeds: Annotated[int | None, typer.Option(min=1, help="Seeds averaged over; default 4.")] = None,
+    starts: Annotated[int | None, typer.Option(min=1, help="Starting points; default 3.")] = None,
+    duration: Annotated[
+        float | None, typer.Option(help="Length of each run, s; default 0.1 or more.")
+    ] = None,
+    settle: Annotated[float | None, typer.Option(help="Left out before it, s; default 0.01 to 0.05.")] = None,
+    few: Annotated[bool, typer.Option("--few", help="Allow fewer than three values per free key.")] = False,
+    workers: Annotated[int, typer.Option("--workers", "-w", min=1, help="Threads.")] = 1,
+    output: Annotated[
+        Path, typer.Option("--output", "-o", help="Scene to write; a folder beside it takes all else.")
+    ] = Path("identified.toml"),
+    as_json: Json = False,
+) -> None:
+    """Find the values of free keys that explain measured levels; write scene, tables, report, picture.
+
+    Computed levels are kept in the folder: the same command goes on where an earlier one was interrupted.
+    """
+    from fmu_bearing.identification import SEEDS, STARTS, Interrupted, identify as search
+    from fmu_bearing.identification.files import output_paths
+
+    with refusals(), quiet_warnings():
+        path, folder = output_paths(output)
+        code = 0
+        try:
+            found = search(
+                scene, measured, free or [], background=background, fidelity=fidelity, seeds=seeds or SEEDS,
+                starts=starts or STARTS, duration=duration, settle=settle, few=few, folder=folder,
+                workers=workers,
+            )  # fmt: skip
+        except Interrupted as stop:
+            found, code = stop.best, INTERRUPTED
+            tell(f"{stop}; the same command goes on, from {folder / 'runs.jsonl'}")
+        _write(found, path, scene, as_json)
+    if code:
+        raise typer.Exit(code)
+
+
+def _write(found: "Identified", path: Path, scene: Path, as_json: bool) -> None:
+    """Write the files and print values, levels and remarks."""
+    from fmu_bearing.identification.files import misfit_words, write_all
+    from fmu_bearing.identification.result import levels_table, values_table
+    from fmu_bearing.run.table import show
+
+    files = write_all(found, path, scene, tell)
+    if as_json:
+        print_json(found.summary() | {"files": files})
+        return
+    show("Measured and computed levels", *levels_table(found.compared), width=110)
+    show("Identified values", *values_table(found), width=110)
+    typer.echo(misfit_words(found))
+    for remark in found.remarks:
+        typer.echo(f"* {remark}")
+    typer.echo(f"written: {', '.join(map(str, files))}")

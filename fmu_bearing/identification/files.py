@@ -1,0 +1,172 @@
+"""Files of an identification: the scene with its new values, tables, a report, a picture."""
+
+import os
+import pathlib
+from collections.abc import MutableMapping
+from typing import Any
+
+import tomlkit
+from tomlkit.items import InlineTable, Table
+
+from fmu_bearing.extras import available
+from fmu_bearing.files import write_whole
+from fmu_bearing.identification.errors import IdentifyError
+from fmu_bearing.identification.result import Identified, levels_table, values_table
+from fmu_bearing.progress import Tell, silent
+from fmu_bearing.run.table import markdown, write_csv
+from fmu_bearing.scene import read_scene_text
+from fmu_bearing.scene.read import read_scene
+from fmu_bearing.scene.values import steps
+
+
+def identified_toml(found: Identified, text: str | None = None) -> str:
+    """Return a scene file with the identified values, their uncertainties as remarks.
+
+    Parameters
+    ----------
+    found : Identified
+    text : str, optional
+        The scene file it started from: its remarks stay, but those behind identified values. Default: the
+        scene as the program writes it.
+
+    Raises
+    ------
+    SceneError
+        If the text is no scene.
+    """
+    document = tomlkit.parse(found.start.to_toml() if text is None else text)
+    for one in found.estimates:
+        for key in one.free.keys:
+            _set(document, key, found.values[key], one.words)
+    made = tomlkit.dumps(document)
+    read_scene_text(made, "the identified scene")  # what is written can be read
+    return made
+
+
+def _set(document: MutableMapping[str, Any], key: str, value: float, remark: str) -> None:
+    """Set a value at a dotted key, with a remark; tables that only the catalogue has are made."""
+    *tables, (last, _) = steps(key)
+    part: Any = document
+    for name, place in tables:
+        if name not in part:
+            part[name] = tomlkit.table()
+        if isinstance(part[name], str):  # the name of a catalogue entry, whose other values stay
+            entry = tomlkit.table()
+            entry["catalogue"] = str(part[name])
+            part[name] = entry
+        part = part[name] if place is None else part[name][place]
+    part[last] = float(f"{value:.6g}")
+    if isinstance(part, Table) and not isinstance(part, InlineTable):
+        part[last].comment(remark)
+
+
+def output_paths(target: str | os.PathLike[str]) -> tuple[pathlib.Path, pathlib.Path]:
+    """Return the scene file that is written, and the folder beside it for all else.
+
+    Raises
+    ------
+    IdentifyError
+        For a name that is no TOML file.
+    """
+    path = pathlib.Path(target)
+    if path.suffix != ".toml" or path.is_dir():
+        raise IdentifyError(f"{path}: the identified scene is a file that ends in .toml")
+    return path, path.with_suffix("")
+
+
+def write_all(
+    found: Identified, target: str | os.PathLike[str], source: str | os.PathLike[str] | None = None,
+    tell: Tell = silent,
+) -> list[pathlib.Path]:  # fmt: skip
+    """Write the scene, and in a folder of its name tables, a report and, with Matplotlib, a picture.
+
+    Parameters
+    ----------
+    found : Identified
+    target : path
+        Scene file to write, such as ``identified.toml``.
+    source : path, optional
+        Scene file that the search started from, for its remarks.
+    tell : callable
+        Takes a line where the picture is left out.
+
+    Returns
+    -------
+    list of Path
+        Files written.
+    """
+    path, folder = output_paths(target)
+    text = None
+    if source is not None:
+        read_scene(source)
+        text = pathlib.Path(source).read_text("utf-8-sig")
+    write_whole(path, identified_toml(found, text).encode("utf-8"))
+    folder.mkdir(parents=True, exist_ok=True)
+    files = [path]
+    for name, table in (
+        ("levels.csv", levels_table(found.compared)),
+        ("values.csv", values_table(found)),
+        ("jacobian.csv", jacobian_table(found)),
+    ):
+        write_csv(folder / name, *table)
+        files.append(folder / name)
+    write_whole(folder / "report.md", report(found).encode("utf-8"))
+    files.append(folder / "report.md")
+    if available("matplotlib", "a picture", "levels.png", tell):
+        from fmu_bearing.identification.picture import identified_picture, save
+
+        save(identified_picture(found), folder / "levels.png")
+        files.append(folder / "levels.png")
+    return files
+
+
+def jacobian_table(found: Identified) -> tuple[list[str], list[list[str]]]:
+    """Columns and rows of the slopes: dB per unit of ln(value), or per width of the bounds."""
+    fitted = [one.datum.label for one in found.compared if one.datum.fit]
+    units = ["dB per ln" if one.free.log else "dB per width of the bounds" for one in found.estimates]
+    heads = ["value", *(f"{one.key}, {unit}" for one, unit in zip(found.estimates, units, strict=True))]
+    rows = [[label, *(f"{v:.2f}" for v in row)] for label, row in zip(fitted, found.jacobian, strict=True)]
+    return heads, rows
+
+
+def report(found: Identified) -> str:
+    """Return all tables and sentences as a page of Markdown."""
+    keys = [one.key for one in found.estimates]
+    correlation = [
+        [key, *(f"{v:+.2f}" for v in row)] for key, row in zip(keys, found.correlation, strict=True)
+    ]
+    directions = [
+        [f"{value:.3g}", *(f"{v:+.2f}" for v in row)]
+        for value, row in zip(found.singular_values, found.directions, strict=True)
+    ]
+    parts = [
+        f"# Identification of {found.scene.name}\n",
+        misfit_words(found) + "\n",
+        markdown(*values_table(found)),
+        "## Remarks\n",
+        "".join(f"* {remark}\n" for remark in found.remarks) or "None.\n",
+        "## Levels\n",
+        markdown(*levels_table(found.compared)),
+        "## Slopes of the fitted levels\n",
+        markdown(*jacobian_table(found)),
+        "## Correlation\n",
+        markdown(["", *keys], correlation),
+        "## Singular values and their directions\n",
+        "Of the slopes over the standard deviations of the levels: inverse standard deviations of the "
+        "combinations of ln(value).\n",
+        markdown(["singular value", *keys], directions),
+    ]
+    return "\n".join(parts)
+
+
+def misfit_words(found: Identified) -> str:
+    """Return one sentence on the misfit before and after, fitted and checked."""
+    words = []
+    for fit, name in ((True, "fitted"), (False, "checked")):
+        count = sum(one.datum.fit is fit for one in found.compared)
+        if count:
+            before, after = found.rms(fit, before=True), found.rms(fit)
+            words.append(f"{count} {name} values: {before:.1f} dB rms before, {after:.1f} dB after")
+    seeds = "one seed" if len(found.seeds) == 1 else f"{len(found.seeds)} seeds"
+    ended = "" if found.complete else " (interrupted)"
+    return f"{'; '.join(words)}; searched with fidelity {found.fidelity}, averaged over {seeds}{ended}."

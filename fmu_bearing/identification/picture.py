@@ -1,0 +1,68 @@
+"""Picture of an identification: computed over measured levels, and the identified values."""
+
+import math
+from typing import TYPE_CHECKING
+
+from fmu_bearing.identification.result import Identified
+from fmu_bearing.run.pictures import OTHERS, empty, label, save
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+__all__ = ["identified_picture", "save"]
+
+_ROLES = ((True, "fit", "o", OTHERS[0]), (False, "check", "^", OTHERS[1]))
+_ROOM = 3.0  # dB beyond the outermost level
+
+
+def identified_picture(found: Identified) -> "Figure":
+    """Draw computed over measured levels, before and after, fitted and checked; and values with intervals."""
+    figure = empty((11.0, 4.8))
+    left, right = figure.subplots(1, 2, width_ratios=(1.1, 1.0))
+    _levels(left, found)
+    _values(right, found)
+    return figure
+
+
+def _levels(ax: "Axes", found: Identified) -> None:
+    measured = [one.datum.value for one in found.compared]
+    computed = [v for one in found.compared for v in (one.before, one.after) if math.isfinite(v)]
+    low, high = min(measured + computed) - _ROOM, max(measured + computed) + _ROOM
+    ax.plot([low, high], [low, high], color="0.4", linewidth=0.8)
+    for fit, name, marker, colour in _ROLES:
+        rows = [one for one in found.compared if one.datum.fit is fit]
+        if not rows:
+            continue
+        x = [one.datum.value for one in rows]
+        ax.plot(x, [one.before for one in rows], marker, color=colour, fillstyle="none", alpha=0.5,
+                label=f"{name}, before ({found.rms(fit, before=True):.1f} dB rms)")  # fmt: skip
+        spread, std = [one.spread for one in rows], [one.datum.std for one in rows]
+        ax.errorbar(x, [one.after for one in rows], spread, std, marker, color=colour, elinewidth=0.6, markersize=5,
+                    label=f"{name}, after ({found.rms(fit):.1f} dB rms)")  # fmt: skip
+    ax.set_xlim(low, high)
+    ax.set_ylim(low, high)
+    ax.set_aspect("equal")
+    ax.legend(frameon=False, fontsize=8)
+    label(ax, "measured, dB", "computed, dB", found.scene.name)
+
+
+def _values(ax: "Axes", found: Identified) -> None:
+    """Draw each value over its start, with two standard deviations; grey: not determined."""
+    shown = [one for one in found.estimates if one.free.log]
+    for place, one in enumerate(reversed(shown)):
+        colour = OTHERS[0] if one.determined else "0.6"
+        low, high = one.interval()
+        if math.isfinite(low):
+            ax.plot(
+                [low / one.free.start, high / one.free.start], [place, place], color=colour, linewidth=2.0
+            )
+        ax.plot(one.value / one.free.start, place, "o", color=colour)
+    ax.axvline(1.0, color="0.4", linewidth=0.8)
+    ax.set_xscale("log")
+    ax.set_yticks(range(len(shown)), [one.key.replace(".", ".\n", 1) for one in reversed(shown)], fontsize=8)
+    ax.set_ylim(-0.6, len(shown) - 0.4)
+    ticks = [v for v in (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0) if ax.get_xlim()[0] <= v <= ax.get_xlim()[1]]
+    ax.set_xticks(ticks, [f"{v:g}" for v in ticks])
+    ax.minorticks_off()
+    label(ax, "identified over start, with two standard deviations", "", "")

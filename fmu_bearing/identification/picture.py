@@ -38,8 +38,8 @@ def _levels(ax: "Axes", found: Identified) -> None:
         ax.plot(x, [one.before for one in rows], marker, color=colour, fillstyle="none", alpha=0.5,
                 label=f"{name}, before ({found.rms(fit, before=True):.1f} dB rms)")  # fmt: skip
         spread, std = [one.spread for one in rows], [one.datum.std for one in rows]
-        ax.errorbar(x, [one.after for one in rows], spread, std, marker, color=colour, elinewidth=0.6, markersize=5,
-                    label=f"{name}, after ({found.rms(fit):.1f} dB rms)")  # fmt: skip
+        ax.errorbar(x, [one.after for one in rows], spread, std, marker, color=colour, elinewidth=0.6,
+                    markersize=5, label=f"{name}, after ({found.rms(fit):.1f} dB rms)")  # fmt: skip
     ax.set_xlim(low, high)
     ax.set_ylim(low, high)
     ax.set_aspect("equal")

@@ -36,6 +36,7 @@ from fmu_bearing.identification.statistics import (
     remarks,
     uncertainty,
     whitener,
+    widened,
 )
 from fmu_bearing.run.choose import resolve
 from fmu_bearing.run.settings import Setting
@@ -50,6 +51,7 @@ _SPREAD_SEEDS = 12  # for the covariance of levels
 _TRIED = 8  # places per further start; the best of them start a search
 _ROUGH = {"max_nfev": 8, "ftol": 1e-2, "xtol": 1e-2, "gtol": 1e-3}
 _FINE = {"max_nfev": 12, "ftol": 1e-3, "xtol": 1e-3, "gtol": 1e-4}
+_NEAR, _FAR = 0.05, 1.0  # deviations of ln or of the bounds between which levels may bend
 _CORRECTIONS = 3
 _SETTLED = 0.2  # dB rms: the difference between fidelities stays
 
@@ -292,8 +294,25 @@ class _Search:
         self._require(after, self.own, x)
         off = (after - self.value)[self.fit]
         spread = uncertainty(self.white @ slopes[self.fit], self.white @ off)
+        spread = widened(spread, self._growth(x, spread))
         over = self.levels.heard(self.levels.at(x, self.more, self.fidelity, check=True), self.offset)
         return self._identified(x, after, np.nanstd(over, axis=0, ddof=min(1, len(over) - 1)), slopes, spread)
+
+    def _growth(self, x: NDArray[np.float64], spread: Spread) -> NDArray[np.float64]:
+        """Square of the weighted change a deviation away over what slopes predict, on the smaller side."""
+        here, found = self._mean(x, self.seeds), np.ones(len(x))
+        for k, direction in enumerate(spread.directions):
+            deviation = min(float(spread.deviations[k]) / spread.scale, _FAR)
+            if deviation < _NEAR:  # levels are straight there
+                continue
+            for way in (deviation, -deviation):
+                there = self._inside(x + way * direction)
+                part = float((there - x) @ direction) / way  # of the deviation, where a bound is near
+                change = self.white @ (self._mean(there, self.seeds) - here)[self.fit]
+                if part > 0.2 and np.isfinite(change).all():
+                    expected = (part * deviation * spread.singular_values[k]) ** 2
+                    found[k] = min(found[k], float(change @ change) / max(expected, 1e-12))
+        return found
 
     def interrupted(self) -> Identified:
         """Return the best so far; nothing more is run, and the uncertainty is unknown."""

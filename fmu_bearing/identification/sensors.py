@@ -14,7 +14,13 @@ from numpy.typing import NDArray
 from fmu_bearing.acoustics.analysis.field import Position, Transfer
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 from fmu_bearing.acoustics.filters.fir import band_limit, decimator_response
-from fmu_bearing.acoustics.filters.weighting import REFERENCE_PRESSURE, a_weighting_db, band_sections
+from fmu_bearing.acoustics.filters.pack import MICROPHONE_LOW_LIMIT
+from fmu_bearing.acoustics.filters.weighting import (
+    REFERENCE_PRESSURE,
+    a_weighting_db,
+    band_sections,
+    high_pass_section,
+)
 from fmu_bearing.acoustics.radiation.frequencies import STOP
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.identification.data import VELOCITY_REFERENCE, Datum
@@ -56,6 +62,8 @@ class Sensors:
         self.window = np.hanning(self.size)
         # squares of the spectrum add up to the mean square
         self.scale = np.sqrt(2.0 / self.size / np.sum(self.window**2)) * _shape(self.frequency)
+        self.decay = _decay(self.size)
+        self.decay_fit = np.linalg.pinv(self.decay)
         self.response = self.at(self.frequency)
         self.weights = {A_LEVEL: 10.0 ** (a_weighting_db(self.frequency) / 10.0)}
 
@@ -75,6 +83,7 @@ class Sensors:
     def levels(self, recording: Heard, rows: Sequence[Datum]) -> NDArray[np.float64]:
         """Levels (dB) of a run in the order of rows: pressure re 20 uPa, velocity re 1 nm/s."""
         channels = recording.channels[:, self.used]
+        channels = channels - self.decay @ (self.decay_fit @ channels)
         spectra = scipy.fft.rfft(channels.T * self.window, axis=1)[:, self.keep] * self.scale
         frequency = self.frequency
         squares = self.squares(self.response, spectra)
@@ -141,14 +150,29 @@ class _Lines:
             window = self.sensors.window * (np.sqrt(2.0) / self.sensors.window.sum())
             time = np.arange(len(window)) / SD.RATE
             angle = 2.0 * np.pi * around[:, None] * time
-            motion = self.channels - self.channels.mean(axis=0)
-            spectra = ((np.cos(angle) * window) @ motion - 1j * ((np.sin(angle) * window) @ motion)).T
+            real, imaginary = (
+                (np.cos(angle) * window) @ self.channels,
+                (np.sin(angle) * window) @ self.channels,
+            )
+            spectra = (real - 1j * imaginary).T
             spectra = spectra * _shape(around)
             squares = self.sensors.squares(self.sensors.at(around), spectra)
             self.known[frequency] = (around, spectra, squares)
         return self.known[frequency]
 
 
+def _decay(size: int) -> NDArray[np.float64]:
+    """How the high-pass of the channels comes to rest, and a mean: shape (samples, 3).
+
+    A run starts with accelerations at once; the high-pass at 5 Hz then rings over half a second. Divided by
+    the frequency, as a velocity is, that would drown all else.
+    """
+    _, _, _, _, first, second = high_pass_section(SD.RATE, MICROPHONE_LOW_LIMIT)
+    pole = np.roots([1.0, first, second])[0]
+    ringing = pole ** np.arange(size)
+    return np.column_stack([ringing.real, ringing.imag, np.ones(size)])
+
+
 def _shape(frequency: NDArray[np.float64]) -> NDArray[np.float64]:
-    """What the decimator left of a spectrum, put right up to the microphones' band limit."""
+    """Return the factor that undoes the decimator, up to the microphones' band limit."""
     return np.asarray(band_limit(frequency) / decimator_response(frequency))

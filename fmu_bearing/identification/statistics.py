@@ -18,6 +18,7 @@ FACTOR_OF_TWO = math.log(2.0)
 _QUARTER = 0.25  # of the width of the bounds; knowing nothing gives 0.29
 _ALIKE = 0.8  # correlation from which two keys are named together
 _NAMED = 0.35  # share of a direction from which a key is named
+_WIDEST = 4.0  # by how much a bend of the levels may widen a deviation
 _AT = 1e-3  # of the width of the bounds
 
 
@@ -120,6 +121,25 @@ def uncertainty(jacobian: NDArray[np.float64], residual: NDArray[np.float64]) ->
     inverse = np.where(values > tiny, 1.0 / np.maximum(values, tiny), 1e9)
     covariance = scale**2 * (directions.T * inverse**2) @ directions
     return Spread(covariance, values, directions, scale)
+
+
+def widened(spread: Spread, growth: NDArray[np.float64]) -> Spread:
+    """Return the uncertainty with each direction's deviation as levels really change along it.
+
+    Near a resonance levels bend: slopes at the solution alone claim too much on the flatter side.
+
+    Parameters
+    ----------
+    spread : Spread
+        From slopes.
+    growth : ndarray, shape (keys,)
+        Square of the weighted change of the levels over what slopes predict, one deviation away along each
+        direction, on the side where it is smaller. What exceeds 1 narrows nothing.
+    """
+    factor = 1.0 / np.clip(growth, 1.0 / _WIDEST**2, 1.0)
+    scaled = (spread.directions @ spread.covariance @ spread.directions.T) * np.sqrt(np.outer(factor, factor))
+    covariance = spread.directions.T @ scaled @ spread.directions
+    return Spread(covariance, spread.singular_values, spread.directions, spread.scale)
 
 
 def determined(one: Free, deviation: float) -> bool:

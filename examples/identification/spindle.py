@@ -8,7 +8,8 @@ values stand beside the truth. Writes
 
 * ``measured.csv`` - the measured levels;
 * ``start.toml``, ``identified.toml`` - the scene before and after;
-* ``identified/`` - levels before and after, values, slopes, a report, a picture.
+* ``identified/`` - levels before and after, values, slopes, a report;
+* ``identification.png`` - levels and values, the truth beside them.
 
 Usage: python examples/identification/spindle.py [--output-dir out/identification] [--quick]
 """
@@ -25,6 +26,7 @@ from fmu_bearing.identification import Identified
 from fmu_bearing.identification.data import read_data
 from fmu_bearing.identification.files import misfit_words, write_all
 from fmu_bearing.identification.model import Levels, changed
+from fmu_bearing.identification.picture import identified_picture, save
 from fmu_bearing.run.table import number, show, write_csv
 
 SCENE = Path(__file__).parents[1] / "scenes" / "7003C-spindle.toml"
@@ -121,6 +123,8 @@ def main(
             output_dir / "start.toml", data, list(TRUTH), folder=output_dir / "identified", **settings
         )
         write_all(found, output_dir / "identified.toml", output_dir / "start.toml", typer.echo)
+        true = {one.key: one.free.start * TRUTH[one.key] for one in found.estimates}
+        save(identified_picture(found, true), output_dir / "identification.png")
     heads = ["key", "start", "truth", "identified", "from", "to (2 std)", "truth inside"]
     write_csv(output_dir / "truth.csv", heads, beside_truth(found))
     show("Identified values beside the truth", heads, beside_truth(found), width=110)

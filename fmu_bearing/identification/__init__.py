@@ -93,6 +93,18 @@ def identify(
         For data, keys or settings that are refused, all problems at once.
     Interrupted
         On Ctrl-C, a `KeyboardInterrupt` with the ``best`` values so far.
+
+    Examples
+    --------
+    >>> from fmu_bearing import identify, read_scene, with_fidelity
+    >>> scene = with_fidelity(read_scene("examples/scenes/7003C-bare.toml"), model="response")
+    >>> measured = [
+    ...     {"microphone": name, "quantity": "leq_a", "value_dB": value, "std_dB": 1.5}
+    ...     for name, value in {"P1": 56.0, "P2": 53.0, "P3": 56.0, "P4": 63.0}.items()
+    ... ]
+    >>> found = identify(scene, measured, ["imperfections.*_race_amplitude_um"], seeds=2, starts=1)
+    >>> found.rms() < found.rms(before=True), found["imperfections.*_race_amplitude_um"].determined
+    (True, True)
     """
     from fmu_bearing.identification.search import search
 

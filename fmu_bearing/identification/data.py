@@ -236,11 +236,9 @@ class _Reader:
                     raise IdentifyError(
                         f"{name}: {problem}; columns are {', '.join(COLUMNS)} and dotted keys of the scene"
                     ) from None
-        missing = [one for one in ("quantity",) if one not in columns]
+        missing = [] if "quantity" in columns else ["quantity"]
         if "value_dB" not in columns and "value_mm_s" not in columns:
             missing.append("value_dB")
-        if "microphone" not in columns and "x_mm" not in columns and "value_mm_s" not in columns:
-            missing.append("microphone")
         if missing:
             raise IdentifyError(f"{name}: column {' and '.join(missing)} is missing; there are {columns}")
 
@@ -274,9 +272,8 @@ class _Reader:
             return f"({1e3 * x:g}, {1e3 * y:g}, {1e3 * z:g}) mm", (x, y, z)
         if name not in self.places:
             there = ", ".join(self.places) or "none"
-            raise IdentifyError(
-                f"there is no microphone '{name}'; the scene has {there}; or give {', '.join(PLACE)}"
-            )
+            lost = f"there is no microphone '{name}'" if name else "a sound level needs its microphone"
+            raise IdentifyError(f"{lost}; the scene has {there}; or give {', '.join(PLACE)}")
         return name, self.places[name]
 
     def _conditions(self, row: dict[str, Any]) -> tuple[tuple[str, float], ...]:

@@ -1,6 +1,7 @@
 """Picture of an identification: computed over measured levels, and the identified values."""
 
 import math
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from fmu_bearing.identification.result import Identified
@@ -16,12 +17,19 @@ _ROLES = ((True, "fit", "o", OTHERS[0]), (False, "check", "^", OTHERS[1]))
 _ROOM = 3.0  # dB beyond the outermost level
 
 
-def identified_picture(found: Identified) -> "Figure":
-    """Draw computed over measured levels, before and after, fitted and checked; and values with intervals."""
+def identified_picture(found: Identified, truth: Mapping[str, float] | None = None) -> "Figure":
+    """Draw computed over measured levels, before and after, fitted and checked; and values with intervals.
+
+    Parameters
+    ----------
+    found : Identified
+    truth : mapping, optional
+        True values by key, where the measured machine was computed.
+    """
     figure = empty((11.0, 4.8))
     left, right = figure.subplots(1, 2, width_ratios=(1.1, 1.0))
     _levels(left, found)
-    _values(right, found)
+    _values(right, found, truth or {})
     return figure
 
 
@@ -47,8 +55,8 @@ def _levels(ax: "Axes", found: Identified) -> None:
     label(ax, "measured, dB", "computed, dB", found.scene.name)
 
 
-def _values(ax: "Axes", found: Identified) -> None:
-    """Draw each value over its start, with two standard deviations; grey: not determined."""
+def _values(ax: "Axes", found: Identified, truth: Mapping[str, float]) -> None:
+    """Draw each value over its start, with two standard deviations; grey: not determined; cross: truth."""
     shown = [one for one in found.estimates if one.free.log]
     for place, one in enumerate(reversed(shown)):
         colour = OTHERS[0] if one.determined else "0.6"
@@ -58,6 +66,10 @@ def _values(ax: "Axes", found: Identified) -> None:
                 [low / one.free.start, high / one.free.start], [place, place], color=colour, linewidth=2.0
             )
         ax.plot(one.value / one.free.start, place, "o", color=colour)
+        if one.key in truth:
+            ax.plot(
+                truth[one.key] / one.free.start, place, "x", color=OTHERS[1], markersize=9, markeredgewidth=2
+            )
     ax.axvline(1.0, color="0.4", linewidth=0.8)
     ax.set_xscale("log")
     ax.set_yticks(range(len(shown)), [one.key.replace(".", ".\n", 1) for one in reversed(shown)], fontsize=8)

@@ -29,6 +29,7 @@ from fmu_bearing.recording.heard import Heard
 
 _SEARCH = 0.004  # relative: how far from its frequency a line is looked for, as balls slide
 _STEPS = 9
+_LOWEST = 20.0  # Hz: velocities count from there on, as sound is heard
 _FLOOR = 1e-12  # of the reference's square: -120 dB, so that levels of nothing stay finite
 
 
@@ -63,7 +64,8 @@ class Sensors:
         # squares of the spectrum add up to the mean square
         self.scale = np.sqrt(2.0 / self.size / np.sum(self.window**2)) * _shape(self.frequency)
         self.decay = _decay(self.size)
-        self.decay_fit = np.linalg.pinv(self.decay)
+        self.decay_fit = np.linalg.pinv(self.decay * self.window[:, None]) * self.window
+        self.inverse = np.where(self.frequency < _LOWEST, 0.0, 0.5 / np.pi / self.frequency)  # s: to velocity
         self.response = self.at(self.frequency)
         self.weights = {A_LEVEL: 10.0 ** (a_weighting_db(self.frequency) / 10.0)}
 
@@ -85,7 +87,6 @@ class Sensors:
         channels = recording.channels[:, self.used]
         channels = channels - self.decay @ (self.decay_fit @ channels)
         spectra = scipy.fft.rfft(channels.T * self.window, axis=1)[:, self.keep] * self.scale
-        frequency = self.frequency
         squares = self.squares(self.response, spectra)
         kinematics = recording.kinematics()
         lines = _Lines(self, channels, kinematics)
@@ -98,7 +99,7 @@ class Sensors:
                 if row.position is not None:
                     bins = squares[self.positions.index(row.position)]
                 else:
-                    bins = np.abs(spectra[self.place(quantity.channel)] / (2.0 * np.pi * frequency)) ** 2
+                    bins = np.abs(spectra[self.place(quantity.channel)] * self.inverse) ** 2
                 square = float(bins @ self._weight(quantity.kind, quantity.frequency))
             reference = REFERENCE_PRESSURE if row.position is not None else VELOCITY_REFERENCE
             found[k] = 10.0 * np.log10(square / reference**2 + _FLOOR)

@@ -1,0 +1,126 @@
+"""``fmu-bearing identify``: what it prints, writes and refuses."""
+
+import pytest
+
+from fmu_bearing.cli.base import INTERRUPTED, REFUSED
+from fmu_bearing.identification import search as module
+from fmu_bearing.identification.data import read_data
+from fmu_bearing.identification.model import Levels, changed
+from fmu_bearing.scene import read_scene
+from fmu_bearing.scene.read import with_fidelity
+
+KEY = "imperfections.*_race_amplitude_um"
+SETTINGS = ("--starts", 1, "--seeds", 2)
+
+
+@pytest.fixture(scope="module")
+def scene_of(scene, tmp_path_factory):
+    """Scene file whose bearing and grade come from the catalogue, with remarks, at fidelity response."""
+    made = with_fidelity(scene("7003C-spindle"), model="response")
+    path = tmp_path_factory.mktemp("scene") / "start.toml"
+    text = made.to_toml().replace(
+        "inner_race_amplitude_um = 0.1", "inner_race_amplitude_um = 0.1 # assumed: why"
+    )
+    path.write_text(text.replace("[mounting]", "# The mounting.\n[mounting]"), "utf-8")
+    return path
+
+
+@pytest.fixture(scope="module")
+def measured(scene_of, tmp_path_factory):
+    """Levels of a machine whose races are half as wavy, exactly."""
+    scene = read_scene(scene_of)
+    rows = [
+        {"microphone": name, "speed_rpm": speed, "quantity": "leq_a", "value_dB": 60.0}
+        for name in ("P1", "P3", "P4")
+        for speed in (12000.0, 18000.0)
+    ]
+    halved = {f"imperfections.{race}_race_amplitude_um": 0.05 for race in ("inner", "outer")}
+    levels = Levels(changed(scene, halved), read_data(rows, scene), ())
+    exact = levels.at([], [1, 2], "response").mean(axis=0)
+    path = tmp_path_factory.mktemp("data") / "measured.csv"
+    lines = [",".join(rows[0])]
+    for row, value in zip(rows, exact, strict=True):
+        lines.append(",".join(map(str, (row | {"value_dB": round(float(value), 3)}).values())))
+    path.write_text("\n".join(lines) + "\n")
+    return path
+
+
+@pytest.fixture(scope="module")
+def output(tmp_path_factory):
+    """Scene that the first test writes; later ones take its kept runs."""
+    return tmp_path_factory.mktemp("found") / "identified.toml"
+
+
+def test_it_finds_writes_and_goes_on(run, scene_of, measured, output):
+    arguments = ("identify", scene_of, measured, "--free", KEY, *SETTINGS, "-o", output, "--json")
+    result = run(*arguments)
+    assert result.exit_code == 0, result.output
+    value = result.data["values"][KEY]
+    assert value["value"] == pytest.approx(0.05, rel=0.01)
+    # a level rises by 20 lg of the amplitude: 8.69 dB per ln; six values of 2 dB, phases add to that
+    assert 2.0 / 8.69 / 6**0.5 < value["std_ln"] < 0.2
+    assert result.data["rms_dB"]["fit_after"] < 0.1 < 5.0 < result.data["rms_dB"]["fit_before"]
+    text = output.read_text("utf-8")
+    assert "# The mounting." in text
+    (line,) = [line for line in text.splitlines() if line.startswith("inner_race_amplitude_um")]
+    assert "# identified: " in line and "before: 0.1" in line and "assumed" not in line
+    found = read_scene(output)
+    assert found.imperfections.outer_race_amplitude_um == pytest.approx(0.05, rel=0.01)
+    assert found.mounting == read_scene(scene_of).mounting
+    names = {path.name for path in output.with_suffix("").iterdir()}
+    assert names >= {"levels.csv", "values.csv", "jacobian.csv", "report.md", "levels.png", "runs.jsonl"}
+    assert "## Correlation" in (output.with_suffix("") / "report.md").read_text("utf-8")
+    again = run(*arguments)
+    assert again.data["runs"] == 0 and again.data["values"] == result.data["values"]
+
+
+def test_tables_on_the_terminal(run, scene_of, measured, output):
+    result = run("identify", scene_of, measured, "--free", KEY, *SETTINGS, "-o", output)
+    assert result.exit_code == 0, result.output
+    for word in (
+        "Measured and computed levels",
+        "Identified values",
+        KEY,
+        "6 fitted values",
+        "identified.toml",
+    ):
+        assert word in result.stdout
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ((), "no key is free: give KEY or KEY=LOW:HIGH"),
+        (("--free", "imperfections.unbalance"), "did you mean 'imperfections.unbalance_um'"),
+        (
+            ("--free", KEY, "--free", "mounting.housing.mass_kg", "--free", "mounting.rotor.mass_kg"),
+            "carry 2 free",
+        ),
+        (("--free", KEY, "-o", "identified.csv"), "ends in .toml"),
+        (("--free", KEY, "--background", "none.csv"), "there is no such file"),
+        (("--free", KEY, "--fidelity", "best"), "fidelity 'best' is unknown"),
+    ],
+)
+def test_refusals_are_one_line(arguments, message, run, scene_of, measured, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    result = run("identify", scene_of, measured, *arguments)
+    assert result.exit_code == REFUSED
+    assert message in result.stderr and len(result.stderr.strip().splitlines()) == 1
+    assert not list(tmp_path.glob("*.toml"))
+
+
+def test_ctrl_c_writes_the_best_so_far(run, scene_of, measured, tmp_path, monkeypatch):
+    plain, calls = module.Levels.at, []
+
+    def stop(self, *arguments, **options):
+        calls.append(1)
+        if len(calls) > 8:
+            raise KeyboardInterrupt
+        return plain(self, *arguments, **options)
+
+    monkeypatch.setattr(module.Levels, "at", stop)
+    output = tmp_path / "identified.toml"
+    result = run("identify", scene_of, measured, "--free", KEY, *SETTINGS, "-o", output)
+    assert result.exit_code == INTERRUPTED
+    assert "the same command goes on" in result.stderr
+    assert "uncertainty unknown" in output.read_text("utf-8")

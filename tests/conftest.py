@@ -35,6 +35,9 @@ LONG = (
     "sweeps/test_cluster.py",
     "compiled/test_make.py",
     "cli/test_runs.py",
+    "identification/test_page.py",
+    "examples/test_identification.py",
+    "cli/test_identify.py",
     "examples/test_critical_speed.py",
 )
 #: For tests of the examples themselves, of the documentation and of the catalogue.

@@ -4,7 +4,11 @@ A 7003C in its spindle is "measured" at four speeds: sound levels at four microp
 the velocity of the housing. The measured machine is a scene too, with other values than the one the search
 starts from and with surfaces of its own (another seed), computed with fidelity ``full``; its levels get 1.5
 dB of noise. `identify` sees the levels alone. A fifth speed is not fitted: it checks. Then the identified
-values stand beside the truth. Writes
+values stand beside the truth.
+
+All four come out within two standard deviations; fitted values fall from 7.8 to 1.8 dB rms, checked ones from
+8.3 to 1.2 dB. With the scene as the only start (``starts=1``) the search ends in another valley, where the
+pedestal's mode lies on the other side of 27,000 r/min: 0.83 um of unbalance against 1.5. Writes
 
 * ``measured.csv`` - the measured levels;
 * ``start.toml``, ``identified.toml`` - the scene before and after;
@@ -108,7 +112,7 @@ def beside_truth(found: Identified) -> list[list[str]]:
 
 def main(
     output_dir: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("out/identification"),
-    quick: Annotated[bool, typer.Option("--quick", help="One start, two seeds, fidelity response.")] = False,
+    quick: Annotated[bool, typer.Option("--quick", help="Two starts, two seeds, fidelity response.")] = False,
 ) -> None:
     """Identify a spindle whose truth is known."""
     with refusals():
@@ -118,7 +122,7 @@ def main(
             scene = changed(scene, {"fidelity.model": "response"})  # type: ignore[dict-item]
         (output_dir / "start.toml").write_text(scene.to_toml(), "utf-8")
         data = measure(scene, output_dir)
-        settings = {"starts": 1, "seeds": 2} if quick else {}
+        settings = {"starts": 2, "seeds": 2} if quick else {}
         found = identify(
             output_dir / "start.toml", data, list(TRUTH), folder=output_dir / "identified", **settings
         )

@@ -16,6 +16,7 @@ def test_the_page_runs(tmp_path, monkeypatch):
     there = {path.name for path in (tmp_path / "out" / "identified").iterdir()}
     assert set(listed) | {"values.csv", "jacobian.csv"} == there
     found = names["found"]
+    assert found.evaluations == 0  # all kept by the command
     assert len(found.compared) == 14 and found.rms() < found.rms(before=True) + 0.1
 
 

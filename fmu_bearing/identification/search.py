@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from scipy.optimize import least_squares
 from scipy.stats import qmc
 
+from fmu_bearing.acoustics.analysis.field import form_of
 from fmu_bearing.engine.choices import FIDELITIES
 from fmu_bearing.identification.data import Datum
 from fmu_bearing.identification.errors import IdentifyError, Interrupted
@@ -52,6 +53,7 @@ _TRIED = 8  # places per further start; the best of them start a search
 _ROUGH = {"max_nfev": 8, "ftol": 1e-2, "xtol": 1e-2, "gtol": 1e-3}
 _FINE = {"max_nfev": 12, "ftol": 1e-3, "xtol": 1e-3, "gtol": 1e-4}
 _NEAR, _FAR = 0.05, 1.0  # deviations of ln or of the bounds between which levels may bend
+_STAYS = 0.02  # of ln or of the bounds: the spread over seeds is the same
 _CORRECTIONS = 3
 _SETTLED = 0.2  # dB rms: the difference between fidelities stays
 
@@ -75,6 +77,12 @@ def search(
             raise IdentifyError(f"{name} = {value} is refused: give 1 or more")
     check_length(duration, settle)
     check_count(sum(row.fit for row in data), len(free), few)
+    model = "compact" if scene.sound is None else scene.sound.radiation_model
+    if form_of(model) != "vectors" and any(row.quantity.channel is not None for row in data):
+        raise IdentifyError(
+            f'velocities cannot be computed beside radiation_model = "{model}", whose channels hold none: '
+            "use bem or compact"
+        )
     own = resolve(scene)[0]
     chosen = _fidelity(own, fidelity)
     # a search passes through values that nobody will run; those of the result are told when it is run
@@ -151,6 +159,7 @@ class _Search:
         self.low, self.high = box(self.free)
         self.offset = np.zeros(len(self.data))
         self.white = np.diag(1.0 / self.std[self.fit])
+        self.weighed: NDArray[np.float64] | None = None
         self.start = self._inside(start_point(self.free))
         self.best = _Best(self.start)
         self.before = np.full(len(self.data), np.nan)
@@ -255,6 +264,9 @@ class _Search:
 
     def _weigh(self, x: NDArray[np.float64]) -> None:
         """Renew the weights of the levels: noise of the data, and spread over seeds at ``x``."""
+        if self.weighed is not None and np.abs(x - self.weighed).max() < _STAYS:
+            return
+        self.weighed = x.copy()
         over = self.levels.heard(self.levels.at(x, self.more, self.fidelity), self.offset)
         over = over[:, self.fit]
         over = over[~np.isnan(over).any(axis=1)]

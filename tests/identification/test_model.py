@@ -42,6 +42,14 @@ def test_levels_are_those_of_a_recording(spindle):
     assert found[3] == pytest.approx(10.0 * np.log10(squares[0, near].sum() / 4e-10), abs=0.1)
 
 
+@pytest.mark.parametrize("model", ["paper", "paper_vector", "paper_contacts"])
+def test_radiation_models_of_the_papers_add_energies_as_recordings_do(spindle, model):
+    sound = spindle.sound.model_copy(update={"radiation_model": model})
+    heard = spindle.model_copy(update={"sound": sound})
+    made = record(changed(heard, {"operation.speed_rpm": SPEED}), 0.2, settle=0.05, progress=False)
+    assert levels(heard, rows("leq_a"))[0] == pytest.approx(made.levels(weighting="A")[0], abs=0.1)
+
+
 def test_velocities_are_those_of_a_run(spindle):
     found = levels(spindle, rows("velocity[outer_ring.z]", "velocity[inner_ring.y]", "velocity[housing.z]"))
     made = simulate(

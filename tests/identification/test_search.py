@@ -155,6 +155,15 @@ def test_another_fidelity_of_the_scene_moves_the_levels_the_search_is_compared_w
     assert found.fidelity == "response" and found.rms() < 0.05
 
 
+def test_velocities_need_channels_that_hold_them(spindle):
+    paper = spindle.model_copy(
+        update={"sound": spindle.sound.model_copy(update={"radiation_model": "paper"})}
+    )
+    rows = [{"quantity": "velocity[housing.z]", "value_dB": 100.0, "speed_rpm": v} for v in (1e4, 2e4, 3e4)]
+    with pytest.raises(IdentifyError, match="velocities cannot be computed beside radiation_model"):
+        identify(paper, rows, KEYS[:1])
+
+
 def test_free_keys_of_the_data_are_refused(spindle):
     rows = [row | {"preload_N": 300.0} for row in table(np.full(8, 60.0))]
     with pytest.raises(IdentifyError, match="is a condition of the data already"):

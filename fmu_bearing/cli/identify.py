@@ -44,7 +44,7 @@ def identify(
     duration: Annotated[
         float | None, typer.Option(help="Length of each run, s; default 0.1 or more.")
     ] = None,
-    settle: Annotated[float | None, typer.Option(help="Left out before it, s; default 0.01 to 0.05.")] = None,
+    settle: Annotated[float | None, typer.Option(help="Left out before it, s; default 0.03 to 0.05.")] = None,
     few: Annotated[bool, typer.Option("--few", help="Allow fewer than three values per free key.")] = False,
     workers: Annotated[int, typer.Option("--workers", "-w", min=1, help="Threads.")] = 1,
     output: Annotated[

@@ -14,12 +14,10 @@ from numpy.typing import NDArray
 from fmu_bearing.acoustics.analysis.field import Position, Transfer
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 from fmu_bearing.acoustics.filters.fir import band_limit, decimator_response
-from fmu_bearing.acoustics.filters.pack import MICROPHONE_LOW_LIMIT
 from fmu_bearing.acoustics.filters.weighting import (
     REFERENCE_PRESSURE,
     a_weighting_db,
     band_sections,
-    high_pass_section,
 )
 from fmu_bearing.acoustics.radiation.frequencies import STOP
 from fmu_bearing.engine.layout import SD
@@ -63,8 +61,8 @@ class Sensors:
         self.window = np.hanning(self.size)
         # squares of the spectrum add up to the mean square
         self.scale = np.sqrt(2.0 / self.size / np.sum(self.window**2)) * _shape(self.frequency)
-        self.decay = _decay(self.size)
-        self.decay_fit = np.linalg.pinv(self.decay * self.window[:, None]) * self.window
+        self.slow = _slow_part(self.size)
+        self.slow_fit = np.linalg.pinv(self.slow * self.window[:, None]) * self.window
         self.inverse = np.where(self.frequency < _LOWEST, 0.0, 0.5 / np.pi / self.frequency)  # s: to velocity
         self.response = self.at(self.frequency)
         self.weights = {A_LEVEL: 10.0 ** (a_weighting_db(self.frequency) / 10.0)}
@@ -85,7 +83,7 @@ class Sensors:
     def levels(self, recording: Heard, rows: Sequence[Datum]) -> NDArray[np.float64]:
         """Levels (dB) of a run in the order of rows: pressure re 20 uPa, velocity re 1 nm/s."""
         channels = recording.channels[:, self.used]
-        channels = channels - self.decay @ (self.decay_fit @ channels)
+        channels = channels - self.slow @ (self.slow_fit @ channels)
         spectra = scipy.fft.rfft(channels.T * self.window, axis=1)[:, self.keep] * self.scale
         squares = self.squares(self.response, spectra)
         kinematics = recording.kinematics()
@@ -162,16 +160,12 @@ class _Lines:
         return self.known[frequency]
 
 
-def _decay(size: int) -> NDArray[np.float64]:
-    """How the high-pass of the channels comes to rest, and a mean: shape (samples, 3).
+def _slow_part(size: int) -> NDArray[np.float64]:
+    """Return mean and slope, shape (samples, 2): what the high-pass leaves of a run's start.
 
-    A run starts with accelerations at once; the high-pass at 5 Hz then rings over half a second. Divided by
-    the frequency, as a velocity is, that would drown all else.
+    Divided by the frequency, as a velocity is, it would drown all else.
     """
-    _, _, _, _, first, second = high_pass_section(SD.RATE, MICROPHONE_LOW_LIMIT)
-    pole = np.roots([1.0, first, second])[0]
-    ringing = pole ** np.arange(size)
-    return np.column_stack([ringing.real, ringing.imag, np.ones(size)])
+    return np.column_stack([np.ones(size), np.linspace(-1.0, 1.0, size)])
 
 
 def _shape(frequency: NDArray[np.float64]) -> NDArray[np.float64]:

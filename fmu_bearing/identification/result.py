@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from fmu_bearing.identification.data import Datum
 from fmu_bearing.identification.free import Free
-from fmu_bearing.run.table import number
 from fmu_bearing.scene import Scene
 
 
@@ -59,14 +58,14 @@ class Estimate:
     @property
     def words(self) -> str:
         """Value with its uncertainty in words, as the scene's comment has it."""
-        before = f"before: {number(self.free.start)}"
+        before = f"before: {self.free.start:.3g}"
         if math.isnan(self.std):
             return f"identified, uncertainty unknown; {before}"
         if not self.determined:
             return f"not determined by the data; {before}"
         low, high = self.interval()
         bound = f", at its {self.at_bound} bound" if self.at_bound else ""
-        return f"identified: {number(low)} to {number(high)} (2 standard deviations){bound}; {before}"
+        return f"identified: {low:.3g} to {high:.3g} (2 standard deviations){bound}; {before}"
 
 
 @dataclass(frozen=True)
@@ -202,17 +201,8 @@ def values_table(found: Identified) -> tuple[list[str], list[list[str]]]:
         known = (
             "not determined" if not one.determined else f"at its {one.at_bound} bound" if one.at_bound else ""
         )
-        rows.append(
-            [
-                one.key,
-                one.free.unit,
-                number(one.free.start),
-                number(one.value),
-                number(low),
-                number(high),
-                known,
-            ]
-        )
+        numbers = [f"{value:.3g}" for value in (one.free.start, one.value, low, high)]
+        rows.append([one.key, one.free.unit, *numbers, known])
     return ["key", "unit", "before", "identified", "from", "to (2 std)", ""], rows
 
 

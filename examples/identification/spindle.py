@@ -89,7 +89,7 @@ def measure(scene: Scene, folder: Path) -> Path:
     """Measure the machine with noise; return the file of levels."""
     table = rows(scene)
     levels = Levels(measured_machine(scene), read_data(table, scene), ())
-    exact = levels.at(np.empty(0), [SEED], "full", check=True)[0]
+    exact = levels.at(np.empty(0), [SEED], scene.fidelity.model, check=True)[0]
     noisy = exact + np.random.default_rng(SEED).normal(0.0, NOISE, len(exact))
     for row, value in zip(table, noisy, strict=True):
         row["value_dB"] = f"{value:.1f}"
@@ -111,7 +111,9 @@ def beside_truth(found: Identified) -> list[list[str]]:
 
 def main(
     output_dir: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("out/identification"),
-    quick: Annotated[bool, typer.Option("--quick", help="Two starts, two seeds, fidelity response.")] = False,
+    quick: Annotated[
+        bool, typer.Option("--quick", help="Two starts, two seeds, all in fidelity response.")
+    ] = False,
 ) -> None:
     """Identify a spindle whose truth is known."""
     with refusals():

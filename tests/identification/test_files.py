@@ -24,11 +24,11 @@ def found_in(text, values):
 
 
 def test_values_of_the_catalogue_are_written_beside_its_name():
-    values = {"bearing.contact_damping_us": 2.5, "bearing.cage.land_clearance_mm": 0.06}
+    values = {"bearing.contact_damping_us": 2.5, "bearing.cage.pocket_friction": 0.06}
     made = identified_toml(found_in(TEXT, values), TEXT)
     scene = read_scene_text(made)
     assert scene.bearing.contact_damping_us == 2.5
-    assert scene.bearing.cage.land_clearance_mm == 0.06
+    assert scene.bearing.cage.pocket_friction == 0.06
     assert scene.bearing.cage.pocket_diameter_mm == read_scene_text(TEXT).bearing.cage.pocket_diameter_mm
     assert "contact_damping_us = 2.5 # identified: " in made
 

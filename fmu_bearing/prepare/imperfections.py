@@ -136,7 +136,9 @@ def ball_waves(scene: Scene) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         )
     else:
         amplitudes = np.zeros(flaws.ball_waviness_order)
-        amplitudes[-1] = si(flaws).ball_waviness
+    if flaws.ball_waviness_nm > 0.0:
+        amplitudes = np.pad(amplitudes, (0, max(flaws.ball_waviness_order - amplitudes.size, 0)))
+        amplitudes[flaws.ball_waviness_order - 1] += si(flaws).ball_waviness
     # three normal deviates, normalised, point equally often into every direction
     drawn = np.random.default_rng([flaws.seed, 3]).normal(size=(scene.bearing.ball_count, 3))
     return amplitudes, (drawn / np.linalg.norm(drawn, axis=1)[:, None]).T

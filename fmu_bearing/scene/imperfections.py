@@ -106,7 +106,7 @@ class Imperfections(Part):
         ge=0,
         le=5000,
         examples=[20.0],
-        description="Amplitude of one order of the balls' waviness, in place of ball_form_nm; 0: none, nm.",
+        description="Amplitude of one order of the balls' waviness beside that of ball_form_nm; 0: none, nm.",
     )
     ball_waviness_order: int = Field(
         default=2,
@@ -130,8 +130,6 @@ class Imperfections(Part):
                     'grade = "P4" for all',
                 )
             yield from self._repeated(table)
-        if self.ball_form_nm > 0.0 and self.ball_waviness_nm > 0.0:
-            yield Conflict("ball_waviness_nm", "stands beside ball_form_nm: leave out one of the two")
         yield from self._law_conflicts()
 
     @property

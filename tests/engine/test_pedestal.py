@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from fmu_bearing.engine.fidelities.response.lines import line_table
 from fmu_bearing.engine.layout import C, L, P, Q, S, U, Y
 from tests.engine.condensed import FIDELITIES, Slow, block, silent
 from tests.engine.helpers import Run
@@ -93,7 +94,7 @@ def test_response_couples_both_whirls(scene):
         push = run.s[S.C + C.ECCENTRICITY] * speed**2
         force[1], force[2] = 1j * push, push
         answer = np.linalg.solve(-(speed**2) * mass - stiff - 1j * speed * (damp + extra), force)
-        lines = lv[L.LINES :][: int(lv[L.COUNT]) * L.LINE_SIZE].reshape(-1, L.LINE_SIZE)
+        lines = run.s[line_table(run.p) :][: int(lv[L.COUNT]) * L.LINE_SIZE].reshape(-1, L.LINE_SIZE)
         (line,) = (row for row in lines if row[0] == 0.0 and row[1] == 1.0)
         solved = line[L.LINE_REAL :][: L.N] + 1j * line[L.LINE_IMAGINARY :][: L.N]
         answer[L.TURN] = 0.0  # no line turns the outer ring

@@ -164,10 +164,6 @@ INNER, OUTER = (harmonics(race, [(5, 1.0, 0.0)]) for race in ("inner", "outer"))
         ),
         ("ball_form_nm = 80\n" + INNER + OUTER, "waviness_exponent is missing"),
         (
-            "ball_form_nm = 80\nball_waviness_nm = 20\nwaviness_exponent = 1\n" + INNER + OUTER,
-            "ball_waviness_nm = 20 stands beside ball_form_nm",
-        ),
-        (
             "highest_order = 9\n" + INNER + OUTER,
             "highest_order = 9 has no meaning where both races have explicit harmonics",
         ),
@@ -232,6 +228,15 @@ def test_wavy_balls():
     assert list(amplitudes) == [0.0, 0.0, 0.0, 20e-9]
     assert axes.shape == (3, 12)
     np.testing.assert_allclose(np.linalg.norm(axes, axis=0), 1.0, rtol=1e-15)
+
+
+def test_an_order_beside_the_form_adds_to_it():
+    form, both = (
+        ball_waves(flawed(f'grade = "P4"\nseed = 1\nball_waviness_nm = {amplitude}'))[0]
+        for amplitude in (0.0, 20.0)
+    )
+    assert both[1] - form[1] == pytest.approx(20e-9, rel=1e-12)
+    assert np.array_equal(np.delete(both, 1), np.delete(form, 1))
 
 
 def test_axes_of_wavy_balls_point_everywhere_alike():

@@ -38,6 +38,12 @@ def line_table(p):
 
 
 @kernel
+def orders(p):
+    """Highest order of waviness that excites; 0 where it is left out."""
+    return int(p[P.WAVE_ORDERS]) if p[P.WAVINESS] != 0.0 else 0
+
+
+@kernel
 def sample_orbit(p, c, lv, speed, x, w):
     """Fill ``x`` with the forces of one ball on the rings all round, and their derivatives; the count.
 
@@ -216,7 +222,7 @@ def steady_lines(p, c, lv, lines, x, count, orbit, w):
     scale = c[C.OVERSIZE_SCALE]
     tau = p[P.CONTACT_DAMPING]
     sizes = int(p[P.AT_OVERSIZE])
-    highest = int(p[P.WAVE_ORDERS])
+    highest = orders(p)
     for a in range(1, max(highest, LN.AZIMUTHS // 2) + LN.REACH + 1):
         if a % balls != 0 and a > LN.REACH:
             continue
@@ -259,7 +265,7 @@ def shaft_lines(p, c, lv, lines, x, orbit, speed, w):
     w[T.LINE_FORCE + LN.IMAGINARY + Q.Y] = push
     w[T.LINE_FORCE + Q.Z] = push
     keep(p, lv, lines, 0.0, 1.0, speed, w)
-    for n in range(1, int(p[P.WAVE_ORDERS]) + 1):
+    for n in range(1, orders(p) + 1):
         lowest = max((n - LN.REACH + balls - 1) // balls, 0)
         for k in range(lowest, (n + LN.REACH) // balls + 1):
             for i in range(LN.COMPLEX):

@@ -42,12 +42,11 @@ def wave_table(harmonics: Harmonics, count: int) -> NDArray[np.float64]:
         Shape ``(2 * count,)``: height (m, positive towards the ball) and slope (m per interval) interleaved,
         as the engine's Hermite interpolation wants them.
     """
-    amplitudes, orders, phases = harmonics
-    angle = 2.0 * np.pi * np.arange(count) / count
-    argument = np.outer(orders, angle) + phases[:, None]
+    lines = np.zeros(count // 2 + 1, dtype=complex)
+    lines[harmonics.orders] = 0.5 * count * harmonics.amplitudes * np.exp(1j * harmonics.phases)
     table = np.empty(2 * count)
-    table[0::2] = amplitudes @ np.cos(argument)
-    table[1::2] = -(amplitudes * orders) @ np.sin(argument) * (2.0 * np.pi / count)
+    table[0::2] = np.fft.irfft(lines, count)
+    table[1::2] = np.fft.irfft(1j * np.arange(lines.size) * lines, count) * (2.0 * np.pi / count)
     return table
 
 

@@ -38,7 +38,6 @@ _STOP_STIFFNESS = 5e6  # N/m
 _STOP_FRACTION = 0.96
 _STOP_FRICTION = 0.05
 _STOP_SLIP = 0.1  # m/s
-_MOST_LINES = 384  # of fidelity response: a 7003C at 3,000 r/min has some 200 up to 10 kHz
 _NARROWEST, _WIDEST = 5e-6, 2e-3  # m: clearance of a land, as the scene's key is bounded
 
 
@@ -175,7 +174,6 @@ def pack(scene: Scene, sound: NDArray[np.float64]) -> NDArray[np.float64]:
     p[P.WAVE_INTERVALS] = intervals(highest)
     p[P.WAVE_ORDERS] = highest if wavy else 0
     p[P.WAVE_RATE] = fastest_wave(scene, waves, int(p[P.BALL_WAVES]))
-    p[P.MOST_LINES] = _MOST_LINES if scene.fidelity.model == "response" else 0
     if tables[P.AT_MODES].size:
         p[P.MODES] = tables[P.AT_MODES].size // P.MODE_SIZE
         p[P.MODE_STEP] = longest_step(tables[P.AT_MODES], scene.fidelity.method)

@@ -3,7 +3,6 @@
 import numpy as np
 
 from fmu_bearing.compiled import call
-from fmu_bearing.engine.choices import FIDELITIES
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import STRIDE, P, S, W, Z
 from fmu_bearing.engine.status import OK
@@ -42,8 +41,6 @@ class Run:
             self.p = with_modes(self.p, modes)
         for name, value in parameters.items():
             self.p[getattr(P, name)] = value
-        if self.p[P.FIDELITY] == FIDELITIES.index("response"):
-            self.p[P.MOST_LINES] = 384
         self.p.setflags(write=False)
         mounting = scene.mounting
         self.u = np.array(

@@ -56,8 +56,6 @@ def test_an_option_changes_its_place_and_no_other(old, new, place, before, after
     assert plain[getattr(P, place)] == pytest.approx(before)
     assert other[getattr(P, place)] == pytest.approx(after)
     differ = set(np.flatnonzero(plain != other))
-    if after == 2 and place == "FIDELITY":  # response keeps its lines
-        differ -= {P.MOST_LINES}
     if place == "PRESSURE_VISCOSITY":  # films and rolling resistance follow from it
         differ = {i for i in differ if i < P.RACES}
     assert differ == {getattr(P, place)}
@@ -157,10 +155,8 @@ def test_overrides_of_fidelity_method_and_step(scene):
     assert plain.scene is bare
     other = prepare(bare, fidelity="response", method="rk4", max_step=5e-6)
     assert list(other.parameters[places("FIDELITY", "METHOD", "MAX_STEP")]) == [2.0, 3.0, 5e-6]
-    same = np.delete(other.parameters, places("FIDELITY", "METHOD", "MAX_STEP", "MOST_LINES"))
-    assert np.array_equal(
-        same, np.delete(plain.parameters, places("FIDELITY", "METHOD", "MAX_STEP", "MOST_LINES"))
-    )
+    same = np.delete(other.parameters, places("FIDELITY", "METHOD", "MAX_STEP"))
+    assert np.array_equal(same, np.delete(plain.parameters, places("FIDELITY", "METHOD", "MAX_STEP")))
     assert bare.fidelity.model == "full"
 
 

@@ -11,6 +11,7 @@ DIAGONAL = COLUMN + 1  # from one entry of a matrix's diagonal to the next
 MATRIX = COLUMN * N  # entry (i, k) at i + COLUMN * k
 HISTORY = 5  # accelerations and places kept: now and at earlier steps
 
+MOST_LINES = 384  # of fidelity response: a 7003C at 3,000 r/min has some 200 up to 10 kHz
 # one line of fidelity response, in a table at the end of the state
 _line = Places()
 LINE_BALL = _line()  # multiple of ball 0's angle,

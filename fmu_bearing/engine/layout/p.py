@@ -25,7 +25,6 @@ MODES = _at()  # flexural modes of both rings; 0: rigid rings
 BALL_WAVES = _at()  # zonal orders of the balls' waviness; 0: none
 WAVE_ORDERS = _at()  # highest order of the races' waviness; 0: none
 WAVE_INTERVALS = _at()  # of a race table: a power of two
-MOST_LINES = _at()  # that fidelity response keeps; 0 in others
 # switches: 1 computed, 0 left out
 CAGE = _at()
 GRAVITY = _at()

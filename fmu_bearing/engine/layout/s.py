@@ -1,5 +1,6 @@
 """S: state, all that a later step needs and nothing else."""
 
+from fmu_bearing.engine.choices import RESPONSE
 from fmu_bearing.engine.layout import (
     c as _C,
     condensed as _L,
@@ -57,5 +58,5 @@ SOUND = _at.next  # sound state, then flexure (fidelity full) or lines (response
 
 def size(p):
     """Length of ``s`` for the parameters ``p``."""
-    lines = int(p[_P.MOST_LINES]) * _L.LINE_SIZE
+    lines = _L.MOST_LINES * _L.LINE_SIZE if p[_P.FIDELITY] == RESPONSE else 0
     return SOUND + int(p[_P.SOUND_STATE]) + _FL.state_size(int(p[_P.MODES])) + lines

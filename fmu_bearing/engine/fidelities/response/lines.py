@@ -136,7 +136,7 @@ def keep(p, lv, lines, a, b, omega, w):
     size = loudness(omega, re, im)
     if not (size < 1e9):
         return
-    if into == int(p[P.MOST_LINES]):
+    if into == L.MOST_LINES:
         # full: the weakest line makes room, if it is weaker than this one
         into = weakest(lines, into)
         if lines[into * L.LINE_SIZE + L.LINE_LOUDNESS] >= size:

@@ -4,11 +4,14 @@ import pathlib
 from dataclasses import dataclass
 
 from fmu_bearing.engine.choices import FIDELITIES, METHODS
+from fmu_bearing.engine.layout import U
 from fmu_bearing.run.arrays import Arrays
-from fmu_bearing.scene import Scene, read_scene
+from fmu_bearing.scene import Scene, read_scene, si
 
 #: Frozen scenes with every value written out: a better default does not change what a goal measures.
 GATES = pathlib.Path(__file__).parents[1] / "tests" / "scenes" / "gates"
+#: What users begin with: its speed is that of today's defaults, beside the gate scene of the same name.
+EXAMPLES = pathlib.Path(__file__).parents[1] / "examples" / "scenes"
 WARM_UP = 0.05  # s: ringing of the start has died away
 
 
@@ -26,6 +29,8 @@ class Case:
         Time (s) over which errors are taken.
     communication : float
         Communication step (s) in which both error and speed are taken.
+    folder : Path
+        Where the scene stands: ``GATES`` or ``EXAMPLES``.
     """
 
     scene: str
@@ -35,6 +40,7 @@ class Case:
     load_y: float = 0.0
     window: float = 20e-3
     communication: float = 5e-4
+    folder: pathlib.Path = GATES
 
     def goal(self, solver: "Solver") -> float:
         """Speed that a solver is to reach here; only the default integrator of ``full`` has a goal."""
@@ -44,11 +50,25 @@ class Case:
     def name(self) -> str:
         """Scene, speed and what is special."""
         extra = {"settled": "", "start": ", first 4 ms", "radial": f", {self.load_y:.0f} N radial"}[self.kind]
-        return f"{self.scene} {self.rpm:,.0f} r/min{extra}"
+        where = "" if self.folder == GATES else "example "
+        return f"{where}{self.scene} {self.rpm:,.0f} r/min{extra}"
+
+    def quiet(self, **fidelity: str) -> Scene:
+        """Scene without its sound, with other choices of ``fidelity``."""
+        return silent(self.scene, self.folder, **fidelity)
+
+    def arrays(self, scene: Scene, **parameters: float) -> Arrays:
+        """Bearing of a scene at the case's speed and load; an example scene at its own temperatures."""
+        bearing = Arrays(scene, self.rpm, load_y=self.load_y, **parameters)
+        if self.folder == EXAMPLES:
+            at = si(scene.operation)
+            warm = (at.oil_temperature, at.inner_ring_temperature, at.outer_ring_temperature)
+            bearing.u[U.OIL_T : U.OUTER_T + 1] = warm
+        return bearing
 
     def bearing(self, **parameters: float) -> Arrays:
         """Initialised bearing, run for ``WARM_UP`` unless the start itself is looked at."""
-        bearing = Arrays(silent(self.scene), self.rpm, load_y=self.load_y, **parameters)
+        bearing = self.arrays(self.quiet(), **parameters)
         bearing.init()
         if self.kind != "start":
             bearing.run(WARM_UP, 1e-3)
@@ -83,6 +103,11 @@ def _start(scene: str, rpm: float) -> Case:
     return Case(scene, rpm, (1.0, 0.0, 0.0), "start", window=4e-3, communication=1e-4)
 
 
+def _example(scene: str, rpm: float) -> Case:
+    """Example scene at its own speed; it has no goal of its own."""
+    return Case(scene, rpm, (0.0, 0.0, 0.0), folder=EXAMPLES)
+
+
 CASES = (
     Case("7003C-bare", 1000, (3.0, 30.0, 250.0)),
     Case("7003C-bare", 10000, (3.0, 30.0, 250.0)),
@@ -96,14 +121,17 @@ CASES = (
     Case("7003C-spindle", 20000, (0.75, 20.0, 100.0), "radial", 1000.0),
     Case("7003C-bare", 10000, (2.3, 20.0, 100.0), "radial", 300.0),
     Case("7003C-bare", 10000, (0.75, 20.0, 100.0), "radial", 1000.0),
+    _example("7003C-bare", 20000),
+    _example("7003C-spindle", 20000),
+    _example("7009C-full-ceramic", 18000),
 )
 QUICK = (Case("7003C-spindle", 20000, (3.0, 30.0, 250.0)),)
 
 
-def silent(name: str, **fidelity: str) -> Scene:
-    """Gate scene without its sound, with other choices of ``fidelity`` (not checked) and rigid rings.
+def silent(name: str, folder: pathlib.Path = GATES, **fidelity: str) -> Scene:
+    """Gate scene, or that of another folder, without its sound and with rigid rings.
 
-    The peers' rings are rigid, too.
+    ``fidelity``: other choices, not checked. The peers' rings are rigid, too.
     """
-    scene = read_scene(GATES / f"{name}.toml").with_rigid_rings()
+    scene = read_scene(folder / f"{name}.toml").with_rigid_rings()
     return scene.model_copy(update={"sound": None, "fidelity": scene.fidelity.model_copy(update=fidelity)})

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from benchmarks.cases import WARM_UP, Case, Solver, silent
+from benchmarks.cases import WARM_UP, Case, Solver
 from benchmarks.table import Row
 from fmu_bearing.accuracy.reference import Reference, reference_from, relative_error
 from fmu_bearing.engine.layout import P
@@ -22,11 +22,9 @@ LIMIT = 1e-3
 
 def started(case: Case, solver: Solver, warm_up: float) -> Arrays:
     """Bearing of a case that has run by ``solver`` from its start for ``warm_up`` (s)."""
-    scene = silent(case.scene, model=solver.fidelity, method=solver.method)
+    scene = case.quiet(model=solver.fidelity, method=solver.method)
     tolerance, step = DEFAULT
-    bearing = Arrays(
-        scene, case.rpm, load_y=case.load_y, **solver.parameters, TOLERANCE=tolerance, MAX_STEP=step
-    )
+    bearing = case.arrays(scene, **solver.parameters, TOLERANCE=tolerance, MAX_STEP=step)
     bearing.init()
     bearing.run(warm_up, case.communication)
     return bearing

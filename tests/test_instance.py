@@ -125,6 +125,28 @@ def test_an_ellipse_beyond_the_shoulder_is_told(scene):
     assert bearing.get("contact.inner.shoulder_margin") < 0.0
 
 
+def test_a_run_up_beyond_the_scenes_speed_is_told(example):
+    """Waves up to 10 kHz at 5,000 r/min lie at 30 kHz at 15,000 and shorten every step there."""
+    scene = example("7003C-bare")
+    slow = scene.model_copy(update={"operation": scene.operation.model_copy(update={"speed_rpm": 5000.0})})
+    told = []
+    bearing = Instance(prepare(slow, fidelity="rings"), told.append)
+    bearing.initialise()
+    # 10 kHz: a radian takes 1 / (2 pi 10 kHz) = 15.9 us; whole orders reach somewhat less far
+    assert bearing.get("solver.wave_time") == pytest.approx(15.9e-6, rel=0.02) and not told
+    before = bearing.get("solver.steps")
+    bearing.step(1e-3)
+    bearing.set("shaft_speed", 15000.0 * math.pi / 30.0)
+    for _ in range(2):
+        bearing.step(1e-3)
+    assert len(told) == 1 and "by one radian in 5.3 us" in told[0]
+    assert bearing.get("solver.steps") - before > 2 * 1e-3 / 5.3e-6  # the second step is at full speed
+    with pytest.warns(UserWarning, match="by one radian"):
+        fast = prepare(slow.model_copy(update={"operation": slow.operation.model_copy(
+            update={"speed_rpm": 15000.0, "lowest_speed_rpm": 5000.0})}), fidelity="rings")  # fmt: skip
+        Instance(fast).initialise()
+
+
 def test_a_pedestal_too_soft_for_the_load_is_refused(scene):
     bearing = Instance(prepare(scene("7003C-bare")))
     bearing.set("pedestal_stiffness", 1e4)

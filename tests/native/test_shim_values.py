@@ -196,6 +196,13 @@ def test_caution_after_initialisation(master):
     assert master().start(load=100.0).log == []
 
 
+def test_caution_after_a_step_is_given_once(master):
+    one = master().start(load=100.0)
+    assert one.set("load", 110.0) == OK
+    assert one.step(0.0, 1e-3) == one.step(1e-3, 1e-3) == OK
+    assert one.log == [(WARNING, "logStatusWarning", "the margin is short by 20.0 half newtons")]
+
+
 def test_tolerance_of_the_experiment_wins(master):
     one = master()
     assert one.set("tolerance", 1e-2) == OK

@@ -50,6 +50,7 @@ def linearise(p, s, speed, w):
     for i in range(L.MATRIX):
         lv[L.EXTRA + i] = 0.0
     still(p, c, lv, w)
+    out_of_round(p, c, lv, w)
     if not derivatives(p, c, lv, 0.0, speed, 0.0, w):
         return False
     added_mass(p, c, lv, w)
@@ -57,6 +58,25 @@ def linearise(p, s, speed, w):
     still(p, c, lv, w)
     renew_lines(p, s, speed, w)
     return True
+
+
+@kernel
+def out_of_round(p, c, lv, w):
+    """Add order 2 of the outer race to its heights under the balls.
+
+    It loads the balls at two opposite sides more than those between them, always at the same place, so the
+    radial stiffness differs along and across. Other orders make no such difference to first order, and the
+    inner race's turns with the shaft. With 3 or 4 balls it would change as they turn: left out.
+    """
+    if p[P.WAVINESS] == 0.0 or p[P.WAVE_ORDERS] < 2.0 or p[P.BALLS] < 5.0:
+        return
+    at = int(p[P.AT_ORDERS]) + 2 * int(p[P.WAVE_ORDERS]) + 2
+    scale = c[C.OVERSIZE_SCALE]
+    for j in range(0, int(p[P.LANES]), FOUR):
+        co = load(lv, L.COS + j)
+        si = load(lv, L.SIN + j)
+        height = p[at] * (co * co - si * si) - p[at + 1] * (2.0 * si * co)
+        store(w, T.OUTER + j, load(w, T.OUTER + j) + scale * height)
 
 
 @kernel

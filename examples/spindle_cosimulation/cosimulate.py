@@ -104,12 +104,15 @@ def main(
     ] = 5e-4,
     start_rpm: Annotated[float, typer.Option(min=0.0, max=40e3, help="Speed at the start in r/min.")] = 2e3,
     target_rpm: Annotated[float, typer.Option(min=0.0, max=40e3, help="Speed held, in r/min.")] = 2e4,
-    short: Annotated[bool, typer.Option(help="Same steps in a tenth of a second, for a first look.")] = False,
+    short: Annotated[
+        bool, typer.Option(help="The last 3000 r/min in a tenth of a second, for a first look.")
+    ] = False,
 ) -> None:
     """Run the spindle up and hold its speed: motor, bearing and thermal FMU together."""
     console = Console()
     if short:
         end_time = min(end_time, 0.1)
+        start_rpm = max(start_rpm, target_rpm - 3e3)  # the motor turns up the rotor by no more in that time
     plan = Plan(
         end_time=end_time,
         communication_step=communication_step,

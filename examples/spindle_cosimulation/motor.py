@@ -36,12 +36,12 @@ class SpindleMotor(Fmi2Slave):
         ("ramp_start", "parameter", "s", 0.0, "Begin of the run-up"),
         ("ramp_time", "parameter", "s", 0.7, "Duration of the run-up"),
         # Inner ring and rotor of the example scene; a master sets what the bearing says.
-        ("rotor_inertia", "parameter", "kg.m2", 8.4e-6, "Polar inertia of everything that turns"),
+        ("rotor_inertia", "parameter", "kg.m2", 1.64e-4, "Polar inertia of everything that turns"),
         # 20 Hz (assumed): fast against the run-up, slow against the torque ripple of the balls.
         ("bandwidth", "parameter", "rad/s", 125.66370614359172, "Double pole of the speed control"),
         ("control_period", "parameter", "s", 1.0e-4, "Sampling period of the controller"),
-        # Assumed: a 1 kW class motor spindle at 20,000 r/min.
-        ("torque_limit", "parameter", "N.m", 0.5, "Largest torque, either way"),
+        # Assumed: a 2 kW class motor spindle at 20,000 r/min.
+        ("torque_limit", "parameter", "N.m", 1.0, "Largest torque, either way"),
         ("torque_constant", "parameter", "N.m/A", 0.03, "Torque per current"),
         ("winding_resistance", "parameter", "Ohm", 0.4, "Resistance that makes the copper loss"),
     )

@@ -25,13 +25,17 @@ def folder(tmp_path_factory):
 
 
 def test_shafts_lighter_than_the_balls_diverge_and_others_settle(folder):
+    from stability import DIVERGED
+
     found = cells(folder / "coupling.csv")
     for step in ("0.0001", "0.0003", "0.001"):
-        light, middle, own = (found["torque", step, inertia] for inertia in ("6e-08", "2e-07", "8.4e-06"))
-        assert float(light["factor"]) < -1.2 and float(light["predicted"]) < -1.9
+        light, middle, own = (found["torque", step, inertia] for inertia in ("6e-08", "2e-07", "0.000164"))
+        assert float(light["factor"]) < -DIVERGED and float(light["predicted"]) < -1.9
+        if step != "0.0001":  # in 0.1 ms the balls do not follow such jumps of speed: they slip
+            assert float(light["factor"]) == pytest.approx(float(light["predicted"]), rel=0.1)
         # one number, the inertia of balls and cage, tells the factor within a few hundredths
         assert float(middle["factor"]) == pytest.approx(float(middle["predicted"]), abs=0.05)
-        assert abs(float(own["factor"])) < 0.03
+        assert abs(float(own["factor"])) < 3e-3  # Jb / J is 7e-4
         assert all(abs(float(row["factor_taken_over"])) < 0.1 for row in (light, middle, own))
 
 

@@ -101,11 +101,11 @@ def _speed_and_torque(axis: "Axes", run: NDArray[np.void]) -> None:
     axis.set_ylabel("shaft speed [r/min]")
     axis.set_xlabel("time [s]")
     torque = _twin(axis)
-    torque.plot(time, 1e3 * run["motor_torque"], color="C1", label="motor torque")
+    # the motor's own, mostly for the rotor's acceleration, would press this one flat
     friction = 1e3 * run["friction_torque"]
     torque.plot(time, friction, color="C3", alpha=0.25, linewidth=0.6)
     torque.plot(time, _moving_mean(time, friction), color="C3", label="friction torque, 10 ms mean")
-    torque.set_ylabel("torque [N.mm]")
+    torque.set_ylabel("friction torque [N.mm]")
     _legend(axis, torque)
 
 

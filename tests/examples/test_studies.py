@@ -63,8 +63,9 @@ def test_tolerance_study(quick):
     def mean(grade, column):
         return sum(float(row[column]) for row in by_grade[grade]) / 3
 
-    # amplitudes are 1.6 : 1 : 0.6, and at these the outer ring's motion is linear in them
-    for grade, ratio in (("P5", 1.6), ("P2", 0.6)):
+    # the races' amplitudes are 2 : 1 : 0.5, and at these the outer ring's motion is linear in them; fidelity
+    # rings leaves out the form of the balls, which is 1.6 : 1 : 1
+    for grade, ratio in (("P5", 2.0), ("P2", 0.5)):
         assert mean(grade, "velocity_rms_mm_s") == pytest.approx(
             ratio * mean("P4", "velocity_rms_mm_s"), rel=0.05
         )

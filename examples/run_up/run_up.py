@@ -5,9 +5,9 @@ radiation model bem; ``--quick``: fidelity rings, radiation model compact, a thi
 ``waterfall.png``, ``orders.png``, ``orders.csv`` and ``peaks.md``.
 
 Result: the shaft's order is loudest at 28,700 r/min, 70 dB: the critical speed at 27,900 r/min, a little
-late, as the ramp goes by at 32,000 r/min per second. Waves of the races are louder where they come to 2.0 kHz,
-the rotor on the balls: the balls passing the outer race (order 5.04) 78 dB at 23,300 r/min, order 6.0 72 dB at
-20,000 r/min, order 8.0 71 dB at 15,400 r/min.
+late, as the ramp goes by at 32,000 r/min per second. Waves of the races are louder where they come to 2.0
+kHz, the rotor on the balls: the balls passing the outer race (order 5.04) 78 dB at 23,300 r/min, order 6.0 72
+dB at 20,000 r/min, order 8.0 71 dB at 15,400 r/min.
 """
 
 from pathlib import Path

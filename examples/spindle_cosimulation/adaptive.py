@@ -11,12 +11,12 @@ step. Where both are far below, the next step is longer. No step is computed twi
 
 The shaft here is light, without the motor's rotor: 8.4e-6 kg m2, so that its speed feels the torque.
 
-Result, without imperfections: within 0.03 rad/s a step, 100 steps of 0.1 to 4.1 ms and 17 refused ones come to
-within 0.41 rad/s of a reference at 20 us; 150 fixed ones of 1 ms to 0.48. Within 0.1 rad/s a step, 75 steps
-come to 0.58 and as many fixed ones of 2 ms to 0.70. With the scene's imperfections the torque fluctuates by a
-tenth with the balls and adaptive steps follow the ripple: 538 steps for 0.42 rad/s, where 300 fixed ones reach
-0.34. There, choose a fixed step by the table. With the scene's own rotor, 20 times the inertia and 0.7 s of
-run-up, fixed steps of 5 ms are within 0.02 rad/s: the error is none to follow.
+Result, without imperfections: within 0.03 rad/s a step, 100 steps of 0.1 to 4.1 ms and 17 refused ones come
+to within 0.41 rad/s of a reference at 20 us; 150 fixed ones of 1 ms to 0.48. Within 0.1 rad/s a step, 75
+steps come to 0.58 and as many fixed ones of 2 ms to 0.70. With the scene's imperfections the torque
+fluctuates by a tenth with the balls and adaptive steps follow the ripple: 538 steps for 0.42 rad/s, where 300
+fixed ones reach 0.34. There, choose a fixed step by the table. With the scene's own rotor, 20 times the
+inertia and 0.7 s of run-up, fixed steps of 5 ms are within 0.02 rad/s: there is no error to follow.
 """
 
 import tempfile

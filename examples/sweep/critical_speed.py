@@ -132,7 +132,9 @@ def draw(path: Path, found: dict, modes: Sequence[float]) -> None:
         words = "sound at P1" if kind == SOUND else "outer ring's velocity at shaft speed (1x)"
         ax.set_title(f"{words}, {name}", fontsize=10)
         ax.legend(loc="lower right", fontsize=7, facecolor="0.3", labelcolor="w", framealpha=0.6)
-    figure.suptitle(f"7003C in its spindle: critical speed over pedestal stiffness (thin line: {STATED / 1e7:g}e7 N/m)")
+    figure.suptitle(
+        f"7003C in its spindle: critical speed over pedestal stiffness (thin line: {STATED / 1e7:g}e7 N/m)"
+    )
     save(figure, path)
 
 

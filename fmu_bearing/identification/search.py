@@ -49,6 +49,7 @@ _STEP_NOISY = 0.05  # where the integrator's error has to be drowned
 _OUTSIDE = 2.0  # standard deviations from which soft_l1 counts a residual less
 _LOST = 50.0  # standard deviations, in place of a level that cannot be computed
 _SPREAD_SEEDS = 12  # for the covariance of levels
+_APART = 0.05  # of a logarithm: ends of searches nearer than that are one
 _TRIED = 8  # places per further start; the best of them start a search
 _ROUGH = {"max_nfev": 8, "ftol": 1e-2, "xtol": 1e-2, "gtol": 1e-3}
 _FINE = {"max_nfev": 12, "ftol": 1e-3, "xtol": 1e-3, "gtol": 1e-4}
@@ -163,7 +164,7 @@ class _Search:
         self.start = self._inside(start_point(self.free))
         self.best = _Best(self.start)
         self.before = np.full(len(self.data), np.nan)
-        self.jacobian: NDArray[np.float64] | None = None
+        self.rivals: list[NDArray[np.float64]] = []
 
     def run(self) -> Identified:
         """Search and report."""
@@ -172,11 +173,15 @@ class _Search:
         self._require(self.before, self.own)
         self._require(self._mean(self.start, self.seeds[:1])[self.fit], self.fidelity)
         self._weigh(self.start)
-        x = self._from_several_starts()
+        ends = self._from_several_starts()
+        x = ends[0]
         for number in range(_CORRECTIONS):
             self.told.say(f"all seeds, round {number + 1}")
             self._weigh(x)
-            x = self._descend(x, self.seeds, **(_FINE if number else _ROUGH))
+            if number:
+                x = self._descend(x, self.seeds, **_FINE)
+            else:
+                x, *self.rivals = self._ranked(ends)
             if self.own == self.fidelity:
                 if number:
                     break
@@ -185,8 +190,8 @@ class _Search:
                 break
         return self._report(x)
 
-    def _from_several_starts(self) -> NDArray[np.float64]:
-        """Best of rough searches with one seed."""
+    def _from_several_starts(self) -> list[NDArray[np.float64]]:
+        """Different ends of rough searches with one seed, the best first, no more than three."""
         tries = [self.start]
         if self.starts > 1:
             self.told.say("places within the bounds")
@@ -196,7 +201,34 @@ class _Search:
             self.told.say(f"start {number + 1} of {len(tries)}")
             end = self._descend(x, self.seeds[:1], **_ROUGH)
             found.append((self._cost(end, self.seeds), number, end))
-        return min(found, key=lambda one: one[:2])[2]
+        ends: list[NDArray[np.float64]] = []
+        for _, _, end in sorted(found, key=lambda one: one[:2]):
+            if all(np.abs(end - other).max() > _APART for other in ends):
+                ends.append(end)
+        return ends[:3]
+
+    def _ranked(self, ends: Sequence[NDArray[np.float64]]) -> list[NDArray[np.float64]]:
+        """Return the ends of searches with all seeds from these places, the best first."""
+        found = [self._descend(end, self.seeds, **_ROUGH) for end in ends]
+        return sorted(found, key=lambda end: self._cost(end, self.seeds))
+
+    def _rivals(self, x: NDArray[np.float64], spread: Spread) -> list[str]:
+        """Sentences on other solutions that the data do not rule out at two standard deviations."""
+        deviations = np.sqrt(np.diag(spread.covariance))
+        here, said = self._cost(x, self.seeds), []
+        for other in self.rivals:
+            far = np.abs(other - x) > 2.0 * deviations
+            if far.any() and self._cost(other, self.seeds) < here + 2.0 * spread.scale**2:
+                values = ", ".join(
+                    f"{one.key} = {one.value(at):.3g}"
+                    for one, at, moved in zip(self.free, other, far, strict=True)
+                    if moved
+                )
+                said.append(
+                    f"another solution fits nearly as well: {values}. The intervals are about the better "
+                    "one; measure at a further speed to tell them apart"
+                )
+        return said
 
     def _promising(self, count: int) -> list[NDArray[np.float64]]:
         """Return the best of places spread over the middle of the bounds.
@@ -351,9 +383,9 @@ class _Search:
             )
             for one, value, deviation in zip(self.free, values, deviations, strict=True)
         )
-        said = remarks(self.free, spread, values, int(self.fit.sum())) if complete else [
-            "interrupted: the best values so far, their uncertainty is unknown"
-        ]  # fmt: skip
+        said = ["interrupted: the best values so far, their uncertainty is unknown"]
+        if complete:
+            said = remarks(self.free, spread, values, int(self.fit.sum())) + self._rivals(x, spread)
         return Identified(
             self.levels.scene_at(x), self.levels.scene, estimates,
             tuple(Compared(*row) for row in zip(self.data, map(float, self.before), map(float, after),

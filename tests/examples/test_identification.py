@@ -20,4 +20,6 @@ def test_it_comes_near_the_truth(tmp_path):
         reach = (float(high) / float(low)) ** (3.0 / 4.0)
         assert 1.0 / reach < float(value) / float(true) < reach, key
     assert (tmp_path / "identification.png").stat().st_size > 10_000
-    assert (tmp_path / "identified" / "report.md").exists()
+    # a softer pedestal, whose mode lies on the other side of the measured 27,000 r/min, fits nearly as well
+    report = (tmp_path / "identified" / "report.md").read_text("utf-8")
+    assert "another solution fits nearly as well: imperfections.unbalance_um" in report

@@ -57,4 +57,6 @@ def test_figures_of_the_page_are_those_of_the_table():
     assert f"{heard.min():.1f} to {heard.max():.1f} % above" in PAGE
     assert f"{round(modes[0], -2):,.0f} to {round(modes[-1], -2):,.0f} r/min" in PAGE
     scaled = modes / np.sqrt([float(row[0]) for row in rows])
-    assert np.ptp(scaled) / scaled.mean() < 3e-3
+    # the root of the pedestal's stiffness, in series with balls that are 1.1 to 4.6 times as stiff
+    assert np.abs(scaled / scaled[4] - 1.0).max() < 6e-3
+    assert "within 0.6 %" in PAGE

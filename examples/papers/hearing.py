@@ -146,6 +146,16 @@ def equivalent(sources: NDArray[np.float64]) -> NDArray[np.float64]:
     return level((sources**2).mean(axis=2).sum(axis=0))
 
 
+def below(sources: NDArray[np.float64], rate: float, highest: float) -> NDArray[np.float64]:
+    """Level (dB) at each microphone of sources (sources, mics, size), of frequencies up to ``highest`` Hz."""
+    size = sources.shape[-1]
+    lines = np.fft.rfft(sources, axis=-1)
+    chosen = np.fft.rfftfreq(size, 1.0 / rate) <= highest
+    # Parseval: every line but the mean counts twice; the one at half the rate lies above any ``highest`` here
+    energy = np.abs(lines[..., 0]) ** 2 + 2.0 * (np.abs(lines[..., 1:][..., chosen[1:]]) ** 2).sum(axis=-1)
+    return level(energy.sum(axis=0) / size**2)
+
+
 def spectrum(sources: NDArray[np.float64], rate: float, step: float, last: float) -> NDArray[np.float64]:
     """Levels (dB) of one microphone's sources (sources, size) at 0, ``step``, ... ``last`` Hz."""
     squares = sum(amplitude_spectrum(source, rate, step)[1] ** 2 for source in sources)

@@ -1,67 +1,137 @@
 """The multi-source paper: hybrid 7003C in a motorised spindle, four points, 10,000 to 40,000 r/min."""
 
+import math
 from typing import Any
 
 import numpy as np
 
-from examples.papers import charts, page
-from examples.papers.calibration import Calibration
-from examples.papers.case import Case
+from examples.papers import charts, page, printed, values
+from examples.papers.case import Case, Changes, changed
 from examples.papers.hearing import NAMES, Ear, equivalent, line, spectrum
-from examples.papers.page import Ordering, Output, Value, verdict
+from examples.papers.identification import (
+    AMPLITUDE,
+    AMPLITUDE_UM,
+    EXPONENT,
+    Answer,
+    by_identify,
+    measured_row,
+)
+from examples.papers.lines import (
+    LAST,
+    LINES,
+    PARTS,
+    POINTS,
+    REASONS,
+    SPECTRA,
+    SPEEDS,
+    STEP,
+    frequencies,
+    orderings,
+    ours,
+)
+from examples.papers.page import Output
+from examples.papers.runs import Results, Runs
+from examples.papers.statements import classed, counts
 from fmu_bearing.run.table import markdown
 
 NAME = "multi-source"
 TITLE = "Multi-source paper: 7003C in a spindle, 10,000 to 40,000 r/min"
-MODULES = ("multi_source", "hearing")
-PAPER_MODEL_TOO = True
-SPEEDS = tuple(range(10000, 40001, 1000))
-SPECTRA = (20000, 25000, 28000, 30000)
-POINTS = ("P1", "P2", "P3", "P4")
-PARTS = ("outer_ring", "inner_ring", "balls", "cage")
-STEP, LAST = 20.0, 4000.0  # Hz, as the paper's figures 11 to 14
-LINES = ("f_r", "2 f_r", "f_c", "f_b", "f_i", "f_o")
-#: The only change to the scene: balls as wavy as grade P4 has them, without which nothing sounds at f_b.
-CHANGES = (("imperfections.ball_waviness_nm", 20.0),)
-CALIBRATION = ("P3, 30,000 r/min, measured", 83.4)
-#: Measured values readable from the papers: P3 where the impact-noise paper quotes them, the others from a
-#: difference and the relative error beside it, which leaves half a decibel.
-MEASURED = (
-    (10000, "P3", 73.96, "as quoted by the impact-noise paper"),
-    (15000, "P3", 75.29, "as quoted by the impact-noise paper"),
-    (20000, "P3", 80.27, "as quoted by the impact-noise paper"),
-    (26000, "P1", 85.7, "0.24 dB are 0.28 %"),
-)
-TONES = (("f_r", 85.8, "Fig. 16: 1.15 dB are 1.34 %"), ("f_b", 82.5, "Fig. 16: 3.4 dB are 4.12 %"))
+MODULES = ("multi_source", "lines", "hearing", "values")
+SCENE = "7003C-spindle"
+CHANGES: Changes = ()  # to the scene, besides what is identified
+VALUES = values.read(NAME)
+FREE = {
+    AMPLITUDE: AMPLITUDE_UM,
+    EXPONENT: (0.8, 2.0),
+    "imperfections.unbalance_um": (0.05, 20.0),
+}
+IDENTIFIED, BEFORE = "identified", "before"
+#: Masses (kg) of rotor and housing at the ends of what the paper's dimensions leave open: a shaft of about
+#: 0.5 kg with a motor's rotor on it, a housing of d100 x 160 mm. The scene has them in the middle.
+CORNERS = ((1.0, 6.0), (1.0, 8.0), (1.5, 6.0), (1.5, 8.0))
+_CORNER_SEEDS = 4
+_CRITICAL_HZ = 28000 / 60.0  # of the first lateral mode, which the pedestal is tuned to
 
 
-def cases(scale: float, quick: bool) -> list[Case]:
-    """Operating points."""
+def cases(found: Changes, seeds: tuple[int, ...], quick: bool) -> list[Case]:
+    """Operating points: all speeds with what is identified, those of the values with the scene's own."""
     if quick:
-        return [Case("7003C-spindle", 28000, CHANGES, scale, settle=0.01, duration=0.052)]
-    return [Case("7003C-spindle", rpm, CHANGES, scale) for rpm in SPEEDS]
+        return [Case(SCENE, 28000, (*CHANGES, *found), seed, 0.01, 0.052, IDENTIFIED) for seed in seeds]
+    own = sorted({int(value.rpm) for value in VALUES})
+    return [
+        Case(SCENE, rpm, (*CHANGES, *changes), seed, label=label)
+        for label, changes, speeds in ((BEFORE, (), own), (IDENTIFIED, found, SPEEDS))
+        for rpm in speeds
+        for seed in seeds
+    ]
 
 
-def calibration_case(scale: float, quick: bool) -> Case:
-    """Operating point of the calibration."""
-    return cases(scale, quick)[0] if quick else Case("7003C-spindle", 30000, CHANGES, scale)
+def identified(runs: Runs) -> Answer:
+    """Identify the free numbers from the fitted values."""
+    return by_identify(
+        SCENE, CHANGES, FREE, measured(values.FIT), VALUES, seeds=len(runs.seeds),
+        folder=runs.cache / NAME / "identify", workers=runs.jobs, radiation_model=runs.radiation_model,
+        quick=runs.quick,
+    )  # fmt: skip
 
 
-def calibration_level(ear: Ear) -> float:
-    """Level (dB) at P3."""
-    return float(ear.levels([ear.recording.positions[2]])[0])
+def with_masses(rotor: float, housing: float) -> Changes:
+    """Return the changes that other masses (kg) need: the pedestal keeps the lateral mode at 467 Hz."""
+    scene = changed(SCENE, CHANGES)
+    # all that stands on the pedestal moves as one in that mode: stiffness over mass stays
+    assert scene.mounting.rotor is not None and scene.mounting.housing is not None
+    own = scene.mounting.rotor.mass_kg + scene.mounting.housing.mass_kg
+    effective = scene.mounting.pedestal_stiffness_N_m / (2.0 * math.pi * _CRITICAL_HZ) ** 2
+    stiffness = (effective + rotor + housing - own) * (2.0 * math.pi * _CRITICAL_HZ) ** 2
+    return (
+        ("mounting.rotor.mass_kg", rotor),
+        ("mounting.housing.mass_kg", housing),
+        ("mounting.pedestal_stiffness_N_m", stiffness),
+    )
+
+
+def _corner_table(runs: Runs) -> str:
+    """Identify anew with other assumed masses, from the same fitted values; what the checked ones become."""
+    if runs.quick:
+        return "Not run.\n"
+    checked = [value for value in VALUES if value.role == values.CHECK and not value.without]
+    seeds, rows = runs.seeds[:_CORNER_SEEDS], []
+    for rotor, housing in CORNERS:
+        fixed = (*CHANGES, *with_masses(rotor, housing))
+        answer = by_identify(
+            SCENE, fixed, FREE, measured(values.FIT), VALUES, seeds=len(seeds),
+            folder=runs.cache / NAME / "identify", workers=runs.jobs, radiation_model=runs.radiation_model,
+        )  # fmt: skip
+        cases = [
+            Case(SCENE, value.rpm, (*fixed, *answer.changes), seed) for value in checked for seed in seeds
+        ]
+        words = f"{NAME}: rotor {rotor:g} kg, housing {housing:g} kg"
+        by_seed: dict[int, dict[int, dict[str, Any]]] = {}
+        for case, result in runs.all(NAME, cases, words).items():
+            by_seed.setdefault(case.seed, {})[int(case.rpm)] = result
+        met = values.met(checked, [ours(checked, one) for one in by_seed.values()])
+        rows.append([
+            f"{rotor:g}", f"{housing:g}", *(f"{one.after:.3g}" for one in answer.numbers),
+            *(f"{one.residual:+.1f}" for one in met), f"{values.rms(met):.1f}",
+        ])  # fmt: skip
+    columns = ["rotor, kg", "housing, kg", "A_1, um", "p", "unbalance, um", *(one.name for one in checked)]
+    return markdown([*columns, "rms"], rows)
+
+
+def measured(*roles: str) -> list[dict[str, Any]]:
+    """Values as `fmu_bearing.identify` reads them."""
+    return [
+        {"microphone": value.place} | measured_row(value)
+        for value in VALUES
+        if value.role in roles and not value.without
+    ]
 
 
 def reduce(ear: Ear, quick: bool) -> dict[str, Any]:
     """Levels at the four points, by component, lines and spectra at P1."""
     recording = ear.recording
     sources = ear.sources(recording.positions)
-    ratio = float(np.mean(recording.outputs["cage.speed_ratio"][recording.output_time >= recording.start]))
-    rolling = recording.kinematics()
-    balls = recording.scene.bearing.ball_count
-    f_r, f_c = rolling.f_r, ratio * rolling.f_r
-    at = {"f_r": f_r, "2 f_r": 2 * f_r, "f_c": f_c, "f_b": rolling.f_b, "f_i": balls * (f_r - f_c),
-          "f_o": balls * f_c}  # fmt: skip
+    at = frequencies(ear)
     rate = recording.rate
     return {
         "levels": {name: equivalent(found).tolist() for name, found in sources.items()},
@@ -76,234 +146,123 @@ def reduce(ear: Ear, quick: bool) -> dict[str, Any]:
     }
 
 
-def orderings(results: dict[int, dict[str, Any]]) -> list[Ordering]:
-    """Judge the paper's statements for one radiation model; results by speed."""
-    total = {rpm: dict(zip(POINTS, found["levels"]["total"], strict=True)) for rpm, found in results.items()}
-    speeds = sorted(results)
-
-    def at_all(chosen, margin):
-        return [(f"{rpm:,}", margin(total[rpm])) for rpm in speeds if chosen(rpm)]
-
-    found = [
-        verdict("P2 below P1 at every speed", at_all(lambda n: True, lambda p: p["P1"] - p["P2"])),
-        verdict(
-            "P4 between P2 and P1",
-            at_all(lambda n: True, lambda p: min(p["P1"] - p["P4"], p["P4"] - p["P2"])),
-        ),
-        verdict(
-            "P3 above P1 at 16,000 to 27,000 r/min",
-            at_all(lambda n: 16000 <= n <= 27000, lambda p: p["P3"] - p["P1"]),
-        ),
-        verdict(
-            "P3 below P1 at other speeds",
-            at_all(lambda n: not 16000 <= n <= 27000, lambda p: p["P1"] - p["P3"]),
-        ),
-        verdict(
-            "P3 lowest of all above 32,000 r/min",
-            at_all(lambda n: n > 32000, lambda p: min(p["P1"], p["P2"], p["P4"]) - p["P3"]),
-        ),
-        *_peaks(results, total, speeds),
-        *_lines(results),
-    ]
-    ranks = [
-        (f"{rpm:,} {one} > {other}", results[rpm]["levels"][a][0] - results[rpm]["levels"][b][0])
-        for rpm in speeds
-        for a, b, one, other in (
-            ("outer_ring", "inner_ring", "outer", "inner"),
-            ("inner_ring", "balls", "inner", "balls"),
-            ("balls", "cage", "balls", "cage"),
-        )
-    ]
-    for one, other in (("outer", "inner"), ("inner", "balls"), ("balls", "cage")):
-        margins = [(n.split()[0], m) for n, m in ranks if f"{one} > {other}" in n]
-        found.append(verdict(f"P1: {one} above {other} at every speed", margins))
-    return found
-
-
-def _peaks(results: dict[int, dict[str, Any]], total, speeds) -> list[Ordering]:
-    """Statements on the critical speed."""
-    if 28000 not in results or len(speeds) < 3:
-        return [Ordering(words, page.UNSEEN, "") for words in _PEAK_WORDS]
-    others = [rpm for rpm in speeds if rpm != 28000]
-    at_peak = [
-        (
-            f"{p} (loudest at {max(speeds, key=lambda n: total[n][p]):,})",
-            total[28000][p] - max(total[n][p] for n in others),
-        )
-        for p in POINTS
-    ]
-    part_peak = [
-        (
-            f"{NAMES[c]} (loudest at {max(speeds, key=lambda n: results[n]['levels'][c][0]):,})",
-            results[28000]["levels"][c][0] - max(results[n]["levels"][c][0] for n in others),
-        )
-        for c in PARTS
-    ]
-    after = [(p, total[speeds[-1]][p] - total[speeds[0]][p]) for p in POINTS]
-    tones = results[28000]["lines"]["total"]
-    loudest = [("28,000", tones["f_r"] - max(tones[key] for key in LINES if key != "f_r"))]
-    own = {n: results[n]["lines"]["total"]["f_r"] for n in speeds}
-    where = f"total (largest at {max(speeds, key=lambda n: own[n]):,})"
-    return [
-        verdict(_PEAK_WORDS[0], at_peak),
-        verdict(_PEAK_WORDS[1], part_peak),
-        verdict(_PEAK_WORDS[2], after),
-        verdict(_PEAK_WORDS[3], loudest),
-        verdict(_PEAK_WORDS[4], [(where, own[28000] - max(own[n] for n in others))]),
-    ]
-
-
-_PEAK_WORDS = (
-    "every point loudest at 28,000 r/min",
-    "P1: every component loudest at 28,000 r/min",
-    "40,000 r/min louder than 10,000 r/min",
-    "f_r loudest line of the total at 28,000 r/min",
-    "P1: the line f_r itself largest at 28,000 r/min (put in by the scene)",
-)
-
-
-def _lines(results: dict[int, dict[str, Any]]) -> list[Ordering]:
-    """Statements on lines of the components' spectra at the paper's four speeds."""
-    speeds = [rpm for rpm in SPECTRA if rpm in results]
-
-    def over(component, margin):
-        return [(f"{rpm:,}", margin(results[rpm]["lines"][component])) for rpm in speeds]
-
-    def largest(key):
-        return lambda tones: tones[key] - max(tones[other] for other in LINES if other != key)
-
-    def smallest(key):
-        return lambda tones: min(tones[other] for other in LINES if other != key) - tones[key]
-
-    return [
-        verdict("balls: f_b largest", over("balls", largest("f_b"))),
-        verdict("balls: f_o above f_i", over("balls", lambda t: t["f_o"] - t["f_i"])),
-        verdict(
-            "balls: f_r above f_c and 2 f_r", over("balls", lambda t: t["f_r"] - max(t["f_c"], t["2 f_r"]))
-        ),
-        verdict("cage: f_c largest", over("cage", largest("f_c"))),
-        verdict("cage: f_r next", over("cage", lambda t: t["f_r"] - max(t["f_b"], t["f_i"], t["f_o"]))),
-        verdict("cage: f_b third", over("cage", lambda t: t["f_b"] - max(t["2 f_r"], t["f_i"], t["f_o"]))),
-        verdict("inner ring: f_i largest", over("inner_ring", largest("f_i"))),
-        verdict("inner ring: 2 f_r smallest", over("inner_ring", smallest("2 f_r"))),
-        verdict("outer ring: f_o largest", over("outer_ring", largest("f_o"))),
-        verdict("outer ring: f_c above 2 f_r", over("outer_ring", lambda t: t["f_c"] - t["2 f_r"])),
-    ]
-
-
-def values(results: dict[int, dict[str, Any]], calibration: Calibration) -> list[Value]:
-    """Values readable from the paper."""
-    found = [
-        Value(CALIBRATION[0], CALIBRATION[1], calibration.reached, "calibrated", source="2.36 dB are 2.83 %")
-    ]
-    for rpm, point, measured, source in MEASURED:
-        if rpm in results:
-            ours = results[rpm]["levels"]["total"][POINTS.index(point)]
-            since = (CALIBRATION[1], calibration.reached)
-            what = f"{point}, {rpm:,} r/min, measured"
-            found.append(Value(what, measured, ours, source=source, since=since))
-    if 28000 in results:
-        for key, measured, source in TONES:
-            ours = results[28000]["lines"]["total"][key]
-            found.append(Value(f"P1, line at {key}, 28,000 r/min, measured", measured, ours, source=source))
-    return found
-
-
-def write(
-    found: dict[str, dict[Case, dict[str, Any]]],
-    calibration: Calibration,
-    radiation_model: str,
-    output: Output,
-) -> str:
+def write(found: Results, answer: Answer, runs: Runs, output: Output) -> str:
     """Write pictures and CSV; return the page."""
-    results = {name: {int(case.rpm): r for case, r in cases.items()} for name, cases in found.items()}
-    models = list(results)
-    _pictures(results, output)
-    _csv(results, output)
-    judged = [orderings(results[name]) for name in models]
-    counts = ", ".join(
-        f"{page.counted(verdicts)} with `{name}`" for name, verdicts in zip(models, judged, strict=True)
-    )
-    speeds = sorted(results[radiation_model])
-    table = [
-        [f"{rpm:,}", *(f"{v:.1f}" for v in results[radiation_model][rpm]["levels"]["total"])]
-        + [f"{results[radiation_model][rpm]['levels'][c][0]:.1f}" for c in PARTS]
-        for rpm in speeds
-    ]
-    tones = [
-        [f"{rpm:,}", NAMES.get(c, c)]
-        + [f"{results[radiation_model][rpm]['lines'][c][key]:.1f}" for key in LINES]
-        for rpm in SPECTRA
-        if rpm in results[radiation_model]
-        for c in (*PARTS, "total")
-    ]
-    frequencies = [
-        [f"{rpm:,}", *(f"{results[radiation_model][rpm]['frequencies'][key]:.1f}" for key in LINES)]
-        for rpm in SPECTRA
-        if rpm in results[radiation_model]
-    ]
-    any_case = next(iter(found[radiation_model]))
+    radiation_model = runs.radiation_model
+    results: dict[str, dict[int, dict[int, dict[str, Any]]]] = {IDENTIFIED: {}, BEFORE: {}}
+    for case, result in found.items():
+        results[case.label].setdefault(case.seed, {})[int(case.rpm)] = result
+    now = results[IDENTIFIED]
+    first = now[min(now)]
+    _pictures(first, radiation_model, output)
+    _csv(now, output)
+    output.records("multi-source-measured", measured(values.FIT, values.CHECK))
+    judged = classed([orderings(now[seed]) for seed in sorted(now)], REASONS)
+    met = values.met(VALUES, [ours(VALUES, now[seed]) for seed in sorted(now)])
+    before = values.met(VALUES, [ours(VALUES, one) for one in results[BEFORE].values()])
+    any_case = next(iter(found))
     return page.template(NAME).format(
-        timing=page.timing(any_case.settle, any_case.duration),
+        timing=page.timing(any_case.settle, any_case.duration), seeds=len(now),
         title=TITLE, caution=page.caution(radiation_model), radiation_model=radiation_model,
-        counts=counts, calibration=calibration.words, target=CALIBRATION[1],
-        values=page.values_table(values(results[radiation_model], calibration)),
-        orderings=page.orderings_table(models, judged),
-        levels=markdown(
-            ["r/min", *POINTS, *(f"P1 {NAMES[c]}" for c in PARTS)], table
-        ),
-        lines=markdown(["r/min", "component", *LINES], tones),
-        frequencies=markdown(["r/min", *LINES], frequencies),
+        identified=answer.words, command=answer.command, values=page.values_part(met, before),
+        form=_form(met, any_case.build().imperfections.ball_form_nm),
+        slope=page.slope_table([one for one in met if one.value.place == "P3"]), corners=_corner_table(runs),
+        counts=counts(judged), statements=page.statements_table(judged),
+        printed=printed.page_part(runs, output),
+        levels=_level_table(now), lines=_line_table(first), frequencies=_frequency_table(first),
     )  # fmt: skip
 
 
-def _csv(results, output: Output) -> None:
+def _form(met: list[values.Met], own_nm: float) -> str:
+    """Say how far balls would have to be from spheres for the paper's line at f_b."""
+    found = [one for one in met if one.value.quantity == "line f_b"]
+    if not found:
+        return "not run"
+    needed = own_nm * 10.0 ** ((found[0].value.paper.middle - found[0].mean) / 20.0)
+    return f"{1e-3 * needed:.0f} um"
+
+
+def _level_table(now: dict[int, dict[int, dict[str, Any]]]) -> str:
+    """Mean level of the seeds at the four points and of the components at P1, with P3's range."""
+    rows = []
+    for rpm in sorted(now[min(now)]):
+        levels = [one[rpm]["levels"] for one in now.values() if rpm in one]
+        total = np.array([one["total"] for one in levels])
+        parts = [np.mean([one[c][0] for one in levels]) for c in PARTS]
+        rows.append([f"{rpm:,}", *(f"{v:.1f}" for v in total.mean(axis=0)), page.spread(total[:, 2]),
+                     *(f"{v:.1f}" for v in parts)])  # fmt: skip
+    return markdown(["r/min", *POINTS, "P3, seeds", *(f"P1 {NAMES[c]}" for c in PARTS)], rows)
+
+
+def _line_table(first: dict[int, dict[str, Any]]) -> str:
     rows = [
-        [radiation_model, str(rpm), name, *(f"{value:.2f}" for value in levels)]
-        for radiation_model, by_speed in results.items()
-        for rpm in sorted(by_speed)
-        for name, levels in by_speed[rpm]["levels"].items()
-    ]
-    output.csv("multi-source-levels", ["radiation_model", "rpm", "component", *POINTS], rows)
-    columns = {
-        f"{radiation_model} {rpm} {name}": values
-        for radiation_model, by_speed in results.items()
+        [f"{rpm:,}", NAMES.get(c, c), *(f"{first[rpm]['lines'][c][key]:.1f}" for key in LINES)]
         for rpm in SPECTRA
-        if rpm in by_speed
-        for name, values in by_speed[rpm]["spectra"].items()
+        if rpm in first
+        for c in (*PARTS, "total")
+    ]
+    return markdown(["r/min", "component", *LINES], rows)
+
+
+def _frequency_table(first: dict[int, dict[str, Any]]) -> str:
+    rows = [
+        [f"{rpm:,}", *(f"{first[rpm]['frequencies'][key]:.1f}" for key in LINES)]
+        for rpm in SPECTRA
+        if rpm in first
+    ]
+    return markdown(["r/min", *LINES], rows)
+
+
+def _csv(now: dict[int, dict[int, dict[str, Any]]], output: Output) -> None:
+    rows = [
+        [str(seed), str(rpm), name, *(f"{value:.2f}" for value in levels)]
+        for seed in sorted(now)
+        for rpm in sorted(now[seed])
+        for name, levels in now[seed][rpm]["levels"].items()
+    ]
+    output.csv("multi-source-levels", ["seed", "rpm", "component", *POINTS], rows)
+    first = now[min(now)]
+    columns = {
+        f"{rpm} {name}": levels
+        for rpm in SPECTRA
+        if rpm in first
+        for name, levels in first[rpm]["spectra"].items()
     }
     rows = [
-        [f"{STEP * k:g}", *(f"{value:.1f}" for value in values)]
-        for k, values in enumerate(zip(*columns.values(), strict=True))
+        [f"{STEP * k:g}", *(f"{value:.1f}" for value in levels)]
+        for k, levels in enumerate(zip(*columns.values(), strict=True))
     ]
     output.csv("multi-source-spectra", ["frequency_Hz", *columns], rows)
 
 
-def _pictures(results, output: Output) -> None:
-    """Levels over speed for each radiation model; spectra of each component at the paper's four speeds."""
-    drawn, axes = charts.figure(10.5, 3.6 * len(results), len(results), 2)
-    for row, (radiation_model, by_speed) in enumerate(results.items()):
-        speeds = sorted(by_speed)
-        lines = {p: [by_speed[n]["levels"]["total"][k] for n in speeds] for k, p in enumerate(POINTS)}
-        charts.curves(axes[2 * row], speeds, lines, f"total, radiation model {radiation_model}", "r/min")
-        parts = {NAMES[c]: [by_speed[n]["levels"][c][0] for n in speeds] for c in PARTS}
-        charts.curves(
-            axes[2 * row + 1], speeds, parts, f"components at P1, radiation model {radiation_model}", "r/min"
-        )
-        axes[2 * row].legend(fontsize=8)
-        axes[2 * row + 1].legend(fontsize=8)
+def _pictures(first: dict[int, dict[str, Any]], radiation_model: str, output: Output) -> None:
+    """Levels over speed; spectra of each component at the paper's four speeds; of the first seed."""
+    drawn, axes = charts.figure(10.5, 3.6, 1, 2)
+    speeds = sorted(first)
+    lines = {p: [first[n]["levels"]["total"][k] for n in speeds] for k, p in enumerate(POINTS)}
+    charts.curves(axes[0], speeds, lines, f"total, radiation model {radiation_model}", "r/min")
+    for value in VALUES:
+        if value.quantity == "leq":
+            low, high = value.paper.low, value.paper.high
+            place = POINTS.index(value.place)
+            axes[0].plot(
+                [value.rpm] * 2, [low - 0.2, high + 0.2], color=charts.COLOURS[place], linewidth=5, alpha=0.4
+            )
+    parts = {NAMES[c]: [first[n]["levels"][c][0] for n in speeds] for c in PARTS}
+    charts.curves(axes[1], speeds, parts, f"components at P1, radiation model {radiation_model}", "r/min")
+    axes[0].legend(fontsize=8)
+    axes[1].legend(fontsize=8)
     charts.save(drawn, output.images / "multi-source-levels.png")
-    radiation_model, by_speed = next(iter(results.items()))
-    speeds = [rpm for rpm in SPECTRA if rpm in by_speed]
+    speeds = [rpm for rpm in SPECTRA if rpm in first]
     drawn, axes = charts.figure(11.0, 2.6 * len(PARTS), len(PARTS), max(len(speeds), 1))
     for i, part in enumerate(PARTS):
         for k, rpm in enumerate(speeds):
             ax = axes[i * len(speeds) + k]
-            levels = np.array(by_speed[rpm]["spectra"][part])
+            levels = np.array(first[rpm]["spectra"][part])
             ax.plot(STEP * np.arange(len(levels)), levels, color=charts.COLOURS[i], linewidth=0.8)
             bottom = np.percentile(levels[1:], 10) - 10.0
             ax.set_ylim(bottom, levels[1:].max() + 20.0)
-            for j, (key, f) in enumerate(by_speed[rpm]["frequencies"].items()):
+            for j, (key, f) in enumerate(first[rpm]["frequencies"].items()):
                 ax.axvline(f, color="0.6", linewidth=0.6, linestyle=":")
                 place = levels[1:].max() + (2.0, 8.0, 14.0)[j % 3]
                 ax.annotate(key, (f, place), fontsize=6, ha="center", color="0.3")

@@ -1,102 +1,116 @@
-"""Parts of all pages: verdicts, comparisons, tables in Markdown and CSV."""
+"""Parts of all pages: tables of values, slopes and statements, Markdown and CSV."""
 
 import pathlib
-from collections.abc import Iterable, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from examples.papers.statements import HOLDS, Classed
+from examples.papers.values import CHECK, FIT, Interval, Met, rms, slope
 from fmu_bearing.run.table import markdown, write_csv
 
-HOLDS, NOT, UNSEEN = "holds", "does not hold", "not judged"
-_NAMED = 3  # cases named that a statement fails in
+GOAL_DB = 3.0  # rms of checked values on each page
 
 
-@dataclass(frozen=True)
-class Ordering:
-    """A statement of a paper that needs no absolute level, its verdict, and the figures it rests on."""
-
-    statement: str
-    verdict: str
-    figures: str
+def printed(value: Interval) -> str:
+    """Return a value as the paper gives it: one number, or the interval it lies in."""
+    if value.low == value.high:
+        return f"{value.low:.2f}"
+    return f"{value.low:.1f} to {value.high:.1f}"
 
 
-@dataclass(frozen=True)
-class Value:
-    """A value readable from a paper and ours.
-
-    ``role`` says whether it was calibrated, predicted, or compared without a level; ``since`` holds the pair
-    (paper, ours) from which its change is compared.
-    """
-
-    what: str
-    paper: float
-    ours: float
-    role: str = "predicted"
-    unit: str = "dB"
-    source: str = ""
-    since: tuple[float, float] | None = None
-
-    @property
-    def trend(self) -> str:
-        """Changes in the paper and here, and whether they have one direction."""
-        if self.since is None:
-            return ""
-        theirs, ours = self.paper - self.since[0], self.ours - self.since[1]
-        same = "holds" if theirs * ours > 0.0 else "does not hold"
-        return f"{theirs:+.1f} / {ours:+.1f}: {same}"
+def spread(numbers: Sequence[float]) -> str:
+    """Smallest and largest of the seeds' values."""
+    return f"{min(numbers):.1f} to {max(numbers):.1f}"
 
 
-def verdict(statement: str, margins: Sequence[tuple[str, float]], unit: str = "dB") -> Ordering:
-    """Judge a statement that holds where every margin is positive; margins go by the name of their case."""
-    if not margins:
-        return Ordering(statement, UNSEEN, "")
-    bad = [f"{name} ({margin:+.1f})" for name, margin in margins if not margin > 0.0]
-    low, high = min(m for _, m in margins), max(m for _, m in margins)
-    spread = f"{low:+.1f} to {high:+.1f} {unit}" if len(margins) > 1 else f"{low:+.1f} {unit}"
-    if not bad:
-        return Ordering(statement, HOLDS, spread)
-    if len(bad) == len(margins):
-        return Ordering(statement, NOT, spread if len(bad) == 1 else f"nowhere: {spread}")
-    shown = ", ".join(bad[:_NAMED]) + (f" and {len(bad) - _NAMED} more" if len(bad) > _NAMED else "")
-    share = f"in {len(margins) - len(bad)} of {len(margins)}"
-    return Ordering(statement, NOT, f"{share}: {spread}; not at {shown}")
-
-
-def orderings_table(models: Sequence[str], found: Sequence[Sequence[Ordering]]) -> str:
-    """Statements down, one pair of columns per radiation model."""
-    columns = ["what the paper states"]
-    for radiation_model in models:
-        columns += [f"`{radiation_model}`", "figures"]
-    rows = []
-    for number, same in enumerate(zip(*found, strict=True)):
-        row = [f"{number + 1}. {same[0].statement}"]
-        for ordering in same:
-            mark = f"**{ordering.verdict}**" if ordering.verdict == NOT else ordering.verdict
-            row += [mark, ordering.figures]
-        rows.append(row)
+def values_table(found: Sequence[Met]) -> str:
+    """Paper and ours over the seeds, distance to the paper's interval, and difference from its middle."""
+    rows = [
+        [
+            one.value.name, one.value.source, printed(one.value.paper), f"{one.mean:.1f}",
+            spread(one.ours), f"{one.residual:+.1f}", f"{one.from_middle:+.1f}",
+        ]
+        for one in found
+    ]  # fmt: skip
+    columns = ["value", "read from", "paper", "ours", "seeds", "residual, dB", "from the middle, dB"]
     return markdown(columns, rows)
 
 
-def values_table(values: Iterable[Value]) -> str:
-    """Paper, ours, the difference, and the change from a reference in both."""
+def values_part(found: Sequence[Met], before: Sequence[Met], unit: str = "dB") -> str:
+    """Fitted and checked values apart, and the rms of what is checked, group by group.
+
+    ``before`` holds the same values with the scene's own numbers, before anything is identified.
+    """
+    fitted = [one for one in found if one.value.role == FIT]
+    checked = [one for one in found if one.value.role == CHECK]
+    old = {one.value.name: one for one in before}
+    rows = []
+    for group in dict.fromkeys(one.value.group for one in checked):
+        if own := [one for one in checked if one.value.group == group and not one.value.without]:
+            rows.append(_rms_row(group, own, old))
+    if len(rows) > 1:
+        rows.append(_rms_row("all checked", [one for one in checked if not one.value.without], old))
+    left = [one for one in checked if one.value.without]
+    words = "".join(
+        f"Not in these averages: {one.value.name}, because it {one.value.without} "
+        f"({one.residual:+.1f} dB off).\n"
+        for one in left
+    )
+    columns = [
+        "checked", "values", f"rms, {unit}", f"goal: within {GOAL_DB:.0f}", "before identification",
+        "from the middles",
+    ]  # fmt: skip
+    return (
+        f"Fitted:\n\n{values_table(fitted)}\n"
+        f"Checked, nothing was fitted to them:\n\n{values_table(checked)}\n{markdown(columns, rows)}\n{words}"
+    )
+
+
+def _rms_row(name: str, own: Sequence[Met], old: Mapping[str, Met]) -> list[str]:
+    """Row of the table of rms values."""
+    before = [old[one.value.name] for one in own if one.value.name in old]
+    return [
+        name, f"{len(own)}", f"{rms(own):.1f}", "met" if rms(own) <= GOAL_DB else "**not met**",
+        f"{rms(before):.1f}" if len(before) == len(own) else "",
+        f"{rms(own, middle=True):.1f}",
+    ]  # fmt: skip
+
+
+SLOPE_GOAL_DB = 5.0  # per decade
+
+
+def slope_table(found: Sequence[Met]) -> str:
+    """Slope with speed through measured levels and through ours at the same speeds and places."""
+    speeds = [one.value.rpm for one in found]
+    if len(set(speeds)) < 2:
+        return "Not run.\n"
+    measured = slope(speeds, [one.value.paper.middle for one in found])
+    mean = slope(speeds, [one.mean for one in found])
+    by_seed = [slope(speeds, levels) for levels in zip(*(one.ours for one in found), strict=True)]
+    met = "met" if abs(mean - measured) <= SLOPE_GOAL_DB else "**not met**"
+    row = [
+        f"{len(found)}", f"{min(speeds):,.0f} to {max(speeds):,.0f}", f"{measured:.1f}", f"{mean:.1f}",
+        spread(by_seed), f"{mean - measured:+.1f}", met,
+    ]  # fmt: skip
+    columns = [
+        "levels", "r/min", "measured, dB per decade", "ours", "seeds", "difference",
+        f"goal: within {SLOPE_GOAL_DB:.0f}",
+    ]  # fmt: skip
+    return markdown(columns, [row])
+
+
+def statements_table(found: Sequence[Classed]) -> str:
+    """Statements down: class, for how many seeds each holds, share of comparisons, figures, reason."""
     rows = [
         [
-            v.what,
-            v.source,
-            f"{v.paper:.2f}",
-            f"{v.ours:.2f}",
-            f"{v.ours - v.paper:+.2f} {v.unit}",
-            v.role,
-            v.trend,
+            f"{number}. {one.statement}",
+            one.kind if one.kind == HOLDS else f"**{one.kind}**",
+            f"{one.holds} of {one.seeds}", f"{100.0 * one.share:.0f} %", one.figures, one.reason,
         ]
-        for v in values
-    ]
-    return markdown(["quantity", "read from", "paper", "ours", "difference", "", "trend: paper / ours"], rows)
-
-
-def counted(found: Sequence[Ordering]) -> str:
-    """How many statements hold."""
-    seen = [ordering for ordering in found if ordering.verdict != UNSEEN]
-    return f"{sum(ordering.verdict == HOLDS for ordering in seen)} of {len(seen)}"
+        for number, one in enumerate(found, 1)
+    ]  # fmt: skip
+    columns = ["what the paper states", "class", "seeds", "comparisons", "figures, first seed", "why"]
+    return markdown(columns, rows)
 
 
 @dataclass(frozen=True)
@@ -128,6 +142,10 @@ class Output:
     def csv(self, name: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
         """Write one CSV file."""
         write_csv(self.results / f"{name}.csv", columns, rows)
+
+    def records(self, name: str, rows: Sequence[Mapping[str, object]]) -> None:
+        """Write rows of one set of columns as a CSV file."""
+        self.csv(name, list(rows[0]), [[str(cell) for cell in row.values()] for row in rows])
 
     def write(self, name: str, text: str) -> pathlib.Path:
         """Write one page."""

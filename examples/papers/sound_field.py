@@ -5,15 +5,15 @@ from typing import Any
 
 import numpy as np
 
-from examples.papers import charts, page
-from examples.papers.calibration import Calibration
-from examples.papers.case import Case
+from examples.papers import charts, page, values
+from examples.papers.case import Case, Changes
 from examples.papers.circles import (
     ANGLES,
     FRICTION,
     IMPACT,
     PLACES,
     RADII,
+    REASONS,
     L,
     R,
     circle_at,
@@ -21,19 +21,26 @@ from examples.papers.circles import (
     twins,
 )
 from examples.papers.hearing import NAMES, Ear, equivalent
-from examples.papers.page import Output, Value
+from examples.papers.identification import (
+    AMPLITUDE,
+    AMPLITUDE_UM,
+    EXPONENT,
+    Answer,
+    by_identify,
+    measured_row,
+)
+from examples.papers.page import Output
+from examples.papers.runs import Results, Runs
+from examples.papers.statements import HOLDS, Classed, classed, counts
 from fmu_bearing.acoustics.analysis.directivity import attenuation
 from fmu_bearing.run.table import markdown
 from fmu_bearing.scene.sound import cylindrical
 
 NAME = "sound-field"
 TITLE = "Sound-field paper: full-ceramic 7009C, circles of 24 points"
-MODULES = ("sound_field", "circles", "hearing")
-PAPER_MODEL_TOO = False
+MODULES = ("sound_field", "circles", "hearing", "values")
 CERAMIC, STEEL = "7009C-full-ceramic", "7009C-steel"
 SPEEDS = (3000, 6000, 9000, 12000, 15000, 18000)
-STEEL_SPEEDS = (9000, 18000)
-SEEDS = (2, 3, 4, 5)  # beside the scene's own
 LOAD_N, LOAD_DEG = 100.0, 210.0
 PULL = f"{LOAD_N:.0f} N at {LOAD_DEG:.0f} deg"
 #: Radial load towards the lower right seen from the front, where the paper says the bearing is eccentric.
@@ -41,138 +48,182 @@ LOADED = (
     ("mounting.radial_load_y_N", round(-LOAD_N * math.sin(math.radians(LOAD_DEG)), 6)),
     ("mounting.radial_load_z_N", round(LOAD_N * math.cos(math.radians(LOAD_DEG)), 6)),
 )
-CALIBRATION = ("18,000 r/min, 210 deg, r 210, l 50 mm, measured", 83.1)
-#: Measured, recovered from a difference and the relative error beside it: good to half a decibel.
-MEASURED = (
-    (18000, 165, 81.4, "0.79 dB are 0.97 %"),
-    (18000, None, 81.9, "1.40 dB are 1.71 %"),
-    (15000, 270, 77.6, "2.32 dB are 2.99 %"),
-    (3000, 180, 71.3, "0.77 dB are 1.08 %"),
-)
-#: Difference values of the paper's calculation at 18,000 r/min.
-DIFFERENCES = ((210, 50, 6.53), (30, 20, 3.62), (30, 200, 2.36), (270, 20, 7.99), (270, 200, 6.32))
-VARIANTS = ("ceramic", f"ceramic, {PULL}", "steel")
+VALUES = values.read(NAME)
+FREE = {AMPLITUDE: AMPLITUDE_UM, EXPONENT: (0.8, 2.0)}
+SCENE = CERAMIC
+#: The paper computes from 0 to 20 kHz.
+CHANGES: Changes = (("imperfections.highest_frequency_kHz", 20.0),)
+QUICK = (("mounting.flexure", None),)  # rigid rings have fidelities a hundred times as fast
+IDENTIFIED, PULLED, TWIN, BEFORE = "ceramic", f"ceramic, {PULL}", "steel", "before"
+FALL_GOAL_DB = 2.0
 
-Results = dict[str, dict[int, dict[str, Any]]]
+BySpeed = dict[int, dict[str, Any]]
 
 
-def cases(scale: float, quick: bool) -> list[Case]:
-    """Operating points: ceramic without and with the load, steel, and other seeds at the highest speed."""
+def cases(found: Changes, seeds: tuple[int, ...], quick: bool) -> list[Case]:
+    """Operating points: ceramic, with a load, its steel twin; ceramic with the scene's own numbers."""
     if quick:
-        return [Case(CERAMIC, 18000, (), scale, settle=0.005, duration=0.02, label=VARIANTS[0])]
-    pairs = ((VARIANTS[0], ()), (VARIANTS[1], LOADED))
-    found = [Case(CERAMIC, rpm, changes, scale, label=label) for label, changes in pairs for rpm in SPEEDS]
-    found += [Case(STEEL, rpm, (), scale, label=VARIANTS[2]) for rpm in STEEL_SPEEDS]
-    return found + [
-        Case(CERAMIC, 18000, (*changes, ("imperfections.seed", seed)), scale, label=f"{label}, seed {seed}")
-        for label, changes in pairs
-        for seed in SEEDS
+        return [Case(CERAMIC, 18000, (*QUICK, *found), seed, 0.005, 0.02, IDENTIFIED) for seed in seeds]
+    own = sorted({int(value.rpm) for value in VALUES})
+    variants = (
+        (IDENTIFIED, CERAMIC, found, SPEEDS),
+        (PULLED, CERAMIC, (*found, *LOADED), SPEEDS),
+        (TWIN, STEEL, found, (18000,)),
+        (BEFORE, CERAMIC, (), own),
+    )
+    return [
+        Case(scene, rpm, (*CHANGES, *changes), seed, label=label)
+        for label, scene, changes, speeds in variants
+        for rpm in speeds
+        for seed in seeds
     ]
 
 
-def calibration_case(scale: float, quick: bool) -> Case:
-    """Operating point of the calibration."""
-    return cases(scale, quick)[0] if quick else Case(CERAMIC, 18000, (), scale, label=VARIANTS[0])
+def identified(runs: Runs) -> Answer:
+    """Identify the free numbers from the fitted values."""
+    return by_identify(
+        SCENE, QUICK if runs.quick else CHANGES, FREE, measured(values.FIT), VALUES, seeds=len(runs.seeds),
+        folder=runs.cache / NAME / "identify", workers=runs.jobs, radiation_model=runs.radiation_model,
+        quick=runs.quick,
+    )  # fmt: skip
 
 
-def calibration_level(ear: Ear) -> float:
-    """Level (dB) at 210 degrees."""
-    return float(ear.levels([cylindrical(210, R, L)])[0])
+def measured(*roles: str) -> list[dict[str, Any]]:
+    """Levels at single points as `fmu_bearing.identify` reads them."""
+    found = []
+    for value in VALUES:
+        if value.role in roles and value.quantity == "leq" and value.place != "mean":
+            place = cylindrical(float(value.place), R, L)
+            found.append(
+                {f"{axis}_mm": round(1e3 * x, 3) for axis, x in zip("xyz", place, strict=True)}
+                | measured_row(value)
+            )
+    return found
 
 
 def reduce(ear: Ear, quick: bool) -> dict[str, Any]:
-    """Levels round circles, shape (radii, places, 24), and by component on the paper's circle."""
-    grid = [cylindrical(a, r, x) for r in RADII for x in PLACES for a in ANGLES]
+    """Levels round circles, shape (radii, places, 24), and by component on the paper's circle.
+
+    The whole field at 18,000 r/min, of which the paper speaks; at other speeds its circle alone.
+    """
     recording = ear.recording
-    field = ear.levels(grid).reshape(len(RADII), len(PLACES), len(ANGLES))
+    whole = round(recording.scene.operation.speed_rpm) == 18000
+    radii, places = (RADII, PLACES) if whole else ((R,), (L,))
+    grid = [cylindrical(a, r, x) for r in radii for x in places for a in ANGLES]
+    field = ear.levels(grid).reshape(len(radii), len(places), len(ANGLES))
     own = ear.sources([cylindrical(a, R, L) for a in ANGLES])
     late = recording.output_time >= recording.start
     return {
+        "radii": list(radii),
+        "places": list(places),
         "field": field.round(3).tolist(),
         "parts": {name: equivalent(found).round(3).tolist() for name, found in own.items()},
         "cage_ratio": float(np.mean(recording.outputs["cage.speed_ratio"][late])),
     }
 
 
-def values(results: Results, variant: str, calibration: Calibration, directive: bool) -> list[Value]:
-    """Values readable from the paper, for one variant."""
-    own = results[variant]
-    found = []
-    if variant == VARIANTS[0]:
-        source = "2.81 dB are 3.38 %"
-        found.append(Value(CALIBRATION[0], CALIBRATION[1], calibration.reached, "calibrated", source=source))
-    for rpm, angle, measured, source in MEASURED:
-        if rpm in own:
-            circle = circle_at(own[rpm])
-            ours = circle.mean if angle is None else float(circle.levels[ANGLES.index(angle)])
-            what = f"{rpm:,} r/min, {'mean of 24 points' if angle is None else f'{angle} deg'}, measured"
-            since = None if rpm == 18000 else (CALIBRATION[1], calibration.reached)
-            found.append(Value(what, measured, ours, source=source, since=since))
-    if 18000 not in own:
-        return found
-    fast = own[18000]
-
-    def add(what, paper, ours, since=None):
-        found.append(Value(f"18,000 r/min, {what}", paper, ours, source="calculated", since=since))
-
-    if directive:
-        for r, place, dv in DIFFERENCES:
-            since = (DIFFERENCES[0][2], circle_at(fast).dv)
-            ours = circle_at(fast, r, place).dv
-            add(f"DV at r {r}, l {place} mm", dv, ours, None if (r, place) == (R, L) else since)
-    for what, paper, near, far in (
-        ("r 30 to 270 mm (l 50)", 14.34, (30, L), (270, L)),
-        ("l 20 to 200 mm (r 210)", 19.5, (R, 20), (R, 200)),
-        ("l 20 to 200 mm (r 30)", 19.5, (30, 20), (30, 200)),
-    ):
-        add(f"fall of SPLmax for {what}", paper, circle_at(fast, *near).top - circle_at(fast, *far).top)
-    if variant == VARIANTS[0] and 18000 in results.get(VARIANTS[2], {}) and directive:
-        steel = circle_at(results[VARIANTS[2]][18000]).dv
-        add("steel twin, DV at r 210, l 50 mm", 2.76, steel, (DIFFERENCES[0][2], circle_at(fast).dv))
+def ours(results: BySpeed, steel: BySpeed, directive: bool) -> dict[str, float]:
+    """Our values of one seed, by name."""
+    found = {}
+    for value in VALUES:
+        by_speed = steel if value.quantity == "steel dv" else results
+        if int(value.rpm) in by_speed:
+            number = _read(value, by_speed[int(value.rpm)], directive)
+            if number is not None:
+                found[value.name] = number
     return found
 
 
-def write(
-    found: dict[str, dict[Case, dict[str, Any]]],
-    calibration: Calibration,
-    radiation_model: str,
-    output: Output,
-) -> str:
+def _read(value: values.Value, result: dict[str, Any], directive: bool) -> float | None:
+    """One value from the circles of one run; None where the radiation model cannot give it."""
+    if value.quantity == "leq":
+        circle = circle_at(result)
+        return circle.mean if value.place == "mean" else float(circle.levels[ANGLES.index(int(value.place))])
+    places = [tuple(int(x) for x in place.split(",")) for place in value.place.split(";")]
+    if value.quantity == "fall":
+        near, far = (circle_at(result, *place).top for place in places)
+        return near - far
+    return circle_at(result, *places[0]).dv if directive else None
+
+
+def write(found: Results, answer: Answer, runs: Runs, output: Output) -> str:
     """Write pictures and CSV; return the page."""
-    every: Results = {}
-    for case, result in found[radiation_model].items():
-        every.setdefault(case.label, {})[int(case.rpm)] = result
-    results = {name: every[name] for name in VARIANTS if name in every}
-    ceramic = [name for name in VARIANTS[:2] if name in results]
+    radiation_model = runs.radiation_model
+    every: dict[str, dict[int, BySpeed]] = {}
+    for case, result in found.items():
+        every.setdefault(case.label, {}).setdefault(case.seed, {})[int(case.rpm)] = result
     directive = radiation_model != "compact"  # see page.caution
-    judged = [orderings(results[name], directive) for name in ceramic]
+    now, steel = every[IDENTIFIED], every.get(TWIN, {})
+    seeds = sorted(now)
+    judged = {
+        name: classed([orderings(every[name][seed], directive) for seed in seeds], REASONS)
+        for name in (IDENTIFIED, PULLED)
+        if name in every
+    }
+    twin = classed([twins(now[seed], steel.get(seed, {}), directive) for seed in seeds], {})
+    met = values.met(VALUES, [ours(now[seed], steel.get(seed, {}), directive) for seed in seeds])
+    before = values.met(VALUES, [ours(one, {}, directive) for one in every.get(BEFORE, {}).values()])
+    first = {name: by_seed[seeds[0]] for name, by_seed in every.items() if name != BEFORE}
     _csv(every, output)
+    output.records("sound-field-measured", measured(values.FIT, values.CHECK))
     if directive:
-        _pictures(results, output)
-    counts = ", ".join(f"{page.counted(o)} ({name})" for name, o in zip(ceramic, judged, strict=True))
-    any_case = next(iter(found[radiation_model]))
-    steel = twins(results[VARIANTS[0]], results.get(VARIANTS[2], {}), directive)
+        _pictures(first, output)
+    any_case = next(iter(found))
     return page.template(NAME).format(
         title=TITLE, caution=page.caution(radiation_model), radiation_model=radiation_model,
-        pull=PULL, calibration=calibration.words,
-        timing=page.timing(any_case.settle, any_case.duration), counts=counts, target=CALIBRATION[1],
-        values="\n".join(
-            f"{name}:\n\n{page.values_table(values(results, name, calibration, directive))}"
-            for name in ceramic
-        ),
-        orderings=page.orderings_table(ceramic, judged),
-        twins=page.orderings_table(["steel against ceramic"], [steel]),
-        circles=_circle_table(results) + PICTURE if directive else NO_CIRCLE,
+        pull=PULL, identified=answer.words, command=answer.command, seeds=len(seeds),
+        timing=page.timing(any_case.settle, any_case.duration), counts=counts([*judged[IDENTIFIED], *twin]),
+        values=page.values_part(met, before),
+        slope=page.slope_table([one for one in met if one.value.quantity == "leq"]),
+        falls=_falls(met), statements=page.statements_table(judged[IDENTIFIED]),
+        pulled=_pulled(judged.get(PULLED, [])), twins=page.statements_table(twin),
+        circles=_circle_table(first) + PICTURE if directive else NO_CIRCLE,
         chance=_chance_table(every) if directive else NO_CIRCLE,
-        field=_field_table(results, directive), falls=_fall_table(results), parts=_part_table(results),
+        field=_field_table(first, directive), doubling=_doubling_table(first), parts=_part_table(first),
     )  # fmt: skip
+
+
+def _falls(met: list[values.Met]) -> str:
+    """Falls over r and l against the goal."""
+    rows = [
+        [
+            one.value.name, page.printed(one.value.paper), f"{one.mean:.1f}", page.spread(one.ours),
+            f"{one.from_middle:+.1f}",
+            "met" if abs(one.from_middle) <= FALL_GOAL_DB else "**not met**",
+        ]
+        for one in met
+        if one.value.quantity == "fall"
+    ]  # fmt: skip
+    columns = [
+        "18,000 r/min, SPLmax",
+        "paper, dB",
+        "ours",
+        "seeds",
+        "difference",
+        f"goal: within {FALL_GOAL_DB:.0f}",
+    ]
+    return markdown(columns, rows)
+
+
+def _pulled(judged: list[Classed]) -> str:
+    """Say for how many seeds each statement holds with the load."""
+    rows = [
+        [f"{number}. {one.statement}", f"{one.holds} of {one.seeds}", f"{100.0 * one.share:.0f} %"]
+        for number, one in enumerate(judged, 1)
+    ]
+    held = sum(one.kind == HOLDS for one in judged)
+    if not rows:
+        return "Not run.\n"
+    return f"{held} of {len(rows)} hold.\n\n" + markdown(
+        ["what the paper states", "seeds", "comparisons"], rows
+    )
 
 
 PICTURE = "\n![Circles: speeds, radii, ceramic and steel](../images/papers/sound-field.png)\n"
 NO_CIRCLE = "Not shown: this radiation model gives no directivity.\n"
 
 
-def _circle_table(results: Results) -> str:
+def _circle_table(results: dict[str, BySpeed]) -> str:
     rows = []
     for name, by_speed in results.items():
         for rpm in sorted(by_speed):
@@ -188,23 +239,21 @@ def _circle_table(results: Results) -> str:
     return markdown(columns, rows)
 
 
-def _chance_table(every: Results) -> str:
+def _chance_table(every: dict[str, dict[int, BySpeed]]) -> str:
     """Circle at the highest speed for all seeds."""
     rows = []
-    for name in VARIANTS[:2]:
-        for label, by_speed in every.items():
-            seed = label.removeprefix(f"{name}, seed ")
-            if 18000 in by_speed and (label == name or seed.isdigit()):
+    for name in (IDENTIFIED, PULLED):
+        for seed, by_speed in sorted(every.get(name, {}).items()):
+            if 18000 in by_speed:
                 c = circle_at(by_speed[18000])
-                words = "1 (scene)" if label == name else seed
-                rows.append([name, words, f"{c.mean:.1f}", f"{c.angle}", f"{c.dv:.2f}",
+                rows.append([name, f"{seed}", f"{c.mean:.1f}", f"{c.angle}", f"{c.dv:.2f}",
                              f"{c.zone(IMPACT)[1]}", f"{c.zone(FRICTION)[1]}"])  # fmt: skip
     return markdown(["variant", "seed", "mean, dB", "DA", "DV, dB", "DA 0-60", "DA 180-240"], rows)
 
 
-def _field_table(results: Results, directive: bool) -> str:
+def _field_table(results: dict[str, BySpeed], directive: bool) -> str:
     rows = []
-    for name in VARIANTS[:2]:
+    for name in (IDENTIFIED, PULLED):
         for r in RADII if 18000 in results.get(name, {}) else ():
             for place in PLACES:
                 c = circle_at(results[name][18000], r, place)
@@ -214,10 +263,10 @@ def _field_table(results: Results, directive: bool) -> str:
     return markdown(columns + (["DA, deg", "DL", "DV, dB"] if directive else []), rows)
 
 
-def _fall_table(results: Results) -> str:
+def _doubling_table(results: dict[str, BySpeed]) -> str:
     """Fit the change of the circles' mean per doubling of r, and of l."""
     rows = []
-    for name in VARIANTS[:2]:
+    for name in (IDENTIFIED, PULLED):
         if 18000 in results.get(name, {}):
             result = results[name][18000]
             over_r = attenuation(RADII, [circle_at(result, r, L).mean for r in RADII])
@@ -229,7 +278,7 @@ def _fall_table(results: Results) -> str:
     return markdown(["variant", "over", "per doubling", "largest deviation from it"], rows)
 
 
-def _part_table(results: Results) -> str:
+def _part_table(results: dict[str, BySpeed]) -> str:
     rows = []
     for name, by_speed in results.items():
         for rpm in sorted(by_speed):
@@ -244,19 +293,20 @@ def _mean(levels) -> float:
     return 10.0 * math.log10(sum(10.0 ** (x / 10.0) for x in levels) / len(levels))
 
 
-def _csv(results: Results, output: Output) -> None:
+def _csv(every: dict[str, dict[int, BySpeed]], output: Output) -> None:
     rows = [
-        [name, str(rpm), str(r), str(place), *(f"{value:.2f}" for value in by_speed[rpm]["field"][i][k])]
-        for name, by_speed in results.items()
-        for rpm in sorted(by_speed)
-        for i, r in enumerate(RADII)
-        for k, place in enumerate(PLACES)
-        if (r, place) == (R, L) or (rpm == 18000 and "seed" not in name)
+        [name, str(seed), str(rpm), str(r), str(place), *(f"{value:.2f}" for value in result["field"][i][k])]
+        for name, by_seed in every.items()
+        for seed, results in sorted(by_seed.items())
+        for rpm, result in sorted(results.items())
+        for i, r in enumerate(result["radii"])
+        for k, place in enumerate(result["places"])
+        if (r, place) == (R, L) or (name == IDENTIFIED and seed == min(by_seed))
     ]
-    output.csv("sound-field", ["variant", "rpm", "r_mm", "l_mm", *(f"{a}_deg" for a in ANGLES)], rows)
+    output.csv("sound-field", ["variant", "seed", "rpm", "r_mm", "l_mm", *(f"{a}_deg" for a in ANGLES)], rows)
 
 
-def _pictures(results: Results, output: Output) -> None:
+def _pictures(results: dict[str, BySpeed], output: Output) -> None:
     """Draw circles about their own mean: all speeds, all radii, ceramic and steel."""
     drawn, axes = charts.figure(12.0, 8.6, 2, 3, polar=True)
 
@@ -265,14 +315,14 @@ def _pictures(results: Results, output: Output) -> None:
         if lines:
             charts.circle(ax, ANGLES, lines, title)
 
-    for k, name in enumerate(VARIANTS):
+    for k, name in enumerate((IDENTIFIED, PULLED, TWIN)):
         by_speed = results.get(name, {})
         draw(axes[k], {f"{rpm:,} r/min": circle_at(by_speed[rpm]) for rpm in sorted(by_speed)}, name)
-    for k, name in enumerate(VARIANTS[:2]):
+    for k, name in enumerate((IDENTIFIED, PULLED)):
         if 18000 in results.get(name, {}):
             radii = {f"r {r} mm": circle_at(results[name][18000], r) for r in RADII}
             draw(axes[3 + k], radii, f"{name}, 18,000 r/min, over r")
-    places = results[VARIANTS[0]].get(18000)
+    places = results[IDENTIFIED].get(18000)
     if places is not None:
         draw(axes[5], {f"l {x} mm": circle_at(places, R, x) for x in PLACES}, "ceramic, 18,000 r/min, over l")
     charts.save(drawn, output.images / "sound-field.png")

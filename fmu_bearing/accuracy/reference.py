@@ -18,8 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.compiled import call, ready
-from fmu_bearing.engine.layout import C, F, S, Y
-from fmu_bearing.engine.reference.runge_kutta import ROWS
+from fmu_bearing.engine.layout import C, S, Y
+from fmu_bearing.engine.reference.runge_kutta import ROWS, SIZE
 from fmu_bearing.run.arrays import RINGS, Arrays
 from fmu_bearing.scene import Scene
 
@@ -31,12 +31,12 @@ def explicit_rings(
 
     The bearing's state is not changed; ``step`` (s) is shortened to divide ``sample``.
     """
-    y = bearing.s[S.Y : S.Y + Y.SIZE].copy()
+    y = np.concatenate([bearing.s[S.Y : S.Y + Y.SIZE], bearing.s[S.AXES : S.JAC]])
     c = bearing.s[S.C : S.C + C.SIZE].copy()
     angle, speed = float(bearing.s[S.ANGLE]), float(bearing.s[S.SPEED])
     steps = int(np.ceil(sample / step - 1e-9))
     w = np.zeros(bearing.w.size)
-    k = np.zeros(ROWS * max(Y.SIZE, F.SIZE))
+    k = np.zeros(ROWS * SIZE)
     ready("study")  # before the clock
     rows = np.empty((round(duration / sample), 6))
     begin = time.process_time()

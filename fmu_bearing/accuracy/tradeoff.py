@@ -141,22 +141,17 @@ those of sound are in dB(A) at the worst microphone. Speeds are without sound.
 
 Reference: fidelity `full`, `esdirk4`, {step:g} us, tolerance {tolerance:g}. Its trajectory and that of `rk4`
 at 0.5 us, each with its own warm-up, agree to {agreement} over the whole window. Over {check:g} ms from one
-state and with round balls, Runge-Kutta at 40 ns and ESDIRK4 at 0.5 us agree to {pair:.0e}; the reference's
-settings differ from them by {own:.0e}.
+state, Runge-Kutta at 40 ns and ESDIRK4 at 0.5 us agree to {pair:.0e}; the reference's settings differ from
+them by {own:.0e}.
 
 {table}"""
 
 
 def check(scene: Scene, warm_up: float, length: float) -> tuple[float, float]:
-    """Return the agreement of two integrators over ``length`` (s), and the error of ``REFERENCE`` there.
-
-    Both run with round balls, as form and waviness of the balls turn with axes that no integrator outside the
-    engine's time stepping moves.
-    """
+    """Return the agreement of two integrators over ``length`` (s), and the error of ``REFERENCE`` there."""
     bearing = Arrays.of(REFERENCE.scene(scene))
     bearing.init()
     bearing.run(warm_up, COMMUNICATION)
-    bearing = bearing.with_parameters(BALL_WAVES=0.0)  # this Runge-Kutta does not turn the balls' axes
     exact, _ = explicit_rings(bearing, length, SAMPLE, 4e-8)
     other, _ = implicit_rings(bearing, length, SAMPLE, 5e-7, 1e-8)
     own, _ = implicit_rings(bearing, length, SAMPLE, REFERENCE.max_step, REFERENCE.tolerance)

@@ -107,8 +107,8 @@ def test_results_do_not_depend_on_the_communication_step(scene):
 
 
 def test_compiled_runge_kutta_is_the_classical_method(scene):
-    """Three steps of Kutta's formulas in NumPy, 0.1 ms after the start, when everything moves."""
-    run = Run(scene("7003C-spindle"), 20000).init()
+    """Three steps of Kutta's formulas in NumPy, 0.1 ms after the start, when everything moves, axes too."""
+    run = Run(scene("7003C-spindle"), 20000, ball_waves=np.array([0.0, 20e-9])).init()
     run.run(1e-4)
     motion, h = Motion(run), 2e-8
     y = motion.start.copy()
@@ -120,17 +120,20 @@ def test_compiled_runge_kutta_is_the_classical_method(scene):
         k4 = motion.rate(t + h, y + h * k3)
         y = y + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
     balls = np.arange(STRIDE) < run.p[P.BALLS]  # the other lanes are copies
-    real = np.concatenate([np.tile(balls, Y.Q0 // STRIDE), np.ones(Y.SIZE - Y.Q0, dtype=bool)])
+    rows, bodies = np.tile(balls, Y.Q0 // STRIDE), np.ones(Y.SIZE - Y.Q0, dtype=bool)
+    real = np.concatenate([rows, bodies, np.tile(balls, 3)])
     moved = np.abs(y - motion.start)
     # one rounding of the state in each step, and those of the increment; explicit Euler is a third of it off
     allowed = 3 * np.spacing(np.abs(y)) + 1e-14 * moved
-    assert moved[real].max() > 1e-6
+    assert moved[: Y.SIZE][real[: Y.SIZE]].max() > 1e-6
+    assert moved[Y.SIZE :].max() > 1e-4  # 6e3 rad/s for 60 ns
     assert (np.abs(motion.after(3 * h, h) - y) <= allowed)[real].all()
 
 
-def test_against_tiny_runge_kutta_steps(scene):
+@pytest.mark.parametrize("form", [None, np.array([0.0, 20e-9, 0.0, 10e-9])], ids=["round", "wavy"])
+def test_against_tiny_runge_kutta_steps(scene, form):
     """0.3 ms from the same state by classical RK4 at 20 ns on the same right-hand side."""
-    run = Run(scene("7003C-spindle"), 20000, TOLERANCE=1e-4, MAX_STEP=5e-6).init()
+    run = Run(scene("7003C-spindle"), 20000, ball_waves=form, TOLERANCE=1e-4, MAX_STEP=5e-6).init()
     run.run(2e-3)
     y = Motion(run).after(3e-4, 2e-8)
     before = run.z[:6].copy()

@@ -1,9 +1,16 @@
-"""The classical method of Kutta (1901): explicit, and it knows the right-hand side only."""
+"""The classical method of Kutta (1901): explicit, and it knows the right-hand side only.
+
+Its state is that of the engine, with the balls' body-fixed axes behind it: a' = (w - theta' e_x) x a.
+"""
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import STRIDE, F, J, P, Q, Y
+from fmu_bearing.engine.layout import FOUR, STRIDE, F, J, P, Q, W, Y
+from fmu_bearing.engine.mechanics.ball_waves import turning
 from fmu_bearing.engine.mechanics.equations import right_hand_side
+from fmu_bearing.engine.mechanics.triples import cross, store_three, three
 
+AXES = Y.SIZE  # the balls' body-fixed axes (3 rows) in the state
+SIZE = AXES + 3 * STRIDE
 # rows of scratch: rates at four places, the state at the next of them, right-hand side
 _LAST, _NEW, _F, ROWS = 3, 4, 5, 6
 
@@ -11,8 +18,12 @@ _LAST, _NEW, _F, ROWS = 3, 4, 5, 6
 @kernel
 def _rates(p, c, y, angle, speed, w, f, k):
     """Rates of ``y`` into ``k``, both with the spare lanes of ``layout``."""
-    right_hand_side(p, c, y, angle, speed, 0.0, w, f)
     lanes = int(p[P.LANES])
+    for j in range(0, lanes, FOUR):
+        axis = three(y, AXES + j)
+        store_three(w, W.AXES + j, axis)
+        store_three(k, AXES + j, cross(turning(y, j), axis))
+    right_hand_side(p, c, y, angle, speed, 0.0, w, f)
     for i in range(J.PLACED):
         for j in range(lanes):
             k[i * STRIDE + j] = y[Y.VX + i * STRIDE + j]
@@ -27,7 +38,7 @@ def _rates(p, c, y, angle, speed, w, f, k):
 @kernel
 def _moved(y, a, k, out):
     """``out = y + a k``."""
-    for i in range(Y.SIZE):
+    for i in range(SIZE):
         out[i] = y[i] + a * k[i]
 
 
@@ -35,7 +46,8 @@ def _moved(y, a, k, out):
 def runge_kutta(p, c, y, angle, speed, h, steps, w, k):
     """Take ``steps`` steps of ``h`` (s) by the classical method of Kutta (1901), in place on ``y``.
 
-    ``angle`` (rad) of the shaft at the start, ``speed`` (rad/s) constant; ``k``: scratch, 6 x Y.SIZE.
+    ``y``: ``SIZE`` numbers; ``angle`` (rad) of the shaft at the start, ``speed`` (rad/s) constant; ``k``:
+    scratch, ``ROWS`` x ``SIZE``.
     """
     f = k[_F]
     new = k[_NEW]
@@ -50,5 +62,5 @@ def runge_kutta(p, c, y, angle, speed, h, steps, w, k):
         _rates(p, c, new, at_middle, speed, w, f, k[2])
         _moved(y, h, k[2], new)
         _rates(p, c, new, at_end, speed, w, f, k[_LAST])
-        for i in range(Y.SIZE):
+        for i in range(SIZE):
             y[i] += h / 6.0 * (k[0, i] + 2.0 * (k[1, i] + k[2, i]) + k[_LAST, i])

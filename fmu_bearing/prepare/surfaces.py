@@ -13,13 +13,14 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies, kinematic_frequencies
+from fmu_bearing.engine.layout.sizes import BALL_ORDERS
 from fmu_bearing.prepare import bodies
 from fmu_bearing.prepare.contacts import race_contacts
 from fmu_bearing.scene import Scene, si
 from fmu_bearing.scene.imperfections import HIGHEST_ORDER, Imperfections
 
 #: Highest zonal order of a ball: beyond it the contact filter leaves less than half.
-HIGHEST_BALL_ORDER = 80
+HIGHEST_BALL_ORDER = BALL_ORDERS
 _PROFILE = 20_001  # places at which the profile of a ball is searched for its extremes
 
 

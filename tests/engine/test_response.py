@@ -26,7 +26,8 @@ def table(run, count):
 
 def test_response_is_the_sum_of_its_lines(scene):
     """Displacements, velocities and accelerations by NumPy at the angles in the state, after a long run."""
-    run = Run(silent(scene("7003C-spindle")), 20000, FIDELITY=2.0)
+    form = np.array([0.0, 20e-9, 5e-9])
+    run = Run(silent(scene("7003C-spindle")), 20000, ball_waves=form, FIDELITY=2.0)
     run.u[U.LOAD_Z] = -1000.0
     run.init()
     lv = block(run)
@@ -34,13 +35,15 @@ def test_response_is_the_sum_of_its_lines(scene):
         assert run.step(h) == OK
     count = int(lv[L.COUNT])
     assert count > STRIDE  # more than one row of phases
-    assert abs(lv[L.THETA]) <= np.pi  # 1e5 turns later
+    assert max(abs(lv[L.THETA]), abs(lv[L.ROLLED])) <= np.pi  # 1e5 turns later
     lines = table(run, count)
     real, imaginary = (lines[:, at : at + L.N] for at in (L.LINE_REAL, L.LINE_IMAGINARY))
     speed = run.s[S.SPEED]
-    turns = lines[:, [L.LINE_BALL, L.LINE_SHAFT]]
-    omega = 1j * turns @ [lv[L.RATIO] * speed, speed]
-    moving = (real + 1j * imaginary) * np.exp(1j * turns @ [lv[L.THETA], run.s[S.ANGLE]])[:, None]
+    turns = lines[:, [L.LINE_BALL, L.LINE_SHAFT, L.LINE_ROLLED]]
+    assert (abs(turns).max(0) > 1.0).all()
+    omega = 1j * speed * turns @ [lv[L.RATIO], 1.0, lv[L.ROLL]]
+    angles = [lv[L.THETA], run.s[S.ANGLE], lv[L.ROLLED]]
+    moving = (real + 1j * imaginary) * np.exp(1j * turns @ angles)[:, None]
     for at, power in ((L.Q0, 0), (L.V0, 1), (L.A0, 2)):
         each = omega[:, None] ** power * moving
         exact = each.real.sum(0) + (lv[L.MEAN : L.MEAN + L.N] if power == 0 else 0.0)

@@ -9,13 +9,15 @@ FORCES = N - 1  # components of the balls' forces: the coordinates without TURN,
 COLUMN = -(-N // FOUR) * FOUR  # numbers per vector or matrix column: N, rounded up to whole vectors
 DIAGONAL = COLUMN + 1  # from one entry of a matrix's diagonal to the next
 MATRIX = COLUMN * N  # entry (i, k) at i + COLUMN * k
+VECTOR = 3  # numbers of a vector in space
 HISTORY = 5  # accelerations and places kept: now and at earlier steps
 
 MOST_LINES = 384  # of fidelity response: a 7003C at 3,000 r/min has some 200 up to 10 kHz
 # one line of fidelity response, in a table at the end of the state
 _line = Places()
 LINE_BALL = _line()  # multiple of ball 0's angle,
-LINE_SHAFT = _line()  # and of the shaft's
+LINE_SHAFT = _line()  # of the shaft's,
+LINE_ROLLED = _line()  # and of the balls' own turning
 LINE_LOUDNESS = _line()  # m2/s2: what the line weighs beside others
 LINE_REAL = _line(COLUMN)  # m, rad: complex displacements of the coordinates, zero for TURN: real parts,
 LINE_IMAGINARY = _line(COLUMN)  # imaginary parts
@@ -40,7 +42,13 @@ COUNT = _at()  # of lines (fidelity response)
 FRESH = _at()  # 1 while the Jacobian is that of the present state
 DEGREE = _at()  # of the polynomial that continues the accelerations
 ERRORS = _at(HISTORY)  # m/s2: lately largest error of the polynomials of degree 0, 1, ...
-_SPARE = _at(8)  # rows begin at whole vectors
+ROLLED = _at()  # rad: by which the balls have turned in their orbiting axes
+# how they turn there, and where they touch: see condensed/ball_form
+ROLL = _at()  # rate of that angle over shaft speed
+ROLL_AXIS = _at(VECTOR)  # unit vector
+TOUCH = _at(VECTOR * FOUR)  # rows x r theta of unit vectors into inner and outer race and across both tracks
+ROLL_SIZE = _at.next - ROLL
+_SPARE = _at(7)  # rows begin at whole vectors
 CONDITIONS = _at(C.SIZE)  # that the held values were found at
 Q0 = _at(COLUMN)  # m, rad: displacements,
 V0 = _at(COLUMN)  # their Newmark velocities,

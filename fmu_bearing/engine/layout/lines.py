@@ -1,15 +1,16 @@
 """LN: scratch of fidelity response while it renews its lines (``x`` in kernels).
 
-It stands in the Jacobian's block of ``s``, from ``S.JAC`` on, which this fidelity does not need then: forces
-of one ball on the rings, sampled round the orbit, and their circumferential orders. A complex vector is
-``COMPONENTS`` real parts, then as many imaginary parts.
+It stands in the blocks of Jacobian and factors in ``s``, from ``S.JAC`` on, which this fidelity does not need
+then: forces of one ball on the rings, sampled round the orbit, and their circumferential orders. A complex
+vector is ``COMPONENTS`` real parts, then as many imaginary parts.
 """
 
 from fmu_bearing.engine.layout.condensed import FORCES as COMPONENTS
-from fmu_bearing.engine.layout.sizes import Places
+from fmu_bearing.engine.layout.sizes import BALL_ORDERS, STRIDE, Places
 
 REACH = 8  # highest circumferential order of the balls' unequal loads
 AZIMUTHS = 96  # samples over the orbit at most
+TURNS = 2 * (BALL_ORDERS + 1)  # samples over a ball's own turning at most
 
 IMAGINARY = COMPONENTS  # place of the imaginary parts in a complex vector
 COMPLEX = 2 * COMPONENTS  # numbers of one
@@ -18,13 +19,21 @@ COMPLEX = 2 * COMPONENTS  # numbers of one
 FORCE = 0  # N, N m
 BY_HEIGHT = 1  # per m of race height under the ball: inner, outer
 BY_BEND = 3  # per m/s2 of its second time derivative: inner, outer
-KINDS = 5
+BY_LEAN = 5  # per m/rad of the balls' slope across the track: inner, outer
+KINDS = 7
+FORMS = 4  # a ball's heights under both races, then its slopes across both tracks
 
 _at = Places()
-SAMPLES = _at(KINDS * COMPONENTS * AZIMUTHS)  # entry (kind, i, m) at (kind * COMPONENTS + i) * AZIMUTHS + m
-COS = _at(AZIMUTHS)  # of the azimuths
-SIN = _at(AZIMUTHS)
+COS = _at(TURNS)  # of the azimuths, later of the parts of a ball's turning
+SIN = _at(TURNS)
 # orders 0 .. REACH of each kind from BY_HEIGHT on: see `order_of` in response/lines
 TABLE = _at((KINDS - BY_HEIGHT) * (REACH + 1) * COMPLEX)
 FORCE_ORDER = _at(COMPLEX)  # one order of the force
-SIZE = _at.next
+TURNED = _at(FORMS * TURNS)  # m, m/rad: forms of one ball over its turning
+# samples round the orbit: entry (kind, i, m) at (kind * COMPONENTS + i) * AZIMUTHS + m
+SAMPLES = _at(KINDS * COMPONENTS * AZIMUTHS)
+# when they are no longer needed, orders of the balls' forms: real and imaginary row of (form, order m) at
+# ((m - 1) * FORMS + form) * 2 * STRIDE
+FORM = SAMPLES
+FORM_SIZE = 2 * STRIDE
+SIZE = max(_at.next, FORM + BALL_ORDERS * FORMS * FORM_SIZE)

@@ -4,6 +4,7 @@ STRIDE = 24  # lanes per ball quantity: no power of two, so that rows spread ove
 MAX_BALLS = STRIDE
 FOUR = 4  # balls computed at a time: numbers of lanes are multiples of it
 STAGES = 6  # of a Runge-Kutta method at most
+BALL_ORDERS = 80  # zonal orders of a ball's form at most
 MAX_MODES = 16  # flexural modes of both rings
 
 

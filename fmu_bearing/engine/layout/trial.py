@@ -6,7 +6,7 @@ Runge-Kutta step's stages.
 """
 
 from fmu_bearing.engine.layout import condensed as _L, f as _F, jacobian as _J, lines as _LN, w as _W
-from fmu_bearing.engine.layout.sizes import STRIDE, Places
+from fmu_bearing.engine.layout.sizes import BALL_ORDERS, STRIDE, Places
 from fmu_bearing.engine.layout.w import Area
 
 # forces of the balls on one ring: rows
@@ -45,14 +45,18 @@ STEP = _at(STRIDE)  # m2: a ball's move in the last sweep, squared, as far as it
 MOVED = _at(STRIDE)  # m2: all of it
 FORCE = _at(2 * FORCE_SIZE)  # on inner ring, then on outer ring: one row per component, see L.FORCES
 BEND = _at(2 * STRIDE)  # m/s2: second time derivative of the race heights, inner and outer
+LEAN = _at(2 * STRIDE)  # m/rad: slope of the balls' own form across the track, inner and outer
 CONTACT = _at(2 * CONTACT_SIZE)  # with inner race, then with outer race
 DX = _at(STRIDE)  # m: a ball's move in the last sweep
 DR = _at(STRIDE)
 PHASES = _at(STRIDE)  # rad: of one row of lines
+RISE = _at(BALL_ORDERS + 1)  # m: Legendre series of the slope of the balls' form, orders 0, 1, ...
+CURVE = _at(BALL_ORDERS + 1)  # and of its second derivative
 ROWS = _at.next
 
 FORCE_OUTER = FORCE + FORCE_SIZE
 BEND_OUTER = BEND + STRIDE
+LEAN_OUTER = LEAN + STRIDE
 CONTACT_OUTER = CONTACT + CONTACT_SIZE
 
 # trial numbers of a step

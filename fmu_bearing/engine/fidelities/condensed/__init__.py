@@ -2,6 +2,7 @@
 
 ==============  =============================================================================
 ``rows``        coordinates and components; places of the balls between state and work space
+``ball_form``   form and waviness of the balls under both races
 ``balls``       each ball at rest between the races, and what it puts on the rings
 ``held``        cage speed, friction and heats, evaluated at the quasi-static point and held
 ``linearised``  derivatives of the rings' accelerations, and their static equilibrium

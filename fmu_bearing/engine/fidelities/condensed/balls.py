@@ -18,6 +18,7 @@ import math
 
 from fmu_bearing.engine.constants import GRAVITY, PI
 from fmu_bearing.engine.dense import times
+from fmu_bearing.engine.fidelities.condensed.ball_form import add_ball_form
 from fmu_bearing.engine.fidelities.condensed.rows import coordinate
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import gather, load, select, store, sum_four, sum_lanes, to_bits
@@ -39,10 +40,11 @@ _SOFT = 1e6  # N/m: moves count as if against this stiffness at most; loaded con
 
 
 @kernel
-def stand(p, c, lv, theta, inner_angle, outer_angle, speed, w):
+def stand(p, c, lv, theta, rolled, inner_angle, outer_angle, speed, w):
     """Cosines and sines of the balls' angles, height (m) of both races under each ball, its acceleration.
 
-    ``theta``: angle of ball 0; all are evenly spaced. Heights contain half the ball's diameter deviation;
+    ``theta``: angle of ball 0; all are evenly spaced; ``rolled``: angle by which the balls have turned (rad).
+    Heights contain half the ball's diameter deviation;
     their second derivatives by time (m/s2) are those of the table's cubics at the ``speed`` of the shaft.
     """
     lanes = int(p[P.LANES])
@@ -59,7 +61,13 @@ def stand(p, c, lv, theta, inner_angle, outer_angle, speed, w):
         store(w, T.OUTER + j, size)
         store(w, T.BEND + j, 0.0)
         store(w, T.BEND_OUTER + j, 0.0)
-    if p[P.WAVINESS] == 0.0 or scale == 0.0:
+        store(w, T.LEAN + j, 0.0)
+        store(w, T.LEAN_OUTER + j, 0.0)
+    if scale == 0.0:
+        return
+    if p[P.BALL_WAVES] != 0.0:
+        add_ball_form(p, c, lv, rolled, speed, w)
+    if p[P.WAVINESS] == 0.0:
         return
     intervals = int(p[P.WAVE_INTERVALS])
     within = intervals - 1  # low bits of a place in the table
@@ -138,8 +146,8 @@ def balance(p, lv, speed, part, w):
     orbit = lv[L.RATIO] * speed
     pull = mass * orbit * orbit
     weight = GRAVITY * mass if p[P.GRAVITY] != 0.0 else 0.0
-    pair_i = lv[L.PAIR_INNER] * speed * speed
-    pair_o = lv[L.PAIR_OUTER] * speed * speed
+    held_i = lv[L.PAIR_INNER] * speed * speed
+    held_o = lv[L.PAIR_OUTER] * speed * speed
     for j in range(0, int(p[P.LANES]), FOUR):
         i = T.CONTACT + j
         o = T.CONTACT_OUTER + j
@@ -149,6 +157,9 @@ def balance(p, lv, speed, part, w):
         fx, fr, tx, tr = load(w, o + T.EX), load(w, o + T.ER), load(w, o + T.MX), load(w, o + T.MR)
         x = load(w, T.X + j)
         r = load(w, T.R + j)
+        # a bump that lies aside turns the contact's direction
+        pair_i = held_i + kt * load(w, T.LEAN + j)
+        pair_o = held_o + kt2 * load(w, T.LEAN_OUTER + j)
         # net force on the ball and its stiffness
         netx = -load_i * ex - pair_i * mx - load_o * fx - pair_o * tx
         netr = -load_i * er - pair_i * mr - load_o * fr - pair_o * tr
@@ -189,10 +200,11 @@ def balance(p, lv, speed, part, w):
 
 
 @kernel
-def push(lv, lanes, pair, row, force, w):
+def push(lv, lanes, pair, lean, row, force, w):
     """Write forces and moments of the moved balls on one ring into its rows from ``force`` on.
 
-    ``pair``: friction (N) across the track; ``row``: of the contacts with the ring.
+    ``pair``: friction (N) across the track; ``lean``, ``row``: rows of the balls' slopes there and of the
+    contacts with the ring.
     """
     for j in range(0, lanes, FOUR):
         at = row + j
@@ -207,7 +219,7 @@ def push(lv, lanes, pair, row, force, w):
         qr = load(w, at + T.QR) + dr
         qt = load(w, at + T.QT)
         along = mask * (load(w, at + T.LOAD) + load(w, at + T.STIFF) * (ex * dx + er * dr))
-        across = mask * (pair + load(w, at + T.ACROSS) * (mx * dx + mr * dr))
+        across = mask * (pair + load(w, at + T.ACROSS) * (load(w, lean + j) + (mx * dx + mr * dr)))
         fx = along * ex + across * mx
         fr = along * er + across * mr
         ft = along * et + across * mt
@@ -245,8 +257,8 @@ def sweep(p, c, lv, speed, part, q, w):
         T.CONTACT_OUTER, w,
     )  # fmt: skip
     balance(p, lv, speed, part, w)
-    push(lv, lanes, lv[L.PAIR_INNER] * speed * speed, T.CONTACT, T.FORCE, w)
-    push(lv, lanes, lv[L.PAIR_OUTER] * speed * speed, T.CONTACT_OUTER, T.FORCE_OUTER, w)
+    push(lv, lanes, lv[L.PAIR_INNER] * speed * speed, T.LEAN, T.CONTACT, T.FORCE, w)
+    push(lv, lanes, lv[L.PAIR_OUTER] * speed * speed, T.LEAN_OUTER, T.CONTACT_OUTER, T.FORCE_OUTER, w)
 
 
 @kernel

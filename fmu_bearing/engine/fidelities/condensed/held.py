@@ -11,6 +11,7 @@ renewal costs some 30 evaluations of the full right-hand side with its Jacobian.
 """
 
 from fmu_bearing.engine.choices import INNER_CONTROL, OUTER_CONTROL
+from fmu_bearing.engine.fidelities.condensed.ball_form import hold_rolling
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import EQ, STRIDE, C, F, L, P, Q, S, T, W, Y
 from fmu_bearing.engine.mechanics.conditions import conditions
@@ -111,6 +112,7 @@ def hold(p, u, speed, s, w):
             lv[L.SPIN + i * STRIDE + j] = y[Y.WX + i * STRIDE + j] / turning
     f = w[T.HELD_F : T.HELD_F + F.SIZE]
     right_hand_side(p, c, y, 0.0, turning, 0.0, w, f)
+    hold_rolling(p, lv, y, turning, w)
     summarise_held(p, s, y, f, w)
     share = speed / turning
     lv[L.TORQUE] = share * (f[F.HEAT] + f[F.HEAT_OUTER] + f[F.HEAT_OIL]) / turning

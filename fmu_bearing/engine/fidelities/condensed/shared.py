@@ -38,10 +38,11 @@ def even_spacing(p, lv):
 @kernel
 def flat(p, c, lv, w):
     """Angles at the start, and races without waves under balls of one size."""
-    stand(p, c, lv, 0.0, 0.0, 0.0, 0.0, w)
+    stand(p, c, lv, 0.0, 0.0, 0.0, 0.0, 0.0, w)
     for i in range(2 * STRIDE):
         w[T.INNER + i] = 0.0
         w[T.BEND + i] = 0.0
+        w[T.LEAN + i] = 0.0
 
 
 @kernel

@@ -10,7 +10,9 @@ combinations that add up to multiples of their number Z:
 * of the outer race: a = k Z = n + l, b = 0;
 * varying compliance, f itself: a = l = k Z, b = 0;
 * unequal balls: a = l, b = 0 with the discrete transform of their sizes;
-* unbalance: a = 0, b = 1.
+* unbalance: a = 0, b = 1;
+* form of the balls: its order m over a ball's own turning with any order l of g: a = l, third multiple m
+  (``L.ROLLED``); the balls, each with an axis of its own, add up to the discrete transform over them.
 """
 
 import math
@@ -19,6 +21,7 @@ from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.dense import solve_complex
 from fmu_bearing.engine.fidelities.condensed.balls import carried, stand
 from fmu_bearing.engine.fidelities.condensed.rows import component
+from fmu_bearing.engine.fidelities.response.ball_orders import form_of, form_orders
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import LN, STRIDE, C, L, P, Q, S, T, W, Y
 from fmu_bearing.engine.newton.body_slopes import inertia
@@ -26,6 +29,8 @@ from fmu_bearing.engine.newton.jacobian import is_angle
 
 _HEIGHT = 1e-9  # m, for differences; heights' accelerations by (3e4 rad/s)^2 times that
 _BEND = 1.0  # m/s2
+_LEAN = 1e-8  # m/rad
+_SMALL = 1e-6  # of the largest coefficient of a kind: an order of the balls below it is left out
 _WEAK = 1e-5  # of the strongest line's weight, as an amplitude: left out
 _SOUNDS = 6300.0  # rad/s: from here on lines count by their acceleration
 _STILL = 1e-3  # rad/s: a line as slow as that is none
@@ -44,6 +49,12 @@ def orders(p):
 
 
 @kernel
+def kinds_of_sample(p):
+    """Kinds of sample that are needed: slopes across the track belong to the balls' form."""
+    return LN.KINDS if p[P.BALL_WAVES] != 0.0 else LN.BY_LEAN
+
+
+@kernel
 def sample_orbit(p, c, lv, speed, x, w):
     """Fill ``x`` with the forces of one ball on the rings all round, and their derivatives; the count.
 
@@ -52,18 +63,23 @@ def sample_orbit(p, c, lv, speed, x, w):
     balls = int(p[P.BALLS])
     lanes = int(p[P.LANES])
     parts = max(LN.AZIMUTHS // balls, 1)
+    kinds = kinds_of_sample(p)
     q = w[T.Q : T.Q + L.COLUMN]
     for i in range(L.N):
         q[i] = w[W.STAGE + Y.Q0 + i]
     kept = c[C.OVERSIZE_SCALE]
     c[C.OVERSIZE_SCALE] = 0.0
     for part in range(parts):
-        stand(p, c, lv, 2.0 * PI * part / (balls * parts), 0.0, 0.0, speed, w)
-        for kind in range(LN.KINDS):
-            row = T.BEND + (kind - LN.BY_BEND) * STRIDE
+        stand(p, c, lv, 2.0 * PI * part / (balls * parts), 0.0, 0.0, 0.0, speed, w)
+        for kind in range(kinds):
+            row = T.LEAN + (kind - LN.BY_LEAN) * STRIDE
+            step = _LEAN
             if kind < LN.BY_BEND:
                 row = T.INNER + (kind - LN.BY_HEIGHT) * STRIDE
-            step = _HEIGHT if kind < LN.BY_BEND else _BEND
+                step = _HEIGHT
+            elif kind < LN.BY_LEAN:
+                row = T.BEND + (kind - LN.BY_BEND) * STRIDE
+                step = _BEND
             if kind != LN.FORCE:
                 for j in range(lanes):
                     w[row + j] = step
@@ -115,8 +131,8 @@ def coefficients(x, kind, order, target, w):
 
 
 @kernel
-def keep(p, lv, lines, a, b, omega, w):
-    """Keep the answer at ``omega`` (rad/s) to the force ``T.LINE_FORCE`` as line ``a``, ``b``."""
+def keep(p, lv, lines, a, b, m, omega, w):
+    """Keep the answer at ``omega`` (rad/s) to the force ``T.LINE_FORCE`` as line ``a``, ``b``, ``m``."""
     if abs(omega) < _STILL:
         return
     re = w[T.LINE_RE : T.LINE_RE + L.N * T.LINE_ROW]
@@ -146,6 +162,7 @@ def keep(p, lv, lines, a, b, omega, w):
     at = into * L.LINE_SIZE
     lines[at + L.LINE_BALL] = a
     lines[at + L.LINE_SHAFT] = b
+    lines[at + L.LINE_ROLLED] = m
     lines[at + L.LINE_LOUDNESS] = size
     for i in range(L.COLUMN):
         moves = i < L.N and i != L.TURN
@@ -249,7 +266,7 @@ def steady_lines(p, c, lv, lines, x, count, orbit, w):
                     gi = w[T.BY_HEIGHT + LN.IMAGINARY + i]
                     w[T.LINE_FORCE + i] += gr * dr - gi * di
                     w[T.LINE_FORCE + LN.IMAGINARY + i] += gr * di + gi * dr
-        keep(p, lv, lines, a, 0.0, a * orbit, w)
+        keep(p, lv, lines, a, 0.0, 0.0, a * orbit, w)
 
 
 @kernel
@@ -264,14 +281,73 @@ def shaft_lines(p, c, lv, lines, x, orbit, speed, w):
     # (0, -sin, cos) of the shaft's angle
     w[T.LINE_FORCE + LN.IMAGINARY + Q.Y] = push
     w[T.LINE_FORCE + Q.Z] = push
-    keep(p, lv, lines, 0.0, 1.0, speed, w)
+    keep(p, lv, lines, 0.0, 1.0, 0.0, speed, w)
     for n in range(1, orders(p) + 1):
         lowest = max((n - LN.REACH + balls - 1) // balls, 0)
         for k in range(lowest, (n + LN.REACH) // balls + 1):
             for i in range(LN.COMPLEX):
                 w[T.LINE_FORCE + i] = 0.0
             add_wave(p, x, 0, n, k * balls - n, balls * scale, orbit - speed, tau, w)
-            keep(p, lv, lines, k * balls, -1.0 * n, k * balls * orbit - n * speed, w)
+            keep(p, lv, lines, k * balls, -1.0 * n, 0.0, k * balls * orbit - n * speed, w)
+
+
+@kernel
+def highest_order(x, kind):
+    """Highest order of one kind of sample that is more than rounding."""
+    largest = 0.0
+    highest = 0
+    for order in range(LN.REACH + 1):
+        size = 0.0
+        for i in range(LN.COMPLEX):
+            size = max(size, abs(x[order_of(kind, order) + i]))
+        if size > _SMALL * largest:
+            highest = order
+        largest = max(largest, size)
+    return highest
+
+
+@kernel
+def add_form(x, kind, order, re, im, squared, w):
+    """Add what one form of the balls, ``re`` + i ``im`` over all of them, excites through ``order``."""
+    coefficients(x, kind, order, T.BY_HEIGHT, w)
+    for i in range(LN.COMPLEX):
+        w[T.BY_BEND + i] = 0.0
+    if kind < LN.BY_BEND:
+        coefficients(x, kind - LN.BY_HEIGHT + LN.BY_BEND, order, T.BY_BEND, w)
+    for i in range(LN.COMPONENTS):
+        gr = w[T.BY_HEIGHT + i] - squared * w[T.BY_BEND + i]
+        gi = w[T.BY_HEIGHT + LN.IMAGINARY + i] - squared * w[T.BY_BEND + LN.IMAGINARY + i]
+        w[T.LINE_FORCE + i] += gr * re - gi * im
+        w[T.LINE_FORCE + LN.IMAGINARY + i] += gr * im + gi * re
+
+
+@kernel
+def form_lines(p, c, lv, lines, x, orbit, speed, w):
+    """Lines of the balls' form; the samples round the orbit are overwritten."""
+    balls = int(p[P.BALLS])
+    rate = lv[L.ROLL] * speed
+    highest = int(p[P.BALL_WAVES])
+    reach = max(highest_order(x, LN.BY_HEIGHT), highest_order(x, LN.BY_HEIGHT + 1))
+    form_orders(p, lv, highest, x)
+    for m in range(1, highest + 1):
+        # contact damping advances the form; the real part counts both signs of the order
+        double = 2.0 * c[C.OVERSIZE_SCALE]
+        co = double * math.cos(m * rate * p[P.CONTACT_DAMPING])
+        si = double * math.sin(m * rate * p[P.CONTACT_DAMPING])
+        for a in range(-reach, reach + 1):
+            for i in range(LN.COMPLEX):
+                w[T.LINE_FORCE + i] = 0.0
+            for form in range(LN.FORMS):
+                at = form_of(form, m)
+                re = 0.0
+                im = 0.0
+                for j in range(balls):
+                    turn = 2.0 * PI * ((a * j) % balls) / balls
+                    re += x[at + j] * math.cos(turn) - x[at + STRIDE + j] * math.sin(turn)
+                    im += x[at + j] * math.sin(turn) + x[at + STRIDE + j] * math.cos(turn)
+                kind = LN.BY_HEIGHT + form if form < 2 else LN.BY_LEAN + form - 2
+                add_form(x, kind, a, re * co - im * si, re * si + im * co, m * rate * m * rate, w)
+            keep(p, lv, lines, a, 0.0, m, a * orbit + m * rate, w)
 
 
 @kernel
@@ -285,11 +361,13 @@ def renew_lines(p, s, speed, w):
     for m in range(count):
         x[LN.COS + m] = math.cos(2.0 * PI * m / count)
         x[LN.SIN + m] = math.sin(2.0 * PI * m / count)
-    for kind in range(LN.BY_HEIGHT, LN.KINDS):
+    for kind in range(LN.BY_HEIGHT, kinds_of_sample(p)):
         for order in range(LN.REACH + 1):
             transform(x, kind, order, count, order_of(kind, order))
     lines = s[line_table(p) :]
     lv[L.COUNT] = 0.0
     shaft_lines(p, c, lv, lines, x, orbit, speed, w)
     steady_lines(p, c, lv, lines, x, count, orbit, w)
+    if p[P.BALL_WAVES] != 0.0 and c[C.OVERSIZE_SCALE] != 0.0:
+        form_lines(p, c, lv, lines, x, orbit, speed, w)
     drop_weak(lv, lines)

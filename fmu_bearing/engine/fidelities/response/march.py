@@ -1,11 +1,12 @@
 """Fidelity `response`: the rings' steady linear answer to every excitation, as a sum of lines.
 
 The rings stand at their static equilibrium; mass, damping and stiffness are those of fidelity `rings` there,
-with the balls' stiffness averaged over the orbit. Each line turns with a ball 0's angle + b shaft's angle for
-whole a and b, so that phases run on through changes of speed; amplitudes are renewed with what is ``held``
-(speed by 1 %, conditions by 0.1 %), and at once: the transient of the change is left out.
+with the balls' stiffness averaged over the orbit. Each line turns with a ball 0's angle + b shaft's angle + m
+times the angle by which the balls have turned in their orbiting axes. a, b and m are whole, so that phases
+run on through changes of speed; amplitudes are renewed with what is ``held`` (speed by 1 %, conditions by
+0.1 %), and at once: the transient of the change is left out.
 
-Between communication points nothing is stepped but the two angles; with sound, samples are interpolated
+Between communication points nothing is stepped but these angles; with sound, samples are interpolated
 between states 19.5 us apart.
 """
 
@@ -136,10 +137,11 @@ def renew_equilibrium(p, u, s, w):
 
 
 @kernel
-def sum_lines(lv, lines, theta, angle, orbit, speed, w):
-    """Displacements, velocities and accelerations of the rings at the angles of ball 0 and shaft (rad).
+def sum_lines(lv, lines, theta, rolled, angle, orbit, speed, w):
+    """Displacements, velocities and accelerations of the rings at the three angles of the lines (rad).
 
-    Cosines and sines are taken for a row of lines at a time, the coordinates of a line four at a time.
+    ``theta``: of ball 0; ``rolled``: by which the balls have turned; ``angle``: of the shaft. Cosines and
+    sines are taken for a row of lines at a time, the coordinates of a line four at a time.
     """
     count = int(lv[L.COUNT])
     q0, q1, q2 = load(lv, L.MEAN), load(lv, L.MEAN + FOUR), load(lv, L.MEAN + 2 * FOUR)
@@ -149,12 +151,14 @@ def sum_lines(lv, lines, theta, angle, orbit, speed, w):
         many = min(count - first, STRIDE)
         for k in range(many):
             at = (first + k) * L.LINE_SIZE
-            w[T.PHASES + k] = lines[at + L.LINE_BALL] * theta + lines[at + L.LINE_SHAFT] * angle
+            phase = lines[at + L.LINE_BALL] * theta + lines[at + L.LINE_SHAFT] * angle
+            w[T.PHASES + k] = phase + lines[at + L.LINE_ROLLED] * rolled
         # what stands behind the last line is a phase of another time, and not used
         ball_angles(w, T.PHASES, (many + FOUR - 1) // FOUR * FOUR, w)
         for k in range(many):
             at = (first + k) * L.LINE_SIZE
             omega = lines[at + L.LINE_BALL] * orbit + lines[at + L.LINE_SHAFT] * speed
+            omega += lines[at + L.LINE_ROLLED] * (lv[L.ROLL] * speed)
             co = w[T.COS + k]
             si = w[T.SIN + k]
             x0, y0 = turned(lines, at, co, si)
@@ -226,9 +230,11 @@ def find_places(p, c, lv, theta, speed, near, q, w):
 
 @kernel
 def turn_balls(s, h):
-    """Angle of ball 0 after the time ``h`` (s), within one turn, where its rounding does not grow."""
+    """Orbit and own turning after the time ``h`` (s), within one turn, where their rounding does not grow."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    lv[L.THETA] = wrap(lv[L.THETA] + lv[L.RATIO] * h * (s[S.SPEED] + 0.5 * h * s[S.SPEED_RATE]))
+    mean = s[S.SPEED] + 0.5 * h * s[S.SPEED_RATE]
+    lv[L.THETA] = wrap(lv[L.THETA] + lv[L.RATIO] * h * mean)
+    lv[L.ROLLED] = wrap(lv[L.ROLLED] + lv[L.ROLL] * h * mean)
 
 
 @kernel
@@ -242,10 +248,14 @@ def place(p, s, ahead, near, w):
     speed = s[S.SPEED] + ahead * s[S.SPEED_RATE]
     turned = ahead * (s[S.SPEED] + 0.5 * ahead * s[S.SPEED_RATE])
     theta = lv[L.THETA] + lv[L.RATIO] * turned
+    rolled = lv[L.ROLLED] + lv[L.ROLL] * turned
     angle = s[S.ANGLE] + turned
-    sum_lines(lv, s[line_table(p) :], theta, angle, lv[L.RATIO] * speed, speed, w)
+    sum_lines(lv, s[line_table(p) :], theta, rolled, angle, lv[L.RATIO] * speed, speed, w)
     tau = p[P.CONTACT_DAMPING]
-    stand(p, c, lv, theta + tau * lv[L.RATIO] * speed, angle + tau * speed, lv[L.Q0 + L.TURN], speed, w)
+    stand(
+        p, c, lv, theta + tau * lv[L.RATIO] * speed, rolled + tau * lv[L.ROLL] * speed, angle + tau * speed,
+        lv[L.Q0 + L.TURN], speed, w,
+    )  # fmt: skip
     q = w[T.Q : T.Q + L.COLUMN]
     for i in range(L.N):
         q[i] = lv[L.Q0 + i] + tau * lv[L.V0 + i]

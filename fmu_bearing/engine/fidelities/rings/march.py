@@ -73,7 +73,7 @@ def start_rings(p, u, s, w, t):
     # from the even races' equilibrium to the one on waves and unequal balls, or the start would ring
     c = s[S.C : S.C + C.SIZE]
     keep_balls(w, lv, L.X3)
-    stand(p, c, lv, 0.0, 0.0, 0.0, s[S.SPEED], w)
+    stand(p, c, lv, 0.0, 0.0, 0.0, 0.0, s[S.SPEED], w)
     if not at_rest(p, c, lv, s[S.SPEED], w):
         for i in range(L.N):
             w[W.STAGE + Y.Q0 + i] = lv[L.MEAN + i]
@@ -86,6 +86,7 @@ def start_rings(p, u, s, w, t):
     for row in (L.X, L.X1, L.X2):
         keep_balls(w, lv, row)
     lv[L.THETA] = 0.0
+    lv[L.ROLLED] = 0.0
     if not begin_anew(p, s, w):
         return NO_START
     for _ in range(L.HISTORY):
@@ -110,7 +111,8 @@ def renew(p, s, w):
     tau = p[P.CONTACT_DAMPING]
     speed = s[S.SPEED]
     theta = lv[L.THETA] + tau * lv[L.RATIO] * speed
-    stand(p, c, lv, theta, s[S.ANGLE] + tau * speed, lv[L.Q0 + L.TURN], speed, w)
+    rolled = lv[L.ROLLED] + tau * lv[L.ROLL] * speed
+    stand(p, c, lv, theta, rolled, s[S.ANGLE] + tau * speed, lv[L.Q0 + L.TURN], speed, w)
     if not derivatives(p, c, lv, s[S.ANGLE], s[S.SPEED], s[S.SPEED_RATE], w):
         return False
     lv[L.HIGHEST] = highest_mode(lv, w)
@@ -183,9 +185,11 @@ def correct(p, s, h, tolerance, probe, w):
     turned = h * (s[S.SPEED] + 0.5 * h * rate)
     angle = s[S.ANGLE] + turned
     predict(p, lv, h, w)
+    tau = p[P.CONTACT_DAMPING]
     stand(
-        p, c, lv, lv[L.THETA] + lv[L.RATIO] * turned + p[P.CONTACT_DAMPING] * lv[L.RATIO] * speed,
-        angle + p[P.CONTACT_DAMPING] * speed, w[W.STAGE + Y.Q0 + L.TURN], speed, w,
+        p, c, lv, lv[L.THETA] + lv[L.RATIO] * turned + tau * lv[L.RATIO] * speed,
+        lv[L.ROLLED] + lv[L.ROLL] * turned + tau * lv[L.ROLL] * speed, angle + tau * speed,
+        w[W.STAGE + Y.Q0 + L.TURN], speed, w,
     )  # fmt: skip
     q = w[T.Q : T.Q + L.COLUMN]
     before = 0.0
@@ -259,6 +263,7 @@ def accept(p, s, h, w):
     lv[L.FRESH] = 0.0
     turned = h * (s[S.SPEED] + 0.5 * h * s[S.SPEED_RATE])
     lv[L.THETA] = wrap(lv[L.THETA] + lv[L.RATIO] * turned)
+    lv[L.ROLLED] = wrap(lv[L.ROLLED] + lv[L.ROLL] * turned)
 
 
 @kernel

@@ -1,0 +1,148 @@
+"""Form and waviness of the balls under both races, for balls that spin steadily.
+
+Held with the quasi-static point are the spin against the orbiting axes, the same for all balls, and the
+directions of the contacts. So each contact runs round one and the same circle on every ball, by the angle
+``L.ROLLED``; the balls differ by where their body-fixed axis a stood when that angle was zero. With g the
+contact's direction turned back by it, the surface stands h(g . a) above the sphere (``mechanics.ball_waves``)
+and its gradient across the track gives a force Q h' (g_m . a) / l, l from the groove's centre.
+"""
+
+import math
+
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.lanes import lane, load, splat, store
+from fmu_bearing.engine.layout import FOUR, STRIDE, C, L, P, R, T, W, Y
+from fmu_bearing.engine.mechanics.triples import added, cross, dot, scaled, three
+
+_STILL = 1e-9  # of the shaft's speed: slower balls do not turn
+
+
+@kernel
+def hold_rolling(p, lv, y, turning, w):
+    """Keep spin and contact directions of the state ``y`` at the shaft speed ``turning`` (rad/s).
+
+    The rows of both contacts in ``w`` are those of that state. Means over the balls, which are equal there.
+    """
+    balls = int(p[P.BALLS])
+    for i in range(L.ROLL_SIZE):
+        lv[L.ROLL + i] = 0.0
+    for j in range(balls):
+        lv[L.ROLL_AXIS] -= y[Y.OM + j] / balls
+        for i in range(L.VECTOR):
+            lv[L.ROLL_AXIS + i] += y[Y.WX + i * STRIDE + j] / balls
+            for race in range(2):
+                row = W.RACE + race * R.SIZE + i * STRIDE + j
+                lv[L.TOUCH + FOUR * i + race] += w[row + R.EN] / balls
+                lv[L.TOUCH + FOUR * i + 2 + race] += w[row + R.EM] / balls
+    size = math.sqrt(lv[L.ROLL_AXIS] ** 2 + lv[L.ROLL_AXIS + 1] ** 2 + lv[L.ROLL_AXIS + 2] ** 2)
+    if size < _STILL * abs(turning):
+        return
+    for i in range(L.VECTOR):
+        lv[L.ROLL_AXIS + i] /= size
+    lv[L.ROLL] = size / turning
+
+
+@kernel
+def turned_back(lv, cosine, sine):
+    """Directions ``L.TOUCH``, turned about the balls' spin axis by minus an angle, and their first two rates.
+
+    Four at a time: into both races, across both tracks. ``cosine``, ``sine``: of the angle; the rates are
+    derivatives by it (rad).
+    """
+    axis = splat(lv[L.ROLL_AXIS]), splat(lv[L.ROLL_AXIS + 1]), splat(lv[L.ROLL_AXIS + 2])
+    at = L.TOUCH
+    e = load(lv, at), load(lv, at + FOUR), load(lv, at + 2 * FOUR)
+    still = scaled(dot(axis, e), axis)
+    moving = added(e, scaled(-1.0, still))
+    aside = cross(axis, e)
+    here = added(scaled(cosine, moving), scaled(-sine, aside))
+    rate = added(scaled(-sine, moving), scaled(-cosine, aside))
+    return added(still, here), rate, scaled(-1.0, here)
+
+
+@kernel
+def one_of(vectors, k):
+    """Vector ``k`` of four."""
+    x, r, t = vectors
+    return lane(x, k), lane(r, k), lane(t, k)
+
+
+@kernel
+def derivatives_of_series(p, first, orders, w):
+    """Legendre series of the first and second derivatives of ``p[first:]`` (orders 1, 2, ...) into ``w``.
+
+    From P'_(n+1) = P'_(n-1) + (2n + 1) P_n: coefficient k of a derivative is 2k + 1 times the sum of the
+    series' own coefficients k + 1, k + 3, ... Orders 0 .. ``orders`` stand at ``T.RISE`` and ``T.CURVE``.
+    """
+    w[T.RISE + orders] = 0.0
+    w[T.CURVE + orders] = 0.0
+    sum_here, sum_above, curve_here, curve_above = 0.0, 0.0, 0.0, 0.0
+    above = 0.0
+    for n in range(orders):
+        k = orders - 1 - n
+        sum_here, sum_above = sum_above + p[first + k], sum_here
+        curve_here, curve_above = curve_above + above, curve_here
+        above = (2.0 * k + 1.0) * sum_here
+        w[T.RISE + k] = above
+        w[T.CURVE + k] = (2.0 * k + 1.0) * curve_here
+
+
+@kernel
+def pair_of_sums(p, first, orders, x, y, w):
+    """Height of the zonal harmonics ``p[first:]`` and its two derivatives at ``x``, then at ``y``.
+
+    Both of four balls; the derivatives' series stand in ``w``. Two chains at once fill each other's waiting
+    time.
+    """
+    x_before, x_here = splat(1.0), x
+    y_before, y_here = splat(1.0), y
+    x_height, x_rise, x_curve = splat(0.0), splat(w[T.RISE]), splat(w[T.CURVE])
+    y_height, y_rise, y_curve = x_height, x_rise, x_curve
+    for n in range(1, orders + 1):
+        height, rise, curve = p[first + n - 1], w[T.RISE + n], w[T.CURVE + n]
+        x_height += height * x_here
+        x_rise += rise * x_here
+        x_curve += curve * x_here
+        y_height += height * y_here
+        y_rise += rise * y_here
+        y_curve += curve * y_here
+        per = 1.0 / (n + 1.0)
+        once = (2.0 * n + 1.0) * per
+        back = n * per
+        x_here, x_before = once * x * x_here - back * x_before, x_here
+        y_here, y_before = once * y * y_here - back * y_before, y_here
+    return x_height, x_rise, x_curve, y_height, y_rise, y_curve
+
+
+@kernel
+def add_ball_form(p, c, lv, rolled, speed, w):
+    """Add the balls' form to the heights under both races and to their accelerations; write ``T.LEAN``.
+
+    ``rolled`` (rad): by which the balls have turned; ``speed`` of the shaft (rad/s).
+    """
+    first = int(p[P.AT_BALL_WAVES])
+    orders = int(p[P.BALL_WAVES])
+    scale = c[C.OVERSIZE_SCALE]
+    rate = lv[L.ROLL] * speed
+    squared = scale * rate * rate
+    here, rates, bends = turned_back(lv, math.cos(rolled), math.sin(rolled))
+    inner, outer = one_of(here, 0), one_of(here, 1)
+    inner_across, outer_across = one_of(here, 2), one_of(here, 3)
+    inner_rate, outer_rate = one_of(rates, 0), one_of(rates, 1)
+    inner_bend, outer_bend = one_of(bends, 0), one_of(bends, 1)
+    derivatives_of_series(p, first, orders, w)
+    for j in range(0, int(p[P.LANES]), FOUR):
+        a = three(p, first + orders + j)
+        height, rise, curve, height_o, rise_o, curve_o = pair_of_sums(
+            p, first, orders, dot(a, inner), dot(a, outer), w
+        )
+        swept = dot(a, inner_rate)
+        swept_o = dot(a, outer_rate)
+        bend = squared * (curve * swept * swept + rise * dot(a, inner_bend))
+        bend_o = squared * (curve_o * swept_o * swept_o + rise_o * dot(a, outer_bend))
+        store(w, T.INNER + j, load(w, T.INNER + j) + scale * height)
+        store(w, T.OUTER + j, load(w, T.OUTER + j) + scale * height_o)
+        store(w, T.BEND + j, load(w, T.BEND + j) + bend)
+        store(w, T.BEND_OUTER + j, load(w, T.BEND_OUTER + j) + bend_o)
+        store(w, T.LEAN + j, scale * rise * dot(a, inner_across))
+        store(w, T.LEAN_OUTER + j, scale * rise_o * dot(a, outer_across))

@@ -94,7 +94,7 @@ def record(
     >>> bearing = Bearing("examples/scenes/7003C-bare.toml", fidelity="rings")
     >>> recording = record(bearing.scene, 0.05, radiation_model="compact")
     >>> [round(float(level)) for level in recording.levels(weighting="A")]  # dB(A) at the scene's microphones
-    [61, 58, 61, 69]
+    [62, 59, 61, 69]
     """
     scene = source.scene if isinstance(source, Model) else resolve(source)[0]
     for name, value, low in (("duration", duration, 0.0), ("step", step, 0.0), ("settle", settle, -1e-300)):

@@ -222,6 +222,7 @@ class Heard:
         """Equivalent level (dB re 20 uPa) over the recording at each place, shape (mics,).
 
         Radiation models of the papers add energies, source by source (multi-source paper, eqs. 43 and 46).
+        How far a level rests on chance and on assumed surfaces tells ``fmu_bearing.spread(recording)``.
 
         Parameters
         ----------

@@ -41,7 +41,7 @@ def test_law_is_a_straight_line_without_filter():
 
 
 def test_filter_acts_where_waves_are_as_short_as_the_contact(scene):
-    """W = 0.9 at order 220 of the 7003C and 480 of the 7009C, as published for contacts of 50 to 70 um."""
+    """W is near 0.9 where u = 1: orders 220 of the 7003C and 480 of the 7009C, half-widths of 50 to 80 um."""
     for name, order in (("7003C-bare", 220), ("7009C-steel", 480)):
         inner, _ = mean_patches(scene(name))
         assert 4.5e-5 < inner.half_width < 8e-5

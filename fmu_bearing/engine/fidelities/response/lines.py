@@ -32,7 +32,7 @@ _BEND = 1.0  # m/s2
 _LEAN = 1e-8  # m/rad
 _SMALL = 1e-6  # of the largest coefficient of a kind: an order of the balls below it is left out
 _WEAK = 1e-5  # of the strongest line's weight, as an amplitude: left out
-_SOUNDS = 6300.0  # rad/s: from here on lines count by their acceleration
+_RADIATES = 6300.0  # rad/s: from here on lines count by their acceleration
 _STILL = 1e-3  # rad/s: a line as slow as that is none
 
 
@@ -149,13 +149,13 @@ def keep(p, lv, lines, a, b, m, omega, w):
     if not solve_complex(re, im, L.N):
         return
     into = int(lv[L.COUNT])
-    size = loudness(omega, re, im)
+    size = weight_of(omega, re, im)
     if not (size < 1e9):
         return
     if into == L.MOST_LINES:
         # full: the weakest line makes room, if it is weaker than this one
         into = weakest(lines, into)
-        if lines[into * L.LINE_SIZE + L.LINE_LOUDNESS] >= size:
+        if lines[into * L.LINE_SIZE + L.LINE_WEIGHT] >= size:
             return
     else:
         lv[L.COUNT] += 1.0
@@ -163,7 +163,7 @@ def keep(p, lv, lines, a, b, m, omega, w):
     lines[at + L.LINE_BALL] = a
     lines[at + L.LINE_SHAFT] = b
     lines[at + L.LINE_ROLLED] = m
-    lines[at + L.LINE_LOUDNESS] = size
+    lines[at + L.LINE_WEIGHT] = size
     for i in range(L.COLUMN):
         moves = i < L.N and i != L.TURN
         lines[at + L.LINE_REAL + i] = re[i * T.LINE_ROW + L.N] if moves else 0.0
@@ -171,8 +171,8 @@ def keep(p, lv, lines, a, b, m, omega, w):
 
 
 @kernel
-def loudness(omega, re, im):
-    """Weight of a solved system: velocity squared (m2/s2) of the rings' translations, more where it sounds.
+def weight_of(omega, re, im):
+    """Weight of a solved system: velocity squared (m2/s2) of the rings' translations, more where it radiates.
 
     A compact body's pressure grows with its acceleration, so above 1 kHz a line counts by that.
     """
@@ -181,7 +181,7 @@ def loudness(omega, re, im):
         if not is_angle(i):
             size += re[i * T.LINE_ROW + L.N] ** 2 + im[i * T.LINE_ROW + L.N] ** 2
     squared = omega * omega
-    return squared * (1.0 + squared / (_SOUNDS * _SOUNDS)) * size
+    return squared * (1.0 + squared / (_RADIATES * _RADIATES)) * size
 
 
 @kernel
@@ -189,7 +189,7 @@ def weakest(lines, count):
     """Index of the kept line that weighs least."""
     best = 0
     for k in range(1, count):
-        if lines[k * L.LINE_SIZE + L.LINE_LOUDNESS] < lines[best * L.LINE_SIZE + L.LINE_LOUDNESS]:
+        if lines[k * L.LINE_SIZE + L.LINE_WEIGHT] < lines[best * L.LINE_SIZE + L.LINE_WEIGHT]:
             best = k
     return best
 
@@ -200,11 +200,11 @@ def drop_weak(lv, lines):
     most = 0.0
     count = int(lv[L.COUNT])
     for k in range(count):
-        most = max(most, lines[k * L.LINE_SIZE + L.LINE_LOUDNESS])
+        most = max(most, lines[k * L.LINE_SIZE + L.LINE_WEIGHT])
     into = 0
     for k in range(count):
         at = k * L.LINE_SIZE
-        if lines[at + L.LINE_LOUDNESS] > _WEAK * _WEAK * most:
+        if lines[at + L.LINE_WEIGHT] > _WEAK * _WEAK * most:
             for i in range(L.LINE_SIZE):
                 lines[into * L.LINE_SIZE + i] = lines[at + i]
             into += 1

@@ -26,6 +26,7 @@ from fmu_bearing.prepare.imperfections import (
     wave_table,
 )
 from fmu_bearing.prepare.sound import sound_block
+from fmu_bearing.prepare.surfaces import form_rows
 from fmu_bearing.scene import Scene, SceneError, si
 from fmu_bearing.scene.bearing import Cage
 from fmu_bearing.scene.material import Material
@@ -149,13 +150,15 @@ def pack(scene: Scene, sound: NDArray[np.float64]) -> NDArray[np.float64]:
     # what the scene leaves out is an empty table: it takes no place, and its offset is 0
     waves = race_harmonics(scene)
     highest = max(max(race.orders, default=0) for race in waves)
+    form, axes = ball_waves(scene)
     wavy = any(race.amplitudes.any() for race in waves)
     tables = {
         P.AT_STRIPS: np.concatenate([nodes, weights / weights.sum()]),
         P.AT_OVERSIZE: _lanes(ball_oversizes(scene)),
-        P.AT_WAVES: _both([wave_table(race, intervals(highest)) for race in waves] if wavy else []),
-        P.AT_ORDERS: _both([order_table(race, highest) for race in waves] if wavy else []),
-        P.AT_BALL_WAVES: _ball_wave_table(scene),
+        P.AT_WAVES: _joined([wave_table(race, intervals(highest)) for race in waves] if wavy else []),
+        P.AT_ORDERS: _joined([order_table(race, highest) for race in waves] if wavy else []),
+        P.AT_FORM: form_rows(form) if form.size else form,
+        P.AT_AXES: _joined([_lanes(row) for row in axes] if form.size else []),
         P.AT_SOUND: sound,
         P.AT_MODES: _modes(scene),
     }
@@ -169,8 +172,7 @@ def pack(scene: Scene, sound: NDArray[np.float64]) -> NDArray[np.float64]:
     p[P.BALLS] = scene.bearing.ball_count
     p[P.LANES] = FOUR * math.ceil(scene.bearing.ball_count / FOUR)
     p[P.WAVINESS] = float(tables[P.AT_WAVES].size > 0)
-    if tables[P.AT_BALL_WAVES].size:
-        p[P.BALL_WAVES] = tables[P.AT_BALL_WAVES].size - 3 * STRIDE
+    p[P.BALL_WAVES] = form.size
     p[P.WAVE_INTERVALS] = intervals(highest)
     p[P.WAVE_ORDERS] = highest if wavy else 0
     p[P.WAVE_RATE] = fastest_wave(scene, waves, int(p[P.BALL_WAVES]))
@@ -195,9 +197,9 @@ def _modes(scene: Scene) -> NDArray[np.float64]:
         raise SceneError(f"{scene.name}: mounting.flexure: {problem}") from None
 
 
-def _both(races: list[NDArray[np.float64]]) -> NDArray[np.float64]:
-    """Tables of both races one after the other; empty where there are none."""
-    return np.concatenate(races) if races else np.empty(0)
+def _joined(tables: list[NDArray[np.float64]]) -> NDArray[np.float64]:
+    """Tables one after the other; empty where there are none."""
+    return np.concatenate(tables) if tables else np.empty(0)
 
 
 def _lanes(values: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -205,14 +207,6 @@ def _lanes(values: NDArray[np.float64]) -> NDArray[np.float64]:
     row = np.full(STRIDE, values[0])
     row[: values.size] = values
     return row
-
-
-def _ball_wave_table(scene: Scene) -> NDArray[np.float64]:
-    """Amplitudes (m) of the orders 1.. of the balls' waviness, then the balls' axes, x, r and theta rows."""
-    amplitudes, axes = ball_waves(scene)
-    if amplitudes.size == 0:
-        return amplitudes
-    return np.concatenate([amplitudes, *(_lanes(row) for row in axes)])
 
 
 def _fidelity(scene: Scene, p: NDArray[np.float64]) -> None:

@@ -9,10 +9,12 @@ import math
 from typing import NamedTuple
 
 import numpy as np
+from numpy.polynomial import legendre
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies, kinematic_frequencies
+from fmu_bearing.engine.layout import P
 from fmu_bearing.engine.layout.sizes import BALL_ORDERS
 from fmu_bearing.prepare import bodies
 from fmu_bearing.prepare.contacts import race_contacts
@@ -142,9 +144,26 @@ def ball_profile(flaws: Imperfections, highest: int, wave_length: float) -> NDAr
     amplitudes = signs * law(1.0, flaws.waviness_exponent, orders, 0.0)
     amplitudes[0] = 0.0  # order 1 moves the ball's middle
     x = np.cos(np.linspace(0.0, math.pi, _PROFILE))
-    heights = np.polynomial.legendre.legval(x, np.concatenate([[0.0], amplitudes]))
+    heights = legendre.legval(x, np.concatenate([[0.0], amplitudes]))
     amplitudes *= si(flaws).ball_form / float(np.ptp(heights))
     return amplitudes * contact_filter(orders * wave_length)
+
+
+def form_rows(amplitudes: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Numbers of the engine per zonal order from 0 on, ``P.FORM_ROW`` each, for ``amplitudes`` (m) from 1 on.
+
+    Legendre series of the height and its two derivatives by the cosine, times the polynomials' leading
+    coefficients (2n)! / (2^n n!^2), and what the recurrence takes of the order before.
+    """
+    height = np.concatenate([[0.0], amplitudes])
+    n = np.arange(height.size)
+    leading = np.concatenate([[1.0], np.cumprod((2.0 * n[1:] - 1.0) / n[1:])])
+    rows = np.zeros((height.size, P.FORM_ROW))
+    for place, order in ((P.FORM_HEIGHT, 0), (P.FORM_RISE, 1), (P.FORM_CURVE, 2)):
+        series = legendre.legder(height, order)
+        rows[: series.size, place] = series * leading[: series.size]
+    rows[:, P.FORM_BACK] = n**2 / (4.0 * n**2 - 1.0)
+    return rows.ravel()
 
 
 def frequencies(scene: Scene, speed: float) -> KinematicFrequencies:

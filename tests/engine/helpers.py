@@ -1,12 +1,14 @@
 """Run the engine on small variations of the example scenes."""
 
 import numpy as np
+from scipy.special import comb
 
 from fmu_bearing.compiled import call
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import STRIDE, P, S, W, Z
 from fmu_bearing.engine.status import OK
 from fmu_bearing.prepare.model import pack
+from fmu_bearing.prepare.surfaces import form_rows
 from tests.engine.flexible import with_modes
 
 
@@ -20,9 +22,17 @@ def wavy_balls(p, amplitudes, seed=5):
     axes = np.random.default_rng(seed).normal(size=(3, STRIDE))
     axes /= np.linalg.norm(axes, axis=0)
     axes[:, int(p[P.BALLS]) :] = axes[:, :1]
-    longer = np.concatenate([p, amplitudes, axes.ravel()])
-    longer[P.BALL_WAVES], longer[P.AT_BALL_WAVES] = len(amplitudes), p.size
+    rows = form_rows(amplitudes)
+    longer = np.concatenate([p, rows, axes.ravel()])
+    longer[P.BALL_WAVES], longer[P.AT_FORM], longer[P.AT_AXES] = len(amplitudes), p.size, p.size + rows.size
     return longer
+
+
+def ball_amplitudes(p):
+    """Zonal amplitudes (m) of orders 1, 2, ... that parameters hold, divided by (2n)! / (2^n n!^2) anew."""
+    orders = np.arange(1, int(p[P.BALL_WAVES]) + 1)
+    first = int(p[P.AT_FORM]) + P.FORM_ROW + P.FORM_HEIGHT
+    return p[first :: P.FORM_ROW][: orders.size] * 2.0**orders / comb(2 * orders, orders)
 
 
 class Run:

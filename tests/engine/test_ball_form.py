@@ -24,7 +24,7 @@ def slow_form(run, rolled, speed):
     """Height, its second rate and slope across the track of every ball, rows of inner and outer race."""
     lv, p = block(run), run.p
     series = [0.0, *FORM]
-    first = int(p[P.AT_BALL_WAVES]) + FORM.size
+    first = int(p[P.AT_AXES])
     axes = p[first : first + 3 * STRIDE].reshape(3, STRIDE)[:, : int(p[P.BALLS])].copy()
     about = lv[L.ROLL_AXIS : L.ROLL_AXIS + 3]
     a = Rotation.from_rotvec(rolled * about).apply(axes.T)

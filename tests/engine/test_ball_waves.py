@@ -6,20 +6,26 @@ from numpy.polynomial import legendre
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
+from fmu_bearing.engine.fidelities.condensed.ball_form import pair_of_sums
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, splat, store
 from fmu_bearing.engine.layout import FOUR, STRIDE, P, W, Y, Z
 from fmu_bearing.engine.mechanics.ball_waves import advance_axes, turn_axes, turned_vector, zonal
 from fmu_bearing.engine.mechanics.triples import store_three
+from fmu_bearing.prepare.surfaces import form_rows
 from tests.engine.helpers import RPM, Run, quiet
 
 
 @kernel
 def series_at(p, orders, x, out):
-    """Heights, then slopes, of zonal harmonics ``p[1:]`` at four places."""
-    height, rise = zonal(p, 1, orders, load(x, 0))
+    """Heights, slopes, curvatures of zonal harmonics at four places, then heights and slopes of `zonal`."""
+    height, rise, curve, _, _, _ = pair_of_sums(p, 1, orders, load(x, 0), load(x, 0))
     store(out, 0, height)
     store(out, FOUR, rise)
+    store(out, 2 * FOUR, curve)
+    height, rise = zonal(p, 1, orders, load(x, 0))
+    store(out, 3 * FOUR, height)
+    store(out, 4 * FOUR, rise)
 
 
 @kernel
@@ -34,11 +40,15 @@ def test_zonal_harmonics_are_legendre_polynomials(orders):
     amplitudes = np.random.default_rng(orders).normal(size=orders)
     series = [0.0, *amplitudes]
     for x in np.linspace(-1.0, 1.0, 44).reshape(-1, FOUR):
-        found = np.zeros(2 * FOUR)
-        series_at(np.array([9.0, *amplitudes]), orders, x, found)
-        wanted = [*legendre.legval(x, series), *legendre.legval(x, legendre.legder(series))]
-        # a slope reaches n^2/2 per harmonic
-        np.testing.assert_allclose(found, wanted, rtol=1e-12, atol=1e-13 * orders**2)
+        found = np.zeros((5, FOUR))
+        series_at(np.array([9.0, *form_rows(amplitudes)]), orders, x, found.ravel())
+        for order in range(3):
+            wanted = legendre.legval(x, legendre.legder(series, order))
+            # a slope reaches n^2/2 per harmonic, a curvature n^4/8
+            for row in range(order, 5 if order < 2 else 3, 3):
+                np.testing.assert_allclose(
+                    found[row], wanted, rtol=1e-12, atol=1e-13 * orders ** (2 * order + 1)
+                )
 
 
 @pytest.mark.parametrize("turn", [0.0, 1e-9, 9e-5, 1.1e-4, 0.3, -0.3, 40.0])

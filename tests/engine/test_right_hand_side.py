@@ -16,7 +16,7 @@ from fmu_bearing.engine.mechanics.cage import film_force
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.mechanics.energy import stored_energy
 from fmu_bearing.engine.readout.losses import summarise
-from tests.engine.helpers import Run
+from tests.engine.helpers import Run, ball_amplitudes
 from tests.oracles import cartesian as oracle
 
 LIFTED, TRAPPED = 2, 5
@@ -175,9 +175,7 @@ def setup(p, c, mounting, wave=spline):
         pocket=pocket,
         land=land,
         rest=rest,
-        bumps=c[C.OVERSIZE_SCALE] * p[int(p[P.AT_BALL_WAVES]) :][: int(p[P.BALL_WAVES])]
-        if p[P.BALL_WAVES]
-        else None,
+        bumps=c[C.OVERSIZE_SCALE] * ball_amplitudes(p) if p[P.BALL_WAVES] else None,
         neighbours=(p[P.SPRINGS], p[P.SPRING_DAMPING]) if p[P.SPRINGS] and not p[P.CAGE] else None,
     )
 

@@ -76,10 +76,14 @@ def test_ball_waves_stand_in_their_table():
         ("ball_waviness_order = 2", "ball_waviness_order = 3"),
     )
     assert p[P.BALL_WAVES] == 3
-    assert p.size == plain.size + 3 + 3 * STRIDE
-    table = p[int(p[P.AT_BALL_WAVES]) :][: 3 + 3 * STRIDE]
-    assert list(table[:3]) == [0.0, 0.0, pytest.approx(20e-9)]
-    axes = table[3:].reshape(3, STRIDE)
+    assert p.size == plain.size + 4 * P.FORM_ROW + 3 * STRIDE
+    rows = p[int(p[P.AT_FORM]) :][: 4 * P.FORM_ROW].reshape(4, P.FORM_ROW)
+    # P_3 = 5/2 Q_3 with derivative P_0 + 5 P_2 and second derivative 15 P_1; P_2 = 3/2 Q_2
+    assert list(rows[:, P.FORM_HEIGHT]) == [0.0, 0.0, 0.0, pytest.approx(2.5 * 20e-9)]
+    assert list(rows[:, P.FORM_RISE]) == [pytest.approx(20e-9), 0.0, pytest.approx(7.5 * 20e-9), 0.0]
+    assert list(rows[:, P.FORM_CURVE]) == [0.0, pytest.approx(15 * 20e-9), 0.0, 0.0]
+    assert list(rows[1:, P.FORM_BACK]) == [pytest.approx(n * n / (4 * n * n - 1)) for n in (1, 2, 3)]
+    axes = p[int(p[P.AT_AXES]) :][: 3 * STRIDE].reshape(3, STRIDE)
     np.testing.assert_allclose(np.linalg.norm(axes, axis=0), 1.0, rtol=1e-15)
     assert np.array_equal(axes[:, 12:], np.repeat(axes[:, :1], 12, axis=1))  # spare lanes copy ball 0
     # the other tables have kept their numbers
@@ -93,7 +97,7 @@ def test_what_is_left_out_takes_no_place(scene):
     perfect = pack(bare.model_copy(update={"imperfections": None}), NO_SOUND)
     assert perfect.size == P.TABLES + 2 * 5 + STRIDE  # five strips' nodes and weights, the balls' sizes
     assert not perfect[
-        places("AT_WAVES", "AT_ORDERS", "AT_BALL_WAVES", "AT_SOUND", "BALL_WAVES", "WAVE_RATE")
+        places("AT_WAVES", "AT_ORDERS", "AT_FORM", "AT_AXES", "AT_SOUND", "BALL_WAVES", "WAVE_RATE")
     ].any()
     assert perfect[P.WAVINESS] == 0.0
     assert perfect[P.SOUND_SIZE] == 0.0

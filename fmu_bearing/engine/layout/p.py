@@ -40,7 +40,8 @@ AT_STRIPS = _at()  # strip nodes, then weights
 AT_OVERSIZE = _at()  # m: ball diameter deviations, one per lane
 AT_WAVES = _at()  # m: race tables: inner then outer, values and slopes interleaved
 AT_ORDERS = _at()  # m: complex amplitudes of orders 1 .. WAVE_ORDERS, inner then outer
-AT_BALL_WAVES = _at()  # m: amplitudes of orders 1.., then the bodies' axes, 3 rows
+AT_FORM = _at()  # form of the balls: FORM_ROW numbers per zonal order from 0 on
+AT_AXES = _at()  # the balls' body-fixed axes, 3 rows
 AT_MODES = _at()  # MODE_SIZE numbers per mode
 AT_SOUND = _at()  # sound block; 0: there is none
 SOUND_SIZE = _at()  # its length, and those of its state and work space
@@ -131,6 +132,14 @@ RACE_SHOULDER = _race()  # rad: contact angle at which the groove ends
 RACE_SIZE = _race.next
 RACES = _at(2 * RACE_SIZE)  # inner, outer
 TABLES = _at.next  # tables of variable length begin here
+
+# per zonal order of the balls' form, at AT_FORM; polynomials without their leading coefficients
+_form = Places()
+FORM_HEIGHT = _form()  # m
+FORM_RISE = _form()  # m: of its derivative by the cosine,
+FORM_CURVE = _form()  # and of its second one
+FORM_BACK = _form()  # share of the polynomial before in the next one
+FORM_ROW = _form.next
 
 # per flexural mode, at AT_MODES
 _mode = Places()

@@ -5,6 +5,7 @@ from fmu_bearing.engine.layout.sizes import STRIDE, Places
 _at = Places()
 EN = _at(3 * STRIDE)  # unit vector from groove centre to ball centre, in the ball's orbiting axes
 EM = _at(3 * STRIDE)  # across the track
+PER_GROOVE = _at(STRIDE)  # 1/m: one over the distance of ball centre and groove centre
 APPROACH = _at(STRIDE)  # m
 RATE = _at(STRIDE)  # m/s
 LOAD = _at(STRIDE)  # N, with damping

@@ -6,7 +6,7 @@ Runge-Kutta step's stages.
 """
 
 from fmu_bearing.engine.layout import condensed as _L, f as _F, jacobian as _J, lines as _LN, w as _W
-from fmu_bearing.engine.layout.sizes import BALL_ORDERS, STRIDE, Places
+from fmu_bearing.engine.layout.sizes import STRIDE, Places
 from fmu_bearing.engine.layout.w import Area
 
 # forces of the balls on one ring: rows
@@ -50,8 +50,6 @@ CONTACT = _at(2 * CONTACT_SIZE)  # with inner race, then with outer race
 DX = _at(STRIDE)  # m: a ball's move in the last sweep
 DR = _at(STRIDE)
 PHASES = _at(STRIDE)  # rad: of one row of lines
-RISE = _at(BALL_ORDERS + 1)  # m: Legendre series of the slope of the balls' form, orders 0, 1, ...
-CURVE = _at(BALL_ORDERS + 1)  # and of its second derivative
 ROWS = _at.next
 
 FORCE_OUTER = FORCE + FORCE_SIZE

@@ -24,39 +24,24 @@ _STILL = 1e-24  # rad2: below this turn sin x / x is 1
 
 
 @kernel
-def zonal(p, first, orders, x):
-    """Height and its derivative by ``x`` (m) of the zonal harmonics ``p[first:]`` of orders 1, 2, ... at x.
+def zonal(p, form, orders, x):
+    """Height of the zonal harmonics and its derivative by ``x`` (m), at ``x`` of four balls.
 
-    ``x``: of four balls. Bonnet's recurrence; derivatives by P'_(n+1) = P'_(n-1) + (2n + 1) P_n, which has
-    no pole at the axis.
+    ``form``: where their rows of ``P.FORM_ROW`` numbers begin (``prepare.surfaces.form_rows``). Legendre
+    polynomials without their leading coefficients follow Q_(n+1) = x Q_n - n^2/(4 n^2 - 1) Q_(n-1); what they
+    leave out stands in the rows.
     """
     before = splat(1.0)
     here = x
-    slope_before = splat(0.0)
-    slope = splat(1.0)
-    height = p[first] * here
-    rise = p[first] * slope
-    for n in range(1, orders):
-        twice = 2.0 * n + 1.0
-        per = 1.0 / (n + 1.0)
-        after = (twice * per) * x * here - (n * per) * before
-        slope_after = slope_before + twice * here
-        before = here
-        here = after
-        slope_before = slope
-        slope = slope_after
-        height += p[first + n] * here
-        rise += p[first + n] * slope
+    height = splat(0.0)
+    rise = splat(p[form + P.FORM_RISE])
+    row = form
+    for _ in range(orders):
+        row += P.FORM_ROW
+        height += p[row + P.FORM_HEIGHT] * here
+        rise += p[row + P.FORM_RISE] * here
+        here, before = x * here - p[row + P.FORM_BACK] * before, here
     return height, rise
-
-
-@kernel
-def per_groove_distance(c, race, pose, w, j):
-    """One over the distance (m) of four balls' centres from the circle of groove centres of ``race``."""
-    held = C.RACES + race * C.RACE_SIZE
-    sx = load(w, pose + X.A + j) - c[held + C.GROOVE_X]
-    sr = load(w, pose + X.RHO + j) - c[held + C.GROOVE_RADIUS]
-    return 1.0 / math.sqrt(sx * sx + sr * sr)
 
 
 @kernel
@@ -68,7 +53,7 @@ def add_ball_waves(p, c, lanes, race, w):
     """
     row = W.RACE + race * R.SIZE
     pose = W.POSE + race * X.SIZE
-    first = int(p[P.AT_BALL_WAVES])
+    form = int(p[P.AT_FORM])
     orders = int(p[P.BALL_WAVES])
     scale = c[C.OVERSIZE_SCALE]
     hertz = p[P.RACES + race * P.RACE_SIZE + P.RACE_STIFFNESS]
@@ -79,13 +64,13 @@ def add_ball_waves(p, c, lanes, race, w):
         m = three(w, row + R.EM + j)
         t = three(w, pose + X.T + j)
         dv = three(w, pose + X.DV + j)
-        height, rise = zonal(p, first, orders, dot(a, three(w, row + R.EN + j)))
+        height, rise = zonal(p, form, orders, dot(a, three(w, row + R.EN + j)))
         bump_t = scale * rise * dot(a, t)
         bump_m = scale * rise * dot(a, m)
         approach = load(w, row + R.APPROACH + j) + scale * height
         rate = load(w, row + R.RATE + j)
         rate += bump_t * load(w, row + R.COSA + j) / load(w, pose + X.RHO + j) * dot(dv, t)
-        rate += bump_m * per_groove_distance(c, race, pose, w, j) * dot(dv, m)
+        rate += bump_m * load(w, row + R.PER_GROOVE + j) * dot(dv, m)
         rate += bump_m * load(w, row + R.AT + j) - bump_t * load(w, row + R.AM + j)
         pressed = max(approach, 0.0)
         root = math.sqrt(pressed)
@@ -100,7 +85,7 @@ def add_ball_waves(p, c, lanes, race, w):
 
 
 @kernel
-def ball_wave_forces(p, c, lanes, race, w):
+def ball_wave_forces(p, lanes, race, w):
     """Add lateral force and moment of the wavy balls to what ``race.collect`` gathered, loss included."""
     row = W.RACE + race * R.SIZE
     pose = W.POSE + race * X.SIZE
@@ -113,7 +98,7 @@ def ball_wave_forces(p, c, lanes, race, w):
         m = three(w, row + R.EM + j)
         t = three(w, pose + X.T + j)
         force_t = -pressing * bump_t * load(w, row + R.COSA + j) / load(w, pose + X.RHO + j)
-        force_m = -pressing * bump_m * per_groove_distance(c, race, pose, w, j)
+        force_m = -pressing * bump_m * load(w, row + R.PER_GROOVE + j)
         force = along(force_t, t, force_m, m, zero, m)
         moment = along(pressing * bump_t, m, -pressing * bump_m, t, zero, m)
         store_three(w, out + W.FX + j, added(three(w, out + W.FX + j), force))
@@ -173,9 +158,9 @@ def advance_axes(p, axes, y0, y1, lanes, h):
 
 @kernel
 def first_axes(p, axes):
-    """Axes at the start, from the table behind the amplitudes; spare lanes copy ball 0 there already."""
+    """Axes at the start, from their table; spare lanes copy ball 0 there already."""
     if p[P.BALL_WAVES] == 0.0:
         return
-    table = int(p[P.AT_BALL_WAVES]) + int(p[P.BALL_WAVES])
+    table = int(p[P.AT_AXES])
     for i in range(3 * STRIDE):
         axes[i] = p[table + i]

@@ -72,7 +72,7 @@ def race_forces(p, c, y, lanes, race, turned, w):
     rolling(p, c, lanes, race, w)
     collect(p, c, lanes, race, w)
     if p[P.BALL_WAVES] != 0.0:
-        ball_wave_forces(p, c, lanes, race, w)
+        ball_wave_forces(p, lanes, race, w)
     if flexible:
         press_modes(p, c, lanes, race, w)
 

@@ -120,6 +120,7 @@ def normal(p, c, y, lanes, race, w):
         entrain = ball * dot(m, spin) - 0.5 * ut
         store_three(w, row + R.EN + j, e)
         store_three(w, row + R.EM + j, m)
+        store(w, row + R.PER_GROOVE + j, per_distance)
         store(w, row + R.SINA + j, sina)
         store(w, row + R.COSA + j, cosa)
         store(w, row + R.APPROACH + j, approach)

@@ -235,7 +235,6 @@ def race_contact(p, c, y, race, turned, j, w):
     row = W.RACE + race * R.SIZE
     pose = W.POSE + race * X.SIZE
     numbers = P.RACES + race * P.RACE_SIZE
-    held = C.RACES + race * C.RACE_SIZE
     ball = c[C.BALL_RADIUS]
     hertz = p[numbers + P.RACE_STIFFNESS]
     damping = 1.5 * p[P.CONTACT_DAMPING]
@@ -244,8 +243,7 @@ def race_contact(p, c, y, race, turned, j, w):
     sina = load(w, row + R.SINA + j)
     cosa = load(w, row + R.COSA + j)
     rho = load(w, pose + X.RHO + j)
-    sx = load(w, pose + X.A + j) - c[held + C.GROOVE_X]
-    per_distance = 1.0 / (sx * sina + (rho - c[held + C.GROOVE_RADIUS]) * cosa)
+    per_distance = load(w, row + R.PER_GROOVE + j)
     per_rho = 1.0 / rho
     root = math.sqrt(max(load(w, row + R.APPROACH + j), 0.0))
     per_root = 1.0 / max(root, _SHALLOWEST)

@@ -68,49 +68,28 @@ def one_of(vectors, k):
 
 
 @kernel
-def derivatives_of_series(p, first, orders, w):
-    """Legendre series of the first and second derivatives of ``p[first:]`` (orders 1, 2, ...) into ``w``.
+def pair_of_sums(p, form, orders, x, y):
+    """Height of the zonal harmonics and its two derivatives at ``x``, then at ``y``, both of four balls.
 
-    From P'_(n+1) = P'_(n-1) + (2n + 1) P_n: coefficient k of a derivative is 2k + 1 times the sum of the
-    series' own coefficients k + 1, k + 3, ... Orders 0 .. ``orders`` stand at ``T.RISE`` and ``T.CURVE``.
-    """
-    w[T.RISE + orders] = 0.0
-    w[T.CURVE + orders] = 0.0
-    sum_here, sum_above, curve_here, curve_above = 0.0, 0.0, 0.0, 0.0
-    above = 0.0
-    for n in range(orders):
-        k = orders - 1 - n
-        sum_here, sum_above = sum_above + p[first + k], sum_here
-        curve_here, curve_above = curve_above + above, curve_here
-        above = (2.0 * k + 1.0) * sum_here
-        w[T.RISE + k] = above
-        w[T.CURVE + k] = (2.0 * k + 1.0) * curve_here
-
-
-@kernel
-def pair_of_sums(p, first, orders, x, y, w):
-    """Height of the zonal harmonics ``p[first:]`` and its two derivatives at ``x``, then at ``y``.
-
-    Both of four balls; the derivatives' series stand in ``w``. Two chains at once fill each other's waiting
-    time.
+    As :func:`ball_waves.zonal`. Two chains at once fill each other's waiting time.
     """
     x_before, x_here = splat(1.0), x
     y_before, y_here = splat(1.0), y
-    x_height, x_rise, x_curve = splat(0.0), splat(w[T.RISE]), splat(w[T.CURVE])
+    x_height, x_rise, x_curve = splat(0.0), splat(p[form + P.FORM_RISE]), splat(p[form + P.FORM_CURVE])
     y_height, y_rise, y_curve = x_height, x_rise, x_curve
-    for n in range(1, orders + 1):
-        height, rise, curve = p[first + n - 1], w[T.RISE + n], w[T.CURVE + n]
+    row = form
+    for _ in range(orders):
+        row += P.FORM_ROW
+        height, rise, curve = p[row + P.FORM_HEIGHT], p[row + P.FORM_RISE], p[row + P.FORM_CURVE]
+        back = p[row + P.FORM_BACK]
         x_height += height * x_here
         x_rise += rise * x_here
         x_curve += curve * x_here
         y_height += height * y_here
         y_rise += rise * y_here
         y_curve += curve * y_here
-        per = 1.0 / (n + 1.0)
-        once = (2.0 * n + 1.0) * per
-        back = n * per
-        x_here, x_before = once * x * x_here - back * x_before, x_here
-        y_here, y_before = once * y * y_here - back * y_before, y_here
+        x_here, x_before = x * x_here - back * x_before, x_here
+        y_here, y_before = y * y_here - back * y_before, y_here
     return x_height, x_rise, x_curve, y_height, y_rise, y_curve
 
 
@@ -120,7 +99,8 @@ def add_ball_form(p, c, lv, rolled, speed, w):
 
     ``rolled`` (rad): by which the balls have turned; ``speed`` of the shaft (rad/s).
     """
-    first = int(p[P.AT_BALL_WAVES])
+    form = int(p[P.AT_FORM])
+    axes = int(p[P.AT_AXES])
     orders = int(p[P.BALL_WAVES])
     scale = c[C.OVERSIZE_SCALE]
     rate = lv[L.ROLL] * speed
@@ -130,11 +110,10 @@ def add_ball_form(p, c, lv, rolled, speed, w):
     inner_across, outer_across = one_of(here, 2), one_of(here, 3)
     inner_rate, outer_rate = one_of(rates, 0), one_of(rates, 1)
     inner_bend, outer_bend = one_of(bends, 0), one_of(bends, 1)
-    derivatives_of_series(p, first, orders, w)
     for j in range(0, int(p[P.LANES]), FOUR):
-        a = three(p, first + orders + j)
+        a = three(p, axes + j)
         height, rise, curve, height_o, rise_o, curve_o = pair_of_sums(
-            p, first, orders, dot(a, inner), dot(a, outer), w
+            p, form, orders, dot(a, inner), dot(a, outer)
         )
         swept = dot(a, inner_rate)
         swept_o = dot(a, outer_rate)

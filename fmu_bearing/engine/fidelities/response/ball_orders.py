@@ -23,16 +23,14 @@ def form_over_turning(p, lv, j, count, at, stride, x):
     ``stride``: from row to row. Heights (m) under inner and outer race, then slopes (m/rad) across both
     tracks.
     """
-    first = int(p[P.AT_BALL_WAVES])
-    orders = int(p[P.BALL_WAVES])
-    table = first + orders + j
+    table = int(p[P.AT_AXES]) + j
     a = p[table], p[table + STRIDE], p[table + 2 * STRIDE]
     for k in range(count):
         turn = 2.0 * PI * k / count
         # four directions at once, not four places of the turning
         directions, _, _ = turned_back(lv, math.cos(turn), math.sin(turn))
         sines = dot(a, directions)
-        height, rise = zonal(p, first, orders, sines)
+        height, rise = zonal(p, int(p[P.AT_FORM]), int(p[P.BALL_WAVES]), sines)
         for race in range(2):
             x[at + race * stride + k] = lane(height, race)
             x[at + (2 + race) * stride + k] = lane(rise, race) * lane(sines, 2 + race)

@@ -47,6 +47,14 @@ class Case:
         return self.goals[FIDELITIES.index(solver.fidelity)] if solver.method == "esdirk4" else 0.0
 
     @property
+    def setting(self) -> tuple[float, float]:
+        """Tolerance and largest internal step (s): of the goals on gate scenes, an example scene's own."""
+        if self.folder == GATES:
+            return 1e-3, 25e-6
+        fidelity = si(self.quiet().fidelity)
+        return fidelity.tolerance, fidelity.max_internal_step
+
+    @property
     def name(self) -> str:
         """Scene, speed and what is special."""
         extra = {"settled": "", "start": ", first 4 ms", "radial": f", {self.load_y:.0f} N radial"}[self.kind]

@@ -9,8 +9,6 @@ from fmu_bearing.engine.layout import P
 from fmu_bearing.run.arrays import Arrays, Refused
 from fmu_bearing.run.metrics import SAMPLE, ring_rms, speed
 
-#: Tolerance and largest internal step (s) of a scene that says nothing.
-DEFAULT = (1e-3, 25e-6)
 #: Settings among which the fastest is sought whose error is within ``LIMIT``.
 SETTINGS = (
     *((tolerance, step) for tolerance in (1e-2, 3e-3, 1e-3, 3e-4)
@@ -23,7 +21,7 @@ LIMIT = 1e-3
 def started(case: Case, solver: Solver, warm_up: float) -> Arrays:
     """Bearing of a case that has run by ``solver`` from its start for ``warm_up`` (s)."""
     scene = case.quiet(model=solver.fidelity, method=solver.method)
-    tolerance, step = DEFAULT
+    tolerance, step = case.setting
     bearing = case.arrays(scene, **solver.parameters, TOLERANCE=tolerance, MAX_STEP=step)
     bearing.init()
     bearing.run(warm_up, case.communication)
@@ -79,12 +77,12 @@ class Full:
 def full_rows(
     case: Case, solver: Solver, start: Arrays, exact: Reference, budget: float, repeats: int
 ) -> list[Row]:
-    """Rows of one integrator of fidelity ``full``: at the default setting, and at the fastest within 1e-3.
+    """Rows of one integrator of fidelity ``full``: at the case's setting, and at the fastest within 1e-3.
 
     RK4 has only the first, as stability alone decides on its step.
     """
     full = Full(case, solver, start, exact)
-    rows = [full.row(DEFAULT, "default", budget, repeats)]
+    rows = [full.row(case.setting, "usual", budget, repeats)]
     if solver.method != "rk4":
         best = full.fastest(budget)
         if best is not None:

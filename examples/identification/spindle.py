@@ -112,7 +112,7 @@ def beside_truth(found: Identified) -> list[list[str]]:
 def main(
     output_dir: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("out/identification"),
     quick: Annotated[
-        bool, typer.Option("--quick", help="Four starts, three seeds, all in fidelity response.")
+        bool, typer.Option("--quick", help="Six starts, three seeds, all in fidelity response.")
     ] = False,
 ) -> None:
     """Identify a spindle whose truth is known."""
@@ -123,7 +123,7 @@ def main(
             scene = changed(scene, {"fidelity.model": "response"})  # type: ignore[dict-item]
         (output_dir / "start.toml").write_text(scene.to_toml(), "utf-8")
         data = measure(scene, output_dir)
-        settings = {"starts": 4, "seeds": 3} if quick else {}
+        settings = {"starts": 6, "seeds": 3} if quick else {}
         found = identify(
             output_dir / "start.toml", data, list(TRUTH), folder=output_dir / "identified", **settings
         )

@@ -201,16 +201,12 @@ class _Search:
             self.told.say(f"start {number + 1} of {len(tries)}")
             end = self._descend(x, self.seeds[:1], **_ROUGH)
             found.append((self._cost(end, self.seeds), number, end))
-        ends: list[NDArray[np.float64]] = []
-        for _, _, end in sorted(found, key=lambda one: one[:2]):
-            if all(np.abs(end - other).max() > _APART for other in ends):
-                ends.append(end)
-        return ends[:3]
+        return _distinct([end for _, _, end in sorted(found, key=lambda one: one[:2])])[:3]
 
     def _ranked(self, ends: Sequence[NDArray[np.float64]]) -> list[NDArray[np.float64]]:
         """Return the ends of searches with all seeds from these places, the best first."""
         found = [self._descend(end, self.seeds, **_ROUGH) for end in ends]
-        return sorted(found, key=lambda end: self._cost(end, self.seeds))
+        return _distinct(sorted(found, key=lambda end: self._cost(end, self.seeds)))
 
     def _rivals(self, x: NDArray[np.float64], spread: Spread) -> list[str]:
         """Sentences on other solutions that the data do not rule out at two standard deviations."""
@@ -393,6 +389,15 @@ class _Search:
             slopes[self.fit], spread.covariance, spread.singular_values, spread.directions, spread.scale,
             tuple(said), self.fidelity, self.seeds, self.levels.runs, complete, scene_values(self.free, x),
         )  # fmt: skip
+
+
+def _distinct(places: Sequence[NDArray[np.float64]]) -> list[NDArray[np.float64]]:
+    """Return the places without those that lie beside an earlier one."""
+    kept: list[NDArray[np.float64]] = []
+    for place in places:
+        if all(np.abs(place - other).max() > _APART for other in kept):
+            kept.append(place)
+    return kept
 
 
 def _soft(residual: NDArray[np.float64]) -> float:

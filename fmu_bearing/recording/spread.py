@@ -35,6 +35,7 @@ _SOURCES = {
     "inner race": ("inner_race_amplitude_um",),
     "outer race": ("outer_race_amplitude_um",),
     "ball sizes": ("ball_diameter_spread_nm",),
+    "form of the balls": ("ball_form_nm", "ball_waviness_nm"),
 }
 
 
@@ -271,7 +272,7 @@ def _corners(flaws: Imperfections) -> Iterator[Imperfections]:
         return
     p = flaws.waviness_exponent or 0.0
     low, high = _EXPONENTS if _EXPONENTS[0] <= p <= _EXPONENTS[1] else (max(p - _AROUND, 0.0), p + _AROUND)
-    keys = [f"{race}_race_amplitude_um" for race in ("inner", "outer")]
+    keys = ("inner_race_amplitude_um", "outer_race_amplitude_um", "ball_form_nm")
     for exponent in (low, high):
         for factor in (1.0 / _FACTOR, _FACTOR):
             scaled = {key: factor * getattr(flaws, key) for key in keys if getattr(flaws, key) is not None}

@@ -15,7 +15,7 @@ class Setting:
 
     fidelity: str = "full"
     method: str = "esdirk4"
-    tolerance: float = 1e-3
+    tolerance: float = 2e-3
     max_step: float = 25e-6
     strips: int = 5
     without: tuple[str, ...] = ()

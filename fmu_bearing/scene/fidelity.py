@@ -85,10 +85,10 @@ class Fidelity(Part):
         examples=["shared"],
     )
     tolerance: float = Field(
-        default=1e-3,
+        default=2e-3,
         ge=1e-6,
         le=0.1,
-        examples=[1e-3],
+        examples=[2e-3],
         description="Relative error allowed in ring velocities.",
     )
     max_internal_step_us: float = Field(

@@ -5,9 +5,10 @@ import pytest
 from fmu_bearing.accuracy.reference import implicit_rings, relative_error
 from fmu_bearing.run.arrays import Arrays
 from fmu_bearing.scene import read_scene
+from fmu_bearing.scene.fidelity import Fidelity
 from tests.conftest import GATES
 
-DEFAULT = {"TOLERANCE": 1e-3, "MAX_STEP": 25e-6}
+DEFAULT = {"TOLERANCE": Fidelity().tolerance, "MAX_STEP": 1e-6 * Fidelity().max_internal_step_us}
 SAMPLE = 1e-4
 
 
@@ -24,11 +25,11 @@ def error(bearing, window):
 
 @pytest.mark.parametrize(("rpm", "load"), [(1e3, 0.0), (28e3, 0.0), (1e4, -300.0), (1e4, -1000.0)])
 def test_the_default_keeps_its_tolerance_once_settled(bare, rpm, load):
-    """Measured 2e-4, 4e-4, 8e-4, 8e-4; a tolerance by speed alone leaves 6e-3, 5e-3, 1e-2 in the last."""
+    """Measured 5e-5, 9e-4, 1.5e-3, 1.8e-3 at the default of 2e-3; at 1e-3 4e-5, 4e-4, 8e-4, 9e-4."""
     bearing = Arrays(bare, rpm, load_z=load, **DEFAULT)
     bearing.init()
     bearing.run(0.03, 1e-3)
-    assert error(bearing, 0.02) < 1.5e-3
+    assert error(bearing, 0.02) < 3e-3
 
 
 def test_a_cage_that_is_flung_about_is_followed(bare):

@@ -18,6 +18,12 @@ def heard(scene, places=None, **keys):
     return made if places is None else made.levels(places, weighting="A", resolution=20.0)
 
 
+def scaled_surfaces(scene, factor):
+    """Amplitudes of all surfaces, times a factor."""
+    names = ("inner_race_amplitude_um", "outer_race_amplitude_um", "ball_form_nm")
+    return {name: factor * getattr(scene.imperfections, name) for name in names}
+
+
 @pytest.fixture(scope="module")
 def bare(example):
     return example("7003C-bare")
@@ -33,9 +39,9 @@ def test_range_holds_the_runs_made_one_by_one(bare, found):
     own = heard(bare, places)
     runs = [heard(bare, places, seed=seed) for seed in (2, 3, 4)]
     law = [
-        heard(bare, places, waviness_exponent=p, inner_race_amplitude_um=a, outer_race_amplitude_um=a)
+        heard(bare, places, waviness_exponent=p, **scaled_surfaces(bare, factor))
         for p in (1.0, 1.6)
-        for a in (0.15, 0.6)
+        for factor in (0.5, 2.0)
     ]
     every = np.array([own, *runs, *law]) - own
     # the same runs and the same short-time spectra: rounding of sums
@@ -45,7 +51,7 @@ def test_range_holds_the_runs_made_one_by_one(bare, found):
 
 
 def test_amplitude_counts_in_proportion(found):
-    # waviness makes nearly all of it, and the answer is linear but for the outer race's order 2, which also
+    # surfaces make nearly all of it, and the answer is linear but for the outer race's order 2, which also
     # changes the stiffness: a factor of 4 is 12 dB
     assert found.amplitude == pytest.approx([20.0 * np.log10(4.0)] * 2, abs=0.5)
     assert np.all(found.exponent < -5.0)  # steeper surfaces are quieter at the rings' modes
@@ -55,10 +61,11 @@ def test_amplitude_counts_in_proportion(found):
 def test_shares_are_those_of_each_imperfection_alone(bare, found):
     places = [place.position_m for place in bare.microphones if place.name in ("P1", "P4")]
     alone = {
-        "inner race": {"outer_race_amplitude_um": 0.0, "unbalance_um": 0.0, "ball_diameter_spread_nm": 0.0},
-        "outer race": {"inner_race_amplitude_um": 0.0, "unbalance_um": 0.0, "ball_diameter_spread_nm": 0.0},
+        "inner race": {"outer_race_amplitude_um": 0.0, "ball_form_nm": 0.0},
+        "outer race": {"inner_race_amplitude_um": 0.0, "ball_form_nm": 0.0},
     }
-    levels = {name: heard(bare, places, **keys) for name, keys in alone.items()}
+    others = {"unbalance_um": 0.0, "ball_diameter_spread_nm": 0.0}
+    levels = {name: heard(bare, places, **others, **keys) for name, keys in alone.items()}
     ratio = 10.0 ** ((levels["inner race"] - levels["outer race"]) / 10.0)
     assert found.sources["inner race"] / found.sources["outer race"] == pytest.approx(ratio, rel=1e-6)
     assert sum(found.sources.values()) == pytest.approx([1.0, 1.0], abs=1e-12)

@@ -1,7 +1,7 @@
 """What the band of excitation costs and gives: levels and speed against ``highest_frequency_kHz``.
 
-``python -m benchmarks.band --output docs/results`` writes ``band.md`` and ``band.csv``. Levels are those of
-fidelity ``full`` with its default step, and of a quarter of that step; a few minutes of one core.
+``python -m benchmarks.band --output docs/results`` writes ``band.md`` and ``band.csv``. Levels of all
+three fidelities, and by how much they move with a quarter of the step; a few minutes of one core.
 """
 
 import argparse

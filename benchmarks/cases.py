@@ -28,7 +28,7 @@ class Case:
     window : float
         Time (s) over which errors are taken.
     communication : float
-        Communication step (s) in which both error and speed are taken.
+        Communication step (s) in which errors are taken, and the speed of fidelity full.
     folder : Path
         Where the scene stands: ``GATES`` or ``EXAMPLES``.
     """

@@ -147,6 +147,15 @@ def test_a_run_up_beyond_the_scenes_speed_is_told(example):
         Instance(fast).initialise()
 
 
+def test_a_perfect_bearing_has_no_waves_to_follow(example):
+    told = []
+    bearing = Instance(prepare(example("7003C-bare"), fidelity="rings"), told.append)
+    bearing.set("imperfection.scale", 0.0)
+    bearing.set("shaft_speed", 90000.0 * math.pi / 30.0)
+    bearing.initialise()
+    assert bearing.get("solver.wave_time") == 1.0 and not any("wave" in text for text in told)
+
+
 def test_a_pedestal_too_soft_for_the_load_is_refused(scene):
     bearing = Instance(prepare(scene("7003C-bare")))
     bearing.set("pedestal_stiffness", 1e4)

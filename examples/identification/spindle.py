@@ -7,7 +7,7 @@ dB of noise. `identify` sees the levels alone. A fifth speed is not fitted: it c
 values stand beside the truth.
 
 All four come out within two standard deviations; fitted values fall from 5.0 to 1.6 dB rms, checked ones from
-4.3 to 1.5 dB. Writes
+4.3 to 1.7 dB. Writes
 
 * ``measured.csv`` - the measured levels;
 * ``start.toml``, ``identified.toml`` - the scene before and after;

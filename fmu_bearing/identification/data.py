@@ -121,6 +121,11 @@ def _identity(row: Datum, prefix: str = "") -> tuple[Any, ...]:
     return row.position, row.conditions, prefix + row.quantity.text
 
 
+def _as_background(row: Datum) -> Datum:
+    text = BACKGROUND + row.quantity.text.removeprefix(BACKGROUND)
+    return replace(row, quantity=replace(row.quantity, text=text))
+
+
 def _name(source: Source) -> str:
     return str(source) if isinstance(source, str | os.PathLike) else "the data"
 
@@ -129,7 +134,7 @@ def _rows(source: Source, scene: Scene, problems: list[str], background: bool = 
     """Read rows; problems are added to the list."""
     listed = list(source) if isinstance(source, Sequence) and not isinstance(source, str) else None
     if listed and all(isinstance(one, Datum) for one in listed):
-        return listed
+        return [_as_background(one) for one in listed] if background else listed
     found = []
     reader = _Reader(scene, background)
     try:
@@ -248,12 +253,12 @@ class _Reader:
         quiet = text.startswith(BACKGROUND)
         quantity = parse_quantity(text.removeprefix(BACKGROUND))
         if quiet or self.background:
-            quantity = replace(quantity, text=BACKGROUND + text.removeprefix(BACKGROUND))
+            quantity = replace(quantity, text=BACKGROUND + quantity.text)
         place, position = ("", None) if quantity.channel is not None else self._position(row)
         std = _number(row, "std_dB", STD)
         if not std > 0.0:
             raise IdentifyError(f"std_dB = {std:g} must be above 0; an exact value does not exist: try 0.5")
-        role = str(row.get("role") or FIT).strip()
+        role = FIT if _blank(row.get("role")) else str(row["role"]).strip()
         if role not in (FIT, CHECK):
             raise IdentifyError(f"role = '{role}' is unknown: write {FIT} or {CHECK}")
         conditions = self._conditions(row)
@@ -309,7 +314,7 @@ def _blank(cell: Any) -> bool:
 
 def _number(row: dict[str, Any], column: str, default: float | None = None) -> float:
     cell = row.get(column)
-    if default is not None and (cell is None or (isinstance(cell, str) and not cell.strip())):
+    if default is not None and _blank(cell):
         return default
     try:
         value = float(cell)  # type: ignore[arg-type]

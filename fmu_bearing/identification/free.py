@@ -38,6 +38,8 @@ class Free:
         Bounds of the first.
     log : bool
         Whether its logarithm is searched; that is so where the key cannot be negative.
+    guessed : bool
+        Whether the scene has 0, which has no logarithm, and ``starts`` the middle of the bounds instead.
     """
 
     key: str
@@ -46,6 +48,7 @@ class Free:
     low: float
     high: float
     log: bool
+    guessed: bool = False
 
     @property
     def start(self) -> float:
@@ -189,12 +192,13 @@ def _bounded(
         )
     if log and low <= 0.0:
         raise IdentifyError(f"free key {key}={low:g}:{high:g}: a logarithmic key needs bounds above 0")
+    guessed = log and start == 0.0
     if not low <= start <= high:
-        if log and start == 0.0:
+        if guessed:
             starts = (math.sqrt(low * high), *starts[1:])  # the middle: the scene has none
         else:
             raise IdentifyError(f"free key {key}={low:g}:{high:g} leaves out its start {start:g}")
-    return Free(key, keys, starts, float(low), float(high), log)
+    return Free(key, keys, starts, float(low), float(high), log, guessed)
 
 
 def _is_real(value: Any) -> bool:

@@ -124,6 +124,8 @@ class Identified:
         Runs computed, without those that were kept from before.
     complete : bool
         False: the search was interrupted.
+    values : dict of str to float
+        Value of every key that was moved, in the scene's units.
     """
 
     scene: Scene

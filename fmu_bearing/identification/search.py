@@ -140,7 +140,6 @@ class _Best:
     x: NDArray[np.float64]
     cost: float = math.inf
     computed: NDArray[np.float64] | None = None
-    spread: Spread | None = None
 
 
 class _Search:
@@ -382,6 +381,12 @@ class _Search:
         said = ["interrupted: the best values so far, their uncertainty is unknown"]
         if complete:
             said = remarks(self.free, spread, values, int(self.fit.sum())) + self._rivals(x, spread)
+        said += [
+            f"{one.key} is 0 in the scene: the search, and what stands under 'before', begin in the middle "
+            f"of its bounds, {one.start:.3g}"
+            for one in self.free
+            if one.guessed
+        ]
         return Identified(
             self.levels.scene_at(x), self.levels.scene, estimates,
             tuple(Compared(*row) for row in zip(self.data, map(float, self.before), map(float, after),

@@ -91,7 +91,7 @@ def internals(scene: Scene) -> list[Variable]:
             "solver.wave_time",
             "local",
             "Time in which the fastest wave of races and balls turns by one radian, 1 s at most: internal "
-            "steps are not longer than 1.6 times that, once with fidelity rings",
+            "steps are at most 1.6 times as long with fidelity full, and as long with rings",
             "s",
             display_unit="us",
             nominal=2e-5,

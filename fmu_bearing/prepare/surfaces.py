@@ -23,6 +23,7 @@ from fmu_bearing.scene.imperfections import HIGHEST_ORDER, Imperfections
 
 #: Highest zonal order of a ball, a bound on cost: on the 7003C it sounds at 10 kHz at 2,700 r/min.
 HIGHEST_BALL_ORDER = BALL_ORDERS
+_LOWEST_BALL_ORDER = 2  # order 1 moves the ball's middle
 _PROFILE = 20_001  # places at which the profile of a ball is searched for its extremes
 
 
@@ -122,13 +123,13 @@ def highest_orders(scene: Scene) -> Orders:
     rates = frequencies(scene, slowest * math.pi / 30.0)
     highest = 1e3 * flaws.highest_frequency_kHz
 
-    def order(rate: float, limit: int) -> int:
+    def order(rate: float, limit: int, lowest: int) -> int:
         found = limit if rate * limit <= highest else int(highest / rate * (1.0 + 1e-12))
-        return max(found, min(flaws.lowest_order, limit))
+        return max(found, lowest)
 
     races = (rates.f_r - rates.f_c, rates.f_c)
-    inner, outer = (flaws.highest_order or order(rate, HIGHEST_ORDER) for rate in races)
-    return Orders(inner, outer, order(rates.f_b, HIGHEST_BALL_ORDER))
+    inner, outer = (flaws.highest_order or order(rate, HIGHEST_ORDER, flaws.lowest_order) for rate in races)
+    return Orders(inner, outer, order(rates.f_b, HIGHEST_BALL_ORDER, _LOWEST_BALL_ORDER))
 
 
 def ball_profile(flaws: Imperfections, highest: int, wave_length: float) -> NDArray[np.float64]:
@@ -142,7 +143,7 @@ def ball_profile(flaws: Imperfections, highest: int, wave_length: float) -> NDAr
     # the scene has checked that a law has its exponent
     assert flaws.waviness_exponent is not None
     amplitudes = signs * law(1.0, flaws.waviness_exponent, orders, 0.0)
-    amplitudes[0] = 0.0  # order 1 moves the ball's middle
+    amplitudes[: _LOWEST_BALL_ORDER - 1] = 0.0
     x = np.cos(np.linspace(0.0, math.pi, _PROFILE))
     heights = legendre.legval(x, np.concatenate([[0.0], amplitudes]))
     amplitudes *= si(flaws).ball_form / float(np.ptp(heights))

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from fmu_bearing.acoustics.analysis.field import Blocks, Circle, Position
 from fmu_bearing.acoustics.filters.weighting import a_weighting_db, level
 from fmu_bearing.engine.constants import RPM
+from fmu_bearing.recording.listen import chosen_microphones
 from fmu_bearing.recording.record import record
 from fmu_bearing.recording.recording import Recording
 from fmu_bearing.scene import Scene
@@ -32,8 +33,8 @@ _FACTOR = 2.0  # on A_1, either way
 #: What makes noise, and the keys that take it away.
 _SOURCES = {
     "unbalance": ("unbalance_um",),
-    "inner race": ("inner_race_amplitude_um",),
-    "outer race": ("outer_race_amplitude_um",),
+    "inner race": ("inner_race_amplitude_um", "inner_race_harmonic"),
+    "outer race": ("outer_race_amplitude_um", "outer_race_harmonic"),
     "ball sizes": ("ball_diameter_spread_nm",),
     "form of the balls": ("ball_form_nm", "ball_waviness_nm"),
 }
@@ -55,7 +56,7 @@ class Spread:
         Their range over all draws.
     seeds, exponent, amplitude : ndarray, shape (mics,)
         Range (dB) over the seeds; change from the lower to the higher exponent p, and over a factor of 4 in
-        A_1.
+        A_1 and the form of the balls.
     sources : dict of str to ndarray, shape (mics,)
         Share of the energy that each imperfection makes alone, by name.
     line : float
@@ -88,8 +89,8 @@ class Spread:
         """Return what the range holds, in one sentence."""
         return (
             f"Range over {self.drawn} seeds and, where waviness follows the law, over its exponent and a "
-            "factor of two in its amplitude either way. Both are assumed: two published spindles lie some "
-            "19 dB above grade P4."
+            "factor of two in its amplitude either way, that of the balls too. Both are assumed: two "
+            "published spindles lie 15 and 18 dB above grade P4."
         )
 
     def decides(self, mic: int) -> str:
@@ -184,9 +185,7 @@ def spread(
         raise ValueError(f"seeds = {seeds}: give 1 or more")
     if scene.imperfections is None:
         raise ValueError("the scene has no imperfections: its level has no spread over them")
-    chosen = [one for one in recording.microphones if microphones is None or one[0] in microphones]
-    if not chosen:
-        raise ValueError("there is no microphone to listen at: name one of the scene's")
+    chosen = chosen_microphones(recording.microphones, microphones)
     places = [place for _, place in chosen]
     heard = _Listener(places, radiation_model or recording.radiation_model, weighting)
     flaws = scene.imperfections
@@ -284,7 +283,8 @@ def _shares(scene: Scene, flaws: Imperfections, heard: _Listener) -> dict[str, N
     there = {name: keys for name, keys in _SOURCES.items() if any(getattr(flaws, key) for key in keys)}
     energies = {}
     for name in there:
-        others = {key: 0.0 for other, gone in there.items() if other != name for key in gone}
+        gone = [key for other, keys in there.items() if other != name for key in keys]
+        others = {key: () if key.endswith("_harmonic") else 0.0 for key in gone}
         energies[name] = heard.spectrum(_cheap(scene, flaws.model_copy(update=others))).sum(axis=1)
     whole = sum(energies.values(), np.full(len(heard.places), 1e-30))
     return {name: energy / whole for name, energy in energies.items()}

@@ -68,8 +68,9 @@ def _operation(subject: Subject) -> Table:
         f"{b.cage.pocket_diameter_mm:g} mm"],
         ["imperfections", "none: a perfect bearing" if imperfections is None else
          f"seed {imperfections.seed}, unbalance {imperfections.unbalance_um:g} um, balls within "
-         f"+-{imperfections.ball_diameter_spread_nm:g} nm, waviness orders {imperfections.lowest_order} to "
-         f"{imperfections.highest_order}"],
+         f"+-{imperfections.ball_diameter_spread_nm:g} nm, waviness orders from {imperfections.lowest_order} "
+         f"to {imperfections.highest_order or f'{imperfections.highest_frequency_kHz:g} kHz'}, balls' form "
+         f"{imperfections.ball_form_nm:g} nm"],
         ["fidelity", f"{scene.fidelity.model}: {_FIDELITIES.get(scene.fidelity.model, '')}"],
         ["method", _method(scene)],
         ["sound", _sound(subject)],

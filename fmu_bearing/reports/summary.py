@@ -45,7 +45,7 @@ def tiles(subject: Subject, heard: Microphones | None, sure: Spread | None = Non
         add(
             "laeq_dB",
             f"loudest, at {heard.names[k]}"
-            + (f"; {sure.low[0]:.0f} to {sure.high[0]:.0f} as far as is known" if sure else ""),
+            + (f"; {sure.low[0]:.0f} to {sure.high[0]:.0f} over seeds and assumed surfaces" if sure else ""),
             "dB(A)",
             ".1f",
             lambda: float(heard.levels["A"]["total"][k]),

@@ -1,9 +1,9 @@
 """The communication step changes nothing: from 1 us to 10 ms, even or irregular.
 
-Stated tolerance, for a settled state and the default tolerance of 1e-3: trajectories of the rings at the same
-instants within 1e-2 of the rings' rms over 2 ms (errors of some hundred internal steps add up), rms of the
-rings' velocities, mean load and heats within 0.5 %. TR-BDF2, of second order, damps the rings' modes where
-its steps are long: three times that.
+Stated tolerance, for a settled state and the gate scenes' tolerance of 1e-3: trajectories of the rings at the
+same instants within 1e-2 of the rings' rms over 2 ms (errors of some hundred internal steps add up), rms of
+the rings' velocities, mean load and heats within 0.5 %. TR-BDF2, of second order, damps the rings' modes
+where its steps are long: three times that.
 """
 
 import numpy as np

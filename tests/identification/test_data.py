@@ -82,6 +82,17 @@ def test_background_stands_beside_its_value_or_in_a_file_of_its_own(spindle, tmp
         read(spindle, {}, {"microphone": "P2", "quantity": "background_leq"})
 
 
+def test_an_empty_cell_of_a_frame_is_the_default(spindle):
+    (row,) = read(spindle, {"std_dB": math.nan, "role": math.nan})
+    assert (row.std, row.fit) == (STD, True)
+
+
+def test_rows_that_were_read_before_serve_as_background(spindle):
+    noise = read(spindle, {"value_dB": 61.0})
+    (row,) = read(spindle, {}, background=noise)
+    assert (row.value, row.background) == (70.0, 61.0)
+
+
 def test_lines_follow_the_speed():
     kinematics = KinematicFrequencies(f_r=300.0, f_c=125.0, f_b=800.0, f_i=2100.0, f_o=1500.0)
     for text, frequency in (

@@ -64,7 +64,7 @@ def test_velocities_are_those_of_a_run(spindle):
 
 
 def test_energies_of_excitations_add_in_a_linear_response(spindle):
-    """Fidelity response is linear: a run with all excitations is the sum of runs with each, s' G s.
+    """Fidelity response is linear.
 
     Unbalance gives the shaft's line alone, waviness none of it: twice the unbalance is 6.02 dB more there and
     nothing elsewhere.

@@ -170,6 +170,15 @@ def test_free_keys_of_the_data_are_refused(spindle):
         identify(spindle, rows, ["mounting.preload_N"])
 
 
+def test_a_value_of_zero_in_the_scene_is_told(spindle, linear):
+    keys = ["imperfections.unbalance_um", "imperfections.ball_waviness_nm=1:100"]
+    found = identify(spindle, table(np.full(8, 60.0)), keys, seeds=1, starts=1, progress=False)
+    said = (
+        "imperfections.ball_waviness_nm is 0 in the scene: the search, and what stands under 'before', begin"
+    )
+    assert [text for text in found.remarks if text.startswith(said) and text.endswith("of its bounds, 10")]
+
+
 def test_values_by_name(spindle, linear):
     found = identify(spindle, table(np.full(8, 60.0)), KEYS, seeds=1, starts=1, progress=False)
     assert found[KEYS[0]].value == pytest.approx(0.5, rel=1e-3)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from fmu_bearing.prepare.imperfections import fastest_wave, intervals, race_harmonics
+from fmu_bearing.prepare.imperfections import ball_waves, fastest_wave, intervals, race_harmonics
 from fmu_bearing.prepare.surfaces import (
     HIGHEST_BALL_ORDER,
     ball_profile,
@@ -111,6 +111,15 @@ def test_balls_deviate_by_their_form(scene):
         assert np.ptp(heights) == pytest.approx(80e-9, rel=2e-3)
     n = np.arange(2, HIGHEST_BALL_ORDER + 1)
     assert np.abs(amplitudes[1:]) * n**1.35 == pytest.approx(abs(amplitudes[1]) * 2**1.35, rel=1e-12)
+
+
+def test_lowest_order_of_the_races_leaves_the_balls_alone(scene):
+    """A band below twice the balls' spin still gives them order 2; order 50 of the races asks no more."""
+    bare = scene("7003C-bare")
+    slow = flawed(bare, ball_form_nm=80.0, highest_order=None, highest_frequency_kHz=1.0, lowest_order=1)
+    assert highest_orders(slow).balls == 2
+    assert list(ball_waves(slow)[0] != 0.0) == [False, True]
+    assert highest_orders(flawed(slow, lowest_order=50)).balls == 2
 
 
 def test_tables_resolve_their_waves():

@@ -45,7 +45,7 @@ def rich(bare):
 
     flaws = bare.imperfections.model_copy(
         update={"inner_race_amplitude_um": None, "outer_race_amplitude_um": None}
-        | {"lowest_order": None, "highest_order": None}
+        | {"highest_order": None}
         | {"inner_race_harmonic": waves(), "outer_race_harmonic": waves()}
     )
     return bare.model_copy(update={"imperfections": flaws})

@@ -11,15 +11,15 @@ from fmu_bearing.engine.lanes import consecutive, gather, load, select, splat, s
 from fmu_bearing.engine.layout import FOUR, STRIDE, C, P, R, W, X, Y
 from fmu_bearing.engine.mechanics.pose import bearing_angle
 from fmu_bearing.engine.mechanics.powers import ROUND, exp2, log2
+from fmu_bearing.engine.mechanics.trigonometry import TWO_PI
 from fmu_bearing.engine.mechanics.triples import added, along, dot, scaled, store_three, three
-
-_TURN = 6.283185307179586
 
 
 @kernel
 def wave_time(p, speed):
     """Time (s) in which the fastest wave of races and balls turns by one radian at a shaft speed (rad/s)."""
-    return 1.0 / (p[P.WAVE_RATE] * abs(speed) + 1.0)
+    rate = p[P.WAVE_RATE] if p[P.IMPERFECTION_SCALE] != 0.0 else 0.0
+    return 1.0 / (rate * abs(speed) + 1.0)
 
 
 @kernel
@@ -32,7 +32,7 @@ def wave_under(p, c, y_angle, race, turned, j, w):
     pose = W.POSE + race * X.SIZE
     intervals = int(p[P.WAVE_INTERVALS])
     within = intervals - 1
-    per_radian = p[P.WAVE_INTERVALS] / _TURN
+    per_radian = p[P.WAVE_INTERVALS] / TWO_PI
     table = int(p[P.AT_WAVES]) + race * 2 * intervals
     scale = c[C.OVERSIZE_SCALE]
     # The ball's angle seen from the displaced ring's centre: h leaves the radial direction by ht/hr.

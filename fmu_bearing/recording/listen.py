@@ -227,7 +227,7 @@ def write_all(
     if wav:
         files += _sounds(recording, found.names, folder, radiation_model)
     if directivity and recording.history.size:
-        files += _directivity(recording, folder, radiation_model, drawn)
+        files += _directivity(recording, folder, radiation_model, drawn, tell)
     netcdf = available("xarray", "netCDF", "spectra.nc", tell)
     if netcdf and available("h5netcdf", "netCDF", "spectra.nc", tell):
         found.to_xarray().to_netcdf(folder / "spectra.nc", engine="h5netcdf")
@@ -251,13 +251,25 @@ def _sounds(
 
 
 def _directivity(
-    recording: Heard, folder: pathlib.Path, radiation_model: str | None, drawn: bool
+    recording: Heard, folder: pathlib.Path, radiation_model: str | None, drawn: bool, tell: Tell
 ) -> list[str]:
-    """Write levels in three planes, at the distance of the nearest microphone; ``drawn``: a picture too."""
+    """Write levels in three planes; ``drawn``: a picture too.
+
+    At the distance of the nearest microphone, or where a circle of that radius meets a body at 1 m.
+    """
     from fmu_bearing.recording import pictures
 
-    radius = min(math.hypot(*place) for place in recording.positions)
-    planes = measure.planes(recording, radius, count=36, weighting="A", radiation_model=radiation_model)
+    for radius in (min(math.hypot(*place) for place in recording.positions), 1.0):
+        try:
+            planes = measure.planes(
+                recording, radius, count=36, weighting="A", radiation_model=radiation_model
+            )
+        except ValueError as problem:
+            tell(f"no directivity at {1e3 * radius:.0f} mm: {problem}")
+            continue
+        break
+    else:
+        return []
     write_csv(folder / "planes.csv", *tables.round_table(planes))
     if not drawn:
         return ["planes.csv"]

@@ -1,5 +1,7 @@
 """Measurements on recordings: against what the same sound gives by another way."""
 
+import csv
+
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
@@ -9,6 +11,7 @@ from fmu_bearing.acoustics.analysis.order import waterfall
 from fmu_bearing.acoustics.analysis.third_octave import third_octave_levels
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.recording import measure, pictures, tables
+from fmu_bearing.recording.listen import listen, write_all
 from fmu_bearing.recording.record import Recording, record
 from fmu_bearing.run.table import markdown, write_csv
 from fmu_bearing.scene.read import with_fidelity
@@ -229,3 +232,15 @@ def test_pictures_and_tables(bare, run_up, tmp_path):
         write_csv(tmp_path / f"{name}.csv", columns, rows)
         assert markdown(columns, rows).count("\n") == len(rows) + 2
     assert [row[0] for row in written["directivity"][0][1]] == ["YZ", "XY", "XZ"]
+
+
+def test_directivity_keeps_out_of_the_housing(example, tmp_path):
+    """A circle through the nearest microphone, 80.5 mm ahead of the spindle, would meet its housing."""
+    scene = with_fidelity(example("7003C-spindle"), model="response")
+    made = record(scene, 0.05, progress=False, radiation_model="compact")
+    said = []
+    files = write_all(made, listen(made), tmp_path, wav=False, tell=said.append)
+    assert "planes.csv" in {path.name for path in files}
+    assert any("no directivity at 80 mm: " in text and "lies inside the housing" in text for text in said)
+    with (tmp_path / "planes.csv").open(encoding="utf-8", newline="") as file:
+        assert all(np.isfinite(float(row["XY, dB"])) for row in csv.DictReader(file))

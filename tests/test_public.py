@@ -27,6 +27,23 @@ def test_every_public_name_has_an_example_that_runs(name, monkeypatch, tmp_path)
     assert runner.run(test).failed == 0
 
 
+def own_methods(thing):
+    """Examples of what a class adds, those inherited from classes of the package included."""
+    finder = doctest.DocTestFinder(recurse=True)
+    for base in thing.__mro__:
+        if base.__module__.startswith("fmu_bearing"):
+            yield from (test for test in finder.find(base, base.__name__, globs={}) if "." in test.name)
+
+
+@pytest.mark.parametrize("name", ["Scene", "Run", "Recording", "Bearing"])
+def test_examples_of_methods_run(name, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "examples").symlink_to(ROOT / "examples")
+    runner = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE)
+    for test in own_methods(getattr(fmu_bearing, name)):
+        assert runner.run(test).failed == 0, test.name
+
+
 def test_the_map_of_the_package_runs(monkeypatch):
     monkeypatch.chdir(ROOT)
     assert doctest.testmod(fmu_bearing).failed == 0

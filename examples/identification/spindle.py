@@ -28,7 +28,7 @@ from fmu_bearing.cli.base import refusals
 from fmu_bearing.identification import Identified
 from fmu_bearing.identification.data import read_data
 from fmu_bearing.identification.files import misfit_words, write_all
-from fmu_bearing.identification.model import Levels, changed
+from fmu_bearing.identification.model import Levels
 from fmu_bearing.identification.picture import identified_picture, save
 from fmu_bearing.run.table import show, write_csv
 
@@ -47,11 +47,7 @@ QUANTITIES = ("leq_a", "line[f_r]")  # at each microphone, and at the first
 
 def spindle() -> Scene:
     """Return the scene that the search starts from: compact radiation, which takes no boundary elements."""
-    scene = read_scene(SCENE)
-    assert scene.sound is not None
-    return scene.model_copy(
-        update={"sound": scene.sound.model_copy(update={"radiation_model": "compact", "details": False})}
-    )
+    return read_scene(SCENE).replace({"sound.radiation_model": "compact", "sound.details": False})
 
 
 def measured_machine(scene: Scene) -> Scene:
@@ -69,7 +65,7 @@ def measured_machine(scene: Scene) -> Scene:
             values[key] = factor * getattr(part, name)
     for race in ("inner", "outer"):
         values[f"imperfections.{race}_race_amplitude_um"] = races * flaws.inner_race_amplitude_um
-    return changed(scene, values)
+    return scene.replace(values)
 
 
 def rows(scene: Scene) -> list[dict[str, Any]]:
@@ -120,7 +116,7 @@ def main(
         output_dir.mkdir(parents=True, exist_ok=True)
         scene = spindle()
         if quick:
-            scene = changed(scene, {"fidelity.model": "response"})  # type: ignore[dict-item]
+            scene = scene.replace({"fidelity.model": "response"})
         (output_dir / "start.toml").write_text(scene.to_toml(), "utf-8")
         data = measure(scene, output_dir)
         settings = {"starts": 6, "seeds": 3} if quick else {}

@@ -4,7 +4,6 @@ import hashlib
 import json
 import os
 import pathlib
-import tomllib
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -12,8 +11,7 @@ from typing import Any
 from examples.papers.hearing import LISTENING, sources_hash
 from fmu_bearing.engine.sources import rooms_digest, source_hash
 from fmu_bearing.recording.record import OUTPUTS, Recording, record
-from fmu_bearing.scene import Scene
-from fmu_bearing.scene.read import read_scene_text
+from fmu_bearing.scene import Scene, read_scene
 
 ROOT = pathlib.Path(__file__).parents[2]
 _ROOMS = ("elastic", "prepare", "recording", "scene")  # of the package, beside the engine
@@ -93,19 +91,7 @@ class Case:
 
 def changed(name: str, changes: Changes) -> Scene:
     """Return an example scene with other values; ``SceneError`` where one is refused."""
-    import tomlkit
-
-    data = tomllib.loads((SCENES / f"{name}.toml").read_text("utf-8"))
-    for dotted, value in changes:
-        *tables, key = dotted.split(".")
-        place = data
-        for table in tables:
-            place = place.setdefault(table, {})
-        if value is None:
-            place.pop(key, None)
-        else:
-            place[key] = list(value) if isinstance(value, tuple) else value
-    return read_scene_text(tomlkit.dumps(data), name)
+    return read_scene(SCENES / f"{name}.toml").replace(dict(changes))
 
 
 def kept(path: pathlib.Path, compute: Callable[[], dict[str, Any]]) -> dict[str, Any]:

@@ -109,9 +109,7 @@ class Exchange:
 
 def with_shaft(scene: Scene, shaft: dict[str, float]) -> Scene:
     """Return the scene with other values of ``[mounting.rotor]``."""
-    assert scene.mounting.rotor is not None
-    rotor = scene.mounting.rotor.model_copy(update=shaft)
-    return scene.model_copy(update={"mounting": scene.mounting.model_copy(update={"rotor": rotor})})
+    return scene.replace({f"mounting.rotor.{key}": value for key, value in shaft.items()})
 
 
 def run(folder: Path, plan: Plan, tolerance: float | None = None, imperfections: float = 0.0) -> Outcome:

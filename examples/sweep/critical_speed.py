@@ -30,7 +30,6 @@ from fmu_bearing.run.arrays import RPM, Arrays
 from fmu_bearing.run.pictures import empty, save
 from fmu_bearing.run.table import machine, markdown, show, write_csv
 from fmu_bearing.scene import Scene, read_scene
-from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.sweeps import sweep
 from fmu_bearing.sweeps.picture import draw_map, shown
 
@@ -52,18 +51,15 @@ COLUMNS = (
 
 def scenes() -> dict[str, Scene]:
     """Return the spindle as it is, and excited by unbalance alone."""
-    found = with_fidelity(read_scene(SCENE), model="rings")
-    assert found.sound is not None and found.imperfections is not None
-    sound = found.sound.model_copy(update={"radiation_model": "compact", "details": False})
-    found = found.model_copy(update={"sound": sound})
+    cheap = {"fidelity.model": "rings", "sound.radiation_model": "compact", "sound.details": False}
+    found = read_scene(SCENE).replace(cheap)
     smooth = {
-        "inner_race_amplitude_um": 0.0,
-        "outer_race_amplitude_um": 0.0,
-        "ball_diameter_spread_nm": 0.0,
-        "ball_form_nm": 0.0,
+        "imperfections.inner_race_amplitude_um": 0.0,
+        "imperfections.outer_race_amplitude_um": 0.0,
+        "imperfections.ball_diameter_spread_nm": 0.0,
+        "imperfections.ball_form_nm": 0.0,
     }
-    only = found.imperfections.model_copy(update=smooth)
-    return {"as the scene is": found, "unbalance alone": found.model_copy(update={"imperfections": only})}
+    return {"as the scene is": found, "unbalance alone": found.replace(smooth)}
 
 
 def critical_speed(scene: Scene, stiffness: float, speeds: Array, balls: Array) -> float:

@@ -21,7 +21,7 @@ from fmu_bearing.run.arrays import Arrays, Refused
 from fmu_bearing.run.metrics import COMMUNICATION, SAMPLE, Errors, errors, measure
 from fmu_bearing.run.settings import TERMS, Setting
 from fmu_bearing.run.table import machine, markdown, number, write_csv
-from fmu_bearing.scene import Scene
+from fmu_bearing.scene import Scene, SceneSource, scene_of
 
 CHECK = 5e-3  # s over which two integrators are compared
 
@@ -161,7 +161,7 @@ def check(scene: Scene, warm_up: float, length: float) -> tuple[float, float]:
 
 
 def tradeoff(
-    scene: Scene,
+    source: SceneSource,
     settings: Sequence[Setting] = SETTINGS,
     *,
     warm_up: float = 0.05,
@@ -173,7 +173,7 @@ def tradeoff(
 
     Parameters
     ----------
-    scene : Scene
+    source : Scene or path
         Run at its own speed, loads and temperatures. Of its ``fidelity`` only the left-out terms count.
     settings : sequence of Setting
     warm_up, window : float
@@ -188,6 +188,7 @@ def tradeoff(
     Refused
         If the engine refuses the reference.
     """
+    scene = scene_of(source)
     sound = sound_block(scene)
     pair, own = check(scene, warm_up, min(CHECK, 0.5 * window))
     truth = measure(REFERENCE.scene(scene), sound, warm_up, window)

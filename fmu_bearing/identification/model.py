@@ -11,7 +11,6 @@ from concurrent.futures import ThreadPoolExecutor
 import numba
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import ValidationError
 
 from fmu_bearing.acoustics.filters.design import radiators_of
 from fmu_bearing.engine.layout import SD
@@ -25,10 +24,7 @@ from fmu_bearing.identification.sensors import Sensors
 from fmu_bearing.prepare.sound import sound_key
 from fmu_bearing.recording.record import Recording, record
 from fmu_bearing.run.arrays import Refused
-from fmu_bearing.scene import Scene, SceneError
-from fmu_bearing.scene.problems import explain
-from fmu_bearing.scene.read import with_fidelity
-from fmu_bearing.scene.values import replaced
+from fmu_bearing.scene import Scene
 
 _ROOMS = ("acoustics", "elastic", "identification", "prepare", "recording", "scene")
 _TURNS = 8  # of the shaft in a run, at least: lines of the shaft stand apart
@@ -129,16 +125,15 @@ class Levels:
         SceneError
             Where the values are refused.
         """
-        return changed(self.scene, scene_values(self.free, x))
+        return self.scene.replace(scene_values(self.free, x))
 
     def _run(
         self, values: dict[str, float], seed: int, fidelity: str, places: Sequence[int]
     ) -> tuple[float, ...]:
         rows = [self.data[k] for k in places]
         try:
-            scene = changed(self.scene, values | ({} if self.scene.imperfections is None else
-                                                  {"imperfections.seed": seed}))  # fmt: skip
-            scene = with_fidelity(scene, model=fidelity) if scene.fidelity.model != fidelity else scene
+            drawn = {} if self.scene.imperfections is None else {"imperfections.seed": seed}
+            scene = self.scene.replace(values | drawn | {"fidelity.model": fidelity})
         except ValueError:  # a combination that no scene may have
             return (math.nan,) * len(rows)
         settle = self._settle(fidelity)
@@ -160,7 +155,7 @@ class Levels:
         for group, places in self.groups.items():
             try:
                 values = scene_values(self.free, x) | dict(group)
-                scene = with_fidelity(changed(self.scene, values), model=fidelity)
+                scene = self.scene.replace(values | {"fidelity.model": fidelity})
                 self._measure(scene, [self.data[k] for k in places], self._settle(fidelity))
             except (Refused, ValueError, ArithmeticError) as problem:
                 where = ", ".join(f"{key} = {value:g}" for key, value in group)
@@ -188,22 +183,6 @@ class Levels:
         asked = [(row.position, row.quantity.text) for row in rows]
         text = f"{scene.model_dump_json()} {asked} {self.duration} {settle} {code_digest()}"
         return hashlib.sha256(text.encode()).hexdigest()[:24]
-
-
-def changed(scene: Scene, values: dict[str, float]) -> Scene:
-    """Return a scene with other values at dotted keys, checked.
-
-    Raises
-    ------
-    SceneError
-        With a line per problem.
-    """
-    data = replaced(scene, values)
-    try:
-        return Scene.model_validate(data)
-    except ValidationError as problem:
-        lines = explain(problem, data)
-        raise SceneError("\n".join(f"{scene.name}: {line}" for line in lines)) from None
 
 
 def check_length(duration: float | None, settle: float | None) -> None:

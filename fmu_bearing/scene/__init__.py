@@ -14,17 +14,16 @@
 ``sound``         radiator, radiation model, metering, microphones
 ``fidelity``      physics, integrator, accuracy, terms left out
 ``scene``         all tables together, with the checks that span several tables
-``read``          TOML in; catalogue names become values
 ``problems``      error messages, one line per problem, with the keys of the file
 ``origins``       where each value comes from, and which are assumed
-``values``        values by dotted key
+``values``        values by dotted key: read, put in, compared
+``read``          `Scene`: from TOML or dictionaries, or changed; catalogue names become values
 ``units``         conversion of field units to SI
 ================  =====================================================================
 """
 
 from fmu_bearing.scene.problems import SceneError
-from fmu_bearing.scene.read import read_scene, read_scene_text
-from fmu_bearing.scene.scene import Scene
+from fmu_bearing.scene.read import Scene, SceneSource, read_scene, read_scene_text, scene_of
 from fmu_bearing.scene.units import si
 
-__all__ = ["Scene", "SceneError", "read_scene", "read_scene_text", "si"]
+__all__ = ["Scene", "SceneError", "SceneSource", "read_scene", "read_scene_text", "scene_of", "si"]

@@ -11,7 +11,7 @@ from pydantic.fields import FieldInfo
 
 from fmu_bearing import renamed
 from fmu_bearing.scene.base import LABEL
-from fmu_bearing.scene.scene import NAME, Scene
+from fmu_bearing.scene.scene import NAME, Tables
 from fmu_bearing.scene.units import symbol
 
 #: Sources from which a table can take its values.
@@ -176,7 +176,7 @@ def _unknown(path: Location) -> str:
     near = difflib.get_close_matches(key, known, n=1, cutoff=_ALIKE)
     if dotted(path) in renamed.KEYS:
         return f"{dotted(path)} is now {renamed.KEYS[dotted(path)]}; its values are the same"
-    elsewhere = [where for where, other in _tables(Scene) if key in other.model_fields and where != table]
+    elsewhere = [where for where, other in _tables(Tables) if key in other.model_fields and where != table]
     if len(elsewhere) == 1:
         hint = f"; it belongs in [{dotted(elsewhere[0])}]" if elsewhere[0] else "; it stands above all tables"
     elif near:
@@ -200,7 +200,7 @@ def _field(path: Location) -> FieldInfo | None:
 
 
 def _model_at(path: Location) -> type[BaseModel] | None:
-    model: type[BaseModel] | None = Scene
+    model: type[BaseModel] | None = Tables
     for step in path:
         if isinstance(step, int):
             continue  # a member of an array has the model of the array

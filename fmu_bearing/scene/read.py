@@ -1,9 +1,10 @@
-"""From TOML to a scene, or to a ``SceneError`` with one line per problem."""
+"""From TOML, tables or another scene to a scene, or to a ``SceneError`` with one line per problem."""
 
 import difflib
+import os
 import tomllib
+from collections.abc import Mapping, Sequence
 from importlib import resources
-from os import PathLike
 from pathlib import Path
 from typing import Any
 
@@ -11,9 +12,111 @@ from pydantic import ValidationError
 
 from fmu_bearing.scene.imperfections import RACES
 from fmu_bearing.scene.problems import Location, SceneError, explain, shown
-from fmu_bearing.scene.scene import Scene
+from fmu_bearing.scene.scene import Tables
+from fmu_bearing.scene.values import plain, put
 
-__all__ = ["SceneError", "catalogue", "read_scene", "read_scene_text", "with_fidelity"]
+__all__ = ["Scene", "SceneError", "catalogue", "read_scene", "read_scene_text", "scene_of", "with_fidelity"]
+
+
+class Scene(Tables):
+    """All input of a model; the units are in the names of the values.
+
+    A scene does not change: `replace` returns another one.
+
+    Examples
+    --------
+    >>> from fmu_bearing import Scene, read_scene
+    >>> scene = read_scene("examples/scenes/7003C-bare.toml")
+    >>> isinstance(scene, Scene), [name for name, place in scene.microphones]
+    (True, ['P1', 'P2', 'P3', 'P4'])
+    >>> scene.to_toml().splitlines()[0]
+    'name = "7003C-bare"'
+    """
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> "Scene":
+        """Return the scene that nested tables hold, checked and completed as a scene file is.
+
+        Parameters
+        ----------
+        data : mapping
+            Tables by name, values in the units of their keys; names of catalogue entries as in a file.
+            Arrays of NumPy and parts of other scenes serve as values too.
+
+        Raises
+        ------
+        SceneError
+            With one line per problem.
+
+        Examples
+        --------
+        >>> from fmu_bearing import Scene, read_scene
+        >>> tables = read_scene("examples/scenes/7003C-bare.toml").model_dump()
+        >>> scene = Scene.from_dict(tables | {"bearing": {"catalogue": "7003C"}, "sound": None})
+        >>> scene.bearing.ball_count, scene.microphones
+        (12, [])
+        """
+        if not isinstance(data, Mapping):
+            raise TypeError(f"from_dict takes tables by name, not {type(data).__name__}")
+        tables = plain(data)
+        name = tables.get("name")
+        return _checked(tables, name if isinstance(name, str) else "scene")
+
+    def replace(self, values: Mapping[str, Any]) -> "Scene":
+        """Return the scene with other values, checked as those of a scene file are.
+
+        Parameters
+        ----------
+        values : mapping
+            Values by dotted key, in the unit of the key: ``"mounting.preload_N"``,
+            ``"sound.microphone[1].y_mm"``. Whole tables can be given, None takes an optional value or table
+            out. The name of a catalogue entry (``"bearing.catalogue"``, ``"materials.balls"``) stands for all
+            that the entry holds, ``"imperfections.grade"`` for the grade's values; keys given beside it win.
+
+        Raises
+        ------
+        SceneError
+            With one line per problem: an unknown key, a value out of range, values that do not fit together.
+
+        Examples
+        --------
+        >>> from fmu_bearing import read_scene
+        >>> scene = read_scene("examples/scenes/7003C-bare.toml")
+        >>> other = scene.replace({"mounting.preload_N": 300, "materials.balls": "GCr15"})
+        >>> other.mounting.preload_N, other.materials.balls.density_kg_m3
+        (300.0, 7800.0)
+        >>> scene.replace({"mounting.prelaod_N": 300})
+        Traceback (most recent call last):
+        ...
+        fmu_bearing.scene.problems.SceneError: 7003C-bare: mounting.prelaod_N is not a key of a scene; did ...
+        """
+        data = self.model_dump()
+        given = {key: plain(value) for key, value in values.items()}
+        _make_room(data, given)
+        return _checked(data, self.name, put(data, given))
+
+
+#: A scene in memory, or the path of a scene file.
+SceneSource = Scene | str | os.PathLike[str]
+
+
+def scene_of(source: SceneSource) -> Scene:
+    """Return a scene as it is, or read it from its file.
+
+    Raises
+    ------
+    SceneError
+        As :func:`read_scene`.
+    TypeError
+        For anything else.
+    """
+    if isinstance(source, Scene):
+        return source
+    if isinstance(source, str | os.PathLike):
+        return read_scene(source)
+    raise TypeError(
+        f"give a Scene or the path of a scene file, not {type(source).__name__}; Scene.from_dict takes tables"
+    )
 
 
 def catalogue(kind: str) -> dict[str, dict[str, Any]]:
@@ -26,7 +129,7 @@ def catalogue_text(kind: str) -> str:
     return resources.files("fmu_bearing.scene").joinpath("catalogue", f"{kind}.toml").read_text("utf-8")
 
 
-def read_scene(path: str | PathLike[str]) -> Scene:
+def read_scene(path: str | os.PathLike[str]) -> Scene:
     """Read a scene file.
 
     Raises
@@ -67,12 +170,17 @@ def read_scene_text(text: str, name: str = "scene", folder: Path | None = None) 
         data = tomllib.loads(text)
     except (tomllib.TOMLDecodeError, RecursionError) as problem:
         raise SceneError(f"{name}: not valid TOML: {problem}") from None
-    lines: list[str] = []
-    unresolved: list[Location] = []
-    _resolve(data, lines, unresolved)
     sound = data.get("sound")
     if folder is not None and isinstance(sound, dict) and isinstance(sound.get("table_file"), str):
         sound["table_file"] = str((folder / sound["table_file"]).resolve())
+    return _checked(data, name)
+
+
+def _checked(data: dict[str, Any], name: str, problems: Sequence[str] = ()) -> Scene:
+    """Return the scene that tables hold; `SceneError` with all problems, those found before included."""
+    lines = list(problems)
+    unresolved: list[Location] = []
+    _resolve(data, lines, unresolved)
     try:
         scene = Scene.model_validate(data)
     except ValidationError as problem:
@@ -83,8 +191,8 @@ def read_scene_text(text: str, name: str = "scene", folder: Path | None = None) 
     raise SceneError("\n".join(f"{name}: {line}" for line in dict.fromkeys(lines))) from None
 
 
-def with_fidelity(scene: Scene, **keys: Any) -> Scene:
-    """Return the scene with other values at keys of ``[fidelity]``, checked against the same ranges.
+def with_fidelity(scene: SceneSource, **keys: Any) -> Scene:
+    """Return a scene, or that of a file, with other values at keys of ``[fidelity]``; see `Scene.replace`.
 
     Raises
     ------
@@ -93,18 +201,28 @@ def with_fidelity(scene: Scene, **keys: Any) -> Scene:
 
     Examples
     --------
-    >>> from fmu_bearing import read_scene, with_fidelity
-    >>> scene = with_fidelity(read_scene("examples/scenes/7003C-bare.toml"), model="rings", tolerance=1e-4)
+    >>> from fmu_bearing import with_fidelity
+    >>> scene = with_fidelity("examples/scenes/7003C-bare.toml", model="rings", tolerance=1e-4)
     >>> scene.fidelity.model, scene.fidelity.tolerance
     ('rings', 0.0001)
     """
-    data = scene.model_dump()
-    data["fidelity"] |= keys
-    try:
-        return Scene.model_validate(data)
-    except ValidationError as problem:
-        lines = explain(problem, data)
-        raise SceneError("\n".join(f"{scene.name}: {line}" for line in lines)) from None
+    return scene_of(scene).replace({f"fidelity.{key}": value for key, value in keys.items()})
+
+
+def _make_room(data: dict[str, Any], given: Mapping[str, Any]) -> None:
+    """Take out of a scene's tables what names of catalogue entries among new values bring anew."""
+    for key, name in given.items():
+        *tables, last = key.split(".")
+        part: Any = data
+        for table in tables:
+            part = part.get(table) if isinstance(part, dict) else None
+        if not isinstance(part, dict):
+            continue
+        if last == "catalogue" and (tables in (["bearing"], ["lubricant"]) or tables[:1] == ["materials"]):
+            part.clear()
+        elif key == "imperfections.grade" and isinstance(name, str):
+            for value in catalogue("grades").get(name, {}):
+                part.pop(value, None)
 
 
 def _resolve(data: dict[str, Any], lines: list[str], unresolved: list[Location]) -> None:

@@ -1,7 +1,8 @@
-"""A scene: one bearing, its mounting, oil and microphones, and the fidelity of the model."""
+"""The tables of a scene: a bearing, its mounting, oil and microphones, and the fidelity of the model."""
 
 import math
 from collections.abc import Iterator
+from typing import Self
 
 import tomlkit
 from pydantic import Field
@@ -21,18 +22,8 @@ NAME = r"^[A-Za-z0-9][A-Za-z0-9._ -]{0,59}$"
 _SLOW_RPM = 100.0  # below it waves up to 10 kHz would be of higher orders than any race is known for
 
 
-class Scene(Part):
-    """All input of a model; the units are in the names of the values.
-
-    Examples
-    --------
-    >>> from fmu_bearing import Scene, read_scene
-    >>> scene = read_scene("examples/scenes/7003C-bare.toml")
-    >>> isinstance(scene, Scene), [name for name, place in scene.microphones]
-    (True, ['P1', 'P2', 'P3', 'P4'])
-    >>> scene.to_toml().splitlines()[0]
-    'name = "7003C-bare"'
-    """
+class Tables(Part):
+    """All tables together, with the checks that span several; ``read`` makes a `Scene` of them."""
 
     name: str = Field(
         pattern=NAME,
@@ -134,7 +125,7 @@ class Scene(Part):
         flexure = self.mounting.flexure
         return flexure is not None and bool(flexure.inner_ring or flexure.outer_ring)
 
-    def with_rigid_rings(self) -> "Scene":
+    def with_rigid_rings(self) -> Self:
         """Return the scene without the bending of its rings."""
         return self.model_copy(update={"mounting": self.mounting.model_copy(update={"flexure": None})})
 

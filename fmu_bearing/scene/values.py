@@ -1,5 +1,6 @@
 """Values of a scene by dotted key, such as ``mounting.preload_N`` or ``sound.microphone[1].y_mm``."""
 
+import os
 import re
 from collections.abc import Iterator, Mapping
 from typing import Any, get_args
@@ -7,16 +8,12 @@ from typing import Any, get_args
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
-from fmu_bearing.scene import Scene
+from fmu_bearing.scene.scene import Tables
 
 _STEP = re.compile(r"(\w+)(?:\[(\d+)\])?")
 
 
-class NoSuchPlace(ValueError):
-    """A dotted key whose table the scene does not have."""
-
-
-def value_at(scene: Scene, key: str) -> Any:
+def value_at(scene: Tables, key: str) -> Any:
     """Value at a dotted key of a scene; None where the scene has no such table or value."""
     part: Any = scene
     for name, place in steps(key):
@@ -26,30 +23,75 @@ def value_at(scene: Scene, key: str) -> Any:
     return part
 
 
-def replaced(scene: Scene, values: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the scene as nested tables, with other values at dotted keys; nothing is checked.
+def put(data: dict[str, Any], values: Mapping[str, Any]) -> list[str]:
+    """Put values at dotted keys into the nested tables of a scene; return a line for each that has no place.
 
-    Raises
-    ------
-    NoSuchPlace
-        Where the scene has no table for a key.
+    A table that is not there is made, as a file makes it by its first key: the check of the scene tells what
+    it lacks, or that there is no such table.
     """
-    data = scene.model_dump()
+    problems = []
     for key, value in values.items():
-        *tables, (last, _) = steps(key)
-        part: Any = data
-        for name, place in tables:
-            part = part.get(name)
-            if place is not None and part is not None:
-                part = part[place] if place < len(part) else None
-            if part is None:
-                table = key.rpartition(".")[0]
-                raise NoSuchPlace(f"{key}: the scene has no table [{table}]; add it to vary what it holds")
+        try:
+            _put(data, key, value)
+        except LookupError as problem:
+            problems.append(problem.args[0])
+    return problems
+
+
+def _put(data: dict[str, Any], key: str, value: Any) -> None:
+    """Put one value; ``LookupError`` says why there is no place for it."""
+    *tables, (last, place) = steps(key)
+    part: Any = data
+    path = ""
+    for name, member in tables:
+        if part.get(name) is None:
+            part[name] = {}
+        inner = part[name]
+        path = f"{path}.{name}".lstrip(".")
+        if member is not None:
+            inner = _member(inner, member, key, path)
+        if not isinstance(inner, dict):
+            raise LookupError(f"{key} is not a key of a scene; {path} is {_kind(inner)}")
+        part = inner
+    if place is None:
         part[last] = value
-    return data
+        return
+    path = f"{path}.{last}".lstrip(".")
+    _member(part.get(last), place, key, path)
+    part[last] = [*part[last][:place], value, *part[last][place + 1 :]]
 
 
-def fields_of(scene: Scene) -> dict[str, FieldInfo]:
+def _member(array: Any, place: int, key: str, path: str) -> Any:
+    """Member of an array; ``LookupError`` where there is none."""
+    if not isinstance(array, list | tuple):
+        raise LookupError(f"{key} is not a key of a scene; {path} is no array")
+    if not 0 <= place < len(array):
+        raise LookupError(f"{key}: [{path}] has {len(array)} members; give the whole array to lengthen it")
+    return array[place]
+
+
+def _kind(value: Any) -> str:
+    """Return what stands in a table's place, in words."""
+    return "an array: name a member, as in [1]" if isinstance(value, list | tuple) else "a value, no table"
+
+
+def plain(value: Any) -> Any:
+    """Return a value as TOML gives it: dictionaries, lists, texts, numbers; nothing of the original is kept.
+
+    Parts of scenes, arrays and numbers of NumPy, and paths are turned into these.
+    """
+    if isinstance(value, BaseModel):
+        return value.model_dump()
+    if isinstance(value, Mapping):
+        return {key: plain(member) for key, member in value.items()}
+    if isinstance(value, list | tuple):
+        return [plain(member) for member in value]
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    return os.fspath(value) if isinstance(value, os.PathLike) else value
+
+
+def fields_of(scene: Tables) -> dict[str, FieldInfo]:
     """Return every dotted key that a scene may have, with its pydantic field; tables are left out."""
     return dict(_fields(type(scene), scene, ""))
 

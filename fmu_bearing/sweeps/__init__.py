@@ -24,7 +24,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from fmu_bearing.extras import need
-from fmu_bearing.scene import Scene
+from fmu_bearing.scene import SceneSource
 from fmu_bearing.sweeps.axes import SweepError
 from fmu_bearing.sweeps.cluster import checked
 from fmu_bearing.sweeps.plan import SETTLE, WINDOW, plan as lay_out
@@ -39,7 +39,7 @@ __all__ = ["Interrupted", "SweepError", "save", "sweep"]
 
 
 def sweep(
-    source: Scene | str | os.PathLike[str],
+    source: SceneSource,
     axes: Mapping[str, Sequence[Any] | str],
     *,
     settle: float = SETTLE,
@@ -96,7 +96,7 @@ def sweep(
     >>> from fmu_bearing import read_scene, sweep
     >>> scene = read_scene("examples/scenes/7003C-bare.toml")
     >>> data = sweep(
-    ...     scene.model_copy(update={"sound": None}),
+    ...     scene.replace({"sound": None}),
     ...     {"fidelity": ["rings"], "preload": [200, 500]},
     ...     settle=0.005,
     ...     window=0.01,

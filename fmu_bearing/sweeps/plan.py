@@ -2,20 +2,16 @@
 
 import itertools
 import math
-import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
-
-from pydantic import ValidationError
 
 from fmu_bearing.elastic.section import BENDING
 from fmu_bearing.extras import need
 from fmu_bearing.prepare.sound import sound_key
 from fmu_bearing.run.choose import resolve
-from fmu_bearing.scene import Scene, SceneError, read_scene
-from fmu_bearing.scene.problems import explain
-from fmu_bearing.scene.values import NoSuchPlace, replaced
+from fmu_bearing.scene import Scene, SceneError, SceneSource, scene_of
+from fmu_bearing.scene.values import value_at
 from fmu_bearing.sweeps.axes import Axis, SweepError, axes_of
 from fmu_bearing.sweeps.figures import Figure, figures_of
 from fmu_bearing.sweeps.point import Task, task_of
@@ -63,7 +59,7 @@ class Plan:
 
 
 def plan(
-    source: Scene | str | os.PathLike[str],
+    source: SceneSource,
     axes: Mapping[str, Sequence[Any] | str],
     settle: float = SETTLE,
     window: float = WINDOW,
@@ -83,7 +79,7 @@ def plan(
         Where a ring bends, without scikit-fem.
     """
     _check_times(settle, window)
-    scene = source if isinstance(source, Scene) else read_scene(source)
+    scene = scene_of(source)
     found = axes_of(scene, axes)
     note = ""
     if "fidelity.model" not in {axis.key for axis in found}:
@@ -105,7 +101,14 @@ def plan(
 
 def _scenes(scene: Scene, axes: tuple[Axis, ...]) -> list[Scene]:
     """Return the scene of each point, or raise with all refusals."""
-    found, problems = [], []
+    found: list[Scene] = []
+    problems = [
+        f"{axis.key}: the scene has no table [{table}]; add it to vary what it holds"
+        for axis in axes
+        if (table := axis.key.rpartition(".")[0]) and value_at(scene, table) is None
+    ]
+    if problems:
+        raise SweepError("\n".join(problems))
     for values in itertools.product(*(axis.values for axis in axes)):
         chosen = {axis.key: value for axis, value in zip(axes, values, strict=True)}
         if chosen.get("fidelity.model") == "auto":
@@ -115,14 +118,9 @@ def _scenes(scene: Scene, axes: tuple[Axis, ...]) -> list[Scene]:
             )
             continue
         try:
-            data = replaced(scene, chosen)
-        except NoSuchPlace as problem:
-            problems.append(str(problem))
-            continue
-        try:
-            found.append(Scene.model_validate(data))
-        except ValidationError as problem:
-            problems += explain(problem, data)
+            found.append(scene.replace(chosen))
+        except SceneError as problem:
+            problems += [line.removeprefix(f"{scene.name}: ") for line in problem.problems]
     lines = list(dict.fromkeys(problems))
     if lines:
         more = [f"and {len(lines) - _MOST} more"] if len(lines) > _MOST else []

@@ -6,7 +6,7 @@ import re
 import pytest
 
 from fmu_bearing.accuracy import sensitivity as moving
-from fmu_bearing.accuracy.sensitivity import ASSUMED, QUICK, changed, sensitivity, value_at
+from fmu_bearing.accuracy.sensitivity import ASSUMED, QUICK, sensitivity, value_at
 from tests.conftest import EXAMPLES
 
 #: Order of a waviness whose amplitude is zero.
@@ -46,9 +46,9 @@ def test_every_move_changes_what_it_names(scene):
             moves = list(ASSUMED[key](value))
             assert any(moved != value for moved in moves), key
             for moved in moves:
-                other = changed(scene(name), key, moved)
+                other = scene(name).replace({key: moved})
                 assert value_at(other, key) == moved
-                assert changed(other, key, value) == scene(name)
+                assert other.replace({key: value}) == scene(name)
 
 
 def test_moves_show(silent, tmp_path):

@@ -5,7 +5,7 @@ import pytest
 from fmu_bearing.cli.base import INTERRUPTED, REFUSED
 from fmu_bearing.identification import search as module
 from fmu_bearing.identification.data import read_data
-from fmu_bearing.identification.model import Levels, changed
+from fmu_bearing.identification.model import Levels
 from fmu_bearing.scene import read_scene
 from fmu_bearing.scene.read import with_fidelity
 
@@ -35,7 +35,7 @@ def measured(scene_of, tmp_path_factory):
         for speed in (12000.0, 18000.0)
     ]
     halved = {f"imperfections.{race}_race_amplitude_um": 0.05 for race in ("inner", "outer")}
-    levels = Levels(changed(scene, halved), read_data(rows, scene), ())
+    levels = Levels(scene.replace(halved), read_data(rows, scene), ())
     exact = levels.at([], [1, 2], "response").mean(axis=0)
     path = tmp_path_factory.mktemp("data") / "measured.csv"
     lines = [",".join(rows[0])]

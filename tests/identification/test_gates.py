@@ -11,7 +11,7 @@ import pytest
 from fmu_bearing import identify
 from fmu_bearing.identification.data import read_data
 from fmu_bearing.identification.free import free_numbers, start_point
-from fmu_bearing.identification.model import Levels, changed
+from fmu_bearing.identification.model import Levels
 from fmu_bearing.scene.read import with_fidelity
 
 START = {
@@ -46,7 +46,7 @@ def table():
 def test_values_are_known_as_well_as_they_say(scene, tmp_path):
     truth = with_fidelity(scene("7003C-spindle"), model="response")
     free = free_numbers(truth, list(START))
-    start = changed(truth, {one.key: one.start * START[one.key] for one in free})
+    start = truth.replace({one.key: one.start * START[one.key] for one in free})
     rows = table()
     assert sum(one["role"] == "fit" for one in rows) == 35
     machine = Levels(truth, read_data(rows, truth), free)

@@ -6,7 +6,7 @@ import pytest
 from fmu_bearing.acoustics.analysis.third_octave import third_octave_levels
 from fmu_bearing.identification.data import read_data
 from fmu_bearing.identification.free import free_numbers, start_point
-from fmu_bearing.identification.model import Levels, changed
+from fmu_bearing.identification.model import Levels
 from fmu_bearing.recording.record import record
 from fmu_bearing.run.simulate import simulate
 from fmu_bearing.scene.read import with_fidelity
@@ -31,7 +31,7 @@ def levels(scene, table, **options):
 
 def test_levels_are_those_of_a_recording(spindle):
     found = levels(spindle, rows("leq", "leq_a", "third_octave[2000]", "line[f_r]"))
-    made = record(changed(spindle, {"operation.speed_rpm": SPEED}), 0.4, settle=0.05, progress=False)
+    made = record(spindle.replace({"operation.speed_rpm": SPEED}), 0.4, settle=0.05, progress=False)
     # other stretches of one steady sound: its beats last longer than 0.1 s
     assert found[0] == pytest.approx(made.levels()[0], abs=0.1)
     assert found[1] == pytest.approx(made.levels(weighting="A")[0], abs=0.1)
@@ -46,14 +46,14 @@ def test_levels_are_those_of_a_recording(spindle):
 def test_radiation_models_of_the_papers_add_energies_as_recordings_do(spindle, model):
     sound = spindle.sound.model_copy(update={"radiation_model": model})
     heard = spindle.model_copy(update={"sound": sound})
-    made = record(changed(heard, {"operation.speed_rpm": SPEED}), 0.2, settle=0.05, progress=False)
+    made = record(heard.replace({"operation.speed_rpm": SPEED}), 0.2, settle=0.05, progress=False)
     assert levels(heard, rows("leq_a"))[0] == pytest.approx(made.levels(weighting="A")[0], abs=0.1)
 
 
 def test_velocities_are_those_of_a_run(spindle):
     found = levels(spindle, rows("velocity[outer_ring.z]", "velocity[inner_ring.y]", "velocity[housing.z]"))
     made = simulate(
-        changed(spindle, {"operation.speed_rpm": SPEED}), 0.4, step=1.0 / 51200.0,
+        spindle.replace({"operation.speed_rpm": SPEED}), 0.4, step=1.0 / 51200.0,
         outputs=["outer_ring.velocity.z", "inner_ring.velocity.y"],
     )  # fmt: skip
     for level, name in zip(found, made.names, strict=False):

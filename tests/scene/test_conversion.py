@@ -4,9 +4,8 @@ import math
 
 import pytest
 
-from fmu_bearing.scene import si
+from fmu_bearing.scene import Scene, si
 from fmu_bearing.scene.base import Part
-from fmu_bearing.scene.scene import Scene
 from fmu_bearing.scene.units import UNITS, convert, split_unit
 
 # key, value, name in SI, value in SI: one line per suffix

@@ -6,12 +6,11 @@ import tomllib
 import pytest
 from hypothesis import given, strategies as st
 
-from fmu_bearing.scene import read_scene, read_scene_text, si
+from fmu_bearing.scene import Scene, read_scene, read_scene_text, si
 from fmu_bearing.scene.bearing import Bearing
 from fmu_bearing.scene.lubricant import Lubricant
 from fmu_bearing.scene.material import Material
 from fmu_bearing.scene.read import catalogue
-from fmu_bearing.scene.scene import Scene
 from fmu_bearing.scene.sound import cylindrical
 from fmu_bearing.scene.units import split_unit, symbol
 from tests.conftest import EXAMPLES

@@ -67,7 +67,7 @@ def sound(
         if source.suffix == ".npz":
             recording = Recording.load(source)
         elif source.suffix == ".csv":
-            recording = Recording.from_fmu(source, read_scene(scene) if scene else None, settle)
+            recording = Recording.from_fmu(source, scene, settle)
         else:
             if resolution is not None and resolution * duration < 1.0:
                 raise Refusal(

@@ -41,17 +41,16 @@ def tradeoff(
     from fmu_bearing.accuracy.chart import draw
     from fmu_bearing.extras import need
     from fmu_bearing.run.table import show
-    from fmu_bearing.scene import read_scene
 
     with refusals():
         need("matplotlib", "the chart")  # told before minutes of measuring
         bar = partial(progress, description="variants")
         if quick:
             study = trading.tradeoff(
-                read_scene(scene), trading.QUICK, warm_up=0.005, window=0.005, budget=0.01, track=bar
+                scene, trading.QUICK, warm_up=0.005, window=0.005, budget=0.01, track=bar
             )
         else:
-            study = trading.tradeoff(read_scene(scene), track=bar)
+            study = trading.tradeoff(scene, track=bar)
         trading.write(study, output)
         chart = chart or output / "tradeoff.png"
         draw(study, chart)
@@ -70,16 +69,13 @@ def sensitivity(
     """Change every assumed value of a scene, one at a time, and print the effect."""
     from fmu_bearing.accuracy import sensitivity as moving
     from fmu_bearing.run.table import show
-    from fmu_bearing.scene import read_scene
 
     with refusals():
         bar = partial(progress, description="moves")
         if quick:
-            study = moving.sensitivity(
-                read_scene(scene), moving.QUICK, warm_up=0.005, window=0.005, track=bar
-            )
+            study = moving.sensitivity(scene, moving.QUICK, warm_up=0.005, window=0.005, track=bar)
         else:
-            study = moving.sensitivity(read_scene(scene), track=bar)
+            study = moving.sensitivity(scene, track=bar)
         moving.write(study, output)
     files = [output / "sensitivity.md", output / "sensitivity.csv"]
     if as_json:

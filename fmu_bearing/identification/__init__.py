@@ -26,7 +26,7 @@ from fmu_bearing.identification.data import Source, read_data
 from fmu_bearing.identification.errors import IdentifyError, Interrupted
 from fmu_bearing.identification.free import Wanted, free_numbers
 from fmu_bearing.identification.result import Identified
-from fmu_bearing.scene import Scene, read_scene
+from fmu_bearing.scene import SceneSource, scene_of
 
 __all__ = ["Identified", "IdentifyError", "Interrupted", "identify"]
 
@@ -34,7 +34,7 @@ SEEDS, STARTS = 4, 3
 
 
 def identify(
-    scene: Scene | str | os.PathLike[str],
+    scene: SceneSource,
     data: Source,
     free: Wanted,
     *,
@@ -96,8 +96,8 @@ def identify(
 
     Examples
     --------
-    >>> from fmu_bearing import identify, read_scene, with_fidelity
-    >>> scene = with_fidelity(read_scene("examples/scenes/7003C-bare.toml"), model="response")
+    >>> from fmu_bearing import identify, with_fidelity
+    >>> scene = with_fidelity("examples/scenes/7003C-bare.toml", model="response")
     >>> measured = [
     ...     {"microphone": name, "quantity": "leq_a", "value_dB": value, "std_dB": 1.5}
     ...     for name, value in {"P1": 56.0, "P2": 53.0, "P3": 56.0, "P4": 63.0}.items()
@@ -108,7 +108,7 @@ def identify(
     """
     from fmu_bearing.identification.search import search
 
-    start = scene if isinstance(scene, Scene) else read_scene(scene)
+    start = scene_of(scene)
     measured = read_data(data, start, background)
     held = {key for one in measured for key, _ in one.conditions}
     return search(

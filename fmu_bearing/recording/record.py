@@ -1,8 +1,11 @@
 """One run from a scene's quasi-static state with the engine's channel history kept."""
 
 import math
+import os
+import pathlib
 import sys
 from collections.abc import Callable, Iterable, Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,12 +18,14 @@ from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import Model, prepare
 from fmu_bearing.recording.recording import Recording
 from fmu_bearing.run.choose import resolve
-from fmu_bearing.scene import Scene
+from fmu_bearing.scene import Scene, SceneSource, scene_of
 from fmu_bearing.scene.sound import Microphone, Sound
 
-__all__ = ["OUTPUTS", "Recording", "record"]
+__all__ = ["OUTPUTS", "Recording", "RecordingSource", "record", "recording_of"]
 
 Signal = float | Callable[[float], float]
+#: A recording or its file (``.npz``), or a scene or its file, which is recorded.
+RecordingSource = Recording | SceneSource
 
 #: Default variables of a recording, besides speed and channels.
 OUTPUTS = (
@@ -30,12 +35,13 @@ OUTPUTS = (
     "contact.inner.angle_mean",
     "contact.outer.angle_mean",
 )
+DURATION = 0.5  # s: of a scene that is recorded where a recording is taken
 _FAR = 2000.0  # mm: where the one microphone of a recording stands; its flight lengthens the channel history
 
 
 @renamed.arguments
 def record(
-    source: Model | Scene,
+    source: SceneSource | Model,
     duration: float,
     *,
     speed: Signal | None = None,
@@ -52,8 +58,8 @@ def record(
 
     Parameters
     ----------
-    source : Scene or Model
-        A scene with fidelity ``auto`` is resolved first.
+    source : Scene, Model or path
+        Scene file (TOML) or scene in memory; fidelity ``auto`` is resolved first.
     duration : float
         Length of the recording (s), counted from the end of ``settle``.
     speed : float or callable, optional
@@ -90,13 +96,13 @@ def record(
 
     Examples
     --------
-    >>> from fmu_bearing import Bearing, record
-    >>> bearing = Bearing("examples/scenes/7003C-bare.toml", fidelity="rings")
-    >>> recording = record(bearing.scene, 0.05, radiation_model="compact")
+    >>> from fmu_bearing import record, with_fidelity
+    >>> scene = with_fidelity("examples/scenes/7003C-bare.toml", model="rings")
+    >>> recording = record(scene, 0.05, radiation_model="compact")
     >>> [round(float(level)) for level in recording.levels(weighting="A")]  # dB(A) at the scene's microphones
     [62, 59, 61, 69]
     """
-    scene = source.scene if isinstance(source, Model) else resolve(source)[0]
+    scene = source.scene if isinstance(source, Model) else resolve(scene_of(source))[0]
     for name, value, low in (("duration", duration, 0.0), ("step", step, 0.0), ("settle", settle, -1e-300)):
         if not (math.isfinite(value) and value > low):
             raise ValueError(f"{name} = {value} s: it must be a finite, positive number of seconds")
@@ -125,6 +131,29 @@ def record(
         microphones=tuple((place.name, place.position_m) for place in scene.microphones),
         harmonics=int(kept.sound[SD.H_HARMONICS]),
     )  # fmt: skip
+
+
+def recording_of(source: RecordingSource, duration: float = DURATION, **options: Any) -> Recording:
+    """Return a recording as it is, load it from its file (``.npz``), or record a scene.
+
+    Parameters
+    ----------
+    source : Recording, Scene or path
+    duration : float
+        Length (s) of the recording of a scene.
+    options
+        As for `record`.
+
+    Raises
+    ------
+    ValueError
+        As `Recording.load` and `record`.
+    """
+    if isinstance(source, Recording):
+        return source
+    if isinstance(source, str | os.PathLike) and pathlib.Path(source).suffix == ".npz":
+        return Recording.load(source)
+    return record(source, duration, **options)
 
 
 def listened(scene: Scene, radiation_model: str) -> Scene:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.recording.heard import Heard
 from fmu_bearing.run.result import read_table
-from fmu_bearing.scene import Scene, read_scene_text, si
+from fmu_bearing.scene import Scene, SceneSource, read_scene_text, scene_of, si
 
 _PRESSURE = re.compile(r"mic\[\d+\]\.pressure")
 _ENOUGH = 40_000.0  # Hz: pressures reach to 20 kHz
@@ -44,7 +44,7 @@ class Recording(Heard):
     def from_fmu(
         cls,
         result: NDArray[Any] | str | os.PathLike[str],
-        scene: Scene | None = None,
+        scene: SceneSource | None = None,
         settle: float = 0.02,
     ) -> "Recording":
         """Take the pressures of an FMU run.
@@ -55,7 +55,7 @@ class Recording(Heard):
             What ``fmpy.simulate_fmu`` returns, with ``mic[1].pressure`` and so on among its outputs, or a CSV
             file of it. Run with ``output_interval=Recording.PRESSURE_STEP``, so that every sample is there
             once.
-        scene : Scene, optional
+        scene : Scene or path, optional
             The scene the FMU was built from: places of microphones, kinematic frequencies.
         settle : float
             Time (s) left out at the beginning.
@@ -66,6 +66,7 @@ class Recording(Heard):
             Without pressures, for unevenly spaced times, or when nothing is left after ``settle``.
         """
         table: Any = result if isinstance(result, np.ndarray) else read_table(result)
+        scene = None if scene is None else scene_of(scene)
         names = table.dtype.names or ()
         pressures = [name for name in names if _PRESSURE.fullmatch(name)]
         if "time" not in names or not pressures:
@@ -131,8 +132,10 @@ class Recording(Heard):
         Raises
         ------
         ValueError
-            When the file is no recording.
+            When there is no such file, or it is no recording.
         """
+        if not pathlib.Path(path).exists():
+            raise ValueError(f"{path}: there is no such file")
         with np.load(path, allow_pickle=False) as data:
             if "head" not in data or (head := json.loads(str(data["head"]))).get("version") != _VERSION:
                 raise ValueError(f"{path} is no recording that this version has written")

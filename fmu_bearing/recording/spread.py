@@ -16,7 +16,7 @@ from fmu_bearing.acoustics.analysis.field import Blocks, Circle, Position
 from fmu_bearing.acoustics.filters.weighting import a_weighting_db, level
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.recording.listen import chosen_microphones
-from fmu_bearing.recording.record import record
+from fmu_bearing.recording.record import RecordingSource, record, recording_of
 from fmu_bearing.recording.recording import Recording
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.imperfections import Imperfections
@@ -139,7 +139,7 @@ class Spread:
 
 
 def spread(
-    recording: Recording,
+    source: RecordingSource,
     microphones: Sequence[str] | None = None,
     *,
     radiation_model: str | None = None,
@@ -151,8 +151,9 @@ def spread(
 
     Parameters
     ----------
-    recording : Recording
-        With its scene; recorded at one speed.
+    source : Recording, Scene or path
+        A recording with its scene, at one speed, or its file (``.npz``); or a scene or its file (``.toml``),
+        which is recorded for 0.5 s.
     microphones : sequence of str, optional
         Names of some of the scene's; default: all.
     radiation_model, weighting
@@ -173,16 +174,17 @@ def spread(
 
     Examples
     --------
-    >>> from fmu_bearing import Bearing, record, spread
-    >>> bearing = Bearing("examples/scenes/7003C-bare.toml", fidelity="rings")
-    >>> recording = record(bearing.scene, 0.05, radiation_model="compact")
+    >>> from fmu_bearing import record, spread, with_fidelity
+    >>> scene = with_fidelity("examples/scenes/7003C-bare.toml", model="rings")
+    >>> recording = record(scene, 0.05, radiation_model="compact")
     >>> found = spread(recording, ["P1"], seeds=2)
     >>> bool(found.low[0] <= found.levels[0] <= found.high[0])
     True
     """
-    scene = _at_speed(recording)
     if seeds < 1:
         raise ValueError(f"seeds = {seeds}: give 1 or more")
+    recording = recording_of(source, radiation_model=radiation_model)
+    scene = _at_speed(recording)
     if scene.imperfections is None:
         raise ValueError("the scene has no imperfections: its level has no spread over them")
     chosen = chosen_microphones(recording.microphones, microphones)

@@ -23,10 +23,10 @@ from fmu_bearing.reports.page import render
 from fmu_bearing.reports.run import STEP, observed
 from fmu_bearing.reports.subject import Subject
 from fmu_bearing.run.choose import resolve
-from fmu_bearing.scene import Scene, SceneError, read_scene
+from fmu_bearing.scene import SceneError, SceneSource, read_scene, scene_of
 from fmu_bearing.scene.origins import origins
 
-Source = Recording | Scene | str | os.PathLike[str]
+Source = Recording | SceneSource
 SETTLE = 0.1  # s left out at the beginning, in which the start-up dies away
 RUN_UP = 1.0  # s a run-up takes
 _SHORTEST = 0.02  # s
@@ -204,9 +204,10 @@ def _subject(
         text, whence = file.read_text("utf-8-sig"), origins(file)
     if isinstance(source, Recording):
         return _taken(source, "a recording in memory", radiation_model, radius, speed)
-    if source.fidelity.model == "auto":
+    given = scene_of(source)
+    if given.fidelity.model == "auto":
         tell("fidelity auto: finding the cheapest within the scene's accuracy")
-    scene, choice = resolve(source)
+    scene, choice = resolve(given)
     if choice is not None:
         tell(choice.summary)
     tell(f"running {scene.name}, fidelity {scene.fidelity.model}, for {settle + duration:g} s")

@@ -1,6 +1,5 @@
 """`Bearing`: a bearing to step by hand, for scripts and notebooks."""
 
-import os
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Self
 
@@ -11,7 +10,7 @@ from fmu_bearing.run.levels import shown
 from fmu_bearing.run.names import chosen_names, known
 from fmu_bearing.run.result import Run
 from fmu_bearing.run.simulate import simulate
-from fmu_bearing.scene import Scene, read_scene
+from fmu_bearing.scene import Scene, SceneSource, scene_of
 from fmu_bearing.scene.read import with_fidelity
 
 
@@ -41,13 +40,13 @@ class Bearing(Mapping[str, float]):
     71
     """
 
-    def __init__(self, source: Scene | Model | str | os.PathLike[str], **fidelity: Any) -> None:
+    def __init__(self, source: SceneSource | Model, **fidelity: Any) -> None:
         if isinstance(source, Model):
             if fidelity:
                 raise ValueError("a prepared Model has its fidelity: give the scene to change it")
             self._instance = Instance(source)
             return
-        scene = source if isinstance(source, Scene) else read_scene(source)
+        scene = scene_of(source)
         if fidelity:
             scene = with_fidelity(
                 scene, **{"model" if k == "fidelity" else k: v for k, v in fidelity.items()}

@@ -7,10 +7,10 @@ from fmu_bearing.fmi.package import BuiltFmu, build, check_choice
 from fmu_bearing.prepare.model import Model, prepare
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.run.choose import resolve
-from fmu_bearing.scene import Scene, read_scene
+from fmu_bearing.scene import SceneSource, scene_of
 
 
-def model_of(source: Scene | str | os.PathLike[str], tell: Tell = silent) -> Model:
+def model_of(source: SceneSource, tell: Tell = silent) -> Model:
     """Return the model of a scene. Fidelity ``auto`` is resolved, and the choice is noted in the model.
 
     Raises
@@ -18,7 +18,7 @@ def model_of(source: Scene | str | os.PathLike[str], tell: Tell = silent) -> Mod
     SceneError
         For a scene that is refused.
     """
-    scene = source if isinstance(source, Scene) else read_scene(source)
+    scene = scene_of(source)
     if scene.fidelity.model == "auto":
         tell("fidelity auto: probing the scene against fidelity full (kept for the next time)")
     resolved, choice = resolve(scene)
@@ -29,7 +29,7 @@ def model_of(source: Scene | str | os.PathLike[str], tell: Tell = silent) -> Mod
 
 
 def build_fmu(
-    source: Scene | Model | str | os.PathLike[str],
+    source: SceneSource | Model,
     output: str | os.PathLike[str] | None = None,
     flavour: str | None = None,
     platforms: Sequence[str] | None = None,
@@ -58,8 +58,8 @@ def build_fmu(
 
     Examples
     --------
-    >>> from fmu_bearing import Bearing, build_fmu
-    >>> scene = Bearing("examples/scenes/7003C-bare.toml").scene.model_copy(update={"sound": None})
+    >>> from fmu_bearing import build_fmu, read_scene
+    >>> scene = read_scene("examples/scenes/7003C-bare.toml").replace({"sound": None})
     >>> build_fmu(scene, "bearing.fmu", flavour="python").variables["input"]
     8
     """

@@ -23,11 +23,11 @@ from fmu_bearing.run.choose import resolve
 from fmu_bearing.run.inputs import Input, Inputs, input_table
 from fmu_bearing.run.names import chosen_names, known
 from fmu_bearing.run.result import COMPLETE, INTERRUPTED, REFUSED, Run, columns_of, structured
-from fmu_bearing.scene import Scene, read_scene
+from fmu_bearing.scene import Scene, SceneSource, scene_of
 
 
 def simulate(
-    source: Scene | Model | str | os.PathLike[str],
+    source: SceneSource | Model,
     stop_time: float,
     *,
     step: float = 1e-3,
@@ -214,10 +214,10 @@ class _Feed:
         return next(later, math.inf)
 
 
-def _model(source: Scene | Model | str | os.PathLike[str]) -> Model:
+def _model(source: SceneSource | Model) -> Model:
     if isinstance(source, Model):
         return source
-    return prepare(resolve(source if isinstance(source, Scene) else read_scene(source))[0])
+    return prepare(resolve(scene_of(source))[0])
 
 
 def _check_times(stop_time: float, step: float) -> None:

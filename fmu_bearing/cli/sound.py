@@ -58,7 +58,8 @@ def sound(
     as_json: Json = False,
 ) -> None:
     """Measure levels, spectra, third octaves and directivity; write tables, pictures, netCDF and WAV."""
-    from fmu_bearing.recording.listen import chosen_microphones, listen, write_all
+    from fmu_bearing.recording.listen import listen, write_all
+    from fmu_bearing.recording.places import named_places
     from fmu_bearing.recording.record import Recording, record
     from fmu_bearing.run.table import show
     from fmu_bearing.scene.read import read_scene, with_fidelity
@@ -77,7 +78,7 @@ def sound(
             found = read_scene(source)
             if fidelity is not None:
                 found = with_fidelity(found, model=fidelity)
-            chosen_microphones([(place.name, place.position_m) for place in found.microphones], microphone)
+            named_places(found.microphones, microphone)
             output.mkdir(parents=True, exist_ok=True)  # an unusable folder is reported before the run
             recording = record(
                 found, duration, speed=None if speed is None else speed * RPM, settle=settle,

@@ -1,6 +1,7 @@
 """Recordings of sound channels, and measurements on them.
 
 ==============  ==========================================================================
+``places``      microphones by name or by place
 ``heard``       pressures and levels at any microphone, from recorded channels
 ``recording``   `Recording`: the same with files, also from the run of an FMU
 ``record``      `record`: a run of a scene that keeps the channels

@@ -6,13 +6,13 @@ The motion does not depend on the microphones, so the channels give the pressure
 
 import math
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 import scipy
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from fmu_bearing import renamed
 from fmu_bearing.acoustics.analysis.field import Blocks, Channels, Circle, Position, circles, form_of, kind_of
@@ -22,6 +22,7 @@ from fmu_bearing.acoustics.filters.weighting import a_weighting_db, a_weighting_
 from fmu_bearing.acoustics.radiation.radiators import Air
 from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.engine.layout import SD
+from fmu_bearing.recording.places import Places, named_places
 from fmu_bearing.scene import Scene, si
 
 _ANGLES = ("contact.inner.angle_mean", "contact.outer.angle_mean")
@@ -149,27 +150,34 @@ class Heard:
         )
 
     @renamed.arguments
-    def pressure(
-        self, positions: Sequence[ArrayLike] | None = None, radiation_model: str | None = None
-    ) -> NDArray[np.float64]:
+    def pressure(self, positions: Places = None, radiation_model: str | None = None) -> NDArray[np.float64]:
         """Sound pressure (Pa) at places of your choice, shape (mics, size): the coherent sum of all sources.
 
         Parameters
         ----------
-        positions : sequence of (x, y, z), optional
-            Places in m, bearing centre at the origin; default: the scene's microphones.
+        positions : sequence of (x, y, z) or str, or str, optional
+            Places in m, bearing centre at the origin, or names of the scene's microphones; default: all of
+            these.
         radiation_model : str, optional
             In place of the recording's own.
 
         Raises
         ------
         ValueError
-            For a place inside a body, for a radiation model that needs other channels, or, with a recording
-            of pressures, for a place without microphone.
+            For an unknown name, a place inside a body, a radiation model that needs other channels, or, with
+            a recording of pressures, for a place without microphone.
+
+        Examples
+        --------
+        >>> from fmu_bearing import record, with_fidelity
+        >>> scene = with_fidelity("examples/scenes/7003C-bare.toml", model="rings")
+        >>> recording = record(scene, 0.02, radiation_model="compact")
+        >>> recording.pressure(["P1", (0.0, 0.3, 0.0)]).shape
+        (2, 1024)
         """
-        places = self._places(positions)
         if self.history.size == 0:
-            return self.recorded[self._recorded_rows(places)]
+            return self.recorded[self._recorded_rows(positions)]
+        places = self.places(positions)
         total = np.zeros((len(places), self.size))
         for circle, parts in self._heard(places, radiation_model, lambda path: ""):
             for part in parts.values():
@@ -179,7 +187,7 @@ class Heard:
     @renamed.arguments
     def partial(
         self,
-        positions: Sequence[ArrayLike] | None = None,
+        positions: Places = None,
         radiation_model: str | None = None,
         by: str = "component",
     ) -> dict[str, NDArray[np.float64]]:
@@ -199,7 +207,7 @@ class Heard:
         """
         if by not in ("component", "kind"):
             raise ValueError(f'by = "{by}": sources are split by "component" or by "kind"')
-        places = self._places(positions)
+        places = self.places(positions)
         found: dict[str, NDArray[np.float64]] = {}
         for circle, parts in self._heard(
             places,
@@ -214,7 +222,7 @@ class Heard:
     @renamed.arguments
     def levels(
         self,
-        positions: Sequence[ArrayLike] | None = None,
+        positions: Places = None,
         radiation_model: str | None = None,
         weighting: str = "Z",
         resolution: float | None = None,
@@ -234,13 +242,12 @@ class Heard:
             Average over blocks of 1 / ``resolution`` s instead (Hz; 20, for example): far faster at many
             places, a few hundredths of a dB apart in a steady sound.
         """
-        places = self._places(positions)
-        if resolution is not None and self.history.size:
+        if self.history.size == 0:
+            return level(self.mean_square(self.pressure(positions), weighting))
+        places = self.places(positions)
+        if resolution is not None:
             return self._quick_levels(places, radiation_model, weighting, resolution)
         mean_square = np.zeros(len(places))
-        if self.history.size == 0:
-            mean_square[:] = self.mean_square(self.pressure(places), weighting)
-            return level(mean_square)
         energies = (radiation_model or self.radiation_model).startswith("paper")
         for low in range(0, len(places), _TOGETHER):
             some = places[low : low + _TOGETHER]
@@ -258,7 +265,7 @@ class Heard:
     @renamed.arguments
     def mean_squares(
         self,
-        positions: Sequence[ArrayLike] | None = None,
+        positions: Places = None,
         radiation_model: str | None = None,
         resolution: float = 20.0,
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -267,7 +274,7 @@ class Heard:
         From short-time spectra of the channels, which is fast at many places. Sums over all bins agree with
         `levels` at the same ``resolution``; sums over some bins give bands.
         """
-        places = self._places(positions)
+        places = self.places(positions)
         blocks = Blocks(self.channels, resolution)
         energies = (radiation_model or self.radiation_model).startswith("paper")
         found = np.zeros((len(places), len(blocks.frequency)))
@@ -324,14 +331,12 @@ class Heard:
         if self._spectra is None or self._spectra.longest != room:
             self._spectra = Channels(self.history, room)
 
-    def paths(
-        self, positions: Sequence[ArrayLike] | None = None, radiation_model: str | None = None
-    ) -> list[Circle]:
+    def paths(self, positions: Places = None, radiation_model: str | None = None) -> list[Circle]:
         """Paths from the channels to places, for use with other recordings of the same bodies.
 
         ``positions``, ``radiation_model`` and errors as for `pressure`.
         """
-        return list(self._circles(self._places(positions), radiation_model))
+        return list(self._circles(self.places(positions), radiation_model))
 
     def _circles(self, places: list[Position], radiation_model: str | None) -> Iterator[Circle]:
         """Paths from the channels to places, circle by circle."""
@@ -349,27 +354,37 @@ class Heard:
         radiators, air = radiators_of(self.scene), air_of(self.scene)
         return circles(radiation_model, radiators, air, places, self.harmonics, **_options(self.scene))
 
-    def _places(self, positions: Sequence[ArrayLike] | None) -> list[Position]:
-        """Places as plain tuples."""
-        if positions is None:
-            if not self.microphones:
-                raise ValueError("the scene has no microphones: give positions")
-            return self.positions
-        table = np.asarray(positions, dtype=float)
-        if table.ndim != 2 or table.shape[1] != 3 or not np.isfinite(table).all():
-            raise ValueError(f"positions must be finite (x, y, z) in m, not an array of shape {table.shape}")
-        return [(float(x), float(y), float(z)) for x, y, z in table]
+    def named(self, positions: Places = None) -> list[tuple[str, Position]]:
+        """Names and places (m) of microphones; a place without name is named by its coordinates.
 
-    def _recorded_rows(self, places: list[Position]) -> list[int]:
+        Parameters
+        ----------
+        positions : sequence of (x, y, z) or str, or str, optional
+            Places in m or names of the scene's microphones; default: all of these.
+
+        Raises
+        ------
+        ValueError
+            For an unknown name, with the known ones; for what is no place; without any microphone.
+        """
+        return named_places(self.microphones, positions)
+
+    def places(self, positions: Places = None) -> list[Position]:
+        """Places (m) of microphones, given as for `named`."""
+        return [place for _, place in self.named(positions)]
+
+    def _recorded_rows(self, positions: Places) -> list[int]:
+        """Rows of `recorded`; names find those whose place is unknown, of an FMU run without scene."""
+        names = [name for name, _ in self.microphones]
         rows = []
-        for place in places:
+        for name, place in self.named(positions):
             near = [i for i, known in enumerate(self.positions) if np.allclose(known, place, atol=1e-9)]
-            if not near:
+            if name not in names and not near:
                 raise ValueError(
                     f"no microphone was recorded at {place} m, and only pressures were: record the scene "
                     "with fmu_bearing.record"
                 )
-            rows.append(near[0])
+            rows.append(names.index(name) if name in names else near[0])
         return rows
 
 

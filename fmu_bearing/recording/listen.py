@@ -2,7 +2,6 @@
 
 import math
 import pathlib
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -20,6 +19,7 @@ from fmu_bearing.extras import available, need
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.recording import measure, tables
 from fmu_bearing.recording.heard import Heard
+from fmu_bearing.recording.places import Places
 from fmu_bearing.run.table import markdown, write_csv
 
 if TYPE_CHECKING:
@@ -52,6 +52,8 @@ class Listened:
         In dB.
     lines : list of Line
         Strongest lines at the first microphone; empty where the bearing is not known.
+    positions : tuple of (x, y, z)
+        Places (m) of the microphones.
     """
 
     names: tuple[str, ...]
@@ -62,6 +64,7 @@ class Listened:
     bands: NDArray[np.float64]
     third_octaves: NDArray[np.float64]
     lines: list[Line]
+    positions: tuple[Position, ...]
 
     def rows(self) -> tuple[list[str], list[list[str]]]:
         """Columns and rows of a table of levels."""
@@ -103,7 +106,7 @@ class Listened:
 @renamed.arguments
 def listen(
     recording: Heard,
-    microphones: Sequence[str] | None = None,
+    microphones: Places = None,
     radiation_model: str | None = None,
     resolution: float | None = None,
 ) -> Listened:
@@ -112,8 +115,8 @@ def listen(
     Parameters
     ----------
     recording : Heard
-    microphones : sequence of str, optional
-        Names of some of them; default: all.
+    microphones : sequence of str or (x, y, z), optional
+        Names of some of them, or places (m); default: all.
     radiation_model : str, optional
         In place of the recording's.
     resolution : float, optional
@@ -124,14 +127,13 @@ def listen(
     ValueError
         For an unknown microphone, or a recording too short for the resolution.
     """
-    chosen = chosen_microphones(recording.microphones, microphones)
-    places = [place for _, place in chosen]
+    names, places = zip(*recording.named(microphones), strict=True)
     known = recording.history.size > 0
     if known:
         parts = recording.partial(places, radiation_model)
         signals = {"total": sum(parts.values(), np.zeros((len(places), recording.size)))} | parts
     else:
-        parts, signals = {}, {"total": recording.pressure(places)}
+        parts, signals = {}, {"total": recording.pressure(microphones)}
     if resolution is None:
         resolution = max(_RESOLUTION, recording.rate / recording.size)
     frequency, spectra = _spectra(signals, recording.rate, resolution)
@@ -143,25 +145,11 @@ def listen(
         else measure.strongest(recording, frequency, spectra["total"][0], _LINES)
     )
     return Listened(
-        tuple(name for name, _ in chosen),
-        np.column_stack([recording.levels(places, radiation_model, w) for w in "ZA"]),
+        names,
+        np.column_stack([recording.levels(microphones, radiation_model, w) for w in "ZA"]),
         {name: level(recording.mean_square(part, "A")) for name, part in parts.items()},
-        frequency, spectra, bands, thirds, lines,
+        frequency, spectra, bands, thirds, lines, places,
     )  # fmt: skip
-
-
-def chosen_microphones(
-    there: Sequence[tuple[str, Position]], wanted: Sequence[str] | None
-) -> list[tuple[str, Position]]:
-    """Return the microphones of these names, or all; ``ValueError`` for an unknown name."""
-    chosen = [one for one in there if wanted is None or one[0] in wanted]
-    unknown = set(wanted or ()) - {name for name, _ in chosen}
-    if unknown or not chosen:
-        known = ", ".join(name for name, _ in there) or "none: give the scene [sound]"
-        raise ValueError(
-            f"there is no microphone {', '.join(sorted(unknown)) or 'to listen at'}; there are {known}"
-        )
-    return chosen
 
 
 def _spectra(
@@ -225,9 +213,9 @@ def write_all(
         (folder / "lines.md").write_text(markdown(*tables.lines_table(found.lines)), "utf-8")
         files.append("lines.md")
     if wav:
-        files += _sounds(recording, found.names, folder, radiation_model)
+        files += _sounds(recording, found, folder, radiation_model)
     if directivity and recording.history.size:
-        files += _directivity(recording, folder, radiation_model, drawn, tell)
+        files += _directivity(recording, found, folder, radiation_model, drawn, tell)
     netcdf = available("xarray", "netCDF", "spectra.nc", tell)
     if netcdf and available("h5netcdf", "netCDF", "spectra.nc", tell):
         found.to_xarray().to_netcdf(folder / "spectra.nc", engine="h5netcdf")
@@ -236,22 +224,29 @@ def write_all(
 
 
 def _sounds(
-    recording: Heard, names: Sequence[str], folder: pathlib.Path, radiation_model: str | None
+    recording: Heard, found: Listened, folder: pathlib.Path, radiation_model: str | None
 ) -> list[str]:
     """Write one WAV file per microphone, all with one scale so that their loudness can be compared."""
-    places = dict(recording.microphones)
-    pressures = recording.pressure([places[name] for name in names], radiation_model)
+    known = dict(recording.microphones)
+    both = zip(found.names, found.positions, strict=True)
+    asked = [name if name in known else place for name, place in both]
+    pressures = recording.pressure(asked, radiation_model)
     peak = float(np.max(np.abs(pressures)))
     scale = 10.0 ** math.ceil(math.log10(max(peak, 1e-6)))
     files = []
-    for name, pressure in zip(names, pressures, strict=True):
+    for name, pressure in zip(found.names, pressures, strict=True):
         files.append(f"{''.join(c if c.isalnum() else '-' for c in name)}.wav")
         write_wav(folder / files[-1], pressure, recording.rate, full_scale=scale)
     return files
 
 
 def _directivity(
-    recording: Heard, folder: pathlib.Path, radiation_model: str | None, drawn: bool, tell: Tell
+    recording: Heard,
+    found: Listened,
+    folder: pathlib.Path,
+    radiation_model: str | None,
+    drawn: bool,
+    tell: Tell,
 ) -> list[str]:
     """Write levels in three planes; ``drawn``: a picture too.
 
@@ -259,7 +254,7 @@ def _directivity(
     """
     from fmu_bearing.recording import pictures
 
-    for radius in (min(math.hypot(*place) for place in recording.positions), 1.0):
+    for radius in (min(math.hypot(*place) for place in found.positions), 1.0):
         try:
             planes = measure.planes(
                 recording, radius, count=36, weighting="A", radiation_model=radiation_model

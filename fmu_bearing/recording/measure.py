@@ -122,13 +122,16 @@ class MotionPower:
 
 @renamed.arguments
 def component_spectra(
-    recording: Heard, position: ArrayLike, resolution: float = RESOLUTION, radiation_model: str | None = None
+    recording: Heard,
+    position: str | ArrayLike,
+    resolution: float = RESOLUTION,
+    radiation_model: str | None = None,
 ) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]]]:
-    """Frequencies (Hz) and levels (dB) at one place (m), in all (``"total"``) and by component.
+    """Frequencies (Hz) and levels (dB) at one place, in all (``"total"``) and by component.
 
-    A recording of pressures gives the total only.
+    The place is in m, or the name of a microphone. A recording of pressures gives the total only.
     """
-    place = [np.asarray(position, dtype=float)]
+    place = [position]
     if recording.history.size:
         parts = recording.partial(place, radiation_model)
         signals = {"total": sum(parts.values(), np.zeros((1, recording.size)))} | parts
@@ -300,13 +303,13 @@ def motion_power(recording: Heard, resolution: float = RESOLUTION, highest: floa
 @renamed.arguments
 def run_up(
     recording: Heard,
-    position: ArrayLike,
+    position: str | ArrayLike,
     highest: float = 40.0,
     resolution: float = 0.1,
     radiation_model: str | None = None,
 ) -> OrderMap:
-    """Order map of the pressure at one place (m), up to order ``highest``."""
-    pressure = recording.pressure([np.asarray(position, dtype=float)], radiation_model)[0]
+    """Order map of the pressure at one place (m, or a microphone's name), up to order ``highest``."""
+    pressure = recording.pressure([position], radiation_model)[0]
     return order_map(pressure, recording.angle, recording.rate, highest, resolution)
 
 

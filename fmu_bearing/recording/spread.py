@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from fmu_bearing.acoustics.analysis.field import Blocks, Circle, Position
 from fmu_bearing.acoustics.filters.weighting import a_weighting_db, level
 from fmu_bearing.engine.constants import RPM
-from fmu_bearing.recording.listen import chosen_microphones
+from fmu_bearing.recording.places import Places
 from fmu_bearing.recording.record import RecordingSource, record, recording_of
 from fmu_bearing.recording.recording import Recording
 from fmu_bearing.scene import Scene
@@ -140,7 +140,7 @@ class Spread:
 
 def spread(
     source: RecordingSource,
-    microphones: Sequence[str] | None = None,
+    microphones: Places = None,
     *,
     radiation_model: str | None = None,
     weighting: str = "A",
@@ -154,8 +154,8 @@ def spread(
     source : Recording, Scene or path
         A recording with its scene, at one speed, or its file (``.npz``); or a scene or its file (``.toml``),
         which is recorded for 0.5 s.
-    microphones : sequence of str, optional
-        Names of some of the scene's; default: all.
+    microphones : sequence of str or (x, y, z), optional
+        Names of some of the scene's, or places (m); default: all of the scene's.
     radiation_model, weighting
         As for `Recording.levels`.
     seeds : int
@@ -187,7 +187,7 @@ def spread(
     scene = _at_speed(recording)
     if scene.imperfections is None:
         raise ValueError("the scene has no imperfections: its level has no spread over them")
-    chosen = chosen_microphones(recording.microphones, microphones)
+    chosen = recording.named(microphones)
     places = [place for _, place in chosen]
     heard = _Listener(places, radiation_model or recording.radiation_model, weighting)
     flaws = scene.imperfections

@@ -189,7 +189,7 @@ def test_sound_of_a_recording_is_that_of_the_scene(heard, run, tmp_path):
 def test_sound_refuses_in_a_line(run, rings_file, heard, silent_file, tmp_path):
     folder = heard[0]
     for arguments, reason in (
-        ((folder / "recording.npz", "-m", "P9"), "there is no microphone P9; there are P1, P2, P3, P4"),
+        ((folder / "recording.npz", "-m", "P9"), "there is no microphone 'P9'; there are P1, P2, P3, P4"),
         ((rings_file, "-t", 0.05, "--resolution", 5), "needs --duration 0.2 s or more"),
         ((folder / "levels.csv",), "is no table of numbers"),
         ((folder / "third-octaves.csv",), "the first column must be 'time'"),

@@ -109,7 +109,7 @@ def test_table_names_every_microphone(found):
 
 def test_refusals(bare):
     recording = heard(bare)
-    with pytest.raises(ValueError, match="there is no microphone P9; there are P1"):
+    with pytest.raises(ValueError, match="no microphone 'P9'; there are P1, P2"):
         spread(recording, ["P1", "P9"])
     with pytest.raises(ValueError, match="seeds = 0"):
         spread(recording, seeds=0)

@@ -1,0 +1,93 @@
+"""Microphones by name, by place, or both; the pressures of an FMU run without scene by their names."""
+
+import numpy as np
+import pytest
+
+from fmu_bearing import Recording, measure, record, spread, with_fidelity
+from fmu_bearing.recording.listen import listen, write_all
+from fmu_bearing.recording.places import named_places
+
+ELSEWHERE = (0.0, 0.3, 0.0)
+
+
+@pytest.fixture(scope="module")
+def heard(scene):
+    return record(with_fidelity(scene("7003C-bare"), model="rings"), 0.05)
+
+
+@pytest.fixture(scope="module")
+def pressures():
+    """Run of an FMU with two pressures, whose scene is not known."""
+    names = ("mic[1].pressure", "mic[2].pressure")
+    table = np.zeros(3000, dtype=[("time", float), *((name, float) for name in names)])
+    table["time"] = np.arange(3000) * Recording.PRESSURE_STEP
+    for factor, name in enumerate(names, start=1):
+        table[name] = 0.1 * factor * np.sin(2000.0 * np.pi * table["time"])
+    return Recording.from_fmu(table)
+
+
+def test_names_and_places_give_the_same(heard):
+    p1, p2 = heard.positions[:2]
+    by_name, by_place = (["P2", ELSEWHERE, "P1"], [p2, ELSEWHERE, p1])
+    for take in (heard.pressure, heard.levels, heard.places):
+        assert np.array_equal(take(by_name), take(by_place))
+    assert np.array_equal(heard.levels(by_name, resolution=20.0), heard.levels(by_place, resolution=20.0))
+    assert np.array_equal(heard.mean_squares(by_name)[1], heard.mean_squares(by_place)[1])
+    parts = heard.partial("P1")
+    assert all(np.array_equal(part, heard.partial([p1])[name]) for name, part in parts.items())
+    assert np.array_equal(heard.pressure("P1"), heard.pressure([p1]))
+    assert [c.members for c in heard.paths(by_name)] == [c.members for c in heard.paths(by_place)]
+
+
+def test_measurements_take_names(heard):
+    ours, theirs = (measure.component_spectra(heard, place)[1] for place in ("P3", heard.positions[2]))
+    assert all(np.array_equal(ours[name], theirs[name]) for name in theirs)
+    ours, theirs = (measure.run_up(heard, place, 10.0, 0.5).levels for place in ("P3", heard.positions[2]))
+    assert np.array_equal(ours, theirs)
+
+
+def test_spread_and_listen_take_places_and_name_them(heard, tmp_path):
+    found = listen(heard, ["P2", ELSEWHERE])
+    assert found.names == ("P2", "(0, 300, 0) mm")
+    assert found.levels[:, 0].tolist() == heard.levels(["P2", ELSEWHERE]).tolist()
+    files = write_all(heard, found, tmp_path, directivity=False)
+    assert {"P2.wav", "-0--300--0--mm.wav"} <= {file.name for file in files}
+    sure = spread(heard, [ELSEWHERE, "P2"], seeds=1)
+    assert sure.names == ("(0, 300, 0) mm", "P2")
+    assert sure.levels.tolist() == heard.levels([ELSEWHERE, "P2"], weighting="A").tolist()
+
+
+@pytest.mark.parametrize("take", ["pressure", "levels", "partial", "mean_squares", "paths", "named"])
+def test_unknown_names_are_refused_with_the_known_ones(heard, take):
+    with pytest.raises(ValueError, match="no microphone 'P9', 'p1'; there are P1, P2, P3, P4"):
+        getattr(heard, take)(["P1", "p1", "P9"])
+
+
+def test_unknown_names_elsewhere(heard):
+    for call in (
+        lambda: measure.component_spectra(heard, "P9"),
+        lambda: measure.run_up(heard, "P9"),
+        lambda: spread(heard, ["P1", "P9"]),
+        lambda: listen(heard, "P9"),
+    ):
+        with pytest.raises(ValueError, match="no microphone 'P9'; there are P1, P2, P3, P4"):
+            call()
+
+
+def test_what_is_no_place(heard):
+    for wrong in ([(0.0, 0.1)], (0.0, 0.1, 0.2), [(0.0, np.nan, 0.1)]):
+        with pytest.raises(ValueError, match=r"positions must be finite \(x, y, z\) in m or names"):
+            heard.levels(wrong)
+    with pytest.raises(ValueError, match="no microphone to listen at"):
+        heard.levels([])
+    with pytest.raises(ValueError, match="there is no microphone 'P1'; there are none: give the scene"):
+        named_places([], "P1")
+
+
+def test_pressures_without_scene_are_found_by_name(pressures):
+    assert pressures.pressure().shape == (2, pressures.size)
+    first, second = pressures.levels()
+    assert second - first == pytest.approx(20.0 * np.log10(2.0), abs=1e-9)  # twice the pressure, exactly
+    assert pressures.levels("mic[2].pressure")[0] == second
+    with pytest.raises(ValueError, match="no microphone was recorded"):
+        pressures.levels([ELSEWHERE])

@@ -13,6 +13,7 @@ EXTRAS = {
     "skfem": "elastic",
     "matplotlib": "plots",
     "xarray": "results",
+    "pandas": "results",
     "h5netcdf": "results",
     "plotly": "report",
     "jinja2": "report",

@@ -40,6 +40,7 @@ USES = {
         ["tradeoff", "rigid.toml"],
         "fmu_bearing.pictures.third_octave_picture([500.0, 1000.0], {'total': [60.0, 70.0]})",
         "import_module('fmu_bearing.accuracy.chart').draw(None, None)",
+        "fmu_bearing.Run.load('run.csv').plot()",
         "import_module('fmu_bearing.fmi.icon').draw_icon('model.png')",
     ],
     "xarray": [
@@ -49,6 +50,9 @@ USES = {
         "fmu_bearing.Run.load('run.csv').to_xarray()",
         "fmu_bearing.Run.load('run.csv').save('run.nc')",
         "fmu_bearing.sweep('rigid.toml', {'preload': [200, 500]})",
+    ],
+    "pandas": [
+        "fmu_bearing.Run.load('run.csv').to_pandas()",
     ],
     "h5netcdf": ["import_module('fmu_bearing.sweeps').save(None, 'out')"],
     "plotly": [["report", "rigid.toml"], "fmu_bearing.report('rigid.toml', 'report.html')"],

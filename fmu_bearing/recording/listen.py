@@ -27,7 +27,6 @@ if TYPE_CHECKING:
 
 _SETTLE = 0.02  # s left to filters of third octaves, at most a fifth of the recording
 _LINES = 12
-_RESOLUTION = 5.0  # Hz
 
 
 @dataclass(frozen=True)
@@ -134,9 +133,7 @@ def listen(
         signals = {"total": sum(parts.values(), np.zeros((len(places), recording.size)))} | parts
     else:
         parts, signals = {}, {"total": recording.pressure(microphones)}
-    if resolution is None:
-        resolution = max(_RESOLUTION, recording.rate / recording.size)
-    frequency, spectra = _spectra(signals, recording.rate, resolution)
+    frequency, spectra = _spectra(signals, recording.rate, resolution or measure.fine(recording))
     settle = min(_SETTLE, 0.2 * recording.size / recording.rate)
     bands, thirds = third_octave_levels(signals["total"], recording.rate, settle)
     lines = (

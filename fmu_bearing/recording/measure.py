@@ -69,6 +69,7 @@ __all__ = [
 ]
 
 RESOLUTION = 20.0  # Hz, as in the multi-source paper's spectra
+_FINE = 5.0  # Hz: tells neighbouring lines apart
 
 
 @dataclass(frozen=True)
@@ -139,6 +140,11 @@ def component_spectra(
         signals = {"total": recording.pressure(place)}
     found = {name: level_spectrum(signal[0], recording.rate, resolution) for name, signal in signals.items()}
     return found["total"][0], {name: levels for name, (_, levels) in found.items()}
+
+
+def fine(recording: Heard) -> float:
+    """Return the resolution (Hz) of a fine spectrum: 5 Hz, or what a shorter recording allows."""
+    return max(_FINE, recording.rate / recording.size)
 
 
 def strongest(

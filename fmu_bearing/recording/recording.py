@@ -1,20 +1,33 @@
 """Recordings: channels of a run, kept in files, or pressures taken from the run of an FMU."""
 
+import html
 import json
 import math
 import os
 import pathlib
 import re
 import warnings
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu_bearing.acoustics.analysis.spectrum import level_spectrum
 from fmu_bearing.engine.layout import SD
+from fmu_bearing.extras import need
+from fmu_bearing.recording import measure
 from fmu_bearing.recording.heard import Heard
+from fmu_bearing.recording.places import Places
+from fmu_bearing.run.names import unit_of
 from fmu_bearing.run.result import read_table
+from fmu_bearing.run.spectrum import MICROPHONE, Spectrum
+from fmu_bearing.run.table import number
 from fmu_bearing.scene import Scene, SceneSource, read_scene_text, scene_of, si
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+    from matplotlib.figure import Figure
 
 _PRESSURE = re.compile(r"mic\[\d+\]\.pressure")
 _ENOUGH = 40_000.0  # Hz: pressures reach to 20 kHz
@@ -105,6 +118,132 @@ class Recording(Heard):
             recorded=np.array([table[name][first:] for name in pressures], dtype=float),
             microphones=tuple((str(name), place) for name, place in places),
         )  # fmt: skip
+
+    def _repr_html_(self) -> str:
+        """Return microphones and means of the variables; levels are left out, as they take time."""
+        places = "".join(
+            f"<tr><td>{html.escape(name)}</td><td>{1e3 * x:g}, {1e3 * y:g}, {1e3 * z:g}</td><td>mm</td></tr>"
+            for name, (x, y, z) in self.microphones
+        )
+        means = "".join(
+            f"<tr><td>{html.escape(name)}</td><td>{number(float(np.mean(values)))}</td>"
+            f"<td>{html.escape(unit_of(name))}</td></tr>"
+            for name, values in self._within().items()
+        )
+        head = (
+            f"<caption>{html.escape(repr(self))}</caption><tr><th>microphone</th><th>place</th><th></th></tr>"
+        )
+        return f"<table>{head}{places}<tr><th>variable</th><th>mean</th><th>unit</th></tr>{means}</table>"
+
+    def _within(self) -> dict[str, NDArray[np.float64]]:
+        """Speed and variables at the communication points of the recording, its start left out."""
+        kept = self.output_time >= self.start - 1e-9
+        kept |= ~kept.any()  # pressures of an FMU come late: a short run may have no later point
+        columns = {"shaft_speed": self.speed_points} | self.outputs
+        return {name: values[kept] for name, values in columns.items()}
+
+    def spectrum(
+        self, positions: Places = None, radiation_model: str | None = None, resolution: float | None = None
+    ) -> Spectrum:
+        """Return levels (dB re 20 uPa) over frequency at places.
+
+        Parameters
+        ----------
+        positions, radiation_model
+            As for `pressure`.
+        resolution : float, optional
+            Spacing of the bins (Hz); default: 5, or what a shorter recording allows.
+
+        Raises
+        ------
+        ValueError
+            As `pressure`; for a recording too short for the resolution.
+
+        Examples
+        --------
+        >>> from fmu_bearing import record, with_fidelity
+        >>> scene = with_fidelity("examples/scenes/7003C-bare.toml", model="rings")
+        >>> recording = record(scene, 0.05, radiation_model="compact")
+        >>> spectrum = recording.spectrum(["P1", "P4"])
+        >>> spectrum.names, spectrum.units, float(spectrum.frequency[1])
+        (('P1', 'P4'), ('dB', 'dB'), 20.0)
+        """
+        names = tuple(name for name, _ in self.named(positions))
+        pressure = self.pressure(positions, radiation_model)
+        bins = resolution or measure.fine(self)
+        found = [level_spectrum(row, self.rate, bins) for row in pressure]
+        rows = np.array([levels for _, levels in found])
+        return Spectrum(names, found[0][0], rows, ("dB",) * len(names), MICROPHONE)
+
+    def plot(
+        self, positions: Places = None, radiation_model: str | None = None, resolution: float | None = None,
+        highest: float = 20_000.0, title: str = "",
+    ) -> "Figure":  # fmt: skip
+        """Draw `spectrum` up to ``highest`` (Hz), kinematic frequencies marked where the bearing is known.
+
+        Raises
+        ------
+        MissingExtra
+            Without Matplotlib.
+        """
+        from fmu_bearing.recording.pictures import spectrum_picture
+
+        need("matplotlib", "a picture")  # told before the sound is computed
+        found = self.spectrum(positions, radiation_model, resolution)
+        shown = found.frequency <= highest
+        kinematics = None if self.scene is None else self.kinematics()
+        levels = {name: found[name][shown] for name in found}
+        return spectrum_picture(found.frequency[shown], levels, kinematics, title)
+
+    def to_xarray(self, positions: Places = None, radiation_model: str | None = None) -> "xarray.Dataset":
+        """Return pressures (Pa) over microphones and time, and the variables over ``output_time``.
+
+        Names and places (m) of microphones are coordinates; units are attributes, the scene is TOML text in
+        ``scene``.
+
+        Raises
+        ------
+        MissingExtra
+            Without xarray.
+        """
+        xr = need("xarray", "a dataset")
+        named = self.named(positions) if positions is not None or self.microphones else []
+        data: dict[str, Any] = {
+            name: ("output_time", values, {"units": unit_of(name)})
+            for name, values in ({"shaft_speed": self.speed_points} | self.outputs).items()
+        }
+        coords: dict[str, Any] = {"output_time": ("output_time", self.output_time, {"units": "s"})}
+        if named:
+            pressure = self.pressure(positions, radiation_model)
+            data["pressure"] = (("microphone", "time"), pressure, {"units": "Pa"})
+            coords["microphone"] = [name for name, _ in named]
+            coords["time"] = ("time", self.time, {"units": "s", "long_name": "time after initialisation"})
+            for axis, values in zip("xyz", np.array([place for _, place in named]).T, strict=True):
+                coords[axis] = ("microphone", values, {"units": "m"})
+        head = {
+            "scene": "" if self.scene is None else self.scene.to_toml(),
+            "radiation_model": radiation_model or self.radiation_model,
+            "rate_Hz": self.rate,
+        }
+        return xr.Dataset(data, coords, head)
+
+    def to_pandas(self, positions: Places = None, radiation_model: str | None = None) -> "pandas.DataFrame":
+        """Return pressures (Pa) over time (s after initialisation), a column per microphone.
+
+        Units by column are in ``attrs["units"]``.
+
+        Raises
+        ------
+        MissingExtra
+            Without pandas.
+        """
+        pd = need("pandas", "a data frame")
+        names = [name for name, _ in self.named(positions)]
+        index = pd.Index(self.time, name="time, s")
+        frame: pandas.DataFrame = pd.DataFrame(self.pressure(positions, radiation_model).T, index, names)
+        frame.columns.name = "microphone"
+        frame.attrs["units"] = dict.fromkeys(names, "Pa")
+        return frame
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write everything to one ``.npz`` file."""

@@ -4,7 +4,8 @@
 ``names``         names of variables, with patterns and suggestions
 ``table``         tables to terminal, Markdown, CSV; the machine they were made on
 ``levels``        sound levels as they are drawn: absent before metering begins
-``result``        `Run`: the results of a run, as CSV, netCDF, xarray
+``spectrum``      spectra of variables and of microphones, with names and units
+``result``        `Run`: the results of a run, as CSV, netCDF, xarray, pandas; its pictures and spectra
 ``inputs``        inputs over time, checked against their ranges
 ``settings``      `Setting`: one way to compute a scene
 ``arrays``        a bearing as flat arrays, for loops that read and restore the state

@@ -1,11 +1,12 @@
 """Results of a run, and their files: CSV as FMPy reads and writes it, netCDF."""
 
+import html
 import math
 import os
 import pathlib
 import tempfile
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -17,11 +18,14 @@ from fmu_bearing import renamed
 from fmu_bearing.extras import need
 from fmu_bearing.files import write_whole
 from fmu_bearing.run.levels import present, shown
-from fmu_bearing.run.names import unit_of
+from fmu_bearing.run.names import chosen_names, unit_of
+from fmu_bearing.run.spectrum import Spectrum, of_variables
 from fmu_bearing.scene import Scene, read_scene_text
 
 if TYPE_CHECKING:
+    import pandas
     import xarray
+    from matplotlib.figure import Figure
 
 #: Why a run ended.
 COMPLETE, REFUSED, INTERRUPTED = "complete", "refused", "interrupted"
@@ -106,10 +110,12 @@ class Run:
 
     def _repr_html_(self) -> str:
         rows = "".join(
-            f"<tr><td>{name}</td><td>{shown(self[name][-1], unit)}</td><td>{unit}</td></tr>"
+            f"<tr><td>{html.escape(name)}</td><td>{shown(self[name][-1], unit) if len(self) else '-'}</td>"
+            f"<td>{html.escape(unit)}</td></tr>"
             for name, unit in self._units().items()
         )
-        head = f"<caption>{self.name} at {self._reached():g} s</caption>"
+        ended = "" if self.complete else f", {self.ended}: {self.note}"
+        head = f"<caption>{html.escape(f'{self.name} at {self._reached():g} s{ended}')}</caption>"
         return f"<table>{head}<tr><th>variable</th><th>last value</th><th>unit</th></tr>{rows}</table>"
 
     def _units(self) -> dict[str, str]:
@@ -140,8 +146,89 @@ class Run:
         xr = need("xarray", "a dataset")
         scene = "" if self.scene is None else self.scene.to_toml()
         head = {"name": self.name, "ended": self.ended, "note": self.note, "scene": scene}
-        columns = {name: ("time", self[name], {"units": self.units.get(name, "")}) for name in self.names}
+        columns = {name: ("time", self[name], {"units": unit}) for name, unit in self._units().items()}
         return xr.Dataset(columns, {"time": ("time", self.time, {"units": "s"})}, head)
+
+    def to_pandas(self) -> "pandas.DataFrame":
+        """Return the run as a table over time (s), a column per variable, SI units.
+
+        Units by column are in ``attrs["units"]``, name and end of the run in ``attrs``.
+
+        Raises
+        ------
+        MissingExtra
+            Without pandas.
+
+        Examples
+        --------
+        >>> from fmu_bearing import simulate
+        >>> run = simulate("examples/scenes/7003C-bare.toml", 2e-3, outputs=["friction_torque"])
+        >>> frame = run.to_pandas()
+        >>> frame.shape, frame.index.name, frame.attrs["units"]["friction_torque"]
+        ((3, 1), 'time, s', 'N.m')
+        """
+        pd = need("pandas", "a data frame")
+        columns = {name: self[name] for name in self.names}
+        frame: pandas.DataFrame = pd.DataFrame(columns, pd.Index(self.time, name="time, s"))
+        frame.attrs |= {"name": self.name, "ended": self.ended, "note": self.note, "units": self._units()}
+        return frame
+
+    def plot(self, variables: str | Sequence[str] | None = None, title: str = "") -> "Figure":
+        """Draw variables over time, one panel per unit.
+
+        Parameters
+        ----------
+        variables : str or sequence of str, optional
+            Names, with ``*`` for any text; default: the usual ones that the run has.
+        title : str
+            Default: the run's name.
+
+        Raises
+        ------
+        UnknownName
+            For a name that matches nothing.
+        MissingExtra
+            Without Matplotlib.
+        """
+        from fmu_bearing.run.time_pictures import time_picture
+
+        return time_picture(self, _listed(variables), title)
+
+    def spectrum(
+        self, variables: str | Sequence[str], resolution: float | None = None, settle: float = 0.0
+    ) -> Spectrum:
+        """Return rms amplitudes of variables over frequency, up to half the rate of communication points.
+
+        What lies above that frequency is folded below it: choose the step of the run accordingly.
+
+        Parameters
+        ----------
+        variables : str or sequence of str
+            Names, with ``*`` for any text.
+        resolution : float, optional
+            Spacing of the bins (Hz), by blocks averaged in energy; default: one block.
+        settle : float
+            Time (s) left out at the beginning.
+
+        Raises
+        ------
+        UnknownName
+            For a name that matches nothing.
+        ValueError
+            For uneven times, or a run too short for the resolution.
+
+        Examples
+        --------
+        >>> from fmu_bearing import simulate, with_fidelity
+        >>> scene = with_fidelity("examples/scenes/7003C-bare.toml", model="rings")
+        >>> run = simulate(scene, 0.06, step=1e-4, outputs=["outer_ring.velocity.*"])
+        >>> spectrum = run.spectrum("outer_ring.velocity.*", resolution=50.0, settle=0.01)
+        >>> spectrum.names[0], spectrum.units[0], round(float(spectrum.frequency[-1]))
+        ('outer_ring.velocity.x', 'm/s', 5000)
+        """
+        names = chosen_names(_listed(variables), self.names, ())
+        after = self.time >= self.time[0] + settle - 1e-9
+        return of_variables(self.time[after], {n: self[n][after] for n in names}, self._units(), resolution)
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> "Run":
@@ -197,6 +284,11 @@ class Run:
                 for value in present(self[name][-1:], unit).tolist()
             },
         }
+
+
+def _listed(names: str | Sequence[str] | None) -> Sequence[str] | None:
+    """Return names as a list, also where only one is given."""
+    return [names] if isinstance(names, str) else names
 
 
 def check_target(path: str | os.PathLike[str]) -> pathlib.Path:

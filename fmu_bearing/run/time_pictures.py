@@ -9,10 +9,11 @@ import numpy as np
 from fmu_bearing.run.levels import present
 from fmu_bearing.run.names import UnknownName, chosen_names, unit_of
 from fmu_bearing.run.pictures import OTHERS, empty, label, save
-from fmu_bearing.run.result import Run
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from fmu_bearing.run.result import Run
 
 #: Variables drawn by default, as far as the run has them.
 USUAL = (
@@ -23,7 +24,7 @@ _MOST = 14  # curves in a panel whose legend can still be read
 _WIDTHS = (1.2, 0.7)
 
 
-def time_picture(run: Run, patterns: Sequence[str] | None = None, title: str = "") -> "Figure":
+def time_picture(run: "Run", patterns: Sequence[str] | None = None, title: str = "") -> "Figure":
     """Draw variables over time, one panel per unit; levels where there are any.
 
     Parameters
@@ -65,7 +66,7 @@ def time_picture(run: Run, patterns: Sequence[str] | None = None, title: str = "
     return figure
 
 
-def usual_names(run: Run) -> list[str]:
+def usual_names(run: "Run") -> list[str]:
     """Return the variables drawn by default that the run has, or all where it has none of them."""
     found: list[str] = []
     for pattern in USUAL:
@@ -76,6 +77,6 @@ def usual_names(run: Run) -> list[str]:
     return found or run.names[:_MOST]
 
 
-def draw(run: Run, path: str | os.PathLike[str], patterns: Sequence[str] | None = None) -> None:
+def draw(run: "Run", path: str | os.PathLike[str], patterns: Sequence[str] | None = None) -> None:
     """Write `time_picture` to a file (.png, .svg or .pdf)."""
     save(time_picture(run, patterns), path)

@@ -45,6 +45,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from fmu_bearing.identification import identify
     from fmu_bearing.recording import audio, measure, pictures, tables
+    from fmu_bearing.recording.compare import compare
     from fmu_bearing.recording.record import Recording, record
     from fmu_bearing.recording.spread import spread
     from fmu_bearing.reports import report
@@ -67,6 +68,7 @@ _PLACES = {
     "SceneError": "scene",
     "audio": "recording",
     "build_fmu": "run.build",
+    "compare": "recording.compare",
     "identify": "identification",
     "measure": "recording",
     "pictures": "recording",
@@ -88,6 +90,7 @@ __all__ = [
     "SceneError",
     "audio",
     "build_fmu",
+    "compare",
     "identify",
     "measure",
     "pictures",

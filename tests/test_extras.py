@@ -37,6 +37,7 @@ USES = {
     ],
     "matplotlib": [
         ["plot", "run.csv"],
+        ["compare", "rigid.toml", "rigid.toml", "--plot", "both.png"],
         ["tradeoff", "rigid.toml"],
         "fmu_bearing.pictures.third_octave_picture([500.0, 1000.0], {'total': [60.0, 70.0]})",
         "import_module('fmu_bearing.accuracy.chart').draw(None, None)",

@@ -64,7 +64,7 @@ def test_no_module_hides_a_public_name():
     modules = {"audio", "measure", "pictures", "tables"}
     assert {name for name in names if inspect.ismodule(getattr(fmu_bearing, name))} == modules
     functions = {name for name in names - modules if name.islower()}
-    assert functions >= {"record", "report", "simulate", "sweep", "with_fidelity"}
+    assert functions >= {"compare", "record", "report", "simulate", "sweep", "with_fidelity"}
     assert all(inspect.isfunction(getattr(fmu_bearing, name)) for name in functions)
     assert all(inspect.isclass(getattr(fmu_bearing, name)) for name in names - modules - functions)
 

@@ -15,6 +15,7 @@ from fmu_bearing.scene.read import with_fidelity
 #: Each public function that takes a scene, with what else it needs.
 TAKE = {
     "Bearing": lambda scene: fmu_bearing.Bearing(scene),
+    "compare": lambda scene: fmu_bearing.compare(scene, scene),
     "build_fmu": lambda scene: fmu_bearing.build_fmu(scene, "a.fmu"),
     "identify": lambda scene: fmu_bearing.identify(scene, [], ["mounting.preload_N"]),
     "record": lambda scene: record(scene, 0.01),

@@ -5,6 +5,7 @@
 ``build``       the FMU of a scene
 ``scenes``      scene new, check, show, catalogue
 ``runs``        simulate, plot
+``compare``     two scenes, recordings or runs side by side
 ``sound``       levels, spectra, directivity, WAV
 ``studies``     choose, tradeoff, sensitivity
 ``sweep``       a scene over a grid of its values
@@ -16,7 +17,19 @@
 """
 
 # importing a file registers its commands
-from fmu_bearing.cli import build, identify, report, runs, scenes, sound, studies, sweep, validate, warm_up  # noqa: F401
+from fmu_bearing.cli import (  # noqa: F401
+    build,
+    compare,
+    identify,
+    report,
+    runs,
+    scenes,
+    sound,
+    studies,
+    sweep,
+    validate,
+    warm_up,
+)
 from fmu_bearing.cli.base import app
 
 __all__ = ["app"]

@@ -9,6 +9,8 @@
 ``measure``     spectra by component, circles, planes, power, run-ups
 ``tables``      such measurements as tables
 ``pictures``    such measurements as pictures
+``finished``    what a comparison reads from a finished run
+``compare``     `compare`: two scenes, recordings or runs side by side
 ``audio``       pressures as WAV files in pascals
 ``listen``      levels, spectra, third octaves and lines in one call, and their files
 ==============  ==========================================================================

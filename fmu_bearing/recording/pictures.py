@@ -144,7 +144,8 @@ def power_picture(motion: MotionPower, measured: Mapping[str, float], title: str
 
 
 def _words(name: str) -> str:
-    return name.replace("_", " ")
+    """Name of a component in words; other names, such as those of microphones, stay as they are."""
+    return name.replace("_", " ") if name in COLOURS else name
 
 
 def _coloured(names: Mapping[str, object]) -> dict[str, str]:

@@ -128,14 +128,14 @@ class Recording(Heard):
         means = "".join(
             f"<tr><td>{html.escape(name)}</td><td>{number(float(np.mean(values)))}</td>"
             f"<td>{html.escape(unit_of(name))}</td></tr>"
-            for name, values in self._within().items()
+            for name, values in self.within().items()
         )
         head = (
             f"<caption>{html.escape(repr(self))}</caption><tr><th>microphone</th><th>place</th><th></th></tr>"
         )
         return f"<table>{head}{places}<tr><th>variable</th><th>mean</th><th>unit</th></tr>{means}</table>"
 
-    def _within(self) -> dict[str, NDArray[np.float64]]:
+    def within(self) -> dict[str, NDArray[np.float64]]:
         """Speed and variables at the communication points of the recording, its start left out."""
         kept = self.output_time >= self.start - 1e-9
         kept |= ~kept.any()  # pressures of an FMU come late: a short run may have no later point

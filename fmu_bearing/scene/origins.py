@@ -12,6 +12,7 @@ from tomlkit.items import AoT, Table
 from fmu_bearing.scene.problems import allowed
 from fmu_bearing.scene.read import catalogue_text, read_scene
 from fmu_bearing.scene.units import symbol
+from fmu_bearing.scene.values import flat
 
 #: Names that a file may give instead of values: key of the name, kind of catalogue.
 _NAMED = {"bearing": "bearings", "lubricant": "lubricants", "materials": "materials"}
@@ -57,7 +58,7 @@ def origins(path: str | Path) -> list[Origin]:
     SceneError
         For a file that is no scene.
     """
-    scene = read_scene(path).model_dump(mode="json", exclude_none=True)
+    scene = flat(read_scene(path))
     document = tomlkit.parse(Path(path).read_text("utf-8-sig"))
     known: dict[str, tuple[str, str]] = {}
     for table, name, kind, origin in _references(document):
@@ -65,7 +66,7 @@ def origins(path: str | Path) -> list[Origin]:
         if isinstance(entry, Table):
             known |= {key: (origin, remark) for key, remark in _remarks(entry, table)}
     known |= {key: ("file", remark) for key, remark in _remarks(document, "")}
-    return [_origin(key, value, known.get(key)) for key, value in _flat(scene, "")]
+    return [_origin(key, value, known.get(key)) for key, value in scene.items()]
 
 
 def _origin(key: str, value: Any, found: tuple[str, str] | None) -> Origin:
@@ -117,17 +118,3 @@ def _words(item: Any) -> str:
     """Return the remark behind an item."""
     trivia = getattr(item, "trivia", None)
     return "" if trivia is None else trivia.comment.lstrip("# ").strip()
-
-
-def _flat(table: Mapping[str, Any], path: str) -> Iterator[tuple[str, Any]]:
-    for key, value in table.items():
-        dotted = f"{path}.{key}".lstrip(".")
-        if isinstance(value, Mapping):
-            yield from _flat(value, dotted)
-        elif value == []:
-            continue  # nothing is given there
-        elif isinstance(value, list) and isinstance(value[0], Mapping):
-            for k, member in enumerate(value):
-                yield from _flat(member, f"{dotted}[{k + 1}]")
-        else:
-            yield dotted, value

@@ -91,6 +91,25 @@ def plain(value: Any) -> Any:
     return os.fspath(value) if isinstance(value, os.PathLike) else value
 
 
+def flat(scene: Tables) -> dict[str, Any]:
+    """Return every value of a scene by its dotted key; what is not given is left out."""
+    return dict(_flat(scene.model_dump(mode="json", exclude_none=True), ""))
+
+
+def _flat(table: Mapping[str, Any], path: str) -> Iterator[tuple[str, Any]]:
+    for key, value in table.items():
+        dotted = f"{path}.{key}".lstrip(".")
+        if isinstance(value, Mapping):
+            yield from _flat(value, dotted)
+        elif value == []:
+            continue  # nothing is given there
+        elif isinstance(value, list) and isinstance(value[0], Mapping):
+            for k, member in enumerate(value):
+                yield from _flat(member, f"{dotted}[{k + 1}]")
+        else:
+            yield dotted, value
+
+
 def fields_of(scene: Tables) -> dict[str, FieldInfo]:
     """Return every dotted key that a scene may have, with its pydantic field; tables are left out."""
     return dict(_fields(type(scene), scene, ""))

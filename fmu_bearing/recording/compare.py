@@ -1,0 +1,352 @@
+"""Two scenes, recordings or runs side by side: levels, spectra, loads, angles, torque, keys that differ."""
+
+import html
+import math
+import os
+import pathlib
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from fmu_bearing.acoustics.analysis.third_octave import nominal_frequency
+from fmu_bearing.extras import need
+from fmu_bearing.progress import Tell, silent
+from fmu_bearing.recording import pictures
+from fmu_bearing.recording.finished import FIGURES, RECORDED, Finished, of_recording, of_run
+from fmu_bearing.recording.record import DURATION, record
+from fmu_bearing.recording.recording import Recording
+from fmu_bearing.recording.tables import Table
+from fmu_bearing.run.choose import resolve
+from fmu_bearing.run.result import ENDINGS, Run
+from fmu_bearing.run.table import write_csv
+from fmu_bearing.scene import SceneSource, scene_of
+from fmu_bearing.scene.read import with_fidelity
+from fmu_bearing.scene.units import symbol
+from fmu_bearing.scene.values import flat
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+#: What can be compared: a scene, which is run, or what came of a run; in memory or as a file.
+Compared = Recording | Run | SceneSource
+SETTLE = 0.1  # s left out at the beginning, in which the start-up dies away
+_HIGHEST = 20_000.0  # Hz
+_BLANK = "-"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Comparison:
+    """Two finished runs, A and B; differences are B less A.
+
+    Attributes
+    ----------
+    a, b : Finished
+        What was measured on each: names, levels, spectra, third octaves, figures.
+    keys : dict of str to (value of A, value of B)
+        Keys in which the scenes differ, in the units of the keys; None where a scene has no such key. Empty
+        where a scene is not known.
+    """
+
+    a: Finished
+    b: Finished
+    keys: dict[str, tuple[Any, Any]]
+
+    @property
+    def microphones(self) -> list[str]:
+        """Names of all microphones, those of A first."""
+        return list(self.a.levels | self.b.levels)
+
+    def loudest(self) -> str:
+        """Return the microphone of both at which A is loudest in dB(A).
+
+        Raises
+        ------
+        ValueError
+            Where they have no microphone in common.
+        """
+        both = [name for name in self.a.levels if name in self.b.levels]
+        if not both:
+            raise ValueError("A and B have no microphone of one name: give the scenes the same [sound]")
+        return max(both, key=lambda name: self.a.levels[name][1])
+
+    def levels_table(self) -> Table:
+        """Levels (dB and dB(A)) of A and B at each microphone, with differences."""
+        columns = ["microphone", "A, dB", "B, dB", "B - A", "A, dB(A)", "B, dB(A)", "B - A"]
+        rows = []
+        for name in self.microphones:
+            pairs = (_pair(self.a.levels, self.b.levels, name, k) for k in (0, 1))
+            rows.append([name, *(text for a, b in pairs for text in _texts(a, b))])
+        return columns, rows
+
+    def third_octaves_table(self, microphone: str | None = None) -> Table:
+        """Third-octave levels (dB) of A and B at a microphone; default: `loudest`."""
+        name = self._heard(microphone)
+        columns = ["band, Hz", "A, dB", "B, dB", "B - A"]
+        a, b = self.a.third_octaves.get(name, {}), self.b.third_octaves.get(name, {})
+        bands = sorted(a.keys() | b.keys())
+        rows = [[f"{nominal_frequency(f):g}", *_texts(a.get(f), b.get(f))] for f in bands]
+        return columns, rows
+
+    def figures_table(self) -> Table:
+        """Means of contact loads, contact angles and friction torque, with differences."""
+        rows = []
+        for name, (unit, factor) in FIGURES.items():
+            a, b = (side.figures.get(name) for side in (self.a, self.b))
+            if a is None and b is None:
+                continue
+            values = [None if value is None else factor * value for value in (a, b)]
+            change = share = _BLANK
+            if a is not None and b is not None:
+                change = f"{factor * (b - a):+.3g}"
+                share = f"{100.0 * (b / a - 1.0):+.1f}" if a else _BLANK
+            rows.append([name, unit, *(_BLANK if v is None else f"{v:.4g}" for v in values), change, share])
+        return ["mean of", "unit", "A", "B", "B - A", "%"], rows
+
+    def keys_table(self) -> Table:
+        """Keys in which the scenes differ."""
+        rows = [
+            [
+                key,
+                *(_BLANK if value is None else _value(value) for value in pair),
+                symbol(key.rpartition(".")[2]),
+            ]
+            for key, pair in self.keys.items()
+        ]
+        return ["key of the scene", "A", "B", "unit"], rows
+
+    def tables(self, microphone: str | None = None) -> dict[str, Table]:
+        """All tables that have rows, by title; third octaves at a microphone (default: `loudest`).
+
+        Raises
+        ------
+        ValueError
+            For a microphone that is not in both.
+        """
+        wanted: dict[str, Callable[[], Table]] = {
+            "what differs in the scenes": self.keys_table,
+            "levels": self.levels_table,
+            "loads, angles, torque": self.figures_table,
+        }
+        found = {title: make() for title, make in wanted.items()}
+        if microphone is not None or any(name in self.b.third_octaves for name in self.a.third_octaves):
+            name = self._heard(microphone)
+            found[f"third octaves at {name}"] = self.third_octaves_table(name)
+        return {title: table for title, table in found.items() if table[1]}
+
+    def plot(
+        self, microphone: str | None = None, highest: float = _HIGHEST, title: str | None = None
+    ) -> "Figure":
+        """Draw the spectra of A and B at a microphone (default: `loudest`), up to ``highest`` (Hz).
+
+        Third octaves are drawn where a run kept no pressures.
+
+        Raises
+        ------
+        ValueError
+            For a microphone that is not in both, or without spectra and third octaves.
+        MissingExtra
+            Without Matplotlib.
+        """
+        need("matplotlib", "a picture")
+        name = self._heard(microphone)
+        heading = f"microphone {name}" if title is None else title
+        sides = {f"A: {self.a.name}": self.a, f"B: {self.b.name}": self.b}
+        if self.a.spectrum is not None and self.b.spectrum is not None:
+            frequency = self.a.spectrum.frequency
+            shown = frequency[frequency <= highest]
+            levels = {
+                label: np.interp(shown, side.spectrum.frequency, side.spectrum[name])
+                for label, side in sides.items()
+                if side.spectrum is not None
+            }
+            return pictures.spectrum_picture(shown, levels, title=heading)
+        bands = sorted(self.a.third_octaves.get(name, {}).keys() & self.b.third_octaves.get(name, {}).keys())
+        if not bands:
+            raise ValueError(
+                "there is no spectrum to draw: keep mic[*].pressure at Recording.PRESSURE_STEP, or compare "
+                "scenes or recordings"
+            )
+        rows = {label: [side.third_octaves[name][f] for f in bands] for label, side in sides.items()}
+        return pictures.third_octave_picture(bands, rows, heading)
+
+    def save(self, folder: str | os.PathLike[str], microphone: str | None = None) -> list[pathlib.Path]:
+        """Write `tables` as CSV into a folder, which is made; return the files."""
+        target = pathlib.Path(folder)
+        target.mkdir(parents=True, exist_ok=True)
+        files = []
+        for title, table in self.tables(microphone).items():
+            file = target / f"{title.split(' at ')[0].replace(',', '').replace(' ', '-')}.csv"
+            write_csv(file, *table)
+            files.append(file)
+        return files
+
+    def summary(self) -> dict[str, Any]:
+        """Return names, differing keys, levels, third octaves and figures of both, for machines."""
+        found: dict[str, Any] = {
+            "keys": {
+                key: {"a": a, "b": b, "unit": symbol(key.rpartition(".")[2])}
+                for key, (a, b) in self.keys.items()
+            }
+        }
+        for side, here in (("a", self.a), ("b", self.b)):
+            found[side] = {
+                "name": here.name,
+                "levels": {name: {"leq_dB": z, "laeq_dB": w} for name, (z, w) in here.levels.items()},
+                "third_octaves_dB": {
+                    name: {f"{nominal_frequency(f):g}": value for f, value in bands.items()}
+                    for name, bands in here.third_octaves.items()
+                },
+                "figures": here.figures,
+            }
+        return found
+
+    def __repr__(self) -> str:
+        return f"Comparison(A: {self.a.name}, B: {self.b.name}, {len(self.keys)} keys differ)"
+
+    def _repr_html_(self) -> str:
+        parts = [f"<p>{html.escape(repr(self))}; differences are B less A</p>"]
+        for title, (columns, rows) in self.tables().items():
+            head = "".join(f"<th>{html.escape(name)}</th>" for name in columns)
+            body = "".join(
+                "<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>" for row in rows
+            )
+            parts.append(f"<table><caption>{html.escape(title)}</caption><tr>{head}</tr>{body}</table>")
+        return "".join(parts)
+
+    def _heard(self, microphone: str | None) -> str:
+        """Name of a microphone that both have."""
+        if microphone is None:
+            return self.loudest()
+        if microphone not in self.a.levels or microphone not in self.b.levels:
+            both = ", ".join(name for name in self.a.levels if name in self.b.levels) or "none"
+            raise ValueError(f"there is no microphone '{microphone}' in both; there are {both}")
+        return microphone
+
+
+def compare(
+    a: Compared,
+    b: Compared,
+    *,
+    duration: float = DURATION,
+    settle: float = SETTLE,
+    fidelity: str | None = None,
+    radiation_model: str | None = None,
+    tell: Tell = silent,
+    progress: bool | None = None,
+) -> Comparison:
+    """Compare two scenes, recordings or runs: sound, loads, angles, torque, and the keys that differ.
+
+    Parameters
+    ----------
+    a, b : Recording, Run, Scene or path
+        Scenes (``.toml``) are recorded; recordings (``.npz``) and runs (``.csv``, ``.nc``) are taken as they
+        are. Of a run, levels are those of its meters (``mic[1].leq``), unless it kept ``mic[1].pressure`` at
+        `Recording.PRESSURE_STEP`.
+    duration, settle : float
+        Length (s) of the recording of a scene, and time left out before it.
+    fidelity, radiation_model : str, optional
+        In place of those of the scenes.
+    tell : callable
+        Takes a line of text before each piece of work.
+    progress : bool, optional
+        Progress bars of the runs; default: on a terminal.
+
+    Returns
+    -------
+    Comparison
+
+    Raises
+    ------
+    ValueError
+        For a file, a time or a choice that is refused.
+
+    Examples
+    --------
+    >>> from fmu_bearing import compare, read_scene
+    >>> light = read_scene("examples/scenes/7003C-bare.toml").replace({"mounting.preload_N": 100})
+    >>> found = compare(
+    ...     light,
+    ...     light.replace({"mounting.preload_N": 400}),
+    ...     duration=0.05,
+    ...     fidelity="rings",
+    ...     radiation_model="compact",
+    ... )
+    >>> found.keys
+    {'mounting.preload_N': (100.0, 400.0)}
+    >>> found.b.figures["contact.inner.load_mean"] > 2.0 * found.a.figures["contact.inner.load_mean"]
+    True
+    """
+    sides = [
+        _finished(letter, source, duration, settle, fidelity, radiation_model, tell, progress)
+        for letter, source in (("A", a), ("B", b))
+    ]
+    scenes = [side.scene for side in sides]
+    keys: dict[str, tuple[Any, Any]] = {}
+    if scenes[0] is not None and scenes[1] is not None:
+        ours, theirs = flat(scenes[0]), flat(scenes[1])
+        pairs = {key: (ours.get(key), theirs.get(key)) for key in ours | theirs if key != "name"}
+        keys = {key: pair for key, pair in pairs.items() if pair[0] != pair[1]}
+    return Comparison(sides[0], sides[1], keys)
+
+
+def _finished(
+    letter: str, source: Compared, duration: float, settle: float, fidelity: str | None,
+    radiation_model: str | None, tell: Tell, progress: bool | None,
+) -> Finished:  # fmt: skip
+    """Load or run one side, and measure it."""
+    name = ""
+    if isinstance(source, str | os.PathLike):
+        path = pathlib.Path(source)
+        name = path.stem
+        if path.suffix == ".npz":
+            source = Recording.load(path)
+        elif path.suffix in ENDINGS:
+            source = Run.load(path)
+    if isinstance(source, Recording | Run):
+        if fidelity is not None:
+            raise ValueError(
+                f"{letter} is a finished run, whose fidelity cannot be changed: give its scene, or leave "
+                "fidelity out"
+            )
+        tell(f"{letter}: {source!r}")
+        if isinstance(source, Run):
+            return of_run(source, settle, radiation_model)
+        return of_recording(source, name, radiation_model)
+    scene = scene_of(source)
+    if fidelity is not None:
+        scene = with_fidelity(scene, model=fidelity)
+    if scene.fidelity.model == "auto":
+        tell(f"{letter}: fidelity auto: finding the cheapest within the scene's accuracy")
+    scene = resolve(scene)[0]
+    tell(f"{letter}: running {scene.name}, fidelity {scene.fidelity.model}, for {settle + duration:g} s")
+    made = record(
+        scene, duration, settle=settle, radiation_model=radiation_model, outputs=RECORDED, progress=progress
+    )
+    if scene.microphones:
+        tell(f"{letter}: sound at the microphones, radiation model {made.radiation_model}")
+    return of_recording(made, name, radiation_model)
+
+
+def _pair(
+    a: Mapping[str, tuple[float, float]], b: Mapping[str, tuple[float, float]], name: str, k: int
+) -> tuple[float | None, float | None]:
+    return (a[name][k] if name in a else None), (b[name][k] if name in b else None)
+
+
+def _texts(a: float | None, b: float | None) -> list[str]:
+    """Texts of two levels (dB) and their difference; a dash where one is missing."""
+    found = [_BLANK if value is None or math.isnan(value) else f"{value:.1f}" for value in (a, b)]
+    if a is None or b is None or math.isnan(b - a):
+        return [*found, _BLANK]
+    return [*found, f"{b - a:+.1f}"]
+
+
+def _unit(key: str) -> str:
+    """Return the unit of a dotted key."""
+    return symbol(key.rpartition(".")[2])
+
+
+def _value(value: Any) -> str:
+    return f"{value:.6g}" if isinstance(value, float) else str(value)

@@ -1,0 +1,126 @@
+"""What a comparison reads from a finished run: levels, spectra, third octaves, loads, angles, torque."""
+
+import re
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.acoustics.analysis.third_octave import centre_frequencies, nominal_frequency
+from fmu_bearing.recording.listen import listen
+from fmu_bearing.recording.record import OUTPUTS
+from fmu_bearing.recording.recording import Recording
+from fmu_bearing.run.levels import present
+from fmu_bearing.run.result import Run
+from fmu_bearing.run.spectrum import MICROPHONE, Spectrum
+from fmu_bearing.scene import Scene
+
+#: Figures of a comparison: unit in tables, and the factor from SI to it.
+FIGURES = {
+    "contact.inner.load_mean": ("N", 1.0),
+    "contact.inner.load_max": ("N", 1.0),
+    "contact.outer.load_mean": ("N", 1.0),
+    "contact.outer.load_max": ("N", 1.0),
+    "contact.inner.angle_mean": ("deg", 180.0 / np.pi),
+    "contact.outer.angle_mean": ("deg", 180.0 / np.pi),
+    "friction_torque": ("N mm", 1e3),
+}
+#: Variables that a recording for a comparison keeps.
+RECORDED = tuple(dict.fromkeys((*OUTPUTS, *FIGURES)))
+_PRESSURE = "mic[1].pressure"
+_METER = re.compile(r"mic\[(\d+)\]\.(leq|leq_a|third_octave\[(\d+)\])")
+_FAST = 40_000.0  # Hz: pressures that reach to 20 kHz
+
+
+@dataclass(frozen=True, eq=False)
+class Finished:
+    """A finished run as a comparison reads it.
+
+    Attributes
+    ----------
+    name : str
+    scene : Scene or None
+        The scene that was run, where it is known.
+    levels : dict of str to (float, float)
+        Equivalent level in dB and dB(A) by microphone; NaN where a run did not keep one.
+    third_octaves : dict of str to dict
+        Levels (dB) by microphone and exact centre (Hz).
+    spectrum : Spectrum or None
+        Levels over frequency at the microphones.
+    figures : dict
+        Means of the variables of `FIGURES` that were kept, SI units.
+    """
+
+    name: str
+    scene: Scene | None
+    levels: dict[str, tuple[float, float]]
+    third_octaves: dict[str, dict[float, float]]
+    spectrum: Spectrum | None
+    figures: dict[str, float]
+
+
+def of_recording(recording: Recording, name: str = "", radiation_model: str | None = None) -> Finished:
+    """Measure a recording at its scene's microphones, in its radiation model unless another one is named."""
+    own = name or ("recording" if recording.scene is None else recording.scene.name)
+    kept = recording.within()
+    figures = {key: float(np.mean(kept[key])) for key in FIGURES if key in kept}
+    if not recording.microphones:
+        return Finished(own, recording.scene, {}, {}, None, figures)
+    found = listen(recording, None, radiation_model)
+    levels = {name: (float(z), float(a)) for name, (z, a) in zip(found.names, found.levels, strict=True)}
+    bands = [float(f) for f in found.bands]
+    thirds = {
+        name: dict(zip(bands, map(float, row), strict=True))
+        for name, row in zip(found.names, found.third_octaves, strict=True)
+    }
+    units = ("dB",) * len(found.names)
+    spectrum = Spectrum(found.names, found.frequency, found.spectra["total"], units, MICROPHONE)
+    return Finished(own, recording.scene, levels, thirds, spectrum, figures)
+
+
+def of_run(run: Run, settle: float, radiation_model: str | None = None) -> Finished:
+    """Take the meters of a run at its end, and means after ``settle`` (s), or of all where it is shorter.
+
+    A run that kept pressures often enough is measured as a recording is.
+
+    Raises
+    ------
+    ValueError
+        For a radiation model: that of a run is settled.
+    """
+    if radiation_model is not None:
+        raise ValueError("the radiation model of a finished run cannot be changed: give its scene")
+    times = run.time
+    if _PRESSURE in run.names and len(times) > 2 and len(times) - 1 >= _FAST * (times[-1] - times[0]):
+        left_out = settle if times[-1] - times[0] > settle else 0.0
+        return of_recording(Recording.from_fmu(run.table, run.scene, left_out), run.name)
+    after = times >= settle if (times >= settle).any() else np.full(len(times), True)
+    figures = {key: float(np.mean(run[key][after])) for key in FIGURES if key in run.names}
+    levels, thirds = _meters(run)
+    return Finished(run.name, run.scene, levels, thirds, None, figures)
+
+
+def _meters(run: Run) -> tuple[dict[str, tuple[float, float]], dict[str, dict[float, float]]]:
+    """Equivalent levels and third octaves (dB) that a run's meters read at its end, by microphone."""
+    known = [] if run.scene is None else [place.name for place in run.scene.microphones]
+    nominal = {int(nominal_frequency(f)): float(f) for f in centre_frequencies()}
+    read: dict[str, dict[str, float]] = {}
+    thirds: dict[str, dict[float, float]] = {}
+    for column in run.names:
+        match = _METER.fullmatch(column)
+        if match is None:
+            continue
+        k = int(match[1])
+        name = known[k - 1] if k <= len(known) else f"mic[{k}]"
+        value = float(_last(run[column]))
+        if match[3] is None:
+            read.setdefault(name, {})[match[2]] = value
+        else:
+            thirds.setdefault(name, {})[nominal[int(match[3])]] = value
+    levels = {name: (found.get("leq", np.nan), found.get("leq_a", np.nan)) for name, found in read.items()}
+    return levels, {name: bands for name, bands in thirds.items() if name in levels}
+
+
+def _last(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Last level of a meter; NaN where metering has not begun."""
+    return present(values[-1:], "dB")[0]

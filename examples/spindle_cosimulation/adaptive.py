@@ -221,7 +221,7 @@ def main(
     """Compare adaptive communication steps with fixed ones."""
     with refusals():  # before minutes of computing
         need("matplotlib", "the picture")
-    scene = with_shaft(read_scene(SCENE).model_copy(update={"sound": None}), LIGHT)
+    scene = with_shaft(read_scene(SCENE).replace({"sound": None}), LIGHT)
     end, fixed, tolerances = (0.06, FIXED[3:4], SPEEDS[::2]) if quick else (END, FIXED, SPEEDS)
     with tempfile.TemporaryDirectory() as place:
         folder = Path(place)

@@ -32,7 +32,7 @@ from build import build
 from coupling import HEATS, TEMPERATURES, Fmu, SimulationError
 from numpy.typing import NDArray
 
-from fmu_bearing import build_fmu, read_scene, with_fidelity
+from fmu_bearing import build_fmu, read_scene
 from fmu_bearing.cli.base import refusals
 from fmu_bearing.extras import need
 from fmu_bearing.run.pictures import empty, save
@@ -345,7 +345,7 @@ def main(
     with refusals():  # before minutes of computing
         need("matplotlib", "the picture")
     # finer than the default of 2e-3: the torque has to follow small increments of speed
-    scene = with_fidelity(read_scene(SCENE).model_copy(update={"sound": None}), tolerance=1e-3)
+    scene = read_scene(SCENE).replace({"sound": None, "fidelity.tolerance": 1e-3})
     with tempfile.TemporaryDirectory() as place:
         network = build(Path(__file__).with_name("thermal.py"), Path(place))
         with Fmu(build_fmu(scene, Path(place) / "Bearing7003C.fmu").path, "bearing") as bearing:

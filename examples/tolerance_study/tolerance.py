@@ -29,8 +29,7 @@ from fmu_bearing.cli.base import refusals
 from fmu_bearing.extras import need
 from fmu_bearing.run.pictures import empty, save
 from fmu_bearing.run.table import markdown, write_csv
-from fmu_bearing.scene.imperfections import Imperfections
-from fmu_bearing.scene.read import catalogue, with_fidelity
+from fmu_bearing.scene.read import with_fidelity
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -47,8 +46,7 @@ Sample = tuple[str, int, float, float, float]
 
 def of_grade(scene: Scene, grade: str, seed: int) -> Scene:
     """Return the scene with the catalogue's imperfections of a class, drawn from a seed."""
-    imperfections = Imperfections.model_validate({**catalogue("grades")[grade], "seed": seed})
-    return scene.model_copy(update={"imperfections": imperfections})
+    return scene.replace({"imperfections": {"grade": grade, "seed": seed}})
 
 
 def sample(scene: Scene, duration: float, radiation_model: str) -> tuple[float, float, float]:

@@ -355,12 +355,7 @@ class Heard:
         return circles(radiation_model, radiators, air, places, self.harmonics, **_options(self.scene))
 
     def named(self, positions: Places = None) -> list[tuple[str, Position]]:
-        """Names and places (m) of microphones; a place without name is named by its coordinates.
-
-        Parameters
-        ----------
-        positions : sequence of (x, y, z) or str, or str, optional
-            Places in m or names of the scene's microphones; default: all of these.
+        """Names and places (m) of microphones, given as for `pressure`; a mere place is named in mm.
 
         Raises
         ------

@@ -14,6 +14,7 @@
 ``sound``         radiator, radiation model, metering, microphones
 ``fidelity``      physics, integrator, accuracy, terms left out
 ``scene``         all tables together, with the checks that span several tables
+``toml_text``     syntax of TOML, with lines and keys in its errors
 ``problems``      error messages, one line per problem, with the keys of the file
 ``origins``       where each value comes from, and which are assumed
 ``values``        values by dotted key: read, put in, compared

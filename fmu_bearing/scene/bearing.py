@@ -155,9 +155,25 @@ class Bearing(Part):
             yield Conflict(
                 "cage.pocket_diameter_mm", f"must exceed ball_diameter_mm = {self.ball_diameter_mm:g}"
             )
-        fits = most_balls(self.pitch_diameter_mm, cage.pocket_diameter_mm)
-        if most_balls(self.pitch_diameter_mm, self.ball_diameter_mm) >= self.ball_count > fits:
-            yield Conflict("cage.pocket_diameter_mm", f"makes {self.ball_count} pockets overlap")
+        yield from self._pocket_conflicts(cage)
+
+    def _pocket_conflicts(self, cage: Cage) -> Iterator[Conflict]:
+        """Yield pockets that run into each other: radial bores come closest inside the cage."""
+        fits = most_balls(cage.bore_mm, cage.pocket_diameter_mm)
+        if not most_balls(self.pitch_diameter_mm, self.ball_diameter_mm) >= self.ball_count > fits:
+            return
+        sine = math.sin(math.pi / self.ball_count)
+        room = cage.bore_mm * sine
+        remedies = [f"make them smaller than {room:.4g}"] if room > self.ball_diameter_mm else []
+        bore = cage.pocket_diameter_mm / sine
+        if bore < min(self.pitch_diameter_mm, cage.outside_diameter_mm):
+            remedies.append(f"give cage.bore_mm above {bore:.4g}")
+        remedies.append(f"take at most {fits} balls")
+        yield Conflict(
+            "cage.pocket_diameter_mm",
+            f"makes {self.ball_count} pockets overlap at the cage's bore of {cage.bore_mm:g} mm, where their "
+            f"centres are {room:.4g} mm apart: {', or '.join(remedies)}",
+        )
 
 
 def most_balls(pitch_diameter: float, ball_diameter: float) -> int:

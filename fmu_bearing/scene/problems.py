@@ -1,6 +1,7 @@
 """Error messages about a scene: one line per problem, with the keys and values of the file."""
 
 import difflib
+import itertools
 import types
 import typing
 from collections.abc import Iterable, Iterator
@@ -27,6 +28,7 @@ _TEXTS = {
     NAME: "60 letters (a to z), digits, blanks and . _ -, a letter or digit first",
 }
 _TEXT = 60  # longest value worth repeating
+_MOST = 20  # problems told one by one
 _ALIKE = 0.5  # below this likeness a suggestion is a guess: the known keys are listed instead
 
 Location = tuple[Any, ...]
@@ -52,12 +54,28 @@ class SceneError(ValueError):
 
 
 def explain(failure: ValidationError, data: dict[str, Any], skip: Iterable[Location] = ()) -> Iterator[str]:
-    """Yield one line per problem that pydantic found in ``data``, none for tables under ``skip``."""
+    """Yield one line per problem that pydantic found in ``data``, none for tables under ``skip``.
+
+    Beyond the first `_MOST` problems a last line gives the number of the others: a file of another program
+    may have thousands, and each search for a likely key takes a millisecond.
+    """
     skipped = tuple(skip)
-    for error in failure.errors(include_url=False):
+    errors = [
+        error
+        for error in failure.errors(include_url=False)
+        if not any(tuple(error["loc"])[: len(prefix)] == prefix for prefix in skipped)
+    ]
+    found = _lines(errors, data)
+    yield from dict.fromkeys(itertools.islice(found, _MOST))
+    every = sum(len(error["ctx"]["conflicts"]) if error["type"] == "conflict" else 1 for error in errors)
+    if every > _MOST:
+        yield f"and {every - _MOST} more problems, which are told once these {_MOST} are corrected"
+
+
+def _lines(errors: Iterable[Any], data: dict[str, Any]) -> Iterator[str]:
+    """Yield one line per problem."""
+    for error in errors:
         path: Location = tuple(error["loc"])
-        if any(path[: len(prefix)] == prefix for prefix in skipped):
-            continue
         if error["type"] == "conflict":
             for conflict in error["ctx"]["conflicts"]:
                 place = path + tuple(conflict.key.split(".") if conflict.key else ())
@@ -80,8 +98,15 @@ def _instead(path: Location, value: Any) -> str:
 
 def dotted(path: Location) -> str:
     """Write a location as a file has it; members of an array count from 1, like ``mic[1]``."""
-    steps = (f"[{step + 1}]" if isinstance(step, int) else f".{step}" for step in path)
+    steps = (f"[{step + 1}]" if isinstance(step, int) else f".{_short(step)}" for step in path)
     return "".join(steps).removeprefix(".")
+
+
+def _short(text: str) -> str:
+    """Write text in one line, shortened where it would drown the message."""
+    if not text.isprintable():  # a line break in a value or key must not break the one line
+        text = text.encode("unicode_escape").decode("ascii")
+    return text if len(text) <= _TEXT else f"{text[: _TEXT - 3]}..."
 
 
 def shown(value: Any) -> str:
@@ -92,10 +117,13 @@ def shown(value: Any) -> str:
         return "an array"
     if isinstance(value, bool):
         return str(value).lower()
-    text = f"'{value}'" if isinstance(value, str) else str(value)
-    if not text.isprintable():  # a line break in a value must not break the one line
-        text = text.encode("unicode_escape").decode("ascii")
-    return text if len(text) <= _TEXT else f"{text[: _TEXT - 3]}..."
+    return _short(f"'{value}'" if isinstance(value, str) else str(value))
+
+
+def described(value: Any) -> str:
+    """Write an object that is of a wrong type: its type, and its value where that is short."""
+    kind = f"of type {type(value).__name__}"
+    return str(value) if value is None else f"{shown(value)} ({kind})"
 
 
 def allowed(path: Location) -> str:

@@ -11,8 +11,10 @@ from typing import Any
 from pydantic import ValidationError
 
 from fmu_bearing.scene.imperfections import RACES
-from fmu_bearing.scene.problems import Location, SceneError, explain, shown
+from fmu_bearing.scene.material import Materials
+from fmu_bearing.scene.problems import Location, SceneError, described, explain, shown
 from fmu_bearing.scene.scene import Tables
+from fmu_bearing.scene.toml_text import parse
 from fmu_bearing.scene.values import plain, put
 
 __all__ = ["Scene", "SceneError", "catalogue", "read_scene", "read_scene_text", "scene_of", "with_fidelity"]
@@ -144,6 +146,8 @@ def read_scene(path: str | os.PathLike[str]) -> Scene:
     >>> scene.bearing.ball_count, scene.mounting.preload_N
     (12, 500.0)
     """
+    if not isinstance(path, str | os.PathLike):
+        raise SceneError(f"a scene is a file, given by its path, or a Scene in memory, not {described(path)}")
     try:
         # some editors put a byte order mark in front, which TOML does not know
         text = Path(path).read_text("utf-8-sig")
@@ -167,8 +171,8 @@ def read_scene_text(text: str, name: str = "scene", folder: Path | None = None) 
         As :func:`read_scene`.
     """
     try:
-        data = tomllib.loads(text)
-    except (tomllib.TOMLDecodeError, RecursionError) as problem:
+        data = parse(text)
+    except ValueError as problem:
         raise SceneError(f"{name}: not valid TOML: {problem}") from None
     sound = data.get("sound")
     if folder is not None and isinstance(sound, dict) and isinstance(sound.get("table_file"), str):
@@ -237,9 +241,9 @@ def _resolve(data: dict[str, Any], lines: list[str], unresolved: list[Location])
     if isinstance(bearing, dict) and bearing.get("cage") is False:
         del bearing["cage"]  # how a file leaves out the cage that a catalogue entry has
     if isinstance(materials, dict):
-        for key, value in materials.items():
-            if isinstance(value, str):
-                materials[key] = {"catalogue": value}
+        for key in (name for name in Materials.model_fields if name in materials):
+            if isinstance(materials[key], str):
+                materials[key] = {"catalogue": materials[key]}
             _fill(materials, ("materials", key), "materials", lines, unresolved)
     _fill(data, ("imperfections",), "grades", lines, unresolved, key="grade")
 

@@ -19,6 +19,7 @@ from fmu_bearing.scene.sound import Place, Sound
 
 #: The name goes into file names and into the FMU's model name: ASCII only.
 NAME = r"^[A-Za-z0-9][A-Za-z0-9._ -]{0,59}$"
+_SKIN = 1e-3  # mm: a microphone nearer to a body than this stands on it; places carry rounding
 _SLOW_RPM = 100.0  # below it waves up to 10 kHz would be of higher orders than any race is known for
 
 
@@ -101,12 +102,18 @@ class Tables(Part):
         bodies = list(self._envelopes())
         for place in self.microphones:
             x, y, z = (1e3 * value for value in place.position_m)
+            r = math.hypot(y, z)
             for body, radius, low, high in bodies:
-                if low < x < high and math.hypot(y, z) < radius:
+                depth = min(radius - r, x - low, high - x)
+                if depth > -_SKIN:
+                    inside = depth >= _SKIN
+                    deep = f", {depth:.3g} mm below its surface" if inside else ""
                     yield Conflict(
                         "sound",
-                        f"microphone '{place.name}' at x = {x:g}, r = {math.hypot(y, z):g} mm lies inside "
-                        f"the {body}, which reaches to r = {radius:g} mm from x = {low:g} to {high:g} mm",
+                        f"microphone '{place.name}' at x = {x:g}, r = {r:g} mm lies "
+                        f"{'inside' if inside else 'on'} the {body}, which reaches to r = {radius:g} mm from "
+                        f"x = {low:g} to {high:g} mm{deep}: move it to r above {radius:g}, or to x below "
+                        f"{low:g} or above {high:g}",
                     )
                     break
 

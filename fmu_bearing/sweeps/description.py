@@ -3,11 +3,11 @@
 import difflib
 import os
 import pathlib
-import tomllib
 from typing import Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from fmu_bearing.scene.toml_text import parse
 from fmu_bearing.sweeps.axes import SweepError
 from fmu_bearing.sweeps.plan import SETTLE, WINDOW
 
@@ -47,7 +47,7 @@ class Description(BaseModel):
 def is_description(path: str | os.PathLike[str]) -> bool:
     """Whether a file holds a sweep rather than a scene: it names a scene, or axes."""
     try:
-        data = tomllib.loads(pathlib.Path(path).read_text("utf-8-sig"))
+        data = parse(pathlib.Path(path).read_text("utf-8-sig"))
     except (OSError, ValueError):
         return False  # who reads it as a scene tells what is wrong
     return "axes" in data or isinstance(data.get("scene"), str)
@@ -63,7 +63,7 @@ def read_description(path: str | os.PathLike[str]) -> Description:
     """
     path = pathlib.Path(path)
     try:
-        data = tomllib.loads(path.read_text("utf-8-sig"))
+        data = parse(path.read_text("utf-8-sig"))
     except (OSError, ValueError) as problem:
         raise SweepError(f"{path}: cannot be read: {problem}") from None
     try:

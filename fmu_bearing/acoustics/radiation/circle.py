@@ -14,6 +14,9 @@ from numpy.typing import NDArray
 from fmu_bearing.acoustics.radiation.radiators import BALLS, Air, Path, Radiators
 from fmu_bearing.engine.layout import SD
 
+#: m: a microphone nearer to a body than this stands on it, where fields of surface sources are singular.
+SKIN = 1e-6
+
 
 @dataclass(frozen=True)
 class MicrophoneCircle:
@@ -109,7 +112,7 @@ def ball_paths(responses: NDArray[np.complex128], flight: float, circle: Microph
 
 
 def check_outside(radiators: Radiators, circle: MicrophoneCircle) -> None:
-    """Refuse microphones inside the bearing or its housing.
+    """Refuse microphones on or inside the bearing or its housing.
 
     Raises
     ------
@@ -117,11 +120,14 @@ def check_outside(radiators: Radiators, circle: MicrophoneCircle) -> None:
         With the place, in mm from the axis and along it.
     """
     ring, housing = radiators.outer_ring, radiators.housing
-    if circle.radius < ring.outer / 2 and abs(circle.axial) < ring.width / 2:
-        raise ValueError(f"{circle.words}, lies inside the bearing")
-    if (
-        housing is not None
-        and circle.radius < housing.diameter / 2
-        and (abs(circle.axial - housing.centre) < housing.length / 2)
-    ):
-        raise ValueError(f"{circle.words}, lies inside the housing")
+    bodies = [("bearing", ring.outer / 2, 0.0, ring.width / 2)]
+    if housing is not None:
+        bodies.append(("housing", housing.diameter / 2, housing.centre, housing.length / 2))
+    for name, radius, centre, half in bodies:
+        depth = min(radius - circle.radius, half - abs(circle.axial - centre))
+        if depth > -SKIN:
+            raise ValueError(
+                f"{circle.words}, lies {'inside' if depth > SKIN else 'on'} the {name}, which reaches to "
+                f"r = {1e3 * radius:g} mm from x = {1e3 * (centre - half):g} to {1e3 * (centre + half):g} "
+                "mm: move it out of these"
+            )

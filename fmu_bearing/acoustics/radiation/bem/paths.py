@@ -18,7 +18,13 @@ from fmu_bearing.acoustics.radiation.bem.solution import (
     shapes_of,
     solution,
 )
-from fmu_bearing.acoustics.radiation.circle import MicrophoneCircle, ball_paths, tilt_paths, translation_paths
+from fmu_bearing.acoustics.radiation.circle import (
+    SKIN,
+    MicrophoneCircle,
+    ball_paths,
+    tilt_paths,
+    translation_paths,
+)
 from fmu_bearing.acoustics.radiation.frequencies import fit_frequencies
 from fmu_bearing.acoustics.radiation.radiators import Air, Path, Radiators
 from fmu_bearing.engine.layout import SD
@@ -125,8 +131,17 @@ def _mode_paths(
 def _check_outside(task: Task, circle: MicrophoneCircle) -> None:
     for body in task.bodies:
         inside: Body = body
-        if not task.baffled and inside.contains(circle.axial, circle.radius):
-            raise ValueError(f"{circle.words}, lies inside the {body.name}")
+        if task.baffled:
+            continue
+        distance = float(inside.distance(np.array([[circle.axial, circle.radius]]))[0])
+        within = inside.contains(circle.axial, circle.radius)
+        if within or distance < SKIN:
+            corners = 1e3 * inside.polygon()
+            raise ValueError(
+                f"{circle.words}, lies {'inside' if distance > SKIN else 'on'} the {body.name}, which "
+                f"reaches to r = {corners[:, 1].max():g} mm from x = {corners[:, 0].min():g} to "
+                f"{corners[:, 0].max():g} mm, {1e3 * distance:.3g} mm from its surface: move it out"
+            )
     if task.plane is None:
         return
     front = -1.0 if task.baffled else np.sign(task.bodies[0].contour[0, 0] - task.plane)

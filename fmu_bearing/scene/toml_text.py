@@ -1,0 +1,117 @@
+"""TOML text as tables; syntax errors name line, key and correction."""
+
+import re
+import tomllib
+from typing import Any
+
+#: Levels of tables and brackets beyond which a file is no scene or sweep; those have four at most.
+DEEPEST = 50
+_PLACE = re.compile(r"\(at (?:line (\d+), column \d+|end of document)\)$")
+_HEADER = re.compile(r"\s*\[{1,2}([^\[\]]+)\]{1,2}\s*(?:#.*)?$")
+_KEY = re.compile(r"\s*([^=#]*?)\s*=")
+_QUOTED = re.compile(r'"(?:\\.|[^"\\])*"|' + r"'[^']*'|#.*")
+_INLINE = re.compile(r"Duplicate inline table key '(.*?)'")
+_TWICE = ("Cannot overwrite", "Duplicate inline table key", "Cannot declare", "Cannot mutate")
+
+
+def parse(text: str) -> dict[str, Any]:
+    """Return the tables of TOML text.
+
+    Raises
+    ------
+    ValueError
+        For text that is not TOML, with the line, and for a key that stands twice with both lines.
+    """
+    lines = text.splitlines()
+    _check_names(lines)
+    try:
+        return tomllib.loads(text)
+    except RecursionError:
+        raise ValueError(_too_deep(lines)) from None
+    except tomllib.TOMLDecodeError as problem:
+        raise ValueError(_twice(lines, str(problem)) or str(problem)) from None
+
+
+def _check_names(lines: list[str]) -> None:
+    """Refuse names of tables with very many parts: tomllib takes the square of their number."""
+    for number, line in enumerate(lines, start=1):
+        if line.count(".") <= DEEPEST:
+            continue
+        name = _QUOTED.sub("", line).partition("=")[0]
+        if name.count(".") > DEEPEST:
+            raise ValueError(
+                f"line {number} names a table {name.count('.') + 1} levels deep; the tables of a scene are "
+                "at most four levels deep, as [mounting.rotor]"
+            )
+
+
+def _too_deep(lines: list[str]) -> str:
+    depth = 0
+    for number, line in enumerate(lines, start=1):
+        plain = _QUOTED.sub("", line)
+        depth += sum(plain.count(mark) for mark in "[{") - sum(plain.count(mark) for mark in "]}")
+        if plain.count("[") + plain.count("{") > DEEPEST or depth > DEEPEST:
+            return (
+                f"line {number} opens brackets more than {DEEPEST} levels deep; the arrays and tables of a "
+                "scene are at most four levels deep"
+            )
+    return "its brackets are nested too deeply to be read; those of a scene are at most four levels deep"
+
+
+def _twice(lines: list[str], problem: str) -> str:
+    """Say which key or table stands twice, and in which lines; empty for another error."""
+    place = _PLACE.search(problem)
+    if place is None or not problem.startswith(_TWICE):
+        return ""
+    last = int(place[1] or len(lines))
+    inline = _INLINE.search(problem)
+    if inline is not None:
+        return f"line {last}: key '{inline[1]}' stands twice in an inline table: keep one of them"
+    header = _HEADER.match(lines[last - 1])
+    if header is not None:
+        name, first = header[1].strip(), _first_header(lines, last)
+        thing = f"table [{name}]"
+        remedy = "put their keys under one, or write [[ ]] for an array of tables"
+    else:
+        name, first = _key_before(lines, last)
+        thing = f"key {name}" if name else "a key"
+        remedy = "keep one of them"
+    where = f", first in line {first}" if first else ""
+    return f"line {last}: {thing} stands twice{where}: {remedy}"
+
+
+def _first_header(lines: list[str], last: int) -> int:
+    """Return the line (from 1) of the header that line ``last`` repeats; 0: none is found."""
+    wanted = _name(lines[last - 1])
+    return next((k for k, line in enumerate(lines[: last - 1], start=1) if _name(line) == wanted), 0)
+
+
+def _name(line: str) -> str:
+    header = _HEADER.match(line)
+    return "" if header is None else re.sub(r"[\s\"']", "", header[1])
+
+
+def _key_before(lines: list[str], last: int) -> tuple[str, int]:
+    """Return the dotted key whose value ends in line ``last``, and the line that gave it first (0: unknown).
+
+    A value may be an array over several lines: what stands alone as TOML is the whole of it.
+    """
+    begin = last
+    while begin > 1 and not _stands_alone(lines[begin - 1 : last]):
+        begin -= 1
+    found = _KEY.match(lines[begin - 1])
+    if found is None:
+        return "", 0
+    tables = [(k, _name(line)) for k, line in enumerate(lines[: begin - 1], start=1) if _name(line)]
+    start, table = tables[-1] if tables else (0, "")
+    key = found[1].strip("\"'")
+    before = ((k, _KEY.match(lines[k - 1])) for k in range(start + 1, begin))
+    first = next((k for k, match in before if match is not None and match[1].strip("\"'") == key), 0)
+    return f"{table}.{key}".removeprefix("."), first
+
+
+def _stands_alone(lines: list[str]) -> bool:
+    try:
+        return bool(tomllib.loads("\n".join(lines)))
+    except (ValueError, RecursionError):
+        return False

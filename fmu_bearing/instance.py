@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from fmu_bearing import renamed
 from fmu_bearing.compiled import Calls
-from fmu_bearing.engine.layout import S, U, W, Z
+from fmu_bearing.engine.choices import FIDELITIES
+from fmu_bearing.engine.layout import P, S, U, W, Z
 from fmu_bearing.engine.status import BAD_INPUT, BAD_STEP, NO_START, NOT_CONVERGED, OK, RIGID_ONLY, TOO_SOFT
 from fmu_bearing.interface import Variable
 from fmu_bearing.prepare.model import Model
@@ -78,7 +79,35 @@ _WAVES = Caution(
 )
 #: Warnings checked after initialisation and after each step, each given once.
 CAUTIONS: tuple[Caution, ...] = (_shoulder("inner", "outer"), _shoulder("outer", "inner"), _WAVES)
+_LOOSE = "preload = 0 N: no axial force holds balls and races together: loose balls skid or lift off; "
+_ROLLS = {
+    "full": "what they then do depends on gravity, loads and chance more than on the bearing",
+    "rings": "fidelity rings has balls that always roll: its loads, levels and torque then mean little",
+    "response": "fidelity response has balls that always roll and contacts that never open: its loads may be "
+    "wrong by orders of magnitude",
+}
+_LONGEST_TEXT = 60  # of a value that is repeated in a message
 _RELATIVE_SLACK = 1e-12  # a value at a bound may carry rounding from a unit conversion
+
+
+def number(name: str, value: object) -> float:
+    """Return a value as float; ``ValueError`` for text, truth values and what is no single number."""
+    if type(value) is float:
+        return value
+    try:
+        if isinstance(value, str | bytes | bool):
+            raise TypeError
+        return float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError, OverflowError):
+        text = repr(value)
+        text = text if len(text) <= _LONGEST_TEXT else f"{text[: _LONGEST_TEXT - 3]}..."
+        raise ValueError(f"{name} = {text} is refused: give a number, SI units") from None
+
+
+def loose(fidelity: str) -> str:
+    """Return the warning about a bearing without preload at a fidelity."""
+    words = _LOOSE + _ROLLS[fidelity]
+    return f"{words}; give a preload (mounting.preload_N, input preload), or expect no more than a trend"
 
 
 class EngineError(ValueError):
@@ -122,6 +151,7 @@ class Instance:
         self._kept = self.s.copy()
         self.initialised = False
         self._due = CAUTIONS
+        self._held = True  # no warning about a missing preload was given yet
         for variable in model.variables:
             if variable.array == "u" and variable.start is not None:
                 self.u[variable.index] = variable.start
@@ -153,7 +183,7 @@ class Instance:
     def set(self, name: str, value: float) -> None:
         """Set an input, or a parameter before initialisation; ``ValueError`` if refused."""
         variable = self.variable(name)
-        value = float(value)
+        value = number(name, value)
         if variable.array == "u":
             self.check(variable, value)
             self.u[variable.index] = value
@@ -181,10 +211,14 @@ class Instance:
             raise EngineError(f"initialisation at t = {time} s: {REASONS[status]}; {self._inputs()}")
         self.initialised = True
         self._due = CAUTIONS
+        self._held = True
         self._warn()
 
     def _warn(self) -> None:
         """Give the warnings about the state reached that were not given yet."""
+        if not self.u[U.PRELOAD] > 0.0 and self._held:
+            self._held = False
+            self.tell(loose(FIDELITIES[int(self.p[P.FIDELITY])]))
         for one in self._due:
             if self.z[one.index] < one.threshold:
                 self._due = tuple(other for other in self._due if other is not one)
@@ -197,8 +231,9 @@ class Instance:
         """
         if not self.initialised:
             raise EngineError("the bearing must be initialised before it is stepped")
+        h = number("step h", h)
         self._kept[:] = self.s
-        status = self._calls.step(float(h))
+        status = self._calls.step(h)
         if status != OK:
             reached = self.time
             self.s[:] = self._kept

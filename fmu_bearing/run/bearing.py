@@ -7,7 +7,7 @@ from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import Model, prepare
 from fmu_bearing.run.choose import resolve
 from fmu_bearing.run.levels import shown
-from fmu_bearing.run.names import chosen_names, known
+from fmu_bearing.run.names import by_name, chosen_names, known
 from fmu_bearing.run.result import Run
 from fmu_bearing.run.simulate import simulate
 from fmu_bearing.scene import Scene, SceneSource, scene_of
@@ -28,7 +28,7 @@ class Bearing(Mapping[str, float]):
     Raises
     ------
     SceneError
-        For a scene that is refused.
+        For a scene that is refused, or what is no scene.
 
     Examples
     --------
@@ -71,7 +71,7 @@ class Bearing(Mapping[str, float]):
         ValueError
             For an unknown name, or a value outside its range.
         """
-        for name, value in {**(values or {}), **named}.items():
+        for name, value in {**by_name(values), **named}.items():
             known(name, self._settable, "input or parameter")
             self._instance.set(name, value)
         return self

@@ -4,11 +4,12 @@ import difflib
 import fnmatch
 import functools
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from fmu_bearing import renamed
 from fmu_bearing.interface import variables
 from fmu_bearing.scene import read_scene_text
+from fmu_bearing.scene.problems import described
 from fmu_bearing.scene.template import new_scene
 
 _MOST = 24  # names listed in a message
@@ -29,6 +30,24 @@ def unit_of(name: str) -> str:
 
 class UnknownName(ValueError):
     """An unknown name; the message suggests the nearest one."""
+
+
+def by_name(values: Mapping[str, float] | None) -> Mapping[str, float]:
+    """Return values given by name, an empty mapping for None.
+
+    Raises
+    ------
+    ValueError
+        For what is no mapping of names.
+    """
+    if values is None:
+        return {}
+    if not isinstance(values, Mapping) or not all(isinstance(name, str) for name in values):
+        raise ValueError(
+            "inputs and parameters are given by name, as shaft_speed=2000.0 or {'radial_load.z': -1.0}, "
+            f"not as {described(values)}"
+        )
+    return values
 
 
 def known(name: str, names: Sequence[str], what: str) -> str:
@@ -63,6 +82,9 @@ def chosen_names(patterns: Sequence[str] | None, names: Iterable[str], default: 
     """
     if patterns is None:
         return list(default)
+    listed = isinstance(patterns, Iterable) and not isinstance(patterns, str)
+    if not listed or not all(isinstance(pattern, str) for pattern in patterns):
+        raise UnknownName(f"variables are given as a list of names, not as {described(patterns)}")
     every = list(names)
     found: dict[str, None] = {}
     for pattern in patterns:

@@ -16,12 +16,12 @@ import numpy as np
 from fmpy.simulation import Input as FmpyInput
 from numpy.typing import NDArray
 
-from fmu_bearing.instance import EngineError, Instance
+from fmu_bearing.instance import EngineError, Instance, number
 from fmu_bearing.interface import Variable
 from fmu_bearing.prepare.model import Model, prepare
 from fmu_bearing.run.choose import resolve
 from fmu_bearing.run.inputs import Input, Inputs, input_table
-from fmu_bearing.run.names import chosen_names, known
+from fmu_bearing.run.names import by_name, chosen_names, known
 from fmu_bearing.run.result import COMPLETE, INTERRUPTED, REFUSED, Run, columns_of, structured
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 
@@ -89,7 +89,7 @@ def simulate(
         player = _Library(_model(source))
     table = input_table(inputs, player.inputs, stop_time, step)
     names = chosen_names(outputs, player.readable, player.outputs)
-    for name in start_values or {}:
+    for name in by_name(start_values):
         known(name, player.settable, "input or parameter")
     with stoppable() as stop, bar(player.name, stop_time, progress) as tell:
         begin = clock.perf_counter()
@@ -222,6 +222,7 @@ def _model(source: SceneSource | Model) -> Model:
 
 def _check_times(stop_time: float, step: float) -> None:
     for name, value in (("stop_time", stop_time), ("step", step)):
+        number(name, value)
         if not (math.isfinite(value) and value > 0.0):
             raise ValueError(f"{name} = {value} s: it must be a finite, positive number of seconds")
 

@@ -1,0 +1,48 @@
+"""A bearing without preload is warned of, whatever computes it and however it gets there."""
+
+import warnings
+
+import pytest
+
+from fmu_bearing import Bearing, simulate
+from fmu_bearing.run.build import model_of
+from fmu_bearing.scene.read import with_fidelity
+
+
+def loose(silent, model, mode="force"):
+    mounting = silent.mounting.model_copy(update={"preload_N": 0.0, "preload_mode": mode})
+    return with_fidelity(silent.model_copy(update={"mounting": mounting}), model=model)
+
+
+def about_preload(told):
+    return [str(one.message) for one in told if "preload = 0 N" in str(one.message)]
+
+
+@pytest.mark.parametrize("mode", ["force", "rigid"])
+@pytest.mark.parametrize("model", ["full", "rings", "response"])
+def test_it_is_warned_of_once_at_every_fidelity(silent, model, mode):
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        simulate(loose(silent, model, mode), 2e-3, outputs=["friction_torque"])
+    (line,) = about_preload(told)
+    assert "mounting.preload_N" in line and (model == "full") != (f"fidelity {model}" in line)
+
+
+def test_it_is_warned_of_when_an_input_takes_it_away(silent):
+    bearing = Bearing(with_fidelity(silent, model="rings"))
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        bearing.init()
+        bearing.step(1e-4)
+        assert not about_preload(told)
+        bearing.step(1e-4, preload=0.0)
+        bearing.step(1e-4)
+        assert len(about_preload(told)) == 1
+        bearing.init(preload=0.0)
+        assert len(about_preload(told)) == 2
+
+
+def test_an_fmu_of_it_is_built_with_a_caution(silent):
+    lines = []
+    model_of(loose(silent, "rings"), lines.append)
+    assert len(lines) == 1 and lines[0].startswith("caution: preload = 0 N")

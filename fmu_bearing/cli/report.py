@@ -7,11 +7,19 @@ import typer
 
 from fmu_bearing.cli.base import Json, Refusal, app, errors, print_json, refusals, tell
 from fmu_bearing.engine.constants import RPM
+from fmu_bearing.files import check_file
 
 Source = Annotated[
     Path, typer.Argument(metavar="SCENE|RUN.npz", help="Scene file (TOML), or a recording of a run (.npz).")
 ]
 Page = Annotated[Path, typer.Option("--output", "-o", help="HTML file to write.")]
+
+
+def _kept_as(path: Path) -> None:
+    """Refuse a name under which the run cannot be kept."""
+    if path.suffix != ".npz":
+        raise Refusal(f"--keep {path}: a run is kept as .npz")
+    check_file(path)
 
 
 def span(text: str) -> tuple[float, float]:
@@ -55,6 +63,8 @@ def report(
     """Write a report of a run: one HTML page that needs a browser and nothing else."""
     with refusals():
         speeds = None if run_up is None else span(run_up)
+        if keep is not None:  # told before the run
+            _kept_as(keep)
         from fmu_bearing.reports import make  # loads slowly, and no other command has use for it
 
         made = make(

@@ -16,6 +16,7 @@ from fmu_bearing.cli.base import (
     refusals,
 )
 from fmu_bearing.engine.constants import RPM
+from fmu_bearing.files import check_file
 
 Source = Annotated[Path, typer.Argument(metavar="SCENE|FMU", help="Scene file (.toml) or FMU (.fmu).")]
 Settings = Annotated[
@@ -49,7 +50,7 @@ def simulate(
     from fmu_bearing.run.simulate import simulate as run_it
 
     with refusals(), quiet_warnings():
-        results.check_target(output)
+        check_file(results.check_target(output))  # told before the run
         start = _settings(settings) | ({} if speed is None else {"shaft_speed": speed * RPM})
         run = run_it(
             source, stop_time, step=step, inputs=inputs, start_values=start, outputs=_split(variables),

@@ -18,6 +18,7 @@ from fmu_bearing.cli.base import (
     tell,
 )
 from fmu_bearing.engine.constants import RPM
+from fmu_bearing.files import check_folder
 
 if TYPE_CHECKING:
     from fmu_bearing.recording.recording import Recording
@@ -65,6 +66,7 @@ def sound(
     from fmu_bearing.scene.read import read_scene, with_fidelity
 
     with refusals(), quiet_warnings():
+        check_folder(output)  # told before the run
         if source.suffix == ".npz":
             recording = Recording.load(source)
         elif source.suffix == ".csv":
@@ -79,11 +81,11 @@ def sound(
             if fidelity is not None:
                 found = with_fidelity(found, model=fidelity)
             named_places(found.microphones, microphone)
-            output.mkdir(parents=True, exist_ok=True)  # an unusable folder is reported before the run
             recording = record(
                 found, duration, speed=None if speed is None else speed * RPM, settle=settle,
                 radiation_model=radiation_model, progress=False if as_json else None,
             )  # fmt: skip
+            output.mkdir(parents=True, exist_ok=True)
             recording.save(output / "recording.npz")
         heard = listen(recording, microphone, radiation_model, resolution)
         files = write_all(recording, heard, output, radiation_model, wav, directivity, tell)

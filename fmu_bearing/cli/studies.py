@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from fmu_bearing.cli.base import Folder, Json, Quick, SceneFile, app, print_json, progress, refusals
+from fmu_bearing.files import check_folder
 
 
 @app.command()
@@ -40,10 +41,14 @@ def tradeoff(
     from fmu_bearing.accuracy import tradeoff as trading
     from fmu_bearing.accuracy.chart import draw
     from fmu_bearing.extras import need
+    from fmu_bearing.run.pictures import check_picture
     from fmu_bearing.run.table import show
 
     with refusals():
-        need("matplotlib", "the chart")  # told before minutes of measuring
+        # told before minutes of measuring
+        need("matplotlib", "the chart")
+        check_folder(output)
+        chart = check_picture(chart or output / "tradeoff.png")
         bar = partial(progress, description="variants")
         if quick:
             study = trading.tradeoff(
@@ -52,7 +57,6 @@ def tradeoff(
         else:
             study = trading.tradeoff(scene, track=bar)
         trading.write(study, output)
-        chart = chart or output / "tradeoff.png"
         draw(study, chart)
     files = [output / "tradeoff.md", output / "tradeoff.csv", chart]
     if as_json:
@@ -71,6 +75,7 @@ def sensitivity(
     from fmu_bearing.run.table import show
 
     with refusals():
+        check_folder(output)  # told before minutes of measuring
         bar = partial(progress, description="moves")
         if quick:
             study = moving.sensitivity(scene, moving.QUICK, warm_up=0.005, window=0.005, track=bar)

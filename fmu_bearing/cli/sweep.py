@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from fmu_bearing.cli.base import ENDED_EARLY, INTERRUPTED, Folder, Json, app, print_json, refusals, tell
+from fmu_bearing.files import check_folder
 
 if TYPE_CHECKING:
     from fmu_bearing.sweeps.plan import Plan
@@ -72,6 +73,7 @@ def sweep(
         need("h5netcdf", "netCDF")
         if scheduler is not None:  # refused before a file is written
             checked(scheduler)
+        check_folder(output)
         made = _plan(source, axis, variables, settle, window, output if not dry_run else None)
         if made.note:
             tell(made.note)

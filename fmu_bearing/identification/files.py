@@ -9,7 +9,7 @@ import tomlkit
 from tomlkit.items import InlineTable, Table
 
 from fmu_bearing.extras import available
-from fmu_bearing.files import write_whole
+from fmu_bearing.files import check_file, check_folder, write_whole
 from fmu_bearing.identification.errors import IdentifyError
 from fmu_bearing.identification.result import Identified, levels_table, values_table
 from fmu_bearing.progress import Tell, silent
@@ -67,11 +67,14 @@ def output_paths(target: str | os.PathLike[str]) -> tuple[pathlib.Path, pathlib.
     ------
     IdentifyError
         For a name that is no TOML file.
+    OSError
+        Where they cannot be written.
     """
     path = pathlib.Path(target)
     if path.suffix != ".toml" or path.is_dir():
         raise IdentifyError(f"{path}: the identified scene is a file that ends in .toml")
-    return path, path.with_suffix("")
+    check_file(path)
+    return path, check_folder(path.with_suffix(""))
 
 
 def write_all(

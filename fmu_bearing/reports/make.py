@@ -2,7 +2,6 @@
 
 import os
 import pathlib
-import tempfile
 import warnings as python_warnings
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,7 +11,7 @@ from fmu_bearing import renamed
 from fmu_bearing.acoustics.analysis.field import form_of
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.extras import need
-from fmu_bearing.files import write_whole
+from fmu_bearing.files import check_file, write_whole
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.recording.record import Recording, record
 from fmu_bearing.recording.spread import Spread, spread
@@ -135,8 +134,7 @@ def make(
     """
     need("plotly.graph_objects", "a report")
     need("jinja2", "a report")
-    path = pathlib.Path(output)
-    check_writable(path)
+    path = check_file(output)
     _check(duration, settle, radius, run_up, run_up_time)
     subject = _subject(source, duration, settle, speed, radiation_model, radius, tell, progress)
     rising = _run_up(subject, run_up, run_up_time, tell, progress) if run_up else None
@@ -160,20 +158,6 @@ def make(
         path, len(data), {section.key: section.missing for section in sections},
         {tile["key"]: tile["value"] for tile in shown}, notes, subject.recording,
     )  # fmt: skip
-
-
-def check_writable(path: pathlib.Path) -> None:
-    """Raise ``OSError`` unless a file can be written at ``path``; its folder is made."""
-    if path.is_dir():
-        raise IsADirectoryError(f"{path} is a folder: name the HTML file to write")
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=path.parent):
-            pass
-    except OSError as problem:
-        raise OSError(
-            f"{path.parent} cannot be written to: {problem.strerror}; name another folder"
-        ) from None
 
 
 def _check(

@@ -3,7 +3,9 @@
 import os
 from collections.abc import Sequence
 
+from fmu_bearing.files import check_file
 from fmu_bearing.fmi.package import BuiltFmu, build, check_choice
+from fmu_bearing.instance import loose
 from fmu_bearing.prepare.model import Model, prepare
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.run.choose import resolve
@@ -22,6 +24,8 @@ def model_of(source: SceneSource, tell: Tell = silent) -> Model:
     if scene.fidelity.model == "auto":
         tell("fidelity auto: probing the scene against fidelity full (kept for the next time)")
     resolved, choice = resolve(scene)
+    if not resolved.mounting.preload_N > 0.0:
+        tell(f"caution: {loose(resolved.fidelity.model)}")
     note = "" if choice is None else choice.summary
     if note:
         tell(note)
@@ -64,5 +68,7 @@ def build_fmu(
     8
     """
     check_choice(flavour, platforms)
+    if output is not None:
+        check_file(output)  # told before minutes of compiling
     model = source if isinstance(source, Model) else model_of(source, tell)
     return build(model, None if output is None else os.fspath(output), flavour, platforms, tell)

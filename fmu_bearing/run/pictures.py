@@ -5,6 +5,7 @@ import pathlib
 from typing import TYPE_CHECKING
 
 from fmu_bearing.extras import need
+from fmu_bearing.files import check_file
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -28,13 +29,29 @@ _METADATA: dict[str, dict[str, None]] = {
 }
 
 
+def check_picture(path: str | os.PathLike[str]) -> pathlib.Path:
+    """Return the path of a picture that is going to be written; called before a long computation.
+
+    Raises
+    ------
+    ValueError
+        For an ending other than those of `_METADATA`.
+    OSError
+        Where it cannot be written.
+    """
+    target = check_file(path)
+    if target.suffix not in _METADATA:
+        raise ValueError(f"{target}: pictures are written as {', '.join(_METADATA)}")
+    return target
+
+
 def save(figure: "Figure", path: str | os.PathLike[str]) -> None:
     """Write a figure to a file, its folder made where it is missing; the same figure gives the same bytes.
 
     Raises
     ------
     ValueError
-        For an ending other than those of `_METADATA`.
+        As `check_picture`.
     """
     target = check_picture(path)
     target.parent.mkdir(parents=True, exist_ok=True)

@@ -1,0 +1,36 @@
+"""Targets of results are checked before anything is computed, and nothing is made by the check."""
+
+import os
+
+import pytest
+
+from fmu_bearing.files import check_file, check_folder
+
+
+def test_a_new_place_is_accepted_and_not_made(tmp_path):
+    assert check_file(tmp_path / "a" / "b.csv") == tmp_path / "a" / "b.csv"
+    assert check_folder(tmp_path / "a") == tmp_path / "a"
+    assert not list(tmp_path.iterdir())
+
+
+def test_what_stands_in_the_way_is_named(tmp_path):
+    (tmp_path / "file").write_text("")
+    (tmp_path / "dangling").symlink_to(tmp_path / "nowhere")
+    with pytest.raises(OSError, match=r"sub cannot be written to: .*file is a file"):
+        check_folder(tmp_path / "file" / "sub")
+    with pytest.raises(OSError, match="is a file; name another folder"):
+        check_file(tmp_path / "file" / "a.csv")
+    with pytest.raises(OSError, match="is a folder: name the file"):
+        check_file(tmp_path)
+    with pytest.raises(OSError, match="a link to nothing"):
+        check_folder(tmp_path / "dangling" / "sub")
+
+
+@pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() == 0, reason="the super-user writes anywhere")
+def test_a_folder_without_permission(tmp_path):
+    tmp_path.chmod(0o500)
+    try:
+        with pytest.raises(OSError, match="cannot be written to: Permission denied"):
+            check_folder(tmp_path / "sub")
+    finally:
+        tmp_path.chmod(0o700)

@@ -21,6 +21,7 @@ from rich.progress import track
 from typer.core import TyperGroup
 
 from fmu_bearing import renamed
+from fmu_bearing.engine.constants import RPM
 
 FOUND, REFUSED, ENDED_EARLY, INTERRUPTED = 1, 2, 3, 130
 
@@ -45,6 +46,24 @@ app = typer.Typer(
     epilog="Exit codes: 0 done; 1 a check found something; 2 refused; 3 ended early and 130 interrupted, "
     "with what was computed written.",
 )
+
+
+def _version(asked: bool) -> None:
+    if asked:
+        from fmu_bearing import __version__
+
+        typer.echo(f"fmu-bearing {__version__}")
+        raise typer.Exit()
+
+
+@app.callback()
+def _common(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version and exit.")
+    ] = False,
+) -> None:
+    """Options of the command itself."""
+
 
 SceneFile = Annotated[Path, typer.Argument(metavar="SCENE", help="Scene file (TOML).")]
 Folder = Annotated[Path, typer.Option("--output", "-o", help="Folder for the results.")]
@@ -91,6 +110,25 @@ def _refused() -> tuple[type[Exception], ...]:
     from fmu_bearing.run.arrays import Refused
 
     return (ValueError, OSError, BuildError, Refused, MissingExtra)
+
+
+def shaft_speed(rpm: float | None, option: str = "--speed") -> float | None:
+    """Return a shaft speed of the command line (r/min) in rad/s, None where none is given.
+
+    Raises
+    ------
+    Refusal
+        For a speed outside the range of a scene's, in the unit in which it was given.
+    """
+    if rpm is None:
+        return None
+    from fmu_bearing.scene.problems import allowed
+    from fmu_bearing.scene.values import bounds
+
+    low, high = bounds("operation.speed_rpm")
+    if not low <= rpm <= high:
+        raise Refusal(f"{option} {rpm:g} r/min is refused: allowed are {allowed(('operation', 'speed_rpm'))}")
+    return rpm * RPM
 
 
 class Refusal(ValueError):

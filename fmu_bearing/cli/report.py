@@ -5,8 +5,7 @@ from typing import Annotated
 
 import typer
 
-from fmu_bearing.cli.base import Json, Refusal, app, errors, print_json, refusals, tell
-from fmu_bearing.engine.constants import RPM
+from fmu_bearing.cli.base import Json, Refusal, app, errors, print_json, refusals, shaft_speed, tell
 from fmu_bearing.files import check_file
 
 Source = Annotated[
@@ -23,14 +22,16 @@ def _kept_as(path: Path) -> None:
 
 
 def span(text: str) -> tuple[float, float]:
-    """Two speeds (r/min) with a colon between."""
+    """Return two shaft speeds (rad/s) from two in r/min with a colon between."""
     try:
         first, last = (float(part) for part in text.split(":"))
     except ValueError:
         raise Refusal(
             f"--run-up {text}: write two speeds in r/min with a colon between, such as 5000:30000"
         ) from None
-    return first, last
+    rising = tuple(shaft_speed(rpm, "--run-up") for rpm in (first, last))
+    assert rising[0] is not None and rising[1] is not None
+    return rising[0], rising[1]
 
 
 @app.command()
@@ -62,6 +63,7 @@ def report(
 ) -> None:
     """Write a report of a run: one HTML page that needs a browser and nothing else."""
     with refusals():
+        turning = shaft_speed(speed)
         speeds = None if run_up is None else span(run_up)
         if keep is not None:  # told before the run
             _kept_as(keep)
@@ -69,8 +71,7 @@ def report(
 
         made = make(
             source, output, duration=duration, settle=settle, radiation_model=radiation_model,
-            radius=radius, title=title, speed=None if speed is None else speed * RPM,
-            run_up=None if speeds is None else (speeds[0] * RPM, speeds[1] * RPM),
+            radius=radius, title=title, speed=turning, run_up=speeds,
             run_up_time=run_up_time, tell=tell, progress=errors.is_terminal,
         )  # fmt: skip
         if keep is not None:

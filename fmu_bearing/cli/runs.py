@@ -14,8 +14,8 @@ from fmu_bearing.cli.base import (
     print_json,
     quiet_warnings,
     refusals,
+    shaft_speed,
 )
-from fmu_bearing.engine.constants import RPM
 from fmu_bearing.files import check_file
 
 Source = Annotated[Path, typer.Argument(metavar="SCENE|FMU", help="Scene file (.toml) or FMU (.fmu).")]
@@ -51,7 +51,8 @@ def simulate(
 
     with refusals(), quiet_warnings():
         check_file(results.check_target(output))  # told before the run
-        start = _settings(settings) | ({} if speed is None else {"shaft_speed": speed * RPM})
+        turning = shaft_speed(speed)
+        start = _settings(settings) | ({} if turning is None else {"shaft_speed": turning})
         run = run_it(
             source, stop_time, step=step, inputs=inputs, start_values=start, outputs=_split(variables),
             progress=False if as_json else None,

@@ -15,9 +15,9 @@ from fmu_bearing.cli.base import (
     progress,
     quiet_warnings,
     refusals,
+    shaft_speed,
     tell,
 )
-from fmu_bearing.engine.constants import RPM
 from fmu_bearing.files import check_folder
 
 if TYPE_CHECKING:
@@ -67,6 +67,7 @@ def sound(
 
     with refusals(), quiet_warnings():
         check_folder(output)  # told before the run
+        turning = shaft_speed(speed)
         if source.suffix == ".npz":
             recording = Recording.load(source)
         elif source.suffix == ".csv":
@@ -82,7 +83,7 @@ def sound(
                 found = with_fidelity(found, model=fidelity)
             named_places(found.microphones, microphone)
             recording = record(
-                found, duration, speed=None if speed is None else speed * RPM, settle=settle,
+                found, duration, speed=turning, settle=settle,
                 radiation_model=radiation_model, progress=False if as_json else None,
             )  # fmt: skip
             output.mkdir(parents=True, exist_ok=True)

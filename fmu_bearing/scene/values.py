@@ -135,6 +135,18 @@ def _table(annotation: Any) -> type[BaseModel] | None:
     return next((found for part in get_args(annotation) if (found := _table(part)) is not None), None)
 
 
+def bounds(key: str) -> tuple[float, float]:
+    """Return the least and the largest number that a dotted key may hold."""
+    part: Any = Scene
+    *tables, last = key.split(".")
+    for name in tables:
+        part = _table(part.model_fields[name].annotation)
+    rules = part.model_fields[last].metadata
+    low = next(rule.ge for rule in rules if hasattr(rule, "ge"))
+    high = next(rule.le for rule in rules if hasattr(rule, "le"))
+    return float(low), float(high)
+
+
 def steps(key: str) -> list[tuple[str, int | None]]:
     """Names along a dotted key, each with its place (from 0) where it is a member of an array."""
     steps = []

@@ -4,6 +4,7 @@
 ``base``        the application, shared options, refusals, exit codes
 ``build``       the FMU of a scene
 ``scenes``      scene new, check, show, catalogue
+``info``        the operating point, without a run
 ``runs``        simulate, plot
 ``compare``     two scenes, recordings or runs side by side
 ``sound``       levels, spectra, directivity, WAV
@@ -21,6 +22,7 @@ from fmu_bearing.cli import (  # noqa: F401
     build,
     compare,
     identify,
+    info,
     report,
     runs,
     scenes,
@@ -29,7 +31,7 @@ from fmu_bearing.cli import (  # noqa: F401
     sweep,
     validate,
     warm_up,
-)
+)  # fmt: skip
 from fmu_bearing.cli.base import app
 
 __all__ = ["app"]

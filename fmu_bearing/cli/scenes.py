@@ -69,7 +69,7 @@ def check(
     paths: Annotated[list[Path], typer.Argument(metavar="SCENE...", help="Scene files.")],
     as_json: Json = False,
 ) -> None:
-    """Read scenes and find their equilibrium; print errors and warnings."""
+    """Read scenes and find their equilibrium; print errors, warnings, and limits that are passed."""
     with refusals():
         found = {str(path): _findings(path) for path in paths}
     if as_json:
@@ -87,6 +87,7 @@ def check(
 def _findings(path: Path) -> tuple[bool, list[str]]:
     """Return whether a scene can be run, and the messages about it."""
     from fmu_bearing.instance import EngineError, Instance
+    from fmu_bearing.run.operating_point import cautions, operating_point
 
     try:
         scene = read_scene(path)
@@ -94,7 +95,8 @@ def _findings(path: Path) -> tuple[bool, list[str]]:
         with warnings.catch_warnings(record=True) as told:
             warnings.simplefilter("always")
             bearing.initialise()
-        return True, [f"{path}: {one.message}" for one in told]
+        lines = [str(one.message) for one in told] + cautions(operating_point(scene))
+        return True, [f"{path}: {line}" for line in lines]
     except SceneError as problem:
         return False, list(problem.problems)
     except EngineError as problem:

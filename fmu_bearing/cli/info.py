@@ -1,0 +1,122 @@
+"""``fmu-bearing info``: a bearing at its operating point, without a run."""
+
+import math
+from typing import TYPE_CHECKING
+
+import typer
+
+from fmu_bearing.cli.base import Json, SceneFile, app, print_json, refusals, tell
+
+if TYPE_CHECKING:
+    from fmu_bearing.run.operating_point import OperatingPoint
+
+_FREEDOMS = ("x", "y", "z", "tilt y", "tilt z")
+_PLACES = 3  # of them are displacements
+_WORDS = {
+    "f_r": "shaft", "f_c": "cage", "f_b": "ball about itself", "f_i": "balls past the inner race",
+    "f_o": "balls past the outer race",
+}  # fmt: skip
+
+
+@app.command()
+def info(scene: SceneFile, as_json: Json = False) -> None:
+    """Show a bearing at its operating point without a run: contacts, stiffness, frequencies, film, life."""
+    from fmu_bearing.run.operating_point import cautions, operating_point
+    from fmu_bearing.scene import read_scene
+
+    with refusals():
+        point = operating_point(read_scene(scene))
+    told = cautions(point)
+    if as_json:
+        print_json(point.summary() | {"cautions": told})
+        return
+    _show(point)
+    for line in told:
+        tell(f"caution: {line}")
+
+
+def _show(point: "OperatingPoint") -> None:
+    from fmu_bearing.run.table import show
+
+    scene = point.scene
+    operation, mounting = scene.operation, scene.mounting
+    typer.echo(
+        f"{scene.name}: {scene.bearing.designation}, {operation.speed_rpm:g} r/min, preload "
+        f"{mounting.preload_N:g} N ({mounting.preload_mode}), oil {operation.oil_temperature_degC:g} degC; "
+        "perfect bearing, rigid rings"
+    )
+    show("contacts", ("", "inner race", "outer race"), _contacts(point))
+    show("stiffness: N and N m per um and mrad", ("", *_FREEDOMS), _matrix(point))
+    shaft = point.frequencies.f_r
+    rows = [
+        [name, _WORDS[name], f"{value:.1f}", f"{value / shaft:.3f}" if shaft else ""]
+        for name, value in point.frequencies._asdict().items()
+    ]
+    show("kinematic frequencies", ("", "of", "Hz", "orders"), rows)
+    show("film, limits and life", ("figure", "value", "limit or source"), _limits(point))
+
+
+def _contacts(point: "OperatingPoint") -> list[list[str]]:
+    """Rows of the table of contacts."""
+    rows = (
+        ("load of a ball, mean, N", "load_mean", 1.0, ".1f"),
+        ("load of a ball, largest, N", "load_max", 1.0, ".1f"),
+        ("contact angle, mean, deg", "angle_mean", 180.0 / math.pi, ".2f"),
+        ("pressure, largest, GPa", "pressure_max", 1e-9, ".3f"),
+        ("spin over roll", "spin_to_roll", 1.0, ".3f"),
+        ("ellipse to shoulder, deg", "shoulder_margin", 180.0 / math.pi, ".1f"),
+    )
+    return [
+        [words, *(f"{factor * point.contacts[ring][key]:{form}}" for ring in ("inner", "outer"))]
+        for words, key, factor, form in rows
+    ]
+
+
+def _matrix(point: "OperatingPoint") -> list[list[str]]:
+    """Rows of the stiffness matrix: what is below a millionth of its row and column is rounding."""
+    k = point.stiffness
+    rows = []
+    for i, name in enumerate(_FREEDOMS):
+        cells = []
+        for j in range(len(_FREEDOMS)):
+            small = abs(k[i, j]) < 1e-6 * math.sqrt(abs(k[i, i] * k[j, j]))
+            factor = 1e-6 if j < _PLACES else 1e-3  # per um or mrad
+            cells.append("0" if small else f"{factor * k[i, j]:.4g}")
+        rows.append([name, *cells])
+    return rows
+
+
+def _limits(point: "OperatingPoint") -> list[list[str]]:
+    """Rows of the table of film, speed, preload and life."""
+    from fmu_bearing.run.operating_point import APART, MIXED
+    from fmu_bearing.run.rating import kind
+
+    limit = point.speed_limit
+    rows = [
+        ["film over roughness", f"{point.film:.2f}", f"{APART:g} apart, {MIXED:g} touching (Harris 2006)"],
+        ["viscosity, mm2/s", f"{point.viscosity:.1f}", f"ratio {point.viscosity_ratio:.2f} (ISO 281)"],
+        [
+            "n d_m, 1e6 mm r/min",
+            f"{1e-6 * point.speed_number:.2f}",
+            "no maker's limit at this angle"
+            if limit is None
+            else f"{1e-6 * limit:.2f} spring, oil (GMN, NSK)",
+        ],
+        [
+            "preload, N",
+            f"{point.scene.mounting.preload_N:g}",
+            f"{point.least_preload:.3g} against skidding (fit to GMN)",
+        ],
+    ]
+    found = point.rating
+    if found is None:
+        return [*rows, ["ratings, life", "none", "ISO 281 rates rings of steel only"]]
+    rows.append(["C, N", f"{found.dynamic:.0f}", "ISO 281"])
+    ceramic = kind(point.scene) == "hybrid"
+    words = "ISO 76; ceramic balls 0.7 of it (GMN)" if ceramic else "ISO 76"
+    rows.append(["C0, N", f"{found.static:.0f}", words])
+    if found.life is not None:
+        rows.append(
+            ["L10, h", f"{found.life:.0f}", f"ISO 281, P = {found.equivalent:.0f} N; clean, full film"]
+        )
+    return rows

@@ -36,7 +36,12 @@ def simulate(
     step: Annotated[float, typer.Option(help="Communication step, s.")] = 1e-3,
     speed: Annotated[float | None, typer.Option(help="Shaft speed, r/min.")] = None,
     inputs: Annotated[
-        Path | None, typer.Option("--input", "-i", help="CSV with time (s) and inputs, SI units.")
+        Path | None,
+        typer.Option(
+            "--input",
+            "-i",
+            help="CSV with time (s) and inputs, SI units, or shaft_speed_rpm, oil_temperature_degC.",
+        ),
     ] = None,
     settings: Settings = None,
     variables: Variables = None,

@@ -6,6 +6,7 @@
 ``levels``        sound levels as they are drawn: absent before metering begins
 ``spectrum``      spectra of variables and of microphones, with names and units
 ``result``        `Run`: the results of a run, as CSV, netCDF, xarray, pandas; its pictures and spectra
+``input_file``    CSV files of inputs: columns, units, decimal commas
 ``inputs``        inputs over time, checked against their ranges
 ``settings``      `Setting`: one way to compute a scene
 ``arrays``        a bearing as flat arrays, for loops that read and restore the state

@@ -9,8 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu_bearing.run.input_file import read_inputs
 from fmu_bearing.run.names import known
-from fmu_bearing.run.result import columns_of, read_table, structured
+from fmu_bearing.run.result import columns_of, structured
+from fmu_bearing.scene.problems import described
 
 Signal = float | Callable[[float], float]
 Inputs = Mapping[str, Signal] | NDArray[Any] | str | os.PathLike[str]
@@ -27,11 +29,16 @@ class Input:
     max: float | None = None
     unit: str = ""
 
-    def check(self, name: str, table: NDArray[Any]) -> None:
-        """Raise ``ValueError`` for the first value of a table's column that may not be set."""
+    def limits(self) -> tuple[float, float, float]:
+        """Return the least and the largest value, infinite where there is none, and what rounding may add."""
         low = -math.inf if self.min is None else self.min
         high = math.inf if self.max is None else self.max
         slack = _SLACK * max((abs(bound) for bound in (low, high) if math.isfinite(bound)), default=0.0)
+        return low, high, slack
+
+    def check(self, name: str, table: NDArray[Any]) -> None:
+        """Raise ``ValueError`` for the first value of a table's column that may not be set."""
+        low, high, slack = self.limits()
         values = table[name]
         wrong = ~(np.isfinite(values) & (values >= low - slack) & (values <= high + slack))
         if wrong.any():
@@ -59,7 +66,11 @@ def input_table(
         columns = {"time": times} | {name: _sampled(name, signal, times) for name, signal in inputs.items()}
         table = structured(columns)
     else:
-        table = inputs if isinstance(inputs, np.ndarray) else read_table(inputs)
+        if not isinstance(inputs, np.ndarray | str | os.PathLike):
+            raise ValueError(
+                f"inputs are values by name, a table or the path of a CSV file, not {described(inputs)}"
+            )
+        table = inputs if isinstance(inputs, np.ndarray) else read_inputs(inputs, known_inputs)
         if (table.dtype.names or ("",))[0] != "time":
             raise ValueError("a table of inputs needs 'time' (s) as its first column")
     for name in columns_of(table):

@@ -53,7 +53,8 @@ def simulate(
         Communication step (s), at the end of which variables are kept.
     inputs : mapping, structured array or path, optional
         Numbers or functions of time (s) by name; or a table with ``time`` and columns of inputs, linear in
-        between, or a CSV file of one. SI units. Inputs that are not named keep their start values.
+        between, or a CSV file of one (`run.input_file.read_inputs`). SI units; columns of a file may be
+        in r/min and degC by their names. Inputs that are not named keep their start values.
     start_values : mapping, optional
         Inputs and parameters at the start, SI units.
     outputs : sequence of str, optional

@@ -24,8 +24,13 @@ Settings = Annotated[
     typer.Option("--set", "-s", metavar="NAME=VALUE", help="Start value of an input or parameter, SI units."),
 ]
 Variables = Annotated[
-    str | None,
-    typer.Option("--variables", "-v", metavar="NAME,...", help="Variables; * stands for any text."),
+    list[str] | None,
+    typer.Option(
+        "--variables",
+        "-v",
+        metavar="NAME,...",
+        help="Variables, with commas between or one option each; * stands for any text.",
+    ),
 ]
 
 
@@ -59,7 +64,7 @@ def simulate(
         turning = shaft_speed(speed)
         start = _settings(settings) | ({} if turning is None else {"shaft_speed": turning})
         run = run_it(
-            source, stop_time, step=step, inputs=inputs, start_values=start, outputs=_split(variables),
+            source, stop_time, step=step, inputs=inputs, start_values=start, outputs=split(variables),
             progress=False if as_json else None,
         )  # fmt: skip
         run.save(output)
@@ -80,23 +85,33 @@ def simulate(
 def plot(
     result: Annotated[Path, typer.Argument(metavar="RESULT", help="Result of a run: .csv or .nc.")],
     variables: Variables = None,
+    scene: Annotated[
+        Path | None,
+        typer.Option(help="Scene of the run, for the names of microphones; a result in .nc knows it."),
+    ] = None,
     output: Annotated[
         Path | None, typer.Option("--output", "-o", help="Picture: .png or .svg; default: beside the result.")
     ] = None,
 ) -> None:
-    """Draw variables over time, one panel per unit."""
+    """Draw variables over time, one panel per unit: speeds in r/min, levels from where they sound."""
     from fmu_bearing.run.result import Run
     from fmu_bearing.run.time_pictures import draw
+    from fmu_bearing.scene import read_scene
 
     with refusals():
         picture = output or result.with_suffix(".png")
-        draw(Run.load(result), picture, _split(variables))
+        run = Run.load(result)
+        if scene is not None:
+            run.scene = read_scene(scene)
+        draw(run, picture, split(variables))
     typer.echo(f"written: {picture}")
 
 
-def _split(names: str | None) -> list[str] | None:
-    """Return names from a list with commas; None where none is given."""
-    return None if names is None else [name.strip() for name in names.split(",") if name.strip()]
+def split(options: list[str] | None) -> list[str] | None:
+    """Return names from options, each with commas between its names; None where none is given."""
+    if not options:
+        return None
+    return [name.strip() for option in options for name in option.split(",") if name.strip()]
 
 
 def _settings(settings: list[str] | None) -> dict[str, float]:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from fmu_bearing.cli.base import ENDED_EARLY, INTERRUPTED, Folder, Json, app, print_json, refusals, tell
+from fmu_bearing.cli.runs import split
 from fmu_bearing.files import check_folder
 
 if TYPE_CHECKING:
@@ -24,12 +25,13 @@ AxisTexts = Annotated[
     ),
 ]
 Names = Annotated[
-    str | None,
+    list[str] | None,
     typer.Option(
         "--variables",
         "-v",
         metavar="NAME[:STATISTIC],...",
-        help="What is kept, * stands for any text; statistics: mean, rms, min, max, last, 1x.",
+        help="What is kept, with commas between or one option each, * stands for any text; statistics: "
+        "mean, rms, min, max, last, 1x.",
     ),
 ]
 Settle = Annotated[
@@ -84,7 +86,7 @@ def sweep(
 
 
 def _plan(
-    source: Path, axis: list[str] | None, variables: str | None, settle: float | None,
+    source: Path, axis: list[str] | None, variables: list[str] | None, settle: float | None,
     window: float | None, folder: Path | None,
 ) -> "Plan":  # fmt: skip
     """Make the plan from file and options; options win. The folder gets a file that repeats the sweep."""
@@ -102,7 +104,8 @@ def _plan(
         known["axes"] = {ALIASES.get(key, key): values for key, values in known["axes"].items()} | given
     else:
         known = {"scene": str(source), "axes": given}
-    names = None if variables is None else tuple(name.strip() for name in variables.split(","))
+    asked = split(variables)
+    names = None if asked is None else tuple(asked)
     options = {"settle_s": settle, "window_s": window, "figures": names}
     known |= {key: value for key, value in options.items() if value is not None}
     if not known["axes"]:
@@ -141,7 +144,8 @@ def _write(made: "Plan", outcomes: "Outcomes", output: Path, as_json: bool) -> N
     """Write the results so far and print a summary."""
     from fmu_bearing.extras import available
     from fmu_bearing.run.table import show
-    from fmu_bearing.sweeps.picture import save as save_picture, sweep_picture
+    from fmu_bearing.sweeps.figures import figures_of
+    from fmu_bearing.sweeps.picture import MOST, save as save_picture, sweep_picture
     from fmu_bearing.sweeps.result import COLUMNS, dataset, extremes, save
 
     data = dataset(made, outcomes)
@@ -149,7 +153,9 @@ def _write(made: "Plan", outcomes: "Outcomes", output: Path, as_json: bool) -> N
     drawable = outcomes and sum(size > 1 for size in made.shape) in (1, 2)
     if drawable and available("matplotlib", "a picture", "sweep.png", tell):
         files["picture"] = output / "sweep.png"
-        save_picture(sweep_picture(data), files["picture"])
+        asked = made.figures != figures_of(made.scene, None)
+        drawn = [figure.name for figure in made.figures][:MOST] if asked else None
+        save_picture(sweep_picture(data, drawn), files["picture"])
     bad = {key: outcome.reason for key, outcome in outcomes.items() if outcome.reason}
     found = extremes(data)
     if as_json:

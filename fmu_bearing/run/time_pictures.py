@@ -1,16 +1,20 @@
 """Variables of a run over time, one panel per unit."""
 
+import math
 import os
+import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fmu_bearing.run.levels import present
 from fmu_bearing.run.names import UnknownName, chosen_names, unit_of
 from fmu_bearing.run.pictures import OTHERS, empty, label, save
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
     from fmu_bearing.run.result import Run
@@ -20,8 +24,16 @@ USUAL = (
     "shaft_speed", "friction_torque", "heat.*", "inner_ring.velocity.*", "outer_ring.velocity.*",
     "cage.velocity.*", "mic[*].spl_a", "cage.speed_ratio",
 )  # fmt: skip
-_MOST = 14  # curves in a panel whose legend can still be read
+_MOST = 14  # names in a column of a legend; curves drawn by default where a run has none of the usual
+#: Factor, offset and unit in pictures, where SI gives awkward numbers.
+_SHOWN = {"rad/s": (30.0 / math.pi, 0.0, "r/min"), "K": (1.0, -273.15, "degC")}
+# s: longer communication steps fold what waviness makes up to 10 kHz (imperfections.highest_frequency_kHz)
+_FINE = 5e-5
+# dB below its median: a level there at the beginning is what filters let through before sound arrives
+_STARTING = 40.0
+_MICROPHONE = re.compile(r"mic\[(\d+)\]\.")
 _WIDTHS = (1.2, 0.7)
+_STYLES = ("-", "--", ":", "-.")
 
 
 def time_picture(run: "Run", patterns: Sequence[str] | None = None, title: str = "") -> "Figure":
@@ -35,6 +47,10 @@ def time_picture(run: "Run", patterns: Sequence[str] | None = None, title: str =
     title : str
         Default: the run's name.
 
+    Speeds are drawn in r/min, temperatures in degC, microphones by their names where the run has its scene.
+    Velocities and pressures that the communication step is too long to follow are drawn as points, since a
+    line between them would show motions that are not there.
+
     Raises
     ------
     UnknownName
@@ -47,23 +63,61 @@ def time_picture(run: "Run", patterns: Sequence[str] | None = None, title: str =
     figure = empty((10.0, 1.2 + 2.4 * len(panels)))
     axes = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
     for ax, (unit, members) in zip(axes, panels.items(), strict=True):
-        width = _WIDTHS[len(run) > 500]
-        drawn = False
-        for k, name in enumerate(members):
-            style = "-" if k < len(OTHERS) else "--"
-            values = present(run[name], unit)
-            drawn |= not np.isnan(values).all()
-            ax.plot(run.time, values, style, color=OTHERS[k % len(OTHERS)], linewidth=width, label=name)
-        label(ax, "", unit or "1", "")
-        if not drawn:
-            words = "no level: metering has not begun" if unit == "dB" else "no values"
-            ax.text(0.5, 0.5, words, ha="center", va="center", transform=ax.transAxes)
-            ax.set_yticks([])
-        if len(members) <= _MOST:
-            ax.legend(frameon=False, fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5))
+        _panel(ax, run, unit, members)
     axes[-1].set_xlabel("time, s")
     figure.suptitle(title or run.name)
     return figure
+
+
+def _panel(ax: "Axes", run: "Run", unit: str, members: Sequence[str]) -> None:
+    """Draw the variables of one unit."""
+    width = _WIDTHS[len(run) > 500]
+    factor, offset, shown = _SHOWN.get(unit, (1.0, 0.0, unit or "1"))
+    step = float(np.median(np.diff(run.time))) if len(run) > 1 else 0.0
+    drawn = folded = False
+    for k, name in enumerate(members):
+        values = settled(run[name]) if unit == "dB" else factor * run[name] + offset
+        drawn |= not np.isnan(values).all()
+        points = step > _FINE and (".velocity." in name or ".flexure." in name or name.endswith(".pressure"))
+        folded |= points
+        style = "." if points else _STYLES[k // len(OTHERS) % len(_STYLES)]
+        ax.plot(
+            run.time, values, style, color=OTHERS[k % len(OTHERS)], linewidth=width, markersize=2.5,
+            label=spoken(name, run),
+        )  # fmt: skip
+    label(ax, "", shown, "")
+    if folded:
+        words = (
+            f"points every {1e3 * step:g} ms, too far apart for a curve: run with --step {_FINE:g} or less"
+        )
+        ax.set_title(words, fontsize=7, loc="left")
+    if not drawn:
+        words = "no level: metering has not begun" if unit == "dB" else "no values"
+        ax.text(0.5, 0.5, words, ha="center", va="center", transform=ax.transAxes)
+        ax.set_yticks([])
+    ax.legend(
+        frameon=False, fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5),
+        ncols=math.ceil(len(members) / _MOST),
+    )  # fmt: skip
+
+
+def settled(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return a level over time (dB) with NaN before it sounds: meters and filters start from nothing."""
+    found = present(values, "dB")
+    if np.isnan(found).all():
+        return found
+    sounding = found >= np.nanmedian(found) - _STARTING
+    found[: int(np.argmax(sounding))] = np.nan
+    return found
+
+
+def spoken(name: str, run: "Run") -> str:
+    """Return the name of a variable with its microphone's own name, where it is known."""
+    match = _MICROPHONE.match(name)
+    places = [] if run.scene is None else run.scene.microphones
+    if match is None or not 0 < int(match[1]) <= len(places):
+        return name
+    return f"{places[int(match[1]) - 1].name}: {name[match.end() :]}"
 
 
 def usual_names(run: "Run") -> list[str]:

@@ -22,7 +22,7 @@ __all__ = ["draw_map", "label_of", "save", "shown", "sweep_picture"]
 
 #: Figures drawn by default, as far as the dataset has them.
 DEFAULT = ("mic[1].leq_a", "outer_ring.velocity", "outer_ring.velocity:1x", "friction_torque")
-_MOST = 9  # panels
+MOST = 300  # panels: more make a picture of more points than Matplotlib draws
 #: Factor and unit in pictures, where SI gives awkward numbers.
 _SHOWN = {"m/s": (1e3, "mm/s"), "N.m": (1e3, "N.mm"), "Pa": (1e-9, "GPa"), "rad": (180.0 / math.pi, "deg")}
 
@@ -38,17 +38,21 @@ def sweep_picture(data: "xarray.Dataset", figures: Sequence[str] | None = None) 
     data : xarray.Dataset
         Of `sweep`.
     figures : sequence of str, optional
-        Names in the dataset, with ``*`` for any text; default: those of `DEFAULT` that the dataset has.
+        Names in the dataset, with ``*`` for any text, all drawn; default: those of `DEFAULT` that the
+        dataset has.
 
     Raises
     ------
     SweepError
-        For more than two axes: choose along the others with ``data.isel`` or ``data.sel``.
+        For more than two axes: choose along the others with ``data.isel`` or ``data.sel``; for very many
+        figures.
     """
     data = data.squeeze()
     there = [str(name) for name in data.data_vars if name not in (SEED, WALL, REASON)]
     default = [name for name in DEFAULT if name in there] or there[:4]
-    names = chosen_names(figures, there, default)[:_MOST]
+    names = chosen_names(figures, there, default)
+    if len(names) > MOST:
+        raise SweepError(f"{len(names)} figures do not fit a picture: choose at most {MOST}")
     over, beside = _roles(data)
     data = data.sortby([name for name in (over, beside) if name and data[name].dtype.kind in "iuf"])
     columns = min(len(names), 3 if len(names) > 4 else 2)
@@ -138,11 +142,14 @@ def _is_map(data: "xarray.Dataset", beside: str) -> bool:
 
 
 def _edges(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Borders of the cells about rising values, half a step away, or half a factor."""
+    """Borders of the cells about rising values: half a step between them, or half a factor.
+
+    The first and the last cell end at their points: beyond them nothing was computed.
+    """
     steps = np.log(values) if _is_geometric(values) else values
     middles = 0.5 * (steps[1:] + steps[:-1])
-    edges = np.concatenate([[2 * steps[0] - middles[0]], middles, [2 * steps[-1] - middles[-1]]])
-    return np.exp(edges) if _is_geometric(values) else edges
+    middles = np.exp(middles) if _is_geometric(values) else middles
+    return np.concatenate([values[:1], middles, values[-1:]])
 
 
 def _is_geometric(values: NDArray[np.float64]) -> bool:

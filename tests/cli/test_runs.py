@@ -228,3 +228,16 @@ def test_help_names_every_command_and_the_exit_codes(run):
     for command in ("scene", "build", "simulate", "plot", "sound", "choose", "tradeoff", "sensitivity"):
         assert command in told
     assert "--install-completion" in told and "130 interrupted" in told
+
+
+def test_plot_draws_every_variable_asked(run, rings_file, tmp_path):
+    """With commas or one option each; the last of several options used to win."""
+    result = tmp_path / "run.csv"
+    names = ["friction_torque", "heat.oil", "heat.inner_ring", "heat.outer_ring", "mic[1].pressure"]
+    options = [word for name in names[:3] for word in ("-v", name)] + ["-v", ",".join(names[3:])]
+    assert run("simulate", rings_file, "-t", 2e-3, *options, "-o", result).exit_code == 0
+    assert Run.load(result).names == names
+    done = run("plot", result, *options, "--scene", rings_file, "-o", tmp_path / "a.svg")
+    assert done.exit_code == 0, done.output
+    text = (tmp_path / "a.svg").read_text()
+    assert all(f"<!-- {name} -->" in text for name in (*names[:4], "P1: pressure"))

@@ -9,6 +9,7 @@ from typer.testing import CliRunner
 
 from fmu_bearing import cli
 from fmu_bearing.extras import MissingExtra
+from fmu_bearing.run.pictures import single
 from fmu_bearing.sweeps import SweepError, local, runs, sweep
 
 QUICK = ("--settle", 0, "--window", 0.002, "-v", "friction_torque,contact.*.load_mean", "--workers", 1)
@@ -56,6 +57,32 @@ def test_a_sweep_writes_its_results_and_goes_on_from_its_own_file(run, silent_fi
     assert torque["unit"] == "N.m" and 0.0 < torque["least"] < torque["largest"] < 0.1
     now = {path.name: path.stat().st_mtime_ns for path in (tmp_path / "points").iterdir()}
     assert len(now) == 3 and kept.items() <= now.items()  # two were not run again
+
+
+def test_the_picture_has_the_figures_asked(run, silent_file, tmp_path, monkeypatch):
+    drawn = []
+    monkeypatch.setattr(
+        "fmu_bearing.sweeps.picture.sweep_picture",
+        lambda data, names=None: drawn.append(names) or single((1, 1))[0],
+    )
+    axes = (
+        "-a",
+        "speed=5000:9000:2",
+        "-a",
+        "fidelity.tolerance=0.01",
+        "--settle",
+        0,
+        "--window",
+        0.002,
+        "-w",
+        1,
+    )
+    asked = ("-v", "friction_torque", "-v", "heat.*,contact.*.load_mean")
+    assert run("sweep", silent_file, *axes, *asked, "-o", tmp_path / "asked").exit_code == 0
+    assert run("sweep", silent_file, *axes, "-o", tmp_path / "usual").exit_code == 0
+    heats = [f"heat.{name}" for name in ("inner_ring", "outer_ring", "oil")]
+    loads = [f"contact.{name}.load_mean" for name in ("inner", "outer")]
+    assert drawn == [["friction_torque", *heats, *loads], None]
 
 
 def test_a_dry_run_runs_one_point_and_writes_nothing(run, silent_file, tmp_path):

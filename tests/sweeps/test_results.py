@@ -74,9 +74,9 @@ def test_maps_curves_and_what_has_neither(given):
     assert map_.axes[0].get_yscale() == "log" and map_.axes[0].get_xscale() == "linear"
     assert map_.axes[0].get_xlabel() == "speed, r/min"
     edges = map_.axes[0].collections[0].get_coordinates()
-    # cells reach half a factor beyond the first and last stiffness, half a step beyond speeds
-    np.testing.assert_allclose(edges[[0, -1], 0, 1], [10**5.5, 10**8.5], rtol=1e-9)
-    np.testing.assert_allclose(edges[0, [0, -1], 0], [500.0, 4500.0], rtol=1e-9)
+    # the first and the last cell end at their points: beyond them nothing was computed
+    np.testing.assert_allclose(edges[:, 0, 1], [1e6, 10**6.5, 10**7.5, 1e8], rtol=1e-9)
+    np.testing.assert_allclose(edges[0, :, 0], [1000.0, 1500.0, 2500.0, 3500.0, 4000.0], rtol=1e-9)
     curves = sweep_picture(data.isel(pedestal_stiffness_N_m=1), ["friction_torque"])
     (ax,) = curves.axes
     assert [line.get_label() for line in ax.get_lines()] == ["rings", "response"]
@@ -86,6 +86,21 @@ def test_maps_curves_and_what_has_neither(given):
         sweep_picture(data)
     with pytest.raises(SweepError, match="single point"):
         sweep_picture(data.isel(fidelity=0, speed_rpm=0, pedestal_stiffness_N_m=0))
+
+
+def test_a_picture_has_every_figure_asked(given):
+    """Twelve figures made nine panels, and the command line drew four of them."""
+    _, data = given
+    many = data.isel(fidelity=0).assign(
+        {f"figure_{k}": data["friction_torque"].isel(fidelity=0) for k in range(12)}
+    )
+    names = [f"figure_{k}" for k in range(12)]
+    drawn = [ax.get_title() for ax in sweep_picture(many, names).axes]
+    assert [title for title in drawn if title] == names
+    with pytest.raises(SweepError, match="choose at most 300"):
+        sweep_picture(
+            data.assign({f"f{k}": data["friction_torque"] for k in range(301)}).isel(fidelity=0), ["f*"]
+        )
 
 
 def test_a_sweep_as_a_file(tmp_path):

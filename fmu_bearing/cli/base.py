@@ -37,6 +37,14 @@ class Commands(TyperGroup):
                 raise typer.Exit(REFUSED)
         return super().parse_args(ctx, args)
 
+    def invoke(self, ctx: Any) -> Any:
+        """Run a command. Ctrl-C ends it with one line; what a command keeps by itself is kept."""
+        try:
+            return super().invoke(ctx)
+        except KeyboardInterrupt:
+            typer.echo("interrupted", err=True)
+            raise typer.Exit(INTERRUPTED) from None
+
 
 app = typer.Typer(
     cls=Commands,

@@ -86,8 +86,8 @@ def _write(found: "Identified", path: Path, scene: Path, as_json: bool) -> None:
     if as_json:
         print_json(found.summary() | {"files": files})
         return
-    show("Measured and computed levels", *levels_table(found.compared), width=110)
-    show("Identified values", *values_table(found), width=110)
+    show("Measured and computed levels", *levels_table(found.compared))
+    show("Identified values", *values_table(found))
     typer.echo(misfit_words(found))
     for remark in found.remarks:
         typer.echo(f"* {remark}")

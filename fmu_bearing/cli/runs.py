@@ -1,5 +1,6 @@
 """``fmu-bearing simulate`` and ``plot``: a run of a scene or an FMU, its results, its pictures."""
 
+import warnings
 from pathlib import Path
 from typing import Annotated
 
@@ -57,9 +58,10 @@ def simulate(
 ) -> None:
     """Run a scene or an FMU. After a refused step or Ctrl-C the results so far are kept."""
     from fmu_bearing.run import result as results
-    from fmu_bearing.run.simulate import simulate as run_it
+    from fmu_bearing.run.simulate import EndedEarly, simulate as run_it
 
     with refusals(), quiet_warnings():
+        warnings.simplefilter("ignore", EndedEarly)  # told below
         check_file(results.check_target(output))  # told before the run
         turning = shaft_speed(speed)
         start = _settings(settings) | ({} if turning is None else {"shaft_speed": turning})

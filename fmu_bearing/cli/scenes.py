@@ -123,7 +123,7 @@ def show(
         print_json({"scene": scene.name, "computed": sizes, "values": [asdict(one) for one in values]})
         return
     rows = [[one.key, _shown(one), one.allowed, one.origin, _remark(one)] for one in values]
-    show_table(scene.name, ("key", "value", "allowed", "from", "remark"), rows, width=150)
+    show_table(scene.name, ("key", "value", "allowed", "from", "remark"), rows)
     for name, value in sizes.items():
         typer.echo(f"{name:10} {value}")
 
@@ -147,7 +147,7 @@ def show_catalogue(
     }
     keys = list(dict.fromkeys(key for entry in plain.values() for key in entry))
     rows = [[key, *(str(entry.get(key, "")) for entry in plain.values())] for key in keys]
-    show_table(kind, ("key", *plain), rows, width=80)
+    show_table(kind, ("key", *plain), rows)
 
 
 def _silent(scene: Scene) -> "Model":

@@ -94,9 +94,9 @@ def sound(
     if as_json:
         print_json({"levels": heard.summary(), "files": files} | ({"spread": sure.summary()} if sure else {}))
     else:
-        show("levels", *heard.rows(), width=80)
+        show("levels", *heard.rows())
         if sure is not None:
-            show("how sure these levels are", *sure.rows(), width=80)
+            show("how sure these levels are", *sure.rows())
             tell(sure.remark())
         tell(f"written: {output}: {', '.join(path.name for path in files)}")
 

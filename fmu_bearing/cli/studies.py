@@ -23,7 +23,7 @@ def choose(scene: SceneFile, as_json: Json = False) -> None:
     if as_json:
         print_json({"chosen": choice.summary, "candidates": named(choosing.COLUMNS, choice.cells())})
     else:
-        show(f"{choice.scene}: errors against fidelity full", choosing.COLUMNS, choice.cells(), width=110)
+        show(f"{choice.scene}: errors against fidelity full", choosing.COLUMNS, choice.cells())
         typer.echo(choice.summary)
 
 

@@ -173,7 +173,7 @@ def _write(made: "Plan", outcomes: "Outcomes", output: Path, as_json: bool) -> N
         )
         return
     rows = [[f"{cell:.5g}" if isinstance(cell, float) else cell for cell in row.values()] for row in found]
-    show(str(data.attrs["title"]), COLUMNS, rows, width=110)
+    show(str(data.attrs["title"]), COLUMNS, rows)
     counted = f"{len(outcomes)} of {len(made.tasks)} points"
     typer.echo(f"{counted}, {len(bad)} refused; written: {', '.join(map(str, files.values()))}")
     for reason in sorted(set(bad.values()))[:5]:

@@ -97,9 +97,13 @@ def simulate(
         columns, ended, note = player.run(stop_time, step, table, dict(start_values or {}), names, stop, tell)
         wall = clock.perf_counter() - begin
     if note:
-        warnings.warn(note, stacklevel=2)
+        warnings.warn(note, EndedEarly, stacklevel=2)
     units = {name: player.readable[name] for name in names}
     return Run(player.name, columns, units, player.scene, wall, ended, note)
+
+
+class EndedEarly(UserWarning):
+    """A run ended before its stop time; ``Run.note`` says the same."""
 
 
 class Player(Protocol):

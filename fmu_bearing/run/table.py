@@ -5,10 +5,13 @@ import math
 import os
 import pathlib
 import platform
-from collections.abc import Sequence
+import textwrap
+from collections.abc import Iterator, Sequence
 
 import numba
 import numpy as np
+
+_WIDEST = 10_000  # characters: no table is wider
 
 
 def machine() -> str:
@@ -39,9 +42,13 @@ def markdown(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows]) + "\n"
 
 
-def show(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]], width: int = 190) -> None:
-    """Print one table to the terminal, at least ``width`` characters wide."""
+def show(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
+    """Print one table within the width of the terminal, of 80 characters where there is none.
+
+    Cells are broken between words. A table that is too wide even so is printed row by row, a line per column.
+    """
     from rich.console import Console
+    from rich.measure import Measurement
     from rich.table import Table
     from rich.text import Text
 
@@ -52,7 +59,26 @@ def show(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]], widt
     for row in rows:
         table.add_row(*map(Text, row))  # brackets in a cell are no markup
     console = Console()
-    Console(width=max(console.width, width)).print(table)
+    if Measurement.get(console, console.options.update(max_width=_WIDEST), table).minimum <= console.width:
+        console.print(table)
+    else:
+        print("\n".join(row_by_row(title, columns, rows, console.width)))
+
+
+def row_by_row(
+    title: str, columns: Sequence[str], rows: Sequence[Sequence[str]], width: int
+) -> Iterator[str]:  # fmt: skip
+    """Yield the lines of a table row by row: the first cell, below it each column with its value."""
+    yield title
+    longest = min(max(map(len, columns[1:]), default=0), width // 2)
+    for row in rows:
+        yield ""
+        yield from textwrap.wrap(row[0], width) or [""]
+        for name, cell in zip(columns[1:], row[1:], strict=True):
+            if cell:
+                yield from textwrap.wrap(
+                    cell, width, initial_indent=f"  {name:{longest}}  ", subsequent_indent=" " * (longest + 4)
+                )
 
 
 def write_csv(path: pathlib.Path, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> None:

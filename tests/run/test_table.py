@@ -1,0 +1,60 @@
+"""Tables on a terminal fit its width."""
+
+import pytest
+from typer.testing import CliRunner
+
+from fmu_bearing.cli import app
+from fmu_bearing.run.table import show
+from tests.conftest import EXAMPLES
+
+
+@pytest.fixture
+def printed(monkeypatch, capsys):
+    def call(*arguments, width=80):
+        monkeypatch.setenv("COLUMNS", str(width))
+        show(*arguments)
+        return capsys.readouterr().out.splitlines()
+
+    return call
+
+
+def test_a_narrow_table_is_a_table(printed):
+    lines = printed("title", ("a", "b"), [["1", "[2]"], ["3", "4"]])
+    assert len(lines) == 7 and "[2]" in lines[4]
+
+
+def test_cells_are_broken_between_words(printed):
+    lines = printed("title", ("a", "b"), [["key", "word " * 40]])
+    assert max(map(len, lines)) <= 80
+    assert sum(line.count("word") for line in lines) == 40
+
+
+@pytest.mark.parametrize("width", [80, 60])
+def test_a_table_that_is_too_wide_is_told_row_by_row(printed, width):
+    columns = tuple(f"column-{k}" for k in range(15))
+    lines = printed("title", columns, [[f"cell-{i}-{k}" for k in range(15)] for i in range(3)], width=width)
+    assert max(map(len, lines)) <= width and lines[0] == "title"
+    for i in range(3):
+        for k in range(1, 15):
+            assert any(line.split() == [f"column-{k}", f"cell-{i}-{k}"] for line in lines)
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("scene", "show", EXAMPLES / "7003C-spindle.toml"),
+        ("scene", "catalogue", "materials"),
+        ("scene", "catalogue", "lubricants"),
+        ("info", EXAMPLES / "7003C-spindle.toml"),
+    ],
+    ids=lambda words: words[1] if isinstance(words, tuple) else str(words),
+)
+def test_tables_of_commands_fit_80_columns(monkeypatch, words):
+    monkeypatch.setenv("COLUMNS", "80")
+    done = CliRunner().invoke(app, [str(word) for word in words])
+    lines = done.stdout.splitlines()
+    if words[1] == "show":  # below its values stand some lines in words
+        lines = lines[: next(k for k, line in enumerate(lines) if line.startswith("scene "))]
+    elif words[0] == "info":
+        lines = lines[1:]  # and above it the operating point
+    assert done.exit_code == 0 and len(lines) > 5 and max(map(len, lines)) <= 80

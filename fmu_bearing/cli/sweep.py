@@ -182,6 +182,7 @@ def _write(made: "Plan", outcomes: "Outcomes", output: Path, as_json: bool) -> N
 
 def _estimate(made: "Plan", output: Path, workers: int | None, as_json: bool) -> None:
     """Time one point, twice: the first run also loads kernels and prepares the sound."""
+    from fmu_bearing.run.simulate import duration
     from fmu_bearing.sweeps.point import run_point
     from fmu_bearing.sweeps.runs import crew_size, finished
     from fmu_bearing.sweeps.store import Store
@@ -201,13 +202,6 @@ def _estimate(made: "Plan", output: Path, workers: int | None, as_json: bool) ->
         return
     typer.echo(
         f"{len(made.tasks)} points, {kept} kept; one took {second.wall:.3g} s "
-        f"(the first {first.wall:.3g} s, with loading and sound): about {_spell(seconds)} on {crew} processes"
+        f"(the first {first.wall:.3g} s, with loading and sound): about {duration(seconds)} on {crew} processes"
         + (f"; the probe was refused: {second.reason}" if second.reason else "")
     )
-
-
-def _spell(seconds: float) -> str:
-    for size, unit in ((86400.0, "days"), (3600.0, "h"), (60.0, "min")):
-        if seconds >= 2.0 * size:
-            return f"{seconds / size:.3g} {unit}"
-    return f"{seconds:.3g} s"

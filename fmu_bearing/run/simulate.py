@@ -25,6 +25,9 @@ from fmu_bearing.run.names import by_name, chosen_names, known
 from fmu_bearing.run.result import COMPLETE, INTERRUPTED, REFUSED, Run, columns_of, structured
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 
+_FIRST = 1.0  # s of waiting after which a run is estimated
+_LONG, _MUCH = 3600.0, 4e9  # s, bytes: beyond these a run may be a slip of the keyboard
+
 
 def simulate(
     source: SceneSource | Model,
@@ -62,6 +65,8 @@ def simulate(
     progress : bool, optional
         Show a progress bar; default: on a terminal.
 
+    A run that is going to take more than an hour or 4 GB says so after its first second.
+
     Returns
     -------
     Run
@@ -94,7 +99,8 @@ def simulate(
         known(name, player.settable, "input or parameter")
     with stoppable() as stop, bar(player.name, stop_time, progress) as tell:
         begin = clock.perf_counter()
-        columns, ended, note = player.run(stop_time, step, table, dict(start_values or {}), names, stop, tell)
+        told = _Estimate(stop_time, step, len(names), tell)
+        columns, ended, note = player.run(stop_time, step, table, dict(start_values or {}), names, stop, told)
         wall = clock.perf_counter() - begin
     if note:
         warnings.warn(note, EndedEarly, stacklevel=2)
@@ -145,6 +151,41 @@ class Player(Protocol):
     ) -> tuple[NDArray[Any], str, str]:  # fmt: skip
         """Return the table of results, how the run ended, and why."""
         ...
+
+
+class _Estimate:
+    """Progress that warns once, after the first second, of a run that takes very long or much memory."""
+
+    def __init__(self, stop_time: float, step: float, names: int, tell: Callable[[float], None]) -> None:
+        self.stop_time, self.step, self.names, self.tell = stop_time, step, names, tell
+        self.begin = clock.perf_counter()
+        self.warned = False
+
+    def __call__(self, time: float) -> None:
+        self.tell(time)
+        if not self.warned and clock.perf_counter() - self.begin > _FIRST:
+            self.warned = True
+            self._warn(time)
+
+    def _warn(self, time: float) -> None:
+        points = self.stop_time / self.step
+        left = (clock.perf_counter() - self.begin) * (self.stop_time / time - 1.0)
+        memory = 8.0 * points * (self.names + 1)
+        if left > _LONG or memory > _MUCH:
+            warnings.warn(
+                f"this run has {points:.3g} points of {self.names} variables: about {duration(left)} more at "
+                f"this pace, and {1e-9 * memory:.3g} GB; take a longer step (--step, now {self.step:g} s), an "
+                "earlier end or fewer variables, or end it by Ctrl-C, which keeps what was computed",
+                stacklevel=2,
+            )
+
+
+def duration(seconds: float) -> str:
+    """Return a time in words: seconds, minutes, hours, days or years."""
+    for size, unit in ((31_557_600.0, "years"), (86_400.0, "days"), (3600.0, "h"), (60.0, "min")):
+        if seconds >= 2.0 * size:
+            return f"{seconds / size:.3g} {unit}"
+    return f"{seconds:.3g} s"
 
 
 class _Library:

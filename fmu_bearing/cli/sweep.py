@@ -202,6 +202,6 @@ def _estimate(made: "Plan", output: Path, workers: int | None, as_json: bool) ->
         return
     typer.echo(
         f"{len(made.tasks)} points, {kept} kept; one took {second.wall:.3g} s "
-        f"(the first {first.wall:.3g} s, with loading and sound): about {duration(seconds)} on {crew} processes"
-        + (f"; the probe was refused: {second.reason}" if second.reason else "")
+        f"(the first {first.wall:.3g} s, with loading and sound): about {duration(seconds)} on {crew} "
+        "processes" + (f"; the probe was refused: {second.reason}" if second.reason else "")
     )

@@ -43,7 +43,7 @@ def simulate(
 
     The library runs a scene, with results that equal those of ``fmpy.simulate_fmu`` on its FMU to the last
     bit; FMPy runs an FMU. Inputs are set at the beginning of each step, as FMPy does; the speed then ramps to
-    its value over the step.
+    its value over the step. A run of more than an hour or 4 GB says so after its first second.
 
     Parameters
     ----------
@@ -64,8 +64,6 @@ def simulate(
         Variables to keep, with ``*`` for any text (``"mic[*].leq"``); default: all outputs.
     progress : bool, optional
         Show a progress bar; default: on a terminal.
-
-    A run that is going to take more than an hour or 4 GB says so after its first second.
 
     Returns
     -------
@@ -174,8 +172,8 @@ class _Estimate:
         if left > _LONG or memory > _MUCH:
             warnings.warn(
                 f"this run has {points:.3g} points of {self.names} variables: about {duration(left)} more at "
-                f"this pace, and {1e-9 * memory:.3g} GB; take a longer step (--step, now {self.step:g} s), an "
-                "earlier end or fewer variables, or end it by Ctrl-C, which keeps what was computed",
+                f"this pace, and {1e-9 * memory:.3g} GB; take a longer step (--step, now {self.step:g} s), "
+                "an earlier end or fewer variables, or end it by Ctrl-C, which keeps what was computed",
                 stacklevel=2,
             )
 

@@ -5,7 +5,17 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from fmu_bearing.cli.base import ENDED_EARLY, INTERRUPTED, Folder, Json, app, print_json, refusals, tell
+from fmu_bearing.cli.base import (
+    ENDED_EARLY,
+    INTERRUPTED,
+    Folder,
+    Json,
+    app,
+    print_json,
+    quiet_warnings,
+    refusals,
+    tell,
+)
 from fmu_bearing.cli.runs import split
 from fmu_bearing.files import check_folder
 
@@ -70,7 +80,7 @@ def sweep(
     from fmu_bearing.extras import need
     from fmu_bearing.sweeps.cluster import checked
 
-    with refusals():
+    with refusals(), quiet_warnings():
         need("xarray", "a sweep")
         need("h5netcdf", "netCDF")
         if scheduler is not None:  # refused before a file is written

@@ -3,7 +3,7 @@
 import os
 from collections.abc import Sequence
 
-from fmu_bearing.files import check_file
+from fmu_bearing.files import check_file, check_folder
 from fmu_bearing.fmi.package import BuiltFmu, build, check_choice
 from fmu_bearing.instance import loose
 from fmu_bearing.prepare.model import Model, prepare
@@ -68,7 +68,10 @@ def build_fmu(
     8
     """
     check_choice(flavour, platforms)
-    if output is not None:
-        check_file(output)  # told before minutes of compiling
+    # told before minutes of compiling
+    if output is None:
+        check_folder(".")
+    else:
+        check_file(output)
     model = source if isinstance(source, Model) else model_of(source, tell)
     return build(model, None if output is None else os.fspath(output), flavour, platforms, tell)

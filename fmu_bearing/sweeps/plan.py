@@ -2,12 +2,14 @@
 
 import itertools
 import math
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from fmu_bearing.elastic.section import BENDING
 from fmu_bearing.extras import need
+from fmu_bearing.instance import loose
 from fmu_bearing.prepare.sound import sound_key
 from fmu_bearing.run.choose import resolve
 from fmu_bearing.scene import Scene, SceneError, SceneSource, scene_of
@@ -88,6 +90,8 @@ def plan(
     scenes = _scenes(scene, found)
     if any(one.bends for one in scenes):
         need("skfem", BENDING)  # told once, and not as the reason of every point
+    for model in dict.fromkeys(one.fidelity.model for one in scenes if not one.mounting.preload_N > 0.0):
+        warnings.warn(loose(model), stacklevel=2)  # once, and not by each worker
     kept = figures_of(scene, figures)
     names = tuple(figure.name for figure in kept)
     first: dict[str, Scene] = {}  # the first scene of all that sound alike

@@ -142,7 +142,7 @@ def test_a_scene_without_microphones(rings, tmp_path):
 
 def test_errors_name_the_way_out(rings, tmp_path, monkeypatch):
     page = tmp_path / "page.html"
-    with pytest.raises(IsADirectoryError, match="name the HTML file"):
+    with pytest.raises(IsADirectoryError, match="is a folder: name the file to write"):
         make(rings, tmp_path)
     (tmp_path / "file").write_text("")
     with pytest.raises(OSError, match="name another folder"):

@@ -45,6 +45,12 @@ def test_values_out_of_range_are_told_for_all_points_as_the_scene_tells_them(rin
     assert sum(line.startswith("bearing.inner_conformity = 0.4") for line in told) == 1 and len(told) == 4
 
 
+def test_points_without_preload_are_warned_of_once_before_any_runs(rings):
+    with pytest.warns(UserWarning, match="preload = 0 N.*fidelity rings") as told:
+        plan(rings, {"preload": [0, 100], "speed": [1000, 2000]})
+    assert len(told) == 1
+
+
 def test_values_that_do_not_fit_together_are_told(rings):
     with pytest.raises(SweepError, match=r"lies inside the housing"):
         plan(rings, {"mounting.housing.diameter_mm": [100, 400]})

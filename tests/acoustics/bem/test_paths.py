@@ -11,7 +11,7 @@ from fmu_bearing.acoustics.radiation import sources
 from fmu_bearing.acoustics.radiation.bem import solution as solved
 from fmu_bearing.acoustics.radiation.bem.bodies import bodies_of
 from fmu_bearing.acoustics.radiation.bem.paths import bem_paths, task_of
-from fmu_bearing.acoustics.radiation.circle import MicrophoneCircle
+from fmu_bearing.acoustics.radiation.circle import MicrophoneCircle, check_outside
 from fmu_bearing.acoustics.radiation.compact import compact_paths
 from fmu_bearing.acoustics.radiation.frequencies import fit_frequencies
 from fmu_bearing.acoustics.radiation.radiators import BALLS, CAGE, INNER, OUTER, Air, Housing, Radiators, Ring
@@ -169,6 +169,13 @@ def test_solutions_are_kept_on_disk_and_damaged_ones_made_anew(short, monkeypatc
 def test_refusals():
     with pytest.raises(ValueError, match="105 mm.*lies inside the outer ring|lies inside the outer ring"):
         bem_paths(BARE, AIR, MicrophoneCircle(0.016, 0.0, [0.0]), HARMONICS)
+    on = "lies on the outer ring, which reaches to r = 17.5 mm from x = -5 to 5 mm, 0 mm from its surface"
+    with pytest.raises(ValueError, match=on):
+        bem_paths(BARE, AIR, MicrophoneCircle(0.0175, 0.0, [0.0]), HARMONICS)
+    with pytest.raises(
+        ValueError, match="lies on the bearing, which reaches to r = 17.5 mm from x = -5 to 5 mm"
+    ):
+        check_outside(BARE, MicrophoneCircle(0.0175, 0.0, [0.0]))
     touching = dataclasses.replace(BARE, cage=Ring(0.0297, 0.0234, 0.0091))
     with pytest.raises(ValueError, match="the outer ring touches or intersects the cage"):
         bem_paths(touching, AIR, MicrophoneCircle(0.105, 0.0, [0.0]), HARMONICS)

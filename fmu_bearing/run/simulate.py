@@ -16,7 +16,7 @@ import numpy as np
 from fmpy.simulation import Input as FmpyInput
 from numpy.typing import NDArray
 
-from fmu_bearing.instance import EngineError, Instance, number
+from fmu_bearing.instance import EngineError, Instance, loose, number
 from fmu_bearing.interface import Variable
 from fmu_bearing.prepare.model import Model, prepare
 from fmu_bearing.run.choose import resolve
@@ -89,6 +89,7 @@ def simulate(
         from fmu_bearing.run.simulate_fmu import open_fmu
 
         player: Player = open_fmu(pathlib.Path(source))
+        _warn_of_loose(player, start_values)
     else:
         player = _Library(_model(source))
     table = input_table(inputs, player.inputs, stop_time, step)
@@ -262,6 +263,14 @@ def _model(source: SceneSource | Model) -> Model:
     if isinstance(source, Model):
         return source
     return prepare(resolve(scene_of(source))[0])
+
+
+def _warn_of_loose(player: "Player", start_values: Mapping[str, float] | None) -> None:
+    """Warn of one of our FMUs that starts without preload: its own log is shown after a refusal only."""
+    if player.scene is None or player.scene.fidelity.model == "auto" or "preload" not in player.inputs:
+        return
+    if not by_name(start_values).get("preload", player.inputs["preload"].start) > 0.0:
+        warnings.warn(loose(player.scene.fidelity.model), stacklevel=3)
 
 
 def _check_times(stop_time: float, step: float) -> None:

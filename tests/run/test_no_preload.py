@@ -5,7 +5,7 @@ import warnings
 import pytest
 
 from fmu_bearing import Bearing, simulate
-from fmu_bearing.run.build import model_of
+from fmu_bearing.run.build import build_fmu, model_of
 from fmu_bearing.scene.read import with_fidelity
 
 
@@ -46,3 +46,9 @@ def test_an_fmu_of_it_is_built_with_a_caution(silent):
     lines = []
     model_of(loose(silent, "rings"), lines.append)
     assert len(lines) == 1 and lines[0].startswith("caution: preload = 0 N")
+
+
+def test_an_fmu_that_starts_without_it_is_warned_of(silent, tmp_path):
+    path = build_fmu(with_fidelity(silent, model="rings"), tmp_path / "rings.fmu", "python").path
+    with pytest.warns(UserWarning, match="preload = 0 N"):
+        simulate(path, 1e-3, start_values={"preload": 0.0}, outputs=["friction_torque"])

@@ -86,7 +86,7 @@ _ROLLS = {
     "response": "fidelity response has balls that always roll and contacts that never open: its loads may be "
     "wrong by orders of magnitude",
 }
-_LONGEST_TEXT = 60  # of a value that is repeated in a message
+_LONGEST_TEXT = 57  # of a value that is repeated in a message
 _RELATIVE_SLACK = 1e-12  # a value at a bound may carry rounding from a unit conversion
 
 
@@ -100,7 +100,7 @@ def number(name: str, value: object) -> float:
         return float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError, OverflowError):
         text = repr(value)
-        text = text if len(text) <= _LONGEST_TEXT else f"{text[: _LONGEST_TEXT - 3]}..."
+        text = text if len(text) <= _LONGEST_TEXT else f"{text[:_LONGEST_TEXT]}..."
         raise ValueError(f"{name} = {text} is refused: give a number, SI units") from None
 
 

@@ -128,7 +128,7 @@ def main(
         save(identified_picture(found, true), output_dir / "identification.png")
     heads = ["key", "start", "truth", "identified", "from", "to (2 std)", "truth inside"]
     write_csv(output_dir / "truth.csv", heads, beside_truth(found))
-    show("Identified values beside the truth", heads, beside_truth(found), width=110)
+    show("Identified values beside the truth", heads, beside_truth(found))
     typer.echo(misfit_words(found))
     for remark in found.remarks:
         typer.echo(f"* {remark}")

@@ -159,7 +159,7 @@ def main(
     ]
     rows = rows_of(found, modes)
     title = "Critical speed of the 7003C's spindle over pedestal stiffness"
-    show(title, COLUMNS, rows, width=120)
+    show(title, COLUMNS, rows)
     points = sum(data["wall"].size for data in found.values())
     busy = sum(float(data["wall"].sum()) for data in found.values())
     text = (

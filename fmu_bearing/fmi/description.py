@@ -15,9 +15,11 @@ from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 import numpy as np
 
-from fmu_bearing.engine.choices import FIDELITIES
+from fmu_bearing import __version__
+from fmu_bearing.engine.choices import FIDELITIES, METHODS
 from fmu_bearing.fmi.units import NO_UNIT, UNITS
 from fmu_bearing.interface import Variable
+from fmu_bearing.interface.parameters import RADIATORS
 
 if TYPE_CHECKING:
     from fmu_bearing.prepare.model import Model
@@ -36,6 +38,9 @@ __all__ = [
 ]
 
 GENERATION_TOOL = "fmu-bearing"
+AUTHOR = "fmu-bearing authors"
+COPYRIGHT = "Copyright (c) 2026, fmu-bearing authors"
+LICENSE = "BSD-3-Clause"
 
 #: The two builds: compiled ahead of time, and run by Python.
 FLAVOURS = ("native", "python")
@@ -75,14 +80,27 @@ _FIDELITIES = {
     "rings": "Rings are dynamic; balls and cage move kinematically.",
     "response": "Linear response around the quasi-static state.",
 }
+_METHODS = {
+    "esdirk4": "ESDIRK4(3), implicit, with error control.",
+    "trbdf2": "TR-BDF2, implicit, with error control.",
+    "rk4": "Classical Runge-Kutta, explicit.",
+}
+_RADIATORS = {
+    "none": "Nothing: the scene has no sound.",
+    "bare": "The bare bearing.",
+    "housing": "The housing.",
+    "baffle": "The bearing's face flush in a rigid plane.",
+}
 #: Integers of the table that read better by name: type name, then (item, value, what it means).
 ENUMERATIONS: dict[str, tuple[str, tuple[tuple[str, int, str], ...]]] = {
     "fidelity": ("Fidelity", tuple((name, k, _FIDELITIES[name]) for k, name in enumerate(FIDELITIES))),
+    "method": ("Method", tuple((name, k, _METHODS[name]) for name, k in METHODS.items())),
+    "radiator": ("Radiator", tuple((name, k, _RADIATORS[name]) for name, k in RADIATORS.items())),
 }
 
-# Default experiment, assumed: a few shaft turns after the start has died away (10-20 ms), at a
-# communication step that resolves the shaft order.
-STOP_TIME = 0.1  # s
+# Default experiment, assumed: long enough for Slow levels, at a communication step that resolves the shaft
+# order.
+STOP_TIME = 1.0  # s
 STEP_SIZE = 1e-4  # s
 
 
@@ -141,7 +159,11 @@ def _root(model: "Model", flavour: str, guid: str) -> Element:
                 f"Angular contact ball bearing {scene.bearing.designation} on its mounting: "
                 "vibration, friction torque, heat and sound"
             ),
-            "generationTool": GENERATION_TOOL,
+            "author": AUTHOR,
+            "version": __version__,
+            "copyright": COPYRIGHT,
+            "license": LICENSE,
+            "generationTool": f"{GENERATION_TOOL} {__version__}",
             "variableNamingConvention": "structured",
         },
     )
@@ -183,7 +205,8 @@ def _units(parent: Element, variables: Iterable[Variable]) -> None:
                 shown.add(variable.display_unit)
     for name in sorted(used):
         element = SubElement(parent, "Unit", {"name": name})
-        SubElement(element, "BaseUnit", {base: str(power) for base, power in UNITS[name].base.items()})
+        if UNITS[name].converts:
+            SubElement(element, "BaseUnit", {base: str(power) for base, power in UNITS[name].base.items()})
         for display in map(UNITS[name].display, sorted(used[name])):
             attributes = {"name": display.name, "factor": repr(display.factor)}
             if display.offset:
@@ -263,11 +286,14 @@ def _number(value: float) -> str:
 
 
 def _structure(parent: Element, variables: Iterable[Variable]) -> None:
+    variables = tuple(variables)
     places = [i + 1 for i, variable in enumerate(variables) if variable.causality == "output"]
     # dependencies="": between two steps a set input changes no output, so importers must see no
-    # algebraic loop. While initialising, every output may depend on everything: attribute omitted.
+    # algebraic loop. While initialising, every output follows from all that can be set.
+    settable = ("input", "parameter")
+    known = " ".join(str(i + 1) for i, variable in enumerate(variables) if variable.causality in settable)
     outputs = SubElement(parent, "Outputs")
     unknowns = SubElement(parent, "InitialUnknowns")
     for place in places:
         SubElement(outputs, "Unknown", {"index": str(place), "dependencies": ""})
-        SubElement(unknowns, "Unknown", {"index": str(place)})
+        SubElement(unknowns, "Unknown", {"index": str(place), "dependencies": known})

@@ -138,9 +138,25 @@ class Session:
         else:
             self.fail(f"start time {start!r} s is not a finite number")
         if tolerance is not None:
-            for reference, variable in enumerate(self._variables):
-                if variable.name == "tolerance":
-                    self.set([reference], [tolerance], variable.type)
+            self._take_tolerance(tolerance)
+
+    def _take_tolerance(self, tolerance: float) -> None:
+        """Take the experiment's tolerance; beyond its range it counts as the bound."""
+        for reference, variable in enumerate(self._variables):
+            if variable.name != "tolerance":
+                continue
+            if not math.isfinite(tolerance):
+                self.fail(f"the experiment's tolerance {tolerance!r} is not a finite number")
+                return
+            assert variable.min is not None and variable.max is not None
+            taken = min(max(tolerance, variable.min), variable.max)
+            self.set([reference], [taken], variable.type)
+            if taken != tolerance:
+                self._log(
+                    WARNING,
+                    f"the experiment's tolerance {tolerance!r} is taken as {taken!r}: allowed are "
+                    f"{variable.min:g} to {variable.max:g}",
+                )
 
     def enter_initialisation(self) -> None:
         """Begin to initialise."""

@@ -27,11 +27,15 @@ class DisplayUnit:
 
 @dataclass(frozen=True)
 class Unit:
-    """A unit by name, its SI base exponents (``{"kg": 1, "m": 2, "s": -2}``) and its display units."""
+    """A unit by name, its SI base exponents (``{"kg": 1, "m": 2, "s": -2}``) and its display units.
+
+    ``converts``: whether tools may convert it to units of the same exponents. Decibels are no plain number.
+    """
 
     name: str
     base: dict[str, int] = field(default_factory=dict)
     displays: tuple[DisplayUnit, ...] = ()
+    converts: bool = True
 
     def display(self, name: str) -> DisplayUnit:
         """Return the display unit ``name``; ``KeyError`` names what is missing."""
@@ -43,7 +47,7 @@ class Unit:
 
 _ALL = (
     Unit(NO_UNIT),
-    Unit("dB"),
+    Unit("dB", converts=False),
     Unit("m", {"m": 1}, (DisplayUnit("mm", 1e3), DisplayUnit("um", 1e6), DisplayUnit("nm", 1e9))),
     Unit("s", {"s": 1}, (DisplayUnit("ms", 1e3), DisplayUnit("us", 1e6))),
     Unit("m/s", {"m": 1, "s": -1}, (DisplayUnit("mm/s", 1e3),)),

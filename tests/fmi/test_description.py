@@ -5,6 +5,7 @@ import importlib.util
 import logging
 import math
 import re
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -83,17 +84,24 @@ def test_outputs_are_declared_free_of_direct_feedthrough(tree):
     assert [int(unknown.get("index")) for unknown in listed] == outputs
     assert {unknown.get("dependencies") for unknown in listed} == {""}
     initial = tree.findall("ModelStructure/InitialUnknowns/Unknown")
-    assert [dict(unknown.attrib) for unknown in initial] == [{"index": str(place)} for place in outputs]
+    assert [int(unknown.get("index")) for unknown in initial] == outputs
+    settable = [i + 1 for i, v in enumerate(variables) if v.get("causality") in ("input", "parameter")]
+    assert {unknown.get("dependencies") for unknown in initial} == {" ".join(map(str, settable))}
 
 
 def test_head(tree, expected):
     assert "generationDateAndTime" not in tree.attrib
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+    assert tree.get("generationTool") == f"fmu-bearing {project['version']}"
+    assert (tree.get("version"), tree.get("license")) == (project["version"], project["license"])
+    assert tree.get("author") == project["authors"][0]["name"]
+    assert tree.get("copyright") in (ROOT / "LICENSE").read_text("utf-8")
     assert tree.get("variableNamingConvention") == "structured"
     assert "time" not in [v.get("name") for v in tree.find("ModelVariables")]
     assert re.fullmatch(r"\{[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}\}", tree.get("guid"))
     assert {c.get("name") for c in tree.find("LogCategories")} == set(LOG_CATEGORIES)
     experiment = tree.find("DefaultExperiment").attrib
-    assert 0.0 < float(experiment["stepSize"]) < float(experiment["stopTime"])
+    assert (experiment["stepSize"], experiment["stopTime"]) == ("0.0001", "1.0")
     can = dict(tree.find("CoSimulation").attrib)
     needs_python = expected["needs Python"]
     assert can.pop("modelIdentifier") == "Bearing7003C"
@@ -158,8 +166,11 @@ def test_display_units_go_there_and_back(tree):
 
 def test_units_in_the_description_are_those_of_the_table(tree):
     for element in tree.find("UnitDefinitions"):
-        base = {key: int(value) for key, value in element.find("BaseUnit").attrib.items()}
-        assert base == UNITS[element.get("name")].base
+        base = element.find("BaseUnit")
+        if element.get("name") == "dB":  # a tool that finds a base unit converts 60 dB to the number 60
+            assert base is None
+            continue
+        assert {key: int(value) for key, value in base.attrib.items()} == UNITS[element.get("name")].base
 
 
 def test_unknown_unit_is_named(model):
@@ -168,10 +179,16 @@ def test_unknown_unit_is_named(model):
         description_xml(dataclasses.replace(model, variables=(odd,)))
 
 
-def test_level_is_chosen_by_name(tree):
+def test_coded_numbers_have_names(model, tree):
     declared = {v.get("name"): v[0].get("declaredType") for v in tree.iter("ScalarVariable")}
     assert declared["fidelity"] == ENUMERATIONS["fidelity"][0]
-    assert tree.find("TypeDefinitions/SimpleType/Enumeration/Item").attrib["name"] == "full"
+    types = {found.get("name"): found.findall("Enumeration/Item") for found in tree.iter("SimpleType")}
+    for variable in model.variables:
+        if variable.type == "Integer" and re.search(r"\d [a-z]", variable.description):
+            names = {item.get("name"): int(item.get("value")) for item in types[declared[variable.name]]}
+            assert names and variable.value in names.values(), variable.name
+            assert all(f"{number} " in variable.description for number in names.values()), variable.name
+    assert {"Fidelity", "Method", "Radiator"} <= set(types)
 
 
 def test_guid_names_the_model(model, flavour, scene_file, tmp_path):

@@ -1,11 +1,14 @@
 """The FMU in a master: values, what is refused and how it is said, and the log."""
 
+import contextlib
 import ctypes
 import math
 
+import fmpy
 import pytest
+from fmpy.fmi1 import FMICallException
 
-from .conftest import DISCARD, ERROR, OK, STEP
+from .conftest import DISCARD, ERROR, OK, STEP, WARNING
 
 
 def test_start_values_are_those_of_the_description(master):
@@ -106,15 +109,29 @@ def test_what_is_computed_or_constant_cannot_be_set(master, expected, name):
     assert bearing.get(name) == before
 
 
-def test_tolerance_of_the_experiment_wins(master, expected):
+def test_tolerance_of_the_experiment_wins(master):
     bearing = master()
     assert bearing.set("tolerance", 1e-3) == OK
     assert bearing.start(tolerance=1e-4).get("tolerance") == 1e-4
-    assert bearing.reset() == OK
+
+
+def test_tolerance_out_of_range_counts_as_the_bound(master, expected):
+    for given, taken in ((0.0, 1e-6), (1e-7, 1e-6), (0.5, 0.1)):
+        bearing = master()
+        assert bearing.setup(0.0, given) == expected["tolerance out of range"]
+        assert bearing.log[-1][0] == WARNING
+        assert f"tolerance {given!r} is taken as {taken!r}: allowed are 1e-06 to 0.1" in bearing.messages
+        assert bearing.enter() == bearing.exit() == bearing.step(0.0) == OK
+        assert bearing.get("tolerance") == taken
+
+
+def test_tolerance_that_is_no_number_is_an_error(master, expected):
+    bearing = master()
     answer = bearing.setup(0.0, math.nan)
-    assert bearing.enter() == bearing.exit() == OK
-    assert (answer, bearing.step(0.0)) == expected["tolerance out of range"]
-    assert "tolerance = nan is refused" in bearing.messages
+    bearing.enter()
+    bearing.exit()
+    assert (answer, bearing.step(0.0)) == expected["tolerance not finite"]
+    assert "the experiment's tolerance nan is not a finite number" in bearing.messages
 
 
 @pytest.mark.parametrize("reference", [100_000, "preload"])
@@ -163,10 +180,22 @@ def provoke(bearing):
     bearing.exit()
 
 
-def test_nothing_is_logged_with_logging_off(master):
+def test_reasons_of_refusals_are_said_without_logging(master, expected):
+    """They are no debug logging: FMPy, which starts without it, then shows why a run ended."""
     bearing = master(logging=False)
     provoke(bearing)
+    assert {category for _, category, _ in bearing.log} == expected["reasons without logging"]
+    bearing.log.clear()
+    assert bearing.call("SetDebugLogging", 0, 0, None) == OK
+    provoke(bearing)
     assert bearing.log == []
+
+
+def test_fmpy_prints_the_reason_without_further_settings(fmu, expected, capfd):
+    with contextlib.suppress(FMICallException):  # the Python build ends at a step instead
+        fmpy.simulate_fmu(str(fmu), stop_time=2e-3, output_interval=1e-3, start_values={"preload": -5.0})
+    said = "preload = -5.0 is refused: allowed are 0 to 10000 N" in capfd.readouterr().out
+    assert said == bool(expected["reasons without logging"])
 
 
 BOTH = {"logStatusDiscard", "logStatusError"}

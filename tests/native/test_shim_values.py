@@ -172,7 +172,7 @@ def test_no_equilibrium_while_asking_can_be_mended(master):
     one, other = master(), master().start()
     assert one.setup() == one.enter() == OK
     assert one.set("no_start", 4.0) == OK
-    assert one.read("speed", "angle") == (DISCARD, [3.0, 0.0])
+    assert one.read("speed", "angle") == (ERROR, [3.0, 0.0])  # reading never answers fmi2Discard
     assert "there is no equilibrium" in one.messages
     assert one.set("no_start", 0.0) == OK
     assert one.get("angle") == 1.0
@@ -208,11 +208,24 @@ def test_tolerance_of_the_experiment_wins(master):
     assert one.set("tolerance", 1e-2) == OK
     one.start(tolerance=1e-4)
     assert one.get("tolerance") == 1e-4
-    two = master()
-    assert two.setup(tolerance=1.0) == DISCARD
-    assert "tolerance = 1.0 is refused: allowed are 1e-06 to 0.1" in two.messages
-    assert two.get("tolerance") == 1e-3
-    assert two.enter() == two.exit() == two.step(0.0) == OK
+
+
+@pytest.mark.parametrize(("given", "taken"), [(0.0, 1e-6), (1e-7, 1e-6), (-1.0, 1e-6), (1.0, 0.1)])
+def test_tolerance_beyond_its_range_counts_as_the_bound(master, given, taken):
+    one = master()
+    assert one.setup(tolerance=given) == WARNING
+    said = f"the experiment's tolerance {given!r} is taken as {taken!r}: allowed are 1e-06 to 0.1"
+    assert one.log == [(WARNING, "logStatusWarning", said)]
+    assert one.get("tolerance") == taken
+    assert one.enter() == one.exit() == one.step(0.0) == OK
+
+
+@pytest.mark.parametrize("given", [math.nan, math.inf, -math.inf])
+def test_tolerance_must_be_finite(master, given):
+    one = master()
+    assert one.setup(tolerance=given) == ERROR
+    assert f"the experiment's tolerance {given!r} is not a finite number" in one.messages
+    assert one.enter() == ERROR
 
 
 @pytest.mark.parametrize("time", [math.nan, math.inf, -math.inf])
@@ -230,10 +243,15 @@ def names(*categories):
     return len(categories), (ctypes.c_char_p * max(1, len(categories)))(*(c.encode() for c in categories))
 
 
-def test_nothing_is_logged_with_logging_off(master):
-    one = master(logging=False).start(load=150.0)
+def test_with_logging_off_only_reasons_of_refusals_are_said(master):
+    one = master(logging=False).start(load=150.0)  # a warning that nobody asked for
     assert one.set("load", math.nan) == DISCARD
     assert one.step(5.0) == ERROR
+    assert {category for _, category, _ in one.log} == {"logStatusDiscard", "logStatusError"}
+    one = master(logging=False)
+    assert one.call("SetDebugLogging", 0, *names()) == OK
+    one.start(load=150.0)
+    assert one.set("load", math.nan) == DISCARD
     assert one.log == []
 
 

@@ -73,15 +73,35 @@ fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean on, size_t count, co
     return instance_refuse(it, fmi2Error, &why); /* of no consequence for the model: it goes on */
 }
 
-/* Take the tolerance of the experiment, which wins over the parameter. */
+/* Take the tolerance of the experiment, which wins over the parameter. There are masters that always pass
+ * one, whatever the model: beyond its range it counts as the bound. */
 static fmi2Status take_tolerance(Instance *it, double tolerance)
 {
     uint64_t reference = it->model.head->tolerance;
-    Text why = {0};
+    const ModelVariable *variable;
+    double taken;
+    Text text = {0};
     if (reference == MODEL_NOWHERE) return fmi2OK;
-    if (!instance_may_have(it, reference, tolerance, &why)) return instance_refuse(it, fmi2Discard, &why);
-    *it->slots[reference].at = tolerance;
-    return fmi2OK;
+    variable = &it->model.variables[reference];
+    text_add(&text, "the experiment's tolerance ", NULL);
+    text_add_number(&text, tolerance, 0);
+    if (!isfinite(tolerance)) {
+        text_add(&text, " is not a finite number", NULL);
+        return instance_fail(it, &text);
+    }
+    taken = fmin(fmax(tolerance, variable->min), variable->max);
+    *it->slots[reference].at = taken;
+    if (taken == tolerance) {
+        text_free(&text);
+        return fmi2OK;
+    }
+    text_add(&text, " is taken as ", NULL);
+    text_add_number(&text, taken, 0);
+    text_add(&text, ": allowed are ", NULL);
+    text_add_number(&text, variable->min, 6);
+    text_add(&text, " to ", NULL);
+    text_add_number(&text, variable->max, 6);
+    return instance_refuse(it, fmi2Warning, &text);
 }
 
 /* Take start time and tolerance; the stop time does not matter to the model. */

@@ -38,7 +38,7 @@ static fmi2Status settle_for(Instance *it, const fmi2ValueReference *references,
     if (it->phase != PHASE_INITIALISING || it->settled) return fmi2OK;
     for (i = 0; i < count; i++) {
         if (references[i] < it->n_variables && it->slots[references[i]].computed) {
-            return instance_settle(it, fmi2Discard); /* other inputs may have an equilibrium */
+            return instance_settle(it, fmi2Error); /* other inputs may have an equilibrium: it goes on */
         }
     }
     return fmi2OK;

@@ -60,7 +60,7 @@ def compare(
         print_json(found.summary() | {"files": files})
         return
     for title, table in tables.items():
-        show(title, *table, width=80)
+        show(title, *table)
     if not found.keys and found.a.scene is not None and found.b.scene is not None:
         typer.echo("the scenes do not differ")
     typer.echo(f"A: {a}, B: {b}; differences are B less A")

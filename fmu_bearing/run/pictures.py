@@ -38,10 +38,13 @@ def check_picture(path: str | os.PathLike[str]) -> pathlib.Path:
         For an ending other than those of `_METADATA`.
     OSError
         Where it cannot be written.
+    MissingExtra
+        Without Matplotlib (extra ``plots``).
     """
     target = check_file(path)
     if target.suffix not in _METADATA:
         raise ValueError(f"{target}: pictures are written as {', '.join(_METADATA)}")
+    need("matplotlib", "a picture")
     return target
 
 
@@ -57,23 +60,6 @@ def save(figure: "Figure", path: str | os.PathLike[str]) -> None:
     target.parent.mkdir(parents=True, exist_ok=True)
     with need("matplotlib", "a picture").rc_context({"svg.hashsalt": "fmu-bearing"}):
         figure.savefig(target, dpi=120, metadata=_METADATA[target.suffix])
-
-
-def check_picture(path: str | os.PathLike[str]) -> pathlib.Path:
-    """Return the path of a picture, or raise if it cannot be written there; called before long work.
-
-    Raises
-    ------
-    ValueError
-        For an ending other than those of `_METADATA`.
-    MissingExtra
-        Without Matplotlib (extra ``plots``).
-    """
-    target = pathlib.Path(path)
-    if target.suffix not in _METADATA:
-        raise ValueError(f"{target}: pictures are written as {', '.join(_METADATA)}")
-    need("matplotlib", "a picture")
-    return target
 
 
 def empty(size: tuple[float, float]) -> "Figure":

@@ -137,7 +137,7 @@ def _table(annotation: Any) -> type[BaseModel] | None:
 
 def bounds(key: str) -> tuple[float, float]:
     """Return the least and the largest number that a dotted key may hold."""
-    part: Any = Scene
+    part: Any = Tables
     *tables, last = key.split(".")
     for name in tables:
         part = _table(part.model_fields[name].annotation)

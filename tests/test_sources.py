@@ -47,7 +47,7 @@ def test_a_path_is_read(name, kind, tmp_path, monkeypatch):
 @pytest.mark.parametrize("name", TAKE)
 def test_what_is_neither_scene_nor_path_is_refused(name, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    with pytest.raises(TypeError, match="give a Scene or the path of a scene file, not dict"):
+    with pytest.raises(SceneError, match="a scene is a file, given by its path, or a Scene in memory, not"):
         TAKE[name]({})
 
 

@@ -108,17 +108,9 @@ def scene_of(source: SceneSource) -> Scene:
     Raises
     ------
     SceneError
-        As :func:`read_scene`.
-    TypeError
-        For anything else.
+        As :func:`read_scene`; for anything else, too.
     """
-    if isinstance(source, Scene):
-        return source
-    if isinstance(source, str | os.PathLike):
-        return read_scene(source)
-    raise TypeError(
-        f"give a Scene or the path of a scene file, not {type(source).__name__}; Scene.from_dict takes tables"
-    )
+    return source if isinstance(source, Scene) else read_scene(source)
 
 
 def catalogue(kind: str) -> dict[str, dict[str, Any]]:
@@ -147,7 +139,10 @@ def read_scene(path: str | os.PathLike[str]) -> Scene:
     (12, 500.0)
     """
     if not isinstance(path, str | os.PathLike):
-        raise SceneError(f"a scene is a file, given by its path, or a Scene in memory, not {described(path)}")
+        raise SceneError(
+            f"a scene is a file, given by its path, or a Scene in memory, not {described(path)}; "
+            "Scene.from_dict takes tables"
+        )
     try:
         # some editors put a byte order mark in front, which TOML does not know
         text = Path(path).read_text("utf-8-sig")

@@ -57,12 +57,6 @@ DIFFERENCES = (
     Difference("input derivative", OK, ERROR, _FIXED),
     Difference("output derivative", OK, ERROR, _FIXED),
     Difference(
-        "reasons without logging",
-        {"logStatusDiscard", "logStatusError"},
-        set(),
-        "pythonfmu says nothing before a category is asked for",
-    ),
-    Difference(
         "unknown log category", ERROR, OK, "pythonfmu passes messages of exactly the categories named"
     ),
     Difference(

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fmu_bearing import Run, compare, record, simulate, with_fidelity
+from fmu_bearing import Run, SceneError, compare, record, simulate, with_fidelity
 from fmu_bearing.recording.finished import FIGURES
 from fmu_bearing.recording.listen import listen
 
@@ -170,5 +170,5 @@ def test_refusals(plain, tmp_path):
         compare(run, run, radiation_model="bem")
     with pytest.raises(ValueError, match="no such scene file"):
         compare("none.toml", plain)
-    with pytest.raises(TypeError, match="give a Scene or the path"):
+    with pytest.raises(SceneError, match="Scene.from_dict takes tables"):
         compare({}, plain)

@@ -126,7 +126,7 @@ def test_all_problems_are_told_at_once(spindle):
 def test_a_scene_or_its_path(spindle):
     assert scene_of(spindle) is spindle
     assert scene_of(FILE) == scene_of(str(FILE)) == spindle
-    with pytest.raises(TypeError, match="not dict; Scene.from_dict takes tables"):
+    with pytest.raises(SceneError, match="Scene.from_dict takes tables"):
         scene_of({"name": "a"})
     with pytest.raises(SceneError, match="no such scene file"):
         scene_of(pathlib.Path("none.toml"))

@@ -89,7 +89,7 @@ static fmi2Status take_tolerance(Instance *it, double tolerance)
         text_add(&text, " is not a finite number", NULL);
         return instance_fail(it, &text);
     }
-    taken = fmin(fmax(tolerance, variable->min), variable->max);
+    taken = tolerance < variable->min ? variable->min : tolerance > variable->max ? variable->max : tolerance;
     *it->slots[reference].at = taken;
     if (taken == tolerance) {
         text_free(&text);

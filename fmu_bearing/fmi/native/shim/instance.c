@@ -110,7 +110,6 @@ Instance *instance_new(Model *model, const Log *log, Text *why)
     it->log = *log;
     it->log.name = it->name;
     it->log.model = &it->model;
-    if (!it->log.enabled) it->log.enabled = log_refusals(&it->model);
     it->p = it->model.p;
     it->sizes[0] = (int64_t)head->n_p;
     it->sizes[1] = (int64_t)head->n_u;

@@ -38,18 +38,6 @@ void log_say(const Log *log, fmi2Status status, const Text *text)
     send(log, status, name, text_string(text));
 }
 
-/* Bits of the categories that say why a call was refused. */
-uint32_t log_refusals(const Model *model)
-{
-    uint32_t bits = 0;
-    uint64_t i;
-    for (i = 0; i < model->head->n_categories; i++) {
-        uint32_t status = model->categories[i].status;
-        if (status == fmi2Discard || status == fmi2Error) bits |= (uint32_t)1 << i;
-    }
-    return bits;
-}
-
 /* Bit of a category by name; the one of fmi2OK, logAll, stands for all. 0: unknown. */
 static uint32_t bits_of(const Model *model, const char *name)
 {

@@ -18,9 +18,6 @@ typedef struct Log {
 /* Say something about a call with that status, if its category is asked for. */
 void log_say(const Log *log, fmi2Status status, const Text *text);
 
-/* Bits of the categories that say why a call was refused: they are said unless the host switches them off. */
-uint32_t log_refusals(const Model *model);
-
 /* Ask for all categories, for some, or for none; 0 with the reason where one is unknown. */
 int log_enable(Log *log, int on, size_t count, const fmi2String *names, Text *why);
 

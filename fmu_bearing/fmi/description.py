@@ -94,7 +94,8 @@ _RADIATORS = {
 #: Integers of the table that read better by name: type name, then (item, value, what it means).
 ENUMERATIONS: dict[str, tuple[str, tuple[tuple[str, int, str], ...]]] = {
     "fidelity": ("Fidelity", tuple((name, k, _FIDELITIES[name]) for k, name in enumerate(FIDELITIES))),
-    "method": ("Method", tuple((name, k, _METHODS[name]) for name, k in METHODS.items())),
+    # an integrator that a user adds (docs/architecture.md) needs no sentence here
+    "method": ("Method", tuple((name, k, _METHODS.get(name, "Added.")) for name, k in METHODS.items())),
     "radiator": ("Radiator", tuple((name, k, _RADIATORS[name]) for name, k in RADIATORS.items())),
 }
 

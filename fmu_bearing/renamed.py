@@ -13,7 +13,13 @@ VALUES = {"fidelity.method": {"fast": "esdirk4"}}
 #: Options of the command line.
 OPTIONS = {"--level": "--fidelity", "--rung": "--radiation-model"}
 #: Variables of a bearing.
-VARIABLES = {"level": "fidelity"}
+VARIABLES = {
+    "level": "fidelity",
+    **{
+        f"friction_torque.{name}": f"friction_torque_share.{name}"
+        for name in ("contacts", "rolling", "cage", "drag")
+    },
+}
 #: Short names of a sweep's axes.
 AXES = {"level": "fidelity"}
 #: Arguments of public functions.

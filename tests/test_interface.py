@@ -102,7 +102,7 @@ def test_details_of_contacts_cage_and_torque(scene):
         "inner_ring.tilt.z": "rad",
         "cage.whirl_radius": "m",
         "cage.whirl_speed": "rad/s",
-        **{f"friction_torque.{name}": "N.m" for name in ("contacts", "rolling", "cage", "drag")},
+        **{f"friction_torque_share.{name}": "N.m" for name in ("contacts", "rolling", "cage", "drag")},
         **{f"contact.{ring}.{q}": "" for ring in ("inner", "outer") for q in ("spin_to_roll", "slip")},
     }
     for name, unit in units.items():
@@ -136,3 +136,11 @@ def test_every_radiator_has_a_number_of_its_own(scene):
         sound = bare.sound.model_copy(update={"radiator": name})
         numbers[name] = table(bare.model_copy(update={"sound": sound}))["radiator"].value
     assert numbers == {"none": 0, "bare": 1, "housing": 2, "baffle": 3}
+
+
+@pytest.mark.parametrize("name", ["7003C-bare", "7003C-spindle", "7009C-full-ceramic"])
+def test_no_name_is_a_variable_and_a_group_of_variables(scene, name):
+    """Tools with trees of names (Dymola, Simulink) cannot show a leaf that is a branch too."""
+    names = set(table(scene(name)))
+    branches = {whole[:k] for whole in names for k, letter in enumerate(whole) if letter in ".["}
+    assert not names & branches

@@ -52,8 +52,16 @@ def outputs(scene: Scene) -> list[Variable]:
         table += _vector(f"ball[{j + 1}]", "velocity", "output", words, "m/s", place, nominal=10.0)
     table += _microphones(scene, "output")
     table += _flexure(scene)
-    torque = "Torque taken from the shaft, without inertia: that belongs to the drive"
+    torque = (
+        "Torque taken from the shaft: positive brakes positive rotation, so it acts on a drive with a minus; "
+        "without inertia, which the drive owns"
+    )
+    mean = (
+        "Friction torque of the last communication step: the shaft's work over the angle turned; mean over "
+        "time where the shaft stands or turns back"
+    )
     table.append(_read("friction_torque", "output", torque, "N.m"))
+    table.append(_read("friction_torque_mean", "output", mean, "N.m"))
     for name, words in (("inner_ring", "the inner ring"), ("outer_ring", "the outer ring")):
         heat = f"Heat to {words}, mean over the last communication step"
         table.append(_read(f"heat.{name}", "output", heat, "W"))
@@ -180,8 +188,11 @@ def _torque_shares(scene: Scene) -> list[Variable]:
         ("cage", "the cage's pockets and lands"),
         ("drag", "drag on the balls"),
     ]
+    how = "power lost there over the shaft speed, 0 at standstill"
     return [
-        _read(f"friction_torque.{name}", "local", f"Share of the friction torque by {words}", "N.m")
+        _read(
+            f"friction_torque_share.{name}", "local", f"Share of {words} in the friction torque: {how}", "N.m"
+        )
         for name, words in shares
         if name != "cage" or scene.bearing.cage is not None
     ]

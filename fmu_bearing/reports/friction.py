@@ -56,7 +56,7 @@ def _curves(subject: Subject, names: dict[str, tuple[str, str]], factor: float) 
 def _torque(subject: Subject) -> Chart:
     figure = look.figure(height=360)
     names = {"friction_torque": ("torque taken from the shaft", "total")}
-    names |= {f"friction_torque.{key}": value for key, value in _SHARES.items()}
+    names |= {f"friction_torque_share.{key}": value for key, value in _SHARES.items()}
     for trace in _curves(subject, names, 1e3):
         figure.add_scatter(**trace, hovertemplate="%{x:.4f} s: %{y:.3f} N mm<extra>%{fullData.name}</extra>")
     window = last_turns(subject)
@@ -100,9 +100,9 @@ def _table(subject: Subject) -> Table:
     speed = abs(subject.speed)
     rows = []
     shares = {
-        key: subject.mean(f"friction_torque.{key}")
+        key: subject.mean(f"friction_torque_share.{key}")
         for key in _SHARES
-        if subject.has(f"friction_torque.{key}")
+        if subject.has(f"friction_torque_share.{key}")
     }
     whole = sum(shares.values())
     for key, value in shares.items():

@@ -115,7 +115,9 @@ def test_heats_are_torque_times_speed(scene, fidelity, rpm):
     run.run(1e-3)
     friction = run.value("friction_torque")
     heats = sum(run.value(f"heat.{part}") for part in ("inner_ring", "outer_ring", "oil"))
-    sources = sum(run.value(f"friction_torque.{part}") for part in ("contacts", "rolling", "cage", "drag"))
+    sources = sum(
+        run.value(f"friction_torque_share.{part}") for part in ("contacts", "rolling", "cage", "drag")
+    )
     assert heats > 0.0
     assert heats == pytest.approx(friction * rpm * RPM, rel=1e-9)
     assert sources == pytest.approx(friction, rel=1e-9)

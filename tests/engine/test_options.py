@@ -119,7 +119,7 @@ def test_torque_by_source_adds_up(scene):
     run = Run(quiet(scene(NAME)), 20000).init()
     rows = run.run(0.02)[100:]
     parts = {
-        name: run.value(f"friction_torque.{name}", rows).mean()
+        name: run.value(f"friction_torque_share.{name}", rows).mean()
         for name in ("contacts", "rolling", "cage", "drag")
     }
     assert min(parts.values()) > 0.0
@@ -133,4 +133,4 @@ def test_at_standstill_the_torque_has_no_sources(scene):
     run = Run(quiet(scene(NAME)), 0).init()
     run.run(0.001)
     for name in ("contacts", "rolling", "cage", "drag"):
-        assert run.value(f"friction_torque.{name}") == 0.0
+        assert run.value(f"friction_torque_share.{name}") == 0.0

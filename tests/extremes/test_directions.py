@@ -26,7 +26,7 @@ def test_conformity(usual):
     open_ = settled({"bearing.inner_conformity": 0.54})
     assert open_["stiffness.axial"] < 0.97 * usual["stiffness.axial"]
     assert open_["contact.inner.pressure_max"] > 1.1 * usual["contact.inner.pressure_max"]
-    assert open_["friction_torque.contacts"] < 0.97 * usual["friction_torque.contacts"]
+    assert open_["friction_torque_share.contacts"] < 0.97 * usual["friction_torque_share.contacts"]
 
 
 def test_free_contact_angle(usual):
@@ -56,7 +56,7 @@ def test_speed(usual):
 def test_land_clearance(usual):
     """Petroff: the lands' shear falls as one over the clearance, 2 pi eta r^3 L w / c."""
     wide = settled({"bearing.cage.land_clearance_mm": 0.08})
-    ratio = wide["friction_torque.cage"] / usual["friction_torque.cage"]
+    ratio = wide["friction_torque_share.cage"] / usual["friction_torque_share.cage"]
     # pockets share the torque and the journal shrinks by 0.04 of 11.7 mm
     assert ratio == pytest.approx(0.5, rel=0.1)
 
@@ -72,14 +72,14 @@ def test_viscosity_and_rolling_resistance():
     plain = {"fidelity.terms.rolling_reduction": False}
     thick, thin = (settled(plain | {"lubricant.viscosity_Pa_s": eta}) for eta in (0.03, 0.01))
     # rolling speed and loads barely change; 1 % for what does
-    ratio = thick["friction_torque.rolling"] / thin["friction_torque.rolling"]
+    ratio = thick["friction_torque_share.rolling"] / thin["friction_torque_share.rolling"]
     assert ratio == pytest.approx(3.0**0.66, rel=1e-2)
     assert thick["friction_torque"] > thin["friction_torque"]
 
 
 def test_reduction_of_the_rolling_resistance(usual):
     plain = settled({"fidelity.terms.rolling_reduction": False})
-    assert plain["friction_torque.rolling"] > 1.5 * usual["friction_torque.rolling"]
+    assert plain["friction_torque_share.rolling"] > 1.5 * usual["friction_torque_share.rolling"]
 
 
 def test_temperature(usual):

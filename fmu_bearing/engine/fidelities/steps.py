@@ -2,6 +2,7 @@
 
 import math
 
+from fmu_bearing.engine.constants import STANDSTILL
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import P, S
 from fmu_bearing.engine.mechanics.trigonometry import wrap
@@ -60,14 +61,27 @@ def advance_clock(s, h):
 
 
 @kernel
-def begin_heats(s):
-    """Keep the heats so far (J) where :func:`mean_heats` turns them into means."""
+def begin_means(s):
+    """Keep the heats so far (J) where :func:`end_means` turns them into means; no work of the shaft yet."""
     for i in range(3):
         s[S.MEAN_HEAT + i] = s[S.HEAT + i]
+    s[S.SHAFT_WORK] = 0.0
+    s[S.TORQUE_TIME] = 0.0
 
 
 @kernel
-def mean_heats(s, h):
-    """Mean heats (W) over the communication step ``h`` (s) since :func:`begin_heats`."""
+def end_means(s, h):
+    """Mean heats (W) and torque (N m) over the communication step ``h`` (s) since :func:`begin_means`.
+
+    The torque is the shaft's work over the angle turned, so that mean torque times mean speed is the mean
+    power. Where the shaft stands or turns back, the work says nothing about the torque: there it is the
+    mean over time.
+    """
     for i in range(3):
         s[S.MEAN_HEAT + i] = (s[S.HEAT + i] - s[S.MEAN_HEAT + i]) / h
+    begin = s[S.SPEED] - h * s[S.SPEED_RATE]
+    turning = 0.5 * (begin + s[S.SPEED])
+    if begin * s[S.SPEED] >= 0.0 and abs(turning) > STANDSTILL:
+        s[S.MEAN_TORQUE] = s[S.SHAFT_WORK] / (turning * h)
+    else:
+        s[S.MEAN_TORQUE] = s[S.TORQUE_TIME] / h

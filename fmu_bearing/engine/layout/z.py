@@ -12,13 +12,15 @@ BEARING_OUTPUTS = (
     "stiffness.axial", "stiffness.radial", "solver.steps", "solver.rejected", "solver.wave_time",
     "energy.residual", "inner_ring.tilt.y", "inner_ring.tilt.z", "contact.inner.spin_to_roll",
     "contact.outer.spin_to_roll", "contact.inner.slip", "contact.outer.slip", "cage.whirl_radius",
-    "cage.whirl_speed", "friction_torque.contacts", "friction_torque.rolling", "friction_torque.cage",
-    "friction_torque.drag", "contact.inner.shoulder_margin", "contact.outer.shoulder_margin",
+    "cage.whirl_speed", "friction_torque_share.contacts", "friction_torque_share.rolling",
+    "friction_torque_share.cage", "friction_torque_share.drag", "contact.inner.shoulder_margin",
+    "contact.outer.shoulder_margin", "friction_torque_mean",
 )  # fmt: skip
 INNER_VELOCITY = BEARING_OUTPUTS.index("inner_ring.velocity.x")  # m/s, three
 OUTER_VELOCITY = BEARING_OUTPUTS.index("outer_ring.velocity.x")
 CAGE_VELOCITY = BEARING_OUTPUTS.index("cage.velocity.x")
 TORQUE = BEARING_OUTPUTS.index("friction_torque")  # N m
+MEAN_TORQUE = BEARING_OUTPUTS.index("friction_torque_mean")
 HEAT = BEARING_OUTPUTS.index("heat.inner_ring")  # W, then outer ring, oil
 CAGE_RATIO = BEARING_OUTPUTS.index("cage.speed_ratio")
 INNER_PLACE = BEARING_OUTPUTS.index("inner_ring.displacement.x")  # m, three
@@ -42,7 +44,7 @@ SLIP = BEARING_OUTPUTS.index("contact.inner.slip")  # m/s: inner, outer
 WHIRL_RADIUS = BEARING_OUTPUTS.index("cage.whirl_radius")  # m
 WHIRL_SPEED = BEARING_OUTPUTS.index("cage.whirl_speed")  # rad/s
 SHOULDER = BEARING_OUTPUTS.index("contact.inner.shoulder_margin")  # rad: inner, outer
-TORQUE_CONTACTS = BEARING_OUTPUTS.index("friction_torque.contacts")  # N m, then rolling, cage, drag
+TORQUE_CONTACTS = BEARING_OUTPUTS.index("friction_torque_share.contacts")  # N m, then rolling, cage, drag
 BALLS = len(BEARING_OUTPUTS)  # m/s: ball[j].velocity.x|y|z at BALLS + PER_BALL j
 PER_BALL = 3
 

@@ -2,6 +2,7 @@
 
 import math
 
+from fmu_bearing.engine.constants import STANDSTILL
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import C, F, P, Q, S, Y, Z
 from fmu_bearing.engine.mechanics.flexure import flexure_state
@@ -10,7 +11,6 @@ from fmu_bearing.engine.mechanics.race import wave_time
 from fmu_bearing.engine.sound.meter import levels
 from fmu_bearing.engine.statics.stiffness import series_stiffness
 
-_STANDSTILL = 1e-9  # rad/s: below it nothing is divided by the shaft speed
 _CENTRED_2 = 1e-16  # m2: the whirl speed of a cage within 10 nm of the middle says nothing
 
 
@@ -44,7 +44,7 @@ def bodies(p, s, z):
         orbit += om / balls
     turning = s[v + Q.CAGE + Q.TURN] if p[P.CAGE] != 0.0 else orbit
     speed = s[S.SPEED]
-    z[Z.CAGE_RATIO] = turning / speed if abs(speed) > _STANDSTILL else 0.0
+    z[Z.CAGE_RATIO] = turning / speed if abs(speed) > STANDSTILL else 0.0
     z[Z.WHIRL_RADIUS] = 0.0
     z[Z.WHIRL_SPEED] = 0.0
     if p[P.CAGE] != 0.0:
@@ -65,7 +65,7 @@ def losses(s, z):
         z[Z.SPIN_TO_ROLL + i] = s[S.SPIN_TO_ROLL + i]
         z[Z.SLIP + i] = s[S.SLIP + i]
     for i in range(S.LOSSES):
-        z[Z.TORQUE_CONTACTS + i] = s[S.LOSS + i] / s[S.SPEED] if speed > _STANDSTILL else 0.0
+        z[Z.TORQUE_CONTACTS + i] = s[S.LOSS + i] / s[S.SPEED] if speed > STANDSTILL else 0.0
 
 
 @kernel
@@ -161,6 +161,7 @@ def observe(p, s, z):
     """Fill ``z`` (see ``layout``) from the state ``s``."""
     bodies(p, s, z)
     z[Z.TORQUE] = s[S.F + F.TORQUE]
+    z[Z.MEAN_TORQUE] = s[S.MEAN_TORQUE]
     for i in range(3):
         z[Z.HEAT + i] = s[S.MEAN_HEAT + i]
     contacts(p, s, z)

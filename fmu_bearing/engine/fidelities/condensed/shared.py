@@ -7,7 +7,7 @@ from fmu_bearing.engine.fidelities.condensed.balls import stand
 from fmu_bearing.engine.fidelities.condensed.damping import add_damping
 from fmu_bearing.engine.fidelities.condensed.held import hold, out_of_date
 from fmu_bearing.engine.fidelities.condensed.linearised import added_mass, at_rest, derivatives
-from fmu_bearing.engine.fidelities.condensed.publish import publish
+from fmu_bearing.engine.fidelities.condensed.publish import held_torque, publish
 from fmu_bearing.engine.fidelities.condensed.rows import keep_balls, show_balls
 from fmu_bearing.engine.fidelities.full.start import start
 from fmu_bearing.engine.fidelities.steps import advance_clock
@@ -134,8 +134,12 @@ def set_inputs(p, u, s, w, h):
 
 @kernel
 def advance(s, h):
-    """Time, angle, speed and the sums of heat at the end of the step."""
+    """Time, angle, speed, the shaft's work and the sums of heat at the end of the step."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
+    mean_speed = s[S.SPEED] + 0.5 * h * s[S.SPEED_RATE]
+    impulse = h * held_torque(lv, mean_speed)
+    s[S.SHAFT_WORK] += impulse * mean_speed
+    s[S.TORQUE_TIME] += impulse
     advance_clock(s, h)
     for i in range(3):
         s[S.HEAT + i] += h * lv[L.HEAT + i]

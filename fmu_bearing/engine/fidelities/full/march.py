@@ -5,7 +5,7 @@ from fmu_bearing.engine.fidelities import steps
 from fmu_bearing.engine.fidelities.full import control
 from fmu_bearing.engine.fidelities.full.methods.table import AT_ESDIRK4, AT_RK4, AT_TRBDF2, TABLEAUX
 from fmu_bearing.engine.fidelities.full.progress import accept, renew_jacobian, total_energy
-from fmu_bearing.engine.fidelities.full.runge_kutta import integrate_power, runge_kutta_step
+from fmu_bearing.engine.fidelities.full.runge_kutta import integrate_power, integrate_torque, runge_kutta_step
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import TAB, C, F, P, S, U, W, Y
 from fmu_bearing.engine.mechanics.conditions import conditions
@@ -102,7 +102,7 @@ def try_step(p, s, w, h, tableau, tolerance):
 @kernel
 def march(p, u, s, w, h):
     """Advance the state by the communication step ``h`` (s); status code."""
-    steps.begin_heats(s)
+    steps.begin_means(s)
     take_inputs(p, u, s, w, h)
     tableau = AT_TRBDF2 if p[P.METHOD] == TRBDF2 else AT_RK4 if p[P.METHOD] == RK4 else AT_ESDIRK4
     order = TABLEAUX[tableau + TAB.ORDER]
@@ -125,6 +125,9 @@ def march(p, u, s, w, h):
                 return NOT_CONVERGED
             continue
         integrate_power(length, tableau, w, s[S.WORK : S.WORK + F.POWERS])
+        shaft_work, torque_time = integrate_torque(length, tableau, w, s[S.SPEED], s[S.SPEED_RATE])
+        s[S.SHAFT_WORK] += shaft_work
+        s[S.TORQUE_TIME] += torque_time
         emit_samples(p, s, w, length)
         fresh = s[S.JACOBIAN_TIME] == s[S.TIME]
         control.propose(s, error, s[S.CONTRACTION] if fresh else 0.0, length, longest, order)
@@ -137,5 +140,5 @@ def march(p, u, s, w, h):
     # not carry the last Newton iteration's remainder.
     s[S.ENERGY_NOW] = total_energy(p, s, w)
     summarise(p, s, w)
-    steps.mean_heats(s, h)
+    steps.end_means(s, h)
     return OK

@@ -230,3 +230,18 @@ def integrate_power(h, tableau, w, totals):
             weight = TABLEAUX[tableau + TAB.B + stage]
             total += weight * w[W.ACC + stage * F.SIZE + F.WORK + k]
         totals[k] += h * total
+
+
+@kernel
+def integrate_torque(h, tableau, w, speed, speed_rate):
+    """Work (J) and time integral (N m s) of the torque over the last step, by the same quadrature.
+
+    ``speed`` (rad/s) at the step's begin, ``speed_rate`` (rad/s2) over it.
+    """
+    work = 0.0
+    impulse = 0.0
+    for stage in range(int(TABLEAUX[tableau + TAB.COUNT])):
+        part = h * TABLEAUX[tableau + TAB.B + stage] * w[W.ACC + stage * F.SIZE + F.TORQUE]
+        impulse += part
+        work += part * (speed + h * TABLEAUX[tableau + TAB.NODES + stage] * speed_rate)
+    return work, impulse

@@ -72,4 +72,5 @@ def start(p, u, s, w, t):
     summarise(p, s, w)
     for i in range(3):
         s[S.MEAN_HEAT + i] = s[S.F + F.HEAT + i]
+    s[S.MEAN_TORQUE] = s[S.F + F.TORQUE]
     return OK

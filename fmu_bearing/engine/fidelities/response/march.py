@@ -105,6 +105,7 @@ def start_response(p, u, s, w, t):
     show(p, s, True, w)
     for i in range(3):
         s[S.MEAN_HEAT + i] = lv[L.HEAT + i]
+    s[S.MEAN_TORQUE] = s[S.F + F.TORQUE]
     return OK
 
 
@@ -281,7 +282,7 @@ def show(p, s, near, w):
 def march_response(p, u, s, w, h):
     """Advance the state by the communication step ``h`` (s); status code."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    steps.begin_heats(s)
+    steps.begin_means(s)
     near = abs(h * lv[L.RATIO]) * max(abs(s[S.SPEED]), abs(u[U.SPEED])) < _NEAR
     if set_inputs(p, u, s, w, h):
         near = False
@@ -314,5 +315,5 @@ def march_response(p, u, s, w, h):
     s[S.SPEED] = u[U.SPEED]
     if p[P.SOUND_SIZE] == 0.0:
         show(p, s, near, w)
-    steps.mean_heats(s, h)
+    steps.end_means(s, h)
     return OK

@@ -96,6 +96,7 @@ def start_rings(p, u, s, w, t):
     publish(p, lv, s[S.SPEED], 0.0, True, s[S.Y : S.Y + Y.SIZE], s[S.F : S.F + F.SIZE])
     for i in range(3):
         s[S.MEAN_HEAT + i] = lv[L.HEAT + i]
+    s[S.MEAN_TORQUE] = s[S.F + F.TORQUE]
     return OK
 
 
@@ -292,7 +293,7 @@ def try_step(p, s, h, tolerance, w):
 def march_rings(p, u, s, w, h):
     """Advance the state by the communication step ``h`` (s); status code."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    steps.begin_heats(s)
+    steps.begin_means(s)
     status = take_inputs(p, u, s, w, h)
     if status != OK:
         return status
@@ -322,5 +323,5 @@ def march_rings(p, u, s, w, h):
     s[S.TIME] = end
     s[S.SPEED] = u[U.SPEED]
     publish(p, lv, s[S.SPEED], s[S.SPEED_RATE], True, s[S.Y : S.Y + Y.SIZE], s[S.F : S.F + F.SIZE])
-    steps.mean_heats(s, h)
+    steps.end_means(s, h)
     return OK

@@ -102,7 +102,9 @@ class Session:
                 self.fail(f"there is no {kind} with value reference {reference}")
                 continue
             problem = self._take(reference, value)
-            if problem:
+            if problem and self._may_wait(reference, value):
+                self._keep_waiting(reference, problem)
+            elif problem:
                 self._wrong[reference] = problem
                 self._log(DISCARD, f"value not taken: {problem}")
             else:
@@ -115,7 +117,7 @@ class Session:
             return f"{refused}it is computed, not set"
         if self.phase is Phase.TERMINATED:
             return f"{refused}nothing can be set {self.phase.value}"
-        if self.phase is Phase.STEPPING and variable.causality == "parameter":
+        if self.phase is Phase.STEPPING and variable.variability == "fixed":
             # the value it has already is no change, and ends an earlier refusal
             unchanged = value == self._instance.get(variable.name)
             return "" if unchanged else f"{refused}parameters cannot be set {self.phase.value}"
@@ -126,6 +128,29 @@ class Session:
         except ValueError as error:
             return str(error)
         return ""
+
+    def _may_wait(self, reference: int, value: Any) -> bool:
+        """Whether a value out of range waits for a better one.
+
+        There are masters that set every input to 0 while they load, whatever its range, and give it its
+        first true value in or after initialisation.
+        """
+        begun = self.phase in (Phase.STEPPING, Phase.TERMINATED)
+        return self._variables[reference].causality == "input" and math.isfinite(value) and not begun
+
+    def _keep_waiting(self, reference: int, problem: str) -> None:
+        """Go on with the start value of an input, and refuse steps until a value in its range comes."""
+        variable = self._variables[reference]
+        assert variable.start is not None
+        self._instance.set(variable.name, variable.start)
+        self._wrong[reference] = (
+            f"{problem}; set before the end of initialisation, and no value in the range has come since"
+        )
+        self._log(
+            WARNING,
+            f"value not taken yet: {problem}; initialisation uses the start value {variable.start!r}, and "
+            "steps are refused until a value in the range comes",
+        )
 
     # --- phases -----------------------------------------------------------------------------------
     def setup(self, start: float, tolerance: float | None) -> None:

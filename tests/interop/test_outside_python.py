@@ -19,7 +19,7 @@ from .conftest import CSV_ERROR, EXACT_STEP, STEPS, WATCHED, alone, needs_linux6
 def host(compiler, headers, tmp_path_factory):
     """The host program; it links nothing but the C library."""
     program = tmp_path_factory.mktemp("host") / "host"
-    command = [compiler, "-std=c99", f"-I{headers}", *HOST, "-o", str(program), "-ldl", "-lpthread"]
+    command = [compiler, "-std=c99", f"-I{headers}", *HOST, "-o", str(program), "-ldl", "-lpthread", "-lm"]
     subprocess.run(command, check=True)
     return program
 

@@ -49,6 +49,6 @@ def master(functions, resources):
 def host(compiler, tmp_path_factory):
     """The host written in C."""
     program = tmp_path_factory.mktemp("host") / "host"
-    made = [*toy.HOST, "-o", str(program), "-ldl", "-lpthread"]
+    made = [*toy.HOST, "-o", str(program), "-ldl", "-lpthread", "-lm"]
     toy.run([compiler, *toy.WARNINGS, "-O2", f"-I{toy.HEADERS}", *made])
     return program

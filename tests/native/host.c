@@ -1,12 +1,13 @@
 /* A host of co-simulation FMUs: host LIBRARY GUID RESOURCES COMMAND...
  *
  * Commands are carried out in turn on one instance:
- *   setup:T enter exit terminate reset     phases; start:T is the first three of them
+ *   setup:T[:TOLERANCE] enter exit terminate reset     phases; start:T is the first three of them
  *   set:VR:VALUE  rate:VR:VALUE            a Real input, its first derivative
  *   step:H[:N]                             so many steps (1) of H seconds
  *   get:VR,...                             one line of Reals, every bit of them
  *   save:FILE  load:FILE                   the state as bytes
  *   time:T                                 where the master believes to stand
+ *   float:MODE                             compute as nearest, up, down, zero or flush, as a host may
  *   expect:STATUS                          what the next call has to answer, 0 (fmi2OK) unless told
  *   time-step:H:N  time-get:N:VR,...  time-state:N  time-instantiate:N    nanoseconds for each call
  *   threads:K:H:N                          K instances in threads; how much faster than in turn
@@ -15,6 +16,7 @@
 
 #include "host.h"
 
+#include <fenv.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -24,6 +26,9 @@
 #include <windows.h>
 #else
 #include <dlfcn.h>
+#endif
+#ifdef __x86_64__
+#include <xmmintrin.h>
 #endif
 
 /* Print what the FMU says, with its arguments filled in. */
@@ -84,6 +89,58 @@ static int find_all(void *from, Library *to)
            find(from, "fmi2DeSerializeFMUstate", &to->deserialise);
 }
 
+/* How a host may compute, and the library must not: rounding, and subnormal numbers as zero. */
+static const struct {
+    const char *name;
+    int rounding, flush;
+} FLOAT_MODES[] = {
+    {"nearest", FE_TONEAREST, 0}, {"up", FE_UPWARD, 0},        {"down", FE_DOWNWARD, 0},
+    {"zero", FE_TOWARDZERO, 0},   {"flush", FE_TONEAREST, 1},
+};
+
+enum { FLUSH = 0x8040 }; /* of MXCSR: results and operands */
+
+/* Whether subnormal numbers are taken as zero, after that is changed to `flush` if it is not negative. */
+static int flushes(int flush)
+{
+#ifdef __x86_64__
+    if (flush >= 0) _mm_setcsr(flush ? _mm_getcsr() | FLUSH : _mm_getcsr() & ~(unsigned)FLUSH);
+    return (_mm_getcsr() & FLUSH) == FLUSH;
+#else
+    return flush > 0;
+#endif
+}
+
+/* Compute in a mode from now on; 0 if there is none of that name. */
+static int float_mode(Host *host, const char *name)
+{
+    size_t i;
+    for (i = 0; i < sizeof FLOAT_MODES / sizeof *FLOAT_MODES; i++) {
+        if (strcmp(name, FLOAT_MODES[i].name) != 0) continue;
+        fesetround(FLOAT_MODES[i].rounding);
+        flushes(FLOAT_MODES[i].flush);
+        host->float_mode = (int)i;
+        return 1;
+    }
+    return 0;
+}
+
+/* Note whether a call left the mode as it was. */
+static void check_float_mode(Host *host, const char *call)
+{
+    int rounding = FLOAT_MODES[host->float_mode].rounding, flush = FLOAT_MODES[host->float_mode].flush;
+    int kept = fegetround() == rounding;
+#ifdef __x86_64__
+    kept = kept && flushes(-1) == flush;
+#else
+    (void)flush;
+#endif
+    if (!kept) {
+        printf("%s changed how the host computes\n", call);
+        host->surprises++;
+    }
+}
+
 /* Note whether a call answered as expected. */
 fmi2Status check(Host *host, const char *call, fmi2Status status)
 {
@@ -92,6 +149,7 @@ fmi2Status check(Host *host, const char *call, fmi2Status status)
         host->surprises++;
     }
     host->expected = fmi2OK;
+    check_float_mode(host, call);
     return status;
 }
 
@@ -222,12 +280,14 @@ static void set(Host *host, int rate, const char *reference, const char *text)
 static int change_phase(Host *host, const char *command)
 {
     double number = strtod(argument(command, 1), NULL);
+    const char *tolerance = argument(command, 2);
     fmi2Component c = host->instance;
     if (is(command, "start")) {
         start(host, number);
     } else if (is(command, "setup")) {
         host->time = number;
-        check(host, "setupExperiment", host->library.setup(c, fmi2False, 0.0, number, fmi2False, 0.0));
+        check(host, "setupExperiment",
+              host->library.setup(c, *tolerance != '\0', strtod(tolerance, NULL), number, fmi2False, 0.0));
     } else if (is(command, "enter")) {
         check(host, "enterInitializationMode", host->library.enter(c));
     } else if (is(command, "exit")) {
@@ -260,6 +320,8 @@ static int obey(Host *host, const char *command)
         restore(host, first);
     } else if (is(command, "time")) {
         host->time = strtod(first, NULL);
+    } else if (is(command, "float")) {
+        return float_mode(host, first);
     } else if (is(command, "expect")) {
         host->expected = (fmi2Status)strtol(first, NULL, 10);
     } else if (is(command, "time-step")) {

@@ -35,6 +35,7 @@ typedef struct Host {
     double time;
     fmi2Status expected;
     int surprises;
+    int float_mode; /* place in the list of modes; 0: to nearest, as a process starts */
 } Host;
 
 /* Note whether a call answered as expected. */

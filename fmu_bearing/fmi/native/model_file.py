@@ -35,7 +35,7 @@ _DIGEST_SIZE = 32
 # In the order of the numbers in shim/model.h.
 _TYPES = ("Real", "Integer", "Boolean", "String")
 _CAUSALITIES = ("input", "output", "local", "parameter")
-_VARIABILITIES = ("constant", "fixed", "discrete", "continuous")
+_VARIABILITIES = ("constant", "fixed", "discrete", "continuous", "tunable")
 _ARRAYS = ("", "u", "z", "p")
 
 _NUMBERS = struct.Struct("<10Qd5Q")

@@ -101,7 +101,8 @@ static fmi2Status take_tolerance(Instance *it, double tolerance)
     text_add_number(&text, variable->min, 6);
     text_add(&text, " to ", NULL);
     text_add_number(&text, variable->max, 6);
-    return instance_refuse(it, fmi2Warning, &text);
+    instance_refuse(it, fmi2Warning, &text); /* said, not answered: some masters go on after fmi2OK alone */
+    return fmi2OK;
 }
 
 /* Take start time and tolerance; the stop time does not matter to the model. */

@@ -1,5 +1,6 @@
 /* FMI 2.0: communication steps. */
 #include "calls.h"
+#include "float_mode.h"
 
 #include "fmi2Functions.h"
 
@@ -39,6 +40,24 @@ static fmi2Status wrong_time(Instance *it, double time, double size)
     text_add_number(&text, it->time, 0);
     text_add(&text, " s", NULL);
     return instance_fail(it, &text);
+}
+
+/* Refuse a step while an input has had no value in its range. */
+static fmi2Status still_waiting(Instance *it, double time, double size)
+{
+    Text text = {0};
+    uint64_t i;
+    add_step(&text, time, size);
+    for (i = 0; i < it->n_variables; i++) {
+        const ModelVariable *variable = &it->model.variables[i];
+        double value = variable->array == ARRAY_U ? it->waiting[variable->index] : NAN;
+        if (isnan(value)) continue;
+        instance_may_have(it, i, value, &text);
+        text_add(&text, "; ", NULL);
+    }
+    text_add(&text, "set before the end of initialisation, and no value in the range has come since", NULL);
+    it->reached = it->time;
+    return instance_refuse(it, fmi2Discard, &text);
 }
 
 /* Copy numbers; a few of them in line, as a call would take longer. */
@@ -173,11 +192,16 @@ static fmi2Status ramped(Instance *it, double time, double size)
 fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real size, fmi2Boolean no_set_state)
 {
     Instance *it = c;
+    FloatMode host;
+    fmi2Status status;
     (void)no_set_state;
     if (!call_allowed(it, CALL_DO_STEP)) return call_refused(it, CALL_DO_STEP);
     if (!(size > 0.0 && size <= DBL_MAX)) return no_step(it, time, size);
     /* masters count time in different ways: allow what adding up steps may lose */
     if (!(fabs(time - it->time) <= 1e-9 + 1e-12 * fabs(it->time))) return wrong_time(it, time, size);
-    if (it->rated) return ramped(it, time, size);
-    return advance(it, time, size, it->u);
+    if (it->n_waiting) return still_waiting(it, time, size);
+    host = float_mode_take();
+    status = it->rated ? ramped(it, time, size) : advance(it, time, size, it->u);
+    float_mode_give_back(host);
+    return status;
 }

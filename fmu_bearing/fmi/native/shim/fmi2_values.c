@@ -4,6 +4,7 @@
 #include "fmi2Functions.h"
 
 #include <limits.h>
+#include <math.h>
 
 static const char *const TYPE_NAMES[] = {"Real", "Integer", "Boolean", "String"};
 
@@ -146,6 +147,27 @@ static fmi2Status not_now(Instance *it, fmi2ValueReference reference, double val
     return instance_fail(it, &text);
 }
 
+/* Whether a value out of range waits for a better one. There are masters that set every input to 0 while they
+ * load, whatever its range, and give it its first true value in or after initialisation. */
+static int may_wait(const Instance *it, const Slot *slot, double value)
+{
+    return slot->causality == CAUSALITY_INPUT && isfinite(value) && it->phase != PHASE_STEPPING;
+}
+
+/* Keep a value that waits, and say what follows. */
+static fmi2Status wait_for(Instance *it, fmi2ValueReference reference, double value, Text *why)
+{
+    Text said = {0};
+    instance_keep_waiting(it, reference, value);
+    it->settled = 0;
+    text_add(&said, "value not taken yet: ", text_string(why), "; initialisation uses the start value ", NULL);
+    text_add_number(&said, it->u[it->model.variables[reference].index], 0);
+    text_add(&said, ", and steps are refused until a value in the range comes", NULL);
+    text_free(why);
+    instance_refuse(it, fmi2Warning, &said); /* said, not answered: some masters go on after fmi2OK alone */
+    return fmi2OK;
+}
+
 /* Take one number, or say why not. */
 static fmi2Status take(Instance *it, fmi2ValueReference reference, unsigned type, double value)
 {
@@ -154,18 +176,19 @@ static fmi2Status take(Instance *it, fmi2ValueReference reference, unsigned type
     if (!is_known(it, reference, type)) return strange(it, reference, type);
     slot = &it->slots[reference];
     if (!slot->settable) return not_now(it, reference, value, "it is computed, not set");
-    if (slot->causality == CAUSALITY_PARAMETER && it->phase != PHASE_INSTANTIATED &&
-        it->phase != PHASE_INITIALISING) {
+    if (slot->fixed && it->phase != PHASE_INSTANTIATED && it->phase != PHASE_INITIALISING) {
         if (value == *slot->at) return fmi2OK;
         return not_now(it, reference, value, "parameters cannot be set between steps");
     }
     if (!instance_may_have(it, reference, value, &text)) {
         Text said = {0};
+        if (may_wait(it, slot, value)) return wait_for(it, reference, value, &text);
         text_add(&said, "value not taken: ", text_string(&text), NULL);
         text_free(&text);
         return instance_refuse(it, fmi2Discard, &said);
     }
     *slot->at = value;
+    instance_end_waiting(it, reference);
     if (it->phase != PHASE_STEPPING) it->settled = 0;
     return fmi2OK;
 }

@@ -1,5 +1,7 @@
 #include "instance.h"
 
+#include "float_mode.h"
+
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -41,6 +43,7 @@ static size_t carve_arrays(Instance *it, double *memory)
     it->u = carve(memory, &used, head->n_u);
     it->rates = carve(memory, &used, head->n_u);
     it->held = carve(memory, &used, head->n_u);
+    it->waiting = carve(memory, &used, head->n_u);
     it->tunables = carve(memory, &used, head->n_tunables);
     it->z = carve(memory, &used, head->n_z);
     it->kept_z = carve(memory, &used, head->n_z);
@@ -70,6 +73,7 @@ static void fill_slots(Instance *it)
         slot->computed = variable->array == ARRAY_Z;
         slot->settable = tunable && variable->variability != VARIABILITY_CONSTANT &&
                          (variable->array == ARRAY_U || variable->array == ARRAY_P);
+        slot->fixed = variable->causality == CAUSALITY_PARAMETER && variable->variability != VARIABILITY_TUNABLE;
         slot->at = variable->array == ARRAY_NONE ? (double *)&it->model.variables[i].value
                                                  : arrays[variable->array] + variable->index;
     }
@@ -143,6 +147,7 @@ void instance_free(Instance *it)
 void instance_reset(Instance *it)
 {
     const ModelHead *head = it->model.head;
+    uint64_t i;
     it->phase = PHASE_INSTANTIATED;
     it->settled = 0;
     it->rated = 0;
@@ -152,6 +157,8 @@ void instance_reset(Instance *it)
     memcpy(it->model.p, it->tunables, (size_t)head->n_tunables * sizeof(double));
     memcpy(it->u, it->model.u, (size_t)head->n_u * sizeof(double));
     memset(it->rates, 0, (size_t)head->n_u * sizeof(double));
+    it->n_waiting = 0;
+    for (i = 0; i < head->n_u; i++) it->waiting[i] = NAN;
     memset(it->s, 0, it->bytes_s);
     memset(it->z, 0, it->bytes_z);
     memset(it->before_z, 0, it->bytes_z);
@@ -168,8 +175,30 @@ void instance_forget(Instance *it)
 void instance_track(Instance *it)
 {
     if (it->tracks) return;
-    if (it->last_step > 0.0) it->kernels->outputs(it->p, it->kept_s, it->before_z, it->sizes);
+    if (it->last_step > 0.0) {
+        FloatMode host = float_mode_take();
+        it->kernels->outputs(it->p, it->kept_s, it->before_z, it->sizes);
+        float_mode_give_back(host);
+    }
     it->tracks = 1;
+}
+
+/* Keep a value out of range, and go on with the start value. */
+void instance_keep_waiting(Instance *it, uint64_t reference, double value)
+{
+    uint32_t at = it->model.variables[reference].index;
+    it->n_waiting += isnan(it->waiting[at]) != 0;
+    it->waiting[at] = value;
+    it->u[at] = it->model.u[at];
+}
+
+/* Note that an input has a value in its range. */
+void instance_end_waiting(Instance *it, uint64_t reference)
+{
+    const ModelVariable *variable = &it->model.variables[reference];
+    if (variable->array != ARRAY_U || isnan(it->waiting[variable->index])) return;
+    it->waiting[variable->index] = NAN;
+    it->n_waiting--;
 }
 
 /* Append "inputs were shaft_speed = ...". */
@@ -206,11 +235,14 @@ void instance_warn(Instance *it)
 fmi2Status instance_settle(Instance *it, fmi2Status otherwise)
 {
     Text text = {0};
+    FloatMode host;
     int32_t status;
     if (it->settled) return fmi2OK;
     memset(it->s, 0, it->bytes_s);
     memset(it->z, 0, it->bytes_z);
+    host = float_mode_take();
     status = it->kernels->init(it->p, it->u, it->s, it->z, it->w, it->sizes, it->time);
+    float_mode_give_back(host);
     if (status == 0) {
         it->settled = 1;
         it->told = 0;

@@ -18,7 +18,7 @@ enum {
 /* Where the value of a variable stands; NULL for strings. */
 typedef struct Slot {
     double *at;
-    unsigned char type, causality, computed, settable;
+    unsigned char type, causality, computed, settable, fixed; /* fixed: once initialised */
 } Slot;
 
 typedef struct Instance {
@@ -43,6 +43,8 @@ typedef struct Instance {
     const double *engine_time;
     Slot *slots;
     uint64_t n_variables;
+    double *waiting; /* for each input: a value out of range set before the end of initialisation, or NaN */
+    uint64_t n_waiting;
     double *rates, *held, *tunables; /* rates of inputs, inputs over a ramped step, first values of p */
     const Kernels *kernels;
     char *name;
@@ -80,6 +82,12 @@ fmi2Status instance_refuse(Instance *it, fmi2Status status, Text *text);
 
 /* Say why a call is an error: nothing but reset or an earlier state helps then. Returns fmi2Error. */
 fmi2Status instance_fail(Instance *it, Text *text);
+
+/* Keep a value of an input that is out of its range, which has its start value until one in the range comes. */
+void instance_keep_waiting(Instance *it, uint64_t reference, double value);
+
+/* Note that an input has a value in its range. */
+void instance_end_waiting(Instance *it, uint64_t reference);
 
 /* Whether a variable may have a value; appends why not. */
 int instance_may_have(const Instance *it, uint64_t reference, double value, Text *why);

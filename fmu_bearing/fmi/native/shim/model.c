@@ -65,7 +65,7 @@ static int variable_fits(const ModelHead *head, const ModelVariable *variable)
     const uint64_t sizes[] = {0, head->n_u, head->n_z, head->n_tunables};
     int text = variable->type != TYPE_STRING || variable->array == ARRAY_NONE;
     return variable->type <= TYPE_STRING && variable->causality <= CAUSALITY_PARAMETER &&
-           variable->variability <= VARIABILITY_CONTINUOUS && variable->array <= ARRAY_P && text &&
+           variable->variability <= VARIABILITY_TUNABLE && variable->array <= ARRAY_P && text &&
            (variable->causality != CAUSALITY_INPUT || variable->array == ARRAY_U) && /* rates stand beside u */
            (variable->array == ARRAY_NONE || variable->index < sizes[variable->array]) &&
            variable->name < head->n_text && variable->unit < head->n_text && variable->text < head->n_text;

@@ -60,6 +60,12 @@ static int add_path(Text *path, const char *uri, int decode)
     return 1;
 }
 
+/* Whether a character separates folders on Windows. */
+static int is_separator(char c)
+{
+    return c == '/' || c == '\\';
+}
+
 /* The path that begins in a file URI behind "file:"; a prefix it needs goes into `path`. */
 static const char *strip_host(const char *rest, Text *path)
 {
@@ -71,7 +77,34 @@ static const char *strip_host(const char *rest, Text *path)
             text_add(path, ON_WINDOWS ? "//" : "/", NULL); /* a server, or a slash forgotten */
         }
     }
-    return ON_WINDOWS && rest[0] == '/' && is_drive(rest + 1) ? rest + 1 : rest;
+    return ON_WINDOWS && is_separator(rest[0]) && is_drive(rest + 1) ? rest + 1 : rest;
+}
+
+/* Length of the beginning of an extended path of Windows, \\?\ or \\.\ with slashes of either kind, 0 if a path is
+ * none. Behind "file:" there may be more slashes than two before the question mark. */
+static size_t extended_prefix(const char *path)
+{
+    size_t slashes = 0;
+    while (is_separator(path[slashes])) slashes++;
+    if (slashes < 2 || (path[slashes] != '?' && path[slashes] != '.')) return 0;
+    return is_separator(path[slashes + 1]) ? slashes + 2 : 0;
+}
+
+/* Write an extended path as Windows wants it: it takes such paths literally, slashes too. */
+static void straighten(Text *path)
+{
+    size_t prefix = ON_WINDOWS && path->data ? extended_prefix(path->data) : 0;
+    char kind[] = "\\\\?\\";
+    Text straight = {0};
+    size_t i;
+    if (!prefix) return;
+    kind[2] = path->data[prefix - 2];
+    text_add(&straight, kind, path->data + prefix, NULL);
+    for (i = 0; i < straight.length; i++) {
+        if (straight.data[i] == '/') straight.data[i] = '\\';
+    }
+    text_free(path);
+    *path = straight;
 }
 
 /* Path of a file in the resources; 0 if the location holds a zero byte. */
@@ -85,19 +118,28 @@ static int resolve(const char *location, const char *name, int decode, Text *pat
         if (last != '/' && !(ON_WINDOWS && last == '\\')) text_add(path, "/", NULL);
     }
     text_add(path, name, NULL);
+    straighten(path);
     return 1;
 }
 
 #ifdef _WIN32
-/* Open a file whose name is UTF-8. */
-static FILE *open_file(const char *path)
+/* Open a file whose name is in a code page. */
+static FILE *open_in(const char *path, UINT page)
 {
-    int size = MultiByteToWideChar(CP_UTF8, 0, path, -1, NULL, 0);
+    DWORD strict = page == CP_UTF8 ? MB_ERR_INVALID_CHARS : 0;
+    int size = MultiByteToWideChar(page, strict, path, -1, NULL, 0);
     wchar_t *wide = size > 0 ? calloc((size_t)size, sizeof *wide) : NULL;
     FILE *file = NULL;
-    if (wide && MultiByteToWideChar(CP_UTF8, 0, path, -1, wide, size)) file = _wfopen(wide, L"rb");
+    if (wide && MultiByteToWideChar(page, strict, path, -1, wide, size)) file = _wfopen(wide, L"rb");
     free(wide);
     return file;
+}
+
+/* Open a file whose name is UTF-8, as FMI has it, or in the code page of the system, as some hosts pass it. */
+static FILE *open_file(const char *path)
+{
+    FILE *file = open_in(path, CP_UTF8);
+    return file ? file : open_in(path, CP_ACP);
 }
 #else
 /* Open a file whose name is UTF-8. */

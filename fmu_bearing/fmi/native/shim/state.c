@@ -1,8 +1,9 @@
 #include "state.h"
 
+#include <math.h>
 #include <string.h>
 
-static const char MAGIC[16] = "fmu-bearing s 1";
+static const char MAGIC[16] = "fmu-bearing s 2";
 
 enum { ALL_PHASES = PHASE_INSTANTIATED | PHASE_INITIALISING | PHASE_STEPPING | PHASE_TERMINATED | PHASE_FAILED };
 
@@ -11,7 +12,7 @@ size_t state_size(const Instance *it)
 {
     const ModelHead *head = it->model.head;
     return sizeof(State) + 2 * it->bytes_z + it->bytes_s +
-           (size_t)(2 * head->n_u + head->n_tunables) * sizeof(double);
+           (size_t)(3 * head->n_u + head->n_tunables) * sizeof(double);
 }
 
 /* Copy into the block, and move on. */
@@ -47,6 +48,7 @@ void state_take(Instance *it, State *state)
     state->reached = it->reached;
     state->last_step = it->last_step;
     put(&at, it->rates, head->n_u);
+    put(&at, it->waiting, head->n_u);
     put(&at, it->u, head->n_u);
     put(&at, it->p, head->n_tunables);
     put(&at, it->z, head->n_z);
@@ -59,6 +61,7 @@ void state_put_back(Instance *it, const State *state)
 {
     const ModelHead *head = it->model.head;
     const char *at = (const char *)(state + 1);
+    uint64_t i;
     it->phase = (unsigned)state->phase;
     it->settled = state->settled != 0;
     it->rated = state->rated != 0;
@@ -67,11 +70,14 @@ void state_put_back(Instance *it, const State *state)
     it->reached = state->reached;
     it->last_step = state->last_step;
     get(&at, it->rates, head->n_u);
+    get(&at, it->waiting, head->n_u);
     get(&at, it->u, head->n_u);
     get(&at, it->model.p, head->n_tunables);
     get(&at, it->z, head->n_z);
     get(&at, it->before_z, head->n_z);
     get(&at, it->s, head->n_s);
+    it->n_waiting = 0;
+    for (i = 0; i < head->n_u; i++) it->n_waiting += isnan(it->waiting[i]) == 0;
     instance_forget(it);
 }
 

@@ -11,7 +11,7 @@ typedef struct State {
     uint64_t size;                          /* of the block in bytes */
     uint64_t phase, settled, rated;
     double time, reached, last_step;
-    /* then rates, inputs, head of the parameters, outputs, outputs before the last step, engine */
+    /* then rates, waiting values of inputs, inputs, head of the parameters, outputs, outputs before the last step, engine */
 } State;
 
 /* Bytes of a state of this instance. */

@@ -10,12 +10,12 @@ from typer.testing import CliRunner
 import fmu_bearing
 from fmu_bearing import cli, renamed
 from fmu_bearing.instance import Instance
+from fmu_bearing.interface.names import UnknownName, chosen_names
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.recording import listen, measure
 from fmu_bearing.recording.recording import Recording
 from fmu_bearing.reports import make
 from fmu_bearing.run.bearing import Bearing
-from fmu_bearing.run.names import UnknownName, chosen_names
 from fmu_bearing.run.result import Run, structured
 from fmu_bearing.scene import SceneError, read_scene, read_scene_text
 from fmu_bearing.scene.values import fields_of

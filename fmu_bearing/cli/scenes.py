@@ -87,10 +87,12 @@ def check(
 def _findings(path: Path) -> tuple[bool, list[str]]:
     """Return whether a scene can be run, and the messages about it."""
     from fmu_bearing.instance import EngineError, Instance
+    from fmu_bearing.interface import shown, variables
     from fmu_bearing.run.operating_point import cautions, operating_point
 
     try:
         scene = read_scene(path)
+        shown(scene, variables(scene, 0.0))
         bearing = Instance(_silent(scene))
         with warnings.catch_warnings(record=True) as told:
             warnings.simplefilter("always")

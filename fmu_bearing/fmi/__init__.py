@@ -2,7 +2,9 @@
 
 =================  ===================================================================================
 ``units``          units and display units in the terms of FMI
+``shown``          a model with its variables as the FMU shows them
 ``description``    the table of variables as ``modelDescription.xml``; GUID
+``terminals``      variables that belong to one connection, as ``terminalsAndIcons.xml``
 ``documentation``  the pages inside the FMU
 ``icon``           draws ``model.png``
 ``resources``      scene and parameter array inside the FMU, and the fingerprint that binds them

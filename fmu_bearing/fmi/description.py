@@ -17,6 +17,7 @@ import numpy as np
 
 from fmu_bearing import __version__
 from fmu_bearing.engine.choices import FIDELITIES, METHODS
+from fmu_bearing.fmi.shown import as_shown
 from fmu_bearing.fmi.units import NO_UNIT, UNITS
 from fmu_bearing.interface import Variable
 from fmu_bearing.interface.parameters import RADIATORS
@@ -149,7 +150,8 @@ def _serialise(root: Element) -> bytes:
 
 
 def _root(model: "Model", flavour: str, guid: str) -> Element:
-    scene = model.scene
+    shown = as_shown(model)
+    scene = shown.scene
     root = Element(
         "fmiModelDescription",
         {
@@ -165,13 +167,13 @@ def _root(model: "Model", flavour: str, guid: str) -> Element:
             "copyright": COPYRIGHT,
             "license": LICENSE,
             "generationTool": f"{GENERATION_TOOL} {__version__}",
-            "variableNamingConvention": "structured",
+            "variableNamingConvention": "flat" if shown.is_flat else "structured",
         },
     )
-    can = {"modelIdentifier": identifier(model), **CAPABILITIES[flavour], **_BOTH_CAN}
+    can = {"modelIdentifier": identifier(shown), **CAPABILITIES[flavour], **_BOTH_CAN}
     SubElement(root, "CoSimulation", can)
-    _units(SubElement(root, "UnitDefinitions"), model.variables)
-    named = [variable for variable in model.variables if variable.name in ENUMERATIONS]
+    _units(SubElement(root, "UnitDefinitions"), shown.variables)
+    named = [variable for variable in shown.variables if variable.name in ENUMERATIONS]
     if named:
         _types(SubElement(root, "TypeDefinitions"), named)
     categories = SubElement(root, "LogCategories")
@@ -188,9 +190,9 @@ def _root(model: "Model", flavour: str, guid: str) -> Element:
         },
     )
     variables = SubElement(root, "ModelVariables")
-    for reference, variable in enumerate(model.variables):
+    for reference, variable in enumerate(shown.variables):
         _variable(variables, reference, variable)
-    _structure(SubElement(root, "ModelStructure"), model.variables)
+    _structure(SubElement(root, "ModelStructure"), shown.variables)
     return root
 
 
@@ -288,13 +290,15 @@ def _number(value: float) -> str:
 
 def _structure(parent: Element, variables: Iterable[Variable]) -> None:
     variables = tuple(variables)
-    places = [i + 1 for i, variable in enumerate(variables) if variable.causality == "output"]
+    shown = {i + 1: variable for i, variable in enumerate(variables) if variable.causality == "output"}
     # dependencies="": between two steps a set input changes no output, so importers must see no
     # algebraic loop. While initialising, every output follows from all that can be set.
     settable = ("input", "parameter")
     known = " ".join(str(i + 1) for i, variable in enumerate(variables) if variable.causality in settable)
     outputs = SubElement(parent, "Outputs")
     unknowns = SubElement(parent, "InitialUnknowns")
-    for place in places:
+    for place, variable in shown.items():
         SubElement(outputs, "Unknown", {"index": str(place), "dependencies": ""})
+        if variable.variability == "constant":
+            continue  # its value is exact from the start
         SubElement(unknowns, "Unknown", {"index": str(place), "dependencies": known})

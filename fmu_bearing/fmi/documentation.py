@@ -84,13 +84,19 @@ def _rows(model: "Model") -> Iterator[str]:
         settable = variable.causality in ("input", "parameter") or variable.variability == "constant"
         cells = (
             f"<code>{escape(variable.name)}</code>",
-            "constant" if variable.variability == "constant" else variable.causality,
+            _role(variable),
             escape(variable.unit or ""),
             range_of(variable),
             _shown(variable, value) if settable and value is not None else "",
             escape(variable.description),
         )
         yield "<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>"
+
+
+def _role(variable: Variable) -> str:
+    if variable.variability == "constant":
+        return "constant" if variable.causality == "local" else "output, constant"
+    return "parameter, tunable" if variable.variability == "tunable" else variable.causality
 
 
 def range_of(variable: Variable) -> str:

@@ -13,7 +13,9 @@ from typing import TYPE_CHECKING
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from fmu_bearing.fmi.native.model_file import MODEL_FILE
+from fmu_bearing.fmi.shown import as_shown
 from fmu_bearing.instance import Instance
+from fmu_bearing.interface import flat
 
 if TYPE_CHECKING:
     from fmu_bearing.prepare.model import Model
@@ -73,8 +75,9 @@ def reference_files(model: "Model", run: Run) -> dict[str, bytes]:
     NoReference
         If the model cannot be run.
     """
-    places = {v.name: i for i, v in enumerate(model.variables) if v.name in _WANTED}
-    names = [name for name in _WANTED if name in places]
+    wanted = [flat(name) for name in _WANTED] if as_shown(model).is_flat else _WANTED
+    places = {v.name: i for i, v in enumerate(model.variables) if v.name in wanted}
+    names = [name for name in wanted if name in places]
     lines = [",".join(("time", *names))]
     for i, values in enumerate(run(model, [places[name] for name in names])):
         lines.append(",".join(f"{value:.{_DIGITS}g}" for value in (i * STEP_SIZE, *values)))

@@ -9,6 +9,7 @@ import numpy as np
 
 from fmu_bearing.engine.layout import P
 from fmu_bearing.engine.sources import engine_digest
+from fmu_bearing.fmi.shown import as_shown
 from fmu_bearing.interface import variables
 from fmu_bearing.prepare.model import Model
 from fmu_bearing.scene import read_scene
@@ -66,7 +67,8 @@ def load(folder: Path, expected: str) -> Model:
     scene = read_scene(folder / SCENE)
     parameters = np.load(folder / PARAMETERS, allow_pickle=False)
     parameters.setflags(write=False)
-    model = Model(scene, parameters, variables(scene, rotor_inertia=float(parameters[P.INNER_POLAR])))
+    table = variables(scene, rotor_inertia=float(parameters[P.INNER_POLAR]))
+    model = as_shown(Model(scene, parameters, table))
     if fingerprint(model) != expected:
         raise ValueError(
             f"the model in {folder} is damaged, or was built by another version of fmu-bearing than the one "

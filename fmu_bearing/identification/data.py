@@ -14,7 +14,7 @@ import numpy as np
 from fmu_bearing.acoustics.analysis.field import Position
 from fmu_bearing.identification.errors import IdentifyError
 from fmu_bearing.identification.quantities import Quantity, parse_quantity
-from fmu_bearing.run.names import UnknownName, known
+from fmu_bearing.interface.names import UnknownName, known
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.values import fields_of
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.identification.data import limits
 from fmu_bearing.identification.errors import IdentifyError
-from fmu_bearing.run.names import UnknownName, known
+from fmu_bearing.interface.names import UnknownName, known
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.units import symbol
 from fmu_bearing.scene.values import fields_of, value_at

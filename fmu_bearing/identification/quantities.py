@@ -8,7 +8,7 @@ from fmu_bearing.acoustics.analysis.third_octave import centre_frequencies, nomi
 from fmu_bearing.acoustics.filters.weighting import band_centre
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.identification.errors import IdentifyError
-from fmu_bearing.run.names import UnknownName, known
+from fmu_bearing.interface.names import UnknownName, known
 
 LEVEL, A_LEVEL, THIRD_OCTAVE, LINE = "leq", "leq_a", "third_octave", "line"
 VELOCITY = "velocity"

@@ -9,11 +9,14 @@ all made from it. Names are a contract, because users' harnesses depend on them.
 ``outputs``     outputs and local variables, computed in each step
 ``parameters``  parameters, set before initialisation, and constants
 ``table``       all variables, in the order of the value references
+``names``       patterns of names, and suggestions for misspelt ones
+``shown``       the table as the FMU of a scene shows it
 ==============  ======================================================================
 """
 
 from fmu_bearing.interface.parameters import RADIATORS
+from fmu_bearing.interface.shown import flat, shown
 from fmu_bearing.interface.table import variables
 from fmu_bearing.interface.variable import Variable
 
-__all__ = ["RADIATORS", "Variable", "variables"]
+__all__ = ["RADIATORS", "Variable", "flat", "shown", "variables"]

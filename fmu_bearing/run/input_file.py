@@ -12,7 +12,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.run.names import known
+from fmu_bearing.interface.names import known
 from fmu_bearing.run.result import ResultError, structured
 from fmu_bearing.scene.units import UNITS, convert, split_unit, symbol
 

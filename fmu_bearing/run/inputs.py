@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu_bearing.interface.names import known
 from fmu_bearing.run.input_file import read_inputs
-from fmu_bearing.run.names import known
 from fmu_bearing.run.result import columns_of, structured
 from fmu_bearing.scene.problems import described
 

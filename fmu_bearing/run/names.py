@@ -1,35 +1,32 @@
-"""Names of variables: patterns with a star for any text, and suggestions for misspelt names."""
+"""Names of variables of FMUs of any scene, and values given by name."""
 
-import difflib
-import fnmatch
 import functools
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping
 
-from fmu_bearing import renamed
-from fmu_bearing.interface import variables
+from fmu_bearing.interface import flat, variables
 from fmu_bearing.scene import read_scene_text
 from fmu_bearing.scene.problems import described
 from fmu_bearing.scene.template import new_scene
 
-_MOST = 24  # names listed in a message
-_INDEX = re.compile(r"\[\d+\]")
+_NUMBER = re.compile(r"_\d+(?=_|$)")
 
 
 @functools.cache
 def _usual_units() -> dict[str, str]:
-    """Return units by name of the variables of a scene with all options, without indices."""
+    """Return units by flat name of the variables of a scene with all options, without indices."""
     scene = read_scene_text(new_scene("any", "7003C"))
-    return {_INDEX.sub("[]", variable.name): variable.unit for variable in variables(scene, 0.0)}
+    return {_without_index(variable.name): variable.unit for variable in variables(scene, 0.0)}
+
+
+def _without_index(name: str) -> str:
+    """Return the flat name, with a sign for any number: the same for ``mic[1].leq`` and ``mic_2_leq``."""
+    return _NUMBER.sub("_#", flat(name))
 
 
 def unit_of(name: str) -> str:
     """Return the unit that a variable of this name has in our FMUs; empty for others."""
-    return _usual_units().get(_INDEX.sub("[]", name), "")
-
-
-class UnknownName(ValueError):
-    """An unknown name; the message suggests the nearest one."""
+    return _usual_units().get(_without_index(name), "")
 
 
 def by_name(values: Mapping[str, float] | None) -> Mapping[str, float]:
@@ -48,49 +45,3 @@ def by_name(values: Mapping[str, float] | None) -> Mapping[str, float]:
             f"not as {described(values)}"
         )
     return values
-
-
-def known(name: str, names: Sequence[str], what: str) -> str:
-    """Return ``name`` if it is one of ``names``; else raise `UnknownName` with the new or nearest name."""
-    if name in names:
-        return name
-    now = renamed.VARIABLES.get(name)
-    near = difflib.get_close_matches(name, names, n=1, cutoff=0.5)
-    if now in names:
-        hint = f"it is now '{now}'"
-    else:
-        hint = f"did you mean '{near[0]}'?" if near else f"there are {_some(names)}"
-    raise UnknownName(f"there is no {what} '{name}'; {hint}")
-
-
-def _some(names: Iterable[str]) -> str:
-    """List names, those that differ by an index once, at most `_MOST`."""
-    found = list(dict.fromkeys(_INDEX.sub("[*]", name) for name in names))
-    more = f" and {len(found) - _MOST} more" if len(found) > _MOST else ""
-    return ", ".join(found[:_MOST]) + more
-
-
-def chosen_names(patterns: Sequence[str] | None, names: Iterable[str], default: Sequence[str]) -> list[str]:
-    """Return the names that match any of the patterns, in order of the patterns, each once.
-
-    ``*`` stands for any text; brackets stand for themselves, as in ``mic[*].leq``.
-
-    Raises
-    ------
-    UnknownName
-        For a pattern that matches nothing.
-    """
-    if patterns is None:
-        return list(default)
-    listed = isinstance(patterns, Iterable) and not isinstance(patterns, str)
-    if not listed or not all(isinstance(pattern, str) for pattern in patterns):
-        raise UnknownName(f"variables are given as a list of names, not as {described(patterns)}")
-    every = list(names)
-    found: dict[str, None] = {}
-    for pattern in patterns:
-        rule = re.compile(fnmatch.translate(pattern.replace("[", "[[]")))
-        matches = [name for name in every if rule.match(name)]
-        if not matches:
-            known(pattern, every, "variable")
-        found |= dict.fromkeys(matches)
-    return list(found)

@@ -17,8 +17,9 @@ from numpy.typing import NDArray
 from fmu_bearing import renamed
 from fmu_bearing.extras import need
 from fmu_bearing.files import write_whole
+from fmu_bearing.interface.names import chosen_names
 from fmu_bearing.run.levels import present, shown
-from fmu_bearing.run.names import chosen_names, unit_of
+from fmu_bearing.run.names import unit_of
 from fmu_bearing.run.spectrum import Spectrum, of_variables
 from fmu_bearing.scene import Scene, read_scene_text
 

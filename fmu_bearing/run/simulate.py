@@ -18,10 +18,11 @@ from numpy.typing import NDArray
 
 from fmu_bearing.instance import EngineError, Instance, loose, number
 from fmu_bearing.interface import Variable
+from fmu_bearing.interface.names import chosen_names, known
 from fmu_bearing.prepare.model import Model, prepare
 from fmu_bearing.run.choose import resolve
 from fmu_bearing.run.inputs import Input, Inputs, input_table
-from fmu_bearing.run.names import by_name, chosen_names, known
+from fmu_bearing.run.names import by_name
 from fmu_bearing.run.result import COMPLETE, INTERRUPTED, REFUSED, Run, columns_of, structured
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 

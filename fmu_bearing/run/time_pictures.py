@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu_bearing.interface.names import UnknownName, chosen_names
 from fmu_bearing.run.levels import present
-from fmu_bearing.run.names import UnknownName, chosen_names, unit_of
+from fmu_bearing.run.names import unit_of
 from fmu_bearing.run.pictures import OTHERS, empty, label, save
 
 if TYPE_CHECKING:

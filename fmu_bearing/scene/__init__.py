@@ -13,6 +13,7 @@
 ``operation``     speed and temperatures at the start
 ``sound``         radiator, radiation model, metering, microphones
 ``fidelity``      physics, integrator, accuracy, terms left out
+``fmu``           names, inputs and outputs of the FMU
 ``scene``         all tables together, with the checks that span several tables
 ``toml_text``     syntax of TOML, with lines and keys in its errors
 ``problems``      error messages, one line per problem, with the keys of the file

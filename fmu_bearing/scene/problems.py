@@ -144,6 +144,8 @@ def allowed(path: Location) -> str:
         if typing.get_origin(member) is typing.Annotated:
             numbers = _range(get_args(member)[1], str(path[-1]))
             return f"at most {limits[0]} whole numbers from {numbers}"
+        if member is str:
+            return f"a list of at most {limits[0]} names in quotes"
         return f"at most {limits[0]} tables [[{dotted(path)}]]"
     if kind is bool:
         return "true or false"

@@ -10,6 +10,7 @@ from pydantic import Field
 from fmu_bearing.scene.base import Conflict, Part
 from fmu_bearing.scene.bearing import Bearing
 from fmu_bearing.scene.fidelity import Fidelity
+from fmu_bearing.scene.fmu import Fmu
 from fmu_bearing.scene.imperfections import Imperfections
 from fmu_bearing.scene.lubricant import Lubricant
 from fmu_bearing.scene.material import Materials
@@ -39,6 +40,7 @@ class Tables(Part):
     fidelity: Fidelity = Field(default_factory=Fidelity, description="Physics, error bounds and terms.")
     imperfections: Imperfections | None = Field(default=None, description="Absent: a perfect bearing.")
     sound: Sound | None = Field(default=None, description="Absent: no sound and no microphones.")
+    fmu: Fmu | None = Field(default=None, description="Absent: names and causalities as documented.")
 
     def conflicts(self) -> Iterator[Conflict]:
         """Yield conflicts between tables."""

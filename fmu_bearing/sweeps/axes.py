@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing import renamed
-from fmu_bearing.run.names import UnknownName, known
+from fmu_bearing.interface.names import UnknownName, known
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.units import symbol
 from fmu_bearing.scene.values import fields_of, value_at

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.interface import Variable, variables
-from fmu_bearing.run.names import chosen_names, known
+from fmu_bearing.interface.names import chosen_names, known
 from fmu_bearing.scene import Scene
 from fmu_bearing.sweeps.axes import SweepError
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.run.names import chosen_names
+from fmu_bearing.interface.names import chosen_names
 from fmu_bearing.run.pictures import empty, label, save
 from fmu_bearing.scene.units import split_unit
 from fmu_bearing.sweeps.axes import SweepError

@@ -5,7 +5,6 @@ from decimal import Decimal
 
 import pytest
 
-from . import toy
 from .test_shim_host import run_host
 
 pytestmark = pytest.mark.skipif(

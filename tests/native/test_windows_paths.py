@@ -61,7 +61,7 @@ def test_usual_locations(asked, location, file):
     ],
 )
 def test_extended_paths_have_backslashes_alone(asked, location):
-    r"""Behind \\?\ Windows takes a slash for a letter of the name: longer paths than 260 letters need this."""
+    r"""Behind \\?\ Windows takes a slash for a letter; paths longer than 260 letters need this."""
     assert asked(location)[0] == EXTENDED
 
 

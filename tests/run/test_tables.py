@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fmu_bearing.run.names import UnknownName
+from fmu_bearing.interface.names import UnknownName
 from fmu_bearing.run.result import Run, structured
 
 RATE, LINE = 1000.0, 125.0  # Hz

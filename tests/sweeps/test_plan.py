@@ -4,7 +4,7 @@ import dataclasses
 
 import pytest
 
-from fmu_bearing.run.names import UnknownName
+from fmu_bearing.interface.names import UnknownName
 from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.sweeps import point
 from fmu_bearing.sweeps.axes import SweepError

@@ -1,0 +1,67 @@
+"""Terminals: which variables of the FMU belong to one connection (``terminalsAndIcons.xml``).
+
+FMI 2.0 takes them over from FMI 3.0 (FMI 2.0.4, section 2.3; FMI 3.0, section 2.4.9). A torque or a heat that
+a connection balances is an *inflow* where the bearing takes it and an *outflow* where it gives it; all else
+is a *signal*.
+"""
+
+from collections.abc import Iterable, Iterator
+from xml.etree.ElementTree import Element, SubElement, indent, tostring
+
+from fmu_bearing.fmi.shown import ShownModel
+from fmu_bearing.interface import flat
+
+__all__ = ["TERMINALS_FILE", "terminals_xml"]
+
+TERMINALS_FILE = "terminalsAndIcons/terminalsAndIcons.xml"
+
+#: Terminal, its kind and rule, what it is, and its members: name, variable, kind. A plug fits where all its
+#: members do; of a bus those are connected that both sides have.
+Member = tuple[str, str, str]
+Terminal = tuple[str, str, str, str, tuple[Member, ...]]
+_FLANGE, _HEAT, _SOUND = "rotational-flange", "heat-port", "microphone"
+_SHAFT: Terminal = (
+    "shaft",
+    _FLANGE,
+    "plug",
+    "Shaft: the bearing is given the speed w and takes the torque tau",
+    (("w", "shaft_speed", "signal"), ("tau", "friction_torque", "inflow")),
+)
+_PORTS = (("inner_ring", "inner ring"), ("outer_ring", "outer ring"), ("oil", "oil"))
+_LEVELS = ("pressure", "spl", "spl_a", "leq", "leq_a")
+
+
+def terminals_xml(model: ShownModel) -> bytes:
+    """Return ``terminalsAndIcons.xml`` of a model; members that are no inputs or outputs are left out."""
+    names = {variable.name for variable in model.variables if variable.causality in ("input", "output")}
+    root = Element("fmiTerminalsAndIcons", {"fmiVersion": "3.0"})
+    parent = SubElement(root, "Terminals")
+    for name, kind, rule, words, members in _terminals(len(model.scene.microphones)):
+        if model.is_flat:
+            members = tuple((member, flat(variable), role) for member, variable, role in members)
+        present = [member for member in members if member[1] in names]
+        if present:
+            attributes = {"name": name, "matchingRule": rule, "terminalKind": kind, "description": words}
+            _members(SubElement(parent, "Terminal", attributes), present)
+    indent(root)
+    return tostring(root, encoding="UTF-8", xml_declaration=True)
+
+
+def _terminals(microphones: int) -> Iterator[Terminal]:
+    yield _SHAFT
+    for name, words in _PORTS:
+        heat = (("T", f"{name}_temperature", "signal"), ("Q_flow", f"heat.{name}", "outflow"))
+        sentence = f"Heat to the {words}: the bearing gives the heat Q_flow and is given the temperature T"
+        yield name, _HEAT, "plug", sentence, heat
+    for k in range(1, microphones + 1):
+        levels = tuple((level, f"mic[{k}].{level}", "signal") for level in _LEVELS)
+        yield f"mic[{k}]", _SOUND, "bus", f"Sound at microphone {k}", levels
+
+
+def _members(parent: Element, members: Iterable[Member]) -> None:
+    for member, variable, kind in members:
+        SubElement(
+            parent,
+            "TerminalMemberVariable",
+            {"variableName": variable, "memberName": member, "variableKind": kind},
+        )

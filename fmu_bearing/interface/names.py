@@ -1,0 +1,64 @@
+"""Names of variables: patterns with a star for any text, and suggestions for misspelt names."""
+
+import difflib
+import fnmatch
+import re
+from collections.abc import Iterable, Sequence
+
+from fmu_bearing import renamed
+from fmu_bearing.scene.problems import described
+
+__all__ = ["UnknownName", "chosen_names", "known"]
+
+_MOST = 24  # names listed in a message
+_INDEX = re.compile(r"\[\d+\]")
+
+
+class UnknownName(ValueError):
+    """An unknown name; the message suggests the nearest one."""
+
+
+def known(name: str, names: Sequence[str], what: str) -> str:
+    """Return ``name`` if it is one of ``names``; else raise `UnknownName` with the new or nearest name."""
+    if name in names:
+        return name
+    now = renamed.VARIABLES.get(name)
+    near = difflib.get_close_matches(name, names, n=1, cutoff=0.5)
+    if now in names:
+        hint = f"it is now '{now}'"
+    else:
+        hint = f"did you mean '{near[0]}'?" if near else f"there are {_some(names)}"
+    raise UnknownName(f"there is no {what} '{name}'; {hint}")
+
+
+def _some(names: Iterable[str]) -> str:
+    """List names, those that differ by an index once, at most `_MOST`."""
+    found = list(dict.fromkeys(_INDEX.sub("[*]", name) for name in names))
+    more = f" and {len(found) - _MOST} more" if len(found) > _MOST else ""
+    return ", ".join(found[:_MOST]) + more
+
+
+def chosen_names(patterns: Sequence[str] | None, names: Iterable[str], default: Sequence[str]) -> list[str]:
+    """Return the names that match any of the patterns, in order of the patterns, each once.
+
+    ``*`` stands for any text; brackets stand for themselves, as in ``mic[*].leq``.
+
+    Raises
+    ------
+    UnknownName
+        For a pattern that matches nothing.
+    """
+    if patterns is None:
+        return list(default)
+    listed = isinstance(patterns, Iterable) and not isinstance(patterns, str)
+    if not listed or not all(isinstance(pattern, str) for pattern in patterns):
+        raise UnknownName(f"variables are given as a list of names, not as {described(patterns)}")
+    every = list(names)
+    found: dict[str, None] = {}
+    for pattern in patterns:
+        rule = re.compile(fnmatch.translate(pattern.replace("[", "[[]")))
+        matches = [name for name in every if rule.match(name)]
+        if not matches:
+            known(pattern, every, "variable")
+        found |= dict.fromkeys(matches)
+    return list(found)

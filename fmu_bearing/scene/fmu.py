@@ -34,8 +34,8 @@ class Fmu(Part):
         default="structured",
         examples=["flat"],
         description=(
-            "Names: structured, ball[3].velocity.y, which tools show as a tree, or flat, ball_3_velocity_y, for tools "
-            "that make ports or identifiers of names."
+            "Names: structured, ball[3].velocity.y, which tools show as a tree, or flat, ball_3_velocity_y, "
+            "for tools that make ports or identifiers of names."
         ),
     )
     terminals: bool = Field(

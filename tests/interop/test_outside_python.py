@@ -47,6 +47,76 @@ def test_c_host(host, unpacked, clean_environment, expected):
     assert others <= {"libc", "libm", "libdl", "libpthread", "ld"}
 
 
+@pytest.fixture
+def in_c(host, unpacked):
+    """A function: carry out commands of the host in C; its returned code and the lines that it printed.
+
+    ``{name}`` in a command stands for the value reference of a variable.
+    """
+    description = fmpy.read_model_description(str(unpacked))
+    references = {v.name: str(v.valueReference) for v in description.modelVariables}
+    library = next(unpacked.glob("binaries/*linux*/*.so"))
+
+    def play(*commands):
+        filled = [re.sub(r"{(.*?)}", lambda found: references[found[1]], text) for text in commands]
+        where = (unpacked / "resources").as_uri()
+        command = [str(host), str(library), description.guid, where, *filled]
+        ran = subprocess.run(command, capture_output=True, text=True)
+        return ran.returncode, ran.stdout.splitlines()
+
+    return play
+
+
+RUN = ("step:0.000244140625:8", "float:nearest", "get:{friction_torque},{ball[3].velocity.y},{mic[1].spl}")
+
+
+@needs_linux64
+@pytest.mark.parametrize("mode", ["up", "down", "zero", "flush"])
+def test_c_host_that_rounds_otherwise_gets_the_same_bits(in_c, mode):
+    assert in_c("start", f"float:{mode}", *RUN) == in_c("start", *RUN)
+    # and from before initialisation on
+    assert in_c(f"float:{mode}", "start", *RUN) == in_c("start", *RUN)
+
+
+@needs_linux64
+@pytest.mark.parametrize(
+    ("given", "taken"), [("0", "1e-6"), ("1e-7", "1e-6"), ("0.5", "0.1"), ("1e-4", "1e-4")]
+)
+def test_c_host_that_always_passes_a_tolerance(in_c, given, taken):
+    code, lines = in_c(f"setup:0:{given}", "enter", "exit", "get:{tolerance}", *RUN)
+    assert code == 0  # every call was answered with fmi2OK
+    warnings = [line for line in lines if line.startswith("log 1 logStatusWarning")]
+    assert len(warnings) == (given != taken)
+    assert (code, [line for line in lines if line not in warnings]) == in_c(
+        "set:{tolerance}:" + taken, "start", "get:{tolerance}", *RUN
+    )
+
+
+@needs_linux64
+def test_c_host_that_passes_no_number_as_tolerance(in_c):
+    code, lines = in_c("expect:3", "setup:0:nan", "expect:3", "enter", "reset", "start")
+    assert code == 0
+    assert "the experiment's tolerance nan is not a finite number" in lines[0]
+
+
+@needs_linux64
+def test_c_host_that_sets_zeros_while_it_loads(in_c):
+    """Zeros before initialisation: the start values serve, and steps wait for values that are possible."""
+    inputs = ["pedestal_stiffness", "oil_temperature", "inner_ring_temperature", "outer_ring_temperature"]
+    zeros = [f"set:{{{name}}}:0" for name in inputs]
+    code, lines = in_c(*zeros, "start", "get:{contact.inner.load_mean}", "expect:2", "step:0.001")
+    assert code == 0
+    assert [line.split()[1] for line in lines if line.startswith("log")] == ["1"] * 4 + ["2"]
+    assert all(f"{name} = 0.0 is refused: allowed are" in lines[-1] for name in inputs)
+    assert [line for line in lines if not line.startswith("log")] == in_c(
+        "start", "get:{contact.inner.load_mean}"
+    )[1]
+    # true values, the inputs' starts, and it is the run of a host that set nothing
+    true = [f"set:{{{name}}}:{'293.15' if 'temperature' in name else '1e7'}" for name in inputs]
+    code, lines = in_c(*zeros, "start", *true, *RUN)
+    assert (code, lines[-1:]) == (0, in_c("start", *true, *RUN)[1][-1:])
+
+
 @needs_linux64
 def test_ecos_simulate(ecos, native, expected, tmp_path):
     ran = ecos(

@@ -3,9 +3,16 @@
 import numpy as np
 import pytest
 
+from fmu_bearing.compiled import call
 from fmu_bearing.engine.fidelities.full.methods.table import AT_ESDIRK4, TABLEAUX
 from fmu_bearing.engine.fidelities.full.norms import newton_size
-from fmu_bearing.engine.fidelities.full.runge_kutta import correct, keep_velocities, newton_residual, predict
+from fmu_bearing.engine.fidelities.full.runge_kutta import (
+    correct,
+    keep_powers,
+    keep_velocities,
+    newton_residual,
+    predict,
+)
 from fmu_bearing.engine.fidelities.full.vectors import add_scaled, sum_scaled
 from fmu_bearing.engine.layout import STRIDE, TAB, C, F, P, Q, S, W, Y
 from fmu_bearing.engine.status import OK
@@ -84,6 +91,47 @@ def test_residual_and_kept_velocities(w, y):
     keep_velocities(y, LANES, kept)
     np.testing.assert_array_equal(parts(kept)[0][:3], y[Y.VX :][: 3 * STRIDE].reshape(3, STRIDE)[:, :LANES])
     np.testing.assert_array_equal(kept[BODIES], y[Y.V0 :])
+
+
+def evaluated(run, y):
+    """Right-hand side of a bearing at positions and velocities ``y``."""
+    f = np.zeros(F.SIZE)
+    c = run.s[S.C : S.C + C.SIZE]
+    call("right_hand_side", run.p, c, y, run.w, f, run.s[S.ANGLE], run.s[S.SPEED], 0.0)
+    return f
+
+
+def test_torque_of_a_stage_is_that_behind_the_last_increment(silent):
+    """Balls that slide by millimetres per second: their torque from that of the state before they did."""
+    run = Run(silent, 20000).init()
+    run.run(1e-3)
+    balls = int(run.p[P.BALLS])
+    random = np.random.default_rng(6)
+    y = run.s[S.Y : S.Y + Y.SIZE].copy()
+    before = evaluated(run, y)
+    d = np.zeros(F.SIZE)
+    # 4 mm/s at the pitch radius and on a ball, 1 mm/s at the cage, 10 um/s at the outer ring
+    d[F.TH : F.TH + balls] = 0.3 / GH * random.normal(1.0, 0.5, balls)
+    d[F.WX : F.WX + balls] = 1.5 / GH * random.normal(1.0, 0.5, balls)
+    d[F.BODY + Q.CAGE + Q.TURN] = 0.1 / GH
+    d[F.BODY + Q.OUTER + Q.TURN] = 1e-3 / GH
+    for rate, at in ((Y.OM, F.TH), (Y.WX, F.WX)):
+        y[rate : rate + STRIDE] += GH * d[at : at + STRIDE]
+    for body in (Q.OUTER, Q.CAGE):
+        y[Y.V0 + body + Q.TURN] += GH * d[F.BODY + body + Q.TURN]
+        y[Y.Q0 + body + Q.TURN] += GH**2 * d[F.BODY + body + Q.TURN]
+    behind = evaluated(run, y)
+    run.w[W.F : W.F + F.SIZE], run.w[W.D : W.D + F.SIZE] = before, d
+    kept = behind.copy()
+    kept[F.WORK :] = np.nan
+    speed = run.s[S.SPEED]
+    keep_powers(run.p, run.s[S.C : S.C + C.SIZE], speed, GH, kept, run.w)
+    change = behind[F.TORQUE] - before[F.TORQUE]
+    assert abs(change) > 0.1 * abs(before[F.TORQUE])
+    # balls are up to 10 um from the pitch circle of 13 mm at whose radius their orbit is counted: 8e-4
+    assert kept[F.TORQUE] == pytest.approx(behind[F.TORQUE], abs=2e-3 * abs(change))
+    assert kept[F.WORK] - before[F.WORK] == pytest.approx(speed * (kept[F.TORQUE] - before[F.TORQUE]))
+    np.testing.assert_array_equal(kept[F.HEAT : F.TORQUE], before[F.HEAT : F.TORQUE])
 
 
 def test_size_of_an_increment(w):

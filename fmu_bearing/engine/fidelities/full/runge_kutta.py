@@ -12,8 +12,8 @@ from fmu_bearing.engine.fidelities.full.methods.table import TABLEAUX
 from fmu_bearing.engine.fidelities.full.norms import body_size, newton_size, row_size
 from fmu_bearing.engine.fidelities.full.vectors import add_scaled, copy_rows, sum_scaled
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.lanes import load, store
-from fmu_bearing.engine.layout import FOUR, STRIDE, TAB, F, P, Q, W, Y
+from fmu_bearing.engine.lanes import consecutive, load, select, splat, store, sum_four
+from fmu_bearing.engine.layout import FOUR, STRIDE, TAB, C, F, P, Q, W, Y
 from fmu_bearing.engine.mechanics.ball_waves import turn_axes
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.newton.block_arrow import solve
@@ -129,6 +129,36 @@ def newton_residual(acc, lanes, w):
 
 
 @kernel
+def keep_powers(p, c, speed, gh, acc, w):
+    """Take power, heats and shaft torque of a stage from ``w[W.F:]`` into its accelerations ``acc``.
+
+    They belong to the state before Newton's last increment. The sliding which this increment still takes away
+    counts little in Newton's norm. Yet traction is stiff: behind a jump of the forces that sliding can be as
+    much torque as a ramp of the shaft takes. So the torque is completed by the balance of moments about the
+    axis: what balls, cage and outer ring with its pedestal gain beyond ``w[W.F:]`` comes from the shaft.
+    """
+    lanes = int(p[P.LANES])
+    orbit = splat(0.0)
+    spin = splat(0.0)
+    for j in range(0, lanes, FOUR):
+        live = consecutive(j) < p[P.BALLS]
+        orbit += select(live, load(acc, F.TH + j) - load(w, W.F + F.TH + j), 0.0)
+        spin += select(live, load(acc, F.WX + j) - load(w, W.F + F.WX + j), 0.0)
+    outer = F.BODY + Q.OUTER + Q.TURN
+    cage = F.BODY + Q.CAGE + Q.TURN
+    missing = p[P.BALL_MASS] * p[P.PITCH_RADIUS] * p[P.PITCH_RADIUS] * sum_four(orbit)
+    missing += p[P.BALL_INERTIA] * sum_four(spin)
+    missing += p[P.OUTER_POLAR] * (acc[outer] - w[W.F + outer])
+    missing += p[P.CAGE_POLAR] * (acc[cage] - w[W.F + cage])
+    if gh != 0.0:  # an explicit stage has no increment
+        missing += gh * (c[C.DAMPING_SPIN] + gh * c[C.PEDESTAL_ROTATIONAL]) * w[W.D + outer]
+    for i in range(F.WORK, F.SIZE):
+        acc[i] = w[W.F + i]
+    acc[F.TORQUE] += missing
+    acc[F.WORK] += missing * speed
+
+
+@kernel
 def runge_kutta_step(
     p, c, y, f, axes, flexure, angle, speed, speed_rate, h, tableau, fac, turned, tolerance, contraction,
     probe, w, report,
@@ -204,8 +234,7 @@ def runge_kutta_step(
             before = size
         if not done:
             return False
-        for i in range(F.WORK, F.SIZE):
-            acc[i] = result[i]
+        keep_powers(p, c, speed_t, gh, acc, w)
         keep_velocities(stage_y, lanes, w[W.VEL + stage * F.SIZE : W.VEL + (stage + 1) * F.SIZE])
         if bending:
             flexible.keep_mode_velocities(p, stage, w)

@@ -1,7 +1,5 @@
 """Measured values: files and tables read into rows, checked, with all problems told at once."""
 
-import csv
-import io
 import math
 import os
 import pathlib
@@ -15,6 +13,7 @@ from fmu_bearing.acoustics.analysis.field import Position
 from fmu_bearing.identification.errors import IdentifyError
 from fmu_bearing.identification.quantities import Quantity, parse_quantity
 from fmu_bearing.interface.names import UnknownName, known
+from fmu_bearing.run.table import read_rows
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.values import fields_of
 
@@ -80,9 +79,9 @@ def read_data(source: Source, scene: Scene, background: Source | None = None) ->
     Parameters
     ----------
     source : path, pandas.DataFrame, xarray.Dataset, sequence of mapping, or sequence of Datum
-        Columns as in `COLUMNS`; any other column is a dotted key of the scene. A file has commas or
-        semicolons between its values (with semicolons, a decimal comma is read too) and may have lines of
-        remarks that begin with #. In a dataset, NaN means that nothing was measured.
+        Columns as in `COLUMNS`; any other column is a dotted key of the scene. A file has commas,
+        semicolons or tabs between its values (beside semicolons and tabs, a decimal comma is read too) and
+        may have lines of remarks that begin with #. In a dataset, NaN means that nothing was measured.
     scene : Scene
         Its microphones are known by name; a condition that is left out is the scene's.
     background : like source, optional
@@ -189,38 +188,17 @@ def _records(source: Source) -> Iterable[tuple[str, dict[str, Any]]]:
 
 def _file(path: pathlib.Path) -> Iterable[tuple[str, dict[str, Any]]]:
     try:
-        text = path.read_text("utf-8-sig")
-    except FileNotFoundError:
-        raise IdentifyError(f"{path}: there is no such file") from None
-    except (OSError, UnicodeDecodeError) as problem:
-        raise IdentifyError(f"{path}: cannot be read as text in UTF-8: {problem}") from None
-    # remarks become empty lines, so that the lines keep their numbers
-    lines = ["" if line.lstrip().startswith("#") else line for line in text.splitlines()]
-    head = next((line for line in lines if line.strip()), None)
-    if head is None:
+        rows = read_rows(path)
+    except ValueError as problem:
+        raise IdentifyError(str(problem)) from None
+    if not rows:
         raise IdentifyError(f"{path}: is empty; its first line names the columns: {', '.join(COLUMNS)}")
-    semicolons = head.count(";") > head.count(",")
-    reader = csv.reader(io.StringIO("\n".join(lines)), delimiter=";" if semicolons else ",")
-    columns: list[str] = []
-    for cells in reader:
-        cells = [cell.strip() for cell in cells]
-        if not any(cells):
-            continue
-        if not columns:
-            columns = cells
-            continue
-        where = f"{path}, line {reader.line_num}"
+    (_, columns), *rows = rows
+    for number, cells in rows:
+        where = f"{path}, line {number}"
         if len(cells) != len(columns):
             raise IdentifyError(f"{where}: {len(cells)} values stand under {len(columns)} columns")
-        if semicolons:
-            cells = [_decimal_point(cell) for cell in cells]
         yield where, dict(zip(columns, cells, strict=True))
-
-
-def _decimal_point(cell: str) -> str:
-    """Return 87.5 for 87,5."""
-    whole, comma, part = cell.partition(",")
-    return f"{whole}.{part}" if comma and part.isdigit() and whole.lstrip("+-").isdigit() else cell
 
 
 class _Reader:

@@ -2,7 +2,7 @@
 
 ================  ===========================================================================
 ``names``         names of variables, with patterns and suggestions
-``table``         tables to terminal, Markdown, CSV; the machine they were made on
+``table``         tables to terminal, Markdown, CSV; rows of CSV files; the machine they were made on
 ``levels``        sound levels as they are drawn: absent before metering begins
 ``spectrum``      spectra of variables and of microphones, with names and units
 ``result``        `Run`: the results of a run, as CSV, netCDF, xarray, pandas; its pictures and spectra

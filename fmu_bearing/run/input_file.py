@@ -1,7 +1,5 @@
 """CSV files of inputs over time: columns by name, in SI units or in r/min and degC, points or commas."""
 
-import csv
-import io
 import math
 import os
 import pathlib
@@ -14,6 +12,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.interface.names import known
 from fmu_bearing.run.result import ResultError, structured
+from fmu_bearing.run.table import Cell, read_rows
 from fmu_bearing.scene.units import UNITS, convert, split_unit, symbol
 
 #: Suffixes of column names by the SI unit of the input: other units than the input's own.
@@ -24,7 +23,6 @@ SUFFIXES = {
     "N/m": ("_N_m",),
 }
 _TIMES = ("time", "time_s")
-_SEPARATORS = (";", "\t", ",")
 
 
 class Bounded(Protocol):
@@ -73,7 +71,7 @@ def read_inputs(path: str | os.PathLike[str], inputs: Mapping[str, Bounded]) -> 
     path = pathlib.Path(path)
     rows = _rows(path)
     number, titles = rows[0]
-    columns = [_column(path, title.strip(), inputs, first=k == 0) for k, title in enumerate(titles)]
+    columns = [_column(path, title, inputs, first=k == 0) for k, title in enumerate(titles)]
     _check_names(path, columns)
     table = np.empty((len(rows) - 1, len(columns)))
     for place, (number, cells) in enumerate(rows[1:]):
@@ -92,22 +90,12 @@ def read_inputs(path: str | os.PathLike[str], inputs: Mapping[str, Bounded]) -> 
     return structured({column.name: table[:, k] for k, column in enumerate(columns)})
 
 
-def _rows(path: pathlib.Path) -> list[tuple[int, list[str]]]:
-    """Return the cells of every line that holds any, with its number; the line of names is the first."""
+def _rows(path: pathlib.Path) -> list[tuple[int, list[Cell]]]:
+    """Return the line of names and at least one of values."""
     try:
-        text = path.read_text("utf-8-sig")
-    except FileNotFoundError:
-        raise ResultError(f"{path}: there is no such file") from None
-    except (OSError, ValueError) as problem:
-        raise ResultError(f"{path}: cannot be read as text in UTF-8: {problem}") from None
-    head = next((line for line in text.splitlines() if line.strip()), "")
-    separator = next((mark for mark in _SEPARATORS if mark in head), ",")
-    reader = csv.reader(io.StringIO(text, newline=""), delimiter=separator, skipinitialspace=True)
-    try:
-        rows = [(reader.line_num, row) for row in reader if any(cell.strip() for cell in row)]
-    except csv.Error as problem:
-        raise ResultError(f"{path}: line {reader.line_num}: is no line of a table: {problem}") from None
-    rows = [(number, row) for number, row in rows if not row[0].lstrip().startswith("#")]
+        rows = read_rows(path)
+    except ValueError as problem:
+        raise ResultError(str(problem)) from None
     if len(rows) < 2:
         raise ResultError(f"{path}: holds no values: write a line of names, such as time,shaft_speed_rpm")
     return rows
@@ -145,16 +133,15 @@ def _check_names(path: pathlib.Path, columns: Sequence[Column]) -> None:
             raise ResultError(f"{path}: column '{column.title}': {column.name} is given more than once")
 
 
-def _value(path: pathlib.Path, line: int, cell: str, column: Column, bounds: Bounded | None) -> float:
+def _value(path: pathlib.Path, line: int, cell: Cell, column: Column, bounds: Bounded | None) -> float:
     """Return a cell's value in SI units."""
     where = f"{path}: line {line}, column '{column.title}'"
-    text = cell.strip()
     try:
-        given = float(text.replace(",", ".") if text.count(",") == 1 and "." not in text else text)
+        given = float(cell)
     except ValueError:
         given = math.nan
     if not math.isfinite(given):
-        raise ResultError(f"{where}: '{text}' is no finite number")
+        raise ResultError(f"{where}: '{cell.written}' is no finite number")
     value = column.si(given)
     if bounds is None:
         return value
@@ -162,6 +149,7 @@ def _value(path: pathlib.Path, line: int, cell: str, column: Column, bounds: Bou
     if not low - slack <= value <= high + slack:
         unit = symbol(column.title) if column.suffix else bounds.unit
         raise ResultError(
-            f"{where}: {text} is refused: allowed are {column.shown(low)} to {column.shown(high)} {unit}"
+            f"{where}: {cell.written} is refused: "
+            f"allowed are {column.shown(low)} to {column.shown(high)} {unit}"
         )
     return value

@@ -1,0 +1,79 @@
+"""Rows of CSV files: separators, decimal commas, remarks, numbers of lines, what is no table."""
+
+import pytest
+
+from fmu_bearing.run.table import read_rows
+
+
+def read(tmp_path, text):
+    file = tmp_path / "table.csv"
+    file.write_bytes(text.encode())
+    return read_rows(file)
+
+
+@pytest.mark.parametrize("separator", [";", "\t", ","])
+@pytest.mark.parametrize("end", ["\n", "\r\n"])
+def test_the_first_line_names_the_separator(tmp_path, separator, end):
+    lines = ["name{0}value", "P1{0} 1.5", '"a {0} b"{0}', '  {0}"2" ']
+    found = read(tmp_path, "\ufeff" + end.join(lines).format(separator) + end)
+    assert found == [
+        (1, ["name", "value"]),
+        (2, ["P1", "1.5"]),
+        (3, [f"a {separator} b", ""]),
+        (4, ["", "2"]),
+    ]
+
+
+def test_one_column_has_commas_between_what_is_too_much(tmp_path):
+    assert read(tmp_path, "time\n0,5\n") == [(1, ["time"]), (2, ["0", "5"])]
+
+
+NUMBERS = [
+    ("1,5", "1.5"), ("-80,5", "-80.5"), ("+0,25", "+0.25"), (",5", ".5"), ("-,5", "-.5"),
+    ("1,5e3", "1.5e3"), ("1,5E-3", "1.5E-3"), ("1,5e+03", "1.5e+03"),
+]  # fmt: skip
+OTHERS = [
+    "1.5", "12", "", "1.000,5", "1,000,5", "1,", ",", "1,5 N", "a,5", "1,5e", "1,e5", "--1,5", "1,5,",
+    "(0,1)", "\u0661,\u0665",  # Arabic digits
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("separator", [";", "\t"])
+def test_a_decimal_comma_becomes_a_point(tmp_path, separator):
+    table = "".join(f"x{separator}{text}\n" for text in ["value", *dict(NUMBERS), *OTHERS])
+    _, *rows = read(tmp_path, table)
+    cells = [cells[1] for _, cells in rows]
+    assert cells == [*dict(NUMBERS).values(), *OTHERS]
+    assert [cell.written for cell in cells] == [*dict(NUMBERS), *OTHERS]
+
+
+def test_between_commas_a_comma_in_quotes_is_no_decimal_comma(tmp_path):
+    """It may be one between thousands."""
+    assert read(tmp_path, 'a,b\n"1,500",2\n')[1] == (2, ["1,500", "2"])
+
+
+def test_remarks_and_empty_lines_keep_the_numbers(tmp_path):
+    text = '# saved by: a; "b\n\n  # another\na,b\n#1,2\n,\n \n3,4#5\n"#6",7\n'
+    assert read(tmp_path, text) == [(4, ["a", "b"]), (8, ["3", "4#5"]), (9, ["#6", "7"])]
+
+
+def test_a_cell_over_two_lines_ends_in_the_second(tmp_path):
+    assert read(tmp_path, 'a,b\n"1\n2",3\n4,5\n') == [(1, ["a", "b"]), (3, ["1\n2", "3"]), (4, ["4", "5"])]
+
+
+@pytest.mark.parametrize("text", ["", "\n\n", "# a,b\n", " , \n"])
+def test_nothing_is_no_row(tmp_path, text):
+    assert read(tmp_path, text) == []
+
+
+def test_what_is_no_table(tmp_path):
+    with pytest.raises(ValueError, match=r"none\.csv: there is no such file"):
+        read_rows(tmp_path / "none.csv")
+    with pytest.raises(ValueError, match="cannot be read as text in UTF-8"):
+        read_rows(tmp_path)
+    (tmp_path / "latin.csv").write_bytes(b"a,b\n\xe4,1\n")
+    with pytest.raises(ValueError, match="cannot be read as text in UTF-8"):
+        read_rows(str(tmp_path / "latin.csv"))
+    # a cell beyond 131072 characters, the limit of Python's module csv: a quote that nobody closes
+    with pytest.raises(ValueError, match=r"table\.csv: line 3: is no line of a table: field larger"):
+        read(tmp_path, 'a,b\n1,2\n"' + 140_000 * "x" + "\n")

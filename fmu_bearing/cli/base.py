@@ -130,10 +130,11 @@ def shaft_speed(rpm: float | None, option: str = "--speed") -> float | None:
     """
     if rpm is None:
         return None
+    from fmu_bearing.scene.operation import Operation
     from fmu_bearing.scene.problems import allowed
-    from fmu_bearing.scene.values import bounds
+    from fmu_bearing.scene.values import limits
 
-    low, high = bounds("operation.speed_rpm")
+    low, high = limits(Operation.model_fields["speed_rpm"])
     if not low <= rpm <= high:
         raise Refusal(f"{option} {rpm:g} r/min is refused: allowed are {allowed(('operation', 'speed_rpm'))}")
     return rpm * RPM

@@ -15,7 +15,7 @@ from fmu_bearing.identification.quantities import Quantity, parse_quantity
 from fmu_bearing.interface.names import UnknownName, known
 from fmu_bearing.run.table import read_rows
 from fmu_bearing.scene import Scene
-from fmu_bearing.scene.values import fields_of
+from fmu_bearing.scene.values import fields_of, limits
 
 #: Short names of frequent conditions, with the unit that a table carries.
 CONDITIONS = {"speed_rpm": "operation.speed_rpm", "preload_N": "mounting.preload_N"}
@@ -268,20 +268,11 @@ class _Reader:
             if key in found:
                 raise IdentifyError(f"{column} and {key} are the same condition: give one column")
             value = _number(row, column)
-            for low, high in (limits(self.fields[key]),):
-                if not low <= value <= high:
-                    raise IdentifyError(f"{column} = {value:g} lies outside {low:g} to {high:g}")
+            low, high = limits(self.fields[key])
+            if not low <= value <= high:
+                raise IdentifyError(f"{column} = {value:g} lies outside {low:g} to {high:g}")
             found[key] = value
         return tuple(sorted(found.items()))
-
-
-def limits(field: Any) -> tuple[float, float]:
-    """Lowest and highest value that a field of a scene allows; infinite where it has no limit."""
-    low, high = -math.inf, math.inf
-    for rule in field.metadata:
-        low = max([low, *(float(getattr(rule, name)) for name in ("ge", "gt") if hasattr(rule, name))])
-        high = min([high, *(float(getattr(rule, name)) for name in ("le", "lt") if hasattr(rule, name))])
-    return low, high
 
 
 def _blank(cell: Any) -> bool:

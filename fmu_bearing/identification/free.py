@@ -9,12 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.identification.data import limits
 from fmu_bearing.identification.errors import IdentifyError
 from fmu_bearing.interface.names import UnknownName, known
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.units import symbol
-from fmu_bearing.scene.values import fields_of, value_at
+from fmu_bearing.scene.values import fields_of, limits, value_at
 
 _DECADES = 1.0  # to either side of the start, where no bounds are given
 _SYNTAX = "KEY or KEY=LOW:HIGH, KEY dotted, * for any text"

@@ -14,6 +14,7 @@ from fmu_bearing import renamed
 from fmu_bearing.scene.base import LABEL
 from fmu_bearing.scene.scene import NAME, Tables
 from fmu_bearing.scene.units import symbol
+from fmu_bearing.scene.values import limits, table_of
 
 #: Sources from which a table can take its values.
 _SOURCES = {
@@ -139,14 +140,14 @@ def allowed(path: Location) -> str:
     if typing.get_origin(kind) is typing.Literal:
         return ", ".join(str(choice) for choice in get_args(kind))
     if typing.get_origin(kind) is tuple:
-        limits = [rule.max_length for rule in field.metadata if hasattr(rule, "max_length")]
+        most = [rule.max_length for rule in field.metadata if hasattr(rule, "max_length")]
         member = get_args(kind)[0]
         if typing.get_origin(member) is typing.Annotated:
             numbers = _range(get_args(member)[1], str(path[-1]))
-            return f"at most {limits[0]} whole numbers from {numbers}"
+            return f"at most {most[0]} whole numbers from {numbers}"
         if member is str:
-            return f"a list of at most {limits[0]} names in quotes"
-        return f"at most {limits[0]} tables [[{dotted(path)}]]"
+            return f"a list of at most {most[0]} names in quotes"
+        return f"at most {most[0]} tables [[{dotted(path)}]]"
     if kind is bool:
         return "true or false"
     if kind is str:
@@ -159,9 +160,8 @@ def allowed(path: Location) -> str:
 
 
 def _range(field: FieldInfo, key: str) -> str:
-    low = [rule.ge for rule in field.metadata if hasattr(rule, "ge")]
-    high = [rule.le for rule in field.metadata if hasattr(rule, "le")]
-    return f"{_number(low[0])} to {_number(high[0])} {symbol(key)}".rstrip()
+    low, high = limits(field)
+    return f"{_number(low)} to {_number(high)} {symbol(key)}".rstrip()
 
 
 def _number(value: float) -> str:
@@ -182,7 +182,7 @@ def _conflict(path: Location, reason: str, data: dict[str, Any]) -> str:
 
 def _missing(path: Location) -> str:
     field, key = _field(path), path[-1]
-    model = _model(None if field is None else field.annotation)
+    model = table_of(None if field is None else field.annotation)
     if field is None or (model is not None and not field.examples):
         keys = ", ".join(model.model_fields) if model is not None else ""
         source = _SOURCES.get(str(key)) if len(path) == 1 else None
@@ -219,7 +219,7 @@ def _unknown(path: Location) -> str:
 def _tables(model: type[BaseModel], path: Location = ()) -> Iterator[tuple[Location, type[BaseModel]]]:
     yield path, model
     for key, field in model.model_fields.items():
-        inner = _model(field.annotation)
+        inner = table_of(field.annotation)
         if inner is not None:
             yield from _tables(inner, (*path, key))
 
@@ -235,12 +235,5 @@ def _model_at(path: Location) -> type[BaseModel] | None:
         if isinstance(step, int):
             continue  # a member of an array has the model of the array
         field = model.model_fields.get(step) if model is not None else None
-        model = None if field is None else _model(field.annotation)
+        model = None if field is None else table_of(field.annotation)
     return model
-
-
-def _model(annotation: Any) -> type[BaseModel] | None:
-    """Return the table that an annotation is, may be, or is an array of."""
-    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
-        return annotation
-    return next((found for part in get_args(annotation) if (found := _model(part)) is not None), None)

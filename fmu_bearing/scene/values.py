@@ -1,5 +1,6 @@
 """Values of a scene by dotted key, such as ``mounting.preload_N`` or ``sound.microphone[1].y_mm``."""
 
+import math
 import os
 import re
 from collections.abc import Iterator, Mapping
@@ -118,7 +119,7 @@ def fields_of(scene: Tables) -> dict[str, FieldInfo]:
 def _fields(model: type[BaseModel], part: Any, prefix: str) -> Iterator[tuple[str, FieldInfo]]:
     for name, field in model.model_fields.items():
         value = getattr(part, name, None)
-        table = _table(field.annotation)
+        table = table_of(field.annotation)
         if table is None:
             yield prefix + name, field
         elif isinstance(value, tuple):
@@ -128,23 +129,18 @@ def _fields(model: type[BaseModel], part: Any, prefix: str) -> Iterator[tuple[st
             yield from _fields(table, value, f"{prefix}{name}.")
 
 
-def _table(annotation: Any) -> type[BaseModel] | None:
+def table_of(annotation: Any) -> type[BaseModel] | None:
     """Return the table that an annotation is, may be, or is an array of."""
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         return annotation
-    return next((found for part in get_args(annotation) if (found := _table(part)) is not None), None)
+    return next((found for part in get_args(annotation) if (found := table_of(part)) is not None), None)
 
 
-def bounds(key: str) -> tuple[float, float]:
-    """Return the least and the largest number that a dotted key may hold."""
-    part: Any = Tables
-    *tables, last = key.split(".")
-    for name in tables:
-        part = _table(part.model_fields[name].annotation)
-    rules = part.model_fields[last].metadata
-    low = next(rule.ge for rule in rules if hasattr(rule, "ge"))
-    high = next(rule.le for rule in rules if hasattr(rule, "le"))
-    return float(low), float(high)
+def limits(field: FieldInfo) -> tuple[float, float]:
+    """Return the least and the largest number that a field may hold, infinite where it has no limit."""
+    low = next((rule.ge for rule in field.metadata if hasattr(rule, "ge")), -math.inf)
+    high = next((rule.le for rule in field.metadata if hasattr(rule, "le")), math.inf)
+    return low, high
 
 
 def steps(key: str) -> list[tuple[str, int | None]]:

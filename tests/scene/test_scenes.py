@@ -13,6 +13,7 @@ from fmu_bearing.scene.material import Material
 from fmu_bearing.scene.read import catalogue
 from fmu_bearing.scene.sound import cylindrical
 from fmu_bearing.scene.units import split_unit, symbol
+from fmu_bearing.scene.values import limits
 from tests.conftest import EXAMPLES
 
 CATALOGUED = ["7003C-spindle", "7003C-bare", "7009C-full-ceramic", "7009C-steel"]
@@ -75,6 +76,9 @@ def test_every_field_is_described_and_bounded(path, field):
         (low,) = [rule.ge for rule in field.metadata if hasattr(rule, "ge")]
         (high,) = [rule.le for rule in field.metadata if hasattr(rule, "le")]
         assert all(low <= example <= high for example in field.examples)
+        assert limits(field) == (low, high)
+    elif field.annotation is str:
+        assert limits(field) == (-math.inf, math.inf)
 
 
 # --- example scenes ------------------------------------------------------------------------------

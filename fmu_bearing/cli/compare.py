@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from fmu_bearing.cli.base import Json, app, print_json, quiet_warnings, refusals, tell
+from fmu_bearing.files import check_folder
 
 _WHAT = "Scene (.toml), recording (.npz) or result of a run (.csv, .nc)."
 
@@ -46,7 +47,7 @@ def compare(
             if microphone is not None and source.suffix == ".toml":
                 named_places(read_scene(source).microphones, microphone)
         if output is not None:
-            output.mkdir(parents=True, exist_ok=True)  # an unusable folder is reported before the runs
+            check_folder(output)  # told before the runs
         found = compare_them(
             a, b, duration=duration, settle=settle, fidelity=fidelity, radiation_model=radiation_model,
             tell=tell, progress=False if as_json else None,

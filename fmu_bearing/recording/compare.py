@@ -107,11 +107,7 @@ class Comparison:
     def keys_table(self) -> Table:
         """Keys in which the scenes differ."""
         rows = [
-            [
-                key,
-                *(_BLANK if value is None else _value(value) for value in pair),
-                symbol(key.rpartition(".")[2]),
-            ]
+            [key, *(_BLANK if value is None else _value(value) for value in pair), _unit(key)]
             for key, pair in self.keys.items()
         ]
         return ["key of the scene", "A", "B", "unit"], rows
@@ -185,10 +181,7 @@ class Comparison:
     def summary(self) -> dict[str, Any]:
         """Return names, differing keys, levels, third octaves and figures of both, for machines."""
         found: dict[str, Any] = {
-            "keys": {
-                key: {"a": a, "b": b, "unit": symbol(key.rpartition(".")[2])}
-                for key, (a, b) in self.keys.items()
-            }
+            "keys": {key: {"a": a, "b": b, "unit": _unit(key)} for key, (a, b) in self.keys.items()}
         }
         for side, here in (("a", self.a), ("b", self.b)):
             found[side] = {

@@ -59,7 +59,9 @@ def test_refusals(run, rings_file, tmp_path):
         ((rings_file, rings_file, "-m", "P9"), "there is no microphone 'P9'; there are P1, P2, P3, P4"),
         ((rings_file, rings_file, "--fidelity", "best"), "fidelity.model = 'best' is refused"),
         ((rings_file, rings_file, "-t", -1), "duration = -1.0 s"),
-        ((rings_file, rings_file, "-o", tmp_path / "file"), "file"),
+        ((rings_file, rings_file, "-o", tmp_path / "file"), "file is a file; name another folder"),
+        ((rings_file, rings_file, "-o", tmp_path / "out", "-t", -1), "duration = -1.0 s"),
     ):
         done = run("compare", *arguments)
         assert done.exit_code == 2 and reason in done.stderr, done.output
+    assert not (tmp_path / "out").exists()  # a refusal leaves no trace

@@ -26,6 +26,8 @@ def blocked(tmp_path, monkeypatch):
         ("tradeoff", "{scene}", "-o", "{folder}/out", "--chart", "{file}/chart.png"),
         ("sensitivity", "{scene}", "-o", "{file}"),
         ("sweep", "{scene}", "-a", "speed=1000,2000", "-o", "{file}"),
+        ("compare", "{scene}", "{scene}", "-o", "{file}/tables"),
+        ("compare", "{scene}", "{scene}", "-o", "{folder}/tables", "--plot", "{file}/both.png"),
         ("report", "{scene}", "-o", "{file}/page.html"),
         ("report", "{scene}", "-o", "{folder}/page.html", "--keep", "{file}/run.npz"),
         ("build", "{scene}", "-o", "{file}/bearing.fmu"),

@@ -31,6 +31,7 @@ HIGH_PRESSURE = 2.0e9
 CLASS_PRESSURE = {"steel": 1.34e9, "hybrid": 1.5e9}
 #: Film over roughness below which surfaces touch, and from which on they are apart (Harris 2006).
 MIXED, APART = 1.0, 3.0
+_LITTLE = 2.0  # deg: a groove's edge and a contact angle are known no better
 
 
 @dataclass(frozen=True)
@@ -150,9 +151,6 @@ def cautions(point: OperatingPoint) -> list[str]:
                 "a higher shoulder"
             )
     return found
-
-
-_LITTLE = 2.0  # deg: a groove's edge and a contact angle are known no better
 
 
 def _pressure(point: OperatingPoint) -> list[str]:

@@ -17,7 +17,7 @@ from fmu_bearing.scene import Scene
 _BM = 1.3  # ISO 281: contemporary steel
 _STATIC_PRESSURE = 4.2e9  # Pa: ISO 76
 _STATIC_CONFORMITY = (0.52, 0.53)  # inner, outer: ISO 76
-_STEEL = (207e9, 0.3)  # Pa: as ISO 76 reckons
+_STEEL = (207e9, 0.3)  # modulus of elasticity in Pa, Poisson's ratio: as ISO 76 reckons
 # NSK: f0 Fa / C0, then e and Y of single rows of 15 deg (X 0.44), clamped outside
 _RELATIVE = (0.178, 0.357, 0.714, 1.07, 1.43, 2.14, 3.57, 5.35)
 _E_15 = (0.38, 0.40, 0.43, 0.46, 0.47, 0.50, 0.55, 0.56)
@@ -64,7 +64,7 @@ def kind(scene: Scene) -> str:
 def rating(scene: Scene, axial: float, radial: float, speed_rpm: float) -> Rating | None:
     """Return C, C0, P and L10 at an axial and a radial load (N); None for rings that are not of steel.
 
-    The least life is that of a perfect bearing in clean oil. ISO 281 rates bearings with steel rings only.
+    The life is that of a perfect bearing in clean oil. ISO 281 rates bearings with steel rings only.
     """
     if kind(scene) not in ("steel", "hybrid"):
         return None

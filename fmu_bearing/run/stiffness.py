@@ -7,7 +7,10 @@ from fmu_bearing.engine.layout import C, P, Q, S, Y
 
 _FREEDOMS = 5  # x y z (m), tilts about y and z (rad)
 _BALL = _FREEDOMS  # places of a ball's axial and radial place behind them
-_STEP = 1e-7  # m, rad: of the central difference of exact slopes; its error is the square over the groove's
+# m, rad: step of the central differences of the slopes. These turn over the distance of the centres of ball
+# and groove, 0.07 mm and more: the relative error of a difference is about (1e-7 / 0.07e-3)^2 = 2e-6, that of
+# the stiffness 1e-7 (measured against smaller and larger steps, 7003C and 7009C).
+_STEP = 1e-7
 
 
 def stiffness(p: NDArray[np.float64], s: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -6,6 +6,7 @@ from fmu_bearing.compiled import call
 from fmu_bearing.engine.layout import FL, STRIDE, C, F, P, S, W, Y
 from fmu_bearing.engine.mechanics.energy import stored_energy
 from fmu_bearing.engine.mechanics.flexure import flexure_energy
+from fmu_bearing.scene.mounting import Flexure as Bending
 
 
 def thin_ring(body, order, frequency, mass, damping=0.0, shape=(0.0, 1.0), tilt=0.0):
@@ -25,6 +26,23 @@ def thin_ring(body, order, frequency, mass, damping=0.0, shape=(0.0, 1.0), tilt=
     row[P.MODE_TILT] = tilt
     row[P.MODE_WEIGHT] = 0.5 * (row[P.MODE_X : P.MODE_TILT] ** 2).sum()
     return row
+
+
+# near the 7003C's: outer n = 2, 3, inner n = 2; tilts beyond the real ones, so that an error in them shows
+MODES = [
+    thin_ring(0, 2, 18070.0, 0.014, damping=0.01, shape=(0.2, 0.9), tilt=40.0),
+    thin_ring(1, 2, 6640.0, 0.022, damping=0.005, shape=(0.1, 1.0), tilt=60.0),
+    thin_ring(1, 3, 18450.0, 0.022, damping=0.005, shape=(-0.1, 1.0), tilt=-30.0),
+]
+SCENE = "7003C-spindle"
+FRICTIONLESS = {"MU": 0.0, "ROLLING": 0.0, "CONTACT_DAMPING": 0.0}
+
+
+def bending(scene, inner=(), outer=(), **values):
+    """The scene with flexible rings, without rotor and housing, which would hold them round."""
+    flexure = Bending(inner_ring=inner, outer_ring=outer, **values)
+    loose = {"flexure": flexure, "rotor": None, "housing": None}
+    return scene.model_copy(update={"mounting": scene.mounting.model_copy(update=loose)})
 
 
 def untouched(row):

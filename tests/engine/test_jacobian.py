@@ -15,7 +15,7 @@ from fmu_bearing.engine.choices import TRACTION_LAWS
 from fmu_bearing.engine.layout import STRIDE, C, F, J, P, Q, S, U, W, Y
 from fmu_bearing.engine.mechanics.conditions import conditions
 from tests.engine.helpers import Run
-from tests.engine.test_right_hand_side import shake
+from tests.engine.states import shake
 
 ANGLES = (3, 4, 8, 9, 10, 14, 15, 16)  # among the bodies' coordinates
 # steps of the differences: their error goes with the fourth power, of 1e-3 of the contacts' approach and of

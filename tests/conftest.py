@@ -25,7 +25,7 @@ LONG = (
     "engine/test_fidelities.py",
     "fmi/test_package.py",
     "testing/test_plugin.py",
-    "examples/test_papers.py",
+    "examples/papers/test_pages.py",
     "fmi/test_calls.py",
     "engine/test_vector_code.py",
     "sweeps/test_workers.py",

@@ -1,0 +1,81 @@
+"""Statements of the papers: verdicts from margins and trends, classes over seeds, reasons."""
+
+import math
+
+import pytest
+
+from examples.papers import statements
+from examples.papers.statements import AGAINST, CHANCE, HOLDS, NOT, UNSEEN, Judged, Reason
+
+
+def test_a_statement_holds_only_where_every_margin_is_positive():
+    held = statements.verdict("a above b", [("10,000", 0.3), ("20,000", 4.0)])
+    assert held.verdict == HOLDS and held.figures == "+0.3 to +4.0 dB"
+    equal = statements.verdict("a above b", [("10,000", 0.0), ("20,000", 4.0)])
+    assert equal.verdict == NOT and "in 1 of 2" in equal.figures and "10,000 (+0.0)" in equal.figures
+    nowhere = statements.verdict("a above b", [("10,000", -1.0), ("20,000", -4.0)], "%")
+    assert nowhere.verdict == NOT and nowhere.figures == "nowhere: -4.0 to -1.0 %"
+    assert statements.verdict("a above b", []).verdict == UNSEEN
+    assert statements.verdict("a above b", [("10,000", math.nan)]).verdict == NOT
+
+
+@pytest.mark.parametrize(
+    ("paper", "ours", "holds"),
+    [
+        (10.0, 12.9, True),  # within 3 dB
+        (10.0, 14.9, True),  # within a factor of 1.5
+        (10.0, 15.1, False),
+        (10.0, 6.8, True),
+        (10.0, 6.6, False),  # neither 3 dB nor 1 / 1.5
+        (1.0, 3.9, True),
+        (1.0, 4.1, False),
+        (1.0, -0.5, False),  # near, but the other way
+        (-4.0, -6.5, True),
+        (-4.0, 0.1, False),
+        (-4.0, -7.1, False),
+    ],
+)
+def test_a_trend_holds_by_sign_and_size(paper, ours, holds):
+    found = statements.trend("rises", [("20,000", paper, ours)])
+    assert found.verdict == (HOLDS if holds else NOT)
+
+
+def test_order_and_size_are_both_wanted():
+    order = statements.verdict("grows", [("a", 1.0), ("b", 2.0)])
+    small = statements.trend("", [("a to b", 9.0, 2.0)])
+    assert statements.both(order, small).verdict == NOT
+    fits = statements.both(order, statements.trend("", [("a to b", 3.0, 2.0)]))
+    assert fits.verdict == HOLDS and fits.statement == "grows" and len(fits.margins) == 3
+    assert statements.both(order, statements.trend("", [])).verdict == HOLDS  # nothing printed
+
+
+def _seeds(holds, count=8):
+    margins = [1.0] * holds + [-1.0] * (count - holds)
+    return [[statements.verdict("s", [("x", margin)])] for margin in margins]
+
+
+@pytest.mark.parametrize(
+    ("holds", "kind"), [(8, HOLDS), (7, HOLDS), (6, CHANCE), (2, CHANCE), (1, NOT), (0, NOT)]
+)
+def test_classes_follow_the_count_over_eight_seeds(holds, kind):
+    (found,) = statements.classed(_seeds(holds), {})
+    assert (found.kind, found.holds, found.seeds) == (kind, holds, 8)
+    assert found.share == pytest.approx(holds / 8)
+
+
+def test_a_reason_classes_what_does_not_hold_and_nothing_else():
+    why = Reason(AGAINST, "momentum")
+    assert statements.classed(_seeds(0), {"s": why})[0].kind == AGAINST
+    (refuted,) = statements.classed(_seeds(8), {"s": why})  # our own bearing does it
+    assert (refuted.kind, refuted.reason) == (HOLDS, "")
+    (draw,) = statements.classed(_seeds(0), {"s": Reason(CHANCE, "no direction")})
+    assert (draw.kind, draw.reason) == (CHANCE, "no direction")
+    with pytest.raises(ValueError, match="nobody states: t"):
+        statements.classed(_seeds(0), {"t": why})
+    with pytest.raises(ValueError, match="a reason is for"):
+        Reason(HOLDS, "because")
+
+
+def test_unseen_statements_are_counted_apart():
+    found = statements.classed([[Judged("s", UNSEEN, "")]], {})
+    assert statements.counts(found) == "Of 1 statements: 0 *holds*, 0 *does not hold*, 1 *not judged*"

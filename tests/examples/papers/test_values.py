@@ -1,0 +1,92 @@
+"""Values of the papers: intervals that rounded percentages leave, residuals, slopes, faulty tables."""
+
+import math
+
+import numpy as np
+import pytest
+
+from examples.papers import page, values
+from examples.papers.values import Interval, Met, Value, recovered
+from tests.examples.papers.fitted import FITTED
+
+
+@pytest.mark.parametrize(
+    ("difference", "percent", "low", "high"),
+    [
+        ("0.24", "0.28", 82.46, 89.09),  # 0.235 / 0.285 % and 0.245 / 0.275 %
+        ("2.36", "2.83", 83.07, 83.72),
+        ("3.4", "4.12", 81.21, 83.84),  # one decimal of the difference: half a tenth each way
+        ("2", "4", 33.33, 71.43),  # no decimals at all
+    ],
+)
+def test_a_rounded_percentage_gives_an_interval(difference, percent, low, high):
+    found = recovered(difference, percent)
+    assert (found.low, found.high) == (pytest.approx(low, abs=0.005), pytest.approx(high, abs=0.005))
+
+
+def test_every_value_that_rounds_so_lies_in_the_interval():
+    draw = np.random.default_rng(1)
+    for _ in range(2000):
+        value, difference = draw.uniform(60, 95), draw.uniform(0.1, 4.0)
+        shown = f"{difference:.2f}", f"{100 * difference / value:.2f}"
+        found = recovered(*shown)
+        assert found.low - 1e-9 <= value <= found.high + 1e-9, (value, shown)
+    # and its ends are reached: just beyond them another percentage is printed
+    for value, inside in ((found.low * 1.0001, True), (found.low * 0.999, False)):
+        d = float(shown[0]) - 0.004999
+        assert (f"{100 * d / value:.2f}" == shown[1]) is inside
+
+
+@pytest.mark.parametrize(("difference", "percent"), [("0.24", "0.00"), ("0.2", "0"), ("-1.0", "1.0")])
+def test_what_is_too_coarse_is_refused(difference, percent):
+    with pytest.raises(ValueError, match="too coarsely"):
+        recovered(difference, percent)
+
+
+def test_residual_is_the_distance_to_the_interval():
+    interval = Interval(82.5, 89.1)
+    assert [interval.distance(v) for v in (80.0, 82.5, 86.0, 90.0)] == pytest.approx([-2.5, 0, 0, 0.9])
+    value = Value("P1", "check", "measured", "leq", "P1", 26000, interval, "")
+    one = Met(value, (89.0, 93.0))
+    assert (one.mean, one.residual, one.from_middle) == pytest.approx((91.0, 1.9, 5.2))
+
+
+def _met(paper, *ours, role="check", group="measured", without="", rpm=1.0):
+    value = Value(f"{paper} {rpm}", role, group, "leq", "P1", rpm, Interval(paper, paper), "", without)
+    return Met(value, ours)
+
+
+def test_rms_counts_distances_and_leaves_out_what_is_marked():
+    found = [_met(70.0, 73.0), _met(80.0, 75.0, 77.0), _met(82.5, 0.0, without="contradicts mechanics")]
+    assert values.rms(found) == pytest.approx(math.sqrt((9 + 16) / 2))
+    assert math.isnan(values.rms(found[2:]))
+
+
+def test_slope_is_per_decade():
+    assert values.slope([1000, 10000, 100000], [50, 70, 90]) == pytest.approx(20.0)
+    table = page.slope_table([_met(50.0, 52.0, 48.0, rpm=1000.0), _met(70.0, 81.0, 79.0, rpm=10000.0)])
+    assert "| 20.0 | 30.0 | 29.0 to 31.0 | +10.0 | **not met** |" in table
+
+
+@pytest.mark.parametrize("name", FITTED)
+def test_fitted_values_are_those_fixed_beforehand(name):
+    found = values.read(name)
+    assert {value.name for value in found if value.role == "fit"} == FITTED[name]
+    assert all(value.source for value in found)
+
+
+@pytest.mark.parametrize(
+    ("row", "words"),
+    [
+        ("a,fit,g,leq,P1,1,80,2,3,,s,", "give value, or difference and percent"),
+        ("a,fit,g,leq,P1,1,,2,,,s,", "give value, or difference and percent"),
+        ("a,tuned,g,leq,P1,1,80,,,,s,", "role is fit or check"),
+        ("a,fit,g,leq,P1,1,80,,,,s,\na,fit,g,leq,P1,1,81,,,,s,", "two values are called a"),
+    ],
+)
+def test_a_faulty_table_of_values_is_refused(tmp_path, monkeypatch, row, words):
+    head = "name,role,group,quantity,place,rpm,value,difference,percent,above,source,without"
+    (tmp_path / "x.csv").write_text(f"{head}\n{row}\n")
+    monkeypatch.setattr(values, "DATA", tmp_path)
+    with pytest.raises(ValueError, match=words):
+        values.read("x")

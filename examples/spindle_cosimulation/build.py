@@ -1,8 +1,12 @@
-"""Build the FMUs of motor and thermal network with pythonfmu: ``python build.py --output-dir out``.
+"""Build the FMUs of motor and thermal network: ``python build.py --output-dir out``.
 
-pythonfmu 0.7 writes no units, no initial unknowns, no ability to keep states and a random GUID, and Python
-keeps modules by name for the life of a process, so that two FMUs with a module of the same name would share
-the first one's code. This file adds the former and names each module after a hash of its source.
+``native`` FMUs are C (``native/``) and run in any program; ``python`` ones run in Python. Names,
+units and start values of both builds come from the slaves in ``motor.py`` and ``thermal.py``.
+
+pythonfmu 0.7 writes no units, no initial unknowns, no ability to keep states, 16 digits of a start value and
+a random GUID, and Python keeps modules by name for the life of a process, so that two FMUs with a module of
+the same name would share the first one's code. This file adds the former and names each module after a hash
+of its source.
 """
 
 import hashlib
@@ -10,17 +14,27 @@ import logging
 import sys
 import tempfile
 import zipfile
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 from uuid import UUID
 from xml.etree import ElementTree
 
 import typer
+from pythonfmu import Fmi2Slave
 from pythonfmu.builder import FmuBuilder
 
+from fmu_bearing.cli.build import Flavour, Platforms, named
+from fmu_bearing.compiled import BuildError
+from fmu_bearing.compiled.platforms import PLATFORMS, host
+from fmu_bearing.fmi.native.link import compiler_for, link
+from fmu_bearing.fmi.package import ChoiceError, check_choice
+
 HERE = Path(__file__).resolve().parent
+NATIVE = HERE / "native"
 MODELS = ("thermal", "motor")
 EPOCH = (1980, 1, 1, 0, 0, 0)  # the earliest date of a zip: the clock stays out of the FMU
+UNIX = 3
 
 #: Base units of FMI 2.0 for each unit used here, and what tools may show instead (name, factor, offset).
 UNITS = {
@@ -38,91 +52,179 @@ UNITS = {
 }
 
 
-def build(script: Path, folder: Path) -> Path:
-    """Build the FMU of a pythonfmu slave and return its path.
+def best_flavour() -> str:
+    """Return ``native`` where there is a C compiler for this machine, else ``python``."""
+    own = host()
+    try:
+        if own is not None:
+            compiler_for(own)
+            return "native"
+    except BuildError:
+        pass
+    return "python"
+
+
+def build(script: Path, folder: Path, flavour: str = "python", platforms: Sequence[str] = ()) -> Path:
+    """Build the FMU of a pythonfmu slave, or of the C model of the same name, and return its path.
 
     Parameters
     ----------
     script : Path
-        Module with one slave class that has a dictionary ``units`` (variable name to unit).
+        Module with one slave class that has dictionaries ``units`` (variable name to unit) and, if it can say
+        so, ``initial_dependencies`` (output to the names that its start depends on).
     folder : Path
         Where the FMU goes; its file name is the class name.
+    flavour : str
+        ``python``, or ``native``: the equations in ``native/NAME.c`` with the variables of the module NAME.
+    platforms : sequence of str
+        Platforms of a native FMU; default: this machine's.
+
+    Raises
+    ------
+    BuildError
+        If a library cannot be made.
     """
+    files, slave = _python_parts(script)
+    root = _complete(files["modelDescription.xml"], slave, flavour)
+    if flavour == "native":
+        files = _native_parts(script.stem, slave, root.get("guid", ""), platforms)
+    ElementTree.indent(root)
+    files["modelDescription.xml"] = ElementTree.tostring(root, encoding="UTF-8", xml_declaration=True)
+    folder.mkdir(parents=True, exist_ok=True)
+    return pack(folder / f"{type(slave).__name__}.fmu", files, zipfile.ZIP_DEFLATED)
+
+
+def pack(target: Path, files: dict[str, bytes], compression: int) -> Path:
+    """Write files into a zip that is the same whenever and wherever it is written."""
+    with zipfile.ZipFile(target, "w", compression) as archive:
+        for name, data in files.items():
+            entry = zipfile.ZipInfo(name, EPOCH)
+            entry.compress_type = compression
+            entry.create_system = UNIX
+            entry.external_attr = (0o755 if name.startswith("binaries/") else 0o644) << 16
+            archive.writestr(entry, data)
+    return target
+
+
+def _python_parts(script: Path) -> tuple[dict[str, bytes], Fmi2Slave]:
+    """Return the files of pythonfmu's FMU in name order, and a fresh instance of its slave."""
     source = script.read_bytes()
     module = f"spindle_{script.stem}_{hashlib.sha256(source).hexdigest()[:12]}"
     # pythonfmu logs the same line about its binary folder for every build
     logging.getLogger("pythonfmu").setLevel(logging.ERROR)
     with tempfile.TemporaryDirectory() as place:
-        named = Path(place) / f"{module}.py"
-        named.write_bytes(source)
+        script = Path(place) / f"{module}.py"
+        script.write_bytes(source)
         try:
-            raw = FmuBuilder.build_FMU(named, dest=place)
-            units = next(
-                value.units
+            raw = FmuBuilder.build_FMU(script, dest=place)
+            made = next(
+                value
                 for value in vars(sys.modules[module]).values()
                 if hasattr(value, "units") and getattr(value, "__module__", "") == module
             )
+            slave = made(instance_name="starts")
         finally:
             sys.modules.pop(module, None)
             sys.path[:] = [entry for entry in sys.path if Path(entry) != Path(place)]
-        folder.mkdir(parents=True, exist_ok=True)
-        return _rewrite(raw, folder / raw.name, units)
+        with zipfile.ZipFile(raw) as archive:
+            return {name: archive.read(name) for name in sorted(archive.namelist())}, slave
 
 
-def _rewrite(raw: Path, target: Path, units: dict[str, str]) -> Path:
-    """Copy an FMU with a completed description, and without dates."""
-    with zipfile.ZipFile(raw) as old:
-        files = {name: old.read(name) for name in old.namelist()}
-    files["modelDescription.xml"] = _complete(files["modelDescription.xml"], units)
-    with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED) as new:
-        for name in sorted(files):
-            entry = zipfile.ZipInfo(name, EPOCH)
-            entry.compress_type = zipfile.ZIP_DEFLATED
-            entry.external_attr = 0o644 << 16
-            new.writestr(entry, files[name])
-    return target
+def _native_parts(model: str, slave: Fmi2Slave, guid: str, platforms: Sequence[str]) -> dict[str, bytes]:
+    """Return the compiled library of each platform, by its path inside the FMU."""
+    own = host()
+    if not platforms and own is None:
+        raise BuildError("this machine is none of " + ", ".join(PLATFORMS) + ": name the platforms")
+    prefer = "portable" if platforms else "auto"  # named ones are for other machines too
+    files = {}
+    for name in sorted(set(platforms) or {own.name if own else ""}):
+        platform = PLATFORMS[name]
+        with tempfile.TemporaryDirectory() as place:
+            # a C file looks for its headers beside itself first
+            for file in ("partner.h", "partner.c", f"{model}.c"):
+                (Path(place) / file).write_bytes((NATIVE / file).read_bytes())
+            (Path(place) / "variables.h").write_text(variables_header(slave, guid), encoding="ascii")
+            sources = [Path(place) / "partner.c", Path(place) / f"{model}.c"]
+            # no kernels: neither objects nor their hash
+            data = link(compiler_for(platform, prefer), platform, sources, kernels=(), digest="")
+        files[f"binaries/{name}/{type(slave).__name__}{platform.suffix}"] = data
+    return files
 
 
-def _complete(description: bytes, units: dict[str, str]) -> bytes:
+def variables_header(slave: Fmi2Slave, guid: str) -> str:
+    """Return ``variables.h``: what ``native/partner.h`` says of it, with the slave's values as starts."""
+    variables = slave.vars.values()  # in the order of their value references
+    names = [variable.name.replace(".", "_").upper() for variable in variables]
+    rows = [
+        f'{{"{variable.name}", {variable.causality.name.upper()}, {float(variable.getter()).hex()}}}'
+        for variable in variables
+    ]
+    table = ", \\\n    ".join(rows)
+    return (
+        f'#define PARTNER_GUID "{guid}"\n\n'
+        f"enum {{ {', '.join(names)}, N_VARIABLES }};\n\n#define PARTNER_VARIABLES \\\n    {table}\n"
+    )
+
+
+def _complete(description: bytes, slave: Fmi2Slave, flavour: str) -> ElementTree.Element:
     """Add units, initial unknowns, abilities and a GUID that follows from the interface."""
     root = ElementTree.fromstring(description)
     root.attrib.pop("generationDateAndTime", None)
     root.set("guid", "")
-    for ability in ("canGetAndSetFMUstate", "canSerializeFMUstate"):
-        root.find("CoSimulation").set(ability, "true")
+    abilities = {"canGetAndSetFMUstate": "true", "canSerializeFMUstate": "true"}
+    if flavour == "native":
+        root.set("generationTool", "fmu-bearing, examples/spindle_cosimulation/build.py")
+        abilities["needsExecutionTool"] = "false"
+    root.find("CoSimulation").attrib.update(abilities)
     definitions = ElementTree.Element("UnitDefinitions")
-    for name in sorted(set(units.values())):
-        base, display = UNITS[name]
+    for name in sorted(set(slave.units.values())):
         unit = ElementTree.SubElement(definitions, "Unit", name=name)
+        base, display = UNITS[name]
         ElementTree.SubElement(unit, "BaseUnit", {key: str(power) for key, power in base.items()})
         if display:
             shown, factor, offset = display
             attributes = {"name": shown, "factor": repr(factor), "offset": repr(offset)}
             ElementTree.SubElement(unit, "DisplayUnit", attributes)
     root.insert([child.tag for child in root].index("CoSimulation") + 1, definitions)
-    for variable in root.iter("ScalarVariable"):
-        real = variable.find("Real")
-        unit = units[variable.get("name", "")]
+    for variable, description in zip(slave.vars.values(), root.iter("ScalarVariable"), strict=True):
+        real = description.find("Real")
+        unit = slave.units[variable.name]
         real.set("unit", unit)
         if UNITS[unit][1]:
             real.set("displayUnit", UNITS[unit][1][0])
-    structure = root.find("ModelStructure")
+        if "start" in real.attrib:
+            real.set("start", repr(float(variable.getter())))
+    _add_unknowns(root.find("ModelStructure"), slave)
+    root.set("guid", f"{{{UUID(bytes=hashlib.sha256(ElementTree.tostring(root)).digest()[:16])}}}")
+    return root
+
+
+def _add_unknowns(structure: ElementTree.Element, slave: Fmi2Slave) -> None:
+    """Add the initial unknowns, and say what outputs depend on, so that masters see no loop where none is."""
+    index = {variable.name: number for number, variable in enumerate(slave.vars.values(), 1)}
+    known = getattr(slave, "initial_dependencies", {})
     unknowns = ElementTree.SubElement(structure, "InitialUnknowns")
     for output in structure.find("Outputs"):
-        # Between two steps a new input changes no output: masters need see no algebraic loop.
-        output.set("dependencies", "")
-        ElementTree.SubElement(unknowns, "Unknown", index=output.get("index"))
-    root.set("guid", f"{{{UUID(bytes=hashlib.sha256(ElementTree.tostring(root)).digest()[:16])}}}")
-    ElementTree.indent(root)
-    return ElementTree.tostring(root, encoding="UTF-8", xml_declaration=True)
+        output.set("dependencies", "")  # between two steps a new input changes no output
+        unknown = ElementTree.SubElement(unknowns, "Unknown", index=output.get("index"))
+        name = slave.vars[int(output.get("index")) - 1].name
+        if name in known:
+            unknown.set("dependencies", " ".join(map(str, sorted(index[one] for one in known[name]))))
 
 
-def main(output_dir: Annotated[Path, typer.Option(help="Folder for the FMUs.")] = Path("out")) -> None:
+def main(
+    output_dir: Annotated[Path, typer.Option(help="Folder for the FMUs.")] = Path("out"),
+    flavour: Flavour = None,
+    platforms: Platforms = None,
+) -> None:
     """Build SpindleThermal.fmu and SpindleMotor.fmu."""
     try:
+        check_choice(flavour, named(platforms))
+        flavour = flavour or ("native" if platforms else best_flavour())
         for model in MODELS:
-            typer.echo(f"built {build(HERE / f'{model}.py', output_dir)}")
-    except OSError as error:
+            built = build(HERE / f"{model}.py", output_dir, flavour, named(platforms))
+            typer.echo(f"built {built}: {flavour}")
+    except (OSError, BuildError, ChoiceError) as error:
         typer.echo(f"error: {error}", err=True)
         raise typer.Exit(2) from None
 

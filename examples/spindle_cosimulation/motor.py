@@ -6,6 +6,8 @@ here: ``J dOmega/dt = motor torque - load torque``, with J from the bearing's ``
 A PI controller runs at its own sampling rate, as drives do, and holds the torque in between. Torque and load
 are then constant over each piece, the shaft equation is solved exactly, and the result depends on the
 communication step only through how often the load torque is renewed.
+
+``native/motor.c`` has the same equations in the same order of operations: results are equal to the last bit.
 """
 
 from math import isfinite
@@ -46,6 +48,15 @@ class SpindleMotor(Fmi2Slave):
         ("winding_resistance", "parameter", "Ohm", 0.4, "Resistance that makes the copper loss"),
     )
     units = {name: unit for name, _, unit, _, _ in table}
+    #: What each output depends on at the start.
+    initial_dependencies = {
+        "shaft_speed": ("start_speed",),
+        "speed_setpoint": ("start_speed",),
+        "motor_torque": ("load_torque", "torque_limit"),
+        "electrical_power": (
+            "load_torque", "start_speed", "torque_limit", "torque_constant", "winding_resistance"
+        ),
+    }  # fmt: skip
 
     def __init__(self, **kwargs):
         super().__init__(**kwargs)
@@ -109,7 +120,8 @@ class SpindleMotor(Fmi2Slave):
         self.motor_torque = self._limited(wanted)
         # The integral waits while the torque is at its limit, or it would overshoot afterwards.
         if self.motor_torque == wanted:
-            self.integral += self.rotor_inertia * self.bandwidth**2 * error * self.control_period
+            gain = self.rotor_inertia * self.bandwidth * self.bandwidth
+            self.integral += gain * error * self.control_period
 
     def _setpoint(self, time):
         since = time - self.begin - self.ramp_start
@@ -121,4 +133,5 @@ class SpindleMotor(Fmi2Slave):
 
     def _power(self):
         current = self.motor_torque / self.torque_constant
-        self.electrical_power = self.motor_torque * self.shaft_speed + self.winding_resistance * current**2
+        loss = self.winding_resistance * (current * current)
+        self.electrical_power = self.motor_torque * self.shaft_speed + loss

@@ -6,6 +6,9 @@ the air flow and the cooled housing.
 
 Implicit Euler in sub-steps of at most 1 ms: the fastest lump (the oil) takes a quarter second, so the error
 of a transient stays below 1 %, and the energy balance holds to rounding at any step.
+
+``native/thermal.c`` has the same equations in the same order of operations: results are equal to the last
+bit.
 """
 
 from math import ceil, isclose, isfinite
@@ -63,6 +66,9 @@ class SpindleThermal(Fmi2Slave):
     units |= {f"conductance.{one}_{other}": "W/K" for one, other in CONDUCTANCES}
     units |= {name: "K" for name in ("ambient_temperature", "initial_temperature")}
     units |= {name: "J" for name in ("energy.supplied", "energy.stored", "energy.given_off")}
+    #: What each output depends on at the start: the energies on nothing.
+    initial_dependencies = {f"{lump}_temperature": ("initial_temperature",) for lump in lumps}
+    initial_dependencies |= {f"energy.{name}": () for name in ("supplied", "stored", "given_off")}
 
     def __init__(self, **kwargs):
         super().__init__(**kwargs)
@@ -136,13 +142,13 @@ class SpindleThermal(Fmi2Slave):
         ambient = self.values["ambient_temperature"]
         before = [self.values[f"{lump}_temperature"] - ambient for lump in self.lumps]
         right = [q * h + c * rise for q, c, rise in zip(heats, capacities, before, strict=True)]
-        after = [sum(a * b for a, b in zip(row, right, strict=True)) for row in self.inverse]
+        after = [_total(a * b for a, b in zip(row, right, strict=True)) for row in self.inverse]
         for lump, rise in zip(self.lumps, after, strict=True):
             self.values[f"{lump}_temperature"] = ambient + rise
             self.values["energy.given_off"] += h * rise * self.values.get(f"conductance.{lump}_ambient", 0.0)
-        self.values["energy.supplied"] += h * sum(heats)
+        self.values["energy.supplied"] += h * _total(heats)
         gained = [c * (new - old) for c, new, old in zip(capacities, after, before, strict=True)]
-        self.values["energy.stored"] += sum(gained)
+        self.values["energy.stored"] += _total(gained)
 
     def _matrix(self, h, capacities):
         """Capacities plus step times conductances: the matrix of an implicit Euler step."""
@@ -159,6 +165,14 @@ class SpindleThermal(Fmi2Slave):
                 matrix[i][j] -= flow
                 matrix[j][i] -= flow
         return matrix
+
+
+def _total(values):
+    """Sum by plain additions, as in C: the built-in one compensates rounding from Python 3.12 on."""
+    total = 0.0
+    for value in values:
+        total += value
+    return total
 
 
 def _words(name):

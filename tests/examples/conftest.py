@@ -30,6 +30,18 @@ def builder():
 
 
 @pytest.fixture(scope="session")
+def partners(builder, tmp_path_factory):
+    """Folder with motor and thermal FMU by flavour; native ones where a C compiler is there."""
+    folders = {"python": tmp_path_factory.mktemp("python"), "native": tmp_path_factory.mktemp("native")}
+    if builder.best_flavour() != "native":
+        del folders["native"]
+    for flavour, folder in folders.items():
+        for model in builder.MODELS:
+            builder.build(SPINDLE / f"{model}.py", folder, flavour)
+    return folders
+
+
+@pytest.fixture(scope="session")
 def fmus(builder, tmp_path_factory):
     """Folder with motor and thermal FMU and, under the bearing's name, a stand-in for the bearing."""
     folder = tmp_path_factory.mktemp("fmus")

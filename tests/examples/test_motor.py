@@ -18,6 +18,14 @@ PARAMETERS = {
 }
 
 
+@pytest.fixture(params=["python", "native"])
+def fmus(request, partners):
+    """Both builds: what follows shares no code with either."""
+    if request.param not in partners:
+        pytest.skip("no C compiler")
+    return partners[request.param]
+
+
 def simulate(fmus, step=5e-4, end=1.0, load=None, **parameters):
     kinds = [("time", float), ("load_torque", float)]
     return fmpy.simulate_fmu(

@@ -1,29 +1,40 @@
 """Write motor, bearing and thermal network as one system: ``python write.py out/Bearing7003C.fmu``.
 
-The file is an SSP 1.0 archive (System Structure and Parameterization): three FMUs and a description of what
-is connected with what. The bearing's FMU goes in as it is; motor and thermal network are built here, with
-the starts that fit it.
+The file is an SSP 1.0 archive (System Structure and Parameterization): three FMUs, their parameters
+(``.ssv``) and a description of what is connected with what (``.ssd``). The bearing's FMU goes in as it is.
+Motor and thermal network are built here, with the starts that fit it: in C where there is a compiler, so that
+with a native bearing nothing in the archive needs Python.
 
 Simulation tools treat the beginning in different ways. Some pass outputs on while the FMUs initialise,
-FMPy does not; some apply the parameters of the description, FMPy does not. So every input's start value is
+FMPy does not; some apply the parameters of the archive, FMPy does not. So every input's start value is
 made what the connected output has at time 0, every parameter is also a start value inside its FMU, and all
 tools begin at the same point.
+
+For OMSimulator, which could not be run here, the description follows what its source reads: the README says
+which rules these are.
 """
 
 import math
 import sys
 import tempfile
 import zipfile
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 from xml.etree import ElementTree
 
 import typer
+from fmpy import read_model_description
+from run import EXACT_STEP
+
+from fmu_bearing.cli.build import Platforms, named
+from fmu_bearing.compiled import BuildError
+from fmu_bearing.fmi.package import ChoiceError, check_choice
 
 SPINDLE = Path(__file__).resolve().parents[1] / "spindle_cosimulation"
 sys.path.insert(0, str(SPINDLE))  # that example's modules know each other by their bare names
 
-from build import EPOCH, build  # noqa: E402
+from build import UNITS, best_flavour, build, pack  # noqa: E402
 from coupling import HEATS, TEMPERATURES, Fmu, SimulationError  # noqa: E402
 
 RPM = 30.0 / math.pi
@@ -35,13 +46,16 @@ CONNECTIONS = (
     *(("thermal", name, "bearing", name) for name in TEMPERATURES),
     *(("bearing", name, "thermal", name) for name in HEATS),
 )
+#: Unit of each variable by (component, variable).
+Units = dict[tuple[str, str], str]
 PARAMETER_SET = "operation"  # ecos applies a set of parameters only when told its name
 
 NAMESPACES = {
     part: f"http://ssp-standard.org/SSP1/SystemStructure{name}"
     for part, name in (("ssd", "Description"), ("ssc", "Common"), ("ssv", "ParameterValues"))
 }
-for prefix, address in NAMESPACES.items():
+NAMESPACES["oms"] = "https://raw.githubusercontent.com/OpenModelica/OMSimulator/master/schema/oms.xsd"
+for prefix, address in NAMESPACES.items():  # OMSimulator and ecos look for these very prefixes
     ElementTree.register_namespace(prefix, address)
 
 # Appended to a slave's source: pythonfmu writes start values into the description and into the instance
@@ -105,25 +119,29 @@ def starts(point: dict[str, float], values: dict[str, float], component: str) ->
     return mine | shown
 
 
-def build_with_starts(model: str, values: dict[str, float], folder: Path) -> Path:
+def build_with_starts(
+    model: str, values: dict[str, float], folder: Path, flavour: str, platforms: Sequence[str] = ()
+) -> Path:
     """Build the FMU of ``motor`` or ``thermal`` with other start values than its source has."""
     source = (SPINDLE / f"{model}.py").read_text(encoding="utf-8")
     with tempfile.TemporaryDirectory() as place:
         script = Path(place) / f"{model}.py"
         extra = _STARTS.format(name=f"Spindle{model.capitalize()}", starts=values)
         script.write_text(source + extra, encoding="utf-8")
-        return build(script, folder)
+        return build(script, folder, flavour, platforms)
 
 
-def structure(sources: dict[str, str], values: dict[str, float], stop_time: float) -> bytes:
+def structure(sources: dict[str, str], sets: dict[str, str], units: Units, stop_time: float) -> bytes:
     """``SystemStructure.ssd`` of the system.
 
     Parameters
     ----------
     sources : dict
-        Component to path inside the archive.
-    values : dict
-        Parameters by ``component.variable``.
+        Component to the path of its FMU inside the archive.
+    sets : dict
+        Component to the path of its parameters (``.ssv``) inside the archive, where it has some.
+    units : dict
+        Unit of each variable by (component, variable).
     stop_time : float
         s.
     """
@@ -131,23 +149,70 @@ def structure(sources: dict[str, str], values: dict[str, float], stop_time: floa
     system = _element(root, "ssd:System", name="spindle")
     elements = _element(system, "ssd:Elements")
     for name, source in sources.items():
-        kind = "application/x-fmu-sharedlibrary"
-        component = _element(elements, "ssd:Component", name=name, type=kind, source=source)
+        kind = {"type": "application/x-fmu-sharedlibrary", "implementation": "CoSimulation"}
+        component = _element(elements, "ssd:Component", name=name, source=source, **kind)
         connectors = _element(component, "ssd:Connectors")
         for one, output, other, given in CONNECTIONS:
             for owner, variable, direction in ((one, output, "output"), (other, given, "input")):
                 if owner == name:
                     connector = _element(connectors, "ssd:Connector", name=variable, kind=direction)
-                    _element(connector, "ssc:Real")
-        _bind(component, {n.partition(".")[2]: v for n, v in values.items() if n.startswith(f"{name}.")})
+                    _element(connector, "ssc:Real", unit=units[owner, variable])
+        if name in sets:
+            bind(component, sets[name])
     # No connectors of the system itself: FMPy cannot follow a connection to them.
     connections = _element(system, "ssd:Connections")
     ends = ("startElement", "startConnector", "endElement", "endConnector")
     for connection in CONNECTIONS:
         _element(connections, "ssd:Connection", **dict(zip(ends, connection, strict=True)))
-    _element(root, "ssd:DefaultExperiment", startTime="0", stopTime=repr(stop_time))
-    ElementTree.indent(root)
-    return ElementTree.tostring(root, encoding="UTF-8", xml_declaration=True)
+    master = _element(_annotate(system), "oms:FixedStepMaster", description="oms-ma")
+    master.attrib |= {
+        "stepSize": repr(EXACT_STEP),
+        "absoluteTolerance": "0.0001",
+        "relativeTolerance": "0.0001",
+    }
+    _define(root, "ssd:Units", {units[c, v] for one in CONNECTIONS for c, v in (one[:2], one[2:])})
+    experiment = _element(root, "ssd:DefaultExperiment", startTime="0.0", stopTime=repr(stop_time))
+    results = {
+        "resultFile": "spindle_res.csv",
+        "loggingInterval": "0.0",
+        "bufferSize": "1",
+        "signalFilter": ".*",
+    }
+    _annotate(experiment).attrib |= results
+    return _text(root)
+
+
+def parameter_set(values: dict[str, float], units: dict[str, str]) -> bytes:
+    """Return an ``.ssv``: values of the parameters of one component, and units where they have some."""
+    root = _element(None, "ssv:ParameterSet", version="1.0", name=PARAMETER_SET)
+    listed = _element(root, "ssv:Parameters")
+    for name, value in values.items():
+        parameter = _element(listed, "ssv:Parameter", name=name)
+        unit = {"unit": units[name]} if name in units else {}
+        _element(parameter, "ssv:Real", value=repr(value), **unit)
+    if units:
+        _define(root, "ssv:Units", set(units.values()))
+    return _text(root)
+
+
+def bind(component: ElementTree.Element, source: str) -> None:
+    """Give a component the parameters of an ``.ssv``; ecos and libcosim read none bound to the system."""
+    _element(_element(component, "ssd:ParameterBindings"), "ssd:ParameterBinding", source=source)
+
+
+def _annotate(parent: ElementTree.Element) -> ElementTree.Element:
+    """Return a new place for what OMSimulator is to know."""
+    annotation = _element(_element(parent, "ssd:Annotations"), "ssc:Annotation", type="org.openmodelica")
+    return _element(_element(annotation, "oms:Annotations"), "oms:SimulationInformation")
+
+
+def _define(parent: ElementTree.Element, tag: str, names: set[str]) -> None:
+    """Add the definitions of units."""
+    definitions = _element(parent, tag)
+    for name in sorted(names):
+        base, _ = UNITS[name]
+        powers = {unit: str(power) for unit, power in base.items()}
+        _element(_element(definitions, "ssc:Unit", name=name), "ssc:BaseUnit", **powers)
 
 
 def _element(parent: ElementTree.Element | None, tag: str, **attributes: str) -> ElementTree.Element:
@@ -158,41 +223,56 @@ def _element(parent: ElementTree.Element | None, tag: str, **attributes: str) ->
     return element
 
 
-def _bind(component: ElementTree.Element, values: dict[str, float]) -> None:
-    """Give a component its parameters."""
-    if not values:
-        return
-    binding = _element(_element(component, "ssd:ParameterBindings"), "ssd:ParameterBinding")
-    inside = _element(binding, "ssd:ParameterValues")
-    chosen = _element(inside, "ssv:ParameterSet", version="1.0", name=PARAMETER_SET)
-    listed = _element(chosen, "ssv:Parameters")
-    for name, value in values.items():
-        _element(_element(listed, "ssv:Parameter", name=name), "ssv:Real", value=repr(value))
+def _text(root: ElementTree.Element) -> bytes:
+    ElementTree.indent(root)
+    return ElementTree.tostring(root, encoding="UTF-8", xml_declaration=True)
 
 
-def write(bearing: Path, output: Path, target_speed: float, ramp_time: float, stop_time: float) -> Path:
+def write(
+    bearing: Path,
+    output: Path,
+    target_speed: float,
+    ramp_time: float,
+    stop_time: float,
+    partners: str | None = None,
+    platforms: Sequence[str] = (),
+) -> Path:
     """Write the archive of a bearing FMU with motor and thermal network; return its path.
 
     Speed in rad/s, times in s. The same FMU gives the same bytes.
+
+    Parameters
+    ----------
+    partners : str, optional
+        Build of motor and thermal network, ``native`` or ``python``; default: native if it can be made.
+    platforms : sequence of str
+        Platforms of native partners; default: this machine's.
     """
+    flavour = partners or ("native" if platforms else best_flavour())
     point = operating_point(bearing)
     values = parameters(point, target_speed, ramp_time)
     with tempfile.TemporaryDirectory() as place:
         fmus = {
-            "motor": build_with_starts("motor", starts(point, values, "motor"), Path(place)),
-            "bearing": bearing,
-            "thermal": build_with_starts("thermal", starts(point, values, "thermal"), Path(place)),
+            model: build_with_starts(model, starts(point, values, model), Path(place), flavour, platforms)
+            for model in ("motor", "thermal")
         }
-        sources = {name: f"resources/{path.name}" for name, path in fmus.items()}
-        inside = {"SystemStructure.ssd": structure(sources, values, stop_time)}
-        inside |= {sources[name]: path.read_bytes() for name, path in fmus.items()}
+        fmus = {"motor": fmus["motor"], "bearing": bearing, "thermal": fmus["thermal"]}
+        units = {
+            (name, variable.name): variable.unit
+            for name, path in fmus.items()
+            for variable in read_model_description(str(path)).modelVariables
+        }
+        inside = {f"resources/{path.name}": path.read_bytes() for path in fmus.values()}
+    sets = {}
+    for name in fmus:
+        own = {key.removeprefix(f"{name}."): v for key, v in values.items() if key.startswith(f"{name}.")}
+        if own:
+            sets[name] = f"resources/{name}.ssv"
+            inside[sets[name]] = parameter_set(own, {key: units[name, key] for key in own})
+    sources = {name: f"resources/{path.name}" for name, path in fmus.items()}
+    files = {"SystemStructure.ssd": structure(sources, sets, units, stop_time)} | inside
     output.parent.mkdir(parents=True, exist_ok=True)
-    with zipfile.ZipFile(output, "w") as archive:
-        for name, data in inside.items():
-            entry = zipfile.ZipInfo(name, EPOCH)
-            entry.external_attr = 0o644 << 16
-            archive.writestr(entry, data)
-    return output
+    return pack(output, files, zipfile.ZIP_STORED)
 
 
 def main(
@@ -203,11 +283,21 @@ def main(
     target_rpm: Annotated[float, typer.Option(min=0.0, max=40e3, help="Speed to go to, in r/min.")] = 2.2e4,
     ramp_time: Annotated[float, typer.Option(min=0.0, help="Duration of the change of speed in s.")] = 0.05,
     stop_time: Annotated[float, typer.Option(min=1e-3, help="Simulated time in s.")] = 0.1,
+    partners: Annotated[
+        str | None,
+        typer.Option(
+            metavar="native|python",
+            help="Build of motor and thermal network; default: native where there is a C compiler.",
+        ),
+    ] = None,
+    platforms: Platforms = None,
 ) -> None:
     """Write an .ssp archive of motor, bearing and thermal network."""
     try:
-        typer.echo(f"wrote {write(bearing, output, target_rpm / RPM, ramp_time, stop_time)}")
-    except (OSError, SimulationError) as error:
+        check_choice(partners, named(platforms))
+        written = write(bearing, output, target_rpm / RPM, ramp_time, stop_time, partners, named(platforms))
+        typer.echo(f"wrote {written}")
+    except (OSError, BuildError, ChoiceError, SimulationError) as error:
         typer.echo(f"error: {error}", err=True)
         raise typer.Exit(2) from None
 

@@ -43,10 +43,12 @@ def alone(model, steps, **inputs):
     return np.array(rows)
 
 
-def read_csv(path):
-    """Columns by variable name; ecos calls them ``instance::name[TYPE]``."""
+def read_csv(path, instances=False):
+    """Columns by variable name, or by ``instance::name``; ecos calls them ``instance::name[TYPE]``."""
     head, *lines = path.read_text().splitlines()
-    names = [re.sub(r"^.*::|\[\w+\]$", "", name) for name in head.split(", ")]
+    names = [re.sub(r"\[\w+\]$", "", name) for name in head.split(", ")]
+    if not instances:
+        names = [name.rpartition("::")[2] for name in names]
     rows = [[float(value) for value in line.split(",")] for line in lines]
     return dict(zip(names, np.transpose(rows), strict=True))
 
@@ -127,11 +129,11 @@ def ecos(clean_environment, tmp_path_factory):
     library = next(file.locate() for file in metadata.files("tbb") if file.name == "libtbb.so.12")
     environment = clean_environment | {"LD_LIBRARY_PATH": str(Path(library).resolve().parent)}
 
-    def run(*arguments, cwd):
+    def run(*arguments, cwd, **variables):
         return subprocess.run(
             [str(folder / "ecos"), *map(str, arguments)],
             cwd=cwd,
-            env=environment,
+            env=environment | variables,
             capture_output=True,
             text=True,
             timeout=120,
@@ -156,12 +158,37 @@ def headers():
 
 
 @pytest.fixture(scope="session")
-def archives(fmus, tmp_path_factory):
-    """Path of motor, bearing and thermal network as one .ssp, by flavour of the bearing's build."""
+def archives(fmus, compiler, tmp_path_factory):
+    """Path of motor, bearing and thermal network as one .ssp: all native, all Python, and one of each."""
     from write import write
 
+    assert compiler
     folder = tmp_path_factory.mktemp("ssp")
+    builds = {"native": ("native", "native"), "python": ("python", "python"), "mixed": ("native", "python")}
     return {
-        flavour: write(path, folder / f"{flavour}.ssp", target_speed=2300.0, ramp_time=0.02, stop_time=0.1)
-        for flavour, path in fmus.items()
-    }
+        name: write(
+            fmus[bearing], folder / f"{name}.ssp", target_speed=2300.0, ramp_time=0.02, stop_time=0.1,
+            partners=partners,
+        )
+        for name, (bearing, partners) in builds.items()
+    }  # fmt: skip
+
+
+#: What ecos is to write: it crashes now and then where it reads an Integer through proxyfmu.
+CSV_CONFIG = """<?xml version="1.0" encoding="UTF-8"?>
+<ecos:CsvConfig xmlns:ecos="http://github.com/Ecos-platform/libecos/resources/schema/CsvConfig">
+  <ecos:components>{components}</ecos:components>
+</ecos:CsvConfig>
+"""
+
+
+def csv_config(path, shown):
+    """Write what ecos is to record: ``shown`` has the names of variables by component."""
+    components = "".join(
+        f'<ecos:component name="{component}">'
+        + "".join(f'<ecos:variable name="{name}"/>' for name in names)
+        + "</ecos:component>"
+        for component, names in shown.items()
+    )
+    path.write_text(CSV_CONFIG.format(components=components))
+    return path

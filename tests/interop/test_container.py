@@ -81,11 +81,11 @@ def unpack(archive, folder):
             (folder / name).write_bytes(file.read(f"resources/{name}"))
 
 
-@pytest.mark.parametrize("flavour", ["native", "python"])
-def test_motor_and_bearing(archives, flavour, tmp_path):
+def motor_and_bearing(archive, folder):
+    """Container of both, its outputs (name to component and variable), and what they are to be."""
     from write import CONNECTIONS
 
-    unpack(archives[flavour], tmp_path)
+    unpack(archive, folder)
     parts = ("motor", "bearing")
     links = [link for link in CONNECTIONS if link[0] in parts and link[2] in parts]
     # A name with the FMU's own in front would meet those that the toolbox gives to what is linked.
@@ -97,11 +97,27 @@ def test_motor_and_bearing(archives, flavour, tmp_path):
         "link": [[FILES[one], output, FILES[other], given] for one, output, other, given in links],
         "output": [[FILES[part], variable, name] for name, (part, variable) in outputs.items()],
     }
-    (tmp_path / "drive.json").write_text(json.dumps(description))
-    found, _ = simulate(fmucontainer("drive.json", tmp_path), outputs)
-    expected = container_by_hand(tmp_path, links, list(outputs.values()))
+    (folder / "drive.json").write_text(json.dumps(description))
+    made = fmucontainer("drive.json", folder)
+    return made, outputs, container_by_hand(folder, links, list(outputs.values()))
+
+
+@pytest.mark.parametrize("flavour", ["native", "python", "mixed"])
+def test_motor_and_bearing(archives, flavour, tmp_path):
+    made, outputs, expected = motor_and_bearing(archives[flavour], tmp_path)
+    found, _ = simulate(made, outputs)
     for name, values in zip(outputs, expected.T, strict=True):
         assert np.array_equal(found[name], values), name
+
+
+@needs_linux64
+def test_motor_and_bearing_without_python(archives, ecos, tmp_path):
+    made, outputs, expected = motor_and_bearing(archives["native"], tmp_path)
+    ran = ecos("simulate", "--path", made, "--stepSize", EXACT_STEP, "--stopTime", STOP, cwd=tmp_path)
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+    found = read_csv(tmp_path / "drive.csv")
+    for name, values in zip(outputs, expected.T, strict=True):
+        assert found[name] == pytest.approx(values, abs=CSV_ERROR), name
 
 
 @pytest.mark.parametrize("flavour", ["native", "python"])

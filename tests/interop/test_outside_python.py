@@ -12,7 +12,7 @@ import pytest
 
 from tests.native.toy import HOST
 
-from .conftest import CSV_ERROR, EXACT_STEP, STEPS, WATCHED, alone, needs_linux64, read_csv
+from .conftest import CSV_ERROR, EXACT_STEP, STEPS, WATCHED, alone, csv_config, needs_linux64, read_csv
 
 
 @pytest.fixture(scope="session")
@@ -135,7 +135,7 @@ def lone(native, tmp_path):
     """An archive with the bearing alone, and parameters for it."""
 
     def write(source, **values):
-        from write import _bind, _element
+        from write import _element, bind, parameter_set
 
         root = _element(None, "ssd:SystemStructureDescription", version="1.0", name="lone")
         elements = _element(_element(root, "ssd:System", name="lone"), "ssd:Elements")
@@ -144,33 +144,22 @@ def lone(native, tmp_path):
         connectors = _element(component, "ssd:Connectors")
         for name in WATCHED:
             _element(_element(connectors, "ssd:Connector", name=name, kind="output"), "ssc:Real")
-        _bind(component, values)
+        bind(component, "resources/bearing.ssv")
         path = tmp_path / "lone.ssp"
         with zipfile.ZipFile(path, "w") as archive:
             archive.writestr("SystemStructure.ssd", ElementTree.tostring(root, xml_declaration=True))
+            archive.writestr("resources/bearing.ssv", parameter_set(values, {}))
             archive.write(native, "resources/Bearing7003C.fmu")
         return path
 
     return write
 
 
-# ecos crashes now and then where it reads an Integer through proxyfmu: only Reals are written.
-CSV_CONFIG = """<?xml version="1.0" encoding="UTF-8"?>
-<ecos:CsvConfig xmlns:ecos="http://github.com/Ecos-platform/libecos/resources/schema/CsvConfig">
-  <ecos:components><ecos:component name="bearing">
-    {variables}
-  </ecos:component></ecos:components>
-</ecos:CsvConfig>
-"""
-
-
 @needs_linux64
 @pytest.mark.parametrize("start", ["", "proxyfmu://localhost?file="], ids=["in ecos", "by proxyfmu"])
 def test_ecos_simulate_archive(ecos, lone, start, model, tmp_path):
     path = lone(f"{start}resources/Bearing7003C.fmu", preload=450.0, shaft_speed=2200.0)
-    config = tmp_path / "csv.xml"
-    names = "\n    ".join(f'<ecos:variable name="{name}"/>' for name in WATCHED)
-    config.write_text(CSV_CONFIG.format(variables=names))
+    config = csv_config(tmp_path / "csv.xml", {"bearing": WATCHED})
     ran = ecos(
         "simulate",
         *("--path", path, "--csvConfig", config, "--stepSize", EXACT_STEP, "--stopTime", STEPS * EXACT_STEP),
@@ -202,3 +191,33 @@ def test_proxyfmu_from_ecospy(ecos, native, expected, tmp_path, monkeypatch):
             found = [run.get_real(f"bearing::{name}") for name in WATCHED]
             run.terminate()
     assert found == expected[-1].tolist()
+
+
+@needs_linux64
+def test_the_whole_spindle_in_ecos_simulate(ecos, archives, tmp_path):
+    """Native bearing, motor and thermal network in a program without Python, against FMPy's .ssp runner."""
+    from run import run_fmpy, signals
+
+    shown = {}
+    for component, name in signals(archives["native"]):
+        shown.setdefault(component, []).append(name)
+    config = csv_config(tmp_path / "csv.xml", shown)
+    ran = ecos(
+        "simulate",
+        *("--path", archives["native"], "--csvConfig", config),
+        *("--stepSize", EXACT_STEP, "--stopTime", STEPS * EXACT_STEP, "--parameterSet", "operation"),
+        cwd=tmp_path,
+        LD_DEBUG="files",
+    )
+    assert ran.returncode == 0, ran.stdout + ran.stderr[-2000:]
+    assert "[error]" not in ran.stdout
+    paths = re.findall(r"calling init: (.+)$", ran.stderr, flags=re.MULTILINE)
+    loaded = {path.rpartition("/")[2] for path in paths}
+    assert {"SpindleMotor.so", "Bearing7003C.so", "SpindleThermal.so"} <= loaded
+    assert not [name for name in loaded if "python" in name]
+    found = read_csv(tmp_path / "native.csv", instances=True)
+    expected = run_fmpy(archives["native"], STEPS, EXACT_STEP)
+    for component, names in shown.items():
+        for name in names:
+            values = found[f"{component}::{name}"][1:]
+            assert values == pytest.approx(expected[f"{component}.{name}"], abs=CSV_ERROR), name

@@ -1,5 +1,6 @@
 """One .ssp of motor, bearing and thermal network: equal results with FMPy, ecos and libcosim."""
 
+import io
 import re
 import zipfile
 from pathlib import Path
@@ -21,14 +22,14 @@ from .conftest import EXACT_STEP, STEPS, needs_linux64
 pytestmark = needs_linux64
 
 
-@pytest.fixture(params=["native", "python"])
+@pytest.fixture(params=["native", "python", "mixed"])
 def archive(request, archives):
     return archives[request.param]
 
 
 @pytest.fixture(scope="module")
 def runs(archives):
-    """Results by engine and flavour."""
+    """Results by archive and engine."""
     from run import ENGINES
 
     return {
@@ -37,9 +38,10 @@ def runs(archives):
     }
 
 
-def read_structure(path):
+def read(path, name="SystemStructure.ssd"):
+    """Root element of a file in an archive."""
     with zipfile.ZipFile(path) as archive:
-        return archive.read("SystemStructure.ssd")
+        return etree.fromstring(archive.read(name))
 
 
 @pytest.fixture
@@ -49,7 +51,7 @@ def other_ramp(archives, tmp_path):
     with zipfile.ZipFile(archives["native"]) as old, zipfile.ZipFile(path, "w") as new:
         for name in old.namelist():
             data = old.read(name)
-            if name.endswith(".ssd"):
+            if name.endswith("motor.ssv"):
                 changed = re.sub(rb'(name="ramp_time">\s*<ssv:Real value=")[^"]*', rb"\g<1>0.005", data)
                 assert changed != data
                 data = changed
@@ -57,15 +59,60 @@ def other_ramp(archives, tmp_path):
     return path
 
 
-def test_structure_is_valid(archive):
-    schema = Path(fmpy.__file__).parent / "ssp" / "schema" / "SystemStructureDescription.xsd"
-    etree.XMLSchema(etree.parse(schema)).assertValid(etree.fromstring(read_structure(archive)))
+def schema(name):
+    folder = Path(fmpy.__file__).parent / "ssp" / "schema"
+    return etree.XMLSchema(etree.parse(folder / f"SystemStructure{name}.xsd"))
+
+
+def test_files_are_valid(archive):
+    schema("Description").assertValid(read(archive))
+    sources = [binding.get("source") for binding in read(archive).iterfind(".//{*}ParameterBinding")]
+    assert sources == ["resources/motor.ssv", "resources/thermal.ssv"]
+    for source in sources:
+        schema("ParameterValues").assertValid(read(archive, source))
+
+
+def test_units_are_defined_where_they_are_used(archive):
+    """SSP 1.0: a unit "must reference one of the unit definitions" of the file it stands in."""
+    from build import UNITS
+
+    files = ["SystemStructure.ssd", "resources/motor.ssv", "resources/thermal.ssv"]
+    for root in (read(archive, name) for name in files):
+        reals = list(root.iterfind(".//{*}Real"))
+        defined = {
+            unit.get("name"): {key: int(power) for key, power in unit[0].attrib.items()}
+            for unit in root.iterfind("{*}Units/{*}Unit")
+        }
+        assert defined == {real.get("unit"): UNITS[real.get("unit")][0] for real in reals}
+
+
+def test_what_omsimulator_reads(archive):
+    """Rules of its source: prefixes as text, no other child of the root, one annotation with a master."""
+    root = read(archive)
+    prefixes = {"ssd", "ssc", "oms"}
+    assert {element.prefix for element in root.iter()} == prefixes
+    for prefix in prefixes - {"oms"}:
+        assert root.nsmap[prefix].startswith("http://ssp-standard.org/SSP1/SystemStructure")
+    assert [etree.QName(child).localname for child in root] == ["System", "Units", "DefaultExperiment"]
+    system, _, experiment = root
+    path = "{*}Annotations/{*}Annotation[@type='org.openmodelica']/{*}Annotations/{*}SimulationInformation"
+    (master,) = system.find(path)
+    assert etree.QName(master).localname == "FixedStepMaster"
+    assert (master.get("description"), float(master.get("stepSize"))) == ("oms-ma", EXACT_STEP)
+    assert "e" not in master.get("stepSize")  # a decimal in its schema
+    assert float(master.get("relativeTolerance")) > 0.0
+    assert experiment.find(path).get("resultFile").endswith(".csv")
+    assert float(experiment.get("stopTime")) == 0.1
+    for name in ("spindle", *(part.get("name") for part in root.iterfind(".//{*}Component"))):
+        assert name.isidentifier()
+    for parameters in ("resources/motor.ssv", "resources/thermal.ssv"):
+        assert {element.prefix for element in read(archive, parameters).iter()} == {"ssv", "ssc"}
 
 
 def test_every_end_of_a_connection_is_a_variable(archive, tmp_path):
     with zipfile.ZipFile(archive) as file:
         file.extractall(tmp_path)
-    root = etree.fromstring(read_structure(archive))
+    root = read(archive)
     descriptions = {
         component.get("name"): fmpy.read_model_description(str(tmp_path / component.get("source")))
         for component in root.iterfind(".//{*}Component")
@@ -77,21 +124,29 @@ def test_every_end_of_a_connection_is_a_variable(archive, tmp_path):
         assert (output.causality, given.causality) == ("output", "input")
         assert output.unit == given.unit
     for component in root.iterfind(".//{*}Component"):
-        for parameter in component.iterfind(".//{*}Parameter"):
-            start = variables[component.get("name"), parameter.get("name")].start
-            # pythonfmu writes 16 digits
-            assert float(start) == pytest.approx(float(parameter[0].get("value")), rel=1e-15)
+        for connector in component.iterfind(".//{*}Connector"):
+            variable = variables[component.get("name"), connector.get("name")]
+            assert (variable.causality, variable.unit) == (connector.get("kind"), connector[0].get("unit"))
+        for binding in component.iterfind(".//{*}ParameterBinding"):
+            parameters = read(archive, binding.get("source"))
+            assert parameters.get("name") == "operation"
+            for parameter in parameters.iterfind(".//{*}Parameter"):
+                variable = variables[component.get("name"), parameter.get("name")]
+                assert variable.causality == "parameter"
+                assert float(variable.start) == float(parameter[0].get("value"))
+                assert variable.unit == parameter[0].get("unit")
 
 
 def test_written_twice_it_is_the_same(fmus, archives, tmp_path):
     from write import write
 
     again = write(fmus["native"], tmp_path / "a.ssp", target_speed=2300.0, ramp_time=0.02, stop_time=0.1)
+    # native partners are the default, as there is a compiler
     assert again.read_bytes() == archives["native"].read_bytes()
 
 
 @pytest.mark.parametrize("engine", ["ecos", "libcosim"])
-@pytest.mark.parametrize("flavour", ["native", "python"])
+@pytest.mark.parametrize("flavour", ["native", "python", "mixed"])
 def test_engines_agree_to_the_last_bit(runs, flavour, engine):
     # The same algorithm and times that all of them count exactly: nothing is left to differ.
     expected, found = runs[flavour]["fmpy"], runs[flavour][engine]
@@ -100,10 +155,26 @@ def test_engines_agree_to_the_last_bit(runs, flavour, engine):
         assert np.array_equal(found[name], expected[name]), name
 
 
-def test_builds_agree_to_the_last_bit(runs):
-    for name, native in runs["native"]["fmpy"].dtype.fields.items():
-        assert native is not None
-        assert np.array_equal(runs["native"]["fmpy"][name], runs["python"]["fmpy"][name]), name
+@pytest.mark.parametrize("flavour", ["python", "mixed"])
+def test_builds_agree_to_the_last_bit(runs, flavour):
+    """Motor and thermal network in C give what they give in Python, and so does the bearing."""
+    expected, found = runs["native"]["fmpy"], runs[flavour]["fmpy"]
+    assert len(expected.dtype.names) == 9
+    for name in expected.dtype.names:
+        assert np.array_equal(found[name], expected[name]), name
+
+
+def needing_python(path):
+    """Names of the FMUs in an archive that need a program beside them."""
+    with zipfile.ZipFile(path) as archive:
+        fmus = [name for name in archive.namelist() if name.endswith(".fmu")]
+        descriptions = [fmpy.read_model_description(io.BytesIO(archive.read(name))) for name in fmus]
+    return {d.modelName for d in descriptions if d.coSimulation.needsExecutionTool}
+
+
+def test_the_native_archive_needs_no_python(archives):
+    assert needing_python(archives["native"]) == set()
+    assert needing_python(archives["mixed"]) == {"SpindleMotor", "SpindleThermal"}
 
 
 def test_the_system_does_what_it_is_for(runs):
@@ -182,7 +253,7 @@ def test_commands(fmus, tmp_path):
 
     archive = tmp_path / "made" / "spindle.ssp"
     for module, arguments, words in (
-        (write, [str(fmus["native"]), "-o", str(archive)], "wrote"),
+        (write, [str(fmus["native"]), "-o", str(archive), "--partners", "python"], "wrote"),
         (run, [str(archive), "--output-dir", str(tmp_path), "--steps", "3"], "libcosim"),
     ):
         app = Typer()
@@ -190,5 +261,6 @@ def test_commands(fmus, tmp_path):
         result = CliRunner().invoke(app, arguments)
         assert result.exit_code == 0, result.output
         assert words in result.output
+    assert needing_python(archive) == {"SpindleMotor", "SpindleThermal"}
     assert result.output.count("largest difference to FMPy 0\n") == 3
     assert len((tmp_path / "spindle_ecos.csv").read_text().splitlines()) == 4

@@ -36,7 +36,7 @@ $(BEARING): $(VENV)/.installed build_fmu.py $(SCENE) $(SOURCES)
 	$(BIN)/python build_fmu.py $(SCENE) -o $@
 
 # One call writes both, the motor last.
-$(OUT)/SpindleMotor.fmu: $(VENV)/.installed $(wildcard $(SPINDLE)/*.py)
+$(OUT)/SpindleMotor.fmu: $(VENV)/.installed $(wildcard $(SPINDLE)/*.py $(SPINDLE)/native/*)
 	@mkdir -p $(OUT)
 	$(BIN)/python $(SPINDLE)/build.py --output-dir $(OUT)
 

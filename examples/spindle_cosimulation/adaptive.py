@@ -28,7 +28,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 import typer
-from build import MODELS, build
+from build import MODELS, best_flavour, build
 from coupling import TEMPERATURES, Fmu, Plan, SimulationError, exchanger, initialise
 from numpy.typing import NDArray
 
@@ -226,7 +226,7 @@ def main(
     with tempfile.TemporaryDirectory() as place:
         folder = Path(place)
         for model in MODELS:
-            build(Path(__file__).with_name(f"{model}.py"), folder)
+            build(Path(__file__).with_name(f"{model}.py"), folder, best_flavour())
         build_fmu(scene, folder / "Bearing7003C.fmu")
 
         def plan(step: float) -> Plan:

@@ -28,7 +28,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 import typer
-from build import build
+from build import best_flavour, build
 from coupling import HEATS, TEMPERATURES, Fmu, SimulationError
 from numpy.typing import NDArray
 
@@ -347,7 +347,7 @@ def main(
     # finer than the default of 2e-3: the torque has to follow small increments of speed
     scene = read_scene(SCENE).replace({"sound": None, "fidelity.tolerance": 1e-3})
     with tempfile.TemporaryDirectory() as place:
-        network = build(Path(__file__).with_name("thermal.py"), Path(place))
+        network = build(Path(__file__).with_name("thermal.py"), Path(place), best_flavour())
         with Fmu(build_fmu(scene, Path(place) / "Bearing7003C.fmu").path, "bearing") as bearing:
             maps = measure(bearing, network, quick)
     results.mkdir(parents=True, exist_ok=True)

@@ -39,7 +39,7 @@ def test_commands_run_as_printed(native, compiler, tmp_path):
     )
     assert ran.returncode == 0, ran.stdout + ran.stderr
     made = {path.name for path in (tmp_path / "out").iterdir()}
-    tables = {"fmpy.csv", "Bearing7003C.csv", "pair.csv"} | {
+    tables = {"fmpy.csv", "Bearing7003C.csv", "pair.csv", "spindle.csv"} | {
         f"spindle_{engine}.csv" for engine in ("fmpy", "ecos", "libcosim")
     }
     assert tables <= made

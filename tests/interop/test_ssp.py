@@ -44,19 +44,44 @@ def read(path, name="SystemStructure.ssd"):
         return etree.fromstring(archive.read(name))
 
 
+def edited(archive, path, **edits):
+    """Copy of an archive; ``motor_ssv=edit`` changes the text of the file ``motor.ssv``."""
+    with zipfile.ZipFile(archive) as old, zipfile.ZipFile(path, "w") as new:
+        for name in old.namelist():
+            data = old.read(name)
+            for end, edit in edits.items():
+                if name.endswith(end.replace("_", ".")):
+                    changed = edit(data.decode())
+                    assert changed != data.decode()
+                    data = changed.encode()
+            new.writestr(name, data)
+    return path
+
+
+def faster(text):
+    return re.sub(r'(ramp_time">\s*<ssv:Real value=")[^"]*', r"\g<1>0.005", text)
+
+
 @pytest.fixture
 def other_ramp(archives, tmp_path):
     """An archive whose parameters ask for a faster run-up than the start values inside its FMUs."""
-    path = tmp_path / "other.ssp"
-    with zipfile.ZipFile(archives["native"]) as old, zipfile.ZipFile(path, "w") as new:
-        for name in old.namelist():
-            data = old.read(name)
-            if name.endswith("motor.ssv"):
-                changed = re.sub(rb'(name="ramp_time">\s*<ssv:Real value=")[^"]*', rb"\g<1>0.005", data)
-                assert changed != data
-                data = changed
-            new.writestr(name, data)
-    return path
+    return edited(archives["native"], tmp_path / "other.ssp", motor_ssv=faster)
+
+
+@pytest.fixture
+def ramp_of_the_system(archives, tmp_path):
+    """The same, with the motor's parameters bound to the system, by ``component.variable``."""
+    bindings = r"<ssd:ParameterBindings>.*?motor.ssv.*?</ssd:ParameterBindings>"
+
+    def structure(text):
+        (found,) = re.findall(bindings, text, flags=re.DOTALL)
+        return text.replace(found, "").replace("<ssd:Elements>", f"{found}<ssd:Elements>", 1)
+
+    def parameters(text):
+        return faster(text.replace('<ssv:Parameter name="', '<ssv:Parameter name="motor.'))
+
+    path = tmp_path / "system.ssp"
+    return edited(archives["native"], path, motor_ssv=parameters, SystemStructure_ssd=structure)
 
 
 def schema(name):
@@ -227,6 +252,20 @@ def test_parameters_of_the_archive(archives, other_ramp):
     # What the page on other tools says of them: without the name ecos keeps the start values, FMPy always.
     assert np.array_equal(speed(run_ecos, other_ramp), slow)
     assert np.array_equal(speed(run_fmpy, other_ramp), slow)
+
+
+@pytest.mark.parametrize("engine", ["ecos", "libcosim"])
+def test_parameters_of_the_system_are_not_read(archives, ramp_of_the_system, engine):
+    """Why each set is bound to its component."""
+    from run import run_ecos, run_fmpy, run_libcosim
+
+    schema("Description").assertValid(read(ramp_of_the_system))
+    slow = run_fmpy(archives["native"], 4, EXACT_STEP)["motor.shaft_speed"]
+    if engine == "ecos":
+        found = run_ecos(ramp_of_the_system, 4, EXACT_STEP, parameter_set="operation")
+    else:
+        found = run_libcosim(ramp_of_the_system, 4, EXACT_STEP)
+    assert np.array_equal(found["motor.shaft_speed"], slow)
 
 
 def test_fmpy_alone_begins_at_absolute_zero(archive):

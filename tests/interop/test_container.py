@@ -120,7 +120,7 @@ def test_motor_and_bearing_without_python(archives, ecos, tmp_path):
         assert found[name] == pytest.approx(values, abs=CSV_ERROR), name
 
 
-@pytest.mark.parametrize("flavour", ["native", "python"])
+@pytest.mark.parametrize("flavour", ["native", "python", "mixed"])
 def test_archive_as_a_container(archives, flavour, tmp_path):
     """Motor, bearing and thermal network of the .ssp example in one FMU.
 
@@ -134,6 +134,21 @@ def test_archive_as_a_container(archives, flavour, tmp_path):
     expected = container_by_hand(tmp_path, CONNECTIONS, list(LOOP.values()))
     for name, values in zip(LOOP, expected.T, strict=True):
         assert np.array_equal(found[name], values), name
+
+
+@needs_linux64
+def test_archive_as_a_container_without_python(archives, ecos, tmp_path):
+    from write import CONNECTIONS
+
+    shutil.copy(archives["native"], tmp_path / "spindle.ssp")
+    made = fmucontainer("spindle.ssp", tmp_path)
+    ran = ecos("simulate", "--path", made, "--stepSize", EXACT_STEP, "--stopTime", STOP, cwd=tmp_path)
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+    unpack(archives["native"], tmp_path)
+    expected = container_by_hand(tmp_path, CONNECTIONS, list(LOOP.values()))
+    found = read_csv(tmp_path / f"{made.stem}.csv")
+    for name, values in zip(LOOP, expected.T, strict=True):
+        assert found[name] == pytest.approx(values, abs=CSV_ERROR), name
 
 
 def simulate(path, outputs, messages=None):

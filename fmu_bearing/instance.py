@@ -35,12 +35,12 @@ REASONS = {
 
 @dataclass(frozen=True)
 class Caution:
-    """A warning where ``z[index] < threshold``: ``before``, ``scale`` z, ``after``.
+    """A warning where a number is below a threshold: ``before``, ``scale`` times the number, ``after``.
 
     Attributes
     ----------
     index : int
-        Place in ``z``.
+        Place of the number in its array.
     threshold : float
     scale : float
         Factor on the number in the text.
@@ -48,6 +48,8 @@ class Caution:
         Text around the number.
     decimals : int
         Digits of the number behind the point.
+    array : str
+        ``z`` or ``u``.
     """
 
     index: int
@@ -56,6 +58,7 @@ class Caution:
     before: str
     after: str
     decimals: int = 1
+    array: str = "z"
 
 
 def _shoulder(ring: str, other: str) -> Caution:
@@ -77,8 +80,7 @@ _WAVES = Caution(
     " us, which internal steps have to follow: its frequency lies above 17 kHz; for speed give a lower "
     "imperfections.highest_order or highest_frequency_kHz, or one scene for low and one for high speeds",
 )
-#: Warnings checked after initialisation and after each step, each given once.
-CAUTIONS: tuple[Caution, ...] = (_shoulder("inner", "outer"), _shoulder("outer", "inner"), _WAVES)
+_ALWAYS = (_shoulder("inner", "outer"), _shoulder("outer", "inner"), _WAVES)
 _LOOSE = "preload = 0 N: no axial force holds balls and races together: loose balls skid or lift off; "
 _ROLLS = {
     "full": "what they then do depends on gravity, loads and chance more than on the bearing",
@@ -110,6 +112,13 @@ def loose(fidelity: str) -> str:
     return f"{words}; give a preload (mounting.preload_N, input preload), or expect no more than a trend"
 
 
+def cautions(fidelity: str) -> tuple[Caution, ...]:
+    """Return the warnings checked after initialisation and after each step, each given once."""
+    before, nothing, after = loose(fidelity).partition("0")
+    smallest = math.ulp(float(nothing))
+    return (Caution(U.PRELOAD, smallest, 1.0, before, after, decimals=0, array="u"), *_ALWAYS)
+
+
 class EngineError(ValueError):
     """The engine refused; the instance is as it was before the call."""
 
@@ -137,6 +146,7 @@ class Instance:
         self.model = model
         self.tell = tell or (lambda text: warnings.warn(text, stacklevel=4))
         self.by_name = {variable.name: variable for variable in model.variables}
+        self._cautions = cautions(FIDELITIES[int(model.parameters[P.FIDELITY])])
         self.reset()
 
     def reset(self) -> None:
@@ -150,8 +160,7 @@ class Instance:
         self._calls = Calls(self.p, self.u, self.s, self.z, np.zeros(W.size(self.p)))
         self._kept = self.s.copy()
         self.initialised = False
-        self._due = CAUTIONS
-        self._held = True  # no warning about a missing preload was given yet
+        self._due = self._cautions
         for variable in model.variables:
             if variable.array == "u" and variable.start is not None:
                 self.u[variable.index] = variable.start
@@ -210,19 +219,16 @@ class Instance:
         if status != OK:
             raise EngineError(f"initialisation at t = {time} s: {REASONS[status]}; {self._inputs()}")
         self.initialised = True
-        self._due = CAUTIONS
-        self._held = True
+        self._due = self._cautions
         self._warn()
 
     def _warn(self) -> None:
         """Give the warnings about the state reached that were not given yet."""
-        if not self.u[U.PRELOAD] > 0.0 and self._held:
-            self._held = False
-            self.tell(loose(FIDELITIES[int(self.p[P.FIDELITY])]))
         for one in self._due:
-            if self.z[one.index] < one.threshold:
+            value = (self.u if one.array == "u" else self.z)[one.index]
+            if value < one.threshold:
                 self._due = tuple(other for other in self._due if other is not one)
-                self.tell(f"{one.before}{one.scale * self.z[one.index]:.{one.decimals}f}{one.after}")
+                self.tell(f"{one.before}{one.scale * value:.{one.decimals}f}{one.after}")
 
     def step(self, h: float) -> None:
         """Advance by ``h`` (s). The speed ramps to its input over the step; other inputs are held.

@@ -270,7 +270,7 @@ def _warn_of_loose(player: "Player", start_values: Mapping[str, float] | None) -
     """Warn of one of our FMUs that starts without preload: its own log is shown after a refusal only."""
     if player.scene is None or player.scene.fidelity.model == "auto" or "preload" not in player.inputs:
         return
-    if not by_name(start_values).get("preload", player.inputs["preload"].start) > 0.0:
+    if by_name(start_values).get("preload", player.inputs["preload"].start) == 0.0:
         warnings.warn(loose(player.scene.fidelity.model), stacklevel=3)
 
 

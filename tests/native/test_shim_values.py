@@ -198,6 +198,11 @@ def test_caution_after_initialisation(master):
     assert master().start(load=100.0).log == []
 
 
+def test_caution_about_an_input(master):
+    one = master().start(load=0.25)
+    assert one.log == [(WARNING, "logStatusWarning", "the load is 0 N")]
+
+
 def test_caution_after_a_step_is_given_once(master):
     one = master().start(load=100.0)
     assert one.set("load", 110.0) == OK

@@ -70,7 +70,10 @@ CONTENTS = Contents(
     variables=VARIABLES,
     ramped=0,
     reasons={1: "it did not converge", 4: "there is no equilibrium"},
-    cautions=(Caution(4, 0.0, -2.0, "the margin is short by ", " half newtons"),),
+    cautions=(
+        Caution(4, 0.0, -2.0, "the margin is short by ", " half newtons"),
+        Caution(1, 0.5, 1.0, "the load is ", " N", decimals=0, array="u"),
+    ),
 )
 
 

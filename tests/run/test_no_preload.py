@@ -2,9 +2,11 @@
 
 import warnings
 
+import fmpy
 import pytest
 
 from fmu_bearing import Bearing, simulate
+from fmu_bearing.compiled import BuildError
 from fmu_bearing.run.build import build_fmu, model_of
 from fmu_bearing.scene.read import with_fidelity
 
@@ -52,3 +54,18 @@ def test_an_fmu_that_starts_without_it_is_warned_of(silent, tmp_path):
     path = build_fmu(with_fidelity(silent, model="rings"), tmp_path / "rings.fmu", "python").path
     with pytest.warns(UserWarning, match="preload = 0 N"):
         simulate(path, 1e-3, start_values={"preload": 0.0}, outputs=["friction_torque"])
+
+
+@pytest.mark.parametrize("flavour", ["native", "python"])
+def test_fmus_say_it_in_every_host(silent, tmp_path, flavour):
+    try:
+        path = build_fmu(with_fidelity(silent, model="response"), tmp_path / "a.fmu", flavour).path
+    except BuildError as problem:
+        pytest.skip(f"no native FMU here: {problem}")
+    said = []
+    fmpy.simulate_fmu(
+        str(path), stop_time=1e-3, start_values={"preload": 0.0}, debug_logging=True,
+        logger=lambda _environment, _name, status, _category, text: said.append((status, text.decode())),
+    )  # fmt: skip
+    (text,) = [text for status, text in said if status == 1 and "preload = 0 N: no axial force" in text]
+    assert "fidelity response has balls that always roll" in text

@@ -11,6 +11,7 @@ from fmu_bearing.engine.mechanics.race import wave_time
 from fmu_bearing.engine.sound.meter import levels
 from fmu_bearing.engine.statics.stiffness import series_stiffness
 
+_LITTLE_LOST = 1e-6  # of the stored energy: dissipation below it says nothing about a balance
 _CENTRED_2 = 1e-16  # m2: the whirl speed of a cage within 10 nm of the middle says nothing
 
 
@@ -172,7 +173,8 @@ def observe(p, s, z):
     z[Z.WAVE_TIME] = wave_time(p, s[S.SPEED])
     lost = s[S.HEAT] + s[S.HEAT + 1] + s[S.HEAT + 2]
     gained = s[S.ENERGY_NOW] - s[S.ENERGY_START]
-    z[Z.RESIDUAL] = (s[S.WORK] - lost - gained) / lost if lost > 1e-12 else 0.0
+    told = lost > 1e-12 + _LITTLE_LOST * abs(s[S.ENERGY_NOW])
+    z[Z.RESIDUAL] = (s[S.WORK] - lost - gained) / lost if told else 0.0
     if p[P.SOUND_SIZE] != 0.0:
         block = int(p[P.AT_SOUND])
         mics = Z.BALLS + Z.PER_BALL * int(p[P.BALLS])

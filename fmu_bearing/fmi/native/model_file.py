@@ -14,10 +14,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
+from fmu_bearing.engine.choices import FIDELITIES
 from fmu_bearing.engine.layout import P, S, U, W, Z
 from fmu_bearing.fmi.description import LOG_CATEGORIES
 from fmu_bearing.fmi.resources import fingerprint
-from fmu_bearing.instance import CAUTIONS, REASONS, Caution
+from fmu_bearing.instance import REASONS, Caution, cautions
 from fmu_bearing.interface import Variable
 
 if TYPE_CHECKING:
@@ -41,7 +42,7 @@ _ARRAYS = ("", "u", "z", "p")
 _NUMBERS = struct.Struct("<10Qd5Q")
 _VARIABLE = struct.Struct("<8I3d")
 _REASON = struct.Struct("<2I")
-_CAUTION = struct.Struct("<4I2d")
+_CAUTION = struct.Struct("<6I2d")
 _CATEGORY = struct.Struct("<2I")
 
 # The state of a scene with sound takes 1.6 MB: to copy it costs 0.05 to 0.2 ms, more than a short step. One
@@ -201,6 +202,8 @@ def _caution(caution: Caution, texts: _Texts) -> bytes:
         texts.place(caution.before),
         texts.place(caution.after),
         caution.decimals,
+        _ARRAYS.index(caution.array),
+        0,
         caution.threshold,
         caution.scale,
     )
@@ -243,7 +246,7 @@ def model_bytes(model: "Model", guid: str, kernels_hash: str) -> bytes:
             journal=_JOURNAL,
             journal_span=_JOURNAL_SPAN,
             reasons=REASONS,
-            cautions=CAUTIONS,
+            cautions=cautions(FIDELITIES[int(parameters[P.FIDELITY])]),
             categories=[(name, _STATUS_OF_CATEGORY[name]) for name in LOG_CATEGORIES],
         )
     )

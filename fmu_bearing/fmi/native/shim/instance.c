@@ -220,7 +220,7 @@ void instance_warn(Instance *it)
     uint64_t i;
     for (i = 0; i < it->model.head->n_cautions; i++) {
         const ModelCaution *caution = &it->model.cautions[i];
-        double value = it->z[caution->index];
+        double value = caution->array == ARRAY_U ? it->u[caution->index] : it->z[caution->index];
         Text text = {0};
         if (!(value < caution->threshold) || it->told >> i & 1) continue;
         it->told |= (uint64_t)1 << i;

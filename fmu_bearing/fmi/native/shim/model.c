@@ -89,7 +89,8 @@ static int places_fit(const Model *model)
     }
     for (i = 0; i < head->n_cautions; i++) {
         const ModelCaution *caution = &model->cautions[i];
-        if (caution->index >= head->n_z || caution->before >= head->n_text ||
+        uint64_t size = caution->array == ARRAY_U ? head->n_u : caution->array == ARRAY_Z ? head->n_z : 0;
+        if (caution->index >= size || caution->before >= head->n_text ||
             caution->after >= head->n_text || caution->decimals > 17) {
             return 0;
         }

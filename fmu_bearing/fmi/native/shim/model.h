@@ -49,9 +49,9 @@ typedef struct ModelReason {
     uint32_t status, text;
 } ModelReason;
 
-/* A warning, given once, where z[index] < threshold: before, scale * z, after. */
+/* A warning, given once, where a number of u or z is below the threshold: before, scale * number, after. */
 typedef struct ModelCaution {
-    uint32_t index, before, after, decimals;
+    uint32_t index, before, after, decimals, array, spare;
     double threshold, scale;
 } ModelCaution;
 

@@ -91,7 +91,7 @@ def internals(scene: Scene) -> list[Variable]:
         _read(
             "energy.residual",
             "local",
-            "Work in less dissipation less change of stored energy, over dissipation as soon as there is some",
+            "Work in less dissipation less change of stored energy, over dissipation once there is some",
         ),
         _count("solver.steps", "Internal steps so far"),
         _count("solver.rejected", "Internal steps refused so far"),

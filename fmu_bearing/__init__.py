@@ -9,6 +9,7 @@ Data flow in one direction::
 ``progress``        progress of long work, told line by line
 ``files``           writing files that other processes may read
 ``extras``          optional packages, imported where they are used
+``formulas``        closed formulas on plain numbers: Hertz contact, ratings, makers' rules
 ``engine``          Numba kernels on flat arrays: mechanics, fidelities, sound
 ``compiled``        these kernels compiled ahead of time, for Python and FMUs alike
 ``scene``           scenes: frozen models read from TOML, catalogue
@@ -19,6 +20,7 @@ Data flow in one direction::
 ``instance``        one running bearing, for the library and for the FMU
 ``fmi``             FMI 2.0: XML, native library, slave, the ``.fmu`` file
 ``run``             a scene or an FMU run over inputs; results; fidelity ``auto``
+``design``          what a designer asks: ratings, operating point, verdicts
 ``recording``       runs that keep the sound channels; measurements, pictures, tables, WAV files
 ``accuracy``        reference trajectories, error against cost, sensitivity to assumed values
 ``identification``  numbers of a scene from measured sound and vibration

@@ -8,7 +8,7 @@ import typer
 from fmu_bearing.cli.base import Json, SceneFile, app, print_json, refusals, tell
 
 if TYPE_CHECKING:
-    from fmu_bearing.run.operating_point import OperatingPoint
+    from fmu_bearing.design.operating_point import OperatingPoint
 
 _FREEDOMS = ("x", "y", "z", "tilt y", "tilt z")
 _PLACES = 3  # of them are displacements
@@ -21,7 +21,7 @@ _WORDS = {
 @app.command()
 def info(scene: SceneFile, as_json: Json = False) -> None:
     """Show a bearing at its operating point without a run: contacts, stiffness, frequencies, film, life."""
-    from fmu_bearing.run.operating_point import cautions, operating_point
+    from fmu_bearing.design.operating_point import cautions, operating_point
     from fmu_bearing.scene import read_scene
 
     with refusals():
@@ -88,8 +88,8 @@ def _matrix(point: "OperatingPoint") -> list[list[str]]:
 
 def _limits(point: "OperatingPoint") -> list[list[str]]:
     """Rows of the table of film, speed, preload and life."""
-    from fmu_bearing.run.operating_point import APART, MIXED
-    from fmu_bearing.run.rating import kind
+    from fmu_bearing.design.operating_point import APART, MIXED
+    from fmu_bearing.design.rating import kind
 
     limit = point.speed_limit
     rows = [

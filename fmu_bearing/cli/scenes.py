@@ -86,9 +86,9 @@ def check(
 
 def _findings(path: Path) -> tuple[bool, list[str]]:
     """Return whether a scene can be run, and the messages about it."""
+    from fmu_bearing.design.operating_point import cautions, operating_point
     from fmu_bearing.instance import EngineError, Instance
     from fmu_bearing.interface import shown, variables
-    from fmu_bearing.run.operating_point import cautions, operating_point
 
     try:
         scene = read_scene(path)

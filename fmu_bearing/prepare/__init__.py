@@ -1,7 +1,6 @@
 """From a scene to the numbers of the engine, once per scene; plain Python, which may be slow and may raise.
 
 ===================  ==================================================================
-``hertz``            constants of elliptical point contacts
 ``bodies``           masses and inertias from the scene's dimensions
 ``contacts``         oil and friction, rolling resistance and films of the races
 ``surfaces``         power law, contact filter and highest orders of races and balls

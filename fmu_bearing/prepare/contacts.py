@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from fmu_bearing.engine.choices import TRACTION_LAWS, VISCOSITY_LAWS
 from fmu_bearing.engine.layout import P
+from fmu_bearing.formulas.hertz import PointContact, effective_modulus, point_contact
 from fmu_bearing.prepare import bodies
-from fmu_bearing.prepare.hertz import PointContact, effective_modulus, point_contact
 from fmu_bearing.scene import Scene, si
 
 # SKF friction model (SKF rolling bearings catalogue 2018, p. 65 ff): inlet shear heating, starvation

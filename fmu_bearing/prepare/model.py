@@ -12,10 +12,10 @@ from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.elastic.section import INNER, ring_section
 from fmu_bearing.engine.choices import FIDELITIES, METHODS, RACE_CONTROLS
 from fmu_bearing.engine.layout import FOUR, SD, STRIDE, P
+from fmu_bearing.formulas.hertz import effective_modulus, point_contact
 from fmu_bearing.interface import Variable, variables
 from fmu_bearing.prepare import bodies, contacts
 from fmu_bearing.prepare.flexure import longest_step, mode_table
-from fmu_bearing.prepare.hertz import effective_modulus, point_contact
 from fmu_bearing.prepare.imperfections import (
     ball_oversizes,
     ball_waves,

@@ -1,6 +1,5 @@
 """A report about a run: one HTML page that needs a browser only.
 
-``balls``        place, load and contact angle of every ball, read from the state
 ``run``          the run of a scene with all variables that a report shows
 ``subject``      the recording, as the sections read it
 ``blocks``       parts of a section: words, tables, charts, sounds

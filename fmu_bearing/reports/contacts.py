@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.reports import look
-from fmu_bearing.reports.balls import RACES, name_of
 from fmu_bearing.reports.blocks import Block, Chart, Choice, Option, Section, Table, Words, small
 from fmu_bearing.reports.decimate import thinned
 from fmu_bearing.reports.subject import Subject
+from fmu_bearing.run.balls import RACES, name_of
 
 _BINS = 72  # of the circle
 _WHAT = {"load": ("contact load", "N", 1.0), "angle": ("contact angle", "deg", 180.0 / math.pi)}

@@ -5,7 +5,7 @@ import warnings
 from fmu_bearing.engine.layout import SD, Z
 from fmu_bearing.interface.outputs import internals, outputs
 from fmu_bearing.recording.record import Recording, record
-from fmu_bearing.reports.balls import Watch
+from fmu_bearing.run.balls import Watch
 from fmu_bearing.scene import Scene
 
 #: Communication step (s): every second sound sample. At 20,000 r/min each ball that passes gets 11 points.

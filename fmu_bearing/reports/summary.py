@@ -11,10 +11,10 @@ from fmu_bearing.engine.constants import RPM
 from fmu_bearing.recording.measure import strongest
 from fmu_bearing.recording.spread import Spread
 from fmu_bearing.reports import look
-from fmu_bearing.reports.balls import RACES
 from fmu_bearing.reports.blocks import Absent
 from fmu_bearing.reports.heard import Microphones
 from fmu_bearing.reports.subject import Subject
+from fmu_bearing.run.balls import RACES
 
 Tile = dict[str, Any]
 _THIN_FILM = 1.0  # film over roughness: below it, asperities touch

@@ -9,12 +9,11 @@
 ``input_file``    CSV files of inputs: columns, units, decimal commas
 ``inputs``        inputs over time, checked against their ranges
 ``settings``      `Setting`: one way to compute a scene
+``balls``         place, load and angle of every ball, read from the state
 ``arrays``        a bearing as flat arrays, for loops that read and restore the state
 ``metrics``       figures that compare runs, and the speed of a run
 ``choose``        fidelity ``auto``: the cheapest within the scene's accuracy, found by running it
 ``stiffness``     stiffness matrix of the bearing at a state
-``rating``        load ratings, life and makers' limits
-``operating_point`` a bearing at its operating point, without a run
 ``simulate_fmu``  a run of an FMU, by FMPy
 ``simulate``      `simulate`: a run over given inputs
 ``bearing``       `Bearing`: to initialise and step by hand

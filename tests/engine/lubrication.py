@@ -6,7 +6,7 @@ import numpy as np
 
 from fmu_bearing.engine.choices import TRACTION_LAWS
 from fmu_bearing.engine.layout import P
-from fmu_bearing.prepare.hertz import effective_modulus, point_contact
+from fmu_bearing.formulas.hertz import effective_modulus, point_contact
 from fmu_bearing.scene import si
 
 

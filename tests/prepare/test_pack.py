@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fmu_bearing.engine.layout import STRIDE, P
-from fmu_bearing.prepare.hertz import effective_modulus, point_contact
+from fmu_bearing.formulas.hertz import effective_modulus, point_contact
 from fmu_bearing.prepare.model import pack, prepare
 from fmu_bearing.scene import SceneError, read_scene_text
 from tests.conftest import GATES

@@ -2,7 +2,7 @@
 
 import pytest
 
-from fmu_bearing.run import rating as rate
+from fmu_bearing.design import rating as rate
 from fmu_bearing.scene.bearing import Bearing
 from fmu_bearing.scene.read import catalogue
 

@@ -1,7 +1,7 @@
 """A bearing at its operating point, without a run: contacts, stiffness, frequencies, film, limits, life.
 
 Everything is that of the perfect bearing with rigid rings in its quasi-static state. Ratings and limits come
-from `run.rating`, with their sources.
+from `design.rating`, with their sources.
 """
 
 import math
@@ -12,12 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies, kinematic_frequencies
+from fmu_bearing.design.rating import Rating, kind, least_preload, preload_classes, rating, speed_limit
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import C, S
+from fmu_bearing.formulas.iso281 import viscosity_ratio
+from fmu_bearing.formulas.makers import CLASS_PRESSURE
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.bodies import ball
 from fmu_bearing.prepare.model import prepare
-from fmu_bearing.run.rating import Rating, kind, least_preload, preload_classes, rating, speed_limit
 from fmu_bearing.run.stiffness import stiffness
 from fmu_bearing.scene import Scene, si
 
@@ -27,8 +29,6 @@ _CONTACTS = (
 )  # fmt: skip
 #: Pa: pressures beyond which races of hardened steel are marked in the long run: a rule, no standard.
 HIGH_PRESSURE = 2.0e9
-#: Pa: heaviest class of makers' preloads, with steel and with ceramic balls (GMN, NSK; computed).
-CLASS_PRESSURE = {"steel": 1.34e9, "hybrid": 1.5e9}
 #: Film over roughness below which surfaces touch, and from which on they are apart (Harris 2006).
 MIXED, APART = 1.0, 3.0
 _LITTLE = 2.0  # deg: a groove's edge and a contact angle are known no better
@@ -57,9 +57,9 @@ class OperatingPoint:
     speed_number : float
         n d_m, mm r/min.
     speed_limit : float, optional
-        Its limit for spring-loaded bearings of this angle, see `run.rating.speed_limit`.
+        Its limit for spring-loaded bearings of this angle, see `design.rating.speed_limit`.
     least_preload : float
-        N: below it balls skid, see `run.rating.least_preload`.
+        N: below it balls skid, see `design.rating.least_preload`.
     rating : Rating, optional
         None for rings that are not of steel.
     displacement : float
@@ -123,20 +123,11 @@ def operating_point(scene: Scene) -> OperatingPoint:
     radial = math.hypot(mounting.radial_load_y_N, mounting.radial_load_z_N)
     return OperatingPoint(
         scene, contacts, stiffness(bearing.p, bearing.s), frequencies, bearing.get("film.lambda_min"), nu,
-        _viscosity_ratio(nu, operation.speed_rpm, scene.bearing.pitch_diameter_mm),
+        viscosity_ratio(nu, operation.speed_rpm, scene.bearing.pitch_diameter_mm),
         abs(operation.speed_rpm) * scene.bearing.pitch_diameter_mm, speed_limit(scene),
         least_preload(scene, centrifugal), rating(scene, mounting.preload_N, radial, operation.speed_rpm),
         bearing.get("inner_ring.displacement.x") - bearing.get("outer_ring.displacement.x"),
     )  # fmt: skip
-
-
-def _viscosity_ratio(nu: float, rpm: float, pitch: float) -> float:
-    """Viscosity (mm2/s) over the reference viscosity of ISO 281 at a speed and pitch diameter (mm)."""
-    n = abs(rpm)
-    if n == 0.0:
-        return math.nan
-    wanted = 45_000.0 * n**-0.83 * pitch**-0.5 if n < 1000.0 else 4500.0 * (n * pitch) ** -0.5
-    return nu / wanted
 
 
 def cautions(point: OperatingPoint) -> list[str]:

@@ -1,0 +1,7 @@
+"""What a designer asks of a bearing: ratings, operating point, verdicts.
+
+===================  ================================================================
+``rating``           ratings and makers' limits of the bearing of a scene
+``operating_point``  a bearing at its operating point, without a run
+===================  ================================================================
+"""

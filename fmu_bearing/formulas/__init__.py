@@ -1,0 +1,10 @@
+"""Closed formulas of the field on plain numbers: contacts, ratings, makers' rules.
+
+=============  =================================================================================
+``hertz``      contact of two bodies
+``iso281``     dynamic load rating, equivalent load, basic and modified life, viscosity ratio
+``iso76``      static load rating and safety
+``iso16281``   reference rating life from the loads of the balls
+``makers``     preload classes, speed limits and the least preload by makers' catalogues
+=============  =================================================================================
+"""

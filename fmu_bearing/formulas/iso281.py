@@ -1,0 +1,127 @@
+"""Life of ball bearings by ISO 281: dynamic rating, equivalent load, basic life, modified life.
+
+Units N, mm, r/min, hours, millions of turns (Mrev). The standard is for rings and balls of steel; hybrid
+bearings are rated like them (ISO 20056-1), without the modified life.
+"""
+
+import math
+
+import numpy as np
+
+_BM = 1.3  # contemporary steel
+_LARGE_BALL = 25.4  # mm: beyond it the rating grows more slowly
+# NSK: f0 Fa / C0, then e and Y of single rows of 15 deg (X 0.44), clamped outside
+_RELATIVE = (0.178, 0.357, 0.714, 1.07, 1.43, 2.14, 3.57, 5.35)
+_E_15 = (0.38, 0.40, 0.43, 0.46, 0.47, 0.50, 0.55, 0.56)
+_Y_15 = (1.47, 1.40, 1.30, 1.23, 1.19, 1.12, 1.02, 1.00)
+_X_15, _E_25, _X_25, _Y_25 = 0.44, 0.68, 0.41, 0.87
+_NEAR = 1.0  # deg: how near to 15 or 25 deg these factors are used
+_SLOW = 1000.0  # r/min: below it the reference viscosity follows another law
+#: Factor e_C by class of cleanliness, for pitch diameters below and from 100 mm on: middle of ISO 281's ranges.
+CLEANLINESS = {
+    "extreme": (1.0, 1.0),
+    "high": (0.7, 0.85),
+    "normal": (0.55, 0.7),
+    "slight": (0.4, 0.5),
+    "typical": (0.2, 0.3),
+    "severe": (0.05, 0.05),
+}
+_MOST_LIFE, _LEAST_LIFE, _MOST_VISCOSITY, _LEAST_VISCOSITY = 50.0, 0.1, 4.0, 0.1
+_FATIGUE = 22.0  # C0 over the fatigue limit load, which falls with the root of pitch diameters beyond ...
+_SMALL = 100.0  # mm
+
+
+def relative_ball(ball: float, pitch: float, angle: float) -> float:
+    """Return D_w cos(alpha) / d_m for a ball and a pitch diameter (mm) and an angle (rad)."""
+    return ball * math.cos(angle) / pitch
+
+
+def dynamic_rating(balls: int, ball: float, pitch: float, angle: float) -> float:
+    """Return the dynamic load rating C (N).
+
+    Parameters
+    ----------
+    balls : int
+    ball, pitch : float
+        Ball and pitch diameter (mm).
+    angle : float
+        Contact angle (rad).
+
+    Notes
+    -----
+    f_c as a formula lies within 0.13 % of the table. It holds for conformities up to 0.52 (inner) and 0.53
+    (outer): closer grooves do not raise it. C lies within 0.4 % of 30 printed ratings (NSK, series 70, 79).
+    """
+    g = relative_ball(ball, pitch, angle)
+    ratio = 1.04 * ((1.0 - g) / (1.0 + g)) ** 1.72
+    factor = 38.20 * (1.0 + ratio ** (10.0 / 3.0)) ** -0.3
+    factor *= g**0.3 * (1.0 - g) ** 1.39 / (1.0 + g) ** (1.0 / 3.0) * 26.0**0.41
+    growth = ball**1.8 if ball <= _LARGE_BALL else 3.647 * ball**1.4
+    return _BM * factor * math.cos(angle) ** 0.7 * balls ** (2.0 / 3.0) * growth
+
+
+def equivalent_load(angle_deg: float, relative: float, axial: float, radial: float) -> float | None:
+    """Return the dynamic equivalent load P (N) of a single row; None for other angles than 15 and 25 deg.
+
+    ``relative``: f0 Fa / C0. Factors X and Y as NSK prints them.
+    """
+    if abs(angle_deg - 15.0) <= _NEAR:
+        limit, x = float(np.interp(relative, _RELATIVE, _E_15)), _X_15
+        y = float(np.interp(relative, _RELATIVE, _Y_15))
+    elif abs(angle_deg - 25.0) <= _NEAR:
+        limit, x, y = _E_25, _X_25, _Y_25
+    else:
+        return None
+    return radial if axial <= limit * radial else x * radial + y * axial
+
+
+def basic_life(rating: float, load: float) -> float:
+    """Return L10 (Mrev) at an equivalent load (N)."""
+    return (rating / load) ** 3
+
+
+def hours(turns: float, rpm: float) -> float:
+    """Return the hours that millions of turns take at a speed (r/min)."""
+    return turns * 1e6 / (60.0 * abs(rpm))
+
+
+def viscosity_ratio(nu: float, rpm: float, pitch: float) -> float:
+    """Return kappa: a viscosity (mm2/s) over the reference one at a speed and pitch diameter (mm).
+
+    NaN at standstill.
+    """
+    n = abs(rpm)
+    if n == 0.0:
+        return math.nan
+    wanted = 45_000.0 * n**-0.83 * pitch**-0.5 if n < _SLOW else 4500.0 * (n * pitch) ** -0.5
+    return nu / wanted
+
+
+def life_modification(kappa: float, cleanliness: str, static: float, load: float, pitch: float) -> float:
+    """Return a_ISO of ball bearings of steel, 0.1 to 50.
+
+    Parameters
+    ----------
+    kappa : float
+        Viscosity ratio; above 4 it counts as 4.
+    cleanliness : str
+        A class of :data:`CLEANLINESS`.
+    static, load : float
+        C0 and P (N).
+    pitch : float
+        Pitch diameter (mm).
+    """
+    k = min(max(kappa, _LEAST_VISCOSITY), _MOST_VISCOSITY)
+    if k < 0.4:
+        b = 2.2649 * k**-0.054381
+    elif k < 1.0:
+        b = 1.9987 * k**-0.19087
+    else:
+        b = 1.9987 * k**-0.071739
+    clean = CLEANLINESS[cleanliness][0 if pitch < _SMALL else 1]
+    limit = static / _FATIGUE * min(1.0, math.sqrt(_SMALL / pitch))
+    x = clean * limit / load
+    bracket = 1.0 - (2.5671 - b) ** 0.83 * x ** (1.0 / 3.0)
+    if bracket <= 0.0:
+        return _MOST_LIFE
+    return min(max(0.1 * bracket**-9.3, _LEAST_LIFE), _MOST_LIFE)

@@ -45,7 +45,7 @@ def is_rated(scene: Scene) -> bool:
 
 
 def dimensions(scene: Scene) -> tuple[int, float, float, float]:
-    """Return number of balls, ball and pitch diameter (mm) and contact angle (rad), as the formulas take them."""
+    """Return number of balls, ball and pitch diameter (mm) and contact angle (rad), for the formulas."""
     bearing = scene.bearing
     angle = math.radians(bearing.contact_angle_deg)
     return bearing.ball_count, bearing.ball_diameter_mm, bearing.pitch_diameter_mm, angle

@@ -17,7 +17,7 @@ _Y_15 = (1.47, 1.40, 1.30, 1.23, 1.19, 1.12, 1.02, 1.00)
 _X_15, _E_25, _X_25, _Y_25 = 0.44, 0.68, 0.41, 0.87
 _NEAR = 1.0  # deg: how near to 15 or 25 deg these factors are used
 _SLOW = 1000.0  # r/min: below it the reference viscosity follows another law
-#: Factor e_C by class of cleanliness, for pitch diameters below and from 100 mm on: middle of ISO 281's ranges.
+#: Factor e_C by cleanliness, for pitch diameters below and from 100 mm on: middle of ISO 281's ranges.
 CLEANLINESS = {
     "extreme": (1.0, 1.0),
     "high": (0.7, 0.85),

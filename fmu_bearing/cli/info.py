@@ -9,6 +9,7 @@ from fmu_bearing.cli.base import Json, SceneFile, app, print_json, refusals, tel
 
 if TYPE_CHECKING:
     from fmu_bearing.design.operating_point import OperatingPoint
+    from fmu_bearing.design.verdicts import Verdict
 
 _FREEDOMS = ("x", "y", "z", "tilt y", "tilt z")
 _PLACES = 3  # of them are displacements
@@ -20,22 +21,24 @@ _WORDS = {
 
 @app.command()
 def info(scene: SceneFile, as_json: Json = False) -> None:
-    """Show a bearing at its operating point without a run: contacts, stiffness, frequencies, film, life."""
-    from fmu_bearing.design.operating_point import cautions, operating_point
+    """Show a bearing at its operating point without a run: contacts, stiffness, frequencies, verdicts."""
+    from fmu_bearing.design.operating_point import operating_point
+    from fmu_bearing.design.verdicts import verdicts
     from fmu_bearing.scene import read_scene
 
     with refusals():
         point = operating_point(read_scene(scene))
-    told = cautions(point)
+    found = verdicts(point)
+    told = [one.advice for one in found if one.advice]
     if as_json:
-        print_json(point.summary() | {"cautions": told})
+        print_json(point.summary() | {"verdicts": [one.as_dict() for one in found], "cautions": told})
         return
-    _show(point)
+    _show(point, found)
     for line in told:
         tell(f"caution: {line}")
 
 
-def _show(point: "OperatingPoint") -> None:
+def _show(point: "OperatingPoint", found: "list[Verdict]") -> None:
     from fmu_bearing.run.table import show
 
     scene = point.scene
@@ -53,7 +56,9 @@ def _show(point: "OperatingPoint") -> None:
         for name, value in point.frequencies._asdict().items()
     ]
     show("kinematic frequencies", ("", "of", "Hz", "orders"), rows)
-    show("film, limits and life", ("figure", "value", "limit or source"), _limits(point))
+    show("oil and ratings", ("", "value", "source"), _ratings(point))
+    rows = [[one.label, one.text, one.judgement, _limit(one)] for one in found]
+    show("verdicts", ("figure", "value", "verdict", "limit (source)"), rows)
 
 
 def _contacts(point: "OperatingPoint") -> list[list[str]]:
@@ -86,37 +91,20 @@ def _matrix(point: "OperatingPoint") -> list[list[str]]:
     return rows
 
 
-def _limits(point: "OperatingPoint") -> list[list[str]]:
-    """Rows of the table of film, speed, preload and life."""
-    from fmu_bearing.design.operating_point import APART, MIXED
-    from fmu_bearing.design.rating import kind
+def _limit(one: "Verdict") -> str:
+    return one.source if one.limit == "-" else f"{one.limit} ({one.source})"
 
-    limit = point.speed_limit
-    rows = [
-        ["film over roughness", f"{point.film:.2f}", f"{APART:g} apart, {MIXED:g} touching (Harris 2006)"],
-        ["viscosity, mm2/s", f"{point.viscosity:.1f}", f"ratio {point.viscosity_ratio:.2f} (ISO 281)"],
-        [
-            "n d_m, 1e6 mm r/min",
-            f"{1e-6 * point.speed_number:.2f}",
-            "no maker's limit at this angle"
-            if limit is None
-            else f"{1e-6 * limit:.2f} spring, oil (GMN, NSK)",
-        ],
-        [
-            "preload, N",
-            f"{point.scene.mounting.preload_N:g}",
-            f"{point.least_preload:.3g} against skidding (fit to GMN)",
-        ],
-    ]
+
+def _ratings(point: "OperatingPoint") -> list[list[str]]:
+    """Rows of the table of what is neither good nor bad by itself."""
+    rows = [["viscosity of the oil, mm2/s", f"{point.viscosity:.1f}", "at its temperature"]]
     found = point.rating
     if found is None:
-        return [*rows, ["ratings, life", "none", "ISO 281 rates rings of steel only"]]
+        return [*rows, ["C, C0, life", "none", "ISO 281 rates rings of steel only"]]
     rows.append(["C, N", f"{found.dynamic:.0f}", "ISO 281"])
-    ceramic = kind(point.scene) == "hybrid"
+    ceramic = point.scene.materials.kind == "hybrid"
     words = "ISO 76; ceramic balls 0.7 of it (GMN)" if ceramic else "ISO 76"
     rows.append(["C0, N", f"{found.static:.0f}", words])
-    if found.life is not None:
-        rows.append(
-            ["L10, h", f"{found.life:.0f}", f"ISO 281, P = {found.equivalent:.0f} N; clean, full film"]
-        )
+    if found.equivalent is not None:
+        rows.append(["P, N", f"{found.equivalent:.0f}", "ISO 281, factors of NSK"])
     return rows

@@ -86,7 +86,8 @@ def check(
 
 def _findings(path: Path) -> tuple[bool, list[str]]:
     """Return whether a scene can be run, and the messages about it."""
-    from fmu_bearing.design.operating_point import cautions, operating_point
+    from fmu_bearing.design.operating_point import operating_point
+    from fmu_bearing.design.verdicts import cautions
     from fmu_bearing.instance import EngineError, Instance
     from fmu_bearing.interface import shown, variables
 
@@ -97,7 +98,9 @@ def _findings(path: Path) -> tuple[bool, list[str]]:
         with warnings.catch_warnings(record=True) as told:
             warnings.simplefilter("always")
             bearing.initialise()
-        lines = [str(one.message) for one in told] + cautions(operating_point(scene))
+        lines = [str(one.message) for one in told]
+        # of a shoulder that is passed the bearing has warned by itself
+        lines += [line for line in cautions(operating_point(scene)) if "beyond its edge" not in line]
         return True, [f"{path}: {line}" for line in lines]
     except SceneError as problem:
         return False, list(problem.problems)

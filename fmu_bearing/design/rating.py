@@ -8,7 +8,10 @@ rings of ceramics there is no standard.
 import math
 from typing import NamedTuple
 
-from fmu_bearing.formulas import iso76, iso281, makers
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.formulas import iso76, iso281, iso16281, makers
 from fmu_bearing.scene import Scene
 
 
@@ -19,29 +22,12 @@ class Rating(NamedTuple):
     static: float
     equivalent: float | None  # N: P, where the factors for its contact angle are known
     life: float | None  # h: L10
-
-
-def kind(scene: Scene) -> str:
-    """Return ``steel``, ``hybrid``, ``full ceramic`` or ``other``, by the materials' density and modulus."""
-    materials = scene.materials
-    steel = [
-        7000.0 < one.density_kg_m3 < 8500.0 and 180.0 < one.youngs_modulus_GPa < 230.0
-        for one in (materials.inner_ring, materials.outer_ring, materials.balls)
-    ]
-    ceramic = [
-        one.density_kg_m3 < 6500.0 and one.youngs_modulus_GPa > 180.0
-        for one in (materials.inner_ring, materials.outer_ring, materials.balls)
-    ]
-    if all(steel):
-        return "steel"
-    if all(steel[:2]) and ceramic[2]:
-        return "hybrid"
-    return "full ceramic" if all(ceramic) else "other"
+    static_load: float | None  # N: P0, likewise
 
 
 def is_rated(scene: Scene) -> bool:
     """Whether ISO 281 and ISO 76 rate such a bearing: rings of steel, balls of steel or silicon nitride."""
-    return kind(scene) in ("steel", "hybrid")
+    return scene.materials.kind in ("steel", "hybrid")
 
 
 def dimensions(scene: Scene) -> tuple[int, float, float, float]:
@@ -66,12 +52,15 @@ def rating(scene: Scene, axial: float, radial: float, speed_rpm: float) -> Ratin
     life = None
     if load is not None and load > 0.0 and speed_rpm != 0.0:
         life = iso281.hours(iso281.basic_life(dynamic, load), speed_rpm)
-    return Rating(dynamic, static, load, life)
+    still = iso76.static_load(scene.bearing.contact_angle_deg, axial, radial)
+    return Rating(dynamic, static, load, life, still)
 
 
 def speed_limit(scene: Scene) -> float | None:
     """Return the n d_m (mm r/min) to which makers run such a bearing with oil; None beyond 25 deg."""
-    return makers.speed_limit(scene.bearing.contact_angle_deg, kind(scene) in ("hybrid", "full ceramic"))
+    return makers.speed_limit(
+        scene.bearing.contact_angle_deg, scene.materials.kind in ("hybrid", "full ceramic")
+    )
 
 
 def least_preload(scene: Scene, centrifugal: float) -> float:
@@ -82,3 +71,18 @@ def least_preload(scene: Scene, centrifugal: float) -> float:
 def preload_classes(scene: Scene) -> tuple[float, float, float]:
     """Return makers' preload over C of light, medium and heavy pairs."""
     return makers.preload_classes(scene.bearing.contact_angle_deg)
+
+
+def reference_life(scene: Scene, inner: NDArray[np.float64], outer: NDArray[np.float64]) -> float | None:
+    """Return L10r (Mrev) for the loads (N) of the balls at both races; None where no standard rates it.
+
+    Grooves closer than 0.52 and 0.53 count as these: the rating C knows no closer ones.
+    """
+    if not is_rated(scene):
+        return None
+    size = dimensions(scene)
+    bearing = scene.bearing
+    grooves = (max(bearing.inner_conformity, 0.52), max(bearing.outer_conformity, 0.53))
+    g = iso281.relative_ball(*size[1:])
+    ratings = iso16281.race_ratings(iso281.dynamic_rating(*size), size[0], g, size[3], grooves)
+    return iso16281.reference_life(ratings, inner, outer)

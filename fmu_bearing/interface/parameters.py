@@ -1,10 +1,13 @@
 """Parameters, which are set before initialisation, and constants, which are fixed when the model is built."""
 
+import math
 from collections.abc import Iterable
 from typing import Any, get_args
 
 from fmu_bearing.engine.choices import FIDELITIES, METHODS
+from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import P
+from fmu_bearing.formulas import iso76, iso281, makers
 from fmu_bearing.interface.variable import Variable, usual
 from fmu_bearing.scene import Scene, si
 from fmu_bearing.scene.sound import Radiator
@@ -76,10 +79,42 @@ def constants(scene: Scene, rotor_inertia: float) -> list[Variable]:
     if scene.imperfections is not None:
         seed = scene.imperfections.seed
         table.append(_whole("imperfection.seed", "Seed of the imperfections", seed))
+    table += _ratings(scene)
     for k, (name, place) in enumerate(scene.microphones):
         for axis, metres in zip("xyz", place, strict=True):
             words = f"Place of microphone {name}, {axis}"
             table.append(_constant(f"mic[{k + 1}].position.{axis}", words, metres, "m", nominal=0.1))
+    return table
+
+
+def _ratings(scene: Scene) -> list[Variable]:
+    """Return ratings and limits that need no run; rings of ceramics have no rating."""
+    bearing, kind = scene.bearing, scene.materials.kind
+    angle = math.radians(bearing.contact_angle_deg)
+    size = (bearing.ball_count, bearing.ball_diameter_mm, bearing.pitch_diameter_mm, angle)
+    table = []
+    limit = makers.speed_limit(bearing.contact_angle_deg, kind in ("hybrid", "full ceramic"))
+    if limit is not None:
+        words = "Shaft speed up to which makers run such a bearing with oil, on springs (GMN, NSK)"
+        speed = limit / bearing.pitch_diameter_mm * RPM
+        table.append(_constant("rating.speed_limit", words, speed, "rad/s", display_unit="r/min"))
+    if kind not in ("steel", "hybrid"):
+        return table
+    dynamic = iso281.dynamic_rating(*size)
+    words = "Dynamic load rating C (ISO 281)"
+    table.append(_constant("rating.dynamic", words, dynamic, "N", nominal=1e4))
+    factor, words = (iso76.HYBRID, ", 0.7 of it for ceramic balls (GMN)") if kind == "hybrid" else (1.0, "")
+    static = factor * iso76.static_rating(*size)
+    table.append(
+        _constant("rating.static", f"Static load rating C0 (ISO 76{words})", static, "N", nominal=1e4)
+    )
+    shares = makers.preload_classes(bearing.contact_angle_deg)
+    for name, share in zip(makers.CLASS_NAMES, shares, strict=True):
+        words = f"Preload of the {name} class, from C (GMN)"
+        table.append(_constant(f"rating.preload_{name}", words, share * dynamic, "N"))
+    words = "Contact pressure of makers' heaviest preload class (GMN, NSK; computed)"
+    pressure = {"min": 0.0, "max": 1e12, "nominal": 1e9, "display_unit": "GPa"}
+    table.append(_constant("rating.pressure_limit", words, makers.CLASS_PRESSURE[kind], "Pa", **pressure))
     return table
 
 

@@ -7,6 +7,7 @@
 ``marks``        lines at the kinematic frequencies
 ``decimate``     fewer points with all peaks
 ``summary``      the figures at the top, and the warnings
+``verdicts``     limits that are kept or passed, on the first screen
 ``conditions``   operating point, kinematic frequencies, choices
 ``assumptions``  which values are assumed
 ``motion``       velocities, orbits

@@ -21,6 +21,7 @@ from fmu_bearing.reports.heard import Microphones, listen
 from fmu_bearing.reports.page import render
 from fmu_bearing.reports.run import STEP, observed
 from fmu_bearing.reports.subject import Subject
+from fmu_bearing.reports.verdicts import verdict_table
 from fmu_bearing.run.choose import resolve
 from fmu_bearing.scene import SceneError, SceneSource, read_scene, scene_of
 from fmu_bearing.scene.origins import origins
@@ -145,12 +146,13 @@ def make(
     notes = summary.warnings_of(subject)
     sure = _spread(subject, heard, tell)
     shown = summary.tiles(subject, heard, sure)
+    judged = verdict_table(subject)
     scene = subject.recording.scene
     heading = title or ("Recording" if scene is None else scene.name)
     tell("writing the page")
     text = render(
         heading, conditions.source_words(subject), subject.source, sections, shown,
-        summary.sentences(subject, heard, sure), notes,
+        summary.sentences(subject, heard, sure), notes, judged,
     )  # fmt: skip
     data = text.encode("utf-8")
     write_whole(path, data)

@@ -6,7 +6,7 @@ from importlib import metadata, resources
 from typing import Any
 
 from fmu_bearing.extras import need
-from fmu_bearing.reports.blocks import Chart, Section, packed
+from fmu_bearing.reports.blocks import Chart, Section, Table, packed
 from fmu_bearing.reports.look import styles
 
 #: Content security policy: the page loads nothing from outside. Plotly generates code for its 3-D drawing.
@@ -26,7 +26,8 @@ def version() -> str:
 
 def render(
     title: str, subtitle: str, source: str, sections: list[Section], tiles: list[dict[str, Any]],
-    sentences: list[str], warnings: list[str], made: datetime.datetime | None = None,
+    sentences: list[str], warnings: list[str], verdicts: Table | None = None,
+    made: datetime.datetime | None = None,
 ) -> str:  # fmt: skip
     """Return the page as text.
 
@@ -37,6 +38,8 @@ def render(
     sections : list of Section
     tiles, sentences, warnings
         As ``summary`` makes them.
+    verdicts : Table, optional
+        As ``verdicts`` makes it.
     made : datetime, optional
         Default: now.
 
@@ -55,8 +58,8 @@ def render(
     return str(
         template.render(
             title=title, subtitle=subtitle, source=source, sections=sections, tiles=tiles,
-            sentences=sentences,
-            warnings=warnings, policy=POLICY, made=f"{made:%d %B %Y, %H:%M} UTC", versions=versions,
+            sentences=sentences, warnings=warnings, verdicts=verdicts, policy=POLICY,
+            made=f"{made:%d %B %Y, %H:%M} UTC", versions=versions,
             charts=[block for section in sections for block in section.blocks if isinstance(block, Chart)],
             styles=packed(styles()),
             css=files.joinpath("page.css").read_text("utf-8"),

@@ -1,9 +1,14 @@
 """Oil: viscosity, traction, films, drag."""
 
+from typing import Literal
+
 from pydantic import Field
 
 from fmu_bearing.engine.choices import TractionLaw, ViscosityLaw
 from fmu_bearing.scene.base import Part
+
+#: Classes of contamination by ISO 281, the cleanest first.
+Cleanliness = Literal["extreme", "high", "normal", "slight", "typical", "severe"]
 
 
 class Lubricant(Part):
@@ -84,4 +89,9 @@ class Lubricant(Part):
     )
     drag_coefficient: float = Field(
         ge=0, le=5, examples=[0.5], description="Drag coefficient of a ball in that mixture."
+    )
+    cleanliness: Cleanliness | None = Field(
+        default=None,
+        examples=["high"],
+        description="Contamination by ISO 281, for the modified life of steel bearings (absent: high).",
     )

@@ -1,5 +1,7 @@
 """Materials of rings, balls and cage."""
 
+from typing import Literal
+
 from pydantic import Field
 
 from fmu_bearing.scene.base import Part
@@ -16,6 +18,13 @@ class Material(Part):
     )
 
 
+#: Steels of bearings, and ceramics, by density (kg/m3) and Young's modulus (GPa).
+_STEEL_DENSITY, _STEEL_MODULUS = (7000.0, 8500.0), (180.0, 230.0)
+_CERAMIC_DENSITY, _CERAMIC_MODULUS = 6500.0, 180.0
+
+Kind = Literal["steel", "hybrid", "full ceramic", "other"]
+
+
 class Materials(Part):
     """Material of each component: a catalogue name or a table of constants."""
 
@@ -25,3 +34,23 @@ class Materials(Part):
     cage: Material | None = Field(
         default=None, examples=["bakelite"], description="Material of the cage; needed where there is one."
     )
+
+    @property
+    def kind(self) -> Kind:
+        """What the bearing is called by its materials: hybrid has steel rings and ceramic balls."""
+        parts = (self.inner_ring, self.outer_ring, self.balls)
+        steel, ceramic = [_is_steel(one) for one in parts], [_is_ceramic(one) for one in parts]
+        if all(steel):
+            return "steel"
+        if all(steel[:2]) and ceramic[2]:
+            return "hybrid"
+        return "full ceramic" if all(ceramic) else "other"
+
+
+def _is_steel(one: Material) -> bool:
+    dense = _STEEL_DENSITY[0] < one.density_kg_m3 < _STEEL_DENSITY[1]
+    return dense and _STEEL_MODULUS[0] < one.youngs_modulus_GPa < _STEEL_MODULUS[1]
+
+
+def _is_ceramic(one: Material) -> bool:
+    return one.density_kg_m3 < _CERAMIC_DENSITY and one.youngs_modulus_GPa > _CERAMIC_MODULUS

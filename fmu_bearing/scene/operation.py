@@ -34,3 +34,10 @@ class Operation(Part):
     outer_ring_temperature_degC: float = Field(
         default=40.0, ge=-40, le=199, examples=[40.0], description="Temperature of the outer ring, degC."
     )
+    required_life_h: float | None = Field(
+        default=None,
+        ge=1,
+        le=1e7,
+        examples=[20000.0],
+        description=("Rating life asked of the bearing, for its verdict alone (absent: no verdict), h."),
+    )

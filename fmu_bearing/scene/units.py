@@ -36,6 +36,7 @@ UNITS: dict[str, tuple[float, float]] = {
     "_1e6_K": (1e-6, 0.0),
     "_dB": (1.0, 0.0),
     "_kHz": (1e3, 0.0),
+    "_h": (3600.0, 0.0),
 }
 #: Suffixes as messages write them, where taking off the underscore is not enough.
 _SYMBOLS = {

@@ -35,6 +35,7 @@ CASES = [
     ("expansion_1e6_K", 11.8, "expansion", 11.8e-6),
     ("level_dB", 1.0, "level", 1.0),
     ("highest_frequency_kHz", 10.0, "highest_frequency", 1e4),
+    ("required_life_h", 2.0, "required_life", 7200.0),
 ]
 
 # the only numbers of a scene without a unit

@@ -1,0 +1,330 @@
+"""Verdicts on a bearing at its operating point: figure, limit, source of the limit, judgement, way out.
+
+A limit is a standard's, a maker's rule or a rule of the field, and says which. What nothing judges is told
+as such: full ceramic rings have no rated life, hybrid bearings no modified one.
+"""
+
+import math
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from typing import Any, Literal
+
+from fmu_bearing.design.operating_point import RINGS, OperatingPoint
+from fmu_bearing.design.rating import dimensions, is_rated, preload_classes
+from fmu_bearing.formulas import iso76, iso281, makers
+
+Judgement = Literal["good", "watch", "change", "not judged"]
+
+#: Pa: pressures beyond which races of hardened steel are marked in the long run: a rule, no standard.
+HIGH_PRESSURE = 2.0e9
+#: Film over roughness below which surfaces touch, and from which on they are apart (Harris 2006).
+MIXED, APART = 1.0, 3.0
+#: Viscosity ratio below which wear is expected, and from which on the film is full (ISO 281, makers).
+WEAR, FULL_FILM = 0.4, 1.0
+#: Spin over roll of a ball beyond which it heats and wears: GMN's plots end there; no standard.
+SPIN = 0.4
+#: Coefficient of friction that a lubricated ball certainly finds against its gyroscopic moment (Harris 2006).
+GYROSCOPIC = 0.02
+#: Static safety for quiet running, and the least: NSK.
+QUIET, LEAST_SAFETY = 2.0, 1.0
+_LITTLE = 2.0  # deg: a groove's edge and a contact angle are known no better
+_CLEAN = "high"
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What is to be said about one figure.
+
+    Attributes
+    ----------
+    key : str
+        For machines.
+    label : str
+    value : float, optional
+        SI units, or the unit in the label.
+    text : str
+        The value as it is shown, with its unit.
+    limit : str
+        The limit in words.
+    source : str
+        Where the limit comes from.
+    judgement : str
+        ``good``, ``watch``, ``change`` or ``not judged``.
+    advice : str
+        One sentence with figure, limit and way out; empty where all is good.
+    """
+
+    key: str
+    label: str
+    value: float | None
+    text: str
+    limit: str
+    source: str
+    judgement: Judgement
+    advice: str = ""
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the verdict by name, for machines."""
+        return asdict(self)
+
+
+def verdicts(point: OperatingPoint) -> list[Verdict]:
+    """Return the verdicts on a bearing at its operating point, in the order of a designer's questions."""
+    found = [_pressure(point), *_static_safety(point), *_life(point), *_preload(point), _speed(point)]
+    found += [*_film(point), _spin(point), _gyroscopic(point), _shoulder(point)]
+    return found
+
+
+def cautions(point: OperatingPoint) -> list[str]:
+    """Return what a designer should know: value, limit with its source, and the way out."""
+    return [one.advice for one in verdicts(point) if one.advice]
+
+
+def _pressure(point: OperatingPoint) -> Verdict:
+    usual = makers.CLASS_PRESSURE.get(point.scene.materials.kind)
+    race = max(RINGS, key=lambda ring: point.contacts[ring]["pressure_max"])
+    pressure = point.contacts[race]["pressure_max"]
+    shown = f"contact pressure {1e-9 * pressure:.2f} GPa at the {race} race"
+    limit = f"{1e-9 * HIGH_PRESSURE:.1f} marks races"
+    source = "rule of the field, no standard"
+    judgement: Judgement = "good"
+    advice = ""
+    if usual is not None:
+        limit, source = f"{1e-9 * usual:.2f} heaviest class; {limit}", f"GMN and NSK, computed; {source}"
+    if pressure > iso76.STATIC_PRESSURE:
+        judgement = "change"
+        advice = (
+            f"{shown}: above {1e-9 * iso76.STATIC_PRESSURE:.1f} GPa, where races of steel are dented at once "
+            "(ISO 76): reduce preload or load, or take a larger bearing"
+        )
+    elif pressure > HIGH_PRESSURE:
+        judgement = "change"
+        advice = (
+            f"{shown}: above {1e-9 * HIGH_PRESSURE:.1f} GPa (rule of the field, no standard): reduce preload "
+            "or load, take more or larger balls, or closer conformity"
+        )
+    elif usual is not None and pressure > usual:
+        judgement = "watch"
+        advice = (
+            f"{shown}: above the {1e-9 * usual:.2f} GPa of makers' heaviest preload class (GMN, NSK; "
+            "computed): reduce preload or load, or take a larger bearing"
+        )
+    label, text = f"pressure, {race} race, GPa", f"{1e-9 * pressure:.2f}"
+    return Verdict("pressure", label, pressure, text, limit, source, judgement, advice)
+
+
+def _static_safety(point: OperatingPoint) -> Iterator[Verdict]:
+    limit = f"{QUIET:g} quiet running, {LEAST_SAFETY:g} at least"
+    label = "static safety"
+    if point.rating is None:
+        words = "no standard rates rings of ceramics: ask for the maker's proof load"
+        yield Verdict("static_safety", label, None, "-", "none", words, "not judged")
+        return
+    kind = point.scene.materials.kind
+    share = iso76.HYBRID if kind == "hybrid" else 1.0
+    note = f"; {share:g} C0 for ceramic balls (GMN)" if kind == "hybrid" else ""
+    load = point.rating.static_load
+    if load is not None and load > 0.0:
+        safety = share * point.rating.static / load
+        yield _safety("static_safety", f"{label}, C0 / P0", safety, limit, f"ISO 76, NSK{note}")
+    worst = max(point.contacts[ring]["pressure_max"] for ring in RINGS)
+    if worst > 0.0:
+        safety = (iso76.STATIC_PRESSURE / worst) ** 3
+        words = f"{label}, ball loads"
+        yield _safety("static_safety_pressure", words, safety, limit, "4.2 GPa (ISO 76), computed; NSK")
+
+
+def _safety(key: str, label: str, safety: float, limit: str, source: str) -> Verdict:
+    judgement: Judgement = "good" if safety >= QUIET else "watch" if safety >= LEAST_SAFETY else "change"
+    advice = ""
+    if judgement != "good":
+        below = QUIET if judgement == "watch" else LEAST_SAFETY
+        advice = (
+            f"{label} {safety:.2f}: below {below:g} ({source}): reduce preload or load, or take a larger one"
+        )
+    return Verdict(key, label, safety, f"{safety:.1f}", limit, source, judgement, advice)
+
+
+def _life(point: OperatingPoint) -> Iterator[Verdict]:
+    scene = point.scene
+    required, rpm = scene.operation.required_life_h, scene.operation.speed_rpm
+    if point.rating is None:
+        words = "no standard rates rings of ceramics; what holds is the maker's experience"
+        yield Verdict("life", "rating life", None, "-", "none", words, "not judged")
+        return
+    if rpm == 0.0:
+        return
+    if point.rating.life is not None:
+        yield _hours("life_basic", "L10, h", point.rating.life, None, "ISO 281, loads of the scene")
+    turns = point.reference_life
+    if turns is not None and math.isfinite(turns):
+        note = "; hybrid: no modified life" if scene.materials.kind == "hybrid" else ""
+        source = f"ISO 16281, computed ball loads; clean oil, full film{note}"
+        hours = iso281.hours(turns, rpm)
+        yield _hours("life", "L10r, h", hours, required, source)
+        load = point.rating.equivalent
+        if scene.materials.kind == "steel" and load is not None and load > 0.0:
+            clean = scene.lubricant.cleanliness or _CLEAN
+            pitch = dimensions(scene)[2]
+            factor = iso281.life_modification(point.viscosity_ratio, clean, point.rating.static, load, pitch)
+            source = f"ISO 281: a_ISO {factor:.2g}, cleanliness {clean}, kappa {point.viscosity_ratio:.2g}"
+            yield _hours("life_modified", "L10mr, h", factor * hours, required, source)
+
+
+def _hours(key: str, label: str, hours: float, required: float | None, source: str) -> Verdict:
+    if required is None:
+        limit = "nothing asked for" if key == "life" else "-"
+        return Verdict(key, label, hours, f"{hours:.0f}", limit, source, "not judged")
+    advice = ""
+    if hours < required:
+        advice = (
+            f"rating life {label.split(',')[0]} {hours:.0f} h: below the {required:.0f} h that are asked for "
+            f"({source}): reduce preload or load, or take a larger bearing"
+        )
+    judgement: Judgement = "good" if hours >= required else "change"
+    return Verdict(key, label, hours, f"{hours:.0f}", f"{required:.0f} asked for", source, judgement, advice)
+
+
+def _preload(point: OperatingPoint) -> Iterator[Verdict]:
+    preload = point.scene.mounting.preload_N
+    rpm = point.scene.operation.speed_rpm
+    advice = ""
+    if preload < point.least_preload:
+        advice = (
+            f"preload {preload:g} N: below the {point.least_preload:.3g} N that keep balls from skidding "
+            f"at {rpm:g} r/min (1.1 Z F_c tan(alpha), fitted to GMN's spring preloads): give more preload, "
+            "lower speed, or lighter balls"
+        )
+    yield Verdict(
+        "least_preload", "preload over skidding, N", preload, f"{preload:g}", f"{point.least_preload:.3g}",
+        "1.1 Z F_c tan(alpha): fit to GMN, +-9 %", "change" if advice else "good", advice,
+    )  # fmt: skip
+    if not is_rated(point.scene) or point.rating is None:
+        return
+    classes = preload_classes(point.scene)
+    share = preload / point.rating.dynamic
+    heavy, advice = classes[-1], ""
+    if share > heavy:
+        advice = (
+            f"preload {preload:g} N: {share:.3f} C, {share / heavy:.2g} times makers' heavy class of "
+            f"{heavy:.3f} C (GMN): give {heavy * point.rating.dynamic:.3g} N or less, unless it stands "
+            "for a load"
+        )
+    named = zip(makers.CLASS_NAMES, classes, strict=True)
+    newtons = (f"{name} {one * point.rating.dynamic:.0f}" for name, one in named)
+    yield Verdict(
+        "preload_class", f"preload over C: {_class(share, classes)}", share, f"{share:.3f}",
+        f"{', '.join(newtons)} N", "classes of GMN", "watch" if advice else "good", advice,
+    )  # fmt: skip
+
+
+def _class(share: float, classes: tuple[float, float, float]) -> str:
+    if share > classes[-1]:
+        return f"{share / classes[-1]:.1f} x heavy"
+    name = next(name for name, one in zip(makers.CLASS_NAMES, classes, strict=True) if share <= one)
+    return f"up to {name}"
+
+
+def _speed(point: OperatingPoint) -> Verdict:
+    number, single = point.speed_number, point.speed_limit
+    label, text = "n d_m, 1e6 mm r/min", f"{1e-6 * number:.2f}"
+    if single is None:
+        return Verdict("speed", label, number, text, "-", "no maker's limit at this angle", "not judged")
+    factor, mounted = 1.0, "on springs"
+    if point.scene.mounting.preload_mode == "rigid" and point.rating is not None:
+        share = point.scene.mounting.preload_N / point.rating.dynamic
+        place = sum(share > one for one in preload_classes(point.scene)[:-1])
+        factor, mounted = makers.RIGID_SPEED[place], f"as a rigid {makers.CLASS_NAMES[place]} pair"
+    limit = factor * single
+    source = f"GMN, NSK: oil, {mounted}"
+    share = number / limit
+    advice = ""
+    if share > 1.0:
+        advice = (
+            f"speed number n d_m {1e-6 * number:.2f}e6 mm r/min: above the {1e-6 * limit:.2f}e6 of bearings "
+            f"with oil {mounted} (GMN, NSK): lower the speed, or take a smaller bearing"
+        )
+    return Verdict(
+        "speed", label, number, text, f"{1e-6 * limit:.2f}", source, "change" if advice else "good", advice
+    )
+
+
+def _film(point: OperatingPoint) -> Iterator[Verdict]:
+    if point.scene.operation.speed_rpm == 0.0:
+        return
+    film, kappa = point.film, point.viscosity_ratio
+    advice = ""
+    if film < APART:
+        state = "surfaces touch" if film < MIXED else "surfaces touch in part"
+        advice = (
+            f"film over roughness {film:.2f}: below {MIXED if film < MIXED else APART:g} {state} "
+            f"(Harris 2006; viscosity ratio of ISO 281 {kappa:.2f}): take thicker or cooler oil, "
+            "or smoother surfaces"
+        )
+    judgement: Judgement = "good" if film >= APART else "watch" if film >= MIXED else "change"
+    limit = f"{APART:g} apart, {MIXED:g} touching"
+    yield Verdict("film", "film over roughness", film, f"{film:.2f}", limit, "Harris 2006", judgement, advice)
+    judgement = "good" if kappa >= FULL_FILM else "watch" if kappa >= WEAR else "change"
+    advice = ""
+    if judgement != "good":
+        state = "a mixed film" if judgement == "watch" else "wear without additives"
+        below = FULL_FILM if judgement == "watch" else WEAR
+        advice = (
+            f"viscosity ratio kappa {kappa:.2f}: below {below:g} means {state} (ISO 281): take thicker or "
+            "cooler oil"
+        )
+    limit = f"{FULL_FILM:g} full film, {WEAR:g} wear"
+    yield Verdict(
+        "kappa", "viscosity ratio kappa", kappa, f"{kappa:.2f}", limit, "ISO 281", judgement, advice
+    )
+
+
+def _spin(point: OperatingPoint) -> Verdict:
+    race = max(RINGS, key=lambda ring: point.contacts[ring]["spin_to_roll"])
+    spin = point.contacts[race]["spin_to_roll"]
+    advice = ""
+    if spin > SPIN:
+        advice = (
+            f"spin over roll {spin:.2f} at the {race} race: above {SPIN:g} (GMN's plots end there; no "
+            "standard) balls heat and smear: take a smaller contact angle, or more preload at this speed"
+        )
+    return Verdict(
+        "spin", f"spin over roll, {race} race", spin, f"{spin:.2f}", f"{SPIN:g}", "GMN; no standard",
+        "watch" if advice else "good", advice,
+    )  # fmt: skip
+
+
+def _gyroscopic(point: OperatingPoint) -> Verdict:
+    needed = point.gyroscopic_friction
+    advice = ""
+    if needed > GYROSCOPIC:
+        advice = (
+            f"gyroscopic slip: balls need a friction of {needed:.3f} to keep their axis, above "
+            f"{GYROSCOPIC:g} (Harris 2006): give more preload, lower speed, or lighter balls"
+        )
+    return Verdict(
+        "gyroscopic", "gyroscopic friction", needed, f"{needed:.4f}", f"{GYROSCOPIC:g}",
+        "Harris 2006", "watch" if advice else "good", advice,
+    )  # fmt: skip
+
+
+def _shoulder(point: OperatingPoint) -> Verdict:
+    race = min(RINGS, key=lambda ring: point.contacts[ring]["shoulder_margin"])
+    margin = math.degrees(point.contacts[race]["shoulder_margin"])
+    judgement: Judgement = "good" if margin >= _LITTLE else "watch" if margin >= 0.0 else "change"
+    advice = ""
+    if judgement == "watch":
+        advice = (
+            f"shoulder: the contact ellipse of the {race} race ends {margin:.1f} deg before its edge, "
+            f"less than {_LITTLE:g} deg (assumed: what tolerances take): reduce preload or load, or give "
+            "a higher shoulder"
+        )
+    elif judgement == "change":
+        advice = (
+            f"shoulder: the contact ellipse of the {race} race reaches {-margin:.1f} deg beyond its edge, "
+            "which cuts in there: reduce preload or load, or give a higher shoulder"
+        )
+    return Verdict(
+        "shoulder", f"ellipse to shoulder, {race}, deg", math.radians(margin), f"{margin:.1f}",
+        f"{_LITTLE:g}", "assumed: what tolerances take", judgement, advice,
+    )  # fmt: skip

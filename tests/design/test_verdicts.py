@@ -1,0 +1,248 @@
+"""Verdicts: at, below and above each limit, and what is not judged."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fmu_bearing.design.operating_point import operating_point
+from fmu_bearing.design.verdicts import cautions, verdicts
+from fmu_bearing.formulas import iso281, makers
+from fmu_bearing.scene import read_scene
+from tests.conftest import EXAMPLES
+
+GOOD, WATCH, CHANGE, NONE = "good", "watch", "change", "not judged"
+
+
+@pytest.fixture(scope="module")
+def hybrid():
+    return operating_point(read_scene(EXAMPLES / "7003C-spindle.toml"))
+
+
+@pytest.fixture(scope="module")
+def steel():
+    return operating_point(read_scene(EXAMPLES / "7009C-steel.toml"))
+
+
+@pytest.fixture(scope="module")
+def ceramic():
+    return operating_point(read_scene(EXAMPLES / "7009C-full-ceramic.toml"))
+
+
+def found(point):
+    return {one.key: one for one in verdicts(point)}
+
+
+def contact(point, **values):
+    """The point with other figures at both races."""
+    return replace(point, contacts={ring: {**old, **values} for ring, old in point.contacts.items()})
+
+
+def mounted(point, table="mounting", **values):
+    scene = point.scene.replace({f"{table}.{key}": value for key, value in values.items()})
+    return replace(point, scene=scene)
+
+
+UP, DOWN = 1.0 + 1e-9, 1.0 - 1e-9
+
+
+@pytest.mark.parametrize(
+    ("pressure", "judgement", "words"),
+    [
+        (1.5e9 * DOWN, GOOD, ""),
+        (1.5e9, GOOD, ""),
+        (1.5e9 * UP, WATCH, "above the 1.50 GPa of makers' heaviest preload class"),
+        (2.0e9, WATCH, "1.50 GPa"),
+        (2.0e9 * UP, CHANGE, "above 2.0 GPa (rule of the field, no standard)"),
+        (4.2e9 * UP, CHANGE, "above 4.2 GPa, where races of steel are dented at once (ISO 76)"),
+    ],
+)
+def test_pressure(hybrid, pressure, judgement, words):
+    verdict = found(contact(hybrid, pressure_max=pressure))["pressure"]
+    assert (verdict.judgement, verdict.value) == (judgement, pressure)
+    assert words in verdict.advice and bool(verdict.advice) == (judgement != GOOD)
+    assert "GMN" in verdict.source and "no standard" in verdict.source
+
+
+def test_pressure_of_steel_and_of_ceramic_rings_has_its_own_class(steel, ceramic):
+    assert found(contact(steel, pressure_max=1.34e9 * UP))["pressure"].judgement == WATCH
+    assert "1.34" in found(steel)["pressure"].limit
+    assert found(contact(ceramic, pressure_max=1.9e9))["pressure"].judgement == GOOD
+    assert found(ceramic)["pressure"].source == "rule of the field, no standard"
+
+
+@pytest.mark.parametrize(("safety", "judgement"), [(2.0, GOOD), (1.99, WATCH), (1.0, WATCH), (0.99, CHANGE)])
+def test_static_safety(hybrid, steel, safety, judgement):
+    for point, share in ((hybrid, 0.7), (steel, 1.0)):
+        load = share * point.rating.static / safety * DOWN
+        verdict = found(replace(point, rating=point.rating._replace(static_load=load)))["static_safety"]
+        assert (verdict.judgement, verdict.value) == (judgement, pytest.approx(safety))
+        assert ("0.7 C0 for ceramic balls (GMN)" in verdict.source) == (share == 0.7)
+    pressed = contact(hybrid, pressure_max=4.2e9 / safety ** (1 / 3) * DOWN)
+    assert found(pressed)["static_safety_pressure"].judgement == judgement
+
+
+def test_static_safety_of_the_designers_case(hybrid):
+    """500 N on the 7003C: S0 15.1 for steel, 0.7 of it for ceramic balls; 10.9 from 1.89 GPa."""
+    assert found(hybrid)["static_safety"].value == pytest.approx(0.7 * 15.1, rel=0.01)
+    assert found(contact(hybrid, pressure_max=1.89e9))["static_safety_pressure"].value == pytest.approx(
+        10.97, rel=1e-3
+    )
+
+
+def test_life_is_judged_where_a_life_is_asked_for(hybrid):
+    life = found(hybrid)["life"]
+    assert life.judgement == NONE and "nothing asked for" in life.limit and not life.advice
+    for required, judgement in ((life.value * DOWN, GOOD), (life.value * UP, CHANGE)):
+        asked = found(mounted(hybrid, "operation", required_life_h=required))["life"]
+        assert asked.judgement == judgement
+        assert ("that are asked for" in asked.advice) == (judgement == CHANGE)
+
+
+def test_hybrid_bearings_have_no_modified_life_and_steel_ones_do(hybrid, steel):
+    assert "life_modified" not in found(hybrid) and "hybrid: no modified life" in found(hybrid)["life"].source
+    modified = found(steel)["life_modified"]
+    rating = steel.rating
+    factor = iso281.life_modification(steel.viscosity_ratio, "high", rating.static, rating.equivalent, 60.0)
+    assert modified.value == pytest.approx(factor * found(steel)["life"].value)
+    assert "cleanliness high" in modified.source
+    dirty = found(mounted(steel, "lubricant", cleanliness="severe"))["life_modified"]
+    assert dirty.value < modified.value and "cleanliness severe" in dirty.source
+
+
+def test_rings_of_ceramics_have_no_rated_life_and_no_static_safety(ceramic):
+    told = found(ceramic)
+    for key in ("life", "static_safety"):
+        assert told[key].judgement == NONE and told[key].value is None and "no standard" in told[key].source
+    assert not {"life_basic", "life_modified", "static_safety_pressure", "preload_class"} & set(told)
+
+
+@pytest.mark.parametrize(
+    ("name", "rpm", "ratio"),
+    [("7003C-bare", 20_000.0, 1322 / 1200), ("7009C-steel", 12_000.0, 60_085 / 43_393)],
+)
+def test_reference_life_of_the_designers_cases(name, rpm, ratio):
+    """Hybrid, 500 N axially, 20 degC: figures of an independent calculation of loads and life."""
+    at = {f"operation.{part}_temperature_degC": 20.0 for part in ("oil", "inner_ring", "outer_ring")}
+    point = operating_point(
+        read_scene(EXAMPLES / f"{name}.toml").replace(
+            {**at, "operation.speed_rpm": rpm, "mounting.preload_N": 500.0, "materials.balls": "Si3N4"}
+        )
+    )
+    basic = iso281.basic_life(point.rating.dynamic, point.rating.equivalent)
+    assert point.reference_life / basic == pytest.approx(ratio, rel=0.01)
+
+
+def test_life_in_turns_knows_no_speed(hybrid):
+    slower = mounted(hybrid, "operation", speed_rpm=5000.0)
+    assert found(slower)["life"].value == pytest.approx(4.0 * found(hybrid)["life"].value)
+
+
+@pytest.mark.parametrize(("factor", "judgement"), [(UP, GOOD), (DOWN, CHANGE)])
+def test_least_preload(hybrid, factor, judgement):
+    verdict = found(mounted(hybrid, preload_N=factor * hybrid.least_preload))["least_preload"]
+    assert verdict.judgement == judgement and ("skidding" in verdict.advice) == (judgement == CHANGE)
+
+
+@pytest.mark.parametrize(
+    ("share", "judgement", "words"),
+    [(0.004, GOOD, "up to light"), (0.029, GOOD, "up to heavy"), (0.031, WATCH, "1.0 x heavy")],
+)
+def test_preload_class(hybrid, share, judgement, words):
+    verdict = found(mounted(hybrid, preload_N=share * hybrid.rating.dynamic))["preload_class"]
+    assert verdict.judgement == judgement and words in verdict.label
+    assert ("makers' heavy class" in verdict.advice) == (judgement == WATCH)
+
+
+def test_the_designers_finding_is_told(hybrid):
+    """500 N on a 7003C is 0.084 C, nearly three times the heavy class."""
+    assert any("0.084 C, 2.8 times makers' heavy class" in line for line in cautions(hybrid))
+
+
+@pytest.mark.parametrize(("factor", "judgement"), [(DOWN, GOOD), (UP, CHANGE)])
+def test_speed(hybrid, factor, judgement):
+    limit = 1.25 * 1.75e6
+    assert found(replace(hybrid, speed_number=factor * limit))["speed"].judgement == judgement
+    # 500 N is beyond the heavy class: a rigid pair then reaches half the speed
+    rigid = mounted(hybrid, preload_mode="rigid")
+    assert found(replace(rigid, speed_number=0.5 * factor * limit))["speed"].judgement == judgement
+    assert "as a rigid heavy pair" in found(rigid)["speed"].source
+    light = mounted(hybrid, preload_mode="rigid", preload_N=20.0)
+    assert found(replace(light, speed_number=0.8 * factor * limit))["speed"].judgement == judgement
+    steep = replace(hybrid, speed_limit=None)
+    assert found(steep)["speed"].judgement == NONE
+
+
+@pytest.mark.parametrize(("film", "judgement"), [(3.0, GOOD), (2.99, WATCH), (1.0, WATCH), (0.99, CHANGE)])
+def test_film(hybrid, film, judgement):
+    verdict = found(replace(hybrid, film=film))["film"]
+    assert verdict.judgement == judgement and ("surfaces touch" in verdict.advice) == (judgement != GOOD)
+
+
+@pytest.mark.parametrize(("kappa", "judgement"), [(1.0, GOOD), (0.99, WATCH), (0.4, WATCH), (0.39, CHANGE)])
+def test_viscosity_ratio(hybrid, kappa, judgement):
+    verdict = found(replace(hybrid, viscosity_ratio=kappa))["kappa"]
+    assert verdict.judgement == judgement and ("ISO 281" in verdict.advice) == (judgement != GOOD)
+
+
+@pytest.mark.parametrize(("spin", "judgement"), [(0.4, GOOD), (0.401, WATCH)])
+def test_spin(hybrid, spin, judgement):
+    verdict = found(contact(hybrid, spin_to_roll=spin))["spin"]
+    assert verdict.judgement == judgement and "no standard" in verdict.source
+
+
+@pytest.mark.parametrize(("needed", "judgement"), [(0.02, GOOD), (0.0201, WATCH)])
+def test_gyroscopic_slip(hybrid, needed, judgement):
+    assert found(replace(hybrid, gyroscopic_friction=needed))["gyroscopic"].judgement == judgement
+
+
+def test_gyroscopic_friction_of_the_designers_case(hybrid):
+    """7003C at 20,000 r/min under 500 N: 0.0010, with the spin axis by outer race control."""
+    assert hybrid.gyroscopic_friction == pytest.approx(0.0010, rel=0.25)
+    scene = hybrid.scene
+    mass = math.pi / 6 * (4.5e-3) ** 3 * scene.materials.balls.density_kg_m3
+    inertia = 0.1 * mass * (4.5e-3) ** 2
+    orbit = 2.0 * math.pi * hybrid.frequencies.f_c
+    spin = 2.0 * math.pi * hybrid.frequencies.f_b
+    # the spin axis leans by about the contact angle
+    moment = inertia * orbit * spin * math.sin(hybrid.contacts["inner"]["angle_mean"])
+    load = np.mean(hybrid.ball_loads["inner"]) + np.mean(hybrid.ball_loads["outer"])
+    assert hybrid.gyroscopic_friction == pytest.approx(2.0 * moment / (4.5e-3 * load), rel=0.1)
+
+
+@pytest.mark.parametrize(("margin", "judgement"), [(2.001, GOOD), (1.9, WATCH), (0.0, WATCH), (-0.1, CHANGE)])
+def test_shoulder(hybrid, margin, judgement):
+    verdict = found(contact(hybrid, shoulder_margin=math.radians(margin)))["shoulder"]
+    assert verdict.judgement == judgement and ("shoulder" in verdict.advice) == (judgement != GOOD)
+
+
+def test_every_verdict_has_limit_and_source(hybrid, steel, ceramic):
+    for point in (hybrid, steel, ceramic):
+        for one in verdicts(point):
+            assert one.limit and one.source and one.text and one.label
+            assert bool(one.advice) == (one.judgement in (WATCH, CHANGE))
+            if one.advice:
+                assert any(word in one.advice for word in ("GMN", "ISO", "Harris", "no standard", "assumed"))
+
+
+def test_at_standstill_there_is_no_film_and_no_hours():
+    still = {"operation.speed_rpm": 0.0, "operation.lowest_speed_rpm": 1000.0}
+    told = found(operating_point(read_scene(EXAMPLES / "7003C-spindle.toml").replace(still)))
+    assert not {"life", "life_basic", "film", "kappa"} & set(told)
+    assert told["speed"].judgement == GOOD
+
+
+def test_fmus_carry_what_is_fixed(hybrid):
+    from fmu_bearing.interface import variables
+
+    table = {one.name: one for one in variables(hybrid.scene, 0.0)}
+    fixed = {name: one.value for name, one in table.items() if name.startswith("rating.")}
+    assert fixed["rating.dynamic"] == pytest.approx(hybrid.rating.dynamic)
+    assert fixed["rating.static"] == pytest.approx(0.7 * hybrid.rating.static)
+    assert fixed["rating.preload_heavy"] == pytest.approx(0.03 * hybrid.rating.dynamic)
+    assert fixed["rating.pressure_limit"] == makers.CLASS_PRESSURE["hybrid"]
+    assert fixed["rating.speed_limit"] * 30 / math.pi == pytest.approx(hybrid.speed_limit / 26.0)
+    assert all(table[name].variability == "constant" for name in fixed)
+    ceramic = variables(read_scene(EXAMPLES / "7009C-full-ceramic.toml"), 0.0)
+    assert {one.name for one in ceramic if one.name.startswith("rating.")} == {"rating.speed_limit"}

@@ -1,0 +1,100 @@
+"""Ratings and life against printed and published figures."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from fmu_bearing.formulas import iso76, iso281, iso16281, makers
+
+NOMINAL = math.radians(15.0)
+
+
+@pytest.mark.parametrize(
+    ("g", "factor"), [(0.05, 15.7), (0.09, 16.5), (0.14, 15.4), (0.17, 14.7), (0.20, 14.0)]
+)
+def test_static_factor_is_that_of_the_standards_table(g, factor):
+    """One decimal is printed."""
+    assert iso76.static_factor(g) == pytest.approx(factor, abs=0.05 + 1e-6 if g != 0.20 else 0.06)
+
+
+def test_rating_of_large_balls_grows_more_slowly_without_a_jump():
+    below, above = (iso281.dynamic_rating(12, ball, 200.0, NOMINAL) for ball in (25.399, 25.401))
+    assert above == pytest.approx(below, rel=1e-3)
+
+
+def test_reference_life_of_a_deep_groove_bearing():
+    """7 balls of 11.5 mm, d_m 43.5, C 23,400, grooves 0.52 and 0.53, 1000 N radially: 13,163 Mrev.
+
+    There is no clearance. The figure is that of a published program for ISO 16281 (minzhun/ISO16281). One
+    ball stands in the load's direction; Q = K d^1.5 with the ring's displacement along the load.
+    """
+    zone = np.clip(np.cos(2.0 * np.pi * np.arange(7) / 7), 0.0, None)
+    loads = 1000.0 / np.sum(zone**2.5) * zone**1.5
+    ratings = iso16281.race_ratings(23_400.0, 7, 11.5 / 43.5, 0.0, (0.52, 0.53))
+    assert iso16281.reference_life(ratings, loads, loads) == pytest.approx(13_163.0, rel=1e-3)
+
+
+def test_reference_life_of_equal_loads_needs_no_mean():
+    ratings = (1300.0, 2000.0)
+    life = iso16281.reference_life(ratings, np.full(9, 100.0), np.full(9, 100.0))
+    shares = (13.0 ** (-10 / 3) + 20.0 ** (-10 / 3)) ** -0.9
+    assert life == pytest.approx(shares, rel=1e-12)
+    # life goes with the cube of the load
+    double = iso16281.reference_life(ratings, np.full(9, 200.0), np.full(9, 200.0))
+    assert life / double == pytest.approx(2.0**3, rel=1e-12)
+    assert iso16281.reference_life(ratings, np.zeros(9), np.zeros(9)) == math.inf
+
+
+def test_reference_life_is_the_basic_one_for_the_load_distribution_behind_it():
+    """C is that of a radial load on half the circle, J_r(0.5): L10r is (C/F)^3 but for rounded factors."""
+    g, balls, rating, load = 0.15, 200, 10_000.0, 1000.0
+    jr = quad(lambda t: math.cos(t) ** 2.5, -math.pi / 2, math.pi / 2)[0] / (2 * math.pi)
+    angle = 2.0 * np.pi * (np.arange(balls) + 0.5) / balls
+    loads = load / (balls * jr) * np.clip(np.cos(angle), 0.0, None) ** 1.5
+    ratings = iso16281.race_ratings(rating, balls, g, 0.0, (0.52, 0.53))
+    life = iso16281.reference_life(ratings, loads, loads)
+    assert life == pytest.approx((rating / load) ** 3, rel=0.02)
+
+
+@pytest.mark.parametrize(
+    ("rpm", "pitch", "reference"), [(500.0, 50.0, 36.6), (1000.0, 50.0, 20.1), (10_000.0, 26.0, 8.83)]
+)
+def test_reference_viscosity(rpm, pitch, reference):
+    """45,000 n^-0.83 d^-0.5 below 1000 r/min, 4500 (n d)^-0.5 above, in mm2/s."""
+    assert iso281.viscosity_ratio(reference, rpm, pitch) == pytest.approx(1.0, rel=2e-3)
+    assert math.isnan(iso281.viscosity_ratio(10.0, 0.0, pitch))
+
+
+def test_life_modification_grows_with_film_and_cleanliness_within_its_bounds():
+    def factor(kappa, clean="high", static=10_000.0, load=1000.0, pitch=50.0):
+        return iso281.life_modification(kappa, clean, static, load, pitch)
+
+    values = [factor(kappa) for kappa in (0.05, 0.1, 0.2, 0.39999, 0.4, 0.99999, 1.0, 2.0, 4.0, 9.0)]
+    assert np.all(np.diff(values) > -1e-3 * np.array(values[1:]))  # where two laws meet, their digits end
+    assert values[0] == values[1] and values[-1] == values[-2]  # kappa counts from 0.1 to 4
+    # the three laws meet within their printed digits
+    assert factor(0.4) == pytest.approx(factor(0.39999), rel=0.02)
+    assert factor(1.0) == pytest.approx(factor(0.99999), rel=1e-3)
+    by_class = [factor(1.0, clean) for clean in iso281.CLEANLINESS]
+    assert by_class == sorted(by_class, reverse=True)
+    assert factor(4.0, "extreme", load=1.0) == 50.0 and factor(0.1, "severe", load=1e6) == pytest.approx(
+        0.1, rel=1e-3
+    )
+    # the fatigue limit falls with the root of large pitch diameters, where the same oil counts as cleaner
+    assert factor(1.0, "extreme", pitch=400.0) == pytest.approx(factor(1.0, "extreme", static=5000.0))
+
+
+@pytest.mark.parametrize(("angle", "y"), [(15.0, 0.46), (25.0, 0.38)])
+def test_static_equivalent_load(angle, y):
+    assert iso76.static_load(angle, 1000.0, 100.0) == 50.0 + y * 1000.0
+    assert iso76.static_load(angle, 10.0, 100.0) == 100.0
+    assert iso76.static_load(40.0, 10.0, 100.0) is None
+
+
+def test_makers_rules():
+    assert makers.preload_classes(20.0) == pytest.approx((0.00675, 0.020, 0.0405))
+    assert makers.speed_limit(15.0, False) == 1.75e6 and makers.speed_limit(25.0, True) == 1.25 * 1.5e6
+    assert makers.speed_limit(40.0, True) is None
+    assert makers.least_preload(10, math.radians(45.0), -2.0) == pytest.approx(22.0)

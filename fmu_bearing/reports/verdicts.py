@@ -22,7 +22,8 @@ def verdict_table(subject: Subject) -> Table | None:
         return None
     found = verdicts(point)
     rows = [[one.label, one.text, one.judgement, one.limit, one.source] for one in found]
-    return Table(f"Verdicts at {rpm:,.0f} r/min", _COLUMNS, rows, note=_note(found))
+    caption = f"Verdicts at {rpm:,.0f} r/min: perfect bearing in its quasi-static state"
+    return Table(caption, _COLUMNS, rows, note=_note(found))
 
 
 def _note(found: list[Verdict]) -> str:

@@ -179,7 +179,7 @@ def _keep(one: fmpy.fmi2.FMU2Slave) -> None:
 def host_program(folder: Path) -> Path:
     """Compile the host in C into ``folder``."""
     program = folder / "host"
-    command = ["cc", "-O2", f"-I{headers()}", *HOST, "-o", str(program), "-ldl", "-lpthread"]
+    command = ["cc", "-O2", f"-I{headers()}", *HOST, "-o", str(program), "-ldl", "-lpthread", "-lm"]
     subprocess.run(command, check=True)
     return program
 

@@ -41,7 +41,9 @@ C_LIBRARY = MATHEMATICS | set(
     "strlen strncmp strrchr strspn strstr strtod strtol fmax".split()
 )
 #: The same functions under the names that macOS' headers and code generator give them, and its loader.
-DARWIN = set("bzero __bzero __memcpy_chk __snprintf_chk __sincos_stret dyld_stub_binder".split())
+DARWIN = set(
+    "bzero __bzero memset_pattern16 __memcpy_chk __snprintf_chk __sincos_stret dyld_stub_binder".split()
+)
 #: Written into every library of its kind by Zig's linker; no function.
 MARKERS = {"_mh_dylib_header", "__dso_handle"}
 SYSTEM = {

@@ -45,6 +45,8 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from fmu_bearing.design.operating_point import operating_point
+    from fmu_bearing.design.verdicts import verdicts
     from fmu_bearing.identification import identify
     from fmu_bearing.recording import audio, measure, pictures, tables
     from fmu_bearing.recording.compare import compare
@@ -73,6 +75,7 @@ _PLACES = {
     "compare": "recording.compare",
     "identify": "identification",
     "measure": "recording",
+    "operating_point": "design.operating_point",
     "pictures": "recording",
     "read_scene": "scene",
     "record": "recording.record",
@@ -81,6 +84,7 @@ _PLACES = {
     "spread": "recording.spread",
     "sweep": "sweeps",
     "tables": "recording",
+    "verdicts": "design.verdicts",
     "with_fidelity": "scene.read",
 }
 
@@ -95,6 +99,7 @@ __all__ = [
     "compare",
     "identify",
     "measure",
+    "operating_point",
     "pictures",
     "read_scene",
     "record",
@@ -103,6 +108,7 @@ __all__ = [
     "spread",
     "sweep",
     "tables",
+    "verdicts",
     "with_fidelity",
 ]
 

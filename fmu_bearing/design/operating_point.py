@@ -21,7 +21,7 @@ from fmu_bearing.prepare.bodies import ball
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.run.balls import Reader
 from fmu_bearing.run.stiffness import stiffness
-from fmu_bearing.scene import Scene, si
+from fmu_bearing.scene import Scene, SceneSource, scene_of, si
 
 RINGS = ("inner", "outer")
 _CONTACTS = (
@@ -107,15 +107,24 @@ class OperatingPoint:
         }
 
 
-def operating_point(scene: Scene) -> OperatingPoint:
-    """Return the figures of a scene at its operating point.
+def operating_point(scene: SceneSource) -> OperatingPoint:
+    """Return the figures of a scene, or that of a file, at its operating point, without a run.
 
     Raises
     ------
+    SceneError
+        If the file cannot be read.
     EngineError
-        Where there is no equilibrium.
+        Where there is no equilibrium; a ``ValueError``.
+
+    Examples
+    --------
+    >>> from fmu_bearing import operating_point
+    >>> point = operating_point("examples/scenes/7003C-spindle.toml")
+    >>> f"{1e-9 * point.contacts['inner']['pressure_max']:.2f} GPa, kappa {point.viscosity_ratio:.2f}"
+    '1.89 GPa, kappa 1.79'
     """
-    scene = scene.model_copy(update={"sound": None, "imperfections": None}).with_rigid_rings()
+    scene = scene_of(scene).model_copy(update={"sound": None, "imperfections": None}).with_rigid_rings()
     bearing = Instance(prepare(scene, fidelity="full"), tell=lambda text: None)
     bearing.initialise()
     contacts = {ring: {key: bearing.get(f"contact.{ring}.{key}") for key in _CONTACTS} for ring in RINGS}

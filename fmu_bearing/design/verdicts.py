@@ -69,7 +69,17 @@ class Verdict:
 
 
 def verdicts(point: OperatingPoint) -> list[Verdict]:
-    """Return the verdicts on a bearing at its operating point, in the order of a designer's questions."""
+    """Return the verdicts on a bearing at its operating point, in the order of a designer's questions.
+
+    Examples
+    --------
+    >>> from fmu_bearing import operating_point, verdicts
+    >>> for one in verdicts(operating_point("examples/scenes/7003C-spindle.toml")):
+    ...     if one.judgement == "watch":
+    ...         print(one.label, one.text, "limit:", one.limit)
+    pressure, inner race, GPa 1.89 limit: 1.50 heaviest class; 2.0 marks races
+    preload over C: 2.8 x heavy 0.084 limit: light 30, medium 89, heavy 179 N
+    """
     found = [_pressure(point), *_static_safety(point), *_life(point), *_preload(point), _speed(point)]
     found += [*_film(point), _spin(point), _gyroscopic(point), _shoulder(point)]
     return found

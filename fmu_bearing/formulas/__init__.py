@@ -2,6 +2,7 @@
 
 =============  =================================================================================
 ``hertz``      contact of two bodies
+``axial``      axial load and displacement of a bearing at rest
 ``iso281``     dynamic load rating, equivalent load, basic and modified life, viscosity ratio
 ``iso76``      static load rating and safety
 ``iso16281``   reference rating life from the loads of the balls

@@ -73,9 +73,29 @@ def _common(
     """Options of the command itself."""
 
 
+def _with_catalogues(context: typer.Context, files: list[Path] | None) -> list[Path] | None:
+    """Let the command know the bearings of users' files until it ends."""
+    if files:
+        from fmu_bearing.scene.entries import using
+
+        with refusals():
+            context.with_resource(using(files))
+    return files
+
+
 SceneFile = Annotated[Path, typer.Argument(metavar="SCENE", help="Scene file (TOML).")]
 Folder = Annotated[Path, typer.Option("--output", "-o", help="Folder for the results.")]
 Quick = Annotated[bool, typer.Option("--quick", help="Few variants, short windows: to see that it works.")]
+Catalogues = Annotated[
+    list[Path] | None,
+    typer.Option(
+        "--catalogue",
+        metavar="FILE",
+        callback=_with_catalogues,
+        help="TOML file with bearings of your own, which scenes may name; several: one option each. A scene "
+        "that names the file itself, under catalogues, needs no option.",
+    ),
+]
 Json = Annotated[bool, typer.Option("--json", help="Print the result as JSON, for machines.")]
 
 errors = Console(stderr=True)

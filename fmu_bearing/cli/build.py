@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from fmu_bearing.cli.base import Json, SceneFile, app, print_json, refusals, tell
+from fmu_bearing.cli.base import Catalogues, Json, SceneFile, app, print_json, refusals, tell
 from fmu_bearing.compiled.platforms import PLATFORMS
 
 Output = Annotated[
@@ -42,6 +42,7 @@ def build(
     output: Output = None,
     flavour: Flavour = None,
     platforms: Platforms = None,
+    catalogue: Catalogues = None,
     as_json: Json = False,
 ) -> None:
     """Build the co-simulation FMU (FMI 2.0) of a scene."""

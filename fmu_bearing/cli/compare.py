@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from fmu_bearing.cli.base import Json, app, print_json, quiet_warnings, refusals, tell
+from fmu_bearing.cli.base import Catalogues, Json, app, print_json, quiet_warnings, refusals, tell
 from fmu_bearing.files import check_folder
 
 _WHAT = "Scene (.toml), recording (.npz) or result of a run (.csv, .nc)."
@@ -31,6 +31,7 @@ def compare(
     output: Annotated[
         Path | None, typer.Option("--output", "-o", metavar="FOLDER", help="Write the tables as CSV too.")
     ] = None,
+    catalogue: Catalogues = None,
     as_json: Json = False,
 ) -> None:
     """Compare levels, third octaves, loads, angles, torque; list the keys that differ. B less A."""

@@ -5,7 +5,17 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fmu_bearing.cli.base import INTERRUPTED, Json, SceneFile, app, print_json, quiet_warnings, refusals, tell
+from fmu_bearing.cli.base import (
+    INTERRUPTED,
+    Catalogues,
+    Json,
+    SceneFile,
+    app,
+    print_json,
+    quiet_warnings,
+    refusals,
+    tell,
+)
 
 if TYPE_CHECKING:
     from fmu_bearing.identification import Identified
@@ -50,6 +60,7 @@ def identify(
     output: Annotated[
         Path, typer.Option("--output", "-o", help="Scene to write; a folder beside it takes all else.")
     ] = Path("identified.toml"),
+    catalogue: Catalogues = None,
     as_json: Json = False,
 ) -> None:
     """Find the values of free keys that explain measured levels; write scene, tables, report, picture.

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from fmu_bearing.cli.base import Json, SceneFile, app, print_json, refusals, tell
+from fmu_bearing.cli.base import Catalogues, Json, SceneFile, app, print_json, refusals, tell
 
 if TYPE_CHECKING:
     from fmu_bearing.design.operating_point import OperatingPoint
@@ -20,7 +20,7 @@ _WORDS = {
 
 
 @app.command()
-def info(scene: SceneFile, as_json: Json = False) -> None:
+def info(scene: SceneFile, catalogue: Catalogues = None, as_json: Json = False) -> None:
     """Show a bearing at its operating point without a run: contacts, stiffness, frequencies, verdicts."""
     from fmu_bearing.design.operating_point import operating_point
     from fmu_bearing.design.verdicts import verdicts

@@ -5,7 +5,17 @@ from typing import Annotated
 
 import typer
 
-from fmu_bearing.cli.base import Json, Refusal, app, errors, print_json, refusals, shaft_speed, tell
+from fmu_bearing.cli.base import (
+    Catalogues,
+    Json,
+    Refusal,
+    app,
+    errors,
+    print_json,
+    refusals,
+    shaft_speed,
+    tell,
+)
 from fmu_bearing.files import check_file
 
 Source = Annotated[
@@ -59,6 +69,7 @@ def report(
     keep: Annotated[
         Path | None, typer.Option(metavar="RUN.npz", help="Keep the run, for another report without running.")
     ] = None,
+    catalogue: Catalogues = None,
     as_json: Json = False,
 ) -> None:
     """Write a report of a run: one HTML page that needs a browser and nothing else."""

@@ -9,6 +9,7 @@ import typer
 from fmu_bearing.cli.base import (
     ENDED_EARLY,
     INTERRUPTED,
+    Catalogues,
     Json,
     Refusal,
     app,
@@ -54,6 +55,7 @@ def simulate(
     output: Annotated[
         Path, typer.Option("--output", "-o", help="Result to write: .csv as FMPy has it, or .nc.")
     ] = Path("result.csv"),
+    catalogue: Catalogues = None,
     as_json: Json = False,
 ) -> None:
     """Run a scene or an FMU. After a refused step or Ctrl-C the results so far are kept."""
@@ -94,6 +96,7 @@ def plot(
     output: Annotated[
         Path | None, typer.Option("--output", "-o", help="Picture: .png or .svg; default: beside the result.")
     ] = None,
+    catalogue: Catalogues = None,
 ) -> None:
     """Draw variables over time, one panel per unit: speeds in r/min, levels from where they sound."""
     from fmu_bearing.run.result import Run

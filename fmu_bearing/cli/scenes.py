@@ -1,17 +1,19 @@
 """``fmu-bearing scene``: write a scene, check it, show its values, show the catalogue."""
 
 import warnings
+from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from fmu_bearing.cli.base import FOUND, Json, Refusal, SceneFile, app, print_json, refusals, tell
+from fmu_bearing.cli.base import FOUND, Catalogues, Json, Refusal, SceneFile, app, print_json, refusals, tell
 from fmu_bearing.files import write_whole
 from fmu_bearing.scene import Scene, SceneError, read_scene
+from fmu_bearing.scene.entries import Entry, entries, entry_text, too_many_balls
+from fmu_bearing.scene.nsk import PREFIX, sizes
 from fmu_bearing.scene.origins import Origin, origins
-from fmu_bearing.scene.read import catalogue as entries
 from fmu_bearing.scene.template import MATERIALS, Dimensions, new_scene
 
 if TYPE_CHECKING:
@@ -37,10 +39,17 @@ def new(
     designation: Annotated[str | None, typer.Option(help="What the bearing is called.")] = None,
     kind: Annotated[str, typer.Option(metavar="|".join(MATERIALS), help="Materials.")] = "hybrid",
     speed: Annotated[float, typer.Option(help="r/min.")] = 20_000.0,
-    preload: Annotated[float, typer.Option(help="N.")] = 300.0,
+    preload: Annotated[float | None, typer.Option(help="N; default 300.")] = None,
+    preload_class: Annotated[
+        str | None, typer.Option(metavar="light|medium|heavy", help="Class of makers' pairs instead of N.")
+    ] = None,
+    preload_offset: Annotated[
+        float | None, typer.Option(help="Offset of the ring faces instead of N, um.")
+    ] = None,
     grade: Annotated[str, typer.Option(help="Tolerance class of the imperfections.")] = "P4",
     lubricant: Annotated[str, typer.Option(help="Oil of the catalogue.")] = "spindle-oil",
     sound: Annotated[bool, typer.Option(help="With four microphones.")] = True,
+    catalogue: Catalogues = None,
     force: Annotated[bool, typer.Option("--force", help="Replace a file that is there.")] = False,
 ) -> None:
     """Write a scene from the catalogue, or from boundary dimensions with the rest estimated."""
@@ -50,14 +59,17 @@ def new(
         dimensions = (bore, outside_diameter, width)
         if bearing is not None and any(value is not None for value in dimensions):
             raise Refusal("give --bearing or dimensions, not both")
+        if sum(value is not None for value in (preload, preload_class, preload_offset)) > 1:
+            raise Refusal("give one of --preload, --preload-class and --preload-offset")
         chosen: str | Dimensions = bearing or "7003C"
         if bearing is None and any(value is not None for value in dimensions):
             if bore is None or outside_diameter is None or width is None:
                 raise Refusal("a bearing of your own needs --bore, --outside-diameter and --width")
             chosen = Dimensions(bore, outside_diameter, width, contact_angle)
         text = new_scene(
-            path.stem, chosen, kind=kind, speed_rpm=speed, preload_N=preload, grade=grade,
-            lubricant=lubricant, sound=sound, designation=designation,
+            path.stem, chosen, kind=kind, speed_rpm=speed, grade=grade, lubricant=lubricant, sound=sound,
+            designation=designation, preload_N=300.0 if preload is None else preload,
+            preload_class=preload_class, preload_offset_um=preload_offset, folder=path.parent,
         )  # fmt: skip
         write_whole(path, text.encode("utf-8"))
         assumed = sum(one.assumed for one in origins(path))
@@ -67,6 +79,7 @@ def new(
 @scene_app.command()
 def check(
     paths: Annotated[list[Path], typer.Argument(metavar="SCENE...", help="Scene files.")],
+    catalogue: Catalogues = None,
     as_json: Json = False,
 ) -> None:
     """Read scenes and find their equilibrium; print errors, warnings, and limits that are passed."""
@@ -112,6 +125,7 @@ def _findings(path: Path) -> tuple[bool, list[str]]:
 def show(
     path: SceneFile,
     assumed: Annotated[bool, typer.Option("--assumed", help="Only values that are assumed.")] = False,
+    catalogue: Catalogues = None,
     as_json: Json = False,
 ) -> None:
     """Show every value of a scene, its unit and range, where it comes from, and what is assumed."""
@@ -135,24 +149,69 @@ def show(
 
 @scene_app.command("catalogue")
 def show_catalogue(
-    kind: Annotated[str, typer.Argument(metavar="|".join(KINDS))] = KINDS[0], as_json: Json = False
+    kind: Annotated[str, typer.Argument(metavar="|".join(KINDS))] = KINDS[0],
+    name: Annotated[str | None, typer.Argument(metavar="[NAME]", help="One entry, with its remarks.")] = None,
+    catalogue: Catalogues = None,
+    as_json: Json = False,
 ) -> None:
     """Show what the catalogue has: bearings, materials, lubricants, tolerance classes."""
-    from fmu_bearing.run.table import show as show_table
-
     with refusals():
         if kind not in KINDS:
             raise Refusal(f"there is no catalogue of '{kind}': choose from {', '.join(KINDS)}")
-        found = entries(kind)
+        known = entries(kind)
+        if name is not None and name not in known and not (kind == KINDS[0] and name in sizes()):
+            raise Refusal(
+                f"there is no '{name}' among the {kind}: `fmu-bearing scene catalogue {kind}` lists them"
+            )
+    if name is not None:
+        _show_entry(name, known.get(name), as_json)
+    elif as_json:
+        print_json({one: entry.values for one, entry in known.items()})
+    elif kind == KINDS[0]:
+        _show_bearings(known)
+    else:
+        _show_entries(kind, known)
+
+
+def _show_entries(kind: str, known: Mapping[str, Entry]) -> None:
+    """Print a column per entry."""
+    from fmu_bearing.run.table import show as show_table
+
+    keys = list(dict.fromkeys(key for entry in known.values() for key in entry.values))
+    rows = [[key, *(str(entry.values.get(key, "")) for entry in known.values())] for key in keys]
+    show_table(kind, ("key", *known), rows)
+
+
+def _show_bearings(known: Mapping[str, Entry]) -> None:
+    """Print a row per bearing: what is printed of it, and its balls."""
+    from fmu_bearing.run.table import show as show_table
+
+    keys = (
+        "bore_mm",
+        "outside_diameter_mm",
+        "width_mm",
+        "contact_angle_deg",
+        "ball_count",
+        "ball_diameter_mm",
+    )
+    rows = [[name, *(f"{entry.values[key]:g}" for key in keys)] for name, entry in known.items()]
+    show_table("bearings", ("name", "d, mm", "D, mm", "B, mm", "angle", "balls", "ball, mm"), rows)
+    tell(f"balls of {PREFIX}... are derived; one in full: `fmu-bearing scene catalogue bearings NAME`")
+
+
+def _show_entry(name: str, entry: Entry | None, as_json: bool) -> None:
+    """Print an entry with its remarks, and what a maker prints of it."""
+    size = sizes().get(name)
+    printed = None if size is None else size.printed()
     if as_json:
-        print_json(found)
+        print_json({"values": None if entry is None else entry.values, "printed": printed})
         return
-    plain = {
-        name: {k: v for k, v in entry.items() if not isinstance(v, dict)} for name, entry in found.items()
-    }
-    keys = list(dict.fromkeys(key for entry in plain.values() for key in entry))
-    rows = [[key, *(str(entry.get(key, "")) for entry in plain.values())] for key in keys]
-    show_table(kind, ("key", *plain), rows)
+    if entry is not None:
+        typer.echo(entry_text(entry, name).rstrip())
+    else:
+        tell(f"{name}: no model: {too_many_balls(name)}")
+    for key, value in (printed or {}).items():
+        typer.echo(f"# {key}: {value}")
 
 
 def _silent(scene: Scene) -> "Model":

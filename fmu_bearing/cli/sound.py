@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from fmu_bearing.cli.base import (
+    Catalogues,
     Folder,
     Json,
     Refusal,
@@ -56,6 +57,7 @@ def sound(
         bool, typer.Option(help="Range of the levels over seeds and assumed surfaces, some seconds more.")
     ] = True,
     output: Folder = Path("out/sound"),
+    catalogue: Catalogues = None,
     as_json: Json = False,
 ) -> None:
     """Measure levels, spectra, third octaves and directivity; write tables, pictures, netCDF and WAV."""

@@ -7,12 +7,22 @@ from typing import Annotated
 
 import typer
 
-from fmu_bearing.cli.base import Folder, Json, Quick, SceneFile, app, print_json, progress, refusals
+from fmu_bearing.cli.base import (
+    Catalogues,
+    Folder,
+    Json,
+    Quick,
+    SceneFile,
+    app,
+    print_json,
+    progress,
+    refusals,
+)
 from fmu_bearing.files import check_folder
 
 
 @app.command()
-def choose(scene: SceneFile, as_json: Json = False) -> None:
+def choose(scene: SceneFile, catalogue: Catalogues = None, as_json: Json = False) -> None:
     """Find the cheapest fidelity, method and step within the scene's accuracy; print all candidates."""
     from fmu_bearing.run import choose as choosing
     from fmu_bearing.run.table import show
@@ -35,6 +45,7 @@ def tradeoff(
     chart: Annotated[
         Path | None, typer.Option(help="Chart to write; default: tradeoff.png in the folder.")
     ] = None,
+    catalogue: Catalogues = None,
     as_json: Json = False,
 ) -> None:
     """Measure error and speed of fidelities, methods, steps, strips and terms; write table and chart."""
@@ -68,7 +79,11 @@ def tradeoff(
 
 @app.command()
 def sensitivity(
-    scene: SceneFile, output: Folder = Path("out/sensitivity"), quick: Quick = False, as_json: Json = False
+    scene: SceneFile,
+    output: Folder = Path("out/sensitivity"),
+    quick: Quick = False,
+    catalogue: Catalogues = None,
+    as_json: Json = False,
 ) -> None:
     """Change every assumed value of a scene, one at a time, and print the effect."""
     from fmu_bearing.accuracy import sensitivity as moving

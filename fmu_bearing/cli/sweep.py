@@ -8,6 +8,7 @@ import typer
 from fmu_bearing.cli.base import (
     ENDED_EARLY,
     INTERRUPTED,
+    Catalogues,
     Folder,
     Json,
     app,
@@ -71,6 +72,7 @@ def sweep(
     scheduler: Scheduler = None,
     output: Folder = Path("out/sweep"),
     dry_run: DryRun = False,
+    catalogue: Catalogues = None,
     as_json: Json = False,
 ) -> None:
     """Run a scene over all combinations of some of its values; write netCDF, CSV, a picture.

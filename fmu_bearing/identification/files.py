@@ -15,6 +15,7 @@ from fmu_bearing.identification.result import Identified, levels_table, values_t
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.run.table import markdown, write_csv
 from fmu_bearing.scene import read_scene_text
+from fmu_bearing.scene.entries import anchored
 from fmu_bearing.scene.read import read_scene
 from fmu_bearing.scene.values import steps
 
@@ -56,6 +57,9 @@ def _set(document: MutableMapping[str, Any], key: str, value: float, remark: str
             part[name] = entry
         part = part[name] if place is None else part[name][place]
     part[last] = float(f"{value:.6g}")
+    if key == "mounting.preload_N":
+        for other in ("preload_class", "preload_offset_um"):  # it takes their place
+            part.pop(other, None)
     if isinstance(part, Table) and not isinstance(part, InlineTable):
         part[last].comment(remark)
 
@@ -102,7 +106,7 @@ def write_all(
     text = None
     if source is not None:
         read_scene(source)
-        text = pathlib.Path(source).read_text("utf-8-sig")
+        text = anchored(pathlib.Path(source).read_text("utf-8-sig"), pathlib.Path(source).parent)
     write_whole(path, identified_toml(found, text).encode("utf-8"))
     folder.mkdir(parents=True, exist_ok=True)
     files = [path]

@@ -1,8 +1,11 @@
 """Scenes: frozen models of what is simulated, read from TOML, in the units of the field.
 
 ================  =====================================================================
-``catalogue``     bearings, materials, lubricants and grades by name
+``catalogue``     files: bearings, materials, lubricants, grades, and NSK's sizes with printed ratings
 ``estimate``      a bearing from its boundary dimensions
+``nsk``           NSK's sizes: printed figures, derived balls, entries of the catalogue
+``entries``       entries by name: the package's, NSK's, those of users' files
+``preload``       newtons of a preload class or of an offset of the ring faces
 ``template``      the text of a new scene
 ``base``          base class of all tables: frozen, strict, reports all conflicts at once
 ``bearing``       geometry of rings, balls and cage

@@ -1,6 +1,11 @@
 """A bearing from its boundary dimensions, with rules of thumb for the dimensions that catalogues leave out.
 
 Each rule names the bearings it was derived from, and their scatter. All its values are assumed.
+
+Ball and number of balls: against NSK's 60 sizes of series 70 and 79 (`fmu_bearing.scene.nsk`), whose balls
+follow from printed ratings, 0.29 of outside diameter less bore is off by 4.0 % rms (0.25 to 0.31 occur; 0.27,
+the rule before, was off by 7.5 %), and three quarters of a full circle by 7.7 % rms, 3 balls at
+most.
 """
 
 import math
@@ -9,6 +14,8 @@ from typing import NamedTuple
 
 from fmu_bearing.scene.bearing import most_balls
 from fmu_bearing.scene.problems import SceneError
+
+_BALL = 0.29
 
 
 class Estimate(NamedTuple):
@@ -39,11 +46,13 @@ def estimates(bore: float, outside: float, width: float, angle: float) -> Iterat
             f"bore {bore:g}, outside diameter {outside:g} and width {width:g} mm: the outside diameter must "
             "exceed the bore, and all must be positive"
         )
-    ball = round(0.27 * (outside - bore), 3)
+    ball = round(_BALL * (outside - bore), 3)
     pitch = 0.5 * (bore + outside)
     land = 0.7 * ball
     yield Estimate("pitch_diameter_mm", pitch, "mean of bore and outside diameter")
-    yield Estimate("ball_diameter_mm", ball, "0.27 of outside diameter less bore; series 70 has 0.25 to 0.29")
+    yield Estimate(
+        "ball_diameter_mm", ball, f"{_BALL} of outside diameter less bore; series 70 and 79 have 0.26 to 0.31"
+    )
     yield Estimate(
         "ball_count", math.floor(0.75 * most_balls(pitch, ball)), "three quarters of a full circle of balls"
     )
@@ -57,9 +66,12 @@ def estimates(bore: float, outside: float, width: float, angle: float) -> Iterat
     yield Estimate("ball_roughness_um", 0.01, "grade 5 or better")
 
 
-def cage_estimates(bore: float, outside: float, width: float) -> Iterator[Estimate]:
-    """Yield the values of ``[bearing.cage]`` for a bearing of these dimensions (mm)."""
-    ball = 0.27 * (outside - bore)
+def cage_estimates(
+    bore: float, outside: float, width: float, ball: float | None = None
+) -> Iterator[Estimate]:  # fmt: skip
+    """Yield the values of ``[bearing.cage]`` for these dimensions (mm); ``ball``: its diameter, if known."""
+    if ball is None:
+        ball = _BALL * (outside - bore)
     pitch = 0.5 * (bore + outside)
     yield Estimate("outside_diameter_mm", round(pitch + 0.38 * ball, 2), "0.38 ball diameters above pitch")
     yield Estimate("bore_mm", round(pitch - 0.55 * ball, 2), "0.55 ball diameters below pitch")

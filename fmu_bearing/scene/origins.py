@@ -9,8 +9,11 @@ import tomlkit
 from tomlkit.container import Container
 from tomlkit.items import AoT, Table
 
+from fmu_bearing.scene.entries import KEY as CATALOGUES, Entry, entries, named_files
+from fmu_bearing.scene.preload import CLASS, FORCE, OFFSET, preload
 from fmu_bearing.scene.problems import allowed
-from fmu_bearing.scene.read import catalogue_text, read_scene
+from fmu_bearing.scene.read import read_scene
+from fmu_bearing.scene.scene import Tables
 from fmu_bearing.scene.units import symbol
 from fmu_bearing.scene.values import flat
 
@@ -32,7 +35,7 @@ class Origin:
     value : Any
     unit : str
     origin : str
-        ``file``, ``catalogue NAME``, ``grade NAME`` or ``default``.
+        ``file``, ``catalogue NAME``, ``catalogue NAME of FILE``, ``grade NAME`` or ``default``.
     assumed : bool
         Whether its remark says so, or it is a default of a physical value.
     remark : str
@@ -58,15 +61,34 @@ def origins(path: str | Path) -> list[Origin]:
     SceneError
         For a file that is no scene.
     """
-    scene = flat(read_scene(path))
+    scene = read_scene(path)
     document = tomlkit.parse(Path(path).read_text("utf-8-sig"))
+    files, _ = named_files(document.unwrap().get(CATALOGUES), Path(path).parent)
     known: dict[str, tuple[str, str]] = {}
     for table, name, kind, origin in _references(document):
-        entry = tomlkit.parse(catalogue_text(kind)).get(name)
-        if isinstance(entry, Table):
-            known |= {key: (origin, remark) for key, remark in _remarks(entry, table)}
+        entry = entries(kind, files)[name]
+        words = origin if entry.file is None else f"{origin} of {entry.file.name}"
+        known |= {key: (words, remark) for key, remark in _remarks(_table(entry, name), table)}
     known |= {key: ("file", remark) for key, remark in _remarks(document, "")}
-    return [_origin(key, value, known.get(key)) for key, value in scene.items()]
+    known |= _preload(document, scene)
+    return [_origin(key, value, known.get(key)) for key, value in flat(scene).items()]
+
+
+def _table(entry: Entry, name: str) -> Table:
+    """Return an entry with its remarks."""
+    table = tomlkit.parse(entry.text)[name]
+    assert isinstance(table, Table)
+    return table
+
+
+def _preload(document: Mapping[str, Any], scene: Tables) -> dict[str, tuple[str, str]]:
+    """Return the origin of a preload that a class or an offset stands for, in words."""
+    mounting, bearing = document["mounting"], document["bearing"]
+    if CLASS not in mounting and OFFSET not in mounting:
+        return {}
+    name = bearing.get("catalogue", scene.bearing.designation)
+    found = preload(mounting, scene.bearing, scene.materials, name)
+    return {} if found is None else {f"mounting.{FORCE}": ("file", found.words)}
 
 
 def _origin(key: str, value: Any, found: tuple[str, str] | None) -> Origin:

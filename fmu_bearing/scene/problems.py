@@ -22,6 +22,8 @@ _SOURCES = {
     "lubricant": 'catalogue = "spindle-oil"',
     "imperfections": 'grade = "P4"',
 }
+#: What may stand in the place of a key.
+_INSTEAD = {("mounting", "preload_N"): 'or preload_class = "light", or preload_offset_um = 10.0'}
 #: Keys that are in no source.
 _OWN = {"seed", "ball_springs", "inner_race_harmonic", "outer_race_harmonic"}
 _TEXTS = {
@@ -191,7 +193,7 @@ def _missing(path: Location) -> str:
     example = field.examples[0] if field.examples else ""
     value = f'"{example}"' if isinstance(example, str) else shown(example)
     source = _SOURCES.get(str(path[0])) if len(path) > 1 and not _OWN & set(path) else None
-    hint = f"; or take all from {source}" if source else ""
+    hint = f"; or take all from {source}" if source else f"; {_INSTEAD[path]}" if path in _INSTEAD else ""
     return f"{dotted(path)} is missing, for example {key} = {value} ({field.description}){hint}"
 
 
@@ -203,6 +205,10 @@ def _unknown(path: Location) -> str:
         known.append("catalogue")
     elif table == ("imperfections",):
         known.append("grade")
+    elif table == ("mounting",):
+        known += ["preload_class", "preload_offset_um"]
+    elif table == ():
+        known.append("catalogues")
     near = difflib.get_close_matches(key, known, n=1, cutoff=_ALIKE)
     if dotted(path) in renamed.KEYS:
         return f"{dotted(path)} is now {renamed.KEYS[dotted(path)]}; its values are the same"

@@ -1,17 +1,26 @@
 """From TOML, tables or another scene to a scene, or to a ``SceneError`` with one line per problem."""
 
+import copy
 import difflib
 import os
-import tomllib
 from collections.abc import Mapping, Sequence
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
 from pydantic import ValidationError
 
+from fmu_bearing.scene.entries import (
+    KEY as CATALOGUES,
+    Entry,
+    catalogue,
+    entries,
+    named_files,
+    too_many_balls,
+)
 from fmu_bearing.scene.imperfections import RACES
 from fmu_bearing.scene.material import Materials
+from fmu_bearing.scene.nsk import PREFIX
+from fmu_bearing.scene.preload import CLASS, FORCE, OFFSET, PreloadError, preload, preload_key
 from fmu_bearing.scene.problems import Location, SceneError, described, explain, shown
 from fmu_bearing.scene.scene import Tables
 from fmu_bearing.scene.toml_text import parse
@@ -43,7 +52,8 @@ class Scene(Tables):
         ----------
         data : mapping
             Tables by name, values in the units of their keys; names of catalogue entries as in a file.
-            Arrays of NumPy and parts of other scenes serve as values too.
+            Arrays of NumPy and parts of other scenes serve as values too. Files under ``catalogues`` count
+            from the current folder.
 
         Raises
         ------
@@ -74,6 +84,7 @@ class Scene(Tables):
             ``"sound.microphone[1].y_mm"``. Whole tables can be given, None takes an optional value or table
             out. The name of a catalogue entry (``"bearing.catalogue"``, ``"materials.balls"``) stands for all
             that the entry holds, ``"imperfections.grade"`` for the grade's values; keys given beside it win.
+            ``"mounting.preload_class"`` or ``"mounting.preload_offset_um"`` gives another ``preload_N``.
 
         Raises
         ------
@@ -111,16 +122,6 @@ def scene_of(source: SceneSource) -> Scene:
         As :func:`read_scene`; for anything else, too.
     """
     return source if isinstance(source, Scene) else read_scene(source)
-
-
-def catalogue(kind: str) -> dict[str, dict[str, Any]]:
-    """Catalogue of ``bearings``, ``materials``, ``lubricants`` or ``grades``: name to values."""
-    return tomllib.loads(catalogue_text(kind))
-
-
-def catalogue_text(kind: str) -> str:
-    """Text of a catalogue, with its remarks."""
-    return resources.files("fmu_bearing.scene").joinpath("catalogue", f"{kind}.toml").read_text("utf-8")
 
 
 def read_scene(path: str | os.PathLike[str]) -> Scene:
@@ -172,14 +173,16 @@ def read_scene_text(text: str, name: str = "scene", folder: Path | None = None) 
     sound = data.get("sound")
     if folder is not None and isinstance(sound, dict) and isinstance(sound.get("table_file"), str):
         sound["table_file"] = str((folder / sound["table_file"]).resolve())
-    return _checked(data, name)
+    return _checked(data, name, folder=folder)
 
 
-def _checked(data: dict[str, Any], name: str, problems: Sequence[str] = ()) -> Scene:
+def _checked(
+    data: dict[str, Any], name: str, problems: Sequence[str] = (), folder: Path | None = None
+) -> Scene:  # fmt: skip
     """Return the scene that tables hold; `SceneError` with all problems, those found before included."""
     lines = list(problems)
     unresolved: list[Location] = []
-    _resolve(data, lines, unresolved)
+    _resolve(data, _bearings(data, folder, lines), lines, unresolved)
     try:
         scene = Scene.model_validate(data)
     except ValidationError as problem:
@@ -219,19 +222,43 @@ def _make_room(data: dict[str, Any], given: Mapping[str, Any]) -> None:
             continue
         if last == "catalogue" and (tables in (["bearing"], ["lubricant"]) or tables[:1] == ["materials"]):
             part.clear()
+        elif key in (f"mounting.{CLASS}", f"mounting.{OFFSET}") and f"mounting.{FORCE}" not in given:
+            part.pop(FORCE, None)
         elif key == "imperfections.grade" and isinstance(name, str):
             for value in catalogue("grades").get(name, {}):
                 part.pop(value, None)
 
 
-def _resolve(data: dict[str, Any], lines: list[str], unresolved: list[Location]) -> None:
+def _bearings(data: dict[str, Any], folder: Path | None, lines: list[str]) -> Mapping[str, Entry] | None:
+    """Take the users' catalogues out of a scene; return all bearings that it can name.
+
+    None: a catalogue is faulty, as ``lines`` tell then.
+    """
+    files, refusal = named_files(data.pop(CATALOGUES, None), folder)
+    if refusal:
+        lines.append(refusal)
+    try:
+        return entries("bearings", files)
+    except SceneError as problem:
+        lines += problem.problems
+        return None
+
+
+def _resolve(
+    data: dict[str, Any], bearings: Mapping[str, Entry] | None, lines: list[str], unresolved: list[Location]
+) -> None:
     """Replace catalogue names by their values; keys given in the file win.
 
     Messages about unknown names are added to ``lines``; their tables, which cannot be checked further, to
     ``unresolved``.
     """
-    for table, kind in (("bearing", "bearings"), ("lubricant", "lubricants")):
-        _fill(data, (table,), kind, lines, unresolved)
+    bearing = data.get("bearing")
+    name = bearing.get("catalogue") if isinstance(bearing, dict) else None
+    if bearings is not None or name in entries("bearings"):
+        _fill(data, ("bearing",), bearings or entries("bearings"), lines, unresolved)
+    elif name is not None:  # it may stand in the faulty catalogue
+        unresolved.append(("bearing",))
+    _fill(data, ("lubricant",), entries("lubricants"), lines, unresolved)
     bearing, materials = data.get("bearing"), data.get("materials")
     if isinstance(bearing, dict) and bearing.get("cage") is False:
         del bearing["cage"]  # how a file leaves out the cage that a catalogue entry has
@@ -239,14 +266,37 @@ def _resolve(data: dict[str, Any], lines: list[str], unresolved: list[Location])
         for key in (name for name in Materials.model_fields if name in materials):
             if isinstance(materials[key], str):
                 materials[key] = {"catalogue": materials[key]}
-            _fill(materials, ("materials", key), "materials", lines, unresolved)
-    _fill(data, ("imperfections",), "grades", lines, unresolved, key="grade")
+            _fill(materials, ("materials", key), entries("materials"), lines, unresolved)
+    _fill(data, ("imperfections",), entries("grades"), lines, unresolved, key="grade")
+    _give_preload(data, name, lines, unresolved)
+
+
+def _give_preload(data: dict[str, Any], name: Any, lines: list[str], unresolved: list[Location]) -> None:
+    """Put newtons in place of a class or an offset; ``name``: of the bearing's catalogue entry, if any."""
+    mounting, bearing = data.get("mounting"), data.get("bearing")
+    if not isinstance(mounting, dict):
+        return
+    found = None
+    try:
+        key = preload_key(mounting)
+        if key is not None:
+            designation = bearing.get("designation") if isinstance(bearing, dict) else None
+            found = preload(mounting, bearing, data.get("materials"), name or designation)
+    except PreloadError as problem:
+        key = CLASS
+        lines.append(str(problem))
+    mounting.pop(CLASS, None)
+    mounting.pop(OFFSET, None)
+    if found is not None:
+        mounting[FORCE] = found.force
+    elif key is not None:  # what is wrong is told already
+        unresolved.append(("mounting", FORCE))
 
 
 def _fill(
     parent: dict[str, Any],
     path: Location,
-    kind: str,
+    known: Mapping[str, Entry],
     lines: list[str],
     unresolved: list[Location],
     key: str = "catalogue",
@@ -256,22 +306,32 @@ def _fill(
     if not isinstance(given, dict) or key not in given:
         return
     wanted = given.pop(key)
-    entries = catalogue(kind)
-    if not isinstance(wanted, str) or wanted not in entries:
-        folded = {name.lower(): name for name in entries}
+    if not isinstance(wanted, str) or wanted not in known:
+        folded = {name.lower(): name for name in known}
         near = difflib.get_close_matches(str(wanted).lower(), folded, n=1, cutoff=0.5)
         hint = f"did you mean '{folded[near[0]]}'? " if near else ""
         where = ".".join(path) + ("" if path[0] == "materials" else f".{key}")
-        lines.append(f"{where} = {shown(wanted)} is not in the catalogue; {hint}known: {', '.join(entries)}")
+        reason = too_many_balls(wanted) if path == ("bearing",) else ""
+        reason = reason or f"is not in the catalogue; {hint}known: {_named(known)}"
+        lines.append(f"{where} = {shown(wanted)} {reason}")
         unresolved.append(path)
         return
-    entry = _beside_harmonics(entries[wanted], given) if kind == "grades" else entries[wanted]
+    entry = copy.deepcopy(known[wanted].values)
+    entry = _beside_harmonics(entry, given) if key == "grade" else entry
     nested = {
         name: {**value, **given[name]}
         for name, value in entry.items()
         if isinstance(value, dict) and isinstance(given.get(name), dict)
     }
     parent[path[-1]] = {**entry, **given, **nested}
+
+
+def _named(known: Mapping[str, Entry]) -> str:
+    """Return names of entries; makers' sizes, which are many, by the first of them."""
+    sizes = [name for name in known if name.startswith(PREFIX)]
+    others = [name for name in known if name not in sizes]
+    more = [f"{len(sizes)} from {sizes[0]} on (`fmu-bearing scene catalogue`)"] if sizes else []
+    return ", ".join([*others, *more])
 
 
 def _beside_harmonics(entry: dict[str, Any], given: dict[str, Any]) -> dict[str, Any]:

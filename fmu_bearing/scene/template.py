@@ -1,11 +1,16 @@
 """The text of a new scene file: few keys, each with its unit, and a remark wherever a value is assumed."""
 
+import os
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
+from fmu_bearing.scene.entries import KEY as CATALOGUES, entries
 from fmu_bearing.scene.estimate import Estimate, cage_estimates, estimates
+from fmu_bearing.scene.nsk import PREFIX
+from fmu_bearing.scene.preload import CLASS, FORCE, OFFSET
 from fmu_bearing.scene.problems import SceneError
-from fmu_bearing.scene.read import catalogue, read_scene_text
+from fmu_bearing.scene.read import read_scene_text
 
 #: Materials of rings, balls and cage, by kind of bearing.
 MATERIALS = {
@@ -37,6 +42,9 @@ def new_scene(
     lubricant: str = "spindle-oil",
     sound: bool = True,
     designation: str | None = None,
+    preload_class: str | None = None,
+    preload_offset_um: float | None = None,
+    folder: Path | None = None,
 ) -> str:
     """Return the text of a scene file that reads back without a refusal.
 
@@ -55,6 +63,13 @@ def new_scene(
         With four microphones around the bare bearing, or without sound.
     designation : str, optional
         What the bearing is called; default: its catalogue name, or the scene's.
+    preload_class : str, optional
+        Class of a maker's pairs, in place of ``preload_N``.
+    preload_offset_um : float, optional
+        Offset of the ring faces, in place of ``preload_N``.
+    folder : Path, optional
+        Where the scene is to stand, for the path of the user's file that has the bearing; default: the
+        current folder.
 
     Raises
     ------
@@ -67,30 +82,50 @@ def new_scene(
     outside = _outside(bearing)
     parts = [
         f"# Made by `fmu-bearing scene new`. Values marked assumed are not from you: replace what you know.\n"
-        f'name = "{name}"',
+        f'name = "{name}"{_catalogues(bearing, folder or Path())}',
         *_bearing(bearing, designation or (bearing if isinstance(bearing, str) else name)),
         "[materials]\n" + "\n".join(f'{body} = "{material}"' for body, material in materials),
         f'[lubricant]\ncatalogue = "{lubricant}" # assumed; keys given here win over the catalogue',
-        _MOUNTING.format(preload=float(preload_N)),
+        _MOUNTING.format(preload=_preload(preload_N, preload_class, preload_offset_um)),
         f'[imperfections] # assumed, by tolerance class\ngrade = "{grade}"\nseed = 1',
         _OPERATION.format(speed=float(speed_rpm)),
         *([_sound(outside)] if sound else []),
     ]
     text = "\n\n".join(parts) + "\n"
-    read_scene_text(text, name)
+    read_scene_text(text, name, folder)
     return text
+
+
+def _catalogues(bearing: str | Dimensions, folder: Path) -> str:
+    """Return the line that names the user's file which has the bearing, if one has it."""
+    entry = entries("bearings").get(bearing) if isinstance(bearing, str) else None
+    if entry is None or entry.file is None:
+        return ""
+    try:
+        path = Path(os.path.relpath(entry.file, folder))
+    except ValueError:  # another drive
+        path = entry.file
+    return f'\n{CATALOGUES} = ["{path.as_posix()}"]'
+
+
+def _preload(force: float, by_class: str | None, offset: float | None) -> str:
+    if by_class is not None:
+        return f'{CLASS} = "{by_class}"'
+    return f"{FORCE} = {float(force)}" if offset is None else f"{OFFSET} = {float(offset)}"
 
 
 def _outside(bearing: str | Dimensions) -> float:
     """Return the outside diameter (mm), or any number for an unknown name, which is refused later."""
     if isinstance(bearing, Dimensions):
         return bearing.outside
-    return float(catalogue("bearings").get(bearing, {}).get("outside_diameter_mm", 30.0))
+    entry = entries("bearings").get(bearing)
+    return 30.0 if entry is None else float(entry.values["outside_diameter_mm"])
 
 
 def _bearing(bearing: str | Dimensions, designation: str) -> Sequence[str]:
     if isinstance(bearing, str):
-        return (f'[bearing]\ncatalogue = "{bearing}"\ndesignation = "{designation}"',)
+        return (f'[bearing]\ncatalogue = "{bearing}"{_MADE[bearing.startswith(PREFIX)]}\n'
+                f'designation = "{designation}"',)  # fmt: skip
     d = bearing
     given = (
         f'designation = "{designation}"\nbore_mm = {float(d.bore)}\n'
@@ -111,8 +146,11 @@ def _lines(found: Iterable[Estimate]) -> str:
     return "\n".join(f"{one.key} = {one.value}{remark(one)}" for one in found)
 
 
+#: Behind the name of a catalogue entry: whether it is a maker's size.
+_MADE = {True: " # sizes and angle are NSK's print; balls are derived, all else is assumed", False: ""}
+
 _MOUNTING = """[mounting]
-preload_N = {preload}
+{preload}
 pedestal_stiffness_N_m = 1e8 # assumed
 pedestal_axial_ratio = 1.0 # assumed
 pedestal_rotational_ratio_mm2 = 200.0 # assumed

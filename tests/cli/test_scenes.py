@@ -3,13 +3,13 @@
 import pytest
 
 from fmu_bearing.scene import read_scene
-from fmu_bearing.scene.read import catalogue
-from fmu_bearing.scene.template import MATERIALS
+from fmu_bearing.scene.entries import entries, entry_text
+from fmu_bearing.scene.template import MATERIALS, new_scene
 
 DIMENSIONS = ("--bore", 40, "--outside-diameter", 68, "--width", 15)
 
 
-@pytest.mark.parametrize("bearing", sorted(catalogue("bearings")))
+@pytest.mark.parametrize("bearing", ["7003C", "7009C", "NSK-7008AC"])
 @pytest.mark.parametrize("kind", sorted(MATERIALS))
 def test_new_from_the_catalogue(run, tmp_path, bearing, kind):
     path = tmp_path / "my.toml"
@@ -37,7 +37,7 @@ def test_new_from_dimensions_estimates_the_rest_and_says_so(run, tmp_path):
     assert bearing.ball_diameter_mm == pytest.approx(7.938, rel=0.1)
     assert 14 <= bearing.ball_count <= 19
     text = path.read_text()
-    assert "ball_diameter_mm = 7.56 # assumed: 0.27 of outside diameter less bore" in text
+    assert "ball_diameter_mm = 8.12 # assumed: 0.29 of outside diameter less bore" in text
     shown = run("scene", "show", path, "--assumed", "--json").data
     assumed = {one["key"] for one in shown["values"]}
     assert {"bearing.ball_diameter_mm", "bearing.cage.bore_mm", "lubricant.viscosity_Pa_s"} <= assumed
@@ -126,6 +126,98 @@ def test_show_tells_where_values_come_from(run, tmp_path):
 
 def test_catalogue(run):
     assert "7009C" in run("scene", "catalogue").stdout
+    rows = run("scene", "catalogue", "--json").data
+    assert len(rows) == 60 and rows["NSK-7003C"]["ball_count"] == 12
+    one = run("scene", "catalogue", "bearings", "NSK-7003C").stdout
+    assert "ball_count = 12 # assumed: derived from C, C0 and f0" in one
+    assert "# heavy preload (NSK): 150 N, pair 45 N/um" in one
+    large = run("scene", "catalogue", "bearings", "NSK-7913C")
+    assert (
+        large.exit_code == 0 and "no model: has 25 balls" in large.stderr and "20200, 20500 N" in large.stdout
+    )
+    refused = run("scene", "catalogue", "bearings", "NSK-7003")
+    assert refused.exit_code == 2 and "lists them" in refused.stderr
     assert run("scene", "catalogue", "materials", "--json").data["Si3N4"]["density_kg_m3"] == 3200.0
     refused = run("scene", "catalogue", "cars")
     assert refused.exit_code == 2 and "bearings, materials, lubricants, grades" in refused.stderr
+
+
+def test_a_makers_size_says_what_of_it_is_print(run, tmp_path):
+    path = tmp_path / "my.toml"
+    run("scene", "new", path, "--bearing", "NSK-7003C", "--preload-class", "heavy", "--kind", "steel")
+    assert "# sizes and angle are NSK's print; balls are derived, all else is assumed" in path.read_text()
+    values = {one["key"]: one for one in run("scene", "show", path, "--json").data["values"]}
+    bore, balls = values["bearing.bore_mm"], values["bearing.ball_count"]
+    assert bore["remark"] == "maker's print (NSK)" and not bore["assumed"]
+    assert balls["assumed"] and balls["remark"].startswith("derived from C, C0 and f0 (NSK)")
+    assert balls["origin"] == "catalogue NSK-7003C"
+    assert values["mounting.preload_N"]["value"] == 150.0
+    assert values["mounting.preload_N"]["remark"] == "heavy class of NSK: 150 N"
+    # the maker's heaviest class lies within makers' limits: at its limiting speed there is nothing to caution
+    found = run("scene", "check", path)
+    assert found.exit_code == 0 and "shoulder" not in found.stdout and "GMN" not in found.stdout
+    show = run("scene", "show", path, "--assumed").stdout
+    assert "bearing.ball_count" in show and "bearing.cage.bore_mm" in show and "bearing.bore_mm" not in show
+
+
+@pytest.mark.parametrize(
+    ("arguments", "reason"),
+    [
+        (("--preload", 100, "--preload-class", "light"), "give one of --preload, --preload-class and"),
+        (("--preload-class", "enormous"), "allowed: light, medium, heavy"),
+        (("--preload-offset", -1), "allowed: 0 to 200 um"),
+    ],
+)
+def test_new_refuses_preloads(run, tmp_path, arguments, reason):
+    refused = run("scene", "new", tmp_path / "my.toml", *arguments)
+    assert refused.exit_code == 2 and reason in refused.stderr and refused.stderr.count("\n") == 1
+
+
+@pytest.fixture
+def own(tmp_path):
+    """A catalogue of one's own, and a scene that names its bearing but not the file."""
+    text = entry_text(entries("bearings")["NSK-7003C"], "NSK-7003C")
+    file, scene = tmp_path / "own.toml", tmp_path / "scenes" / "my.toml"
+    file.write_text(text.replace("NSK-7003C", "OWN").replace("ball_count = 12", "ball_count = 11"))
+    scene.parent.mkdir()
+    scene.write_text(new_scene("my", "NSK-7003C", sound=False).replace("NSK-7003C", "OWN"))
+    return file, scene
+
+
+def test_commands_take_catalogues_of_ones_own(run, own, tmp_path):
+    file, scene = own
+    refused = run("info", scene)
+    assert refused.exit_code == 2 and "bearing.catalogue = 'OWN' is not in the catalogue" in refused.stderr
+    found = run("info", scene, "--catalogue", file)
+    assert found.exit_code == 0 and "OWN" in found.stdout
+    values = {
+        one["key"]: one for one in run("scene", "show", scene, "--catalogue", file, "--json").data["values"]
+    }
+    assert values["bearing.ball_count"]["value"] == 11
+    assert values["bearing.ball_count"]["origin"] == "catalogue OWN of own.toml"
+    assert run("scene", "check", scene, "--catalogue", file).exit_code == 0
+    assert "OWN" in run("scene", "catalogue", "--catalogue", file, "--json").data
+    result = tmp_path / "r.csv"
+    arguments = ("-t", 2e-4, "--step", 1e-4, "-v", "friction_torque", "-o", result)
+    assert run("simulate", scene, "--catalogue", file, *arguments).exit_code == 0
+    # an option holds for its command alone
+    assert run("scene", "check", scene).exit_code == 1
+
+
+def test_a_new_scene_names_the_file_of_its_bearing(run, own):
+    file, scene = own
+    made = run("scene", "new", scene, "--force", "--catalogue", file, "--bearing", "OWN")
+    assert made.exit_code == 0, made.output
+    assert 'catalogues = ["../own.toml"]' in scene.read_text()
+    assert run("scene", "check", scene).exit_code == 0 and read_scene(scene).bearing.ball_count == 11
+
+
+def test_every_command_that_reads_a_scene_takes_the_option(run):
+    with_scene = (
+        "info", "simulate", "plot", "build", "report", "sound", "choose", "tradeoff", "sensitivity", "sweep",
+        "compare", "identify", "scene new", "scene check", "scene show", "scene catalogue",
+    )  # fmt: skip
+    for command in with_scene:
+        refused = run(*command.split(), "any.toml", "--catalogue", "nowhere.toml")
+        assert refused.exit_code == 2, command
+        assert "nowhere.toml: there is no such catalogue file" in refused.stderr, command

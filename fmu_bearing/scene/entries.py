@@ -1,0 +1,171 @@
+"""Entries of catalogues by name: the package's own, makers' sizes, and bearings of users' files."""
+
+import copy
+import functools
+import os
+import tomllib
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
+from importlib import resources
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import tomlkit
+from pydantic import ValidationError
+
+from fmu_bearing.scene import nsk
+from fmu_bearing.scene.base import Part
+from fmu_bearing.scene.bearing import Bearing
+from fmu_bearing.scene.problems import SceneError, explain, shown
+from fmu_bearing.scene.toml_text import parse
+
+#: Key at the head of a scene: files with bearings of one's own.
+KEY = "catalogues"
+#: Files that hold for all scenes, beside those that a scene names.
+_in_use: ContextVar[tuple[Path, ...]] = ContextVar("catalogues", default=())
+
+
+class Entry(NamedTuple):
+    """An entry: its values, the TOML text that has it with its remarks, its file (None: the package's)."""
+
+    values: dict[str, Any]
+    text: str
+    file: Path | None = None
+
+
+class _Bearing(Part):
+    """An entry as a scene has it, for the messages of a scene."""
+
+    bearing: Bearing
+
+
+def catalogue(kind: str) -> dict[str, dict[str, Any]]:
+    """Catalogue of ``bearings``, ``materials``, ``lubricants`` or ``grades``: name to values."""
+    return {name: copy.deepcopy(entry.values) for name, entry in entries(kind).items()}
+
+
+def entries(kind: str, files: Sequence[Path] = ()) -> Mapping[str, Entry]:
+    """Return all entries of a kind by name, bearings with those of users' files.
+
+    ``files``: those that a scene names, beside those in use (`using`).
+
+    Raises
+    ------
+    SceneError
+        For a file that cannot be read, an entry that is no bearing, or a name that stands twice.
+    """
+    found = _of_package(kind)
+    wanted = tuple(dict.fromkeys(path.resolve() for path in (*_in_use.get(), *files)))
+    if kind != "bearings" or not wanted:
+        return found
+    every = dict(found)
+    problems = []
+    for path in wanted:
+        for name, entry in _of_file(path).items():
+            if name in every:
+                problems.append(_twice(name, path, every[name].file))
+            else:
+                every[name] = entry
+    if problems:
+        raise SceneError("\n".join(problems))
+    return every
+
+
+@functools.cache
+def _of_package(kind: str) -> Mapping[str, Entry]:
+    text = resources.files("fmu_bearing.scene").joinpath("catalogue", f"{kind}.toml").read_text("utf-8")
+    found = {name: Entry(values, text) for name, values in tomllib.loads(text).items()}
+    if kind == "bearings":
+        for name, size in nsk.modelled().items():
+            text = nsk.entry_text(size)
+            found[name] = Entry(tomllib.loads(text)[name], text)
+    return found
+
+
+def _of_file(path: Path) -> dict[str, Entry]:
+    """Return the bearings of a user's file, all checked."""
+    try:
+        text = path.read_text("utf-8-sig")
+    except FileNotFoundError:
+        raise SceneError(f"{path}: there is no such catalogue file") from None
+    except (OSError, ValueError) as problem:
+        raise SceneError(f"{path}: cannot be read as a catalogue: {problem}") from None
+    try:
+        tables = parse(text)
+    except ValueError as problem:
+        raise SceneError(f"{path}: not valid TOML: {problem}") from None
+    problems = [line for name, table in tables.items() for line in _faults(name, table)]
+    if problems:
+        raise SceneError("\n".join(f"{path}: {line}" for line in problems))
+    return {name: Entry(table, text, path) for name, table in tables.items()}
+
+
+def _faults(name: str, table: Any) -> Iterator[str]:
+    """Yield what keeps a table of a user's file from being a bearing."""
+    if not isinstance(table, dict):
+        yield f"{name} = {shown(table)} stands outside any table: a bearing is a table of its name, [{name}]"
+        return
+    try:
+        _Bearing.model_validate({"bearing": table})
+    except ValidationError as problem:
+        for line in explain(problem, {"bearing": table}):
+            yield f"[{name}] {line.partition('; or take all from')[0].removeprefix('bearing.')}"
+
+
+def _twice(name: str, path: Path, first: Path | None) -> str:
+    where = "is in the catalogue of the package" if first is None else f"stands in {first}, too"
+    return f"{path}: [{name}] {where}: give it a name of its own, for example [my-{name}]"
+
+
+def entry_text(entry: Entry, name: str) -> str:
+    """Return the TOML of one entry alone, with its remarks."""
+    document = tomlkit.document()
+    document[name] = tomlkit.parse(entry.text)[name]
+    return tomlkit.dumps(document)
+
+
+@contextmanager
+def using(files: Sequence[str | os.PathLike[str]]) -> Iterator[None]:
+    """Let all scenes that are read meanwhile know the bearings of these files.
+
+    Raises
+    ------
+    SceneError
+        As `entries`.
+    """
+    token = _in_use.set((*_in_use.get(), *map(Path, files)))
+    try:
+        entries("bearings")
+        yield
+    finally:
+        _in_use.reset(token)
+
+
+def named_files(given: Any, folder: Path | None) -> tuple[list[Path], str]:
+    """Return the files that a scene names under `KEY`, from its folder on, or what is wrong with them."""
+    if given is None:
+        return [], ""
+    if not isinstance(given, list) or not all(isinstance(one, str) and one for one in given):
+        return (
+            [],
+            f'{KEY} = {shown(given)} is refused; allowed: a list of files, as {KEY} = ["my-bearings.toml"]',
+        )
+    return [(folder or Path()) / one for one in given], ""
+
+
+def anchored(text: str, folder: Path) -> str:
+    """Return the text of a scene with its users' catalogues by their whole paths, to be written elsewhere."""
+    document = tomlkit.parse(text)
+    files, _ = named_files(document.unwrap().get(KEY), folder)
+    if files:
+        document[KEY] = [str(path.resolve()) for path in files]
+    return tomlkit.dumps(document)
+
+
+def too_many_balls(name: Any) -> str:
+    """Say why a size that NSK prints is not in the catalogue of bearings; empty for other names."""
+    size = nsk.sizes().get(name) if isinstance(name, str) else None
+    if size is None:
+        return ""
+    return f"has {size.balls} balls by its ratings, and a model at most {nsk.most_balls()}"

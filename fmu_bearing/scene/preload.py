@@ -1,0 +1,140 @@
+"""The preload of a scene in newtons, where its file gives a class or an offset of the ring faces."""
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from pydantic import ValidationError
+
+from fmu_bearing.formulas.iso281 import dynamic_rating
+from fmu_bearing.formulas.makers import CLASS_NAMES, PRELOAD_CLASSES, preload_classes
+from fmu_bearing.scene import nsk
+from fmu_bearing.scene.bearing import Bearing
+from fmu_bearing.scene.material import Material, Materials
+from fmu_bearing.scene.mounting import Mounting
+from fmu_bearing.scene.problems import shown
+from fmu_bearing.scene.values import limits
+
+if TYPE_CHECKING:
+    from fmu_bearing.formulas.axial import Axial
+
+#: Keys of a scene's file that stand for ``preload_N``.
+CLASS, OFFSET, FORCE = "preload_class", "preload_offset_um", "preload_N"
+_NEAR = 1.0  # deg: how far beyond makers' angles their classes are used
+_MOST = 200.0  # um: more than any ball of a scene takes
+
+
+class Preload(NamedTuple):
+    """A preload (N), and in words where it comes from."""
+
+    force: float
+    words: str
+
+
+class PreloadError(ValueError):
+    """No preload follows from what is given; the message begins with the key."""
+
+
+def preload_key(mounting: Mapping[str, Any]) -> str | None:
+    """Return the key that gives the preload in place of newtons; None: there is none.
+
+    Raises
+    ------
+    PreloadError
+        Where more than one key gives it.
+    """
+    given = [key for key in (FORCE, CLASS, OFFSET) if mounting.get(key) is not None]
+    if len(given) > 1:
+        raise PreloadError(
+            f"mounting.{given[1]} = {shown(mounting[given[1]])} stands beside {given[0]}: "
+            f"the preload is given by one of {FORCE}, {CLASS} and {OFFSET}; keep one"
+        )
+    return given[0] if given and given[0] != FORCE else None
+
+
+def preload(mounting: Mapping[str, Any], bearing: Any, materials: Any, name: Any) -> Preload | None:
+    """Return the preload that a class or an offset stands for.
+
+    Parameters
+    ----------
+    mounting : mapping
+        As the file has it, with one of the keys.
+    bearing, materials : Bearing and Materials, or their tables
+    name : object
+        Of the bearing's catalogue entry, or its designation: a maker's size has classes of its own.
+
+    Returns
+    -------
+    Preload or None
+        None: bearing or materials have errors, which are told elsewhere.
+
+    Raises
+    ------
+    PreloadError
+        For a class or an offset that is refused.
+    """
+    key = preload_key(mounting)
+    try:
+        rings = Bearing.model_validate(bearing)
+        elastic = Materials.model_validate(materials) if key == OFFSET else None
+    except ValidationError:
+        return None
+    if elastic is None:
+        return _of_class(mounting[CLASS], rings, name)
+    return _of_offset(mounting[OFFSET], rings, elastic)
+
+
+def _of_class(wanted: Any, bearing: Bearing, name: Any) -> Preload:
+    size = nsk.sizes().get(name) if isinstance(name, str) else None
+    known = tuple(nsk.CLASSES) if size is not None else CLASS_NAMES
+    if wanted not in known:
+        more = "; extra light is a class of NSK's sizes" if wanted == "extra light" else ""
+        raise PreloadError(
+            f"mounting.{CLASS} = {shown(wanted)} is refused; allowed: {', '.join(known)}{more}"
+        )
+    if size is not None:
+        force = size.preload[wanted].force
+        return Preload(force, f"{wanted} class of NSK: {force:g} N")
+    angle = bearing.contact_angle_deg
+    low, high = min(PRELOAD_CLASSES), max(PRELOAD_CLASSES)
+    if not low - _NEAR <= angle <= high + _NEAR:
+        raise PreloadError(
+            f"mounting.{CLASS} = '{wanted}' is known for contact angles of {low:g} to {high:g} deg, not for "
+            f"{angle:g}: give {FORCE}"
+        )
+    share = dict(zip(CLASS_NAMES, preload_classes(angle), strict=True))[wanted]
+    rating = dynamic_rating(
+        bearing.ball_count, bearing.ball_diameter_mm, bearing.pitch_diameter_mm, math.radians(angle)
+    )
+    force = float(f"{share * rating:.3g}")
+    return Preload(force, f"{wanted} class of GMN: {share:.3g} of C = {rating:.0f} N, {force:g} N")
+
+
+def _of_offset(offset: Any, bearing: Bearing, materials: Materials) -> Preload:
+    number = isinstance(offset, int | float) and not isinstance(offset, bool)
+    if not number or not 0.0 <= offset <= _MOST:
+        raise PreloadError(f"mounting.{OFFSET} = {shown(offset)} is refused; allowed: 0 to {_MOST:g} um")
+    from fmu_bearing.formulas.axial import axial_load  # with SciPy, which few scenes need
+
+    force = axial_load(_axial(bearing, materials), 1e-3 * offset)
+    most = limits(Mounting.model_fields[FORCE])[1]
+    if force > most:
+        raise PreloadError(
+            f"mounting.{OFFSET} = {shown(offset)} makes a preload of {force:.4g} N; allowed: up to {most:g} N"
+        )
+    return Preload(force, f"offset of {offset:g} um: {force:.4g} N")
+
+
+def _axial(bearing: Bearing, materials: Materials) -> "Axial":
+    """Return what the axial load of a bearing at rest depends on."""
+    from fmu_bearing.formulas.axial import axial
+
+    return axial(
+        bearing.ball_count, bearing.ball_diameter_mm, bearing.pitch_diameter_mm, bearing.contact_angle_deg,
+        (bearing.inner_conformity, bearing.outer_conformity),
+        (_elastic(materials.inner_ring), _elastic(materials.outer_ring), _elastic(materials.balls)),
+    )  # fmt: skip
+
+
+def _elastic(material: Material) -> tuple[float, float]:
+    return 1e9 * material.youngs_modulus_GPa, material.poisson_ratio

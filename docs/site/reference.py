@@ -3,6 +3,7 @@
 Each function returns Markdown; ``hooks.py`` puts it into the page that asks for it.
 """
 
+import math
 import re
 import types
 import typing
@@ -15,8 +16,11 @@ from typer.cli import get_docs_for_click
 import fmu_bearing
 from fmu_bearing.cli import app
 from fmu_bearing.fmi.documentation import range_of
+from fmu_bearing.formulas.iso76 import static_rating
+from fmu_bearing.formulas.iso281 import dynamic_rating
 from fmu_bearing.interface import variables
 from fmu_bearing.scene import Scene, read_scene
+from fmu_bearing.scene.nsk import CLASSES, PREFIX, modelled, sizes as printed_sizes
 from fmu_bearing.scene.read import catalogue
 from fmu_bearing.scene.units import symbol
 
@@ -120,6 +124,31 @@ def _sentence(key, field):
     return text.removesuffix(f", {unit}.") + "." if unit and text.endswith(f", {unit}.") else text
 
 
+_SIZES = "The sizes of NSK have [a table of their own](catalogue.md#sizes-with-a-makers-figures)."
+
+
+def sizes():
+    """Sizes with a maker's figures, one a row; what is derived is in italics."""
+    heads = ("name", "d, D, B, mm", "C, C0, N", "f0", "n, r/min", "m, kg", *CLASSES, "balls, mm", "C, C0, %")
+    lines = [_row(heads), _row(["---"] * len(heads))]
+    for name, size in printed_sizes().items():
+        shape = (size.balls, size.ball, size.pitch, math.radians(size.angle))
+        errors = (dynamic_rating(*shape) / size.dynamic, static_rating(*shape) / size.static)
+        cells = (
+            f"`{name}`" if name in modelled() else f"{name} (no model)",
+            f"{size.bore:g}, {size.outside:g}, {size.width:g}",
+            f"{size.dynamic:g}, {size.static:g}",
+            "" if math.isnan(size.f0) else f"{size.f0:g}",
+            f"{size.grease_speed:g}, {size.oil_speed:g}",
+            f"{size.mass:g}",
+            *(f"{one.force:g}" for one in size.preload.values()),
+            f"*{size.balls} x {size.ball:g}*",
+            "*" + ", ".join(f"{100.0 * (error - 1.0):+.1f}" for error in errors) + "*",
+        )
+        lines.append(_row(cells))
+    return "\n".join(lines)
+
+
 def _catalogue():
     lines = ["## Catalogue", ""]
     for kind, where in (
@@ -128,9 +157,11 @@ def _catalogue():
         ("lubricants", '`[lubricant] catalogue = "spindle-oil"`'),
         ("grades", '`[imperfections] grade = "P4"`'),
     ):
-        entries = catalogue(kind)
+        # makers' sizes are too many for columns: `sizes` lists them
+        entries = {name: entry for name, entry in catalogue(kind).items() if not name.startswith(PREFIX)}
         keys = [key for key, value in next(iter(entries.values())).items() if not isinstance(value, dict)]
-        lines += [f"### {kind.capitalize()}", "", f"{where}; keys written beside it win.", ""]
+        more = f" {_SIZES}" if kind == "bearings" else ""
+        lines += [f"### {kind.capitalize()}", "", f"{where}; keys written beside it win.{more}", ""]
         lines += [_row(("key", *entries)), _row(["---"] * (1 + len(entries)))]
         lines += [_row((f"`{key}`", *(f"{e.get(key, '')}" for e in entries.values()))) for key in keys]
         lines.append("")

@@ -78,8 +78,7 @@ def _with_catalogues(context: typer.Context, files: list[Path] | None) -> list[P
     if files:
         from fmu_bearing.scene.entries import using
 
-        with refusals():
-            context.with_resource(using(files))
+        context.with_resource(using(files))
     return files
 
 

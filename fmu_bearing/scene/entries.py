@@ -127,16 +127,9 @@ def entry_text(entry: Entry, name: str) -> str:
 
 @contextmanager
 def using(files: Sequence[str | os.PathLike[str]]) -> Iterator[None]:
-    """Let all scenes that are read meanwhile know the bearings of these files.
-
-    Raises
-    ------
-    SceneError
-        As `entries`.
-    """
+    """Let all scenes that are read meanwhile know the bearings of these files, which are read then."""
     token = _in_use.set((*_in_use.get(), *map(Path, files)))
     try:
-        entries("bearings")
         yield
     finally:
         _in_use.reset(token)

@@ -218,6 +218,12 @@ def test_every_command_that_reads_a_scene_takes_the_option(run):
         "compare", "identify", "scene new", "scene check", "scene show", "scene catalogue",
     )  # fmt: skip
     for command in with_scene:
-        refused = run(*command.split(), "any.toml", "--catalogue", "nowhere.toml")
-        assert refused.exit_code == 2, command
-        assert "nowhere.toml: there is no such catalogue file" in refused.stderr, command
+        assert "--catalogue" in run(*command.split(), "--help").stdout, command
+
+
+def test_a_catalogue_that_is_not_there_is_refused(run, own):
+    _, scene = own
+    for command in (("info", scene), ("scene", "catalogue"), ("scene", "new", scene, "--force")):
+        refused = run(*command, "--catalogue", "nowhere.toml")
+        assert refused.exit_code == 2 and refused.stderr.count("\n") == 1
+        assert "nowhere.toml: there is no such catalogue file" in refused.stderr

@@ -13,6 +13,7 @@ import fmu_bearing
 from fmu_bearing.cli import app, base
 from fmu_bearing.interface import variables
 from fmu_bearing.scene import Scene, read_scene
+from fmu_bearing.scene.nsk import sizes
 from fmu_bearing.scene.units import symbol
 from tests.conftest import EXAMPLES
 from tests.pages import DOCS, ROOT, blocks, commands, parse, run_page
@@ -122,6 +123,16 @@ def test_every_command_is_described(site):
     page = text(site, "cli.html")
     for command in leaves(typer.main.get_command(app), "fmu-bearing"):
         assert f"<code>{command}</code>" in page, command
+
+
+def test_every_size_of_a_maker_is_listed_with_its_marks(site):
+    page = text(site, "catalogue.html")
+    for name, size in sizes().items():
+        row = re.search(rf"<tr>\s*<td>(?:<code>{name}</code>|{name} \(no model\))</td>(.*?)</tr>", page, re.S)
+        assert row is not None, name
+        assert f"<em>{size.balls} x {size.ball:g}</em>" in row[1]
+        assert f"<td>{size.dynamic:g}, {size.static:g}</td>" in row[1]
+    assert "NSK-7003C" not in text(site, "scene.html")
 
 
 def test_every_exit_code_is_described(site):

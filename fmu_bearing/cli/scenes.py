@@ -210,8 +210,15 @@ def _show_entry(name: str, entry: Entry | None, as_json: bool) -> None:
         typer.echo(entry_text(entry, name).rstrip())
     else:
         tell(f"{name}: no model: {too_many_balls(name)}")
-    for key, value in (printed or {}).items():
-        typer.echo(f"# {key}: {value}")
+    if printed is None:
+        return
+    classes = printed.pop("preload")
+    typer.echo("\n# printed by NSK")
+    for key, value in printed.items():
+        typer.echo(f"# {key} = {value:g}")
+    for key, one in classes.items():
+        force, stiffness = one.values()
+        typer.echo(f"# preload {key}: {force:g} N, pair {stiffness:g} N/um")
 
 
 def _silent(scene: Scene) -> "Model":

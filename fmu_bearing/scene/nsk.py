@@ -15,7 +15,7 @@ import functools
 import math
 from collections.abc import Iterator
 from importlib import resources
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from fmu_bearing.scene.bearing import Bearing
 from fmu_bearing.scene.estimate import Estimate, cage_estimates, estimates
@@ -62,18 +62,17 @@ class Size(NamedTuple):
         """Pitch diameter (mm): mean of bore and outside diameter."""
         return 0.5 * (self.bore + self.outside)
 
-    def printed(self) -> dict[str, str]:
-        """Return what NSK prints beside dimensions, in words."""
-        words = {
-            "C, C0 (NSK)": f"{self.dynamic:g}, {self.static:g} N",
-            "limiting speed, grease, oil (NSK)": f"{self.grease_speed:g}, {self.oil_speed:g} r/min",
-            "mass (NSK)": f"{self.mass:g} kg",
+    def printed(self) -> dict[str, Any]:
+        """Return what NSK prints beside dimensions and angle; units are in the keys."""
+        classes = {
+            name: {"force_N": one.force, "pair_stiffness_N_um": one.pair_stiffness}
+            for name, one in self.preload.items()
         }
-        if self.f0 == self.f0:
-            words["f0 (NSK)"] = f"{self.f0:g}"
-        for name, one in self.preload.items():
-            words[f"{name} preload (NSK)"] = f"{one.force:g} N, pair {one.pair_stiffness:g} N/um"
-        return words
+        figures = {
+            "C_N": self.dynamic, "C0_N": self.static, "f0": self.f0, "speed_grease_rpm": self.grease_speed,
+            "speed_oil_rpm": self.oil_speed, "mass_kg": self.mass,
+        }  # fmt: skip
+        return {key: value for key, value in figures.items() if not math.isnan(value)} | {"preload": classes}
 
 
 @functools.cache

@@ -130,11 +130,14 @@ def test_catalogue(run):
     assert len(rows) == 60 and rows["NSK-7003C"]["ball_count"] == 12
     one = run("scene", "catalogue", "bearings", "NSK-7003C").stdout
     assert "ball_count = 12 # assumed: derived from C, C0 and f0" in one
-    assert "# heavy preload (NSK): 150 N, pair 45 N/um" in one
+    assert "# preload heavy: 150 N, pair 45 N/um" in one and "# C_N = 6600" in one
     large = run("scene", "catalogue", "bearings", "NSK-7913C")
     assert (
-        large.exit_code == 0 and "no model: has 25 balls" in large.stderr and "20200, 20500 N" in large.stdout
+        large.exit_code == 0 and "no model: has 25 balls" in large.stderr and "# C_N = 20200" in large.stdout
     )
+    data = run("scene", "catalogue", "bearings", "NSK-7003AC", "--json").data
+    assert data["values"]["contact_angle_deg"] == 25.0 and "f0" not in data["printed"]
+    assert data["printed"]["preload"]["light"] == {"force_N": 49.0, "pair_stiffness_N_um": 52.0}
     refused = run("scene", "catalogue", "bearings", "NSK-7003")
     assert refused.exit_code == 2 and "lists them" in refused.stderr
     assert run("scene", "catalogue", "materials", "--json").data["Si3N4"]["density_kg_m3"] == 3200.0

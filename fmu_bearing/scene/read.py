@@ -29,6 +29,10 @@ from fmu_bearing.scene.values import plain, put
 __all__ = ["Scene", "SceneError", "catalogue", "read_scene", "read_scene_text", "scene_of", "with_fidelity"]
 
 
+#: Values that take the place of the preload in newtons.
+_PRELOADS = (f"mounting.{CLASS}", f"mounting.{OFFSET}")
+
+
 class Scene(Tables):
     """All input of a model; the units are in the names of the values.
 
@@ -222,7 +226,7 @@ def _make_room(data: dict[str, Any], given: Mapping[str, Any]) -> None:
             continue
         if last == "catalogue" and (tables in (["bearing"], ["lubricant"]) or tables[:1] == ["materials"]):
             part.clear()
-        elif key in (f"mounting.{CLASS}", f"mounting.{OFFSET}") and f"mounting.{FORCE}" not in given:
+        elif name is not None and key in _PRELOADS and f"mounting.{FORCE}" not in given:
             part.pop(FORCE, None)
         elif key == "imperfections.grade" and isinstance(name, str):
             for value in catalogue("grades").get(name, {}):

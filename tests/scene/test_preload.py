@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from fmu_bearing.formulas.axial import axial, axial_displacement, axial_load
+from fmu_bearing.formulas.axial import axial, axial_displacement, axial_load, axial_stiffness
 from fmu_bearing.identification.files import _set
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import prepare
@@ -75,23 +75,30 @@ def test_refusals_name_the_keys():
 
 @pytest.mark.parametrize("bearing", ["NSK-7003C", "NSK-7008AC", "7009C"])
 @pytest.mark.parametrize("kind", ["steel", "full-ceramic"])
-@pytest.mark.parametrize("force", [60.0, 500.0])
-def test_offset_and_force_are_those_of_the_model_at_rest(bearing, kind, force):
-    """The weight of the inner ring, 1 N radially, shifts the model's rings by up to 0.1 % at 60 N."""
+@pytest.mark.parametrize(
+    ("force", "weight", "error"), [(5.0, False, 1e-8), (500.0, False, 1e-8), (60.0, True, 5e-3)]
+)
+def test_offset_and_force_are_those_of_the_model_at_rest(bearing, kind, force, weight, error):
+    """Without weight the model solves the same equations; the weight of a ring loads its balls unequally."""
     text = new_scene("a", bearing, kind=kind, sound=False, preload_N=force)
-    scene = read_scene_text(text).replace({"imperfections": None, "operation.speed_rpm": 0.0})
+    changed = {"imperfections": None, "operation.speed_rpm": 0.0, "fidelity.terms.gravity": weight}
+    scene = read_scene_text(text).replace(changed)
     model = Instance(prepare(scene))
     model.initialise()
     offset = model.get("inner_ring.displacement.x") - model.get("outer_ring.displacement.x")
     found = scene.replace({"mounting.preload_offset_um": 1e6 * offset})
-    assert found.mounting.preload_N == pytest.approx(force, rel=5e-3)
+    assert found.mounting.preload_N == pytest.approx(force, rel=error)
     b, m = scene.bearing, scene.materials
     elastic = tuple(
         (1e9 * x.youngs_modulus_GPa, x.poisson_ratio) for x in (m.inner_ring, m.outer_ring, m.balls)
     )
     shape = axial(b.ball_count, b.ball_diameter_mm, b.pitch_diameter_mm, b.contact_angle_deg,
                   (b.inner_conformity, b.outer_conformity), elastic)  # fmt: skip
-    assert axial_displacement(shape, force) == pytest.approx(1e3 * offset, rel=5e-3)
+    assert axial_displacement(shape, force) == pytest.approx(1e3 * offset, rel=error)
+    # differences in the formula err by 1e-8
+    assert axial_stiffness(shape, force) == pytest.approx(
+        1e-6 * model.get("stiffness.axial"), rel=error + 1e-7
+    )
     assert axial_load(shape, axial_displacement(shape, force)) == pytest.approx(force, rel=1e-9)
     assert axial_load(shape, 0.0) == axial_load(shape, -1.0) == axial_displacement(shape, 0.0) == 0.0
 
@@ -102,6 +109,7 @@ def test_replace_takes_classes_and_offsets():
     other = scene.replace({"mounting.preload_class": "heavy", "bearing.catalogue": "NSK-7008AC"})
     assert other.mounting.preload_N == 880.0
     assert 20.0 < scene.replace({"mounting.preload_offset_um": 5}).mounting.preload_N < 80.0
+    assert scene.replace({"mounting.preload_class": None}) == scene
     with pytest.raises(SceneError, match="preload_class = 'heavy' stands beside preload_N"):
         scene.replace({"mounting.preload_class": "heavy", "mounting.preload_N": 3.0})
 

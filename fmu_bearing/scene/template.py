@@ -7,7 +7,7 @@ from pathlib import Path
 
 from fmu_bearing.scene.entries import KEY as CATALOGUES, entries
 from fmu_bearing.scene.estimate import Estimate, cage_estimates, estimates
-from fmu_bearing.scene.nsk import PREFIX
+from fmu_bearing.scene.nsk import sizes
 from fmu_bearing.scene.preload import CLASS, FORCE, OFFSET
 from fmu_bearing.scene.problems import SceneError
 from fmu_bearing.scene.read import read_scene_text
@@ -124,7 +124,7 @@ def _outside(bearing: str | Dimensions) -> float:
 
 def _bearing(bearing: str | Dimensions, designation: str) -> Sequence[str]:
     if isinstance(bearing, str):
-        return (f'[bearing]\ncatalogue = "{bearing}"{_MADE[bearing.startswith(PREFIX)]}\n'
+        return (f'[bearing]\ncatalogue = "{bearing}"{_MADE[bearing in sizes()]}\n'
                 f'designation = "{designation}"',)  # fmt: skip
     d = bearing
     given = (

@@ -26,7 +26,7 @@ from fmu_bearing.recording.record import Recording, record
 from fmu_bearing.run.arrays import Refused
 from fmu_bearing.scene import Scene
 
-_ROOMS = ("acoustics", "elastic", "identification", "prepare", "recording", "scene")
+_ROOMS = ("acoustics", "elastic", "formulas", "identification", "prepare", "recording", "scene")
 _TURNS = 8  # of the shaft in a run, at least: lines of the shaft stand apart
 _LENGTH = 0.1  # s, at least
 _BINS = 6  # in a third octave, at least

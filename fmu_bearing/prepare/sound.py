@@ -16,7 +16,7 @@ from fmu_bearing.scene import Scene
 __all__ = ["sound_block", "sound_key"]
 
 #: Packages whose code computes the numbers, beside the engine.
-_ROOMS = ("acoustics", "elastic", "prepare", "scene")
+_ROOMS = ("acoustics", "elastic", "formulas", "prepare", "scene")
 #: Parts of a scene that its sound block depends on, with one number of its fidelity.
 _PARTS = {"bearing", "materials", "mounting", "sound", "microphones"}
 

@@ -21,7 +21,7 @@ from fmu_bearing.scene import Scene
 from fmu_bearing.sweeps.figures import figures_of, read
 
 #: Packages whose code computes the figures, beside the engine.
-_ROOMS = ("acoustics", "elastic", "interface", "prepare", "scene", "sweeps")
+_ROOMS = ("acoustics", "elastic", "formulas", "interface", "prepare", "scene", "sweeps")
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ Data flow in one direction::
 ``run``             a scene or an FMU run over inputs; results; fidelity ``auto``
 ``design``          what a designer asks: ratings, operating point, verdicts
 ``recording``       runs that keep the sound channels; measurements, pictures, tables, WAV files
-``accuracy``        reference trajectories, error against cost, sensitivity to assumed values
+``accuracy``        error against cost, sensitivity to assumed values and to a designer's choices
 ``identification``  numbers of a scene from measured sound and vibration
 ``sweeps``          a scene over a grid of its values
 ``reports``         one HTML page about a run
@@ -45,6 +45,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from fmu_bearing.accuracy.changes import changes
     from fmu_bearing.design.operating_point import operating_point
     from fmu_bearing.design.verdicts import verdicts
     from fmu_bearing.identification import identify
@@ -72,6 +73,7 @@ _PLACES = {
     "SceneError": "scene",
     "audio": "recording",
     "build_fmu": "run.build",
+    "changes": "accuracy.changes",
     "compare": "recording.compare",
     "identify": "identification",
     "measure": "recording",
@@ -96,6 +98,7 @@ __all__ = [
     "SceneError",
     "audio",
     "build_fmu",
+    "changes",
     "compare",
     "identify",
     "measure",

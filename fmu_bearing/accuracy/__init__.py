@@ -1,4 +1,4 @@
-"""Studies of accuracy: error against cost, and sensitivity to assumed values.
+"""Studies of a scene: error against cost, sensitivity to assumed values and to a designer's choices.
 
 ================  =============================================================================
 ``first_order``   fidelity ``full`` as x' = g(t, x), for other integrators
@@ -6,5 +6,9 @@
 ``tradeoff``      fidelities, methods, steps, strips, terms against the reference
 ``chart``         error against speed, drawn
 ``sensitivity``   changes of the figures when an assumed value changes
+``alternatives``  what a designer can choose otherwise in a scene
+``hearing``       levels before and after a change, with the same seeds
+``changed``       what choices change: ranked, as table and in words
+``changes``       `changes`: level, life and torque when a designer chooses otherwise
 ================  =============================================================================
 """

@@ -8,7 +8,7 @@
 ``runs``        simulate, plot
 ``compare``     two scenes, recordings or runs side by side
 ``sound``       levels, spectra, directivity, WAV
-``studies``     choose, tradeoff, sensitivity
+``studies``     choose, tradeoff, sensitivity, changes
 ``sweep``       a scene over a grid of its values
 ``identify``    numbers of a scene from measured levels
 ``validate``    checks of an FMU

@@ -66,6 +66,13 @@ def report(
     run_up_time: Annotated[float, typer.Option(metavar="S", help="Time the run-up takes.")] = 1.0,
     radius: Annotated[float, typer.Option(metavar="M", help="Distance at which directivity is shown.")] = 1.0,
     title: Annotated[str, typer.Option(help="Heading; default: the scene's name.")] = "",
+    changes: Annotated[
+        bool | None,
+        typer.Option(
+            "--changes/--no-changes",
+            help="Whether it says what to change; default: yes, without levels where rings bend.",
+        ),
+    ] = None,
     keep: Annotated[
         Path | None, typer.Option(metavar="RUN.npz", help="Keep the run, for another report without running.")
     ] = None,
@@ -83,7 +90,7 @@ def report(
         made = make(
             source, output, duration=duration, settle=settle, radiation_model=radiation_model,
             radius=radius, title=title, speed=turning, run_up=speeds,
-            run_up_time=run_up_time, tell=tell, progress=errors.is_terminal,
+            run_up_time=run_up_time, changes=changes, tell=tell, progress=errors.is_terminal,
         )  # fmt: skip
         if keep is not None:
             keep.parent.mkdir(parents=True, exist_ok=True)

@@ -1,5 +1,6 @@
-"""``fmu-bearing choose``, ``tradeoff``, ``sensitivity``: error against cost, influence of assumed values."""
+"""``fmu-bearing choose``, ``tradeoff``, ``sensitivity``, ``changes``: accuracy, what figures rest on."""
 
+import textwrap
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
@@ -17,6 +18,7 @@ from fmu_bearing.cli.base import (
     print_json,
     progress,
     refusals,
+    tell,
 )
 from fmu_bearing.files import check_folder
 
@@ -103,6 +105,32 @@ def sensitivity(
     else:
         show(f"{study.scene}: what rests on assumed values", moving.COLUMNS, study.cells())
         typer.echo(f"written: {', '.join(map(str, files))}")
+
+
+@app.command()
+def changes(
+    scene: SceneFile,
+    seeds: Annotated[int, typer.Option(help="Draws of the surfaces with which levels are compared.")] = 5,
+    levels: Annotated[
+        bool, typer.Option("--levels/--no-levels", help="Levels take nearly all of the time.")
+    ] = True,
+    radiation_model: Annotated[
+        str | None, typer.Option(metavar="NAME", help="How sound is radiated; default: the scene's.")
+    ] = None,
+    as_json: Json = False,
+) -> None:
+    """Change one choice of a designer at a time; rank what it does to level, life and friction torque."""
+    from fmu_bearing.accuracy.changes import changes as changing
+    from fmu_bearing.run.table import show
+
+    with refusals():
+        found = changing(scene, seeds=seeds, levels=levels, radiation_model=radiation_model, tell=tell)
+    if as_json:
+        print_json(found.summary())
+        return
+    show(f"{found.scene.name}: what to change", *found.table())
+    for line in (f"unchanged: {found.unchanged()}", found.conditions(), *found.remarks()):
+        typer.echo(textwrap.fill(line, 80))
 
 
 def named(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> list[dict[str, str]]:

@@ -5,6 +5,7 @@
 ``heard``       pressures and levels at any microphone, from recorded channels
 ``recording``   `Recording`: the same with files, also from the run of an FMU
 ``record``      `record`: a run of a scene that keeps the channels
+``listener``    levels of many short runs through the same paths
 ``spread``      `spread`: range of levels over seeds and the assumed surfaces
 ``measure``     spectra by component, circles, planes, power, run-ups
 ``tables``      such measurements as tables

@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.acoustics.analysis.field import Blocks, Circle, Position
-from fmu_bearing.acoustics.filters.weighting import a_weighting_db, level
+from fmu_bearing.acoustics.filters.weighting import level
 from fmu_bearing.engine.constants import RPM
+from fmu_bearing.recording.listener import Listener, check_model
 from fmu_bearing.recording.places import Places
-from fmu_bearing.recording.record import RecordingSource, record, recording_of
+from fmu_bearing.recording.record import RecordingSource, recording_of
 from fmu_bearing.recording.recording import Recording
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.imperfections import Imperfections
@@ -25,8 +25,6 @@ from fmu_bearing.scene.read import with_fidelity
 #: Wraps a list of draws and yields them.
 Bar = Callable[[Sequence[Imperfections]], Iterable[Imperfections]]
 SEEDS = 8
-_SETTLE, _DURATION = 0.03, 0.1  # s
-_RESOLUTION = 20.0  # Hz
 _EXPONENTS = (1.0, 1.6)  # assumed range of p, where the scene's lies within
 _AROUND = 0.3  # else: this much to either side
 _FACTOR = 2.0  # on A_1, either way
@@ -184,12 +182,15 @@ def spread(
     if seeds < 1:
         raise ValueError(f"seeds = {seeds}: give 1 or more")
     recording = recording_of(source, radiation_model=radiation_model)
-    scene = _at_speed(recording)
+    if recording.scene is None or not recording.history.size:
+        raise ValueError("a spread needs a recording with its scene and channels: fmu_bearing.record")
+    check_model(recording.radiation_model)
+    scene = at_speed(recording)
     if scene.imperfections is None:
         raise ValueError("the scene has no imperfections: its level has no spread over them")
     chosen = recording.named(microphones)
     places = [place for _, place in chosen]
-    heard = _Listener(places, radiation_model or recording.radiation_model, weighting)
+    heard = Listener(places, radiation_model or recording.radiation_model, weighting)
     flaws = scene.imperfections
     draws = [flaws, *_seeds(flaws, seeds), *_corners(flaws)]
     spectra = [heard.spectrum(_cheap(scene, draw)) for draw in bar(draws)]
@@ -216,41 +217,20 @@ def spread(
     )
 
 
-class _Listener:
-    """Energies in bins at some places, of many recordings through the same paths."""
+def at_speed(recording: Recording) -> Scene:
+    """Return the scene of a recording at the recording's speed.
 
-    def __init__(self, places: Sequence[Position], radiation_model: str, weighting: str) -> None:
-        self.places, self.radiation_model, self.weighting = places, radiation_model, weighting
-        self.frequency: NDArray[np.float64] = np.empty(0)
-        self._circles: list[Circle] = []
-
-    def spectrum(self, scene: Scene) -> NDArray[np.float64]:
-        """Mean square pressure (Pa^2), shape (mics, bins)."""
-        made = record(scene, _DURATION, settle=_SETTLE, progress=False, radiation_model="compact", outputs=())
-        blocks = Blocks(made.channels, _RESOLUTION)
-        self.frequency = blocks.frequency
-        self._circles = self._circles or made.paths(self.places, self.radiation_model)
-        found = np.zeros((len(self.places), len(blocks.frequency)))
-        for circle in self._circles:
-            found[list(circle.members)] = blocks.mean_squares(circle)[""]
-        if self.weighting == "A":
-            found *= 10.0 ** (a_weighting_db(blocks.frequency) / 10.0)
-        return found
-
-
-def _at_speed(recording: Recording) -> Scene:
-    """Scene of a recording at the recording's speed."""
-    if recording.scene is None or not recording.history.size:
-        raise ValueError("a spread needs a recording with its scene and channels: fmu_bearing.record")
-    if recording.radiation_model.startswith("paper"):
-        raise ValueError(
-            f'a spread is not computed with radiation_model = "{recording.radiation_model}": record with '
-            '"bem" or "compact"'
-        )
+    Raises
+    ------
+    ValueError
+        Without scene, or where the speed changes.
+    """
+    if recording.scene is None:
+        raise ValueError("the recording does not know its scene: give the scene")
     speed = recording.speed
     mean = float(np.mean(speed))
     if np.ptp(speed) > 0.01 * abs(mean):
-        raise ValueError("the recording's speed changes: its level at one operating point has a spread")
+        raise ValueError("the recording's speed changes: levels belong to one operating point")
     operation = recording.scene.operation.model_copy(update={"speed_rpm": mean / RPM})
     return recording.scene.model_copy(update={"operation": operation})
 
@@ -280,7 +260,7 @@ def _corners(flaws: Imperfections) -> Iterator[Imperfections]:
             yield flaws.model_copy(update={"waviness_exponent": exponent} | scaled)
 
 
-def _shares(scene: Scene, flaws: Imperfections, heard: _Listener) -> dict[str, NDArray[np.float64]]:
+def _shares(scene: Scene, flaws: Imperfections, heard: Listener) -> dict[str, NDArray[np.float64]]:
     """Share of the energy that each imperfection makes alone."""
     there = {name: keys for name, keys in _SOURCES.items() if any(getattr(flaws, key) for key in keys)}
     energies = {}

@@ -10,6 +10,7 @@
 ``verdicts``     limits that are kept or passed, on the first screen
 ``conditions``   operating point, kinematic frequencies, choices
 ``assumptions``  which values are assumed
+``changes``      what to change: choices ranked by level, life and torque
 ``motion``       velocities, orbits
 ``contacts``     loads and angles around the circle
 ``friction``     torque, shares, heats

@@ -17,6 +17,7 @@ from fmu_bearing.recording.record import Recording, record
 from fmu_bearing.recording.spread import Spread, spread
 from fmu_bearing.reports import audio, balloon, conditions, contacts, fall, friction, motion, sound, summary
 from fmu_bearing.reports.blocks import Absent, Section
+from fmu_bearing.reports.changes import section as what_to_change
 from fmu_bearing.reports.heard import Microphones, listen
 from fmu_bearing.reports.page import render
 from fmu_bearing.reports.run import STEP, observed
@@ -89,6 +90,7 @@ def make(
     run_up_time: float = RUN_UP,
     radius: float = 1.0,
     title: str = "",
+    changes: bool | None = None,
     tell: Tell = silent,
     progress: bool | None = None,
 ) -> Report:
@@ -115,6 +117,9 @@ def make(
         Of the sphere on which directivity is shown (m).
     title : str
         Heading; default: the scene's name.
+    changes : bool, optional
+        Whether the page says what to change; default: yes, but without levels where rings bend, because
+        their runs take half a minute.
     tell : callable
         Takes a line of text before each piece of work.
     progress : bool, optional
@@ -141,7 +146,7 @@ def make(
     rising = _run_up(subject, run_up, run_up_time, tell, progress) if run_up else None
     with python_warnings.catch_warnings(record=True) as caught:
         python_warnings.simplefilter("always", UserWarning)
-        sections, heard = _sections(subject, rising, tell)
+        sections, heard = _sections(subject, rising, changes, tell)
     subject.warnings += [str(each.message) for each in caught if issubclass(each.category, UserWarning)]
     notes = summary.warnings_of(subject)
     sure = _spread(subject, heard, tell)
@@ -264,7 +269,7 @@ def _run_up(
 
 
 def _sections(
-    subject: Subject, rising: Subject | None, tell: Tell
+    subject: Subject, rising: Subject | None, changes: bool | None, tell: Tell
 ) -> tuple[list[Section], Microphones | None]:
     """All sections in the page's order; one that cannot be made gives the reason."""
     heard: Microphones | None = None
@@ -286,6 +291,7 @@ def _sections(
     plan: list[tuple[str, str, Callable[[], Section]]] = [
         ("conditions", "Operating point", lambda: conditions.conditions(subject)),
         ("levels", "Levels and sources", with_sound(lambda h: sound.levels(subject, h))),
+        ("changes", "What to change", lambda: what_to_change(subject, tell, changes)),
         ("spectra", "Spectra", with_sound(lambda h: sound.spectra(subject, h))),
         ("audio", "Listen", with_sound(audio.audio)),
         ("waterfall", "Waterfall", with_sound(lambda h: fall.fall(h, rising))),
@@ -298,6 +304,8 @@ def _sections(
     ]
     found = []
     for key, title, make_one in plan:
+        if key == "changes" and changes is False:
+            continue
         tell(f"section: {title.lower()}")
         try:
             found.append(make_one())

@@ -1,0 +1,149 @@
+"""What a designer can choose otherwise in a scene: preload, balls, grade, oil, geometry, speed, supports."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
+
+from fmu_bearing.design.rating import dimensions, is_rated, kind, preload_classes
+from fmu_bearing.formulas.iso281 import dynamic_rating
+from fmu_bearing.formulas.makers import CLASS_NAMES, PRELOAD_CLASSES
+from fmu_bearing.scene import Scene
+from fmu_bearing.scene.read import catalogue
+
+_PRELOADS = (0.7, 1.4)
+_WARMER = 10.0  # K
+#: Two neighbouring grades of ISO 3448 differ by half of the thinner one's viscosity.
+_GRADE = 1.5
+_CONFORMITY = 0.005
+_ANGLES = (15.0, 25.0)  # deg: those that makers of spindle bearings offer
+_NEAR = 1.0  # deg
+_SPEEDS = (0.9, 1.1)
+_PEDESTALS = (0.5, 2.0)
+_BALANCE = 0.5
+#: Values of a tolerance grade that the maker of the bearing decides; unbalance is the rotor's.
+_GRADED = (
+    "inner_race_amplitude_um", "outer_race_amplitude_um", "ball_diameter_spread_nm", "ball_form_nm",
+)  # fmt: skip
+_STEEL, _CERAMIC = "GCr15", "Si3N4"
+
+
+class Alternative(NamedTuple):
+    """One choice: what it concerns, from what to what, and the values of the scene by dotted key."""
+
+    topic: str
+    words: str
+    values: Mapping[str, Any]
+
+
+def alternatives(scene: Scene) -> list[Alternative]:
+    """Return the choices that a designer has in a scene, each a change of its values.
+
+    Number and size of the balls stay, because they make another bearing. Whether a scene allows a choice,
+    only `Scene.replace` tells.
+    """
+    found = [
+        *_preload(scene), *_balls(scene), *_grades(scene), *_oil(scene), *_geometry(scene), *_supports(scene),
+    ]  # fmt: skip
+    return found
+
+
+def _preload(scene: Scene) -> Iterator[Alternative]:
+    now = scene.mounting.preload_N
+    wanted = [(float(f"{factor * now:.3g}"), "") for factor in _PRELOADS if now > 0.0]
+    angle = scene.bearing.contact_angle_deg
+    if is_rated(scene) and min(PRELOAD_CLASSES) - _NEAR <= angle <= max(PRELOAD_CLASSES) + _NEAR:
+        rating = dynamic_rating(*dimensions(scene))
+        wanted += [
+            (float(f"{share * rating:.2g}"), f" {name}")
+            for share, name in zip(preload_classes(scene), CLASS_NAMES, strict=True)
+        ]
+    for force, name in wanted:
+        if force != now:
+            yield Alternative(
+                "preload", f"preload {now:g} -> {force:g} N{name}", {"mounting.preload_N": force}
+            )
+
+
+def _balls(scene: Scene) -> Iterator[Alternative]:
+    here = kind(scene)
+    if here == "steel":
+        yield Alternative("balls", "balls steel -> Si3N4", {"materials.balls": _CERAMIC})
+    elif here == "hybrid":
+        yield Alternative("balls", "balls ceramic -> steel", {"materials.balls": _STEEL})
+
+
+def _grades(scene: Scene) -> Iterator[Alternative]:
+    """Yield the nearest finer and the nearest coarser grade of the catalogue."""
+    flaws = scene.imperfections
+    if flaws is None:
+        return
+    now = {key: value for key in _GRADED if (value := getattr(flaws, key))}
+    if not now:
+        return
+    grades = catalogue("grades")  # from coarse to fine
+    same = [name for name, row in grades.items() if all(row[key] == now[key] for key in now)]
+    finer = [n for n, row in grades.items() if n not in same and all(row[k] <= now[k] for k in now)]
+    coarser = [n for n, row in grades.items() if n not in same and all(row[k] >= now[k] for k in now)]
+    before = f"grade {same[0]}" if same else "own surfaces"
+    for name in (*finer[:1], *coarser[-1:]):
+        values = {f"imperfections.{key}": grades[name][key] for key in now}
+        yield Alternative("grade", f"{before} -> {'' if same else 'grade '}{name}", values)
+
+
+def _oil(scene: Scene) -> Iterator[Alternative]:
+    temperature = scene.operation.oil_temperature_degC
+    for step in (-_WARMER, _WARMER):
+        yield Alternative(
+            "oil",
+            f"oil {temperature:g} -> {temperature + step:g} degC",
+            {"operation.oil_temperature_degC": temperature + step},
+        )
+    viscosity = scene.lubricant.viscosity_Pa_s
+    for factor in (1.0 / _GRADE, _GRADE):
+        changed = float(f"{factor * viscosity:.3g}")
+        yield Alternative(
+            "oil",
+            f"oil {1e3 * viscosity:g} -> {1e3 * changed:g} mPa s",
+            {"lubricant.viscosity_Pa_s": changed},
+        )
+
+
+def _geometry(scene: Scene) -> Iterator[Alternative]:
+    for race in ("inner", "outer"):
+        now = getattr(scene.bearing, f"{race}_conformity")
+        for step in (-_CONFORMITY, _CONFORMITY):
+            changed = round(now + step, 6)
+            yield Alternative(
+                "conformity",
+                f"{race} groove {now:g} -> {changed:g}",
+                {f"bearing.{race}_conformity": changed},
+            )
+    angle = scene.bearing.contact_angle_deg
+    near = [one for one in _ANGLES if abs(one - angle) <= _NEAR]
+    for other in _ANGLES:
+        if other not in near:
+            yield Alternative(
+                "contact angle", f"contact angle {angle:g} -> {other:g} deg",
+                {"bearing.contact_angle_deg": other},
+            )  # fmt: skip
+
+
+def _supports(scene: Scene) -> Iterator[Alternative]:
+    speed = scene.operation.speed_rpm
+    if speed != 0.0:
+        for factor in _SPEEDS:
+            changed = float(f"{factor * speed:.6g}")
+            yield Alternative(
+                "speed", f"speed {speed:g} -> {changed:g} r/min", {"operation.speed_rpm": changed}
+            )
+    stiffness = scene.mounting.pedestal_stiffness_N_m
+    for factor in _PEDESTALS:
+        words = f"pedestal {1e-6 * stiffness:g} -> {1e-6 * factor * stiffness:g} N/um"
+        yield Alternative("pedestal", words, {"mounting.pedestal_stiffness_N_m": factor * stiffness})
+    flaws = scene.imperfections
+    if flaws is not None and flaws.unbalance_um > 0.0:
+        changed = _BALANCE * flaws.unbalance_um
+        yield Alternative(
+            "balance",
+            f"unbalance {flaws.unbalance_um:g} -> {changed:g} um",
+            {"imperfections.unbalance_um": changed},
+        )

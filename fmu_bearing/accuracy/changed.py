@@ -1,0 +1,285 @@
+"""What choices of a designer change in a scene: level, life, friction torque; ranked, and in words."""
+
+import math
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.accuracy.alternatives import Alternative
+from fmu_bearing.scene import Scene
+from fmu_bearing.scene.values import value_at
+
+#: The figures by which changes are ranked.
+RANKED = ("level", "life", "torque")
+MORE_IS_BETTER = {"level": False, "life": True, "torque": False, "stiffness": True}
+#: Changes below these are none: dB, and share of life, torque and stiffness.
+LEAST_DB, LEAST = 0.1, 0.01
+_SUBJECT = 60  # characters of a warning that name its subject, before any number
+
+
+class Point(NamedTuple):
+    """Figures of an operating point without a run.
+
+    Friction torque (N mm), L10r (h; NaN: not rated), radial stiffness of the bearing (N/um, the mean of y and
+    z), and what the engine warns of.
+    """
+
+    torque: float
+    life: float
+    stiffness: float
+    cautions: tuple[str, ...] = ()
+
+
+class Heard(NamedTuple):
+    """How levels were computed: that of the unchanged scene (dB(A)), where, by what, how long (s), seeds."""
+
+    level: float = math.nan
+    microphone: str = ""
+    fidelity: str = ""
+    radiation_model: str = ""
+    settle: float = 0.0
+    duration: float = 0.0
+    seeds: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True)
+class Change:
+    """One choice and what it changes.
+
+    Attributes
+    ----------
+    choice : Alternative
+        Topic, words and values of the scene.
+    before : Point
+        The operating point of the unchanged scene.
+    after : Point, optional
+        That of the changed one; None where there is none.
+    levels : ndarray, shape (seeds,)
+        Differences of the level (dB) with the same seed; empty without levels.
+    reason : str
+        Why there are no figures; empty: there are.
+    """
+
+    choice: Alternative
+    before: Point
+    after: Point | None = None
+    levels: NDArray[np.float64] = field(default_factory=lambda: np.empty(0))
+    reason: str = ""
+
+    @property
+    def level(self) -> float:
+        """Mean over the seeds of the level's difference (dB); NaN without levels."""
+        return float(self.levels.mean()) if self.levels.size else math.nan
+
+    @property
+    def level_range(self) -> tuple[float, float]:
+        """Least and largest difference of the level over the seeds (dB)."""
+        if not self.levels.size:
+            return math.nan, math.nan
+        return float(self.levels.min()), float(self.levels.max())
+
+    def ratio(self, figure: str) -> float:
+        """Return ``life``, ``torque`` or ``stiffness`` over that of the unchanged scene; NaN without."""
+        if self.after is None:
+            return math.nan
+        old, new = getattr(self.before, figure), getattr(self.after, figure)
+        return float(new / old) if old and math.isfinite(old) else math.nan
+
+    def gain(self, figure: str) -> float:
+        """Return how much better a figure gets: dB, or the logarithm of its ratio; NaN: it does not apply."""
+        if figure == "level":
+            return -self.level
+        ratio = self.ratio(figure)
+        sign = 1.0 if MORE_IS_BETTER[figure] else -1.0
+        return sign * math.log(ratio) if ratio > 0.0 else math.nan
+
+    def acts(self, figure: str) -> bool:
+        """Whether a figure changes by more than nothing, and a level rises or falls with every seed."""
+        size = abs(self.gain(figure))
+        if figure != "level":
+            return size >= math.log1p(LEAST)
+        low, high = self.level_range
+        return size >= LEAST_DB and low * high > 0.0
+
+    @property
+    def cautions(self) -> tuple[str, ...]:
+        """Warnings of the changed operating point that the unchanged one does not give."""
+        known = {text[:_SUBJECT] for text in self.before.cautions}
+        return (
+            () if self.after is None else tuple(t for t in self.after.cautions if t[:_SUBJECT] not in known)
+        )
+
+    def summary(self) -> dict[str, Any]:
+        """Return words and figures by name, for machines."""
+        low, high = self.level_range
+        after = self.after or Point(math.nan, math.nan, math.nan)
+        return {
+            "topic": self.choice.topic,
+            "change": self.choice.words,
+            "values": dict(self.choice.values),
+            "level_change_dB": self.level,
+            "level_change_low_dB": low,
+            "level_change_high_dB": high,
+            "level_is_found": self.acts("level"),
+            "life_h": after.life,
+            "life_ratio": self.ratio("life"),
+            "torque_N_mm": after.torque,
+            "torque_ratio": self.ratio("torque"),
+            "stiffness_N_um": after.stiffness,
+            "stiffness_ratio": self.ratio("stiffness"),
+            "cautions": list(self.cautions),
+            "reason": self.reason,
+        }
+
+
+@dataclass(frozen=True)
+class Changes:
+    """What the choices of a designer change in a scene.
+
+    Attributes
+    ----------
+    scene : Scene
+    before : Point
+        Its operating point before any change.
+    heard : Heard
+        Its level, and how levels were computed.
+    changes : tuple of Change
+        In the order of `alternatives`; those without figures are in it, with their reason.
+    no_level, no_life : str
+        Why there are none; empty: there are.
+    """
+
+    scene: Scene
+    before: Point
+    heard: Heard
+    changes: tuple[Change, ...]
+    no_level: str = ""
+    no_life: str = ""
+
+    def __repr__(self) -> str:
+        found = len(self.changes) - len(self.refused)
+        return f"Changes({self.scene.name!r}, {found} changes, {len(self.refused)} refused)"
+
+    @property
+    def figures(self) -> tuple[str, ...]:
+        """Return the figures that there are, of level, life and torque."""
+        missing = {"level": self.no_level, "life": self.no_life}
+        return tuple(name for name in RANKED if not missing.get(name))
+
+    @property
+    def refused(self) -> list[Change]:
+        """Choices without figures: the scene does not allow them, or there is no equilibrium."""
+        return [each for each in self.changes if each.reason]
+
+    def ranked(self, figure: str) -> list[Change]:
+        """Return the changes with a figure, the best first; those that are no finding last."""
+        there = [each for each in self.changes if math.isfinite(each.gain(figure))]
+        return sorted(there, key=lambda each: (not each.acts(figure), -each.gain(figure)))
+
+    def table(self) -> tuple[list[str], list[list[str]]]:
+        """Columns and rows of a table, ranked by the first figure."""
+        columns = ["change"] + (["dB(A)", "over seeds"] if "level" in self.figures else [])
+        columns += (["life"] if "life" in self.figures else []) + ["torque", "stiff."]
+        rows = []
+        for each in self.ranked(self.figures[0]):
+            cells = [each.choice.words]
+            if "level" in self.figures:
+                low, high = each.level_range
+                cells += [shown_level(each.level), f"{shown_level(low, 2)} to {shown_level(high, 2)}"]
+                if not each.acts("level"):
+                    cells[1] = "none"
+            names = (["life"] if "life" in self.figures else []) + ["torque", "stiffness"]
+            rows.append(cells + [shown_ratio(each.ratio(name)) for name in names])
+        return columns, rows
+
+    def resonances(self) -> list[str]:
+        """Return topics of which less and more are both quieter: a strong line stands near a resonance."""
+        found = []
+        for topic, key in (("speed", "operation.speed_rpm"), ("preload", "mounting.preload_N")):
+            now = value_at(self.scene, key)
+            rows = [e for e in self.changes if e.choice.topic == topic and e.levels.size]
+            sides = [
+                min(side, key=lambda e: abs(e.choice.values[key] - now))
+                for side in (
+                    [e for e in rows if e.choice.values[key] < now],
+                    [e for e in rows if e.choice.values[key] > now],
+                )
+                if side
+            ]
+            if len(sides) == 2 and all(e.acts("level") and e.level < 0.0 for e in sides):
+                found.append(topic)
+        return found
+
+    def remarks(self) -> list[str]:
+        """Return what to know beside the ranking: a resonance, warnings of single changes, refusals."""
+        topics, found = self.resonances(), []
+        if topics:
+            found.append(
+                f"Less and more {' and '.join(topics)} are both quieter: a strong line meets a resonance at "
+                "this operating point, so that almost any change moves it away."
+            )
+        found += [f"{each.choice.words}: {text}." for each in self.changes for text in each.cautions]
+        return found + [f"Left out: {each.choice.words}: {each.reason}." for each in self.refused]
+
+    def conditions(self) -> str:
+        """Return how the figures were computed, in sentences."""
+        h = self.heard
+        point = "quasi-static operating point of the perfect bearing, rigid rings"
+        words = f"Torque, stiffness: {point}. No life: {self.no_life}."
+        if not self.no_life:
+            words = f"Life (L10r, ISO 16281), torque, radial stiffness: {point}."
+        if self.no_level:
+            return f"{words} No levels: {self.no_level}."
+        return (
+            f"{words} Levels: at {h.microphone}, the loudest microphone, fidelity {h.fidelity}, radiation "
+            f"model {h.radiation_model}, {1e3 * h.duration:.0f} ms after {1e3 * h.settle:.0f} ms; mean and "
+            f"range of the differences, which are taken with the same seed before and after a change, for "
+            f"{len(h.seeds)} {'seed' if len(h.seeds) == 1 else 'seeds'}."
+        )
+
+    def unchanged(self) -> str:
+        """Return the figures of the unchanged scene, in words."""
+        b = self.before
+        found = [f"{self.heard.level:.1f} dB(A)"] if "level" in self.figures else []
+        found += [f"L10r {b.life:,.0f} h"] if "life" in self.figures else []
+        return ", ".join([*found, f"torque {b.torque:.3g} N mm", f"radial stiffness {b.stiffness:.3g} N/um"])
+
+    def summary(self) -> dict[str, Any]:
+        """Return conditions and changes, ranked by the first figure, for machines."""
+        first = self.figures[0]
+        return {
+            "scene": self.scene.name,
+            "level_dB": self.heard.level,
+            "life_h": self.before.life,
+            "torque_N_mm": self.before.torque,
+            "stiffness_N_um": self.before.stiffness,
+            "microphone": self.heard.microphone,
+            "fidelity": self.heard.fidelity,
+            "radiation_model": self.heard.radiation_model,
+            "settle_s": self.heard.settle,
+            "duration_s": self.heard.duration,
+            "seeds": list(self.heard.seeds),
+            "no_level": self.no_level,
+            "no_life": self.no_life,
+            "near_resonance": self.resonances(),
+            "ranked_by": first,
+            "changes": [each.summary() for each in (*self.ranked(first), *self.refused)],
+        }
+
+
+def shown_level(change: float, digits: int = 3) -> str:
+    """Return a difference of levels (dB) with its sign: a tenth of a dB, or fewer digits."""
+    if abs(change) < 0.05:
+        return "0.0"  # no -0.0
+    return f"{change:+.1f}" if digits > 2 or abs(change) < 10.0 else f"{change:+.0f}"
+
+
+def shown_ratio(ratio: float) -> str:
+    """Return a ratio as ``x0.85``; below a hundredth of change as ``=``, empty for NaN."""
+    if math.isnan(ratio):
+        return ""
+    if ratio > 0.0 and abs(math.log(ratio)) < math.log1p(LEAST):
+        return "="
+    return f"x{ratio:.2f}" if ratio < 10.0 else f"x{ratio:.1f}" if ratio < 100.0 else f"x{ratio:.0f}"

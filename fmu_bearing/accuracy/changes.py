@@ -1,0 +1,142 @@
+"""Sensitivity of level, life and friction torque to what a designer chooses, one choice at a time.
+
+Life, torque and stiffness are those of the quasi-static operating point of a perfect bearing. Levels come
+from short runs with the same seeds before and after a change, so that a difference is that of the change. Its
+range over seeds is told with it: a change that makes one draw of the surfaces quieter and another louder is
+no finding.
+"""
+
+import math
+
+import numpy as np
+
+from fmu_bearing import renamed
+from fmu_bearing.accuracy.alternatives import Alternative, alternatives
+from fmu_bearing.accuracy.changed import Change, Changes, Heard, Point
+from fmu_bearing.accuracy.hearing import Hearing, hearing
+from fmu_bearing.design.rating import dimensions, is_rated
+from fmu_bearing.formulas import iso281, iso16281
+from fmu_bearing.instance import Instance
+from fmu_bearing.prepare.model import prepare
+from fmu_bearing.progress import Tell, silent
+from fmu_bearing.run.balls import Reader
+from fmu_bearing.run.stiffness import stiffness
+from fmu_bearing.scene import Scene, SceneSource, scene_of
+
+SEEDS = 5
+_CONFORMITIES = (0.52, 0.53)  # beyond which C falls below its formula (ISO 281)
+
+
+@renamed.arguments
+def changes(
+    source: SceneSource,
+    *,
+    seeds: int = SEEDS,
+    levels: bool = True,
+    radiation_model: str | None = None,
+    tell: Tell = silent,
+) -> Changes:
+    """Change one choice of a designer at a time, and compare level, life and friction torque.
+
+    Parameters
+    ----------
+    source : Scene or path
+    seeds : int
+        How many draws of the surfaces each level is compared with, the scene's own first; with rings that
+        bend 3 at most, because they need fidelity full.
+    levels : bool
+        Whether levels are computed. They take nearly all of the time.
+    radiation_model : str, optional
+        In place of the scene's.
+    tell : callable
+        Takes a line of text before each piece of work.
+
+    Returns
+    -------
+    Changes
+
+    Raises
+    ------
+    ValueError
+        Where the unchanged scene has no equilibrium (`EngineError`), or for ``seeds`` below 1.
+
+    Examples
+    --------
+    >>> from fmu_bearing import changes
+    >>> found = changes("examples/scenes/7003C-bare.toml", levels=False)
+    >>> best = found.ranked("life")[0]
+    >>> best.choice.words, best.ratio('life') > 10
+    ('preload 500 -> 30 N light', True)
+    """
+    if seeds < 1:
+        raise ValueError(f"seeds = {seeds}: give 1 or more")
+    scene = scene_of(source)
+    tell("operating point of the unchanged scene")
+    before = point(scene)
+    ear, reason = hearing(scene, radiation_model) if levels else (None, "they were not asked for")
+    if ear is not None:
+        tell("levels of the unchanged scene")
+        try:
+            ear.begin(scene, seeds)
+        except ValueError as problem:
+            ear, reason = None, str(problem)
+    rows = []
+    for choice in alternatives(scene):
+        tell(choice.words)
+        rows.append(_changed(scene, choice, before, ear))
+    heard = Heard() if ear is None else Heard(
+        ear.level, ear.microphone, ear.fidelity, ear.listener.radiation_model, ear.listener.settle,
+        ear.listener.duration, ear.seeds,
+    )  # fmt: skip
+    return Changes(scene, before, heard, tuple(rows), reason, unrated(scene))
+
+
+def point(scene: Scene) -> Point:
+    """Return friction torque, life and stiffness at the operating point, without sound, waviness and bending.
+
+    Raises
+    ------
+    EngineError
+        Where there is no equilibrium.
+    """
+    scene = scene.model_copy(update={"sound": None, "imperfections": None}).with_rigid_rings()
+    cautions: list[str] = []
+    bearing = Instance(prepare(scene, fidelity="response"), tell=cautions.append)
+    bearing.initialise()
+    k = stiffness(bearing.p, bearing.s)
+    radial = 1e-6 * 0.5 * float(k[1, 1] + k[2, 2])
+    torque = 1e3 * bearing.get("friction_torque") * math.copysign(1.0, scene.operation.speed_rpm)
+    if unrated(scene):
+        return Point(torque, math.nan, radial, tuple(cautions))
+    balls = Reader(bearing).read(bearing)
+    size = dimensions(scene)
+    b = scene.bearing
+    ratings = iso16281.race_ratings(
+        iso281.dynamic_rating(*size), size[0], iso281.relative_ball(*size[1:]), size[3],
+        (b.inner_conformity, b.outer_conformity),
+    )  # fmt: skip
+    turns = iso16281.reference_life(ratings, balls[:, 1], balls[:, 3])
+    life = iso281.hours(turns, scene.operation.speed_rpm)
+    return Point(torque, life, radial, tuple(cautions))
+
+
+def unrated(scene: Scene) -> str:
+    """Return why a scene has no life; empty: it has one."""
+    if not is_rated(scene):
+        return "standards rate rings of steel only"
+    own = scene.bearing.inner_conformity, scene.bearing.outer_conformity
+    if any(value > limit for value, limit in zip(own, _CONFORMITIES, strict=True)):
+        return "ratings hold up to conformities of 0.52 (inner) and 0.53 (outer)"
+    return "the shaft stands still" if scene.operation.speed_rpm == 0.0 else ""
+
+
+def _changed(scene: Scene, choice: Alternative, before: Point, ear: Hearing | None) -> Change:
+    """Return what one choice changes, or why it cannot be made."""
+    try:
+        other = scene.replace(choice.values)
+        after = point(other)
+        levels = np.empty(0) if ear is None else ear.levels(other) - ear.before
+    except ValueError as problem:
+        reason = "; ".join(line.removeprefix(f"{scene.name}: ") for line in str(problem).splitlines())
+        return Change(choice, before, reason=reason)
+    return Change(choice, before, after, levels)

@@ -1,0 +1,102 @@
+"""Levels of a scene and of its changes at one microphone, by short runs with the same seeds."""
+
+import math
+import warnings
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.acoustics.filters.weighting import level
+from fmu_bearing.engine.constants import RPM
+from fmu_bearing.recording.listener import Listener
+from fmu_bearing.scene import Scene
+from fmu_bearing.scene.read import with_fidelity
+
+_SEEDS_FULL = 3  # of fidelity full, which costs ten times as much
+_SETTLE, _DURATION = 0.02, 0.06  # s
+_TURNS, _LONGEST = 20.0, 0.3  # of the shaft, and s: how long a slow bearing is heard
+
+
+class Hearing:
+    """Hears a scene and its changes at the loudest microphone of the unchanged one, with the same seeds."""
+
+    def __init__(self, listener: Listener) -> None:
+        self.listener = listener
+        self.fidelity = self.microphone = ""
+        self.seeds: tuple[int, ...] = ()
+        self.before: NDArray[np.float64] = np.empty(0)
+        self.level = math.nan
+        self._loudest = 0
+
+    def begin(self, scene: Scene, seeds: int) -> None:
+        """Choose fidelity and microphone, and hear the unchanged scene.
+
+        Raises
+        ------
+        ValueError
+            Where it cannot be run.
+        """
+        assert scene.imperfections is not None
+        self.fidelity, heard = self._choose(scene)
+        if self.fidelity == "full":
+            seeds = min(seeds, _SEEDS_FULL)
+        self.seeds = tuple((scene.imperfections.seed + k) % 2**31 for k in range(seeds))
+        self._loudest = int(np.argmax(heard))
+        self.microphone = scene.microphones[self._loudest].name
+        self.before = self.levels(scene)
+        self.level = float(self.before[0])
+
+    def levels(self, scene: Scene) -> NDArray[np.float64]:
+        """Level (dB(A)) at the loudest microphone by seed."""
+        return np.array([self._all(scene, self.fidelity, seed)[self._loudest] for seed in self.seeds])
+
+    def _choose(self, scene: Scene) -> tuple[str, NDArray[np.float64]]:
+        """Return the cheapest fidelity within the scene's accuracy, and its levels at all microphones.
+
+        Rings that bend need fidelity full. Else fidelity response is taken where it agrees with fidelity
+        rings, which knows the contacts' curvature, within the level that the scene asks for.
+        """
+        assert scene.imperfections is not None
+        own, seed = scene.fidelity.model, scene.imperfections.seed
+        if scene.bends:
+            return "full", self._all(scene, "full", seed)
+        if own in ("rings", "response"):
+            return own, self._all(scene, own, seed)
+        rings = self._all(scene, "rings", seed)
+        try:
+            response = self._all(scene, "response", seed)
+        except ValueError:
+            return "rings", rings
+        at = int(np.argmax(rings))
+        near = abs(response[at] - rings[at]) <= scene.fidelity.accuracy.level_dB
+        return ("response", response) if near else ("rings", rings)
+
+    def _all(self, scene: Scene, fidelity: str, seed: int) -> NDArray[np.float64]:
+        """Level (dB(A)) at all microphones."""
+        assert scene.imperfections is not None
+        flaws = scene.imperfections.model_copy(update={"seed": seed})
+        drawn = with_fidelity(scene.model_copy(update={"imperfections": flaws}), model=fidelity)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", UserWarning)  # told of each choice's operating point
+            return np.asarray(level(self.listener.spectrum(drawn).sum(axis=1)))
+
+
+def hearing(scene: Scene, radiation_model: str | None = None) -> "tuple[Hearing | None, str]":
+    """Return what hears short runs of a scene, or the reason why nothing does."""
+    sound, flaws = scene.sound, scene.imperfections
+    if sound is None or not scene.microphones:
+        return None, "the scene has no microphones"
+    if flaws is None:
+        return None, "the scene has no imperfections, and a perfect bearing is silent"
+    if scene.operation.speed_rpm == 0.0:
+        return None, "the shaft stands still"
+    turns = _TURNS / abs(scene.operation.speed_rpm * RPM / (2.0 * math.pi))
+    duration = min(max(_DURATION, turns), _LONGEST)
+    try:
+        listener = Listener(
+            [place.position_m for place in scene.microphones], radiation_model or sound.radiation_model, "A",
+            duration, _SETTLE,
+        )  # fmt: skip
+    except ValueError as problem:
+        return None, str(problem)
+    return Hearing(listener), ""

@@ -1,0 +1,77 @@
+"""Levels of many short runs of one bearing: paths to the microphones are made once for all of them."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.acoustics.analysis.field import Blocks, Circle, Position
+from fmu_bearing.acoustics.filters.weighting import a_weighting_db
+from fmu_bearing.recording.record import record
+from fmu_bearing.scene import Scene
+
+RESOLUTION = 20.0  # Hz
+
+
+class Listener:
+    """Energies in bins at some places, of many runs through the paths of the first one.
+
+    Parameters
+    ----------
+    places : sequence of (x, y, z)
+        In m.
+    radiation_model : str
+        None of the papers'. All scenes must have the same bodies: paths depend on nothing else.
+    weighting : str
+        ``"A"`` or ``"Z"``.
+    duration, settle : float
+        Length (s) of each run that is heard, and of what is left out before it.
+
+    Raises
+    ------
+    ValueError
+        For a radiation model of the papers.
+    """
+
+    def __init__(
+        self,
+        places: Sequence[Position],
+        radiation_model: str,
+        weighting: str,
+        duration: float = 0.1,
+        settle: float = 0.03,
+    ) -> None:
+        check_model(radiation_model)
+        self.places, self.radiation_model, self.weighting = places, radiation_model, weighting
+        self.duration, self.settle = duration, settle
+        self.frequency: NDArray[np.float64] = np.empty(0)
+        self._circles: list[Circle] = []
+
+    def spectrum(self, scene: Scene) -> NDArray[np.float64]:
+        """Run a scene and return the mean square pressure (Pa^2), shape (mics, bins)."""
+        made = record(
+            scene,
+            self.duration,
+            settle=self.settle,
+            progress=False,
+            radiation_model="compact",
+            outputs=(),
+        )
+        blocks = Blocks(made.channels, RESOLUTION)
+        self.frequency = blocks.frequency
+        self._circles = self._circles or made.paths(self.places, self.radiation_model)
+        found = np.zeros((len(self.places), len(blocks.frequency)))
+        for circle in self._circles:
+            found[list(circle.members)] = blocks.mean_squares(circle)[""]
+        if self.weighting == "A":
+            found *= 10.0 ** (a_weighting_db(blocks.frequency) / 10.0)
+        return found
+
+
+def check_model(radiation_model: str) -> None:
+    """Refuse the radiation models of the papers, which need channels of their own."""
+    if radiation_model.startswith("paper"):
+        raise ValueError(
+            f'short runs are not heard with radiation_model = "{radiation_model}": record with "bem" or '
+            '"compact"'
+        )

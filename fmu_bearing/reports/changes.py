@@ -1,0 +1,204 @@
+"""What to change: choices of a designer ranked by what they do to level, life and friction torque."""
+
+import math
+from typing import Any
+
+from fmu_bearing.accuracy.changed import Change, Changes, shown_level, shown_ratio
+from fmu_bearing.accuracy.changes import changes
+from fmu_bearing.progress import Tell
+from fmu_bearing.recording.spread import at_speed
+from fmu_bearing.reports import look
+from fmu_bearing.reports.blocks import Absent, Block, Chart, Section, Table, Words
+from fmu_bearing.reports.subject import Subject
+
+#: By figure: title of its chart, title of its axis, names of better and worse, how many sentences.
+_SHOWN = {
+    "level": ("Level", "change of the level, dB(A)", ("quieter", "louder"), 3),
+    "life": ("Rating life", "life with the change over life without", ("longer", "shorter"), 2),
+    "torque": ("Friction torque", "change of the friction torque, N mm", ("less", "more"), 2),
+}
+_BETTER, _WORSE = "inner", "outer"  # colours
+_ROW, _AROUND = 40, 100  # px: a row with its text above the bar, and what stands around the rows
+_LIFTED = 15  # px of a text above the middle of its bar
+_MANY = 2.0  # ratio from which on a life is told as so many times as long
+
+
+def section(subject: Subject, tell: Tell, levels: bool | None = None) -> Section:
+    """Return the section; ``levels``: whether they are computed (None: unless the rings bend).
+
+    Raises
+    ------
+    Absent
+        Without a scene, at a speed that changes, or where the scene has no equilibrium.
+    """
+    try:
+        scene = at_speed(subject.recording)
+        wanted = levels if levels is not None else not scene.bends
+        found = changes(scene, levels=wanted, radiation_model=subject.radiation_model, tell=tell)
+    except ValueError as problem:
+        raise Absent(str(problem)) from None
+    return shown(found)
+
+
+def shown(found: Changes) -> Section:
+    """Return the section of changes that were computed."""
+    blocks: list[Block] = [Words(_opening(found))]
+    for figure in found.figures:
+        blocks += [Words(text) for text in _sentences(found, figure)]
+        blocks.append(_chart(found, figure))
+    blocks.append(_table(found))
+    blocks += [Words(text, "note") for text in found.remarks()]
+    return Section("changes", "What to change", [_arrows(block) for block in blocks])
+
+
+def _arrows(block: Block) -> Block:
+    """Return a block of words with arrows that a page can show."""
+    return Words(block.text.replace("->", "\u2192"), block.kind) if isinstance(block, Words) else block
+
+
+def _words(change: Change) -> str:
+    return change.choice.words.replace("->", "\u2192")
+
+
+def _opening(found: Changes) -> str:
+    return f"Each choice alone, against {found.unchanged()}. Effects of several choices need not add up."
+
+
+def _sentences(found: Changes, figure: str) -> list[str]:
+    """Return the best changes of a figure with what they cost in the others."""
+    title, _, _, count = _SHOWN[figure]
+    best = [each for each in found.ranked(figure) if each.acts(figure) and each.gain(figure) > 0.0][:count]
+    if not best:
+        return [f"{title}: no choice makes it better."]
+    return [f"{title}. " + " ".join(_sentence(each, figure, found) for each in best)]
+
+
+def _sentence(change: Change, figure: str, found: Changes) -> str:
+    others = [name for name in (*found.figures, "stiffness") if name != figure and change.acts(name)]
+    gains = ", ".join(_phrase(change, name) for name in others if change.gain(name) > 0.0)
+    losses = ", ".join(_phrase(change, name) for name in others if change.gain(name) < 0.0)
+    text = f"{change.choice.words}: {_phrase(change, figure)}"
+    if figure == "level":
+        low, high = sorted(abs(value) for value in change.level_range)
+        text += f" ({low:.1f} to {high:.1f} over {change.levels.size} seeds)"
+    text += f"; {gains}" if gains else ""
+    text += f"; but {losses}" if losses else ""
+    return text[:1].upper() + text[1:] + "."
+
+
+def _phrase(change: Change, figure: str) -> str:
+    """Return what a change does to one figure, in words."""
+    if figure == "level":
+        return f"{abs(change.level):.1f} dB(A) {'quieter' if change.level < 0.0 else 'louder'}"
+    ratio = change.ratio(figure)
+    if figure == "life" and ratio >= _MANY:
+        return f"life {float(f'{ratio:.2g}'):,.6g} times as long"
+    name = "radial stiffness" if figure == "stiffness" else figure
+    more, less = ("longer", "shorter") if figure == "life" else ("more", "less")
+    return f"{name} {100.0 * abs(ratio - 1.0):.0f} % {more if ratio > 1.0 else less}"
+
+
+def _value(change: Change, figure: str) -> float:
+    """Return where the bar of a change ends: dB, decades of life, N mm."""
+    if figure == "level":
+        return change.level
+    if figure == "life":
+        return math.log10(change.ratio("life"))
+    assert change.after is not None
+    return change.after.torque - change.before.torque
+
+
+def _label(change: Change, figure: str) -> str:
+    words = _words(change)
+    if figure == "level":
+        low, high = change.level_range
+        return f"{words}: {shown_level(change.level)} dB(A) ({shown_level(low)} to {shown_level(high)})"
+    if figure == "life":
+        assert change.after is not None
+        return f"{words}: {shown_ratio(change.ratio('life'))} ({change.after.life:,.0f} h)"
+    share = 100.0 * (change.ratio("torque") - 1.0)
+    return f"{words}: {_value(change, figure):+.2f} N mm ({share:+.0f} %)"
+
+
+def _chart(found: Changes, figure: str) -> Chart:
+    """Bars of the changes that are findings, the best on top, each with its words above it."""
+    title, axis, names, _ = _SHOWN[figure]
+    rows = [each for each in found.ranked(figure) if each.acts(figure)]
+    drawn = look.figure(
+        height=_AROUND + _ROW * max(1, len(rows)),
+        margin={"l": 14, "r": 14, "t": 34, "b": 52},
+        barmode="overlay",
+    )
+    for name, tint, better in ((names[0], _BETTER, True), (names[1], _WORSE, False)):
+        places = [k for k, each in enumerate(rows) if (each.gain(figure) > 0.0) == better]
+        if places:
+            drawn.add_bar(**_bars(figure, rows, places), name=name, marker={"color": look.colour(tint)})
+    for k, each in enumerate(rows):
+        drawn.add_annotation(
+            text=_label(each, figure), x=0.0, xref="paper", xanchor="left", y=k, yshift=_LIFTED,
+            showarrow=False, font={"size": 12},
+        )  # fmt: skip
+    drawn.update_layout(
+        xaxis=look.axis(axis, zeroline=True, **(_decades(rows) if figure == "life" else {})),
+        yaxis={"visible": False, "range": [len(rows) - 0.4, -0.9], "fixedrange": True},
+    )
+    idle = [
+        each.choice.words.replace("->", "\u2192") for each in found.ranked(figure) if not each.acts(figure)
+    ]
+    if figure == "level":
+        note = "Thin lines: range of the difference over the seeds. "
+        rest = "No finding (below 0.1 dB, or quieter with one seed and louder with another): "
+    else:
+        note, rest = "", "No effect (below 1 %): "
+    return Chart(
+        f"changes-{figure}", f"{title}: what changes it", drawn,
+        "Bars, the best change first. " + "; ".join(_label(each, figure) for each in rows) + ".",
+        note=note + (rest + "; ".join(idle) + "." if idle else ""),
+    )  # fmt: skip
+
+
+def _bars(figure: str, rows: list[Change], places: list[int]) -> dict[str, Any]:
+    values = [_value(rows[k], figure) for k in places]
+    found: dict[str, Any] = {
+        "x": values, "y": places, "orientation": "h", "width": 0.26,
+        "customdata": [_label(rows[k], figure) for k in places],
+        "hovertemplate": "%{customdata}<extra></extra>",
+    }  # fmt: skip
+    if figure == "level":
+        ranges = [rows[k].level_range for k in places]
+        found["error_x"] = {
+            "type": "data", "symmetric": False, "thickness": 1.4, "width": 3, "color": look.colour("grey"),
+            "array": [high - value for (_, high), value in zip(ranges, values, strict=True)],
+            "arrayminus": [value - low for (low, _), value in zip(ranges, values, strict=True)],
+        }  # fmt: skip
+    return found
+
+
+def _decades(rows: list[Change]) -> dict[str, Any]:
+    """Return ticks at round ratios on an axis of their decades."""
+    ends = [_value(each, "life") for each in rows] or [0.0]
+    low, high = min(0.0, *ends), max(0.0, *ends)
+    steps = (1.0,) if high - low > 2.0 else (1.0, 2.0, 5.0)
+    ratios = [m * 10.0**k for k in range(math.floor(low), math.ceil(high) + 1) for m in steps]
+    return {
+        "tickvals": [math.log10(ratio) for ratio in ratios],
+        "ticktext": [f"x{ratio:g}" for ratio in ratios],
+    }
+
+
+def _table(found: Changes) -> Table:
+    columns, rows = found.table()
+    head = {
+        "dB(A)": "level, dB(A)", "over seeds": "range over seeds, dB(A)", "life": "life, h",
+        "torque": "torque, N mm", "stiff.": "radial stiffness",
+    }  # fmt: skip
+    ranked = found.ranked(found.figures[0])
+    for each, row in zip(ranked, rows, strict=True):
+        assert each.after is not None
+        row[0] = _words(each)
+        if "life" in columns:
+            row[columns.index("life")] = f"{each.after.life:,.0f}"
+        row[columns.index("torque")] = f"{each.after.torque:.2f}"
+    return Table(
+        "What each choice changes", [head.get(name, name) for name in columns], rows, note=found.conditions()
+    )

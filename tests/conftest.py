@@ -37,6 +37,8 @@ LONG = (
     "cli/test_runs.py",
     "identification/test_page.py",
     "examples/test_identification.py",
+    "reports/test_changes.py",
+    "accuracy/test_changes.py",
     "cli/test_identify.py",
     "examples/test_critical_speed.py",
 )

@@ -23,6 +23,8 @@ _BALANCE = 0.5
 _GRADED = (
     "inner_race_amplitude_um", "outer_race_amplitude_um", "ball_diameter_spread_nm", "ball_form_nm",
 )  # fmt: skip
+#: One grade is about a factor of two in A_1.
+_STEP = 2.0
 _STEEL, _CERAMIC = "GCr15", "Si3N4"
 
 
@@ -72,21 +74,26 @@ def _balls(scene: Scene) -> Iterator[Alternative]:
 
 
 def _grades(scene: Scene) -> Iterator[Alternative]:
-    """Yield the nearest finer and the nearest coarser grade of the catalogue."""
+    """Yield the next finer and the next coarser grade, or half and twice the waviness of another law."""
     flaws = scene.imperfections
     if flaws is None:
         return
     now = {key: value for key in _GRADED if (value := getattr(flaws, key))}
-    if not now:
-        return
     grades = catalogue("grades")  # from coarse to fine
+    laws = {row["waviness_exponent"] for row in grades.values()}
+    if flaws.follows_law and flaws.waviness_exponent not in laws:
+        for factor, words in ((1.0 / _STEP, "half"), (_STEP, "twice")):
+            values = {f"imperfections.{key}": factor * value for key, value in now.items()}
+            yield Alternative("grade", f"waviness, ball sizes -> {words}", values)
+        return
     same = [name for name, row in grades.items() if all(row[key] == now[key] for key in now)]
     finer = [n for n, row in grades.items() if n not in same and all(row[k] <= now[k] for k in now)]
     coarser = [n for n, row in grades.items() if n not in same and all(row[k] >= now[k] for k in now)]
     before = f"grade {same[0]}" if same else "own surfaces"
     for name in (*finer[:1], *coarser[-1:]):
         values = {f"imperfections.{key}": grades[name][key] for key in now}
-        yield Alternative("grade", f"{before} -> {'' if same else 'grade '}{name}", values)
+        if values:
+            yield Alternative("grade", f"{before} -> {'' if same else 'grade '}{name}", values)
 
 
 def _oil(scene: Scene) -> Iterator[Alternative]:

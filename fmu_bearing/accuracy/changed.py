@@ -104,6 +104,12 @@ class Change:
         return size >= LEAST_DB and low * high > 0.0
 
     @property
+    def depends_on_seed(self) -> bool:
+        """Whether one draw of the surfaces gets audibly quieter and another louder: no finding."""
+        low, high = self.level_range
+        return low <= 0.0 <= high and high - low >= LEAST_DB
+
+    @property
     def cautions(self) -> tuple[str, ...]:
         """Warnings of the changed operating point that the unchanged one does not give."""
         known = {text[:_SUBJECT] for text in self.before.cautions}
@@ -189,7 +195,7 @@ class Changes:
                 low, high = each.level_range
                 cells += [shown_level(each.level), f"{shown_level(low, 2)} to {shown_level(high, 2)}"]
                 if not each.acts("level"):
-                    cells[1] = "none"
+                    cells[1] = "no finding" if each.depends_on_seed else "none"
             names = (["life"] if "life" in self.figures else []) + ["torque", "stiffness"]
             rows.append(cells + [shown_ratio(each.ratio(name)) for name in names])
         return columns, rows
@@ -212,15 +218,19 @@ class Changes:
                 found.append(topic)
         return found
 
+    def resonance(self) -> str:
+        """Return the remark on `resonances`; empty without."""
+        topics = self.resonances()
+        if not topics:
+            return ""
+        return (
+            f"Less and more {' and '.join(topics)} are both quieter: a strong line meets a resonance at this "
+            "operating point, so that almost any change moves it away."
+        )
+
     def remarks(self) -> list[str]:
-        """Return what to know beside the ranking: a resonance, warnings of single changes, refusals."""
-        topics, found = self.resonances(), []
-        if topics:
-            found.append(
-                f"Less and more {' and '.join(topics)} are both quieter: a strong line meets a resonance at "
-                "this operating point, so that almost any change moves it away."
-            )
-        found += [f"{each.choice.words}: {text}." for each in self.changes for text in each.cautions]
+        """Return the warnings of single changes, and the choices that were left out."""
+        found = [f"{each.choice.words}: {text}." for each in self.changes for text in each.cautions]
         return found + [f"Left out: {each.choice.words}: {each.reason}." for each in self.refused]
 
     def conditions(self) -> str:
@@ -243,7 +253,7 @@ class Changes:
         """Return the figures of the unchanged scene, in words."""
         b = self.before
         found = [f"{self.heard.level:.1f} dB(A)"] if "level" in self.figures else []
-        found += [f"L10r {b.life:,.0f} h"] if "life" in self.figures else []
+        found += [f"L10r {shown_hours(b.life)}"] if "life" in self.figures else []
         return ", ".join([*found, f"torque {b.torque:.3g} N mm", f"radial stiffness {b.stiffness:.3g} N/um"])
 
     def summary(self) -> dict[str, Any]:
@@ -274,6 +284,11 @@ def shown_level(change: float, digits: int = 3) -> str:
     if abs(change) < 0.05:
         return "0.0"  # no -0.0
     return f"{change:+.1f}" if digits > 2 or abs(change) < 10.0 else f"{change:+.0f}"
+
+
+def shown_hours(life: float) -> str:
+    """Return a life (h) with three digits."""
+    return f"{float(f'{life:.3g}'):,.10g} h"
 
 
 def shown_ratio(ratio: float) -> str:

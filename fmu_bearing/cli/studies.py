@@ -129,8 +129,9 @@ def changes(
         print_json(found.summary())
         return
     show(f"{found.scene.name}: what to change", *found.table())
-    for line in (f"unchanged: {found.unchanged()}", found.conditions(), *found.remarks()):
-        typer.echo(textwrap.fill(line, 80))
+    for line in (f"unchanged: {found.unchanged()}", found.resonance(), found.conditions(), *found.remarks()):
+        if line:
+            typer.echo(textwrap.fill(line, 80))
 
 
 def named(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> list[dict[str, str]]:

@@ -1,9 +1,18 @@
 """What to change: choices of a designer ranked by what they do to level, life and friction torque."""
 
 import math
+from dataclasses import replace
 from typing import Any
 
-from fmu_bearing.accuracy.changed import Change, Changes, shown_level, shown_ratio
+from fmu_bearing.accuracy.changed import (
+    LEAST,
+    LEAST_DB,
+    Change,
+    Changes,
+    shown_hours,
+    shown_level,
+    shown_ratio,
+)
 from fmu_bearing.accuracy.changes import changes
 from fmu_bearing.progress import Tell
 from fmu_bearing.recording.spread import at_speed
@@ -20,6 +29,7 @@ _SHOWN = {
 _BETTER, _WORSE = "inner", "outer"  # colours
 _ROW, _AROUND = 40, 100  # px: a row with its text above the bar, and what stands around the rows
 _LIFTED = 15  # px of a text above the middle of its bar
+_BENDS = "rings that bend need fidelity full, which takes about 40 s; --changes computes them"
 _MANY = 2.0  # ratio from which on a life is told as so many times as long
 
 
@@ -37,15 +47,17 @@ def section(subject: Subject, tell: Tell, levels: bool | None = None) -> Section
         found = changes(scene, levels=wanted, radiation_model=subject.radiation_model, tell=tell)
     except ValueError as problem:
         raise Absent(str(problem)) from None
+    if levels is None and not wanted:
+        found = replace(found, no_level=_BENDS)
     return shown(found)
 
 
 def shown(found: Changes) -> Section:
     """Return the section of changes that were computed."""
-    blocks: list[Block] = [Words(_opening(found))]
+    blocks: list[Block] = [Words(text) for text in (_opening(found), found.resonance()) if text]
     for figure in found.figures:
-        blocks += [Words(text) for text in _sentences(found, figure)]
         blocks.append(_chart(found, figure))
+        blocks += [Words(text) for text in _sentences(found, figure)]
     blocks.append(_table(found))
     blocks += [Words(text, "note") for text in found.remarks()]
     return Section("changes", "What to change", [_arrows(block) for block in blocks])
@@ -65,12 +77,15 @@ def _opening(found: Changes) -> str:
 
 
 def _sentences(found: Changes, figure: str) -> list[str]:
-    """Return the best changes of a figure with what they cost in the others."""
+    """Return the best change of each topic, with what it costs in the other figures."""
     title, _, _, count = _SHOWN[figure]
-    best = [each for each in found.ranked(figure) if each.acts(figure) and each.gain(figure) > 0.0][:count]
+    gains = [each for each in found.ranked(figure) if each.acts(figure) and each.gain(figure) > 0.0]
+    # one of each topic
+    best = list({each.choice.topic: each for each in reversed(gains)}.values())
+    best.sort(key=lambda each: -each.gain(figure))
     if not best:
         return [f"{title}: no choice makes it better."]
-    return [f"{title}. " + " ".join(_sentence(each, figure, found) for each in best)]
+    return [_sentence(each, figure, found) for each in best[:count]]
 
 
 def _sentence(change: Change, figure: str, found: Changes) -> str:
@@ -115,7 +130,7 @@ def _label(change: Change, figure: str) -> str:
         return f"{words}: {shown_level(change.level)} dB(A) ({shown_level(low)} to {shown_level(high)})"
     if figure == "life":
         assert change.after is not None
-        return f"{words}: {shown_ratio(change.ratio('life'))} ({change.after.life:,.0f} h)"
+        return f"{words}: {shown_ratio(change.ratio('life'))} ({shown_hours(change.after.life)})"
     share = 100.0 * (change.ratio("torque") - 1.0)
     return f"{words}: {_value(change, figure):+.2f} N mm ({share:+.0f} %)"
 
@@ -133,28 +148,39 @@ def _chart(found: Changes, figure: str) -> Chart:
         places = [k for k, each in enumerate(rows) if (each.gain(figure) > 0.0) == better]
         if places:
             drawn.add_bar(**_bars(figure, rows, places), name=name, marker={"color": look.colour(tint)})
-    for k, each in enumerate(rows):
-        drawn.add_annotation(
-            text=_label(each, figure), x=0.0, xref="paper", xanchor="left", y=k, yshift=_LIFTED,
-            showarrow=False, font={"size": 12},
-        )  # fmt: skip
+    texts = [
+        {
+            "text": _label(each, figure), "x": 0.0, "xref": "paper", "xanchor": "left", "y": k,
+            "yshift": _LIFTED, "showarrow": False, "font": {"size": 12},
+        }
+        for k, each in enumerate(rows)
+    ]  # fmt: skip
     drawn.update_layout(
+        annotations=texts,
+        meta={"narrow": {"annotations": [text | {"font": {"size": 10}} for text in texts]}},
         xaxis=look.axis(axis, zeroline=True, **(_decades(rows) if figure == "life" else {})),
         yaxis={"visible": False, "range": [len(rows) - 0.4, -0.9], "fixedrange": True},
     )
-    idle = [
-        each.choice.words.replace("->", "\u2192") for each in found.ranked(figure) if not each.acts(figure)
-    ]
-    if figure == "level":
-        note = "Thin lines: range of the difference over the seeds. "
-        rest = "No finding (below 0.1 dB, or quieter with one seed and louder with another): "
-    else:
-        note, rest = "", "No effect (below 1 %): "
     return Chart(
         f"changes-{figure}", f"{title}: what changes it", drawn,
         "Bars, the best change first. " + "; ".join(_label(each, figure) for each in rows) + ".",
-        note=note + (rest + "; ".join(idle) + "." if idle else ""),
+        note=_note(found, figure),
     )  # fmt: skip
+
+
+def _note(found: Changes, figure: str) -> str:
+    """Return which changes have no bar, and why."""
+    idle = [each for each in found.ranked(figure) if not each.acts(figure)]
+    unsure = [each for each in idle if figure == "level" and each.depends_on_seed]
+    parts = {
+        "No finding, quieter with one seed and louder with another": unsure,
+        f"No effect, below {LEAST_DB:g} dB"
+        if figure == "level"
+        else f"No effect, below {100.0 * LEAST:g} %": [each for each in idle if each not in unsure],
+    }
+    texts = ["Thin lines: range of the difference over the seeds."] if figure == "level" else []
+    texts += [f"{why}: {'; '.join(_words(each) for each in some)}." for why, some in parts.items() if some]
+    return " ".join(texts)
 
 
 def _bars(figure: str, rows: list[Change], places: list[int]) -> dict[str, Any]:
@@ -197,7 +223,10 @@ def _table(found: Changes) -> Table:
         assert each.after is not None
         row[0] = _words(each)
         if "life" in columns:
-            row[columns.index("life")] = f"{each.after.life:,.0f}"
+            row[columns.index("life")] = shown_hours(each.after.life).removesuffix(" h")
+        if "over seeds" in columns:
+            low, high = each.level_range
+            row[columns.index("over seeds")] = f"{shown_level(low)} to {shown_level(high)}"
         row[columns.index("torque")] = f"{each.after.torque:.2f}"
     return Table(
         "What each choice changes", [head.get(name, name) for name in columns], rows, note=found.conditions()

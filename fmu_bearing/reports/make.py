@@ -119,7 +119,7 @@ def make(
         Heading; default: the scene's name.
     changes : bool, optional
         Whether the page says what to change; default: yes, but without levels where rings bend, because
-        their runs take half a minute.
+        their runs take 40 s.
     tell : callable
         Takes a line of text before each piece of work.
     progress : bool, optional

@@ -19,7 +19,7 @@ def test_a_scene_at_another_speed_with_run_up_and_its_recording_again(scene, tmp
     file.write_text(with_fidelity(scene("7003C-spindle"), model="rings").to_toml(), "utf-8")
     made = run(
         file, "-o", page, "--speed", 12_000, "--duration", 0.05, "--title", "Try <1>", "--keep", kept,
-        "--run-up", "6000:12000", "--run-up-time", 0.2, "--json",
+        "--run-up", "6000:12000", "--run-up-time", 0.2, "--no-changes", "--json",
     )  # fmt: skip
     assert made.exit_code == 0, made.output
     told = json.loads(made.stdout)
@@ -30,7 +30,8 @@ def test_a_scene_at_another_speed_with_run_up_and_its_recording_again(scene, tmp
     low, high = read.figures["waterfall"]["layout"]["yaxis"]["range"]
     assert 6000 < low < 7000 and 11_000 < high < 12_000  # blocks are named by their middles
     assert "from 6,000 to 12,000 r/min" in read.sections["waterfall"]
-    again = run(kept, "-o", tmp_path / "again.html", "--json")
+    assert "changes" not in told["sections"] and "#changes" not in read.addresses
+    again = run(kept, "-o", tmp_path / "again.html", "--no-changes", "--json")
     assert json.loads(again.stdout)["figures"] == pytest.approx(told["figures"], nan_ok=True)
 
 

@@ -72,7 +72,7 @@ def test_assumed_values_carry_the_files_remarks(tmp_path):
 
 
 def test_fidelity_rings_says_what_does_not_move(rings, tmp_path):
-    page = Page(report(rings, tmp_path / "rings.html"))
+    page = Page(report(rings, tmp_path / "rings.html", changes=False))
     assert {t["meta"]["orbit"] for t in page.traces("orbits")} == {"inner_ring", "outer_ring"}
     for section in ("velocities", "orbits"):
         assert "Fidelity full computes the motion of cage and balls" in page.sections[section]
@@ -109,7 +109,9 @@ def test_pressures_of_an_fmu_alone(tmp_path):
         "contacts",
         "friction",
         "assumptions",
+        "changes",
     }
+    assert "does not know its scene" in made.sections["changes"]
     assert "which scene" in made.sections["conditions"] and "pressures" in made.sections["directivity"]
     assert "inner_ring.velocity.x" in made.sections["velocities"]
     assert float(page.tables["Equivalent levels re 20 uPa"][1][2]) == pytest.approx(60.0, abs=0.05)
@@ -122,7 +124,7 @@ def test_a_recording_of_few_variables_and_a_papers_radiation_model(scene, tmp_pa
     recording.outputs |= {
         f"inner_ring.velocity.{a}": recording.outputs["inner_ring.velocity.x"] for a in "yz"
     }
-    made = make(recording, tmp_path / "paper.html")
+    made = make(recording, tmp_path / "paper.html", changes=False)
     page = Page(made.path)
     assert "velocity-time" in page.figures and "velocity-spectrum" not in page.figures
     assert "kept every 400 us" in page.sections["velocities"]
@@ -135,7 +137,7 @@ def test_a_scene_without_microphones(rings, tmp_path):
         **{name: getattr(rings, name) for name in rings.__dataclass_fields__ if name != "_spectra"}
     )
     deaf.microphones = ()
-    made = make(deaf, tmp_path / "deaf.html")
+    made = make(deaf, tmp_path / "deaf.html", changes=False)
     assert all("no microphones" in made.sections[key] for key in ("levels", "spectra", "audio", "waterfall"))
     assert made.sections["directivity"] == ""
 

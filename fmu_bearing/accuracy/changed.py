@@ -16,6 +16,8 @@ RANKED = ("level", "life", "torque")
 MORE_IS_BETTER = {"level": False, "life": True, "torque": False, "stiffness": True}
 #: Changes below these are none: dB, and share of life, torque and stiffness.
 LEAST_DB, LEAST = 0.1, 0.01
+#: N mm: below it a torque is rounding, of a bearing without friction or at rest.
+FRICTIONLESS = 1e-6
 _SUBJECT = 60  # characters of a warning that name its subject, before any number
 
 
@@ -171,8 +173,13 @@ class Changes:
     @property
     def figures(self) -> tuple[str, ...]:
         """Return the figures that there are, of level, life and torque."""
-        missing = {"level": self.no_level, "life": self.no_life}
+        missing = {"level": self.no_level, "life": self.no_life, "torque": self.no_torque}
         return tuple(name for name in RANKED if not missing.get(name))
+
+    @property
+    def no_torque(self) -> str:
+        """Why there is no friction torque; empty: there is."""
+        return "" if self.before.torque > FRICTIONLESS else "the scene has no friction"
 
     @property
     def refused(self) -> list[Change]:
@@ -187,7 +194,8 @@ class Changes:
     def table(self) -> tuple[list[str], list[list[str]]]:
         """Columns and rows of a table, ranked by the first figure."""
         columns = ["change"] + (["dB(A)", "over seeds"] if "level" in self.figures else [])
-        columns += (["life"] if "life" in self.figures else []) + ["torque", "stiff."]
+        names = [name for name in ("life", "torque") if name in self.figures] + ["stiffness"]
+        columns += [*names[:-1], "stiff."]
         rows = []
         for each in self.ranked(self.figures[0]):
             cells = [each.choice.words]
@@ -196,7 +204,6 @@ class Changes:
                 cells += [shown_level(each.level), f"{shown_level(low, 2)} to {shown_level(high, 2)}"]
                 if not each.acts("level"):
                     cells[1] = "no finding" if each.depends_on_seed else "none"
-            names = (["life"] if "life" in self.figures else []) + ["torque", "stiffness"]
             rows.append(cells + [shown_ratio(each.ratio(name)) for name in names])
         return columns, rows
 
@@ -230,16 +237,19 @@ class Changes:
 
     def remarks(self) -> list[str]:
         """Return the warnings of single changes, and the choices that were left out."""
-        found = [f"{each.choice.words}: {text}." for each in self.changes for text in each.cautions]
+        found = [f"Unchanged: {text}." for text in self.before.cautions]
+        found += [f"{each.choice.words}: {text}." for each in self.changes for text in each.cautions]
         return found + [f"Left out: {each.choice.words}: {each.reason}." for each in self.refused]
 
     def conditions(self) -> str:
         """Return how the figures were computed, in sentences."""
         h = self.heard
-        point = "quasi-static operating point of the perfect bearing, rigid rings"
-        words = f"Torque, stiffness: {point}. No life: {self.no_life}."
-        if not self.no_life:
-            words = f"Life (L10r, ISO 16281), torque, radial stiffness: {point}."
+        names = {"life": "life (L10r, ISO 16281)", "torque": "torque"}
+        there = [text for name, text in names.items() if name in self.figures]
+        words = ", ".join([*there, "radial stiffness"])
+        words = f"{words[0].upper()}{words[1:]}: quasi-static point of the perfect bearing, rigid rings."
+        for name, reason in (("life", self.no_life), ("torque", self.no_torque)):
+            words += f" No {name}: {reason}." if reason else ""
         if self.no_level:
             return f"{words} No levels: {self.no_level}."
         return (
@@ -254,7 +264,8 @@ class Changes:
         b = self.before
         found = [f"{self.heard.level:.1f} dB(A)"] if "level" in self.figures else []
         found += [f"L10r {shown_hours(b.life)}"] if "life" in self.figures else []
-        return ", ".join([*found, f"torque {b.torque:.3g} N mm", f"radial stiffness {b.stiffness:.3g} N/um"])
+        found += [f"torque {b.torque:.3g} N mm"] if "torque" in self.figures else []
+        return ", ".join([*found, f"radial stiffness {b.stiffness:.3g} N/um"])
 
     def summary(self) -> dict[str, Any]:
         """Return conditions and changes, ranked by the first figure, for machines."""
@@ -273,6 +284,8 @@ class Changes:
             "seeds": list(self.heard.seeds),
             "no_level": self.no_level,
             "no_life": self.no_life,
+            "no_torque": self.no_torque,
+            "cautions": list(self.before.cautions),
             "near_resonance": self.resonances(),
             "ranked_by": first,
             "changes": [each.summary() for each in (*self.ranked(first), *self.refused)],

@@ -7,6 +7,7 @@ no finding.
 """
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -58,7 +59,8 @@ def changes(
     Raises
     ------
     ValueError
-        Where the unchanged scene has no equilibrium (`EngineError`), or for ``seeds`` below 1.
+        Where the unchanged scene has no equilibrium (`EngineError`) or no figure to compare, or for
+        ``seeds`` below 1.
 
     Examples
     --------
@@ -80,15 +82,18 @@ def changes(
             ear.begin(scene, seeds)
         except ValueError as problem:
             ear, reason = None, str(problem)
-    rows = []
-    for choice in alternatives(scene):
-        tell(choice.words)
-        rows.append(_changed(scene, choice, before, ear))
     heard = Heard() if ear is None else Heard(
         ear.level, ear.microphone, ear.fidelity, ear.listener.radiation_model, ear.listener.settle,
         ear.listener.duration, ear.seeds,
     )  # fmt: skip
-    return Changes(scene, before, heard, tuple(rows), reason, unrated(scene))
+    found = Changes(scene, before, heard, (), reason, unrated(scene))
+    if not found.figures:
+        raise ValueError(f"{scene.name} has nothing to compare. {found.conditions()}")
+    rows = []
+    for choice in alternatives(scene):
+        tell(choice.words)
+        rows.append(_changed(scene, choice, before, ear))
+    return replace(found, changes=tuple(rows))
 
 
 def point(scene: Scene) -> Point:

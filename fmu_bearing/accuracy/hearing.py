@@ -14,7 +14,7 @@ from fmu_bearing.scene.read import with_fidelity
 
 _SEEDS_FULL = 3  # of fidelity full, which costs ten times as much
 _SETTLE, _DURATION = 0.02, 0.06  # s
-_TURNS, _LONGEST = 20.0, 0.3  # of the shaft, and s: how long a slow bearing is heard
+_TURNS, _LONGEST = 20.0, 0.15  # of the shaft, and s: how long a slow bearing is heard
 
 
 class Hearing:

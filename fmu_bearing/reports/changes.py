@@ -227,7 +227,8 @@ def _table(found: Changes) -> Table:
         if "over seeds" in columns:
             low, high = each.level_range
             row[columns.index("over seeds")] = f"{shown_level(low)} to {shown_level(high)}"
-        row[columns.index("torque")] = f"{each.after.torque:.2f}"
+        if "torque" in columns:
+            row[columns.index("torque")] = f"{each.after.torque:.2f}"
     return Table(
         "What each choice changes", [head.get(name, name) for name in columns], rows, note=found.conditions()
     )

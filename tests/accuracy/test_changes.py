@@ -262,3 +262,19 @@ def test_the_seeds_begin_with_the_scenes(spindle, monkeypatch):
     assert changes(last, seeds=2).heard.seeds == (2**31 - 1, 0)
     with pytest.raises(ValueError, match="seeds = 0"):
         changes(spindle, seeds=0)
+
+
+def test_a_scene_without_any_figure_is_refused(spindle, example):
+    still = spindle.replace({"operation.speed_rpm": 0.0, "operation.lowest_speed_rpm": 1000.0})
+    with pytest.raises(ValueError, match="nothing to compare.*stands still"):
+        changes(still)
+    # the papers' impact model knows no friction
+    smooth = changes(example("7003C-impact"), levels=False)
+    assert smooth.figures == ("life",) and "no friction" in smooth.conditions()
+    assert smooth.table()[0] == ["change", "life", "stiff."]
+
+
+def test_warnings_of_the_unchanged_scene_stand_first(spindle, monkeypatch):
+    only(monkeypatch)
+    found = changes(spindle.replace({"mounting.preload_N": 0.0}), levels=False)
+    assert found.remarks()[0].startswith("Unchanged: preload = 0 N")

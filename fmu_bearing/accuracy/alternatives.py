@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
-from fmu_bearing.design.rating import dimensions, is_rated, kind, preload_classes
+from fmu_bearing.design.rating import dimensions, is_rated, preload_classes
 from fmu_bearing.formulas.iso281 import dynamic_rating
 from fmu_bearing.formulas.makers import CLASS_NAMES, PRELOAD_CLASSES
 from fmu_bearing.scene import Scene
@@ -66,7 +66,7 @@ def _preload(scene: Scene) -> Iterator[Alternative]:
 
 
 def _balls(scene: Scene) -> Iterator[Alternative]:
-    here = kind(scene)
+    here = scene.materials.kind
     if here == "steel":
         yield Alternative("balls", "balls steel -> Si3N4", {"materials.balls": _CERAMIC})
     elif here == "hybrid":

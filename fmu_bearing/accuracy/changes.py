@@ -15,8 +15,8 @@ from fmu_bearing import renamed
 from fmu_bearing.accuracy.alternatives import Alternative, alternatives
 from fmu_bearing.accuracy.changed import Change, Changes, Heard, Point
 from fmu_bearing.accuracy.hearing import Hearing, hearing
-from fmu_bearing.design.rating import dimensions, is_rated
-from fmu_bearing.formulas import iso281, iso16281
+from fmu_bearing.design.rating import is_rated, reference_life
+from fmu_bearing.formulas import iso281
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.progress import Tell, silent
@@ -114,14 +114,8 @@ def point(scene: Scene) -> Point:
     if unrated(scene):
         return Point(torque, math.nan, radial, tuple(cautions))
     balls = Reader(bearing).read(bearing)
-    size = dimensions(scene)
-    b = scene.bearing
-    ratings = iso16281.race_ratings(
-        iso281.dynamic_rating(*size), size[0], iso281.relative_ball(*size[1:]), size[3],
-        (b.inner_conformity, b.outer_conformity),
-    )  # fmt: skip
-    turns = iso16281.reference_life(ratings, balls[:, 1], balls[:, 3])
-    life = iso281.hours(turns, scene.operation.speed_rpm)
+    turns = reference_life(scene, balls[:, 1], balls[:, 3])
+    life = math.nan if turns is None else iso281.hours(turns, scene.operation.speed_rpm)
     return Point(torque, life, radial, tuple(cautions))
 
 

@@ -117,6 +117,7 @@ def changes(
     radiation_model: Annotated[
         str | None, typer.Option(metavar="NAME", help="How sound is radiated; default: the scene's.")
     ] = None,
+    catalogue: Catalogues = None,
     as_json: Json = False,
 ) -> None:
     """Change one choice of a designer at a time; rank what it does to level, life and friction torque."""

@@ -22,6 +22,7 @@ LONG = (
     "examples/test_cosimulation.py",
     "test_recipes.py",
     "test_readme.py",
+    "test_learn.py",
     "engine/test_fidelities.py",
     "fmi/test_package.py",
     "testing/test_plugin.py",
@@ -41,6 +42,8 @@ LONG = (
     "accuracy/test_changes.py",
     "cli/test_identify.py",
     "examples/test_critical_speed.py",
+    "examples/test_notebooks.py",
+    "examples/test_gallery.py",
 )
 #: For tests of the examples themselves, of the documentation and of the catalogue.
 EXAMPLES = ROOT / "examples" / "scenes"

@@ -1,5 +1,7 @@
 """Run the code blocks of a documentation page in order, as a reader would."""
 
+import contextlib
+import io
 import os
 import pathlib
 import re
@@ -15,6 +17,9 @@ from fmu_bearing.cli import app
 ROOT = pathlib.Path(__file__).parents[1]
 DOCS = ROOT / "docs"
 
+#: Frames of tables in a terminal, which a page may leave out.
+_FRAMES = re.compile(r"[│┃┏┓┗┛┡┩└┘┳┻╇┷┴━─|]")
+_NUMBER = re.compile(r"[+-]?\d+(?:\.(\d+))?")
 _BLOCK = re.compile(r'^```(\w+)(?: title="([^"]+)")?\n(.*?)^```', flags=re.MULTILINE | re.DOTALL)
 
 
@@ -30,35 +35,68 @@ def commands(script):
     return [words for line in lines if (words := shlex.split(line, comments=True))]
 
 
-def run_page(page, folder, monkeypatch):
+def run_page(page, folder, monkeypatch, shown=False):
     """Run Python blocks, ``fmu-bearing`` and other programs of ``sh`` blocks; write blocks that name a file.
 
     Returns the names that the Python blocks leave behind. Blocks of other kinds are not run: ``bash`` is for
-    installation.
+    installation. With ``shown``, the lines of a ``text`` block are lines that the block before it printed.
     """
     (folder / "examples").symlink_to(ROOT / "examples")
     (folder / "out").mkdir()
     monkeypatch.chdir(folder)
-    names = {"__name__": "page"}
+    names, printed = {"__name__": "page"}, ""
     for language, file, text in blocks(page):
         if file is not None:
             (folder / file).write_text(text, encoding="utf-8")
         elif language == "python":
-            exec(compile(text, str(page), "exec"), names)
+            told = io.StringIO()
+            with contextlib.redirect_stdout(told):
+                exec(compile(text, str(page), "exec"), names)
+            printed = told.getvalue()
         elif language == "sh":
-            for words in commands(text):
-                _run(words)
+            printed = "".join(_run(words) for words in commands(text))
+        elif language == "text" and shown:
+            unseen = not_printed(text, printed)
+            assert not unseen, f"{page}: {unseen}\nnot among\n{printed}"
     return names
 
 
+def not_printed(shown, printed):
+    """Lines of a page that a program did not print, in their order; a number's last digit may differ."""
+    left = iter([_words(line) for line in printed.splitlines()])
+    return [
+        line
+        for line in shown.splitlines()
+        if (words := _words(line)) and not any(_alike(words, other) for other in left)
+    ]
+
+
+def _words(line):
+    return _FRAMES.sub(" ", line).split()
+
+
+def _alike(shown, printed):
+    """Whether two lines have the same words; rounding may move a last digit from one machine to another."""
+    return len(shown) == len(printed) and all(map(_same, shown, printed))
+
+
+def _same(shown, printed):
+    number = _NUMBER.fullmatch(shown)
+    if number is None or _NUMBER.fullmatch(printed) is None:
+        return shown == printed
+    return abs(float(shown) - float(printed)) <= 1.01 * 10.0 ** -len(number[1] or "")
+
+
 def _run(words):
+    """Run a command line and return what it printed."""
     if words[0] == "fmu-bearing":
         done = CliRunner().invoke(app, words[1:])
         assert done.exit_code == 0, f"{shlex.join(words)}\n{done.output}\n{done.exception!r}"
-        return
+        return done.output
     path = f"{pathlib.Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
     done = subprocess.run(words, capture_output=True, text=True, env=os.environ | {"PATH": path})
     assert done.returncode == 0, f"{shlex.join(words)}\n{done.stdout}{done.stderr}"
+    return done.stdout
 
 
 def parse(words):

@@ -60,6 +60,12 @@ def test_every_page_becomes_part_of_the_site(site):
         assert (site / path.relative_to(DOCS).with_suffix(".html")).exists() or path.name == "README.md", path
 
 
+def test_a_notebook_is_shown_as_text_and_code(site):
+    page = text(site, "source/examples/notebooks/first_result.ipynb.html")
+    assert "<h3" in page and "Does less preload help" in page
+    assert '"cell_type"' not in page and 'class="highlight"' in page
+
+
 def test_nothing_is_fetched_from_elsewhere(site):
     for path in site.rglob("*.html"):
         page = path.read_text(encoding="utf-8")

@@ -7,6 +7,7 @@ when the site is built, so that no script has to set them in the browser.
 
 import html
 import importlib.util
+import json
 import logging
 import posixpath
 import re
@@ -115,4 +116,18 @@ def _shown(path):
         return text
     language = _LANGUAGES.get(Path(path).suffix, "text")
     head = f"---\ntitle: {html.escape(path)}\nsearch:\n  exclude: true\n---\n\n# `{path}`\n\n"
+    if path.endswith(".ipynb"):
+        return head + _notebook(json.loads(text))
     return f"{head}````{language}\n{text}````\n"
+
+
+def _notebook(found):
+    """Cells of a notebook: its text, a heading lower than that of the page, and its code."""
+    cells = []
+    for cell in found["cells"]:
+        text = "".join(cell["source"])
+        if cell["cell_type"] == "markdown":
+            cells.append(re.sub(r"^#", "##", text, flags=re.MULTILINE))
+        else:
+            cells.append(f"```python\n{text}\n```")
+    return "\n\n".join(cells) + "\n"

@@ -45,18 +45,31 @@ def test_python_of_the_readme_runs(example_file, tmp_path, monkeypatch):
 
 
 def test_commands_of_the_readme_run_in_order(tmp_path, monkeypatch):
-    lines = [line.split("#")[0].split() for line in blocks("sh")[1].splitlines() if line]
-    assert len(lines) == 6 and all(line[0] == "fmu-bearing" for line in lines)
+    first, partner, more = blocks("sh")
+    lines = [line.split("#")[0].split() for line in f"{first}{more}".splitlines() if line]
+    assert len(lines) == 7 and all(line[0] == "fmu-bearing" for line in lines)
+    assert partner.startswith("make demo")
     monkeypatch.chdir(tmp_path)
     for line in lines:
         done = CliRunner().invoke(cli.app, line[1:])
         assert done.exit_code == 0, (line, done.output)
+        if line[1] == "info":
+            assert "caution" not in done.stderr  # the first example is a sound one
     files = {path.name for path in tmp_path.iterdir()}
     assert files == {"my.toml", "run.csv", "run.png", "sound", "my.fmu"}
     printed = io.StringIO()
     with contextlib.redirect_stdout(printed):
         exec(compile(blocks("python")[1], "README.md", "exec"), {})
     assert re.match(r"Run\(my, 21 points to 0.02 s, \d+ variables\) 0\.0\d+", printed.getvalue())
+
+
+def test_the_first_screen_has_a_picture_the_installation_and_three_commands():
+    screen = README[: README.index("make demo")]
+    assert screen.count("![") == 1
+    assert ".[all]" in blocks("bash")[0]
+    commands = [line.split()[1:3] for line in blocks("sh")[0].splitlines()]
+    assert [words[0] for words in commands] == ["scene", "info", "build"]
+    assert len(screen.splitlines()) <= 45  # lines of a screen, with the picture's own height
 
 
 def test_files_named_in_the_readme_exist():

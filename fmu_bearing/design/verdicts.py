@@ -217,8 +217,8 @@ def _preload(point: OperatingPoint) -> Iterator[Verdict]:
     if share > heavy:
         advice = (
             f"preload {preload:g} N: {share:.3f} C, {share / heavy:.2g} times makers' heavy class of "
-            f"{heavy:.3f} C (GMN): give {heavy * point.rating.dynamic:.3g} N or less, unless it stands "
-            "for a load"
+            f"{heavy:.3f} C (GMN): give {math.floor(heavy * point.rating.dynamic)} N or less, unless it "
+            "stands for a load"
         )
     named = zip(makers.CLASS_NAMES, classes, strict=True)
     newtons = (f"{name} {one * point.rating.dynamic:.0f}" for name, one in named)

@@ -43,7 +43,8 @@ def life_of(scene):
     r = ((1 - g) / (1 + g)) ** 1.72
     fc = 38.20 * (1 + (1.04 * r) ** (10 / 3)) ** -0.3 * g**0.3 * (1 - g) ** 1.39 / (1 + g) ** (1 / 3)
     c = 1.3 * fc * 26**0.41 * math.cos(a) ** 0.7 * z ** (2 / 3) * ball**1.8
-    fi, fo = b.inner_conformity, b.outer_conformity
+    # closer grooves than these do not raise a rating
+    fi, fo = max(b.inner_conformity, 0.52), max(b.outer_conformity, 0.53)
     groove = 1.044 * r * (fi / fo * (2 * fo - 1) / (2 * fi - 1)) ** 0.41
     inner = c / (0.407 * z * math.cos(a) ** 0.7) * (1 + groove ** (10 / 3)) ** 0.3
     outer = c / (0.389 * z * math.cos(a) ** 0.7) * (1 + groove ** (-10 / 3)) ** 0.3

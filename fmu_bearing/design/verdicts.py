@@ -169,6 +169,10 @@ def _life(point: OperatingPoint) -> Iterator[Verdict]:
     turns = point.reference_life
     if turns is not None and math.isfinite(turns):
         note = "; hybrid: no modified life" if scene.materials.kind == "hybrid" else ""
+        mounting = scene.mounting
+        if mounting.radial_load_y_N or mounting.radial_load_z_N:  # a quarter of the life depends on it
+            held = "held by tilt_support" if mounting.tilt_support else "free to tilt"
+            note = f"; inner ring {held}{note}"
         source = f"ISO 16281, computed ball loads; clean oil, full film{note}"
         hours = iso281.hours(turns, rpm)
         yield _hours("life", "L10r, h", hours, required, source)

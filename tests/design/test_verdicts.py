@@ -134,6 +134,22 @@ def test_reference_life_of_the_designers_cases(name, rpm, ratio):
     assert point.reference_life / basic == pytest.approx(ratio, rel=0.01)
 
 
+def test_reference_life_under_a_radial_load_depends_on_the_rings_freedom_to_tilt():
+    """7003C at standstill, 500 N axially and 300 N radially: 777 Mrev free to tilt, L10 636 Mrev."""
+    at = {f"operation.{part}_temperature_degC": 20.0 for part in ("oil", "inner_ring", "outer_ring")}
+    still = {"operation.speed_rpm": 1.0, "operation.lowest_speed_rpm": 1000.0, "materials.balls": "Si3N4"}
+    loads = {"mounting.preload_N": 500.0, "mounting.radial_load_z_N": -300.0}
+    scene = read_scene(EXAMPLES / "7003C-bare.toml").replace({**at, **still, **loads})
+    point = operating_point(scene)
+    assert point.reference_life == pytest.approx(777.0, rel=0.01)
+    assert iso281.basic_life(point.rating.dynamic, point.rating.equivalent) == pytest.approx(636.0, rel=0.01)
+    assert "inner ring free to tilt" in found(point)["life"].source
+    held = {"mounting.tilt_support": {"stiffness_N_m_rad": 1e7, "damping_ratio": 0.05}}
+    point = operating_point(scene.replace({**held, "mounting.pedestal_rotational_ratio_mm2": 1e6}))
+    assert point.reference_life == pytest.approx(960.0, rel=0.01)
+    assert "inner ring held by tilt_support" in found(point)["life"].source
+
+
 def test_life_in_turns_knows_no_speed(hybrid):
     slower = mounted(hybrid, "operation", speed_rpm=5000.0)
     assert found(slower)["life"].value == pytest.approx(4.0 * found(hybrid)["life"].value)

@@ -17,6 +17,7 @@ from pythonfmu import DefaultExperiment, Fmi2Causality, Fmi2Slave, Fmi2Variabili
 # Two times closer than this are the same sampling instant: far below the sampling period, far above the
 # rounding of a clock of some seconds.
 SAME_TIME = 1e-10  # s
+SHORTEST_PERIOD = 1e-6  # s: with shorter ones a step would never come to an end
 
 
 class SpindleMotor(Fmi2Slave):
@@ -95,8 +96,10 @@ class SpindleMotor(Fmi2Slave):
 
     def do_step(self, current_time, step_size):
         """Advance; refused for a load torque or a parameter that makes no sense."""
-        positive = (self.rotor_inertia, self.control_period, self.torque_constant, step_size)
+        positive = (self.rotor_inertia, self.torque_constant, step_size)
         if not isfinite(self.load_torque) or not all(value > 0.0 for value in positive):
+            return False
+        if not self.control_period >= SHORTEST_PERIOD:
             return False
         now, end = current_time, current_time + step_size
         while end - now > SAME_TIME:

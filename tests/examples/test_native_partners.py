@@ -228,6 +228,16 @@ def test_a_step_without_inertia_or_capacity_is_refused(partners, file, parameter
     native.slave.freeInstance()
 
 
+@pytest.mark.parametrize("flavour", ["native", "python"])
+def test_a_control_period_without_end_is_refused(partners, flavour):
+    motor = Logged(partners[flavour] / "SpindleMotor.fmu")
+    motor.slave.setReal([motor.number["control_period"]], [1e-300])
+    motor.start()
+    with pytest.raises(FMICallException):
+        motor.slave.doStep(0.0, 1e-3)
+    motor.slave.freeInstance()
+
+
 def test_nothing_is_said_unless_asked_for(partners, model):
     native = Logged(partners["native"] / FILES[model], logging=False)
     with pytest.raises(FMICallException):

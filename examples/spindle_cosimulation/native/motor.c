@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#define SHORTEST_PERIOD 1e-6 /* s: shorter ones would never come to an end */
 #define SAME_TIME 1e-10 /* s: times closer than this are the same sampling instant */
 
 enum { BEGIN, SAMPLES, INTEGRAL };
@@ -58,7 +59,7 @@ const char *model_step(double *v, double *hidden, double time, double size)
 {
     double now = time, end = time + size;
     if (!(v[ROTOR_INERTIA] > 0.0)) return "rotor_inertia is not positive";
-    if (!(v[CONTROL_PERIOD] > 0.0)) return "control_period is not positive";
+    if (!(v[CONTROL_PERIOD] >= SHORTEST_PERIOD)) return "control_period is below 1 us";
     if (!(v[TORQUE_CONSTANT] > 0.0)) return "torque_constant is not positive";
     while (end - now > SAME_TIME) {
         double due = hidden[BEGIN] + hidden[SAMPLES] * v[CONTROL_PERIOD], until;

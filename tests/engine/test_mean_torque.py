@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fmu_bearing.engine.choices import FIDELITIES
-from fmu_bearing.engine.layout import U
+from fmu_bearing.engine.layout import S, U
 from tests.engine.helpers import RPM, Run, quiet
 
 HEATS = tuple(f"heat.{part}" for part in ("inner_ring", "outer_ring", "oil"))
@@ -76,6 +76,18 @@ def test_a_shaft_that_turns_back_or_stands_has_the_mean_over_time(fine, begin, e
         torques.append(short.value("friction_torque_mean"))
     # steps on one side of the turning point weigh their torque by the speed, which varies in them
     assert long.value("friction_torque_mean") == pytest.approx(np.mean(torques), rel=2e-3, abs=1e-9)
+
+
+@pytest.mark.parametrize("rpm", [7000.0, 7001.0, 7003.3, -7007.7, 123.4])
+@pytest.mark.parametrize("h", [1e-4, 3e-4, 7e-4])
+def test_a_run_up_from_rest_has_the_work_over_the_angle(fine, rpm, h):
+    """Whatever the rounding of the speed at the begin, which is 0."""
+    run = fine(0.0, "rings")
+    run.u[U.SPEED] = rpm * RPM
+    run.step(h)
+    assert run.value("friction_torque_mean") * 0.5 * rpm * RPM * h == pytest.approx(
+        run.s[S.SHAFT_WORK], rel=1e-9
+    )
 
 
 @pytest.mark.parametrize("fidelity", FIDELITIES)

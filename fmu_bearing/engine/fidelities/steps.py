@@ -81,7 +81,9 @@ def end_means(s, h):
         s[S.MEAN_HEAT + i] = (s[S.HEAT + i] - s[S.MEAN_HEAT + i]) / h
     begin = s[S.SPEED] - h * s[S.SPEED_RATE]
     turning = 0.5 * (begin + s[S.SPEED])
-    if begin * s[S.SPEED] >= 0.0 and abs(turning) > STANDSTILL:
+    # the speed at the begin, known but for rounding, must not decide where a run-up starts from rest
+    slowest = min(begin, s[S.SPEED]) if turning > 0.0 else -max(begin, s[S.SPEED])
+    if slowest >= -STANDSTILL and abs(turning) > STANDSTILL:
         s[S.MEAN_TORQUE] = s[S.SHAFT_WORK] / (turning * h)
     else:
         s[S.MEAN_TORQUE] = s[S.TORQUE_TIME] / h

@@ -5,7 +5,6 @@ the same C (ISO 20056-1), no modified life (ISO 16281:2025), and 0.7 of C0 at th
 rings of ceramics there is no standard.
 """
 
-import math
 from typing import NamedTuple
 
 import numpy as np
@@ -25,26 +24,31 @@ class Rating(NamedTuple):
     static_load: float | None  # N: P0, likewise
 
 
+def unrated(scene: Scene) -> str:
+    """Return why no standard rates such a bearing; empty: ISO 281 and ISO 76 do."""
+    if scene.materials.kind not in ("steel", "hybrid"):
+        return "standards rate rings of steel only"
+    own = scene.bearing.inner_conformity, scene.bearing.outer_conformity
+    if any(value > limit for value, limit in zip(own, iso281.GROOVES, strict=True)):
+        return (
+            f"ratings hold up to conformities of {iso281.GROOVES[0]} (inner) and {iso281.GROOVES[1]} (outer)"
+        )
+    return ""
+
+
 def is_rated(scene: Scene) -> bool:
-    """Whether ISO 281 and ISO 76 rate such a bearing: rings of steel, balls of steel or silicon nitride."""
-    return scene.materials.kind in ("steel", "hybrid")
-
-
-def dimensions(scene: Scene) -> tuple[int, float, float, float]:
-    """Return number of balls, ball and pitch diameter (mm) and contact angle (rad), for the formulas."""
-    bearing = scene.bearing
-    angle = math.radians(bearing.contact_angle_deg)
-    return bearing.ball_count, bearing.ball_diameter_mm, bearing.pitch_diameter_mm, angle
+    """Whether ISO 281 and ISO 76 rate such a bearing."""
+    return not unrated(scene)
 
 
 def rating(scene: Scene, axial: float, radial: float, speed_rpm: float) -> Rating | None:
-    """Return C, C0, P and L10 at an axial and a radial load (N); None for rings that are not of steel.
+    """Return C, C0, P and L10 at an axial and a radial load (N); None for what `unrated` tells of.
 
     The life is that of a perfect bearing in clean oil.
     """
     if not is_rated(scene):
         return None
-    size = dimensions(scene)
+    size = scene.bearing.for_ratings
     dynamic, static = iso281.dynamic_rating(*size), iso76.static_rating(*size)
     factor = iso76.static_factor(iso281.relative_ball(*size[1:]))
     relative = factor * axial / static
@@ -65,7 +69,7 @@ def speed_limit(scene: Scene) -> float | None:
 
 def least_preload(scene: Scene, centrifugal: float) -> float:
     """Return the axial force (N) below which balls of this centrifugal force (N) skid, by GMN's catalogue."""
-    return makers.least_preload(scene.bearing.ball_count, dimensions(scene)[3], centrifugal)
+    return makers.least_preload(scene.bearing.ball_count, scene.bearing.for_ratings[3], centrifugal)
 
 
 def preload_classes(scene: Scene) -> tuple[float, float, float]:
@@ -76,13 +80,11 @@ def preload_classes(scene: Scene) -> tuple[float, float, float]:
 def reference_life(scene: Scene, inner: NDArray[np.float64], outer: NDArray[np.float64]) -> float | None:
     """Return L10r (Mrev) for the loads (N) of the balls at both races; None where no standard rates it.
 
-    Grooves closer than 0.52 and 0.53 count as these: the rating C knows no closer ones.
+    Grooves closer than those of the rating count as these.
     """
     if not is_rated(scene):
         return None
-    size = dimensions(scene)
-    bearing = scene.bearing
-    grooves = (max(bearing.inner_conformity, 0.52), max(bearing.outer_conformity, 0.53))
+    size = scene.bearing.for_ratings
     g = iso281.relative_ball(*size[1:])
-    ratings = iso16281.race_ratings(iso281.dynamic_rating(*size), size[0], g, size[3], grooves)
+    ratings = iso16281.race_ratings(iso281.dynamic_rating(*size), size[0], g, size[3], iso281.GROOVES)
     return iso16281.reference_life(ratings, inner, outer)

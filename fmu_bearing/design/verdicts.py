@@ -10,7 +10,7 @@ from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
 from fmu_bearing.design.operating_point import RINGS, OperatingPoint
-from fmu_bearing.design.rating import dimensions, is_rated, preload_classes
+from fmu_bearing.design.rating import is_rated, preload_classes, unrated
 from fmu_bearing.formulas import iso76, iso281, makers
 
 Judgement = Literal["good", "watch", "change", "not judged"]
@@ -127,7 +127,7 @@ def _static_safety(point: OperatingPoint) -> Iterator[Verdict]:
     limit = f"{QUIET:g} quiet running, {LEAST_SAFETY:g} at least"
     label = "static safety"
     if point.rating is None:
-        words = "no standard rates rings of ceramics: ask for the maker's proof load"
+        words = f"{unrated(point.scene)}: ask for the maker's proof load"
         yield Verdict("static_safety", label, None, "-", "none", words, "not judged")
         return
     kind = point.scene.materials.kind
@@ -159,7 +159,7 @@ def _life(point: OperatingPoint) -> Iterator[Verdict]:
     scene = point.scene
     required, rpm = scene.operation.required_life_h, scene.operation.speed_rpm
     if point.rating is None:
-        words = "no standard rates rings of ceramics; what holds is the maker's experience"
+        words = f"{unrated(scene)}; what holds is the maker's experience"
         yield Verdict("life", "rating life", None, "-", "none", words, "not judged")
         return
     if rpm == 0.0:
@@ -179,7 +179,7 @@ def _life(point: OperatingPoint) -> Iterator[Verdict]:
         load = point.rating.equivalent
         if scene.materials.kind == "steel" and load is not None and load > 0.0:
             clean = scene.lubricant.cleanliness or _CLEAN
-            pitch = dimensions(scene)[2]
+            pitch = scene.bearing.pitch_diameter_mm
             factor = iso281.life_modification(point.viscosity_ratio, clean, point.rating.static, load, pitch)
             source = f"ISO 281: a_ISO {factor:.2g}, cleanliness {clean}, kappa {point.viscosity_ratio:.2g}"
             yield _hours("life_modified", "L10mr, h", factor * hours, required, source)

@@ -3,11 +3,10 @@
 import math
 
 from fmu_bearing.formulas.hertz import effective_modulus, point_contact
-from fmu_bearing.formulas.iso281 import relative_ball
+from fmu_bearing.formulas.iso281 import GROOVES, relative_ball
 
 #: Pa: contact pressure at the static rating.
 STATIC_PRESSURE = 4.2e9
-_CONFORMITY = (0.52, 0.53)  # inner, outer
 _STEEL = (207e9, 0.3)  # modulus of elasticity in Pa, Poisson's ratio: as the standard reckons
 _NEAR = 1.0  # deg
 # X0 0.5; Y0 of single rows by contact angle (deg): NSK
@@ -23,7 +22,7 @@ def static_factor(g: float) -> float:
     """
     modulus = effective_modulus(*_STEEL, *_STEEL)
     loads = []
-    for conformity, curvature in zip(_CONFORMITY, (g / (1.0 - g), -g / (1.0 + g)), strict=True):
+    for conformity, curvature in zip(GROOVES, (g / (1.0 - g), -g / (1.0 + g)), strict=True):
         across = 1.0 / (2.0 - 1.0 / conformity)  # ball of diameter 1
         contact = point_contact(0.5 / (1.0 + curvature), across, modulus)
         loads.append(contact.stiffness * (STATIC_PRESSURE / contact.pressure) ** 3)

@@ -1,6 +1,7 @@
 """Makers' rules for spindle bearings: GMN 4000 0813 EN, and NSK's super-precision catalogue.
 
-They are rules for steel cages and spindles; a bearing with other ones has other limits. Units N, mm, r/min.
+GMN's figures were read in a text conversion, where a digit may be wrong. They are rules for steel cages and
+spindles; a bearing with other ones has other limits. Units N, mm, r/min.
 """
 
 import math

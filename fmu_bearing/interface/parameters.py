@@ -1,6 +1,5 @@
 """Parameters, which are set before initialisation, and constants, which are fixed when the model is built."""
 
-import math
 from collections.abc import Iterable
 from typing import Any, get_args
 
@@ -90,8 +89,6 @@ def constants(scene: Scene, rotor_inertia: float) -> list[Variable]:
 def _ratings(scene: Scene) -> list[Variable]:
     """Return ratings and limits that need no run; rings of ceramics have no rating."""
     bearing, kind = scene.bearing, scene.materials.kind
-    angle = math.radians(bearing.contact_angle_deg)
-    size = (bearing.ball_count, bearing.ball_diameter_mm, bearing.pitch_diameter_mm, angle)
     table = []
     limit = makers.speed_limit(bearing.contact_angle_deg, kind in ("hybrid", "full ceramic"))
     if limit is not None:
@@ -100,11 +97,11 @@ def _ratings(scene: Scene) -> list[Variable]:
         table.append(_constant("rating.speed_limit", words, speed, "rad/s", display_unit="r/min"))
     if kind not in ("steel", "hybrid"):
         return table
-    dynamic = iso281.dynamic_rating(*size)
+    dynamic = iso281.dynamic_rating(*bearing.for_ratings)
     words = "Dynamic load rating C (ISO 281)"
     table.append(_constant("rating.dynamic", words, dynamic, "N", nominal=1e4))
     factor, words = (iso76.HYBRID, ", 0.7 of it for ceramic balls (GMN)") if kind == "hybrid" else (1.0, "")
-    static = factor * iso76.static_rating(*size)
+    static = factor * iso76.static_rating(*bearing.for_ratings)
     table.append(
         _constant("rating.static", f"Static load rating C0 (ISO 76{words})", static, "N", nominal=1e4)
     )

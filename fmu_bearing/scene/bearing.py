@@ -105,6 +105,12 @@ class Bearing(Part):
         default=None, description="Springs between the balls instead of a cage; absent: none."
     )
 
+    @property
+    def for_ratings(self) -> tuple[int, float, float, float]:
+        """Number of balls, ball and pitch diameter (mm) and contact angle (rad), as ratings take them."""
+        angle = math.radians(self.contact_angle_deg)
+        return self.ball_count, self.ball_diameter_mm, self.pitch_diameter_mm, angle
+
     def conflicts(self) -> Iterator[Conflict]:
         """Yield dimensions that contradict each other."""
         yield from below(self, "bore_mm", "inner_ring_outer_diameter_mm")

@@ -1,6 +1,5 @@
 """The preload of a scene in newtons, where its file gives a class or an offset of the ring faces."""
 
-import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -103,9 +102,7 @@ def _of_class(wanted: Any, bearing: Bearing, name: Any) -> Preload:
             f"{angle:g}: give {FORCE}"
         )
     share = dict(zip(CLASS_NAMES, preload_classes(angle), strict=True))[wanted]
-    rating = dynamic_rating(
-        bearing.ball_count, bearing.ball_diameter_mm, bearing.pitch_diameter_mm, math.radians(angle)
-    )
+    rating = dynamic_rating(*bearing.for_ratings)
     force = float(f"{share * rating:.3g}")
     return Preload(force, f"{wanted} class of GMN: {share:.3g} of C = {rating:.0f} N, {force:g} N")
 

@@ -15,17 +15,13 @@ from fmu_bearing import renamed
 from fmu_bearing.accuracy.alternatives import Alternative, alternatives
 from fmu_bearing.accuracy.changed import Change, Changes, Heard, Point
 from fmu_bearing.accuracy.hearing import Hearing, hearing
-from fmu_bearing.design.rating import is_rated, reference_life
+from fmu_bearing.design.operating_point import operating_point
+from fmu_bearing.design.rating import unrated
 from fmu_bearing.formulas import iso281
-from fmu_bearing.instance import Instance
-from fmu_bearing.prepare.model import prepare
 from fmu_bearing.progress import Tell, silent
-from fmu_bearing.run.balls import Reader
-from fmu_bearing.run.stiffness import stiffness
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 
 SEEDS = 5
-_CONFORMITIES = (0.52, 0.53)  # beyond which C falls below its formula (ISO 281)
 
 
 @renamed.arguments
@@ -86,7 +82,7 @@ def changes(
         ear.level, ear.microphone, ear.fidelity, ear.listener.radiation_model, ear.listener.settle,
         ear.listener.duration, ear.seeds,
     )  # fmt: skip
-    found = Changes(scene, before, heard, (), reason, unrated(scene))
+    found = Changes(scene, before, heard, (), reason, _no_life(scene))
     if not found.figures:
         raise ValueError(f"{scene.name} has nothing to compare. {found.conditions()}")
     rows = []
@@ -104,29 +100,18 @@ def point(scene: Scene) -> Point:
     EngineError
         Where there is no equilibrium.
     """
-    scene = scene.model_copy(update={"sound": None, "imperfections": None}).with_rigid_rings()
     cautions: list[str] = []
-    bearing = Instance(prepare(scene, fidelity="response"), tell=cautions.append)
-    bearing.initialise()
-    k = stiffness(bearing.p, bearing.s)
-    radial = 1e-6 * 0.5 * float(k[1, 1] + k[2, 2])
-    torque = 1e3 * bearing.get("friction_torque") * math.copysign(1.0, scene.operation.speed_rpm)
-    if unrated(scene):
-        return Point(torque, math.nan, radial, tuple(cautions))
-    balls = Reader(bearing).read(bearing)
-    turns = reference_life(scene, balls[:, 1], balls[:, 3])
-    life = math.nan if turns is None else iso281.hours(turns, scene.operation.speed_rpm)
+    found = operating_point(scene, cautions.append)
+    rpm, turns = scene.operation.speed_rpm, found.reference_life
+    radial = 1e-6 * 0.5 * float(found.stiffness[1, 1] + found.stiffness[2, 2])
+    torque = 1e3 * found.friction_torque * math.copysign(1.0, rpm)
+    life = math.nan if turns is None or rpm == 0.0 else iso281.hours(turns, rpm)
     return Point(torque, life, radial, tuple(cautions))
 
 
-def unrated(scene: Scene) -> str:
+def _no_life(scene: Scene) -> str:
     """Return why a scene has no life; empty: it has one."""
-    if not is_rated(scene):
-        return "standards rate rings of steel only"
-    own = scene.bearing.inner_conformity, scene.bearing.outer_conformity
-    if any(value > limit for value, limit in zip(own, _CONFORMITIES, strict=True)):
-        return "ratings hold up to conformities of 0.52 (inner) and 0.53 (outer)"
-    return "the shaft stands still" if scene.operation.speed_rpm == 0.0 else ""
+    return unrated(scene) or ("the shaft stands still" if scene.operation.speed_rpm == 0.0 else "")
 
 
 def _changed(scene: Scene, choice: Alternative, before: Point, ear: Hearing | None) -> Change:

@@ -97,10 +97,13 @@ def _limit(one: "Verdict") -> str:
 
 def _ratings(point: "OperatingPoint") -> list[list[str]]:
     """Rows of the table of what is neither good nor bad by itself."""
+    from fmu_bearing.design.rating import unrated
+
     rows = [["viscosity of the oil, mm2/s", f"{point.viscosity:.1f}", "at its temperature"]]
+    rows.append(["friction torque, N mm", f"{1e3 * point.friction_torque:.2f}", "settled, without waviness"])
     found = point.rating
     if found is None:
-        return [*rows, ["C, C0, life", "none", "ISO 281 rates rings of steel only"]]
+        return [*rows, ["C, C0, life", "none", unrated(point.scene)]]
     rows.append(["C, N", f"{found.dynamic:.0f}", "ISO 281"])
     ceramic = point.scene.materials.kind == "hybrid"
     words = "ISO 76; ceramic balls 0.7 of it (GMN)" if ceramic else "ISO 76"

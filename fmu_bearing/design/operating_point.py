@@ -19,6 +19,7 @@ from fmu_bearing.formulas.iso281 import viscosity_ratio
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.bodies import ball
 from fmu_bearing.prepare.model import prepare
+from fmu_bearing.progress import Tell, silent
 from fmu_bearing.run.balls import Reader
 from fmu_bearing.run.stiffness import stiffness
 from fmu_bearing.scene import Scene, SceneSource, scene_of, si
@@ -56,11 +57,13 @@ class OperatingPoint:
     least_preload : float
         N: below it balls skid, see `design.rating.least_preload`.
     rating : Rating, optional
-        None for rings that are not of steel.
+        None for what no standard rates.
     ball_loads : dict
         By ``inner`` and ``outer``: N, shape (balls,).
     reference_life : float, optional
-        Mrev: L10r by ISO 16281 from these loads; None for rings that are not of steel.
+        Mrev: L10r by ISO 16281 from these loads; None for what no standard rates.
+    friction_torque : float
+        N m: of the settled bearing, positive where it brakes positive rotation.
     gyroscopic_friction : float
         Coefficient of friction that keeps a ball from turning about its gyroscopic axis, mean of the balls.
     displacement : float
@@ -81,6 +84,7 @@ class OperatingPoint:
     displacement: float
     ball_loads: dict[str, NDArray[np.float64]]
     reference_life: float | None
+    friction_torque: float
     gyroscopic_friction: float
 
     def summary(self) -> dict[str, Any]:
@@ -102,13 +106,16 @@ class OperatingPoint:
             "least_preload_N": self.least_preload,
             "rating": None if self.rating is None else self.rating._asdict(),
             "reference_life_Mrev": self.reference_life,
+            "friction_torque_N_m": self.friction_torque,
             "gyroscopic_friction": self.gyroscopic_friction,
             "ball_loads_N": {ring: loads.tolist() for ring, loads in self.ball_loads.items()},
         }
 
 
-def operating_point(scene: SceneSource) -> OperatingPoint:
+def operating_point(scene: SceneSource, tell: Tell = silent) -> OperatingPoint:
     """Return the figures of a scene, or that of a file, at its operating point, without a run.
+
+    ``tell`` takes the warnings of the bearing.
 
     Raises
     ------
@@ -125,8 +132,10 @@ def operating_point(scene: SceneSource) -> OperatingPoint:
     '1.89 GPa, kappa 1.79'
     """
     scene = scene_of(scene).model_copy(update={"sound": None, "imperfections": None}).with_rigid_rings()
-    bearing = Instance(prepare(scene, fidelity="full"), tell=lambda text: None)
+    bearing = Instance(prepare(scene, fidelity="full"), tell=tell)
     bearing.initialise()
+    settled = Instance(prepare(scene, fidelity="response"), tell=silent)
+    settled.initialise()
     contacts = {ring: {key: bearing.get(f"contact.{ring}.{key}") for key in _CONTACTS} for ring in RINGS}
     b, operation = si(scene.bearing), scene.operation
     speed = operation.speed_rpm * RPM
@@ -145,7 +154,8 @@ def operating_point(scene: SceneSource) -> OperatingPoint:
         abs(operation.speed_rpm) * scene.bearing.pitch_diameter_mm, speed_limit(scene),
         least_preload(scene, centrifugal), rating(scene, mounting.preload_N, radial, operation.speed_rpm),
         bearing.get("inner_ring.displacement.x") - bearing.get("outer_ring.displacement.x"),
-        loads, reference_life(scene, loads["inner"], loads["outer"]), _gyroscopic_friction(bearing, loads),
+        loads, reference_life(scene, loads["inner"], loads["outer"]),
+        settled.get("friction_torque"), _gyroscopic_friction(bearing, loads),
     )  # fmt: skip
 
 

@@ -1,0 +1,195 @@
+"""Fidelity `full` linearised about its quasi-static state: constant first-order equations in fixed axes.
+
+The balls stand at fixed angles of axes that orbit with them, the rings in fixed axes, so the plain derivatives
+turn with the orbit. Taken together as patterns round the bearing (1, cos k theta, sin k theta, with theta the
+angle in fixed axes: Coleman and Feingold 1958, as for rotor blades), the balls' coordinates stand in fixed
+axes, too. Equal ball loads then give constant coefficients, also on a pedestal of two stiffnesses. Under a
+radial load, weight or misalignment they repeat with each ball that passes: their mean over one pitch serves,
+and the matrices at single phases tell how much is lost.
+
+The state is the quasi-static one, not an instant of a run. The cage and its films are left out: it touches
+balls and lands with clearance, and a linear cage would either not be there or never let go. Imperfections and
+sound are left out, too. Weights count as loads where the scene has them.
+"""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import block_diag
+
+from fmu_bearing.compiled import call
+from fmu_bearing.engine.constants import GRAVITY
+from fmu_bearing.engine.layout import FL, STRIDE, C, F, P, Q, S, U, W, Y
+from fmu_bearing.modal.coordinates import Coordinates
+from fmu_bearing.run.arrays import Arrays
+from fmu_bearing.scene import Scene
+
+PHASES = 6  # of one ball pitch
+# Steps of the central differences: contacts approach by 1 um and more, so a nanometre errs by 1e-7 of the
+# slope; traction bends over 1e-3 m/s. Forces round to 1e-14 N.
+_MOVE = 1e-9  # m
+_RATE = 1e-6  # m/s
+
+
+@dataclass(frozen=True)
+class Linearised:
+    """Small motions x of a bearing: x' = A x, in fixed axes.
+
+    Attributes
+    ----------
+    coordinates : Coordinates
+        What the numbers of x are.
+    matrix : ndarray
+        A (SI units), mean over the phases, shape (n, n).
+    phases : ndarray
+        A at single phases of one ball pitch, shape (phases, n, n): one where the balls' loads are equal.
+    orbit, spin : float
+        rad/s: mean speed of the balls' orbit; mean speed of a ball about its axis in orbiting axes.
+    speed : float
+        rad/s, of the shaft.
+    arrays : Arrays
+        Parameters, conditions and state at the first phase.
+    """
+
+    coordinates: Coordinates
+    matrix: NDArray[np.float64]
+    phases: NDArray[np.float64]
+    orbit: float
+    spin: float
+    speed: float
+    arrays: Arrays
+
+    @cached_property
+    def equal_loads(self) -> bool:
+        """Whether one phase tells all: the balls carry equal loads."""
+        return len(self.phases) == 1
+
+
+def linearised(scene: Scene, inputs: dict[int, float] | None = None) -> Linearised:
+    """Linearise a scene's bearing at its operating point.
+
+    Parameters
+    ----------
+    scene : Scene
+        Its cage, imperfections and sound are left out.
+    inputs : dict, optional
+        Values by their places in ``layout.U`` in place of the scene's.
+
+    Raises
+    ------
+    EngineError
+        Where there is no quasi-static equilibrium.
+    """
+    bare = scene.model_copy(update={"sound": None, "imperfections": None})
+    first = _bearing(bare, inputs, 0.0)
+    even = _even(first)
+    count = 1 if even else PHASES
+    pitch = 2.0 * math.pi / first.p[P.BALLS]
+    bearings = [first] + [_bearing(bare, inputs, pitch * k / count) for k in range(1, count)]
+    coordinates = Coordinates.of(first.p)
+    orbit = float(np.mean([_mean(one, Y.OM) for one in bearings]))
+    matrices = np.array(
+        [_fixed(one, coordinates, pitch * k / count, orbit) for k, one in enumerate(bearings)]
+    )
+    # about its own axis, against the axes that orbit with the ball
+    spin = math.hypot(_mean(first, Y.WX) - orbit, _mean(first, Y.WR))
+    speed = float(first.u[U.SPEED])
+    return Linearised(coordinates, matrices.mean(axis=0), matrices, orbit, spin, speed, first)
+
+
+def _bearing(scene: Scene, inputs: dict[int, float] | None, phase: float) -> Arrays:
+    """Return the bearing at its quasi-static state with the balls turned on by ``phase`` (rad).
+
+    Its axes turn with the balls: the first one stays at 12 o'clock, loads and seats turn back.
+    """
+    numbers = Arrays.of(scene, CAGE=0.0).p
+    turned = {"CAGE": 0.0, "GRAVITY": 0.0} | _turned_seat(numbers, phase)
+    bearing = Arrays.of(scene, **turned)
+    for place, value in (inputs or {}).items():
+        bearing.u[place] = value
+    weight = GRAVITY * numbers[P.INNER_MASS] if numbers[P.GRAVITY] else 0.0
+    load = _turn_back(bearing.u[U.LOAD_Y], bearing.u[U.LOAD_Z] - weight, phase)
+    bearing.u[U.LOAD_Y], bearing.u[U.LOAD_Z] = load
+    bearing.init()
+    return bearing
+
+
+def _turn_back(y: float, z: float, phase: float) -> tuple[float, float]:
+    c, s = math.cos(phase), math.sin(phase)
+    return c * y + s * z, c * z - s * y
+
+
+def _turned_seat(p: NDArray[np.float64], phase: float) -> dict[str, float]:
+    """Return the parameters of the seat of the outer ring in axes turned by ``phase`` (rad)."""
+    found = dict(
+        zip(
+            ("MISALIGNMENT_Y", "MISALIGNMENT_Z"),
+            _turn_back(p[P.MISALIGNMENT_Y], p[P.MISALIGNMENT_Z], phase),
+            strict=True,
+        )
+    )
+    c, s = math.cos(phase), math.sin(phase)
+    turn = np.array([[c, s], [-s, c]])
+    for name in ("PEDESTAL", "PEDESTAL_DAMPING"):
+        y, z, between = (p[getattr(P, f"{name}_{axes}")] for axes in ("Y", "Z", "YZ"))
+        tensor = turn @ np.array([[y, between], [between, z]]) @ turn.T
+        found[f"{name}_Y"], found[f"{name}_Z"] = float(tensor[0, 0]), float(tensor[1, 1])
+        found[f"{name}_YZ"] = float(tensor[0, 1])
+    return found
+
+
+def _even(bearing: Arrays) -> bool:
+    """Whether nothing tells one ball from another."""
+    u, p = bearing.u, bearing.p
+    return not (u[U.LOAD_Y] or u[U.LOAD_Z] or p[P.MISALIGNMENT_Y] or p[P.MISALIGNMENT_Z])
+
+
+def _mean(bearing: Arrays, row: int) -> float:
+    first = S.Y + row
+    return float(np.mean(bearing.s[first : first + int(bearing.p[P.BALLS])]))
+
+
+def _fixed(bearing: Arrays, at: Coordinates, phase: float, orbit: float) -> NDArray[np.float64]:
+    """Return A in fixed axes, from the derivatives in axes that are turned by ``phase`` against them."""
+    plain = _derivatives(bearing, at)
+    angles = 2.0 * math.pi * np.arange(at.balls) / at.balls + phase
+    patterns, rates = at.patterns(angles)
+    back = np.linalg.inv(patterns)
+    turning = block_diag(*[back @ rates * orbit] * at.BALL_STATES)
+    rings = at.turned(phase)
+    balls = block_diag(*[patterns] * at.BALL_STATES)
+    into = block_diag(balls, rings)
+    found = np.linalg.solve(into, plain @ into)
+    found[: at.rings, : at.rings] -= turning
+    return np.asarray(found)
+
+
+def _derivatives(bearing: Arrays, at: Coordinates) -> NDArray[np.float64]:
+    """Return the derivatives of x' by x at the bearing's state, balls one by one, by central differences."""
+    p, c = bearing.p, bearing.s[S.C : S.C + C.SIZE].copy()
+    y = bearing.s[S.Y : S.Y + Y.SIZE].copy()
+    w, f = np.zeros(bearing.w.size), np.zeros(F.SIZE)
+    w[W.AXES : W.AXES + 3 * STRIDE] = bearing.w[W.AXES : W.AXES + 3 * STRIDE]
+    bends = bearing.s[S.SOUND + int(p[P.SOUND_STATE]) :][: 2 * at.flexural]
+    w[W.FLEX + FL.Q : W.FLEX + FL.Q + bends.size] = bends
+    speed = float(bearing.u[U.SPEED])
+    found = np.empty((at.size, at.size))
+
+    def rates() -> NDArray[np.float64]:
+        call("right_hand_side", p, c, y, w, f, 0.0, speed, 0.0)
+        return at.rates(y, f, w)
+
+    pitch, ball = p[P.PITCH_RADIUS], 0.5 * p[P.DIAMETER]
+    for k, (array, place, size) in enumerate(at.places(y, w, pitch, ball)):
+        step = (_MOVE if at.is_place[k] else _RATE) / size
+        kept = array[place]
+        array[place] = kept + step
+        ahead = rates()
+        array[place] = kept - step
+        # what the step was after rounding
+        found[:, k] = (ahead - rates()) / (2.0 * step)
+        array[place] = kept
+    return found

@@ -20,6 +20,7 @@ Data flow in one direction::
 ``instance``        one running bearing, for the library and for the FMU
 ``fmi``             FMI 2.0: XML, native library, slave, the ``.fmu`` file
 ``run``             a scene or an FMU run over inputs; results; fidelity ``auto``
+``modal``           small motions: natural modes, Campbell diagram, stiffness and damping
 ``design``          what a designer asks: ratings, operating point, verdicts
 ``recording``       runs that keep the sound channels; measurements, pictures, tables, WAV files
 ``accuracy``        error against cost, sensitivity to assumed values and to a designer's choices
@@ -49,6 +50,8 @@ if TYPE_CHECKING:
     from fmu_bearing.design.operating_point import operating_point
     from fmu_bearing.design.verdicts import verdicts
     from fmu_bearing.identification import identify
+    from fmu_bearing.modal.campbell import Campbell, campbell
+    from fmu_bearing.modal.modes import Modes, modes
     from fmu_bearing.recording import audio, measure, pictures, tables
     from fmu_bearing.recording.compare import compare
     from fmu_bearing.recording.record import Recording, record
@@ -67,16 +70,20 @@ __version__ = "0.1.0"
 #: Public names and where they live; each is imported when first asked for.
 _PLACES = {
     "Bearing": "run.bearing",
+    "Campbell": "modal.campbell",
+    "Modes": "modal.modes",
     "Recording": "recording.recording",
     "Run": "run.result",
     "Scene": "scene",
     "SceneError": "scene",
     "audio": "recording",
     "build_fmu": "run.build",
+    "campbell": "modal.campbell",
     "changes": "accuracy.changes",
     "compare": "recording.compare",
     "identify": "identification",
     "measure": "recording",
+    "modes": "modal.modes",
     "operating_point": "design.operating_point",
     "pictures": "recording",
     "read_scene": "scene",
@@ -92,16 +99,20 @@ _PLACES = {
 
 __all__ = [
     "Bearing",
+    "Campbell",
+    "Modes",
     "Recording",
     "Run",
     "Scene",
     "SceneError",
     "audio",
     "build_fmu",
+    "campbell",
     "changes",
     "compare",
     "identify",
     "measure",
+    "modes",
     "operating_point",
     "pictures",
     "read_scene",

@@ -106,6 +106,16 @@ def number(name: str, value: object) -> float:
         raise ValueError(f"{name} = {text} is refused: give a number, SI units") from None
 
 
+def check(variable: Variable, value: float) -> None:
+    """Raise ``ValueError`` unless ``value`` may be set."""
+    low = -math.inf if variable.min is None else variable.min
+    high = math.inf if variable.max is None else variable.max
+    slack = _RELATIVE_SLACK * max(abs(low) if low > -math.inf else 0.0, abs(high) if high < math.inf else 0.0)
+    if not math.isfinite(value) or not low - slack <= value <= high + slack:
+        unit = f" {variable.unit}" if variable.unit else ""
+        raise ValueError(f"{variable.name} = {value} is refused: allowed are {low:g} to {high:g}{unit}")
+
+
 def loose(fidelity: str) -> str:
     """Return the warning about a bearing without preload at a fidelity."""
     words = _LOOSE + _ROLLS[fidelity]
@@ -178,28 +188,17 @@ class Instance:
             now = f"; it is now '{renamed.VARIABLES[name]}'" if name in renamed.VARIABLES else ""
             raise KeyError(f"this bearing has no variable '{name}'{now}") from None
 
-    def check(self, variable: Variable, value: float) -> None:
-        """Raise ``ValueError`` unless ``value`` may be set."""
-        low = -math.inf if variable.min is None else variable.min
-        high = math.inf if variable.max is None else variable.max
-        slack = _RELATIVE_SLACK * max(
-            abs(low) if low > -math.inf else 0.0, abs(high) if high < math.inf else 0.0
-        )
-        if not math.isfinite(value) or not low - slack <= value <= high + slack:
-            unit = f" {variable.unit}" if variable.unit else ""
-            raise ValueError(f"{variable.name} = {value} is refused: allowed are {low:g} to {high:g}{unit}")
-
     def set(self, name: str, value: float) -> None:
         """Set an input, or a parameter before initialisation; ``ValueError`` if refused."""
         variable = self.variable(name)
         value = number(name, value)
         if variable.array == "u":
-            self.check(variable, value)
+            check(variable, value)
             self.u[variable.index] = value
         elif variable.array == "p" and variable.causality == "parameter":
             if self.initialised:
                 raise ValueError(f"{name} is fixed once the bearing is initialised; call reset() first")
-            self.check(variable, value)
+            check(variable, value)
             self.p[variable.index] = value
         else:
             raise ValueError(f"{name} cannot be set: its causality is {variable.causality}")

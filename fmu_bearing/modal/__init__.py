@@ -1,0 +1,12 @@
+"""Small motions of a mounted bearing: natural modes, Campbell diagram, stiffness and damping.
+
+===============  =======================================================================
+``conditions``   operating points: inputs of the model by name
+``coordinates``  what the numbers of a linearised bearing are
+``linearised``   fidelity `full` about its quasi-static state, in fixed axes
+``shapes``       what moves in a mode: energies, order round the bearing, direction
+``modes``        natural frequencies and damping, with names
+``lines``        excitation lines and the waves that each can move
+``campbell``     modes over speed, followed by shape; crossings with lines
+===============  =======================================================================
+"""

@@ -14,7 +14,12 @@ from fmu_bearing.engine.newton.body_slopes import inertia
 _PLACES = (Y.X, Y.R, Y.TH)
 _RATES = (Y.VX, Y.VR, Y.OM, Y.WX, Y.WR, Y.WT)
 _ACCELERATIONS = (F.X, F.R, F.TH, F.WX, F.WR, F.WT)
-_PAIRS = ((Q.Y, Q.Z), (Q.INNER_BY, Q.INNER_BZ), (Q.OUTER + Q.Y, Q.OUTER + Q.Z), (Q.OUTER + Q.BY, Q.OUTER + Q.BZ))
+_PAIRS = (
+    (Q.Y, Q.Z),
+    (Q.INNER_BY, Q.INNER_BZ),
+    (Q.OUTER + Q.Y, Q.OUTER + Q.Z),
+    (Q.OUTER + Q.BY, Q.OUTER + Q.BZ),
+)
 
 
 @dataclass(frozen=True)
@@ -118,13 +123,14 @@ class Coordinates:
 
         The alternating pattern goes with the balls.
         """
-        columns, rates = [np.ones(self.balls)], [np.zeros(self.balls)]
+        columns: list[NDArray[np.float64]] = [np.ones(self.balls)]
+        rates: list[NDArray[np.float64]] = [np.zeros(self.balls)]
         for k in range(1, (self.balls - 1) // 2 + 1):
             c, s = np.cos(k * angles), np.sin(k * angles)
             columns += [c, s]
             rates += [-k * s, k * c]
         if self.balls % 2 == 0:
-            columns.append((-1.0) ** np.arange(self.balls))
+            columns.append(np.where(np.arange(self.balls) % 2, -1.0, 1.0))
             rates.append(np.zeros(self.balls))
         return np.array(columns).T, np.array(rates).T
 

@@ -1,11 +1,11 @@
 """Fidelity `full` linearised about its quasi-static state: constant first-order equations in fixed axes.
 
-The balls stand at fixed angles of axes that orbit with them, the rings in fixed axes, so the plain derivatives
-turn with the orbit. Taken together as patterns round the bearing (1, cos k theta, sin k theta, with theta the
-angle in fixed axes: Coleman and Feingold 1958, as for rotor blades), the balls' coordinates stand in fixed
-axes, too. Equal ball loads then give constant coefficients, also on a pedestal of two stiffnesses. Under a
-radial load, weight or misalignment they repeat with each ball that passes: their mean over one pitch serves,
-and the matrices at single phases tell how much is lost.
+The balls' coordinates stand in axes that orbit with them, those of the rings in fixed axes, so the plain
+derivatives change as the balls orbit. As patterns round the bearing (1, cos k theta, sin k theta, with theta
+the angle in fixed axes: Coleman and Feingold 1958, for rotor blades) the balls stand in fixed axes, too.
+Equal ball loads then give constant coefficients, also on a pedestal of two stiffnesses. Under a radial load,
+weight or misalignment they repeat with each ball that passes: their mean over one pitch serves, and the
+matrices at single phases tell how much is lost.
 
 The state is the quasi-static one, not an instant of a run. The cage and its films are left out: it touches
 balls and lands with clearance, and a linear cage would either not be there or never let go. Imperfections and
@@ -15,6 +15,7 @@ sound are left out, too. Weights count as loads where the scene has them.
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,9 +23,10 @@ from scipy.linalg import block_diag
 
 from fmu_bearing.compiled import call
 from fmu_bearing.engine.constants import GRAVITY
-from fmu_bearing.engine.layout import FL, STRIDE, C, F, P, Q, S, U, W, Y
+from fmu_bearing.engine.layout import FL, STRIDE, C, F, P, S, U, W, Y
+from fmu_bearing.instance import EngineError
 from fmu_bearing.modal.coordinates import Coordinates
-from fmu_bearing.run.arrays import Arrays
+from fmu_bearing.run.arrays import Arrays, Refused
 from fmu_bearing.scene import Scene
 
 PHASES = 6  # of one ball pitch
@@ -68,7 +70,7 @@ class Linearised:
         return len(self.phases) == 1
 
 
-def linearised(scene: Scene, inputs: dict[int, float] | None = None) -> Linearised:
+def linearised(scene: Scene, inputs: dict[int, float] | None = None, friction: bool = True) -> Linearised:
     """Linearise a scene's bearing at its operating point.
 
     Parameters
@@ -77,6 +79,8 @@ def linearised(scene: Scene, inputs: dict[int, float] | None = None) -> Linearis
         Its cage, imperfections and sound are left out.
     inputs : dict, optional
         Values by their places in ``layout.U`` in place of the scene's.
+    friction : bool, optional
+        False: contacts without traction.
 
     Raises
     ------
@@ -84,11 +88,11 @@ def linearised(scene: Scene, inputs: dict[int, float] | None = None) -> Linearis
         Where there is no quasi-static equilibrium.
     """
     bare = scene.model_copy(update={"sound": None, "imperfections": None})
-    first = _bearing(bare, inputs, 0.0)
+    first = _bearing(bare, inputs, 0.0, friction)
     even = _even(first)
     count = 1 if even else PHASES
     pitch = 2.0 * math.pi / first.p[P.BALLS]
-    bearings = [first] + [_bearing(bare, inputs, pitch * k / count) for k in range(1, count)]
+    bearings = [first] + [_bearing(bare, inputs, pitch * k / count, friction) for k in range(1, count)]
     coordinates = Coordinates.of(first.p)
     orbit = float(np.mean([_mean(one, Y.OM) for one in bearings]))
     matrices = np.array(
@@ -100,20 +104,25 @@ def linearised(scene: Scene, inputs: dict[int, float] | None = None) -> Linearis
     return Linearised(coordinates, matrices.mean(axis=0), matrices, orbit, spin, speed, first)
 
 
-def _bearing(scene: Scene, inputs: dict[int, float] | None, phase: float) -> Arrays:
+def _bearing(scene: Scene, inputs: dict[int, float] | None, phase: float, friction: bool) -> Arrays:
     """Return the bearing at its quasi-static state with the balls turned on by ``phase`` (rad).
 
     Its axes turn with the balls: the first one stays at 12 o'clock, loads and seats turn back.
     """
     numbers = Arrays.of(scene, CAGE=0.0).p
-    turned = {"CAGE": 0.0, "GRAVITY": 0.0} | _turned_seat(numbers, phase)
+    turned: dict[str, Any] = {"CAGE": 0.0, "GRAVITY": 0.0} | _turned_seat(numbers, phase)
+    if not friction:
+        turned |= {"MU": 0.0}
     bearing = Arrays.of(scene, **turned)
     for place, value in (inputs or {}).items():
         bearing.u[place] = value
     weight = GRAVITY * numbers[P.INNER_MASS] if numbers[P.GRAVITY] else 0.0
     load = _turn_back(bearing.u[U.LOAD_Y], bearing.u[U.LOAD_Z] - weight, phase)
     bearing.u[U.LOAD_Y], bearing.u[U.LOAD_Z] = load
-    bearing.init()
+    try:
+        bearing.init()
+    except Refused as refusal:
+        raise EngineError(f"{scene.name}: {refusal}") from None
     return bearing
 
 

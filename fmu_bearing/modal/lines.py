@@ -1,0 +1,145 @@
+"""Excitation lines of a bearing: frequency over speed, and the waves round the bearing that each can move.
+
+Waves of a race pass N balls at once. What they put on a ring is a wave of the order n only where their own
+order is a multiple m N of the number of balls, n more or n less; it turns with or against the shaft
+accordingly (Wensing 1998; Yhland 1992). The rule is exact for equal balls at equal angles.
+"""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.modal.shapes import BACKWARD, FORWARD, NEITHER
+from fmu_bearing.prepare.imperfections import ball_oversizes, ball_waves, race_harmonics
+from fmu_bearing.scene import Scene, si
+
+_SIGNS = {FORWARD: "+", BACKWARD: "-"}
+
+
+class Rates(NamedTuple):
+    """Frequencies (Hz) at each speed: shaft, cage, ball about itself, balls past inner and outer race."""
+
+    f_r: NDArray[np.float64]
+    f_c: NDArray[np.float64]
+    f_b: NDArray[np.float64]
+    f_i: NDArray[np.float64]
+    f_o: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Line:
+    """An excitation of the rings.
+
+    Attributes
+    ----------
+    name : str
+        Its frequency by the kinematic ones: ``f_i + f_r``.
+    source : str
+        What makes it: ``unbalance``, ``ball sizes``, ``inner race``, ``outer race``, ``ball form``.
+    surface_order : int
+        Waves per turn of the surface; 0 where there is none.
+    order, direction
+        Of the wave on the rings that it can move.
+    frequency : ndarray
+        Hz, at each speed.
+    amplitude : float
+        m, on the surface of the scene, behind the contact filter; 0: the scene does not contain it.
+    """
+
+    name: str
+    source: str
+    surface_order: int
+    order: int
+    direction: str
+    frequency: NDArray[np.float64]
+    amplitude: float
+
+    @property
+    def present(self) -> bool:
+        """Whether the scene contains it."""
+        return self.amplitude > 0.0
+
+
+def rates(
+    speed: NDArray[np.float64], orbit: NDArray[np.float64], spin: NDArray[np.float64], balls: int
+) -> Rates:
+    """Return the frequencies at speeds of the shaft, the orbit and a ball in orbiting axes (rad/s)."""
+    shaft, cage, ball = (np.abs(value) / (2.0 * math.pi) for value in (speed, orbit, spin))
+    return Rates(shaft, cage, ball, balls * (shaft - cage), balls * cage)
+
+
+def lines(scene: Scene, at: Rates, orders: set[int], highest: float) -> list[Line]:
+    """Return all lines that can move waves of the ``orders`` below ``highest`` (Hz) at some speed."""
+    found = [*_shaft_and_sizes(scene, at, orders), *_races(scene, at, orders, highest)]
+    found += _ball_form(scene, at, orders, highest)
+    return [line for line in found if float(line.frequency.min()) <= highest]
+
+
+def _shaft_and_sizes(scene: Scene, at: Rates, orders: set[int]) -> Iterator[Line]:
+    flaws = scene.imperfections
+    unbalance = 0.0 if flaws is None else si(flaws).unbalance
+    if 1 in orders:
+        yield Line("f_r", "unbalance", 0, 1, FORWARD, at.f_r, unbalance)
+    sizes = ball_oversizes(scene)
+    count = sizes.size
+    spectrum = np.abs(np.fft.rfft(0.5 * sizes)) / count
+    for n in sorted(orders - {0}):
+        if n <= count // 2:
+            amplitude = float(spectrum[n]) * (1.0 if 2 * n == count else 2.0)
+            yield Line(_times(n, "f_c"), "ball sizes", 0, n, FORWARD, n * at.f_c, amplitude)
+
+
+def _races(scene: Scene, at: Rates, orders: set[int], highest: float) -> Iterator[Line]:
+    balls = scene.bearing.ball_count
+    inner, outer = (
+        dict(zip(race.orders.tolist(), race.amplitudes.tolist(), strict=True))
+        for race in race_harmonics(scene)
+    )
+    for m in range(1, _most(at.f_i, highest) + 1):
+        for n in sorted(orders):
+            for direction, sign in ((FORWARD, 1), (BACKWARD, -1)) if n else ((NEITHER, 0),):
+                order = m * balls + sign * n
+                frequency = m * at.f_i + sign * n * at.f_r
+                name = _times(m, "f_i") + (f" {_SIGNS[direction]} {_times(n, 'f_r')}" if n else "")
+                # below zero it turns the other way; orders of a bearing stay above
+                if order > 0 and frequency.min() > 0.0:
+                    yield Line(name, "inner race", order, n, direction, frequency, inner.get(order, 0.0))
+    for m in range(1, _most(at.f_o, highest) + 1):
+        for n in sorted(orders):
+            for direction, sign in ((FORWARD, -1), (BACKWARD, 1)) if n else ((NEITHER, 0),):
+                order = m * balls + sign * n
+                if order > 0:
+                    amplitude = outer.get(order, 0.0)
+                    yield Line(_times(m, "f_o"), "outer race", order, n, direction, m * at.f_o, amplitude)
+
+
+def _ball_form(scene: Scene, at: Rates, orders: set[int], highest: float) -> Iterator[Line]:
+    amplitudes, _ = ball_waves(scene)
+    balls = scene.bearing.ball_count
+    for q in range(2, _most(at.f_b, highest) + 1, 2):
+        # balls turn at phases of chance: each order gets what one of them has, over the root of their number
+        amplitude = abs(float(amplitudes[q - 1])) / math.sqrt(balls) if q <= amplitudes.size else 0.0
+        for n in sorted(orders):
+            if n > balls // 2:
+                continue
+            for direction, sign in ((FORWARD, 1), (BACKWARD, -1)) if n else ((NEITHER, 0),):
+                frequency = q * at.f_b + sign * n * at.f_c
+                name = _times(q, "f_b") + (f" {_SIGNS[direction]} {_times(n, 'f_c')}" if n else "")
+                if frequency.min() > 0.0:
+                    yield Line(name, "ball form", q, n, direction, frequency, amplitude)
+
+
+def _most(frequency: NDArray[np.float64], highest: float) -> int:
+    """How many multiples of a frequency begin below ``highest`` at the lowest speed, within reason."""
+    return min(int(highest / max(float(frequency.min()), 1.0)), _MOST)
+
+
+def _times(n: int, name: str) -> str:
+    return name if n == 1 else f"{n} {name}"
+
+
+_MOST = 24  # multiples of a passing frequency: their waves are shorter than a contact

@@ -116,7 +116,7 @@ class Campbell:
     >>> from fmu_bearing import campbell
     >>> found = campbell("examples/scenes/7003C-spindle.toml", [5e3, 10e3, 15e3, 20e3, 25e3])
     >>> len(found.points), found.crossings()[0].branch.name
-    (5, 'outer radial')
+    (5, 'inner tilt')
     """
 
     scene: Scene
@@ -236,8 +236,9 @@ def campbell(
     Examples
     --------
     >>> from fmu_bearing import campbell
-    >>> print(campbell("examples/scenes/7003C-spindle.toml").verdict()[:8])
-    Nearest:
+    >>> found = campbell("examples/scenes/7003C-spindle.toml", [5e3, 10e3, 15e3, 20e3, 25e3])
+    >>> found.verdict().partition(",")[0]
+    'Nearest: f_i - f_r (inner race) with inner radial backward'
     """
     scene = scene_of(scene)
     chosen = _speeds(scene, speeds)

@@ -207,7 +207,7 @@ def modes(scene: SceneSource, inputs: Mapping[str, float] | None = None, *, fric
     >>> from fmu_bearing import modes
     >>> found = modes("examples/scenes/7003C-spindle.toml")
     >>> round(found.named("inner axial").frequency, -1)
-    1210.0
+    1200.0
     """
     scene = scene_of(scene)
     return solved(scene, linearised(scene, given(scene, inputs), friction), friction)
@@ -300,8 +300,8 @@ def _mode(system: Linearised, value: complex, vector: NDArray[np.complex128], sp
     damping = -value.real / size if size else 1.0
     name = next(iter(share))
     return Mode(
-        name, float(value.imag) / (2.0 * math.pi), float(damping), order, direction, share, float(spread), complex(value),
-        complex(value - 1j * shift), vector,
+        name, float(value.imag) / (2.0 * math.pi), float(damping), order, direction, share, float(spread),
+        complex(value), complex(value - 1j * shift), vector,
     )  # fmt: skip
 
 

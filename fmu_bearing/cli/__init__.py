@@ -11,6 +11,7 @@
 ``studies``     choose, tradeoff, sensitivity, changes
 ``sweep``       a scene over a grid of its values
 ``identify``    numbers of a scene from measured levels
+``modes``       natural frequencies, and over speed what excites them
 ``validate``    checks of an FMU
 ``report``      a page about a run
 ``warm_up``     compile before the first run needs it
@@ -23,6 +24,7 @@ from fmu_bearing.cli import (  # noqa: F401
     compare,
     identify,
     info,
+    modes,
     report,
     runs,
     scenes,

@@ -3,7 +3,9 @@
 ===============  =======================================================================
 ``conditions``   operating points: inputs of the model by name
 ``coordinates``  what the numbers of a linearised bearing are
-``linearised``   fidelity `full` about its quasi-static state, in fixed axes
+``plain``        the engine's equations ball by ball, and their derivatives
+``equilibrium``  the steady state of balls and rings without cage
+``linearised``   fidelity `full` about its steady state, in fixed axes
 ``shapes``       what moves in a mode: energies, order round the bearing, direction
 ``modes``        natural frequencies and damping, with names
 ``lines``        excitation lines and the waves that each can move

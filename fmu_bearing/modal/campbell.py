@@ -1,7 +1,7 @@
 """Campbell diagram: natural frequencies over speed, what excites them, and the speeds where both meet."""
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -209,7 +209,7 @@ def campbell(
     inputs: Mapping[str, float] | None = None,
     highest: float = HIGHEST,
     tell: Tell = silent,
-    track: Callable[[Sequence[float]], Sequence[float]] | None = None,
+    track: Callable[[Sequence[float]], Iterable[float]] | None = None,
 ) -> Campbell:
     """Return natural frequencies and excitations of a scene's bearing over speed.
 

@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 from scipy.linalg import block_diag
 
 from fmu_bearing.engine.layout import FL, F, P, Q, W, Y
-from fmu_bearing.engine.newton.body_slopes import inertia
 
 _PLACES = (Y.X, Y.R, Y.TH)
 _RATES = (Y.VX, Y.VR, Y.OM, Y.WX, Y.WR, Y.WT)
@@ -65,7 +64,10 @@ class Coordinates:
         if balls % 2 == 0:
             count[-1] = balls
         of_balls = np.concatenate([np.zeros(len(_PLACES) * balls), np.outer(own, count).ravel()])
-        rings = [float(inertia(p, i)) for i in range(Q.RINGS)]
+        # in the order of layout Q: translations and tilts, of the outer ring its rotation between them
+        places = [P.INNER_MASS] * 3 + [P.INNER_TRANSVERSE] * 2
+        places += [P.OUTER_MASS] * 3 + [P.OUTER_POLAR] + [P.OUTER_TRANSVERSE] * 2
+        rings = [float(p[place]) for place in places]
         flexure = np.repeat([row[P.MODE_MASS] for row in rows], 2) if rows else np.zeros(0)
         masses = np.concatenate([of_balls, np.zeros(Q.RINGS), rings, np.zeros(2 * modes), flexure])
         orders = tuple(int(row[P.MODE_ORDER]) for row in rows)

@@ -1,4 +1,4 @@
-"""Fidelity `full` linearised about its quasi-static state: constant first-order equations in fixed axes.
+"""Fidelity `full` linearised about its steady state: constant first-order equations in fixed axes.
 
 The balls' coordinates stand in axes that orbit with them, those of the rings in fixed axes, so the plain
 derivatives change as the balls orbit. As patterns round the bearing (1, cos k theta, sin k theta, with theta
@@ -7,9 +7,9 @@ Equal ball loads then give constant coefficients, also on a pedestal of two stif
 weight or misalignment they repeat with each ball that passes: their mean over one pitch serves, and the
 matrices at single phases tell how much is lost.
 
-The state is the quasi-static one, not an instant of a run. The cage and its films are left out: it touches
-balls and lands with clearance, and a linear cage would either not be there or never let go. Imperfections and
-sound are left out, too. Weights count as loads where the scene has them.
+The state is the steady one (see ``equilibrium``), not an instant of a run. The cage and its films are left
+out: it touches balls and lands with clearance, and a linear cage would either not be there or never let go.
+Imperfections and sound are left out, too. Weights count as loads where the scene has them.
 """
 
 import math
@@ -21,19 +21,16 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import block_diag
 
-from fmu_bearing.compiled import call
 from fmu_bearing.engine.constants import GRAVITY
-from fmu_bearing.engine.layout import FL, STRIDE, C, F, P, S, U, W, Y
+from fmu_bearing.engine.layout import P, S, U, Y
 from fmu_bearing.instance import EngineError
 from fmu_bearing.modal.coordinates import Coordinates
+from fmu_bearing.modal.equilibrium import settle
+from fmu_bearing.modal.plain import Plain
 from fmu_bearing.run.arrays import Arrays, Refused
 from fmu_bearing.scene import Scene
 
 PHASES = 6  # of one ball pitch
-# Steps of the central differences: contacts approach by 1 um and more, so a nanometre errs by 1e-7 of the
-# slope; traction bends over 1e-3 m/s. Forces round to 1e-14 N.
-_MOVE = 1e-9  # m
-_RATE = 1e-6  # m/s
 
 
 @dataclass(frozen=True)
@@ -123,6 +120,8 @@ def _bearing(scene: Scene, inputs: dict[int, float] | None, phase: float, fricti
         bearing.init()
     except Refused as refusal:
         raise EngineError(f"{scene.name}: {refusal}") from None
+    if friction:  # without it nothing says how fast balls spin
+        settle(bearing)
     return bearing
 
 
@@ -163,7 +162,7 @@ def _mean(bearing: Arrays, row: int) -> float:
 
 def _fixed(bearing: Arrays, at: Coordinates, phase: float, orbit: float) -> NDArray[np.float64]:
     """Return A in fixed axes, from the derivatives in axes that are turned by ``phase`` against them."""
-    plain = _derivatives(bearing, at)
+    plain = Plain(bearing, at).derivatives()
     angles = 2.0 * math.pi * np.arange(at.balls) / at.balls + phase
     patterns, rates = at.patterns(angles)
     back = np.linalg.inv(patterns)
@@ -174,31 +173,3 @@ def _fixed(bearing: Arrays, at: Coordinates, phase: float, orbit: float) -> NDAr
     found = np.linalg.solve(into, plain @ into)
     found[: at.rings, : at.rings] -= turning
     return np.asarray(found)
-
-
-def _derivatives(bearing: Arrays, at: Coordinates) -> NDArray[np.float64]:
-    """Return the derivatives of x' by x at the bearing's state, balls one by one, by central differences."""
-    p, c = bearing.p, bearing.s[S.C : S.C + C.SIZE].copy()
-    y = bearing.s[S.Y : S.Y + Y.SIZE].copy()
-    w, f = np.zeros(bearing.w.size), np.zeros(F.SIZE)
-    w[W.AXES : W.AXES + 3 * STRIDE] = bearing.w[W.AXES : W.AXES + 3 * STRIDE]
-    bends = bearing.s[S.SOUND + int(p[P.SOUND_STATE]) :][: 2 * at.flexural]
-    w[W.FLEX + FL.Q : W.FLEX + FL.Q + bends.size] = bends
-    speed = float(bearing.u[U.SPEED])
-    found = np.empty((at.size, at.size))
-
-    def rates() -> NDArray[np.float64]:
-        call("right_hand_side", p, c, y, w, f, 0.0, speed, 0.0)
-        return at.rates(y, f, w)
-
-    pitch, ball = p[P.PITCH_RADIUS], 0.5 * p[P.DIAMETER]
-    for k, (array, place, size) in enumerate(at.places(y, w, pitch, ball)):
-        step = (_MOVE if at.is_place[k] else _RATE) / size
-        kept = array[place]
-        array[place] = kept + step
-        ahead = rates()
-        array[place] = kept - step
-        # what the step was after rounding
-        found[:, k] = (ahead - rates()) / (2.0 * step)
-        array[place] = kept
-    return found

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.engine.constants import RPM
+from fmu_bearing.engine.layout import P
 from fmu_bearing.modal.conditions import given
 from fmu_bearing.modal.linearised import Linearised, linearised
 from fmu_bearing.modal.shapes import BACKWARD, FORWARD, NEITHER, participation, parts, wave
@@ -310,6 +311,9 @@ def _is_ringing(system: Linearised, mode: Mode) -> bool:
     own = mode.orbiting
     if mode.frequency <= 0.0 or mode.damping > DAMPED or -own.real > DAMPED * abs(own):
         return False
+    alone = mode.ring_share < MOVES and mode.name.startswith(("ball orbit", "ball spin"))
+    if alone and not system.arrays.p[P.SPRINGS]:
+        return False  # along their orbits the cage holds the balls, which is left out
     # unequal loads mix the patterns, so a neutral motion of the balls is looked for at every order
     half = system.coordinates.balls // 2
     nearest = float(np.min(abs(mode.value - 1j * np.arange(-half, half + 1) * system.orbit)))

@@ -1,0 +1,217 @@
+"""``fmu-bearing modes``: natural frequencies of a mounted bearing, and over speed what excites them."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from fmu_bearing.cli.base import (
+    Catalogues,
+    Json,
+    Refusal,
+    SceneFile,
+    app,
+    print_json,
+    progress,
+    refusals,
+    shaft_speed,
+    tell,
+)
+from fmu_bearing.engine.layout import U
+from fmu_bearing.files import check_folder
+
+if TYPE_CHECKING:
+    from fmu_bearing.modal.campbell import Campbell
+    from fmu_bearing.modal.modes import Modes
+    from fmu_bearing.scene import Scene
+
+Changes = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set",
+        "-s",
+        metavar="KEY=VALUE",
+        help="A key of the scene (mounting.preload_N=300) or an input of the model, SI units (preload=300).",
+    ),
+]
+Speeds = Annotated[
+    str | None,
+    typer.Option(
+        metavar="LOW:HIGH:COUNT", help="Campbell diagram over these speeds, r/min; also VALUE,VALUE,..."
+    ),
+]
+_LARGEST = 3  # shares named in a row
+_LEAST = 0.05  # of the kinetic energy: smaller shares are left out
+
+
+@app.command()
+def modes(
+    scene: SceneFile,
+    speed: Annotated[float | None, typer.Option(help="Shaft speed, r/min; default: the scene's.")] = None,
+    speeds: Speeds = None,
+    settings: Changes = None,
+    highest: Annotated[float, typer.Option(help="Highest frequency, kHz.")] = 20.0,
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", metavar="FOLDER", help="Write tables, picture and page there."),
+    ] = None,
+    catalogue: Catalogues = None,
+    as_json: Json = False,
+) -> None:
+    """Show natural frequencies, damping, direction and what moves; with --speeds what excites them.
+
+    With --output the Campbell diagram is computed in any case: modes.csv, campbell.csv, crossings.csv,
+    campbell.png and modes.html, with the shapes moving.
+    """
+    from fmu_bearing.modal.campbell import campbell as over_speed
+    from fmu_bearing.modal.modes import modes as at_speed
+    from fmu_bearing.scene import read_scene
+    from fmu_bearing.sweeps.axes import parse_values
+
+    with refusals():
+        if output is not None:
+            check_folder(output)
+        chosen, inputs = changed(read_scene(scene), settings)
+        turning = shaft_speed(speed)
+        found = at_speed(chosen, inputs | ({} if turning is None else {"shaft_speed": turning}))
+        free = at_speed(chosen, inputs | {"shaft_speed": 0.0}, friction=False) if found.rpm == 0.0 else None
+        diagram = None
+        if speeds is not None or output is not None and chosen.operation.speed_rpm:
+            rows = None if speeds is None else parse_values("speeds", speeds)
+            rest = {name: value for name, value in inputs.items() if name != "shaft_speed"}
+            diagram = over_speed(
+                chosen, rows, inputs=rest, highest=1e3 * highest, tell=tell,
+                track=None if as_json else lambda values: progress(values, "speeds", transient=True),
+            )  # fmt: skip
+        files = [] if output is None else _write(output, found, diagram)
+    if as_json:
+        print_json(_summary(found, diagram, 1e3 * highest) | {"files": files})
+        return
+    _show(found, 1e3 * highest, "contacts stick" if free else "")
+    if free:
+        _show(free, 1e3 * highest, "without friction")
+    if diagram is not None:
+        _show_crossings(diagram)
+    for line in dict.fromkeys(found.cautions() + (diagram.cautions() if diagram else [])):
+        tell(f"caution: {line}")
+    if files:
+        tell(f"written: {', '.join(map(str, files))}")
+
+
+def changed(scene: "Scene", settings: list[str] | None) -> tuple["Scene", dict[str, float]]:
+    """Return a scene with the keys that were set, and the inputs that were set.
+
+    Raises
+    ------
+    ValueError
+        For text that is no setting, an unknown key, and a value that is refused.
+    """
+    keys: dict[str, Any] = {}
+    inputs: dict[str, float] = {}
+    for setting in settings or ():
+        name, equals, text = (part.strip() for part in setting.partition("="))
+        if not (name and equals and text):
+            raise Refusal(f"--set {setting}: write KEY=VALUE, as mounting.preload_N=300 or preload=300")
+        if name in U.INPUTS:
+            try:
+                inputs[name] = float(text)
+            except ValueError:
+                raise Refusal(f"--set {setting}: {name} is a number in SI units") from None
+        else:
+            keys[name] = _value(text)
+    return (scene.replace(keys) if keys else scene), inputs
+
+
+def _value(text: str) -> Any:
+    """Return a value of a scene as TOML has it; what is no number and no truth value is text."""
+    if text in ("true", "false"):
+        return text == "true"
+    for kind in (int, float):
+        try:
+            return kind(text)
+        except ValueError:
+            continue
+    return text.strip("\"'")
+
+
+def _show(found: "Modes", highest: float, words: str) -> None:
+    from fmu_bearing.run.table import show
+
+    typer.echo(
+        f"{found.scene.name}: {found.scene.bearing.designation}, {found.rpm:,.0f} r/min, fidelity full "
+        f"without cage and imperfections{', ' + words if words else ''}"
+    )
+    rows = [
+        [
+            f"{row['frequency_Hz']:,.1f}", f"{100.0 * row['damping_ratio']:.2f}", row["direction"] or "-",
+            row["name"], _shares(row["participation"]),
+        ]
+        for row in found.table(highest)
+    ]  # fmt: skip
+    show("modes", ("Hz", "damping, %", "whirl", "what moves most", "kinetic energy, %"), rows)
+
+
+def _shares(participation: dict[str, float]) -> str:
+    """Return the largest shares of a mode in text."""
+    told = [(name, share) for name, share in participation.items() if share >= _LEAST][:_LARGEST]
+    return ", ".join(f"{name} {100.0 * share:.0f}" for name, share in told)
+
+
+def _show_crossings(diagram: "Campbell") -> None:
+    from fmu_bearing.run.table import show
+
+    counted = diagram.crossings(in_scene=True)
+    rows = [
+        [
+            f"{one.rpm:,.0f}", f"{one.frequency:,.0f}", one.branch.label, f"{100.0 * one.damping:.2f}",
+            one.line.name, f"{one.line.source} {one.line.surface_order or ''}".rstrip(),
+        ]
+        for one in counted
+    ]  # fmt: skip
+    columns = ("r/min", "Hz", "mode", "damping, %", "line", "made by, order")
+    if rows:
+        show("crossings within 20 dB of the largest", columns, rows)
+    typer.echo(f"{len(diagram.crossings())} crossings, {len(rows)} of them count. {diagram.verdict()}")
+
+
+def _summary(found: "Modes", diagram: "Campbell | None", highest: float) -> dict[str, Any]:
+    result: dict[str, Any] = {
+        "scene": found.scene.name, "speed_rpm": found.rpm, "modes": found.table(highest),
+        "apart": found.table(highest, apart=True), "cautions": found.cautions(),
+    }  # fmt: skip
+    if diagram is not None:
+        result |= {
+            "campbell": diagram.table(),
+            "crossings": [one.as_dict() for one in diagram.crossings()],
+            "verdict": diagram.verdict(),
+            "cautions": list(dict.fromkeys(found.cautions() + diagram.cautions())),
+        }
+    return result
+
+
+def _write(folder: Path, found: "Modes", diagram: "Campbell | None") -> list[Path]:
+    """Write tables, and for a diagram its picture and page; return the files."""
+    folder.mkdir(parents=True, exist_ok=True)
+    files = [_csv(folder / "modes.csv", [_flat(row) for row in found.table()])]
+    if diagram is None:
+        tell("no Campbell diagram: the scene's shaft stands still; give --speeds")
+        return files
+    files.append(_csv(folder / "campbell.csv", diagram.table()))
+    files.append(_csv(folder / "crossings.csv", [one.as_dict() for one in diagram.crossings()]))
+    return files
+
+
+def _flat(row: dict[str, Any]) -> dict[str, Any]:
+    return {key: _shares(value) if isinstance(value, dict) else value for key, value in row.items()}
+
+
+def _csv(path: Path, rows: list[dict[str, Any]]) -> Path:
+    from fmu_bearing.run.table import write_csv
+
+    columns = list(rows[0]) if rows else []
+    write_csv(path, columns, [[_cell(row[key]) for key in columns] for row in rows])
+    return path
+
+
+def _cell(value: Any) -> str:
+    return f"{value:.9g}" if isinstance(value, float) else str(value)

@@ -1,0 +1,81 @@
+"""Rates of a bearing at a state and their derivatives, ball by ball, as the engine's equations have them."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.compiled import call
+from fmu_bearing.engine.layout import FL, STRIDE, C, F, P, S, U, W, Y
+from fmu_bearing.modal.coordinates import Coordinates
+from fmu_bearing.run.arrays import Arrays
+
+# Steps of the central differences: contacts approach by 1 um and more, so a nanometre errs by 1e-7 of the
+# slope; traction bends over 1e-3 m/s. Forces round to 1e-14 N.
+_MOVE = 1e-9  # m
+_RATE = 1e-6  # m/s
+
+
+class Plain:
+    """The equations x' = g(x) of a bearing about the state it has, in the order of ``at``, ball by ball.
+
+    Parameters
+    ----------
+    bearing : Arrays
+        Initialised; only read.
+    at : Coordinates
+    """
+
+    def __init__(self, bearing: Arrays, at: Coordinates) -> None:
+        self.p, self.at = bearing.p, at
+        self.y = bearing.s[S.Y : S.Y + Y.SIZE].copy()
+        self._c = bearing.s[S.C : S.C + C.SIZE].copy()
+        self._speed = float(bearing.u[U.SPEED])
+        self._f = np.zeros(F.SIZE)
+        self._w = np.zeros(bearing.w.size)
+        axes = slice(W.AXES, W.AXES + 3 * STRIDE)
+        self._w[axes] = bearing.w[axes]
+        bends = bearing.s[S.SOUND + int(self.p[P.SOUND_STATE]) :][: 2 * at.flexural]
+        self._w[W.FLEX + FL.Q : W.FLEX + FL.Q + bends.size] = bends
+        places = at.places(self.y, self._w, float(self.p[P.PITCH_RADIUS]), 0.5 * float(self.p[P.DIAMETER]))
+        self._places = list(places)
+
+    def steps(self) -> NDArray[np.float64]:
+        """Return the steps of the differences in the units of x: a nanometre or a micrometre per second."""
+        sizes = np.array([size for _, _, size in self._places])
+        return np.where(self.at.is_place, _MOVE, _RATE) / sizes
+
+    def rates(self) -> NDArray[np.float64]:
+        """Return x' at the present state."""
+        call("right_hand_side", self.p, self._c, self.y, self._w, self._f, 0.0, self._speed, 0.0)
+        return self.at.rates(self.y, self._f, self._w)
+
+    def derivatives(self) -> NDArray[np.float64]:
+        """Return the derivatives of x' by x, shape (n, n), by central differences."""
+        found = np.empty((self.at.size, self.at.size))
+        for k, step in enumerate(self.steps()):
+            array, place, _ = self._places[k]
+            kept = array[place]
+            array[place] = kept + step
+            ahead = self.rates()
+            array[place] = kept - step
+            found[:, k] = (ahead - self.rates()) / (2.0 * step)
+            array[place] = kept
+        return found
+
+    def along(self, directions: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the derivatives of x' along directions in x, shape (n, directions)."""
+        found = np.empty(directions.shape)
+        for k, direction in enumerate(directions.T):
+            step = float(np.min(self.steps()[direction != 0.0] / np.abs(direction[direction != 0.0])))
+            kept = self.y.copy(), self._w.copy()
+            self.move(step * direction)
+            ahead = self.rates()
+            self.y[:], self._w[:] = kept
+            self.move(-step * direction)
+            found[:, k] = (ahead - self.rates()) / (2.0 * step)
+            self.y[:], self._w[:] = kept
+        return found
+
+    def move(self, change: NDArray[np.float64]) -> None:
+        """Move the state by a change of x."""
+        for (array, place, _), by in zip(self._places, change, strict=True):
+            array[place] += by

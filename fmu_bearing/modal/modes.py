@@ -124,7 +124,8 @@ class Modes:
             if mode.name == name and direction in ("", mode.direction):
                 return mode
         names = ", ".join(dict.fromkeys(mode.label for mode in self.modes))
-        raise ValueError(f"there is no mode '{name} {direction}'".rstrip() + f"; there are {names}")
+        wanted = f"{name} {direction}".rstrip()
+        raise ValueError(f"there is no mode '{wanted}'; there are {names}")
 
     def weak(self) -> tuple[Mode, ...]:
         """Return the modes near or beyond the limit of stability: a damping ratio below ``MARGIN``.
@@ -309,15 +310,19 @@ def _mode(system: Linearised, value: complex, vector: NDArray[np.complex128], sp
 def _is_ringing(system: Linearised, mode: Mode) -> bool:
     """Whether a motion swings by itself, neither overdamped nor neutral in the axes in which it stands."""
     own = mode.orbiting
-    if mode.frequency <= 0.0 or mode.damping > DAMPED or -own.real > DAMPED * abs(own):
+    if mode.frequency <= 0.0 or mode.damping > DAMPED:
+        return False
+    # what is overdamped for the balls swings in fixed axes at multiples of the cage's frequency
+    if mode.ring_share <= DAMPED and -own.real > DAMPED * abs(own):
         return False
     alone = mode.ring_share < MOVES and mode.name.startswith(("ball orbit", "ball spin"))
     if alone and not system.arrays.p[P.SPRINGS]:
         return False  # along their orbits the cage holds the balls, which is left out
-    # unequal loads mix the patterns, so a neutral motion of the balls is looked for at every order
-    half = system.coordinates.balls // 2
-    nearest = float(np.min(abs(mode.value - 1j * np.arange(-half, half + 1) * system.orbit)))
-    return nearest >= (SLOW if mode.ring_share > DAMPED else max(SLOW, _NEUTRAL * abs(system.orbit)))
+    # Unequal loads mix the patterns, so a neutral motion of the balls is looked for at other orders, too: at
+    # low ones where rings take most of the little that moves.
+    most = 2 if mode.ring_share > DAMPED else system.coordinates.balls // 2
+    nearest = float(np.min(abs(mode.value - 1j * np.arange(-most, most + 1) * system.orbit)))
+    return nearest >= max(SLOW, _NEUTRAL * abs(system.orbit))
 
 
 def _as_rates(system: Linearised, vector: NDArray[np.complex128]) -> NDArray[np.complex128]:

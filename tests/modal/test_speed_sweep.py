@@ -12,7 +12,7 @@ H, SETTLE, WINDOW = 2e-5, 0.08, 0.04  # s; the axial mode forgets its start in 1
 
 
 def line(scene, rpm, place):
-    """Amplitudes (m/s, rad/s) of the line above and below zero of two rates in a row, and of the first one."""
+    """Return what takes amplitudes (m/s, rad/s) from two rates in a row, the orbit speed, and the rates."""
     bearing = Arrays.of(scene, CAGE=0.0)
     bearing.u[U.SPEED] = rpm * RPM
     bearing.init()

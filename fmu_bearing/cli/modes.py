@@ -144,7 +144,7 @@ def _show(found: "Modes", highest: float, words: str) -> None:
     rows = [
         [
             f"{row['frequency_Hz']:,.1f}", f"{100.0 * row['damping_ratio']:.2f}", row["direction"] or "-",
-            row["name"], _shares(row["participation"]),
+            row["name"] + (f" ({row['remark']})" if row["remark"] else ""), _shares(row["participation"]),
         ]
         for row in found.table(highest)
     ]  # fmt: skip

@@ -72,6 +72,13 @@ class Mode:
         return sum(share for name, share in self.participation.items() if not name.startswith("ball"))
 
     @property
+    def remark(self) -> str:
+        """``unstable`` or ``instability margin`` for modes of the rings with hardly any damping, or empty."""
+        if self.damping >= MARGIN or self.ring_share <= MOVES or self.name.startswith("ball"):
+            return ""
+        return "unstable" if self.damping < 0.0 else "instability margin"
+
+    @property
     def quality(self) -> float:
         """Q, the magnification at resonance, 1/(2 zeta); infinite for a mode without damping."""
         return 0.5 / self.damping if self.damping > 0.0 else math.inf
@@ -132,8 +139,7 @@ class Modes:
 
         Balls that move alone are left out: they are free along their orbits.
         """
-        of_rings = (mode for mode in self.modes if mode.ring_share > MOVES)
-        return tuple(mode for mode in of_rings if mode.damping < MARGIN and not mode.name.startswith("ball"))
+        return tuple(mode for mode in self.modes if mode.remark)
 
     def cautions(self) -> list[str]:
         """Return what limits these modes, in sentences."""
@@ -155,7 +161,7 @@ class Modes:
         return found
 
     def table(self, highest: float = 50e3, apart: bool = False) -> list[dict[str, Any]]:
-        """Return rows: frequency (Hz), damping ratio, order, direction, name and shares of kinetic energy.
+        """Return rows: frequency (Hz), damping ratio, order, direction, name, kinetic energy, remark.
 
         Rows of balls alone that differ by their order only are one row.
 
@@ -357,6 +363,7 @@ def _row(mode: Mode) -> dict[str, Any]:
         "name": mode.name,
         "participation": mode.participation,
         "spread": mode.spread,
+        "remark": mode.remark,
     }
 
 

@@ -59,6 +59,7 @@ def test_standstill_is_given_both_ways(run):
 def test_instability_is_told(run):
     told = run("modes", EXAMPLES / "7009C-full-ceramic.toml", "--speed", 18_000)
     assert told.exit_code == 0 and "instability: 'inner tilt forward'" in told.stderr
+    assert "(unstable)" in told.stdout
 
 
 @pytest.mark.parametrize(

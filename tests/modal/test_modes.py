@@ -76,6 +76,7 @@ def test_hardly_damped_tilting_is_named(gate):
     found = modes(gate("7009C-full-ceramic"), {"shaft_speed": 18_000 * RPM})
     (weak,) = found.weak()
     assert weak.label == "inner tilt forward" and abs(weak.damping) < 1e-3
+    assert [row["name"] for row in found.table() if row["remark"]] == ["inner tilt"]
     assert any("inner tilt forward" in line and "instability" in line for line in found.cautions())
     assert not modes(gate("7009C-full-ceramic"), {"shaft_speed": 12_000 * RPM}).weak()
 

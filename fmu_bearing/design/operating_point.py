@@ -17,11 +17,11 @@ from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import C, P, S, Y
 from fmu_bearing.formulas.iso281 import viscosity_ratio
 from fmu_bearing.instance import Instance
+from fmu_bearing.modal.static import stiffness
 from fmu_bearing.prepare.bodies import ball
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.run.balls import Reader
-from fmu_bearing.run.stiffness import stiffness
 from fmu_bearing.scene import Scene, SceneSource, scene_of, si
 
 RINGS = ("inner", "outer")
@@ -41,7 +41,7 @@ class OperatingPoint:
     contacts : dict
         By ``inner`` and ``outer``: the outputs ``contact.*`` there.
     stiffness : ndarray, shape (5, 5)
-        See `run.stiffness.stiffness`.
+        See `modal.static.stiffness`.
     frequencies : KinematicFrequencies
         At the mean of both contact angles, Hz.
     film : float

@@ -1,14 +1,15 @@
 """Small motions of a mounted bearing: natural modes, Campbell diagram, stiffness and damping.
 
-===============  =======================================================================
+===============  ===========================================================================
 ``conditions``   operating points: inputs of the model by name
 ``coordinates``  what the numbers of a linearised bearing are
 ``plain``        the engine's equations ball by ball, and their derivatives
 ``equilibrium``  the steady state of balls and rings without cage
 ``linearised``   fidelity `full` about its steady state, in fixed axes
+``static``       stiffness matrix of the bearing at a state, from the energy in its contacts
 ``shapes``       what moves in a mode: energies, order round the bearing, direction
 ``modes``        natural frequencies and damping, with names
 ``lines``        excitation lines and the waves that each can move
 ``campbell``     modes over speed, followed by shape; crossings with lines
-===============  =======================================================================
+===============  ===========================================================================
 """

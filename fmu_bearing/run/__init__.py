@@ -13,7 +13,6 @@
 ``arrays``        a bearing as flat arrays, for loops that read and restore the state
 ``metrics``       figures that compare runs, and the speed of a run
 ``choose``        fidelity ``auto``: the cheapest within the scene's accuracy, found by running it
-``stiffness``     stiffness matrix of the bearing at a state
 ``simulate_fmu``  a run of an FMU, by FMPy
 ``simulate``      `simulate`: a run over given inputs
 ``bearing``       `Bearing`: to initialise and step by hand

@@ -5,8 +5,8 @@ import pytest
 
 from fmu_bearing.engine.layout import EQ, P, Q, S, Y
 from fmu_bearing.instance import Instance
+from fmu_bearing.modal.static import stiffness
 from fmu_bearing.prepare.model import prepare
-from fmu_bearing.run.stiffness import stiffness
 from tests.engine.helpers import quiet
 from tests.engine.quasistatic import Bearing
 

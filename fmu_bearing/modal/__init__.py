@@ -1,15 +1,21 @@
 """Small motions of a mounted bearing: natural modes, Campbell diagram, stiffness and damping.
 
-===============  ===========================================================================
-``conditions``   operating points: inputs of the model by name
-``coordinates``  what the numbers of a linearised bearing are
-``plain``        the engine's equations ball by ball, and their derivatives
-``equilibrium``  the steady state of balls and rings without cage
-``linearised``   fidelity `full` about its steady state, in fixed axes
-``static``       stiffness matrix of the bearing at a state, from the energy in its contacts
-``shapes``       what moves in a mode: energies, order round the bearing, direction
-``modes``        natural frequencies and damping, with names
-``lines``        excitation lines and the waves that each can move
-``campbell``     modes over speed, followed by shape; crossings with lines
-===============  ===========================================================================
+=====================  ===========================================================================
+``conditions``         operating points: inputs of the model by name
+``coordinates``        what the numbers of a linearised bearing are
+``plain``              the engine's equations ball by ball, and their derivatives
+``equilibrium``        the steady state of balls and rings without cage
+``linearised``         fidelity `full` about its steady state, in fixed axes
+``static``             stiffness matrix of the bearing at a state, from the energy in its contacts
+``shapes``             what moves in a mode: energies, order round the bearing, direction
+``modes``              natural frequencies and damping, with names
+``lines``              excitation lines and the waves that each can move
+``campbell``           modes over speed, followed by shape; crossings with lines
+``impedance``          forces on the inner ring per motion, balls eliminated at the frequency
+``planes``             two planes whose radial springs stand for tilt and coupling
+``stiffness``          `stiffness`: K and C over speed, preload and frequency
+``stiffness_files``    their CSV and netCDF
+``ross``               bearing elements for the rotor program ROSS
+``stiffness_picture``  K and C over speed
+=====================  ===========================================================================
 """

@@ -138,9 +138,9 @@ class Run:
         """
         path = check_target(path)
         if path.suffix == ".csv":
-            return write_whole(path, _written(lambda file: write_csv(file, self.table), ".csv"))
+            return write_whole(path, written(lambda file: write_csv(file, self.table), ".csv"))
         data = self.to_xarray()
-        return write_whole(path, _written(lambda file: data.to_netcdf(file, engine="h5netcdf"), ".nc"))
+        return write_whole(path, written(lambda file: data.to_netcdf(file, engine="h5netcdf"), ".nc"))
 
     def to_xarray(self) -> "xarray.Dataset":
         """Return the run as a dataset over time, units in attributes, the scene as TOML text in ``scene``."""
@@ -354,7 +354,7 @@ def read_table(path: str | os.PathLike[str]) -> NDArray[Any]:
     return table
 
 
-def _written(write: Any, suffix: str) -> bytes:
+def written(write: Any, suffix: str) -> bytes:
     """Return the bytes that a writer puts into a file."""
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder) / f"result{suffix}"

@@ -1,0 +1,74 @@
+"""Forces of a linearised bearing on its inner ring per motion of that ring, the outer ring held.
+
+The balls, and the rings' flexure where the scene has it, are eliminated at the frequency, with all their
+inertia, so what is left depends on it. Inertia and gyroscopic moment of the inner ring are taken out, and the
+support that holds its tilt: they belong to the rotor.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import lu_factor, lu_solve
+
+from fmu_bearing.engine.layout import STRIDE, P, Y
+from fmu_bearing.modal.linearised import Linearised
+
+FREEDOMS = ("x", "y", "z", "by", "bz")  # m, and tilts (rad), of the inner ring
+_BALL_PLACES = Y.PLACES // STRIDE  # ball states that are places
+_ORBIT = Y.TH // STRIDE  # the place round the bearing
+
+
+def spaced(system: Linearised, matrix: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return a matrix in which no force depends on a ball's place round the bearing.
+
+    A ring that circles with the balls, at the frequency of their orbit, tells one ball from another for good:
+    free balls drift apart and bunch, and the bearing's stiffness has a pole there. A cage keeps them apart.
+    Where springs between the balls do that, the matrix stays.
+    """
+    at = system.coordinates
+    if system.arrays.p[P.SPRINGS] != 0.0:
+        return matrix
+    found = matrix.copy()
+    found[_BALL_PLACES * at.balls :, at.ball_state(_ORBIT)] = 0.0
+    return found
+
+
+def impedance(
+    system: Linearised, matrix: NDArray[np.float64], frequencies: NDArray[np.float64]
+) -> NDArray[np.complex128]:
+    """Return dynamic stiffness Z at frequencies (rad/s, above 0), force = -Z motion, shape (k, 5, 5).
+
+    Rows are forces along x, y, z and moments about y, z, columns displacements and tilts of the inner ring;
+    motion is the real part of its amplitude times exp(i w t). SI units.
+
+    Parameters
+    ----------
+    system : Linearised
+        With rigid preload turned into a force: a ring that is held has no row.
+    matrix : ndarray
+        Its mean matrix or that of one phase.
+    """
+    at, p = system.coordinates, system.arrays.p
+    inside = np.r_[0 : at.rings, at.flexure : at.size]
+    place = at.rings + np.arange(len(FREEDOMS))
+    rate = at.ring_rates + np.arange(len(FREEDOMS))
+    own = matrix[np.ix_(inside, inside)]
+    moved, driven = matrix[np.ix_(inside, place)], matrix[np.ix_(inside, rate)]
+    found = np.empty((len(frequencies), len(FREEDOMS), len(FREEDOMS)), dtype=complex)
+    for k, w in enumerate(frequencies):
+        s = 1j * w
+        factors = lu_factor(s * np.eye(inside.size) - own, check_finite=False)
+        answer = lu_solve(factors, moved + s * driven, check_finite=False)
+        accelerations = matrix[np.ix_(rate, place)] + s * matrix[np.ix_(rate, rate)]
+        accelerations = accelerations + matrix[np.ix_(rate, inside)] @ answer
+        found[k] = -at.masses[rate][:, None] * accelerations - _support(p, s, system.speed)
+    return found
+
+
+def _support(p: NDArray[np.float64], s: complex, speed: float) -> NDArray[np.complex128]:
+    """Return what the tilt support and the rotor's own turning put on the inner ring, shape (5, 5)."""
+    found = np.zeros((len(FREEDOMS), len(FREEDOMS)), dtype=complex)
+    by, bz = FREEDOMS.index("by"), FREEDOMS.index("bz")
+    found[by, by] = found[bz, bz] = p[P.TILT_STIFFNESS] + s * p[P.TILT_DAMPING]
+    found[by, bz] = s * p[P.INNER_POLAR] * speed
+    found[bz, by] = -found[by, bz]
+    return found

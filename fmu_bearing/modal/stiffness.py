@@ -1,0 +1,394 @@
+"""Stiffness and damping of a bearing over speed, preload and frequency, for rotor programs."""
+
+import math
+import os
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.engine.constants import RPM
+from fmu_bearing.engine.layout import C, Q, S, U, Y
+from fmu_bearing.modal.conditions import given
+from fmu_bearing.modal.impedance import FREEDOMS, impedance, spaced
+from fmu_bearing.modal.linearised import Linearised, linearised
+from fmu_bearing.modal.planes import Planes, planes
+from fmu_bearing.modal.static import stiffness as energy_hessian
+from fmu_bearing.modal.stiffness_files import dataset, save
+from fmu_bearing.scene import Scene, SceneSource, scene_of
+
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.figure import Figure
+
+Spacing = Literal["held", "free"]
+#: Hz: what a table has where no frequencies are given.
+FREQUENCIES = tuple(float(f"{value:.3g}") for value in np.geomspace(50.0, 10e3, 8))
+_STICKING = 1e-3  # turns per second: slower, contacts stick, as for `modes`
+_SPREAD = 0.01  # over one ball pitch, beyond which it is told
+_NEAR = 0.2  # of the orbit's frequency: nearer to it, free balls that bunch are seen
+_ROUNDING = 1e-9  # of the stiffness: a loss below it is none
+
+
+@dataclass(frozen=True)
+class Stiffness:
+    """Stiffness and damping of the inner ring against the held outer ring, SI units.
+
+    Forces on the ring are -K q - C q' with q = x, y, z (m) and tilts about y, z (rad), at the centre of the
+    circle of balls. The balls' inertia and friction are in K and C; mass, gyroscopic moment and supports of
+    the ring are not. Cage, imperfections and sound are left out.
+
+    Attributes
+    ----------
+    scene : Scene
+    speeds : ndarray
+        r/min, rising.
+    preloads : ndarray
+        N, rising: values of the input ``preload``.
+    frequencies : ndarray
+        Hz, rising.
+    K, C : ndarray, shape (speed, preload, frequency, 5, 5)
+        N/m, N/rad, N m/rad and these times s.
+    static : ndarray, shape (speed, preload, 5, 5)
+        Quasi-static stiffness: second derivatives of the energy in the contacts, without friction.
+    own : ndarray, shape (preload, 5, 5)
+        The same at the scene's own speed.
+    orbit : ndarray, shape (speed, preload)
+        Hz: frequency of the balls' orbit, f_c.
+    spread : ndarray, shape (speed, preload)
+        Largest change of the diagonal of K and C w over one ball pitch, over K; 0 for equal ball loads.
+    spacing : str
+        ``held``: balls keep their distances along the orbit, as in a cage; ``free``: they do not.
+
+    Examples
+    --------
+    >>> from fmu_bearing import stiffness
+    >>> found = stiffness("examples/scenes/7003C-spindle.toml", [10e3, 20e3], [200.0, 1000.0])
+    >>> found.K.shape, f"{found.K[1, 0, 1, 1, 1] / 1e6:.0f} N/um"
+    ((2, 1, 2, 5, 5), '162 N/um')
+    """
+
+    scene: Scene
+    speeds: NDArray[np.float64]
+    preloads: NDArray[np.float64]
+    frequencies: NDArray[np.float64]
+    K: NDArray[np.float64]
+    C: NDArray[np.float64]
+    static: NDArray[np.float64]
+    own: NDArray[np.float64]
+    orbit: NDArray[np.float64]
+    spread: NDArray[np.float64]
+    spacing: Spacing = "held"
+
+    @property
+    def impedance(self) -> NDArray[np.complex128]:
+        """K + i w C, shape (speed, preload, frequency, 5, 5)."""
+        w = 2.0 * math.pi * self.frequencies
+        return np.asarray(self.K + 1j * w[:, None, None] * self.C)
+
+    def losses(self) -> tuple[NDArray[np.float64], NDArray[np.complex128]]:
+        """Return loss over stiffness of five motions, the least first, and these motions.
+
+        Eigenvalues and vectors of (Z - Z^H)/2i, with every force over the root of both stiffnesses; half of
+        an eigenvalue times w is the power lost. Below 0 a whirl takes power from the turning shaft.
+
+        Returns
+        -------
+        tuple of ndarray
+            Shapes (speed, preload, frequency, 5) and (speed, preload, frequency, 5, 5), motions in columns.
+        """
+        scale = np.sqrt(np.abs(np.diagonal(self.K, axis1=-2, axis2=-1)))
+        z = self.impedance / (scale[..., :, None] * scale[..., None, :])
+        values, vectors = np.linalg.eigh((z - np.conj(np.swapaxes(z, -1, -2))) / 2j)
+        return np.asarray(values), np.asarray(vectors)
+
+    def against_static(self) -> float:
+        """Return the largest difference of K at the lowest frequency from the quasi-static stiffness.
+
+        Entries over the root of both diagonal ones.
+        """
+        scale = np.sqrt(np.abs(np.diagonal(self.static, axis1=-2, axis2=-1)))
+        difference = (self.K[:, :, 0] - self.static) / (scale[..., :, None] * scale[..., None, :])
+        return float(np.abs(difference).max())
+
+    def planes(self, preload: float | None = None, mirrored: bool = False) -> Planes:
+        """Return the two planes whose radial springs stand for tilt and coupling; see `modal.planes`.
+
+        Parameters
+        ----------
+        preload : float, optional
+            N: one of `preloads`; may be left out where there is one.
+        mirrored : bool
+            Whether the bearing carries the other way, as the rear one of a pair does.
+
+        Raises
+        ------
+        ValueError
+            For a preload that is not there, and where no two planes can stand for the bearing.
+        """
+        return planes(self.own[self.at_preload(preload)], mirrored)
+
+    def at_preload(self, preload: float | None) -> int:
+        """Return the place of a preload (N) on its axis; ``ValueError`` for one that is not there."""
+        listed = ", ".join(f"{value:g}" for value in self.preloads)
+        if preload is None:
+            if len(self.preloads) > 1:
+                raise ValueError(f"which preload is meant has to be said: {listed} N are there")
+            return 0
+        near = np.flatnonzero(np.isclose(self.preloads, preload, rtol=1e-9))
+        if near.size == 0:
+            raise ValueError(f"preload = {preload:g} N is not in this table: {listed} N are there")
+        return int(near[0])
+
+    def cautions(self) -> list[str]:
+        """Return what limits these numbers, in sentences."""
+        return [*_limits(self)]
+
+    def to_xarray(self) -> "xarray.Dataset":
+        """Return all as a dataset over speed, preload and frequency, the scene as TOML text in ``scene``.
+
+        Raises
+        ------
+        MissingExtra
+            Without xarray.
+        """
+        return dataset(self)
+
+    def save(self, path: str | os.PathLike[str]) -> Path:
+        """Write to ``.csv`` (a row per matrix, SI units) or ``.nc`` (netCDF).
+
+        Raises
+        ------
+        ValueError
+            For another ending.
+        MissingExtra
+            For netCDF without xarray.
+        """
+        return save(self, path)
+
+    def to_ross(
+        self, path: str | os.PathLike[str], preload: float | None = None, *, mirrored: bool = False,
+        nodes: tuple[int, int] = (0, 1),
+    ) -> tuple[Path, Path]:  # fmt: skip
+        """Write two bearing elements for ROSS 3, each a file with half of the bearing; see `modal.ross`.
+
+        Parameters
+        ----------
+        path : path
+            ``NAME.toml`` makes ``NAME-1.toml`` and ``NAME-2.toml``, for the planes of `planes` in order.
+        preload, mirrored
+            As for `planes`.
+        nodes : tuple of int
+            Nodes of the rotor at both planes.
+
+        Raises
+        ------
+        ValueError
+            As for `planes`, for another ending, and for an axis of two to four values.
+        """
+        from fmu_bearing.modal.ross import write
+
+        return write(self, path, preload, mirrored, nodes)
+
+    def picture(self, frequency: float | None = None) -> "Figure":
+        """Draw K and C over speed, a curve per preload, quasi-static stiffness dashed.
+
+        Parameters
+        ----------
+        frequency : float, optional
+            Hz: the nearest one of the table is drawn; default: the middle one.
+
+        Raises
+        ------
+        MissingExtra
+            Without Matplotlib.
+        """
+        from fmu_bearing.modal.stiffness_picture import picture
+
+        return picture(self, frequency)
+
+
+def stiffness(
+    scene: SceneSource,
+    speeds: Sequence[float] | None = None,
+    frequencies: Sequence[float] | None = None,
+    *,
+    preloads: Sequence[float] | None = None,
+    inputs: Mapping[str, float] | None = None,
+    spacing: Spacing = "held",
+    track: Callable[[Sequence[float]], Any] | None = None,
+) -> Stiffness:
+    """Return stiffness and damping of a scene's bearing over speed, preload and frequency.
+
+    Fidelity ``full`` is linearised about the quasi-static state of each speed and preload. The outer ring is
+    held, the inner ring moves, and the balls follow with all their inertia and friction. Under radial load,
+    weight or misalignment the derivatives are a mean over one ball pitch, and `Stiffness.spread` tells how
+    far single phases are from it.
+
+    Parameters
+    ----------
+    scene : Scene or path
+    speeds : sequence of float, optional
+        r/min; default: the scene's own.
+    frequencies : sequence of float, optional
+        Hz, above 0; default: `FREQUENCIES`.
+    preloads : sequence of float, optional
+        N; default: the scene's own.
+    inputs : mapping, optional
+        Other inputs of the model by name, SI units: ``radial_load.z``, ``inner_ring_temperature``.
+    spacing : str
+        ``held`` or ``free``, see `Stiffness`. At the frequency of the orbit free balls bunch under a ring
+        that circles with them, and K has a pole there.
+    track : callable, optional
+        Wraps the speeds, to show progress.
+
+    Raises
+    ------
+    ValueError
+        For values that are refused.
+    EngineError
+        Where there is no equilibrium; a ``ValueError``.
+
+    Examples
+    --------
+    >>> from fmu_bearing import stiffness
+    >>> found = stiffness(
+    ...     "examples/scenes/7003C-spindle.toml", preloads=[200.0, 500.0], inputs={"radial_load.z": -100.0}
+    ... )
+    >>> [f"{value / 1e6:.0f} N/um" for value in found.static[0, :, 0, 0]]
+    ['35 N/um', '56 N/um']
+    """
+    scene = scene_of(scene)
+    if spacing not in get_args(Spacing):
+        raise ValueError(f"spacing = {spacing!r} is refused: it is held or free")
+    fixed = dict(inputs or {})
+    for name, instead in (("shaft_speed", "speeds, in r/min"), ("preload", "preloads, in N")):
+        if name in fixed:
+            raise ValueError(f"{name} is an axis of the table: give {instead}")
+    rpm = _axis("speeds", "r/min", speeds, [scene.operation.speed_rpm])
+    loads = _axis("preloads", "N", preloads, [scene.mounting.preload_N])
+    hertz = _axis("frequencies", "Hz", frequencies, FREQUENCIES)
+    if hertz[0] <= 0.0:
+        raise ValueError(f"frequencies: {hertz[0]:g} Hz is refused: damping needs frequencies above 0")
+    full = scene.replace({"fidelity.model": "full"})
+
+    def point(speed: float, load: float) -> dict[int, float]:
+        return given(full, fixed | {"shaft_speed": speed * RPM, "preload": load})
+
+    points = {(speed, load): point(speed, load) for speed in rpm for load in loads}  # all checked first
+    shape = (len(rpm), len(loads))
+    z = np.empty((*shape, len(hertz), len(FREEDOMS), len(FREEDOMS)), dtype=complex)
+    static = np.empty((*shape, len(FREEDOMS), len(FREEDOMS)))
+    orbit, spread = np.empty(shape), np.zeros(shape)
+    w = 2.0 * math.pi * hertz
+    for i, speed in enumerate(track(list(rpm)) if track else rpm):
+        for k, load in enumerate(loads):
+            system = _with_force(full, points[speed, load])
+            ready = spaced if spacing == "held" else _as_it_is
+            z[i, k] = impedance(system, ready(system, system.matrix), w)
+            static[i, k] = _static(full, system)
+            orbit[i, k] = abs(system.orbit) / (2.0 * math.pi)
+            ends = w[[0, -1]]
+            for matrix in () if system.equal_loads else system.phases:
+                other = impedance(system, ready(system, matrix), ends)
+                spread[i, k] = max(spread[i, k], _apart(other, z[i, k][[0, -1]]))
+    own = np.array(
+        [_static(full, _with_force(full, point(scene.operation.speed_rpm, load))) for load in loads]
+    )
+    damping = z.imag / w[:, None, None]
+    return Stiffness(scene, rpm, loads, hertz, z.real, damping, static, own, orbit, spread, spacing)
+
+
+def _as_it_is(_system: Linearised, matrix: NDArray[np.float64]) -> NDArray[np.float64]:
+    return matrix
+
+
+def _axis(
+    name: str, unit: str, values: Sequence[float] | None, default: Sequence[float]
+) -> NDArray[np.float64]:
+    """Return the values of an axis, rising, each once."""
+    try:
+        found = np.unique([float(value) for value in (default if values is None else values)])
+    except (TypeError, ValueError):
+        raise ValueError(f"{name} = {values!r} is refused: give numbers, in {unit}") from None
+    if found.size == 0 or not np.isfinite(found).all():
+        raise ValueError(f"{name} = {values!r} is refused: give finite numbers, in {unit}")
+    return found
+
+
+def _with_force(scene: Scene, values: dict[int, float]) -> Linearised:
+    """Return the linearised bearing; with rigid preload that under the force which its place means."""
+    system = linearised(scene, values)
+    if not system.coordinates.held:
+        return system
+    state = system.arrays.s
+    force = float(state[S.Y + Y.Q0 + Q.OUTER] * state[S.C + C.PEDESTAL_AXIAL])
+    loose = scene.replace({"mounting.preload_mode": "force"})
+    return linearised(loose, values | {U.PRELOAD: force})
+
+
+def _static(scene: Scene, system: Linearised) -> NDArray[np.float64]:
+    """Return the quasi-static stiffness at a state, that of rigid rings."""
+    arrays = system.arrays
+    if scene.bends:
+        values = {place: float(arrays.u[place]) for place in range(U.SIZE)}
+        # the weight is in the loads already
+        rigid = scene.with_rigid_rings().replace({"fidelity.terms.gravity": False})
+        return _static(rigid, _with_force(rigid, values))
+    return energy_hessian(arrays.p, arrays.s)
+
+
+def _apart(one: NDArray[np.complex128], other: NDArray[np.complex128]) -> float:
+    """Largest difference of the diagonals over the stiffness of ``other``."""
+    a, b = (np.diagonal(part, axis1=-2, axis2=-1) for part in (one, other))
+    return float(np.max(np.abs(a - b) / np.abs(b.real)))
+
+
+def _limits(found: Stiffness) -> Iterator[str]:
+    """Yield the cautions of a table."""
+    largest = float(found.spread.max())
+    if largest > _SPREAD:
+        yield (
+            f"single phases of a ball pitch differ by up to {100.0 * largest:.1f} % from these means: the "
+            "balls' loads are unequal, and a rotor sees stiffness that changes as they pass"
+        )
+    slow = found.speeds[np.abs(found.speeds) / 60.0 < _STICKING]
+    if slow.size:
+        yield (
+            f"{slow[0]:g} r/min: contacts that do not roll stick below 1 mm/s: damping holds for motions "
+            "slower than that only"
+        )
+    yield from _whirl(found)
+    if found.spacing == "free":
+        ratio = found.frequencies / found.orbit[:, :, None]
+        if np.any(np.abs(ratio - 1.0) < _NEAR):
+            yield (
+                "frequencies within 20 % of the balls' orbit f_c: free balls bunch there and K has a pole; "
+                "spacing = held leaves that out"
+            )
+    if found.scene.bends:
+        yield "the rings bend in K and C, while the quasi-static matrix is that of rigid rings"
+
+
+def _whirl(found: Stiffness) -> Iterator[str]:
+    """Yield the caution of a motion that takes power from the shaft, and which one it is."""
+    lost, vectors = found.losses()
+    least = lost[..., 0]
+    if least.min() >= -_ROUNDING:
+        return
+    at = np.unravel_index(int(least.argmin()), least.shape)
+    highest = found.frequencies[np.flatnonzero((least < -_ROUNDING).any(axis=(0, 1)))[-1]]
+    motion = vectors[at][:, 0]
+    name, pair = max(
+        (("radial", motion[1:3]), ("tilting", motion[3:5])), key=lambda part: float(np.linalg.norm(part[1]))
+    )
+    ahead, behind = abs(pair[0] + 1j * pair[1]), abs(pair[0] - 1j * pair[1])
+    with_shaft = (ahead > behind) == (found.speeds[at[0]] >= 0.0)
+    yield (
+        f"a {'forward' if with_shaft else 'backward'} {name} whirl of up to {highest:g} Hz takes power from "
+        f"the shaft through the rolling contacts: at {found.speeds[at[0]]:g} r/min and "
+        f"{found.frequencies[at[2]]:g} Hz {-100.0 * least.min():.2f} % of the stiffness"
+    )

@@ -1,0 +1,127 @@
+"""Files of a table of stiffness and damping: CSV, netCDF."""
+
+import os
+from collections.abc import Iterator
+from importlib.metadata import version
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.engine.sources import source_hash
+from fmu_bearing.extras import need
+from fmu_bearing.files import check_file, write_whole
+from fmu_bearing.modal.impedance import FREEDOMS
+from fmu_bearing.run.result import written
+from fmu_bearing.run.table import write_csv
+
+if TYPE_CHECKING:
+    import xarray
+
+    from fmu_bearing.modal.stiffness import Stiffness
+
+ENDINGS = (".csv", ".nc")
+_TILTS = ("by", "bz")
+STATIC, DYNAMIC = "static", "dynamic"
+
+
+def check_table(path: str | os.PathLike[str]) -> Path:
+    """Return the path of a table that is going to be written; called before a long computation.
+
+    Raises
+    ------
+    ValueError
+        For an ending other than `ENDINGS`.
+    OSError
+        Where it cannot be written.
+    MissingExtra
+        For netCDF without xarray.
+    """
+    target = check_file(path)
+    if target.suffix not in ENDINGS:
+        raise ValueError(f"{target}: tables of stiffness are written as {' or '.join(ENDINGS)}")
+    if target.suffix == ".nc":
+        need("xarray", "netCDF")
+        need("h5netcdf", "netCDF")
+    return target
+
+
+def save(found: "Stiffness", path: str | os.PathLike[str]) -> Path:
+    """Write a table to ``.csv`` or ``.nc``; see `Stiffness.save`."""
+    target = check_table(path)
+    target.parent.mkdir(parents=True, exist_ok=True)
+    if target.suffix == ".csv":
+        write_csv(target, columns(), list(_rows(found)))
+        return target
+    data = dataset(found)
+    return write_whole(target, written(lambda file: data.to_netcdf(file, engine="h5netcdf"), ".nc"))
+
+
+def columns() -> list[str]:
+    """Heads of the CSV file."""
+    entries = [(force, motion) for force in FREEDOMS for motion in FREEDOMS]
+    heads = ["matrix", "speed_rpm", "preload_N", "frequency_Hz"]
+    heads += [f"K_{force}_{motion} [{unit(force, motion)}]" for force, motion in entries]
+    return heads + [f"C_{force}_{motion} [{unit(force, motion, damping=True)}]" for force, motion in entries]
+
+
+def unit(force: str, motion: str, damping: bool = False) -> str:
+    """Return the unit of an entry: a force or moment by a displacement or tilt."""
+    above = ["N"] + ["m"] * (force in _TILTS) + ["s"] * damping
+    below = "rad" if motion in _TILTS else "m"
+    if below in above:
+        above.remove(below)
+        return ".".join(above)
+    return f"{'.'.join(above)}/{below}"
+
+
+def _rows(found: "Stiffness") -> Iterator[list[str]]:
+    """Yield the rows of the CSV file: of each point the quasi-static matrix, then one per frequency."""
+    empty = [""] * len(FREEDOMS) ** 2
+    for i, speed in enumerate(found.speeds):
+        for k, preload in enumerate(found.preloads):
+            point = [_text(speed), _text(preload)]
+            yield [STATIC, *point, "", *map(_text, found.static[i, k].ravel()), *empty]
+            for f, frequency in enumerate(found.frequencies):
+                numbers = np.concatenate([found.K[i, k, f].ravel(), found.C[i, k, f].ravel()])
+                yield [DYNAMIC, *point, _text(frequency), *map(_text, numbers)]
+
+
+def _text(value: float) -> str:
+    return repr(float(value))
+
+
+def dataset(found: "Stiffness") -> "xarray.Dataset":
+    """Return a table as a dataset; see `Stiffness.to_xarray`."""
+    xr = need("xarray", "a dataset")
+    over = ("speed", "preload", "frequency")
+    pair = ("force", "motion")
+    si = "SI: N or N.m per m or rad"
+    names: NDArray[np.object_] = np.array(FREEDOMS, dtype=object)
+    variables = {
+        "K": ((*over, *pair), found.K, {"units": si, "long_name": "Stiffness"}),
+        "C": ((*over, *pair), found.C, {"units": f"{si}, times s", "long_name": "Damping"}),
+        "static": (
+            (*over[:2], *pair),
+            found.static,
+            {"units": si, "long_name": "Quasi-static stiffness, without friction"},
+        ),
+        "f_c": (over[:2], found.orbit, {"units": "Hz", "long_name": "Frequency of the balls' orbit"}),
+        "spread": (over[:2], found.spread, {"units": "", "long_name": "Range over one ball pitch, over K"}),
+    }
+    coords = {
+        "speed": ("speed", found.speeds, {"units": "r/min", "long_name": "Shaft speed"}),
+        "preload": ("preload", found.preloads, {"units": "N", "long_name": "Preload"}),
+        "frequency": ("frequency", found.frequencies, {"units": "Hz", "long_name": "Frequency"}),
+        "force": ("force", names, {"long_name": "Force along, or moment about, on the inner ring"}),
+        "motion": ("motion", names, {"long_name": "Displacement along, or tilt about, of the inner ring"}),
+    }
+    head = {
+        "title": f"Stiffness and damping of {found.scene.name}",
+        "scene": found.scene.to_toml(),
+        "spacing": found.spacing,
+        "fmu_bearing": version("fmu-bearing"),
+        "engine": source_hash(),
+    }
+    return xr.Dataset(variables, coords, head)

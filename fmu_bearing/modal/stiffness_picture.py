@@ -1,0 +1,56 @@
+"""Picture of stiffness and damping over speed, a curve per preload."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from fmu_bearing.modal.impedance import FREEDOMS
+from fmu_bearing.run.pictures import OTHERS, empty, label
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from fmu_bearing.modal.stiffness import Stiffness
+
+#: Title, freedom, unit and factor of stiffness and of damping.
+_PANELS = (
+    ("axial", "x", ("N/um", 1e-6), ("N s/m", 1.0)),
+    ("radial", "y", ("N/um", 1e-6), ("N s/m", 1.0)),
+    ("tilt", "bz", ("N m/mrad", 1e-3), ("mN m s/rad", 1e3)),
+)
+
+
+def picture(found: "Stiffness", frequency: float | None = None) -> "Figure":
+    """Draw K and C over speed; see `Stiffness.picture`."""
+    wanted = found.frequencies[len(found.frequencies) // 2] if frequency is None else frequency
+    at = int(np.abs(np.log(found.frequencies / wanted)).argmin())
+    figure = empty((11.0, 6.2))
+    panels = figure.subplots(2, len(_PANELS), sharex=True)
+    krpm = 1e-3 * found.speeds
+    dots = "o" if len(krpm) == 1 else None
+    for column, (title, freedom, stiff, damped) in enumerate(_PANELS):
+        i = FREEDOMS.index(freedom)
+        above, below = panels[:, column]
+        for k, preload in enumerate(found.preloads):
+            colour = OTHERS[k % len(OTHERS)]
+            above.plot(
+                krpm, stiff[1] * found.K[:, k, at, i, i], color=colour, marker=dots, label=f"{preload:g} N"
+            )
+            above.plot(krpm, stiff[1] * found.static[:, k, i, i], color=colour, ls="--", lw=1.0)
+            below.plot(krpm, damped[1] * found.C[:, k, at, i, i], color=colour, marker=dots)
+        label(above, "", stiff[0], f"K {title}")
+        label(below, "speed, 1000 r/min", damped[0], f"C {title}")
+        for ax in (above, below):
+            low, high = ax.get_ylim()
+            ax.set_ylim(min(low, 0.0), max(high, 0.0))
+    handles, labels = panels[0, 0].get_legend_handles_labels()
+    dashed = panels[0, 0].plot([], [], color="0.4", ls="--", lw=1.0)[0]
+    figure.legend(
+        [*handles, dashed],
+        [*labels, "quasi-static"],
+        loc="outside lower center",
+        ncols=len(labels) + 1,
+        frameon=False,
+    )
+    figure.suptitle(f"{found.scene.name}: the bearing at {found.frequencies[at]:g} Hz")
+    return figure

@@ -9,6 +9,7 @@
 ``compare``     two scenes, recordings or runs side by side
 ``sound``       levels, spectra, directivity, WAV
 ``studies``     choose, tradeoff, sensitivity, changes
+``stiffness``   K and C over speed, preload and frequency, for rotor programs
 ``sweep``       a scene over a grid of its values
 ``identify``    numbers of a scene from measured levels
 ``modes``       natural frequencies, and over speed what excites them
@@ -29,6 +30,7 @@ from fmu_bearing.cli import (  # noqa: F401
     runs,
     scenes,
     sound,
+    stiffness,
     studies,
     sweep,
     validate,

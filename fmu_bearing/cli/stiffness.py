@@ -13,36 +13,34 @@ from fmu_bearing.cli.base import (
     app,
     print_json,
     progress,
-    quiet_warnings,
     refusals,
+    shaft_speed,
     tell,
 )
-from fmu_bearing.cli.runs import Settings, settings_of
+from fmu_bearing.cli.modes import Changes, changed
 
 if TYPE_CHECKING:
-    from fmu_bearing.modal.stiffness import Stiffness
+    from fmu_bearing.modal.stiffness import Spacing, Stiffness
 
 _ENDINGS = {"csv": ".csv", "netcdf": ".nc", "ross": ".toml"}
-_VALUES = "LOW:HIGH:COUNT, LOW:HIGH:COUNTlog or VALUE,VALUE,..."
-_COLUMNS = (
-    "r/min", "preload, N", "K axial, N/um", "K radial, N/um", "K tilt, N m/mrad", "load centre, mm",
-    "C axial, N s/m", "C radial, N s/m", "C tilt, mN m s/rad",
-)  # fmt: skip
+_SYNTAX = "LOW:HIGH:COUNT, LOW:HIGH:COUNTlog or VALUE,VALUE,..."
+_COLUMNS = ("r/min", "N", "K axial", "K radial", "K tilt", "C axial", "C radial", "C tilt")
+_PERCENT = 100.0
 
 
 @app.command()
 def stiffness(
     scene: SceneFile,
     speeds: Annotated[
-        str | None, typer.Option(metavar="VALUES", help=f"r/min; default: the scene's. {_VALUES}.")
+        str | None, typer.Option(metavar="VALUES", help=f"r/min: {_SYNTAX}; default: the scene's.")
     ] = None,
     preloads: Annotated[
-        str | None, typer.Option(metavar="VALUES", help="N, in the same way; default: the scene's.")
+        str | None, typer.Option(metavar="VALUES", help="N, written alike; default: the scene's.")
     ] = None,
     frequencies: Annotated[
-        str | None, typer.Option(metavar="VALUES", help="Hz, in the same way; default: 8 from 50 to 10000.")
+        str | None, typer.Option(metavar="VALUES", help="Hz, written alike; default: 8 from 50 to 10000.")
     ] = None,
-    settings: Settings = None,
+    settings: Changes = None,
     spacing: Annotated[
         str, typer.Option(help="held: balls keep their distances, as in a cage; free: they do not.")
     ] = "held",
@@ -53,35 +51,43 @@ def stiffness(
         bool, typer.Option("--mirrored", help="For ross: the bearing carries the other way.")
     ] = False,
     output: Annotated[
-        Path | None, typer.Option("--output", "-o", help="File; default: stiffness with the format's ending.")
+        Path | None,
+        typer.Option("--output", "-o", metavar="FILE", help="Default: stiffness and the format's ending."),
     ] = None,
     picture: Annotated[
-        Path | None, typer.Option(help="Picture of K and C over speed to write: .png, .svg or .pdf.")
+        Path | None,
+        typer.Option(metavar="FILE", help="Picture of K and C over speed, .png or .svg."),
     ] = None,
     catalogue: Catalogues = None,
     as_json: Json = False,
 ) -> None:
-    """Compute stiffness and damping over speed, preload and frequency; write them for rotor programs."""
+    """Compute stiffness and damping over speed, preload and frequency; write them for rotor programs.
+
+    With --format ross the file NAME.toml becomes NAME-1.toml and NAME-2.toml: a bearing element of ROSS 3
+    each, with half of the bearing. The table tells what both lack of its tilt and coupling.
+    """
     from fmu_bearing.modal.stiffness import stiffness as table_of
     from fmu_bearing.run.pictures import check_picture, save
+    from fmu_bearing.scene import read_scene
 
-    with refusals(), quiet_warnings():
-        target = _target(form, output)
+    with refusals():
         if mirrored and form != "ross":
-            raise Refusal("--mirrored belongs to --format ross: tables are in the bearing's own axes")
+            raise Refusal("--mirrored is for --format ross: tables are told in the bearing's own axes")
+        asked = {
+            name: _values(name, text)
+            for name, text in (("speeds", speeds), ("preloads", preloads), ("frequencies", frequencies))
+        }
+        for speed in asked["speeds"] or ():
+            shaft_speed(speed, "--speeds")
+        target = _target(form, output, asked)
         if picture is not None:
             check_picture(picture)
-        axes = [
-            _numbers(option, text)
-            for option, text in (
-                ("--speeds", speeds), ("--frequencies", frequencies), ("--preloads", preloads),
-            )
-        ]  # fmt: skip
-        bar = None if as_json else lambda values: progress(values, description="speeds")
+        chosen, inputs = changed(read_scene(scene), settings)
         found = table_of(
-            scene, axes[0], axes[1], preloads=axes[2], inputs=settings_of(settings),
-            spacing=spacing, track=bar, check=_check_ross if form == "ross" else None,
-        )  # type: ignore[arg-type]  # fmt: skip
+            chosen, asked["speeds"], asked["frequencies"], preloads=asked["preloads"], inputs=inputs,
+            spacing=_spacing(spacing),
+            track=None if as_json else lambda values: progress(values, "speeds", transient=True),
+        )  # fmt: skip
         files = _write(found, form, target, mirrored)
         if picture is not None:
             save(found.picture(), picture)
@@ -95,4 +101,110 @@ def stiffness(
             _show_planes(found, float(preload), mirrored)
     for line in found.cautions():
         tell(f"caution: {line}")
-    typer.echo(f"written: {', '.join(map(str, files))}")
+    tell(f"written: {', '.join(map(str, files))}")
+
+
+def _values(name: str, text: str | None) -> list[float] | None:
+    """Return the numbers of an axis from text."""
+    from fmu_bearing.sweeps.axes import SweepError, parse_values
+
+    if text is None:
+        return None
+    try:
+        found = parse_values(name, text)
+    except SweepError:
+        found = [text]
+    if not all(isinstance(value, int | float) and not isinstance(value, bool) for value in found):
+        raise Refusal(f"--{name} {text} is refused: write {_SYNTAX}")
+    return [float(value) for value in found]
+
+
+def _spacing(text: str) -> "Spacing":
+    if text not in ("held", "free"):
+        raise Refusal(f"--spacing {text} is refused: it is held or free")
+    return "free" if text == "free" else "held"
+
+
+def _target(form: str, output: Path | None, asked: dict[str, list[float] | None]) -> Path:
+    """Return the file to write, checked before anything is computed."""
+    from fmu_bearing.modal.ross import check_axes, check_element
+    from fmu_bearing.modal.stiffness_files import check_table
+
+    if form not in _ENDINGS:
+        raise Refusal(f"--format {form} is refused: it is {', '.join(_ENDINGS)}")
+    target = output or Path(f"stiffness{_ENDINGS[form]}")
+    if target.suffix != _ENDINGS[form]:
+        raise Refusal(f"--output {target}: --format {form} writes files that end in {_ENDINGS[form]}")
+    if form != "ross":
+        return check_table(target)
+    check_axes(len(asked["speeds"] or (0.0,)), len(asked["frequencies"] or range(8)))
+    return check_element(target)
+
+
+def _write(found: "Stiffness", form: str, target: Path, mirrored: bool) -> list[Path]:
+    """Write the table, or two elements per preload, and return the files."""
+    if form != "ross":
+        return [found.save(target)]
+    files: list[Path] = []
+    for preload in found.preloads:
+        name = target if len(found.preloads) == 1 else target.with_stem(f"{target.stem}-{preload:g}N")
+        files += found.to_ross(name, preload, mirrored=mirrored)
+    return files
+
+
+def _show(found: "Stiffness") -> None:
+    """Print the table at its middle frequency."""
+    from fmu_bearing.run.table import show
+
+    at = len(found.frequencies) // 2
+    rows = []
+    for i, speed in enumerate(found.speeds):
+        for k, preload in enumerate(found.preloads):
+            stiff, damped = found.K[i, k, at].diagonal(), found.C[i, k, at].diagonal()
+            row = [f"{speed:g}", f"{preload:g}", f"{1e-6 * stiff[0]:.2f}", f"{1e-6 * stiff[1]:.1f}"]
+            row += [f"{1e-3 * stiff[4]:.3f}", f"{damped[0]:.1f}", f"{damped[1]:.1f}"]
+            rows.append([*row, f"{1e3 * damped[4]:.2f}"])
+    units = "K in N/um and N m/mrad, C in N s/m and mN m s/rad"
+    show(f"{found.scene.name} at {found.frequencies[at]:g} Hz: {units}", _COLUMNS, rows)
+    typer.echo(
+        f"quasi-static stiffness differs from K at {found.frequencies[0]:g} Hz by at most "
+        f"{_PERCENT * found.against_static():.2g} %"
+    )
+
+
+def _show_planes(found: "Stiffness", preload: float, mirrored: bool) -> None:
+    """Print where the two planes stand and what they lack, over all frequencies."""
+    from fmu_bearing.modal.planes import ERRORS
+    from fmu_bearing.run.table import show
+
+    planes, off = found.planes(preload, mirrored), _PERCENT * found.plane_errors(preload)
+    low, high = off.min(axis=1), off.max(axis=1)
+    rows = [
+        [f"{speed:g}", *(f"{low[i, k]:+.2g} to {high[i, k]:+.2g}" for k in range(len(ERRORS)))]
+        for i, speed in enumerate(found.speeds)
+    ]
+    show(f"{preload:g} N: error of the two planes, %, over all frequencies", ("r/min", *ERRORS), rows)
+    typer.echo(
+        f"planes at {1e3 * planes.places[0]:+.3f} and {1e3 * planes.places[1]:+.3f} mm from the centre of "
+        f"the balls: e = {1e3 * planes.centre:+.3f}, h = {1e3 * planes.half:.3f} mm"
+    )
+
+
+def _document(found: "Stiffness", form: str, mirrored: bool) -> dict[str, Any]:
+    """Return all numbers by name, for machines."""
+    result: dict[str, Any] = {
+        "scene": found.scene.name, "speeds_rpm": found.speeds, "preloads_N": found.preloads,
+        "frequencies_Hz": found.frequencies, "K": found.K, "C": found.C, "static": found.static,
+        "f_c_Hz": found.orbit, "spread": found.spread, "spacing": found.spacing,
+        "against_static": found.against_static(), "cautions": found.cautions(),
+    }  # fmt: skip
+    if form == "ross":
+        result["planes"] = [
+            {
+                "preload_N": float(preload),
+                "places_mm": [1e3 * place for place in found.planes(float(preload), mirrored).places],
+                "errors": found.plane_errors(float(preload)),
+            }
+            for preload in found.preloads
+        ]
+    return result

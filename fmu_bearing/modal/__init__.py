@@ -14,6 +14,7 @@
 ``impedance``          forces on the inner ring per motion, balls eliminated at the frequency
 ``planes``             two planes whose radial springs stand for tilt and coupling
 ``stiffness``          `stiffness`: K and C over speed, preload and frequency
+``stiffness_limits``   what limits them, in sentences
 ``stiffness_files``    their CSV and netCDF
 ``ross``               bearing elements for the rotor program ROSS
 ``stiffness_picture``  K and C over speed

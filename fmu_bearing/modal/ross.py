@@ -46,12 +46,12 @@ def check_element(path: str | os.PathLike[str]) -> Path:
     return target
 
 
-def check_axes(speeds: NDArray[np.float64], frequencies: NDArray[np.float64]) -> None:
-    """Raise ``ValueError`` unless both axes have one value or enough to interpolate."""
-    for name, axis in (("speeds", speeds), ("frequencies", frequencies)):
-        if 1 < len(axis) < FEWEST:
+def check_axes(speeds: int, frequencies: int) -> None:
+    """Raise ``ValueError`` unless both axes have one value or enough to interpolate; by their lengths."""
+    for name, count in (("speeds", speeds), ("frequencies", frequencies)):
+        if 1 < count < FEWEST:
             raise ValueError(
-                f"{len(axis)} {name} are refused: ROSS interpolates between at least {FEWEST}; give one, or "
+                f"{count} {name} are refused: ROSS interpolates between at least {FEWEST}; give one, or "
                 f"{FEWEST} and more"
             )
 
@@ -62,7 +62,7 @@ def write(
 ) -> tuple[Path, Path]:  # fmt: skip
     """Write both elements; see `Stiffness.to_ross`."""
     target = check_element(path)
-    check_axes(found.speeds, found.frequencies)
+    check_axes(len(found.speeds), len(found.frequencies))
     at, planes = found.at_preload(preload), found.planes(preload, mirrored)
     files = []
     for part, (place, node) in enumerate(zip(planes.places, nodes, strict=True), 1):

@@ -2,7 +2,7 @@
 
 import math
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, get_args
@@ -12,13 +12,19 @@ from numpy.typing import NDArray
 
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import C, Q, S, U, Y
+from fmu_bearing.instance import EngineError
 from fmu_bearing.modal.conditions import given
 from fmu_bearing.modal.impedance import FREEDOMS, impedance, spaced
 from fmu_bearing.modal.linearised import Linearised, linearised
-from fmu_bearing.modal.planes import Planes, planes
+from fmu_bearing.modal.planes import Planes, errors, planes
 from fmu_bearing.modal.static import stiffness as energy_hessian
 from fmu_bearing.modal.stiffness_files import dataset, save
+from fmu_bearing.modal.stiffness_limits import limits_of
+from fmu_bearing.run.arrays import Arrays, Refused
 from fmu_bearing.scene import Scene, SceneSource, scene_of
+from fmu_bearing.scene.operation import Operation
+from fmu_bearing.scene.problems import allowed
+from fmu_bearing.scene.values import limits
 
 if TYPE_CHECKING:
     import xarray
@@ -27,10 +33,6 @@ if TYPE_CHECKING:
 Spacing = Literal["held", "free"]
 #: Hz: what a table has where no frequencies are given.
 FREQUENCIES = tuple(float(f"{value:.3g}") for value in np.geomspace(50.0, 10e3, 8))
-_STICKING = 1e-3  # turns per second: slower, contacts stick, as for `modes`
-_SPREAD = 0.01  # over one ball pitch, beyond which it is told
-_NEAR = 0.2  # of the orbit's frequency: nearer to it, free balls that bunch are seen
-_ROUNDING = 1e-9  # of the stiffness: a loss below it is none
 
 
 @dataclass(frozen=True)
@@ -131,6 +133,17 @@ class Stiffness:
         """
         return planes(self.own[self.at_preload(preload)], mirrored)
 
+    def plane_errors(self, preload: float | None = None) -> NDArray[np.float64]:
+        """Return what the two planes have too much, over what the bearing has.
+
+        Returns
+        -------
+        ndarray, shape (speed, frequency, 4)
+            In the order of `modal.planes.ERRORS`.
+        """
+        at = self.at_preload(preload)
+        return errors(self.planes(preload), self.K[:, at], self.C[:, at])
+
     def at_preload(self, preload: float | None) -> int:
         """Return the place of a preload (N) on its axis; ``ValueError`` for one that is not there."""
         listed = ", ".join(f"{value:g}" for value in self.preloads)
@@ -145,7 +158,7 @@ class Stiffness:
 
     def cautions(self) -> list[str]:
         """Return what limits these numbers, in sentences."""
-        return [*_limits(self)]
+        return [*limits_of(self)]
 
     def to_xarray(self) -> "xarray.Dataset":
         """Return all as a dataset over speed, preload and frequency, the scene as TOML text in ``scene``.
@@ -270,10 +283,14 @@ def stiffness(
             raise ValueError(f"{name} is an axis of the table: give {instead}")
     rpm = _axis("speeds", "r/min", speeds, [scene.operation.speed_rpm])
     loads = _axis("preloads", "N", preloads, [scene.mounting.preload_N])
+    low, high = limits(Operation.model_fields["speed_rpm"])
+    if rpm[0] < low or rpm[-1] > high:
+        raise ValueError(f"speeds are refused: allowed are {allowed(('operation', 'speed_rpm'))}")
     hertz = _axis("frequencies", "Hz", frequencies, FREQUENCIES)
     if hertz[0] <= 0.0:
         raise ValueError(f"frequencies: {hertz[0]:g} Hz is refused: damping needs frequencies above 0")
     full = scene.replace({"fidelity.model": "full"})
+    rigid = full.model_copy(update={"sound": None, "imperfections": None}).with_rigid_rings()
 
     def point(speed: float, load: float) -> dict[int, float]:
         return given(full, fixed | {"shaft_speed": speed * RPM, "preload": load})
@@ -289,15 +306,13 @@ def stiffness(
             system = _with_force(full, points[speed, load])
             ready = spaced if spacing == "held" else _as_it_is
             z[i, k] = impedance(system, ready(system, system.matrix), w)
-            static[i, k] = _static(full, system)
+            static[i, k] = _static(rigid, points[speed, load])
             orbit[i, k] = abs(system.orbit) / (2.0 * math.pi)
             ends = w[[0, -1]]
             for matrix in () if system.equal_loads else system.phases:
                 other = impedance(system, ready(system, matrix), ends)
                 spread[i, k] = max(spread[i, k], _apart(other, z[i, k][[0, -1]]))
-    own = np.array(
-        [_static(full, _with_force(full, point(scene.operation.speed_rpm, load))) for load in loads]
-    )
+    own = np.array([_static(rigid, point(scene.operation.speed_rpm, load)) for load in loads])
     damping = z.imag / w[:, None, None]
     return Stiffness(scene, rpm, loads, hertz, z.real, damping, static, own, orbit, spread, spacing)
 
@@ -330,14 +345,15 @@ def _with_force(scene: Scene, values: dict[int, float]) -> Linearised:
     return linearised(loose, values | {U.PRELOAD: force})
 
 
-def _static(scene: Scene, system: Linearised) -> NDArray[np.float64]:
-    """Return the quasi-static stiffness at a state, that of rigid rings."""
-    arrays = system.arrays
-    if scene.bends:
-        values = {place: float(arrays.u[place]) for place in range(U.SIZE)}
-        # the weight is in the loads already
-        rigid = scene.with_rigid_rings().replace({"fidelity.terms.gravity": False})
-        return _static(rigid, _with_force(rigid, values))
+def _static(rigid: Scene, values: dict[int, float]) -> NDArray[np.float64]:
+    """Return the stiffness at the quasi-static state of a scene with rigid rings."""
+    arrays = Arrays.of(rigid)
+    for place, value in values.items():
+        arrays.u[place] = value
+    try:
+        arrays.init()
+    except Refused as refusal:
+        raise EngineError(f"{rigid.name}: {refusal}") from None
     return energy_hessian(arrays.p, arrays.s)
 
 
@@ -345,50 +361,3 @@ def _apart(one: NDArray[np.complex128], other: NDArray[np.complex128]) -> float:
     """Largest difference of the diagonals over the stiffness of ``other``."""
     a, b = (np.diagonal(part, axis1=-2, axis2=-1) for part in (one, other))
     return float(np.max(np.abs(a - b) / np.abs(b.real)))
-
-
-def _limits(found: Stiffness) -> Iterator[str]:
-    """Yield the cautions of a table."""
-    largest = float(found.spread.max())
-    if largest > _SPREAD:
-        yield (
-            f"single phases of a ball pitch differ by up to {100.0 * largest:.1f} % from these means: the "
-            "balls' loads are unequal, and a rotor sees stiffness that changes as they pass"
-        )
-    slow = found.speeds[np.abs(found.speeds) / 60.0 < _STICKING]
-    if slow.size:
-        yield (
-            f"{slow[0]:g} r/min: contacts that do not roll stick below 1 mm/s: damping holds for motions "
-            "slower than that only"
-        )
-    yield from _whirl(found)
-    if found.spacing == "free":
-        ratio = found.frequencies / found.orbit[:, :, None]
-        if np.any(np.abs(ratio - 1.0) < _NEAR):
-            yield (
-                "frequencies within 20 % of the balls' orbit f_c: free balls bunch there and K has a pole; "
-                "spacing = held leaves that out"
-            )
-    if found.scene.bends:
-        yield "the rings bend in K and C, while the quasi-static matrix is that of rigid rings"
-
-
-def _whirl(found: Stiffness) -> Iterator[str]:
-    """Yield the caution of a motion that takes power from the shaft, and which one it is."""
-    lost, vectors = found.losses()
-    least = lost[..., 0]
-    if least.min() >= -_ROUNDING:
-        return
-    at = np.unravel_index(int(least.argmin()), least.shape)
-    highest = found.frequencies[np.flatnonzero((least < -_ROUNDING).any(axis=(0, 1)))[-1]]
-    motion = vectors[at][:, 0]
-    name, pair = max(
-        (("radial", motion[1:3]), ("tilting", motion[3:5])), key=lambda part: float(np.linalg.norm(part[1]))
-    )
-    ahead, behind = abs(pair[0] + 1j * pair[1]), abs(pair[0] - 1j * pair[1])
-    with_shaft = (ahead > behind) == (found.speeds[at[0]] >= 0.0)
-    yield (
-        f"a {'forward' if with_shaft else 'backward'} {name} whirl of up to {highest:g} Hz takes power from "
-        f"the shaft through the rolling contacts: at {found.speeds[at[0]]:g} r/min and "
-        f"{found.frequencies[at[2]]:g} Hz {-100.0 * least.min():.2f} % of the stiffness"
-    )

@@ -1,0 +1,241 @@
+"""A spindle's shaft on two bearings in ROSS 3: what its two elements per bearing do, and what they miss.
+
+    python examples/rotor/round_trip.py --ross /path/to/environment/bin/python
+
+ROSS 3.1 needs Python 3.13, so it runs in an environment of its own, as a process apart (`in_ross.py`).
+This side writes the elements, lets ROSS read them and solve the rotor, and solves the same shaft by itself:
+with springs in the same planes, and with all five freedoms of the bearings.
+"""
+
+import argparse
+import json
+import math
+import pathlib
+import shlex
+import subprocess
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.interpolate import PchipInterpolator
+from scipy.linalg import block_diag, eig
+
+from fmu_bearing import read_scene, stiffness
+from fmu_bearing.engine.constants import RPM
+from fmu_bearing.modal.planes import mirrored_matrix
+from fmu_bearing.run.table import machine, markdown, write_csv
+
+HERE = pathlib.Path(__file__).parent
+SCENE = HERE.parent / "scenes" / "7003C-spindle.toml"
+SPEEDS = np.linspace(5e3, 25e3, 5)  # r/min, of the table
+ASKED = (15e3, 12.5e3)  # r/min: one of them, and one between two of them
+PLACES = (0.040, 0.140)  # m: centres of the balls along the shaft; the rear bearing carries the other way
+LENGTH, DIAMETER = 0.180, 0.017  # m
+DISK = {"m": 0.1, "Id": 2e-5, "Ip": 4e-5}  # kg, kg m2: a tool at the nose
+HIGHEST = 2.0 * math.pi * 4.8e3  # rad/s: below the shaft's torsion, which no bearing holds
+FREEDOMS = 6  # of a node in ROSS: x, y, z and rotations about them
+#: Ours (x, y, z, by, bz) among them: x, y, z of ROSS are Y, Z, X.
+OURS = (2, 0, 1, 3, 4)
+SEATS = ("bending", "rigid")  # of the shaft between centre and planes of a bearing
+COLUMNS = (
+    "seat", "r/min", "whirl", "ROSS, Hz", "damping ratio", "own, two planes, Hz", "damping ratio",
+    "five freedoms, Hz", "damping ratio", "one plane, Hz", "damping ratio",
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Nodes of the rotor (m), and which of them are planes, centres of balls and load centres."""
+
+    places: list[float]
+    planes: list[int]
+    centres: list[int]
+    loads: list[int]
+
+    @property
+    def seats(self):
+        """Return the elements between the centre of a bearing and its planes."""
+        found = []
+        for b, centre in enumerate(self.centres):
+            mine = [centre, self.loads[b], *self.planes[2 * b : 2 * b + 2]]
+            found += range(min(mine), max(mine))
+        return found
+
+
+def layout(table):
+    """Return the nodes for a table's planes."""
+    planes = [table.planes(mirrored=mirrored) for mirrored in (False, True)]
+    at = [centre + place for centre, one in zip(PLACES, planes, strict=True) for place in one.places]
+    loads = [centre + one.centre for centre, one in zip(PLACES, planes, strict=True)]
+    nodes = sorted({0.0, 0.5 * sum(PLACES), LENGTH, *PLACES, *at, *loads})
+    return Layout(nodes, *([nodes.index(place) for place in places] for places in (at, PLACES, loads)))
+
+
+def ask(command, asked):
+    """Run the other side and return its answer."""
+    script = (HERE / "in_ross.py").read_text(encoding="utf-8")
+    done = subprocess.run(
+        [*shlex.split(command), "-c", script], input=json.dumps(asked), capture_output=True, text=True
+    )
+    if done.returncode:
+        raise SystemExit(f"{command} failed:\n{done.stderr}")
+    return json.loads(done.stdout.strip().splitlines()[-1])
+
+
+def between(table, values):
+    """Return a function of the frequency (rad/s) from values over the table's frequencies, as ROSS has it."""
+    return PchipInterpolator(2.0 * math.pi * table.frequencies, values, extrapolate=True)
+
+
+def bearing(table, speed):
+    """Return functions K(w) and C(w) of a bearing, shape (5, 5)."""
+    at = int(np.flatnonzero(np.isclose(table.speeds, speed))[0])
+    return between(table, table.K[at, 0]), between(table, table.C[at, 0])
+
+
+def part(function, share):
+    """Return a function of the frequency with a share of the translations alone."""
+    keep = np.diag([1.0, 1.0, 1.0, 0.0, 0.0])
+    return lambda w: share * keep @ function(w) @ keep
+
+
+def rotor(shaft, nodes, pair):
+    """Return functions K(w), C(w) of the rotor with a bearing, mirrored in the second half of the nodes."""
+    size = shaft["K"].shape[0]
+    into = np.zeros((len(nodes), len(OURS), size))
+    for b, node in enumerate(nodes):
+        into[b, np.arange(len(OURS)), node * FREEDOMS + np.array(OURS)] = 1.0
+
+    def added(own, of_bearing):
+        def matrix(w):
+            one = of_bearing(w)
+            found = own.copy()
+            for b, lever in enumerate(into):
+                found += lever.T @ (one if 2 * b < len(nodes) else mirrored_matrix(one)) @ lever
+            return found
+
+        return matrix
+
+    return added(shaft["K"], pair[0]), added(shaft["C"], pair[1])
+
+
+def modes(shaft, speed, k, c, starts):
+    """Damped frequencies (rad/s) and damping ratios in order, each with the bearing of its own frequency."""
+    size, found = shaft["K"].shape[0], []
+    b = block_diag(np.eye(size), shaft["M"])
+    for place, start in enumerate(starts):
+        w = start
+        for _ in range(20):
+            damping = c(w) + speed * shaft["G"]
+            a = np.block([[np.zeros((size, size)), np.eye(size)], [-k(w), -damping]])
+            values = eig(a, b, right=False)
+            values = values[np.isfinite(values) & (values.imag > 1.0)]
+            value = values[np.argsort(values.imag)[place]]
+            w, before = float(value.imag), w
+            if abs(w - before) < 1e-9 * w:
+                break
+        found.append((w, float(-value.real / abs(value))))
+    return found
+
+
+def compare(answer, tables, nodes):
+    """Return rows of the table of modes, and ROSS's largest difference from our two planes by speed."""
+    rows, worst = [], {}
+    for seat in SEATS:
+        shaft = {name: np.array(matrix) for name, matrix in answer[seat]["shaft"].items()}
+        for rpm, of_ross in zip(ASKED, answer[seat]["modes"], strict=True):
+            whole = bearing(tables[rpm], rpm)
+            ways = (
+                (nodes.planes, [part(one, 0.5) for one in whole]),
+                (nodes.centres, whole),
+                (nodes.loads, [part(one, 1.0) for one in whole]),
+            )
+            starts = [w for w, _, _ in of_ross]
+            own = [modes(shaft, rpm * RPM, *rotor(shaft, at, pair), starts) for at, pair in ways]
+            for (w, damping, way), *others in zip(of_ross, *own, strict=True):
+                cells = [seat, f"{rpm:.0f}", way.lower()]
+                for value, ratio in ((w, damping), *others):
+                    cells += [f"{value / (2.0 * math.pi):.2f}", f"{ratio:.5f}"]
+                rows.append(cells)
+                worst[rpm] = max(worst.get(rpm, 0.0), abs(others[0][0] / w - 1.0))
+    return rows, worst
+
+
+def differences(answer, table):
+    """Return the largest difference of ROSS's coefficients at the points of the table, over the largest."""
+    told = np.array(answer["tables"])  # element, speed, frequency, K or C, 3, 3
+    order = np.array([1, 2, 0])
+    worst = 0.0
+    for which, own in enumerate((table.K, table.C)):
+        half = 0.5 * own[:, 0][..., order[:, None], order]
+        half[..., [0, 1], 2] = half[..., 2, [0, 1]] = 0.0  # an element couples radial motions alone
+        worst = max(worst, float(np.abs(told[:, :, :, which] - half).max() / np.abs(half).max()))
+    return worst
+
+
+def main():
+    """Write the elements, have ROSS use them, compare."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--ross", required=True, help="Python of the environment with ROSS 3")
+    parser.add_argument("--output", "-o", type=pathlib.Path, default=pathlib.Path("out/rotor"))
+    given = parser.parse_args()
+    scene = read_scene(SCENE)
+    table = stiffness(scene, SPEEDS)
+    files = [*table.to_ross(given.output / "front.toml")]
+    files += table.to_ross(given.output / "rear.toml", mirrored=True)
+    nodes = layout(table)
+    asked = {
+        "nodes": nodes.places, "seats": nodes.seats, "diameter": DIAMETER, "disk": DISK, "at": nodes.planes,
+        "elements": [file.read_text(encoding="utf-8") for file in files],
+        "speeds": [rpm * RPM for rpm in ASKED], "highest": HIGHEST,
+    }  # fmt: skip
+    answer = ask(given.ross, asked)
+    # between the speeds of the table ROSS interpolates, and ours is computed there
+    rows, worst = compare(answer, {rpm: stiffness(scene, [rpm]) for rpm in ASKED}, nodes)
+    lines = [
+        "# A shaft on two bearings in ROSS",
+        "",
+        *told(table, answer, rows, worst),
+        "",
+        markdown(COLUMNS, rows),
+    ]
+    (given.output / "ross.md").write_text("\n".join(lines), encoding="utf-8")
+    write_csv(given.output / "ross.csv", COLUMNS, rows)
+    print("\n".join(lines))
+
+
+def told(table, answer, rows, worst):
+    """Return the page's sentences."""
+    versions, planes = answer["versions"], table.planes()
+    off = 100.0 * table.plane_errors()
+    apart = {
+        seat: max(abs(float(row[3]) / float(row[7]) - 1.0) for row in rows if row[0] == seat)
+        for seat in SEATS
+    }
+    one = max(abs(float(row[9]) / float(row[7]) - 1.0) for row in rows if row[0] == "rigid")
+    mm = [f"{1e3 * place:+.3f}" for place in planes.places]
+    return [
+        f"`examples/rotor/round_trip.py` made this page. ROSS {versions['ross']} ran on Python "
+        f"{versions['python']} in an environment of its own; this program on {machine()}.",
+        "",
+        f"Scene {table.scene.name}, {table.preloads[0]:g} N, tables of {len(table.speeds)} speeds and "
+        f"{len(table.frequencies)} frequencies. A shaft of steel, {1e3 * DIAMETER:g} mm thick and "
+        f"{1e3 * LENGTH:g} mm long, with a tool of {DISK['m']:g} kg, stands on two bearings that carry "
+        f"opposite ways. Their planes are {mm[0]} and {mm[1]} mm from the centres of the balls.",
+        "",
+        f"* ROSS reads the four elements, writes them, and reads the same again: {answer['saved_again']}.",
+        f"* At the points of the table its coefficients differ from ours by {differences(answer, table):.0e}.",
+        "* It solves each mode with the coefficients of the mode's own frequency. Our solution with springs "
+        f"in the same planes differs by at most {worst[ASKED[0]]:.0e} at {ASKED[0]:.0f} r/min, a speed of "
+        f"the table, and by {worst[ASKED[1]]:.0e} at {ASKED[1]:.0f} r/min, between two of its speeds.",
+        "* The planes stand beside the balls. A shaft that bends in between moves frequencies by up to "
+        f"{100.0 * apart['bending']:.2g} % against five freedoms at the balls' centre. With rigid arms without "
+        f"mass over these seats both agree within {100.0 * apart['rigid']:.2g} %; one plane with the whole "
+        f"radial stiffness is off by up to {100.0 * one:.2g} %.",
+        f"* Over the table both planes have {off[..., 0].min():+.2g} to {off[..., 0].max():+.2g} % of the "
+        f"tilt stiffness and {off[..., 2].min():+.2g} to {off[..., 2].max():+.2g} % of the tilt damping too "
+        "much.",
+    ]
+
+
+if __name__ == "__main__":
+    main()

@@ -102,8 +102,7 @@ class Stiffness:
         tuple of ndarray
             Shapes (speed, preload, frequency, 5) and (speed, preload, frequency, 5, 5), motions in columns.
         """
-        scale = np.sqrt(np.abs(np.diagonal(self.K, axis1=-2, axis2=-1)))
-        z = self.impedance / (scale[..., :, None] * scale[..., None, :])
+        z = self.impedance / _pairs(self.K)
         values, vectors = np.linalg.eigh((z - np.conj(np.swapaxes(z, -1, -2))) / 2j)
         return np.asarray(values), np.asarray(vectors)
 
@@ -112,9 +111,7 @@ class Stiffness:
 
         Entries over the root of both diagonal ones.
         """
-        scale = np.sqrt(np.abs(np.diagonal(self.static, axis1=-2, axis2=-1)))
-        difference = (self.K[:, :, 0] - self.static) / (scale[..., :, None] * scale[..., None, :])
-        return float(np.abs(difference).max())
+        return float(np.abs((self.K[:, :, 0] - self.static) / _pairs(self.static)).max())
 
     def planes(self, preload: float | None = None, mirrored: bool = False) -> Planes:
         """Return the two planes whose radial springs stand for tilt and coupling; see `modal.planes`.
@@ -361,3 +358,10 @@ def _apart(one: NDArray[np.complex128], other: NDArray[np.complex128]) -> float:
     """Largest difference of the diagonals over the stiffness of ``other``."""
     a, b = (np.diagonal(part, axis1=-2, axis2=-1) for part in (one, other))
     return float(np.max(np.abs(a - b) / np.abs(b.real)))
+
+
+def _pairs(matrix: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return for each entry the root of both diagonal ones, the measure of what is small; 1 for none."""
+    size = np.sqrt(np.abs(np.diagonal(matrix, axis1=-2, axis2=-1)))
+    size = np.where(size > 0.0, size, 1.0)
+    return np.asarray(size[..., :, None] * size[..., None, :])

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 if TYPE_CHECKING:
     from fmu_bearing.modal.stiffness import Stiffness
@@ -11,6 +12,7 @@ if TYPE_CHECKING:
 _STICKING = 1e-3  # turns per second: slower, contacts stick, as for `modes`
 _SPREAD = 0.01  # over one ball pitch, beyond which it is told
 _NEAR = 0.2  # of the orbit's frequency: nearer to it, free balls that bunch are seen
+_APART = 0.03  # of the stiffness: the quasi-static matrix is then no substitute
 _ROUNDING = 1e-9  # of the stiffness: a loss below it is none
 
 
@@ -22,6 +24,8 @@ def limits_of(found: "Stiffness") -> Iterator[str]:
             f"single phases of a ball pitch differ by up to {100.0 * largest:.1f} % from these means: the "
             "balls' loads are unequal, and a rotor sees stiffness that changes as they pass"
         )
+    if found.preloads[0] == 0.0:
+        yield "0 N: nothing holds balls and races together: K and C are those of loose balls and mean little"
     slow = found.speeds[np.abs(found.speeds) / 60.0 < _STICKING]
     if slow.size:
         yield (
@@ -37,7 +41,17 @@ def limits_of(found: "Stiffness") -> Iterator[str]:
                 "spacing = held leaves that out"
             )
     if found.scene.bends:
-        yield "the rings bend in K and C, while the quasi-static matrix is that of rigid rings"
+        yield (
+            "the rings bend in K and C, which counts where balls carry unequal loads; the quasi-static "
+            "matrix is that of rigid rings"
+        )
+    apart = found.against_static()
+    if apart > _APART:
+        yield (
+            f"K at {found.frequencies[0]:g} Hz differs from the quasi-static stiffness by up to "
+            f"{100.0 * apart:.0f} %: friction moves balls that carry little at high speed to other contact "
+            "angles; the planes for ROSS stand by the quasi-static one"
+        )
 
 
 def _whirl(found: "Stiffness") -> Iterator[str]:
@@ -48,14 +62,19 @@ def _whirl(found: "Stiffness") -> Iterator[str]:
         return
     at = np.unravel_index(int(least.argmin()), least.shape)
     highest = found.frequencies[np.flatnonzero((least < -_ROUNDING).any(axis=(0, 1)))[-1]]
-    motion = vectors[at][:, 0]
-    name, pair = max(
-        (("radial", motion[1:3]), ("tilting", motion[3:5])), key=lambda part: float(np.linalg.norm(part[1]))
-    )
-    ahead, behind = abs(pair[0] + 1j * pair[1]), abs(pair[0] - 1j * pair[1])
-    with_shaft = (ahead > behind) == (found.speeds[at[0]] >= 0.0)
     yield (
-        f"a {'forward' if with_shaft else 'backward'} {name} whirl of up to {highest:g} Hz takes power from "
+        f"{_motion(vectors[at][:, 0], found.speeds[at[0]] >= 0.0)} of up to {highest:g} Hz takes power from "
         f"the shaft through the rolling contacts: at {found.speeds[at[0]]:g} r/min and "
         f"{found.frequencies[at[2]]:g} Hz {-100.0 * least.min():.2f} % of the stiffness"
     )
+
+
+def _motion(vector: NDArray[np.complex128], positive: bool) -> str:
+    """Return what moves most in a motion of the ring, and which way; ``positive``: sense of the shaft."""
+    parts = {"axial": vector[:1], "radial": vector[1:3], "tilting": vector[3:5]}
+    name = max(parts, key=lambda key: float(np.linalg.norm(parts[key])))
+    if name == "axial":
+        return "an axial motion"
+    first, second = parts[name]
+    forward = (abs(first + 1j * second) > abs(first - 1j * second)) == positive
+    return f"a {'forward' if forward else 'backward'} {name} whirl"

@@ -1,8 +1,8 @@
 """Dynamic stiffness in the axes of the orbiting balls: one ball, circular motions of the ring.
 
-The oracle of `stiffness`. A forward circle of frequency w in fixed axes has w - w_c in axes that orbit with the
-balls, a backward one w + w_c. There every ball does the same after its own time, so that one is enough. The
-slopes are the engine's own, derived contact by contact; fixed axes and patterns of balls do not occur.
+The oracle of `stiffness`. A forward circle of frequency w in fixed axes has w - w_c in axes that orbit with
+the balls, a backward one w + w_c. There every ball does the same after its own time, so that one is enough.
+The slopes are the engine's own, derived contact by contact; fixed axes and patterns of balls do not occur.
 """
 
 import numpy as np
@@ -36,7 +36,7 @@ def blocks(system):
 
 
 def circling(system, w, way, spacing="held"):
-    """Stiffness against a circle at w (rad/s), way +1 forward or -1 backward: radial and tilt, shape (2, 2)."""
+    """Stiffness against a circle at w (rad/s), +1 forward or -1 backward: radial and tilt, shape (2, 2)."""
     p, masses = system.arrays.p, system.coordinates.masses[system.coordinates.ring_rates :]
     ball, by_ring, on_ring, ring = blocks(system)
     if spacing == "held":

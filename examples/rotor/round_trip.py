@@ -176,12 +176,12 @@ def main():
     """Write the elements, have ROSS use them, compare."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--ross", required=True, help="Python of the environment with ROSS 3")
-    parser.add_argument("--output", "-o", type=pathlib.Path, default=pathlib.Path("out/rotor"))
+    parser.add_argument("--output-dir", "-o", type=pathlib.Path, default=pathlib.Path("out/rotor"))
     given = parser.parse_args()
     scene = read_scene(SCENE)
     table = stiffness(scene, SPEEDS)
-    files = [*table.to_ross(given.output / "front.toml")]
-    files += table.to_ross(given.output / "rear.toml", mirrored=True)
+    files = [*table.to_ross(given.output_dir / "front.toml")]
+    files += table.to_ross(given.output_dir / "rear.toml", mirrored=True)
     nodes = layout(table)
     asked = {
         "nodes": nodes.places, "seats": nodes.seats, "diameter": DIAMETER, "disk": DISK, "at": nodes.planes,
@@ -198,8 +198,8 @@ def main():
         "",
         markdown(COLUMNS, rows),
     ]
-    (given.output / "ross.md").write_text("\n".join(lines), encoding="utf-8")
-    write_csv(given.output / "ross.csv", COLUMNS, rows)
+    (given.output_dir / "ross.md").write_text("\n".join(lines), encoding="utf-8")
+    write_csv(given.output_dir / "ross.csv", COLUMNS, rows)
     print("\n".join(lines))
 
 
@@ -223,14 +223,15 @@ def told(table, answer, rows, worst):
         f"opposite ways. Their planes are {mm[0]} and {mm[1]} mm from the centres of the balls.",
         "",
         f"* ROSS reads the four elements, writes them, and reads the same again: {answer['saved_again']}.",
-        f"* At the points of the table its coefficients differ from ours by {differences(answer, table):.0e}.",
+        "* At the points of the table its coefficients differ from ours by "
+        f"{differences(answer, table):.0e}.",
         "* It solves each mode with the coefficients of the mode's own frequency. Our solution with springs "
         f"in the same planes differs by at most {worst[ASKED[0]]:.0e} at {ASKED[0]:.0f} r/min, a speed of "
         f"the table, and by {worst[ASKED[1]]:.0e} at {ASKED[1]:.0f} r/min, between two of its speeds.",
         "* The planes stand beside the balls. A shaft that bends in between moves frequencies by up to "
-        f"{100.0 * apart['bending']:.2g} % against five freedoms at the balls' centre. With rigid arms without "
-        f"mass over these seats both agree within {100.0 * apart['rigid']:.2g} %; one plane with the whole "
-        f"radial stiffness is off by up to {100.0 * one:.2g} %.",
+        f"{100.0 * apart['bending']:.2g} % against five freedoms at their centre. With rigid arms "
+        f"without mass over these seats both agree within {100.0 * apart['rigid']:.2g} %; one plane with "
+        f"the whole radial stiffness is off by up to {100.0 * one:.2g} %.",
         f"* Over the table both planes have {off[..., 0].min():+.2g} to {off[..., 0].max():+.2g} % of the "
         f"tilt stiffness and {off[..., 2].min():+.2g} to {off[..., 2].max():+.2g} % of the tilt damping too "
         "much.",

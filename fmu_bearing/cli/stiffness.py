@@ -165,9 +165,9 @@ def _show(found: "Stiffness") -> None:
             row += [f"{1e-3 * stiff[4]:.3f}", f"{damped[0]:.1f}", f"{damped[1]:.1f}"]
             rows.append([*row, f"{1e3 * damped[4]:.2f}"])
     units = "K in N/um and N m/mrad, C in N s/m and mN m s/rad"
-    show(f"{found.scene.name} at {found.frequencies[at]:g} Hz: {units}", _COLUMNS, rows)
+    show(f"{found.scene.name} at {found.frequencies[at]:.4g} Hz: {units}", _COLUMNS, rows)
     typer.echo(
-        f"quasi-static stiffness differs from K at {found.frequencies[0]:g} Hz by at most "
+        f"quasi-static stiffness differs from K at {found.frequencies[0]:.4g} Hz by at most "
         f"{_PERCENT * found.against_static():.2g} %"
     )
 

@@ -48,7 +48,7 @@ def limits_of(found: "Stiffness") -> Iterator[str]:
     apart = found.against_static()
     if apart > _APART:
         yield (
-            f"K at {found.frequencies[0]:g} Hz differs from the quasi-static stiffness by up to "
+            f"K at {found.frequencies[0]:.4g} Hz differs from the quasi-static stiffness by up to "
             f"{100.0 * apart:.0f} %: friction moves balls that carry little at high speed to other contact "
             "angles; the planes for ROSS stand by the quasi-static one"
         )
@@ -63,9 +63,9 @@ def _whirl(found: "Stiffness") -> Iterator[str]:
     at = np.unravel_index(int(least.argmin()), least.shape)
     highest = found.frequencies[np.flatnonzero((least < -_ROUNDING).any(axis=(0, 1)))[-1]]
     yield (
-        f"{_motion(vectors[at][:, 0], found.speeds[at[0]] >= 0.0)} of up to {highest:g} Hz takes power from "
-        f"the shaft through the rolling contacts: at {found.speeds[at[0]]:g} r/min and "
-        f"{found.frequencies[at[2]]:g} Hz {-100.0 * least.min():.2f} % of the stiffness"
+        f"{_motion(vectors[at][:, 0], found.speeds[at[0]] >= 0.0)} of up to {highest:.4g} Hz takes power "
+        f"from the shaft through the rolling contacts: at {found.speeds[at[0]]:g} r/min and "
+        f"{found.frequencies[at[2]]:.4g} Hz {-100.0 * least.min():.2f} % of the stiffness"
     )
 
 

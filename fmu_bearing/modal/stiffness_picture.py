@@ -52,5 +52,5 @@ def picture(found: "Stiffness", frequency: float | None = None) -> "Figure":
         ncols=len(labels) + 1,
         frameon=False,
     )
-    figure.suptitle(f"{found.scene.name}: the bearing at {found.frequencies[at]:g} Hz")
+    figure.suptitle(f"{found.scene.name}: the bearing at {found.frequencies[at]:.4g} Hz")
     return figure

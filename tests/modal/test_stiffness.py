@@ -218,7 +218,7 @@ def test_a_whirl_that_feeds_on_the_shaft_is_told(table, sign):
     assert least[0] == pytest.approx(0.01 - 0.02, rel=1e-9)
     (told,) = found.cautions()
     # power of -K q on the circle y = cos, z = sin: -(K_yz z) y' - (K_zy y) z' = sign 0.02 w (sin^2 + cos^2)
-    assert told.startswith(f"a {'forward' if sign > 0 else 'backward'} radial whirl of up to 15.9155 Hz")
+    assert told.startswith(f"a {'forward' if sign > 0 else 'backward'} radial whirl of up to 15.92 Hz")
     assert motion.shape == (5, 5)
 
 
@@ -252,6 +252,14 @@ def test_a_bearing_without_preload_is_told(spindle):
     assert any(
         "loose balls" in line for line in stiffness(spindle, [1e4], [100.0], preloads=[0.0]).cautions()
     )
+
+
+def test_standstill_is_told(spindle):
+    still = stiffness(spindle, [0.0], [1e3])
+    assert any(line.startswith("0 r/min: contacts that do not roll stick") for line in still.cautions())
+    # nothing turns: no force at right angles to the motion, no whirl that feeds on the shaft
+    assert abs(still.K[0, 0, 0, Y, Z]) < 1e-6 * still.K[0, 0, 0, Y, Y]
+    assert still.losses()[0].min() > 0.0
 
 
 def test_preloads_are_found_by_value(table):

@@ -1,0 +1,100 @@
+"""The rotor in ROSS: this side without it, the whole of it where it is there, and the result that is kept."""
+
+import csv
+import importlib.util
+import math
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from fmu_bearing import stiffness
+from tests.examples.conftest import ROOT
+
+SCRIPT = ROOT / "examples" / "rotor" / "round_trip.py"
+#: Command of a Python with ROSS 3, such as /path/to/environment/bin/python.
+ROSS = os.environ.get("FMU_BEARING_ROSS")
+
+
+@pytest.fixture(scope="module")
+def script():
+    spec = importlib.util.spec_from_file_location("round_trip", SCRIPT)
+    module = importlib.util.module_from_spec(spec)
+    sys.modules["round_trip"] = module  # for its dataclass
+    spec.loader.exec_module(module)
+    yield module
+    del sys.modules["round_trip"]
+
+
+@pytest.fixture(scope="module")
+def table(script):
+    return stiffness(script.SCENE, script.SPEEDS[[0, 2]], [100.0, 1000.0, 10000.0])
+
+
+def test_nodes_stand_at_the_planes(script, table):
+    nodes, planes = script.layout(table), table.planes()
+    assert nodes.places == sorted(nodes.places) and len(set(nodes.places)) == len(nodes.places)
+    front, rear = script.PLACES
+    at = [front + place for place in planes.places] + [rear - place for place in reversed(planes.places)]
+    np.testing.assert_allclose([nodes.places[k] for k in nodes.planes], at, rtol=1e-12)
+    assert [nodes.places[k] for k in nodes.centres] == [front, rear]
+    # seats reach from the centre of the balls over both planes, ahead of it and behind it
+    seats = [(nodes.places[k], nodes.places[k + 1]) for k in nodes.seats]
+    assert seats[0][0] == min(at[:2]) and max(b for _, b in seats) == max(at[2:])
+    assert sum(b - a for a, b in seats) == pytest.approx(2.0 * max(abs(place) for place in planes.places))
+
+
+def test_a_rigid_body_on_its_bearings(script, table):
+    """Axial and radial mode of a body held at one node by a bearing and its mirror image."""
+    mass, size = 0.5, script.FREEDOMS
+    shaft = {name: np.zeros((size, size)) for name in "KCG"}
+    shaft["M"] = np.diag([mass] * 3 + [1e-3] * 3)
+    pair = script.bearing(table, 15e3)
+    k, c = script.rotor(shaft, [0, 0], pair)
+    w = 2.0 * math.pi * 1000.0  # a frequency of the table
+    own = table.K[1, 0, 1]
+    np.testing.assert_allclose(np.diag(k(w))[[2, 0, 1]], 2.0 * np.diag(own)[:3], rtol=1e-12)
+    # tilt and radial motion do not couple: the mirror image takes that away
+    assert abs(k(w)[0, 4]) < 1e-9 * own[1, 1]
+    still = (lambda w: k(2.0 * math.pi * 1000.0)), (lambda w: c(2.0 * math.pi * 1000.0))
+    found = script.modes(shaft, 0.0, *still, [1e3] * 5)
+    expected = math.sqrt(2.0 * own[0, 0] / mass)
+    assert min(abs(value / expected - 1.0) for value, _ in found) < 1e-3  # damped, 1 %
+
+
+def test_a_python_without_ross_is_told(script, tmp_path):
+    command = [sys.executable, str(SCRIPT), "--ross", f"{sys.executable} -S", "-o", str(tmp_path)]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 1 and "failed" in done.stderr and not (tmp_path / "ross.md").exists()
+
+
+def rows(path):
+    with path.open(encoding="utf-8", newline="") as file:
+        return list(csv.reader(file))[1:]
+
+
+def test_the_result_that_is_kept():
+    page = (ROOT / "docs" / "results" / "ross.md").read_text(encoding="utf-8")
+    assert "ROSS 3.1.0" in page and "reads the same again: True" in page
+    found = rows(ROOT / "docs" / "results" / "ross.csv")
+    assert len(found) == 28
+    for seat, _, _, of_ross, _, two_planes, _, five, *_ in found:
+        assert float(of_ross) == pytest.approx(float(two_planes), rel=1e-4)
+        if seat == "rigid":  # the arms carry tilt to both planes
+            assert float(of_ross) == pytest.approx(float(five), rel=5e-4)
+
+
+@pytest.mark.skipif(ROSS is None, reason="FMU_BEARING_ROSS names no Python with ROSS 3")
+def test_ross_gives_that_result(tmp_path):
+    command = [sys.executable, str(SCRIPT), "--ross", str(ROSS), "-o", str(tmp_path)]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert "reads the same again: True" in done.stdout
+    kept = rows(ROOT / "docs" / "results" / "ross.csv")
+    for one, other in zip(rows(tmp_path / "ross.csv"), kept, strict=True):
+        assert one[:3] == other[:3]
+        np.testing.assert_allclose(
+            [float(cell) for cell in one[3::2]], [float(cell) for cell in other[3::2]], rtol=1e-4
+        )

@@ -26,6 +26,7 @@ LONG = (
     "engine/test_fidelities.py",
     "fmi/test_package.py",
     "testing/test_plugin.py",
+    "modal/test_stiffness.py",
     "examples/papers/test_pages.py",
     "fmi/test_calls.py",
     "engine/test_vector_code.py",

@@ -61,7 +61,8 @@ class Stiffness:
     orbit : ndarray, shape (speed, preload)
         Hz: frequency of the balls' orbit, f_c.
     spread : ndarray, shape (speed, preload)
-        Largest change of the diagonal of K and C w over one ball pitch, over K; 0 for equal ball loads.
+        Largest distance of a single phase of a ball pitch from the mean, on the diagonal of K and C w, over
+        K, at the lowest and the highest frequency; 0 for equal ball loads.
     spacing : str
         ``held``: balls keep their distances along the orbit, as in a cage; ``free``: they do not.
 

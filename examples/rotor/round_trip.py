@@ -5,6 +5,10 @@
 ROSS 3.1 needs Python 3.13, so it runs in an environment of its own, as a process apart (`in_ross.py`).
 This side writes the elements, lets ROSS read them and solve the rotor, and solves the same shaft by itself:
 with springs in the same planes, and with all five freedoms of the bearings.
+
+ROSS 3.1.0 gives the frequencies of the same planes within 2e-5. With rigid arms between the centres of the
+balls and the planes these are within 0.03 % of five freedoms, one plane per bearing is 1.6 % off
+(docs/results/ross.md).
 """
 
 import argparse

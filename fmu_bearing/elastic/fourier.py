@@ -29,6 +29,7 @@ _COMPONENTS = 3
 _SHIFT = 1e-3
 #: Rigid motion comes out at less than this share of the same scale (rounding), elastic modes well above it.
 _RIGID = 1e-7
+_FIRST = 6  # modes of one order sought at first; twice as many until the highest lies beyond the limit
 
 
 @dataclass(frozen=True)
@@ -80,24 +81,44 @@ class Solid:
         radius = float(self.points[..., 1].mean())
         return self.material.youngs_modulus / self.material.density / radius**2
 
-    def modes(self, order: int, count: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def modes(
+        self, order: int, count: int, held: bool = False
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Lowest ``count`` modes of one harmonic: frequencies (Hz), shapes in columns, rigid ones at 0 Hz.
 
         The shapes' modal masses per pi are 1; same input, same bits (ARPACK starts from a fixed vector).
+        ``held``: the seat's cylinder stands still in all directions.
         """
         start = 1.0 + np.arange(self.mass.shape[0]) % _COMPONENTS  # touches X, R and T alike
-        values, shapes = eigsh(
-            self.stiffness(order),
-            k=count,
-            M=self.mass,
-            sigma=-_SHIFT * self.scale,
-            which="LM",
-            v0=start + 0.1 * np.cos(np.arange(len(start))),
+        start += 0.1 * np.cos(np.arange(len(start)))
+        stiffness, mass = self.stiffness(order), self.mass
+        moving = np.arange(len(start))
+        if held:
+            moving = np.setdiff1d(moving, self.nodes[:, self.grid.seat_row].ravel())
+            stiffness, mass = stiffness[moving][:, moving], mass[moving][:, moving]
+        values, found = eigsh(
+            stiffness, k=count, M=mass, sigma=-_SHIFT * self.scale, which="LM", v0=start[moving]
         )
         ascending = np.argsort(values)
         values = values[ascending]
         values[np.abs(values) < _RIGID * self.scale] = 0.0
-        return np.sqrt(values) / (2.0 * np.pi), shapes[:, ascending]
+        shapes = found[:, ascending]
+        if held:
+            shapes = np.zeros((len(start), count))
+            shapes[moving] = found[:, ascending]
+        return np.sqrt(values) / (2.0 * np.pi), shapes
+
+    def modes_below(
+        self, order: int, highest: float, held: bool = False
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """All modes of one harmonic up to a frequency (Hz), as `modes` gives them."""
+        count = _FIRST
+        frequencies, shapes = self.modes(order, count, held)
+        while frequencies[-1] <= highest:
+            count *= 2
+            frequencies, shapes = self.modes(order, count, held)
+        below = frequencies <= highest
+        return frequencies[below], shapes[:, below]
 
 
 def solid(grid: Grid, material: Elastic) -> Solid:

@@ -136,7 +136,7 @@ def in_plane_mode(section: Section, material: Elastic, order: int, fineness: int
     ValueError
         When a ring of odd proportions has other motions first.
     """
-    ring = _solid(section, material, fineness)
+    ring = meshed(section, material, fineness)
     frequencies, shapes = ring.modes(order, _SEARCHED)
     inside = [i for i in range(_SEARCHED) if family(ring, order, shapes[:, i]) == "in-plane"]
     if not inside:
@@ -177,6 +177,29 @@ def free_modes(section: Section, material: Elastic, highest: float) -> tuple[Fre
     ValueError
         When the frequency is beyond the mesh's reach.
     """
+    check_reach(section, material, highest)
+    ring = meshed(section, material, FINENESS)
+    found: list[FreeMode] = []
+    order, below = 0, True
+    # every order's lowest elastic mode is higher than that of the order before, from 2 on
+    while below or order <= 2:
+        frequencies, shapes = ring.modes_below(order, highest)
+        below = bool(frequencies.size)
+        for frequency, shape in zip(frequencies, shapes.T, strict=True):
+            kind = "rigid" if frequency == 0.0 else family(ring, order, shape)
+            found.append(FreeMode(order, kind, float(frequency), gyroscopic(ring, shape)))
+        order += 1
+    return tuple(sorted(found, key=lambda mode: (mode.frequency, mode.order)))
+
+
+def check_reach(section: Section, material: Elastic, highest: float) -> None:
+    """Refuse a frequency (Hz) whose shear wave the section's mesh does not resolve.
+
+    Raises
+    ------
+    ValueError
+        When it is beyond the mesh's reach.
+    """
     element = max(section.width, section.high - section.low) / FINENESS
     reach = math.sqrt(material.shear_modulus / material.density) / (_PER_WAVE * element)
     if not 0.0 < highest <= reach:
@@ -184,23 +207,6 @@ def free_modes(section: Section, material: Elastic, highest: float) -> tuple[Fre
             f"highest = {highest:g} Hz is refused; allowed: above 0 to {reach:.3g} Hz, where the mesh of the "
             f"section still has {_PER_WAVE} elements to a shear wave"
         )
-    ring = _solid(section, material, FINENESS)
-    found: list[FreeMode] = []
-    order, below = 0, True
-    # every order's lowest elastic mode is higher than that of the order before, from 2 on
-    while below or order <= 2:
-        count = _SEARCHED
-        frequencies, shapes = ring.modes(order, count)
-        while frequencies[-1] <= highest:
-            count *= 2
-            frequencies, shapes = ring.modes(order, count)
-        below = bool(frequencies[0] <= highest)
-        for frequency, shape in zip(frequencies, shapes.T, strict=True):
-            if frequency <= highest:
-                kind = "rigid" if frequency == 0.0 else family(ring, order, shape)
-                found.append(FreeMode(order, kind, float(frequency), gyroscopic(ring, shape)))
-        order += 1
-    return tuple(sorted(found, key=lambda mode: (mode.frequency, mode.order)))
 
 
 def coordinates(modes: tuple[FreeMode, ...]) -> int:
@@ -245,7 +251,8 @@ def _share(ring: Solid, shape: Array, motions: list[dict[int, Array]]) -> float:
 
 
 @lru_cache(maxsize=8)
-def _solid(section: Section, material: Elastic, fineness: int) -> Solid:
+def meshed(section: Section, material: Elastic, fineness: int = FINENESS) -> Solid:
+    """Return matrices of a ring, made once."""
     return solid(grid(section, fineness), material)
 
 

@@ -6,6 +6,7 @@
 ``multipoles``    spherical waves on one axis, scaled to stay of order one
 ``scattering``    spheres on one axis in each other's sound: multipoles in frequency, histories in time
 ``lamb``          the elastic sphere: natural frequencies, and what its surface does under a contact force
+``row``           modes of balls in a row that touch, stuck together or sliding
 ``sound``         pressure at microphones over time
 ================  ==========================================================================
 

@@ -21,6 +21,9 @@ Array = NDArray[np.float64]
 _STATIC = 1e-4
 #: Step in w a / c_t between which two roots do not hide: those of one family lie about 1 apart.
 _SCAN = 0.02
+#: Share of a natural frequency beside it at which its residue is read: rounding of the determinant's root
+#: over it, and its square, are both below 1e-7.
+_RESIDUE = 1e-5
 
 
 def wave_speeds(ball: Sphere) -> tuple[float, float]:
@@ -60,6 +63,31 @@ def spheroidal_frequencies(ball: Sphere, order: int, count: int = 1) -> tuple[fl
         return free
 
     return _roots(traction, ball, order, count)
+
+
+def pole_modes(ball: Sphere, order: int, highest: float) -> tuple[Array, Array]:
+    """Modes without twist of order n up to a frequency, as a force on the axis excites them.
+
+    Returns
+    -------
+    frequencies : ndarray (m,)
+        Hz.
+    poles : ndarray (m,)
+        Radial displacement of the pole on the axis at modal mass 1 kg (kg^-1/2), so that a force F there
+        moves it by the sum of poles^2 / ((2 pi f_k)^2 - w^2) F. On the opposite pole times (-1)^n, outwards.
+    """
+    count = 1
+    while spheroidal_frequencies(ball, order, count)[-1] <= highest:
+        count *= 2
+    found = np.array([f for f in spheroidal_frequencies(ball, order, count) if f <= highest])
+    # residues of the response to a point force, whose stress has (2n + 1) / (4 pi a^2) of P_n; symmetric
+    # steps about the pole cancel what the other modes add, up to the step
+    ends = (1.0 - _RESIDUE, 1.0 + _RESIDUE)
+    near = np.array([surface_acceleration(ball, order, share * found) for share in ends])
+    omega = 2.0 * np.pi * found
+    share = (2 * order + 1) / (4.0 * np.pi * ball.radius**2)
+    moved = [-(1.0 - end**2) / end**2 * a for end, a in zip(ends, near, strict=True)]
+    return found, np.sqrt(share * np.mean(moved, axis=0)) if found.size else omega
 
 
 def surface_acceleration(ball: Sphere, order: int, frequency: ArrayLike) -> Array:

@@ -121,7 +121,7 @@ def _positive(name: str, values: ArrayLike) -> Array:
 
 
 def _bands(modes: ArrayLike, tolerance: float, lowest: float, highest: float) -> tuple[Array, Array]:
-    """Ends (ln Hz) of what the modes' tolerances cover of the range, joined where they overlap."""
+    """Return ends (ln Hz) of what the modes' tolerances cover of the range, joined where they overlap."""
     if not 0.0 < tolerance < 1.0:
         raise ValueError(f"tolerance {tolerance}: give a share between 0 and 1")
     if not 0.0 < lowest < highest < math.inf:

@@ -65,7 +65,7 @@ def test_breathing_moves_the_pole_as_its_integral_says():
 
 @pytest.mark.parametrize("order", [0, 2, 5])
 def test_modes_add_up_to_the_response_at_rest(order):
-    """Sum of poles^2 / w_k^2 against the displacement of the sphere at 100 Hz; what is cut off falls as 1/k."""
+    """Sum of poles^2 / w_k^2 beside the displacement of the sphere at 100 Hz; the rest falls as 1/k."""
     highest = 2e6
     frequencies, poles = pole_modes(BALL, order, highest)
     summed = np.sum((poles / (2.0 * np.pi * frequencies)) ** 2)

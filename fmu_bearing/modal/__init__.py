@@ -11,6 +11,8 @@
 ``modes``              natural frequencies and damping, with names
 ``lines``              excitation lines and the waves that each can move
 ``campbell``           modes over speed, followed by shape; crossings with lines
+``drawing``            what a Campbell diagram shows: colours, widths, dashes, which lines
+``picture``            it as a Matplotlib figure
 ``impedance``          forces on the inner ring per motion, balls eliminated at the frequency
 ``planes``             two planes whose radial springs stand for tilt and coupling
 ``stiffness``          `stiffness`: K and C over speed, preload and frequency
@@ -18,5 +20,4 @@
 ``stiffness_files``    their CSV and netCDF
 ``ross``               bearing elements for the rotor program ROSS
 ``stiffness_picture``  K and C over speed
-=====================  ===========================================================================
-"""
+=====================  ===================================================================="""

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,9 +15,13 @@ from fmu_bearing.modal.conditions import given
 from fmu_bearing.modal.linearised import linearised
 from fmu_bearing.modal.lines import Line, Rates, lines, rates
 from fmu_bearing.modal.modes import MARGIN, MOVES, Mode, Modes, like, solved
+from fmu_bearing.modal.picture import campbell_picture
 from fmu_bearing.modal.shapes import NEITHER
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.scene import Scene, SceneSource, scene_of
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 HIGHEST = 20e3  # Hz
 WITHIN = 20.0  # dB below the largest: crossings that count
@@ -189,6 +193,14 @@ class Campbell:
                     f"({branch.frequency[least]:.0f} Hz, damping ratio {branch.damping[least]:.4f})"
                 )
         return found + [f"{rpm:,.0f} r/min is left out: {why}" for rpm, why in self.skipped]
+
+    def picture(self) -> "Figure":
+        """Draw the Campbell diagram as a Matplotlib figure; needs the extra ``plots``.
+
+        Branches are coloured by what moves; width tells damping (thin: weak), dashes the direction. Lines are
+        those that meet a mode; dots are crossings, sized by Q; a bar marks the operating speed.
+        """
+        return campbell_picture(self)
 
     def table(self) -> list[dict[str, Any]]:
         """Return a row per branch and speed: what `campbell.csv` holds."""

@@ -1,0 +1,141 @@
+"""What a Campbell diagram shows, and how: colours, widths and dashes of branches, lines, sizes of dots."""
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import PchipInterpolator
+
+from fmu_bearing.acoustics.radiation.frequencies import BAND
+from fmu_bearing.modal.lines import Line
+from fmu_bearing.modal.modes import MARGIN
+from fmu_bearing.modal.shapes import BACKWARD, FORWARD, NEITHER
+
+if TYPE_CHECKING:
+    from fmu_bearing.modal.campbell import Branch, Campbell, Crossing
+
+#: By what moves. Hues tell bodies apart for all kinds of colour vision (Okabe and Ito 2008), depths motions.
+COLOURS = {
+    "inner axial": "#56B4E9", "inner radial": "#0072B2", "inner tilt": "#1F3B8C",
+    "outer axial": "#E69F00", "outer radial": "#D55E00", "outer tilt": "#8C2D04", "outer spin": "#B8860B",
+    "inner flexure": "#00806B", "outer flexure": "#009E73", "ball": "#CC79A7",
+}  # fmt: skip
+UNSTABLE = "#FF3B1F"
+DASHES = {FORWARD: "solid", BACKWARD: "dash", NEITHER: "dot"}
+SHORT = {FORWARD: "fw", BACKWARD: "bw", NEITHER: ""}
+#: Damping ratios that part the widths, and the widths (pt), the weakest first.
+LIMITS = (MARGIN, 0.01, 0.03, 0.1)
+WIDTHS = (0.8, 1.1, 1.7, 2.4, 3.2)
+WIDTH_WORDS = ("below 0.2 %", "below 1 %", "1 to 3 %", "3 to 10 %", "above 10 %")
+
+_FINE = 12  # points from one speed to the next
+_ROOM = 1.12  # of the highest frequency that is shown
+_SHARPEST = 120.0  # Q beyond which a dot grows no further
+_PLAIN = 2  # multiples of a passing frequency that are shown where no surface says which count
+
+
+class Run(NamedTuple):
+    """A piece of a branch between two limits of damping."""
+
+    weak: int  # place in WIDTHS
+    rpm: NDArray[np.float64]
+    frequency: NDArray[np.float64]
+
+
+def colour(name: str) -> str:
+    """Colour of a mode by its name: ``inner tilt``, ``outer flexure n = 2``, ``ball n = 3``."""
+    return COLOURS["ball"] if name.startswith("ball") else COLOURS[name.partition(" n = ")[0]]
+
+
+def width_class(damping: float) -> int:
+    """Place in ``WIDTHS`` of a damping ratio."""
+    return int(np.searchsorted(LIMITS, damping, side="right"))
+
+
+def dot_area(quality: float) -> float:
+    """Area (pt2) of the dot of a crossing by its Q."""
+    return 10.0 + 1.6 * min(quality, _SHARPEST)
+
+
+def runs(branch: "Branch") -> Iterator[Run]:
+    """Yield the pieces of a branch in each of which the width stays, on curves through the speeds."""
+    # interpolation wants rising speeds
+    order = np.argsort(np.abs(branch.rpm))
+    rpm = np.abs(branch.rpm)[order]
+    places = np.interp(np.arange(_FINE * (rpm.size - 1) + 1) / _FINE, np.arange(rpm.size), rpm)
+    frequency = PchipInterpolator(rpm, branch.frequency[order])(places)
+    classes = np.searchsorted(LIMITS, PchipInterpolator(rpm, branch.damping[order])(places), side="right")
+    ends = np.flatnonzero(np.diff(classes)) + 1
+    for first, last in zip([0, *ends], [*ends, places.size - 1], strict=True):
+        # the piece goes on to where the next begins
+        part = slice(first, last + 1)
+        if last > first:
+            yield Run(int(classes[first]), places[part], frequency[part])
+
+
+def counted(campbell: "Campbell") -> "list[Crossing]":
+    """Return the crossings that are drawn.
+
+    Those that the scene contains, within 20 dB of the largest. A scene without imperfections contains none:
+    the lowest multiples then.
+    """
+    if campbell.scene.imperfections is not None:
+        return campbell.crossings(in_scene=True)
+    return [one for one in campbell.crossings() if _is_low(one.line, campbell.scene.bearing.ball_count)]
+
+
+def _is_low(line: Line, balls: int) -> bool:
+    if line.source == "ball form":
+        return line.surface_order <= 2
+    return line.surface_order <= _PLAIN * balls + line.order
+
+
+def drawn_lines(crossings: "list[Crossing]") -> "dict[str, tuple[Line, float]]":
+    """Return the lines of crossings by name, each with its largest velocity (m/s), the largest first."""
+    found: dict[str, tuple[Line, float]] = {}
+    for crossing in crossings:
+        name = crossing.line.name
+        before = found.get(name, (crossing.line, 0.0))
+        found[name] = (before[0], max(before[1], crossing.velocity))
+    return dict(sorted(found.items(), key=lambda item: -item[1][1]))
+
+
+def top(campbell: "Campbell", crossings: "list[Crossing]") -> float:
+    """Hz: upper end of the diagram, above what is excited; all branches where nothing is."""
+    heights = [one.frequency for one in crossings] or [
+        float(one.frequency.max()) for one in campbell.branches
+    ]
+    return min(_ROOM * max(heights, default=campbell.highest), campbell.highest)
+
+
+def unstable(branch: "Branch") -> "NDArray[np.bool_]":
+    """Speeds of a branch near or beyond the limit of stability."""
+    return np.asarray(branch.damping < MARGIN)
+
+
+def heard(campbell: "Campbell") -> tuple[float, float] | None:
+    """Hz: the band of the scene's levels; None for a scene without sound."""
+    return None if campbell.scene.sound is None else BAND
+
+
+def strength(velocity: float, largest: float) -> float:
+    """Return how dark a line is drawn: 1 for the largest velocity, 0 for 20 dB less."""
+    return float(np.clip(1.0 + np.log10(max(velocity, 1e-30) / largest), 0.0, 1.0)) if largest > 0.0 else 0.0
+
+
+def margin_words(campbell: "Campbell") -> str:
+    """Return how far the nearest crossing is from the operating speed; empty where there is none."""
+    near, own = campbell.nearest(), abs(campbell.scene.operation.speed_rpm)
+    if near is None:
+        return ""
+    share = 100.0 * (abs(near.rpm) / own - 1.0)
+    return (
+        f"{share:+.1f} % to {near.line.name} with {near.branch.name} {SHORT[near.branch.direction]}".rstrip()
+    )
+
+
+def quality_words(quality: float) -> str:
+    """Q in words."""
+    return f"{quality:.0f}" if math.isfinite(quality) else "infinite"

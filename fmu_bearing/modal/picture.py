@@ -2,7 +2,7 @@
 
 import re
 import textwrap
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from fmu_bearing.modal.campbell import Branch, Campbell, Crossing
 
 _SIZE = (10.0, 7.2)  # inches
-_LEFT, _BOTTOM, _ACROSS = 0.09, 0.215, 0.695  # of the figure: axes, names stand to the right
+_LEFT, _BOTTOM, _ACROSS = 0.09, 0.225, 0.695  # of the figure: axes, names stand to the right
 _TOP, _TOP_NAMED = 0.945, 0.865  # without names above the axes, and with them
 _DASHES: dict[str, Any] = {"forward": "-", "backward": (0, (4.5, 2.0)), "": (0, (1.0, 1.3))}
 _DIRECTIONS = {"forward": "forward", "backward": "backward", "": "no direction"}
@@ -46,7 +46,7 @@ _BESIDE = 8  # lines that are named beside the axes, between the branches
 _DARK, _FAINT, _BAND = "#4A545E", "#CBD2D8", "#F1F6FA"
 _ALIKE = 0.03  # of the height: branches of one name that end closer share a name
 _QUALITIES = (5.0, 25.0, 100.0)
-_WRAP = 60  # characters of the text below the axes
+_WRAP = 68  # characters of the text below the axes
 
 
 def campbell_picture(campbell: "Campbell") -> "Figure":
@@ -179,18 +179,18 @@ def spaced(wanted: NDArray[np.float64], least: float, low: float, high: float) -
     return np.asarray(np.clip(flat, low, max(low, high - least * (wanted.size - 1))) + steps)
 
 
+def _figure(ax: "Axes") -> "Figure":
+    return cast("Figure", ax.get_figure())
+
+
 def _height(ax: "Axes") -> float:
     """Height of the axes in points."""
-    figure = ax.get_figure()
-    assert figure is not None
-    return float(72.0 * figure.get_size_inches()[1] * ax.get_position().height)
+    return float(72.0 * _figure(ax).get_size_inches()[1] * ax.get_position().height)
 
 
 def _width(ax: "Axes") -> float:
     """Width of the axes in points."""
-    figure = ax.get_figure()
-    assert figure is not None
-    return float(72.0 * figure.get_size_inches()[0] * ax.get_position().width)
+    return float(72.0 * _figure(ax).get_size_inches()[0] * ax.get_position().width)
 
 
 class _End(NamedTuple):
@@ -293,9 +293,7 @@ def _put(ax: "Axes", text: "Annotation", places: list[tuple[float, float]]) -> N
 
     Other texts count more than curves, and the edge of the axes counts as a text.
     """
-    figure = ax.get_figure()
-    assert figure is not None
-    renderer = figure.canvas.get_renderer()  # type: ignore[attr-defined]
+    renderer = _figure(ax).canvas.get_renderer()  # type: ignore[attr-defined]
     frame = ax.get_window_extent(renderer)
     taken = [other.get_window_extent(renderer) for other in ax.texts if other is not text]
     marks = np.concatenate(
@@ -377,7 +375,7 @@ def _explain(figure: "Figure", campbell: "Campbell", hidden: int) -> None:
     if band is not None:
         remarks.append(f"Shaded: {band[0]:g} Hz to {1e-3 * band[1]:g} kHz, the band of the sound levels.")
     figure.text(
-        0.575, _BOTTOM - 0.075, _wrapped(remarks), fontsize=_FONT,
+        0.575, _BOTTOM - 0.075, _wrapped(remarks), fontsize=_FONT - 0.5,
         va="top", ha="left", gid="verdict", linespacing=1.3,
     )  # fmt: skip
 

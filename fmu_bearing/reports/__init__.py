@@ -11,6 +11,9 @@
 ``conditions``   operating point, kinematic frequencies, choices
 ``assumptions``  which values are assumed
 ``changes``      what to change: choices ranked by level, life and torque
+``campbell``     Campbell diagram, tables of modes and of crossings
+``shapes``       shapes of modes, for the script that moves them (``shapes.js``)
+``modes``        the section about modes, and `modes_page`: a page of its own
 ``motion``       velocities, orbits
 ``contacts``     loads and angles around the circle
 ``friction``     torque, shares, heats
@@ -24,5 +27,6 @@
 """
 
 from fmu_bearing.reports.make import Report, make, report
+from fmu_bearing.reports.modes import modes_page
 
-__all__ = ["Report", "make", "report"]
+__all__ = ["Report", "make", "modes_page", "report"]

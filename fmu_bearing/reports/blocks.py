@@ -107,7 +107,23 @@ class Folded:
     sort: str = "folded"
 
 
-Block = Words | Table | Chart | Sound | Folded
+@dataclass(frozen=True)
+class Shapes:
+    """Shapes of modes that the page moves; ``data`` is what its script takes."""
+
+    key: str
+    title: str
+    data: dict[str, Any]
+    words: str
+    sort: str = "shapes"
+
+    @property
+    def json(self) -> str:
+        """The numbers for a ``<script>`` element."""
+        return packed(self.data)
+
+
+Block = Words | Table | Chart | Sound | Folded | Shapes
 
 
 @dataclass(frozen=True)

@@ -21,6 +21,10 @@ ON_DARK = {
     "#56B4E9": "#8FD0F7",
     "#7F7F7F": "#A8A8A8",
     "#8C6D1F": "#D9BC6B",
+    "#1F3B8C": "#93A8F2",
+    "#8C2D04": "#E08A5F",
+    "#B8860B": "#E0B84A",
+    "#00806B": "#2FB8A0",
 }
 _FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif"
 

@@ -19,6 +19,7 @@ from fmu_bearing.reports import audio, balloon, conditions, contacts, fall, fric
 from fmu_bearing.reports.blocks import Absent, Section
 from fmu_bearing.reports.changes import section as what_to_change
 from fmu_bearing.reports.heard import Microphones, listen
+from fmu_bearing.reports.modes import section as what_vibrates
 from fmu_bearing.reports.page import render
 from fmu_bearing.reports.run import STEP, observed
 from fmu_bearing.reports.subject import Subject
@@ -292,6 +293,7 @@ def _sections(
         ("conditions", "Operating point", lambda: conditions.conditions(subject)),
         ("levels", "Levels and sources", with_sound(lambda h: sound.levels(subject, h))),
         ("changes", "What to change", lambda: what_to_change(subject, tell, changes)),
+        ("modes", "Modes", lambda: what_vibrates(subject)),
         ("spectra", "Spectra", with_sound(lambda h: sound.spectra(subject, h))),
         ("audio", "Listen", with_sound(audio.audio)),
         ("waterfall", "Waterfall", with_sound(lambda h: fall.fall(h, rising))),

@@ -177,5 +177,6 @@
     }
     await Promise.all(plots.filter((plot) => plot.closest(".solid")).map(picture));
     root.dataset.ready = "true";
+    document.dispatchEvent(new Event("drawn"));
   })();
 })();

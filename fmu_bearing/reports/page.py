@@ -6,7 +6,7 @@ from importlib import metadata, resources
 from typing import Any
 
 from fmu_bearing.extras import need
-from fmu_bearing.reports.blocks import Chart, Section, Table, packed
+from fmu_bearing.reports.blocks import Chart, Section, Shapes, Table, packed
 from fmu_bearing.reports.look import styles
 
 #: Content security policy: the page loads nothing from outside. Plotly generates code for its 3-D drawing.
@@ -27,7 +27,7 @@ def version() -> str:
 def render(
     title: str, subtitle: str, source: str, sections: list[Section], tiles: list[dict[str, Any]],
     sentences: list[str], warnings: list[str], verdicts: Table | None = None,
-    made: datetime.datetime | None = None,
+    made: datetime.datetime | None = None, kind: str = "Bearing report",
 ) -> str:  # fmt: skip
     """Return the page as text.
 
@@ -42,6 +42,8 @@ def render(
         As ``verdicts`` makes it.
     made : datetime, optional
         Default: now.
+    kind : str
+        What stands above the title.
 
     Raises
     ------
@@ -54,16 +56,19 @@ def render(
     environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
     template = environment.from_string(files.joinpath("page.html.j2").read_text("utf-8"))
     made = made or datetime.datetime.now(datetime.UTC)
+    blocks = [block for section in sections for block in section.blocks]
     versions = f"fmu-bearing {version()}, Python {platform.python_version()}".replace(" ,", ",")
     return str(
         template.render(
             title=title, subtitle=subtitle, source=source, sections=sections, tiles=tiles,
             sentences=sentences, warnings=warnings, verdicts=verdicts, policy=POLICY,
             made=f"{made:%d %B %Y, %H:%M} UTC", versions=versions,
-            charts=[block for section in sections for block in section.blocks if isinstance(block, Chart)],
+            charts=[block for block in blocks if isinstance(block, Chart)], kind=kind,
+            shapes=[block for block in blocks if isinstance(block, Shapes)],
             styles=packed(styles()),
             css=files.joinpath("page.css").read_text("utf-8"),
             script=files.joinpath("page.js").read_text("utf-8"),
+            shapes_script=files.joinpath("shapes.js").read_text("utf-8"),
             library=library,
         )
     )  # fmt: skip

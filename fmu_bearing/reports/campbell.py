@@ -1,0 +1,280 @@
+"""The Campbell diagram as a chart, and the tables of modes and crossings."""
+
+from typing import Any
+
+import numpy as np
+
+from fmu_bearing.modal.campbell import Branch, Campbell, Crossing
+from fmu_bearing.modal.drawing import (
+    DASHES,
+    SHORT,
+    UNSTABLE,
+    WIDTHS,
+    colour,
+    counted,
+    dot_area,
+    drawn_lines,
+    heard,
+    margin_words,
+    quality_words,
+    runs,
+    strength,
+    top,
+)
+from fmu_bearing.modal.modes import MARGIN, SPREAD, Mode, Modes
+from fmu_bearing.modal.picture import spaced
+from fmu_bearing.reports import look
+from fmu_bearing.reports.blocks import Chart, Table, small
+
+KEY = "campbell"
+_HEIGHT, _TOP, _BOTTOM, _RIGHT = 580, 40, 56, 178  # px: figure, and what stands around its axes
+_NAME = 15.0  # px between the middles of names
+_ALIKE = 0.03  # of the height: branches of one name that end closer share a name
+_LEAST = 0.05  # of the kinetic energy: smaller shares are not told
+_MOST = 4  # shares that are told
+_LONG = 30  # rows of an open table
+
+
+def campbell_chart(found: Campbell) -> Chart:
+    """Return the diagram; what is under the pointer is told, and points know their branch and speed."""
+    crossings = counted(found)
+    highest, speeds = top(found, crossings), np.abs(found.rpm)
+    drawn = look.figure(
+        height=_HEIGHT, margin={"l": 66, "r": _RIGHT, "t": _TOP, "b": _BOTTOM}, showlegend=False,
+    )  # fmt: skip
+    _draw_lines(drawn, found, crossings)
+    for k, branch in enumerate(found.branches):
+        _draw_branch(drawn, branch, k)
+    _draw_crossings(drawn, found, crossings)
+    texts = _draw_operation(drawn, found) + _names(found, highest)
+    shapes = []
+    band = heard(found)
+    if band is not None:
+        shapes.append({
+            "type": "rect", "layer": "below", "xref": "paper", "x0": 0, "x1": 1, "y0": band[0], "y1": band[1],
+            "fillcolor": look.faint("inner", 0.06), "line": {"width": 0},
+        })  # fmt: skip
+    drawn.update_layout(
+        xaxis=look.axis("speed, r/min", range=[float(speeds.min()), float(speeds.max())], tickformat=",.0f"),
+        yaxis=look.axis("frequency, Hz", range=[0.0, highest], tickformat=",.0f"),
+        annotations=texts, shapes=shapes, meta={"narrow": {"annotations": texts[:1]}},
+    )  # fmt: skip
+    return Chart(
+        KEY, "Natural frequencies over speed, and what excites them", drawn,
+        f"Frequencies of {len(found.branches)} modes over the speed, {len(drawn_lines(crossings))} lines of "
+        f"excitation, {len(crossings)} crossings. {found.verdict()}",
+        note=_note(found),
+    )  # fmt: skip
+
+
+def _note(found: Campbell) -> str:
+    text = (
+        "Solid: forward; dashed: backward; dotted: no direction. The thinner a branch, the less it is damped "
+        "(limits at 0.2, 1, 3 and 10 %). Dots: speeds at which a line can excite the mode, larger for a "
+        "larger Q. The bar is the operating speed, the ring the nearest crossing"
+    )
+    if any((branch.damping < MARGIN).any() for branch in found.branches):
+        text += ". Red: a damping ratio below 0.2 %, at the limit of stability"
+    if found.scene.imperfections is None:
+        text += ". The scene has no imperfections, so the lines are the lowest that its parts could make"
+    band = heard(found)
+    if band is not None:
+        text += f". Shaded: {band[0]:g} Hz to {1e-3 * band[1]:g} kHz, the band of the sound levels"
+    return text + ". Drag to zoom, double-click to see all."
+
+
+def _draw_lines(drawn: Any, found: Campbell, crossings: list[Crossing]) -> None:
+    lines = drawn_lines(crossings)
+    largest = max((velocity for _, velocity in lines.values()), default=0.0)
+    speeds = np.abs(found.rpm)
+    for name, (line, velocity) in lines.items():
+        drawn.add_scatter(
+            x=small(speeds), y=small(line.frequency), mode="lines", meta={"part": "line"},
+            name=f"{name} ({line.source})", opacity=0.3 + 0.6 * strength(velocity, largest),
+            line={"color": look.colour("grey"), "width": 1},
+            hovertemplate="%{x:,.0f} r/min, %{y:,.0f} Hz<extra>%{fullData.name}</extra>",
+        )  # fmt: skip
+
+
+def _draw_branch(drawn: Any, branch: Branch, k: int) -> None:
+    for run in runs(branch):
+        common: dict[str, Any] = {
+            "x": small(run.rpm), "y": small(run.frequency), "mode": "lines", "hoverinfo": "skip",
+        }  # fmt: skip
+        if run.weak == 0:
+            drawn.add_scatter(
+                **common, meta={"part": "unstable"}, opacity=0.4, line={"color": UNSTABLE, "width": 9}
+            )
+        drawn.add_scatter(
+            **common, name=branch.label, meta={"part": "branch", "branch": k},
+            line={"color": colour(branch.name), "width": 1.25 * WIDTHS[run.weak],
+                  "dash": DASHES[branch.direction]},
+        )  # fmt: skip
+    drawn.add_scatter(
+        x=small(np.abs(branch.rpm)), y=small(branch.frequency), mode="markers", name=branch.label,
+        meta={"part": "points", "branch": k}, customdata=[[k, i] for i in range(branch.rpm.size)],
+        text=[_mode_words(mode) for mode in branch.modes], marker={"color": colour(branch.name), "size": 5},
+        hovertemplate="%{text}<br>at %{x:,.0f} r/min<extra></extra>",
+    )  # fmt: skip
+
+
+def _mode_words(mode: Mode) -> str:
+    return (
+        f"<b>{mode.label}</b><br>{mode.frequency:,.1f} Hz, damping ratio {mode.damping:.4f}"
+        f"<br>{moving(mode.participation)}"
+    )
+
+
+def moving(shares: dict[str, float]) -> str:
+    """Shares of the kinetic energy in words, the largest first."""
+    told = [(name, share) for name, share in shares.items() if share >= _LEAST][:_MOST]
+    return ", ".join(f"{name} {100.0 * share:.0f} %" for name, share in told)
+
+
+def crossing_words(one: Crossing) -> str:
+    """Return what meets what, where."""
+    words = (
+        f"<b>{one.line.name} ({one.line.source}) meets {one.branch.label}</b>"
+        f"<br>{abs(one.rpm):,.0f} r/min, {one.frequency:,.0f} Hz, damping ratio {one.damping:.4f}, "
+        f"Q {quality_words(one.quality)}"
+    )
+    return words if one.velocity > 0.0 else f"{words}<br>not in the scene"
+
+
+def _draw_crossings(drawn: Any, found: Campbell, crossings: list[Crossing]) -> None:
+    places = {id(branch): k for k, branch in enumerate(found.branches)}
+    ordered = sorted(crossings, key=lambda one: -one.quality)
+    near = found.nearest()
+    if near is not None:
+        drawn.add_scatter(
+            x=[abs(near.rpm)], y=[near.frequency], mode="markers", meta={"part": "nearest"}, hoverinfo="skip",
+            marker={"symbol": "circle-open", "size": 20, "color": "#000000", "line": {"width": 2}},
+        )  # fmt: skip
+    tints = [colour(one.branch.name) for one in ordered]
+    drawn.add_scatter(
+        x=[abs(one.rpm) for one in ordered], y=[one.frequency for one in ordered], mode="markers",
+        name="crossings", meta={"part": "crossings"},
+        customdata=[
+            [places[id(one.branch)], int(np.argmin(np.abs(np.abs(one.branch.rpm) - abs(one.rpm))))]
+            for one in ordered
+        ],
+        text=[crossing_words(one) for one in ordered],
+        marker={
+            # diameter (px) of an area (pt2)
+            "size": [1.33 * dot_area(one.quality) ** 0.5 for one in ordered],
+            "symbol": ["circle" if one.velocity > 0.0 else "circle-open" for one in ordered],
+            "color": tints, "opacity": 1.0, "line": {"width": 1, "color": "rgba(255,255,255,0.8)"},
+        },
+        hovertemplate="%{text}<extra></extra>",
+    )  # fmt: skip
+
+
+def _draw_operation(drawn: Any, found: Campbell) -> list[dict[str, Any]]:
+    """Draw the bar at the operating speed; return its text."""
+    own, speeds = abs(found.scene.operation.speed_rpm), np.abs(found.rpm)
+    if not speeds.min() <= own <= speeds.max():
+        return []
+    drawn.add_scatter(
+        x=[own, own], y=[0.0, 1.5 * found.highest], mode="lines", meta={"part": "operation"},
+        name="operation", line={"color": "#000000", "width": 4}, opacity=0.3, hoverinfo="skip",
+    )  # fmt: skip
+    words = f"<b>operation, {own:,.0f} r/min</b>"
+    if found.nearest() is not None:
+        words += f": {margin_words(found)}"
+    return [{
+        "text": words, "x": 0.0, "xref": "paper", "xanchor": "left", "y": 1.0, "yref": "paper",
+        "yanchor": "bottom", "showarrow": False, "font": {"size": 12},
+    }]  # fmt: skip
+
+
+def _names(found: Campbell, highest: float) -> list[dict[str, Any]]:
+    """Names of the branches beside the axes, apart from each other, in the order of their ends."""
+    groups: list[list[Branch]] = []
+    for branch in sorted((one for one in found.branches if _end(one) <= highest), key=_end):
+        own = [g for g in groups if g[0].name == branch.name and _end(branch) - _end(g[0]) < _ALIKE * highest]
+        if own:
+            own[0].append(branch)
+        else:
+            groups.append([branch])
+    if not groups:
+        return []
+    height = _HEIGHT - _TOP - _BOTTOM
+    groups.sort(key=lambda group: float(np.mean([_end(one) for one in group])))
+    wanted = np.array([float(np.mean([_end(one) for one in group])) for group in groups]) / highest * height
+    places = spaced(wanted, _NAME, 0.0, float(height))
+    return [
+        {
+            "text": f"{group[0].name} {_ways(group)}".rstrip(), "x": 1.0, "xref": "paper", "xanchor": "left",
+            "xshift": 6, "y": float(place) / height, "yref": "paper", "yanchor": "middle", "showarrow": False,
+            "font": {"size": 12, "color": colour(group[0].name)},
+        }
+        for group, place in zip(groups, places, strict=True)
+    ]  # fmt: skip
+
+
+def _end(branch: Branch) -> float:
+    return float(branch.frequency[int(np.argmax(np.abs(branch.rpm)))])
+
+
+def _ways(group: list[Branch]) -> str:
+    return " + ".join(sorted({SHORT[one.direction] for one in group if one.direction}, reverse=True))
+
+
+def mode_table(point: Modes, highest: float, words: str = "") -> Table:
+    """Return the modes at one operating point, with what is to be said of each."""
+    rows = [
+        [
+            str(row["name"]), str(row["direction"]), f"{row['frequency_Hz']:,.1f}",
+            f"{row['damping_ratio']:.4f}", str(row["order"]), moving(row["participation"]),
+            _remark(row, point),
+        ]
+        for row in point.table(highest=highest)
+    ]  # fmt: skip
+    return Table(
+        f"Modes at {abs(point.rpm):,.0f} r/min{words}",
+        ["mode", "direction", "frequency, Hz", "damping ratio", "waves round", "kinetic energy", "remark"],
+        rows,
+        note=f"Up to {1e-3 * highest:g} kHz, without neutral and overdamped motions. Balls that move alone "
+        "show as no peak.",
+    )
+
+
+def _remark(row: dict[str, Any], point: Modes) -> str:
+    """Return what threatens or blurs a mode; empty: nothing."""
+    told = []
+    if any(mode.frequency == row["frequency_Hz"] for mode in point.weak()):
+        told.append("grows by itself" if row["damping_ratio"] < 0.0 else "instability margin")
+    if row["spread"] > SPREAD:
+        told.append(f"moves by {100.0 * row['spread']:.1f} % as balls pass")
+    return "; ".join(told)
+
+
+def crossing_table(found: Campbell, folded: bool | None = None) -> Table | None:
+    """Return the crossings by their distance from the operating speed; None where there is none.
+
+    ``folded``: whether it opens on request only; default: where it is long.
+    """
+    own, crossings = abs(found.scene.operation.speed_rpm), counted(found)
+    if not crossings:
+        return None
+    if own > 0.0:
+        crossings = sorted(crossings, key=lambda one: abs(np.log(abs(one.rpm) / own)))
+    rows = [
+        [
+            f"{abs(one.rpm):,.0f}", f"{100.0 * (abs(one.rpm) / own - 1.0):+.1f}" if own > 0.0 else "",
+            one.line.name, f"{one.line.source}, order {one.line.surface_order}"
+            if one.line.surface_order else one.line.source,
+            one.branch.label, f"{one.frequency:,.0f}", f"{one.damping:.4f}", quality_words(one.quality),
+            f"{1e6 * one.velocity:,.0f}" if one.velocity > 0.0 else "not in the scene",
+        ]
+        for one in crossings
+    ]  # fmt: skip
+    return Table(
+        "Crossings, the nearest to operation first",
+        ["speed, r/min", "from operation, %", "line", "what makes it", "mode", "frequency, Hz",
+         "damping ratio", "Q", "velocity, um/s"],
+        rows,
+        note="Velocity: amplitude of the surface times angular frequency times Q, a number that ranks, not "
+        "one to be measured. Crossings within 20 dB of the largest.",
+        folded=len(rows) > _LONG if folded is None else folded,
+    )  # fmt: skip

@@ -1,0 +1,176 @@
+"""Modes: the section of a report, and a page of its own with moving shapes."""
+
+import os
+import pathlib
+
+import numpy as np
+
+from fmu_bearing.engine.constants import RPM
+from fmu_bearing.files import check_file, write_whole
+from fmu_bearing.modal.campbell import Campbell, campbell
+from fmu_bearing.modal.modes import Modes, modes
+from fmu_bearing.reports.blocks import Absent, Block, Section, Table, Words
+from fmu_bearing.reports.campbell import campbell_chart, crossing_table, mode_table
+from fmu_bearing.reports.page import render
+from fmu_bearing.reports.shapes import moving_shapes
+from fmu_bearing.reports.subject import Subject
+from fmu_bearing.scene import Scene
+
+HIGHEST = 20e3  # Hz: modes that the section lists
+_STEPS = 14  # speeds of its diagram, a tenth of the shaft's apart: the tenth is its own
+_STILL = 1.0  # r/min: slower, the shaft stands
+_LINEAR = (
+    "Fidelity full linearised about its quasi-static state: perfect surfaces, no cage. A run at one speed "
+    "has its peaks at the lines, not at the modes; a run-up passes both."
+)
+
+
+def section(subject: Subject) -> Section:
+    """Return the section of a report, at the mean speed of its run.
+
+    Raises
+    ------
+    Absent
+        Without a scene, or where there is no equilibrium at that speed.
+    """
+    rpm = subject.speed / RPM
+    scene = subject.scene.replace({"operation.speed_rpm": rpm})
+    try:
+        blocks = _at_rest(scene) if abs(rpm) < _STILL else _over_speed(scene, rpm)
+    except ValueError as problem:
+        raise Absent(str(problem)) from None
+    return Section("modes", "Modes", [*blocks, Words(_LINEAR, "note")])
+
+
+def _at_rest(scene: Scene) -> list[Block]:
+    """Return modes at standstill: contacts stick there, until they slide."""
+    stuck, sliding = modes(scene), modes(scene, friction=False)
+    return [
+        Words("No Campbell diagram: the shaft stands still, and nothing that turns excites a mode."),
+        *_said(stuck.cautions()),
+        mode_table(stuck, HIGHEST, ", contacts stick"),
+        mode_table(sliding, HIGHEST, ", without friction"),
+    ]
+
+
+def _over_speed(scene: Scene, rpm: float) -> list[Block]:
+    try:
+        found = campbell(scene, [0.1 * k * rpm for k in range(1, _STEPS + 1)], highest=HIGHEST)
+    except ValueError as problem:
+        point = modes(scene)
+        reason = Words(f"No Campbell diagram: {problem}.", "absent")
+        return [reason, *_said(point.cautions()), mode_table(point, HIGHEST)]
+    # the shaft's own speed may be one of those without equilibrium
+    point = nearest_point(found, rpm)
+    blocks: list[Block] = [Words(found.verdict()), *_said(_cautions(found, point))]
+    blocks += [campbell_chart(found), mode_table(point, HIGHEST)]
+    table = crossing_table(found, folded=True)
+    return blocks if table is None else [*blocks, table]
+
+
+def nearest_point(found: Campbell, rpm: float) -> Modes:
+    """Return the modes at the computed speed nearest to one (r/min)."""
+    return min(found.points, key=lambda point: abs(abs(point.rpm) - abs(rpm)))
+
+
+def _cautions(found: Campbell, point: Modes) -> list[str]:
+    """Return what limits modes at the operating point, then over speed; that the cage is out stands below."""
+    own = [words for words in point.cautions() if not words.startswith("the cage")]
+    return own + found.cautions()
+
+
+def _said(cautions: list[str]) -> list[Words]:
+    return [Words(f"{words[0].upper()}{words[1:]}.", "warning") for words in cautions]
+
+
+def modes_page(found: Campbell, path: str | os.PathLike[str], point: Modes | None = None) -> pathlib.Path:
+    """Write a page about natural motions that needs a browser and no network, and return its path.
+
+    Beside the Campbell diagram the chosen mode moves: a click on a branch or a crossing chooses one.
+
+    Parameters
+    ----------
+    found : Campbell
+    path : path
+        HTML file; its folder is made.
+    point : Modes, optional
+        Whose table is shown; default: the computed speed nearest to the operating speed.
+
+    Raises
+    ------
+    MissingExtra
+        Without the extra ``report`` (plotly, jinja2).
+    OSError
+        When the page cannot be written.
+
+    Examples
+    --------
+    >>> from fmu_bearing import campbell
+    >>> from fmu_bearing.reports.modes import modes_page
+    >>> found = campbell("examples/scenes/7003C-spindle.toml", [10e3, 15e3, 20e3, 25e3])
+    >>> modes_page(found, "modes.html").name
+    'modes.html'
+    """
+    target = check_file(path)
+    scene, own = found.scene, found.scene.operation.speed_rpm
+    point = point or nearest_point(found, own)
+    diagram: list[Block] = [campbell_chart(found), moving_shapes(found)]
+    tables: list[Block] = [mode_table(point, found.highest), *_apart(point, found.highest)]
+    crossings = crossing_table(found)
+    sections = [
+        Section(
+            "diagram", "Campbell diagram",
+            [*diagram, Words("Click a branch or a crossing, and its mode moves beside the diagram.", "note")],
+        ),
+        Section("modes", "Modes", [*tables, Words(_LINEAR, "note")]),
+        Section("crossings", "Crossings", [crossings])
+        if crossings is not None
+        else Section("crossings", "Crossings", (), "no line meets a mode at these speeds"),
+    ]  # fmt: skip
+    speeds = np.abs(found.rpm)
+    text = render(
+        scene.name, f"{scene.bearing.designation}, {speeds.min():,.0f} to {speeds.max():,.0f} r/min",
+        f"scene {scene.name}, {len(found.points)} speeds", sections, _tiles(found, point), [found.verdict()],
+        [f"{words[0].upper()}{words[1:]}." for words in _cautions(found, point)], kind="Modes of a bearing",
+    )  # fmt: skip
+    write_whole(target, text.encode("utf-8"))
+    return target
+
+
+def _apart(point: Modes, highest: float) -> list[Table]:
+    """Return the table of motions that do not ring."""
+    rows = point.table(highest, apart=True)
+    if not rows:
+        return []
+    cells = [
+        [
+            str(row["name"]),
+            str(row["direction"]),
+            f"{row['frequency_Hz']:,.1f}",
+            f"{row['damping_ratio']:.3f}",
+        ]
+        for row in rows
+    ]
+    columns = ["motion", "direction", "frequency, Hz", "damping ratio"]
+    words = "Neutral and overdamped motions: no peak stands there"
+    return [Table(words, columns, cells, folded=True)]
+
+
+def _tiles(found: Campbell, point: Modes) -> list[dict[str, object]]:
+    """Return the figures at the top: speed, number of modes, least damping, nearest crossing."""
+    own = abs(found.scene.operation.speed_rpm)
+    tiles: list[dict[str, object]] = [
+        {"label": "operating speed", "text": f"{own:,.0f}", "unit": "r/min"},
+        {"label": f"modes of rings below {1e-3 * found.highest:g} kHz", "text": str(len(found.branches)),
+         "unit": ""},
+    ]  # fmt: skip
+    rings = [mode for mode in point.modes if mode.frequency <= found.highest and mode.ring_share > 0.5]
+    if rings:
+        least = min(rings, key=lambda mode: mode.damping)
+        text = f"{100.0 * least.damping:.2g}"
+        tiles.append({"label": f"least damping ratio, {least.label}", "text": text, "unit": "%"})
+    near = found.nearest()
+    if near is not None:
+        text = f"{100.0 * (abs(near.rpm) / own - 1.0):+.1f}"
+        tiles.append({"label": f"to {near.line.name} with {near.branch.label}", "text": text, "unit": "%"})
+    return tiles

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -144,6 +145,14 @@ class Campbell:
         in_scene : bool
             Those only that the scene contains and that come within 20 dB of the largest.
         """
+        found = self._all_crossings
+        if in_scene:
+            largest = max((crossing.velocity for crossing in found), default=0.0)
+            return [one for one in found if one.velocity > largest * 10.0 ** (-WITHIN / 20.0)]
+        return list(found)
+
+    @cached_property
+    def _all_crossings(self) -> list[Crossing]:
         found = [
             crossing
             for branch in self.branches
@@ -151,9 +160,6 @@ class Campbell:
             if _can_move(line, branch)
             for crossing in _meet(branch, line, self.rpm)
         ]
-        if in_scene:
-            largest = max((crossing.velocity for crossing in found), default=0.0)
-            found = [one for one in found if one.velocity > largest * 10.0 ** (-WITHIN / 20.0)]
         return sorted(found, key=lambda crossing: crossing.rpm)
 
     def nearest(self) -> Crossing | None:
@@ -354,6 +360,10 @@ def _meet(branch: Branch, line: Line, rpm: NDArray[np.float64]) -> list[Crossing
     order = np.argsort(branch.rpm)
     speeds = branch.rpm[order]
     by_speed = np.argsort(rpm)
+    at_speeds = np.interp(speeds, rpm[by_speed], line.frequency[by_speed])
+    # the curves have no extremes between the speeds, so without a change of sign there is no root
+    if abs(np.sign(branch.frequency[order] - at_speeds).sum()) == speeds.size:
+        return []
     excitation = PchipInterpolator(rpm[by_speed], line.frequency[by_speed])
     apart = PchipInterpolator(speeds, branch.frequency[order] - excitation(speeds))
     damping = PchipInterpolator(speeds, branch.damping[order])

@@ -226,7 +226,7 @@ def mode_table(point: Modes, highest: float, words: str = "") -> Table:
         [
             str(row["name"]), str(row["direction"]), f"{row['frequency_Hz']:,.1f}",
             f"{row['damping_ratio']:.4f}", str(row["order"]), moving(row["participation"]),
-            _remark(row, point),
+            _remark(row),
         ]
         for row in point.table(highest=highest)
     ]  # fmt: skip
@@ -239,11 +239,9 @@ def mode_table(point: Modes, highest: float, words: str = "") -> Table:
     )
 
 
-def _remark(row: dict[str, Any], point: Modes) -> str:
+def _remark(row: dict[str, Any]) -> str:
     """Return what threatens or blurs a mode; empty: nothing."""
-    told = []
-    if any(mode.frequency == row["frequency_Hz"] for mode in point.weak()):
-        told.append("grows by itself" if row["damping_ratio"] < 0.0 else "instability margin")
+    told = [row["remark"]] if row["remark"] else []
     if row["spread"] > SPREAD:
         told.append(f"moves by {100.0 * row['spread']:.1f} % as balls pass")
     return "; ".join(told)

@@ -15,9 +15,11 @@ from fmu_bearing.reports.page import render
 from fmu_bearing.reports.shapes import moving_shapes
 from fmu_bearing.reports.subject import Subject
 from fmu_bearing.scene import Scene
+from fmu_bearing.scene.read import with_fidelity
 
 HIGHEST = 20e3  # Hz: modes that the section lists
-_STEPS = 14  # speeds of its diagram, a tenth of the shaft's apart: the tenth is its own
+#: Speeds of its diagram over the shaft's own: fewer than on a page of its own, closer together near it.
+_SHARES = (0.1, 0.3, 0.5, 0.7, 0.85, 1.0, 1.15, 1.3, 1.4)
 _STILL = 1.0  # r/min: slower, the shaft stands
 _LINEAR = (
     "Fidelity full linearised about its quasi-static state: perfect surfaces, no cage. A run at one speed "
@@ -34,7 +36,8 @@ def section(subject: Subject) -> Section:
         Without a scene, or where there is no equilibrium at that speed.
     """
     rpm = subject.speed / RPM
-    scene = subject.scene.replace({"operation.speed_rpm": rpm})
+    # modes are those of full, whatever a run takes
+    scene = with_fidelity(subject.scene, model="full").replace({"operation.speed_rpm": rpm})
     try:
         blocks = _at_rest(scene) if abs(rpm) < _STILL else _over_speed(scene, rpm)
     except ValueError as problem:
@@ -55,7 +58,7 @@ def _at_rest(scene: Scene) -> list[Block]:
 
 def _over_speed(scene: Scene, rpm: float) -> list[Block]:
     try:
-        found = campbell(scene, [0.1 * k * rpm for k in range(1, _STEPS + 1)], highest=HIGHEST)
+        found = campbell(scene, [share * rpm for share in _SHARES], highest=HIGHEST)
     except ValueError as problem:
         point = modes(scene)
         reason = Words(f"No Campbell diagram: {problem}.", "absent")

@@ -198,17 +198,20 @@
     speed.addEventListener("input", () => { place = Number(speed.value); show(); });
     const name = () => { pause.textContent = running ? "Pause" : "Move"; };
     pause.addEventListener("click", () => { running = !running; name(); if (running) requestAnimationFrame(begin); });
-    document.addEventListener("drawn", () => {
+    const follow = () => {
       for (const plot of document.querySelectorAll("#plot-campbell")) {
         plot.on("plotly_click", (event) => {
-          const found = event.points.find((one) => Array.isArray(one.customdata));
+          const found = event.points.find((one) => one.customdata?.length === 2);
           if (found) { [branch, place] = found.customdata; show(); }
         });
         // other colours draw the figure anew, without the mark
         plot.on("plotly_afterplot", () => highlight(plot));
         highlight(plot);
       }
-    });
+    };
+    // figures may be drawn before this script runs, or after
+    if (document.documentElement.dataset.ready) follow();
+    else document.addEventListener("drawn", follow);
 
     let last = 0;
     const begin = (time) => { last = time; requestAnimationFrame(move); };

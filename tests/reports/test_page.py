@@ -110,6 +110,7 @@ def test_pressures_of_an_fmu_alone(tmp_path):
         "friction",
         "assumptions",
         "changes",
+        "modes",
     }
     assert "does not know its scene" in made.sections["changes"]
     assert "which scene" in made.sections["conditions"] and "pressures" in made.sections["directivity"]

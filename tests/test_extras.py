@@ -186,8 +186,8 @@ def test_whatever_needs_a_package_names_its_extra(told, package):
 
 #: Scripts that draw or sweep. They refuse before they compute, for some take minutes.
 SCRIPTS = [
-    "directivity/directivity.py", "gallery/gallery.py", "impact/contact_conditions.py", "impact/three_balls.py",
-    "run_up/run_up.py",
+    "directivity/directivity.py", "gallery/gallery.py", "impact/contact_conditions.py",
+    "impact/three_balls.py", "run_up/run_up.py",
     "spindle_cosimulation/adaptive.py", "spindle_cosimulation/cosimulate.py",
     "spindle_cosimulation/stability.py", "sweep/critical_speed.py", "tolerance_study/tolerance.py",
     "papers/run.py",

@@ -18,6 +18,7 @@ from fmu_bearing.cli.base import (
     tell,
 )
 from fmu_bearing.engine.layout import U
+from fmu_bearing.extras import available
 from fmu_bearing.files import check_folder
 
 if TYPE_CHECKING:
@@ -198,6 +199,15 @@ def _write(folder: Path, found: "Modes", diagram: "Campbell | None") -> list[Pat
         return files
     files.append(_csv(folder / "campbell.csv", diagram.table()))
     files.append(_csv(folder / "crossings.csv", [one.as_dict() for one in diagram.crossings()]))
+    if available("matplotlib", "a picture", "no campbell.png", tell):
+        from fmu_bearing.run.pictures import save
+
+        files.append(folder / "campbell.png")
+        save(diagram.picture(), files[-1])
+    if available("plotly", "a page", "no modes.html", tell):
+        from fmu_bearing.reports.modes import modes_page
+
+        files.append(modes_page(diagram, folder / "modes.html", found))
     return files
 
 

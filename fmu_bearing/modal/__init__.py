@@ -8,6 +8,7 @@
 ``linearised``         fidelity `full` about its steady state, in fixed axes
 ``static``             stiffness matrix of the bearing at a state, from the energy in its contacts
 ``shapes``             what moves in a mode: energies, order round the bearing, direction
+``motion``             how rings and balls move in a mode
 ``modes``              natural frequencies and damping, with names
 ``lines``              excitation lines and the waves that each can move
 ``campbell``           modes over speed, followed by shape; crossings with lines
@@ -20,4 +21,5 @@
 ``stiffness_files``    their CSV and netCDF
 ``ross``               bearing elements for the rotor program ROSS
 ``stiffness_picture``  K and C over speed
-=====================  ===================================================================="""
+=====================  ====================================================================
+"""

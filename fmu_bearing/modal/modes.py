@@ -12,6 +12,7 @@ from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import P
 from fmu_bearing.modal.conditions import given
 from fmu_bearing.modal.linearised import Linearised, linearised
+from fmu_bearing.modal.motion import Shape, shape
 from fmu_bearing.modal.shapes import BACKWARD, FORWARD, NEITHER, participation, parts, wave
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 
@@ -124,6 +125,11 @@ class Modes:
         if not (math.isfinite(frequency) and frequency > 0.0):
             raise ValueError(f"frequency = {frequency} Hz is refused: give a positive number of hertz")
         return min(self.modes, key=lambda mode: abs(math.log(mode.frequency / frequency)))
+
+    def shape(self, mode: Mode | int) -> Shape:
+        """Return how rings and balls move in a mode, or in the one of that place in `modes`."""
+        chosen = self.modes[mode] if isinstance(mode, int) else mode
+        return shape(self.linearised, chosen.vector, chosen.value)
 
     def named(self, name: str, direction: str = "") -> Mode:
         """Return the lowest mode of a name, such as ``inner radial``, and a direction if one is given."""

@@ -5,17 +5,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.engine.layout import P, Q
 from fmu_bearing.modal.campbell import Branch, Campbell
-from fmu_bearing.modal.coordinates import Coordinates
 from fmu_bearing.modal.drawing import colour
-from fmu_bearing.modal.linearised import Linearised
-from fmu_bearing.modal.modes import Mode, Modes
+from fmu_bearing.modal.modes import Modes
+from fmu_bearing.modal.motion import Shape
 from fmu_bearing.reports.blocks import Shapes
 from fmu_bearing.reports.campbell import moving
 
 _DIGITS = 4
-_BALL_PLACES = 3  # x, r, theta
 
 
 def moving_shapes(found: Campbell) -> Shapes:
@@ -52,65 +49,24 @@ def _branch(branch: Branch, points: dict[int, Modes]) -> dict[str, Any]:
             {
                 "rpm": round(abs(float(rpm)), 1), "frequency": round(mode.frequency, 2),
                 "damping": round(mode.damping, 5), "direction": mode.direction, "order": mode.order,
-                "what": moving(mode.participation), **shape(points[id(mode)].linearised, mode),
+                "what": moving(mode.participation), **_numbers(points[id(mode)].shape(mode)),
             }
             for rpm, mode in zip(branch.rpm, branch.modes, strict=True)
         ],
     }  # fmt: skip
 
 
-def shape(system: Linearised, mode: Mode) -> dict[str, Any]:
-    """Return the places of a mode as complex amplitudes, the largest motion of a body 1.
-
-    Returns
-    -------
-    dict
-        ``inner`` and ``outer``: x, turn (times the pitch radius), y, z, and tilts about y and z (times the
-        pitch radius); ``flexure``: per ring rows of order, amplitudes of cos n theta and sin n theta, and
-        what a unit of them moves along x, r and theta; ``balls``: x, r and theta (times the pitch radius) of
-        the patterns 1, cos theta, sin theta, ...; ``orbit``, ``shaft``: turns per period of the mode. Complex
-        numbers are pairs.
-    """
-    at, p, vector = system.coordinates, system.arrays.p, mode.vector
-    pitch = float(p[P.PITCH_RADIUS])
-    rings = vector[at.rings : at.ring_rates]
-    outer = rings[Q.OUTER :]
-    # the inner ring's turn is an input
-    inner = rings[[Q.X, Q.X, Q.Y, Q.Z, Q.INNER_BY, Q.INNER_BZ]] * [1.0, 0.0, 1.0, 1.0, pitch, pitch]
-    outside = outer[[Q.X, Q.TURN, Q.Y, Q.Z, Q.BY, Q.BZ]] * [1.0, pitch, 1.0, 1.0, pitch, pitch]
-    balls = np.array([vector[at.ball_state(kind)] for kind in range(_BALL_PLACES)])
-    balls[2] *= pitch
-    bends = _bends(at, p, vector)
-    everything = np.concatenate(
-        [inner, outside, balls.ravel(), *[np.outer(row[3:], row[1:3]).ravel() for row in bends]]
-    )
-    largest = everything[int(np.argmax(abs(everything)))]
-    # the largest part is at its end when the motion begins
-    scale = 1.0 / largest if abs(largest) > 0.0 else 1.0
-    turns = abs(mode.value.imag) or 1.0
+def _numbers(found: Shape) -> dict[str, Any]:
+    """Shape as the page's script takes it: complex numbers are pairs, bending by ring."""
     flexure: list[list[list[Any]]] = [[], []]
-    for row, body in zip(bends, at.bodies, strict=True):
-        flexure[body].append(
-            [int(row[0].real), *_pairs(scale * row[1:3]), *np.round(row[3:].real, _DIGITS).tolist()]
-        )
+    for one in found.bends:
+        units = np.round([one.x, one.r, one.theta], _DIGITS).tolist()
+        flexure[one.ring].append([one.order, *_pairs(np.array([one.cosine, one.sine])), *units])
     return {
-        "inner": _pairs(scale * inner), "outer": _pairs(scale * outside), "flexure": flexure,
-        "balls": [_pairs(scale * row) for row in balls],
-        "orbit": round(system.orbit / turns, 5), "shaft": round(system.speed / turns, 5),
+        "inner": _pairs(found.inner), "outer": _pairs(found.outer), "flexure": flexure,
+        "balls": [_pairs(row) for row in found.patterns],
+        "orbit": round(found.orbit, 5), "shaft": round(found.shaft, 5),
     }  # fmt: skip
-
-
-def _bends(
-    at: Coordinates, p: NDArray[np.float64], vector: NDArray[np.complex128]
-) -> list[NDArray[np.complex128]]:
-    """Rows of the flexural modes: order, amplitudes of cos and sin, what a unit moves along x, r, theta."""
-    places, table = vector[at.flexure : at.flexure_rates], int(p[P.AT_MODES])
-    found = []
-    for k, order in enumerate(at.orders):
-        row = p[table + k * P.MODE_SIZE : table + (k + 1) * P.MODE_SIZE]
-        units = row[[P.MODE_X, P.MODE_R, P.MODE_T]]
-        found.append(np.array([order, places[2 * k], places[2 * k + 1], *units], dtype=complex))
-    return found
 
 
 def _pairs(values: NDArray[np.complex128]) -> list[list[float]]:

@@ -33,6 +33,8 @@ def test_campbell_and_its_files(run, tmp_path):
     with (out / "crossings.csv").open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     assert any(row["line"] == "f_i" and row["mode"] == "inner axial" for row in rows)
+    assert (out / "campbell.png").stat().st_size > 20_000
+    assert "inner axial" in (out / "modes.html").read_text("utf-8")
     with (out / "campbell.csv").open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     assert {float(row["speed_rpm"]) for row in rows} == {16e3, 18e3, 20e3, 22e3, 24e3}

@@ -116,6 +116,32 @@ def test_a_bearing_without_equilibrium_is_refused_with_the_reason(gate):
         modes(gate("7003C-spindle"), {"pedestal_stiffness": 1e4, "radial_load.z": -3e3})
 
 
+def test_shape_of_the_axial_mode(gate):
+    """Rings move against each other along the axis, balls between them, all alike; nothing else moves."""
+    found = modes(gate("7003C-spindle"))
+    axial = found.named("inner axial")
+    shape = found.shape(axial)
+    assert found.shape(found.modes.index(axial)).inner == pytest.approx(shape.inner)
+    inner, outer = shape.inner[0], shape.outer[0]
+    assert inner == pytest.approx(1.0) and -0.3 < outer.real < -0.05
+    # momentum: rotor and housing are as heavy as each other but for the pedestal's force
+    balls = shape.balls(0.3)
+    assert balls.shape == (3, found.linearised.coordinates.balls)
+    assert np.ptp(balls[0].real) < 1e-9 and min(outer.real, 1.0) < balls[0, 0].real < 1.0
+    assert np.abs(np.concatenate([shape.inner[2:], shape.outer[2:]])).max() < 1e-9
+
+
+def test_balls_of_a_shape_stand_at_their_angles(gate):
+    """In a radial mode a ball at 12 o'clock moves as the pattern says there."""
+    found = modes(gate("7003C-bare"), {"shaft_speed": 10_000 * RPM})
+    shape = found.shape(found.named("inner radial", "forward"))
+    first = shape.balls()[1, 0]
+    assert first == pytest.approx(shape.patterns[1, 0] + shape.patterns[1, 1::2].sum(), abs=1e-9)
+    # a forward wave reaches the next ball later
+    later = shape.balls()[1, 1] / first
+    assert np.angle(later) == pytest.approx(-2.0 * np.pi / 12.0, abs=1e-3)
+
+
 def test_table_has_rows_of_balls_alone_once(gate):
     found = modes(gate("7009C-full-ceramic").with_rigid_rings(), {"shaft_speed": 12_000 * RPM})
     rows = found.table(60e3)

@@ -15,7 +15,7 @@ from fmu_bearing.reports import modes as room, modes_page
 from fmu_bearing.reports.blocks import Absent
 from fmu_bearing.reports.campbell import campbell_chart, crossing_table, mode_table
 from fmu_bearing.reports.modes import section
-from fmu_bearing.reports.shapes import moving_shapes, shape
+from fmu_bearing.reports.shapes import moving_shapes
 from fmu_bearing.reports.subject import Subject
 from tests.reports.reading import Page, numbers
 from tests.reports.test_browser import BROWSER, NAMES
@@ -175,15 +175,14 @@ def test_shapes_turn_the_way_that_their_mode_does(found, ceramic):
         points = {id(mode): point for point in diagram.points for mode in point.modes}
         for branch in diagram.branches:
             mode = branch.modes[0]
-            moving = shape(points[id(mode)].linearised, mode)
-            parts = [np.array(moving[ring]) @ [1.0, 1.0j] for ring in ("inner", "outer")]
-            rows = [row for ring in moving["flexure"] for row in ring]
-            values = np.concatenate([*parts, *[np.array(row) @ [1.0, 1.0j] for row in moving["balls"]]])
-            assert np.abs(values).max() <= 1.0 + 1e-3
+            moving = points[id(mode)].shape(mode)
+            parts = [moving.inner, moving.outer]
+            values = np.concatenate([*parts, moving.patterns.ravel()])
+            assert np.abs(values).max() <= 1.0 + 1e-9
             if branch.order == 1 and branch.direction:
                 pairs = [(part[k], part[k + 1]) for part in parts for k in (2, 4)]
             elif branch.order > 1 and branch.direction:
-                pairs = [(complex(*row[1]), complex(*row[2])) for row in rows if row[0] == branch.order]
+                pairs = [(one.cosine, one.sine) for one in moving.bends if one.order == branch.order]
             else:
                 continue
             a, b = max(pairs, key=lambda pair: abs(pair[0]) ** 2 + abs(pair[1]) ** 2)

@@ -57,7 +57,7 @@ def campbell_chart(found: Campbell) -> Chart:
     drawn.update_layout(
         xaxis=look.axis("speed, r/min", range=[float(speeds.min()), float(speeds.max())], tickformat=",.0f"),
         yaxis=look.axis("frequency, Hz", range=[0.0, highest], tickformat=",.0f"),
-        annotations=texts, shapes=shapes, meta={"narrow": {"annotations": texts[:1]}},
+        annotations=texts, shapes=shapes, meta={"narrow": {"annotations": []}},
     )  # fmt: skip
     return Chart(
         KEY, "Natural frequencies over speed, and what excites them", drawn,

@@ -128,7 +128,7 @@ def _mode_words(mode: Mode) -> str:
 def moving(shares: dict[str, float]) -> str:
     """Shares of the kinetic energy in words, the largest first."""
     told = [(name, share) for name, share in shares.items() if share >= _LEAST][:_MOST]
-    return ", ".join(f"{name} {100.0 * share:.0f} %" for name, share in told)
+    return ", ".join(f"{100.0 * share:.0f} % {name}" for name, share in told)
 
 
 def crossing_words(one: Crossing) -> str:

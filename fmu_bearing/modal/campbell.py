@@ -28,7 +28,8 @@ HIGHEST = 20e3  # Hz
 WITHIN = 20.0  # dB below the largest: crossings that count
 _SAME = 0.5  # modal assurance criterion from which a mode is the one of the speed before
 _FEWEST = 3  # speeds that make a curve
-_POINTS = 15
+_SHARES = tuple(0.1 * tenths for tenths in range(1, 15))  # of the scene's own speed
+_SPIN = "outer spin"  # waves press along the contacts' normals, which have no lever about the axis
 
 
 @dataclass(frozen=True)
@@ -235,8 +236,8 @@ def campbell(
     ----------
     scene : Scene or path
     speeds : sequence of float, optional
-        r/min, at least three of one sign; default: 15 from a tenth to 1.4 times the scene's own. Standstill
-        is left out, because contacts stick there.
+        r/min, at least three of one sign; default: 14 in steps of a tenth of the scene's own.
+        Standstill is left out, because contacts stick there.
     inputs : mapping, optional
         Inputs of the model by name, SI units, as for `modes`; not ``shaft_speed``.
     highest : float, optional
@@ -291,7 +292,7 @@ def campbell(
 def _speeds(scene: Scene, speeds: Sequence[float] | None) -> list[float]:
     if speeds is None:
         own = scene.operation.speed_rpm or 10_000.0
-        return [float(value) for value in np.linspace(0.1 * own, 1.4 * own, _POINTS)]
+        return [own * share for share in _SHARES]
     try:
         numbers = sorted({float(value) for value in speeds if float(value) != 0.0}, key=abs)
     except (TypeError, ValueError):
@@ -350,8 +351,9 @@ def _branch(chain: list[tuple[Modes, Mode]]) -> Branch:
 
 
 def _can_move(line: Line, branch: Branch) -> bool:
-    """Whether order and direction agree; a mode without direction answers to both."""
-    return line.order == branch.order and branch.direction in (line.direction, NEITHER)
+    """Whether order and direction agree; a mode without direction answers to both, turning to none."""
+    agree = line.order == branch.order and branch.direction in (line.direction, NEITHER)
+    return agree and branch.name != _SPIN
 
 
 def _meet(branch: Branch, line: Line, rpm: NDArray[np.float64]) -> list[Crossing]:
@@ -370,7 +372,7 @@ def _meet(branch: Branch, line: Line, rpm: NDArray[np.float64]) -> list[Crossing
     found = []
     for root in np.unique(apart.roots(extrapolate=False)):
         frequency, zeta = float(excitation(root)), float(damping(root))
-        magnified = 0.5 / max(zeta, 1e-4)
+        magnified = 0.5 / max(zeta, MARGIN)  # below it the size of the motion limits itself
         velocity = line.amplitude * 2.0 * math.pi * frequency * magnified
         found.append(Crossing(float(root), frequency, zeta, branch, line, velocity))
     return found

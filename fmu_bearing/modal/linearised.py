@@ -29,6 +29,7 @@ from fmu_bearing.modal.equilibrium import settle
 from fmu_bearing.modal.plain import Plain
 from fmu_bearing.run.arrays import Arrays, Refused
 from fmu_bearing.scene import Scene
+from fmu_bearing.scene.read import with_fidelity
 
 PHASES = 6  # of one ball pitch
 
@@ -73,7 +74,7 @@ def linearised(scene: Scene, inputs: dict[int, float] | None = None, friction: b
     Parameters
     ----------
     scene : Scene
-        Its cage, imperfections and sound are left out.
+        Its cage, imperfections and sound are left out, and its fidelity counts as full.
     inputs : dict, optional
         Values by their places in ``layout.U`` in place of the scene's.
     friction : bool, optional
@@ -84,7 +85,9 @@ def linearised(scene: Scene, inputs: dict[int, float] | None = None, friction: b
     EngineError
         Where there is no quasi-static equilibrium.
     """
-    bare = scene.model_copy(update={"sound": None, "imperfections": None})
+    # whatever a run takes
+    full = with_fidelity(scene, model="full")
+    bare = full.model_copy(update={"sound": None, "imperfections": None})
     first = _bearing(bare, inputs, 0.0, friction)
     even = _even(first)
     count = 1 if even else PHASES

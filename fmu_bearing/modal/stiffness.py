@@ -24,6 +24,7 @@ from fmu_bearing.run.arrays import Arrays, Refused
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 from fmu_bearing.scene.operation import Operation
 from fmu_bearing.scene.problems import allowed
+from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.scene.values import limits
 
 if TYPE_CHECKING:
@@ -345,7 +346,7 @@ def _with_force(scene: Scene, values: dict[int, float]) -> Linearised:
 
 def _static(rigid: Scene, values: dict[int, float]) -> NDArray[np.float64]:
     """Return the stiffness at the quasi-static state of a scene with rigid rings."""
-    arrays = Arrays.of(rigid)
+    arrays = Arrays.of(with_fidelity(rigid, model="full"))
     for place, value in values.items():
         arrays.u[place] = value
     try:

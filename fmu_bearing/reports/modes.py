@@ -15,7 +15,6 @@ from fmu_bearing.reports.page import render
 from fmu_bearing.reports.shapes import moving_shapes
 from fmu_bearing.reports.subject import Subject
 from fmu_bearing.scene import Scene
-from fmu_bearing.scene.read import with_fidelity
 
 HIGHEST = 20e3  # Hz: modes that the section lists
 #: Speeds of its diagram over the shaft's own: fewer than on a page of its own, closer together near it.
@@ -36,8 +35,7 @@ def section(subject: Subject) -> Section:
         Without a scene, or where there is no equilibrium at that speed.
     """
     rpm = subject.speed / RPM
-    # modes are those of full, whatever a run takes
-    scene = with_fidelity(subject.scene, model="full").replace({"operation.speed_rpm": rpm})
+    scene = subject.scene.replace({"operation.speed_rpm": rpm})
     try:
         blocks = _at_rest(scene) if abs(rpm) < _STILL else _over_speed(scene, rpm)
     except ValueError as problem:

@@ -14,7 +14,7 @@ _AXIAL = (INNER, OUTER, OUTER + Q.TURN)
 _PAIRS = (INNER + Q.Y, INNER + Q.INNER_BY, OUTER + Q.Y, OUTER + Q.BY)
 
 
-def decay(scene, rpm, places, h=8e-6, count=1200, settle=0.02, load_z=0.0):
+def decay(scene, rpm, places, h=8e-6, count=700, settle=0.02, load_z=0.0):
     """What a kick adds to the state: shape (count, numbers of the state).
 
     ``places``: places of rates in the state that are kicked, with their shares of the kick.
@@ -38,20 +38,20 @@ def decay(scene, rpm, places, h=8e-6, count=1200, settle=0.02, load_z=0.0):
     return found[1] - found[0]
 
 
-def axial(scene, rpm, order=20, h=8e-6, count=1200):
+def axial(scene, rpm, order=20, h=8e-6, count=700):
     """Poles (1/s) of motions along and about the axis."""
     rows = decay(scene, rpm, {INNER: 1.0, OUTER + Q.TURN: 30.0}, h, count)
     return pencil(rows[:, _AXIAL].astype(complex), h, order)
 
 
-def radial(scene, rpm, order=30, h=8e-6, count=1200, **more):
+def radial(scene, rpm, order=30, h=8e-6, count=700, **more):
     """Poles (1/s) of y + i z of rings and tilts: above zero forward, below backward."""
     kick = {INNER + Q.Y: 1.0, OUTER + Q.Z: 1.0, INNER + Q.INNER_BY: 100.0, OUTER + Q.BZ: 50.0}
     rows = decay(scene, rpm, kick, h, count, **more)
     return pencil(np.array([rows[:, k] + 1j * rows[:, k + 1] for k in _PAIRS]).T, h, order)
 
 
-def bending(scene, rpm, mode, order=12, h=8e-6, count=1200):
+def bending(scene, rpm, mode, order=12, h=8e-6, count=700):
     """Poles (1/s) of a + i b of one flexural mode, by its number in the table."""
     p = Arrays.of(scene).p
     first = S.SOUND + int(p[P.SOUND_STATE])

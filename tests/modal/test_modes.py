@@ -150,3 +150,10 @@ def test_table_has_rows_of_balls_alone_once(gate):
     assert [row["frequency_Hz"] for row in rows] == sorted(row["frequency_Hz"] for row in rows)
     assert max(row["frequency_Hz"] for row in found.table(5e3)) <= 5e3
     assert all(row["frequency_Hz"] < 5e3 for row in found.table(5e3, apart=True))
+
+
+def test_modes_are_those_of_fidelity_full_whatever_the_scene_takes(gate):
+    known = [mode.frequency for mode in modes(gate("7003C-spindle")).modes]
+    for fidelity in ("rings", "auto"):
+        found = modes(gate("7003C-spindle").replace({"fidelity.model": fidelity}))
+        assert [mode.frequency for mode in found.modes] == pytest.approx(known, rel=1e-9)

@@ -12,6 +12,7 @@ balls and the planes these are within 0.03 % of five freedoms, one plane per bea
 """
 
 import argparse
+import datetime
 import json
 import math
 import pathlib
@@ -219,7 +220,8 @@ def told(table, answer, rows, worst):
     mm = [f"{1e3 * place:+.3f}" for place in planes.places]
     return [
         f"`examples/rotor/round_trip.py` made this page. ROSS {versions['ross']} ran on Python "
-        f"{versions['python']} in an environment of its own; this program on {machine()}.",
+        f"{versions['python']} in an environment of its own; this program on {machine()}; "
+        f"{datetime.date.today()}.",
         "",
         f"Scene {table.scene.name}, {table.preloads[0]:g} N, tables of {len(table.speeds)} speeds and "
         f"{len(table.frequencies)} frequencies. A shaft of steel, {1e3 * DIAMETER:g} mm thick and "

@@ -166,9 +166,11 @@ def eigenvectors(a, at, v, to, n):
 
 
 @kernel
-def solve_complex(re, im, n):
-    """Solve ``n`` complex equations, rows of ``n + 1`` numbers, in place; False if singular."""
-    m = n + 1
+def solve_complex(re, im, n, m):
+    """Solve ``n`` complex equations, rows of ``m`` numbers, in place; False if singular.
+
+    A row: ``n`` coefficients, then a right side per number left.
+    """
     for k in range(n):
         best = 0.0
         pivot = k

@@ -26,6 +26,32 @@ def vibration(rows):
     return np.sqrt((v[:, :3] ** 2).sum(1).mean()), np.sqrt((v[:, 3:] ** 2).sum(1).mean())
 
 
+def matrices(run):
+    """Masses, and derivatives of the rings' accelerations by places and rates, of the state block."""
+    lv = block(run)
+    return [lv[at : at + L.MATRIX].reshape(L.N, 12)[:, : L.N].T.copy() for at in (L.MASS, L.JX, L.JV)]
+
+
+def with_patterns(run):
+    """Linear equations M x'' = K x + C x' of rings and transverse balls of fidelity `response`."""
+    lv, count = block(run), L.N + L.PATTERNS
+    follow, guide, pull, drag = (
+        lv[at : at + L.PATTERNS * L.COLUMN].reshape(L.PATTERNS, L.COLUMN)[:, : L.N]
+        for at in (L.SIDE_FOLLOW, L.SIDE_GUIDE, L.SIDE_PULL, L.SIDE_DRAG)
+    )
+    square, rate, tau = lv[L.SIDE_SQUARE], lv[L.SIDE_RATE], run.p[P.CONTACT_DAMPING]
+    mass, stiff, damp = np.eye(count), np.zeros((count, count)), np.zeros((count, count))
+    own, places, rates = matrices(run)
+    rings, balls = np.s_[: L.N], np.s_[L.N :]
+    one = np.eye(L.PATTERNS)
+    mass[rings, rings] = own
+    stiff[rings, rings], stiff[rings, balls] = places - pull.T @ follow, pull.T
+    damp[rings, rings], damp[rings, balls] = rates - tau * pull.T @ follow - drag.T @ guide, drag.T
+    stiff[balls, rings], stiff[balls, balls] = square * follow, -square * one
+    damp[balls, rings], damp[balls, balls] = tau * square * follow + rate * guide, -rate * one
+    return mass, stiff, damp
+
+
 class Slow:
     """The equations of fidelity rings written out with NumPy: balls by SciPy's root, forces ball by ball."""
 
@@ -37,6 +63,12 @@ class Slow:
         self.balls = int(self.p[P.BALLS])
         self.speed = run.u[U.SPEED]
         self.tau = self.p[P.CONTACT_DAMPING]
+        self.soft = self.lv[L.SIDE : L.SIDE + 2]
+        self.square, self.rate = self.lv[L.SIDE_SQUARE], self.lv[L.SIDE_RATE]
+        self.side = {
+            name: self.lv[at : at + L.PATTERNS * L.COLUMN].reshape(L.PATTERNS, L.COLUMN)[:, : L.N]
+            for name, at in (("guide", L.SIDE_GUIDE), ("pull", L.SIDE_PULL), ("drag", L.SIDE_DRAG))
+        }
         self.places = [np.array([self.lv[L.X + j], self.lv[L.R + j]]) for j in range(self.balls)]
 
     def matrix(self, where):
@@ -95,14 +127,24 @@ class Slow:
             net -= plane @ force
             stiffness += kn * np.outer(e, e) + kt * np.outer(m, m)
             pushed += kn * bend * e
-        return net + p[P.BALL_MASS] * np.linalg.solve(stiffness, pushed)
+        made = np.linalg.solve(stiffness, pushed)
+        return net + p[P.BALL_MASS] * (made - self.soft * (self.soft @ made))
 
-    def accelerations(self, t, q, v):
-        """Accelerations of the 11 coordinates at time ``t`` from the start."""
+    def patterns(self, theta):
+        """Even, cosine and minus sine pattern of a ball, normed so that sums over the balls project."""
+        return np.array([1.0, 2.0 * np.cos(theta), -2.0 * np.sin(theta)]) / self.balls
+
+    def accelerations(self, t, q, v, side=None):
+        """Accelerations of the 11 coordinates at time ``t`` from the start, then of the transverse patterns.
+
+        ``side``: the patterns' places and velocities; absent: at rest where the balls rest, and the
+        accelerations of the rings alone.
+        """
         p, speed = self.p, self.speed
         orbit = self.lv[L.RATIO] * speed
         ahead = q + self.tau * v
         f = np.zeros(L.N)
+        rest = np.zeros(L.PATTERNS)
         for j in range(self.balls):
             theta = orbit * (t + self.tau) + 2 * np.pi * j / self.balls
             across = theta - speed * (t + self.tau), theta - q[8]
@@ -117,14 +159,25 @@ class Slow:
                 lambda x, state=state: self.residual(1e-6 * x, *state), 1e6 * self.places[j], tol=1e-13
             )
             self.places[j] = 1e-6 * found.x
+            rest += self.patterns(theta) * (self.soft @ self.places[j] - self.lv[L.SIDE_STILL])
             contacts = self.both(self.places[j], theta, heights, ahead)
             for first, tilt, (force, moment, *_) in zip((0, 5), (3, 9), contacts, strict=True):
                 f[first : first + 3] += force
                 f[tilt : tilt + 2] += moment[1:]
-        return self.rings(t, f, q, v, self.c)
+        rolled = self.side["guide"] @ v
+        place, moving = (rest, np.zeros(L.PATTERNS)) if side is None else side
+        self.rest = rest
+        pushed = (place - rest) @ self.side["pull"] + (moving - rolled) @ self.side["drag"]
+        rings = self.rings(t, f, q, v, self.c, pushed)
+        if side is None:
+            return rings
+        return np.concatenate([rings, self.square * (rest - place) + self.rate * (rolled - moving)])
 
-    def rings(self, t, f, q, v, c):
-        """Everything on the rings that does not come through the balls, then the mass matrix."""
+    def rings(self, t, f, q, v, c, pushed=0.0):
+        """Everything on the rings that does not come through the balls' contacts, then the mass matrix.
+
+        ``pushed``: accelerations of their own masses by the balls' transverse motion.
+        """
         p, speed = self.p, self.speed
         f[0] += c[C.PRELOAD]
         heavy = p[P.INNER_MASS] * c[C.ECCENTRICITY] * speed**2
@@ -148,4 +201,4 @@ class Slow:
             + [P.OUTER_POLAR]
             + [P.OUTER_TRANSVERSE] * 2
         ]
-        return np.linalg.solve(self.matrix(L.MASS), f / own + self.matrix(L.EXTRA) @ v)
+        return np.linalg.solve(self.matrix(L.MASS), f / own + self.matrix(L.EXTRA) @ v + pushed)

@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation
 
 from fmu_bearing.engine.fidelities.condensed.balls import stand
 from fmu_bearing.engine.fidelities.response.ball_orders import form_of, form_orders, form_over_turning
-from fmu_bearing.engine.layout import FOUR, LN, STRIDE, A, C, J, L, P, S, T
+from fmu_bearing.engine.layout import FOUR, LN, STRIDE, C, L, P, S, T
 from tests.engine.condensed import FIDELITIES, block, silent, vibration
 from tests.engine.helpers import RPM, Run, quiet
 from tests.engine.test_ball_waves import lines
@@ -70,7 +70,7 @@ def test_balls_roll_as_the_quasi_static_point_has_it(scene):
 
 def test_orders_over_the_turning_add_up_to_the_form(scene):
     run = Run(quiet(scene("7003C-bare")), 10000, ball_waves=FORM, FIDELITY=2.0).init()
-    assert LN.SIZE <= J.SIZE + A.SIZE
+    assert LN.SIZE <= S.CONDENSED - S.JAC
     x, balls, rolled = np.zeros(LN.SIZE), int(run.p[P.BALLS]), 0.7
     form_orders(run.p, block(run), FORM.size, x)
     sums = np.zeros((LN.FORMS, balls))

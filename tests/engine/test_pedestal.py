@@ -5,7 +5,7 @@ import pytest
 
 from fmu_bearing.engine.fidelities.response.lines import line_table
 from fmu_bearing.engine.layout import C, L, P, Q, S, U, Y
-from tests.engine.condensed import FIDELITIES, Slow, block, silent
+from tests.engine.condensed import FIDELITIES, Slow, block, silent, with_patterns
 from tests.engine.helpers import Run
 from tests.oracles.cartesian_forces import turned_axes
 
@@ -69,13 +69,6 @@ def test_rings_equations_with_the_pedestals_axes(scene):
     np.testing.assert_allclose(found, lv[L.A0 : L.A0 + L.N], atol=2e-2, rtol=1e-2)
 
 
-def matrices(run):
-    lv = block(run)
-    return [
-        lv[at : at + L.MATRIX].reshape(L.N, 12)[:, : L.N].T.copy() for at in (L.MASS, L.JX, L.JV, L.EXTRA)
-    ]
-
-
 def test_response_couples_both_whirls(scene):
     """Stiffness and damping of the linear system by plain springs; the unbalance line by a dense solve.
 
@@ -86,14 +79,14 @@ def test_response_couples_both_whirls(scene):
     for ratio in (1.0, RATIO):
         run = Run(unbalanced(scene, ratio), 15000, FIDELITY=2.0).init()
         lv = block(run)
-        mass, stiff, damp, extra = matrices(run)
+        mass, stiff, damp = with_patterns(run)
         if ratio == 1.0:
             equal = stiff, damp
         own = run.p[P.OUTER_MASS]
-        force = np.zeros(L.N, complex)
+        force = np.zeros(len(mass), complex)
         push = run.s[S.C + C.ECCENTRICITY] * speed**2
         force[1], force[2] = 1j * push, push
-        answer = np.linalg.solve(-(speed**2) * mass - stiff - 1j * speed * (damp + extra), force)
+        answer = np.linalg.solve(-(speed**2) * mass - stiff - 1j * speed * damp, force)[: L.N]
         lines = run.s[line_table(run.p) :][: int(lv[L.COUNT]) * L.LINE_SIZE].reshape(-1, L.LINE_SIZE)
         (line,) = (row for row in lines if row[0] == 0.0 and row[1] == 1.0)
         solved = line[L.LINE_REAL :][: L.N] + 1j * line[L.LINE_IMAGINARY :][: L.N]

@@ -9,7 +9,7 @@ from fmu_bearing.engine.fidelities.condensed.balls import stand
 from fmu_bearing.engine.layout import STRIDE, C, L, P, S, T, Y
 from fmu_bearing.engine.status import NO_START, OK
 from tests.engine.condensed import FIDELITIES, Slow, block, silent
-from tests.engine.helpers import Run
+from tests.engine.helpers import Run, quiet
 
 
 @pytest.mark.parametrize("theta", [-3.0, 0.0, 1e-9, 2.7])
@@ -34,12 +34,17 @@ def test_race_heights_are_those_of_the_tables_cubics(scene, theta):
             assert w[T.BEND + row] == pytest.approx(bend, rel=1e-9, abs=1e-9)
 
 
-@pytest.mark.parametrize(("name", "rpm"), [("7003C-spindle", 20000), ("7009C-full-ceramic", 9000)])
-def test_balls_add_mass_as_they_follow_the_rings(scene, name, rpm):
-    """Axial motion: kinetic energy of the balls by differences of their places of rest, found by SciPy."""
-    run = Run(silent(scene(name)), rpm, FIDELITY=1.0).init()
+@pytest.mark.parametrize(
+    ("name", "rpm", "kilohertz"), [("7003C-spindle", 20000, 21.9), ("7009C-full-ceramic", 9000, 4.6)]
+)
+def test_balls_swing_across_their_tracks(scene, name, rpm, kilohertz):
+    """Frequency between held races, and axial motion by differences of places of rest, found by SciPy."""
+    run = Run(quiet(scene(name)), rpm, FIDELITY=1.0).init()
     slow = Slow(run)
-    lv, own = block(run), [run.p[P.INNER_MASS], run.p[P.OUTER_MASS]]
+    slow.height = lambda *_: 0.0
+    lv = block(run)
+    assert np.sqrt(lv[L.SIDE_SQUARE]) / (2e3 * np.pi) == pytest.approx(kilohertz, rel=0.01)
+    assert np.linalg.norm(slow.soft) == pytest.approx(1.0, rel=1e-12)
     move = 1e-8
     places = []
     for inner, outer in ((0.0, 0.0), (move, 0.0), (0.0, move)):
@@ -47,14 +52,12 @@ def test_balls_add_mass_as_they_follow_the_rings(scene, name, rpm):
         q[0] += inner
         q[5] += outer
         slow.accelerations(0.0, q, np.zeros(L.N))
-        places.append(np.array(slow.places))
-    follow = [(moved - places[0]) / move for moved in places[1:]]
-    for i, row in enumerate((0, 5)):
-        for k, column in enumerate((0, 5)):
-            added = slow.matrix(L.MASS)[row, column] - (row == column)
-            total = run.p[P.BALL_MASS] * (follow[i] * follow[k]).sum()
-            # the static stiffness leaves out how the waves' push changes with the place: up to 0.9 %
-            assert own[i] * added == pytest.approx(total, rel=0.015)
+        places.append(slow.rest.copy())
+    for moved, coordinate in zip(places[1:], (0, 5), strict=True):
+        follow = (moved - places[0]) / move
+        # nothing left but the weights, which load the balls unequally by a thousandth
+        assert lv[L.SIDE_FOLLOW + coordinate] == pytest.approx(follow[0], rel=5e-3)
+        assert np.abs(follow[1:]).max() < 0.01 * abs(follow[0])
 
 
 @pytest.mark.heavy
@@ -66,19 +69,24 @@ def test_rings_against_scipy(scene):
     run = Run(silent(scene("7003C-spindle")), 20000, FIDELITY=1.0, MAX_STEP=2.5e-6).init()
     slow = Slow(run)
     lv = block(run)
-    start = np.concatenate([lv[L.Q0 : L.Q0 + L.N], lv[L.V0 : L.V0 + L.N]])
+    places = [*range(L.Q0, L.Q0 + L.N), *range(L.SIDE_PLACE, L.SIDE_PLACE + L.PATTERNS)]
+    rates = [*range(L.V0, L.V0 + L.N), *range(L.SIDE_VELOCITY, L.SIDE_VELOCITY + L.PATTERNS)]
+    start, half = lv[places + rates], len(places)
 
     def rate(t, y):
-        return np.concatenate([y[L.N :], slow.accelerations(t, y[: L.N], y[L.N :])])
+        (q, place), (v, moving) = ((part[: L.N], part[L.N :]) for part in (y[:half], y[half:]))
+        return np.concatenate([y[half:], slow.accelerations(t, q, v, (place, moving))])
 
     # accelerations agree to the first-order treatment of the balls, so the solution may differ no more
-    np.testing.assert_allclose(rate(0.0, start)[L.N :], lv[L.A0 : L.A0 + L.N], atol=2e-2, rtol=1e-2)
-    exact = solve_ivp(rate, (0.0, 4e-4), start, method="DOP853", rtol=1e-7, atol=1e-9).y[:, -1]
+    found = rate(0.0, start)[half : half + L.N]
+    np.testing.assert_allclose(found, lv[L.A0 : L.A0 + L.N], atol=2e-2, rtol=1e-2)
+    # friction across the track decays within a microsecond: an implicit method
+    exact = solve_ivp(rate, (0.0, 4e-4), start, method="Radau", rtol=1e-7, atol=1e-9).y[:, -1]
     run.run(4e-4, 2e-5)
     rings = [0, 1, 2, 5, 6, 7]
     velocities = run.s[S.Y + Y.V0 :][rings]
-    moved = np.abs(exact[L.N :][rings]).max()
-    np.testing.assert_allclose(velocities, exact[L.N :][rings], atol=1e-3 * moved)
+    moved = np.abs(exact[half:][rings]).max()
+    np.testing.assert_allclose(velocities, exact[half:][rings], atol=1e-3 * moved)
 
 
 def test_rings_converge_with_the_step(scene):

@@ -11,6 +11,7 @@ DIAGONAL = COLUMN + 1  # from one entry of a matrix's diagonal to the next
 MATRIX = COLUMN * N  # entry (i, k) at i + COLUMN * k
 VECTOR = 3  # numbers of a vector in space
 HISTORY = 5  # accelerations and places kept: now and at earlier steps
+PATTERNS = 3  # of the balls' motion that move the rings: alike, as cosine and as minus sine of their angle
 
 MOST_LINES = 384  # of fidelity response: a 7003C has 138 at 10,000 r/min; the last 100 weigh 4e-4 below 3,000
 # one line of fidelity response, in a table at the end of the state
@@ -48,7 +49,24 @@ ROLL = _at()  # rate of that angle over shaft speed
 ROLL_AXIS = _at(VECTOR)  # unit vector
 TOUCH = _at(VECTOR * FOUR)  # rows x r theta of unit vectors into inner and outer race and across both tracks
 ROLL_SIZE = _at.next - ROLL
-_SPARE = _at(7)  # rows begin at whole vectors
+# the balls' motion across their tracks: see condensed/transverse
+SIDE = _at(2)  # unit vector (x, r) along which a ball gives way most; zero: it follows statically
+SIDE_STILL = _at()  # m: a ball's place along it at the quasi-static point
+SIDE_SQUARE = _at()  # 1/s2: squared frequency of a ball along it between held races
+SIDE_RATE = _at()  # 1/s: friction per velocity and mass of a ball
+SIDE_STEP = _at()  # s: step that the next two belong to; 0: none
+SIDE_STAY = _at()  # free motion over it: place by place,
+SIDE_COAST = _at()  # s: and by velocity
+SIDE_GAIN = _at()  # s2: place at the end of the step by what drives the balls there,
+SIDE_KICK = _at()  # s: and velocity
+SIDE_PLACE = _at(PATTERNS)  # m: of the balls,
+SIDE_VELOCITY = _at(PATTERNS)  # m/s: relative to their orbit
+SIDE_DRIVEN = _at(PATTERNS)  # m/s2: what drives them, now
+SIDE_BEFORE = _at(PATTERNS)  # a step before,
+SIDE_EARLIER = _at(PATTERNS)  # two
+SIDE_EARLIEST = _at(PATTERNS)  # and three
+SIDE_REST = _at(PATTERNS)  # m: where they would rest
+_SPARE = _at(4)  # rows begin at whole vectors
 CONDITIONS = _at(C.SIZE)  # that the held values were found at
 Q0 = _at(COLUMN)  # m, rad: displacements,
 V0 = _at(COLUMN)  # their Newmark velocities,
@@ -67,6 +85,11 @@ INVERSE = _at(MATRIX)  # of mass - cv J_v - cx J_x
 MASS = _at(MATRIX)  # identity plus the balls' mass over the rings' own
 SQUARES = _at(MATRIX)  # 1/s2: MASS^-1 JX, minus the squared frequencies of the modes
 EXTRA = _at(MATRIX)  # 1/s: damping that traction adds, per own mass
+# rows of the rings' coordinates, one per pattern of the balls
+SIDE_FOLLOW = _at(PATTERNS * COLUMN)  # how far balls at rest follow the rings across their tracks,
+SIDE_GUIDE = _at(PATTERNS * COLUMN)  # how far rolling alone would take them
+SIDE_PULL = _at(PATTERNS * COLUMN)  # 1/s2: accelerations of the rings by the balls' distance from rest
+SIDE_DRAG = _at(PATTERNS * COLUMN)  # 1/s: and by their velocity against rolling
 # rows per ball
 X = _at(STRIDE)  # m: place now
 R = _at(STRIDE)

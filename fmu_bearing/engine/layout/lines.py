@@ -1,13 +1,14 @@
 """LN: scratch of fidelity response while it renews its lines (``x`` in kernels).
 
-It stands in the blocks of Jacobian and factors in ``s``, from ``S.JAC`` on, which this fidelity does not need
+It stands from ``S.JAC`` on in ``s``, in the blocks of Jacobian and factors, which this fidelity does not need
 then: forces of one ball on the rings, sampled round the orbit, and their circumferential orders. A complex
 vector is ``COMPONENTS`` real parts, then as many imaginary parts.
 """
 
-from fmu_bearing.engine.layout.condensed import FORCES as COMPONENTS
+from fmu_bearing.engine.layout.condensed import FORCES, PATTERNS
 from fmu_bearing.engine.layout.sizes import BALL_ORDERS, STRIDE, Places
 
+COMPONENTS = FORCES + PATTERNS  # of the balls' forces, then of their places of rest across the track (m)
 REACH = 8  # highest circumferential order of the balls' unequal loads
 AZIMUTHS = 96  # samples over the orbit at most
 TURNS = 2 * (BALL_ORDERS + 1)  # samples over a ball's own turning at most

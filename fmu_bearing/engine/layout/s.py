@@ -8,10 +8,11 @@ from fmu_bearing.engine.layout import (
     factors as _A,
     flexure as _FL,
     jacobian as _J,
+    lines as _LN,
     p as _P,
     y as _Y,
 )
-from fmu_bearing.engine.layout.sizes import STRIDE, Places
+from fmu_bearing.engine.layout.sizes import FOUR, STRIDE, Places
 
 _at = Places()
 Y = _at(_Y.SIZE)  # positions and velocities
@@ -55,6 +56,7 @@ _SPARE = _at(2)  # the rows behind begin at whole vectors
 AXES = _at(3 * STRIDE)  # the balls' body-fixed axes in their orbiting axes
 JAC = _at(_J.SIZE)  # Jacobian
 FAC = _at(_A.SIZE)  # factors
+_MORE = _at(-(-max(_LN.SIZE - _J.SIZE - _A.SIZE, 0) // FOUR) * FOUR)  # the lines' scratch is larger
 CONDENSED = _at(_L.SIZE)  # what fidelities rings and response keep
 SOUND = _at.next  # sound state, then flexure (fidelity full) or lines (response)
 

@@ -44,6 +44,7 @@ OUTER = _at(STRIDE)
 STEP = _at(STRIDE)  # m2: a ball's move in the last sweep, squared, as far as it is felt
 MOVED = _at(STRIDE)  # m2: all of it
 FORCE = _at(2 * FORCE_SIZE)  # on inner ring, then on outer ring: one row per component, see L.FORCES
+ASIDE = _at(_L.PATTERNS * STRIDE)  # m: patterns of the balls' places of rest across their tracks
 BEND = _at(2 * STRIDE)  # m/s2: second time derivative of the race heights, inner and outer
 LEAN = _at(2 * STRIDE)  # m/rad: slope of the balls' own form across the track, inner and outer
 CONTACT = _at(2 * CONTACT_SIZE)  # with inner race, then with outer race
@@ -63,6 +64,13 @@ Q = _at(_L.COLUMN)  # m, rad: displacements advanced by the contacts' damping ti
 D = _at(_L.COLUMN)  # increment, and other short-lived vectors
 A = _at(_L.COLUMN)  # m/s2, rad/s2: accelerations
 V = _at(_L.COLUMN)  # m/s, rad/s: velocities set aside
+SIDE_REST = _at(_L.PATTERNS)  # m, m/s, m/s2: as L.SIDE_REST and so on, on trial
+SIDE_PLACE = _at(_L.PATTERNS)
+SIDE_VELOCITY = _at(_L.PATTERNS)
+SIDE_DRIVEN = _at(_L.PATTERNS)
+SIDE_FREE = _at(_L.PATTERNS)  # m: place at the end of the step if nothing drove the balls there
+SIDE_COASTING = _at(_L.PATTERNS)  # m/s: and velocity
+SIDE_END = _at.next
 
 _at = Places(_W.ACC)
 # derivatives of the accelerations
@@ -73,15 +81,25 @@ FOLLOW = _at(_L.N * FOLLOW_SIZE)  # their change with coordinate i at FOLLOW + i
 # inverse of a matrix of the rings, both by rows
 MATRIX = _at(_L.N * _L.N)
 INVERSE = _at(_L.N * _L.N)
-# damping by traction: matrices by rows
-VALUES = _at(_L.N * _L.N)  # squared frequencies on the diagonal
-VECTORS = _at(_L.N * _L.N)  # mode shapes in columns
-ROOT = _at(_L.N * _L.N)  # columns that bring the mass matrix to the identity
-SHAPE = _at(2 * _L.N)  # one mode shape, then the same times the rings' masses
-MOVING = _at(_L.N)  # mass matrix times a mode shape
-BALL_ROW = _J.BALL + 1  # numbers per equation of a ball: coefficients, then right side
+# mass and damping of the rings' modes: matrices of one family by rows, scaled to own masses of 1
+FAMILY = 4  # coordinates of the larger family
+BLOCK = FAMILY * FAMILY
+STILL = _at(BLOCK)  # 1/s2: stiffness with balls at rest,
+DAMPER = _at(BLOCK)  # 1/s: damping,
+HEAVY = _at(BLOCK)  # and mass
+FULL_RE = _at(BLOCK)  # 1/s2: accelerations by the full equations
+FULL_IM = _at(BLOCK)
+VALUES = _at(BLOCK)  # eigenvalues on the diagonal,
+VECTORS = _at(BLOCK)  # and their vectors in columns
+SHAPES = _at(BLOCK)  # mode shapes in rows
+BACK = _at(BLOCK)  # and the matrix that takes them back
+ADDED = _at(2 * FAMILY)  # what each mode's mass and damping (1/s) lack
+FOLLOWS = _at(FAMILY)  # the family's L.SIDE_FOLLOW, scaled,
+GUIDES = _at(FAMILY)  # and L.SIDE_GUIDE
+BALL_ROW = _J.BALL + 2 * FAMILY  # numbers per equation of a ball: coefficients, then right sides
 BALL_RE = _at(_J.BALL * BALL_ROW)
 BALL_IM = _at(_J.BALL * BALL_ROW)
+MODES_END = _at.next
 # lines of fidelity response
 LINE_ROW = _L.N + 1  # numbers per equation of the rings: coefficients, then right side
 LINE_RE = _at(_L.N * LINE_ROW)
@@ -104,18 +122,13 @@ LEDGER: tuple[Area, ...] = (
     Area("T.D", D, _L.COLUMN, _BOTH),
     Area("T.A", A, _L.COLUMN, _BOTH),
     Area("T.V", V, _L.COLUMN, _BOTH),
+    Area("T side", SIDE_REST, SIDE_END - SIDE_REST, _BOTH),
     Area("T.BASE", BASE, _L.N, _CONDENSED),
     Area("T.BALLS", BALLS, 2 * STRIDE, _CONDENSED),
     Area("T.FOLLOW", FOLLOW, _L.N * FOLLOW_SIZE, _CONDENSED),
     Area("T.MATRIX", MATRIX, _L.N * _L.N, _CONDENSED),
     Area("T.INVERSE", INVERSE, _L.N * _L.N, _CONDENSED),
-    Area("T.VALUES", VALUES, _L.N * _L.N, _CONDENSED),
-    Area("T.VECTORS", VECTORS, _L.N * _L.N, _CONDENSED),
-    Area("T.ROOT", ROOT, _L.N * _L.N, _CONDENSED),
-    Area("T.SHAPE", SHAPE, 2 * _L.N, _CONDENSED),
-    Area("T.MOVING", MOVING, _L.N, _CONDENSED),
-    Area("T.BALL_RE", BALL_RE, _J.BALL * BALL_ROW, _CONDENSED),
-    Area("T.BALL_IM", BALL_IM, _J.BALL * BALL_ROW, _CONDENSED),
+    Area("T modes", STILL, MODES_END - STILL, _CONDENSED),
     Area("T.LINE_RE", LINE_RE, _L.N * LINE_ROW, _LINES),
     Area("T.LINE_IM", LINE_IM, _L.N * LINE_ROW, _LINES),
     Area("T.LINE_FORCE", LINE_FORCE, _LN.COMPLEX, _LINES),

@@ -4,13 +4,14 @@
 ``rows``        coordinates and components; places of the balls between state and work space
 ``ball_form``   form and waviness of the balls under both races
 ``balls``       each ball at rest between the races, and what it puts on the rings
+``transverse``  the balls' own motion across their tracks
 ``held``        cage speed, friction and heats, evaluated at the quasi-static point and held
 ``linearised``  derivatives of the rings' accelerations, and their static equilibrium
-``damping``     what traction takes from the rings' modes
+``modes``       what the rings' modes lack in mass and damping
 ``publish``     from the rings' own state to the one that outputs and sound read
 ``shared``      start, inputs, clock and sound samples
 ==============  =============================================================================
 
-Both leave out the cage's motion, slip and the balls' own vibration. Friction torque and heats are those of
+Both leave out the cage's motion and slip. Friction torque and heats are those of
 the quasi-static point. Work in is set equal to the heats: the energy residual is zero by construction.
 """

@@ -4,9 +4,10 @@ A ball's place (x, r) balances both contacts, the centrifugal force, its weight 
 holds the gyroscopic moment. One Newton sweep for all balls at once also gives the forces on the rings at
 the corrected place, to first order, so that a good guess needs no second sweep.
 
-The balls' inertia enters as far as they follow statically (Guyan 1965): what the rings' motion makes them do
-is mass added to the rings (``linearised.added_mass``), what the waves make them do is a force here. The
-turning of the orbit is neglected in both, some 0.1 of a term that is itself some 0.1 of the rings' mass.
+The balls' inertia along the contacts enters as far as they follow statically (Guyan 1965): what the rings'
+motion makes them do is mass added to the rings (``linearised.added_mass``), what the waves make them do is a
+force here. Across the track, where they give way most, they move by themselves (``transverse``). The turning
+of the orbit is neglected in both, some 0.1 of a term that is itself some 0.1 of the rings' mass.
 
 Contact damping. Fidelity `full` adds tau times the stiffness times the rate of approach to each contact. Two
 such elements in series, with the same tau and no mass between them, are the series spring with that same
@@ -139,10 +140,13 @@ def touch(hertz, groove_x, groove_r, free, pitch, ux, uy, uz, by, bz, lanes, hei
 def balance(p, lv, speed, part, w):
     """Move every ball by a ``part`` of a Newton step towards its rest, from the contacts in ``T.CONTACT``.
 
-    Writes the moves ``T.DX``, ``T.DR`` and their squares, the new places and the forces that the contacts
-    have there.
+    Writes the moves ``T.DX``, ``T.DR`` and their squares, the new places, the forces that the contacts have
+    there, and the patterns of the places across the track, ``T.ASIDE``.
     """
     mass = p[P.BALL_MASS]
+    softx = lv[L.SIDE]
+    softr = lv[L.SIDE + 1]
+    still = lv[L.SIDE_STILL]
     orbit = lv[L.RATIO] * speed
     pull = mass * orbit * orbit
     weight = GRAVITY * mass if p[P.GRAVITY] != 0.0 else 0.0
@@ -177,8 +181,11 @@ def balance(p, lv, speed, part, w):
         bx = pushed_i * ex + pushed_o * fx
         br = pushed_i * er + pushed_o * fr
         per = 1.0 / (kxx * krr - kxr * kxr)
-        netx += mass * (bx * krr - br * kxr) * per
-        netr += mass * (br * kxx - bx * kxr) * per
+        followx = (bx * krr - br * kxr) * per
+        followr = (br * kxx - bx * kxr) * per
+        aside = softx * followx + softr * followr
+        netx += mass * (followx - softx * aside)
+        netr += mass * (followr - softr * aside)
         dx = part * (netx * krr - netr * kxr) * per
         dr = part * (netr * kxx - netx * kxr) * per
         moved = dx * dx + dr * dr
@@ -191,6 +198,12 @@ def balance(p, lv, speed, part, w):
         store(w, T.R + j, r + dr)
         store(w, T.DX + j, dx)
         store(w, T.DR + j, dr)
+        # a ball that is not between both races has no place across the track of its own
+        touched = load(lv, L.MASK + j) * square_i * square_o * both
+        rest = touched * (softx * (x + dx) + softr * (r + dr) - still)
+        store(w, T.ASIDE + j, rest)
+        store(w, T.ASIDE + STRIDE + j, rest * load(w, T.COS + j))
+        store(w, T.ASIDE + 2 * STRIDE + j, -rest * load(w, T.SIN + j))
         # a ball that touches neither race goes towards one, but nothing waits for it
         touching = select(load_i + load_o > 0.0, load(lv, L.MASK + j), 0.0)
         # one that barely touches moves far for forces that nobody feels: 3e-8 m times _SOFT is 0.03 N

@@ -79,11 +79,13 @@ def across_track(w, j, i, contact_x):
 def added_mass(p, c, lv, w):
     """Identity plus the balls' share of the mass matrix over the rings' own masses, into ``L.MASS``.
 
-    In the axial plane the balls follow as their static equilibrium does (``T.FOLLOW``, derivatives of
-    (x, r) by the coordinates). Along the track they roll: the centre goes with the mean of both races,
-    and half their difference turns the ball, which counts 2/5 of its mass.
+    Along the contacts the balls follow as their static equilibrium does (``T.FOLLOW``, derivatives of
+    (x, r) by the coordinates, less what ``transverse`` moves). Along the track they roll: the centre goes
+    with the mean of both races, and half their difference turns the ball, which counts 2/5 of its mass.
     """
     ball = p[P.BALL_MASS]
+    tx = lv[L.SIDE]
+    tr = lv[L.SIDE + 1]
     # contacts lie off the bearing's middle by the ball's radius times the sine of about the free angle
     x_o = c[C.BALL_RADIUS] * c[C.RACES + C.GROOVE_X] / (c[C.RACES + C.FREE] + 1e-12)
     x_i = -x_o
@@ -94,6 +96,7 @@ def added_mass(p, c, lv, w):
                 a = T.FOLLOW + i * T.FOLLOW_SIZE + j
                 b = T.FOLLOW + k * T.FOLLOW_SIZE + j
                 total += w[a] * w[b] + w[a + STRIDE] * w[b + STRIDE]
+                total -= (tx * w[a] + tr * w[a + STRIDE]) * (tx * w[b] + tr * w[b + STRIDE])
                 ti = across_track(w, j, i, x_i) if i < Q.OUTER else 0.0
                 tk = across_track(w, j, k, x_i) if k < Q.OUTER else 0.0
                 oi = across_track(w, j, component(i) - Q.OUTER, x_o) if i >= Q.OUTER and i != L.TURN else 0.0
@@ -116,12 +119,22 @@ def invert_into(lv, w):
 
 @kernel
 def factor_step(lv, cv, cx, cxx, w):
-    """Inverse of ``B - cv J_v - J_x (cx - cxx B^-1 J_x)`` into ``L.INVERSE``; False if singular."""
+    """Inverse of ``B - cv J_v - J_x (cx - cxx B^-1 J_x)`` into ``L.INVERSE``; False if singular.
+
+    The balls move across their tracks by ``L.SIDE_GAIN`` and ``L.SIDE_KICK`` meanwhile.
+    """
+    gain = lv[L.SIDE_GAIN]
+    kick = lv[L.SIDE_KICK]
+    by_place = cx * lv[L.SIDE_SQUARE]
+    by_rate = cv * lv[L.SIDE_RATE]
     for k in range(L.N):
         times(lv, L.JX, lv, L.SQUARES + L.COLUMN * k, w, T.D)
         for i in range(L.N):
             at = i + L.COLUMN * k
             value = lv[L.MASS + at] - cv * lv[L.JV + at] - cx * lv[L.JX + at]
+            for row in range(0, L.PATTERNS * L.COLUMN, L.COLUMN):
+                by = gain * lv[L.SIDE_PULL + row + i] + kick * lv[L.SIDE_DRAG + row + i]
+                value -= by * (by_place * lv[L.SIDE_FOLLOW + row + k] + by_rate * lv[L.SIDE_GUIDE + row + k])
             w[T.MATRIX + i * L.N + k] = value + cxx * w[T.D + i]
     return invert_into(lv, w)
 
@@ -130,8 +143,10 @@ def factor_step(lv, cv, cx, cxx, w):
 def highest_mode(lv, w):
     """Angular frequency (rad/s) of the highest mode, by power iteration; the inverse is left that of B.
 
-    Fills ``L.SQUARES``.
+    Fills ``L.SQUARES``. ``L.JX`` belongs to balls that are held across their tracks.
     """
+    lv[L.SIDE_GAIN] = 0.0
+    lv[L.SIDE_KICK] = 0.0
     if not factor_step(lv, 0.0, 0.0, 0.0, w):
         return 1e9
     for i in range(L.N):

@@ -4,17 +4,22 @@ import math
 
 from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.fidelities.condensed.balls import stand
-from fmu_bearing.engine.fidelities.condensed.damping import add_damping
 from fmu_bearing.engine.fidelities.condensed.held import hold, out_of_date
 from fmu_bearing.engine.fidelities.condensed.linearised import added_mass, at_rest, derivatives
+from fmu_bearing.engine.fidelities.condensed.modes import correct_modes
 from fmu_bearing.engine.fidelities.condensed.publish import held_torque, publish
-from fmu_bearing.engine.fidelities.condensed.rows import keep_balls, show_balls
+from fmu_bearing.engine.fidelities.condensed.transverse import (
+    clear_transverse,
+    find_friction,
+    find_transverse,
+)
 from fmu_bearing.engine.fidelities.full.start import start
 from fmu_bearing.engine.fidelities.steps import advance_clock
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import EQ, STRIDE, C, F, L, P, S, T, U, W, Y
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.mechanics.trigonometry import wrap
+from fmu_bearing.engine.newton.jacobian import jacobian
 from fmu_bearing.engine.readout.motion import emit_samples
 from fmu_bearing.engine.statics.place import equilibrium, loads, place_balls, place_rings
 from fmu_bearing.engine.status import OK
@@ -46,6 +51,41 @@ def flat(p, c, lv, w):
 
 
 @kernel
+def hold_masses(p, s, w):
+    """Masses, damping by traction and the balls' transverse motion, all at the held quasi-static point.
+
+    ``L.JX`` and ``L.JV`` and the trial state are overwritten. Where balls find no rest there, the rings have
+    their own masses alone.
+    """
+    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
+    jac = s[S.JAC : S.CONDENSED]
+    c = lv[L.CONDITIONS : L.CONDITIONS + C.SIZE]
+    y = lv[L.Y0 : L.Y0 + Y.SIZE]
+    speed = lv[L.FOUND_SPEED]
+    for i in range(L.MATRIX):
+        lv[L.EXTRA + i] = 0.0
+        lv[L.MASS + i] = 0.0
+    for i in range(L.N):
+        lv[L.MASS + L.DIAGONAL * i] = 1.0
+    clear_transverse(lv)
+    for i in range(Y.SIZE):
+        w[W.STAGE + i] = 0.0
+    for i in range(L.N):
+        w[W.STAGE + Y.Q0 + i] = y[Y.Q0 + i]
+    for j in range(STRIDE):
+        w[T.X + j] = y[Y.X + j]
+        w[T.R + j] = y[Y.R + j]
+    flat(p, c, lv, w)
+    if not derivatives(p, c, lv, 0.0, speed, 0.0, w):
+        return
+    find_transverse(p, c, lv, speed, w)
+    added_mass(p, c, lv, w)
+    jacobian(p, c, y, 0.0, speed, 0.0, w, jac)
+    find_friction(p, lv, jac)
+    correct_modes(p, lv, jac, w)
+
+
+@kernel
 def start_condensed(p, u, s, w, t):
     """Start of both: the start of fidelity full, held values, then the rings' own equilibrium.
 
@@ -61,6 +101,7 @@ def start_condensed(p, u, s, w, t):
         return status
     c = s[S.C : S.C + C.SIZE]
     even_spacing(p, lv)
+    hold_masses(p, s, w)
     for i in range(Y.SIZE):
         w[W.STAGE + i] = 0.0
     for i in range(L.N):
@@ -78,17 +119,6 @@ def start_condensed(p, u, s, w, t):
             w[T.R + j] = s[S.Y + Y.R + j]
     for i in range(L.N):
         lv[L.MEAN + i] = w[W.STAGE + Y.Q0 + i]
-    if derivatives(p, c, lv, 0.0, u[U.SPEED], 0.0, w):
-        added_mass(p, c, lv, w)
-        # the trial state and the balls' places outlast the full evaluations in there only if kept
-        keep_balls(w, lv, L.X)
-        add_damping(p, s, w)
-        show_balls(lv, L.X, w)
-        for i in range(Y.SIZE):
-            w[W.STAGE + i] = 0.0
-        for i in range(L.N):
-            w[W.STAGE + Y.Q0 + i] = lv[L.MEAN + i]
-        flat(p, c, lv, w)
     return OK
 
 

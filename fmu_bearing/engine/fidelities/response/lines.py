@@ -1,7 +1,8 @@
 """Excitation of the rings line by line, and the linear answer to it (fidelity `response`).
 
 Held at their equilibrium, the rings feel from a ball at azimuth theta a force f(theta), and by a height h
-under it g(theta) h + m(theta) h'' (the ball's inertia). Both vary with theta where a radial load makes the
+under it g(theta) h + m(theta) h'' (the ball's inertia along the contacts; across the track it moves itself,
+driven by where it would rest: ``condensed.transverse``). All vary with theta where a radial load makes the
 balls unequal, and are expanded in circumferential orders l. Evenly spaced balls let through only
 combinations that add up to multiples of their number Z:
 
@@ -21,6 +22,7 @@ from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.dense import solve_complex
 from fmu_bearing.engine.fidelities.condensed.balls import carried, stand
 from fmu_bearing.engine.fidelities.condensed.rows import component
+from fmu_bearing.engine.fidelities.condensed.transverse import pattern_answer, pattern_weight
 from fmu_bearing.engine.fidelities.response.ball_orders import form_of, form_orders
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import LN, STRIDE, C, L, P, Q, S, T, W, Y
@@ -141,12 +143,15 @@ def keep(p, lv, lines, a, b, m, omega, w):
         for k in range(L.N):
             at = i + L.COLUMN * k
             re[i * T.LINE_ROW + k] = -omega * omega * lv[L.MASS + at] - lv[L.JX + at]
-            im[i * T.LINE_ROW + k] = -omega * (lv[L.JV + at] + lv[L.EXTRA + at])
+            im[i * T.LINE_ROW + k] = -omega * lv[L.JV + at]
         per = 1.0 / inertia(p, i)
         at = T.LINE_FORCE + component(i)
         re[i * T.LINE_ROW + L.N] = w[at] * per if i != L.TURN else 0.0
         im[i * T.LINE_ROW + L.N] = w[at + LN.IMAGINARY] * per if i != L.TURN else 0.0
-    if not solve_complex(re, im, L.N):
+    if lv[L.SIDE_SQUARE] != 0.0:
+        for k in range(L.PATTERNS):
+            move_across(p, lv, k, omega, re, im, w)
+    if not solve_complex(re, im, L.N, T.LINE_ROW):
         return
     into = int(lv[L.COUNT])
     size = weight_of(omega, re, im)
@@ -168,6 +173,35 @@ def keep(p, lv, lines, a, b, m, omega, w):
         moves = i < L.N and i != L.TURN
         lines[at + L.LINE_REAL + i] = re[i * T.LINE_ROW + L.N] if moves else 0.0
         lines[at + L.LINE_IMAGINARY + i] = im[i * T.LINE_ROW + L.N] if moves else 0.0
+
+
+@kernel
+def move_across(p, lv, k, omega, re, im, w):
+    """Add what pattern ``k`` of the balls does across the track to a line's equations and right side."""
+    gr, gi = pattern_answer(lv, omega)
+    square, rate = lv[L.SIDE_SQUARE], lv[L.SIDE_RATE]
+    # where the balls would rest is found for displacements advanced by tau
+    ahead = omega * p[P.CONTACT_DAMPING]
+    at = T.LINE_FORCE + L.FORCES + k
+    sum_re, sum_im = w[at] / pattern_weight(p, k), w[at + LN.IMAGINARY] / pattern_weight(p, k)
+    row = k * L.COLUMN
+    for n in range(L.N + 1):
+        rest_re, rest_im, rolled = sum_re, sum_im, 0.0
+        if n < L.N:
+            rest_re = lv[L.SIDE_FOLLOW + row + n]
+            rest_im = ahead * rest_re
+            rolled = omega * lv[L.SIDE_GUIDE + row + n]
+        drive_re, drive_im = square * rest_re, square * rest_im + rate * rolled
+        place_re = gr * drive_re - gi * drive_im
+        place_im = gr * drive_im + gi * drive_re
+        away_re, away_im = place_re - rest_re, place_im - rest_im
+        against_re, against_im = -omega * place_im, omega * place_re - rolled
+        # coefficients stand on the other side
+        sign = -1.0 if n < L.N else 1.0
+        for i in range(L.N):
+            pull, drag = lv[L.SIDE_PULL + row + i], lv[L.SIDE_DRAG + row + i]
+            re[i * T.LINE_ROW + n] += sign * (pull * away_re + drag * against_re)
+            im[i * T.LINE_ROW + n] += sign * (pull * away_im + drag * against_im)
 
 
 @kernel

@@ -15,15 +15,15 @@ import math
 from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.fidelities import steps
 from fmu_bearing.engine.fidelities.condensed.balls import carried, count_settled, stand
-from fmu_bearing.engine.fidelities.condensed.damping import add_damping
 from fmu_bearing.engine.fidelities.condensed.held import hold
-from fmu_bearing.engine.fidelities.condensed.linearised import added_mass, at_rest, derivatives
+from fmu_bearing.engine.fidelities.condensed.linearised import at_rest, derivatives
 from fmu_bearing.engine.fidelities.condensed.publish import publish
 from fmu_bearing.engine.fidelities.condensed.rows import keep_balls, show_balls
 from fmu_bearing.engine.fidelities.condensed.shared import (
     advance,
     emit,
     flat,
+    hold_masses,
     quasistatic_places,
     set_inputs,
     start_condensed,
@@ -45,17 +45,13 @@ _BACK = 2e-6  # s between the two states a ball's rate is taken from, without so
 
 @kernel
 def linearise(p, s, speed, w):
-    """Renew derivatives, damping and lines at ``speed`` about ``L.MEAN``; False where there are none."""
+    """Renew derivatives and lines at ``speed`` about ``L.MEAN``; False where there are none."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     c = s[S.C : S.C + C.SIZE]
-    for i in range(L.MATRIX):
-        lv[L.EXTRA + i] = 0.0
     still(p, c, lv, w)
     out_of_round(p, c, lv, w)
     if not derivatives(p, c, lv, 0.0, speed, 0.0, w):
         return False
-    added_mass(p, c, lv, w)
-    add_damping(p, s, w)
     still(p, c, lv, w)
     renew_lines(p, s, speed, w)
     return True
@@ -121,8 +117,7 @@ def renew_equilibrium(p, u, s, w):
     if hold(p, u, speed, s, w) != OK:
         return NOT_CONVERGED
     c = s[S.C : S.C + C.SIZE]
-    for i in range(L.MATRIX):
-        lv[L.EXTRA + i] = 0.0
+    hold_masses(p, s, w)
     still(p, c, lv, w)
     if not at_rest(p, c, lv, speed, w):
         for part in range(2):

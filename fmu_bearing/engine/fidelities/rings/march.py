@@ -16,10 +16,8 @@ the third difference of the accelerations shows that it is too long.
 from fmu_bearing.engine.dense import times
 from fmu_bearing.engine.fidelities import steps
 from fmu_bearing.engine.fidelities.condensed.balls import accelerations, count_settled, stand
-from fmu_bearing.engine.fidelities.condensed.damping import add_damping
 from fmu_bearing.engine.fidelities.condensed.held import hold
 from fmu_bearing.engine.fidelities.condensed.linearised import (
-    added_mass,
     at_rest,
     derivatives,
     factor_step,
@@ -27,7 +25,22 @@ from fmu_bearing.engine.fidelities.condensed.linearised import (
 )
 from fmu_bearing.engine.fidelities.condensed.publish import publish
 from fmu_bearing.engine.fidelities.condensed.rows import keep_balls, show_balls
-from fmu_bearing.engine.fidelities.condensed.shared import advance, emit, set_inputs, start_condensed
+from fmu_bearing.engine.fidelities.condensed.shared import (
+    advance,
+    emit,
+    hold_masses,
+    set_inputs,
+    start_condensed,
+)
+from fmu_bearing.engine.fidelities.condensed.transverse import (
+    add_transverse,
+    begin_transverse,
+    carry_transverse,
+    correct_transverse,
+    hold_across,
+    keep_transverse,
+    prepare_step,
+)
 from fmu_bearing.engine.fidelities.rings.predictor import change_spacing, displace, judge, predict
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
@@ -116,6 +129,7 @@ def renew(p, s, w):
     stand(p, c, lv, theta, rolled, s[S.ANGLE] + tau * speed, lv[L.Q0 + L.TURN], speed, w)
     if not derivatives(p, c, lv, s[S.ANGLE], s[S.SPEED], s[S.SPEED_RATE], w):
         return False
+    hold_across(p, lv)
     lv[L.HIGHEST] = highest_mode(lv, w)
     lv[L.FACTOR_STEP] = 0.0
     lv[L.CONTRACTION] = 0.1
@@ -126,15 +140,15 @@ def renew(p, s, w):
 
 @kernel
 def begin_anew(p, s, w):
-    """After a jump: Jacobian, masses and accelerations at the present state; False if there are none.
-
-    A mere renewal of the Jacobian leaves the masses as they are: they belong to the equations.
-    """
+    """After a jump: Jacobian and accelerations at the present state; False if there are none."""
     if not renew(p, s, w):
         return False
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    added_mass(p, s[S.C : S.C + C.SIZE], lv, w)
-    lv[L.HIGHEST] = highest_mode(lv, w)
+    # the derivatives leave the rows of the balls a nanometre off
+    q = w[T.Q : T.Q + L.COLUMN]
+    if not accelerations(p, s[S.C : S.C + C.SIZE], lv, s[S.ANGLE], s[S.SPEED], s[S.SPEED_RATE], q, w):
+        return False
+    carry_transverse(p, lv, w)
     times(lv, L.INVERSE, w, W.F + F.BODY, w, T.A)
     for i in range(L.N):
         lv[L.A0 + i] = w[T.A + i]
@@ -151,11 +165,9 @@ def take_inputs(p, u, s, w, h):
     if status != OK:
         return NOT_CONVERGED
     lv[L.KNOWN] = 0.0
-    for i in range(L.MATRIX):
-        lv[L.EXTRA + i] = 0.0
-    if not begin_anew(p, s, w):
-        return NOT_CONVERGED
-    add_damping(p, s, w)
+    hold_masses(p, s, w)
+    for i in range(Y.SIZE):
+        w[W.STAGE + i] = 0.0
     return OK if begin_anew(p, s, w) else NOT_CONVERGED
 
 
@@ -186,6 +198,7 @@ def correct(p, s, h, tolerance, probe, w):
     turned = h * (s[S.SPEED] + 0.5 * h * rate)
     angle = s[S.ANGLE] + turned
     predict(p, lv, h, w)
+    begin_transverse(lv, h, w)
     tau = p[P.CONTACT_DAMPING]
     stand(
         p, c, lv, lv[L.THETA] + lv[L.RATIO] * turned + tau * lv[L.RATIO] * speed,
@@ -205,6 +218,7 @@ def correct(p, s, h, tolerance, probe, w):
             w[T.V + i] = w[W.STAGE + Y.V0 + i]
             w[W.STAGE + Y.V0 + i] -= h / 12.0 * change
         fine = accelerations(p, c, lv, angle, speed, rate, q, w)
+        add_transverse(p, lv, w)
         for i in range(L.N):
             w[W.STAGE + Y.V0 + i] = w[T.V + i]
         if not fine:
@@ -218,6 +232,7 @@ def correct(p, s, h, tolerance, probe, w):
             w[T.A + i] += d
             w[W.STAGE + Y.V0 + i] += 0.5 * h * d
         displace(lv, h, w)
+        correct_transverse(lv, h, w)
         size = 0.5 * h * size_of(p, w, T.D)
         s[S.NEWTON] += 1.0
         if not (size < 1e6):
@@ -258,6 +273,7 @@ def accept(p, s, h, w):
             store(lv, L.X2 + j, load(lv, L.X1 + j))
             store(lv, L.X1 + j, load(lv, L.X + j))
             store(lv, L.X + j, load(w, T.X + j))
+    keep_transverse(lv, w)
     count_settled(lv, lanes, w)
     lv[L.KNOWN] += 1.0
     lv[L.CALM] += 1.0
@@ -275,6 +291,7 @@ def try_step(p, s, h, tolerance, w):
     for _ in range(2):
         if lv[L.CONTRACTION] > _SLOW and lv[L.FRESH] == 0.0 and not renew(p, s, w):
             return -1.0
+        prepare_step(lv, h)
         if abs(h - lv[L.FACTOR_STEP]) > 0.05 * h:
             if not factor_step(lv, 0.5 * h, h * h / 12.0, h**4 / 240.0, w):
                 return -1.0

@@ -1,0 +1,371 @@
+"""The balls' own motion across their tracks, where the contacts hold them a hundredth as stiffly as along.
+
+Held between the races, a ball swings across its track at sqrt((Q_i / l_i + Q_o / l_o) / m), l from the
+grooves' centres: 21.9 kHz (7003C), 4.6 kHz (7009C). Above that it stays behind, and the rings feel balls held
+there, not balls that follow. Traction drags it along with the mean of both races, in the 7003C so strongly
+that nothing swings.
+
+Rings feel the balls in three patterns alone, as far as those carry equal loads: all alike, and as the cosine
+and the minus sine of their angle. With S a pattern's place across the track, S_0 where the balls would rest
+(the condensed balls) and U v what the rings' velocities v would make them do by rolling,
+
+    S'' = w^2 (S_0 - S) + c (U v - S'),
+
+and the rings get the forces of a spring S - S_0 and of a damper S' - U v. Nothing here depends on the rings'
+accelerations, so the waves' inertia force is contained. The equation is linear: over a step it is solved
+exactly for a drive w^2 S_0 + c U v that is a polynomial through its last values, stable however stiff.
+"""
+
+import math
+
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.lanes import sum_lanes
+from fmu_bearing.engine.layout import STRIDE, C, F, J, L, P, Q, T, W, Y
+from fmu_bearing.engine.newton.body_slopes import inertia
+
+_LOADED = 1.0  # N at both races: with less a ball follows statically
+# Radians per step of the balls between held races: below them polynomials through three and five drives are
+# rounding, and one and three serve.
+_FINE = 1e-2
+_SMOOTH = 5e-2
+_STIFF = 2.0  # friction times step: with more the balls follow the drive, and three drives serve
+
+
+@kernel
+def pattern_weight(p, pattern):
+    """Sum over the balls of the square of a pattern."""
+    return p[P.BALLS] if pattern == 0 else 0.5 * p[P.BALLS]
+
+
+@kernel
+def clear_transverse(lv):
+    """Let the balls follow statically."""
+    for i in range(L.SIDE, L.SIDE_GAIN):
+        lv[i] = 0.0
+    for i in range(L.SIDE_FOLLOW, L.SIDE_DRAG + L.PATTERNS * L.COLUMN):
+        lv[i] = 0.0
+
+
+@kernel
+def find_direction(p, lv, speed, w):
+    """Find direction and frequency of ball 0 across the track from its contacts; False where it is loose."""
+    i = T.CONTACT
+    o = T.CONTACT_OUTER
+    if not (w[i + T.LOAD] > _LOADED and w[o + T.LOAD] > _LOADED):
+        return False
+    orbit = lv[L.RATIO] * speed
+    kxx = 0.0
+    kxr = 0.0
+    krr = -p[P.BALL_MASS] * orbit * orbit
+    for at in (i, o):
+        along, across = w[at + T.STIFF], w[at + T.ACROSS]
+        ex, er, mx, mr = w[at + T.EX], w[at + T.ER], w[at + T.MX], w[at + T.MR]
+        kxx += along * ex * ex + across * mx * mx
+        kxr += along * ex * er + across * mx * mr
+        krr += along * er * er + across * mr * mr
+    half = 0.5 * (kxx - krr)
+    soft = 0.5 * (kxx + krr) - math.sqrt(half * half + kxr * kxr)
+    if not (soft > 0.0):
+        return False
+    x = krr - soft
+    r = -kxr
+    if abs(x) < abs(kxx - soft):
+        x = -kxr
+        r = kxx - soft
+    size = math.sqrt(x * x + r * r)
+    lv[L.SIDE] = x / size
+    lv[L.SIDE + 1] = r / size
+    lv[L.SIDE_SQUARE] = soft / p[P.BALL_MASS]
+    lv[L.SIDE_STILL] = (x * w[T.X] + r * w[T.R]) / size
+    return True
+
+
+@kernel
+def guide(c, lv, w, contact, first, tilt, share):
+    """Fill ``L.SIDE_GUIDE`` of one ring: half of what its surface does at the contact of ball 0.
+
+    ``contact``: rows of the contact; ``first``: coordinate of the ring's x; ``tilt``: of its tilt about y.
+    """
+    tx = lv[L.SIDE]
+    tr = lv[L.SIDE + 1]
+    x = w[contact + T.QX] + c[C.BALL_RADIUS] * w[contact + T.EX]
+    r = w[contact + T.QR] + c[C.BALL_RADIUS] * w[contact + T.ER]
+    lever = share * (tx * r - tr * x)
+    lv[L.SIDE_GUIDE + first] = share * tx
+    row = L.SIDE_GUIDE + L.COLUMN
+    lv[row + first + Q.Z] = share * tr
+    lv[row + tilt] = lever
+    row += L.COLUMN
+    lv[row + first + Q.Y] = share * tr
+    lv[row + tilt + 1] = -lever
+
+
+@kernel
+def find_transverse(p, c, lv, speed, w):
+    """Fill direction, frequency, ``L.SIDE_FOLLOW`` and ``L.SIDE_GUIDE`` from derivatives at the held point.
+
+    They were just made. Where ball 0 is not held by both races, the balls follow statically.
+    """
+    clear_transverse(lv)
+    if not find_direction(p, lv, speed, w):
+        return
+    tx = lv[L.SIDE]
+    tr = lv[L.SIDE + 1]
+    for i in range(L.N):
+        at = T.FOLLOW + i * T.FOLLOW_SIZE
+        alike = 0.0
+        with_cosine = 0.0
+        with_sine = 0.0
+        for j in range(int(p[P.BALLS])):
+            aside = tx * w[at + j] + tr * w[at + STRIDE + j]
+            alike += aside
+            with_cosine += aside * w[T.COS + j]
+            with_sine -= aside * w[T.SIN + j]
+        lv[L.SIDE_FOLLOW + i] = alike / pattern_weight(p, 0)
+        lv[L.SIDE_FOLLOW + L.COLUMN + i] = with_cosine / pattern_weight(p, 1)
+        lv[L.SIDE_FOLLOW + 2 * L.COLUMN + i] = with_sine / pattern_weight(p, 2)
+    guide(c, lv, w, T.CONTACT, Q.INNER, Q.INNER_BY, 0.5)
+    guide(c, lv, w, T.CONTACT_OUTER, Q.OUTER, Q.OUTER + Q.BY, 0.5)
+
+
+@kernel
+def find_friction(p, lv, jac):
+    """Friction across the track from the full Jacobian of ball 0, whose spin yields; then what rings feel."""
+    if lv[L.SIDE_SQUARE] == 0.0:
+        return
+    tx = lv[L.SIDE]
+    tr = lv[L.SIDE + 1]
+    x = J.B + F.X // STRIDE * J.STATES * STRIDE
+    r = J.B + F.R // STRIDE * J.STATES * STRIDE
+    spin = J.B + F.WT // STRIDE * J.STATES * STRIDE
+    own = tx * (tx * jac[x + Y.VX] + tr * jac[x + Y.VR]) + tr * (tx * jac[r + Y.VX] + tr * jac[r + Y.VR])
+    by_spin = tx * jac[x + Y.WT] + tr * jac[r + Y.WT]
+    of_spin = tx * jac[spin + Y.VX] + tr * jac[spin + Y.VR]
+    if jac[spin + Y.WT] < 0.0:
+        own -= by_spin * of_spin / jac[spin + Y.WT]
+    lv[L.SIDE_RATE] = max(-own, 0.0)
+    for pattern in range(L.PATTERNS):
+        mass = p[P.BALL_MASS] * pattern_weight(p, pattern)
+        for i in range(L.N):
+            at = pattern * L.COLUMN + i
+            per = mass / inertia(p, i)
+            lv[L.SIDE_PULL + at] = per * lv[L.SIDE_SQUARE] * lv[L.SIDE_FOLLOW + at]
+            lv[L.SIDE_DRAG + at] = per * lv[L.SIDE_RATE] * lv[L.SIDE_GUIDE + at]
+
+
+@kernel
+def hold_across(p, lv):
+    """Make of derivatives with balls at rest those with balls held across their tracks."""
+    tau = p[P.CONTACT_DAMPING]
+    for k in range(L.N):
+        for i in range(L.N):
+            at = i + L.COLUMN * k
+            for row in range(0, L.PATTERNS * L.COLUMN, L.COLUMN):
+                pull = lv[L.SIDE_PULL + row + i] * lv[L.SIDE_FOLLOW + row + k]
+                lv[L.JX + at] -= pull
+                lv[L.JV + at] -= tau * pull + lv[L.SIDE_DRAG + row + i] * lv[L.SIDE_GUIDE + row + k]
+
+
+@kernel
+def free_motion(lv, h):
+    """Fill what a pattern's place and velocity become of over ``h`` (s) if nothing drives it."""
+    half = 0.5 * lv[L.SIDE_RATE]
+    inside = half * half - lv[L.SIDE_SQUARE]
+    if inside < 0.0:
+        turning = math.sqrt(-inside)
+        decay = math.exp(-half * h)
+        lv[L.SIDE_COAST] = decay * math.sin(turning * h) / turning
+        lv[L.SIDE_STAY] = decay * math.cos(turning * h) + half * lv[L.SIDE_COAST]
+    else:
+        root = math.sqrt(inside) + 1e-9 * half
+        fast = math.exp(-(half + root) * h)
+        slow = math.exp(-lv[L.SIDE_SQUARE] / (half + root) * h)
+        lv[L.SIDE_COAST] = (slow - fast) / (2.0 * root)
+        lv[L.SIDE_STAY] = 0.5 * (slow + fast) + half * lv[L.SIDE_COAST]
+    lv[L.SIDE_STEP] = h
+
+
+@kernel
+def moved_on(lv, h, place, velocity, drive, b1, b2, b3, b4):
+    """Place and velocity of a pattern after ``h`` (s), driven by ``drive + b1 t + b2 t^2 + ...`` (m/s2)."""
+    per = 1.0 / lv[L.SIDE_SQUARE]
+    rate = lv[L.SIDE_RATE]
+    # a polynomial that obeys the equation, then the free motion of what is left
+    c4 = per * b4
+    c3 = per * (b3 - 4.0 * rate * c4)
+    c2 = per * (b2 - 3.0 * rate * c3 - 12.0 * c4)
+    c1 = per * (b1 - 2.0 * rate * c2 - 6.0 * c3)
+    c0 = per * (drive - rate * c1 - 2.0 * c2)
+    off = place - c0
+    fast = velocity - c1
+    stay, coast = lv[L.SIDE_STAY], lv[L.SIDE_COAST]
+    at = c0 + h * (c1 + h * (c2 + h * (c3 + h * c4))) + stay * off + coast * fast
+    moving = c1 + h * (2.0 * c2 + h * (3.0 * c3 + h * 4.0 * c4))
+    return at, moving - lv[L.SIDE_SQUARE] * coast * off + (stay - rate * coast) * fast
+
+
+@kernel
+def continued(lv, h, end, now, before, earlier, earliest):
+    """Coefficients of the drive's polynomial over a step ``h`` (s) through its values, ``end`` at the end.
+
+    The number of values that count is that of what is known, three where the balls are held back so strongly
+    that they follow the drive, and one in the finest steps.
+    """
+    turned = lv[L.SIDE_SQUARE] * h * h
+    if turned < _FINE * _FINE:
+        return end, 0.0, 0.0, 0.0, 0.0
+    per = 1.0 / h
+    if lv[L.KNOWN] < 1.0:
+        return now, (end - now) * per, 0.0, 0.0, 0.0
+    if lv[L.KNOWN] < 3.0 or lv[L.SIDE_RATE] * h > _STIFF or turned < _SMOOTH * _SMOOTH:
+        b2 = 0.5 * (end - 2.0 * now + before) * per * per
+        return now, 0.5 * (end - before) * per, b2, 0.0, 0.0
+    per /= 24.0
+    b1 = (6.0 * end + 20.0 * now - 36.0 * before + 12.0 * earlier - 2.0 * earliest) * per
+    per /= h
+    b2 = (11.0 * end - 20.0 * now + 6.0 * before + 4.0 * earlier - earliest) * per
+    per /= h
+    b3 = (6.0 * end - 20.0 * now + 24.0 * before - 12.0 * earlier + 2.0 * earliest) * per
+    per /= h
+    b4 = (end - 4.0 * now + 6.0 * before - 4.0 * earlier + earliest) * per
+    return now, b1, b2, b3, b4
+
+
+@kernel
+def prepare_step(lv, h):
+    """Gain and kick of a step ``h`` (s): what its last drive does to a pattern."""
+    if lv[L.SIDE_SQUARE] == 0.0:
+        return
+    if h != lv[L.SIDE_STEP]:
+        free_motion(lv, h)
+    b0, b1, b2, b3, b4 = continued(lv, h, 1.0, 0.0, 0.0, 0.0, 0.0)
+    gain, kick = moved_on(lv, h, 0.0, 0.0, b0, b1, b2, b3, b4)
+    lv[L.SIDE_GAIN] = gain
+    lv[L.SIDE_KICK] = kick
+
+
+@kernel
+def begin_transverse(lv, h, w):
+    """Write what the patterns do in a step ``h`` (s) whose last drive is zero into the trial numbers."""
+    if lv[L.SIDE_SQUARE] == 0.0:
+        return
+    for k in range(L.PATTERNS):
+        b0, b1, b2, b3, b4 = continued(
+            lv, h, 0.0, lv[L.SIDE_DRIVEN + k], lv[L.SIDE_BEFORE + k], lv[L.SIDE_EARLIER + k],
+            lv[L.SIDE_EARLIEST + k],
+        )  # fmt: skip
+        place, velocity = lv[L.SIDE_PLACE + k], lv[L.SIDE_VELOCITY + k]
+        place, velocity = moved_on(lv, h, place, velocity, b0, b1, b2, b3, b4)
+        w[T.SIDE_FREE + k] = place
+        w[T.SIDE_COASTING + k] = velocity
+
+
+@kernel
+def guided(lv, k, y):
+    """Velocity (m/s) that rolling alone gives pattern ``k``, the rings' velocities at ``y[Y.V0:]``."""
+    total = 0.0
+    for i in range(L.N):
+        total += lv[L.SIDE_GUIDE + k * L.COLUMN + i] * y[Y.V0 + i]
+    return total
+
+
+@kernel
+def rest_of(p, k, w):
+    """Place (m) where pattern ``k`` of the balls would rest, after a sweep."""
+    return sum_lanes(w, T.ASIDE + k * STRIDE, int(p[P.LANES])) / pattern_weight(p, k)
+
+
+@kernel
+def feel(lv, k, away, against, w):
+    """Add what pattern ``k`` does to the rings, ``away`` (m) from rest and ``against`` (m/s) rolling."""
+    row = k * L.COLUMN
+    for i in range(L.N):
+        push = lv[L.SIDE_PULL + row + i] * away + lv[L.SIDE_DRAG + row + i] * against
+        w[W.F + F.BODY + i] += push
+
+
+@kernel
+def add_transverse(p, lv, w):
+    """Add the balls' transverse motion at the end of a step to the accelerations at ``w[W.F + F.BODY:]``.
+
+    The rings' velocities stand in the trial state, after :func:`begin_transverse` and a sweep.
+    """
+    if lv[L.SIDE_SQUARE] == 0.0:
+        return
+    y = w[W.STAGE : W.STAGE + Y.SIZE]
+    for k in range(L.PATTERNS):
+        rest = rest_of(p, k, w)
+        rolled = guided(lv, k, y)
+        drive = lv[L.SIDE_SQUARE] * rest + lv[L.SIDE_RATE] * rolled
+        place = w[T.SIDE_FREE + k] + lv[L.SIDE_GAIN] * drive
+        velocity = w[T.SIDE_COASTING + k] + lv[L.SIDE_KICK] * drive
+        feel(lv, k, place - rest, velocity - rolled, w)
+        w[T.SIDE_REST + k] = rest
+        w[T.SIDE_PLACE + k] = place
+        w[T.SIDE_VELOCITY + k] = velocity
+        w[T.SIDE_DRIVEN + k] = drive
+
+
+@kernel
+def correct_transverse(lv, h, w):
+    """Move the patterns on by what the last change ``T.D`` of the trial accelerations drives them.
+
+    The velocities that roll the balls are the true ones: see :func:`rings.march.correct`.
+    """
+    if lv[L.SIDE_SQUARE] == 0.0:
+        return
+    by_velocity = lv[L.SIDE_RATE] * h * (3.0 / 8.0 if lv[L.KNOWN] >= 1.0 else 5.0 / 12.0)
+    by_place = lv[L.SIDE_SQUARE] * h * h / 12.0
+    for k in range(L.PATTERNS):
+        row = k * L.COLUMN
+        drive = 0.0
+        for i in range(L.N):
+            by = by_velocity * lv[L.SIDE_GUIDE + row + i] + by_place * lv[L.SIDE_FOLLOW + row + i]
+            drive += by * w[T.D + i]
+        w[T.SIDE_DRIVEN + k] += drive
+        w[T.SIDE_PLACE + k] += lv[L.SIDE_GAIN] * drive
+        w[T.SIDE_VELOCITY + k] += lv[L.SIDE_KICK] * drive
+
+
+@kernel
+def keep_transverse(lv, w):
+    """Move the patterns to the end of the step."""
+    if lv[L.SIDE_SQUARE] == 0.0:
+        return
+    for k in range(L.PATTERNS):
+        lv[L.SIDE_EARLIEST + k] = lv[L.SIDE_EARLIER + k]
+        lv[L.SIDE_EARLIER + k] = lv[L.SIDE_BEFORE + k]
+        lv[L.SIDE_BEFORE + k] = lv[L.SIDE_DRIVEN + k]
+        lv[L.SIDE_DRIVEN + k] = w[T.SIDE_DRIVEN + k]
+        lv[L.SIDE_REST + k] = w[T.SIDE_REST + k]
+        lv[L.SIDE_PLACE + k] = w[T.SIDE_PLACE + k]
+        lv[L.SIDE_VELOCITY + k] = w[T.SIDE_VELOCITY + k]
+
+
+@kernel
+def carry_transverse(p, lv, w):
+    """After a jump: keep the patterns' distances from rest, and add what they do to the rings.
+
+    To the accelerations at ``w[W.F + F.BODY:]``, with the rings' velocities in the trial state.
+    """
+    if lv[L.SIDE_SQUARE] == 0.0:
+        for i in range(L.SIDE_PLACE, L.SIDE_REST + L.PATTERNS):
+            lv[i] = 0.0
+        return
+    y = w[W.STAGE : W.STAGE + Y.SIZE]
+    for k in range(L.PATTERNS):
+        rest = rest_of(p, k, w)
+        rolled = guided(lv, k, y)
+        lv[L.SIDE_PLACE + k] += rest - lv[L.SIDE_REST + k]
+        lv[L.SIDE_REST + k] = rest
+        lv[L.SIDE_DRIVEN + k] = lv[L.SIDE_SQUARE] * rest + lv[L.SIDE_RATE] * rolled
+        feel(lv, k, lv[L.SIDE_PLACE + k] - rest, lv[L.SIDE_VELOCITY + k] - rolled, w)
+
+
+@kernel
+def pattern_answer(lv, omega):
+    """Place of a pattern at ``omega`` (rad/s) by what drives it: real and imaginary part (s2)."""
+    re = lv[L.SIDE_SQUARE] - omega * omega
+    im = omega * lv[L.SIDE_RATE]
+    per = 1.0 / (re * re + im * im)
+    return re * per, -im * per

@@ -45,6 +45,7 @@ STEP = _at(STRIDE)  # m2: a ball's move in the last sweep, squared, as far as it
 MOVED = _at(STRIDE)  # m2: all of it
 FORCE = _at(2 * FORCE_SIZE)  # on inner ring, then on outer ring: one row per component, see L.FORCES
 ASIDE = _at(_L.PATTERNS * STRIDE)  # m: patterns of the balls' places of rest across their tracks
+HELD = _at(STRIDE)  # 1 for a ball between both races, 0 for a loose one and for spare lanes
 BEND = _at(2 * STRIDE)  # m/s2: second time derivative of the race heights, inner and outer
 LEAN = _at(2 * STRIDE)  # m/rad: slope of the balls' own form across the track, inner and outer
 CONTACT = _at(2 * CONTACT_SIZE)  # with inner race, then with outer race

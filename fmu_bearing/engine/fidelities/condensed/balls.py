@@ -200,6 +200,7 @@ def balance(p, lv, speed, part, w):
         store(w, T.DR + j, dr)
         # a ball that is not between both races has no place across the track of its own
         touched = load(lv, L.MASK + j) * square_i * square_o * both
+        store(w, T.HELD + j, touched)
         rest = touched * (softx * (x + dx) + softr * (r + dr) - still)
         store(w, T.ASIDE + j, rest)
         store(w, T.ASIDE + STRIDE + j, rest * load(w, T.COS + j))

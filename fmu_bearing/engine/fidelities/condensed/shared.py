@@ -119,6 +119,8 @@ def start_condensed(p, u, s, w, t):
             w[T.R + j] = s[S.Y + Y.R + j]
     for i in range(L.N):
         lv[L.MEAN + i] = w[W.STAGE + Y.Q0 + i]
+    # where there was no rest, the balls come to theirs between the rings as they are
+    derivatives(p, c, lv, 0.0, u[U.SPEED], 0.0, w)
     return OK
 
 

@@ -28,13 +28,22 @@ _LOADED = 1.0  # N at both races: with less a ball follows statically
 # rounding, and one and three serve.
 _FINE = 1e-2
 _SMOOTH = 5e-2
-_STIFF = 2.0  # friction times step: with more the balls follow the drive, and three drives serve
+# Friction times step, and radians per step of the rings: with more of both the balls follow the drive, and
+# a polynomial through five would make what turns fast larger: three serve.
+_STIFF = 2.0
+_TURNS = 1.2
 
 
 @kernel
 def pattern_weight(p, pattern):
     """Sum over the balls of the square of a pattern."""
     return p[P.BALLS] if pattern == 0 else 0.5 * p[P.BALLS]
+
+
+@kernel
+def share_held(p, w):
+    """Return the share of the transverse motion that rings feel: 1 with every ball held, 0 with one loose."""
+    return max(1.0 - p[P.BALLS] + sum_lanes(w, T.HELD, int(p[P.LANES])), 0.0)
 
 
 @kernel
@@ -154,16 +163,18 @@ def find_friction(p, lv, jac):
 
 
 @kernel
-def hold_across(p, lv):
-    """Make of derivatives with balls at rest those with balls held across their tracks."""
+def hold_across(p, lv, w):
+    """Make of derivatives with balls at rest, just made, those with balls held across their tracks."""
     tau = p[P.CONTACT_DAMPING]
+    share = share_held(p, w)
     for k in range(L.N):
         for i in range(L.N):
             at = i + L.COLUMN * k
             for row in range(0, L.PATTERNS * L.COLUMN, L.COLUMN):
-                pull = lv[L.SIDE_PULL + row + i] * lv[L.SIDE_FOLLOW + row + k]
+                pull = share * lv[L.SIDE_PULL + row + i] * lv[L.SIDE_FOLLOW + row + k]
+                drag = share * lv[L.SIDE_DRAG + row + i] * lv[L.SIDE_GUIDE + row + k]
                 lv[L.JX + at] -= pull
-                lv[L.JV + at] -= tau * pull + lv[L.SIDE_DRAG + row + i] * lv[L.SIDE_GUIDE + row + k]
+                lv[L.JV + at] -= tau * pull + drag
 
 
 @kernel
@@ -208,8 +219,8 @@ def moved_on(lv, h, place, velocity, drive, b1, b2, b3, b4):
 def continued(lv, h, end, now, before, earlier, earliest):
     """Coefficients of the drive's polynomial over a step ``h`` (s) through its values, ``end`` at the end.
 
-    The number of values that count is that of what is known, three where the balls are held back so strongly
-    that they follow the drive, and one in the finest steps.
+    The number of values that count is that of what is known, three where the balls just follow the drive, and
+    one in the finest steps.
     """
     turned = lv[L.SIDE_SQUARE] * h * h
     if turned < _FINE * _FINE:
@@ -217,7 +228,8 @@ def continued(lv, h, end, now, before, earlier, earliest):
     per = 1.0 / h
     if lv[L.KNOWN] < 1.0:
         return now, (end - now) * per, 0.0, 0.0, 0.0
-    if lv[L.KNOWN] < 3.0 or lv[L.SIDE_RATE] * h > _STIFF or turned < _SMOOTH * _SMOOTH:
+    stiff = lv[L.SIDE_RATE] * h > _STIFF and lv[L.HIGHEST] * h > _TURNS
+    if lv[L.KNOWN] < 3.0 or stiff or turned < _SMOOTH * _SMOOTH:
         b2 = 0.5 * (end - 2.0 * now + before) * per * per
         return now, 0.5 * (end - before) * per, b2, 0.0, 0.0
     per /= 24.0
@@ -276,12 +288,15 @@ def rest_of(p, k, w):
 
 
 @kernel
-def feel(lv, k, away, against, w):
-    """Add what pattern ``k`` does to the rings, ``away`` (m) from rest and ``against`` (m/s) rolling."""
+def feel(lv, k, share, away, against, w):
+    """Add a share of what pattern ``k`` does to the rings: ``away`` (m) from rest, ``against`` (m/s) rolling.
+
+    To their accelerations in ``w``.
+    """
     row = k * L.COLUMN
     for i in range(L.N):
         push = lv[L.SIDE_PULL + row + i] * away + lv[L.SIDE_DRAG + row + i] * against
-        w[W.F + F.BODY + i] += push
+        w[W.F + F.BODY + i] += share * push
 
 
 @kernel
@@ -293,13 +308,14 @@ def add_transverse(p, lv, w):
     if lv[L.SIDE_SQUARE] == 0.0:
         return
     y = w[W.STAGE : W.STAGE + Y.SIZE]
+    share = share_held(p, w)
     for k in range(L.PATTERNS):
         rest = rest_of(p, k, w)
         rolled = guided(lv, k, y)
         drive = lv[L.SIDE_SQUARE] * rest + lv[L.SIDE_RATE] * rolled
         place = w[T.SIDE_FREE + k] + lv[L.SIDE_GAIN] * drive
         velocity = w[T.SIDE_COASTING + k] + lv[L.SIDE_KICK] * drive
-        feel(lv, k, place - rest, velocity - rolled, w)
+        feel(lv, k, share, place - rest, velocity - rolled, w)
         w[T.SIDE_REST + k] = rest
         w[T.SIDE_PLACE + k] = place
         w[T.SIDE_VELOCITY + k] = velocity
@@ -353,13 +369,14 @@ def carry_transverse(p, lv, w):
             lv[i] = 0.0
         return
     y = w[W.STAGE : W.STAGE + Y.SIZE]
+    share = share_held(p, w)
     for k in range(L.PATTERNS):
         rest = rest_of(p, k, w)
         rolled = guided(lv, k, y)
         lv[L.SIDE_PLACE + k] += rest - lv[L.SIDE_REST + k]
         lv[L.SIDE_REST + k] = rest
         lv[L.SIDE_DRIVEN + k] = lv[L.SIDE_SQUARE] * rest + lv[L.SIDE_RATE] * rolled
-        feel(lv, k, lv[L.SIDE_PLACE + k] - rest, lv[L.SIDE_VELOCITY + k] - rolled, w)
+        feel(lv, k, share, lv[L.SIDE_PLACE + k] - rest, lv[L.SIDE_VELOCITY + k] - rolled, w)
 
 
 @kernel

@@ -129,7 +129,7 @@ def renew(p, s, w):
     stand(p, c, lv, theta, rolled, s[S.ANGLE] + tau * speed, lv[L.Q0 + L.TURN], speed, w)
     if not derivatives(p, c, lv, s[S.ANGLE], s[S.SPEED], s[S.SPEED_RATE], w):
         return False
-    hold_across(p, lv)
+    hold_across(p, lv, w)
     lv[L.HIGHEST] = highest_mode(lv, w)
     lv[L.FACTOR_STEP] = 0.0
     lv[L.CONTRACTION] = 0.1

@@ -28,10 +28,8 @@ _LOADED = 1.0  # N at both races: with less a ball follows statically
 # rounding, and one and three serve.
 _FINE = 1e-2
 _SMOOTH = 5e-2
-# Friction times step, and radians per step of the rings: with more of both the balls follow the drive, and
-# a polynomial through five would make what turns fast larger: three serve.
+# Friction times step: with more the balls follow the drive, and five drives would amplify what is fast.
 _STIFF = 2.0
-_TURNS = 1.2
 
 
 @kernel
@@ -228,8 +226,7 @@ def continued(lv, h, end, now, before, earlier, earliest):
     per = 1.0 / h
     if lv[L.KNOWN] < 1.0:
         return now, (end - now) * per, 0.0, 0.0, 0.0
-    stiff = lv[L.SIDE_RATE] * h > _STIFF and lv[L.HIGHEST] * h > _TURNS
-    if lv[L.KNOWN] < 3.0 or stiff or turned < _SMOOTH * _SMOOTH:
+    if lv[L.KNOWN] < 3.0 or lv[L.SIDE_RATE] * h > _STIFF or turned < _SMOOTH * _SMOOTH:
         b2 = 0.5 * (end - 2.0 * now + before) * per * per
         return now, 0.5 * (end - before) * per, b2, 0.0, 0.0
     per /= 24.0

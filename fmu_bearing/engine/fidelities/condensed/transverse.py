@@ -327,7 +327,9 @@ def correct_transverse(lv, h, w):
     """
     if lv[L.SIDE_SQUARE] == 0.0:
         return
-    by_velocity = lv[L.SIDE_RATE] * h * (3.0 / 8.0 if lv[L.KNOWN] >= 1.0 else 5.0 / 12.0)
+    # half less a twelfth of what the last acceleration counts in its own rate
+    counts = 11.0 / 6.0 if lv[L.KNOWN] >= 2.0 else (1.5 if lv[L.KNOWN] >= 1.0 else 1.0)
+    by_velocity = lv[L.SIDE_RATE] * h * (0.5 - counts / 12.0)
     by_place = lv[L.SIDE_SQUARE] * h * h / 12.0
     for k in range(L.PATTERNS):
         row = k * L.COLUMN

@@ -211,10 +211,13 @@ def correct(p, s, h, tolerance, probe, w):
     for n in range(_ITERATIONS):
         # dampers and gyroscopic moments see the true velocity, or they would be wrong by (omega h)^2 / 12
         known = lv[L.KNOWN] >= 1.0
+        longer = lv[L.KNOWN] >= 2.0
         for i in range(L.N):
             change = w[T.A + i] - lv[L.A0 + i]
             if known:
-                change = 0.5 * (3.0 * change - (lv[L.A0 + i] - lv[L.A1 + i]))
+                earlier = lv[L.A0 + i] - lv[L.A1 + i]
+                third = change - 2.0 * earlier + (lv[L.A1 + i] - lv[L.A2 + i]) if longer else 0.0
+                change = 0.5 * (3.0 * change - earlier) + third / 3.0
             w[T.V + i] = w[W.STAGE + Y.V0 + i]
             w[W.STAGE + Y.V0 + i] -= h / 12.0 * change
         fine = accelerations(p, c, lv, angle, speed, rate, q, w)

@@ -48,6 +48,7 @@ ENTRIES = {
     "first_order": Entry("study", "pcxwfyd", 3),
     "first_order_jacobian": Entry("study", "pcxwbyd", 3),
     "contacts": Entry("study", "psz"),
+    "held": Entry("study", "pucdgqw"),
     "play": Entry("study", "pswmzr", 7),
 }
 #: Units, the longest to compile first.
@@ -118,14 +119,17 @@ def _of_motion(kernel: Callable[..., Any]) -> Callable[..., Any]:
 def _study() -> dict[str, Callable[..., Any]]:
     from numba import carray
 
-    from fmu_bearing.engine.mechanics import equations
+    from fmu_bearing.engine.layout import U
+    from fmu_bearing.engine.mechanics import conditions as oil, equations
     from fmu_bearing.engine.newton import jacobian as newton
     from fmu_bearing.engine.readout import outputs
     from fmu_bearing.engine.reference import first_order as rates, playback, runge_kutta as explicit
+    from fmu_bearing.engine.statics import held as statics
 
     rhs, observe = equations.right_hand_side, outputs.contacts
     rk4, rows = explicit.runge_kutta, explicit.ROWS
-    sound = playback.play
+    sound, at_displacement, conditions = playback.play, statics.held, oil.conditions
+    speed = U.SPEED
     first, first_jacobian = rates.first_order, rates.first_order_jacobian
 
     def repeat(p, c, y, w, f, n, angle, speed, times):
@@ -161,6 +165,14 @@ def _study() -> dict[str, Callable[..., Any]]:
         observe(carray(p, (n[0],)), carray(s, (n[1],)), carray(z, (n[2],)))
         return 0
 
+    def held(p, u, c, d, g, q, w, n):
+        of_bearing, inputs, held_values = carray(p, (n[0],)), carray(u, (n[1],)), carray(c, (n[2],))
+        conditions(of_bearing, inputs, inputs[speed], held_values)
+        return at_displacement(
+            of_bearing, held_values, inputs[speed], carray(d, (n[3],)), carray(g, (n[4],)),
+            carray(q, (n[5],)), carray(w, (n[6],)),
+        )  # fmt: skip
+
     def play(p, s, w, m, z, r, n, samples, columns, weighting, start, mics, numbers, first):
         sound(
             carray(p, (n[0],)), carray(s, (n[1],)), carray(w, (n[2],)),
@@ -178,5 +190,6 @@ def _study() -> dict[str, Callable[..., Any]]:
         "first_order": first_order,
         "first_order_jacobian": first_order_jacobian,
         "contacts": contacts,
+        "held": held,
         "play": play,
     }

@@ -20,6 +20,7 @@ Data flow in one direction::
 ``instance``        one running bearing, for the library and for the FMU
 ``fmi``             FMI 2.0: XML, native library, slave, the ``.fmu`` file
 ``run``             a scene or an FMU run over inputs; results; fidelity ``auto``
+``spindle``         sets of bearings on one shaft: statics
 ``modal``           small motions: natural modes, Campbell diagram, stiffness and damping
 ``design``          what a designer asks: ratings, operating point, verdicts
 ``recording``       runs that keep the sound channels; measurements, pictures, tables, WAV files
@@ -63,6 +64,7 @@ if TYPE_CHECKING:
     from fmu_bearing.run.simulate import simulate
     from fmu_bearing.scene import Scene, SceneError, read_scene
     from fmu_bearing.scene.read import with_fidelity
+    from fmu_bearing.spindle.statics import ShaftStatics, shaft_statics
     from fmu_bearing.sweeps import sweep
 
 __version__ = "0.1.0"
@@ -76,6 +78,7 @@ _PLACES = {
     "Run": "run.result",
     "Scene": "scene",
     "SceneError": "scene",
+    "ShaftStatics": "spindle.statics",
     "audio": "recording",
     "build_fmu": "run.build",
     "campbell": "modal.campbell",
@@ -89,6 +92,7 @@ _PLACES = {
     "read_scene": "scene",
     "record": "recording.record",
     "report": "reports",
+    "shaft_statics": "spindle.statics",
     "simulate": "run.simulate",
     "spread": "recording.spread",
     "stiffness": "modal.stiffness",
@@ -106,6 +110,7 @@ __all__ = [
     "Run",
     "Scene",
     "SceneError",
+    "ShaftStatics",
     "audio",
     "build_fmu",
     "campbell",
@@ -119,6 +124,7 @@ __all__ = [
     "read_scene",
     "record",
     "report",
+    "shaft_statics",
     "simulate",
     "spread",
     "stiffness",

@@ -230,7 +230,9 @@ def test_every_variable_is_described(name, reference, site):
         assert sentence, variable.name
 
 
-RUN = ["quick-start.md", "catalogue.md", "choosing.md", "coupling.md", "modes.md", "stiffness.md"]
+RUN = [
+    "quick-start.md", "catalogue.md", "choosing.md", "coupling.md", "modes.md", "stiffness.md", "spindle.md",
+]  # fmt: skip
 
 
 @pytest.mark.parametrize("page", RUN)

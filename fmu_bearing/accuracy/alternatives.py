@@ -49,7 +49,7 @@ def alternatives(scene: Scene) -> list[Alternative]:
 
 
 def _preload(scene: Scene) -> Iterator[Alternative]:
-    now = scene.mounting.preload_N
+    now = scene.mounted.preload_N
     wanted = [(float(f"{factor * now:.3g}"), "") for factor in _PRELOADS if now > 0.0]
     angle = scene.bearing.contact_angle_deg
     if is_rated(scene) and min(PRELOAD_CLASSES) - _NEAR <= angle <= max(PRELOAD_CLASSES) + _NEAR:
@@ -142,7 +142,7 @@ def _supports(scene: Scene) -> Iterator[Alternative]:
             yield Alternative(
                 "speed", f"speed {speed:g} -> {changed:g} r/min", {"operation.speed_rpm": changed}
             )
-    stiffness = scene.mounting.pedestal_stiffness_N_m
+    stiffness = scene.mounted.pedestal_stiffness_N_m
     for factor in _PEDESTALS:
         words = f"pedestal {1e-6 * stiffness:g} -> {1e-6 * factor * stiffness:g} N/um"
         yield Alternative("pedestal", words, {"mounting.pedestal_stiffness_N_m": factor * stiffness})

@@ -5,6 +5,7 @@
 ``build``       the FMU of a scene
 ``scenes``      scene new, check, show, catalogue
 ``info``        the operating point, without a run
+``spindle``     what it shows of a set on one shaft
 ``runs``        simulate, plot
 ``compare``     two scenes, recordings or runs side by side
 ``sound``       levels, spectra, directivity, WAV

@@ -1,4 +1,4 @@
-"""``fmu-bearing info``: a bearing at its operating point, without a run."""
+"""``fmu-bearing info``: a bearing or a set at its operating point, without a run."""
 
 import math
 from typing import TYPE_CHECKING
@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 import typer
 
 from fmu_bearing.cli.base import Catalogues, Json, SceneFile, app, print_json, refusals, tell
+from fmu_bearing.cli.spindle import show_set
 
 if TYPE_CHECKING:
     from fmu_bearing.design.operating_point import OperatingPoint
@@ -21,13 +22,21 @@ _WORDS = {
 
 @app.command()
 def info(scene: SceneFile, catalogue: Catalogues = None, as_json: Json = False) -> None:
-    """Show a bearing at its operating point without a run: contacts, stiffness, frequencies, verdicts."""
+    """Show a bearing at its operating point without a run: contacts, stiffness, frequencies, verdicts.
+
+    Of a set of bearings on one shaft: the load of each, the stiffness of the shaft, lift-off, preload.
+    """
     from fmu_bearing.design.operating_point import operating_point
     from fmu_bearing.design.verdicts import verdicts
     from fmu_bearing.scene import read_scene
 
     with refusals():
-        point = operating_point(read_scene(scene))
+        given = read_scene(scene)
+    if given.spindle is not None:
+        show_set(given, as_json)
+        return
+    with refusals():
+        point = operating_point(given)
     found = verdicts(point)
     told = [one.advice for one in found if one.advice]
     if as_json:
@@ -42,7 +51,7 @@ def _show(point: "OperatingPoint", found: "list[Verdict]") -> None:
     from fmu_bearing.run.table import show
 
     scene = point.scene
-    operation, mounting = scene.operation, scene.mounting
+    operation, mounting = scene.operation, scene.mounted
     typer.echo(
         f"{scene.name}: {scene.bearing.designation}, {operation.speed_rpm:g} r/min, preload "
         f"{mounting.preload_N:g} N ({mounting.preload_mode}), oil {operation.oil_temperature_degC:g} degC; "

@@ -103,9 +103,12 @@ def _findings(path: Path) -> tuple[bool, list[str]]:
     from fmu_bearing.design.verdicts import cautions
     from fmu_bearing.instance import EngineError, Instance
     from fmu_bearing.interface import shown, variables
+    from fmu_bearing.spindle.statics import shaft_statics
 
     try:
         scene = read_scene(path)
+        if scene.spindle is not None:
+            return True, [f"{path}: {line}" for line in shaft_statics(scene).cautions()]
         shown(scene, variables(scene, 0.0))
         bearing = Instance(_silent(scene))
         with warnings.catch_warnings(record=True) as told:
@@ -137,7 +140,7 @@ def show(
         scene = read_scene(path)
         values = [one for one in origins(path) if one.assumed or not assumed]
         known = not scene.bends or available("skfem", BENDING, "fidelity and sizes", tell)
-        sizes = _sizes(scene) if known else {}
+        sizes = _sizes(scene) if known and scene.spindle is None else {}
     if as_json:
         print_json({"scene": scene.name, "computed": sizes, "values": [asdict(one) for one in values]})
         return

@@ -93,7 +93,7 @@ class OperatingPoint:
             "scene": self.scene.name,
             "kind": self.scene.materials.kind,
             "speed_rpm": self.scene.operation.speed_rpm,
-            "preload_N": self.scene.mounting.preload_N,
+            "preload_N": self.scene.mounted.preload_N,
             "contact": self.contacts,
             "displacement_m": self.displacement,
             "stiffness": self.stiffness.tolist(),
@@ -144,7 +144,7 @@ def operating_point(scene: SceneSource, tell: Tell = silent) -> OperatingPoint:
     mass, _ = ball(scene)
     centrifugal = mass * 0.5 * b.pitch_diameter * (2.0 * math.pi * frequencies.f_c) ** 2
     nu = 1e6 * float(bearing.s[S.C + C.VISCOSITY]) / scene.lubricant.density_kg_m3
-    mounting = scene.mounting
+    mounting = scene.mounted
     radial = math.hypot(mounting.radial_load_y_N, mounting.radial_load_z_N)
     balls = Reader(bearing).read(bearing)
     loads = {"inner": balls[:, 1], "outer": balls[:, 3]}

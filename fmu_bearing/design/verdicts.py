@@ -169,7 +169,7 @@ def _life(point: OperatingPoint) -> Iterator[Verdict]:
     turns = point.reference_life
     if turns is not None and math.isfinite(turns):
         note = "; hybrid: no modified life" if scene.materials.kind == "hybrid" else ""
-        mounting = scene.mounting
+        mounting = scene.mounted
         if mounting.radial_load_y_N or mounting.radial_load_z_N:  # a quarter of the life depends on it
             held = "held by tilt_support" if mounting.tilt_support else "free to tilt"
             note = f"; inner ring {held}{note}"
@@ -200,7 +200,7 @@ def _hours(key: str, label: str, hours: float, required: float | None, source: s
 
 
 def _preload(point: OperatingPoint) -> Iterator[Verdict]:
-    preload = point.scene.mounting.preload_N
+    preload = point.scene.mounted.preload_N
     rpm = point.scene.operation.speed_rpm
     advice = ""
     if preload < point.least_preload:
@@ -245,8 +245,8 @@ def _speed(point: OperatingPoint) -> Verdict:
     if single is None:
         return Verdict("speed", label, number, text, "-", "no maker's limit at this angle", "not judged")
     factor, mounted = 1.0, "on springs"
-    if point.scene.mounting.preload_mode == "rigid" and point.rating is not None:
-        share = point.scene.mounting.preload_N / point.rating.dynamic
+    if point.scene.mounted.preload_mode == "rigid" and point.rating is not None:
+        share = point.scene.mounted.preload_N / point.rating.dynamic
         place = sum(share > one for one in preload_classes(point.scene)[:-1])
         factor, mounted = makers.RIGID_SPEED[place], f"as a rigid {makers.CLASS_NAMES[place]} pair"
     limit = factor * single

@@ -102,7 +102,7 @@ def ring_modes(scene: Scene) -> tuple[RingMode, ...]:
     MissingExtra
         Without scikit-fem (extra ``elastic``), where a ring bends.
     """
-    flexure = scene.mounting.flexure
+    flexure = scene.mounted.flexure
     if flexure is None:
         return ()
     found = []

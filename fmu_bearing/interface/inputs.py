@@ -35,9 +35,9 @@ _KELVIN = {
 
 def inputs(scene: Scene) -> list[Variable]:
     """Return the inputs of the model, in the order of the engine's array ``u``."""
-    mounting, start = si(scene.mounting), si(scene.operation)
+    mounting, start = si(scene.mounted), si(scene.operation)
     preload = "Axial force that pushes the inner ring towards +X"
-    if scene.mounting.preload_mode == "rigid":
+    if scene.mounted.preload_mode == "rigid":
         preload += ", at standstill and 20 degC; its displacement is then held"
     rows: tuple[tuple[str, str, dict[str, Any], float], ...] = (
         ("shaft_speed", "Rotational speed of the shaft, right-handed about +X", _SPEED, start.speed),

@@ -204,7 +204,7 @@ def _flexure(scene: Scene) -> list[Variable]:
     A bending of order n moves the groove radially by cosine cos(n theta) + sine sin(n theta), theta from
     12 o'clock about +X in the frame that does not spin.
     """
-    flexure = scene.mounting.flexure
+    flexure = scene.mounted.flexure
     if flexure is None:
         return []
     bands = len(Z.BANDS) if scene.sound is not None and scene.sound.third_octaves else 0

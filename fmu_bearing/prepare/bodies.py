@@ -59,17 +59,17 @@ def cage(scene: Scene) -> RigidBody:
 
 def rotor(scene: Scene) -> RigidBody:
     """Rotor as a solid cylinder centred in the bearing; zero where the scene has none."""
-    if scene.mounting.rotor is None:
+    if scene.mounted.rotor is None:
         return RigidBody(0.0, 0.0, 0.0)
-    r = si(scene.mounting.rotor)
+    r = si(scene.mounted.rotor)
     return of_mass(r.mass, 0.0, r.diameter, r.length)
 
 
 def housing(scene: Scene) -> RigidBody:
     """Housing that moves with the outer ring, its mass put at the bearing's centre; zero if none."""
-    if scene.mounting.housing is None:
+    if scene.mounted.housing is None:
         return RigidBody(0.0, 0.0, 0.0)
-    h = si(scene.mounting.housing)
+    h = si(scene.mounted.housing)
     return of_mass(h.mass, 0.0, h.diameter, h.length)
 
 

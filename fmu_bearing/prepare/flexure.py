@@ -31,8 +31,8 @@ def mode_table(scene: Scene, modes: Sequence[RingMode]) -> NDArray[np.float64]:
             f"{scene.name}: mounting.flexure asks for {len(modes)} modes; at most {MAX_MODES} are "
             "carried: leave out the highest orders"
         )
-    assert scene.mounting.flexure is not None  # it is what asked for the modes
-    flexure = si(scene.mounting.flexure)
+    assert scene.mounted.flexure is not None  # it is what asked for the modes
+    flexure = si(scene.mounted.flexure)
     seats = flexure.inner_seat_stiffness, flexure.outer_seat_stiffness
     table = np.zeros((len(modes), P.MODE_SIZE))
     for row, mode in zip(table, modes, strict=True):

@@ -118,7 +118,7 @@ def prepare(
     given = {key: value for key, value in keys.items() if value is not None}
     if given:
         scene = with_fidelity(scene, **given)
-    _require_fidelity(scene)
+    _require_computable(scene)
     try:
         sound = sound_block(scene)
     except ValueError as problem:
@@ -129,7 +129,9 @@ def prepare(
     return Model(scene, parameters, variables(scene, rotor_inertia=rotating.polar), note)
 
 
-def _require_fidelity(scene: Scene) -> None:
+def _require_computable(scene: Scene) -> None:
+    if scene.mounting is None:
+        raise scene.unmounted()
     if scene.fidelity.model not in FIDELITIES:
         raise SceneError(
             f"{scene.name}: fidelity.model = '{scene.fidelity.model}' must be resolved first, to one of "
@@ -145,7 +147,7 @@ def pack(scene: Scene, sound: NDArray[np.float64]) -> NDArray[np.float64]:
     SceneError
         If the scene's fidelity is ``auto``.
     """
-    _require_fidelity(scene)
+    _require_computable(scene)
     nodes, weights = roots_jacobi(scene.fidelity.traction_strips, 1.0, 1.0)
     # what the scene leaves out is an empty table: it takes no place, and its offset is 0
     waves = race_harmonics(scene)
@@ -240,7 +242,7 @@ def _sound(scene: Scene, sound: NDArray[np.float64], p: NDArray[np.float64]) -> 
 
 
 def _mounting(scene: Scene, p: NDArray[np.float64]) -> None:
-    mounting = si(scene.mounting)
+    mounting = si(scene.mounted)
     inner = bodies.inner_ring(scene) + bodies.rotor(scene)
     outer = bodies.outer_ring(scene) + bodies.housing(scene)
     p[P.INNER_MASS], p[P.INNER_TRANSVERSE], p[P.INNER_POLAR] = (
@@ -253,7 +255,7 @@ def _mounting(scene: Scene, p: NDArray[np.float64]) -> None:
         outer.transverse,
         outer.polar,
     )
-    p[P.RIGID] = scene.mounting.preload_mode == "rigid"
+    p[P.RIGID] = scene.mounted.preload_mode == "rigid"
     p[P.MISALIGNMENT_Y] = mounting.misalignment_y
     p[P.MISALIGNMENT_Z] = mounting.misalignment_z
     p[P.AXIAL_RATIO] = mounting.pedestal_axial_ratio
@@ -265,8 +267,8 @@ def _mounting(scene: Scene, p: NDArray[np.float64]) -> None:
         p[first] = along * math.cos(angle) ** 2 + math.sin(angle) ** 2
         p[first + 1] = along * math.sin(angle) ** 2 + math.cos(angle) ** 2
         p[first + 2] = (along - 1.0) * math.sin(angle) * math.cos(angle)
-    if scene.mounting.tilt_support is not None:
-        support = si(scene.mounting.tilt_support)
+    if scene.mounted.tilt_support is not None:
+        support = si(scene.mounted.tilt_support)
         p[P.TILT_STIFFNESS] = support.stiffness
         p[P.TILT_DAMPING] = 2.0 * support.damping_ratio * math.sqrt(support.stiffness * inner.transverse)
     if scene.imperfections is not None:

@@ -65,7 +65,7 @@ def sound_key(scene: Scene) -> str:
 
     if scene.sound is None:
         return ""
-    flexure = scene.mounting.flexure
+    flexure = scene.mounted.flexure
     bending = (flexure, scene.materials, scene.bearing) if flexure is not None else ()
     return repr((scene.sound, radiators_of(scene), scene.fidelity.ball_harmonics, bending))
 

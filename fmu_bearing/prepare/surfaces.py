@@ -77,7 +77,7 @@ def mean_patches(scene: Scene) -> tuple[Patch, Patch]:
     mass, _ = bodies.ball(scene)
     orbit = 2.0 * math.pi * frequencies(scene, si(scene.operation).speed).f_c
     pull = mass * 0.5 * b.pitch_diameter * orbit**2
-    axial = scene.mounting.preload_N / b.ball_count
+    axial = scene.mounted.preload_N / b.ball_count
     reach = [(conformity - 0.5) * b.ball_diameter for conformity in (b.inner_conformity, b.outer_conformity)]
 
     def loads(angle: float) -> tuple[float, float, float]:

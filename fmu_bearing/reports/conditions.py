@@ -49,7 +49,7 @@ def conditions(subject: Subject) -> Section:
 
 def _operation(subject: Subject) -> Table:
     scene = subject.scene
-    b, m, o = scene.bearing, scene.mounting, scene.operation
+    b, m, o = scene.bearing, scene.mounted, scene.operation
     rpm = subject.speed / RPM
     imperfections = scene.imperfections
     rows = [
@@ -168,4 +168,4 @@ def source_words(subject: Subject) -> str:
     except Absent:
         return "a recording without scene"
     speed = f"{subject.speed / RPM:,.0f} r/min"
-    return f"{scene.bearing.designation} at {speed}, preload {scene.mounting.preload_N:g} N"
+    return f"{scene.bearing.designation} at {speed}, preload {scene.mounted.preload_N:g} N"

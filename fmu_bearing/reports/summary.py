@@ -39,7 +39,7 @@ def tiles(subject: Subject, heard: Microphones | None, sure: Spread | None = Non
             found.append(_tile(key, label, number, unit, digits))
 
     add("speed_rpm", "shaft speed", "r/min", ",.0f", lambda: subject.speed / RPM)
-    add("preload_N", "preload", "N", "g", lambda: subject.scene.mounting.preload_N)
+    add("preload_N", "preload", "N", "g", lambda: subject.scene.mounted.preload_N)
     if heard is not None:
         k = heard.loudest
         add(
@@ -151,8 +151,8 @@ def _reach(subject: Subject) -> list[str]:
     scene = subject.recording.scene
     sound_speed = 340.0 if scene.sound is None else scene.sound.sound_speed_m_s
     radius = scene.bearing.outside_diameter_mm / 2e3
-    if scene.sound is not None and scene.sound.radiator == "housing" and scene.mounting.housing is not None:
-        radius = scene.mounting.housing.diameter_mm / 2e3
+    if scene.sound is not None and scene.sound.radiator == "housing" and scene.mounted.housing is not None:
+        radius = scene.mounted.housing.diameter_mm / 2e3
     highest = sound_speed / (2.0 * math.pi * radius)
     return [
         "Radiation model compact assumes bodies that are small against the wavelength. Its levels and "

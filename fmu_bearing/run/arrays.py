@@ -47,8 +47,8 @@ class Arrays:
             self.p[getattr(P, name)] = value
         self.u = np.zeros(len(U.INPUTS))
         self.u[U.SPEED] = rpm * RPM
-        self.u[U.PRELOAD] = scene.mounting.preload_N
-        self.u[U.PEDESTAL] = scene.mounting.pedestal_stiffness_N_m
+        self.u[U.PRELOAD] = scene.mounted.preload_N
+        self.u[U.PEDESTAL] = scene.mounted.pedestal_stiffness_N_m
         self.u[U.LOAD_Y], self.u[U.LOAD_Z] = load_y, load_z
         self.u[U.OIL_T : U.OUTER_T + 1] = REFERENCE_TEMPERATURE
         self.s = np.zeros(S.size(self.p))

@@ -24,7 +24,7 @@ def model_of(source: SceneSource, tell: Tell = silent) -> Model:
     if scene.fidelity.model == "auto":
         tell("fidelity auto: probing the scene against fidelity full (kept for the next time)")
     resolved, choice = resolve(scene)
-    if not resolved.mounting.preload_N > 0.0:
+    if not resolved.mounted.preload_N > 0.0:
         tell(f"caution: {loose(resolved.fidelity.model)}")
     note = "" if choice is None else choice.summary
     if note:

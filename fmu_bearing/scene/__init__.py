@@ -12,6 +12,7 @@
 ``material``      elastic and thermal constants; catalogue names
 ``lubricant``     oil, traction and film constants
 ``mounting``      preload, loads, pedestal, rotor, housing, bending of the rings
+``spindle``       a set of bearings on one shaft, in the place of a mounting
 ``imperfections`` waviness, ball spread, unbalance, by values or by grade, with a seed
 ``operation``     speed and temperatures at the start
 ``sound``         radiator, radiation model, metering, microphones

@@ -83,7 +83,7 @@ def _table(entry: Entry, name: str) -> Table:
 
 def _preload(document: Mapping[str, Any], scene: Tables) -> dict[str, tuple[str, str]]:
     """Return the origin of a preload that a class or an offset stands for, in words."""
-    mounting, bearing = document["mounting"], document["bearing"]
+    mounting, bearing = document.get("mounting", {}), document["bearing"]
     if CLASS not in mounting and OFFSET not in mounting:
         return {}
     name = bearing.get("catalogue", scene.bearing.designation)
@@ -113,6 +113,13 @@ def _references(document: Mapping[str, Any]) -> Iterator[tuple[str, str, str, st
                 name = entry.get("catalogue") if isinstance(entry, Mapping) else entry
                 if name is not None:
                     yield f"{table}.{body}", str(name), kind, f"catalogue {name}"
+    spindle = document.get("spindle")
+    for body in ("shaft", "housing"):
+        part = spindle.get(body) if isinstance(spindle, Mapping) else None
+        entry = part.get("material") if isinstance(part, Mapping) else None
+        name = entry.get("catalogue") if isinstance(entry, Mapping) else entry
+        if name is not None:
+            yield f"spindle.{body}.material", str(name), "materials", f"catalogue {name}"
     imperfections = document.get("imperfections")
     if isinstance(imperfections, Mapping) and "grade" in imperfections:
         grade = str(imperfections["grade"])

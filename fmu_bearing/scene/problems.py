@@ -84,7 +84,7 @@ def _lines(errors: Iterable[Any], data: dict[str, Any]) -> Iterator[str]:
                 place = path + tuple(conflict.key.split(".") if conflict.key else ())
                 yield _conflict(place, conflict.reason, data)
         elif error["type"] == "missing":
-            yield _missing(path)
+            yield missing(path)
         elif error["type"] == "extra_forbidden":
             yield _unknown(path)
         else:
@@ -132,7 +132,7 @@ def described(value: Any) -> str:
 def allowed(path: Location) -> str:
     """Say what the key at a location may hold, with its unit."""
     field = _field(path)
-    if field is None and path and isinstance(path[-1], int) and _field(path[:-1]) is not None:
+    if field is None and path and isinstance(path[-1], int):
         return allowed(path[:-1])  # a member of an array of numbers
     if field is None:
         return "a table"
@@ -144,6 +144,8 @@ def allowed(path: Location) -> str:
     if typing.get_origin(kind) is tuple:
         most = [rule.max_length for rule in field.metadata if hasattr(rule, "max_length")]
         member = get_args(kind)[0]
+        if typing.get_origin(get_args(member)[0] if get_args(member) else member) is tuple:
+            return f"1 to {most[0]} lists [length, diameter, bore], {symbol(str(path[-1]))}"
         if typing.get_origin(member) is typing.Annotated:
             numbers = _range(get_args(member)[1], str(path[-1]))
             return f"at most {most[0]} whole numbers from {numbers}"
@@ -157,8 +159,13 @@ def allowed(path: Location) -> str:
         return "text of 1 to " + _TEXTS[patterns[0]] if patterns else "the name of a file"
     if kind in (int, float):
         return _range(field, str(path[-1])) + (", whole numbers only" if kind is int else "")
-    names = ", or the name of a catalogue entry" if path[0] == "materials" else ""
+    names = ", or the name of a catalogue entry" if is_material(path) else ""
     return f"a table [{dotted(path)}]{names}"
+
+
+def is_material(path: Location) -> bool:
+    """Whether a material stands there, which a catalogue entry can name."""
+    return path[0] == "materials" or path[-1] == "material"
 
 
 def _range(field: FieldInfo, key: str) -> str:
@@ -182,7 +189,10 @@ def _conflict(path: Location, reason: str, data: dict[str, Any]) -> str:
     return f"{dotted(path)} = {shown(value)} {reason}"
 
 
-def _missing(path: Location) -> str:
+def missing(path: Location) -> str:
+    """Say that a key or a table is missing, and what it holds."""
+    if isinstance(path[-1], int):
+        return f"{dotted(path)} is missing; allowed: {allowed(path)}"
     field, key = _field(path), path[-1]
     model = table_of(None if field is None else field.annotation)
     if field is None or (model is not None and not field.examples):

@@ -19,9 +19,10 @@ from fmu_bearing.scene.entries import (
 )
 from fmu_bearing.scene.imperfections import RACES
 from fmu_bearing.scene.material import Materials
+from fmu_bearing.scene.mounting import Mounting
 from fmu_bearing.scene.nsk import PREFIX
 from fmu_bearing.scene.preload import CLASS, FORCE, OFFSET, PreloadError, preload, preload_key
-from fmu_bearing.scene.problems import Location, SceneError, described, explain, shown
+from fmu_bearing.scene.problems import Location, SceneError, described, explain, is_material, missing, shown
 from fmu_bearing.scene.scene import Tables
 from fmu_bearing.scene.toml_text import parse
 from fmu_bearing.scene.values import plain, put
@@ -47,6 +48,26 @@ class Scene(Tables):
     >>> scene.to_toml().splitlines()[0]
     'name = "7003C-bare"'
     """
+
+    @property
+    def mounted(self) -> Mounting:
+        """How the one bearing is mounted.
+
+        Raises
+        ------
+        SceneError
+            For a set of bearings on one shaft: what needs a mounting cannot take it yet.
+        """
+        if self.mounting is None:
+            raise self.unmounted()
+        return self.mounting
+
+    def unmounted(self) -> SceneError:
+        """Return the refusal of a set by what computes one bearing on its mounting."""
+        return SceneError(
+            f"{self.name}: [spindle] is a set of bearings, of which only the statics are computed so far: "
+            "use `fmu-bearing info`, or `shaft_statics` in Python"
+        )
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> "Scene":
@@ -191,10 +212,25 @@ def _checked(
         scene = Scene.model_validate(data)
     except ValidationError as problem:
         lines += explain(problem, data, unresolved)
+        lines += _one_mounting(data)
     else:
+        lines += _one_mounting(data)
         if not lines:
             return scene
     raise SceneError("\n".join(f"{name}: {line}" for line in dict.fromkeys(lines))) from None
+
+
+def _one_mounting(data: Mapping[str, Any]) -> list[str]:
+    """Return a line unless there is one of the tables that say how bearings are mounted."""
+    given = [key for key in ("mounting", "spindle") if data.get(key) is not None]
+    if not given:
+        return [f"{missing(('mounting',))}; several bearings on one shaft have [spindle] instead"]
+    if len(given) > 1:
+        return [
+            "mounting: stands beside [spindle]: one bearing has [mounting], a set on one shaft has "
+            "[spindle]; keep one"
+        ]
+    return []
 
 
 def with_fidelity(scene: SceneSource, **keys: Any) -> Scene:
@@ -271,6 +307,13 @@ def _resolve(
             if isinstance(materials[key], str):
                 materials[key] = {"catalogue": materials[key]}
             _fill(materials, ("materials", key), entries("materials"), lines, unresolved)
+    spindle = data.get("spindle")
+    for body in ("shaft", "housing"):
+        part = spindle.get(body) if isinstance(spindle, dict) else None
+        if isinstance(part, dict) and isinstance(part.get("material"), str):
+            part["material"] = {"catalogue": part["material"]}
+        if isinstance(part, dict):
+            _fill(part, ("spindle", body, "material"), entries("materials"), lines, unresolved)
     _fill(data, ("imperfections",), entries("grades"), lines, unresolved, key="grade")
     _give_preload(data, name, lines, unresolved)
 
@@ -314,7 +357,7 @@ def _fill(
         folded = {name.lower(): name for name in known}
         near = difflib.get_close_matches(str(wanted).lower(), folded, n=1, cutoff=0.5)
         hint = f"did you mean '{folded[near[0]]}'? " if near else ""
-        where = ".".join(path) + ("" if path[0] == "materials" else f".{key}")
+        where = ".".join(path) + ("" if is_material(path) else f".{key}")
         reason = too_many_balls(wanted) if path == ("bearing",) else ""
         reason = reason or f"is not in the catalogue; {hint}known: {_named(known)}"
         lines.append(f"{where} = {shown(wanted)} {reason}")

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import Self
 
 import tomlkit
@@ -17,6 +18,7 @@ from fmu_bearing.scene.material import Materials
 from fmu_bearing.scene.mounting import Mounting
 from fmu_bearing.scene.operation import Operation
 from fmu_bearing.scene.sound import Place, Sound
+from fmu_bearing.scene.spindle import Spindle
 
 #: The name goes into file names and into the FMU's model name: ASCII only.
 NAME = r"^[A-Za-z0-9][A-Za-z0-9._ -]{0,59}$"
@@ -35,7 +37,13 @@ class Tables(Part):
     bearing: Bearing = Field(description="Geometry of the bearing.")
     materials: Materials = Field(description="Materials of its components.")
     lubricant: Lubricant = Field(description="Oil in contacts and lands.")
-    mounting: Mounting = Field(description="Preload, loads, pedestal and what is fixed to the rings.")
+    mounting: Mounting | None = Field(
+        default=None,
+        description="Preload, loads, pedestal and what is fixed to the rings. Required, but with [spindle].",
+    )
+    spindle: Spindle | None = Field(
+        default=None, description="Several bearings on one shaft, in the place of [mounting]."
+    )
     operation: Operation = Field(description="Speed and temperatures at the start.")
     fidelity: Fidelity = Field(default_factory=Fidelity, description="Physics, error bounds and terms.")
     imperfections: Imperfections | None = Field(default=None, description="Absent: a perfect bearing.")
@@ -46,7 +54,8 @@ class Tables(Part):
         """Yield conflicts between tables."""
         if self.bearing.cage is not None and self.materials.cage is None:
             yield Conflict("materials.cage", 'is missing, for example cage = "bakelite"; the bearing has one')
-        housing = self.mounting.housing
+        yield from self._set()
+        housing = None if self.mounting is None else self.mounting.housing
         if housing is not None and housing.diameter_mm <= self.bearing.outside_diameter_mm:
             limit = self.bearing.outside_diameter_mm
             yield Conflict(
@@ -60,6 +69,28 @@ class Tables(Part):
             yield from self._buried_microphones()
             if self.sound.reflecting_plane_mm is not None:
                 yield from self._behind_plane(self.sound.reflecting_plane_mm)
+
+    def _set(self) -> Iterator[Conflict]:
+        """Yield what a set of bearings cannot have yet: nothing that is given may be ignored."""
+        if self.spindle is None:
+            return
+        for key in ("imperfections", "sound", "fmu"):
+            if getattr(self, key) is not None:
+                yield Conflict(
+                    key, "is of no use with [spindle], which only statics take so far: leave the table out"
+                )
+        for key in ("lowest_speed_rpm", "required_life_h"):
+            if getattr(self.operation, key) is not None:
+                yield Conflict(f"operation.{key}", "is not read with [spindle]: leave it out")
+        width = self.bearing.width_mm
+        for number, (one, other) in enumerate(pairwise(self.spindle.bearing), start=2):
+            apart = other.position_mm - one.position_mm
+            if 0.0 < apart < width - _SKIN:
+                yield Conflict(
+                    f"spindle.bearing[{number}].position_mm",
+                    f"= {other.position_mm:g} is {apart:g} mm behind the bearing before it; each is "
+                    f"{width:g} mm wide",
+                )
 
     def _behind_plane(self, plane: float) -> Iterator[Conflict]:
         key = "sound.reflecting_plane_mm"
@@ -122,7 +153,7 @@ class Tables(Part):
     def _envelopes(self) -> Iterator[tuple[str, float, float, float]]:
         """Yield name, radius and axial extent (mm) of the cylinders that radiate; a shaft fills the bore."""
         half = self.bearing.width_mm / 2.0
-        housing = self.mounting.housing
+        housing = None if self.mounting is None else self.mounting.housing
         if self.sound is not None and self.sound.radiator == "housing" and housing is not None:
             front = -half - housing.front_face_mm
             yield "housing", housing.diameter_mm / 2.0, front, front + housing.length_mm
@@ -131,11 +162,13 @@ class Tables(Part):
     @property
     def bends(self) -> bool:
         """Whether a ring bends."""
-        flexure = self.mounting.flexure
+        flexure = None if self.mounting is None else self.mounting.flexure
         return flexure is not None and bool(flexure.inner_ring or flexure.outer_ring)
 
     def with_rigid_rings(self) -> Self:
         """Return the scene without the bending of its rings."""
+        if self.mounting is None:
+            return self
         return self.model_copy(update={"mounting": self.mounting.model_copy(update={"flexure": None})})
 
     @property

@@ -99,3 +99,33 @@ def test_check_cautions_where_a_limit_is_passed(run, tmp_path, name, changes, wo
 def test_check_says_nothing_of_a_bearing_within_its_limits(run, tmp_path):
     told = run("scene", "check", changed(tmp_path, ("preload_N = 500.0", "preload_N = 100.0")))
     assert told.exit_code == 0 and "caution" not in told.output
+
+
+SET = EXAMPLES.parent / "spindle_set" / "7003C-DB.toml"
+
+
+def test_info_of_a_set_tells_what_each_bearing_carries(run):
+    data = run("info", SET, "--json").data
+    assert data["arrangement"] == "DB (O)"
+    # 100 N along the axis, the rest of both is preload
+    front, rear = data["bearings"]
+    assert front["axial_N"] - rear["axial_N"] == pytest.approx(100.0, abs=1e-6)
+    assert front["force_z_N"] + rear["force_z_N"] == pytest.approx(data["load"][2], abs=1e-6)
+    assert data["preloads_N"]["cold"] == pytest.approx([150.0, 150.0], rel=1e-6)
+    assert set(data["lift_off"]) == {"+x", "-x"}
+    told = run("info", SET)
+    assert told.exit_code == 0 and "2 x 7003C, DB (O), 15000 r/min" in told.stdout
+    assert max(map(len, told.stdout.splitlines())) <= 80
+
+
+def test_a_set_is_checked_and_shown_and_not_run(run, tmp_path):
+    assert run("scene", "check", SET).exit_code == 0
+    told = run("scene", "show", SET, "--json")
+    assert {one["key"] for one in told.data["values"]} >= {
+        "spindle.preload.kind",
+        "spindle.bearing[1].carries",
+    }
+    for words in (("modes", SET), ("choose", SET)):
+        told = run(*words)
+        assert told.exit_code == 2, words
+        assert "of which only the statics are computed so far" in told.stderr, words

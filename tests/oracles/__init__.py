@@ -9,6 +9,7 @@ module             answers
 `hertz`            point contact by elliptic integrals at 30 digits, and the surface integral that proves them
 `kinematics`       defect frequencies, ball spin and orbit under pure rolling
 `jones_harris`     quasi-static bearing: ring displacement and all balls in one system
+`shaft`            several of them on one rigid shaft, by a general root finder
 `journal`          short journal bearing: film force by quadrature of the pressure, and in closed form
 `cartesian`        equations of motion in global Cartesian axes, ball by ball
 =================  ================================================================================

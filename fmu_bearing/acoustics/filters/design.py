@@ -133,9 +133,9 @@ def radiators_of(scene: Scene) -> Radiators:
         cage = Ring(body.outside_diameter, body.bore, body.width)
     housing = None
     if scene.sound is not None and scene.sound.radiator == "housing":
-        if scene.mounting.housing is None:
+        if scene.mounted.housing is None:
             raise ValueError('sound.radiator = "housing" needs a table [mounting.housing]')
-        body = si(scene.mounting.housing)
+        body = si(scene.mounted.housing)
         centre = -0.5 * bearing.width - body.front_face + 0.5 * body.length
         housing = Housing(body.diameter, body.length, centre)
     return Radiators(
@@ -147,7 +147,7 @@ def radiators_of(scene: Scene) -> Radiators:
         cage=cage,
         housing=housing,
         contact_angle=bearing.contact_angle,
-        shaft=scene.mounting.rotor is not None,
+        shaft=scene.mounted.rotor is not None,
         baffle=scene.sound is not None and scene.sound.radiator == "baffle",
     )
 

@@ -1,0 +1,284 @@
+"""Several equal bearings on one shaft: where they stand, which way they carry, what preloads them."""
+
+from collections.abc import Iterator
+from itertools import pairwise
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from fmu_bearing.scene.base import Conflict, Part
+from fmu_bearing.scene.material import Material
+
+_LONG = 5000.0  # mm
+_MOST = 16  # bearings of a set
+
+#: Sets by their directions, from the nose on, and what makers call them.
+ARRANGEMENTS = {
+    "+": "single",
+    "-": "single",
+    "+-": "DB (O)",
+    "-+": "DF (X)",
+    "++": "DT",
+    "--": "DT",
+    "++-": "TBT (O)",
+    "+--": "TBT (O)",
+    "--+": "TFT (X)",
+    "-++": "TFT (X)",
+    "+++": "triple tandem",
+    "---": "triple tandem",
+    "++--": "QBC (O)",
+    "--++": "QFC (X)",
+    "+++-": "QBT (O)",
+    "+---": "QBT (O)",
+    "---+": "QFT (X)",
+    "-+++": "QFT (X)",
+    "++++": "QT",
+    "----": "QT",
+}
+
+Length = Annotated[float, Field(ge=0.1, le=_LONG)]
+Diameter = Annotated[float, Field(ge=1, le=1000)]
+Bore = Annotated[float, Field(ge=0, le=1000)]
+# A file's array arrives as a list: the one conversion that strictness may let pass.
+Section = Annotated[tuple[Length, Diameter, Bore], Field(strict=False)]
+
+
+class Shaft(Part):
+    """The shaft in cylindrical sections, rigid; its nose is at X = 0."""
+
+    sections_mm: tuple[Section, ...] = Field(
+        min_length=1,
+        max_length=40,
+        strict=False,
+        examples=[[[30.0, 22.0, 0.0], [140.0, 17.0, 0.0]]],
+        description="Sections from the nose to the rear, each [length, diameter, bore], mm.",
+    )
+    material: Material | None = Field(
+        default=None,
+        examples=["GCr15"],
+        description="Material of the shaft; absent: that of the inner rings.",
+    )
+    temperature_degC: float | None = Field(
+        default=None,
+        ge=-40,
+        le=199,
+        examples=[45.0],
+        description="Mean temperature of the shaft between its bearings (absent: that of [operation]'s inner "
+        "ring), degC.",
+    )
+
+    def conflicts(self) -> Iterator[Conflict]:
+        """Yield sections whose bore leaves nothing."""
+        for number, (_, diameter, bore) in enumerate(self.sections_mm, start=1):
+            if bore >= diameter:
+                yield Conflict(
+                    "sections_mm", f"section {number} has a bore of {bore:g} mm in a diameter of {diameter:g}"
+                )
+
+    @property
+    def length_mm(self) -> float:
+        """Length of all sections."""
+        return sum(length for length, _, _ in self.sections_mm)
+
+
+class SetBearing(Part):
+    """One bearing of the set; `[bearing]`, `[materials]` and `[lubricant]` serve all."""
+
+    position_mm: float = Field(
+        ge=0, le=_LONG, examples=[40.0], description="Plane of the ball centres from the shaft's nose, mm."
+    )
+    carries: Literal["+x", "-x"] = Field(
+        examples=["+x"],
+        description="Direction of the axial force on the shaft that the bearing carries; +X leads from the "
+        "nose to the rear.",
+    )
+    stickout_um: float = Field(
+        default=0.0,
+        ge=-200,
+        le=200,
+        examples=[1.0],
+        description="How much more than the spacer preload asks for the inner ring is pushed into the "
+        "bearing at assembly, um.",
+    )
+    seat: Literal["fixed", "sliding"] = Field(
+        default="fixed",
+        examples=["fixed"],
+        description="Outer ring held in the housing, or sliding along it against a spring.",
+    )
+    inner_ring_temperature_degC: float | None = Field(
+        default=None,
+        ge=-40,
+        le=199,
+        examples=[45.0],
+        description="Temperature of its inner ring (absent: that of [operation]), degC.",
+    )
+    outer_ring_temperature_degC: float | None = Field(
+        default=None,
+        ge=-40,
+        le=199,
+        examples=[40.0],
+        description="Temperature of its outer ring (absent: that of [operation]), degC.",
+    )
+
+    @property
+    def sign(self) -> int:
+        """1 where the bearing carries force on the shaft towards +X, else -1."""
+        return 1 if self.carries == "+x" else -1
+
+
+class Preload(Part):
+    """Preload of the set by spacers of fixed length, or by springs behind sliding outer rings."""
+
+    kind: Literal["spacer", "spring"] = Field(
+        default="spacer",
+        examples=["spacer"],
+        description="A distance that is held, or a spring that pushes sliding outer rings.",
+    )
+    preload_N: float | None = Field(
+        default=None,
+        ge=0,
+        le=1e4,
+        examples=[500.0],
+        description="Spacer: axial load of each bearing at standstill and 20 degC without stick-out and "
+        "load, on the side with more bearings where the sides differ, N.",
+    )
+    force_N: float | None = Field(
+        default=None,
+        ge=0,
+        le=1e4,
+        examples=[300.0],
+        description="Spring: force on each sliding outer ring at standstill and 20 degC, N.",
+    )
+    stiffness_N_m: float | None = Field(
+        default=None,
+        ge=0,
+        le=1e9,
+        examples=[1e5],
+        description="Spring: stiffness behind each sliding outer ring (absent: 0, a constant force), N/m.",
+    )
+
+    def conflicts(self) -> Iterator[Conflict]:
+        """Yield keys of the other kind, and the one that is missing."""
+        own, others = ("preload_N", ["force_N", "stiffness_N_m"])
+        if self.kind == "spring":
+            own, others = "force_N", ["preload_N"]
+        if getattr(self, own) is None:
+            yield Conflict(own, f'is missing, for example {own} = 300.0; kind = "{self.kind}" needs it')
+        for key in others:
+            if getattr(self, key) is not None:
+                yield Conflict(key, f'is not read with kind = "{self.kind}": leave it out')
+
+
+class SetHousing(Part):
+    """The housing that holds the outer rings: rigid, and it does not move."""
+
+    material: Material | None = Field(
+        default=None,
+        examples=["GCr15"],
+        description="Material of the housing; absent: that of the outer rings.",
+    )
+    temperature_degC: float | None = Field(
+        default=None,
+        ge=-40,
+        le=199,
+        examples=[35.0],
+        description="Mean temperature of the housing between its seats (absent: that of [operation]'s outer "
+        "ring), degC.",
+    )
+
+
+class Load(Part):
+    """Force on the shaft, as of the tool."""
+
+    force_x_N: float = Field(default=0.0, ge=-1e5, le=1e5, examples=[200.0], description="Along the axis, N.")
+    force_y_N: float = Field(default=0.0, ge=-1e5, le=1e5, examples=[0.0], description="Horizontal, N.")
+    force_z_N: float = Field(default=0.0, ge=-1e5, le=1e5, examples=[-300.0], description="Upwards, N.")
+    position_mm: float = Field(
+        default=0.0,
+        ge=-_LONG,
+        le=_LONG,
+        examples=[-20.0],
+        description="Where it acts, from the nose; negative: ahead of it, mm.",
+    )
+
+
+class Spindle(Part):
+    """A set of equal bearings on one rigid shaft. It takes the place of `[mounting]`."""
+
+    shaft: Shaft = Field(description="The shaft.")
+    bearing: tuple[SetBearing, ...] = Field(
+        min_length=1, max_length=_MOST, strict=False, description="The bearings, from the nose to the rear."
+    )
+    preload: Preload | None = Field(default=None, description="Absent: the bearings just touch.")
+    housing: SetHousing = Field(default_factory=SetHousing, description="What holds the outer rings.")
+    load: Load = Field(default_factory=Load, description="Force on the shaft.")
+
+    def conflicts(self) -> Iterator[Conflict]:
+        """Yield bearings beside the shaft or out of order, and sets that nothing holds."""
+        length = self.shaft.length_mm
+        for number, one in enumerate(self.bearing, start=1):
+            if one.position_mm > length:
+                yield Conflict(
+                    f"bearing[{number}].position_mm",
+                    f"= {one.position_mm:g} is beyond the shaft's end at {length:g} mm",
+                )
+        for number, (one, other) in enumerate(pairwise(self.bearing), start=2):
+            if other.position_mm <= one.position_mm:
+                yield Conflict(
+                    f"bearing[{number}].position_mm",
+                    f"= {other.position_mm:g} must exceed that of the bearing before it, "
+                    f"{one.position_mm:g}: bearings are given from the nose to the rear",
+                )
+        yield from self._held()
+        yield from self._springs()
+
+    def _held(self) -> Iterator[Conflict]:
+        """Yield a set that carries one direction alone, and nothing pushes the shaft that way."""
+        signs = {one.sign for one in self.bearing}
+        if len(signs) > 1:
+            return
+        (sign,) = signs
+        way, back = ("+x", "-x") if sign > 0 else ("-x", "+x")
+        if self.preload is not None:
+            yield Conflict(
+                "preload",
+                f"has nothing to act against: all carry {way}; leave [spindle.preload] out, or turn "
+                f'a bearing to carries = "{back}"',
+            )
+        elif sign * self.load.force_x_N <= 0.0:
+            yield Conflict(
+                "bearing",
+                f'all carry {way} and nothing holds the shaft the other way: turn one to carries = "{back}", '
+                f"or give a force that keeps them loaded, load.force_x_N {'>' if sign > 0 else '<'} 0",
+            )
+
+    def _springs(self) -> Iterator[Conflict]:
+        """Yield sliding seats without a spring, springs without one, and sets that slide as a whole."""
+        spring = self.preload is not None and self.preload.kind == "spring"
+        sliding = {one.sign for one in self.bearing if one.seat == "sliding"}
+        held = {one.sign for one in self.bearing if one.seat == "fixed"}
+        if sliding and not spring:
+            yield Conflict(
+                "preload",
+                'a sliding seat needs a spring: give kind = "spring" and force_N, or seat = "fixed"',
+            )
+        elif spring and not sliding:
+            yield Conflict(
+                "preload", 'a spring needs a ring that it pushes: give a [[spindle.bearing]] seat = "sliding"'
+            )
+        elif sliding and (len(sliding) > 1 or sliding & held):
+            yield Conflict(
+                "bearing",
+                "springs push all bearings of one direction and none of the other: give those of one "
+                'direction seat = "sliding", those of the other seat = "fixed"',
+            )
+
+    @property
+    def directions(self) -> str:
+        """A sign per bearing, from the nose on: ``+`` carries force on the shaft towards +X."""
+        return "".join("+" if one.sign > 0 else "-" for one in self.bearing)
+
+    @property
+    def arrangement(self) -> str:
+        """What makers call the set, else its directions."""
+        return ARRANGEMENTS.get(self.directions, self.directions)

@@ -1,0 +1,276 @@
+"""Statics of a scene's set of bearings: loads, ball loads, stiffness of the shaft, limits of the preload."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.scene import Scene, SceneSource, scene_of
+from fmu_bearing.spindle.assembly import assembly, at_plane, set_of, weight
+from fmu_bearing.spindle.axial import LiftOff, lift_off, neutral_spacing, preloads, spacing
+from fmu_bearing.spindle.equilibrium import Rest, rest
+from fmu_bearing.spindle.member import shaft_speed
+
+
+@dataclass(frozen=True)
+class BearingLoad:
+    """What one bearing of a set carries, SI units, shaft axes.
+
+    Attributes
+    ----------
+    number : int
+        From 1 at the nose.
+    position : float
+        m from the nose.
+    sign : int
+        1 where it carries axial force on the shaft towards +X, else -1.
+    force : ndarray, shape (3,)
+        Of the shaft on the bearing, N.
+    moment : ndarray, shape (2,)
+        About y and z through its centre, N m.
+    displacement : ndarray, shape (5,)
+        Of the inner ring against the outer in the bearing's own axes: m, rad.
+    stiffness : ndarray, shape (5, 5)
+        Of the bearing in its own axes.
+    ball_loads, contact_angles, pressures : ndarray, shape (2, balls)
+        N, rad, Pa at inner and outer race, in the bearing's own axes.
+    """
+
+    number: int
+    position: float
+    sign: int
+    force: NDArray[np.float64]
+    moment: NDArray[np.float64]
+    displacement: NDArray[np.float64]
+    stiffness: NDArray[np.float64]
+    ball_loads: NDArray[np.float64]
+    contact_angles: NDArray[np.float64]
+    pressures: NDArray[np.float64]
+
+    @property
+    def axial(self) -> float:
+        """Axial load that it carries, N; never negative but for rounding."""
+        return self.sign * float(self.force[0])
+
+    @property
+    def radial(self) -> float:
+        """Radial load that it carries, N."""
+        return math.hypot(float(self.force[1]), float(self.force[2]))
+
+    @property
+    def unloaded(self) -> int:
+        """How many balls the inner race does not touch."""
+        return int(np.sum(self.ball_loads[0] <= 0.0))
+
+
+@dataclass(frozen=True)
+class ShaftStatics:
+    """A set of bearings on one shaft at rest under a load, SI units.
+
+    Attributes
+    ----------
+    scene : Scene
+    load : ndarray, shape (5,)
+        On the shaft, moved to its nose, with weight: forces x y z (N), moments about y, z (N m).
+    displacement : ndarray, shape (5,)
+        Of the shaft at its nose against the housing: x y z (m), tilts about y, z (rad). Zero is where the
+        preloaded set stands at 20 degC and standstill; thermal growth counts from the nose.
+    bearings : tuple of BearingLoad
+    stiffness : ndarray, shape (5, 5)
+        Of the shaft at its nose: rows forces and moments, columns displacements and tilts.
+    lift_off : dict
+        By direction of an axial load alone, ``+x`` and ``-x``, the load that unloads the first bearing.
+    preloads : dict
+        Axial load (N) of each bearing without load: ``cold``, ``warm`` (standstill), ``running``.
+    spacing, neutral_spacing : float, optional
+        Distance (m) of both directions' bearings, and that at which warm inner rings and shaft leave the
+        preload as it is.
+    residual : float
+        Force out of balance, N.
+
+    Examples
+    --------
+    >>> from fmu_bearing import shaft_statics
+    >>> found = shaft_statics("examples/spindle_set/7003C-DB.toml")
+    >>> f"{1e-6 * found.axial_stiffness:.0f} N/um, neutral spacing {1e3 * found.neutral_spacing:.0f} mm"
+    '48 N/um, neutral spacing 63 mm'
+    """
+
+    scene: Scene
+    load: NDArray[np.float64]
+    displacement: NDArray[np.float64]
+    bearings: tuple[BearingLoad, ...]
+    stiffness: NDArray[np.float64]
+    lift_off: dict[str, LiftOff]
+    preloads: dict[str, list[float]]
+    spacing: float | None
+    neutral_spacing: float | None
+    residual: float
+
+    @property
+    def arrangement(self) -> str:
+        """What makers call the set."""
+        return set_of(self.scene).arrangement
+
+    @property
+    def axial_stiffness(self) -> float:
+        """Force along x per displacement, the rest held, N/m."""
+        return float(self.stiffness[0, 0])
+
+    @property
+    def radial_stiffness(self) -> float:
+        """Force along z per displacement, tilts held, N/m."""
+        return float(self.stiffness[2, 2])
+
+    @property
+    def tilt_stiffness(self) -> float:
+        """Moment about y per tilt, the shaft free to move along z, N m/rad."""
+        k = self.stiffness
+        return float(k[3, 3] - k[2, 3] * k[3, 2] / k[2, 2])
+
+    @property
+    def nose_stiffness(self) -> float:
+        """Force along z at the nose per displacement there, the shaft free, N/m; the shaft is rigid."""
+        return float(1.0 / np.linalg.inv(self.stiffness)[2, 2])
+
+    def table(self) -> list[dict[str, Any]]:
+        """Return a row per bearing, units in the names."""
+        return [
+            {
+                "bearing": one.number,
+                "position_mm": 1e3 * one.position,
+                "carries": "+x" if one.sign > 0 else "-x",
+                "axial_N": one.axial,
+                "force_y_N": float(one.force[1]),
+                "force_z_N": float(one.force[2]),
+                "moment_y_N_m": float(one.moment[0]),
+                "moment_z_N_m": float(one.moment[1]),
+                "ball_load_max_N": float(one.ball_loads.max()),
+                "balls_unloaded": one.unloaded,
+                "angle_inner_max_deg": math.degrees(float(one.contact_angles[0].max())),
+                "pressure_inner_GPa": 1e-9 * float(one.pressures[0].max()),
+                "pressure_outer_GPa": 1e-9 * float(one.pressures[1].max()),
+            }
+            for one in self.bearings
+        ]
+
+    def summary(self) -> dict[str, Any]:
+        """Return all figures by name, SI units but where a name ends in a unit, for machines."""
+        return {
+            "scene": self.scene.name,
+            "arrangement": self.arrangement,
+            "speed_rpm": self.scene.operation.speed_rpm,
+            "load": self.load.tolist(),
+            "displacement": self.displacement.tolist(),
+            "bearings": self.table(),
+            "stiffness": self.stiffness.tolist(),
+            "axial_stiffness_N_m": self.axial_stiffness,
+            "radial_stiffness_N_m": self.radial_stiffness,
+            "tilt_stiffness_N_m_rad": self.tilt_stiffness,
+            "nose_stiffness_N_m": self.nose_stiffness,
+            "lift_off": {
+                way: {"load_N": one.load, "bearing": one.bearing} for way, one in self.lift_off.items()
+            },
+            "preloads_N": self.preloads,
+            "spacing_m": self.spacing,
+            "neutral_spacing_m": self.neutral_spacing,
+            "residual_N": self.residual,
+            "cautions": self.cautions(),
+        }
+
+    def cautions(self) -> list[str]:
+        """Return what a designer should look at, one line each."""
+        found = []
+        for one in self.bearings:
+            if one.axial < _UNLOADED:
+                found.append(f"bearing {one.number} is unloaded: its balls skid at speed; raise the preload")
+            elif one.unloaded:
+                found.append(f"bearing {one.number}: {one.unloaded} of its balls carry nothing")
+        found.append("the shaft is rigid here: a real nose may be ten times softer")
+        return found
+
+
+_UNLOADED = 1e-3  # N
+
+
+def shaft_statics(
+    scene: SceneSource, force: Sequence[float] | None = None, at: float | None = None,
+    moment: Sequence[float] = (0.0, 0.0),
+) -> ShaftStatics:  # fmt: skip
+    """Return the equilibrium of a set of bearings on one rigid shaft, outer rings held or on springs.
+
+    Bearings are perfect, their rings rigid; speed and temperatures are the scene's.
+
+    Parameters
+    ----------
+    scene : Scene or path
+        With a table ``[spindle]``.
+    force : sequence of three floats, optional
+        Force x y z on the shaft (N); default: that of ``[spindle.load]``. Weight is added unless
+        ``fidelity.terms.gravity`` is false.
+    at : float, optional
+        Where it acts, m from the nose; default: as ``[spindle.load]`` has it.
+    moment : sequence of two floats
+        Moments about y and z on the shaft (N m).
+
+    Raises
+    ------
+    SceneError
+        If the scene cannot be read or has no set.
+    EngineError
+        Where there is no equilibrium; a ``ValueError``.
+
+    Examples
+    --------
+    >>> from fmu_bearing import shaft_statics
+    >>> found = shaft_statics("examples/spindle_set/7003C-DB.toml", force=(200.0, 0.0, -300.0), at=0.0)
+    >>> found.arrangement, [round(one.axial) for one in found.bearings]
+    ('DB (O)', [277, 77])
+    """
+    scene = scene_of(scene)
+    given = set_of(scene).load
+    if force is None:
+        force = (given.force_x_N, given.force_y_N, given.force_z_N)
+    x, y, z = (float(value) for value in force)
+    about_y, about_z = (float(value) for value in moment)
+    plane = 1e-3 * given.position_mm if at is None else float(at)
+    load = at_plane(plane, (x, y, z), (about_y, about_z)) + weight(scene)
+    if not np.all(np.isfinite(load)):
+        raise ValueError("force, place and moment must be finite numbers")
+    assembled = assembly(scene, shaft_speed(scene))
+    found = rest(assembled, load)
+    return ShaftStatics(
+        scene, load, found.shaft, _bearings(assembled.members, assembled.offsets, assembled.sliding, found),
+        found.stiffness, lift_off(assembled), preloads(assembled), spacing(assembled),
+        neutral_spacing(assembled), found.residual,
+    )  # fmt: skip
+
+
+def _bearings(
+    members: Sequence[Any], offsets: NDArray[np.float64], sliding: list[int], found: Rest
+) -> tuple[BearingLoad, ...]:
+    """Return the bearings of a set at rest, in shaft axes."""
+    bearings = []
+    for k, (one, held) in enumerate(zip(members, found.held, strict=True)):
+        own = one.transform @ found.shaft
+        own[0] += offsets[k] - (found.slides[sliding.index(k)] if k in sliding else 0.0)
+        mirror = np.array([one.sign, 1.0, 1.0, one.sign, one.sign])
+        on_bearing = -mirror * held.force
+        bearings.append(
+            BearingLoad(
+                k + 1,
+                one.position,
+                int(one.sign),
+                on_bearing[:3],
+                on_bearing[3:],
+                own,
+                held.stiffness,
+                held.loads,
+                held.angles,
+                held.pressures,
+            )  # fmt: skip
+        )
+    return tuple(bearings)

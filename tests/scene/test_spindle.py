@@ -1,0 +1,143 @@
+"""Scenes of sets: arrangements, what is refused, origins, and what cannot take a set yet."""
+
+import copy
+
+import pytest
+
+from fmu_bearing import (
+    Bearing,
+    build_fmu,
+    campbell,
+    changes,
+    modes,
+    operating_point,
+    read_scene,
+    record,
+    simulate,
+    sweep,
+)
+from fmu_bearing.prepare.model import prepare
+from fmu_bearing.scene import Scene, SceneError, read_scene_text
+from fmu_bearing.scene.origins import origins
+from tests.conftest import GATES, ROOT
+from tests.spindle.sets import scene, tables
+
+FILE = ROOT / "examples" / "spindle_set" / "7003C-DB.toml"
+
+
+def refused(data):
+    with pytest.raises(SceneError) as caught:
+        Scene.from_dict(data)
+    return [line.removeprefix("7003C-bare: ") for line in caught.value.problems]
+
+
+@pytest.mark.parametrize(
+    ("signs", "name"),
+    [
+        ("+-", "DB (O)"), ("-+", "DF (X)"), ("++-", "TBT (O)"), ("--+", "TFT (X)"), ("++--", "QBC (O)"),
+        ("--++", "QFC (X)"), ("+++-", "QBT (O)"), ("+-+-", "+-+-"),
+    ],
+)  # fmt: skip
+def test_arrangements_have_their_names(signs, name):
+    found = scene(signs, range(20, 20 + 20 * len(signs), 20))
+    assert found.spindle.arrangement == name
+
+
+def test_a_file_reads_back_what_it_means():
+    found = read_scene(FILE)
+    assert found.mounting is None and found.spindle.directions == "+-"
+    assert found.spindle.shaft.length_mm == 160.0
+    again = read_scene_text(found.to_toml())
+    assert again == found
+    assert found.replace(
+        {"spindle.bearing[2].carries": "+x", "spindle.preload": None}
+    ).spindle.arrangement == ("DT")
+    steel = found.replace({"spindle.shaft.material": "Si3N4"}).spindle.shaft.material
+    assert steel.expansion_1e6_K == 3.2
+
+
+def test_origins_name_the_material_of_the_shaft():
+    known = {one.key: one for one in origins(FILE)}
+    assert known["spindle.shaft.material.expansion_1e6_K"].origin == "catalogue GCr15"
+    assert known["spindle.bearing[2].position_mm"].origin == "file"
+    assert known["spindle.bearing[2].stickout_um"].origin == "default"
+    assert known["spindle.shaft.sections_mm"].allowed == "1 to 40 lists [length, diameter, bore], mm"
+    assert known["spindle.shaft.temperature_degC"].assumed
+
+
+def changed(path, value, **arguments):
+    data = copy.deepcopy(tables(**arguments))
+    *steps, last = path
+    part = data
+    for step in steps:
+        part = part[step]
+    if value is None:
+        del part[last]
+    else:
+        part[last] = value
+    return data
+
+
+@pytest.mark.parametrize(
+    ("data", "message"),
+    [
+        (changed(("spindle", "bearing", 1, "carries"), "+x"), "has nothing to act against: all carry +x"),
+        (tables("++", (40, 60), None), "nothing holds the shaft the other way: turn one to carries = \"-x\""),
+        (tables("--", (40, 60), None, load={"force_x_N": 5.0}), "load.force_x_N < 0"),
+        (tables(positions=(40.0, 45.0)), "is 5 mm behind the bearing before it; each is 10 mm wide"),
+        (tables(positions=(70.0, 40.0)), "bearings are given from the nose to the rear"),
+        (tables(positions=(40.0, 500.0)), "is beyond the shaft's end at 400 mm"),
+        (changed(("spindle", "bearing", 0, "seat"), "sliding"), "a sliding seat needs a spring"),
+        (
+            changed(("spindle", "preload"), {"kind": "spring", "force_N": 5.0}),
+            "a spring needs a ring that it pushes",
+        ),
+        (changed(("spindle", "preload"), {"kind": "spring", "preload_N": 5.0}), "force_N is missing"),
+        (changed(("spindle", "preload"), {"force_N": 5.0}), "force_N = 5.0 is not read with kind"),
+        (
+            changed(("spindle", "bearing", 0, "stickout_um"), 900.0),
+            "spindle.bearing[1].stickout_um = 900.0 is refused; allowed: -200 to 200 um",
+        ),
+        (
+            changed(("spindle", "shaft", "sections_mm"), [[10.0, 20.0]]),
+            "allowed: 1 to 40 lists [length, diameter, bore], mm",
+        ),
+        (
+            changed(("spindle", "shaft", "sections_mm"), [[99.0, 20.0, 20.0]]),
+            "section 1 has a bore of 20 mm in a diameter of 20",
+        ),
+        (changed(("spindle", "shaft", "material"), "Steal"), "shaft.material = 'Steal' is not in the"),
+        (changed(("spindle", "shaft", "flexible"), True), "spindle.shaft.flexible is not a key of a scene"),
+        (changed(("operation", "required_life_h"), 5e3), "required_life_h = 5000.0 is not read with"),
+        (changed(("fmu",), {}), "fmu: is of no use with [spindle]"),
+        (changed(("mounting",), {}), "mounting: stands beside [spindle]"),
+        (changed(("spindle",), None), "mounting is missing: the table [mounting]"),
+    ],
+)  # fmt: skip
+def test_what_does_not_fit_is_refused_with_the_way_out(data, message):
+    lines = refused(data)
+    assert any(message in line for line in lines), lines
+
+
+@pytest.mark.parametrize(
+    "use",
+    [
+        prepare, Bearing, operating_point, modes, campbell,
+        lambda s: simulate(s, 1e-3), lambda s: record(s, 1e-3), lambda s: build_fmu(s, "never.fmu"),
+        changes, lambda s: sweep(s, {"operation.speed_rpm": [1e3, 2e3]}),
+    ],
+)  # fmt: skip
+def test_what_cannot_take_a_set_says_so_in_one_sentence(use, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(
+        SceneError,
+        match=r"^7003C-DB: \[spindle\] is a set of bearings, of which only the statics are computed so far",
+    ):
+        use(read_scene(FILE))
+
+
+def test_a_mounted_scene_is_no_set():
+    from fmu_bearing import shaft_statics
+
+    with pytest.raises(SceneError, match=r"a set of bearings needs \[spindle\] in the place of \[mounting\]"):
+        shaft_statics(GATES / "7003C-bare.toml")

@@ -281,7 +281,7 @@ def stiffness(
         if name in fixed:
             raise ValueError(f"{name} is an axis of the table: give {instead}")
     rpm = _axis("speeds", "r/min", speeds, [scene.operation.speed_rpm])
-    loads = _axis("preloads", "N", preloads, [scene.mounting.preload_N])
+    loads = _axis("preloads", "N", preloads, [scene.mounted.preload_N])
     low, high = limits(Operation.model_fields["speed_rpm"])
     if rpm[0] < low or rpm[-1] > high:
         raise ValueError(f"speeds are refused: allowed are {allowed(('operation', 'speed_rpm'))}")

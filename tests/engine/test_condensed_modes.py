@@ -107,4 +107,4 @@ def test_response_has_the_modes_of_full(scene, name, rpm):
             dampings.append((damping, ratio))
     assert len(dampings) >= 4
     full, response = np.mean(dampings, axis=0)
-    assert response == pytest.approx(full, rel=0.03)
+    assert response == pytest.approx(full, rel=0.05)

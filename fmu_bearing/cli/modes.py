@@ -107,6 +107,8 @@ def changed(scene: "Scene", settings: list[str] | None) -> tuple["Scene", dict[s
     ValueError
         For text that is no setting, an unknown key, and a value that is refused.
     """
+    from fmu_bearing.sweeps.axes import plain_value
+
     keys: dict[str, Any] = {}
     inputs: dict[str, float] = {}
     for setting in settings or ():
@@ -119,20 +121,8 @@ def changed(scene: "Scene", settings: list[str] | None) -> tuple["Scene", dict[s
             except ValueError:
                 raise Refusal(f"--set {setting}: {name} is a number in SI units") from None
         else:
-            keys[name] = _value(text)
+            keys[name] = plain_value(text.strip("\"'"))
     return (scene.replace(keys) if keys else scene), inputs
-
-
-def _value(text: str) -> Any:
-    """Return a value of a scene as TOML has it; what is no number and no truth value is text."""
-    if text in ("true", "false"):
-        return text == "true"
-    for kind in (int, float):
-        try:
-            return kind(text)
-        except ValueError:
-            continue
-    return text.strip("\"'")
 
 
 def _show(found: "Modes", highest: float, words: str) -> None:

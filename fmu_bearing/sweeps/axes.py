@@ -84,7 +84,7 @@ def parse_values(key: str, text: str) -> list[Any]:
     if match is None:
         if ":" in text:
             raise SweepError(f"axis {key} = '{text}' is refused: write {_SYNTAX}")
-        return [_value(part.strip()) for part in text.split(",")]
+        return [plain_value(part.strip()) for part in text.split(",")]
     try:
         low, high, count = float(match[1]), float(match[2]), int(match[3])
     except ValueError:
@@ -161,7 +161,7 @@ def _listed(key: str, values: Sequence[Any] | str, present: Any) -> list[Any]:
     return plain
 
 
-def _value(text: str) -> Any:
+def plain_value(text: str) -> Any:
     """Return a number, a truth value or the text itself."""
     if text in ("true", "false"):
         return text == "true"

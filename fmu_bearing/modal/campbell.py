@@ -15,7 +15,7 @@ from fmu_bearing.engine.constants import RPM
 from fmu_bearing.modal.conditions import given
 from fmu_bearing.modal.linearised import linearised
 from fmu_bearing.modal.lines import Line, Rates, lines, rates
-from fmu_bearing.modal.modes import MARGIN, MOVES, Mode, Modes, like, solved
+from fmu_bearing.modal.modes import MARGIN, MOVES, UNSTEADY, Mode, Modes, like, solved
 from fmu_bearing.modal.picture import campbell_picture
 from fmu_bearing.modal.shapes import NEITHER
 from fmu_bearing.progress import Tell, silent
@@ -199,6 +199,9 @@ class Campbell:
                     f"instability margin: '{branch.label}' {word} at {branch.rpm[least]:,.0f} r/min "
                     f"({branch.frequency[least]:.0f} Hz, damping ratio {branch.damping[least]:.4f})"
                 )
+        found += [
+            f"{point.rpm:,.0f} r/min: {UNSTEADY}" for point in self.points if not point.linearised.steady
+        ]
         return found + [f"{rpm:,.0f} r/min is left out: {why}" for rpm, why in self.skipped]
 
     def picture(self) -> "Figure":

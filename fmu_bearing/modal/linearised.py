@@ -52,6 +52,8 @@ class Linearised:
         rad/s, of the shaft.
     arrays : Arrays
         Parameters, conditions and state at the first phase.
+    steady : bool
+        Whether the steady state was found; else all holds for the engine's quasi-static one.
     """
 
     coordinates: Coordinates
@@ -61,6 +63,7 @@ class Linearised:
     spin: float
     speed: float
     arrays: Arrays
+    steady: bool
 
     @cached_property
     def equal_loads(self) -> bool:
@@ -88,11 +91,16 @@ def linearised(scene: Scene, inputs: dict[int, float] | None = None, friction: b
     # whatever a run takes
     full = with_fidelity(scene, model="full")
     bare = full.model_copy(update={"sound": None, "imperfections": None})
-    first = _bearing(bare, inputs, 0.0, friction)
+    numbers = Arrays.of(bare, CAGE=0.0).p
+    first, steady = _bearing(bare, numbers, inputs, 0.0, friction)
     even = _even(first)
     count = 1 if even else PHASES
     pitch = 2.0 * math.pi / first.p[P.BALLS]
-    bearings = [first] + [_bearing(bare, inputs, pitch * k / count, friction) for k in range(1, count)]
+    bearings = [first]
+    for k in range(1, count):
+        one, found = _bearing(bare, numbers, inputs, pitch * k / count, friction)
+        bearings.append(one)
+        steady = steady and found
     coordinates = Coordinates.of(first.p)
     orbit = float(np.mean([_mean(one, Y.OM) for one in bearings]))
     matrices = np.array(
@@ -101,15 +109,17 @@ def linearised(scene: Scene, inputs: dict[int, float] | None = None, friction: b
     # about its own axis, against the axes that orbit with the ball
     spin = math.hypot(_mean(first, Y.WX) - orbit, _mean(first, Y.WR))
     speed = float(first.u[U.SPEED])
-    return Linearised(coordinates, matrices.mean(axis=0), matrices, orbit, spin, speed, first)
+    return Linearised(coordinates, matrices.mean(axis=0), matrices, orbit, spin, speed, first, steady)
 
 
-def _bearing(scene: Scene, inputs: dict[int, float] | None, phase: float, friction: bool) -> Arrays:
-    """Return the bearing at its quasi-static state with the balls turned on by ``phase`` (rad).
+def _bearing(
+    scene: Scene, numbers: NDArray[np.float64], inputs: dict[int, float] | None, phase: float, friction: bool
+) -> tuple[Arrays, bool]:  # fmt: skip
+    """Return the bearing with the balls turned on by ``phase`` (rad), and whether its state is steady.
 
-    Its axes turn with the balls: the first one stays at 12 o'clock, loads and seats turn back.
+    Its axes turn with the balls: the first one stays at 12 o'clock, loads and seats turn back. ``numbers``:
+    its parameters without cage, nothing turned.
     """
-    numbers = Arrays.of(scene, CAGE=0.0).p
     turned: dict[str, Any] = {"CAGE": 0.0, "GRAVITY": 0.0} | _turned_seat(numbers, phase)
     if not friction:
         turned |= {"MU": 0.0}
@@ -123,9 +133,8 @@ def _bearing(scene: Scene, inputs: dict[int, float] | None, phase: float, fricti
         bearing.init()
     except Refused as refusal:
         raise EngineError(f"{scene.name}: {refusal}") from None
-    if friction:  # without it nothing says how fast balls spin
-        settle(bearing)
-    return bearing
+    # without friction nothing says how fast balls spin
+    return bearing, settle(bearing) if friction else True
 
 
 def _turn_back(y: float, z: float, phase: float) -> tuple[float, float]:

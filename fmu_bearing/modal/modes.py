@@ -18,11 +18,15 @@ from fmu_bearing.scene import Scene, SceneSource, scene_of
 
 SLOW = 1.0  # rad/s: slower in the axes in which it stands, a motion is neutral
 DAMPED = 0.5  # damping ratio beyond which a motion does not ring
-MARGIN = 0.002  # damping ratio below which a mode is near the limit of stability
+MARGIN = 0.002  # damping ratio below which a mode is named as near the limit of stability (chosen)
+UNSTEADY = (
+    "no steady state was found: balls drift from the quasi-static state that these numbers hold for; give "
+    "more preload or less speed"
+)
 MOVES = 0.05  # of the kinetic energy: with less of it in the rings, a motion is one of the balls alone
 SPREAD = 0.01  # of the frequency over one ball pitch, beyond which it is told
 _NEUTRAL = 0.02  # of the orbit: the balls' spins turn over so slowly at high speed
-_STICKING = 1e-3  # of a revolution per second: slower, contacts stick
+STICKING = 1e-3  # of a revolution per second: slower, contacts stick
 
 
 @dataclass(frozen=True)
@@ -92,7 +96,6 @@ class Modes:
     Attributes
     ----------
     scene : Scene
-        With the operating point in its keys where it was given by speed.
     rpm : float
         Speed (r/min).
     modes : tuple of Mode
@@ -124,6 +127,8 @@ class Modes:
         """Return the mode nearest to a frequency (Hz), by ratio."""
         if not (math.isfinite(frequency) and frequency > 0.0):
             raise ValueError(f"frequency = {frequency} Hz is refused: give a positive number of hertz")
+        if not self.modes:
+            raise ValueError(f"{self.scene.name}: nothing rings at {self.rpm:,.0f} r/min; see `apart`")
         return min(self.modes, key=lambda mode: abs(math.log(mode.frequency / frequency)))
 
     def shape(self, mode: Mode | int) -> Shape:
@@ -150,6 +155,8 @@ class Modes:
     def cautions(self) -> list[str]:
         """Return what limits these modes, in sentences."""
         found = [_weak_words(mode) for mode in self.weak()] if self.friction else []
+        if not self.linearised.steady:
+            found.append(UNSTEADY)
         of_rings = [mode for mode in self.modes if mode.ring_share > MOVES]
         spread = max((mode.spread for mode in of_rings), default=0.0)
         if spread > SPREAD:
@@ -158,7 +165,7 @@ class Modes:
                 f"loads differ from ball to ball: '{worst.label}' moves by {100 * spread:.1f} % of its "
                 "frequency while one ball pitch passes, so lines stand beside it; frequencies are means"
             )
-        if self.friction and abs(self.rpm) < 60.0 * _STICKING:
+        if self.friction and abs(self.rpm) < 60.0 * STICKING:
             found.append(
                 "the shaft stands still, so contacts stick; once they slide, modes are those without friction"
             )
@@ -198,7 +205,7 @@ class Modes:
 def modes(scene: SceneSource, inputs: Mapping[str, float] | None = None, *, friction: bool = True) -> Modes:
     """Return the natural motions of a scene's mounted bearing, without a run.
 
-    Fidelity `full` linearised about its quasi-static state: rings with rotor and housing on their supports,
+    Fidelity `full` linearised about its steady state: rings with rotor and housing on their supports,
     every ball with its place, orbit and spin, rings that bend where the scene says so. Cage, imperfections
     and sound are left out.
 

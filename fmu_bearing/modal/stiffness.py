@@ -64,6 +64,8 @@ class Stiffness:
     spread : ndarray, shape (speed, preload)
         Largest distance of a single phase of a ball pitch from the mean, on the diagonal of K and C w, over
         K, at the lowest and the highest frequency; 0 for equal ball loads.
+    steady : ndarray of bool, shape (speed, preload)
+        Whether the steady state was found; else the entries hold for the engine's quasi-static one.
     spacing : str
         ``held``: balls keep their distances along the orbit, as in a cage; ``free``: they do not.
 
@@ -85,6 +87,7 @@ class Stiffness:
     own: NDArray[np.float64]
     orbit: NDArray[np.float64]
     spread: NDArray[np.float64]
+    steady: NDArray[np.bool_]
     spacing: Spacing = "held"
 
     @property
@@ -288,7 +291,7 @@ def stiffness(
     hertz = _axis("frequencies", "Hz", frequencies, FREQUENCIES)
     if hertz[0] <= 0.0:
         raise ValueError(f"frequencies: {hertz[0]:g} Hz is refused: damping needs frequencies above 0")
-    full = scene.replace({"fidelity.model": "full"})
+    full = with_fidelity(scene, model="full")
     rigid = full.model_copy(update={"sound": None, "imperfections": None}).with_rigid_rings()
 
     def point(speed: float, load: float) -> dict[int, float]:
@@ -298,7 +301,7 @@ def stiffness(
     shape = (len(rpm), len(loads))
     z = np.empty((*shape, len(hertz), len(FREEDOMS), len(FREEDOMS)), dtype=complex)
     static = np.empty((*shape, len(FREEDOMS), len(FREEDOMS)))
-    orbit, spread = np.empty(shape), np.zeros(shape)
+    orbit, spread, steady = np.empty(shape), np.zeros(shape), np.ones(shape, dtype=bool)
     w = 2.0 * math.pi * hertz
     for i, speed in enumerate(track(list(rpm)) if track else rpm):
         for k, load in enumerate(loads):
@@ -306,6 +309,7 @@ def stiffness(
             ready = spaced if spacing == "held" else _as_it_is
             z[i, k] = impedance(system, ready(system, system.matrix), w)
             static[i, k] = _static(rigid, points[speed, load])
+            steady[i, k] = system.steady
             orbit[i, k] = abs(system.orbit) / (2.0 * math.pi)
             ends = w[[0, -1]]
             for matrix in () if system.equal_loads else system.phases:
@@ -313,7 +317,7 @@ def stiffness(
                 spread[i, k] = max(spread[i, k], _apart(other, z[i, k][[0, -1]]))
     own = np.array([_static(rigid, point(scene.operation.speed_rpm, load)) for load in loads])
     damping = z.imag / w[:, None, None]
-    return Stiffness(scene, rpm, loads, hertz, z.real, damping, static, own, orbit, spread, spacing)
+    return Stiffness(scene, rpm, loads, hertz, z.real, damping, static, own, orbit, spread, steady, spacing)
 
 
 def _as_it_is(_system: Linearised, matrix: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -346,7 +350,7 @@ def _with_force(scene: Scene, values: dict[int, float]) -> Linearised:
 
 def _static(rigid: Scene, values: dict[int, float]) -> NDArray[np.float64]:
     """Return the stiffness at the quasi-static state of a scene with rigid rings."""
-    arrays = Arrays.of(with_fidelity(rigid, model="full"))
+    arrays = Arrays.of(rigid)
     for place, value in values.items():
         arrays.u[place] = value
     try:

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu_bearing.modal.modes import SPREAD, STICKING, UNSTEADY
+
 if TYPE_CHECKING:
     from fmu_bearing.modal.stiffness import Stiffness
 
-_STICKING = 1e-3  # turns per second: slower, contacts stick, as for `modes`
-_SPREAD = 0.01  # over one ball pitch, beyond which it is told
 _NEAR = 0.2  # of the orbit's frequency: nearer to it, free balls that bunch are seen
 _APART = 0.03  # of the stiffness: the quasi-static matrix is then no substitute
 _ROUNDING = 1e-9  # of the stiffness: a loss below it is none
@@ -19,19 +19,21 @@ _ROUNDING = 1e-9  # of the stiffness: a loss below it is none
 def limits_of(found: "Stiffness") -> Iterator[str]:
     """Yield what limits a table, in sentences."""
     largest = float(found.spread.max())
-    if largest > _SPREAD:
+    if largest > SPREAD:
         yield (
             f"single phases of a ball pitch differ by up to {100.0 * largest:.1f} % from these means: the "
             "balls' loads are unequal, and a rotor sees stiffness that changes as they pass"
         )
     if found.preloads[0] == 0.0:
         yield "0 N: nothing holds balls and races together: K and C are those of loose balls and mean little"
-    slow = found.speeds[np.abs(found.speeds) / 60.0 < _STICKING]
+    slow = found.speeds[np.abs(found.speeds) / 60.0 < STICKING]
     if slow.size:
         yield (
             f"{slow[0]:g} r/min: contacts that do not roll stick below 1 mm/s: damping holds for motions "
             "slower than that only"
         )
+    for i, k in np.argwhere(~found.steady)[:1]:
+        yield f"{found.speeds[i]:g} r/min, {found.preloads[k]:g} N: {UNSTEADY}"
     yield from _whirl(found)
     if found.spacing == "free":
         ratio = found.frequencies / found.orbit[:, :, None]

@@ -67,7 +67,8 @@ def rest(
     system = _System(assembled, load, inputs)
     z = system.start()
     force, matrix, held = system.at(z)
-    limit = 1e-8 + 1e-10 * (system.size(load) + sum(abs(one.force[0]) for one in held))
+    total = system.size(load) + sum(abs(one.force[0]) for one in held)
+    limit = 1e-8 + 1e-10 * total
     damping = _FLOOR
     for _ in range(_ITERATIONS):
         size = system.size(force)
@@ -89,7 +90,7 @@ def rest(
         z = z + share * step
         force, matrix, held = trial
     size = system.size(force)
-    if not size <= 1e-6 * (1.0 + limit / 1e-10):
+    if not size <= 1e-6 * (100.0 + total):
         name, around = assembled.scene.name, 1e6 * z[0]
         raise EngineError(
             f"{name}: no equilibrium of the shaft was found, {size:.3g} N stay out of balance with its nose "
@@ -97,7 +98,7 @@ def rest(
             "bearings have lost their preload"
         )
     for number, one in enumerate(held, start=1):
-        if one.force[0] > limit / 1e-10 * 1e-6:
+        if one.force[0] > 1e-6 * (100.0 + total):
             raise EngineError(
                 f"{assembled.scene.name}: bearing {number} would have to carry {one.force[0]:.4g} N against "
                 "its direction, on the side of its races without shoulder: the load pushes the shaft the way "

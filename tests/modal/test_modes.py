@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from fmu_bearing import modes
+from fmu_bearing.engine.layout import P
 from fmu_bearing.instance import EngineError
 
 RPM = np.pi / 30.0
@@ -51,11 +52,9 @@ def test_springs_between_balls_give_the_chain(gate):
     """(1/pi) sqrt(k/m) sin(pi j/N) from the closed form; contacts and rings move them by a few per cent."""
     scene = gate("7003C-impact")
     found = modes(scene, {"shaft_speed": 10_000 * RPM})
-    spring, mass = 2.5e7, found.linearised.arrays.p
-    from fmu_bearing.engine.layout import P
-
-    assert mass[P.SPRINGS] == spring
-    chain = np.sqrt(spring / mass[P.BALL_MASS]) * np.sin(np.pi * np.arange(2, 7) / 12) / np.pi
+    spring, p = 2.5e7, found.linearised.arrays.p
+    assert p[P.SPRINGS] == spring
+    chain = np.sqrt(spring / p[P.BALL_MASS]) * np.sin(np.pi * np.arange(2, 7) / 12) / np.pi
     orbits = [mode for mode in found.modes if mode.name.startswith("ball orbit")]
     for j, hertz in zip(range(2, 7), chain, strict=True):
         own = [mode.orbiting.imag / (2.0 * np.pi) for mode in orbits if mode.order == j]

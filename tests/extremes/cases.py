@@ -140,7 +140,8 @@ CASES = [
         start={"rpm": 2e4},
         legs=((1e-3, {}, 1e-4), (2e-3, {"preload": 0.0}, 1e-4), (2e-3, {"preload": 500.0}, 1e-4)),
         per_ms=1000.0,
-        # balls come loose; whether rings ends is chance: at other speeds within 10 r/min it may
+        # Balls come loose. Rings refuses at all of eleven speeds within 10 r/min; before the balls had
+        # inertia of their own it refused at one of them.
         refused={RINGS: Refusal(UNSOLVED, legs=1)},
     ),
     *_both("preload 10 kN", start={"rpm": 2e4, "preload": 1e4}),

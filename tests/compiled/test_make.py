@@ -223,7 +223,7 @@ def test_the_lean_way_computes_the_plain_ways_bits():
 @pytest.mark.heavy
 @pytest.mark.skipif(not lean(make.version("numba")), reason="this Numba is compiled with the plain way only")
 def test_a_run_has_the_same_bits_both_ways(tmp_path):
-    """Fidelity full on rigid and on bending rings; the plain way takes 4 minutes of a processor."""
+    """Fidelity full on rigid and on bending rings; the plain way takes 5 minutes of a processor."""
     suffix = instruction_set(own())
     units = ("init", "step")
     lean_objects = make.objects(own(), units, [suffix])

@@ -1,10 +1,11 @@
-"""Elastic rings: which flexural modes a ring of the scene has, from its meridian section.
+"""Elastic rings, and the shaft of a set: flexural modes of a ring from its section, matrices of a shaft.
 
 ==============  ======================================================================
 ``section``     meridian section of a ring, groove included, and its mesh
 ``fourier``     the solid of revolution for one circumferential harmonic: matrices, modes
 ``modes``       the modes a scene asks for, as motion and sound need them; free modes
 ``assembly``    modes of a whole bearing whose balls stick or slide: contact conditions C1 to C4
+``shaft``       the shaft of a set of bearings: its matrices and how its planes move
 ==============  ======================================================================
 
 Data flow: scene -> section -> mesh -> matrices (once per ring) -> modes of each order -> ``RingMode``.

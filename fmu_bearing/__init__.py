@@ -49,10 +49,13 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from fmu_bearing.accuracy.changes import changes
     from fmu_bearing.design.operating_point import operating_point
+    from fmu_bearing.design.set_points import operating_points
+    from fmu_bearing.design.set_stiffness import set_stiffness
     from fmu_bearing.design.verdicts import verdicts
     from fmu_bearing.identification import identify
     from fmu_bearing.modal.campbell import Campbell, campbell
-    from fmu_bearing.modal.modes import Modes, modes
+    from fmu_bearing.modal.modes import Modes
+    from fmu_bearing.modal.points import modes
     from fmu_bearing.recording import audio, measure, pictures, tables
     from fmu_bearing.recording.compare import compare
     from fmu_bearing.recording.record import Recording, record
@@ -86,12 +89,14 @@ _PLACES = {
     "compare": "recording.compare",
     "identify": "identification",
     "measure": "recording",
-    "modes": "modal.modes",
+    "modes": "modal.points",
     "operating_point": "design.operating_point",
+    "operating_points": "design.set_points",
     "pictures": "recording",
     "read_scene": "scene",
     "record": "recording.record",
     "report": "reports",
+    "set_stiffness": "design.set_stiffness",
     "shaft_statics": "spindle.statics",
     "simulate": "run.simulate",
     "spread": "recording.spread",
@@ -120,10 +125,12 @@ __all__ = [
     "measure",
     "modes",
     "operating_point",
+    "operating_points",
     "pictures",
     "read_scene",
     "record",
     "report",
+    "set_stiffness",
     "shaft_statics",
     "simulate",
     "spread",

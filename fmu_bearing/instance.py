@@ -1,4 +1,4 @@
-"""One running bearing: the model's numbers, its state, and access by name.
+"""One running bearing, or set of bearings: the model's numbers, its state, and access by name.
 
 The same object serves the library and the FMU, so that both give the same bits.
 """
@@ -6,18 +6,30 @@ The same object serves the library and the FMU, so that both give the same bits.
 import math
 import warnings
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing import renamed
-from fmu_bearing.compiled import Calls
+from fmu_bearing.compiled import Calls, call
 from fmu_bearing.engine.choices import FIDELITIES
-from fmu_bearing.engine.layout import P, S, U, W, Z
-from fmu_bearing.engine.status import BAD_INPUT, BAD_STEP, NO_START, NOT_CONVERGED, OK, RIGID_ONLY, TOO_SOFT
+from fmu_bearing.engine.layout import SP, P, S, U, Z
+from fmu_bearing.engine.status import (
+    BAD_INPUT,
+    BAD_STEP,
+    NO_START,
+    NOT_CONVERGED,
+    OK,
+    OTHER_FIDELITY,
+    RIGID_ONLY,
+    TOO_SOFT,
+)
 from fmu_bearing.interface import Variable
+from fmu_bearing.interface.set_inputs import led_inputs
+from fmu_bearing.interface.set_outputs import first_output
 from fmu_bearing.prepare.model import Model
+from fmu_bearing.scene import Scene
 
 #: Messages for the status codes of the engine.
 REASONS = {
@@ -28,8 +40,17 @@ REASONS = {
     NO_START: "no quasi-static equilibrium was found for the initial inputs; "
     "give more preload or less radial load",
     RIGID_ONLY: "its rings bend, which needs fidelity full",
+    OTHER_FIDELITY: "fidelity response is not computed for sets of bearings, and a set whose rings stand on "
+    "pedestals of their own keeps the fidelity of its scene",
     TOO_SOFT: "the loads push the outer ring sideways by more than 0.3 of the pitch radius; "
     "give a stiffer pedestal or less radial load",
+}
+# of a set these words differ: loads are those on its shaft
+_OF_SETS = {
+    NO_START: "no quasi-static equilibrium was found for the initial inputs; "
+    "give more preload or less load on the shaft",
+    TOO_SOFT: "the loads push an outer ring or the housing sideways by more than 0.3 of the pitch radius; "
+    "give a stiffer pedestal or less load on the shaft",
 }
 
 
@@ -80,7 +101,16 @@ _WAVES = Caution(
     " us, which internal steps have to follow: its frequency lies above 17 kHz; for speed give a lower "
     "imperfections.highest_order or highest_frequency_kHz, or one scene for low and one for high speeds",
 )
-_ALWAYS = (_shoulder("inner", "outer"), _shoulder("outer", "inner"), _WAVES)
+_SHOULDERS = (_shoulder("inner", "outer"), _shoulder("outer", "inner"))
+_ALWAYS = (*_SHOULDERS, _WAVES)
+_UNLOADED = Caution(
+    Z.BEARING_OUTPUTS.index("contact.inner.load_mean"),
+    1.0,  # N, assumed: at speed balls are thrown outwards and their load goes to zero only by and by
+    1.0,
+    "its inner race carries ",
+    " N per ball: the bearing is unloaded; loose balls skid or lift off, and what they then do depends on "
+    "gravity and chance more than on the bearing; give more preload or less load",
+)
 _LOOSE = "preload = 0 N: no axial force holds balls and races together: loose balls skid or lift off; "
 _ROLLS = {
     "full": "what they then do depends on gravity, loads and chance more than on the bearing",
@@ -122,11 +152,33 @@ def loose(fidelity: str) -> str:
     return f"{words}; give a preload (mounting.preload_N, input preload), or expect no more than a trend"
 
 
-def cautions(fidelity: str) -> tuple[Caution, ...]:
+def reasons(model: Model) -> dict[int, str]:
+    """Return what the status codes of the engine mean for a model."""
+    return REASONS if model.scene.spindle is None else REASONS | _OF_SETS
+
+
+def cautions(model: Model) -> tuple[Caution, ...]:
     """Return the warnings checked after initialisation and after each step, each given once."""
-    before, nothing, after = loose(fidelity).partition("0")
+    if model.scene.spindle is not None:
+        return _cautions_of_set(model.scene)
+    before, nothing, after = loose(FIDELITIES[int(model.parameters[P.FIDELITY])]).partition("0")
     smallest = math.ulp(float(nothing))
     return (Caution(U.PRELOAD, smallest, 1.0, before, after, decimals=0, array="u"), *_ALWAYS)
+
+
+def _cautions_of_set(scene: Scene) -> tuple[Caution, ...]:
+    """Return the warnings about a set: of each bearing its shoulders and that it is unloaded."""
+    assert scene.spindle is not None
+    count = len(scene.spindle.bearing)
+    # one for all: their waves have the same orders
+    waves = first_output(scene, count) + SP.Z_WAVE_TIME
+    found = [replace(_WAVES, index=waves)]
+    for b in range(count):
+        begin = f"bearing {b + 1}: "
+        for one in (_UNLOADED, *_SHOULDERS):
+            place = first_output(scene, b) + one.index
+            found.append(replace(one, index=place, before=begin + one.before))
+    return tuple(found)
 
 
 class EngineError(ValueError):
@@ -156,24 +208,21 @@ class Instance:
         self.model = model
         self.tell = tell or (lambda text: warnings.warn(text, stacklevel=4))
         self.by_name = {variable.name: variable for variable in model.variables}
-        self._cautions = cautions(FIDELITIES[int(model.parameters[P.FIDELITY])])
+        self._cautions, self._reasons = cautions(model), reasons(model)
         self.reset()
 
     def reset(self) -> None:
         """Back to the state of a fresh instance."""
         model = self.model
         self.p: NDArray[np.float64] = model.parameters.copy()
-        self.u: NDArray[np.float64] = np.zeros(len(U.INPUTS))
-        sizes = (model.n_balls, model.n_mics, model.n_bands, model.n_modes)
-        self.z: NDArray[np.float64] = np.zeros(Z.size(*sizes))
-        self.s: NDArray[np.float64] = np.zeros(S.size(self.p))
-        self._calls = Calls(self.p, self.u, self.s, self.z, np.zeros(W.size(self.p)))
+        sizes = model.lengths
+        self.u: NDArray[np.float64] = model.inputs
+        self.z: NDArray[np.float64] = np.zeros(sizes.outputs)
+        self.s: NDArray[np.float64] = np.zeros(sizes.state)
+        self._calls = Calls(self.p, self.u, self.s, self.z, np.zeros(sizes.work))
         self._kept = self.s.copy()
         self.initialised = False
         self._due = self._cautions
-        for variable in model.variables:
-            if variable.array == "u" and variable.start is not None:
-                self.u[variable.index] = variable.start
 
     @property
     def time(self) -> float:
@@ -216,7 +265,7 @@ class Instance:
         """Put the bearing into its quasi-static state at the inputs; ``EngineError`` if there is none."""
         status = self._calls.init(float(time))
         if status != OK:
-            raise EngineError(f"initialisation at t = {time} s: {REASONS[status]}; {self._inputs()}")
+            raise EngineError(f"initialisation at t = {time} s: {self._reasons[status]}; {self._inputs()}")
         self.initialised = True
         self._due = self._cautions
         self._warn()
@@ -243,11 +292,41 @@ class Instance:
             reached = self.time
             self.s[:] = self._kept
             raise EngineError(
-                f"step of {h} s from t = {self.time:.9g} s (reached {reached:.9g} s): {REASONS[status]}; "
-                f"{self._inputs()}"
+                f"step of {h} s from t = {self.time:.9g} s (reached {reached:.9g} s): "
+                f"{self._reasons[status]}; {self._inputs()}"
             )
         self._warn()
 
+    def port_derivatives(self, h: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return how force and moment at the end of a step of ``h`` (s) change with the shaft's motion there.
+
+        For bearings on another model's shaft (``spindle.shaft.external``), at the present state, which stays
+        as it is: changes of ``port.force.*`` and ``port.moment.*`` (rows) with ``port.displacement.*`` and
+        ``port.tilt.*``, then with their rates, shape (5, 5) each, SI units.
+
+        Raises
+        ------
+        EngineError
+            Before initialisation, and without a port.
+        """
+        places = led_inputs(self.model.scene)
+        if not places or not self.initialised:
+            why = "the bearings must be initialised" if places else "no other model owns the shaft"
+            raise EngineError(f"there are no derivatives at a port: {why}")
+        lengths = self.model.lengths
+        first = first_output(self.model.scene, len(self.model.scene.spindle.bearing)) + SP.Z_PORT  # type: ignore[union-attr]
+        columns = []
+        for place in places:
+            change = np.zeros(self.u.size)
+            change[place] = 1.0
+            z, work = np.zeros(lengths.outputs), np.zeros(lengths.work)
+            status = call("derivative", self.p, change, self.s.copy(), z, work, number("step h", h))
+            if status != OK:
+                raise EngineError(f"derivatives at the port over {h} s: {self._reasons[status]}")
+            columns.append(z[first : first + SP.PLANE])
+        both = np.array(columns).T
+        return both[:, : SP.PLANE], both[:, SP.PLANE :]
+
     def _inputs(self) -> str:
-        named = zip(U.INPUTS, self.u, strict=True)
+        named = ((v.name, self.u[v.index]) for v in self.model.variables if v.array == "u")
         return "inputs were " + ", ".join(f"{name} = {value:.6g}" for name, value in named)

@@ -189,7 +189,8 @@ SCRIPTS = [
     "directivity/directivity.py", "gallery/gallery.py", "impact/contact_conditions.py",
     "impact/three_balls.py", "run_up/run_up.py",
     "spindle_cosimulation/adaptive.py", "spindle_cosimulation/cosimulate.py",
-    "spindle_cosimulation/stability.py", "sweep/critical_speed.py", "tolerance_study/tolerance.py",
+    "spindle_cosimulation/stability.py", "spindle_set/cosimulate.py",
+    "spindle_set/run_up.py", "sweep/critical_speed.py", "tolerance_study/tolerance.py",
     "papers/run.py",
 ]  # fmt: skip
 

@@ -62,10 +62,10 @@ def modes(
     """Show natural frequencies, damping, direction and what moves; with --speeds what excites them.
 
     With --output the Campbell diagram is computed in any case: modes.csv, campbell.csv, crossings.csv,
-    campbell.png and modes.html, with the shapes moving.
+    campbell.png and modes.html, with the shapes moving; of a set shaft.png instead, the line of the shaft.
     """
     from fmu_bearing.modal.campbell import campbell as over_speed
-    from fmu_bearing.modal.modes import modes as at_speed
+    from fmu_bearing.modal.points import modes as at_speed
     from fmu_bearing.scene import read_scene
     from fmu_bearing.sweeps.axes import parse_values
 
@@ -107,15 +107,18 @@ def changed(scene: "Scene", settings: list[str] | None) -> tuple["Scene", dict[s
     ValueError
         For text that is no setting, an unknown key, and a value that is refused.
     """
+    from fmu_bearing.interface.set_inputs import inputs_of_set
     from fmu_bearing.sweeps.axes import plain_value
 
+    table = None if scene.spindle is None else inputs_of_set(scene)
+    known = list(U.INPUTS) if table is None else [variable.name for variable in table]
     keys: dict[str, Any] = {}
     inputs: dict[str, float] = {}
     for setting in settings or ():
         name, equals, text = (part.strip() for part in setting.partition("="))
         if not (name and equals and text):
             raise Refusal(f"--set {setting}: write KEY=VALUE, as mounting.preload_N=300 or preload=300")
-        if name in U.INPUTS:
+        if name in known:
             try:
                 inputs[name] = float(text)
             except ValueError:
@@ -182,6 +185,9 @@ def _summary(found: "Modes", diagram: "Campbell | None", highest: float) -> dict
 
 def _write(folder: Path, found: "Modes", diagram: "Campbell | None") -> list[Path]:
     """Write tables, and for a diagram its picture and page; return the files."""
+    from fmu_bearing.modal.set_modes import SetModes
+    from fmu_bearing.run.pictures import save
+
     folder.mkdir(parents=True, exist_ok=True)
     files = [_csv(folder / "modes.csv", [_flat(row) for row in found.table()])]
     if diagram is None:
@@ -190,10 +196,13 @@ def _write(folder: Path, found: "Modes", diagram: "Campbell | None") -> list[Pat
     files.append(_csv(folder / "campbell.csv", diagram.table()))
     files.append(_csv(folder / "crossings.csv", [one.as_dict() for one in diagram.crossings()]))
     if available("matplotlib", "a picture", "no campbell.png", tell):
-        from fmu_bearing.run.pictures import save
-
         files.append(folder / "campbell.png")
         save(diagram.picture(), files[-1])
+    if isinstance(found, SetModes):
+        if available("matplotlib", "a picture", "no shaft.png", tell):
+            files.append(folder / "shaft.png")
+            save(found.picture(), files[-1])
+        return files  # the page draws one bearing
     if available("plotly", "a page", "no modes.html", tell):
         from fmu_bearing.reports.modes import modes_page
 

@@ -92,7 +92,9 @@ def report(
             radius=radius, title=title, speed=turning, run_up=speeds,
             run_up_time=run_up_time, changes=changes, tell=tell, progress=errors.is_terminal,
         )  # fmt: skip
-        if keep is not None:
+        if keep is not None and made.recording is None:
+            raise Refusal("--keep: the report of a set of bearings is made without a run: none to keep")
+        if keep is not None and made.recording is not None:
             keep.parent.mkdir(parents=True, exist_ok=True)
             made.recording.save(keep)
     missing = {key: reason for key, reason in made.sections.items() if reason}

@@ -97,31 +97,47 @@ def check(
         raise typer.Exit(FOUND)
 
 
+_SHOULDER = "beyond its edge"
+
+
 def _findings(path: Path) -> tuple[bool, list[str]]:
     """Return whether a scene can be run, and the messages about it."""
     from fmu_bearing.design.operating_point import operating_point
     from fmu_bearing.design.verdicts import cautions
     from fmu_bearing.instance import EngineError, Instance
     from fmu_bearing.interface import shown, variables
-    from fmu_bearing.spindle.statics import shaft_statics
 
     try:
         scene = read_scene(path)
-        if scene.spindle is not None:
-            return True, [f"{path}: {line}" for line in shaft_statics(scene).cautions()]
         shown(scene, variables(scene, 0.0))
         bearing = Instance(_silent(scene))
         with warnings.catch_warnings(record=True) as told:
             warnings.simplefilter("always")
             bearing.initialise()
         lines = [str(one.message) for one in told]
+        if scene.spindle is not None:
+            # of another model's shaft nothing is known at rest
+            at_rest = [] if scene.spindle.shaft.external else _of_statics(scene)
+            return True, [f"{path}: {line}" for line in lines + at_rest]
         # of a shoulder that is passed the bearing has warned by itself
-        lines += [line for line in cautions(operating_point(scene)) if "beyond its edge" not in line]
+        lines += [line for line in cautions(operating_point(scene)) if _SHOULDER not in line]
         return True, [f"{path}: {line}" for line in lines]
     except SceneError as problem:
         return False, list(problem.problems)
     except EngineError as problem:
         return False, [f"{path}: {problem}"]
+
+
+def _of_statics(scene: Scene) -> list[str]:
+    """Return cautions about the statics of a set, or that they are not computed."""
+    from fmu_bearing.design.set_points import operating_points, set_cautions
+    from fmu_bearing.spindle.statics import shaft_statics
+
+    try:
+        told = set_cautions(shaft_statics(scene), operating_points(scene))
+        return [line for line in told if _SHOULDER not in line]
+    except SceneError as problem:
+        return [f"statics: {line.removeprefix(f'{scene.name}: ')}" for line in problem.problems]
 
 
 @scene_app.command()
@@ -140,7 +156,7 @@ def show(
         scene = read_scene(path)
         values = [one for one in origins(path) if one.assumed or not assumed]
         known = not scene.bends or available("skfem", BENDING, "fidelity and sizes", tell)
-        sizes = _sizes(scene) if known and scene.spindle is None else {}
+        sizes = _sizes(scene) if known else {}
     if as_json:
         print_json({"scene": scene.name, "computed": sizes, "values": [asdict(one) for one in values]})
         return
@@ -243,17 +259,24 @@ def _remark(one: Origin) -> str:
     return f"assumed: {one.remark}" if one.remark else "assumed"
 
 
+def _subject(found: Scene) -> str:
+    """Return the bearing's designation; of a set their number and arrangement, too."""
+    if found.spindle is None:
+        return found.bearing.designation
+    return f"{len(found.spindle.bearing)} x {found.bearing.designation}, {found.spindle.arrangement}"
+
+
 def _sizes(found: Scene) -> dict[str, Any]:
     """Return fidelity, method, sound and sizes of a scene, in words."""
-    from fmu_bearing.engine.layout import S, W, Z
-
     auto = found.fidelity.model == "auto"
     model = _silent(found)
     p, fidelity = model.parameters, found.fidelity
     # an instance copies the parameters and keeps its last state beside the present one
-    places = p.size + 2 * S.size(p) + W.size(p)
-    places += Z.size(model.n_balls, model.n_mics, model.n_bands, model.n_modes)
-    if auto:
+    sizes = model.lengths
+    places = p.size + 2 * sizes.state + sizes.work + sizes.outputs
+    if auto and found.spindle is not None:
+        words = "auto: full, which alone takes sets so far"
+    elif auto:
         bounds = fidelity.accuracy
         words = (
             f"auto, within {bounds.level_dB:g} dB and {bounds.relative:g} of fidelity full; "
@@ -269,7 +292,7 @@ def _sizes(found: Scene) -> dict[str, Any]:
     if found.sound is not None:
         sound = f"{found.sound.radiation_model}, {found.sound.radiator}, {len(found.microphones)} microphones"
     return {
-        "scene": f"{found.name}: {found.bearing.designation}, {found.operation.speed_rpm:g} r/min",
+        "scene": f"{found.name}: {_subject(found)}, {found.operation.speed_rpm:g} r/min",
         "fidelity": words,
         "balls": f"{model.n_balls}, traction strips {fidelity.traction_strips}",
         "sound": sound,

@@ -83,6 +83,8 @@ def sound(
             found = read_scene(source)
             if fidelity is not None:
                 found = with_fidelity(found, model=fidelity)
+            if found.spindle is not None:
+                raise found.unmounted("a measurement of sound")
             named_places(found.microphones, microphone)
             recording = record(
                 found, duration, speed=turning, settle=settle,

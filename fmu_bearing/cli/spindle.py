@@ -1,28 +1,68 @@
-"""What ``fmu-bearing info`` shows of a set of bearings on one shaft."""
+"""What ``fmu-bearing info`` and ``stiffness`` show of a set of bearings on one shaft."""
 
+from collections.abc import Iterable
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import typer
 
-from fmu_bearing.cli.base import print_json, refusals, tell
+from fmu_bearing.cli.base import print_json, progress, refusals, tell
 
 if TYPE_CHECKING:
+    from fmu_bearing.design.verdicts import Verdict
     from fmu_bearing.scene import Scene
     from fmu_bearing.spindle.statics import ShaftStatics
 
 
 def show_set(scene: "Scene", as_json: bool) -> None:
-    """Print the statics of a scene's set."""
+    """Print the statics of a scene's set, and what is to be said about its bearings."""
+    from fmu_bearing.design.set_points import life_of_set, operating_points, set_verdicts
+    from fmu_bearing.design.verdicts import side_by_side, verdicts
     from fmu_bearing.spindle.statics import shaft_statics
 
     with refusals():
         found = shaft_statics(scene)
+        points = operating_points(scene)
+    judged = [verdicts(point) for point in points]
+    life, together = life_of_set(points), set_verdicts(found, points)
     if as_json:
-        print_json(found.summary())
+        own = [point.summary() for point in points]
+        for one, told in zip(own, judged, strict=True):
+            one["verdicts"] = [verdict.as_dict() for verdict in told]
+        print_json(found.summary() | {
+            "operating_points": own, "life_of_set_h": life, "verdicts": [one.as_dict() for one in together],
+        })  # fmt: skip
         return
     _show(found)
+    _judge(list(side_by_side(points)), together)
     for line in found.cautions():
         tell(f"caution: {line}")
+    for number, told in enumerate(judged, start=1):
+        for verdict in told:
+            if verdict.advice:
+                tell(f"caution: bearing {number}: {verdict.advice}")
+    for verdict in together:
+        if verdict.advice:
+            tell(f"caution: {verdict.advice}")
+
+
+def _judge(judged: "list[list[Verdict | None]]", together: "list[Verdict]") -> None:
+    """Print figures of all bearings side by side, with what is not good marked, and those of the set."""
+    from fmu_bearing.run.table import show
+
+    rows = []
+    for alike in judged:
+        first = next(one for one in alike if one is not None)
+        cells = [
+            "" if one is None else one.text + (f" {one.judgement}" if one.advice else "") for one in alike
+        ]
+        label = first.label.split(":")[0].replace(", inner race", "").replace(", outer race", "")
+        rows.append([label, *cells, first.limit])
+    columns = ("figure", *(f"bearing {k + 1}" for k in range(len(judged[0]))), "limit")
+    show("verdicts", columns, rows)
+    if together:
+        rows = [[one.label, one.text, one.judgement, f"{one.limit} ({one.source})"] for one in together]
+        show("verdicts on the set", ("figure", "value", "verdict", "limit (source)"), rows)
 
 
 def _show(found: "ShaftStatics") -> None:
@@ -31,7 +71,8 @@ def _show(found: "ShaftStatics") -> None:
     scene = found.scene
     typer.echo(
         f"{scene.name}: {len(found.bearings)} x {scene.bearing.designation}, {found.arrangement}, "
-        f"{scene.operation.speed_rpm:g} r/min; statics, rigid shaft"
+        f"{scene.operation.speed_rpm:g} r/min; statics, "
+        f"{'shaft that bends' if scene.spindle and scene.spindle.shaft.flexible else 'rigid shaft'}"
     )
     rows = [
         [
@@ -81,3 +122,40 @@ def _shaft(found: "ShaftStatics") -> list[list[str]]:
     if found.neutral_spacing is not None:
         rows.append(["temperature-neutral spacing, mm", f"{1e3 * found.neutral_spacing:.1f}"])
     return rows
+
+
+def stiffness_of_set(
+    scene: "Scene", speeds: list[float] | None, preloads: list[float] | None, target: Path,
+    picture: Path | None, as_json: bool,
+) -> None:  # fmt: skip
+    """Write the static stiffness of a set over speed and preload, and print it."""
+    from fmu_bearing.design.set_stiffness import NAMED, set_stiffness
+    from fmu_bearing.run.pictures import save
+    from fmu_bearing.run.table import show
+
+    def track(values: Iterable[float]) -> Iterable[float]:
+        return values if as_json else progress(values, "speeds", transient=True)
+
+    with refusals():
+        found = set_stiffness(scene, speeds, preloads, track)
+        files = [found.save(target)]
+        if picture is not None:
+            save(found.picture(), picture)
+            files.append(picture)
+    if as_json:
+        print_json(found.summary() | {"files": files})
+        return
+    rows = [
+        [
+            f"{speed:g}",
+            f"{preload:g}",
+            *(f"{factor * found.named(attribute)[i, k]:.2f}" for _, attribute, _, factor in NAMED),
+        ]
+        for i, speed in enumerate(found.speeds)
+        for k, preload in enumerate(found.preloads)
+    ]
+    columns = ("r/min", "N", *(f"K {words}" for words, *_ in NAMED))
+    show(f"{scene.name} at the nose, static: K in N/um and N m/mrad", columns, rows)
+    for line in found.cautions():
+        tell(f"caution: {line}")
+    tell(f"written: {', '.join(map(str, files))}")

@@ -18,6 +18,7 @@ from fmu_bearing.cli.base import (
     tell,
 )
 from fmu_bearing.cli.modes import Changes, changed
+from fmu_bearing.cli.spindle import stiffness_of_set
 
 if TYPE_CHECKING:
     from fmu_bearing.modal.stiffness import Spacing, Stiffness
@@ -63,6 +64,8 @@ def stiffness(
 ) -> None:
     """Compute stiffness and damping over speed, preload and frequency; write them for rotor programs.
 
+    Of a set of bearings on one shaft: static stiffness at its nose over speed and preload.
+
     With --format ross the file NAME.toml becomes NAME-1.toml and NAME-2.toml: a bearing element of ROSS 3
     each, with half of the bearing. The table tells what both lack of its tilt and coupling.
     """
@@ -79,10 +82,24 @@ def stiffness(
         }
         for speed in asked["speeds"] or ():
             shaft_speed(speed, "--speeds")
+        given = read_scene(scene)
         target = _target(form, output, asked)
         if picture is not None:
             check_picture(picture)
-        chosen, inputs = changed(read_scene(scene), settings)
+        chosen, inputs = changed(given, settings)
+        if chosen.spindle is not None:
+            for there, words in (
+                (frequencies is not None, "--frequencies"), (form != "csv", f"--format {form}"),
+                (mirrored, "--mirrored"), (spacing != "held", "--spacing"),
+                (bool(inputs), "--set of an input"),
+            ):  # fmt: skip
+                if there:
+                    raise Refusal(
+                        f"{words} is for one bearing: of a set with [spindle] the static stiffness of its "
+                        "shaft is written, as csv"
+                    )
+            stiffness_of_set(chosen, asked["speeds"], asked["preloads"], target, picture, as_json)
+            return
         found = table_of(
             chosen, asked["speeds"], asked["frequencies"], preloads=asked["preloads"], inputs=inputs,
             spacing=_spacing(spacing),

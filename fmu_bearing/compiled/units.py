@@ -41,6 +41,7 @@ ENTRIES = {
     "init": Entry("init", "puszw", 1),
     "step": Entry("step", "puszw", 1),
     "outputs": Entry("step", "psz", 0, (0, 2, 3)),
+    "derivative": Entry("step", "puszw", 1),
     "right_hand_side": Entry("study", "pcywf", 3),
     "repeat": Entry("study", "pcywf", 3),
     "jacobian": Entry("study", "pcywb", 3),
@@ -49,6 +50,7 @@ ENTRIES = {
     "first_order_jacobian": Entry("study", "pcxwbyd", 3),
     "contacts": Entry("study", "psz"),
     "held": Entry("study", "pucdgqw"),
+    "answer_set": Entry("study", "psw", 1),
     "play": Entry("study", "pswmzr", 7),
 }
 #: Units, the longest to compile first.
@@ -86,7 +88,8 @@ def _step() -> dict[str, Callable[..., Any]]:
     def outputs(p, s, z, n):
         return outputs_kernel(carray(p, (n[0],)), carray(s, (n[2],)), carray(z, (n[3],)))
 
-    return {"step": _of_bearing(abi.step), "outputs": outputs}
+    derivative = _of_bearing(abi.derivative)
+    return {"step": _of_bearing(abi.step), "outputs": outputs, "derivative": derivative}
 
 
 def _of_bearing(kernel: Callable[..., Any]) -> Callable[..., Any]:
@@ -124,12 +127,13 @@ def _study() -> dict[str, Callable[..., Any]]:
     from fmu_bearing.engine.newton import jacobian as newton
     from fmu_bearing.engine.readout import outputs
     from fmu_bearing.engine.reference import first_order as rates, playback, runge_kutta as explicit
+    from fmu_bearing.engine.spindle import march as sets
     from fmu_bearing.engine.statics import held as statics
 
     rhs, observe = equations.right_hand_side, outputs.contacts
     rk4, rows = explicit.runge_kutta, explicit.ROWS
     sound, at_displacement, conditions = playback.play, statics.held, oil.conditions
-    speed = U.SPEED
+    speed, newton_of_set = U.SPEED, sets.answer_set
     first, first_jacobian = rates.first_order, rates.first_order_jacobian
 
     def repeat(p, c, y, w, f, n, angle, speed, times):
@@ -173,6 +177,9 @@ def _study() -> dict[str, Callable[..., Any]]:
             carray(q, (n[5],)), carray(w, (n[6],)),
         )  # fmt: skip
 
+    def answer_set(p, s, w, n, gh):
+        return newton_of_set(carray(p, (n[0],)), carray(s, (n[1],)), carray(w, (n[2],)), gh)
+
     def play(p, s, w, m, z, r, n, samples, columns, weighting, start, mics, numbers, first):
         sound(
             carray(p, (n[0],)), carray(s, (n[1],)), carray(w, (n[2],)),
@@ -191,5 +198,6 @@ def _study() -> dict[str, Callable[..., Any]]:
         "first_order_jacobian": first_order_jacobian,
         "contacts": contacts,
         "held": held,
+        "answer_set": answer_set,
         "play": play,
     }

@@ -5,6 +5,7 @@ from `design.rating`, with their sources.
 """
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -21,7 +22,7 @@ from fmu_bearing.modal.static import stiffness
 from fmu_bearing.prepare.bodies import ball
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.progress import Tell, silent
-from fmu_bearing.run.balls import Reader
+from fmu_bearing.run.balls import Readable, Reader
 from fmu_bearing.scene import Scene, SceneSource, scene_of, si
 
 RINGS = ("inner", "outer")
@@ -68,6 +69,10 @@ class OperatingPoint:
         Coefficient of friction that keeps a ball from turning about its gyroscopic axis, mean of the balls.
     displacement : float
         m: of the inner ring against the outer along the axis.
+    axial, radial : float
+        N: loads that it carries.
+    on_shaft : bool
+        Whether it is one of a set: the shaft holds its inner ring.
     """
 
     scene: Scene
@@ -82,6 +87,9 @@ class OperatingPoint:
     least_preload: float
     rating: Rating | None
     displacement: float
+    axial: float
+    radial: float
+    on_shaft: bool
     ball_loads: dict[str, NDArray[np.float64]]
     reference_life: float | None
     friction_torque: float
@@ -94,6 +102,8 @@ class OperatingPoint:
             "kind": self.scene.materials.kind,
             "speed_rpm": self.scene.operation.speed_rpm,
             "preload_N": self.scene.mounted.preload_N,
+            "axial_load_N": self.axial,
+            "radial_load_N": self.radial,
             "contact": self.contacts,
             "displacement_m": self.displacement,
             "stiffness": self.stiffness.tolist(),
@@ -131,12 +141,42 @@ def operating_point(scene: SceneSource, tell: Tell = silent) -> OperatingPoint:
     >>> f"{1e-9 * point.contacts['inner']['pressure_max']:.2f} GPa, kappa {point.viscosity_ratio:.2f}"
     '1.89 GPa, kappa 1.79'
     """
-    scene = scene_of(scene).model_copy(update={"sound": None, "imperfections": None}).with_rigid_rings()
+    scene = scene_of(scene)
+    if scene.spindle is not None:
+        raise scene.unmounted("an operating point; several have operating_points")
+    scene = scene.model_copy(update={"sound": None, "imperfections": None}).with_rigid_rings()
     bearing = Instance(prepare(scene, fidelity="full"), tell=tell)
     bearing.initialise()
     settled = Instance(prepare(scene, fidelity="response"), tell=silent)
     settled.initialise()
-    contacts = {ring: {key: bearing.get(f"contact.{ring}.{key}") for key in _CONTACTS} for ring in RINGS}
+    mounting = scene.mounted
+    radial = math.hypot(mounting.radial_load_y_N, mounting.radial_load_z_N)
+    torque = settled.get("friction_torque")
+    return figures(scene, bearing, bearing.get, mounting.preload_N, radial, torque)
+
+
+def figures(
+    scene: Scene, bearing: Readable, output: Callable[[str], float], axial: float, radial: float,
+    torque: float, on_shaft: bool = False,
+) -> OperatingPoint:  # fmt: skip
+    """Return the figures of a bearing whose state is known.
+
+    Parameters
+    ----------
+    scene : Scene
+        Of the bearing, without sound, imperfections and bending.
+    bearing : Readable
+        Its parameters and state.
+    output : callable
+        Gives its outputs by name, in its own axes.
+    axial, radial : float
+        Loads (N) for its rating.
+    torque : float
+        Its friction torque, N m.
+    on_shaft : bool
+        Whether it is one of a set.
+    """
+    contacts = {ring: {key: output(f"contact.{ring}.{key}") for key in _CONTACTS} for ring in RINGS}
     b, operation = si(scene.bearing), scene.operation
     speed = operation.speed_rpm * RPM
     angle = 0.5 * (contacts["inner"]["angle_mean"] + contacts["outer"]["angle_mean"])
@@ -144,22 +184,20 @@ def operating_point(scene: SceneSource, tell: Tell = silent) -> OperatingPoint:
     mass, _ = ball(scene)
     centrifugal = mass * 0.5 * b.pitch_diameter * (2.0 * math.pi * frequencies.f_c) ** 2
     nu = 1e6 * float(bearing.s[S.C + C.VISCOSITY]) / scene.lubricant.density_kg_m3
-    mounting = scene.mounted
-    radial = math.hypot(mounting.radial_load_y_N, mounting.radial_load_z_N)
     balls = Reader(bearing).read(bearing)
     loads = {"inner": balls[:, 1], "outer": balls[:, 3]}
     return OperatingPoint(
-        scene, contacts, stiffness(bearing.p, bearing.s), frequencies, bearing.get("film.lambda_min"), nu,
+        scene, contacts, stiffness(bearing.p, bearing.s), frequencies, output("film.lambda_min"), nu,
         viscosity_ratio(nu, operation.speed_rpm, scene.bearing.pitch_diameter_mm),
         abs(operation.speed_rpm) * scene.bearing.pitch_diameter_mm, speed_limit(scene),
-        least_preload(scene, centrifugal), rating(scene, mounting.preload_N, radial, operation.speed_rpm),
-        bearing.get("inner_ring.displacement.x") - bearing.get("outer_ring.displacement.x"),
-        loads, reference_life(scene, loads["inner"], loads["outer"]),
-        settled.get("friction_torque"), _gyroscopic_friction(bearing, loads),
+        least_preload(scene, centrifugal), rating(scene, axial, radial, operation.speed_rpm),
+        output("inner_ring.displacement.x") - output("outer_ring.displacement.x"), axial, radial, on_shaft,
+        loads, reference_life(scene, loads["inner"], loads["outer"]), torque,
+        _gyroscopic_friction(bearing, loads),
     )  # fmt: skip
 
 
-def _gyroscopic_friction(bearing: Instance, loads: dict[str, NDArray[np.float64]]) -> float:
+def _gyroscopic_friction(bearing: Readable, loads: dict[str, NDArray[np.float64]]) -> float:
     """Coefficient 2 M_g / (D_w (Q_i + Q_o)) that holds the gyroscopic moment M_g (Harris 2006), mean."""
     j = np.arange(len(loads["inner"]))
     orbit, spin = bearing.s[S.Y + Y.OM + j], bearing.s[S.Y + Y.WR + j]

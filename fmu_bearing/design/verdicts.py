@@ -5,7 +5,7 @@ as such: full ceramic rings have no rated life, hybrid bearings no modified one.
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
@@ -27,6 +27,7 @@ SPIN = 0.4
 GYROSCOPIC = 0.02
 #: Static safety for quiet running, and the least: NSK.
 QUIET, LEAST_SAFETY = 2.0, 1.0
+_TOUCHES = 1e6  # Pa: below it balls of an unloaded bearing just touch, and a safety means nothing
 _LITTLE = 2.0  # deg: a groove's edge and a contact angle are known no better
 _CLEAN = "high"
 
@@ -85,6 +86,16 @@ def verdicts(point: OperatingPoint) -> list[Verdict]:
     return found
 
 
+def side_by_side(points: Sequence[OperatingPoint]) -> Iterator[list[Verdict | None]]:
+    """Yield the verdicts on each figure of several bearings; None where a bearing has no such figure.
+
+    A bearing without load has neither life nor static safety.
+    """
+    tables = [{one.key: one for one in verdicts(point)} for point in points]
+    for key in max(tables, key=len):
+        yield [table.get(key) for table in tables]
+
+
 def cautions(point: OperatingPoint) -> list[str]:
     """Return what a designer should know: value, limit with its source, and the way out."""
     return [one.advice for one in verdicts(point) if one.advice]
@@ -138,7 +149,7 @@ def _static_safety(point: OperatingPoint) -> Iterator[Verdict]:
         safety = share * point.rating.static / load
         yield _safety("static_safety", f"{label}, C0 / P0", safety, limit, f"ISO 76, NSK{note}")
     worst = max(point.contacts[ring]["pressure_max"] for ring in RINGS)
-    if worst > 0.0:
+    if worst > _TOUCHES:
         safety = (iso76.STATIC_PRESSURE / worst) ** 3
         words = f"{label}, ball loads"
         yield _safety("static_safety_pressure", words, safety, limit, "4.2 GPa (ISO 76), computed; NSK")
@@ -169,9 +180,9 @@ def _life(point: OperatingPoint) -> Iterator[Verdict]:
     turns = point.reference_life
     if turns is not None and math.isfinite(turns):
         note = "; hybrid: no modified life" if scene.materials.kind == "hybrid" else ""
-        mounting = scene.mounted
-        if mounting.radial_load_y_N or mounting.radial_load_z_N:  # a quarter of the life depends on it
-            held = "held by tilt_support" if mounting.tilt_support else "free to tilt"
+        if point.radial:  # a quarter of the life depends on it
+            held = "held by tilt_support" if scene.mounted.tilt_support else "free to tilt"
+            held = "held by the shaft" if point.on_shaft else held
             note = f"; inner ring {held}{note}"
         source = f"ISO 16281, computed ball loads; clean oil, full film{note}"
         hours = iso281.hours(turns, rpm)
@@ -202,15 +213,17 @@ def _hours(key: str, label: str, hours: float, required: float | None, source: s
 def _preload(point: OperatingPoint) -> Iterator[Verdict]:
     preload = point.scene.mounted.preload_N
     rpm = point.scene.operation.speed_rpm
-    advice = ""
-    if preload < point.least_preload:
+    advice, name = "", "axial load" if point.on_shaft else "preload"
+    # a computed load has three digits, a scene's own figure those that it is given with
+    shown = f"{point.axial:.3g}" if point.on_shaft else f"{point.axial:g}"
+    if point.axial < point.least_preload:
         advice = (
-            f"preload {preload:g} N: below the {point.least_preload:.3g} N that keep balls from skidding "
-            f"at {rpm:g} r/min (1.1 Z F_c tan(alpha), fitted to GMN's spring preloads): give more preload, "
+            f"{name} {shown} N: below the {point.least_preload:.3g} N that keep balls from skidding at "
+            f"{rpm:g} r/min (1.1 Z F_c tan(alpha), fitted to GMN's spring preloads): give more preload, "
             "lower speed, or lighter balls"
         )
     yield Verdict(
-        "least_preload", "preload over skidding, N", preload, f"{preload:g}", f"{point.least_preload:.3g}",
+        "least_preload", f"{name} over skidding, N", point.axial, shown, f"{point.least_preload:.3g}",
         "1.1 Z F_c tan(alpha): fit to GMN, +-9 %", "change" if advice else "good", advice,
     )  # fmt: skip
     if not is_rated(point.scene) or point.rating is None:

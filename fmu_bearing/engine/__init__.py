@@ -15,6 +15,7 @@
 ``sound``              filters from motion to microphones, level meters
 ``readout``            from the state to outputs, losses and motion samples
 ``fidelities``         how the state is stepped: full, rings, response
+``spindle``            fidelity full for several bearings on one shaft
 ``reference``          explicit integration, first-order form and played sound, for comparison
 ``abi``                public entry points: ``init``, ``step``, ``outputs``
 =====================  =======================================================================

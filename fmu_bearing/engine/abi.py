@@ -1,4 +1,4 @@
-"""Public entry points: ``init``, ``step``, ``outputs`` over the flat arrays of ``layout``.
+"""Public entry points: ``init``, ``step``, ``outputs``, ``derivative`` over the flat arrays of ``layout``.
 
 Each returns a status code; none raises or allocates. A refused call leaves the state as it was, except
 that a step which fails to converge leaves it at the time it reached: the caller restores its copy.
@@ -12,9 +12,15 @@ from fmu_bearing.engine.fidelities.full.start import start
 from fmu_bearing.engine.fidelities.response.march import march_response, start_response
 from fmu_bearing.engine.fidelities.rings.march import march_rings, start_rings
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import P, U
+from fmu_bearing.engine.layout import SP, P, U
 from fmu_bearing.engine.readout.outputs import observe
-from fmu_bearing.engine.status import BAD_INPUT, BAD_STEP, OK, RIGID_ONLY
+from fmu_bearing.engine.spindle import members
+from fmu_bearing.engine.spindle.inputs import bearing_inputs, set_inputs_usable, spread_choices
+from fmu_bearing.engine.spindle.march import march_set, port_derivative
+from fmu_bearing.engine.spindle.outputs import observe_set
+from fmu_bearing.engine.spindle.rings import march_rings_set, start_rings_set
+from fmu_bearing.engine.spindle.start import start_set
+from fmu_bearing.engine.status import BAD_INPUT, BAD_STEP, OK, OTHER_FIDELITY, RIGID_ONLY
 
 _LARGEST = 1e15  # of any input, in its unit
 _FASTEST = 1.1e4  # rad/s
@@ -39,8 +45,72 @@ def inputs_usable(u):
 
 
 @kernel
+def set_usable(p, u, w):
+    """Whether every input of a set is finite and within what the equations can take."""
+    if not set_inputs_usable(p, u):
+        return False
+    given = members.own_work(p, w)[SP.INPUT : SP.INPUT + U.SIZE]
+    for b in range(members.count(p)):
+        bearing_inputs(p, u, b, given)
+        if not inputs_usable(given):
+            return False
+    return True
+
+
+@kernel
+def set_computed(p):
+    """Whether the parameters of a set are made for its fidelity; `response` is not computed for sets.
+
+    A ring on a pedestal of its own is among the set's coordinates in fidelity `rings` alone.
+    """
+    if p[P.FIDELITY] == RESPONSE:
+        return False
+    for b in range(members.count(p)):
+        r = members.row(p, b)
+        follows = p[r + SP.ROW_DRIVEN] == SP.DRIVEN
+        if p[r + SP.ROW_SEAT] == SP.PEDESTAL and follows != (p[P.FIDELITY] == RINGS):
+            return False
+    return True
+
+
+@kernel
+def init_set(p, u, s, z, w, t):
+    """Do what `init` does for a set of bearings on one shaft."""
+    if not set_usable(p, u, w) or not math.isfinite(t):
+        return BAD_INPUT
+    if not set_computed(p):
+        return OTHER_FIDELITY
+    if p[P.MODES] != 0.0 and p[P.FIDELITY] != FULL:
+        return RIGID_ONLY
+    if p[P.FIDELITY] == RINGS:
+        status = start_rings_set(p, u, s, w, t)
+    else:
+        status = start_set(p, u, s, w, t)
+    if status == OK:
+        observe_set(p, s, z)
+    return status
+
+
+@kernel
+def step_set(p, u, s, z, w, h):
+    """Do what `step` does for a set of bearings on one shaft."""
+    if not set_usable(p, u, w):
+        return BAD_INPUT
+    spread_choices(p)  # a state put back brings the head of p with it, that of the first bearing alone
+    if p[P.FIDELITY] == RINGS:
+        status = march_rings_set(p, u, s, w, h)
+    else:
+        status = march_set(p, u, s, w, h)
+    if status == OK:
+        observe_set(p, s, z)
+    return status
+
+
+@kernel
 def init(p, u, s, z, w, t):
     """Put the state to the quasi-static one at the inputs' values and time ``t`` (s); fill the outputs."""
+    if p[P.SET] != 0.0:
+        return init_set(p, u, s, z, w, t)
     if not inputs_usable(u) or not math.isfinite(t):
         return BAD_INPUT
     if p[P.MODES] != 0.0 and p[P.FIDELITY] != FULL:
@@ -61,6 +131,8 @@ def step(p, u, s, z, w, h):
     """Advance the state by ``h`` (s) with the speed ramping to its input and the other inputs held."""
     if not (h > 0.0 and h < _LONGEST):
         return BAD_STEP
+    if p[P.SET] != 0.0:
+        return step_set(p, u, s, z, w, h)
     if not inputs_usable(u):
         return BAD_INPUT
     if p[P.FIDELITY] == RINGS:
@@ -77,5 +149,24 @@ def step(p, u, s, z, w, h):
 @kernel
 def outputs(p, s, z):
     """Fill the outputs ``z`` from the state ``s``."""
-    observe(p, s, z)
+    if p[P.SET] != 0.0:
+        observe_set(p, s, z)
+    else:
+        observe(p, s, z)
     return OK
+
+
+@kernel
+def derivative(p, u, s, z, w, h):
+    """Put the change of outputs to ``z`` for the change ``u`` of inputs over one step of ``h`` (s).
+
+    Known are force and moment at a set's port by place and rate; what is not known is no number. ``s`` is a
+    copy of the state, whose Jacobians are lost; without a step behind (``h`` 0) rates change nothing.
+    """
+    for i in range(z.size):
+        z[i] = math.nan
+    if not (h >= 0.0 and h < _LONGEST):
+        return BAD_STEP
+    if p[P.SET] == 0.0:
+        return BAD_INPUT
+    return port_derivative(p, u, s, z, w, h)

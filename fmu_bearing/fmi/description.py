@@ -21,9 +21,11 @@ from fmu_bearing.fmi.shown import as_shown
 from fmu_bearing.fmi.units import NO_UNIT, UNITS
 from fmu_bearing.interface import Variable
 from fmu_bearing.interface.parameters import RADIATORS
+from fmu_bearing.interface.set_inputs import led_inputs
 
 if TYPE_CHECKING:
     from fmu_bearing.prepare.model import Model
+    from fmu_bearing.scene import Scene
 
 __all__ = [
     "CAPABILITIES",
@@ -66,7 +68,6 @@ _BOTH_CAN = {
     "canNotUseMemoryManagementFunctions": "true",
     "canGetAndSetFMUstate": "true",
     "canSerializeFMUstate": "true",
-    "providesDirectionalDerivative": "false",
 }
 
 LOG_CATEGORIES = {
@@ -107,8 +108,12 @@ STEP_SIZE = 1e-4  # s
 
 
 def identifier(model: "Model") -> str:
-    """Return the name of the FMU's shared library: ``Bearing`` and the designation as a C identifier."""
-    return "Bearing" + re.sub(r"\W", "_", model.scene.bearing.designation, flags=re.ASCII)
+    """Return the name of the FMU's shared library: ``Bearing`` and the designation as a C identifier.
+
+    That of a set begins with ``Spindle``.
+    """
+    what = "Bearing" if model.scene.spindle is None else "Spindle"
+    return what + re.sub(r"\W", "_", model.scene.bearing.designation, flags=re.ASCII)
 
 
 def fmi_type(variable: Variable) -> str:
@@ -158,10 +163,7 @@ def _root(model: "Model", flavour: str, guid: str) -> Element:
             "fmiVersion": "2.0",
             "modelName": scene.name,
             "guid": guid,
-            "description": (
-                f"Angular contact ball bearing {scene.bearing.designation} on its mounting: "
-                "vibration, friction torque, heat and sound"
-            ),
+            "description": _about(scene),
             "author": AUTHOR,
             "version": __version__,
             "copyright": COPYRIGHT,
@@ -170,7 +172,13 @@ def _root(model: "Model", flavour: str, guid: str) -> Element:
             "variableNamingConvention": "flat" if shown.is_flat else "structured",
         },
     )
-    can = {"modelIdentifier": identifier(shown), **CAPABILITIES[flavour], **_BOTH_CAN}
+    derivatives = flavour == "native" and len(led_inputs(scene)) > 0
+    can = {
+        "modelIdentifier": identifier(shown),
+        **CAPABILITIES[flavour],
+        **_BOTH_CAN,
+        "providesDirectionalDerivative": str(derivatives).lower(),
+    }
     SubElement(root, "CoSimulation", can)
     _units(SubElement(root, "UnitDefinitions"), shown.variables)
     named = [variable for variable in shown.variables if variable.name in ENUMERATIONS]
@@ -194,6 +202,20 @@ def _root(model: "Model", flavour: str, guid: str) -> Element:
         _variable(variables, reference, variable)
     _structure(SubElement(root, "ModelStructure"), shown.variables)
     return root
+
+
+def _about(scene: "Scene") -> str:
+    designation, spindle = scene.bearing.designation, scene.spindle
+    if spindle is None:
+        return (
+            f"Angular contact ball bearing {designation} on its mounting: "
+            "vibration, friction torque, heat and sound"
+        )
+    count = len(spindle.bearing)
+    return (
+        f"Shaft on {count} angular contact ball bearing{'s' * (count > 1)} {designation}, "
+        f"{spindle.arrangement}: vibration, friction torque and heat"
+    )
 
 
 def _units(parent: Element, variables: Iterable[Variable]) -> None:

@@ -14,9 +14,28 @@ from fmu_bearing.interface import Variable
 
 if TYPE_CHECKING:
     from fmu_bearing.prepare.model import Model
+    from fmu_bearing.scene import Scene
 
 __all__ = ["pages", "templates"]
 
+_BEARING = """\
+The bearing sits between a shaft, which the importer turns, and a pedestal. Its inputs are speed, preload,
+radial load, pedestal stiffness and temperatures. It computes the motion of its {balls} balls, rings and
+cage, the friction torque on the shaft, the heat it gives off, and the sound pressure at the microphones
+around it."""
+_OF_BEARING = """\
+X is the bearing axis, Y horizontal, Z vertical up; gravity acts along -Z. Positive speed is right-handed
+about +X; the preload pushes the inner ring towards +X."""
+_SET = """\
+A shaft, which the importer turns, runs on {count} bearings, {arrangement}; places of their ball planes from
+the nose, and the direction of the force on the shaft that each carries: {places}. Inputs are speed, loads on
+the nose and temperatures. The FMU computes the motion of the shaft and of the {balls} balls, rings and cage
+of each bearing, the friction torque on the shaft, and the heat of each bearing."""
+_OF_SET = """\
+X is the shaft's axis, from its nose to its rear, Y horizontal, Z vertical up; gravity acts along -Z. Values
+of a bearing have the prefix <code>bearing[1].</code>, <code>bearing[2].</code> and so on from the nose, and
+are told in these axes. Positive speed is right-handed about +X. Friction torque and heats without a prefix
+are sums over the bearings."""
 _NEEDS = """This FMU runs its model in Python and needs on the machine that simulates it:
 
 - Python {python} or a later 3.x, as the host process or loaded into it;
@@ -66,8 +85,7 @@ def _fields(model: "Model", flavour: str) -> dict[str, str]:
         )
     return {
         "model_name": escape(scene.name),
-        "designation": escape(scene.bearing.designation),
-        "ball_count": str(scene.bearing.ball_count),
+        **_subject(scene),
         "guid": escape(interface_guid(model, flavour)),
         "behaviour": (templates() / "behaviour" / f"{flavour}.html").read_text("utf-8"),
         "ranges": "\n".join(ranges),
@@ -76,6 +94,18 @@ def _fields(model: "Model", flavour: str) -> dict[str, str]:
         "variables": "\n".join(_rows(model)),
         "scene": escape(scene.to_toml()),
     }
+
+
+def _subject(scene: "Scene") -> dict[str, str]:
+    """Return what is modelled: heading, a paragraph about it, and its axes."""
+    designation, balls = escape(scene.bearing.designation), str(scene.bearing.ball_count)
+    if scene.spindle is None:
+        about = _BEARING.format(balls=balls)
+        return {"heading": f"Angular contact ball bearing {designation}", "about": about, "axes": _OF_BEARING}
+    count, spindle = len(scene.spindle.bearing), scene.spindle
+    places = ", ".join(f"{one.position_mm:g} mm ({one.carries})" for one in spindle.bearing)
+    about = _SET.format(count=count, balls=balls, arrangement=escape(spindle.arrangement), places=places)
+    return {"heading": f"Shaft on {count} x {designation}", "about": about, "axes": _OF_SET}
 
 
 def _rows(model: "Model") -> Iterator[str]:

@@ -40,6 +40,12 @@ _WANTED = (
     "outer_ring.velocity.z",
     "ball[1].velocity.x",
     "mic[1].pressure",
+    # of a set
+    "shaft.nose.velocity.z",
+    "housing.velocity.z",
+    "bearing[1].force.x",
+    "bearing[1].cage.speed_ratio",
+    "bearing[1].ball[1].velocity.x",
 )
 _MANIFEST = "http://fmi-standard.org/fmi-ls-manifest"
 _NOTE = """Reference results

@@ -10,6 +10,7 @@ from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from fmu_bearing.fmi.shown import ShownModel
 from fmu_bearing.interface import flat
+from fmu_bearing.scene import Scene
 
 __all__ = ["TERMINALS_FILE", "terminals_xml"]
 
@@ -19,13 +20,48 @@ TERMINALS_FILE = "terminalsAndIcons/terminalsAndIcons.xml"
 #: members do; of a bus those are connected that both sides have.
 Member = tuple[str, str, str]
 Terminal = tuple[str, str, str, str, tuple[Member, ...]]
-_FLANGE, _HEAT, _SOUND = "rotational-flange", "heat-port", "microphone"
+_FLANGE, _HEAT, _SOUND, _POINT = "rotational-flange", "heat-port", "microphone", "shaft-point"
 _SHAFT: Terminal = (
     "shaft",
     _FLANGE,
     "plug",
     "Shaft: the bearing is given the speed w and takes the torque tau",
     (("w", "shaft_speed", "signal"), ("tau", "friction_torque", "inflow")),
+)
+_NOSE: Terminal = (
+    "nose",
+    _POINT,
+    "bus",
+    "Nose of the shaft: it is given force and moment, and tells where it is and how fast it moves",
+    tuple(
+        (f"{short}_{axis}", f"{name}.{axis}", "signal")
+        for short, name, axes in (
+            ("f", "nose.force", "xyz"),
+            ("m", "nose.moment", "yz"),
+            ("s", "shaft.nose.displacement", "xyz"),
+            ("phi", "shaft.nose.tilt", "yz"),
+            ("v", "shaft.nose.velocity", "xyz"),
+        )
+        for axis in axes
+    ),
+)
+_RIGID: Terminal = (
+    "port",
+    _POINT,
+    "bus",
+    "Shaft of another model: it tells its motion at X = 0 and takes force and moment of the bearings",
+    tuple(
+        (f"{short}_{axis}", f"port.{name}.{axis}", role)
+        for short, name, axes, role in (
+            ("s", "displacement", "xyz", "signal"),
+            ("phi", "tilt", "yz", "signal"),
+            ("v", "velocity", "xyz", "signal"),
+            ("w", "tilt_rate", "yz", "signal"),
+            ("f", "force", "xyz", "signal"),
+            ("m", "moment", "yz", "signal"),
+        )
+        for axis in axes
+    ),
 )
 _PORTS = (("inner_ring", "inner ring"), ("outer_ring", "outer ring"), ("oil", "oil"))
 _LEVELS = ("pressure", "spl", "spl_a", "leq", "leq_a")
@@ -36,7 +72,7 @@ def terminals_xml(model: ShownModel) -> bytes:
     names = {variable.name for variable in model.variables if variable.causality in ("input", "output")}
     root = Element("fmiTerminalsAndIcons", {"fmiVersion": "3.0"})
     parent = SubElement(root, "Terminals")
-    for name, kind, rule, words, members in _terminals(len(model.scene.microphones)):
+    for name, kind, rule, words, members in _terminals(model.scene):
         if model.is_flat:
             members = tuple((member, flat(variable), role) for member, variable, role in members)
         present = [member for member in members if member[1] in names]
@@ -47,13 +83,23 @@ def terminals_xml(model: ShownModel) -> bytes:
     return tostring(root, encoding="UTF-8", xml_declaration=True)
 
 
-def _terminals(microphones: int) -> Iterator[Terminal]:
+def _terminals(scene: Scene) -> Iterator[Terminal]:
     yield _SHAFT
-    for name, words in _PORTS:
-        heat = (("T", f"{name}_temperature", "signal"), ("Q_flow", f"heat.{name}", "outflow"))
-        sentence = f"Heat to the {words}: the bearing gives the heat Q_flow and is given the temperature T"
-        yield name, _HEAT, "plug", sentence, heat
-    for k in range(1, microphones + 1):
+    of = [""]
+    if scene.spindle is not None:
+        yield _RIGID if scene.spindle.shaft.external else _NOSE
+        of = [f"bearing[{b}]." for b in range(1, len(scene.spindle.bearing) + 1)]
+    for prefix in of:
+        for name, words in _PORTS:
+            heat = (
+                ("T", f"{prefix}{name}_temperature", "signal"),
+                ("Q_flow", f"{prefix}heat.{name}", "outflow"),
+            )
+            sentence = (
+                f"Heat to the {words}: the bearing gives the heat Q_flow and is given the temperature T"
+            )
+            yield prefix + name, _HEAT, "plug", sentence, heat
+    for k in range(1, len(scene.microphones) + 1):
         levels = tuple((level, f"mic[{k}].{level}", "signal") for level in _LEVELS)
         yield f"mic[{k}]", _SOUND, "bus", f"Sound at microphone {k}", levels
 

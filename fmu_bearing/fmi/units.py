@@ -54,6 +54,8 @@ _ALL = (
     Unit("rad", {"rad": 1}, (DisplayUnit("deg", 180.0 / pi),)),
     Unit("rad/s", {"rad": 1, "s": -1}, (DisplayUnit("r/min", 30.0 / pi),)),
     Unit("K", {"K": 1}, (DisplayUnit("degC", 1.0, -273.15),)),
+    Unit("kg", {"kg": 1}, (DisplayUnit("g", 1e3),)),
+    Unit("kg.m", {"kg": 1, "m": 1}, (DisplayUnit("g.mm", 1e6),)),
     Unit("kg.m2", {"kg": 1, "m": 2}, (DisplayUnit("kg.mm2", 1e6), DisplayUnit("g.mm2", 1e9))),
     Unit("N", {"kg": 1, "m": 1, "s": -2}),
     Unit("N/m", {"kg": 1, "s": -2}, (DisplayUnit("N/um", 1e-6),)),

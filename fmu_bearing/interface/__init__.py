@@ -7,6 +7,8 @@ all made from it. Names are a contract, because users' harnesses depend on them.
 ``variable``    one variable, and defaults for its unit
 ``inputs``      speed, loads, temperatures and other inputs
 ``outputs``     outputs and local variables, computed in each step
+``set_inputs``  inputs of a set of bearings on one shaft
+``set_outputs`` its outputs and local variables
 ``parameters``  parameters, set before initialisation, and constants
 ``table``       all variables, in the order of the value references
 ``names``       patterns of names, and suggestions for misspelt ones

@@ -6,7 +6,8 @@ from fmu_bearing.engine.layout import U
 from fmu_bearing.interface.variable import Variable
 from fmu_bearing.scene import Scene, si
 
-_SPEED = {
+#: Units, ranges and nominal values of inputs.
+SPEED = {
     "unit": "rad/s",
     "min": -10472.0,  # 100,000 r/min
     "max": 10472.0,
@@ -14,16 +15,16 @@ _SPEED = {
     "quantity": "AngularVelocity",
     "display_unit": "r/min",
 }
-_FORCE = {"unit": "N", "quantity": "Force", "nominal": 100.0}
-_LOAD = {**_FORCE, "min": -3e3, "max": 3e3}
-_SPRING = {
+FORCE = {"unit": "N", "quantity": "Force", "nominal": 100.0}
+_LOAD = {**FORCE, "min": -3e3, "max": 3e3}
+SPRING = {
     "unit": "N/m",
     "min": 1e4,
     "max": 1e12,
     "nominal": 1e8,
     "quantity": "TranslationalSpringConstant",
 }
-_KELVIN = {
+KELVIN = {
     "unit": "K",
     "min": 233.0,
     "max": 473.0,
@@ -40,27 +41,27 @@ def inputs(scene: Scene) -> list[Variable]:
     if scene.mounted.preload_mode == "rigid":
         preload += ", at standstill and 20 degC; its displacement is then held"
     rows: tuple[tuple[str, str, dict[str, Any], float], ...] = (
-        ("shaft_speed", "Rotational speed of the shaft, right-handed about +X", _SPEED, start.speed),
-        ("preload", preload, {**_FORCE, "min": 0.0, "max": 1e4}, mounting.preload),
+        ("shaft_speed", "Rotational speed of the shaft, right-handed about +X", SPEED, start.speed),
+        ("preload", preload, {**FORCE, "min": 0.0, "max": 1e4}, mounting.preload),
         (
             "pedestal_stiffness",
             "Radial stiffness under the outer ring; the other directions keep their ratio to it",
-            _SPRING,
+            SPRING,
             mounting.pedestal_stiffness,
         ),
         ("radial_load.y", "Horizontal load on the inner ring", _LOAD, mounting.radial_load_y),
         ("radial_load.z", "Upward load on the inner ring", _LOAD, mounting.radial_load_z),
-        ("oil_temperature", "Temperature that sets the oil's viscosity", _KELVIN, start.oil_temperature),
+        ("oil_temperature", "Temperature that sets the oil's viscosity", KELVIN, start.oil_temperature),
         (
             "inner_ring_temperature",
             "Temperature that expands the inner ring and, by half, the balls",
-            _KELVIN,
+            KELVIN,
             start.inner_ring_temperature,
         ),
         (
             "outer_ring_temperature",
             "Temperature that expands the outer ring and, by half, the balls",
-            _KELVIN,
+            KELVIN,
             start.outer_ring_temperature,
         ),
     )

@@ -7,7 +7,8 @@ from fmu_bearing.engine.layout import Z
 from fmu_bearing.interface.variable import Variable, usual
 from fmu_bearing.scene import Scene
 
-_AXES = (("x", "along the axis"), ("y", "horizontal"), ("z", "upwards"))
+#: Axes and their directions in descriptions.
+AXES = (("x", "along the axis"), ("y", "horizontal"), ("z", "upwards"))
 _MIC_WORDS = (
     ("pressure", "Sound pressure at microphone {}"),
     ("spl", "Time-weighted sound pressure level at microphone {}"),
@@ -31,7 +32,8 @@ _MIC_WORDS = (
     ("spl_rotation", "Time-weighted partial level of the tilting of rings and cage at microphone {}"),
     ("spl_flexure", "Time-weighted partial level of the bending of the rings at microphone {}"),
 )
-_FLOOR = "; -106 dB: silence, or no metering yet"
+#: What stands behind the description of every level.
+FLOOR = "; -106 dB: silence, or no metering yet"
 _PLAIN = 9  # of these, what every scene has; the rest need sound.details
 _PARTIAL = tuple(f"spl_{part}" for part in (
     "inner_ring", "outer_ring", "cage", "balls", "radial", "axial", "rotation", "flexure",
@@ -45,12 +47,12 @@ def outputs(scene: Scene) -> list[Variable]:
     for body, words in _bodies(scene):
         table += _vector(body, "velocity", "output", f"Velocity of the {words}'s centre", "m/s", **speed)
     if scene.bearing.cage is not None:
-        table.append(_read("cage.speed_ratio", "output", "Speed of the cage over the shaft's", nominal=0.4))
+        table.append(read("cage.speed_ratio", "output", "Speed of the cage over the shaft's", nominal=0.4))
     for j in range(scene.bearing.ball_count):
         words = f"Velocity of ball {j + 1}, orbit included,"
         place = Z.BALLS + Z.PER_BALL * j
         table += _vector(f"ball[{j + 1}]", "velocity", "output", words, "m/s", place, nominal=10.0)
-    table += _microphones(scene, "output")
+    table += microphones(scene, "output")
     table += _flexure(scene)
     torque = (
         "Torque taken from the shaft: positive brakes positive rotation, so it acts on a drive with a minus; "
@@ -60,13 +62,13 @@ def outputs(scene: Scene) -> list[Variable]:
         "Friction torque of the last communication step: the shaft's work over the angle turned; mean over "
         "time where the shaft stands or turns back"
     )
-    table.append(_read("friction_torque", "output", torque, "N.m"))
-    table.append(_read("friction_torque_mean", "output", mean, "N.m"))
+    table.append(read("friction_torque", "output", torque, "N.m"))
+    table.append(read("friction_torque_mean", "output", mean, "N.m"))
     for name, words in (("inner_ring", "the inner ring"), ("outer_ring", "the outer ring")):
         heat = f"Heat to {words}, mean over the last communication step"
-        table.append(_read(f"heat.{name}", "output", heat, "W"))
+        table.append(read(f"heat.{name}", "output", heat, "W"))
     oil = "Heat to oil and balls, mean over the last communication step"
-    return [*table, _read("heat.oil", "output", oil, "W")]
+    return [*table, read("heat.oil", "output", oil, "W")]
 
 
 def internals(scene: Scene) -> list[Variable]:
@@ -78,24 +80,24 @@ def internals(scene: Scene) -> list[Variable]:
         table += _vector(f"{ring}_ring", "displacement", "local", words, "m", **small)
     for axis, words in (("y", "the horizontal"), ("z", "the upward")):
         tilt = f"Tilt of the inner ring about {words} axis"
-        table.append(_read(f"inner_ring.tilt.{axis}", "local", tilt, "rad", nominal=1e-4))
+        table.append(read(f"inner_ring.tilt.{axis}", "local", tilt, "rad", nominal=1e-4))
     table += [*_contacts("inner"), *_contacts("outer")]
     table += [
-        _read("film.lambda_min", "local", "Thinnest oil film over the composite roughness", nominal=1.0),
-        _read("stiffness.axial", "local", "Axial stiffness between the rings at the present contacts", "N/m"),
-        _read(
+        read("film.lambda_min", "local", "Thinnest oil film over the composite roughness", nominal=1.0),
+        read("stiffness.axial", "local", "Axial stiffness between the rings at the present contacts", "N/m"),
+        read(
             "stiffness.radial", "local", "Radial stiffness between the rings at the present contacts", "N/m"
         ),
         *_cage_whirl(scene),
         *_torque_shares(scene),
-        _read(
+        read(
             "energy.residual",
             "local",
             "Work in less dissipation less change of stored energy, over dissipation once there is some",
         ),
         _count("solver.steps", "Internal steps so far"),
         _count("solver.rejected", "Internal steps refused so far"),
-        _read(
+        read(
             "solver.wave_time",
             "local",
             "Time in which the fastest wave of races and balls turns by one radian, 1 s at most: internal "
@@ -105,10 +107,10 @@ def internals(scene: Scene) -> list[Variable]:
             nominal=2e-5,
         ),
     ]
-    return table + _microphones(scene, "local")
+    return table + microphones(scene, "local")
 
 
-def _read(
+def read(
     name: str, causality: str, description: str, unit: str = "", index: int | None = None, **more: Any
 ) -> Variable:
     """Output or local variable at its place in ``z``."""
@@ -120,7 +122,7 @@ def _read(
 
 def _count(name: str, description: str) -> Variable:
     """Whole number that only grows."""
-    variable = _read(name, "local", description, quantity="", min=0, max=2**31 - 1, nominal=None)
+    variable = read(name, "local", description, quantity="", min=0, max=2**31 - 1, nominal=None)
     return replace(variable, type="Integer", variability="discrete")
 
 
@@ -128,7 +130,7 @@ def _vector(
     body: str, motion: str, causality: str, words: str, unit: str, first: int | None = None, **more: Any
 ) -> list[Variable]:
     return [
-        _read(
+        read(
             f"{body}.{motion}.{axis}",
             causality,
             f"{words} {direction}",
@@ -136,7 +138,7 @@ def _vector(
             None if first is None else first + k,
             **more,
         )
-        for k, (axis, direction) in enumerate(_AXES)
+        for k, (axis, direction) in enumerate(AXES)
     ]
 
 
@@ -151,17 +153,15 @@ def _contacts(side: str) -> list[Variable]:
     margin = f"Angle by which the largest contact ellipse {at_race} ends before the shoulder"
     pressure: dict[str, Any] = {"display_unit": "GPa", "min": 0.0, "max": 1e12, "nominal": 1e9}
     return [
-        _read(f"contact.{side}.load_mean", "local", f"Mean load of a ball {at_race}", "N"),
-        _read(f"contact.{side}.load_max", "local", f"Largest load of a ball {at_race}", "N"),
-        _read(f"contact.{side}.angle_mean", "local", angle, "rad", display_unit="deg"),
-        _read(
+        read(f"contact.{side}.load_mean", "local", f"Mean load of a ball {at_race}", "N"),
+        read(f"contact.{side}.load_max", "local", f"Largest load of a ball {at_race}", "N"),
+        read(f"contact.{side}.angle_mean", "local", angle, "rad", display_unit="deg"),
+        read(
             f"contact.{side}.pressure_max", "local", f"Largest contact pressure {at_race}", "Pa", **pressure
         ),
-        _read(f"contact.{side}.spin_to_roll", "local", f"Mean spin over roll of the balls {at_race}"),
-        _read(
-            f"contact.{side}.slip", "local", f"Mean sliding over entrainment speed {at_race}", nominal=1e-3
-        ),
-        _read(f"contact.{side}.shoulder_margin", "local", margin, "rad", display_unit="deg"),
+        read(f"contact.{side}.spin_to_roll", "local", f"Mean spin over roll of the balls {at_race}"),
+        read(f"contact.{side}.slip", "local", f"Mean sliding over entrainment speed {at_race}", nominal=1e-3),
+        read(f"contact.{side}.shoulder_margin", "local", margin, "rad", display_unit="deg"),
     ]
 
 
@@ -170,8 +170,8 @@ def _cage_whirl(scene: Scene) -> list[Variable]:
         return []
     radius = "Distance of the cage's centre from the inner ring's"
     return [
-        _read("cage.whirl_radius", "local", radius, "m", display_unit="um", min=0.0, nominal=1e-5),
-        _read(
+        read("cage.whirl_radius", "local", radius, "m", display_unit="um", min=0.0, nominal=1e-5),
+        read(
             "cage.whirl_speed",
             "local",
             "Angular velocity of the cage's centre about the inner ring's",
@@ -190,7 +190,7 @@ def _torque_shares(scene: Scene) -> list[Variable]:
     ]
     how = "power lost there over the shaft speed, 0 at standstill"
     return [
-        _read(
+        read(
             f"friction_torque_share.{name}", "local", f"Share of {words} in the friction torque: {how}", "N.m"
         )
         for name, words in shares
@@ -216,12 +216,12 @@ def _flexure(scene: Scene) -> list[Variable]:
                 words = f"Velocity of the {ring} ring's bending of order {order} at the groove, {part} part"
                 name = f"{ring}_ring.flexure.n{order}.{part}"
                 table.append(
-                    _read(name, "output", words, "m/s", first + len(table), display_unit="mm/s", nominal=1e-3)
+                    read(name, "output", words, "m/s", first + len(table), display_unit="mm/s", nominal=1e-3)
                 )
     return table
 
 
-def _microphones(scene: Scene, causality: str) -> list[Variable]:
+def microphones(scene: Scene, causality: str) -> list[Variable]:
     """Return the variables of each microphone: totals are outputs, partial levels are local."""
     if scene.sound is None:
         return []
@@ -235,8 +235,8 @@ def _microphones(scene: Scene, causality: str) -> list[Variable]:
                 continue
             unit = "Pa" if label == "pressure" else "dB"
             place = Z.mics(balls) + len(Z.MIC_OUTPUTS) * k + i
-            text = words.format(name) + ("" if label == "pressure" else _FLOOR)
-            table.append(_read(f"mic[{k + 1}].{label}", causality, text, unit, place))
+            text = words.format(name) + ("" if label == "pressure" else FLOOR)
+            table.append(read(f"mic[{k + 1}].{label}", causality, text, unit, place))
         if causality == "output" and scene.sound.third_octaves:
             table += _third_octaves(k, name, Z.bands(balls, mics) + len(Z.BANDS) * k)
     return table
@@ -245,10 +245,10 @@ def _microphones(scene: Scene, causality: str) -> list[Variable]:
 def _third_octaves(mic: int, name: str, first: int) -> list[Variable]:
     """Return the bands of one microphone, named by their nominal frequency; 31 stands for 31.5 Hz."""
     return [
-        _read(
+        read(
             f"mic[{mic + 1}].third_octave[{int(nominal)}]",
             "output",
-            f"Fast third-octave level around {nominal:g} Hz at microphone {name}{_FLOOR}",
+            f"Fast third-octave level around {nominal:g} Hz at microphone {name}{FLOOR}",
             "dB",
             first + band,
         )

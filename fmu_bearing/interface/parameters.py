@@ -10,6 +10,7 @@ from fmu_bearing.formulas import iso76, iso281, makers
 from fmu_bearing.interface.variable import Variable, usual
 from fmu_bearing.scene import Scene, si
 from fmu_bearing.scene.sound import Radiator
+from fmu_bearing.scene.spindle import Spindle
 
 #: Numbers of the radiators.
 RADIATORS = {name: number for number, name in enumerate(("none", *get_args(Radiator)))}
@@ -51,6 +52,7 @@ def parameters(scene: Scene) -> list[Variable]:
 
 def constants(scene: Scene, rotor_inertia: float) -> list[Variable]:
     """Return the constants: choices made when the model was built."""
+    turning = "inner ring and rotor" if scene.spindle is None else "shaft and inner rings"
     radiator = RADIATORS["none" if scene.sound is None else scene.sound.radiator]
     table = [
         _whole(
@@ -70,7 +72,7 @@ def constants(scene: Scene, rotor_inertia: float) -> list[Variable]:
         ),
         _constant(
             "rotor.inertia",
-            "Polar inertia of inner ring and rotor, which the drive owns",
+            f"Polar inertia of {turning}, which the drive owns",
             rotor_inertia,
             "kg.m2",
         ),
@@ -79,10 +81,24 @@ def constants(scene: Scene, rotor_inertia: float) -> list[Variable]:
         seed = scene.imperfections.seed
         table.append(_whole("imperfection.seed", "Seed of the imperfections", seed))
     table += _ratings(scene)
+    if scene.spindle is not None:
+        table += _arrangement(scene.spindle)
     for k, (name, place) in enumerate(scene.microphones):
         for axis, metres in zip("xyz", place, strict=True):
             words = f"Place of microphone {name}, {axis}"
             table.append(_constant(f"mic[{k + 1}].position.{axis}", words, metres, "m", nominal=0.1))
+    return table
+
+
+def _arrangement(spindle: Spindle) -> list[Variable]:
+    """Return where each bearing of a set is, and which way it carries."""
+    table = []
+    for b, one in enumerate(spindle.bearing, start=1):
+        words = f"Bearing {b}: ball plane from the shaft's nose, towards +X"
+        place = si(one).position
+        table.append(_constant(f"bearing[{b}].position", words, place, "m", nominal=0.1))
+        words = f"Bearing {b}: 1 where it carries force on the shaft towards +X, -1 where towards -X"
+        table.append(_whole(f"bearing[{b}].direction", words, one.sign))
     return table
 
 

@@ -3,6 +3,8 @@
 from fmu_bearing.interface.inputs import inputs
 from fmu_bearing.interface.outputs import internals, outputs
 from fmu_bearing.interface.parameters import constants, parameters
+from fmu_bearing.interface.set_inputs import inputs_of_set
+from fmu_bearing.interface.set_outputs import internals_of_set, outputs_of_set
 from fmu_bearing.interface.variable import Variable
 from fmu_bearing.scene import Scene
 
@@ -13,10 +15,12 @@ def variables(scene: Scene, rotor_inertia: float) -> tuple[Variable, ...]:
     ``rotor_inertia`` is the polar inertia (kg m2) of inner ring and rotor, for the variable of that name.
     Parts that the scene leaves out (cage, sound, imperfections) have no variables.
     """
+    if scene.spindle is None:
+        moving = [*inputs(scene), *outputs(scene), *internals(scene)]
+    else:
+        moving = [*inputs_of_set(scene), *outputs_of_set(scene), *internals_of_set(scene)]
     table = [
-        *inputs(scene),
-        *outputs(scene),
-        *internals(scene),
+        *moving,
         *parameters(scene),
         *constants(scene, rotor_inertia),
     ]

@@ -43,6 +43,8 @@ USUAL = {
     "rad/s": ("AngularVelocity", -1e6, 1e6, 1e3),
     "rad": ("Angle", -3.2, 3.2, 0.3),
     "dB": ("Level", -200.0, 300.0, 60.0),
+    "kg": ("Mass", 0.0, 1e6, 1.0),
+    "kg.m": ("MassMoment", -1e6, 1e6, 1e-2),
     "kg.m2": ("MomentOfInertia", 0.0, 1e6, 1e-5),
     "s": ("Time", 0.0, 1e4, 1e-3),
     "": ("Ratio", -1e9, 1e9, 1.0),

@@ -10,6 +10,9 @@
 ``shapes``             what moves in a mode: energies, order round the bearing, direction
 ``motion``             how rings and balls move in a mode
 ``modes``              natural frequencies and damping, with names
+``set_linearised``     a set on its shaft: bearings by themselves, tied by shaft and housing
+``set_modes``          its natural motions, with the line of the shaft
+``points``             `modes`: of a bearing or a set, at an operating point
 ``lines``              excitation lines and the waves that each can move
 ``campbell``           modes over speed, followed by shape; crossings with lines
 ``drawing``            what a Campbell diagram shows: colours, widths, dashes, which lines

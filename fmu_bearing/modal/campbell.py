@@ -13,13 +13,14 @@ from scipy.optimize import linear_sum_assignment
 
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.modal.conditions import given
-from fmu_bearing.modal.linearised import linearised
 from fmu_bearing.modal.lines import Line, Rates, lines, rates
-from fmu_bearing.modal.modes import MARGIN, MOVES, UNSTEADY, Mode, Modes, like, solved
+from fmu_bearing.modal.modes import MARGIN, MOVES, UNSTEADY, Mode, Modes
 from fmu_bearing.modal.picture import campbell_picture
+from fmu_bearing.modal.points import at_point
 from fmu_bearing.modal.shapes import NEITHER
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.scene import Scene, SceneSource, scene_of
+from fmu_bearing.scene.member import one_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -273,7 +274,7 @@ def campbell(
     for rpm in track(chosen) if track else chosen:
         values = given(scene, dict(inputs or {}) | {"shaft_speed": rpm * RPM})
         try:
-            points.append(solved(scene, linearised(scene, values)))
+            points.append(at_point(scene, values))
         except ValueError as problem:
             skipped.append((rpm, str(problem)))
             tell(f"{rpm:,.0f} r/min is left out: {problem}")
@@ -288,7 +289,8 @@ def campbell(
         np.array([one.spin for one in systems]), scene.bearing.ball_count,
     )  # fmt: skip
     branches = _branches(points, highest)
-    found = lines(scene, at, {branch.order for branch in branches}, highest)
+    alone = scene if scene.spindle is None else one_of(scene)
+    found = lines(alone, at, {branch.order for branch in branches}, highest)
     return Campbell(scene, tuple(points), tuple(branches), tuple(found), at, highest, tuple(skipped))
 
 
@@ -337,9 +339,7 @@ def _is_of_rings(mode: Mode) -> bool:
 def _pairs(before: list[Mode], now: list[Mode], point: Modes) -> dict[int, int]:
     if not before or not now:
         return {}
-    masses = point.linearised.coordinates.masses
-    one, other = (np.array([mode.vector for mode in modes]).T for modes in (before, now))
-    alike = like(one, other, masses)
+    alike = point.alike(before, now)
     rows, columns = linear_sum_assignment(-alike)
     return {int(i): int(k) for i, k in zip(rows, columns, strict=True) if alike[i, k] >= _SAME}
 

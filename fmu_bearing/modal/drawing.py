@@ -21,6 +21,9 @@ COLOURS = {
     "inner axial": "#56B4E9", "inner radial": "#0072B2", "inner tilt": "#1F3B8C",
     "outer axial": "#E69F00", "outer radial": "#D55E00", "outer tilt": "#8C2D04", "outer spin": "#B8860B",
     "inner flexure": "#00806B", "outer flexure": "#009E73", "ball": "#CC79A7",
+    "shaft axial": "#56B4E9", "shaft radial": "#0072B2", "shaft tilt": "#1F3B8C", "shaft bending": "#00806B",
+    "housing axial": "#E69F00", "housing radial": "#D55E00", "housing tilt": "#8C2D04",
+    "housing spin": "#B8860B", "sliding rings": "#B8860B",
 }  # fmt: skip
 UNSTABLE = "#FF3B1F"
 DASHES = {FORWARD: "solid", BACKWARD: "dash", NEITHER: "dot"}
@@ -46,7 +49,11 @@ class Run(NamedTuple):
 
 def colour(name: str) -> str:
     """Colour of a mode by its name: ``inner tilt``, ``outer flexure n = 2``, ``ball n = 3``."""
-    return COLOURS["ball"] if name.startswith("ball") else COLOURS[name.partition(" n = ")[0]]
+    return (
+        COLOURS["ball"]
+        if name.startswith("ball")
+        else COLOURS[name.partition(" n = ")[0].partition(" of ")[0]]
+    )
 
 
 def width_class(damping: float) -> int:

@@ -15,7 +15,7 @@ Imperfections and sound are left out, too. Weights count as loads where the scen
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,6 +30,9 @@ from fmu_bearing.modal.plain import Plain
 from fmu_bearing.run.arrays import Arrays, Refused
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.read import with_fidelity
+
+if TYPE_CHECKING:
+    from fmu_bearing.modal.set_linearised import One
 
 PHASES = 6  # of one ball pitch
 
@@ -104,7 +107,7 @@ def linearised(scene: Scene, inputs: dict[int, float] | None = None, friction: b
     coordinates = Coordinates.of(first.p)
     orbit = float(np.mean([_mean(one, Y.OM) for one in bearings]))
     matrices = np.array(
-        [_fixed(one, coordinates, pitch * k / count, orbit) for k, one in enumerate(bearings)]
+        [in_fixed_axes(one, coordinates, pitch * k / count, orbit) for k, one in enumerate(bearings)]
     )
     # about its own axis, against the axes that orbit with the ball
     spin = math.hypot(_mean(first, Y.WX) - orbit, _mean(first, Y.WR))
@@ -172,8 +175,13 @@ def _mean(bearing: Arrays, row: int) -> float:
     return float(np.mean(bearing.s[first : first + int(bearing.p[P.BALLS])]))
 
 
-def _fixed(bearing: Arrays, at: Coordinates, phase: float, orbit: float) -> NDArray[np.float64]:
-    """Return A in fixed axes, from the derivatives in axes that are turned by ``phase`` against them."""
+def in_fixed_axes(
+    bearing: "Arrays | One", at: Coordinates, phase: float, orbit: float
+) -> NDArray[np.float64]:
+    """Return A in fixed axes, from the derivatives in axes that are turned by ``phase`` against them.
+
+    ``orbit``: rad/s of the balls.
+    """
     plain = Plain(bearing, at).derivatives()
     angles = 2.0 * math.pi * np.arange(at.balls) / at.balls + phase
     patterns, rates = at.patterns(angles)

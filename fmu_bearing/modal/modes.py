@@ -1,7 +1,6 @@
 """Natural motions of a mounted bearing: what moves, at which frequency, how damped, in which direction."""
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,11 +9,10 @@ from numpy.typing import NDArray
 
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import P
-from fmu_bearing.modal.conditions import given
-from fmu_bearing.modal.linearised import Linearised, linearised
+from fmu_bearing.modal.linearised import Linearised
 from fmu_bearing.modal.motion import Shape, shape
 from fmu_bearing.modal.shapes import BACKWARD, FORWARD, NEITHER, participation, parts, wave
-from fmu_bearing.scene import Scene, SceneSource, scene_of
+from fmu_bearing.scene import Scene
 
 SLOW = 1.0  # rad/s: slower in the axes in which it stands, a motion is neutral
 DAMPED = 0.5  # damping ratio beyond which a motion does not ring
@@ -196,42 +194,15 @@ class Modes:
         rows += [_group(group) for group in _alike(alone)]
         return sorted(rows, key=lambda row: row["frequency_Hz"])
 
+    def alike(self, before: list[Mode], now: list[Mode]) -> NDArray[np.float64]:
+        """Return the modal assurance criterion of modes before against modes now, by kinetic energy."""
+        one, other = (np.array([mode.vector for mode in some]).T for some in (before, now))
+        return like(one, other, self.linearised.coordinates.masses)
+
     @property
     def _bent(self) -> tuple[int, ...]:
         """Orders in which rings bend."""
         return self.linearised.coordinates.orders
-
-
-def modes(scene: SceneSource, inputs: Mapping[str, float] | None = None, *, friction: bool = True) -> Modes:
-    """Return the natural motions of a scene's mounted bearing, without a run.
-
-    Fidelity `full` linearised about its steady state: rings with rotor and housing on their supports,
-    every ball with its place, orbit and spin, rings that bend where the scene says so. Cage, imperfections
-    and sound are left out.
-
-    Parameters
-    ----------
-    scene : Scene or path
-    inputs : mapping, optional
-        Inputs of the model by name, SI units (``shaft_speed`` in rad/s, ``preload`` in N), in place of the
-        scene's.
-    friction : bool, optional
-        False: contacts without traction. At standstill contacts stick, and both say something.
-
-    Raises
-    ------
-    ValueError
-        For an input that is refused, or where there is no equilibrium.
-
-    Examples
-    --------
-    >>> from fmu_bearing import modes
-    >>> found = modes("examples/scenes/7003C-spindle.toml")
-    >>> round(found.named("inner axial").frequency, -1)
-    1200.0
-    """
-    scene = scene_of(scene)
-    return solved(scene, linearised(scene, given(scene, inputs), friction), friction)
 
 
 def solved(scene: Scene, system: Linearised, friction: bool = True) -> Modes:

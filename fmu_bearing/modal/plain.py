@@ -1,5 +1,7 @@
 """Rates of a bearing at a state and their derivatives, ball by ball, as the engine's equations have them."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -7,6 +9,9 @@ from fmu_bearing.compiled import call
 from fmu_bearing.engine.layout import FL, STRIDE, C, F, P, S, U, W, Y
 from fmu_bearing.modal.coordinates import Coordinates
 from fmu_bearing.run.arrays import Arrays
+
+if TYPE_CHECKING:
+    from fmu_bearing.modal.set_linearised import One
 
 # Steps of the central differences: contacts approach by 1 um and more, so a nanometre errs by 1e-7 of the
 # slope; traction bends over 1e-3 m/s. Forces round to 1e-14 N.
@@ -24,7 +29,7 @@ class Plain:
     at : Coordinates
     """
 
-    def __init__(self, bearing: Arrays, at: Coordinates) -> None:
+    def __init__(self, bearing: "Arrays | One", at: Coordinates) -> None:
         self.p, self.at = bearing.p, at
         self.y = bearing.s[S.Y : S.Y + Y.SIZE].copy()
         self._c = bearing.s[S.C : S.C + C.SIZE].copy()

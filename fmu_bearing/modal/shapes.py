@@ -113,9 +113,14 @@ def wave(found: list[Part]) -> Wave:
     ahead, behind = (math.sqrt(value) for value in by_order[order])
     if order == 0:
         return Wave(0, NEITHER)
+    return Wave(order, whirl(ahead, behind))
+
+
+def whirl(ahead: float, behind: float) -> str:
+    """Return the direction that dominates, by the amplitudes of forward and backward whirl."""
     if ahead > _DOMINATES * behind:
-        return Wave(order, FORWARD)
-    return Wave(order, BACKWARD if behind > _DOMINATES * ahead else NEITHER)
+        return FORWARD
+    return BACKWARD if behind > _DOMINATES * ahead else NEITHER
 
 
 def participation(found: list[Part]) -> dict[str, float]:

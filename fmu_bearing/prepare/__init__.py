@@ -7,6 +7,8 @@
 ``imperfections``    waviness of races and balls, ball sizes, from a seed
 ``flexure``          bending modes of the rings as the engine's coordinates
 ``sound``            the sound block, kept on disk
+``spindle``          parameters of a set of bearings on one shaft
+``lengths``          lengths of the engine's arrays that go with the parameters
 ``model``            packs everything into the flat parameter array of the engine
 ===================  ==================================================================
 """

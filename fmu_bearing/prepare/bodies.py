@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass
 
+from fmu_bearing.elastic.shaft.sections import shaft_sections
 from fmu_bearing.scene import Scene, si
 
 
@@ -63,6 +64,14 @@ def rotor(scene: Scene) -> RigidBody:
         return RigidBody(0.0, 0.0, 0.0)
     r = si(scene.mounted.rotor)
     return of_mass(r.mass, 0.0, r.diameter, r.length)
+
+
+def rotor_inertia(scene: Scene) -> float:
+    """Polar inertia (kg m2) of all that turns with the shaft's speed: rotor or shaft, and inner rings."""
+    if scene.spindle is None:
+        return (inner_ring(scene) + rotor(scene)).polar
+    shaft = sum(section.polar for section in shaft_sections(scene, scene.spindle))
+    return shaft + len(scene.spindle.bearing) * inner_ring(scene).polar
 
 
 def housing(scene: Scene) -> RigidBody:

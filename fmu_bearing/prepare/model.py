@@ -11,9 +11,10 @@ from fmu_bearing import renamed
 from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.elastic.section import INNER, ring_section
 from fmu_bearing.engine.choices import FIDELITIES, METHODS, RACE_CONTROLS
-from fmu_bearing.engine.layout import FOUR, SD, STRIDE, P
+from fmu_bearing.engine.layout import FOUR, SD, STRIDE, P, Q
 from fmu_bearing.formulas.hertz import effective_modulus, point_contact
 from fmu_bearing.interface import Variable, variables
+from fmu_bearing.interface.set_inputs import set_inputs
 from fmu_bearing.prepare import bodies, contacts
 from fmu_bearing.prepare.flexure import longest_step, mode_table
 from fmu_bearing.prepare.imperfections import (
@@ -25,11 +26,14 @@ from fmu_bearing.prepare.imperfections import (
     race_harmonics,
     wave_table,
 )
-from fmu_bearing.prepare.sound import sound_block
+from fmu_bearing.prepare.lengths import Lengths, lengths
+from fmu_bearing.prepare.sound import sound_blocks
+from fmu_bearing.prepare.spindle import pack_set
 from fmu_bearing.prepare.surfaces import form_rows
 from fmu_bearing.scene import Scene, SceneError, si
 from fmu_bearing.scene.bearing import Cage
 from fmu_bearing.scene.material import Material
+from fmu_bearing.scene.member import one_of
 from fmu_bearing.scene.read import with_fidelity
 
 # Assumed for the cage (see docs/theory): Hunt-Crossley factor, slip scales, dry stop of the lands.
@@ -60,6 +64,22 @@ class Model:
     parameters: NDArray[np.float64]
     variables: tuple[Variable, ...]
     note: str = ""
+
+    @property
+    def lengths(self) -> Lengths:
+        """Lengths of the engine's other arrays."""
+        return lengths(self.parameters)
+
+    @property
+    def inputs(self) -> NDArray[np.float64]:
+        """Inputs ``u`` at the scene's operating point, those of a set that are no variables included."""
+        if self.scene.spindle is not None:
+            return set_inputs(self.scene)
+        u = np.zeros(self.lengths.inputs)
+        for variable in self.variables:
+            if variable.array == "u" and variable.start is not None:
+                u[variable.index] = variable.start
+        return u
 
     @property
     def n_balls(self) -> int:
@@ -120,34 +140,48 @@ def prepare(
         scene = with_fidelity(scene, **given)
     _require_computable(scene)
     try:
-        sound = sound_block(scene)
+        sounds = sound_blocks(scene)
     except ValueError as problem:
         raise SceneError(f"{scene.name}: {problem}") from None
-    parameters = pack(scene, sound)
+    parameters = pack(scene, *sounds)
     parameters.setflags(write=False)
-    rotating = bodies.inner_ring(scene) + bodies.rotor(scene)
-    return Model(scene, parameters, variables(scene, rotor_inertia=rotating.polar), note)
+    return Model(scene, parameters, variables(scene, rotor_inertia=bodies.rotor_inertia(scene)), note)
 
 
 def _require_computable(scene: Scene) -> None:
-    if scene.mounting is None:
-        raise scene.unmounted()
-    if scene.fidelity.model not in FIDELITIES:
+    model = scene.fidelity.model
+    if scene.spindle is not None and model == "response":
         raise SceneError(
-            f"{scene.name}: fidelity.model = '{scene.fidelity.model}' must be resolved first, to one of "
+            f"{scene.name}: fidelity.model = 'response' takes one bearing so far, not a set ([spindle]): "
+            'give "full" or "rings"'
+        )
+    if model not in FIDELITIES:
+        raise SceneError(
+            f"{scene.name}: fidelity.model = '{model}' must be resolved first, to one of "
             + ", ".join(FIDELITIES)
         )
 
 
-def pack(scene: Scene, sound: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Parameter array ``p`` for a scene and its sound block (empty: no sound).
+def pack(scene: Scene, *sounds: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Parameter array ``p`` for a scene, of a set too, and its sound block (empty: no sound).
+
+    A set has one sound block for each bearing, or a single empty one.
 
     Raises
     ------
     SceneError
-        If the scene's fidelity is ``auto``.
+        If the scene's fidelity is ``auto``, or takes no set.
     """
     _require_computable(scene)
+    if scene.spindle is not None:
+        count = len(scene.spindle.bearing)
+        blocks = sounds if len(sounds) == count else count * sounds
+        return pack_set(scene, [_pack(one_of(scene, b), blocks[b], scene) for b in range(count)])
+    return _pack(scene, sounds[0], scene)
+
+
+def _pack(scene: Scene, sound: NDArray[np.float64], heard: Scene) -> NDArray[np.float64]:
+    """Return the parameters of one bearing; ``heard``: the scene that has the microphones."""
     nodes, weights = roots_jacobi(scene.fidelity.traction_strips, 1.0, 1.0)
     # what the scene leaves out is an empty table: it takes no place, and its offset is 0
     waves = race_harmonics(scene)
@@ -182,7 +216,7 @@ def pack(scene: Scene, sound: NDArray[np.float64]) -> NDArray[np.float64]:
         p[P.MODES] = tables[P.AT_MODES].size // P.MODE_SIZE
         p[P.MODE_STEP] = longest_step(tables[P.AT_MODES], scene.fidelity.method)
     _fidelity(scene, p)
-    _sound(scene, sound, p)
+    _sound(heard, sound, p)
     contacts.oil(scene, p)
     contacts.balls(scene, p)
     contacts.races(scene, p)
@@ -255,6 +289,7 @@ def _mounting(scene: Scene, p: NDArray[np.float64]) -> None:
         outer.transverse,
         outer.polar,
     )
+    p[P.OWN_SHARE : P.OWN_SHARE + Q.RINGS] = 1.0
     p[P.RIGID] = scene.mounted.preload_mode == "rigid"
     p[P.MISALIGNMENT_Y] = mounting.misalignment_y
     p[P.MISALIGNMENT_Z] = mounting.misalignment_z

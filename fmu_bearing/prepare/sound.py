@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 from fmu_bearing.engine.sources import rooms_digest, source_hash
 from fmu_bearing.files import cache_root, write_whole
 from fmu_bearing.scene import Scene
+from fmu_bearing.scene.member import heard_of
 
-__all__ = ["sound_block", "sound_key"]
+__all__ = ["sound_block", "sound_blocks", "sound_key"]
 
 #: Packages whose code computes the numbers, beside the engine.
 _ROOMS = ("acoustics", "elastic", "formulas", "prepare", "scene")
@@ -55,6 +56,19 @@ def sound_block(scene: Scene) -> NDArray[np.float64]:
     return block
 
 
+def sound_blocks(scene: Scene) -> list[NDArray[np.float64]]:
+    """Return the sound block of every bearing of a scene: of a set one each, else one.
+
+    Raises
+    ------
+    ValueError
+        As `sound_block`.
+    """
+    if scene.spindle is None or scene.sound is None:
+        return [sound_block(scene)]
+    return [sound_block(heard_of(scene, b)) for b in range(len(scene.spindle.bearing))]
+
+
 def sound_key(scene: Scene) -> str:
     """Key of a scene's sound block; empty without sound.
 
@@ -65,6 +79,8 @@ def sound_key(scene: Scene) -> str:
 
     if scene.sound is None:
         return ""
+    if scene.spindle is not None:
+        return repr([sound_key(heard_of(scene, b)) for b in range(len(scene.spindle.bearing))])
     flexure = scene.mounted.flexure
     bending = (flexure, scene.materials, scene.bearing) if flexure is not None else ()
     return repr((scene.sound, radiators_of(scene), scene.fidelity.ball_harmonics, bending))

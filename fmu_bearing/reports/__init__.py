@@ -22,6 +22,7 @@
 ``fall``         waterfall over time or speed
 ``balloon``      level over direction
 ``audio``        sounds to play
+``spindle``      the page about a set of bearings on one shaft, from statics
 ``page``         the page from its sections; ``page.html.j2``, ``page.css``, ``page.js``
 ``make``         `report`: from a run or a recording to the page
 """

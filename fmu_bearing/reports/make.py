@@ -22,10 +22,11 @@ from fmu_bearing.reports.heard import Microphones, listen
 from fmu_bearing.reports.modes import section as what_vibrates
 from fmu_bearing.reports.page import render
 from fmu_bearing.reports.run import STEP, observed
+from fmu_bearing.reports.spindle import set_page
 from fmu_bearing.reports.subject import Subject
 from fmu_bearing.reports.verdicts import verdict_table
 from fmu_bearing.run.choose import resolve
-from fmu_bearing.scene import SceneError, SceneSource, read_scene, scene_of
+from fmu_bearing.scene import Scene, SceneError, SceneSource, read_scene, scene_of
 from fmu_bearing.scene.origins import origins
 
 Source = Recording | SceneSource
@@ -48,8 +49,8 @@ class Report:
     figures : dict
         The figures at the top of the page, by name with unit.
     warnings : list of str
-    recording : Recording
-        The recording that the page shows.
+    recording : Recording, optional
+        The recording that the page shows; None for a set of bearings, whose report is made of statics.
     """
 
     path: pathlib.Path
@@ -57,7 +58,7 @@ class Report:
     sections: dict[str, str]
     figures: dict[str, float]
     warnings: list[str]
-    recording: Recording
+    recording: Recording | None
 
 
 @renamed.arguments
@@ -143,6 +144,9 @@ def make(
     need("jinja2", "a report")
     path = check_file(output)
     _check(duration, settle, radius, run_up, run_up_time)
+    given = _set_of(source)
+    if given is not None:
+        return _of_set(given, path, speed, title, tell, run_up=run_up, radiation_model=radiation_model)
     subject = _subject(source, duration, settle, speed, radiation_model, radius, tell, progress)
     rising = _run_up(subject, run_up, run_up_time, tell, progress) if run_up else None
     with python_warnings.catch_warnings(record=True) as caught:
@@ -210,6 +214,33 @@ def _subject(
     if choice is not None:
         origin += f"; {choice.summary}"
     return Subject(recording, recording.radiation_model, origin, text, whence, notes, radius)
+
+
+def _set_of(source: Source) -> Scene | None:
+    """Return the scene of a set of bearings; None for all else."""
+    if isinstance(source, Recording):
+        return None
+    if isinstance(source, str | os.PathLike) and pathlib.Path(source).suffix == ".npz":
+        return None
+    scene = scene_of(source)
+    return scene if scene.spindle is not None else None
+
+
+def _of_set(
+    scene: Scene, path: pathlib.Path, speed: float | None, title: str, tell: Tell, **runs: object
+) -> Report:
+    """Write the page about a set; ``runs``: options that need a run."""
+    for name, value in runs.items():
+        if value is not None:
+            raise ValueError(
+                f"{name}: the report of a set of bearings is made of statics, without a run: leave it out"
+            )
+    if speed is not None:
+        scene = scene.replace({"operation.speed_rpm": speed / RPM})
+    page = set_page(scene, title, tell)
+    data = page.text.encode("utf-8")
+    write_whole(path, data)
+    return Report(path, len(data), page.sections, page.figures, page.warnings, None)
 
 
 def _spread(subject: Subject, heard: Microphones | None, tell: Tell) -> Spread | None:

@@ -22,7 +22,8 @@ _CANCELS = 1.0  # dB by which a component alone exceeds all together before it i
 _TURNS = 10.0  # of the cage, for a mean worth the name
 
 
-def _tile(key: str, label: str, value: float, unit: str, digits: str) -> Tile:
+def tile(key: str, label: str, value: float, unit: str, digits: str) -> Tile:
+    """Return one figure of the first screen."""
     return {"key": key, "label": label, "value": value, "unit": unit, "text": format(value, digits)}
 
 
@@ -36,7 +37,7 @@ def tiles(subject: Subject, heard: Microphones | None, sure: Spread | None = Non
         except Absent:
             return
         if math.isfinite(number):
-            found.append(_tile(key, label, number, unit, digits))
+            found.append(tile(key, label, number, unit, digits))
 
     add("speed_rpm", "shaft speed", "r/min", ",.0f", lambda: subject.speed / RPM)
     add("preload_N", "preload", "N", "g", lambda: subject.scene.mounted.preload_N)

@@ -7,10 +7,12 @@ from numpy.typing import NDArray
 
 from fmu_bearing.compiled import Calls
 from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE, RPM
-from fmu_bearing.engine.layout import P, Q, S, U, W, Y, Z
+from fmu_bearing.engine.layout import P, Q, S, U, Y
 from fmu_bearing.engine.status import OK
 from fmu_bearing.instance import REASONS
 from fmu_bearing.interface.inputs import inputs
+from fmu_bearing.interface.set_inputs import set_inputs
+from fmu_bearing.prepare.lengths import lengths
 from fmu_bearing.prepare.model import pack
 from fmu_bearing.scene import Scene
 
@@ -51,10 +53,23 @@ class Arrays:
         self.u[U.PEDESTAL] = scene.mounted.pedestal_stiffness_N_m
         self.u[U.LOAD_Y], self.u[U.LOAD_Z] = load_y, load_z
         self.u[U.OIL_T : U.OUTER_T + 1] = REFERENCE_TEMPERATURE
-        self.s = np.zeros(S.size(self.p))
-        sizes = (int(self.p[place]) for place in (P.BALLS, P.MICS, P.BANDS, P.MODES))
-        self.z = np.zeros(Z.size(*sizes))
-        self.w = np.zeros(W.size(self.p))
+        self._allocate()
+
+    @classmethod
+    def of_set(cls, scene: Scene, *sounds: NDArray[np.float64], **parameters: float) -> Self:
+        """Set of bearings at the scene's own speed, loads and temperatures; a sound block each, or none."""
+        made = cls.__new__(cls)
+        made.p = pack(scene, *(sounds or [np.empty(0)]))
+        for name, value in parameters.items():
+            made.p[getattr(P, name)] = value
+        made.u = set_inputs(scene)
+        made._allocate()
+        return made
+
+    def _allocate(self) -> None:
+        """Make state, outputs and work space, and bind all arrays."""
+        sizes = lengths(self.p)
+        self.s, self.z, self.w = (np.zeros(n) for n in (sizes.state, sizes.outputs, sizes.work))
         self._freeze()
 
     def _freeze(self) -> None:

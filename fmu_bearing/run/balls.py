@@ -6,6 +6,7 @@ twice.
 """
 
 import math
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +14,14 @@ from numpy.typing import NDArray
 from fmu_bearing.compiled import call
 from fmu_bearing.engine.layout import STRIDE, P, Q, S, Y, Z
 from fmu_bearing.instance import Instance
+
+
+class Readable(Protocol):
+    """What has the parameters and the state of one bearing: an instance, or a part of a set's."""
+
+    p: NDArray[np.float64]
+    s: NDArray[np.float64]
+
 
 _ROWS = 9  # of the state, per ball
 _CAGE = S.Y + Y.Q0 + Q.CAGE
@@ -62,7 +71,7 @@ class Watch:
 class Reader:
     """Reads the balls of one initialised bearing."""
 
-    def __init__(self, bearing: Instance) -> None:
+    def __init__(self, bearing: Readable) -> None:
         # without the sound block behind the tables, which is large
         end = int(bearing.p[P.AT_SOUND]) or len(bearing.p)
         self._p: NDArray[np.float64] = bearing.p[:end].copy()
@@ -74,7 +83,7 @@ class Reader:
         self._rows = S.Y + STRIDE * np.arange(_ROWS)
         self._z: NDArray[np.float64] = np.zeros(len(Z.BEARING_OUTPUTS))
 
-    def read(self, bearing: Instance) -> NDArray[np.float64]:
+    def read(self, bearing: Readable) -> NDArray[np.float64]:
         """Return azimuth (rad, from 12 o'clock about +X), load (N) and angle (rad) at inner and outer race.
 
         Shape (balls, 5).

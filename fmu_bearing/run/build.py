@@ -21,10 +21,10 @@ def model_of(source: SceneSource, tell: Tell = silent) -> Model:
         For a scene that is refused.
     """
     scene = scene_of(source)
-    if scene.fidelity.model == "auto":
+    if scene.fidelity.model == "auto" and scene.spindle is None:
         tell("fidelity auto: probing the scene against fidelity full (kept for the next time)")
     resolved, choice = resolve(scene)
-    if not resolved.mounted.preload_N > 0.0:
+    if resolved.mounting is not None and not resolved.mounting.preload_N > 0.0:
         tell(f"caution: {loose(resolved.fidelity.model)}")
     note = "" if choice is None else choice.summary
     if note:

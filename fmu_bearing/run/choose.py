@@ -232,9 +232,14 @@ def chosen(scene: Scene) -> Choice:
 
 
 def resolve(scene: Scene) -> tuple[Scene, Choice | None]:
-    """Return the scene with a concrete fidelity, and the choice; None where the fidelity was not ``auto``."""
+    """Return the scene with a concrete fidelity, and the choice; None where nothing was probed.
+
+    Of a set ``auto`` is ``full``, the only fidelity that takes one so far.
+    """
     if scene.fidelity.model != "auto":
         return scene, None
+    if scene.spindle is not None:
+        return with_fidelity(scene, model="full"), None
     choice = chosen(scene)
     return choice.apply(scene), choice
 

@@ -5,7 +5,7 @@ import re
 from collections.abc import Mapping
 
 from fmu_bearing.interface import flat, variables
-from fmu_bearing.scene import read_scene_text
+from fmu_bearing.scene import Scene, read_scene_text
 from fmu_bearing.scene.problems import described
 from fmu_bearing.scene.template import new_scene
 
@@ -14,9 +14,32 @@ _NUMBER = re.compile(r"_\d+(?=_|$)")
 
 @functools.cache
 def _usual_units() -> dict[str, str]:
-    """Return units by flat name of the variables of a scene with all options, without indices."""
+    """Return units by flat name of the variables of scenes with all options, without indices."""
     scene = read_scene_text(new_scene("any", "7003C"))
-    return {_without_index(variable.name): variable.unit for variable in variables(scene, 0.0)}
+    every = [*variables(scene, 0.0), *variables(any_set(scene), 0.0)]
+    return {_without_index(variable.name): variable.unit for variable in every}
+
+
+def any_set(scene: Scene) -> Scene:
+    """Return a set of a scene's bearing with all that gives variables: springs, a moving housing, sound."""
+    pair = [
+        {"position_mm": 10.0, "carries": "+x"},
+        {"position_mm": 10.0 + 2.0 * scene.bearing.width_mm, "carries": "-x", "seat": "sliding"},
+    ]
+    housing = {"mass_kg": 1.0, "diameter_mm": 100.0, "length_mm": 100.0, "pedestal_stiffness_N_m": 1e8}
+    spindle = {
+        "shaft": {"sections_mm": [[500.0, scene.bearing.bore_mm, 0.0]]},
+        "bearing": pair,
+        "preload": {"kind": "spring", "force_N": 100.0},
+        "housing": housing,
+    }
+    heard = {
+        "radiation_model": "compact",
+        "third_octaves": True,
+        "circle": {"radius_mm": 10.0 * scene.bearing.outside_diameter_mm, "axial_mm": 0.0, "count": 1},
+    }
+    tables = scene.model_dump() | {"mounting": None, "sound": heard, "imperfections": None}
+    return Scene.from_dict(tables | {"spindle": spindle})
 
 
 def _without_index(name: str) -> str:

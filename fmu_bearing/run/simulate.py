@@ -268,10 +268,13 @@ def _model(source: SceneSource | Model) -> Model:
 
 def _warn_of_loose(player: "Player", start_values: Mapping[str, float] | None) -> None:
     """Warn of one of our FMUs that starts without preload: its own log is shown after a refusal only."""
-    if player.scene is None or player.scene.fidelity.model == "auto" or "preload" not in player.inputs:
+    scene = player.scene
+    if scene is None or scene.mounting is None or "preload" not in player.inputs:
+        return
+    if scene.fidelity.model == "auto":
         return
     if by_name(start_values).get("preload", player.inputs["preload"].start) == 0.0:
-        warnings.warn(loose(player.scene.fidelity.model), stacklevel=3)
+        warnings.warn(loose(scene.fidelity.model), stacklevel=3)
 
 
 def _check_times(stop_time: float, step: float) -> None:

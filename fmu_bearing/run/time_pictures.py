@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 #: Variables drawn by default, as far as the run has them.
 USUAL = (
     "shaft_speed", "friction_torque", "heat.*", "inner_ring.velocity.*", "outer_ring.velocity.*",
-    "cage.velocity.*", "mic[*].spl_a", "cage.speed_ratio",
+    "cage.velocity.*", "mic[*].spl_a", "cage.speed_ratio", "shaft.nose.velocity.*", "bearing[*].force.x",
 )  # fmt: skip
 _MOST = 14  # names in a column of a legend; curves drawn by default where a run has none of the usual
 #: Factor, offset and unit in pictures, where SI gives awkward numbers.

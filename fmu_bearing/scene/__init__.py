@@ -24,6 +24,7 @@
 ``origins``       where each value comes from, and which are assumed
 ``values``        values by dotted key: read, put in, compared
 ``read``          `Scene`: from TOML or dictionaries, or changed; catalogue names become values
+``member``        one bearing of a set as the scene of a single one
 ``units``         conversion of field units to SI
 ================  =====================================================================
 """

@@ -39,5 +39,6 @@ class Operation(Part):
         ge=1,
         le=1e7,
         examples=[20000.0],
-        description=("Rating life asked of the bearing, for its verdict alone (absent: no verdict), h."),
+        description="Rating life asked of the bearing, of a set and each of its bearings, for verdicts alone "
+        "(absent: no verdict), h.",
     )

@@ -69,6 +69,8 @@ def origins(path: str | Path) -> list[Origin]:
         entry = entries(kind, files)[name]
         words = origin if entry.file is None else f"{origin} of {entry.file.name}"
         known |= {key: (words, remark) for key, remark in _remarks(_table(entry, name), table)}
+    if "spindle" in document:
+        known.pop("imperfections.unbalance_um", None)  # a set takes none from a grade
     known |= {key: ("file", remark) for key, remark in _remarks(document, "")}
     known |= _preload(document, scene)
     return [_origin(key, value, known.get(key)) for key, value in flat(scene).items()]

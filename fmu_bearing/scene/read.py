@@ -62,11 +62,12 @@ class Scene(Tables):
             raise self.unmounted()
         return self.mounting
 
-    def unmounted(self) -> SceneError:
-        """Return the refusal of a set by what computes one bearing on its mounting."""
+    def unmounted(self, what: str = "this") -> SceneError:
+        """Return the refusal of a set by ``what`` computes one bearing on its mounting."""
         return SceneError(
-            f"{self.name}: [spindle] is a set of bearings, of which only the statics are computed so far: "
-            "use `fmu-bearing info`, or `shaft_statics` in Python"
+            f"{self.name}: {what} takes one bearing with [mounting] so far, not a set with [spindle]; "
+            "sets have `fmu-bearing info`, `simulate`, `build`, `modes` and `stiffness`, in Python "
+            "`shaft_statics`, `set_stiffness`, `modes`, `campbell` and `Bearing`"
         )
 
     @classmethod
@@ -314,6 +315,9 @@ def _resolve(
             part["material"] = {"catalogue": part["material"]}
         if isinstance(part, dict):
             _fill(part, ("spindle", body, "material"), entries("materials"), lines, unresolved)
+    flaws = data.get("imperfections")
+    if spindle is not None and isinstance(flaws, dict):
+        flaws.setdefault("unbalance_um", 0.0)  # a grade's is that of one rotor; a set has it on its shaft
     _fill(data, ("imperfections",), entries("grades"), lines, unresolved, key="grade")
     _give_preload(data, name, lines, unresolved)
 

@@ -64,24 +64,32 @@ class Tables(Part):
         yield from self._flexure()
         yield from self._orders()
         if self.sound is not None:
-            if self.sound.radiator == "housing" and housing is None:
+            if self.sound.radiator == "housing" and housing is None and self.spindle is None:
                 yield Conflict("sound.radiator", "needs a table [mounting.housing]")
             yield from self._buried_microphones()
             if self.sound.reflecting_plane_mm is not None:
                 yield from self._behind_plane(self.sound.reflecting_plane_mm)
 
     def _set(self) -> Iterator[Conflict]:
-        """Yield what a set of bearings cannot have yet: nothing that is given may be ignored."""
+        """Yield what a set of bearings cannot have: nothing that is given may be ignored."""
         if self.spindle is None:
             return
-        for key in ("imperfections", "sound", "fmu"):
-            if getattr(self, key) is not None:
-                yield Conflict(
-                    key, "is of no use with [spindle], which only statics take so far: leave the table out"
-                )
-        for key in ("lowest_speed_rpm", "required_life_h"):
-            if getattr(self.operation, key) is not None:
-                yield Conflict(f"operation.{key}", "is not read with [spindle]: leave it out")
+        if self.spindle.shaft.external:
+            yield from self._port()
+        yield from self._sound_of_set()
+        flaws = self.imperfections
+        if flaws is not None and flaws.unbalance_um > 0.0:
+            yield Conflict(
+                "imperfections.unbalance_um",
+                "is that of one rotor; a set has heavy spots on its shaft: leave "
+                "the key out and give [[spindle.shaft.unbalance]] with position_mm and amount_g_mm "
+                "(the rotor's mass in kg times its eccentricity in um)",
+            )
+        if self.operation.lowest_speed_rpm is not None and not (flaws and flaws.follows_law):
+            yield Conflict(
+                "operation.lowest_speed_rpm",
+                "is read by nothing: it decides the highest order of [imperfections] that follow a law",
+            )
         width = self.bearing.width_mm
         for number, (one, other) in enumerate(pairwise(self.spindle.bearing), start=2):
             apart = other.position_mm - one.position_mm
@@ -92,6 +100,28 @@ class Tables(Part):
                     f"{width:g} mm wide",
                 )
 
+    def _port(self) -> Iterator[Conflict]:
+        """Yield what bearings on another model's shaft do not have."""
+        if self.sound is not None:
+            yield Conflict(
+                "sound", "is not computed of bearings on another model's shaft (spindle.shaft.external) yet"
+            )
+
+    def _sound_of_set(self) -> Iterator[Conflict]:
+        """Yield radiators and tables of sound that are those of one bearing."""
+        if self.sound is None:
+            return
+        if self.sound.radiator != "bare":
+            yield Conflict(
+                "sound.radiator",
+                'is not computed of a set ([spindle]) yet: give "bare"',
+            )
+        if self.sound.radiation_model == "table":
+            yield Conflict(
+                "sound.radiation_model",
+                "holds the paths of one bearing, a set ([spindle]) has those of several: give another model",
+            )
+
     def _behind_plane(self, plane: float) -> Iterator[Conflict]:
         key = "sound.reflecting_plane_mm"
         for body, _, low, high in self._envelopes():
@@ -99,7 +129,7 @@ class Tables(Part):
                 yield Conflict(key, f"cuts the {body}, which reaches from x = {low:g} to {high:g} mm")
         for place in self.microphones:
             x = 1e3 * place.position_m[0]
-            if (x - plane) * plane > 0.0:
+            if any((x - plane) * (plane - middle) > 0.0 for middle in self._middles()):
                 yield Conflict(
                     key, f"stands between the bearing and microphone '{place.name}' at x = {x:g} mm"
                 )
@@ -157,7 +187,13 @@ class Tables(Part):
         if self.sound is not None and self.sound.radiator == "housing" and housing is not None:
             front = -half - housing.front_face_mm
             yield "housing", housing.diameter_mm / 2.0, front, front + housing.length_mm
-        yield "bearing", self.bearing.outside_diameter_mm / 2.0, -half, half
+        for number, middle in enumerate(self._middles(), start=1):
+            name = "bearing" if self.spindle is None else f"bearing {number}"
+            yield name, self.bearing.outside_diameter_mm / 2.0, middle - half, middle + half
+
+    def _middles(self) -> list[float]:
+        """Places (mm) of the bearings along the axis of the microphones."""
+        return [0.0] if self.spindle is None else [one.position_mm for one in self.spindle.bearing]
 
     @property
     def bends(self) -> bool:

@@ -40,7 +40,12 @@ class Microphone(Part):
 
     name: Label = Field(examples=["P1"], description="Name of the microphone.")
     x_mm: float | None = Field(
-        default=None, ge=-_FAR, le=_FAR, examples=[0.0], description="Place along the bearing axis, mm."
+        default=None,
+        ge=-_FAR,
+        le=_FAR,
+        examples=[0.0],
+        description="Place along the bearing axis from the bearing's centre, of a set from the shaft's nose "
+        "(+X to the rear), mm.",
     )
     y_mm: float | None = Field(
         default=None, ge=-_FAR, le=_FAR, examples=[105.0], description="Horizontal place, mm."
@@ -55,7 +60,7 @@ class Microphone(Part):
         default=None, ge=0, le=_FAR, examples=[210.0], description="Distance from the bearing axis, mm."
     )
     l_mm: float | None = Field(
-        default=None, ge=-_FAR, le=_FAR, examples=[50.0], description="Place along the bearing axis, mm."
+        default=None, ge=-_FAR, le=_FAR, examples=[50.0], description="As x_mm: place along the axis, mm."
     )
 
     def conflicts(self) -> Iterator[Conflict]:
@@ -82,7 +87,10 @@ class Circle(Part):
 
     radius_mm: float = Field(ge=1, le=_FAR, examples=[210.0], description="Radius of the circle, mm.")
     axial_mm: float = Field(
-        ge=-_FAR, le=_FAR, examples=[50.0], description="Place of the circle along the bearing axis, mm."
+        ge=-_FAR,
+        le=_FAR,
+        examples=[50.0],
+        description="Place of the circle along the axis, as x_mm of a microphone, mm.",
     )
     count: int = Field(ge=1, le=360, examples=[24], description="Number of microphones on the circle.")
 
@@ -111,7 +119,8 @@ class Sound(Part):
         ge=-_FAR,
         le=_FAR,
         examples=[-100.0],
-        description="Place of a rigid plane across the bearing axis (absent: free field), mm.",
+        description="Place of a rigid plane across the bearing axis, as x_mm of a microphone (absent: free "
+        "field), mm.",
     )
     table_file: str | None = Field(
         default=None,

@@ -43,11 +43,35 @@ Bore = Annotated[float, Field(ge=0, le=1000)]
 Section = Annotated[tuple[Length, Diameter, Bore], Field(strict=False)]
 
 
-class Shaft(Part):
-    """The shaft in cylindrical sections, rigid; its nose is at X = 0."""
+class Unbalance(Part):
+    """A heavy spot of the shaft."""
 
+    position_mm: float = Field(
+        ge=0, le=_LONG, examples=[20.0], description="Plane of the heavy spot from the nose, mm."
+    )
+    amount_g_mm: float = Field(
+        ge=0, le=1e5, examples=[0.1], description="Mass times distance from the axis, g mm."
+    )
+    angle_deg: float = Field(
+        default=0.0,
+        ge=-360,
+        le=360,
+        examples=[0.0],
+        description="Angle about +X from 12 o'clock where the shaft's angle is zero, deg.",
+    )
+
+
+class Shaft(Part):
+    """The shaft in cylindrical sections; its nose is at X = 0. One of another model has no sections."""
+
+    external: bool = Field(
+        default=False,
+        examples=[True],
+        description="Whether another model owns the shaft: its motion at X = 0 comes in, the bearings' force "
+        "goes out (mechanical port).",
+    )
     sections_mm: tuple[Section, ...] = Field(
-        min_length=1,
+        default=(),
         max_length=40,
         strict=False,
         examples=[[[30.0, 22.0, 0.0], [140.0, 17.0, 0.0]]],
@@ -66,13 +90,56 @@ class Shaft(Part):
         description="Mean temperature of the shaft between its bearings (absent: that of [operation]'s inner "
         "ring), degC.",
     )
+    flexible: bool = Field(
+        default=False,
+        examples=[True],
+        description="Whether the shaft bends (Timoshenko beam); else it is rigid with the same mass.",
+    )
+    fixed_modes: int = Field(
+        default=2,
+        ge=0,
+        le=8,
+        examples=[2],
+        description="Flexible shaft: bending modes between nose and bearings that are kept, per direction.",
+    )
+    damping_ratio: float = Field(
+        default=0.005,
+        ge=0,
+        le=0.5,
+        examples=[0.005],
+        description="Flexible shaft: damping over the critical one at its lowest bending frequency without "
+        "supports; it grows with frequency (default assumed).",
+    )
+    unbalance: tuple[Unbalance, ...] = Field(
+        default=(), max_length=20, strict=False, description="Heavy spots; absent: a balanced shaft."
+    )
 
     def conflicts(self) -> Iterator[Conflict]:
-        """Yield sections whose bore leaves nothing."""
+        """Yield sections whose bore leaves nothing, a shaft without any, and what a port does not read."""
+        if self.external:
+            for key in ("sections_mm", "flexible", "fixed_modes", "damping_ratio", "unbalance"):
+                if getattr(self, key) != type(self).model_fields[key].default:
+                    yield Conflict(
+                        key, "is that of the model which owns the shaft (external = true): leave it out"
+                    )
+            return
+        if not self.sections_mm:
+            yield Conflict(
+                "sections_mm",
+                "is missing, for example sections_mm = [[30.0, 22.0, 0.0], [140.0, 17.0, 0.0]]; a shaft that "
+                "another model owns has external = true",
+            )
+            return
         for number, (_, diameter, bore) in enumerate(self.sections_mm, start=1):
             if bore >= diameter:
                 yield Conflict(
                     "sections_mm", f"section {number} has a bore of {bore:g} mm in a diameter of {diameter:g}"
+                )
+        for number, spot in enumerate(self.unbalance, start=1):
+            if spot.position_mm > self.length_mm:
+                yield Conflict(
+                    f"unbalance[{number}].position_mm",
+                    f"= {spot.position_mm:g} is beyond the shaft's end at {self.length_mm:g} mm",
                 )
 
     @property
@@ -100,10 +167,11 @@ class SetBearing(Part):
         description="How much more than the spacer preload asks for the inner ring is pushed into the "
         "bearing at assembly, um.",
     )
-    seat: Literal["fixed", "sliding"] = Field(
+    seat: Literal["fixed", "sliding", "pedestal"] = Field(
         default="fixed",
         examples=["fixed"],
-        description="Outer ring held in the housing, or sliding along it against a spring.",
+        description="Outer ring held in the housing, sliding along it against a spring, or on a pedestal of "
+        "its own as in [mounting].",
     )
     inner_ring_temperature_degC: float | None = Field(
         default=None,
@@ -170,7 +238,7 @@ class Preload(Part):
 
 
 class SetHousing(Part):
-    """The housing that holds the outer rings: rigid, and it does not move."""
+    """What holds the outer rings: at rest, or with a mass a rigid body that moves on its pedestal."""
 
     material: Material | None = Field(
         default=None,
@@ -185,6 +253,72 @@ class SetHousing(Part):
         description="Mean temperature of the housing between its seats (absent: that of [operation]'s outer "
         "ring), degC.",
     )
+    mass_kg: float | None = Field(
+        default=None,
+        ge=0.001,
+        le=1e4,
+        examples=[2.0],
+        description="Mass of the housing, which moves then (absent: it does not move), kg.",
+    )
+    diameter_mm: float | None = Field(
+        default=None, ge=5, le=3000, examples=[100.0], description="Outside diameter of the housing, mm."
+    )
+    length_mm: float | None = Field(
+        default=None, ge=1, le=5000, examples=[160.0], description="Length of the housing, mm."
+    )
+    position_mm: float | None = Field(
+        default=None,
+        ge=-_LONG,
+        le=_LONG,
+        examples=[90.0],
+        description="Middle of the housing and of its pedestal from the shaft's nose (absent: the middle of "
+        "the bearings), mm.",
+    )
+    pedestal_stiffness_N_m: float | None = Field(
+        default=None,
+        ge=1e4,
+        le=1e12,
+        examples=[1e8],
+        description="Radial stiffness under the housing, or under each ring with a pedestal of its own, N/m.",
+    )
+    pedestal_axial_ratio: float = Field(
+        default=1.0,
+        ge=0.01,
+        le=100,
+        examples=[1.0],
+        description="Axial over radial stiffness of the pedestal (default assumed).",
+    )
+    pedestal_rotational_ratio_mm2: float = Field(
+        default=200.0,
+        ge=0.1,
+        le=1e6,
+        examples=[200.0],
+        description="Rotational over radial stiffness of the pedestal (default assumed), mm2.",
+    )
+    pedestal_damping_ratio: float = Field(
+        default=0.05,
+        ge=0,
+        le=1,
+        examples=[0.05],
+        description="Damping over the critical one of the mass on the pedestal (default assumed).",
+    )
+
+    @property
+    def moves(self) -> bool:
+        """Whether the housing is a body of its own."""
+        return self.mass_kg is not None
+
+    def conflicts(self) -> Iterator[Conflict]:
+        """Yield a housing with a mass and no size or pedestal, and sizes without a mass."""
+        sizes = ("diameter_mm", "length_mm")
+        for key, example in (*zip(sizes, (100.0, 160.0), strict=True), ("pedestal_stiffness_N_m", 1e8)):
+            if self.moves and getattr(self, key) is None:
+                yield Conflict(
+                    key, f"is missing, for example {key} = {example:g}: a housing with a mass moves"
+                )
+        for key in (*sizes, "position_mm"):
+            if not self.moves and getattr(self, key) is not None:
+                yield Conflict(key, "is of no use without mass_kg: the housing does not move; leave it out")
 
 
 class Load(Part):
@@ -203,7 +337,7 @@ class Load(Part):
 
 
 class Spindle(Part):
-    """A set of equal bearings on one rigid shaft. It takes the place of `[mounting]`."""
+    """A set of equal bearings on one shaft. It takes the place of `[mounting]`."""
 
     shaft: Shaft = Field(description="The shaft.")
     bearing: tuple[SetBearing, ...] = Field(
@@ -216,7 +350,8 @@ class Spindle(Part):
     def conflicts(self) -> Iterator[Conflict]:
         """Yield bearings beside the shaft or out of order, and sets that nothing holds."""
         length = self.shaft.length_mm
-        for number, one in enumerate(self.bearing, start=1):
+        given = self.shaft.external or not self.shaft.sections_mm
+        for number, one in enumerate(() if given else self.bearing, start=1):
             if one.position_mm > length:
                 yield Conflict(
                     f"bearing[{number}].position_mm",
@@ -229,8 +364,15 @@ class Spindle(Part):
                     f"= {other.position_mm:g} must exceed that of the bearing before it, "
                     f"{one.position_mm:g}: bearings are given from the nose to the rear",
                 )
-        yield from self._held()
+        if self.shaft.external:
+            if self.load != Load():
+                yield Conflict(
+                    "load", "acts on the shaft, which another model owns (shaft.external): leave it out"
+                )
+        else:
+            yield from self._held()
         yield from self._springs()
+        yield from self._pedestals()
 
     def _held(self) -> Iterator[Conflict]:
         """Yield a set that carries one direction alone, and nothing pushes the shaft that way."""
@@ -256,7 +398,7 @@ class Spindle(Part):
         """Yield sliding seats without a spring, springs without one, and sets that slide as a whole."""
         spring = self.preload is not None and self.preload.kind == "spring"
         sliding = {one.sign for one in self.bearing if one.seat == "sliding"}
-        held = {one.sign for one in self.bearing if one.seat == "fixed"}
+        held = {one.sign for one in self.bearing if one.seat != "sliding"}
         if sliding and not spring:
             yield Conflict(
                 "preload",
@@ -271,6 +413,27 @@ class Spindle(Part):
                 "bearing",
                 "springs push all bearings of one direction and none of the other: give those of one "
                 'direction seat = "sliding", those of the other seat = "fixed"',
+            )
+
+    def _pedestals(self) -> Iterator[Conflict]:
+        """Yield rings on pedestals of no stiffness, and a housing that is both held and not needed."""
+        own = [one for one in self.bearing if one.seat == "pedestal"]
+        if own and self.housing.pedestal_stiffness_N_m is None:
+            yield Conflict(
+                "housing.pedestal_stiffness_N_m",
+                'is missing, for example pedestal_stiffness_N_m = 1e8: a bearing has seat = "pedestal"',
+            )
+        if own and self.housing.moves:
+            yield Conflict(
+                "housing.mass_kg",
+                'is that of a housing on a pedestal, and a bearing has seat = "pedestal" of its own: leave '
+                'mass_kg out, or give all bearings seat = "fixed" or "sliding"',
+            )
+        if not own and not self.housing.moves and self.housing.pedestal_stiffness_N_m is not None:
+            yield Conflict(
+                "housing.pedestal_stiffness_N_m",
+                "is read by nothing: give housing.mass_kg for a housing that moves, or a bearing with "
+                'seat = "pedestal"',
             )
 
     @property

@@ -26,6 +26,7 @@ UNITS: dict[str, tuple[float, float]] = {
     "_N_m": (1.0, 0.0),
     "_N_m_rad": (1.0, 0.0),
     "_N_s_m": (1.0, 0.0),
+    "_g_mm": (1e-6, 0.0),
     "_kg": (1.0, 0.0),
     "_kg_m3": (1.0, 0.0),
     "_m_s": (1.0, 0.0),
@@ -41,6 +42,7 @@ UNITS: dict[str, tuple[float, float]] = {
 #: Suffixes as messages write them, where taking off the underscore is not enough.
 _SYMBOLS = {
     "_rpm": "r/min",
+    "_g_mm": "g mm",
     "_N_m": "N/m",
     "_N_m_rad": "N m/rad",
     "_N_s_m": "N s/m",

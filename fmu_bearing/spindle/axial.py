@@ -11,7 +11,7 @@ from fmu_bearing.spindle.equilibrium import rest
 from fmu_bearing.spindle.member import Member
 
 _WARMER = 10.0  # K: inner rings and shaft against the housing; the spacing hardly depends on it
-_REACH = 1e-3  # m: of a sliding ring
+_REACH = 1e-3  # m: of a sliding ring; no load would press its bearing so far
 
 
 @dataclass(frozen=True)
@@ -56,9 +56,9 @@ def lift_off(assembled: Assembly) -> dict[str, LiftOff]:
 def _free_at(assembled: Assembly, k: int) -> float:
     """Place (m) of the shaft at which a bearing carries nothing; infinite where it follows the shaft."""
     one, slide = assembled.members[k], 0.0
-    if k in assembled.sliding and assembled.spring is not None:
-        push, stiffness = assembled.spring
-        if stiffness == 0.0:
+    if k in assembled.springs:
+        push, stiffness = assembled.springs[k]
+        if push > _REACH * stiffness:  # springs that soft never let go
             return -one.sign * np.inf
         slide = -push / stiffness
     return one.sign * (one.lifted() + slide - float(assembled.offsets[k]))
@@ -68,9 +68,9 @@ def _carried(assembled: Assembly, k: int, shaft: float) -> float:
     """Axial load (N) that a bearing carries with the shaft at a place (m)."""
     one = assembled.members[k]
     inner = one.sign * shaft + float(assembled.offsets[k])
-    if k not in assembled.sliding or assembled.spring is None:
+    if k not in assembled.springs:
         return one.carried(inner, one.still())
-    push, stiffness = assembled.spring
+    push, stiffness = assembled.springs[k]
 
     def excess(slide: float) -> float:
         return one.carried(inner - slide, one.still()) - push - stiffness * slide
@@ -88,7 +88,7 @@ def preloads(assembled: Assembly) -> dict[str, list[float]]:
     if len({one.sign for one in members}) == 1:
         return {}
     cold = replace(assembled, offsets=assembled.offsets - assembled.warming, warming=0.0 * assembled.warming)
-    none = np.zeros(5)
+    none = np.zeros(assembled.shaft.count)
     states = {
         "cold": rest(cold, none, [one.cold() for one in members]),
         "warm": rest(assembled, none, [one.still() for one in members]),
@@ -106,7 +106,7 @@ def neutral_spacing(assembled: Assembly) -> float | None:
     """
     spindle = set_of(assembled.scene)
     count = len(assembled.members)
-    if assembled.spring is not None or spindle.directions != "+" * (count // 2) + "-" * (count // 2):
+    if assembled.springs or spindle.directions != "+" * (count // 2) + "-" * (count // 2):
         return None
     preload = spindle.preload
     if preload is None or not preload.preload_N:

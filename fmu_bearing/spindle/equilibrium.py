@@ -1,14 +1,18 @@
 """Where shaft and sliding outer rings come to rest under loads: Newton's method in displacements.
 
-Unknowns are x y z by bz of the shaft at its nose and, for each sliding outer ring, its displacement along the
-bearing's own axis. Contacts are springs: a step is judged by the force along it, which must not turn round.
+Unknowns are the coordinates of the shaft and, for each sliding outer ring, its displacement along the
+bearing's own axis. The first five of a shaft are x y z by bz of its nose. Contacts are springs: a step is
+judged by the force along it, which must not turn round.
 """
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu_bearing.elastic.shaft import ShaftModel
+from fmu_bearing.elastic.shaft.model import FREEDOMS
 from fmu_bearing.engine.layout import P
 from fmu_bearing.instance import EngineError
 from fmu_bearing.spindle.assembly import Assembly
@@ -18,7 +22,6 @@ _ITERATIONS = 300
 _BACKTRACKS = 12
 _LONGEST = 5e-6  # m: step of a ring, tilts at the pitch radius; a tenth of the groove centres' distance
 _FLOOR = 1.0  # N/m: moves a shaft that nothing holds by the longest step at most
-_SHAFT = 5
 
 
 @dataclass(frozen=True)
@@ -27,20 +30,20 @@ class Rest:
 
     Attributes
     ----------
-    shaft : ndarray, shape (5,)
-        Displacement at the nose: x y z (m), tilts about y, z (rad).
-    slides : ndarray
-        Displacement (m) of each sliding outer ring along its own axis.
+    shaft : ndarray, shape (n,)
+        Coordinates of the shaft; the first five are x y z (m), tilts about y, z (rad) of its nose.
+    apart : tuple of ndarray, shape (5,)
+        Displacement of each inner ring against its outer one, in the bearing's own axes.
     held : tuple of Held
         The bearings, in their own axes.
     stiffness : ndarray, shape (5, 5)
-        Of the shaft at its nose; sliding rings follow.
+        Of the shaft at its nose; its other planes and sliding rings follow.
     residual : float
         N; moments over the pitch radius.
     """
 
     shaft: NDArray[np.float64]
-    slides: NDArray[np.float64]
+    apart: tuple[NDArray[np.float64], ...]
     held: tuple[Held, ...]
     stiffness: NDArray[np.float64]
     residual: float
@@ -54,8 +57,8 @@ def rest(
     Parameters
     ----------
     assembled : Assembly
-    load : ndarray, shape (5,)
-        On the shaft at its nose: forces (N), moments about y, z (N m).
+    load : ndarray, shape (n,)
+        On the shaft's coordinates: forces (N), moments (N m).
     inputs : list of ndarray, optional
         Of the engine, per bearing; default: those of the operating point.
 
@@ -104,23 +107,33 @@ def rest(
                 "its direction, on the side of its races without shoulder: the load pushes the shaft the way "
                 "that nothing holds, or temperatures pull the set apart"
             )
-    return Rest(z[:_SHAFT], z[_SHAFT:], held, _condensed(matrix), size)
+    count = assembled.shaft.count
+    own = [moves @ z for moves in system.moves]
+    for k, offset in enumerate(assembled.offsets):
+        own[k][0] += offset
+    return Rest(z[:count], tuple(own), held, _condensed(matrix), size)
 
 
 class _System:
-    """Forces on shaft and sliding rings, and their derivatives."""
+    """Forces on shaft and supports, and their derivatives."""
 
     def __init__(
         self, assembled: Assembly, load: NDArray[np.float64], inputs: list[NDArray[np.float64]] | None
     ) -> None:
         self.members, self.offsets = assembled.members, assembled.offsets
         self.inputs = inputs or [one.inputs for one in self.members]
-        self.load, self.sliding = load, assembled.sliding
-        self.spring = assembled.spring or (0.0, 0.0)
+        self.load, self.supports = load, assembled.supports
         self.lever = float(self.members[0].parameters[P.PITCH_RADIUS])
-        self.count = _SHAFT + len(self.sliding)
+        self.shaft, self.first = assembled.shaft, assembled.shaft.count
+        self.count = self.first + self.supports.count
         self.scale = np.ones(self.count)
-        self.scale[3:_SHAFT] = self.lever
+        self.scale[np.concatenate([self.shaft.tilts, self.supports.tilts])] = self.lever
+        self.moves = [self._moves(k) for k in range(len(self.members))]
+
+    def _moves(self, k: int) -> NDArray[np.float64]:
+        """How unknowns move a bearing's inner ring against the outer one, in its own axes."""
+        inner = self.members[k].mirror[:, None] * self.shaft.planes[k]
+        return np.hstack([inner, -self.supports.rings[k]])
 
     def start(self) -> NDArray[np.float64]:
         """Place the shaft where preloaded bearings stand; a set that carries one way, where its load is."""
@@ -134,25 +147,26 @@ class _System:
 
     def at(self, z: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64], tuple[Held, ...]]:
         """Return forces out of balance, stiffness matrix, and the bearings."""
-        force, matrix = np.zeros(self.count), np.zeros((self.count, self.count))
-        force[:_SHAFT] = self.load
+        force = np.zeros(self.count)
+        force[: self.first] = self.load - self.shaft.stiffness @ z[: self.first]
         bearings = []
         for k, (one, inputs) in enumerate(zip(self.members, self.inputs, strict=True)):
-            moves = np.zeros((_SHAFT, self.count))
-            moves[:, :_SHAFT] = one.transform
-            if k in self.sliding:
-                moves[0, _SHAFT + self.sliding.index(k)] = -1.0
-            own = moves @ z
+            own = self.moves[k] @ z
             own[0] += self.offsets[k]
             held = one.at(own, inputs)
-            force += moves.T @ held.force
-            matrix += moves.T @ held.stiffness @ moves
+            force += self.moves[k].T @ held.force
             bearings.append(held)
-        push, stiffness = self.spring
-        for place in range(_SHAFT, self.count):
-            force[place] -= push + stiffness * z[place]
-            matrix[place, place] += stiffness
-        return force, matrix, tuple(bearings)
+        force[self.first :] += self.supports.force - self.supports.stiffness @ z[self.first :]
+        return force, self.matrix(bearings), tuple(bearings)
+
+    def matrix(self, bearings: Sequence[Held]) -> NDArray[np.float64]:
+        """Return the stiffness matrix of shaft, bearings and supports."""
+        found = np.zeros((self.count, self.count))
+        found[: self.first, : self.first] = self.shaft.stiffness
+        for moves, held in zip(self.moves, bearings, strict=True):
+            found += moves.T @ held.stiffness @ moves
+        found[self.first :, self.first :] += self.supports.stiffness
+        return found
 
     def size(self, force: NDArray[np.float64]) -> float:
         """Length of forces (N), moments over the pitch radius."""
@@ -164,18 +178,24 @@ class _System:
         """Newton's step, shortened so that no ring moves by more than the longest."""
         scaled = matrix / np.outer(self.scale, self.scale) + damping * np.eye(self.count)
         step = np.linalg.solve(scaled, force / self.scale) / self.scale
-        longest = max(float(np.abs(step[_SHAFT:]).max()) if self.sliding else 0.0, 1e-300)
-        for one in self.members:
-            own = one.transform @ step[:_SHAFT]
-            own[3:] *= self.lever
-            longest = max(longest, float(np.abs(own).max()))
+        longest = max(float(np.abs(step[self.first :]).max(initial=0.0)), 1e-300)
+        for moves in self.moves:
+            for own in (moves[:, : self.first] @ step[: self.first], moves @ step):
+                own[3:] *= self.lever
+                longest = max(longest, float(np.abs(own).max()))
         return step * min(1.0, _LONGEST / longest)
 
 
+def stiffness_with(assembled: Assembly, shaft: ShaftModel, bearings: Sequence[Held]) -> NDArray[np.float64]:
+    """Return the stiffness at the nose of another shaft in bearings as stiff as they were found, (5, 5)."""
+    other = _System(replace(assembled, shaft=shaft), np.zeros(shaft.count), None)
+    return _condensed(other.matrix(bearings))
+
+
 def _condensed(matrix: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Stiffness of the shaft with sliding rings free to follow."""
-    own, across = matrix[:_SHAFT, :_SHAFT], matrix[:_SHAFT, _SHAFT:]
+    """Stiffness of the shaft at its nose with all else free to follow."""
+    own, across = matrix[:FREEDOMS, :FREEDOMS], matrix[:FREEDOMS, FREEDOMS:]
     if across.shape[1] == 0:
         return own
-    follow = np.linalg.solve(matrix[_SHAFT:, _SHAFT:] + 1e-3 * np.eye(across.shape[1]), across.T)
+    follow = np.linalg.solve(matrix[FREEDOMS:, FREEDOMS:] + 1e-3 * np.eye(across.shape[1]), across.T)
     return np.asarray(own - across @ follow)

@@ -12,7 +12,8 @@ from fmu_bearing.engine.status import OK
 from fmu_bearing.instance import REASONS, EngineError
 from fmu_bearing.prepare.model import pack
 from fmu_bearing.scene import Scene, si
-from fmu_bearing.scene.mounting import Mounting
+from fmu_bearing.scene.member import HELD, one_of
+from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.scene.spindle import SetBearing
 
 _FREEDOMS = EQ.FREEDOMS
@@ -60,7 +61,7 @@ class Member:
         self.position = 1e-3 * place.position_mm  # m
         self.inputs = np.zeros(U.SIZE)
         self.inputs[U.SPEED] = speed
-        self.inputs[U.PEDESTAL] = _PEDESTAL
+        self.inputs[U.PEDESTAL] = HELD
         operation, own = si(scene.operation), si(place)
         self.inputs[U.OIL_T] = operation.oil_temperature
         for index, ring in ((U.INNER_T, "inner_ring_temperature"), (U.OUTER_T, "outer_ring_temperature")):
@@ -69,7 +70,7 @@ class Member:
         self.parameters = pack(_alone(scene), np.empty(0))
         self._c, self._out = np.zeros(C.SIZE), np.zeros(EQ.SIZE)
         self._force, self._w = np.zeros(_FREEDOMS), np.zeros(W.size(self.parameters))
-        self.transform = placed(self.sign, self.position)
+        self.mirror = np.array([self.sign, 1.0, 1.0, self.sign, self.sign])
 
     def at(self, own: NDArray[np.float64], inputs: NDArray[np.float64] | None = None) -> Held:
         """Return the bearing with its inner ring held at ``own`` (m, rad) in its own axes.
@@ -163,21 +164,9 @@ class Member:
         return low, high
 
 
-_PEDESTAL = 1e8  # N/m: of an outer ring that is held, so read by nothing
-
-
-def placed(sign: float, position: float) -> NDArray[np.float64]:
-    """Return what takes the shaft's displacement at its nose to a bearing's own, shape (5, 5)."""
-    found = np.diag([sign, 1.0, 1.0, sign, sign])
-    found[1, 4], found[2, 3] = position, -position
-    return found
-
-
 def _alone(scene: Scene) -> Scene:
-    """Return the scene of one bearing of the set."""
-    fidelity = scene.fidelity.model_copy(update={"model": "full"})
-    mounting = Mounting(preload_N=0.0, pedestal_stiffness_N_m=_PEDESTAL)
-    return scene.model_copy(update={"spindle": None, "mounting": mounting, "fidelity": fidelity})
+    """Return the scene of one perfect bearing of the set."""
+    return one_of(with_fidelity(scene, model="full").model_copy(update={"imperfections": None}))
 
 
 def shaft_speed(scene: Scene) -> float:

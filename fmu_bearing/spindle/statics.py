@@ -2,16 +2,18 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu_bearing.elastic.shaft import ShaftModel, shaft_model
+from fmu_bearing.elastic.shaft.model import FREEDOMS
 from fmu_bearing.scene import Scene, SceneSource, scene_of
-from fmu_bearing.spindle.assembly import assembly, at_plane, set_of, weight
+from fmu_bearing.spindle.assembly import Assembly, assembly, set_of, weight
 from fmu_bearing.spindle.axial import LiftOff, lift_off, neutral_spacing, preloads, spacing
-from fmu_bearing.spindle.equilibrium import Rest, rest
+from fmu_bearing.spindle.equilibrium import Rest, rest, stiffness_with
 from fmu_bearing.spindle.member import shaft_speed
 
 
@@ -80,7 +82,11 @@ class ShaftStatics:
         preloaded set stands at 20 degC and standstill; thermal growth counts from the nose.
     bearings : tuple of BearingLoad
     stiffness : ndarray, shape (5, 5)
-        Of the shaft at its nose: rows forces and moments, columns displacements and tilts.
+        Of the shaft at its nose, the rest of it free: rows forces and moments, columns displacements and
+        tilts.
+    nose_stiffness_bending : float
+        `nose_stiffness` with a shaft that bends in bearings as stiff as here, N/m; the same where the scene's
+        shaft bends.
     lift_off : dict
         By direction of an axial load alone, ``+x`` and ``-x``, the load that unloads the first bearing.
     preloads : dict
@@ -104,6 +110,7 @@ class ShaftStatics:
     displacement: NDArray[np.float64]
     bearings: tuple[BearingLoad, ...]
     stiffness: NDArray[np.float64]
+    nose_stiffness_bending: float
     lift_off: dict[str, LiftOff]
     preloads: dict[str, list[float]]
     spacing: float | None
@@ -133,8 +140,8 @@ class ShaftStatics:
 
     @property
     def nose_stiffness(self) -> float:
-        """Force along z at the nose per displacement there, the shaft free, N/m; the shaft is rigid."""
-        return float(1.0 / np.linalg.inv(self.stiffness)[2, 2])
+        """Force along z at the nose per displacement there, the shaft free, N/m."""
+        return _at_nose(self.stiffness)
 
     def table(self) -> list[dict[str, Any]]:
         """Return a row per bearing, units in the names."""
@@ -171,6 +178,7 @@ class ShaftStatics:
             "radial_stiffness_N_m": self.radial_stiffness,
             "tilt_stiffness_N_m_rad": self.tilt_stiffness,
             "nose_stiffness_N_m": self.nose_stiffness,
+            "nose_stiffness_bending_N_m": self.nose_stiffness_bending,
             "lift_off": {
                 way: {"load_N": one.load, "bearing": one.bearing} for way, one in self.lift_off.items()
             },
@@ -189,18 +197,24 @@ class ShaftStatics:
                 found.append(f"bearing {one.number} is unloaded: its balls skid at speed; raise the preload")
             elif one.unloaded:
                 found.append(f"bearing {one.number}: {one.unloaded} of its balls carry nothing")
-        found.append("the shaft is rigid here: a real nose may be ten times softer")
+        soft, stiff = self.nose_stiffness_bending, self.nose_stiffness
+        if abs(soft / stiff - 1.0) > _NOSES_DIFFER:
+            found.append(
+                f"the shaft is rigid here and its nose has {1e-6 * stiff:.3g} N/um; one that bends has "
+                f"{1e-6 * soft:.3g} N/um: set spindle.shaft.flexible = true"
+            )
         return found
 
 
 _UNLOADED = 1e-3  # N
+_NOSES_DIFFER = 0.2  # of the rigid shaft's nose: then its stiffness misleads a designer
 
 
 def shaft_statics(
     scene: SceneSource, force: Sequence[float] | None = None, at: float | None = None,
     moment: Sequence[float] = (0.0, 0.0),
 ) -> ShaftStatics:  # fmt: skip
-    """Return the equilibrium of a set of bearings on one rigid shaft, outer rings held or on springs.
+    """Return the equilibrium of a set of bearings on one shaft, outer rings held or on springs.
 
     Bearings are perfect, their rings rigid; speed and temperatures are the scene's.
 
@@ -237,28 +251,38 @@ def shaft_statics(
     x, y, z = (float(value) for value in force)
     about_y, about_z = (float(value) for value in moment)
     plane = 1e-3 * given.position_mm if at is None else float(at)
-    load = at_plane(plane, (x, y, z), (about_y, about_z)) + weight(scene)
-    if not np.all(np.isfinite(load)):
+    given_load = np.array([x, y, z, about_y, about_z, plane])
+    if not np.all(np.isfinite(given_load)):
         raise ValueError("force, place and moment must be finite numbers")
     assembled = assembly(scene, shaft_speed(scene))
+    rigid = replace(assembled, shaft=_shaft(scene, flexible=False))
+    load, at_nose = (
+        one.shaft.at(plane).T @ given_load[:FREEDOMS] + weight(one) for one in (assembled, rigid)
+    )
     found = rest(assembled, load)
+    bending = stiffness_with(assembled, _shaft(scene, flexible=True), found.held)
     return ShaftStatics(
-        scene, load, found.shaft, _bearings(assembled.members, assembled.offsets, assembled.sliding, found),
-        found.stiffness, lift_off(assembled), preloads(assembled), spacing(assembled),
+        scene, at_nose, found.shaft[:FREEDOMS], _bearings(assembled, found),
+        found.stiffness, _at_nose(bending), lift_off(assembled), preloads(assembled), spacing(assembled),
         neutral_spacing(assembled), found.residual,
     )  # fmt: skip
 
 
-def _bearings(
-    members: Sequence[Any], offsets: NDArray[np.float64], sliding: list[int], found: Rest
-) -> tuple[BearingLoad, ...]:
+def _shaft(scene: Scene, flexible: bool) -> ShaftModel:
+    """Return the shaft of a scene's set as one that bends or not, whatever the scene says."""
+    return shaft_model(scene, set_of(scene.replace({"spindle.shaft.flexible": flexible})))
+
+
+def _at_nose(stiffness: NDArray[np.float64]) -> float:
+    """Force along z at the nose per displacement there, the shaft free, N/m."""
+    return float(1.0 / np.linalg.inv(stiffness)[2, 2])
+
+
+def _bearings(assembled: Assembly, found: Rest) -> tuple[BearingLoad, ...]:
     """Return the bearings of a set at rest, in shaft axes."""
     bearings = []
-    for k, (one, held) in enumerate(zip(members, found.held, strict=True)):
-        own = one.transform @ found.shaft
-        own[0] += offsets[k] - (found.slides[sliding.index(k)] if k in sliding else 0.0)
-        mirror = np.array([one.sign, 1.0, 1.0, one.sign, one.sign])
-        on_bearing = -mirror * held.force
+    for k, (one, own, held) in enumerate(zip(assembled.members, found.apart, found.held, strict=True)):
+        on_bearing = -one.mirror * held.force
         bearings.append(
             BearingLoad(
                 k + 1,

@@ -13,7 +13,7 @@ from typing import Any
 from fmu_bearing.extras import need
 from fmu_bearing.sweeps.axes import SweepError
 from fmu_bearing.sweeps.local import failed
-from fmu_bearing.sweeps.point import Outcome, Task, block_of, code_digest, nothing, run_point
+from fmu_bearing.sweeps.point import Outcome, Task, blocks_of, code_digest, nothing, run_point
 
 TIMEOUT = 10.0  # s in which a scheduler has to answer, and to have a worker
 _AHEAD = 4  # tasks per thread of the cluster that are handed out at once: none waits, none drowns it
@@ -49,7 +49,7 @@ def cluster(
     with _client(distributed, address, timeout) as client:
         _check_workers(client, address, timeout)
         sounds = {
-            task.sound: client.submit(block_of, task.sound, pure=False)
+            task.sound: client.submit(blocks_of, task.sound, pure=False)
             for task in {t.sound: t for t in tasks if t.sound is not None}.values()
         }
         waiting = iter(tasks)

@@ -28,6 +28,11 @@ DEFAULT = (
     "film.lambda_min",
     "friction_torque",
     "heat.*",
+    # of a set
+    "shaft.nose.velocity",
+    "bearing[*].force.x",
+    "bearing[*].contact.*.pressure_max",
+    "bearing[*].contact.*.shoulder_margin",
 )
 STATISTICS = {
     "mean": "mean over the window",

@@ -14,7 +14,7 @@ from typing import Any
 from threadpoolctl import threadpool_limits
 
 from fmu_bearing.sweeps.axes import SweepError
-from fmu_bearing.sweeps.point import Outcome, Task, block_of, nothing, run_point
+from fmu_bearing.sweeps.point import Outcome, Task, blocks_of, nothing, run_point
 
 TRIES = 3  # of a point whose worker dies
 _START = 10.0  # s that a process may take to come to life before it can be ended
@@ -73,7 +73,7 @@ def failed(fault: BaseException) -> str:
 def _prepare_sound(scene: Any) -> None:
     """Fill the cache on disk; a sound that cannot be prepared is reported by each of its points."""
     with suppress(ValueError):
-        block_of(scene)
+        blocks_of(scene)
 
 
 class _Worker:

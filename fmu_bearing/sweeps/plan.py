@@ -90,7 +90,8 @@ def plan(
     scenes = _scenes(scene, found)
     if any(one.bends for one in scenes):
         need("skfem", BENDING)  # told once, and not as the reason of every point
-    for model in dict.fromkeys(one.fidelity.model for one in scenes if not one.mounted.preload_N > 0.0):
+    mounted = (one for one in scenes if one.mounting is not None)
+    for model in dict.fromkeys(one.fidelity.model for one in mounted if not one.mounted.preload_N > 0.0):
         warnings.warn(loose(model), stacklevel=2)  # once, and not by each worker
     kept = figures_of(scene, figures)
     names = tuple(figure.name for figure in kept)

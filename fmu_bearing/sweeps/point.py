@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.engine.layout import U
 from fmu_bearing.engine.sources import rooms_digest, source_hash
-from fmu_bearing.prepare.sound import sound_block
+from fmu_bearing.prepare.sound import sound_blocks
 from fmu_bearing.run.arrays import Arrays, Refused
 from fmu_bearing.run.metrics import COMMUNICATION, SAMPLE
 from fmu_bearing.scene import Scene
@@ -22,6 +22,9 @@ from fmu_bearing.sweeps.figures import figures_of, read
 
 #: Packages whose code computes the figures, beside the engine.
 _ROOMS = ("acoustics", "elastic", "formulas", "interface", "prepare", "scene", "sweeps")
+
+#: Sound block of each bearing; a single empty one without sound.
+Blocks = tuple[NDArray[np.float64], ...]
 
 
 @dataclass(frozen=True)
@@ -89,26 +92,28 @@ def task_of(
     return Task(key, scene, settle, window, figures, sound, code_digest())
 
 
-def run_point(task: Task, block: NDArray[np.float64] | None = None) -> Outcome:
+def run_point(task: Task, blocks: Blocks | None = None) -> Outcome:
     """Run one point; where that fails the outcome has the reason.
 
-    ``block``: the sound block, where it came with the task; default: from this machine's cache.
+    ``blocks``: the sound blocks, where they came with the task; default: from this machine's cache.
     """
     begin = clock.perf_counter()
     if task.code != code_digest():
         return nothing(task, f"the worker has other code ({code_digest()}) than the sweep ({task.code})")
     try:
-        sound = block_of(task.sound) if block is None else block
-        figures = _measured(task, sound)
+        figures = _measured(task, blocks_of(task.sound) if blocks is None else blocks)
     except (Refused, ValueError, ArithmeticError) as refusal:
         reason = " ".join(str(refusal).split())
         return nothing(task, reason, clock.perf_counter() - begin, lasting=True)
     return Outcome(figures, "", clock.perf_counter() - begin)
 
 
-def _measured(task: Task, sound: NDArray[np.float64]) -> tuple[float, ...]:
+def _measured(task: Task, sounds: Blocks) -> tuple[float, ...]:
     scene = task.scene
-    bearing = Arrays.of(scene, sound, METERING_START=task.settle)
+    if scene.spindle is None:
+        bearing = Arrays.of(scene, *sounds, METERING_START=task.settle)
+    else:
+        bearing = Arrays.of_set(scene, *sounds, METERING_START=task.settle)
     bearing.init()
     if task.settle > 0.0:
         steps = math.ceil(task.settle / COMMUNICATION)
@@ -138,9 +143,9 @@ def _names(wanted: tuple[str, ...], scene: Scene) -> list[str]:
 
 
 @functools.lru_cache(maxsize=2)
-def block_of(scene: Scene | None) -> NDArray[np.float64]:
-    """Sound block of a scene, kept in this process and on this machine's disk; empty without scene."""
-    return np.empty(0) if scene is None else sound_block(scene)
+def blocks_of(scene: Scene | None) -> Blocks:
+    """Sound blocks of a scene, kept in this process and on this machine's disk; one empty without scene."""
+    return (np.empty(0),) if scene is None else tuple(sound_blocks(scene))
 
 
 @functools.cache

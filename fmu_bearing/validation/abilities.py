@@ -77,11 +77,16 @@ def directional_derivatives(subject: Subject) -> Iterator[Remark]:
     if not inputs or not outputs:
         raise Skip("there is no Real input or no output")
     with subject.started() as one:
-        asked = [outputs[0].valueReference], [inputs[0].valueReference], [1.0]
-        answer = one.getDirectionalDerivative(*asked)
-        if answer.status > 1:
-            called = f"fmi2GetDirectionalDerivative of {outputs[0].name} by {inputs[0].name}"
-            yield Remark(called, answer.words, "fmi2OK", "2.1.9")
+        subject.run(one, 1)
+        # an output need not depend on every input
+        for variable in inputs:
+            answer = one.getDirectionalDerivative(
+                [outputs[0].valueReference], [variable.valueReference], [1.0]
+            )
+            if answer.status <= 1:
+                return
+        called = f"fmi2GetDirectionalDerivative of {outputs[0].name} by {variable.name}"
+        yield Remark(called, answer.words, "fmi2OK", "2.1.9")
 
 
 def states(subject: Subject) -> Iterator[Remark]:

@@ -7,6 +7,7 @@ import pytest
 
 from fmu_bearing.instance import Instance
 from tests.conftest import EXAMPLES
+from tests.spindle.sets import scene as bearings
 
 
 def changed(tmp_path, *changes, name="7003C-spindle"):
@@ -118,14 +119,32 @@ def test_info_of_a_set_tells_what_each_bearing_carries(run):
     assert max(map(len, told.stdout.splitlines())) <= 80
 
 
-def test_a_set_is_checked_and_shown_and_not_run(run, tmp_path):
-    assert run("scene", "check", SET).exit_code == 0
+def test_a_set_is_checked_shown_and_run(run, tmp_path):
+    told = run("scene", "check", SET)
+    assert told.exit_code == 0 and "a scene, with an equilibrium" in told.stdout
+    out = tmp_path / "run.csv"
+    told = run("simulate", SET, "-t", 1e-3, "-v", "bearing[*].force.x", "-o", out, "--json")
+    assert told.exit_code == 0 and told.data["points"] == 2
+    assert run("plot", out).exit_code == 0 and out.with_suffix(".png").is_file()
     told = run("scene", "show", SET, "--json")
+    assert told.data["computed"]["scene"] == "7003C-DB: 2 x 7003C, DB (O), 15000 r/min"
     assert {one["key"] for one in told.data["values"]} >= {
         "spindle.preload.kind",
         "spindle.bearing[1].carries",
     }
-    for words in (("modes", SET), ("choose", SET)):
-        told = run(*words)
-        assert told.exit_code == 2, words
-        assert "of which only the statics are computed so far" in told.stderr, words
+    told = run("choose", SET)
+    assert told.exit_code == 2
+    assert "takes one bearing with [mounting] so far, not a set with [spindle]" in told.stderr
+
+
+def test_a_bearing_of_a_set_without_load_is_shown_and_checked(run, tmp_path):
+    """It has neither life nor static safety: its cells are empty."""
+    file = tmp_path / "free.toml"
+    load = {"force_x_N": 2500.0, "position_mm": 0.0}
+    file.write_text(bearings(preload=500.0, load=load).to_toml(), "utf-8")
+    told = run("info", file)
+    assert told.exit_code == 0 and "caution: axial load 2500 N: above the 2194 N" in told.stderr
+    assert "lift-off over axial load" in told.stdout
+    told = run("scene", "check", file)
+    assert told.exit_code == 0 and "bearing 1: contact pressure" in told.stdout
+    assert "above the 2194 N that unload bearing 2" in told.stdout

@@ -8,7 +8,7 @@ from fmu_bearing.instance import Instance
 @pytest.fixture
 def blocked(tmp_path, monkeypatch):
     """A file where a folder is needed; the beginning of any computation fails the test."""
-    for name in ("fmu_bearing.prepare.model.pack", "fmu_bearing.prepare.model.sound_block"):
+    for name in ("fmu_bearing.prepare.model.pack", "fmu_bearing.prepare.model.sound_blocks"):
         monkeypatch.setattr(name, lambda *a, **k: pytest.fail("the computation has begun"))
     monkeypatch.setattr(Instance, "initialise", lambda *a: pytest.fail("the run has begun"))
     file = tmp_path / "file"

@@ -43,7 +43,7 @@ def contact(point, **values):
 
 def mounted(point, table="mounting", **values):
     scene = point.scene.replace({f"{table}.{key}": value for key, value in values.items()})
-    return replace(point, scene=scene)
+    return replace(point, scene=scene, axial=scene.mounting.preload_N)
 
 
 UP, DOWN = 1.0 + 1e-9, 1.0 - 1e-9

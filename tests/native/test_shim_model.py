@@ -143,7 +143,7 @@ def test_counts_that_leave_something_over_are_refused(master, tmp_path, field):
     assert one.instance is None
 
 
-VARIABLES = 112 + 17 * 8 + 8 * (3 + 4)
+VARIABLES = 112 + 19 * 8 + 8 * (3 + 4)
 
 
 @pytest.mark.parametrize("place", range(8))

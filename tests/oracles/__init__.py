@@ -3,16 +3,17 @@
 Nothing here imports the package: geometry and material enter as plain SI numbers, every equation is derived
 anew and solved with general-purpose tools, speed is of no concern.
 
-=================  ================================================================================
-module             answers
-=================  ================================================================================
-`hertz`            point contact by elliptic integrals at 30 digits, and the surface integral that proves them
-`kinematics`       defect frequencies, ball spin and orbit under pure rolling
-`jones_harris`     quasi-static bearing: ring displacement and all balls in one system
-`shaft`            several of them on one rigid shaft, by a general root finder
-`journal`          short journal bearing: film force by quadrature of the pressure, and in closed form
-`cartesian`        equations of motion in global Cartesian axes, ball by ball
-=================  ================================================================================
+==================  ================================================================================
+module              answers
+==================  ================================================================================
+`hertz`             point contact by elliptic integrals at 30 digits, and a surface integral that proves them
+`kinematics`        defect frequencies, ball spin and orbit under pure rolling
+`jones_harris`      quasi-static bearing: ring displacement and all balls in one system
+`shaft`             several of them on one rigid shaft, by a general root finder
+`spindle_dynamics`  several of any kind on one shaft in motion, by dense systems
+`journal`           short journal bearing: film force by quadrature of the pressure, and in closed form
+`cartesian`         equations of motion in global Cartesian axes, ball by ball
+==================  ================================================================================
 
 Axes: X along the bearing axis, Z up; the angle theta runs from Z, growing with positive rotation about X, so
 that ``e_r = (0, -sin, cos)``, ``e_t = (0, -cos, -sin)`` and ``e_x x e_r = e_t``. The inner ring is pushed

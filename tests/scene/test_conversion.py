@@ -25,6 +25,7 @@ CASES = [
     ("pedestal_stiffness_N_m", 1e8, "pedestal_stiffness", 1e8),
     ("stiffness_N_m_rad", 1e5, "stiffness", 1e5),
     ("pocket_damping_N_s_m", 0.02, "pocket_damping", 0.02),
+    ("amount_g_mm", 0.1, "amount", 1e-7),
     ("mass_kg", 0.25, "mass", 0.25),
     ("density_kg_m3", 7800.0, "density", 7800.0),
     ("traction_floor_m_s", 1e-3, "traction_floor", 1e-3),
@@ -44,7 +45,7 @@ DIMENSIONLESS = set(
     traction_slide_to_roll replenishment_constant drag_coefficient pedestal_stiffness_ratio
     pedestal_axial_ratio pedestal_damping_ratio
     damping_ratio seed lowest_order highest_order order ball_waviness_order tolerance traction_strips
-    waviness_exponent ball_harmonics count walther_slope relative""".split()
+    waviness_exponent ball_harmonics count walther_slope relative fixed_modes""".split()
 )
 
 

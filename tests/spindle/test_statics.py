@@ -5,8 +5,8 @@ import pytest
 from scipy.optimize import brentq
 
 from fmu_bearing import operating_point, read_scene, shaft_statics
+from fmu_bearing.elastic.shaft import placed
 from fmu_bearing.instance import EngineError
-from fmu_bearing.spindle.member import placed
 from tests.conftest import GATES
 from tests.oracles import B7003C
 from tests.oracles.jones_harris import JonesHarris
@@ -212,6 +212,15 @@ def test_a_spring_keeps_its_force_whatever_the_temperature():
     assert found.lift_off["-x"].load == pytest.approx(-300.0, rel=1e-6)
     own = found.bearings[0].stiffness
     assert found.axial_stiffness == pytest.approx(own[0, 0], rel=1e-3)
+
+
+@pytest.mark.parametrize("stiffness", [1.0, 1e5])
+def test_a_soft_spring_never_lets_go(stiffness):
+    spring = {"kind": "spring", "force_N": 300.0, "stiffness_N_m": stiffness}
+    given = scene(preload=None, changes={"spindle.preload": spring, "spindle.bearing[2].seat": "sliding"})
+    found = shaft_statics(given).lift_off
+    # unloaded, its ring would have gone 3 mm and more; the other bearing gives way a little above 300 N
+    assert list(found) == ["-x"] and -305.0 < found["-x"].load < -300.0
 
 
 def test_a_stiff_spring_is_a_spacer():

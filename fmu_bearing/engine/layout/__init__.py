@@ -13,12 +13,14 @@ module            as    array
 ``c``             C     conditions held over a communication step
 ``u``             U     inputs
 ``z``             Z     outputs
+``spindle``       SP    a set of bearings on one shaft: its own in ``p``, ``u``, ``s``, ``z``, ``w``
 ``sound``         SD    sound blocks: parameters ``ps``, state ``ss``, work ``ws``
 ``motion``        MO    one motion sample for the sound kernels
 ``flexure``       FL    bending rings: their rows and numbers in ``w``, what ``s`` keeps of them
 ``p``             P     parameters: written once by ``prepare``, read only in the engine
 ``jacobian``      J     blocks of the Jacobian
 ``factors``       A     factors of the Newton matrix
+``history``       H     what a march of fidelity rings keeps of its coordinates
 ``condensed``     L     what fidelities rings and response keep in ``s``
 ``lines``         LN    scratch of fidelity response in ``s`` while it renews its lines
 ``s``             S     state: all that a later step needs, and nothing else
@@ -45,6 +47,7 @@ from fmu_bearing.engine.layout import (
     f as F,
     factors as A,
     flexure as FL,
+    history as H,
     jacobian as J,
     lines as LN,
     motion as MO,
@@ -54,6 +57,7 @@ from fmu_bearing.engine.layout import (
     race as R,
     s as S,
     sound as SD,
+    spindle as SP,
     statics as ST,
     tableau as TAB,
     trial as T,
@@ -65,6 +69,6 @@ from fmu_bearing.engine.layout import (
 from fmu_bearing.engine.layout.sizes import FOUR, MAX_BALLS, MAX_MODES, STAGES, STRIDE
 
 __all__ = [
-    "A", "C", "EQ", "F", "FL", "J", "K", "L", "LN", "MO", "P", "Q", "R", "S", "SD", "ST", "T", "TAB", "U",
-    "W", "X", "Y", "Z", "FOUR", "MAX_BALLS", "MAX_MODES", "STAGES", "STRIDE",
+    "A", "C", "EQ", "F", "FL", "H", "J", "K", "L", "LN", "MO", "P", "Q", "R", "S", "SD", "SP", "ST", "T",
+    "TAB", "U", "W", "X", "Y", "Z", "FOUR", "MAX_BALLS", "MAX_MODES", "STAGES", "STRIDE",
 ]  # fmt: skip

@@ -1,6 +1,6 @@
 """L: what fidelities rings and response keep in the state, from ``S.CONDENSED`` on (``lv`` in kernels)."""
 
-from fmu_bearing.engine.layout import c as C, q as Q, y as Y
+from fmu_bearing.engine.layout import c as C, history as H, q as Q, y as Y
 from fmu_bearing.engine.layout.sizes import FOUR, STRIDE, Places
 
 N = Q.RINGS  # coordinates: inner x y z by bz, outer x y z angle by bz
@@ -10,7 +10,7 @@ COLUMN = -(-N // FOUR) * FOUR  # numbers per vector or matrix column: N, rounded
 DIAGONAL = COLUMN + 1  # from one entry of a matrix's diagonal to the next
 MATRIX = COLUMN * N  # entry (i, k) at i + COLUMN * k
 VECTOR = 3  # numbers of a vector in space
-HISTORY = 5  # accelerations and places kept: now and at earlier steps
+HISTORY = H.LENGTH  # places kept: now and at earlier steps
 PATTERNS = 3  # of the balls' motion that move the rings: alike, as cosine and as minus sine of their angle
 
 MOST_LINES = 384  # of fidelity response: a 7003C has 138 at 10,000 r/min; the last 100 weigh 4e-4 below 3,000
@@ -32,17 +32,9 @@ TORQUE = _at()  # N m at FOUND_SPEED
 HEAT = _at(3)  # W: inner ring, outer ring, oil
 TWIST = _at()  # N m on the outer ring about its axis
 FOUND_SPEED = _at()  # rad/s of the held values
-HIGHEST = _at()  # rad/s: highest mode of the rings
-SPACING = _at()  # s between the kept accelerations; 0: none
-KNOWN = _at()  # how many earlier steps of that spacing are kept
-CONTRACTION = _at()
-FACTOR_STEP = _at()  # s: step the inverse holds for; 0: none
-CALM = _at()  # steps since the last rejection or change of step
+MARCH = _at(H.NUMBERS)  # of fidelity rings: see history
 THETA = _at()  # rad: angle of ball 0
 COUNT = _at()  # of lines (fidelity response)
-FRESH = _at()  # 1 while the Jacobian is that of the present state
-DEGREE = _at()  # of the polynomial that continues the accelerations
-ERRORS = _at(HISTORY)  # m/s2: lately largest error of the polynomials of degree 0, 1, ...
 ROLLED = _at()  # rad: by which the balls have turned in their orbiting axes
 # how they turn there, and where they touch: see condensed/ball_form
 ROLL = _at()  # rate of that angle over shaft speed
@@ -68,16 +60,8 @@ SIDE_EARLIEST = _at(PATTERNS)  # and three
 SIDE_REST = _at(PATTERNS)  # m: where they would rest
 _SPARE = _at(4)  # rows begin at whole vectors
 CONDITIONS = _at(C.SIZE)  # that the held values were found at
-Q0 = _at(COLUMN)  # m, rad: displacements,
-V0 = _at(COLUMN)  # their Newmark velocities,
-A0 = _at(COLUMN)  # accelerations now
-A1 = _at(COLUMN)  # and four steps before
-A2 = _at(COLUMN)
-A3 = _at(COLUMN)
-A4 = _at(COLUMN)
-LEVERS = _at(COLUMN)  # m or 1: what makes a coordinate a displacement; 0 where none stands
+MOVING = _at(H.VECTORS * COLUMN)  # vectors of the rings' coordinates: see history
 MEAN = _at(COLUMN)  # static equilibrium of the rings
-JERK = _at(COLUMN)  # rates of acceleration, kept over a change of step
 # Matrices of N x N by columns of COLUMN, so that a product is a few vector instructions.
 JX = _at(MATRIX)  # derivatives of accelerations by displacements
 JV = _at(MATRIX)  # and by velocities
@@ -113,3 +97,21 @@ SIZE = _at.next
 
 HEAT_OUTER = HEAT + 1
 HEAT_OIL = HEAT + 2
+
+HIGHEST = MARCH + H.HIGHEST
+SPACING = MARCH + H.SPACING
+KNOWN = MARCH + H.KNOWN
+CONTRACTION = MARCH + H.CONTRACTION
+FACTOR_STEP = MARCH + H.FACTOR_STEP
+CALM = MARCH + H.CALM
+FRESH = MARCH + H.FRESH
+DEGREE = MARCH + H.DEGREE
+ERRORS = MARCH + H.ERRORS
+Q0 = MOVING + H.Q0 * COLUMN
+V0 = MOVING + H.V0 * COLUMN
+A0 = MOVING + H.A0 * COLUMN
+A1 = MOVING + H.A1 * COLUMN
+A2 = MOVING + H.A2 * COLUMN
+A3 = MOVING + H.A3 * COLUMN
+A4 = MOVING + H.A4 * COLUMN
+LEVERS = MOVING + H.LEVERS * COLUMN

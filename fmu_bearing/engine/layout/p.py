@@ -1,5 +1,6 @@
 """P: parameters, written once by ``prepare``, read only in the engine."""
 
+from fmu_bearing.engine.layout import q as _Q
 from fmu_bearing.engine.layout.sizes import Places
 
 _at = Places()
@@ -11,6 +12,7 @@ IMPERFECTION_SCALE = _at()
 TIME_WEIGHTING = _at()  # s: 0.125 Fast, 1 Slow
 METERING_START = _at()  # s after initialisation
 VISCOSITY = _at()  # Pa s at the reference temperature
+TUNABLE = _at.next  # places before this one
 # counts and choices
 METHOD = _at()  # integrator of fidelity full: see choices.METHODS
 RACE_CONTROL = _at()  # see choices.RACE_CONTROLS
@@ -47,6 +49,7 @@ AT_SOUND = _at()  # sound block; 0: there is none
 SOUND_SIZE = _at()  # its length, and those of its state and work space
 SOUND_STATE = _at()
 SOUND_WORK = _at()
+SET = _at()  # block of a set of bearings, see spindle; 0: a single bearing
 # balls, contacts, oil
 PITCH_RADIUS = _at()  # m
 DIAMETER = _at()  # m, of a ball
@@ -93,6 +96,7 @@ PEDESTAL_DAMPING_Z = _at()
 PEDESTAL_DAMPING_YZ = _at()
 MISALIGNMENT_Y = _at()  # rad, of the outer ring's seat against the shaft
 MISALIGNMENT_Z = _at()  # rad
+OWN_SHARE = _at(_Q.RINGS)  # of the rings' coordinates: their inertia over that with what they carry in a set
 # cage, or springs in its place
 POCKET_CLEARANCE = _at()  # m
 POCKET_STIFFNESS = _at()  # N/m^1.5

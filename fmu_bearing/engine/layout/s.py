@@ -10,6 +10,7 @@ from fmu_bearing.engine.layout import (
     jacobian as _J,
     lines as _LN,
     p as _P,
+    spindle as _SP,
     y as _Y,
 )
 from fmu_bearing.engine.layout.sizes import FOUR, STRIDE, Places
@@ -63,5 +64,7 @@ SOUND = _at.next  # sound state, then flexure (fidelity full) or lines (response
 
 def size(p):
     """Length of ``s`` for the parameters ``p``."""
+    if p[_P.SET] != 0.0:
+        return int(p[int(p[_P.SET]) + _SP.SIZE_S])
     lines = _L.MOST_LINES * _L.LINE_SIZE if p[_P.FIDELITY] == RESPONSE else 0
     return SOUND + int(p[_P.SOUND_STATE]) + _FL.state_size(int(p[_P.MODES])) + lines

@@ -21,6 +21,7 @@ from fmu_bearing.engine.layout import (
     pose as _X,
     q as _Q,
     race as _R,
+    spindle as _SP,
     statics as _ST,
     u as _U,
     y as _Y,
@@ -180,4 +181,6 @@ LEDGER: tuple[Area, ...] = (
 
 def size(p):
     """Length of ``w`` for the parameters ``p``."""
+    if p[_P.SET] != 0.0:
+        return int(p[int(p[_P.SET]) + _SP.SIZE_W])
     return SOUND + int(p[_P.SOUND_WORK]) + 8

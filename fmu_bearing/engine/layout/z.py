@@ -22,6 +22,7 @@ CAGE_VELOCITY = BEARING_OUTPUTS.index("cage.velocity.x")
 TORQUE = BEARING_OUTPUTS.index("friction_torque")  # N m
 MEAN_TORQUE = BEARING_OUTPUTS.index("friction_torque_mean")
 HEAT = BEARING_OUTPUTS.index("heat.inner_ring")  # W, then outer ring, oil
+HEAT_SIZE = 3
 CAGE_RATIO = BEARING_OUTPUTS.index("cage.speed_ratio")
 INNER_PLACE = BEARING_OUTPUTS.index("inner_ring.displacement.x")  # m, three
 OUTER_PLACE = BEARING_OUTPUTS.index("outer_ring.displacement.x")

@@ -165,23 +165,42 @@ def flexure_motion(p, s, w, h, t):
 
 
 @kernel
+def sound_block(p):
+    """Return the sound block of a bearing's parameters."""
+    return p[int(p[P.AT_SOUND]) : int(p[P.AT_SOUND]) + int(p[P.SOUND_SIZE])]
+
+
+@kernel
+def sample_due(s, h):
+    """Whether the next sample falls into the step of length ``h`` (s) from the state ``s`` on."""
+    return s[S.SAMPLE] <= (s[S.TIME] - s[S.START] + h) * SD.RAW_RATE
+
+
+@kernel
+def sample_motion(p, s, w, whole, h):
+    """Fill ``W.MOTION`` with the motion at the next sample: old state in ``s``, new one in ``w``.
+
+    ``whole``: velocities and angles too, which form vectors does not ask for at every sample.
+    """
+    t = min(max((s[S.SAMPLE] / SD.RAW_RATE - (s[S.TIME] - s[S.START])) / h, 0.0), 1.0)
+    bodies_motion(s, w, whole, h, t)
+    ball_accelerations(p, s, w, h, t)
+    if whole:
+        ball_velocities(p, s, w, h, t)
+    sample = int(s[S.SAMPLE])
+    if whole or sample == 0 or sample % SD.DECIMATION == SD.TURNING:
+        ball_turns(p, s, w, h, t)
+    flexure_motion(p, s, w, h, t)
+
+
+@kernel
 def emit_samples(p, s, w, h):
     """Push every sample that falls into the step just made (old state in ``s``, new one in ``w``)."""
     if p[P.SOUND_SIZE] == 0.0:
         return
-    block = int(p[P.AT_SOUND])
-    ps = p[block : block + int(p[P.SOUND_SIZE])]
+    ps = sound_block(p)
     whole = int(ps[SD.H_FORM]) != VECTORS
-    elapsed = s[S.TIME] - s[S.START]
-    while s[S.SAMPLE] <= (elapsed + h) * SD.RAW_RATE:
-        t = min(max((s[S.SAMPLE] / SD.RAW_RATE - elapsed) / h, 0.0), 1.0)
-        bodies_motion(s, w, whole, h, t)
-        ball_accelerations(p, s, w, h, t)
-        if whole:
-            ball_velocities(p, s, w, h, t)
-        sample = int(s[S.SAMPLE])
-        if whole or sample == 0 or sample % SD.DECIMATION == SD.TURNING:
-            ball_turns(p, s, w, h, t)
-        flexure_motion(p, s, w, h, t)
+    while sample_due(s, h):
+        sample_motion(p, s, w, whole, h)
         push(ps, s[S.SOUND :], w[W.SOUND :], w[W.MOTION : W.SOUND], p[P.TIME_WEIGHTING], p[P.METERING_START])
         s[S.SAMPLE] += 1.0

@@ -8,10 +8,11 @@ from fmu_bearing.engine.layout import C, F, P, Q, S, Y, Z
 from fmu_bearing.engine.mechanics.flexure import flexure_state
 from fmu_bearing.engine.mechanics.pose import axis_cosine, resolved
 from fmu_bearing.engine.mechanics.race import wave_time
+from fmu_bearing.engine.readout.motion import sound_block
 from fmu_bearing.engine.sound.meter import levels
 from fmu_bearing.engine.statics.stiffness import series_stiffness
 
-_LITTLE_LOST = 1e-6  # of the stored energy: dissipation below it says nothing about a balance
+LITTLE_LOST = 1e-6  # of the stored energy: dissipation below it says nothing about a balance
 _CENTRED_2 = 1e-16  # m2: the whirl speed of a cage within 10 nm of the middle says nothing
 
 
@@ -160,6 +161,15 @@ def flexure(p, s, z):
 @kernel
 def observe(p, s, z):
     """Fill ``z`` (see ``layout``) from the state ``s``."""
+    observe_motion(p, s, z)
+    if p[P.SOUND_SIZE] != 0.0:
+        mics = Z.BALLS + Z.PER_BALL * int(p[P.BALLS])
+        levels(sound_block(p), s[S.SOUND :], z, mics)
+
+
+@kernel
+def observe_motion(p, s, z):
+    """All outputs but those of microphones."""
     bodies(p, s, z)
     z[Z.TORQUE] = s[S.F + F.TORQUE]
     z[Z.MEAN_TORQUE] = s[S.MEAN_TORQUE]
@@ -173,9 +183,5 @@ def observe(p, s, z):
     z[Z.WAVE_TIME] = wave_time(p, s[S.SPEED])
     lost = s[S.HEAT] + s[S.HEAT + 1] + s[S.HEAT + 2]
     gained = s[S.ENERGY_NOW] - s[S.ENERGY_START]
-    told = lost > 1e-12 + _LITTLE_LOST * abs(s[S.ENERGY_NOW])
+    told = lost > 1e-12 + LITTLE_LOST * abs(s[S.ENERGY_NOW])
     z[Z.RESIDUAL] = (s[S.WORK] - lost - gained) / lost if told else 0.0
-    if p[P.SOUND_SIZE] != 0.0:
-        block = int(p[P.AT_SOUND])
-        mics = Z.BALLS + Z.PER_BALL * int(p[P.BALLS])
-        levels(p[block : block + int(p[P.SOUND_SIZE])], s[S.SOUND :], z, mics)

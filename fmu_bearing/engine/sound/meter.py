@@ -29,27 +29,92 @@ _TOTAL, _TOTAL_A = SD.M_LEVEL, SD.M_LEVEL_A
 @kernel
 def update(ps, ss, ws, time_weighting, metering_start):
     """Move all meters by one sample; filter outputs stand in ``ws``."""
+    gather(ps, ss, ws)
+    follow(ps, ss, ws, time_weighting, metering_start)
+
+
+@kernel
+def gather(ps, ss, ws):
+    """Add up what filter outputs bring each microphone: rows of pressures, or with form scalars of energies.
+
+    Rows of several bearings may be added (`add`) before `follow` squares and meters them.
+    """
     n = int(ps[SD.H_MICS])
     rows = int(ps[SD.H_W_METERS])
     size = SD.METERS * n
     squares = ws[rows : rows + size]
     for i in range(size):
         squares[i] = 0.0
-    meters = ss[int(ps[SD.H_S_METERS]) : int(ps[SD.H_S_METERS]) + size]
     if int(ps[SD.H_FORM]) == SCALARS:
         _energies(ps, ss, ws, squares, n)
     else:
-        _pressures(ps, ss, ws, squares, n)
+        _pressures(ps, ws, squares, n)
+
+
+@kernel
+def add(ps, ws, others, more):
+    """Add the rows that another block ``others`` has gathered in ``more`` to those in ``ws``.
+
+    Both have the same microphones; their lanes may differ.
+    """
+    n = int(ps[SD.H_MICS])
+    order = int(ps[SD.H_AT_ORDER])
+    other = int(others[SD.H_AT_ORDER])
+    for mic in range(n):
+        to = int(ps[SD.H_W_METERS]) + int(ps[order + mic])
+        of = int(others[SD.H_W_METERS]) + int(others[other + mic])
+        for row in range(SD.METERS):
+            ws[to + row * n] += more[of + row * n]
+
+
+@kernel
+def square(ps, ws, mic):
+    """Square (Pa2) that the rows in ``ws`` bring microphone ``mic``: what its level is of."""
+    n = int(ps[SD.H_MICS])
+    at = int(ps[SD.H_W_METERS]) + int(ps[int(ps[SD.H_AT_ORDER]) + mic])
+    if int(ps[SD.H_FORM]) != SCALARS:
+        return ws[at] * ws[at]
+    total = 0.0
+    for row in range(SD.M_PART, SD.PLAIN):
+        total += ws[at + row * n]
+    return total
+
+
+@kernel
+def metered(ss, metering_start):
+    """Whether metering has begun."""
+    return ss[SD.SS_COUNT] >= metering_start * SD.RATE
+
+
+@kernel
+def fraction_of(time_weighting):
+    """Weight of one sample in an exponential average of this time constant (s)."""
+    return 1.0 - math.exp(-1.0 / (SD.RATE * time_weighting)) if time_weighting > 0.0 else 1.0
+
+
+@kernel
+def follow(ps, ss, ws, time_weighting, metering_start):
+    """Square the rows in ``ws`` and move all meters by one sample."""
+    n = int(ps[SD.H_MICS])
+    rows = int(ps[SD.H_W_METERS])
+    size = SD.METERS * n
+    squares = ws[rows : rows + size]
+    meters = ss[int(ps[SD.H_S_METERS]) : int(ps[SD.H_S_METERS]) + size]
+    if int(ps[SD.H_FORM]) == SCALARS:
+        _sum_components(squares, n)
+        for i in range(n):
+            squares[_TOTAL * n + i] = squares[SD.M_ENERGY * n + i]
+    else:
+        _square(ps, ss, ws, squares, n)
+        _sum_components(squares, n)
     for i in range(n):
         meters[i] = squares[i]
-    metered = ss[SD.SS_COUNT] >= metering_start * SD.RATE
+    begun = metered(ss, metering_start)
     if int(ps[SD.H_BANDS]) > 0:
-        thirds.update(ps, ss, ws, rows, _FAST if metered else 0.0)
-    if not metered:
+        thirds.update(ps, ss, ws, rows, _FAST if begun else 0.0)
+    if not begun:
         return
-    fraction = 1.0
-    if time_weighting > 0.0:
-        fraction = 1.0 - math.exp(-1.0 / (SD.RATE * time_weighting))
+    fraction = fraction_of(time_weighting)
     ss[SD.SS_METERED] += 1.0
     ss[SD.SS_WEIGHT] += fraction * (1.0 - ss[SD.SS_WEIGHT])
     ss[SD.SS_FAST] += _FAST * (1.0 - ss[SD.SS_FAST])
@@ -76,8 +141,8 @@ def _track(meters, row, squares, source, count, n, fraction):
 
 
 @kernel
-def _pressures(ps, ss, ws, squares, n):
-    """Coherent sums: pressures of each source, of components, of kinds, of all; then their squares."""
+def _pressures(ps, ws, squares, n):
+    """Coherent sums: pressures of each source, of components, of kinds, of all."""
     at = int(ps[SD.H_W_SOURCES])
     n_sources = int(ps[SD.H_SOURCES])
     parts = ws[at : at + n_sources * n]
@@ -115,6 +180,12 @@ def _pressures(ps, ss, ws, squares, n):
             alike = squares[kind : kind + n]
             for i in range(n):
                 alike[i] += part[i]
+
+
+@kernel
+def _square(ps, ss, ws, squares, n):
+    """Pressures to their squares, the A-weighted one too; the row of pressures stays."""
+    total = squares[0:n]
     at = int(ps[SD.H_W_WEIGHTED])
     weighted = ws[at : at + n]
     for i in range(n):
@@ -125,7 +196,6 @@ def _pressures(ps, ss, ws, squares, n):
         squares[_TOTAL_A * n + i] = weighted[i] * weighted[i]
     for i in range(SD.M_PART * n, SD.METERS * n):
         squares[i] = squares[i] * squares[i]
-    _sum_components(squares, n)
 
 
 @kernel
@@ -159,9 +229,6 @@ def _energies(ps, ss, ws, squares, n):
                 if kind < SD.METERS * n:
                     squares[kind + i] += energy
                 squares[_TOTAL_A * n + lane + i] += (w * weighted[first + o]) ** 2
-    _sum_components(squares, n)
-    for i in range(n):
-        squares[_TOTAL * n + i] = squares[SD.M_ENERGY * n + i]
 
 
 @kernel
@@ -186,7 +253,8 @@ def _a_weight(ps, ss, x, n):
 
 
 @kernel
-def _decibel(mean_square):
+def decibel(mean_square):
+    """Level (dB re 20 uPa) of a mean square (Pa2)."""
     return 10.0 * math.log10((mean_square + _FLOOR) / _REFERENCE)
 
 
@@ -222,8 +290,8 @@ def levels(ps, ss, z, offset):
                 by = fast
             elif row == SD.M_SLOW or row == SD.M_SLOW_A:
                 by = slow
-            z[out + row] = _decibel(ss[meters + row * n + lane] / by if row < kept else 0.0)
+            z[out + row] = decibel(ss[meters + row * n + lane] / by if row < kept else 0.0)
         mean = int(ps[SD.H_S_BANDS]) + SD.BAND_SIZE * lane + SD.BAND_MEAN
         first = offset + Z.PER_MIC * n + bands * mic
         for k in range(bands):
-            z[first + k] = _decibel(ss[mean + k] / fast)
+            z[first + k] = decibel(ss[mean + k] / fast)

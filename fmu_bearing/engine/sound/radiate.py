@@ -13,7 +13,7 @@ from fmu_bearing.engine.sound import channels, meter
 from fmu_bearing.engine.sound.convolve import convolve
 from fmu_bearing.engine.sound.high_pass import high_pass
 
-__all__ = ["push", "reset"]
+__all__ = ["filtered", "push", "reset"]
 
 
 @kernel
@@ -28,8 +28,19 @@ def push(ps, ss, ws, motion, time_weighting, metering_start):
     """Take one motion sample (see `layout.motion`) and update filters and meters.
 
     ``time_weighting`` is the meters' time constant in s, ``metering_start`` the time in s from the first
-    sample on at which they begin. The decimator takes the first sample to have lasted for ever; for the
-    high-pass see `high_pass`.
+    sample on at which they begin.
+    """
+    if filtered(ps, ss, ws, motion):
+        meter.update(ps, ss, ws, time_weighting, metering_start)
+        ss[SD.SS_COUNT] += 1.0
+
+
+@kernel
+def filtered(ps, ss, ws, motion):
+    """Take one motion sample; whether it brings filter outputs at ``RATE``, which then stand in ``ws``.
+
+    Whoever reads them counts them in ``SS_COUNT``. The decimator takes the first sample to have lasted for
+    ever; for the high-pass see `high_pass`.
     """
     raw = int(ss[SD.SS_RAW])
     wide = int(ps[SD.H_RAW])
@@ -41,7 +52,7 @@ def push(ps, ss, ws, motion, time_weighting, metering_start):
         _keep_turns(ps, ss, motion, raw // SD.DECIMATION % SD.TURN_ROWS)
     ss[SD.SS_RAW] = raw + 1.0
     if raw % SD.HALF != 0:
-        return
+        return False
     half = raw // SD.HALF
     newest = half % SD.SECOND_ROWS
     second = int(ps[SD.H_S_SECOND])
@@ -50,7 +61,7 @@ def push(ps, ss, ws, motion, time_weighting, metering_start):
         ps, int(ps[SD.H_AT_FIRST]), SD.FIRST_TAPS, ss, SD.SS_TABLES, raw % SD.FIRST_ROWS, ss[row : row + wide]
     )
     if half % SD.HALF != 0:
-        return
+        return False
     x = ws[0:wide]
     halve(ps, int(ps[SD.H_AT_SECOND]), SD.SECOND_TAPS, ss, second, newest, x)
     count = int(ss[SD.SS_COUNT])
@@ -58,8 +69,7 @@ def push(ps, ss, ws, motion, time_weighting, metering_start):
     _form(ps, ss, ws, count % SD.TURN_ROWS)
     high_pass(ps, ss, ws[wide : wide + int(ps[SD.H_CHANNELS])], place, count)
     convolve(ps, ss, ws, place, count)
-    meter.update(ps, ss, ws, time_weighting, metering_start)
-    ss[SD.SS_COUNT] = count + 1.0
+    return True
 
 
 @kernel

@@ -11,11 +11,22 @@ from fmu_bearing.engine.status import NO_START, OK
 
 @kernel
 def held(p, c, speed, ring, force, out, w):
-    """Settle all balls with the inner ring held at ``ring`` against the outer one; status code.
+    """Settle all balls with the inner ring held at ``ring`` against an upright outer one; status code.
 
     ``ring``: x y z by bz (m, rad); ``force``: of the balls on the inner ring, x y z (N) and moments y z about
     its centre (N m); ``out``: ``EQ.SIZE`` numbers as of ``quasistatic.equilibrium``, with the residual of the
     worst ball (N).
+    """
+    tilt = w[W.TILT : W.TILT + 2]
+    tilt[0] = 0.0
+    tilt[1] = 0.0
+    return held_tilted(p, c, speed, ring, tilt, 0.0, force, out, w)
+
+
+@kernel
+def held_tilted(p, c, speed, ring, tilt, share, force, out, w):
+    """As `held`, against an outer ring whose tilts y z are ``tilt`` (rad), with a ``share`` of imperfections.
+
     Nothing is kept from call to call: every ball starts on the line of the groove centres.
     """
     v = w[W.STATICS : W.STATICS + ST.SIZE]
@@ -23,13 +34,13 @@ def held(p, c, speed, ring, force, out, w):
         out[i] = 0.0
     for i in range(ST.SIZE):
         v[i] = 0.0
-    none = v[ST.SYSTEM : ST.SYSTEM + EQ.FREEDOMS]  # no load, and an outer ring that is not tilted
-    place_first(p, c, ring[Q.X], none, 0.0, v)
-    worst = ring_forces(p, c, speed, none, none, ring, v, 0.0, force)
+    none = v[ST.SYSTEM : ST.SYSTEM + EQ.FREEDOMS]  # no load
+    place_first(p, c, ring[Q.X], tilt, share, v)
+    worst = ring_forces(p, c, speed, none, tilt, ring, v, 0.0, force)
     for j in range(int(p[P.BALLS])):
         v[ST.X + j] = v[ST.TRIAL_X + j]
         v[ST.R + j] = v[ST.TRIAL_R + j]
-    tangent(p, c, none, ring, v, out)
+    tangent(p, c, tilt, ring, v, out)
     total = 0.0
     for i in range(EQ.FREEDOMS):
         out[EQ.SHIFT + i] = ring[i]
@@ -37,5 +48,5 @@ def held(p, c, speed, ring, force, out, w):
     force[Q.INNER_BY] *= p[P.PITCH_RADIUS]
     force[Q.INNER_BZ] *= p[P.PITCH_RADIUS]
     out[EQ.RESIDUAL] = worst
-    report(p, c, speed, none, v, out)
+    report(p, c, speed, tilt, v, out)
     return OK if worst <= 1e-6 * (1.0 + total) else NO_START

@@ -14,12 +14,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from fmu_bearing.engine.choices import FIDELITIES
-from fmu_bearing.engine.layout import P, S, U, W, Z
+from fmu_bearing.engine.layout import P, S, U
 from fmu_bearing.fmi.description import LOG_CATEGORIES
 from fmu_bearing.fmi.resources import fingerprint
-from fmu_bearing.instance import REASONS, Caution, cautions
+from fmu_bearing.instance import Caution, cautions, reasons
 from fmu_bearing.interface import Variable
+from fmu_bearing.interface.set_inputs import led_inputs
 
 if TYPE_CHECKING:
     from fmu_bearing.prepare.model import Model
@@ -78,6 +78,8 @@ class Contents:
         In the order of the value references.
     ramped : int or None
         Input that the engine ramps over a step while it holds the others.
+    led : range
+        Inputs that the engine leads to their values over a step; directional derivatives are by these.
     journal : int
         Most steps that are repeated to go back behind a refused one; 1: the state is copied for each step.
     journal_span : float
@@ -101,6 +103,7 @@ class Contents:
     tunables: int
     variables: Sequence[Variable]
     ramped: int | None = None
+    led: range = range(0)
     journal: int = 1
     journal_span: float = math.inf
     reasons: dict[int, str] = field(default_factory=dict)
@@ -164,7 +167,13 @@ def contents_bytes(contents: Contents) -> bytes:
         len(strings),
     )
     hashes = _hash(contents.kernels, "kernels") + _hash(contents.fingerprint, "fingerprint")
-    body = hashes + numbers + struct.pack("<Q", guid) + parameters.tobytes() + inputs.tobytes()
+    body = (
+        hashes
+        + numbers
+        + struct.pack("<3Q", guid, contents.led.start, len(contents.led))
+        + parameters.tobytes()
+        + inputs.tobytes()
+    )
     body += variables + reasons + cautions + categories + strings
     checksum = hashlib.blake2b(body, digest_size=_DIGEST_SIZE).digest()
     return _MAGIC + struct.pack("<Q", _VERSION) + checksum + body
@@ -224,29 +233,26 @@ def model_bytes(model: "Model", guid: str, kernels_hash: str) -> bytes:
     -------
     bytes
     """
-    inputs = np.zeros(len(U.INPUTS))
-    for variable in model.variables:
-        if variable.array == "u" and variable.start is not None:
-            inputs[variable.index] = variable.start
-    parameters = model.parameters
+    sizes = model.lengths
     return contents_bytes(
         Contents(
             guid=guid,
             kernels=kernels_hash,
             fingerprint=fingerprint(model),
-            parameters=parameters,
-            inputs=inputs,
-            state_size=S.size(parameters),
-            output_size=Z.size(model.n_balls, model.n_mics, model.n_bands, model.n_modes),
-            work_size=W.size(parameters),
+            parameters=model.parameters,
+            inputs=model.inputs,
+            state_size=sizes.state,
+            output_size=sizes.outputs,
+            work_size=sizes.work,
             time=S.TIME,
             tunables=P.VISCOSITY + 1,
             variables=model.variables,
             ramped=U.SPEED,
+            led=led_inputs(model.scene),
             journal=_JOURNAL,
             journal_span=_JOURNAL_SPAN,
-            reasons=REASONS,
-            cautions=cautions(FIDELITIES[int(parameters[P.FIDELITY])]),
+            reasons=reasons(model),
+            cautions=cautions(model),
             categories=[(name, _STATUS_OF_CATEGORY[name]) for name in LOG_CATEGORIES],
         )
     )

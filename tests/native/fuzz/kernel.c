@@ -11,6 +11,8 @@ int32_t NAME(fb_init_, ISA)(const double *p, const double *u, double *s, double 
                             const int64_t *sizes, double time);
 int32_t NAME(fb_step_, ISA)(const double *p, const double *u, double *s, double *z, double *w,
                             const int64_t *sizes, double h);
+int32_t NAME(fb_derivative_, ISA)(const double *p, const double *u, double *s, double *z, double *w,
+                                  const int64_t *sizes, double h);
 
 /* Mix the bits of numbers into a sum. */
 static uint64_t mixed(uint64_t sum, const double *numbers, int64_t count)
@@ -70,6 +72,13 @@ int32_t NAME(fb_init_, ISA)(const double *p, const double *u, double *s, double 
 /* Step. */
 int32_t NAME(fb_step_, ISA)(const double *p, const double *u, double *s, double *z, double *w,
                             const int64_t *sizes, double h)
+{
+    return work(p, u, s, z, w, sizes, h);
+}
+
+/* Derivatives. */
+int32_t NAME(fb_derivative_, ISA)(const double *p, const double *u, double *s, double *z, double *w,
+                                  const int64_t *sizes, double h)
 {
     return work(p, u, s, z, w, sizes, h);
 }

@@ -46,11 +46,7 @@ def quasistatic_point(p, c, speed, y, w):
     place_balls(p, y, found)
     if p[P.CAGE] != 0.0:
         place_cage(p, y, found)
-    gyroscopic = 0.0
-    balls = int(p[P.BALLS])
-    for j in range(balls):
-        gyroscopic += found[EQ.OM + j] * found[EQ.WR + j] / balls
-    return OK, gyroscopic
+    return OK, gyroscopic_mean(p, found)
 
 
 @kernel
@@ -74,20 +70,48 @@ def summarise_held(p, s, y, f, w):
 
 
 @kernel
+def held_speed(p, u, speed, lv, c):
+    """Put the conditions ``c`` of what is held to those of ``u`` at ``speed``; a speed (rad/s) not zero."""
+    conditions(p, u, speed, c)
+    lv[L.FOUND_SPEED] = speed
+    c[C.OVERSIZE_SCALE] = 0.0
+    if abs(speed) < _STANDSTILL:
+        return -_STANDSTILL if speed < 0.0 else _STANDSTILL
+    return speed
+
+
+@kernel
+def gyroscopic_mean(p, found):
+    """Mean over the balls of orbit speed times spin about r ((rad/s)^2) at the equilibrium ``found``."""
+    gyroscopic = 0.0
+    balls = int(p[P.BALLS])
+    for j in range(balls):
+        gyroscopic += found[EQ.OM + j] * found[EQ.WR + j] / balls
+    return gyroscopic
+
+
+@kernel
 def hold(p, u, speed, s, w):
     """Renew everything held at ``speed`` (rad/s) and the inputs ``u``; status code, old values on failure."""
     lv = s[S.CONDENSED :]
     c = lv[L.CONDITIONS : L.CONDITIONS + C.SIZE]
     y = lv[L.Y0 : L.Y0 + Y.SIZE]
-    turning = speed
-    if abs(speed) < _STANDSTILL:
-        turning = -_STANDSTILL if speed < 0.0 else _STANDSTILL
-    conditions(p, u, speed, c)
-    lv[L.FOUND_SPEED] = speed
-    c[C.OVERSIZE_SCALE] = 0.0
+    turning = held_speed(p, u, speed, lv, c)
     status, gyroscopic = quasistatic_point(p, c, turning, y, w)
-    if status != OK:
-        return status
+    if status == OK:
+        hold_at(p, speed, turning, gyroscopic, s, w)
+    return status
+
+
+@kernel
+def hold_at(p, speed, turning, gyroscopic, s, w):
+    """Renew what is held, at ``speed`` (rad/s), with the quasi-static point and its conditions in the state.
+
+    ``turning``: a shaft speed that is not zero; ``gyroscopic``: see `quasistatic_point`.
+    """
+    lv = s[S.CONDENSED :]
+    c = lv[L.CONDITIONS : L.CONDITIONS + C.SIZE]
+    y = lv[L.Y0 : L.Y0 + Y.SIZE]
     square = turning * turning
     pair = p[P.BALL_INERTIA] * gyroscopic / (c[C.BALL_RADIUS] * square)
     if p[P.GYROSCOPIC] == 0.0:
@@ -124,7 +148,6 @@ def hold(p, u, speed, s, w):
     for j in range(balls):
         twist += w[W.BODY + (Q.OUTER + Q.TURN) * STRIDE + j]
     lv[L.TWIST] = share * twist
-    return OK
 
 
 @kernel

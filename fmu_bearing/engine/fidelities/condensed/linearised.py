@@ -118,8 +118,8 @@ def invert_into(lv, w):
 
 
 @kernel
-def factor_step(lv, cv, cx, cxx, w):
-    """Inverse of ``B - cv J_v - J_x (cx - cxx B^-1 J_x)`` into ``L.INVERSE``; False if singular.
+def step_matrix(lv, cv, cx, w):
+    """Put ``B - cv J_v - cx J_x`` to ``T.MATRIX``, row by row.
 
     The balls move across their tracks by ``L.SIDE_GAIN`` and ``L.SIDE_KICK`` meanwhile.
     """
@@ -128,14 +128,23 @@ def factor_step(lv, cv, cx, cxx, w):
     by_place = cx * lv[L.SIDE_SQUARE]
     by_rate = cv * lv[L.SIDE_RATE]
     for k in range(L.N):
-        times(lv, L.JX, lv, L.SQUARES + L.COLUMN * k, w, T.D)
         for i in range(L.N):
             at = i + L.COLUMN * k
             value = lv[L.MASS + at] - cv * lv[L.JV + at] - cx * lv[L.JX + at]
             for row in range(0, L.PATTERNS * L.COLUMN, L.COLUMN):
                 by = gain * lv[L.SIDE_PULL + row + i] + kick * lv[L.SIDE_DRAG + row + i]
                 value -= by * (by_place * lv[L.SIDE_FOLLOW + row + k] + by_rate * lv[L.SIDE_GUIDE + row + k])
-            w[T.MATRIX + i * L.N + k] = value + cxx * w[T.D + i]
+            w[T.MATRIX + i * L.N + k] = value
+
+
+@kernel
+def factor_step(lv, cv, cx, cxx, w):
+    """Inverse of ``B - cv J_v - J_x (cx - cxx B^-1 J_x)`` into ``L.INVERSE``; False if singular."""
+    step_matrix(lv, cv, cx, w)
+    for k in range(L.N):
+        times(lv, L.JX, lv, L.SQUARES + L.COLUMN * k, w, T.D)
+        for i in range(L.N):
+            w[T.MATRIX + i * L.N + k] += cxx * w[T.D + i]
     return invert_into(lv, w)
 
 

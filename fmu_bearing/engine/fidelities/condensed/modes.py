@@ -5,11 +5,12 @@ fidelity `full` they also slip, and a ball whose contact angles vibrate lags beh
 should have, and the traction that drags it along takes energy. For each mode of the rings this reads
 frequency and damping off the full equations, linearised about the quasi-static point, with the balls
 eliminated at the mode's own complex frequency, and gives the rings what is missing as symmetric matrices. The
-pockets' and lands' part is left out.
+pockets' and lands' part is left out. In a set the modes are those of the rings with their share of shaft and
+housing on them (``P.OWN_SHARE``): not the set's own, but near enough for terms of a few per cent.
 
 Balls carry equal loads at that point, so the rings' coordinates fall into families: both rings along the
 axis, and both rings aside and tilting, in two planes alike. One ball serves for all. Matrices of a family are
-scaled so that the rings' own masses are 1.
+scaled so that the rings' masses are 1.
 """
 
 import math
@@ -67,8 +68,8 @@ def planes(family):
 
 @kernel
 def scale(p, i, k):
-    """Return what takes a derivative of acceleration ``i`` by coordinate ``k`` to own masses of 1."""
-    return math.sqrt(inertia(p, i) / inertia(p, k))
+    """Return what takes a derivative of acceleration ``i`` by coordinate ``k`` to masses of 1."""
+    return math.sqrt(inertia(p, i) / inertia(p, k)) * math.sqrt(p[P.OWN_SHARE + i] * p[P.OWN_SHARE + k])
 
 
 @kernel
@@ -305,7 +306,9 @@ def correct_family(p, lv, jac, family, w):
     row = family * L.COLUMN
     for a in range(n):
         i = member(family, 0, a)
-        per = 1.0 / math.sqrt(inertia(p, i))
+        per = math.sqrt(p[P.OWN_SHARE + i]) / math.sqrt(inertia(p, i))
+        # what the ring carries
+        w[T.HEAVY + a * n + a] += 1.0 - p[P.OWN_SHARE + i]
         w[T.FOLLOWS + a] = per * lv[L.SIDE_FOLLOW + row + i]
         w[T.GUIDES + a] = per * lv[L.SIDE_GUIDE + row + i]
     for k in range(n):

@@ -2,7 +2,7 @@
 
 from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import STRIDE, F, L, P, Q, Y
+from fmu_bearing.engine.layout import STRIDE, F, H, L, P, Q, Y
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 from fmu_bearing.engine.newton.jacobian import is_angle
 
@@ -13,12 +13,18 @@ _PER_RING = 10.0
 
 
 @kernel
-def rate_error(lv, i):
-    """By how much Newmark's velocity exceeds the true one: h^2/12 times the rate of acceleration (m/s)."""
-    h = lv[L.SPACING]
-    if lv[L.KNOWN] >= 2.0:
-        return h / 24.0 * (3.0 * lv[L.A0 + i] - 4.0 * lv[L.A1 + i] + lv[L.A2 + i])
-    return h * h / 12.0 * lv[L.JERK + i]
+def rate_error(x, numbers, vectors, lanes, i):
+    """By how much Newmark's velocity exceeds the true one: h^2/12 times the rate of acceleration (m/s).
+
+    ``numbers``, ``vectors``: places in ``x`` of what the march keeps, see ``layout.history``; ``lanes``: from
+    one vector to the next.
+    """
+    h = x[numbers + H.SPACING]
+    at = vectors + i
+    if x[numbers + H.KNOWN] >= 2.0:
+        now = x[at + H.A0 * lanes]
+        return h / 24.0 * (3.0 * now - 4.0 * x[at + H.A1 * lanes] + x[at + H.A2 * lanes])
+    return h * h / 12.0 * x[at + H.JERK * lanes]
 
 
 @kernel
@@ -26,7 +32,8 @@ def publish_rings(lv, newmark, y, f):
     """Displacements, velocities and accelerations of the rings; ``newmark``: velocities are Newmark's."""
     for i in range(L.N):
         y[Y.Q0 + i] = lv[L.Q0 + i]
-        y[Y.V0 + i] = lv[L.V0 + i] - (rate_error(lv, i) if newmark else 0.0)
+        error = rate_error(lv, L.MARCH, L.MOVING, L.COLUMN, i) if newmark else 0.0
+        y[Y.V0 + i] = lv[L.V0 + i] - error
         f[F.BODY + i] = lv[L.A0 + i]
 
 

@@ -179,8 +179,8 @@ def advance(s, h):
 
 
 @kernel
-def emit(p, s, w, h, newmark):
-    """Sound samples of the step ``h`` from the published state to the one now in ``lv``; publish that."""
+def show_end(p, s, w, h, newmark):
+    """Put the end of the step ``h`` (s), now in ``lv``, beside the published state, for samples between."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     y = w[W.STAGE : W.STAGE + Y.SIZE]
     f = w[W.LAST : W.LAST + F.SIZE]
@@ -193,10 +193,24 @@ def emit(p, s, w, h, newmark):
     turned = lv[L.RATIO] * h * (s[S.SPEED] + 0.5 * h * s[S.SPEED_RATE])
     for j in range(int(p[P.LANES])):
         y[Y.TH + j] = s[S.Y + Y.TH + j] + turned
-    emit_samples(p, s, w, h)
+
+
+@kernel
+def keep_end(p, s, w):
+    """Publish what `show_end` has shown."""
+    y = w[W.STAGE : W.STAGE + Y.SIZE]
+    f = w[W.LAST : W.LAST + F.SIZE]
     for j in range(int(p[P.LANES])):
         y[Y.TH + j] = wrap(y[Y.TH + j])
     for i in range(Y.SIZE):
         s[S.Y + i] = y[i]
     for i in range(F.SIZE):
         s[S.F + i] = f[i]
+
+
+@kernel
+def emit(p, s, w, h, newmark):
+    """Sound samples of the step ``h`` from the published state to the one now in ``lv``; publish that."""
+    show_end(p, s, w, h, newmark)
+    emit_samples(p, s, w, h)
+    keep_end(p, s, w)

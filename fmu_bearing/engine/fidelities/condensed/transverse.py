@@ -320,15 +320,15 @@ def add_transverse(p, lv, w):
 
 
 @kernel
-def correct_transverse(lv, h, w):
+def correct_transverse(lv, h, counts, w):
     """Move the patterns on by what the last change ``T.D`` of the trial accelerations drives them.
 
-    The velocities that roll the balls are the true ones: see :func:`rings.march.correct`.
+    The velocities that roll the balls are the true ones: see :func:`rings.march.correct`. ``counts``: what
+    the last acceleration counts in its own rate, times h.
     """
     if lv[L.SIDE_SQUARE] == 0.0:
         return
-    # half less a twelfth of what the last acceleration counts in its own rate
-    counts = 11.0 / 6.0 if lv[L.KNOWN] >= 2.0 else (1.5 if lv[L.KNOWN] >= 1.0 else 1.0)
+    # half less a twelfth of it
     by_velocity = lv[L.SIDE_RATE] * h * (0.5 - counts / 12.0)
     by_place = lv[L.SIDE_SQUARE] * h * h / 12.0
     for k in range(L.PATTERNS):

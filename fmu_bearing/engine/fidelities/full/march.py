@@ -57,6 +57,32 @@ def take_inputs(p, u, s, w, h):
 
 
 @kernel
+def renewal_due(s):
+    """Whether the Jacobian is too old, or contracts too slowly."""
+    return s[S.TIME] - s[S.JACOBIAN_TIME] > _OLDEST or s[S.CONTRACTION] > _SLOW
+
+
+@kernel
+def same_step(s, h):
+    """Whether the factors serve a step ``h`` (s)."""
+    ratio = h / (s[S.FACTOR_STEP] + 1e-300)
+    return not (ratio < _SAME_STEP[0] or ratio > _SAME_STEP[1])
+
+
+@kernel
+def probes(s):
+    """Whether the next step measures the contraction of Newton's method."""
+    return s[S.STEPS] % _PROBE == 0.0
+
+
+@kernel
+def longest_step(p, s, speed):
+    """Length (s) of the longest internal step on the way to the shaft ``speed`` (rad/s)."""
+    longest = p[P.MAX_STEP] if p[P.MODES] == 0.0 else min(p[P.MAX_STEP], p[P.MODE_STEP])
+    return min(longest, _WAVE * wave_time(p, max(abs(s[S.SPEED]), abs(speed))))
+
+
+@kernel
 def try_step(p, s, w, h, tableau, tolerance):
     """One attempt of length ``h`` with Jacobian and factors kept as long as they serve.
 
@@ -66,12 +92,10 @@ def try_step(p, s, w, h, tableau, tolerance):
     explicit = TABLEAUX[tableau + TAB.GAMMA] == 0.0
     for attempt in range(2):
         fresh = s[S.JACOBIAN_TIME] == s[S.TIME] or explicit
-        too_old = s[S.TIME] - s[S.JACOBIAN_TIME] > _OLDEST or s[S.CONTRACTION] > _SLOW
-        if not fresh and (attempt == 1 or too_old):
+        if not fresh and (attempt == 1 or renewal_due(s)):
             renew_jacobian(p, s, w)
             fresh = True
-        ratio = h / (s[S.FACTOR_STEP] + 1e-300)
-        if not explicit and (ratio < _SAME_STEP[0] or ratio > _SAME_STEP[1]):
+        if not explicit and not same_step(s, h):
             gh = TABLEAUX[tableau + TAB.GAMMA] * h
             if not factor(p, s[S.JAC : S.FAC], gh, gh * gh, gh * gh, s[S.FAC : S.CONDENSED], w):
                 if fresh:
@@ -82,12 +106,11 @@ def try_step(p, s, w, h, tableau, tolerance):
                 s[S.Y + Y.TH] - s[S.JACOBIAN_ANGLE], s[S.SPEED], gh, gh * gh, s[flexure_state(p) :], w,
             )  # fmt: skip
             s[S.FACTOR_STEP] = h
-        probe = s[S.STEPS] % _PROBE == 0.0
         fine = runge_kutta_step(
             p, s[S.C : S.C + C.SIZE], s[S.Y : S.Y + Y.SIZE], s[S.F : S.F + F.SIZE], s[S.AXES:S.JAC],
             s[flexure_state(p) :], s[S.ANGLE], s[S.SPEED], s[S.SPEED_RATE], h, tableau, s[S.FAC:S.CONDENSED],
             s[S.Y + Y.TH] - s[S.JACOBIAN_ANGLE], control.allowed_remainder(tolerance, h),
-            s[S.CONTRACTION], probe, w, report,
+            s[S.CONTRACTION], probes(s), w, report,
         )  # fmt: skip
         if fine:
             if report[W.CONTRACTION] > 0.0:
@@ -108,8 +131,7 @@ def march(p, u, s, w, h):
     order = TABLEAUX[tableau + TAB.ORDER]
     begin = s[S.TIME]
     end = begin + h
-    longest = p[P.MAX_STEP] if p[P.MODES] == 0.0 else min(p[P.MAX_STEP], p[P.MODE_STEP])
-    longest = min(longest, _WAVE * wave_time(p, max(abs(s[S.SPEED]), abs(u[U.SPEED]))))
+    longest = longest_step(p, s, u[U.SPEED])
     # bounded work: no more attempts than a hundred times what the largest internal step would need
     # (a thousand times for explicit steps, which stability keeps below 0.1 us)
     left = steps.most_attempts(h, longest, 1000.0 if tableau == AT_RK4 else 100.0)

@@ -130,7 +130,14 @@ def newton_residual(acc, lanes, w):
 
 @kernel
 def keep_powers(p, c, speed, gh, acc, w):
-    """Take power, heats and shaft torque of a stage from ``w[W.F:]`` into its accelerations ``acc``.
+    """Take power, heats and shaft torque of a stage from ``w[W.F:]`` into its accelerations ``acc``."""
+    outer = F.BODY + Q.OUTER + Q.TURN
+    complete_torque(p, c, speed, gh, p[P.OUTER_POLAR] * (acc[outer] - w[W.F + outer]), acc, w)
+
+
+@kernel
+def complete_torque(p, c, speed, gh, gained, acc, w):
+    """Do what `keep_powers` does with what the outer ring ``gained`` beyond ``w[W.F:]`` about the axis (N m).
 
     They belong to the state before Newton's last increment. The sliding which this increment still takes away
     counts little in Newton's norm. Yet traction is stiff: behind a jump of the forces that sliding can be as
@@ -148,7 +155,7 @@ def keep_powers(p, c, speed, gh, acc, w):
     cage = F.BODY + Q.CAGE + Q.TURN
     missing = p[P.BALL_MASS] * p[P.PITCH_RADIUS] * p[P.PITCH_RADIUS] * sum_four(orbit)
     missing += p[P.BALL_INERTIA] * sum_four(spin)
-    missing += p[P.OUTER_POLAR] * (acc[outer] - w[W.F + outer])
+    missing += gained
     missing += p[P.CAGE_POLAR] * (acc[cage] - w[W.F + cage])
     if gh != 0.0:  # an explicit stage has no increment
         missing += gh * (c[C.DAMPING_SPIN] + gh * c[C.PEDESTAL_ROTATIONAL]) * w[W.D + outer]

@@ -20,6 +20,45 @@ _FAR = 0.3  # of the pitch radius: beyond it the angles of pockets and waves, se
 
 
 @kernel
+def place_rest(p, c, y, found, s, w, speed):
+    """Place balls and cage in the state ``y`` about the rings there, from the equilibrium ``found``."""
+    place_balls(p, y, found)
+    if p[P.CAGE] != 0.0:
+        place_cage(p, y, found)
+    first_axes(p, s[S.AXES : S.JAC])
+    show_axes(p, s, w)
+    settle(p, c, y, 0.0, speed, s, w)
+    balance_spins(p, c, y, 0.0, speed, w, s[S.JAC : S.FAC])
+    if p[P.CAGE] != 0.0:
+        orbit = 0.0
+        for j in range(int(p[P.BALLS])):
+            orbit += y[Y.OM + j] / p[P.BALLS]
+        y[Y.V0 + Q.CAGE + Q.TURN] = orbit
+
+
+@kernel
+def begin_clock(p, s, speed, t):
+    """Clock, and what steps and Jacobian begin with, at time ``t`` (s)."""
+    s[S.TIME] = t
+    s[S.START] = t
+    s[S.SPEED] = speed
+    s[S.SPEED_RATE] = 0.0
+    s[S.STEP] = min(2e-6, p[P.MAX_STEP])
+    s[S.FACTOR_STEP] = 0.0
+    s[S.JACOBIAN_TIME] = -1e300
+    s[S.CONTRACTION] = 0.1
+    s[S.JACOBIANS] = 0.0
+
+
+@kernel
+def begin_means(s):
+    """Mean heats (W) and torque (N m) before the first communication step: those of the start."""
+    for i in range(3):
+        s[S.MEAN_HEAT + i] = s[S.F + F.HEAT + i]
+    s[S.MEAN_TORQUE] = s[S.F + F.TORQUE]
+
+
+@kernel
 def start(p, u, s, w, t):
     """Fill the state ``s`` for the inputs ``u`` at time ``t`` (s); status code."""
     for i in range(s.size):
@@ -46,31 +85,10 @@ def start(p, u, s, w, t):
     if p[P.RIGID] != 0.0:
         y[Y.Q0] = s[S.PLACE]
         c[C.PRELOAD] = u[U.PRELOAD]
-    place_balls(p, y, found)
-    if p[P.CAGE] != 0.0:
-        place_cage(p, y, found)
-    first_axes(p, s[S.AXES : S.JAC])
-    show_axes(p, s, w)
-    settle(p, c, y, 0.0, u[U.SPEED], s, w)
-    balance_spins(p, c, y, 0.0, u[U.SPEED], w, s[S.JAC : S.FAC])
-    if p[P.CAGE] != 0.0:
-        orbit = 0.0
-        for j in range(int(p[P.BALLS])):
-            orbit += y[Y.OM + j] / p[P.BALLS]
-        y[Y.V0 + Q.CAGE + Q.TURN] = orbit
-    s[S.TIME] = t
-    s[S.START] = t
-    s[S.SPEED] = u[U.SPEED]
-    s[S.SPEED_RATE] = 0.0
-    s[S.STEP] = min(2e-6, p[P.MAX_STEP])
-    s[S.FACTOR_STEP] = 0.0
-    s[S.JACOBIAN_TIME] = -1e300
-    s[S.CONTRACTION] = 0.1
-    s[S.JACOBIANS] = 0.0
+    place_rest(p, c, y, found, s, w, u[U.SPEED])
+    begin_clock(p, s, u[U.SPEED], t)
     s[S.ENERGY_START] = total_energy(p, s, w)
     s[S.ENERGY_NOW] = s[S.ENERGY_START]
     summarise(p, s, w)
-    for i in range(3):
-        s[S.MEAN_HEAT + i] = s[S.F + F.HEAT + i]
-    s[S.MEAN_TORQUE] = s[S.F + F.TORQUE]
+    begin_means(s)
     return OK

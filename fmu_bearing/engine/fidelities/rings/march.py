@@ -13,6 +13,8 @@ A step is repeated at half its length when the correction does not settle, when 
 the third difference of the accelerations shows that it is too long.
 """
 
+import math
+
 from fmu_bearing.engine.dense import times
 from fmu_bearing.engine.fidelities import steps
 from fmu_bearing.engine.fidelities.condensed.balls import accelerations, count_settled, stand
@@ -41,10 +43,18 @@ from fmu_bearing.engine.fidelities.condensed.transverse import (
     keep_transverse,
     prepare_step,
 )
-from fmu_bearing.engine.fidelities.rings.predictor import change_spacing, displace, judge, predict
+from fmu_bearing.engine.fidelities.rings.predictor import (
+    change_spacing,
+    displace,
+    judge,
+    last_counts,
+    move_on,
+    predict,
+    true_velocities,
+)
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
-from fmu_bearing.engine.layout import FOUR, STRIDE, C, F, L, P, S, T, U, W, Y
+from fmu_bearing.engine.layout import FOUR, STRIDE, C, F, H, L, P, S, T, U, W, Y
 from fmu_bearing.engine.mechanics.race import wave_time
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 from fmu_bearing.engine.newton.jacobian import is_angle
@@ -56,23 +66,23 @@ _LONGEST = 2e-5  # s
 # the step is 16 us.
 _MODE = 2.2
 _WAVE = 1.0
-_ITERATIONS = 6
-_PROBE = 32  # steps between measurements of the contraction
-_SLOW = 0.25  # contraction beyond which a new Jacobian (23 evaluations) pays
+ITERATIONS = 6
+PROBE = 32  # steps between measurements of the contraction
+SLOW = 0.25  # contraction beyond which a new Jacobian (23 evaluations) pays
 # Shares of the tolerance: what the correction may leave in a step, and what the step's own error estimate
 # may reach. Both repeat at every step and mostly alternate in sign.
-_CORRECTION = 0.01
-_TRUNCATION = 1.0
-_GROW = 1.0 / 40  # of the allowed error: twice the step makes 16 times the error
-_FIRST = 1.0 / 16  # of the longest step: the first one
-_PATIENCE = 8  # steps before a longer one is tried
+CORRECTION = 0.01
+TRUNCATION = 1.0
+GROW = 1.0 / 40  # of the allowed error: twice the step makes 16 times the error
+FIRST = 1.0 / 16  # of the longest step: the first one
+PATIENCE = 8  # steps before a longer one is tried
 
 
 @kernel
-def longest_step(p, lv, speed):
-    """Longest internal step (s) at ``speed``: see the limits above."""
+def longest_step(p, highest, speed):
+    """Longest internal step (s) at ``speed``: see the limits above; ``highest``: mode (rad/s)."""
     h = min(_LONGEST, p[P.MAX_STEP])
-    h = min(h, _MODE / (lv[L.HIGHEST] + 1.0))
+    h = min(h, _MODE / (highest + 1.0))
     return min(h, _WAVE * wave_time(p, speed))
 
 
@@ -105,7 +115,7 @@ def start_rings(p, u, s, w, t):
     for _ in range(L.HISTORY):
         count_settled(lv, int(p[P.LANES]), w)
     # nothing is known of the rate of acceleration yet, which Newmark's velocity contains: begin finely
-    s[S.STEP] = _FIRST * longest_step(p, lv, s[S.SPEED])
+    s[S.STEP] = FIRST * longest_step(p, lv[L.HIGHEST], s[S.SPEED])
     publish(p, lv, s[S.SPEED], 0.0, True, s[S.Y : S.Y + Y.SIZE], s[S.F : S.F + F.SIZE])
     for i in range(3):
         s[S.MEAN_HEAT + i] = lv[L.HEAT + i]
@@ -114,8 +124,8 @@ def start_rings(p, u, s, w, t):
 
 
 @kernel
-def renew(p, s, w):
-    """Jacobian at the present state, and the highest mode; False if there are none."""
+def differentiate(p, s, w):
+    """Jacobian at the present state, with balls held across their tracks; False if there is none."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     c = s[S.C : S.C + C.SIZE]
     for i in range(L.N):
@@ -130,25 +140,47 @@ def renew(p, s, w):
     if not derivatives(p, c, lv, s[S.ANGLE], s[S.SPEED], s[S.SPEED_RATE], w):
         return False
     hold_across(p, lv, w)
-    lv[L.HIGHEST] = highest_mode(lv, w)
-    lv[L.FACTOR_STEP] = 0.0
-    lv[L.CONTRACTION] = 0.1
-    lv[L.FRESH] = 1.0
     s[S.JACOBIANS] += 1.0
     return True
 
 
 @kernel
-def begin_anew(p, s, w):
-    """After a jump: Jacobian and accelerations at the present state; False if there are none."""
-    if not renew(p, s, w):
+def begin_jacobian(x, numbers, highest):
+    """Note a Jacobian at the present state with the ``highest`` mode (rad/s); ``numbers``: of the march."""
+    x[numbers + H.HIGHEST] = highest
+    x[numbers + H.FACTOR_STEP] = 0.0
+    x[numbers + H.CONTRACTION] = 0.1
+    x[numbers + H.FRESH] = 1.0
+
+
+@kernel
+def renew(p, s, w):
+    """Jacobian at the present state, and the highest mode; False if there are none."""
+    if not differentiate(p, s, w):
         return False
+    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
+    begin_jacobian(lv, L.MARCH, highest_mode(lv, w))
+    return True
+
+
+@kernel
+def forces_anew(p, s, w):
+    """After a jump and new derivatives: accelerations by the forces at the present state; False if none."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     # the derivatives leave the rows of the balls a nanometre off
     q = w[T.Q : T.Q + L.COLUMN]
     if not accelerations(p, s[S.C : S.C + C.SIZE], lv, s[S.ANGLE], s[S.SPEED], s[S.SPEED_RATE], q, w):
         return False
     carry_transverse(p, lv, w)
+    return True
+
+
+@kernel
+def begin_anew(p, s, w):
+    """After a jump: Jacobian and accelerations at the present state; False if there are none."""
+    if not renew(p, s, w) or not forces_anew(p, s, w):
+        return False
+    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     times(lv, L.INVERSE, w, W.F + F.BODY, w, T.A)
     for i in range(L.N):
         lv[L.A0 + i] = w[T.A + i]
@@ -172,20 +204,50 @@ def take_inputs(p, u, s, w, h):
 
 
 @kernel
-def size_of(p, w, at):
-    """Largest of the ``L.N`` numbers at ``w[at:]``, tilts at the pitch radius."""
-    lever = p[P.PITCH_RADIUS]
+def size_of(x, levers, n, w, at):
+    """Largest of the ``n`` numbers at ``w[at:]``, each times its lever at ``x[levers:]``."""
     size = 0.0
-    for i in range(L.N):
-        value = abs(w[at + i])
-        if is_angle(i):
-            value *= lever
-        size = max(size, value)
+    for i in range(n):
+        size = max(size, x[levers + i] * abs(w[at + i]))
     # a comparison drops what is not a number, a sum does not
     total = 0.0
-    for i in range(L.N):
+    for i in range(n):
         total += w[at + i]
     return size + 0.0 * total
+
+
+@kernel
+def stand_ahead(p, s, h, w):
+    """Put balls and race heights to the end of a step ``h`` (s), with the rings at their trial places."""
+    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
+    speed = s[S.SPEED] + h * s[S.SPEED_RATE]
+    turned = h * (s[S.SPEED] + 0.5 * h * s[S.SPEED_RATE])
+    tau = p[P.CONTACT_DAMPING]
+    stand(
+        p, s[S.C : S.C + C.SIZE], lv, lv[L.THETA] + lv[L.RATIO] * turned + tau * lv[L.RATIO] * speed,
+        lv[L.ROLLED] + lv[L.ROLL] * turned + tau * lv[L.ROLL] * speed, s[S.ANGLE] + turned + tau * speed,
+        w[W.STAGE + Y.Q0 + L.TURN], speed, w,
+    )  # fmt: skip
+
+
+@kernel
+def judge_correction(contraction, size, before, worst, n, probe, tolerance):
+    """Return what correction ``n`` of ``size`` (m/s) leaves, and the worst contraction.
+
+    Negative where another is needed, not a number where it is given up; ``before``: size of the last one.
+    """
+    if not (size < 1e6):
+        return math.nan, worst
+    if n > 0:
+        contraction = size / (before + 1e-300)
+        # the ratio of smaller corrections is that of the balls' first-order forces
+        if before > tolerance:
+            worst = max(worst, contraction)
+        if contraction > 0.9 and size > tolerance:
+            return math.nan, worst
+    if (n > 0 or not probe) and size * contraction <= tolerance:
+        return size * contraction, worst
+    return -1.0, worst
 
 
 @kernel
@@ -199,31 +261,20 @@ def correct(p, s, h, tolerance, probe, w):
     angle = s[S.ANGLE] + turned
     predict(p, lv, h, w)
     begin_transverse(lv, h, w)
-    tau = p[P.CONTACT_DAMPING]
-    stand(
-        p, c, lv, lv[L.THETA] + lv[L.RATIO] * turned + tau * lv[L.RATIO] * speed,
-        lv[L.ROLLED] + lv[L.ROLL] * turned + tau * lv[L.ROLL] * speed, angle + tau * speed,
-        w[W.STAGE + Y.Q0 + L.TURN], speed, w,
-    )  # fmt: skip
+    stand_ahead(p, s, h, w)
     q = w[T.Q : T.Q + L.COLUMN]
+    v = W.STAGE + Y.V0
     before = 0.0
     worst = 0.0
-    for n in range(_ITERATIONS):
+    for n in range(ITERATIONS):
         # dampers and gyroscopic moments see the true velocity, or they would be wrong by (omega h)^2 / 12
-        known = lv[L.KNOWN] >= 1.0
-        longer = lv[L.KNOWN] >= 2.0
         for i in range(L.N):
-            change = w[T.A + i] - lv[L.A0 + i]
-            if known:
-                earlier = lv[L.A0 + i] - lv[L.A1 + i]
-                third = change - 2.0 * earlier + (lv[L.A1 + i] - lv[L.A2 + i]) if longer else 0.0
-                change = 0.5 * (3.0 * change - earlier) + third / 3.0
-            w[T.V + i] = w[W.STAGE + Y.V0 + i]
-            w[W.STAGE + Y.V0 + i] -= h / 12.0 * change
+            w[T.V + i] = w[v + i]
+        true_velocities(lv, L.MARCH, L.MOVING, L.COLUMN, L.N, h, w, T.A, T.V, v)
         fine = accelerations(p, c, lv, angle, speed, rate, q, w)
         add_transverse(p, lv, w)
         for i in range(L.N):
-            w[W.STAGE + Y.V0 + i] = w[T.V + i]
+            w[v + i] = w[T.V + i]
         if not fine:
             return -1.0
         times(lv, L.MASS, w, T.A, w, T.D)
@@ -233,42 +284,27 @@ def correct(p, s, h, tolerance, probe, w):
         for i in range(L.N):
             d = w[T.D + i]
             w[T.A + i] += d
-            w[W.STAGE + Y.V0 + i] += 0.5 * h * d
+            w[v + i] += 0.5 * h * d
         displace(lv, h, w)
-        correct_transverse(lv, h, w)
-        size = 0.5 * h * size_of(p, w, T.D)
+        correct_transverse(lv, h, last_counts(lv[L.KNOWN]), w)
+        size = 0.5 * h * size_of(lv, L.LEVERS, L.N, w, T.D)
         s[S.NEWTON] += 1.0
-        if not (size < 1e6):
-            return -1.0
-        contraction = lv[L.CONTRACTION]
-        if n > 0:
-            contraction = size / (before + 1e-300)
-            # the ratio of smaller corrections is that of the balls' first-order forces
-            if before > tolerance:
-                worst = max(worst, contraction)
-            if contraction > 0.9 and size > tolerance:
-                return -1.0
-        if (n > 0 or not probe) and size * contraction <= tolerance:
+        left, worst = judge_correction(lv[L.CONTRACTION], size, before, worst, n, probe, tolerance)
+        if left >= 0.0:
             if worst > 0.0:
                 lv[L.CONTRACTION] = worst
-            return size * contraction
+            return left
+        if left != left:
+            return -1.0
         before = size
     return -1.0
 
 
 @kernel
-def accept(p, s, h, w):
-    """Move the rings' and balls' state and the angle of ball 0 to the end of the step."""
+def accept_balls(p, s, h, w):
+    """Move the balls' state and the angle of ball 0 to the end of the step."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     lanes = int(p[P.LANES])
-    for i in range(L.N):
-        lv[L.A4 + i] = lv[L.A3 + i]
-        lv[L.A3 + i] = lv[L.A2 + i]
-        lv[L.A2 + i] = lv[L.A1 + i]
-        lv[L.A1 + i] = lv[L.A0 + i]
-        lv[L.A0 + i] = w[T.A + i]
-        lv[L.Q0 + i] = w[W.STAGE + Y.Q0 + i]
-        lv[L.V0 + i] = w[W.STAGE + Y.V0 + i]
     for row in range(0, 2 * STRIDE, STRIDE):
         for j in range(row, row + lanes, FOUR):
             store(lv, L.X4 + j, load(lv, L.X3 + j))
@@ -278,31 +314,45 @@ def accept(p, s, h, w):
             store(lv, L.X + j, load(w, T.X + j))
     keep_transverse(lv, w)
     count_settled(lv, lanes, w)
-    lv[L.KNOWN] += 1.0
-    lv[L.CALM] += 1.0
-    lv[L.FRESH] = 0.0
     turned = h * (s[S.SPEED] + 0.5 * h * s[S.SPEED_RATE])
     lv[L.THETA] = wrap(lv[L.THETA] + lv[L.RATIO] * turned)
     lv[L.ROLLED] = wrap(lv[L.ROLLED] + lv[L.ROLL] * turned)
 
 
 @kernel
+def count_step(x, numbers):
+    """Note a step made; ``numbers``: of the march in ``x``."""
+    x[numbers + H.KNOWN] += 1.0
+    x[numbers + H.CALM] += 1.0
+    x[numbers + H.FRESH] = 0.0
+
+
+@kernel
+def accept(p, s, h, w):
+    """Move the rings' and balls' state and the angle of ball 0 to the end of the step."""
+    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
+    move_on(lv, L.MOVING, L.COLUMN, L.N, w, T.A, W.STAGE + Y.Q0, W.STAGE + Y.V0)
+    accept_balls(p, s, h, w)
+    count_step(lv, L.MARCH)
+
+
+@kernel
 def try_step(p, s, h, tolerance, w):
     """One attempt of length ``h``: its error over the allowed one, or -1 with a fresh Jacobian in vain."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    change_spacing(lv, h)
+    change_spacing(lv, L.MARCH, L.MOVING, L.COLUMN, L.N, h)
     for _ in range(2):
-        if lv[L.CONTRACTION] > _SLOW and lv[L.FRESH] == 0.0 and not renew(p, s, w):
+        if lv[L.CONTRACTION] > SLOW and lv[L.FRESH] == 0.0 and not renew(p, s, w):
             return -1.0
         prepare_step(lv, h)
         if abs(h - lv[L.FACTOR_STEP]) > 0.05 * h:
             if not factor_step(lv, 0.5 * h, h * h / 12.0, h**4 / 240.0, w):
                 return -1.0
             lv[L.FACTOR_STEP] = h
-        probe = s[S.STEPS] % _PROBE == 0.0
-        left = correct(p, s, h, _CORRECTION * tolerance, probe, w)
+        probe = s[S.STEPS] % PROBE == 0.0
+        left = correct(p, s, h, CORRECTION * tolerance, probe, w)
         if left >= 0.0:
-            return 0.01 * h * judge(lv, w) / (_TRUNCATION * tolerance)
+            return 0.01 * h * judge(lv, w) / (TRUNCATION * tolerance)
         if lv[L.FRESH] != 0.0:
             return -1.0
         lv[L.CONTRACTION] = 1.0
@@ -318,7 +368,7 @@ def march_rings(p, u, s, w, h):
     if status != OK:
         return status
     tolerance = steps.velocity_tolerance(p, u[U.SPEED])
-    longest = longest_step(p, lv, max(abs(s[S.SPEED]), abs(u[U.SPEED])))
+    longest = longest_step(p, lv[L.HIGHEST], max(abs(s[S.SPEED]), abs(u[U.SPEED])))
     end = s[S.TIME] + h
     left = steps.most_attempts(h, longest, 100.0)
     remaining = h
@@ -338,7 +388,7 @@ def march_rings(p, u, s, w, h):
             emit(p, s, w, length, True)
         advance(s, length)
         remaining = end - s[S.TIME]
-        if error < _GROW and lv[L.CALM] >= _PATIENCE and lv[L.KNOWN] >= 3.0:
+        if error < GROW and lv[L.CALM] >= PATIENCE and lv[L.KNOWN] >= 3.0:
             s[S.STEP] = min(longest, 2.0 * cap)
     s[S.TIME] = end
     s[S.SPEED] = u[U.SPEED]

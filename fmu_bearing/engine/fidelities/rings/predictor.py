@@ -11,24 +11,29 @@ from fmu_bearing.engine.dense import times
 from fmu_bearing.engine.fidelities.condensed.publish import rate_error
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import lane, load, select, splat, store
-from fmu_bearing.engine.layout import FOUR, STRIDE, L, P, T, W, Y
+from fmu_bearing.engine.layout import FOUR, STRIDE, H, L, P, T, W, Y
 
 _HIGHEST = L.HISTORY - 1  # degree
 _FORGET = 0.9  # per step: what is left of an old error
 
 
 @kernel
-def change_spacing(lv, h):
-    """Exchange the part of the velocities that belongs to the step, if that changes; forget the history."""
-    if abs(h - lv[L.SPACING]) > 1e-6 * h:
-        old = lv[L.SPACING]
+def change_spacing(x, numbers, vectors, lanes, n, h):
+    """Exchange the part of the velocities that belongs to the step, if that changes; forget the history.
+
+    ``numbers``, ``vectors``: places in ``x`` of what the march of ``n`` coordinates keeps, see the layout's
+    ``history``; ``lanes``: from one vector to the next.
+    """
+    if abs(h - x[numbers + H.SPACING]) > 1e-6 * h:
+        old = x[numbers + H.SPACING]
         if old > 0.0:
-            for i in range(L.N):
-                lv[L.JERK + i] = 12.0 / (old * old) * rate_error(lv, i)
-                lv[L.V0 + i] += (h * h - old * old) / 12.0 * lv[L.JERK + i]
-        lv[L.SPACING] = h
-        lv[L.KNOWN] = 0.0
-        lv[L.CALM] = 0.0
+            jerk = vectors + H.JERK * lanes
+            for i in range(n):
+                x[jerk + i] = 12.0 / (old * old) * rate_error(x, numbers, vectors, lanes, i)
+                x[vectors + H.V0 * lanes + i] += (h * h - old * old) / 12.0 * x[jerk + i]
+        x[numbers + H.SPACING] = h
+        x[numbers + H.KNOWN] = 0.0
+        x[numbers + H.CALM] = 0.0
 
 
 @kernel
@@ -46,35 +51,99 @@ def weights(degree):
 
 
 @kernel
+def guess(x, numbers, vectors, lanes, n, h, w, a, d, q, v):
+    """Trial accelerations to ``w[a:]``, their change to ``w[d:]``, places to ``w[q:]``, rates to ``w[v:]``.
+
+    The places lack what :func:`displaced` adds. ``numbers`` and so on: see :func:`change_spacing`.
+    """
+    c0, c1, c2, c3, c4 = weights(min(x[numbers + H.DEGREE], x[numbers + H.KNOWN]))
+    a0 = vectors + H.A0 * lanes
+    a1 = vectors + H.A1 * lanes
+    a2 = vectors + H.A2 * lanes
+    a3 = vectors + H.A3 * lanes
+    a4 = vectors + H.A4 * lanes
+    q0 = vectors + H.Q0 * lanes
+    v0 = vectors + H.V0 * lanes
+    for i in range(n):
+        now = x[a0 + i]
+        ahead = c0 * now + c1 * x[a1 + i] + c2 * x[a2 + i] + c3 * x[a3 + i] + c4 * x[a4 + i]
+        w[a + i] = ahead
+        w[d + i] = ahead - now
+        w[q + i] = x[q0 + i] + h * (x[v0 + i] + 0.5 * h * now)
+        w[v + i] = x[v0 + i] + 0.5 * h * (now + ahead)
+
+
+@kernel
+def displaced(w, d, turned, q, n, h):
+    """Add to the places at ``w[q:]`` what the change ``w[d:]`` of the trial accelerations moves them by.
+
+    Newmark's beta is the matrix 1/12 - h^2/240 B^-1 J_x: for a mode of frequency omega the first two terms
+    of 1/(2 - 2 cos omega h) - 1/(omega h)^2, with which the step turns it by omega h exactly. ``turned``:
+    place of B^-1 J_x times the change.
+    """
+    for i in range(n):
+        w[q + i] += h * h / 12.0 * (w[d + i] - h * h / 20.0 * w[turned + i])
+
+
+@kernel
+def true_velocities(x, numbers, vectors, lanes, n, h, w, a, v, out):
+    """Put to ``w[out:]`` Newmark's velocities at ``w[v:]`` less h^2/12 times the rate of acceleration."""
+    known = x[numbers + H.KNOWN] >= 1.0
+    longer = x[numbers + H.KNOWN] >= 2.0
+    a0 = vectors + H.A0 * lanes
+    a1 = vectors + H.A1 * lanes
+    a2 = vectors + H.A2 * lanes
+    for i in range(n):
+        change = w[a + i] - x[a0 + i]
+        if known:
+            earlier = x[a0 + i] - x[a1 + i]
+            third = change - 2.0 * earlier + (x[a1 + i] - x[a2 + i]) if longer else 0.0
+            change = 0.5 * (3.0 * change - earlier) + third / 3.0
+        w[out + i] = w[v + i] - h / 12.0 * change
+
+
+@kernel
+def last_counts(known):
+    """Return what the last acceleration counts in its own rate, times h, with ``known`` earlier steps."""
+    return 11.0 / 6.0 if known >= 2.0 else (1.5 if known >= 1.0 else 1.0)
+
+
+@kernel
+def move_on(x, vectors, lanes, n, w, a, q, v):
+    """Make trial accelerations, places and velocities (``w[a:]``, ``w[q:]``, ``w[v:]``) the present ones."""
+    a0 = vectors + H.A0 * lanes
+    a1 = vectors + H.A1 * lanes
+    a2 = vectors + H.A2 * lanes
+    a3 = vectors + H.A3 * lanes
+    for i in range(n):
+        x[vectors + H.A4 * lanes + i] = x[a3 + i]
+        x[a3 + i] = x[a2 + i]
+        x[a2 + i] = x[a1 + i]
+        x[a1 + i] = x[a0 + i]
+        x[a0 + i] = w[a + i]
+        x[vectors + H.Q0 * lanes + i] = w[q + i]
+        x[vectors + H.V0 * lanes + i] = w[v + i]
+
+
+@kernel
 def predict(p, lv, h, w):
     """Trial state in ``w[W.STAGE:]``, trial accelerations in ``T.A``, balls' places continued."""
-    c0, c1, c2, c3, c4 = weights(min(lv[L.DEGREE], lv[L.KNOWN]))
-    for i in range(L.N):
-        now = lv[L.A0 + i]
-        a = c0 * now + c1 * lv[L.A1 + i] + c2 * lv[L.A2 + i] + c3 * lv[L.A3 + i] + c4 * lv[L.A4 + i]
-        w[T.A + i] = a
-        w[T.D + i] = a - now
-        w[W.STAGE + Y.Q0 + i] = lv[L.Q0 + i] + h * (lv[L.V0 + i] + 0.5 * h * now)
-        w[W.STAGE + Y.V0 + i] = lv[L.V0 + i] + 0.5 * h * (now + a)
+    guess(lv, L.MARCH, L.MOVING, L.COLUMN, L.N, h, w, T.A, T.D, W.STAGE + Y.Q0, W.STAGE + Y.V0)
     displace(lv, h, w)
-    continue_places(lv, int(p[P.LANES]), min(lv[L.KNOWN], _HIGHEST), w)
+    continue_places(lv, int(p[P.LANES]), w)
 
 
 @kernel
 def displace(lv, h, w):
-    """Add to the trial displacements what the change ``T.D`` of the trial accelerations moves them by.
-
-    Newmark's beta is the matrix 1/12 - h^2/240 B^-1 J_x: for a mode of frequency omega the first two terms
-    of 1/(2 - 2 cos omega h) - 1/(omega h)^2, with which the step turns it by omega h exactly.
-    """
+    """Add to the trial displacements what the change ``T.D`` of the trial accelerations moves them by."""
     times(lv, L.SQUARES, w, T.D, w, T.Q)
-    for i in range(L.N):
-        w[W.STAGE + Y.Q0 + i] += h * h / 12.0 * (w[T.D + i] - h * h / 20.0 * w[T.Q + i])
+    displaced(w, T.D, T.Q, W.STAGE + Y.Q0, L.N, h)
 
 
 @kernel
-def continue_places(lv, lanes, degree, w):
+def continue_places(lv, lanes, w):
     """Continue the balls' places; one that found no rest in the steps before stays where it is."""
+    degree = min(lv[L.KNOWN], _HIGHEST)
     c0, c1, c2, c3, c4 = weights(degree)
     for j in range(0, lanes, FOUR):
         settled = load(lv, L.SETTLED + j) > degree
@@ -93,48 +162,55 @@ def largest(value):
 
 
 @kernel
-def judge(lv, w):
-    """Update the errors of all degrees by the accelerations found in ``T.A``, and choose the best.
+def judged(x, numbers, vectors, lanes, w, a, d):
+    """Update the errors of all degrees by the accelerations found at ``w[a:]``, and choose the best.
 
     The error of the polynomial of degree n is the backward difference of order n + 1. Returns that of order
-    3 (m/s2), tilts at the pitch radius; 0 where too few accelerations are known.
+    3 (m/s2), tilts at their levers; 0 where too few accelerations are known. ``w[d:]``: scratch.
     """
     e0 = splat(0.0)
     e1 = splat(0.0)
     e2 = splat(0.0)
     e3 = splat(0.0)
     e4 = splat(0.0)
-    for i in range(0, L.COLUMN, FOUR):
-        lever = load(lv, L.LEVERS + i)
-        a0 = load(lv, L.A0 + i)
-        a1 = load(lv, L.A1 + i)
-        a2 = load(lv, L.A2 + i)
-        a3 = load(lv, L.A3 + i)
-        a = load(w, T.A + i) - a0
+    for i in range(0, lanes, FOUR):
+        lever = load(x, vectors + H.LEVERS * lanes + i)
+        a0 = load(x, vectors + H.A0 * lanes + i)
+        a1 = load(x, vectors + H.A1 * lanes + i)
+        a2 = load(x, vectors + H.A2 * lanes + i)
+        a3 = load(x, vectors + H.A3 * lanes + i)
+        first = load(w, a + i) - a0
         b = a0 - a1
         c = a1 - a2
-        d = a2 - a3
-        e = a3 - load(lv, L.A4 + i)
-        e0 = max(e0, lever * abs(a))
-        e1 = max(e1, lever * abs(a - b))
-        e2 = max(e2, lever * abs(a - 2.0 * b + c))
-        e3 = max(e3, lever * abs(a - 3.0 * (b - c) - d))
-        e4 = max(e4, lever * abs(a - 4.0 * (b + d) + 6.0 * c + e))
-    third = largest(e2)
-    w[T.D] = largest(e0)
-    w[T.D + 1] = largest(e1)
-    w[T.D + 2] = third
-    rest = T.D + 2
+        third = a2 - a3
+        e = a3 - load(x, vectors + H.A4 * lanes + i)
+        e0 = max(e0, lever * abs(first))
+        e1 = max(e1, lever * abs(first - b))
+        e2 = max(e2, lever * abs(first - 2.0 * b + c))
+        e3 = max(e3, lever * abs(first - 3.0 * (b - c) - third))
+        e4 = max(e4, lever * abs(first - 4.0 * (b + third) + 6.0 * c + e))
+    error = largest(e2)
+    w[d] = largest(e0)
+    w[d + 1] = largest(e1)
+    w[d + 2] = error
+    rest = d + 2
     w[rest + 1] = largest(e3)
     w[rest + 2] = largest(e4)
     best = 0.0
     least = math.inf
-    for n in range(L.HISTORY):
-        if lv[L.KNOWN] >= n:
-            error = max(w[T.D + n], _FORGET * lv[L.ERRORS + n])
-            lv[L.ERRORS + n] = error
-            if error <= least:
-                least = error
+    known = x[numbers + H.KNOWN]
+    for n in range(H.LENGTH):
+        if known >= n:
+            worst = max(w[d + n], _FORGET * x[numbers + H.ERRORS + n])
+            x[numbers + H.ERRORS + n] = worst
+            if worst <= least:
+                least = worst
                 best = float(n)
-    lv[L.DEGREE] = best
-    return third if lv[L.KNOWN] >= 2.0 else 0.0
+    x[numbers + H.DEGREE] = best
+    return error if known >= 2.0 else 0.0
+
+
+@kernel
+def judge(lv, w):
+    """As `judged`, of the rings of a single bearing."""
+    return judged(lv, L.MARCH, L.MOVING, L.COLUMN, w, T.A, T.D)

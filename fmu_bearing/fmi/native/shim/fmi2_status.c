@@ -1,4 +1,4 @@
-/* FMI 2.0: how the last step went, and what this FMU does not offer. */
+/* FMI 2.0: how the last step went, and that none can be cancelled. */
 #include "calls.h"
 
 #include "fmi2Functions.h"
@@ -10,19 +10,6 @@ fmi2Status fmi2CancelStep(fmi2Component c)
     Text text = {0};
     if (!call_allowed(it, CALL_CANCEL_STEP)) return call_refused(it, CALL_CANCEL_STEP);
     text_add(&text, "cancelStep: no step is running, as doStep returns only when its step has ended", NULL);
-    return instance_fail(it, &text);
-}
-
-/* Refuse partial derivatives. */
-fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference unknowns[], size_t n_unknowns,
-                                        const fmi2ValueReference knowns[], size_t n_knowns,
-                                        const fmi2Real known[], fmi2Real unknown[])
-{
-    Instance *it = c;
-    Text text = {0};
-    (void)unknowns, (void)n_unknowns, (void)knowns, (void)n_knowns, (void)known, (void)unknown;
-    if (!call_allowed(it, CALL_DIRECTIONAL_DERIVATIVE)) return call_refused(it, CALL_DIRECTIONAL_DERIVATIVE);
-    text_add(&text, "getDirectionalDerivative: this FMU does not provide directional derivatives", NULL);
     return instance_fail(it, &text);
 }
 

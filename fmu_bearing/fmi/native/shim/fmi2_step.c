@@ -161,7 +161,7 @@ static int ends_in_range(Instance *it, double size, Text *why)
     return 1;
 }
 
-/* Step with rates: a ramped input is at its end value as the engine ramps it, others in their middle. */
+/* Step with rates: inputs that the engine ramps or leads are at their end values, others in their middle. */
 static fmi2Status ramped(Instance *it, double time, double size)
 {
     const ModelHead *head = it->model.head;
@@ -177,7 +177,7 @@ static fmi2Status ramped(Instance *it, double time, double size)
         return instance_refuse(it, fmi2Discard, &text);
     }
     for (i = 0; i < head->n_u; i++) {
-        double share = i == head->ramped ? 1.0 : 0.5;
+        double share = i == head->ramped || i - head->led < head->n_led ? 1.0 : 0.5;
         it->held[i] = it->u[i] + share * (it->rates[i] * size);
     }
     status = advance(it, time, size, it->held);

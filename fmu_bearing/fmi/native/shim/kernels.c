@@ -14,10 +14,11 @@
 
 HIDDEN KernelInit fb_init_v2, fb_init_v3;
 HIDDEN KernelStep fb_step_v2, fb_step_v3;
+HIDDEN KernelDerivative fb_derivative_v2, fb_derivative_v3;
 HIDDEN KernelOutputs fb_outputs_v2, fb_outputs_v3;
 
-static const Kernels V2 = {fb_init_v2, fb_step_v2, fb_outputs_v2};
-static const Kernels V3 = {fb_init_v3, fb_step_v3, fb_outputs_v3};
+static const Kernels V2 = {fb_init_v2, fb_step_v2, fb_derivative_v2, fb_outputs_v2};
+static const Kernels V3 = {fb_init_v3, fb_step_v3, fb_derivative_v3, fb_outputs_v3};
 
 /* Whether all of some bits are set. */
 static int all(unsigned value, unsigned bits)
@@ -64,9 +65,10 @@ const Kernels *kernels_choose(Text *why)
 
 HIDDEN KernelInit fb_init_base;
 HIDDEN KernelStep fb_step_base;
+HIDDEN KernelDerivative fb_derivative_base;
 HIDDEN KernelOutputs fb_outputs_base;
 
-static const Kernels BASE = {fb_init_base, fb_step_base, fb_outputs_base};
+static const Kernels BASE = {fb_init_base, fb_step_base, fb_derivative_base, fb_outputs_base};
 
 /* The kernels for this processor: one set for all. */
 const Kernels *kernels_choose(Text *why)

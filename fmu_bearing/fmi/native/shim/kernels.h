@@ -15,9 +15,14 @@ typedef int32_t KernelStep(
     const double *p, const double *u, double *s, double *z, double *w, const int64_t *sizes, double h);
 typedef int32_t KernelOutputs(const double *p, const double *s, double *z, const int64_t *sizes);
 
+/* What changes z for the change u of inputs over a step of h; s is a copy, which is spoilt. */
+typedef int32_t KernelDerivative(
+    const double *p, const double *u, double *s, double *z, double *w, const int64_t *sizes, double h);
+
 typedef struct Kernels {
     KernelInit *init;
     KernelStep *step;
+    KernelDerivative *derivative;
     KernelOutputs *outputs;
 } Kernels;
 

@@ -35,6 +35,7 @@ typedef struct ModelHead {
     double journal_span; /* ... and the longest time (s) that they take together */
     uint64_t n_variables, n_reasons, n_cautions, n_categories, n_text;
     uint64_t guid;
+    uint64_t led, n_led; /* inputs that are led to their values over a step; derivatives are by these */
 } ModelHead;
 
 /* A variable; its value reference is its place. Numbers of constants stand in `value`. */

@@ -1,0 +1,265 @@
+"""SP: a set of bearings on one shaft: its block in ``p``, its inputs, state, outputs and work space.
+
+The arrays of a set hold those of its bearings one after the other, each as of a single bearing, and behind
+them the set's own: ``p`` its block, at ``p[P.SET]``; ``s``, ``w`` and ``z`` at the places told in the block.
+Its n coordinates are those of the shaft, then six of a housing that moves: x y z (m), rotation about X, tilts
+about y and z (rad) at X = 0, then the place of each sliding outer ring along its bearing's own axis. Vectors
+of them, and columns of their matrices, fill whole groups of four lanes, the spare ones with zeros. *Driven*
+rows of a bearing's bodies follow the coordinates: ``T q`` and an offset along the bearing's own axis.
+"""
+
+from fmu_bearing.engine.layout import history as _H, p as _P, q as _Q, u as _U, z as _Z
+from fmu_bearing.engine.layout.sizes import FOUR, STAGES, Places
+
+PLANE = _Q.OUTER  # coordinates of a plane of the shaft: x y z by bz
+HOUSING = _Q.CAGE - _Q.OUTER  # of a housing
+DRIVEN = _Q.RINGS  # rows that can be driven: those of both rings,
+LANES = -(-DRIVEN // FOUR) * FOUR  # in whole groups of four
+FIXED, SLIDING, PEDESTAL = range(3)  # seats
+TOUCHING, SPACER, SPRING = range(3)  # kinds of preload
+
+# --- block in p: head -------------------------------------------------------------------------------
+_at = Places()
+BEARINGS = _at()  # how many
+SHAFT = _at()  # coordinates of the shaft
+HOUSED = _at()  # 1: the housing moves
+COUNT = _at()  # coordinates of shaft, housing and sliding rings,
+PADDED = _at()  # in whole groups of four
+SPRUNG = _at()  # 1: there is such a stiffness
+UNBALANCED = _at()  # 1: it has heavy spots
+PORT = _at()  # 1: another model moves the shaft
+AT_S = _at()  # places of the set's own in s, w, z
+AT_W = _at()
+AT_Z = _at()
+SIZE_S = _at()  # lengths of s, w, z with all bearings
+SIZE_W = _at()
+SIZE_Z = _at()
+SIZE_U = _at()
+# tables, from the block's begin on; matrices by padded columns
+AT_ROWS = _at()  # ROW numbers per bearing
+AT_MASS = _at()  # n x n, without rings that are driven
+AT_INVERSE = _at()  # n x n: inverse of the mass with them
+AT_STIFFNESS = _at()  # n x n, of the shaft and of springs at sliding rings
+AT_DAMPING = _at()
+AT_GYROSCOPIC = _at()  # per rad/s of the shaft's speed
+AT_HEAVY = _at()  # a vector: force per acceleration along Z (kg)
+AT_NOSE = _at()  # PLANE padded rows: what the nose does
+AT_SPRINGS = _at()  # a vector: how far springs at sliding rings are pressed together
+AT_SCALE = _at()  # a vector: inertia over that along the axis
+AT_UNBALANCE = _at()  # two vectors: force over squared speed at angle zero, then a quarter turn on
+# preload and what grows with temperature
+PRELOAD_KIND = _at()
+ONE_WAY = _at()  # 1: all bearings carry the same way
+SHAFT_EXPANSION = _at()  # 1/K
+HOUSING_EXPANSION = _at()
+# pedestal of the housing
+HOUSING_X = _at()  # m: its plane
+HOUSING_MASS = _at()  # kg: of housing and outer rings, as its damping ratio counts them
+HOUSING_TRANSVERSE = _at()  # kg m2
+HOUSING_POLAR = _at()
+AXIAL_RATIO = _at()
+ROTATIONAL_RATIO = _at()  # m2
+PEDESTAL_ZETA = _at()
+# inner rings as part of the rotor at a port
+PORT_MASS = _at()  # kg
+PORT_STATIC = _at()  # kg m: sum of mass times X
+PORT_TRANSVERSE = _at()  # kg m2: about y or z at X = 0
+PORT_POLAR = _at()
+HEAD = _at.next
+
+# per bearing, at AT_ROWS
+_row = Places()
+ROW_P = _row()  # places and lengths of its arrays
+ROW_P_SIZE = _row()
+ROW_S = _row()
+ROW_S_SIZE = _row()
+ROW_W = _row()
+ROW_W_SIZE = _row()
+ROW_Z = _row()
+ROW_Z_SIZE = _row()
+ROW_SIGN = _row()  # 1 where it carries force on the shaft towards +X, else -1
+ROW_POSITION = _row()  # m
+ROW_SEAT = _row()
+ROW_SHARE = _row()  # of the preload: its load over the preload asked
+ROW_STICKOUT = _row()  # m
+ROW_DRIVEN = _row()  # how many rows are driven: those of the inner ring, or of both
+ROW_MASS = _row(LANES)  # kg, kg m2: inertia of each of these
+ROW_AT_T = _row()  # their motion by columns of LANES
+ROW_COLUMNS = _row()  # how many of these are not zero,
+ROW_AT_COLUMNS = _row()  # and which
+ROW = _row.next
+
+# --- inputs -----------------------------------------------------------------------------------------
+INPUTS = (
+    "shaft_speed", "nose.force.x", "nose.force.y", "nose.force.z", "nose.moment.y", "nose.moment.z",
+    "preload", "shaft_temperature", "housing_temperature", "pedestal_stiffness", "port.displacement.x",
+    "port.displacement.y", "port.displacement.z", "port.tilt.y", "port.tilt.z", "port.velocity.x",
+    "port.velocity.y", "port.velocity.z", "port.tilt_rate.y", "port.tilt_rate.z",
+)  # fmt: skip
+BEARING_INPUTS = ("oil_temperature", "inner_ring_temperature", "outer_ring_temperature")
+U_SPEED = INPUTS.index("shaft_speed")  # rad/s
+U_NOSE = INPUTS.index("nose.force.x")  # N, three, then moments about y and z (N m)
+U_PRELOAD = INPUTS.index("preload")  # N: of springs
+U_SHAFT_T = INPUTS.index("shaft_temperature")  # K
+U_HOUSING_T = INPUTS.index("housing_temperature")  # K
+U_PEDESTAL = INPUTS.index("pedestal_stiffness")  # N/m
+U_PORT = INPUTS.index("port.displacement.x")  # m, rad: where another model puts the shaft
+U_PORT_RATE = INPUTS.index("port.velocity.x")  # m/s, rad/s
+U_BEARINGS = len(INPUTS)  # per bearing BEARING_INPUTS
+U_ROW = len(BEARING_INPUTS)
+U_OIL, U_INNER, U_OUTER = range(U_ROW)
+
+# --- outputs ----------------------------------------------------------------------------------------
+OUTPUTS = (
+    "shaft.nose.displacement.x", "shaft.nose.displacement.y", "shaft.nose.displacement.z",
+    "shaft.nose.tilt.y", "shaft.nose.tilt.z", "shaft.nose.velocity.x", "shaft.nose.velocity.y",
+    "shaft.nose.velocity.z", "housing.displacement.x", "housing.displacement.y", "housing.displacement.z",
+    "housing.velocity.x", "housing.velocity.y", "housing.velocity.z", "friction_torque",
+    "friction_torque_mean", "heat.inner_ring", "heat.outer_ring", "heat.oil", "solver.steps",
+    "solver.rejected", "solver.wave_time", "energy.residual", "port.force.x", "port.force.y",
+    "port.force.z", "port.moment.y", "port.moment.z", "port.force_mean.x", "port.force_mean.y",
+    "port.force_mean.z", "port.moment_mean.y", "port.moment_mean.z", "port.mass", "port.static_moment",
+    "port.inertia.transverse", "port.inertia.polar",
+)  # fmt: skip
+BEARING_OUTPUTS = ("force.x", "force.y", "force.z", "moment.y", "moment.z")  # of the inner ring on the balls
+Z_NOSE = OUTPUTS.index("shaft.nose.displacement.x")  # m, m, m, rad, rad
+Z_NOSE_VELOCITY = OUTPUTS.index("shaft.nose.velocity.x")  # m/s
+Z_HOUSING = OUTPUTS.index("housing.displacement.x")  # m
+Z_HOUSING_VELOCITY = OUTPUTS.index("housing.velocity.x")
+Z_TORQUE = OUTPUTS.index("friction_torque")  # N m
+Z_MEAN_TORQUE = OUTPUTS.index("friction_torque_mean")
+Z_HEAT = OUTPUTS.index("heat.inner_ring")  # W: sums over the bearings, then outer rings, oil
+Z_STEPS = OUTPUTS.index("solver.steps")
+Z_REJECTED = OUTPUTS.index("solver.rejected")
+Z_WAVE_TIME = OUTPUTS.index("solver.wave_time")
+Z_RESIDUAL = OUTPUTS.index("energy.residual")
+Z_PORT = OUTPUTS.index("port.force.x")  # N, N m: of the bearings on the rotor,
+Z_PORT_MEAN = OUTPUTS.index("port.force_mean.x")  # and their mean over the last communication step
+Z_PORT_MASS = OUTPUTS.index("port.mass")  # kg
+Z_PORT_STATIC = OUTPUTS.index("port.static_moment")  # kg m
+Z_PORT_TRANSVERSE = OUTPUTS.index("port.inertia.transverse")  # kg m2
+Z_PORT_POLAR = OUTPUTS.index("port.inertia.polar")  # kg m2
+Z_FORCES = len(OUTPUTS)  # N, N m: per bearing BEARING_OUTPUTS
+Z_FORCE = len(BEARING_OUTPUTS)
+# behind the forces: microphones (z_mics), then levels of each bearing alone (z_alone)
+
+POWERS = 3
+# --- state: conditions held over a communication step and sums, then numbers per bearing and matrices -
+_at = Places()
+NOSE = _at(PLANE)  # N, N m on the nose
+SPRING = _at()  # N: on each sliding ring
+FEET = _at(HOUSING)  # N/m, N m/rad: the pedestal along x y z, about x y z,
+FEET_DAMPING = _at(HOUSING)  # and its damping
+WORK = _at()  # J: of loads and unbalance on the shaft, of what grows,
+HEAT = _at(2)  # J: lost in the bending shaft, in the pedestal
+POWER_NOW = _at(POWERS)  # W: work, heats of shaft and pedestal at the state
+MEAN_HEAT = _at(2)  # W
+ENERGY_START = _at()  # J
+ENERGY_NOW = _at()
+PORT_BEGIN = _at()  # s: of the communication step; place and derivatives of the shaft there:
+PORT_PLACE = _at(PLANE)  # m, rad
+PORT_RATE = _at(PLANE)
+PORT_ACCELERATION = _at(PLANE)
+PORT_JERK = _at(PLANE)
+PORT_FORCE = _at(PLANE)  # N, N m: on the rotor at the state,
+PORT_IMPULSE = _at(PLANE)  # N s, N m s: since the communication step began,
+PORT_MEAN = _at(PLANE)  # N, N m: and over the last one
+S_HEAD = _at.next
+MOTION = 4  # vectors behind the head: places, rates, accelerations,
+HELD_LOAD = 3  # and loads on the nose and of springs as forces on the coordinates
+_kept = Places()
+OFFSET = _kept()  # m: along the bearing's own axis, of its inner ring from where the shaft puts it,
+OFFSET_RATE = _kept()  # m/s,
+OFFSET_COLD = _kept()  # m: and that at standstill and 20 degC
+LOAD = _kept(PLANE)  # N, N m: of the inner ring on the balls, at the last communication point
+HELD_OFFSET = _kept()  # m: that the bearing's quasi-static point was held with (fidelity rings)
+ANSWER = _kept(LANES * DRIVEN)  # R^-1 of the driven rows, by columns of LANES
+PER_BEARING = _kept.next
+# fidelity rings, behind the inverse: numbers, then the vectors of history and B^-1 J_x by padded columns
+MARCH = 0  # numbers of the march: see history
+_march = Places(_H.NUMBERS)
+HELD_NOSE = _march(PLANE)  # N, N m: what the bearings' quasi-static points were held with: loads on the nose,
+HELD_SPRING = _march()  # N,
+HELD_FEET = _march()  # N/m: and the pedestal
+MARCHED = _march.next
+
+# --- work space -------------------------------------------------------------------------------------
+_at = Places()
+INPUT = _at(_U.SIZE)  # inputs of one bearing
+POWER = _at(STAGES * POWERS)  # W: work, heats of shaft and pedestal, per stage
+PUSH = _at(STAGES * PLANE)  # N, N m: on the rotor at a port, per stage
+RESISTANCE = _at(2 * PLANE * PLANE)  # N/m, N, N m: of a port, at rest and within a step, row by row
+W_HEAD = _at.next
+# vectors of n numbers: accelerations and rates of each stage, then
+VELOCITIES = STAGES
+VECTORS = Places(2 * STAGES)
+PLACE = VECTORS()  # m, rad: of the stage,
+RATE = VECTORS()
+RESIDUAL = VECTORS()  # N, N m: of Newton's equations,
+INCREMENT = VECTORS()  # and their solution
+FORCE = VECTORS()  # N, N m
+ACCELERATION = VECTORS()  # m/s2, rad/s2
+NEWMARK = VECTORS()  # m/s, rad/s: Newmark's velocities (fidelity rings)
+VECTORS = VECTORS.next
+# where a set starts: numbers per bearing, over the same
+_start = Places()
+START_RING = _start(PLANE)  # m, rad: inner ring against the outer one,
+START_TILT = _start(2)  # rad: of the outer ring,
+START_OUTER = _start(HOUSING)  # m, rad: and its place
+START_FORCE = _start(PLANE)  # N, N m: on the inner ring
+START_PULL = _start(LANES)  # N, N m: on the driven rows
+START_ECCENTRICITY = _start()  # m: set aside
+TURNED = 3 * LANES  # cosine and sine of a bearing's orbit angle since its Jacobian
+KEPT = max(TURNED + 2, _start.next)  # per bearing: its answer in driven rows, what drives them, scratch
+# equations: rows of one more than unknowns; then vectors
+_vector = Places()
+UNKNOWNS = _vector()  # m, rad
+TRIALS = _vector()
+FORCES = _vector()  # N, N m
+TRIAL_FORCES = _vector()
+STEPS = _vector()
+MOTIONS = _vector(PLANE)  # of a bearing's inner ring against the outer one
+START_VECTORS = 1 + _vector.next  # with the right side
+
+
+def first(p, place):
+    """Place of the set's table that ``place`` of its block tells."""
+    return int(p[_P.SET]) + int(p[int(p[_P.SET]) + place])
+
+
+def inputs(p):
+    """Length of ``u`` for the parameters ``p``."""
+    return _U.SIZE if p[_P.SET] == 0.0 else int(p[int(p[_P.SET]) + SIZE_U])
+
+
+def padded(count):
+    """Return ``count`` in whole groups of four."""
+    return -(-count // FOUR) * FOUR
+
+
+def state_size(bearings, count, mics=0):
+    """Length of the set's own in ``s``: head, vectors, per bearing, inverse, march, levels."""
+    own = S_HEAD + MOTION * padded(count) + bearings * PER_BEARING + count * padded(count)
+    return own + MARCHED + (_H.VECTORS + count) * padded(count) + bearings * mics
+
+
+def work_size(bearings, count):
+    """Length of the set's own in ``w``: head, stages, Newton's vectors, bearings, the start's equations."""
+    start = padded(count) + HOUSING * bearings
+    own = W_HEAD + VECTORS * padded(count) + bearings * KEPT
+    return own + start * (start + START_VECTORS) + 2 * count * padded(count) + FOUR
+
+
+def z_mics(bearings):
+    """Place of the microphones among the set's own in ``z``: as of a single bearing, third octaves behind."""
+    return Z_FORCES + Z_FORCE * bearings
+
+
+def z_alone(bearings, mics, bands):
+    """Place of the first microphone's levels of each bearing alone; those of the next one follow."""
+    return z_mics(bearings) + (_Z.PER_MIC + bands) * mics
+
+
+def output_size(bearings, mics=0, bands=0):
+    """Length of the set's own in ``z``."""
+    return z_alone(bearings, mics, bands) + bearings * mics

@@ -1,0 +1,26 @@
+"""Fidelities full and rings for sets of bearings on one shaft: each by its own kernels, joined on the shaft.
+
+A bearing of the set keeps its arrays and kernels. Rows of its rings that follow shaft or housing are
+*driven*: their accelerations are those of the shaft. With the rest of the bearing condensed onto them, the
+shaft's equations are few and dense; what they find goes back into each bearing (substructures; Craig and
+Bampton 1968 for the shaft's own coordinates).
+
+=============  ==========================================================================
+``members``    arrays and numbers of one bearing of a set; its motion with the shaft
+``shaft``      loads, springs, energy of shaft and housing
+``energy``     stored energy of a set
+``follow``     driven rows: places, rates, accelerations, and what holds them there
+``coupling``   Newton's equations of all bearings and the shaft
+``port``       a shaft that another model owns
+``step``       one Runge-Kutta step of a set
+``inputs``     inputs of a set as conditions of its bearings; what grows with temperature
+``rest``       where shaft, housing and outer rings rest: Newton's method in displacements
+``start``      the state at initialisation
+``sound``      sound samples of all bearings at the same instants, and levels of their sum
+``march``      from one communication point to the next
+``condensed``  fidelity rings: the equations of condensed bearings, shaft and housing
+``held``       fidelity rings: the bearings' quasi-static points, under the loads of the set's rest
+``rings``      fidelity rings: start, steps and their control
+``outputs``    from the state to the outputs
+=============  ==========================================================================
+"""

@@ -1,0 +1,343 @@
+"""Newton's equations of a set: each bearing condensed onto its driven rows, the shaft's equations, and back.
+
+With N d = r the equations of one bearing (``newton.block_arrow``) and R the driven rows and columns of N^-1,
+forces that drive those rows by d from where they would go alone, d0, are m R^-1 (d - d0), m their inertia.
+So the shaft has ``A ds = r_s + sum T^T (m r_I + m R^-1 d0)``, A its own matrix with sum T^T m R^-1 T, and
+then each bearing is solved with R^-1 (T ds - d0) as residual of its driven rows.
+
+Jacobians stand where the bearings were when they were made; each bearing's residual is turned back by the
+orbit angle since, the shaft's by that of the first bearing.
+"""
+
+import math
+
+from fmu_bearing.engine.dense import invert
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.lanes import load, sum_four
+from fmu_bearing.engine.layout import FOUR, SP, A, F, P, Q, S, W, Y
+from fmu_bearing.engine.newton.block_arrow import (
+    answer_alone,
+    border_product,
+    follow_bodies,
+    solve,
+    turn_pair,
+    turn_pairs,
+)  # fmt: skip
+from fmu_bearing.engine.newton.springs import couple_springs
+from fmu_bearing.engine.spindle import members
+from fmu_bearing.engine.spindle.port import clear, has_port, hold_rows, rings_matrix
+from fmu_bearing.engine.spindle.shaft import feet, has_housing
+
+
+@kernel
+def tied(pb):
+    """Whether springs tie the balls together: the border alone does not tell the bearing's answers then."""
+    return (pb[P.SPRINGS] != 0.0) & (pb[P.CAGE] == 0.0)
+
+
+@kernel
+def driven_answers(p, b, pb, sb, wb, ws, at):
+    """Put the driven rows and columns of N^-1 of bearing ``b`` to ``ws[at:]``, row by row."""
+    r = members.row(p, b)
+    count = int(p[r + SP.ROW_DRIVEN])
+    fac = sb[S.FAC : S.CONDENSED]
+    d = wb[W.D : W.D + F.SIZE]
+    for k in range(count):
+        if tied(pb):
+            for i in range(F.SIZE):
+                d[i] = 0.0
+            d[F.BODY + k] = 1.0
+            solve(pb, fac, 1.0, 0.0, d, wb)
+        for i in range(count):
+            ws[at + i * count + k] = d[F.BODY + i] if tied(pb) else fac[A.S + k * A.BORDER + i]
+
+
+@kernel
+def feet_matrix(p, own, stiffness, scale, ws, at, width, spare):
+    """Add ``scale`` times the pedestal's matrix to the housing's, at ``ws[at:]`` in rows of ``width``.
+
+    ``stiffness``: place in the set's own state; ``spare``: twelve numbers of scratch.
+    """
+    answer = spare + SP.HOUSING
+    for k in range(SP.HOUSING):
+        for i in range(2 * SP.HOUSING):
+            ws[spare + i] = 0.0
+        ws[spare + k] = 1.0
+        feet(p, own, stiffness, ws, spare, scale, ws, answer)
+        for i in range(SP.HOUSING):
+            ws[at + i * width + k] += ws[answer + i]
+
+
+@kernel
+def shaft_matrix(p, own, ws, speed, by_mass, by_rate, by_place, at):
+    """Put the weighted sum of mass, damping with gyroscopic moments, and stiffness to ``ws[at:]``, by rows.
+
+    Of shaft, housing with its pedestal, and springs at sliding rings; ``speed``: rad/s.
+    """
+    n = members.coordinates(p)
+    lanes = members.padded(p)
+    mass = members.table(p, SP.AT_MASS)
+    damping = members.table(p, SP.AT_DAMPING)
+    gyroscopic = members.table(p, SP.AT_GYROSCOPIC)
+    stiffness = members.table(p, SP.AT_STIFFNESS)
+    for i in range(n):
+        for k in range(n):
+            m = k * lanes + i
+            rates = p[damping + m] + speed * p[gyroscopic + m]
+            ws[at + i * n + k] = by_mass * p[mass + m] + by_rate * rates + by_place * p[stiffness + m]
+    if has_housing(p):
+        h = int(p[int(p[P.SET]) + SP.SHAFT])
+        spare = members.scratch(p, 0)
+        feet_matrix(p, own, SP.FEET, by_place, ws, at + h * n + h, n, spare)
+        feet_matrix(p, own, SP.FEET_DAMPING, by_rate, ws, at + h * n + h, n, spare)
+
+
+@kernel
+def add_driven(p, b, x, first, row, column, out, to):
+    """Add ``T^T m X T`` of bearing ``b`` to the coordinates' matrix at ``out[to:]``, by rows.
+
+    X: of the driven rows, entry (i, j) at ``x[first + i row + j column]``; m: their inertia.
+    """
+    n = members.coordinates(p)
+    r = members.row(p, b)
+    t = int(p[r + SP.ROW_AT_T])
+    count = int(p[r + SP.ROW_DRIVEN])
+    for i in range(count):
+        for k in range(n):
+            # row i of m X T
+            total = 0.0
+            for j in range(count):
+                total += x[first + i * row + j * column] * p[t + k * SP.LANES + j]
+            total *= p[r + SP.ROW_MASS + i]
+            for h in range(n):
+                out[to + h * n + k] += p[t + h * SP.LANES + i] * total
+
+
+@kernel
+def condense_set(p, s, w, gh):
+    """Condense the factored bearings of the state onto the coordinates; False if singular.
+
+    ``gh``: weight of rates in the stages, s; that of places is its square. The matrix goes to the set's work
+    space, row by row.
+    """
+    own = members.own_state(p, s)
+    ws = members.own_work(p, w)
+    n = members.coordinates(p)
+    at = members.matrix(p)
+    shaft_matrix(p, own, ws, s[S.SPEED], 1.0, gh, gh * gh, at)
+    for b in range(members.count(p)):
+        pb = members.parameters(p, b)
+        wb = members.work(p, w, b)
+        count = int(p[members.row(p, b) + SP.ROW_DRIVEN])
+        driven_answers(p, b, pb, members.state(p, s, b), wb, wb, W.F0)
+        spare = at + n * n
+        if not invert(wb, W.F0, count, ws, spare):
+            return False
+        keep_columns(ws, spare, count, SP.LANES, own, members.kept(p, b) + SP.ANSWER)
+        add_driven(p, b, ws, spare, count, 1, ws, at)
+    return True
+
+
+@kernel
+def factor_set(p, s, w, gh):
+    """Condense the factored bearings of the state and invert the shaft's matrix; False if singular."""
+    if not condense_set(p, s, w, gh):
+        return False
+    ws = members.own_work(p, w)
+    n = members.coordinates(p)
+    if has_port(p):
+        hold_rows(ws, members.matrix(p), n, n)
+    return invert_set(p, members.own_state(p, s), ws)
+
+
+@kernel
+def invert_set(p, own, ws):
+    """Invert the coordinates' matrix in the work space into the set's own state; False if singular."""
+    n = members.coordinates(p)
+    at = members.matrix(p)
+    if not invert(ws, at, n, ws, at + n * n):
+        return False
+    keep_columns(ws, at + n * n, n, members.padded(p), own, members.inverse(p))
+    return True
+
+
+@kernel
+def resistance_at_port(p, s, w, gh, to):
+    """Put what resists the port's places, if rates are these over ``gh``, to ``to``; False if singular.
+
+    ``to``: place in the set's own work space. The bearings are factored for ``gh`` (s). Row by row, N/m, N,
+    N m; without inertia of the inner rings.
+    """
+    if not condense_set(p, s, w, gh):
+        return False
+    ws = members.own_work(p, w)
+    n = members.coordinates(p)
+    at = members.matrix(p)
+    # the inverse's part is the inverse of what is left once housing and sliding rings follow by themselves
+    if not invert(ws, at, n, ws, at + n * n):
+        return False
+    size = SP.PLANE
+    for i in range(size):
+        for k in range(size):
+            ws[at + i * size + k] = ws[at + n * n + i * n + k]
+    if not invert(ws, at, size, ws, at + size * size):
+        return False
+    for i in range(size):
+        for k in range(size):
+            inertia = ws[at + size * size + i * size + k] - rings_matrix(p, i, k)
+            ws[to + i * size + k] = inertia / (gh * gh)
+    return True
+
+
+@kernel
+def keep_columns(x, at, count, lanes, out, to):
+    """Copy a square matrix, row by row at ``x[at:]``, into columns of ``lanes`` numbers at ``out[to:]``."""
+    for k in range(count):
+        for i in range(lanes):
+            out[to + k * lanes + i] = x[at + i * count + k] if i < count else 0.0
+
+
+@kernel
+def turn_since(p, s, w, t):
+    """Keep cosine and sine of the bearings' orbit angles since their Jacobians, ``t`` (s) into the step."""
+    ws = members.own_work(p, w)
+    for b in range(members.count(p)):
+        sb = members.state(p, s, b)
+        angle = sb[S.Y + Y.TH] - sb[S.JACOBIAN_ANGLE] + sb[S.Y + Y.OM] * t
+        at = members.scratch(p, b) + SP.TURNED
+        ws[at] = math.cos(angle)
+        ws[at + 1] = math.sin(angle)
+
+
+@kernel
+def turn_driven(count, x, at, c, s):
+    """Turn the y, z pairs of ``count`` driven rows at ``x[at:]`` by the angle of cosine ``c``, sine ``s``."""
+    turn_pair(x, at + Q.Y, c, s)
+    turn_pair(x, at + Q.INNER_BY, c, s)
+    if count > Q.OUTER:
+        turn_pair(x, at + Q.OUTER + Q.Y, c, s)
+        turn_pair(x, at + Q.OUTER + Q.BY, c, s)
+
+
+@kernel
+def turn_coordinates(p, x, at, c, s):
+    """Turn all pairs of the shaft's and the housing's coordinates: behind X they stand as y, z."""
+    h = int(p[int(p[P.SET]) + SP.SHAFT])
+    for i in range(1, h, 2):
+        turn_pair(x, at + i, c, s)
+    if has_housing(p):
+        turn_pair(x, at + h + Q.Y, c, s)
+        turn_pair(x, at + h + Q.BY, c, s)
+
+
+@kernel
+def answer_free(p, b, pb, sb, wb, own, ws):
+    """Solve bearing ``b`` with nothing driving its rows; add what it puts on the shaft to its residual.
+
+    ``W.D`` of its work space ``wb`` holds the residual, in the end turned back and with zeros in driven rows;
+    its answers there stay in the set's scratch.
+    """
+    r = members.row(p, b)
+    count = int(p[r + SP.ROW_DRIVEN])
+    at = members.scratch(p, b)
+    to = at + SP.LANES
+    d = wb[W.D : W.D + F.SIZE]
+    fac = sb[S.FAC : S.CONDENSED]
+    c = ws[at + SP.TURNED]
+    s = ws[at + SP.TURNED + 1]
+    for i in range(count):
+        ws[at + 2 * SP.LANES + i] = p[r + SP.ROW_MASS + i] * d[F.BODY + i]
+        d[F.BODY + i] = 0.0
+    turn_pairs(d, F.BODY, c, -s)
+    answer_alone(fac, int(pb[P.LANES]), d, wb)
+    for g in range(Q.SIZE):
+        wb[W.REST + g] = d[F.BODY + g] - sum_four(load(wb, W.BODY_SUMS + g * FOUR))
+    border_product(fac, wb, d)
+    if tied(pb):
+        couple_springs(pb, fac, d, wb)
+    for i in range(count):
+        ws[at + i] = d[F.BODY + i]
+    # m R^-1 d0, told in fixed axes, with m r_I
+    for i in range(SP.LANES):
+        ws[to + i] = 0.0
+    answer = members.kept(p, b) + SP.ANSWER
+    members.add_columns(own, answer, SP.LANES, count, 1.0, ws, at, ws, to)
+    turn_driven(count, ws, to, c, s)
+    for i in range(count):
+        ws[to + i] = p[r + SP.ROW_MASS + i] * ws[to + i] + ws[at + 2 * SP.LANES + i]
+    members.pull(p, b, ws, to, ws, members.vector(p, SP.RESIDUAL))
+
+
+@kernel
+def answer_driven(p, b, pb, sb, wb, own, ws):
+    """Solve bearing ``b`` with its driven rows going where the shaft goes; the increment ends in ``W.D``.
+
+    What drives the rows, as accelerations, stays in the set's scratch behind ``SP.LANES``.
+    """
+    r = members.row(p, b)
+    count = int(p[r + SP.ROW_DRIVEN])
+    at = members.scratch(p, b)
+    driving = at + SP.LANES
+    to = at + 2 * SP.LANES
+    d = wb[W.D : W.D + F.SIZE]
+    fac = sb[S.FAC : S.CONDENSED]
+    c = ws[at + SP.TURNED]
+    s = ws[at + SP.TURNED + 1]
+    members.moved(p, b, ws, members.vector(p, SP.INCREMENT), ws, to)
+    turn_driven(count, ws, to, c, -s)
+    for i in range(SP.LANES):
+        ws[driving + i] = 0.0
+    for i in range(count):
+        ws[to + i] -= ws[at + i]
+    answer = members.kept(p, b) + SP.ANSWER
+    members.add_columns(own, answer, SP.LANES, count, 1.0, ws, to, ws, driving)
+    lanes = int(pb[P.LANES])
+    if tied(pb):
+        for i in range(count):
+            wb[W.REST + i] += ws[driving + i]
+        border_product(fac, wb, d)
+        answer_alone(fac, lanes, d, wb)
+        couple_springs(pb, fac, d, wb)
+    else:
+        # the bodies' answer without what drives them stands there still
+        members.add_columns(fac, A.S, A.BORDER, count, 1.0, ws, driving, wb, W.BODIES)
+        for g in range(Q.SIZE):
+            d[F.BODY + g] = wb[W.BODIES + g]
+    follow_bodies(fac, lanes, d, wb)
+    turn_pairs(d, F.BODY, c, s)
+
+
+@kernel
+def solve_shaft(p, own, ws):
+    """Solve the shaft's equations for its increment, in axes that turn with the first bearing."""
+    lanes = members.padded(p)
+    residual = members.vector(p, SP.RESIDUAL)
+    found = members.vector(p, SP.INCREMENT)
+    c = ws[members.scratch(p, 0) + SP.TURNED]
+    s = ws[members.scratch(p, 0) + SP.TURNED + 1]
+    if has_port(p):
+        clear(ws, residual, SP.PLANE)
+    turn_coordinates(p, ws, residual, c, -s)
+    for i in range(lanes):
+        ws[found + i] = 0.0
+    at = members.inverse(p)
+    members.add_columns(own, at, lanes, members.coordinates(p), 1.0, ws, residual, ws, found)
+    turn_coordinates(p, ws, found, c, s)
+
+
+@kernel
+def solve_set(p, s, w):
+    """Solve Newton's equations in place; orbit angles are those kept by `turn_since`.
+
+    Residuals: ``W.D`` of each bearing's work space (accelerations, driven rows as if free) and
+    ``SP.RESIDUAL`` of the set's (N, N m). Increments: the same, and ``SP.INCREMENT``.
+    """
+    own = members.own_state(p, s)
+    ws = members.own_work(p, w)
+    for b in range(members.count(p)):
+        pb = members.parameters(p, b)
+        answer_free(p, b, pb, members.state(p, s, b), members.work(p, w, b), own, ws)
+    solve_shaft(p, own, ws)
+    for b in range(members.count(p)):
+        pb = members.parameters(p, b)
+        answer_driven(p, b, pb, members.state(p, s, b), members.work(p, w, b), own, ws)

@@ -1,0 +1,124 @@
+"""Driven rows of the bearings' rings: places, rates and accelerations."""
+
+from fmu_bearing.engine.constants import GRAVITY
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.layout import SP, F, P, Q, S, W, Y
+from fmu_bearing.engine.spindle import members
+from fmu_bearing.engine.spindle.port import clear, feel, has_port, led_acceleration
+from fmu_bearing.engine.spindle.shaft import shaft_forces, weighs
+
+
+@kernel
+def copy_rows(p, s, w):
+    """Put places and rates of all driven rows to those of shaft and housing in the state."""
+    own = members.own_state(p, s)
+    ws = members.own_work(p, w)
+    n = members.padded(p)
+    for b in range(members.count(p)):
+        sb = members.state(p, s, b)
+        r = members.row(p, b)
+        at = members.scratch(p, b)
+        mine = members.kept(p, b)
+        members.moved(p, b, own, SP.S_HEAD, ws, at)
+        members.moved(p, b, own, SP.S_HEAD + n, ws, at + SP.LANES)
+        for i in range(int(p[r + SP.ROW_DRIVEN])):
+            axial = 1.0 if i == Q.X else 0.0
+            sb[S.Y + Y.Q0 + i] = ws[at + i] + axial * own[mine + SP.OFFSET]
+            sb[S.Y + Y.V0 + i] = ws[at + SP.LANES + i] + axial * own[mine + SP.OFFSET_RATE]
+
+
+@kernel
+def free_forces(p, b, pb, f, ws, at):
+    """Put forces on the driven rows to ``ws[at:]``, from what accelerations in ``f`` free rings have."""
+    r = members.row(p, b)
+    for i in range(SP.LANES):
+        ws[at + i] = 0.0
+    for i in range(int(p[r + SP.ROW_DRIVEN])):
+        ws[at + i] = p[r + SP.ROW_MASS + i] * f[F.BODY + i]
+
+
+@kernel
+def drive(p, b, f, ws, at):
+    """Put accelerations of the driven rows at ``ws[at:]`` into ``f``."""
+    r = members.row(p, b)
+    for i in range(int(p[r + SP.ROW_DRIVEN])):
+        f[F.BODY + i] = ws[at + i]
+
+
+@kernel
+def growth_power(p, b, own, free, actual):
+    """Power (W) that a growing offset does: its rate times the force that drives the inner ring along x.
+
+    ``free``: acceleration that balls and springs give the ring, ``actual``: that which it has (m/s2).
+    """
+    return own[members.kept(p, b) + SP.OFFSET_RATE] * p[members.row(p, b) + SP.ROW_MASS] * (actual - free)
+
+
+@kernel
+def keep_load(p, b, pb, own, ws, at):
+    """Keep what the inner ring of bearing ``b`` puts on its balls; free forces on its rows at ``ws[at:]``."""
+    mine = members.kept(p, b)
+    for i in range(SP.PLANE):
+        own[mine + SP.LOAD + i] = -ws[at + i]
+    if weighs(p):
+        own[mine + SP.LOAD + Q.Z] -= GRAVITY * pb[P.INNER_MASS]
+
+
+@kernel
+def accelerate(p, s, w, stage, t, angle, speed, rate):
+    """From free rings to driven ones: accelerations of shaft and housing, put into all right-hand sides.
+
+    Evaluated are all bearings at the state (``stage`` False: rows ``S.F``), or at the stage (``W.F``), ``t``
+    (s) into the step. The set's accelerations go to the state, or to ``SP.ACCELERATION`` of its work space;
+    the force on the rotor at a port to the state, or to ``SP.FORCE``. Returns work, heats of shaft and
+    pedestal (W); work of growing offsets and of a rotor at the port included.
+    """
+    own = members.own_state(p, s)
+    ws = members.own_work(p, w)
+    n = members.padded(p)
+    force = members.vector(p, SP.FORCE)
+    if stage:
+        x = ws
+        q = members.vector(p, SP.PLACE)
+        v = members.vector(p, SP.RATE)
+    else:
+        x = own
+        q = SP.S_HEAD
+        v = SP.S_HEAD + n
+    work, bent, shaken = shaft_forces(p, own, x, q, v, angle, speed, rate, ws, force)
+    for b in range(members.count(p)):
+        pb = members.parameters(p, b)
+        sb = members.state(p, s, b)
+        wb = members.work(p, w, b)
+        f = wb[W.F : W.F + F.SIZE] if stage else sb[S.F : S.F + F.SIZE]
+        free_forces(p, b, pb, f, ws, members.scratch(p, b))
+        if not stage:
+            keep_load(p, b, pb, own, ws, members.scratch(p, b))
+        members.pull(p, b, ws, members.scratch(p, b), ws, force)
+    found = members.vector(p, SP.ACCELERATION)
+    for i in range(n):
+        ws[found + i] = 0.0
+    members.add_product(p, members.table(p, SP.AT_INVERSE), 1.0, ws, force, ws, found)
+    led = has_port(p)
+    if led:
+        led_acceleration(own, s, t, ws, found)
+        clear(ws, force, n)
+    for b in range(members.count(p)):
+        sb = members.state(p, s, b)
+        wb = members.work(p, w, b)
+        f = wb[W.F : W.F + F.SIZE] if stage else sb[S.F : S.F + F.SIZE]
+        free = f[F.BODY]
+        at = members.scratch(p, b)
+        members.moved(p, b, ws, found, ws, at + SP.LANES)
+        drive(p, b, f, ws, at + SP.LANES)
+        if led:
+            y = wb[W.STAGE : W.STAGE + Y.SIZE] if stage else sb[S.Y : S.Y + Y.SIZE]
+            work += feel(p, b, members.parameters(p, b), y, f, ws, at, force)
+        else:
+            work += growth_power(p, b, own, free, f[F.BODY])
+    if not stage:
+        for i in range(SP.PLANE):
+            own[SP.PORT_FORCE + i] = ws[force + i] if led else 0.0
+        for i in range(n):
+            own[SP.S_HEAD + 2 * n + i] = ws[found + i]
+    return work, bent, shaken

@@ -1,0 +1,166 @@
+"""The bearings' quasi-static points of fidelity rings, each under the axial load of the set's rest."""
+
+from fmu_bearing.engine.fidelities.condensed.held import gyroscopic_mean, held_speed, hold_at, out_of_date
+from fmu_bearing.engine.fidelities.condensed.shared import hold_masses
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.layout import EQ, SP, ST, C, L, P, Q, S, U, W, Y
+from fmu_bearing.engine.spindle import members
+from fmu_bearing.engine.spindle.inputs import (
+    bearing_conditions,
+    bearing_inputs,
+    growth_rate,
+    loads_differ,
+    offset_change,
+    take_loads,
+)
+from fmu_bearing.engine.spindle.rest import rest, start_vector
+from fmu_bearing.engine.spindle.start import TOUCHING
+from fmu_bearing.engine.statics.axial import quasistatic
+from fmu_bearing.engine.statics.held import held
+from fmu_bearing.engine.statics.place import place_balls, place_cage
+from fmu_bearing.engine.status import OK
+
+_NEAR = 1e-3  # of a load
+# m: two contacts at some 15 degrees give way by half of that, an approach changes by an eighth: the 1e-9 that
+# a bearing's own geometry may change by
+_GROWN = 5e-9
+
+
+@kernel
+def hold_bearing(p, u, b, load, s, w):
+    """Renew what bearing ``b`` holds, at the inputs ``u`` under the axial ``load`` (N); status code.
+
+    After `rest`, which leaves the place of its outer ring in the scratch.
+    """
+    pb = members.parameters(p, b)
+    sb = members.state(p, s, b)
+    wb = members.work(p, w, b)
+    ws = members.own_work(p, w)
+    lv = members.condensed(sb)
+    c = lv[L.CONDITIONS : L.CONDITIONS + C.SIZE]
+    y = lv[L.Y0 : L.Y0 + Y.SIZE]
+    given = ws[SP.INPUT : SP.INPUT + U.SIZE]
+    speed = u[SP.U_SPEED]
+    bearing_inputs(p, u, b, given)
+    given[U.PRELOAD] = max(load, TOUCHING)
+    turning = held_speed(pb, given, speed, lv, c)
+    axial = wb[W.STILL_FOUND : W.STILL_END]
+    status = quasistatic(pb, c, turning, axial)
+    if status != OK:
+        return status
+    at = members.scratch(p, b)
+    ring = ws[at + SP.START_RING : at + SP.START_RING + SP.PLANE]
+    for i in range(SP.PLANE):
+        ring[i] = 0.0
+    ring[Q.X] = axial[ST.AXIAL_SHIFT]
+    outer = ws[at + SP.START_OUTER]
+    found = wb[W.FOUND : W.FOUND + EQ.SIZE]
+    force = ws[at + SP.START_FORCE : at + SP.START_FORCE + SP.PLANE]
+    status = held(pb, c, turning, ring, force, found, wb)
+    if status != OK:
+        return status
+    for i in range(Y.SIZE):
+        y[i] = 0.0
+    # where the set's rest has put the outer ring: the balls' places count from there
+    y[Y.Q0 + Q.OUTER] = outer
+    y[Y.Q0] = outer + ring[Q.X]
+    place_balls(pb, y, found)
+    if pb[P.CAGE] != 0.0:
+        place_cage(pb, y, found)
+    hold_at(pb, speed, turning, gyroscopic_mean(pb, found), sb, wb)
+    own = members.own_state(p, s)
+    mine = members.kept(p, b)
+    own[mine + SP.HELD_OFFSET] = own[mine + SP.OFFSET_COLD] + offset_change(p, u, b)
+    return OK
+
+
+@kernel
+def note_loads(p, own):
+    """Note the loads on the set that its bearings' points are held with."""
+    at = members.march(p)
+    for i in range(SP.PLANE):
+        own[at + SP.HELD_NOSE + i] = own[SP.NOSE + i]
+    own[at + SP.HELD_SPRING] = own[SP.SPRING]
+    own[at + SP.HELD_FEET] = own[SP.FEET + Q.Y]
+
+
+@kernel
+def apart(value, noted):
+    """Whether a load differs from the one noted by more than the points may be off."""
+    return abs(value - noted) > _NEAR * abs(noted) + 1e-12
+
+
+@kernel
+def loads_apart(p, own):
+    """Whether loads on the set have left the neighbourhood of those noted."""
+    at = members.march(p)
+    far = apart(own[SP.SPRING], own[at + SP.HELD_SPRING])
+    if apart(own[SP.FEET + Q.Y], own[at + SP.HELD_FEET]):
+        far = True
+    for i in range(SP.PLANE):
+        if apart(own[SP.NOSE + i], own[at + SP.HELD_NOSE + i]):
+            far = True
+    return far
+
+
+@kernel
+def exchange_offsets(p, own):
+    """Exchange the offsets with those that the inputs ask for, kept in ``SP.HELD_OFFSET`` meanwhile."""
+    for b in range(members.count(p)):
+        mine = members.kept(p, b)
+        now = own[mine + SP.OFFSET]
+        own[mine + SP.OFFSET] = own[mine + SP.HELD_OFFSET]
+        own[mine + SP.HELD_OFFSET] = now
+
+
+@kernel
+def hold_set(p, u, s, w):
+    """Renew what all bearings hold, where the set rests at the inputs ``u``; status code."""
+    own = members.own_state(p, s)
+    ws = members.own_work(p, w)
+    for b in range(members.count(p)):
+        mine = members.kept(p, b)
+        own[mine + SP.HELD_OFFSET] = own[mine + SP.OFFSET_COLD] + offset_change(p, u, b)
+    exchange_offsets(p, own)
+    z = start_vector(p, SP.UNKNOWNS)
+    for i in range(members.coordinates(p)):
+        ws[z + i] = own[SP.S_HEAD + i]
+    status = rest(p, s, w, u[SP.U_SPEED])
+    exchange_offsets(p, own)
+    if status != OK:
+        return status
+    for b in range(members.count(p)):
+        status = hold_bearing(p, u, b, -ws[members.scratch(p, b) + SP.START_FORCE], s, w)
+        if status != OK:
+            return status
+        hold_masses(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b))
+    note_loads(p, own)
+    return OK
+
+
+@kernel
+def take_rings_inputs(p, u, s, w, h):
+    """Set conditions, loads and ramps; True where what is held is out of date."""
+    own = members.own_state(p, s)
+    speed = u[SP.U_SPEED]
+    rate = (speed - s[S.SPEED]) / h
+    middle = 0.5 * (s[S.SPEED] + speed)
+    if loads_differ(p, u, own):
+        take_loads(p, u, own)
+    far = loads_apart(p, own)
+    for b in range(members.count(p)):
+        sb = members.state(p, s, b)
+        fresh = members.work(p, w, b)[W.CONDITIONS : W.CONDITIONS + C.SIZE]
+        lv = members.condensed(sb)
+        bearing_conditions(p, u, b, middle, w)
+        for i in range(C.USED):
+            sb[S.C + i] = fresh[i]
+        sb[S.SPEED_RATE] = rate
+        mine = members.kept(p, b)
+        own[mine + SP.OFFSET_RATE] = growth_rate(p, u, own, b, h)
+        # the set's rest tells the load, see above
+        fresh[C.PRELOAD] = lv[L.CONDITIONS + C.PRELOAD]
+        grown = own[mine + SP.OFFSET_COLD] + offset_change(p, u, b) - own[mine + SP.HELD_OFFSET]
+        if out_of_date(lv, fresh, speed) or abs(grown) > _GROWN:
+            far = True
+    return far

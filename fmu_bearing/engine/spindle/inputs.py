@@ -1,0 +1,109 @@
+"""Inputs of a set as conditions of its bearings, of shaft and housing; what grows with temperature."""
+
+import math
+
+from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.layout import SP, C, P, Q, U, W
+from fmu_bearing.engine.mechanics.conditions import conditions
+from fmu_bearing.engine.spindle import members
+from fmu_bearing.engine.spindle.shaft import has_housing, hold_load
+
+_STILL = 1e-15  # m
+_LARGEST = 1e15  # of any input, in its unit
+_PEDESTAL = 1e8  # N/m: of a ring that is held, so read by nothing
+
+
+@kernel
+def bearing_inputs(p, u, b, out):
+    """Put the inputs of bearing ``b`` to ``out``, as a single one takes them; shaft and spacers load it."""
+    at = SP.U_BEARINGS + b * SP.U_ROW
+    out[U.SPEED] = u[SP.U_SPEED]
+    out[U.PRELOAD] = 0.0
+    out[U.PEDESTAL] = u[SP.U_PEDESTAL] if p[members.row(p, b) + SP.ROW_SEAT] == SP.PEDESTAL else _PEDESTAL
+    out[U.LOAD_Y] = 0.0
+    out[U.LOAD_Z] = 0.0
+    out[U.OIL_T] = u[at + SP.U_OIL]
+    out[U.INNER_T] = u[at + SP.U_INNER]
+    out[U.OUTER_T] = u[at + SP.U_OUTER]
+
+
+@kernel
+def bearing_conditions(p, u, b, speed, w):
+    """Conditions of bearing ``b`` into ``W.CONDITIONS`` of its work space; ``speed``: see ``conditions``."""
+    given = members.own_work(p, w)[SP.INPUT : SP.INPUT + U.SIZE]
+    bearing_inputs(p, u, b, given)
+    wb = members.work(p, w, b)
+    conditions(members.parameters(p, b), given, speed, wb[W.CONDITIONS : W.CONDITIONS + C.SIZE])
+
+
+@kernel
+def offset_change(p, u, b):
+    """How far (m) temperatures push the inner ring of bearing ``b`` into it, beyond 20 degC."""
+    block = int(p[P.SET])
+    r = members.row(p, b)
+    shaft = p[block + SP.SHAFT_EXPANSION] * (u[SP.U_SHAFT_T] - REFERENCE_TEMPERATURE)
+    housing = p[block + SP.HOUSING_EXPANSION] * (u[SP.U_HOUSING_T] - REFERENCE_TEMPERATURE)
+    return p[r + SP.ROW_SIGN] * p[r + SP.ROW_POSITION] * (shaft - housing)
+
+
+@kernel
+def loads_differ(p, u, own):
+    """Whether loads on the nose, force of springs or the housing's pedestal are others than those held."""
+    if own[SP.SPRING] != u[SP.U_PRELOAD]:
+        return True
+    for i in range(SP.PLANE):
+        if own[SP.NOSE + i] != u[SP.U_NOSE + i]:
+            return True
+    return has_housing(p) and own[SP.FEET + Q.Y] != u[SP.U_PEDESTAL]
+
+
+@kernel
+def take_loads(p, u, own):
+    """Put loads on the nose, force of springs and pedestal of the housing into the set's own state."""
+    block = int(p[P.SET])
+    own[SP.SPRING] = u[SP.U_PRELOAD]
+    for i in range(SP.PLANE):
+        own[SP.NOSE + i] = u[SP.U_NOSE + i]
+    hold_load(p, own)
+    if not has_housing(p):
+        return
+    radial = u[SP.U_PEDESTAL]
+    for i in range(SP.HOUSING):
+        stiffness = radial
+        inertia = p[block + SP.HOUSING_MASS]
+        if i == Q.X:
+            stiffness = radial * p[block + SP.AXIAL_RATIO]
+        elif i >= Q.TURN:
+            stiffness = radial * p[block + SP.ROTATIONAL_RATIO]
+            inertia = p[block + (SP.HOUSING_POLAR if i == Q.TURN else SP.HOUSING_TRANSVERSE)]
+        own[SP.FEET + i] = stiffness
+        own[SP.FEET_DAMPING + i] = 2.0 * p[block + SP.PEDESTAL_ZETA] * math.sqrt(stiffness * inertia)
+
+
+@kernel
+def set_inputs_usable(p, u):
+    """Whether every input of a set but speed and temperatures of bearings is finite and in range."""
+    block = int(p[P.SET])
+    for i in range(int(p[block + SP.SIZE_U])):
+        if not (abs(u[i]) < _LARGEST):
+            return False
+    return u[SP.U_PEDESTAL] > 0.0 and u[SP.U_SHAFT_T] > 0.0 and u[SP.U_HOUSING_T] > 0.0
+
+
+@kernel
+def spread_choices(p):
+    """Give all bearings the parameters that are tunable before initialisation: those of the first."""
+    for b in range(1, members.count(p)):
+        pb = members.parameters(p, b)
+        for i in range(P.TUNABLE):
+            pb[i] = p[i]
+
+
+@kernel
+def growth_rate(p, u, own, b, h):
+    """Rate (m/s) of the offset of bearing ``b`` on its way, in ``h`` (s), to the temperatures of ``u``."""
+    at = members.kept(p, b)
+    away = own[at + SP.OFFSET_COLD] + offset_change(p, u, b) - own[at + SP.OFFSET]
+    # rounding of the place is not worth a new speed, which would cost an evaluation each step
+    return 0.0 if abs(away) < _STILL else away / h

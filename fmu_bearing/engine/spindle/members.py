@@ -1,0 +1,197 @@
+"""Arrays and numbers of one bearing of a set, and how shaft and housing move its driven rows."""
+
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.lanes import load, splat, store, sum_four
+from fmu_bearing.engine.layout import FOUR, SP, H, L, P, S
+
+
+@kernel
+def count(p):
+    """Return how many bearings the set has."""
+    return int(p[int(p[P.SET]) + SP.BEARINGS])
+
+
+@kernel
+def coordinates(p):
+    """Return how many coordinates shaft and housing have."""
+    return int(p[int(p[P.SET]) + SP.COUNT])
+
+
+@kernel
+def padded(p):
+    """Return how many numbers a vector of the coordinates has: whole groups of four."""
+    return int(p[int(p[P.SET]) + SP.PADDED])
+
+
+@kernel
+def table(p, place):
+    """Begin in ``p`` of the set's table that ``place`` of its block tells."""
+    block = int(p[P.SET])
+    return block + int(p[block + place])
+
+
+@kernel
+def row(p, b):
+    """Begin in ``p`` of the numbers of bearing ``b``."""
+    return table(p, SP.AT_ROWS) + b * SP.ROW
+
+
+@kernel
+def parameters(p, b):
+    """Return the parameters of bearing ``b``."""
+    r = row(p, b)
+    return p[int(p[r + SP.ROW_P]) : int(p[r + SP.ROW_P]) + int(p[r + SP.ROW_P_SIZE])]
+
+
+@kernel
+def state(p, s, b):
+    """Return the state of bearing ``b``."""
+    r = row(p, b)
+    return s[int(p[r + SP.ROW_S]) : int(p[r + SP.ROW_S]) + int(p[r + SP.ROW_S_SIZE])]
+
+
+@kernel
+def work(p, w, b):
+    """Return the work space of bearing ``b``."""
+    r = row(p, b)
+    return w[int(p[r + SP.ROW_W]) : int(p[r + SP.ROW_W]) + int(p[r + SP.ROW_W_SIZE])]
+
+
+@kernel
+def condensed(sb):
+    """Return what fidelity rings keeps of a bearing with the state ``sb``."""
+    return sb[S.CONDENSED : S.CONDENSED + L.SIZE]
+
+
+@kernel
+def outputs(p, z, b):
+    """Return the outputs of bearing ``b``."""
+    r = row(p, b)
+    return z[int(p[r + SP.ROW_Z]) : int(p[r + SP.ROW_Z]) + int(p[r + SP.ROW_Z_SIZE])]
+
+
+@kernel
+def own_state(p, s):
+    """Return the set's own state."""
+    return s[int(p[int(p[P.SET]) + SP.AT_S]) :]
+
+
+@kernel
+def own_work(p, w):
+    """Return the set's own work space."""
+    return w[int(p[int(p[P.SET]) + SP.AT_W]) :]
+
+
+@kernel
+def kept(p, b):
+    """Begin in the set's own state of what it keeps of bearing ``b``."""
+    return SP.S_HEAD + SP.MOTION * padded(p) + b * SP.PER_BEARING
+
+
+@kernel
+def inverse(p):
+    """Begin in the set's own state of the inverse Newton matrix."""
+    return SP.S_HEAD + SP.MOTION * padded(p) + count(p) * SP.PER_BEARING
+
+
+@kernel
+def march(p):
+    """Begin in the set's own state of what its march by Newmark's method keeps (fidelity rings)."""
+    return inverse(p) + coordinates(p) * padded(p)
+
+
+@kernel
+def history(p):
+    """Begin in the set's own state of the march's vectors."""
+    return march(p) + SP.MARCHED
+
+
+@kernel
+def squares(p):
+    """Begin in the set's own state of the march's matrix B^-1 J_x."""
+    return history(p) + H.VECTORS * padded(p)
+
+
+@kernel
+def alone(p, b):
+    """Begin in the set's own state of mean squares (Pa2) of bearing ``b`` alone, one per microphone."""
+    return squares(p) + coordinates(p) * padded(p) + b * int(p[P.MICS])
+
+
+@kernel
+def heard(p):
+    """Place in ``z`` of the microphones, as of a single bearing; behind them the bearings' own levels."""
+    return int(p[int(p[P.SET]) + SP.AT_Z]) + SP.Z_FORCES + SP.Z_FORCE * count(p)
+
+
+@kernel
+def scratch(p, b):
+    """Begin in the set's own work space of bearing ``b``'s numbers."""
+    return SP.W_HEAD + SP.VECTORS * padded(p) + b * SP.KEPT
+
+
+@kernel
+def matrix(p):
+    """Begin in the set's own work space of a matrix of the shaft's equations, or of the start's."""
+    return SP.W_HEAD + SP.VECTORS * padded(p) + count(p) * SP.KEPT
+
+
+@kernel
+def vector(p, k):
+    """Begin in the set's own work space of vector ``k``: ``SP.PLACE`` and those behind it."""
+    return SP.W_HEAD + k * padded(p)
+
+
+@kernel
+def add_columns(m, at, lanes, count, scale, x, first, out, to):
+    """``out[to:] += scale M x[first:]``, M by ``count`` columns of ``lanes`` numbers at ``m[at:]``."""
+    for i in range(0, lanes, FOUR):
+        total = splat(0.0)
+        for k in range(count):
+            total += load(m, at + k * lanes + i) * x[first + k]
+        store(out, to + i, load(out, to + i) + scale * total)
+
+
+@kernel
+def moved(p, b, x, at, out, to):
+    """Put what coordinates ``x[at:]`` do to driven rows of bearing ``b`` to ``LANES`` numbers of ``out``."""
+    r = row(p, b)
+    t = int(p[r + SP.ROW_AT_T])
+    columns = int(p[r + SP.ROW_AT_COLUMNS])
+    one = splat(0.0)
+    two = splat(0.0)
+    three = splat(0.0)
+    for m in range(int(p[r + SP.ROW_COLUMNS])):
+        k = int(p[columns + m])
+        column = t + k * SP.LANES
+        one += load(p, column) * x[at + k]
+        two += load(p, column + FOUR) * x[at + k]
+        three += load(p, column + 2 * FOUR) * x[at + k]
+    store(out, to, one)
+    store(out, to + FOUR, two)
+    store(out, to + 2 * FOUR, three)
+
+
+@kernel
+def pull(p, b, forces, at, out, to):
+    """Add to ``out[to:]`` what forces on the driven rows of bearing ``b`` do to the coordinates.
+
+    ``forces[at:]``: ``LANES`` numbers, spare ones zero.
+    """
+    r = row(p, b)
+    t = int(p[r + SP.ROW_AT_T])
+    columns = int(p[r + SP.ROW_AT_COLUMNS])
+    one = load(forces, at)
+    two = load(forces, at + FOUR)
+    three = load(forces, at + 2 * FOUR)
+    for m in range(int(p[r + SP.ROW_COLUMNS])):
+        k = int(p[columns + m])
+        column = t + k * SP.LANES
+        total = load(p, column) * one + load(p, column + FOUR) * two + load(p, column + 2 * FOUR) * three
+        out[to + k] += sum_four(total)
+
+
+@kernel
+def add_product(p, at, scale, x, first, out, to):
+    """``out[to:] += scale M x[first:]``, the matrix of the coordinates' size at ``p[at:]``."""
+    add_columns(p, at, padded(p), coordinates(p), scale, x, first, out, to)

@@ -1,0 +1,100 @@
+"""From the state of a set to its outputs: those of every bearing, told in shaft axes, and the shaft's."""
+
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.layout import SP, P, Q, S, Z
+from fmu_bearing.engine.readout.outputs import LITTLE_LOST, observe_motion
+from fmu_bearing.engine.spindle import members
+from fmu_bearing.engine.spindle.port import observe_port
+from fmu_bearing.engine.spindle.shaft import has_housing
+from fmu_bearing.engine.spindle.sound import levels_of_set
+
+
+@kernel
+def mirror(pb, sign, z):
+    """Turn what bearings with ``sign`` -1 tell along their own axis into shaft axes."""
+    if sign > 0.0:
+        return
+    for place in (Z.INNER_VELOCITY, Z.OUTER_VELOCITY, Z.CAGE_VELOCITY, Z.INNER_PLACE, Z.OUTER_PLACE):
+        z[place] = -z[place]
+    for i in range(2):
+        z[Z.TILT + i] = -z[Z.TILT + i]
+    for j in range(int(pb[P.BALLS])):
+        z[Z.BALLS + Z.PER_BALL * j] = -z[Z.BALLS + Z.PER_BALL * j]
+
+
+@kernel
+def observe_bearings(p, s, z):
+    """Fill the outputs of every bearing, and those that add up over them."""
+    own = members.own_state(p, s)
+    at = int(p[int(p[P.SET]) + SP.AT_Z])
+    for i in range(Z.HEAT_SIZE):
+        z[at + SP.Z_HEAT + i] = 0.0
+    z[at + SP.Z_TORQUE] = 0.0
+    z[at + SP.Z_MEAN_TORQUE] = 0.0
+    z[at + SP.Z_WAVE_TIME] = 1.0
+    for b in range(members.count(p)):
+        zb = members.outputs(p, z, b)
+        sign = p[members.row(p, b) + SP.ROW_SIGN]
+        pb = members.parameters(p, b)
+        observe_motion(pb, members.state(p, s, b), zb)
+        mirror(pb, sign, zb)
+        for i in range(Z.HEAT_SIZE):
+            z[at + SP.Z_HEAT + i] += zb[Z.HEAT + i]
+        z[at + SP.Z_TORQUE] += zb[Z.TORQUE]
+        z[at + SP.Z_MEAN_TORQUE] += zb[Z.MEAN_TORQUE]
+        z[at + SP.Z_WAVE_TIME] = min(z[at + SP.Z_WAVE_TIME], zb[Z.WAVE_TIME])
+        to = at + SP.Z_FORCES + SP.Z_FORCE * b
+        for i in range(SP.PLANE):
+            along = i == Q.X or i >= Q.INNER_BY
+            z[to + i] = own[members.kept(p, b) + SP.LOAD + i] * (sign if along else 1.0)
+    for i in range(2):
+        z[at + SP.Z_HEAT + i] += own[SP.MEAN_HEAT + i]
+
+
+@kernel
+def observe_shaft(p, s, z):
+    """Nose of the shaft and the housing."""
+    own = members.own_state(p, s)
+    n = members.padded(p)
+    at = int(p[int(p[P.SET]) + SP.AT_Z])
+    nose = members.table(p, SP.AT_NOSE)
+    for i in range(SP.PLANE):
+        place = 0.0
+        rate = 0.0
+        for k in range(n):
+            place += p[nose + i * n + k] * own[SP.S_HEAD + k]
+            rate += p[nose + i * n + k] * own[SP.S_HEAD + n + k]
+        z[at + SP.Z_NOSE + i] = place
+        if i < Q.INNER_BY:
+            z[at + SP.Z_NOSE_VELOCITY + i] = rate
+    if has_housing(p):
+        h = SP.S_HEAD + int(p[int(p[P.SET]) + SP.SHAFT])
+        lever = p[int(p[P.SET]) + SP.HOUSING_X]
+        for i in range(2):
+            out = at + (SP.Z_HOUSING if i == 0 else SP.Z_HOUSING_VELOCITY)
+            x = h + i * n
+            z[out] = own[x]
+            z[out + Q.Y] = own[x + Q.Y] + lever * own[x + Q.BZ]
+            z[out + Q.Z] = own[x + Q.Z] - lever * own[x + Q.BY]
+
+
+@kernel
+def observe_set(p, s, z):
+    """Fill ``z`` of a set from its state."""
+    observe_bearings(p, s, z)
+    observe_shaft(p, s, z)
+    levels_of_set(p, s, z)
+    own = members.own_state(p, s)
+    at = int(p[int(p[P.SET]) + SP.AT_Z])
+    observe_port(p, own, z, at)
+    z[at + SP.Z_STEPS] = s[S.STEPS]
+    z[at + SP.Z_REJECTED] = s[S.REJECTED]
+    work = own[SP.WORK]
+    lost = own[SP.HEAT] + own[SP.HEAT + 1]
+    for b in range(members.count(p)):
+        sb = members.state(p, s, b)
+        work += sb[S.WORK]
+        lost += sb[S.HEAT] + sb[S.HEAT + 1] + sb[S.HEAT + 2]
+    gained = own[SP.ENERGY_NOW] - own[SP.ENERGY_START]
+    told = lost > 1e-12 + LITTLE_LOST * abs(own[SP.ENERGY_NOW])
+    z[at + SP.Z_RESIDUAL] = (work - lost - gained) / lost if told else 0.0

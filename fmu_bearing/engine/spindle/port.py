@@ -1,0 +1,165 @@
+"""A shaft that another model owns: its motion comes in at the port, X = 0, and the bearings' force goes out.
+
+The shaft's coordinates are then given, by a cubic (Hermite) polynomial over each communication step; housing
+and sliding rings stay unknown. Mass and weight of the inner rings are the rotor's: its equations have them,
+the force at the port has neither.
+"""
+
+from fmu_bearing.engine.constants import GRAVITY
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.layout import SP, F, P, Q, S, W, Y
+from fmu_bearing.engine.spindle import members
+from fmu_bearing.engine.spindle.shaft import weighs
+
+
+@kernel
+def has_port(p):
+    """Whether another model moves the shaft."""
+    return p[int(p[P.SET]) + SP.PORT] != 0.0
+
+
+@kernel
+def take_motion(p, u, s, own, h):
+    """Lead the shaft from where it is to place and rate of ``u`` in ``h`` (s)."""
+    n = members.padded(p)
+    own[SP.PORT_BEGIN] = s[S.TIME]
+    for i in range(SP.PLANE):
+        place = own[SP.S_HEAD + i]
+        rate = own[SP.S_HEAD + n + i]
+        to_rate = u[SP.U_PORT_RATE + i]
+        mean = (u[SP.U_PORT + i] - place) / h
+        own[SP.PORT_PLACE + i] = place
+        own[SP.PORT_RATE + i] = rate
+        own[SP.PORT_ACCELERATION + i] = (6.0 * mean - 4.0 * rate - 2.0 * to_rate) / h
+        own[SP.PORT_JERK + i] = 6.0 * (rate + to_rate - 2.0 * mean) / (h * h)
+
+
+@kernel
+def begin_motion(p, u, own, t):
+    """Put the shaft to place and rate of ``u`` at time ``t`` (s), without acceleration."""
+    n = members.padded(p)
+    own[SP.PORT_BEGIN] = t
+    for i in range(SP.PLANE):
+        own[SP.S_HEAD + i] = u[SP.U_PORT + i]
+        own[SP.S_HEAD + n + i] = u[SP.U_PORT_RATE + i]
+        own[SP.PORT_PLACE + i] = u[SP.U_PORT + i]
+        own[SP.PORT_RATE + i] = u[SP.U_PORT_RATE + i]
+        own[SP.PORT_ACCELERATION + i] = 0.0
+        own[SP.PORT_JERK + i] = 0.0
+
+
+@kernel
+def led_acceleration(own, s, t, out, to):
+    """Put the shaft's acceleration ``t`` (s) after the state to ``out[to:]``."""
+    since = s[S.TIME] - own[SP.PORT_BEGIN] + t
+    for i in range(SP.PLANE):
+        out[to + i] = own[SP.PORT_ACCELERATION + i] + since * own[SP.PORT_JERK + i]
+
+
+@kernel
+def lead_stage(p, s, w, stage, t):
+    """Put the shaft and the inner rings at a stage, ``t`` (s) into the step, where they are led."""
+    own = members.own_state(p, s)
+    ws = members.own_work(p, w)
+    since = s[S.TIME] - own[SP.PORT_BEGIN] + t
+    here = members.vector(p, stage)
+    place = members.vector(p, SP.PLACE)
+    rate = members.vector(p, SP.RATE)
+    led_acceleration(own, s, t, ws, here)
+    for i in range(SP.PLANE):
+        start = own[SP.PORT_ACCELERATION + i]
+        jerk = own[SP.PORT_JERK + i]
+        begin = own[SP.PORT_RATE + i]
+        ws[rate + i] = begin + since * (start + 0.5 * since * jerk)
+        ws[place + i] = own[SP.PORT_PLACE + i] + since * (begin + since * (0.5 * start + since * jerk / 6.0))
+    for b in range(members.count(p)):
+        wb = members.work(p, w, b)
+        at = members.scratch(p, b)
+        mine = members.kept(p, b)
+        acc = W.ACC + stage * F.SIZE + F.BODY
+        members.moved(p, b, ws, here, ws, at)
+        for i in range(SP.PLANE):
+            wb[acc + i] = ws[at + i]
+        members.moved(p, b, ws, rate, ws, at)
+        for i in range(SP.PLANE):
+            wb[W.STAGE + Y.V0 + i] = ws[at + i]
+        members.moved(p, b, ws, place, ws, at)
+        for i in range(SP.PLANE):
+            wb[W.STAGE + Y.Q0 + i] = ws[at + i]
+        grown = own[mine + SP.OFFSET_RATE]
+        wb[W.STAGE + Y.V0 + Q.X] += grown
+        wb[W.STAGE + Y.Q0 + Q.X] += own[mine + SP.OFFSET] + t * grown
+
+
+@kernel
+def hold_rows(x, at, count, width):
+    """Take the shaft out of ``count`` equations at ``x[at:]``, rows of ``width``: it moves by itself."""
+    for i in range(SP.PLANE):
+        for k in range(count):
+            x[at + i * width + k] = 0.0
+            x[at + k * width + i] = 0.0
+        x[at + i * width + i] = 1.0
+
+
+@kernel
+def feel(p, b, pb, y, acc, ws, at, to):
+    """Add the force of bearing ``b`` on the rotor to ``ws[to:]``; returns the rotor's power (W).
+
+    ``ws[at:]``: forces that free rings of the bearing would feel, overwritten; ``y``, ``acc``: its state and
+    accelerations. Without inertia and weight of the inner ring, which the power has.
+    """
+    r = members.row(p, b)
+    power = 0.0
+    for i in range(SP.PLANE):
+        power += y[Y.V0 + i] * (p[r + SP.ROW_MASS + i] * acc[F.BODY + i] - ws[at + i])
+    for i in range(SP.PLANE, SP.LANES):
+        ws[at + i] = 0.0
+    if weighs(p):
+        ws[at + Q.Z] += GRAVITY * pb[P.INNER_MASS]
+    members.pull(p, b, ws, at, ws, to)
+    return power
+
+
+@kernel
+def clear(x, at, count):
+    """Put ``count`` numbers to zero."""
+    for i in range(count):
+        x[at + i] = 0.0
+
+
+@kernel
+def keep_push(p, ws, stage):
+    """Keep the force on the rotor at ``SP.FORCE`` as that of a stage."""
+    force = members.vector(p, SP.FORCE)
+    for i in range(SP.PLANE):
+        ws[SP.PUSH + stage * SP.PLANE + i] = ws[force + i]
+
+
+@kernel
+def rings_matrix(p, i, k):
+    """Inertia of the inner rings in the port's coordinates, row ``i``, column ``k``."""
+    block = int(p[P.SET])
+    if i == k:
+        return p[block + (SP.PORT_MASS if i < Q.INNER_BY else SP.PORT_TRANSVERSE)]
+    low = min(i, k)
+    high = max(i, k)
+    if low == Q.Y and high == Q.INNER_BZ:
+        return p[block + SP.PORT_STATIC]
+    if low == Q.Z and high == Q.INNER_BY:
+        return -p[block + SP.PORT_STATIC]
+    return 0.0
+
+
+@kernel
+def observe_port(p, own, z, at):
+    """Fill the port's outputs of the set's own at ``z[at:]``."""
+    if not has_port(p):
+        return
+    block = int(p[P.SET])
+    for i in range(SP.PLANE):
+        z[at + SP.Z_PORT + i] = own[SP.PORT_FORCE + i]
+        z[at + SP.Z_PORT_MEAN + i] = own[SP.PORT_MEAN + i]
+    z[at + SP.Z_PORT_MASS] = p[block + SP.PORT_MASS]
+    z[at + SP.Z_PORT_STATIC] = p[block + SP.PORT_STATIC]
+    z[at + SP.Z_PORT_TRANSVERSE] = p[block + SP.PORT_TRANSVERSE]
+    z[at + SP.Z_PORT_POLAR] = p[block + SP.PORT_POLAR]

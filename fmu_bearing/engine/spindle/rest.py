@@ -1,0 +1,350 @@
+"""Where shaft, housing and outer rings of a set rest: Newton's method in displacements.
+
+Unknowns: coordinates of shaft, housing and sliding rings, places x y z and tilts of each ring on a pedestal
+of its own. Contacts are springs: a step is judged by the force along it, which must not turn round.
+"""
+
+import math
+
+from fmu_bearing.engine.constants import GRAVITY
+from fmu_bearing.engine.dense import eliminate
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.layout import EQ, SP, ST, C, P, Q, S, W
+from fmu_bearing.engine.spindle import members
+from fmu_bearing.engine.spindle.coupling import feet_matrix
+from fmu_bearing.engine.spindle.port import clear, has_port, hold_rows
+from fmu_bearing.engine.spindle.shaft import has_housing, shaft_forces, weighs
+from fmu_bearing.engine.statics.held import held_tilted
+from fmu_bearing.engine.statics.mounted import outer_moment
+from fmu_bearing.engine.status import NO_START, OK
+
+_ITERATIONS = 200
+_BACKTRACKS = 12
+_LONGEST = 5e-6  # m: step of a ring, tilts at the pitch radius; a tenth of the groove centres' distance
+_FLOOR = 1.0  # N/m: moves a shaft that nothing holds by the longest step at most
+_FINE = 1e-6  # of the forces: what may stay out of balance
+
+
+@kernel
+def stands(p, b):
+    """Whether the outer ring of bearing ``b`` stands on a pedestal of its own."""
+    return p[members.row(p, b) + SP.ROW_SEAT] == SP.PEDESTAL
+
+
+@kernel
+def free_rows(p, b):
+    """Return how many unknowns the outer ring of bearing ``b`` has beside the set's coordinates."""
+    return SP.PLANE if stands(p, b) and p[members.row(p, b) + SP.ROW_DRIVEN] < SP.DRIVEN else 0
+
+
+@kernel
+def unknowns(p):
+    """Return how many unknowns the start has."""
+    total = members.coordinates(p)
+    for b in range(members.count(p)):
+        total += free_rows(p, b)
+    return total
+
+
+@kernel
+def first_unknown(p, b):
+    """Return the first unknown of the outer ring of bearing ``b``."""
+    total = members.coordinates(p)
+    for k in range(b):
+        total += free_rows(p, k)
+    return total
+
+
+@kernel
+def start_vector(p, k):
+    """Begin of the ``k``-th vector of the start behind its equations."""
+    count = unknowns(p)
+    return members.matrix(p) + count * (count + 1) + k * count
+
+
+@kernel
+def outer_row(i):
+    """Row of the outer ring that goes with row ``i`` of the inner one: its own rotation is left out."""
+    return i if i < Q.TURN else i + 1
+
+
+@kernel
+def put_rings(p, b, ws, own, z):
+    """Places of the rings of bearing ``b`` for the unknowns at ``ws[z:]`` into its scratch."""
+    r = members.row(p, b)
+    at = members.scratch(p, b)
+    members.moved(p, b, ws, z, ws, at + SP.START_PULL)
+    for i in range(SP.HOUSING):
+        ws[at + SP.START_OUTER + i] = 0.0
+    for i in range(int(p[r + SP.ROW_DRIVEN])):
+        if i >= Q.OUTER:
+            ws[at + SP.START_OUTER + i - Q.OUTER] = ws[at + SP.START_PULL + i]
+    mine = z + first_unknown(p, b)
+    for i in range(free_rows(p, b)):
+        ws[at + SP.START_OUTER + outer_row(i)] = ws[mine + i]
+    for i in range(SP.PLANE):
+        place = ws[at + SP.START_PULL + i]
+        if i == Q.X:
+            place += own[members.kept(p, b) + SP.OFFSET]
+        ws[at + SP.START_RING + i] = place - ws[at + SP.START_OUTER + outer_row(i)]
+    for i in range(2):
+        ws[at + SP.START_TILT + i] = ws[at + SP.START_OUTER + Q.BY + i]
+
+
+@kernel
+def ring_motion(p, b, i, out, to):
+    """How the inner ring of bearing ``b`` moves against the outer one in row ``i`` with all unknowns."""
+    n = members.coordinates(p)
+    r = members.row(p, b)
+    t = int(p[r + SP.ROW_AT_T])
+    for k in range(unknowns(p)):
+        out[to + k] = 0.0
+    for m in range(int(p[r + SP.ROW_DRIVEN])):
+        sign = 1.0 if m == i else -1.0 if m == Q.OUTER + outer_row(i) else 0.0
+        if sign != 0.0:
+            for k in range(n):
+                out[to + k] += sign * p[t + k * SP.LANES + m]
+    if i < free_rows(p, b):
+        out[to + first_unknown(p, b) + i] -= 1.0
+
+
+@kernel
+def weights(p, pb):
+    """Weight (N) of the inner ring, and of the outer one with balls and cage, which lie on it."""
+    if not weighs(p):
+        return 0.0, 0.0
+    lying = pb[P.OUTER_MASS] + pb[P.BALLS] * pb[P.BALL_MASS]
+    if pb[P.CAGE] != 0.0:
+        lying += pb[P.CAGE_MASS]
+    return GRAVITY * pb[P.INNER_MASS], GRAVITY * lying
+
+
+@kernel
+def pedestal_stiffness(c, i):
+    """Stiffness of a ring's own pedestal along or about row ``i`` of x y z by bz."""
+    if i == Q.X:
+        return c[C.PEDESTAL_AXIAL]
+    if i == Q.Y:
+        return c[C.PEDESTAL_Y]
+    return c[C.PEDESTAL_Z] if i == Q.Z else c[C.PEDESTAL_ROTATIONAL]
+
+
+@kernel
+def ring_stiffness(c, k):
+    """Stiffness of a ring's own pedestal along or about row ``k`` of both rings, one of the outer ring's."""
+    row = k - Q.OUTER
+    if row == Q.TURN:
+        return c[C.PEDESTAL_ROTATIONAL]
+    return pedestal_stiffness(c, row if row < Q.TURN else row - 1)
+
+
+@kernel
+def settle_bearing(p, s, w, b, speed, z, g):
+    """Settle bearing ``b`` where the unknowns at ``z`` put its rings; add its forces to those at ``g``.
+
+    Returns its status.
+    """
+    own = members.own_state(p, s)
+    ws = members.own_work(p, w)
+    pb = members.parameters(p, b)
+    sb = members.state(p, s, b)
+    wb = members.work(p, w, b)
+    c = sb[S.C : S.C + C.SIZE]
+    r = members.row(p, b)
+    at = members.scratch(p, b)
+    put_rings(p, b, ws, own, z)
+    ring = ws[at + SP.START_RING : at + SP.START_RING + SP.PLANE]
+    tilt = ws[at + SP.START_TILT : at + SP.START_TILT + 2]
+    force = ws[at + SP.START_FORCE : at + SP.START_FORCE + SP.PLANE]
+    found = wb[W.FOUND : W.FOUND + EQ.SIZE]
+    status = held_tilted(pb, c, speed, ring, tilt, 1.0, force, found, wb)
+    own_weight, lying = weights(p, pb)
+    for i in range(SP.LANES):
+        ws[at + SP.START_PULL + i] = 0.0
+    for k in range(int(p[r + SP.ROW_DRIVEN])):
+        value = 0.0
+        if k < Q.OUTER:
+            value = force[k] - (own_weight if k == Q.Z else 0.0)
+        elif k < Q.OUTER + Q.TURN:
+            value = -force[k - Q.OUTER] - (lying if k == Q.OUTER + Q.Z else 0.0)
+        elif k > Q.OUTER + Q.TURN:
+            value = -force[k - Q.OUTER - 1]
+        if k >= Q.OUTER and stands(p, b):
+            value -= ring_stiffness(c, k) * ws[at + SP.START_OUTER + k - Q.OUTER]
+        ws[at + SP.START_PULL + k] = value
+    members.pull(p, b, ws, at + SP.START_PULL, ws, g)
+    mine = g + first_unknown(p, b)
+    outer = at + SP.START_OUTER
+    if free_rows(p, b) > 0:
+        my, mz = outer_moment(pb, c, speed, tilt, found, wb[W.STATICS : W.STATICS + ST.SIZE])
+        for i in range(SP.PLANE):
+            value = -force[i] if i < Q.INNER_BY else my if i == Q.INNER_BY else mz
+            if i == Q.Z:
+                value -= lying
+            ws[mine + i] = value - pedestal_stiffness(c, i) * ws[outer + outer_row(i)]
+    return status
+
+
+@kernel
+def forces_at(p, s, w, speed, z, g):
+    """Put forces out of balance for the unknowns at ``z`` to ``g``; the worst status of a bearing."""
+    own = members.own_state(p, s)
+    ws = members.own_work(p, w)
+    count = unknowns(p)
+    still = members.vector(p, SP.RATE)
+    for i in range(members.coordinates(p)):
+        ws[still + i] = 0.0
+    for i in range(count):
+        ws[g + i] = 0.0
+    shaft_forces(p, own, ws, z, still, 0.0, 0.0, 0.0, ws, g)
+    status = OK
+    for b in range(members.count(p)):
+        here = settle_bearing(p, s, w, b, speed, z, g)
+        if here != OK:
+            status = here
+    if has_port(p):
+        clear(ws, g, SP.PLANE)
+    return status
+
+
+@kernel
+def equations(p, s, w, damping):
+    """Stiffness of all unknowns at the bearings settled last, with ``damping`` (N/m), in rows of one more."""
+    own = members.own_state(p, s)
+    ws = members.own_work(p, w)
+    n = members.coordinates(p)
+    count = unknowns(p)
+    at = members.matrix(p)
+    width = count + 1
+    spare = start_vector(p, SP.MOTIONS)
+    for i in range(count * width):
+        ws[at + i] = 0.0
+    shaft = members.table(p, SP.AT_STIFFNESS)
+    for i in range(n):
+        for k in range(n):
+            ws[at + i * width + k] += p[shaft + k * members.padded(p) + i]
+    if has_housing(p):
+        h = int(p[int(p[P.SET]) + SP.SHAFT])
+        feet_matrix(p, own, SP.FEET, 1.0, ws, at + h * width + h, width, spare)
+    for b in range(members.count(p)):
+        wb = members.work(p, w, b)
+        c = members.state(p, s, b)[S.C : S.C + C.SIZE]
+        for i in range(SP.PLANE):
+            ring_motion(p, b, i, ws, spare + i * count)
+        for i in range(SP.PLANE):
+            for k in range(SP.PLANE):
+                stiffness = wb[W.FOUND + EQ.STIFFNESS + EQ.FREEDOMS * i + k]
+                for m in range(count):
+                    share = stiffness * ws[spare + i * count + m]
+                    if share != 0.0:
+                        for h in range(count):
+                            ws[at + m * width + h] += share * ws[spare + k * count + h]
+        mine = first_unknown(p, b)
+        for i in range(free_rows(p, b)):
+            ws[at + (mine + i) * width + mine + i] += pedestal_stiffness(c, i)
+        r = members.row(p, b)
+        t = int(p[r + SP.ROW_AT_T])
+        for k in range(Q.OUTER, int(p[r + SP.ROW_DRIVEN]) if stands(p, b) else 0):
+            for m in range(n):
+                share = ring_stiffness(c, k) * p[t + m * SP.LANES + k]
+                for h in range(n):
+                    ws[at + m * width + h] += share * p[t + h * SP.LANES + k]
+    for i in range(count):
+        ws[at + i * width + i] += damping * inertia(p, i)
+    if has_port(p):
+        hold_rows(ws, at, count, width)
+
+
+@kernel
+def inertia(p, i):
+    """Inertia of unknown ``i`` over that of the shaft along its axis: what makes forces and moments alike."""
+    if i < members.coordinates(p):
+        return p[members.table(p, SP.AT_SCALE) + i]
+    for b in range(members.count(p)):
+        first = first_unknown(p, b)
+        if i >= first and i < first + free_rows(p, b):
+            lever = members.parameters(p, b)[P.PITCH_RADIUS]
+            return 1.0 if i - first < Q.INNER_BY else lever * lever
+    return 1.0
+
+
+@kernel
+def force_size(p, ws, g):
+    """Length (N) of the forces at ``ws[g:]``, each over the root of its inertia."""
+    total = 0.0
+    for i in range(unknowns(p)):
+        total += ws[g + i] * ws[g + i] / inertia(p, i)
+    return math.sqrt(total)
+
+
+@kernel
+def newton_step(p, s, w, g, step, damping):
+    """Step of the unknowns for the forces at ``g``; the work along it, not positive if unfit."""
+    ws = members.own_work(p, w)
+    count = unknowns(p)
+    equations(p, s, w, damping)
+    at = members.matrix(p)
+    for i in range(count):
+        ws[at + i * (count + 1) + count] = ws[g + i]
+    if not eliminate(ws, at, count):
+        return -1.0
+    for i in range(count):
+        ws[step + i] = ws[at + i * (count + 1) + count]
+    longest = 0.0
+    spare = start_vector(p, SP.MOTIONS)
+    for b in range(members.count(p)):
+        lever = members.parameters(p, b)[P.PITCH_RADIUS]
+        for i in range(SP.PLANE):
+            ring_motion(p, b, i, ws, spare)
+            move = 0.0
+            for k in range(count):
+                move += ws[spare + k] * ws[step + k]
+            longest = max(longest, abs(move) * (1.0 if i < Q.INNER_BY else lever))
+    share = min(1.0, _LONGEST / (longest + 1e-300))
+    ahead = 0.0
+    for i in range(count):
+        ws[step + i] *= share
+        ahead += ws[step + i] * ws[g + i]
+    return ahead
+
+
+@kernel
+def rest(p, s, w, speed):
+    """Bring the unknowns to rest; status code. Bearings are left settled where they then stand."""
+    ws = members.own_work(p, w)
+    count = unknowns(p)
+    z = start_vector(p, SP.UNKNOWNS)
+    trial = start_vector(p, SP.TRIALS)
+    g = start_vector(p, SP.FORCES)
+    after = start_vector(p, SP.TRIAL_FORCES)
+    step = start_vector(p, SP.STEPS)
+    status = forces_at(p, s, w, speed, z, g)
+    total = 100.0
+    for b in range(members.count(p)):
+        total += abs(ws[members.scratch(p, b) + SP.START_FORCE])
+    damping = _FLOOR
+    for _ in range(_ITERATIONS):
+        size = force_size(p, ws, g)
+        if size <= 1e-8 + 1e-10 * total:
+            break
+        ahead = newton_step(p, s, w, g, step, damping)
+        if not (ahead > 0.0):
+            damping = max(10.0 * damping, 1e3)
+            continue
+        share = 1.0
+        for n in range(_BACKTRACKS):
+            for i in range(count):
+                ws[trial + i] = ws[z + i] + share * ws[step + i]
+            status = forces_at(p, s, w, speed, trial, after)
+            along = 0.0
+            for i in range(count):
+                along += ws[after + i] * ws[step + i]
+            smaller = force_size(p, ws, after) < 0.5 * size
+            if along >= -0.9 * ahead or smaller or n == _BACKTRACKS - 1:
+                break
+            share *= min(max(ahead / (ahead - along), 0.1), 0.7)
+        damping = max(0.3 * damping, _FLOOR) if share > 0.5 else 4.0 * damping
+        for i in range(count):
+            ws[z + i] = ws[trial + i]
+            ws[g + i] = ws[after + i]
+    return status if force_size(p, ws, g) <= _FINE * total else NO_START

@@ -1,0 +1,138 @@
+"""Shaft and housing: loads, unbalance, springs, dampers, energy."""
+
+import math
+
+from fmu_bearing.engine.constants import GRAVITY
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.layout import SP, P, Q
+from fmu_bearing.engine.spindle import members
+
+
+@kernel
+def has_housing(p):
+    """Whether the housing moves."""
+    return p[int(p[P.SET]) + SP.HOUSED] != 0.0
+
+
+@kernel
+def weighs(p):
+    """Whether weight counts: the first bearing's parameters tell, as for all choices of the scene."""
+    return p[P.GRAVITY] != 0.0
+
+
+@kernel
+def feet(p, stiffness, at, x, first, scale, out, to):
+    """Add ``scale`` times what the pedestal answers to the housing's motion ``x[first:]`` to ``out[to:]``.
+
+    ``stiffness[at:]``: along x y z, about x y z, in the pedestal's plane; motion and forces at X = 0.
+    """
+    lever = p[int(p[P.SET]) + SP.HOUSING_X]
+    across = scale * stiffness[at + Q.Y] * (x[first + Q.Y] + lever * x[first + Q.BZ])
+    upward = scale * stiffness[at + Q.Z] * (x[first + Q.Z] - lever * x[first + Q.BY])
+    out[to] += scale * stiffness[at] * x[first]
+    out[to + Q.Y] += across
+    out[to + Q.Z] += upward
+    out[to + Q.TURN] += scale * stiffness[at + Q.TURN] * x[first + Q.TURN]
+    out[to + Q.BY] += scale * stiffness[at + Q.BY] * x[first + Q.BY] - lever * upward
+    out[to + Q.BZ] += scale * stiffness[at + Q.BZ] * x[first + Q.BZ] + lever * across
+
+
+@kernel
+def along(x, at, y, to, count):
+    """Sum of products of ``count`` numbers."""
+    total = 0.0
+    for i in range(count):
+        total += x[at + i] * y[to + i]
+    return total
+
+
+@kernel
+def twice_energy(p, at, x, first):
+    """``x M x`` for the matrix at ``p[at:]``."""
+    n = members.coordinates(p)
+    lanes = members.padded(p)
+    total = 0.0
+    for k in range(n):
+        total += x[first + k] * along(p, at + k * lanes, x, first, n)
+    return total
+
+
+@kernel
+def push(p, angle, speed, rate, out, to):
+    """Add the force of the shaft's heavy spots to ``out[to:]``; ``rate``: of the speed (rad/s2)."""
+    if p[int(p[P.SET]) + SP.UNBALANCED] == 0.0:
+        return
+    lanes = members.padded(p)
+    at = members.table(p, SP.AT_UNBALANCE)
+    co = math.cos(angle)
+    si = math.sin(angle)
+    square = speed * speed
+    for i in range(lanes):
+        along_it = co * p[at + i] + si * p[at + lanes + i]
+        ahead = co * p[at + lanes + i] - si * p[at + i]
+        out[to + i] += square * along_it - rate * ahead
+
+
+@kernel
+def hold_load(p, own):
+    """Turn loads on the nose and of springs into forces on the coordinates."""
+    lanes = members.padded(p)
+    nose = members.table(p, SP.AT_NOSE)
+    springs = members.table(p, SP.AT_SPRINGS)
+    to = SP.S_HEAD + SP.HELD_LOAD * lanes
+    for k in range(lanes):
+        own[to + k] = -own[SP.SPRING] * p[springs + k]
+        for i in range(SP.PLANE):
+            own[to + k] += p[nose + i * lanes + k] * own[SP.NOSE + i]
+
+
+@kernel
+def shaft_forces(p, own, x, q, v, angle, speed, rate, out, to):
+    """Put the forces on shaft and housing, without their bearings', to ``out[to:]``.
+
+    ``own``: the set's own state; places and rates at ``x[q:]`` and ``x[v:]``. Returns power in (W), and the
+    heats of the bending shaft and of the pedestal (W).
+    """
+    n = members.coordinates(p)
+    lanes = members.padded(p)
+    held = SP.S_HEAD + SP.HELD_LOAD * lanes
+    for i in range(lanes):
+        out[to + i] = own[held + i]
+    push(p, angle, speed, rate, out, to)
+    power = along(out, to, x, v, n)
+    if weighs(p):
+        heavy = members.table(p, SP.AT_HEAVY)
+        for i in range(lanes):
+            out[to + i] -= GRAVITY * p[heavy + i]
+    members.add_product(p, members.table(p, SP.AT_GYROSCOPIC), -speed, x, v, out, to)
+    bent = 0.0
+    if p[int(p[P.SET]) + SP.SPRUNG] != 0.0:
+        members.add_product(p, members.table(p, SP.AT_STIFFNESS), -1.0, x, q, out, to)
+        before = along(out, to, x, v, n)
+        members.add_product(p, members.table(p, SP.AT_DAMPING), -1.0, x, v, out, to)
+        bent = before - along(out, to, x, v, n)
+    shaken = 0.0
+    if has_housing(p):
+        h = int(p[int(p[P.SET]) + SP.SHAFT])
+        feet(p, own, SP.FEET, x, q + h, -1.0, out, to + h)
+        before = along(out, to + h, x, v + h, SP.HOUSING)
+        feet(p, own, SP.FEET_DAMPING, x, v + h, -1.0, out, to + h)
+        shaken = before - along(out, to + h, x, v + h, SP.HOUSING)
+    return power, bent, shaken
+
+
+@kernel
+def shaft_energy(p, own, x, q, v, w, at):
+    """Return the stored energy (J) of shaft and housing without driven rings; ``w[at:]``: scratch."""
+    total = 0.5 * twice_energy(p, members.table(p, SP.AT_MASS), x, v)
+    if p[int(p[P.SET]) + SP.SPRUNG] != 0.0:
+        total += 0.5 * twice_energy(p, members.table(p, SP.AT_STIFFNESS), x, q)
+    if weighs(p):
+        total += GRAVITY * along(p, members.table(p, SP.AT_HEAVY), x, q, members.coordinates(p))
+    if has_housing(p):
+        h = int(p[int(p[P.SET]) + SP.SHAFT])
+        for i in range(SP.HOUSING):
+            w[at + i] = 0.0
+        feet(p, own, SP.FEET, x, q + h, 1.0, w, at)
+        total += 0.5 * along(w, at, x, q + h, SP.HOUSING)
+    return total

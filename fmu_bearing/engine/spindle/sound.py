@@ -1,0 +1,73 @@
+"""Sound of a set: filters of all bearings over the same instants, their pressures added before metering.
+
+Each bearing has a sound block of its own, with microphones where they stand in its own axes. What its filters
+bring the microphones is added to the first bearing's rows, and the first bearing's meters read the sum:
+pressures add, with form scalars energies as between the sources of one bearing.
+"""
+
+from fmu_bearing.engine.choices import VECTORS
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.layout import SD, P, S, W, Z
+from fmu_bearing.engine.readout.motion import sample_due, sample_motion, sound_block
+from fmu_bearing.engine.sound import meter
+from fmu_bearing.engine.sound.radiate import filtered
+from fmu_bearing.engine.spindle import members
+
+
+@kernel
+def emit_set(p, s, w, h):
+    """Take every sample that falls into the step just made through all bearings' filters, then the meters."""
+    if p[P.SOUND_SIZE] == 0.0:
+        return
+    whole = int(sound_block(p)[SD.H_FORM]) != VECTORS
+    while sample_due(s, h):
+        due = False
+        for b in range(members.count(p)):
+            pb = members.parameters(p, b)
+            sb = members.state(p, s, b)
+            wb = members.work(p, w, b)
+            sample_motion(pb, sb, wb, whole, h)
+            due = filtered(sound_block(pb), sb[S.SOUND :], wb[W.SOUND :], wb[W.MOTION : W.SOUND])
+            sb[S.SAMPLE] += 1.0
+        if due:
+            meter_set(p, s, w)
+
+
+@kernel
+def meter_set(p, s, w):
+    """Move the meters of every bearing alone and those of their sum by one sample."""
+    own = members.own_state(p, s)
+    mics = int(p[P.MICS])
+    begun = meter.metered(s[S.SOUND :], p[P.METERING_START])
+    fraction = meter.fraction_of(p[P.TIME_WEIGHTING])
+    for b in range(members.count(p)):
+        ps = sound_block(members.parameters(p, b))
+        ss = members.state(p, s, b)[S.SOUND :]
+        ws = members.work(p, w, b)[W.SOUND :]
+        meter.gather(ps, ss, ws)
+        if begun:
+            at = members.alone(p, b)
+            for mic in range(mics):
+                own[at + mic] += fraction * (meter.square(ps, ws, mic) - own[at + mic])
+        if b > 0:
+            meter.add(sound_block(p), w[W.SOUND :], ps, ws)
+    meter.follow(sound_block(p), s[S.SOUND :], w[W.SOUND :], p[P.TIME_WEIGHTING], p[P.METERING_START])
+    for b in range(members.count(p)):
+        members.state(p, s, b)[S.SOUND + SD.SS_COUNT] += 1.0
+
+
+@kernel
+def levels_of_set(p, s, z):
+    """Write what the microphones read of the sum, then the level of each bearing alone."""
+    if p[P.SOUND_SIZE] == 0.0:
+        return
+    bearings = members.count(p)
+    mics = int(p[P.MICS])
+    meter.levels(sound_block(p), s[S.SOUND :], z, members.heard(p))
+    own = members.own_state(p, s)
+    ss = s[S.SOUND :]
+    weight = ss[SD.SS_WEIGHT] if ss[SD.SS_METERED] > 0.0 else 1.0
+    to = members.heard(p) + (Z.PER_MIC + int(p[P.BANDS])) * mics
+    for mic in range(mics):
+        for b in range(bearings):
+            z[to + mic * bearings + b] = meter.decibel(own[members.alone(p, b) + mic] / weight)

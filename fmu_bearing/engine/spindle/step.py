@@ -1,0 +1,378 @@
+"""One Runge-Kutta step of a set: the stages of every bearing and of the shaft go together."""
+
+import math
+
+from fmu_bearing.engine.fidelities.full import control
+from fmu_bearing.engine.fidelities.full.methods.table import TABLEAUX
+from fmu_bearing.engine.fidelities.full.norms import body_size, newton_size, row_size
+from fmu_bearing.engine.fidelities.full.runge_kutta import (
+    MAX_ITERATIONS,
+    complete_torque,
+    correct,
+    keep_velocities,
+    newton_residual,
+    predict,
+)  # fmt: skip
+from fmu_bearing.engine.fidelities.full.vectors import add_scaled
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.layout import SP, TAB, C, F, P, Q, S, W, Y
+from fmu_bearing.engine.mechanics.ball_waves import turn_axes
+from fmu_bearing.engine.mechanics.equations import right_hand_side
+from fmu_bearing.engine.spindle import members
+from fmu_bearing.engine.spindle.coupling import (
+    answer_driven,
+    answer_free,
+    solve_set,
+    solve_shaft,
+    turn_driven,
+    turn_since,
+)  # fmt: skip
+from fmu_bearing.engine.spindle.follow import accelerate, free_forces, growth_power
+from fmu_bearing.engine.spindle.port import clear, feel, has_port, keep_push, lead_stage
+from fmu_bearing.engine.spindle.shaft import shaft_forces
+
+_DIVERGED = 1e6  # m/s: size of an increment
+
+
+@kernel
+def acceleration(p, stage):
+    """Begin in the set's own work space of a stage's accelerations."""
+    return members.vector(p, stage)
+
+
+@kernel
+def velocity(p, stage):
+    """Begin in the set's own work space of a stage's rates."""
+    return members.vector(p, SP.VELOCITIES + stage)
+
+
+@kernel
+def begin_stages(p, s, w):
+    """Put the state into the first stage of every bearing and of the shaft."""
+    own = members.own_state(p, s)
+    ws = members.own_work(p, w)
+    n = members.padded(p)
+    for b in range(members.count(p)):
+        pb = members.parameters(p, b)
+        sb = members.state(p, s, b)
+        wb = members.work(p, w, b)
+        for i in range(F.SIZE):
+            wb[W.ACC + i] = sb[S.F + i]
+            wb[W.F + i] = 0.0
+        keep_velocities(sb[S.Y : S.Y + Y.SIZE], int(pb[P.LANES]), wb[W.VEL : W.VEL + F.SIZE])
+    acc = acceleration(p, 0)
+    vel = velocity(p, 0)
+    for i in range(n):
+        ws[acc + i] = own[SP.S_HEAD + 2 * n + i]
+        ws[vel + i] = own[SP.S_HEAD + n + i]
+
+
+@kernel
+def predict_shaft(p, s, w, h, gh, stage, tableau):
+    """State of shaft and housing at a stage from the stages before, with the accelerations before it."""
+    own = members.own_state(p, s)
+    ws = members.own_work(p, w)
+    n = members.padded(p)
+    place = members.vector(p, SP.PLACE)
+    rate = members.vector(p, SP.RATE)
+    here = acceleration(p, stage)
+    last = acceleration(p, stage - 1)
+    for i in range(n):
+        guess = ws[last + i]
+        ws[here + i] = guess
+        ws[place + i] = own[SP.S_HEAD + i]
+        ws[rate + i] = own[SP.S_HEAD + n + i] + gh * guess
+    for m in range(stage):
+        a = h * TABLEAUX[tableau + TAB.A + stage * TAB.ROW + m]
+        add_scaled(a, ws[acceleration(p, m) :], ws[rate:], n)
+        add_scaled(a, ws[velocity(p, m) :], ws[place:], n)
+    for i in range(n):
+        ws[place + i] += gh * ws[rate + i]
+
+
+@kernel
+def evaluate(pb, sb, wb, angle, speed, rate):
+    """Right-hand side of a bearing at its stage into ``W.F``, as if its rings were free."""
+    right_hand_side(
+        pb, sb[S.C : S.C + C.SIZE], wb[W.STAGE : W.STAGE + Y.SIZE], angle, speed, rate, wb,
+        wb[W.F : W.F + F.SIZE],
+    )  # fmt: skip
+
+
+@kernel
+def increments(p, s, w, own, ws, stage, gh, angle, speed):
+    """One iteration of Newton's method at a stage; its size (m/s), the largest over the bearings.
+
+    With it power in and the heats of shaft and pedestal (W), of the state before the increment.
+    """
+    rate = s[S.SPEED_RATE]
+    residual = members.vector(p, SP.RESIDUAL)
+    found = members.vector(p, SP.INCREMENT)
+    here = W.ACC + stage * F.SIZE
+    mine = acceleration(p, stage)
+    work, bent, shaken = shaft_forces(
+        p, own, ws, members.vector(p, SP.PLACE), members.vector(p, SP.RATE), angle, speed, rate, ws, residual
+    )  # fmt: skip
+    members.add_product(p, members.table(p, SP.AT_MASS), -1.0, ws, mine, ws, residual)
+    for b in range(members.count(p)):
+        pb = members.parameters(p, b)
+        sb = members.state(p, s, b)
+        wb = members.work(p, w, b)
+        evaluate(pb, sb, wb, angle, speed, rate)
+        newton_residual(wb[here : here + F.SIZE], int(pb[P.LANES]), wb)
+        answer_free(p, b, pb, sb, wb, own, ws)
+    solve_shaft(p, own, ws)
+    largest = 0.0
+    for b in range(members.count(p)):
+        pb = members.parameters(p, b)
+        sb = members.state(p, s, b)
+        wb = members.work(p, w, b)
+        answer_driven(p, b, pb, sb, wb, own, ws)
+        correct(wb[here : here + F.SIZE], int(pb[P.LANES]), gh, wb)
+        size = newton_size(pb, sb[S.C : S.C + C.SIZE], wb[W.D : W.D + F.SIZE], gh)
+        # a size that is no number must not be overlooked
+        largest = max(largest, size) if size < _DIVERGED else _DIVERGED
+    place = members.vector(p, SP.PLACE)
+    moving = members.vector(p, SP.RATE)
+    for i in range(members.padded(p)):
+        d = ws[found + i]
+        ws[mine + i] += d
+        ws[moving + i] += gh * d
+        ws[place + i] += gh * gh * d
+    return largest, work, bent, shaken
+
+
+@kernel
+def iterate(p, s, w, stage, h, gh, t, tolerance, contraction, probe):
+    """Newton's method at a stage, ``t`` (s) into the step; returns iterations and worst contraction.
+
+    Iterations are negative where it does not converge.
+    """
+    angle = s[S.ANGLE] + t * (s[S.SPEED] + 0.5 * t * s[S.SPEED_RATE])
+    speed = s[S.SPEED] + t * s[S.SPEED_RATE]
+    own = members.own_state(p, s)
+    ws = members.own_work(p, w)
+    worst = 0.0
+    before = 0.0
+    turn_since(p, s, w, t)
+    for n in range(MAX_ITERATIONS):
+        size, work, bent, shaken = increments(p, s, w, own, ws, stage, gh, angle, speed)
+        if not (size < _DIVERGED):
+            return -1.0, worst
+        rate = contraction
+        if n > 0:
+            rate = size / (before + 1e-300)
+            if size > 1e-2 * tolerance:
+                worst = max(worst, rate)
+            if rate > 0.9 and size > tolerance:
+                return -1.0, worst
+        if (n > 0 or not probe) and size * rate <= tolerance * (1.0 - min(rate, 0.9)):
+            keep_powers(p, s, w, stage, gh, speed, work, bent, shaken, ws)
+            return n + 1.0, worst
+        before = size
+    return -1.0, worst
+
+
+@kernel
+def corrected_forces(p, b, pb, wb, ws):
+    """Put forces on the free rows of bearing ``b`` to the set's work space, with the last increment's change.
+
+    Returns their place. What drove the rows in that increment is what these forces changed by.
+    """
+    at = members.scratch(p, b)
+    driving = at + SP.LANES
+    count = int(p[members.row(p, b) + SP.ROW_DRIVEN])
+    turn_driven(count, ws, driving, ws[at + SP.TURNED], ws[at + SP.TURNED + 1])
+    f = wb[W.F : W.F + F.SIZE]
+    for i in range(count):
+        f[F.BODY + i] -= ws[driving + i]
+    free_forces(p, b, pb, f, ws, at)
+    return at
+
+
+@kernel
+def keep_powers(p, s, w, stage, gh, speed, work, bent, shaken, ws):
+    """Take powers, heats and torques of a finished stage; ``work``, ``bent``, ``shaken``: those of the shaft.
+
+    A ring whose rotation is driven gives the housing what the last increment changes of its moment.
+    """
+    own = members.own_state(p, s)
+    led = has_port(p)
+    force = members.vector(p, SP.FORCE)
+    if led:
+        clear(ws, force, members.padded(p))
+    for b in range(members.count(p)):
+        pb = members.parameters(p, b)
+        wb = members.work(p, w, b)
+        sb = members.state(p, s, b)
+        here = W.ACC + stage * F.SIZE
+        acc = wb[here : here + F.SIZE]
+        turn = F.BODY + Q.OUTER + Q.TURN
+        gained = pb[P.OUTER_POLAR] * (acc[turn] - wb[W.F + turn])
+        r = members.row(p, b)
+        if p[r + SP.ROW_DRIVEN] > Q.OUTER:
+            driving = ws[members.scratch(p, b) + SP.LANES + Q.OUTER + Q.TURN]
+            gained = pb[P.OUTER_POLAR] * (wb[W.D + turn] - driving)
+        c = sb[S.C : S.C + C.SIZE]
+        complete_torque(pb, c, speed, gh, gained, acc, wb)
+        if led:
+            at = corrected_forces(p, b, pb, wb, ws)
+            work += feel(p, b, pb, wb[W.STAGE : W.STAGE + Y.SIZE], acc, ws, at, force)
+        else:
+            work += growth_power(p, b, own, wb[W.F + F.BODY], acc[F.BODY])
+    if led:
+        keep_push(p, ws, stage)
+    power = SP.POWER + stage * SP.POWERS
+    ws[power] = work
+    ws[power + 1] = bent
+    ws[power + 2] = shaken
+
+
+@kernel
+def explicit_stage(p, s, w, stage, t):
+    """Accelerations of an explicit stage: those just evaluated."""
+    ws = members.own_work(p, w)
+    n = members.padded(p)
+    angle = s[S.ANGLE] + t * (s[S.SPEED] + 0.5 * t * s[S.SPEED_RATE])
+    speed = s[S.SPEED] + t * s[S.SPEED_RATE]
+    for b in range(members.count(p)):
+        pb = members.parameters(p, b)
+        evaluate(pb, members.state(p, s, b), members.work(p, w, b), angle, speed, s[S.SPEED_RATE])
+    work, bent, shaken = accelerate(p, s, w, True, t, angle, speed, s[S.SPEED_RATE])
+    for b in range(members.count(p)):
+        wb = members.work(p, w, b)
+        here = W.ACC + stage * F.SIZE
+        for i in range(F.SIZE):
+            wb[here + i] = wb[W.F + i]
+    to = acceleration(p, stage)
+    found = members.vector(p, SP.ACCELERATION)
+    for i in range(n):
+        ws[to + i] = ws[found + i]
+    if has_port(p):
+        keep_push(p, ws, stage)
+    power = SP.POWER + stage * SP.POWERS
+    ws[power] = work
+    ws[power + 1] = bent
+    ws[power + 2] = shaken
+
+
+@kernel
+def first_powers(p, s, w):
+    """Powers of the first stage: those at the state, kept since it was reached."""
+    own = members.own_state(p, s)
+    ws = members.own_work(p, w)
+    for i in range(SP.POWERS):
+        ws[SP.POWER + i] = own[SP.POWER_NOW + i]
+    for i in range(SP.PLANE):
+        ws[SP.PUSH + i] = own[SP.PORT_FORCE + i]
+
+
+@kernel
+def step_error(p, s, w, h, tableau):
+    """Error estimate over what is allowed, the largest over the bearings; the nose counts as one of them."""
+    ws = members.own_work(p, w)
+    n = members.padded(p)
+    stages = int(TABLEAUX[tableau + TAB.COUNT])
+    explicit = TABLEAUX[tableau + TAB.GAMMA] == 0.0
+    found = members.vector(p, SP.INCREMENT)
+    residual = members.vector(p, SP.RESIDUAL)
+    for i in range(n):
+        ws[found + i] = 0.0
+        ws[residual + i] = 0.0
+    for m in range(stages):
+        e = h * TABLEAUX[tableau + TAB.ERROR + m]
+        add_scaled(e, ws[acceleration(p, m) :], ws[found:], n)
+    for b in range(members.count(p)):
+        wb = members.work(p, w, b)
+        d = wb[W.D : W.D + F.SIZE]
+        for i in range(F.SIZE):
+            d[i] = 0.0
+        for m in range(stages):
+            acc = W.ACC + m * F.SIZE
+            add_scaled(h * TABLEAUX[tableau + TAB.ERROR + m], wb[acc : acc + F.WORK], d, F.WORK)
+    if not explicit:
+        members.add_product(p, members.table(p, SP.AT_MASS), 1.0, ws, found, ws, residual)
+        turn_since(p, s, w, h)
+        solve_set(p, s, w)
+    nose = members.table(p, SP.AT_NOSE)
+    square = 0.0
+    for i in range(Q.INNER_BY):
+        total = 0.0
+        for k in range(n):
+            total += p[nose + i * n + k] * ws[found + k]
+        square += total * total
+    largest = 0.0
+    for b in range(members.count(p)):
+        pb = members.parameters(p, b)
+        sb = members.state(p, s, b)
+        d = members.work(p, w, b)[W.D : W.D + F.SIZE]
+        allowed = control.allowed_estimate(control.allowed_velocity(pb, sb, s[S.SPEED]))
+        if explicit:
+            size = newton_size(pb, sb[S.C : S.C + C.SIZE], d, 1.0)
+        else:
+            size = math.sqrt(body_size(pb, d, F.BODY, 0.1) + 0.01 * row_size(d, F.X, 2, int(pb[P.LANES])))
+        if b == 0:
+            size = max(size, math.sqrt(square))
+        if not (size < _DIVERGED):
+            return size
+        largest = max(largest, size / allowed)
+    return largest
+
+
+@kernel
+def set_step(p, s, w, h, tableau, tolerance, probe):
+    """One step of length ``h`` (s) of a set, from the state into every bearing's ``W.STAGE`` and ``W.LAST``.
+
+    ``tolerance`` (m/s): Newton's error; ``probe``: measure the contraction anew. The first bearing's report
+    takes ``W.ERROR`` (over what is allowed), ``W.CONTRACTION`` and ``W.ITERATIONS``. False where Newton's
+    method does not converge.
+    """
+    gh = TABLEAUX[tableau + TAB.GAMMA] * h
+    stages = int(TABLEAUX[tableau + TAB.COUNT])
+    ws = members.own_work(p, w)
+    n = members.padded(p)
+    report = w[W.REPORT : W.REPORT + W.REPORT_SIZE]
+    begin_stages(p, s, w)
+    first_powers(p, s, w)
+    iterations = 0.0
+    worst = 0.0
+    for stage in range(1, stages):
+        t = h * TABLEAUX[tableau + TAB.NODES + stage]
+        predict_shaft(p, s, w, h, gh, stage, tableau)
+        for b in range(members.count(p)):
+            pb = members.parameters(p, b)
+            sb = members.state(p, s, b)
+            wb = members.work(p, w, b)
+            y = sb[S.Y : S.Y + Y.SIZE]
+            predict(y, int(pb[P.LANES]), h, gh, stage, tableau, wb)
+            turn_axes(pb, sb[S.AXES : S.JAC], y, int(pb[P.LANES]), t, wb)
+        if has_port(p):
+            lead_stage(p, s, w, stage, t)
+        if gh == 0.0:
+            explicit_stage(p, s, w, stage, t)
+        else:
+            last = probe and stage == stages - 1
+            done, contraction = iterate(p, s, w, stage, h, gh, t, tolerance, s[S.CONTRACTION], last)
+            if done < 0.0:
+                return False
+            iterations += done
+            worst = max(worst, contraction)
+        for b in range(members.count(p)):
+            pb = members.parameters(p, b)
+            wb = members.work(p, w, b)
+            to = W.VEL + stage * F.SIZE
+            keep_velocities(wb[W.STAGE : W.STAGE + Y.SIZE], int(pb[P.LANES]), wb[to : to + F.SIZE])
+        to = velocity(p, stage)
+        rate = members.vector(p, SP.RATE)
+        for i in range(n):
+            ws[to + i] = ws[rate + i]
+    last = W.ACC + (stages - 1) * F.SIZE
+    for b in range(members.count(p)):
+        wb = members.work(p, w, b)
+        if last != W.LAST:
+            for i in range(F.SIZE):
+                wb[W.LAST + i] = wb[last + i]
+    report[W.ERROR] = step_error(p, s, w, h, tableau)
+    report[W.CONTRACTION] = worst
+    report[W.ITERATIONS] = iterations
+    return True

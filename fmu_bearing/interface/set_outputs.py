@@ -1,0 +1,205 @@
+"""Outputs and local variables of a set of bearings on one shaft; those of a bearing are a single one's."""
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+from fmu_bearing.engine.layout import SP, Z
+from fmu_bearing.interface.outputs import AXES, FLOOR, internals, microphones, outputs, read
+from fmu_bearing.interface.variable import Variable
+from fmu_bearing.scene import Scene
+from fmu_bearing.scene.member import one_of
+
+_SMALL = {"display_unit": "um"}
+_BOTH_SIGNS = {"min": -1e7, "max": 1e7}
+_AXIS = "along the axis, +X from nose to rear"
+_DIRECTIONS = (_AXIS, "horizontal", "upwards")
+
+
+def outputs_of_set(scene: Scene) -> list[Variable]:
+    """Return the outputs: the shaft's, sums over the bearings, then those of each bearing."""
+    single = outputs(one_of(scene))
+    shared = [variable for variable in single if variable.name in SP.OUTPUTS]
+    port = scene.spindle is not None and scene.spindle.shaft.external
+    table = [
+        *(_port(scene) if port else _nose(scene)),
+        *_housing(scene, "output"),
+        *(_sum(scene, one) for one in shared),
+    ]
+    for b in range(_count(scene)):
+        table += [*_forces(scene, b), *_of_bearing(scene, b, single)]
+    return table + _heard(scene, "output")
+
+
+def internals_of_set(scene: Scene) -> list[Variable]:
+    """Return the local variables: the housing's and the solver's, then those of each bearing."""
+    single = internals(one_of(scene))
+    own = [variable for variable in single if variable.name in SP.OUTPUTS]
+    assert scene.spindle is not None
+    rings = _rings(scene) if scene.spindle.shaft.external else []
+    table = [*_housing(scene, "local"), *(_shared(scene, one) for one in own)]
+    single = [variable for variable in single if variable not in own]
+    for b in range(_count(scene)):
+        table += _of_bearing(scene, b, single)
+    return [*table, *rings, *_heard(scene, "local"), *_alone(scene)]
+
+
+def first_output(scene: Scene, number: int) -> int:
+    """Return the place in ``z`` where the outputs of a bearing begin, from 0; behind the last, the set's own.
+
+    ``prepare`` lays them out so, each as of a single bearing without sound.
+    """
+    return number * Z.size(scene.bearing.ball_count, 0)
+
+
+def _count(scene: Scene) -> int:
+    assert scene.spindle is not None, "the scene of a single bearing has no set"
+    return len(scene.spindle.bearing)
+
+
+def _own(scene: Scene, place: int) -> int:
+    """Place in ``z`` of one of the set's own outputs."""
+    return first_output(scene, _count(scene)) + place
+
+
+def _of_bearing(scene: Scene, number: int, single: Iterable[Variable]) -> list[Variable]:
+    """Return variables of a single bearing as those of one of the set."""
+    first = first_output(scene, number)
+    return [
+        replace(
+            one,
+            name=f"bearing[{number + 1}].{one.name}",
+            description=f"Bearing {number + 1}: {one.description[0].lower()}{one.description[1:]}",
+            index=first + one.index,
+        )
+        for one in single
+    ]
+
+
+def _shared(scene: Scene, one: Variable) -> Variable:
+    """Return a variable of a single bearing as that of the whole set."""
+    return replace(one, index=_own(scene, SP.OUTPUTS.index(one.name)))
+
+
+def _sum(scene: Scene, one: Variable) -> Variable:
+    """Return the sum of a variable over the bearings, with what shaft and housing add to it."""
+    words = f"{one.description}; sum over the bearings"
+    spindle = scene.spindle
+    assert spindle is not None
+    if one.name == "heat.inner_ring" and spindle.shaft.flexible:
+        words += ", with what the bending shaft loses"
+    if one.name == "heat.outer_ring" and spindle.housing.moves:
+        words += ", with what the housing's pedestal loses"
+    return replace(_shared(scene, one), description=words)
+
+
+def _nose(scene: Scene) -> list[Variable]:
+    """Return where the nose is, and its velocity."""
+    table = []
+    for motion, unit, more in (("displacement", "m", _SMALL), ("velocity", "m/s", {"display_unit": "mm/s"})):
+        for (axis, _), words in zip(AXES, _DIRECTIONS, strict=True):
+            name = f"shaft.nose.{motion}.{axis}"
+            place = _own(scene, SP.OUTPUTS.index(name))
+            text = f"{motion.capitalize()} of the shaft's nose {words}"
+            table.append(read(name, "output", text, unit, place, **more))
+        if motion == "displacement":
+            for axis in "yz":
+                name = f"shaft.nose.tilt.{axis}"
+                place = _own(scene, SP.OUTPUTS.index(name))
+                text = f"Tilt of the shaft's nose about +{axis.upper()}"
+                table.append(read(name, "output", text, "rad", place, nominal=1e-4))
+    return table
+
+
+def _port(scene: Scene) -> list[Variable]:
+    """Return force and moment on the rotor at the port, at the communication point and as mean before it."""
+    table = []
+    for end, words in (("", ""), ("_mean", ", mean over the last communication step")):
+        for (axis, _), way in zip(AXES, _DIRECTIONS, strict=True):
+            name = f"port.force{end}.{axis}"
+            text = f"Force of the bearings on the rotor {way}, without inertia and weight of the rings{words}"
+            table.append(read(name, "output", text, "N", _own(scene, SP.OUTPUTS.index(name)), **_BOTH_SIGNS))
+        for axis in "yz":
+            name = f"port.moment{end}.{axis}"
+            text = f"Moment of the bearings on the rotor about +{axis.upper()} at X = 0{words}"
+            place = _own(scene, SP.OUTPUTS.index(name))
+            table.append(read(name, "output", text, "N.m", place, nominal=1.0))
+    return table
+
+
+def _rings(scene: Scene) -> list[Variable]:
+    """Return inertia of the inner rings, which the rotor at the port has."""
+    words = (
+        ("port.mass", "Mass of the inner rings, which the rotor has", "kg"),
+        ("port.static_moment", "Mass of the inner rings times their distance from X = 0", "kg.m"),
+        ("port.inertia.transverse", "Inertia of the inner rings about Y or Z at X = 0", "kg.m2"),
+        ("port.inertia.polar", "Inertia of the inner rings about the axis", "kg.m2"),
+    )
+    return [
+        read(name, "local", text, unit, _own(scene, SP.OUTPUTS.index(name))) for name, text, unit in words
+    ]
+
+
+def _housing(scene: Scene, causality: str) -> list[Variable]:
+    """Return velocity (outputs) or displacement (local) of a housing that moves, at its pedestal's plane."""
+    spindle = scene.spindle
+    assert spindle is not None
+    if not spindle.housing.moves:
+        return []
+    motion, unit, more = ("velocity", "m/s", {"display_unit": "mm/s"})
+    if causality == "local":
+        motion, unit, more = ("displacement", "m", _SMALL)
+    return [
+        read(
+            f"housing.{motion}.{axis}",
+            causality,
+            f"{motion.capitalize()} of the housing in the plane of its pedestal {words}",
+            unit,
+            _own(scene, SP.OUTPUTS.index(f"housing.{motion}.{axis}")),
+            **more,
+        )
+        for (axis, _), words in zip(AXES, _DIRECTIONS, strict=True)
+    ]
+
+
+def _heard(scene: Scene, causality: str) -> list[Variable]:
+    """Return the variables of the microphones: those of a single bearing, of the sum over the set."""
+    behind = _own(scene, SP.z_mics(_count(scene))) - Z.mics(scene.bearing.ball_count)
+    return [replace(one, index=one.index + behind) for one in microphones(scene, causality)]
+
+
+def _alone(scene: Scene) -> list[Variable]:
+    """Return the level of every bearing alone at every microphone."""
+    if scene.sound is None:
+        return []
+    bearings, bands = _count(scene), len(Z.BANDS) if scene.sound.third_octaves else 0
+    first = _own(scene, SP.z_alone(bearings, len(scene.microphones), bands))
+    return [
+        read(
+            f"mic[{k + 1}].spl_bearing[{b + 1}]",
+            "local",
+            f"Time-weighted level of bearing {b + 1} alone at microphone {name}{FLOOR}",
+            "dB",
+            first + k * bearings + b,
+        )
+        for k, (name, _) in enumerate(scene.microphones)
+        for b in range(bearings)
+    ]
+
+
+def _forces(scene: Scene, number: int) -> list[Variable]:
+    """Return force and moment of the shaft on one bearing."""
+    first = _own(scene, SP.Z_FORCES + number * SP.Z_FORCE)
+    table = []
+    for place, name in enumerate(SP.BEARING_OUTPUTS):
+        kind, _, axis = name.partition(".")
+        if kind == "force":
+            words = f"force of the shaft on the bearing {_DIRECTIONS['xyz'.index(axis)]}"
+            if axis == "x":
+                words += ": positive where it carries +x"
+            unit, more = "N", dict(_BOTH_SIGNS)
+        else:
+            words = f"moment of the shaft on the bearing about +{axis.upper()} through its ball plane"
+            unit, more = "N.m", {"nominal": 1.0}
+        text = f"Bearing {number + 1}: {words}"
+        table.append(read(f"bearing[{number + 1}].{name}", "output", text, unit, first + place, **more))
+    return table

@@ -1,0 +1,49 @@
+"""`modes`: natural motions of a scene's bearing, or of its set, at an operating point."""
+
+from collections.abc import Mapping
+
+from fmu_bearing.modal.conditions import given
+from fmu_bearing.modal.linearised import linearised
+from fmu_bearing.modal.modes import Modes, solved
+from fmu_bearing.modal.set_linearised import set_linearised
+from fmu_bearing.modal.set_modes import set_solved
+from fmu_bearing.scene import Scene, SceneSource, scene_of
+
+
+def modes(scene: SceneSource, inputs: Mapping[str, float] | None = None, *, friction: bool = True) -> Modes:
+    """Return the natural motions of a scene's mounted bearing, or of its set on the shaft, without a run.
+
+    Fidelity `full` linearised about its steady state: rings with rotor and housing on their supports,
+    every ball with its place, orbit and spin, rings that bend where the scene says so. Cage, imperfections
+    and sound are left out.
+
+    Parameters
+    ----------
+    scene : Scene or path
+    inputs : mapping, optional
+        Inputs of the model by name, SI units (``shaft_speed`` in rad/s, ``preload`` in N), in place of the
+        scene's.
+    friction : bool, optional
+        False: contacts without traction. At standstill contacts stick, and both say something.
+
+    Raises
+    ------
+    ValueError
+        For an input that is refused, or where there is no equilibrium.
+
+    Examples
+    --------
+    >>> from fmu_bearing import modes
+    >>> found = modes("examples/scenes/7003C-spindle.toml")
+    >>> round(found.named("inner axial").frequency, -1)
+    1200.0
+    """
+    scene = scene_of(scene)
+    return at_point(scene, given(scene, inputs), friction)
+
+
+def at_point(scene: Scene, inputs: dict[int, float], friction: bool = True) -> Modes:
+    """Return the modes of a bearing, or of a set, at inputs by their places in the engine's ``u``."""
+    if scene.spindle is None:
+        return solved(scene, linearised(scene, inputs, friction), friction)
+    return set_solved(scene, set_linearised(scene, inputs, friction), friction)

@@ -1,0 +1,313 @@
+"""Parameters of a set of bearings on one shaft: those of every bearing, then the set's own block."""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import block_diag
+
+from fmu_bearing.elastic.shaft import ShaftModel, placed, shaft_model, shaft_sections
+from fmu_bearing.engine.choices import RINGS
+from fmu_bearing.engine.layout import SP, P, Q, S, W, Z
+from fmu_bearing.interface.set_inputs import set_inputs
+from fmu_bearing.prepare import bodies
+from fmu_bearing.scene import Scene, si
+from fmu_bearing.scene.member import one_of, shares
+from fmu_bearing.scene.spindle import SetBearing, Spindle
+
+__all__ = ["expansions", "housing_of", "in_housing", "one_of", "pack_set", "set_inputs"]
+
+_HELD = 1e-6  # inertia of a ring that is held over that of what holds it, where modes are looked for
+_SEATS = {"fixed": SP.FIXED, "sliding": SP.SLIDING, "pedestal": SP.PEDESTAL}
+_TURN, _OUTER = Q.TURN, Q.OUTER
+
+
+def _set(scene: Scene) -> Spindle:
+    assert scene.spindle is not None, "the scene of a single bearing has no set"
+    return scene.spindle
+
+
+def expansions(scene: Scene) -> tuple[float, float]:
+    """Expansion (1/K) of shaft and housing."""
+    spindle, materials = _set(scene), scene.materials
+    pairs = ((spindle.shaft.material, materials.inner_ring), (spindle.housing.material, materials.outer_ring))
+    first, second = (float(si(own or ring).expansion) for own, ring in pairs)
+    return first, second
+
+
+def pack_set(
+    scene: Scene, parameters: list[NDArray[np.float64]], shaft: ShaftModel | None = None
+) -> NDArray[np.float64]:
+    """Return the parameter array ``p`` of a set.
+
+    Parameters
+    ----------
+    scene : Scene
+    parameters : list of ndarray
+        Those of each bearing, as of a single one of `one_of`.
+    shaft : ShaftModel, optional
+        In the place of the scene's.
+    """
+    spindle = _set(scene)
+    shaft = shaft_model(scene, spindle) if shaft is None else shaft
+    bearings = [p.copy() for p in parameters]
+    for p, one in zip(bearings, spindle.bearing, strict=True):
+        if one.seat != "pedestal":
+            _hold(p)
+    for p, one in zip(bearings, spindle.bearing, strict=True):
+        p[P.OWN_SHARE : P.OWN_SHARE + SP.DRIVEN] = _own_shares(scene, p, one)
+    follows = all(p[P.FIDELITY] == RINGS for p in bearings)
+    rows = _rows(spindle, shaft, bearings, follows)
+    block = _block(scene, shaft, bearings, rows)
+    bearings[0][P.SET] = sum(p.size for p in bearings)
+    return np.concatenate([*bearings, block])
+
+
+def _hold(p: NDArray[np.float64]) -> None:
+    """Take the pedestal from under an outer ring: its seat holds it."""
+    for place in (
+        P.PEDESTAL_Y, P.PEDESTAL_Z, P.PEDESTAL_YZ, P.PEDESTAL_DAMPING_Y, P.PEDESTAL_DAMPING_Z,
+        P.PEDESTAL_DAMPING_YZ, P.AXIAL_RATIO, P.ROTATIONAL_RATIO,
+    ):  # fmt: skip
+        p[place] = 0.0
+
+
+def _beside(mass: float, transverse: float, middle: float, places: list[float]) -> tuple[float, float]:
+    """Share of each bearing in a body (kg) and in what turns it beyond those shares (kg m2).
+
+    ``transverse``: about an axis through its ``middle`` (m).
+    """
+    share = mass / len(places)
+    far = sum((one - sum(places) / len(places)) ** 2 for one in places)
+    left = transverse + mass * (middle - sum(places) / len(places)) ** 2 - share * far
+    return share, max(left, 0.0) / len(places)
+
+
+def _own_shares(scene: Scene, p: NDArray[np.float64], one: SetBearing) -> NDArray[np.float64]:
+    """Inertia of each row of the rings over that with what it carries of shaft and housing."""
+    spindle = _set(scene)
+    if spindle.shaft.external:  # fidelity full alone, which does not read it
+        return np.ones(SP.DRIVEN)
+    places = [1e-3 * each.position_mm for each in spindle.bearing]
+    sections = shaft_sections(scene, spindle)
+    mass = sum(each.mass for each in sections)
+    middle = sum(each.mass * (each.start + 0.5 * each.length) for each in sections) / mass
+    about = sum(
+        each.transverse + each.mass * (each.start + 0.5 * each.length - middle) ** 2 for each in sections
+    )
+    beside, turning = _beside(mass, about, middle, places)
+    inner, across = p[P.INNER_MASS], p[P.INNER_TRANSVERSE]
+    found = np.full(SP.DRIVEN, _HELD)
+    found[:_OUTER] = [inner / (inner + beside)] * 3 + [across / (across + turning)] * 2
+    outer, across = p[P.OUTER_MASS], p[P.OUTER_TRANSVERSE]
+    if one.seat == "pedestal":
+        found[_OUTER:] = 1.0
+    elif spindle.housing.moves:
+        body, middle = housing_of(scene)
+        beside, turning = _beside(body.mass, body.transverse, middle, places)
+        polar = p[P.OUTER_POLAR] / (p[P.OUTER_POLAR] + body.polar / len(places))
+        found[_OUTER:] = [outer / (outer + beside)] * 3 + [polar] + [across / (across + turning)] * 2
+    if one.seat == "sliding":
+        found[_OUTER] = 1.0
+    return found
+
+
+def _driven(one: SetBearing, rings: bool) -> int:
+    """Return how many rows of the rings follow the set's coordinates; ``rings``: see `_rows`."""
+    return _OUTER if one.seat == "pedestal" and not rings else SP.DRIVEN
+
+
+def _sliding(spindle: Spindle) -> list[SetBearing]:
+    """Bearings whose outer rings slide, in the order of their coordinates."""
+    return [one for one in spindle.bearing if one.seat == "sliding"]
+
+
+def in_housing(sign: int, position: float) -> NDArray[np.float64]:
+    """Return what takes the housing's six coordinates to those of a seat in the bearing's own axes."""
+    found = np.diag([sign, 1.0, 1.0, 1.0, sign, sign])
+    found[Q.Y, Q.BZ], found[Q.Z, Q.BY] = position, -position
+    return found
+
+
+def _rows(
+    spindle: Spindle, shaft: ShaftModel, bearings: list[NDArray[np.float64]], rings: bool
+) -> list[tuple[NDArray[np.float64], NDArray[np.float64]]]:
+    """Return inertia and motion of the driven rows, per bearing.
+
+    ``rings``: of fidelity rings, where an outer ring on a pedestal of its own has six coordinates of the set.
+    """
+    moves, sliding = spindle.housing.moves, _sliding(spindle)
+    behind = shaft.count + (SP.HOUSING if moves else 0)
+    standing = [one for one in spindle.bearing if rings and one.seat == "pedestal"]
+    n = behind + len(sliding) + SP.HOUSING * len(standing)
+    found = []
+    for one, plane, p in zip(spindle.bearing, shaft.planes, bearings, strict=True):
+        every = np.zeros((SP.DRIVEN, n))
+        every[:_OUTER, : shaft.count] = placed(one.sign, 0.0) @ plane
+        if moves:
+            every[_OUTER:, shaft.count : behind] = in_housing(one.sign, 1e-3 * one.position_mm)
+        if one.seat == "sliding":
+            every[_OUTER] = 0.0
+            every[_OUTER, behind + sliding.index(one)] = 1.0
+        if one.seat == "pedestal":
+            every[_OUTER:] = 0.0
+            if rings:
+                first = behind + len(sliding) + SP.HOUSING * standing.index(one)
+                every[_OUTER:, first : first + SP.HOUSING] = np.eye(SP.HOUSING)
+        inner, outer = p[P.INNER_MASS], p[P.OUTER_MASS]
+        masses = np.array(
+            [inner] * 3 + [p[P.INNER_TRANSVERSE]] * 2 + [outer] * 3 + [p[P.OUTER_POLAR]]
+            + [p[P.OUTER_TRANSVERSE]] * 2
+        )  # fmt: skip
+        driven = _driven(one, rings)
+        found.append((masses[:driven], every[:driven]))
+    return found
+
+
+def housing_of(scene: Scene) -> tuple[bodies.RigidBody, float]:
+    """Return the housing as a body about its middle, and the place (m) of its middle and pedestal."""
+    spindle = _set(scene)
+    housing = si(spindle.housing.model_copy(update={"material": None}))
+    places = [one.position_mm for one in spindle.bearing]
+    middle = 5e-4 * (min(places) + max(places)) if housing.position is None else housing.position
+    if not spindle.housing.moves:
+        return bodies.RigidBody(0.0, 0.0, 0.0), middle
+    return bodies.of_mass(housing.mass, 0.0, housing.diameter, housing.length), middle
+
+
+def _matrices(scene: Scene, shaft: ShaftModel, n: int) -> dict[int, NDArray[np.float64]]:
+    """Return tables of the block over all ``n`` coordinates by their places in its head."""
+    spindle = _set(scene)
+    body, middle = housing_of(scene)
+    count = SP.HOUSING if spindle.housing.moves else 0
+    here = in_housing(1, middle)
+    mass = here.T @ np.diag([body.mass] * 3 + [body.polar] + [body.transverse] * 2) @ here
+    sliding = _sliding(spindle)
+    behind = shaft.count + count
+    free = np.zeros((n - behind, n - behind))
+    wide = [
+        block_diag(own, np.zeros((count, count)), free)
+        for own in (shaft.stiffness, shaft.damping, shaft.gyroscopic)  # a housing does not spin
+    ]
+    # springs stand between sliding rings and housing
+    pressed = np.zeros((len(sliding), n))
+    for k, one in enumerate(sliding):
+        pressed[k, behind + k] = 1.0
+        if count:
+            pressed[k, shaft.count] = -one.sign
+    stiffness = 0.0 if spindle.preload is None else spindle.preload.stiffness_N_m or 0.0
+    spots = np.zeros((2, n))
+    for spot, plane in zip(spindle.shaft.unbalance, shaft.spots, strict=True):
+        amount, angle = si(spot).amount, si(spot).angle
+        y, z = amount * plane[Q.Y], amount * plane[Q.Z]
+        # heavy spot at 12 o'clock where its angle is zero: direction (0, -sin, cos)
+        spots[0, : shaft.count] += -math.sin(angle) * y + math.cos(angle) * z
+        spots[1, : shaft.count] += -math.cos(angle) * y - math.sin(angle) * z
+    none = np.zeros(n - behind)
+    return {
+        SP.AT_MASS: block_diag(shaft.mass, mass[:count, :count], free),
+        SP.AT_STIFFNESS: wide[0] + stiffness * pressed.T @ pressed,
+        SP.AT_DAMPING: wide[1],
+        SP.AT_GYROSCOPIC: wide[2],
+        SP.AT_HEAVY: np.concatenate([shaft.heavy, (body.mass * here[Q.Z])[:count], none])[:, None],
+        SP.AT_NOSE: np.hstack([shaft.nose, np.zeros((SP.PLANE, n - shaft.count))]).T,
+        SP.AT_SPRINGS: pressed.sum(axis=0)[:, None],
+        SP.AT_UNBALANCE: spots.T,
+    }
+
+
+def _columns(matrix: NDArray[np.float64], lanes: int) -> NDArray[np.float64]:
+    """Return a matrix by columns, each filled up to ``lanes`` numbers."""
+    wide = np.zeros((matrix.shape[1], lanes))
+    wide[:, : matrix.shape[0]] = matrix.T
+    return wide.ravel()
+
+
+def _block(
+    scene: Scene,
+    shaft: ShaftModel,
+    bearings: list[NDArray[np.float64]],
+    rows: list[tuple[NDArray[np.float64], NDArray[np.float64]]],
+) -> NDArray[np.float64]:
+    spindle = _set(scene)
+    count, n = len(bearings), rows[0][1].shape[1]
+    tables = _matrices(scene, shaft, n)
+    total = tables[SP.AT_MASS] + sum(motion.T @ np.diag(mass) @ motion for mass, motion in rows)
+    tables[SP.AT_SCALE] = np.diag(total)[:, None] / total[0, 0]
+    tables[SP.AT_INVERSE] = np.asarray(np.linalg.inv(total), dtype=np.float64)
+    lanes = SP.padded(n)
+    columns = {place: _columns(table, lanes) for place, table in tables.items()}
+    motions = [
+        (_columns(motion, SP.LANES), np.flatnonzero(motion.any(axis=0)).astype(np.float64))
+        for _, motion in rows
+    ]
+    size = SP.HEAD + sum(table.size for table in columns.values()) + count * SP.ROW
+    block = np.zeros(size + sum(one.size for pair in motions for one in pair))
+    at = SP.HEAD
+    for place, table in columns.items():
+        block[place] = at
+        block[at : at + table.size] = table
+        at += table.size
+    block[SP.AT_ROWS] = at
+    behind = at + count * SP.ROW
+    begin = sum(p.size for p in bearings)
+    places = {"P": 0, "S": 0, "W": 0, "Z": 0}
+    for k, (p, (mass, _)) in enumerate(zip(bearings, rows, strict=True)):
+        row = block[at + k * SP.ROW : at + (k + 1) * SP.ROW]
+        sizes = {"P": p.size, "S": S.size(p), "W": W.size(p), "Z": Z.size(int(p[P.BALLS]), 0)}
+        for name, length in sizes.items():
+            row[getattr(SP, f"ROW_{name}")] = places[name]
+            row[getattr(SP, f"ROW_{name}_SIZE")] = length
+            places[name] += length
+        one = spindle.bearing[k]
+        row[SP.ROW_SIGN] = one.sign
+        row[SP.ROW_POSITION] = 1e-3 * one.position_mm
+        row[SP.ROW_SEAT] = _SEATS[one.seat]
+        row[SP.ROW_SHARE] = shares(spindle)[k]
+        row[SP.ROW_STICKOUT] = 1e-6 * one.stickout_um
+        row[SP.ROW_DRIVEN] = mass.size
+        row[SP.ROW_MASS : SP.ROW_MASS + mass.size] = mass
+        for place, table in zip((SP.ROW_AT_T, SP.ROW_AT_COLUMNS), motions[k], strict=True):
+            row[place] = begin + behind
+            block[behind : behind + table.size] = table
+            behind += table.size
+        row[SP.ROW_COLUMNS] = motions[k][1].size
+    block[SP.BEARINGS], block[SP.SHAFT], block[SP.COUNT], block[SP.PADDED] = count, shaft.count, n, lanes
+    block[SP.HOUSED] = spindle.housing.moves
+    block[SP.SPRUNG] = bool(tables[SP.AT_STIFFNESS].any() or tables[SP.AT_DAMPING].any())
+    block[SP.PORT] = spindle.shaft.external
+    if spindle.shaft.external:
+        each = [motion[:_OUTER].T @ np.diag(mass[:_OUTER]) @ motion[:_OUTER] for mass, motion in rows]
+        inner = np.sum(each, axis=0)
+        block[SP.PORT_MASS], block[SP.PORT_STATIC] = inner[0, 0], inner[Q.Y, Q.INNER_BZ]
+        block[SP.PORT_TRANSVERSE] = inner[Q.INNER_BY, Q.INNER_BY]
+        block[SP.PORT_POLAR] = sum(p[P.INNER_POLAR] for p in bearings)
+    block[SP.UNBALANCED] = bool(tables[SP.AT_UNBALANCE].any())
+    block[SP.AT_S], block[SP.AT_W], block[SP.AT_Z] = places["S"], places["W"], places["Z"]
+    mics, bands = (int(bearings[0][place]) for place in (P.MICS, P.BANDS))
+    block[SP.SIZE_S] = places["S"] + SP.state_size(count, n, mics)
+    block[SP.SIZE_W] = places["W"] + SP.work_size(count, n)
+    block[SP.SIZE_Z] = places["Z"] + SP.output_size(count, mics, bands)
+    block[SP.SIZE_U] = SP.U_BEARINGS + count * SP.U_ROW
+    _preload(scene, block)
+    body, middle = housing_of(scene)
+    housing = si(spindle.housing.model_copy(update={"material": None}))
+    # the damping ratio counts what lies on the pedestal, as for a single bearing
+    carried = [one for one, place in zip(bearings, spindle.bearing, strict=True) if place.seat != "pedestal"]
+    block[SP.HOUSING_X] = middle
+    block[SP.HOUSING_MASS] = body.mass + sum(p[P.OUTER_MASS] for p in carried)
+    block[SP.HOUSING_TRANSVERSE] = body.transverse + sum(p[P.OUTER_TRANSVERSE] for p in carried)
+    block[SP.HOUSING_POLAR] = body.polar + sum(p[P.OUTER_POLAR] for p in carried)
+    block[SP.AXIAL_RATIO] = housing.pedestal_axial_ratio
+    block[SP.ROTATIONAL_RATIO] = housing.pedestal_rotational_ratio
+    block[SP.PEDESTAL_ZETA] = housing.pedestal_damping_ratio
+    return block
+
+
+def _preload(scene: Scene, block: NDArray[np.float64]) -> None:
+    spindle = _set(scene)
+    kinds = {"spacer": SP.SPACER, "spring": SP.SPRING}
+    block[SP.PRELOAD_KIND] = SP.TOUCHING if spindle.preload is None else kinds[spindle.preload.kind]
+    one_way = len({one.sign for one in spindle.bearing}) == 1
+    block[SP.ONE_WAY] = one_way and not spindle.shaft.external
+    block[SP.SHAFT_EXPANSION], block[SP.HOUSING_EXPANSION] = expansions(scene)

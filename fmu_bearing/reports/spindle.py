@@ -1,0 +1,279 @@
+"""The page about a set of bearings on one shaft: what statics says of it, without a run."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from fmu_bearing.design.operating_point import OperatingPoint
+from fmu_bearing.design.set_points import life_of_set, operating_points, set_cautions, set_verdicts
+from fmu_bearing.design.verdicts import Verdict, side_by_side
+from fmu_bearing.instance import EngineError
+from fmu_bearing.progress import Tell
+from fmu_bearing.reports import look
+from fmu_bearing.reports.blocks import Absent, Block, Chart, Section, Table, Words
+from fmu_bearing.reports.look import axis
+from fmu_bearing.reports.page import render
+from fmu_bearing.reports.summary import Tile, tile
+from fmu_bearing.scene import Scene
+from fmu_bearing.spindle.assembly import set_of
+from fmu_bearing.spindle.drawing import pressure_centres
+from fmu_bearing.spindle.statics import ShaftStatics, shaft_statics
+
+_STEPS = 13  # loads of the curve
+_BEYOND = 1.2  # of the load that unloads a bearing: as far as the curve goes
+_WARMER = (0.0, 5.0, 10.0, 15.0, 20.0)  # K
+_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7F7F7F", "#000000")
+
+
+@dataclass(frozen=True)
+class SetPage:
+    """A page about a set, as text, with what stands in it.
+
+    Attributes
+    ----------
+    text : str
+        HTML.
+    sections : dict
+        By key, why a section is missing; empty: it is there.
+    figures : dict
+        The figures at the top, by name.
+    warnings : list of str
+    """
+
+    text: str
+    sections: dict[str, str]
+    figures: dict[str, float]
+    warnings: list[str]
+
+
+def set_page(scene: Scene, title: str, tell: Tell) -> SetPage:
+    """Return the page about a scene's set.
+
+    Raises
+    ------
+    EngineError
+        Where there is no equilibrium.
+    """
+    tell("statics of the set")
+    found = shaft_statics(scene)
+    tell("operating points of the bearings")
+    points = operating_points(scene)
+    judged, together = list(side_by_side(points)), set_verdicts(found, points)
+    warnings = set_cautions(found, points)
+    plan: tuple[tuple[str, str, Callable[[], list[Block]]], ...] = (
+        ("arrangement", "Arrangement", lambda: [_drawing(scene), _bearings(found)]),
+        ("balls", "Ball loads", lambda: [_balls(points)]),
+        ("axial", "Axial load", lambda: [_axial(scene, found, tell)]),
+        ("warmth", "Preload and warmth", lambda: [_warmth(scene, found, tell)]),
+        ("verdicts", "Verdicts", lambda: [_verdicts(judged), _together(together)]),
+    )
+    sections = []
+    for key, heading, blocks in plan:
+        try:
+            sections.append(Section(key, heading, blocks()))
+        except Absent as problem:
+            sections.append(Section(key, heading, [], str(problem)))
+    tiles = _tiles(found, points)
+    subtitle = (
+        f"{len(found.bearings)} x {scene.bearing.designation}, {found.arrangement}, "
+        f"{scene.operation.speed_rpm:,.0f} r/min"
+    )
+    text = render(
+        title or scene.name, subtitle, "statics of the set: perfect bearings, no run", sections, tiles,
+        [], warnings, kind="Spindle report",
+    )  # fmt: skip
+    missing = {section.key: section.missing for section in sections}
+    return SetPage(text, missing, {one["key"]: one["value"] for one in tiles}, warnings)
+
+
+def _tiles(found: ShaftStatics, points: tuple[OperatingPoint, ...]) -> list[Tile]:
+    """Return the figures at the top."""
+    lowest = min(found.bearings, key=lambda one: one.axial)
+    tiles = [
+        tile("axial_stiffness", "axial stiffness of the shaft", 1e-6 * found.axial_stiffness, "N/um", ".1f"),
+        tile("nose_stiffness", "radial stiffness at the nose", 1e-6 * found.nose_stiffness, "N/um", ".1f"),
+        tile("least_axial_N", f"least axial load, bearing {lowest.number}", lowest.axial, "N", ".1f"),
+    ]
+    if found.lift_off:
+        way, first = min(found.lift_off.items(), key=lambda pair: abs(pair[1].load))
+        words = f"axial load {way} that unloads bearing {first.bearing}"
+        tiles.append(tile("lift_off_N", words, abs(first.load), "N", ".0f"))
+    life = life_of_set(points)
+    if life is not None and math.isfinite(life):
+        tiles.append(tile("life_h", "L10r of all bearings together", life, "h", ",.0f"))
+    return tiles
+
+
+def _drawing(scene: Scene) -> Chart:
+    """Shaft and bearings to scale, with the lines of contact."""
+    spindle, bearing = set_of(scene), scene.bearing
+    inner, outer = 0.5 * bearing.bore_mm, 0.5 * bearing.outside_diameter_mm
+    figure = look.figure(300, showlegend=False)
+    start = 0.0
+    for length, diameter, bore in spindle.shaft.sections_mm:
+        for low, high in ((0.5 * bore, 0.5 * diameter), (-0.5 * diameter, -0.5 * bore)):
+            figure.add_shape(
+                type="rect", x0=start, x1=start + length, y0=low, y1=high, fillcolor="#C8CDD2",
+                line={"color": "#7F7F7F", "width": 1}, layer="below",
+            )  # fmt: skip
+        start += length
+    half, pitch = 0.5 * bearing.width_mm, 0.5 * bearing.pitch_diameter_mm
+    slope = math.tan(math.radians(bearing.contact_angle_deg))
+    for one, centre in zip(spindle.bearing, pressure_centres(scene), strict=True):
+        x = one.position_mm
+        beyond = x + one.sign * (outer - pitch) * slope
+        for side in (1.0, -1.0):
+            figure.add_shape(
+                type="rect", x0=x - half, x1=x + half, y0=side * inner, y1=side * outer,
+                line={"color": "#7F7F7F", "width": 1},
+            )  # fmt: skip
+            figure.add_scatter(
+                x=[centre, beyond], y=[0.0, side * outer], mode="lines", line={"color": look.colour("inner")},
+                hoverinfo="skip",
+            )  # fmt: skip
+    places = [one.position_mm for one in spindle.bearing]
+    labels = [f"bearing {k + 1}, carries {one.carries}" for k, one in enumerate(spindle.bearing)]
+    for side in (pitch, -pitch):
+        figure.add_scatter(
+            x=places, y=[side] * len(places), mode="markers", text=labels, hoverinfo="text",
+            marker={"size": 9, "color": look.colour("balls")},
+        )  # fmt: skip
+    figure.update_xaxes(axis("from the nose, mm"))
+    figure.update_yaxes(axis("mm", scaleanchor="x", scaleratio=1))
+    words = f"{spindle.arrangement}: shaft and bearings to scale; lines of contact meet the axis"
+    return Chart("arrangement", "Shaft, bearings, lines of contact", figure, words)
+
+
+def _bearings(found: ShaftStatics) -> Table:
+    """Return what each bearing carries."""
+    columns = (
+        "bearing", "at, mm", "axial, N", "y, N", "z, N", "largest ball load, N", "unloaded balls",
+        "angle, deg", "pressure, GPa",
+    )  # fmt: skip
+    rows = [
+        [
+            f"{row['bearing']}, {row['carries']}", f"{row['position_mm']:g}", _tenths(row["axial_N"]),
+            _tenths(row["force_y_N"]), _tenths(row["force_z_N"]), f"{row['ball_load_max_N']:.1f}",
+            str(row["balls_unloaded"]), f"{row['angle_inner_max_deg']:.2f}",
+            f"{max(row['pressure_inner_GPa'], row['pressure_outer_GPa']):.3f}",
+        ]
+        for row in found.table()
+    ]  # fmt: skip
+    return Table("What each bearing carries, in the axes of the shaft", columns, rows)
+
+
+def _tenths(value: float) -> str:
+    """Return a number with one decimal; what rounds to nothing has no sign."""
+    return f"{round(value, 1) + 0.0:.1f}"
+
+
+def _balls(points: tuple[OperatingPoint, ...]) -> Chart:
+    """Draw the loads at the inner race round each bearing."""
+    figure = look.polar(420, {"title": {"text": "N"}})
+    for number, point in enumerate(points, start=1):
+        loads = point.ball_loads["inner"]
+        angles = 360.0 * np.arange(len(loads)) / len(loads)
+        figure.add_scatterpolar(
+            r=[*loads, loads[0]], theta=[*angles, 360.0], name=f"bearing {number}", mode="lines+markers",
+            line={"color": _COLOURS[(number - 1) % len(_COLOURS)]},
+        )  # fmt: skip
+    words = "Load of each ball at the inner race over its place, 12 o'clock on top, seen from the rear"
+    return Chart("ball_loads", "Loads of the balls at the inner races", figure, words)
+
+
+def _axial(scene: Scene, found: ShaftStatics, tell: Tell) -> Chart:
+    """How the bearings share an axial load alone, and how far the shaft goes.
+
+    Raises
+    ------
+    Absent
+        Where no load unloads a bearing.
+    """
+    if not found.lift_off:
+        raise Absent("no axial load unloads a bearing of this set")
+    tell("axial load")
+    reach = [_BEYOND * one.load for one in found.lift_off.values()]
+    low, high = min(0.0, *reach), max(0.0, *reach)
+    loads, shares, places = [], [], []
+    for load in np.linspace(low, high, _STEPS):
+        try:
+            at = shaft_statics(scene, force=(float(load), 0.0, 0.0), at=0.0)
+        except EngineError:
+            continue
+        loads.append(load)
+        shares.append([one.axial for one in at.bearings])
+        places.append(1e6 * at.displacement[0])
+    figure = look.figure(380)
+    for k, curve in enumerate(np.array(shares).T):
+        figure.add_scatter(
+            x=loads, y=curve, name=f"bearing {k + 1}", line={"color": _COLOURS[k % len(_COLOURS)]},
+        )  # fmt: skip
+    figure.add_scatter(
+        x=loads, y=places, name="nose, um", yaxis="y2", line={"color": "#7F7F7F", "dash": "dash"}
+    )
+    for one in found.lift_off.values():
+        figure.add_vline(x=one.load, line={"color": "#8C6D1F", "dash": "dot"})
+    figure.update_xaxes(axis("axial load on the shaft, N"))
+    figure.update_layout(
+        yaxis=axis("axial load of a bearing, N"),
+        yaxis2=axis("nose, um", overlaying="y", side="right", showgrid=False),
+    )
+    words = (
+        "What each bearing carries over an axial load alone at the scene's speed and temperatures, and where "
+        "the nose goes; dotted: the load that unloads a bearing at standstill"
+    )
+    return Chart("axial", "Axial load alone: shares and displacement", figure, words)
+
+
+def _warmth(scene: Scene, found: ShaftStatics, tell: Tell) -> Chart:
+    """How preload follows the temperature of inner rings, of the shaft, and of both.
+
+    Raises
+    ------
+    Absent
+        For a set without preload.
+    """
+    if not found.preloads:
+        raise Absent("a set that carries one way has no preload")
+    tell("preload over temperature")
+    rings, shaft = "operation.inner_ring_temperature_degC", "spindle.shaft.temperature_degC"
+    warm = scene.operation.inner_ring_temperature_degC
+    own = set_of(scene).shaft.temperature_degC
+    solid = warm if own is None else own
+    figure = look.figure(380)
+    for name, keys, colour in (
+        ("inner rings warmer", (rings,), "#D55E00"),
+        ("shaft warmer", (shaft,), "#0072B2"),
+        ("both", (rings, shaft), "#000000"),
+    ):
+        curve = []
+        for rise in _WARMER:
+            changes = {shaft: solid} | {key: (warm if key == rings else solid) + rise for key in keys}
+            curve.append(shaft_statics(scene.replace(changes)).preloads["running"][0])
+        figure.add_scatter(x=_WARMER, y=curve, name=name, line={"color": colour})
+    figure.update_xaxes(axis("warmer than in the scene, K"))
+    figure.update_yaxes(axis("preload of bearing 1 at speed, N", rangemode="tozero"))
+    words = "Preload of the first bearing at speed, without load on the shaft, over temperatures"
+    return Chart("warmth", "Preload over temperatures", figure, words)
+
+
+def _together(together: list[Verdict]) -> Block:
+    """Verdicts on the set as a whole."""
+    if not together:
+        return Words("Of the set as a whole nothing is to be judged.", "note")
+    rows = [[one.label, one.text, one.judgement, one.limit, one.source] for one in together]
+    columns = ("", "value", "verdict", "limit", "source of the limit")
+    return Table("Verdicts on the set", columns, rows)
+
+
+def _verdicts(judged: list[list[Verdict | None]]) -> Block:
+    """Verdicts on all bearings side by side."""
+    rows = []
+    for alike in judged:
+        first = next(one for one in alike if one is not None)
+        cells = ["" if one is None else f"{one.text} ({one.judgement})" for one in alike]
+        rows.append([first.key.replace("_", " "), *cells, first.limit, first.source])
+    columns = ("", *(f"bearing {k + 1}" for k in range(len(judged[0]))), "limit", "source of the limit")
+    return Table("Verdicts on each bearing from its own loads", columns, rows)

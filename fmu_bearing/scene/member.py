@@ -1,0 +1,91 @@
+"""One bearing of a set, as the scene of a single bearing; its share of the preload, and what it hears."""
+
+from fmu_bearing.scene.mounting import Mounting, Rotor
+from fmu_bearing.scene.read import Scene
+from fmu_bearing.scene.sound import Microphone
+from fmu_bearing.scene.spindle import Spindle
+
+#: Radial stiffness (N/m) under an outer ring that its seat holds, so read by nothing.
+HELD = 1e8
+
+
+def shares(spindle: Spindle) -> list[float]:
+    """Load of each bearing over the preload asked; both directions carry the same in all.
+
+    Springs give the load of each bearing that slides, spacers that of each on the side with more bearings.
+    """
+    signs = [one.sign for one in spindle.bearing]
+    sliding = {one.sign for one in spindle.bearing if one.seat == "sliding"}
+    count = {sign: signs.count(sign) for sign in signs}
+    reference = sliding.pop() if sliding else max(count, key=lambda sign: count[sign])
+    return [count[reference] / count[sign] for sign in signs]
+
+
+def preload_asked(spindle: Spindle) -> float:
+    """Preload (N) of the scene: of spacers, or the force of springs; 0 without one."""
+    preload = spindle.preload
+    if preload is None:
+        return 0.0
+    return float((preload.force_N if preload.kind == "spring" else preload.preload_N) or 0.0)
+
+
+def usual_load(spindle: Spindle, number: int) -> float:
+    """Axial load (N) of a bearing, from 0, by its preload; without one an equal share of the axial force."""
+    if spindle.preload is None:
+        return abs(spindle.load.force_x_N) / len(spindle.bearing)
+    return shares(spindle)[number] * preload_asked(spindle)
+
+
+def one_of(scene: Scene, number: int = 0) -> Scene:
+    """Return the scene of one bearing of a set, without its place: no load, no sound.
+
+    ``number``: from 0; each bearing has its own seed of imperfections. Its preload is its share of the set's,
+    for what depends on the width of a contact.
+    """
+    spindle = scene.spindle
+    assert spindle is not None, "the scene of a single bearing has no set"
+    housing = spindle.housing
+    mounting = Mounting(
+        preload_N=0.0,
+        pedestal_stiffness_N_m=housing.pedestal_stiffness_N_m or HELD,
+        pedestal_axial_ratio=housing.pedestal_axial_ratio,
+        pedestal_rotational_ratio_mm2=housing.pedestal_rotational_ratio_mm2,
+        pedestal_damping_ratio=housing.pedestal_damping_ratio,
+    )
+    mounting = mounting.model_copy(update={"preload_N": usual_load(spindle, number)})
+    flaws = scene.imperfections
+    if flaws is not None:
+        flaws = flaws.model_copy(update={"seed": flaws.seed + number})
+    changes = {"spindle": None, "mounting": mounting, "imperfections": flaws, "sound": None}
+    return scene.model_copy(update=changes)
+
+
+def heard_of(scene: Scene, number: int) -> Scene:
+    """Return the scene of one bearing of a set, from 0, with microphones where they stand in its own axes.
+
+    For its sound alone: a rotor without mass stands for the shaft, which fills its bore.
+    """
+    spindle, sound = scene.spindle, scene.sound
+    assert spindle is not None and sound is not None, "no set, or a set without sound"
+    one = spindle.bearing[number]
+    centre = 1e-3 * one.position_mm
+
+    def own(along: float) -> float:
+        # rounded below a nanometre: places that are mirror images share their filters
+        return round(1e3 * one.sign * (along - centre), 7) + 0.0
+
+    microphones = tuple(
+        Microphone(name=place.name, x_mm=own(x), y_mm=1e3 * y, z_mm=1e3 * z)
+        for place in scene.microphones
+        for x, y, z in (place.position_m,)
+    )
+    plane = sound.reflecting_plane_mm
+    moved = {
+        "microphone": microphones,
+        "circle": None,
+        "reflecting_plane_mm": None if plane is None else own(1e-3 * plane),
+    }
+    alone = one_of(scene, number)
+    shaft = Rotor(mass_kg=0.0, length_mm=spindle.shaft.length_mm, diameter_mm=scene.bearing.bore_mm)
+    mounting = alone.mounted.model_copy(update={"rotor": shaft})
+    return alone.model_copy(update={"sound": sound.model_copy(update=moved), "mounting": mounting})

@@ -1,0 +1,73 @@
+"""Operating points of the bearings of a set: each as by itself under its load, and the life of all."""
+
+import json
+
+import pytest
+from typer.testing import CliRunner
+
+from fmu_bearing import operating_point, operating_points, read_scene, shaft_statics, verdicts
+from fmu_bearing.cli import app
+from fmu_bearing.design.set_points import life_of_set
+from fmu_bearing.scene import SceneError
+from tests.conftest import ROOT
+from tests.spindle.sets import scene
+
+PAIR = ROOT / "examples" / "spindle_set" / "7003C-DB.toml"
+
+
+def test_a_pair_under_preload_alone_is_two_bearings_by_themselves():
+    given = scene("+-", (40.0, 70.0), 500.0, 15e3)
+    front, rear = operating_points(given)
+    single = operating_point(front.scene.replace({"mounting.preload_mode": "force"}))
+    for point in (front, rear):
+        for race in ("inner", "outer"):
+            for key in ("load_mean", "load_max", "angle_mean", "pressure_max"):
+                # the preload of the single bearing has four digits
+                assert point.contacts[race][key] == pytest.approx(single.contacts[race][key], rel=2e-4)
+        assert point.stiffness == pytest.approx(single.stiffness, rel=2e-4, abs=100.0)
+        assert point.reference_life == pytest.approx(single.reference_life, rel=1e-3)
+        assert point.rating.life == pytest.approx(single.rating.life, rel=1e-3)
+        assert point.frequencies.f_c == pytest.approx(single.frequencies.f_c, rel=1e-5)
+    # two alike live 2^(-9/10) as long as one
+    one = 1e6 * single.reference_life / (60.0 * 15e3)
+    assert life_of_set((front, rear)) == pytest.approx(2.0**-0.9 * one, rel=1e-3)
+
+
+def test_each_bearing_carries_its_own_load():
+    points, found = operating_points(PAIR), shaft_statics(PAIR)
+    for point, one in zip(points, found.bearings, strict=True):
+        carried = point.rating
+        assert point.ball_loads["inner"] == pytest.approx(one.ball_loads[0], rel=2e-3, abs=0.05)
+        assert carried.static_load >= one.axial * 0.2
+    assert points[0].reference_life < points[1].reference_life
+    # the preload judged is that at speed and temperatures
+    carried = [p.scene.mounted.preload_N for p in points]
+    assert carried == pytest.approx(found.preloads["running"], rel=5e-4)  # four digits
+    for point in points:
+        assert {one.key for one in verdicts(point)} >= {"pressure", "least_preload", "speed", "life"}
+
+
+def test_temperatures_are_those_of_each_bearing():
+    given = read_scene(PAIR).replace({"spindle.bearing[2].inner_ring_temperature_degC": 60.0})
+    cool, warm = (point.scene.operation.inner_ring_temperature_degC for point in operating_points(given))
+    assert (cool, warm) == (42.0, 60.0)
+
+
+def test_info_shows_all_bearings_side_by_side(tmp_path):
+    given = read_scene(PAIR).replace({"operation.required_life_h": 1e7})
+    file = tmp_path / "pair.toml"
+    file.write_text(given.to_toml(), encoding="utf-8")
+    shown = CliRunner().invoke(app, ["info", str(file)])
+    assert shown.exit_code == 0 and "bearing 2" in shown.output
+    assert "L10r of all bearings together" in shown.output
+    found = json.loads(CliRunner().invoke(app, ["info", str(file), "--json"]).output)
+    assert len(found["operating_points"]) == 2 and found["life_of_set_h"] > 0.0
+    lives = [one for point in found["operating_points"] for one in point["verdicts"] if one["key"] == "life"]
+    assert all(one["judgement"] == "change" for one in lives) and len(lives) == 2
+
+
+def test_one_bearing_and_several_are_asked_for_by_their_names():
+    with pytest.raises(SceneError, match="operating_points"):
+        operating_point(PAIR)
+    with pytest.raises(SceneError, match=r"needs \[spindle\]"):
+        operating_points(ROOT / "examples" / "scenes" / "7003C-spindle.toml")

@@ -1,0 +1,124 @@
+"""Verdicts on a set: each bearing by its own loads, bearings that carry nothing, life, lift-off."""
+
+import numpy as np
+import pytest
+
+from fmu_bearing import operating_point, operating_points, read_scene, shaft_statics, verdicts
+from fmu_bearing.design.rating import reference_life
+from fmu_bearing.design.set_points import life_of_set, set_cautions, set_verdicts
+from fmu_bearing.design.verdicts import side_by_side
+from fmu_bearing.reports import make
+from tests.conftest import EXAMPLES, GATES
+from tests.oracles import B7003C
+from tests.oracles.jones_harris import JonesHarris
+from tests.spindle.sets import scene
+
+DB = EXAMPLES.parent / "spindle_set" / "7003C-DB.toml"
+QBC = DB.with_name("7003C-QBC.toml")
+
+
+def by_key(found):
+    return {one.key: one for one in found}
+
+
+def pushed(force, **keys):
+    return scene(load={"force_x_N": force, "position_mm": 0.0}, **keys)
+
+
+def test_a_pushed_set_of_one_is_the_single_bearing():
+    (one,) = operating_points(pushed(500.0, signs="+", positions=(40.0,), preload=None, rpm=12e3))
+    single = read_scene(GATES / "7003C-bare.toml").replace(
+        {
+            "operation.speed_rpm": 12e3,
+            "operation.oil_temperature_degC": 20.0,
+            "operation.inner_ring_temperature_degC": 20.0,
+            "operation.outer_ring_temperature_degC": 20.0,
+            "mounting.preload_N": 500.0,
+            "fidelity.race_control": "outer",
+            "fidelity.terms.gravity": False,
+        }
+    )
+    other = operating_point(single)
+    for ring in ("inner", "outer"):
+        # one solves for the force within 1e-8 of it, the other for the place
+        assert one.contacts[ring] == pytest.approx(other.contacts[ring], rel=1e-6)
+    assert one.rating == pytest.approx(other.rating, rel=1e-6)
+    ours, theirs = by_key(verdicts(one)), by_key(verdicts(other))
+    assert ours.keys() == theirs.keys()
+    # its name of the load differs
+    for key in ours.keys() - {"least_preload"}:
+        assert (ours[key].text, ours[key].judgement) == (theirs[key].text, theirs[key].judgement), key
+
+
+def test_life_of_each_bearing_is_that_of_independent_ball_loads():
+    rpm = 12e3
+    points = operating_points(pushed(200.0, rpm=rpm))
+    model = JonesHarris(B7003C, "outer", control="outer")
+    for one in points:
+        solved = model.solve((one.axial, 0.0, 0.0), rpm * np.pi / 30.0, moment=(0.0, 0.0))
+        loads = [
+            np.array([getattr(ball, f"{race}_load") for ball in solved.balls]) for race in ("inner", "outer")
+        ]
+        # loads agree within 1e-5, life goes with their third power
+        assert one.reference_life == pytest.approx(reference_life(one.scene, *loads), rel=1e-4)
+
+
+def test_a_set_lives_as_long_as_all_of_its_bearings_survive():
+    points = operating_points(QBC)
+    rpm = points[0].scene.operation.speed_rpm
+    lives = np.array([one.reference_life * 1e6 / (60.0 * rpm) for one in points])
+    # the chance of each at the life of the set: exp(-ln(1/0.9) (L / L_i)^e)
+    survive = np.prod(0.9 ** ((life_of_set(points) / lives) ** (10.0 / 9.0)))
+    assert survive == pytest.approx(0.9, rel=1e-12)
+
+
+def test_life_asked_for_is_judged_of_the_set_and_of_each_bearing():
+    points, found = operating_points(DB), shaft_statics(DB)
+    life = by_key(set_verdicts(found, points))["set_life"]
+    assert life.judgement == "not judged" and life.value == life_of_set(points)
+    shortest = min(by_key(verdicts(one))["life"].value for one in points)
+    assert life.value < shortest
+    # between both: each bearing lives long enough, the set does not
+    asked = read_scene(DB).replace({"operation.required_life_h": 0.5 * (life.value + shortest)})
+    points, found = operating_points(asked), shaft_statics(asked)
+    assert all(by_key(verdicts(one))["life"].judgement == "good" for one in points)
+    life = by_key(set_verdicts(found, points))["set_life"]
+    assert life.judgement == "change" and "relieve the bearing with the shortest life" in life.advice
+
+
+def test_lift_off_over_the_load_that_is_given():
+    def judged(force):
+        given = pushed(force, preload=500.0)
+        return by_key(set_verdicts(shaft_statics(given), operating_points(given))).get("lift_off")
+
+    # a pair of 7003C with 500 N lifts off at 4.387 times the preload (design study)
+    one = judged(1000.0)
+    assert one.value == pytest.approx(4.387 * 500.0 / 1000.0, rel=5e-4) and one.judgement == "good"
+    one = judged(-2500.0)
+    assert one.value == pytest.approx(4.387 * 500.0 / 2500.0, rel=5e-4) and one.judgement == "change"
+    assert "unload bearing 1 at standstill: raise the preload" in one.advice
+    assert judged(0.0) is None
+
+
+def test_a_bearing_skids_by_the_load_that_it_carries():
+    """The preload alone would be enough: the load takes it from the rear bearing."""
+    given = pushed(700.0, preload=100.0, rpm=3e4)
+    points, found = operating_points(given), shaft_statics(given)
+    front, rear = (by_key(verdicts(one))["least_preload"] for one in points)
+    assert [front.value, rear.value] == pytest.approx([max(one.axial, 0.0) for one in found.bearings])
+    # 106 N of preload, 12 N against skidding, 7 N are left
+    assert points[1].scene.mounting.preload_N > 5.0 * points[1].least_preload > 7.0 * rear.value
+    assert (front.judgement, rear.judgement) == ("good", "change")
+    assert any(line.startswith("bearing 2: axial load") for line in set_cautions(found, points))
+
+
+def test_a_bearing_without_load_has_figures_missing_and_all_are_told(tmp_path):
+    given = pushed(2500.0, preload=500.0)
+    points = operating_points(given)
+    assert points[1].axial == 0.0
+    rows = list(side_by_side(points))
+    missing = {row[0].key for row in rows if row[1] is None}
+    assert missing == {"static_safety", "static_safety_pressure"}
+    assert {row[0].key for row in rows} == by_key(verdicts(points[0])).keys()
+    made = make(given, tmp_path / "free.html")
+    assert made.sections["verdicts"] == "" and any("2194 N" in line for line in made.warnings)

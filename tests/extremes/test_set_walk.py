@@ -1,0 +1,93 @@
+"""Random walks of a set's inputs: each step ends, or is refused and can be gone on from."""
+
+import numpy as np
+import pytest
+
+from fmu_bearing.instance import EngineError, Instance
+from fmu_bearing.prepare.model import prepare
+from tests.extremes.test_random_walk import REFUSALS
+from tests.spindle.sets import scene
+
+BODY = {"mass_kg": 2.0, "diameter_mm": 100.0, "length_mm": 160.0, "pedestal_stiffness_N_m": 1e8}
+SLIDING = {
+    "spindle.bearing[2].seat": "sliding",
+    "spindle.preload": {"kind": "spring", "force_N": 300.0, "stiffness_N_m": 1e5},
+}
+FLAWS = {"imperfections": {"grade": "P4", "seed": 3}}
+PEDESTALS = {"housing": {"pedestal_stiffness_N_m": 1e8}, "bearings": [{"seat": "pedestal"}] * 2}
+PLACES = (40.0, 70.0)
+SETS = {
+    "DB": lambda: scene("+-", PLACES, 500.0, 10e3, changes=FLAWS),
+    "DF on a beam": lambda: scene("-+", PLACES, 300.0, 10e3, changes={"spindle.shaft.flexible": True}),
+    "sliding": lambda: scene("+-", PLACES, None, 10e3, changes=SLIDING | FLAWS),
+    "housing": lambda: scene("+-", PLACES, 500.0, 10e3, changes={"spindle.housing": BODY}),
+    "pedestals": lambda: scene("+-", PLACES, 500.0, 10e3, **PEDESTALS),
+    "QBC": lambda: scene("++--", (40.0, 55.0, 120.0, 135.0), 300.0, 10e3, changes=FLAWS),
+}
+# what a spindle meets and some ten times more; the ranges of the variables reach to forces of 100 kN, which
+# take steps of nanoseconds until the shaft has gone
+RANGES = {
+    "shaft_speed": (-4000.0, 4000.0),
+    "nose.force.x": (-1e4, 1e4),
+    "nose.force.y": (-5e3, 5e3),
+    "nose.force.z": (-5e3, 5e3),
+    "nose.moment.y": (-100.0, 100.0),
+    "nose.moment.z": (-100.0, 100.0),
+    "preload": (0.0, 5e3),
+    "shaft_temperature": (253.0, 373.0),
+    "housing_temperature": (253.0, 373.0),
+    "pedestal_stiffness": (1e6, 1e10),
+}
+
+
+def bounds(name):
+    """Range of an input; those of a bearing are temperatures."""
+    return RANGES.get(name, (253.0, 373.0))
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("name", SETS)
+def test_a_walk_goes_on_or_is_refused(name, seed):
+    rng = np.random.default_rng(seed)
+    run = Instance(prepare(SETS[name]()), tell=lambda text: None)
+    run.initialise()
+    inputs = [one.name for one in run.model.variables if one.causality == "input"]
+    refused = 0
+    for _ in range(25):
+        before, kept = run.u.copy(), run.s.copy()
+        which = inputs[rng.integers(len(inputs))]
+        run.set(which, rng.uniform(*bounds(which)))
+        try:
+            run.step(float(rng.choice([1e-5, 5e-5, 2e-4])))
+        except EngineError as reason:
+            refused += 1
+            assert REFUSALS.search(str(reason))
+            np.testing.assert_array_equal(run.s, kept)
+            run.u[:] = before
+            try:
+                run.step(1e-6)
+            except EngineError:  # a shaft on its way out of its bearings may be refused at any time
+                run.reset()
+                run.initialise()
+        assert np.isfinite(run.z).all()
+    # most of what a walk asks for can be computed
+    assert refused < 8
+
+
+@pytest.mark.parametrize("name", SETS)
+def test_a_start_at_drawn_inputs_ends_or_is_refused(name):
+    rng = np.random.default_rng(7)
+    run = Instance(prepare(SETS[name]()), tell=lambda text: None)
+    inputs = [one.name for one in run.model.variables if one.causality == "input"]
+    for _ in range(6):
+        run.reset()
+        for which in inputs:
+            low, high = bounds(which)
+            run.set(which, low + 0.5 * (high - low) * (1.0 + 0.3 * rng.uniform(-1.0, 1.0)))
+        try:
+            run.initialise()
+        except EngineError as reason:
+            assert REFUSALS.search(str(reason))
+            continue
+        run.step(1e-5)
+        assert np.isfinite(run.z).all()

@@ -1,0 +1,119 @@
+"""FMUs with a mechanical port: the native build answers for its derivatives, and both say so."""
+
+import math
+from xml.etree.ElementTree import fromstring
+
+import pytest
+from fmpy import extract, instantiate_fmu, read_model_description
+from fmpy.fmi1 import FMICallException
+
+from fmu_bearing import read_scene
+from fmu_bearing.compiled.errors import BuildError
+from fmu_bearing.fmi.description import description_xml
+from fmu_bearing.fmi.package import build
+from fmu_bearing.instance import Instance
+from fmu_bearing.prepare.model import prepare
+from tests.examples.conftest import ROOT
+
+SCENE = ROOT / "examples" / "port" / "7003C-DB-port.toml"
+STEP = 1e-4
+OUTPUTS = [f"port.force.{axis}" for axis in "xyz"] + ["port.moment.y", "port.moment.z"]
+INPUTS = [
+    *(f"port.displacement.{axis}" for axis in "xyz"), "port.tilt.y", "port.tilt.z",
+    *(f"port.velocity.{axis}" for axis in "xyz"), "port.tilt_rate.y", "port.tilt_rate.z",
+]  # fmt: skip
+MOTION = dict(zip(INPUTS, [1e-6, -2e-6, 2e-6, 1e-5, 2e-5, 0.01, -0.02, 0.02, 0.1, 0.2], strict=True))
+
+
+@pytest.fixture(scope="module")
+def model():
+    return prepare(read_scene(SCENE).replace({"fidelity.model": "full"}))
+
+
+@pytest.fixture(scope="module")
+def fmu(model, tmp_path_factory):
+    try:
+        built = build(model, tmp_path_factory.mktemp("port") / "port.fmu", flavour="native")
+    except BuildError as problem:
+        pytest.skip(str(problem))
+    return str(built.path)
+
+
+class Slave:
+    """The native FMU after a step, by names."""
+
+    def __init__(self, fmu):
+        description = read_model_description(fmu)
+        self.numbers = {v.name: v.valueReference for v in description.modelVariables}
+        self.slave = instantiate_fmu(extract(fmu), description, fmi_type="CoSimulation")
+        self.slave.setupExperiment(startTime=0.0)
+        self.slave.enterInitializationMode()
+        self.slave.exitInitializationMode()
+
+    def of(self, names):
+        return [self.numbers[name] for name in names]
+
+    def step(self, time):
+        self.slave.setReal(self.of(MOTION), list(MOTION.values()))
+        self.slave.doStep(time, STEP)
+
+    def derivative(self, unknown, known):
+        return self.slave.getDirectionalDerivative(self.of(unknown), self.of(known), [1.0] * len(known))
+
+
+@pytest.mark.parametrize(("flavour", "provides"), [("native", "true"), ("python", "false")])
+def test_description_says_who_has_derivatives(model, flavour, provides):
+    can = fromstring(description_xml(model, flavour)).find("CoSimulation")
+    assert can.get("providesDirectionalDerivative") == provides
+
+
+def test_native_derivatives_are_the_librarys(model, fmu):
+    slave, one = Slave(fmu), Instance(model)
+    one.initialise()
+    slave.step(0.0)
+    for name, value in MOTION.items():
+        one.set(name, value)
+    one.step(STEP)
+    assert slave.slave.getReal(slave.of(OUTPUTS)) == [one.get(name) for name in OUTPUTS]
+    place, rate = one.port_derivatives(STEP)
+    for k, name in enumerate(INPUTS):
+        column = place[:, k] if k < len(OUTPUTS) else rate[:, k - len(OUTPUTS)]
+        assert slave.derivative(OUTPUTS, [name]) == list(column)
+    # the state is as it was
+    slave.step(STEP)
+    one.step(STEP)
+    assert slave.slave.getReal(slave.of(OUTPUTS)) == [one.get(name) for name in OUTPUTS]
+
+
+def test_before_the_first_step_rates_change_nothing(fmu):
+    slave = Slave(fmu)
+    assert slave.derivative(["port.force.z"], ["port.velocity.z"]) == [0.0]
+    assert slave.derivative(["port.force.z"], ["port.displacement.z"])[0] < -1e8
+
+
+@pytest.mark.parametrize(
+    ("unknown", "known"),
+    [
+        ("port.force.z", "shaft_speed"),
+        ("friction_torque", "port.displacement.z"),
+        ("port.mass", "port.tilt.y"),
+    ],
+)
+def test_what_is_not_known_is_discarded_and_the_fmu_goes_on(fmu, unknown, known):
+    slave = Slave(fmu)
+    with pytest.raises(FMICallException) as refused:
+        slave.derivative([unknown], [known])
+    assert refused.value.status == 2  # fmi2Discard
+    slave.step(0.0)
+    assert math.isfinite(slave.slave.getReal(slave.of(["port.force.z"]))[0])
+
+
+def test_rates_of_place_end_where_they_lead(model, fmu):
+    """A place with an input derivative is led to its value at the step's end, as the speed is."""
+    slave, one = Slave(fmu), Instance(model)
+    one.initialise()
+    slave.slave.setRealInputDerivatives(slave.of(["port.displacement.z"]), [1], [0.01])
+    slave.slave.doStep(0.0, STEP)
+    one.set("port.displacement.z", 0.01 * STEP)
+    one.step(STEP)
+    assert slave.slave.getReal(slave.of(OUTPUTS)) == [one.get(name) for name in OUTPUTS]

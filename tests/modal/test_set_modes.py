@@ -1,0 +1,179 @@
+"""Modes of a set against the single bearing, against statics and against the engine's own free decay."""
+
+import numpy as np
+import pytest
+from scipy.linalg import eigh
+
+from fmu_bearing import campbell, modes, shaft_statics
+from fmu_bearing.engine.layout import SP
+from fmu_bearing.modal.linearised import linearised
+from fmu_bearing.modal.set_linearised import set_linearised
+from fmu_bearing.scene import Scene
+from fmu_bearing.scene.mounting import Mounting, Rotor
+from tests.spindle.runs import SetRun
+from tests.spindle.sets import scene, tables
+
+_LENGTH, _DIAMETER = 180.0, 15.0  # mm: of a shaft that is the single bearing's rotor
+
+
+def _pair(rpm, radial=0.0):
+    """A set of one on a pedestal, and the same as a mounted bearing."""
+    one = scene(
+        "+", (0.5 * _LENGTH,), preload=None, rpm=rpm, shaft={"sections_mm": [[_LENGTH, _DIAMETER, 0.0]]},
+        load={"force_x_N": 500.0, "force_z_N": radial, "position_mm": 0.5 * _LENGTH},
+        bearings=[{"seat": "pedestal"}], housing={"pedestal_stiffness_N_m": 1e8},
+    )  # fmt: skip
+    density = one.materials.inner_ring.density_kg_m3
+    mass = density * np.pi / 4.0 * (1e-3 * _DIAMETER) ** 2 * 1e-3 * _LENGTH
+    rotor = Rotor(mass_kg=mass, length_mm=_LENGTH, diameter_mm=_DIAMETER)
+    mounting = Mounting(preload_N=500.0, radial_load_z_N=radial, pedestal_stiffness_N_m=1e8, rotor=rotor)
+    return one, one.model_copy(update={"spindle": None, "mounting": mounting})
+
+
+@pytest.mark.parametrize("radial", [0.0, -50.0])
+def test_a_set_of_one_is_the_mounted_bearing(monkeypatch, radial):
+    """The single one's state is left as the quasi-static start, which the set has, too.
+
+    Under a radial load the single one starts anew at every phase, where the set turns its balls on.
+    """
+    monkeypatch.setattr("fmu_bearing.modal.linearised.settle", lambda bearing: True)
+    several, one = _pair(10_000.0, radial)
+    wanted = [value for value in np.linalg.eigvals(linearised(one).matrix) if abs(value.imag) > 1e4]
+    found = np.linalg.eigvals(set_linearised(several).matrix)
+    apart = [abs(found - value).min() / abs(value) for value in wanted]
+    assert max(apart) < 1e-6
+
+
+def test_settled_balls_move_modes_of_a_set_by_little():
+    """The mounted bearing's balls drift to where friction balances; the set's stay at the start of a run."""
+    several, one = _pair(10_000.0)
+    wanted = [mode for mode in modes(one).modes if mode.ring_share > 0.5 and mode.frequency > 500.0]
+    found = np.linalg.eigvals(set_linearised(several).matrix)
+    assert len(wanted) >= 5
+    for mode in wanted:
+        assert abs(found - mode.value).min() < 1e-4 * abs(mode.value)
+
+
+def test_standstill_has_the_frequencies_of_statics():
+    """What is left is the balls' inertia, some grams against the shaft's 0.7 kg."""
+    pair = scene("+-", (40.0, 70.0))
+    system = set_linearised(pair, friction=False)
+    squares = eigh(shaft_statics(pair).stiffness, system.block.total)[0]
+    found = np.linalg.eigvals(system.matrix).imag / (2.0 * np.pi)
+    for wanted in np.sqrt(squares) / (2.0 * np.pi):
+        assert abs(found - wanted).min() < 0.01 * wanted
+
+
+def test_a_set_seen_from_its_rear_has_the_same_modes():
+    """The shaft turns the other way then; loads stand at the same bearings.
+
+    Overdamped motions of the balls are left out: their eigenvalues lie close together, and rounding moves
+    them by 4e-6.
+    """
+    load = {"force_x_N": 100.0, "force_z_N": -60.0, "position_mm": 190.0}
+    front = scene("+-", (150.0, 210.0), rpm=12_000.0, load=load)
+    turned = load | {"force_x_N": -100.0, "position_mm": 210.0}
+    rear = scene("+-", (190.0, 250.0), rpm=-12_000.0, load=turned)
+    wanted, found = (set_linearised(several) for several in (front, rear))
+    assert found.orbits == pytest.approx(-wanted.orbits[::-1], rel=1e-9)
+    values = np.linalg.eigvals(wanted.matrix)
+    swings = values[(values.imag > 3e3) & (-values.real < 0.2 * abs(values))]
+    others = np.linalg.eigvals(found.matrix)
+    assert len(swings) >= 5  # one along the axis, two pairs across it
+    assert max(abs(others - value).min() / abs(value) for value in swings) < 1e-8
+
+
+_SAMPLES = 40  # per period of the mode looked for
+_PERIODS = 10
+
+
+def _decays(pair, way, push, frequency):
+    """Eigenvalues in the nose's motion after a force on it ceases, from a run of the engine.
+
+    ``way``: 0 axial, 1 horizontal, 2 vertical. By the matrix pencil: y_k = sum c_i e^(s_i k h).
+    """
+    moved, quiet = SetRun(pair, CAGE=0.0, TOLERANCE=1e-6), SetRun(pair, CAGE=0.0, TOLERANCE=1e-6)
+    moved.u[SP.U_NOSE + way] += push
+    moved.init()
+    quiet.init()
+    moved.u[SP.U_NOSE + way] -= push
+    h = 1.0 / (_SAMPLES * frequency)
+    apart = []
+    for _ in range(_SAMPLES * _PERIODS):
+        assert moved.step(h) == 0
+        assert quiet.step(h) == 0
+        apart.append(moved.vector(0)[way] - quiet.vector(0)[way])
+    trace = np.array(apart)[:: _SAMPLES // 10]
+    rows = len(trace) // 2
+    hankel = np.array([trace[k : k + rows] for k in range(len(trace) - rows)])
+    left, sizes, right = np.linalg.svd(hankel)
+    rank = int(np.sum(sizes > 1e-4 * sizes[0]))
+    base = right[:rank].T
+    poles = np.linalg.eigvals(np.linalg.pinv(base[:-1]) @ base[1:])
+    return np.log(poles) / (h * (_SAMPLES // 10))
+
+
+@pytest.mark.parametrize(("way", "push"), [(0, 2.0), (1, 1.0)], ids=["axial", "radial"])
+@pytest.mark.parametrize("which", ["pair", "four that bend"])
+def test_the_engine_rings_at_these_frequencies(which, way, push):
+    """0.5 %: the amplitude is finite and the cage is out of both."""
+    rpm = 10_000.0
+    if which == "pair":
+        several = scene("+-", (40.0, 70.0), rpm=rpm)
+    else:
+        several = scene(
+            "++--", (40.0, 60.0, 130.0, 150.0), rpm=rpm,
+            shaft={"sections_mm": [[200.0, 17.0, 0.0]], "flexible": True},
+        )  # fmt: skip
+    found = modes(several)
+    order = min(way, 1)
+    lowest = min((mode for mode in found.modes if mode.order == order), key=lambda mode: mode.frequency)
+    poles = _decays(several, way, push, lowest.frequency)
+    frequency = abs(poles.imag) / (2.0 * np.pi)
+    assert abs(frequency - lowest.frequency).min() < 0.005 * lowest.frequency
+
+
+@pytest.mark.parametrize("rpm", [20_000.0, -20_000.0])
+def test_gyroscopic_effect_parts_the_whirls(rpm):
+    """Forward goes up, backward down: a thick disc at the nose of a shaft that bends; -X turns the same."""
+    several = scene(
+        "+-", (60.0, 110.0), rpm=rpm,
+        shaft={"sections_mm": [[15.0, 70.0, 0.0], [125.0, 17.0, 0.0]], "flexible": True},
+    )  # fmt: skip
+    found = [mode for mode in modes(several).modes if mode.order == 1]
+    forward, backward = (
+        min(mode.frequency for mode in found if mode.direction == way) for way in ("forward", "backward")
+    )
+    assert forward > 1.02 * backward
+
+
+def test_housing_and_sliding_rings_have_modes():
+    """A housing of 2 kg on 1e7 N/m: near its own frequency with shaft and rings, 0.05 of critical damping."""
+    data = tables(
+        "+-", (40.0, 70.0), rpm=10_000.0, bearings=[{}, {"seat": "sliding"}],
+        housing={"mass_kg": 2.0, "diameter_mm": 80.0, "length_mm": 100.0, "pedestal_stiffness_N_m": 1e7},
+    )  # fmt: skip
+    data["spindle"]["preload"] = {"kind": "spring", "force_N": 300.0, "stiffness_N_m": 1e5}
+    several = Scene.from_dict(data)
+    found = modes(several)
+    names = {mode.name for mode in found.modes}
+    assert any(name.startswith("housing") for name in names)
+    for mode in found.modes:
+        assert mode.damping > 0.0
+        assert abs(sum(mode.participation.values()) - 1.0) < 1e-9
+
+
+def test_campbell_follows_the_modes_of_a_set():
+    several = scene("+-", (40.0, 70.0), rpm=10_000.0)
+    found = campbell(several, [5e3, 10e3, 15e3])
+    names = {branch.name for branch in found.branches}
+    assert {"shaft axial", "shaft tilt"} <= names
+    assert all(branch.rpm.size == 3 for branch in found.branches if branch.name == "shaft axial")
+
+
+def test_line_of_the_shaft():
+    found = modes(scene("+-", (40.0, 70.0), rpm=10_000.0))
+    mode = next(mode for mode in found.modes if mode.order == 1)
+    line = found.line(mode)
+    assert line.shape == (2, 3)
+    assert abs(line).max() == pytest.approx(1.0)

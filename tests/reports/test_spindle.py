@@ -1,0 +1,43 @@
+"""The page about a set of bearings: sections, figures, what it refuses."""
+
+import pytest
+from typer.testing import CliRunner
+
+from fmu_bearing import shaft_statics
+from fmu_bearing.cli import app
+from fmu_bearing.design.set_points import life_of_set, operating_points
+from fmu_bearing.reports import make
+from tests.conftest import ROOT
+from tests.spindle.sets import scene
+
+PAIR = ROOT / "examples" / "spindle_set" / "7003C-DB.toml"
+
+
+def test_page_of_a_pair_has_all_sections_and_the_figures_of_statics(tmp_path):
+    made = make(PAIR, tmp_path / "pair.html")
+    assert list(made.sections) == ["arrangement", "balls", "axial", "warmth", "verdicts"]
+    assert not any(made.sections.values()) and made.recording is None
+    text = made.path.read_text(encoding="utf-8")
+    assert "DB (O)" in text and "bearing 2" in text and made.size == len(text.encode())
+    found = shaft_statics(PAIR)
+    assert made.figures["nose_stiffness"] == pytest.approx(1e-6 * found.nose_stiffness)
+    assert made.figures["lift_off_N"] == pytest.approx(min(abs(x.load) for x in found.lift_off.values()))
+    assert made.figures["life_h"] == pytest.approx(life_of_set(operating_points(PAIR)))
+    assert any(line.startswith("bearing 1: contact pressure") for line in made.warnings)
+
+
+def test_page_of_a_tandem_says_what_it_lacks(tmp_path):
+    given = scene("++", (40.0, 70.0), None, 5e3, load={"force_x_N": 300.0})
+    made = make(given, tmp_path / "tandem.html")
+    assert made.sections["warmth"] == "a set that carries one way has no preload"
+    assert made.sections["axial"] == "no axial load unloads a bearing of this set"
+
+
+def test_speed_is_taken_and_runs_are_refused(tmp_path):
+    made = make(PAIR, tmp_path / "fast.html", speed=1000.0)
+    assert "9,549 r/min" in made.path.read_text(encoding="utf-8")
+    with pytest.raises(ValueError, match="without a run: leave it out"):
+        make(PAIR, tmp_path / "no.html", run_up=(500.0, 1000.0))
+    kept = ["report", str(PAIR), "-o", str(tmp_path / "p.html"), "--keep", str(tmp_path / "r.npz")]
+    shown = CliRunner().invoke(app, kept)
+    assert shown.exit_code != 0 and "none to keep" in shown.output.replace("\n", " ")

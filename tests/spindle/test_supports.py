@@ -1,0 +1,82 @@
+"""Statics of sets whose outer rings give way: a housing on its pedestal, pedestals of their own, springs."""
+
+import numpy as np
+import pytest
+
+from fmu_bearing import shaft_statics
+from fmu_bearing.engine.constants import GRAVITY
+from fmu_bearing.engine.layout import P, Q, S, Y
+from fmu_bearing.prepare.spindle import one_of
+from fmu_bearing.scene.mounting import Mounting, Rotor
+from tests.engine.helpers import Run
+from tests.spindle.runs import SetRun
+from tests.spindle.sets import scene
+from tests.spindle.test_dynamics_oracle import BODY, SEATS
+from tests.spindle.test_runs import loaded
+
+FORCES = ("force.x", "force.y", "force.z")
+
+
+@pytest.mark.parametrize("flexible", [False, True], ids=["rigid", "beam"])
+@pytest.mark.parametrize("seat", SEATS)
+def test_statics_are_where_runs_start(seat, flexible):
+    given = loaded(seat, rpm=0.0, **{"spindle.shaft.flexible": flexible})
+    found, run = shaft_statics(given), SetRun(given).init()
+    for b, one in enumerate(found.bearings):
+        ours = [run.value(name, b) for name in FORCES]
+        # the balls of the run lean on the outer race by their weight, 0.1 N in all; tilts of a housing of
+        # 3e-4 rad turn 500 N by 0.15 N
+        assert one.force == pytest.approx(ours, abs=0.4)
+    nose = [run.value(f"shaft.nose.displacement.{axis}") for axis in "xyz"]
+    assert found.displacement[:3] == pytest.approx(nose, rel=2e-3, abs=1e-9)
+
+
+def test_a_housing_sinks_under_all_that_it_carries():
+    given = scene(rpm=0.0, changes={"fidelity.terms.gravity": True, "spindle.housing": BODY})
+    run = SetRun(given).init()
+    down = given.replace({"spindle.housing": {}})
+    still, moved = shaft_statics(down), shaft_statics(given)
+    # at the middle between the bearings, where the housing's own middle is
+    carried = sum(one.force[2] for one in still.bearings)
+    rings = sum(run.of(run.p, b, "P")[P.OUTER_MASS] for b in range(2))
+    lying = rings + 24.0 * run.p[P.BALL_MASS] + 2.0 * run.p[P.CAGE_MASS]
+    sunk = (carried - GRAVITY * (BODY["mass_kg"] + lying)) / BODY["pedestal_stiffness_N_m"]
+    assert run.value("housing.displacement.z") == pytest.approx(sunk, rel=1e-6)
+    # what the bearings carry against each other does not depend on the pedestal, but for its tilt
+    for one, other in zip(still.bearings, moved.bearings, strict=True):
+        assert other.force == pytest.approx(one.force, abs=1e-3 * np.abs(one.force).max())
+    apart = moved.displacement[2] - still.displacement[2]
+    tilt = run.y(0)[Y.Q0 + Q.OUTER + Q.BY]
+    assert apart == pytest.approx(sunk + 0.055 * tilt, rel=1e-3)
+
+
+def test_pedestals_of_their_own_stand_in_series_with_their_bearings():
+    soft = {"spindle.bearing[1].seat": "pedestal", "spindle.bearing[2].seat": "pedestal"}
+    stiffness = 1e8
+    given = scene(changes=soft | {"spindle.housing.pedestal_stiffness_N_m": stiffness})
+    held, found = shaft_statics(scene()), shaft_statics(given)
+    each = held.axial_stiffness / 2.0
+    assert found.axial_stiffness == pytest.approx(2.0 / (1.0 / each + 1.0 / stiffness), rel=1e-6)
+    # pedestals take part of the way to lift-off, so that it needs less load
+    assert found.preloads["cold"] == pytest.approx([500.0, 500.0], rel=1e-6)
+    assert held.lift_off["+x"].load > found.lift_off["+x"].load > 1000.0
+
+
+def test_a_single_bearing_on_its_pedestal_stands_as_a_mounted_one():
+    given = scene(
+        "+", (90.0,), None, changes={"fidelity.terms.gravity": True}, bearings=[{"seat": "pedestal"}],
+        load={"force_x_N": 500.0, "position_mm": 90.0}, housing={"pedestal_stiffness_N_m": 1e8},
+        shaft={"sections_mm": [[180.0, 15.0, 0.0]]},
+    )  # fmt: skip
+    found = shaft_statics(given)
+    shaft = -found.load[2] / GRAVITY - SetRun(given).p[P.INNER_MASS]
+    mounting = Mounting(
+        preload_N=500.0, pedestal_stiffness_N_m=1e8,
+        rotor=Rotor(mass_kg=shaft, length_mm=180.0, diameter_mm=15.0),
+    )  # fmt: skip
+    single = Run(one_of(given).model_copy(update={"mounting": mounting}), 0.0).init()
+    y = single.s[S.Y : S.Y + Y.SIZE]
+    ring = Y.Q0 + Q.OUTER
+    assert found.bearings[0].force[:3] == pytest.approx([500.0, 0.0, found.load[2]], abs=1e-6)
+    apart = y[Y.Q0 : Y.Q0 + 3] - y[ring : ring + 3]
+    assert found.bearings[0].displacement[1:3] == pytest.approx(apart[1:], rel=1e-3, abs=1e-12)

@@ -10,6 +10,8 @@ int32_t NAME(fb_init_, ISA)(const double *p, const double *u, double *s, double 
                             const int64_t *sizes, double time);
 int32_t NAME(fb_step_, ISA)(const double *p, const double *u, double *s, double *z, double *w,
                             const int64_t *sizes, double h);
+int32_t NAME(fb_derivative_, ISA)(const double *p, const double *u, double *s, double *z, double *w,
+                                  const int64_t *sizes, double h);
 int32_t NAME(fb_outputs_, ISA)(const double *p, const double *s, double *z, const int64_t *sizes);
 
 /* Begin at a time. */
@@ -34,5 +36,13 @@ int32_t NAME(fb_step_, ISA)(const double *p, const double *u, double *s, double 
 int32_t NAME(fb_outputs_, ISA)(const double *p, const double *s, double *z, const int64_t *sizes)
 {
     (void)p, (void)s, (void)z, (void)sizes;
+    return 0;
+}
+
+/* Nothing follows from anything. */
+int32_t NAME(fb_derivative_, ISA)(const double *p, const double *u, double *s, double *z, double *w,
+                                  const int64_t *sizes, double h)
+{
+    (void)p, (void)u, (void)s, (void)z, (void)w, (void)sizes, (void)h;
     return 0;
 }

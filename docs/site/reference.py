@@ -19,6 +19,7 @@ from fmu_bearing.fmi.documentation import range_of
 from fmu_bearing.formulas.iso76 import static_rating
 from fmu_bearing.formulas.iso281 import dynamic_rating
 from fmu_bearing.interface import variables
+from fmu_bearing.run.names import any_set
 from fmu_bearing.scene import Scene, read_scene
 from fmu_bearing.scene.nsk import CLASSES, PREFIX, modelled, sizes as printed_sizes
 from fmu_bearing.scene.read import catalogue
@@ -168,6 +169,11 @@ def _catalogue():
     return lines
 
 
+#: The group of what only sets have, and how its names begin.
+_SETS, _OF_SETS = (
+    "Sets of bearings on one shaft",
+    ("nose.", "shaft.", "shaft_temperature", "housing", "bearing["),
+)
 #: Heading, then what a variable of that group must satisfy; the first group that fits takes it.
 GROUPS = (
     ("Inputs", lambda v: v.causality == "input"),
@@ -183,6 +189,7 @@ GROUPS = (
 
 #: What differs between variables of one kind: in the name, and in the sentence.
 _INDICES = (
+    (r"bearing\[\d+\]", "bearing[b]", r"Bearing \d+", "Bearing b"),
     (r"ball\[\d+\]", "ball[i]", r"ball \d+", "ball i"),
     (r"mic\[\d+\]", "mic[k]", r"microphone [^,;]+", "microphone k"),
     (r"third_octave\[\d+\]", "third_octave[f]", r"around [\d.]+ Hz", "around f Hz"),
@@ -192,9 +199,11 @@ _INDICES = (
 
 def fmu():
     """Every variable of an FMU, grouped; one row stands for all balls, microphones, bands, orders."""
-    groups = {title: {} for title, _ in GROUPS}
+    groups = {title: {} for title in (*dict(GROUPS), _SETS)}
     for variable in _all_variables():
-        title = next(title for title, fits in GROUPS if fits(variable))
+        title = _SETS
+        if not variable.name.startswith(_OF_SETS):
+            title = next(title for title, fits in GROUPS if fits(variable))
         name, sentence = variable.name, variable.description
         for in_name, index, in_sentence, words in _INDICES:
             if re.search(in_name, name):
@@ -213,11 +222,17 @@ def fmu():
 
 
 def _all_variables():
-    """Variables of two scenes that together have everything: sound in bands, bending rings, a cage."""
+    """Variables of scenes that together have everything: sound in bands, bending rings, a cage, a set.
+
+    Of the set those that no single bearing has.
+    """
     spindle = read_scene(SCENES / "7003C-spindle.toml")
     spindle = spindle.model_copy(update={"sound": spindle.sound.model_copy(update={"third_octaves": True})})
     bending = read_scene(SCENES / "7009C-full-ceramic.toml")
-    return [*variables(spindle, 0.0), *variables(bending, 0.0)]
+    single = [*variables(spindle, 0.0), *variables(bending, 0.0)]
+    names = {variable.name for variable in single}
+    several = [v for v in variables(any_set(spindle), 0.0) if v.name.split("].", 1)[-1] not in names]
+    return [*single, *several]
 
 
 def commands():

@@ -11,6 +11,7 @@ of its source.
 
 import hashlib
 import logging
+import re
 import sys
 import tempfile
 import zipfile
@@ -64,7 +65,9 @@ def best_flavour() -> str:
     return "python"
 
 
-def build(script: Path, folder: Path, flavour: str = "python", platforms: Sequence[str] = ()) -> Path:
+def build(
+    script: Path, folder: Path, flavour: str = "python", platforms: Sequence[str] = (), bearings: int = 1
+) -> Path:
     """Build the FMU of a pythonfmu slave, or of the C model of the same name, and return its path.
 
     Parameters
@@ -78,13 +81,20 @@ def build(script: Path, folder: Path, flavour: str = "python", platforms: Sequen
         ``python``, or ``native``: the equations in ``native/NAME.c`` with the variables of the module NAME.
     platforms : sequence of str
         Platforms of a native FMU; default: this machine's.
+    bearings : int
+        How many bearings a thermal network has; more than one are those of a set.
 
     Raises
     ------
     BuildError
-        If a library cannot be made.
+        If a library cannot be made, or more than one bearing is asked of a model that has no such number.
     """
-    files, slave = _python_parts(script)
+    source = script.read_bytes()
+    if bearings != 1:
+        source, found = re.subn(rb"^BEARINGS = 1$", b"BEARINGS = %d" % bearings, source, flags=re.M)
+        if found != 1:
+            raise BuildError(f"{script.name} has no number of bearings")
+    files, slave = _python_parts(script.stem, source)
     root = _complete(files["modelDescription.xml"], slave, flavour)
     if flavour == "native":
         files = _native_parts(script.stem, slave, root.get("guid", ""), platforms)
@@ -106,10 +116,9 @@ def pack(target: Path, files: dict[str, bytes], compression: int) -> Path:
     return target
 
 
-def _python_parts(script: Path) -> tuple[dict[str, bytes], Fmi2Slave]:
+def _python_parts(name: str, source: bytes) -> tuple[dict[str, bytes], Fmi2Slave]:
     """Return the files of pythonfmu's FMU in name order, and a fresh instance of its slave."""
-    source = script.read_bytes()
-    module = f"spindle_{script.stem}_{hashlib.sha256(source).hexdigest()[:12]}"
+    module = f"spindle_{name}_{hashlib.sha256(source).hexdigest()[:12]}"
     # pythonfmu logs the same line about its binary folder for every build
     logging.getLogger("pythonfmu").setLevel(logging.ERROR)
     with tempfile.TemporaryDirectory() as place:
@@ -154,16 +163,27 @@ def _native_parts(model: str, slave: Fmi2Slave, guid: str, platforms: Sequence[s
 def variables_header(slave: Fmi2Slave, guid: str) -> str:
     """Return ``variables.h``: what ``native/partner.h`` says of it, with the slave's values as starts."""
     variables = slave.vars.values()  # in the order of their value references
-    names = [variable.name.replace(".", "_").upper() for variable in variables]
     rows = [
-        f'{{"{variable.name}", {variable.causality.name.upper()}, {float(variable.getter()).hex()}}}'
+        (f'"{variable.name}"', variable.causality.name.upper(), float(variable.getter()).hex())
         for variable in variables
     ]
-    table = ", \\\n    ".join(rows)
-    return (
-        f'#define PARTNER_GUID "{guid}"\n\n'
-        f"enum {{ {', '.join(names)}, N_VARIABLES }};\n\n#define PARTNER_VARIABLES \\\n    {table}\n"
-    )
+    # a table's strings are names of variables; an empty one is none
+    tables = {
+        name: [[_identifier(cell) if isinstance(cell, str) else str(cell) for cell in row] for row in table]
+        for name, table in getattr(slave, "tables", {}).items()
+    }
+    lines = [f'#define PARTNER_GUID "{guid}"', ""]
+    lines += [f"enum {{ {', '.join(_identifier(variable.name) for variable in variables)}, N_VARIABLES }};"]
+    lines += [f"enum {{ N_HIDDEN = {getattr(slave, 'remembered', 32)} }};"]
+    for name, table in {"VARIABLES": rows, **tables}.items():
+        lines += ["", f"#define PARTNER_{name} \\"]
+        lines += [", \\\n".join(f"    {{{', '.join(row)}}}" for row in table)]
+    return "\n".join(lines) + "\n"
+
+
+def _identifier(name: str) -> str:
+    """Name of a variable in C, ``BEARING_1_HEAT_OIL`` for ``bearing[1].heat.oil``; -1 for none."""
+    return re.sub(r"\W+", "_", name).upper() if name else "-1"
 
 
 def _complete(description: bytes, slave: Fmi2Slave, flavour: str) -> ElementTree.Element:

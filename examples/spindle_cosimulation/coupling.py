@@ -161,6 +161,9 @@ class Plan:
         s.
     metering_start : float
         s; levels are metered from here on, when the start-up has died away.
+    true_until, thermal_rate : float
+        s, and seconds of the thermal network per second of the others from then on. What turns settles within
+        milliseconds and temperatures take minutes: between them lies time in which only these change.
     """
 
     end_time: float = 1.0
@@ -169,6 +172,12 @@ class Plan:
     target_speed: float = 20000.0 * math.pi / 30.0
     ramp_time: float = 0.7
     metering_start: float = 0.02
+    true_until: float = math.inf
+    thermal_rate: float = 1.0
+
+    def thermal_time(self, time: float) -> float:
+        """Time of the thermal network (s) when the others are at ``time``."""
+        return time + (self.thermal_rate - 1.0) * max(time - self.true_until, 0.0)
 
 
 @dataclass
@@ -192,8 +201,21 @@ def bearing_names(bearing: Fmu) -> list[str]:
         if variable.type == "Real"
         and variable.causality in ("output", "local")
         and variable.variability not in ("constant", "fixed")
-        and not name.startswith("ball[")
+        and "ball[" not in name
     ]
+
+
+def exchanged(bearing: Fmu, thermal: Fmu) -> tuple[list[str], list[str]]:
+    """Names of temperatures that the thermal network gives to the bearing, and of heats that it takes.
+
+    Both FMUs have them under the same names: of one bearing, or of each bearing of a set and of its shaft and
+    housing.
+    """
+    temperatures, heats = (
+        [name for name in bearing.having(thermal.variables) if thermal.variables[name].causality == causality]
+        for causality in ("output", "input")
+    )
+    return temperatures, heats
 
 
 def run(
@@ -202,6 +224,7 @@ def run(
     thermal: Fmu,
     plan: Plan,
     progress: Callable[[float], bool] = lambda _: True,
+    recorded: Iterable[str] = (),
 ) -> Recording:
     """Run the three FMUs together.
 
@@ -212,6 +235,8 @@ def run(
     plan : Plan
     progress : callable
         Called after each step with the time reached in s; ``False`` stops the run.
+    recorded : iterable of str
+        Variables of the bearing that are kept; default: all that :func:`bearing_names` tells.
 
     Returns
     -------
@@ -223,13 +248,11 @@ def run(
     SimulationError
         If an FMU refuses a call; it carries what was computed.
     """
-    recorded = bearing_names(bearing)
-    recording = Recording(["time", *MOTOR_OUTPUTS, *TEMPERATURES, *THERMAL_OUTPUTS, *recorded])
-    readers = (
-        motor.reader(MOTOR_OUTPUTS),
-        thermal.reader([*TEMPERATURES, *THERMAL_OUTPUTS]),
-        bearing.reader(recorded),
-    )
+    recorded = list(recorded) or bearing_names(bearing)
+    network = [name for name in thermal.variables if name.endswith("_temperature")]
+    network = [name for name in network if thermal.variables[name].causality == "output"]
+    recording = Recording(["time", *MOTOR_OUTPUTS, *network, *recorded])
+    readers = (motor.reader(MOTOR_OUTPUTS), thermal.reader(network), bearing.reader(recorded))
     exchange = exchanger(motor, bearing, thermal)
 
     def record(time: float) -> None:
@@ -241,7 +264,7 @@ def run(
     for k in range(count):
         now, after = plan.end_time * k / count, plan.end_time * (k + 1) / count
         try:
-            exchange(now, after)
+            exchange(now, after, plan.thermal_time)
         except SimulationError as error:
             error.recording = recording
             raise
@@ -251,20 +274,25 @@ def run(
     return recording
 
 
-def exchanger(motor: Fmu, bearing: Fmu, thermal: Fmu) -> Callable[[float, float], None]:
-    """Return a function that takes all three from one communication point to the next (both in s)."""
-    torque, heats = bearing.reader(["friction_torque"]), bearing.reader(HEATS)
-    speed, temperatures = motor.reader(["shaft_speed"]), thermal.reader(TEMPERATURES)
+def exchanger(motor: Fmu, bearing: Fmu, thermal: Fmu) -> Callable[..., None]:
+    """Return a function that takes all three from one communication point to the next (both in s).
 
-    def exchange(now: float, after: float) -> None:
+    Its third argument, if given, turns them into times of the thermal network.
+    """
+    warm, warming = exchanged(bearing, thermal)
+    torque, heats = bearing.reader(["friction_torque"]), bearing.reader(warming)
+    speed, temperatures = motor.reader(["shaft_speed"]), thermal.reader(warm)
+
+    def exchange(now: float, after: float, thermal_time: Callable[[float], float] = float) -> None:
         motor.set({"load_torque": torque()[0]})
         motor.step(now, after - now)
         bearing.set(
-            {"shaft_speed": speed()[0], **dict(zip(TEMPERATURES, temperatures(), strict=True))},
+            {"shaft_speed": speed()[0], **dict(zip(warm, temperatures(), strict=True))},
         )
         bearing.step(now, after - now)
-        thermal.set(dict(zip(HEATS, heats(), strict=True)))
-        thermal.step(now, after - now)
+        thermal.set(dict(zip(warming, heats(), strict=True)))
+        begin = thermal_time(now)
+        thermal.step(begin, thermal_time(after) - begin)
 
     return exchange
 
@@ -275,7 +303,8 @@ def initialise(motor: Fmu, bearing: Fmu, thermal: Fmu, plan: Plan) -> None:
     thermal.exit_initialization()
     given = {"shaft_speed": plan.start_speed, "sound.metering_start": plan.metering_start}
     begin = {name: given[name] for name in bearing.having(given)}
-    bearing.enter_initialization(**begin, **dict(zip(TEMPERATURES, thermal.get(TEMPERATURES), strict=True)))
+    warm, _ = exchanged(bearing, thermal)
+    bearing.enter_initialization(**begin, **dict(zip(warm, thermal.get(warm), strict=True)))
     bearing.exit_initialization()
     (torque,) = bearing.get(["friction_torque"])
     (inertia,) = bearing.get(["rotor.inertia"])

@@ -1,6 +1,8 @@
-"""Temperatures of the bearing and its surroundings as an FMU: five lumps and a constant ambient.
+"""Temperatures of bearings and their surroundings as an FMU: lumps and a constant ambient.
 
-Lumps: inner ring, outer ring, balls, the oil between them, and the housing. Heat enters where the bearing
+Lumps: inner ring, outer ring, balls, the oil between them, and the housing. A set of bearings (``BEARINGS``
+above 1) has the first four of each bearing, the housing, and the shaft on which the inner rings sit; equal
+bearings share capacities and conductances. Heat enters where the bearing
 FMU says it arises (its ``heat.*`` outputs), spreads over the conductances below, and leaves over the shaft,
 the air flow and the cooled housing.
 
@@ -15,6 +17,8 @@ from math import ceil, isclose, isfinite
 
 from pythonfmu import DefaultExperiment, Fmi2Causality, Fmi2Slave, Fmi2Variability, Real
 
+# How many on one shaft. `build.py` writes the number of a set here, for an FMU carries no other module.
+BEARINGS = 1
 MAX_SUB_STEP = 1e-3  # s
 
 # 22 degC, the laboratory of the multi-source paper.
@@ -28,6 +32,7 @@ CAPACITIES = {
     "oil": 0.38,  # assumed 0.2 g on the surfaces x 1900 J/(kg K)
     "housing": 920.0,  # the scene's 2 kg, of steel: 460 J/(kg K)
 }
+SHAFT_CAPACITY = 193.0  # 0.42 kg of steel (the motor spindle of examples/spindle_set) x 460 J/(kg K)
 
 # Conductances in W/K between lumps, and from lumps to the ambient.
 CONDUCTANCES = {
@@ -50,6 +55,43 @@ CONDUCTANCES = {
     # Cooling water around the housing: assumed 200 cm2 at 1000 W/(m2 K).
     ("housing", "ambient"): 20.0,
 }
+# In a set the inner rings sit on the shaft, and that gives off the heat: seat as above; rotor in the air gap
+# (57 cm2), nose and end (30 cm2) at 100 W/(m2 K).
+SHAFT_CONDUCTANCES = {("inner_ring", "shaft"): 2.7, ("shaft", "ambient"): 0.87}
+IN_BEARING = ("inner_ring", "outer_ring", "balls", "oil")
+SOURCES = ("inner_ring", "outer_ring", "oil")
+
+if BEARINGS > 1:
+    CAPACITIES["shaft"] = SHAFT_CAPACITY
+    del CONDUCTANCES["inner_ring", "ambient"]
+    CONDUCTANCES |= SHAFT_CONDUCTANCES
+    PREFIXES = [f"bearing[{number}]." for number in range(1, BEARINGS + 1)]
+else:
+    PREFIXES = [""]
+
+#: Prefix and kind of each lump.
+LUMPS = [(prefix, kind) for prefix in PREFIXES for kind in IN_BEARING]
+LUMPS += [("", kind) for kind in CAPACITIES if kind not in IN_BEARING]
+
+
+def _links():
+    """Lumps that exchange heat, and the conductance: two numbers of ``LUMPS``, -1 for the ambient."""
+    found = []
+    for prefix in PREFIXES:
+        for one, other in CONDUCTANCES:
+            name = f"conductance.{one}_{other}"
+            if one in IN_BEARING:
+                beside = -1 if other == "ambient" else _place(prefix, other)
+                found.append((_place(prefix, one), beside, name))
+    outside = [pair for pair in CONDUCTANCES if pair[0] not in IN_BEARING]
+    return found + [(_place("", one), -1, f"conductance.{one}_ambient") for one, _ in outside]
+
+
+def _place(prefix, kind):
+    return LUMPS.index((prefix if kind in IN_BEARING else "", kind))
+
+
+LINKS = _links()
 
 
 class SpindleThermal(Fmi2Slave):
@@ -57,36 +99,42 @@ class SpindleThermal(Fmi2Slave):
 
     description = "Lumped thermal network of a spindle bearing"
     default_experiment = DefaultExperiment(start_time=0.0, stop_time=1.0, step_size=5e-4)
-    lumps = tuple(CAPACITIES)
-    sources = ("inner_ring", "outer_ring", "oil")
+    temperatures = [f"{prefix}{kind}_temperature" for prefix, kind in LUMPS]
+    #: Input of each lump's heat; "" where none enters.
+    heats = [f"{prefix}heat.{kind}" if kind in SOURCES else "" for prefix, kind in LUMPS]
+    capacities = [f"capacity.{kind}" for _, kind in LUMPS]
 
-    units = {f"heat.{lump}": "W" for lump in sources}
-    units |= {f"{lump}_temperature": "K" for lump in lumps}
-    units |= {f"capacity.{lump}": "J/K" for lump in lumps}
+    units = {name: "W" for name in heats if name}
+    units |= {name: "K" for name in temperatures}
+    units |= {f"capacity.{kind}": "J/K" for kind in CAPACITIES}
     units |= {f"conductance.{one}_{other}": "W/K" for one, other in CONDUCTANCES}
     units |= {name: "K" for name in ("ambient_temperature", "initial_temperature")}
     units |= {name: "J" for name in ("energy.supplied", "energy.stored", "energy.given_off")}
     #: What each output depends on at the start: the energies on nothing.
-    initial_dependencies = {f"{lump}_temperature": ("initial_temperature",) for lump in lumps}
+    initial_dependencies = {name: ("initial_temperature",) for name in temperatures}
     initial_dependencies |= {f"energy.{name}": () for name in ("supplied", "stored", "given_off")}
+    #: What the native build reads: temperature, capacity and heat of lumps; links.
+    tables = {"LUMPS": list(zip(temperatures, capacities, heats, strict=True)), "LINKS": LINKS}
+    #: Numbers the native build remembers: a step and the matrix for it.
+    remembered = 1 + len(LUMPS) ** 2
 
     def __init__(self, **kwargs):
         super().__init__(**kwargs)
         self.modelName = "SpindleThermal"
         self.values = {name: 0.0 for name in self.units}
-        for lump in self.lumps:
-            self.values[f"{lump}_temperature"] = AMBIENT
-        for name in self.sources:
-            self._register(f"heat.{name}", "input", f"Heat put into {_words(name)}")
-        for name in self.lumps:
-            self._register(f"{name}_temperature", "output", f"Temperature of {_words(name)}")
+        for name, (prefix, kind) in zip(self.heats, LUMPS, strict=True):
+            if name:
+                self._register(name, "input", f"Heat put into {_words(kind, prefix)}")
+        for name, (prefix, kind) in zip(self.temperatures, LUMPS, strict=True):
+            self.values[name] = AMBIENT
+            self._register(name, "output", f"Temperature of {_words(kind, prefix)}")
         self._register("energy.supplied", "output", "Heat put in since the start")
         self._register("energy.stored", "output", "Heat kept in the lumps since the start")
         self._register("energy.given_off", "output", "Heat given to the ambient since the start")
         self._register("ambient_temperature", "parameter", "Temperature of what surrounds it", AMBIENT)
         self._register("initial_temperature", "parameter", "Temperature of all lumps at the start", AMBIENT)
-        for name, value in CAPACITIES.items():
-            self._register(f"capacity.{name}", "parameter", f"Heat capacity of {_words(name)}", value)
+        for kind, value in CAPACITIES.items():
+            self._register(f"capacity.{kind}", "parameter", f"Heat capacity of {_words(kind)}", value)
         for (one, other), value in CONDUCTANCES.items():
             text = f"Heat flow per kelvin between {_words(one)} and {_words(other)}"
             self._register(f"conductance.{one}_{other}", "parameter", text, value)
@@ -115,16 +163,16 @@ class SpindleThermal(Fmi2Slave):
 
     def exit_initialization_mode(self):
         """Put all lumps to the initial temperature."""
-        for lump in self.lumps:
-            self.values[f"{lump}_temperature"] = self.values["initial_temperature"]
+        for name in self.temperatures:
+            self.values[name] = self.values["initial_temperature"]
         for name in ("supplied", "stored", "given_off"):
             self.values[f"energy.{name}"] = 0.0
         self.solved_step = 0.0
 
     def do_step(self, current_time, step_size):
         """Advance with the heats held; refused for a heat that is not finite or a capacity of zero."""
-        heats = [self.values.get(f"heat.{lump}", 0.0) for lump in self.lumps]
-        capacities = [self.values[f"capacity.{lump}"] for lump in self.lumps]
+        heats = [self.values.get(name, 0.0) for name in self.heats]
+        capacities = [self.values[name] for name in self.capacities]
         if not all(map(isfinite, heats)) or min(capacities) <= 0.0 or not step_size > 0.0:
             return False
         pieces = ceil(step_size / MAX_SUB_STEP * (1.0 - 1e-9))
@@ -140,27 +188,27 @@ class SpindleThermal(Fmi2Slave):
     def _advance(self, h, heats, capacities):
         """One implicit Euler step for the rises above ambient, with its energy balance."""
         ambient = self.values["ambient_temperature"]
-        before = [self.values[f"{lump}_temperature"] - ambient for lump in self.lumps]
+        before = [self.values[name] - ambient for name in self.temperatures]
         right = [q * h + c * rise for q, c, rise in zip(heats, capacities, before, strict=True)]
         after = [_total(a * b for a, b in zip(row, right, strict=True)) for row in self.inverse]
-        for lump, rise in zip(self.lumps, after, strict=True):
-            self.values[f"{lump}_temperature"] = ambient + rise
-            self.values["energy.given_off"] += h * rise * self.values.get(f"conductance.{lump}_ambient", 0.0)
+        for name, rise in zip(self.temperatures, after, strict=True):
+            self.values[name] = ambient + rise
+        for i, other, conductance in LINKS:
+            if other < 0:
+                self.values["energy.given_off"] += h * after[i] * self.values[conductance]
         self.values["energy.supplied"] += h * _total(heats)
         gained = [c * (new - old) for c, new, old in zip(capacities, after, before, strict=True)]
         self.values["energy.stored"] += _total(gained)
 
     def _matrix(self, h, capacities):
         """Capacities plus step times conductances: the matrix of an implicit Euler step."""
-        place = {lump: i for i, lump in enumerate(self.lumps)}
-        matrix = [[0.0] * len(place) for _ in place]
+        matrix = [[0.0] * len(capacities) for _ in capacities]
         for i, capacity in enumerate(capacities):
             matrix[i][i] = capacity
-        for one, other in CONDUCTANCES:
-            flow = h * self.values[f"conductance.{one}_{other}"]
-            i, j = place[one], place.get(other)
+        for i, j, conductance in LINKS:
+            flow = h * self.values[conductance]
             matrix[i][i] += flow
-            if j is not None:
+            if j >= 0:
                 matrix[j][j] += flow
                 matrix[i][j] -= flow
                 matrix[j][i] -= flow
@@ -175,8 +223,9 @@ def _total(values):
     return total
 
 
-def _words(name):
-    return f"the {name.replace('_', ' ')}"
+def _words(kind, prefix=""):
+    where = f" of {prefix.rstrip('.')}" if prefix else ""
+    return f"the {kind.replace('_', ' ')}{where}"
 
 
 def _inverse(matrix):

@@ -6,7 +6,8 @@
 #include <stddef.h>
 
 /* Written by build.py from the description: PARTNER_GUID, one name per value reference (HEAT_OIL for
- * heat.oil), N_VARIABLES, and PARTNER_VARIABLES for a table of Variable. */
+ * heat.oil), N_VARIABLES, N_HIDDEN (numbers that a model remembers beside its variables), PARTNER_VARIABLES
+ * for a table of Variable, and the model's own tables. */
 #include "variables.h"
 
 enum { INPUT, OUTPUT, PARAMETER };
@@ -16,8 +17,6 @@ typedef struct Variable {
     int causality;
     double start;
 } Variable;
-
-enum { N_HIDDEN = 32 }; /* room for what a model remembers beside its variables */
 
 /* Set outputs and what is remembered to the begin of a run at time `begin` (s). May be called again. */
 void model_initialise(double *v, double *hidden, double begin);

@@ -1,31 +1,19 @@
-/* Thermal network of a spindle bearing: the equations of thermal.py, in the same order of operations. */
+/* Thermal network of spindle bearings: the equations of thermal.py, in the same order of operations. */
 #include "partner.h"
 
 #include <math.h>
 
 #define MAX_SUB_STEP 1e-3 /* s */
 
-enum { INNER_RING, OUTER_RING, BALLS, OIL, HOUSING, N_LUMPS, AMBIENT = N_LUMPS };
-enum { SOLVED_STEP, INVERSE }; /* of the matrix for that step, row by row */
-
-static const int TEMPERATURE[N_LUMPS] = {
-    INNER_RING_TEMPERATURE, OUTER_RING_TEMPERATURE, BALLS_TEMPERATURE, OIL_TEMPERATURE, HOUSING_TEMPERATURE};
-static const int CAPACITY[N_LUMPS] = {
-    CAPACITY_INNER_RING, CAPACITY_OUTER_RING, CAPACITY_BALLS, CAPACITY_OIL, CAPACITY_HOUSING};
+/* From `tables` of thermal.py: value references; heat -1 where none enters, other -1 for the ambient. */
+static const struct Lump {
+    int temperature, capacity, heat;
+} LUMPS[] = {PARTNER_LUMPS};
 static const struct Link {
     int one, other, conductance;
-} LINKS[] = {
-    {INNER_RING, BALLS, CONDUCTANCE_INNER_RING_BALLS},
-    {OUTER_RING, BALLS, CONDUCTANCE_OUTER_RING_BALLS},
-    {BALLS, OIL, CONDUCTANCE_BALLS_OIL},
-    {INNER_RING, OIL, CONDUCTANCE_INNER_RING_OIL},
-    {OUTER_RING, OIL, CONDUCTANCE_OUTER_RING_OIL},
-    {OUTER_RING, HOUSING, CONDUCTANCE_OUTER_RING_HOUSING},
-    {INNER_RING, AMBIENT, CONDUCTANCE_INNER_RING_AMBIENT},
-    {OIL, AMBIENT, CONDUCTANCE_OIL_AMBIENT},
-    {HOUSING, AMBIENT, CONDUCTANCE_HOUSING_AMBIENT},
-};
-enum { N_LINKS = sizeof LINKS / sizeof LINKS[0] };
+} LINKS[] = {PARTNER_LINKS};
+enum { N_LUMPS = sizeof LUMPS / sizeof LUMPS[0], N_LINKS = sizeof LINKS / sizeof LINKS[0] };
+enum { SOLVED_STEP, INVERSE }; /* of the matrix for that step, row by row */
 
 /* Capacities plus step times conductances: the matrix of an implicit Euler step. */
 static void fill_matrix(const double *v, double h, double matrix[N_LUMPS][2 * N_LUMPS])
@@ -33,7 +21,7 @@ static void fill_matrix(const double *v, double h, double matrix[N_LUMPS][2 * N_
     int i, j, k;
     for (i = 0; i < N_LUMPS; i++) {
         for (j = 0; j < 2 * N_LUMPS; j++) matrix[i][j] = 0.0;
-        matrix[i][i] = v[CAPACITY[i]];
+        matrix[i][i] = v[LUMPS[i].capacity];
         matrix[i][N_LUMPS + i] = 1.0;
     }
     for (k = 0; k < N_LINKS; k++) {
@@ -41,7 +29,7 @@ static void fill_matrix(const double *v, double h, double matrix[N_LUMPS][2 * N_
         i = LINKS[k].one;
         j = LINKS[k].other;
         matrix[i][i] += flow;
-        if (j == AMBIENT) continue;
+        if (j < 0) continue;
         matrix[j][j] += flow;
         matrix[i][j] -= flow;
         matrix[j][i] -= flow;
@@ -73,18 +61,18 @@ static void advance(double *v, const double *inverse, double h, const double *he
     double before[N_LUMPS], after[N_LUMPS], right[N_LUMPS], supplied = 0.0, gained = 0.0;
     int i, j, k;
     for (i = 0; i < N_LUMPS; i++) {
-        before[i] = v[TEMPERATURE[i]] - v[AMBIENT_TEMPERATURE];
-        right[i] = heats[i] * h + v[CAPACITY[i]] * before[i];
+        before[i] = v[LUMPS[i].temperature] - v[AMBIENT_TEMPERATURE];
+        right[i] = heats[i] * h + v[LUMPS[i].capacity] * before[i];
         supplied += heats[i];
     }
     for (i = 0; i < N_LUMPS; i++) {
         after[i] = 0.0;
         for (j = 0; j < N_LUMPS; j++) after[i] += inverse[i * N_LUMPS + j] * right[j];
-        v[TEMPERATURE[i]] = v[AMBIENT_TEMPERATURE] + after[i];
-        gained += v[CAPACITY[i]] * (after[i] - before[i]);
+        v[LUMPS[i].temperature] = v[AMBIENT_TEMPERATURE] + after[i];
+        gained += v[LUMPS[i].capacity] * (after[i] - before[i]);
     }
     for (k = 0; k < N_LINKS; k++) {
-        if (LINKS[k].other != AMBIENT) continue;
+        if (LINKS[k].other >= 0) continue;
         v[ENERGY_GIVEN_OFF] += h * after[LINKS[k].one] * v[LINKS[k].conductance];
     }
     v[ENERGY_SUPPLIED] += h * supplied;
@@ -95,19 +83,20 @@ void model_initialise(double *v, double *hidden, double begin)
 {
     int i;
     (void)begin;
-    for (i = 0; i < N_LUMPS; i++) v[TEMPERATURE[i]] = v[INITIAL_TEMPERATURE];
+    for (i = 0; i < N_LUMPS; i++) v[LUMPS[i].temperature] = v[INITIAL_TEMPERATURE];
     v[ENERGY_SUPPLIED] = v[ENERGY_STORED] = v[ENERGY_GIVEN_OFF] = 0.0;
     hidden[SOLVED_STEP] = 0.0;
 }
 
 const char *model_step(double *v, double *hidden, double time, double size)
 {
-    double heats[N_LUMPS] = {v[HEAT_INNER_RING], v[HEAT_OUTER_RING], 0.0, v[HEAT_OIL], 0.0};
+    double heats[N_LUMPS];
     double pieces = ceil(size / MAX_SUB_STEP * (1.0 - 1e-9)), sub_step = size / pieces, solved, apart, k;
     int i;
     (void)time;
     for (i = 0; i < N_LUMPS; i++) {
-        if (!(v[CAPACITY[i]] > 0.0)) return "a capacity is not positive";
+        heats[i] = LUMPS[i].heat < 0 ? 0.0 : v[LUMPS[i].heat];
+        if (!(v[LUMPS[i].capacity] > 0.0)) return "a capacity is not positive";
     }
     solved = hidden[SOLVED_STEP];
     apart = fabs(sub_step - solved);

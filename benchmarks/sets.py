@@ -1,0 +1,175 @@
+"""Sets of bearings: what a set of K costs beside K single bearings. ``python -m benchmarks.sets [FILE]``.
+
+One table: the single bearing on a rotor, and sets of the same bearings at the same speed and tolerance, at
+fidelity full without sound, all in one run in turns, the best of some rounds. *Per bearing and iteration* is
+the time of an iteration of Newton's method over the number of bearings, with all else that a step costs: it
+does not depend on how many steps and iterations the motion of this or that shaft asks for. Errors are rms
+differences of ring velocities over 5 ms from a run with a tolerance of 1e-6, over the rms of their
+fluctuation.
+"""
+
+import argparse
+import math
+import pathlib
+import time
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.elastic.shaft import shaft_model
+from fmu_bearing.engine.layout import S
+from fmu_bearing.instance import Instance
+from fmu_bearing.prepare.model import Model, prepare
+from fmu_bearing.run.table import machine, markdown, number, write_csv
+from fmu_bearing.scene import Scene, read_scene
+from fmu_bearing.scene.mounting import Mounting, Rotor
+
+_EXAMPLES = pathlib.Path(__file__).parents[1] / "examples" / "spindle_set"
+_RPM = 20e3
+_STEP = 1e-4  # s: communication step
+_SETTLED, _TIMED, _COMPARED = 200, 100, 50  # communication steps
+_ROUNDS = 5
+_FINE = 1e-6
+COLUMNS = (
+    "case", "bearings", "coordinates", "sim/CPU", "times K", "steps", "iterations",
+    "us per bearing and iteration", "over one", "error",
+)  # fmt: skip
+
+
+@dataclass
+class Timed:
+    """A case and its best round."""
+
+    name: str
+    model: Model
+    bearings: int
+    coordinates: int
+    cpu: float = math.inf
+    steps: float = 0.0
+    iterations: float = 0.0
+
+
+def one_of(scene: Scene) -> Scene:
+    """Return a single bearing of a set, preloaded alike, on a rotor as heavy as its share of a shaft."""
+    mounting = Mounting(
+        preload_N=scene.spindle.preload.preload_N,
+        pedestal_stiffness_N_m=1e8,
+        rotor=Rotor(mass_kg=0.21, length_mm=90.0, diameter_mm=19.0),
+    )
+    return scene.model_copy(update={"spindle": None, "mounting": mounting})
+
+
+def cases() -> list[tuple[str, Scene]]:
+    """Return names and scenes: the single bearing first."""
+    pair, quad = (read_scene(_EXAMPLES / f"7003C-{name}.toml") for name in ("DB", "QBC"))
+    flaws = quad.imperfections
+    speed = {"operation.speed_rpm": _RPM}
+    pair = pair.model_copy(update={"imperfections": flaws}).replace(speed)
+    quad = quad.replace(speed)
+    return [
+        ("single 7003C on a rotor", one_of(quad)),
+        ("DB, rigid shaft", pair.replace({"spindle.shaft.flexible": False})),
+        ("DB, flexible shaft", pair.replace({"spindle.shaft.flexible": True})),
+        ("QBC, rigid shaft", quad.replace({"spindle.shaft.flexible": False})),
+        ("QBC, flexible shaft", quad.replace({"spindle.shaft.flexible": True})),
+    ]
+
+
+def started(model: Model, fine: bool = False) -> Instance:
+    """Return an instance that has settled."""
+    found = Instance(model, tell=lambda text: None)
+    if fine:
+        found.set("tolerance", _FINE)
+    found.initialise()
+    return found
+
+
+def velocities(one: Instance) -> NDArray[np.float64]:
+    """Velocities of all inner rings after each communication step."""
+    names = [name for name in one.by_name if "inner_ring.velocity." in name]
+    rows = []
+    for _ in range(_COMPARED):
+        one.step(_STEP)
+        rows.append([one.get(name) for name in names])
+    return np.array(rows)
+
+
+def error(model: Model) -> float:
+    """Error of the model's own tolerance over the first milliseconds."""
+    exact, own = velocities(started(model, fine=True)), velocities(started(model))
+    return float(np.linalg.norm(own - exact) / np.linalg.norm(exact - exact.mean(axis=0)))
+
+
+def once(case: Timed) -> None:
+    """Time one round of a case; keep it if it is the fastest so far."""
+    one = started(case.model)
+    for _ in range(_SETTLED):
+        one.step(_STEP)
+    steps, iterations = one.s[S.STEPS], one.s[S.NEWTON]
+    begin = time.thread_time()
+    for _ in range(_TIMED):
+        one.step(_STEP)
+    cpu = time.thread_time() - begin
+    if cpu < case.cpu:
+        case.cpu = cpu
+        case.steps = one.s[S.STEPS] - steps
+        case.iterations = one.s[S.NEWTON] - iterations
+
+
+def measured() -> list[Timed]:
+    """Return all cases, timed in turns."""
+    found = []
+    for name, scene in cases():
+        model = prepare(scene)
+        count = 1 if scene.spindle is None else len(scene.spindle.bearing)
+        found.append(Timed(name, model, count, coordinates(scene)))
+    for _ in range(_ROUNDS):
+        for case in found:
+            once(case)
+    return found
+
+
+def coordinates(scene: Scene) -> int:
+    """Coordinates of the shaft; 0 for a single bearing."""
+    return 0 if scene.spindle is None else shaft_model(scene, scene.spindle).count
+
+
+def table(found: list[Timed]) -> list[list[str]]:
+    """Return the rows of the table."""
+    rows, first = [], found[0]
+    single = first.cpu / first.iterations
+    simulated = _TIMED * _STEP
+    for case in found:
+        each = case.cpu / case.iterations / case.bearings
+        rows.append(
+            [
+                case.name, str(case.bearings), str(case.coordinates), number(simulated / case.cpu),
+                number(case.bearings * simulated / case.cpu), f"{case.steps:.0f}", f"{case.iterations:.0f}",
+                f"{1e6 * each:.2f}", f"{each / single:.2f}", f"{error(case.model):.1e}",
+            ]
+        )  # fmt: skip
+    return rows
+
+
+def main() -> None:
+    """Print the table; write it to a file where one is named."""
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("file", nargs="?", type=pathlib.Path, help="where to write the table, .md and .csv")
+    given = parser.parse_args()
+    rows = table(measured())
+    text = markdown(COLUMNS, rows)
+    print(text)
+    if given.file is not None:
+        head = (
+            f"# Sets of bearings\n\n{machine()}\n\nMade by `python -m benchmarks.sets`: fidelity full "
+            f"without sound, {_RPM:,.0f} r/min, communication steps of 0.1 ms,\n"
+            f"{1e3 * _TIMED * _STEP:g} ms after {1e3 * _SETTLED * _STEP:g} ms, the best of {_ROUNDS} rounds "
+            "in turns.\n\n"
+        )
+        given.file.with_suffix(".md").write_text(head + text + "\n", encoding="utf-8")
+        write_csv(given.file.with_suffix(".csv"), COLUMNS, rows)
+
+
+if __name__ == "__main__":
+    main()

@@ -40,8 +40,8 @@ REASONS = {
     NO_START: "no quasi-static equilibrium was found for the initial inputs; "
     "give more preload or less radial load",
     RIGID_ONLY: "its rings bend, which needs fidelity full",
-    OTHER_FIDELITY: "fidelity response is not computed for sets of bearings, and a set whose rings stand on "
-    "pedestals of their own keeps the fidelity of its scene",
+    OTHER_FIDELITY: "a set whose rings stand on pedestals of their own keeps the fidelity of its scene, and "
+    "bearings on another model's shaft have fidelity full alone",
     TOO_SOFT: "the loads push the outer ring sideways by more than 0.3 of the pitch radius; "
     "give a stiffer pedestal or less radial load",
 }

@@ -18,6 +18,8 @@ from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.inputs import bearing_inputs, set_inputs_usable, spread_choices
 from fmu_bearing.engine.spindle.march import march_set, port_derivative
 from fmu_bearing.engine.spindle.outputs import observe_set
+from fmu_bearing.engine.spindle.port import has_port
+from fmu_bearing.engine.spindle.response import march_response_set, start_response_set
 from fmu_bearing.engine.spindle.rings import march_rings_set, start_rings_set
 from fmu_bearing.engine.spindle.start import start_set
 from fmu_bearing.engine.status import BAD_INPUT, BAD_STEP, OK, OTHER_FIDELITY, RIGID_ONLY
@@ -59,16 +61,17 @@ def set_usable(p, u, w):
 
 @kernel
 def set_computed(p):
-    """Whether the parameters of a set are made for its fidelity; `response` is not computed for sets.
+    """Whether the parameters of a set are made for its fidelity.
 
-    A ring on a pedestal of its own is among the set's coordinates in fidelity `rings` alone.
+    A ring on a pedestal of its own is among the set's coordinates in all fidelities but `full`, which alone
+    follows the motion of a port.
     """
-    if p[P.FIDELITY] == RESPONSE:
+    if has_port(p) and p[P.FIDELITY] != FULL:
         return False
     for b in range(members.count(p)):
         r = members.row(p, b)
         follows = p[r + SP.ROW_DRIVEN] == SP.DRIVEN
-        if p[r + SP.ROW_SEAT] == SP.PEDESTAL and follows != (p[P.FIDELITY] == RINGS):
+        if p[r + SP.ROW_SEAT] == SP.PEDESTAL and follows == (p[P.FIDELITY] == FULL):
             return False
     return True
 
@@ -84,6 +87,8 @@ def init_set(p, u, s, z, w, t):
         return RIGID_ONLY
     if p[P.FIDELITY] == RINGS:
         status = start_rings_set(p, u, s, w, t)
+    elif p[P.FIDELITY] == RESPONSE:
+        status = start_response_set(p, u, s, w, t)
     else:
         status = start_set(p, u, s, w, t)
     if status == OK:
@@ -99,6 +104,8 @@ def step_set(p, u, s, z, w, h):
     spread_choices(p)  # a state put back brings the head of p with it, that of the first bearing alone
     if p[P.FIDELITY] == RINGS:
         status = march_rings_set(p, u, s, w, h)
+    elif p[P.FIDELITY] == RESPONSE:
+        status = march_response_set(p, u, s, w, h)
     else:
         status = march_set(p, u, s, w, h)
     if status == OK:

@@ -150,11 +150,6 @@ def prepare(
 
 def _require_computable(scene: Scene) -> None:
     model = scene.fidelity.model
-    if scene.spindle is not None and model == "response":
-        raise SceneError(
-            f"{scene.name}: fidelity.model = 'response' takes one bearing so far, not a set ([spindle]): "
-            'give "full" or "rings"'
-        )
     if model not in FIDELITIES:
         raise SceneError(
             f"{scene.name}: fidelity.model = '{model}' must be resolved first, to one of "
@@ -170,7 +165,7 @@ def pack(scene: Scene, *sounds: NDArray[np.float64]) -> NDArray[np.float64]:
     Raises
     ------
     SceneError
-        If the scene's fidelity is ``auto``, or takes no set.
+        If the scene's fidelity is ``auto``.
     """
     _require_computable(scene)
     if scene.spindle is not None:

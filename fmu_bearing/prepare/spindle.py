@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from scipy.linalg import block_diag
 
 from fmu_bearing.elastic.shaft import ShaftModel, placed, shaft_model, shaft_sections
-from fmu_bearing.engine.choices import RINGS
+from fmu_bearing.engine.choices import RESPONSE, RINGS
 from fmu_bearing.engine.layout import SP, P, Q, S, W, Z
 from fmu_bearing.interface.set_inputs import set_inputs
 from fmu_bearing.prepare import bodies
@@ -56,7 +56,7 @@ def pack_set(
             _hold(p)
     for p, one in zip(bearings, spindle.bearing, strict=True):
         p[P.OWN_SHARE : P.OWN_SHARE + SP.DRIVEN] = _own_shares(scene, p, one)
-    follows = all(p[P.FIDELITY] == RINGS for p in bearings)
+    follows = bearings[0][P.FIDELITY] in (RINGS, RESPONSE)
     rows = _rows(spindle, shaft, bearings, follows)
     block = _block(scene, shaft, bearings, rows)
     bearings[0][P.SET] = sum(p.size for p in bearings)
@@ -134,7 +134,8 @@ def _rows(
 ) -> list[tuple[NDArray[np.float64], NDArray[np.float64]]]:
     """Return inertia and motion of the driven rows, per bearing.
 
-    ``rings``: of fidelity rings, where an outer ring on a pedestal of its own has six coordinates of the set.
+    ``rings``: of fidelities rings and response, where an outer ring on a pedestal of its own has six
+    coordinates of the set.
     """
     moves, sliding = spindle.housing.moves, _sliding(spindle)
     behind = shaft.count + (SP.HOUSING if moves else 0)
@@ -285,7 +286,7 @@ def _block(
     block[SP.UNBALANCED] = bool(tables[SP.AT_UNBALANCE].any())
     block[SP.AT_S], block[SP.AT_W], block[SP.AT_Z] = places["S"], places["W"], places["Z"]
     mics, bands = (int(bearings[0][place]) for place in (P.MICS, P.BANDS))
-    block[SP.SIZE_S] = places["S"] + SP.state_size(count, n, mics)
+    block[SP.SIZE_S] = places["S"] + SP.state_size(count, n, mics, bearings[0][P.FIDELITY] == RESPONSE)
     block[SP.SIZE_W] = places["W"] + SP.work_size(count, n)
     block[SP.SIZE_Z] = places["Z"] + SP.output_size(count, mics, bands)
     block[SP.SIZE_U] = SP.U_BEARINGS + count * SP.U_ROW

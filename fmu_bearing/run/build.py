@@ -21,7 +21,7 @@ def model_of(source: SceneSource, tell: Tell = silent) -> Model:
         For a scene that is refused.
     """
     scene = scene_of(source)
-    if scene.fidelity.model == "auto" and scene.spindle is None:
+    if scene.fidelity.model == "auto":
         tell("fidelity auto: probing the scene against fidelity full (kept for the next time)")
     resolved, choice = resolve(scene)
     if resolved.mounting is not None and not resolved.mounting.preload_N > 0.0:

@@ -3,8 +3,8 @@
 A scene is probed once, when its model is built. Every candidate, and fidelity ``full`` with the settings of
 ``FINEST``, runs at the scene's speed, loads and temperatures. A candidate is accurate where
 
-* the rms velocity of each ring, in dB, and with sound the A-weighted equivalent level at each microphone
-  differ by no more than ``fidelity.accuracy.level_dB``;
+* the rms velocity of each ring, of all bearings, in dB, and with sound the A-weighted equivalent level at
+  each microphone differ by no more than ``fidelity.accuracy.level_dB``;
 * the mean contact load at each race and the mean friction torque differ by no more than
   ``fidelity.accuracy.relative`` of themselves.
 
@@ -25,7 +25,7 @@ from dataclasses import dataclass, replace
 
 from fmu_bearing.engine.sources import source_hash
 from fmu_bearing.files import cache_root, write_whole
-from fmu_bearing.prepare.sound import sound_block
+from fmu_bearing.prepare.sound import sound_blocks
 from fmu_bearing.run.arrays import Refused
 from fmu_bearing.run.metrics import Errors, errors, measure
 from fmu_bearing.run.settings import Setting
@@ -176,17 +176,17 @@ def choose(
     Refused
         If fidelity ``full`` itself is refused.
     """
-    sound = sound_block(scene)
+    sounds = sound_blocks(scene)
     candidates = [c for c in candidates if c.carries(scene)]
     finest = bounded(FINEST, scene)
-    truth = measure(finest, sound, warm_up, window, budget=budget)
+    truth = measure(finest, sounds, warm_up, window, budget=budget)
     probes = []
     # bounds of the scene may make two candidates one
     variants = {(made := bounded(candidate, scene)).fidelity: made for candidate in candidates}
     for fidelity, variant in variants.items():
         found, pace = None, math.nan
         try:
-            run = measure(variant, sound, warm_up, window, budget=budget)
+            run = measure(variant, sounds, warm_up, window, budget=budget)
             found, pace = errors(run.figures, truth.figures), run.cpu
             reason = too_far(found, scene)
         except Refused as problem:
@@ -232,14 +232,9 @@ def chosen(scene: Scene) -> Choice:
 
 
 def resolve(scene: Scene) -> tuple[Scene, Choice | None]:
-    """Return the scene with a concrete fidelity, and the choice; None where nothing was probed.
-
-    Of a set ``auto`` is ``full``, the only fidelity that takes one so far.
-    """
+    """Return the scene with a concrete fidelity, and the choice; None where nothing was probed."""
     if scene.fidelity.model != "auto":
         return scene, None
-    if scene.spindle is not None:
-        return with_fidelity(scene, model="full"), None
     choice = chosen(scene)
     return choice.apply(scene), choice
 

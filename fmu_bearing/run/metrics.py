@@ -2,12 +2,13 @@
 
 import math
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.engine.layout import P, Z
+from fmu_bearing.engine.layout import SP, P, Z
 from fmu_bearing.run.arrays import Arrays
 from fmu_bearing.scene import Scene
 
@@ -27,7 +28,7 @@ _LEVEL = Z.MIC_OUTPUTS.index("leq_a")
 
 @dataclass(frozen=True)
 class Figures:
-    """Figures of a bearing over a window of time; pairs are inner, outer.
+    """Figures of a bearing over a window of time; pairs are inner, outer, of a set one after the other.
 
     Attributes
     ----------
@@ -38,14 +39,14 @@ class Figures:
     torque : float
         Mean friction torque (N m).
     cage_ratio : float
-        Mean speed of the cage over the shaft's.
+        Mean speed of the cage over the shaft's; of a set, of its first bearing.
     levels : tuple of float
         A-weighted equivalent level at each microphone (dB); empty without sound.
     """
 
-    ring_rms: tuple[float, float]
-    load: tuple[float, float]
-    angle: tuple[float, float]
+    ring_rms: tuple[float, ...]
+    load: tuple[float, ...]
+    angle: tuple[float, ...]
     torque: float
     cage_ratio: float
     levels: tuple[float, ...] = ()
@@ -114,7 +115,7 @@ class Measured:
     ----------
     figures : Figures
     rings : ndarray
-        Ring velocities (m/s), six columns, every ``SAMPLE`` of the window.
+        Ring velocities (m/s), six columns per bearing, every ``SAMPLE`` of the window.
     wall, cpu : float
         Simulated s per wall s and per CPU s, settled, without sound; NaN where not timed.
     """
@@ -126,8 +127,8 @@ class Measured:
 
 
 def measure(
-    scene: Scene, sound: NDArray[np.float64], warm_up: float, window: float, *, budget: float = 0.0,
-    **parameters: float,
+    scene: Scene, sound: NDArray[np.float64] | Sequence[NDArray[np.float64]], warm_up: float, window: float,
+    *, budget: float = 0.0, **parameters: float,
 ) -> Measured:  # fmt: skip
     """Run a scene from its quasi-static state for ``warm_up`` (s), then read its figures over ``window`` (s).
 
@@ -135,8 +136,9 @@ def measure(
     ----------
     scene : Scene
         Its fidelity is not ``auto``.
-    sound : ndarray
-        Its sound block; empty: no sound levels. Sound is computed in a second run of the same motion.
+    sound : ndarray or sequence of ndarray
+        Its sound block, of a set one per bearing; empty: no sound levels. Sound is computed in a second run
+        of the same motion.
     budget : float
         Wall time (s) of each of two timed runs; 0: none.
     parameters : float
@@ -147,36 +149,60 @@ def measure(
     Refused
         If the engine refuses.
     """
-    bearing = Arrays.of(scene, None, **parameters)
+    blocks = [sound] if isinstance(sound, np.ndarray) else list(sound)
+    bearing = _arrays(scene, [], parameters)
     bearing.init()
     bearing.run(warm_up, COMMUNICATION)
     wall, cpu = speed(bearing, budget, 2, 1.0) if budget else (math.nan, math.nan)
-    z = np.empty((round(window / SAMPLE), len(Z.BEARING_OUTPUTS)))
-    for row in z:
+    places = _places(bearing)
+    z = np.empty((len(places), round(window / SAMPLE), len(Z.BEARING_OUTPUTS)))
+    for k in range(z.shape[1]):
         bearing.step(SAMPLE)
-        row[:] = bearing.z[: row.size]
-    mean = z.mean(0)
-    rms = ring_rms(z[:, :6])
+        for rows, place in zip(z, places, strict=True):
+            rows[k] = bearing.z[place : place + rows.shape[1]]
+    mean = z.mean(1)
     figures = Figures(
-        (float(rms[0]), float(rms[1])),
-        (float(mean[_LOAD[0]]), float(mean[_LOAD[1]])),
-        (float(mean[_ANGLE[0]]), float(mean[_ANGLE[1]])),
-        float(mean[_TORQUE]),
-        float(mean[_CAGE]),
-        _levels(scene, sound, warm_up, window, parameters) if sound.size else (),
+        tuple(float(one) for rows in z for one in ring_rms(rows[:, :6])),
+        tuple(float(row[place]) for row in mean for place in _LOAD),
+        tuple(float(row[place]) for row in mean for place in _ANGLE),
+        float(mean[:, _TORQUE].sum()),
+        float(mean[0, _CAGE]),
+        _levels(scene, blocks, warm_up, window, parameters) if blocks and blocks[0].size else (),
     )
-    return Measured(figures, z[:, :6], wall, cpu)
+    return Measured(figures, np.hstack([rows[:, :6] for rows in z]), wall, cpu)
+
+
+def _arrays(scene: Scene, blocks: list[NDArray[np.float64]], parameters: dict[str, float]) -> Arrays:
+    """Return the arrays of a scene, of a set too."""
+    if scene.spindle is not None:
+        return Arrays.of_set(scene, *blocks, **parameters)
+    return Arrays.of(scene, blocks[0] if blocks else None, **parameters)
+
+
+def _places(bearing: Arrays) -> list[int]:
+    """Return where the outputs of each bearing begin in ``z``."""
+    p = bearing.p
+    if p[P.SET] == 0.0:
+        return [0]
+    first, count = SP.first(p, SP.AT_ROWS), int(p[int(p[P.SET]) + SP.BEARINGS])
+    return [int(p[first + b * SP.ROW + SP.ROW_Z]) for b in range(count)]
 
 
 def _levels(
-    scene: Scene, sound: NDArray[np.float64], warm_up: float, window: float, parameters: dict[str, float]
-) -> tuple[float, ...]:
+    scene: Scene, blocks: list[NDArray[np.float64]], warm_up: float, window: float,
+    parameters: dict[str, float],
+) -> tuple[float, ...]:  # fmt: skip
     """A-weighted equivalent levels (dB) over the window, as the engine's own meters show them."""
-    bearing = Arrays.of(scene, sound, **parameters, METERING_START=warm_up)
+    bearing = _arrays(scene, blocks, {**parameters, "METERING_START": warm_up})
     bearing.init()
     bearing.run(warm_up + window, COMMUNICATION)
-    sizes = int(bearing.p[P.BALLS]), int(bearing.p[P.MICS])
-    levels = bearing.z[Z.mics(sizes[0]) + _LEVEL : Z.bands(*sizes) : len(Z.MIC_OUTPUTS)]
+    p = bearing.p
+    first = Z.mics(int(p[P.BALLS]))
+    if p[P.SET] != 0.0:
+        block = int(p[P.SET])
+        first = int(p[block + SP.AT_Z]) + SP.z_mics(int(p[block + SP.BEARINGS]))
+    per_mic = len(Z.MIC_OUTPUTS)
+    levels = bearing.z[first + _LEVEL : first + int(p[P.MICS]) * per_mic : per_mic]
     return tuple(float(level) for level in levels)
 
 

@@ -33,8 +33,9 @@ class Setting:
         )
 
     def carries(self, scene: Scene) -> bool:
-        """Whether the scene can be computed this way: bending rings need full."""
-        return not scene.bends or self.fidelity == "full"
+        """Whether the scene can be computed this way: bending rings and another model's shaft need full."""
+        led = scene.spindle is not None and scene.spindle.shaft.external
+        return not (scene.bends or led) or self.fidelity == "full"
 
     @property
     def name(self) -> str:

@@ -102,6 +102,11 @@ class Tables(Part):
 
     def _port(self) -> Iterator[Conflict]:
         """Yield what bearings on another model's shaft do not have."""
+        if self.fidelity.model not in ("full", "auto"):
+            yield Conflict(
+                "fidelity.model",
+                "does not follow a shaft that another model moves (spindle.shaft.external): give 'full'",
+            )
         if self.sound is not None:
             yield Conflict(
                 "sound", "is not computed of bearings on another model's shaft (spindle.shaft.external) yet"

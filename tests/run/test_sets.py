@@ -12,7 +12,10 @@ from fmu_bearing.instance import EngineError
 from fmu_bearing.interface import variables
 from fmu_bearing.interface.set_inputs import set_inputs
 from fmu_bearing.prepare.model import prepare
-from fmu_bearing.scene import Scene, SceneError
+from fmu_bearing.prepare.sound import sound_blocks
+from fmu_bearing.run.choose import CANDIDATES, choose
+from fmu_bearing.run.metrics import measure
+from fmu_bearing.scene import Scene
 from fmu_bearing.scene.member import one_of
 from tests.conftest import EXAMPLES
 from tests.spindle.sets import scene, tables
@@ -219,11 +222,34 @@ def test_refusals_name_the_inputs_of_the_set():
     assert bearing.read("*") == before
 
 
-def test_auto_is_full_and_response_is_refused():
-    found = with_fidelity(DB, model="auto")
-    assert Bearing(found).scene.fidelity.model == "full"
-    with pytest.raises(SceneError, match="fidelity.model = 'response' takes one bearing so far"):
-        prepare(found, fidelity="response")
+def test_auto_measures_all_bearings_of_a_set():
+    """A pair with flaws: what is measured are the rings of both, loads, torque and what microphones hear."""
+    flaws = {
+        "seed": 1,
+        "waviness_exponent": 0.5,
+        "lowest_order": 2,
+        "highest_order": 20,
+        "inner_race_amplitude_um": 0.1, "outer_race_amplitude_um": 0.1, "ball_diameter_spread_nm": 50.0,
+    }  # fmt: skip
+    heard = {"microphone": [{"name": "above", "x_mm": 55.0, "y_mm": 0.0, "z_mm": 1000.0}]}
+    data = tables(rpm=20e3) | {"imperfections": flaws, "sound": heard}
+    given = Scene.from_dict(data)
+    short = {"warm_up": 0.02, "window": 0.02, "budget": 0.01}
+    found = choose(with_fidelity(given, model="auto"), CANDIDATES[:3], **short)
+    blocks = sound_blocks(given)
+    sizes = measure(with_fidelity(given, model="response"), blocks, 0.02, 0.02).figures
+    assert len(sizes.ring_rms) == len(sizes.load) == 4
+    assert len(sizes.levels) == 1
+    assert sizes.ring_rms[0] > 1e-5 < sizes.ring_rms[2]
+    assert sizes.torque == pytest.approx(
+        simulate(with_fidelity(given, model="response"), 1e-3, step=1e-3)["friction_torque"][-1], rel=1e-2
+    )
+    response, rings, _, truth = found.probes
+    assert max(response.errors.ring_level, rings.errors.ring_level) < 1.0
+    assert 0.0 < rings.errors.level < 1.0
+    assert truth.errors.ring_level == 0.0
+    assert found.probe.fidelity == "response"
+    assert found.apply(given).fidelity.model == "response"
 
 
 def test_rings_run_where_a_ring_stands_on_its_own_pedestal():

@@ -51,21 +51,23 @@ def vibration(rows):
     return np.sqrt((apart**2).sum(axis=2).mean(axis=0))
 
 
-def compared(given, shaft=None, settle=0.02, duration=0.05):
-    """Vibration by fidelity rings over that by full, of all that moves."""
+def compared(given, shaft=None, settle=0.02, duration=0.05, fidelity=RINGS):
+    """Vibration by a fidelity over that by full, of all that moves."""
     found = []
-    for fidelity in (RINGS, 0.0):
-        run = SetRun(given, shaft=shaft, FIDELITY=fidelity).init()
+    for each in (fidelity, 0.0):
+        run = SetRun(given, shaft=shaft, FIDELITY=each).init()
         run.run(settle, 1e-3)
         found.append(vibration(recorded(run, duration)))
     moving = found[1] > 0.0
     return found[0][moving] / found[1][moving]
 
 
-@pytest.mark.parametrize("flaws", [False, True])
-def test_a_set_of_one_is_the_single_bearing(flaws):
-    """Its shaft, centred in the bearing, is the rotor; its ring stands on the same pedestal."""
-    rpm, length, diameter = 20000.0, 180.0, 15.0
+def set_of_one(flaws, rpm):
+    """A bearing alone on its shaft, and the same as a single bearing with a rotor.
+
+    The shaft, centred in the bearing, is the rotor; the ring stands on the same pedestal.
+    """
+    length, diameter = 180.0, 15.0
     given = scene(
         "+", (length / 2.0,), None, rpm, changes={"fidelity.terms.gravity": flaws},
         shaft={"sections_mm": [[length, diameter, 0.0]]}, bearings=[{"seat": "pedestal"}],
@@ -81,9 +83,16 @@ def test_a_set_of_one_is_the_single_bearing(flaws):
         pedestal_stiffness_N_m=1e8,
         rotor=Rotor(mass_kg=mass, length_mm=length, diameter_mm=diameter),
     )
+    return given, given.model_copy(update={"spindle": None, "mounting": mounting})
+
+
+@pytest.mark.parametrize("flaws", [False, True])
+def test_a_set_of_one_is_the_single_bearing(flaws):
+    rpm = 20000.0
+    given, alone = set_of_one(flaws, rpm)
     # at longer steps one of both corrects a step once more now and then, as tilts have other levers
     fine = {"FIDELITY": RINGS, "MAX_STEP": 5e-6}
-    single = Run(given.model_copy(update={"spindle": None, "mounting": mounting}), rpm, **fine)
+    single = Run(alone, rpm, **fine)
     single.u[U.LOAD_Z] = -20.0
     single.init()
     run = SetRun(given, **fine).init()
@@ -253,7 +262,7 @@ def test_extremes_stay_finite(signs, preload, rpm, force):
 
 @pytest.mark.parametrize(("made", "asked"), [(0.0, RINGS), (RINGS, 0.0), (0.0, FIDELITIES["response"])])
 def test_a_set_keeps_the_fidelity_that_it_was_made_for(made, asked):
-    """Rings on pedestals of their own are coordinates of the set in fidelity rings alone."""
+    """Rings on pedestals of their own are coordinates of the set in all fidelities but full."""
     seats = {"bearings": [{}, {"seat": "pedestal"}], "housing": {"pedestal_stiffness_N_m": 1e8}}
     run = SetRun(scene("+-", (40.0, 70.0), **seats), FIDELITY=made)
     assert run.try_init() == OK

@@ -8,7 +8,7 @@ of them, and columns of their matrices, fill whole groups of four lanes, the spa
 rows of a bearing's bodies follow the coordinates: ``T q`` and an offset along the bearing's own axis.
 """
 
-from fmu_bearing.engine.layout import history as _H, p as _P, q as _Q, u as _U, z as _Z
+from fmu_bearing.engine.layout import condensed as _L, history as _H, p as _P, q as _Q, u as _U, z as _Z
 from fmu_bearing.engine.layout.sizes import FOUR, STAGES, Places
 
 PLANE = _Q.OUTER  # coordinates of a plane of the shaft: x y z by bz
@@ -181,7 +181,17 @@ _march = Places(_H.NUMBERS)
 HELD_NOSE = _march(PLANE)  # N, N m: what the bearings' quasi-static points were held with: loads on the nose,
 HELD_SPRING = _march()  # N,
 HELD_FEET = _march()  # N/m: and the pedestal
+LINES = _march()  # how many lines there are (fidelity response)
 MARCHED = _march.next
+
+# fidelity response, at the end: lines, each with the complex displacements of the padded coordinates
+_line = Places()
+LINE_BALL = _line()  # multiples of the angles as of a single bearing's lines, and its weight,
+LINE_SHAFT = _line()
+LINE_ROLLED = _line()
+LINE_WEIGHT = _line()
+LINE_MEMBER = _line()  # of which bearing,
+LINE_REAL = _line.next  # m, rad: real parts; imaginary parts follow
 
 # --- work space -------------------------------------------------------------------------------------
 _at = Places()
@@ -237,17 +247,25 @@ def padded(count):
     return -(-count // FOUR) * FOUR
 
 
-def state_size(bearings, count, mics=0):
-    """Length of the set's own in ``s``: head, vectors, per bearing, inverse, march, levels."""
+def line_size(count):
+    """How many numbers a line has for ``count`` coordinates."""
+    return LINE_REAL + 2 * padded(count)
+
+
+def state_size(bearings, count, mics=0, lines=False):
+    """Length of the set's own in ``s``: head, vectors, per bearing, inverse, march, levels, ``lines``."""
     own = S_HEAD + MOTION * padded(count) + bearings * PER_BEARING + count * padded(count)
-    return own + MARCHED + (_H.VECTORS + count) * padded(count) + bearings * mics
+    own += MARCHED + (_H.VECTORS + count) * padded(count) + bearings * mics
+    return own + (_L.MOST_LINES * bearings * line_size(count) if lines else 0)
 
 
 def work_size(bearings, count):
     """Length of the set's own in ``w``: head, stages, Newton's vectors, bearings, the start's equations."""
     start = padded(count) + HOUSING * bearings
     own = W_HEAD + VECTORS * padded(count) + bearings * KEPT
-    return own + start * (start + START_VECTORS) + 2 * count * padded(count) + FOUR
+    equations = start * (start + START_VECTORS) + 2 * count * padded(count)
+    complex_ones = 2 * count * (2 * count + 1)  # of lines, with the two matrices they are made of
+    return own + max(equations, complex_ones) + FOUR
 
 
 def z_mics(bearings):

@@ -42,6 +42,14 @@ def show(p, s, w):
         own[SP.S_HEAD + i] = own[x + H.Q0 * lanes + i]
         own[SP.S_HEAD + lanes + i] = own[x + H.V0 * lanes + i] - rate_error(own, numbers, x, lanes, i)
         own[SP.S_HEAD + 2 * lanes + i] = own[x + H.A0 * lanes + i]
+    show_rings(p, s)
+
+
+@kernel
+def show_rings(p, s):
+    """Put places, rates and accelerations of all rings to those that the set has."""
+    own = members.own_state(p, s)
+    lanes = members.padded(p)
     for b in range(members.count(p)):
         lv = members.condensed(members.state(p, s, b))
         mine = members.kept(p, b)
@@ -67,6 +75,12 @@ def tell_march(p, s):
 def publish_set(p, s, w):
     """Write the states of all bearings and of the set that outputs are made of."""
     show(p, s, w)
+    publish_rings(p, s)
+
+
+@kernel
+def publish_rings(p, s):
+    """Write the states of all bearings that outputs are made of, with the rings as they are shown."""
     for b in range(members.count(p)):
         sb = members.state(p, s, b)
         lv = members.condensed(sb)

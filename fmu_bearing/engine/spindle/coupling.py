@@ -102,14 +102,18 @@ def add_driven(p, b, x, first, row, column, out, to):
     r = members.row(p, b)
     t = int(p[r + SP.ROW_AT_T])
     count = int(p[r + SP.ROW_DRIVEN])
+    columns = int(p[r + SP.ROW_AT_COLUMNS])
+    moving = int(p[r + SP.ROW_COLUMNS])  # coordinates: the others do not move this bearing
     for i in range(count):
-        for k in range(n):
+        for one in range(moving):
+            k = int(p[columns + one])
             # row i of m X T
             total = 0.0
             for j in range(count):
                 total += x[first + i * row + j * column] * p[t + k * SP.LANES + j]
             total *= p[r + SP.ROW_MASS + i]
-            for h in range(n):
+            for other in range(moving):
+                h = int(p[columns + other])
                 out[to + h * n + k] += p[t + h * SP.LANES + i] * total
 
 

@@ -119,6 +119,18 @@ def alone(p, b):
 
 
 @kernel
+def lines(p):
+    """Begin in the set's own state of its lines (fidelity response)."""
+    return alone(p, count(p))
+
+
+@kernel
+def line_size(p):
+    """Return how many numbers a line has."""
+    return SP.LINE_REAL + 2 * padded(p)
+
+
+@kernel
 def heard(p):
     """Place in ``z`` of the microphones, as of a single bearing; behind them the bearings' own levels."""
     return int(p[int(p[P.SET]) + SP.AT_Z]) + SP.Z_FORCES + SP.Z_FORCE * count(p)

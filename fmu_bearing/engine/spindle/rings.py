@@ -281,6 +281,12 @@ def try_rings(p, s, w, h, tolerance):
 def emit_rings(p, s, w, h):
     """Sound samples of the step ``h`` (s) just made; publish its end."""
     condensed.show(p, s, w)
+    emit_shown(p, s, w, h)
+
+
+@kernel
+def emit_shown(p, s, w, h):
+    """Sound samples of the step ``h`` (s) to the rings as they are shown; publish its end."""
     for b in range(members.count(p)):
         show_end(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b), h, False)
     emit_set(p, s, w, h)

@@ -35,7 +35,7 @@ _LEAN = 1e-8  # m/rad
 _SMALL = 1e-6  # of the largest coefficient of a kind: an order of the balls below it is left out
 _WEAK = 1e-5  # of the strongest line's weight, as an amplitude: left out
 _RADIATES = 6300.0  # rad/s: from here on lines count by their acceleration
-_STILL = 1e-3  # rad/s: a line as slow as that is none
+STILL = 1e-3  # rad/s: a line as slow as that is none
 
 
 @kernel
@@ -133,10 +133,11 @@ def coefficients(x, kind, order, target, w):
 
 
 @kernel
-def keep(p, lv, lines, a, b, m, omega, w):
-    """Keep the answer at ``omega`` (rad/s) to the force ``T.LINE_FORCE`` as line ``a``, ``b``, ``m``."""
-    if abs(omega) < _STILL:
-        return
+def line_equations(p, lv, omega, w):
+    """Put the rings' equations at ``omega`` (rad/s) with ``T.LINE_FORCE`` to ``T.LINE_RE`` and ``T.LINE_IM``.
+
+    Per own inertia; the right side is the last number of a row.
+    """
     re = w[T.LINE_RE : T.LINE_RE + L.N * T.LINE_ROW]
     im = w[T.LINE_IM : T.LINE_IM + L.N * T.LINE_ROW]
     for i in range(L.N):
@@ -151,15 +152,30 @@ def keep(p, lv, lines, a, b, m, omega, w):
     if lv[L.SIDE_SQUARE] != 0.0:
         for k in range(L.PATTERNS):
             move_across(p, lv, k, omega, re, im, w)
-    if not solve_complex(re, im, L.N, T.LINE_ROW):
+
+
+@kernel
+def keep(p, lv, lines, alone, a, b, m, omega, w):
+    """Keep the answer at ``omega`` (rad/s) to the force ``T.LINE_FORCE`` as line ``a``, ``b``, ``m``.
+
+    A bearing that is not ``alone`` keeps what drives its rings (m/s2, rad/s2): the set answers to it.
+    """
+    if abs(omega) < STILL:
+        return
+    re = w[T.LINE_RE : T.LINE_RE + L.N * T.LINE_ROW]
+    im = w[T.LINE_IM : T.LINE_IM + L.N * T.LINE_ROW]
+    line_equations(p, lv, omega, w)
+    if alone and not solve_complex(re, im, L.N, T.LINE_ROW):
         return
     into = int(lv[L.COUNT])
     size = weight_of(omega, re, im)
+    if not alone:
+        size /= omega**4  # as free rings would answer
     if not (size < 1e9):
         return
     if into == L.MOST_LINES:
         # full: the weakest line makes room, if it is weaker than this one
-        into = weakest(lines, into)
+        into = weakest(lines, L.LINE_SIZE, into)
         if lines[into * L.LINE_SIZE + L.LINE_WEIGHT] >= size:
             return
     else:
@@ -214,35 +230,40 @@ def weight_of(omega, re, im):
     for i in range(L.TURN):
         if not is_angle(i):
             size += re[i * T.LINE_ROW + L.N] ** 2 + im[i * T.LINE_ROW + L.N] ** 2
-    squared = omega * omega
-    return squared * (1.0 + squared / (_RADIATES * _RADIATES)) * size
+    return counts_by(omega) * size
 
 
 @kernel
-def weakest(lines, count):
-    """Index of the kept line that weighs least."""
+def counts_by(omega):
+    """Weight (1/s2) of squared displacements at ``omega`` (rad/s): see `weight_of`."""
+    squared = omega * omega
+    return squared * (1.0 + squared / (_RADIATES * _RADIATES))
+
+
+@kernel
+def weakest(lines, size, count):
+    """Index of the kept line, of ``size`` numbers, that weighs least."""
     best = 0
     for k in range(1, count):
-        if lines[k * L.LINE_SIZE + L.LINE_WEIGHT] < lines[best * L.LINE_SIZE + L.LINE_WEIGHT]:
+        if lines[k * size + L.LINE_WEIGHT] < lines[best * size + L.LINE_WEIGHT]:
             best = k
     return best
 
 
 @kernel
-def drop_weak(lv, lines):
-    """Leave out lines that are nothing beside the strongest."""
+def drop_weak(lines, size, count):
+    """Leave out lines, of ``size`` numbers each, that are nothing beside the strongest; how many are left."""
     most = 0.0
-    count = int(lv[L.COUNT])
     for k in range(count):
-        most = max(most, lines[k * L.LINE_SIZE + L.LINE_WEIGHT])
+        most = max(most, lines[k * size + L.LINE_WEIGHT])
     into = 0
     for k in range(count):
-        at = k * L.LINE_SIZE
+        at = k * size
         if lines[at + L.LINE_WEIGHT] > _WEAK * _WEAK * most:
-            for i in range(L.LINE_SIZE):
-                lines[into * L.LINE_SIZE + i] = lines[at + i]
+            for i in range(size):
+                lines[into * size + i] = lines[at + i]
             into += 1
-    lv[L.COUNT] = into
+    return into
 
 
 @kernel
@@ -267,7 +288,7 @@ def add_wave(p, x, race, n, order, factor, rate, tau, w):
 
 
 @kernel
-def steady_lines(p, c, lv, lines, x, count, orbit, w):
+def steady_lines(p, c, lv, lines, alone, x, count, orbit, w):
     """Lines that turn with the balls alone: outer race, varying compliance, unequal balls."""
     balls = int(p[P.BALLS])
     scale = c[C.OVERSIZE_SCALE]
@@ -300,11 +321,11 @@ def steady_lines(p, c, lv, lines, x, count, orbit, w):
                     gi = w[T.BY_HEIGHT + LN.IMAGINARY + i]
                     w[T.LINE_FORCE + i] += gr * dr - gi * di
                     w[T.LINE_FORCE + LN.IMAGINARY + i] += gr * di + gi * dr
-        keep(p, lv, lines, a, 0.0, 0.0, a * orbit, w)
+        keep(p, lv, lines, alone, a, 0.0, 0.0, a * orbit, w)
 
 
 @kernel
-def shaft_lines(p, c, lv, lines, x, orbit, speed, w):
+def shaft_lines(p, c, lv, lines, alone, x, orbit, speed, w):
     """Lines that turn with the shaft: unbalance and the waves of the inner race."""
     balls = int(p[P.BALLS])
     scale = c[C.OVERSIZE_SCALE]
@@ -315,14 +336,14 @@ def shaft_lines(p, c, lv, lines, x, orbit, speed, w):
     # (0, -sin, cos) of the shaft's angle
     w[T.LINE_FORCE + LN.IMAGINARY + Q.Y] = push
     w[T.LINE_FORCE + Q.Z] = push
-    keep(p, lv, lines, 0.0, 1.0, 0.0, speed, w)
+    keep(p, lv, lines, alone, 0.0, 1.0, 0.0, speed, w)
     for n in range(1, orders(p) + 1):
         lowest = max((n - LN.REACH + balls - 1) // balls, 0)
         for k in range(lowest, (n + LN.REACH) // balls + 1):
             for i in range(LN.COMPLEX):
                 w[T.LINE_FORCE + i] = 0.0
             add_wave(p, x, 0, n, k * balls - n, balls * scale, orbit - speed, tau, w)
-            keep(p, lv, lines, k * balls, -1.0 * n, 0.0, k * balls * orbit - n * speed, w)
+            keep(p, lv, lines, alone, k * balls, -1.0 * n, 0.0, k * balls * orbit - n * speed, w)
 
 
 @kernel
@@ -356,7 +377,7 @@ def add_form(x, kind, order, re, im, squared, w):
 
 
 @kernel
-def form_lines(p, c, lv, lines, x, orbit, speed, w):
+def form_lines(p, c, lv, lines, alone, x, orbit, speed, w):
     """Lines of the balls' form; the samples round the orbit are overwritten."""
     balls = int(p[P.BALLS])
     rate = lv[L.ROLL] * speed
@@ -381,12 +402,15 @@ def form_lines(p, c, lv, lines, x, orbit, speed, w):
                     im += x[at + j] * math.sin(turn) + x[at + STRIDE + j] * math.cos(turn)
                 kind = LN.BY_HEIGHT + form if form < 2 else LN.BY_LEAN + form - 2
                 add_form(x, kind, a, re * co - im * si, re * si + im * co, m * rate * m * rate, w)
-            keep(p, lv, lines, a, 0.0, m, a * orbit + m * rate, w)
+            keep(p, lv, lines, alone, a, 0.0, m, a * orbit + m * rate, w)
 
 
 @kernel
-def renew_lines(p, s, speed, w):
-    """All lines at ``speed`` (rad/s) about the equilibrium in ``w[W.STAGE:]`` with derivatives in ``lv``."""
+def renew_lines(p, s, alone, speed, w):
+    """All lines at ``speed`` (rad/s) about the equilibrium in ``w[W.STAGE:]`` with derivatives in ``lv``.
+
+    ``alone``: whether the bearing answers by itself, see `keep`.
+    """
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     c = s[S.C : S.C + C.SIZE]
     x = s[S.JAC : S.JAC + LN.SIZE]
@@ -400,8 +424,9 @@ def renew_lines(p, s, speed, w):
             transform(x, kind, order, count, order_of(kind, order))
     lines = s[line_table(p) :]
     lv[L.COUNT] = 0.0
-    shaft_lines(p, c, lv, lines, x, orbit, speed, w)
-    steady_lines(p, c, lv, lines, x, count, orbit, w)
+    shaft_lines(p, c, lv, lines, alone, x, orbit, speed, w)
+    steady_lines(p, c, lv, lines, alone, x, count, orbit, w)
     if p[P.BALL_WAVES] != 0.0 and c[C.OVERSIZE_SCALE] != 0.0:
-        form_lines(p, c, lv, lines, x, orbit, speed, w)
-    drop_weak(lv, lines)
+        form_lines(p, c, lv, lines, alone, x, orbit, speed, w)
+    if alone:
+        lv[L.COUNT] = drop_weak(lines, L.LINE_SIZE, int(lv[L.COUNT]))

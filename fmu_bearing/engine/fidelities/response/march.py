@@ -40,12 +40,15 @@ _SAMPLING = 51_200.0  # Hz of the states that samples are interpolated between, 
 _WAVE = 1.26  # rad of the fastest wave between two such states: the cubic between them errs by 0.6 %
 _TRIES = 8  # of 30 sweeps
 _NEAR = 0.05  # rad of orbit: a radially loaded ball moves by 15 um at most meanwhile, mostly by 0.5
-_BACK = 2e-6  # s between the two states a ball's rate is taken from, without sound
+BACK = 2e-6  # s between the two states a ball's rate is taken from, without sound
 
 
 @kernel
-def linearise(p, s, speed, w):
-    """Renew derivatives and lines at ``speed`` about ``L.MEAN``; False where there are none."""
+def linearise(p, s, alone, speed, w):
+    """Renew derivatives and lines at ``speed`` about ``L.MEAN``; False where there are none.
+
+    ``alone``: see ``lines.keep``.
+    """
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     c = s[S.C : S.C + C.SIZE]
     still(p, c, lv, w)
@@ -53,7 +56,7 @@ def linearise(p, s, speed, w):
     if not derivatives(p, c, lv, 0.0, speed, 0.0, w):
         return False
     still(p, c, lv, w)
-    renew_lines(p, s, speed, w)
+    renew_lines(p, s, alone, speed, w)
     return True
 
 
@@ -96,7 +99,7 @@ def start_response(p, u, s, w, t):
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     keep_balls(w, lv, L.X)
     keep_balls(w, lv, L.X3)
-    if not linearise(p, s, u[U.SPEED], w):
+    if not linearise(p, s, True, u[U.SPEED], w):
         return NO_START
     show(p, s, True, w)
     for i in range(3):
@@ -129,7 +132,7 @@ def renew_equilibrium(p, u, s, w):
     for i in range(L.N):
         lv[L.MEAN + i] = w[W.STAGE + Y.Q0 + i]
     keep_balls(w, lv, L.X3)
-    return OK if linearise(p, s, speed, w) else NOT_CONVERGED
+    return OK if linearise(p, s, True, speed, w) else NOT_CONVERGED
 
 
 @kernel
@@ -157,9 +160,11 @@ def sum_lines(lv, lines, theta, rolled, angle, orbit, speed, w):
             omega += lines[at + L.LINE_ROLLED] * (lv[L.ROLL] * speed)
             co = w[T.COS + k]
             si = w[T.SIN + k]
-            x0, y0 = turned(lines, at, co, si)
-            x1, y1 = turned(lines, at + FOUR, co, si)
-            x2, y2 = turned(lines, at + 2 * FOUR, co, si)
+            re = at + L.LINE_REAL
+            im = at + L.LINE_IMAGINARY
+            x0, y0 = turned(lines, re, im, co, si)
+            x1, y1 = turned(lines, re + FOUR, im + FOUR, co, si)
+            x2, y2 = turned(lines, re + 2 * FOUR, im + 2 * FOUR, co, si)
             squared = omega * omega
             q0 += x0
             q1 += x1
@@ -176,10 +181,10 @@ def sum_lines(lv, lines, theta, rolled, angle, orbit, speed, w):
 
 
 @kernel
-def turned(lines, at, co, si):
-    """Real and imaginary parts of four coordinates of the line ``lines[at:]``, turned by a phase."""
-    real = load(lines, at + L.LINE_REAL)
-    imaginary = load(lines, at + L.LINE_IMAGINARY)
+def turned(lines, re, im, co, si):
+    """Real and imaginary parts of four coordinates of a line, at ``re`` and ``im``, turned by a phase."""
+    real = load(lines, re)
+    imaginary = load(lines, im)
     return real * co - imaginary * si, real * si + imaginary * co
 
 
@@ -198,7 +203,7 @@ def from_equilibrium(p, lv, theta, w):
     turned = theta * balls / (2.0 * PI)
     whole = math.floor(turned)
     part = turned - whole
-    for j in range(int(p[P.LANES])):
+    for j in range(STRIDE):  # spare lanes, too: what stands in the work space must not get into the state
         near = int((j + whole) % balls)
         next_one = (near + 1) % balls
         for i in range(2):
@@ -240,13 +245,27 @@ def place(p, s, ahead, near, w):
     ``near``: whether the balls' last places are good guesses.
     """
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    c = s[S.C : S.C + C.SIZE]
-    speed = s[S.SPEED] + ahead * s[S.SPEED_RATE]
+    theta, rolled, angle, speed = angles_at(s, ahead)
+    sum_lines(lv, s[line_table(p) :], theta, rolled, angle, lv[L.RATIO] * speed, speed, w)
+    settle(p, s, ahead, near, w)
+
+
+@kernel
+def angles_at(s, ahead):
+    """Angles (rad) of ball 0, of the balls' turning and of the shaft at ``ahead`` (s), and its speed."""
+    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     turned = ahead * (s[S.SPEED] + 0.5 * ahead * s[S.SPEED_RATE])
     theta = lv[L.THETA] + lv[L.RATIO] * turned
     rolled = lv[L.ROLLED] + lv[L.ROLL] * turned
-    angle = s[S.ANGLE] + turned
-    sum_lines(lv, s[line_table(p) :], theta, rolled, angle, lv[L.RATIO] * speed, speed, w)
+    return theta, rolled, s[S.ANGLE] + turned, s[S.SPEED] + ahead * s[S.SPEED_RATE]
+
+
+@kernel
+def settle(p, s, ahead, near, w):
+    """Places of rest of the balls between the rings as they are in ``lv``; arguments: see `place`."""
+    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
+    c = s[S.C : S.C + C.SIZE]
+    theta, rolled, angle, speed = angles_at(s, ahead)
     tau = p[P.CONTACT_DAMPING]
     stand(
         p, c, lv, theta + tau * lv[L.RATIO] * speed, rolled + tau * lv[L.ROLL] * speed, angle + tau * speed,
@@ -261,15 +280,53 @@ def place(p, s, ahead, near, w):
 
 
 @kernel
+def is_near(s, speed, h):
+    """Whether the balls' last places are good guesses after a step ``h`` (s) to ``speed`` (rad/s)."""
+    return abs(h * s[S.CONDENSED + L.RATIO]) * max(abs(s[S.SPEED]), abs(speed)) < _NEAR
+
+
+@kernel
+def sample_spacing(p, s, speed):
+    """Longest time (s) between two states that samples are interpolated between, on the way to ``speed``."""
+    return min(1.0 / _SAMPLING, _WAVE * wave_time(p, max(abs(s[S.SPEED]), abs(speed))))
+
+
+@kernel
+def begin_spacing(s, step):
+    """Note the time ``step`` (s) from one state to the next; those at another one are forgotten."""
+    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
+    if abs(step - lv[L.SPACING]) > 1e-6 * step:
+        lv[L.SPACING] = step
+        lv[L.KNOWN] = 0.0
+
+
+@kernel
+def move_places(s):
+    """Let the balls' places be those of a step before."""
+    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
+    for i in range(2 * STRIDE):
+        lv[L.X2 + i] = lv[L.X1 + i]
+        lv[L.X1 + i] = lv[L.X + i]
+    lv[L.KNOWN] += 1.0
+
+
+@kernel
+def keep_back(s):
+    """Let the balls' places be those ``BACK`` before the present time."""
+    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
+    for i in range(2 * STRIDE):
+        lv[L.X1 + i] = lv[L.X + i]
+    lv[L.SPACING] = BACK
+    lv[L.KNOWN] = 1.0
+
+
+@kernel
 def show(p, s, near, w):
     """State for outputs at the present time, the balls' rates from two places a little apart."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    place(p, s, -_BACK, near, w)
-    for i in range(2 * STRIDE):
-        lv[L.X1 + i] = lv[L.X + i]
+    place(p, s, -BACK, near, w)
+    keep_back(s)
     place(p, s, 0.0, True, w)
-    lv[L.SPACING] = _BACK
-    lv[L.KNOWN] = 1.0
     publish(p, lv, s[S.SPEED], s[S.SPEED_RATE], False, s[S.Y : S.Y + Y.SIZE], s[S.F : S.F + F.SIZE])
 
 
@@ -278,7 +335,7 @@ def march_response(p, u, s, w, h):
     """Advance the state by the communication step ``h`` (s); status code."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     steps.begin_means(s)
-    near = abs(h * lv[L.RATIO]) * max(abs(s[S.SPEED]), abs(u[U.SPEED])) < _NEAR
+    near = is_near(s, u[U.SPEED], h)
     if set_inputs(p, u, s, w, h):
         near = False
         status = renew_equilibrium(p, u, s, w)
@@ -287,19 +344,13 @@ def march_response(p, u, s, w, h):
         lv[L.KNOWN] = 0.0
     end = s[S.TIME] + h
     if p[P.SOUND_SIZE] != 0.0:
-        spacing = min(1.0 / _SAMPLING, _WAVE * wave_time(p, max(abs(s[S.SPEED]), abs(u[U.SPEED]))))
-        count = math.ceil(h / spacing - 1e-9)
+        count = math.ceil(h / sample_spacing(p, s, u[U.SPEED]) - 1e-9)
         step = h / count
-        if abs(step - lv[L.SPACING]) > 1e-6 * step:
-            lv[L.SPACING] = step
-            lv[L.KNOWN] = 0.0
+        begin_spacing(s, step)
         for _ in range(int(count)):
-            for i in range(2 * STRIDE):
-                lv[L.X2 + i] = lv[L.X1 + i]
-                lv[L.X1 + i] = lv[L.X + i]
+            move_places(s)
             place(p, s, step, near, w)
             near = True
-            lv[L.KNOWN] += 1.0
             turn_balls(s, step)
             emit(p, s, w, step, False)
             advance(s, step)

@@ -1,0 +1,243 @@
+"""Fidelity response for a set: as ``fidelities.response.march`` for one bearing, over the set's lines."""
+
+import math
+
+from fmu_bearing.engine.fidelities import steps
+from fmu_bearing.engine.fidelities.condensed.rows import keep_balls, show_balls
+from fmu_bearing.engine.fidelities.condensed.shared import advance, even_spacing, flat
+from fmu_bearing.engine.fidelities.full.start import begin_means
+from fmu_bearing.engine.fidelities.response import march
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.layout import SP, STRIDE, C, L, P, S, T, W, Y
+from fmu_bearing.engine.spindle import condensed, held, members
+from fmu_bearing.engine.spindle.lines import answer_lines, sum_set_lines
+from fmu_bearing.engine.spindle.rest import start_vector
+from fmu_bearing.engine.spindle.rings import emit_shown
+from fmu_bearing.engine.spindle.start import start_set
+from fmu_bearing.engine.status import NO_START, NOT_CONVERGED, OK
+
+
+@kernel
+def show_guess(p, s, w, row):
+    """Put the balls' places of row ``row`` of every bearing to its trial rows, on races without waves."""
+    for b in range(members.count(p)):
+        sb = members.state(p, s, b)
+        wb = members.work(p, w, b)
+        for i in range(Y.SIZE):
+            wb[W.STAGE + i] = 0.0
+        lv = members.condensed(sb)
+        show_balls(lv, row, wb)
+        flat(members.parameters(p, b), sb[S.C : S.C + C.SIZE], lv, wb)
+
+
+@kernel
+def rest_anew(p, s, w, speed, x, at):
+    """Find where the set rests, from the coordinates ``x[at:]`` and the balls' places ``L.X3``.
+
+    Where there is no rest these serve themselves, as for a single bearing. Whether it was found.
+    """
+    own = members.own_state(p, s)
+    ws = members.own_work(p, w)
+    mean = members.history(p)
+    place = members.vector(p, SP.PLACE)
+    for i in range(members.padded(p)):
+        ws[place + i] = x[at + i]
+    show_guess(p, s, w, L.X3)
+    found = condensed.at_rest(p, s, w, speed)
+    for i in range(members.padded(p)):
+        own[mean + i] = ws[place + i] if found else x[at + i]
+    for b in range(members.count(p)):
+        lv = members.condensed(members.state(p, s, b))
+        if found:
+            keep_balls(members.work(p, w, b), lv, L.X3)
+        members.moved(p, b, own, mean, lv, L.MEAN)
+        lv[L.MEAN] += own[members.kept(p, b) + SP.OFFSET]
+    return found
+
+
+@kernel
+def linearise_set(p, s, w, speed):
+    """Renew derivatives of all bearings and the set's lines at ``speed`` (rad/s); False if there are none."""
+    for b in range(members.count(p)):
+        sb = members.state(p, s, b)
+        if not march.linearise(members.parameters(p, b), sb, False, speed, members.work(p, w, b)):
+            return False
+    answer_lines(p, s, w, speed)
+    return True
+
+
+@kernel
+def take_offsets(p, own):
+    """Let the inner rings stand where temperatures hold them: lines know no ramp."""
+    for b in range(members.count(p)):
+        mine = members.kept(p, b)
+        own[mine + SP.OFFSET] = own[mine + SP.HELD_OFFSET]
+        own[mine + SP.OFFSET_RATE] = 0.0
+
+
+@kernel
+def place_set(p, s, w, ahead, near):
+    """Shaft, housing, rings and balls at ``ahead`` (s, may be negative) from the present time.
+
+    ``near``: whether the balls' last places are good guesses.
+    """
+    sum_set_lines(p, s, w, ahead)
+    condensed.show_rings(p, s)
+    for b in range(members.count(p)):
+        march.settle(members.parameters(p, b), members.state(p, s, b), ahead, near, members.work(p, w, b))
+
+
+@kernel
+def keep_ball_loads(p, s, w):
+    """Keep what the inner rings put on their balls, these being where `place_set` has found them."""
+    own = members.own_state(p, s)
+    for b in range(members.count(p)):
+        wb = members.work(p, w, b)
+        lv = members.condensed(members.state(p, s, b))
+        masses = members.row(p, b) + SP.ROW_MASS
+        for i in range(SP.PLANE):
+            load = -p[masses + i] * lv[L.A0 + i]
+            for k in range(L.N):
+                load += p[masses + i] * lv[L.MASS + i + L.COLUMN * k] * lv[L.A0 + k]
+            for j in range(int(members.parameters(p, b)[P.BALLS])):
+                load -= wb[T.FORCE + i * STRIDE + j]
+            own[members.kept(p, b) + SP.LOAD + i] = load
+
+
+@kernel
+def show_set(p, s, w, near):
+    """State for outputs at the present time: see ``fidelities.response.march.show``."""
+    place_set(p, s, w, -march.BACK, near)
+    for b in range(members.count(p)):
+        march.keep_back(members.state(p, s, b))
+    place_set(p, s, w, 0.0, True)
+    keep_ball_loads(p, s, w)
+    condensed.publish_rings(p, s)
+
+
+@kernel
+def start_response_set(p, u, s, w, t):
+    """Fill the state ``s`` of a set for the inputs ``u`` at time ``t`` (s); status code."""
+    status = start_set(p, u, s, w, t)
+    if status != OK:
+        return status
+    own = members.own_state(p, s)
+    ws = members.own_work(p, w)
+    speed = u[SP.U_SPEED]
+    for b in range(members.count(p)):
+        sb = members.state(p, s, b)
+        lv = members.condensed(sb)
+        even_spacing(members.parameters(p, b), lv)
+        for j in range(STRIDE):
+            lv[L.X3 + j] = sb[S.Y + Y.X + j]
+            lv[L.R3 + j] = sb[S.Y + Y.R + j]
+    status = held.hold_set(p, u, s, w)
+    if status != OK:
+        return status
+    condensed.find_levers(p, own)
+    start = members.vector(p, SP.NEWMARK)
+    for i in range(members.padded(p)):
+        ws[start + i] = own[SP.S_HEAD + i]
+    rest_anew(p, s, w, speed, ws, start)
+    for b in range(members.count(p)):
+        lv = members.condensed(members.state(p, s, b))
+        for i in range(2 * STRIDE):
+            lv[L.X + i] = lv[L.X3 + i]
+    if not linearise_set(p, s, w, speed):
+        return NO_START
+    show_set(p, s, w, True)
+    for b in range(members.count(p)):
+        begin_means(members.state(p, s, b))
+    for i in range(2):
+        own[SP.MEAN_HEAT + i] = 0.0
+    return OK
+
+
+@kernel
+def renew_set_lines(p, u, s, w):
+    """Renew what is held, where the set rests, and lines, for the inputs ``u``; status code."""
+    if held.hold_set(p, u, s, w) != OK:
+        return NOT_CONVERGED
+    own = members.own_state(p, s)
+    ws = members.own_work(p, w)
+    held_rest = members.vector(p, SP.NEWMARK)
+    found = start_vector(p, SP.UNKNOWNS)
+    for i in range(members.padded(p)):
+        ws[held_rest + i] = ws[found + i] if i < members.coordinates(p) else 0.0
+    take_offsets(p, own)
+    if not rest_anew(p, s, w, u[SP.U_SPEED], own, members.history(p)):
+        rest_anew(p, s, w, u[SP.U_SPEED], ws, held_rest)
+    for b in range(members.count(p)):
+        members.condensed(members.state(p, s, b))[L.KNOWN] = 0.0
+    return OK if linearise_set(p, s, w, u[SP.U_SPEED]) else NOT_CONVERGED
+
+
+@kernel
+def turn_all(p, s, h):
+    """Turn the balls of all bearings through ``h`` (s)."""
+    for b in range(members.count(p)):
+        march.turn_balls(members.state(p, s, b), h)
+
+
+@kernel
+def advance_all(p, s, h):
+    """Time, angle, speed and sums of all bearings at the end of the step ``h`` (s)."""
+    for b in range(members.count(p)):
+        advance(members.state(p, s, b), h)
+
+
+@kernel
+def sound_on_the_way(p, s, w, h, speed, near):
+    """Go through the communication step ``h`` (s) from state to state, with sound samples between them."""
+    longest = march.sample_spacing(p, s, speed)
+    for b in range(1, members.count(p)):
+        longest = min(longest, march.sample_spacing(members.parameters(p, b), s, speed))
+    count = math.ceil(h / longest - 1e-9)
+    step = h / count
+    for b in range(members.count(p)):
+        march.begin_spacing(members.state(p, s, b), step)
+    for _ in range(int(count)):
+        for b in range(members.count(p)):
+            march.move_places(members.state(p, s, b))
+        place_set(p, s, w, step, near)
+        near = True
+        keep_ball_loads(p, s, w)
+        turn_all(p, s, step)
+        emit_shown(p, s, w, step)
+        advance_all(p, s, step)
+
+
+@kernel
+def march_response_set(p, u, s, w, h):
+    """Advance the state of a set by the communication step ``h`` (s); status code."""
+    own = members.own_state(p, s)
+    speed = u[SP.U_SPEED]
+    near = True
+    for b in range(members.count(p)):
+        sb = members.state(p, s, b)
+        steps.begin_means(sb)
+        if not march.is_near(sb, speed, h):
+            near = False
+    renewed = held.take_rings_inputs(p, u, s, w, h)
+    for b in range(members.count(p)):
+        own[members.kept(p, b) + SP.OFFSET_RATE] = 0.0
+    if renewed:
+        near = False
+        status = renew_set_lines(p, u, s, w)
+        if status != OK:
+            return status
+    end = s[S.TIME] + h
+    if p[P.SOUND_SIZE] != 0.0:
+        sound_on_the_way(p, s, w, h, speed, near)
+    else:
+        turn_all(p, s, h)
+        advance_all(p, s, h)
+    for b in range(members.count(p)):
+        sb = members.state(p, s, b)
+        sb[S.TIME] = end
+        sb[S.SPEED] = speed
+    if p[P.SOUND_SIZE] == 0.0:
+        show_set(p, s, w, near)
+    for b in range(members.count(p)):
+        steps.end_means(members.state(p, s, b), h)
+    return OK

@@ -60,6 +60,7 @@ _ALL = (
     Unit("N", {"kg": 1, "m": 1, "s": -2}),
     Unit("N/m", {"kg": 1, "s": -2}, (DisplayUnit("N/um", 1e-6),)),
     Unit("N.m", {"kg": 1, "m": 2, "s": -2}, (DisplayUnit("N.mm", 1e3),)),
+    Unit("N.m/rad", {"kg": 1, "m": 2, "s": -2, "rad": -1}),
     Unit("Pa", {"kg": 1, "m": -1, "s": -2}, (DisplayUnit("MPa", 1e-6), DisplayUnit("GPa", 1e-9))),
     Unit("Pa.s", {"kg": 1, "m": -1, "s": -1}, (DisplayUnit("mPa.s", 1e3),)),
     Unit("W", {"kg": 1, "m": 2, "s": -3}),

@@ -36,7 +36,7 @@ def internals_of_set(scene: Scene) -> list[Variable]:
     own = [variable for variable in single if variable.name in SP.OUTPUTS]
     assert scene.spindle is not None
     rings = _rings(scene) if scene.spindle.shaft.external else []
-    table = [*_housing(scene, "local"), *(_shared(scene, one) for one in own)]
+    table = [*_stiffness(scene), *_housing(scene, "local"), *(_shared(scene, one) for one in own)]
     single = [variable for variable in single if variable not in own]
     for b in range(_count(scene)):
         table += _of_bearing(scene, b, single)
@@ -108,6 +108,27 @@ def _nose(scene: Scene) -> list[Variable]:
                 text = f"Tilt of the shaft's nose about +{axis.upper()}"
                 table.append(read(name, "output", text, "rad", place, nominal=1e-4))
     return table
+
+
+def _stiffness(scene: Scene) -> list[Variable]:
+    """Return what resists the shaft at its nose."""
+    when = (
+        "where the set rested at initialisation"
+        if scene.fidelity.model == "full"
+        else "where the set rested last: found anew when loads, speed or temperatures have changed"
+    )
+    words = (
+        ("axial", "Axial stiffness of the shaft on its bearings at X = 0, other motions held,", "N/m"),
+        ("radial", "Radial stiffness of the shaft on its bearings at X = 0, tilts held,", "N/m"),
+        ("tilt", "Stiffness of the shaft on its bearings against tilts at X = 0,", "N.m/rad"),
+    )
+    return [
+        read(
+            f"shaft.stiffness.{name}", "local", f"{text} {when}", unit,
+            _own(scene, SP.OUTPUTS.index(f"shaft.stiffness.{name}")),
+        )
+        for name, text, unit in words
+    ]  # fmt: skip
 
 
 def _port(scene: Scene) -> list[Variable]:

@@ -37,6 +37,7 @@ USUAL = {
     "N": ("Force", 0.0, 1e7, 100.0),
     "N.m": ("Torque", -1e5, 1e5, 1e-2),
     "N/m": ("TranslationalSpringConstant", 0.0, 1e13, 1e8),
+    "N.m/rad": ("RotationalSpringConstant", 0.0, 1e13, 1e5),
     "W": ("Power", -1e8, 1e8, 10.0),
     "Pa": ("Pressure", -1e5, 1e5, 1e-2),
     "Pa.s": ("DynamicViscosity", 0.0, 10.0, 1e-2),

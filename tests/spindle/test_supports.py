@@ -5,9 +5,10 @@ import pytest
 
 from fmu_bearing import shaft_statics
 from fmu_bearing.engine.constants import GRAVITY
-from fmu_bearing.engine.layout import P, Q, S, Y
+from fmu_bearing.engine.layout import SP, P, Q, S, Y
 from fmu_bearing.prepare.spindle import one_of
 from fmu_bearing.scene.mounting import Mounting, Rotor
+from tests.engine.condensed import FIDELITIES
 from tests.engine.helpers import Run
 from tests.spindle.runs import SetRun
 from tests.spindle.sets import scene
@@ -29,6 +30,38 @@ def test_statics_are_where_runs_start(seat, flexible):
         assert one.force == pytest.approx(ours, abs=0.4)
     nose = [run.value(f"shaft.nose.displacement.{axis}") for axis in "xyz"]
     assert found.displacement[:3] == pytest.approx(nose, rel=2e-3, abs=1e-9)
+
+
+@pytest.mark.parametrize("fidelity", [0.0, *FIDELITIES.values()], ids=["full", *FIDELITIES])
+@pytest.mark.parametrize("flexible", [False, True], ids=["rigid", "beam"])
+@pytest.mark.parametrize("seat", SEATS)
+def test_the_stiffness_that_runs_tell_is_that_of_statics(seat, flexible, fidelity):
+    given = loaded(seat, rpm=0.0, **{"spindle.shaft.flexible": flexible})
+    run = SetRun(given, FIDELITY=fidelity).init()
+    # of a rigid shaft where the same shaft rests, bending as it may
+    found = shaft_statics(given)
+    told = [run.value(f"shaft.stiffness.{name}") for name in ("axial", "radial", "tilt")]
+    assert told == pytest.approx(
+        [found.axial_stiffness, found.radial_stiffness, found.tilt_stiffness], rel=2e-3
+    )
+
+
+def test_the_stiffness_follows_the_preload():
+    """At once in fidelities rings and response, which find the set's rest anew."""
+    given = scene(rpm=10e3)
+    for fidelity in ("rings", "response"):
+        run = SetRun(given, FIDELITY=FIDELITIES[fidelity]).init()
+        before = run.value("shaft.stiffness.axial")
+        for b in range(2):
+            run.u[SP.U_BEARINGS + b * SP.U_ROW + SP.U_INNER] += 10.0
+        run.run(1e-3, 1e-3)
+        warm = SetRun(given, FIDELITY=FIDELITIES[fidelity])
+        warm.u[:] = run.u
+        warm.init()
+        assert run.value("shaft.stiffness.axial") == pytest.approx(
+            warm.value("shaft.stiffness.axial"), rel=1e-6
+        )
+        assert run.value("shaft.stiffness.axial") > 1.02 * before
 
 
 def test_a_housing_sinks_under_all_that_it_carries():

@@ -113,7 +113,8 @@ U_OIL, U_INNER, U_OUTER = range(U_ROW)
 OUTPUTS = (
     "shaft.nose.displacement.x", "shaft.nose.displacement.y", "shaft.nose.displacement.z",
     "shaft.nose.tilt.y", "shaft.nose.tilt.z", "shaft.nose.velocity.x", "shaft.nose.velocity.y",
-    "shaft.nose.velocity.z", "housing.displacement.x", "housing.displacement.y", "housing.displacement.z",
+    "shaft.nose.velocity.z", "shaft.stiffness.axial", "shaft.stiffness.radial", "shaft.stiffness.tilt",
+    "housing.displacement.x", "housing.displacement.y", "housing.displacement.z",
     "housing.velocity.x", "housing.velocity.y", "housing.velocity.z", "friction_torque",
     "friction_torque_mean", "heat.inner_ring", "heat.outer_ring", "heat.oil", "solver.steps",
     "solver.rejected", "solver.wave_time", "energy.residual", "port.force.x", "port.force.y",
@@ -124,6 +125,7 @@ OUTPUTS = (
 BEARING_OUTPUTS = ("force.x", "force.y", "force.z", "moment.y", "moment.z")  # of the inner ring on the balls
 Z_NOSE = OUTPUTS.index("shaft.nose.displacement.x")  # m, m, m, rad, rad
 Z_NOSE_VELOCITY = OUTPUTS.index("shaft.nose.velocity.x")  # m/s
+Z_STIFFNESS = OUTPUTS.index("shaft.stiffness.axial")  # N/m, N/m, N m/rad
 Z_HOUSING = OUTPUTS.index("housing.displacement.x")  # m
 Z_HOUSING_VELOCITY = OUTPUTS.index("housing.velocity.x")
 Z_TORQUE = OUTPUTS.index("friction_torque")  # N m
@@ -154,6 +156,7 @@ WORK = _at()  # J: of loads and unbalance on the shaft, of what grows,
 HEAT = _at(2)  # J: lost in the bending shaft, in the pedestal
 POWER_NOW = _at(POWERS)  # W: work, heats of shaft and pedestal at the state
 MEAN_HEAT = _at(2)  # W
+SHAFT_STIFFNESS = _at(3)  # N/m, N/m, N m/rad: axial, radial, against tilts, where the set rested last
 ENERGY_START = _at()  # J
 ENERGY_NOW = _at()
 PORT_BEGIN = _at()  # s: of the communication step; place and derivatives of the shaft there:

@@ -13,7 +13,7 @@ from fmu_bearing.engine.spindle.inputs import (
     offset_change,
     take_loads,
 )
-from fmu_bearing.engine.spindle.rest import rest, start_vector
+from fmu_bearing.engine.spindle.rest import keep_stiffness, rest, start_vector
 from fmu_bearing.engine.spindle.start import TOUCHING
 from fmu_bearing.engine.statics.axial import quasistatic
 from fmu_bearing.engine.statics.held import held
@@ -129,6 +129,7 @@ def hold_set(p, u, s, w):
     exchange_offsets(p, own)
     if status != OK:
         return status
+    keep_stiffness(p, s, w)
     for b in range(members.count(p)):
         status = hold_bearing(p, u, b, -ws[members.scratch(p, b) + SP.START_FORCE], s, w)
         if status != OK:

@@ -53,7 +53,7 @@ def observe_bearings(p, s, z):
 
 @kernel
 def observe_shaft(p, s, z):
-    """Nose of the shaft and the housing."""
+    """Nose of the shaft, what resists it, and the housing."""
     own = members.own_state(p, s)
     n = members.padded(p)
     at = int(p[int(p[P.SET]) + SP.AT_Z])
@@ -67,6 +67,8 @@ def observe_shaft(p, s, z):
         z[at + SP.Z_NOSE + i] = place
         if i < Q.INNER_BY:
             z[at + SP.Z_NOSE_VELOCITY + i] = rate
+    for i in range(3):
+        z[at + SP.Z_STIFFNESS + i] = own[SP.SHAFT_STIFFNESS + i]
     if has_housing(p):
         h = SP.S_HEAD + int(p[int(p[P.SET]) + SP.SHAFT])
         lever = p[int(p[P.SET]) + SP.HOUSING_X]

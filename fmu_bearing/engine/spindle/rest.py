@@ -7,7 +7,7 @@ of its own. Contacts are springs: a step is judged by the force along it, which 
 import math
 
 from fmu_bearing.engine.constants import GRAVITY
-from fmu_bearing.engine.dense import eliminate
+from fmu_bearing.engine.dense import eliminate, invert
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import EQ, SP, ST, C, P, Q, S, W
 from fmu_bearing.engine.spindle import members
@@ -251,8 +251,6 @@ def equations(p, s, w, damping):
                     ws[at + m * width + h] += share * p[t + h * SP.LANES + k]
     for i in range(count):
         ws[at + i * width + i] += damping * inertia(p, i)
-    if has_port(p):
-        hold_rows(ws, at, count, width)
 
 
 @kernel
@@ -284,6 +282,8 @@ def newton_step(p, s, w, g, step, damping):
     count = unknowns(p)
     equations(p, s, w, damping)
     at = members.matrix(p)
+    if has_port(p):
+        hold_rows(ws, at, count, count + 1)
     for i in range(count):
         ws[at + i * (count + 1) + count] = ws[g + i]
     if not eliminate(ws, at, count):
@@ -306,6 +306,55 @@ def newton_step(p, s, w, g, step, damping):
         ws[step + i] *= share
         ahead += ws[step + i] * ws[g + i]
     return ahead
+
+
+@kernel
+def give_at_nose(p, s, w, j, to):
+    """Put how a unit load on row ``j`` of the nose moves it to ``to``, by rows; False if singular.
+
+    All else follows, the bearings as stiff as where they were settled last.
+    """
+    ws = members.own_work(p, w)
+    count = unknowns(p)
+    at = members.matrix(p)
+    nose = members.table(p, SP.AT_NOSE)
+    lanes = members.padded(p)
+    equations(p, s, w, _FLOOR)
+    for i in range(count):
+        ws[at + i * (count + 1) + count] = p[nose + j * lanes + i] if i < members.coordinates(p) else 0.0
+    if not eliminate(ws, at, count):
+        return False
+    for i in range(SP.PLANE):
+        total = 0.0
+        for k in range(members.coordinates(p)):
+            total += p[nose + i * lanes + k] * ws[at + k * (count + 1) + count]
+        ws[to + i * SP.PLANE + j] = total
+    return True
+
+
+@kernel
+def keep_stiffness(p, s, w):
+    """Keep the stiffness of the shaft at X = 0 where the bearings were settled last; zeros if there is none.
+
+    Axial and radial with its other motions held, against a tilt with the shaft free to move aside.
+    """
+    own = members.own_state(p, s)
+    ws = members.own_work(p, w)
+    give = SP.RESISTANCE
+    stiff = give + SP.PLANE * SP.PLANE
+    for i in range(3):
+        own[SP.SHAFT_STIFFNESS + i] = 0.0
+    for j in range(SP.PLANE):
+        if not give_at_nose(p, s, w, j, give):
+            return
+    if not invert(ws, give, SP.PLANE, ws, stiff):
+        return
+    z = stiff + Q.Z * SP.PLANE
+    turn = stiff + Q.INNER_BY * SP.PLANE
+    radial = ws[z + Q.Z]
+    own[SP.SHAFT_STIFFNESS] = ws[stiff]
+    own[SP.SHAFT_STIFFNESS + 1] = radial
+    own[SP.SHAFT_STIFFNESS + 2] = ws[turn + Q.INNER_BY] - ws[z + Q.INNER_BY] * ws[turn + Q.Z] / radial
 
 
 @kernel

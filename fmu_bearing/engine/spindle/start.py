@@ -18,6 +18,7 @@ from fmu_bearing.engine.spindle.inputs import (
 )  # fmt: skip
 from fmu_bearing.engine.spindle.port import begin_motion, has_port
 from fmu_bearing.engine.spindle.rest import (
+    keep_stiffness,
     outer_row,
     rest,
     settle_bearing,
@@ -109,6 +110,7 @@ def start_set(p, u, s, w, t):
         return status
     for i in range(members.coordinates(p)):
         own[SP.S_HEAD + i] = ws[z + i]
+    keep_stiffness(p, s, w)
     if has_port(p):
         begin_motion(p, u, own, t)
     for b in range(members.count(p)):

@@ -189,8 +189,11 @@ def _heard(scene: Scene, causality: str) -> list[Variable]:
 
 
 def _alone(scene: Scene) -> list[Variable]:
-    """Return the level of every bearing alone at every microphone."""
-    if scene.sound is None:
+    """Return the level of every bearing alone at every microphone.
+
+    A housing that radiates moves by what all bearings do to it: there its sound is no bearing's own.
+    """
+    if scene.sound is None or scene.sound.radiator == "housing":
         return []
     bearings, bands = _count(scene), len(Z.BANDS) if scene.sound.third_octaves else 0
     first = _own(scene, SP.z_alone(bearings, len(scene.microphones), bands))

@@ -4,6 +4,7 @@ import functools
 import hashlib
 import io
 import json
+from typing import TYPE_CHECKING
 
 import numpy as np
 import scipy
@@ -14,6 +15,9 @@ from fmu_bearing.files import cache_root, write_whole
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.member import heard_of
 
+if TYPE_CHECKING:
+    from fmu_bearing.acoustics.radiation.radiators import Housing
+
 __all__ = ["sound_block", "sound_blocks", "sound_key"]
 
 #: Packages whose code computes the numbers, beside the engine.
@@ -22,15 +26,17 @@ _ROOMS = ("acoustics", "elastic", "formulas", "prepare", "scene")
 _PARTS = {"bearing", "materials", "mounting", "sound", "microphones"}
 
 
-def sound_parameters(scene: Scene) -> NDArray[np.float64]:
+def sound_parameters(scene: Scene, housing: "Housing | None" = None) -> NDArray[np.float64]:
     """Compute the block. SciPy is imported here, because that takes half a second."""
     from fmu_bearing.acoustics.filters import design as stream
 
-    return stream.sound_parameters(scene)
+    return stream.sound_parameters(scene, housing=housing)
 
 
-def sound_block(scene: Scene) -> NDArray[np.float64]:
+def sound_block(scene: Scene, housing: "Housing | None" = None) -> NDArray[np.float64]:
     """Sound block of a scene (`acoustics.filters.design.sound_parameters`), from the cache if possible.
+
+    ``housing``: in the place of the scene's.
 
     Raises
     ------
@@ -41,12 +47,12 @@ def sound_block(scene: Scene) -> NDArray[np.float64]:
         return np.zeros(0)
     if scene.sound.radiation_model == "table":  # a table may change under its name
         return sound_parameters(scene)
-    path = cache_root() / "sound" / f"block-{_key(scene)}.npy"
+    path = cache_root() / "sound" / f"block-{_key(scene, housing)}.npy"
     try:
         kept: NDArray[np.float64] = np.load(path, allow_pickle=False)
         return kept
     except (OSError, ValueError, EOFError):  # not there, or damaged: made anew
-        block = sound_parameters(scene)
+        block = sound_parameters(scene, housing)
     buffer = io.BytesIO()
     np.save(buffer, block, allow_pickle=False)
     try:
@@ -59,6 +65,9 @@ def sound_block(scene: Scene) -> NDArray[np.float64]:
 def sound_blocks(scene: Scene) -> list[NDArray[np.float64]]:
     """Return the sound block of every bearing of a scene: of a set one each, else one.
 
+    A housing that radiates is heard with the first bearing, which it shows; the others are inside and have
+    blocks that hear nothing.
+
     Raises
     ------
     ValueError
@@ -66,7 +75,13 @@ def sound_blocks(scene: Scene) -> list[NDArray[np.float64]]:
     """
     if scene.spindle is None or scene.sound is None:
         return [sound_block(scene)]
-    return [sound_block(heard_of(scene, b)) for b in range(len(scene.spindle.bearing))]
+    heard = [heard_of(scene, b) for b in range(len(scene.spindle.bearing))]
+    if scene.sound.radiator != "housing":
+        return [sound_block(one) for one in heard]
+    from fmu_bearing.acoustics.filters.design import housing_of_set, silent_parameters
+
+    first, *inside = heard
+    return [sound_block(first, housing_of_set(scene)), *(silent_parameters(one) for one in inside)]
 
 
 def sound_key(scene: Scene) -> str:
@@ -75,10 +90,15 @@ def sound_key(scene: Scene) -> str:
     It does not depend on speed, loads, oil, springs and imperfections: a sweep over those prepares the sound
     once.
     """
-    from fmu_bearing.acoustics.filters.design import radiators_of
+    from fmu_bearing.acoustics.filters.design import housing_of_set, radiators_of
 
     if scene.sound is None:
         return ""
+    if scene.spindle is not None and scene.sound.radiator == "housing":
+        # what stands inside is not heard, only counted
+        first, housing = heard_of(scene, 0), housing_of_set(scene)
+        heard = (first.sound, radiators_of(first, housing), scene.fidelity.ball_harmonics)
+        return repr((heard, len(scene.spindle.bearing)))
     if scene.spindle is not None:
         return repr([sound_key(heard_of(scene, b)) for b in range(len(scene.spindle.bearing))])
     flexure = scene.mounted.flexure
@@ -86,10 +106,12 @@ def sound_key(scene: Scene) -> str:
     return repr((scene.sound, radiators_of(scene), scene.fidelity.ball_harmonics, bending))
 
 
-def _key(scene: Scene) -> str:
+def _key(scene: Scene, housing: "Housing | None" = None) -> str:
     parts = scene.model_dump(mode="json", include=_PARTS)
     digest = hashlib.sha256(json.dumps(parts, sort_keys=True).encode())
     digest.update(f"{scene.fidelity.ball_harmonics} {_code()}".encode())
+    if housing is not None:
+        digest.update(repr(housing).encode())
     return digest.hexdigest()[:24]
 
 

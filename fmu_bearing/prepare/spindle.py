@@ -169,8 +169,7 @@ def housing_of(scene: Scene) -> tuple[bodies.RigidBody, float]:
     """Return the housing as a body about its middle, and the place (m) of its middle and pedestal."""
     spindle = _set(scene)
     housing = si(spindle.housing.model_copy(update={"material": None}))
-    places = [one.position_mm for one in spindle.bearing]
-    middle = 5e-4 * (min(places) + max(places)) if housing.position is None else housing.position
+    middle = 1e-3 * spindle.housing_middle_mm
     if not spindle.housing.moves:
         return bodies.RigidBody(0.0, 0.0, 0.0), middle
     return bodies.of_mass(housing.mass, 0.0, housing.diameter, housing.length), middle

@@ -63,7 +63,8 @@ def one_of(scene: Scene, number: int = 0) -> Scene:
 def heard_of(scene: Scene, number: int) -> Scene:
     """Return the scene of one bearing of a set, from 0, with microphones where they stand in its own axes.
 
-    For its sound alone: a rotor without mass stands for the shaft, which fills its bore.
+    For its sound alone: a rotor without mass stands for the shaft, which fills its bore. It is bare: a
+    housing of the set that radiates is `acoustics.filters.design.housing_of_set`.
     """
     spindle, sound = scene.spindle, scene.sound
     assert spindle is not None and sound is not None, "no set, or a set without sound"
@@ -84,6 +85,7 @@ def heard_of(scene: Scene, number: int) -> Scene:
         "microphone": microphones,
         "circle": None,
         "reflecting_plane_mm": None if plane is None else own(1e-3 * plane),
+        "radiator": "bare",
     }
     alone = one_of(scene, number)
     shaft = Rotor(mass_kg=0.0, length_mm=spindle.shaft.length_mm, diameter_mm=scene.bearing.bore_mm)

@@ -114,17 +114,63 @@ class Tables(Part):
 
     def _sound_of_set(self) -> Iterator[Conflict]:
         """Yield radiators and tables of sound that are those of one bearing."""
-        if self.sound is None:
+        if self.sound is None or self.spindle is None:
             return
-        if self.sound.radiator != "bare":
+        if self.sound.radiator == "baffle":
             yield Conflict(
                 "sound.radiator",
-                'is not computed of a set ([spindle]) yet: give "bare"',
+                '= "baffle" is not computed of a set ([spindle]): give "bare" or "housing"',
             )
+        if self.sound.radiator == "housing":
+            yield from self._radiating_housing(self.spindle)
         if self.sound.radiation_model == "table":
             yield Conflict(
                 "sound.radiation_model",
                 "holds the paths of one bearing, a set ([spindle]) has those of several: give another model",
+            )
+
+    def _radiating_housing(self, spindle: Spindle) -> Iterator[Conflict]:
+        """Yield what keeps the housing of a set from being the one body that radiates."""
+        housing, back = spindle.housing, 'or give sound.radiator = "bare"'
+        if self.sound is not None and self.sound.radiation_model.startswith("paper"):
+            yield Conflict(
+                "sound.radiation_model",
+                f'= "{self.sound.radiation_model}" takes every body as bare, and a set\'s housing covers its '
+                f'bearings: give "bem" or "compact", {back}',
+            )
+        if housing.diameter_mm is None or housing.length_mm is None:
+            seats = any(one.seat == "pedestal" for one in spindle.bearing)
+            more = ', with seat = "fixed" in the place of "pedestal"' if seats else ""
+            yield Conflict(
+                "sound.radiator",
+                '= "housing" needs a housing that moves: give spindle.housing.mass_kg, diameter_mm, length_mm '
+                f"and pedestal_stiffness_N_m{more}, {back}",
+            )
+            return
+        limit = self.bearing.outside_diameter_mm
+        if housing.diameter_mm <= limit:
+            yield Conflict(
+                "spindle.housing.diameter_mm",
+                f"= {housing.diameter_mm:g} must exceed bearing.outside_diameter_mm = {limit:g}, where the "
+                f"housing radiates; enlarge it, {back}",
+            )
+        middle, half = spindle.housing_middle_mm, 0.5 * self.bearing.width_mm
+        front, rear = middle - 0.5 * housing.length_mm, middle + 0.5 * housing.length_mm
+        for number, one in enumerate(spindle.bearing, start=1):
+            low, high = one.position_mm - half, one.position_mm + half
+            if low < front - _SKIN or high > rear - _SKIN:
+                yield Conflict(
+                    f"spindle.bearing[{number}].position_mm",
+                    f"= {one.position_mm:g} puts the bearing from x = {low:g} to {high:g} mm, which must lie "
+                    f"inside the housing that radiates, x = {front:g} to {rear:g} mm: change "
+                    f"spindle.housing.position_mm or length_mm, {back}",
+                )
+        if spindle.bearing[0].seat == "sliding":
+            yield Conflict(
+                "spindle.bearing[1].seat",
+                '= "sliding": the outer ring that the housing shows in front must move with it, where the '
+                'housing radiates; give it "fixed" and the bearings that carry the other way "sliding", '
+                f"{back}",
             )
 
     def _behind_plane(self, plane: float) -> Iterator[Conflict]:
@@ -192,9 +238,20 @@ class Tables(Part):
         if self.sound is not None and self.sound.radiator == "housing" and housing is not None:
             front = -half - housing.front_face_mm
             yield "housing", housing.diameter_mm / 2.0, front, front + housing.length_mm
+        yield from self._envelope_of_set()
         for number, middle in enumerate(self._middles(), start=1):
             name = "bearing" if self.spindle is None else f"bearing {number}"
             yield name, self.bearing.outside_diameter_mm / 2.0, middle - half, middle + half
+
+    def _envelope_of_set(self) -> Iterator[tuple[str, float, float, float]]:
+        """Yield what `_envelopes` yields of a set's housing that radiates."""
+        if self.spindle is None or self.sound is None or self.sound.radiator != "housing":
+            return
+        housing, middle = self.spindle.housing, self.spindle.housing_middle_mm
+        if housing.diameter_mm is None or housing.length_mm is None:
+            return
+        half = 0.5 * housing.length_mm
+        yield "housing", 0.5 * housing.diameter_mm, middle - half, middle + half
 
     def _middles(self) -> list[float]:
         """Places (mm) of the bearings along the axis of the microphones."""

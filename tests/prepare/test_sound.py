@@ -12,9 +12,9 @@ def made(monkeypatch, tmp_path):
     scenes = []
     compute = sound.sound_parameters
 
-    def counted(scene):
+    def counted(scene, housing=None):
         scenes.append(scene)
-        return compute(scene)
+        return compute(scene, housing)
 
     monkeypatch.setenv("FMU_BEARING_CACHE", str(tmp_path))
     monkeypatch.setattr(sound, "sound_parameters", counted)

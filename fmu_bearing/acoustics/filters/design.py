@@ -1,7 +1,7 @@
 """The sound block of the engine's parameters: transfer functions turned into filters and packed flat."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -17,7 +17,16 @@ from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.scene import Scene, si
 
-__all__ = ["FilterError", "build", "filter_errors", "radiation_of", "radiators_of", "sound_parameters"]
+__all__ = [
+    "FilterError",
+    "build",
+    "filter_errors",
+    "housing_of_set",
+    "radiation_of",
+    "radiators_of",
+    "silent_parameters",
+    "sound_parameters",
+]
 
 # Paths this far below their component's strongest one, at all frequencies, are left out.
 _NEGLIGIBLE = 1e-7
@@ -62,7 +71,9 @@ class Group:
     weights: NDArray[np.float64]
 
 
-def sound_parameters(scene: Scene, modes: Sequence[Any] | None = None) -> NDArray[np.float64]:
+def sound_parameters(
+    scene: Scene, modes: Sequence[Any] | None = None, housing: Housing | None = None
+) -> NDArray[np.float64]:
     """Sound block of a scene for the kernels in `engine.sound`; empty when the scene has no sound.
 
     Parameters
@@ -70,6 +81,8 @@ def sound_parameters(scene: Scene, modes: Sequence[Any] | None = None) -> NDArra
     modes
         Elastic modes of the rings in the order of the engine's coordinates, two channels each; by default
         the scene's.
+    housing
+        Where it radiates; by default the scene's.
 
     Raises
     ------
@@ -80,8 +93,15 @@ def sound_parameters(scene: Scene, modes: Sequence[Any] | None = None) -> NDArra
     if scene.sound is None or not scene.microphones:
         return np.zeros(0)
     positions = [position for _, position in scene.microphones]
-    radiation = radiation_of(scene, modes)
+    radiation = radiation_of(scene, modes, housing)
     return _block(radiation, positions, details=scene.sound.details, thirds=scene.sound.third_octaves)
+
+
+def silent_parameters(scene: Scene) -> NDArray[np.float64]:
+    """Sound block of a scene with microphones that hears nothing: no filters, no harmonics, few meters."""
+    radiation = replace(radiation_of(scene, ()), harmonics=0)
+    groups = [Group((k,), 0, np.zeros((0, 1))) for k in range(len(scene.microphones))]
+    return pack(radiation, [], groups, [], details=False, thirds=False, lengths=())
 
 
 def filter_errors(scene: Scene, modes: Sequence[Any] | None = None) -> list[FilterError]:
@@ -99,8 +119,12 @@ def filter_errors(scene: Scene, modes: Sequence[Any] | None = None) -> list[Filt
     return sorted(errors, key=lambda found: -found.error)
 
 
-def radiation_of(scene: Scene, modes: Sequence[Any] | None = None) -> Radiation:
+def radiation_of(
+    scene: Scene, modes: Sequence[Any] | None = None, housing: Housing | None = None
+) -> Radiation:
     """Return what the paths of a scene with sound depend on besides its microphones.
+
+    ``housing``: where it radiates; by default the scene's.
 
     Raises
     ------
@@ -115,24 +139,39 @@ def radiation_of(scene: Scene, modes: Sequence[Any] | None = None) -> Radiation:
         where = f"sound.table_file {scene.sound.table_file}"
         table = select(read_table(str(scene.sound.table_file)), scene.microphones, where)
     return Radiation(
-        scene.sound.radiation_model, radiators_of(scene), Air(sound.air_density, sound.sound_speed),
+        scene.sound.radiation_model, radiators_of(scene, housing), Air(sound.air_density, sound.sound_speed),
         int(scene.fidelity.ball_harmonics), ring_modes(scene) if modes is None else tuple(modes),
         None if scene.sound.reflecting_plane_mm is None else sound.reflecting_plane, table,
     )  # fmt: skip
 
 
-def radiators_of(scene: Scene) -> Radiators:
+def housing_of_set(scene: Scene) -> Housing | None:
+    """Return the housing that radiates, in the axes of a set's first bearing; None where none does.
+
+    All outer rings on fixed seats move with it as one rigid body, so the first one's motion and tilts tell
+    everything that it does.
+    """
+    if scene.spindle is None or scene.sound is None or scene.sound.radiator != "housing":
+        return None
+    spindle, first = scene.spindle, scene.spindle.bearing[0]
+    diameter, length = spindle.housing.diameter_mm, spindle.housing.length_mm
+    assert diameter is not None and length is not None, "a housing that radiates moves and has a size"
+    centre = first.sign * (spindle.housing_middle_mm - first.position_mm)
+    return Housing(1e-3 * diameter, 1e-3 * length, 1e-3 * centre, turned=first.sign < 0, tilts=True)
+
+
+def radiators_of(scene: Scene, housing: Housing | None = None) -> Radiators:
     """Return what sounds in a scene, in m.
 
-    The housing's front face stands ahead (-X) of the bearing's end face.
+    The housing's front face stands ahead (-X) of the bearing's end face. ``housing``: in the place of the
+    scene's.
     """
     bearing = si(scene.bearing)
     cage = None
     if scene.bearing.cage is not None:
         body = si(scene.bearing.cage)
         cage = Ring(body.outside_diameter, body.bore, body.width)
-    housing = None
-    if scene.sound is not None and scene.sound.radiator == "housing":
+    if housing is None and scene.sound is not None and scene.sound.radiator == "housing":
         if scene.mounted.housing is None:
             raise ValueError('sound.radiator = "housing" needs a table [mounting.housing]')
         body = si(scene.mounted.housing)

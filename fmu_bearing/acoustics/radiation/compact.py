@@ -16,6 +16,7 @@ from fmu_bearing.acoustics.radiation.circle import (
     MicrophoneCircle,
     ball_paths,
     check_outside,
+    tilt_paths,
     translation_paths,
 )
 from fmu_bearing.acoustics.radiation.effective import cylinder_volumes, ring_volumes
@@ -43,8 +44,10 @@ def compact_paths(radiators: Radiators, air: Air, circle: MicrophoneCircle, harm
     paths: list[Path] = []
     for body, ring in radiators.rings:
         if body == OUTER and radiators.housing is not None:
-            axially, radially, own = housing_responses(radiators.housing, air, radius, axial)
+            axially, radially, tilting, own = housing_responses(radiators.housing, air, radius, axial)
             paths += translation_paths(body, own, axially, radially, circle)
+            if radiators.housing.tilts:
+                paths += tilt_paths(body, own, tilting, circle.order(1))
             continue
         across, along = ring_volumes(ring.outer, ring.inner, ring.width)
         axially = sources.compact_dipole(f, distance, axial / distance, along, *medium)
@@ -57,8 +60,11 @@ def compact_paths(radiators: Radiators, air: Air, circle: MicrophoneCircle, harm
 
 def housing_responses(
     housing: Housing, air: Air, radius: float, axial: float
-) -> tuple[NDArray[np.complex128], NDArray[np.complex128], float]:
-    """Pressure per axial and per radial acceleration of a housing, and the flight time in s to take out.
+) -> tuple[NDArray[np.complex128], NDArray[np.complex128], NDArray[np.complex128], float]:
+    """Pressure per axial, radial and angular acceleration of a housing, and the flight time in s to take out.
+
+    Angular: about a transverse axis through the bearing's centre, which moves every dipole across; what the
+    end faces do then is left out.
 
     Dipoles are spread along the axis with a strength that totals the finite cylinder's effective volume,
     times the exact frequency dependence of a shaken infinite cylinder (radial) or of a sphere of the same
@@ -78,16 +84,18 @@ def housing_responses(
     axially = sources.compact_dipole(f, distance, offset / distance, volume_axial * share, *medium).sum(
         axis=0
     )
-    radially = sources.compact_dipole(f, distance, radius / distance, volume_radial * share, *medium).sum(
-        axis=0
-    )
+    across = sources.compact_dipole(f, distance, radius / distance, volume_radial * share, *medium)
+    radially = across.sum(axis=0)
+    tilting = -(place[:, None] * across).sum(axis=0)  # a turn about y lowers what stands at +X
     aside = radius**2 / (radius**2 + (axial - housing.centre) ** 2)
     sphere = sources.sphere_factor(f, housing.diameter / 2, air.sound_speed)
     axially *= 1.0 - aside + aside * sphere
-    radially *= sources.cylinder_factor(f, housing.diameter / 2, air.sound_speed)
+    cylinder = sources.cylinder_factor(f, housing.diameter / 2, air.sound_speed)
+    radially *= cylinder
+    tilting *= cylinder
     nearest = np.hypot(radius, max(abs(axial - housing.centre) - housing.length / 2, 0.0))
     flight = 0.5 * (nearest + distance.max()) - 0.5 * housing.diameter
-    return axially, radially, max(flight, 0.0) / air.sound_speed
+    return axially, radially, tilting, max(flight, 0.0) / air.sound_speed
 
 
 def ball_harmonics(

@@ -21,11 +21,18 @@ class Ring:
 
 @dataclass(frozen=True)
 class Housing:
-    """A closed cylinder about the bearing axis: diameter, length, place of its centre along X, in m."""
+    """A closed cylinder about the bearing axis: diameter, length, place of its centre along X, in m.
+
+    ``turned``: its open front looks towards +X, as round a mirrored bearing of a set. ``tilts``: model
+    `compact` hears its tilts too. They move the middle of a set's housing, which may be far from the bearing
+    that tells its motion; of a single bearing the model hears translations alone.
+    """
 
     diameter: float
     length: float
     centre: float
+    turned: bool = False
+    tilts: bool = False
 
 
 @dataclass(frozen=True)

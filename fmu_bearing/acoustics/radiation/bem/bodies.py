@@ -60,11 +60,13 @@ def _face(name: str, component: int, outer: float, inner: float, x: float) -> Bo
 
 
 def _housing(radiators: Radiators) -> Body:
-    """Return housing, outer ring, inner ring and shaft stub as one body with a slot open towards -X."""
+    """Return housing, outer ring, inner ring and shaft stub as one body with a slot open to its front."""
     housing, outer, inner = radiators.housing, radiators.outer_ring, radiators.inner_ring
     assert housing is not None
     half = 0.5 * outer.width
-    front, rear = housing.centre - 0.5 * housing.length, housing.centre + 0.5 * housing.length
+    way = -1.0 if housing.turned else 1.0
+    centre = way * housing.centre  # drawn with its front towards -X, then mirrored
+    front, rear = centre - 0.5 * housing.length, centre + 0.5 * housing.length
     if front > half or rear <= half:
         raise ValueError(
             f"the housing from x = {1e3 * front:g} to {1e3 * rear:g} mm does not hold the bearing, "
@@ -88,6 +90,9 @@ def _housing(radiators: Radiators) -> Body:
         if np.hypot(corner[0] - contour[0][0], corner[1] - contour[0][1]) > 1e-9:
             contour.insert(0, corner)
             sides.insert(0, component)
+    if housing.turned:
+        # walked the other way round, so that the body stays on the right-hand side
+        return Body("housing", np.array(contour[::-1]) * [-1.0, 1.0], tuple(sides[::-1]))
     return Body("housing", np.array(contour), tuple(sides))
 
 

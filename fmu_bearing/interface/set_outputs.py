@@ -185,7 +185,16 @@ def _housing(scene: Scene, causality: str) -> list[Variable]:
 def _heard(scene: Scene, causality: str) -> list[Variable]:
     """Return the variables of the microphones: those of a single bearing, of the sum over the set."""
     behind = _own(scene, SP.z_mics(_count(scene))) - Z.mics(scene.bearing.ball_count)
-    return [replace(one, index=one.index + behind) for one in microphones(scene, causality)]
+    found = [replace(one, index=one.index + behind) for one in microphones(scene, causality)]
+    if scene.sound is None or scene.sound.radiator != "housing":
+        return found
+    shown = tuple(f".spl_{part}" for part in ("inner_ring", "cage", "balls"))
+    return [
+        replace(one, description=one.description.replace(" at microphone", " of bearing 1 at microphone"))
+        if one.name.endswith(shown)
+        else one
+        for one in found
+    ]
 
 
 def _alone(scene: Scene) -> list[Variable]:

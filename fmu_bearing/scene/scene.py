@@ -119,7 +119,7 @@ class Tables(Part):
         if self.sound.radiator == "baffle":
             yield Conflict(
                 "sound.radiator",
-                '= "baffle" is not computed of a set ([spindle]): give "bare" or "housing"',
+                'is not computed of a set ([spindle]): give "bare" or "housing"',
             )
         if self.sound.radiator == "housing":
             yield from self._radiating_housing(self.spindle)
@@ -135,24 +135,24 @@ class Tables(Part):
         if self.sound is not None and self.sound.radiation_model.startswith("paper"):
             yield Conflict(
                 "sound.radiation_model",
-                f'= "{self.sound.radiation_model}" takes every body as bare, and a set\'s housing covers its '
-                f'bearings: give "bem" or "compact", {back}',
+                "takes every body as bare, and a set's housing covers its bearings: give "
+                f'"bem" or "compact", {back}',
             )
         if housing.diameter_mm is None or housing.length_mm is None:
             seats = any(one.seat == "pedestal" for one in spindle.bearing)
             more = ', with seat = "fixed" in the place of "pedestal"' if seats else ""
             yield Conflict(
                 "sound.radiator",
-                '= "housing" needs a housing that moves: give spindle.housing.mass_kg, diameter_mm, length_mm '
-                f"and pedestal_stiffness_N_m{more}, {back}",
+                "needs a housing that moves: give spindle.housing.mass_kg, diameter_mm, length_mm and "
+                f"pedestal_stiffness_N_m{more}, {back}",
             )
             return
         limit = self.bearing.outside_diameter_mm
         if housing.diameter_mm <= limit:
             yield Conflict(
                 "spindle.housing.diameter_mm",
-                f"= {housing.diameter_mm:g} must exceed bearing.outside_diameter_mm = {limit:g}, where the "
-                f"housing radiates; enlarge it, {back}",
+                f"must exceed bearing.outside_diameter_mm = {limit:g} where the housing radiates: enlarge "
+                f"it, {back}",
             )
         middle, half = spindle.housing_middle_mm, 0.5 * self.bearing.width_mm
         front, rear = middle - 0.5 * housing.length_mm, middle + 0.5 * housing.length_mm

@@ -12,6 +12,7 @@ from fmu_bearing.engine.layout import SP, P, Q, S, W, Z
 from fmu_bearing.interface.set_inputs import set_inputs
 from fmu_bearing.prepare import bodies
 from fmu_bearing.scene import Scene, si
+from fmu_bearing.scene.housing import middle_mm
 from fmu_bearing.scene.member import one_of, shares
 from fmu_bearing.scene.spindle import SetBearing, Spindle
 
@@ -169,7 +170,7 @@ def housing_of(scene: Scene) -> tuple[bodies.RigidBody, float]:
     """Return the housing as a body about its middle, and the place (m) of its middle and pedestal."""
     spindle = _set(scene)
     housing = si(spindle.housing.model_copy(update={"material": None}))
-    middle = 1e-3 * spindle.housing_middle_mm
+    middle = 1e-3 * middle_mm(spindle)
     if not spindle.housing.moves:
         return bodies.RigidBody(0.0, 0.0, 0.0), middle
     return bodies.of_mass(housing.mass, 0.0, housing.diameter, housing.length), middle

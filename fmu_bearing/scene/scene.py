@@ -8,10 +8,12 @@ from typing import Self
 import tomlkit
 from pydantic import Field
 
+from fmu_bearing.scene import housing
 from fmu_bearing.scene.base import Conflict, Part
 from fmu_bearing.scene.bearing import Bearing
 from fmu_bearing.scene.fidelity import Fidelity
 from fmu_bearing.scene.fmu import Fmu
+from fmu_bearing.scene.housing import SKIN
 from fmu_bearing.scene.imperfections import Imperfections
 from fmu_bearing.scene.lubricant import Lubricant
 from fmu_bearing.scene.material import Materials
@@ -22,7 +24,6 @@ from fmu_bearing.scene.spindle import Spindle
 
 #: The name goes into file names and into the FMU's model name: ASCII only.
 NAME = r"^[A-Za-z0-9][A-Za-z0-9._ -]{0,59}$"
-_SKIN = 1e-3  # mm: a microphone nearer to a body than this stands on it; places carry rounding
 _SLOW_RPM = 100.0  # below it waves up to 10 kHz would be of higher orders than any race is known for
 
 
@@ -55,8 +56,8 @@ class Tables(Part):
         if self.bearing.cage is not None and self.materials.cage is None:
             yield Conflict("materials.cage", 'is missing, for example cage = "bakelite"; the bearing has one')
         yield from self._set()
-        housing = None if self.mounting is None else self.mounting.housing
-        if housing is not None and housing.diameter_mm <= self.bearing.outside_diameter_mm:
+        own = None if self.mounting is None else self.mounting.housing
+        if own is not None and own.diameter_mm <= self.bearing.outside_diameter_mm:
             limit = self.bearing.outside_diameter_mm
             yield Conflict(
                 "mounting.housing.diameter_mm", f"must exceed bearing.outside_diameter_mm = {limit:g}"
@@ -64,7 +65,7 @@ class Tables(Part):
         yield from self._flexure()
         yield from self._orders()
         if self.sound is not None:
-            if self.sound.radiator == "housing" and housing is None and self.spindle is None:
+            if self.sound.radiator == "housing" and own is None and self.spindle is None:
                 yield Conflict("sound.radiator", "needs a table [mounting.housing]")
             yield from self._buried_microphones()
             if self.sound.reflecting_plane_mm is not None:
@@ -93,7 +94,7 @@ class Tables(Part):
         width = self.bearing.width_mm
         for number, (one, other) in enumerate(pairwise(self.spindle.bearing), start=2):
             apart = other.position_mm - one.position_mm
-            if 0.0 < apart < width - _SKIN:
+            if 0.0 < apart < width - SKIN:
                 yield Conflict(
                     f"spindle.bearing[{number}].position_mm",
                     f"= {other.position_mm:g} is {apart:g} mm behind the bearing before it; each is "
@@ -119,58 +120,14 @@ class Tables(Part):
         if self.sound.radiator == "baffle":
             yield Conflict(
                 "sound.radiator",
-                'is not computed of a set ([spindle]): give "bare" or "housing"',
+                'is not computed of a set ([spindle]) yet: give "bare" or "housing"',
             )
         if self.sound.radiator == "housing":
-            yield from self._radiating_housing(self.spindle)
+            yield from housing.conflicts(self.spindle, self.bearing, self.sound)
         if self.sound.radiation_model == "table":
             yield Conflict(
                 "sound.radiation_model",
                 "holds the paths of one bearing, a set ([spindle]) has those of several: give another model",
-            )
-
-    def _radiating_housing(self, spindle: Spindle) -> Iterator[Conflict]:
-        """Yield what keeps the housing of a set from being the one body that radiates."""
-        housing, back = spindle.housing, 'or give sound.radiator = "bare"'
-        if self.sound is not None and self.sound.radiation_model.startswith("paper"):
-            yield Conflict(
-                "sound.radiation_model",
-                "takes every body as bare, and a set's housing covers its bearings: give "
-                f'"bem" or "compact", {back}',
-            )
-        if housing.diameter_mm is None or housing.length_mm is None:
-            seats = any(one.seat == "pedestal" for one in spindle.bearing)
-            more = ', with seat = "fixed" in the place of "pedestal"' if seats else ""
-            yield Conflict(
-                "sound.radiator",
-                "needs a housing that moves: give spindle.housing.mass_kg, diameter_mm, length_mm and "
-                f"pedestal_stiffness_N_m{more}, {back}",
-            )
-            return
-        limit = self.bearing.outside_diameter_mm
-        if housing.diameter_mm <= limit:
-            yield Conflict(
-                "spindle.housing.diameter_mm",
-                f"must exceed bearing.outside_diameter_mm = {limit:g} where the housing radiates: enlarge "
-                f"it, {back}",
-            )
-        middle, half = spindle.housing_middle_mm, 0.5 * self.bearing.width_mm
-        front, rear = middle - 0.5 * housing.length_mm, middle + 0.5 * housing.length_mm
-        for number, one in enumerate(spindle.bearing, start=1):
-            low, high = one.position_mm - half, one.position_mm + half
-            if low < front - _SKIN or high > rear - _SKIN:
-                yield Conflict(
-                    f"spindle.bearing[{number}].position_mm",
-                    f"= {one.position_mm:g} puts the bearing from x = {low:g} to {high:g} mm, which must lie "
-                    f"inside the housing that radiates, x = {front:g} to {rear:g} mm: change "
-                    f"spindle.housing.position_mm or length_mm, {back}",
-                )
-        if spindle.bearing[0].seat == "sliding":
-            yield Conflict(
-                "spindle.bearing[1].seat",
-                '= "sliding": the outer ring that the housing shows in front must move with it, where the '
-                'housing radiates; give it "fixed" and the bearings that carry the other way "sliding", '
-                f"{back}",
             )
 
     def _behind_plane(self, plane: float) -> Iterator[Conflict]:
@@ -219,8 +176,8 @@ class Tables(Part):
             r = math.hypot(y, z)
             for body, radius, low, high in bodies:
                 depth = min(radius - r, x - low, high - x)
-                if depth > -_SKIN:
-                    inside = depth >= _SKIN
+                if depth > -SKIN:
+                    inside = depth >= SKIN
                     deep = f", {depth:.3g} mm below its surface" if inside else ""
                     yield Conflict(
                         "sound",
@@ -234,24 +191,17 @@ class Tables(Part):
     def _envelopes(self) -> Iterator[tuple[str, float, float, float]]:
         """Yield name, radius and axial extent (mm) of the cylinders that radiate; a shaft fills the bore."""
         half = self.bearing.width_mm / 2.0
-        housing = None if self.mounting is None else self.mounting.housing
-        if self.sound is not None and self.sound.radiator == "housing" and housing is not None:
-            front = -half - housing.front_face_mm
-            yield "housing", housing.diameter_mm / 2.0, front, front + housing.length_mm
-        yield from self._envelope_of_set()
+        own = None if self.mounting is None else self.mounting.housing
+        if self.sound is not None and self.sound.radiator == "housing" and own is not None:
+            front = -half - own.front_face_mm
+            yield "housing", own.diameter_mm / 2.0, front, front + own.length_mm
+        if self.sound is not None and self.sound.radiator == "housing" and self.spindle is not None:
+            found = housing.envelope(self.spindle)
+            if found is not None:
+                yield "housing", *found
         for number, middle in enumerate(self._middles(), start=1):
             name = "bearing" if self.spindle is None else f"bearing {number}"
             yield name, self.bearing.outside_diameter_mm / 2.0, middle - half, middle + half
-
-    def _envelope_of_set(self) -> Iterator[tuple[str, float, float, float]]:
-        """Yield what `_envelopes` yields of a set's housing that radiates."""
-        if self.spindle is None or self.sound is None or self.sound.radiator != "housing":
-            return
-        housing, middle = self.spindle.housing, self.spindle.housing_middle_mm
-        if housing.diameter_mm is None or housing.length_mm is None:
-            return
-        half = 0.5 * housing.length_mm
-        yield "housing", 0.5 * housing.diameter_mm, middle - half, middle + half
 
     def _middles(self) -> list[float]:
         """Places (mm) of the bearings along the axis of the microphones."""

@@ -437,14 +437,6 @@ class Spindle(Part):
             )
 
     @property
-    def housing_middle_mm(self) -> float:
-        """Middle of the housing and its pedestal from the shaft's nose, mm."""
-        if self.housing.position_mm is not None:
-            return self.housing.position_mm
-        places = [one.position_mm for one in self.bearing]
-        return 0.5 * (min(places) + max(places))
-
-    @property
     def directions(self) -> str:
         """A sign per bearing, from the nose on: ``+`` carries force on the shaft towards +X."""
         return "".join("+" if one.sign > 0 else "-" for one in self.bearing)

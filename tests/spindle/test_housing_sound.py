@@ -23,6 +23,7 @@ from fmu_bearing.prepare.model import pack
 from fmu_bearing.prepare.sound import sound_blocks, sound_key
 from fmu_bearing.prepare.spindle import in_housing, set_inputs
 from fmu_bearing.scene import SceneError
+from fmu_bearing.scene.housing import middle_mm
 from fmu_bearing.scene.member import heard_of
 from fmu_bearing.scene.mounting import Housing as Mounted, Mounting, Rotor
 from tests.acoustics.playback import HOUSED, Player, still
@@ -54,7 +55,7 @@ def single(scene, number=0, **more):
     """A single bearing of the set in a housing of the same size at the same place."""
     spindle, one = scene.spindle, scene.spindle.bearing[number]
     size = spindle.housing
-    begin = spindle.housing_middle_mm - 0.5 * size.length_mm
+    begin = middle_mm(spindle) - 0.5 * size.length_mm
     front = one.position_mm - 0.5 * scene.bearing.width_mm - begin
     mounting = Mounting(
         preload_N=500.0, radial_load_z_N=-20.0, pedestal_stiffness_N_m=size.pedestal_stiffness_N_m,
@@ -120,7 +121,7 @@ def recorded(scene, samples):
     u, s, w = set_inputs(scene), np.zeros(S.size(p)), np.zeros(W.size(p))
     z = np.zeros(int(p[block + SP.SIZE_Z]))
     first = int(p[block + SP.AT_S]) + SP.S_HEAD + 2 * int(p[block + SP.PADDED]) + int(p[block + SP.SHAFT])
-    middle = in_housing(1, 1e-3 * scene.spindle.housing_middle_mm)
+    middle = in_housing(1, 1e-3 * middle_mm(scene.spindle))
     assert call("init", p, u, s, z, w, 0.0) == OK
     found = [middle @ s[first : first + SP.HOUSING]]
     for _ in range(samples):
@@ -132,7 +133,7 @@ def recorded(scene, samples):
 
 def level(scene, moved, tilts=True):
     """Levels of a housing that is moved as ``moved`` tells of its middle, heard as a single bearing's is."""
-    middle = 1e-3 * scene.spindle.housing_middle_mm
+    middle = 1e-3 * middle_mm(scene.spindle)
     places = [(x - middle, y, z) for _, (x, y, z) in scene.microphones]
     centred = dataclasses.replace(HOUSED, housing=Housing(0.1, 0.16, 0.0, tilts=True))
     air = Air(scene.sound.air_density_kg_m3, scene.sound.sound_speed_m_s)

@@ -16,6 +16,7 @@ from fmu_bearing.acoustics.registry import Position, Radiation
 from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.scene import Scene, si
+from fmu_bearing.scene.housing import middle_mm
 
 __all__ = [
     "FilterError",
@@ -156,7 +157,7 @@ def housing_of_set(scene: Scene) -> Housing | None:
     spindle, first = scene.spindle, scene.spindle.bearing[0]
     diameter, length = spindle.housing.diameter_mm, spindle.housing.length_mm
     assert diameter is not None and length is not None, "a housing that radiates moves and has a size"
-    centre = first.sign * (spindle.housing_middle_mm - first.position_mm)
+    centre = first.sign * (middle_mm(spindle) - first.position_mm)
     return Housing(1e-3 * diameter, 1e-3 * length, 1e-3 * centre, turned=first.sign < 0, tilts=True)
 
 

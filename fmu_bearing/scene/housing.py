@@ -1,0 +1,74 @@
+"""The housing of a set where it radiates: its place, and what keeps it from being the body that sounds."""
+
+from collections.abc import Iterator
+
+from fmu_bearing.scene.base import Conflict
+from fmu_bearing.scene.bearing import Bearing
+from fmu_bearing.scene.sound import Sound
+from fmu_bearing.scene.spindle import Spindle
+
+#: mm: a microphone nearer to a body than this stands on it; places carry rounding.
+SKIN = 1e-3
+_BACK = 'or give sound.radiator = "bare"'
+
+
+def middle_mm(spindle: Spindle) -> float:
+    """Middle of the housing and its pedestal from the shaft's nose, mm."""
+    if spindle.housing.position_mm is not None:
+        return spindle.housing.position_mm
+    places = [one.position_mm for one in spindle.bearing]
+    return 0.5 * (min(places) + max(places))
+
+
+def envelope(spindle: Spindle) -> tuple[float, float, float] | None:
+    """Radius and axial extent (mm) of the housing; None without a size."""
+    diameter, length = spindle.housing.diameter_mm, spindle.housing.length_mm
+    if diameter is None or length is None:
+        return None
+    middle = middle_mm(spindle)
+    return 0.5 * diameter, middle - 0.5 * length, middle + 0.5 * length
+
+
+def conflicts(spindle: Spindle, bearing: Bearing, sound: Sound) -> Iterator[Conflict]:
+    """Yield why the housing cannot radiate: its motion, its size, what it holds, the radiation model."""
+    if sound.radiation_model.startswith("paper"):
+        yield Conflict(
+            "sound.radiation_model",
+            "takes every body as bare, and a set's housing covers its bearings: give "
+            f'"bem" or "compact", {_BACK}',
+        )
+    found = envelope(spindle)
+    if found is None:
+        seats = any(one.seat == "pedestal" for one in spindle.bearing)
+        more = ', with seat = "fixed" in the place of "pedestal"' if seats else ""
+        yield Conflict(
+            "sound.radiator",
+            "needs a housing that moves: give spindle.housing.mass_kg, diameter_mm, length_mm and "
+            f"pedestal_stiffness_N_m{more}, {_BACK}",
+        )
+        return
+    radius, front, rear = found
+    limit = bearing.outside_diameter_mm
+    if 2.0 * radius <= limit:
+        yield Conflict(
+            "spindle.housing.diameter_mm",
+            f"must exceed bearing.outside_diameter_mm = {limit:g} where the housing radiates: enlarge "
+            f"it, {_BACK}",
+        )
+    half = 0.5 * bearing.width_mm
+    for number, one in enumerate(spindle.bearing, start=1):
+        low, high = one.position_mm - half, one.position_mm + half
+        if low < front - SKIN or high > rear - SKIN:  # closed behind the bearings
+            yield Conflict(
+                f"spindle.bearing[{number}].position_mm",
+                f"= {one.position_mm:g} puts the bearing from x = {low:g} to {high:g} mm, which must lie "
+                f"inside the housing that radiates, x = {front:g} to {rear:g} mm: change "
+                f"spindle.housing.position_mm or length_mm, {_BACK}",
+            )
+    if spindle.bearing[0].seat == "sliding":
+        yield Conflict(
+            "spindle.bearing[1].seat",
+            '= "sliding": the outer ring that the housing shows in front must move with it, where the '
+            'housing radiates; give it "fixed" and the bearings that carry the other way "sliding", '
+            f"{_BACK}",
+        )

@@ -132,7 +132,7 @@ def test_a_set_is_checked_shown_and_run(run, tmp_path):
         "spindle.preload.kind",
         "spindle.bearing[1].carries",
     }
-    told = run("choose", SET)
+    told = run("tradeoff", SET)
     assert told.exit_code == 2
     assert "takes one bearing with [mounting] so far, not a set with [spindle]" in told.stderr
 

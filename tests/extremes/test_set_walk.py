@@ -45,11 +45,13 @@ def bounds(name):
     return RANGES.get(name, (253.0, 373.0))
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize(
+    ("fidelity", "seed"), [("full", 0), ("full", 1), ("full", 2), ("rings", 0), ("response", 0)]
+)
 @pytest.mark.parametrize("name", SETS)
-def test_a_walk_goes_on_or_is_refused(name, seed):
+def test_a_walk_goes_on_or_is_refused(name, fidelity, seed):
     rng = np.random.default_rng(seed)
-    run = Instance(prepare(SETS[name]()), tell=lambda text: None)
+    run = Instance(prepare(SETS[name](), fidelity=fidelity), tell=lambda text: None)
     run.initialise()
     inputs = [one.name for one in run.model.variables if one.causality == "input"]
     refused = 0

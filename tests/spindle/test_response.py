@@ -126,23 +126,6 @@ def test_a_perfect_pair_stands_still_under_its_preload():
         assert run.value(name) == pytest.approx(rings.value(name), rel=1e-6)
 
 
-def test_nothing_but_the_state_is_kept():
-    """Work space full of rubbish between steps, and a state put back, change no bit."""
-    given = wavy(scene("+-", (40.0, 70.0), 500.0, 20e3, changes=WEIGHT, load=LOAD))
-    clean, dirty = (SetRun(given, FIDELITY=RESPONSE).init() for _ in range(2))
-    for k in range(8):
-        kept = dirty.s.copy()
-        for run in (clean, dirty):
-            run.u[SP.U_SHAFT_T] = 293.15 + 0.5 * k
-            dirty.w[:] = 1e30 * (k + 1)
-            assert run.step(1e-4) == OK
-        assert np.array_equal(clean.s, dirty.s)
-    again = dirty.s.copy()
-    dirty.s[:] = kept
-    assert dirty.step(1e-4) == OK
-    assert np.array_equal(again, dirty.s)
-
-
 def test_a_warm_shaft_has_the_loads_of_a_start_at_its_temperature():
     given = scene("+-", (40.0, 70.0), 500.0, 10e3)
     jumped, started, reference = (SetRun(given, FIDELITY=one) for one in (RESPONSE, RESPONSE, RINGS))

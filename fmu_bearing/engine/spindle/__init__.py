@@ -1,4 +1,4 @@
-"""Fidelities full and rings for sets of bearings on one shaft: each by its own kernels, joined on the shaft.
+"""Fidelities of sets of bearings on one shaft: each by its own kernels, joined on the shaft.
 
 A bearing of the set keeps its arrays and kernels. Rows of its rings that follow shaft or housing are
 *driven*: their accelerations are those of the shaft. With the rest of the bearing condensed onto them, the
@@ -18,9 +18,11 @@ Bampton 1968 for the shaft's own coordinates).
 ``start``      the state at initialisation
 ``sound``      sound samples of all bearings at the same instants, and levels of their sum
 ``march``      from one communication point to the next
-``condensed``  fidelity rings: the equations of condensed bearings, shaft and housing
-``held``       fidelity rings: the bearings' quasi-static points, under the loads of the set's rest
+``condensed``  fidelities rings and response: the equations of condensed bearings, shaft and housing
+``held``       fidelities rings and response: the bearings' quasi-static points, as the set loads them
 ``rings``      fidelity rings: start, steps and their control
+``lines``      fidelity response: what each bearing excites in the whole set
+``response``   fidelity response: start, and the state at any time
 ``outputs``    from the state to the outputs
 =============  ==========================================================================
 """

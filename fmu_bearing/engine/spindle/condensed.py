@@ -1,4 +1,4 @@
-"""Equations of a set in fidelity rings: condensed bearings on shaft and housing.
+"""Equations of a set in fidelities rings and response: condensed bearings on shaft and housing.
 
 Each bearing tells the accelerations f its rings would have alone, their masses B (``L.MASS``) and derivatives
 J. With m the rings' inertia, the set's forces are those of shaft and housing and sum T^T m (f - B a), its
@@ -27,7 +27,7 @@ _FLOOR = 2500.0  # 1/s2: (50 rad/s)^2 on soft directions, as for a single bearin
 
 @kernel
 def bends(p):
-    """Whether the shaft bends."""
+    """Whether the shaft bends: it has more coordinates than a rigid one."""
     return p[int(p[P.SET]) + SP.SHAFT] > SP.PLANE
 
 

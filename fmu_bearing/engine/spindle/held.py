@@ -1,10 +1,11 @@
-"""The bearings' quasi-static points of fidelity rings, each under the axial load of the set's rest."""
+"""Quasi-static points of the bearings in fidelities rings and response, each as the set at rest loads it."""
 
 from fmu_bearing.engine.fidelities.condensed.held import gyroscopic_mean, held_speed, hold_at, out_of_date
-from fmu_bearing.engine.fidelities.condensed.shared import hold_masses
+from fmu_bearing.engine.fidelities.condensed.shared import even_spacing, hold_masses
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import EQ, SP, ST, C, L, P, Q, S, U, W, Y
 from fmu_bearing.engine.spindle import members
+from fmu_bearing.engine.spindle.condensed import find_levers
 from fmu_bearing.engine.spindle.inputs import (
     bearing_conditions,
     bearing_inputs,
@@ -14,7 +15,7 @@ from fmu_bearing.engine.spindle.inputs import (
     take_loads,
 )
 from fmu_bearing.engine.spindle.rest import keep_stiffness, rest, start_vector
-from fmu_bearing.engine.spindle.start import TOUCHING
+from fmu_bearing.engine.spindle.start import TOUCHING, start_set
 from fmu_bearing.engine.statics.axial import quasistatic
 from fmu_bearing.engine.statics.held import held
 from fmu_bearing.engine.statics.place import place_balls, place_cage
@@ -137,6 +138,20 @@ def hold_set(p, u, s, w):
         hold_masses(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b))
     note_loads(p, own)
     return OK
+
+
+@kernel
+def start_held(p, u, s, w, t):
+    """Start of fidelities rings and response: that of fidelity full, then what is held; status code."""
+    status = start_set(p, u, s, w, t)
+    if status != OK:
+        return status
+    for b in range(members.count(p)):
+        even_spacing(members.parameters(p, b), members.condensed(members.state(p, s, b)))
+    status = hold_set(p, u, s, w)
+    if status == OK:
+        find_levers(p, members.own_state(p, s))
+    return status
 
 
 @kernel

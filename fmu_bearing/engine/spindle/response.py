@@ -4,7 +4,7 @@ import math
 
 from fmu_bearing.engine.fidelities import steps
 from fmu_bearing.engine.fidelities.condensed.rows import keep_balls, show_balls
-from fmu_bearing.engine.fidelities.condensed.shared import advance, even_spacing, flat
+from fmu_bearing.engine.fidelities.condensed.shared import advance, flat
 from fmu_bearing.engine.fidelities.full.start import begin_means
 from fmu_bearing.engine.fidelities.response import march
 from fmu_bearing.engine.jit import kernel
@@ -13,7 +13,6 @@ from fmu_bearing.engine.spindle import condensed, held, members
 from fmu_bearing.engine.spindle.lines import answer_lines, sum_set_lines
 from fmu_bearing.engine.spindle.rest import start_vector
 from fmu_bearing.engine.spindle.rings import emit_shown
-from fmu_bearing.engine.spindle.start import start_set
 from fmu_bearing.engine.status import NO_START, NOT_CONVERGED, OK
 
 
@@ -118,7 +117,7 @@ def show_set(p, s, w, near):
 @kernel
 def start_response_set(p, u, s, w, t):
     """Fill the state ``s`` of a set for the inputs ``u`` at time ``t`` (s); status code."""
-    status = start_set(p, u, s, w, t)
+    status = held.start_held(p, u, s, w, t)
     if status != OK:
         return status
     own = members.own_state(p, s)
@@ -127,14 +126,9 @@ def start_response_set(p, u, s, w, t):
     for b in range(members.count(p)):
         sb = members.state(p, s, b)
         lv = members.condensed(sb)
-        even_spacing(members.parameters(p, b), lv)
         for j in range(STRIDE):
             lv[L.X3 + j] = sb[S.Y + Y.X + j]
             lv[L.R3 + j] = sb[S.Y + Y.R + j]
-    status = held.hold_set(p, u, s, w)
-    if status != OK:
-        return status
-    condensed.find_levers(p, own)
     start = members.vector(p, SP.NEWMARK)
     for i in range(members.padded(p)):
         ws[start + i] = own[SP.S_HEAD + i]

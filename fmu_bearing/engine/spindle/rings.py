@@ -3,7 +3,7 @@
 from fmu_bearing.engine.fidelities import steps
 from fmu_bearing.engine.fidelities.condensed.balls import accelerations, count_settled, stand
 from fmu_bearing.engine.fidelities.condensed.rows import keep_balls
-from fmu_bearing.engine.fidelities.condensed.shared import advance, even_spacing, keep_end, show_end
+from fmu_bearing.engine.fidelities.condensed.shared import advance, keep_end, show_end
 from fmu_bearing.engine.fidelities.condensed.transverse import (
     add_transverse,
     begin_transverse,
@@ -17,7 +17,6 @@ from fmu_bearing.engine.layout import SP, STRIDE, C, H, L, P, S, T, W, Y
 from fmu_bearing.engine.spindle import condensed, held, members
 from fmu_bearing.engine.spindle.shaft import shaft_forces
 from fmu_bearing.engine.spindle.sound import emit_set
-from fmu_bearing.engine.spindle.start import start_set
 from fmu_bearing.engine.status import NO_START, NOT_CONVERGED, OK
 
 
@@ -64,18 +63,12 @@ def place_on_waves(p, s, w, speed):
 @kernel
 def start_rings_set(p, u, s, w, t):
     """Fill the state ``s`` of a set for the inputs ``u`` at time ``t`` (s); status code."""
-    status = start_set(p, u, s, w, t)
+    status = held.start_held(p, u, s, w, t)
     if status != OK:
         return status
     own = members.own_state(p, s)
     ws = members.own_work(p, w)
     speed = u[SP.U_SPEED]
-    for b in range(members.count(p)):
-        even_spacing(members.parameters(p, b), members.condensed(members.state(p, s, b)))
-    status = held.hold_set(p, u, s, w)
-    if status != OK:
-        return status
-    condensed.find_levers(p, own)
     place_on_waves(p, s, w, speed)
     for i in range(members.padded(p)):
         own[members.history(p) + i] = ws[members.vector(p, SP.PLACE) + i]

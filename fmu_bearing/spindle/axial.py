@@ -71,11 +71,18 @@ def _carried(assembled: Assembly, k: int, shaft: float) -> float:
     if k not in assembled.springs:
         return one.carried(inner, one.still())
     push, stiffness = assembled.springs[k]
+    # between the spring without load and a bearing without one
+    free = inner - one.lifted()
+    low = free - _REACH
+    if stiffness > 0.0:
+        if free <= -push / stiffness:
+            return 0.0
+        low = max(low, -push / stiffness)
 
     def excess(slide: float) -> float:
         return one.carried(inner - slide, one.still()) - push - stiffness * slide
 
-    return one.carried(inner - float(brentq(excess, -_REACH, _REACH, xtol=1e-14)), one.still())
+    return one.carried(inner - float(brentq(excess, low, free, xtol=1e-14)), one.still())
 
 
 def preloads(assembled: Assembly) -> dict[str, list[float]]:

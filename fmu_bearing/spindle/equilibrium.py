@@ -175,14 +175,14 @@ class _System:
     def step(
         self, matrix: NDArray[np.float64], force: NDArray[np.float64], damping: float
     ) -> NDArray[np.float64]:
-        """Newton's step, shortened so that no ring moves by more than the longest."""
+        """Newton's step, shortened so that no ring moves by more than the longest against the other."""
         scaled = matrix / np.outer(self.scale, self.scale) + damping * np.eye(self.count)
         step = np.linalg.solve(scaled, force / self.scale) / self.scale
-        longest = max(float(np.abs(step[self.first :]).max(initial=0.0)), 1e-300)
+        longest = 1e-300
         for moves in self.moves:
-            for own in (moves[:, : self.first] @ step[: self.first], moves @ step):
-                own[3:] *= self.lever
-                longest = max(longest, float(np.abs(own).max()))
+            own = moves @ step
+            own[3:] *= self.lever
+            longest = max(longest, float(np.abs(own).max()))
         return step * min(1.0, _LONGEST / longest)
 
 

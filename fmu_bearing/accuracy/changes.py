@@ -69,6 +69,8 @@ def changes(
     if seeds < 1:
         raise ValueError(f"seeds = {seeds}: give 1 or more")
     scene = scene_of(source)
+    if scene.spindle is not None:
+        raise scene.unmounted("a study of changes")
     tell("operating point of the unchanged scene")
     before = point(scene)
     ear, reason = hearing(scene, radiation_model) if levels else (None, "they were not asked for")

@@ -206,8 +206,12 @@ def sensitivity(
     ------
     Refused
         If the engine refuses the unchanged scene.
+    SceneError
+        For a set of bearings.
     """
     scene = with_fidelity(source, model="full")
+    if scene.spindle is not None:
+        raise scene.unmounted("a sensitivity study")
     if scene.sound is not None and scene.sound.radiation_model == "bem" and scene.sound.radiator != "baffle":
         scene = scene.replace({"sound.radiation_model": "compact", "sound.reflecting_plane_mm": None})
     blocks: dict[str, NDArray[np.float64]] = {}

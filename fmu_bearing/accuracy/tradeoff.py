@@ -187,8 +187,12 @@ def tradeoff(
     ------
     Refused
         If the engine refuses the reference.
+    SceneError
+        For a set of bearings.
     """
     scene = scene_of(source)
+    if scene.spindle is not None:
+        raise scene.unmounted("a trade-off study")
     sound = sound_block(scene)
     pair, own = check(scene, warm_up, min(CHECK, 0.5 * window))
     truth = measure(REFERENCE.scene(scene), sound, warm_up, window)

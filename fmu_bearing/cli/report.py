@@ -17,6 +17,7 @@ from fmu_bearing.cli.base import (
     tell,
 )
 from fmu_bearing.files import check_file
+from fmu_bearing.scene import read_scene
 
 Source = Annotated[
     Path, typer.Argument(metavar="SCENE|RUN.npz", help="Scene file (TOML), or a recording of a run (.npz).")
@@ -24,8 +25,10 @@ Source = Annotated[
 Page = Annotated[Path, typer.Option("--output", "-o", help="HTML file to write.")]
 
 
-def _kept_as(path: Path) -> None:
-    """Refuse a name under which the run cannot be kept."""
+def _kept_as(path: Path, source: Path) -> None:
+    """Refuse a name under which the run cannot be kept, and a report without one."""
+    if source.suffix == ".toml" and read_scene(source).spindle is not None:
+        raise Refusal("--keep: the report of a set of bearings is made without a run: none to keep")
     if path.suffix != ".npz":
         raise Refusal(f"--keep {path}: a run is kept as .npz")
     check_file(path)
@@ -84,7 +87,7 @@ def report(
         turning = shaft_speed(speed)
         speeds = None if run_up is None else span(run_up)
         if keep is not None:  # told before the run
-            _kept_as(keep)
+            _kept_as(keep, source)
         from fmu_bearing.reports import make  # loads slowly, and no other command has use for it
 
         made = make(
@@ -92,8 +95,6 @@ def report(
             radius=radius, title=title, speed=turning, run_up=speeds,
             run_up_time=run_up_time, changes=changes, tell=tell, progress=errors.is_terminal,
         )  # fmt: skip
-        if keep is not None and made.recording is None:
-            raise Refusal("--keep: the report of a set of bearings is made without a run: none to keep")
         if keep is not None and made.recording is not None:
             keep.parent.mkdir(parents=True, exist_ok=True)
             made.recording.save(keep)

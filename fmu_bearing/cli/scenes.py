@@ -274,8 +274,8 @@ def _sizes(found: Scene) -> dict[str, Any]:
     # an instance copies the parameters and keeps its last state beside the present one
     sizes = model.lengths
     places = p.size + 2 * sizes.state + sizes.work + sizes.outputs
-    if auto and found.spindle is not None:
-        words = "auto: full, which alone takes sets so far"
+    if auto and found.spindle is not None and found.spindle.shaft.external:
+        words = "auto: full, which alone follows another model's shaft"
     elif auto:
         bounds = fidelity.accuracy
         words = (

@@ -102,20 +102,20 @@ def _plan(
     window: float | None, folder: Path | None,
 ) -> "Plan":  # fmt: skip
     """Make the plan from file and options; options win. The folder gets a file that repeats the sweep."""
-    from fmu_bearing.sweeps.axes import ALIASES, SweepError, parse_axis
+    from fmu_bearing.scene import read_scene
+    from fmu_bearing.sweeps.axes import SweepError, key_of, parse_axis
     from fmu_bearing.sweeps.description import Description, is_description, read_description
     from fmu_bearing.sweeps.plan import plan
 
     parsed = [parse_axis(text) for text in axis or []]
-    given = {ALIASES.get(key, key): values for key, values in parsed}
-    if len(given) < len(parsed):
-        raise SweepError("an axis is given twice: give each --axis once")
-    known: dict[str, Any] = {}
+    known: dict[str, Any] = {"scene": str(source), "axes": {}}
     if is_description(source):
         known = read_description(source).model_dump()
-        known["axes"] = {ALIASES.get(key, key): values for key, values in known["axes"].items()} | given
-    else:
-        known = {"scene": str(source), "axes": given}
+    scene = read_scene(known["scene"])
+    given = {key_of(scene, key): values for key, values in parsed}
+    if len(given) < len(parsed):
+        raise SweepError("an axis is given twice: give each --axis once")
+    known["axes"] = {key_of(scene, key): values for key, values in known["axes"].items()} | given
     asked = split(variables)
     names = None if asked is None else tuple(asked)
     options = {"settle_s": settle, "window_s": window, "figures": names}
@@ -125,10 +125,10 @@ def _plan(
     wanted = Description.model_construct(**known)
     made = plan(wanted.scene, wanted.axes, wanted.settle_s, wanted.window_s, wanted.figures)
     if folder is not None:
-        scene = folder / "scene.toml"
+        kept = folder / "scene.toml"
         folder.mkdir(parents=True, exist_ok=True)
-        scene.write_text(made.scene.to_toml(), "utf-8")
-        text = wanted.model_copy(update={"scene": scene.name}).to_toml()
+        kept.write_text(made.scene.to_toml(), "utf-8")
+        text = wanted.model_copy(update={"scene": kept.name}).to_toml()
         (folder / "sweep.toml").write_text(text, "utf-8")
     return made
 

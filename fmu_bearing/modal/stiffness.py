@@ -277,6 +277,8 @@ def stiffness(
     ['34 N/um', '57 N/um']
     """
     scene = scene_of(scene)
+    if scene.spindle is not None:
+        raise scene.unmounted("a table of stiffness over frequency")
     if spacing not in get_args(Spacing):
         raise ValueError(f"spacing = {spacing!r} is refused: it is held or free")
     fixed = dict(inputs or {})

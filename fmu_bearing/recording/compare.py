@@ -308,6 +308,8 @@ def _finished(
             return of_run(source, settle, radiation_model)
         return of_recording(source, name, radiation_model)
     scene = scene_of(source)
+    if scene.spindle is not None:
+        raise scene.unmounted("a recording of sound channels")
     if fidelity is not None:
         scene = with_fidelity(scene, model=fidelity)
     if scene.fidelity.model == "auto":

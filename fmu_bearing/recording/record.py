@@ -102,9 +102,11 @@ def record(
     >>> [round(float(level)) for level in recording.levels(weighting="A")]  # dB(A) at the scene's microphones
     [62, 59, 61, 69]
     """
-    scene = source.scene if isinstance(source, Model) else resolve(scene_of(source))[0]
+    scene = source.scene if isinstance(source, Model) else scene_of(source)
     if scene.spindle is not None:
         raise scene.unmounted("a recording of sound channels")
+    if not isinstance(source, Model):
+        scene = resolve(scene)[0]
     for name, value, low in (("duration", duration, 0.0), ("step", step, 0.0), ("settle", settle, -1e-300)):
         if not (math.isfinite(value) and value > low):
             raise ValueError(f"{name} = {value} s: it must be a finite, positive number of seconds")

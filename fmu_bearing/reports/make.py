@@ -30,8 +30,10 @@ from fmu_bearing.scene import Scene, SceneError, SceneSource, read_scene, scene_
 from fmu_bearing.scene.origins import origins
 
 Source = Recording | SceneSource
+DURATION = 0.5  # s that are shown
 SETTLE = 0.1  # s left out at the beginning, in which the start-up dies away
 RUN_UP = 1.0  # s a run-up takes
+RADIUS = 1.0  # m: of the sphere on which directivity is shown
 _SHORTEST = 0.02  # s
 
 
@@ -84,13 +86,13 @@ def make(
     source: Source,
     output: str | os.PathLike[str],
     *,
-    duration: float = 0.5,
+    duration: float = DURATION,
     settle: float = SETTLE,
     speed: float | None = None,
     radiation_model: str | None = None,
     run_up: tuple[float, float] | None = None,
     run_up_time: float = RUN_UP,
-    radius: float = 1.0,
+    radius: float = RADIUS,
     title: str = "",
     changes: bool | None = None,
     tell: Tell = silent,
@@ -146,7 +148,12 @@ def make(
     _check(duration, settle, radius, run_up, run_up_time)
     given = _set_of(source)
     if given is not None:
-        return _of_set(given, path, speed, title, tell, run_up=run_up, radiation_model=radiation_model)
+        runs: dict[str, tuple[object, object]] = {
+            "run_up": (run_up, None), "radiation_model": (radiation_model, None), "changes": (changes, None),
+            "duration": (duration, DURATION), "settle": (settle, SETTLE), "radius": (radius, RADIUS),
+            "run_up_time": (run_up_time, RUN_UP),
+        }  # fmt: skip
+        return _of_set(given, path, speed, title, tell, runs)
     subject = _subject(source, duration, settle, speed, radiation_model, radius, tell, progress)
     rising = _run_up(subject, run_up, run_up_time, tell, progress) if run_up else None
     with python_warnings.catch_warnings(record=True) as caught:
@@ -227,11 +234,12 @@ def _set_of(source: Source) -> Scene | None:
 
 
 def _of_set(
-    scene: Scene, path: pathlib.Path, speed: float | None, title: str, tell: Tell, **runs: object
-) -> Report:
-    """Write the page about a set; ``runs``: options that need a run."""
-    for name, value in runs.items():
-        if value is not None:
+    scene: Scene, path: pathlib.Path, speed: float | None, title: str, tell: Tell,
+    runs: dict[str, tuple[object, object]],
+) -> Report:  # fmt: skip
+    """Write the page about a set; ``runs``: options that need a run, each with its default."""
+    for name, (value, default) in runs.items():
+        if value != default:
             raise ValueError(
                 f"{name}: the report of a set of bearings is made of statics, without a run: leave it out"
             )

@@ -16,7 +16,7 @@ from fmu_bearing.reports.blocks import Absent, Block, Chart, Section, Table, Wor
 from fmu_bearing.reports.look import axis
 from fmu_bearing.reports.page import render
 from fmu_bearing.reports.summary import Tile, tile
-from fmu_bearing.scene import Scene
+from fmu_bearing.scene import Scene, SceneError
 from fmu_bearing.spindle.assembly import set_of
 from fmu_bearing.spindle.drawing import pressure_centres
 from fmu_bearing.spindle.statics import ShaftStatics, shaft_statics
@@ -233,30 +233,42 @@ def _warmth(scene: Scene, found: ShaftStatics, tell: Tell) -> Chart:
     Raises
     ------
     Absent
-        For a set without preload.
+        For a set without preload, and where it cannot be warmer.
     """
     if not found.preloads:
         raise Absent("a set that carries one way has no preload")
     tell("preload over temperature")
-    rings, shaft = "operation.inner_ring_temperature_degC", "spindle.shaft.temperature_degC"
-    warm = scene.operation.inner_ring_temperature_degC
-    own = set_of(scene).shaft.temperature_degC
-    solid = warm if own is None else own
+    rings, shaft = _warm_keys(scene)
     figure = look.figure(380)
     for name, keys, colour in (
-        ("inner rings warmer", (rings,), "#D55E00"),
-        ("shaft warmer", (shaft,), "#0072B2"),
-        ("both", (rings, shaft), "#000000"),
+        ("inner rings warmer", rings, "#D55E00"),
+        ("shaft warmer", shaft, "#0072B2"),
+        ("both", rings | shaft, "#000000"),
     ):
         curve = []
         for rise in _WARMER:
-            changes = {shaft: solid} | {key: (warm if key == rings else solid) + rise for key in keys}
-            curve.append(shaft_statics(scene.replace(changes)).preloads["running"][0])
+            changes = shaft | {key: value + rise for key, value in keys.items()}
+            try:
+                curve.append(shaft_statics(scene.replace(changes)).preloads["running"][0])
+            except (SceneError, EngineError) as problem:
+                raise Absent(f"{name} by {rise:g} K: {problem}") from None
         figure.add_scatter(x=_WARMER, y=curve, name=name, line={"color": colour})
     figure.update_xaxes(axis("warmer than in the scene, K"))
     figure.update_yaxes(axis("preload of bearing 1 at speed, N", rangemode="tozero"))
     words = "Preload of the first bearing at speed, without load on the shaft, over temperatures"
     return Chart("warmth", "Preload over temperatures", figure, words)
+
+
+def _warm_keys(scene: Scene) -> tuple[dict[str, float], dict[str, float]]:
+    """Return keys and values (degC) of what warms the inner rings, and the shaft."""
+    spindle, warm = set_of(scene), scene.operation.inner_ring_temperature_degC
+    rings = {"operation.inner_ring_temperature_degC": warm}
+    for number, one in enumerate(spindle.bearing, start=1):
+        if one.inner_ring_temperature_degC is not None:
+            key = f"spindle.bearing[{number}].inner_ring_temperature_degC"
+            rings[key] = one.inner_ring_temperature_degC
+    own = spindle.shaft.temperature_degC
+    return rings, {"spindle.shaft.temperature_degC": warm if own is None else own}
 
 
 def _together(together: list[Verdict]) -> Block:

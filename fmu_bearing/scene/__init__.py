@@ -13,6 +13,7 @@
 ``lubricant``     oil, traction and film constants
 ``mounting``      preload, loads, pedestal, rotor, housing, bending of the rings
 ``spindle``       a set of bearings on one shaft, in the place of a mounting
+``shaft``         its shaft, in sections or of another model
 ``housing``       the housing of a set where it radiates: its place, what it needs
 ``imperfections`` waviness, ball spread, unbalance, by values or by grade, with a seed
 ``operation``     speed and temperatures at the start

@@ -66,8 +66,9 @@ class Scene(Tables):
         """Return the refusal of a set by ``what`` computes one bearing on its mounting."""
         return SceneError(
             f"{self.name}: {what} takes one bearing with [mounting] so far, not a set with [spindle]; "
-            "sets have `fmu-bearing info`, `simulate`, `build`, `modes` and `stiffness`, in Python "
-            "`shaft_statics`, `set_stiffness`, `modes`, `campbell` and `Bearing`"
+            "sets have `fmu-bearing info`, `stiffness`, `report`, `simulate`, `sweep`, `choose`, `modes` "
+            "and `build`, in Python `shaft_statics`, `operating_points`, `set_stiffness`, `modes`, "
+            "`campbell`, `simulate`, `sweep`, `choose`, `report`, `build_fmu` and `Bearing`"
         )
 
     @classmethod

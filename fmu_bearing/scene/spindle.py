@@ -2,14 +2,14 @@
 
 from collections.abc import Iterator
 from itertools import pairwise
-from typing import Annotated, Literal
+from typing import Literal
 
 from pydantic import Field
 
 from fmu_bearing.scene.base import Conflict, Part
 from fmu_bearing.scene.material import Material
+from fmu_bearing.scene.shaft import LONG, Shaft
 
-_LONG = 5000.0  # mm
 _MOST = 16  # bearings of a set
 
 #: Sets by their directions, from the nose on, and what makers call them.
@@ -36,123 +36,12 @@ ARRANGEMENTS = {
     "----": "QT",
 }
 
-Length = Annotated[float, Field(ge=0.1, le=_LONG)]
-Diameter = Annotated[float, Field(ge=1, le=1000)]
-Bore = Annotated[float, Field(ge=0, le=1000)]
-# A file's array arrives as a list: the one conversion that strictness may let pass.
-Section = Annotated[tuple[Length, Diameter, Bore], Field(strict=False)]
-
-
-class Unbalance(Part):
-    """A heavy spot of the shaft."""
-
-    position_mm: float = Field(
-        ge=0, le=_LONG, examples=[20.0], description="Plane of the heavy spot from the nose, mm."
-    )
-    amount_g_mm: float = Field(
-        ge=0, le=1e5, examples=[0.1], description="Mass times distance from the axis, g mm."
-    )
-    angle_deg: float = Field(
-        default=0.0,
-        ge=-360,
-        le=360,
-        examples=[0.0],
-        description="Angle about +X from 12 o'clock where the shaft's angle is zero, deg.",
-    )
-
-
-class Shaft(Part):
-    """The shaft in cylindrical sections; its nose is at X = 0. One of another model has no sections."""
-
-    external: bool = Field(
-        default=False,
-        examples=[True],
-        description="Whether another model owns the shaft: its motion at X = 0 comes in, the bearings' force "
-        "goes out (mechanical port).",
-    )
-    sections_mm: tuple[Section, ...] = Field(
-        default=(),
-        max_length=40,
-        strict=False,
-        examples=[[[30.0, 22.0, 0.0], [140.0, 17.0, 0.0]]],
-        description="Sections from the nose to the rear, each [length, diameter, bore], mm.",
-    )
-    material: Material | None = Field(
-        default=None,
-        examples=["GCr15"],
-        description="Material of the shaft; absent: that of the inner rings.",
-    )
-    temperature_degC: float | None = Field(
-        default=None,
-        ge=-40,
-        le=199,
-        examples=[45.0],
-        description="Mean temperature of the shaft between its bearings (absent: that of [operation]'s inner "
-        "ring), degC.",
-    )
-    flexible: bool = Field(
-        default=False,
-        examples=[True],
-        description="Whether the shaft bends (Timoshenko beam); else it is rigid with the same mass.",
-    )
-    fixed_modes: int = Field(
-        default=2,
-        ge=0,
-        le=8,
-        examples=[2],
-        description="Flexible shaft: bending modes between nose and bearings that are kept, per direction.",
-    )
-    damping_ratio: float = Field(
-        default=0.005,
-        ge=0,
-        le=0.5,
-        examples=[0.005],
-        description="Flexible shaft: damping over the critical one at its lowest bending frequency without "
-        "supports; it grows with frequency (default assumed).",
-    )
-    unbalance: tuple[Unbalance, ...] = Field(
-        default=(), max_length=20, strict=False, description="Heavy spots; absent: a balanced shaft."
-    )
-
-    def conflicts(self) -> Iterator[Conflict]:
-        """Yield sections whose bore leaves nothing, a shaft without any, and what a port does not read."""
-        if self.external:
-            for key in ("sections_mm", "flexible", "fixed_modes", "damping_ratio", "unbalance"):
-                if getattr(self, key) != type(self).model_fields[key].default:
-                    yield Conflict(
-                        key, "is that of the model which owns the shaft (external = true): leave it out"
-                    )
-            return
-        if not self.sections_mm:
-            yield Conflict(
-                "sections_mm",
-                "is missing, for example sections_mm = [[30.0, 22.0, 0.0], [140.0, 17.0, 0.0]]; a shaft that "
-                "another model owns has external = true",
-            )
-            return
-        for number, (_, diameter, bore) in enumerate(self.sections_mm, start=1):
-            if bore >= diameter:
-                yield Conflict(
-                    "sections_mm", f"section {number} has a bore of {bore:g} mm in a diameter of {diameter:g}"
-                )
-        for number, spot in enumerate(self.unbalance, start=1):
-            if spot.position_mm > self.length_mm:
-                yield Conflict(
-                    f"unbalance[{number}].position_mm",
-                    f"= {spot.position_mm:g} is beyond the shaft's end at {self.length_mm:g} mm",
-                )
-
-    @property
-    def length_mm(self) -> float:
-        """Length of all sections."""
-        return sum(length for length, _, _ in self.sections_mm)
-
 
 class SetBearing(Part):
     """One bearing of the set; `[bearing]`, `[materials]` and `[lubricant]` serve all."""
 
     position_mm: float = Field(
-        ge=0, le=_LONG, examples=[40.0], description="Plane of the ball centres from the shaft's nose, mm."
+        ge=0, le=LONG, examples=[40.0], description="Plane of the ball centres from the shaft's nose, mm."
     )
     carries: Literal["+x", "-x"] = Field(
         examples=["+x"],
@@ -268,8 +157,8 @@ class SetHousing(Part):
     )
     position_mm: float | None = Field(
         default=None,
-        ge=-_LONG,
-        le=_LONG,
+        ge=-LONG,
+        le=LONG,
         examples=[90.0],
         description="Middle of the housing and of its pedestal from the shaft's nose (absent: the middle of "
         "the bearings), mm.",
@@ -329,8 +218,8 @@ class Load(Part):
     force_z_N: float = Field(default=0.0, ge=-1e5, le=1e5, examples=[-300.0], description="Upwards, N.")
     position_mm: float = Field(
         default=0.0,
-        ge=-_LONG,
-        le=_LONG,
+        ge=-LONG,
+        le=LONG,
         examples=[-20.0],
         description="Where it acts, from the nose; negative: ahead of it, mm.",
     )
@@ -429,12 +318,15 @@ class Spindle(Part):
                 'is that of a housing on a pedestal, and a bearing has seat = "pedestal" of its own: leave '
                 'mass_kg out, or give all bearings seat = "fixed" or "sliding"',
             )
-        if not own and not self.housing.moves and self.housing.pedestal_stiffness_N_m is not None:
-            yield Conflict(
-                "housing.pedestal_stiffness_N_m",
-                "is read by nothing: give housing.mass_kg for a housing that moves, or a bearing with "
-                'seat = "pedestal"',
-            )
+        if own or self.housing.moves:
+            return
+        for key, field in SetHousing.model_fields.items():
+            if key.startswith("pedestal_") and getattr(self.housing, key) != field.default:
+                yield Conflict(
+                    f"housing.{key}",
+                    "is read by nothing: give housing.mass_kg for a housing that moves, or a bearing with "
+                    'seat = "pedestal"',
+                )
 
     @property
     def directions(self) -> str:

@@ -24,6 +24,11 @@ ALIASES = {
     "seed": "imperfections.seed",
     "fidelity": "fidelity.model",
 }
+#: Those that a set of bearings has elsewhere.
+_OF_SETS = {
+    "preload": "spindle.preload.preload_N",
+    "pedestal": "spindle.housing.pedestal_stiffness_N_m",
+}
 #: Dimensions whose name is not the last part of the key.
 _NAMES = {"fidelity.model": "fidelity"}
 _RANGE = re.compile(r"([^:,]+):([^:,]+):(\d+)(log)?")
@@ -103,6 +108,16 @@ def _round(values: NDArray[np.float64]) -> list[float]:
     return [float(f"{value:.12g}") for value in values]
 
 
+def key_of(scene: Scene, name: str) -> str:
+    """Return the dotted key that a short name has in a scene; any other name as it is."""
+    if scene.spindle is None or name not in _OF_SETS:
+        return ALIASES.get(name, name)
+    preload = scene.spindle.preload
+    if name == "preload" and preload is not None and preload.kind == "spring":
+        return "spindle.preload.force_N"
+    return _OF_SETS[name]
+
+
 def axes_of(scene: Scene, wanted: Mapping[str, Sequence[Any] | str]) -> tuple[Axis, ...]:
     """Return the axes of a sweep of a scene; keys may be short names, values lists or text.
 
@@ -120,7 +135,7 @@ def axes_of(scene: Scene, wanted: Mapping[str, Sequence[Any] | str]) -> tuple[Ax
         if given in renamed.AXES or given in renamed.KEYS:
             problems.append(f"axis {given} is now {renamed.AXES.get(given) or renamed.KEYS[given]}")
             continue
-        key = ALIASES.get(given, given)
+        key = key_of(scene, given)
         try:
             known(key, [*fields, *ALIASES], "key of a scene")
             listed = _listed(key, values, value_at(scene, key))

@@ -6,7 +6,9 @@ from typer.testing import CliRunner
 from fmu_bearing import shaft_statics
 from fmu_bearing.cli import app
 from fmu_bearing.design.set_points import life_of_set, operating_points
+from fmu_bearing.progress import silent
 from fmu_bearing.reports import make
+from fmu_bearing.reports.spindle import _warmth
 from tests.conftest import ROOT
 from tests.spindle.sets import scene
 
@@ -41,3 +43,35 @@ def test_speed_is_taken_and_runs_are_refused(tmp_path):
     kept = ["report", str(PAIR), "-o", str(tmp_path / "p.html"), "--keep", str(tmp_path / "r.npz")]
     shown = CliRunner().invoke(app, kept)
     assert shown.exit_code != 0 and "none to keep" in shown.output.replace("\n", " ")
+    assert not (tmp_path / "p.html").exists()
+
+
+@pytest.mark.parametrize(
+    "option",
+    [{"changes": True}, {"duration": 1.0}, {"settle": 0.2}, {"radius": 2.0}, {"run_up_time": 2.0}],
+)
+def test_options_of_a_run_are_refused(tmp_path, option):
+    (name,) = option
+    with pytest.raises(ValueError, match=f"^{name}: the report of a set of bearings is made of statics"):
+        make(PAIR, tmp_path / "no.html", **option)
+    assert not (tmp_path / "no.html").exists()
+
+
+def test_inner_rings_of_their_own_temperature_become_warmer_too():
+    given = scene(bearings=[{"inner_ring_temperature_degC": 45.0}, {}])
+    found = shaft_statics(given)
+    curves = {one.name: one.y for one in _warmth(given, found, silent).figure.data}
+    warmer = given.replace(
+        {"operation.inner_ring_temperature_degC": given.operation.inner_ring_temperature_degC + 20.0}
+        | {"spindle.bearing[1].inner_ring_temperature_degC": 65.0}
+        | {"spindle.shaft.temperature_degC": given.operation.inner_ring_temperature_degC}
+    )
+    wanted = shaft_statics(warmer).preloads["running"][0]
+    assert curves["inner rings warmer"][-1] == pytest.approx(wanted, rel=1e-9)
+    assert curves["inner rings warmer"][-1] > 1.2 * curves["inner rings warmer"][0]
+
+
+def test_a_page_lacks_temperatures_that_no_scene_may_have(tmp_path):
+    given = scene(changes={"operation.inner_ring_temperature_degC": 185.0})
+    made = make(given, tmp_path / "hot.html")
+    assert "allowed: -40 to 199" in made.sections["warmth"]

@@ -4,7 +4,9 @@ import copy
 
 import pytest
 
-from fmu_bearing import changes, operating_point, read_scene, record
+from fmu_bearing import changes, compare, operating_point, read_scene, record, stiffness, with_fidelity
+from fmu_bearing.accuracy.sensitivity import sensitivity
+from fmu_bearing.accuracy.tradeoff import tradeoff
 from fmu_bearing.scene import Scene, SceneError, read_scene_text
 from fmu_bearing.scene.origins import origins
 from tests.conftest import GATES, ROOT
@@ -110,6 +112,15 @@ def changed(path, value, **arguments):
             "spindle.housing.pedestal_stiffness_N_m = 100000000.0 is read by nothing",
         ),
         (
+            changed(("spindle", "housing"), {"pedestal_damping_ratio": 0.1}),
+            "spindle.housing.pedestal_damping_ratio = 0.1 is read by nothing",
+        ),
+        (
+            changed(("spindle", "shaft", "damping_ratio"), 0.02),
+            "spindle.shaft.damping_ratio = 0.02 is that of a shaft that bends: give flexible = true",
+        ),
+        (changed(("spindle", "shaft", "fixed_modes"), 4), "spindle.shaft.fixed_modes = 4 is that of a shaft"),
+        (
             changed(("spindle", "shaft", "unbalance"), [{"position_mm": 900.0, "amount_g_mm": 1.0}]),
             "spindle.shaft.unbalance[1].position_mm = 900 is beyond the shaft's end",
         ),
@@ -132,18 +143,23 @@ def test_what_does_not_fit_is_refused_with_the_way_out(data, message):
 
 
 @pytest.mark.parametrize(
-    "use",
+    ("use", "what"),
     [
-        operating_point, changes, lambda s: record(s, 1e-3),
+        (operating_point, "an operating point"),
+        (changes, "a study of changes"),
+        (lambda scene: record(scene, 1e-3), "a recording of sound channels"),
+        (lambda scene: compare(scene, scene), "a recording of sound channels"),
+        (sensitivity, "a sensitivity study"),
+        (tradeoff, "a trade-off study"),
+        (stiffness, "a table of stiffness over frequency"),
     ],
 )  # fmt: skip
-def test_what_cannot_take_a_set_says_so_in_one_sentence(use, tmp_path, monkeypatch):
+def test_what_cannot_take_a_set_says_so_in_one_sentence(use, what, tmp_path, monkeypatch):
+    """At once: also where `auto` would have to be probed before."""
     monkeypatch.chdir(tmp_path)
-    with pytest.raises(
-        SceneError,
-        match=r"^7003C-DB: .* takes one bearing with \[mounting\] so far, not a set with \[spindle\]; sets",
-    ):
-        use(read_scene(FILE))
+    says = rf"^7003C-DB: {what} takes one bearing with \[mounting\] so far, not a set with \[spindle\]; sets"
+    with pytest.raises(SceneError, match=says):
+        use(with_fidelity(read_scene(FILE), model="auto"))
 
 
 def test_a_mounted_scene_is_no_set():

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from fmu_bearing.sweeps.axes import SweepError, axes_of, parse_axis
+from fmu_bearing.sweeps.axes import SweepError, axes_of, key_of, parse_axis
+from tests.spindle.sets import scene as of_set
 
 
 def test_text_of_the_command_line():
@@ -39,6 +40,15 @@ def test_axes_have_names_units_and_meaning(scene):
     assert [axis.name for axis in axes] == ["speed_rpm", "mass_kg"]
     assert [axis.unit for axis in axes] == ["r/min", "kg"]
     assert axes[1].words == "Mass of the rotor, kg." and axes[1].values == (0.2, 0.3)
+
+
+def test_short_names_are_those_of_a_set():
+    spring = {"spindle.preload": {"kind": "spring", "force_N": 300.0}, "spindle.bearing[2].seat": "sliding"}
+    spacers, springs = of_set(), of_set(changes=spring)
+    for found, key in ((spacers, "spindle.preload.preload_N"), (springs, "spindle.preload.force_N")):
+        assert [axis.key for axis in axes_of(found, {"preload": "100:300:3"})] == [key]
+    assert key_of(spacers, "pedestal") == "spindle.housing.pedestal_stiffness_N_m"
+    assert key_of(spacers, "speed") == "operation.speed_rpm"
 
 
 def test_axes_that_end_alike_keep_their_whole_keys(scene):

@@ -40,15 +40,15 @@ REASONS = {
     NO_START: "no quasi-static equilibrium was found for the initial inputs; "
     "give more preload or less radial load",
     RIGID_ONLY: "its rings bend, which needs fidelity full",
-    OTHER_FIDELITY: "a set whose rings stand on pedestals of their own keeps the fidelity of its scene, and "
-    "bearings on another model's shaft have fidelity full alone",
+    OTHER_FIDELITY: "a set of fidelity response, or with rings on pedestals of their own, keeps the fidelity "
+    "of its scene; bearings on another model's shaft have fidelity full alone",
     TOO_SOFT: "the loads push the outer ring sideways by more than 0.3 of the pitch radius; "
     "give a stiffer pedestal or less radial load",
 }
 # of a set these words differ: loads are those on its shaft
 _OF_SETS = {
-    NO_START: "no quasi-static equilibrium was found for the initial inputs; "
-    "give more preload or less load on the shaft",
+    NO_START: "no quasi-static equilibrium was found for the initial inputs; give more preload or less load "
+    "on the shaft, and only towards where a bearing carries it",
     TOO_SOFT: "the loads push an outer ring or the housing sideways by more than 0.3 of the pitch radius; "
     "give a stiffer pedestal or less load on the shaft",
 }
@@ -111,6 +111,14 @@ _UNLOADED = Caution(
     " N per ball: the bearing is unloaded; loose balls skid or lift off, and what they then do depends on "
     "gravity and chance more than on the bearing; give more preload or less load",
 )
+_BACKWARD = Caution(  # of a set that carries one way: another has bearings for the other one
+    Z.BEARING_OUTPUTS.index("contact.inner.angle_mean"),
+    -0.02,  # rad: more than a free bearing's balls sway
+    180.0 / math.pi,
+    "bearing 1: its contact angle is ",
+    " deg: the load pushes the shaft the way that nothing holds, where races have no shoulder, while loads "
+    "and stiffness are those of a whole groove; turn a bearing, or reverse the load",
+)
 _LOOSE = "preload = 0 N: no axial force holds balls and races together: loose balls skid or lift off; "
 _ROLLS = {
     "full": "what they then do depends on gravity, loads and chance more than on the bearing",
@@ -152,9 +160,9 @@ def loose(fidelity: str) -> str:
     return f"{words}; give a preload (mounting.preload_N, input preload), or expect no more than a trend"
 
 
-def reasons(model: Model) -> dict[int, str]:
-    """Return what the status codes of the engine mean for a model."""
-    return REASONS if model.scene.spindle is None else REASONS | _OF_SETS
+def reasons(of_set: bool) -> dict[int, str]:
+    """Return what the status codes of the engine mean, of a set of bearings or of a single one."""
+    return REASONS | _OF_SETS if of_set else REASONS
 
 
 def cautions(model: Model) -> tuple[Caution, ...]:
@@ -178,6 +186,8 @@ def _cautions_of_set(scene: Scene) -> tuple[Caution, ...]:
         for one in (_UNLOADED, *_SHOULDERS):
             place = first_output(scene, b) + one.index
             found.append(replace(one, index=place, before=begin + one.before))
+    if len({one.sign for one in scene.spindle.bearing}) == 1:
+        found.append(replace(_BACKWARD, index=first_output(scene, 0) + _BACKWARD.index))
     return tuple(found)
 
 
@@ -208,7 +218,7 @@ class Instance:
         self.model = model
         self.tell = tell or (lambda text: warnings.warn(text, stacklevel=4))
         self.by_name = {variable.name: variable for variable in model.variables}
-        self._cautions, self._reasons = cautions(model), reasons(model)
+        self._cautions, self._reasons = cautions(model), reasons(model.scene.spindle is not None)
         self.reset()
 
     def reset(self) -> None:

@@ -19,7 +19,7 @@ from fmu_bearing.fmi.documentation import range_of
 from fmu_bearing.formulas.iso76 import static_rating
 from fmu_bearing.formulas.iso281 import dynamic_rating
 from fmu_bearing.interface import variables
-from fmu_bearing.run.names import any_set
+from fmu_bearing.run.names import any_sets
 from fmu_bearing.scene import Scene, read_scene
 from fmu_bearing.scene.nsk import CLASSES, PREFIX, modelled, sizes as printed_sizes
 from fmu_bearing.scene.read import catalogue
@@ -172,7 +172,7 @@ def _catalogue():
 #: The group of what only sets have, and how its names begin.
 _SETS, _OF_SETS = (
     "Sets of bearings on one shaft",
-    ("nose.", "shaft.", "shaft_temperature", "housing", "bearing["),
+    ("nose.", "shaft.", "shaft_temperature", "housing", "bearing[", "port."),
 )
 #: Heading, then what a variable of that group must satisfy; the first group that fits takes it.
 GROUPS = (
@@ -231,8 +231,8 @@ def _all_variables():
     bending = read_scene(SCENES / "7009C-full-ceramic.toml")
     single = [*variables(spindle, 0.0), *variables(bending, 0.0)]
     names = {variable.name for variable in single}
-    several = [v for v in variables(any_set(spindle), 0.0) if v.name.split("].", 1)[-1] not in names]
-    return [*single, *several]
+    sets = {one.name: one for found in any_sets(spindle) for one in variables(found, 0.0)}
+    return [*single, *(one for name, one in sets.items() if name.split("].", 1)[-1] not in names)]
 
 
 def commands():

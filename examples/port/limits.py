@@ -21,6 +21,7 @@ LENGTH, RADIUS = 0.2, 0.0085  # m
 PUSH = 1e-3  # N s at X = 0, upwards
 DURATION = 4e-3  # s
 STEPS = (5e-6, 1e-5, 1.5e-5, 2e-5, 2.25e-5, 2.5e-5, 3e-5, 5e-5, 7e-5)  # s
+SHORT = (1e-5, 3e-5)  # s
 _SEEN = 8.0  # samples per period that tell a damping ratio
 
 
@@ -103,8 +104,9 @@ def picture(path: str, truth: tuple[float, float], found: list[tuple[str, str, f
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--plot", metavar="FILE")
+    parser.add_argument("--short", action="store_true", help="two steps alone")
     given = parser.parse_args()
-    true, rows = study()
+    true, rows = study(SHORT if given.short else STEPS)
     print(f"shaft inside: {true[0]:.0f} Hz, damping ratio {true[1]:.4f}")
     for row in rows:
         print(f"{row[0]:8} {row[1]:13} {1e6 * row[2]:4.0f} us  {row[3]}")

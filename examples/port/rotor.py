@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 PORT = 5
-GRAVITY = 9.80665  # m/s2
+GRAVITY = 9.81  # m/s2, as the bearings have it
 
 
 @dataclass(frozen=True)

@@ -64,9 +64,11 @@ def set_computed(p):
     """Whether the parameters of a set are made for its fidelity.
 
     A ring on a pedestal of its own is among the set's coordinates in all fidelities but `full`, which alone
-    follows the motion of a port.
+    follows the motion of a port. The state has room for lines in `response` alone.
     """
     if has_port(p) and p[P.FIDELITY] != FULL:
+        return False
+    if p[P.FIDELITY] == RESPONSE and p[int(p[P.SET]) + SP.LINED] == 0.0:
         return False
     for b in range(members.count(p)):
         r = members.row(p, b)

@@ -212,10 +212,11 @@ def _about(scene: "Scene") -> str:
             "vibration, friction torque, heat and sound"
         )
     count = len(spindle.bearing)
-    return (
-        f"Shaft on {count} angular contact ball bearing{'s' * (count > 1)} {designation}, "
-        f"{spindle.arrangement}: vibration, friction torque and heat"
-    )
+    bearings = f"{count} angular contact ball bearing{'s' * (count > 1)} {designation}, {spindle.arrangement}"
+    if spindle.shaft.external:
+        return f"{bearings}, for a shaft of another model: vibration, friction torque and heat"
+    more = "friction torque, heat and sound" if scene.sound is not None else "friction torque and heat"
+    return f"Shaft on {bearings}: vibration, {more}"
 
 
 def _units(parent: Element, variables: Iterable[Variable]) -> None:

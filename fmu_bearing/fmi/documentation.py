@@ -30,9 +30,18 @@ _SET = """\
 A shaft, which the importer turns, runs on {count} bearings, {arrangement}; places of their ball planes from
 the nose, and the direction of the force on the shaft that each carries: {places}. Inputs are speed, loads on
 the nose and temperatures. The FMU computes the motion of the shaft and of the {balls} balls, rings and cage
-of each bearing, the friction torque on the shaft, and the heat of each bearing."""
+of each bearing, the friction torque on the shaft, {sound}and the heat of each bearing."""
+_AT_PORT = """\
+{count} bearings, {arrangement}, carry a rotor that another model owns. It leads their inner rings from X = 0,
+the mechanical port: set place and rate at the end of each step, and read force and moment on the rotor there
+and as mean over the step. The rotor has mass, inertia and weight of the inner rings:
+<code>port.mass</code>, <code>port.static_moment</code>, <code>port.inertia.transverse</code> and
+<code>port.inertia.polar</code> tell them. Places of the ball planes from the port, and the direction of the
+force on the rotor that each bearing carries: {places}. Inputs besides are speed and temperatures. The FMU
+computes the motion of the {balls} balls, rings and cage of each bearing, the friction torque on the rotor,
+and the heat of each bearing."""
 _OF_SET = """\
-X is the shaft's axis, from its nose to its rear, Y horizontal, Z vertical up; gravity acts along -Z. Values
+X is the shaft's axis, from its front to its rear, Y horizontal, Z vertical up; gravity acts along -Z. Values
 of a bearing have the prefix <code>bearing[1].</code>, <code>bearing[2].</code> and so on from the nose, and
 are told in these axes. Positive speed is right-handed about +X. Friction torque and heats without a prefix
 are sums over the bearings."""
@@ -104,7 +113,12 @@ def _subject(scene: "Scene") -> dict[str, str]:
         return {"heading": f"Angular contact ball bearing {designation}", "about": about, "axes": _OF_BEARING}
     count, spindle = len(scene.spindle.bearing), scene.spindle
     places = ", ".join(f"{one.position_mm:g} mm ({one.carries})" for one in spindle.bearing)
-    about = _SET.format(count=count, balls=balls, arrangement=escape(spindle.arrangement), places=places)
+    arrangement = escape(spindle.arrangement)
+    words = {"count": str(count), "balls": balls, "arrangement": arrangement, "places": places}
+    if spindle.shaft.external:
+        heading = f"{count} x {designation} at a mechanical port"
+        return {"heading": heading, "about": _AT_PORT.format(**words), "axes": _OF_SET}
+    about = _SET.format(**words, sound="" if scene.sound is None else "the sound at the microphones ")
     return {"heading": f"Shaft on {count} x {designation}", "about": about, "axes": _OF_SET}
 
 

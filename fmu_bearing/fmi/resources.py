@@ -10,7 +10,7 @@ import numpy as np
 from fmu_bearing.engine.sources import engine_digest
 from fmu_bearing.fmi.shown import as_shown
 from fmu_bearing.interface import variables
-from fmu_bearing.prepare.bodies import rotor_inertia
+from fmu_bearing.prepare.bodies import rings_at_port, rotor_inertia
 from fmu_bearing.prepare.model import Model
 from fmu_bearing.scene import read_scene
 
@@ -67,7 +67,7 @@ def load(folder: Path, expected: str) -> Model:
     scene = read_scene(folder / SCENE)
     parameters = np.load(folder / PARAMETERS, allow_pickle=False)
     parameters.setflags(write=False)
-    table = variables(scene, rotor_inertia=rotor_inertia(scene))
+    table = variables(scene, rotor_inertia(scene), rings_at_port(scene))
     model = as_shown(Model(scene, parameters, table))
     if fingerprint(model) != expected:
         raise ValueError(

@@ -50,9 +50,8 @@ def parameters(scene: Scene) -> list[Variable]:
     return table
 
 
-def constants(scene: Scene, rotor_inertia: float) -> list[Variable]:
+def constants(scene: Scene, rotor_inertia: float, rings: tuple[float, float, float]) -> list[Variable]:
     """Return the constants: choices made when the model was built."""
-    turning = "inner ring and rotor" if scene.spindle is None else "shaft and inner rings"
     radiator = RADIATORS["none" if scene.sound is None else scene.sound.radiator]
     table = [
         _whole(
@@ -70,12 +69,7 @@ def constants(scene: Scene, rotor_inertia: float) -> list[Variable]:
             "What radiates: 0 nothing, 1 the bare bearing, 2 the housing, 3 its face in a rigid plane",
             radiator,
         ),
-        _constant(
-            "rotor.inertia",
-            f"Polar inertia of {turning}, which the drive owns",
-            rotor_inertia,
-            "kg.m2",
-        ),
+        *_turning(scene, rotor_inertia, rings),
     ]
     if scene.imperfections is not None:
         seed = scene.imperfections.seed
@@ -88,6 +82,21 @@ def constants(scene: Scene, rotor_inertia: float) -> list[Variable]:
             words = f"Place of microphone {name}, {axis}"
             table.append(_constant(f"mic[{k + 1}].position.{axis}", words, metres, "m", nominal=0.1))
     return table
+
+
+def _turning(scene: Scene, polar: float, rings: tuple[float, float, float]) -> list[Variable]:
+    """Return inertia that belongs to another model: to the drive, or to the rotor at a mechanical port."""
+    if scene.spindle is not None and scene.spindle.shaft.external:
+        mass, static, transverse = rings
+        words, unit = "of the inner rings, which the rotor has", "kg.m2"
+        return [
+            _constant("port.mass", f"Mass {words}", mass, "kg"),
+            _constant("port.static_moment", f"Mass times distance from X = 0 {words}", static, "kg.m"),
+            _constant("port.inertia.transverse", f"Inertia {words}, about Y or Z at X = 0", transverse, unit),
+            _constant("port.inertia.polar", f"Inertia {words}, about the axis", polar, unit),
+        ]
+    what = "inner ring and rotor" if scene.spindle is None else "shaft and inner rings"
+    return [_constant("rotor.inertia", f"Polar inertia of {what}, which the drive owns", polar, "kg.m2")]
 
 
 def _arrangement(spindle: Spindle) -> list[Variable]:

@@ -35,12 +35,11 @@ def internals_of_set(scene: Scene) -> list[Variable]:
     single = internals(one_of(scene))
     own = [variable for variable in single if variable.name in SP.OUTPUTS]
     assert scene.spindle is not None
-    rings = _rings(scene) if scene.spindle.shaft.external else []
     table = [*_stiffness(scene), *_housing(scene, "local"), *(_shared(scene, one) for one in own)]
     single = [variable for variable in single if variable not in own]
     for b in range(_count(scene)):
         table += _of_bearing(scene, b, single)
-    return [*table, *rings, *_heard(scene, "local"), *_alone(scene)]
+    return [*table, *_heard(scene, "local"), *_alone(scene)]
 
 
 def first_output(scene: Scene, number: int) -> int:
@@ -145,19 +144,6 @@ def _port(scene: Scene) -> list[Variable]:
             place = _own(scene, SP.OUTPUTS.index(name))
             table.append(read(name, "output", text, "N.m", place, nominal=1.0))
     return table
-
-
-def _rings(scene: Scene) -> list[Variable]:
-    """Return inertia of the inner rings, which the rotor at the port has."""
-    words = (
-        ("port.mass", "Mass of the inner rings, which the rotor has", "kg"),
-        ("port.static_moment", "Mass of the inner rings times their distance from X = 0", "kg.m"),
-        ("port.inertia.transverse", "Inertia of the inner rings about Y or Z at X = 0", "kg.m2"),
-        ("port.inertia.polar", "Inertia of the inner rings about the axis", "kg.m2"),
-    )
-    return [
-        read(name, "local", text, unit, _own(scene, SP.OUTPUTS.index(name))) for name, text, unit in words
-    ]
 
 
 def _housing(scene: Scene, causality: str) -> list[Variable]:

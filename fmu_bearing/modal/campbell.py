@@ -17,6 +17,7 @@ from fmu_bearing.modal.lines import Line, Rates, lines, rates
 from fmu_bearing.modal.modes import MARGIN, MOVES, UNSTEADY, Mode, Modes
 from fmu_bearing.modal.picture import campbell_picture
 from fmu_bearing.modal.points import at_point
+from fmu_bearing.modal.set_linearised import need_shaft
 from fmu_bearing.modal.shapes import NEITHER
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.scene import Scene, SceneSource, scene_of
@@ -264,6 +265,7 @@ def campbell(
     'Nearest: f_i - f_r (inner race) with inner radial backward'
     """
     scene = scene_of(scene)
+    need_shaft(scene)
     chosen = _speeds(scene, speeds)
     if inputs and "shaft_speed" in inputs:
         raise ValueError("shaft_speed is not an input of a Campbell diagram: give speeds, in r/min")

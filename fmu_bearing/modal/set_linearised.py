@@ -20,7 +20,7 @@ from fmu_bearing.modal.coordinates import Coordinates
 from fmu_bearing.modal.linearised import PHASES, in_fixed_axes
 from fmu_bearing.prepare.spindle import in_housing
 from fmu_bearing.run.arrays import Arrays, Refused
-from fmu_bearing.scene import Scene
+from fmu_bearing.scene import Scene, SceneError
 from fmu_bearing.scene.read import with_fidelity
 
 _EQUAL = 1e-12  # m: balls whose places differ less carry equal loads
@@ -136,6 +136,15 @@ class SetLinearised:
         return len(self.phases) == 1
 
 
+def need_shaft(scene: Scene) -> None:
+    """Refuse (`SceneError`) bearings on another model's shaft: without its mass there are no modes."""
+    if scene.spindle is not None and scene.spindle.shaft.external:
+        raise SceneError(
+            f"{scene.name}: another model owns the shaft (spindle.shaft.external): modes need its mass; give "
+            "the shaft as sections_mm of [spindle.shaft]"
+        )
+
+
 def set_linearised(
     scene: Scene, inputs: dict[int, float] | None = None, friction: bool = True
 ) -> SetLinearised:
@@ -154,7 +163,10 @@ def set_linearised(
     ------
     EngineError
         Where there is no quasi-static equilibrium.
+    SceneError
+        For bearings on another model's shaft: without its mass there is no mode.
     """
+    need_shaft(scene)
     bare = with_fidelity(scene, model="full").model_copy(update={"sound": None, "imperfections": None})
     run = Arrays.of_set(bare)
     for place, value in (inputs or {}).items():

@@ -74,6 +74,15 @@ def rotor_inertia(scene: Scene) -> float:
     return shaft + len(scene.spindle.bearing) * inner_ring(scene).polar
 
 
+def rings_at_port(scene: Scene) -> tuple[float, float, float]:
+    """Mass (kg), mass times X (kg m), inertia about Y or Z at X = 0 (kg m2) of a set's inner rings."""
+    if scene.spindle is None:
+        return 0.0, 0.0, 0.0
+    ring, places = inner_ring(scene), [si(one).position for one in scene.spindle.bearing]
+    about = len(places) * ring.transverse + ring.mass * sum(x * x for x in places)
+    return len(places) * ring.mass, ring.mass * sum(places), about
+
+
 def housing(scene: Scene) -> RigidBody:
     """Housing that moves with the outer ring, its mass put at the bearing's centre; zero if none."""
     if scene.mounted.housing is None:

@@ -145,7 +145,8 @@ def prepare(
         raise SceneError(f"{scene.name}: {problem}") from None
     parameters = pack(scene, *sounds)
     parameters.setflags(write=False)
-    return Model(scene, parameters, variables(scene, rotor_inertia=bodies.rotor_inertia(scene)), note)
+    table = variables(scene, bodies.rotor_inertia(scene), bodies.rings_at_port(scene))
+    return Model(scene, parameters, table, note)
 
 
 def _require_computable(scene: Scene) -> None:

@@ -277,12 +277,9 @@ def _block(
     block[SP.HOUSED] = spindle.housing.moves
     block[SP.SPRUNG] = bool(tables[SP.AT_STIFFNESS].any() or tables[SP.AT_DAMPING].any())
     block[SP.PORT] = spindle.shaft.external
+    block[SP.LINED] = bearings[0][P.FIDELITY] == RESPONSE
     if spindle.shaft.external:
-        each = [motion[:_OUTER].T @ np.diag(mass[:_OUTER]) @ motion[:_OUTER] for mass, motion in rows]
-        inner = np.sum(each, axis=0)
-        block[SP.PORT_MASS], block[SP.PORT_STATIC] = inner[0, 0], inner[Q.Y, Q.INNER_BZ]
-        block[SP.PORT_TRANSVERSE] = inner[Q.INNER_BY, Q.INNER_BY]
-        block[SP.PORT_POLAR] = sum(p[P.INNER_POLAR] for p in bearings)
+        block[SP.PORT_MASS], block[SP.PORT_STATIC], block[SP.PORT_TRANSVERSE] = bodies.rings_at_port(scene)
     block[SP.UNBALANCED] = bool(tables[SP.AT_UNBALANCE].any())
     block[SP.AT_S], block[SP.AT_W], block[SP.AT_Z] = places["S"], places["W"], places["Z"]
     mics, bands = (int(bearings[0][place]) for place in (P.MICS, P.BANDS))

@@ -9,7 +9,7 @@ from fmu_bearing.compiled import Calls
 from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE, RPM
 from fmu_bearing.engine.layout import P, Q, S, U, Y
 from fmu_bearing.engine.status import OK
-from fmu_bearing.instance import REASONS
+from fmu_bearing.instance import reasons
 from fmu_bearing.interface.inputs import inputs
 from fmu_bearing.interface.set_inputs import set_inputs
 from fmu_bearing.prepare.lengths import lengths
@@ -90,14 +90,17 @@ class Arrays:
         """Quasi-static state at the inputs; ``Refused`` if there is none."""
         status = self._calls.init(0.0)
         if status != OK:
-            raise Refused(f"initialisation: {REASONS[status]}")
+            raise Refused(f"initialisation: {self._reason(status)}")
 
     def step(self, h: float) -> None:
         """Advance by ``h`` (s); ``Refused`` if the engine does."""
         begin = self.s[S.TIME]
         status = self._calls.step(h)
         if status != OK:
-            raise Refused(f"step to {begin + h:.6g} s: {REASONS[status]}")
+            raise Refused(f"step to {begin + h:.6g} s: {self._reason(status)}")
+
+    def _reason(self, status: int) -> str:
+        return reasons(bool(self.p[P.SET]))[status]
 
     def run(self, duration: float, h: float) -> None:
         """Advance by ``duration`` in communication steps of ``h`` (s)."""

@@ -16,12 +16,15 @@ _NUMBER = re.compile(r"_\d+(?=_|$)")
 def _usual_units() -> dict[str, str]:
     """Return units by flat name of the variables of scenes with all options, without indices."""
     scene = read_scene_text(new_scene("any", "7003C"))
-    every = [*variables(scene, 0.0), *variables(any_set(scene), 0.0)]
+    every = [*variables(scene, 0.0), *(one for found in any_sets(scene) for one in variables(found, 0.0))]
     return {_without_index(variable.name): variable.unit for variable in every}
 
 
-def any_set(scene: Scene) -> Scene:
-    """Return a set of a scene's bearing with all that gives variables: springs, a moving housing, sound."""
+def any_sets(scene: Scene) -> tuple[Scene, Scene]:
+    """Return sets of a scene's bearing that together have all variables.
+
+    One has springs, a moving housing and sound; the other a mechanical port.
+    """
     pair = [
         {"position_mm": 10.0, "carries": "+x"},
         {"position_mm": 10.0 + 2.0 * scene.bearing.width_mm, "carries": "-x", "seat": "sliding"},
@@ -39,7 +42,11 @@ def any_set(scene: Scene) -> Scene:
         "circle": {"radius_mm": 10.0 * scene.bearing.outside_diameter_mm, "axial_mm": 0.0, "count": 1},
     }
     tables = scene.model_dump() | {"mounting": None, "sound": heard, "imperfections": None}
-    return Scene.from_dict(tables | {"spindle": spindle})
+    at_port = {"shaft": {"external": True}, "bearing": pair[:1]}
+    return (
+        Scene.from_dict(tables | {"spindle": spindle}),
+        Scene.from_dict(tables | {"spindle": at_port, "sound": None, "fidelity": {"model": "full"}}),
+    )
 
 
 def _without_index(name: str) -> str:

@@ -5,7 +5,7 @@ import pytest
 
 from fmu_bearing import shaft_statics
 from fmu_bearing.engine.layout import SP, S
-from fmu_bearing.engine.status import BAD_INPUT, BAD_STEP, NOT_CONVERGED, OK
+from fmu_bearing.engine.status import BAD_INPUT, BAD_STEP, OK
 from tests.spindle.runs import SetRun
 from tests.spindle.sets import scene
 
@@ -113,13 +113,10 @@ def test_run_up_from_rest_and_back_through_it():
 @pytest.mark.parametrize("balls", [3, 4])
 def test_bearings_of_few_balls(balls):
     run = SetRun(pair(changes={"bearing.ball_count": balls, "bearing.cage": None, "materials.cage": None}))
-    status = run.try_init()
-    # three balls hold no tilt: either an equilibrium is found and the run goes on, or it is refused
-    if status == OK:
-        for _ in range(20):
-            status = run.step(STEP)
-            assert status in (OK, NOT_CONVERGED)
-            assert np.isfinite(run.z).all()
+    run = march(run.init(), 20)
+    carried = [run.value("force.x", b) for b in range(2)]
+    # nothing but the preload along the axis: both carry the same
+    assert sum(carried) == pytest.approx(0.0, abs=1.0) and carried[0] > 400.0
 
 
 def test_bad_inputs_are_refused_and_change_nothing():
@@ -141,7 +138,8 @@ def test_bad_inputs_are_refused_and_change_nothing():
 def test_a_state_copied_goes_on_with_the_same_bits():
     run = march(SetRun(pair(load={"force_z_N": -100.0})).init(), 7)
     kept = run.s.copy()
-    first = march(run, 5).z.copy()
+    march(run, 5)
+    first, end = run.z.copy(), run.s.copy()
     run.s[:] = kept
     run.w[:] = np.nan  # nothing in the work space survives a call
-    assert np.array_equal(march(run, 5).z, first)
+    assert np.array_equal(march(run, 5).z, first) and np.array_equal(run.s, end)

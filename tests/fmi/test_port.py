@@ -1,11 +1,15 @@
 """FMUs with a mechanical port: the native build answers for its derivatives, and both say so."""
 
+import importlib.util
 import math
+from pathlib import Path
 from xml.etree.ElementTree import fromstring
 
 import pytest
 from fmpy import extract, instantiate_fmu, read_model_description
 from fmpy.fmi1 import FMICallException
+from fmpy.validation import validate_fmu
+from lxml import etree
 
 from fmu_bearing import read_scene
 from fmu_bearing.compiled.errors import BuildError
@@ -40,15 +44,16 @@ def fmu(model, tmp_path_factory):
 
 
 class Slave:
-    """The native FMU after a step, by names."""
+    """The native FMU, by names."""
 
-    def __init__(self, fmu):
+    def __init__(self, fmu, initialise=True):
         description = read_model_description(fmu)
         self.numbers = {v.name: v.valueReference for v in description.modelVariables}
         self.slave = instantiate_fmu(extract(fmu), description, fmi_type="CoSimulation")
         self.slave.setupExperiment(startTime=0.0)
         self.slave.enterInitializationMode()
-        self.slave.exitInitializationMode()
+        if initialise:
+            self.slave.exitInitializationMode()
 
     def of(self, names):
         return [self.numbers[name] for name in names]
@@ -67,6 +72,23 @@ def test_description_says_who_has_derivatives(model, flavour, provides):
     assert can.get("providesDirectionalDerivative") == provides
 
 
+@pytest.mark.parametrize("flavour", ["native", "python"])
+def test_checkers_find_nothing(model, fmu, tmp_path, flavour):
+    path = fmu if flavour == "native" else str(build(model, tmp_path / "port.fmu", flavour="python").path)
+    assert validate_fmu(path) == []
+    tree = etree.parse(Path(extract(path, tmp_path / "fmu")) / "modelDescription.xml")
+    schema = Path(importlib.util.find_spec("fmpy").origin).parent / "schema" / "fmi2"
+    etree.XMLSchema(etree.parse(schema / "fmi2ModelDescription.xsd")).assertValid(tree)
+    # what a master adds to its rotor stands in the description
+    (told,) = tree.xpath("//ScalarVariable[@name='port.mass']/Real/@start")
+    (mass,) = (one.value for one in model.variables if one.name == "port.mass")
+    assert float(told) == mass > 0.01
+    text = (tmp_path / "fmu" / "documentation" / "index.html").read_text("utf-8")
+    assert "carry a rotor that another model owns" in text and "loads on the nose" not in " ".join(
+        text.split()
+    )
+
+
 def test_native_derivatives_are_the_librarys(model, fmu):
     slave, one = Slave(fmu), Instance(model)
     one.initialise()
@@ -83,6 +105,15 @@ def test_native_derivatives_are_the_librarys(model, fmu):
     slave.step(STEP)
     one.step(STEP)
     assert slave.slave.getReal(slave.of(OUTPUTS)) == [one.get(name) for name in OUTPUTS]
+
+
+def test_derivatives_are_known_while_initialising(fmu):
+    """Whatever was read before: the state is found when it is asked for."""
+    slave = Slave(fmu, initialise=False)
+    begin = slave.derivative(["port.force.z"], ["port.displacement.z"])
+    slave.slave.exitInitializationMode()
+    assert slave.derivative(["port.force.z"], ["port.displacement.z"]) == begin
+    assert begin[0] < -1e8
 
 
 def test_before_the_first_step_rates_change_nothing(fmu):

@@ -42,6 +42,8 @@ def test_no_call_is_too_careless(compiler, resources, tmp_path):
     check_depth(counts, 60)
     several = toy.write_model(tmp_path / "several", journal=4, journal_span=0.25)
     check_depth(play(program, several, tmp_path / "bad", seed=2, rounds=60), 60)
+    led = toy.write_model(tmp_path / "led", led=range(1, 3))
+    check_depth(play(program, led, tmp_path / "bad", seed=3, rounds=60), 60)
     # what happens follows from the seed alone: a failure can be had again
     assert play(program, resources, tmp_path / "bad", seed=1, rounds=60) == counts
 
@@ -63,7 +65,8 @@ def test_no_call_is_too_careless_under_sanitizers(compiler, sanitizers, resource
     kernels = hostile_kernels(tmp_path, [compiler], *sanitizers)
     program = build(tmp_path, [compiler], kernels, toy.KERNELS, *sanitizers)
     several = toy.write_model(tmp_path / "several", journal=4, journal_span=0.25)
-    for model in (resources, several):
+    led = toy.write_model(tmp_path / "led", led=range(1, 3))
+    for model in (resources, several, led):
         check_depth(play(program, model, tmp_path / "bad", seed, rounds=1000, seconds=600), 1000)
 
 

@@ -214,5 +214,6 @@ def test_names_with_stars():
     assert chosen_names(None, names, ["heat.oil"]) == ["heat.oil"]
     with pytest.raises(UnknownName, match=r"no variable 'x'; there are mic\[\*\].leq, mic"):
         chosen_names(["x"], names, ())
+    assert unit_of("port.force.z") == "N" and unit_of("port_tilt_rate_y") == "rad/s"
     assert unit_of("ball[7].velocity.x") == "m/s" and unit_of("mic[12].leq_a") == "dB"
     assert unit_of("something.else") == ""

@@ -175,9 +175,14 @@ def test_what_stands_inside_makes_no_sound_of_its_own():
 
 def test_noise_of_the_rear_bearing_moves_the_housing():
     """Its waves are heard, by the housing: muted is the block, not the bearing."""
-    given = housed()
-    calm = given.replace({"imperfections.seed": given.imperfections.seed + 7})
-    assert not np.array_equal(Heard(given).pressures, Heard(calm).pressures)
+
+    def smooth(p, bearing):
+        first = int(p[int(p[P.SET]) + int(p[int(p[P.SET]) + SP.AT_ROWS]) + bearing * SP.ROW + SP.ROW_P])
+        p[first + P.WAVINESS] = 0.0
+
+    loud, calm = Heard(housed()).pressures, Heard(housed(), change=lambda p: smooth(p, 1)).pressures
+    # waves of the rear one alone: they do not hide behind rounding
+    assert np.abs(loud - calm).max() > 0.05 * np.abs(loud).max()
 
 
 def test_turned_front_bearings_hear_alike():

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from fmu_bearing import read_scene, simulate, with_fidelity
+from fmu_bearing.engine.choices import FULL
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import SP, P, S, U, Z
 from fmu_bearing.engine.status import OK, OTHER_FIDELITY
@@ -191,7 +192,7 @@ def test_mirrored_bearings_do_the_same():
     assert np.abs(rows[:, -3]).max() < 1e-7 * size
 
 
-@pytest.mark.parametrize("fidelity", FIDELITIES.values(), ids=FIDELITIES)
+@pytest.mark.parametrize("fidelity", [FULL, *FIDELITIES.values()], ids=["full", *FIDELITIES])
 def test_nothing_but_the_state_is_kept(fidelity):
     """Work space full of rubbish between steps, and a state put back, change no bit."""
     given = wavy(scene("+-", (40.0, 70.0), 500.0, 20e3, changes=WEIGHT, load=LOAD))

@@ -51,7 +51,6 @@ def test_elimination_is_the_dense_answer(seat, shaft):
     given, gh = loaded(seat), 2e-5
     own = None if shaft is None else shaft(given)
     run, rng = SetRun(given, shaft=own).init(), np.random.default_rng(4)
-    system = spindle_of(given, shaft=own)
     system = spindle_of(given, shaft=own, offsets=offsets(run))
     state = place_from(system, [run.y(b) for b in range(2)], carriers(run, system))
     rows = [rng.uniform(-1e3, 1e3, F.SIZE) for _ in range(2)]

@@ -53,14 +53,19 @@ def pair(heard, place=55.0, **changes):
 
 
 class Heard:
-    """A run on bare arrays; ``silent``: bearings whose filters give nothing; ``blocks``: of the sound."""
+    """A run on bare arrays.
 
-    def __init__(self, scene, silent=(), duration=RUN, h=1e-4, blocks=None):
+    ``silent``: bearings whose filters give nothing; ``blocks``: of the sound; ``change``: of the parameters.
+    """
+
+    def __init__(self, scene, silent=(), duration=RUN, h=1e-4, blocks=None, change=None):
         self.scene, self.count = scene, len(scene.spindle.bearing)
         blocks = [block.copy() for block in blocks or sound_blocks(scene)]
         for b in silent:
             mute(blocks[b])
         p = pack(scene, *blocks)
+        if change is not None:
+            change(p)
         block = int(p[P.SET])
         u, s, w = set_inputs(scene), np.zeros(S.size(p)), np.zeros(W.size(p))
         z = np.zeros(int(p[block + SP.SIZE_Z]))

@@ -1,4 +1,4 @@
-"""P: parameters, written once by ``prepare``, read only in the engine."""
+"""P: parameters, written by ``prepare``; the engine copies the tunable ones to all bearings of a set."""
 
 from fmu_bearing.engine.layout import q as _Q
 from fmu_bearing.engine.layout.sizes import Places

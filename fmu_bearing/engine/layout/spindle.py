@@ -28,6 +28,7 @@ PADDED = _at()  # in whole groups of four
 SPRUNG = _at()  # 1: there is such a stiffness
 UNBALANCED = _at()  # 1: it has heavy spots
 PORT = _at()  # 1: another model moves the shaft
+LINED = _at()  # 1: the state has room for lines (fidelity response)
 AT_S = _at()  # places of the set's own in s, w, z
 AT_W = _at()
 AT_Z = _at()
@@ -64,7 +65,6 @@ PEDESTAL_ZETA = _at()
 PORT_MASS = _at()  # kg
 PORT_STATIC = _at()  # kg m: sum of mass times X
 PORT_TRANSVERSE = _at()  # kg m2: about y or z at X = 0
-PORT_POLAR = _at()
 HEAD = _at.next
 
 # per bearing, at AT_ROWS
@@ -119,8 +119,7 @@ OUTPUTS = (
     "friction_torque_mean", "heat.inner_ring", "heat.outer_ring", "heat.oil", "solver.steps",
     "solver.rejected", "solver.wave_time", "energy.residual", "port.force.x", "port.force.y",
     "port.force.z", "port.moment.y", "port.moment.z", "port.force_mean.x", "port.force_mean.y",
-    "port.force_mean.z", "port.moment_mean.y", "port.moment_mean.z", "port.mass", "port.static_moment",
-    "port.inertia.transverse", "port.inertia.polar",
+    "port.force_mean.z", "port.moment_mean.y", "port.moment_mean.z",
 )  # fmt: skip
 BEARING_OUTPUTS = ("force.x", "force.y", "force.z", "moment.y", "moment.z")  # of the inner ring on the balls
 Z_NOSE = OUTPUTS.index("shaft.nose.displacement.x")  # m, m, m, rad, rad
@@ -137,10 +136,6 @@ Z_WAVE_TIME = OUTPUTS.index("solver.wave_time")
 Z_RESIDUAL = OUTPUTS.index("energy.residual")
 Z_PORT = OUTPUTS.index("port.force.x")  # N, N m: of the bearings on the rotor,
 Z_PORT_MEAN = OUTPUTS.index("port.force_mean.x")  # and their mean over the last communication step
-Z_PORT_MASS = OUTPUTS.index("port.mass")  # kg
-Z_PORT_STATIC = OUTPUTS.index("port.static_moment")  # kg m
-Z_PORT_TRANSVERSE = OUTPUTS.index("port.inertia.transverse")  # kg m2
-Z_PORT_POLAR = OUTPUTS.index("port.inertia.polar")  # kg m2
 Z_FORCES = len(OUTPUTS)  # N, N m: per bearing BEARING_OUTPUTS
 Z_FORCE = len(BEARING_OUTPUTS)
 # behind the forces: microphones (z_mics), then levels of each bearing alone (z_alone)

@@ -56,7 +56,10 @@ def growth_power(p, b, own, free, actual):
 
 @kernel
 def keep_load(p, b, pb, own, ws, at):
-    """Keep what the inner ring of bearing ``b`` puts on its balls; free forces on its rows at ``ws[at:]``."""
+    """Keep what the inner ring of bearing ``b`` puts on its balls; free forces on its rows at ``ws[at:]``.
+
+    The moment has that of the turning ring's tilt, too (gyroscopic, some 1e-4 N m).
+    """
     mine = members.kept(p, b)
     for i in range(SP.PLANE):
         own[mine + SP.LOAD + i] = -ws[at + i]

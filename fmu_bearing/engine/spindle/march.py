@@ -33,7 +33,7 @@ def inputs_differ(p, u, s, w, h):
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)
         bearing_conditions(p, u, b, 0.5 * (s[S.SPEED] + u[SP.U_SPEED]), w)
-        for i in range(C.SIZE):
+        for i in range(C.USED):
             if wb[W.CONDITIONS + i] != sb[S.C + i]:
                 changed = True
         if growth_rate(p, u, own, b, h) != own[members.kept(p, b) + SP.OFFSET_RATE]:
@@ -58,7 +58,7 @@ def take_set_inputs(p, u, s, w, h):
         wb = members.work(p, w, b)
         sb[S.SPEED_RATE] = rate
         if changed:
-            for i in range(C.SIZE):
+            for i in range(C.USED):
                 sb[S.C + i] = wb[W.CONDITIONS + i]
             own[members.kept(p, b) + SP.OFFSET_RATE] = growth_rate(p, u, own, b, h)
     if changed:
@@ -138,18 +138,19 @@ def accept_set(p, s, w, h, tableau):
     ws = members.own_work(p, w)
     n = members.padded(p)
     stages = int(TABLEAUX[tableau + TAB.COUNT])
+    led = has_port(p)
     for stage in range(stages):
         weight = h * TABLEAUX[tableau + TAB.B + stage]
         power = SP.POWER + stage * SP.POWERS
         own[SP.WORK] += weight * ws[power]
         own[SP.HEAT] += weight * ws[power + 1]
         own[SP.HEAT + 1] += weight * ws[power + 2]
-        for i in range(SP.PLANE):
+        for i in range(SP.PLANE if led else 0):
             own[SP.PORT_IMPULSE + i] += weight * ws[SP.PUSH + stage * SP.PLANE + i]
     last = SP.POWER + (stages - 1) * SP.POWERS
     for i in range(SP.POWERS):
         own[SP.POWER_NOW + i] = ws[last + i]
-    for i in range(SP.PLANE):
+    for i in range(SP.PLANE if led else 0):
         own[SP.PORT_FORCE + i] = ws[SP.PUSH + (stages - 1) * SP.PLANE + i]
     for b in range(members.count(p)):
         sb = members.state(p, s, b)

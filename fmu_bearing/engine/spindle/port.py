@@ -155,11 +155,6 @@ def observe_port(p, own, z, at):
     """Fill the port's outputs of the set's own at ``z[at:]``."""
     if not has_port(p):
         return
-    block = int(p[P.SET])
     for i in range(SP.PLANE):
         z[at + SP.Z_PORT + i] = own[SP.PORT_FORCE + i]
         z[at + SP.Z_PORT_MEAN + i] = own[SP.PORT_MEAN + i]
-    z[at + SP.Z_PORT_MASS] = p[block + SP.PORT_MASS]
-    z[at + SP.Z_PORT_STATIC] = p[block + SP.PORT_STATIC]
-    z[at + SP.Z_PORT_TRANSVERSE] = p[block + SP.PORT_TRANSVERSE]
-    z[at + SP.Z_PORT_POLAR] = p[block + SP.PORT_POLAR]

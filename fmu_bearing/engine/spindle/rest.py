@@ -10,6 +10,7 @@ from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.dense import eliminate, invert
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import EQ, SP, ST, C, P, Q, S, W
+from fmu_bearing.engine.layout.sizes import FOUR
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.coupling import feet_matrix
 from fmu_bearing.engine.spindle.port import clear, has_port, hold_rows
@@ -57,9 +58,10 @@ def first_unknown(p, b):
 
 @kernel
 def start_vector(p, k):
-    """Begin of the ``k``-th vector of the start behind its equations."""
+    """Begin of the ``k``-th vector of the start behind its equations; each has whole groups of lanes."""
     count = unknowns(p)
-    return members.matrix(p) + count * (count + 1) + k * count
+    apart = (count + FOUR - 1) // FOUR * FOUR
+    return members.matrix(p) + count * (count + 1) + k * apart
 
 
 @kernel

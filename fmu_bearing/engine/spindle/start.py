@@ -1,7 +1,7 @@
 """A set at initialisation: preload as offsets, rest, then balls and cages about the rings there."""
 
 from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE
-from fmu_bearing.engine.fidelities.full.start import begin_clock, begin_means, place_rest
+from fmu_bearing.engine.fidelities.full.start import FAR, begin_clock, begin_means, place_rest
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import EQ, SP, ST, C, P, Q, S, U, W, Y
 from fmu_bearing.engine.mechanics.conditions import conditions
@@ -25,8 +25,9 @@ from fmu_bearing.engine.spindle.rest import (
     start_vector,
 )  # fmt: skip
 from fmu_bearing.engine.statics.axial import quasistatic
-from fmu_bearing.engine.status import OK
+from fmu_bearing.engine.status import NO_START, OK, TOO_SOFT
 
+_BACKWARD = 1e-6  # of all forces: what a bearing may carry against its direction
 TOUCHING = 0.01  # N: without preload rings stand where the balls just touch, as for rigid preload
 
 
@@ -78,6 +79,19 @@ def preload_set(p, u, s, w):
 
 
 @kernel
+def pushed_back(p, w):
+    """Whether the shaft rests on a side of races without shoulder, in bearings settled last."""
+    ws = members.own_work(p, w)
+    total = 100.0
+    most = 0.0
+    for b in range(members.count(p)):
+        along = ws[members.scratch(p, b) + SP.START_FORCE]
+        total += abs(along)
+        most = max(most, along)
+    return most > _BACKWARD * total
+
+
+@kernel
 def start_set(p, u, s, w, t):
     """Fill the state ``s`` of a set for the inputs ``u`` at time ``t`` (s); status code."""
     for i in range(s.size):
@@ -96,7 +110,7 @@ def start_set(p, u, s, w, t):
     for b in range(members.count(p)):
         bearing_conditions(p, u, b, speed, w)
         sb = members.state(p, s, b)
-        for i in range(C.SIZE):
+        for i in range(C.USED):
             sb[S.C + i] = members.work(p, w, b)[W.CONDITIONS + i]
     status = preload_set(p, u, s, w)
     if status != OK:
@@ -108,6 +122,8 @@ def start_set(p, u, s, w, t):
     status = rest(p, s, w, speed)
     if status != OK:
         return status
+    if pushed_back(p, w) and not has_port(p):
+        return NO_START
     for i in range(members.coordinates(p)):
         own[SP.S_HEAD + i] = ws[z + i]
     keep_stiffness(p, s, w)
@@ -122,6 +138,9 @@ def start_set(p, u, s, w, t):
         at = members.scratch(p, b)
         for i in range(SP.HOUSING):
             y[Y.Q0 + Q.OUTER + i] = ws[at + SP.START_OUTER + i]
+        aside = abs(ws[at + SP.START_OUTER + Q.Y]) + abs(ws[at + SP.START_OUTER + Q.Z])
+        if aside > FAR * pb[P.PITCH_RADIUS]:
+            return TOO_SOFT
         for i in range(SP.PLANE):
             y[Y.Q0 + i] = ws[at + SP.START_RING + i] + ws[at + SP.START_OUTER + outer_row(i)]
         place_rest(pb, sb[S.C : S.C + C.SIZE], y, wb[W.FOUND : W.FOUND + EQ.SIZE], sb, wb, speed)

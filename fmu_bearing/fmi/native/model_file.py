@@ -251,7 +251,7 @@ def model_bytes(model: "Model", guid: str, kernels_hash: str) -> bytes:
             led=led_inputs(model.scene),
             journal=_JOURNAL,
             journal_span=_JOURNAL_SPAN,
-            reasons=reasons(model),
+            reasons=reasons(model.scene.spindle is not None),
             cautions=cautions(model),
             categories=[(name, _STATUS_OF_CATEGORY[name]) for name in LOG_CATEGORIES],
         )

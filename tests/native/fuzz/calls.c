@@ -210,11 +210,19 @@ static void begin(Fuzz *fuzz, Slave *slave)
     answer(fuzz, "exitInitializationMode", fmi2ExitInitializationMode(c));
 }
 
-/* Partial derivatives, which are never to be had. */
+/* Partial derivatives, which models with led inputs have. */
 static void partial(Fuzz *fuzz, Slave *slave)
 {
-    answer(fuzz, "getDirectionalDerivative",
-           fmi2GetDirectionalDerivative(slave->instance, NULL, 0, NULL, 0, NULL, NULL));
+    Values v = any_values(fuzz), by = any_values(fuzz);
+    size_t n = v.count > 1 && chance(fuzz, 60) ? 1 : v.count, m = by.count > 1 && chance(fuzz, 60) ? 1 : by.count;
+    const fmi2Real *known = chance(fuzz, 95) ? by.reals : NULL;
+    if (answer(fuzz, "getDirectionalDerivative",
+               fmi2GetDirectionalDerivative(slave->instance, v.references, n, by.references, m, known,
+                                            v.reals)) == fmi2OK) {
+        check_finite(fuzz, v.reals, n);
+    }
+    free_values(&v);
+    free_values(&by);
 }
 
 /* Calls on no instance. */

@@ -41,12 +41,12 @@ def take_inputs(p, u, s, w, h):
     conditions(p, u, 0.5 * (s[S.SPEED] + u[U.SPEED]), fresh)
     axial = axial_speed(p, u, fresh, s, w, h) if p[P.RIGID] != 0.0 else s[S.Y + Y.V0]
     changed = axial != s[S.Y + Y.V0]
-    for i in range(C.SIZE):
+    for i in range(C.USED):
         if fresh[i] != s[S.C + i]:
             changed = True
     if changed:
         before = total_energy(p, s, w)
-        for i in range(C.SIZE):
+        for i in range(C.USED):
             s[S.C + i] = fresh[i]
         s[S.SPEED_RATE] = rate
         s[S.Y + Y.V0] = axial

@@ -16,7 +16,7 @@ from fmu_bearing.engine.statics.rigid_preload import rigid_start
 from fmu_bearing.engine.statics.spin_balance import balance_spins
 from fmu_bearing.engine.status import OK, TOO_SOFT
 
-_FAR = 0.3  # of the pitch radius: beyond it the angles of pockets and waves, series in it, lose a micrometre
+FAR = 0.3  # of the pitch radius: beyond it the angles of pockets and waves, series in it, lose a micrometre
 
 
 @kernel
@@ -80,7 +80,7 @@ def start(p, u, s, w, t):
         return status
     y = s[S.Y : S.Y + Y.SIZE]
     place_rings(c, y, found, tilt, c[C.LOAD_Y], carried)
-    if abs(y[Y.Q0 + Q.OUTER + Q.Y]) + abs(y[Y.Q0 + Q.OUTER + Q.Z]) > _FAR * p[P.PITCH_RADIUS]:
+    if abs(y[Y.Q0 + Q.OUTER + Q.Y]) + abs(y[Y.Q0 + Q.OUTER + Q.Z]) > FAR * p[P.PITCH_RADIUS]:
         return TOO_SOFT
     if p[P.RIGID] != 0.0:
         y[Y.Q0] = s[S.PLACE]

@@ -89,6 +89,10 @@ fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReferenc
     }
     status = has_all(it, n_unknowns, unknowns, unknown, n_knowns, knowns, known);
     if (status != fmi2OK) return status;
+    if (it->phase == PHASE_INITIALISING && !it->settled) {
+        status = instance_settle(it, fmi2Error); /* other inputs may have an equilibrium: it goes on */
+        if (status != fmi2OK) return status;
+    }
     if (!it->settled) return not_known(it, "it is known from initialisation on");
     u = calloc((size_t)it->sizes[1] + 1, sizeof(double));
     s = calloc((size_t)it->sizes[2] + 1, sizeof(double));

@@ -1,0 +1,122 @@
+"""Where the engine starts a set: its vectors, and what it refuses where statics does."""
+
+import math
+
+import pytest
+
+from fmu_bearing import shaft_statics
+from fmu_bearing.elastic.shaft import shaft_model
+from fmu_bearing.engine.choices import FIDELITIES
+from fmu_bearing.engine.layout import SP, P
+from fmu_bearing.engine.spindle.rest import start_vector
+from fmu_bearing.engine.status import NO_START, OK, OTHER_FIDELITY, TOO_SOFT
+from fmu_bearing.instance import EngineError, Instance
+from fmu_bearing.prepare.model import prepare
+from tests.spindle.runs import SetRun
+from tests.spindle.sets import scene
+from tests.spindle.test_runs import loaded
+
+ONE_WAY = {"signs": "++", "preload": None, "load": {"force_x_N": 500.0}}
+HOUSING = {"mass_kg": 2.0, "diameter_mm": 100.0, "length_mm": 160.0, "pedestal_stiffness_N_m": 1e8}
+
+
+@pytest.mark.parametrize("seat", ["fixed", "sliding", "pedestal", "housing", "bends"])
+def test_vectors_of_the_start_do_not_overlap(seat):
+    """Forces are written in whole groups of lanes: those of a trial must not reach the step behind them."""
+    if seat in ("fixed", "sliding", "pedestal"):
+        run = SetRun(loaded(seat))
+    elif seat == "housing":
+        run = SetRun(scene(housing=HOUSING))
+    else:
+        given = scene(changes={"spindle.shaft.flexible": True})
+        run = SetRun(given, shaft=shaft_model(given, given.spindle))
+    apart = start_vector(run.p, SP.STEPS) - start_vector(run.p, SP.TRIAL_FORCES)
+    assert apart >= int(run.p[run.block + SP.PADDED])
+    end = start_vector(run.p, SP.START_VECTORS - 1) + apart
+    assert end <= run.w.size
+
+
+@pytest.mark.parametrize("fidelity", range(3), ids=FIDELITIES)
+def test_a_load_the_way_that_nothing_holds_is_refused_at_the_start(fidelity):
+    run = SetRun(scene(**ONE_WAY), FIDELITY=fidelity)
+    run.u[SP.U_NOSE] = -500.0
+    assert run.try_init() == NO_START
+    run.u[SP.U_NOSE] = 500.0
+    assert run.try_init() == OK
+
+
+# drawn sets that the engine ran although statics refuses them: the load lies on sides without shoulder
+@pytest.mark.parametrize(
+    ("preload", "along", "upwards", "at", "rpm"),
+    [(10.2, -1395.0, -1289.0, -27.0, 0.0), (1.1, 1295.0, -820.0, -4.0, 10e3)],
+)
+def test_what_statics_refuses_the_engine_refuses(preload, along, upwards, at, rpm):
+    load = {"force_x_N": along, "force_z_N": upwards, "position_mm": at}
+    given = scene("-+", (40.0, 70.0), preload, rpm, load=load)
+    with pytest.raises(EngineError, match="against its direction"):
+        shaft_statics(given)
+    one = Instance(prepare(given))
+    with pytest.raises(EngineError, match="and only towards where a bearing carries it"):
+        one.initialise()
+
+
+@pytest.mark.parametrize("fidelity", ["full", "rings", "response"])
+def test_a_load_that_turns_round_in_a_run_is_told(fidelity):
+    told = []
+    one = Instance(prepare(scene(**ONE_WAY, rpm=5e3, changes={"fidelity.model": fidelity})), tell=told.append)
+    one.initialise()
+    assert told == []
+    one.set("nose.force.x", -500.0)
+    for _ in range(40):
+        try:
+            one.step(1e-3)
+        except EngineError:
+            break
+    backward = [line for line in told if "the way that nothing holds" in line]
+    assert len(backward) == 1, told
+    assert backward[0].startswith("bearing 1: its contact angle is -")
+
+
+@pytest.mark.parametrize(
+    ("seat", "preload", "upwards", "at"), [("pedestal", 50.0, -300.0, 0.0), ("housing", 500.0, -1000.0, 55.0)]
+)
+def test_a_pedestal_far_too_soft_is_refused(seat, preload, upwards, at):
+    """A bearing alone refuses it, too: angles of pockets and waves are series in the outer ring's place."""
+    assert SetRun(softly(seat, 1e5, preload, upwards, at)).try_init() == TOO_SOFT
+    assert SetRun(softly(seat, 1e6, preload, upwards, at)).try_init() == OK
+
+
+def softly(seat, stiffness, preload, upwards, at):
+    """A pair on pedestals, or in a housing on one."""
+    soft = {"pedestal_stiffness_N_m": stiffness}
+    more = {"bearings": [{"seat": "pedestal"}] * 2, "housing": soft}
+    if seat == "housing":
+        more = {"housing": HOUSING | soft}
+    return scene(preload=preload, load={"force_z_N": upwards, "position_mm": at}, **more)
+
+
+@pytest.mark.parametrize("preload", [50.0, 500.0])
+@pytest.mark.parametrize("stiffness", [1e6, 1e7])
+def test_statics_and_start_agree_on_soft_pedestals(stiffness, preload):
+    """Rings go aside by up to a millimetre, together: only what they move against each other is small.
+
+    Statics takes tilts of outer rings as small; here they are up to 1 deg.
+    """
+    given = softly("pedestal", stiffness, preload, -300.0, 0.0)
+    found, run = shaft_statics(given), SetRun(given).init()
+    place = [run.value(f"shaft.nose.displacement.{axis}") for axis in "xyz"]
+    assert found.displacement[:3] == pytest.approx(place, rel=5e-3, abs=2e-7)
+    assert all(one.load != 0.0 for one in found.lift_off.values())
+
+
+def test_a_state_without_room_for_lines_is_not_run_in_response():
+    run = SetRun(scene(rpm=10e3)).init()
+    run.p[P.FIDELITY] = list(FIDELITIES).index("response")
+    assert run.try_init() == OTHER_FIDELITY
+
+
+def test_unloaded_bearings_are_no_load_backwards():
+    """A push that frees the front bearing: it carries nothing, and nothing the wrong way."""
+    found = SetRun(scene(rpm=10e3, preload=20.0, load={"force_x_N": -400.0}))
+    assert found.try_init() == OK
+    assert math.isclose(found.value("force.x", 0) + found.value("force.x", 1), -400.0, rel_tol=1e-3)

@@ -4,9 +4,12 @@ import csv
 import subprocess
 import sys
 
+import pytest
+
 from tests.examples.conftest import ROOT
 
 
+@pytest.mark.heavy
 def test_it_comes_near_the_truth(tmp_path):
     command = [sys.executable, str(ROOT / "examples" / "identification" / "spindle.py")]
     command += ["--quick", "--output-dir", str(tmp_path)]

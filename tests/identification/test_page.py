@@ -2,6 +2,8 @@
 
 import re
 
+import pytest
+
 from fmu_bearing.identification.quantities import parse_quantity
 from fmu_bearing.scene import read_scene
 from tests.pages import DOCS, run_page
@@ -9,6 +11,7 @@ from tests.pages import DOCS, run_page
 PAGE = DOCS / "identification.md"
 
 
+@pytest.mark.heavy
 def test_the_page_runs(tmp_path, monkeypatch):
     names = run_page(PAGE, tmp_path, monkeypatch)
     assert read_scene(tmp_path / "out" / "identified.toml").name == "7003C-spindle"

@@ -115,7 +115,8 @@ def main(
     scene, duration = read_scene(SCENE), 0.15 if quick else 0.75
     output.mkdir(parents=True, exist_ok=True)
     bends = run(scene, duration)
-    rigid = run(scene.replace({"spindle.shaft.flexible": False}), duration)
+    stiff = {"flexible": False, "fixed_modes": None, "damping_ratio": None}
+    rigid = run(scene.replace({f"spindle.shaft.{key}": value for key, value in stiff.items()}), duration)
     rows = np.column_stack([bends["rpm"][WINDOW - 1 :], rms(bends), rms(rigid)])
     head = "speed_rpm,bending_mm_s,rigid_mm_s"
     np.savetxt(output / "run_up.csv", rows[::20], "%.6g", ",", header=head, comments="")

@@ -15,7 +15,7 @@ from fmu_bearing.prepare.lengths import members
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.scene import Scene, SceneSource, scene_of
-from fmu_bearing.scene.member import one_of
+from fmu_bearing.scene.member import one_of, still_of
 from fmu_bearing.scene.spindle import SetBearing
 from fmu_bearing.spindle.assembly import set_of
 from fmu_bearing.spindle.statics import ShaftStatics, shaft_statics
@@ -56,7 +56,7 @@ def operating_points(scene: SceneSource, tell: Tell = silent) -> tuple[Operating
     """
     scene = scene_of(scene)
     spindle = set_of(scene)
-    quiet = scene.model_copy(update={"sound": None, "imperfections": None, "fmu": None})
+    quiet = still_of(scene)
     statics = shaft_statics(quiet)
     run = Instance(prepare(quiet, fidelity="full"), tell=tell)
     run.initialise()

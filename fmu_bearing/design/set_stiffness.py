@@ -15,6 +15,7 @@ from fmu_bearing.modal.stiffness_files import unit
 from fmu_bearing.run.pictures import OTHERS, empty, label
 from fmu_bearing.run.table import write_csv
 from fmu_bearing.scene import Scene, SceneSource, scene_of
+from fmu_bearing.scene.member import still_of
 from fmu_bearing.spindle.assembly import set_of
 from fmu_bearing.spindle.statics import ShaftStatics, shaft_statics
 
@@ -169,14 +170,14 @@ def set_stiffness(
     elif preloads is not None:
         raise ValueError(f"{scene.name}: has no [spindle.preload] that could be changed: leave preloads out")
     forces = [own] if preloads is None else [float(force) for force in preloads]
-    points = []
+    points, still = [], still_of(scene)
     for speed in track(rpm):
         row = []
         for force in forces:
             changed: dict[str, Any] = {"operation.speed_rpm": speed}
             if key is not None:
                 changed[f"spindle.preload.{key}"] = force
-            row.append(shaft_statics(scene.replace(changed)))
+            row.append(shaft_statics(still.replace(changed)))
         points.append(tuple(row))
     return SetStiffness(scene, np.array(rpm), np.array(forces), tuple(points))
 

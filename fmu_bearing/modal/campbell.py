@@ -13,7 +13,7 @@ from scipy.optimize import linear_sum_assignment
 
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.modal.conditions import given
-from fmu_bearing.modal.lines import Line, Rates, lines, rates
+from fmu_bearing.modal.lines import Line, Rates, lines, rates, unbalance
 from fmu_bearing.modal.modes import MARGIN, MOVES, UNSTEADY, Mode, Modes
 from fmu_bearing.modal.picture import campbell_picture
 from fmu_bearing.modal.points import at_point
@@ -31,7 +31,7 @@ WITHIN = 20.0  # dB below the largest: crossings that count
 _SAME = 0.5  # modal assurance criterion from which a mode is the one of the speed before
 _FEWEST = 3  # speeds that make a curve
 _SHARES = tuple(0.1 * tenths for tenths in range(1, 15))  # of the scene's own speed
-_SPIN = "outer spin"  # waves press along the contacts' normals, which have no lever about the axis
+_SPIN = "spin"  # waves press along the contacts' normals, which have no lever about the axis
 
 
 @dataclass(frozen=True)
@@ -292,7 +292,8 @@ def campbell(
     )  # fmt: skip
     branches = _branches(points, highest)
     alone = scene if scene.spindle is None else one_of(scene)
-    found = lines(alone, at, {branch.order for branch in branches}, highest)
+    orders = {branch.order for branch in branches}
+    found = lines(alone, at, orders, highest, unbalance(scene))
     return Campbell(scene, tuple(points), tuple(branches), tuple(found), at, highest, tuple(skipped))
 
 
@@ -358,7 +359,7 @@ def _branch(chain: list[tuple[Modes, Mode]]) -> Branch:
 def _can_move(line: Line, branch: Branch) -> bool:
     """Whether order and direction agree; a mode without direction answers to both, turning to none."""
     agree = line.order == branch.order and branch.direction in (line.direction, NEITHER)
-    return agree and branch.name != _SPIN
+    return agree and _SPIN not in branch.name.split()
 
 
 def _meet(branch: Branch, line: Line, rpm: NDArray[np.float64]) -> list[Crossing]:

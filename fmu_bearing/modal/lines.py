@@ -13,7 +13,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu_bearing.elastic.shaft import shaft_sections
 from fmu_bearing.modal.shapes import BACKWARD, FORWARD, NEITHER
+from fmu_bearing.prepare.bodies import inner_ring
 from fmu_bearing.prepare.imperfections import ball_oversizes, ball_waves, race_harmonics
 from fmu_bearing.scene import Scene, si
 
@@ -72,18 +74,28 @@ def rates(
     return Rates(shaft, cage, ball, balls * (shaft - cage), balls * cage)
 
 
-def lines(scene: Scene, at: Rates, orders: set[int], highest: float) -> list[Line]:
-    """Return all lines that can move waves of the ``orders`` below ``highest`` (Hz) at some speed."""
-    found = [*_shaft_and_sizes(scene, at, orders), *_races(scene, at, orders, highest)]
+def unbalance(scene: Scene) -> float:
+    """Eccentricity (m) of what turns; of a set all heavy spots, wherever they lie, over shaft and rings."""
+    if scene.spindle is None:
+        return 0.0 if scene.imperfections is None else si(scene.imperfections).unbalance
+    amount = sum(1e-6 * spot.amount_g_mm for spot in scene.spindle.shaft.unbalance)  # kg m
+    shaft = sum(section.mass for section in shaft_sections(scene, scene.spindle))
+    return amount / (shaft + len(scene.spindle.bearing) * inner_ring(scene).mass)
+
+
+def lines(scene: Scene, at: Rates, orders: set[int], highest: float, eccentric: float = 0.0) -> list[Line]:
+    """Return all lines that can move waves of the ``orders`` below ``highest`` (Hz) at some speed.
+
+    ``scene``: of a single bearing; ``eccentric``: `unbalance` of all that turns, m.
+    """
+    found = [*_shaft_and_sizes(scene, at, orders, eccentric), *_races(scene, at, orders, highest)]
     found += _ball_form(scene, at, orders, highest)
     return [line for line in found if float(line.frequency.min()) <= highest]
 
 
-def _shaft_and_sizes(scene: Scene, at: Rates, orders: set[int]) -> Iterator[Line]:
-    flaws = scene.imperfections
-    unbalance = 0.0 if flaws is None else si(flaws).unbalance
+def _shaft_and_sizes(scene: Scene, at: Rates, orders: set[int], eccentric: float) -> Iterator[Line]:
     if 1 in orders:
-        yield Line("f_r", "unbalance", 0, 1, FORWARD, at.f_r, unbalance)
+        yield Line("f_r", "unbalance", 0, 1, FORWARD, at.f_r, eccentric)
     sizes = ball_oversizes(scene)
     count = sizes.size
     spectrum = np.abs(np.fft.rfft(0.5 * sizes)) / count

@@ -20,6 +20,7 @@ from fmu_bearing.engine.layout import SP, Q
 from fmu_bearing.extras import need
 from fmu_bearing.modal.coordinates import Coordinates
 from fmu_bearing.modal.modes import DAMPED, MOVES, SLOW, Mode, Modes
+from fmu_bearing.modal.motion import Shape
 from fmu_bearing.modal.set_linearised import SetBlock, SetLinearised
 from fmu_bearing.modal.shapes import BACKWARD, FORWARD, NEITHER, parts, whirl
 from fmu_bearing.scene import Scene
@@ -59,6 +60,10 @@ class SetModes(Modes):
         products = one.conj().T @ masses @ other
         squares = [np.einsum("ik,ij,jk->k", a.conj(), masses, a).real for a in (one, other)]
         return np.asarray(abs(products) ** 2 / np.maximum(np.outer(*squares), 1e-300))
+
+    def shape(self, mode: Mode | int) -> Shape:
+        """Refuse (``ValueError``): a shape is that of one bearing; see `line` and `picture`."""
+        raise ValueError(f"{self.scene.name}: a shape is that of one bearing: `line` has that of the shaft")
 
     def line(self, mode: Mode | int, places: Sequence[float] | None = None) -> NDArray[np.complex128]:
         """Return y and z of the shaft along it, shape (2, places), over the largest of both.

@@ -60,6 +60,13 @@ def one_of(scene: Scene, number: int = 0) -> Scene:
     return scene.model_copy(update=changes)
 
 
+def still_of(scene: Scene) -> Scene:
+    """Return a set without what runs alone read: sound, imperfections and their lowest speed, the FMU."""
+    operation = scene.operation.model_copy(update={"lowest_speed_rpm": None})
+    changes = {"sound": None, "imperfections": None, "fmu": None, "operation": operation}
+    return scene.model_copy(update=changes)
+
+
 def heard_of(scene: Scene, number: int) -> Scene:
     """Return the scene of one bearing of a set, from 0, with microphones where they stand in its own axes.
 

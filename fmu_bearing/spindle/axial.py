@@ -58,7 +58,7 @@ def _free_at(assembled: Assembly, k: int) -> float:
     one, slide = assembled.members[k], 0.0
     if k in assembled.springs:
         push, stiffness = assembled.springs[k]
-        if push > _REACH * stiffness:  # springs that soft never let go
+        if push >= _REACH * stiffness:  # springs that soft never let go
             return -one.sign * np.inf
         slide = -push / stiffness
     return one.sign * (one.lifted() + slide - float(assembled.offsets[k]))
@@ -82,6 +82,8 @@ def _carried(assembled: Assembly, k: int, shaft: float) -> float:
     def excess(slide: float) -> float:
         return one.carried(inner - slide, one.still()) - push - stiffness * slide
 
+    if excess(low) <= 0.0:  # the bearing that lets go: both ends are one place
+        return one.carried(inner - low, one.still())
     return one.carried(inner - float(brentq(excess, low, free, xtol=1e-14)), one.still())
 
 

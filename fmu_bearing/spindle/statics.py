@@ -78,8 +78,10 @@ class ShaftStatics:
     load : ndarray, shape (5,)
         On the shaft, moved to its nose, with weight: forces x y z (N), moments about y, z (N m).
     displacement : ndarray, shape (5,)
-        Of the shaft at its nose against the housing: x y z (m), tilts about y, z (rad). Zero is where the
-        preloaded set stands at 20 degC and standstill; thermal growth counts from the nose.
+        Of the shaft at its nose: x y z (m), tilts about y, z (rad), with those of a housing or of pedestals
+        that move. Zero is where the preloaded set stands at 20 degC and standstill, of a set that carries one
+        way where its balls are in line with the grooves (in runs: where the load at the start puts it);
+        thermal growth counts from the nose.
     bearings : tuple of BearingLoad
     stiffness : ndarray, shape (5, 5)
         Of the shaft at its nose, the rest of it free: rows forces and moments, columns displacements and
@@ -270,7 +272,9 @@ def shaft_statics(
 
 def _shaft(scene: Scene, flexible: bool) -> ShaftModel:
     """Return the shaft of a scene's set as one that bends or not, whatever the scene says."""
-    return shaft_model(scene, set_of(scene.replace({"spindle.shaft.flexible": flexible})))
+    spindle = set_of(scene)
+    shaft = spindle.shaft.model_copy(update={"flexible": flexible})
+    return shaft_model(scene, spindle.model_copy(update={"shaft": shaft}))
 
 
 def _at_nose(stiffness: NDArray[np.float64]) -> float:

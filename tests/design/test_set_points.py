@@ -2,12 +2,21 @@
 
 import json
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from fmu_bearing import operating_point, operating_points, read_scene, shaft_statics, verdicts
+from fmu_bearing import (
+    operating_point,
+    operating_points,
+    read_scene,
+    set_stiffness,
+    shaft_statics,
+    verdicts,
+)
 from fmu_bearing.cli import app
 from fmu_bearing.design.set_points import life_of_set
+from fmu_bearing.formulas import iso76
 from fmu_bearing.scene import SceneError
 from tests.conftest import ROOT
 from tests.spindle.sets import scene
@@ -38,13 +47,28 @@ def test_each_bearing_carries_its_own_load():
     for point, one in zip(points, found.bearings, strict=True):
         carried = point.rating
         assert point.ball_loads["inner"] == pytest.approx(one.ball_loads[0], rel=2e-3, abs=0.05)
-        assert carried.static_load >= one.axial * 0.2
+        wanted = iso76.static_load(read_scene(PAIR).bearing.contact_angle_deg, one.axial, one.radial)
+        assert carried.static_load == pytest.approx(wanted, rel=1e-9)
     assert points[0].reference_life < points[1].reference_life
     # the preload judged is that at speed and temperatures
     carried = [p.scene.mounted.preload_N for p in points]
     assert carried == pytest.approx(found.preloads["running"], rel=5e-4)  # four digits
     for point in points:
         assert {one.key for one in verdicts(point)} >= {"pressure", "least_preload", "speed", "life"}
+
+
+@pytest.mark.parametrize("rpm", [0.0, 15e3])
+def test_waves_ask_for_nothing_here(rpm):
+    """The lowest speed decides the orders of waves, which statics leaves out."""
+    wavy = {"imperfections": {"grade": "P4", "seed": 1}, "operation.lowest_speed_rpm": 3000.0}
+    given = read_scene(PAIR).replace(wavy | {"operation.speed_rpm": rpm})
+    plain = read_scene(PAIR).replace({"operation.speed_rpm": rpm})
+    for one, other in zip(operating_points(given), operating_points(plain), strict=True):
+        assert one.friction_torque == other.friction_torque
+        assert np.array_equal(one.ball_loads["inner"], other.ball_loads["inner"])
+    speeds = [0.0, 10e3]
+    found = set_stiffness(given, speeds).named("axial_stiffness")
+    assert np.array_equal(found, set_stiffness(plain, speeds).named("axial_stiffness"))
 
 
 def test_temperatures_are_those_of_each_bearing():

@@ -147,20 +147,51 @@ def test_gyroscopic_effect_parts_the_whirls(rpm):
     assert forward > 1.02 * backward
 
 
-def test_housing_and_sliding_rings_have_modes():
-    """A housing of 2 kg on 1e7 N/m: near its own frequency with shaft and rings, 0.05 of critical damping."""
+def housed():
+    """A pair with a sliding ring in a housing of 2 kg on 1e7 N/m, with a heavy spot on its shaft."""
     data = tables(
         "+-", (40.0, 70.0), rpm=10_000.0, bearings=[{}, {"seat": "sliding"}],
         housing={"mass_kg": 2.0, "diameter_mm": 80.0, "length_mm": 100.0, "pedestal_stiffness_N_m": 1e7},
     )  # fmt: skip
     data["spindle"]["preload"] = {"kind": "spring", "force_N": 300.0, "stiffness_N_m": 1e5}
-    several = Scene.from_dict(data)
-    found = modes(several)
-    names = {mode.name for mode in found.modes}
-    assert any(name.startswith("housing") for name in names)
-    for mode in found.modes:
-        assert mode.damping > 0.0
-        assert abs(sum(mode.participation.values()) - 1.0) < 1e-9
+    data["spindle"]["shaft"]["unbalance"] = [{"position_mm": 10.0, "amount_g_mm": 0.7}]
+    return Scene.from_dict(data)
+
+
+def test_housing_and_sliding_rings_have_modes():
+    """The housing turns about the axis by itself; along it goes all that the bearings hold."""
+    found = modes(housed())
+    total = np.diag(found.linearised.block.total)
+    turning = found.named("housing spin")
+    assert turning.frequency == pytest.approx(np.sqrt(1e7 * 200e-6 / total[8]) / (2.0 * np.pi), rel=3e-3)
+    assert turning.damping == pytest.approx(0.05, rel=0.01)
+    # balls, 0.7 % of the mass, and springs that give a little; damping counts what lies on the pedestal
+    axial, moved = found.named("housing axial"), total[0] + total[5] + total[11]
+    assert axial.frequency == pytest.approx(np.sqrt(1e7 / moved) / (2.0 * np.pi), rel=0.015)
+    assert axial.damping == pytest.approx(0.05 * np.sqrt(total[6] / moved), rel=0.05)
+    sliding = found.named("sliding rings")
+    assert sliding.participation["sliding rings"] > 0.9
+    assert all(mode.damping > 0.0 for mode in found.modes)
+
+
+def test_campbell_leaves_turning_out_and_takes_heavy_spots():
+    several = housed()
+    found = campbell(several, [5e3, 10e3, 15e3])
+    assert "housing spin" in {branch.name for branch in found.branches}
+    assert not {one.branch.name for one in found.crossings()} & {"housing spin"}
+    (turning,) = (line for line in found.lines if line.name == "f_r")
+    rings = 2.0 * several.materials.inner_ring.density_kg_m3 * 1e-9  # kg over mm3
+    b = several.bearing
+    rings *= np.pi / 4.0 * (b.inner_ring_outer_diameter_mm**2 - b.bore_mm**2) * b.width_mm
+    shaft = several.materials.inner_ring.density_kg_m3 * 1e-9 * np.pi / 4.0 * 17.0**2 * 400.0
+    assert turning.amplitude == pytest.approx(0.7e-6 / (rings + shaft), rel=1e-9)
+    level = several.model_copy(
+        update={"spindle": several.spindle.model_copy(
+            update={"shaft": several.spindle.shaft.model_copy(update={"unbalance": ()})}
+        )}
+    )  # fmt: skip
+    (turning,) = (line for line in campbell(level, [5e3, 10e3, 15e3]).lines if line.name == "f_r")
+    assert not turning.present
 
 
 def test_campbell_follows_the_modes_of_a_set():
@@ -177,3 +208,10 @@ def test_line_of_the_shaft():
     line = found.line(mode)
     assert line.shape == (2, 3)
     assert abs(line).max() == pytest.approx(1.0)
+    # a rigid shaft stays straight: nose, then 40 and 70 mm
+    (nose, front, rear), (x0, x1, x2) = line.T, (0.0, 0.04, 0.07)
+    assert front == pytest.approx(nose + (rear - nose) * (x1 - x0) / (x2 - x0), rel=1e-9, abs=1e-12)
+    own = found.linearised.block.nose[1:3] @ mode.vector[found.linearised.places :][:5]
+    assert nose * own[0] == pytest.approx(own * nose[0], rel=1e-9)
+    with pytest.raises(ValueError, match="`line` has that of the shaft"):
+        found.shape(mode)

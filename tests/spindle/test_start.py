@@ -106,7 +106,11 @@ def test_statics_and_start_agree_on_soft_pedestals(stiffness, preload):
     found, run = shaft_statics(given), SetRun(given).init()
     place = [run.value(f"shaft.nose.displacement.{axis}") for axis in "xyz"]
     assert found.displacement[:3] == pytest.approx(place, rel=5e-3, abs=2e-7)
-    assert all(one.load != 0.0 for one in found.lift_off.values())
+    assert set(found.lift_off) == {"+x", "-x"}
+    for one in found.lift_off.values():
+        free = shaft_statics(given, force=(one.load, 0.0, 0.0), at=0.0).bearings
+        assert free[one.bearing - 1].axial == pytest.approx(0.0, abs=1e-4 * abs(one.load))
+        assert free[2 - one.bearing].axial == pytest.approx(abs(one.load), rel=1e-4)
 
 
 def test_a_state_without_room_for_lines_is_not_run_in_response():

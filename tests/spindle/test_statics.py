@@ -214,6 +214,27 @@ def test_a_spring_keeps_its_force_whatever_the_temperature():
     assert found.axial_stiffness == pytest.approx(own[0, 0], rel=1e-3)
 
 
+def test_springs_without_force_hold_nothing():
+    """The ring behind them follows its bearing, which an axial load the other way keeps loaded."""
+    spring = {"kind": "spring", "force_N": 0.0}
+    given = scene(
+        preload=None, load={"force_x_N": 200.0},
+        changes={"spindle.preload": spring, "spindle.bearing[2].seat": "sliding"},
+    )  # fmt: skip
+    found = shaft_statics(given)
+    assert axials(found) == pytest.approx([200.0, 0.0], abs=1e-3)
+    assert set(found.lift_off) <= {"-x"}
+
+
+@pytest.mark.parametrize("changes", [{"fixed_modes": 4}, {"damping_ratio": 0.02}])
+def test_what_runs_alone_read_of_a_bending_shaft_changes_no_statics(changes):
+    shaft = {"sections_mm": [[400.0, 17.0, 0.0]], "flexible": True}
+    plain, other = (shaft_statics(scene(shaft=shaft | more), force=(0, 0, -50.0)) for more in ({}, changes))
+    assert other.displacement == pytest.approx(plain.displacement, rel=1e-9)
+    assert other.nose_stiffness_bending == pytest.approx(plain.nose_stiffness_bending, rel=1e-9)
+    assert plain.nose_stiffness == pytest.approx(plain.nose_stiffness_bending, rel=1e-9)
+
+
 @pytest.mark.parametrize("stiffness", [1.0, 1e5])
 def test_a_soft_spring_never_lets_go(stiffness):
     spring = {"kind": "spring", "force_N": 300.0, "stiffness_N_m": stiffness}

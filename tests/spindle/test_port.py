@@ -22,7 +22,7 @@ SCALE = np.array([1.0, 1.0, 1.0, 30.0, 30.0])  # 1/m: a tilt at 33 mm is as far 
 
 def followed(given, duration=1e-3, method="esdirk4"):
     """A set after a jump of its load by 100 N, and bearings led along its motion, at communication points."""
-    changes = {"fidelity.method": method, "fidelity.tolerance": 1e-3}
+    changes = {"fidelity.method": method, "fidelity.tolerance": 5e-4}
     own, led = PortRun(given.replace(changes)).init(), PortRun(as_port(given.replace(changes)))
     led.lead(own.vector(0)[: SP.PLANE], 0.0).init()
     rows = [(forces(own), forces(led))]
@@ -39,7 +39,7 @@ def test_led_along_a_shafts_motion_bearings_give_its_forces(seat):
     own, led, rows = followed(loaded(seat))
     change = np.ptp(rows[:, 0], axis=0).max(axis=0)
     assert change[2] > 100.0  # something happened
-    # two solutions within the engine's tolerance: 2e-5 of the change; with the usual tolerance 1e-4
+    # two solutions within the engine's tolerance: 1e-5 of the change; with 1e-3 once 7e-5
     apart = np.abs(rows[:, 0] - rows[:, 1]).max(axis=(0, 1))
     assert np.all(apart[:3] < 5e-5 * change[2])
     assert np.all(apart[3:] < 5e-5 * change[2] / SCALE[3])

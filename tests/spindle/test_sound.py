@@ -127,7 +127,7 @@ def test_a_set_of_one_sounds_as_the_single_bearing_there(model):
         shaft={"sections_mm": [[LENGTH, DIAMETER, 0.0]]}, bearings=[{"seat": "pedestal"}],
         housing={"pedestal_stiffness_N_m": 1e8},
         load={"force_x_N": 500.0, "force_z_N": -20.0, "position_mm": x},
-    )  # fmt: skip
+    ).replace({"fidelity.tolerance": 1e-6})  # fmt: skip
     ours, own = Bearing(given), Bearing(single(given, x))
     for bearing in (ours, own):
         bearing.init()
@@ -135,9 +135,11 @@ def test_a_set_of_one_sounds_as_the_single_bearing_there(model):
             bearing.step(1e-4)
     names = [one.name for one in variables(single(given, x), 0.0) if one.unit == "dB"]
     assert len(names) > 100
+    loudest = max(own.get(name) for name in names)
     for name in names:
-        # motions agree to 1e-8: 4e-7 dB measured
-        assert ours.get(name) == pytest.approx(own.get(name), abs=1e-5), name
+        # both solve the motion to 1e-6 of it: 1e-4 dB measured, 2e-3 dB in bands that are next to silent
+        near = 5e-4 if own.get(name) > loudest - 60.0 else 1e-2
+        assert ours.get(name) == pytest.approx(own.get(name), abs=near), name
     for mic in (1, 2, 3):
         assert ours.get(f"mic[{mic}].spl_bearing[1]") == pytest.approx(ours.get(f"mic[{mic}].spl"), abs=1e-9)
 

@@ -12,6 +12,7 @@ Bampton 1968 for the shaft's own coordinates).
 ``follow``     driven rows: places, rates, accelerations, and what holds them there
 ``coupling``   Newton's equations of all bearings and the shaft
 ``port``       a shaft that another model owns
+``stages``     stages of a step, and where Newton's method begins
 ``step``       one Runge-Kutta step of a set
 ``inputs``     inputs of a set as conditions of its bearings; what grows with temperature
 ``rest``       where shaft, housing and outer rings rest: Newton's method in displacements

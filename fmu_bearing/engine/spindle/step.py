@@ -11,12 +11,10 @@ from fmu_bearing.engine.fidelities.full.runge_kutta import (
     correct,
     keep_velocities,
     newton_residual,
-    predict,
 )  # fmt: skip
 from fmu_bearing.engine.fidelities.full.vectors import add_scaled
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, TAB, C, F, P, Q, S, W, Y
-from fmu_bearing.engine.mechanics.ball_waves import turn_axes
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.coupling import (
@@ -30,64 +28,15 @@ from fmu_bearing.engine.spindle.coupling import (
 from fmu_bearing.engine.spindle.follow import accelerate, free_forces, growth_power
 from fmu_bearing.engine.spindle.port import clear, feel, has_port, keep_push, lead_stage
 from fmu_bearing.engine.spindle.shaft import shaft_forces
+from fmu_bearing.engine.spindle.stages import (
+    acceleration,
+    begin_stages,
+    predict_bearings,
+    predict_shaft,
+    velocity,
+)  # fmt: skip
 
 _DIVERGED = 1e6  # m/s: size of an increment
-
-
-@kernel
-def acceleration(p, stage):
-    """Begin in the set's own work space of a stage's accelerations."""
-    return members.vector(p, stage)
-
-
-@kernel
-def velocity(p, stage):
-    """Begin in the set's own work space of a stage's rates."""
-    return members.vector(p, SP.VELOCITIES + stage)
-
-
-@kernel
-def begin_stages(p, s, w):
-    """Put the state into the first stage of every bearing and of the shaft."""
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
-    n = members.padded(p)
-    for b in range(members.count(p)):
-        pb = members.parameters(p, b)
-        sb = members.state(p, s, b)
-        wb = members.work(p, w, b)
-        for i in range(F.SIZE):
-            wb[W.ACC + i] = sb[S.F + i]
-            wb[W.F + i] = 0.0
-        keep_velocities(sb[S.Y : S.Y + Y.SIZE], int(pb[P.LANES]), wb[W.VEL : W.VEL + F.SIZE])
-    acc = acceleration(p, 0)
-    vel = velocity(p, 0)
-    for i in range(n):
-        ws[acc + i] = own[SP.S_HEAD + 2 * n + i]
-        ws[vel + i] = own[SP.S_HEAD + n + i]
-
-
-@kernel
-def predict_shaft(p, s, w, h, gh, stage, tableau):
-    """State of shaft and housing at a stage from the stages before, with the accelerations before it."""
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
-    n = members.padded(p)
-    place = members.vector(p, SP.PLACE)
-    rate = members.vector(p, SP.RATE)
-    here = acceleration(p, stage)
-    last = acceleration(p, stage - 1)
-    for i in range(n):
-        guess = ws[last + i]
-        ws[here + i] = guess
-        ws[place + i] = own[SP.S_HEAD + i]
-        ws[rate + i] = own[SP.S_HEAD + n + i] + gh * guess
-    for m in range(stage):
-        a = h * TABLEAUX[tableau + TAB.A + stage * TAB.ROW + m]
-        add_scaled(a, ws[acceleration(p, m) :], ws[rate:], n)
-        add_scaled(a, ws[velocity(p, m) :], ws[place:], n)
-    for i in range(n):
-        ws[place + i] += gh * ws[rate + i]
 
 
 @kernel
@@ -339,13 +288,7 @@ def set_step(p, s, w, h, tableau, tolerance, probe):
     for stage in range(1, stages):
         t = h * TABLEAUX[tableau + TAB.NODES + stage]
         predict_shaft(p, s, w, h, gh, stage, tableau)
-        for b in range(members.count(p)):
-            pb = members.parameters(p, b)
-            sb = members.state(p, s, b)
-            wb = members.work(p, w, b)
-            y = sb[S.Y : S.Y + Y.SIZE]
-            predict(y, int(pb[P.LANES]), h, gh, stage, tableau, wb)
-            turn_axes(pb, sb[S.AXES : S.JAC], y, int(pb[P.LANES]), t, wb)
+        predict_bearings(p, s, w, h, gh, stage, tableau)
         if has_port(p):
             lead_stage(p, s, w, stage, t)
         if gh == 0.0:

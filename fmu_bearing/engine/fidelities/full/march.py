@@ -57,9 +57,9 @@ def take_inputs(p, u, s, w, h):
 
 
 @kernel
-def renewal_due(s):
-    """Whether the Jacobian is too old, or contracts too slowly."""
-    return s[S.TIME] - s[S.JACOBIAN_TIME] > _OLDEST or s[S.CONTRACTION] > _SLOW
+def renewal_due(s, slow):
+    """Whether the Jacobian is too old, or contracts more slowly than ``slow``."""
+    return s[S.TIME] - s[S.JACOBIAN_TIME] > _OLDEST or s[S.CONTRACTION] > slow
 
 
 @kernel
@@ -92,7 +92,7 @@ def try_step(p, s, w, h, tableau, tolerance):
     explicit = TABLEAUX[tableau + TAB.GAMMA] == 0.0
     for attempt in range(2):
         fresh = s[S.JACOBIAN_TIME] == s[S.TIME] or explicit
-        if not fresh and (attempt == 1 or renewal_due(s)):
+        if not fresh and (attempt == 1 or renewal_due(s, _SLOW)):
             renew_jacobian(p, s, w)
             fresh = True
         if not explicit and not same_step(s, h):

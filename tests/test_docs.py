@@ -230,12 +230,11 @@ def test_every_variable_is_described(name, reference, site):
         assert sentence, variable.name
 
 
-RUN = [
-    "quick-start.md", "catalogue.md", "choosing.md", "coupling.md", "modes.md", "stiffness.md", "spindle.md",
-]  # fmt: skip
+RUN = ["quick-start.md", "catalogue.md", "choosing.md", "coupling.md", "stiffness.md"]
+LONG_RUN = ["modes.md", "spindle.md"]  # each about 20 s
 
 
-@pytest.mark.parametrize("page", RUN)
+@pytest.mark.parametrize("page", [*RUN, *(pytest.param(page, marks=pytest.mark.heavy) for page in LONG_RUN)])
 def test_code_of_a_page_runs(page, tmp_path, monkeypatch):
     run_page(DOCS / page, tmp_path, monkeypatch)
 

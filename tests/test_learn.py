@@ -216,7 +216,12 @@ def test_a_wanted_life_is_judged():
         assert {one.key: one.judgement for one in found}["life"] == judgement
 
 
-@pytest.mark.parametrize("page", PAGES)
+def weighed(page):
+    """The page; the tutorial makes a report with its runs, which takes 20 s."""
+    return pytest.param(page, marks=pytest.mark.heavy) if page == "tutorial.md" else page
+
+
+@pytest.mark.parametrize("page", map(weighed, PAGES))
 def test_a_page_shows_what_its_code_prints(page, tmp_path, monkeypatch):
     run_page(LEARN / page, tmp_path, monkeypatch, shown=True)
     if page == "preload.md":

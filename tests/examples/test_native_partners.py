@@ -263,6 +263,7 @@ def test_other_starts_make_another_library_and_guid(builder, partners, tmp_path)
     slow.slave.freeInstance()
 
 
+@pytest.mark.heavy  # Zig builds the C libraries of both platforms first: 170 s
 def test_other_platforms(builder, tmp_path):
     pytest.importorskip("ziglang")
     names = ["win64", "aarch64-linux"]

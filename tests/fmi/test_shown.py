@@ -22,7 +22,6 @@ from fmu_bearing.interface import flat
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.run.names import unit_of
 from fmu_bearing.scene import SceneError, read_scene
-from tests.conftest import GATES
 
 from .conftest import ERROR, OK, Master
 
@@ -97,8 +96,8 @@ def test_other_inputs_become_tunable_parameters(model, scene_file):
 
 
 @pytest.mark.parametrize("file", ["7003C-bare", "7003C-spindle", "7009C-full-ceramic"])
-def test_flat_names_are_identifiers_and_differ(file):
-    model = prepare(read_scene(GATES / f"{file}.toml"))
+def test_flat_names_are_identifiers_and_differ(scene, file):
+    model = prepare(scene(file))
     names = [flat(variable.name) for variable in model.variables]
     assert len(set(names)) == len(names)
     assert all(re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name) for name in names)

@@ -48,7 +48,7 @@ REASONS = {
 # of a set these words differ: loads are those on its shaft
 _OF_SETS = {
     NO_START: "no quasi-static equilibrium was found for the initial inputs; give more preload or less load "
-    "on the shaft, and only towards where a bearing carries it",
+    "on the shaft, and only towards where a bearing carries it, or a stiffer pedestal where there is one",
     TOO_SOFT: "the loads push an outer ring or the housing sideways by more than 0.3 of the pitch radius; "
     "give a stiffer pedestal or less load on the shaft",
 }

@@ -66,7 +66,9 @@ def _member(array: Any, place: int, key: str, path: str) -> Any:
     """Member of an array; ``LookupError`` where there is none."""
     if not isinstance(array, list | tuple):
         raise LookupError(f"{key} is not a key of a scene; {path} is no array")
-    if not 0 <= place < len(array):
+    if place < 0:
+        raise LookupError(f"{key}: members of [{path}] are counted from 1, the first one is [1]")
+    if not place < len(array):
         raise LookupError(f"{key}: [{path}] has {len(array)} members; give the whole array to lengthen it")
     return array[place]
 

@@ -15,7 +15,7 @@ from fmu_bearing.elastic.shaft import ShaftModel
 from fmu_bearing.elastic.shaft.model import FREEDOMS
 from fmu_bearing.engine.layout import P
 from fmu_bearing.instance import EngineError
-from fmu_bearing.spindle.assembly import Assembly
+from fmu_bearing.spindle.assembly import Assembly, set_of
 from fmu_bearing.spindle.member import Held
 
 _ITERATIONS = 300
@@ -95,10 +95,12 @@ def rest(
     size = system.size(force)
     if not size <= 1e-6 * (100.0 + total):
         name, around = assembled.scene.name, 1e6 * z[0]
+        pedestal = set_of(assembled.scene).housing.pedestal_stiffness_N_m
+        soft = "" if pedestal is None else f", or a pedestal of {pedestal:g} N/m is too soft for them"
         raise EngineError(
             f"{name}: no equilibrium of the shaft was found, {size:.3g} N stay out of balance with its nose "
             f"moved by {around:.3g} um: the load pushes it out of bearings that nothing holds, or the "
-            "bearings have lost their preload"
+            f"bearings have lost their preload{soft}"
         )
     for number, one in enumerate(held, start=1):
         if one.force[0] > 1e-6 * (100.0 + total):

@@ -110,6 +110,8 @@ def test_tables_are_made_as_a_file_makes_them(spindle):
 def test_places_that_no_scene_has(spindle):
     (line,) = told(spindle.replace, {"sound.microphone[99].x_mm": 1.0})
     assert line.endswith("[sound.microphone] has 4 members; give the whole array to lengthen it")
+    (line,) = told(spindle.replace, {"sound.microphone[0].x_mm": 1.0})
+    assert line.endswith("members of [sound.microphone] are counted from 1, the first one is [1]")
     (line,) = told(spindle.replace, {"sound.microphone.x_mm": 1.0})
     assert line.endswith("is not a key of a scene; sound.microphone is an array: name a member, as in [1]")
     (line,) = told(spindle.replace, {"name.first": "a"})

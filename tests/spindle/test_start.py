@@ -86,6 +86,14 @@ def test_a_pedestal_far_too_soft_is_refused(seat, preload, upwards, at):
     assert SetRun(softly(seat, 1e6, preload, upwards, at)).try_init() == OK
 
 
+def test_where_no_equilibrium_is_found_a_soft_pedestal_is_named():
+    given = softly("pedestal", 1e5, 500.0, -50.0, 0.0)
+    with pytest.raises(EngineError, match=r"or a pedestal of 100000 N/m is too soft for them$"):
+        shaft_statics(given)
+    with pytest.raises(EngineError, match="or a stiffer pedestal where there is one"):
+        Instance(prepare(given)).initialise()
+
+
 def softly(seat, stiffness, preload, upwards, at):
     """A pair on pedestals, or in a housing on one."""
     soft = {"pedestal_stiffness_N_m": stiffness}

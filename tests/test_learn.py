@@ -221,7 +221,7 @@ def weighed(page):
     return pytest.param(page, marks=pytest.mark.heavy) if page == "tutorial.md" else page
 
 
-@pytest.mark.parametrize("page", map(weighed, PAGES))
+@pytest.mark.parametrize("page", [weighed(page) for page in PAGES])
 def test_a_page_shows_what_its_code_prints(page, tmp_path, monkeypatch):
     run_page(LEARN / page, tmp_path, monkeypatch, shown=True)
     if page == "preload.md":

@@ -96,18 +96,18 @@ def rest(
     if not size <= 1e-6 * (100.0 + total):
         name, around = assembled.scene.name, 1e6 * z[0]
         pedestal = set_of(assembled.scene).housing.pedestal_stiffness_N_m
-        soft = "" if pedestal is None else f", or a pedestal of {pedestal:g} N/m is too soft for them"
+        soft = "" if pedestal is None else f" or a stiffer pedestal (pedestal_stiffness_N_m is {pedestal:g})"
         raise EngineError(
             f"{name}: no equilibrium of the shaft was found, {size:.3g} N stay out of balance with its nose "
             f"moved by {around:.3g} um: the load pushes it out of bearings that nothing holds, or the "
-            f"bearings have lost their preload{soft}"
+            f"bearings have lost their preload; give more preload or less load{soft}"
         )
     for number, one in enumerate(held, start=1):
         if one.force[0] > 1e-6 * (100.0 + total):
             raise EngineError(
                 f"{assembled.scene.name}: bearing {number} would have to carry {one.force[0]:.4g} N against "
                 "its direction, on the side of its races without shoulder: the load pushes the shaft the way "
-                "that nothing holds, or temperatures pull the set apart"
+                "that nothing holds, or temperatures pull the set apart; give more preload or less load"
             )
     count = assembled.shaft.count
     own = [moves @ z for moves in system.moves]

@@ -325,7 +325,7 @@ def solve_shaft(p, own, ws):
     for i in range(lanes):
         ws[found + i] = 0.0
     at = members.inverse(p)
-    members.add_many(own, at, lanes, members.coordinates(p), 1.0, ws, residual, ws, found)
+    members.add_columns(own, at, lanes, members.coordinates(p), 1.0, ws, residual, ws, found)
     turn_coordinates(p, ws, found, c, s)
 
 

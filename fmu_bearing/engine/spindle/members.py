@@ -156,61 +156,25 @@ def vector(p, k):
 
 @kernel
 def add_columns(m, at, lanes, count, scale, x, first, out, to):
-    """``out[to:] += scale M x[first:]``, M by ``count`` columns of ``lanes`` numbers at ``m[at:]``."""
-    for i in range(0, lanes, FOUR):
+    """``out[to:] += scale M x[first:]``, M by ``count`` columns of ``lanes`` numbers at ``m[at:]``.
+
+    Two groups of lanes go together, so that the sum of one need not wait for that of the other.
+    """
+    for i in range(0, lanes - FOUR, 2 * FOUR):
+        one = splat(0.0)
+        two = splat(0.0)
+        for k in range(count):
+            column = at + k * lanes + i
+            one += load(m, column) * x[first + k]
+            two += load(m, column + FOUR) * x[first + k]
+        store(out, to + i, load(out, to + i) + scale * one)
+        store(out, to + i + FOUR, load(out, to + i + FOUR) + scale * two)
+    if lanes % (2 * FOUR) != 0:
+        i = lanes - FOUR
         total = splat(0.0)
         for k in range(count):
             total += load(m, at + k * lanes + i) * x[first + k]
         store(out, to + i, load(out, to + i) + scale * total)
-
-
-@kernel
-def add_many(m, at, lanes, count, scale, x, first, out, to):
-    """Do what `add_columns` does for matrices of the coordinates' size: sums do not wait for each other."""
-    i = 0
-    while i + 4 * FOUR <= lanes:
-        add_four(m, at + i, lanes, count, scale, x, first, out, to + i)
-        i += 4 * FOUR
-    while i + 2 * FOUR <= lanes:
-        add_two(m, at + i, lanes, count, scale, x, first, out, to + i)
-        i += 2 * FOUR
-    if i < lanes:
-        total = splat(0.0)
-        for k in range(count):
-            total += load(m, at + k * lanes + i) * x[first + k]
-        store(out, to + i, load(out, to + i) + scale * total)
-
-
-@kernel
-def add_four(m, at, lanes, count, scale, x, first, out, to):
-    """Do what `add_many` does for four groups of lanes: their sums do not wait for each other."""
-    one = splat(0.0)
-    two = splat(0.0)
-    three = splat(0.0)
-    four = splat(0.0)
-    for k in range(count):
-        column = at + k * lanes
-        one += load(m, column) * x[first + k]
-        two += load(m, column + FOUR) * x[first + k]
-        three += load(m, column + 2 * FOUR) * x[first + k]
-        four += load(m, column + 3 * FOUR) * x[first + k]
-    store(out, to, load(out, to) + scale * one)
-    store(out, to + FOUR, load(out, to + FOUR) + scale * two)
-    store(out, to + 2 * FOUR, load(out, to + 2 * FOUR) + scale * three)
-    store(out, to + 3 * FOUR, load(out, to + 3 * FOUR) + scale * four)
-
-
-@kernel
-def add_two(m, at, lanes, count, scale, x, first, out, to):
-    """Do what `add_many` does for two groups of lanes."""
-    one = splat(0.0)
-    two = splat(0.0)
-    for k in range(count):
-        column = at + k * lanes
-        one += load(m, column) * x[first + k]
-        two += load(m, column + FOUR) * x[first + k]
-    store(out, to, load(out, to) + scale * one)
-    store(out, to + FOUR, load(out, to + FOUR) + scale * two)
 
 
 @kernel
@@ -255,4 +219,4 @@ def pull(p, b, forces, at, out, to):
 @kernel
 def add_product(p, at, scale, x, first, out, to):
     """``out[to:] += scale M x[first:]``, the matrix of the coordinates' size at ``p[at:]``."""
-    add_many(p, at, padded(p), coordinates(p), scale, x, first, out, to)
+    add_columns(p, at, padded(p), coordinates(p), scale, x, first, out, to)

@@ -1,8 +1,9 @@
 """Stages of a step of a set: where they stand in the work space, and where Newton's method begins.
 
-Newton's method of a single bearing begins at the accelerations of the stage before, and takes one iteration a
-stage or little more. In a set the bearing that is furthest away decides: QBC sets took two. Here it begins on
-the straight line through two stages (see `lead`), which is five to ten times as near.
+Newton's method of a single bearing begins at the accelerations of the stage before, and takes 1.06 iterations
+a stage. In a set the bearing that is furthest away decides: from there the QBC set of the benchmark takes 1.8
+(20,000 r/min). Sets begin on the straight line through two stages (see `extrapolation`): from the second
+implicit stage on that is 4 to 12 times as near there, and 1.3 iterations do.
 """
 
 from fmu_bearing.engine.fidelities.full.methods.table import TABLEAUX
@@ -49,12 +50,13 @@ def begin_stages(p, s, w):
 
 
 @kernel
-def lead(stage, gh, tableau):
-    """How far a stage is ahead of the one before, over how far that one was ahead; 0 where none is known.
+def extrapolation(stage, tableau):
+    """How far a stage lies beyond the one before, over how far that one lies beyond its own; 0 if unknown.
 
-    Newton's method begins on the straight line through the accelerations of the two stages before.
+    Newton's method begins there on the straight line through the accelerations of the two stages before. An
+    explicit method has no guess to improve.
     """
-    if stage < 2 or gh == 0.0:
+    if stage < 2 or TABLEAUX[tableau + TAB.GAMMA] == 0.0:
         return 0.0
     here = tableau + TAB.NODES + stage
     last = TABLEAUX[here - 1]
@@ -62,23 +64,30 @@ def lead(stage, gh, tableau):
 
 
 @kernel
-def extrapolate(wb, lanes, gh, stage, tableau):
-    """Move the first guess of a bearing at a stage from the accelerations before to the line through two."""
-    ahead = lead(stage, gh, tableau)
+def extrapolate(wb, lanes, gh, stage, beyond):
+    """Move a bearing's first guess at a stage from the stage before to the line through the two before.
+
+    ``wb``: the bearing's work space; ``gh``: weight of rates, s; ``beyond``: see `extrapolation`. Places and
+    rates of the stage go with the accelerations.
+    """
     here = W.ACC + stage * F.SIZE
     last = here - F.SIZE
     before = last - F.SIZE
     for row in range(Y.RATES // STRIDE):
         for k in range(row * STRIDE, row * STRIDE + lanes, FOUR):
-            store(wb, W.D + k, ahead * (load(wb, last + k) - load(wb, before + k)))
+            store(wb, W.D + k, beyond * (load(wb, last + k) - load(wb, before + k)))
     for i in range(F.BODY, F.WORK):
-        wb[W.D + i] = ahead * (wb[last + i] - wb[before + i])
+        wb[W.D + i] = beyond * (wb[last + i] - wb[before + i])
     correct(wb[here : here + F.SIZE], lanes, gh, wb)
 
 
 @kernel
 def predict_bearings(p, s, w, h, gh, stage, tableau):
-    """States of all bearings at a stage from the stages before, with a first guess of its accelerations."""
+    """States of all bearings at a stage from the stages before, with a first guess of its accelerations.
+
+    ``h``: length of the step (s); ``gh``: weight of rates (s).
+    """
+    beyond = extrapolation(stage, tableau)
     t = h * TABLEAUX[tableau + TAB.NODES + stage]
     for b in range(members.count(p)):
         pb = members.parameters(p, b)
@@ -86,8 +95,8 @@ def predict_bearings(p, s, w, h, gh, stage, tableau):
         wb = members.work(p, w, b)
         y = sb[S.Y : S.Y + Y.SIZE]
         predict(y, int(pb[P.LANES]), h, gh, stage, tableau, wb)
-        if stage > 1 and gh != 0.0:
-            extrapolate(wb, int(pb[P.LANES]), gh, stage, tableau)
+        if beyond != 0.0:
+            extrapolate(wb, int(pb[P.LANES]), gh, stage, beyond)
         turn_axes(pb, sb[S.AXES : S.JAC], y, int(pb[P.LANES]), t, wb)
 
 
@@ -102,9 +111,9 @@ def predict_shaft(p, s, w, h, gh, stage, tableau):
     here = acceleration(p, stage)
     last = acceleration(p, stage - 1)
     before = acceleration(p, max(stage - 2, 0))
-    ahead = lead(stage, gh, tableau)
+    beyond = extrapolation(stage, tableau)
     for i in range(n):
-        guess = ws[last + i] + ahead * (ws[last + i] - ws[before + i])
+        guess = ws[last + i] + beyond * (ws[last + i] - ws[before + i])
         ws[here + i] = guess
         ws[place + i] = own[SP.S_HEAD + i]
         ws[rate + i] = own[SP.S_HEAD + n + i] + gh * guess

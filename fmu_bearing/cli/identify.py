@@ -56,6 +56,12 @@ def identify(
     ] = None,
     settle: Annotated[float | None, typer.Option(help="Left out before it, s; default 0.03 to 0.05.")] = None,
     few: Annotated[bool, typer.Option("--few", help="Allow fewer than three values per free key.")] = False,
+    accept: Annotated[
+        bool, typer.Option("--accept", help="Take levels outside 20 to 160 dB and speeds below 500 r/min.")
+    ] = False,
+    anyway: Annotated[
+        bool, typer.Option("--anyway", help="Write the scene though it and the data contradict each other.")
+    ] = False,
     workers: Annotated[int, typer.Option("--workers", "-w", min=1, help="Threads.")] = 1,
     output: Annotated[
         Path, typer.Option("--output", "-o", help="Scene to write; a folder beside it takes all else.")
@@ -76,30 +82,34 @@ def identify(
         try:
             found = search(
                 scene, measured, free or [], background=background, fidelity=fidelity, seeds=seeds or SEEDS,
-                starts=starts or STARTS, duration=duration, settle=settle, few=few, folder=folder,
-                workers=workers,
+                starts=starts or STARTS, duration=duration, settle=settle, few=few, accept=accept,
+                folder=folder, workers=workers,
             )  # fmt: skip
         except Interrupted as stop:
             found, code = stop.best, INTERRUPTED
             tell(f"{stop}; the same command goes on, from {folder / 'runs.jsonl'}")
-        _write(found, path, scene, as_json)
+        _write(found, path, scene, as_json, anyway)
     if code:
         raise typer.Exit(code)
 
 
-def _write(found: "Identified", path: Path, scene: Path, as_json: bool) -> None:
-    """Write the files and print values, levels and remarks."""
+def _write(found: "Identified", path: Path, scene: Path, as_json: bool, anyway: bool) -> None:
+    """Print values, levels and remarks, and write the files."""
     from fmu_bearing.identification.files import misfit_words, write_all
     from fmu_bearing.identification.result import levels_table, values_table
     from fmu_bearing.run.table import show
 
-    files = write_all(found, path, scene, tell)
+    refused = bool(found.doubts) and not anyway
+    files = [] if refused else write_all(found, path, scene, tell, anyway=anyway)
     if as_json:
         print_json(found.summary() | {"files": files})
-        return
-    show("Measured and computed levels", *levels_table(found.compared))
-    show("Identified values", *values_table(found))
-    typer.echo(misfit_words(found))
-    for remark in found.remarks:
-        typer.echo(f"* {remark}")
-    typer.echo(f"written: {', '.join(map(str, files))}")
+    else:
+        show("Measured and computed levels", *levels_table(found.compared))
+        show("Identified values", *values_table(found))
+        typer.echo(misfit_words(found))
+        for remark in (*(() if refused else found.doubts), *found.remarks):
+            typer.echo(f"* {remark}")
+        if files:
+            typer.echo(f"written: {', '.join(map(str, files))}")
+    if refused:
+        write_all(found, path, scene, tell)  # which says why not

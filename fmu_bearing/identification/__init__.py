@@ -45,6 +45,7 @@ def identify(
     duration: float | None = None,
     settle: float | None = None,
     few: bool = False,
+    accept: bool = False,
     folder: str | os.PathLike[str] | None = None,
     workers: int = 1,
     progress: bool | None = None,
@@ -76,6 +77,9 @@ def identify(
     few : bool
         Allow fewer than three fitted values per free key. The result then repeats the values rather than
         explaining them, and says so.
+    accept : bool
+        Take levels outside 20 to 160 dB (bands and lines: 5 to 160 dB) and speeds below 500 r/min as they
+        are. They are refused otherwise: most often they are another unit, or a microphone is dead.
     folder : path, optional
         Computed levels are kept there: the same call goes on where an earlier one ended.
     workers : int
@@ -86,6 +90,7 @@ def identify(
     Returns
     -------
     Identified
+        Look at ``doubts`` first: what says that values and data contradict each other.
 
     Raises
     ------
@@ -109,7 +114,7 @@ def identify(
     from fmu_bearing.identification.search import search
 
     start = scene_of(scene)
-    measured = read_data(data, start, background)
+    measured = read_data(data, start, background, accept=accept)
     held = {key for one in measured for key, _ in one.conditions}
     return search(
         start, measured, free_numbers(start, free, held),

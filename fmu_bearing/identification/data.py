@@ -11,7 +11,7 @@ import numpy as np
 
 from fmu_bearing.acoustics.analysis.field import Position
 from fmu_bearing.identification.errors import IdentifyError
-from fmu_bearing.identification.quantities import Quantity, parse_quantity
+from fmu_bearing.identification.quantities import A_LEVEL, LEVEL, Quantity, parse_quantity
 from fmu_bearing.interface.names import UnknownName, known
 from fmu_bearing.run.table import read_rows
 from fmu_bearing.scene import Scene
@@ -26,6 +26,9 @@ STD = 2.0  # dB, assumed where the data give no standard deviation: repeated set
 BACKGROUND = "background_"
 VELOCITY_REFERENCE = 1e-9  # m/s, ISO 1683
 _LOWEST, _HIGHEST = -60.0, 220.0  # dB: beyond is no level of a bearing but another unit
+#: dB: levels of machines that run, of sound and of velocities; a narrow band or a line may be quieter.
+USUAL, QUIETEST_PART = (20.0, 160.0), 5.0
+SLOWEST = 500.0  # r/min: slower spindles are hardly measured
 _MOST = 12  # problems told at once
 
 
@@ -73,7 +76,9 @@ class Datum:
 Source = str | os.PathLike[str] | Iterable[Any] | Any
 
 
-def read_data(source: Source, scene: Scene, background: Source | None = None) -> tuple[Datum, ...]:
+def read_data(
+    source: Source, scene: Scene, background: Source | None = None, *, accept: bool = False
+) -> tuple[Datum, ...]:
     """Return the measured values in a table, checked against a scene.
 
     Parameters
@@ -87,6 +92,8 @@ def read_data(source: Source, scene: Scene, background: Source | None = None) ->
     background : like source, optional
         Background levels with the same columns, without ``std_dB`` and ``role``. They may also stand among
         the data, as quantities ``background_leq``, ``background_line[f_r]`` and so on.
+    accept : bool
+        Take levels and speeds that no machine usually has as they are; by default they are asked about.
 
     Raises
     ------
@@ -96,9 +103,12 @@ def read_data(source: Source, scene: Scene, background: Source | None = None) ->
     problems: list[str] = []
     rows = _rows(source, scene, problems)
     extra = () if background is None else _rows(background, scene, problems, background=True)
-    if problems:
-        more = [f"and {len(problems) - _MOST} more"] if len(problems) > _MOST else []
-        raise IdentifyError("\n".join(problems[:_MOST] + more))
+    asked = [] if problems or accept else [one for row in (*rows, *extra) for one in _questions(row)]
+    if problems or asked:
+        lines = problems or asked
+        more = [f"and {len(lines) - _MOST} more"] if len(lines) > _MOST else []
+        way_out = ["correct these, or if they are what was measured allow them: --accept (accept=True)"]
+        raise IdentifyError("\n".join(lines[:_MOST] + more + (way_out if asked else [])))
     if not rows:
         raise IdentifyError(f"{_name(source)} holds no measured value: give rows with {', '.join(COLUMNS)}")
     loud = {_identity(row): row for row in (*rows, *extra) if row.quantity.text.startswith(BACKGROUND)}
@@ -114,6 +124,30 @@ def read_data(source: Source, scene: Scene, background: Source | None = None) ->
     if not found:
         raise IdentifyError(f"{_name(source)} holds backgrounds only: give measured values too")
     return tuple(found)
+
+
+def _questions(row: Datum) -> Iterable[str]:
+    """Ask about a level or a speed that is probably another unit, or no measurement."""
+    low = USUAL[0] if row.quantity.kind in (LEVEL, A_LEVEL) else QUIETEST_PART
+    where = f"{row.source}: " if row.source else ""
+    if not low <= row.value <= USUAL[1]:
+        pressure = row.quantity.channel is None and 0.0 < row.value < low
+        in_dB = 20.0 * math.log10(row.value / 2e-5) if pressure else 0.0
+        asked = (
+            "is this microphone dead?" if row.value == 0.0
+            else f"is it a pressure in Pa? {row.value:g} Pa are {in_dB:.1f} dB" if pressure
+            else "is it another unit?"
+        )  # fmt: skip
+        yield (
+            f"{where}{row.label} = {row.value:g} dB lies outside {low:g} to {USUAL[1]:g} dB, where "
+            f"{'levels' if low == USUAL[0] else 'bands and lines'} of machines lie: {asked}"
+        )
+    for key, value in row.conditions:
+        if key == CONDITIONS["speed_rpm"] and abs(value) < SLOWEST:
+            yield (
+                f"{where}speed_rpm = {value:g} is below {SLOWEST:g} r/min: is it in Hz? {value:g} Hz are "
+                f"{60.0 * value:g} r/min"
+            )
 
 
 def _identity(row: Datum, prefix: str = "") -> tuple[Any, ...]:

@@ -83,7 +83,7 @@ def output_paths(target: str | os.PathLike[str]) -> tuple[pathlib.Path, pathlib.
 
 def write_all(
     found: Identified, target: str | os.PathLike[str], source: str | os.PathLike[str] | None = None,
-    tell: Tell = silent,
+    tell: Tell = silent, *, anyway: bool = False,
 ) -> list[pathlib.Path]:  # fmt: skip
     """Write the scene, and in a folder of its name tables, a report and, with Matplotlib, a picture.
 
@@ -96,13 +96,25 @@ def write_all(
         Scene file that the search started from, for its remarks.
     tell : callable
         Takes a line where the picture is left out.
+    anyway : bool
+        Write although values and data contradict each other (``found.doubts``).
 
     Returns
     -------
     list of Path
         Files written.
+
+    Raises
+    ------
+    IdentifyError
+        With the doubts, unless ``anyway``.
     """
     path, folder = output_paths(target)
+    if found.doubts and not anyway:
+        way_out = (
+            f"{path} is not written: correct the data, free other keys, or write it --anyway (anyway=True)"
+        )
+        raise IdentifyError("\n".join((*found.doubts, way_out)))
     text = None
     if source is not None:
         read_scene(source)
@@ -151,7 +163,7 @@ def report(found: Identified) -> str:
         misfit_words(found) + "\n",
         markdown(*values_table(found)),
         "## Remarks\n",
-        "".join(f"* {remark}\n" for remark in found.remarks) or "None.\n",
+        "".join(f"* {remark}\n" for remark in (*found.doubts, *found.remarks)) or "None.\n",
         "## Levels\n",
         markdown(*levels_table(found.compared)),
         "## Slopes of the fitted levels\n",

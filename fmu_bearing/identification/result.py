@@ -1,7 +1,7 @@
 """What an identification found: values with their uncertainty, levels before and after, sentences."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -11,6 +11,10 @@ from numpy.typing import NDArray
 from fmu_bearing.identification.data import Datum
 from fmu_bearing.identification.free import Free
 from fmu_bearing.scene import Scene
+
+FAR = 5.0  # standard deviations: of a million values one is so far off by chance
+_VISIBLE = 0.1  # dB: what is printed
+_MOST = 6  # values named
 
 
 @dataclass(frozen=True)
@@ -87,6 +91,11 @@ class Compared:
     after: float
     spread: float
 
+    @property
+    def sigma(self) -> float:
+        """Standard deviation (dB) that noise and unknown phases give measured minus computed."""
+        return math.hypot(self.datum.std, 0.0 if math.isnan(self.spread) else self.spread)
+
 
 @dataclass(frozen=True)
 class Identified:
@@ -157,6 +166,15 @@ class Identified:
                if one.datum.fit is fit]  # fmt: skip
         return float(np.sqrt(np.mean(np.square(off)))) if off else math.nan
 
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """Sentences on what contradicts: values and data explain each other where there are none.
+
+        Values more than five standard deviations off; a misfit that has become worse; checked values far
+        worse than fitted ones. Without meaning for an interrupted search, which has none.
+        """
+        return tuple(_doubts(self)) if self.complete else ()
+
     def __getitem__(self, key: str) -> Estimate:
         for one in self.estimates:
             if key == one.key or key in one.free.keys:
@@ -192,7 +210,41 @@ class Identified:
             "singular_values": self.singular_values,
             "correlation": self.correlation,
             "remarks": self.remarks,
+            "doubts": self.doubts,
         }
+
+
+def _doubts(found: Identified) -> Iterator[str]:
+    off = [(abs(one.after - one.datum.value) / one.sigma, one) for one in found.compared]
+    far = sorted((pair for pair in off if pair[0] > FAR), key=lambda pair: -pair[0])
+    for sigmas, one in far[:_MOST]:
+        role = "fitted" if one.datum.fit else "checked"
+        yield (
+            f"{one.datum.label} ({role}{f', {one.datum.source}' if one.datum.source else ''}): measured "
+            f"{one.datum.value:.1f} dB, computed {one.after:.1f} dB, {sigmas:.0f} standard deviations apart: "
+            "is the value right, and does the scene have what makes it?"
+        )
+    if len(far) > _MOST:
+        yield f"and {len(far) - _MOST} more values beyond {FAR:g} standard deviations"
+    before, after = found.rms(before=True), found.rms()
+    if after > before + _VISIBLE and _sigma(found, True) < after:
+        yield (
+            f"fitted values are {after:.1f} dB rms off, {before:.1f} dB before: data that contradict each "
+            "other, or that these keys cannot explain"
+        )
+    checked, count = found.rms(fit=False), sum(not one.datum.fit for one in found.compared)
+    usual = max(after, _sigma(found, False)) if count else math.inf
+    if checked > max(2.0, 1.0 + 2.0 / math.sqrt(max(count, 1))) * usual:
+        yield (
+            f"checked values are {checked:.1f} dB rms off, fitted ones {after:.1f} dB: the values found do "
+            "not hold for what was not fitted"
+        )
+
+
+def _sigma(found: Identified, fit: bool) -> float:
+    """Rms (dB) of the standard deviations of fitted or checked values; NaN: there are none."""
+    squares = [one.sigma**2 for one in found.compared if one.datum.fit is fit]
+    return float(np.sqrt(np.mean(squares))) if squares else math.nan
 
 
 def values_table(found: Identified) -> tuple[list[str], list[list[str]]]:

@@ -124,3 +124,38 @@ def test_ctrl_c_writes_the_best_so_far(run, scene_of, measured, tmp_path, monkey
     assert result.exit_code == INTERRUPTED
     assert "the same command goes on" in result.stderr
     assert "uncertainty unknown" in output.read_text("utf-8")
+
+
+def test_what_contradicts_itself_is_not_written_unless_asked_for(run, scene_of, measured, tmp_path):
+    lines = measured.read_text().splitlines()
+    *row, value = lines[-1].split(",")
+    wrong = tmp_path / "wrong.csv"
+    wrong.write_text("\n".join((*lines[:-1], ",".join((*row, f"{float(value) + 40.0:.1f}")))) + "\n")
+    output = tmp_path / "identified.toml"
+    arguments = ("identify", scene_of, wrong, "--free", KEY, *SETTINGS, "-o", output)
+    result = run(*arguments)
+    assert result.exit_code == REFUSED and not output.exists()
+    assert (
+        "P4 speed_rpm 18000 leq_a (fitted" in result.stderr and "standard deviations apart" in result.stderr
+    )
+    assert "is not written" in result.stderr and "--anyway" in result.stderr
+    assert "Measured and computed levels" in result.stdout
+    as_json = run(*arguments, "--json")
+    assert as_json.exit_code == REFUSED and as_json.data["files"] == [] and len(as_json.data["doubts"]) >= 1
+    forced = run(*arguments, "--anyway")
+    assert forced.exit_code == 0 and output.exists()
+    assert "standard deviations apart" in forced.stdout
+    assert "standard deviations apart" in (output.with_suffix("") / "report.md").read_text("utf-8")
+
+
+def test_unusual_data_are_asked_about(run, scene_of, measured, tmp_path):
+    dead = tmp_path / "dead.csv"
+    lines = measured.read_text().splitlines()
+    dead.write_text("\n".join((*lines[:-1], ",".join((*lines[-1].split(",")[:-1], "0.0")))) + "\n")
+    output = tmp_path / "identified.toml"
+    arguments = ("identify", scene_of, dead, "--free", KEY, *SETTINGS, "-o", output)
+    result = run(*arguments)
+    assert result.exit_code == REFUSED and "is this microphone dead?" in result.stderr
+    accepted = run(*arguments, "--accept")
+    assert "is this microphone dead" not in accepted.stderr and "standard deviations apart" in accepted.stderr
+    assert accepted.exit_code == REFUSED and not output.exists()

@@ -170,3 +170,42 @@ def test_what_is_no_table(spindle, tmp_path):
         read_data(3.0, spindle)
     with pytest.raises(IdentifyError, match="row 0 of the data is a"):
         read_data(np.zeros(3), spindle)
+
+
+ASKED = [
+    ({"value_dB": 0.0}, "is this microphone dead"),
+    ({"value_dB": 0.2}, "is it a pressure in Pa. 0.2 Pa are 80.0 dB"),
+    ({"value_dB": 19.9, "quantity": "leq_a"}, "outside 20 to 160 dB"),
+    ({"value_dB": 160.1}, "outside 20 to 160 dB, .*is it another unit"),
+    ({"value_dB": 0.0, "quantity": "line[f_r]"}, "outside 5 to 160 dB, where bands and lines"),
+    ({"microphone": "", "quantity": "velocity[housing.z]", "value_dB": 1.5}, "is it another unit"),
+    ({"speed_rpm": 133.3}, "speed_rpm = 133.3 is below 500 r/min: is it in Hz. 133.3 Hz are 7998 r/min"),
+    ({"speed_rpm": None, "operation.speed_rpm": 499.0}, "below 500 r/min"),
+]
+
+
+@pytest.mark.parametrize(("row", "message"), ASKED, ids=[m[:24] for _, m in ASKED])
+def test_what_no_machine_usually_has_is_asked_about(row, message, spindle):
+    with pytest.raises(IdentifyError, match=message) as caught:
+        read(spindle, row)
+    lines = str(caught.value).splitlines()
+    assert len(lines) == 2 and "--accept (accept=True)" in lines[1]
+    (taken,) = read(spindle, row, accept=True)
+    with pytest.raises(IdentifyError, match=message):  # rows that were read before are asked about too
+        read_data([taken], spindle)
+
+
+def test_usual_levels_and_quiet_lines_are_not_asked_about(spindle):
+    found = read(
+        spindle,
+        {"value_dB": 20.0},
+        {"quantity": "leq_a", "value_dB": 160.0},
+        {"quantity": "line[f_r]", "value_dB": 17.9},
+        {"quantity": "third_octave[1000]", "value_dB": 5.0, "speed_rpm": 500.0},
+    )
+    assert len(found) == 4
+
+
+def test_backgrounds_are_asked_about(spindle):
+    with pytest.raises(IdentifyError, match="is this microphone dead"):
+        read(spindle, {}, background=[ROW | {"value_dB": 0.0}])

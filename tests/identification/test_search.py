@@ -186,3 +186,41 @@ def test_values_by_name(spindle, linear):
         found["mounting.preload_N"]
     assert free_numbers(spindle, KEYS) == tuple(one.free for one in found.estimates)
     assert len(read_data(table(np.full(8, 60.0)), spindle)) == len(found.compared)
+
+
+def test_values_far_off_are_named(spindle, linear):
+    values = 60.0 + linear.slopes @ [0.4, -0.3]
+    values[5] += 12.0
+    found = identify(spindle, table(values), KEYS, seeds=1, starts=1, progress=False)
+    (doubt,) = found.doubts  # the residuals left are 11 dB there and below 1 dB elsewhere, of 1 dB
+    assert doubt.startswith("P2 leq_a (fitted, row 5): measured ") and " standard deviations apart" in doubt
+    values[5] -= 12.0
+    assert identify(spindle, table(values), KEYS, seeds=1, starts=1, progress=False).doubts == ()
+
+
+def test_checked_values_far_above_the_fitted_are_said(spindle, linear):
+    values = 60.0 + linear.slopes @ [0.4, -0.3]
+    rows = [row | {"role": "check" if k in (3, 7) else "fit"} for k, row in enumerate(table(values))]
+    assert identify(spindle, rows, KEYS, seeds=1, starts=1, progress=False).doubts == ()
+    for k in (3, 7):
+        rows[k]["value_dB"] += 4.0
+    (doubt,) = identify(spindle, rows, KEYS, seeds=1, starts=1, progress=False).doubts
+    assert doubt.startswith("checked values are 4.0 dB rms off, fitted ones 0.0 dB")
+
+
+def test_a_result_worse_than_the_scene_is_said(spindle, linear, monkeypatch):
+    """Two seeds whose levels differ from the others': what the search sees is not what is reported."""
+    full = with_fidelity(spindle, model="full")
+    plain = linear.at
+
+    def at(self, x, seeds, fidelity, check=False):
+        # the scene's own fidelity falls where the search's rises: no round of corrections meets it
+        levels = plain(self, x, seeds, fidelity, check)
+        return levels if fidelity == "response" else 2.0 * 60.0 - levels
+
+    monkeypatch.setattr(linear, "at", at)
+    found = identify(
+        full, table(60.0 + linear.slopes @ [0.4, -0.3]), KEYS, fidelity="response", starts=1, progress=False
+    )
+    assert found.rms() > found.rms(before=True)
+    assert any(f"fitted values are {found.rms():.1f} dB rms off" in doubt for doubt in found.doubts)

@@ -1,19 +1,199 @@
-"""Writing files in one step, because other processes may read them, and where what is kept lies."""
+"""Reading files that a user names, writing files in one step, and where what is kept lies."""
 
+import contextlib
 import os
+import stat
+import sys
 import tempfile
+import zipfile
+import zlib
+from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
-__all__ = ["cache_root", "check_file", "check_folder", "write_whole"]
+__all__ = [
+    "CacheError",
+    "cache_root",
+    "check_file",
+    "check_folder",
+    "foreign",
+    "own_folder",
+    "plain_file",
+    "read_arrays",
+    "read_own",
+    "read_text",
+    "real_path",
+    "write_whole",
+]
+
+_WAY_OUT = "name a folder of your own in FMU_BEARING_CACHE, which is made where it is not there"
+#: What NumPy, zipfile and zlib raise for a file that is damaged or no archive of plain arrays.
+_NO_ARCHIVE = (
+    OSError, EOFError, ValueError, TypeError, AttributeError, KeyError, MemoryError, RuntimeError,
+    zipfile.BadZipFile, zlib.error,
+)  # fmt: skip
+
+
+def plain_file(path: str | os.PathLike[str], most: float = float("inf")) -> Path:
+    """Return the path of a file that is going to be read, of ``most`` bytes or fewer.
+
+    Pipes and devices are refused: they may never end, and a file is often read twice.
+
+    Raises
+    ------
+    OSError
+        Where there is none (`FileNotFoundError`), and for what is no such file.
+    """
+    if "\0" in os.fspath(path):
+        raise OSError("its name holds NUL, as no file's name does")
+    found = os.stat(path)
+    if stat.S_ISDIR(found.st_mode):
+        raise IsADirectoryError("it is a folder: name a file in it")
+    if not stat.S_ISREG(found.st_mode):
+        raise OSError("it is a pipe or a device: write what it gives to a file, and name that")
+    if found.st_size > most:
+        raise OSError(f"it has {1e-6 * found.st_size:.3g} MB; allowed: up to {1e-6 * most:g} MB")
+    return Path(path)
+
+
+def real_path(path: str | os.PathLike[str]) -> Path:
+    """Return the whole path of a file, links followed; a name with NUL, which no file has, stays as it is."""
+    return Path(path) if "\0" in os.fspath(path) else Path(os.path.realpath(path))
+
+
+def read_text(path: str | os.PathLike[str], most: float = 1e9) -> str:
+    """Return text in UTF-8 with or without byte order mark, which some editors put in front.
+
+    Raises
+    ------
+    OSError
+        As `plain_file`.
+    UnicodeDecodeError
+        For what is no such text.
+    """
+    return plain_file(path, most).read_text("utf-8-sig")
+
+
+def read_arrays(path: str | os.PathLike[str], names: Iterable[str] | None = None) -> dict[str, Any]:
+    """Return arrays of a NumPy archive (``numpy.savez``), those of ``names`` that it has; default: all.
+
+    Nothing is unpickled.
+
+    Raises
+    ------
+    OSError
+        As `plain_file`.
+    ValueError
+        For a file that is no archive of plain arrays, or damaged.
+    """
+    import numpy as np
+
+    file = plain_file(path)
+    try:
+        with np.load(file, allow_pickle=False) as archive:
+            return {name: archive[name] for name in (names or archive.files) if name in archive.files}
+    except _NO_ARCHIVE:
+        raise ValueError("it is no NumPy archive of plain arrays, or damaged") from None
+
+
+class CacheError(OSError):
+    """A folder or file of the cache that others can write to: what is kept there is run as code."""
 
 
 def cache_root() -> Path:
-    """Folder of all that is kept: ``FMU_BEARING_CACHE``, else ``fmu-bearing`` in the user's cache folder."""
-    named = os.environ.get("FMU_BEARING_CACHE")
-    if named:
-        return Path(named)
-    base = os.environ.get("XDG_CACHE_HOME") or os.environ.get("LOCALAPPDATA")
-    return Path(base or os.path.expanduser("~/.cache")) / "fmu-bearing"
+    """Folder of all that is kept, this user's own (`own_folder`).
+
+    ``FMU_BEARING_CACHE``, else ``fmu-bearing`` in the user's cache folder, else one per user among the
+    temporary files: without HOME and without an entry in the user table nobody knows a better one.
+
+    Raises
+    ------
+    CacheError
+        As `own_folder`.
+    """
+    if named := os.environ.get("FMU_BEARING_CACHE"):
+        return own_folder(Path(named))
+    base = (
+        os.environ.get("XDG_CACHE_HOME") or os.environ.get("LOCALAPPDATA") or os.path.expanduser("~/.cache")
+    )
+    if base.startswith("~"):
+        user = "" if sys.platform == "win32" else f"-{os.geteuid()}"
+        return own_folder(Path(tempfile.gettempdir()) / f"fmu-bearing{user}")
+    return own_folder(Path(base) / "fmu-bearing")
+
+
+def own_folder(folder: Path) -> Path:
+    """Return a folder that this user alone can write to; made, where it can be, with these rights.
+
+    One that is not there and cannot be made is returned as well: who writes there says so. On Windows the
+    rights of the user's profile hold, and nothing is looked at.
+
+    Raises
+    ------
+    CacheError
+        Where another user owns it, or others can write to it, or replace it in a folder above it.
+    """
+    with contextlib.suppress(OSError):
+        for one in (*reversed(folder.parents), folder):
+            if not one.is_dir():
+                one.mkdir(0o700)
+    if why := foreign(folder):
+        mend = f"; `chmod go-w {folder}` does, too, if all that it holds is yours"
+        mend = mend if "(mode" in why and not folder.stat().st_mode & stat.S_ISVTX else ""
+        raise CacheError(
+            f"{folder} is refused, as what is kept there is run as code: {why}; {_WAY_OUT}{mend}"
+        )
+    for above in Path(os.path.realpath(folder)).parents:
+        if _anybody_replaces(above):
+            raise CacheError(f"{folder} is refused: everybody can replace it in {above}; {_WAY_OUT}")
+    return folder
+
+
+def read_own(path: Path) -> bytes:
+    """Return the content of a file that this user alone can write to.
+
+    Raises
+    ------
+    CacheError
+        Where another user owns it, or others can write to it.
+    OSError
+        Where it cannot be read.
+    """
+    with path.open("rb") as file:
+        if why := foreign(file.fileno()):
+            raise CacheError(f"{path}: {why}")
+        return file.read()
+
+
+def foreign(path: Path | int) -> str:
+    """Say who else may have written to a file or folder, by path or open; empty: nobody, or none is there."""
+    if sys.platform == "win32":
+        return ""
+    try:
+        found = os.stat(path)
+    except OSError:
+        return ""
+    if found.st_uid != os.geteuid():
+        return f"{_user(found.st_uid)} owns it, and {_user(os.geteuid())} uses it"
+    if found.st_mode & (stat.S_IWGRP | stat.S_IWOTH):
+        return f"others can write to it (mode {stat.S_IMODE(found.st_mode):o})"
+    return ""
+
+
+def _user(number: int) -> str:
+    import pwd
+
+    with contextlib.suppress(KeyError):
+        return f"user {pwd.getpwuid(number).pw_name}"
+    return f"user {number}"
+
+
+def _anybody_replaces(folder: Path) -> bool:
+    """Whether everybody can rename what lies in a folder: all can write to it, and it has no sticky bit."""
+    with contextlib.suppress(OSError):
+        mode = folder.stat().st_mode
+        return sys.platform != "win32" and bool(mode & stat.S_IWOTH) and not mode & stat.S_ISVTX
+    return False
 
 
 def check_file(path: str | os.PathLike[str]) -> Path:
@@ -29,6 +209,10 @@ def check_file(path: str | os.PathLike[str]) -> Path:
     target = Path(path)
     if target.is_dir():
         raise IsADirectoryError(f"{target} is a folder: name the file to write")
+    if target.exists() and not target.is_file():
+        raise OSError(
+            f"{target} is a pipe or a device, which a file would replace: name another file to write"
+        )
     check_folder(target.parent)
     return target
 
@@ -59,7 +243,15 @@ def check_folder(path: str | os.PathLike[str]) -> Path:
 
 
 def write_whole(path: Path, data: bytes) -> Path:
-    """Write all of a file or none of it, and return its path; folders on the way are made."""
+    """Write all of a file or none of it, and return its path; folders on the way are made.
+
+    Raises
+    ------
+    OSError
+        Where it cannot be written, or is a pipe or a device, which the file would replace.
+    """
+    if path.exists() and not path.is_file():
+        raise OSError(f"{path} is no plain file: name another one to write")
     path.parent.mkdir(parents=True, exist_ok=True)
     handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
     try:

@@ -4,7 +4,7 @@ import os
 
 import pytest
 
-from fmu_bearing.files import check_file, check_folder
+from fmu_bearing.files import check_file, check_folder, write_whole
 
 
 def test_a_new_place_is_accepted_and_not_made(tmp_path):
@@ -24,6 +24,15 @@ def test_what_stands_in_the_way_is_named(tmp_path):
         check_file(tmp_path)
     with pytest.raises(OSError, match="a link to nothing"):
         check_folder(tmp_path / "dangling" / "sub")
+
+
+def test_a_pipe_is_not_replaced(tmp_path):
+    os.mkfifo(tmp_path / "pipe.csv")
+    with pytest.raises(OSError, match=r"pipe.csv is a pipe or a device, which a file would replace"):
+        check_file(tmp_path / "pipe.csv")
+    with pytest.raises(OSError, match=r"pipe.csv is no plain file: name another one to write"):
+        write_whole(tmp_path / "pipe.csv", b"")
+    assert (tmp_path / "pipe.csv").is_fifo() and len(list(tmp_path.iterdir())) == 1
 
 
 @pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() == 0, reason="the super-user writes anywhere")

@@ -17,6 +17,6 @@
 """
 
 from fmu_bearing.compiled.errors import BuildError
-from fmu_bearing.compiled.load import Calls, call, ready
+from fmu_bearing.compiled.load import Calls, bound, call, ready
 
-__all__ = ["BuildError", "Calls", "call", "ready"]
+__all__ = ["BuildError", "Calls", "bound", "call", "ready"]

@@ -1,7 +1,9 @@
 """Files of the user's cache: whole or absent, checked when read, and never needed.
 
 A file stands beside its checksum, which is written first. A file that was cut short or changed, or whose
-checksum is missing or cannot be read, is told, removed and made anew. Where nothing can be written (a full
+checksum is missing or cannot be read, is told, removed and made anew. The checksum finds damage, no intent:
+who can write the file can write the checksum. So the folder is this user's own (`files.own_folder`), and a
+file that others can write to is not used either. Where nothing can be written (a full
 disk, a read-only home) the caller goes on with what it holds in memory.
 """
 
@@ -12,7 +14,7 @@ from pathlib import Path
 
 from filelock import FileLock, Timeout
 
-from fmu_bearing.files import write_whole
+from fmu_bearing.files import CacheError, read_own, write_whole
 from fmu_bearing.progress import Tell
 
 __all__ = ["alone", "read", "write"]
@@ -26,19 +28,26 @@ _NO_LOCK = (OSError, NotImplementedError)
 def read(path: Path, tell: Tell) -> bytes | None:
     """Content of a kept file; ``None`` where there is none, or a damaged one, which is told and removed."""
     try:
-        data = path.read_bytes()
+        data = read_own(path)
     except (FileNotFoundError, NotADirectoryError):
+        return None
+    except CacheError as problem:
+        _remove(path, f"the kept file {problem}: it is not used but made anew", tell)
         return None
     except OSError as problem:
         tell(f"the kept file {path} cannot be read ({problem.strerror}): it is made anew")
         return None
     with contextlib.suppress(OSError, UnicodeDecodeError):
-        if hashlib.sha256(data).hexdigest() == _beside(path).read_text(encoding="ascii").strip():
+        if hashlib.sha256(data).hexdigest() == read_own(_beside(path)).decode("ascii").strip():
             return data
-    tell(f"the kept file {path} is damaged: it is made anew")
+    _remove(path, f"the kept file {path} is damaged: it is made anew", tell)
+    return None
+
+
+def _remove(path: Path, why: str, tell: Tell) -> None:
+    tell(why)
     with contextlib.suppress(OSError):
         path.unlink()
-    return None
 
 
 def write(path: Path, data: bytes, tell: Tell) -> bool:

@@ -8,6 +8,7 @@ an AMD EPYC that had other work.
 
 import ctypes
 import threading
+from collections.abc import Callable
 from typing import Any
 
 import llvmlite.binding as llvm
@@ -18,7 +19,7 @@ from fmu_bearing.compiled.make import objects
 from fmu_bearing.compiled.platforms import instruction_set, own
 from fmu_bearing.compiled.units import ENTRIES, symbol
 
-__all__ = ["Calls", "call", "ready"]
+__all__ = ["Calls", "bound", "call", "ready"]
 
 _lock = threading.RLock()
 _engines: dict[str, Any] = {}  # by unit; kept, because functions point into them
@@ -94,13 +95,22 @@ def call(name: str, *arguments: Any) -> int:
     BuildError
         If the unit cannot be compiled.
     """
-    entry = ENTRIES[name]
-    count = len(entry.arrays)
-    arrays, scalars = arguments[:count], arguments[count:]
+    count = len(ENTRIES[name].arrays)
+    return bound(name, *arguments[:count])(*arguments[count:])
+
+
+def bound(name: str, *arrays: NDArray[np.float64]) -> Callable[..., int]:
+    """Return `call` of an entry with arrays that stay where they are; it takes the numbers behind them."""
+    entry, function = ENTRIES[name], _function(name)
     lengths = np.zeros(max(entry.places()) + 1, dtype=np.int64)
     for place, array in zip(entry.places(), arrays, strict=True):
         lengths[place] = array.size
-    return _function(name)(*map(_address, arrays), lengths.ctypes.data, *scalars)
+    addresses = [*map(_address, arrays), lengths.ctypes.data]
+
+    def again(*scalars: float, _alive: object = (arrays, lengths)) -> int:
+        return int(function(*addresses, *scalars))
+
+    return again
 
 
 class Calls:

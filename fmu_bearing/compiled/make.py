@@ -25,7 +25,7 @@ from fmu_bearing.compiled.settings import SETTINGS, TESTED, lean
 from fmu_bearing.compiled.show import Display
 from fmu_bearing.compiled.units import object_name
 from fmu_bearing.engine.sources import engine_digest
-from fmu_bearing.files import cache_root
+from fmu_bearing.files import cache_root, own_folder
 
 __all__ = ["PREBUILT", "bitcode", "folder", "objects", "prebuilt", "sources_key"]
 
@@ -50,10 +50,16 @@ def sources_key() -> str:
 
 
 def folder() -> Path:
-    """Folder of what these sources and these compilers make."""
+    """Folder of what these sources and these compilers make, this user's own.
+
+    Raises
+    ------
+    CacheError
+        As `files.own_folder`.
+    """
     versions = f"{sys.version_info[:2]} {version('numba')} {version('llvmlite')}"
     key = hashlib.sha256(f"{sources_key()} {versions}".encode()).hexdigest()
-    return cache_root() / f"compiled-{key[:16]}"
+    return own_folder(cache_root() / f"compiled-{key[:16]}")
 
 
 def objects(platform: Platform, units: Iterable[str], sets: Iterable[str]) -> dict[tuple[str, str], bytes]:
@@ -63,6 +69,8 @@ def objects(platform: Platform, units: Iterable[str], sets: Iterable[str]) -> di
     ------
     BuildError
         If the kernels cannot be compiled.
+    CacheError
+        If others can write to the folder that they are kept in.
     """
     wanted = {(unit, one): object_name(unit, platform.name, one) for unit in units for one in sets}
     found = {key: data for key, name in wanted.items() if (data := _there(name)) is not None}

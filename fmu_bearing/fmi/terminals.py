@@ -5,6 +5,7 @@ a connection balances is an *inflow* where the bearing takes it and an *outflow*
 is a *signal*.
 """
 
+import re
 from collections.abc import Iterable, Iterator
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
@@ -16,23 +17,27 @@ __all__ = ["TERMINALS_FILE", "terminals_xml"]
 
 TERMINALS_FILE = "terminalsAndIcons/terminalsAndIcons.xml"
 
-#: Terminal, its kind and rule, what it is, and its members: name, variable, kind. A plug fits where all its
-#: members do; of a bus those are connected that both sides have.
+#: Terminal, its kind and rule, what it is, what it does, and its members: name, variable, kind. A plug fits
+#: where all its members do; of a bus those are connected that both sides have. What a terminal does is said
+#: of the members that it has: a clause needs one of its quantities.
 Member = tuple[str, str, str]
-Terminal = tuple[str, str, str, str, tuple[Member, ...]]
+Clause = tuple[str, str]
+Terminal = tuple[str, str, str, str, tuple[Clause, ...], tuple[Member, ...]]
 _FLANGE, _HEAT, _SOUND, _POINT = "rotational-flange", "heat-port", "microphone", "shaft-point"
 _SHAFT: Terminal = (
     "shaft",
     _FLANGE,
     "plug",
-    "Shaft: the bearing is given the speed w and takes the torque tau",
+    "Shaft: the bearing",
+    (("w", "is given the speed w"), ("tau", "takes the torque tau")),
     (("w", "shaft_speed", "signal"), ("tau", "friction_torque", "inflow")),
 )
 _NOSE: Terminal = (
     "nose",
     _POINT,
     "bus",
-    "Nose of the shaft: it is given force and moment, and tells where it is and how fast it moves",
+    "Nose of the shaft: it",
+    (("f", "takes a force"), ("m", "takes a moment"), ("s phi v", "gives its place, tilt and velocity")),
     tuple(
         (f"{short}_{axis}", f"{name}.{axis}", "signal")
         for short, name, axes in (
@@ -49,7 +54,8 @@ _RIGID: Terminal = (
     "port",
     _POINT,
     "bus",
-    "Shaft of another model: it tells its motion at X = 0 and takes force and moment of the bearings",
+    "Shaft of another model: it",
+    (("s phi v w", "gives its motion at X = 0"), ("f m", "takes force and moment of the bearings")),
     tuple(
         (f"{short}_{axis}", f"port.{name}.{axis}", role)
         for short, name, axes, role in (
@@ -63,20 +69,27 @@ _RIGID: Terminal = (
         for axis in axes
     ),
 )
+_AXIS = re.compile("_[xyz]$")
 _PORTS = (("inner_ring", "inner ring"), ("outer_ring", "outer ring"), ("oil", "oil"))
 _LEVELS = ("pressure", "spl", "spl_a", "leq", "leq_a")
 
 
 def terminals_xml(model: ShownModel) -> bytes:
-    """Return ``terminalsAndIcons.xml`` of a model; members that are no inputs or outputs are left out."""
+    """Return ``terminalsAndIcons.xml`` of a model; members that are no inputs or outputs are left out.
+
+    Terminals of flat names have flat names, too.
+    """
     names = {variable.name for variable in model.variables if variable.causality in ("input", "output")}
     root = Element("fmiTerminalsAndIcons", {"fmiVersion": "3.0"})
     parent = SubElement(root, "Terminals")
-    for name, kind, rule, words, members in _terminals(model.scene):
+    for name, kind, rule, subject, clauses, members in _terminals(model.scene):
         if model.is_flat:
+            name = flat(name)
             members = tuple((member, flat(variable), role) for member, variable, role in members)
         present = [member for member in members if member[1] in names]
         if present:
+            there = {_AXIS.sub("", member) for member, _, _ in present}
+            words = _sentence(subject, [text for some, text in clauses if not there.isdisjoint(some.split())])
             attributes = {"name": name, "matchingRule": rule, "terminalKind": kind, "description": words}
             _members(SubElement(parent, "Terminal", attributes), present)
     indent(root)
@@ -95,13 +108,17 @@ def _terminals(scene: Scene) -> Iterator[Terminal]:
                 ("T", f"{prefix}{name}_temperature", "signal"),
                 ("Q_flow", f"{prefix}heat.{name}", "outflow"),
             )
-            sentence = (
-                f"Heat to the {words}: the bearing gives the heat Q_flow and is given the temperature T"
-            )
-            yield prefix + name, _HEAT, "plug", sentence, heat
+            clauses = (("Q_flow", "gives the heat Q_flow"), ("T", "is given the temperature T"))
+            yield prefix + name, _HEAT, "plug", f"Heat to the {words}: the bearing", clauses, heat
     for k in range(1, len(scene.microphones) + 1):
         levels = tuple((level, f"mic[{k}].{level}", "signal") for level in _LEVELS)
-        yield f"mic[{k}]", _SOUND, "bus", f"Sound at microphone {k}", levels
+        yield f"mic[{k}]", _SOUND, "bus", f"Sound at microphone {k}", (), levels
+
+
+def _sentence(subject: str, clauses: list[str]) -> str:
+    """Return a subject with what it does, as a list in words."""
+    *first, last = clauses or [""]
+    return f"{subject} {' and '.join([', '.join(first), last] if first else [last])}".rstrip()
 
 
 def _members(parent: Element, members: Iterable[Member]) -> None:

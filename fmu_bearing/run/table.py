@@ -13,6 +13,8 @@ from collections.abc import Iterator, Sequence
 import numba
 import numpy as np
 
+from fmu_bearing.files import read_text
+
 _WIDEST = 10_000  # characters: no table is wider
 _SEPARATORS = (";", "\t", ",")
 _DECIMAL_COMMA = re.compile(r"[+-]?[0-9]*,[0-9]+(?:[eE][+-]?[0-9]+)?")
@@ -128,7 +130,7 @@ def read_rows(path: str | os.PathLike[str]) -> list[tuple[int, list[Cell]]]:
         For a file that is not there, that is no text, or whose lines are no cells.
     """
     try:
-        text = pathlib.Path(path).read_text("utf-8-sig")
+        text = read_text(path)
     except FileNotFoundError:
         raise ValueError(f"{path}: there is no such file") from None
     except (OSError, UnicodeDecodeError) as problem:

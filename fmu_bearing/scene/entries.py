@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import tomlkit
 from pydantic import ValidationError
 
+from fmu_bearing.files import read_text, real_path
 from fmu_bearing.scene import nsk
 from fmu_bearing.scene.base import Part
 from fmu_bearing.scene.bearing import Bearing
@@ -22,6 +23,7 @@ from fmu_bearing.scene.toml_text import parse
 
 #: Key at the head of a scene: files with bearings of one's own.
 KEY = "catalogues"
+_LONGEST = 10_000_000  # bytes of a file: thousands of bearings
 #: Files that hold for all scenes, beside those that a scene names.
 _in_use: ContextVar[tuple[Path, ...]] = ContextVar("catalogues", default=())
 
@@ -56,7 +58,7 @@ def entries(kind: str, files: Sequence[Path] = ()) -> Mapping[str, Entry]:
         For a file that cannot be read, an entry that is no bearing, or a name that stands twice.
     """
     found = _of_package(kind)
-    wanted = tuple(dict.fromkeys(path.resolve() for path in (*_in_use.get(), *files)))
+    wanted = tuple(dict.fromkeys(real_path(path) for path in (*_in_use.get(), *files)))
     if kind != "bearings" or not wanted:
         return found
     every = dict(found)
@@ -86,7 +88,7 @@ def _of_package(kind: str) -> Mapping[str, Entry]:
 def _of_file(path: Path) -> dict[str, Entry]:
     """Return the bearings of a user's file, all checked."""
     try:
-        text = path.read_text("utf-8-sig")
+        text = read_text(path, _LONGEST)
     except FileNotFoundError:
         raise SceneError(f"{path}: there is no such catalogue file") from None
     except (OSError, ValueError) as problem:
@@ -144,6 +146,8 @@ def named_files(given: Any, folder: Path | None) -> tuple[list[Path], str]:
             [],
             f'{KEY} = {shown(given)} is refused; allowed: a list of files, as {KEY} = ["my-bearings.toml"]',
         )
+    if bad := [one for one in given if "\0" in one]:
+        return [], f"{KEY}: {shown(bad[0])} is refused: a file's name holds no NUL"
     return [(folder or Path()) / one for one in given], ""
 
 
@@ -152,7 +156,7 @@ def anchored(text: str, folder: Path) -> str:
     document = tomlkit.parse(text)
     files, _ = named_files(document.unwrap().get(KEY), folder)
     if files:
-        document[KEY] = [str(path.resolve()) for path in files]
+        document[KEY] = [str(real_path(path)) for path in files]
     return tomlkit.dumps(document)
 
 

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import IO, Any
 from xml.etree import ElementTree
 
+from fmu_bearing.files import plain_file
 from fmu_bearing.validation import tools
 from fmu_bearing.validation.checks import CHECKS, NEEDED, meaning_of, name_of
 from fmu_bearing.validation.remarks import FINDING, SKIPPED, Result
@@ -77,14 +78,14 @@ def validate(
 
 
 def _unpack(path: Path, folder: Path) -> None:
-    if not path.exists():
-        raise NotAnFmu(f"{path}: there is no such FMU")
     try:
-        with zipfile.ZipFile(path) as archive:
+        with zipfile.ZipFile(plain_file(path)) as archive:
             if _DESCRIPTION not in archive.namelist():
                 raise NotAnFmu(f"{path}: is no FMU: it holds no {_DESCRIPTION}")
             archive.extractall(folder)  # leaves out what points outside the folder
-    except (zipfile.BadZipFile, IsADirectoryError, PermissionError) as problem:
+    except FileNotFoundError:
+        raise NotAnFmu(f"{path}: there is no such FMU") from None
+    except (zipfile.BadZipFile, OSError) as problem:
         raise NotAnFmu(f"{path}: is no FMU: {problem}") from None
 
 

@@ -22,6 +22,8 @@ from fmu_bearing.interface import flat
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.run.names import unit_of
 from fmu_bearing.scene import SceneError, read_scene
+from tests.conftest import EXAMPLES
+from tests.spindle.port import as_port
 
 from .conftest import ERROR, OK, Master
 
@@ -165,7 +167,7 @@ def test_terminals_follow_the_schema_and_name_variables(built):
 
 def test_a_toolbox_reads_the_terminals(built):
     terminals = pytest.importorskip("fmu_manipulation_toolbox.terminals").Terminals(built[1]).terminals
-    microphones = {f"mic[{k}]" for k in (1, 2, 3, 4)}
+    microphones = {f"mic_{k}" for k in (1, 2, 3, 4)}
     assert set(terminals) == {"shaft", "inner_ring", "outer_ring", "oil"} | microphones
     assert terminals["shaft"].members == {"w": "shaft_speed", "tau": "friction_torque"}
     assert terminals["oil"].members == {"T": "oil_temperature", "Q_flow": "heat_oil"}
@@ -175,6 +177,40 @@ def test_what_is_no_input_or_output_is_in_no_terminal(scene_file):
     found = ElementTree.fromstring(terminals_xml(changed(scene_file, inputs=["shaft_speed"])))
     names = {member.get("variableName") for member in found.iter("TerminalMemberVariable")}
     assert "heat.oil" in names and "oil_temperature" not in names
+
+
+def terminals(model):
+    """Names of terminals, with the names of their members and what is said of them."""
+    return {
+        one.get("name"): ({member.get("memberName") for member in one}, one.get("description"))
+        for one in ElementTree.fromstring(terminals_xml(model)).iter("Terminal")
+    }
+
+
+def test_what_a_terminal_does_names_the_members_it_has(scene_file):
+    whole = terminals(changed(scene_file))
+    assert whole["oil"] == (
+        {"T", "Q_flow"}, "Heat to the oil: the bearing gives the heat Q_flow and is given the temperature T"
+    )  # fmt: skip
+    assert whole["shaft"][1] == "Shaft: the bearing is given the speed w and takes the torque tau"
+    assert whole["mic[1]"][1] == "Sound at microphone 1"
+    reduced = terminals(changed(scene_file, inputs=["inner_ring_temperature"]))
+    assert reduced["oil"] == ({"Q_flow"}, "Heat to the oil: the bearing gives the heat Q_flow")
+    assert reduced["inner_ring"] == ({"T", "Q_flow"}, whole["inner_ring"][1])
+    assert reduced["shaft"] == ({"tau"}, "Shaft: the bearing takes the torque tau")
+
+
+def test_what_terminals_of_a_set_do_names_the_members_they_have():
+    sets = EXAMPLES.parent / "spindle_set"
+    some = terminals(changed(sets / "7003C-DB.toml", inputs=["nose.force.*"], naming="flat"))
+    assert some["nose"][1] == "Nose of the shaft: it takes a force and gives its place, tilt and velocity"
+    assert some["bearing_2_oil"] == ({"Q_flow"}, "Heat to the oil: the bearing gives the heat Q_flow")
+    assert not [name for name in some if not re.fullmatch(r"\w+", name)]
+    said = "Nose of the shaft: it takes a force, takes a moment and gives its place, tilt and velocity"
+    assert terminals(changed(sets / "7003C-DB.toml"))["nose"][1] == said
+    port = prepare(as_port(read_scene(sets / "7003C-DB.toml")))
+    said = "Shaft of another model: it gives its motion at X = 0 and takes force and moment of the bearings"
+    assert terminals(as_shown(port))["port"][1] == said
 
 
 def test_terminals_are_written_on_request_alone(fmu):

@@ -4,6 +4,7 @@ A sample of 1.0 stands for the *full scale*, a pressure the caller states. It is
 (``full scale = 20 Pa``), so that `read_wav` gives pascals back.
 """
 
+import io
 import math
 import os
 import pathlib
@@ -15,6 +16,8 @@ import numpy as np
 import scipy
 from numpy.typing import ArrayLike, NDArray
 from scipy.io import wavfile
+
+from fmu_bearing.files import plain_file
 
 WAV_RATE = 48_000
 FULL_SCALE = 20.0  # Pa: 117 dB of a sine, above any bearing
@@ -85,14 +88,18 @@ def read_wav(
     Raises
     ------
     ValueError
-        When the file does not state its calibration and ``full_scale`` (Pa) is not given.
+        When the file cannot be read, or does not state its calibration and ``full_scale`` (Pa) is not given.
     """
+    try:
+        data = plain_file(path).read_bytes()
+    except OSError as problem:
+        raise ValueError(f"{path}: cannot be read: {problem}") from None
     if full_scale is None:
-        found = _CALIBRATION.search(pathlib.Path(path).read_bytes().decode("latin-1"))
+        found = _CALIBRATION.search(data.decode("latin-1"))
         if found is None:
             raise ValueError(f"{path} does not say what pressure its full scale is: give full_scale in Pa")
         full_scale = float(found[1])
-    rate, samples = wavfile.read(path)
+    rate, samples = wavfile.read(io.BytesIO(data))
     if np.issubdtype(samples.dtype, np.integer):
         samples = samples / -float(np.iinfo(samples.dtype).min)
     return np.asarray(samples, dtype=float).T * full_scale, float(rate)

@@ -19,7 +19,6 @@ for the balls' sums over cos(m theta), sin(m theta), theta from 12 o'clock (``co
 """
 
 import difflib
-import zipfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path as File
@@ -30,6 +29,7 @@ from numpy.typing import NDArray
 from fmu_bearing.acoustics.radiation.frequencies import BAND, between, fit_frequencies
 from fmu_bearing.acoustics.radiation.radiators import BALLS, Path
 from fmu_bearing.engine.layout import SD
+from fmu_bearing.files import read_arrays
 
 _ARRAYS = ("frequencies", "inputs", "microphones", "positions", "H")
 _BODIES = {"inner_ring": 0, "outer_ring": 1, "housing": 1, "cage": 2}
@@ -61,12 +61,13 @@ def read_table(path: str | File) -> Table:
     """
     where = f"sound.table_file {path}"
     try:
-        with np.load(path, allow_pickle=False) as file:
-            data = {name: file[name] for name in _ARRAYS if name in file.files}
+        data = read_arrays(path, _ARRAYS)
     except FileNotFoundError:
         raise ValueError(f"{where}: there is no such file; paths count from the scene file") from None
-    except (OSError, EOFError, TypeError, ValueError, AttributeError, zipfile.BadZipFile):
-        raise ValueError(f"{where} is no NumPy archive of plain arrays; make one by numpy.savez") from None
+    except OSError as problem:
+        raise ValueError(f"{where}: cannot be read: {problem}") from None
+    except ValueError as problem:
+        raise ValueError(f"{where}: {problem}; make one by numpy.savez") from None
     absent = [name for name in _ARRAYS if name not in data]
     if absent:
         raise ValueError(f"{where} has no array {', '.join(absent)}; it needs {', '.join(_ARRAYS)}")

@@ -21,6 +21,7 @@ from fmu_bearing.compiled.make import folder, objects, prebuilt
 from fmu_bearing.compiled.platforms import Platform, host
 from fmu_bearing.engine.sources import digest, engine_digest
 from fmu_bearing.extras import install_command
+from fmu_bearing.files import own_folder
 from fmu_bearing.progress import Tell, silent
 
 __all__ = [
@@ -131,10 +132,12 @@ def library(platform: Platform, prefer: str = "auto", tell: Tell = silent) -> by
     ------
     BuildError
         If it is not there and cannot be made.
+    CacheError
+        If others can write to the folder that libraries are kept in.
     """
     if prefer in ("auto", "portable") and (brought := prebuilt(library_name(platform))) is not None:
         return brought
-    made = folder() / platform.name
+    made = own_folder(folder() / platform.name)
     try:
         compiler = compiler_for(platform, prefer)
     except BuildError:

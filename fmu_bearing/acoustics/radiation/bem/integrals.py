@@ -6,7 +6,10 @@ trapezoidal rule round the circle and Gauss points along the element. The closed
 singularity; it is integrated once per mesh, with intervals that shrink towards the field point.
 """
 
+import functools
 import math
+import threading
+from typing import Any
 
 import numba
 import numpy as np
@@ -14,6 +17,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.radiation.bem.meridian import NODES, Mesh
 from fmu_bearing.acoustics.radiation.bem.ring_potential import static_harmonics
+from fmu_bearing.files import cache_root, own_folder
 
 _NEAR = 2.0  # element lengths within which an element is cut into shrinking intervals
 _SHRINK = 0.2  # of each interval against the one before
@@ -22,6 +26,25 @@ _FAR_POINTS, _NEAR_POINTS = 4, 8
 _PLAIN_POINTS = 3  # of the smooth remainder, per element
 _SMALL = 0.02  # k R below which the remainder is taken from its series
 _FOUR_PI = 4.0 * math.pi
+_wrapping = threading.Lock()
+
+
+def _kept(function):
+    """Compile a function, once for all threads, and keep it where the engine's kernels are."""
+    with _wrapping:
+        return _wrapped(function)
+
+
+@functools.cache
+def _wrapped(function):
+    settings: Any = numba.config
+    before = settings.CACHE_DIR
+    # Numba reads the folder when the function is wrapped; the process's own setting is put back
+    settings.CACHE_DIR = str(own_folder(cache_root() / "integrals"))
+    try:
+        return numba.njit(nogil=True, error_model="numpy", cache=True)(function)
+    finally:
+        settings.CACHE_DIR = before
 
 
 def _gauss(count: int) -> NDArray[np.float64]:
@@ -78,7 +101,6 @@ def _side(x, r, ends, normal, from_, to, smallest, flat, rule, nodes, orders, wo
         edge = inner
 
 
-@numba.njit(nogil=True, error_model="numpy", cache=True)
 def _static(points, own, ends, normals, far_rule, near_rule, nodes, orders, out):
     """Fill ``out`` (4, points, elements, NODES, orders) with the closed parts."""
     for i in range(len(points)):
@@ -102,7 +124,6 @@ def _static(points, own, ends, normals, far_rule, near_rule, nodes, orders, out)
             _side(x, r, ends[e], normals[e], t, 1.0, smallest, flat, near_rule, nodes, orders, work, block)
 
 
-@numba.njit(nogil=True, error_model="numpy", cache=True)
 def _remainder(points, own, ends, normals, rule, basis, cosines, k, out):
     """Add the smooth parts of order m to ``out`` (2, orders, points, elements * NODES), complex."""
     orders = out.shape[1]
@@ -197,7 +218,7 @@ class Potentials:
         total = np.zeros(shape)
         for on, ends, normals in self._sources:
             part = np.zeros(shape)
-            _static(
+            _kept(_static)(
                 points, on, ends, normals, _gauss(_FAR_POINTS), _gauss(_NEAR_POINTS), _gauss(NODES)[0],
                 orders, part,
             )  # fmt: skip
@@ -217,7 +238,7 @@ class Potentials:
         cosines = np.cos(np.arange(max(self._orders, 2))[:, None] * np.pi * np.arange(turns + 1) / turns)
         rule = _gauss(_PLAIN_POINTS)
         for on, ends, normals in self._sources:
-            _remainder(self._points, on, ends, normals, rule, _basis(rule[0]), cosines, k, out)
+            _kept(_remainder)(self._points, on, ends, normals, rule, _basis(rule[0]), cosines, k, out)
         out += self._closed[:2]
         out -= 0.5 * k**2 * self._closed[2:]
         return out[0], out[1]

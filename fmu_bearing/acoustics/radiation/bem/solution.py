@@ -10,7 +10,6 @@ import itertools
 import os
 import pathlib
 import sys
-import zipfile
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -31,7 +30,7 @@ from fmu_bearing.acoustics.radiation.bem.solver import (
     wall_admittance,
 )
 from fmu_bearing.engine.sources import digest
-from fmu_bearing.files import cache_root
+from fmu_bearing.files import cache_root, read_arrays
 
 Complex = NDArray[np.complex128]
 
@@ -330,9 +329,9 @@ def _solve_all(found: Solution) -> None:
 
 def _load(path: pathlib.Path, found: Solution) -> bool:
     try:
-        with np.load(path) as kept:
-            tables = [(kept[f"frequencies{i}"], kept[f"surface{i}"]) for i in range(len(found.bands))]
-    except (OSError, ValueError, EOFError, KeyError, zipfile.BadZipFile):
+        kept = read_arrays(path)
+        tables = [(kept[f"frequencies{i}"], kept[f"surface{i}"]) for i in range(len(found.bands))]
+    except (OSError, ValueError, KeyError):
         return False  # absent or damaged: solve anew
     for band, (frequencies, surface) in zip(found.bands, tables, strict=True):
         if surface.shape != (len(frequencies), *band.surface.shape[1:]) or not np.isfinite(surface).all():

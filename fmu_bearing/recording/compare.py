@@ -149,6 +149,11 @@ class Comparison:
         name = self._heard(microphone)
         heading = f"microphone {name}" if title is None else title
         sides = {f"A: {self.a.name}": self.a, f"B: {self.b.name}": self.b}
+        ends = {
+            label[0]: side.excitation_end
+            for label, side in sides.items()
+            if side.excitation_end is not None
+        }  # fmt: skip
         if self.a.spectrum is not None and self.b.spectrum is not None:
             frequency = self.a.spectrum.frequency
             shown = frequency[frequency <= highest]
@@ -157,7 +162,7 @@ class Comparison:
                 for label, side in sides.items()
                 if side.spectrum is not None
             }
-            return pictures.spectrum_picture(shown, levels, title=heading)
+            return pictures.spectrum_picture(shown, levels, title=heading, excitation_end=ends)
         bands = sorted(self.a.third_octaves.get(name, {}).keys() & self.b.third_octaves.get(name, {}).keys())
         if not bands:
             raise ValueError(
@@ -165,7 +170,7 @@ class Comparison:
                 "scenes or recordings"
             )
         rows = {label: [side.third_octaves[name][f] for f in bands] for label, side in sides.items()}
-        return pictures.third_octave_picture(bands, rows, heading)
+        return pictures.third_octave_picture(bands, rows, heading, ends)
 
     def save(self, folder: str | os.PathLike[str], microphone: str | None = None) -> list[pathlib.Path]:
         """Write `tables` as CSV into a folder, which is made; return the files."""

@@ -49,6 +49,8 @@ class Finished:
         Levels over frequency at the microphones.
     figures : dict
         Means of the variables of `FIGURES` that were kept, SI units.
+    excitation_end : float, optional
+        Hz: up to where surfaces excite it; None: not known.
     """
 
     name: str
@@ -57,6 +59,7 @@ class Finished:
     third_octaves: dict[str, dict[float, float]]
     spectrum: Spectrum | None
     figures: dict[str, float]
+    excitation_end: float | None = None
 
 
 def of_recording(recording: Recording, name: str = "", radiation_model: str | None = None) -> Finished:
@@ -74,8 +77,10 @@ def of_recording(recording: Recording, name: str = "", radiation_model: str | No
         for name, row in zip(found.names, found.third_octaves, strict=True)
     }
     units = ("dB",) * len(found.names)
-    spectrum = Spectrum(found.names, found.frequency, found.spectra["total"], units, MICROPHONE)
-    return Finished(own, recording.scene, levels, thirds, spectrum, figures)
+    spectrum = Spectrum(
+        found.names, found.frequency, found.spectra["total"], units, MICROPHONE, recording.excitation_end
+    )
+    return Finished(own, recording.scene, levels, thirds, spectrum, figures, recording.excitation_end)
 
 
 def of_run(run: Run, settle: float, radiation_model: str | None = None) -> Finished:
@@ -97,7 +102,7 @@ def of_run(run: Run, settle: float, radiation_model: str | None = None) -> Finis
     after = times >= settle if (times >= settle).any() else np.full(len(times), True)
     figures = {key: float(np.mean(run[key][after])) for key in FIGURES if key in run.names}
     levels, thirds = _meters(run)
-    return Finished(run.name, run.scene, levels, thirds, None, figures)
+    return Finished(run.name, run.scene, levels, thirds, None, figures, run.excitation_end)
 
 
 def _meters(run: Run) -> tuple[dict[str, tuple[float, float]], dict[str, dict[float, float]]]:

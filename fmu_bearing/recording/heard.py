@@ -22,6 +22,7 @@ from fmu_bearing.acoustics.filters.weighting import a_weighting_db, a_weighting_
 from fmu_bearing.acoustics.radiation.radiators import Air
 from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.engine.layout import SD
+from fmu_bearing.prepare.imperfections import excitation_end
 from fmu_bearing.recording.places import Places, named_places
 from fmu_bearing.scene import Scene, si
 
@@ -117,6 +118,11 @@ class Heard:
     def positions(self) -> list[Position]:
         """Places (m) of the scene's microphones."""
         return [place for _, place in self.microphones]
+
+    @property
+    def excitation_end(self) -> float | None:
+        """Frequency (Hz) up to which the scene's surfaces excite it at the mean speed; None: not known."""
+        return None if self.scene is None else excitation_end(self.scene, float(np.mean(self.speed)))
 
     def kinematics(
         self, speed: float | None = None, contact_angle: float | None = None

@@ -1,7 +1,10 @@
 """Levels, spectra, third octaves and lines of a recording in one call, and their files."""
 
+import itertools
 import math
 import pathlib
+import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -202,9 +205,11 @@ def write_all(
         audible = found.frequency <= 20_000.0
         kinematics = None if recording.scene is None else recording.kinematics()
         shown = {name: values[audible] for name, values in first.items()}
-        picture = pictures.spectrum_picture(found.frequency[audible], shown, kinematics, found.names[0])
+        end = recording.excitation_end
+        picture = pictures.spectrum_picture(found.frequency[audible], shown, kinematics, found.names[0], end)
         pictures.save(picture, folder / "spectrum.png")
-        pictures.save(pictures.third_octave_picture(found.bands, thirds), folder / "third-octaves.png")
+        bars = pictures.third_octave_picture(found.bands, thirds, excitation_end=end)
+        pictures.save(bars, folder / "third-octaves.png")
         files += ["spectrum.png", "third-octaves.png"]
     if found.lines:
         (folder / "lines.md").write_text(markdown(*tables.lines_table(found.lines)), "utf-8")
@@ -230,11 +235,22 @@ def _sounds(
     pressures = recording.pressure(asked, radiation_model)
     peak = float(np.max(np.abs(pressures)))
     scale = 10.0 ** math.ceil(math.log10(max(peak, 1e-6)))
-    files = []
-    for name, pressure in zip(found.names, pressures, strict=True):
-        files.append(f"{''.join(c if c.isalnum() else '-' for c in name)}.wav")
-        write_wav(folder / files[-1], pressure, recording.rate, full_scale=scale)
+    files = [f"{stem}.wav" for stem in _stems(found.names)]
+    for file, pressure in zip(files, pressures, strict=True):
+        write_wav(folder / file, pressure, recording.rate, full_scale=scale)
     return files
+
+
+def _stems(names: Sequence[str]) -> list[str]:
+    """Names of microphones as names of files, each its own, also where large and small letters are one."""
+    taken: set[str] = set()
+    found = []
+    for name in names:
+        plain = re.sub(r"[^\w.]|^\.", "-", name)
+        stems = itertools.chain([plain], (f"{plain}-{number}" for number in itertools.count(2)))
+        found.append(next(stem for stem in stems if stem.casefold() not in taken))
+        taken.add(found[-1].casefold())
+    return found
 
 
 def _directivity(

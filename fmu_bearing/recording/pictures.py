@@ -18,7 +18,7 @@ from fmu_bearing.acoustics.analysis.order import OrderMap, Waterfall
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 from fmu_bearing.acoustics.analysis.third_octave import nominal_frequency
 from fmu_bearing.recording.measure import MotionPower, Round, Sweep
-from fmu_bearing.run.pictures import COLOURS, OTHERS, empty, label, save, single
+from fmu_bearing.run.pictures import COLOURS, OTHERS, empty, label, mark_excitation, save, single
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -45,8 +45,13 @@ def spectrum_picture(
     spectra: Mapping[str, ArrayLike],
     kinematics: KinematicFrequencies | None = None,
     title: str = "",
+    excitation_end: float | Mapping[str, float] | None = None,
 ) -> "Figure":
-    """Draw levels (dB) over frequency (Hz), one curve each, kinematic frequencies and harmonics marked."""
+    """Draw levels (dB) over frequency (Hz), one curve each, kinematic frequencies and harmonics marked.
+
+    ``excitation_end``: frequency (Hz) where the excitation ends (``Recording.excitation_end``), or several by
+    name.
+    """
     figure, ax = single((10.0, 5.0))
     f = np.asarray(frequency, dtype=float)
     for name, colour in _coloured(spectra).items():
@@ -57,13 +62,18 @@ def spectrum_picture(
     ax.set_xlim(0.0, float(f[-1]))
     if kinematics is not None:
         _mark(ax, kinematics, float(f[-1]))
+    for whose, end in _ends(excitation_end):
+        mark_excitation(ax, end, whose=whose)
     label(ax, "frequency, Hz", "level, dB re 20 uPa", title)
     ax.legend(frameon=False, ncols=5, loc="lower center", bbox_to_anchor=(0.5, 1.0 if not title else 1.05))
     return figure
 
 
-def third_octave_picture(centres: ArrayLike, levels: Mapping[str, ArrayLike], title: str = "") -> "Figure":
-    """Draw third-octave levels (dB) as bars side by side."""
+def third_octave_picture(
+    centres: ArrayLike, levels: Mapping[str, ArrayLike], title: str = "",
+    excitation_end: float | Mapping[str, float] | None = None,
+) -> "Figure":  # fmt: skip
+    """Draw third-octave levels (dB) as bars side by side; ``excitation_end`` as in `spectrum_picture`."""
     figure, ax = single((10.0, 4.5))
     bands = np.arange(len(np.asarray(centres)))
     width = 0.8 / len(levels)
@@ -71,6 +81,9 @@ def third_octave_picture(centres: ArrayLike, levels: Mapping[str, ArrayLike], ti
     for k, (name, colour) in enumerate(_coloured(levels).items()):
         height = np.maximum(np.asarray(levels[name], dtype=float) - (top - _RANGE), 0.0)
         ax.bar(bands + (k + 0.5) * width - 0.4, height, width, top - _RANGE, color=colour, label=_words(name))
+    ax.set_xlim(-0.6, len(bands) - 0.4)
+    for whose, end in _ends(excitation_end):
+        mark_excitation(ax, end, band_place(centres, end), whose)
     ax.set_xticks(bands[::3], [f"{nominal_frequency(f):g}" for f in np.asarray(centres)[::3]])
     label(ax, "third-octave band, Hz", "level, dB re 20 uPa", title)
     ax.legend(frameon=False)
@@ -78,23 +91,37 @@ def third_octave_picture(centres: ArrayLike, levels: Mapping[str, ArrayLike], ti
 
 
 def order_picture(
-    found: OrderMap, kinematics: KinematicFrequencies | None = None, title: str = ""
-) -> "Figure":
-    """Draw an order map: colour is the level (dB), upright lines are the kinematic orders."""
+    found: OrderMap, kinematics: KinematicFrequencies | None = None, title: str = "",
+    excitation_end: float | None = None,
+) -> "Figure":  # fmt: skip
+    """Draw an order map: colour is the level (dB), upright lines are the kinematic orders.
+
+    ``excitation_end``: where the excitation ends (Hz), at the speed of ``kinematics``.
+    """
     figure, ax = single((9.0, 5.5))
     rpm = found.speed * 30.0 / math.pi
     _colour_map(figure, ax, found.orders, rpm, found.levels)
     if kinematics is not None:
         orders = KinematicFrequencies(*(f / kinematics.f_r for f in kinematics))
         _mark(ax, orders, float(found.orders[-1]), "white")
+        if excitation_end is not None:
+            _end_line(ax, np.full(2, excitation_end / kinematics.f_r), rpm[[0, -1]])
     label(ax, "order (multiples of the shaft's turns)", "shaft speed, r/min", title, grid=False)
     return figure
 
 
-def waterfall_picture(found: Waterfall, title: str = "") -> "Figure":
-    """Draw spectra over time: colour is the level (dB)."""
+def waterfall_picture(
+    found: Waterfall, title: str = "", excitation_order: float | None = None
+) -> "Figure":  # fmt: skip
+    """Draw spectra over time: colour is the level (dB).
+
+    ``excitation_order``: where the excitation ends, in multiples of the shaft's turns
+    (``recording.excitation_end / recording.kinematics().f_r``).
+    """
     figure, ax = single((9.0, 5.5))
     _colour_map(figure, ax, found.frequency, found.time, found.levels)
+    if excitation_order is not None:
+        _end_line(ax, excitation_order * np.abs(found.speed) / (2.0 * math.pi), found.time)
     label(ax, "frequency, Hz", "time, s", title, grid=False)
     return figure
 
@@ -143,6 +170,20 @@ def power_picture(motion: MotionPower, measured: Mapping[str, float], title: str
     return figure
 
 
+def band_place(centres: ArrayLike, frequency: float) -> float:
+    """Return where a frequency (Hz) lies among third octaves by number, whole in their middles."""
+    return 10.0 * math.log10(frequency / float(np.asarray(centres)[0]))
+
+
+def _ends(given: float | Mapping[str, float] | None) -> list[tuple[str, float]]:
+    """Return what to say behind the words, and each end of the excitation (Hz)."""
+    if given is None:
+        return []
+    return (
+        [(f" of {name}", end) for name, end in given.items()] if isinstance(given, Mapping) else [("", given)]
+    )
+
+
 def _words(name: str) -> str:
     """Name of a component in words; other names, such as those of microphones, stay as they are."""
     return name.replace("_", " ") if name in COLOURS else name
@@ -165,6 +206,15 @@ def _mark(ax: "Axes", kinematics: KinematicFrequencies, highest: float, colour: 
             # five heights, so that neighbours do not hide each other
             height = high - (high - low) * (0.02 + 0.035 * k)
             ax.text(n * base, height, words, fontsize=7, ha="center", va="top", color=colour)
+
+
+def _end_line(ax: "Axes", place: NDArray[np.float64], along: NDArray[np.float64]) -> None:
+    """Draw the end of the excitation into a map, whose limits stay."""
+    limits = ax.get_xlim()
+    ax.plot(place, along, "w--", linewidth=1.0, gid="excitation-end", label="end of the excitation")
+    ax.set_xlim(limits)
+    if place.min() < limits[1]:
+        ax.legend(frameon=False, labelcolor="white", loc="upper right")
 
 
 def _colour_map(

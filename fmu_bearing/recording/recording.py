@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from fmu_bearing.acoustics.analysis.spectrum import level_spectrum
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.extras import need
+from fmu_bearing.files import read_arrays
 from fmu_bearing.recording import measure
 from fmu_bearing.recording.heard import Heard
 from fmu_bearing.recording.places import Places
@@ -22,7 +23,7 @@ from fmu_bearing.run.names import unit_of
 from fmu_bearing.run.result import read_table
 from fmu_bearing.run.spectrum import MICROPHONE, Spectrum
 from fmu_bearing.run.table import number
-from fmu_bearing.scene import Scene, SceneSource, read_scene_text, scene_of, si
+from fmu_bearing.scene import Scene, SceneError, SceneSource, read_scene_text, scene_of, si
 
 if TYPE_CHECKING:
     import pandas
@@ -173,7 +174,7 @@ class Recording(Heard):
         bins = resolution or measure.fine(self)
         found = [level_spectrum(row, self.rate, bins) for row in pressure]
         rows = np.array([levels for _, levels in found])
-        return Spectrum(names, found[0][0], rows, ("dB",) * len(names), MICROPHONE)
+        return Spectrum(names, found[0][0], rows, ("dB",) * len(names), MICROPHONE, self.excitation_end)
 
     def plot(
         self, positions: Places = None, radiation_model: str | None = None, resolution: float | None = None,
@@ -193,7 +194,7 @@ class Recording(Heard):
         shown = found.frequency <= highest
         kinematics = None if self.scene is None else self.kinematics()
         levels = {name: found[name][shown] for name in found}
-        return spectrum_picture(found.frequency[shown], levels, kinematics, title)
+        return spectrum_picture(found.frequency[shown], levels, kinematics, title, self.excitation_end)
 
     def to_xarray(self, positions: Places = None, radiation_model: str | None = None) -> "xarray.Dataset":
         """Return pressures (Pa) over microphones and time, and the variables over ``output_time``.
@@ -273,20 +274,28 @@ class Recording(Heard):
         ValueError
             When there is no such file, or it is no recording.
         """
-        if not pathlib.Path(path).exists():
-            raise ValueError(f"{path}: there is no such file")
-        with np.load(path, allow_pickle=False) as data:
-            if "head" not in data or (head := json.loads(str(data["head"]))).get("version") != _VERSION:
-                raise ValueError(f"{path} is no recording that this version has written")
+        try:
+            data = read_arrays(path)
+            head = json.loads(str(data["head"]))
+            if head["version"] != _VERSION:
+                raise KeyError("version")
             scene = head["scene"]
             return cls(
                 None if scene is None else read_scene_text(scene, str(path)),
                 head["radiation_model"], head["rate"], head["start"], head["size"], data["output_time"],
                 data["speed_points"],
-                {name[7:]: data[name] for name in data.files if name.startswith("output:")},
+                {name[7:]: values for name, values in data.items() if name.startswith("output:")},
                 data["history"], data["recorded"],
                 tuple((name, tuple(place)) for name, place in head["microphones"]), head["harmonics"],
             )  # fmt: skip
+        except SceneError:
+            raise
+        except FileNotFoundError:
+            raise ValueError(f"{path}: there is no such file") from None
+        except OSError as problem:
+            raise ValueError(f"{path}: cannot be read: {problem}") from None
+        except (ValueError, KeyError, TypeError):
+            raise ValueError(f"{path}: is no recording that this version has written, or damaged") from None
 
 
 def _speed_of(scene: Scene | None, count: int) -> NDArray[np.float64]:

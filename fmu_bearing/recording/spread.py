@@ -1,8 +1,8 @@
 """How sure a level is: its range over seeds and over what is assumed of the surfaces, and what decides it.
 
 The phases of waviness are drawn from a seed that means nothing, and the power law of the surfaces is assumed.
-Both are drawn anew in cheap runs (fidelity ``response``, rigid rings), and the differences of their levels
-are added to the level in question.
+Both are drawn anew in cheap runs (fidelity ``response``, rigid rings; ``full`` where a mode is weakly
+damped), and the differences of their levels are added to the level in question.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.filters.weighting import level
 from fmu_bearing.engine.constants import RPM
+from fmu_bearing.modal.weak import doubt, weakness
 from fmu_bearing.recording.listener import Listener, check_model
 from fmu_bearing.recording.places import Places
 from fmu_bearing.recording.record import RecordingSource, recording_of
@@ -25,6 +26,7 @@ from fmu_bearing.scene.read import with_fidelity
 #: Wraps a list of draws and yields them.
 Bar = Callable[[Sequence[Imperfections]], Iterable[Imperfections]]
 SEEDS = 8
+_SEEDS_FULL = 3  # with fidelity full, which costs a hundred times as much
 _EXPONENTS = (1.0, 1.6)  # assumed range of p, where the scene's lies within
 _AROUND = 0.3  # else: this much to either side
 _FACTOR = 2.0  # on A_1, either way
@@ -63,6 +65,8 @@ class Spread:
         In how many draws, of how many, that line stays the strongest.
     drawn : int
         How many other seeds were drawn.
+    doubt, weak : str
+        Why the levels in question are in doubt; which weakly damped mode made fidelity full draw the range.
     """
 
     names: tuple[str, ...]
@@ -77,6 +81,8 @@ class Spread:
     line: float
     stays: tuple[int, int]
     drawn: int = SEEDS
+    doubt: str = ""
+    weak: str = ""
 
     @property
     def line_is_found(self) -> bool:
@@ -89,6 +95,7 @@ class Spread:
             f"Range over {self.drawn} seeds and, where waviness follows the law, over its exponent and a "
             "factor of two in its amplitude either way, that of the balls too. Both are assumed: two "
             "published spindles lie 15 and 18 dB above grade P4."
+            + (f" Drawn with fidelity full, because {self.weak}." if self.weak else "")
         )
 
     def decides(self, mic: int) -> str:
@@ -133,7 +140,9 @@ class Spread:
                 "energy_share": {source: float(share[k]) for source, share in self.sources.items()},
             }
             for k, name in enumerate(self.names)
-        } | {"strongest_line_Hz": self.line, "line_stays_in_draws": list(self.stays)}
+        } | {
+            "strongest_line_Hz": self.line, "line_stays_in_draws": list(self.stays), "doubt": self.doubt,
+        }  # fmt: skip
 
 
 def spread(
@@ -157,7 +166,7 @@ def spread(
     radiation_model, weighting
         As for `Recording.levels`.
     seeds : int
-        How many other seeds are drawn.
+        How many other seeds are drawn; 3 at most where a weakly damped mode needs fidelity full.
     bar : callable
         Wraps the list of draws, to show progress; default: no progress is shown.
 
@@ -192,8 +201,10 @@ def spread(
     places = [place for _, place in chosen]
     heard = Listener(places, radiation_model or recording.radiation_model, weighting)
     flaws = scene.imperfections
+    weak = weakness(scene)
+    fidelity, seeds = ("full", min(seeds, _SEEDS_FULL)) if weak else ("response", seeds)
     draws = [flaws, *_seeds(flaws, seeds), *_corners(flaws)]
-    spectra = [heard.spectrum(_cheap(scene, draw)) for draw in bar(draws)]
+    spectra = [heard.spectrum(_drawn(scene, draw, fidelity)) for draw in bar(draws)]
     levels = level(np.array([each.sum(axis=1) for each in spectra]))
     change = levels - levels[0]
     here = recording.levels(places, radiation_model, weighting)
@@ -210,10 +221,12 @@ def spread(
         np.ptp(change[: 1 + seeds], axis=0),
         (corners[1] - corners[0]).mean(axis=0) * np.ones(len(places)),
         (corners[:, 1] - corners[:, 0]).mean(axis=0) * np.ones(len(places)),
-        _shares(scene, flaws, heard),
+        _shares(scene, flaws, heard, fidelity),
         float(heard.frequency[strongest[0]]),
         (stays, len(draws) - 1),
         seeds,
+        doubt_of(recording),
+        weak,
     )
 
 
@@ -235,11 +248,17 @@ def at_speed(recording: Recording) -> Scene:
     return recording.scene.model_copy(update={"operation": operation})
 
 
-def _cheap(scene: Scene, flaws: Imperfections) -> Scene:
-    """Return the scene with other imperfections, in the fidelity that is computed fastest."""
-    return with_fidelity(
-        scene.with_rigid_rings().model_copy(update={"imperfections": flaws}), model="response"
-    )
+def doubt_of(recording: Recording) -> str:
+    """Return why the levels of a recording are in doubt; empty: they are not, or nothing is known of it."""
+    try:
+        return doubt(at_speed(recording))
+    except ValueError:
+        return ""
+
+
+def _drawn(scene: Scene, flaws: Imperfections, fidelity: str) -> Scene:
+    """Return the scene with other imperfections and rigid rings, in a fidelity."""
+    return with_fidelity(scene.with_rigid_rings().model_copy(update={"imperfections": flaws}), model=fidelity)
 
 
 def _seeds(flaws: Imperfections, count: int) -> Iterator[Imperfections]:
@@ -260,13 +279,16 @@ def _corners(flaws: Imperfections) -> Iterator[Imperfections]:
             yield flaws.model_copy(update={"waviness_exponent": exponent} | scaled)
 
 
-def _shares(scene: Scene, flaws: Imperfections, heard: Listener) -> dict[str, NDArray[np.float64]]:
+def _shares(
+    scene: Scene, flaws: Imperfections, heard: Listener, fidelity: str
+) -> dict[str, NDArray[np.float64]]:
     """Share of the energy that each imperfection makes alone."""
     there = {name: keys for name, keys in _SOURCES.items() if any(getattr(flaws, key) for key in keys)}
     energies = {}
     for name in there:
         gone = [key for other, keys in there.items() if other != name for key in keys]
         others = {key: () if key.endswith("_harmonic") else 0.0 for key in gone}
-        energies[name] = heard.spectrum(_cheap(scene, flaws.model_copy(update=others))).sum(axis=1)
+        alone = _drawn(scene, flaws.model_copy(update=others), fidelity)
+        energies[name] = heard.spectrum(alone).sum(axis=1)
     whole = sum(energies.values(), np.full(len(heard.places), 1e-30))
     return {name: energy / whole for name, energy in energies.items()}

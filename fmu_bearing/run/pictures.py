@@ -81,6 +81,20 @@ def single(size: tuple[float, float]) -> "tuple[Figure, Axes]":
     return figure, figure.add_subplot()
 
 
+def mark_excitation(ax: "Axes", end: float | None, place: float | None = None, whose: str = "") -> None:
+    """Draw an upright line at the end of the excitation (Hz), where the axis reaches so far.
+
+    ``place``: on the axis, where that is not the frequency itself; ``whose``: said behind the words.
+    """
+    at = end if place is None else place
+    if end is None or at is None or not ax.get_xlim()[0] < at < ax.get_xlim()[1]:
+        return
+    ax.axvline(at, color="0.35", linestyle="--", linewidth=1.0, gid="excitation-end")
+    words = f"end of the excitation{whose}, {1e-3 * end:.3g} kHz "
+    ax.text(at, 0.98, words, rotation=90, fontsize=7, ha="right", va="top", color="0.35",
+            transform=ax.get_xaxis_transform())  # fmt: skip
+
+
 def label(ax: "Axes", x: str, y: str, title: str, grid: bool = True) -> None:
     """Name axes and picture, with a faint grid behind the curves."""
     ax.set_xlabel(x)

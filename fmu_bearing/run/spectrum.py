@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.analysis.spectrum import amplitude_spectrum
 from fmu_bearing.extras import need
-from fmu_bearing.run.pictures import OTHERS, empty, label
+from fmu_bearing.run.pictures import OTHERS, empty, label, mark_excitation
 from fmu_bearing.run.table import number
 
 if TYPE_CHECKING:
@@ -41,6 +41,8 @@ class Spectrum:
         Of each row.
     kind : str
         ``"variable"`` or ``"microphone"``.
+    excitation_end : float, optional
+        Hz: beyond it the surfaces of the scene excite nothing; None: not known.
     """
 
     names: tuple[str, ...]
@@ -48,6 +50,7 @@ class Spectrum:
     values: NDArray[np.float64]
     units: tuple[str, ...]
     kind: str = VARIABLE
+    excitation_end: float | None = None
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
         if name not in self.names:
@@ -109,6 +112,7 @@ class Spectrum:
             label(ax, "", "level, dB re 20 uPa" if self.kind == MICROPHONE else f"rms, {unit or '1'}", "")
             if unit != "dB" and (self.values[rows, 1:] > 0.0).any():
                 ax.set_yscale("log")
+            mark_excitation(ax, self.excitation_end)
             ax.legend(frameon=False, fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5))
         axes[-1].set_xlabel("frequency, Hz")
         figure.suptitle(title)
@@ -117,7 +121,7 @@ class Spectrum:
 
 def of_variables(
     time: NDArray[np.float64], columns: dict[str, NDArray[np.float64]], units: dict[str, str],
-    resolution: float | None,
+    resolution: float | None, excitation_end: float | None = None,
 ) -> Spectrum:  # fmt: skip
     """Return the spectrum of variables over evenly spaced times (s).
 
@@ -137,4 +141,5 @@ def of_variables(
     rate = float(1.0 / gaps.mean())
     found = [amplitude_spectrum(values, rate, resolution) for values in columns.values()]
     rows = np.array([rms for _, rms in found])
-    return Spectrum(tuple(columns), found[0][0], rows, tuple(units[name] for name in columns))
+    return Spectrum(tuple(columns), found[0][0], rows, tuple(units[name] for name in columns),
+                    excitation_end=excitation_end)  # fmt: skip

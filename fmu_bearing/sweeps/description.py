@@ -7,7 +7,8 @@ from typing import Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from fmu_bearing.scene.toml_text import parse
+from fmu_bearing.files import read_text
+from fmu_bearing.scene.toml_text import LONGEST, parse
 from fmu_bearing.sweeps.axes import SweepError
 from fmu_bearing.sweeps.plan import SETTLE, WINDOW
 
@@ -47,7 +48,7 @@ class Description(BaseModel):
 def is_description(path: str | os.PathLike[str]) -> bool:
     """Whether a file holds a sweep rather than a scene: it names a scene, or axes."""
     try:
-        data = parse(pathlib.Path(path).read_text("utf-8-sig"))
+        data = parse(read_text(path, LONGEST))
     except (OSError, ValueError):
         return False  # who reads it as a scene tells what is wrong
     return "axes" in data or isinstance(data.get("scene"), str)
@@ -63,7 +64,7 @@ def read_description(path: str | os.PathLike[str]) -> Description:
     """
     path = pathlib.Path(path)
     try:
-        data = parse(path.read_text("utf-8-sig"))
+        data = parse(read_text(path, LONGEST))
     except (OSError, ValueError) as problem:
         raise SweepError(f"{path}: cannot be read: {problem}") from None
     try:

@@ -42,8 +42,12 @@ STATISTICS = {
     "last": "at the end of the window",
     "1x": "rms of the part at shaft speed, vertical and horizontal together",
 }
-_MOTION = ".velocity"
+_MOTION, _PLACE = ".velocity", ".displacement"
 _AXES = ("x", "y", "z")
+_TURN = "1x"
+#: Of the part at shaft speed: rows for each point. What folds onto it then lies at 40 kHz, where rings hardly
+#: move; waves of a surface end at 20 kHz.
+_PARTS = 4
 
 
 @dataclass(frozen=True)
@@ -58,6 +62,8 @@ class Figure:
     columns : tuple of int
         Places in the engine's outputs ``z``; for velocities of a body its three axes.
     unit, words : str
+    places : tuple of int
+        For the part at shaft speed: places of the body's displacements in ``z``; empty where it has none.
     """
 
     name: str
@@ -65,6 +71,17 @@ class Figure:
     columns: tuple[int, ...]
     unit: str
     words: str
+    places: tuple[int, ...] = ()
+
+
+def columns_of(figures: Sequence[Figure]) -> list[int]:
+    """Places in ``z`` that figures read, each once."""
+    return sorted({place for figure in figures for place in (*figure.columns, *figure.places)})
+
+
+def parts_of(figures: Sequence[Figure]) -> int:
+    """Rows that are needed for each point: more where the part at shaft speed is read."""
+    return _PARTS if any(figure.statistic == _TURN for figure in figures) else 1
 
 
 def figures_of(scene: Scene, patterns: Sequence[str] | None = None) -> tuple[Figure, ...]:
@@ -95,31 +112,38 @@ def figures_of(scene: Scene, patterns: Sequence[str] | None = None) -> tuple[Fig
         else:
             names = chosen_names([name], table, [])
         for one in names:
-            figure = _figure(one, statistic, table[one])
+            figure = _figure(one, statistic, table)
             found[figure.name] = figure
     return tuple(found.values())
 
 
 def read(
-    figures: Sequence[Figure], rows: NDArray[np.float64], time: NDArray[np.float64], speed: float
-) -> tuple[float, ...]:
+    figures: Sequence[Figure], rows: NDArray[np.float64], h: float, speed: float
+) -> tuple[float, ...]:  # fmt: skip
     """Return the figures of a window.
 
     Parameters
     ----------
-    rows : ndarray, shape (points, size of z)
-        Outputs at evenly spaced points.
-    time : ndarray, shape (points,)
-        In s.
+    rows : ndarray, shape (1 + points * parts_of(figures), columns)
+        Outputs `columns_of` the figures, ``h`` (s) apart; the first at the window's beginning.
     speed : float
         Of the shaft (rad/s), constant.
     """
-    return tuple(_value(figure, rows[:, figure.columns], time, speed) for figure in figures)
+    place = {column: k for k, column in enumerate(columns_of(figures))}
+    every, found = parts_of(figures), []
+    for figure in figures:
+        moved = bool(figure.places)
+        signals = rows[:, [place[column] for column in (figure.places or figure.columns)]]
+        if not np.isfinite(signals).all():
+            found.append(math.nan)
+        elif figure.statistic == _TURN:
+            found.append(_turning(signals[:, 1:], moved, h, speed))
+        else:
+            found.append(_value(figure, signals[every::every]))
+    return tuple(found)
 
 
-def _value(figure: Figure, signals: NDArray[np.float64], time: NDArray[np.float64], speed: float) -> float:
-    if not np.isfinite(signals).all():
-        return math.nan
+def _value(figure: Figure, signals: NDArray[np.float64]) -> float:
     if figure.statistic == "mean":
         return float(signals.mean())
     if figure.statistic == "rms":
@@ -128,9 +152,20 @@ def _value(figure: Figure, signals: NDArray[np.float64], time: NDArray[np.float6
         return float(signals.min())
     if figure.statistic == "max":
         return float(signals.max())
-    if figure.statistic == "last":
-        return float(signals[-1, 0])
-    return _once_per_turn(signals[:, 1:], time, speed)
+    return float(signals[-1, 0])
+
+
+def _turning(signals: NDArray[np.float64], moved: bool, h: float, speed: float) -> float:
+    """Rms velocity at shaft speed, from displacements where ``moved``, else from velocities.
+
+    The mean velocity between two displacements takes what folds onto the shaft speed, lines near the rate of
+    reading, down to that speed over this rate.
+    """
+    time = h * np.arange(1, len(signals), dtype=np.float64)
+    if not moved:
+        return _once_per_turn(signals[1:], time, speed)
+    mean = np.sinc(speed * h / (2.0 * math.pi))  # what the line itself loses
+    return _once_per_turn(np.diff(signals, axis=0) / h, time, speed) / float(mean)
 
 
 def _once_per_turn(signals: NDArray[np.float64], time: NDArray[np.float64], speed: float) -> float:
@@ -166,16 +201,22 @@ def _matching(pattern: str, table: dict[str, list[Variable]]) -> list[str]:
         return []
 
 
-def _figure(name: str, statistic: str, members: list[Variable]) -> Figure:
+def _figure(name: str, statistic: str, table: dict[str, list[Variable]]) -> Figure:
+    members = table[name]
     usual = _usual(name, members)
-    if statistic == "1x" and len(members) != len(_AXES):
+    if statistic == _TURN and len(members) != len(_AXES):
         raise SweepError(f"{name}:1x is refused: the part at shaft speed is taken of a body's velocity")
     words = members[0].description
     if len(members) > 1:
         words = words.removesuffix(" along the axis")
     label = name if statistic in ("", usual) else f"{name}:{statistic}"
     chosen = statistic or usual
-    return Figure(label, chosen, tuple(v.index for v in members), members[0].unit, words)
+    places: list[Variable] = []
+    if chosen == _TURN:
+        body = name.removesuffix(_MOTION) + _PLACE
+        places = [one for axis in _AXES for one in table.get(f"{body}.{axis}", [])]
+    columns = tuple(v.index for v in members)
+    return Figure(label, chosen, columns, members[0].unit, words, tuple(v.index for v in places))
 
 
 def _usual(name: str, members: list[Variable]) -> str:

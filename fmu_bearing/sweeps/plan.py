@@ -7,9 +7,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from fmu_bearing.cautions import loose
 from fmu_bearing.elastic.section import BENDING
 from fmu_bearing.extras import need
-from fmu_bearing.instance import loose
 from fmu_bearing.prepare.sound import sound_key
 from fmu_bearing.run.choose import resolve
 from fmu_bearing.scene import Scene, SceneError, SceneSource, scene_of

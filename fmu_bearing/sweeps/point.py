@@ -4,7 +4,6 @@ import functools
 import hashlib
 import json
 import math
-import pathlib
 import time as clock
 from dataclasses import dataclass
 
@@ -14,11 +13,12 @@ from numpy.typing import NDArray
 
 from fmu_bearing.engine.layout import U
 from fmu_bearing.engine.sources import rooms_digest, source_hash
+from fmu_bearing.files import plain_file
 from fmu_bearing.prepare.sound import sound_blocks
 from fmu_bearing.run.arrays import Arrays, Refused
 from fmu_bearing.run.metrics import COMMUNICATION, SAMPLE
 from fmu_bearing.scene import Scene
-from fmu_bearing.sweeps.figures import figures_of, read
+from fmu_bearing.sweeps.figures import columns_of, figures_of, parts_of, read
 
 #: Packages whose code computes the figures, beside the engine.
 _ROOMS = ("acoustics", "elastic", "formulas", "interface", "prepare", "scene", "sweeps")
@@ -118,15 +118,16 @@ def _measured(task: Task, sounds: Blocks) -> tuple[float, ...]:
     if task.settle > 0.0:
         steps = math.ceil(task.settle / COMMUNICATION)
         bearing.run(task.settle, task.settle / steps)
-    count = max(4, round(task.window / SAMPLE))
+    there = figures_of(scene, _names(task.figures, scene))
+    count = max(4, round(task.window / SAMPLE)) * parts_of(there)
     h = task.window / count
-    rows = np.empty((count, bearing.z.size))
-    for row in rows:
+    columns = columns_of(there)
+    rows = np.empty((count + 1, len(columns)))
+    rows[0] = bearing.z[columns]
+    for row in rows[1:]:
         bearing.step(h)
-        row[:] = bearing.z
-    there = {figure.name: figure for figure in figures_of(scene, _names(task.figures, scene))}
-    time = np.linspace(task.settle + h, task.settle + task.window, count)
-    found = dict(zip(there, read(tuple(there.values()), rows, time, bearing.u[U.SPEED]), strict=True))
+        row[:] = bearing.z[columns]
+    found = dict(zip((one.name for one in there), read(there, rows, h, bearing.u[U.SPEED]), strict=True))
     return tuple(found.get(name, math.nan) for name in task.figures)
 
 
@@ -157,6 +158,6 @@ def code_digest() -> str:
 
 def _content(path: str) -> str:
     try:
-        return hashlib.sha256(pathlib.Path(path).read_bytes()).hexdigest()
+        return hashlib.sha256(plain_file(path).read_bytes()).hexdigest()
     except OSError:
         return "not read"

@@ -1,9 +1,11 @@
 """Microphones by name, by place, or both; the pressures of an FMU run without scene by their names."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
-from fmu_bearing import Recording, measure, record, spread, with_fidelity
+from fmu_bearing import Recording, audio, measure, record, spread, with_fidelity
 from fmu_bearing.recording.listen import listen, write_all
 from fmu_bearing.recording.places import named_places
 
@@ -55,6 +57,22 @@ def test_spread_and_listen_take_places_and_name_them(heard, tmp_path):
     sure = spread(heard, [ELSEWHERE, "P2"], seeds=1)
     assert sure.names == ("(0, 300, 0) mm", "P2")
     assert sure.levels.tolist() == heard.levels([ELSEWHERE, "P2"], weighting="A").tolist()
+
+
+def test_every_microphone_has_a_sound_file_of_its_own(heard, tmp_path):
+    # the fourth and last differ from others by what some file systems, or file names, do not know
+    names = ("A.1", "A-1", "A_1", "a-1", "A 1", "A/1", "A-1-2", ".1")
+    places = tuple((name, (0.2 + 0.05 * k, 0.1, 0.0)) for k, name in enumerate(names))
+    named = dataclasses.replace(heard, microphones=places)
+    written = write_all(named, listen(named), tmp_path, directivity=False)
+    sounds = [file for file in written if file.suffix == ".wav"]
+    assert [file.name for file in sounds[:4]] == ["A.1.wav", "A-1.wav", "A_1.wav", "a-1-2.wav"]
+    assert len({file.name.casefold() for file in sounds}) == len(names)
+    assert not [file.name for file in sounds if file.name.startswith(".") or file.parent != tmp_path]
+    for file, pressure in zip(sounds, named.pressure(), strict=True):
+        kept, rate = audio.read_wav(file)
+        # 24 bits of a sample, and the scale of all
+        np.testing.assert_allclose(kept, audio.resample(pressure, named.rate, rate), rtol=0, atol=1e-6)
 
 
 @pytest.mark.parametrize("take", ["pressure", "levels", "partial", "mean_squares", "paths", "named"])

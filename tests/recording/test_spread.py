@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from fmu_bearing import record, spread
+from fmu_bearing.recording import spread as spreading
 from fmu_bearing.scene.imperfections import Harmonic
 from fmu_bearing.scene.read import with_fidelity
 
@@ -104,7 +105,29 @@ def test_table_names_every_microphone(found):
     assert columns[1] == "dB(A)" and [row[0] for row in rows] == ["P1", "P4"]
     low, high = (float(word) for word in rows[0][2].split(" to "))
     assert low <= float(rows[0][1]) <= high
-    assert set(found.summary()) == {"P1", "P4", "strongest_line_Hz", "line_stays_in_draws"}
+    assert set(found.summary()) == {"P1", "P4", "strongest_line_Hz", "line_stays_in_draws", "doubt"}
+
+
+def test_a_weakly_damped_bearing_is_drawn_with_full(bare, example, monkeypatch):
+    """Levels of the dry 7003C at 8,000 r/min are 18 dB(A) off in response, and so would be their range."""
+    made = spreading._drawn
+    drawn = []
+
+    def cheap(scene, flaws, fidelity):
+        drawn.append(fidelity)
+        return made(scene, flaws, "response")
+
+    monkeypatch.setattr(spreading, "_drawn", cheap)
+    dry = with_fidelity(example("7003C-impact"), model="response").replace({"operation.speed_rpm": 8000.0})
+    flaws = bare.imperfections.model_dump(mode="json", exclude_none=True)
+    recording = record(dry.replace({"imperfections": flaws}), 0.06, progress=False, radiation_model="compact")
+    found = spread(recording, [(0.105, 0.0, 0.0)])
+    assert set(drawn) == {"full"} and found.drawn == 3
+    assert "inner tilt" in found.weak and f"Drawn with fidelity full, because {found.weak}" in found.remark()
+    assert found.doubt == found.summary()["doubt"] and found.doubt.startswith("levels of fidelity response")
+    drawn.clear()
+    assert spread(heard(bare), ["P1"], seeds=1).doubt == ""
+    assert set(drawn) == {"response"}
 
 
 def test_refusals(bare):

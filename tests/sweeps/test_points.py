@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 
+from fmu_bearing.engine.layout import S, U, Y
 from fmu_bearing.prepare.sound import sound_block
 from fmu_bearing.run import metrics as comparing
+from fmu_bearing.run.arrays import Arrays
 from fmu_bearing.run.simulate import simulate
 from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.sweeps import sweep
@@ -19,7 +21,11 @@ def rings(scene):
 
 def test_figures_are_those_of_a_run_beside(rings):
     """Another loop over the same engine: the same statistics of the same run."""
-    data = sweep(rings, {"preload": [500]}, settle=0.01, window=0.02, workers=1).squeeze()
+    names = [
+        "*_ring.velocity", "contact.*.load_mean", "contact.*.angle_mean", "friction_torque",
+        "cage.speed_ratio", "mic[*].leq_a",
+    ]  # fmt: skip
+    data = sweep(rings, {"preload": [500]}, settle=0.01, window=0.02, figures=names, workers=1).squeeze()
     other = comparing.measure(rings, sound_block(rings), 0.01, 0.02).figures
     found = [
         *(float(data[f"{ring}_ring.velocity"]) for ring in ("inner", "outer")),
@@ -47,6 +53,39 @@ def test_a_point_is_the_run_that_simulate_makes(rings):
     assert float(data["friction_torque:last"].squeeze()) == pytest.approx(
         run["friction_torque"][-1], rel=1e-12
     )
+
+
+@pytest.mark.parametrize("fidelity", ["response", "rings", "full"])
+@pytest.mark.parametrize("side", [1, -1])
+def test_no_line_folds_onto_the_shaft_speed(scene, fidelity, side):
+    """A wave of the outer race that gives a line at 10 kHz more or less the shaft's: read every 0.1 ms, both
+    are one. It is 20,000 times as strong as the unbalance's."""
+    order, balls, smooth = 6, 12, [{"order": 2, "amplitude_um": 0.0}]
+    silent = scene("7003C-bare").replace({
+        "sound": None, "fidelity.model": fidelity, "bearing.cage": None, "fidelity.terms.gravity": False,
+        "imperfections": {
+            "seed": 1, "unbalance_um": 0.05, "ball_diameter_spread_nm": 0.0, "inner_race_harmonic": smooth,
+            "outer_race_harmonic": smooth,
+        },
+    })  # fmt: skip
+    figures = ["outer_ring.velocity:1x", "outer_ring.velocity"]
+
+    def read(rpm, **flaws):
+        one = silent.replace(flaws)
+        data = sweep(one, {"speed": [rpm]}, settle=0.05, window=0.03, figures=figures, workers=1).squeeze()
+        return [float(data[name]) for name in figures]
+
+    rpm = 20_000.0
+    for _ in range(3):  # 72 f_c = 10 kHz -+ f_r; balls orbit with f_c
+        bearing = Arrays.of(silent.replace({"operation.speed_rpm": rpm}))
+        bearing.init()
+        rpm = 60.0 * 1e4 / (order * balls * bearing.s[S.Y + Y.OM] / bearing.u[U.SPEED] - side)
+    alone = read(rpm)[0]
+    wave = [{"order": order * balls + 1, "amplitude_um": 0.02, "phase_deg": 0.0}]
+    with_line, whole = read(rpm, **{"imperfections.outer_race_harmonic": wave})
+    assert whole > 2e4 * alone
+    # the ring's stiffness changes by its second order, parts in 1e4; a ten-thousandth of the line would show
+    assert with_line == pytest.approx(alone, rel=0.02)
 
 
 def test_the_part_at_shaft_speed_is_found_beside_a_stronger_line():

@@ -14,7 +14,7 @@ from fmu_bearing.scene import Scene, SceneError, read_scene
 from fmu_bearing.scene.entries import Entry, entries, entry_text, too_many_balls
 from fmu_bearing.scene.nsk import PREFIX, sizes
 from fmu_bearing.scene.origins import Origin, origins
-from fmu_bearing.scene.template import MATERIALS, Dimensions, new_scene
+from fmu_bearing.scene.template import MATERIALS, Dimensions
 
 if TYPE_CHECKING:
     from fmu_bearing.prepare.model import Model
@@ -23,6 +23,8 @@ scene_app = typer.Typer(help="Scene files: new, check, show; what the catalogue 
 app.add_typer(scene_app, name="scene")
 
 KINDS = ("bearings", "materials", "lubricants", "grades")
+#: What of the assumed values `new` prints: those that decide most, and what radiates.
+_SAID = ("mounting.preload_N", "operation.speed_rpm", "sound.radiator")
 _OPTIONAL = "Needed for a bearing that is not in the catalogue."
 
 
@@ -38,8 +40,13 @@ def new(
     contact_angle: Annotated[float, typer.Option(help="deg; with --bore.")] = 15.0,
     designation: Annotated[str | None, typer.Option(help="What the bearing is called.")] = None,
     kind: Annotated[str, typer.Option(metavar="|".join(MATERIALS), help="Materials.")] = "hybrid",
-    speed: Annotated[float, typer.Option(help="r/min.")] = 20_000.0,
-    preload: Annotated[float | None, typer.Option(help="N; default 300.")] = None,
+    speed: Annotated[
+        float | None, typer.Option(help="r/min; default: half of the limit with oil, assumed.")
+    ] = None,
+    preload: Annotated[
+        float | None,
+        typer.Option(help="N; default: light class or more, as verdicts and modes ask; assumed."),
+    ] = None,
     preload_class: Annotated[
         str | None, typer.Option(metavar="light|medium|heavy", help="Class of makers' pairs instead of N.")
     ] = None,
@@ -52,7 +59,13 @@ def new(
     catalogue: Catalogues = None,
     force: Annotated[bool, typer.Option("--force", help="Replace a file that is there.")] = False,
 ) -> None:
-    """Write a scene from the catalogue, or from boundary dimensions with the rest estimated."""
+    """Write a scene from the catalogue, or from boundary dimensions with the rest estimated.
+
+    Speed and preload that are not given follow makers' rules, so that all verdicts are good and no ring
+    whirls by itself.
+    """
+    from fmu_bearing.design.fresh import new_scene
+
     with refusals():
         if path.exists() and not force:
             raise Refusal(f"{path} is there already: name another file, or give --force")
@@ -61,19 +74,28 @@ def new(
             raise Refusal("give --bearing or dimensions, not both")
         if sum(value is not None for value in (preload, preload_class, preload_offset)) > 1:
             raise Refusal("give one of --preload, --preload-class and --preload-offset")
-        chosen: str | Dimensions = bearing or "7003C"
-        if bearing is None and any(value is not None for value in dimensions):
-            if bore is None or outside_diameter is None or width is None:
-                raise Refusal("a bearing of your own needs --bore, --outside-diameter and --width")
+        if bearing is not None:
+            chosen: str | Dimensions = bearing
+        elif bore is not None and outside_diameter is not None and width is not None:
             chosen = Dimensions(bore, outside_diameter, width, contact_angle)
+        elif any(value is not None for value in dimensions):
+            raise Refusal("a bearing of your own needs --bore, --outside-diameter and --width")
+        else:
+            raise Refusal(
+                "which bearing? give --bearing NAME (`fmu-bearing scene catalogue` lists them), or --bore, "
+                "--outside-diameter and --width"
+            )
         text = new_scene(
             path.stem, chosen, kind=kind, speed_rpm=speed, grade=grade, lubricant=lubricant, sound=sound,
-            designation=designation, preload_N=300.0 if preload is None else preload,
-            preload_class=preload_class, preload_offset_um=preload_offset, folder=path.parent,
+            designation=designation, preload_N=preload, preload_class=preload_class,
+            preload_offset_um=preload_offset, folder=path.parent,
         )  # fmt: skip
         write_whole(path, text.encode("utf-8"))
-        assumed = sum(one.assumed for one in origins(path))
-    typer.echo(f"written: {path}; {assumed} values are assumed: `fmu-bearing scene show {path} --assumed`")
+        found = [one for one in origins(path) if one.assumed]
+    typer.echo(f"written: {path}; {len(found)} values are assumed: `fmu-bearing scene show {path} --assumed`")
+    for one in found:
+        if one.key in _SAID:
+            typer.echo(f"assumed: {one.key} = {_shown(one)}: {one.remark}")
 
 
 @scene_app.command()
@@ -110,6 +132,7 @@ def _findings(path: Path) -> tuple[bool, list[str]]:
     try:
         scene = read_scene(path)
         shown(scene, variables(scene, 0.0))
+        _check_table(scene)
         bearing = Instance(_silent(scene))
         with warnings.catch_warnings(record=True) as told:
             warnings.simplefilter("always")
@@ -120,12 +143,25 @@ def _findings(path: Path) -> tuple[bool, list[str]]:
             at_rest = [] if scene.spindle.shaft.external else _of_statics(scene)
             return True, [f"{path}: {line}" for line in lines + at_rest]
         # of a shoulder that is passed the bearing has warned by itself
-        lines += [line for line in cautions(operating_point(scene)) if _SHOULDER not in line]
+        point = operating_point(scene)
+        lines += [line for line in (*point.remarks, *cautions(point)) if _SHOULDER not in line]
         return True, [f"{path}: {line}" for line in lines]
     except SceneError as problem:
         return False, list(problem.problems)
     except EngineError as problem:
         return False, [f"{path}: {problem}"]
+
+
+def _check_table(scene: Scene) -> None:
+    """Read the transfer functions that the scene brings; `SceneError` where they do not serve."""
+    if scene.sound is None or scene.sound.table_file is None:
+        return
+    from fmu_bearing.acoustics.filters.design import check_table
+
+    try:
+        check_table(scene)
+    except ValueError as problem:
+        raise SceneError(f"{scene.name}: {problem}") from None
 
 
 def _of_statics(scene: Scene) -> list[str]:

@@ -6,5 +6,6 @@
 ``set_points``       the bearings of a set at their operating points, and the life of all
 ``set_stiffness``    static stiffness of a set at its nose over speed and preload
 ``verdicts``         figure, limit, source and judgement of what a designer asks
+``fresh``            `new_scene`: a scene at an operating point that the verdicts find good
 ===================  ================================================================
 """

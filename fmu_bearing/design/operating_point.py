@@ -1,12 +1,12 @@
 """A bearing at its operating point, without a run: contacts, stiffness, frequencies, film, limits, life.
 
-Everything is that of the perfect bearing with rigid rings in its quasi-static state. Ratings and limits come
-from `design.rating`, with their sources.
+Everything is that of the perfect bearing with rigid rings in its quasi-static state; the stiffness is that
+of `modal.stiffness`. Ratings and limits come from `design.rating`, with their sources.
 """
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -18,7 +18,10 @@ from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import C, P, S, Y
 from fmu_bearing.formulas.iso281 import viscosity_ratio
 from fmu_bearing.instance import Instance
-from fmu_bearing.modal.static import stiffness
+from fmu_bearing.modal.impedance import at_rest
+from fmu_bearing.modal.linearised import under_force
+from fmu_bearing.modal.modes import Modes, may_grow, self_excited, solved
+from fmu_bearing.modal.remarks import remarks
 from fmu_bearing.prepare.bodies import ball
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.progress import Tell, silent
@@ -42,7 +45,8 @@ class OperatingPoint:
     contacts : dict
         By ``inner`` and ``outer``: the outputs ``contact.*`` there.
     stiffness : ndarray, shape (5, 5)
-        See `modal.static.stiffness`.
+        Forces x, y, z and moments about y, z on the inner ring per displacement and tilt, for frequency to 0
+        at the steady state, balls keeping their spacing: `Stiffness.static`. Rings bend as the scene has it.
     frequencies : KinematicFrequencies
         At the mean of both contact angles, Hz.
     film : float
@@ -73,6 +77,11 @@ class OperatingPoint:
         N: loads that it carries.
     on_shaft : bool
         Whether it is one of a set: the shaft holds its inner ring.
+    whirl : tuple of float, optional
+        Hz, 1/s: frequency and growth of the mode by which the inner ring, or its set, whirls by itself; None
+        where none grows.
+    remarks : tuple of str
+        That no steady state was found, that the pedestal is soft; of a set `ShaftStatics` has them.
     """
 
     scene: Scene
@@ -94,6 +103,8 @@ class OperatingPoint:
     reference_life: float | None
     friction_torque: float
     gyroscopic_friction: float
+    whirl: tuple[float, float] | None = None
+    remarks: tuple[str, ...] = ()
 
     def summary(self) -> dict[str, Any]:
         """Return all figures by name, SI units, for machines."""
@@ -118,6 +129,7 @@ class OperatingPoint:
             "reference_life_Mrev": self.reference_life,
             "friction_torque_N_m": self.friction_torque,
             "gyroscopic_friction": self.gyroscopic_friction,
+            "whirl_Hz_1_s": self.whirl,
             "ball_loads_N": {ring: loads.tolist() for ring, loads in self.ball_loads.items()},
         }
 
@@ -144,7 +156,8 @@ def operating_point(scene: SceneSource, tell: Tell = silent) -> OperatingPoint:
     scene = scene_of(scene)
     if scene.spindle is not None:
         raise scene.unmounted("an operating point")
-    scene = scene.model_copy(update={"sound": None, "imperfections": None}).with_rigid_rings()
+    system = under_force(scene)
+    given, scene = scene, scene.model_copy(update={"sound": None, "imperfections": None}).with_rigid_rings()
     bearing = Instance(prepare(scene, fidelity="full"), tell=tell)
     bearing.initialise()
     settled = Instance(prepare(scene, fidelity="response"), tell=silent)
@@ -152,12 +165,22 @@ def operating_point(scene: SceneSource, tell: Tell = silent) -> OperatingPoint:
     mounting = scene.mounted
     radial = math.hypot(mounting.radial_load_y_N, mounting.radial_load_z_N)
     torque = settled.get("friction_torque")
-    return figures(scene, bearing, bearing.get, mounting.preload_N, radial, torque)
+    return replace(
+        figures(scene, bearing, bearing.get, mounting.preload_N, radial, torque, at_rest(system)),
+        whirl=whirl_of(solved(scene, system)) if may_grow(system.matrix) else None,
+        remarks=tuple(remarks(given, system)),
+    )
+
+
+def whirl_of(found: Modes) -> tuple[float, float] | None:
+    """Frequency (Hz) and growth (1/s) of the mode that grows fastest by itself, if one does."""
+    grows = self_excited(found)
+    return None if grows is None else (grows.frequency, grows.growth)
 
 
 def figures(
     scene: Scene, bearing: Readable, output: Callable[[str], float], axial: float, radial: float,
-    torque: float, on_shaft: bool = False,
+    torque: float, stiffness: NDArray[np.float64], on_shaft: bool = False,
 ) -> OperatingPoint:  # fmt: skip
     """Return the figures of a bearing whose state is known.
 
@@ -173,6 +196,8 @@ def figures(
         Loads (N) for its rating.
     torque : float
         Its friction torque, N m.
+    stiffness : ndarray, shape (5, 5)
+        As `OperatingPoint` has it.
     on_shaft : bool
         Whether it is one of a set.
     """
@@ -187,7 +212,7 @@ def figures(
     balls = Reader(bearing).read(bearing)
     loads = {"inner": balls[:, 1], "outer": balls[:, 3]}
     return OperatingPoint(
-        scene, contacts, stiffness(bearing.p, bearing.s), frequencies, output("film.lambda_min"), nu,
+        scene, contacts, stiffness, frequencies, output("film.lambda_min"), nu,
         viscosity_ratio(nu, operation.speed_rpm, scene.bearing.pitch_diameter_mm),
         abs(operation.speed_rpm) * scene.bearing.pitch_diameter_mm, speed_limit(scene),
         least_preload(scene, centrifugal), rating(scene, axial, radial, operation.speed_rpm),

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.formulas import iso76, iso281, iso16281, makers
 from fmu_bearing.scene import Scene
+from fmu_bearing.scene.preload import Classes, classes, nsk_size
 
 
 class Rating(NamedTuple):
@@ -26,7 +27,7 @@ class Rating(NamedTuple):
 
 def unrated(scene: Scene) -> str:
     """Return why no standard rates such a bearing; empty: ISO 281 and ISO 76 do."""
-    if scene.materials.kind not in ("steel", "hybrid"):
+    if not scene.materials.steel_rings:
         return "standards rate rings of steel only"
     own = scene.bearing.inner_conformity, scene.bearing.outer_conformity
     if any(value > limit for value, limit in zip(own, iso281.GROOVES, strict=True)):
@@ -61,10 +62,13 @@ def rating(scene: Scene, axial: float, radial: float, speed_rpm: float) -> Ratin
 
 
 def speed_limit(scene: Scene) -> float | None:
-    """Return the n d_m (mm r/min) to which makers run such a bearing with oil; None beyond 25 deg."""
-    return makers.speed_limit(
-        scene.bearing.contact_angle_deg, scene.materials.kind in ("hybrid", "full ceramic")
-    )
+    """Return the n d_m (mm r/min) to which makers run such a bearing with oil.
+
+    None but for rings of steel and 15 to 25 deg.
+    """
+    if not scene.materials.steel_rings:
+        return None
+    return makers.speed_limit(scene.bearing.contact_angle_deg, scene.materials.kind == "hybrid")
 
 
 def least_preload(scene: Scene, centrifugal: float) -> float:
@@ -72,9 +76,21 @@ def least_preload(scene: Scene, centrifugal: float) -> float:
     return makers.least_preload(scene.bearing.ball_count, scene.bearing.for_ratings[3], centrifugal)
 
 
-def preload_classes(scene: Scene) -> tuple[float, float, float]:
-    """Return makers' preload over C of light, medium and heavy pairs."""
-    return makers.preload_classes(scene.bearing.contact_angle_deg)
+def unclassed(scene: Scene) -> str:
+    """Return why no maker's preload class is for such a bearing; empty: there are classes."""
+    if not scene.materials.steel_rings:
+        return "makers' classes are for rings of steel"
+    if nsk_size(scene.bearing) is not None:
+        return ""
+    angle = scene.bearing.contact_angle_deg
+    if not makers.at_known_angle(angle):
+        return f"makers' classes are for contact angles of 15 to 25 deg, not {angle:g}"
+    return unrated(scene)  # GMN's classes are shares of C
+
+
+def preload_classes(scene: Scene) -> Classes | None:
+    """Return the preload classes of the loose bearing; None where `unclassed` has a reason."""
+    return None if unclassed(scene) else classes(scene.bearing)
 
 
 def reference_life(scene: Scene, inner: NDArray[np.float64], outer: NDArray[np.float64]) -> float | None:

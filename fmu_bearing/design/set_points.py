@@ -2,15 +2,18 @@
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.design.operating_point import OperatingPoint, figures
-from fmu_bearing.design.verdicts import Judgement, Verdict, verdicts
+from fmu_bearing.design.operating_point import OperatingPoint, figures, whirl_of
+from fmu_bearing.design.verdicts import Judgement, Verdict, judged_life, verdicts
 from fmu_bearing.formulas import iso281
 from fmu_bearing.instance import Instance
+from fmu_bearing.modal.modes import may_grow
+from fmu_bearing.modal.set_linearised import set_linearised
+from fmu_bearing.modal.set_modes import set_solved
 from fmu_bearing.prepare.lengths import members
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.progress import Tell, silent
@@ -35,9 +38,9 @@ def operating_points(scene: SceneSource, tell: Tell = silent) -> tuple[Operating
     """Return the figures of each bearing of a set at the scene's operating point, without a run.
 
     Each stands where the set's shaft puts it, under its own load and at its own temperatures. Its scene is
-    that of a single bearing; its preload is what it carries at speed and temperatures without load on the
-    shaft, by a constant force behind springs and by displacement with spacers. Friction torques are those at
-    the start of fidelity full.
+    that of a single bearing; its preload is what it carries loose, at standstill and 20 degC without load on
+    the shaft, by a constant force behind springs and by displacement with spacers; 0 in a set without one.
+    Friction torques are those at the start of fidelity full.
 
     Raises
     ------
@@ -72,15 +75,18 @@ def operating_points(scene: SceneSource, tell: Tell = silent) -> tuple[Operating
         alone = _alone(quiet, b, place, statics)
         part = _Part(run.p[at_p], run.s[at_s])
         torque = run.get(f"bearing[{b + 1}].friction_torque")
-        found.append(figures(alone, part, output, max(0.0, carried.axial), carried.radial, torque, True))
-    return tuple(found)
+        axial = max(0.0, carried.axial)
+        found.append(figures(alone, part, output, axial, carried.radial, torque, carried.stiffness, True))
+    system = set_linearised(quiet)
+    whirl = whirl_of(set_solved(quiet, system)) if may_grow(system.matrix) else None
+    return tuple(replace(one, whirl=whirl) for one in found)
 
 
 def _alone(scene: Scene, number: int, place: SetBearing, statics: ShaftStatics) -> Scene:
     """Return the scene of one bearing of a set with its preload and temperatures."""
     spindle, alone = set_of(scene), one_of(scene, number)
-    running = statics.preloads.get("running")
-    carried = statics.bearings[number].axial if running is None else running[number]
+    cold = statics.preloads.get("cold")
+    carried = 0.0 if cold is None else cold[number]
     spacer = spindle.preload is not None and spindle.preload.kind == "spacer"
     mounting = alone.mounted.model_copy(
         update={
@@ -132,22 +138,13 @@ def set_cautions(found: ShaftStatics, points: Sequence[OperatingPoint]) -> list[
 
 
 def _life(scene: Scene, points: Sequence[OperatingPoint]) -> Iterator[Verdict]:
-    hours, required = life_of_set(points), scene.operation.required_life_h
-    if hours is None or not math.isfinite(hours):
-        return
-    judgement: Judgement = "not judged"
-    limit, advice = "nothing asked for", ""
-    if required is not None:
-        judgement, limit = "good" if hours >= required else "change", f"{required:.0f} asked for"
-        if hours < required:
-            advice = (
-                f"L10r of all bearings together {hours:.0f} h: below the {required:.0f} h that are asked "
-                "for: relieve the bearing with the shortest life, or take a larger one"
-            )
-    yield Verdict(
-        "set_life", "L10r of all bearings together, h", hours, f"{hours:.0f}", limit,
-        "Lundberg and Palmgren 1947, exponent 10/9", judgement, advice,
-    )  # fmt: skip
+    hours = life_of_set(points)
+    if hours is not None and math.isfinite(hours):
+        yield judged_life(
+            "set_life", "L10r of all bearings together", hours, scene.operation.required_life_h,
+            "Lundberg and Palmgren 1947, exponent 10/9",
+            "relieve the bearing with the shortest life, or take a larger one",
+        )  # fmt: skip
 
 
 def _lift_off(found: ShaftStatics) -> Iterator[Verdict]:

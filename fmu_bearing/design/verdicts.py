@@ -1,7 +1,7 @@
 """Verdicts on a bearing at its operating point: figure, limit, source of the limit, judgement, way out.
 
 A limit is a standard's, a maker's rule or a rule of the field, and says which. What nothing judges is told
-as such: full ceramic rings have no rated life, hybrid bearings no modified one.
+as such: limits of steel judge no rings of ceramics, and hybrid bearings have no modified life.
 """
 
 import math
@@ -10,7 +10,7 @@ from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
 from fmu_bearing.design.operating_point import RINGS, OperatingPoint
-from fmu_bearing.design.rating import is_rated, preload_classes, unrated
+from fmu_bearing.design.rating import preload_classes, unclassed, unrated
 from fmu_bearing.formulas import iso76, iso281, makers
 
 Judgement = Literal["good", "watch", "change", "not judged"]
@@ -27,6 +27,8 @@ SPIN = 0.4
 GYROSCOPIC = 0.02
 #: Static safety for quiet running, and the least: NSK.
 QUIET, LEAST_SAFETY = 2.0, 1.0
+#: h: life that is asked for where the scene asks for none: assumed, as machine tools are often laid out.
+ASSUMED_LIFE = 20_000.0
 _TOUCHES = 1e6  # Pa: below it balls of an unloaded bearing just touch, and a safety means nothing
 _LITTLE = 2.0  # deg: a groove's edge and a contact angle are known no better
 _CLEAN = "high"
@@ -79,10 +81,11 @@ def verdicts(point: OperatingPoint) -> list[Verdict]:
     ...     if one.judgement == "watch":
     ...         print(one.label, one.text, "limit:", one.limit)
     pressure, inner race, GPa 1.89 limit: 1.50 heaviest class; 2.0 marks races
-    preload over C: 2.8 x heavy 0.084 limit: light 30, medium 89, heavy 179 N
+    preload class, N 500: 2.8 x heavy limit: light 29.8, medium 89.4, heavy 179
     """
     found = [_pressure(point), *_static_safety(point), *_life(point), *_preload(point), _speed(point)]
     found += [*_film(point), _spin(point), _gyroscopic(point), _shoulder(point)]
+    found.append(_whirl(point))
     return found
 
 
@@ -101,17 +104,24 @@ def cautions(point: OperatingPoint) -> list[str]:
     return [one.advice for one in verdicts(point) if one.advice]
 
 
+def _unjudged(key: str, label: str, why: str, value: float | None = None, text: str = "-") -> Verdict:
+    """Return a figure that no limit is known for, with the reason in place of the source."""
+    return Verdict(key, label, value, text, "none", why, "not judged")
+
+
 def _pressure(point: OperatingPoint) -> Verdict:
-    usual = makers.CLASS_PRESSURE.get(point.scene.materials.kind)
     race = max(RINGS, key=lambda ring: point.contacts[ring]["pressure_max"])
     pressure = point.contacts[race]["pressure_max"]
-    shown = f"contact pressure {1e-9 * pressure:.2f} GPa at the {race} race"
-    limit = f"{1e-9 * HIGH_PRESSURE:.1f} marks races"
-    source = "rule of the field, no standard"
+    label, text = f"pressure, {race} race, GPa", f"{1e-9 * pressure:.2f}"
+    if not point.scene.materials.steel_rings:
+        why = "limits are known for races of steel: ask for the maker's proof load"
+        return _unjudged("pressure", label, why, pressure, text)
+    usual = makers.CLASS_PRESSURE[point.scene.materials.kind]
+    shown = f"contact pressure {text} GPa at the {race} race"
+    limit = f"{1e-9 * usual:.2f} heaviest class; {1e-9 * HIGH_PRESSURE:.1f} marks races"
+    source = "GMN and NSK, computed; rule of the field, no standard"
     judgement: Judgement = "good"
     advice = ""
-    if usual is not None:
-        limit, source = f"{1e-9 * usual:.2f} heaviest class; {limit}", f"GMN and NSK, computed; {source}"
     if pressure > iso76.STATIC_PRESSURE:
         judgement = "change"
         advice = (
@@ -124,13 +134,12 @@ def _pressure(point: OperatingPoint) -> Verdict:
             f"{shown}: above {1e-9 * HIGH_PRESSURE:.1f} GPa (rule of the field, no standard): reduce preload "
             "or load, take more or larger balls, or closer conformity"
         )
-    elif usual is not None and pressure > usual:
+    elif pressure > usual:
         judgement = "watch"
         advice = (
             f"{shown}: above the {1e-9 * usual:.2f} GPa of makers' heaviest preload class (GMN, NSK; "
             "computed): reduce preload or load, or take a larger bearing"
         )
-    label, text = f"pressure, {race} race, GPa", f"{1e-9 * pressure:.2f}"
     return Verdict("pressure", label, pressure, text, limit, source, judgement, advice)
 
 
@@ -139,13 +148,15 @@ def _static_safety(point: OperatingPoint) -> Iterator[Verdict]:
     label = "static safety"
     if point.rating is None:
         words = f"{unrated(point.scene)}: ask for the maker's proof load"
-        yield Verdict("static_safety", label, None, "-", "none", words, "not judged")
+        yield _unjudged("static_safety", label, words)
         return
     kind = point.scene.materials.kind
     share = iso76.HYBRID if kind == "hybrid" else 1.0
     note = f"; {share:g} C0 for ceramic balls (GMN)" if kind == "hybrid" else ""
     load = point.rating.static_load
-    if load is not None and load > 0.0:
+    if load is None:
+        yield _unjudged("static_safety", f"{label}, C0 / P0", _no_factors(point, "P0"))
+    elif load > 0.0:
         safety = share * point.rating.static / load
         yield _safety("static_safety", f"{label}, C0 / P0", safety, limit, f"ISO 76, NSK{note}")
     worst = max(point.contacts[ring]["pressure_max"] for ring in RINGS)
@@ -153,6 +164,11 @@ def _static_safety(point: OperatingPoint) -> Iterator[Verdict]:
         safety = (iso76.STATIC_PRESSURE / worst) ** 3
         words = f"{label}, ball loads"
         yield _safety("static_safety_pressure", words, safety, limit, "4.2 GPa (ISO 76), computed; NSK")
+
+
+def _no_factors(point: OperatingPoint, load: str) -> str:
+    angle = point.scene.bearing.contact_angle_deg
+    return f"factors of {load} are known for contact angles of 15 and 25 deg, not {angle:g}; see ball loads"
 
 
 def _safety(key: str, label: str, safety: float, limit: str, source: str) -> Verdict:
@@ -163,20 +179,24 @@ def _safety(key: str, label: str, safety: float, limit: str, source: str) -> Ver
         advice = (
             f"{label} {safety:.2f}: below {below:g} ({source}): reduce preload or load, or take a larger one"
         )
-    return Verdict(key, label, safety, f"{safety:.1f}", limit, source, judgement, advice)
+    return Verdict(key, label, safety, f"{safety:.2f}", limit, source, judgement, advice)
 
 
 def _life(point: OperatingPoint) -> Iterator[Verdict]:
     scene = point.scene
     required, rpm = scene.operation.required_life_h, scene.operation.speed_rpm
     if point.rating is None:
-        words = f"{unrated(scene)}; what holds is the maker's experience"
-        yield Verdict("life", "rating life", None, "-", "none", words, "not judged")
+        yield _unjudged("life", "rating life", f"{unrated(scene)}; what holds is the maker's experience")
         return
     if rpm == 0.0:
         return
-    if point.rating.life is not None:
-        yield _hours("life_basic", "L10, h", point.rating.life, None, "ISO 281, loads of the scene")
+    load = point.rating.equivalent
+    if load is None:
+        yield _unjudged("life_basic", "L10, h", _no_factors(point, "P"))
+    elif point.rating.life is not None:
+        hours = point.rating.life
+        source = "ISO 281, loads of the scene; judged as L10r"
+        yield _unjudged("life_basic", "L10, h", source, hours, shown_hours(hours))
     turns = point.reference_life
     if turns is not None and math.isfinite(turns):
         note = "; hybrid: no modified life" if scene.materials.kind == "hybrid" else ""
@@ -186,28 +206,39 @@ def _life(point: OperatingPoint) -> Iterator[Verdict]:
             note = f"; inner ring {held}{note}"
         source = f"ISO 16281, computed ball loads; clean oil, full film{note}"
         hours = iso281.hours(turns, rpm)
-        yield _hours("life", "L10r, h", hours, required, source)
-        load = point.rating.equivalent
-        if scene.materials.kind == "steel" and load is not None and load > 0.0:
+        yield judged_life("life", "L10r", hours, required, source)
+        if scene.materials.kind == "steel" and load is None:
+            yield _unjudged("life_modified", "L10mr, h", _no_factors(point, "P"))
+        elif scene.materials.kind == "steel" and load:
             clean = scene.lubricant.cleanliness or _CLEAN
             pitch = scene.bearing.pitch_diameter_mm
             factor = iso281.life_modification(point.viscosity_ratio, clean, point.rating.static, load, pitch)
             source = f"ISO 281: a_ISO {factor:.2g}, cleanliness {clean}, kappa {point.viscosity_ratio:.2g}"
-            yield _hours("life_modified", "L10mr, h", factor * hours, required, source)
+            yield judged_life("life_modified", "L10mr", factor * hours, required, source)
 
 
-def _hours(key: str, label: str, hours: float, required: float | None, source: str) -> Verdict:
-    if required is None:
-        limit = "nothing asked for" if key == "life" else "-"
-        return Verdict(key, label, hours, f"{hours:.0f}", limit, source, "not judged")
+def shown_hours(hours: float) -> str:
+    """Return a rating life (h) as it is shown, beyond `iso281.MOST_HOURS` without its figure."""
+    return iso281.BEYOND_HOURS if hours > iso281.MOST_HOURS else f"{hours:.0f}"
+
+
+def judged_life(
+    key: str, name: str, hours: float, required: float | None, source: str,
+    remedy: str = "reduce preload or load, or take a larger bearing",
+) -> Verdict:  # fmt: skip
+    """Return the verdict on a rating life (h) by that asked for; None: by `ASSUMED_LIFE`."""
+    wanted = ASSUMED_LIFE if required is None else required
+    origin = "assumed" if required is None else "asked for"
     advice = ""
-    if hours < required:
+    if hours < wanted:
+        way = "" if required else "give operation.required_life_h, "
         advice = (
-            f"rating life {label.split(',')[0]} {hours:.0f} h: below the {required:.0f} h that are asked for "
-            f"({source}): reduce preload or load, or take a larger bearing"
+            f"rating life {name} {shown_hours(hours)} h: below the {wanted:.0f} h that are {origin} "
+            f"({source}): {way}{remedy}"
         )
-    judgement: Judgement = "good" if hours >= required else "change"
-    return Verdict(key, label, hours, f"{hours:.0f}", f"{required:.0f} asked for", source, judgement, advice)
+    judgement: Judgement = "change" if advice else "good"
+    limit = f"{wanted:.0f} {origin}"
+    return Verdict(key, f"{name}, h", hours, shown_hours(hours), limit, source, judgement, advice)
 
 
 def _preload(point: OperatingPoint) -> Iterator[Verdict]:
@@ -222,46 +253,51 @@ def _preload(point: OperatingPoint) -> Iterator[Verdict]:
             f"{rpm:g} r/min (1.1 Z F_c tan(alpha), fitted to GMN's spring preloads): give more preload, "
             "lower speed, or lighter balls"
         )
+    source = "1.1 Z F_c tan(alpha): fit to GMN, +-9 %"
+    source += "" if point.scene.materials.steel_rings else ", with rings of steel"
     yield Verdict(
         "least_preload", f"{name} over skidding, N", point.axial, shown, f"{point.least_preload:.3g}",
-        "1.1 Z F_c tan(alpha): fit to GMN, +-9 %", "change" if advice else "good", advice,
+        source, "change" if advice else "good", advice,
     )  # fmt: skip
-    if not is_rated(point.scene) or point.rating is None:
+    label, found = "preload class, N", preload_classes(point.scene)
+    if found is None or preload == 0.0:
+        why = unclassed(point.scene) or "no preload"
+        yield _unjudged("preload_class", label, why, preload, f"{preload:g}")
         return
-    classes = preload_classes(point.scene)
-    share = preload / point.rating.dynamic
-    heavy, advice = classes[-1], ""
-    if share > heavy:
+    heavy, advice = found.loads["heavy"], ""
+    own = makers.preload_class(preload, found.loads)
+    if own is None:
+        shown, share = f"{preload / heavy:.2g} x heavy", ""
+        if point.rating is not None:
+            share = f" ({preload / point.rating.dynamic:.3f} C)"
         advice = (
-            f"preload {preload:g} N: {share:.3f} C, {share / heavy:.2g} times makers' heavy class of "
-            f"{heavy:.3f} C (GMN): give {math.floor(heavy * point.rating.dynamic)} N or less, unless it "
-            "stands for a load"
+            f"preload {preload:g} N{share}: {preload / heavy:.2g} times the heavy class of {found.maker}, "
+            f"{heavy:g} N: give {heavy:g} N or less, unless it takes the place of a load"
         )
-    named = zip(makers.CLASS_NAMES, classes, strict=True)
-    newtons = (f"{name} {one * point.rating.dynamic:.0f}" for name, one in named)
+    else:
+        between = makers.CLASS_SLACK * preload < found.loads[own]
+        shown = f"up to {own}" if between else own
     yield Verdict(
-        "preload_class", f"preload over C: {_class(share, classes)}", share, f"{share:.3f}",
-        f"{', '.join(newtons)} N", "classes of GMN", "watch" if advice else "good", advice,
+        "preload_class", label, preload, f"{preload:g}: {shown}",
+        ", ".join(f"{one} {load:g}" for one, load in found.loads.items()),
+        f"{found.maker}; loose, at standstill and 20 degC; 10 % slack", "watch" if advice else "good", advice,
     )  # fmt: skip
-
-
-def _class(share: float, classes: tuple[float, float, float]) -> str:
-    if share > classes[-1]:
-        return f"{share / classes[-1]:.1f} x heavy"
-    name = next(name for name, one in zip(makers.CLASS_NAMES, classes, strict=True) if share <= one)
-    return f"up to {name}"
 
 
 def _speed(point: OperatingPoint) -> Verdict:
     number, single = point.speed_number, point.speed_limit
     label, text = "n d_m, 1e6 mm r/min", f"{1e-6 * number:.2f}"
     if single is None:
-        return Verdict("speed", label, number, text, "-", "no maker's limit at this angle", "not judged")
+        steel = point.scene.materials.steel_rings
+        why = "no maker's limit at this contact angle" if steel else "makers' limits are for rings of steel"
+        return _unjudged("speed", label, why, number, text)
     factor, mounted = 1.0, "on springs"
-    if point.scene.mounted.preload_mode == "rigid" and point.rating is not None:
-        share = point.scene.mounted.preload_N / point.rating.dynamic
-        place = sum(share > one for one in preload_classes(point.scene)[:-1])
-        factor, mounted = makers.RIGID_SPEED[place], f"as a rigid {makers.CLASS_NAMES[place]} pair"
+    if point.scene.mounted.preload_mode == "rigid":
+        found = preload_classes(point.scene)
+        if found is None:
+            return _unjudged("speed", label, f"rigid pair: {unclassed(point.scene)}", number, text)
+        name = makers.preload_class(point.scene.mounted.preload_N, found.loads) or "heavy"
+        factor, mounted = makers.RIGID_SPEED[name], f"as a rigid {name} pair"
     limit = factor * single
     source = f"GMN, NSK: oil, {mounted}"
     share = number / limit
@@ -291,6 +327,10 @@ def _film(point: OperatingPoint) -> Iterator[Verdict]:
     judgement: Judgement = "good" if film >= APART else "watch" if film >= MIXED else "change"
     limit = f"{APART:g} apart, {MIXED:g} touching"
     yield Verdict("film", "film over roughness", film, f"{film:.2f}", limit, "Harris 2006", judgement, advice)
+    label, text = "viscosity ratio kappa", f"{kappa:.2f}"
+    if not point.scene.materials.steel_rings:
+        yield _unjudged("kappa", label, "limits of ISO 281 are for rings of steel", kappa, text)
+        return
     judgement = "good" if kappa >= FULL_FILM else "watch" if kappa >= WEAR else "change"
     advice = ""
     if judgement != "good":
@@ -301,24 +341,24 @@ def _film(point: OperatingPoint) -> Iterator[Verdict]:
             "cooler oil"
         )
     limit = f"{FULL_FILM:g} full film, {WEAR:g} wear"
-    yield Verdict(
-        "kappa", "viscosity ratio kappa", kappa, f"{kappa:.2f}", limit, "ISO 281", judgement, advice
-    )
+    yield Verdict("kappa", label, kappa, text, limit, "ISO 281", judgement, advice)
 
 
 def _spin(point: OperatingPoint) -> Verdict:
     race = max(RINGS, key=lambda ring: point.contacts[ring]["spin_to_roll"])
     spin = point.contacts[race]["spin_to_roll"]
+    label, text = f"spin over roll, {race} race", f"{spin:.2f}"
+    if not point.scene.materials.steel_rings:
+        return _unjudged("spin", label, "GMN's limit is for rings of steel", spin, text)
     advice = ""
     if spin > SPIN:
         advice = (
-            f"spin over roll {spin:.2f} at the {race} race: above {SPIN:g} (GMN's plots end there; no "
+            f"spin over roll {text} at the {race} race: above {SPIN:g} (GMN's plots end there; no "
             "standard) balls heat and smear: take a smaller contact angle, or more preload at this speed"
         )
     return Verdict(
-        "spin", f"spin over roll, {race} race", spin, f"{spin:.2f}", f"{SPIN:g}", "GMN; no standard",
-        "watch" if advice else "good", advice,
-    )  # fmt: skip
+        "spin", label, spin, text, f"{SPIN:g}", "GMN; no standard", "watch" if advice else "good", advice
+    )
 
 
 def _gyroscopic(point: OperatingPoint) -> Verdict:
@@ -326,13 +366,33 @@ def _gyroscopic(point: OperatingPoint) -> Verdict:
     advice = ""
     if needed > GYROSCOPIC:
         advice = (
-            f"gyroscopic slip: balls need a friction of {needed:.3f} to keep their axis, above "
+            f"gyroscopic slip: balls need a friction of {needed:.4f} to keep their axis, above "
             f"{GYROSCOPIC:g} (Harris 2006): give more preload, lower speed, or lighter balls"
         )
     return Verdict(
         "gyroscopic", "gyroscopic friction", needed, f"{needed:.4f}", f"{GYROSCOPIC:g}",
         "Harris 2006", "watch" if advice else "good", advice,
     )  # fmt: skip
+
+
+def _whirl(point: OperatingPoint) -> Verdict:
+    source = "the linearised equations: no mode of the rings grows"
+    if point.whirl is None:
+        return Verdict("whirl", "whirl of the ring, 1/s", None, "none", "none", source, "good")
+    frequency, growth = point.whirl
+    body, way = (
+        "the ring whirls by itself",
+        "more preload or a support against tilting (mounting.tilt_support)",
+    )
+    if point.on_shaft:
+        body, way = "a mode of the set grows by itself", "more preload or a stiffer shaft"
+    advice = (
+        f"{body} at {frequency:.0f} Hz: its motion grows by {growth:.0f} 1/s (linearised equations, no "
+        "standard), figures are of the unstable point, and only fidelity full shows the whirl; "
+        f"{way} stops it"
+    )
+    text = f"{growth:.0f} at {frequency:.0f} Hz"
+    return Verdict("whirl", "whirl of the ring, 1/s", growth, text, "none", source, "change", advice)
 
 
 def _shoulder(point: OperatingPoint) -> Verdict:

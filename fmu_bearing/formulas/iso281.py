@@ -32,6 +32,8 @@ CLEANLINESS = {
     "typical": (0.2, 0.3),
     "severe": (0.05, 0.05),
 }
+#: h: a century of running, beyond which the figure of a rating life says no more; how it is shown then.
+MOST_HOURS, BEYOND_HOURS = 1e6, "> 1e6"
 _MOST_LIFE, _LEAST_LIFE, _MOST_VISCOSITY, _LEAST_VISCOSITY = 50.0, 0.1, 4.0, 0.1
 _FATIGUE = 22.0  # C0 over the fatigue limit load, which falls with the root of pitch diameters beyond ...
 _SMALL = 100.0  # mm

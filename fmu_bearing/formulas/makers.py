@@ -5,6 +5,7 @@ spindles; a bearing with other ones has other limits. Units N, mm, r/min.
 """
 
 import math
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -12,8 +13,12 @@ import numpy as np
 PRELOAD_CLASSES = {15.0: (0.005, 0.015, 0.030), 25.0: (0.0085, 0.025, 0.051)}
 #: Names of these classes.
 CLASS_NAMES = ("light", "medium", "heavy")
-#: Share of a single bearing's speed that a rigid pair of these classes reaches: GMN.
-RIGID_SPEED = (0.8, 0.7, 0.5)
+#: deg: least and largest contact angle of the bearings that makers' rules are for.
+ANGLES = (15.0, 25.0)
+#: Load over that of a class up to which a bearing is of this class: assumed; makers print two digits.
+CLASS_SLACK = 1.1
+#: Share of a single bearing's speed that a rigid pair of a class reaches: GMN; NSK's lightest as light.
+RIGID_SPEED = {"extra light": 0.8, "light": 0.8, "medium": 0.7, "heavy": 0.5}
 #: Pa: contact pressure of makers' heaviest class, by kind of bearing (computed from their preloads).
 CLASS_PRESSURE = {"steel": 1.34e9, "hybrid": 1.5e9}
 # n d_m (mm r/min) of single spring-loaded bearings with oil by contact angle (deg): NSK, GMN; ceramic balls
@@ -25,6 +30,19 @@ _NEAR = 1.0  # deg
 _SPRING = 1.1
 
 
+def at_known_angle(angle_deg: float) -> bool:
+    """Whether a contact angle is one that makers' rules are for."""
+    return ANGLES[0] - _NEAR <= angle_deg <= ANGLES[1] + _NEAR
+
+
+def preload_class(force: float, loads: Mapping[str, float]) -> str | None:
+    """Return the first class that takes a preload (N) with a slack of `CLASS_SLACK`; None beyond the last.
+
+    ``loads``: N by name, from the lightest class on.
+    """
+    return next((name for name, load in loads.items() if force <= CLASS_SLACK * load), None)
+
+
 def preload_classes(angle_deg: float) -> tuple[float, float, float]:
     """Return the preload over C of light, medium and heavy pairs, between 15 and 25 deg in proportion."""
     angles, rows = list(PRELOAD_CLASSES), np.array(list(PRELOAD_CLASSES.values()))
@@ -33,8 +51,8 @@ def preload_classes(angle_deg: float) -> tuple[float, float, float]:
 
 
 def speed_limit(angle_deg: float, ceramic_balls: bool) -> float | None:
-    """Return the n d_m (mm r/min) of single bearings on springs with oil; None beyond 25 deg."""
-    if angle_deg > max(_SPEED) + _NEAR:
+    """Return the n d_m (mm r/min) of single bearings on springs with oil; None but for 15 to 25 deg."""
+    if not at_known_angle(angle_deg):
         return None
     limit = float(np.interp(angle_deg, list(_SPEED), list(_SPEED.values())))
     return limit * (_CERAMIC_SPEED if ceramic_balls else 1.0)

@@ -5,6 +5,9 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu_bearing.design.operating_point import operating_point
+from fmu_bearing.engine.constants import RPM
+from fmu_bearing.instance import EngineError
 from fmu_bearing.reports import look
 from fmu_bearing.reports.blocks import Block, Chart, Choice, Option, Section, Table, Words, small
 from fmu_bearing.reports.decimate import thinned
@@ -23,11 +26,8 @@ _FIGURES = (
     ("spin_to_roll", "spin over roll", 1.0, ""),
     ("slip", "sliding over entrainment speed", 1.0, ""),
 )
-_FURTHER = (
-    ("film.lambda_min", "thinnest film over composite roughness", 1.0, ""),
-    ("stiffness.axial", "axial stiffness between the rings", 1e-6, "N/um"),
-    ("stiffness.radial", "radial stiffness between the rings", 1e-6, "N/um"),
-)
+_FILM = ("film.lambda_min", "thinnest film over composite roughness")
+_EMPTY = ["", "", ""]
 
 
 def contacts(subject: Subject) -> Section:
@@ -200,25 +200,30 @@ def _table(subject: Subject) -> Table:
             cells += [f"{values.mean():.4g}", f"{values.min():.4g}", f"{values.max():.4g}"]
         else:
             rows.append([words, unit, *cells])
-    for name, words, factor, unit in _FURTHER:
-        if subject.has(name):
-            values = factor * subject.output(name)
-            rows.append(
-                [
-                    words,
-                    unit,
-                    f"{values.mean():.4g}",
-                    f"{values.min():.4g}",
-                    f"{values.max():.4g}",
-                    "",
-                    "",
-                    "",
-                ]
-            )
+    name, words = _FILM
+    if subject.has(name):
+        values = subject.output(name)
+        shown = [f"{value:.4g}" for value in (values.mean(), values.min(), values.max())]
+        rows.append([words, "", *shown, *_EMPTY])
+    rows += [[*row, "", "", *_EMPTY] for row in _stiffness(subject)]
     columns = ["", "unit", *(f"{race}, {what}" for race in RACES for what in ("mean", "least", "largest"))]
     return Table(
         "Contacts over the recording",
         columns,
         rows,
-        note="Figures of the whole bearing stand in the first three columns.",
+        note="Figures of the whole bearing stand in the first three columns. Stiffness: perfect "
+        "bearing at the mean speed, for frequency to 0, as `info` has it.",
     )
+
+
+def _stiffness(subject: Subject) -> list[list[str]]:
+    """Rows of the stiffness at rest: words, unit, value; none without scene or equilibrium."""
+    scene = subject.recording.scene
+    if scene is None:
+        return []
+    try:
+        found = operating_point(scene.replace({"operation.speed_rpm": subject.speed / RPM})).stiffness
+    except EngineError:
+        return []
+    sizes = (("axial", found[0, 0]), ("radial", 0.5 * (found[1, 1] + found[2, 2])))
+    return [[f"{way} stiffness at rest", "N/um", f"{1e-6 * size:.4g}"] for way, size in sizes]

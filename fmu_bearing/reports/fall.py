@@ -12,6 +12,7 @@ from fmu_bearing.engine.constants import RPM
 from fmu_bearing.reports import look
 from fmu_bearing.reports.blocks import Absent, Block, Chart, Section, Words, small
 from fmu_bearing.reports.heard import Microphones, listen
+from fmu_bearing.reports.marks import END
 from fmu_bearing.reports.subject import Subject
 
 _HIGHEST = 8000.0  # Hz
@@ -83,6 +84,14 @@ def _map(heard: Microphones, over_speed: bool) -> Chart:
     )  # fmt: skip
     if over_speed:
         _order_lines(figure, heard.subject, y[order])
+    recording = heard.subject.recording
+    if recording.excitation_end is not None:
+        ends = recording.excitation_end * found.speed[order] / float(np.mean(recording.speed))
+        figure.add_scatter(
+            x=small(np.where(ends < _HIGHEST, ends, np.nan)), y=small(y[order]), mode="lines", name=END,
+            line={"color": "#FFFFFF", "width": 1.5, "dash": "dash"}, showlegend=False,
+            hovertemplate=END + "<extra></extra>",
+        )  # fmt: skip
     figure.update_layout(
         xaxis=look.axis("frequency, Hz", range=[0.0, _HIGHEST], constrain="domain"),
         yaxis=look.axis(
@@ -95,7 +104,8 @@ def _map(heard: Microphones, over_speed: bool) -> Chart:
         "waterfall", title, figure, title + ", in dB re 20 uPa, as colours.",
         note=f"Blocks of {1e3 / found.frequency[1]:.3g} ms, {found.frequency[1]:.3g} Hz between lines, "
         f"flat-top window."
-        + (" Dotted: kinematic frequencies." if over_speed else ""),
+        + (" Dotted: kinematic frequencies." if over_speed else "")
+        + " Dashed: end of the excitation, where it lies within the picture.",
     )  # fmt: skip
 
 

@@ -26,7 +26,7 @@ from fmu_bearing.reports.spindle import set_page
 from fmu_bearing.reports.subject import Subject
 from fmu_bearing.reports.verdicts import verdict_table
 from fmu_bearing.run.choose import resolve
-from fmu_bearing.scene import Scene, SceneError, SceneSource, read_scene, scene_of
+from fmu_bearing.scene import Scene, SceneSource, read_scene, scene_of
 from fmu_bearing.scene.origins import origins
 
 Source = Recording | SceneSource
@@ -202,7 +202,7 @@ def _subject(
         file = pathlib.Path(source)
         if file.suffix == ".npz":
             tell(f"reading {file.name}")
-            return _taken(_load(file), f"recording {file.name}", radiation_model, radius, speed)
+            return _taken(Recording.load(file), f"recording {file.name}", radiation_model, radius, speed)
         source = read_scene(file)
         text, whence = file.read_text("utf-8-sig"), origins(file)
     if isinstance(source, Recording):
@@ -262,15 +262,6 @@ def _spread(subject: Subject, heard: Microphones | None, tell: Tell) -> Spread |
         )
     except ValueError:
         return None  # no scene, no waviness, or a speed that changes
-
-
-def _load(file: pathlib.Path) -> Recording:
-    if not file.exists():
-        raise SceneError(f"{file}: there is no such file")
-    try:
-        return Recording.load(file)
-    except (ValueError, OSError, KeyError, EOFError) as problem:
-        raise SceneError(f"{file}: is no recording: {problem}") from None
 
 
 def _taken(

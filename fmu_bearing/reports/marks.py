@@ -12,12 +12,17 @@ from fmu_bearing.reports.subject import Subject
 #: The field's other names.
 OTHER_NAMES = {"f_r": "", "f_c": "FTF", "f_b": "BSF", "f_i": "BPFI", "f_o": "BPFO"}
 HARMONICS = 5
+END = "end of the excitation"
 _COLOURS = {"f_r": "grey", "f_c": "cage", "f_b": "balls", "f_i": "inner_ring", "f_o": "outer_ring"}
 _AT_FIRST = ("f_i", "f_o")
 
 
 def mark_kinematics(figure: Any, subject: Subject, highest: float = 20_000.0) -> None:
-    """Add a trace of upright lines per kinematic frequency, with harmonics; none without a scene."""
+    """Add the end of the excitation, and a trace of upright lines per kinematic frequency with harmonics.
+
+    Nothing without a scene.
+    """
+    _mark_end(figure, subject.recording.excitation_end, highest)
     try:
         kinematics = subject.kinematics
     except Absent:
@@ -40,6 +45,29 @@ def mark_kinematics(figure: Any, subject: Subject, highest: float = 20_000.0) ->
         )  # fmt: skip
     figure.update_layout(
         yaxis9={"overlaying": "y", "range": [0.0, 1.0], "visible": False, "fixedrange": True}
+    )
+
+
+def _mark_end(figure: Any, end: float | None, highest: float) -> None:
+    """Add an upright line at the end of the excitation (Hz) below ``highest``."""
+    if end is None or end >= highest:
+        return
+    words = f"{END}, {1e-3 * end:.3g} kHz"
+    figure.add_scatter(
+        x=[end, end], y=[0.0, 1.0], mode="lines", yaxis="y9", name=words,
+        line={"color": look.colour("grey"), "width": 1.8, "dash": "dash"},
+        hovertemplate=f"{words}<extra></extra>",
+    )  # fmt: skip
+
+
+def end_words(subject: Subject) -> str:
+    """Say where the excitation ends, for the note of a chart."""
+    end = subject.recording.excitation_end
+    if end is None:
+        return ""
+    return (
+        f" The surfaces of this scene excite up to {1e-3 * end:.3g} kHz at this speed (dashed); levels above "
+        "are too low, and their source is no finding: raise imperfections.highest_frequency_kHz for more."
     )
 
 

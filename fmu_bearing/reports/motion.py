@@ -10,7 +10,7 @@ from fmu_bearing.engine.constants import RPM
 from fmu_bearing.reports import look
 from fmu_bearing.reports.blocks import Absent, Block, Chart, Choice, Option, Section, Table, Words, small
 from fmu_bearing.reports.decimate import thinned
-from fmu_bearing.reports.marks import mark_kinematics
+from fmu_bearing.reports.marks import end_words, mark_kinematics
 from fmu_bearing.reports.subject import Subject
 
 AXES = ("x", "y", "z")
@@ -173,7 +173,8 @@ def _over_frequency(subject: Subject, bodies: list[str]) -> Chart:
         f"Spectra of the velocity along three axes of {_listed(bodies)}, kinematic frequencies marked.",
         (Choice("body", "Body", [Option(look.words(body), body) for body in bodies]), reach(_HIGHEST)),
         note=f"Velocities read {1e-3 * _sampled(subject):.4g} thousand times a second; {resolution:.3g} Hz "
-        "between lines, flat-top window: lines read true. Click a legend entry to show or hide it.",
+        "between lines, flat-top window: lines read true. Click a legend entry to show or hide it."
+        + end_words(subject),
     )
 
 

@@ -6,11 +6,12 @@ import numpy as np
 
 from fmu_bearing.acoustics.analysis.third_octave import spread
 from fmu_bearing.recording.measure import strongest
+from fmu_bearing.recording.pictures import band_place
 from fmu_bearing.recording.tables import lines_table
 from fmu_bearing.reports import look
 from fmu_bearing.reports.blocks import Block, Chart, Choice, Option, Section, Table, Words, small
 from fmu_bearing.reports.heard import Microphones
-from fmu_bearing.reports.marks import mark_kinematics
+from fmu_bearing.reports.marks import END, end_words, mark_kinematics
 from fmu_bearing.reports.motion import reach
 from fmu_bearing.reports.subject import Subject
 
@@ -156,7 +157,7 @@ def _spectrum(subject: Subject, heard: Microphones) -> Chart:
         note=f"{heard.resolution:.3g} Hz between lines, flat-top window: a line's level is right within "
         f"0.1 dB. Dotted: "
         "kinematic frequencies of rolling without sliding and harmonics to the fifth; click a legend entry "
-        "to show or hide.",
+        "to show or hide." + end_words(subject),
     )  # fmt: skip
 
 
@@ -170,10 +171,13 @@ def _line_table(subject: Subject, heard: Microphones) -> Table:
     else:
         found = strongest(subject.recording, frequency, values, _LINES)
     columns, rows = lines_table(found)
+    end = subject.recording.excitation_end
     for row, line in zip(rows, found, strict=True):
         at = int(np.argmin(np.abs(frequency - line.frequency)))
         parts = {name: heard.spectra[name][place][1][at] for name in heard.components[1:]}
-        row.append(look.words(max(parts, key=lambda name: parts[name])) if parts else "")
+        beyond = end is not None and line.frequency > end
+        loudest = look.words(max(parts, key=lambda name: parts[name])) if parts else ""
+        row.append("beyond the excitation" if beyond else loudest)
     return Table(
         f"Strongest lines at {heard.names[heard.shown[place]]}",
         [*columns, "loudest component"],
@@ -203,6 +207,12 @@ def _third_octaves(heard: Microphones) -> Chart:
         xaxis=look.axis("third-octave band, Hz", type="category", tickangle=-45),
         yaxis=look.axis("level, dB re 20 uPa", range=[low, top + 4.0]),
     )
+    end = heard.subject.recording.excitation_end
+    if end is not None and (place := band_place(bands, end)) < len(names) - 0.5:
+        figure.add_vline(
+            place, line={"color": look.colour("grey"), "width": 1.8, "dash": "dash"},
+            annotation={"text": f"{END}, {1e-3 * end:.3g} kHz", "textangle": -90, "font": {"size": 11}},
+        )  # fmt: skip
     deviations = spread(np.array(bands), heard.third_octave_time)
     unsure = [band for band, deviation in zip(bands, deviations, strict=True) if deviation > _UNSURE]
     chance = (
@@ -215,5 +225,5 @@ def _third_octaves(heard: Microphones) -> Chart:
     return Chart(
         "third-octaves", "Third octaves", figure,
         "Third-octave levels at the chosen microphone, of all components together and of each.",
-        (choice,), note="IEC 61260-1, class 1." + chance,
+        (choice,), note="IEC 61260-1, class 1." + end_words(heard.subject) + chance,
     )  # fmt: skip

@@ -8,7 +8,7 @@ import numpy as np
 
 from fmu_bearing.design.operating_point import OperatingPoint
 from fmu_bearing.design.set_points import life_of_set, operating_points, set_cautions, set_verdicts
-from fmu_bearing.design.verdicts import Verdict, side_by_side
+from fmu_bearing.design.verdicts import Verdict, shown_hours, side_by_side
 from fmu_bearing.instance import EngineError
 from fmu_bearing.progress import Tell
 from fmu_bearing.reports import look
@@ -102,7 +102,8 @@ def _tiles(found: ShaftStatics, points: tuple[OperatingPoint, ...]) -> list[Tile
         tiles.append(tile("lift_off_N", words, abs(first.load), "N", ".0f"))
     life = life_of_set(points)
     if life is not None and math.isfinite(life):
-        tiles.append(tile("life_h", "L10r of all bearings together", life, "h", ",.0f"))
+        shown = tile("life_h", "L10r of all bearings together", life, "h", ",.0f")
+        tiles.append(shown | {"text": shown_hours(life)})
     return tiles
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.recording.measure import strongest
-from fmu_bearing.recording.spread import Spread
+from fmu_bearing.recording.spread import Spread, doubt_of
 from fmu_bearing.reports import look
 from fmu_bearing.reports.blocks import Absent
 from fmu_bearing.reports.heard import Microphones
@@ -140,6 +140,8 @@ def warnings_of(subject: Subject) -> list[str]:
             f"traction is that "
             "of a full film."
         )
+    if doubted := doubt_of(subject.recording):
+        found.append(f"{doubted[0].upper()}{doubted[1:]}.")
     found += _reach(subject)
     found += _length(subject)
     return list(dict.fromkeys(found))

@@ -1,6 +1,10 @@
 """The table of verdicts on the first screen."""
 
-from fmu_bearing.design.operating_point import operating_point
+from dataclasses import replace
+
+import numpy as np
+
+from fmu_bearing.design.operating_point import RINGS, OperatingPoint, operating_point
 from fmu_bearing.design.verdicts import Verdict, verdicts
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.instance import EngineError
@@ -10,8 +14,16 @@ from fmu_bearing.reports.subject import Subject
 _COLUMNS = ("", "value", "verdict", "limit", "source of the limit")
 
 
+#: What the run itself is judged by, where it was kept: its extremes, as the figures above the table.
+_EXTREMES = {"pressure_max": np.max, "shoulder_margin": np.min}
+
+
 def verdict_table(subject: Subject) -> Table | None:
-    """Return the verdicts at the scene's loads and the mean speed; None without scene or equilibrium."""
+    """Return the verdicts on the run; None without scene or equilibrium.
+
+    Pressure, film and shoulder are judged by the run's extremes, all else at the scene's loads and the mean
+    speed.
+    """
     scene = subject.recording.scene
     if scene is None:
         return None
@@ -20,10 +32,27 @@ def verdict_table(subject: Subject) -> Table | None:
         point = operating_point(scene.replace({"operation.speed_rpm": rpm}))
     except EngineError:
         return None
+    point, ran = _of_run(point, subject)
     found = verdicts(point)
     rows = [[one.label, one.text, one.judgement, one.limit, one.source] for one in found]
-    caption = f"Verdicts at {rpm:,.0f} r/min: perfect bearing in its quasi-static state"
+    caption = f"Verdicts at {rpm:,.0f} r/min: {ran}perfect bearing in its quasi-static state"
     return Table(caption, _COLUMNS, rows, note=_note(found))
+
+
+def _of_run(point: OperatingPoint, subject: Subject) -> tuple[OperatingPoint, str]:
+    """Return the point with what the run reached, and words that say so; empty: the run kept none of it."""
+    contacts = {ring: dict(point.contacts[ring]) for ring in RINGS}
+    film, kept = point.film, False
+    for ring in RINGS:
+        for key, extreme in _EXTREMES.items():
+            name = f"contact.{ring}.{key}"
+            if subject.has(name):
+                contacts[ring][key] = float(extreme(subject.output(name)))
+                kept = True
+    if subject.has("film.lambda_min"):
+        film, kept = float(subject.output("film.lambda_min").min()), True
+    words = "pressure, film and shoulder at the run's extremes; all else of the " if kept else ""
+    return replace(point, contacts=contacts, film=film), words
 
 
 def _note(found: list[Verdict]) -> str:

@@ -46,6 +46,11 @@ class Materials(Part):
             return "hybrid"
         return "full ceramic" if all(ceramic) else "other"
 
+    @property
+    def steel_rings(self) -> bool:
+        """Whether standards and makers' limits are for such a bearing: steel, or hybrid."""
+        return self.kind in ("steel", "hybrid")
+
 
 def _is_steel(one: Material) -> bool:
     dense = _STEEL_DENSITY[0] < one.density_kg_m3 < _STEEL_DENSITY[1]

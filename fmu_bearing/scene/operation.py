@@ -40,5 +40,5 @@ class Operation(Part):
         le=1e7,
         examples=[20000.0],
         description="Rating life asked of the bearing, of a set and each of its bearings, for verdicts alone "
-        "(absent: no verdict), h.",
+        "(absent: 20,000 h, assumed), h.",
     )

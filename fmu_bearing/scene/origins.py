@@ -85,11 +85,10 @@ def _table(entry: Entry, name: str) -> Table:
 
 def _preload(document: Mapping[str, Any], scene: Tables) -> dict[str, tuple[str, str]]:
     """Return the origin of a preload that a class or an offset stands for, in words."""
-    mounting, bearing = document.get("mounting", {}), document["bearing"]
+    mounting = document.get("mounting", {})
     if CLASS not in mounting and OFFSET not in mounting:
         return {}
-    name = bearing.get("catalogue", scene.bearing.designation)
-    found = preload(mounting, scene.bearing, scene.materials, name)
+    found = preload(mounting, scene.bearing, scene.materials)
     return {} if found is None else {f"mounting.{FORCE}": ("file", found.words)}
 
 

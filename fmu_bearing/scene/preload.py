@@ -1,12 +1,13 @@
 """The preload of a scene in newtons, where its file gives a class or an offset of the ring faces."""
 
+import tomllib
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from pydantic import ValidationError
 
 from fmu_bearing.formulas.iso281 import dynamic_rating
-from fmu_bearing.formulas.makers import CLASS_NAMES, PRELOAD_CLASSES, preload_classes
+from fmu_bearing.formulas.makers import ANGLES, CLASS_NAMES, at_known_angle, preload_classes
 from fmu_bearing.scene import nsk
 from fmu_bearing.scene.bearing import Bearing
 from fmu_bearing.scene.material import Material, Materials
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 
 #: Keys of a scene's file that stand for ``preload_N``.
 CLASS, OFFSET, FORCE = "preload_class", "preload_offset_um", "preload_N"
-_NEAR = 1.0  # deg: how far beyond makers' angles their classes are used
+_NEAR = 1.0  # deg: how far off the printed angle a measured one may be
 _MOST = 200.0  # um: more than any ball of a scene takes
 
 
@@ -32,6 +33,50 @@ class Preload(NamedTuple):
 
 class PreloadError(ValueError):
     """No preload follows from what is given; the message begins with the key."""
+
+
+class Classes(NamedTuple):
+    """Preload classes of the loose bearing: whose they are, and N by name, from the lightest on."""
+
+    maker: str
+    loads: dict[str, float]
+
+
+#: What of a catalogue entry makes a bearing of another designation the same one: its balls and grooves.
+_INSIDE = ("ball_diameter_mm", "ball_count", "inner_conformity", "outer_conformity")
+
+
+def nsk_size(bearing: Bearing) -> nsk.Size | None:
+    """Return the size of NSK that a bearing is: by its designation, or by the balls and grooves of the entry.
+
+    Its boundary dimensions have to be the printed ones, its contact angle within a degree.
+    """
+    shape = bearing.bore_mm, bearing.outside_diameter_mm, bearing.width_mm
+    for size in nsk.sizes().values():
+        near = abs(bearing.contact_angle_deg - size.angle) <= _NEAR
+        if near and shape == (size.bore, size.outside, size.width):
+            if bearing.designation == size.name:
+                return size
+            entry = tomllib.loads(nsk.entry_text(size))[size.name]
+            if all(getattr(bearing, key) == entry[key] for key in _INSIDE):
+                return size
+    return None
+
+
+def classes(bearing: Bearing) -> Classes | None:
+    """Return the preload classes of a bearing: NSK's printed ones for its sizes, else GMN's shares of C.
+
+    The latter have three digits. None at contact angles of which no maker gives classes.
+    """
+    size = nsk_size(bearing)
+    if size is not None:
+        return Classes("NSK", {name: one.force for name, one in size.preload.items()})
+    angle = bearing.contact_angle_deg
+    if not at_known_angle(angle):
+        return None
+    rating = dynamic_rating(*bearing.for_ratings)
+    shares = zip(CLASS_NAMES, preload_classes(angle), strict=True)
+    return Classes("GMN", {name: float(f"{share * rating:.3g}") for name, share in shares})
 
 
 def preload_key(mounting: Mapping[str, Any]) -> str | None:
@@ -51,7 +96,7 @@ def preload_key(mounting: Mapping[str, Any]) -> str | None:
     return given[0] if given and given[0] != FORCE else None
 
 
-def preload(mounting: Mapping[str, Any], bearing: Any, materials: Any, name: Any) -> Preload | None:
+def preload(mounting: Mapping[str, Any], bearing: Any, materials: Any) -> Preload | None:
     """Return the preload that a class or an offset stands for.
 
     Parameters
@@ -59,8 +104,6 @@ def preload(mounting: Mapping[str, Any], bearing: Any, materials: Any, name: Any
     mounting : mapping
         As the file has it, with one of the keys.
     bearing, materials : Bearing and Materials, or their tables
-    name : object
-        Of the bearing's catalogue entry, or its designation: a maker's size has classes of its own.
 
     Returns
     -------
@@ -79,31 +122,30 @@ def preload(mounting: Mapping[str, Any], bearing: Any, materials: Any, name: Any
     except ValidationError:
         return None
     if elastic is None:
-        return _of_class(mounting[CLASS], rings, name)
+        return _of_class(mounting[CLASS], rings)
     return _of_offset(mounting[OFFSET], rings, elastic)
 
 
-def _of_class(wanted: Any, bearing: Bearing, name: Any) -> Preload:
-    size = nsk.sizes().get(name) if isinstance(name, str) else None
-    known = tuple(nsk.CLASSES) if size is not None else CLASS_NAMES
+def _of_class(wanted: Any, bearing: Bearing) -> Preload:
+    found = classes(bearing)
+    known = CLASS_NAMES if found is None else tuple(found.loads)
     if wanted not in known:
         more = "; extra light is a class of NSK's sizes" if wanted == "extra light" else ""
         raise PreloadError(
             f"mounting.{CLASS} = {shown(wanted)} is refused; allowed: {', '.join(known)}{more}"
         )
-    if size is not None:
-        force = size.preload[wanted].force
-        return Preload(force, f"{wanted} class of NSK: {force:g} N")
     angle = bearing.contact_angle_deg
-    low, high = min(PRELOAD_CLASSES), max(PRELOAD_CLASSES)
-    if not low - _NEAR <= angle <= high + _NEAR:
+    if found is None:
+        low, high = ANGLES
         raise PreloadError(
             f"mounting.{CLASS} = '{wanted}' is known for contact angles of {low:g} to {high:g} deg, not for "
             f"{angle:g}: give {FORCE}"
         )
+    force = found.loads[wanted]
+    if found.maker == "NSK":
+        return Preload(force, f"{wanted} class of NSK: {force:g} N")
     share = dict(zip(CLASS_NAMES, preload_classes(angle), strict=True))[wanted]
     rating = dynamic_rating(*bearing.for_ratings)
-    force = float(f"{share * rating:.3g}")
     return Preload(force, f"{wanted} class of GMN: {share:.3g} of C = {rating:.0f} N, {force:g} N")
 
 

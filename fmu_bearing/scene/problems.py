@@ -163,6 +163,22 @@ def allowed(path: Location) -> str:
     return f"a table [{dotted(path)}]{names}"
 
 
+def too_long(tables: dict[str, Any], path: Location = ()) -> Iterator[tuple[Location, str]]:
+    """Take out arrays longer than their keys allow; yield where each was, and a line about it.
+
+    All members would be checked, one after the other: seconds, where there are very many.
+    """
+    for key, value in tables.items():
+        here = (*path, key)
+        if isinstance(value, dict):
+            yield from too_long(value, here)
+        elif isinstance(value, list | tuple) and (field := _field(here)) is not None:
+            most = [rule.max_length for rule in field.metadata if hasattr(rule, "max_length")]
+            if most and len(value) > most[0]:
+                tables[key] = False  # no array at all: what depends on its members is not checked
+                yield here, f"{dotted(here)} has {len(value)} members; allowed: {allowed(here)}"
+
+
 def is_material(path: Location) -> bool:
     """Whether a material stands there, which a catalogue entry can name."""
     return path[0] == "materials" or path[-1] == "material"

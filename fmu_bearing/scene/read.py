@@ -9,6 +9,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from fmu_bearing.files import read_text, real_path
 from fmu_bearing.scene.entries import (
     KEY as CATALOGUES,
     Entry,
@@ -22,9 +23,18 @@ from fmu_bearing.scene.material import Materials
 from fmu_bearing.scene.mounting import Mounting
 from fmu_bearing.scene.nsk import PREFIX
 from fmu_bearing.scene.preload import CLASS, FORCE, OFFSET, PreloadError, preload, preload_key
-from fmu_bearing.scene.problems import Location, SceneError, described, explain, is_material, missing, shown
+from fmu_bearing.scene.problems import (
+    Location,
+    SceneError,
+    described,
+    explain,
+    is_material,
+    missing,
+    shown,
+    too_long,
+)
 from fmu_bearing.scene.scene import Tables
-from fmu_bearing.scene.toml_text import parse
+from fmu_bearing.scene.toml_text import LONGEST, parse
 from fmu_bearing.scene.values import plain, put
 
 __all__ = ["Scene", "SceneError", "catalogue", "read_scene", "read_scene_text", "scene_of", "with_fidelity"]
@@ -172,8 +182,7 @@ def read_scene(path: str | os.PathLike[str]) -> Scene:
             "Scene.from_dict takes tables"
         )
     try:
-        # some editors put a byte order mark in front, which TOML does not know
-        text = Path(path).read_text("utf-8-sig")
+        text = read_text(path, LONGEST)
     except FileNotFoundError:
         raise SceneError(f"{path}: there is no such scene file") from None
     except UnicodeDecodeError as problem:
@@ -198,8 +207,10 @@ def read_scene_text(text: str, name: str = "scene", folder: Path | None = None) 
     except ValueError as problem:
         raise SceneError(f"{name}: not valid TOML: {problem}") from None
     sound = data.get("sound")
-    if folder is not None and isinstance(sound, dict) and isinstance(sound.get("table_file"), str):
-        sound["table_file"] = str((folder / sound["table_file"]).resolve())
+    if folder is not None and isinstance(sound, dict):
+        table = sound.get("table_file")
+        if isinstance(table, str) and "\0" not in table:
+            sound["table_file"] = str(real_path(folder / table))
     return _checked(data, name, folder=folder)
 
 
@@ -210,6 +221,9 @@ def _checked(
     lines = list(problems)
     unresolved: list[Location] = []
     _resolve(data, _bearings(data, folder, lines), lines, unresolved)
+    for where, line in too_long(data):
+        lines.append(line)
+        unresolved.append(where)
     try:
         scene = Scene.model_validate(data)
     except ValidationError as problem:
@@ -320,20 +334,19 @@ def _resolve(
     if spindle is not None and isinstance(flaws, dict):
         flaws.setdefault("unbalance_um", 0.0)  # a grade's is that of one rotor; a set has it on its shaft
     _fill(data, ("imperfections",), entries("grades"), lines, unresolved, key="grade")
-    _give_preload(data, name, lines, unresolved)
+    _give_preload(data, lines, unresolved)
 
 
-def _give_preload(data: dict[str, Any], name: Any, lines: list[str], unresolved: list[Location]) -> None:
-    """Put newtons in place of a class or an offset; ``name``: of the bearing's catalogue entry, if any."""
-    mounting, bearing = data.get("mounting"), data.get("bearing")
+def _give_preload(data: dict[str, Any], lines: list[str], unresolved: list[Location]) -> None:
+    """Put newtons in place of a class or an offset."""
+    mounting = data.get("mounting")
     if not isinstance(mounting, dict):
         return
     found = None
     try:
         key = preload_key(mounting)
         if key is not None:
-            designation = bearing.get("designation") if isinstance(bearing, dict) else None
-            found = preload(mounting, bearing, data.get("materials"), name or designation)
+            found = preload(mounting, data.get("bearing"), data.get("materials"))
     except PreloadError as problem:
         key = CLASS
         lines.append(str(problem))

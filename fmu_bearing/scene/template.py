@@ -18,12 +18,21 @@ MATERIALS = {
     "hybrid": ("GCr15", "GCr15", "Si3N4", "bakelite"),
     "full-ceramic": ("ZrO2", "ZrO2", "Si3N4", "PEEK"),
 }
+_FAR_STIFFNESS = 3e7  # N/m: of the far bearing whose lever holds the ring against tilting
 _BODIES = ("inner_ring", "outer_ring", "balls", "cage")
 
 
 @dataclass(frozen=True)
 class Dimensions:
-    """Boundary dimensions (mm) and contact angle (deg) of a bearing that is not in the catalogue."""
+    """Boundary dimensions (mm) and contact angle (deg) of a bearing that is not in the catalogue.
+
+    Examples
+    --------
+    >>> from fmu_bearing import Dimensions, new_scene
+    >>> text = new_scene("my-7008C", Dimensions(bore=40.0, outside=68.0, width=15.0), sound=False)
+    >>> "ball_diameter_mm = 8.12 # assumed: 0.29 of outside diameter less bore" in text
+    True
+    """
 
     bore: float
     outside: float
@@ -45,8 +54,12 @@ def new_scene(
     preload_class: str | None = None,
     preload_offset_um: float | None = None,
     folder: Path | None = None,
+    speed_rule: str = "",
+    preload_rule: str = "",
 ) -> str:
-    """Return the text of a scene file that reads back without a refusal.
+    """Return the text of a scene file with these values, which reads back without a refusal.
+
+    `fmu_bearing.new_scene` chooses the speed and the preload that are not given.
 
     Parameters
     ----------
@@ -70,6 +83,8 @@ def new_scene(
     folder : Path, optional
         Where the scene is to stand, for the path of the user's file that has the bearing; default: the
         current folder.
+    speed_rule, preload_rule : str, optional
+        Why speed and preload are what they are: marked as assumed.
 
     Raises
     ------
@@ -79,16 +94,21 @@ def new_scene(
     if kind not in MATERIALS:
         raise SceneError(f"there is no kind of bearing '{kind}': choose from {', '.join(MATERIALS)}")
     materials = zip(_BODIES, MATERIALS[kind], strict=True)
-    outside = _outside(bearing)
+    outside, pitch = _size(bearing)
     parts = [
         f"# Made by `fmu-bearing scene new`. Values marked assumed are not from you: replace what you know.\n"
         f'name = "{name}"{_catalogues(bearing, folder or Path())}',
         *_bearing(bearing, designation or (bearing if isinstance(bearing, str) else name)),
         "[materials]\n" + "\n".join(f'{body} = "{material}"' for body, material in materials),
         f'[lubricant]\ncatalogue = "{lubricant}" # assumed; keys given here win over the catalogue',
-        _MOUNTING.format(preload=_preload(preload_N, preload_class, preload_offset_um)),
-        f'[imperfections] # assumed, by tolerance class\ngrade = "{grade}"\nseed = 1',
-        _OPERATION.format(speed=float(speed_rpm)),
+        _MOUNTING.format(
+            preload=_preload(preload_N, preload_class, preload_offset_um) + _remark(preload_rule),
+            tilt=float(f"{_FAR_STIFFNESS * (1e-3 * pitch) ** 2:.3g}"),
+            far=f"{_FAR_STIFFNESS:g}",
+        ),
+        f'[imperfections] # assumed, by tolerance class\ngrade = "{grade}"\nseed = 1\n'
+        "highest_frequency_kHz = 20.0 # assumed: the audible range",
+        _OPERATION.format(speed=f"{float(speed_rpm)}{_remark(speed_rule)}"),
         *([_sound(outside)] if sound else []),
     ]
     text = "\n\n".join(parts) + "\n"
@@ -114,12 +134,18 @@ def _preload(force: float, by_class: str | None, offset: float | None) -> str:
     return f"{FORCE} = {float(force)}" if offset is None else f"{OFFSET} = {float(offset)}"
 
 
-def _outside(bearing: str | Dimensions) -> float:
-    """Return the outside diameter (mm), or any number for an unknown name, which is refused later."""
+def _size(bearing: str | Dimensions) -> tuple[float, float]:
+    """Return outside and pitch diameter (mm), or any numbers for an unknown name, which is refused later."""
     if isinstance(bearing, Dimensions):
-        return bearing.outside
+        return bearing.outside, 0.5 * (bearing.bore + bearing.outside)
     entry = entries("bearings").get(bearing)
-    return 30.0 if entry is None else float(entry.values["outside_diameter_mm"])
+    if entry is None:
+        return 30.0, 20.0
+    return float(entry.values["outside_diameter_mm"]), float(entry.values["pitch_diameter_mm"])
+
+
+def _remark(rule: str) -> str:
+    return f" # assumed: {rule}" if rule else ""
 
 
 def _bearing(bearing: str | Dimensions, designation: str) -> Sequence[str]:
@@ -141,7 +167,7 @@ def _lines(found: Iterable[Estimate]) -> str:
     def remark(one: Estimate) -> str:
         if one.key == "contact_angle_deg":
             return ""
-        return " # assumed" + (f": {one.rule}" if one.rule else "")
+        return _remark(one.rule) or " # assumed"
 
     return "\n".join(f"{one.key} = {one.value}{remark(one)}" for one in found)
 
@@ -156,19 +182,23 @@ pedestal_axial_ratio = 1.0 # assumed
 pedestal_rotational_ratio_mm2 = 200.0 # assumed
 pedestal_damping_ratio = 0.05 # assumed
 radial_load_y_N = 0.0
-radial_load_z_N = 0.0"""
+radial_load_z_N = 0.0
+
+[mounting.tilt_support] # assumed: a far bearing of {far} N/m, one pitch diameter away
+stiffness_N_m_rad = {tilt}
+damping_ratio = 0.05"""
 
 _OPERATION = """[operation]
 speed_rpm = {speed}
-oil_temperature_degC = 20.0
-inner_ring_temperature_degC = 20.0
-outer_ring_temperature_degC = 20.0"""
+oil_temperature_degC = 40.0 # assumed: a spindle that runs warm
+inner_ring_temperature_degC = 40.0 # assumed
+outer_ring_temperature_degC = 40.0 # assumed"""
 
 
 def _sound(outside: float) -> str:
-    """Return a table of sound with four microphones at three outside diameters."""
+    """Return a table of sound with four microphones at three outside diameters; ahead is -X."""
     r = float(round(3.0 * outside, -1) or 10.0)
-    places = (("right", 0.0, r, 0.0), ("top", 0.0, 0.0, r), ("front", r, 0.0, 0.0), ("back", -r, 0.0, 0.0))
+    places = (("right", 0.0, r, 0.0), ("top", 0.0, 0.0, r), ("front", -r, 0.0, 0.0), ("back", r, 0.0, 0.0))
     microphones = "\n\n".join(
         f'[[sound.microphone]]\nname = "{name}"\nx_mm = {x}\ny_mm = {y}\nz_mm = {z}'
         for name, x, y, z in places

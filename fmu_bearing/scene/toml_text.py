@@ -6,6 +6,8 @@ from typing import Any
 
 #: Levels of tables and brackets beyond which a file is no scene or sweep; those have four at most.
 DEEPEST = 50
+#: Bytes of a scene's or sweep's file; the largest scene of all arrays takes a tenth, reading this a second.
+LONGEST = 1_000_000
 _PLACE = re.compile(r"\(at (?:line (\d+), column \d+|end of document)\)$")
 _HEADER = re.compile(r"\s*\[{1,2}([^\[\]]+)\]{1,2}\s*(?:#.*)?$")
 _KEY = re.compile(r"\s*([^=#]*?)\s*=")

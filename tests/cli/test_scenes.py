@@ -1,11 +1,13 @@
 """scene new, check, show, catalogue."""
 
+import numpy as np
 import pytest
 
 from fmu_bearing.scene import read_scene
 from fmu_bearing.scene.entries import entries, entry_text
 from fmu_bearing.scene.template import MATERIALS, new_scene
 
+KNOWN = ("--bearing", "7003C")
 DIMENSIONS = ("--bore", 40, "--outside-diameter", 68, "--width", 15)
 
 
@@ -38,10 +40,12 @@ def test_new_from_dimensions_estimates_the_rest_and_says_so(run, tmp_path):
     assert 14 <= bearing.ball_count <= 19
     text = path.read_text()
     assert "ball_diameter_mm = 8.12 # assumed: 0.29 of outside diameter less bore" in text
+    assert "inner_conformity = 0.52 # assumed" in text and "outer_conformity = 0.525 # assumed" in text
     shown = run("scene", "show", path, "--assumed", "--json").data
     assumed = {one["key"] for one in shown["values"]}
     assert {"bearing.ball_diameter_mm", "bearing.cage.bore_mm", "lubricant.viscosity_Pa_s"} <= assumed
-    assert not {"bearing.bore_mm", "bearing.contact_angle_deg", "operation.speed_rpm"} & assumed
+    assert {"operation.speed_rpm", "mounting.preload_N", "operation.oil_temperature_degC"} <= assumed
+    assert not {"bearing.bore_mm", "bearing.contact_angle_deg"} & assumed
     assert run("scene", "check", path).exit_code == 0
 
 
@@ -52,10 +56,11 @@ def test_new_from_dimensions_estimates_the_rest_and_says_so(run, tmp_path):
         (("--bore", 40), "needs --bore, --outside-diameter and --width"),
         (("--bearing", "7003C", *DIMENSIONS), "not both"),
         (("--bore", 70, "--outside", 68, "--width", 15), "the outside diameter must exceed the bore"),
-        (("--kind", "glass"), "choose from steel, hybrid, full-ceramic"),
-        (("--speed", 2e5), "operation.speed_rpm = 200000.0 is refused; allowed: -100000 to 100000 r/min"),
-        (("--grade", "P1"), "imperfections.grade"),
-        (("--lubricant", "honey"), "spindle-oil"),
+        ((), "give --bearing NAME (`fmu-bearing scene catalogue` lists them), or --bore,"),
+        ((*KNOWN, "--kind", "glass"), "choose from steel, hybrid, full-ceramic"),
+        ((*KNOWN, "--speed", 2e5), "speed_rpm = 200000.0 is refused; allowed: -100000 to 100000 r/min"),
+        ((*KNOWN, "--grade", "P1"), "imperfections.grade"),
+        ((*KNOWN, "--lubricant", "honey"), "spindle-oil"),
     ],
 )
 def test_new_refuses_in_a_line(run, tmp_path, arguments, reason):
@@ -68,9 +73,9 @@ def test_new_refuses_in_a_line(run, tmp_path, arguments, reason):
 def test_new_replaces_nothing_unasked(run, tmp_path):
     path = tmp_path / "my.toml"
     path.write_text("mine")
-    refused = run("scene", "new", path)
+    refused = run("scene", "new", path, *KNOWN)
     assert refused.exit_code == 2 and "--force" in refused.stderr and path.read_text() == "mine"
-    assert run("scene", "new", path, "--force").exit_code == 0
+    assert run("scene", "new", path, "--force", *KNOWN).exit_code == 0
 
 
 def test_check_tells_every_problem_and_ends_with_one(run, silent_file, tmp_path):
@@ -87,7 +92,7 @@ def test_check_tells_every_problem_and_ends_with_one(run, silent_file, tmp_path)
     # 500 N on a 7003C passes makers' limits: cautions, not errors
     good = data[str(silent_file)]
     assert good["ok"] and [line.split(": ")[1].split(" 1")[0] for line in good["findings"]] == [
-        "contact pressure", "preload 500 N",
+        "contact pressure", "rating life L10r", "preload 500 N (0.084 C)",
     ]  # fmt: skip
     assert not data[str(faulty)]["ok"] and len(data[str(faulty)]["findings"]) == 2
 
@@ -109,7 +114,7 @@ def test_check_tells_a_scene_without_equilibrium_and_one_to_look_at(run, silent_
 
 def test_show_tells_where_values_come_from(run, tmp_path):
     path = tmp_path / "my.toml"
-    run("scene", "new", path, "--bearing", "7003C")
+    run("scene", "new", path, "--bearing", "7003C", "--preload", 300)
     values = {one["key"]: one for one in run("scene", "show", path, "--json").data["values"]}
     assert values["bearing.ball_count"]["origin"] == "catalogue 7003C"
     assert values["imperfections.unbalance_um"]["origin"] == "grade P4"
@@ -166,9 +171,12 @@ def test_a_makers_size_says_what_of_it_is_print(run, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "reason"),
     [
-        (("--preload", 100, "--preload-class", "light"), "give one of --preload, --preload-class and"),
-        (("--preload-class", "enormous"), "allowed: light, medium, heavy"),
-        (("--preload-offset", -1), "allowed: 0 to 200 um"),
+        (
+            (*KNOWN, "--preload", 100, "--preload-class", "light"),
+            "give one of --preload, --preload-class and",
+        ),
+        ((*KNOWN, "--preload-class", "enormous"), "allowed: light, medium, heavy"),
+        ((*KNOWN, "--preload-offset", -1), "allowed: 0 to 200 um"),
     ],
 )
 def test_new_refuses_preloads(run, tmp_path, arguments, reason):
@@ -226,7 +234,37 @@ def test_every_command_that_reads_a_scene_takes_the_option(run):
 
 def test_a_catalogue_that_is_not_there_is_refused(run, own):
     _, scene = own
-    for command in (("info", scene), ("scene", "catalogue"), ("scene", "new", scene, "--force")):
+    for command in (("info", scene), ("scene", "catalogue"), ("scene", "new", scene, *KNOWN, "--force")):
         refused = run(*command, "--catalogue", "nowhere.toml")
         assert refused.exit_code == 2 and refused.stderr.count("\n") == 1
         assert "nowhere.toml: there is no such catalogue file" in refused.stderr
+
+
+def test_check_reads_the_table_of_transfer_functions(run, scene_file, tmp_path):
+    """Also one outside the scene's folder; it is compared with the scene as a run does."""
+    table, file = tmp_path / "elsewhere" / "housing.npz", tmp_path / "scenes" / "scene.toml"
+    table.parent.mkdir(), file.parent.mkdir()
+    places = np.array([place for _, place in read_scene(scene_file).microphones])
+    good = {
+        "frequencies": np.linspace(0.0, 20_000.0, 201),
+        "inputs": np.array(["outer_ring.acceleration.y"]),
+        "microphones": np.array([f"P{k}" for k in range(1, len(places) + 1)]),
+        "positions": places,
+        "H": np.ones((len(places), 1, 201), dtype=complex),
+    }
+    scene = read_scene(scene_file).replace({"sound.radiation_model": "table", "sound.table_file": "t.npz"})
+    file.write_text(scene.to_toml().replace('"t.npz"', '"../elsewhere/housing.npz"'))
+    for changes, said in (
+        (None, f"sound.table_file {table}: there is no such file"),
+        ({"H": good["H"][:1]}, f"sound.table_file {table}: H has the shape"),
+        ({"positions": places + 0.1}, "microphone 'P1' stands at"),
+        ({"inputs": np.array(["outer_rng.acceleration.y"])}, "'outer_rng.acceleration.y' is no input"),
+        ({}, "a scene, with an equilibrium"),
+    ):
+        if changes is not None:
+            np.savez(table, **good | changes)
+        done = run("scene", "check", file)
+        assert done.exit_code == (0 if changes == {} else 1), done.output
+        assert said in done.output
+    table.write_text("root:x:0:0")
+    assert "is no NumPy archive" in run("scene", "check", file).output

@@ -57,5 +57,7 @@ def test_kinds_of_the_catalogue(hybrid):
 
 def test_makers_limits(hybrid):
     assert rate.speed_limit(hybrid) == 1.25 * 1.75e6
-    assert rate.preload_classes(hybrid) == (0.005, 0.015, 0.030)
-    assert rate.preload_classes(sized(hybrid, contact_angle_deg=25.0)) == (0.0085, 0.025, 0.051)
+    # C 5958 N, and 5670 N at 25 deg, in three digits
+    assert rate.preload_classes(hybrid) == ("GMN", {"light": 29.8, "medium": 89.4, "heavy": 179.0})
+    steep = rate.preload_classes(sized(hybrid, contact_angle_deg=25.0))
+    assert steep == ("GMN", {"light": 48.2, "medium": 142.0, "heavy": 289.0})

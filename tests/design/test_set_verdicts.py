@@ -7,7 +7,7 @@ from fmu_bearing import operating_point, operating_points, read_scene, shaft_sta
 from fmu_bearing.design.rating import reference_life
 from fmu_bearing.design.set_points import life_of_set, set_cautions, set_verdicts
 from fmu_bearing.design.verdicts import side_by_side
-from fmu_bearing.reports import make
+from fmu_bearing.reports import make, spindle
 from tests.conftest import EXAMPLES, GATES
 from tests.oracles import B7003C
 from tests.oracles.jones_harris import JonesHarris
@@ -45,8 +45,9 @@ def test_a_pushed_set_of_one_is_the_single_bearing():
     assert one.rating == pytest.approx(other.rating, rel=1e-6)
     ours, theirs = by_key(verdicts(one)), by_key(verdicts(other))
     assert ours.keys() == theirs.keys()
-    # its name of the load differs
-    for key in ours.keys() - {"least_preload"}:
+    # its name of the load differs, and no preload loads it
+    assert (ours["preload_class"].judgement, ours["preload_class"].source) == ("not judged", "no preload")
+    for key in ours.keys() - {"least_preload", "preload_class"}:
         assert (ours[key].text, ours[key].judgement) == (theirs[key].text, theirs[key].judgement), key
 
 
@@ -75,7 +76,8 @@ def test_a_set_lives_as_long_as_all_of_its_bearings_survive():
 def test_life_asked_for_is_judged_of_the_set_and_of_each_bearing():
     points, found = operating_points(DB), shaft_statics(DB)
     life = by_key(set_verdicts(found, points))["set_life"]
-    assert life.judgement == "not judged" and life.value == life_of_set(points)
+    # 20,400 h
+    assert (life.judgement, life.limit) == ("good", "20000 assumed") and life.value == life_of_set(points)
     shortest = min(by_key(verdicts(one))["life"].value for one in points)
     assert life.value < shortest
     # between both: each bearing lives long enough, the set does not
@@ -84,6 +86,15 @@ def test_life_asked_for_is_judged_of_the_set_and_of_each_bearing():
     assert all(by_key(verdicts(one))["life"].judgement == "good" for one in points)
     life = by_key(set_verdicts(found, points))["set_life"]
     assert life.judgement == "change" and "relieve the bearing with the shortest life" in life.advice
+
+
+def test_a_life_of_a_set_that_says_no_more_is_capped():
+    given = scene(preload=30.0, rpm=3e3)
+    points, found = operating_points(given), shaft_statics(given)
+    life = by_key(set_verdicts(found, points))["set_life"]
+    assert life.value > 1e6 and (life.text, life.judgement) == ("> 1e6", "good")
+    (shown,) = [one for one in spindle._tiles(found, points) if one["key"] == "life_h"]
+    assert (shown["text"], shown["value"]) == ("> 1e6", life.value)
 
 
 def test_lift_off_over_the_load_that_is_given():

@@ -1,4 +1,6 @@
-"""The verdicts on the first screen are those of the operating point."""
+"""The verdicts on the first screen: of the run where it kept its extremes, else of the operating point."""
+
+from dataclasses import replace
 
 import pytest
 
@@ -7,6 +9,7 @@ from fmu_bearing.design.verdicts import verdicts
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.reports import report
 from fmu_bearing.reports.subject import Subject
+from fmu_bearing.reports.summary import tiles
 from fmu_bearing.reports.verdicts import verdict_table
 
 
@@ -15,14 +18,45 @@ def subject(full):
     return Subject(full, full.radiation_model, "test")
 
 
-def test_rows_are_those_of_the_operating_point(subject):
-    rpm = subject.speed / RPM
-    point = operating_point(subject.recording.scene.replace({"operation.speed_rpm": rpm}))
+def point_of(subject):
+    """The operating point at the run's speed."""
+    return operating_point(subject.recording.scene.replace({"operation.speed_rpm": subject.speed / RPM}))
+
+
+def test_rows_are_those_of_the_run_that_the_table_heads(subject):
+    """Pressure, film and shoulder are those of the run's extremes, as the figures above the table."""
+    rpm, point = subject.speed / RPM, point_of(subject)
+    for ring in ("inner", "outer"):
+        point.contacts[ring]["pressure_max"] = subject.output(f"contact.{ring}.pressure_max").max()
+        point.contacts[ring]["shoulder_margin"] = subject.output(f"contact.{ring}.shoulder_margin").min()
+    point = replace(point, film=subject.output("film.lambda_min").min())
     table = verdict_table(subject)
     assert table.rows == [[v.label, v.text, v.judgement, v.limit, v.source] for v in verdicts(point)]
     assert f"{rpm:,.0f} r/min" in table.caption
     for one in verdicts(point):
         assert one.advice[1:] in table.note
+
+
+def test_the_table_judges_the_pressure_of_the_card_above_it(rings):
+    """2.0 GPa marks races: the perfect bearing has 1.89, this run more."""
+    run = Subject(rings, rings.radiation_model, "test")
+    (card,) = [one for one in tiles(run, None) if one["key"] == "pressure_GPa"]
+    (row,) = [row for row in verdict_table(run).rows if row[0].startswith("pressure")]
+    assert row[1] == f"{card['value']:.2f}" and card["value"] > 2.0
+    assert row[2] == "change"
+
+
+def test_a_recording_without_these_outputs_is_judged_as_the_perfect_bearing(subject):
+    recording = subject.recording
+    kept, recording.outputs = recording.outputs, {}
+    try:
+        table = verdict_table(subject)
+    finally:
+        recording.outputs = kept
+    assert table.rows == [
+        [v.label, v.text, v.judgement, v.limit, v.source] for v in verdicts(point_of(subject))
+    ]
+    assert table.caption.endswith("r/min: perfect bearing in its quasi-static state")
 
 
 def test_a_recording_without_scene_has_none(subject):

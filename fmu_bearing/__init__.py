@@ -7,7 +7,7 @@ Data flow in one direction::
 ==================  =========================================================================
 ``renamed``         old names, which are refused with their new names
 ``progress``        progress of long work, told line by line
-``files``           writing files that other processes may read
+``files``           reading files that users name, writing those that other processes may read, the cache
 ``extras``          optional packages, imported where they are used
 ``formulas``        closed formulas on plain numbers: Hertz contact, ratings, makers' rules
 ``engine``          Numba kernels on flat arrays: mechanics, fidelities, sound
@@ -17,6 +17,7 @@ Data flow in one direction::
 ``acoustics``       transfer functions from motion to microphones, filters, analysis
 ``interface``       the table of variables
 ``prepare``         from a scene to the numbers of the engine: contacts, masses, imperfections
+``cautions``        warnings about the state that a bearing has reached
 ``instance``        one running bearing, for the library and for the FMU
 ``fmi``             FMI 2.0: XML, native library, slave, the ``.fmu`` file
 ``run``             a scene or an FMU run over inputs; results; fidelity ``auto``
@@ -40,7 +41,7 @@ units in their key names.
 >>> from fmu_bearing import Bearing, simulate
 >>> run = simulate("examples/scenes/7003C-bare.toml", 2e-3)
 >>> round(1e3 * run["friction_torque"][-1])  # N.mm
-16
+21
 """
 
 from importlib import import_module
@@ -48,6 +49,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from fmu_bearing.accuracy.changes import changes
+    from fmu_bearing.design.fresh import new_scene
     from fmu_bearing.design.operating_point import operating_point
     from fmu_bearing.design.set_points import operating_points
     from fmu_bearing.design.set_stiffness import set_stiffness
@@ -67,6 +69,7 @@ if TYPE_CHECKING:
     from fmu_bearing.run.simulate import simulate
     from fmu_bearing.scene import Scene, SceneError, read_scene
     from fmu_bearing.scene.read import with_fidelity
+    from fmu_bearing.scene.template import Dimensions
     from fmu_bearing.spindle.statics import ShaftStatics, shaft_statics
     from fmu_bearing.sweeps import sweep
 
@@ -76,6 +79,7 @@ __version__ = "0.1.0"
 _PLACES = {
     "Bearing": "run.bearing",
     "Campbell": "modal.campbell",
+    "Dimensions": "scene.template",
     "Modes": "modal.modes",
     "Recording": "recording.recording",
     "Run": "run.result",
@@ -90,6 +94,7 @@ _PLACES = {
     "identify": "identification",
     "measure": "recording",
     "modes": "modal.points",
+    "new_scene": "design.fresh",
     "operating_point": "design.operating_point",
     "operating_points": "design.set_points",
     "pictures": "recording",
@@ -110,6 +115,7 @@ _PLACES = {
 __all__ = [
     "Bearing",
     "Campbell",
+    "Dimensions",
     "Modes",
     "Recording",
     "Run",
@@ -124,6 +130,7 @@ __all__ = [
     "identify",
     "measure",
     "modes",
+    "new_scene",
     "operating_point",
     "operating_points",
     "pictures",

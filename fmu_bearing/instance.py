@@ -6,15 +6,14 @@ The same object serves the library and the FMU, so that both give the same bits.
 import math
 import warnings
 from collections.abc import Callable
-from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing import renamed
+from fmu_bearing.cautions import cautions
 from fmu_bearing.compiled import Calls, call
-from fmu_bearing.engine.choices import FIDELITIES
-from fmu_bearing.engine.layout import SP, P, S, U, Z
+from fmu_bearing.engine.layout import SP, P, S
 from fmu_bearing.engine.status import (
     BAD_INPUT,
     BAD_STEP,
@@ -29,16 +28,15 @@ from fmu_bearing.interface import Variable
 from fmu_bearing.interface.set_inputs import led_inputs
 from fmu_bearing.interface.set_outputs import first_output
 from fmu_bearing.prepare.model import Model
-from fmu_bearing.scene import Scene
+from fmu_bearing.scene.imperfections import RACES
 
 #: Messages for the status codes of the engine.
 REASONS = {
     NOT_CONVERGED: "the equations could not be solved: even the shortest internal steps failed; "
     "change inputs by less at a time, or over more steps",
     BAD_INPUT: "an input is not finite or outside its range",
-    BAD_STEP: "the communication step must be a positive, finite number of seconds",
-    NO_START: "no quasi-static equilibrium was found for the initial inputs; "
-    "give more preload or less radial load",
+    BAD_STEP: "the communication step must be above 0 s and below 1e6 s; give a run in several steps",
+    NO_START: "no quasi-static equilibrium was found for these inputs; give more preload or less radial load",
     RIGID_ONLY: "its rings bend, which needs fidelity full",
     OTHER_FIDELITY: "a set of fidelity response, or with rings on pedestals of their own, keeps the fidelity "
     "of its scene; bearings on another model's shaft have fidelity full alone",
@@ -47,85 +45,18 @@ REASONS = {
 }
 # of a set these words differ: loads are those on its shaft
 _OF_SETS = {
-    NO_START: "no quasi-static equilibrium was found for the initial inputs; give more preload or less load "
+    NO_START: "no quasi-static equilibrium was found for these inputs; give more preload or less load "
     "on the shaft, and only towards where a bearing carries it, or a stiffer pedestal where there is one",
     TOO_SOFT: "the loads push an outer ring or the housing sideways by more than 0.3 of the pitch radius; "
     "give a stiffer pedestal or less load on the shaft",
 }
 
 
-@dataclass(frozen=True)
-class Caution:
-    """A warning where a number is below a threshold: ``before``, ``scale`` times the number, ``after``.
-
-    Attributes
-    ----------
-    index : int
-        Place of the number in its array.
-    threshold : float
-    scale : float
-        Factor on the number in the text.
-    before, after : str
-        Text around the number.
-    decimals : int
-        Digits of the number behind the point.
-    array : str
-        ``z`` or ``u``.
-    """
-
-    index: int
-    threshold: float
-    scale: float
-    before: str
-    after: str
-    decimals: int = 1
-    array: str = "z"
-
-
-def _shoulder(ring: str, other: str) -> Caution:
-    return Caution(
-        Z.BEARING_OUTPUTS.index(f"contact.{ring}.shoulder_margin"),
-        0.0,
-        -180.0 / math.pi,
-        f"the ellipse of the most loaded contact of the {ring} race reaches ",
-        f" deg beyond its shoulder (bearing.{ring}_ring_{other}_diameter_mm): the edge cuts in there, while "
-        "loads and stiffness are those of an unbroken groove; reduce preload or load",
-    )
-
-
-_WAVES = Caution(
-    Z.BEARING_OUTPUTS.index("solver.wave_time"),
-    9e-6,
-    1e6,
-    "the fastest wave of races and balls turns by one radian in ",
-    " us, which internal steps have to follow: its frequency lies above 17 kHz; for speed give a lower "
-    "imperfections.highest_order or highest_frequency_kHz, or one scene for low and one for high speeds",
+_WAVES_HIGH = 5.0  # um: as much as loads of some hundred newtons press a contact together
+_WAVY = (
+    "; the waviness of its races rises by up to {:.3g} um, more than contacts are pressed together: some um. "
+    "Give less (imperfections: amplitudes, waviness_exponent, harmonics), or check its unit"
 )
-_SHOULDERS = (_shoulder("inner", "outer"), _shoulder("outer", "inner"))
-_ALWAYS = (*_SHOULDERS, _WAVES)
-_UNLOADED = Caution(
-    Z.BEARING_OUTPUTS.index("contact.inner.load_mean"),
-    1.0,  # N, assumed: at speed balls are thrown outwards and their load goes to zero only by and by
-    1.0,
-    "its inner race carries ",
-    " N per ball: the bearing is unloaded; loose balls skid or lift off, and what they then do depends on "
-    "gravity and chance more than on the bearing; give more preload or less load",
-)
-_BACKWARD = Caution(  # of a set that carries one way: another has bearings for the other one
-    Z.BEARING_OUTPUTS.index("contact.inner.angle_mean"),
-    -0.02,  # rad: more than a free bearing's balls sway
-    180.0 / math.pi,
-    "bearing 1: its contact angle is ",
-    " deg: the load pushes the shaft the way that nothing holds, where races have no shoulder, while loads "
-    "and stiffness are those of a whole groove; turn a bearing, or reverse the load",
-)
-_LOOSE = "preload = 0 N: no axial force holds balls and races together: loose balls skid or lift off; "
-_ROLLS = {
-    "full": "what they then do depends on gravity, loads and chance more than on the bearing",
-    "rings": "fidelity rings has balls that always roll: its loads, levels and torque then mean little",
-    "response": "fidelity response has balls that always roll and contacts that never open: its loads may be "
-    "wrong by orders of magnitude",
-}
 _LONGEST_TEXT = 57  # of a value that is repeated in a message
 _RELATIVE_SLACK = 1e-12  # a value at a bound may carry rounding from a unit conversion
 
@@ -154,41 +85,12 @@ def check(variable: Variable, value: float) -> None:
         raise ValueError(f"{variable.name} = {value} is refused: allowed are {low:g} to {high:g}{unit}")
 
 
-def loose(fidelity: str) -> str:
-    """Return the warning about a bearing without preload at a fidelity."""
-    words = _LOOSE + _ROLLS[fidelity]
-    return f"{words}; give a preload (mounting.preload_N, input preload), or expect no more than a trend"
-
-
-def reasons(of_set: bool) -> dict[int, str]:
-    """Return what the status codes of the engine mean, of a set of bearings or of a single one."""
-    return REASONS | _OF_SETS if of_set else REASONS
-
-
-def cautions(model: Model) -> tuple[Caution, ...]:
-    """Return the warnings checked after initialisation and after each step, each given once."""
-    if model.scene.spindle is not None:
-        return _cautions_of_set(model.scene)
-    before, nothing, after = loose(FIDELITIES[int(model.parameters[P.FIDELITY])]).partition("0")
-    smallest = math.ulp(float(nothing))
-    return (Caution(U.PRELOAD, smallest, 1.0, before, after, decimals=0, array="u"), *_ALWAYS)
-
-
-def _cautions_of_set(scene: Scene) -> tuple[Caution, ...]:
-    """Return the warnings about a set: of each bearing its shoulders and that it is unloaded."""
-    assert scene.spindle is not None
-    count = len(scene.spindle.bearing)
-    # one for all: their waves have the same orders
-    waves = first_output(scene, count) + SP.Z_WAVE_TIME
-    found = [replace(_WAVES, index=waves)]
-    for b in range(count):
-        begin = f"bearing {b + 1}: "
-        for one in (_UNLOADED, *_SHOULDERS):
-            place = first_output(scene, b) + one.index
-            found.append(replace(one, index=place, before=begin + one.before))
-    if len({one.sign for one in scene.spindle.bearing}) == 1:
-        found.append(replace(_BACKWARD, index=first_output(scene, 0) + _BACKWARD.index))
-    return tuple(found)
+def reasons(p: NDArray[np.float64]) -> dict[int, str]:
+    """Return what the status codes of the engine mean for the parameters of a bearing, or of a set."""
+    found = REASONS | _OF_SETS if p[P.SET] else REASONS
+    first, values = int(p[P.AT_WAVES]), len(RACES) * 2 * int(p[P.WAVE_INTERVALS])  # heights and slopes
+    highest = 1e6 * float(np.abs(p[first : first + values : 2]).max()) if p[P.WAVINESS] else 0.0
+    return found | {NO_START: found[NO_START] + _WAVY.format(highest)} if highest > _WAVES_HIGH else found
 
 
 class EngineError(ValueError):
@@ -218,7 +120,7 @@ class Instance:
         self.model = model
         self.tell = tell or (lambda text: warnings.warn(text, stacklevel=4))
         self.by_name = {variable.name: variable for variable in model.variables}
-        self._cautions, self._reasons = cautions(model), reasons(model.scene.spindle is not None)
+        self._cautions, self._reasons = cautions(model), reasons(model.parameters)
         self.reset()
 
     def reset(self) -> None:
@@ -284,7 +186,7 @@ class Instance:
         """Give the warnings about the state reached that were not given yet."""
         for one in self._due:
             value = (self.u if one.array == "u" else self.z)[one.index]
-            if value < one.threshold:
+            if one.due(value):
                 self._due = tuple(other for other in self._due if other is not one)
                 self.tell(f"{one.before}{one.scale * value:.{one.decimals}f}{one.after}")
 
@@ -308,11 +210,13 @@ class Instance:
         self._warn()
 
     def port_derivatives(self, h: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return how force and moment at the end of a step of ``h`` (s) change with the shaft's motion there.
+        """Return partial derivatives of force and moment at the end of a step of ``h`` (s).
 
-        For bearings on another model's shaft (``spindle.shaft.external``), at the present state, which stays
-        as it is: changes of ``port.force.*`` and ``port.moment.*`` (rows) with ``port.displacement.*`` and
-        ``port.tilt.*``, then with their rates, shape (5, 5) each, SI units.
+        For bearings on another model's shaft (``spindle.shaft.external``), by the port's inputs, from the
+        present state, which stays as it is, and at the present inputs: of ``port.force.*`` and
+        ``port.moment.*`` (rows) by ``port.displacement.*`` and ``port.tilt.*`` at fixed rates, then by the
+        rates at fixed place, shape (5, 5) each, SI units. They are differences of two steps for each input.
+        ``h`` = 0: those at rest.
 
         Raises
         ------
@@ -327,10 +231,10 @@ class Instance:
         first = first_output(self.model.scene, len(self.model.scene.spindle.bearing)) + SP.Z_PORT  # type: ignore[union-attr]
         columns = []
         for place in places:
-            change = np.zeros(self.u.size)
-            change[place] = 1.0
+            change = np.zeros(2 * self.u.size)
+            change[: self.u.size], change[self.u.size + place] = self.u, 1.0
             z, work = np.zeros(lengths.outputs), np.zeros(lengths.work)
-            status = call("derivative", self.p, change, self.s.copy(), z, work, number("step h", h))
+            status = call("derivative", self.p, change, np.tile(self.s, 2), z, work, number("step h", h))
             if status != OK:
                 raise EngineError(f"derivatives at the port over {h} s: {self._reasons[status]}")
             columns.append(z[first : first + SP.PLANE])

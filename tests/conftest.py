@@ -5,10 +5,10 @@ import pathlib
 
 import pytest
 
-from fmu_bearing.files import cache_root
+from fmu_bearing.files import cache_root, own_folder
 
 # Kernels that tests call one by one are compiled once, not by each worker and each run.
-os.environ.setdefault("FMU_BEARING_KEEP_KERNELS", str(cache_root() / "kernels"))
+os.environ.setdefault("FMU_BEARING_KEEP_KERNELS", str(own_folder(cache_root() / "kernels")))
 
 ROOT = pathlib.Path(__file__).parents[1]
 #: Gates of all kinds run on these: every value is written out, so that a better default moves no gate.
@@ -38,6 +38,7 @@ LONG = (
     "compiled/test_make.py",
     "cli/test_runs.py",
     "identification/test_page.py",
+    "design/test_fresh.py",
     "examples/test_identification.py",
     "reports/test_changes.py",
     "accuracy/test_changes.py",

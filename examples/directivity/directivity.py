@@ -1,4 +1,4 @@
-"""Directivity of the full-ceramic 7009C: levels on a circle of 210 mm, 50 mm in front, beside its steel twin.
+"""Directivity of the full-ceramic 7009C: levels on a circle of 210 mm, 50 mm along the axis, and its twin.
 
 ``python directivity.py [--quick]`` records both bearings with fidelity full and radiation model bem;
 ``--quick``: a short run of the ceramic bearing with radiation model compact. It writes ``directivity.png``,

@@ -113,7 +113,8 @@ def spectrum(recording: Recording) -> "Figure":
     frequency, spectra = measure.component_spectra(recording, "P1", 5.0)
     low = frequency <= 5000.0
     shown = {name: spectra[name][low] for name in ("total", "inner_ring", "balls")}
-    return pictures.spectrum_picture(frequency[low], shown, recording.kinematics())
+    end = recording.excitation_end
+    return pictures.spectrum_picture(frequency[low], shown, recording.kinematics(), excitation_end=end)
 
 
 def orders(scene: Scene, duration: float) -> "Figure":
@@ -128,7 +129,7 @@ def orders(scene: Scene, duration: float) -> "Figure":
     )
     found = measure.run_up(run_up, "P1", highest=12.0)
     title = f"{scene.name}, 4,000 to 36,000 r/min in {duration:g} s, P1"
-    return pictures.order_picture(found, run_up.kinematics(), title)
+    return pictures.order_picture(found, run_up.kinematics(), title, run_up.excitation_end)
 
 
 def main(

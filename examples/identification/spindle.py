@@ -72,7 +72,7 @@ def rows(scene: Scene) -> list[dict[str, Any]]:
     """Return what is measured, levels still blank."""
     found = []
     for speed in (*FITTED, *CHECKED):
-        common = {"speed_rpm": speed, "value_dB": 0.0, "std_dB": NOISE,
+        common = {"speed_rpm": speed, "value_dB": 60.0, "std_dB": NOISE,
                   "role": "fit" if speed in FITTED else "check"}  # fmt: skip
         for place in scene.microphones:
             found.append(common | {"microphone": place.name, "quantity": QUANTITIES[0]})

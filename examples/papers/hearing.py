@@ -10,7 +10,6 @@ elements take a second per circle.
 import fcntl
 import functools
 import hashlib
-import os
 import pathlib
 import pickle
 from collections.abc import Callable, Sequence
@@ -27,6 +26,7 @@ from fmu_bearing.acoustics.radiation.compact import Path
 from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.engine.sources import rooms_digest
+from fmu_bearing.files import own_folder, read_own, write_whole
 from fmu_bearing.recording.heard import air_of
 from fmu_bearing.recording.record import Recording
 from fmu_bearing.scene import Scene
@@ -105,7 +105,7 @@ class Ear:
 
 @functools.lru_cache(maxsize=8)
 def _read(path: pathlib.Path) -> list[Circle]:
-    return pickle.loads(path.read_bytes())
+    return pickle.loads(read_own(path))
 
 
 def _kept_paths(
@@ -121,7 +121,7 @@ def _kept_paths(
     )
     text = repr((radiation_model, sound, body, places, harmonics, sources_hash()))
     path = cache / "paths" / f"{hashlib.sha256(text.encode()).hexdigest()[:16]}.pickle"
-    path.parent.mkdir(parents=True, exist_ok=True)
+    own_folder(path.parent)  # what is unpickled is run
     with path.with_suffix(".lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)  # other workers want the same paths: one makes them
         if not path.exists():
@@ -129,9 +129,7 @@ def _kept_paths(
             made = list(
                 circles(radiation_model, radiators_of(scene), air_of(scene), places, harmonics, modes=modes)
             )
-            part = path.with_suffix(f".{os.getpid()}")
-            part.write_bytes(pickle.dumps(made))
-            part.replace(path)
+            write_whole(path, pickle.dumps(made))
     return _read(path)
 
 

@@ -88,11 +88,14 @@ def run(
     rate = np.linalg.solve(rotor.mass, push)
     force = before = bearings.force()
     begin, rows = place.copy(), []
-    derivatives = None
+    derivatives, resting = None, bearings.one.port_derivatives(1e-3)[0]
     for k in range(round(duration / h)):
         if derivatives is None or k % 10 == 0:  # the bearings change little in so many steps
             derivatives = bearings.one.port_derivatives(h)
-        to_place, to_rate = _rotor_step(rotor, place, rate, force, before, h, scheme, derivatives)
+        # the force that the bearings give at the end: extrapolated, or as if the rates were held
+        ahead = 2.0 * force - before if scheme == SCHEMES[0] else force + h * resting @ rate[:PORT]
+        inside = None if scheme == SCHEMES[0] else derivatives
+        to_place, to_rate = _rotor_step(rotor, place, rate, force, ahead, h, inside)
         kept = bearings.one.s.copy()
         after = bearings.step(to_place[:PORT], to_rate[:PORT], h)
         if scheme == "rollback":
@@ -124,18 +127,16 @@ def _matrix(rotor: Rotor, h: float, derivatives: tuple[Vector, Vector] | None) -
 
 
 def _rotor_step(
-    rotor: Rotor, place: Vector, rate: Vector, force: Vector, before: Vector, h: float, scheme: str,
-    derivatives: tuple[Vector, Vector],
+    rotor: Rotor, place: Vector, rate: Vector, force: Vector, end: Vector, h: float,
+    derivatives: tuple[Vector, Vector] | None,
 ) -> tuple[Vector, Vector]:  # fmt: skip
-    """One step of the rotor by the trapezoidal rule."""
-    if scheme == "extrapolated":
-        end, inside = 2.0 * force - before, None
-    else:
-        # the force would be this with the rates held
-        end, inside = force + h * derivatives[0] @ rate[:PORT], derivatives
+    """One step of the rotor by the trapezoidal rule; ``end``: the bearings' force where rates are held.
+
+    ``derivatives``: of that force, by place and by rate at the end; None: it stays as it is.
+    """
     start = _forces(rotor, place, rate, force)
     ahead = _forces(rotor, place + h * rate, rate, end)
-    change = np.linalg.solve(_matrix(rotor, h, inside), 0.5 * h * (start + ahead))
+    change = np.linalg.solve(_matrix(rotor, h, derivatives), 0.5 * h * (start + ahead))
     return place + h * rate + 0.5 * h * change, rate + change
 
 

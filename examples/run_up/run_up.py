@@ -74,8 +74,10 @@ def main(
     fall = waterfall(recording.pressure([place])[0], recording.angle, recording.rate, highest=UP_TO)
     kinematic = recording.kinematics()
     title = f"{scene.name}, {FROM / RPM:,.0f} to {TO / RPM:,.0f} r/min in {duration:g} s, P1"
-    sound_pictures.save(sound_pictures.order_picture(orders, kinematic, title), output / "orders.png")
-    sound_pictures.save(sound_pictures.waterfall_picture(fall, title), output / "waterfall.png")
+    end = recording.excitation_end
+    turned = None if end is None else end / kinematic.f_r
+    sound_pictures.save(sound_pictures.order_picture(orders, kinematic, title, end), output / "orders.png")
+    sound_pictures.save(sound_pictures.waterfall_picture(fall, title, turned), output / "waterfall.png")
     write_csv(output / "orders.csv", *sound_tables.order_table(orders))
     outer, inner = kinematic.f_o / kinematic.f_r, kinematic.f_i / kinematic.f_r
     wanted = {"shaft": 1.0, "outer race": outer, "outer race and shaft": outer + 1.0}

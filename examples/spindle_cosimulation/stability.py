@@ -11,10 +11,10 @@ disturbance changes from step to step. Between -1 and 1 it decays (below 0 with 
 grows. The script writes ``coupling.md``, ``coupling.csv`` and ``coupling.png``.
 
 Result: with the spindle's own inertia (1.64e-4 kg m2) the disturbance decays at every step from 0.01 to
-10 ms, at once. The bound of a torque that follows the speed, h < 2 J / (dT/dw), is 190 s there, because
-dT/dw is only 1.7e-6 N m s. The inertia of balls and cage, Jb = 1.19e-7 kg m2, limits the coupling, because
+10 ms, at once. The bound of a torque that follows the speed, h < 2 J / (dT/dw), is 145 s there, because
+dT/dw is only 2.3e-6 N m s. The inertia of balls and cage, Jb = 1.19e-7 kg m2, limits the coupling, because
 it comes back as torque: the factor is -Jb / J, so a shaft lighter than Jb diverges at every step from 0.1 ms
-on. Heat against temperature is stable at every step: the oil's cooling takes 3 to 10 times as much per kelvin
+on. Heat against temperature is stable at every step: the oil's cooling takes 2 to 6 times as much per kelvin
 as friction heat falls.
 """
 

@@ -3,9 +3,7 @@
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
-from fmu_bearing.design.rating import is_rated, preload_classes
-from fmu_bearing.formulas.iso281 import dynamic_rating
-from fmu_bearing.formulas.makers import CLASS_NAMES, PRELOAD_CLASSES
+from fmu_bearing.design.rating import preload_classes
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.read import catalogue
 
@@ -51,13 +49,8 @@ def alternatives(scene: Scene) -> list[Alternative]:
 def _preload(scene: Scene) -> Iterator[Alternative]:
     now = scene.mounted.preload_N
     wanted = [(float(f"{factor * now:.3g}"), "") for factor in _PRELOADS if now > 0.0]
-    angle = scene.bearing.contact_angle_deg
-    if is_rated(scene) and min(PRELOAD_CLASSES) - _NEAR <= angle <= max(PRELOAD_CLASSES) + _NEAR:
-        rating = dynamic_rating(*scene.bearing.for_ratings)
-        wanted += [
-            (float(f"{share * rating:.2g}"), f" {name}")
-            for share, name in zip(preload_classes(scene), CLASS_NAMES, strict=True)
-        ]
+    found = preload_classes(scene)
+    wanted += [(force, f" {name}") for name, force in found.loads.items()] if found else []
     for force, name in wanted:
         if force != now:
             yield Alternative(

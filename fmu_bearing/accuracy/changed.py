@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.accuracy.alternatives import Alternative
+from fmu_bearing.formulas import iso281
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.values import value_at
 
@@ -35,7 +36,10 @@ class Point(NamedTuple):
 
 
 class Heard(NamedTuple):
-    """How levels were computed: that of the unchanged scene (dB(A)), where, by what, how long (s), seeds."""
+    """How levels were computed: that of the unchanged scene (dB(A)), where, by what, how long (s), seeds.
+
+    ``doubt``: why they are in doubt; empty: they are not.
+    """
 
     level: float = math.nan
     microphone: str = ""
@@ -44,6 +48,7 @@ class Heard(NamedTuple):
     settle: float = 0.0
     duration: float = 0.0
     seeds: tuple[int, ...] = ()
+    doubt: str = ""
 
 
 @dataclass(frozen=True)
@@ -237,7 +242,7 @@ class Changes:
 
     def remarks(self) -> list[str]:
         """Return the warnings of single changes, and the choices that were left out."""
-        found = [f"Unchanged: {text}." for text in self.before.cautions]
+        found = [f"Unchanged: {text}." for text in (*self.before.cautions, self.heard.doubt) if text]
         found += [f"{each.choice.words}: {text}." for each in self.changes for text in each.cautions]
         return found + [f"Left out: {each.choice.words}: {each.reason}." for each in self.refused]
 
@@ -247,7 +252,7 @@ class Changes:
         names = {"life": "life (L10r, ISO 16281)", "torque": "torque"}
         there = [text for name, text in names.items() if name in self.figures]
         words = ", ".join([*there, "radial stiffness"])
-        words = f"{words[0].upper()}{words[1:]}: quasi-static point of the perfect bearing, rigid rings."
+        words = f"{words[0].upper()}{words[1:]}: operating point of the perfect bearing."
         for name, reason in (("life", self.no_life), ("torque", self.no_torque)):
             words += f" No {name}: {reason}." if reason else ""
         if self.no_level:
@@ -282,6 +287,7 @@ class Changes:
             "settle_s": self.heard.settle,
             "duration_s": self.heard.duration,
             "seeds": list(self.heard.seeds),
+            "doubt": self.heard.doubt,
             "no_level": self.no_level,
             "no_life": self.no_life,
             "no_torque": self.no_torque,
@@ -300,8 +306,9 @@ def shown_level(change: float, digits: int = 3) -> str:
 
 
 def shown_hours(life: float) -> str:
-    """Return a life (h) with three digits."""
-    return f"{float(f'{life:.3g}'):,.10g} h"
+    """Return a life (h) with three digits, beyond `iso281.MOST_HOURS` without them."""
+    figure = f"{float(f'{life:.3g}'):,.10g}"
+    return f"{iso281.BEYOND_HOURS if life > iso281.MOST_HOURS else figure} h"
 
 
 def shown_ratio(ratio: float) -> str:

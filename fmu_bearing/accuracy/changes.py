@@ -1,6 +1,6 @@
 """Sensitivity of level, life and friction torque to what a designer chooses, one choice at a time.
 
-Life, torque and stiffness are those of the quasi-static operating point of a perfect bearing. Levels come
+Life, torque and stiffness are those of a perfect bearing at its operating point. Levels come
 from short runs with the same seeds before and after a change, so that a difference is that of the change. Its
 range over seeds is told with it: a change that makes one draw of the surfaces quieter and another louder is
 no finding.
@@ -64,7 +64,7 @@ def changes(
     >>> found = changes("examples/scenes/7003C-bare.toml", levels=False)
     >>> best = found.ranked("life")[0]
     >>> best.choice.words, best.ratio('life') > 10
-    ('preload 500 -> 30 N light', True)
+    ('preload 500 -> 29.8 N light', True)
     """
     if seeds < 1:
         raise ValueError(f"seeds = {seeds}: give 1 or more")
@@ -82,7 +82,7 @@ def changes(
             ear, reason = None, str(problem)
     heard = Heard() if ear is None else Heard(
         ear.level, ear.microphone, ear.fidelity, ear.listener.radiation_model, ear.listener.settle,
-        ear.listener.duration, ear.seeds,
+        ear.listener.duration, ear.seeds, ear.doubt,
     )  # fmt: skip
     found = Changes(scene, before, heard, (), reason, _no_life(scene))
     if not found.figures:
@@ -104,6 +104,7 @@ def point(scene: Scene) -> Point:
     """
     cautions: list[str] = []
     found = operating_point(scene, cautions.append)
+    cautions += found.remarks
     rpm, turns = scene.operation.speed_rpm, found.reference_life
     radial = 1e-6 * 0.5 * float(found.stiffness[1, 1] + found.stiffness[2, 2])
     torque = 1e3 * found.friction_torque * math.copysign(1.0, rpm)

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.filters.weighting import level
 from fmu_bearing.engine.constants import RPM
+from fmu_bearing.modal.weak import doubt, weakness
 from fmu_bearing.recording.listener import Listener
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.read import with_fidelity
@@ -22,7 +23,7 @@ class Hearing:
 
     def __init__(self, listener: Listener) -> None:
         self.listener = listener
-        self.fidelity = self.microphone = ""
+        self.fidelity = self.microphone = self.doubt = ""
         self.seeds: tuple[int, ...] = ()
         self.before: NDArray[np.float64] = np.empty(0)
         self.level = math.nan
@@ -38,6 +39,7 @@ class Hearing:
         """
         assert scene.imperfections is not None
         self.fidelity, heard = self._choose(scene)
+        self.doubt = doubt(with_fidelity(scene, model=self.fidelity))
         if self.fidelity == "full":
             seeds = min(seeds, _SEEDS_FULL)
         self.seeds = tuple((scene.imperfections.seed + k) % 2**31 for k in range(seeds))
@@ -53,8 +55,9 @@ class Hearing:
     def _choose(self, scene: Scene) -> tuple[str, NDArray[np.float64]]:
         """Return the cheapest fidelity within the scene's accuracy, and its levels at all microphones.
 
-        Rings that bend need fidelity full. Else fidelity response is taken where it agrees with fidelity
-        rings, which knows the contacts' curvature, within the level that the scene asks for.
+        Rings that bend need fidelity full, and weakly damped modes are judged by it. Else fidelity response
+        is taken where it agrees with fidelity rings, which knows the contacts' curvature, within the level
+        that the scene asks for.
         """
         assert scene.imperfections is not None
         own, seed = scene.fidelity.model, scene.imperfections.seed
@@ -62,6 +65,8 @@ class Hearing:
             return "full", self._all(scene, "full", seed)
         if own in ("rings", "response"):
             return own, self._all(scene, own, seed)
+        if weakness(scene):
+            return "full", self._all(scene, "full", seed)
         rings = self._all(scene, "rings", seed)
         try:
             response = self._all(scene, "response", seed)

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from fmu_bearing.design.operating_point import OperatingPoint
     from fmu_bearing.design.verdicts import Verdict
 
-_FREEDOMS = ("x", "y", "z", "tilt y", "tilt z")
+_FREEDOMS = ("axial", "radial y", "radial z", "tilt y", "tilt z")
 _PLACES = 3  # of them are displacements
 _WORDS = {
     "f_r": "shaft", "f_c": "cage", "f_b": "ball about itself", "f_i": "balls past the inner race",
@@ -38,7 +38,7 @@ def info(scene: SceneFile, catalogue: Catalogues = None, as_json: Json = False) 
     with refusals():
         point = operating_point(given)
     found = verdicts(point)
-    told = [one.advice for one in found if one.advice]
+    told = [*point.remarks, *(one.advice for one in found if one.advice)]
     if as_json:
         print_json(point.summary() | {"verdicts": [one.as_dict() for one in found], "cautions": told})
         return
@@ -58,7 +58,7 @@ def _show(point: "OperatingPoint", found: "list[Verdict]") -> None:
         "perfect bearing, rigid rings"
     )
     show("contacts", ("", "inner race", "outer race"), _contacts(point))
-    show("stiffness: N and N m per um and mrad", ("", *_FREEDOMS), _matrix(point))
+    show("stiffness at rest: N and N m per um and mrad", ("", *_FREEDOMS), _matrix(point))
     shaft = point.frequencies.f_r
     rows = [
         [name, _WORDS[name], f"{value:.1f}", f"{value / shaft:.3f}" if shaft else ""]

@@ -59,6 +59,7 @@ def simulate(
     as_json: Json = False,
 ) -> None:
     """Run a scene or an FMU. After a refused step or Ctrl-C the results so far are kept."""
+    from fmu_bearing.modal.weak import doubt
     from fmu_bearing.run import result as results
     from fmu_bearing.run.simulate import EndedEarly, simulate as run_it
 
@@ -72,8 +73,12 @@ def simulate(
             progress=False if as_json else None,
         )  # fmt: skip
         run.save(output)
+        doubted = ""
+        if run.scene is not None and any(unit == "dB" for unit in run.units.values()):
+            held = {} if turning is None else {"operation.speed_rpm": speed}
+            doubted = doubt(run.scene.replace(held))
     if as_json:
-        print_json(run.summary() | {"file": output})
+        print_json(run.summary() | {"file": output, "doubt": doubted})
     else:
         if run.note:
             typer.echo(f"error: {run.note}", err=True)
@@ -81,6 +86,8 @@ def simulate(
             f"written: {output}, {len(run)} points to {run.time[-1]:g} s, {len(run.names)} variables, "
             f"in {run.wall:.2g} s"
         )
+        if doubted:
+            typer.echo(f"{doubted}.")
     if not run.complete:
         raise typer.Exit(INTERRUPTED if run.ended == results.INTERRUPTED else ENDED_EARLY)
 

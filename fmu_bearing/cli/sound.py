@@ -64,6 +64,7 @@ def sound(
     from fmu_bearing.recording.listen import listen, write_all
     from fmu_bearing.recording.places import named_places
     from fmu_bearing.recording.record import Recording, record
+    from fmu_bearing.recording.spread import doubt_of
     from fmu_bearing.run.table import show
     from fmu_bearing.scene.read import read_scene, with_fidelity
 
@@ -95,14 +96,29 @@ def sound(
         heard = listen(recording, microphone, radiation_model, resolution)
         files = write_all(recording, heard, output, radiation_model, wav, directivity, tell)
         sure = _spread(recording, microphone, radiation_model, as_json) if spread else None
+        doubted = doubt_of(recording)
     if as_json:
-        print_json({"levels": heard.summary(), "files": files} | ({"spread": sure.summary()} if sure else {}))
+        print_json(
+            {"levels": heard.summary(), "doubt": doubted, "files": files}
+            | ({"spread": sure.summary()} if sure else {})
+        )
     else:
-        show("levels", *heard.rows())
+        show(_heading(recording), *heard.rows())
+        if doubted:
+            tell(f"{doubted}.")
         if sure is not None:
             show("how sure these levels are", *sure.rows())
             tell(sure.remark())
         tell(f"written: {output}: {', '.join(path.name for path in files)}")
+
+
+def _heading(recording: "Recording") -> str:
+    """Return "levels", what radiates, and how far the surfaces excite it."""
+    scene, end = recording.scene, recording.excitation_end
+    words = "levels"
+    if scene is not None and scene.sound is not None:
+        words += f", radiator {scene.sound.radiator}"
+    return words if end is None else f"{words}, surfaces excite up to {1e-3 * end:.3g} kHz"
 
 
 def _spread(

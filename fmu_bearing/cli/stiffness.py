@@ -184,7 +184,7 @@ def _show(found: "Stiffness") -> None:
     units = "K in N/um and N m/mrad, C in N s/m and mN m s/rad"
     show(f"{found.scene.name} at {found.frequencies[at]:.4g} Hz: {units}", _COLUMNS, rows)
     typer.echo(
-        f"quasi-static stiffness differs from K at {found.frequencies[0]:.4g} Hz by at most "
+        f"K for frequency to 0 differs from K at {found.frequencies[0]:.4g} Hz by at most "
         f"{_PERCENT * found.against_static():.2g} %"
     )
 

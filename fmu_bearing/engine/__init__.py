@@ -11,7 +11,8 @@
 ``dense``              small dense matrices: product, elimination, inverse, eigenvectors, complex equations
 ``mechanics``          forces and equations of motion of balls, cage and rings
 ``newton``             the Newton system in accelerations: Jacobian, factors, solution
-``statics``            quasi-static equilibrium, where a run starts
+``statics``            quasi-static equilibrium, the first guess of the operating point
+``steady``             operating point: the steady state of the full equations, where a run starts
 ``sound``              filters from motion to microphones, level meters
 ``readout``            from the state to outputs, losses and motion samples
 ``fidelities``         how the state is stepped: full, rings, response

@@ -10,7 +10,8 @@ from fmu_bearing.engine.choices import FULL, RESPONSE, RINGS
 from fmu_bearing.engine.fidelities.full.march import march
 from fmu_bearing.engine.fidelities.full.start import start
 from fmu_bearing.engine.fidelities.response.march import march_response, start_response
-from fmu_bearing.engine.fidelities.rings.march import march_rings, start_rings
+from fmu_bearing.engine.fidelities.rings.restart import march_rings
+from fmu_bearing.engine.fidelities.rings.start import start_rings
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, P, U
 from fmu_bearing.engine.readout.outputs import observe
@@ -20,7 +21,8 @@ from fmu_bearing.engine.spindle.march import march_set, port_derivative
 from fmu_bearing.engine.spindle.outputs import observe_set
 from fmu_bearing.engine.spindle.port import has_port
 from fmu_bearing.engine.spindle.response import march_response_set, start_response_set
-from fmu_bearing.engine.spindle.rings import march_rings_set, start_rings_set
+from fmu_bearing.engine.spindle.restart import march_rings_set
+from fmu_bearing.engine.spindle.rings import start_rings_set
 from fmu_bearing.engine.spindle.start import start_set
 from fmu_bearing.engine.status import BAD_INPUT, BAD_STEP, OK, OTHER_FIDELITY, RIGID_ONLY
 
@@ -29,6 +31,9 @@ _FASTEST = 1.1e4  # rad/s
 _COLDEST_OIL = 230.0  # K
 _COLDEST_RING = 200.0  # K
 _LONGEST = 1e6  # s: communication step
+# s: a shorter one counts as this long, in which nothing moves; below 1e-50 s powers of the length, up to the
+# sixth, are no numbers, nor are rates of inputs
+_SHORTEST = 1e-15
 
 
 @kernel
@@ -117,7 +122,7 @@ def step_set(p, u, s, z, w, h):
 
 @kernel
 def init(p, u, s, z, w, t):
-    """Put the state to the quasi-static one at the inputs' values and time ``t`` (s); fill the outputs."""
+    """Put the state to the steady one at the inputs' values and time ``t`` (s); fill the outputs."""
     if p[P.SET] != 0.0:
         return init_set(p, u, s, z, w, t)
     if not inputs_usable(u) or not math.isfinite(t):
@@ -140,6 +145,7 @@ def step(p, u, s, z, w, h):
     """Advance the state by ``h`` (s) with the speed ramping to its input and the other inputs held."""
     if not (h > 0.0 and h < _LONGEST):
         return BAD_STEP
+    h = max(h, _SHORTEST)
     if p[P.SET] != 0.0:
         return step_set(p, u, s, z, w, h)
     if not inputs_usable(u):
@@ -167,15 +173,17 @@ def outputs(p, s, z):
 
 @kernel
 def derivative(p, u, s, z, w, h):
-    """Put the change of outputs to ``z`` for the change ``u`` of inputs over one step of ``h`` (s).
+    """Put the change of outputs to ``z`` for a change of inputs over one step of ``h`` (s) from the state.
 
-    Known are force and moment at a set's port by place and rate; what is not known is no number. ``s`` is a
-    copy of the state, whose Jacobians are lost; without a step behind (``h`` 0) rates change nothing.
+    ``u``: inputs, then their change; ``s``: a copy of the state, then room for another; both are lost. Known
+    are force and moment at a set's port by place and rate; what is not known is no number. Without a step
+    behind (``h`` 0) places change them as at rest, rates do not.
     """
     for i in range(z.size):
         z[i] = math.nan
     if not (h >= 0.0 and h < _LONGEST):
         return BAD_STEP
-    if p[P.SET] == 0.0:
+    if p[P.SET] == 0.0 or not set_usable(p, u, w):
         return BAD_INPUT
+    spread_choices(p)
     return port_derivative(p, u, s, z, w, h)

@@ -151,10 +151,12 @@ class BearingSlave(Fmi2Slave):
 
     @_contained(None)
     def _set_fmu_state(self, state: State | StateError) -> None:
-        if isinstance(state, StateError):
-            self.session.fail(f"state not taken: {state}")
-        else:
+        try:
+            if isinstance(state, StateError):
+                raise state
             self.session.restore(state)
+        except StateError as problem:
+            self.session.fail(f"state not taken: {problem}")
 
     @classmethod
     def _fmu_state_to_bytes(cls, state: State | StateError) -> bytes:

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from fmu_bearing.engine.layout import P
-from fmu_bearing.fmi.state import State
+from fmu_bearing.fmi.state import State, StateError
 from fmu_bearing.instance import EngineError, Instance
 from fmu_bearing.prepare.model import Model
 
@@ -273,13 +273,23 @@ class Session:
         )
 
     def restore(self, state: State) -> None:
-        """Go back to a state of this model: what follows is the same to the last bit."""
+        """Go back to a state of this model: what follows is the same to the last bit.
+
+        Raises
+        ------
+        StateError
+            For arrays of other lengths than the model's, or no phase; nothing is taken then.
+        """
         instance = self._instance
-        instance.p[_TUNABLES] = state.tunables
-        instance.u[:] = state.inputs
+        places = instance.p[_TUNABLES], instance.u, instance.z, instance.s
+        kept = state.tunables, state.inputs, state.outputs, state.engine
+        if [one.size for one in places] != [one.size for one in kept]:
+            raise StateError("the state is damaged: its arrays have other lengths than this model's")
+        if state.phase not in range(len(_PHASES)):
+            raise StateError("the state is damaged: it has no phase")
+        for place, values in zip(places, kept, strict=True):
+            place[:] = values
         instance.initialised = state.settled
-        instance.z[:] = state.outputs
-        instance.s[:] = state.engine
         self.phase = _PHASES[state.phase]
         self.time = state.time
         self._wrong = dict(state.wrong)

@@ -74,8 +74,12 @@ class State:
         body = data[start + 64 :]
         if hashlib.sha256(body).digest() != data[start + 32 : start + 64]:
             raise StateError("the state is damaged: its checksum does not hold")
+        if len(body) < _HEAD.size:
+            raise StateError("the state is cut off")
         time, phase, settled, *sizes, notes_size = _HEAD.unpack_from(body)
         position = _HEAD.size
+        if len(body) != (wanted := position + 8 * sum(sizes) + notes_size):
+            raise StateError(f"the state is damaged: it has {len(body)} bytes, its arrays take {wanted}")
         arrays = []
         for size in sizes:
             arrays.append(np.frombuffer(body, "<f8", size, position).astype(np.float64))

@@ -35,6 +35,7 @@ _MIC_WORDS = (
 #: What stands behind the description of every level.
 FLOOR = "; -106 dB: silence, or no metering yet"
 _PLAIN = 9  # of these, what every scene has; the rest need sound.details
+_CONTACTS_ALONE = "stiffness of the present contacts between the rings, friction and centrifugal force held"
 _PARTIAL = tuple(f"spl_{part}" for part in (
     "inner_ring", "outer_ring", "cage", "balls", "radial", "axial", "rotation", "flexure",
 ))  # fmt: skip
@@ -84,10 +85,8 @@ def internals(scene: Scene) -> list[Variable]:
     table += [*_contacts("inner"), *_contacts("outer")]
     table += [
         read("film.lambda_min", "local", "Thinnest oil film over the composite roughness", nominal=1.0),
-        read("stiffness.axial", "local", "Axial stiffness between the rings at the present contacts", "N/m"),
-        read(
-            "stiffness.radial", "local", "Radial stiffness between the rings at the present contacts", "N/m"
-        ),
+        read("stiffness.axial", "local", f"Axial {_CONTACTS_ALONE}", "N/m"),
+        read("stiffness.radial", "local", f"Radial {_CONTACTS_ALONE}", "N/m"),
         *_cage_whirl(scene),
         *_torque_shares(scene),
         read(
@@ -97,6 +96,10 @@ def internals(scene: Scene) -> list[Variable]:
         ),
         _count("solver.steps", "Internal steps so far"),
         _count("solver.rejected", "Internal steps refused so far"),
+        _count(
+            "solver.restarts",
+            "How often fidelities rings and response have begun again at rest, where no step led on",
+        ),
         read(
             "solver.wave_time",
             "local",

@@ -9,6 +9,7 @@ from fmu_bearing.engine.layout import P
 from fmu_bearing.formulas import iso76, iso281, makers
 from fmu_bearing.interface.variable import Variable, usual
 from fmu_bearing.scene import Scene, si
+from fmu_bearing.scene.preload import classes
 from fmu_bearing.scene.sound import Radiator
 from fmu_bearing.scene.spindle import Spindle
 
@@ -112,16 +113,16 @@ def _arrangement(spindle: Spindle) -> list[Variable]:
 
 
 def _ratings(scene: Scene) -> list[Variable]:
-    """Return ratings and limits that need no run; rings of ceramics have no rating."""
+    """Return ratings and limits that need no run; rings of ceramics have none."""
     bearing, kind = scene.bearing, scene.materials.kind
+    if not scene.materials.steel_rings:
+        return []
     table = []
-    limit = makers.speed_limit(bearing.contact_angle_deg, kind in ("hybrid", "full ceramic"))
+    limit = makers.speed_limit(bearing.contact_angle_deg, kind == "hybrid")
     if limit is not None:
         words = "Shaft speed up to which makers run such a bearing with oil, on springs (GMN, NSK)"
         speed = limit / bearing.pitch_diameter_mm * RPM
         table.append(_constant("rating.speed_limit", words, speed, "rad/s", display_unit="r/min"))
-    if kind not in ("steel", "hybrid"):
-        return table
     dynamic = iso281.dynamic_rating(*bearing.for_ratings)
     words = "Dynamic load rating C (ISO 281)"
     table.append(_constant("rating.dynamic", words, dynamic, "N", nominal=1e4))
@@ -130,10 +131,10 @@ def _ratings(scene: Scene) -> list[Variable]:
     table.append(
         _constant("rating.static", f"Static load rating C0 (ISO 76{words})", static, "N", nominal=1e4)
     )
-    shares = makers.preload_classes(bearing.contact_angle_deg)
-    for name, share in zip(makers.CLASS_NAMES, shares, strict=True):
-        words = f"Preload of the {name} class, from C (GMN)"
-        table.append(_constant(f"rating.preload_{name}", words, share * dynamic, "N"))
+    maker, loads = classes(bearing) or ("", {})
+    for name, load in loads.items():
+        words = f"Preload of the {name} class ({maker})"
+        table.append(_constant(f"rating.preload_{name.replace(' ', '_')}", words, load, "N"))
     words = "Contact pressure of makers' heaviest preload class (GMN, NSK; computed)"
     pressure = {"min": 0.0, "max": 1e12, "nominal": 1e9, "display_unit": "GPa"}
     table.append(_constant("rating.pressure_limit", words, makers.CLASS_PRESSURE[kind], "Pa", **pressure))

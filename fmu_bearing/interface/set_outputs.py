@@ -110,16 +110,16 @@ def _nose(scene: Scene) -> list[Variable]:
 
 
 def _stiffness(scene: Scene) -> list[Variable]:
-    """Return what resists the shaft at its nose."""
+    """Return what resists the shaft at its nose: contacts alone, friction and centrifugal forces held."""
     when = (
         "where the set rested at initialisation"
         if scene.fidelity.model == "full"
         else "where the set rested last: found anew when loads, speed or temperatures have changed"
     )
     words = (
-        ("axial", "Axial stiffness of the shaft on its bearings at X = 0, other motions held,", "N/m"),
-        ("radial", "Radial stiffness of the shaft on its bearings at X = 0, tilts held,", "N/m"),
-        ("tilt", "Stiffness of the shaft on its bearings against tilts at X = 0,", "N.m/rad"),
+        ("axial", "Axial stiffness of the shaft on its contacts at X = 0, other motions held,", "N/m"),
+        ("radial", "Radial stiffness of the shaft on its contacts at X = 0, tilts held,", "N/m"),
+        ("tilt", "Stiffness of the shaft on its contacts against tilts at X = 0,", "N.m/rad"),
     )
     return [
         read(

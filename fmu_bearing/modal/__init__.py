@@ -6,7 +6,7 @@
 ``plain``              the engine's equations ball by ball, and their derivatives
 ``equilibrium``        the steady state of balls and rings without cage
 ``linearised``         fidelity `full` about its steady state, in fixed axes
-``static``             stiffness matrix of the bearing at a state, from the energy in its contacts
+``remarks``            what is to be said about the state it stands in
 ``shapes``             what moves in a mode: energies, order round the bearing, direction
 ``motion``             how rings and balls move in a mode
 ``modes``              natural frequencies and damping, with names
@@ -14,6 +14,7 @@
 ``set_modes``          its natural motions, with the line of the shaft
 ``points``             `modes`: of a bearing or a set, at an operating point
 ``lines``              excitation lines and the waves that each can move
+``weak``               weakly damped modes, for which levels of rings and response are in doubt
 ``campbell``           modes over speed, followed by shape; crossings with lines
 ``drawing``            what a Campbell diagram shows: colours, widths, dashes, which lines
 ``picture``            it as a Matplotlib figure

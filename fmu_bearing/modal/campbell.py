@@ -14,9 +14,10 @@ from scipy.optimize import linear_sum_assignment
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.modal.conditions import given
 from fmu_bearing.modal.lines import Line, Rates, lines, rates, unbalance
-from fmu_bearing.modal.modes import MARGIN, MOVES, UNSTEADY, Mode, Modes
+from fmu_bearing.modal.modes import MARGIN, MOVES, Mode, Modes
 from fmu_bearing.modal.picture import campbell_picture
 from fmu_bearing.modal.points import at_point
+from fmu_bearing.modal.remarks import UNSTEADY
 from fmu_bearing.modal.set_linearised import need_shaft
 from fmu_bearing.modal.shapes import NEITHER
 from fmu_bearing.progress import Tell, silent
@@ -160,7 +161,7 @@ class Campbell:
             crossing
             for branch in self.branches
             for line in self.lines
-            if _can_move(line, branch)
+            if can_move(line, branch)
             for crossing in _meet(branch, line, self.rpm)
         ]
         return sorted(found, key=lambda crossing: crossing.rpm)
@@ -317,7 +318,7 @@ def _branches(points: Sequence[Modes], highest: float) -> list[Branch]:
     open_ones: list[list[tuple[Modes, Mode]]] = []
     done: list[list[tuple[Modes, Mode]]] = []
     for point in points:
-        modes = [mode for mode in point.modes if mode.frequency <= 1.5 * highest and _is_of_rings(mode)]
+        modes = [mode for mode in point.modes if mode.frequency <= 1.5 * highest and is_of_rings(mode)]
         pairs = _pairs([chain[-1][1] for chain in open_ones], modes, point)
         going = []
         for k, chain in enumerate(open_ones):
@@ -334,7 +335,7 @@ def _branches(points: Sequence[Modes], highest: float) -> list[Branch]:
     return sorted(kept, key=lambda branch: float(branch.frequency[branch.frequency.size // 2]))
 
 
-def _is_of_rings(mode: Mode) -> bool:
+def is_of_rings(mode: Mode) -> bool:
     """Whether rings move, not only the turning of the balls."""
     return mode.ring_share > MOVES and not mode.name.startswith(("ball spin", "ball orbit"))
 
@@ -356,7 +357,7 @@ def _branch(chain: list[tuple[Modes, Mode]]) -> Branch:
     )  # fmt: skip
 
 
-def _can_move(line: Line, branch: Branch) -> bool:
+def can_move(line: Line, branch: Branch | Mode) -> bool:
     """Whether order and direction agree; a mode without direction answers to both, turning to none."""
     agree = line.order == branch.order and branch.direction in (line.direction, NEITHER)
     return agree and _SPIN not in branch.name.split()

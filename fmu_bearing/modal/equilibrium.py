@@ -1,48 +1,160 @@
-"""The steady state of a bearing without cage: what is alike for all balls comes to rest.
+"""The steady state of bearings without cages: what is the same for all balls comes to rest.
 
 The engine starts from a quasi-static state whose balls hold their gyroscopic moments by an assumed share of
 friction at each race. There the mean of the balls still accelerates: contact angles, orbit and spin drift to
 where the friction in the contacts itself is balanced. On the 7009C at 18,000 r/min that moves natural
-frequencies by 0.6 %, on the 7003C at 10,000 r/min by 0.001 %. Newton's method goes there at once.
+frequencies by 0.6 %, on the 7003C at 10,000 r/min by 0.001 %. Newton's method goes there at once. In a set
+the shaft ties the bearings, and moves along its axis until their forces balance, too.
 """
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.engine.layout import P, Q, S, Y
 from fmu_bearing.modal.coordinates import Coordinates
-from fmu_bearing.modal.plain import Plain
+from fmu_bearing.modal.plain import MOVE, RATE, Plain
 from fmu_bearing.run.arrays import Arrays
 
+if TYPE_CHECKING:
+    from fmu_bearing.modal.set_linearised import One
+
 _ROUNDS = 30
-_LONGEST = 500.0  # steps of the differences: balls and rings move by 0.5 um a round, so contacts stay closed
+# Steps of the differences by which balls move against rings in a round, 0.5 um: contacts stay closed. What
+# rings and balls do together, as on a soft pedestal, changes no contact and has no limit.
+_LONGEST = 500.0
 _SETTLED = 0.1  # of such steps: what the last round may move
 _SPARED = 1e-9  # singular values below this share belong to motions that nothing holds
 _ORBIT_ANGLE = 2  # ball state whose rate is the orbit itself
 
 
+@dataclass(frozen=True)
+class Tie:
+    """What ties the bearings of a set along its axis, over its m coordinates that move along or about it.
+
+    Attributes
+    ----------
+    load : ndarray, shape (m,)
+        N: forces at the state where the bearings start, without those of the bearings.
+    stiffness, inverse : ndarray, shape (m, m)
+        SI units; the inverse is that of the mass with all driven rings.
+    motions : sequence of ndarray, shape (rows, m)
+        Driven rows of each bearing's rings.
+    inertia : sequence of ndarray, shape (rows,)
+    """
+
+    load: NDArray[np.float64]
+    stiffness: NDArray[np.float64]
+    inverse: NDArray[np.float64]
+    motions: Sequence[NDArray[np.float64]]
+    inertia: Sequence[NDArray[np.float64]]
+
+
 def settle(bearing: Arrays) -> bool:
     """Move a bearing's state to the steady one; False, and the state as it was, where there is none near."""
-    at = Coordinates.of(bearing.p)
-    plain = Plain(bearing, at)
-    spread, mean = _even_motions(at)
-    # in steps of the differences all motions weigh alike
-    scale = spread.T @ plain.steps() / np.maximum(spread.sum(axis=0), 1.0)
-    is_place = (spread.T @ at.is_place) > 0.0
+    return settle_set([bearing])
+
+
+def settle_set(bearings: "Sequence[Arrays | One]", tie: Tie | None = None) -> bool:
+    """Move the states of a set's bearings to the steady ones; False as for `settle`."""
+    parts = [_Part(one, None if tie is None else tie.inertia[k].size) for k, one in enumerate(bearings)]
+    whole = _Whole(parts, tie)
     for _ in range(_ROUNDS):
-        matrix = mean @ plain.along(spread)
-        residual = mean @ plain.rates()
+        matrix, residual = whole.equations()
+        if not (np.isfinite(matrix).all() and np.isfinite(residual).all()):
+            return False
         change = np.linalg.lstsq(
-            matrix * scale / scale[:, None], -residual / scale, rcond=_SPARED
+            matrix * whole.scale / whole.heights[:, None], -residual / whole.heights, rcond=_SPARED
         )[0]  # fmt: skip
-        largest, longest = float(np.abs(change).max()), float(np.abs(change[is_place]).max())
+        largest = float(np.abs(change).max())
         if not np.isfinite(largest):
             return False
-        plain.move(spread @ (change * scale * min(1.0, _LONGEST / max(longest, 1e-300))))
+        whole.move(change * whole.scale)
         if largest < _SETTLED:
-            _keep(bearing, plain, at)
+            for part in parts:
+                part.keep()
             return True
     return False
+
+
+class _Part:
+    """One bearing: motions that are alike for all its balls, and its rings along and about the axis."""
+
+    def __init__(self, bearing: "Arrays | One", driven: int | None) -> None:
+        self.bearing, self.at = bearing, Coordinates.of(bearing.p)
+        self.plain = Plain(bearing, self.at)
+        self.spread, self.mean = _even_motions(self.at)
+        self.driven = self.at.ring_rates + np.arange(driven or 0)
+        led = np.zeros(self.at.size)
+        led[self.driven] = led[self.driven - Q.RINGS] = 1.0
+        self.own = self.spread.T @ led == 0.0
+        # in steps of the differences all motions weigh alike
+        self.scale = self.spread.T @ self.plain.steps() / np.maximum(self.spread.sum(axis=0), 1.0)
+        # balls along and across the axis, and along it against both rings
+        first = [int(self.spread[place].argmax()) for place in (0, self.at.balls)]
+        rings = self.at.rings + np.array([Q.INNER, Q.OUTER])
+        self._against = np.eye(len(self.scale))[[first[1], first[0], first[0]]]
+        self._against[1:] -= self.spread[rings]
+        self.follow = np.zeros((len(self.scale), 0))  # how these motions follow the unknowns of the whole
+
+    def apart(self, change: NDArray[np.float64]) -> float:
+        """Largest motion of balls against rings for a change of all unknowns, in steps of the differences."""
+        return float(np.abs(self._against @ (self.follow @ change)).max() / self.scale[0])
+
+    def keep(self) -> None:
+        """Write the settled state back; spare lanes follow the first ball."""
+        y = self.plain.y
+        rows = y[: Y.Q0].reshape(Y.ROWS, -1)
+        rows[:, self.at.balls : int(self.bearing.p[P.LANES])] = rows[:, :1]
+        self.bearing.s[S.Y : S.Y + Y.SIZE] = y
+
+
+class _Whole:
+    """All bearings, alone or tied: unknowns are their own even motions, then the tie's coordinates."""
+
+    def __init__(self, parts: list[_Part], tie: Tie | None) -> None:
+        self.parts, self.tie = parts, tie
+        tied = 0 if tie is None else tie.load.size
+        scales = [part.scale[part.own] for part in parts]
+        self.first = sum(scale.size for scale in scales)
+        self.gone = np.zeros(tied)  # m, rad: of the tie's coordinates since the start
+        self.scale = np.concatenate([*scales, np.full(tied, MOVE)])
+        self.heights = np.concatenate([*scales, np.full(tied, RATE)])
+        begin = 0
+        for k, (part, scale) in enumerate(zip(parts, scales, strict=True)):
+            part.follow = np.zeros((part.scale.size, self.scale.size))
+            part.follow[part.own, begin + np.arange(scale.size)] = 1.0
+            if tie is not None:
+                part.follow[:, self.first :] = part.spread[part.driven - Q.RINGS].T @ tie.motions[k]
+            begin += scale.size
+
+    def equations(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return the derivatives of what must vanish by the unknowns, and what must vanish."""
+        slopes = [part.plain.along(part.spread) @ part.follow for part in self.parts]
+        rates = [part.plain.rates() for part in self.parts]
+        rows = [part.mean[part.own] @ slope for part, slope in zip(self.parts, slopes, strict=True)]
+        out = [part.mean[part.own] @ rate for part, rate in zip(self.parts, rates, strict=True)]
+        if self.tie is not None:
+            force = self.tie.load - self.tie.stiffness @ self.gone
+            by = np.zeros((self.gone.size, self.scale.size))
+            by[:, self.first :] = -self.tie.stiffness
+            for k, part in enumerate(self.parts):
+                pull = self.tie.motions[k].T * self.tie.inertia[k]
+                force = force + pull @ rates[k][part.driven]
+                by += pull @ slopes[k][part.driven]
+            rows.append(self.tie.inverse @ by)
+            out.append(self.tie.inverse @ force)
+        return np.concatenate(rows), np.concatenate(out)
+
+    def move(self, change: NDArray[np.float64]) -> None:
+        """Change the unknowns, by no more than contacts stay closed for."""
+        change = change * min(1.0, _LONGEST / max(1e-300, *(part.apart(change) for part in self.parts)))
+        self.gone += change[self.first :]
+        for part in self.parts:
+            part.plain.move(part.spread @ (part.follow @ change))
 
 
 def _even_motions(at: Coordinates) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -64,10 +176,3 @@ def _even_motions(at: Coordinates) -> tuple[NDArray[np.float64], NDArray[np.floa
                 columns.append(column)
     spread = np.array(columns).T
     return spread, (spread / spread.sum(axis=0)).T
-
-
-def _keep(bearing: Arrays, plain: Plain, at: Coordinates) -> None:
-    """Write the settled state back; spare lanes follow the first ball."""
-    rows = plain.y[: Y.Q0].reshape(Y.ROWS, -1)
-    rows[:, at.balls : int(bearing.p[P.LANES])] = rows[:, :1]
-    bearing.s[S.Y : S.Y + Y.SIZE] = plain.y

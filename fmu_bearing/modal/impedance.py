@@ -15,6 +15,18 @@ from fmu_bearing.modal.linearised import Linearised
 FREEDOMS = ("x", "y", "z", "by", "bz")  # m, and tilts (rad), of the inner ring
 _BALL_PLACES = Y.PLACES // STRIDE  # ball states that are places
 _ORBIT = Y.TH // STRIDE  # the place round the bearing
+# rad/s: as good as rest. What is slowest in a bearing, the balls' spin, follows at some 1 to 1e3 1/s, and K
+# errs by the square of the ratio.
+_SLOW = 1e-3
+
+
+def at_rest(system: Linearised) -> NDArray[np.float64]:
+    """Return the stiffness for frequency to 0 with balls that keep their spacing, shape (5, 5), SI units.
+
+    Rows and columns are those of `impedance`. Friction moves the balls with the ring, so the matrix is not
+    quite symmetric.
+    """
+    return impedance(system, spaced(system, system.matrix), np.array([_SLOW]))[0].real
 
 
 def spaced(system: Linearised, matrix: NDArray[np.float64]) -> NDArray[np.float64]:

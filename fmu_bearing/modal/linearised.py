@@ -15,14 +15,14 @@ Imperfections and sound are left out, too. Weights count as loads where the scen
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import block_diag
 
 from fmu_bearing.engine.constants import GRAVITY
-from fmu_bearing.engine.layout import P, S, U, Y
+from fmu_bearing.engine.layout import C, P, Q, S, U, Y
 from fmu_bearing.instance import EngineError
 from fmu_bearing.modal.coordinates import Coordinates
 from fmu_bearing.modal.equilibrium import settle
@@ -56,7 +56,7 @@ class Linearised:
     arrays : Arrays
         Parameters, conditions and state at the first phase.
     steady : bool
-        Whether the steady state was found; else all holds for the engine's quasi-static one.
+        Whether the steady state was found; else all holds for the state in which a run starts.
     """
 
     coordinates: Coordinates
@@ -65,13 +65,19 @@ class Linearised:
     orbit: float
     spin: float
     speed: float
-    arrays: Arrays
+    arrays: "Arrays | One"
     steady: bool
 
     @cached_property
     def equal_loads(self) -> bool:
         """Whether one phase tells all: the balls carry equal loads."""
         return len(self.phases) == 1
+
+    @property
+    def on_pedestal(self) -> tuple[float, float]:
+        """How far the loads move the outer ring (m), and its pedestal's stiffness (N/m)."""
+        place = self.arrays.s[S.Y + Y.Q0 + Q.OUTER :][:3]
+        return float(np.linalg.norm(place)), float(self.arrays.u[U.PEDESTAL])
 
 
 def linearised(scene: Scene, inputs: dict[int, float] | None = None, friction: bool = True) -> Linearised:
@@ -94,14 +100,16 @@ def linearised(scene: Scene, inputs: dict[int, float] | None = None, friction: b
     # whatever a run takes
     full = with_fidelity(scene, model="full")
     bare = full.model_copy(update={"sound": None, "imperfections": None})
-    numbers = Arrays.of(bare, CAGE=0.0).p
-    first, steady = _bearing(bare, numbers, inputs, 0.0, friction)
+    bearing = Arrays.of(bare, CAGE=0.0)
+    for place, value in (inputs or {}).items():
+        bearing.u[place] = value
+    first, steady = _bearing(scene.name, bearing, 0.0, friction)
     even = _even(first)
     count = 1 if even else PHASES
     pitch = 2.0 * math.pi / first.p[P.BALLS]
     bearings = [first]
     for k in range(1, count):
-        one, found = _bearing(bare, numbers, inputs, pitch * k / count, friction)
+        one, found = _bearing(scene.name, bearing, pitch * k / count, friction)
         bearings.append(one)
         steady = steady and found
     coordinates = Coordinates.of(first.p)
@@ -115,27 +123,36 @@ def linearised(scene: Scene, inputs: dict[int, float] | None = None, friction: b
     return Linearised(coordinates, matrices.mean(axis=0), matrices, orbit, spin, speed, first, steady)
 
 
-def _bearing(
-    scene: Scene, numbers: NDArray[np.float64], inputs: dict[int, float] | None, phase: float, friction: bool
-) -> tuple[Arrays, bool]:  # fmt: skip
-    """Return the bearing with the balls turned on by ``phase`` (rad), and whether its state is steady.
+def under_force(scene: Scene, inputs: dict[int, float] | None = None) -> Linearised:
+    """Linearise as `linearised`; with rigid preload under the force which its place means.
 
-    Its axes turn with the balls: the first one stays at 12 o'clock, loads and seats turn back. ``numbers``:
-    its parameters without cage, nothing turned.
+    A ring that is held would have no row.
     """
-    turned: dict[str, Any] = {"CAGE": 0.0, "GRAVITY": 0.0} | _turned_seat(numbers, phase)
+    system = linearised(scene, inputs)
+    if not system.coordinates.held:
+        return system
+    state = system.arrays.s
+    force = float(state[S.Y + Y.Q0 + Q.OUTER] * state[S.C + C.PEDESTAL_AXIAL])
+    return linearised(scene.replace({"mounting.preload_mode": "force"}), {**(inputs or {}), U.PRELOAD: force})
+
+
+def _bearing(name: str, given: Arrays, phase: float, friction: bool) -> tuple[Arrays, bool]:
+    """Return a bearing with the balls turned on by ``phase`` (rad), and whether its state is steady.
+
+    Its axes turn with the balls: the first one stays at 12 o'clock, loads and seats turn back. ``given``: the
+    bearing without cage, nothing turned, with its inputs; ``name``: of its scene.
+    """
+    turned: dict[str, float] = {"GRAVITY": 0.0} | _turned_seat(given.p, phase)
     if not friction:
         turned |= {"MU": 0.0}
-    bearing = Arrays.of(scene, **turned)
-    for place, value in (inputs or {}).items():
-        bearing.u[place] = value
-    weight = GRAVITY * numbers[P.INNER_MASS] if numbers[P.GRAVITY] else 0.0
+    bearing = given.with_parameters(**turned)
+    weight = GRAVITY * given.p[P.INNER_MASS] if given.p[P.GRAVITY] else 0.0
     load = _turn_back(bearing.u[U.LOAD_Y], bearing.u[U.LOAD_Z] - weight, phase)
     bearing.u[U.LOAD_Y], bearing.u[U.LOAD_Z] = load
     try:
         bearing.init()
     except Refused as refusal:
-        raise EngineError(f"{scene.name}: {refusal}") from None
+        raise EngineError(f"{name}: {refusal}") from None
     # without friction nothing says how fast balls spin
     return bearing, settle(bearing) if friction else True
 

@@ -11,16 +11,14 @@ from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import P
 from fmu_bearing.modal.linearised import Linearised
 from fmu_bearing.modal.motion import Shape, shape
+from fmu_bearing.modal.remarks import remarks
 from fmu_bearing.modal.shapes import BACKWARD, FORWARD, NEITHER, participation, parts, wave
 from fmu_bearing.scene import Scene
 
 SLOW = 1.0  # rad/s: slower in the axes in which it stands, a motion is neutral
 DAMPED = 0.5  # damping ratio beyond which a motion does not ring
 MARGIN = 0.002  # damping ratio below which a mode is named as near the limit of stability (chosen)
-UNSTEADY = (
-    "no steady state was found: balls drift from the quasi-static state that these numbers hold for; give "
-    "more preload or less speed"
-)
+_LOWEST = 100.0  # Hz: slower motions that grow belong to the mounting
 MOVES = 0.05  # of the kinetic energy: with less of it in the rings, a motion is one of the balls alone
 SPREAD = 0.01  # of the frequency over one ball pitch, beyond which it is told
 _NEUTRAL = 0.02  # of the orbit: the balls' spins turn over so slowly at high speed
@@ -80,6 +78,11 @@ class Mode:
         if self.damping >= MARGIN or self.ring_share <= MOVES or self.name.startswith("ball"):
             return ""
         return "unstable" if self.damping < 0.0 else "instability margin"
+
+    @property
+    def growth(self) -> float:
+        """Rate (1/s) at which the motion grows by itself; negative where it dies away."""
+        return float(self.value.real)
 
     @property
     def quality(self) -> float:
@@ -153,8 +156,7 @@ class Modes:
     def cautions(self) -> list[str]:
         """Return what limits these modes, in sentences."""
         found = [_weak_words(mode) for mode in self.weak()] if self.friction else []
-        if not self.linearised.steady:
-            found.append(UNSTEADY)
+        found += remarks(self.scene, self.linearised)
         of_rings = [mode for mode in self.modes if mode.ring_share > MOVES]
         spread = max((mode.spread for mode in of_rings), default=0.0)
         if spread > SPREAD:
@@ -203,6 +205,18 @@ class Modes:
     def _bent(self) -> tuple[int, ...]:
         """Orders in which rings bend."""
         return self.linearised.coordinates.orders
+
+
+def may_grow(matrix: NDArray[np.float64]) -> bool:
+    """Whether a motion above 100 Hz grows by itself, from the eigenvalues alone."""
+    values = np.linalg.eigvals(matrix)
+    return bool(np.any((values.real > 0.0) & (values.imag > 2.0 * math.pi * _LOWEST)))
+
+
+def self_excited(found: "Modes") -> Mode | None:
+    """Return the mode of the rings that grows fastest by itself; None where none does."""
+    growing = [one for one in found.modes if one.remark == "unstable" and one.frequency > _LOWEST]
+    return max(growing, key=lambda one: one.growth, default=None)
 
 
 def solved(scene: Scene, system: Linearised, friction: bool = True) -> Modes:

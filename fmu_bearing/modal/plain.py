@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.compiled import call
+from fmu_bearing.compiled import bound
 from fmu_bearing.engine.layout import FL, STRIDE, C, F, P, S, U, W, Y
 from fmu_bearing.modal.coordinates import Coordinates
 from fmu_bearing.run.arrays import Arrays
@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 
 # Steps of the central differences: contacts approach by 1 um and more, so a nanometre errs by 1e-7 of the
 # slope; traction bends over 1e-3 m/s. Forces round to 1e-14 N.
-_MOVE = 1e-9  # m
-_RATE = 1e-6  # m/s
+MOVE = 1e-9  # m
+RATE = 1e-6  # m/s
 
 
 class Plain:
@@ -41,23 +41,29 @@ class Plain:
         bends = bearing.s[S.SOUND + int(self.p[P.SOUND_STATE]) :][: 2 * at.flexural]
         self._w[W.FLEX + FL.Q : W.FLEX + FL.Q + bends.size] = bends
         places = at.places(self.y, self._w, float(self.p[P.PITCH_RADIUS]), 0.5 * float(self.p[P.DIAMETER]))
-        self._places = list(places)
+        found = list(places)
+        rows = [place for _, place, _ in found]
+        self._bodies = sum(array is self.y for array, _, _ in found)  # in y; flexure is behind it, in w
+        self._at_y, self._at_w = np.array(rows[: self._bodies]), np.array(rows[self._bodies :], dtype=int)
+        self._steps = np.where(at.is_place, MOVE, RATE) / np.array([size for _, _, size in found])
+        self._evaluate = bound("right_hand_side", self.p, self._c, self.y, self._w, self._f)
 
     def steps(self) -> NDArray[np.float64]:
         """Return the steps of the differences in the units of x: a nanometre or a micrometre per second."""
-        sizes = np.array([size for _, _, size in self._places])
-        return np.where(self.at.is_place, _MOVE, _RATE) / sizes
+        return self._steps
 
     def rates(self) -> NDArray[np.float64]:
         """Return x' at the present state."""
-        call("right_hand_side", self.p, self._c, self.y, self._w, self._f, 0.0, self._speed, 0.0)
+        self._evaluate(0.0, self._speed, 0.0)
         return self.at.rates(self.y, self._f, self._w)
 
     def derivatives(self) -> NDArray[np.float64]:
         """Return the derivatives of x' by x, shape (n, n), by central differences."""
         found = np.empty((self.at.size, self.at.size))
-        for k, step in enumerate(self.steps()):
-            array, place, _ = self._places[k]
+        for k, step in enumerate(self._steps):
+            array, place = (
+                (self.y, self._at_y[k]) if k < self._bodies else (self._w, self._at_w[k - self._bodies])
+            )
             kept = array[place]
             array[place] = kept + step
             ahead = self.rates()
@@ -70,7 +76,7 @@ class Plain:
         """Return the derivatives of x' along directions in x, shape (n, directions)."""
         found = np.empty(directions.shape)
         for k, direction in enumerate(directions.T):
-            step = float(np.min(self.steps()[direction != 0.0] / np.abs(direction[direction != 0.0])))
+            step = float(np.min(self._steps[direction != 0.0] / np.abs(direction[direction != 0.0])))
             kept = self.y.copy(), self._w.copy()
             self.move(step * direction)
             ahead = self.rates()
@@ -82,5 +88,5 @@ class Plain:
 
     def move(self, change: NDArray[np.float64]) -> None:
         """Move the state by a change of x."""
-        for (array, place, _), by in zip(self._places, change, strict=True):
-            array[place] += by
+        self.y[self._at_y] += change[: self._bodies]
+        self._w[self._at_w] += change[self._bodies :]

@@ -2,8 +2,8 @@
 
 Each bearing has the equations of a single one (see ``linearised``). Rows of its rings that shaft, housing or
 a sliding seat drive are ``T q``, and what they would accelerate by without it, times their inertia, is their
-force on the coordinates q. The state is the quasi-static one in which a run of the set starts, with loads,
-tilts and temperatures of every bearing.
+force on the coordinates q. The state is the steady one near that in which a run of the set starts, with
+loads, tilts and temperatures of every bearing (see ``equilibrium``).
 """
 
 import math
@@ -17,7 +17,8 @@ from scipy.linalg import block_diag
 from fmu_bearing.engine.layout import SP, STRIDE, P, Q, S, U, Y
 from fmu_bearing.instance import EngineError
 from fmu_bearing.modal.coordinates import Coordinates
-from fmu_bearing.modal.linearised import PHASES, in_fixed_axes
+from fmu_bearing.modal.equilibrium import Tie, settle_set
+from fmu_bearing.modal.linearised import PHASES, Linearised, in_fixed_axes
 from fmu_bearing.prepare.spindle import in_housing
 from fmu_bearing.run.arrays import Arrays, Refused
 from fmu_bearing.scene import Scene, SceneError
@@ -96,6 +97,12 @@ class SetLinearised:
         rad/s of the balls of each bearing; of a ball about its own axis in axes that orbit with it.
     speed : float
         rad/s of the shaft.
+    members : tuple of Linearised
+        Each bearing alone, in its own axes, where the set puts it.
+    steady : bool
+        Whether the steady state was found; else all holds for the state in which a run starts.
+    on_pedestal : tuple of float
+        How far loads move the housing, or an outer ring on a pedestal of its own (m); its stiffness (N/m).
     """
 
     coordinates: tuple[Coordinates, ...]
@@ -107,8 +114,9 @@ class SetLinearised:
     orbits: NDArray[np.float64]
     spins: NDArray[np.float64]
     speed: float
-
-    steady = True  # the state is that of the start of a run, which statics of sets has, too
+    members: tuple[Linearised, ...]
+    steady: bool
+    on_pedestal: tuple[float, float]
 
     @property
     def orbit(self) -> float:
@@ -162,7 +170,7 @@ def set_linearised(
     Raises
     ------
     EngineError
-        Where there is no quasi-static equilibrium.
+        Where there is no equilibrium.
     SceneError
         For bearings on another model's shaft: without its mass there is no mode.
     """
@@ -185,6 +193,8 @@ def set_linearised(
     speed = float(run.u[SP.U_SPEED])
     block = _block(run.p, run.s, rows, speed)
     members = [_member(run, row, speed) for row in rows]
+    # without friction nothing says how fast balls spin
+    steady = settle_set(members, _tie(run, block)) if friction else True
     at = tuple(Coordinates.of(one.p) for one in members)
     count = 1 if all(_even(one) for one in members) else PHASES
     orbits = np.array([float(np.mean(_of_balls(one, Y.OM))) for one in members])
@@ -196,22 +206,23 @@ def set_linearised(
     )
     driven = [len(mass) for mass in block.inertia]
     keeps = [_kept(one, rows) for one, rows in zip(at, driven, strict=True)]
-    matrices = []
-    for k in range(count):
-        alone = []
-        for one, own, orbit in zip(members, at, orbits, strict=True):
-            phase = 2.0 * math.pi / own.balls * k / count
-            alone.append(in_fixed_axes(_turned(one, own, phase), own, phase, float(orbit)))
-        matrices.append(_assembled(alone, at, keeps, block))
+    alone = []
+    for one, own, orbit, spin in zip(members, at, orbits, spins, strict=True):
+        turns = [2.0 * math.pi / own.balls * k / count for k in range(count)]
+        found = np.array([in_fixed_axes(_turned(one, own, turn), own, turn, float(orbit)) for turn in turns])
+        alone.append(
+            Linearised(own, found.mean(axis=0), found, float(orbit), float(spin), speed, one, steady)
+        )
+    phases = np.array([_assembled([one.phases[k] for one in alone], at, keeps, block) for k in range(count)])
     first = np.concatenate([[0], np.cumsum([keep.size for keep in keeps])])
     masses = block_diag(
         *[np.diag(own.masses[keep]) for own, keep in zip(at, keeps, strict=True)],
         np.zeros_like(block.mass), block.total,
     )  # fmt: skip
-    phases = np.array(matrices)
     return SetLinearised(
-        at, tuple(int(k) for k in first), phases.mean(axis=0), phases, masses, block, orbits, spins, speed
-    )
+        at, tuple(int(k) for k in first), phases.mean(axis=0), phases, masses, block, orbits, spins, speed,
+        tuple(alone), steady, (_on_pedestal(run, rows, members, block), float(run.u[SP.U_PEDESTAL])),
+    )  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -244,6 +255,35 @@ def _member(run: Arrays, row: NDArray[np.float64], speed: float) -> One:
     u = np.zeros(U.SIZE)
     u[U.SPEED] = speed
     return One(parts["p"], u, parts["s"], parts["w"])
+
+
+def _tie(run: Arrays, block: SetBlock) -> Tie:
+    """Return what ties the bearings where the run starts: shaft, housing and sliding rings along the axis."""
+    head, n = run.p[int(run.p[P.SET]) :], block.count
+    own = run.s[int(head[SP.AT_S]) :]
+    lanes = SP.padded(n)
+    q, held = own[SP.S_HEAD : SP.S_HEAD + n], own[SP.S_HEAD + SP.HELD_LOAD * lanes :][:n]
+    along = np.zeros(n, dtype=bool)
+    along[0] = True  # the whole shaft's
+    along[block.shaft :] = True
+    if block.housed:
+        along[block.shaft : block.shaft + SP.HOUSING] = np.isin(np.arange(SP.HOUSING), (Q.X, Q.TURN))
+    at = np.ix_(along, along)
+    return Tie(
+        (held - block.stiffness @ q)[along], block.stiffness[at], block.inverse[at],
+        [motion[:, along] for motion in block.motions], block.inertia,
+    )  # fmt: skip
+
+
+def _on_pedestal(run: Arrays, rows: list[NDArray[np.float64]], members: list[One], block: SetBlock) -> float:
+    """Return how far loads move the housing (m), or the ring on a pedestal of its own that goes furthest."""
+    own = run.s[int(run.p[int(run.p[P.SET]) + SP.AT_S]) + SP.S_HEAD :]
+    places = [own[block.shaft :][:3]] if block.housed else [
+        one.s[S.Y + Y.Q0 + Q.OUTER :][:3]
+        for one, row in zip(members, rows, strict=True)
+        if row[SP.ROW_SEAT] == SP.PEDESTAL
+    ]  # fmt: skip
+    return max((float(np.linalg.norm(place)) for place in places), default=0.0)
 
 
 def _of_balls(one: One, row: int) -> NDArray[np.float64]:

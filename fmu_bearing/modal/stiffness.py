@@ -11,16 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.engine.constants import RPM
-from fmu_bearing.engine.layout import C, Q, S, U, Y
-from fmu_bearing.instance import EngineError
 from fmu_bearing.modal.conditions import given
-from fmu_bearing.modal.impedance import FREEDOMS, impedance, spaced
-from fmu_bearing.modal.linearised import Linearised, linearised
+from fmu_bearing.modal.impedance import FREEDOMS, at_rest, impedance, spaced
+from fmu_bearing.modal.linearised import Linearised, under_force
 from fmu_bearing.modal.planes import Planes, errors, planes
-from fmu_bearing.modal.static import stiffness as energy_hessian
 from fmu_bearing.modal.stiffness_files import dataset, save
 from fmu_bearing.modal.stiffness_limits import limits_of
-from fmu_bearing.run.arrays import Arrays, Refused
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 from fmu_bearing.scene.operation import Operation
 from fmu_bearing.scene.problems import allowed
@@ -56,7 +52,7 @@ class Stiffness:
     K, C : ndarray, shape (speed, preload, frequency, 5, 5)
         N/m, N/rad, N m/rad and these times s.
     static : ndarray, shape (speed, preload, 5, 5)
-        Quasi-static stiffness: second derivatives of the energy in the contacts, without friction.
+        K for frequency to 0, always of balls that keep their distances: what the bearing has at rest.
     own : ndarray, shape (preload, 5, 5)
         The same at the scene's own speed.
     orbit : ndarray, shape (speed, preload)
@@ -65,7 +61,7 @@ class Stiffness:
         Largest distance of a single phase of a ball pitch from the mean, on the diagonal of K and C w, over
         K, at the lowest and the highest frequency; 0 for equal ball loads.
     steady : ndarray of bool, shape (speed, preload)
-        Whether the steady state was found; else the entries hold for the engine's quasi-static one.
+        Whether the steady state was found; else the entries hold for the state in which a run starts.
     spacing : str
         ``held``: balls keep their distances along the orbit, as in a cage; ``free``: they do not.
 
@@ -74,7 +70,7 @@ class Stiffness:
     >>> from fmu_bearing import stiffness
     >>> found = stiffness("examples/scenes/7003C-spindle.toml", [10e3, 20e3], [200.0, 1000.0])
     >>> found.K.shape, f"{found.K[1, 0, 1, 1, 1] / 1e6:.0f} N/um"
-    ((2, 1, 2, 5, 5), '160 N/um')
+    ((2, 1, 2, 5, 5), '159 N/um')
     """
 
     scene: Scene
@@ -112,7 +108,7 @@ class Stiffness:
         return np.asarray(values), np.asarray(vectors)
 
     def against_static(self) -> float:
-        """Return the largest difference of K at the lowest frequency from the quasi-static stiffness.
+        """Return the largest difference of K at the lowest frequency from `static`.
 
         Entries over the root of both diagonal ones.
         """
@@ -209,7 +205,7 @@ class Stiffness:
         return write(self, path, preload, mirrored, nodes)
 
     def picture(self, frequency: float | None = None) -> "Figure":
-        """Draw K and C over speed, a curve per preload, quasi-static stiffness dashed.
+        """Draw K and C over speed, a curve per preload, K for frequency to 0 dashed.
 
         Parameters
         ----------
@@ -238,7 +234,7 @@ def stiffness(
 ) -> Stiffness:
     """Return stiffness and damping of a scene's bearing over speed, preload and frequency.
 
-    Fidelity ``full`` is linearised about the quasi-static state of each speed and preload. The outer ring is
+    Fidelity ``full`` is linearised about the steady state of each speed and preload. The outer ring is
     held, the inner ring moves, and the balls follow with all their inertia and friction. Under radial load,
     weight or misalignment the derivatives are a mean over one ball pitch, and `Stiffness.spread` tells how
     far single phases are from it.
@@ -294,7 +290,6 @@ def stiffness(
     if hertz[0] <= 0.0:
         raise ValueError(f"frequencies: {hertz[0]:g} Hz is refused: damping needs frequencies above 0")
     full = with_fidelity(scene, model="full")
-    rigid = full.model_copy(update={"sound": None, "imperfections": None}).with_rigid_rings()
 
     def point(speed: float, load: float) -> dict[int, float]:
         return given(full, fixed | {"shaft_speed": speed * RPM, "preload": load})
@@ -303,21 +298,25 @@ def stiffness(
     shape = (len(rpm), len(loads))
     z = np.empty((*shape, len(hertz), len(FREEDOMS), len(FREEDOMS)), dtype=complex)
     static = np.empty((*shape, len(FREEDOMS), len(FREEDOMS)))
+    own = np.empty((len(loads), len(FREEDOMS), len(FREEDOMS)))
+    home = scene.operation.speed_rpm
     orbit, spread, steady = np.empty(shape), np.zeros(shape), np.ones(shape, dtype=bool)
     w = 2.0 * math.pi * hertz
     for i, speed in enumerate(track(list(rpm)) if track else rpm):
         for k, load in enumerate(loads):
-            system = _with_force(full, points[speed, load])
+            system = under_force(full, points[speed, load])
             ready = spaced if spacing == "held" else _as_it_is
             z[i, k] = impedance(system, ready(system, system.matrix), w)
-            static[i, k] = _static(rigid, points[speed, load])
+            static[i, k] = at_rest(system)
             steady[i, k] = system.steady
             orbit[i, k] = abs(system.orbit) / (2.0 * math.pi)
             ends = w[[0, -1]]
             for matrix in () if system.equal_loads else system.phases:
                 other = impedance(system, ready(system, matrix), ends)
                 spread[i, k] = max(spread[i, k], _apart(other, z[i, k][[0, -1]]))
-    own = np.array([_static(rigid, point(scene.operation.speed_rpm, load)) for load in loads])
+    for k, load in enumerate(loads):
+        there = np.flatnonzero(rpm == home)
+        own[k] = static[there[0], k] if there.size else at_rest(under_force(full, point(home, load)))
     damping = z.imag / w[:, None, None]
     return Stiffness(scene, rpm, loads, hertz, z.real, damping, static, own, orbit, spread, steady, spacing)
 
@@ -337,29 +336,6 @@ def _axis(
     if found.size == 0 or not np.isfinite(found).all():
         raise ValueError(f"{name} = {values!r} is refused: give finite numbers, in {unit}")
     return found
-
-
-def _with_force(scene: Scene, values: dict[int, float]) -> Linearised:
-    """Return the linearised bearing; with rigid preload that under the force which its place means."""
-    system = linearised(scene, values)
-    if not system.coordinates.held:
-        return system
-    state = system.arrays.s
-    force = float(state[S.Y + Y.Q0 + Q.OUTER] * state[S.C + C.PEDESTAL_AXIAL])
-    loose = scene.replace({"mounting.preload_mode": "force"})
-    return linearised(loose, values | {U.PRELOAD: force})
-
-
-def _static(rigid: Scene, values: dict[int, float]) -> NDArray[np.float64]:
-    """Return the stiffness at the quasi-static state of a scene with rigid rings."""
-    arrays = Arrays.of(rigid)
-    for place, value in values.items():
-        arrays.u[place] = value
-    try:
-        arrays.init()
-    except Refused as refusal:
-        raise EngineError(f"{rigid.name}: {refusal}") from None
-    return energy_hessian(arrays.p, arrays.s)
 
 
 def _apart(one: NDArray[np.complex128], other: NDArray[np.complex128]) -> float:

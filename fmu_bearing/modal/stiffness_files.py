@@ -77,7 +77,7 @@ def unit(force: str, motion: str, damping: bool = False) -> str:
 
 
 def _rows(found: "Stiffness") -> Iterator[list[str]]:
-    """Yield the rows of the CSV file: of each point the quasi-static matrix, then one per frequency."""
+    """Yield the rows of the CSV file: of each point that for frequency to 0, then one per frequency."""
     empty = [""] * len(FREEDOMS) ** 2
     for i, speed in enumerate(found.speeds):
         for k, preload in enumerate(found.preloads):
@@ -105,7 +105,7 @@ def dataset(found: "Stiffness") -> "xarray.Dataset":
         "static": (
             (*over[:2], *pair),
             found.static,
-            {"units": si, "long_name": "Quasi-static stiffness, without friction"},
+            {"units": si, "long_name": "Stiffness for frequency to 0"},
         ),
         "f_c": (over[:2], found.orbit, {"units": "Hz", "long_name": "Frequency of the balls' orbit"}),
         "spread": (over[:2], found.spread, {"units": "", "long_name": "Range over one ball pitch, over K"}),

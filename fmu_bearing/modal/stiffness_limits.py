@@ -6,13 +6,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.modal.modes import SPREAD, STICKING, UNSTEADY
+from fmu_bearing.modal.modes import SPREAD, STICKING
+from fmu_bearing.modal.remarks import UNSTEADY
 
 if TYPE_CHECKING:
     from fmu_bearing.modal.stiffness import Stiffness
 
 _NEAR = 0.2  # of the orbit's frequency: nearer to it, free balls that bunch are seen
-_APART = 0.03  # of the stiffness: the quasi-static matrix is then no substitute
+_APART = 0.03  # of the stiffness: that at rest is then no substitute
 _ROUNDING = 1e-9  # of the stiffness: a loss below it is none
 
 
@@ -43,16 +44,13 @@ def limits_of(found: "Stiffness") -> Iterator[str]:
                 "spacing = held leaves that out"
             )
     if found.scene.bends:
-        yield (
-            "the rings bend in K and C, which counts where balls carry unequal loads; the quasi-static "
-            "matrix is that of rigid rings"
-        )
+        yield ("the rings bend in K and C, which counts where balls carry unequal loads")
     apart = found.against_static()
     if apart > _APART:
         yield (
-            f"K at {found.frequencies[0]:.4g} Hz differs from the quasi-static stiffness by up to "
-            f"{100.0 * apart:.0f} %: friction moves balls that carry little at high speed to other contact "
-            "angles; the planes for ROSS stand by the quasi-static one"
+            f"K at {found.frequencies[0]:.4g} Hz differs from that for frequency to 0 by up to "
+            f"{100.0 * apart:.0f} %: balls that carry little take tens of milliseconds to turn over to new "
+            "contact angles; the planes for ROSS stand by K for frequency to 0"
         )
 
 

@@ -47,7 +47,7 @@ def picture(found: "Stiffness", frequency: float | None = None) -> "Figure":
     dashed = panels[0, 0].plot([], [], color="0.4", ls="--", lw=1.0)[0]
     figure.legend(
         [*handles, dashed],
-        [*labels, "quasi-static"],
+        [*labels, "frequency to 0"],
         loc="outside lower center",
         ncols=len(labels) + 1,
         frameon=False,

@@ -68,13 +68,13 @@ def races(scene: Scene, p: NDArray[np.float64]) -> None:
     for race, (side, conformity, material, shoulder) in enumerate(sides):
         block = p[P.RACES + race * P.RACE_SIZE :][: P.RACE_SIZE]
         ring = si(material)
-        rx, _, modulus = _surfaces(scene, race)
+        rx, ry, modulus = _surfaces(scene, race)
         hertz = race_contacts(scene)[race]
         block[P.RACE_STIFFNESS] = hertz.stiffness
         block[P.RACE_HALF_LENGTH] = hertz.half_length
         block[P.RACE_HALF_WIDTH] = hertz.half_width
         block[P.RACE_PRESSURE] = hertz.pressure
-        films(block, hertz, rx, modulus, si(scene.lubricant).pressure_viscosity)
+        films(block, hertz, rx, ry, modulus, si(scene.lubricant).pressure_viscosity)
         reach = (conformity - 0.5) * d
         block[P.RACE_PROFILE_RADIUS] = 2.0 * conformity * d / (2.0 * conformity + 1.0)
         block[P.RACE_GROOVE_X] = -side * reach * math.sin(angle)
@@ -105,17 +105,21 @@ def _surfaces(scene: Scene, race: int) -> tuple[float, float, float]:
     return rx, ry, modulus
 
 
-def films(block: NDArray[np.float64], hertz: PointContact, rx: float, modulus: float, alpha: float) -> None:
+def films(
+    block: NDArray[np.float64], hertz: PointContact, rx: float, ry: float, modulus: float, alpha: float
+) -> None:
     """Write rolling resistance and films of one race, as factors at viscosity 1 Pa s.
 
-    Rolling resistance: Houpert (1987). Films: Hamrock and Dowson (1977), so that with the entrainment speed
-    u (m/s) and the load Q (N) the minimum film is ``RACE_FILM (eta u)^0.68 Q^-0.073`` and the central one
-    ``RACE_CENTRAL_FILM (eta u)^0.67 Q^-0.067`` (m). ``rx`` in m, ``modulus`` E' in Pa, ``alpha`` in 1/Pa.
+    Rolling resistance: Houpert (1987), over the ratio of the radii R_y/R_x (Balan, Houpert, Tufescu and Olaru
+    2015, doi 10.3390/lubricants3020222). Films: Hamrock and Dowson (1977), over the ellipticity, so that with
+    the entrainment speed u (m/s) and the load Q (N) the minimum film is
+    ``RACE_FILM (eta u)^0.68 Q^-0.073`` and the central one ``RACE_CENTRAL_FILM (eta u)^0.67 Q^-0.067`` (m).
+    ``rx``, ``ry`` in m, ``modulus`` E' in Pa, ``alpha`` in 1/Pa.
     """
     k = hertz.ellipticity
     material = alpha * modulus
     speed, load = modulus * rx, modulus * rx**2
-    force = 2.86 * load * k**0.348 * material**0.022 * speed**-0.66 * load**-0.47
+    force = 2.86 * load * (ry / rx) ** 0.348 * material**0.022 * speed**-0.66 * load**-0.47
     # the moment pair that dissipates the inlet force on both surfaces at the entrainment speed
     block[P.RACE_ROLLING] = 2.0 * rx * force
     block[P.RACE_FILM] = 3.63 * rx * speed**-0.68 * material**0.49 * load**0.073 * (1.0 - math.exp(-0.68 * k))

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from fmu_bearing.prepare.surfaces import ball_profile, frequencies, highest_orders, law, mean_patches
 from fmu_bearing.scene import Scene, si
 from fmu_bearing.scene.imperfections import HIGHEST_ORDER, RACES
+from fmu_bearing.scene.member import one_of
 
 _INTERVALS = 2048  # of a race's table at least
 #: Intervals per wave at least: the table's cubics then follow the shortest wave within 0.1 %.
@@ -141,6 +142,18 @@ def ball_waves(scene: Scene) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     # three normal deviates, normalised, point equally often into every direction
     drawn = np.random.default_rng([flaws.seed, 3]).normal(size=(scene.bearing.ball_count, 3))
     return amplitudes, (drawn / np.linalg.norm(drawn, axis=1)[:, None]).T
+
+
+def excitation_end(scene: Scene, speed: float) -> float | None:
+    """Highest frequency (Hz) at which waves of races and balls pass a contact at a shaft speed (rad/s).
+
+    Above it the surfaces of the scene excite nothing. None: there are no waves, or the shaft stands still.
+    """
+    bearings = [scene]
+    if scene.spindle is not None:
+        bearings = [one_of(scene, number) for number in range(len(scene.spindle.bearing))]
+    fastest = max(fastest_wave(one, race_harmonics(one), ball_waves(one)[0].size) for one in bearings)
+    return fastest * abs(speed) / (2.0 * np.pi) or None
 
 
 def fastest_wave(scene: Scene, races: tuple[Harmonics, Harmonics], ball_orders: int) -> float:

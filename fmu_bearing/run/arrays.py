@@ -100,7 +100,7 @@ class Arrays:
             raise Refused(f"step to {begin + h:.6g} s: {self._reason(status)}")
 
     def _reason(self, status: int) -> str:
-        return reasons(bool(self.p[P.SET]))[status]
+        return reasons(self.p)[status]
 
     def run(self, duration: float, h: float) -> None:
         """Advance by ``duration`` in communication steps of ``h`` (s)."""

@@ -15,8 +15,9 @@ from fmpy.util import read_csv, write_csv
 from numpy.typing import NDArray
 
 from fmu_bearing import renamed
+from fmu_bearing.engine.constants import RPM
 from fmu_bearing.extras import need
-from fmu_bearing.files import write_whole
+from fmu_bearing.files import plain_file, write_whole
 from fmu_bearing.interface.names import chosen_names
 from fmu_bearing.run.levels import present, shown
 from fmu_bearing.run.names import unit_of
@@ -229,7 +230,22 @@ class Run:
         """
         names = chosen_names(_listed(variables), self.names, ())
         after = self.time >= self.time[0] + settle - 1e-9
-        return of_variables(self.time[after], {n: self[n][after] for n in names}, self._units(), resolution)
+        columns = {n: self[n][after] for n in names}
+        return of_variables(self.time[after], columns, self._units(), resolution, self.excitation_end)
+
+    @property
+    def excitation_end(self) -> float | None:
+        """Frequency (Hz) up to which the scene's surfaces excite it; None: not known.
+
+        At the mean of ``shaft_speed`` where it was kept, else at the scene's speed.
+        """
+        if self.scene is None:
+            return None
+        from fmu_bearing.prepare.imperfections import excitation_end
+
+        kept = "shaft_speed" in self.names
+        speed = float(np.mean(self["shaft_speed"])) if kept else self.scene.operation.speed_rpm * RPM
+        return excitation_end(self.scene, speed)
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> "Run":
@@ -241,10 +257,8 @@ class Run:
             For a file that is none of these.
         """
         path = pathlib.Path(path)
-        if not path.exists():
-            raise ResultError(f"{path}: there is no such file")
         if path.suffix == ".nc":
-            return cls._load_netcdf(path)
+            return cls._load_netcdf(_plain(path))
         return cls(path.stem, read_table(path))
 
     @classmethod
@@ -337,9 +351,9 @@ def read_table(path: str | os.PathLike[str]) -> NDArray[Any]:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            table = np.atleast_1d(read_csv(os.fspath(path)))
-    except FileNotFoundError:
-        raise ResultError(f"{path}: there is no such file") from None
+            table = np.atleast_1d(read_csv(os.fspath(_plain(path))))
+    except ResultError:
+        raise
     except (OSError, UnicodeDecodeError, ValueError, IndexError, TypeError) as problem:
         raise ResultError(f"{path}: is no table of numbers with a line of names: {problem}") from None
     names = table.dtype.names or ()
@@ -352,6 +366,16 @@ def read_table(path: str | os.PathLike[str]) -> NDArray[Any]:
         line = int(np.argmax(np.diff(table["time"]) < 0.0)) + 3
         raise ResultError(f"{path}: time falls at line {line}; it must rise, or repeat where values jump")
     return table
+
+
+def _plain(path: str | os.PathLike[str]) -> pathlib.Path:
+    """Return the path of a file that can be read; `ResultError` for what is none."""
+    try:
+        return plain_file(path)
+    except FileNotFoundError:
+        raise ResultError(f"{path}: there is no such file") from None
+    except OSError as problem:
+        raise ResultError(f"{path}: cannot be read: {problem}") from None
 
 
 def written(write: Any, suffix: str) -> bytes:

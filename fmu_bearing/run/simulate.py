@@ -16,7 +16,8 @@ import numpy as np
 from fmpy.simulation import Input as FmpyInput
 from numpy.typing import NDArray
 
-from fmu_bearing.instance import EngineError, Instance, loose, number
+from fmu_bearing.cautions import loose
+from fmu_bearing.instance import EngineError, Instance, number
 from fmu_bearing.interface import Variable
 from fmu_bearing.interface.names import chosen_names, known
 from fmu_bearing.prepare.model import Model, prepare
@@ -83,7 +84,7 @@ def simulate(
     ...     "examples/scenes/7003C-bare.toml", 3e-3, inputs={"shaft_speed": lambda t: 2000.0 + 1e4 * t}
     ... )
     >>> len(run), f"{1e3 * run['friction_torque'][-1]:.0f} N.mm"
-    (4, '17 N.mm')
+    (4, '22 N.mm')
     """
     _check_times(stop_time, step)
     if isinstance(source, str | os.PathLike) and pathlib.Path(source).suffix == ".fmu":

@@ -12,6 +12,7 @@ from fmpy.fmi1 import FMICallException
 from fmpy.model_description import ModelDescription
 from numpy.typing import NDArray
 
+from fmu_bearing.files import plain_file
 from fmu_bearing.run.inputs import Input
 from fmu_bearing.run.result import COMPLETE, INTERRUPTED, REFUSED, ResultError, columns_of, structured
 from fmu_bearing.scene import SceneError, read_scene
@@ -116,10 +117,10 @@ def open_fmu(path: pathlib.Path) -> FmuPlayer:
     ResultError
         When the file is no co-simulation FMU that FMPy reads.
     """
-    if not path.exists():
-        raise ResultError(f"{path}: there is no such FMU")
     try:
-        description = fmpy.read_model_description(str(path))
+        description = fmpy.read_model_description(str(plain_file(path)))
+    except FileNotFoundError:
+        raise ResultError(f"{path}: there is no such FMU") from None
     except Exception as problem:
         raise ResultError(f"{path}: is no valid FMU: {problem}") from None
     if description.coSimulation is None:

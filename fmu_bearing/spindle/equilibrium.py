@@ -36,8 +36,6 @@ class Rest:
         Displacement of each inner ring against its outer one, in the bearing's own axes.
     held : tuple of Held
         The bearings, in their own axes.
-    stiffness : ndarray, shape (5, 5)
-        Of the shaft at its nose; its other planes and sliding rings follow.
     residual : float
         N; moments over the pitch radius.
     """
@@ -45,7 +43,6 @@ class Rest:
     shaft: NDArray[np.float64]
     apart: tuple[NDArray[np.float64], ...]
     held: tuple[Held, ...]
-    stiffness: NDArray[np.float64]
     residual: float
 
 
@@ -113,7 +110,7 @@ def rest(
     own = [moves @ z for moves in system.moves]
     for k, offset in enumerate(assembled.offsets):
         own[k][0] += offset
-    return Rest(z[:count], tuple(own), held, _condensed(matrix), size)
+    return Rest(z[:count], tuple(own), held, size)
 
 
 class _System:
@@ -159,14 +156,14 @@ class _System:
             force += self.moves[k].T @ held.force
             bearings.append(held)
         force[self.first :] += self.supports.force - self.supports.stiffness @ z[self.first :]
-        return force, self.matrix(bearings), tuple(bearings)
+        return force, self.matrix([one.stiffness for one in bearings]), tuple(bearings)
 
-    def matrix(self, bearings: Sequence[Held]) -> NDArray[np.float64]:
-        """Return the stiffness matrix of shaft, bearings and supports."""
+    def matrix(self, bearings: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
+        """Return the stiffness matrix of shaft, bearings of these stiffnesses, and supports."""
         found = np.zeros((self.count, self.count))
         found[: self.first, : self.first] = self.shaft.stiffness
-        for moves, held in zip(self.moves, bearings, strict=True):
-            found += moves.T @ held.stiffness @ moves
+        for moves, stiffness in zip(self.moves, bearings, strict=True):
+            found += moves.T @ stiffness @ moves
         found[self.first :, self.first :] += self.supports.stiffness
         return found
 
@@ -188,8 +185,10 @@ class _System:
         return step * min(1.0, _LONGEST / longest)
 
 
-def stiffness_with(assembled: Assembly, shaft: ShaftModel, bearings: Sequence[Held]) -> NDArray[np.float64]:
-    """Return the stiffness at the nose of another shaft in bearings as stiff as they were found, (5, 5)."""
+def stiffness_with(
+    assembled: Assembly, shaft: ShaftModel, bearings: Sequence[NDArray[np.float64]]
+) -> NDArray[np.float64]:  # fmt: skip
+    """Return the stiffness at the nose of a shaft, (5, 5); bearings have these, in their own axes."""
     other = _System(replace(assembled, shaft=shaft), np.zeros(shaft.count), None)
     return _condensed(other.matrix(bearings))
 
@@ -199,5 +198,7 @@ def _condensed(matrix: NDArray[np.float64]) -> NDArray[np.float64]:
     own, across = matrix[:FREEDOMS, :FREEDOMS], matrix[:FREEDOMS, FREEDOMS:]
     if across.shape[1] == 0:
         return own
-    follow = np.linalg.solve(matrix[FREEDOMS:, FREEDOMS:] + 1e-3 * np.eye(across.shape[1]), across.T)
+    follow = np.linalg.solve(
+        matrix[FREEDOMS:, FREEDOMS:] + 1e-3 * np.eye(across.shape[1]), matrix[FREEDOMS:, :FREEDOMS]
+    )
     return np.asarray(own - across @ follow)

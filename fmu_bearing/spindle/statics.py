@@ -10,6 +10,10 @@ from numpy.typing import NDArray
 
 from fmu_bearing.elastic.shaft import ShaftModel, shaft_model
 from fmu_bearing.elastic.shaft.model import FREEDOMS
+from fmu_bearing.engine.layout import SP
+from fmu_bearing.modal.impedance import at_rest
+from fmu_bearing.modal.remarks import remarks
+from fmu_bearing.modal.set_linearised import set_linearised
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 from fmu_bearing.spindle.assembly import Assembly, assembly, set_of, weight
 from fmu_bearing.spindle.axial import LiftOff, lift_off, neutral_spacing, preloads, spacing
@@ -36,7 +40,7 @@ class BearingLoad:
     displacement : ndarray, shape (5,)
         Of the inner ring against the outer in the bearing's own axes: m, rad.
     stiffness : ndarray, shape (5, 5)
-        Of the bearing in its own axes.
+        Of the bearing in its own axes, for frequency to 0, see `Stiffness.static`.
     ball_loads, contact_angles, pressures : ndarray, shape (2, balls)
         N, rad, Pa at inner and outer race, in the bearing's own axes.
     """
@@ -85,7 +89,7 @@ class ShaftStatics:
     bearings : tuple of BearingLoad
     stiffness : ndarray, shape (5, 5)
         Of the shaft at its nose, the rest of it free: rows forces and moments, columns displacements and
-        tilts.
+        tilts. Its bearings are as stiff as for frequency to 0 at their steady state.
     nose_stiffness_bending : float
         `nose_stiffness` with a shaft that bends in bearings as stiff as here, N/m; the same where the scene's
         shaft bends.
@@ -98,6 +102,8 @@ class ShaftStatics:
         preload as it is.
     residual : float
         Force out of balance, N.
+    remarks : tuple of str
+        That no steady state was found, that the pedestal is soft.
 
     Examples
     --------
@@ -118,6 +124,7 @@ class ShaftStatics:
     spacing: float | None
     neutral_spacing: float | None
     residual: float
+    remarks: tuple[str, ...]
 
     @property
     def arrangement(self) -> str:
@@ -193,7 +200,7 @@ class ShaftStatics:
 
     def cautions(self) -> list[str]:
         """Return what a designer should look at, one line each."""
-        found = []
+        found = [*self.remarks]
         for one in self.bearings:
             if one.axial < _UNLOADED:
                 found.append(f"bearing {one.number} is unloaded: its balls skid at speed; raise the preload")
@@ -262,11 +269,16 @@ def shaft_statics(
         one.shaft.at(plane).T @ given_load[:FREEDOMS] + weight(one) for one in (assembled, rigid)
     )
     found = rest(assembled, load)
-    bending = stiffness_with(assembled, _shaft(scene, flexible=True), found.held)
+    # loads on the shaft as they are on its nose, without weight, which is the scene's
+    nose = {SP.U_NOSE + k: float(part) for k, part in enumerate(at_nose - weight(rigid))}
+    system = set_linearised(scene, nose)
+    matrices = [at_rest(one) for one in system.members]
+    bending = stiffness_with(assembled, _shaft(scene, flexible=True), matrices)
     return ShaftStatics(
-        scene, at_nose, found.shaft[:FREEDOMS], _bearings(assembled, found),
-        found.stiffness, _at_nose(bending), lift_off(assembled), preloads(assembled), spacing(assembled),
-        neutral_spacing(assembled), found.residual,
+        scene, at_nose, found.shaft[:FREEDOMS], _bearings(assembled, found, matrices),
+        stiffness_with(assembled, assembled.shaft, matrices), _at_nose(bending), lift_off(assembled),
+        preloads(assembled), spacing(assembled), neutral_spacing(assembled), found.residual,
+        tuple(remarks(scene, system)),
     )  # fmt: skip
 
 
@@ -282,7 +294,9 @@ def _at_nose(stiffness: NDArray[np.float64]) -> float:
     return float(1.0 / np.linalg.inv(stiffness)[2, 2])
 
 
-def _bearings(assembled: Assembly, found: Rest) -> tuple[BearingLoad, ...]:
+def _bearings(
+    assembled: Assembly, found: Rest, matrices: Sequence[NDArray[np.float64]]
+) -> tuple[BearingLoad, ...]:  # fmt: skip
     """Return the bearings of a set at rest, in shaft axes."""
     bearings = []
     for k, (one, own, held) in enumerate(zip(assembled.members, found.apart, found.held, strict=True)):
@@ -295,7 +309,7 @@ def _bearings(assembled: Assembly, found: Rest) -> tuple[BearingLoad, ...]:
                 on_bearing[:3],
                 on_bearing[3:],
                 own,
-                held.stiffness,
+                matrices[k],
                 held.loads,
                 held.angles,
                 held.pressures,

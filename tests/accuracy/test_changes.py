@@ -10,6 +10,7 @@ from fmu_bearing.accuracy import changes as room
 from fmu_bearing.accuracy.alternatives import Alternative, alternatives
 from fmu_bearing.accuracy.changed import Change, Changes, Heard, Point, shown_level, shown_ratio
 from fmu_bearing.accuracy.changes import changes, point
+from fmu_bearing.accuracy.hearing import Hearing
 from fmu_bearing.design.operating_point import operating_point
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import prepare
@@ -204,7 +205,13 @@ def test_choices_follow_the_scene(scene, spindle):
     wide = spindle.replace({"bearing.contact_angle_deg": 25.0})
     assert words(wide, "contact angle") == ["contact angle 25 -> 15 deg"]
     # makers' classes are shares of C: 0.015 of 5956 N at 15 deg (designers' notes)
-    assert "preload 500 -> 89 N medium" in words(spindle, "preload")
+    assert "preload 500 -> 89.4 N medium" in words(spindle, "preload")
+    # NSK's own ones are printed, and at 40 deg no maker gives any
+    printed = words(spindle.replace({"bearing.catalogue": "NSK-7003C"}), "preload")
+    assert [one for one in printed if one.endswith("light")] == [
+        "preload 500 -> 14 N extra light", "preload 500 -> 29 N light",
+    ]  # fmt: skip
+    assert len(words(spindle.replace({"bearing.contact_angle_deg": 40.0}), "preload")) == 2
 
 
 def test_what_the_scene_or_the_engine_refuses_is_told(spindle, monkeypatch):
@@ -255,6 +262,30 @@ def test_rings_that_bend_are_run_with_fidelity_full(scene, monkeypatch):
     found = changes(scene("7009C-steel"), seeds=5)
     assert found.heard.fidelity == "full" and len(found.heard.seeds) == 3
     assert found.changes[0].levels.shape == (3,)
+
+
+def test_a_weakly_damped_bearing_is_judged_by_full(spindle, example, monkeypatch):
+    """`response` and `rings` agree on the dry 7003C at 8,000 r/min, 18 dB(A) away from `full`."""
+    only(monkeypatch)
+    heard = []
+
+    def levels(self, scene, fidelity, seed):
+        heard.append(fidelity)
+        return np.full(len(scene.microphones), 50.0)
+
+    monkeypatch.setattr(Hearing, "_all", levels)
+    flaws = spindle.imperfections.model_dump(mode="json", exclude_none=True)
+    dry = example("7003C-impact").replace({"operation.speed_rpm": 8000.0, "imperfections": flaws})
+    found = changes(with_fidelity(dry, model="full"), seeds=5)
+    assert found.heard.fidelity == "full" and set(heard) == {"full"} and len(found.heard.seeds) == 3
+    assert found.heard.doubt == found.summary()["doubt"] == ""
+    # a scene that asks for one of the others gets it, with the remark
+    asked = changes(with_fidelity(dry, model="rings"), seeds=1)
+    assert asked.heard.fidelity == "rings"
+    assert any("levels of fidelity rings are in doubt" in line for line in asked.remarks())
+    heard.clear()
+    assert changes(spindle, seeds=1).heard.fidelity == "response"
+    assert set(heard) == {"rings", "response"}
 
 
 def test_the_seeds_begin_with_the_scenes(spindle, monkeypatch):

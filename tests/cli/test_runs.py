@@ -56,11 +56,9 @@ def test_simulate_tells_machines_and_writes_netcdf(run, rings_file, tmp_path):
 def test_a_refused_run_writes_what_it_has(run, silent_file, tmp_path):
     result = tmp_path / "short.csv"
     (tmp_path / "load.csv").write_text(
-        "time,radial_load.z,pedestal_stiffness\n0,0,1e5\n2e-3,0,1e5\n2e-3,3000,1e5\n"
+        "time,pedestal_stiffness\n0,1e4\n2e-3,1e4\n2e-3,1e12\n"  # 50 mm times as much: 5e10 N
     )
-    text = silent_file.read_text().replace('model = "full"', 'model = "rings"')
-    (tmp_path / "rings.toml").write_text(text)
-    done = run("simulate", tmp_path / "rings.toml", "-t", 0.05, "-i", tmp_path / "load.csv", "-o", result)
+    done = run("simulate", silent_file, "-t", 0.05, "-i", tmp_path / "load.csv", "-o", result)
     assert done.exit_code == 3 and "could not be solved" in done.stderr and "written" in done.stdout
     assert 2e-3 <= Run.load(result).time[-1] < 0.05
 
@@ -241,3 +239,15 @@ def test_plot_draws_every_variable_asked(run, rings_file, tmp_path):
     assert done.exit_code == 0, done.output
     text = (tmp_path / "a.svg").read_text()
     assert all(f"<!-- {name} -->" in text for name in (*names[:4], "P1: pressure"))
+
+
+def test_levels_in_doubt_are_named(run, example, tmp_path):
+    """The dry 7003C has a mode with a damping ratio of 0.0002."""
+    for fidelity in ("rings", "full"):
+        file = tmp_path / f"{fidelity}.toml"
+        scene = with_fidelity(example("7003C-impact"), model=fidelity)
+        file.write_text(scene.to_toml(), "utf-8")
+        result = run("simulate", file, "-t", "0.001", "-o", tmp_path / "run.csv")
+        assert ("levels of fidelity rings are in doubt" in result.stdout) == (fidelity == "rings")
+        result = run("simulate", file, "-t", "0.001", "-o", tmp_path / "run.csv", "-v", "friction_torque")
+        assert "in doubt" not in result.stdout

@@ -35,20 +35,20 @@ def matrices(run):
 def with_patterns(run):
     """Linear equations M x'' = K x + C x' of rings and transverse balls of fidelity `response`."""
     lv, count = block(run), L.N + L.PATTERNS
-    follow, guide, pull, drag = (
+    follow, lead, guide, pull, drag = (
         lv[at : at + L.PATTERNS * L.COLUMN].reshape(L.PATTERNS, L.COLUMN)[:, : L.N]
-        for at in (L.SIDE_FOLLOW, L.SIDE_GUIDE, L.SIDE_PULL, L.SIDE_DRAG)
+        for at in (L.SIDE_FOLLOW, L.SIDE_LEAD, L.SIDE_GUIDE, L.SIDE_PULL, L.SIDE_DRAG)
     )
-    square, rate, tau = lv[L.SIDE_SQUARE], lv[L.SIDE_RATE], run.p[P.CONTACT_DAMPING]
+    square, rate = lv[L.SIDE_SQUARE], lv[L.SIDE_RATE]
     mass, stiff, damp = np.eye(count), np.zeros((count, count)), np.zeros((count, count))
     own, places, rates = matrices(run)
     rings, balls = np.s_[: L.N], np.s_[L.N :]
     one = np.eye(L.PATTERNS)
     mass[rings, rings] = own
     stiff[rings, rings], stiff[rings, balls] = places - pull.T @ follow, pull.T
-    damp[rings, rings], damp[rings, balls] = rates - tau * pull.T @ follow - drag.T @ guide, drag.T
+    damp[rings, rings], damp[rings, balls] = rates - pull.T @ lead - drag.T @ guide, drag.T
     stiff[balls, rings], stiff[balls, balls] = square * follow, -square * one
-    damp[balls, rings], damp[balls, balls] = tau * square * follow + rate * guide, -rate * one
+    damp[balls, rings], damp[balls, balls] = square * lead + rate * guide, -rate * one
     return mass, stiff, damp
 
 
@@ -87,33 +87,42 @@ class Slow:
             return (2 * b + 6 * a * t) * (count / (2 * np.pi)) ** 2
         return h0 + t * (g0 + t * (b + t * a))
 
-    def contact(self, race, ball, height, u, tilt):
-        """Force of the ball at ``ball`` (orbiting plane turned into x y z) on one ring, and its moment."""
+    def seat(self, race, ball, u, tilt):
+        """Ring seen from a ball: axis, ball from its centre, radial direction, ball from the groove."""
         axis = np.array([1 - 0.5 * tilt @ tilt, tilt[1], -tilt[0]])
         q = ball - u
         axial = q @ axis
         h = q - axial * axis
         rho = np.linalg.norm(h)
-        h /= rho
         o = C.RACES + race * C.RACE_SIZE
-        s = np.array([axial - self.c[o], rho - self.c[o + 1]])
+        return axis, q, h / rho, np.array([axial - self.c[o], rho - self.c[o + 1]])
+
+    def contact(self, race, ball, height, ring, ahead):
+        """Force of the ball at ``ball`` (orbiting plane turned into x y z) on one ring, and its moment.
+
+        ``ring``, ``ahead``: the ring's place and tilts, now and advanced by tau. Approach alone is advanced:
+        that the direction turns meanwhile changes the distance by 1e-12 m.
+        """
+        axis, q, h, s = self.seat(race, ball, *ring)
         distance = np.linalg.norm(s)
         sine, cosine = s / distance
-        approach = max(distance - self.c[o + 2] + height, 0.0)
+        free = self.c[C.RACES + race * C.RACE_SIZE + 2]
+        approach = max(np.linalg.norm(self.seat(race, ball, *ahead)[3]) - free + height, 0.0)
         hertz = self.p[P.RACES + race * P.RACE_SIZE + P.RACE_STIFFNESS]
         pair = self.lv[L.PAIR_INNER + race] * self.speed**2
         e, m = sine * axis + cosine * h, cosine * axis - sine * h
         force = hertz * approach**1.5 * e + pair * m
         return force, np.cross(q, force), e, m, 1.5 * hertz * approach**0.5, hertz * approach**1.5 / distance
 
-    def both(self, place, theta, heights, ahead):
-        """Contacts of a ball at ``place`` (x, r) with both rings."""
+    def both(self, place, theta, heights, q, ahead):
+        """Contacts of a ball at ``place`` (x, r) with both rings at ``q``; ``ahead``: advanced by tau."""
         radial = np.array([0.0, -np.sin(theta), np.cos(theta)])
         ball = place[0] * np.array([1.0, 0.0, 0.0]) + (self.p[P.PITCH_RADIUS] + place[1]) * radial
-        inner = self.contact(0, ball, heights[0], ahead[:3], ahead[3:5])
-        return inner, self.contact(1, ball, heights[1], ahead[5:8], ahead[9:11])
+        inner = [(at[:3], at[3:5]) for at in (q, ahead)]
+        outer = [(at[5:8], at[9:11]) for at in (q, ahead)]
+        return self.contact(0, ball, heights[0], *inner), self.contact(1, ball, heights[1], *outer)
 
-    def residual(self, place, theta, heights, bends, ahead):
+    def residual(self, place, theta, heights, bends, q, ahead):
         """Net force (x, r) on a ball, with the inertia of what the waves make it do."""
         p = self.p
         plane = np.array([[1.0, 0.0, 0.0], [0.0, -np.sin(theta), np.cos(theta)]])
@@ -121,7 +130,7 @@ class Slow:
         net = np.array([0.0, (p[P.PITCH_RADIUS] + place[1]) * orbit**2 * p[P.BALL_MASS]])
         net[1] -= GRAVITY * p[P.BALL_MASS] * np.cos(theta)
         stiffness, pushed = np.zeros((2, 2)), np.zeros(2)
-        for contact, bend in zip(self.both(place, theta, heights, ahead), bends, strict=True):
+        for contact, bend in zip(self.both(place, theta, heights, q, ahead), bends, strict=True):
             force, _, e, m, kn, kt = contact
             e, m = plane @ e, plane @ m
             net -= plane @ force
@@ -154,13 +163,13 @@ class Slow:
                 self.height(0, across[0], 2) * (orbit - speed) ** 2,
                 self.height(1, across[1], 2) * orbit**2,
             ]
-            state = (theta, heights, bends, ahead)
+            state = (theta, heights, bends, q, ahead)
             found = root(
                 lambda x, state=state: self.residual(1e-6 * x, *state), 1e6 * self.places[j], tol=1e-13
             )
             self.places[j] = 1e-6 * found.x
             rest += self.patterns(theta) * (self.soft @ self.places[j] - self.lv[L.SIDE_STILL])
-            contacts = self.both(self.places[j], theta, heights, ahead)
+            contacts = self.both(self.places[j], theta, heights, q, ahead)
             for first, tilt, (force, moment, *_) in zip((0, 5), (3, 9), contacts, strict=True):
                 f[first : first + 3] += force
                 f[tilt : tilt + 2] += moment[1:]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fmu_bearing.engine.layout import STRIDE, P, U, Y, Z
-from fmu_bearing.engine.status import NOT_CONVERGED, OK
+from fmu_bearing.engine.status import OK
 from tests.engine.condensed import FIDELITIES, silent, vibration
 from tests.engine.helpers import RPM, Run, quiet
 
@@ -153,13 +153,10 @@ def test_balls_move_in_their_races(scene, fidelity):
     np.testing.assert_allclose(sizes[0], sizes[1], rtol=0.33)
 
 
-def test_a_step_fails_with_its_own_status(scene):
+@pytest.mark.parametrize("fidelity", ["rings", "response"])
+def test_rings_that_lift_their_balls_go_on(scene, fidelity):
     """1 N of preload has a rest at the start; the rings' motion lifts balls off within a millisecond."""
-    run = Run(silent(scene("7003C-spindle")), 60_000, preload=1.0, FIDELITY=FIDELITIES["rings"]).init()
-    # after 7 to 13 steps when speed and preload move by 1e-3 of themselves, and from then on
-    found = [run.step(1e-4) for _ in range(30)]
-    lasted = found.index(NOT_CONVERGED)
-    assert 5 <= lasted <= 20 and found == [OK] * lasted + [NOT_CONVERGED] * (30 - lasted)
-    # fidelity response follows the settled answer, which is there at all times
-    run = Run(silent(scene("7003C-spindle")), 60_000, preload=1.0, FIDELITY=FIDELITIES["response"]).init()
-    assert [run.step(1e-4) for _ in range(10)] == [OK] * 10
+    run = Run(silent(scene("7003C-spindle")), 60_000, preload=1.0, FIDELITY=FIDELITIES[fidelity]).init()
+    for _ in range(30):
+        assert run.step(1e-4) == OK
+        assert np.isfinite(run.z).all()

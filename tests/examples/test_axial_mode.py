@@ -39,7 +39,8 @@ def test_the_vibration_follows_the_distance_from_what_excites(short):
     """The decision of the page: 650 N shakes least, 200 N most."""
     inner = {preload: float(cells[-2]) for preload, cells in short.items()}
     assert inner["650"] < 0.5 * inner["500"] < 0.25 * inner["200"]
-    assert abs(float(short["200"][5])) < 1.0 < 3.0 < float(short["500"][3]) < 5.0
+    # 0.95 %, printed with one digit
+    assert abs(float(short["200"][5])) <= 1.0 < 3.0 < float(short["500"][3]) < 5.0
 
 
 def test_the_page_shows_the_committed_figures():

@@ -83,9 +83,10 @@ def test_forces_of_the_bearings_carry_load_and_weight(short):
     load = shaft_statics(scene).load  # the tool's and the weight, moved to the nose
     for axis, wanted in zip("xyz", load, strict=False):
         carried = sum(hold[f"bearing[{b}].force.{axis}"] for b in range(1, BEARINGS + 1)).mean()
-        # the rest is the shaft's acceleration: its mean is the change of velocity over 0.1 s, and means over
-        # rows 1 ms apart leave some of the waves' forces
-        assert carried == pytest.approx(wanted, abs=1.0), axis
+        # the rest is the shaft's acceleration: its mean is the change of velocity over 0.1 s. At 20,000 r/min
+        # three orders of the shaft are 1 kHz, so that rows 1 ms apart fold every third one into the mean; the
+        # waves' forces scatter by 3.5 N rms
+        assert carried == pytest.approx(wanted, abs=2.0), axis
 
 
 def test_axial_loads_are_those_of_statics_at_the_temperatures(rows):

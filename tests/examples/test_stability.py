@@ -31,7 +31,7 @@ def test_shafts_lighter_than_the_balls_diverge_and_others_settle(folder):
     for step in ("0.0001", "0.0003", "0.001"):
         light, middle, own = (found["torque", step, inertia] for inertia in ("6e-08", "2e-07", "0.000164"))
         assert float(light["factor"]) < -DIVERGED and float(light["predicted"]) < -1.9
-        if step != "0.0001":  # in 0.1 ms the balls do not follow such jumps of speed: they slip
+        if step == "0.001":  # in less the balls do not follow such jumps of speed: they slip
             assert float(light["factor"]) == pytest.approx(float(light["predicted"]), rel=0.1)
         # one number, the inertia of balls and cage, tells the factor within a few hundredths
         assert float(middle["factor"]) == pytest.approx(float(middle["predicted"]), abs=0.05)

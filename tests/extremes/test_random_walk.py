@@ -67,18 +67,6 @@ def astray(run):
     return max(across, wanted) > 1e-3
 
 
-def unloaded(run, fidelity):
-    """Whether some balls, which have no modes of their own, have lost contact with the inner race.
-
-    Approaches that go as 1 + cos round the bearing leave one ball without load; the mean of their powers 3/2
-    is 4/(3 pi) of the largest. Fidelity ``rings`` then finds states that it cannot leave again
-    (docs/limits.md), such as the 7009C's under 2.3 kN with an outer ring 60 K colder, or those of
-    `OFF_THE_RACE`.
-    """
-    most, mean = run.get("contact.inner.load_max"), run.get("contact.inner.load_mean")
-    return fidelity == "rings" and most >= 0.75 * math.pi * mean
-
-
 def walk(scene, start, moves, fidelity, method):
     """Initialise, then one input and one step after the other; every refusal is undone and gone on from."""
     run = bearing(scene, {"sound": None}, {}, fidelity, method)
@@ -104,7 +92,7 @@ def walk(scene, start, moves, fidelity, method):
             np.testing.assert_array_equal(run.z, shown)
             # with the inputs under which the state was reached the bearing goes on
             run.u[:] = inputs
-            if astray(run) or unloaded(run, fidelity):
+            if astray(run):
                 run.reset()
                 run.initialise()
             run.step(1e-6)

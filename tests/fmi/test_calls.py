@@ -137,6 +137,15 @@ def test_step_that_is_no_step_is_refused(master, expected, size):
     assert bearing.everything() == untouched.everything()
 
 
+@pytest.mark.parametrize("size", [1e6, 1e300])
+def test_step_of_days_is_discarded_with_the_bound(master, size):
+    bearing, untouched = master().start(), master().start()
+    assert bearing.step(0.0, size) == DISCARD
+    assert "the communication step must be above 0 s and below 1e6 s" in bearing.messages
+    assert bearing.step(0.0) == untouched.step(0.0) == OK
+    assert bearing.everything() == untouched.everything()
+
+
 @pytest.mark.parametrize("time", [0.0, 1.0, math.nan, STEP + 2e-9])
 def test_wrong_communication_time_is_refused(master, expected, time):
     bearing = master().start()

@@ -39,13 +39,13 @@ INPUTS = {  # one of each kind, others at each step
 
 
 @functools.cache
-def model(name="DB", **fmu):
-    """A set of the examples with waves, sound and ``[fmu]``."""
+def model(name="DB", fidelity=None, **fmu):
+    """A set of the examples with waves, sound and ``[fmu]``, at its own fidelity or another."""
     microphones = [{"name": "P1", "x_mm": 40.0, "y_mm": 90.0, "z_mm": 30.0}]
     sound = {"radiation_model": "compact", "metering_start_s": 0.0, "microphone": microphones}
     changes = {"imperfections": {"grade": "P4", "seed": 1}, "sound": sound}
     changes["fmu"] = {"terminals": True, **fmu}
-    return prepare(read_scene(SETS / f"7003C-{name}.toml").replace(changes))
+    return prepare(read_scene(SETS / f"7003C-{name}.toml").replace(changes), fidelity=fidelity)
 
 
 @pytest.fixture(scope="module")
@@ -222,10 +222,10 @@ def test_flat_names_and_terminals(folders, masters, flavour):
         }
         for terminal in root.iter("Terminal")
     }  # fmt: skip
-    ports = [f"bearing[{b}].{port}" for b in (1, 2) for port in ("inner_ring", "outer_ring", "oil")]
-    assert list(found) == ["shaft", "nose", *ports, "mic[1]"]
+    ports = [f"bearing_{b}_{port}" for b in (1, 2) for port in ("inner_ring", "outer_ring", "oil")]
+    assert list(found) == ["shaft", "nose", *ports, "mic_1"]
     assert found["shaft"] == {"w": "shaft_speed", "tau": "friction_torque"}
-    assert found["bearing[2].oil"] == {"T": "bearing_2_oil_temperature", "Q_flow": "bearing_2_heat_oil"}
+    assert found["bearing_2_oil"] == {"T": "bearing_2_oil_temperature", "Q_flow": "bearing_2_heat_oil"}
     assert set().union(*(members.values() for members in found.values())) <= names
     # values do not depend on names
     structured = masters(flavour).start()
@@ -249,3 +249,20 @@ def test_a_refused_step_leaves_the_state_as_it_was(masters):
         assert march(one, 3) == march(other, 3)
     assert texts[0] == texts[1]
     assert "nose.moment.y = 500000, " in texts[0]
+
+
+def test_rings_that_begin_again_warn_once(masters):
+    """A shaft 15 K warmer within 1 ns pushes the races at kilometres per second: no step leads on."""
+    texts = []
+    for flavour in FLAVOURS:
+        one = masters(flavour, fidelity="rings").start()
+        at = 0.0
+        for kelvin in (330.0, 315.0, 330.0):
+            assert one.set("shaft_temperature", kelvin) == OK
+            for h in (1e-9, 1e-4):
+                assert one.step(at, h) == OK, one.messages
+                at += h
+        assert one.get("solver.restarts") >= 3
+        texts.append([text for text in one.messages.splitlines() if "begin again at rest" in text])
+        assert len(texts[-1]) == 1
+        assert "1 times so far (solver.restarts)" in texts[-1][0]

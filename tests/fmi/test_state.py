@@ -1,12 +1,18 @@
 """The state of an FMU instance: complete, bound to its model; ``test_equality`` sends it to a new process."""
 
+import hashlib
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from fmu_bearing.fmi import resources
+from fmu_bearing.fmi.session import Session
 from fmu_bearing.fmi.state import State, StateError
 
 from .conftest import DISCARD, ERROR, OK, STEP, Master
+
+_BODY = 20 + 32 + 32  # magic, fingerprint, checksum
 
 
 def test_continuing_after_restore_gives_the_same_bits(master):
@@ -63,7 +69,7 @@ def test_refusals_belong_to_the_state(master, expected):
     assert bearing.release(good) == bearing.release(bad) == OK
 
 
-@pytest.mark.parametrize("damage", ["flip", "short", "empty", "version", "model"])
+@pytest.mark.parametrize("damage", ["flip", "short", "empty", "long", "version", "model"])
 def test_foreign_or_damaged_state_is_refused(master, expected, damage):
     bearing = master().start()
     good = bearing.keep()
@@ -76,6 +82,9 @@ def test_foreign_or_damaged_state_is_refused(master, expected, damage):
         reason = "the state is"  # cut off, or damaged
     elif damage == "empty":
         data, reason = bytearray(b"x"), "the"  # cut off, or no state at all
+    elif damage == "long":
+        data += bytes(64)
+        reason = "the state is damaged"
     elif damage == "version":
         data[:9] = b"something"
         reason = "these bytes are not a state that this version of fmu-bearing can read"
@@ -124,3 +133,28 @@ def test_bytes_hold_every_bit(model):
         assert np.array_equal(getattr(back, name), getattr(state, name))
     with pytest.raises(StateError, match="another model"):
         State.from_bytes(state.to_bytes(mark), mark[::-1])
+
+
+@pytest.mark.parametrize("change", [64, -64, -8])
+def test_state_of_another_length_is_refused_whatever_its_checksum(model, change):
+    mark = resources.fingerprint(model)
+    whole = Session(model, lambda *_: None).state().to_bytes(mark)
+    body = whole[_BODY:] + bytes(change) if change > 0 else whole[_BODY:change]
+    with pytest.raises(StateError, match=rf"it has {len(body)} bytes, its arrays take {len(whole) - _BODY}"):
+        State.from_bytes(whole[: _BODY - 32] + hashlib.sha256(body).digest() + body, mark)
+    short = hashlib.sha256(b"").digest()
+    with pytest.raises(StateError, match="cut off"):
+        State.from_bytes(whole[: _BODY - 32] + short, mark)
+
+
+@pytest.mark.parametrize("part", ["inputs", "tunables", "outputs", "engine", "phase"])
+def test_arrays_of_other_lengths_are_refused_and_nothing_is_taken(model, part):
+    session = Session(model, lambda *_: None)
+    before = session.state()
+    # one number more in one array, and one changed in another, which must not arrive
+    inputs = before.inputs + 1.0
+    wrong = 77 if part == "phase" else np.append(inputs if part == "inputs" else getattr(before, part), 0.0)
+    with pytest.raises(StateError, match="no phase" if part == "phase" else "other lengths"):
+        session.restore(replace(before, **({"inputs": inputs} | {part: wrong})))
+    mark = resources.fingerprint(model)
+    assert session.state().to_bytes(mark) == before.to_bytes(mark)

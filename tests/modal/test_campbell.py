@@ -108,7 +108,7 @@ def test_verdict_names_the_nearest_crossing(gate, spindle):
     """Operation at 20,000 r/min; f_i meets the axial mode 6 % above."""
     assert spindle.scene.operation.speed_rpm == 20_000.0
     assert spindle.verdict() == (
-        "Nearest: f_i (inner race) with inner axial, 21,209 r/min, 6.0 % above operation, damping ratio "
+        "Nearest: f_i (inner race) with inner axial, 21,208 r/min, 6.0 % above operation, damping ratio "
         "0.56 %."
     )
 

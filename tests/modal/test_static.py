@@ -1,14 +1,14 @@
-"""The stiffness matrix from a state, against the engine's own and against what it must be."""
+"""The engine's quasi-static stiffness, which its Newton steps take, against the energy in the contacts."""
 
 import numpy as np
 import pytest
 
 from fmu_bearing.engine.layout import EQ, P, Q, S, Y
 from fmu_bearing.instance import Instance
-from fmu_bearing.modal.static import stiffness
 from fmu_bearing.prepare.model import prepare
 from tests.engine.helpers import quiet
 from tests.engine.quasistatic import Bearing
+from tests.modal.energy import stiffness
 
 
 def state_of(bearing, offset):

@@ -14,8 +14,9 @@ from fmu_bearing.engine.layout import C, P, Q, S, U, Y as ROW
 from fmu_bearing.instance import EngineError
 from fmu_bearing.modal.impedance import impedance, spaced
 from fmu_bearing.modal.linearised import linearised
-from fmu_bearing.modal.static import stiffness as energy_hessian
 from fmu_bearing.modal.stiffness_files import columns, unit
+from fmu_bearing.run.arrays import Arrays
+from tests.modal.energy import stiffness as energy_hessian
 from tests.modal.orbit import along, circling
 
 X, Y, Z, BY, BZ = range(5)
@@ -80,34 +81,70 @@ def test_symmetry_under_axial_load(table):
             assert np.abs(matrix[..., X, i]).max() < 1e-7 and np.abs(matrix[..., i, X]).max() < 1e-7
 
 
-def test_slow_motion_meets_the_quasi_static_stiffness(table):
-    # friction and the balls' inertia stay in K; the specification has 0.3 % on this bearing
-    assert 1e-4 < table.against_static() < 3e-3
-    for i, k in np.ndindex(3, 3):
-        np.testing.assert_allclose(np.diag(table.K[i, k, 0]), np.diag(table.static[i, k]), rtol=3e-3)
+def test_slow_motion_meets_the_stiffness_at_rest(spindle, table):
+    slow = stiffness(spindle, [20e3], [0.1], preloads=[200, 500, 1000])
+    # the spin of the balls follows at 1e3 1/s here, K differs by the square of the ratio
+    np.testing.assert_allclose(slow.K[0, :, 0], slow.static[0], rtol=1e-5, atol=1.0)
+    np.testing.assert_array_equal(slow.static[0], table.static[1])
+    # the balls' inertia is 1e-4 of it at 50 Hz, friction held or not 2e-3 on a bearing that carries this much
+    assert table.against_static() < 1e-3
+    for k, load in enumerate((200.0, 500.0, 1000.0)):
+        arrays = linearised(spindle, {U.SPEED: 20e3 * RPM, U.PRELOAD: load}).arrays
+        energy = np.diag(energy_hessian(arrays.p, arrays.s))
+        np.testing.assert_allclose(np.diag(table.static[1, k]), energy, rtol=3e-3)
 
 
 def test_a_light_load_at_speed_is_further_from_it(scene):
     light = scene("7009C-full-ceramic").replace(
         {"sound": None, "imperfections": None, "fidelity.terms.gravity": False}
     )
-    found = stiffness(light, [18e3], [30.0], preloads=[175.0])
-    # 4 % by the specification, which was read at the quasi-static state; friction then moves the balls to
-    # other angles, where the energy in the contacts has 10 % less stiffness
-    assert 0.1 < found.against_static() < 0.2
+    found = stiffness(light, [18e3], [0.1, 1e3], preloads=[175.0])
     arrays = linearised(light, {U.SPEED: 18e3 * RPM, U.PRELOAD: 175.0}).arrays
-    settled = energy_hessian(arrays.p, arrays.s)
-    for i in range(5):
-        assert found.K[0, 0, 0, i, i] == pytest.approx(settled[i, i], rel=0.07)
-    assert any("differs from the quasi-static stiffness by up to 14 %" in line for line in found.cautions())
+    # friction moves the balls with the ring; by the energy in the contacts there would be some per cent more
+    off = np.diag(found.static[0, 0]) / np.diag(energy_hessian(arrays.p, arrays.s)) - 1.0
+    assert 0.02 < np.abs(off).max() < 0.07
+    assert not any("for frequency to 0" in line for line in found.cautions())
+    faster = stiffness(light, [18e3], [1e3], preloads=[175.0])
+    # at 1 kHz spins do not follow any more
+    assert faster.against_static() == pytest.approx(0.19, abs=0.01)
+    assert any("K at 1000 Hz differs from that for frequency to 0" in line for line in faster.cautions())
 
 
-def test_the_static_matrix_is_that_of_the_operating_point(scene):
-    known = scene("7003C-spindle").replace({"sound": None})
+@pytest.mark.parametrize(
+    ("mode", "bends"), [("force", None), ("rigid", None), ("force", {"outer_ring": [2, 3]})]
+)
+def test_the_matrix_at_rest_is_that_of_the_operating_point(scene, mode, bends):
+    known = scene("7003C-bare").replace({"mounting.preload_mode": mode, "mounting.flexure": bends})
     found = stiffness(known, [12e3, 20e3], [500.0])
     np.testing.assert_array_equal(found.static[1, 0], operating_point(known).stiffness)
     np.testing.assert_array_equal(found.own[0], found.static[1, 0])
     assert found.static[0, 0, X, X] != found.static[1, 0, X, X]
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("name", ["7009C-full-ceramic", "7009C-steel"])
+def test_full_loaded_slowly_gives_way_by_the_matrix_at_rest(scene, name):
+    """Ring and outer ring kept from tilting; the quasi-static matrix has 8 and 19 % more."""
+    light = scene(name).replace(
+        {
+            "sound": None, "imperfections": None, "fidelity.terms.gravity": False,
+            "operation.speed_rpm": 18e3, "mounting.preload_N": 350.0,
+            "mounting.pedestal_stiffness_N_m": 1e11,
+        }
+    )  # fmt: skip
+    expected, force, places = operating_point(light).stiffness[Y, Y], 10.0, []
+    for load in (force, -force):
+        run = Arrays.of(light, CAGE=0.0, TILT_STIFFNESS=1e6, TILT_DAMPING=5.0)
+        run.u[U.LOAD_Y] = load
+        run.init()
+        apart = []
+        for _ in range(200):
+            run.step(1e-3)
+            body = run.s[S.Y + ROW.Q0 : S.Y + ROW.Q0 + Q.SIZE]
+            apart.append(body[Q.Y] - body[Q.OUTER + Q.Y])
+        places.append(np.mean(apart[50:]))
+    # balls without a cage drift apart a little in 0.2 s: some per cent
+    assert 2.0 * force / (places[0] - places[1]) == pytest.approx(expected, rel=0.03)
 
 
 def test_a_constant_force_is_no_constant_place(spindle):
@@ -182,7 +219,7 @@ def test_bending_rings_count_where_loads_are_unequal(scene):
     one, other = (stiffness(each, [10e3], [500.0]) for each in (rigid, bending))
     # round equal loads a motion of the ring has no share in orders 2 and more
     np.testing.assert_allclose(other.K[0, 0, 0, Y, Y], one.K[0, 0, 0, Y, Y], rtol=1e-7)
-    np.testing.assert_array_equal(one.static, other.static)
+    np.testing.assert_allclose(one.static, other.static, rtol=1e-6, atol=1.0)
     assert any("rings bend" in line for line in other.cautions())
     load = {"radial_load.z": -600.0}
     one, other = (stiffness(each, [10e3], [500.0], inputs=load) for each in (rigid, bending))
@@ -326,4 +363,4 @@ def test_picture_shows_each_preload(table):
         drawn = solid[1].get_ydata() / table.K[:, 1, 2, i, i]
         np.testing.assert_allclose(drawn, drawn[0], rtol=1e-12)
     labels = [text.get_text() for text in figure.legends[0].get_texts()]
-    assert labels == ["200 N", "500 N", "1000 N", "quasi-static"]
+    assert labels == ["200 N", "500 N", "1000 N", "frequency to 0"]

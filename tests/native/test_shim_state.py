@@ -64,7 +64,9 @@ def test_same_state_gives_the_same_bytes(master):
     assert one.to_bytes(one.keep()) == other.to_bytes(other.keep())
 
 
-@pytest.mark.parametrize("damage", ["flip", "phase", "short", "tiny", "empty", "version", "model"])
+@pytest.mark.parametrize(
+    "damage", ["flip", "phase", "short", "tiny", "empty", "long", "twice", "version", "model"]
+)
 def test_foreign_or_damaged_state_is_refused(master, damage):
     one = master().start()
     one.run(1)
@@ -79,6 +81,9 @@ def test_foreign_or_damaged_state_is_refused(master, damage):
     elif damage in ("short", "tiny", "empty"):
         del data[{"short": -8, "tiny": 20, "empty": 0}[damage] :]
         reason = "cut off"
+    elif damage in ("long", "twice"):
+        data += bytes(64 if damage == "long" else data)
+        reason = "it has more bytes than this model's"
     elif damage == "version":
         data[14] ^= 3
         reason = "not a state that this version"

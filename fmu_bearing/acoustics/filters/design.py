@@ -21,6 +21,7 @@ from fmu_bearing.scene.housing import middle_mm
 __all__ = [
     "FilterError",
     "build",
+    "check_table",
     "filter_errors",
     "housing_of_set",
     "radiation_of",
@@ -144,6 +145,21 @@ def radiation_of(
         int(scene.fidelity.ball_harmonics), ring_modes(scene) if modes is None else tuple(modes),
         None if scene.sound.reflecting_plane_mm is None else sound.reflecting_plane, table,
     )  # fmt: skip
+
+
+def check_table(scene: Scene) -> None:
+    """Read the table of transfer functions of a scene, if it has one, as a run does; no filter is fitted.
+
+    Raises
+    ------
+    ValueError
+        When it cannot be read or does not serve.
+    """
+    if scene.sound is not None and scene.sound.radiation_model == "table":
+        radiation = radiation_of(scene)
+        positions = [position for _, position in scene.microphones]
+        for members in radiation.circles(positions):
+            radiation.paths(positions, members)
 
 
 def housing_of_set(scene: Scene) -> Housing | None:

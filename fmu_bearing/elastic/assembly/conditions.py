@@ -114,7 +114,7 @@ def contact_modes(
     held : bool
         Whether the outer ring's circumference stands still in all directions; else all is free.
     ball_springs : float
-        Stiffness (N/m) between neighbouring balls along the pitch circle; 0: none.
+        Stiffness (N/m) between neighbouring balls' centres, along the chord; 0: none.
     highest : float, optional
         Ring modes up to this frequency (Hz); 0: rigid rings. By default `wall_limit` of each ring. Point
         forces make the result depend on it, as a logarithm.
@@ -157,13 +157,19 @@ def _masses(scene: Scene, rings: tuple[RingBasis, RingBasis]) -> Array:
 
 
 def _chain(scene: Scene, rings: tuple[RingBasis, RingBasis], spring: float) -> Array:
-    """Stiffness of all coordinates by the springs between neighbouring balls, along the pitch circle."""
+    """Stiffness of all coordinates by the springs along the chords between neighbouring balls' centres.
+
+    In the axes of a ball the chord to the next one is cos(pi / Z) t - sin(pi / Z) r, in the next one's axes
+    cos(pi / Z) t + sin(pi / Z) r: what moves all balls together changes no chord.
+    """
     first, balls = sum(len(ring.parts) for ring in rings), scene.bearing.ball_count
-    ahead = first + _BALL * np.arange(balls) + 2
-    total = np.zeros((first + _BALL * balls, first + _BALL * balls))
-    total[ahead, ahead] = 2.0 * spring
-    total[ahead, np.roll(ahead, 1)] -= spring
-    total[ahead, np.roll(ahead, -1)] -= spring
+    half = math.pi / balls
+    outwards = first + _BALL * np.arange(balls) + 1
+    longer = np.zeros((balls, first + _BALL * balls))
+    for own, (r, t) in enumerate(zip(outwards, outwards + 1, strict=True)):
+        longer[own, [r, t]] += math.sin(half), -math.cos(half)
+        longer[own - 1, [r, t]] += math.sin(half), math.cos(half)
+    total: Array = spring * longer.T @ longer
     return total
 
 

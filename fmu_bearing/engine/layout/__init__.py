@@ -26,6 +26,7 @@ module            as    array
 ``s``             S     state: all that a later step needs, and nothing else
 ``equilibrium``   EQ    result of the quasi-static kernel
 ``statics``       ST    work space of the quasi-static kernels
+``pattern``       PT    work space of the steady state of unequal balls
 ``pose``          X     where a ball stands in a body's frame: rows of ``w``
 ``race``          R     contact of the balls with one race: rows of ``w``
 ``contact``       K     how a contact answers motion: scratch of the Jacobian in ``w``
@@ -52,6 +53,7 @@ from fmu_bearing.engine.layout import (
     lines as LN,
     motion as MO,
     p as P,
+    pattern as PT,
     pose as X,
     q as Q,
     race as R,
@@ -69,6 +71,6 @@ from fmu_bearing.engine.layout import (
 from fmu_bearing.engine.layout.sizes import FOUR, MAX_BALLS, MAX_MODES, STAGES, STRIDE
 
 __all__ = [
-    "A", "C", "EQ", "F", "FL", "H", "J", "K", "L", "LN", "MO", "P", "Q", "R", "S", "SD", "SP", "ST", "T",
-    "TAB", "U", "W", "X", "Y", "Z", "FOUR", "MAX_BALLS", "MAX_MODES", "STAGES", "STRIDE",
+    "A", "C", "EQ", "F", "FL", "H", "J", "K", "L", "LN", "MO", "P", "PT", "Q", "R", "S", "SD", "SP", "ST",
+    "T", "TAB", "U", "W", "X", "Y", "Z", "FOUR", "MAX_BALLS", "MAX_MODES", "STAGES", "STRIDE",
 ]  # fmt: skip

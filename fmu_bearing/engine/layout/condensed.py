@@ -24,6 +24,8 @@ LINE_REAL = _line(COLUMN)  # m, rad: complex displacements of the coordinates, z
 LINE_IMAGINARY = _line(COLUMN)  # imaginary parts
 LINE_SIZE = _line.next
 
+LOST = 8  # losses: heats of inner ring, outer ring, oil, four by source (W), torque on the outer ring (N m)
+
 _at = Places()
 RATIO = _at()  # orbit over shaft speed
 PAIR_INNER = _at()  # kg m: friction force that balances the gyroscopic moment over shaft speed squared
@@ -43,7 +45,7 @@ TOUCH = _at(VECTOR * FOUR)  # rows x r theta of unit vectors into inner and oute
 ROLL_SIZE = _at.next - ROLL
 # the balls' motion across their tracks: see condensed/transverse
 SIDE = _at(2)  # unit vector (x, r) along which a ball gives way most; zero: it follows statically
-SIDE_STILL = _at()  # m: a ball's place along it at the quasi-static point
+SIDE_STILL = _at()  # m: a ball's place along it with even balls
 SIDE_SQUARE = _at()  # 1/s2: squared frequency of a ball along it between held races
 SIDE_RATE = _at()  # 1/s: friction per velocity and mass of a ball
 SIDE_STEP = _at()  # s: step that the next two belong to; 0: none
@@ -71,6 +73,7 @@ SQUARES = _at(MATRIX)  # 1/s2: MASS^-1 JX, minus the squared frequencies of the 
 EXTRA = _at(MATRIX)  # 1/s: damping that traction adds, per own mass
 # rows of the rings' coordinates, one per pattern of the balls
 SIDE_FOLLOW = _at(PATTERNS * COLUMN)  # how far balls at rest follow the rings across their tracks,
+SIDE_LEAD = _at(PATTERNS * COLUMN)  # s: how far per rate of theirs, by contact damping,
 SIDE_GUIDE = _at(PATTERNS * COLUMN)  # how far rolling alone would take them
 SIDE_PULL = _at(PATTERNS * COLUMN)  # 1/s2: accelerations of the rings by the balls' distance from rest
 SIDE_DRAG = _at(PATTERNS * COLUMN)  # 1/s: and by their velocity against rolling
@@ -92,7 +95,13 @@ SIZES = _at(STRIDE)  # m: half the diameter deviation, at scale 1
 MASK = _at(STRIDE)  # 1 for a ball, 0 for a spare lane
 SPIN = _at(3 * STRIDE)  # spin over shaft speed: x, r, theta
 SETTLED = _at(STRIDE)  # how many of the latest places are places of rest
-Y0 = _at(Y.SIZE)  # state of the quasi-static point
+Y0 = _at(Y.SIZE)  # state of the held point: even balls, the cage centred
+# what uneven balls add to what is lost there: see condensed/uneven
+MORE_SPEED = _at()  # rad/s: found at this speed of the shaft
+MORE_TOTAL = _at()  # W: lost with even balls there; 0: nothing was found yet
+MORE_RATIO = _at()  # factor on the orbit speed
+MORE = _at(LOST)  # losses added
+MORE_CONDITIONS = _at(C.SIZE)
 SIZE = _at.next
 
 HEAT_OUTER = HEAT + 1

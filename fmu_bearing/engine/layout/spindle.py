@@ -117,9 +117,9 @@ OUTPUTS = (
     "housing.displacement.x", "housing.displacement.y", "housing.displacement.z",
     "housing.velocity.x", "housing.velocity.y", "housing.velocity.z", "friction_torque",
     "friction_torque_mean", "heat.inner_ring", "heat.outer_ring", "heat.oil", "solver.steps",
-    "solver.rejected", "solver.wave_time", "energy.residual", "port.force.x", "port.force.y",
-    "port.force.z", "port.moment.y", "port.moment.z", "port.force_mean.x", "port.force_mean.y",
-    "port.force_mean.z", "port.moment_mean.y", "port.moment_mean.z",
+    "solver.rejected", "solver.restarts", "solver.wave_time", "energy.residual", "port.force.x",
+    "port.force.y", "port.force.z", "port.moment.y", "port.moment.z", "port.force_mean.x",
+    "port.force_mean.y", "port.force_mean.z", "port.moment_mean.y", "port.moment_mean.z",
 )  # fmt: skip
 BEARING_OUTPUTS = ("force.x", "force.y", "force.z", "moment.y", "moment.z")  # of the inner ring on the balls
 Z_NOSE = OUTPUTS.index("shaft.nose.displacement.x")  # m, m, m, rad, rad
@@ -132,6 +132,7 @@ Z_MEAN_TORQUE = OUTPUTS.index("friction_torque_mean")
 Z_HEAT = OUTPUTS.index("heat.inner_ring")  # W: sums over the bearings, then outer rings, oil
 Z_STEPS = OUTPUTS.index("solver.steps")
 Z_REJECTED = OUTPUTS.index("solver.rejected")
+Z_RESTARTS = OUTPUTS.index("solver.restarts")
 Z_WAVE_TIME = OUTPUTS.index("solver.wave_time")
 Z_RESIDUAL = OUTPUTS.index("energy.residual")
 Z_PORT = OUTPUTS.index("port.force.x")  # N, N m: of the bearings on the rotor,
@@ -196,7 +197,7 @@ _at = Places()
 INPUT = _at(_U.SIZE)  # inputs of one bearing
 POWER = _at(STAGES * POWERS)  # W: work, heats of shaft and pedestal, per stage
 PUSH = _at(STAGES * PLANE)  # N, N m: on the rotor at a port, per stage
-RESISTANCE = _at(2 * PLANE * PLANE)  # N/m, N, N m: of a port, at rest and within a step, row by row
+RESISTANCE = _at(2 * PLANE * PLANE)  # of the nose: what it gives by loads, then its inverse, row by row
 W_HEAD = _at.next
 # vectors of n numbers: accelerations and rates of each stage, then
 VELOCITIES = STAGES
@@ -216,6 +217,7 @@ START_TILT = _start(2)  # rad: of the outer ring,
 START_OUTER = _start(HOUSING)  # m, rad: and its place
 START_FORCE = _start(PLANE)  # N, N m: on the inner ring
 START_PULL = _start(LANES)  # N, N m: on the driven rows
+START_MORE = _start()  # N: along the axis, by which the steady force exceeds the quasi-static one
 START_ECCENTRICITY = _start()  # m: set aside
 TURNED = 3 * LANES  # cosine and sine of a bearing's orbit angle since its Jacobian
 KEPT = max(TURNED + 2, _start.next)  # per bearing: its answer in driven rows, what drives them, scratch

@@ -61,7 +61,8 @@ CONTACT_OUTER = CONTACT + CONTACT_SIZE
 
 # trial numbers of a step
 _at = Places(_W.TRIAL)
-Q = _at(_L.COLUMN)  # m, rad: displacements advanced by the contacts' damping time
+Q = _at(_L.COLUMN)  # m, rad: displacements
+AHEAD = _at(_L.COLUMN)  # m, rad: their rates times the contacts' damping time
 D = _at(_L.COLUMN)  # increment, and other short-lived vectors
 A = _at(_L.COLUMN)  # m/s2, rad/s2: accelerations
 V = _at(_L.COLUMN)  # m/s, rad/s: velocities set aside
@@ -78,7 +79,7 @@ _at = Places(_W.ACC)
 BASE = _at(_L.N)  # accelerations at the unmoved state
 BALLS = _at(2 * STRIDE)  # m: balls' places there, x and r
 FOLLOW_SIZE = 2 * STRIDE  # rows x and r
-FOLLOW = _at(_L.N * FOLLOW_SIZE)  # their change with coordinate i at FOLLOW + i * FOLLOW_SIZE
+FOLLOW = _at(2 * _L.N * FOLLOW_SIZE)  # their change with coordinate i at FOLLOW + i * FOLLOW_SIZE, then rates
 # inverse of a matrix of the rings, both by rows
 MATRIX = _at(_L.N * _L.N)
 INVERSE = _at(_L.N * _L.N)
@@ -96,6 +97,7 @@ SHAPES = _at(BLOCK)  # mode shapes in rows
 BACK = _at(BLOCK)  # and the matrix that takes them back
 ADDED = _at(2 * FAMILY)  # what each mode's mass and damping (1/s) lack
 FOLLOWS = _at(FAMILY)  # the family's L.SIDE_FOLLOW, scaled,
+LEADS = _at(FAMILY)  # L.SIDE_LEAD
 GUIDES = _at(FAMILY)  # and L.SIDE_GUIDE
 BALL_ROW = _J.BALL + 2 * FAMILY  # numbers per equation of a ball: coefficients, then right sides
 BALL_RE = _at(_J.BALL * BALL_ROW)
@@ -108,9 +110,11 @@ LINE_IM = _at(_L.N * LINE_ROW)
 LINE_FORCE = _at(_LN.COMPLEX)  # N, N m: one line's excitation
 BY_HEIGHT = _at(_LN.COMPLEX)  # one order of the force per height,
 BY_BEND = _at(_LN.COMPLEX)  # and per second time derivative of the height
-# held values
-HELD_F = _at(_F.SIZE)  # right-hand side at the quasi-static point
+# held values, which are found before the modes
+_at = Places(STILL)
+HELD_F = _at(_F.SIZE)  # right-hand side at the held state
 HELD_ROWS = _at(2 * STRIDE)  # orbit speeds and places of the published state, set aside
+HELD_LOST = _at(_L.LOST)  # losses with even balls, set aside
 
 _CONDENSED = frozenset({"condensed"})
 _LINES = frozenset({"lines"})
@@ -120,13 +124,14 @@ _HELD = frozenset({"start", "inputs"})  # what is held is found with the full ri
 LEDGER: tuple[Area, ...] = (
     Area("T rows", 0, ROWS, _BOTH),
     Area("T.Q", Q, _L.COLUMN, _BOTH),
+    Area("T.AHEAD", AHEAD, _L.COLUMN, _BOTH),
     Area("T.D", D, _L.COLUMN, _BOTH),
     Area("T.A", A, _L.COLUMN, _BOTH),
     Area("T.V", V, _L.COLUMN, _BOTH),
     Area("T side", SIDE_REST, SIDE_END - SIDE_REST, _BOTH),
     Area("T.BASE", BASE, _L.N, _CONDENSED),
     Area("T.BALLS", BALLS, 2 * STRIDE, _CONDENSED),
-    Area("T.FOLLOW", FOLLOW, _L.N * FOLLOW_SIZE, _CONDENSED),
+    Area("T.FOLLOW", FOLLOW, 2 * _L.N * FOLLOW_SIZE, _CONDENSED),
     Area("T.MATRIX", MATRIX, _L.N * _L.N, _CONDENSED),
     Area("T.INVERSE", INVERSE, _L.N * _L.N, _CONDENSED),
     Area("T modes", STILL, MODES_END - STILL, _CONDENSED),
@@ -137,4 +142,5 @@ LEDGER: tuple[Area, ...] = (
     Area("T.BY_BEND", BY_BEND, _LN.COMPLEX, _LINES),
     Area("T.HELD_F", HELD_F, _F.SIZE, _HELD),
     Area("T.HELD_ROWS", HELD_ROWS, 2 * STRIDE, _HELD),
+    Area("T.HELD_LOST", HELD_LOST, _L.LOST, _HELD),
 )

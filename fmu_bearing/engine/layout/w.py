@@ -18,6 +18,7 @@ from fmu_bearing.engine.layout import (
     jacobian as _J,
     motion as _MO,
     p as _P,
+    pattern as _PT,
     pose as _X,
     q as _Q,
     race as _R,
@@ -63,7 +64,7 @@ LANDS_ENERGY = _at()  # J: stored in the cage's lands
 LOAD = _at(_EQ.FREEDOMS)  # N, N m: on the inner ring, for the quasi-static kernel
 TILT = _at(2)  # rad: tilts y z of the outer ring that it found
 CONDITIONS = _at(_C.SIZE)  # at the inputs just taken, see c
-TRIAL = _at(4 * _L.COLUMN + 6 * _L.PATTERNS)  # trial numbers of fidelities rings and response: see trial
+TRIAL = _at(5 * _L.COLUMN + 6 * _L.PATTERNS)  # trial numbers of fidelities rings and response: see trial
 REPORT = _at(REPORT_SIZE)  # of a Runge-Kutta step: ERROR, CONTRACTION, ITERATIONS
 WEIGHTS = _at(STAGES * FOUR)  # s: what the stages before count in this one, each for four lanes
 STAGE = _at(_Y.SIZE)  # stage state
@@ -75,6 +76,7 @@ VEL = _at(STAGES * _F.SIZE)  # stage velocities in the layout of accelerations
 FLEX = _at(_FL.SIZE)  # flexible rings: see flexure
 MOTION = _at(_MO.SIZE)  # motion sample: see motion
 CONTACT = _at(_K.SIZE)  # how contacts answer motion: see contact
+PATTERN = _at(_PT.SIZE)  # steady state of unequal balls: see pattern
 SOUND = _at.next  # work space of the sound kernels
 
 LAST = ACC + (STAGES - 1) * _F.SIZE  # accelerations at the end of a step, of any method
@@ -155,6 +157,7 @@ LEDGER: tuple[Area, ...] = (
     Area("F0", F0, _F.SIZE, frozenset({"jacobian"})),
     Area("CONTACT", CONTACT, _K.SIZE, frozenset({"jacobian"})),
     Area("D", D, _F.SIZE, frozenset({"solve", "step"})),
+    Area("PATTERN", PATTERN, _PT.SIZE, _EVALUATED | {"start"}),
     Area("STATICS", STATICS, _ST.SIZE, frozenset({"start"})),
     Area("SPIN_SYSTEM", SPIN_SYSTEM, _ST.SPIN_SYSTEM_SIZE, frozenset({"start"})),
     Area("SPINS_FIRST", SPINS_FIRST, _ST.SPIN_RATES * STRIDE, frozenset({"start", "jacobian", "evaluation"})),

@@ -52,7 +52,7 @@ def pockets(p, c, angle, lanes, turned, w):
     pose = W.POSE + 2 * X.SIZE
     out = W.FORCE + 2 * W.FORCE_SIZE
     clearance = p[P.POCKET_CLEARANCE]
-    stiffness = p[P.POCKET_STIFFNESS]
+    stiffness = c[C.POCKET]
     damping = p[P.POCKET_DAMPING]
     film = p[P.POCKET_FILM]
     mu = p[P.POCKET_FRICTION]

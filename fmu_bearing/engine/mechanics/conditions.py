@@ -116,6 +116,7 @@ def conditions(p, u, speed, c):
         c[held + C.FREE] = p[numbers + P.RACE_GROOVE] * growth - ball
         c[held + C.ROLLING] = p[numbers + P.RACE_ROLLING] * math.exp(_ROLLING * math.log(eta)) * reduced
     c[C.BALL_RADIUS] = ball
+    c[C.POCKET] = p[P.POCKET_STIFFNESS]
     c[C.PRELOAD] = u[U.PRELOAD]
     c[C.LOAD_Y] = u[U.LOAD_Y]
     c[C.LOAD_Z] = u[U.LOAD_Z]

@@ -319,7 +319,7 @@ def pocket_contact(p, c, y, turned, j, w):
     root = math.sqrt(push)
     damped = 1.0 + p[P.POCKET_DAMPING] * ve
     touching = damped > 0.0
-    rigid = p[P.POCKET_STIFFNESS] * root
+    rigid = c[C.POCKET] * root
     pressing = max(rigid * push * damped, 0.0)
     zero = splat(0.0)
     stiffness = (

@@ -16,12 +16,14 @@ Bampton 1968 for the shaft's own coordinates).
 ``step``       one Runge-Kutta step of a set
 ``inputs``     inputs of a set as conditions of its bearings; what grows with temperature
 ``rest``       where shaft, housing and outer rings rest: Newton's method in displacements
+``steady``     that rest with the steady forces of the bearings
 ``start``      the state at initialisation
 ``sound``      sound samples of all bearings at the same instants, and levels of their sum
 ``march``      from one communication point to the next
 ``condensed``  fidelities rings and response: the equations of condensed bearings, shaft and housing
-``held``       fidelities rings and response: the bearings' quasi-static points, as the set loads them
+``held``       fidelities rings and response: what the bearings hold, as the set loads them
 ``rings``      fidelity rings: start, steps and their control
+``restart``    fidelity rings: from one communication point to the next; rest, where a step fails
 ``lines``      fidelity response: what each bearing excites in the whole set
 ``response``   fidelity response: start, and the state at any time
 ``outputs``    from the state to the outputs

@@ -25,7 +25,7 @@ from fmu_bearing.engine.newton.block_arrow import (
 )  # fmt: skip
 from fmu_bearing.engine.newton.springs import couple_springs
 from fmu_bearing.engine.spindle import members
-from fmu_bearing.engine.spindle.port import clear, has_port, hold_rows, rings_matrix
+from fmu_bearing.engine.spindle.port import clear, has_port, hold_rows
 from fmu_bearing.engine.spindle.shaft import feet, has_housing
 
 
@@ -162,34 +162,6 @@ def invert_set(p, own, ws):
     if not invert(ws, at, n, ws, at + n * n):
         return False
     keep_columns(ws, at + n * n, n, members.padded(p), own, members.inverse(p))
-    return True
-
-
-@kernel
-def resistance_at_port(p, s, w, gh, to):
-    """Put what resists the port's places, if rates are these over ``gh``, to ``to``; False if singular.
-
-    ``to``: place in the set's own work space. The bearings are factored for ``gh`` (s). Row by row, N/m, N,
-    N m; without inertia of the inner rings.
-    """
-    if not condense_set(p, s, w, gh):
-        return False
-    ws = members.own_work(p, w)
-    n = members.coordinates(p)
-    at = members.matrix(p)
-    # the inverse's part is the inverse of what is left once housing and sliding rings follow by themselves
-    if not invert(ws, at, n, ws, at + n * n):
-        return False
-    size = SP.PLANE
-    for i in range(size):
-        for k in range(size):
-            ws[at + i * size + k] = ws[at + n * n + i * n + k]
-    if not invert(ws, at, size, ws, at + size * size):
-        return False
-    for i in range(size):
-        for k in range(size):
-            inertia = ws[at + size * size + i * size + k] - rings_matrix(p, i, k)
-            ws[to + i * size + k] = inertia / (gh * gh)
     return True
 
 

@@ -1,9 +1,10 @@
 """Quasi-static points of the bearings in fidelities rings and response, each as the set at rest loads it."""
 
-from fmu_bearing.engine.fidelities.condensed.held import gyroscopic_mean, held_speed, hold_at, out_of_date
+from fmu_bearing.engine.fidelities.condensed.held import held_speed, hold_at, out_of_date
 from fmu_bearing.engine.fidelities.condensed.shared import even_spacing, hold_masses
+from fmu_bearing.engine.fidelities.condensed.uneven import add_uneven, renew_uneven, uneven_out_of_date
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import EQ, SP, ST, C, L, P, Q, S, U, W, Y
+from fmu_bearing.engine.layout import EQ, PT, SP, ST, STRIDE, C, L, P, Q, S, U, W, Y
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.condensed import find_levers
 from fmu_bearing.engine.spindle.inputs import (
@@ -14,12 +15,14 @@ from fmu_bearing.engine.spindle.inputs import (
     offset_change,
     take_loads,
 )
-from fmu_bearing.engine.spindle.rest import keep_stiffness, rest, start_vector
+from fmu_bearing.engine.spindle.rest import keep_stiffness, settle_bearing, start_vector
 from fmu_bearing.engine.spindle.start import TOUCHING, start_set
+from fmu_bearing.engine.spindle.steady import place_held, rest_steadily
 from fmu_bearing.engine.statics.axial import quasistatic
 from fmu_bearing.engine.statics.held import held
 from fmu_bearing.engine.statics.place import place_balls, place_cage
 from fmu_bearing.engine.status import OK
+from fmu_bearing.engine.steady.even import BOTH, OUTER
 
 _NEAR = 1e-3  # of a load
 # m: two contacts at some 15 degrees give way by half of that, an approach changes by an eighth: the 1e-9 that
@@ -45,11 +48,14 @@ def hold_bearing(p, u, b, load, s, w):
     bearing_inputs(p, u, b, given)
     given[U.PRELOAD] = max(load, TOUCHING)
     turning = held_speed(pb, given, speed, lv, c)
+    at = members.scratch(p, b)
+    first = wb[W.PATTERN + PT.FIRST_STATE : W.PATTERN + PT.EVEN_STATE]
+    place_held(p, b, turning, first, s, w)
+    aside = ws[at + SP.START_FORCE + Q.Y], ws[at + SP.START_FORCE + Q.Z]
     axial = wb[W.STILL_FOUND : W.STILL_END]
     status = quasistatic(pb, c, turning, axial)
     if status != OK:
         return status
-    at = members.scratch(p, b)
     ring = ws[at + SP.START_RING : at + SP.START_RING + SP.PLANE]
     for i in range(SP.PLANE):
         ring[i] = 0.0
@@ -68,7 +74,14 @@ def hold_bearing(p, u, b, load, s, w):
     place_balls(pb, y, found)
     if pb[P.CAGE] != 0.0:
         place_cage(pb, y, found)
-    hold_at(pb, speed, turning, gyroscopic_mean(pb, found), sb, wb)
+    hold_at(pb, speed, turning, OUTER, sb, wb)
+    # what the shaft puts across the axis counts as this bearing's load
+    c[C.LOAD_Y], c[C.LOAD_Z] = aside
+    if uneven_out_of_date(lv, c, speed):
+        renew_uneven(pb, c, first, speed, turning, BOTH, sb, wb)
+    c[C.LOAD_Y] = given[U.LOAD_Y]
+    c[C.LOAD_Z] = given[U.LOAD_Z]
+    add_uneven(speed, sb, wb)
     own = members.own_state(p, s)
     mine = members.kept(p, b)
     own[mine + SP.HELD_OFFSET] = own[mine + SP.OFFSET_COLD] + offset_change(p, u, b)
@@ -115,6 +128,15 @@ def exchange_offsets(p, own):
 
 
 @kernel
+def take_offsets(p, own):
+    """Let the inner rings stand where temperatures hold them, without a ramp."""
+    for b in range(members.count(p)):
+        mine = members.kept(p, b)
+        own[mine + SP.OFFSET] = own[mine + SP.HELD_OFFSET]
+        own[mine + SP.OFFSET_RATE] = 0.0
+
+
+@kernel
 def hold_set(p, u, s, w):
     """Renew what all bearings hold, where the set rests at the inputs ``u``; status code."""
     own = members.own_state(p, s)
@@ -126,7 +148,7 @@ def hold_set(p, u, s, w):
     z = start_vector(p, SP.UNKNOWNS)
     for i in range(members.coordinates(p)):
         ws[z + i] = own[SP.S_HEAD + i]
-    status = rest(p, s, w, u[SP.U_SPEED])
+    status = rest_steadily(p, s, w, u[SP.U_SPEED])
     exchange_offsets(p, own)
     if status != OK:
         return status
@@ -137,6 +159,38 @@ def hold_set(p, u, s, w):
             return status
         hold_masses(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b))
     note_loads(p, own)
+    return OK
+
+
+@kernel
+def hold_from_zero(p, u, s, w):
+    """Do what `hold_set` does, from where the start looks for rest, and put the set there; status code.
+
+    The balls' places, ball 0 at angle 0, go to ``L.X3``.
+    """
+    own = members.own_state(p, s)
+    ws = members.own_work(p, w)
+    speed = u[SP.U_SPEED]
+    for i in range(3 * members.padded(p)):
+        own[SP.S_HEAD + i] = 0.0
+    status = hold_set(p, u, s, w)
+    if status != OK:
+        return status
+    take_offsets(p, own)
+    z = start_vector(p, SP.UNKNOWNS)
+    for i in range(members.coordinates(p)):
+        own[SP.S_HEAD + i] = ws[z + i]
+    for b in range(members.count(p)):
+        wb = members.work(p, w, b)
+        lv = members.condensed(members.state(p, s, b))
+        settle_bearing(p, s, w, b, speed, z, start_vector(p, SP.TRIAL_FORCES))
+        y = wb[W.STAGE : W.STAGE + Y.SIZE]
+        for i in range(SP.HOUSING):
+            y[Y.Q0 + Q.OUTER + i] = ws[members.scratch(p, b) + SP.START_OUTER + i]
+        place_balls(members.parameters(p, b), y, wb[W.FOUND : W.FOUND + EQ.SIZE])
+        for j in range(STRIDE):
+            lv[L.X3 + j] = y[Y.X + j]
+            lv[L.R3 + j] = y[Y.R + j]
     return OK
 
 

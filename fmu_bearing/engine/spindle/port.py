@@ -136,21 +136,6 @@ def keep_push(p, ws, stage):
 
 
 @kernel
-def rings_matrix(p, i, k):
-    """Inertia of the inner rings in the port's coordinates, row ``i``, column ``k``."""
-    block = int(p[P.SET])
-    if i == k:
-        return p[block + (SP.PORT_MASS if i < Q.INNER_BY else SP.PORT_TRANSVERSE)]
-    low = min(i, k)
-    high = max(i, k)
-    if low == Q.Y and high == Q.INNER_BZ:
-        return p[block + SP.PORT_STATIC]
-    if low == Q.Z and high == Q.INNER_BY:
-        return -p[block + SP.PORT_STATIC]
-    return 0.0
-
-
-@kernel
 def observe_port(p, own, z, at):
     """Fill the port's outputs of the set's own at ``z[at:]``."""
     if not has_port(p):

@@ -3,7 +3,7 @@
 import math
 
 from fmu_bearing.engine.fidelities import steps
-from fmu_bearing.engine.fidelities.condensed.rows import keep_balls, show_balls
+from fmu_bearing.engine.fidelities.condensed.rows import keep_balls, show_balls, turn_balls
 from fmu_bearing.engine.fidelities.condensed.shared import advance, flat
 from fmu_bearing.engine.fidelities.full.start import begin_means
 from fmu_bearing.engine.fidelities.response import march
@@ -13,7 +13,7 @@ from fmu_bearing.engine.spindle import condensed, held, members
 from fmu_bearing.engine.spindle.lines import answer_lines, sum_set_lines
 from fmu_bearing.engine.spindle.rest import start_vector
 from fmu_bearing.engine.spindle.rings import emit_shown
-from fmu_bearing.engine.status import NO_START, NOT_CONVERGED, OK
+from fmu_bearing.engine.status import NO_START, OK
 
 
 @kernel
@@ -63,15 +63,6 @@ def linearise_set(p, s, w, speed):
             return False
     answer_lines(p, s, w, speed)
     return True
-
-
-@kernel
-def take_offsets(p, own):
-    """Let the inner rings stand where temperatures hold them: lines know no ramp."""
-    for b in range(members.count(p)):
-        mine = members.kept(p, b)
-        own[mine + SP.OFFSET] = own[mine + SP.HELD_OFFSET]
-        own[mine + SP.OFFSET_RATE] = 0.0
 
 
 @kernel
@@ -150,27 +141,37 @@ def start_response_set(p, u, s, w, t):
 @kernel
 def renew_set_lines(p, u, s, w):
     """Renew what is held, where the set rests, and lines, for the inputs ``u``; status code."""
-    if held.hold_set(p, u, s, w) != OK:
-        return NOT_CONVERGED
     own = members.own_state(p, s)
     ws = members.own_work(p, w)
-    held_rest = members.vector(p, SP.NEWMARK)
-    found = start_vector(p, SP.UNKNOWNS)
-    for i in range(members.padded(p)):
-        ws[held_rest + i] = ws[found + i] if i < members.coordinates(p) else 0.0
-    take_offsets(p, own)
-    if not rest_anew(p, s, w, u[SP.U_SPEED], own, members.history(p)):
-        rest_anew(p, s, w, u[SP.U_SPEED], ws, held_rest)
+    speed = u[SP.U_SPEED]
     for b in range(members.count(p)):
         members.condensed(members.state(p, s, b))[L.KNOWN] = 0.0
-    return OK if linearise_set(p, s, w, u[SP.U_SPEED]) else NOT_CONVERGED
+    if held.hold_set(p, u, s, w) == OK:
+        held_rest = members.vector(p, SP.NEWMARK)
+        found = start_vector(p, SP.UNKNOWNS)
+        for i in range(members.padded(p)):
+            ws[held_rest + i] = ws[found + i] if i < members.coordinates(p) else 0.0
+        held.take_offsets(p, own)
+        if not rest_anew(p, s, w, speed, own, members.history(p)):
+            rest_anew(p, s, w, speed, ws, held_rest)
+        if linearise_set(p, s, w, speed):
+            return OK
+    status = held.hold_from_zero(p, u, s, w)
+    if status != OK:
+        return status
+    rest_anew(p, s, w, speed, own, SP.S_HEAD)
+    if not linearise_set(p, s, w, speed):
+        # balls have no rest about which to find lines: see the single bearing's
+        own[members.march(p) + SP.LINES] = 0.0
+        s[S.RESTARTS] += 1.0
+    return OK
 
 
 @kernel
 def turn_all(p, s, h):
     """Turn the balls of all bearings through ``h`` (s)."""
     for b in range(members.count(p)):
-        march.turn_balls(members.state(p, s, b), h)
+        turn_balls(members.state(p, s, b), h)
 
 
 @kernel

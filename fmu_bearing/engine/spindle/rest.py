@@ -160,6 +160,7 @@ def settle_bearing(p, s, w, b, speed, z, g):
     force = ws[at + SP.START_FORCE : at + SP.START_FORCE + SP.PLANE]
     found = wb[W.FOUND : W.FOUND + EQ.SIZE]
     status = held_tilted(pb, c, speed, ring, tilt, 1.0, force, found, wb)
+    force[Q.X] += ws[at + SP.START_MORE]
     own_weight, lying = weights(p, pb)
     for i in range(SP.LANES):
         ws[at + SP.START_PULL + i] = 0.0

@@ -2,7 +2,7 @@
 
 from fmu_bearing.engine.fidelities import steps
 from fmu_bearing.engine.fidelities.condensed.balls import accelerations, count_settled, stand
-from fmu_bearing.engine.fidelities.condensed.rows import keep_balls
+from fmu_bearing.engine.fidelities.condensed.rows import from_equilibrium, keep_balls
 from fmu_bearing.engine.fidelities.condensed.shared import advance, keep_end, show_end
 from fmu_bearing.engine.fidelities.condensed.transverse import (
     add_transverse,
@@ -35,7 +35,7 @@ def longest_of(p, own, speed):
 def place_on_waves(p, s, w, speed):
     """Put shaft, housing, rings and balls where they rest on waves and unequal balls into the trial places.
 
-    Where there is no such rest, they stay at the quasi-static place.
+    Where there is no such rest, they stay at the quasi-static place, with the balls' places in ``L.X3``.
     """
     own = members.own_state(p, s)
     ws = members.own_work(p, w)
@@ -49,11 +49,11 @@ def place_on_waves(p, s, w, speed):
             wb = members.work(p, w, b)
             for i in range(Y.SIZE):
                 wb[W.STAGE + i] = 0.0
-            for j in range(STRIDE):
-                wb[T.X + j] = sb[S.Y + Y.X + j]
-                wb[T.R + j] = sb[S.Y + Y.R + j]
+            pb = members.parameters(p, b)
+            lv = members.condensed(sb)
+            from_equilibrium(pb, lv, lv[L.THETA], wb)
             c = sb[S.C : S.C + C.SIZE]
-            stand(members.parameters(p, b), c, members.condensed(sb), 0.0, 0.0, 0.0, 0.0, speed, wb)
+            stand(pb, c, lv, lv[L.THETA], lv[L.ROLLED], s[S.ANGLE], 0.0, speed, wb)
         if again == 0:
             found = condensed.at_rest(p, s, w, speed)
         if found:
@@ -67,29 +67,44 @@ def start_rings_set(p, u, s, w, t):
     if status != OK:
         return status
     own = members.own_state(p, s)
+    for b in range(members.count(p)):
+        sb = members.state(p, s, b)
+        lv = members.condensed(sb)
+        for j in range(STRIDE):
+            lv[L.X3 + j] = sb[S.Y + Y.X + j]
+            lv[L.R3 + j] = sb[S.Y + Y.R + j]
+    if not begin_at_rest(p, s, w):
+        return NO_START
+    for b in range(members.count(p)):
+        begin_means(members.state(p, s, b))
+    for i in range(2):
+        own[SP.MEAN_HEAT + i] = 0.0
+    return OK
+
+
+@kernel
+def begin_at_rest(p, s, w):
+    """Begin where the set rests at the clock and angles reached: ``fidelities.rings.start.begin_at_rest``."""
+    own = members.own_state(p, s)
     ws = members.own_work(p, w)
-    speed = u[SP.U_SPEED]
-    place_on_waves(p, s, w, speed)
+    place_on_waves(p, s, w, s[S.SPEED])
     for i in range(members.padded(p)):
         own[members.history(p) + i] = ws[members.vector(p, SP.PLACE) + i]
     for b in range(members.count(p)):
         lv = members.condensed(members.state(p, s, b))
         for row in (L.X, L.X1, L.X2):
             keep_balls(members.work(p, w, b), lv, row)
-    if not condensed.begin_anew(p, s, w):
-        return NO_START
+    found = condensed.begin_anew(p, s, w)
+    if not found:
+        own[members.march(p) + H.CONTRACTION] = 1.0
     for b in range(members.count(p)):
         lv = members.condensed(members.state(p, s, b))
         for _ in range(L.HISTORY):
             count_settled(lv, int(members.parameters(p, b)[P.LANES]), members.work(p, w, b))
     # nothing is known of the rate of acceleration yet, which Newmark's velocity contains: begin finely
-    s[S.STEP] = march.FIRST * longest_of(p, own, speed)
+    s[S.STEP] = march.FIRST * longest_of(p, own, s[S.SPEED])
     condensed.publish_set(p, s, w)
-    for b in range(members.count(p)):
-        begin_means(members.state(p, s, b))
-    for i in range(2):
-        own[SP.MEAN_HEAT + i] = 0.0
-    return OK
+    return found
 
 
 @kernel
@@ -325,21 +340,14 @@ def take_inputs(p, u, s, w, h):
 
 
 @kernel
-def march_rings_set(p, u, s, w, h):
-    """Advance the state of a set by the communication step ``h`` (s); status code."""
+def go_on(p, u, s, w, h, remaining, end):
+    """Step through what remains (s) of the communication step ``h`` (s) to time ``end``; status code."""
     own = members.own_state(p, s)
-    for b in range(members.count(p)):
-        steps.begin_means(members.state(p, s, b))
-    status = take_inputs(p, u, s, w, h)
-    if status != OK:
-        return status
     speed = u[SP.U_SPEED]
     numbers = members.march(p)
     tolerance = steps.velocity_tolerance(p, speed)
     longest = longest_of(p, own, max(abs(s[S.SPEED]), abs(speed)))
-    end = s[S.TIME] + h
     left = steps.most_attempts(h, longest, 100.0)
-    remaining = h
     while steps.unfinished(remaining, h, end):
         cap = min(s[S.STEP], longest)
         length = steps.even_length(remaining, cap)
@@ -355,12 +363,4 @@ def march_rings_set(p, u, s, w, h):
         remaining = end - s[S.TIME]
         if error < march.GROW and own[numbers + H.CALM] >= march.PATIENCE and own[numbers + H.KNOWN] >= 3.0:
             s[S.STEP] = min(longest, 2.0 * cap)
-    for b in range(members.count(p)):
-        sb = members.state(p, s, b)
-        sb[S.TIME] = end
-        sb[S.SPEED] = speed
-    condensed.keep_loads(p, s, w)
-    condensed.publish_set(p, s, w)
-    for b in range(members.count(p)):
-        steps.end_means(members.state(p, s, b), h)
     return OK

@@ -1,9 +1,16 @@
 """A set at initialisation: preload as offsets, rest, then balls and cages about the rings there."""
 
 from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE
-from fmu_bearing.engine.fidelities.full.start import FAR, begin_clock, begin_means, place_rest
+from fmu_bearing.engine.fidelities.full.settle import settle
+from fmu_bearing.engine.fidelities.full.start import (
+    FAR,
+    become_steady,
+    begin_clock,
+    begin_means,
+    place_rest,
+)  # fmt: skip
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import EQ, SP, ST, C, P, Q, S, U, W, Y
+from fmu_bearing.engine.layout import EQ, PT, SP, ST, C, P, Q, S, U, W, Y
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.readout.losses import summarise
 from fmu_bearing.engine.spindle import members
@@ -20,12 +27,13 @@ from fmu_bearing.engine.spindle.port import begin_motion, has_port
 from fmu_bearing.engine.spindle.rest import (
     keep_stiffness,
     outer_row,
-    rest,
     settle_bearing,
     start_vector,
 )  # fmt: skip
+from fmu_bearing.engine.spindle.steady import place_held, rest_steadily
 from fmu_bearing.engine.statics.axial import quasistatic
 from fmu_bearing.engine.status import NO_START, OK, TOO_SOFT
+from fmu_bearing.engine.steady.even import BOTH
 
 _BACKWARD = 1e-6  # of all forces: what a bearing may carry against its direction
 TOUCHING = 0.01  # N: without preload rings stand where the balls just touch, as for rigid preload
@@ -119,7 +127,7 @@ def start_set(p, u, s, w, t):
     if has_port(p):
         for i in range(SP.PLANE):
             ws[z + i] = u[SP.U_PORT + i]
-    status = rest(p, s, w, speed)
+    status = rest_steadily(p, s, w, speed)
     if status != OK:
         return status
     if pushed_back(p, w) and not has_port(p):
@@ -143,7 +151,15 @@ def start_set(p, u, s, w, t):
             return TOO_SOFT
         for i in range(SP.PLANE):
             y[Y.Q0 + i] = ws[at + SP.START_RING + i] + ws[at + SP.START_OUTER + outer_row(i)]
-        place_rest(pb, sb[S.C : S.C + C.SIZE], y, wb[W.FOUND : W.FOUND + EQ.SIZE], sb, wb, speed)
+        c = sb[S.C : S.C + C.SIZE]
+        place_rest(pb, c, y, wb[W.FOUND : W.FOUND + EQ.SIZE], sb, wb)
+        settle(pb, c, y, 0.0, speed, sb, wb)
+        first = wb[W.PATTERN + PT.FIRST_STATE : W.PATTERN + PT.EVEN_STATE]
+        for i in range(Y.SIZE):
+            first[i] = y[i]
+        if c[C.OVERSIZE_SCALE] != 0.0 and pb[P.MODES] == 0.0:
+            place_held(p, b, speed, first, s, w)
+        become_steady(pb, c, y, first, BOTH, sb, wb, speed)
         begin_clock(pb, sb, speed, t)
     copy_rows(p, s, w)
     own[SP.ENERGY_START] = set_energy(p, s, w)

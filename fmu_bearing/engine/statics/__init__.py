@@ -1,4 +1,4 @@
-"""Quasi-static equilibrium: where a run starts, and what the condensed fidelities are linearised about.
+"""Quasi-static equilibrium: the first guess of the operating point (``steady``).
 
 =================  ==========================================================================
 ``ball_balance``   one ball: contacts, rolling, gyroscopic friction, place

@@ -14,10 +14,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
+from fmu_bearing.cautions import Caution, cautions
 from fmu_bearing.engine.layout import P, S, U
 from fmu_bearing.fmi.description import LOG_CATEGORIES
 from fmu_bearing.fmi.resources import fingerprint
-from fmu_bearing.instance import Caution, cautions, reasons
+from fmu_bearing.instance import reasons
 from fmu_bearing.interface import Variable
 from fmu_bearing.interface.set_inputs import led_inputs
 
@@ -212,7 +213,7 @@ def _caution(caution: Caution, texts: _Texts) -> bytes:
         texts.place(caution.after),
         caution.decimals,
         _ARRAYS.index(caution.array),
-        0,
+        caution.above,
         caution.threshold,
         caution.scale,
     )
@@ -251,7 +252,7 @@ def model_bytes(model: "Model", guid: str, kernels_hash: str) -> bytes:
             led=led_inputs(model.scene),
             journal=_JOURNAL,
             journal_span=_JOURNAL_SPAN,
-            reasons=reasons(model.scene.spindle is not None),
+            reasons=reasons(model.parameters),
             cautions=cautions(model),
             categories=[(name, _STATUS_OF_CATEGORY[name]) for name in LOG_CATEGORIES],
         )

@@ -5,9 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from examples.papers import impact_noise
+from examples.papers import hearing, impact_noise
 from examples.papers.hearing import a_weighted, below, line, spectrum
 from fmu_bearing.acoustics.filters.weighting import a_weighting_db
+from fmu_bearing.files import CacheError
 
 RATE = 51200.0
 
@@ -41,3 +42,17 @@ def test_histories_are_peaks_of_the_weighted_pressure():
     assert peaks.shape == (1, 19)
     peak = 20 * math.log10(0.2 / 2e-5) + float(a_weighting_db([3150.0])[0])
     assert peaks[0] == pytest.approx([peak] * 19, abs=0.1)  # 16 samples a period: 0.17 dB at worst, rarely
+
+
+def test_kept_paths_are_unpickled_from_own_files_alone(tmp_path, scene):
+    """A pickle is a program: one that others can write to is refused, in their folder or in one's own."""
+    asked = (scene("7003C-bare"), "compact", ((0.0, 0.0, 0.2),), 2, tmp_path)
+    assert hearing._kept_paths(*asked)
+    (file,) = (tmp_path / "paths").glob("*.pickle")
+    for place, words in ((file, file.name), (tmp_path / "paths", "paths is refused")):
+        hearing._read.cache_clear()
+        place.chmod(0o777)
+        with pytest.raises(CacheError, match=words):
+            hearing._kept_paths(*asked)
+        place.chmod(0o700)
+        assert hearing._kept_paths(*asked)

@@ -157,15 +157,15 @@ void damage_state(Fuzz *fuzz, Slave *slave)
     unsigned char *bytes = bytes_of(fuzz, c, &size), *copy;
     int forged = fuzz->forge && chance(fuzz, 70), differs = 0;
     if (!bytes) return;
-    sent = chance(fuzz, 80) ? size : (size_t)below(fuzz, size);
-    copy = malloc(sent ? sent : 1); /* just so long: reading beyond it is noticed */
-    memcpy(copy, bytes, sent);
+    sent = chance(fuzz, 80) ? size : (size_t)below(fuzz, size + 65);
+    copy = calloc(sent ? sent : 1, 1); /* just so long: reading beyond it is noticed */
+    memcpy(copy, bytes, sent < size ? sent : size);
     if (chance(fuzz, 90)) differs = damage(fuzz, copy, sent, STATE_CHECKSUM + 32, STATE_HEAD);
     if (forged && sent > STATE_CHECKSUM + 32) {
         digest(copy + STATE_CHECKSUM + 32, sent - STATE_CHECKSUM - 32, copy + STATE_CHECKSUM);
     }
     if (answer(fuzz, "deSerializeFMUstate", fmi2DeSerializeFMUstate(c, (fmi2Byte *)copy, sent, &state)) == fmi2OK) {
-        if (sent < size || (differs && !forged)) give_up(fuzz, "deSerializeFMUstate", "took a damaged state");
+        if (sent != size || (differs && !forged)) give_up(fuzz, "deSerializeFMUstate", "took a damaged state");
         fuzz->forged_states += differs;
         answer(fuzz, "setFMUstate", fmi2SetFMUstate(c, state));
         answer(fuzz, "freeFMUstate", fmi2FreeFMUstate(c, &state));

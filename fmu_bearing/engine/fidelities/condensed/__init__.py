@@ -5,7 +5,8 @@
 ``ball_form``   form and waviness of the balls under both races
 ``balls``       each ball at rest between the races, and what it puts on the rings
 ``transverse``  the balls' own motion across their tracks
-``held``        cage speed, friction and heats, evaluated at the quasi-static point and held
+``uneven``      losses that are held: with even balls, and what uneven ones add
+``held``        cage speed, friction and heats, found at the steady state and held
 ``linearised``  derivatives of the rings' accelerations, and their static equilibrium
 ``modes``       what the rings' modes lack in mass and damping
 ``publish``     from the rings' own state to the one that outputs and sound read
@@ -13,5 +14,5 @@
 ==============  =============================================================================
 
 Both leave out the cage's motion and slip. Friction torque and heats are those of
-the quasi-static point. Work in is set equal to the heats: the energy residual is zero by construction.
+the steady state. Work in is set equal to the heats: the energy residual is zero by construction.
 """

@@ -1,6 +1,6 @@
 """Form and waviness of the balls under both races, for balls that spin steadily.
 
-Held with the quasi-static point are the spin against the orbiting axes, the same for all balls, and the
+Held with the operating point are the spin against the orbiting axes, the same for all balls, and the
 directions of the contacts. So each contact runs round one and the same circle on every ball, by the angle
 ``L.ROLLED``; the balls differ by where their body-fixed axis a stood when that angle was zero. With g the
 contact's direction turned back by it, the surface stands h(g . a) above the sphere (``mechanics.ball_waves``)

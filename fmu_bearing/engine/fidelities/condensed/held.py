@@ -1,72 +1,61 @@
 """What is held between changes of the inputs: cage speed, gyroscopic friction, torque and heats.
 
-All come from one evaluation of the full right-hand side at the quasi-static point under the axial load
-alone, with the balls' spins balanced and without imperfections. (Under a radial load the balls' own orbit
-speeds differ, and before a cage has evened them out the same evaluation shows several times the settled
-losses.) The torque is what puts in the heats: at that point the lands' drag still speeds up a cage that the
-balls do not hold back yet, which would be 15 % more; fidelity `full` settles at the heats. They are renewed
-when the speed has moved by 1 % or a condition by 0.1 %; in between orbit and spins follow the speed, the
-gyroscopic friction its square, and the heats stay (below 1 rad/s they go to zero with the speed squared). A
-renewal costs some 30 evaluations of the full right-hand side with its Jacobian.
+All come from the full right-hand side at the steady state: forces from the one under the axial load alone,
+with even balls and a centred cage (``steady.even``), losses from the whole (``uneven``), without
+imperfections. The torque is what puts in the heats. They are renewed when the speed has moved by 1 % or a
+condition by 0.1 %; in between orbit and spins follow the speed, the friction across the tracks its square,
+and the heats stay (below 1 rad/s they go to zero with the speed squared). A renewal costs some 30 evaluations
+of the full right-hand side with its Jacobian.
 """
 
-from fmu_bearing.engine.choices import INNER_CONTROL, OUTER_CONTROL
+import math
+
 from fmu_bearing.engine.fidelities.condensed.ball_form import hold_rolling
+from fmu_bearing.engine.fidelities.condensed.uneven import (
+    add_uneven,
+    hold_losses,
+    renew_uneven,
+    uneven_out_of_date,
+)
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import EQ, STRIDE, C, F, L, P, Q, S, T, W, Y
+from fmu_bearing.engine.layout import EQ, PT, STRIDE, C, L, P, Q, S, U, W, Y
 from fmu_bearing.engine.mechanics.conditions import conditions
-from fmu_bearing.engine.mechanics.equations import right_hand_side
-from fmu_bearing.engine.readout.losses import summarise
-from fmu_bearing.engine.statics.place import equilibrium, place_balls, place_cage, place_rings
+from fmu_bearing.engine.statics.place import equilibrium, loads, place_balls, place_cage, place_rings
+from fmu_bearing.engine.statics.rigid_preload import load_at_place, static_place
 from fmu_bearing.engine.statics.spin_balance import balance_spins
 from fmu_bearing.engine.status import OK
+from fmu_bearing.engine.steady.even import NONE, between_races, make_even, settle_evenly
 
 _STANDSTILL = 1.0  # rad/s: slower shafts are given the ratios of this speed
 
 
 @kernel
-def quasistatic_point(p, c, speed, y, w):
-    """State ``y`` at the quasi-static point under the axial load in ``c``; orbit times spin r there.
+def quasistatic_point(p, c, speed, across, y, w):
+    """State ``y`` at the quasi-static point under the loads in ``c``; status code.
 
-    Returns ``(status, mean over the balls of orbit speed times spin about r, (rad/s)^2)``. The one place
+    ``across``: with the loads across the axis and weights, else under the axial load alone. The one place
     that knows the quasi-static kernel.
     """
     load = w[W.LOAD : W.LOAD + EQ.FREEDOMS]
     tilt = w[W.TILT : W.TILT + 2]
     found = w[W.FOUND : W.FOUND + EQ.SIZE]
-    for i in range(1, EQ.FREEDOMS):
-        load[i] = 0.0
-    load[0] = c[C.PRELOAD]
+    carried = loads(p, c, load)
+    load_y = c[C.LOAD_Y]
+    if not across:
+        carried = 0.0
+        load_y = 0.0
+        for i in range(1, EQ.FREEDOMS):
+            load[i] = 0.0
     status = equilibrium(p, c, speed, load, 0.0, tilt, found, w)
     if status != OK:
-        return status, 0.0
+        return status
     for i in range(Y.SIZE):
         y[i] = 0.0
-    place_rings(c, y, found, tilt, 0.0, 0.0)
+    place_rings(c, y, found, tilt, load_y, carried)
     place_balls(p, y, found)
     if p[P.CAGE] != 0.0:
         place_cage(p, y, found)
-    return OK, gyroscopic_mean(p, found)
-
-
-@kernel
-def summarise_held(p, s, y, f, w):
-    """Losses by source at the held state ``y`` with its right-hand side ``f``; the state in ``s`` stays.
-
-    A step's first sound sample is interpolated from what ``s`` was published with.
-    """
-    heat = s[S.F + F.HEAT_OIL]
-    s[S.F + F.HEAT_OIL] = f[F.HEAT_OIL]
-    for j in range(STRIDE):
-        w[T.HELD_ROWS + j] = s[S.Y + Y.OM + j]
-        w[T.HELD_ROWS + STRIDE + j] = s[S.Y + Y.R + j]
-        s[S.Y + Y.OM + j] = y[Y.OM + j]
-        s[S.Y + Y.R + j] = y[Y.R + j]
-    summarise(p, s, w)
-    s[S.F + F.HEAT_OIL] = heat
-    for j in range(STRIDE):
-        s[S.Y + Y.OM + j] = w[T.HELD_ROWS + j]
-        s[S.Y + Y.R + j] = w[T.HELD_ROWS + STRIDE + j]
+    return OK
 
 
 @kernel
@@ -75,19 +64,22 @@ def held_speed(p, u, speed, lv, c):
     conditions(p, u, speed, c)
     lv[L.FOUND_SPEED] = speed
     c[C.OVERSIZE_SCALE] = 0.0
+    c[C.ECCENTRICITY] = 0.0
+    c[C.CAGE_ECCENTRICITY] = 0.0
     if abs(speed) < _STANDSTILL:
         return -_STANDSTILL if speed < 0.0 else _STANDSTILL
     return speed
 
 
 @kernel
-def gyroscopic_mean(p, found):
-    """Mean over the balls of orbit speed times spin about r ((rad/s)^2) at the equilibrium ``found``."""
-    gyroscopic = 0.0
-    balls = int(p[P.BALLS])
-    for j in range(balls):
-        gyroscopic += found[EQ.OM + j] * found[EQ.WR + j] / balls
-    return gyroscopic
+def move_mount(p, u, s, w):
+    """Let rigid preload put the inner ring to its place for a new preload in ``u``, at once."""
+    lv = s[S.CONDENSED :]
+    place, status = static_place(p, u, w)
+    if status == OK:
+        s[S.PLACE] = place
+        lv[L.MEAN + Q.X] = place
+        lv[L.Q0 + Q.X] = place
 
 
 @kernel
@@ -96,34 +88,60 @@ def hold(p, u, speed, s, w):
     lv = s[S.CONDENSED :]
     c = lv[L.CONDITIONS : L.CONDITIONS + C.SIZE]
     y = lv[L.Y0 : L.Y0 + Y.SIZE]
+    if p[P.RIGID] != 0.0 and u[U.PRELOAD] != c[C.PRELOAD]:
+        move_mount(p, u, s, w)
     turning = held_speed(p, u, speed, lv, c)
-    status, gyroscopic = quasistatic_point(p, c, turning, y, w)
+    status = OK
+    if p[P.RIGID] != 0.0:
+        # the mount gives the load that the present sizes and speed ask for
+        status = load_at_place(p, c, s[S.PLACE], turning, w[W.STILL_FOUND : W.STILL_END])
     if status == OK:
-        hold_at(p, speed, turning, gyroscopic, s, w)
+        status = quasistatic_point(p, c, turning, False, y, w)
+    if status == OK:
+        if p[P.RIGID] != 0.0:
+            y[Y.Q0] = s[S.PLACE]
+        hold_at(p, speed, turning, NONE, s, w)
+        if uneven_out_of_date(lv, c, speed):
+            first = w[W.PATTERN + PT.FIRST_STATE : W.PATTERN + PT.EVEN_STATE]
+            if quasistatic_point(p, c, turning, True, first, w) == OK:
+                renew_uneven(p, c, first, speed, turning, NONE, s, w)
+        add_uneven(speed, s, w)
+    c[C.PRELOAD] = u[U.PRELOAD]
     return status
 
 
 @kernel
-def hold_at(p, speed, turning, gyroscopic, s, w):
-    """Renew what is held, at ``speed`` (rad/s), with the quasi-static point and its conditions in the state.
+def across_track(p, c, y, race, w):
+    """Friction (N) of a race on ball 0 across its track, as ``balls.balance`` counts it.
 
-    ``turning``: a shaft speed that is not zero; ``gyroscopic``: see `quasistatic_point`.
+    From the forces of the last right-hand side, at the state ``y``.
+    """
+    ring = y[Y.Q0 + (Q.OUTER if race == 1 else Q.INNER)]
+    held = C.RACES + race * C.RACE_SIZE
+    sx = y[Y.X] - ring - c[held + C.GROOVE_X]
+    sr = p[P.PITCH_RADIUS] + y[Y.R] - c[held + C.GROOVE_RADIUS]
+    force = W.FORCE + race * W.FORCE_SIZE
+    return (w[force + W.FR] * sx - w[force + W.FX] * sr) / math.sqrt(sx * sx + sr * sr)
+
+
+@kernel
+def hold_at(p, speed, turning, ring_held, s, w):
+    """Renew what is held with even balls, from the quasi-static point and its conditions in the state.
+
+    At ``speed`` (rad/s) of the shaft; ``turning``: one that is not zero; ``ring_held``: see `steady.even`.
     """
     lv = s[S.CONDENSED :]
     c = lv[L.CONDITIONS : L.CONDITIONS + C.SIZE]
     y = lv[L.Y0 : L.Y0 + Y.SIZE]
-    square = turning * turning
-    pair = p[P.BALL_INERTIA] * gyroscopic / (c[C.BALL_RADIUS] * square)
-    if p[P.GYROSCOPIC] == 0.0:
-        pair = 0.0
-    outer = 0.5
-    if p[P.RACE_CONTROL] == OUTER_CONTROL:
-        outer = 1.0
-    elif p[P.RACE_CONTROL] == INNER_CONTROL:
-        outer = 0.0
-    lv[L.PAIR_INNER] = (1.0 - outer) * pair
-    lv[L.PAIR_OUTER] = outer * pair
-    balance_spins(p, c, y, 0.0, turning, w, s[S.JAC : S.CONDENSED])
+    jac = s[S.JAC : S.CONDENSED]
+    quasistatic = w[W.PATTERN + PT.REST_STATE : W.PATTERN + PT.WHIRL_STATE]
+    for i in range(Y.SIZE):
+        quasistatic[i] = y[i]
+    make_even(p, c, y, turning)
+    if not settle_evenly(p, c, y, turning, ring_held, w, jac):
+        for i in range(Y.SIZE):
+            y[i] = quasistatic[i]
+        balance_spins(p, c, y, 0.0, turning, w, jac)
     balls = int(p[P.BALLS])
     mean = 0.0
     for j in range(balls):
@@ -134,20 +152,16 @@ def hold_at(p, speed, turning, gyroscopic, s, w):
     for j in range(int(p[P.LANES])):
         for i in range(3):
             lv[L.SPIN + i * STRIDE + j] = y[Y.WX + i * STRIDE + j] / turning
-    f = w[T.HELD_F : T.HELD_F + F.SIZE]
-    right_hand_side(p, c, y, 0.0, turning, 0.0, w, f)
+    hold_losses(p, c, y, speed, turning, s, w)
     hold_rolling(p, lv, y, turning, w)
-    summarise_held(p, s, y, f, w)
-    share = speed / turning
-    lv[L.TORQUE] = share * (f[F.HEAT] + f[F.HEAT_OUTER] + f[F.HEAT_OIL]) / turning
-    for i in range(3):
-        lv[L.HEAT + i] = share * share * f[F.HEAT + i]
-    for i in range(4):
-        s[S.LOSS + i] *= share * share
-    twist = 0.0
-    for j in range(balls):
-        twist += w[W.BODY + (Q.OUTER + Q.TURN) * STRIDE + j]
-    lv[L.TWIST] = share * twist
+    # nothing holds a loose ball across its track
+    share = 1.0 / (turning * turning) if between_races(w) else 0.0
+    lv[L.PAIR_INNER] = share * across_track(p, c, y, 0, w)
+    lv[L.PAIR_OUTER] = share * across_track(p, c, y, 1, w)
+    # the rings' motion is found with balls that are free in their pockets
+    lag = y[Y.TH]
+    for j in range(int(p[P.LANES])):
+        y[Y.TH + j] -= lag
 
 
 @kernel

@@ -10,8 +10,8 @@ from fmu_bearing.engine.layout import STRIDE, C, F, L, P, Q, T, W, Y
 from fmu_bearing.engine.newton.body_slopes import inertia
 from fmu_bearing.engine.newton.jacobian import is_angle
 
-# Differences: displacement 1 nm (0.1 N in 100), tilt the same at the pitch circle, and rates that move the
-# advanced displacements by as much. The condensed forces are smooth to 1e-9 N, so differences hold 1e-7.
+# Differences: displacement 1 nm (0.1 N in 100), tilt the same at the pitch circle, and rates that advance the
+# approach by as much. The condensed forces are smooth to 1e-9 N, so differences hold 1e-7.
 _MOVE = 1e-9
 _RATE = 1e-2
 _ROUNDS = 60
@@ -49,8 +49,7 @@ def derivatives(p, c, lv, angle, speed, speed_rate, w):
         for m in range(L.N):
             lv[into + m] = (w[W.F + F.BODY + m] - w[T.BASE + m]) / step
         for m in range(2 * STRIDE):
-            if k < L.N:
-                w[T.FOLLOW + i * T.FOLLOW_SIZE + m] = (w[T.X + m] - w[T.BALLS + m]) / step
+            w[T.FOLLOW + k * T.FOLLOW_SIZE + m] = (w[T.X + m] - w[T.BALLS + m]) / step
             w[T.X + m] = w[T.BALLS + m]
         if not fine:
             return False

@@ -3,7 +3,7 @@
 The condensed balls roll along their tracks with the mean of both races and turn with their difference. In
 fidelity `full` they also slip, and a ball whose contact angles vibrate lags behind the orbit and spin axis it
 should have, and the traction that drags it along takes energy. For each mode of the rings this reads
-frequency and damping off the full equations, linearised about the quasi-static point, with the balls
+frequency and damping off the full equations, linearised about even balls, with the balls
 eliminated at the mode's own complex frequency, and gives the rings what is missing as symmetric matrices. The
 pockets' and lands' part is left out. In a set the modes are those of the rings with their share of shaft and
 housing on them (``P.OWN_SHARE``): not the set's own, but near enough for terms of a few per cent.
@@ -252,14 +252,15 @@ def across_answer(p, lv, family, shape, sr, si, w):
     """Force per displacement (1/s2) that the transverse balls add to a shape: real and imaginary part."""
     n = family_size(family)
     follows = 0.0
+    leads = 0.0
     guides = 0.0
     for a in range(n):
         follows += w[shape + a] * w[T.FOLLOWS + a]
+        leads += w[shape + a] * w[T.LEADS + a]
         guides += w[shape + a] * w[T.GUIDES + a]
     square, rate = lv[L.SIDE_SQUARE], lv[L.SIDE_RATE]
-    tau = p[P.CONTACT_DAMPING]
-    # the balls' places of rest are found for displacements advanced by tau
-    ahead_re, ahead_im = follows * (1.0 + tau * sr), follows * tau * si
+    # contact damping leads the balls' places of rest
+    ahead_re, ahead_im = follows + leads * sr, leads * si
     drive_re = square * ahead_re + rate * sr * guides
     drive_im = square * ahead_im + rate * si * guides
     below_re = sr * sr - si * si + rate * sr + square
@@ -310,6 +311,7 @@ def correct_family(p, lv, jac, family, w):
         # what the ring carries
         w[T.HEAVY + a * n + a] += 1.0 - p[P.OWN_SHARE + i]
         w[T.FOLLOWS + a] = per * lv[L.SIDE_FOLLOW + row + i]
+        w[T.LEADS + a] = per * lv[L.SIDE_LEAD + row + i]
         w[T.GUIDES + a] = per * lv[L.SIDE_GUIDE + row + i]
     for k in range(n):
         shape = T.SHAPES + k * n

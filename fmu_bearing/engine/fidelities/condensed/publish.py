@@ -108,13 +108,13 @@ def publish_balls(p, lv, speed, speed_rate, y, f):
 
 @kernel
 def held_heat(lv):
-    """Sum (W) of the heats held from the quasi-static point."""
+    """Sum (W) of the heats held from the operating point."""
     return lv[L.HEAT] + lv[L.HEAT_OUTER] + lv[L.HEAT_OIL]
 
 
 @kernel
 def held_torque(lv, speed):
-    """Torque (N m) that puts in the heats held from the quasi-static point at ``speed`` (rad/s)."""
+    """Torque (N m) that puts in the heats held from the operating point at ``speed`` (rad/s)."""
     found = lv[L.FOUND_SPEED]
     # in a ramp from far below, the speed that the heats belong to is still to come
     near = found != 0.0 and speed * found > 0.5 * found * found
@@ -123,7 +123,7 @@ def held_torque(lv, speed):
 
 @kernel
 def publish_losses(lv, speed, f):
-    """Heats held from the quasi-static point, and the torque that puts them in at ``speed``."""
+    """Heats held from the operating point, and the torque that puts them in at ``speed``."""
     f[F.WORK] = held_heat(lv)
     f[F.TORQUE] = held_torque(lv, speed)
     for i in range(3):

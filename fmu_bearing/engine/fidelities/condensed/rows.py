@@ -1,7 +1,11 @@
 """The rings' coordinates and the balls' force components; the balls' places between ``lv`` and ``w``."""
 
+import math
+
+from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import STRIDE, L, T
+from fmu_bearing.engine.layout import STRIDE, L, P, S, T
+from fmu_bearing.engine.mechanics.trigonometry import wrap
 
 
 @kernel
@@ -28,3 +32,27 @@ def keep_balls(w, lv, at):
     """Copy the balls' places from the trial rows to row ``at`` of ``lv`` and the next."""
     for i in range(2 * STRIDE):
         lv[at + i] = w[T.X + i]
+
+
+@kernel
+def from_equilibrium(p, lv, theta, w):
+    """Balls' places between those at the equilibrium, for ball 0 at ``theta`` (rad): linear in the angle."""
+    balls = int(p[P.BALLS])
+    turned = theta * balls / (2.0 * PI)
+    whole = math.floor(turned)
+    part = turned - whole
+    for j in range(STRIDE):  # spare lanes, too: what stands in the work space must not get into the state
+        near = int((j + whole) % balls)
+        next_one = (near + 1) % balls
+        for i in range(2):
+            row = L.X3 + i * STRIDE
+            w[T.X + i * STRIDE + j] = (1.0 - part) * lv[row + near] + part * lv[row + next_one]
+
+
+@kernel
+def turn_balls(s, h):
+    """Orbit and own turning after the time ``h`` (s), within one turn, where their rounding does not grow."""
+    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
+    mean = s[S.SPEED] + 0.5 * h * s[S.SPEED_RATE]
+    lv[L.THETA] = wrap(lv[L.THETA] + lv[L.RATIO] * h * mean)
+    lv[L.ROLLED] = wrap(lv[L.ROLLED] + lv[L.ROLL] * h * mean)

@@ -52,7 +52,7 @@ def flat(p, c, lv, w):
 
 @kernel
 def hold_masses(p, s, w):
-    """Masses, damping by traction and the balls' transverse motion, all at the held quasi-static point.
+    """Masses, damping by traction and the balls' transverse motion, all at the held point.
 
     ``L.JX`` and ``L.JV`` and the trial state are overwritten. Where balls find no rest there, the rings have
     their own masses alone.

@@ -109,7 +109,7 @@ def guide(c, lv, w, contact, first, tilt, share):
 
 @kernel
 def find_transverse(p, c, lv, speed, w):
-    """Fill direction, frequency, ``L.SIDE_FOLLOW`` and ``L.SIDE_GUIDE`` from derivatives at the held point.
+    """Fill direction, frequency and the rows of ``L.SIDE_FOLLOW`` on from derivatives at the held point.
 
     They were just made. Where ball 0 is not held by both races, the balls follow statically.
     """
@@ -118,8 +118,9 @@ def find_transverse(p, c, lv, speed, w):
         return
     tx = lv[L.SIDE]
     tr = lv[L.SIDE + 1]
-    for i in range(L.N):
-        at = T.FOLLOW + i * T.FOLLOW_SIZE
+    for k in range(2 * L.N):
+        i = L.SIDE_FOLLOW + k if k < L.N else L.SIDE_LEAD + k - L.N
+        at = T.FOLLOW + k * T.FOLLOW_SIZE
         alike = 0.0
         with_cosine = 0.0
         with_sine = 0.0
@@ -128,9 +129,9 @@ def find_transverse(p, c, lv, speed, w):
             alike += aside
             with_cosine += aside * w[T.COS + j]
             with_sine -= aside * w[T.SIN + j]
-        lv[L.SIDE_FOLLOW + i] = alike / pattern_weight(p, 0)
-        lv[L.SIDE_FOLLOW + L.COLUMN + i] = with_cosine / pattern_weight(p, 1)
-        lv[L.SIDE_FOLLOW + 2 * L.COLUMN + i] = with_sine / pattern_weight(p, 2)
+        lv[i] = alike / pattern_weight(p, 0)
+        lv[i + L.COLUMN] = with_cosine / pattern_weight(p, 1)
+        lv[i + 2 * L.COLUMN] = with_sine / pattern_weight(p, 2)
     guide(c, lv, w, T.CONTACT, Q.INNER, Q.INNER_BY, 0.5)
     guide(c, lv, w, T.CONTACT_OUTER, Q.OUTER, Q.OUTER + Q.BY, 0.5)
 
@@ -163,16 +164,15 @@ def find_friction(p, lv, jac):
 @kernel
 def hold_across(p, lv, w):
     """Make of derivatives with balls at rest, just made, those with balls held across their tracks."""
-    tau = p[P.CONTACT_DAMPING]
     share = share_held(p, w)
     for k in range(L.N):
         for i in range(L.N):
             at = i + L.COLUMN * k
             for row in range(0, L.PATTERNS * L.COLUMN, L.COLUMN):
-                pull = share * lv[L.SIDE_PULL + row + i] * lv[L.SIDE_FOLLOW + row + k]
+                pull = share * lv[L.SIDE_PULL + row + i]
                 drag = share * lv[L.SIDE_DRAG + row + i] * lv[L.SIDE_GUIDE + row + k]
-                lv[L.JX + at] -= pull
-                lv[L.JV + at] -= tau * pull + drag
+                lv[L.JX + at] -= pull * lv[L.SIDE_FOLLOW + row + k]
+                lv[L.JV + at] -= pull * lv[L.SIDE_LEAD + row + k] + drag
 
 
 @kernel

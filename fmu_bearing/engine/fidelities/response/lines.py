@@ -69,6 +69,7 @@ def sample_orbit(p, c, lv, speed, x, w):
     q = w[T.Q : T.Q + L.COLUMN]
     for i in range(L.N):
         q[i] = w[W.STAGE + Y.Q0 + i]
+        w[T.AHEAD + i] = 0.0
     kept = c[C.OVERSIZE_SCALE]
     c[C.OVERSIZE_SCALE] = 0.0
     for part in range(parts):
@@ -196,8 +197,6 @@ def move_across(p, lv, k, omega, re, im, w):
     """Add what pattern ``k`` of the balls does across the track to a line's equations and right side."""
     gr, gi = pattern_answer(lv, omega)
     square, rate = lv[L.SIDE_SQUARE], lv[L.SIDE_RATE]
-    # where the balls would rest is found for displacements advanced by tau
-    ahead = omega * p[P.CONTACT_DAMPING]
     at = T.LINE_FORCE + L.FORCES + k
     sum_re, sum_im = w[at] / pattern_weight(p, k), w[at + LN.IMAGINARY] / pattern_weight(p, k)
     row = k * L.COLUMN
@@ -205,7 +204,7 @@ def move_across(p, lv, k, omega, re, im, w):
         rest_re, rest_im, rolled = sum_re, sum_im, 0.0
         if n < L.N:
             rest_re = lv[L.SIDE_FOLLOW + row + n]
-            rest_im = ahead * rest_re
+            rest_im = omega * lv[L.SIDE_LEAD + row + n]
             rolled = omega * lv[L.SIDE_GUIDE + row + n]
         drive_re, drive_im = square * rest_re, square * rest_im + rate * rolled
         place_re = gr * drive_re - gi * drive_im

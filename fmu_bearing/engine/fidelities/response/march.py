@@ -12,13 +12,12 @@ between states 19.5 us apart.
 
 import math
 
-from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.fidelities import steps
 from fmu_bearing.engine.fidelities.condensed.balls import carried, count_settled, stand
 from fmu_bearing.engine.fidelities.condensed.held import hold
 from fmu_bearing.engine.fidelities.condensed.linearised import at_rest, derivatives
 from fmu_bearing.engine.fidelities.condensed.publish import publish
-from fmu_bearing.engine.fidelities.condensed.rows import keep_balls, show_balls
+from fmu_bearing.engine.fidelities.condensed.rows import from_equilibrium, keep_balls, show_balls, turn_balls
 from fmu_bearing.engine.fidelities.condensed.shared import (
     advance,
     emit,
@@ -33,8 +32,8 @@ from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, splat, store
 from fmu_bearing.engine.layout import FOUR, STRIDE, C, F, L, P, S, T, U, W, Y
 from fmu_bearing.engine.mechanics.race import wave_time
-from fmu_bearing.engine.mechanics.trigonometry import ball_angles, wrap
-from fmu_bearing.engine.status import NO_START, NOT_CONVERGED, OK
+from fmu_bearing.engine.mechanics.trigonometry import ball_angles
+from fmu_bearing.engine.status import NO_START, OK
 
 _SAMPLING = 51_200.0  # Hz of the states that samples are interpolated between, with sound: no fewer
 _WAVE = 1.26  # rad of the fastest wave between two such states: the cubic between them errs by 0.6 %
@@ -113,26 +112,34 @@ def renew_equilibrium(p, u, s, w):
     """Renew held values, equilibrium from the old one, and lines for the speed to come; status code.
 
     Where Newton does not come from the old equilibrium to the new one, it starts from the quasi-static one,
-    which serves itself where there is no rest (as at the start).
+    which serves itself where there is no rest (as at the start). Where balls have no rest about which to find
+    lines, the rings stand still there (``solver.restarts`` counts it, and a warning says so).
     """
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     speed = u[U.SPEED]
-    if hold(p, u, speed, s, w) != OK:
-        return NOT_CONVERGED
+    status = hold(p, u, speed, s, w)
+    if status != OK:
+        return status
     c = s[S.C : S.C + C.SIZE]
     hold_masses(p, s, w)
-    still(p, c, lv, w)
-    if not at_rest(p, c, lv, speed, w):
-        for part in range(2):
-            if quasistatic_places(p, c, speed, w) != OK:
-                return NOT_CONVERGED
+    for part in range(3):
+        if part == 0:
+            still(p, c, lv, w)
+        else:
+            status = quasistatic_places(p, c, speed, w)
+            if status != OK:
+                return status
             flat(p, c, lv, w)
-            if part == 1 or at_rest(p, c, lv, speed, w):
-                break
-    for i in range(L.N):
-        lv[L.MEAN + i] = w[W.STAGE + Y.Q0 + i]
-    keep_balls(w, lv, L.X3)
-    return OK if linearise(p, s, True, speed, w) else NOT_CONVERGED
+        if part < 2 and not at_rest(p, c, lv, speed, w):
+            continue
+        for i in range(L.N):
+            lv[L.MEAN + i] = w[W.STAGE + Y.Q0 + i]
+        keep_balls(w, lv, L.X3)
+        if linearise(p, s, True, speed, w):
+            return OK
+    lv[L.COUNT] = 0.0
+    s[S.RESTARTS] += 1.0
+    return OK
 
 
 @kernel
@@ -197,21 +204,6 @@ def store_twelve(lv, at, first, second, third):
 
 
 @kernel
-def from_equilibrium(p, lv, theta, w):
-    """Balls' places between those at the equilibrium, for ball 0 at ``theta`` (rad): linear in the angle."""
-    balls = int(p[P.BALLS])
-    turned = theta * balls / (2.0 * PI)
-    whole = math.floor(turned)
-    part = turned - whole
-    for j in range(STRIDE):  # spare lanes, too: what stands in the work space must not get into the state
-        near = int((j + whole) % balls)
-        next_one = (near + 1) % balls
-        for i in range(2):
-            row = L.X3 + i * STRIDE
-            w[T.X + i * STRIDE + j] = (1.0 - part) * lv[row + near] + part * lv[row + next_one]
-
-
-@kernel
 def find_places(p, c, lv, theta, speed, near, q, w):
     """Places of rest for the rings at ``q``: from the last ones if ``near``, or else from the equilibrium's.
 
@@ -227,15 +219,6 @@ def find_places(p, c, lv, theta, speed, near, q, w):
     for _ in range(_TRIES):
         if carried(p, c, lv, speed, q, w):
             return
-
-
-@kernel
-def turn_balls(s, h):
-    """Orbit and own turning after the time ``h`` (s), within one turn, where their rounding does not grow."""
-    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    mean = s[S.SPEED] + 0.5 * h * s[S.SPEED_RATE]
-    lv[L.THETA] = wrap(lv[L.THETA] + lv[L.RATIO] * h * mean)
-    lv[L.ROLLED] = wrap(lv[L.ROLLED] + lv[L.ROLL] * h * mean)
 
 
 @kernel
@@ -273,7 +256,8 @@ def settle(p, s, ahead, near, w):
     )  # fmt: skip
     q = w[T.Q : T.Q + L.COLUMN]
     for i in range(L.N):
-        q[i] = lv[L.Q0 + i] + tau * lv[L.V0 + i]
+        q[i] = lv[L.Q0 + i]
+        w[T.AHEAD + i] = tau * lv[L.V0 + i]
     find_places(p, c, lv, theta, speed, near, q, w)
     keep_balls(w, lv, L.X)
     count_settled(lv, int(p[P.LANES]), w)

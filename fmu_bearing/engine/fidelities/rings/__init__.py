@@ -2,6 +2,8 @@
 
 ==============  =============================================================
 ``predictor``   first guess of a step
-``march``       start, steps and their control
+``march``       steps and their control
+``start``       where rings and balls begin at rest
+``restart``     from one communication point to the next; rest, where a step fails
 ==============  =============================================================
 """

@@ -19,21 +19,9 @@ from fmu_bearing.engine.dense import times
 from fmu_bearing.engine.fidelities import steps
 from fmu_bearing.engine.fidelities.condensed.balls import accelerations, count_settled, stand
 from fmu_bearing.engine.fidelities.condensed.held import hold
-from fmu_bearing.engine.fidelities.condensed.linearised import (
-    at_rest,
-    derivatives,
-    factor_step,
-    highest_mode,
-)
-from fmu_bearing.engine.fidelities.condensed.publish import publish
-from fmu_bearing.engine.fidelities.condensed.rows import keep_balls, show_balls
-from fmu_bearing.engine.fidelities.condensed.shared import (
-    advance,
-    emit,
-    hold_masses,
-    set_inputs,
-    start_condensed,
-)
+from fmu_bearing.engine.fidelities.condensed.linearised import derivatives, factor_step, highest_mode
+from fmu_bearing.engine.fidelities.condensed.rows import show_balls
+from fmu_bearing.engine.fidelities.condensed.shared import advance, emit, hold_masses, set_inputs
 from fmu_bearing.engine.fidelities.condensed.transverse import (
     add_transverse,
     begin_transverse,
@@ -57,8 +45,7 @@ from fmu_bearing.engine.lanes import load, store
 from fmu_bearing.engine.layout import FOUR, STRIDE, C, F, H, L, P, S, T, U, W, Y
 from fmu_bearing.engine.mechanics.race import wave_time
 from fmu_bearing.engine.mechanics.trigonometry import wrap
-from fmu_bearing.engine.newton.jacobian import is_angle
-from fmu_bearing.engine.status import NO_START, NOT_CONVERGED, OK
+from fmu_bearing.engine.status import NOT_CONVERGED, OK
 
 _LONGEST = 2e-5  # s
 # Radians per step. The highest ring mode: below the 2.45 at which the method turns unstable, with room for
@@ -84,43 +71,6 @@ def longest_step(p, highest, speed):
     h = min(_LONGEST, p[P.MAX_STEP])
     h = min(h, _MODE / (highest + 1.0))
     return min(h, _WAVE * wave_time(p, speed))
-
-
-@kernel
-def start_rings(p, u, s, w, t):
-    """Fill the state ``s`` for the inputs ``u`` at time ``t`` (s); status code."""
-    status = start_condensed(p, u, s, w, t)
-    if status != OK:
-        return status
-    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    # from the even races' equilibrium to the one on waves and unequal balls, or the start would ring
-    c = s[S.C : S.C + C.SIZE]
-    keep_balls(w, lv, L.X3)
-    stand(p, c, lv, 0.0, 0.0, 0.0, 0.0, s[S.SPEED], w)
-    if not at_rest(p, c, lv, s[S.SPEED], w):
-        for i in range(L.N):
-            w[W.STAGE + Y.Q0 + i] = lv[L.MEAN + i]
-        show_balls(lv, L.X3, w)
-    for i in range(L.N):
-        lv[L.Q0 + i] = w[W.STAGE + Y.Q0 + i]
-        lv[L.V0 + i] = 0.0
-        lv[L.A0 + i] = 0.0
-        lv[L.LEVERS + i] = p[P.PITCH_RADIUS] if is_angle(i) else 1.0
-    for row in (L.X, L.X1, L.X2):
-        keep_balls(w, lv, row)
-    lv[L.THETA] = 0.0
-    lv[L.ROLLED] = 0.0
-    if not begin_anew(p, s, w):
-        return NO_START
-    for _ in range(L.HISTORY):
-        count_settled(lv, int(p[P.LANES]), w)
-    # nothing is known of the rate of acceleration yet, which Newmark's velocity contains: begin finely
-    s[S.STEP] = FIRST * longest_step(p, lv[L.HIGHEST], s[S.SPEED])
-    publish(p, lv, s[S.SPEED], 0.0, True, s[S.Y : S.Y + Y.SIZE], s[S.F : S.F + F.SIZE])
-    for i in range(3):
-        s[S.MEAN_HEAT + i] = lv[L.HEAT + i]
-    s[S.MEAN_TORQUE] = s[S.F + F.TORQUE]
-    return OK
 
 
 @kernel
@@ -360,18 +310,12 @@ def try_step(p, s, h, tolerance, w):
 
 
 @kernel
-def march_rings(p, u, s, w, h):
-    """Advance the state by the communication step ``h`` (s); status code."""
+def go_on(p, u, s, w, h, remaining, end):
+    """Step through what remains (s) of the communication step ``h`` (s) to time ``end``; status code."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    steps.begin_means(s)
-    status = take_inputs(p, u, s, w, h)
-    if status != OK:
-        return status
     tolerance = steps.velocity_tolerance(p, u[U.SPEED])
     longest = longest_step(p, lv[L.HIGHEST], max(abs(s[S.SPEED]), abs(u[U.SPEED])))
-    end = s[S.TIME] + h
     left = steps.most_attempts(h, longest, 100.0)
-    remaining = h
     while steps.unfinished(remaining, h, end):
         cap = min(s[S.STEP], longest)
         length = steps.even_length(remaining, cap)
@@ -390,8 +334,4 @@ def march_rings(p, u, s, w, h):
         remaining = end - s[S.TIME]
         if error < GROW and lv[L.CALM] >= PATIENCE and lv[L.KNOWN] >= 3.0:
             s[S.STEP] = min(longest, 2.0 * cap)
-    s[S.TIME] = end
-    s[S.SPEED] = u[U.SPEED]
-    publish(p, lv, s[S.SPEED], s[S.SPEED_RATE], True, s[S.Y : S.Y + Y.SIZE], s[S.F : S.F + F.SIZE])
-    steps.end_means(s, h)
     return OK

@@ -37,6 +37,16 @@ def change_spacing(x, numbers, vectors, lanes, n, h):
 
 
 @kernel
+def forget(x, numbers, vectors, lanes):
+    """Forget all that the march keeps but the levers, as at the start."""
+    for i in range(H.NUMBERS):
+        x[numbers + i] = 0.0
+    for k in range(H.VECTORS):
+        for i in range(lanes if k != H.LEVERS else 0):
+            x[vectors + k * lanes + i] = 0.0
+
+
+@kernel
 def weights(degree):
     """Weights of the last five values in the polynomial through ``degree + 1`` of them, one step ahead."""
     if degree >= 4.0:

@@ -19,12 +19,12 @@ static fmi2Status has_all(Instance *it, size_t n_unknowns, const void *unknowns,
     return fmi2OK;
 }
 
-/* Say that a derivative is not known; the instance goes on. */
+/* Say that there is no such derivative; of no consequence for the model, which goes on. */
 static fmi2Status not_known(Instance *it, const char *what)
 {
     Text text = {0};
     text_add(&text, "getDirectionalDerivative: ", what, NULL);
-    return instance_refuse(it, fmi2Discard, &text);
+    return instance_refuse(it, fmi2Error, &text);
 }
 
 /* Whether a value reference is that of a Real of a causality which stands in an array. */
@@ -34,13 +34,18 @@ static int stands_in(const Instance *it, fmi2ValueReference reference, unsigned 
            it->slots[reference].causality == causality && it->model.variables[reference].array == array;
 }
 
-/* Ask the engine, with changes of inputs in `u`; the state stays as it is. */
-static int32_t ask(Instance *it, const double *u, double *s, double *z)
+/* Ask the engine: behind the inputs `u` stand their changes, behind the state `s` room for another. */
+static int32_t ask(Instance *it, double *u, double *s, double *z)
 {
     FloatMode host = float_mode_take();
     int32_t status;
+    int64_t sizes[5];
+    memcpy(sizes, it->sizes, sizeof sizes);
+    sizes[1] *= 2;
+    sizes[2] *= 2;
+    memcpy(u, it->u, (size_t)it->sizes[1] * sizeof(double));
     memcpy(s, it->s, it->bytes_s);
-    status = it->kernels->derivative(it->p, u, s, z, it->w, it->sizes, it->last_step);
+    status = it->kernels->derivative(it->p, u, s, z, it->w, sizes, it->last_step);
     float_mode_give_back(host);
     return status;
 }
@@ -51,12 +56,13 @@ static fmi2Status answer(Instance *it, double *u, double *s, double *z, const fm
                          const fmi2Real known[], fmi2Real unknown[])
 {
     size_t i;
+    double *change = u + it->sizes[1];
     int32_t status;
     for (i = 0; i < n_knowns; i++) {
         if (!stands_in(it, knowns[i], CAUSALITY_INPUT, ARRAY_U)) {
             return not_known(it, "known variables are place and rate of the port alone");
         }
-        u[it->model.variables[knowns[i]].index] += known[i];
+        change[it->model.variables[knowns[i]].index] += known[i];
     }
     status = ask(it, u, s, z);
     if (status != 0) return not_known(it, "the equations have none here");
@@ -73,7 +79,7 @@ static fmi2Status answer(Instance *it, double *u, double *s, double *z, const fm
     return fmi2OK;
 }
 
-/* Change of the port's force for a change of its place and rate over a step like the last one. */
+/* Partial derivatives of the port's force by its place and rate at the end of a step like the last one. */
 fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference unknowns[], size_t n_unknowns,
                                         const fmi2ValueReference knowns[], size_t n_knowns,
                                         const fmi2Real known[], fmi2Real unknown[])
@@ -94,8 +100,8 @@ fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReferenc
         if (status != fmi2OK) return status;
     }
     if (!it->settled) return not_known(it, "it is known from initialisation on");
-    u = calloc((size_t)it->sizes[1] + 1, sizeof(double));
-    s = calloc((size_t)it->sizes[2] + 1, sizeof(double));
+    u = calloc(2 * (size_t)it->sizes[1] + 1, sizeof(double));
+    s = calloc(2 * (size_t)it->sizes[2] + 1, sizeof(double));
     z = calloc((size_t)it->sizes[3] + 1, sizeof(double));
     status = u && s && z
                  ? answer(it, u, s, z, unknowns, n_unknowns, knowns, n_knowns, known, unknown)

@@ -222,7 +222,8 @@ void instance_warn(Instance *it)
         const ModelCaution *caution = &it->model.cautions[i];
         double value = caution->array == ARRAY_U ? it->u[caution->index] : it->z[caution->index];
         Text text = {0};
-        if (!(value < caution->threshold) || it->told >> i & 1) continue;
+        int due = caution->above ? value > caution->threshold : value < caution->threshold;
+        if (!due || it->told >> i & 1) continue;
         it->told |= (uint64_t)1 << i;
         text_add(&text, model_text(&it->model, caution->before), NULL);
         text_add_fixed(&text, caution->scale * value, (int)caution->decimals);

@@ -50,9 +50,10 @@ typedef struct ModelReason {
     uint32_t status, text;
 } ModelReason;
 
-/* A warning, given once, where a number of u or z is below the threshold: before, scale * number, after. */
+/* A warning, given once, where a number of u or z is below the threshold, or `above` it: before,
+ * scale * number, after. */
 typedef struct ModelCaution {
-    uint32_t index, before, after, decimals, array, spare;
+    uint32_t index, before, after, decimals, array, above;
     double threshold, scale;
 } ModelCaution;
 

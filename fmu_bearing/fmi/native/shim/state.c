@@ -122,6 +122,8 @@ int state_is_whole(const Instance *it, const State *state, size_t size, Text *wh
     if (size >= sizeof *state && !state_belongs(it, state, why)) return 0;
     if (size < state_size(it)) {
         problem = "the state is cut off";
+    } else if (size > state_size(it)) {
+        problem = "the state is damaged: it has more bytes than this model's";
     } else if (!digest_holds(covered(state), (size_t)state->size - (size_t)(covered(state) - (const char *)state),
                              state->checksum)) {
         problem = "the state is damaged: its checksum does not hold";

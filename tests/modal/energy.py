@@ -1,4 +1,4 @@
-"""Stiffness matrix of a bearing at a state: five freedoms of the inner ring against the outer."""
+"""Stiffness of a bearing at a state from the energy in its contacts: friction and centrifugal forces held."""
 
 import numpy as np
 from numpy.typing import NDArray

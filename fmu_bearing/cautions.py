@@ -1,0 +1,168 @@
+"""Warnings about the state that a bearing has reached: what a number beyond its threshold means.
+
+The library and both kinds of FMU give the same ones, each once.
+"""
+
+import math
+from dataclasses import dataclass, replace
+
+from fmu_bearing.engine.choices import FIDELITIES
+from fmu_bearing.engine.layout import SP, P, U, Z
+from fmu_bearing.interface.set_outputs import first_output
+from fmu_bearing.prepare.model import Model
+from fmu_bearing.scene import Scene
+
+
+@dataclass(frozen=True)
+class Caution:
+    """A warning where a number is below a threshold, or ``above`` it: ``before``, it scaled, ``after``.
+
+    Attributes
+    ----------
+    index : int
+        Place of the number in its array.
+    threshold : float
+    scale : float
+        Factor on the number in the text.
+    before, after : str
+        Text around the number.
+    decimals : int
+        Digits of the number behind the point.
+    array : str
+        ``z`` or ``u``.
+    above : bool
+        Whether the warning is due above the threshold.
+    """
+
+    index: int
+    threshold: float
+    scale: float
+    before: str
+    after: str
+    decimals: int = 1
+    array: str = "z"
+    above: bool = False
+
+    def due(self, value: float) -> bool:
+        """Whether the warning belongs to this value."""
+        return value > self.threshold if self.above else value < self.threshold
+
+
+def _shoulder(ring: str, other: str) -> Caution:
+    return Caution(
+        Z.BEARING_OUTPUTS.index(f"contact.{ring}.shoulder_margin"),
+        0.0,
+        -180.0 / math.pi,
+        f"the ellipse of the most loaded contact of the {ring} race reaches ",
+        f" deg beyond its shoulder (bearing.{ring}_ring_{other}_diameter_mm): the edge cuts in there, while "
+        "loads and stiffness are those of an unbroken groove; reduce preload or load",
+    )
+
+
+_WAVES = Caution(
+    Z.BEARING_OUTPUTS.index("solver.wave_time"),
+    7.9e-6,  # s: 20.1 kHz, the audible range
+    1e6,
+    "the fastest wave of races and balls turns by one radian in ",
+    " us, which internal steps have to follow: its frequency lies above 20 kHz; for speed give a lower "
+    "imperfections.highest_order or highest_frequency_kHz, or one scene for low and one for high speeds",
+)
+_SHOULDERS = (_shoulder("inner", "outer"), _shoulder("outer", "inner"))
+_RESTARTS = Caution(
+    Z.BEARING_OUTPUTS.index("solver.restarts"),
+    0.0,
+    1.0,
+    "no step led on from the state reached: balls had left their races, or inputs jumped too far at once; ",
+    " times so far (solver.restarts) rings and balls begin again at rest at the present inputs; clock, "
+    "angles, heats and sound go on, but vibration and levels just after mean nothing; change inputs by less "
+    "at a time, over longer steps, give more preload, or fidelity full",
+    decimals=0,
+    above=True,
+)
+_ALWAYS = (*_SHOULDERS, _WAVES, _RESTARTS)
+_UNLOADED = Caution(
+    Z.BEARING_OUTPUTS.index("contact.inner.load_mean"),
+    1.0,  # N, assumed: at speed balls are thrown outwards and their load goes to zero only by and by
+    1.0,
+    "its inner race carries ",
+    " N per ball: the bearing is unloaded; loose balls skid or lift off, and what they then do depends on "
+    "gravity and chance more than on the bearing; give more preload or less load",
+)
+_BACKWARD = Caution(  # of a set that carries one way: another has bearings for the other one
+    Z.BEARING_OUTPUTS.index("contact.inner.angle_mean"),
+    -0.02,  # rad: more than a free bearing's balls sway
+    180.0 / math.pi,
+    "bearing 1: its contact angle is ",
+    " deg: the load pushes the shaft the way that nothing holds, where races have no shoulder, while loads "
+    "and stiffness are those of a whole groove; turn a bearing, or reverse the load",
+)
+_LOOSE = "preload = 0 N: no axial force holds balls and races together: loose balls skid or lift off; "
+_ROLLS = {
+    "full": "what they then do depends on gravity, loads and chance more than on the bearing",
+    "rings": "fidelity rings has balls that always roll: its loads, levels and torque then mean little",
+    "response": "fidelity response has balls that always roll and contacts that never open: its loads may be "
+    "wrong by orders of magnitude",
+}
+
+
+def loose(fidelity: str) -> str:
+    """Return the warning about a bearing without preload at a fidelity."""
+    words = _LOOSE + _ROLLS[fidelity]
+    return f"{words}; give a preload (mounting.preload_N, input preload), or expect no more than a trend"
+
+
+def cautions(model: Model) -> tuple[Caution, ...]:
+    """Return the warnings checked after initialisation and after each step, each given once."""
+    fidelity = FIDELITIES[int(model.parameters[P.FIDELITY])]
+    if model.scene.spindle is not None:
+        return (*_skids(model, fidelity), *_cautions_of_set(model.scene))
+    before, nothing, after = loose(fidelity).partition("0")
+    smallest = math.ulp(float(nothing))
+    without = Caution(U.PRELOAD, smallest, 1.0, before, after, decimals=0, array="u")
+    return (without, *_skids(model, fidelity), *_ALWAYS)
+
+
+def _skids(model: Model, fidelity: str) -> tuple[Caution, ...]:
+    """Return the warnings about balls that roll in a fidelity although traction cannot drive them.
+
+    The traction of all inner contacts at the preload, at their distance from the axis, is the most torque
+    that rolling balls can take from the shaft: a bearing whose friction asks for more skids. Of a set loads
+    depend on its statics: there the warnings come where there is no traction at all.
+    """
+    p = model.parameters
+    b = model.scene.bearing
+    arm = 5e-4 * (b.pitch_diameter_mm - b.ball_diameter_mm * math.cos(math.radians(b.contact_angle_deg)))
+    along = 0.0 if p[P.SET] else model.inputs[U.PRELOAD] / math.sin(math.radians(b.contact_angle_deg))
+    most = float(p[P.MU] * along * arm)
+    if fidelity == "full" or (most == 0.0 and p[P.MU] > 0.0):
+        return ()
+    before = (
+        f"lubricant.traction_max = {p[P.MU]:g}: contacts carry {1e3 * most:.3g} N mm of friction torque at "
+        f"most, and balls that roll, as in fidelity {fidelity}, need "
+    )
+    after = (
+        " N mm: in fidelity full they skid; cage speed, torque and the lines of cage and balls mean little "
+        "here; give more traction or preload, or fidelity full"
+    )
+    spindle = model.scene.spindle
+    place = first_output(model.scene, len(spindle.bearing)) + SP.Z_TORQUE if spindle else Z.TORQUE
+    return tuple(Caution(place, sign * most, 1e3, before, after, above=sign > 0.0) for sign in (1.0, -1.0))
+
+
+def _cautions_of_set(scene: Scene) -> tuple[Caution, ...]:
+    """Return the warnings about a set: of each bearing its shoulders and that it is unloaded."""
+    assert scene.spindle is not None
+    count = len(scene.spindle.bearing)
+    # one for all: their waves have the same orders
+    own = first_output(scene, count)
+    found = [
+        replace(_WAVES, index=own + SP.Z_WAVE_TIME), replace(_RESTARTS, index=own + SP.Z_RESTARTS),
+    ]  # fmt: skip
+    for b in range(count):
+        begin = f"bearing {b + 1}: "
+        for one in (_UNLOADED, *_SHOULDERS):
+            place = first_output(scene, b) + one.index
+            found.append(replace(one, index=place, before=begin + one.before))
+    if len({one.sign for one in scene.spindle.bearing}) == 1:
+        found.append(replace(_BACKWARD, index=first_output(scene, 0) + _BACKWARD.index))
+    return tuple(found)

@@ -1,0 +1,147 @@
+"""Losses that are held: with even balls, and what uneven ones add.
+
+The point that fidelities rings and response are linearised about has even balls and a centred cage. Torque,
+heat and orbit speed are those of the whole steady state (``steady.point``), with balls that loads across the
+axis make uneven or a cage that whirls. That takes some ten times as long to find: it is renewed when the
+speed or a load has moved by 5 %, and in between what it adds goes with the losses of the even balls.
+"""
+
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.layout import STRIDE, C, F, L, P, Q, S, T, W, Y
+from fmu_bearing.engine.mechanics.equations import right_hand_side
+from fmu_bearing.engine.readout.losses import summarise
+from fmu_bearing.engine.steady.point import EVEN_BALLS, NOT_FOUND, losing_state, settle
+
+_MOVED = 0.05  # of speed, loads, viscosity
+_GROWN = 2e-8  # m: of a contact's geometry, some hundredths of its approach
+_HEATS = 3
+
+
+@kernel
+def summarise_held(p, s, y, f, w):
+    """Losses by source at the held state ``y`` with its right-hand side ``f``; the state in ``s`` stays.
+
+    A step's first sound sample is interpolated from what ``s`` was published with.
+    """
+    heat = s[S.F + F.HEAT_OIL]
+    s[S.F + F.HEAT_OIL] = f[F.HEAT_OIL]
+    for j in range(STRIDE):
+        w[T.HELD_ROWS + j] = s[S.Y + Y.OM + j]
+        w[T.HELD_ROWS + STRIDE + j] = s[S.Y + Y.R + j]
+        s[S.Y + Y.OM + j] = y[Y.OM + j]
+        s[S.Y + Y.R + j] = y[Y.R + j]
+    summarise(p, s, w)
+    s[S.F + F.HEAT_OIL] = heat
+    for j in range(STRIDE):
+        s[S.Y + Y.OM + j] = w[T.HELD_ROWS + j]
+        s[S.Y + Y.R + j] = w[T.HELD_ROWS + STRIDE + j]
+
+
+@kernel
+def hold_losses(p, c, y, speed, turning, s, w):
+    """Put what is lost at the state ``y`` to ``lv`` and ``s``; its right-hand side stays in ``w``.
+
+    ``speed`` of the shaft (rad/s) for which, ``turning`` at which it is found.
+    """
+    lv = s[S.CONDENSED :]
+    f = w[T.HELD_F : T.HELD_F + F.SIZE]
+    right_hand_side(p, c, y, 0.0, turning, 0.0, w, f)
+    summarise_held(p, s, y, f, w)
+    share = speed / turning
+    for i in range(_HEATS):
+        lv[L.HEAT + i] = share * share * f[F.HEAT + i]
+    for i in range(S.LOSSES):
+        s[S.LOSS + i] *= share * share
+    twist = 0.0
+    for j in range(int(p[P.BALLS])):
+        twist += w[W.BODY + (Q.OUTER + Q.TURN) * STRIDE + j]
+    lv[L.TWIST] = share * twist
+
+
+@kernel
+def show_lost(lv, s, out, to):
+    """Put the losses that are held to ``L.LOST`` numbers at ``out[to:]``."""
+    for i in range(_HEATS):
+        out[to + i] = lv[L.HEAT + i]
+    for i in range(S.LOSSES):
+        out[to + _HEATS + i] = s[S.LOSS + i]
+    out[to + _HEATS + S.LOSSES] = lv[L.TWIST]
+
+
+@kernel
+def keep_lost(lv, s, x, at):
+    """Hold the losses at ``x[at:]``."""
+    for i in range(_HEATS):
+        lv[L.HEAT + i] = x[at + i]
+    for i in range(S.LOSSES):
+        s[S.LOSS + i] = x[at + _HEATS + i]
+    lv[L.TWIST] = x[at + _HEATS + S.LOSSES]
+
+
+@kernel
+def moved(now, then):
+    """Whether a number has left the neighbourhood of what it was."""
+    return abs(now - then) > _MOVED * abs(then) + 1e-12
+
+
+@kernel
+def uneven_out_of_date(lv, c, speed):
+    """Whether speed, loads or sizes have moved too far for what uneven balls add."""
+    at = L.MORE_CONDITIONS
+    far = lv[L.MORE_TOTAL] == 0.0 or moved(speed, lv[L.MORE_SPEED])
+    for i in (C.PRELOAD, C.LOAD_Y, C.LOAD_Z, C.VISCOSITY, C.PEDESTAL):
+        if moved(c[i], lv[at + i]):
+            far = True
+    for race in range(2):
+        for i in (C.GROOVE_X, C.GROOVE_RADIUS, C.FREE):
+            k = C.RACES + race * C.RACE_SIZE + i
+            if abs(c[k] - lv[at + k]) > _GROWN:
+                far = True
+    return far
+
+
+@kernel
+def renew_uneven(p, c, first, speed, turning, ring_held, s, w):
+    """Find what uneven balls add near the quasi-static state ``first``, which is overwritten.
+
+    ``c``: conditions without imperfections, with the loads; ``ring_held``: see `steady.even`. The losses that
+    are held are those of even balls, before and after.
+    """
+    lv = s[S.CONDENSED :]
+    for i in range(L.LOST):
+        lv[L.MORE + i] = 0.0
+    lv[L.MORE_RATIO] = 1.0
+    lv[L.MORE_TOTAL] = lv[L.HEAT] + lv[L.HEAT_OUTER] + lv[L.HEAT_OIL]
+    lv[L.MORE_SPEED] = speed
+    for i in range(C.SIZE):
+        lv[L.MORE_CONDITIONS + i] = c[i]
+    found = settle(p, c, first, turning, ring_held, w, s[S.JAC : S.CONDENSED])
+    if found == NOT_FOUND or found == EVEN_BALLS:
+        return
+    whole = losing_state(found, w)
+    mean = 0.0
+    for j in range(int(p[P.BALLS])):
+        mean += whole[Y.OM + j] / p[P.BALLS]
+    lv[L.MORE_RATIO] = mean / (turning * lv[L.RATIO])
+    show_lost(lv, s, w, T.HELD_LOST)
+    hold_losses(p, c, whole, speed, turning, s, w)
+    show_lost(lv, s, lv, L.MORE)
+    keep_lost(lv, s, w, T.HELD_LOST)
+    for i in range(L.LOST):
+        lv[L.MORE + i] -= w[T.HELD_LOST + i]
+
+
+@kernel
+def add_uneven(speed, s, w):
+    """Add to the losses and the orbit of even balls at ``speed`` (rad/s) what uneven ones add; the torque."""
+    lv = s[S.CONDENSED :]
+    total = lv[L.HEAT] + lv[L.HEAT_OUTER] + lv[L.HEAT_OIL]
+    share = total / lv[L.MORE_TOTAL] if lv[L.MORE_TOTAL] > 0.0 else 0.0
+    show_lost(lv, s, w, T.HELD_LOST)
+    for i in range(L.LOST):
+        w[T.HELD_LOST + i] += share * lv[L.MORE + i]
+    keep_lost(lv, s, w, T.HELD_LOST)
+    lv[L.RATIO] *= lv[L.MORE_RATIO]
+    lv[L.TORQUE] = 0.0
+    if speed != 0.0:
+        lv[L.TORQUE] = (lv[L.HEAT] + lv[L.HEAT_OUTER] + lv[L.HEAT_OIL]) / speed

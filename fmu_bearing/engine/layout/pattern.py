@@ -1,0 +1,34 @@
+"""PT: the steady state of unequal balls: its unknowns, and the equations for them in ``w``.
+
+In axes that turn with the load (at rest) or with a whirling cage, the places and spins of the balls are a
+pattern that stays, through which the balls run. The unknowns are that pattern at the balls, ball by ball for
+each of ``BALL`` quantities, then the bodies' coordinates, the orbit speed and the speed of the whirl.
+"""
+
+from fmu_bearing.engine.layout import q as _Q, y as _Y
+from fmu_bearing.engine.layout.sizes import MAX_BALLS, Places
+
+BALL = 6  # quantities of a ball: x, r (m), lead in its orbit (rad), absolute spin about x, r, theta (rad/s)
+PLACED = 3  # of which places
+# unknowns behind those of z balls, counted from BALL * z
+_tail = Places()
+BODIES = _tail(_Q.SIZE)  # m, rad
+ORBIT = _tail()  # rad/s: mean speed of the orbit
+WHIRL = _tail()  # rad/s: speed at which the pattern turns
+TAIL = _tail.next
+
+MOST = BALL * MAX_BALLS + TAIL  # unknowns
+EVEN = 11  # unknowns where all balls are equal
+EVEN_ROW = EVEN + 1
+
+_at = Places()
+UNKNOWNS = _at(MOST)
+STEP = _at(MOST)  # of Newton's method
+SCALE = _at(MOST)  # what makes the unknowns comparable
+RESIDUAL = _at(MOST)  # N: forces out of balance, moments over a lever
+MATRIX = _at(MOST * (MOST + 1))  # equations by rows, the right-hand side last
+FIRST_STATE = _at(_Y.SIZE)  # quasi-static state that is settled,
+EVEN_STATE = _at(_Y.SIZE)  # state of the even balls,
+REST_STATE = _at(_Y.SIZE)  # of the pattern at rest,
+WHIRL_STATE = _at(_Y.SIZE)  # and of the one that turns with a whirling cage
+SIZE = _at.next

@@ -1,0 +1,229 @@
+"""The operating point of a bearing: even balls, balls under loads across the axis, a cage that whirls.
+
+With nothing across the axis the balls are equal and the cage is in the middle (``even``). Nothing but the
+film holds it there: where its own centrifugal force drives it out, it whirls (a pattern that turns), which
+raises torque and heat by up to a fifth. A load across the axis makes the balls orbit unevenly, so that they
+push the cage aside, where it rests (a pattern at rest). Under small loads a cage still whirls.
+"""
+
+import math
+
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.layout import PT, C, P, Q, W, Y
+from fmu_bearing.engine.steady.even import OUTER, make_even, settle_evenly
+from fmu_bearing.engine.steady.newton import push_aside, settle_pattern
+from fmu_bearing.engine.steady.pattern import tail, take
+
+#: What was found of the steady state: see `settle`.
+NOT_FOUND, EVEN_BALLS, REST, WHIRL = range(4)
+
+# A whirl is looked for from half the clearance and a little more than half of shaft speed.
+_ASIDE = 0.5
+_TURNING = 0.55
+_LEAST = 1e-3  # of the clearance: below it a whirl is none
+# A cage that loads push aside by less than this share of its whirl whirls all the same. In runs of fidelity
+# full it whirls at 0.12, rests at 0.28 (7008AC, 20,000 r/min, 400 N with 4 and 10 N across).
+_CALMED = 0.2
+_DIRECT = 12  # rounds with pockets as stiff as they are
+_SOFTENED = (1e-2, 0.1, 1.0)  # then with softer ones
+_ROUNDS = 60
+_SUNK = 1e-4  # m: an outer ring that has sunk further takes the balls' angles along, which patterns leave out
+_ACROSS = 1e-12  # m, rad: rings less apart are in line
+
+
+@kernel
+def is_loaded(p, c, y, held):
+    """Whether anything acts across the axis, or rings that are held stand aside."""
+    if held > OUTER:
+        for i in range(Q.Y, Q.OUTER):
+            other = Q.OUTER + (i if i < Q.INNER_BY else i + 1)
+            if abs(y[Y.Q0 + i] - y[Y.Q0 + other]) > _ACROSS:
+                return True
+    elif c[C.LOAD_Y] != 0.0 or c[C.LOAD_Z] != 0.0 or p[P.MISALIGNMENT_Y] != 0.0:
+        return True
+    return p[P.GRAVITY] != 0.0 or p[P.MISALIGNMENT_Z] != 0.0
+
+
+@kernel
+def eccentricity(p, y):
+    """Distance of the cage's middle from the inner ring's over the clearance of the lands."""
+    k = Y.Q0 + Q.CAGE
+    aside_y = y[k + Q.Y] - y[Y.Q0 + Q.Y]
+    aside_z = y[k + Q.Z] - y[Y.Q0 + Q.Z]
+    return math.sqrt(aside_y * aside_y + aside_z * aside_z) / p[P.LAND_CLEARANCE]
+
+
+@kernel
+def begin_pattern(p, y, even, w):
+    """Put to the unknowns the places of the state ``y`` with the means of the ``even`` one."""
+    balls = int(p[P.BALLS])
+    take(p, even, 0.0, w)
+    at = W.PATTERN + PT.UNKNOWNS
+    last = at + tail(p)
+    for i in range(PT.BALL):
+        if i == PT.PLACED - 1:
+            continue
+        mean = 0.0
+        row = i if i < PT.PLACED else (Y.WX - Y.X) // (Y.R - Y.X) + i - PT.PLACED
+        row = Y.X + row * (Y.R - Y.X)
+        for j in range(balls):
+            mean += y[row + j] / balls
+        for j in range(balls):
+            shift = 0.0 if i < PT.PLACED else w[at + i * balls + j] - mean
+            w[at + i * balls + j] = y[row + j] + shift
+    for i in range(Q.CAGE):
+        if i != Q.OUTER + Q.TURN:
+            w[last + i] = y[Y.Q0 + i]
+    for i in (Q.Y, Q.Z):
+        w[last + Q.CAGE + i] = y[Y.Q0 + i]
+    w[last + Q.CAGE + Q.BY] = y[Y.Q0 + Q.INNER_BY]
+    w[last + Q.CAGE + Q.BZ] = y[Y.Q0 + Q.INNER_BZ]
+
+
+@kernel
+def rest_under_loads(p, c, y, speed, held, even, rest, w, jac):
+    """Find the pattern at rest from the quasi-static state ``y``; whether it was found, in ``rest``."""
+    ahead = math.copysign(1.0, speed)
+    begin_pattern(p, y, even, w)
+    if settle_pattern(p, c, speed, held, ahead, False, _DIRECT, rest, w, jac) > 0:
+        return True
+    # pockets that open or close between two balls are found by softer ones
+    begin_pattern(p, y, even, w)
+    stiffness = c[C.POCKET]
+    found = True
+    for share in _SOFTENED:
+        c[C.POCKET] = share * stiffness
+        if found:
+            found = settle_pattern(p, c, speed, held, ahead, False, _ROUNDS, rest, w, jac) > 0
+    c[C.POCKET] = stiffness
+    return found
+
+
+@kernel
+def whirl_of_cage(p, c, speed, held, even, whirl, w, jac):
+    """Find the whirl of the cage about the ``even`` state, in ``whirl``; its eccentricity, 0 if none."""
+    if p[P.CAGE] == 0.0 or p[P.LAND] == 0.0:
+        return 0.0
+    load_y = c[C.LOAD_Y]
+    load_z = c[C.LOAD_Z]
+    c[C.LOAD_Y] = 0.0
+    c[C.LOAD_Z] = 0.0
+    # the whirl overtakes the balls
+    ahead = -math.copysign(1.0, speed)
+    aligned = p[P.MISALIGNMENT_Y] == 0.0 and p[P.MISALIGNMENT_Z] == 0.0
+    round_seat = c[C.PEDESTAL_Y] == c[C.PEDESTAL_Z] and c[C.PEDESTAL_YZ] == 0.0
+    # a ring that cannot turn with the whirl counts as held
+    holds = held if aligned and round_seat else max(held, OUTER)
+    take(p, even, _TURNING * speed, w)
+    found = 0.0
+    if push_aside(p, c, speed, _ASIDE * p[P.LAND_CLEARANCE], ahead, whirl, w, jac):
+        if settle_pattern(p, c, speed, holds, ahead, True, _ROUNDS, whirl, w, jac) > 0:
+            found = eccentricity(p, whirl)
+    c[C.LOAD_Y] = load_y
+    c[C.LOAD_Z] = load_z
+    return found if found > _LEAST and found < p[P.LAND_STOP_FRACTION] else 0.0
+
+
+@kernel
+def settle(p, c, y, speed, held, w, jac):
+    """Find the steady state near the quasi-static state ``y`` at shaft ``speed`` (rad/s); ``y`` stays.
+
+    Parameters: ``c`` without imperfections; ``held``: see `even.is_held`; ``jac``: scratch for a Jacobian.
+    Returns what was found, and leaves it in ``PT.EVEN_STATE``, ``PT.REST_STATE`` and ``PT.WHIRL_STATE``:
+    `NOT_FOUND`; `EVEN_BALLS`: these, but not where loads across the axis put them; `REST`: the cage rests;
+    `WHIRL`: it whirls.
+    """
+    even = w[W.PATTERN + PT.EVEN_STATE : W.PATTERN + PT.REST_STATE]
+    rest = w[W.PATTERN + PT.REST_STATE : W.PATTERN + PT.WHIRL_STATE]
+    whirl = w[W.PATTERN + PT.WHIRL_STATE : W.PATTERN + PT.SIZE]
+    if speed == 0.0 or abs(y[Y.Q0 + Q.OUTER + Q.Y]) + abs(y[Y.Q0 + Q.OUTER + Q.Z]) > _SUNK:
+        return NOT_FOUND
+    for i in range(Y.SIZE):
+        even[i] = y[i]
+        rest[i] = 0.0
+        whirl[i] = 0.0
+    make_even(p, c, even, speed)
+    if not settle_evenly(p, c, even, speed, held, w, jac):
+        return NOT_FOUND
+    aside = 0.0
+    if is_loaded(p, c, y, held) and p[P.SPRINGS] == 0.0:
+        if not rest_under_loads(p, c, y, speed, held, even, rest, w, jac):
+            return EVEN_BALLS
+        aside = eccentricity(p, rest) if p[P.CAGE] != 0.0 else 0.0
+    else:
+        for i in range(Y.SIZE):
+            rest[i] = even[i]
+    if aside < _CALMED and aside < _CALMED * whirl_of_cage(p, c, speed, held, even, whirl, w, jac):
+        return WHIRL
+    return REST
+
+
+@kernel
+def settle_perfect(p, c, y, speed, held, w, jac):
+    """As :func:`settle`, with imperfections in ``c`` that count as none meanwhile."""
+    scale = c[C.OVERSIZE_SCALE]
+    eccentric = c[C.ECCENTRICITY]
+    of_cage = c[C.CAGE_ECCENTRICITY]
+    c[C.OVERSIZE_SCALE] = 0.0
+    c[C.ECCENTRICITY] = 0.0
+    c[C.CAGE_ECCENTRICITY] = 0.0
+    found = settle(p, c, y, speed, held, w, jac)
+    c[C.OVERSIZE_SCALE] = scale
+    c[C.ECCENTRICITY] = eccentric
+    c[C.CAGE_ECCENTRICITY] = of_cage
+    return found
+
+
+@kernel
+def losing_state(found, w):
+    """State whose losses are those of the operating point, of what :func:`settle` has ``found``."""
+    at = W.PATTERN + (PT.WHIRL_STATE if found == WHIRL else PT.REST_STATE if found == REST else PT.EVEN_STATE)
+    return w[at : at + Y.SIZE]
+
+
+@kernel
+def shift_to_even(p, y, even):
+    """Shift orbit and spins of the state ``y`` by what their means differ from the ``even`` state.
+
+    Places stay: means of unequal loads differ from equal ones. The balls lag in their pockets.
+    """
+    for row in (Y.OM, Y.WX, Y.WR, Y.WT):
+        mean = 0.0
+        for j in range(int(p[P.BALLS])):
+            mean += y[row + j] / p[P.BALLS]
+        for j in range(int(p[P.LANES])):
+            y[row + j] += even[row + j] - mean
+    if p[P.CAGE] != 0.0:
+        y[Y.V0 + Q.CAGE + Q.TURN] = even[Y.OM]
+        for j in range(int(p[P.LANES])):
+            y[Y.TH + j] += even[Y.TH]
+
+
+@kernel
+def move_to_steady(p, y, found, w):
+    """Move the quasi-static state ``y`` to the steady one that :func:`settle` has ``found`` from it."""
+    if found == NOT_FOUND:
+        return
+    even = w[W.PATTERN + PT.EVEN_STATE : W.PATTERN + PT.REST_STATE]
+    if found == EVEN_BALLS:
+        shift_to_even(p, y, even)
+        return
+    rest = w[W.PATTERN + PT.REST_STATE : W.PATTERN + PT.WHIRL_STATE]
+    if found == REST:
+        for i in range(Y.SIZE):
+            y[i] = rest[i]
+        return
+    # what whirls does so about where small loads put rings and balls
+    whirl = w[W.PATTERN + PT.WHIRL_STATE : W.PATTERN + PT.SIZE]
+    for i in range(Y.SIZE):
+        y[i] = whirl[i]
+    for row in (Y.X, Y.R, Y.VX, Y.VR):
+        for j in range(int(p[P.LANES])):
+            y[row + j] += rest[row + j] - even[row + j]
+    for i in range(Q.CAGE):
+        y[Y.Q0 + i] += rest[Y.Q0 + i] - even[Y.Q0 + i]
+    k = Y.Q0 + Q.CAGE
+    for i in (Q.Y, Q.Z):
+        y[k + i] += rest[Y.Q0 + i] - even[Y.Q0 + i]
+    for i in range(2):
+        y[k + Q.BY + i] += rest[Y.Q0 + Q.INNER_BY + i] - even[Y.Q0 + Q.INNER_BY + i]

@@ -1,0 +1,48 @@
+"""Where levels of fidelities rings and response are in doubt, and who says so."""
+
+import pytest
+
+from fmu_bearing import modes, read_scene
+from fmu_bearing.modal import weak
+from fmu_bearing.modal.weak import LEAST, doubt, weakness
+from fmu_bearing.scene.read import with_fidelity
+from tests.conftest import EXAMPLES
+
+
+def at(name, rpm):
+    scene = read_scene(EXAMPLES / f"{name}.toml")
+    return scene.replace({"operation.speed_rpm": float(rpm)}).with_rigid_rings()
+
+
+# levels of rings and response are 18, 15 and 6 dB(A) off there
+@pytest.mark.parametrize(
+    ("name", "rpm", "mode"),
+    [("7003C-impact", 8000, "inner tilt"), ("7003C-impact", 22000, "inner tilt"),
+     ("7009C-steel", 11000, "inner tilt")],
+)  # fmt: skip
+def test_a_dry_or_steel_bearing_is_named(name, rpm, mode):
+    scene = at(name, rpm)
+    for fidelity in ("rings", "response"):
+        text = doubt(with_fidelity(scene, model=fidelity))
+        assert text.startswith(f"levels of fidelity {fidelity} are in doubt here: the rings' mode '{mode}")
+        assert text.endswith("take fidelity full")
+    assert doubt(with_fidelity(scene, model="full")) == ""
+    assert min(found.damping for found in modes(scene).modes if found.name == mode) < LEAST
+
+
+@pytest.mark.parametrize(("name", "rpm"), [("7003C-spindle", 20000), ("7003C-bare", 20000)])
+def test_well_damped_bearings_are_not(name, rpm):
+    """Their levels agree with those of full within 0.3 dB(A), docs/choosing.md."""
+    assert weakness(at(name, rpm)) == ""
+
+
+def test_a_line_on_a_narrow_mode_counts(monkeypatch):
+    """With a wider bound the spindle's radial mode (damping ratio 0.02) is one that f_i - f_r stands on."""
+    monkeypatch.setattr(weak, "NARROW", 0.02)
+    weak._weakness.cache_clear()
+    scene = at("7003C-spindle", 20000)
+    assert "'inner radial backward'" in weakness(scene)
+    assert weakness(scene).endswith("and f_i - f_r of inner race stands on it)")
+    assert weakness(scene.replace({"imperfections": None})) == ""
+    assert weakness(scene.replace({"operation.speed_rpm": 22000.0})) == ""
+    weak._weakness.cache_clear()

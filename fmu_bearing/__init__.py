@@ -8,6 +8,7 @@ Data flow in one direction::
 ``renamed``         old names, which are refused with their new names
 ``progress``        progress of long work, told line by line
 ``files``           reading files that users name, writing those that other processes may read, the cache
+``threads``         linear algebra on one thread
 ``extras``          optional packages, imported where they are used
 ``formulas``        closed formulas on plain numbers: Hertz contact, ratings, makers' rules
 ``engine``          Numba kernels on flat arrays: mechanics, fidelities, sound

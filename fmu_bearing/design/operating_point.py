@@ -27,6 +27,7 @@ from fmu_bearing.prepare.model import prepare
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.run.balls import Readable, Reader
 from fmu_bearing.scene import Scene, SceneSource, scene_of, si
+from fmu_bearing.threads import one_thread
 
 RINGS = ("inner", "outer")
 _CONTACTS = (
@@ -134,6 +135,7 @@ class OperatingPoint:
         }
 
 
+@one_thread
 def operating_point(scene: SceneSource, tell: Tell = silent) -> OperatingPoint:
     """Return the figures of a scene, or that of a file, at its operating point, without a run.
 

@@ -22,6 +22,7 @@ from fmu_bearing.scene.member import one_of, still_of
 from fmu_bearing.scene.spindle import SetBearing
 from fmu_bearing.spindle.assembly import set_of
 from fmu_bearing.spindle.statics import ShaftStatics, shaft_statics
+from fmu_bearing.threads import one_thread
 
 _SLOPE = 10.0 / 9.0  # Weibull's exponent of point contact: Lundberg and Palmgren (1947), ISO 281
 
@@ -34,6 +35,7 @@ class _Part:
     s: NDArray[np.float64]
 
 
+@one_thread
 def operating_points(scene: SceneSource, tell: Tell = silent) -> tuple[OperatingPoint, ...]:
     """Return the figures of each bearing of a set at the scene's operating point, without a run.
 

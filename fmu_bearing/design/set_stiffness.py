@@ -18,6 +18,7 @@ from fmu_bearing.scene import Scene, SceneSource, scene_of
 from fmu_bearing.scene.member import still_of
 from fmu_bearing.spindle.assembly import set_of
 from fmu_bearing.spindle.statics import ShaftStatics, shaft_statics
+from fmu_bearing.threads import one_thread
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -127,6 +128,7 @@ class SetStiffness:
         }  # fmt: skip
 
 
+@one_thread
 def set_stiffness(
     scene: SceneSource, speeds: Sequence[float] | None = None, preloads: Sequence[float] | None = None,
     track: Callable[[Iterable[float]], Iterable[float]] = iter,

@@ -23,6 +23,7 @@ from fmu_bearing.modal.shapes import NEITHER
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 from fmu_bearing.scene.member import one_of
+from fmu_bearing.threads import one_thread
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -227,6 +228,7 @@ class Campbell:
         ]  # fmt: skip
 
 
+@one_thread
 def campbell(
     scene: SceneSource,
     speeds: Sequence[float] | None = None,

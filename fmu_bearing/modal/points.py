@@ -8,6 +8,7 @@ from fmu_bearing.modal.modes import Modes, solved
 from fmu_bearing.modal.set_linearised import set_linearised
 from fmu_bearing.modal.set_modes import set_solved
 from fmu_bearing.scene import Scene, SceneSource, scene_of
+from fmu_bearing.threads import one_thread
 
 
 def modes(scene: SceneSource, inputs: Mapping[str, float] | None = None, *, friction: bool = True) -> Modes:
@@ -42,6 +43,7 @@ def modes(scene: SceneSource, inputs: Mapping[str, float] | None = None, *, fric
     return at_point(scene, given(scene, inputs), friction)
 
 
+@one_thread
 def at_point(scene: Scene, inputs: dict[int, float], friction: bool = True) -> Modes:
     """Return the modes of a bearing, or of a set, at inputs by their places in the engine's ``u``."""
     if scene.spindle is None:

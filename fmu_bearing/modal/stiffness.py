@@ -22,6 +22,7 @@ from fmu_bearing.scene.operation import Operation
 from fmu_bearing.scene.problems import allowed
 from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.scene.values import limits
+from fmu_bearing.threads import one_thread
 
 if TYPE_CHECKING:
     import xarray
@@ -222,6 +223,7 @@ class Stiffness:
         return picture(self, frequency)
 
 
+@one_thread
 def stiffness(
     scene: SceneSource,
     speeds: Sequence[float] | None = None,

@@ -19,6 +19,7 @@ from fmu_bearing.spindle.assembly import Assembly, assembly, set_of, weight
 from fmu_bearing.spindle.axial import LiftOff, lift_off, neutral_spacing, preloads, spacing
 from fmu_bearing.spindle.equilibrium import Rest, rest, stiffness_with
 from fmu_bearing.spindle.member import shaft_speed
+from fmu_bearing.threads import one_thread
 
 
 @dataclass(frozen=True)
@@ -219,6 +220,7 @@ _UNLOADED = 1e-3  # N
 _NOSES_DIFFER = 0.2  # of the rigid shaft's nose: then its stiffness misleads a designer
 
 
+@one_thread
 def shaft_statics(
     scene: SceneSource, force: Sequence[float] | None = None, at: float | None = None,
     moment: Sequence[float] = (0.0, 0.0),

@@ -29,7 +29,7 @@ def test_a_fresh_scene_is_good(bearing, kind):
 
 @pytest.mark.heavy
 @pytest.mark.parametrize("kind", ["hybrid", "steel"])
-@pytest.mark.parametrize("name", modelled()[::6])
+@pytest.mark.parametrize("name", list(modelled())[::6])
 def test_a_fresh_scene_of_any_size_is_good(name, kind):
     sound_and_good(name, kind)
 

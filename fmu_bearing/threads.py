@@ -1,0 +1,31 @@
+"""Linear algebra on one thread.
+
+Matrices of bearings have some hundred rows. The threads of a linear algebra library then wait for each other
+longer than they compute: on a machine with other work an operating point took 14 times the processor time.
+"""
+
+from collections.abc import Callable
+from functools import lru_cache, wraps
+from typing import ParamSpec, TypeVar
+
+from threadpoolctl import ThreadpoolController
+
+_Given = ParamSpec("_Given")
+_Found = TypeVar("_Found")
+
+
+@lru_cache(maxsize=1)
+def _libraries() -> ThreadpoolController:
+    """Return the linear algebra libraries of this process; they are looked for once."""
+    return ThreadpoolController()
+
+
+def one_thread(function: Callable[_Given, _Found]) -> Callable[_Given, _Found]:
+    """Let a function solve its matrices on one thread, whatever the libraries are set to outside of it."""
+
+    @wraps(function)
+    def limited(*args: _Given.args, **kwargs: _Given.kwargs) -> _Found:
+        with _libraries().limit(limits=1):
+            return function(*args, **kwargs)
+
+    return limited

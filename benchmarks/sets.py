@@ -31,6 +31,8 @@ _STEP = 1e-4  # s: communication step
 _SETTLED, _TIMED, _COMPARED = 200, 100, 50  # communication steps
 _ROUNDS = 41
 _FINE = 1e-6
+_PEDESTAL = 1e8  # N/m
+_LENGTH, _DIAMETER = 90.0, 19.0  # mm: of the shaft of one bearing, 0.2 kg of steel
 COLUMNS = (
     "case", "bearings", "coordinates", "sim/CPU", "times K", "over one", "middle half", "steps", "iterations",
     "Jacobians", "us per bearing and iteration", "error",
@@ -60,10 +62,23 @@ def one_of(scene: Scene) -> Scene:
     """Return a single bearing of a set, preloaded alike, on a rotor as heavy as its share of a shaft."""
     mounting = Mounting(
         preload_N=scene.spindle.preload.preload_N,
-        pedestal_stiffness_N_m=1e8,
-        rotor=Rotor(mass_kg=0.21, length_mm=90.0, diameter_mm=19.0),
+        pedestal_stiffness_N_m=_PEDESTAL,
+        rotor=Rotor(mass_kg=0.2, length_mm=_LENGTH, diameter_mm=_DIAMETER),
     )
     return scene.model_copy(update={"spindle": None, "mounting": mounting})
+
+
+def set_of_one(scene: Scene) -> Scene:
+    """Return the bearing of `one_of` alone on a shaft of the rotor's size, in the middle, as a set."""
+    assert scene.spindle is not None
+    data = scene.model_dump()
+    data["spindle"] = {
+        "shaft": {"sections_mm": [[_LENGTH, _DIAMETER, 0.0]]},
+        "bearing": [{"position_mm": 0.5 * _LENGTH, "carries": "+x", "seat": "pedestal"}],
+        "housing": {"pedestal_stiffness_N_m": _PEDESTAL},
+        "load": {"force_x_N": scene.spindle.preload.preload_N, "position_mm": 0.5 * _LENGTH},
+    }
+    return Scene.from_dict(data)
 
 
 def cases() -> list[tuple[str, Scene]]:
@@ -75,6 +90,7 @@ def cases() -> list[tuple[str, Scene]]:
     quad = quad.replace(speed)
     return [
         ("single 7003C on a rotor", one_of(quad)),
+        ("set of one, rigid shaft", set_of_one(quad)),
         ("DB, rigid shaft", pair.replace({"spindle.shaft.flexible": False})),
         ("DB, flexible shaft", pair.replace({"spindle.shaft.flexible": True})),
         ("QBC, rigid shaft", quad.replace({"spindle.shaft.flexible": False})),

@@ -174,7 +174,7 @@ class Instance:
         return float({"u": self.u, "z": self.z, "p": self.p}[variable.array][variable.index])
 
     def initialise(self, time: float = 0.0) -> None:
-        """Put the bearing into its quasi-static state at the inputs; ``EngineError`` if there is none."""
+        """Put the bearing into its steady state at the inputs; ``EngineError`` if there is none."""
         status = self._calls.init(float(time))
         if status != OK:
             raise EngineError(f"initialisation at t = {time} s: {self._reasons[status]}; {self._inputs()}")

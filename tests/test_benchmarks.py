@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from benchmarks import memory, ours, peers, sound, table, terms
+from benchmarks import memory, ours, peers, scenes, sets, sound, stale, table, terms
 from benchmarks.cases import CASES, GATES, SOLVERS, Case
 from benchmarks.fmu import calls, whole
 from fmu_bearing.accuracy.first_order import FirstOrder
@@ -114,3 +114,40 @@ def test_why_exudyn_runs_without_a_contact_angle():
     radial, tangential, axial = system.GetSensorStoredData(sensor)[-1, 1:]
     assert axial / radial == pytest.approx(np.tan(0.35), rel=0.01)
     assert abs(tangential) > 0.3 * abs(radial)
+
+
+def test_scenes_are_compared_with_full(scene):
+    """A line per setting; the finer steps of full lie nearer to the reference than rings do."""
+    rows = scenes.rows_of(scenes.Case("7003C-bare", 20e3, folder=GATES), 1e-3, 5e-3, 5e-3)
+    assert [row[3] for row in rows] == ["full", "full", "rings", "response"]
+    assert all(len(row) == len(scenes.COLUMNS) for row in rows)
+    ratios = [abs(float(row[6]) - 1.0) for row in rows]
+    assert ratios[1] <= 1e-3 < ratios[2]
+
+
+def test_a_set_of_one_is_timed_beside_the_single_bearing():
+    (_, single), (name, one), *_ = sets.cases()
+    assert name.startswith("set of one")
+    assert len(one.spindle.bearing) == 1
+    rotor = single.mounted.rotor
+    [[length, diameter, bore]] = one.spindle.shaft.sections_mm
+    volume = math.pi / 4.0 * diameter**2 * length * 1e-9
+    assert (length, diameter, bore) == (rotor.length_mm, rotor.diameter_mm, 0.0)
+    assert volume * one.materials.inner_ring.density_kg_m3 == pytest.approx(rotor.mass_kg, rel=0.01)
+    assert one.spindle.load.force_x_N == single.mounted.preload_N
+
+
+def test_tables_of_another_engine_are_named(tmp_path):
+    (tmp_path / "new.md").write_text(f"{scenes.machine()}\n", "utf-8")
+    (tmp_path / "old.md").write_text("AMD; fmu-bearing 0.1.0, engine 0123456789abcdef\n", "utf-8")
+    (tmp_path / "none.md").write_text("AMD\n", "utf-8")
+    lines = stale.stale(tmp_path)
+    assert [line.split(":")[0] for line in lines] == ["none.md", "old.md"]
+    assert "engine not named" in lines[0]
+    assert "engine 0123456789abcdef, now" in lines[1]
+
+
+@pytest.mark.parametrize("path", sorted(stale.RESULTS.glob("*.md")), ids=lambda path: path.name)
+def test_a_table_names_what_made_it(path):
+    text = path.read_text("utf-8")
+    assert path.name in stale.APART or stale.made_by(text)

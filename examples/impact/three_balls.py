@@ -35,7 +35,7 @@ from fmu_bearing.acoustics.radiation.radiators import Air
 from fmu_bearing.cli.base import refusals
 from fmu_bearing.extras import need
 from fmu_bearing.run.pictures import empty
-from fmu_bearing.run.table import markdown, show, write_csv
+from fmu_bearing.run.table import machine, markdown, show, write_csv
 
 Array = NDArray[np.float64]
 
@@ -180,7 +180,7 @@ def main(
         "peak force O2-O3, N",
     )
     output_dir.mkdir(parents=True, exist_ok=True)
-    page = f"# {title}\n\n{markdown(COLUMNS, rows)}\nMotion:\n\n{markdown(heads, motion)}"
+    page = f"# {title}\n\n{machine()}\n\n{markdown(COLUMNS, rows)}\nMotion:\n\n{markdown(heads, motion)}"
     (output_dir / "three_balls.md").write_text(page, encoding="utf-8")
     write_csv(output_dir / "three_balls.csv", COLUMNS, rows)
     first = [k for k, case in enumerate(listed) if "gap" in case.name or k == 0]

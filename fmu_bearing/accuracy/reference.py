@@ -117,7 +117,7 @@ def reference(
     scene: Scene, rpm: float, duration: float, *, warm_up: float = 0.05, load_y: float = 0.0,
     load_z: float = 0.0, **options: float,
 ) -> Reference:  # fmt: skip
-    """Run a scene at ``rpm`` for ``warm_up`` (s) from its quasi-static state, then take the reference.
+    """Run a scene at ``rpm`` for ``warm_up`` (s) from its steady state, then take the reference.
 
     ``options``: as :func:`reference_from`.
     """

@@ -1,6 +1,6 @@
 """Sensitivity of a scene's figures to its assumed values, which are changed one by one.
 
-Each changed scene is run with fidelity ``full`` from its own quasi-static state, and its figures are compared
+Each changed scene is run with fidelity ``full`` from its own steady state, and its figures are compared
 with those of the unchanged scene. A value is changed by a fifth down and up, or by the step in ``ASSUMED``
 where a fifth would be too much or too little.
 """

@@ -1,6 +1,6 @@
 """Error and speed of fidelities, methods, steps, strips and left-out terms, against a reference.
 
-Every variant runs from its own quasi-static state through its own warm-up; then its figures are taken over
+Every variant runs from its own steady state through its own warm-up; then its figures are taken over
 the same window as the reference's. The reference is fidelity ``full`` by the default method at ``REFERENCE``,
 and two results are compared with it: over the whole run, warm-up included, the explicit method at
 ``WITNESS``, which has to agree to 1e-6; and over ``CHECK`` after the warm-up, from one state, the two

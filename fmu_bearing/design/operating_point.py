@@ -1,6 +1,6 @@
 """A bearing at its operating point, without a run: contacts, stiffness, frequencies, film, limits, life.
 
-Everything is that of the perfect bearing with rigid rings in its quasi-static state; the stiffness is that
+Everything is that of the perfect bearing with rigid rings in its steady state; the stiffness is that
 of `modal.stiffness`. Ratings and limits come from `design.rating`, with their sources.
 """
 

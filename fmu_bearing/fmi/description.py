@@ -80,7 +80,7 @@ LOG_CATEGORIES = {
 _FIDELITIES = {
     "full": "Six degrees of freedom for every ball, the rings and the cage.",
     "rings": "Rings are dynamic; balls and cage move kinematically.",
-    "response": "Linear response around the quasi-static state.",
+    "response": "Linear response around the steady state.",
 }
 _METHODS = {
     "esdirk4": "ESDIRK4(3), implicit, with error control.",

@@ -91,7 +91,7 @@ class BearingSlave(Fmi2Slave):
 
     @_contained(None)
     def exit_initialization_mode(self) -> None:
-        """Put the bearing into its quasi-static state at the inputs."""
+        """Put the bearing into its steady state at the inputs."""
         self.session.exit_initialisation()
 
     @_contained(False)

@@ -191,7 +191,7 @@ class Session:
             self.fail(f"enterInitializationMode called {self.phase.value}")
 
     def exit_initialisation(self) -> None:
-        """Put the bearing into its quasi-static state at the inputs."""
+        """Put the bearing into its steady state at the inputs."""
         if self.phase is not Phase.INITIALISING:
             self.fail(f"exitInitializationMode called {self.phase.value}")
             return
@@ -199,7 +199,7 @@ class Session:
         self.phase = Phase.STEPPING
 
     def _settle(self) -> None:
-        """Put the engine into its quasi-static state at the inputs set so far, once."""
+        """Put the engine into its steady state at the inputs set so far, once."""
         if self._instance.initialised or _UNSETTLED in self._wrong:
             return
         self._shown = None

@@ -31,7 +31,7 @@ def friction(subject: Subject) -> Section:
     if subject.fidelity in ("rings", "response"):
         blocks.append(
             Words(
-                f"With fidelity {subject.fidelity}, torque and heats are those of the quasi-static state at "
+                f"With fidelity {subject.fidelity}, torque and heats are those of the steady state at "
                 "the present inputs.",
                 "note",
             )

@@ -22,7 +22,7 @@ HIGHEST = 20e3  # Hz: modes that the section lists
 _SHARES = (0.1, 0.3, 0.5, 0.7, 0.85, 1.0, 1.15, 1.3, 1.4)
 _STILL = 1.0  # r/min: slower, the shaft stands
 _LINEAR = (
-    "Fidelity full linearised about its quasi-static state: perfect surfaces, no cage. A run at one speed "
+    "Fidelity full linearised about its steady state: perfect surfaces, no cage. A run at one speed "
     "has its peaks at the lines, not at the modes; a run-up passes both."
 )
 

@@ -35,7 +35,7 @@ def verdict_table(subject: Subject) -> Table | None:
     point, ran = _of_run(point, subject)
     found = verdicts(point)
     rows = [[one.label, one.text, one.judgement, one.limit, one.source] for one in found]
-    caption = f"Verdicts at {rpm:,.0f} r/min: {ran}perfect bearing in its quasi-static state"
+    caption = f"Verdicts at {rpm:,.0f} r/min: {ran}perfect bearing in its steady state"
     return Table(caption, _COLUMNS, rows, note=_note(found))
 
 

@@ -78,7 +78,7 @@ class Bearing(Mapping[str, float]):
         return self
 
     def init(self, values: Mapping[str, float] | None = None, /, **named: float) -> None:
-        """Put the bearing into its quasi-static state, with inputs as for `set`; a second call starts again.
+        """Put the bearing into its steady state, with inputs as for `set`; a second call starts again.
 
         Inputs and parameters that were set before stay set.
 

@@ -41,7 +41,7 @@ def simulate(
     outputs: Sequence[str] | None = None,
     progress: bool | None = None,
 ) -> Run:
-    """Run a bearing from its quasi-static state and keep its variables at the communication points.
+    """Run a bearing from its steady state and keep its variables at the communication points.
 
     The library runs a scene, with results that equal those of ``fmpy.simulate_fmu`` on its FMU to the last
     bit; FMPy runs an FMU. Inputs are set at the beginning of each step, as FMPy does; the speed then ramps to

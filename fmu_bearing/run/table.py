@@ -13,6 +13,8 @@ from collections.abc import Iterator, Sequence
 import numba
 import numpy as np
 
+from fmu_bearing import __version__
+from fmu_bearing.engine.sources import source_hash
 from fmu_bearing.files import read_text
 
 _WIDEST = 10_000  # characters: no table is wider
@@ -21,7 +23,7 @@ _DECIMAL_COMMA = re.compile(r"[+-]?[0-9]*,[0-9]+(?:[eE][+-]?[0-9]+)?")
 
 
 def machine() -> str:
-    """Processor, cores and the versions that matter for speed."""
+    """Processor, cores and the versions that matter, of this package with the hash of its engine."""
     model = platform.processor() or platform.machine()
     cpuinfo = pathlib.Path("/proc/cpuinfo")
     if cpuinfo.exists():
@@ -29,7 +31,8 @@ def machine() -> str:
         model = names[0].split(":", 1)[1].strip() if names else model
     return (
         f"{model}, {os.cpu_count()} cores (one used), {platform.system()}; "
-        f"Python {platform.python_version()}, NumPy {np.__version__}, Numba {numba.__version__}"
+        f"Python {platform.python_version()}, NumPy {np.__version__}, Numba {numba.__version__}; "
+        f"fmu-bearing {__version__}, engine {source_hash()}"
     )
 
 

@@ -14,7 +14,7 @@
 ``picture``        curves and maps
 =================  =======================================================================
 
-Equal keys give equal figures. Each point is a separate run from its quasi-static state, with the scene's own
+Equal keys give equal figures. Each point is a separate run from its steady state, with the scene's own
 seed unless the seed is an axis. Order, number of workers and restarts therefore do not change the results.
 """
 

@@ -1,4 +1,4 @@
-"""One point of a sweep: a run of a scene from its quasi-static state, and its figures over a window."""
+"""One point of a sweep: a run of a scene from its steady state, and its figures over a window."""
 
 import functools
 import hashlib

@@ -56,7 +56,7 @@ def test_a_recording_without_these_outputs_is_judged_as_the_perfect_bearing(subj
     assert table.rows == [
         [v.label, v.text, v.judgement, v.limit, v.source] for v in verdicts(point_of(subject))
     ]
-    assert table.caption.endswith("r/min: perfect bearing in its quasi-static state")
+    assert table.caption.endswith("r/min: perfect bearing in its steady state")
 
 
 def test_a_recording_without_scene_has_none(subject):

@@ -232,7 +232,7 @@ void instance_warn(Instance *it)
     }
 }
 
-/* Put the engine to its quasi-static state at the values so far, once. */
+/* Put the engine to its steady state at the values so far, once. */
 fmi2Status instance_settle(Instance *it, fmi2Status otherwise)
 {
     Text text = {0};

@@ -62,7 +62,7 @@ void instance_free(Instance *it);
 /* Back to what a fresh instance is; the log stays as it is set. */
 void instance_reset(Instance *it);
 
-/* Put the engine to its quasi-static state at the values so far, once; fmi2OK, or `otherwise` said. */
+/* Put the engine to its steady state at the values so far, once; fmi2OK, or `otherwise` said. */
 fmi2Status instance_settle(Instance *it, fmi2Status otherwise);
 
 /* Give the warnings about the state reached that were not given yet. */

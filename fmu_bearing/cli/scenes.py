@@ -62,7 +62,8 @@ def new(
     """Write a scene from the catalogue, or from boundary dimensions with the rest estimated.
 
     Speed and preload that are not given follow makers' rules, so that all verdicts are good and no ring
-    whirls by itself.
+    whirls by itself. Where no speed and preload within the rules do that, or where given ones do not, the
+    cautions of `scene check` say what is not good.
     """
     from fmu_bearing.design.fresh import new_scene
 
@@ -96,6 +97,8 @@ def new(
     for one in found:
         if one.key in _SAID:
             typer.echo(f"assumed: {one.key} = {_shown(one)}: {one.remark}")
+    for line in _findings(path)[1]:
+        tell(f"caution: {line}")
 
 
 @scene_app.command()

@@ -13,8 +13,9 @@ Examples
 (1000, 91)
 """
 
+import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -68,6 +69,8 @@ __all__ = [
     "waterfall",
 ]
 
+#: In place of a kinematic line's name, above the end of the excitation.
+BEYOND = "beyond the excitation"
 RESOLUTION = 20.0  # Hz, as in the multi-source paper's spectra
 _FINE = 5.0  # Hz: tells neighbouring lines apart
 
@@ -152,10 +155,13 @@ def strongest(
 ) -> list[Line]:
     """Return the strongest lines of a spectrum of the recording and the kinematic line behind each.
 
-    A fine spectrum, such as 5 Hz, tells neighbouring lines apart better than one of 20 Hz.
+    A fine spectrum, such as 5 Hz, tells neighbouring lines apart better than one of 20 Hz. A line above the
+    end of the excitation comes from no surface of the scene, so that no kinematic line is named for it.
     """
-    lines = kinematic_lines(recording.kinematics(), float(frequency[-1]))
-    return strongest_lines(frequency, levels, count, lines)
+    end = math.inf if recording.excitation_end is None else recording.excitation_end
+    known = kinematic_lines(recording.kinematics(), min(float(frequency[-1]), end))
+    found = strongest_lines(frequency, levels, count, known)
+    return [replace(line, name=BEYOND, off=math.nan) if line.frequency > end else line for line in found]
 
 
 @renamed.arguments

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from fmu_bearing.acoustics.analysis.third_octave import spread
-from fmu_bearing.recording.measure import strongest
+from fmu_bearing.recording.measure import BEYOND, strongest
 from fmu_bearing.recording.pictures import band_place
 from fmu_bearing.recording.tables import lines_table
 from fmu_bearing.reports import look
@@ -177,7 +177,7 @@ def _line_table(subject: Subject, heard: Microphones) -> Table:
         parts = {name: heard.spectra[name][place][1][at] for name in heard.components[1:]}
         beyond = end is not None and line.frequency > end
         loudest = look.words(max(parts, key=lambda name: parts[name])) if parts else ""
-        row.append("beyond the excitation" if beyond else loudest)
+        row.append(BEYOND if beyond else loudest)
     return Table(
         f"Strongest lines at {heard.names[heard.shown[place]]}",
         [*columns, "loudest component"],

@@ -36,7 +36,7 @@ def verdict_table(subject: Subject) -> Table | None:
     found = verdicts(point)
     rows = [[one.label, one.text, one.judgement, one.limit, one.source] for one in found]
     caption = f"Verdicts at {rpm:,.0f} r/min: {ran}perfect bearing in its steady state"
-    return Table(caption, _COLUMNS, rows, note=_note(found))
+    return Table(caption, _COLUMNS, rows, note=_note(point, found))
 
 
 def _of_run(point: OperatingPoint, subject: Subject) -> tuple[OperatingPoint, str]:
@@ -55,8 +55,9 @@ def _of_run(point: OperatingPoint, subject: Subject) -> tuple[OperatingPoint, st
     return replace(point, contacts=contacts, film=film), words
 
 
-def _note(found: list[Verdict]) -> str:
-    """Say what to do, the gravest first."""
-    advice = [one.advice for judgement in ("change", "watch") for one in found if one.judgement == judgement]
+def _note(point: OperatingPoint, found: list[Verdict]) -> str:
+    """Say what to do: about the state itself, then about what is judged, the gravest first."""
+    advice = list(point.remarks)
+    advice += [one.advice for judgement in ("change", "watch") for one in found if one.judgement == judgement]
     words = " ".join(f"{line[0].upper()}{line[1:]}." for line in advice if line)
     return words or "Nothing that these limits would forbid."

@@ -78,6 +78,20 @@ def test_new_replaces_nothing_unasked(run, tmp_path):
     assert run("scene", "new", path, "--force", *KNOWN).exit_code == 0
 
 
+def test_new_says_what_is_not_good(run, tmp_path):
+    """A quarter of the least preload at this speed is written, for it was asked for, and cautioned of."""
+    path = tmp_path / "my.toml"
+    asked = ("--bearing", "NSK-7010C", "--no-sound", "--speed", 20000)
+    made = run("scene", "new", path, *asked, "--preload", 20)
+    assert made.exit_code == 0
+    assert path.exists()
+    cautions = [line for line in made.stderr.splitlines() if line.startswith("caution: ")]
+    assert any("preload" in line for line in cautions), made.stderr
+    good = run("scene", "new", tmp_path / "good.toml", *asked[:3])
+    assert good.exit_code == 0
+    assert "caution" not in good.stderr
+
+
 def test_check_tells_every_problem_and_ends_with_one(run, silent_file, tmp_path):
     faulty = tmp_path / "faulty.toml"
     text = silent_file.read_text()

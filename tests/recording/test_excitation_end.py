@@ -7,10 +7,11 @@ import pytest
 
 from fmu_bearing import pictures, simulate
 from fmu_bearing.acoustics.analysis.order import OrderMap, Waterfall
-from fmu_bearing.acoustics.analysis.spectrum import kinematic_frequencies
+from fmu_bearing.acoustics.analysis.spectrum import kinematic_frequencies, level_spectrum
 from fmu_bearing.acoustics.analysis.third_octave import centre_frequencies
 from fmu_bearing.prepare.imperfections import excitation_end
 from fmu_bearing.recording.compare import compare
+from fmu_bearing.recording.measure import BEYOND, strongest
 from fmu_bearing.recording.record import record
 from fmu_bearing.reports.heard import listen
 from fmu_bearing.reports.sound import spectra
@@ -117,3 +118,15 @@ def test_reports_mark_it_and_name_no_source_beyond(made):
         assert (row[-1] == "beyond the excitation") == (float(row[0]) > end)
     (line,) = thirds.figure.layout.shapes
     assert line.x0 == pytest.approx(10.0 * math.log10(end / heard.third_octaves[0][0]))
+
+
+def test_no_kinematic_line_is_named_beyond(example):
+    """The bare 7003C excited to 4 kHz only: its strongest lines above are of no surface."""
+    scene = example("7003C-bare").replace({"imperfections.highest_frequency_kHz": 4.0})
+    made = record(with_fidelity(scene, model="response"), 0.05, settle=0.02, progress=False)
+    frequency, levels = level_spectrum(made.pressure()[0], made.rate)
+    for low, named in ((0.0, True), (1.2 * made.excitation_end, False)):
+        part = frequency > low
+        found = strongest(made, frequency[part], levels[part], 6)
+        names = [line.name for line in found]
+        assert (set(names) == {BEYOND}) != named, names

@@ -200,7 +200,10 @@ def test_springs_between_balls_solve_the_dense_system(angle, stiffness):
         for j in range(balls):
             rows = 6 * j + 2, 6 * ((j + 1) % balls) + 2
             matrix[np.ix_(rows, rows)] += (
-                (cv * 7.0 + cx * stiffness) / 0.4 * np.array([[1.0, -1.0], [-1.0, 1.0]])
+                np.cos(np.pi / balls) ** 2
+                * (cv * 7.0 + cx * stiffness)
+                / 0.4
+                * np.array([[1.0, -1.0], [-1.0, 1.0]])
             )
         return matrix
 

@@ -328,27 +328,33 @@ def in_race(loads: Loads, j: int, k: int) -> float:
 
 
 def stretch(setup: Setup, state: State) -> np.ndarray:
-    """Arc (m) on the pitch circle by which each ball is too far from the next one."""
-    theta = state.balls[:, 2]
-    angle = np.roll(theta, -1) - theta - 2.0 * np.pi / len(theta)
-    return setup.pitch * (angle - 2.0 * np.pi * np.round(angle.real / (2.0 * np.pi)))
+    """By how much (m) each chord to the next ball is longer than that of even balls on their circle."""
+    radius, theta = setup.pitch + state.balls[:, 1], state.balls[:, 2]
+    y, z = radius * np.sin(theta), radius * np.cos(theta)
+    chord = np.sqrt((np.roll(y, -1) - y) ** 2 + (np.roll(z, -1) - z) ** 2)
+    return chord - 2.0 * np.sin(np.pi / len(theta)) * radius.mean()
 
 
 def between_balls(loads: Loads) -> float:
-    """Load all balls by the springs and dampers that join neighbours; heat (W)."""
-    setup, balls = loads.setup, loads.state.balls
-    apart = stretch(setup, loads.state)
-    lost = 0.0
-    for j in range(len(balls)):
-        k = (j + 1) % len(balls)
-        opening = setup.pitch * (balls[k, 5] - balls[j, 5])
-        pull = setup.neighbours[0] * apart[j] + setup.neighbours[1] * opening
-        for ball, sign in ((j, 1.0), (k, -1.0)):
-            # the pull acts on the pitch circle, the ball may stand on another one: same moment about X
-            _, _, around = directions(balls[ball, 2])
-            loads.force[ball] += sign * pull * setup.pitch / (setup.pitch + balls[ball, 1]) * around
-        lost += setup.neighbours[1] * opening**2
-    return lost
+    """Load all balls by the springs and dampers that join neighbours; heat (W).
+
+    Forces are the slopes of the stretch over the balls' places, by differences in the complex plane.
+    """
+    setup, state = loads.setup, loads.state
+    count, tiny = len(state.balls), 1e-30
+    slopes = np.zeros((count, 2, count))  # ball, radius or angle, spring
+    for ball in range(count):
+        for kind in range(2):
+            moved = state.balls.astype(complex)
+            moved[ball, 1 + kind] += 1j * tiny
+            slopes[ball, kind] = stretch(setup, replace(state, balls=moved)).imag / tiny
+    rates = np.einsum("bks,bk->s", slopes, state.balls[:, 4:6])
+    pull = setup.neighbours[0] * stretch(setup, state) + setup.neighbours[1] * rates
+    for ball in range(count):
+        _, outward, around = directions(state.balls[ball, 2])
+        along = slopes[ball] @ pull
+        loads.force[ball] -= along[0] * outward + along[1] / (setup.pitch + state.balls[ball, 1]) * around
+    return float(setup.neighbours[1] * rates @ rates)
 
 
 def on_cage(loads: Loads, j: int) -> float:

@@ -64,7 +64,7 @@ def stored_energy(p, c, y, w):
     vc = Y.V0 + Q.CAGE
     total = ball_energy(p, y, w) + w[W.LANDS_ENERGY]
     if p[P.SPRINGS] != 0.0 and p[P.CAGE] == 0.0:
-        total += spring_energy(p, y)
+        total += spring_energy(p, y, w)
     total += 0.5 * p[P.INNER_MASS] * squares(y, Y.V0, 3)
     total += 0.5 * p[P.INNER_TRANSVERSE] * squares(y, Y.V0 + Q.INNER_BY, 2)
     total += 0.5 * p[P.TILT_STIFFNESS] * squares(y, Y.Q0 + Q.INNER_BY, 2)

@@ -173,7 +173,7 @@ def ball_accelerations(p, y, w, f):
         store(f, F.WT + j, mt * per_inertia - gyro * om * load(y, Y.WR + j))
         store(w, W.LOSS_DRAG + j, select(consecutive(j) < p[P.BALLS], pull * around, 0.0))
     if p[P.SPRINGS] != 0.0 and p[P.CAGE] == 0.0:
-        w[W.LOSS_DRAG] += spring_forces(p, y, f)
+        w[W.LOSS_DRAG] += spring_forces(p, y, w, f)
 
 
 @kernel

@@ -15,7 +15,7 @@ from fmu_bearing.elastic.assembly.conditions import BONDED, bodies, contact_mode
 from fmu_bearing.elastic.assembly.patch import SPREAD, TANGENTIAL, normal_stiffness
 from fmu_bearing.elastic.modes import elastic
 from fmu_bearing.elastic.section import INNER, OUTER, ring_section
-from fmu_bearing.engine.layout import F, P, Y
+from fmu_bearing.engine.layout import F, P, W, Y
 from fmu_bearing.engine.mechanics.springs import spring_forces
 from fmu_bearing.prepare.model import pack
 from fmu_bearing.scene import read_scene, si
@@ -209,22 +209,56 @@ def test_balls_alone_are_a_ring_of_masses(paper):
     assert modes.frequencies[modes.zero_modes :] == pytest.approx(exact, rel=1e-9)  # rounding of 84 rows
 
 
-def test_springs_of_a_run_act_on_angles_alone(paper):
-    """Closed form (1/pi) sqrt(k/m) sin(pi j / N), in the engine."""
-    balls, step = 12, 1e-6
-    p, y, answer = pack(paper, np.empty(0)), np.zeros(Y.SIZE), np.zeros((balls, balls))
-    exact = math.sqrt(SPRINGS / p[P.BALL_MASS]) / math.pi * np.sin(math.pi * np.arange(1, 7) / balls)
-    assert exact / 1e3 == pytest.approx([33.34, 64.40, 91.08, 111.55, 124.41, 128.80], abs=0.005)
+def answers_of_a_run(paper):
+    """Stiffness over mass (1/s^2) of the engine's springs, over radii and arcs of evenly standing balls."""
+    balls, step = 12, 1e-8
+    p, answer = pack(paper, np.empty(0)), np.zeros((2 * balls, 2 * balls))
     assert p[P.SPRINGS] == SPRINGS
-    for one in range(balls):
-        y[Y.TH : Y.TH + balls] = 2.0 * np.pi * np.arange(balls) / balls
-        y[Y.TH + one] += step
-        f = np.zeros(F.SIZE)
-        spring_forces(p, y, f)
-        answer[:, one] = -f[F.TH : F.TH + balls] / step
-    found = np.sqrt(np.sort(np.linalg.eigvals(answer).real)[1:]) / (2.0 * np.pi)
-    # angles of 1e-6 rad in angles of 6 rad
-    assert found == pytest.approx(np.sort([*exact[:-1], *exact]), rel=1e-7)
+    for one in range(2 * balls):
+        kind, ball = divmod(one, balls)
+        accelerations = []
+        for move in (-step, step):
+            y, w, f = np.zeros(Y.SIZE), np.zeros(W.SOUND), np.zeros(F.SIZE)
+            y[Y.TH : Y.TH + balls] = 2.0 * np.pi * np.arange(balls) / balls
+            y[(Y.TH if kind else Y.R) + ball] += move / (p[P.PITCH_RADIUS] if kind else 1.0)
+            w[W.COS : W.COS + balls] = np.cos(y[Y.TH : Y.TH + balls])
+            w[W.SIN : W.SIN + balls] = np.sin(y[Y.TH : Y.TH + balls])
+            spring_forces(p, y, w, f)
+            arcs = p[P.PITCH_RADIUS] * f[F.TH : F.TH + balls]
+            accelerations.append(np.concatenate([f[F.R : F.R + balls], arcs]))
+        answer[:, one] = (accelerations[0] - accelerations[1]) / (2.0 * step)
+    return p, answer
+
+
+def test_springs_of_a_run_along_the_balls_way(paper):
+    """Closed form (1/pi) sqrt(k/m) cos(pi/N) sin(pi j/N), in the engine, where races hold the radii."""
+    p, answer = answers_of_a_run(paper)
+    balls = 12
+    exact = math.sqrt(SPRINGS / p[P.BALL_MASS]) / math.pi * np.sin(math.pi * np.arange(1, 7) / balls)
+    exact *= math.cos(math.pi / balls)
+    found = np.sqrt(np.sort(np.linalg.eigvals(answer[balls:, balls:]).real)[1:]) / (2.0 * np.pi)
+    # central differences of 1e-8 m on a chord of 6 mm
+    assert found == pytest.approx(np.sort([*exact[:-1], *exact]), rel=1e-6)
+
+
+def test_springs_of_a_run_pull_equally_and_leave_common_motions_free(paper):
+    _, answer = answers_of_a_run(paper)
+    angles = 2.0 * np.pi * np.arange(12) / 12
+    zero, one = np.zeros(12), np.ones(12)
+    common = {
+        "turning": (zero, one),
+        "growing": (one, zero),
+        # from 12 o'clock, along Z and Y
+        "along z": (np.cos(angles), -np.sin(angles)),
+        "along y": (np.sin(angles), np.cos(angles)),
+    }
+    largest = np.abs(answer).max()
+    for name, motion in common.items():
+        moved = np.concatenate(motion)
+        assert np.abs(answer @ moved).max() < 1e-7 * largest, name
+        # and what each ball feels adds up to no force and no moment
+        assert np.abs(moved @ answer).max() < 1e-7 * largest, name
+    assert answer == pytest.approx(answer.T, abs=1e-7 * largest)
 
 
 def test_more_ring_modes_lower_every_frequency(paper):

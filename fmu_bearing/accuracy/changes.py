@@ -18,6 +18,7 @@ from fmu_bearing.accuracy.hearing import Hearing, hearing
 from fmu_bearing.design.operating_point import operating_point
 from fmu_bearing.design.rating import unrated
 from fmu_bearing.formulas import iso281
+from fmu_bearing.modal.weak import whirl_words
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 
@@ -105,6 +106,8 @@ def point(scene: Scene) -> Point:
     cautions: list[str] = []
     found = operating_point(scene, cautions.append)
     cautions += found.remarks
+    if found.whirl is not None:
+        cautions.append(whirl_words(*found.whirl, found.on_shaft))
     rpm, turns = scene.operation.speed_rpm, found.reference_life
     radial = 1e-6 * 0.5 * float(found.stiffness[1, 1] + found.stiffness[2, 2])
     torque = 1e3 * found.friction_torque * math.copysign(1.0, rpm)

@@ -80,7 +80,9 @@ class OperatingPoint:
         Whether it is one of a set: the shaft holds its inner ring.
     whirl : tuple of float, optional
         Hz, 1/s: frequency and growth of the mode by which the inner ring, or its set, whirls by itself; None
-        where none grows.
+        where none grows, or where it is not known.
+    steady : bool
+        Whether a steady state was found; else no growth is known.
     remarks : tuple of str
         That no steady state was found, that the pedestal is soft; of a set `ShaftStatics` has them.
     """
@@ -105,6 +107,7 @@ class OperatingPoint:
     friction_torque: float
     gyroscopic_friction: float
     whirl: tuple[float, float] | None = None
+    steady: bool = True
     remarks: tuple[str, ...] = ()
 
     def summary(self) -> dict[str, Any]:
@@ -131,6 +134,7 @@ class OperatingPoint:
             "friction_torque_N_m": self.friction_torque,
             "gyroscopic_friction": self.gyroscopic_friction,
             "whirl_Hz_1_s": self.whirl,
+            "steady": self.steady,
             "ball_loads_N": {ring: loads.tolist() for ring, loads in self.ball_loads.items()},
         }
 
@@ -169,7 +173,8 @@ def operating_point(scene: SceneSource, tell: Tell = silent) -> OperatingPoint:
     torque = settled.get("friction_torque")
     return replace(
         figures(scene, bearing, bearing.get, mounting.preload_N, radial, torque, at_rest(system)),
-        whirl=whirl_of(solved(scene, system)) if may_grow(system.matrix) else None,
+        whirl=whirl_of(solved(scene, system)) if system.steady and may_grow(system.matrix) else None,
+        steady=system.steady,
         remarks=tuple(remarks(given, system)),
     )
 

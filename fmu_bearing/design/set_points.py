@@ -80,8 +80,8 @@ def operating_points(scene: SceneSource, tell: Tell = silent) -> tuple[Operating
         axial = max(0.0, carried.axial)
         found.append(figures(alone, part, output, axial, carried.radial, torque, carried.stiffness, True))
     system = set_linearised(quiet)
-    whirl = whirl_of(set_solved(quiet, system)) if may_grow(system.matrix) else None
-    return tuple(replace(one, whirl=whirl) for one in found)
+    whirl = whirl_of(set_solved(quiet, system)) if system.steady and may_grow(system.matrix) else None
+    return tuple(replace(one, whirl=whirl, steady=system.steady) for one in found)
 
 
 def _alone(scene: Scene, number: int, place: SetBearing, statics: ShaftStatics) -> Scene:

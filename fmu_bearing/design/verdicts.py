@@ -12,6 +12,8 @@ from typing import Any, Literal
 from fmu_bearing.design.operating_point import RINGS, OperatingPoint
 from fmu_bearing.design.rating import preload_classes, unclassed, unrated
 from fmu_bearing.formulas import iso76, iso281, makers
+from fmu_bearing.modal.remarks import UNSTEADY
+from fmu_bearing.modal.weak import whirl_words
 
 Judgement = Literal["good", "watch", "change", "not judged"]
 
@@ -376,23 +378,15 @@ def _gyroscopic(point: OperatingPoint) -> Verdict:
 
 
 def _whirl(point: OperatingPoint) -> Verdict:
-    source = "the linearised equations: no mode of the rings grows"
+    label, source = "whirl of the ring, 1/s", "the linearised equations: no mode of the rings grows"
+    if not point.steady:
+        return _unjudged("whirl", label, UNSTEADY)
     if point.whirl is None:
-        return Verdict("whirl", "whirl of the ring, 1/s", None, "none", "none", source, "good")
+        return Verdict("whirl", label, None, "none", "none", source, "good")
     frequency, growth = point.whirl
-    body, way = (
-        "the ring whirls by itself",
-        "more preload or a support against tilting (mounting.tilt_support)",
-    )
-    if point.on_shaft:
-        body, way = "a mode of the set grows by itself", "more preload or a stiffer shaft"
-    advice = (
-        f"{body} at {frequency:.0f} Hz: its motion grows by {growth:.0f} 1/s (linearised equations, no "
-        "standard), figures are of the unstable point, and only fidelity full shows the whirl; "
-        f"{way} stops it"
-    )
+    advice = whirl_words(frequency, growth, point.on_shaft)
     text = f"{growth:.0f} at {frequency:.0f} Hz"
-    return Verdict("whirl", "whirl of the ring, 1/s", growth, text, "none", source, "change", advice)
+    return Verdict("whirl", label, growth, text, "none", source, "change", advice)
 
 
 def _shoulder(point: OperatingPoint) -> Verdict:

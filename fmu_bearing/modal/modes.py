@@ -19,6 +19,9 @@ SLOW = 1.0  # rad/s: slower in the axes in which it stands, a motion is neutral
 DAMPED = 0.5  # damping ratio beyond which a motion does not ring
 MARGIN = 0.002  # damping ratio below which a mode is named as near the limit of stability (chosen)
 _LOWEST = 100.0  # Hz: slower motions that grow belong to the mounting
+#: 1/s: slower growth is not named. The mean over one ball pitch gives neutral motions of balls under a radial
+#: load up to 2.7 1/s; what grows by 5 1/s must be named.
+GROWS = 3.0
 MOVES = 0.05  # of the kinetic energy: with less of it in the rings, a motion is one of the balls alone
 SPREAD = 0.01  # of the frequency over one ball pitch, beyond which it is told
 _NEUTRAL = 0.02  # of the orbit: the balls' spins turn over so slowly at high speed
@@ -75,8 +78,12 @@ class Mode:
     @property
     def remark(self) -> str:
         """``unstable`` or ``instability margin`` for modes of the rings with hardly any damping, or empty."""
-        if self.damping >= MARGIN or self.ring_share <= MOVES or self.name.startswith("ball"):
+        if self.damping >= MARGIN or self.ring_share <= MOVES:
             return ""
+        if self.name.startswith("ball"):
+            # balls have most of the energy of the fastest whirls of a ring; those that rings hardly take
+            # part in are free along their orbits, and neutral
+            return "unstable" if self.growth > GROWS else ""
         return "unstable" if self.damping < 0.0 else "instability margin"
 
     @property
@@ -149,7 +156,8 @@ class Modes:
     def weak(self) -> tuple[Mode, ...]:
         """Return the modes near or beyond the limit of stability: a damping ratio below ``MARGIN``.
 
-        Balls that move alone are left out: they are free along their orbits.
+        Balls that move alone are left out, unless rings move with them and the motion grows: they are free
+        along their orbits.
         """
         return tuple(mode for mode in self.modes if mode.remark)
 
@@ -210,12 +218,20 @@ class Modes:
 def may_grow(matrix: NDArray[np.float64]) -> bool:
     """Whether a motion above 100 Hz grows by itself, from the eigenvalues alone."""
     values = np.linalg.eigvals(matrix)
-    return bool(np.any((values.real > 0.0) & (values.imag > 2.0 * math.pi * _LOWEST)))
+    return bool(np.any((values.real > GROWS) & (values.imag > 2.0 * math.pi * _LOWEST)))
 
 
 def self_excited(found: "Modes") -> Mode | None:
-    """Return the mode of the rings that grows fastest by itself; None where none does."""
-    growing = [one for one in found.modes if one.remark == "unstable" and one.frequency > _LOWEST]
+    """Return the mode in which rings move that grows fastest by itself, by `GROWS` or more; None: none does.
+
+    Its largest part may be the balls' orbits: at 7008AC, 20,000 r/min, 150 N balls have 85 % of its energy.
+    One that takes long to grow beside a multiple of the orbit's speed is among `Modes.apart`.
+    """
+    growing = [
+        one
+        for one in (*found.modes, *found.apart)
+        if one.growth > GROWS and one.ring_share > MOVES and one.frequency > _LOWEST
+    ]
     return max(growing, key=lambda one: one.growth, default=None)
 
 

@@ -1,18 +1,25 @@
-"""Where levels of fidelities rings and response are in doubt: weakly damped modes, and lines that meet one.
+"""Where figures of fidelities rings and response are in doubt: a ring that whirls by itself, weak damping.
 
-Both hold friction and the cage's speed, and condense the balls. Where little damping is left or a line stands
-on a mode, a small error of damping or frequency is one of decibels, and motions that grow large are limited
-by what they leave out.
+Both hold friction and the cage's speed, and condense the balls about the steady state. Where a mode of the
+rings grows there, `full` leaves that state, and torque, heat and levels of the other two belong to a point
+that does not last. Where little damping is left, or a line stands on such a mode, a small error of damping
+or frequency is one of decibels, and motions that grow large are limited by what they leave out.
+
+All places that print figures ask `doubt`, and say what it returns.
 """
 
+from collections.abc import Mapping
 from functools import lru_cache
 
 import numpy as np
 
+from fmu_bearing.interface.inputs import inputs as inputs_of_bearing
+from fmu_bearing.interface.set_inputs import inputs_of_set
 from fmu_bearing.modal.campbell import can_move, is_of_rings
 from fmu_bearing.modal.lines import lines, rates, unbalance
-from fmu_bearing.modal.modes import Mode
+from fmu_bearing.modal.modes import Mode, Modes, self_excited
 from fmu_bearing.modal.points import modes
+from fmu_bearing.modal.remarks import UNSTEADY
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.read import read_scene_text, with_fidelity
 
@@ -23,36 +30,81 @@ NARROW = 0.015  # of modes on which a line counts
 HIGHEST = 20e3  # Hz: what sound is computed to
 
 
-def doubt(scene: Scene) -> str:
-    """Return why levels by a scene's own fidelity are in doubt; empty: they are not, or it is full."""
-    reason = "" if scene.fidelity.model == "full" else weakness(scene)
+def doubt(scene: Scene, inputs: Mapping[str, float] | None = None) -> str:
+    """Return why figures by a scene's own fidelity are in doubt; empty: they are not, or it is full.
+
+    Of a ring that whirls by itself, and where no steady state was found, all figures are, else levels alone.
+
+    Parameters
+    ----------
+    scene : Scene
+    inputs : mapping, optional
+        Inputs by name, SI units, in place of the scene's; parameters among them count for nothing.
+    """
+    model = scene.fidelity.model
+    if model in ("full", "auto"):
+        return ""
+    if unsteady(scene, inputs):
+        return f"fidelity {model}: {UNSTEADY}"
+    if whirls := whirl(scene, inputs):
+        return f"fidelity {model}: {whirls}"
+    reason = weakness(scene, inputs)
     return reason and (
-        f"levels of fidelity {scene.fidelity.model} are in doubt here: {reason}, and a small error of "
+        f"levels of fidelity {model} are in doubt here: {reason}, and a small error of "
         "damping or frequency is one of several dB; take fidelity full"
     )
 
 
-def weakness(scene: Scene) -> str:
+def unsteady(scene: Scene, inputs: Mapping[str, float] | None = None) -> bool:
+    """Whether there is an equilibrium but no steady state: then no growth is judged."""
+    found = _at(scene, inputs)
+    return found is not None and not found.linearised.steady
+
+
+def whirl(scene: Scene, inputs: Mapping[str, float] | None = None) -> str:
+    """Return that a ring, or a set, whirls by itself at the steady state, what that means, and what stops it.
+
+    Empty where no mode of the rings grows (`modes.self_excited`), and where there is no equilibrium: runs say
+    so themselves. The cage is left out and rings are rigid.
+    """
+    found = _at(scene, inputs)
+    mode = None if found is None else _grows(found)
+    if mode is None:
+        return ""
+    return whirl_words(mode.frequency, mode.growth, scene.spindle is not None)
+
+
+def whirl_words(frequency: float, growth: float, of_set: bool) -> str:
+    """Return the words about a motion that grows (1/s) by itself at a frequency (Hz)."""
+    body, way = (
+        "the ring whirls by itself",
+        "more preload or a support against tilting (mounting.tilt_support) stops it",
+    )
+    if of_set:
+        body, way = "the set whirls by itself", "more preload or a stiffer shaft stops it"
+    # no number among the first words, by which warnings are known again
+    return (
+        f"{body}, figures are of the unstable point, and only fidelity full shows the whirl: its motion grows "
+        f"by {growth:.0f} 1/s at {frequency:.0f} Hz (linearised equations, no standard); {way}"
+    )
+
+
+def weakness(scene: Scene, inputs: Mapping[str, float] | None = None) -> str:
     """Return the mode for which fidelities rings and response cannot be trusted with a level, or "".
 
-    A mode of the rings, with the cage left out and rings rigid, has a damping ratio below `LEAST`; or a line
-    that the scene contains and that can move a mode with one below `NARROW` lies within the width of its peak
-    at half power. Where there is no equilibrium nothing is said: runs say so themselves. Nor of a set: its
-    modes are those of the shaft, mostly with damping ratios about these bounds, and were not compared.
+    A mode of the rings, with the cage left out and rings rigid, grows by itself or has a damping ratio below
+    `LEAST`; or a line that the scene contains and that can move a mode with one below `NARROW` lies within
+    the width of its peak at half power. Where there is no equilibrium nothing is said: runs say so
+    themselves. Of a set growth alone counts: its modes are those of the shaft, mostly with damping ratios
+    about these bounds, and were not compared.
     """
-    if scene.spindle is not None:
+    found = _at(scene, inputs)
+    if found is None:
         return ""
-    bare = scene.with_rigid_rings().model_copy(update={"sound": None, "microphones": ()})
-    return _weakness(with_fidelity(bare, model="full").to_toml())
-
-
-@lru_cache(maxsize=64)
-def _weakness(text: str) -> str:
-    """Do what `weakness` does, once for each scene."""
-    scene = read_scene_text(text)
-    try:
-        found = modes(scene)
-    except ValueError:
+    if (grows := _grows(found)) is not None:
+        body = "ring" if scene.spindle is None else "set"
+        return f"the {body} whirls by itself at {grows.frequency:.0f} Hz (growth {grows.growth:.0f} 1/s)"
+    if scene.spindle is not None:
         return ""
     own = [mode for mode in found.modes if mode.frequency <= HIGHEST and is_of_rings(mode)]
     weakest = min(own, key=lambda mode: mode.damping, default=None)
@@ -72,6 +124,31 @@ def _weakness(text: str) -> str:
             if within and line.present and can_move(line, mode):
                 return _words(mode, f"{mode.damping:.4f}, and {line.name} of {line.source} stands on it")
     return ""
+
+
+def _grows(found: Modes) -> Mode | None:
+    """Return the mode that grows by itself; None where none does or the state is not steady."""
+    return self_excited(found) if found.linearised.steady else None
+
+
+def _at(scene: Scene, inputs: Mapping[str, float] | None) -> Modes | None:
+    """Return the modes of a scene with rigid rings at its inputs; None where there is no equilibrium."""
+    own = inputs_of_bearing(scene) if scene.spindle is None else inputs_of_set(scene)
+    names = {variable.name for variable in own}
+    given = tuple(sorted((name, float(x)) for name, x in (inputs or {}).items() if name in names))
+    # what modes leave out is no part of the key: it is the same scene to them
+    bare = scene.with_rigid_rings().model_copy(update={"sound": None, "imperfections": None})
+    return _modes(with_fidelity(bare, model="full").to_toml(), given)
+
+
+@lru_cache(maxsize=64)
+def _modes(text: str, inputs: tuple[tuple[str, float], ...]) -> Modes | None:
+    """Return the modes of a scene, once for each text and inputs: about 0.1 s, of four bearings 0.8 s."""
+    scene = read_scene_text(text)
+    try:
+        return modes(scene, dict(inputs))
+    except ValueError:
+        return None
 
 
 def _words(mode: Mode, why: str) -> str:

@@ -39,10 +39,8 @@ def test_well_damped_bearings_are_not(name, rpm):
 def test_a_line_on_a_narrow_mode_counts(monkeypatch):
     """With a wider bound the spindle's radial mode (damping ratio 0.02) is one that f_i - f_r stands on."""
     monkeypatch.setattr(weak, "NARROW", 0.02)
-    weak._weakness.cache_clear()
     scene = at("7003C-spindle", 20000)
     assert "'inner radial backward'" in weakness(scene)
     assert weakness(scene).endswith("and f_i - f_r of inner race stands on it)")
     assert weakness(scene.replace({"imperfections": None})) == ""
     assert weakness(scene.replace({"operation.speed_rpm": 22000.0})) == ""
-    weak._weakness.cache_clear()

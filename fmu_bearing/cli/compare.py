@@ -66,5 +66,7 @@ def compare(
     if not found.keys and found.a.scene is not None and found.b.scene is not None:
         typer.echo("the scenes do not differ")
     typer.echo(f"A: {a}, B: {b}; differences are B less A")
+    for line in found.doubts():
+        tell(line)
     if files:
         tell(f"written: {', '.join(map(str, files))}")

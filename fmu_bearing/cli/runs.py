@@ -2,7 +2,7 @@
 
 import warnings
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -19,6 +19,9 @@ from fmu_bearing.cli.base import (
     shaft_speed,
 )
 from fmu_bearing.files import check_file
+
+if TYPE_CHECKING:
+    from fmu_bearing.run.result import Run
 
 Source = Annotated[Path, typer.Argument(metavar="SCENE|FMU", help="Scene file (.toml) or FMU (.fmu).")]
 Settings = Annotated[
@@ -59,7 +62,6 @@ def simulate(
     as_json: Json = False,
 ) -> None:
     """Run a scene or an FMU. After a refused step or Ctrl-C the results so far are kept."""
-    from fmu_bearing.modal.weak import doubt
     from fmu_bearing.run import result as results
     from fmu_bearing.run.simulate import EndedEarly, simulate as run_it
 
@@ -73,10 +75,7 @@ def simulate(
             progress=False if as_json else None,
         )  # fmt: skip
         run.save(output)
-        doubted = ""
-        if run.scene is not None and any(unit == "dB" for unit in run.units.values()):
-            held = {} if turning is None else {"operation.speed_rpm": speed}
-            doubted = doubt(run.scene.replace(held))
+        doubted = "" if run.scene is None else _doubt(run, start, inputs is not None)
     if as_json:
         print_json(run.summary() | {"file": output, "doubt": doubted})
     else:
@@ -117,6 +116,17 @@ def plot(
             run.scene = read_scene(scene)
         draw(run, picture, split(variables))
     typer.echo(f"written: {picture}")
+
+
+def _doubt(run: "Run", start: dict[str, float], table: bool) -> str:
+    """Return why a run's figures are in doubt: levels, or all where a ring whirls by itself at its start."""
+    from fmu_bearing.modal.weak import doubt, is_of_levels
+
+    assert run.scene is not None
+    found = doubt(run.scene, start)
+    if is_of_levels(found) and not any(unit == "dB" for unit in run.units.values()):
+        return ""
+    return f"at the values of the start, {found}" if table and found else found
 
 
 def split(options: list[str] | None) -> list[str] | None:

@@ -89,7 +89,7 @@ def sound(
             named_places(found.microphones, microphone)
             recording = record(
                 found, duration, speed=turning, settle=settle,
-                radiation_model=radiation_model, progress=False if as_json else None,
+                radiation_model=radiation_model, progress=False if as_json else None, warn=False,
             )  # fmt: skip
             output.mkdir(parents=True, exist_ok=True)
             recording.save(output / "recording.npz")

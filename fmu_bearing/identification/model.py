@@ -166,7 +166,7 @@ class Levels:
         return _SETTLE.get(fidelity, _SETTLE_FULL) if self.settle is None else self.settle
 
     def _measure(self, scene: Scene, rows: Sequence[Datum], settle: float) -> NDArray[np.float64]:
-        made = record(scene, self.duration, settle=settle, step=_STEP, progress=False)
+        made = record(scene, self.duration, settle=settle, step=_STEP, progress=False, warn=False)
         return self._sensors_of(scene, made).levels(made, rows)
 
     def _sensors_of(self, scene: Scene, made: Recording) -> Sensors:

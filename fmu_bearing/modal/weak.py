@@ -28,6 +28,7 @@ from fmu_bearing.scene.read import read_scene_text, with_fidelity
 LEAST = 0.01
 NARROW = 0.015  # of modes on which a line counts
 HIGHEST = 20e3  # Hz: what sound is computed to
+_LEVELS = "levels"
 
 
 def doubt(scene: Scene, inputs: Mapping[str, float] | None = None) -> str:
@@ -50,9 +51,14 @@ def doubt(scene: Scene, inputs: Mapping[str, float] | None = None) -> str:
         return f"fidelity {model}: {whirls}"
     reason = weakness(scene, inputs)
     return reason and (
-        f"levels of fidelity {model} are in doubt here: {reason}, and a small error of "
+        f"{_LEVELS} of fidelity {model} are in doubt here: {reason}, and a small error of "
         "damping or frequency is one of several dB; take fidelity full"
     )
+
+
+def is_of_levels(text: str) -> bool:
+    """Whether what `doubt` returned is about levels alone, not about torque, heat and vibration too."""
+    return text.startswith(_LEVELS)
 
 
 def unsteady(scene: Scene, inputs: Mapping[str, float] | None = None) -> bool:
@@ -84,8 +90,8 @@ def whirl_words(frequency: float, growth: float, of_set: bool) -> str:
         body, way = "the set whirls by itself", "more preload or a stiffer shaft stops it"
     # no number among the first words, by which warnings are known again
     return (
-        f"{body}, figures are of the unstable point, and only fidelity full shows the whirl: its motion grows "
-        f"by {growth:.0f} 1/s at {frequency:.0f} Hz (linearised equations, no standard); {way}"
+        f"{body}, figures are of the unstable point, and only fidelity full shows the whirl: its motion "
+        f"grows by {growth:.0f} 1/s at {frequency:.0f} Hz (linearised equations, no standard); {way}"
     )
 
 

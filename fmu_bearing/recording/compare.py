@@ -172,6 +172,10 @@ class Comparison:
         rows = {label: [side.third_octaves[name][f] for f in bands] for label, side in sides.items()}
         return pictures.third_octave_picture(bands, rows, heading, ends)
 
+    def doubts(self) -> list[str]:
+        """Return why figures of A and of B are in doubt, in sentences; none: they are not."""
+        return [f"{letter}: {side.doubt}." for letter, side in (("A", self.a), ("B", self.b)) if side.doubt]
+
     def save(self, folder: str | os.PathLike[str], microphone: str | None = None) -> list[pathlib.Path]:
         """Write `tables` as CSV into a folder, which is made; return the files."""
         target = pathlib.Path(folder)
@@ -197,6 +201,7 @@ class Comparison:
                     for name, bands in here.third_octaves.items()
                 },
                 "figures": here.figures,
+                "doubt": here.doubt,
             }
         return found
 
@@ -204,7 +209,8 @@ class Comparison:
         return f"Comparison(A: {self.a.name}, B: {self.b.name}, {len(self.keys)} keys differ)"
 
     def _repr_html_(self) -> str:
-        parts = [f"<p>{html.escape(repr(self))}; differences are B less A</p>"]
+        lines = (f"{self!r}; differences are B less A", *self.doubts())
+        parts = [f"<p>{html.escape(line)}</p>" for line in lines]
         for title, (columns, rows) in self.tables().items():
             head = "".join(f"<th>{html.escape(name)}</th>" for name in columns)
             body = "".join(
@@ -322,8 +328,9 @@ def _finished(
     scene = resolve(scene)[0]
     tell(f"{letter}: running {scene.name}, fidelity {scene.fidelity.model}, for {settle + duration:g} s")
     made = record(
-        scene, duration, settle=settle, radiation_model=radiation_model, outputs=RECORDED, progress=progress
-    )
+        scene, duration, settle=settle, radiation_model=radiation_model, outputs=RECORDED, progress=progress,
+        warn=False,
+    )  # fmt: skip
     if scene.microphones:
         tell(f"{letter}: sound at the microphones, radiation model {made.radiation_model}")
     return of_recording(made, name, radiation_model)

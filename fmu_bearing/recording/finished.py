@@ -10,6 +10,7 @@ from fmu_bearing.acoustics.analysis.third_octave import centre_frequencies, nomi
 from fmu_bearing.recording.listen import listen
 from fmu_bearing.recording.record import OUTPUTS
 from fmu_bearing.recording.recording import Recording
+from fmu_bearing.recording.spread import doubt_of
 from fmu_bearing.run.levels import present
 from fmu_bearing.run.result import Run
 from fmu_bearing.run.spectrum import MICROPHONE, Spectrum
@@ -51,6 +52,9 @@ class Finished:
         Means of the variables of `FIGURES` that were kept, SI units.
     excitation_end : float, optional
         Hz: up to where surfaces excite it; None: not known.
+    doubt : str
+        Why figures are in doubt (`modal.weak`); empty: they are not, or nothing is known of it, as of a run
+        whose inputs are not known.
     """
 
     name: str
@@ -60,6 +64,7 @@ class Finished:
     spectrum: Spectrum | None
     figures: dict[str, float]
     excitation_end: float | None = None
+    doubt: str = ""
 
 
 def of_recording(recording: Recording, name: str = "", radiation_model: str | None = None) -> Finished:
@@ -68,7 +73,7 @@ def of_recording(recording: Recording, name: str = "", radiation_model: str | No
     kept = recording.within()
     figures = {key: float(np.mean(kept[key])) for key in FIGURES if key in kept}
     if not recording.microphones:
-        return Finished(own, recording.scene, {}, {}, None, figures)
+        return Finished(own, recording.scene, {}, {}, None, figures, doubt=doubt_of(recording))
     found = listen(recording, None, radiation_model)
     levels = {name: (float(z), float(a)) for name, (z, a) in zip(found.names, found.levels, strict=True)}
     bands = [float(f) for f in found.bands]
@@ -80,7 +85,9 @@ def of_recording(recording: Recording, name: str = "", radiation_model: str | No
     spectrum = Spectrum(
         found.names, found.frequency, found.spectra["total"], units, MICROPHONE, recording.excitation_end
     )
-    return Finished(own, recording.scene, levels, thirds, spectrum, figures, recording.excitation_end)
+    return Finished(
+        own, recording.scene, levels, thirds, spectrum, figures, recording.excitation_end, doubt_of(recording)
+    )
 
 
 def of_run(run: Run, settle: float, radiation_model: str | None = None) -> Finished:

@@ -56,6 +56,7 @@ class Listener:
             progress=False,
             radiation_model="compact",
             outputs=(),
+            warn=False,
         )
         blocks = Blocks(made.channels, RESOLUTION)
         self.frequency = blocks.frequency

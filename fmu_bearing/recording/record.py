@@ -4,6 +4,7 @@ import math
 import os
 import pathlib
 import sys
+import warnings
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
@@ -15,6 +16,7 @@ from fmu_bearing.acoustics.analysis.field import TAIL, form_of
 from fmu_bearing.acoustics.radiation.radiators import Air
 from fmu_bearing.engine.layout import SD, P, S
 from fmu_bearing.instance import Instance
+from fmu_bearing.modal.weak import doubt
 from fmu_bearing.prepare.model import Model, prepare
 from fmu_bearing.recording.recording import Recording
 from fmu_bearing.run.choose import resolve
@@ -53,6 +55,7 @@ def record(
     microphones: bool = False,
     progress: bool | None = None,
     watch: Callable[[Instance], None] | None = None,
+    warn: bool = True,
 ) -> Recording:
     """Run a scene and keep its channels at 51.2 kHz, so that any microphone can be set up afterwards.
 
@@ -84,6 +87,9 @@ def record(
     watch : callable, optional
         Called with the running bearing after initialisation and after each communication step, to read
         values of the state that are not variables.
+    warn : bool
+        Warn (``UserWarning``) where figures of fidelity rings or response are in doubt: a ring that whirls by
+        itself, weakly damped modes. It takes 0.1 s for each scene, once per process, at constant inputs.
 
     Returns
     -------
@@ -116,13 +122,15 @@ def record(
             "microphones=True runs the scene as it is, which has no channels for "
             f'radiation_model = "{wanted}": leave out microphones, or set sound.radiation_model in the scene'
         )
+    drives = dict(inputs or {})
+    if speed is not None:
+        drives["shaft_speed"] = speed
+    if warn and (doubted := _doubt(scene, drives)):
+        warnings.warn(doubted, stacklevel=3)  # of renamed.arguments, which wraps this
     model = source if isinstance(source, Model) and microphones else prepare(
         scene if microphones else listened(scene, "compact" if form_of(wanted) == "vectors" else wanted)
     )  # fmt: skip
     bearing = Instance(model)
-    drives = dict(inputs or {})
-    if speed is not None:
-        drives["shaft_speed"] = speed
     _drive(bearing, drives, 0.0)
     bearing.initialise()
     first = round(settle * SD.RATE)
@@ -158,6 +166,13 @@ def recording_of(source: RecordingSource, duration: float = DURATION, **options:
     if isinstance(source, str | os.PathLike) and pathlib.Path(source).suffix == ".npz":
         return Recording.load(source)
     return record(source, duration, **options)
+
+
+def _doubt(scene: Scene, drives: Mapping[str, Signal]) -> str:
+    """Return why figures are in doubt, at inputs that do not change; "" where the speed does."""
+    if callable(drives.get("shaft_speed")):
+        return ""
+    return doubt(scene, {name: float(value) for name, value in drives.items() if not callable(value)})
 
 
 def listened(scene: Scene, radiation_model: str) -> Scene:

@@ -294,7 +294,7 @@ def _run_up(
     tell(f"running up: {words}")
     recording = record(
         scene, duration, speed=fall.ramp(*speeds, duration, SETTLE), settle=SETTLE, step=4.0 * STEP,
-        radiation_model=subject.radiation_model, progress=progress,
+        radiation_model=subject.radiation_model, progress=progress, warn=False,
     )  # fmt: skip
     return Subject(recording, subject.radiation_model, words, radius=subject.radius)
 

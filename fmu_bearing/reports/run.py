@@ -57,7 +57,7 @@ def observed(
         warnings.simplefilter("always")
         recording = record(
             scene, duration, speed=speed, settle=settle, step=STEP, radiation_model=radiation_model,
-            outputs=variables_of(scene), progress=progress, watch=watch,
+            outputs=variables_of(scene), progress=progress, watch=watch, warn=False,
         )  # fmt: skip
     recording.outputs.update(watch.outputs())
     return recording, list(dict.fromkeys(str(each.message) for each in caught))

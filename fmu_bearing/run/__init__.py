@@ -13,6 +13,7 @@
 ``arrays``        a bearing as flat arrays, for loops that read and restore the state
 ``metrics``       figures that compare runs, and the speed of a run
 ``choose``        fidelity ``auto``: the cheapest within the scene's accuracy, found by running it
+``doubts``        what natural motions say about fidelities rings and response, asked of `modal`
 ``simulate_fmu``  a run of an FMU, by FMPy
 ``simulate``      `simulate`: a run over given inputs
 ``bearing``       `Bearing`: to initialise and step by hand

@@ -9,6 +9,7 @@ from fmu_bearing.fmi.package import BuiltFmu, build, check_choice
 from fmu_bearing.prepare.model import Model, prepare
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.run.choose import resolve
+from fmu_bearing.run.doubts import doubt
 from fmu_bearing.scene import SceneSource, scene_of
 
 
@@ -26,6 +27,8 @@ def model_of(source: SceneSource, tell: Tell = silent) -> Model:
     resolved, choice = resolve(scene)
     if resolved.mounting is not None and not resolved.mounting.preload_N > 0.0:
         tell(f"caution: {loose(resolved.fidelity.model)}")
+    if doubted := doubt(resolved):
+        tell(f"caution: {doubted}")
     note = "" if choice is None else choice.summary
     if note:
         tell(note)

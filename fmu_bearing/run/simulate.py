@@ -47,6 +47,10 @@ def simulate(
     bit; FMPy runs an FMU. Inputs are set at the beginning of each step, as FMPy does; the speed then ramps to
     its value over the step. A run of more than an hour or 4 GB says so after its first second.
 
+    Whether a ring whirls by itself, where figures of fidelities rings and response are of an unstable point,
+    is not asked: it takes several times as long as a short run. `fmu-bearing simulate`, `record`,
+    `operating_point` with its verdicts, and `modes` say so.
+
     Parameters
     ----------
     source : Scene, Model or path

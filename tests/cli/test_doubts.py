@@ -1,0 +1,87 @@
+"""Where a ring whirls by itself, all that shows figures of fidelities rings and response says so."""
+
+import warnings
+
+import pytest
+
+from fmu_bearing import changes, compare, record
+from fmu_bearing.reports.subject import Subject
+from fmu_bearing.reports.summary import warnings_of
+from fmu_bearing.scene.read import with_fidelity
+
+WORDS = "fidelity rings: the ring whirls by itself, figures are of the unstable point, and only fidelity full"
+
+
+@pytest.fixture(scope="module")
+def whirling(example):
+    """The 7009C with steel balls at 18,000 r/min: its tilt grows by 395 1/s."""
+    return with_fidelity(example("7009C-steel").with_rigid_rings(), model="rings")
+
+
+@pytest.fixture(scope="module")
+def whirling_file(whirling, tmp_path_factory):
+    path = tmp_path_factory.mktemp("scene") / "whirling.toml"
+    path.write_text(whirling.to_toml(), "utf-8")
+    return path
+
+
+def test_simulate_says_so_beside_torque_too(run, whirling_file, tmp_path):
+    shown = run("simulate", whirling_file, "-t", "1e-3", "-v", "friction_torque", "-o", tmp_path / "a.csv")
+    assert WORDS in shown.stdout
+    data = run(
+        "simulate", whirling_file, "-t", "1e-3", "-v", "friction_torque", "-o", tmp_path / "b.csv", "--json"
+    ).data
+    assert data["doubt"].startswith(WORDS)
+    firm = run(
+        "simulate", whirling_file, "-t", "1e-3", "-v", "friction_torque", "-o", tmp_path / "c.csv",
+        "--set", "preload=3000", "--speed", "9000", "--json",
+    )  # fmt: skip
+    assert firm.data["doubt"] == ""
+
+
+def test_sound_and_compare_say_so(run, whirling_file, tmp_path):
+    quick = ("-t", "0.05", "--settle", "0.01")
+    heard = run("sound", whirling_file, *quick, "--no-wav", "--no-directivity", "--no-spread", "-o", tmp_path)
+    assert WORDS in heard.output and heard.output.count("whirls by itself") == 1
+    beside = run("compare", whirling_file, whirling_file, *quick)
+    assert f"A: {WORDS}" in beside.output and f"B: {WORDS}" in beside.output
+    assert beside.output.count("whirls by itself") == 2
+
+
+def test_compare_keeps_it(whirling):
+    found = compare(
+        whirling, with_fidelity(whirling, model="full"), duration=5e-3, settle=1e-3, progress=False
+    )
+    assert [line[:3] for line in found.doubts()] == ["A: "]
+    assert found.summary()["a"]["doubt"].startswith(WORDS) and found.summary()["b"]["doubt"] == ""
+    assert "whirls by itself" in found._repr_html_()
+
+
+def test_record_warns_once(whirling):
+    with pytest.warns(UserWarning, match="^fidelity rings: the ring whirls by itself") as caught:
+        record(whirling, 1e-3, settle=0.0, progress=False)
+    assert sum("whirls" in str(one.message) for one in caught) == 1
+    assert next(one for one in caught if "whirls" in str(one.message)).filename == __file__
+    for quiet in (
+        {"warn": False}, {"speed": 900.0, "inputs": {"preload": 3000.0}}, {"speed": lambda t: 1800.0 + t}
+    ):  # fmt: skip
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            record(whirling, 1e-3, settle=0.0, progress=False, **quiet)
+
+
+def test_changes_and_report_say_so(whirling):
+    found = changes(whirling, levels=False)
+    assert sum("Unchanged: the ring whirls by itself" in line for line in found.remarks()) == 1
+    # said once, not again for each change that whirls too
+    assert sum("whirls by itself" in line for line in found.remarks()) == 1
+    made = record(whirling, 0.01, settle=0.0, progress=False, warn=False, radiation_model="compact")
+    notes = warnings_of(Subject(made, "compact", "a run"))
+    assert sum(note.startswith("F" + WORDS[1:]) for note in notes) == 1
+
+
+def test_build_says_so(run, whirling, tmp_path):
+    path = tmp_path / "whirling.toml"
+    path.write_text(whirling.replace({"sound": None}).to_toml(), "utf-8")
+    built = run("build", path, "-o", tmp_path / "a.fmu", "--flavour", "python")
+    assert built.exit_code == 0 and f"caution: {WORDS}" in built.output.replace("\n", " ")

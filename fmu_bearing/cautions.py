@@ -96,6 +96,7 @@ _BACKWARD = Caution(  # of a set that carries one way: another has bearings for 
     " deg: the load pushes the shaft the way that nothing holds, where races have no shoulder, while loads "
     "and stiffness are those of a whole groove; turn a bearing, or reverse the load",
 )
+_FRICTIONLESS = 1e-6  # N m: below it a torque is rounding, of a bearing without friction
 _LOOSE = "preload = 0 N: no axial force holds balls and races together: loose balls skid or lift off; "
 _ROLLS = {
     "full": "what they then do depends on gravity, loads and chance more than on the bearing",
@@ -126,7 +127,8 @@ def _skids(model: Model, fidelity: str) -> tuple[Caution, ...]:
     """Return the warnings about balls that roll in a fidelity although traction cannot drive them.
 
     The traction of all inner contacts at the preload, at their distance from the axis, is the most torque
-    that rolling balls can take from the shaft: a bearing whose friction asks for more skids. Of a set loads
+    that rolling balls can take from the shaft: a bearing whose friction asks for more skids. The preload is
+    the scene's, as the text says: a warning has one threshold, and the input may change. Of a set loads
     depend on its statics: there the warnings come where there is no traction at all.
     """
     p = model.parameters
@@ -136,9 +138,10 @@ def _skids(model: Model, fidelity: str) -> tuple[Caution, ...]:
     most = float(p[P.MU] * along * arm)
     if fidelity == "full" or (most == 0.0 and p[P.MU] > 0.0):
         return ()
+    at = f" at the scene's preload, {model.inputs[U.PRELOAD]:g} N, in proportion at another" if most else ""
     before = (
         f"lubricant.traction_max = {p[P.MU]:g}: contacts carry {1e3 * most:.3g} N mm of friction torque at "
-        f"most, and balls that roll, as in fidelity {fidelity}, need "
+        f"most{at}, and balls that roll, as in fidelity {fidelity}, need "
     )
     after = (
         " N mm: in fidelity full they skid; cage speed, torque and the lines of cage and balls mean little "
@@ -146,7 +149,8 @@ def _skids(model: Model, fidelity: str) -> tuple[Caution, ...]:
     )
     spindle = model.scene.spindle
     place = first_output(model.scene, len(spindle.bearing)) + SP.Z_TORQUE if spindle else Z.TORQUE
-    return tuple(Caution(place, sign * most, 1e3, before, after, above=sign > 0.0) for sign in (1.0, -1.0))
+    limit = max(most, _FRICTIONLESS)
+    return tuple(Caution(place, sign * limit, 1e3, before, after, above=sign > 0.0) for sign in (1.0, -1.0))
 
 
 def _cautions_of_set(scene: Scene) -> tuple[Caution, ...]:

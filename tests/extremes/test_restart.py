@@ -207,5 +207,7 @@ def test_balls_that_traction_cannot_drive_are_named(name, traction, skids, backw
     assert len(told) == (1 if skids and fidelity != "full" else 0)
     for text in told:
         assert f"traction_max = {traction:g}: contacts carry" in text
+        # one threshold, of the scene's preload: the text says whose
+        assert ("at the scene's preload, " in text) == (traction > 0.0 and made.spindle is None)
         assert f"in fidelity {fidelity}, need" in text
         assert text.endswith("give more traction or preload, or fidelity full")

@@ -109,15 +109,3 @@ def example_file(tmp_path_factory):
 def silent(scene):
     """The 7003C in its spindle without microphones."""
     return scene("7003C-spindle").model_copy(update={"sound": None})
-
-
-@pytest.fixture(scope="session")
-def automatic(silent):
-    """Return the silent scene with fidelity auto and an accuracy."""
-
-    from fmu_bearing.scene.read import with_fidelity
-
-    def make(level_dB, relative):
-        return with_fidelity(silent, model="auto", accuracy={"level_dB": level_dB, "relative": relative})
-
-    return make

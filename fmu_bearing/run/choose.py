@@ -1,7 +1,9 @@
 """Fidelity ``auto``: the cheapest fidelity, method and step whose measured error meets the required accuracy.
 
 A scene is probed once, when its model is built. Every candidate, and fidelity ``full`` with the settings of
-``FINEST``, runs at the scene's speed, loads and temperatures. A candidate is accurate where
+``FINEST``, runs at the scene's loads and temperatures under each of `conditions`: at the scene's speed, at
+half of it or at its ``operation.lowest_speed_rpm``, and while the speed rises to the scene's. A candidate is
+accurate where in each of them
 
 * the rms velocity of each ring, of all bearings, in dB, and with sound the A-weighted equivalent level at
   each microphone differ by no more than ``fidelity.accuracy.level_dB``;
@@ -10,9 +12,9 @@ A scene is probed once, when its model is built. Every candidate, and fidelity `
 
 ``CANDIDATES`` are in the order of their usual cost. The first accurate one is taken, unless another is faster
 by the factor ``CLEARLY``, so that noise of the clock does not change the choice. Tolerance and largest step
-of the scene are upper bounds. ``FINEST`` is last and is accurate by definition. Only the scene's own speed
-and loads are probed, and nothing is decided at run time. Where the rings bend, candidates with rigid rings
-are left out.
+of the scene are upper bounds. ``FINEST`` is last and is accurate by definition. Nothing is decided at run
+time. Where the rings bend, candidates with rigid rings are left out; so are fidelities rings and response
+where a mode of the rings grows by itself or is weakly damped, which so short a window does not show.
 """
 
 import dataclasses
@@ -23,11 +25,13 @@ import pathlib
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.sources import source_hash
 from fmu_bearing.files import cache_root, write_whole
 from fmu_bearing.prepare.sound import sound_blocks
 from fmu_bearing.run.arrays import Refused
-from fmu_bearing.run.metrics import Errors, errors, measure
+from fmu_bearing.run.doubts import reason_against
+from fmu_bearing.run.metrics import SILENT, SILENT_RAMP, Errors, Figures, errors, measure, measure_between
 from fmu_bearing.run.settings import Setting
 from fmu_bearing.run.table import number
 from fmu_bearing.scene import Scene
@@ -37,6 +41,10 @@ WARM_UP = 0.03  # s
 WINDOW = 0.06  # s: twenty turns at 20,000 r/min
 BUDGET = 0.15  # s of each of two timed runs
 CLEARLY = 1.5
+#: 1/s: by this share of its own the speed rises in a second. A motor spindle takes longer to full speed, and
+#: a drive that does it in a tenth accelerates the balls by friction, 10 % of the torque of the 7003C.
+RATE = 1.0
+NOT_PROBED = "other loads, preloads and temperatures, jumps of inputs, faster changes of speed"
 
 
 def bounded(setting: Setting, scene: Scene) -> Scene:
@@ -58,41 +66,97 @@ CANDIDATES = (
 )
 FINEST = Setting("full", "esdirk4", 1e-5, 2e-6)
 
+_LEFT_OUT = "left out: "
+
 COLUMNS = (
-    "fidelity", "method", "tolerance", "max step, us", "ring level, dB", "dB(A)", "load", "torque", "sim/CPU",
-    "verdict",
+    "fidelity", "method", "tolerance", "max step, us", "at", "ring level, dB", "dB(A)", "load",
+    "torque", "sim/CPU", "verdict",
 )  # fmt: skip
 
 
 @dataclass(frozen=True)
-class Probe:
-    """Result of one candidate; ``errors`` is None, with a ``reason``, where it could not run.
+class Condition:
+    """What candidates are compared under: speed (rad/s) at the beginning and at the end of a window (s)."""
 
-    ``tolerance`` and ``max_step`` (s) are those it ran with; ``pace``: simulated s per CPU s, without sound.
+    first: float
+    last: float
+    window: float
+
+    @property
+    def name(self) -> str:
+        """Speed, or speeds and the time between them."""
+        last = f"{self.last / RPM:,.0f} r/min"
+        if self.first == self.last:
+            return last
+        return f"{self.first / RPM:,.0f} to {last} in {1e3 * self.window:g} ms"
+
+
+def conditions(scene: Scene, window: float = WINDOW) -> tuple[Condition, ...]:
+    """Return the scene's own speed, a second one, and a rise to the first; at standstill the first alone."""
+    own = scene.operation.speed_rpm * RPM
+    if own == 0.0:
+        return (Condition(own, own, window),)
+    lowest = (scene.operation.lowest_speed_rpm or 0.0) * RPM
+    second = 0.5 * own if lowest in (0.0, abs(own)) else math.copysign(lowest, own)
+    pairs = (own, own), (second, second), ((1.0 - RATE * window) * own, own)
+    return tuple(Condition(first, last, window) for first, last in pairs)
+
+
+@dataclass(frozen=True)
+class Probe:
+    """Result of one candidate.
+
+    Attributes
+    ----------
+    fidelity, method : str
+    tolerance, max_step : float
+        With which it ran; the step in s.
+    errors : tuple of Errors
+        Under each condition, up to where it was refused; none where it was left out.
+    pace : float
+        Simulated s per CPU s at the scene's speed, without sound.
+    reasons : tuple of str
+        Why it is not accurate, by condition; empty: it is. One alone where it was left out.
     """
 
     fidelity: str
     method: str
     tolerance: float
     max_step: float
-    errors: Errors | None
+    errors: tuple[Errors, ...]
     pace: float
-    reason: str = ""
+    reasons: tuple[str, ...] = ("",)
 
     @property
     def name(self) -> str:
         """Fidelity, and for full the method."""
         return f"{self.fidelity} / {self.method}" if self.fidelity == "full" else self.fidelity
 
-    def cells(self) -> list[str]:
-        """Texts in the order of ``COLUMNS``."""
-        e = self.errors
-        found = [""] * 4 if e is None else [number(x) for x in (e.ring_level, e.level, e.load, e.torque)]
+    @property
+    def reason(self) -> str:
+        """Why it is not accurate, first of the conditions; empty: it is under all."""
+        return next((one for one in self.reasons if one), "")
+
+    @property
+    def worst(self) -> Errors | None:
+        """The largest error of each figure under all conditions; None where nothing was measured."""
+        if not self.errors:
+            return None
+        names = [field.name for field in dataclasses.fields(Errors)]
+        return Errors(**{name: max(getattr(one, name) for one in self.errors) for name in names})
+
+    def cells(self, at: Sequence[str]) -> list[list[str]]:
+        """Texts in the order of ``COLUMNS``, a row for each of the conditions of these names."""
         method = self.method if self.fidelity == "full" else ""
-        return [
-            self.fidelity, method, f"{self.tolerance:g}", f"{1e6 * self.max_step:g}", *found,
-            number(self.pace), self.reason or "accurate",
-        ]  # fmt: skip
+        head = [self.fidelity, method, f"{self.tolerance:g}", f"{1e6 * self.max_step:g}"]
+        rows = []
+        for k, reason in enumerate(self.reasons):
+            e = self.errors[k] if k < len(self.errors) else None
+            found = [""] * 4 if e is None else [number(x) for x in (e.ring_level, e.level, e.load, e.torque)]
+            where = at[k] if self.errors or len(self.reasons) > 1 else "all"
+            pace = number(self.pace) if k == 0 else ""
+            rows.append([*head, where, *found, pace, reason or "accurate"])
+        return rows
 
 
 @dataclass(frozen=True)
@@ -109,6 +173,10 @@ class Choice:
         In the order of ``CANDIDATES``, ``FINEST`` last.
     chosen : int
         Place of the chosen one among them.
+    probed : tuple of str
+        Names of the conditions, the scene's own speed first.
+    missing : str
+        Which conditions were not probed, and why; empty: all were.
     """
 
     scene: str
@@ -116,6 +184,8 @@ class Choice:
     relative: float
     probes: tuple[Probe, ...]
     chosen: int
+    probed: tuple[str, ...] = ("",)
+    missing: str = ""
 
     @property
     def probe(self) -> Probe:
@@ -129,24 +199,46 @@ class Choice:
 
     @property
     def summary(self) -> str:
-        """One line: which, and why."""
+        """One line: which, why, under which conditions, and what was not probed."""
         p, asked = self.probe, f"{self.level_dB:g} dB and {self.relative:g} of loads and torque"
         how = f"{p.name}, internal steps up to {1e6 * p.max_step:g} us, tolerance {p.tolerance:g}"
-        if self.chosen == len(self.probes) - 1 or p.errors is None:
-            return f"fidelity auto: {how}: nothing cheaper is within {asked} of fidelity full"
-        e = p.errors
-        sound = "" if math.isnan(e.level) else f", {number(e.level)} dB(A) at the worst microphone"
-        return (
-            f"fidelity auto: {how}: the cheapest within {asked} of fidelity full; measured "
-            f"{number(e.ring_level)} dB of ring velocity{sound}, {number(e.load)} of the contact load, "
-            f"{number(e.torque)} of the friction torque"
-        )
+        e = p.worst
+        if self.chosen == len(self.probes) - 1 or e is None:
+            why = f"nothing cheaper is within {asked} of fidelity full"
+        else:
+            sound = "" if math.isnan(e.level) else f", {number(e.level)} dB(A) at the worst microphone"
+            why = (
+                f"the cheapest within {asked} of fidelity full; measured at most "
+                f"{number(e.ring_level)} dB of ring velocity{sound}, {number(e.load)} of the contact load, "
+                f"{number(e.torque)} of the friction torque"
+            )
+        return f"fidelity auto: {how}: {why}{self._left_out()}; {self.conditions}"
+
+    @property
+    def conditions(self) -> str:
+        """What was probed, and what was not."""
+        *others, last = self.probed
+        names = f"{', '.join(others)} and {last}" if others else last
+        missing = f"{self.missing}; " if self.missing else ""
+        return f"probed at {names}; not probed: {missing}{NOT_PROBED}"
+
+    def _left_out(self) -> str:
+        """Which fidelities were no candidates, and why."""
+        out = {one.fidelity: one.reason for one in self.probes if one.reason.startswith(_LEFT_OUT)}
+        if not out:
+            return ""
+        reason = next(iter(out.values())).removeprefix(_LEFT_OUT)
+        return f"; {' and '.join(out)} left out: {reason}"
 
     def cells(self) -> list[list[str]]:
-        """Table of all candidates, the chosen one marked."""
-        rows = [probe.cells() for probe in self.probes]
-        rows[self.chosen][-1] += ", chosen"
-        return rows
+        """Table of all candidates, a row for each condition, the chosen one marked."""
+        found = []
+        for k, probe in enumerate(self.probes):
+            rows = probe.cells(self.probed)
+            if k == self.chosen:
+                rows[0][-1] += ", chosen"
+            found += rows
+        return found
 
 
 def too_far(found: Errors, scene: Scene) -> str:
@@ -178,28 +270,62 @@ def choose(
     """
     sounds = sound_blocks(scene)
     candidates = [c for c in candidates if c.carries(scene)]
+    planned = conditions(scene, window)
+    against = _against(scene, planned)
     finest = bounded(FINEST, scene)
-    truth = measure(finest, sounds, warm_up, window, budget=budget)
+    first = measure(finest, sounds, warm_up, window, budget=budget)
+    truth: dict[Condition, Figures] = {planned[0]: first.figures}
+    missing = "" if len(planned) > 1 else "another speed and a rise of speed, as the shaft stands still"
+    for one in planned[1:]:
+        try:
+            truth[one] = measure_between(finest, sounds, warm_up, window, one.first, one.last)
+        except Refused as problem:
+            missing += (
+                f"{'; ' if missing else ''}{one.name}, where fidelity full is refused ({problem})"
+            )
     probes = []
     # bounds of the scene may make two candidates one
     variants = {(made := bounded(candidate, scene)).fidelity: made for candidate in candidates}
     for fidelity, variant in variants.items():
-        found, pace = None, math.nan
-        try:
-            run = measure(variant, sounds, warm_up, window, budget=budget)
-            found, pace = errors(run.figures, truth.figures), run.cpu
-            reason = too_far(found, scene)
-        except Refused as problem:
-            reason = f"refused: {problem}"
+        found, pace, reasons = list[Errors](), math.nan, list[str]()
+        if against and fidelity.model != "full":
+            reasons.append(f"{_LEFT_OUT}{against}")
+        else:
+            try:
+                run = measure(variant, sounds, warm_up, window, budget=budget)
+                pace = run.cpu
+                for one, true in truth.items():
+                    figures = run.figures
+                    if one is not planned[0]:
+                        figures = measure_between(variant, sounds, warm_up, window, one.first, one.last)
+                    silent = SILENT if one.first == one.last else SILENT_RAMP
+                    found.append(errors(figures, true, silent))
+                    reasons.append(too_far(found[-1], scene))
+            except Refused as problem:
+                reasons.append(f"refused: {problem}")
         probes.append(
             Probe(fidelity.model, fidelity.method, fidelity.tolerance, 1e-6 * fidelity.max_internal_step_us,
-                  found, pace, reason)
+                  tuple(found), pace, tuple(reasons))
         )  # fmt: skip
     f = finest.fidelity
-    none = errors(truth.figures, truth.figures)
-    probes.append(Probe(f.model, f.method, f.tolerance, 1e-6 * f.max_internal_step_us, none, truth.cpu))
+    none = tuple(errors(true, true) for true in truth.values())
+    probes.append(
+        Probe(f.model, f.method, f.tolerance, 1e-6 * f.max_internal_step_us, none, first.cpu,
+              ("",) * len(none))
+    )  # fmt: skip
     accuracy = scene.fidelity.accuracy
-    return Choice(scene.name, accuracy.level_dB, accuracy.relative, tuple(probes), _cheapest(probes))
+    return Choice(
+        scene.name, accuracy.level_dB, accuracy.relative, tuple(probes), _cheapest(probes),
+        tuple(one.name for one in truth), missing,
+    )  # fmt: skip
+
+
+def _against(scene: Scene, planned: Sequence[Condition]) -> str:
+    """Return why fidelities rings and response are no candidates at one of the speeds; "": they are."""
+    for one in planned:
+        if one.first == one.last and (reason := reason_against(scene, one.last)):
+            return reason if one is planned[0] else f"at {one.name} {reason}"
+    return ""
 
 
 def _cheapest(probes: list[Probe]) -> int:
@@ -214,7 +340,7 @@ def _cheapest(probes: list[Probe]) -> int:
 
 def cache_file(scene: Scene) -> pathlib.Path:
     """Cache file of a scene's choice, named by a hash of scene, engine and candidates."""
-    way = repr((CANDIDATES, FINEST, WARM_UP, WINDOW, CLEARLY))
+    way = repr((CANDIDATES, FINEST, WARM_UP, WINDOW, CLEARLY, RATE))
     key = hashlib.sha256("\0".join((scene.to_toml(), source_hash(), way)).encode()).hexdigest()
     return cache_root() / "choices" / f"{key}.json"
 
@@ -243,10 +369,13 @@ def _from_text(text: str) -> Choice:
     """Read a choice back; ``ValueError``, ``TypeError`` or ``KeyError`` where it is damaged."""
     data = json.loads(text)
     probes = tuple(
-        Probe(**probe | {"errors": None if probe["errors"] is None else Errors(**probe["errors"])})
+        Probe(
+            **probe
+            | {"errors": tuple(Errors(**one) for one in probe["errors"]), "reasons": tuple(probe["reasons"])}
+        )
         for probe in data["probes"]
     )
-    choice = Choice(**data | {"probes": probes})
+    choice = Choice(**data | {"probes": probes, "probed": tuple(data["probed"])})
     if not 0 <= choice.chosen < len(probes) or choice.probe.reason:
         raise ValueError("the choice is none of the probes")
     return choice

@@ -14,12 +14,13 @@ def doubt(scene: Scene) -> str:
     return weak.doubt(scene)
 
 
-def reason_against(scene: Scene) -> str:
-    """Return why fidelities rings and response are no candidates at a scene's operating point; "": they are.
+def reason_against(scene: Scene, speed: float) -> str:
+    """Return why fidelities rings and response are no candidates at a speed (rad/s); "": they are.
 
     A mode of the rings grows by itself or is weakly damped, or no steady state was found: what a window of
     some hundredths of a second shows then means little.
     """
     from fmu_bearing.modal import weak
 
-    return "no steady state was found" if weak.unsteady(scene) else weak.weakness(scene)
+    at = {"shaft_speed": speed}
+    return "no steady state was found" if weak.unsteady(scene, at) else weak.weakness(scene, at)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.engine.layout import SP, P, Z
+from fmu_bearing.engine.layout import SP, P, U, Z
 from fmu_bearing.run.arrays import Arrays
 from fmu_bearing.scene import Scene
 
@@ -16,6 +16,8 @@ SAMPLE = 1e-4  # s between the points at which velocities, loads and torque are 
 COMMUNICATION = 1e-3  # s, of what is timed or only passed through
 #: A perfect bearing's rings move by no more (m/s): below it, relative errors of velocity mean nothing.
 SILENT = 2e-7
+#: While its speed changes they move by 2.2e-7 m/s (pair of 7003C, from rest in 1 s): five times `SILENT`.
+SILENT_RAMP = 1e-6
 #: dB(A); differences between inaudible sounds are not counted.
 INAUDIBLE = 0.0
 
@@ -77,13 +79,13 @@ def ring_rms(rows: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.sqrt([squares[:3].sum(), squares[3:].sum()])
 
 
-def errors(found: Figures, truth: Figures) -> Errors:
+def errors(found: Figures, truth: Figures, silent: float = SILENT) -> Errors:
     """Differences of ``found`` from ``truth``.
 
-    Ring velocities count from ``SILENT`` on, sound levels from ``INAUDIBLE`` on.
+    Ring velocities count from ``silent`` (m/s) on, sound levels from ``INAUDIBLE`` on.
     """
     rms = [
-        max(value, SILENT) / max(true, SILENT)
+        max(value, silent) / max(true, silent)
         for value, true in zip(found.ring_rms, truth.ring_rms, strict=True)
     ]
     sound = [
@@ -154,22 +156,56 @@ def measure(
     bearing.init()
     bearing.run(warm_up, COMMUNICATION)
     wall, cpu = speed(bearing, budget, 2, 1.0) if budget else (math.nan, math.nan)
+    z = _read(bearing, window)
+    levels = _levels(scene, blocks, warm_up, window, parameters) if blocks and blocks[0].size else ()
+    return Measured(_figures(z, levels), np.hstack([rows[:, :6] for rows in z]), wall, cpu)
+
+
+def measure_between(
+    scene: Scene, sound: Sequence[NDArray[np.float64]], warm_up: float, window: float, first: float,
+    last: float,
+) -> Figures:  # fmt: skip
+    """Run a scene at another speed, or while its speed changes, and read its figures over ``window`` (s).
+
+    From the quasi-static state at the speed ``first`` (rad/s) for ``warm_up`` (s); over the window the speed
+    changes evenly to ``last``. Other inputs and the waves of the races are the scene's. Arguments else, and
+    refusals, as for `measure`, whose second run this saves.
+    """
+    blocks = [one for one in sound if one.size]
+    bearing = _arrays(scene, blocks, {"METERING_START": warm_up})
+    bearing.u[U.SPEED] = first
+    bearing.init()
+    bearing.run(warm_up, COMMUNICATION)
+    z = _read(bearing, window, first, last)
+    return _figures(z, _meters(bearing) if blocks else ())
+
+
+def _read(
+    bearing: Arrays, window: float, first: float | None = None, last: float = 0.0
+) -> NDArray[np.float64]:
+    """Return the outputs of each bearing every ``SAMPLE``; from ``first`` to ``last`` (rad/s) if given."""
     places = _places(bearing)
     z = np.empty((len(places), round(window / SAMPLE), len(Z.BEARING_OUTPUTS)))
     for k in range(z.shape[1]):
+        if first is not None:
+            bearing.u[U.SPEED] = first + (last - first) * (k + 1) / z.shape[1]
         bearing.step(SAMPLE)
         for rows, place in zip(z, places, strict=True):
             rows[k] = bearing.z[place : place + rows.shape[1]]
+    return z
+
+
+def _figures(z: NDArray[np.float64], levels: tuple[float, ...]) -> Figures:
+    """Return the figures of outputs over time, shape (bearings, times, outputs)."""
     mean = z.mean(1)
-    figures = Figures(
+    return Figures(
         tuple(float(one) for rows in z for one in ring_rms(rows[:, :6])),
         tuple(float(row[place]) for row in mean for place in _LOAD),
         tuple(float(row[place]) for row in mean for place in _ANGLE),
         float(mean[:, _TORQUE].sum()),
         float(mean[0, _CAGE]),
-        _levels(scene, blocks, warm_up, window, parameters) if blocks and blocks[0].size else (),
+        levels,
     )
-    return Measured(figures, np.hstack([rows[:, :6] for rows in z]), wall, cpu)
 
 
 def _arrays(scene: Scene, blocks: list[NDArray[np.float64]], parameters: dict[str, float]) -> Arrays:
@@ -196,6 +232,11 @@ def _levels(
     bearing = _arrays(scene, blocks, {**parameters, "METERING_START": warm_up})
     bearing.init()
     bearing.run(warm_up + window, COMMUNICATION)
+    return _meters(bearing)
+
+
+def _meters(bearing: Arrays) -> tuple[float, ...]:
+    """A-weighted equivalent levels (dB) that the meters show."""
     p = bearing.p
     first = Z.mics(int(p[P.BALLS]))
     if p[P.SET] != 0.0:

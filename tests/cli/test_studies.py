@@ -16,7 +16,7 @@ from tests.conftest import GATES
 def auto_file(scene, tmp_path, monkeypatch):
     """A scene of fidelity auto whose choice is given, not probed."""
     found = with_fidelity(scene("7003C-spindle").model_copy(update={"sound": None}), model="auto")
-    probe = Probe("full", "esdirk4", 1e-4, 1e-5, Errors(0.0, 0.0, 0.0, 0.0, math.nan), 1.0)
+    probe = Probe("full", "esdirk4", 1e-4, 1e-5, (Errors(0.0, 0.0, 0.0, 0.0, math.nan),), 1.0)
     choice = Choice(found.name, 1.0, 0.1, (probe, probe), 0)
     monkeypatch.setattr(choosing, "chosen", lambda scene: choice)
     path = tmp_path / "auto.toml"

@@ -248,9 +248,10 @@ def test_auto_measures_all_bearings_of_a_set():
         simulate(with_fidelity(given, model="response"), 1e-3, step=1e-3)["friction_torque"][-1], rel=1e-2
     )
     response, rings, _, truth = found.probes
-    assert max(response.errors.ring_level, rings.errors.ring_level) < 1.0
-    assert 0.0 < rings.errors.level < 1.0
-    assert truth.errors.ring_level == 0.0
+    assert max(response.worst.ring_level, rings.worst.ring_level) < 1.0
+    assert 0.0 < rings.worst.level < 1.0
+    assert truth.worst.ring_level == 0.0
+    assert found.probed == ("20,000 r/min", "10,000 r/min", "19,600 to 20,000 r/min in 20 ms")
     assert found.apply(given).fidelity.model == found.probe.fidelity
 
 

@@ -35,7 +35,8 @@ def choose(scene: SceneFile, catalogue: Catalogues = None, as_json: Json = False
     if as_json:
         print_json({"chosen": choice.summary, "candidates": named(choosing.COLUMNS, choice.cells())})
     else:
-        show(f"{choice.scene}: errors against fidelity full", choosing.COLUMNS, choice.cells())
+        where = " / ".join(choice.probed)
+        show(f"{choice.scene}: errors against fidelity full at {where}", choosing.SHORT, choice.table())
         typer.echo(choice.summary)
 
 

@@ -74,6 +74,10 @@ COLUMNS = (
 )  # fmt: skip
 
 
+#: The columns of a table with one row for each candidate, and the errors under all conditions in a cell.
+SHORT = tuple(name for name in COLUMNS if name != "at")
+
+
 @dataclass(frozen=True)
 class Condition:
     """What candidates are compared under: speed (rad/s) at the beginning and at the end of a window (s)."""
@@ -230,8 +234,26 @@ class Choice:
         reason = next(iter(out.values())).removeprefix(_LEFT_OUT)
         return f"; {' and '.join(out)} left out: {reason}"
 
+    def table(self) -> list[list[str]]:
+        """Table in the order of ``SHORT``: a row for each candidate, errors in the order of ``probed``."""
+        at, pace = COLUMNS.index("at"), COLUMNS.index("sim/CPU")
+        found = []
+        for k, probe in enumerate(self.probes):
+            rows = probe.cells(self.probed)
+            errors = [" / ".join(row[c] for row in rows) if rows[0][c] else "" for c in range(at + 1, pace)]
+            reasons = [
+                reason if reason.startswith(_LEFT_OUT) else f"{reason} at {where}"
+                for reason, where in zip(probe.reasons, self.probed, strict=False)
+                if reason
+            ]
+            verdict = "; ".join(reasons) or "accurate"
+            found.append(
+                [*rows[0][:at], *errors, rows[0][pace], verdict + (", chosen" if k == self.chosen else "")]
+            )
+        return found
+
     def cells(self) -> list[list[str]]:
-        """Table of all candidates, a row for each condition, the chosen one marked."""
+        """Table in the order of ``COLUMNS``: a row for each candidate and condition, the chosen marked."""
         found = []
         for k, probe in enumerate(self.probes):
             rows = probe.cells(self.probed)
@@ -280,9 +302,7 @@ def choose(
         try:
             truth[one] = measure_between(finest, sounds, warm_up, window, one.first, one.last)
         except Refused as problem:
-            missing += (
-                f"{'; ' if missing else ''}{one.name}, where fidelity full is refused ({problem})"
-            )
+            missing += f"{'; ' if missing else ''}{one.name}, where fidelity full is refused ({problem})"
     probes = []
     # bounds of the scene may make two candidates one
     variants = {(made := bounded(candidate, scene)).fidelity: made for candidate in candidates}

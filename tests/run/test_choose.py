@@ -98,6 +98,11 @@ def test_the_table_has_a_row_for_each_condition(between):
     assert [row["fidelity"] for row in rows[:6]] == ["response"] * 3 + ["rings"] * 3
     assert [row["verdict"] for row in rows[3:6]] == ["accurate, chosen", "accurate", "accurate"]
     assert all(row["torque"] and row["ring level, dB"] for row in rows)
+    short = [dict(zip(choosing.SHORT, row, strict=True)) for row in between.table()]
+    assert [row["fidelity"] for row in short] == [probe.fidelity for probe in between.probes]
+    assert short[1]["torque"] == " / ".join(row["torque"] for row in rows[3:6])
+    assert short[0]["verdict"].startswith("too far: ring velocity at 20,000 r/min; too far: ring velocity at")
+    assert [row["verdict"] for row in short[1:]] == ["accurate, chosen", "accurate", "accurate"]
 
 
 def rpm(condition):
@@ -134,6 +139,7 @@ def test_a_bearing_that_whirls_by_itself_takes_full(automatic, example):
         assert probe.errors == () and probe.worst is None and math.isnan(probe.pace)
         assert probe.reason.startswith("left out: the ring whirls by itself at ")
     assert "; response and rings left out: the ring whirls by itself at 1312 Hz" in found.summary
+    assert found.table()[0][-1] == found.probes[0].reason and found.table()[0][4] == ""
     rows = found.cells()
     assert len(rows) == 2 + 3 + 3 and rows[0][4] == "all" and rows[2][-1] == "accurate, chosen"
     lowest = wide.replace({"operation.speed_rpm": 9000.0, "operation.lowest_speed_rpm": 18000.0})

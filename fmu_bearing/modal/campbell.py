@@ -14,7 +14,7 @@ from scipy.optimize import linear_sum_assignment
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.modal.conditions import given
 from fmu_bearing.modal.lines import Line, Rates, lines, rates, unbalance
-from fmu_bearing.modal.modes import MARGIN, MOVES, Mode, Modes
+from fmu_bearing.modal.modes import MARGIN, MOVES, Mode, Modes, self_excited
 from fmu_bearing.modal.picture import campbell_picture
 from fmu_bearing.modal.points import at_point
 from fmu_bearing.modal.remarks import UNSTEADY
@@ -203,10 +203,24 @@ class Campbell:
                     f"instability margin: '{branch.label}' {word} at {branch.rpm[least]:,.0f} r/min "
                     f"({branch.frequency[least]:.0f} Hz, damping ratio {branch.damping[least]:.4f})"
                 )
+        found += self._unseen()
         found += [
             f"{point.rpm:,.0f} r/min: {UNSTEADY}" for point in self.points if not point.linearised.steady
         ]
         return found + [f"{rpm:,.0f} r/min is left out: {why}" for rpm, why in self.skipped]
+
+    def _unseen(self) -> list[str]:
+        """Return the fastest whirl that no branch shows, because balls have most of its energy."""
+        grown = [(point.rpm, self_excited(point)) for point in self.points if point.linearised.steady]
+        rings = [(rpm, mode) for rpm, mode in grown if mode is not None and not is_of_rings(mode)]
+        if not rings:
+            return []
+        rpm, mode = max(rings, key=lambda one: one[1].growth)
+        body = "ring" if self.points[0].scene.spindle is None else "set"
+        return [
+            f"instability: the {body} whirls by itself at {rpm:,.0f} r/min ({mode.frequency:.0f} Hz, growth "
+            f"{mode.growth:.0f} 1/s); balls have most of its energy, and no branch shows it"
+        ]
 
     def picture(self) -> "Figure":
         """Draw the Campbell diagram as a Matplotlib figure; needs the extra ``plots``.

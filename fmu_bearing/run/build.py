@@ -14,7 +14,9 @@ from fmu_bearing.scene import SceneSource, scene_of
 
 
 def model_of(source: SceneSource, tell: Tell = silent) -> Model:
-    """Return the model of a scene. Fidelity ``auto`` is resolved, and the choice is noted in the model.
+    """Return the model of a scene. Fidelity ``auto`` is resolved; the choice is noted in the model.
+
+    So is why figures of fidelities rings and response are in doubt: an FMU cannot say it at run time.
 
     Raises
     ------
@@ -27,12 +29,14 @@ def model_of(source: SceneSource, tell: Tell = silent) -> Model:
     resolved, choice = resolve(scene)
     if resolved.mounting is not None and not resolved.mounting.preload_N > 0.0:
         tell(f"caution: {loose(resolved.fidelity.model)}")
+    notes = []
     if doubted := doubt(resolved):
         tell(f"caution: {doubted}")
-    note = "" if choice is None else choice.summary
-    if note:
-        tell(note)
-    return prepare(resolved, note=note)
+        notes.append(f"{doubted[0].upper()}{doubted[1:]}")
+    if choice is not None:
+        tell(choice.summary)
+        notes.append(choice.summary)
+    return prepare(resolved, note=". ".join(notes))
 
 
 def build_fmu(

@@ -8,10 +8,11 @@ from fmu_bearing.scene import Scene
 
 
 def doubt(scene: Scene) -> str:
-    """Return what `modal.weak.doubt` does."""
+    """Return what `modal.weak.doubt` does; of a scene without sound nothing about its levels."""
     from fmu_bearing.modal import weak
 
-    return weak.doubt(scene)
+    found = weak.doubt(scene)
+    return "" if scene.sound is None and weak.is_of_levels(found) else found
 
 
 def reason_against(scene: Scene, speed: float) -> str:

@@ -1,6 +1,7 @@
 """Where a ring whirls by itself, all that shows figures of fidelities rings and response says so."""
 
 import warnings
+import zipfile
 
 import pytest
 
@@ -85,3 +86,5 @@ def test_build_says_so(run, whirling, tmp_path):
     path.write_text(whirling.replace({"sound": None}).to_toml(), "utf-8")
     built = run("build", path, "-o", tmp_path / "a.fmu", "--flavour", "python")
     assert built.exit_code == 0 and f"caution: {WORDS}" in built.output.replace("\n", " ")
+    with zipfile.ZipFile(tmp_path / "a.fmu") as fmu:
+        assert f"F{WORDS[1:]}" in fmu.read("documentation/index.html").decode()

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from fmu_bearing import modes, operating_point, read_scene, verdicts
+from fmu_bearing import campbell, modes, operating_point, read_scene, verdicts
 from fmu_bearing.design.set_points import operating_points
 from fmu_bearing.engine.layout import Q, S, Y
 from fmu_bearing.modal.modes import self_excited
@@ -97,6 +97,15 @@ def test_where_no_steady_state_was_found_nothing_is_judged():
     (verdict,) = [one for one in verdicts(point) if one.key == "whirl"]
     assert verdict.judgement == "not judged" and verdict.source == UNSTEADY
     assert doubt(scene) == f"fidelity rings: {UNSTEADY}" and whirl(scene) == ""
+
+
+def test_a_campbell_diagram_says_what_it_does_not_draw():
+    """At 14,000 and 20,000 r/min balls have most of the energy of the whirl; branches are those of rings."""
+    found = campbell(scene_at("NSK-7008AC", 20000, 150, support=None), [8e3, 14e3, 20e3])
+    (line,) = [line for line in found.cautions() if "no branch shows it" in line]
+    assert line.startswith("instability: the ring whirls by itself at 20,000 r/min (860 Hz, growth 788 1/s)")
+    calm = campbell(scene_at("NSK-7008AC", 20000, 800), [8e3, 14e3, 20e3])
+    assert not any("whirls" in line for line in calm.cautions())
 
 
 def test_inputs_count():

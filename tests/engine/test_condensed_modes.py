@@ -83,7 +83,8 @@ def damping_ratios(scene):
     """Frequency (Hz), damping ratio in `full` and in `response`: rows by whirl, of every mode of the rings.
 
     From 300 Hz to 30 kHz, where the balls begin to swing along the contacts, which is left to `full`. A mode
-    of `response` is that of the most similar shape near by.
+    of `response` is that of the most similar shape near by. Without the outer ring's rotation about its axis,
+    on which no ball acts in the condensed equations.
     """
     full = motions_of_full(scene)
     found = linearised(scene.with_rigid_rings())
@@ -93,6 +94,8 @@ def damping_ratios(scene):
     for pole, shape, share in zip(full.poles, full.shapes.T, full.shares, strict=True):
         frequency = pole.imag / (2 * np.pi)
         if not 300.0 < frequency < 30_000.0 or share < 0.05 or -pole.real > 0.5 * abs(pole):
+            continue
+        if np.abs(shape[L.TURN]) ** 2 > 0.9 * (np.abs(shape) ** 2).sum():
             continue
         alike = np.abs(shape.conj() @ fast.shapes) ** 2 / (np.abs(fast.shapes) ** 2).sum(0)
         near = np.exp(-((np.log(np.maximum(fast.poles.imag, 1e-9) / pole.imag) / 0.1) ** 2))
@@ -109,18 +112,28 @@ def with_damping(scene, microseconds):
     return scene.replace({"bearing.contact_damping_us": microseconds})
 
 
-def damped_as_full(scene):
-    """Ratios of single motions and means of both whirls within 5 %, or 5e-4; each whirl within 30 %.
+SWINGING = 0.12  # damping ratio beyond which heavy balls swing across their tracks and take rings along
 
-    Both whirls are damped alike here; in `full` the bare tilt's at 20,000 r/min differ by 22 %.
+
+def damped_as_full(scene, swinging=0.05):
+    """Ratios of single motions and means of both whirls within 5 %, each whirl within 12 %, or 5e-4.
+
+    Found: 0.1 %, as each whirl is given the complex frequency that it has in `full`, but for 7 % at 22.7 kHz
+    (impact). ``swinging``: of motions beyond SWINGING, of which no more are corrected than the rings have
+    coordinates.
     """
     rows = damping_ratios(scene)
     assert len(rows[1]) == len(rows[-1]) >= 2
-    means = np.concatenate([rows[0], 0.5 * (rows[1] + rows[-1])])
-    each = np.concatenate([rows[1], rows[-1]])
-    for found, share in ((means, 0.05), (each, 0.3)):
+    # both whirls of a mode side by side, those of swinging balls apart
+    forward, backward = (found[np.lexsort((found[:, 0], found[:, 1] > 0.3))] for found in (rows[1], rows[-1]))
+    decaying = np.minimum(forward[:, 1], backward[:, 1]) > -5e-4
+    means = np.concatenate([rows[0], 0.5 * (forward + backward)[decaying]])
+    each = np.concatenate([forward[decaying], backward])
+    for found, share in ((means, 0.05), (each, 0.12)):
         off = np.abs(found[:, 2] - found[:, 1])
-        assert np.all(off <= np.maximum(share * np.abs(found[:, 1]), 5e-4)), found
+        shares = np.where(found[:, 1] < SWINGING, share, max(share, swinging))
+        assert np.all(off <= np.maximum(shares * np.abs(found[:, 1]), 5e-4)), found
+    assert np.all(forward[:, 2] > 0.0)
 
 
 @pytest.mark.parametrize(
@@ -150,16 +163,48 @@ def test_modes_are_damped_as_in_full(example, name, damping):
     damped_as_full(with_damping(example(name), damping))
 
 
+CASES = [
+    ("7003C-impact", None),
+    *((name, rpm) for name in ("7003C-bare", "7003C-spindle") for rpm in SPEEDS),
+]
+
+
 @pytest.mark.heavy
 @pytest.mark.parametrize("damping", [0.5, 2.5, 5.0, 10.0])
-@pytest.mark.parametrize(
-    ("name", "rpm"),
-    [("7003C-impact", None), *((name, rpm) for name in ("7003C-bare", "7003C-spindle") for rpm in SPEEDS)],
-)
+@pytest.mark.parametrize(("name", "rpm"), CASES)
 def test_modes_over_speed_are_damped_as_in_full(scene, example, name, rpm, damping):
     for folder in (scene, example):
         found = with_damping(folder(name), damping)
         damped_as_full(found if rpm is None else found.replace({"operation.speed_rpm": rpm}))
+
+
+# Balls of 9 mm swing across their tracks at 3 to 5 kHz, among the modes of the rings: up to 15 % off at
+# 0.5 us, 36 % at 10 us. Of a whirl that grows (ceramic, 18,000 r/min) nothing but a positive ratio is asked.
+@pytest.mark.heavy
+@pytest.mark.parametrize("damping", [0.5, 2.5, 5.0, 10.0])
+@pytest.mark.parametrize(
+    ("name", "rpm"),
+    [("7009C-full-ceramic", rpm) for rpm in (3_000, 9_000, 12_000, 18_000)]
+    + [("7009C-steel", rpm) for rpm in (3_000, 9_000, 12_000)],
+)
+def test_modes_among_swinging_balls_are_damped_as_in_full(scene, example, name, rpm, damping):
+    for folder in (scene, example):
+        found = with_damping(folder(name), damping).replace({"operation.speed_rpm": rpm})
+        damped_as_full(found, swinging=0.36)
+
+
+def test_whirls_that_grow_in_full_are_hardly_damped(scene):
+    """The steel ring's forward whirls at 1.3 and 2.1 kHz grow by themselves at 18,000 r/min.
+
+    They keep a fiftieth of the backward whirls' damping: linear equations would grow for ever. Backward they
+    are damped as in `full`. The outer ring's, at 3.6 kHz among swinging balls, are not: 0.02 and 0.2 for 0.1
+    and 0.05.
+    """
+    rows = damping_ratios(scene("7009C-steel"))
+    growing = rows[1][rows[1][:, 1] < 0.0]
+    assert len(growing) == 2
+    assert np.all((growing[:, 2] > 0.0) & (growing[:, 2] < 5e-3))
+    np.testing.assert_allclose(rows[-1][:2, 2], rows[-1][:2, 1], rtol=0.01)
 
 
 @pytest.mark.parametrize(

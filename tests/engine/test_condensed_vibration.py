@@ -43,13 +43,51 @@ def small_waves(example, rpm, celsius):
 
 
 # Orders of waves and balls meet the free inner ring's tilt at 4 kHz. Shares were 0.44 to 0.70 there while
-# contact damping acted on all displacements. A tenth of
+# contact damping acted on all displacements, and 0.89 to 1.06 while both whirls were damped alike. A tenth of
 # the imperfections: the tilt answers nonlinearly to more.
 @pytest.mark.heavy
 @pytest.mark.parametrize("celsius", [20.0, 40.0])
 @pytest.mark.parametrize("rpm", [3_000, 5_000, 8_000, 10_000, 15_000, 28_000])
 def test_a_bare_bearing_vibrates_as_in_full(example, rpm, celsius):
     shares = shares_of_full(small_waves(example, rpm, celsius), 0.03, 0.08, CAGE=0.0, IMPERFECTION_SCALE=0.1)
-    # found: 0.91 to 1.05 and 0.89 to 1.06; both whirls are damped alike, and lines meet one of them
-    np.testing.assert_allclose(shares[:, :2], 1.0, atol=0.09)
-    np.testing.assert_allclose(shares[:, 2], 1.0, atol=0.12)
+    # found: 0.94 to 0.99; what the balls' lag changes of the waves' force is left out
+    np.testing.assert_allclose(shares, 1.0, atol=0.06)
+
+
+def on_soft_pedestal(scene, clearance):
+    """The spindle's unbalance beside its rotor's mode at 467 Hz; ``clearance``: of the cage's lands (mm)."""
+    given = scene("7003C-spindle")
+    mounting = {"tilt_support": None, "housing": None, "pedestal_stiffness_N_m": 2.6e6}
+    given = given.model_copy(update={"mounting": given.mounting.model_copy(update=mounting), "sound": None})
+    return given.replace({"operation.speed_rpm": 28_000.0, "bearing.cage.land_clearance_mm": clearance})
+
+
+def turning(rows, h, frequency):
+    """Amplitude (m/s) of the inner ring's forward whirl at a frequency (Hz), over whole turns."""
+    phase = 2.0 * np.pi * frequency * h * np.arange(len(rows))
+    return np.abs(((rows[:, 1] + 1j * rows[:, 2]) * np.exp(-1j * phase)).mean())
+
+
+# While the cage was held still, the film damped all of the inner ring's motion: amplitudes were 0.19, 0.89
+# and 1.13 of those in `full`. Without cage they are 1.01.
+@pytest.mark.heavy
+@pytest.mark.parametrize(
+    ("clearance", "share", "within"),
+    [
+        (0.03, 1.0, 0.05),
+        (0.1, 1.0, 0.05),
+        # Missed: the cage of `full` whirls 0.26 mm aside there, five times its pockets' clearance, which the
+        # linear equations about its middle leave out. Without cage they would be at 1.13, too.
+        (0.3, 1.13, 0.02),
+    ],
+)
+def test_a_cage_follows_the_ring_at_low_frequency(scene, clearance, share, within):
+    turn = 60.0 / 28_000.0
+    h = turn / 107
+    given = on_soft_pedestal(scene, clearance)
+    rows = {model: ring_rates(given, model, 0.15, 20 * turn, h) for model in ("full", "rings", "response")}
+    for model in ("rings", "response"):
+        amplitudes = [turning(rows[one], h, 1.0 / turn) for one in (model, "full")]
+        assert amplitudes[0] / amplitudes[1] == pytest.approx(share, abs=within)
+        whole = root_mean_squares(rows[model]) / root_mean_squares(rows["full"])
+        np.testing.assert_allclose(whole, share, atol=within)

@@ -8,6 +8,7 @@
 ``uneven``      losses that are held: with even balls, and what uneven ones add
 ``held``        cage speed, friction and heats, found at the steady state and held
 ``linearised``  derivatives of the rings' accelerations, and their static equilibrium
+``whirls``      the rings' equations at a complex frequency, by the full ones and by the condensed ones
 ``modes``       what the rings' modes lack in mass and damping
 ``publish``     from the rings' own state to the one that outputs and sound read
 ``shared``      start, inputs, clock and sound samples

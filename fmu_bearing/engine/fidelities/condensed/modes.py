@@ -2,179 +2,55 @@
 
 The condensed balls roll along their tracks with the mean of both races and turn with their difference. In
 fidelity `full` they also slip, and a ball whose contact angles vibrate lags behind the orbit and spin axis it
-should have, and the traction that drags it along takes energy. For each mode of the rings this reads
-frequency and damping off the full equations, linearised about even balls, with the balls
-eliminated at the mode's own complex frequency, and gives the rings what is missing as symmetric matrices. The
-pockets' and lands' part is left out. In a set the modes are those of the rings with their share of shaft and
-housing on them (``P.OWN_SHARE``): not the set's own, but near enough for terms of a few per cent.
+should have, the traction that drags it along takes energy, and the land's film takes the cage along. For each
+mode of the rings this finds its complex frequency by the full equations, linearised about even balls, with
+balls and cage eliminated at that frequency (``whirls``), forward and backward each its own, and gives the
+rings what is missing. What both whirls lack alike are symmetric matrices of mass and damping. Half of what
+they lack apart acts from each plane on the other with opposite signs: a velocity's force changes their
+frequencies, as a gyroscope's does, and an acceleration's one whirl's damping at the other's expense. Such a
+force of displacements would do the same to damping, but act on the rings' static place, too.
 
-Balls carry equal loads at that point, so the rings' coordinates fall into families: both rings along the
-axis, and both rings aside and tilting, in two planes alike. One ball serves for all. Matrices of a family are
-scaled so that the rings' masses are 1.
+In a set the modes are those of the rings with their share of shaft and housing on them (``P.OWN_SHARE``): not
+the set's own, but near enough for terms of a few per cent.
 """
 
 import math
 
+from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.dense import eigenvectors, invert, solve_complex
-from fmu_bearing.engine.fidelities.condensed.transverse import pattern_weight
+from fmu_bearing.engine.fidelities.condensed.whirls import (
+    condensed_whirl,
+    family_size,
+    full_whirl,
+    gather_rings,
+    planes,
+    spread_family,
+    spread_turned,
+)
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import STRIDE, J, L, P, Q, T
-from fmu_bearing.engine.newton.body_slopes import inertia
+from fmu_bearing.engine.layout import L, T
 
 _SLOWEST = 300.0  # rad/s: slower motions feel the supports, not the balls
 _STIFFEST = 1e14  # (rad/s)^2: faster ones are no modes of the rings
 _DAMPED = 0.5  # damping ratio beyond which a motion is no mode
+_ASIDE = 0.5  # of their mean frequency: both whirls of a mode are not further from it
+# rad/s: both whirls of slower modes are damped alike. A force by the acceleration is right at the frequency
+# that it is found for and grows with its square: a bearing that tilts with its shaft at 90 Hz, alone, does so
+# at 2 kHz where another one holds it.
+_APART_FROM = 2.0 * PI * 300.0
 _HEAVIEST = 0.3  # of its mass, added to a mode or taken from it, at most
 # Of its frequency, damping taken from a mode at most: friction across the track takes too much by little, and
 # where contacts open there is nothing else to take it from.
 _TAKEN = 0.02
+# Of the more damped whirl's damping, what the other one keeps at least. One that grows by itself in `full`
+# ends in motion that is beyond these equations, which would grow for ever.
+_LEAST = 0.02
 _ROUNDS = 40  # of the search for a mode; 2 to 25 are needed
-_CLOSE = 1e-5
+_ROUGH = 1e-3  # of a frequency: where the search for each whirl begins
+_CLOSE = 1e-6
+_PASSES = 4  # of what is missing: each leaves a tenth of its error
+_TURNS = 4  # of the iteration for a whirl's shapes
 _LONGEST = 3.0  # entries of the matrix that takes modes back, between orthogonal modes 1
-
-
-@kernel
-def family_size(family):
-    """Return the number of coordinates of a family: 0 along the axis, 1 aside and tilting."""
-    return 2 if family == 0 else T.FAMILY
-
-
-@kernel
-def member(family, plane, k):
-    """Coordinate ``k`` of a family: inner before outer ring, translation before tilt.
-
-    ``plane``: 0 moves along z and tilts about y, 1 moves along y and tilts about z.
-    """
-    if family == 0:
-        return k * Q.OUTER
-    inner = k < 2
-    base = Q.INNER if inner else Q.OUTER
-    if k & 1 == 0:
-        return base + Q.Z - plane
-    return base + (Q.INNER_BY if inner else Q.BY) + plane
-
-
-@kernel
-def side(plane, k):
-    """Sign of coordinate ``k`` in the second plane, where tilts turn the other way."""
-    return -1.0 if plane == 1 and k & 1 == 1 else 1.0
-
-
-@kernel
-def planes(family):
-    """Return the number of planes that a family moves in."""
-    return 1 if family == 0 else 2
-
-
-@kernel
-def scale(p, i, k):
-    """Return what takes a derivative of acceleration ``i`` by coordinate ``k`` to masses of 1."""
-    return math.sqrt(inertia(p, i) / inertia(p, k)) * math.sqrt(p[P.OWN_SHARE + i] * p[P.OWN_SHARE + k])
-
-
-@kernel
-def gather_family(p, lv, at, family, into, w):
-    """Block of a family of the matrix ``lv[at:]`` (by columns): mean of planes, scaled and symmetric."""
-    n = family_size(family)
-    for a in range(n):
-        for b in range(n):
-            total = 0.0
-            for plane in range(planes(family)):
-                sign = side(plane, a) * side(plane, b)
-                i, k = member(family, plane, a), member(family, plane, b)
-                total += sign * scale(p, i, k) * lv[at + i + L.COLUMN * k]
-                total += sign * scale(p, k, i) * lv[at + k + L.COLUMN * i]
-            w[into + a * n + b] = 0.5 * total / planes(family)
-
-
-@kernel
-def spread_family(p, family, block, factor, lv, at, w):
-    """Add ``factor`` times a family's block to the matrix ``lv[at:]``, in both planes."""
-    n = family_size(family)
-    for plane in range(planes(family)):
-        for a in range(n):
-            for b in range(n):
-                i, k = member(family, plane, a), member(family, plane, b)
-                value = side(plane, a) * side(plane, b) * w[block + a * n + b]
-                lv[at + i + L.COLUMN * k] += factor * value / scale(p, i, k)
-
-
-@kernel
-def row_of_ball(family):
-    """Numbers per equation of a ball: coefficients, then a right side per coordinate and plane."""
-    return J.BALL + planes(family) * family_size(family)
-
-
-@kernel
-def ball_answers(p, jac, family, sr, si, w):
-    """Solve for the rates of ball 0 per displacement of a family at the complex frequency ``sr + i si``.
-
-    In 1/s. They stand behind the coefficients in ``T.BALL_RE``, ``T.BALL_IM``: first plane, then second.
-    """
-    n = family_size(family)
-    width = row_of_ball(family)
-    re = w[T.BALL_RE : T.BALL_RE + J.BALL * T.BALL_ROW]
-    im = w[T.BALL_IM : T.BALL_IM + J.BALL * T.BALL_ROW]
-    per = 1.0 / (sr * sr + si * si)
-    for i in range(J.BALL):
-        for k in range(J.BALL):
-            row = J.B + i * J.STATES * STRIDE
-            by_place = jac[row + k * STRIDE] if k < J.PLACED else 0.0
-            own = 1.0 if i == k else 0.0
-            by_rate = jac[row + (J.PLACED + k) * STRIDE]
-            re[i * width + k] = sr * (own - by_place * per) - by_rate
-            im[i * width + k] = si * (own + by_place * per)
-        for plane in range(planes(family)):
-            for b in range(n):
-                at = J.C + (i * J.BODIES + member(family, plane, b)) * STRIDE
-                moving = jac[at + Q.SIZE * STRIDE]
-                column = i * width + J.BALL + plane * n + b
-                re[column] = jac[at] + sr * moving
-                im[column] = si * moving
-    return solve_complex(re, im, J.BALL, width)
-
-
-@kernel
-def full_answers(p, jac, family, sr, si, w):
-    """Accelerations of a family per displacement by the full equations into ``T.FULL_RE``, ``T.FULL_IM``.
-
-    At the complex frequency ``sr + i si`` (1/s); scaled and symmetric. False where a ball's equations are
-    singular.
-    """
-    n = family_size(family)
-    if not ball_answers(p, jac, family, sr, si, w):
-        return False
-    for i in range(n * n):
-        w[T.FULL_RE + i] = 0.0
-        w[T.FULL_IM + i] = 0.0
-    width = row_of_ball(family)
-    size = sr * sr + si * si
-    # a sum over the balls in one plane is their number by half the sum over both planes of one ball
-    for plane in range(planes(family)):
-        for a in range(n):
-            i = member(family, plane, a)
-            for b in range(n):
-                k = member(family, plane, b)
-                at = J.E + i * J.BODIES + k
-                re = (jac[at] + sr * jac[at + Q.SIZE]) / p[P.BALLS]
-                im = si * jac[at + Q.SIZE] / p[P.BALLS]
-                for m in range(J.BALL):
-                    row = J.D + i * J.STATES * STRIDE
-                    by_rate = jac[row + (J.PLACED + m) * STRIDE]
-                    by_place = jac[row + m * STRIDE] / size if m < J.PLACED else 0.0
-                    # a ball's place is its rate over s
-                    fr = by_rate + sr * by_place
-                    fi = -si * by_place
-                    answer = m * width + J.BALL + plane * n + b
-                    xr, xi = w[T.BALL_RE + answer], w[T.BALL_IM + answer]
-                    re += fr * xr - fi * xi
-                    im += fr * xi + fi * xr
-                share = side(plane, a) * side(plane, b) * scale(p, i, k) * p[P.BALLS] / planes(family)
-                w[T.FULL_RE + a * n + b] += 0.5 * share * re
-                w[T.FULL_IM + a * n + b] += 0.5 * share * im
-                w[T.FULL_RE + b * n + a] += 0.5 * share * re
-                w[T.FULL_IM + b * n + a] += 0.5 * share * im
-    return True
 
 
 @kernel
@@ -192,10 +68,11 @@ def ranked(w, n, rank):
 
 
 @kernel
-def diagonalise(w, block, sign, n, rank, shape):
-    """Eigenvalue of that rank of ``sign`` times a block; its vector into ``w[shape:]``."""
-    for i in range(n * n):
-        w[T.VALUES + i] = sign * w[block + i]
+def diagonalise(w, block, n, rank, shape):
+    """Eigenvalue of that rank of a block's symmetric part; its vector into ``w[shape:]``."""
+    for a in range(n):
+        for b in range(n):
+            w[T.VALUES + a * n + b] = 0.5 * (w[block + a * n + b] + w[block + b * n + a])
     eigenvectors(w, T.VALUES, w, T.VECTORS, n)
     column = ranked(w, n, rank)
     for i in range(n):
@@ -222,133 +99,318 @@ def root(re, im):
 
 
 @kernel
-def find_mode(p, jac, family, rank, shape, w):
-    """Complex frequency (1/s) of a mode of the full equations, its shape into ``w[shape:]``; 0, 0 if none.
+def is_mode(sr, si):
+    """Whether a complex frequency (1/s) is that of a mode of the rings."""
+    return si > _SLOWEST and si * si < _STIFFEST and abs(sr) < _DAMPED * si
 
-    The shape is that of the real part at the frequency, and the frequency that of the shape (Rayleigh).
+
+@kernel
+def mean_whirl(p, lv, jac, family, sr, si, w):
+    """Accelerations per displacement by the full equations, mean of both whirls, into ``T.MEAN_RE``, ``_IM``.
+
+    At the complex frequency ``sr + i si`` (1/s). False where a ball's equations are singular.
     """
     n = family_size(family)
-    squared = diagonalise(w, T.STILL, 1.0, n, rank, shape)
+    for i in range(n * n):
+        w[T.MEAN_RE + i] = 0.0
+        w[T.MEAN_IM + i] = 0.0
+    per = 1.0 / planes(family)
+    for whirl in range(planes(family)):
+        if not full_whirl(p, lv, jac, family, turn_of(family, whirl), sr, si, w):
+            return False
+        for i in range(n * n):
+            w[T.MEAN_RE + i] -= per * w[T.WHIRL_RE + i]
+            w[T.MEAN_IM + i] -= per * w[T.WHIRL_IM + i]
+    for i in range(n):
+        w[T.MEAN_RE + i * n + i] += sr * sr - si * si
+        w[T.MEAN_IM + i * n + i] += 2.0 * sr * si
+    return True
+
+
+@kernel
+def turn_of(family, whirl):
+    """Turn of a family's first or second whirl: 1 forward, -1 backward, 0 along the axis."""
+    return 0.0 if family == 0 else 1.0 - 2.0 * whirl
+
+
+@kernel
+def find_mode(p, lv, jac, family, rank, shape, w):
+    """Complex frequency (1/s) of a mode of the full equations, its shape into ``w[shape:]``; 0, 0 if none.
+
+    Rough, as the mean of both whirls. The shape is that of the real part at the frequency, and the frequency
+    that of the shape (Rayleigh).
+    """
+    n = family_size(family)
+    squared = diagonalise(w, T.STILL, n, rank, shape)
     if not (squared > _SLOWEST * _SLOWEST and squared < _STIFFEST):
         return 0.0, 0.0
     sr, si = 0.0, math.sqrt(squared)
     for _ in range(_ROUNDS):
-        if not full_answers(p, jac, family, sr, si, w):
+        if not mean_whirl(p, lv, jac, family, sr, si, w):
             return 0.0, 0.0
-        diagonalise(w, T.FULL_RE, -1.0, n, rank, shape)
-        re, im = root(form(w, T.FULL_RE, shape, n), form(w, T.FULL_IM, shape, n))
-        size = abs(im)
-        if not (size > _SLOWEST and size * size < _STIFFEST and abs(re) < _DAMPED * size):
+        diagonalise(w, T.MEAN_RE, n, n - 1 - rank, shape)
+        re, im = root(form(w, T.MEAN_RE, shape, n), form(w, T.MEAN_IM, shape, n))
+        if not is_mode(re, im):
             return 0.0, 0.0
         far = abs(re - sr) + abs(im - si)
         sr, si = re, im
-        if far < _CLOSE * size:
+        if far < _ROUGH * im:
             return sr, si
     return 0.0, 0.0
 
 
 @kernel
-def across_answer(p, lv, family, shape, sr, si, w):
-    """Force per displacement (1/s2) that the transverse balls add to a shape: real and imaginary part."""
-    n = family_size(family)
-    follows = 0.0
-    leads = 0.0
-    guides = 0.0
-    for a in range(n):
-        follows += w[shape + a] * w[T.FOLLOWS + a]
-        leads += w[shape + a] * w[T.LEADS + a]
-        guides += w[shape + a] * w[T.GUIDES + a]
-    square, rate = lv[L.SIDE_SQUARE], lv[L.SIDE_RATE]
-    # contact damping leads the balls' places of rest
-    ahead_re, ahead_im = follows + leads * sr, leads * si
-    drive_re = square * ahead_re + rate * sr * guides
-    drive_im = square * ahead_im + rate * si * guides
-    below_re = sr * sr - si * si + rate * sr + square
-    below_im = (2.0 * sr + rate) * si
-    per = 1.0 / (below_re * below_re + below_im * below_im + 1e-300)
-    place_re = (drive_re * below_re + drive_im * below_im) * per
-    place_im = (drive_im * below_re - drive_re * below_im) * per
-    off_re, off_im = place_re - guides, place_im
-    re = square * follows * (ahead_re - place_re) - rate * guides * (sr * off_re - si * off_im)
-    im = square * follows * (ahead_im - place_im) - rate * guides * (sr * off_im + si * off_re)
-    weight = p[P.BALL_MASS] * pattern_weight(p, family)
-    return weight * re, weight * im
+def begin_shapes(w, shape, n):
+    """Begin a whirl's shapes, right and left, with a mode's."""
+    for i in range(n):
+        for at in (T.RIGHT, T.LEFT):
+            w[at + i] = w[shape + i]
+            w[at + T.FAMILY + i] = 0.0
 
 
 @kernel
-def lacking(p, lv, family, shape, sr, si, w):
-    """Mass and damping (1/s) that a mode of the condensed rings lacks for the complex frequency given."""
+def nearer(n, turned, at, w):
+    """One inverse iteration of a shape at ``w[at:]`` by ``T.WHIRL_RE``, ``T.WHIRL_IM``; False if singular.
+
+    ``turned``: by the matrix with rows for columns, for the left shape.
+    """
+    width = n + 1
+    re = w[T.ROWS_RE : T.ROWS_RE + n * width]
+    im = w[T.ROWS_IM : T.ROWS_IM + n * width]
+    for a in range(n):
+        for b in range(n):
+            place = b * n + a if turned else a * n + b
+            re[a * width + b] = w[T.WHIRL_RE + place]
+            im[a * width + b] = w[T.WHIRL_IM + place]
+        re[a * width + n] = w[at + a]
+        im[a * width + n] = w[at + T.FAMILY + a]
+    if not solve_complex(re, im, n, width):
+        return False
+    size = 0.0
+    for a in range(n):
+        size += re[a * width + n] * re[a * width + n] + im[a * width + n] * im[a * width + n]
+    per = 1.0 / math.sqrt(size + 1e-300)
+    for a in range(n):
+        w[at + a] = per * re[a * width + n]
+        w[at + T.FAMILY + a] = per * im[a * width + n]
+    return True
+
+
+@kernel
+def quotient(n, w):
+    """Rayleigh's quotient of the matrix ``T.WHIRL_RE``, ``T.WHIRL_IM`` with both shapes, a complex number."""
+    up_re = 0.0
+    up_im = 0.0
+    below_re = 0.0
+    below_im = 0.0
+    for a in range(n):
+        yr, yi = w[T.LEFT + a], w[T.LEFT + T.FAMILY + a]
+        xr, xi = w[T.RIGHT + a], w[T.RIGHT + T.FAMILY + a]
+        below_re += yr * xr - yi * xi
+        below_im += yr * xi + yi * xr
+        for b in range(n):
+            xr, xi = w[T.RIGHT + b], w[T.RIGHT + T.FAMILY + b]
+            mr, mi = w[T.WHIRL_RE + a * n + b], w[T.WHIRL_IM + a * n + b]
+            fr, fi = mr * xr - mi * xi, mr * xi + mi * xr
+            up_re += yr * fr - yi * fi
+            up_im += yr * fi + yi * fr
+    per = 1.0 / (below_re * below_re + below_im * below_im + 1e-300)
+    return (up_re * below_re + up_im * below_im) * per, (up_im * below_re - up_re * below_im) * per
+
+
+@kernel
+def follow_whirl(p, lv, jac, family, turn, shape, sr, si, w):
+    """Complex frequency (1/s) of one whirl of a mode near ``sr + i si``; 0, 0 if there is none."""
     n = family_size(family)
-    mass = form(w, T.HEAVY, shape, n)
-    damping = form(w, T.DAMPER, shape, n)
-    re, im = across_answer(p, lv, family, shape, sr, si, w)
+    begin_shapes(w, shape, n)
+    fr, fi = sr, si
+    for _ in range(_ROUNDS):
+        if not full_whirl(p, lv, jac, family, turn, fr, fi, w):
+            return 0.0, 0.0
+        if not (nearer(n, False, T.RIGHT, w) and nearer(n, True, T.LEFT, w)):
+            return 0.0, 0.0
+        qr, qi = quotient(n, w)
+        re, im = root(fr * fr - fi * fi - qr, 2.0 * fr * fi - qi)
+        if not (is_mode(re, im) and abs(im - si) < _ASIDE * si):
+            return 0.0, 0.0
+        far = abs(re - fr) + abs(im - fi)
+        fr, fi = re, im
+        if far < _CLOSE * im:
+            return fr, fi
+    return 0.0, 0.0
+
+
+@kernel
+def find_whirls(p, lv, jac, family, rank, w):
+    """Find a mode's shape and both whirls' complex frequencies (1/s) in ``T.POLES``; whether there are any.
+
+    With the damping that the rings are to have: at least a share of the more damped whirl's.
+    """
+    shape = T.SHAPES + rank * family_size(family)
+    poles = T.POLES + rank * T.PAIR
+    sr, si = find_mode(p, lv, jac, family, rank, shape, w)
+    if si == 0.0:
+        return False
+    fastest = 0.0
+    for whirl in range(planes(family)):
+        fr, fi = follow_whirl(p, lv, jac, family, turn_of(family, whirl), shape, sr, si, w)
+        if fi == 0.0:
+            return False
+        w[poles + 2 * whirl] = fr
+        w[poles + 2 * whirl + 1] = fi
+        fastest = min(fastest, fr)
+    for whirl in range(planes(family)):
+        w[poles + 2 * whirl] = min(w[poles + 2 * whirl], _LEAST * fastest)
+    return True
+
+
+@kernel
+def seen_by(rank, n, w):
+    """Return what a change of mode ``rank`` counts in a whirl with the shapes found, a complex number."""
+    left_re = 0.0
+    left_im = 0.0
+    right_re = 0.0
+    right_im = 0.0
+    below_re = 0.0
+    below_im = 0.0
+    for a in range(n):
+        yr, yi = w[T.LEFT + a], w[T.LEFT + T.FAMILY + a]
+        xr, xi = w[T.RIGHT + a], w[T.RIGHT + T.FAMILY + a]
+        back = w[T.BACK + a * n + rank]
+        left_re += back * yr
+        left_im += back * yi
+        right_re += back * xr
+        right_im += back * xi
+        below_re += yr * xr - yi * xi
+        below_im += yr * xi + yi * xr
+    up_re, up_im = left_re * right_re - left_im * right_im, left_re * right_im + left_im * right_re
+    per = 1.0 / (below_re * below_re + below_im * below_im + 1e-300)
+    return (up_re * below_re + up_im * below_im) * per, (up_im * below_re - up_re * below_im) * per
+
+
+@kernel
+def lacking(p, lv, family, rank, whirl, w):
+    """Mass and damping (1/s) that one whirl of a mode of the condensed rings lacks; 0, 0 where it is lost."""
+    n = family_size(family)
+    sr, si = w[T.POLES + rank * T.PAIR + 2 * whirl], w[T.POLES + rank * T.PAIR + 2 * whirl + 1]
+    condensed_whirl(p, lv, family, turn_of(family, whirl), sr, si, w)
+    begin_shapes(w, T.SHAPES + rank * n, n)
+    for _ in range(_TURNS):
+        if not (nearer(n, False, T.RIGHT, w) and nearer(n, True, T.LEFT, w)):
+            break
+    qr, qi = quotient(n, w)
+    vr, vi = seen_by(rank, n, w)
+    size = vr * vr + vi * vi
+    if not (size > 0.25):
+        return 0.0, 0.0
+    re, im = (qr * vr + qi * vi) / size, (qi * vr - qr * vi) / size
     square_re, square_im = sr * sr - si * si, 2.0 * sr * si
-    re += form(w, T.STILL, shape, n) + sr * damping + square_re * mass
-    im += si * damping + square_im * mass
     # s^2 m + s c = -(re + i im)
     below = square_re * si - square_im * sr
-    more = (im * sr - re * si) / below
-    damper = (square_im * re - square_re * im) / below
-    if not (abs(more) < _HEAVIEST * mass):
-        return 0.0, 0.0
-    return more, max(damper, -_TAKEN * si)
+    return (im * sr - re * si) / below, (square_im * re - square_re * im) / below
+
+
+@kernel
+def mean_speed(family, rank, w):
+    """Angular frequency (rad/s) of a mode: mean of both whirls."""
+    total = 0.0
+    for whirl in range(planes(family)):
+        total += w[T.POLES + rank * T.PAIR + 2 * whirl + 1]
+    return total / planes(family)
+
+
+@kernel
+def correct_mode(p, lv, family, rank, w):
+    """Add to ``T.ADDED`` what both whirls of a mode still lack."""
+    added = T.ADDED + rank
+    size = mean_speed(family, rank, w)
+    mass, damping = lacking(p, lv, family, rank, 0, w)
+    if family == 1:
+        other, weaker = lacking(p, lv, family, rank, 1, w)
+        if size > _APART_FROM:
+            w[added + T.MASS_TURNED] -= 0.5 * (damping - weaker) / size
+            w[added + T.DAMPER_TURNED] += 0.5 * (mass - other) * size
+        mass, damping = 0.5 * (mass + other), 0.5 * (damping + weaker)
+    w[added] += mass
+    w[added + T.FAMILY] = max(w[added + T.FAMILY] + damping, -_TAKEN * size)
+
+
+@kernel
+def within_bounds(family, rank, w):
+    """Whether what is added to a mode is small against its mass."""
+    added = T.ADDED + rank
+    most = _HEAVIEST * form(w, T.HEAVY, T.SHAPES + rank * family_size(family), family_size(family))
+    fine = abs(w[added]) <= most and abs(w[added + T.MASS_TURNED]) <= most
+    return fine and abs(w[added + T.DAMPER_TURNED]) <= most * mean_speed(family, rank, w)
+
+
+@kernel
+def modal_matrix(part, n, w):
+    """Put the matrix of one part of ``T.ADDED`` to ``T.VALUES``."""
+    for a in range(n):
+        for b in range(n):
+            total = 0.0
+            for k in range(n):
+                total += w[T.BACK + a * n + k] * w[T.ADDED + part + k] * w[T.BACK + b * n + k]
+            w[T.VALUES + a * n + b] = total
+
+
+@kernel
+def show_added(p, lv, family, w):
+    """Gather the rings' matrices anew, and add what the modes are given so far."""
+    n = family_size(family)
+    gather_rings(p, lv, family, w)
+    for part in range(T.PARTS):
+        into = T.HEAVY if part & 1 == 0 else T.DAMPER
+        modal_matrix(part * T.FAMILY, n, w)
+        for i in range(n * n):
+            w[into + (T.BLOCK if part > 1 else 0) + i] += w[T.VALUES + i]
+
+
+@kernel
+def take_back(n, w):
+    """Put the matrix that takes modes back to ``T.BACK``; False where shapes are too much alike."""
+    for i in range(n * n):
+        w[T.VECTORS + i] = w[T.SHAPES + i]
+    # rows of shapes: the inverse has in column k what takes out mode k
+    if not invert(w, T.VECTORS, n, w, T.BACK):
+        return False
+    for i in range(n * n):
+        if not (abs(w[T.BACK + i]) < _LONGEST):
+            return False
+    return True
 
 
 @kernel
 def correct_family(p, lv, jac, family, w):
     """Add what the modes of a family lack to ``L.MASS`` and ``L.EXTRA``."""
     n = family_size(family)
-    gather_family(p, lv, L.JX, family, T.STILL, w)
-    gather_family(p, lv, L.JV, family, T.DAMPER, w)
-    gather_family(p, lv, L.MASS, family, T.HEAVY, w)
-    for i in range(n * n):
-        w[T.STILL + i] *= -1.0
-        w[T.DAMPER + i] *= -1.0
-    row = family * L.COLUMN
-    for a in range(n):
-        i = member(family, 0, a)
-        per = math.sqrt(p[P.OWN_SHARE + i]) / math.sqrt(inertia(p, i))
-        # what the ring carries
-        w[T.HEAVY + a * n + a] += 1.0 - p[P.OWN_SHARE + i]
-        w[T.FOLLOWS + a] = per * lv[L.SIDE_FOLLOW + row + i]
-        w[T.LEADS + a] = per * lv[L.SIDE_LEAD + row + i]
-        w[T.GUIDES + a] = per * lv[L.SIDE_GUIDE + row + i]
+    gather_rings(p, lv, family, w)
+    for i in range(T.PARTS * T.FAMILY):
+        w[T.ADDED + i] = 0.0
     for k in range(n):
-        shape = T.SHAPES + k * n
-        w[T.ADDED + k] = 0.0
-        w[T.ADDED + T.FAMILY + k] = 0.0
-        sr, si = find_mode(p, jac, family, k, shape, w)
-        if si > 0.0:
-            mass, damping = lacking(p, lv, family, shape, sr, si, w)
-            w[T.ADDED + k] = mass
-            w[T.ADDED + T.FAMILY + k] = damping
-    spread_modes(p, lv, family, w)
-
-
-@kernel
-def spread_modes(p, lv, family, w):
-    """Make symmetric matrices of what the modes in ``T.SHAPES`` lack, and add them to the rings'."""
-    n = family_size(family)
-    for i in range(n * n):
-        w[T.VECTORS + i] = w[T.SHAPES + i]
-    # rows of shapes: the inverse has in column k what takes out mode k
-    if not invert(w, T.VECTORS, n, w, T.BACK):
+        w[T.FOUND + k] = 1.0 if find_whirls(p, lv, jac, family, k, w) else 0.0
+    if not take_back(n, w):
         return
-    for i in range(n * n):
-        if not (abs(w[T.BACK + i]) < _LONGEST):
-            return
-    for part in range(2):
-        for a in range(n):
-            for b in range(n):
-                total = 0.0
-                for k in range(n):
-                    added = w[T.ADDED + part * T.FAMILY + k]
-                    total += w[T.BACK + a * n + k] * added * w[T.BACK + b * n + k]
-                w[T.VALUES + a * n + b] = total
-        if part == 0:
-            spread_family(p, family, T.VALUES, 1.0, lv, L.MASS, w)
-        else:
-            spread_family(p, family, T.VALUES, -1.0, lv, L.EXTRA, w)
+    for _ in range(_PASSES):
+        show_added(p, lv, family, w)
+        for k in range(n):
+            if w[T.FOUND + k] != 0.0:
+                correct_mode(p, lv, family, k, w)
+    gather_rings(p, lv, family, w)
+    for k in range(n):
+        if not within_bounds(family, k, w):
+            for part in range(T.PARTS):
+                w[T.ADDED + part * T.FAMILY + k] = 0.0
+    modal_matrix(0, n, w)
+    spread_family(p, family, T.VALUES, 1.0, lv, L.MASS, w)
+    modal_matrix(T.FAMILY, n, w)
+    spread_family(p, family, T.VALUES, -1.0, lv, L.EXTRA, w)
+    if family == 1:
+        modal_matrix(T.MASS_TURNED, n, w)
+        spread_turned(p, T.VALUES, 1.0, lv, L.MASS, w)
+        modal_matrix(T.DAMPER_TURNED, n, w)
+        spread_turned(p, T.VALUES, -1.0, lv, L.EXTRA, w)
 
 
 @kernel

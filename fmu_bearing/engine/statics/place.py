@@ -4,7 +4,7 @@ import math
 
 from fmu_bearing.engine.constants import GRAVITY, PI
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import EQ, C, P, Q, Y
+from fmu_bearing.engine.layout import EQ, C, P, Q, W, Y
 from fmu_bearing.engine.statics.mounted import mounted_equilibrium
 from fmu_bearing.engine.status import OK
 
@@ -116,3 +116,31 @@ def place_cage(p, y, found):
         y[k + Q.BY] += 2.0 * x * math.cos(angle) / p[P.PITCH_RADIUS]
         y[k + Q.BZ] += 2.0 * x * math.sin(angle) / p[P.PITCH_RADIUS]
         y[Y.V0 + Q.CAGE + Q.TURN] += found[EQ.OM + j] / balls
+
+
+@kernel
+def quasistatic_point(p, c, speed, across, y, w):
+    """State ``y`` at the quasi-static point under the loads in ``c``; status code.
+
+    ``across``: with the loads across the axis and weights, else under the axial load alone.
+    """
+    load = w[W.LOAD : W.LOAD + EQ.FREEDOMS]
+    tilt = w[W.TILT : W.TILT + 2]
+    found = w[W.FOUND : W.FOUND + EQ.SIZE]
+    carried = loads(p, c, load)
+    load_y = c[C.LOAD_Y]
+    if not across:
+        carried = 0.0
+        load_y = 0.0
+        for i in range(1, EQ.FREEDOMS):
+            load[i] = 0.0
+    status = equilibrium(p, c, speed, load, 0.0, tilt, found, w)
+    if status != OK:
+        return status
+    for i in range(Y.SIZE):
+        y[i] = 0.0
+    place_rings(c, y, found, tilt, load_y, carried)
+    place_balls(p, y, found)
+    if p[P.CAGE] != 0.0:
+        place_cage(p, y, found)
+    return OK

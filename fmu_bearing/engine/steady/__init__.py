@@ -9,6 +9,7 @@ themselves. Imperfections count as none.
 ``pattern``    unequal balls: a pattern through which they run, and the whirl of the cage
 ``equations``  what is out of balance in a pattern, and its derivatives
 ``newton``     Newton's method for a pattern
+``growth``     whether the whirl of a cage grows about the pattern at rest
 ``point``      the operating point of a bearing: which of them holds
 =============  ==========================================================================
 """

@@ -28,8 +28,9 @@ _TURNED = 0.03  # of the spin
 _LOADED = 1e-3  # N: with less at a race its ball is loose
 _FREE = 1.0  # rad: of the outer ring on its seat
 _PRESSED = 5e-7  # m: into a pocket at first; one that is not touched has no slope
-# Steps below these shares of the longest end the search: the next one would be the square of it.
+# Steps below this share of the longest end the search: the next one would be the square of it.
 _SETTLED = 1e-5
+_BALANCED = 1e-4  # N per ball: what may then be out of balance; contacts carry 1 N and more
 
 # unknowns, each with the equation of the same number
 _ORBIT = 5  # behind x, r and the spins, with the equation of the orbit
@@ -262,11 +263,12 @@ def settle_evenly(p, c, y, speed, held, w, jac):
             return False
         share = 1.0 / max(most, 1.0)
         move(p, y, share, w)
-        if most < _SETTLED:
-            return between_races(w)
         for _ in range(_HALVINGS):
             right_hand_side(p, c, y, 0.0, speed, 0.0, w, f)
-            if out_of_balance(p, c, f, held, w) < before:
+            after = out_of_balance(p, c, f, held, w)
+            if most < _SETTLED and after < _BALANCED:
+                return between_races(w)
+            if after < before:
                 break
             share *= 0.5
             move(p, y, -share, w)

@@ -22,8 +22,8 @@ _BALANCED = 1e-4  # N: what may then be out of balance; contacts carry 10 N and 
 
 
 @kernel
-def longest_steps(p, w):
-    """Fill ``PT.SCALE``: the longest step of each unknown, in its own unit."""
+def longest_steps(p, reach, w):
+    """Fill ``PT.SCALE`` with the longest steps, in the unknowns' units; ``reach``: see `settle_pattern`."""
     balls = int(p[P.BALLS])
     at = W.PATTERN + PT.SCALE
     unknown = W.PATTERN + PT.UNKNOWNS
@@ -35,7 +35,7 @@ def longest_steps(p, w):
             spin += abs(w[unknown + i * balls + j])
         w[at + j] = _FAR
         w[at + balls + j] = _FAR
-        w[at + 2 * balls + j] = _ALONG / pitch
+        w[at + 2 * balls + j] = reach * _ALONG / pitch
         for i in range(PT.PLACED, PT.BALL):
             w[at + i * balls + j] = _TURNED * spin
     for i in range(Q.SIZE):
@@ -82,11 +82,12 @@ def move(p, share, w):
 
 
 @kernel
-def settle_pattern(p, c, speed, held, ahead, whirls, rounds, y, w, jac):
+def settle_pattern(p, c, speed, held, ahead, whirls, reach, rounds, y, w, jac):
     """Bring the pattern in ``PT.UNKNOWNS`` to its balance; the rounds it took, negative where it fails.
 
     ``held``: see `equations.is_fixed`; ``ahead``: 1 where balls run to larger phases, -1 to smaller ones;
-    ``whirls``: the pattern turns with the cage. ``y``: the state of the pattern. ``jac``: scratch.
+    ``whirls``: the pattern turns with the cage; ``reach``: how far balls may go along their orbit in a round,
+    1 where pockets are as stiff as they are. ``y``: the state of the pattern. ``jac``: scratch.
     """
     f = w[W.F0 : W.F0 + F.SIZE]
     size = tail(p) + PT.TAIL
@@ -98,7 +99,7 @@ def settle_pattern(p, c, speed, held, ahead, whirls, rounds, y, w, jac):
         derivatives(p, c, y, held, ahead, whirls, w, jac)
         for i in range(size):
             w[at + i * (size + 1) + size] = -w[W.PATTERN + PT.RESIDUAL + i]
-        longest_steps(p, w)
+        longest_steps(p, reach, w)
         most = solve(p, w)
         if most < 0.0:
             return -1
@@ -138,7 +139,7 @@ def push_aside(p, c, speed, offset, ahead, y, w, jac):
             for k in range(size):
                 w[row + k] = 1.0 if i == k else 0.0
         w[row + size] = offset if i == last + Q.CAGE + Q.Z else 0.0
-    longest_steps(p, w)
+    longest_steps(p, 1.0, w)
     if solve(p, w) < 0.0:
         return False
     move(p, 1.0, w)

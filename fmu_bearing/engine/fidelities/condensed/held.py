@@ -18,44 +18,15 @@ from fmu_bearing.engine.fidelities.condensed.uneven import (
     uneven_out_of_date,
 )
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import EQ, PT, STRIDE, C, L, P, Q, S, U, W, Y
+from fmu_bearing.engine.layout import PT, STRIDE, C, L, P, Q, S, U, W, Y
 from fmu_bearing.engine.mechanics.conditions import conditions
-from fmu_bearing.engine.statics.place import equilibrium, loads, place_balls, place_cage, place_rings
+from fmu_bearing.engine.statics.place import quasistatic_point
 from fmu_bearing.engine.statics.rigid_preload import load_at_place, static_place
 from fmu_bearing.engine.statics.spin_balance import balance_spins
 from fmu_bearing.engine.status import OK
 from fmu_bearing.engine.steady.even import NONE, between_races, make_even, settle_evenly
 
 _STANDSTILL = 1.0  # rad/s: slower shafts are given the ratios of this speed
-
-
-@kernel
-def quasistatic_point(p, c, speed, across, y, w):
-    """State ``y`` at the quasi-static point under the loads in ``c``; status code.
-
-    ``across``: with the loads across the axis and weights, else under the axial load alone. The one place
-    that knows the quasi-static kernel.
-    """
-    load = w[W.LOAD : W.LOAD + EQ.FREEDOMS]
-    tilt = w[W.TILT : W.TILT + 2]
-    found = w[W.FOUND : W.FOUND + EQ.SIZE]
-    carried = loads(p, c, load)
-    load_y = c[C.LOAD_Y]
-    if not across:
-        carried = 0.0
-        load_y = 0.0
-        for i in range(1, EQ.FREEDOMS):
-            load[i] = 0.0
-    status = equilibrium(p, c, speed, load, 0.0, tilt, found, w)
-    if status != OK:
-        return status
-    for i in range(Y.SIZE):
-        y[i] = 0.0
-    place_rings(c, y, found, tilt, load_y, carried)
-    place_balls(p, y, found)
-    if p[P.CAGE] != 0.0:
-        place_cage(p, y, found)
-    return OK
 
 
 @kernel

@@ -50,7 +50,7 @@ test: kernels
 heavy: kernels
 	$(BIN)/python -m pytest -n $(JOBS) -m heavy
 
-# A few minutes of one core; on a machine that does nothing else.
+# A quarter of an hour of one core; on a machine that does nothing else.
 bench: $(VENV)/.installed-bench
 	$(BIN)/fmu-bearing warm-up
 	$(BIN)/python -m benchmarks.run --output docs/results

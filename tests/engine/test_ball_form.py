@@ -20,8 +20,11 @@ def touch(lv):
     return lv[L.TOUCH : L.TOUCH + L.VECTOR * FOUR].reshape(L.VECTOR, FOUR).T
 
 
-def slow_form(run, rolled, speed):
-    """Height, its second rate and slope across the track of every ball, rows of inner and outer race."""
+def slow_form(run, rolled, speed, tau=0.0):
+    """Height, its second rate and slope across the track of every ball, rows of inner and outer race.
+
+    ``tau`` (s): contact damping adds so much times the rate to the height.
+    """
     lv, p = block(run), run.p
     series = [0.0, *FORM]
     first = int(p[P.AT_AXES])
@@ -34,7 +37,8 @@ def slow_form(run, rolled, speed):
     for e, m in zip(touch(lv)[:2], touch(lv)[2:], strict=True):
         rise = legval(a @ e, legder(series))
         curve = legval(a @ e, legder(series, 2))
-        found.append((legval(a @ e, series), curve * (rate @ e) ** 2 + rise * (bend @ e), rise * (a @ m)))
+        height = legval(a @ e, series) + tau * rise * (rate @ e)
+        found.append((height, curve * (rate @ e) ** 2 + rise * (bend @ e), rise * (a @ m)))
     return np.array(found).transpose(1, 0, 2)
 
 
@@ -44,7 +48,9 @@ def test_heights_are_those_of_turned_balls(scene, rolled):
     speed, balls = 1885.0, int(run.p[P.BALLS])
     stand(run.p, run.s[S.C : S.C + C.SIZE], block(run), 0.3, rolled, 2.2, 0.0, speed, run.w)
     found = [run.w[at : at + 2 * STRIDE].reshape(2, STRIDE)[:, :balls] for at in (T.INNER, T.BEND, T.LEAN)]
-    for one, other in zip(found, slow_form(run, rolled, speed), strict=True):
+    tau = run.p[P.CONTACT_DAMPING]
+    assert tau > 0.0
+    for one, other in zip(found, slow_form(run, rolled, speed, tau), strict=True):
         np.testing.assert_allclose(one, other, atol=1e-13 * np.abs(other).max())
 
 

@@ -166,7 +166,7 @@ def hold_set(p, u, s, w):
 def hold_from_zero(p, u, s, w):
     """Do what `hold_set` does, from where the start looks for rest, and put the set there; status code.
 
-    The balls' places, ball 0 at angle 0, go to ``L.X3``.
+    The balls' places, ball 0 at angle 0, go to ``L.EVEN``.
     """
     own = members.own_state(p, s)
     ws = members.own_work(p, w)
@@ -189,8 +189,8 @@ def hold_from_zero(p, u, s, w):
             y[Y.Q0 + Q.OUTER + i] = ws[members.scratch(p, b) + SP.START_OUTER + i]
         place_balls(members.parameters(p, b), y, wb[W.FOUND : W.FOUND + EQ.SIZE])
         for j in range(STRIDE):
-            lv[L.X3 + j] = y[Y.X + j]
-            lv[L.R3 + j] = y[Y.R + j]
+            lv[L.EVEN + j] = y[Y.X + j]
+            lv[L.EVEN_R + j] = y[Y.R + j]
     return OK
 
 

@@ -3,6 +3,7 @@
 import math
 
 from fmu_bearing.engine.fidelities import steps
+from fmu_bearing.engine.fidelities.condensed.ball_motion import move_places, rest_balls
 from fmu_bearing.engine.fidelities.condensed.rows import keep_balls, show_balls, turn_balls
 from fmu_bearing.engine.fidelities.condensed.shared import advance, flat
 from fmu_bearing.engine.fidelities.full.start import begin_means
@@ -31,7 +32,7 @@ def show_guess(p, s, w, row):
 
 @kernel
 def rest_anew(p, s, w, speed, x, at):
-    """Find where the set rests, from the coordinates ``x[at:]`` and the balls' places ``L.X3``.
+    """Find where the set rests, from the coordinates ``x[at:]`` and the balls' places ``L.EVEN``.
 
     Where there is no rest these serve themselves, as for a single bearing. Whether it was found.
     """
@@ -41,14 +42,14 @@ def rest_anew(p, s, w, speed, x, at):
     place = members.vector(p, SP.PLACE)
     for i in range(members.padded(p)):
         ws[place + i] = x[at + i]
-    show_guess(p, s, w, L.X3)
+    show_guess(p, s, w, L.EVEN)
     found = condensed.at_rest(p, s, w, speed)
     for i in range(members.padded(p)):
         own[mean + i] = ws[place + i] if found else x[at + i]
     for b in range(members.count(p)):
         lv = members.condensed(members.state(p, s, b))
         if found:
-            keep_balls(members.work(p, w, b), lv, L.X3)
+            keep_balls(members.work(p, w, b), lv, L.EVEN)
         members.moved(p, b, own, mean, lv, L.MEAN)
         lv[L.MEAN] += own[members.kept(p, b) + SP.OFFSET]
     return found
@@ -101,6 +102,9 @@ def show_set(p, s, w, near):
     for b in range(members.count(p)):
         march.keep_back(members.state(p, s, b))
     place_set(p, s, w, 0.0, True)
+    for b in range(members.count(p)):
+        pb = members.parameters(p, b)
+        rest_balls(pb, members.condensed(members.state(p, s, b)), members.work(p, w, b))
     keep_ball_loads(p, s, w)
     condensed.publish_rings(p, s)
 
@@ -118,8 +122,8 @@ def start_response_set(p, u, s, w, t):
         sb = members.state(p, s, b)
         lv = members.condensed(sb)
         for j in range(STRIDE):
-            lv[L.X3 + j] = sb[S.Y + Y.X + j]
-            lv[L.R3 + j] = sb[S.Y + Y.R + j]
+            lv[L.EVEN + j] = sb[S.Y + Y.X + j]
+            lv[L.EVEN_R + j] = sb[S.Y + Y.R + j]
     start = members.vector(p, SP.NEWMARK)
     for i in range(members.padded(p)):
         ws[start + i] = own[SP.S_HEAD + i]
@@ -127,7 +131,7 @@ def start_response_set(p, u, s, w, t):
     for b in range(members.count(p)):
         lv = members.condensed(members.state(p, s, b))
         for i in range(2 * STRIDE):
-            lv[L.X + i] = lv[L.X3 + i]
+            lv[L.X + i] = lv[L.EVEN + i]
     if not linearise_set(p, s, w, speed):
         return NO_START
     show_set(p, s, w, True)
@@ -193,8 +197,11 @@ def sound_on_the_way(p, s, w, h, speed, near):
         march.begin_spacing(members.state(p, s, b), step)
     for _ in range(int(count)):
         for b in range(members.count(p)):
-            march.move_places(members.state(p, s, b))
+            lv = members.condensed(members.state(p, s, b))
+            move_places(lv, int(members.parameters(p, b)[P.LANES]))
         place_set(p, s, w, step, near)
+        for b in range(members.count(p)):
+            march.follow_balls(members.parameters(p, b), members.state(p, s, b), step, members.work(p, w, b))
         near = True
         keep_ball_loads(p, s, w)
         turn_all(p, s, step)

@@ -35,7 +35,7 @@ def longest_of(p, own, speed):
 def place_on_waves(p, s, w, speed):
     """Put shaft, housing, rings and balls where they rest on waves and unequal balls into the trial places.
 
-    Where there is no such rest, they stay at the quasi-static place, with the balls' places in ``L.X3``.
+    Where there is no such rest, they stay at the quasi-static place, with the balls' places in ``L.EVEN``.
     """
     own = members.own_state(p, s)
     ws = members.own_work(p, w)
@@ -71,8 +71,8 @@ def start_rings_set(p, u, s, w, t):
         sb = members.state(p, s, b)
         lv = members.condensed(sb)
         for j in range(STRIDE):
-            lv[L.X3 + j] = sb[S.Y + Y.X + j]
-            lv[L.R3 + j] = sb[S.Y + Y.R + j]
+            lv[L.EVEN + j] = sb[S.Y + Y.X + j]
+            lv[L.EVEN_R + j] = sb[S.Y + Y.R + j]
     if not begin_at_rest(p, s, w):
         return NO_START
     for b in range(members.count(p)):

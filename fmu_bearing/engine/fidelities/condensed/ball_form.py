@@ -5,6 +5,9 @@ directions of the contacts. So each contact runs round one and the same circle o
 ``L.ROLLED``; the balls differ by where their body-fixed axis a stood when that angle was zero. With g the
 contact's direction turned back by it, the surface stands h(g . a) above the sphere (``mechanics.ball_waves``)
 and its gradient across the track gives a force Q h' (g_m . a) / l, l from the groove's centre.
+
+Contact damping acts on the rate of approach, tau times its stiffness: that is the height h + tau dh/dt. It
+does not act on the slope, nor does the ball's inertia know it.
 """
 
 import math
@@ -97,7 +100,8 @@ def pair_of_sums(p, form, orders, x, y):
 def add_ball_form(p, c, lv, rolled, speed, w):
     """Add the balls' form to the heights under both races and to their accelerations; write ``T.LEAN``.
 
-    ``rolled`` (rad): by which the balls have turned; ``speed`` of the shaft (rad/s).
+    ``rolled`` (rad): by which the balls have turned; ``speed`` of the shaft (rad/s). Heights are advanced by
+    contact damping.
     """
     form = int(p[P.AT_FORM])
     axes = int(p[P.AT_AXES])
@@ -105,6 +109,7 @@ def add_ball_form(p, c, lv, rolled, speed, w):
     scale = c[C.OVERSIZE_SCALE]
     rate = lv[L.ROLL] * speed
     squared = scale * rate * rate
+    ahead = scale * rate * p[P.CONTACT_DAMPING]
     here, rates, bends = turned_back(lv, math.cos(rolled), math.sin(rolled))
     inner, outer = one_of(here, 0), one_of(here, 1)
     inner_across, outer_across = one_of(here, 2), one_of(here, 3)
@@ -119,8 +124,8 @@ def add_ball_form(p, c, lv, rolled, speed, w):
         swept_o = dot(a, outer_rate)
         bend = squared * (curve * swept * swept + rise * dot(a, inner_bend))
         bend_o = squared * (curve_o * swept_o * swept_o + rise_o * dot(a, outer_bend))
-        store(w, T.INNER + j, load(w, T.INNER + j) + scale * height)
-        store(w, T.OUTER + j, load(w, T.OUTER + j) + scale * height_o)
+        store(w, T.INNER + j, load(w, T.INNER + j) + (scale * height + ahead * rise * swept))
+        store(w, T.OUTER + j, load(w, T.OUTER + j) + (scale * height_o + ahead * rise_o * swept_o))
         store(w, T.BEND + j, load(w, T.BEND + j) + bend)
         store(w, T.BEND_OUTER + j, load(w, T.BEND_OUTER + j) + bend_o)
         store(w, T.LEAN + j, scale * rise * dot(a, inner_across))

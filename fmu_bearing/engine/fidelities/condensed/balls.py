@@ -45,7 +45,8 @@ _SOFT = 1e6  # N/m: moves count as if against this stiffness at most; loaded con
 def stand(p, c, lv, theta, rolled, inner_angle, outer_angle, speed, w):
     """Cosines and sines of the balls' angles, height (m) of both races under each ball, its acceleration.
 
-    ``theta``: angle of ball 0; all are evenly spaced; ``rolled``: angle by which the balls have turned (rad).
+    ``theta``: angle of ball 0; all are evenly spaced; ``rolled``: angle by which the balls have turned (rad),
+    not advanced by contact damping as the other angles may be: see ``ball_form``.
     Heights contain half the ball's diameter deviation;
     their second derivatives by time (m/s2) are those of the table's cubics at the ``speed`` of the shaft.
     """

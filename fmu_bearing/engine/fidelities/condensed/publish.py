@@ -1,6 +1,7 @@
 """From the rings' own state to the one that outputs and sound are made of."""
 
 from fmu_bearing.engine.constants import PI
+from fmu_bearing.engine.fidelities.condensed.ball_motion import show_moving
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import STRIDE, F, H, L, P, Q, Y
 from fmu_bearing.engine.mechanics.trigonometry import wrap
@@ -57,49 +58,14 @@ def fastest_ball(p, speed, y):
 
 @kernel
 def publish_balls(p, lv, speed, speed_rate, y, f):
-    """Places, rates and spins of the balls; rates of x and r by backward differences over the last steps.
-
-    A ball that carries nothing has no place of its own to have a rate: zero there, and where the difference
-    is more than a ball can do.
-    """
-    h = lv[L.SPACING]
-    known = lv[L.KNOWN]
-    # weights of the places now, one and two steps before, in velocity and acceleration
-    v0 = 0.0
-    v1 = 0.0
-    v2 = 0.0
-    per2 = 0.0
-    if known >= 2.0:
-        v0 = 1.5 / h
-        v1 = -2.0 / h
-        v2 = 0.5 / h
-        per2 = 1.0 / (h * h)
-    elif known == 1.0:
-        v0 = 1.0 / h
-        v1 = -1.0 / h
+    """Places, rates and spins of the balls: see ``ball_motion``."""
+    show_moving(p, lv, fastest_ball(p, speed, y), y, f)
     orbit = lv[L.RATIO] * speed
-    limit = fastest_ball(p, speed, y)
-    needed = min(known, 2.0) + 1.0
     balls = p[P.BALLS]
     for j in range(int(p[P.LANES])):
         place = j if j < balls else 0
-        x = lv[L.X + j]
-        r = lv[L.R + j]
-        x1 = lv[L.X1 + j]
-        r1 = lv[L.R1 + j]
-        x2 = lv[L.X2 + j]
-        r2 = lv[L.R2 + j]
-        y[Y.X + j] = x
-        y[Y.R + j] = r
         y[Y.TH + j] = wrap(lv[L.THETA] + 2.0 * PI * place / balls)
-        vx = v0 * x + v1 * x1 + v2 * x2
-        vr = v0 * r + v1 * r1 + v2 * r2
-        told = 1.0 if lv[L.SETTLED + j] >= needed and max(abs(vx), abs(vr)) <= limit else 0.0
-        y[Y.VX + j] = told * vx
-        y[Y.VR + j] = told * vr
         y[Y.OM + j] = orbit
-        f[F.X + j] = told * per2 * (x - 2.0 * x1 + x2)
-        f[F.R + j] = told * per2 * (r - 2.0 * r1 + r2)
         f[F.TH + j] = lv[L.RATIO] * speed_rate
         for i in range(3):
             y[Y.WX + i * STRIDE + j] = lv[L.SPIN + i * STRIDE + j] * speed

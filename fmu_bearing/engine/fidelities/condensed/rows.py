@@ -45,7 +45,7 @@ def from_equilibrium(p, lv, theta, w):
         near = int((j + whole) % balls)
         next_one = (near + 1) % balls
         for i in range(2):
-            row = L.X3 + i * STRIDE
+            row = L.EVEN + i * STRIDE
             w[T.X + i * STRIDE + j] = (1.0 - part) * lv[row + near] + part * lv[row + next_one]
 
 

@@ -361,16 +361,24 @@ def highest_order(x, kind):
 
 
 @kernel
-def add_form(x, kind, order, re, im, squared, w):
-    """Add what one form of the balls, ``re`` + i ``im`` over all of them, excites through ``order``."""
+def add_form(x, kind, order, re, im, rate, tau, w):
+    """Add what one form of the balls, ``re`` + i ``im`` over all of them, excites through ``order``.
+
+    ``rate``: of its phase (rad/s); contact damping by ``tau`` (s) acts on heights alone, see
+    ``condensed.ball_form``.
+    """
     coefficients(x, kind, order, T.BY_HEIGHT, w)
+    ahead = 0.0
     for i in range(LN.COMPLEX):
         w[T.BY_BEND + i] = 0.0
     if kind < LN.BY_BEND:
         coefficients(x, kind - LN.BY_HEIGHT + LN.BY_BEND, order, T.BY_BEND, w)
+        ahead = rate * tau
+    squared = rate * rate
     for i in range(LN.COMPONENTS):
-        gr = w[T.BY_HEIGHT + i] - squared * w[T.BY_BEND + i]
-        gi = w[T.BY_HEIGHT + LN.IMAGINARY + i] - squared * w[T.BY_BEND + LN.IMAGINARY + i]
+        hr, hi = w[T.BY_HEIGHT + i], w[T.BY_HEIGHT + LN.IMAGINARY + i]
+        gr = hr - ahead * hi - squared * w[T.BY_BEND + i]
+        gi = hi + ahead * hr - squared * w[T.BY_BEND + LN.IMAGINARY + i]
         w[T.LINE_FORCE + i] += gr * re - gi * im
         w[T.LINE_FORCE + LN.IMAGINARY + i] += gr * im + gi * re
 
@@ -384,10 +392,7 @@ def form_lines(p, c, lv, lines, alone, x, orbit, speed, w):
     reach = max(highest_order(x, LN.BY_HEIGHT), highest_order(x, LN.BY_HEIGHT + 1))
     form_orders(p, lv, highest, x)
     for m in range(1, highest + 1):
-        # contact damping advances the form; the real part counts both signs of the order
-        double = 2.0 * c[C.OVERSIZE_SCALE]
-        co = double * math.cos(m * rate * p[P.CONTACT_DAMPING])
-        si = double * math.sin(m * rate * p[P.CONTACT_DAMPING])
+        double = 2.0 * c[C.OVERSIZE_SCALE]  # the real part counts both signs of the order
         for a in range(-reach, reach + 1):
             for i in range(LN.COMPLEX):
                 w[T.LINE_FORCE + i] = 0.0
@@ -400,7 +405,7 @@ def form_lines(p, c, lv, lines, alone, x, orbit, speed, w):
                     re += x[at + j] * math.cos(turn) - x[at + STRIDE + j] * math.sin(turn)
                     im += x[at + j] * math.sin(turn) + x[at + STRIDE + j] * math.cos(turn)
                 kind = LN.BY_HEIGHT + form if form < 2 else LN.BY_LEAN + form - 2
-                add_form(x, kind, a, re * co - im * si, re * si + im * co, m * rate * m * rate, w)
+                add_form(x, kind, a, double * re, double * im, m * rate, p[P.CONTACT_DAMPING], w)
             keep(p, lv, lines, alone, a, 0.0, m, a * orbit + m * rate, w)
 
 

@@ -13,6 +13,7 @@ between states 19.5 us apart.
 import math
 
 from fmu_bearing.engine.fidelities import steps
+from fmu_bearing.engine.fidelities.condensed.ball_motion import move_balls, move_places, rest_balls
 from fmu_bearing.engine.fidelities.condensed.balls import carried, count_settled, stand
 from fmu_bearing.engine.fidelities.condensed.held import hold
 from fmu_bearing.engine.fidelities.condensed.linearised import at_rest, derivatives
@@ -85,7 +86,7 @@ def still(p, c, lv, w):
         w[W.STAGE + i] = 0.0
     for i in range(L.N):
         w[W.STAGE + Y.Q0 + i] = lv[L.MEAN + i]
-    show_balls(lv, L.X3, w)
+    show_balls(lv, L.EVEN, w)
     flat(p, c, lv, w)
 
 
@@ -97,7 +98,7 @@ def start_response(p, u, s, w, t):
         return status
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     keep_balls(w, lv, L.X)
-    keep_balls(w, lv, L.X3)
+    keep_balls(w, lv, L.EVEN)
     if not linearise(p, s, True, u[U.SPEED], w):
         return NO_START
     show(p, s, True, w)
@@ -134,7 +135,7 @@ def renew_equilibrium(p, u, s, w):
             continue
         for i in range(L.N):
             lv[L.MEAN + i] = w[W.STAGE + Y.Q0 + i]
-        keep_balls(w, lv, L.X3)
+        keep_balls(w, lv, L.EVEN)
         if linearise(p, s, True, speed, w):
             return OK
     lv[L.COUNT] = 0.0
@@ -251,8 +252,7 @@ def settle(p, s, ahead, near, w):
     theta, rolled, angle, speed = angles_at(s, ahead)
     tau = p[P.CONTACT_DAMPING]
     stand(
-        p, c, lv, theta + tau * lv[L.RATIO] * speed, rolled + tau * lv[L.ROLL] * speed, angle + tau * speed,
-        lv[L.Q0 + L.TURN], speed, w,
+        p, c, lv, theta + tau * lv[L.RATIO] * speed, rolled, angle + tau * speed, lv[L.Q0 + L.TURN], speed, w,
     )  # fmt: skip
     q = w[T.Q : T.Q + L.COLUMN]
     for i in range(L.N):
@@ -285,13 +285,21 @@ def begin_spacing(s, step):
 
 
 @kernel
-def move_places(s):
-    """Let the balls' places be those of a step before."""
+def follow_balls(p, s, step, w):
+    """Move the balls across their tracks over a ``step`` (s) to where rings and places of rest now are."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    for i in range(2 * STRIDE):
-        lv[L.X2 + i] = lv[L.X1 + i]
-        lv[L.X1 + i] = lv[L.X + i]
+    rate = lv[L.SIDE_RATE]
+    move_balls(p, lv, step, rate * rolling(lv, 0), rate * rolling(lv, 1), rate * rolling(lv, 2), w)
     lv[L.KNOWN] += 1.0
+
+
+@kernel
+def rolling(lv, k):
+    """Velocity (m/s) that rolling alone gives pattern ``k``."""
+    total = 0.0
+    for i in range(L.N):
+        total += lv[L.SIDE_GUIDE + k * L.COLUMN + i] * lv[L.V0 + i]
+    return total
 
 
 @kernel
@@ -311,6 +319,7 @@ def show(p, s, near, w):
     place(p, s, -BACK, near, w)
     keep_back(s)
     place(p, s, 0.0, True, w)
+    rest_balls(p, lv, w)
     publish(p, lv, s[S.SPEED], s[S.SPEED_RATE], False, s[S.Y : S.Y + Y.SIZE], s[S.F : S.F + F.SIZE])
 
 
@@ -332,8 +341,9 @@ def march_response(p, u, s, w, h):
         step = h / count
         begin_spacing(s, step)
         for _ in range(int(count)):
-            move_places(s)
+            move_places(lv, int(p[P.LANES]))
             place(p, s, step, near, w)
+            follow_balls(p, s, step, w)
             near = True
             turn_balls(s, step)
             emit(p, s, w, step, False)

@@ -17,6 +17,7 @@ import math
 
 from fmu_bearing.engine.dense import times
 from fmu_bearing.engine.fidelities import steps
+from fmu_bearing.engine.fidelities.condensed.ball_motion import carry_balls, move_balls, move_places
 from fmu_bearing.engine.fidelities.condensed.balls import accelerations, count_settled, stand
 from fmu_bearing.engine.fidelities.condensed.held import hold
 from fmu_bearing.engine.fidelities.condensed.linearised import derivatives, factor_step, highest_mode
@@ -85,8 +86,7 @@ def differentiate(p, s, w):
     tau = p[P.CONTACT_DAMPING]
     speed = s[S.SPEED]
     theta = lv[L.THETA] + tau * lv[L.RATIO] * speed
-    rolled = lv[L.ROLLED] + tau * lv[L.ROLL] * speed
-    stand(p, c, lv, theta, rolled, s[S.ANGLE] + tau * speed, lv[L.Q0 + L.TURN], speed, w)
+    stand(p, c, lv, theta, lv[L.ROLLED], s[S.ANGLE] + tau * speed, lv[L.Q0 + L.TURN], speed, w)
     if not derivatives(p, c, lv, s[S.ANGLE], s[S.SPEED], s[S.SPEED_RATE], w):
         return False
     hold_across(p, lv, w)
@@ -122,6 +122,8 @@ def forces_anew(p, s, w):
     if not accelerations(p, s[S.C : S.C + C.SIZE], lv, s[S.ANGLE], s[S.SPEED], s[S.SPEED_RATE], q, w):
         return False
     carry_transverse(p, lv, w)
+    if p[P.SOUND_SIZE] != 0.0:
+        carry_balls(p, lv, w)
     return True
 
 
@@ -175,7 +177,7 @@ def stand_ahead(p, s, h, w):
     tau = p[P.CONTACT_DAMPING]
     stand(
         p, s[S.C : S.C + C.SIZE], lv, lv[L.THETA] + lv[L.RATIO] * turned + tau * lv[L.RATIO] * speed,
-        lv[L.ROLLED] + lv[L.ROLL] * turned + tau * lv[L.ROLL] * speed, s[S.ANGLE] + turned + tau * speed,
+        lv[L.ROLLED] + lv[L.ROLL] * turned, s[S.ANGLE] + turned + tau * speed,
         w[W.STAGE + Y.Q0 + L.TURN], speed, w,
     )  # fmt: skip
 
@@ -255,13 +257,18 @@ def accept_balls(p, s, h, w):
     """Move the balls' state and the angle of ball 0 to the end of the step."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     lanes = int(p[P.LANES])
+    move_places(lv, lanes)
     for row in range(0, 2 * STRIDE, STRIDE):
         for j in range(row, row + lanes, FOUR):
-            store(lv, L.X4 + j, load(lv, L.X3 + j))
-            store(lv, L.X3 + j, load(lv, L.X2 + j))
-            store(lv, L.X2 + j, load(lv, L.X1 + j))
-            store(lv, L.X1 + j, load(lv, L.X + j))
             store(lv, L.X + j, load(w, T.X + j))
+    if p[P.SOUND_SIZE] != 0.0:
+        # what is not by the patterns' places of rest is friction's drive
+        square = lv[L.SIDE_SQUARE]
+        move_balls(
+            p, lv, h, w[T.SIDE_DRIVEN] - square * w[T.SIDE_REST],
+            w[T.SIDE_DRIVEN + 1] - square * w[T.SIDE_REST + 1],
+            w[T.SIDE_DRIVEN + 2] - square * w[T.SIDE_REST + 2], w,
+        )  # fmt: skip
     keep_transverse(lv, w)
     count_settled(lv, lanes, w)
     turned = h * (s[S.SPEED] + 0.5 * h * s[S.SPEED_RATE])

@@ -8,6 +8,7 @@ there until the end of the communication step. A step is refused only where ther
 
 from fmu_bearing.engine.fidelities import steps
 from fmu_bearing.engine.fidelities.condensed import shared
+from fmu_bearing.engine.fidelities.condensed.ball_motion import forget_balls
 from fmu_bearing.engine.fidelities.condensed.held import hold
 from fmu_bearing.engine.fidelities.condensed.linearised import at_rest
 from fmu_bearing.engine.fidelities.condensed.publish import publish
@@ -27,6 +28,7 @@ def forget_motion(lv):
     """Forget how the balls have moved across their tracks."""
     for i in range(L.SIDE_PLACE, L.SIDE_REST + L.PATTERNS):
         lv[i] = 0.0
+    forget_balls(lv)
 
 
 @kernel
@@ -47,7 +49,7 @@ def begin_again(p, u, s, w):
             break
     for i in range(L.N):
         lv[L.MEAN + i] = w[W.STAGE + Y.Q0 + i]
-    keep_balls(w, lv, L.X3)
+    keep_balls(w, lv, L.EVEN)
     from_equilibrium(p, lv, lv[L.THETA], w)
     forget(lv, L.MARCH, L.MOVING, L.COLUMN)
     forget_motion(lv)

@@ -39,12 +39,12 @@ def begin_at_rest(p, s, w):
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     # from the even races' equilibrium to the one on waves and unequal balls, or the start would ring
     c = s[S.C : S.C + C.SIZE]
-    keep_balls(w, lv, L.X3)
+    keep_balls(w, lv, L.EVEN)
     stand(p, c, lv, lv[L.THETA], lv[L.ROLLED], s[S.ANGLE], 0.0, s[S.SPEED], w)
     if not at_rest(p, c, lv, s[S.SPEED], w):
         for i in range(L.N):
             w[W.STAGE + Y.Q0 + i] = lv[L.MEAN + i]
-        show_balls(lv, L.X3, w)
+        show_balls(lv, L.EVEN, w)
     for i in range(L.N):
         lv[L.Q0 + i] = w[W.STAGE + Y.Q0 + i]
         lv[L.V0 + i] = 0.0

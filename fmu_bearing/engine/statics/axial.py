@@ -6,7 +6,6 @@ The same balls as in ``quasistatic``, for rigid preload, which needs the axial c
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import ST, C, P
 from fmu_bearing.engine.statics.ball_balance import Pose, ball_equilibrium, ball_state
-from fmu_bearing.engine.statics.stiffness import series_stiffness
 from fmu_bearing.engine.status import NO_START, OK
 
 _ROUNDS = 100
@@ -78,27 +77,3 @@ def quasistatic(p, c, speed, out):
     out[ST.AXIAL_WR] = ball.wr
     out[ST.AXIAL_RESIDUAL] = size
     return OK if abs(here) <= 1e-4 * (1.0 + target) and size < 1e-3 else NO_START
-
-
-@kernel
-def stiffness_matrix(p, c, out):
-    """Stiffness of the inner against the outer ring at the equilibrium ``out`` of :func:`quasistatic`.
-
-    Returns axial, radial (N/m), tilt (N m/rad) and the radial-tilt coupling (N), each with the other
-    motions held, in closed form for equal balls.
-    """
-    inner = C.RACES
-    outer = C.RACES + C.RACE_SIZE
-    radius = p[P.PITCH_RADIUS] + out[ST.AXIAL_R]
-    xi = out[ST.AXIAL_X] - out[ST.AXIAL_SHIFT] - c[inner + C.GROOVE_X]
-    ri = radius - c[inner + C.GROOVE_RADIUS]
-    xo = out[ST.AXIAL_X] - c[outer + C.GROOVE_X]
-    ro = radius - c[outer + C.GROOVE_RADIUS]
-    kxx, kxr, krr = series_stiffness(p, c, xi, ri, xo, ro)
-    # a tilt b about the tangent moves the groove centre by (-b R_c, b x_c)
-    gx = -c[inner + C.GROOVE_RADIUS]
-    gr = c[inner + C.GROOVE_X]
-    half = 0.5 * p[P.BALLS]
-    tilt = half * (kxx * gx * gx + 2.0 * kxr * gx * gr + krr * gr * gr)
-    coupling = half * (kxr * gx + krr * gr)
-    return p[P.BALLS] * kxx, half * krr, tilt, coupling

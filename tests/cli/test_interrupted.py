@@ -31,7 +31,10 @@ def test_ctrl_c_is_one_line(tmp_path, words, seconds):
     ) as program:  # fmt: skip
         time.sleep(seconds)
         os.killpg(program.pid, signal.SIGINT)
-        _, told = program.communicate(timeout=60)
+        try:
+            _, told = program.communicate(timeout=60)
+        finally:
+            program.kill()  # what does not end would hold up all other tests
     assert program.returncode == 130, told
     assert "Traceback" not in told
     assert len([line for line in told.splitlines() if "interrupted" in line]) == 1

@@ -84,16 +84,18 @@ def damping_ratios(scene):
 
     From 300 Hz to 30 kHz, where the balls begin to swing along the contacts, which is left to `full`. A mode
     of `response` is that of the most similar shape near by. Without the outer ring's rotation about its axis,
-    on which no ball acts in the condensed equations.
+    on which no ball acts in the condensed equations, and the chain of balls between springs: near 20 kHz
+    it takes the rings along with up to 15 % of its energy.
     """
     full = motions_of_full(scene)
     found = linearised(scene.with_rigid_rings())
     at = found.coordinates
     fast = motions_of_response(scene, at.masses[at.ring_rates : at.ring_rates + L.N])
     rows = {0: [], 1: [], -1: []}
+    least = 0.05 if scene.bearing.ball_springs is None else 0.2
     for pole, shape, share in zip(full.poles, full.shapes.T, full.shares, strict=True):
         frequency = pole.imag / (2 * np.pi)
-        if not 300.0 < frequency < 30_000.0 or share < 0.05 or -pole.real > 0.5 * abs(pole):
+        if not 300.0 < frequency < 30_000.0 or share < least or -pole.real > 0.5 * abs(pole):
             continue
         if np.abs(shape[L.TURN]) ** 2 > 0.9 * (np.abs(shape) ** 2).sum():
             continue
@@ -123,7 +125,8 @@ def damped_as_full(scene, swinging=0.05):
     coordinates.
     """
     rows = damping_ratios(scene)
-    assert len(rows[1]) == len(rows[-1]) >= 2
+    # of the dry bearing between springs all but the tilts are damped beyond a half at 10 us
+    assert len(rows[1]) == len(rows[-1]) >= (2 if scene.bearing.ball_springs is None else 1)
     # both whirls of a mode side by side, those of swinging balls apart
     forward, backward = (found[np.lexsort((found[:, 0], found[:, 1] > 0.3))] for found in (rows[1], rows[-1]))
     decaying = np.minimum(forward[:, 1], backward[:, 1]) > -5e-4

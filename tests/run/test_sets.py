@@ -114,8 +114,9 @@ def test_each_bearing_has_the_variables_of_a_single_one():
 
 
 # friction along the tracks, which statics leaves out, is 0.6e-3 of the loads of the one, 1.2e-3 of the other;
-# friction across them, which it shares by assumption, 0.8e-3 more of the other
-@pytest.mark.parametrize(("file", "friction"), [(DB, 1e-3), (QBC, 4e-3)], ids=["DB", "QBC"])
+# friction across them, which it shares by assumption, 0.8e-3 more of the other. The balls of QBC, which is
+# loaded across the axis, settle while the rings stay where quasi-static bearings hold them: 1.7 %
+@pytest.mark.parametrize(("file", "friction"), [(DB, 1e-3), (QBC, 2e-2)], ids=["DB", "QBC"])
 def test_forces_at_the_start_are_those_of_statics(file, friction):
     perfect = read_scene(file).replace({"imperfections": None, "spindle.shaft.unbalance": ()})
     found = shaft_statics(perfect)
@@ -130,6 +131,12 @@ def test_forces_at_the_start_are_those_of_statics(file, friction):
     # 5e-3: the nose leans on the same stiffness, preload and friction come off
     nose = [bearing[f"shaft.nose.displacement.{axis}"] for axis in "xyz"]
     assert nose == pytest.approx(found.displacement[:3], abs=5e-3 * np.linalg.norm(found.displacement[:3]))
+    for _ in range(40):
+        bearing.step(1e-3)
+    for one in found.bearings:
+        force = [bearing[f"bearing[{one.number}].force.{axis}"] for axis in "xyz"]
+        # what the start set ringing is still 2e-3 to 4e-3
+        assert force == pytest.approx(one.force, abs=6e-3 * np.linalg.norm(one.force))
 
 
 def test_sums_are_sums_and_lost_power_is_heat():
@@ -206,7 +213,7 @@ def test_an_unloaded_bearing_is_warned_of_by_its_number():
         bearing.step(1e-4)
     texts = [str(one.message) for one in told]
     assert sum("is unloaded" in text for text in texts) == 1  # once
-    assert any(text.startswith("bearing 2: its inner race carries 0.1 N per ball") for text in texts)
+    assert any(text.startswith("bearing 2: its inner race carries 0.2 N per ball") for text in texts)
     assert any(text.startswith("bearing 1: the ellipse of the most loaded contact") for text in texts)
 
 

@@ -36,8 +36,9 @@ def test_figures_are_those_of_a_run_beside(rings):
         *(float(data[f"mic[{k}].leq_a"]) for k in (1, 2, 3, 4)),
     ]
     expected = [*other.ring_rms, *other.load, *other.angle, other.torque, other.cage_ratio, *other.levels]
-    # sums in another order; levels there with steps of 1 ms: other internal steps, 0.06 dB at most
-    np.testing.assert_allclose(found[:8], expected[:8], rtol=1e-9)
+    # sums in another order; levels there with steps of 1 ms: other internal steps, 0.06 dB at most. Where
+    # balls sound they are shown as they move, beside their place of rest: 2e-6 of loads and angles
+    np.testing.assert_allclose(found[:8], expected[:8], rtol=1e-5)
     np.testing.assert_allclose(found[8:], expected[8:], atol=0.2)
     assert data["friction_torque"].attrs["units"] == "N.m"
     assert data["seed"] == 1 and data["reason"] == "" and data["wall"] > 0

@@ -21,6 +21,15 @@ MOST = BALL * MAX_BALLS + TAIL  # unknowns
 EVEN = 11  # unknowns where all balls are equal
 EVEN_ROW = EVEN + 1
 
+# of an eigenvector: itself, its rates, the right side of its equations and their answer
+_eigen = Places()
+VECTOR = _eigen(MOST)
+VECTOR_IM = _eigen(MOST)  # imaginary parts
+RATE = _eigen(MOST)
+RATE_IM = _eigen(MOST)
+RIGHT = _eigen(MOST)
+RIGHT_IM = _eigen(MOST)
+
 _at = Places()
 UNKNOWNS = _at(MOST)
 STEP = _at(MOST)  # of Newton's method
@@ -29,7 +38,7 @@ RESIDUAL = _at(MOST)  # N: forces out of balance, moments over a lever
 MATRIX = _at(MOST * (MOST + 1))  # equations by rows, the right-hand side last
 IMAGINARY = _at(MOST * (MOST + 1))  # imaginary parts, and coefficients of rates: see steady/growth.py
 RATES = _at(MOST * (MOST + 1))
-EIGEN = _at(6 * MOST)  # an eigenvector, its rates, and what stands right: real parts, then imaginary ones
+EIGEN = _at(_eigen.next)  # an eigenvector: see above
 FIRST_STATE = _at(_Y.SIZE)  # quasi-static state that is settled,
 EVEN_STATE = _at(_Y.SIZE)  # state of the even balls,
 REST_STATE = _at(_Y.SIZE)  # of the pattern at rest,

@@ -183,12 +183,13 @@ def right_side(p, c, growth, turning, held, w):
         imaginary = 0.0
         for k in range(size):
             real += w[rates + i * width + k] * vector[k]
-            imaginary += w[rates + i * width + k] * vector[PT.MOST + k]
+            imaginary += w[rates + i * width + k] * vector[PT.VECTOR_IM + k]
         inertia = inertia_of(p, c, i, held)
-        real += inertia * (growth * vector[i] - turning * vector[PT.MOST + i] + vector[2 * PT.MOST + i])
-        imaginary += inertia * (turning * vector[i] + growth * vector[PT.MOST + i] + vector[3 * PT.MOST + i])
-        vector[4 * PT.MOST + i] = -real
-        vector[5 * PT.MOST + i] = -imaginary
+        real += inertia * (growth * vector[i] - turning * vector[PT.VECTOR_IM + i] + vector[PT.RATE + i])
+        imaginary += inertia * (turning * vector[i] + growth * vector[PT.VECTOR_IM + i])
+        imaginary += inertia * vector[PT.RATE_IM + i]
+        vector[PT.RIGHT + i] = -real
+        vector[PT.RIGHT_IM + i] = -imaginary
 
 
 @kernel
@@ -205,24 +206,24 @@ def growth_of_whirl(p, c, speed, held, rest, w, jac):
     im = w[W.PATTERN + PT.IMAGINARY : W.PATTERN + PT.RATES]
     order = w[W.PATTERN + PT.STEP : W.PATTERN + PT.SCALE]
     vector = w[W.PATTERN + PT.EIGEN : W.PATTERN + PT.FIRST_STATE]
-    answer_re = vector[4 * PT.MOST : 5 * PT.MOST]
-    answer_im = vector[5 * PT.MOST : 6 * PT.MOST]
+    answer_re = vector[PT.RIGHT : PT.RIGHT_IM]
+    answer_im = vector[PT.RIGHT_IM : PT.RIGHT_IM + PT.MOST]
     take(p, rest, 0.0, w)
     show(p, ahead, w, rest)
     jacobian(p, c, rest, 0.0, speed, 0.0, w, jac)
     rate_coefficients(p, c, held, ahead, w, jac)
     growth = _GROWING * abs(speed)
     turning = _TURNING * abs(speed)
-    for i in range(6 * PT.MOST):
+    for i in range(PT.RIGHT_IM + PT.MOST):
         vector[i] = 0.0
     y = last + Q.CAGE + Q.Y
     z = last + Q.CAGE + Q.Z
     # y + i z turns ahead
     vector[y] = 1.0
-    vector[PT.MOST + z] = -ahead
+    vector[PT.VECTOR_IM + z] = -ahead
     for i in (y, z):
-        vector[2 * PT.MOST + i] = growth * vector[i] - turning * vector[PT.MOST + i]
-        vector[3 * PT.MOST + i] = growth * vector[PT.MOST + i] + turning * vector[i]
+        vector[PT.RATE + i] = growth * vector[i] - turning * vector[PT.VECTOR_IM + i]
+        vector[PT.RATE_IM + i] = growth * vector[PT.VECTOR_IM + i] + turning * vector[i]
     found_growth = -math.inf
     found_turning = turning
     for _ in range(_SHIFTS):
@@ -244,11 +245,11 @@ def growth_of_whirl(p, c, speed, held, rest, w, jac):
             for i in range(size):
                 # the answer's rates are the vector and lambda times the answer
                 rate_re = vector[i] + growth * answer_re[i] - turning * answer_im[i]
-                rate_im = vector[PT.MOST + i] + growth * answer_im[i] + turning * answer_re[i]
+                rate_im = vector[PT.VECTOR_IM + i] + growth * answer_im[i] + turning * answer_re[i]
                 vector[i] = answer_re[i] * per_re - answer_im[i] * per_im
-                vector[PT.MOST + i] = answer_re[i] * per_im + answer_im[i] * per_re
-                vector[2 * PT.MOST + i] = rate_re * per_re - rate_im * per_im
-                vector[3 * PT.MOST + i] = rate_re * per_im + rate_im * per_re
+                vector[PT.VECTOR_IM + i] = answer_re[i] * per_im + answer_im[i] * per_re
+                vector[PT.RATE + i] = rate_re * per_re - rate_im * per_im
+                vector[PT.RATE_IM + i] = rate_re * per_im + rate_im * per_re
             moved = abs(growth + per_re - found_growth) + abs(turning + per_im - found_turning)
             found_growth = growth + per_re
             found_turning = turning + per_im

@@ -36,7 +36,7 @@ from fmu_bearing import build_fmu, read_scene
 from fmu_bearing.cli.base import refusals
 from fmu_bearing.extras import need
 from fmu_bearing.run.pictures import empty, save
-from fmu_bearing.run.table import markdown, number, write_csv
+from fmu_bearing.run.table import machine, markdown, number, write_csv
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -231,7 +231,7 @@ def page(maps: Maps, picture: str) -> str:
     return PAGE.format(
         torque=1e3 * maps.slopes.torque, c=c, mass=mass, table=markdown(head, rows(maps.torque)),
         taken=markdown(head[:-2], [row[:-2] for row in rows(maps.taken_over)]),
-        heat=markdown(warm_head, warm_rows), picture=picture, exchanges=EXCHANGES, disturbance=DISTURBANCE,
+        heat=markdown(warm_head, warm_rows), picture=picture, machine=machine(), exchanges=EXCHANGES, disturbance=DISTURBANCE,
     )  # fmt: skip
 
 
@@ -244,6 +244,8 @@ def _seconds(bound: float) -> str:
 
 
 PAGE = """# Explicit coupling of the bearing: stability
+
+{machine}
 
 Written by `examples/spindle_cosimulation/stability.py`. The 7003C in its spindle runs with fidelity `full` at
 20,000 r/min, without imperfections, so that no ripple hides the disturbance. All values are held over a

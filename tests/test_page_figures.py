@@ -1,0 +1,23 @@
+"""Figures of pages are those of the tables under docs/results."""
+
+import pytest
+
+from tests import figures
+
+
+@pytest.mark.parametrize("page", figures.PAGES)
+def test_a_page_has_the_figures_of_the_tables(page):
+    assert not figures.missing(page)
+
+
+@pytest.mark.parametrize(
+    ("text", "digits", "shown"),
+    [("2.394", 2, "2.4"), ("226", 2, "230"), ("8.4e-05", 1, "8e-5"), ("1,234", 3, "1230"), ("0", 2, "0")],
+)
+def test_figures_are_rounded(text, digits, shown):
+    assert figures.rounded(text, digits) == shown
+
+
+def test_a_figure_that_is_not_the_tables_is_found(monkeypatch):
+    monkeypatch.setattr(figures, "_ratio", lambda found, key: "7.77")
+    assert any("7.77" in one for one in figures.missing("choosing.md"))

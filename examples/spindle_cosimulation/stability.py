@@ -231,7 +231,8 @@ def page(maps: Maps, picture: str) -> str:
     return PAGE.format(
         torque=1e3 * maps.slopes.torque, c=c, mass=mass, table=markdown(head, rows(maps.torque)),
         taken=markdown(head[:-2], [row[:-2] for row in rows(maps.taken_over)]),
-        heat=markdown(warm_head, warm_rows), picture=picture, machine=machine(), exchanges=EXCHANGES, disturbance=DISTURBANCE,
+        heat=markdown(warm_head, warm_rows), picture=picture, machine=machine(), exchanges=EXCHANGES,
+        disturbance=DISTURBANCE,
     )  # fmt: skip
 
 

@@ -113,17 +113,19 @@ def test_a_set_begins_again_where_no_step_leads_on():
 
 
 @pytest.mark.parametrize("fidelity", CHEAP)
-def test_a_bearing_begins_again_where_no_step_leads_on(fidelity):
-    """No preload, full speed and an outer ring 240 K warmer at once: no ball stays between both races."""
-    said = []
-    run = started("7009C-steel", fidelity, said.append)
+def test_a_bearing_comes_back_from_loose_balls(fidelity):
+    """No preload, full speed and an outer ring 240 K warmer at once: no ball stays between both races.
+
+    Whether a step fails there is left open; the next test has one that does.
+    """
+    run = started("7009C-steel", fidelity)
     run.step(1e-4)
     start = run.u.copy()
     jump = {"preload": 0.0, "shaft_speed": 10472.0, "inner_ring_temperature": 233.0}
     for key, value in (jump | {"outer_ring_temperature": 473.0}).items():
         run.set(key, value)
     run.step(1e-4)
-    assert len([text for text in said if "begin again at rest" in text]) == (run.get("solver.restarts") > 0)
+    assert np.isfinite(run.z).all()
     run.u[:] = start
     for h in RETURNS:
         run.step(h)

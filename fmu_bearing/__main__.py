@@ -12,6 +12,10 @@ def main() -> None:
     except KeyboardInterrupt:
         sys.stderr.write("interrupted\n")
         sys.exit(130)
+    finally:
+        # CPython takes an interrupt within `exec` of a text (dataclasses do that) for unhandled, and then
+        # ends the process by its signal whatever caught it. The next `exec` of a text clears that.
+        exec("")
 
 
 if __name__ == "__main__":

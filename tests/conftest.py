@@ -46,6 +46,7 @@ LONG = (
     "examples/test_critical_speed.py",
     "examples/test_notebooks.py",
     "examples/test_gallery.py",
+    "test_page_figures.py",
 )
 #: For tests of the examples themselves, of the documentation and of the catalogue.
 EXAMPLES = ROOT / "examples" / "scenes"

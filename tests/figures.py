@@ -4,54 +4,24 @@ Each function yields what its page has to say, made from today's tables. A page 
 ``python -m tests.figures`` prints what is missing, page by page.
 """
 
-import csv
-import functools
-import pathlib
 import re
 
-DOCS = pathlib.Path(__file__).parents[1] / "docs"
-RESULTS = DOCS / "results"
-
-
-@functools.cache
-def table(name, heading=""):
-    """Rows of a table as dictionaries: of ``name.csv``, or the one below a heading of ``name.md``."""
-    if not heading:
-        with (RESULTS / f"{name}.csv").open(encoding="utf-8", newline="") as file:
-            return tuple(csv.DictReader(file))
-    text = (RESULTS / f"{name}.md").read_text("utf-8").split(f"## {heading}\n", 1)[1]
-    lines = [line for line in re.split(r"\n## ", text)[0].splitlines() if line.startswith("|")]
-    cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
-    return tuple(dict(zip(cells[0], row, strict=True)) for row in cells[2:])
-
-
-def row(name, heading="", **wanted):
-    """Return the one row of a table whose columns have the given texts; ``_`` in a name may be a space."""
-    rows = table(name, heading)
-    keys = {key if key in rows[0] else key.replace("_", " "): value for key, value in wanted.items()}
-    found = [one for one in rows if all(one[key] == value for key, value in keys.items())]
-    assert len(found) == 1, (name, heading, wanted, len(found))
-    return found[0]
-
-
-def rounded(text, digits=2):
-    """A number with so many significant digits, without an exponent where it needs none."""
-    value = float(text.replace(",", "").rstrip(" %"))
-    if value == 0.0 or 1e-3 <= abs(value) < 1e5:
-        return f"{float(f'{value:.{digits}g}'):.10g}"
-    mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
-    return f"{mantissa}e{int(exponent)}"
-
-
-def percent(text, digits=2):
-    """A share as per cent."""
-    return f"{rounded(str(100.0 * float(text)), digits)} %"
-
-
-def signed(text, decimals=1):
-    """A number of decibels with its sign."""
-    return f"{float(text):+.{decimals}f}" if float(f"{float(text):.{decimals}f}") else "0.0"
-
+from tests.figures_of_limits import limits
+from tests.tables import (
+    CASES,
+    DOCS,
+    RESULTS,
+    critical_speed,
+    fastest,
+    moved,
+    percent,
+    rounded,
+    row,
+    scene_line,
+    signed,
+    table,
+    usual,
+)
 
 #: Default settings of the study of one scene.
 _FULL = {"fidelity": "full", "method": "esdirk4", "tolerance": "0.002", "max_step,_us": "25", "left_out": ""}
@@ -89,12 +59,12 @@ def choosing():
         for rpm in speeds.split():
             yield f"| {scene}, {rpm} | {_of_full(scene, rpm)} |"
     for load in ("300", "1000"):
-        rings = _scene("7003C-spindle", "20,000", "rings", load)
+        rings = scene_line("7003C-spindle", "20,000", "rings", load)
         yield (
             f"{load} N on the spindle at 20,000 r/min: inner ring {_ratio(rings, 'inner ring')}, outer ring "
             f"{_ratio(rings, 'outer ring')}, torque {rings['torque']}"
         )
-    whirl = _scene("7009C-full-ceramic", "18,000", "rings")
+    whirl = scene_line("7009C-full-ceramic", "18,000", "rings")
     yield f"{_ratio(whirl, 'inner ring')} on the inner ring (rings rigid)"
     yield f"One strip instead of five loses {percent(_setting('1')['torque'])} of the torque"
     damping = _setting(left_out="contact damping")
@@ -105,10 +75,6 @@ def choosing():
         yield f"| circle of {circle} | {_sound_costs(f'circle of {circle}')} |"
 
 
-def _scene(name, rpm, fidelity, load="0"):
-    return row("scenes", scene=name, fidelity=fidelity, **{"r/min": rpm, "radial,_N": load})
-
-
 def _ratio(found, key):
     return f"{float(found[key]):.2f}"
 
@@ -117,7 +83,7 @@ def _of_full(scene, rpm):
     """Ratios and levels of rings, then of response."""
     cells = []
     for fidelity in ("rings", "response"):
-        found = _scene(scene, rpm, fidelity)
+        found = scene_line(scene, rpm, fidelity)
         cells += [_ratio(found, "inner ring"), _ratio(found, "outer ring")]
         cells += [signed(found["loudest, dB(A)"]), signed(found["quietest, dB(A)"])]
     return " | ".join(cells)
@@ -132,38 +98,10 @@ def _sound_costs(microphones):
     return " | ".join(rounded(one["CPU s per s"], 1) for one in costs)
 
 
-#: Names of the benchmark's cases on the page.
-_CASES = {
-    "7003C-bare 1,000 r/min": "7003C bare, 1,000 r/min",
-    "7003C-bare 10,000 r/min": "7003C bare, 10,000 r/min",
-    "7003C-spindle 20,000 r/min": "7003C spindle, 20,000 r/min",
-    "7003C-bare 28,000 r/min": "7003C bare, 28,000 r/min",
-    "7009C-full-ceramic 3,000 r/min": "7009C, 3,000 r/min",
-    "7009C-full-ceramic 18,000 r/min": "7009C, 18,000 r/min",
-    "7003C-spindle 20,000 r/min, 300 N radial": "spindle, 300 N radial",
-    "7003C-spindle 20,000 r/min, 1000 N radial": "spindle, 1000 N radial",
-    "7003C-bare 10,000 r/min, 300 N radial": "bare, 10,000 r/min, 300 N",
-    "7003C-bare 10,000 r/min, 1000 N radial": "bare, 10,000 r/min, 1000 N",
-    "7003C-spindle 20,000 r/min, first 4 ms": "spindle, first 4 ms",
-    "7009C-full-ceramic 18,000 r/min, first 4 ms": "7009C, 18,000 r/min, first 4 ms",
-    "example 7003C-bare 20,000 r/min": "example 7003C bare, 20,000 r/min",
-    "example 7003C-spindle 20,000 r/min": "example 7003C spindle, 20,000 r/min",
-    "example 7009C-full-ceramic 18,000 r/min": "example 7009C, 18,000 r/min",
-}
-
-
-def _usual(case):
-    """Lines of full, rings and response of a case at their usual setting."""
-    lines = [one for one in table("benchmark") if one["case"] == case]
-    full = [one for one in lines if one["solver"] == "full / esdirk4" and one["setting"].startswith("usual")]
-    others = [[one for one in lines if one["solver"] == name] for name in ("rings", "response")]
-    return [one[0] if one else None for one in (full, *others)]
-
-
 def validation():
     """Speeds and errors of the benchmark, its memory; how many extreme cases there are."""
-    for case, name in _CASES.items():
-        full, rings, response = _usual(case)
+    for case, name in CASES.items():
+        full, rings, response = usual(case)
         digits = 2, 3, 3
         full_speed, *speeds = [
             f"{rounded(one['sim/CPU'], n)}{one['goal'] and ' (' + one['goal'] + ')'}" if one else ""
@@ -174,9 +112,9 @@ def validation():
         error = error if float(full["error"]) <= asked else f"**{error}**"
         cells = [name, full_speed, error, *speeds]
         yield "| " + " | ".join(cells).replace("|  |", "| |") + " |"
-    usual = [_usual(case)[0] for case in _CASES if "example" not in case]
+    lines = [usual(case)[0] for case in CASES if "example" not in case]
     faster = {
-        peer: sorted(float(one[f"x {peer}"]) for one in usual)
+        peer: sorted(float(one[f"x {peer}"]) for one in lines)
         for peer in ("EXUDYN", "CVODE", "Radau", "LSODA")
     }
     low_high = {peer: f"{found[0]:.0f} to {found[-1]:.0f}" for peer, found in faster.items()}
@@ -185,35 +123,101 @@ def validation():
         f"it is {low_high['CVODE']} times as fast as CVODE, {low_high['Radau']} times as Radau and "
         f"{low_high['LSODA']} times as LSODA"
     )
-    from tests.extremes.cases import CASES
+    yield from _accuracy_of_the_benchmark()
+    yield from _over_gate_scenes()
+    yield from _sensitivities()
+    from tests.extremes.cases import CASES as EXTREMES
 
-    yield f"`tests/extremes` runs {len(CASES)} cases at every fidelity and method"
+    yield f"`tests/extremes` runs {len(EXTREMES)} cases at every fidelity and method"
     for scene, rpm in (
         ("gate 7003C-bare", "10,000"), ("gate 7003C-bare", "20,000"), ("gate 7003C-spindle", "12,000"),
         ("gate 7003C-spindle", "20,000"), ("gate 7009C-full-ceramic", "9,000"),
         ("gate 7009C-full-ceramic", "18,000"),
     ):  # fmt: skip
         ratios = [
-            f"{float(_scene(scene, rpm, fidelity)[key]):.3f}"
+            f"{float(scene_line(scene, rpm, fidelity)[key]):.3f}"
             for fidelity in ("rings", "response")
             for key in ("inner ring", "outer ring")
         ]
         yield f"| {scene.removeprefix('gate ')}, {rpm} | {' | '.join(ratios)} |"
 
 
-def limits():
-    """Speed of full, heavy radial load."""
-    settled = [_usual(case)[0] for case in _CASES if not ("first" in case or "example" in case)]
-    free = [float(one["sim/CPU"]) for one in settled if "radial" not in one["case"]]
-    loaded = [float(one["sim/CPU"]) for one in settled if "radial" in one["case"]]
-    yield f"runs at {min(free):.1f} to {max(free):.1f} simulated seconds per second of the processor"
-    yield f"at {min(loaded):.1f} to {max(loaded):.1f} under radial loads of 1000 and 300 N"
-    heavy = [_scene("7003C-spindle", "20,000", fidelity, "1000") for fidelity in ("rings", "response")]
-    ratios = [float(one[key]) for one in heavy for key in ("inner ring", "outer ring")]
+def _accuracy_of_the_benchmark():
+    """Which cases keep the tolerance, how long steps may be, what an iteration costs, memory."""
+    gates = [case for case in CASES if "example" not in case]
+    kept = sum("error" not in usual(case)[0]["verdict"] for case in gates)
+    yield f"A tolerance of 1e-3 keeps an error of 1e-3 in {kept} of the {len(gates)} gate cases"
+    heavy = fastest("7003C-spindle 20,000 r/min, 1000 N radial")
+    assert heavy["setting"].startswith("fastest: tol 0.0003")
+    yield f"the spindle under 1000 N needs 3e-4, at {rounded(heavy['sim/CPU'])}"
+    slow = [fastest(f"7003C-bare {rpm} r/min") for rpm in ("1,000", "10,000")]
+    assert all(one["setting"].endswith("h <= 40 us") for one in slow)
     yield (
-        "under 1000 N on the 7003C's spindle at 20,000 r/min both read "
-        f"{min(ratios):.2f} to {max(ratios):.2f} of the rings' rms"
+        "40 us at 1,000 and 10,000 r/min, where the speed is "
+        f"{rounded(slow[0]['sim/CPU'])} and {rounded(slow[1]['sim/CPU'])}"
     )
+    agreed = max(float(one["two integrators agree to"]) for one in table("benchmark", "References"))
+    yield f"agree to {rounded(str(agreed), 1)} or better over the window of each case"
+    memory = table("benchmark", "Memory of an instance")
+    silent, loud = (
+        sorted({float(one["in all"].split()[0]) for one in memory if one["radiator"] == radiator})
+        for radiator in ("none", "with sound")
+    )
+    yield (
+        f"An instance takes {silent[-1]:g} MB, "
+        f"with boundary-element sound {loud[0]:g} to {loud[-1]:g} MB (goal 3)"
+    )
+    terms = row(
+        "benchmark",
+        "Cost of terms",
+        scene="7003C-spindle 20,000 r/min",
+        variant="all terms, 5 strips",
+    )
+    single = row("sets", case="single 7003C on a rotor")
+    yield (
+        f"An iteration costs {rounded(single['us per bearing and iteration'])} us ([sets](results/sets.md)), "
+        f"the right-hand side {rounded(terms['right-hand side, us'])} us"
+    )
+    text = (RESULTS / "tradeoff.md").read_text("utf-8")
+    agreed = re.search(r"agree to (\S+) over the whole window", text)[1]
+    yield f"holds {len(table('tradeoff'))} settings against a reference on which two integrators"
+    yield f"two integrators agree to {rounded(agreed)} over the whole window"
+    cases = {(one["scene"], one["r/min"], one["radial, N"]) for one in table("scenes")}
+    yield f"has four settings over {len(cases)} cases"
+
+
+def _over_gate_scenes():
+    """Speed of full on example scenes over that on their gate scenes, both at 2e-3; error of its levels."""
+
+    def of_full(scene, rpm):
+        return row(
+            "scenes", scene=scene, fidelity="full", tolerance="0.002", **{"r/min": rpm, "radial, N": "0"}
+        )
+
+    for scene, rpm in (
+        ("7003C-bare", "20,000"), ("7003C-spindle", "20,000"), ("7009C-full-ceramic", "18,000"),
+    ):  # fmt: skip
+        own, gate = (float(of_full(name, rpm)["sim/CPU"]) for name in (scene, f"gate {scene}"))
+        yield f"| {scene}, {rpm} r/min | {own / gate:.2f} |"
+    loudest = [
+        abs(float(one["loudest, dB(A)"]))
+        for one in table("scenes")
+        if one["fidelity"] == "full" and one["tolerance"] == "0.002" and one["loudest, dB(A)"]
+    ]
+    yield f"Levels at the loudest microphone are within {max(loudest):.2f} dB(A) of the reference"
+
+
+def _sensitivities():
+    """What moves ring vibration."""
+    inner = "inner ring rms, %"
+    yield f"moves {len({one['parameter'] for one in table('sensitivity')})} assumed values"
+    mass = [moved("mounting.rotor.mass_kg", to, inner) for to in ("0.96", "1.44")]
+    yield f"rotor mass (20 %: {mass[0]:.0f} and {mass[1]:.0f} %)"
+    damping = [moved("bearing.contact_damping_us", to, inner) for to in ("2", "3")]
+    yield f"contact damping (20 %: {damping[0]:+.0f} and {damping[1]:.0f} %)"
+    exponent = moved("imperfections.waviness_exponent", "1", inner)
+    yield f"exponent ({exponent:+.0f} % from 1.35 to 1.0), inner race"
+    yield f"seed ({moved('imperfections.seed', '2', inner):+.0f} %)"
 
 
 def index():
@@ -223,8 +227,11 @@ def index():
     yield f"runs at {slow} or at {fast} simulated seconds per second"
 
 
+_IMPLICIT_STAGES = 5  # of a step of ESDIRK4
+
+
 def spindle():
-    """What sets cost."""
+    """What sets cost, how large and how exact they are."""
     over = {one["case"]: one["over one"] for one in table("sets")}
     yield (
         f"Their [speed](results/sets.md) times the number of bearings is {over['DB, rigid shaft']} (DB) and "
@@ -238,6 +245,17 @@ def spindle():
         f"{cost['set of one, rigid shaft']} us for a set of one, {cost['DB, rigid shaft']} us per bearing "
         f"for DB and {cost['QBC, rigid shaft']} us for QBC"
     )
+    yield f"the modes between them, {row('sets', case='QBC, flexible shaft')['coordinates']} coordinates"
+    stages = {
+        one["case"]: f"{float(one['iterations']) / float(one['steps']) / _IMPLICIT_STAGES:.2g}"
+        for one in table("sets")
+    }
+    yield (
+        f"takes {stages['QBC, rigid shaft']} iterations a stage; a single bearing, which does without it, "
+        f"takes {stages['single 7003C on a rotor']}"
+    )
+    errors = [float(one["error"]) for one in table("sets")]
+    yield f"their ring velocities are within {rounded(str(max(errors)))} of a reference"
 
 
 def coupling():
@@ -254,7 +272,25 @@ def coupling():
     yield f"reading 50 outputs takes {cost[0]} us in C and {cost[1]} us through FMPy"
 
 
+def settings():
+    """How many settings the tradeoff study has."""
+    yield f"Error against speed of {len(table('tradeoff'))} settings"
+
+
+def gallery():
+    """Settings of the study, and the axial mode."""
+    yield from settings()
+    mode = float(row("axial_mode", **{"preload, N": "500"})["axial mode, Hz"])
+    yield f"the axial mode at {1e-3 * mode:.1f} kHz"
+
+
+def examples():
+    """Critical speed of the spindle."""
+    yield f"the critical speed of {critical_speed()} r/min"
+
+
 PAGES = {
+    "../README.md": settings, "examples.md": examples, "gallery.md": gallery,
     "choosing.md": choosing, "coupling.md": coupling, "index.md": index, "limits.md": limits,
     "spindle.md": spindle, "validation.md": validation,
 }  # fmt: skip

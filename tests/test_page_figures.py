@@ -1,8 +1,8 @@
-"""Figures of pages are those of the tables under docs/results."""
+"""Figures of pages are those of the tables under docs/results, and those that the package computes."""
 
 import pytest
 
-from tests import figures
+from tests import computed, figures, tables
 
 
 @pytest.mark.parametrize("page", figures.PAGES)
@@ -10,14 +10,24 @@ def test_a_page_has_the_figures_of_the_tables(page):
     assert not figures.missing(page)
 
 
+@pytest.mark.parametrize("page", computed.PAGES)
+def test_a_page_has_the_figures_that_the_package_computes(page):
+    assert not computed.missing(page)
+
+
 @pytest.mark.parametrize(
     ("text", "digits", "shown"),
     [("2.394", 2, "2.4"), ("226", 2, "230"), ("8.4e-05", 1, "8e-5"), ("1,234", 3, "1230"), ("0", 2, "0")],
 )
 def test_figures_are_rounded(text, digits, shown):
-    assert figures.rounded(text, digits) == shown
+    assert tables.rounded(text, digits) == shown
 
 
 def test_a_figure_that_is_not_the_tables_is_found(monkeypatch):
     monkeypatch.setattr(figures, "_ratio", lambda found, key: "7.77")
     assert any("7.77" in one for one in figures.missing("choosing.md"))
+
+
+def test_a_figure_that_the_package_does_not_compute_is_found(monkeypatch):
+    monkeypatch.setattr(computed, "_rings_at", lambda point: "7.77")
+    assert any("7.77" in one for one in computed.missing("gallery.md"))

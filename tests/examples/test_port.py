@@ -1,5 +1,6 @@
 """A rotor of another model on the port: limits and damping of the couplings against the shaft inside."""
 
+import re
 import sys
 
 import numpy as np
@@ -32,6 +33,26 @@ def test_no_coupling_is_stable_by_damping_of_its_own(outcome):
         # w H = 0.34: the page's figures are within 5 % of the ratio inside, (w H)^2 / 12 of the frequency
         assert float(damping) == pytest.approx(ratio, rel=0.08), scheme
         assert float(hertz) == pytest.approx(frequency, rel=0.03), scheme
+
+
+def test_page_has_what_the_example_prints(outcome):
+    """Frequencies within 2 Hz, ratios within 5e-4: processors round a fit of a few periods differently."""
+    (frequency, ratio), found = outcome
+    page = (ROOT / "docs" / "coupling.md").read_text("utf-8")
+    inside = re.search(r"inside \(`\[spindle.shaft\]`\) they are (\d+) Hz and ([\d.]+)\.", page)
+    assert float(inside[1]) == pytest.approx(frequency, abs=2.0)
+    assert float(inside[2]) == pytest.approx(ratio, abs=5e-4)
+    for h in (1e-5, 3e-5):
+        (line,) = re.findall(rf"^\| {1e6 * h:.0f} \| ((?:[^|]+ \| ){{3}}[^|]+) \|$", page, re.MULTILINE)
+        phase, *cells = line.split(" | ")
+        assert float(phase) == pytest.approx(2.0 * np.pi * frequency * h, abs=0.006)
+        for cell, scheme in zip(cells, ("extrapolated", "derivative", "rollback"), strict=True):
+            shown, printed = (text.split(" Hz, ") for text in (cell, found["rigid", scheme, h]))
+            if len(printed) == 1:
+                assert shown == printed, scheme
+            else:
+                assert float(shown[0]) == pytest.approx(float(printed[0]), abs=2.0), scheme
+                assert float(shown[1]) == pytest.approx(float(printed[1]), abs=5e-4), scheme
 
 
 def test_extrapolation_has_its_limit_and_the_others_none(outcome):

@@ -13,7 +13,7 @@ import numpy as np
 
 from fmu_bearing.acoustics.analysis.third_octave import third_octave_levels
 from fmu_bearing.recording.record import record
-from fmu_bearing.run.table import machine, markdown, write_csv
+from fmu_bearing.results.table import machine, markdown, write_csv
 from fmu_bearing.scene import Scene, read_scene
 from fmu_bearing.scene.read import with_fidelity
 

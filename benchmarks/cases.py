@@ -3,9 +3,9 @@
 import pathlib
 from dataclasses import dataclass
 
+from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.choices import FIDELITIES, METHODS
 from fmu_bearing.engine.layout import U
-from fmu_bearing.run.arrays import Arrays
 from fmu_bearing.scene import Scene, read_scene, si
 
 #: Frozen scenes with every value written out: a better default does not change what a goal measures.

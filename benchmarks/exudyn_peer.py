@@ -14,9 +14,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.layout import P, U, Z
-from fmu_bearing.run.arrays import Arrays
 
 
 @dataclass(frozen=True)

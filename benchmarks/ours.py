@@ -5,8 +5,8 @@ from collections.abc import Sequence
 from benchmarks.cases import WARM_UP, Case, Solver
 from benchmarks.table import Row
 from fmu_bearing.accuracy.reference import Reference, reference_from, relative_error
+from fmu_bearing.arrays import Arrays, Refused
 from fmu_bearing.engine.layout import P
-from fmu_bearing.run.arrays import Arrays, Refused
 from fmu_bearing.run.metrics import SAMPLE, ring_rms, speed
 
 #: Settings among which the fastest is sought whose error is within ``LIMIT``.

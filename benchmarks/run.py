@@ -14,8 +14,8 @@ from benchmarks.fmu import calls, whole
 from benchmarks.table import COLUMNS, Row, fill_ratios
 from fmu_bearing.accuracy.first_order import FirstOrder
 from fmu_bearing.accuracy.reference import Reference
-from fmu_bearing.run import table
-from fmu_bearing.run.arrays import Arrays
+from fmu_bearing.arrays import Arrays
+from fmu_bearing.results import table
 
 PEER_WINDOW = 2e-3  # s
 EXUDYN_STEP = 5e-6  # s

@@ -13,11 +13,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from benchmarks.cases import EXAMPLES, GATES
+from fmu_bearing.arrays import Refused
 from fmu_bearing.prepare.sound import sound_blocks
-from fmu_bearing.run.arrays import Refused
+from fmu_bearing.results.table import machine, markdown, number, write_csv
 from fmu_bearing.run.metrics import Figures, Measured, measure
 from fmu_bearing.run.settings import Setting
-from fmu_bearing.run.table import machine, markdown, number, write_csv
 from fmu_bearing.scene import Scene, read_scene
 
 REFERENCE = Setting(tolerance=1e-5, max_step=4e-6)

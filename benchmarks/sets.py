@@ -21,7 +21,7 @@ from fmu_bearing.elastic.shaft import shaft_model
 from fmu_bearing.engine.layout import S
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import Model, prepare
-from fmu_bearing.run.table import machine, markdown, number, write_csv
+from fmu_bearing.results.table import machine, markdown, number, write_csv
 from fmu_bearing.scene import Scene, read_scene
 from fmu_bearing.scene.mounting import Mounting, Rotor
 

@@ -14,7 +14,7 @@ import time
 from collections.abc import Callable, Iterator
 
 from benchmarks.cases import GATES
-from fmu_bearing.run.table import machine, markdown
+from fmu_bearing.results.table import machine, markdown
 from fmu_bearing.scene import Scene, read_scene
 from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.sweeps.cluster import cluster

@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass, field
 
-from fmu_bearing.run.table import number
+from fmu_bearing.results.table import number
 
 COLUMNS = (
     "case", "solver", "setting", "error", "sim/wall", "sim/CPU", "goal", "verdict",

@@ -5,9 +5,9 @@ import time
 import numpy as np
 
 from benchmarks.cases import silent
+from fmu_bearing.arrays import Arrays, Refused
 from fmu_bearing.compiled import call, ready
 from fmu_bearing.engine.layout import C, F, P, S, Y
-from fmu_bearing.run.arrays import Arrays, Refused
 from fmu_bearing.run.metrics import speed
 
 COLUMNS = ("scene", "variant", "right-hand side, us", "of all terms", "sim/CPU", "times all terms")

@@ -21,9 +21,11 @@ Data flow in one direction::
 ``cautions``        warnings about the state that a bearing has reached
 ``instance``        one running bearing, for the library and for the FMU
 ``fmi``             FMI 2.0: XML, native library, slave, the ``.fmu`` file
-``run``             a scene or an FMU run over inputs; results; fidelity ``auto``
+``arrays``          a bearing as flat arrays, for loops that read and restore the state
+``results``         values of variables over time: tables, files, spectra, pictures
 ``spindle``         sets of bearings on one shaft: statics
 ``modal``           small motions: natural modes, Campbell diagram, stiffness and damping
+``run``             a scene or an FMU run over inputs; fidelity ``auto``
 ``design``          what a designer asks: ratings, operating point, verdicts
 ``recording``       runs that keep the sound channels; measurements, pictures, tables, WAV files
 ``accuracy``        error against cost, sensitivity to assumed values and to a designer's choices
@@ -64,9 +66,9 @@ if TYPE_CHECKING:
     from fmu_bearing.recording.record import Recording, record
     from fmu_bearing.recording.spread import spread
     from fmu_bearing.reports import report
+    from fmu_bearing.results.result import Run
     from fmu_bearing.run.bearing import Bearing
     from fmu_bearing.run.build import build_fmu
-    from fmu_bearing.run.result import Run
     from fmu_bearing.run.simulate import simulate
     from fmu_bearing.scene import Scene, SceneError, read_scene
     from fmu_bearing.scene.read import with_fidelity
@@ -83,7 +85,7 @@ _PLACES = {
     "Dimensions": "scene.template",
     "Modes": "modal.modes",
     "Recording": "recording.recording",
-    "Run": "run.result",
+    "Run": "results.result",
     "Scene": "scene",
     "SceneError": "scene",
     "ShaftStatics": "spindle.statics",

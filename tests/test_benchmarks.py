@@ -12,8 +12,8 @@ from benchmarks.cases import CASES, GATES, SOLVERS, Case
 from benchmarks.fmu import calls, whole
 from fmu_bearing.accuracy.first_order import FirstOrder
 from fmu_bearing.accuracy.reference import reference_from
+from fmu_bearing.results.table import markdown, write_csv
 from fmu_bearing.run.metrics import SAMPLE
-from fmu_bearing.run.table import markdown, write_csv
 
 TINY = Case("7003C-spindle", 20000, (1.0, 0.0, 0.0), "start", window=2e-4, communication=1e-4)
 

@@ -15,8 +15,9 @@ from fmu_bearing.prepare.model import prepare
 from fmu_bearing.recording import listen, measure
 from fmu_bearing.recording.recording import Recording
 from fmu_bearing.reports import make
+from fmu_bearing.results.result import Run
+from fmu_bearing.results.series import structured
 from fmu_bearing.run.bearing import Bearing
-from fmu_bearing.run.result import Run, structured
 from fmu_bearing.scene import SceneError, read_scene, read_scene_text
 from fmu_bearing.scene.values import fields_of
 from fmu_bearing.sweeps.axes import ALIASES, SweepError, axes_of

@@ -7,8 +7,8 @@ import pytest
 
 from fmu_bearing import Recording, audio, identify, read_scene, report, simulate
 from fmu_bearing.acoustics.radiation.table import read_table
+from fmu_bearing.results.result import Run
 from fmu_bearing.run.input_file import read_inputs
-from fmu_bearing.run.result import Run
 from fmu_bearing.scene import SceneError
 from fmu_bearing.scene.entries import using
 from fmu_bearing.sweeps.description import read_description

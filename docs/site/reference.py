@@ -19,7 +19,7 @@ from fmu_bearing.fmi.documentation import range_of
 from fmu_bearing.formulas.iso76 import static_rating
 from fmu_bearing.formulas.iso281 import dynamic_rating
 from fmu_bearing.interface import variables
-from fmu_bearing.run.names import any_sets
+from fmu_bearing.results.variable_names import any_sets
 from fmu_bearing.scene import Scene, read_scene
 from fmu_bearing.scene.nsk import CLASSES, PREFIX, modelled, sizes as printed_sizes
 from fmu_bearing.scene.read import catalogue

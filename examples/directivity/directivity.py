@@ -23,7 +23,7 @@ from fmu_bearing.cli.base import refusals
 from fmu_bearing.extras import need
 from fmu_bearing.recording import measure as sound_measure, pictures as sound_pictures
 from fmu_bearing.recording.measure import Round
-from fmu_bearing.run.table import markdown, write_csv
+from fmu_bearing.results.table import markdown, write_csv
 
 SCENES = Path(__file__).resolve().parents[1] / "scenes"
 RADIUS, AXIAL, COUNT = 0.21, 0.05, 24  # m; the sound-field paper's circle

@@ -31,7 +31,7 @@ from fmu_bearing.cli.base import refusals
 from fmu_bearing.design.operating_point import OperatingPoint
 from fmu_bearing.extras import need
 from fmu_bearing.formulas.makers import CLASS_PRESSURE
-from fmu_bearing.run.pictures import empty
+from fmu_bearing.results.picture_parts import empty
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -30,7 +30,7 @@ from fmu_bearing.identification.data import read_data
 from fmu_bearing.identification.files import misfit_words, write_all
 from fmu_bearing.identification.model import Levels
 from fmu_bearing.identification.picture import identified_picture, save
-from fmu_bearing.run.table import show, write_csv
+from fmu_bearing.results.table import show, write_csv
 
 SCENE = Path(__file__).parents[1] / "scenes" / "7003C-spindle.toml"
 #: Keys that differ on the measured machine, as factors on the scene's values.

@@ -34,8 +34,8 @@ from fmu_bearing.elastic.modes import elastic, free_modes
 from fmu_bearing.elastic.section import INNER, OUTER, RACES, ring_section
 from fmu_bearing.extras import need
 from fmu_bearing.formulas.chance import best_of, chance
-from fmu_bearing.run.pictures import empty
-from fmu_bearing.run.table import machine, markdown, show, write_csv
+from fmu_bearing.results.picture_parts import empty
+from fmu_bearing.results.table import machine, markdown, show, write_csv
 from fmu_bearing.scene import si
 
 Array = NDArray[np.float64]

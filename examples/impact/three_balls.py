@@ -34,8 +34,8 @@ from fmu_bearing.acoustics.papers.impact.sphere_field import sphere_pressure
 from fmu_bearing.acoustics.radiation.radiators import Air
 from fmu_bearing.cli.base import refusals
 from fmu_bearing.extras import need
-from fmu_bearing.run.pictures import empty
-from fmu_bearing.run.table import machine, markdown, show, write_csv
+from fmu_bearing.results.picture_parts import empty
+from fmu_bearing.results.table import machine, markdown, show, write_csv
 
 Array = NDArray[np.float64]
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fmu_bearing.run.pictures import empty
+from fmu_bearing.results.picture_parts import empty
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

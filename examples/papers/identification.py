@@ -18,7 +18,7 @@ from scipy.optimize import brentq
 
 from examples.papers.case import Changes, changed
 from examples.papers.values import FIT, Value
-from fmu_bearing.run.table import markdown
+from fmu_bearing.results.table import markdown
 from fmu_bearing.scene.values import value_at
 
 if TYPE_CHECKING:

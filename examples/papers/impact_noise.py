@@ -15,7 +15,7 @@ from examples.papers.statements import AGAINST, Judged, Reason, both, classed, c
 from fmu_bearing.acoustics.analysis.directivity import plane_points
 from fmu_bearing.acoustics.analysis.spectrum import power_spectral_density
 from fmu_bearing.acoustics.filters.weighting import level
-from fmu_bearing.run.table import markdown
+from fmu_bearing.results.table import markdown
 
 NAME = "impact-noise"
 TITLE = "Impact-noise paper: dry 7003C, held all round, springs for a cage"

@@ -32,7 +32,7 @@ from examples.papers.lines import (
 from examples.papers.page import Output
 from examples.papers.runs import Results, Runs
 from examples.papers.statements import classed, counts
-from fmu_bearing.run.table import markdown
+from fmu_bearing.results.table import markdown
 
 NAME = "multi-source"
 TITLE = "Multi-source paper: 7003C in a spindle, 10,000 to 40,000 r/min"

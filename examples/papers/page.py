@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from examples.papers.statements import HOLDS, Classed
 from examples.papers.values import CHECK, FIT, Interval, Met, rms, slope
-from fmu_bearing.run.table import markdown, write_csv
+from fmu_bearing.results.table import markdown, write_csv
 
 GOAL_DB = 3.0  # rms of checked values on each page
 

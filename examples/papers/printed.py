@@ -22,7 +22,7 @@ from examples.papers.page import Output
 from examples.papers.runs import Results, Runs
 from examples.papers.statements import classed, counts
 from fmu_bearing.engine.layout import SD
-from fmu_bearing.run.table import markdown
+from fmu_bearing.results.table import markdown
 
 NAME = "printed"
 MODULES = ("printed", "lines", "hearing", "values")

@@ -33,7 +33,7 @@ from examples.papers.page import Output
 from examples.papers.runs import Results, Runs
 from examples.papers.statements import HOLDS, Classed, classed, counts
 from fmu_bearing.acoustics.analysis.directivity import attenuation
-from fmu_bearing.run.table import markdown
+from fmu_bearing.results.table import markdown
 from fmu_bearing.scene.sound import cylindrical
 
 NAME = "sound-field"

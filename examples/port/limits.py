@@ -14,7 +14,7 @@ from rotor import PORT, Rotor, cylinder, with_arm
 
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import prepare
-from fmu_bearing.run.pictures import save, single
+from fmu_bearing.results.picture_parts import save, single
 from fmu_bearing.scene import Scene, read_scene
 
 LENGTH, RADIUS = 0.2, 0.0085  # m

@@ -22,7 +22,7 @@ from fmu_bearing.acoustics.analysis.order import OrderMap, waterfall
 from fmu_bearing.cli.base import refusals
 from fmu_bearing.extras import need
 from fmu_bearing.recording import measure as sound_measure, pictures as sound_pictures, tables as sound_tables
-from fmu_bearing.run.table import markdown, write_csv
+from fmu_bearing.results.table import markdown, write_csv
 from fmu_bearing.scene.read import with_fidelity
 
 SCENE = Path(__file__).resolve().parents[1] / "scenes" / "7003C-spindle.toml"

@@ -35,9 +35,9 @@ from numpy.typing import NDArray
 from fmu_bearing import build_fmu, read_scene
 from fmu_bearing.cli.base import refusals
 from fmu_bearing.extras import need
-from fmu_bearing.run.pictures import empty, save
-from fmu_bearing.run.result import structured
-from fmu_bearing.run.table import markdown, number, write_csv
+from fmu_bearing.results.picture_parts import empty, save
+from fmu_bearing.results.series import structured
+from fmu_bearing.results.table import markdown, number, write_csv
 from fmu_bearing.scene import Scene
 
 if TYPE_CHECKING:

@@ -33,7 +33,7 @@ from rich.table import Table
 
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 from fmu_bearing.extras import MissingExtra, need
-from fmu_bearing.run.levels import present
+from fmu_bearing.results.levels import present
 
 RPM = 30.0 / np.pi
 BEARING, MOTOR, THERMAL = "Bearing7003C.fmu", "SpindleMotor.fmu", "SpindleThermal.fmu"

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies, level_spectrum
 from fmu_bearing.extras import need
-from fmu_bearing.run.levels import present
-from fmu_bearing.run.pictures import empty
+from fmu_bearing.results.levels import present
+from fmu_bearing.results.picture_parts import empty
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -35,8 +35,8 @@ from numpy.typing import NDArray
 from fmu_bearing import build_fmu, read_scene
 from fmu_bearing.cli.base import refusals
 from fmu_bearing.extras import need
-from fmu_bearing.run.pictures import empty, save
-from fmu_bearing.run.table import machine, markdown, number, write_csv
+from fmu_bearing.results.picture_parts import empty, save
+from fmu_bearing.results.table import machine, markdown, number, write_csv
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -4,7 +4,7 @@ import argparse
 import pathlib
 
 from fmu_bearing import Scene, read_scene
-from fmu_bearing.run.pictures import save
+from fmu_bearing.results.picture_parts import save
 from fmu_bearing.spindle.drawing import set_figure
 
 PAIR = pathlib.Path(__file__).with_name("7003C-DB.toml")

@@ -29,7 +29,7 @@ from fmu_bearing import Scene, build_fmu, read_scene, shaft_statics
 from fmu_bearing.cli.base import refusals
 from fmu_bearing.compiled import BuildError
 from fmu_bearing.extras import need
-from fmu_bearing.run.pictures import empty
+from fmu_bearing.results.picture_parts import empty
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -22,7 +22,7 @@ from fmu_bearing import Scene, read_scene, shaft_statics, simulate
 from fmu_bearing.cli.base import refusals
 from fmu_bearing.elastic.shaft import shaft_model
 from fmu_bearing.extras import need
-from fmu_bearing.run.pictures import empty, label
+from fmu_bearing.results.picture_parts import empty, label
 
 SCENE = Path(__file__).resolve().parent / "7003C-QBC.toml"
 RPM = np.pi / 30.0

@@ -23,12 +23,12 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh
 from scipy.signal import find_peaks
 
+from fmu_bearing.arrays import RPM, Arrays
 from fmu_bearing.cli.base import refusals
 from fmu_bearing.engine.layout import P
 from fmu_bearing.extras import need
-from fmu_bearing.run.arrays import RPM, Arrays
-from fmu_bearing.run.pictures import empty, save
-from fmu_bearing.run.table import machine, markdown, show, write_csv
+from fmu_bearing.results.picture_parts import empty, save
+from fmu_bearing.results.table import machine, markdown, show, write_csv
 from fmu_bearing.scene import Scene, read_scene
 from fmu_bearing.sweeps import sweep
 from fmu_bearing.sweeps.picture import draw_map, shown

@@ -27,8 +27,8 @@ from rich.progress import track
 from fmu_bearing import Scene, read_scene, record
 from fmu_bearing.cli.base import refusals
 from fmu_bearing.extras import need
-from fmu_bearing.run.pictures import empty, save
-from fmu_bearing.run.table import markdown, write_csv
+from fmu_bearing.results.picture_parts import empty, save
+from fmu_bearing.results.table import markdown, write_csv
 from fmu_bearing.scene.read import with_fidelity
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from fmu_bearing.accuracy.tradeoff import Row, Tradeoff
 from fmu_bearing.extras import need
-from fmu_bearing.run.pictures import empty, save
+from fmu_bearing.results.picture_parts import empty, save
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

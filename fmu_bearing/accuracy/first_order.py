@@ -7,9 +7,9 @@ bodies and their 17 rates, as ``y`` in ``engine.layout.y`` without its spare lan
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu_bearing.arrays import RINGS, Arrays
 from fmu_bearing.compiled import call
 from fmu_bearing.engine.layout import STRIDE, C, F, J, P, S, Y
-from fmu_bearing.run.arrays import RINGS, Arrays
 
 
 class FirstOrder:

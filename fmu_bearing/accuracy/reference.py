@@ -17,10 +17,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu_bearing.arrays import RINGS, Arrays
 from fmu_bearing.compiled import call, ready
 from fmu_bearing.engine.layout import C, S, Y
 from fmu_bearing.engine.reference.runge_kutta import ROWS, SIZE
-from fmu_bearing.run.arrays import RINGS, Arrays
 from fmu_bearing.scene import Scene
 
 

@@ -14,10 +14,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu_bearing.arrays import Refused
 from fmu_bearing.prepare.sound import sound_key
-from fmu_bearing.run.arrays import Refused
+from fmu_bearing.results.table import machine, markdown, write_csv
 from fmu_bearing.run.metrics import INAUDIBLE, Figures, measure
-from fmu_bearing.run.table import machine, markdown, write_csv
 from fmu_bearing.scene import Scene, SceneError, SceneSource
 from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.scene.values import value_at

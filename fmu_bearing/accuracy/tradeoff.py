@@ -16,11 +16,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fmu_bearing.accuracy.reference import explicit_rings, implicit_rings, relative_error
+from fmu_bearing.arrays import Arrays, Refused
 from fmu_bearing.prepare.sound import sound_block
-from fmu_bearing.run.arrays import Arrays, Refused
+from fmu_bearing.results.table import machine, markdown, number, write_csv
 from fmu_bearing.run.metrics import COMMUNICATION, SAMPLE, Errors, errors, measure
 from fmu_bearing.run.settings import TERMS, Setting
-from fmu_bearing.run.table import machine, markdown, number, write_csv
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 
 CHECK = 5e-3  # s over which two integrators are compared

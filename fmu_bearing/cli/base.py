@@ -132,9 +132,9 @@ def _caution(message: Warning | str, category: type[Warning], *place: Any) -> No
 
 def _refused() -> tuple[type[Exception], ...]:
     """Return the exceptions that count as refusals. They are imported only after an error."""
+    from fmu_bearing.arrays import Refused
     from fmu_bearing.compiled.errors import BuildError
     from fmu_bearing.extras import MissingExtra
-    from fmu_bearing.run.arrays import Refused
 
     return (ValueError, OSError, BuildError, Refused, MissingExtra)
 

@@ -37,8 +37,8 @@ def compare(
     """Compare levels, third octaves, loads, angles, torque; list the keys that differ. B less A."""
     from fmu_bearing.recording.compare import compare as compare_them
     from fmu_bearing.recording.places import named_places
-    from fmu_bearing.run.pictures import check_picture, save
-    from fmu_bearing.run.table import show
+    from fmu_bearing.results.picture_parts import check_picture, save
+    from fmu_bearing.results.table import show
     from fmu_bearing.scene import read_scene
 
     with refusals(), quiet_warnings():

@@ -97,7 +97,7 @@ def _write(found: "Identified", path: Path, scene: Path, as_json: bool, anyway: 
     """Print values, levels and remarks, and write the files."""
     from fmu_bearing.identification.files import misfit_words, write_all
     from fmu_bearing.identification.result import levels_table, values_table
-    from fmu_bearing.run.table import show
+    from fmu_bearing.results.table import show
 
     refused = bool(found.doubts) and not anyway
     files = [] if refused else write_all(found, path, scene, tell, anyway=anyway)

@@ -48,7 +48,7 @@ def info(scene: SceneFile, catalogue: Catalogues = None, as_json: Json = False) 
 
 
 def _show(point: "OperatingPoint", found: "list[Verdict]") -> None:
-    from fmu_bearing.run.table import show
+    from fmu_bearing.results.table import show
 
     scene = point.scene
     operation, mounting = scene.operation, scene.mounted

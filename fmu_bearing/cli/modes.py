@@ -129,7 +129,7 @@ def changed(scene: "Scene", settings: list[str] | None) -> tuple["Scene", dict[s
 
 
 def _show(found: "Modes", highest: float, words: str) -> None:
-    from fmu_bearing.run.table import show
+    from fmu_bearing.results.table import show
 
     typer.echo(
         f"{found.scene.name}: {found.scene.bearing.designation}, {found.rpm:,.0f} r/min, fidelity full "
@@ -152,7 +152,7 @@ def _shares(participation: dict[str, float]) -> str:
 
 
 def _show_crossings(diagram: "Campbell") -> None:
-    from fmu_bearing.run.table import show
+    from fmu_bearing.results.table import show
 
     counted = diagram.crossings(in_scene=True)
     rows = [
@@ -186,7 +186,7 @@ def _summary(found: "Modes", diagram: "Campbell | None", highest: float) -> dict
 def _write(folder: Path, found: "Modes", diagram: "Campbell | None") -> list[Path]:
     """Write tables, and for a diagram its picture and page; return the files."""
     from fmu_bearing.modal.set_modes import SetModes
-    from fmu_bearing.run.pictures import save
+    from fmu_bearing.results.picture_parts import save
 
     folder.mkdir(parents=True, exist_ok=True)
     files = [_csv(folder / "modes.csv", [_flat(row) for row in found.table()])]
@@ -215,7 +215,7 @@ def _flat(row: dict[str, Any]) -> dict[str, Any]:
 
 
 def _csv(path: Path, rows: list[dict[str, Any]]) -> Path:
-    from fmu_bearing.run.table import write_csv
+    from fmu_bearing.results.table import write_csv
 
     columns = list(rows[0]) if rows else []
     write_csv(path, columns, [[_cell(row[key]) for key in columns] for row in rows])

@@ -21,7 +21,7 @@ from fmu_bearing.cli.base import (
 from fmu_bearing.files import check_file
 
 if TYPE_CHECKING:
-    from fmu_bearing.run.result import Run
+    from fmu_bearing.results.result import Run
 
 Source = Annotated[Path, typer.Argument(metavar="SCENE|FMU", help="Scene file (.toml) or FMU (.fmu).")]
 Settings = Annotated[
@@ -62,7 +62,7 @@ def simulate(
     as_json: Json = False,
 ) -> None:
     """Run a scene or an FMU. After a refused step or Ctrl-C the results so far are kept."""
-    from fmu_bearing.run import result as results
+    from fmu_bearing.results import result as results
     from fmu_bearing.run.simulate import EndedEarly, simulate as run_it
 
     with refusals(), quiet_warnings():
@@ -105,8 +105,8 @@ def plot(
     catalogue: Catalogues = None,
 ) -> None:
     """Draw variables over time, one panel per unit: speeds in r/min, levels from where they sound."""
-    from fmu_bearing.run.result import Run
-    from fmu_bearing.run.time_pictures import draw
+    from fmu_bearing.results.result import Run
+    from fmu_bearing.results.time_pictures import draw
     from fmu_bearing.scene import read_scene
 
     with refusals():

@@ -189,7 +189,7 @@ def show(
     """Show every value of a scene, its unit and range, where it comes from, and what is assumed."""
     from fmu_bearing.elastic.section import BENDING
     from fmu_bearing.extras import available
-    from fmu_bearing.run.table import show as show_table
+    from fmu_bearing.results.table import show as show_table
 
     with refusals():
         scene = read_scene(path)
@@ -233,7 +233,7 @@ def show_catalogue(
 
 def _show_entries(kind: str, known: Mapping[str, Entry]) -> None:
     """Print a column per entry."""
-    from fmu_bearing.run.table import show as show_table
+    from fmu_bearing.results.table import show as show_table
 
     keys = list(dict.fromkeys(key for entry in known.values() for key in entry.values))
     rows = [[key, *(str(entry.values.get(key, "")) for entry in known.values())] for key in keys]
@@ -242,7 +242,7 @@ def _show_entries(kind: str, known: Mapping[str, Entry]) -> None:
 
 def _show_bearings(known: Mapping[str, Entry]) -> None:
     """Print a row per bearing: what is printed of it, and its balls."""
-    from fmu_bearing.run.table import show as show_table
+    from fmu_bearing.results.table import show as show_table
 
     keys = (
         "bore_mm",

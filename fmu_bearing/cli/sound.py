@@ -65,7 +65,7 @@ def sound(
     from fmu_bearing.recording.places import named_places
     from fmu_bearing.recording.record import Recording, record
     from fmu_bearing.recording.spread import doubt_of
-    from fmu_bearing.run.table import show
+    from fmu_bearing.results.table import show
     from fmu_bearing.scene.read import read_scene, with_fidelity
 
     with refusals(), quiet_warnings():

@@ -48,7 +48,7 @@ def show_set(scene: "Scene", as_json: bool) -> None:
 
 def _judge(judged: "list[list[Verdict | None]]", together: "list[Verdict]") -> None:
     """Print figures of all bearings side by side, with what is not good marked, and those of the set."""
-    from fmu_bearing.run.table import show
+    from fmu_bearing.results.table import show
 
     rows = []
     for alike in judged:
@@ -66,7 +66,7 @@ def _judge(judged: "list[list[Verdict | None]]", together: "list[Verdict]") -> N
 
 
 def _show(found: "ShaftStatics") -> None:
-    from fmu_bearing.run.table import show
+    from fmu_bearing.results.table import show
 
     scene = found.scene
     typer.echo(
@@ -130,8 +130,8 @@ def stiffness_of_set(
 ) -> None:  # fmt: skip
     """Write the static stiffness of a set over speed and preload, and print it."""
     from fmu_bearing.design.set_stiffness import NAMED, set_stiffness
-    from fmu_bearing.run.pictures import save
-    from fmu_bearing.run.table import show
+    from fmu_bearing.results.picture_parts import save
+    from fmu_bearing.results.table import show
 
     def track(values: Iterable[float]) -> Iterable[float]:
         return values if as_json else progress(values, "speeds", transient=True)

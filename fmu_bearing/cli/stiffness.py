@@ -21,7 +21,8 @@ from fmu_bearing.cli.modes import Changes, changed
 from fmu_bearing.cli.spindle import stiffness_of_set
 
 if TYPE_CHECKING:
-    from fmu_bearing.modal.stiffness import Spacing, Stiffness
+    from fmu_bearing.modal.stiffness import Stiffness
+    from fmu_bearing.modal.stiffness_table import Spacing
 
 _ENDINGS = {"csv": ".csv", "netcdf": ".nc", "ross": ".toml"}
 _SYNTAX = "LOW:HIGH:COUNT, LOW:HIGH:COUNTlog or VALUE,VALUE,..."
@@ -70,7 +71,7 @@ def stiffness(
     each, with half of the bearing. The table tells what both lack of its tilt and coupling.
     """
     from fmu_bearing.modal.stiffness import stiffness as table_of
-    from fmu_bearing.run.pictures import check_picture, save
+    from fmu_bearing.results.picture_parts import check_picture, save
     from fmu_bearing.scene import read_scene
 
     with refusals():
@@ -171,7 +172,7 @@ def _write(found: "Stiffness", form: str, target: Path, mirrored: bool) -> list[
 
 def _show(found: "Stiffness") -> None:
     """Print the table at its middle frequency."""
-    from fmu_bearing.run.table import show
+    from fmu_bearing.results.table import show
 
     at = len(found.frequencies) // 2
     rows = []
@@ -192,7 +193,7 @@ def _show(found: "Stiffness") -> None:
 def _show_planes(found: "Stiffness", preload: float, mirrored: bool) -> None:
     """Print where the two planes stand and what they lack, over all frequencies."""
     from fmu_bearing.modal.planes import ERRORS
-    from fmu_bearing.run.table import show
+    from fmu_bearing.results.table import show
 
     planes, off = found.planes(preload, mirrored), _PERCENT * found.plane_errors(preload)
     low, high = off.min(axis=1), off.max(axis=1)

@@ -26,8 +26,8 @@ from fmu_bearing.files import check_folder
 @app.command()
 def choose(scene: SceneFile, catalogue: Catalogues = None, as_json: Json = False) -> None:
     """Find the cheapest fidelity, method and step within the scene's accuracy; print all candidates."""
+    from fmu_bearing.results.table import show
     from fmu_bearing.run import choose as choosing
-    from fmu_bearing.run.table import show
     from fmu_bearing.scene import read_scene
 
     with refusals():
@@ -55,8 +55,8 @@ def tradeoff(
     from fmu_bearing.accuracy import tradeoff as trading
     from fmu_bearing.accuracy.chart import draw
     from fmu_bearing.extras import need
-    from fmu_bearing.run.pictures import check_picture
-    from fmu_bearing.run.table import show
+    from fmu_bearing.results.picture_parts import check_picture
+    from fmu_bearing.results.table import show
 
     with refusals():
         # told before minutes of measuring
@@ -90,7 +90,7 @@ def sensitivity(
 ) -> None:
     """Change every assumed value of a scene, one at a time, and print the effect."""
     from fmu_bearing.accuracy import sensitivity as moving
-    from fmu_bearing.run.table import show
+    from fmu_bearing.results.table import show
 
     with refusals():
         check_folder(output)  # told before minutes of measuring
@@ -123,7 +123,7 @@ def changes(
 ) -> None:
     """Change one choice of a designer at a time; rank what it does to level, life and friction torque."""
     from fmu_bearing.accuracy.changes import changes as changing
-    from fmu_bearing.run.table import show
+    from fmu_bearing.results.table import show
 
     with refusals():
         found = changing(scene, seeds=seeds, levels=levels, radiation_model=radiation_model, tell=tell)

@@ -155,7 +155,7 @@ def _run(made: "Plan", output: Path, workers: int | None, scheduler: str | None,
 def _write(made: "Plan", outcomes: "Outcomes", output: Path, as_json: bool) -> None:
     """Write the results so far and print a summary."""
     from fmu_bearing.extras import available
-    from fmu_bearing.run.table import show
+    from fmu_bearing.results.table import show
     from fmu_bearing.sweeps.figures import figures_of
     from fmu_bearing.sweeps.picture import MOST, save as save_picture, sweep_picture
     from fmu_bearing.sweeps.result import COLUMNS, dataset, extremes, save

@@ -1,7 +1,7 @@
 """Identification: numbers of a scene found from measured sound and vibration.
 
 =================  =======================================================================
-``errors``         what is refused; an interrupted search
+``errors``         what is refused
 ``quantities``     levels, third octaves, lines: how data name them
 ``data``           measured values from files and tables
 ``free``           free keys, their bounds and their scale
@@ -10,7 +10,7 @@
 ``model``          computed levels for values of the free keys, over conditions and seeds
 ``statistics``     covariance of levels and of values, what cannot be told apart
 ``search``         least squares from several starts
-``result``         identified values, tables
+``result``         identified values, tables; an interrupted search
 ``files``          the scene with its new values, tables, report
 ``picture``        measured against computed
 =================  =======================================================================
@@ -23,9 +23,9 @@ import os
 import pathlib
 
 from fmu_bearing.identification.data import Source, read_data
-from fmu_bearing.identification.errors import IdentifyError, Interrupted
+from fmu_bearing.identification.errors import IdentifyError
 from fmu_bearing.identification.free import Wanted, free_numbers
-from fmu_bearing.identification.result import Identified
+from fmu_bearing.identification.result import Identified, Interrupted
 from fmu_bearing.scene import SceneSource, scene_of
 
 __all__ = ["Identified", "IdentifyError", "Interrupted", "identify"]

@@ -13,7 +13,7 @@ from fmu_bearing.acoustics.analysis.field import Position
 from fmu_bearing.identification.errors import IdentifyError
 from fmu_bearing.identification.quantities import A_LEVEL, LEVEL, Quantity, parse_quantity
 from fmu_bearing.interface.names import UnknownName, known
-from fmu_bearing.run.table import read_rows
+from fmu_bearing.results.table import read_rows
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.values import fields_of, limits
 

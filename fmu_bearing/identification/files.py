@@ -13,7 +13,7 @@ from fmu_bearing.files import check_file, check_folder, write_whole
 from fmu_bearing.identification.errors import IdentifyError
 from fmu_bearing.identification.result import Identified, levels_table, values_table
 from fmu_bearing.progress import Tell, silent
-from fmu_bearing.run.table import markdown, write_csv
+from fmu_bearing.results.table import markdown, write_csv
 from fmu_bearing.scene import read_scene_text
 from fmu_bearing.scene.entries import anchored
 from fmu_bearing.scene.read import read_scene

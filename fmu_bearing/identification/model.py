@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.filters.design import radiators_of
+from fmu_bearing.arrays import Refused
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.engine.sources import rooms_digest, source_hash
 from fmu_bearing.identification.data import Datum
@@ -23,7 +24,6 @@ from fmu_bearing.identification.quantities import LINE, THIRD_OCTAVE
 from fmu_bearing.identification.sensors import Sensors
 from fmu_bearing.prepare.sound import sound_key
 from fmu_bearing.recording.record import Recording, record
-from fmu_bearing.run.arrays import Refused
 from fmu_bearing.scene import Scene
 
 _ROOMS = ("acoustics", "elastic", "formulas", "identification", "prepare", "recording", "scene")

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from fmu_bearing.identification.result import Identified
-from fmu_bearing.run.pictures import OTHERS, empty, label, save
+from fmu_bearing.results.picture_parts import OTHERS, empty, label, save
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

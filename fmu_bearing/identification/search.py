@@ -25,10 +25,10 @@ from scipy.stats import qmc
 from fmu_bearing.acoustics.analysis.field import form_of
 from fmu_bearing.engine.choices import FIDELITIES
 from fmu_bearing.identification.data import Datum
-from fmu_bearing.identification.errors import IdentifyError, Interrupted
+from fmu_bearing.identification.errors import IdentifyError
 from fmu_bearing.identification.free import Free, box, scene_values, start_point
 from fmu_bearing.identification.model import Levels, check_length
-from fmu_bearing.identification.result import Compared, Estimate, Identified
+from fmu_bearing.identification.result import Compared, Estimate, Identified, Interrupted
 from fmu_bearing.identification.statistics import (
     Spread,
     at_bound,

@@ -15,15 +15,17 @@
 ``points``             `modes`: of a bearing or a set, at an operating point
 ``lines``              excitation lines and the waves that each can move
 ``weak``               weakly damped modes, for which levels of rings and response are in doubt
-``campbell``           modes over speed, followed by shape; crossings with lines
+``diagram``            modes over speed, and where they meet lines
 ``drawing``            what a Campbell diagram shows: colours, widths, dashes, which lines
 ``picture``            it as a Matplotlib figure
+``campbell``           `campbell`: modes over speed, followed by shape
 ``impedance``          forces on the inner ring per motion, balls eliminated at the frequency
 ``planes``             two planes whose radial springs stand for tilt and coupling
-``stiffness``          `stiffness`: K and C over speed, preload and frequency
+``stiffness_table``    K and C over speed, preload and frequency, and what follows from them
 ``stiffness_limits``   what limits them, in sentences
 ``stiffness_files``    their CSV and netCDF
 ``ross``               bearing elements for the rotor program ROSS
 ``stiffness_picture``  K and C over speed
+``stiffness``          `stiffness`: the table of a scene
 =====================  ====================================================================
 """

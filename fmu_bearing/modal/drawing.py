@@ -2,19 +2,17 @@
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
 from fmu_bearing.acoustics.radiation.frequencies import BAND
+from fmu_bearing.modal.diagram import Branch, Crossing, Diagram
 from fmu_bearing.modal.lines import Line
 from fmu_bearing.modal.modes import MARGIN
 from fmu_bearing.modal.shapes import BACKWARD, FORWARD, NEITHER
-
-if TYPE_CHECKING:
-    from fmu_bearing.modal.campbell import Branch, Campbell, Crossing
 
 #: By what moves. Hues tell bodies apart for all kinds of colour vision (Okabe and Ito 2008), depths motions.
 COLOURS = {
@@ -66,7 +64,7 @@ def dot_area(quality: float) -> float:
     return 10.0 + 1.6 * min(quality, _SHARPEST)
 
 
-def runs(branch: "Branch") -> Iterator[Run]:
+def runs(branch: Branch) -> Iterator[Run]:
     """Yield the pieces of a branch in each of which the width stays, on curves through the speeds."""
     # interpolation wants rising speeds
     order = np.argsort(np.abs(branch.rpm))
@@ -82,7 +80,7 @@ def runs(branch: "Branch") -> Iterator[Run]:
             yield Run(int(classes[first]), places[part], frequency[part])
 
 
-def counted(campbell: "Campbell") -> "list[Crossing]":
+def counted(campbell: Diagram) -> list[Crossing]:
     """Return the crossings that are drawn.
 
     Those that the scene contains, within 20 dB of the largest. A scene without imperfections contains none:
@@ -99,7 +97,7 @@ def _is_low(line: Line, balls: int) -> bool:
     return line.surface_order <= _PLAIN * balls + line.order
 
 
-def drawn_lines(crossings: "list[Crossing]") -> "dict[str, tuple[Line, float]]":
+def drawn_lines(crossings: list[Crossing]) -> "dict[str, tuple[Line, float]]":
     """Return the lines of crossings by name, each with its largest velocity (m/s), the largest first."""
     found: dict[str, tuple[Line, float]] = {}
     for crossing in crossings:
@@ -109,7 +107,7 @@ def drawn_lines(crossings: "list[Crossing]") -> "dict[str, tuple[Line, float]]":
     return dict(sorted(found.items(), key=lambda item: -item[1][1]))
 
 
-def top(campbell: "Campbell", crossings: "list[Crossing]") -> float:
+def top(campbell: Diagram, crossings: list[Crossing]) -> float:
     """Hz: upper end of the diagram, above what is excited; all branches where nothing is."""
     heights = [one.frequency for one in crossings] or [
         float(one.frequency.max()) for one in campbell.branches
@@ -117,12 +115,12 @@ def top(campbell: "Campbell", crossings: "list[Crossing]") -> float:
     return min(_ROOM * max(heights, default=campbell.highest), campbell.highest)
 
 
-def unstable(branch: "Branch") -> "NDArray[np.bool_]":
+def unstable(branch: Branch) -> "NDArray[np.bool_]":
     """Speeds of a branch near or beyond the limit of stability."""
     return np.asarray(branch.damping < MARGIN)
 
 
-def heard(campbell: "Campbell") -> tuple[float, float] | None:
+def heard(campbell: Diagram) -> tuple[float, float] | None:
     """Hz: the band of the scene's levels; None for a scene without sound."""
     return None if campbell.scene.sound is None else BAND
 
@@ -132,7 +130,7 @@ def strength(velocity: float, largest: float) -> float:
     return float(np.clip(1.0 + np.log10(max(velocity, 1e-30) / largest), 0.0, 1.0)) if largest > 0.0 else 0.0
 
 
-def margin_words(campbell: "Campbell") -> str:
+def margin_words(campbell: Diagram) -> str:
     """Return how far the nearest crossing is from the operating speed; empty where there is none."""
     near, own = campbell.nearest(), abs(campbell.scene.operation.speed_rpm)
     if near is None:

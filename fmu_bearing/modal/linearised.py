@@ -21,13 +21,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import block_diag
 
+from fmu_bearing.arrays import Arrays, Refused
 from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.layout import C, P, Q, S, U, Y
 from fmu_bearing.instance import EngineError
 from fmu_bearing.modal.coordinates import Coordinates
 from fmu_bearing.modal.equilibrium import settle
 from fmu_bearing.modal.plain import Plain
-from fmu_bearing.run.arrays import Arrays, Refused
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.read import with_fidelity
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.extras import need
+from fmu_bearing.modal.diagram import Branch, Crossing, Diagram
 from fmu_bearing.modal.drawing import (
     LIMITS,
     SHORT,
@@ -25,14 +26,12 @@ from fmu_bearing.modal.drawing import (
     top,
     unstable,
 )
-from fmu_bearing.run.pictures import empty, label
+from fmu_bearing.results.picture_parts import empty, label
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
     from matplotlib.text import Annotation
-
-    from fmu_bearing.modal.campbell import Branch, Campbell, Crossing
 
 _SIZE = (10.0, 7.2)  # inches
 _LEFT, _BOTTOM, _ACROSS = 0.09, 0.225, 0.695  # of the figure: axes, names stand to the right
@@ -49,12 +48,12 @@ _QUALITIES = (5.0, 25.0, 100.0)
 _WRAP = 68  # characters of the text below the axes
 
 
-def campbell_picture(campbell: "Campbell") -> "Figure":
+def campbell_picture(campbell: Diagram) -> "Figure":
     """Draw branches, the lines that can excite them, crossings and the operating speed.
 
     Parameters
     ----------
-    campbell : Campbell
+    campbell : Diagram
 
     Returns
     -------
@@ -110,7 +109,7 @@ def _between(one: str, other: str, share: float) -> tuple[float, ...]:
     return tuple(float(value) for value in a + share * (b - a))
 
 
-def _draw_branch(ax: "Axes", branch: "Branch", gid: str) -> None:
+def _draw_branch(ax: "Axes", branch: Branch, gid: str) -> None:
     tint, dash = colour(branch.name), _DASHES[branch.direction]
     for run in runs(branch):
         ax.plot(
@@ -124,7 +123,7 @@ def _draw_branch(ax: "Axes", branch: "Branch", gid: str) -> None:
             )  # fmt: skip
 
 
-def _draw_crossings(ax: "Axes", crossings: "list[Crossing]") -> None:
+def _draw_crossings(ax: "Axes", crossings: list[Crossing]) -> None:
     # small ones stay visible on large ones
     ordered = sorted(crossings, key=lambda one: -one.quality)
     inside = [one.velocity > 0.0 for one in ordered]
@@ -138,7 +137,7 @@ def _draw_crossings(ax: "Axes", crossings: "list[Crossing]") -> None:
     )  # fmt: skip
 
 
-def _draw_operation(ax: "Axes", campbell: "Campbell") -> None:
+def _draw_operation(ax: "Axes", campbell: Diagram) -> None:
     """Draw the operating speed as a bar, the nearest crossing in a ring, and how far it is."""
     own, near = abs(campbell.scene.operation.speed_rpm), campbell.nearest()
     low, high = ax.get_xlim()
@@ -250,17 +249,17 @@ def _middle(group: list[_End]) -> float:
     return float(np.mean([end.frequency for end in group]))
 
 
-def _last(branch: "Branch") -> int:
+def _last(branch: Branch) -> int:
     return int(np.argmax(np.abs(branch.rpm)))
 
 
-def _reaches(branch: "Branch", right: float, highest: float) -> bool:
+def _reaches(branch: Branch, right: float, highest: float) -> bool:
     """Whether a branch ends at the right edge."""
     last = _last(branch)
     return abs(float(branch.rpm[last])) > 0.999 * right and float(branch.frequency[last]) <= highest
 
 
-def _is_named(branch: "Branch", named: "list[Branch]", highest: float) -> bool:
+def _is_named(branch: Branch, named: "list[Branch]", highest: float) -> bool:
     """Whether a branch, or another one of its name and height, is among those named."""
     return any(
         branch is other
@@ -339,11 +338,11 @@ def _name_above(ax: "Axes", speeds: NDArray[np.float64], curves: dict[str, NDArr
         )  # fmt: skip
 
 
-def _title(campbell: "Campbell") -> str:
+def _title(campbell: Diagram) -> str:
     return f"{campbell.scene.name}: natural frequencies over speed, and what excites them"
 
 
-def _explain(figure: "Figure", campbell: "Campbell", hidden: int) -> None:
+def _explain(figure: "Figure", campbell: Diagram, hidden: int) -> None:
     """Say below the axes how to read them, and what the diagram says."""
     line = need("matplotlib.lines", "a picture").Line2D
     grey: dict[str, Any] = {"color": "0.25"}

@@ -5,10 +5,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu_bearing.arrays import Arrays
 from fmu_bearing.compiled import bound
 from fmu_bearing.engine.layout import FL, STRIDE, C, F, P, S, U, W, Y
 from fmu_bearing.modal.coordinates import Coordinates
-from fmu_bearing.run.arrays import Arrays
 
 if TYPE_CHECKING:
     from fmu_bearing.modal.set_linearised import One

@@ -12,7 +12,6 @@ Y, Z, X of this program. Release 2 called the axis of the speed ``frequency``: i
 
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,9 +19,7 @@ from numpy.typing import NDArray
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.files import check_file, write_whole
 from fmu_bearing.modal.impedance import FREEDOMS
-
-if TYPE_CHECKING:
-    from fmu_bearing.modal.stiffness import Stiffness
+from fmu_bearing.modal.stiffness_table import StiffnessTable
 
 RELEASE = "3.1.0"  # the one whose reading and writing was tried
 FEWEST = 5  # values of an axis, below which ROSS warns of its interpolation
@@ -57,7 +54,7 @@ def check_axes(speeds: int, frequencies: int) -> None:
 
 
 def write(
-    found: "Stiffness", path: str | os.PathLike[str], preload: float | None, mirrored: bool,
+    found: StiffnessTable, path: str | os.PathLike[str], preload: float | None, mirrored: bool,
     nodes: tuple[int, int],
 ) -> tuple[Path, Path]:  # fmt: skip
     """Write both elements; see `Stiffness.to_ross`."""
@@ -72,7 +69,7 @@ def write(
 
 
 def _element(
-    found: "Stiffness", at: int, part: int, place: float, node: int, mirrored: bool
+    found: StiffnessTable, at: int, part: int, place: float, node: int, mirrored: bool
 ) -> str:  # fmt: skip
     """Return the text of one file."""
     tag = f"{found.scene.bearing.designation} {part} of 2"

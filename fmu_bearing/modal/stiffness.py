@@ -3,9 +3,8 @@
 import math
 import os
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, get_args
+from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,10 +13,12 @@ from fmu_bearing.engine.constants import RPM
 from fmu_bearing.modal.conditions import given
 from fmu_bearing.modal.impedance import FREEDOMS, at_rest, impedance, spaced
 from fmu_bearing.modal.linearised import Linearised, under_force
-from fmu_bearing.modal.planes import Planes, errors, planes
+from fmu_bearing.modal.ross import write
 from fmu_bearing.modal.stiffness_files import dataset, save
 from fmu_bearing.modal.stiffness_limits import limits_of
-from fmu_bearing.scene import Scene, SceneSource, scene_of
+from fmu_bearing.modal.stiffness_picture import picture
+from fmu_bearing.modal.stiffness_table import Spacing, StiffnessTable
+from fmu_bearing.scene import SceneSource, scene_of
 from fmu_bearing.scene.operation import Operation
 from fmu_bearing.scene.problems import allowed
 from fmu_bearing.scene.read import with_fidelity
@@ -28,13 +29,11 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
-Spacing = Literal["held", "free"]
 #: Hz: what a table has where no frequencies are given.
 FREQUENCIES = tuple(float(f"{value:.3g}") for value in np.geomspace(50.0, 10e3, 8))
 
 
-@dataclass(frozen=True)
-class Stiffness:
+class Stiffness(StiffnessTable):
     """Stiffness and damping of the inner ring against the held outer ring, SI units.
 
     Forces on the ring are -K q - C q' with q = x, y, z (m) and tilts about y, z (rad), at the centre of the
@@ -73,87 +72,6 @@ class Stiffness:
     >>> found.K.shape, f"{found.K[1, 0, 1, 1, 1] / 1e6:.0f} N/um"
     ((2, 1, 2, 5, 5), '159 N/um')
     """
-
-    scene: Scene
-    speeds: NDArray[np.float64]
-    preloads: NDArray[np.float64]
-    frequencies: NDArray[np.float64]
-    K: NDArray[np.float64]
-    C: NDArray[np.float64]
-    static: NDArray[np.float64]
-    own: NDArray[np.float64]
-    orbit: NDArray[np.float64]
-    spread: NDArray[np.float64]
-    steady: NDArray[np.bool_]
-    spacing: Spacing = "held"
-
-    @property
-    def impedance(self) -> NDArray[np.complex128]:
-        """K + i w C, shape (speed, preload, frequency, 5, 5)."""
-        w = 2.0 * math.pi * self.frequencies
-        return np.asarray(self.K + 1j * w[:, None, None] * self.C)
-
-    def losses(self) -> tuple[NDArray[np.float64], NDArray[np.complex128]]:
-        """Return loss over stiffness of five motions, the least first, and these motions.
-
-        Eigenvalues and vectors of (Z - Z^H)/2i, with every force over the root of both stiffnesses; half of
-        an eigenvalue times w is the power lost. Below 0 a whirl takes power from the turning shaft.
-
-        Returns
-        -------
-        tuple of ndarray
-            Shapes (speed, preload, frequency, 5) and (speed, preload, frequency, 5, 5), motions in columns.
-        """
-        z = self.impedance / _pairs(self.K)
-        values, vectors = np.linalg.eigh((z - np.conj(np.swapaxes(z, -1, -2))) / 2j)
-        return np.asarray(values), np.asarray(vectors)
-
-    def against_static(self) -> float:
-        """Return the largest difference of K at the lowest frequency from `static`.
-
-        Entries over the root of both diagonal ones.
-        """
-        return float(np.abs((self.K[:, :, 0] - self.static) / _pairs(self.static)).max())
-
-    def planes(self, preload: float | None = None, mirrored: bool = False) -> Planes:
-        """Return the two planes whose radial springs stand for tilt and coupling; see `modal.planes`.
-
-        Parameters
-        ----------
-        preload : float, optional
-            N: one of `preloads`; may be left out where there is one.
-        mirrored : bool
-            Whether the bearing carries the other way, as the rear one of a pair does.
-
-        Raises
-        ------
-        ValueError
-            For a preload that is not there, and where no two planes can stand for the bearing.
-        """
-        return planes(self.own[self.at_preload(preload)], mirrored)
-
-    def plane_errors(self, preload: float | None = None) -> NDArray[np.float64]:
-        """Return what the two planes have too much, over what the bearing has.
-
-        Returns
-        -------
-        ndarray, shape (speed, frequency, 4)
-            In the order of `modal.planes.ERRORS`.
-        """
-        at = self.at_preload(preload)
-        return errors(self.planes(preload), self.K[:, at], self.C[:, at])
-
-    def at_preload(self, preload: float | None) -> int:
-        """Return the place of a preload (N) on its axis; ``ValueError`` for one that is not there."""
-        listed = ", ".join(f"{value:g}" for value in self.preloads)
-        if preload is None:
-            if len(self.preloads) > 1:
-                raise ValueError(f"which preload is meant has to be said: {listed} N are there")
-            return 0
-        near = np.flatnonzero(np.isclose(self.preloads, preload, rtol=1e-9))
-        if near.size == 0:
-            raise ValueError(f"preload = {preload:g} N is not in this table: {listed} N are there")
-        return int(near[0])
 
     def cautions(self) -> list[str]:
         """Return what limits these numbers, in sentences."""
@@ -201,8 +119,6 @@ class Stiffness:
         ValueError
             As for `planes`, for another ending, and for an axis of two to four values.
         """
-        from fmu_bearing.modal.ross import write
-
         return write(self, path, preload, mirrored, nodes)
 
     def picture(self, frequency: float | None = None) -> "Figure":
@@ -218,8 +134,6 @@ class Stiffness:
         MissingExtra
             Without Matplotlib.
         """
-        from fmu_bearing.modal.stiffness_picture import picture
-
         return picture(self, frequency)
 
 
@@ -344,10 +258,3 @@ def _apart(one: NDArray[np.complex128], other: NDArray[np.complex128]) -> float:
     """Largest difference of the diagonals over the stiffness of ``other``."""
     a, b = (np.diagonal(part, axis1=-2, axis2=-1) for part in (one, other))
     return float(np.max(np.abs(a - b) / np.abs(b.real)))
-
-
-def _pairs(matrix: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return for each entry the root of both diagonal ones, the measure of what is small; 1 for none."""
-    size = np.sqrt(np.abs(np.diagonal(matrix, axis1=-2, axis2=-1)))
-    size = np.where(size > 0.0, size, 1.0)
-    return np.asarray(size[..., :, None] * size[..., None, :])

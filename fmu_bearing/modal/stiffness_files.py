@@ -13,13 +13,12 @@ from fmu_bearing.engine.sources import source_hash
 from fmu_bearing.extras import need
 from fmu_bearing.files import check_file, write_whole
 from fmu_bearing.modal.impedance import FREEDOMS
-from fmu_bearing.run.result import written
-from fmu_bearing.run.table import write_csv
+from fmu_bearing.modal.stiffness_table import StiffnessTable
+from fmu_bearing.results.result import written
+from fmu_bearing.results.table import write_csv
 
 if TYPE_CHECKING:
     import xarray
-
-    from fmu_bearing.modal.stiffness import Stiffness
 
 ENDINGS = (".csv", ".nc")
 _TILTS = ("by", "bz")
@@ -47,7 +46,7 @@ def check_table(path: str | os.PathLike[str]) -> Path:
     return target
 
 
-def save(found: "Stiffness", path: str | os.PathLike[str]) -> Path:
+def save(found: StiffnessTable, path: str | os.PathLike[str]) -> Path:
     """Write a table to ``.csv`` or ``.nc``; see `Stiffness.save`."""
     target = check_table(path)
     target.parent.mkdir(parents=True, exist_ok=True)
@@ -76,7 +75,7 @@ def unit(force: str, motion: str, damping: bool = False) -> str:
     return f"{'.'.join(above)}/{below}"
 
 
-def _rows(found: "Stiffness") -> Iterator[list[str]]:
+def _rows(found: StiffnessTable) -> Iterator[list[str]]:
     """Yield the rows of the CSV file: of each point that for frequency to 0, then one per frequency."""
     empty = [""] * len(FREEDOMS) ** 2
     for i, speed in enumerate(found.speeds):
@@ -92,7 +91,7 @@ def _text(value: float) -> str:
     return repr(float(value))
 
 
-def dataset(found: "Stiffness") -> "xarray.Dataset":
+def dataset(found: StiffnessTable) -> "xarray.Dataset":
     """Return a table as a dataset; see `Stiffness.to_xarray`."""
     xr = need("xarray", "a dataset")
     over = ("speed", "preload", "frequency")

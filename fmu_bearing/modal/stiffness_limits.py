@@ -1,23 +1,20 @@
 """What limits a table of stiffness and damping, in sentences."""
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.modal.modes import SPREAD, STICKING
 from fmu_bearing.modal.remarks import UNSTEADY
-
-if TYPE_CHECKING:
-    from fmu_bearing.modal.stiffness import Stiffness
+from fmu_bearing.modal.stiffness_table import StiffnessTable
 
 _NEAR = 0.2  # of the orbit's frequency: nearer to it, free balls that bunch are seen
 _APART = 0.03  # of the stiffness: that at rest is then no substitute
 _ROUNDING = 1e-9  # of the stiffness: a loss below it is none
 
 
-def limits_of(found: "Stiffness") -> Iterator[str]:
+def limits_of(found: StiffnessTable) -> Iterator[str]:
     """Yield what limits a table, in sentences."""
     largest = float(found.spread.max())
     if largest > SPREAD:
@@ -54,7 +51,7 @@ def limits_of(found: "Stiffness") -> Iterator[str]:
         )
 
 
-def _whirl(found: "Stiffness") -> Iterator[str]:
+def _whirl(found: StiffnessTable) -> Iterator[str]:
     """Yield the caution of a motion that takes power from the shaft, and which one it is."""
     lost, vectors = found.losses()
     least = lost[..., 0]

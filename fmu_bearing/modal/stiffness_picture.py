@@ -5,12 +5,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fmu_bearing.modal.impedance import FREEDOMS
-from fmu_bearing.run.pictures import OTHERS, empty, label
+from fmu_bearing.modal.stiffness_table import StiffnessTable
+from fmu_bearing.results.picture_parts import OTHERS, empty, label
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-    from fmu_bearing.modal.stiffness import Stiffness
 
 #: Title, freedom, unit and factor of stiffness and of damping.
 _PANELS = (
@@ -20,7 +19,7 @@ _PANELS = (
 )
 
 
-def picture(found: "Stiffness", frequency: float | None = None) -> "Figure":
+def picture(found: StiffnessTable, frequency: float | None = None) -> "Figure":
     """Draw K and C over speed; see `Stiffness.picture`."""
     wanted = found.frequencies[len(found.frequencies) // 2] if frequency is None else frequency
     at = int(np.abs(np.log(found.frequencies / wanted)).argmin())

@@ -15,7 +15,7 @@ import numpy as np
 
 from fmu_bearing.interface.inputs import inputs as inputs_of_bearing
 from fmu_bearing.interface.set_inputs import inputs_of_set
-from fmu_bearing.modal.campbell import can_move, is_of_rings
+from fmu_bearing.modal.diagram import can_move, is_of_rings
 from fmu_bearing.modal.lines import lines, rates, unbalance
 from fmu_bearing.modal.modes import Mode, Modes, self_excited
 from fmu_bearing.modal.points import modes

@@ -18,9 +18,9 @@ from fmu_bearing.recording.finished import FIGURES, RECORDED, Finished, of_recor
 from fmu_bearing.recording.record import DURATION, record
 from fmu_bearing.recording.recording import Recording
 from fmu_bearing.recording.tables import Table
+from fmu_bearing.results.result import ENDINGS, Run
+from fmu_bearing.results.table import write_csv
 from fmu_bearing.run.choose import resolve
-from fmu_bearing.run.result import ENDINGS, Run
-from fmu_bearing.run.table import write_csv
 from fmu_bearing.scene import SceneSource, scene_of
 from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.scene.units import symbol

@@ -11,9 +11,9 @@ from fmu_bearing.recording.listen import listen
 from fmu_bearing.recording.record import OUTPUTS
 from fmu_bearing.recording.recording import Recording
 from fmu_bearing.recording.spread import doubt_of
-from fmu_bearing.run.levels import present
-from fmu_bearing.run.result import Run
-from fmu_bearing.run.spectrum import MICROPHONE, Spectrum
+from fmu_bearing.results.levels import present
+from fmu_bearing.results.result import Run
+from fmu_bearing.results.spectra import MICROPHONE, Spectrum
 from fmu_bearing.scene import Scene
 
 #: Figures of a comparison: unit in tables, and the factor from SI to it.

@@ -23,7 +23,7 @@ from fmu_bearing.progress import Tell, silent
 from fmu_bearing.recording import measure, tables
 from fmu_bearing.recording.heard import Heard
 from fmu_bearing.recording.places import Places
-from fmu_bearing.run.table import markdown, write_csv
+from fmu_bearing.results.table import markdown, write_csv
 
 if TYPE_CHECKING:
     import xarray

@@ -18,7 +18,7 @@ from fmu_bearing.acoustics.analysis.order import OrderMap, Waterfall
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 from fmu_bearing.acoustics.analysis.third_octave import nominal_frequency
 from fmu_bearing.recording.measure import MotionPower, Round, Sweep
-from fmu_bearing.run.pictures import COLOURS, OTHERS, empty, label, mark_excitation, save, single
+from fmu_bearing.results.picture_parts import COLOURS, OTHERS, empty, label, mark_excitation, save, single
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

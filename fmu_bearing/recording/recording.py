@@ -19,10 +19,10 @@ from fmu_bearing.files import read_arrays
 from fmu_bearing.recording import measure
 from fmu_bearing.recording.heard import Heard
 from fmu_bearing.recording.places import Places
-from fmu_bearing.run.names import unit_of
-from fmu_bearing.run.result import read_table
-from fmu_bearing.run.spectrum import MICROPHONE, Spectrum
-from fmu_bearing.run.table import number
+from fmu_bearing.results.result import read_table
+from fmu_bearing.results.spectra import MICROPHONE, Spectrum
+from fmu_bearing.results.table import number
+from fmu_bearing.results.variable_names import unit_of
 from fmu_bearing.scene import Scene, SceneError, SceneSource, read_scene_text, scene_of, si
 
 if TYPE_CHECKING:

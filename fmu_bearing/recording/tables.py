@@ -21,7 +21,7 @@ from fmu_bearing.acoustics.analysis.order import OrderMap
 from fmu_bearing.acoustics.analysis.power import Power
 from fmu_bearing.acoustics.analysis.third_octave import nominal_frequency
 from fmu_bearing.recording.measure import MotionPower, Round, Sweep
-from fmu_bearing.run.table import markdown, write_csv
+from fmu_bearing.results.table import markdown, write_csv
 
 __all__ = [
     "Table",

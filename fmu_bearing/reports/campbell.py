@@ -4,7 +4,8 @@ from typing import Any
 
 import numpy as np
 
-from fmu_bearing.modal.campbell import Branch, Campbell, Crossing
+from fmu_bearing.modal.campbell import Campbell
+from fmu_bearing.modal.diagram import Branch, Crossing
 from fmu_bearing.modal.drawing import (
     DASHES,
     SHORT,

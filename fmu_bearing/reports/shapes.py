@@ -5,7 +5,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.modal.campbell import Branch, Campbell
+from fmu_bearing.modal.campbell import Campbell
+from fmu_bearing.modal.diagram import Branch
 from fmu_bearing.modal.drawing import colour
 from fmu_bearing.modal.modes import Modes
 from fmu_bearing.modal.motion import Shape

@@ -6,10 +6,10 @@ from typing import Any, Self
 from fmu_bearing.instance import Instance
 from fmu_bearing.interface.names import chosen_names, known
 from fmu_bearing.prepare.model import Model, prepare
+from fmu_bearing.results.levels import shown
+from fmu_bearing.results.result import Run
+from fmu_bearing.results.variable_names import by_name
 from fmu_bearing.run.choose import resolve
-from fmu_bearing.run.levels import shown
-from fmu_bearing.run.names import by_name
-from fmu_bearing.run.result import Run
 from fmu_bearing.run.simulate import simulate
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 from fmu_bearing.scene.read import with_fidelity

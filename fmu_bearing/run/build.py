@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from fmu_bearing.cautions import loose
 from fmu_bearing.files import check_file, check_folder
 from fmu_bearing.fmi.package import BuiltFmu, build, check_choice
+from fmu_bearing.modal import weak
 from fmu_bearing.prepare.model import Model, prepare
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.run.choose import resolve
-from fmu_bearing.run.doubts import doubt
-from fmu_bearing.scene import SceneSource, scene_of
+from fmu_bearing.scene import Scene, SceneSource, scene_of
 
 
 def model_of(source: SceneSource, tell: Tell = silent) -> Model:
@@ -30,7 +30,7 @@ def model_of(source: SceneSource, tell: Tell = silent) -> Model:
     if resolved.mounting is not None and not resolved.mounting.preload_N > 0.0:
         tell(f"caution: {loose(resolved.fidelity.model)}")
     notes = []
-    if doubted := doubt(resolved):
+    if doubted := _doubt(resolved):
         tell(f"caution: {doubted}")
         notes.append(f"{doubted[0].upper()}{doubted[1:]}")
     if choice is not None:
@@ -82,3 +82,9 @@ def build_fmu(
         check_file(output)
     model = source if isinstance(source, Model) else model_of(source, tell)
     return build(model, None if output is None else os.fspath(output), flavour, platforms, tell)
+
+
+def _doubt(scene: Scene) -> str:
+    """Return why figures of a scene are in doubt; of one without sound nothing about its levels."""
+    found = weak.doubt(scene)
+    return "" if scene.sound is None and weak.is_of_levels(found) else found

@@ -25,15 +25,15 @@ import pathlib
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from fmu_bearing.arrays import Refused
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.sources import source_hash
 from fmu_bearing.files import cache_root, write_whole
+from fmu_bearing.modal import weak
 from fmu_bearing.prepare.sound import sound_blocks
-from fmu_bearing.run.arrays import Refused
-from fmu_bearing.run.doubts import reason_against
+from fmu_bearing.results.table import number
 from fmu_bearing.run.metrics import SILENT, SILENT_RAMP, Errors, Figures, errors, measure, measure_between
 from fmu_bearing.run.settings import Setting
-from fmu_bearing.run.table import number
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.read import with_fidelity
 
@@ -343,7 +343,7 @@ def choose(
 def _against(scene: Scene, planned: Sequence[Condition]) -> str:
     """Return why fidelities rings and response are no candidates at one of the speeds; "": they are."""
     for one in planned:
-        if one.first == one.last and (reason := reason_against(scene, one.last)):
+        if one.first == one.last and (reason := _reason_against(scene, one.last)):
             return reason if one is planned[0] else f"at {one.name} {reason}"
     return ""
 
@@ -407,3 +407,13 @@ def _keep(path: pathlib.Path, text: str) -> None:
         write_whole(path, text.encode("utf-8"))
     except OSError:
         pass
+
+
+def _reason_against(scene: Scene, speed: float) -> str:
+    """Return why fidelities rings and response are no candidates at a speed (rad/s); "": they are.
+
+    A mode of the rings grows by itself or is weakly damped, or no steady state was found: what a window of
+    some hundredths of a second shows then means little.
+    """
+    at = {"shaft_speed": speed}
+    return "no steady state was found" if weak.unsteady(scene, at) else weak.weakness(scene, at)

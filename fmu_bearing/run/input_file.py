@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.interface.names import known
-from fmu_bearing.run.result import ResultError, structured
-from fmu_bearing.run.table import Cell, read_rows
+from fmu_bearing.results.result import ResultError
+from fmu_bearing.results.series import structured
+from fmu_bearing.results.table import Cell, read_rows
 from fmu_bearing.scene.units import UNITS, convert, split_unit, symbol
 
 #: Suffixes of column names by the SI unit of the input: other units than the input's own.

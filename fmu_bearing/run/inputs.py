@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.interface.names import known
+from fmu_bearing.results.series import columns_of, structured
 from fmu_bearing.run.input_file import read_inputs
-from fmu_bearing.run.result import columns_of, structured
 from fmu_bearing.scene.problems import described
 
 Signal = float | Callable[[float], float]

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.layout import SP, P, U, Z
-from fmu_bearing.run.arrays import Arrays
 from fmu_bearing.scene import Scene
 
 SAMPLE = 1e-4  # s between the points at which velocities, loads and torque are read

@@ -21,10 +21,11 @@ from fmu_bearing.instance import EngineError, Instance, number
 from fmu_bearing.interface import Variable
 from fmu_bearing.interface.names import chosen_names, known
 from fmu_bearing.prepare.model import Model, prepare
+from fmu_bearing.results.result import COMPLETE, INTERRUPTED, REFUSED, Run
+from fmu_bearing.results.series import columns_of, structured
+from fmu_bearing.results.variable_names import by_name
 from fmu_bearing.run.choose import resolve
 from fmu_bearing.run.inputs import Input, Inputs, input_table
-from fmu_bearing.run.names import by_name
-from fmu_bearing.run.result import COMPLETE, INTERRUPTED, REFUSED, Run, columns_of, structured
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 
 _FIRST = 1.0  # s of waiting after which a run is estimated

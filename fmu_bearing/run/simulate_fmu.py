@@ -13,8 +13,9 @@ from fmpy.model_description import ModelDescription
 from numpy.typing import NDArray
 
 from fmu_bearing.files import plain_file
+from fmu_bearing.results.result import COMPLETE, INTERRUPTED, REFUSED, ResultError
+from fmu_bearing.results.series import columns_of, structured
 from fmu_bearing.run.inputs import Input
-from fmu_bearing.run.result import COMPLETE, INTERRUPTED, REFUSED, ResultError, columns_of, structured
 from fmu_bearing.scene import SceneError, read_scene
 
 _LAST_LINES = 3  # of the FMU's log that go into a message

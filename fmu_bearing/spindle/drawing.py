@@ -4,7 +4,7 @@ import math
 from typing import TYPE_CHECKING
 
 from fmu_bearing.extras import need
-from fmu_bearing.run.pictures import COLOURS, empty
+from fmu_bearing.results.picture_parts import COLOURS, empty
 from fmu_bearing.scene import Scene
 from fmu_bearing.spindle.assembly import set_of
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.interface.names import chosen_names
-from fmu_bearing.run.pictures import empty, label, save
+from fmu_bearing.results.picture_parts import empty, label, save
 from fmu_bearing.scene.units import split_unit
 from fmu_bearing.sweeps.axes import SweepError
 from fmu_bearing.sweeps.result import REASON, SEED, WALL

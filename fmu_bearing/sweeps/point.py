@@ -11,11 +11,11 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu_bearing.arrays import Arrays, Refused
 from fmu_bearing.engine.layout import U
 from fmu_bearing.engine.sources import rooms_digest, source_hash
 from fmu_bearing.files import plain_file
 from fmu_bearing.prepare.sound import sound_blocks
-from fmu_bearing.run.arrays import Arrays, Refused
 from fmu_bearing.run.metrics import COMMUNICATION, SAMPLE
 from fmu_bearing.scene import Scene
 from fmu_bearing.sweeps.figures import columns_of, figures_of, parts_of, read

@@ -11,7 +11,7 @@ import numpy as np
 
 from fmu_bearing.engine.sources import source_hash
 from fmu_bearing.extras import need
-from fmu_bearing.run.table import write_csv
+from fmu_bearing.results.table import write_csv
 from fmu_bearing.sweeps.figures import STATISTICS
 from fmu_bearing.sweeps.plan import Plan
 from fmu_bearing.sweeps.point import Outcome, code_digest

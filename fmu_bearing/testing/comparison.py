@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.run.names import unit_of
-from fmu_bearing.run.result import Run
+from fmu_bearing.results.result import Run
+from fmu_bearing.results.variable_names import unit_of
 
 Tolerance = float | Mapping[str, float]
 
@@ -95,7 +95,8 @@ def compare(
     Examples
     --------
     >>> import numpy as np
-    >>> from fmu_bearing.run.result import Run, structured
+    >>> from fmu_bearing.results.result import Run
+    >>> from fmu_bearing.results.series import structured
     >>> time = np.array([0.0, 1.0, 2.0])
     >>> wanted = Run("a", structured({"time": time, "x": np.array([0.0, 1.0, 2.0])}))
     >>> found = Run("b", structured({"time": time, "x": np.array([0.0, 1.0, 2.5])}))

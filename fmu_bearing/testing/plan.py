@@ -5,7 +5,7 @@ import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from fmu_bearing.run.result import Run
+from fmu_bearing.results.result import Run
 from fmu_bearing.run.simulate import Inputs, simulate
 
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 if TYPE_CHECKING:
-    from fmu_bearing.run.result import Run
+    from fmu_bearing.results.result import Run
     from fmu_bearing.testing.comparison import Tolerance
     from fmu_bearing.testing.plan import Plan
 
@@ -132,7 +132,7 @@ class _Matching:
         Run
         """
         __tracebackhide__ = True
-        from fmu_bearing.run.result import ResultError, Run
+        from fmu_bearing.results.result import ResultError, Run
         from fmu_bearing.testing.comparison import compare, report
 
         file = self.folder / reference
@@ -154,7 +154,7 @@ class _Matching:
 
     @staticmethod
     def _run(subject: "Run | str | os.PathLike[str]", plan: "Plan | None", wanted: "Run | None") -> "Run":
-        from fmu_bearing.run.result import Run
+        from fmu_bearing.results.result import Run
         from fmu_bearing.testing.plan import Plan, step_fmu
 
         if isinstance(subject, Run):

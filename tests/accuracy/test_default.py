@@ -3,7 +3,7 @@
 import pytest
 
 from fmu_bearing.accuracy.reference import implicit_rings, relative_error
-from fmu_bearing.run.arrays import Arrays
+from fmu_bearing.arrays import Arrays
 from fmu_bearing.scene import read_scene
 from fmu_bearing.scene.fidelity import Fidelity
 from tests.conftest import GATES

@@ -11,8 +11,8 @@ from fmu_bearing.accuracy.reference import (
     reference_from,
     relative_error,
 )
+from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.layout import P
-from fmu_bearing.run.arrays import Arrays
 
 
 @pytest.fixture(scope="module")

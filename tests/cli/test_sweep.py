@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 
 from fmu_bearing import cli
 from fmu_bearing.extras import MissingExtra
-from fmu_bearing.run.pictures import single
+from fmu_bearing.results.picture_parts import single
 from fmu_bearing.sweeps import SweepError, local, runs, sweep
 
 QUICK = ("--settle", 0, "--window", 0.002, "-v", "friction_torque,contact.*.load_mean", "--workers", 1)

@@ -62,7 +62,7 @@ pathlib.Path(target).write_bytes(object_code(code, own(), suffix, lambda done: N
 _RUN = """
 import hashlib, pathlib, sys
 from fmu_bearing.compiled import load
-from fmu_bearing.run.arrays import Arrays
+from fmu_bearing.arrays import Arrays
 from fmu_bearing.scene import read_scene
 
 scenes, folders = sys.argv[1].split(":"), sys.argv[2:]

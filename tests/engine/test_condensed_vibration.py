@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.layout import Q, S, Y
-from fmu_bearing.run.arrays import Arrays
 from fmu_bearing.scene.read import with_fidelity
 
 

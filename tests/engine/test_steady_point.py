@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from scipy.optimize import root
 
+from fmu_bearing.arrays import Arrays
 from fmu_bearing.compiled import call
 from fmu_bearing.engine.layout import PT, STRIDE, C, F, J, P, Q, S, U, W, Y
 from fmu_bearing.engine.status import OK
 from fmu_bearing.engine.steady.point import EVEN_BALLS, REST, WHIRL
-from fmu_bearing.run.arrays import Arrays
 from fmu_bearing.scene.mounting import TiltSupport
 from fmu_bearing.scene.read import read_scene_text, with_fidelity
 from tests.engine.helpers import Run, quiet

@@ -20,7 +20,7 @@ from fmu_bearing.fmi.shown import as_shown
 from fmu_bearing.fmi.terminals import TERMINALS_FILE, terminals_xml
 from fmu_bearing.interface import flat
 from fmu_bearing.prepare.model import prepare
-from fmu_bearing.run.names import unit_of
+from fmu_bearing.results.variable_names import unit_of
 from fmu_bearing.scene import SceneError, read_scene
 from tests.conftest import EXAMPLES
 from tests.spindle.port import as_port

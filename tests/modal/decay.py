@@ -5,8 +5,8 @@ The oracle of `modes`: nothing is linearised, no mode is presumed.
 
 import numpy as np
 
+from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.layout import P, Q, S, U, Y
-from fmu_bearing.run.arrays import Arrays
 
 INNER, OUTER = S.Y + Y.V0 + Q.INNER, S.Y + Y.V0 + Q.OUTER
 _KICK = 2e-5  # m/s: a nanometre at 3 kHz, a thousandth of the contacts' approach

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from fmu_bearing import campbell, modes, stiffness
+from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.layout import P, S, U, Y
 from fmu_bearing.modal import linearised as module
 from fmu_bearing.modal.equilibrium import settle
-from fmu_bearing.run.arrays import Arrays
 
 RPM = np.pi / 30.0
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from fmu_bearing import modes
+from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.layout import Q, S, U, Y
-from fmu_bearing.run.arrays import Arrays
 
 RPM = np.pi / 30.0
 H, SETTLE, WINDOW = 2e-5, 0.08, 0.04  # s; the axial mode forgets its start in 12 ms

@@ -13,7 +13,7 @@ from fmu_bearing.engine.layout import SD
 from fmu_bearing.recording import measure, pictures, tables
 from fmu_bearing.recording.listen import listen, write_all
 from fmu_bearing.recording.record import Recording, record
-from fmu_bearing.run.table import markdown, write_csv
+from fmu_bearing.results.table import markdown, write_csv
 from fmu_bearing.scene.read import with_fidelity
 
 P1 = (0.0, 0.105, 0.0)

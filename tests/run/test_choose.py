@@ -6,12 +6,12 @@ import math
 import numpy as np
 import pytest
 
+from fmu_bearing.arrays import Refused
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.fmi import documentation
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.run import choose as choosing
-from fmu_bearing.run.arrays import Refused
 from fmu_bearing.run.choose import (
     CANDIDATES,
     FINEST,

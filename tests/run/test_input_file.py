@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from fmu_bearing import simulate
+from fmu_bearing.results.result import ResultError
 from fmu_bearing.run.input_file import read_inputs
 from fmu_bearing.run.inputs import Input
-from fmu_bearing.run.result import ResultError
 from fmu_bearing.scene.read import with_fidelity
 
 INPUTS = {

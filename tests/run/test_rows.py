@@ -2,7 +2,7 @@
 
 import pytest
 
-from fmu_bearing.run.table import read_rows
+from fmu_bearing.results.table import read_rows
 
 
 def read(tmp_path, text):

@@ -12,9 +12,10 @@ from fmu_bearing import Bearing, Run, build_fmu, simulate
 from fmu_bearing.compiled.errors import BuildError
 from fmu_bearing.fmi.description import FLAVOURS
 from fmu_bearing.interface.names import UnknownName, chosen_names
+from fmu_bearing.results.result import INTERRUPTED, REFUSED, ResultError, read_table
+from fmu_bearing.results.series import structured
+from fmu_bearing.results.variable_names import unit_of
 from fmu_bearing.run.inputs import input_table
-from fmu_bearing.run.names import unit_of
-from fmu_bearing.run.result import INTERRUPTED, REFUSED, ResultError, read_table, structured
 from fmu_bearing.scene.read import with_fidelity
 
 

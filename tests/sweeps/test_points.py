@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.layout import S, U, Y
 from fmu_bearing.prepare.sound import sound_block
 from fmu_bearing.run import metrics as comparing
-from fmu_bearing.run.arrays import Arrays
 from fmu_bearing.run.simulate import simulate
 from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.sweeps import sweep

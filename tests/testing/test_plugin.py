@@ -11,7 +11,8 @@ import pytest
 
 from fmu_bearing.fmi.package import build
 from fmu_bearing.prepare.model import prepare
-from fmu_bearing.run.result import Run, structured
+from fmu_bearing.results.result import Run
+from fmu_bearing.results.series import structured
 from fmu_bearing.testing import Plan, compare, report, step_fmu
 from tests.conftest import ROOT
 from tests.pages import run_page

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from fmu_bearing.interface.names import UnknownName
-from fmu_bearing.run.result import Run, structured
+from fmu_bearing.results.result import Run
+from fmu_bearing.results.series import structured
 
 RATE, LINE = 1000.0, 125.0  # Hz
 

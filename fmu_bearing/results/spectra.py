@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.analysis.spectrum import amplitude_spectrum
 from fmu_bearing.extras import need
-from fmu_bearing.run.pictures import OTHERS, empty, label, mark_excitation
-from fmu_bearing.run.table import number
+from fmu_bearing.results.picture_parts import OTHERS, empty, label, mark_excitation
+from fmu_bearing.results.table import number
 
 if TYPE_CHECKING:
     import pandas

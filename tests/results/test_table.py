@@ -4,7 +4,7 @@ import pytest
 from typer.testing import CliRunner
 
 from fmu_bearing.cli import app
-from fmu_bearing.run.table import show
+from fmu_bearing.results.table import show
 from tests.conftest import EXAMPLES
 
 

@@ -6,23 +6,23 @@ import os
 import pathlib
 import tempfile
 import warnings
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from fmpy.util import read_csv, write_csv
 from numpy.typing import NDArray
 
-from fmu_bearing import renamed
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.extras import need
 from fmu_bearing.files import plain_file, write_whole
 from fmu_bearing.interface.names import chosen_names
-from fmu_bearing.run.levels import present, shown
-from fmu_bearing.run.names import unit_of
-from fmu_bearing.run.spectrum import Spectrum, of_variables
-from fmu_bearing.scene import Scene, read_scene_text
+from fmu_bearing.results.levels import present, shown
+from fmu_bearing.results.series import Series, structured
+from fmu_bearing.results.spectra import Spectrum, of_variables
+from fmu_bearing.results.time_pictures import time_picture
+from fmu_bearing.scene import read_scene_text
 
 if TYPE_CHECKING:
     import pandas
@@ -40,7 +40,7 @@ class ResultError(ValueError):
 
 
 @dataclass(repr=False)
-class Run:
+class Run(Series):
     """Variables of a bearing over time, SI units.
 
     Attributes
@@ -70,10 +70,6 @@ class Run:
     (['heat.inner_ring', 'heat.outer_ring', 'heat.oil'], 0.002)
     """
 
-    name: str
-    table: NDArray[Any]
-    units: dict[str, str] = field(default_factory=dict)
-    scene: Scene | None = None
     wall: float = float("nan")
     ended: str = COMPLETE
     note: str = ""
@@ -82,28 +78,6 @@ class Run:
     def complete(self) -> bool:
         """Whether the run reached its end."""
         return self.ended == COMPLETE
-
-    @property
-    def time(self) -> NDArray[np.float64]:
-        """Communication points (s), shape (points,)."""
-        return np.asarray(self.table["time"], dtype=float)
-
-    @property
-    def names(self) -> list[str]:
-        """Names of the variables kept."""
-        return columns_of(self.table)
-
-    def __getitem__(self, name: str) -> NDArray[np.float64]:
-        if name not in (self.table.dtype.names or ()):
-            now = f"it is now '{renamed.VARIABLES[name]}'; " if name in renamed.VARIABLES else ""
-            raise KeyError(f"'{name}' was not kept; {now}kept were {', '.join(self.names)}")
-        return np.asarray(self.table[name], dtype=float)
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self.names)
-
-    def __len__(self) -> int:
-        return len(self.table)
 
     def __repr__(self) -> str:
         ended = "" if self.complete else f", {self.ended}: {self.note}"
@@ -119,13 +93,6 @@ class Run:
         ended = "" if self.complete else f", {self.ended}: {self.note}"
         head = f"<caption>{html.escape(f'{self.name} at {self._reached():g} s{ended}')}</caption>"
         return f"<table>{head}<tr><th>variable</th><th>last value</th><th>unit</th></tr>{rows}</table>"
-
-    def _units(self) -> dict[str, str]:
-        """Units by name, where the run has none those of our FMUs."""
-        return {name: self.units.get(name) or unit_of(name) for name in self.names}
-
-    def _reached(self) -> float:
-        return float(self.time[-1]) if len(self) else float("nan")
 
     def save(self, path: str | os.PathLike[str]) -> pathlib.Path:
         """Write to ``.csv`` (as FMPy writes it: SI units, full precision) or ``.nc`` (netCDF, with units).
@@ -192,8 +159,6 @@ class Run:
         MissingExtra
             Without Matplotlib.
         """
-        from fmu_bearing.run.time_pictures import time_picture
-
         return time_picture(self, _listed(variables), title)
 
     def spectrum(
@@ -325,19 +290,6 @@ def check_target(path: str | os.PathLike[str]) -> pathlib.Path:
         need("xarray", "netCDF")
         need("h5netcdf", "netCDF")
     return target
-
-
-def columns_of(table: NDArray[Any]) -> list[str]:
-    """Return the names of a table's columns but ``time``."""
-    return [name for name in table.dtype.names or () if name != "time"]
-
-
-def structured(columns: Mapping[str, NDArray[Any]]) -> NDArray[Any]:
-    """Columns of numbers as one structured array."""
-    table = np.zeros(len(next(iter(columns.values()))), dtype=[(name, np.float64) for name in columns])
-    for name, values in columns.items():
-        table[name] = values
-    return table
 
 
 def read_table(path: str | os.PathLike[str]) -> NDArray[Any]:

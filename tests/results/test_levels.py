@@ -5,9 +5,9 @@ import pytest
 
 from fmu_bearing import Bearing, simulate
 from fmu_bearing.acoustics.filters.weighting import level
-from fmu_bearing.run.levels import SILENCE, present
-from fmu_bearing.run.result import Run
-from fmu_bearing.run.time_pictures import time_picture
+from fmu_bearing.results.levels import SILENCE, present
+from fmu_bearing.results.result import Run
+from fmu_bearing.results.time_pictures import time_picture
 from fmu_bearing.scene.read import with_fidelity
 
 LEVELS = ["mic[1].spl_a", "mic[1].leq"]

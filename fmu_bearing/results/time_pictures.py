@@ -10,15 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.interface.names import UnknownName, chosen_names
-from fmu_bearing.run.levels import present
-from fmu_bearing.run.names import unit_of
-from fmu_bearing.run.pictures import OTHERS, empty, label, save
+from fmu_bearing.results.levels import present
+from fmu_bearing.results.picture_parts import OTHERS, empty, label, save
+from fmu_bearing.results.series import Series
+from fmu_bearing.results.variable_names import unit_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-
-    from fmu_bearing.run.result import Run
 
 #: Variables drawn by default, as far as the run has them.
 USUAL = (
@@ -37,12 +36,12 @@ _WIDTHS = (1.2, 0.7)
 _STYLES = ("-", "--", ":", "-.")
 
 
-def time_picture(run: "Run", patterns: Sequence[str] | None = None, title: str = "") -> "Figure":
+def time_picture(run: Series, patterns: Sequence[str] | None = None, title: str = "") -> "Figure":
     """Draw variables over time, one panel per unit; levels where there are any.
 
     Parameters
     ----------
-    run : Run
+    run : Series
     patterns : sequence of str, optional
         Names, with ``*`` for any text; default: those of `usual_names`.
     title : str
@@ -70,7 +69,7 @@ def time_picture(run: "Run", patterns: Sequence[str] | None = None, title: str =
     return figure
 
 
-def _panel(ax: "Axes", run: "Run", unit: str, members: Sequence[str]) -> None:
+def _panel(ax: "Axes", run: Series, unit: str, members: Sequence[str]) -> None:
     """Draw the variables of one unit."""
     width = _WIDTHS[len(run) > 500]
     factor, offset, shown = _SHOWN.get(unit, (1.0, 0.0, unit or "1"))
@@ -112,7 +111,7 @@ def settled(values: NDArray[np.float64]) -> NDArray[np.float64]:
     return found
 
 
-def spoken(name: str, run: "Run") -> str:
+def spoken(name: str, run: Series) -> str:
     """Return the name of a variable with its microphone's own name, where it is known."""
     match = _MICROPHONE.match(name)
     places = [] if run.scene is None else run.scene.microphones
@@ -121,7 +120,7 @@ def spoken(name: str, run: "Run") -> str:
     return f"{places[int(match[1]) - 1].name}: {name[match.end() :]}"
 
 
-def usual_names(run: "Run") -> list[str]:
+def usual_names(run: Series) -> list[str]:
     """Return the variables drawn by default that the run has, or all where it has none of them."""
     found: list[str] = []
     for pattern in USUAL:
@@ -132,6 +131,6 @@ def usual_names(run: "Run") -> list[str]:
     return found or run.names[:_MOST]
 
 
-def draw(run: "Run", path: str | os.PathLike[str], patterns: Sequence[str] | None = None) -> None:
+def draw(run: Series, path: str | os.PathLike[str], patterns: Sequence[str] | None = None) -> None:
     """Write `time_picture` to a file (.png, .svg or .pdf)."""
     save(time_picture(run, patterns), path)

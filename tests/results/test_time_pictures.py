@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from fmu_bearing import simulate
-from fmu_bearing.run.result import Run, structured
-from fmu_bearing.run.time_pictures import settled, time_picture
+from fmu_bearing.results.result import Run
+from fmu_bearing.results.series import structured
+from fmu_bearing.results.time_pictures import settled, time_picture
 from fmu_bearing.scene.read import with_fidelity
 
 

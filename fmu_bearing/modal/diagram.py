@@ -1,0 +1,226 @@
+"""What a Campbell diagram holds: modes over speed, excitation lines, and the speeds where both meet."""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import PchipInterpolator
+
+from fmu_bearing.modal.lines import Line, Rates
+from fmu_bearing.modal.modes import MARGIN, MOVES, Mode, Modes, self_excited
+from fmu_bearing.modal.remarks import UNSTEADY
+from fmu_bearing.modal.shapes import NEITHER
+from fmu_bearing.scene import Scene
+
+WITHIN = 20.0  # dB below the largest: crossings that count
+_SPIN = "spin"  # waves press along the contacts' normals, which have no lever about the axis
+
+
+@dataclass(frozen=True)
+class Branch:
+    """One mode over speed, followed by its shape.
+
+    Attributes
+    ----------
+    name, direction : str
+        Of the mode at the middle of its speeds.
+    order : int
+    rpm, frequency, damping : ndarray
+        r/min, Hz and damping ratio where the mode was found.
+    modes : tuple of Mode
+    """
+
+    name: str
+    direction: str
+    order: int
+    rpm: NDArray[np.float64]
+    frequency: NDArray[np.float64]
+    damping: NDArray[np.float64]
+    modes: tuple[Mode, ...]
+
+    @property
+    def label(self) -> str:
+        """Name with direction."""
+        return f"{self.name} {self.direction}".rstrip()
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """A speed at which an excitation has the frequency of a mode that it can move.
+
+    Attributes
+    ----------
+    rpm, frequency, damping : float
+        r/min, Hz, damping ratio.
+    branch : Branch
+    line : Line
+    velocity : float
+        m/s: amplitude of the surface times angular frequency times Q, an estimate that ranks crossings; 0
+        where the scene does not contain the line.
+    """
+
+    rpm: float
+    frequency: float
+    damping: float
+    branch: Branch
+    line: Line
+    velocity: float
+
+    @property
+    def quality(self) -> float:
+        """Q, 1/(2 zeta)."""
+        return 0.5 / self.damping if self.damping > 0.0 else math.inf
+
+    def as_dict(self) -> dict[str, Any]:
+        """Numbers and names, for tables."""
+        return {
+            "speed_rpm": self.rpm, "frequency_Hz": self.frequency, "damping_ratio": self.damping,
+            "mode": self.branch.name, "direction": self.branch.direction, "line": self.line.name,
+            "source": self.line.source, "surface_order": self.line.surface_order,
+            "in_scene": self.line.present, "velocity_um_s": 1e6 * self.velocity,
+        }  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Diagram:
+    """Branches, lines and crossings over speed; `Campbell` describes them, and adds the picture."""
+
+    scene: Scene
+    points: tuple[Modes, ...]
+    branches: tuple[Branch, ...]
+    lines: tuple[Line, ...]
+    rates: Rates
+    highest: float
+    skipped: tuple[tuple[float, str], ...] = ()
+
+    @property
+    def rpm(self) -> NDArray[np.float64]:
+        """Speeds (r/min) in order."""
+        return np.array([point.rpm for point in self.points])
+
+    def crossings(self, in_scene: bool = False) -> list[Crossing]:
+        """Return the crossings by speed.
+
+        Parameters
+        ----------
+        in_scene : bool
+            Those only that the scene contains and that come within 20 dB of the largest.
+        """
+        found = self._all_crossings
+        if in_scene:
+            largest = max((crossing.velocity for crossing in found), default=0.0)
+            return [one for one in found if one.velocity > largest * 10.0 ** (-WITHIN / 20.0)]
+        return list(found)
+
+    @cached_property
+    def _all_crossings(self) -> list[Crossing]:
+        found = [
+            crossing
+            for branch in self.branches
+            for line in self.lines
+            if can_move(line, branch)
+            for crossing in _meet(branch, line, self.rpm)
+        ]
+        return sorted(found, key=lambda crossing: crossing.rpm)
+
+    def nearest(self) -> Crossing | None:
+        """Return the crossing of the scene nearest to its operating speed, by ratio; None: there is none."""
+        own = abs(self.scene.operation.speed_rpm)
+        found = self.crossings(in_scene=True)
+        if not found or own == 0.0:
+            return None
+        return min(found, key=lambda crossing: abs(math.log(abs(crossing.rpm) / own)))
+
+    def verdict(self) -> str:
+        """Return the nearest crossing of the scene in a sentence."""
+        near, own = self.nearest(), abs(self.scene.operation.speed_rpm)
+        if near is None:
+            low, high = np.abs(self.rpm[[0, -1]])
+            return (
+                f"No line that the scene contains meets a mode between {low:,.0f} and {high:,.0f} r/min "
+                f"below {1e-3 * self.highest:g} kHz."
+            )
+        share = abs(near.rpm) / own - 1.0
+        side = "above" if share >= 0.0 else "below"
+        return (
+            f"Nearest: {near.line.name} ({near.line.source}) with {near.branch.label}, "
+            f"{abs(near.rpm):,.0f} r/min, {100.0 * abs(share):.1f} % {side} operation, damping ratio "
+            f"{100.0 * near.damping:.2g} %."
+        )
+
+    def cautions(self) -> list[str]:
+        """Return weak damping over the speeds, and speeds that could not be computed, in sentences."""
+        found = []
+        for branch in self.branches:
+            least = int(np.argmin(branch.damping))
+            if branch.damping[least] < MARGIN:
+                word = "grows by itself" if branch.damping[least] < 0.0 else "is hardly damped"
+                found.append(
+                    f"instability margin: '{branch.label}' {word} at {branch.rpm[least]:,.0f} r/min "
+                    f"({branch.frequency[least]:.0f} Hz, damping ratio {branch.damping[least]:.4f})"
+                )
+        found += self._unseen()
+        found += [
+            f"{point.rpm:,.0f} r/min: {UNSTEADY}" for point in self.points if not point.linearised.steady
+        ]
+        return found + [f"{rpm:,.0f} r/min is left out: {why}" for rpm, why in self.skipped]
+
+    def _unseen(self) -> list[str]:
+        """Return the fastest whirl that no branch shows, because balls have most of its energy."""
+        grown = [(point.rpm, self_excited(point)) for point in self.points if point.linearised.steady]
+        rings = [(rpm, mode) for rpm, mode in grown if mode is not None and not is_of_rings(mode)]
+        if not rings:
+            return []
+        rpm, mode = max(rings, key=lambda one: one[1].growth)
+        body = "ring" if self.points[0].scene.spindle is None else "set"
+        return [
+            f"instability: the {body} whirls by itself at {rpm:,.0f} r/min ({mode.frequency:.0f} Hz, growth "
+            f"{mode.growth:.0f} 1/s); balls have most of its energy, and no branch shows it"
+        ]
+
+    def table(self) -> list[dict[str, Any]]:
+        """Return a row per branch and speed: what `campbell.csv` holds."""
+        return [
+            {
+                "speed_rpm": float(rpm), "frequency_Hz": float(frequency), "damping_ratio": float(damping),
+                "mode": branch.name, "direction": branch.direction, "order": branch.order,
+            }
+            for branch in self.branches
+            for rpm, frequency, damping in zip(branch.rpm, branch.frequency, branch.damping, strict=True)
+        ]  # fmt: skip
+
+
+def is_of_rings(mode: Mode) -> bool:
+    """Whether rings move, not only the turning of the balls."""
+    return mode.ring_share > MOVES and not mode.name.startswith(("ball spin", "ball orbit"))
+
+
+def can_move(line: Line, branch: Branch | Mode) -> bool:
+    """Whether order and direction agree; a mode without direction answers to both, turning to none."""
+    agree = line.order == branch.order and branch.direction in (line.direction, NEITHER)
+    return agree and _SPIN not in branch.name.split()
+
+
+def _meet(branch: Branch, line: Line, rpm: NDArray[np.float64]) -> list[Crossing]:
+    """Crossings of a branch and a line, on curves through the computed speeds."""
+    # interpolation wants rising speeds
+    order = np.argsort(branch.rpm)
+    speeds = branch.rpm[order]
+    by_speed = np.argsort(rpm)
+    at_speeds = np.interp(speeds, rpm[by_speed], line.frequency[by_speed])
+    # the curves have no extremes between the speeds, so without a change of sign there is no root
+    if abs(np.sign(branch.frequency[order] - at_speeds).sum()) == speeds.size:
+        return []
+    excitation = PchipInterpolator(rpm[by_speed], line.frequency[by_speed])
+    apart = PchipInterpolator(speeds, branch.frequency[order] - excitation(speeds))
+    damping = PchipInterpolator(speeds, branch.damping[order])
+    found = []
+    for root in np.unique(apart.roots(extrapolate=False)):
+        frequency, zeta = float(excitation(root)), float(damping(root))
+        magnified = 0.5 / max(zeta, MARGIN)  # below it the size of the motion limits itself
+        velocity = line.amplitude * 2.0 * math.pi * frequency * magnified
+        found.append(Crossing(float(root), frequency, zeta, branch, line, velocity))
+    return found

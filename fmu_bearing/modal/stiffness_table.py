@@ -1,0 +1,106 @@
+"""Stiffness and damping over speed, preload and frequency: the numbers, and what follows from them."""
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.modal.planes import Planes, errors, planes
+from fmu_bearing.scene import Scene
+
+Spacing = Literal["held", "free"]
+
+
+@dataclass(frozen=True)
+class StiffnessTable:
+    """Numbers of `Stiffness`, which describes them, and adds files and a picture."""
+
+    scene: Scene
+    speeds: NDArray[np.float64]
+    preloads: NDArray[np.float64]
+    frequencies: NDArray[np.float64]
+    K: NDArray[np.float64]
+    C: NDArray[np.float64]
+    static: NDArray[np.float64]
+    own: NDArray[np.float64]
+    orbit: NDArray[np.float64]
+    spread: NDArray[np.float64]
+    steady: NDArray[np.bool_]
+    spacing: Spacing = "held"
+
+    @property
+    def impedance(self) -> NDArray[np.complex128]:
+        """K + i w C, shape (speed, preload, frequency, 5, 5)."""
+        w = 2.0 * math.pi * self.frequencies
+        return np.asarray(self.K + 1j * w[:, None, None] * self.C)
+
+    def losses(self) -> tuple[NDArray[np.float64], NDArray[np.complex128]]:
+        """Return loss over stiffness of five motions, the least first, and these motions.
+
+        Eigenvalues and vectors of (Z - Z^H)/2i, with every force over the root of both stiffnesses; half of
+        an eigenvalue times w is the power lost. Below 0 a whirl takes power from the turning shaft.
+
+        Returns
+        -------
+        tuple of ndarray
+            Shapes (speed, preload, frequency, 5) and (speed, preload, frequency, 5, 5), motions in columns.
+        """
+        z = self.impedance / _pairs(self.K)
+        values, vectors = np.linalg.eigh((z - np.conj(np.swapaxes(z, -1, -2))) / 2j)
+        return np.asarray(values), np.asarray(vectors)
+
+    def against_static(self) -> float:
+        """Return the largest difference of K at the lowest frequency from `static`.
+
+        Entries over the root of both diagonal ones.
+        """
+        return float(np.abs((self.K[:, :, 0] - self.static) / _pairs(self.static)).max())
+
+    def planes(self, preload: float | None = None, mirrored: bool = False) -> Planes:
+        """Return the two planes whose radial springs stand for tilt and coupling; see `modal.planes`.
+
+        Parameters
+        ----------
+        preload : float, optional
+            N: one of `preloads`; may be left out where there is one.
+        mirrored : bool
+            Whether the bearing carries the other way, as the rear one of a pair does.
+
+        Raises
+        ------
+        ValueError
+            For a preload that is not there, and where no two planes can stand for the bearing.
+        """
+        return planes(self.own[self.at_preload(preload)], mirrored)
+
+    def plane_errors(self, preload: float | None = None) -> NDArray[np.float64]:
+        """Return what the two planes have too much, over what the bearing has.
+
+        Returns
+        -------
+        ndarray, shape (speed, frequency, 4)
+            In the order of `modal.planes.ERRORS`.
+        """
+        at = self.at_preload(preload)
+        return errors(self.planes(preload), self.K[:, at], self.C[:, at])
+
+    def at_preload(self, preload: float | None) -> int:
+        """Return the place of a preload (N) on its axis; ``ValueError`` for one that is not there."""
+        listed = ", ".join(f"{value:g}" for value in self.preloads)
+        if preload is None:
+            if len(self.preloads) > 1:
+                raise ValueError(f"which preload is meant has to be said: {listed} N are there")
+            return 0
+        near = np.flatnonzero(np.isclose(self.preloads, preload, rtol=1e-9))
+        if near.size == 0:
+            raise ValueError(f"preload = {preload:g} N is not in this table: {listed} N are there")
+        return int(near[0])
+
+
+def _pairs(matrix: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return for each entry the root of both diagonal ones, the measure of what is small; 1 for none."""
+    size = np.sqrt(np.abs(np.diagonal(matrix, axis1=-2, axis2=-1)))
+    size = np.where(size > 0.0, size, 1.0)
+    return np.asarray(size[..., :, None] * size[..., None, :])

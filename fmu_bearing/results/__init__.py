@@ -1,0 +1,13 @@
+"""Values of variables over time: their names, tables, files, spectra and pictures.
+
+==================  ===========================================================================
+``variable_names``  names of variables, with patterns and suggestions
+``table``           tables to terminal, Markdown, CSV; rows of CSV files; the machine they were made on
+``levels``          sound levels as they are drawn: absent before metering begins
+``picture_parts``   colours, labels and files of all pictures
+``spectra``         spectra of variables and of microphones, with names and units
+``series``          variables over time, with names and units
+``time_pictures``   pictures of them
+``result``          `Run`: the results of a run, as CSV, netCDF, xarray, pandas; its pictures and spectra
+==================  ===========================================================================
+"""

@@ -2,7 +2,6 @@
 
 ==============  ==============================================================================
 ``radiation``   bodies that radiate, and the transfer functions of the radiation models
-``papers``      the papers' own radiation models, and impact sound
 ``registry``    which radiation models there are, and the paths each takes
 ``filters``     filters for the engine: decimator, fits, blocks, weighting, the packed sound block
 ``analysis``    spectra, lines, orders, directivity, power and audio of recordings

@@ -6,12 +6,12 @@ from typing import Any
 
 import numpy as np
 
-from fmu_bearing.acoustics.papers.contacts import contact_paths
-from fmu_bearing.acoustics.papers.scalars import paper_paths
-from fmu_bearing.acoustics.papers.vector import paper_vector_paths
 from fmu_bearing.acoustics.radiation.bem.paths import bem_paths
 from fmu_bearing.acoustics.radiation.circle import MicrophoneCircle
 from fmu_bearing.acoustics.radiation.compact import compact_paths
+from fmu_bearing.acoustics.radiation.paper_contacts import contact_paths
+from fmu_bearing.acoustics.radiation.paper_scalars import paper_paths
+from fmu_bearing.acoustics.radiation.paper_vector import paper_vector_paths
 from fmu_bearing.acoustics.radiation.radiators import Air, Path, Radiators
 from fmu_bearing.acoustics.radiation.table import Table, table_paths
 from fmu_bearing.engine.choices import RADIATION_MODELS, ChannelForm

@@ -4,7 +4,6 @@
 ``section``     meridian section of a ring, groove included, and its mesh
 ``fourier``     the solid of revolution for one circumferential harmonic: matrices, modes
 ``modes``       the modes a scene asks for, as motion and sound need them; free modes
-``assembly``    modes of a whole bearing whose balls stick or slide: contact conditions C1 to C4
 ``shaft``       the shaft of a set of bearings: its matrices and how its planes move
 ==============  ======================================================================
 
@@ -16,5 +15,5 @@ order n has two amplitudes a, b (m)::
     u_x, u_r = psi_x, psi_r (a cos n theta + b sin n theta)
     u_t      = psi_t        (a sin n theta - b cos n theta)
 
-Only rings that bend and the assembly need scikit-fem (extra ``elastic``).
+Only rings that bend need scikit-fem (extra ``elastic``).
 """

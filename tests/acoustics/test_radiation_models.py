@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from fmu_bearing.acoustics.filters.design import build, filter_errors
-from fmu_bearing.acoustics.papers.contacts import contact_paths
-from fmu_bearing.acoustics.papers.scalars import paper_scalars
 from fmu_bearing.acoustics.radiation import sources
 from fmu_bearing.acoustics.radiation.circle import MicrophoneCircle
 from fmu_bearing.acoustics.radiation.compact import compact_paths
 from fmu_bearing.acoustics.radiation.frequencies import fit_frequencies
+from fmu_bearing.acoustics.radiation.paper_contacts import contact_paths
+from fmu_bearing.acoustics.radiation.paper_scalars import paper_scalars
 from fmu_bearing.acoustics.radiation.radiators import Air, Path, Radiators
 from fmu_bearing.acoustics.radiation.table import Table, channels, read_table, select
 from fmu_bearing.acoustics.registry import RECIPES, Radiation

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from fmu_bearing.acoustics.filters.blocks import Bank, Wire, choose, filters, head, segments, spans, wired
 from fmu_bearing.acoustics.filters.fir import decimator_stages, outer_taps
 from fmu_bearing.acoustics.filters.weighting import a_weighting_sections, band_sections, high_pass_gains
-from fmu_bearing.acoustics.papers.scalars import paper_scalars
+from fmu_bearing.acoustics.radiation.paper_scalars import paper_scalars
 from fmu_bearing.acoustics.registry import Radiation
 from fmu_bearing.engine.choices import CHANNEL_FORMS
 from fmu_bearing.engine.layout import FOUR, SD, Z

@@ -10,18 +10,18 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.special import eval_legendre, spherical_jn, spherical_yn, zeta
 
-from fmu_bearing.acoustics.papers.impact import lamb, multipoles
-from fmu_bearing.acoustics.papers.impact.chain import (
+from fmu_bearing.acoustics.radiation import sources
+from fmu_bearing.papers.impact import lamb, multipoles
+from fmu_bearing.papers.impact.chain import (
     Collision,
     Sphere,
     collide,
     contact_time,
     hertz_stiffness,
 )
-from fmu_bearing.acoustics.papers.impact.scattering import SphereRow
-from fmu_bearing.acoustics.papers.impact.sound import impact_pressure
-from fmu_bearing.acoustics.papers.impact.sphere_field import sphere_pressure
-from fmu_bearing.acoustics.radiation import sources
+from fmu_bearing.papers.impact.impact_sound import impact_pressure
+from fmu_bearing.papers.impact.scattering import SphereRow
+from fmu_bearing.papers.impact.sphere_field import sphere_pressure
 
 BALL = Sphere(11.1e-3, 7900.0, 195e9, 0.3)
 A = BALL.radius

@@ -12,7 +12,6 @@ bodies are bare.
 
 import numpy as np
 
-from fmu_bearing.acoustics.papers.scalars import paper_scalars
 from fmu_bearing.acoustics.radiation import sources
 from fmu_bearing.acoustics.radiation.circle import (
     MicrophoneCircle,
@@ -22,6 +21,7 @@ from fmu_bearing.acoustics.radiation.circle import (
     translation_paths,
 )
 from fmu_bearing.acoustics.radiation.frequencies import fit_frequencies
+from fmu_bearing.acoustics.radiation.paper_scalars import paper_scalars
 from fmu_bearing.acoustics.radiation.radiators import Air, Path, Radiators
 
 

@@ -11,9 +11,9 @@ import pytest
 from scipy.integrate import quad
 from scipy.special import spherical_jn
 
-from fmu_bearing.acoustics.papers.impact.chain import Sphere, hertz_stiffness
-from fmu_bearing.acoustics.papers.impact.lamb import pole_modes, surface_acceleration, wave_speeds
-from fmu_bearing.acoustics.papers.impact.row import row_modes
+from fmu_bearing.papers.impact.chain import Sphere, hertz_stiffness
+from fmu_bearing.papers.impact.lamb import pole_modes, surface_acceleration, wave_speeds
+from fmu_bearing.papers.impact.row import row_modes
 
 BALL = Sphere(11.1e-3, 7900.0, 195e9, 0.3)
 PATCH = 0.2e-3

@@ -7,7 +7,7 @@
 ``scattering``    spheres on one axis in each other's sound: multipoles in frequency, histories in time
 ``lamb``          the elastic sphere: natural frequencies, and what its surface does under a contact force
 ``row``           modes of balls in a row that touch, stuck together or sliding
-``sound``         pressure at microphones over time
+``impact_sound``  pressure at microphones over time
 ================  ==========================================================================
 
 The line is the x axis. Points are pairs (x, s), s the distance from the axis, both in m. Air does not act

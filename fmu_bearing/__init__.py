@@ -59,9 +59,9 @@ if TYPE_CHECKING:
     from fmu_bearing.design.set_stiffness import set_stiffness
     from fmu_bearing.design.verdicts import verdicts
     from fmu_bearing.identification import identify
-    from fmu_bearing.modal.campbell import Campbell, campbell
-    from fmu_bearing.modal.modes import Modes
-    from fmu_bearing.modal.points import modes
+    from fmu_bearing.modal.campbell.over_speed import Campbell, campbell
+    from fmu_bearing.modal.modes.natural_modes import Modes
+    from fmu_bearing.modal.modes.points import modes
     from fmu_bearing.recording import audio, measure, pictures, tables
     from fmu_bearing.recording.compare import compare
     from fmu_bearing.recording.record import Recording, record
@@ -82,9 +82,9 @@ __version__ = "0.1.0"
 #: Public names and where they live; each is imported when first asked for.
 _PLACES = {
     "Bearing": "run.bearing",
-    "Campbell": "modal.campbell",
+    "Campbell": "modal.campbell.over_speed",
     "Dimensions": "scene.template",
-    "Modes": "modal.modes",
+    "Modes": "modal.modes.natural_modes",
     "Recording": "recording.recording",
     "Run": "results.result",
     "Scene": "scene",
@@ -92,12 +92,12 @@ _PLACES = {
     "ShaftStatics": "spindle.statics",
     "audio": "recording",
     "build_fmu": "run.build",
-    "campbell": "modal.campbell",
+    "campbell": "modal.campbell.over_speed",
     "changes": "accuracy.changes",
     "compare": "recording.compare",
     "identify": "identification",
     "measure": "recording",
-    "modes": "modal.points",
+    "modes": "modal.modes.points",
     "new_scene": "design.fresh",
     "operating_point": "design.operating_point",
     "operating_points": "design.set_points",
@@ -109,7 +109,7 @@ _PLACES = {
     "shaft_statics": "spindle.statics",
     "simulate": "run.simulate",
     "spread": "recording.spread",
-    "stiffness": "modal.stiffness",
+    "stiffness": "modal.stiffness.scene_stiffness",
     "sweep": "sweeps",
     "tables": "recording",
     "verdicts": "design.verdicts",

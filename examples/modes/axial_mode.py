@@ -24,7 +24,7 @@ import typer
 
 from fmu_bearing import campbell, read_scene, simulate
 from fmu_bearing.cli.base import quiet_warnings, refusals
-from fmu_bearing.modal.campbell import Campbell
+from fmu_bearing.modal.campbell.over_speed import Campbell
 from fmu_bearing.results.table import machine, markdown, show, write_csv
 from fmu_bearing.scene import Scene
 

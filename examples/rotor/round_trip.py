@@ -26,7 +26,7 @@ from scipy.linalg import block_diag, eig
 
 from fmu_bearing import read_scene, stiffness
 from fmu_bearing.engine.constants import RPM
-from fmu_bearing.modal.planes import mirrored_matrix
+from fmu_bearing.modal.stiffness.planes import mirrored_matrix
 from fmu_bearing.results.table import machine, markdown, write_csv
 
 HERE = pathlib.Path(__file__).parent

@@ -18,7 +18,7 @@ from fmu_bearing.accuracy.hearing import Hearing, hearing
 from fmu_bearing.design.operating_point import operating_point
 from fmu_bearing.design.rating import unrated
 from fmu_bearing.formulas import iso281
-from fmu_bearing.modal.weak import whirl_words
+from fmu_bearing.modal.campbell.weak import whirl_words
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 

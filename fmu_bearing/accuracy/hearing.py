@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.filters.weighting import level
 from fmu_bearing.engine.constants import RPM
-from fmu_bearing.modal.weak import doubt, weakness
+from fmu_bearing.modal.campbell.weak import doubt, weakness
 from fmu_bearing.recording.listener import Listener
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.read import with_fidelity

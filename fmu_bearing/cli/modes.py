@@ -22,8 +22,8 @@ from fmu_bearing.extras import available
 from fmu_bearing.files import check_folder
 
 if TYPE_CHECKING:
-    from fmu_bearing.modal.campbell import Campbell
-    from fmu_bearing.modal.modes import Modes
+    from fmu_bearing.modal.campbell.over_speed import Campbell
+    from fmu_bearing.modal.modes.natural_modes import Modes
     from fmu_bearing.scene import Scene
 
 Changes = Annotated[
@@ -64,8 +64,8 @@ def modes(
     With --output the Campbell diagram is computed in any case: modes.csv, campbell.csv, crossings.csv,
     campbell.png and modes.html, with the shapes moving; of a set shaft.png instead, the line of the shaft.
     """
-    from fmu_bearing.modal.campbell import campbell as over_speed
-    from fmu_bearing.modal.points import modes as at_speed
+    from fmu_bearing.modal.campbell.over_speed import campbell as over_speed
+    from fmu_bearing.modal.modes.points import modes as at_speed
     from fmu_bearing.scene import read_scene
     from fmu_bearing.sweeps.axes import parse_values
 
@@ -185,7 +185,7 @@ def _summary(found: "Modes", diagram: "Campbell | None", highest: float) -> dict
 
 def _write(folder: Path, found: "Modes", diagram: "Campbell | None") -> list[Path]:
     """Write tables, and for a diagram its picture and page; return the files."""
-    from fmu_bearing.modal.set_modes import SetModes
+    from fmu_bearing.modal.modes.set_modes import SetModes
     from fmu_bearing.results.picture_parts import save
 
     folder.mkdir(parents=True, exist_ok=True)

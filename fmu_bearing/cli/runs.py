@@ -120,7 +120,7 @@ def plot(
 
 def _doubt(run: "Run", start: dict[str, float], table: bool) -> str:
     """Return why a run's figures are in doubt: levels, or all where a ring whirls by itself at its start."""
-    from fmu_bearing.modal.weak import doubt, is_of_levels
+    from fmu_bearing.modal.campbell.weak import doubt, is_of_levels
 
     assert run.scene is not None
     found = doubt(run.scene, start)

@@ -21,8 +21,8 @@ from fmu_bearing.cli.modes import Changes, changed
 from fmu_bearing.cli.spindle import stiffness_of_set
 
 if TYPE_CHECKING:
-    from fmu_bearing.modal.stiffness import Stiffness
-    from fmu_bearing.modal.stiffness_table import Spacing
+    from fmu_bearing.modal.stiffness.scene_stiffness import Stiffness
+    from fmu_bearing.modal.stiffness.stiffness_table import Spacing
 
 _ENDINGS = {"csv": ".csv", "netcdf": ".nc", "ross": ".toml"}
 _SYNTAX = "LOW:HIGH:COUNT, LOW:HIGH:COUNTlog or VALUE,VALUE,..."
@@ -70,7 +70,7 @@ def stiffness(
     With --format ross the file NAME.toml becomes NAME-1.toml and NAME-2.toml: a bearing element of ROSS 3
     each, with half of the bearing. The table tells what both lack of its tilt and coupling.
     """
-    from fmu_bearing.modal.stiffness import stiffness as table_of
+    from fmu_bearing.modal.stiffness.scene_stiffness import stiffness as table_of
     from fmu_bearing.results.picture_parts import check_picture, save
     from fmu_bearing.scene import read_scene
 
@@ -145,8 +145,8 @@ def _spacing(text: str) -> "Spacing":
 
 def _target(form: str, output: Path | None, asked: dict[str, list[float] | None]) -> Path:
     """Return the file to write, checked before anything is computed."""
-    from fmu_bearing.modal.ross import check_axes, check_element
-    from fmu_bearing.modal.stiffness_files import check_table
+    from fmu_bearing.modal.stiffness.ross import check_axes, check_element
+    from fmu_bearing.modal.stiffness.stiffness_files import check_table
 
     if form not in _ENDINGS:
         raise Refusal(f"--format {form} is refused: it is {', '.join(_ENDINGS)}")
@@ -192,7 +192,7 @@ def _show(found: "Stiffness") -> None:
 
 def _show_planes(found: "Stiffness", preload: float, mirrored: bool) -> None:
     """Print where the two planes stand and what they lack, over all frequencies."""
-    from fmu_bearing.modal.planes import ERRORS
+    from fmu_bearing.modal.stiffness.planes import ERRORS
     from fmu_bearing.results.table import show
 
     planes, off = found.planes(preload, mirrored), _PERCENT * found.plane_errors(preload)

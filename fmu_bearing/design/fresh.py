@@ -6,7 +6,7 @@ from typing import Any
 from fmu_bearing.design.operating_point import operating_point
 from fmu_bearing.design.rating import speed_limit
 from fmu_bearing.design.verdicts import verdicts
-from fmu_bearing.modal.remarks import UNSTEADY
+from fmu_bearing.modal.equations.remarks import UNSTEADY
 from fmu_bearing.scene import Scene, read_scene_text, template
 from fmu_bearing.scene.mounting import Mounting
 from fmu_bearing.scene.nsk import sizes

@@ -1,7 +1,7 @@
 """A bearing at its operating point, without a run: contacts, stiffness, frequencies, film, limits, life.
 
 Everything is that of the perfect bearing with rigid rings in its steady state; the stiffness is that
-of `modal.stiffness`. Ratings and limits come from `design.rating`, with their sources.
+of `modal.stiffness.scene_stiffness`. Ratings and limits come from `design.rating`, with their sources.
 """
 
 import math
@@ -18,10 +18,10 @@ from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import C, P, S, Y
 from fmu_bearing.formulas.iso281 import viscosity_ratio
 from fmu_bearing.instance import Instance
-from fmu_bearing.modal.impedance import at_rest
-from fmu_bearing.modal.linearised import under_force
-from fmu_bearing.modal.modes import Modes, may_grow, self_excited, solved
-from fmu_bearing.modal.remarks import remarks
+from fmu_bearing.modal.equations.linearised import under_force
+from fmu_bearing.modal.equations.remarks import remarks
+from fmu_bearing.modal.modes.natural_modes import Modes, may_grow, self_excited, solved
+from fmu_bearing.modal.stiffness.impedance import at_rest
 from fmu_bearing.prepare.bodies import ball
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.progress import Tell, silent

@@ -11,9 +11,9 @@ from fmu_bearing.design.operating_point import OperatingPoint, figures, whirl_of
 from fmu_bearing.design.verdicts import Judgement, Verdict, judged_life, verdicts
 from fmu_bearing.formulas import iso281
 from fmu_bearing.instance import Instance
-from fmu_bearing.modal.modes import may_grow
-from fmu_bearing.modal.set_linearised import set_linearised
-from fmu_bearing.modal.set_modes import set_solved
+from fmu_bearing.modal.equations.set_linearised import set_linearised
+from fmu_bearing.modal.modes.natural_modes import may_grow
+from fmu_bearing.modal.modes.set_modes import set_solved
 from fmu_bearing.prepare.lengths import members
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.progress import Tell, silent

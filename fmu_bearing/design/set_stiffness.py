@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.files import check_file
-from fmu_bearing.modal.impedance import FREEDOMS
-from fmu_bearing.modal.stiffness_files import unit
+from fmu_bearing.modal.stiffness.impedance import FREEDOMS
+from fmu_bearing.modal.stiffness.stiffness_files import unit
 from fmu_bearing.results.picture_parts import OTHERS, empty, label
 from fmu_bearing.results.table import write_csv
 from fmu_bearing.scene import Scene, SceneSource, scene_of

@@ -12,8 +12,8 @@ from typing import Any, Literal
 from fmu_bearing.design.operating_point import RINGS, OperatingPoint
 from fmu_bearing.design.rating import preload_classes, unclassed, unrated
 from fmu_bearing.formulas import iso76, iso281, makers
-from fmu_bearing.modal.remarks import UNSTEADY
-from fmu_bearing.modal.weak import whirl_words
+from fmu_bearing.modal.campbell.weak import whirl_words
+from fmu_bearing.modal.equations.remarks import UNSTEADY
 
 Judgement = Literal["good", "watch", "change", "not judged"]
 

@@ -53,8 +53,8 @@ class Finished:
     excitation_end : float, optional
         Hz: up to where surfaces excite it; None: not known.
     doubt : str
-        Why figures are in doubt (`modal.weak`); empty: they are not, or nothing is known of it, as of a run
-        whose inputs are not known.
+        Why figures are in doubt (`modal.campbell.weak`); empty: they are not, or nothing is known of it, as
+        of a run whose inputs are not known.
     """
 
     name: str

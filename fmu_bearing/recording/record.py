@@ -16,7 +16,7 @@ from fmu_bearing.acoustics.analysis.field import TAIL, form_of
 from fmu_bearing.acoustics.radiation.radiators import Air
 from fmu_bearing.engine.layout import SD, P, S
 from fmu_bearing.instance import Instance
-from fmu_bearing.modal.weak import doubt
+from fmu_bearing.modal.campbell.weak import doubt
 from fmu_bearing.prepare.model import Model, prepare
 from fmu_bearing.recording.recording import Recording
 from fmu_bearing.run.choose import resolve

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.filters.weighting import level
 from fmu_bearing.engine.constants import RPM
-from fmu_bearing.modal.weak import doubt, weakness
+from fmu_bearing.modal.campbell.weak import doubt, weakness
 from fmu_bearing.recording.listener import Listener, check_model
 from fmu_bearing.recording.places import Places
 from fmu_bearing.recording.record import RecordingSource, recording_of

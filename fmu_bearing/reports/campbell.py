@@ -4,9 +4,9 @@ from typing import Any
 
 import numpy as np
 
-from fmu_bearing.modal.campbell import Campbell
-from fmu_bearing.modal.diagram import Branch, Crossing
-from fmu_bearing.modal.drawing import (
+from fmu_bearing.modal.campbell.diagram import Branch, Crossing
+from fmu_bearing.modal.campbell.diagram_picture import spaced
+from fmu_bearing.modal.campbell.diagram_style import (
     DASHES,
     SHORT,
     UNSTABLE,
@@ -22,8 +22,8 @@ from fmu_bearing.modal.drawing import (
     strength,
     top,
 )
-from fmu_bearing.modal.modes import MARGIN, SPREAD, Mode, Modes
-from fmu_bearing.modal.picture import spaced
+from fmu_bearing.modal.campbell.over_speed import Campbell
+from fmu_bearing.modal.modes.natural_modes import MARGIN, SPREAD, Mode, Modes
 from fmu_bearing.reports import look
 from fmu_bearing.reports.blocks import Chart, Table, small
 

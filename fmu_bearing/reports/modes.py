@@ -7,9 +7,9 @@ import numpy as np
 
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.files import check_file, write_whole
-from fmu_bearing.modal.campbell import Campbell, campbell
-from fmu_bearing.modal.modes import Modes
-from fmu_bearing.modal.points import modes
+from fmu_bearing.modal.campbell.over_speed import Campbell, campbell
+from fmu_bearing.modal.modes.natural_modes import Modes
+from fmu_bearing.modal.modes.points import modes
 from fmu_bearing.reports.blocks import Absent, Block, Section, Table, Words
 from fmu_bearing.reports.campbell import campbell_chart, crossing_table, mode_table
 from fmu_bearing.reports.page import render

@@ -5,11 +5,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.modal.campbell import Campbell
-from fmu_bearing.modal.diagram import Branch
-from fmu_bearing.modal.drawing import colour
-from fmu_bearing.modal.modes import Modes
-from fmu_bearing.modal.motion import Shape
+from fmu_bearing.modal.campbell.diagram import Branch
+from fmu_bearing.modal.campbell.diagram_style import colour
+from fmu_bearing.modal.campbell.over_speed import Campbell
+from fmu_bearing.modal.modes.mode_shape import Shape
+from fmu_bearing.modal.modes.natural_modes import Modes
 from fmu_bearing.reports.blocks import Shapes
 from fmu_bearing.reports.campbell import moving
 

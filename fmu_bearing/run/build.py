@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from fmu_bearing.cautions import loose
 from fmu_bearing.files import check_file, check_folder
 from fmu_bearing.fmi.package import BuiltFmu, build, check_choice
-from fmu_bearing.modal import weak
+from fmu_bearing.modal.campbell import weak
 from fmu_bearing.prepare.model import Model, prepare
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.run.choose import resolve

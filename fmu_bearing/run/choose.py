@@ -29,7 +29,7 @@ from fmu_bearing.arrays import Refused
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.sources import source_hash
 from fmu_bearing.files import cache_root, write_whole
-from fmu_bearing.modal import weak
+from fmu_bearing.modal.campbell import weak
 from fmu_bearing.prepare.sound import sound_blocks
 from fmu_bearing.results.table import number
 from fmu_bearing.run.metrics import SILENT, SILENT_RAMP, Errors, Figures, errors, measure, measure_between

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from fmu_bearing.elastic.shaft import ShaftModel, shaft_model
 from fmu_bearing.elastic.shaft.model import FREEDOMS
 from fmu_bearing.engine.layout import SP
-from fmu_bearing.modal.impedance import at_rest
-from fmu_bearing.modal.remarks import remarks
-from fmu_bearing.modal.set_linearised import set_linearised
+from fmu_bearing.modal.equations.remarks import remarks
+from fmu_bearing.modal.equations.set_linearised import set_linearised
+from fmu_bearing.modal.stiffness.impedance import at_rest
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 from fmu_bearing.spindle.assembly import Assembly, assembly, set_of, weight
 from fmu_bearing.spindle.axial import LiftOff, lift_off, neutral_spacing, preloads, spacing

@@ -3,7 +3,7 @@
 import pytest
 
 from fmu_bearing import Dimensions, modes, new_scene, operating_point, verdicts
-from fmu_bearing.modal.modes import self_excited
+from fmu_bearing.modal.modes.natural_modes import self_excited
 from fmu_bearing.scene import SceneError, origins, read_scene_text
 from fmu_bearing.scene.nsk import modelled, sizes
 

@@ -11,8 +11,8 @@ from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.fidelities.condensed.ball_motion import rate_weights
 from fmu_bearing.engine.fidelities.response.lines import line_table
 from fmu_bearing.engine.layout import STRIDE, C, L, P, Q, S, U, W, Y
-from fmu_bearing.modal.linearised import linearised
-from fmu_bearing.modal.plain import Plain
+from fmu_bearing.modal.equations.linearised import linearised
+from fmu_bearing.modal.equations.plain import Plain
 from fmu_bearing.prepare.sound import sound_block
 from fmu_bearing.scene.read import with_fidelity
 from tests.engine.condensed import block

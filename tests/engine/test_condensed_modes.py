@@ -7,7 +7,7 @@ import pytest
 
 from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.layout import L, U
-from fmu_bearing.modal.linearised import linearised
+from fmu_bearing.modal.equations.linearised import linearised
 from fmu_bearing.scene.read import with_fidelity
 from tests.engine.condensed import FIDELITIES, block, with_patterns
 from tests.engine.helpers import RPM, Run, quiet

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from fmu_bearing import campbell
-from fmu_bearing.modal.lines import lines, rates
-from fmu_bearing.modal.points import modes
+from fmu_bearing.modal.campbell.excitation_lines import lines, rates
+from fmu_bearing.modal.modes.points import modes
 
 RPM = np.pi / 30.0
 #: Crossings of the spindle by an independent computation, r/min: line, mode.

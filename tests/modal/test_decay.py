@@ -6,7 +6,7 @@ Wanted are ten times less: found is 1e-5 of the frequency where the decay is cle
 import numpy as np
 import pytest
 
-from fmu_bearing.modal.points import modes
+from fmu_bearing.modal.modes.points import modes
 from tests.modal.decay import axial, bending, nearest, radial
 
 RPM = np.pi / 30.0

@@ -6,8 +6,8 @@ import pytest
 from fmu_bearing import campbell, modes, stiffness
 from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.layout import P, S, U, Y
-from fmu_bearing.modal import linearised as module
-from fmu_bearing.modal.equilibrium import settle
+from fmu_bearing.modal.equations import linearised as module
+from fmu_bearing.modal.equations.equilibrium import settle
 
 RPM = np.pi / 30.0
 

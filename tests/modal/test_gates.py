@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fmu_bearing.modal.points import modes
+from fmu_bearing.modal.modes.points import modes
 
 RPM = np.pi / 30.0
 #: Hz, and damping ratio where one is known, by name, direction.

@@ -5,9 +5,9 @@ import pytest
 
 from fmu_bearing.compiled import call
 from fmu_bearing.engine.layout import STRIDE, C, J, Q, S, U, Y
-from fmu_bearing.modal.coordinates import Coordinates
-from fmu_bearing.modal.linearised import linearised
-from fmu_bearing.modal.plain import Plain
+from fmu_bearing.modal.equations.coordinates import Coordinates
+from fmu_bearing.modal.equations.linearised import linearised
+from fmu_bearing.modal.equations.plain import Plain
 
 RPM = np.pi / 30.0
 PLACES, STATES = 3, 9

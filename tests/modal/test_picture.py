@@ -7,9 +7,18 @@ import numpy as np
 import pytest
 
 from fmu_bearing import campbell
-from fmu_bearing.modal.drawing import WIDTHS, colour, counted, dot_area, drawn_lines, runs, top, width_class
-from fmu_bearing.modal.modes import MARGIN
-from fmu_bearing.modal.picture import _DASHES, spaced
+from fmu_bearing.modal.campbell.diagram_picture import _DASHES, spaced
+from fmu_bearing.modal.campbell.diagram_style import (
+    WIDTHS,
+    colour,
+    counted,
+    dot_area,
+    drawn_lines,
+    runs,
+    top,
+    width_class,
+)
+from fmu_bearing.modal.modes.natural_modes import MARGIN
 
 SPEEDS = np.linspace(4_000, 28_000, 7)
 

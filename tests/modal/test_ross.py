@@ -10,9 +10,9 @@ import pytest
 from fmu_bearing import stiffness
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import P, Q, U
-from fmu_bearing.modal.impedance import at_rest
-from fmu_bearing.modal.linearised import linearised
-from fmu_bearing.modal.planes import errors, mirrored_matrix, planes
+from fmu_bearing.modal.equations.linearised import linearised
+from fmu_bearing.modal.stiffness.impedance import at_rest
+from fmu_bearing.modal.stiffness.planes import errors, mirrored_matrix, planes
 
 X, Y, Z, BY, BZ = range(5)
 

@@ -6,9 +6,9 @@ from scipy.linalg import eigh
 
 from fmu_bearing import campbell, modes, operating_point, operating_points, shaft_statics
 from fmu_bearing.engine.layout import SP, S, Y
-from fmu_bearing.modal.impedance import at_rest
-from fmu_bearing.modal.linearised import linearised
-from fmu_bearing.modal.set_linearised import set_linearised
+from fmu_bearing.modal.equations.linearised import linearised
+from fmu_bearing.modal.equations.set_linearised import set_linearised
+from fmu_bearing.modal.stiffness.impedance import at_rest
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.mounting import Mounting, Rotor
 from tests.spindle.runs import SetRun

@@ -13,9 +13,9 @@ from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import C, P, Q, S, U, Y as ROW
 from fmu_bearing.instance import EngineError
-from fmu_bearing.modal.impedance import impedance, spaced
-from fmu_bearing.modal.linearised import linearised
-from fmu_bearing.modal.stiffness_files import columns, unit
+from fmu_bearing.modal.equations.linearised import linearised
+from fmu_bearing.modal.stiffness.impedance import impedance, spaced
+from fmu_bearing.modal.stiffness.stiffness_files import columns, unit
 from tests.modal.energy import stiffness as energy_hessian
 from tests.modal.orbit import along, circling
 

@@ -3,8 +3,8 @@
 import pytest
 
 from fmu_bearing import modes, read_scene
-from fmu_bearing.modal import weak
-from fmu_bearing.modal.weak import LEAST, doubt, weakness
+from fmu_bearing.modal.campbell import weak
+from fmu_bearing.modal.campbell.weak import LEAST, doubt, weakness
 from fmu_bearing.scene.read import with_fidelity
 from tests.conftest import EXAMPLES
 

@@ -9,9 +9,9 @@ from fmu_bearing import campbell, modes, operating_point, read_scene, verdicts
 from fmu_bearing.arrays import Arrays
 from fmu_bearing.design.set_points import operating_points
 from fmu_bearing.engine.layout import Q, S, Y
-from fmu_bearing.modal.modes import self_excited
-from fmu_bearing.modal.remarks import UNSTEADY
-from fmu_bearing.modal.weak import doubt, weakness, whirl
+from fmu_bearing.modal.campbell.weak import doubt, weakness, whirl
+from fmu_bearing.modal.equations.remarks import UNSTEADY
+from fmu_bearing.modal.modes.natural_modes import self_excited
 from fmu_bearing.scene.read import read_scene_text, with_fidelity
 from tests.conftest import ROOT
 from tests.engine.test_steady_point import SUPPORT, scene_at

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from fmu_bearing import campbell
-from fmu_bearing.modal.drawing import counted, drawn_lines
-from fmu_bearing.modal.points import modes
+from fmu_bearing.modal.campbell.diagram_style import counted, drawn_lines
+from fmu_bearing.modal.modes.points import modes
 from fmu_bearing.recording.record import Recording
 from fmu_bearing.reports import modes as room, modes_page
 from fmu_bearing.reports.blocks import Absent

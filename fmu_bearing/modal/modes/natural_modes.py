@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import P
-from fmu_bearing.modal.linearised import Linearised
-from fmu_bearing.modal.motion import Shape, shape
-from fmu_bearing.modal.remarks import remarks
-from fmu_bearing.modal.shapes import BACKWARD, FORWARD, NEITHER, participation, parts, wave
+from fmu_bearing.modal.equations.linearised import Linearised
+from fmu_bearing.modal.equations.remarks import remarks
+from fmu_bearing.modal.modes.energies import BACKWARD, FORWARD, NEITHER, participation, parts, wave
+from fmu_bearing.modal.modes.mode_shape import Shape, shape
 from fmu_bearing.scene import Scene
 
 SLOW = 1.0  # rad/s: slower in the axes in which it stands, a motion is neutral

@@ -1,8 +1,8 @@
 """Bearing elements for the rotor program ROSS, release 3, written without it.
 
 A bearing element of ROSS has stiffness and damping of three translations at one node, and none of tilt. Two
-elements, each with half of the bearing, in the planes of `modal.planes` carry tilt and coupling, too. Each
-stands in a file of its own, because ``BearingElement.load`` reads the first element of a file alone.
+elements, each with half of the bearing, in the planes of ``planes`` carry tilt and coupling, too. Each is
+in a file of its own, because ``BearingElement.load`` reads the first element of a file alone.
 
 Layout of a file, as ROSS 3.1.0 saves and loads it: one table ``BearingElement_TAG`` with the names of the
 arguments as keys; ``n`` is the node; ``kxx`` to ``czz`` are numbers, lists over ``speed`` or ``frequency``,
@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.files import check_file, write_whole
-from fmu_bearing.modal.impedance import FREEDOMS
-from fmu_bearing.modal.stiffness_table import StiffnessTable
+from fmu_bearing.modal.stiffness.impedance import FREEDOMS
+from fmu_bearing.modal.stiffness.stiffness_table import StiffnessTable
 
 RELEASE = "3.1.0"  # the one whose reading and writing was tried
 FEWEST = 5  # values of an axis, below which ROSS warns of its interpolation

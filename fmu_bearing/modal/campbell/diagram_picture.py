@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.extras import need
-from fmu_bearing.modal.diagram import Branch, Crossing, Diagram
-from fmu_bearing.modal.drawing import (
+from fmu_bearing.modal.campbell.diagram import Branch, Crossing, Diagram
+from fmu_bearing.modal.campbell.diagram_style import (
     LIMITS,
     SHORT,
     UNSTABLE,

@@ -8,13 +8,12 @@ import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from fmu_bearing.engine.constants import RPM
-from fmu_bearing.modal.conditions import given
-from fmu_bearing.modal.diagram import Branch, Diagram, is_of_rings
-from fmu_bearing.modal.lines import lines, rates, unbalance
-from fmu_bearing.modal.modes import Mode, Modes
-from fmu_bearing.modal.picture import campbell_picture
-from fmu_bearing.modal.points import at_point
-from fmu_bearing.modal.set_linearised import need_shaft
+from fmu_bearing.modal.campbell.diagram import Branch, Diagram, is_of_rings
+from fmu_bearing.modal.campbell.diagram_picture import campbell_picture
+from fmu_bearing.modal.campbell.excitation_lines import lines, rates, unbalance
+from fmu_bearing.modal.equations.set_linearised import need_shaft
+from fmu_bearing.modal.modes.natural_modes import Mode, Modes
+from fmu_bearing.modal.modes.points import at_point, given
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 from fmu_bearing.scene.member import one_of

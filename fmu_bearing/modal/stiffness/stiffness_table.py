@@ -7,7 +7,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.modal.planes import Planes, errors, planes
+from fmu_bearing.modal.stiffness.planes import Planes, errors, planes
 from fmu_bearing.scene import Scene
 
 Spacing = Literal["held", "free"]
@@ -59,7 +59,7 @@ class StiffnessTable:
         return float(np.abs((self.K[:, :, 0] - self.static) / _pairs(self.static)).max())
 
     def planes(self, preload: float | None = None, mirrored: bool = False) -> Planes:
-        """Return the two planes whose radial springs stand for tilt and coupling; see `modal.planes`.
+        """Return the two planes whose radial springs stand for tilt and coupling; see ``planes``.
 
         Parameters
         ----------
@@ -81,7 +81,7 @@ class StiffnessTable:
         Returns
         -------
         ndarray, shape (speed, frequency, 4)
-            In the order of `modal.planes.ERRORS`.
+            In the order of ``planes.ERRORS``.
         """
         at = self.at_preload(preload)
         return errors(self.planes(preload), self.K[:, at], self.C[:, at])

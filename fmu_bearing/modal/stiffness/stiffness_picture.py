@@ -4,8 +4,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fmu_bearing.modal.impedance import FREEDOMS
-from fmu_bearing.modal.stiffness_table import StiffnessTable
+from fmu_bearing.modal.stiffness.impedance import FREEDOMS
+from fmu_bearing.modal.stiffness.stiffness_table import StiffnessTable
 from fmu_bearing.results.picture_parts import OTHERS, empty, label
 
 if TYPE_CHECKING:

@@ -10,14 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.engine.constants import RPM
-from fmu_bearing.modal.conditions import given
-from fmu_bearing.modal.impedance import FREEDOMS, at_rest, impedance, spaced
-from fmu_bearing.modal.linearised import Linearised, under_force
-from fmu_bearing.modal.ross import write
-from fmu_bearing.modal.stiffness_files import dataset, save
-from fmu_bearing.modal.stiffness_limits import limits_of
-from fmu_bearing.modal.stiffness_picture import picture
-from fmu_bearing.modal.stiffness_table import Spacing, StiffnessTable
+from fmu_bearing.modal.equations.linearised import Linearised, under_force
+from fmu_bearing.modal.modes.points import given
+from fmu_bearing.modal.stiffness.impedance import FREEDOMS, at_rest, impedance, spaced
+from fmu_bearing.modal.stiffness.ross import write
+from fmu_bearing.modal.stiffness.stiffness_files import dataset, save
+from fmu_bearing.modal.stiffness.stiffness_limits import limits_of
+from fmu_bearing.modal.stiffness.stiffness_picture import picture
+from fmu_bearing.modal.stiffness.stiffness_table import Spacing, StiffnessTable
 from fmu_bearing.scene import SceneSource, scene_of
 from fmu_bearing.scene.operation import Operation
 from fmu_bearing.scene.problems import allowed
@@ -103,7 +103,7 @@ class Stiffness(StiffnessTable):
         self, path: str | os.PathLike[str], preload: float | None = None, *, mirrored: bool = False,
         nodes: tuple[int, int] = (0, 1),
     ) -> tuple[Path, Path]:  # fmt: skip
-        """Write two bearing elements for ROSS 3, each a file with half of the bearing; see `modal.ross`.
+        """Write two bearing elements for ROSS 3, each a file with half of the bearing; see ``ross``.
 
         Parameters
         ----------

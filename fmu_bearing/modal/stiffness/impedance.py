@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.linalg import lu_factor, lu_solve
 
 from fmu_bearing.engine.layout import STRIDE, P, Y
-from fmu_bearing.modal.linearised import Linearised
+from fmu_bearing.modal.equations.linearised import Linearised
 
 FREEDOMS = ("x", "y", "z", "by", "bz")  # m, and tilts (rad), of the inner ring
 _BALL_PLACES = Y.PLACES // STRIDE  # ball states that are places

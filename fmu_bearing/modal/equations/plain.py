@@ -8,10 +8,10 @@ from numpy.typing import NDArray
 from fmu_bearing.arrays import Arrays
 from fmu_bearing.compiled import bound
 from fmu_bearing.engine.layout import FL, STRIDE, C, F, P, S, U, W, Y
-from fmu_bearing.modal.coordinates import Coordinates
+from fmu_bearing.modal.equations.coordinates import Coordinates
 
 if TYPE_CHECKING:
-    from fmu_bearing.modal.set_linearised import One
+    from fmu_bearing.modal.equations.set_linearised import One
 
 # Steps of the central differences: contacts approach by 1 um and more, so a nanometre errs by 1e-7 of the
 # slope; traction bends over 1e-3 m/s. Forces round to 1e-14 N.

@@ -17,9 +17,9 @@ from scipy.linalg import block_diag
 from fmu_bearing.arrays import Arrays, Refused
 from fmu_bearing.engine.layout import SP, STRIDE, P, Q, S, U, Y
 from fmu_bearing.instance import EngineError
-from fmu_bearing.modal.coordinates import Coordinates
-from fmu_bearing.modal.equilibrium import Tie, settle_set
-from fmu_bearing.modal.linearised import PHASES, Linearised, in_fixed_axes
+from fmu_bearing.modal.equations.coordinates import Coordinates
+from fmu_bearing.modal.equations.equilibrium import Tie, settle_set
+from fmu_bearing.modal.equations.linearised import PHASES, Linearised, in_fixed_axes
 from fmu_bearing.prepare.spindle import in_housing
 from fmu_bearing.scene import Scene, SceneError
 from fmu_bearing.scene.read import with_fidelity

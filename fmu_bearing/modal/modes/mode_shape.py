@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.engine.layout import P, Q
-from fmu_bearing.modal.coordinates import Coordinates
-from fmu_bearing.modal.linearised import Linearised
+from fmu_bearing.modal.equations.coordinates import Coordinates
+from fmu_bearing.modal.equations.linearised import Linearised
 
 _BALL_PLACES = 3  # x, r, theta
 

@@ -5,9 +5,9 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.modal.modes import SPREAD, STICKING
-from fmu_bearing.modal.remarks import UNSTEADY
-from fmu_bearing.modal.stiffness_table import StiffnessTable
+from fmu_bearing.modal.equations.remarks import UNSTEADY
+from fmu_bearing.modal.modes.natural_modes import SPREAD, STICKING
+from fmu_bearing.modal.stiffness.stiffness_table import StiffnessTable
 
 _NEAR = 0.2  # of the orbit's frequency: nearer to it, free balls that bunch are seen
 _APART = 0.03  # of the stiffness: that at rest is then no substitute

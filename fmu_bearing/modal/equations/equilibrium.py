@@ -16,11 +16,11 @@ from numpy.typing import NDArray
 
 from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.layout import P, Q, S, Y
-from fmu_bearing.modal.coordinates import Coordinates
-from fmu_bearing.modal.plain import MOVE, RATE, Plain
+from fmu_bearing.modal.equations.coordinates import Coordinates
+from fmu_bearing.modal.equations.plain import MOVE, RATE, Plain
 
 if TYPE_CHECKING:
-    from fmu_bearing.modal.set_linearised import One
+    from fmu_bearing.modal.equations.set_linearised import One
 
 _ROUNDS = 30
 # Steps of the differences by which balls move against rings in a round, 0.5 um: contacts stay closed. What

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from fmu_bearing.engine.sources import source_hash
 from fmu_bearing.extras import need
 from fmu_bearing.files import check_file, write_whole
-from fmu_bearing.modal.impedance import FREEDOMS
-from fmu_bearing.modal.stiffness_table import StiffnessTable
+from fmu_bearing.modal.stiffness.impedance import FREEDOMS
+from fmu_bearing.modal.stiffness.stiffness_table import StiffnessTable
 from fmu_bearing.results.result import written
 from fmu_bearing.results.table import write_csv
 

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 from fmu_bearing.scene import Scene
 
 if TYPE_CHECKING:
-    from fmu_bearing.modal.linearised import Linearised
-    from fmu_bearing.modal.set_linearised import SetLinearised
+    from fmu_bearing.modal.equations.linearised import Linearised
+    from fmu_bearing.modal.equations.set_linearised import SetLinearised
 
 UNSTEADY = (
     "no steady state was found: balls drift from the state that these numbers hold for, in which a run "

@@ -25,14 +25,14 @@ from fmu_bearing.arrays import Arrays, Refused
 from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.layout import C, P, Q, S, U, Y
 from fmu_bearing.instance import EngineError
-from fmu_bearing.modal.coordinates import Coordinates
-from fmu_bearing.modal.equilibrium import settle
-from fmu_bearing.modal.plain import Plain
+from fmu_bearing.modal.equations.coordinates import Coordinates
+from fmu_bearing.modal.equations.equilibrium import settle
+from fmu_bearing.modal.equations.plain import Plain
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.read import with_fidelity
 
 if TYPE_CHECKING:
-    from fmu_bearing.modal.set_linearised import One
+    from fmu_bearing.modal.equations.set_linearised import One
 
 PHASES = 6  # of one ball pitch
 

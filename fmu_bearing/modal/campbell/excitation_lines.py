@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.elastic.shaft import shaft_sections
-from fmu_bearing.modal.shapes import BACKWARD, FORWARD, NEITHER
+from fmu_bearing.modal.modes.energies import BACKWARD, FORWARD, NEITHER
 from fmu_bearing.prepare.bodies import inner_ring
 from fmu_bearing.prepare.imperfections import ball_oversizes, ball_waves, race_harmonics
 from fmu_bearing.scene import Scene, si

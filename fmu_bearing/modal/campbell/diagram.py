@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
-from fmu_bearing.modal.lines import Line, Rates
-from fmu_bearing.modal.modes import MARGIN, MOVES, Mode, Modes, self_excited
-from fmu_bearing.modal.remarks import UNSTEADY
-from fmu_bearing.modal.shapes import NEITHER
+from fmu_bearing.modal.campbell.excitation_lines import Line, Rates
+from fmu_bearing.modal.equations.remarks import UNSTEADY
+from fmu_bearing.modal.modes.energies import NEITHER
+from fmu_bearing.modal.modes.natural_modes import MARGIN, MOVES, Mode, Modes, self_excited
 from fmu_bearing.scene import Scene
 
 WITHIN = 20.0  # dB below the largest: crossings that count

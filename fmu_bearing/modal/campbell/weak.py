@@ -15,11 +15,11 @@ import numpy as np
 
 from fmu_bearing.interface.inputs import inputs as inputs_of_bearing
 from fmu_bearing.interface.set_inputs import inputs_of_set
-from fmu_bearing.modal.diagram import can_move, is_of_rings
-from fmu_bearing.modal.lines import lines, rates, unbalance
-from fmu_bearing.modal.modes import Mode, Modes, self_excited
-from fmu_bearing.modal.points import modes
-from fmu_bearing.modal.remarks import UNSTEADY
+from fmu_bearing.modal.campbell.diagram import can_move, is_of_rings
+from fmu_bearing.modal.campbell.excitation_lines import lines, rates, unbalance
+from fmu_bearing.modal.equations.remarks import UNSTEADY
+from fmu_bearing.modal.modes.natural_modes import Mode, Modes, self_excited
+from fmu_bearing.modal.modes.points import modes
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.read import read_scene_text, with_fidelity
 

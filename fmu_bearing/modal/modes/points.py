@@ -2,11 +2,14 @@
 
 from collections.abc import Mapping
 
-from fmu_bearing.modal.conditions import given
-from fmu_bearing.modal.linearised import linearised
-from fmu_bearing.modal.modes import Modes, solved
-from fmu_bearing.modal.set_linearised import set_linearised
-from fmu_bearing.modal.set_modes import set_solved
+from fmu_bearing.instance import check, number
+from fmu_bearing.interface.inputs import inputs as inputs_of_bearing
+from fmu_bearing.interface.names import known
+from fmu_bearing.interface.set_inputs import inputs_of_set
+from fmu_bearing.modal.equations.linearised import linearised
+from fmu_bearing.modal.equations.set_linearised import set_linearised
+from fmu_bearing.modal.modes.natural_modes import Modes, solved
+from fmu_bearing.modal.modes.set_modes import set_solved
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 from fmu_bearing.threads import one_thread
 
@@ -49,3 +52,21 @@ def at_point(scene: Scene, inputs: dict[int, float], friction: bool = True) -> M
     if scene.spindle is None:
         return solved(scene, linearised(scene, inputs, friction), friction)
     return set_solved(scene, set_linearised(scene, inputs, friction), friction)
+
+
+def given(scene: Scene, values: Mapping[str, float] | None) -> dict[int, float]:
+    """Return inputs by their places in ``layout.U``, of a set by those in ``SP.INPUTS``.
+
+    Raises
+    ------
+    ValueError
+        For an unknown name, what is no number, and a value outside its range.
+    """
+    own = inputs_of_bearing(scene) if scene.spindle is None else inputs_of_set(scene)
+    table = {variable.name: variable for variable in own}
+    found = {}
+    for name, value in (values or {}).items():
+        variable = table[known(name, list(table), "input")]
+        found[variable.index] = number(name, value)
+        check(variable, found[variable.index])
+    return found

@@ -18,11 +18,11 @@ from fmu_bearing.elastic.shaft.model import FREEDOMS
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import SP, Q
 from fmu_bearing.extras import need
-from fmu_bearing.modal.coordinates import Coordinates
-from fmu_bearing.modal.modes import DAMPED, MOVES, SLOW, Mode, Modes
-from fmu_bearing.modal.motion import Shape
-from fmu_bearing.modal.set_linearised import SetBlock, SetLinearised
-from fmu_bearing.modal.shapes import BACKWARD, FORWARD, NEITHER, parts, whirl
+from fmu_bearing.modal.equations.coordinates import Coordinates
+from fmu_bearing.modal.equations.set_linearised import SetBlock, SetLinearised
+from fmu_bearing.modal.modes.energies import BACKWARD, FORWARD, NEITHER, parts, whirl
+from fmu_bearing.modal.modes.mode_shape import Shape
+from fmu_bearing.modal.modes.natural_modes import DAMPED, MOVES, SLOW, Mode, Modes
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.spindle import Spindle
 

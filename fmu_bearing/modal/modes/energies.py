@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.engine.layout import Q
-from fmu_bearing.modal.coordinates import Coordinates
+from fmu_bearing.modal.equations.coordinates import Coordinates
 
 FORWARD, BACKWARD, NEITHER = "forward", "backward", ""
 _DOMINATES = 3.0  # ratio of the amplitudes of forward and backward whirl that names a direction

@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
 from fmu_bearing.acoustics.radiation.frequencies import BAND
-from fmu_bearing.modal.diagram import Branch, Crossing, Diagram
-from fmu_bearing.modal.lines import Line
-from fmu_bearing.modal.modes import MARGIN
-from fmu_bearing.modal.shapes import BACKWARD, FORWARD, NEITHER
+from fmu_bearing.modal.campbell.diagram import Branch, Crossing, Diagram
+from fmu_bearing.modal.campbell.excitation_lines import Line
+from fmu_bearing.modal.modes.energies import BACKWARD, FORWARD, NEITHER
+from fmu_bearing.modal.modes.natural_modes import MARGIN
 
 #: By what moves. Hues tell bodies apart for all kinds of colour vision (Okabe and Ito 2008), depths motions.
 COLOURS = {

@@ -57,7 +57,7 @@ USES = {
     ],
     "h5netcdf": ["import_module('fmu_bearing.sweeps').save(None, 'out')"],
     "plotly": [["report", "rigid.toml"], "fmu_bearing.report('rigid.toml', 'report.html')"],
-    "jinja2": ["import_module('fmu_bearing.reports.page').render('', '', '', [], [], [], [])"],
+    "jinja2": ["import_module('fmu_bearing.reports.page.render').render('', '', '', [], [], [], [])"],
     "distributed": ["next(import_module('fmu_bearing.sweeps.cluster').cluster([], 'tcp://host:8786'))"],
     "fmu_manipulation_toolbox": [
         # validate goes on without this check: its result says why

@@ -204,7 +204,7 @@ def _write(folder: Path, found: "Modes", diagram: "Campbell | None") -> list[Pat
             save(found.picture(), files[-1])
         return files  # the page draws one bearing
     if available("plotly", "a page", "no modes.html", tell):
-        from fmu_bearing.reports.modes import modes_page
+        from fmu_bearing.reports.modes.modes_section import modes_page
 
         files.append(modes_page(diagram, folder / "modes.html", found))
     return files

@@ -15,16 +15,17 @@ from fmu_bearing.files import check_file, write_whole
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.recording.record import Recording, record
 from fmu_bearing.recording.spread import Spread, spread
-from fmu_bearing.reports import audio, balloon, conditions, contacts, fall, friction, motion, sound, summary
-from fmu_bearing.reports.blocks import Absent, Section
-from fmu_bearing.reports.changes import section as what_to_change
-from fmu_bearing.reports.heard import Microphones, listen
-from fmu_bearing.reports.modes import section as what_vibrates
-from fmu_bearing.reports.page import render
-from fmu_bearing.reports.run import STEP, observed
-from fmu_bearing.reports.spindle import set_page
-from fmu_bearing.reports.subject import Subject
-from fmu_bearing.reports.verdicts import verdict_table
+from fmu_bearing.reports.data.microphones import Microphones, listen
+from fmu_bearing.reports.data.observed_run import STEP, observed
+from fmu_bearing.reports.data.subject import Subject
+from fmu_bearing.reports.modes.modes_section import section as what_vibrates
+from fmu_bearing.reports.page.blocks import Absent, Section
+from fmu_bearing.reports.page.render import render
+from fmu_bearing.reports.sections import ball_contacts, conditions, friction, ring_motion, summary
+from fmu_bearing.reports.sections.verdict_table import verdict_table
+from fmu_bearing.reports.sections.what_to_change import section as what_to_change
+from fmu_bearing.reports.set_page import set_page
+from fmu_bearing.reports.sound import directivity_balloon, levels_and_spectra, playback, waterfall
 from fmu_bearing.run.choose import resolve
 from fmu_bearing.scene import Scene, SceneSource, read_scene, scene_of
 from fmu_bearing.scene.origins import origins
@@ -293,7 +294,7 @@ def _run_up(
     words = f"{scene.name} from {speeds[0] / RPM:,.0f} to {speeds[1] / RPM:,.0f} r/min in {duration:g} s"
     tell(f"running up: {words}")
     recording = record(
-        scene, duration, speed=fall.ramp(*speeds, duration, SETTLE), settle=SETTLE, step=4.0 * STEP,
+        scene, duration, speed=waterfall.ramp(*speeds, duration, SETTLE), settle=SETTLE, step=4.0 * STEP,
         radiation_model=subject.radiation_model, progress=progress, warn=False,
     )  # fmt: skip
     return Subject(recording, subject.radiation_model, words, radius=subject.radius)
@@ -321,16 +322,16 @@ def _sections(
 
     plan: list[tuple[str, str, Callable[[], Section]]] = [
         ("conditions", "Operating point", lambda: conditions.conditions(subject)),
-        ("levels", "Levels and sources", with_sound(lambda h: sound.levels(subject, h))),
+        ("levels", "Levels and sources", with_sound(lambda h: levels_and_spectra.levels(subject, h))),
         ("changes", "What to change", lambda: what_to_change(subject, tell, changes)),
         ("modes", "Modes", lambda: what_vibrates(subject)),
-        ("spectra", "Spectra", with_sound(lambda h: sound.spectra(subject, h))),
-        ("audio", "Listen", with_sound(audio.audio)),
-        ("waterfall", "Waterfall", with_sound(lambda h: fall.fall(h, rising))),
-        ("directivity", "Directivity", lambda: balloon.directivity(subject, heard)),
-        ("velocities", "Velocities", lambda: motion.velocities(subject)),
-        ("orbits", "Orbits", lambda: motion.orbits(subject)),
-        ("contacts", "Contacts", lambda: contacts.contacts(subject)),
+        ("spectra", "Spectra", with_sound(lambda h: levels_and_spectra.spectra(subject, h))),
+        ("audio", "Listen", with_sound(playback.audio)),
+        ("waterfall", "Waterfall", with_sound(lambda h: waterfall.fall(h, rising))),
+        ("directivity", "Directivity", lambda: directivity_balloon.directivity(subject, heard)),
+        ("velocities", "Velocities", lambda: ring_motion.velocities(subject)),
+        ("orbits", "Orbits", lambda: ring_motion.orbits(subject)),
+        ("contacts", "Contacts", lambda: ball_contacts.contacts(subject)),
         ("friction", "Friction and heat", lambda: friction.friction(subject)),
         ("assumptions", "Assumptions and choices", lambda: conditions.assumptions(subject)),
     ]

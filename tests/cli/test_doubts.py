@@ -6,8 +6,8 @@ import zipfile
 import pytest
 
 from fmu_bearing import changes, compare, record
-from fmu_bearing.reports.subject import Subject
-from fmu_bearing.reports.summary import warnings_of
+from fmu_bearing.reports.data.subject import Subject
+from fmu_bearing.reports.sections.summary import warnings_of
 from fmu_bearing.scene.read import with_fidelity
 
 WORDS = "fidelity rings: the ring whirls by itself, figures are of the unstable point, and only fidelity full"

@@ -7,7 +7,7 @@ from fmu_bearing import operating_point, operating_points, read_scene, shaft_sta
 from fmu_bearing.design.rating import reference_life
 from fmu_bearing.design.set_points import life_of_set, set_cautions, set_verdicts
 from fmu_bearing.design.verdicts import side_by_side
-from fmu_bearing.reports import make, spindle
+from fmu_bearing.reports import make, set_page
 from tests.conftest import EXAMPLES, GATES
 from tests.oracles import B7003C
 from tests.oracles.jones_harris import JonesHarris
@@ -93,7 +93,7 @@ def test_a_life_of_a_set_that_says_no_more_is_capped():
     points, found = operating_points(given), shaft_statics(given)
     life = by_key(set_verdicts(found, points))["set_life"]
     assert life.value > 1e6 and (life.text, life.judgement) == ("> 1e6", "good")
-    (shown,) = [one for one in spindle._tiles(found, points) if one["key"] == "life_h"]
+    (shown,) = [one for one in set_page._tiles(found, points) if one["key"] == "life_h"]
     assert (shown["text"], shown["value"]) == ("> 1e6", life.value)
 
 

@@ -13,9 +13,9 @@ from fmu_bearing.prepare.imperfections import excitation_end
 from fmu_bearing.recording.compare import compare
 from fmu_bearing.recording.measure import BEYOND, strongest
 from fmu_bearing.recording.record import record
-from fmu_bearing.reports.heard import listen
-from fmu_bearing.reports.sound import spectra
-from fmu_bearing.reports.subject import Subject
+from fmu_bearing.reports.data.microphones import listen
+from fmu_bearing.reports.data.subject import Subject
+from fmu_bearing.reports.sound.levels_and_spectra import spectra
 from fmu_bearing.scene.read import with_fidelity
 
 RPM = math.pi / 30.0

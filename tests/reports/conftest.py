@@ -3,7 +3,7 @@
 import pytest
 
 from fmu_bearing.reports import make
-from fmu_bearing.reports.run import observed
+from fmu_bearing.reports.data.observed_run import observed
 from fmu_bearing.scene.read import with_fidelity
 from tests.reports.reading import Page
 

@@ -1,6 +1,6 @@
 """The table of assumed values: what a maker prints stays out of it, what is derived stands in it."""
 
-from fmu_bearing.reports.assumptions import assumed_table
+from fmu_bearing.reports.sections.assumptions import assumed_table
 from fmu_bearing.scene import read_scene
 from fmu_bearing.scene.origins import origins
 from fmu_bearing.scene.template import new_scene

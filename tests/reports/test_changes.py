@@ -12,10 +12,10 @@ from fmu_bearing.accuracy.alternatives import Alternative
 from fmu_bearing.accuracy.changed import shown_hours, shown_level, shown_ratio
 from fmu_bearing.progress import silent
 from fmu_bearing.recording.spread import at_speed
-from fmu_bearing.reports.blocks import Absent
-from fmu_bearing.reports.changes import section, shown
-from fmu_bearing.reports.run import observed
-from fmu_bearing.reports.subject import Subject
+from fmu_bearing.reports.data.observed_run import observed
+from fmu_bearing.reports.data.subject import Subject
+from fmu_bearing.reports.page.blocks import Absent
+from fmu_bearing.reports.sections.what_to_change import section, shown
 from tests.reports.reading import numbers
 
 

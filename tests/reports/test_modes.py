@@ -11,12 +11,13 @@ from fmu_bearing import campbell
 from fmu_bearing.modal.campbell.diagram_style import counted, drawn_lines
 from fmu_bearing.modal.modes.points import modes
 from fmu_bearing.recording.record import Recording
-from fmu_bearing.reports import modes as room, modes_page
-from fmu_bearing.reports.blocks import Absent
-from fmu_bearing.reports.campbell import campbell_chart, crossing_table, mode_table
-from fmu_bearing.reports.modes import section
-from fmu_bearing.reports.shapes import moving_shapes
-from fmu_bearing.reports.subject import Subject
+from fmu_bearing.reports import modes_page
+from fmu_bearing.reports.data.subject import Subject
+from fmu_bearing.reports.modes import modes_section as room
+from fmu_bearing.reports.modes.campbell_chart import campbell_chart, crossing_table, mode_table
+from fmu_bearing.reports.modes.modes_section import section
+from fmu_bearing.reports.modes.moving_shapes import moving_shapes
+from fmu_bearing.reports.page.blocks import Absent
 from tests.reports.reading import Page, numbers
 from tests.reports.test_browser import BROWSER, NAMES
 

@@ -11,10 +11,10 @@ from fmu_bearing.acoustics.analysis.directivity import PLANES
 from fmu_bearing.acoustics.analysis.spectrum import amplitude_spectrum, level_spectrum
 from fmu_bearing.acoustics.filters.fir import decimator_response
 from fmu_bearing.engine.layout import SD
-from fmu_bearing.reports.contacts import by_place
-from fmu_bearing.reports.decimate import thinned
-from fmu_bearing.reports.motion import velocity_spectrum
-from fmu_bearing.reports.subject import Subject
+from fmu_bearing.reports.data.subject import Subject
+from fmu_bearing.reports.page.blocks import thinned
+from fmu_bearing.reports.sections.ball_contacts import by_place
+from fmu_bearing.reports.sections.ring_motion import velocity_spectrum
 from fmu_bearing.run.balls import RACES, name_of
 from tests.reports.reading import numbers
 

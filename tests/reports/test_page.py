@@ -11,7 +11,7 @@ import pytest
 from fmu_bearing.extras import MissingExtra
 from fmu_bearing.recording.record import Recording, record
 from fmu_bearing.reports import make, report
-from fmu_bearing.reports.page import POLICY
+from fmu_bearing.reports.page.render import POLICY
 from fmu_bearing.scene.read import with_fidelity
 from tests.conftest import EXAMPLES, GATES
 from tests.reports.reading import Page

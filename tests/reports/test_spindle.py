@@ -8,7 +8,7 @@ from fmu_bearing.cli import app
 from fmu_bearing.design.set_points import life_of_set, operating_points
 from fmu_bearing.progress import silent
 from fmu_bearing.reports import make
-from fmu_bearing.reports.spindle import _warmth
+from fmu_bearing.reports.set_page import _warmth
 from tests.conftest import ROOT
 from tests.spindle.sets import scene
 

@@ -8,9 +8,9 @@ from fmu_bearing.design.operating_point import operating_point
 from fmu_bearing.design.verdicts import verdicts
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.reports import report
-from fmu_bearing.reports.subject import Subject
-from fmu_bearing.reports.summary import tiles
-from fmu_bearing.reports.verdicts import verdict_table
+from fmu_bearing.reports.data.subject import Subject
+from fmu_bearing.reports.sections.summary import tiles
+from fmu_bearing.reports.sections.verdict_table import verdict_table
 
 
 @pytest.fixture(scope="module")

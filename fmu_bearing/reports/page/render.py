@@ -6,8 +6,8 @@ from importlib import metadata, resources
 from typing import Any
 
 from fmu_bearing.extras import need
-from fmu_bearing.reports.blocks import Chart, Section, Shapes, Table, packed
-from fmu_bearing.reports.look import styles
+from fmu_bearing.reports.page.blocks import Chart, Section, Shapes, Table, packed
+from fmu_bearing.reports.page.look import styles
 
 #: Content security policy: the page loads nothing from outside. Plotly generates code for its 3-D drawing.
 POLICY = (
@@ -52,7 +52,7 @@ def render(
     """
     jinja2 = need("jinja2", "a report")
     library = need("plotly.offline", "a report").get_plotlyjs()
-    files = resources.files("fmu_bearing.reports")
+    files = resources.files("fmu_bearing.reports.page")
     environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
     template = environment.from_string(files.joinpath("page.html.j2").read_text("utf-8"))
     made = made or datetime.datetime.now(datetime.UTC)

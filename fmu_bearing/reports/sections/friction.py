@@ -2,11 +2,10 @@
 
 import numpy as np
 
-from fmu_bearing.reports import look
-from fmu_bearing.reports.blocks import Block, Chart, Section, Table, Words, small
-from fmu_bearing.reports.decimate import thinned
-from fmu_bearing.reports.motion import last_turns
-from fmu_bearing.reports.subject import Subject
+from fmu_bearing.reports.data.subject import Subject
+from fmu_bearing.reports.page import look
+from fmu_bearing.reports.page.blocks import Block, Chart, Section, Table, Words, small, thinned
+from fmu_bearing.reports.sections.ring_motion import last_turns
 
 _SHARES = {
     "contacts": ("sliding in the contacts", "inner_ring"),

@@ -8,10 +8,10 @@ from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.analysis.directivity import circle_points
 from fmu_bearing.acoustics.filters.weighting import a_weighting_db, level
-from fmu_bearing.reports import look
-from fmu_bearing.reports.blocks import Absent, Block, Chart, Choice, Option, Section, small
-from fmu_bearing.reports.heard import Microphones
-from fmu_bearing.reports.subject import Subject
+from fmu_bearing.reports.data.microphones import Microphones
+from fmu_bearing.reports.data.subject import Subject
+from fmu_bearing.reports.page import look
+from fmu_bearing.reports.page.blocks import Absent, Block, Chart, Choice, Option, Section, small
 
 _LATITUDES, _AROUND = 31, 36  # every 6 and 10 deg, so that the three planes are among the points
 _CIRCLE = 72

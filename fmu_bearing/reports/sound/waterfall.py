@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 from fmu_bearing.acoustics.analysis.order import Waterfall, waterfall
 from fmu_bearing.acoustics.filters.weighting import a_weighting_sections, level
 from fmu_bearing.engine.constants import RPM
-from fmu_bearing.reports import look
-from fmu_bearing.reports.blocks import Absent, Block, Chart, Section, Words, small
-from fmu_bearing.reports.heard import Microphones, listen
-from fmu_bearing.reports.marks import END
-from fmu_bearing.reports.subject import Subject
+from fmu_bearing.reports.data.microphones import Microphones, listen
+from fmu_bearing.reports.data.subject import Subject
+from fmu_bearing.reports.page import look
+from fmu_bearing.reports.page.blocks import Absent, Block, Chart, Section, Words, small
+from fmu_bearing.reports.sections.kinematic_marks import END
 
 _HIGHEST = 8000.0  # Hz
 _RANGE = 70.0  # dB

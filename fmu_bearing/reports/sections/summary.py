@@ -10,10 +10,10 @@ import numpy as np
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.recording.measure import strongest
 from fmu_bearing.recording.spread import Spread, doubt_of
-from fmu_bearing.reports import look
-from fmu_bearing.reports.blocks import Absent
-from fmu_bearing.reports.heard import Microphones
-from fmu_bearing.reports.subject import Subject
+from fmu_bearing.reports.data.microphones import Microphones
+from fmu_bearing.reports.data.subject import Subject
+from fmu_bearing.reports.page import look
+from fmu_bearing.reports.page.blocks import Absent
 from fmu_bearing.run.balls import RACES
 
 Tile = dict[str, Any]

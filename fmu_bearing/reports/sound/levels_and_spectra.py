@@ -8,12 +8,12 @@ from fmu_bearing.acoustics.analysis.third_octave import spread
 from fmu_bearing.recording.measure import BEYOND, strongest
 from fmu_bearing.recording.pictures import band_place
 from fmu_bearing.recording.tables import lines_table
-from fmu_bearing.reports import look
-from fmu_bearing.reports.blocks import Block, Chart, Choice, Option, Section, Table, Words, small
-from fmu_bearing.reports.heard import Microphones
-from fmu_bearing.reports.marks import END, end_words, mark_kinematics
-from fmu_bearing.reports.motion import reach
-from fmu_bearing.reports.subject import Subject
+from fmu_bearing.reports.data.microphones import Microphones
+from fmu_bearing.reports.data.subject import Subject
+from fmu_bearing.reports.page import look
+from fmu_bearing.reports.page.blocks import Block, Chart, Choice, Option, Section, Table, Words, small
+from fmu_bearing.reports.sections.kinematic_marks import END, end_words, mark_kinematics
+from fmu_bearing.reports.sections.ring_motion import reach
 
 _RANGE = 70.0  # dB shown below the highest line
 _UNSURE = 2.0  # dB of spread beyond which a third octave is more chance than level

@@ -5,9 +5,9 @@ from typing import Any
 import numpy as np
 
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
-from fmu_bearing.reports import look
-from fmu_bearing.reports.blocks import Absent, small
-from fmu_bearing.reports.subject import Subject
+from fmu_bearing.reports.data.subject import Subject
+from fmu_bearing.reports.page import look
+from fmu_bearing.reports.page.blocks import Absent, small
 
 #: The field's other names.
 OTHER_NAMES = {"f_r": "", "f_c": "FTF", "f_b": "BSF", "f_i": "BPFI", "f_o": "BPFO"}

@@ -10,11 +10,11 @@ from fmu_bearing.files import check_file, write_whole
 from fmu_bearing.modal.campbell.over_speed import Campbell, campbell
 from fmu_bearing.modal.modes.natural_modes import Modes
 from fmu_bearing.modal.modes.points import modes
-from fmu_bearing.reports.blocks import Absent, Block, Section, Table, Words
-from fmu_bearing.reports.campbell import campbell_chart, crossing_table, mode_table
-from fmu_bearing.reports.page import render
-from fmu_bearing.reports.shapes import moving_shapes
-from fmu_bearing.reports.subject import Subject
+from fmu_bearing.reports.data.subject import Subject
+from fmu_bearing.reports.modes.campbell_chart import campbell_chart, crossing_table, mode_table
+from fmu_bearing.reports.modes.moving_shapes import moving_shapes
+from fmu_bearing.reports.page.blocks import Absent, Block, Section, Table, Words
+from fmu_bearing.reports.page.render import render
 from fmu_bearing.scene import Scene
 
 HIGHEST = 20e3  # Hz: modes that the section lists
@@ -108,7 +108,7 @@ def modes_page(found: Campbell, path: str | os.PathLike[str], point: Modes | Non
     Examples
     --------
     >>> from fmu_bearing import campbell
-    >>> from fmu_bearing.reports.modes import modes_page
+    >>> from fmu_bearing.reports.modes.modes_section import modes_page
     >>> found = campbell("examples/scenes/7003C-spindle.toml", [10e3, 15e3, 20e3, 25e3])
     >>> modes_page(found, "modes.html").name
     'modes.html'

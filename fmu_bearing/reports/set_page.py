@@ -11,11 +11,11 @@ from fmu_bearing.design.set_points import life_of_set, operating_points, set_cau
 from fmu_bearing.design.verdicts import Verdict, shown_hours, side_by_side
 from fmu_bearing.instance import EngineError
 from fmu_bearing.progress import Tell
-from fmu_bearing.reports import look
-from fmu_bearing.reports.blocks import Absent, Block, Chart, Section, Table, Words
-from fmu_bearing.reports.look import axis
-from fmu_bearing.reports.page import render
-from fmu_bearing.reports.summary import Tile, tile
+from fmu_bearing.reports.page import look
+from fmu_bearing.reports.page.blocks import Absent, Block, Chart, Section, Table, Words
+from fmu_bearing.reports.page.look import axis
+from fmu_bearing.reports.page.render import render
+from fmu_bearing.reports.sections.summary import Tile, tile
 from fmu_bearing.scene import Scene, SceneError
 from fmu_bearing.spindle.assembly import set_of
 from fmu_bearing.spindle.drawing import pressure_centres

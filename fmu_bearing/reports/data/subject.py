@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 from fmu_bearing.recording.record import Recording
-from fmu_bearing.reports.blocks import Absent
+from fmu_bearing.reports.page.blocks import Absent
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.origins import Origin
 

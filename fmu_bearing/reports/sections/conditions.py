@@ -3,10 +3,10 @@
 import math
 
 from fmu_bearing.engine.constants import RPM
-from fmu_bearing.reports.assumptions import assumed_table
-from fmu_bearing.reports.blocks import Absent, Block, Folded, Section, Table, Words
-from fmu_bearing.reports.marks import OTHER_NAMES
-from fmu_bearing.reports.subject import Subject
+from fmu_bearing.reports.data.subject import Subject
+from fmu_bearing.reports.page.blocks import Absent, Block, Folded, Section, Table, Words
+from fmu_bearing.reports.sections.assumptions import assumed_table
+from fmu_bearing.reports.sections.kinematic_marks import OTHER_NAMES
 from fmu_bearing.scene import Scene
 
 _FIDELITIES = {

@@ -10,8 +10,8 @@ from fmu_bearing.modal.campbell.diagram_style import colour
 from fmu_bearing.modal.campbell.over_speed import Campbell
 from fmu_bearing.modal.modes.mode_shape import Shape
 from fmu_bearing.modal.modes.natural_modes import Modes
-from fmu_bearing.reports.blocks import Shapes
-from fmu_bearing.reports.campbell import moving
+from fmu_bearing.reports.modes.campbell_chart import moving
+from fmu_bearing.reports.page.blocks import Shapes
 
 _DIGITS = 4
 

@@ -8,10 +8,19 @@ from numpy.typing import NDArray
 from fmu_bearing.design.operating_point import operating_point
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.instance import EngineError
-from fmu_bearing.reports import look
-from fmu_bearing.reports.blocks import Block, Chart, Choice, Option, Section, Table, Words, small
-from fmu_bearing.reports.decimate import thinned
-from fmu_bearing.reports.subject import Subject
+from fmu_bearing.reports.data.subject import Subject
+from fmu_bearing.reports.page import look
+from fmu_bearing.reports.page.blocks import (
+    Block,
+    Chart,
+    Choice,
+    Option,
+    Section,
+    Table,
+    Words,
+    small,
+    thinned,
+)
 from fmu_bearing.run.balls import RACES, name_of
 
 _BINS = 72  # of the circle

@@ -8,8 +8,8 @@ from fmu_bearing.design.operating_point import RINGS, OperatingPoint, operating_
 from fmu_bearing.design.verdicts import Verdict, verdicts
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.instance import EngineError
-from fmu_bearing.reports.blocks import Table
-from fmu_bearing.reports.subject import Subject
+from fmu_bearing.reports.data.subject import Subject
+from fmu_bearing.reports.page.blocks import Table
 
 _COLUMNS = ("", "value", "verdict", "limit", "source of the limit")
 

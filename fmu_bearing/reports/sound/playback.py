@@ -7,8 +7,8 @@ import numpy as np
 from scipy.io import wavfile
 
 from fmu_bearing.acoustics.analysis.audio import WAV_RATE, resample
-from fmu_bearing.reports.blocks import Block, Section, Sound, Words
-from fmu_bearing.reports.heard import Microphones
+from fmu_bearing.reports.data.microphones import Microphones
+from fmu_bearing.reports.page.blocks import Block, Section, Sound, Words
 
 LONGEST = 3.0  # s of each sound: 16 bits at 48 kHz take 128 kB per second of a page
 _PEAK = 0.9

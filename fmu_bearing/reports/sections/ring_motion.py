@@ -7,11 +7,21 @@ from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.analysis.spectrum import amplitude_spectrum, power_spectral_density
 from fmu_bearing.engine.constants import RPM
-from fmu_bearing.reports import look
-from fmu_bearing.reports.blocks import Absent, Block, Chart, Choice, Option, Section, Table, Words, small
-from fmu_bearing.reports.decimate import thinned
-from fmu_bearing.reports.marks import end_words, mark_kinematics
-from fmu_bearing.reports.subject import Subject
+from fmu_bearing.reports.data.subject import Subject
+from fmu_bearing.reports.page import look
+from fmu_bearing.reports.page.blocks import (
+    Absent,
+    Block,
+    Chart,
+    Choice,
+    Option,
+    Section,
+    Table,
+    Words,
+    small,
+    thinned,
+)
+from fmu_bearing.reports.sections.kinematic_marks import end_words, mark_kinematics
 
 AXES = ("x", "y", "z")
 _AXIS_WORDS = {"x": "x, along the axis", "y": "y, horizontal", "z": "z, upwards"}

@@ -6,7 +6,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from fmu_bearing.accuracy.sensitivity import ASSUMED, value_at
-from fmu_bearing.reports.blocks import Table
+from fmu_bearing.reports.page.blocks import Table
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.origins import Origin
 from fmu_bearing.scene.units import symbol

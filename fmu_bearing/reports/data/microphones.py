@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from fmu_bearing.acoustics.analysis.spectrum import level_spectrum
 from fmu_bearing.acoustics.analysis.third_octave import nominal_frequency, third_octave_levels
 from fmu_bearing.acoustics.filters.weighting import level
-from fmu_bearing.reports.blocks import Absent
-from fmu_bearing.reports.subject import Subject
+from fmu_bearing.reports.data.subject import Subject
+from fmu_bearing.reports.page.blocks import Absent
 
 #: Microphones with spectra and sound of their own, and those in tables.
 SHOWN, LISTED = 4, 48

@@ -24,8 +24,8 @@ from fmu_bearing.modal.campbell.diagram_style import (
 )
 from fmu_bearing.modal.campbell.over_speed import Campbell
 from fmu_bearing.modal.modes.natural_modes import MARGIN, SPREAD, Mode, Modes
-from fmu_bearing.reports import look
-from fmu_bearing.reports.blocks import Chart, Table, small
+from fmu_bearing.reports.page import look
+from fmu_bearing.reports.page.blocks import Chart, Table, small
 
 KEY = "campbell"
 _HEIGHT, _TOP, _BOTTOM, _RIGHT = 580, 40, 56, 178  # px: figure, and what stands around its axes

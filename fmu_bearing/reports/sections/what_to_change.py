@@ -16,9 +16,9 @@ from fmu_bearing.accuracy.changed import (
 from fmu_bearing.accuracy.changes import changes
 from fmu_bearing.progress import Tell
 from fmu_bearing.recording.spread import at_speed
-from fmu_bearing.reports import look
-from fmu_bearing.reports.blocks import Absent, Block, Chart, Section, Table, Words
-from fmu_bearing.reports.subject import Subject
+from fmu_bearing.reports.data.subject import Subject
+from fmu_bearing.reports.page import look
+from fmu_bearing.reports.page.blocks import Absent, Block, Chart, Section, Table, Words
 
 #: By figure: title of its chart, title of its axis, names of better and worse, how many sentences.
 _SHOWN = {

@@ -1,0 +1,12 @@
+"""Sections about the run itself, and what the page shows above them.
+
+``kinematic_marks``   lines at the kinematic frequencies
+``summary``           the figures at the top, and the warnings
+``verdict_table``     limits that are kept or passed, on the first screen
+``assumptions``       which values are assumed
+``conditions``        operating point, kinematic frequencies, choices
+``what_to_change``    choices ranked by level, life and torque
+``ring_motion``       velocities, orbits
+``ball_contacts``     loads and angles around the circle
+``friction``          torque, shares, heats
+"""

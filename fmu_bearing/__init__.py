@@ -62,10 +62,10 @@ if TYPE_CHECKING:
     from fmu_bearing.modal.campbell.over_speed import Campbell, campbell
     from fmu_bearing.modal.modes.natural_modes import Modes
     from fmu_bearing.modal.modes.points import modes
-    from fmu_bearing.recording import audio, measure, pictures, tables
-    from fmu_bearing.recording.compare import compare
+    from fmu_bearing.recording.measurements import audio, measure, pictures, tables
     from fmu_bearing.recording.record import Recording, record
-    from fmu_bearing.recording.spread import spread
+    from fmu_bearing.recording.studies.compare import compare
+    from fmu_bearing.recording.studies.spread import spread
     from fmu_bearing.reports import report
     from fmu_bearing.results.result import Run
     from fmu_bearing.run.bearing import Bearing
@@ -90,28 +90,28 @@ _PLACES = {
     "Scene": "scene",
     "SceneError": "scene",
     "ShaftStatics": "spindle.statics",
-    "audio": "recording",
+    "audio": "recording.measurements",
     "build_fmu": "run.build",
     "campbell": "modal.campbell.over_speed",
     "changes": "accuracy.changes",
-    "compare": "recording.compare",
+    "compare": "recording.studies.compare",
     "identify": "identification",
-    "measure": "recording",
+    "measure": "recording.measurements",
     "modes": "modal.modes.points",
     "new_scene": "design.fresh",
     "operating_point": "design.operating_point",
     "operating_points": "design.set_points",
-    "pictures": "recording",
+    "pictures": "recording.measurements",
     "read_scene": "scene",
     "record": "recording.record",
     "report": "reports",
     "set_stiffness": "design.set_stiffness",
     "shaft_statics": "spindle.statics",
     "simulate": "run.simulate",
-    "spread": "recording.spread",
+    "spread": "recording.studies.spread",
     "stiffness": "modal.stiffness.scene_stiffness",
     "sweep": "sweeps",
-    "tables": "recording",
+    "tables": "recording.measurements",
     "verdicts": "design.verdicts",
     "with_fidelity": "scene.read",
 }

@@ -12,7 +12,7 @@ from fmu_bearing import cli, renamed
 from fmu_bearing.instance import Instance
 from fmu_bearing.interface.names import UnknownName, chosen_names
 from fmu_bearing.prepare.model import prepare
-from fmu_bearing.recording import listen, measure
+from fmu_bearing.recording.measurements import measure, sound_analysis
 from fmu_bearing.recording.recording import Recording
 from fmu_bearing.reports import make
 from fmu_bearing.results.result import Run
@@ -26,7 +26,10 @@ from tests.conftest import GATES
 FILE = GATES / "7003C-bare.toml"
 #: Functions that took an old argument, each with that argument.
 FUNCTIONS = [
-    *((function, "rung") for function in (fmu_bearing.record, make, listen.listen, listen.write_all)),
+    *(
+        (function, "rung")
+        for function in (fmu_bearing.record, make, sound_analysis.analyse_sound, sound_analysis.write_all)
+    ),
     *((getattr(Recording, name), "rung") for name in ("pressure", "partial", "levels", "mean_squares")),
     *(
         (getattr(measure, name), "rung")

@@ -21,8 +21,8 @@ from fmu_bearing import read_scene, record
 from fmu_bearing.acoustics.analysis.directivity import directivity
 from fmu_bearing.cli.base import refusals
 from fmu_bearing.extras import need
-from fmu_bearing.recording import measure as sound_measure, pictures as sound_pictures
-from fmu_bearing.recording.measure import Round
+from fmu_bearing.recording.measurements import measure as sound_measure, pictures as sound_pictures
+from fmu_bearing.recording.measurements.measure import Round
 from fmu_bearing.results.table import markdown, write_csv
 
 SCENES = Path(__file__).resolve().parents[1] / "scenes"

@@ -21,7 +21,11 @@ from fmu_bearing import read_scene, record
 from fmu_bearing.acoustics.analysis.order import OrderMap, waterfall
 from fmu_bearing.cli.base import refusals
 from fmu_bearing.extras import need
-from fmu_bearing.recording import measure as sound_measure, pictures as sound_pictures, tables as sound_tables
+from fmu_bearing.recording.measurements import (
+    measure as sound_measure,
+    pictures as sound_pictures,
+    tables as sound_tables,
+)
 from fmu_bearing.results.table import markdown, write_csv
 from fmu_bearing.scene.read import with_fidelity
 

@@ -7,7 +7,7 @@
 ``chart``         error against speed, drawn
 ``sensitivity``   changes of the figures when an assumed value changes
 ``alternatives``  what a designer can choose otherwise in a scene
-``hearing``       levels before and after a change, with the same seeds
+``change_levels`` levels before and after a change, with the same seeds
 ``changed``       what choices change: ranked, as table and in words
 ``changes``       `changes`: level, life and torque when a designer chooses otherwise
 ================  =============================================================================

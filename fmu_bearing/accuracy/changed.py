@@ -35,7 +35,7 @@ class Point(NamedTuple):
     cautions: tuple[str, ...] = ()
 
 
-class Heard(NamedTuple):
+class LevelBasis(NamedTuple):
     """How levels were computed: that of the unchanged scene (dB(A)), where, by what, how long (s), seeds.
 
     ``doubt``: why they are in doubt; empty: they are not.
@@ -156,7 +156,7 @@ class Changes:
     scene : Scene
     before : Point
         Its operating point before any change.
-    heard : Heard
+    heard : LevelBasis
         Its level, and how levels were computed.
     changes : tuple of Change
         In the order of `alternatives`; those without figures are in it, with their reason.
@@ -166,7 +166,7 @@ class Changes:
 
     scene: Scene
     before: Point
-    heard: Heard
+    heard: LevelBasis
     changes: tuple[Change, ...]
     no_level: str = ""
     no_life: str = ""

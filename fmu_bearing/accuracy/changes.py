@@ -13,8 +13,8 @@ import numpy as np
 
 from fmu_bearing import renamed
 from fmu_bearing.accuracy.alternatives import Alternative, alternatives
-from fmu_bearing.accuracy.changed import Change, Changes, Heard, Point
-from fmu_bearing.accuracy.hearing import Hearing, hearing
+from fmu_bearing.accuracy.change_levels import ChangeLevels, change_levels
+from fmu_bearing.accuracy.changed import Change, Changes, LevelBasis, Point
 from fmu_bearing.design.operating_point import operating_point
 from fmu_bearing.design.rating import unrated
 from fmu_bearing.formulas import iso281
@@ -74,16 +74,16 @@ def changes(
         raise scene.unmounted("a study of changes")
     tell("operating point of the unchanged scene")
     before = point(scene)
-    ear, reason = hearing(scene, radiation_model) if levels else (None, "they were not asked for")
+    ear, reason = change_levels(scene, radiation_model) if levels else (None, "they were not asked for")
     if ear is not None:
         tell("levels of the unchanged scene")
         try:
             ear.begin(scene, seeds)
         except ValueError as problem:
             ear, reason = None, str(problem)
-    heard = Heard() if ear is None else Heard(
-        ear.level, ear.microphone, ear.fidelity, ear.listener.radiation_model, ear.listener.settle,
-        ear.listener.duration, ear.seeds, ear.doubt,
+    heard = LevelBasis() if ear is None else LevelBasis(
+        ear.level, ear.microphone, ear.fidelity, ear.estimator.radiation_model, ear.estimator.settle,
+        ear.estimator.duration, ear.seeds, ear.doubt,
     )  # fmt: skip
     found = Changes(scene, before, heard, (), reason, _no_life(scene))
     if not found.figures:
@@ -120,7 +120,7 @@ def _no_life(scene: Scene) -> str:
     return unrated(scene) or ("the shaft stands still" if scene.operation.speed_rpm == 0.0 else "")
 
 
-def _changed(scene: Scene, choice: Alternative, before: Point, ear: Hearing | None) -> Change:
+def _changed(scene: Scene, choice: Alternative, before: Point, ear: ChangeLevels | None) -> Change:
     """Return what one choice changes, or why it cannot be made."""
     try:
         other = scene.replace(choice.values)

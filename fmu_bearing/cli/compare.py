@@ -35,8 +35,8 @@ def compare(
     as_json: Json = False,
 ) -> None:
     """Compare levels, third octaves, loads, angles, torque; list the keys that differ. B less A."""
-    from fmu_bearing.recording.compare import compare as compare_them
-    from fmu_bearing.recording.places import named_places
+    from fmu_bearing.recording.channels.microphone_places import named_places
+    from fmu_bearing.recording.studies.compare import compare as compare_them
     from fmu_bearing.results.picture_parts import check_picture, save
     from fmu_bearing.results.table import show
     from fmu_bearing.scene import read_scene

@@ -23,7 +23,7 @@ from fmu_bearing.files import check_folder
 
 if TYPE_CHECKING:
     from fmu_bearing.recording.recording import Recording
-    from fmu_bearing.recording.spread import Spread
+    from fmu_bearing.recording.studies.spread import Spread
 
 
 @app.command()
@@ -61,10 +61,10 @@ def sound(
     as_json: Json = False,
 ) -> None:
     """Measure levels, spectra, third octaves and directivity; write tables, pictures, netCDF and WAV."""
-    from fmu_bearing.recording.listen import listen, write_all
-    from fmu_bearing.recording.places import named_places
+    from fmu_bearing.recording.channels.microphone_places import named_places
+    from fmu_bearing.recording.measurements.sound_analysis import analyse_sound, write_all
     from fmu_bearing.recording.record import Recording, record
-    from fmu_bearing.recording.spread import doubt_of
+    from fmu_bearing.recording.studies.spread import doubt_of
     from fmu_bearing.results.table import show
     from fmu_bearing.scene.read import read_scene, with_fidelity
 
@@ -93,7 +93,7 @@ def sound(
             )  # fmt: skip
             output.mkdir(parents=True, exist_ok=True)
             recording.save(output / "recording.npz")
-        heard = listen(recording, microphone, radiation_model, resolution)
+        heard = analyse_sound(recording, microphone, radiation_model, resolution)
         files = write_all(recording, heard, output, radiation_model, wav, directivity, tell)
         sure = _spread(recording, microphone, radiation_model, as_json) if spread else None
         doubted = doubt_of(recording)
@@ -125,7 +125,7 @@ def _spread(
     recording: "Recording", microphones: list[str] | None, radiation_model: str | None, quiet: bool
 ) -> "Spread | None":
     """Range of the levels, or None with a line why there is none."""
-    from fmu_bearing.recording.spread import spread
+    from fmu_bearing.recording.studies.spread import spread
 
     bar = partial(progress, description="range of levels", disable=quiet, transient=True)
     try:

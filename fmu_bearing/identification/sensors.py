@@ -1,8 +1,8 @@
 """Levels of a recording at the measured places: paths made once per geometry, one spectrum per run.
 
 Each run is one block under a Hann window. Level, third octave and line are sums over one spectrum, which
-costs milliseconds where filters over the samples cost tenths of a second. Against `Heard.levels` a steady
-sound differs by hundredths of a dB.
+costs milliseconds where filters over the samples cost tenths of a second. Against `ChannelHistory.levels` a
+steady sound differs by hundredths of a dB.
 """
 
 from collections.abc import Sequence
@@ -23,7 +23,7 @@ from fmu_bearing.acoustics.radiation.frequencies import STOP
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.identification.data import VELOCITY_REFERENCE, Datum
 from fmu_bearing.identification.quantities import A_LEVEL, LEVEL, LINE, THIRD_OCTAVE
-from fmu_bearing.recording.heard import Heard
+from fmu_bearing.recording.channels.channel_history import ChannelHistory
 
 _SEARCH = 0.004  # relative: how far from its frequency a line is looked for, as balls slide
 _STEPS = 9
@@ -36,13 +36,13 @@ class Sensors:
 
     Parameters
     ----------
-    recording : Heard
+    recording : ChannelHistory
         Any run of the geometry.
     rows : sequence of Datum
         All that will be asked for.
     """
 
-    def __init__(self, recording: Heard, rows: Sequence[Datum]) -> None:
+    def __init__(self, recording: ChannelHistory, rows: Sequence[Datum]) -> None:
         places = dict.fromkeys(row.position for row in rows if row.position is not None)
         self.positions: list[Position] = list(places)
         self.size = recording.size
@@ -80,7 +80,7 @@ class Sensors:
         assert channel is not None
         return int(np.searchsorted(self.used, channel))
 
-    def levels(self, recording: Heard, rows: Sequence[Datum]) -> NDArray[np.float64]:
+    def levels(self, recording: ChannelHistory, rows: Sequence[Datum]) -> NDArray[np.float64]:
         """Levels (dB) of a run in the order of rows: pressure re 20 uPa, velocity re 1 nm/s."""
         channels = recording.channels[:, self.used]
         channels = channels - self.slow @ (self.slow_fit @ channels)

@@ -128,7 +128,8 @@ def record(
     if warn and (doubted := _doubt(scene, drives)):
         warnings.warn(doubted, stacklevel=3)  # of renamed.arguments, which wraps this
     model = source if isinstance(source, Model) and microphones else prepare(
-        scene if microphones else listened(scene, "compact" if form_of(wanted) == "vectors" else wanted)
+        scene if microphones
+        else with_far_microphone(scene, "compact" if form_of(wanted) == "vectors" else wanted)
     )  # fmt: skip
     bearing = Instance(model)
     _drive(bearing, drives, 0.0)
@@ -175,7 +176,7 @@ def _doubt(scene: Scene, drives: Mapping[str, Signal]) -> str:
     return doubt(scene, {name: float(value) for name, value in drives.items() if not callable(value)})
 
 
-def listened(scene: Scene, radiation_model: str) -> Scene:
+def with_far_microphone(scene: Scene, radiation_model: str) -> Scene:
     """Return the scene with one far microphone, which is enough for the engine to form its channels."""
     one = Microphone(name="far", x_mm=0.0, y_mm=_FAR, z_mm=0.0)
     sound = scene.sound or Sound(

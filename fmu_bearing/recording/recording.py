@@ -16,9 +16,9 @@ from fmu_bearing.acoustics.analysis.spectrum import level_spectrum
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.extras import need
 from fmu_bearing.files import read_arrays
-from fmu_bearing.recording import measure
-from fmu_bearing.recording.heard import Heard
-from fmu_bearing.recording.places import Places
+from fmu_bearing.recording.channels.channel_history import ChannelHistory
+from fmu_bearing.recording.channels.microphone_places import Places
+from fmu_bearing.recording.measurements import measure
 from fmu_bearing.results.result import read_table
 from fmu_bearing.results.spectra import MICROPHONE, Spectrum
 from fmu_bearing.results.table import number
@@ -35,7 +35,7 @@ _ENOUGH = 40_000.0  # Hz: pressures reach to 20 kHz
 _VERSION = 3  # 1 had other names, 2 another decimator
 
 
-class Recording(Heard):
+class Recording(ChannelHistory):
     """Channels of a run, and pressures and levels at any place; can be saved and loaded.
 
     Made by ``fmu_bearing.record``, from a file (`load`) or from an FMU's run (`from_fmu`).
@@ -187,7 +187,7 @@ class Recording(Heard):
         MissingExtra
             Without Matplotlib.
         """
-        from fmu_bearing.recording.pictures import spectrum_picture
+        from fmu_bearing.recording.measurements.pictures import spectrum_picture
 
         need("matplotlib", "a picture")  # told before the sound is computed
         found = self.spectrum(positions, radiation_model, resolution)

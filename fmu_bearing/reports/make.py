@@ -14,8 +14,8 @@ from fmu_bearing.extras import need
 from fmu_bearing.files import check_file, write_whole
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.recording.record import Recording, record
-from fmu_bearing.recording.spread import Spread, spread
-from fmu_bearing.reports.data.microphones import Microphones, listen
+from fmu_bearing.recording.studies.spread import Spread, spread
+from fmu_bearing.reports.data.microphones import Microphones, at_microphones
 from fmu_bearing.reports.data.observed_run import STEP, observed
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.modes.modes_section import section as what_vibrates
@@ -308,7 +308,7 @@ def _sections(
     reason = ""
     tell("listening at the microphones")
     try:
-        heard = listen(subject)
+        heard = at_microphones(subject)
     except (Absent, ValueError) as problem:
         reason = str(problem)
 

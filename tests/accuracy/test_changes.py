@@ -8,9 +8,9 @@ import pytest
 from fmu_bearing import record
 from fmu_bearing.accuracy import changes as room
 from fmu_bearing.accuracy.alternatives import Alternative, alternatives
-from fmu_bearing.accuracy.changed import Change, Changes, Heard, Point, shown_level, shown_ratio
+from fmu_bearing.accuracy.change_levels import ChangeLevels
+from fmu_bearing.accuracy.changed import Change, Changes, LevelBasis, Point, shown_level, shown_ratio
 from fmu_bearing.accuracy.changes import changes, point
-from fmu_bearing.accuracy.hearing import Hearing
 from fmu_bearing.design.operating_point import operating_point
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import prepare
@@ -169,7 +169,7 @@ def test_a_resonance_is_told_where_less_and_more_are_quieter(spindle):
             )
             for force, db in ((350.0, low), (30.0, [-9.0, -9.0]), (700.0, high))
         ]
-        return Changes(spindle, before, Heard(), tuple(rows))
+        return Changes(spindle, before, LevelBasis(), tuple(rows))
 
     before = Point(1.0, 1.0, 1.0)
     assert study([-2.0, -3.0], [-1.0, -4.0]).resonances() == ["preload"]
@@ -273,7 +273,7 @@ def test_a_weakly_damped_bearing_is_judged_by_full(spindle, example, monkeypatch
         heard.append(fidelity)
         return np.full(len(scene.microphones), 50.0)
 
-    monkeypatch.setattr(Hearing, "_all", levels)
+    monkeypatch.setattr(ChangeLevels, "_all", levels)
     flaws = spindle.imperfections.model_dump(mode="json", exclude_none=True)
     dry = example("7003C-impact").replace({"operation.speed_rpm": 8000.0, "imperfections": flaws})
     found = changes(with_fidelity(dry, model="full"), seeds=5)

@@ -14,7 +14,7 @@ from fmu_bearing import Run, build_fmu
 from fmu_bearing.acoustics.filters.weighting import level
 from fmu_bearing.compiled.errors import BuildError
 from fmu_bearing.instance import Instance
-from fmu_bearing.recording.listen import listen
+from fmu_bearing.recording.measurements.sound_analysis import analyse_sound
 from fmu_bearing.recording.record import Recording, record
 from fmu_bearing.scene.read import with_fidelity
 
@@ -202,12 +202,12 @@ def test_sound_refuses_in_a_line(run, rings_file, heard, silent_file, tmp_path):
 
 def test_listening_to_pressures_alone(scene):
     whole = record(with_fidelity(scene("7003C-bare"), model="rings"), 0.05)
-    heard = listen(whole)
+    heard = analyse_sound(whole)
     alone = Recording(
         whole.scene, "recorded", whole.rate, whole.start, whole.size, whole.output_time, whole.speed_points,
         recorded=whole.pressure(), microphones=whole.microphones,
     )  # fmt: skip
-    again = listen(alone)
+    again = analyse_sound(alone)
     np.testing.assert_allclose(again.levels[:, 0], heard.levels[:, 0], atol=1e-9)
     assert set(heard.parts) == {"inner_ring", "outer_ring", "cage", "balls"} and again.parts == {}
 
@@ -215,7 +215,7 @@ def test_listening_to_pressures_alone(scene):
 def test_levels_of_a_papers_radiation_model_add_energies(scene):
     """As the paper does (eqs. 43 and 46); the pressures of its sources added would read 0.3 dB more here."""
     whole = record(with_fidelity(scene("7003C-bare"), model="rings"), 0.05, radiation_model="paper")
-    heard = listen(whole)
+    heard = analyse_sound(whole)
     np.testing.assert_array_equal(heard.levels[:, 1], whole.levels(weighting="A"))
     added = level(whole.mean_square(whole.pressure()))
     assert np.all(np.abs(added - heard.levels[:, 0]) > 0.1)

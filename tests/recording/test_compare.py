@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from fmu_bearing import Run, SceneError, compare, record, simulate, with_fidelity
-from fmu_bearing.recording.finished import FIGURES
-from fmu_bearing.recording.listen import listen
+from fmu_bearing.recording.measurements.sound_analysis import analyse_sound
+from fmu_bearing.recording.studies.comparison_data import FIGURES
 
 DURATION, SETTLE = 0.05, 0.02
 
@@ -46,7 +46,7 @@ def test_a_key_of_one_scene_alone(plain):
 def test_levels_are_those_of_the_recordings(found, plain, other):
     for side, scene in ((found.a, plain), (found.b, other)):
         made = record(scene, DURATION, settle=SETTLE, progress=False)
-        heard = listen(made)
+        heard = analyse_sound(made)
         pairs = zip(heard.names, heard.levels.tolist(), strict=True)
         assert side.levels == {name: tuple(pair) for name, pair in pairs}
         assert list(side.third_octaves["P2"].values()) == heard.third_octaves[1].tolist()

@@ -10,10 +10,10 @@ from fmu_bearing.acoustics.analysis.order import OrderMap, Waterfall
 from fmu_bearing.acoustics.analysis.spectrum import kinematic_frequencies, level_spectrum
 from fmu_bearing.acoustics.analysis.third_octave import centre_frequencies
 from fmu_bearing.prepare.imperfections import excitation_end
-from fmu_bearing.recording.compare import compare
-from fmu_bearing.recording.measure import BEYOND, strongest
+from fmu_bearing.recording.measurements.measure import BEYOND, strongest
 from fmu_bearing.recording.record import record
-from fmu_bearing.reports.data.microphones import listen
+from fmu_bearing.recording.studies.compare import compare
+from fmu_bearing.reports.data.microphones import at_microphones
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.sound.levels_and_spectra import spectra
 from fmu_bearing.scene.read import with_fidelity
@@ -109,7 +109,7 @@ def test_runs_recordings_and_comparisons_know_it(made):
 
 def test_reports_mark_it_and_name_no_source_beyond(made):
     subject = Subject(made, made.radiation_model)
-    heard, end = listen(subject), made.excitation_end
+    heard, end = at_microphones(subject), made.excitation_end
     spectrum, lines, thirds = spectra(subject, heard).blocks
     (mark,) = [trace for trace in spectrum.figure.data if trace.name.startswith("end of the excitation")]
     assert list(mark.x) == [end, end] and mark.visible is not False

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from fmu_bearing import Recording, audio, measure, record, spread, with_fidelity
-from fmu_bearing.recording.listen import listen, write_all
-from fmu_bearing.recording.places import named_places
+from fmu_bearing.recording.channels.microphone_places import named_places
+from fmu_bearing.recording.measurements.sound_analysis import analyse_sound, write_all
 
 ELSEWHERE = (0.0, 0.3, 0.0)
 
@@ -49,7 +49,7 @@ def test_measurements_take_names(heard):
 
 
 def test_spread_and_listen_take_places_and_name_them(heard, tmp_path):
-    found = listen(heard, ["P2", ELSEWHERE])
+    found = analyse_sound(heard, ["P2", ELSEWHERE])
     assert found.names == ("P2", "(0, 300, 0) mm")
     assert found.levels[:, 0].tolist() == heard.levels(["P2", ELSEWHERE]).tolist()
     files = write_all(heard, found, tmp_path, directivity=False)
@@ -64,7 +64,7 @@ def test_every_microphone_has_a_sound_file_of_its_own(heard, tmp_path):
     names = ("A.1", "A-1", "A_1", "a-1", "A 1", "A/1", "A-1-2", ".1")
     places = tuple((name, (0.2 + 0.05 * k, 0.1, 0.0)) for k, name in enumerate(names))
     named = dataclasses.replace(heard, microphones=places)
-    written = write_all(named, listen(named), tmp_path, directivity=False)
+    written = write_all(named, analyse_sound(named), tmp_path, directivity=False)
     sounds = [file for file in written if file.suffix == ".wav"]
     assert [file.name for file in sounds[:4]] == ["A.1.wav", "A-1.wav", "A_1.wav", "a-1-2.wav"]
     assert len({file.name.casefold() for file in sounds}) == len(names)
@@ -86,7 +86,7 @@ def test_unknown_names_elsewhere(heard):
         lambda: measure.component_spectra(heard, "P9"),
         lambda: measure.run_up(heard, "P9"),
         lambda: spread(heard, ["P1", "P9"]),
-        lambda: listen(heard, "P9"),
+        lambda: analyse_sound(heard, "P9"),
     ):
         with pytest.raises(ValueError, match="no microphone 'P9'; there are P1, P2, P3, P4"):
             call()

@@ -10,8 +10,8 @@ from fmu_bearing.acoustics.analysis.directivity import circle_points
 from fmu_bearing.acoustics.analysis.order import waterfall
 from fmu_bearing.acoustics.analysis.third_octave import third_octave_levels
 from fmu_bearing.engine.layout import SD
-from fmu_bearing.recording import measure, pictures, tables
-from fmu_bearing.recording.listen import listen, write_all
+from fmu_bearing.recording.measurements import measure, pictures, tables
+from fmu_bearing.recording.measurements.sound_analysis import analyse_sound, write_all
 from fmu_bearing.recording.record import Recording, record
 from fmu_bearing.results.table import markdown, write_csv
 from fmu_bearing.scene.read import with_fidelity
@@ -239,7 +239,7 @@ def test_directivity_keeps_out_of_the_housing(example, tmp_path):
     scene = with_fidelity(example("7003C-spindle"), model="response")
     made = record(scene, 0.05, progress=False, radiation_model="compact")
     said = []
-    files = write_all(made, listen(made), tmp_path, wav=False, tell=said.append)
+    files = write_all(made, analyse_sound(made), tmp_path, wav=False, tell=said.append)
     assert "planes.csv" in {path.name for path in files}
     assert any("no directivity at 80 mm: " in text and "lies inside the housing" in text for text in said)
     with (tmp_path / "planes.csv").open(encoding="utf-8", newline="") as file:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fmu_bearing import record, spread
-from fmu_bearing.recording import spread as spreading
+from fmu_bearing.recording.studies import spread as spreading
 from fmu_bearing.scene.imperfections import Harmonic
 from fmu_bearing.scene.read import with_fidelity
 

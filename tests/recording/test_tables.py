@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fmu_bearing import Recording, record, with_fidelity
-from fmu_bearing.recording.listen import listen
+from fmu_bearing.recording.measurements.sound_analysis import analyse_sound
 from fmu_bearing.scene import read_scene_text
 
 ELSEWHERE = (0.0, 0.3, 0.0)
@@ -22,7 +22,7 @@ def mute(scene):
 
 
 def test_spectrum_is_that_of_listen(heard):
-    found, known = heard.spectrum(["P2", ELSEWHERE]), listen(heard, ["P2", ELSEWHERE])
+    found, known = heard.spectrum(["P2", ELSEWHERE]), analyse_sound(heard, ["P2", ELSEWHERE])
     assert found.names == known.names and found.units == ("dB", "dB") and found.kind == "microphone"
     assert np.array_equal(found.frequency, known.frequency)
     # partial pressures added up, against their sum at once: rounding

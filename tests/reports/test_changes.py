@@ -11,7 +11,7 @@ from fmu_bearing.accuracy import changes as room
 from fmu_bearing.accuracy.alternatives import Alternative
 from fmu_bearing.accuracy.changed import shown_hours, shown_level, shown_ratio
 from fmu_bearing.progress import silent
-from fmu_bearing.recording.spread import at_speed
+from fmu_bearing.recording.studies.spread import at_speed
 from fmu_bearing.reports.data.observed_run import observed
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page.blocks import Absent

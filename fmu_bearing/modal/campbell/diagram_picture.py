@@ -19,7 +19,7 @@ from fmu_bearing.modal.campbell.diagram_style import (
     counted,
     dot_area,
     drawn_lines,
-    heard,
+    level_band,
     margin_words,
     runs,
     strength,
@@ -82,7 +82,7 @@ def campbell_picture(campbell: Diagram) -> "Figure":
     label(ax, "speed, r/min", "frequency, Hz", "")
     ax.xaxis.set_major_formatter("{x:,.0f}")
     ax.yaxis.set_major_formatter("{x:,.0f}")
-    band = heard(campbell)
+    band = level_band(campbell)
     if band is not None:
         ax.axhspan(*band, color=_BAND, zorder=0, gid="band")
     drawn = {k: one for k, one in enumerate(campbell.branches) if float(one.frequency.min()) < highest}
@@ -366,7 +366,7 @@ def _explain(figure: "Figure", campbell: Diagram, hidden: int) -> None:
         frameon=False, fontsize=_FONT, handlelength=2.6, columnspacing=1.4, borderpad=0.0,
     )  # fmt: skip
     remarks = [campbell.verdict()]
-    band = heard(campbell)
+    band = level_band(campbell)
     remarks += [f"{words[0].upper()}{words[1:]}." for words in campbell.cautions()[:2]]
     if hidden:
         modes = "1 mode lies" if hidden == 1 else f"{hidden} modes lie"

@@ -120,7 +120,7 @@ def unstable(branch: Branch) -> "NDArray[np.bool_]":
     return np.asarray(branch.damping < MARGIN)
 
 
-def heard(campbell: Diagram) -> tuple[float, float] | None:
+def level_band(campbell: Diagram) -> tuple[float, float] | None:
     """Hz: the band of the scene's levels; None for a scene without sound."""
     return None if campbell.scene.sound is None else BAND
 

@@ -115,7 +115,7 @@ class Microphones:
         return int(np.argmax(self.levels["A"]["total"]))
 
 
-def listen(subject: Subject) -> Microphones:
+def at_microphones(subject: Subject) -> Microphones:
     """Compute the pressures at the recording's microphones.
 
     Raises

@@ -15,7 +15,7 @@ from fmu_bearing.modal.campbell.diagram_style import (
     counted,
     dot_area,
     drawn_lines,
-    heard,
+    level_band,
     margin_words,
     quality_words,
     runs,
@@ -49,7 +49,7 @@ def campbell_chart(found: Campbell) -> Chart:
     _draw_crossings(drawn, found, crossings)
     texts = _draw_operation(drawn, found) + _names(found, highest)
     shapes = []
-    band = heard(found)
+    band = level_band(found)
     if band is not None:
         shapes.append({
             "type": "rect", "layer": "below", "xref": "paper", "x0": 0, "x1": 1, "y0": band[0], "y1": band[1],
@@ -78,7 +78,7 @@ def _note(found: Campbell) -> str:
         text += ". Red: a damping ratio below 0.2 %, at the limit of stability"
     if found.scene.imperfections is None:
         text += ". The scene has no imperfections, so the lines are the lowest that its parts could make"
-    band = heard(found)
+    band = level_band(found)
     if band is not None:
         text += f". Shaded: {band[0]:g} Hz to {1e-3 * band[1]:g} kHz, the band of the sound levels"
     return text + ". Drag to zoom, double-click to see all."

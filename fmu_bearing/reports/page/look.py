@@ -3,7 +3,7 @@
 from typing import Any
 
 from fmu_bearing.extras import need
-from fmu_bearing.recording.pictures import COLOURS
+from fmu_bearing.recording.measurements.pictures import COLOURS
 
 #: Colours of things that are no component of sound.
 FURTHER = {

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from fmu_bearing.engine.constants import RPM
-from fmu_bearing.recording.measure import strongest
-from fmu_bearing.recording.spread import Spread, doubt_of
+from fmu_bearing.recording.measurements.measure import strongest
+from fmu_bearing.recording.studies.spread import Spread, doubt_of
 from fmu_bearing.reports.data.microphones import Microphones
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page import look

@@ -15,7 +15,7 @@ from fmu_bearing.accuracy.changed import (
 )
 from fmu_bearing.accuracy.changes import changes
 from fmu_bearing.progress import Tell
-from fmu_bearing.recording.spread import at_speed
+from fmu_bearing.recording.studies.spread import at_speed
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page import look
 from fmu_bearing.reports.page.blocks import Absent, Block, Chart, Section, Table, Words

@@ -5,9 +5,9 @@ import math
 import numpy as np
 
 from fmu_bearing.acoustics.analysis.third_octave import spread
-from fmu_bearing.recording.measure import BEYOND, strongest
-from fmu_bearing.recording.pictures import band_place
-from fmu_bearing.recording.tables import lines_table
+from fmu_bearing.recording.measurements.measure import BEYOND, strongest
+from fmu_bearing.recording.measurements.pictures import band_place
+from fmu_bearing.recording.measurements.tables import lines_table
 from fmu_bearing.reports.data.microphones import Microphones
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page import look

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from fmu_bearing.acoustics.analysis.order import Waterfall, waterfall
 from fmu_bearing.acoustics.filters.weighting import a_weighting_sections, level
 from fmu_bearing.engine.constants import RPM
-from fmu_bearing.reports.data.microphones import Microphones, listen
+from fmu_bearing.reports.data.microphones import Microphones, at_microphones
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page import look
 from fmu_bearing.reports.page.blocks import Absent, Block, Chart, Section, Words, small
@@ -35,7 +35,7 @@ def fall(heard: Microphones, run_up: Subject | None = None) -> Section:
             )
         )
         return Section("waterfall", "Waterfall", blocks)
-    other = listen(run_up)
+    other = at_microphones(run_up)
     blocks += [_map(other, over_speed=True), _over_speed(other)]
     blocks.append(
         Words(

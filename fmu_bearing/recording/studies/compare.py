@@ -13,11 +13,17 @@ import numpy as np
 from fmu_bearing.acoustics.analysis.third_octave import nominal_frequency
 from fmu_bearing.extras import need
 from fmu_bearing.progress import Tell, silent
-from fmu_bearing.recording import pictures
-from fmu_bearing.recording.finished import FIGURES, RECORDED, Finished, of_recording, of_run
+from fmu_bearing.recording.measurements import pictures
+from fmu_bearing.recording.measurements.tables import Table
 from fmu_bearing.recording.record import DURATION, record
 from fmu_bearing.recording.recording import Recording
-from fmu_bearing.recording.tables import Table
+from fmu_bearing.recording.studies.comparison_data import (
+    FIGURES,
+    RECORDED,
+    ComparisonData,
+    of_recording,
+    of_run,
+)
 from fmu_bearing.results.result import ENDINGS, Run
 from fmu_bearing.results.table import write_csv
 from fmu_bearing.run.choose import resolve
@@ -42,15 +48,15 @@ class Comparison:
 
     Attributes
     ----------
-    a, b : Finished
+    a, b : ComparisonData
         What was measured on each: names, levels, spectra, third octaves, figures.
     keys : dict of str to (value of A, value of B)
         Keys in which the scenes differ, in the units of the keys; None where a scene has no such key. Empty
         where a scene is not known.
     """
 
-    a: Finished
-    b: Finished
+    a: ComparisonData
+    b: ComparisonData
     keys: dict[str, tuple[Any, Any]]
 
     @property
@@ -298,7 +304,7 @@ def compare(
 def _finished(
     letter: str, source: Compared, duration: float, settle: float, fidelity: str | None,
     radiation_model: str | None, tell: Tell, progress: bool | None,
-) -> Finished:  # fmt: skip
+) -> ComparisonData:  # fmt: skip
     """Load or run one side, and measure it."""
     name = ""
     if isinstance(source, str | os.PathLike):

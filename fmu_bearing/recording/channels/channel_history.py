@@ -23,7 +23,7 @@ from fmu_bearing.acoustics.radiation.radiators import Air
 from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.prepare.imperfections import excitation_end
-from fmu_bearing.recording.places import Places, named_places
+from fmu_bearing.recording.channels.microphone_places import Places, named_places
 from fmu_bearing.scene import Scene, si
 
 _ANGLES = ("contact.inner.angle_mean", "contact.outer.angle_mean")
@@ -33,7 +33,7 @@ _NO_WEIGHTING = 'weighting = "{}": only "A" and "Z" (none) are known'
 
 
 @dataclass(repr=False)
-class Heard:
+class ChannelHistory:
     """Channels of a run, and the sound they give at any place; `Recording` adds files.
 
     Attributes

@@ -9,20 +9,20 @@ from numpy.typing import NDArray
 from fmu_bearing.acoustics.filters.weighting import level
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.modal.campbell.weak import doubt, weakness
-from fmu_bearing.recording.listener import Listener
+from fmu_bearing.recording.studies.level_estimator import LevelEstimator
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.read import with_fidelity
 
 _SEEDS_FULL = 3  # of fidelity full, which costs ten times as much
 _SETTLE, _DURATION = 0.02, 0.06  # s
-_TURNS, _LONGEST = 20.0, 0.15  # of the shaft, and s: how long a slow bearing is heard
+_TURNS, _LONGEST = 20.0, 0.15  # of the shaft, and s: how long the run of a slow bearing is
 
 
-class Hearing:
-    """Hears a scene and its changes at the loudest microphone of the unchanged one, with the same seeds."""
+class ChangeLevels:
+    """Levels of a scene and its changes, with the same seeds, where the unchanged one is loudest."""
 
-    def __init__(self, listener: Listener) -> None:
-        self.listener = listener
+    def __init__(self, estimator: LevelEstimator) -> None:
+        self.estimator = estimator
         self.fidelity = self.microphone = self.doubt = ""
         self.seeds: tuple[int, ...] = ()
         self.before: NDArray[np.float64] = np.empty(0)
@@ -30,7 +30,7 @@ class Hearing:
         self._loudest = 0
 
     def begin(self, scene: Scene, seeds: int) -> None:
-        """Choose fidelity and microphone, and hear the unchanged scene.
+        """Choose fidelity and microphone, and compute the level of the unchanged scene.
 
         Raises
         ------
@@ -38,12 +38,12 @@ class Hearing:
             Where it cannot be run.
         """
         assert scene.imperfections is not None
-        self.fidelity, heard = self._choose(scene)
+        self.fidelity, levels = self._choose(scene)
         self.doubt = doubt(with_fidelity(scene, model=self.fidelity))
         if self.fidelity == "full":
             seeds = min(seeds, _SEEDS_FULL)
         self.seeds = tuple((scene.imperfections.seed + k) % 2**31 for k in range(seeds))
-        self._loudest = int(np.argmax(heard))
+        self._loudest = int(np.argmax(levels))
         self.microphone = scene.microphones[self._loudest].name
         self.before = self.levels(scene)
         self.level = float(self.before[0])
@@ -83,11 +83,11 @@ class Hearing:
         drawn = with_fidelity(scene.model_copy(update={"imperfections": flaws}), model=fidelity)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", UserWarning)  # told of each choice's operating point
-            return np.asarray(level(self.listener.spectrum(drawn).sum(axis=1)))
+            return np.asarray(level(self.estimator.spectrum(drawn).sum(axis=1)))
 
 
-def hearing(scene: Scene, radiation_model: str | None = None) -> "tuple[Hearing | None, str]":
-    """Return what hears short runs of a scene, or the reason why nothing does."""
+def change_levels(scene: Scene, radiation_model: str | None = None) -> "tuple[ChangeLevels | None, str]":
+    """Return what computes levels of short runs of a scene, or the reason why nothing can."""
     sound, flaws = scene.sound, scene.imperfections
     if sound is None or not scene.microphones:
         return None, "the scene has no microphones"
@@ -98,10 +98,10 @@ def hearing(scene: Scene, radiation_model: str | None = None) -> "tuple[Hearing 
     turns = _TURNS / abs(scene.operation.speed_rpm * RPM / (2.0 * math.pi))
     duration = min(max(_DURATION, turns), _LONGEST)
     try:
-        listener = Listener(
+        estimator = LevelEstimator(
             [place.position_m for place in scene.microphones], radiation_model or sound.radiation_model, "A",
             duration, _SETTLE,
         )  # fmt: skip
     except ValueError as problem:
         return None, str(problem)
-    return Hearing(listener), ""
+    return ChangeLevels(estimator), ""

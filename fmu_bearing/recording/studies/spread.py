@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 from fmu_bearing.acoustics.filters.weighting import level
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.modal.campbell.weak import doubt, weakness
-from fmu_bearing.recording.listener import Listener, check_model
-from fmu_bearing.recording.places import Places
+from fmu_bearing.recording.channels.microphone_places import Places
 from fmu_bearing.recording.record import RecordingSource, recording_of
 from fmu_bearing.recording.recording import Recording
+from fmu_bearing.recording.studies.level_estimator import LevelEstimator, check_model
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.imperfections import Imperfections
 from fmu_bearing.scene.read import with_fidelity
@@ -199,7 +199,7 @@ def spread(
         raise ValueError("the scene has no imperfections: its level has no spread over them")
     chosen = recording.named(microphones)
     places = [place for _, place in chosen]
-    heard = Listener(places, radiation_model or recording.radiation_model, weighting)
+    heard = LevelEstimator(places, radiation_model or recording.radiation_model, weighting)
     flaws = scene.imperfections
     weak = weakness(scene)
     fidelity, seeds = ("full", min(seeds, _SEEDS_FULL)) if weak else ("response", seeds)
@@ -280,7 +280,7 @@ def _corners(flaws: Imperfections) -> Iterator[Imperfections]:
 
 
 def _shares(
-    scene: Scene, flaws: Imperfections, heard: Listener, fidelity: str
+    scene: Scene, flaws: Imperfections, heard: LevelEstimator, fidelity: str
 ) -> dict[str, NDArray[np.float64]]:
     """Share of the energy that each imperfection makes alone."""
     there = {name: keys for name, keys in _SOURCES.items() if any(getattr(flaws, key) for key in keys)}

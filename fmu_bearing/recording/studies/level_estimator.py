@@ -13,7 +13,7 @@ from fmu_bearing.scene import Scene
 RESOLUTION = 20.0  # Hz
 
 
-class Listener:
+class LevelEstimator:
     """Energies in bins at some places, of many runs through the paths of the first one.
 
     Parameters
@@ -25,7 +25,7 @@ class Listener:
     weighting : str
         ``"A"`` or ``"Z"``.
     duration, settle : float
-        Length (s) of each run that is heard, and of what is left out before it.
+        Length (s) of each run that is measured, and of what is left out before it.
 
     Raises
     ------

@@ -20,7 +20,7 @@ from fmu_bearing.acoustics.analysis.lines import Line
 from fmu_bearing.acoustics.analysis.order import OrderMap
 from fmu_bearing.acoustics.analysis.power import Power
 from fmu_bearing.acoustics.analysis.third_octave import nominal_frequency
-from fmu_bearing.recording.measure import MotionPower, Round, Sweep
+from fmu_bearing.recording.measurements.measure import MotionPower, Round, Sweep
 from fmu_bearing.results.table import markdown, write_csv
 
 __all__ = [

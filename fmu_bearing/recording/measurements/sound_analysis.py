@@ -20,9 +20,9 @@ from fmu_bearing.acoustics.analysis.third_octave import third_octave_levels
 from fmu_bearing.acoustics.filters.weighting import level
 from fmu_bearing.extras import available, need
 from fmu_bearing.progress import Tell, silent
-from fmu_bearing.recording import measure, tables
-from fmu_bearing.recording.heard import Heard
-from fmu_bearing.recording.places import Places
+from fmu_bearing.recording.channels.channel_history import ChannelHistory
+from fmu_bearing.recording.channels.microphone_places import Places
+from fmu_bearing.recording.measurements import measure, tables
 from fmu_bearing.results.table import markdown, write_csv
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ _LINES = 12
 
 
 @dataclass(frozen=True)
-class Listened:
+class SoundAnalysis:
     """Levels, spectra and lines at the microphones of a recording.
 
     Attributes
@@ -41,7 +41,7 @@ class Listened:
     names : tuple of str
         Microphones.
     levels : ndarray, shape (mics, 2)
-        Equivalent level in dB and dB(A), as `Heard.levels` computes it.
+        Equivalent level in dB and dB(A), as `ChannelHistory.levels` computes it.
     parts : dict of str to ndarray, shape (mics,)
         Level (dB(A)) of each component alone; empty for a recording of pressures.
     frequency : ndarray, shape (bins,)
@@ -106,17 +106,17 @@ class Listened:
 
 
 @renamed.arguments
-def listen(
-    recording: Heard,
+def analyse_sound(
+    recording: ChannelHistory,
     microphones: Places = None,
     radiation_model: str | None = None,
     resolution: float | None = None,
-) -> Listened:
+) -> SoundAnalysis:
     """Measure levels, spectra, third octaves and lines at the scene's microphones.
 
     Parameters
     ----------
-    recording : Heard
+    recording : ChannelHistory
     microphones : sequence of str or (x, y, z), optional
         Names of some of them, or places (m); default: all.
     radiation_model : str, optional
@@ -144,7 +144,7 @@ def listen(
         if recording.scene is None
         else measure.strongest(recording, frequency, spectra["total"][0], _LINES)
     )
-    return Listened(
+    return SoundAnalysis(
         names,
         np.column_stack([recording.levels(microphones, radiation_model, w) for w in "ZA"]),
         {name: level(recording.mean_square(part, "A")) for name, part in parts.items()},
@@ -163,8 +163,8 @@ def _spectra(
 
 @renamed.arguments
 def write_all(
-    recording: Heard,
-    found: Listened,
+    recording: ChannelHistory,
+    found: SoundAnalysis,
     folder: pathlib.Path,
     radiation_model: str | None = None,
     wav: bool = True,
@@ -176,7 +176,7 @@ def write_all(
     Parameters
     ----------
     recording, found
-        As given to and returned by `listen`.
+        As given to and returned by `analyse_sound`.
     folder : Path
         Made where it is missing.
     radiation_model : str, optional
@@ -191,7 +191,7 @@ def write_all(
     list of Path
         Files written.
     """
-    from fmu_bearing.recording import pictures
+    from fmu_bearing.recording.measurements import pictures
 
     folder.mkdir(parents=True, exist_ok=True)
     write_csv(folder / "levels.csv", *found.rows())
@@ -226,7 +226,7 @@ def write_all(
 
 
 def _sounds(
-    recording: Heard, found: Listened, folder: pathlib.Path, radiation_model: str | None
+    recording: ChannelHistory, found: SoundAnalysis, folder: pathlib.Path, radiation_model: str | None
 ) -> list[str]:
     """Write one WAV file per microphone, all with one scale so that their loudness can be compared."""
     known = dict(recording.microphones)
@@ -254,8 +254,8 @@ def _stems(names: Sequence[str]) -> list[str]:
 
 
 def _directivity(
-    recording: Heard,
-    found: Listened,
+    recording: ChannelHistory,
+    found: SoundAnalysis,
     folder: pathlib.Path,
     radiation_model: str | None,
     drawn: bool,
@@ -265,7 +265,7 @@ def _directivity(
 
     At the distance of the nearest microphone, or where a circle of that radius meets a body at 1 m.
     """
-    from fmu_bearing.recording import pictures
+    from fmu_bearing.recording.measurements import pictures
 
     for radius in (min(math.hypot(*place) for place in found.positions), 1.0):
         try:

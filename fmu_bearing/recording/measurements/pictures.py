@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from fmu_bearing.acoustics.analysis.order import OrderMap, Waterfall
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 from fmu_bearing.acoustics.analysis.third_octave import nominal_frequency
-from fmu_bearing.recording.measure import MotionPower, Round, Sweep
+from fmu_bearing.recording.measurements.measure import MotionPower, Round, Sweep
 from fmu_bearing.results.picture_parts import COLOURS, OTHERS, empty, label, mark_excitation, save, single
 
 if TYPE_CHECKING:

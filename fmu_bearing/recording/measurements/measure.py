@@ -48,7 +48,7 @@ from fmu_bearing.acoustics.analysis.spectrum import level_spectrum
 from fmu_bearing.acoustics.analysis.third_octave import third_octave_levels
 from fmu_bearing.acoustics.filters.design import radiators_of
 from fmu_bearing.acoustics.filters.weighting import REFERENCE_PRESSURE
-from fmu_bearing.recording.heard import Heard, air_of
+from fmu_bearing.recording.channels.channel_history import ChannelHistory, air_of
 
 __all__ = [
     "MotionPower",
@@ -126,7 +126,7 @@ class MotionPower:
 
 @renamed.arguments
 def component_spectra(
-    recording: Heard,
+    recording: ChannelHistory,
     position: str | ArrayLike,
     resolution: float = RESOLUTION,
     radiation_model: str | None = None,
@@ -145,13 +145,13 @@ def component_spectra(
     return found["total"][0], {name: levels for name, (_, levels) in found.items()}
 
 
-def fine(recording: Heard) -> float:
+def fine(recording: ChannelHistory) -> float:
     """Return the resolution (Hz) of a fine spectrum: 5 Hz, or what a shorter recording allows."""
     return max(_FINE, recording.rate / recording.size)
 
 
 def strongest(
-    recording: Heard, frequency: NDArray[np.float64], levels: NDArray[np.float64], count: int = 12
+    recording: ChannelHistory, frequency: NDArray[np.float64], levels: NDArray[np.float64], count: int = 12
 ) -> list[Line]:
     """Return the strongest lines of a spectrum of the recording and the kinematic line behind each.
 
@@ -166,7 +166,7 @@ def strongest(
 
 @renamed.arguments
 def circle(
-    recording: Heard,
+    recording: ChannelHistory,
     radius: float,
     axial: float,
     count: int = 24,
@@ -184,7 +184,7 @@ def circle(
 
 @renamed.arguments
 def planes(
-    recording: Heard,
+    recording: ChannelHistory,
     radius: float,
     count: int = 360,
     weighting: str = "Z",
@@ -204,7 +204,7 @@ def planes(
 
 @renamed.arguments
 def sweep(
-    recording: Heard,
+    recording: ChannelHistory,
     radii: Sequence[float],
     axials: Sequence[float],
     count: int = 24,
@@ -230,7 +230,7 @@ def sweep(
 
 @renamed.arguments
 def sound_power(
-    recording: Heard,
+    recording: ChannelHistory,
     radius: float = 1.0,
     plane: float | None = None,
     many: bool = False,
@@ -279,7 +279,9 @@ def sound_power(
     return power_from_pressure(squares, radius, air, hemisphere=True)
 
 
-def motion_power(recording: Heard, resolution: float = RESOLUTION, highest: float = 20_000.0) -> MotionPower:
+def motion_power(
+    recording: ChannelHistory, resolution: float = RESOLUTION, highest: float = 20_000.0
+) -> MotionPower:
     """Sound power from surface velocity: bodies as compact dipoles with effective masses of air.
 
     This is an upper estimate, because it leaves out shielding between bodies, and their size, which lowers
@@ -314,7 +316,7 @@ def motion_power(recording: Heard, resolution: float = RESOLUTION, highest: floa
 
 @renamed.arguments
 def run_up(
-    recording: Heard,
+    recording: ChannelHistory,
     position: str | ArrayLike,
     highest: float = 40.0,
     resolution: float = 0.1,

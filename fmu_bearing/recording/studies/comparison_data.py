@@ -1,4 +1,4 @@
-"""What a comparison reads from a finished run: levels, spectra, third octaves, loads, angles, torque."""
+"""What a comparison reads of a run: levels, spectra, third octaves, loads, angles, torque."""
 
 import re
 from dataclasses import dataclass
@@ -7,10 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.analysis.third_octave import centre_frequencies, nominal_frequency
-from fmu_bearing.recording.listen import listen
+from fmu_bearing.recording.measurements.sound_analysis import analyse_sound
 from fmu_bearing.recording.record import OUTPUTS
 from fmu_bearing.recording.recording import Recording
-from fmu_bearing.recording.spread import doubt_of
+from fmu_bearing.recording.studies.spread import doubt_of
 from fmu_bearing.results.levels import present
 from fmu_bearing.results.result import Run
 from fmu_bearing.results.spectra import MICROPHONE, Spectrum
@@ -34,8 +34,8 @@ _FAST = 40_000.0  # Hz: pressures that reach to 20 kHz
 
 
 @dataclass(frozen=True, eq=False)
-class Finished:
-    """A finished run as a comparison reads it.
+class ComparisonData:
+    """A run as a comparison reads it.
 
     Attributes
     ----------
@@ -67,14 +67,14 @@ class Finished:
     doubt: str = ""
 
 
-def of_recording(recording: Recording, name: str = "", radiation_model: str | None = None) -> Finished:
+def of_recording(recording: Recording, name: str = "", radiation_model: str | None = None) -> ComparisonData:
     """Measure a recording at its scene's microphones, in its radiation model unless another one is named."""
     own = name or ("recording" if recording.scene is None else recording.scene.name)
     kept = recording.within()
     figures = {key: float(np.mean(kept[key])) for key in FIGURES if key in kept}
     if not recording.microphones:
-        return Finished(own, recording.scene, {}, {}, None, figures, doubt=doubt_of(recording))
-    found = listen(recording, None, radiation_model)
+        return ComparisonData(own, recording.scene, {}, {}, None, figures, doubt=doubt_of(recording))
+    found = analyse_sound(recording, None, radiation_model)
     levels = {name: (float(z), float(a)) for name, (z, a) in zip(found.names, found.levels, strict=True)}
     bands = [float(f) for f in found.bands]
     thirds = {
@@ -85,12 +85,12 @@ def of_recording(recording: Recording, name: str = "", radiation_model: str | No
     spectrum = Spectrum(
         found.names, found.frequency, found.spectra["total"], units, MICROPHONE, recording.excitation_end
     )
-    return Finished(
+    return ComparisonData(
         own, recording.scene, levels, thirds, spectrum, figures, recording.excitation_end, doubt_of(recording)
     )
 
 
-def of_run(run: Run, settle: float, radiation_model: str | None = None) -> Finished:
+def of_run(run: Run, settle: float, radiation_model: str | None = None) -> ComparisonData:
     """Take the meters of a run at its end, and means after ``settle`` (s), or of all where it is shorter.
 
     A run that kept pressures often enough is measured as a recording is.
@@ -109,7 +109,7 @@ def of_run(run: Run, settle: float, radiation_model: str | None = None) -> Finis
     after = times >= settle if (times >= settle).any() else np.full(len(times), True)
     figures = {key: float(np.mean(run[key][after])) for key in FIGURES if key in run.names}
     levels, thirds = _meters(run)
-    return Finished(run.name, run.scene, levels, thirds, None, figures, run.excitation_end)
+    return ComparisonData(run.name, run.scene, levels, thirds, None, figures, run.excitation_end)
 
 
 def _meters(run: Run) -> tuple[dict[str, tuple[float, float]], dict[str, dict[float, float]]]:

@@ -1,0 +1,10 @@
+"""Measurements on a recording, and their tables, pictures and WAV files.
+
+==================  ==========================================================================
+``measure``         spectra by component, circles, planes, power, run-ups
+``tables``          such measurements as tables
+``pictures``        such measurements as pictures
+``audio``           pressures as WAV files in pascals
+``sound_analysis``  levels, spectra, third octaves and lines in one call, and their files
+==================  ==========================================================================
+"""

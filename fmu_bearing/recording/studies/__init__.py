@@ -1,0 +1,9 @@
+"""What several runs say together.
+
+===================  ==========================================================================
+``level_estimator``  levels of many short runs through the same paths
+``spread``           `spread`: range of levels over seeds and the assumed surfaces
+``comparison_data``  what a comparison reads of a run
+``compare``          `compare`: two scenes, recordings or runs side by side
+===================  ==========================================================================
+"""

@@ -12,7 +12,7 @@ import pytest
 
 from fmu_bearing import files
 from fmu_bearing.acoustics.radiation.bem import integrals
-from fmu_bearing.compiled import kept, make
+from fmu_bearing.compiled import disk_cache, make
 from fmu_bearing.compiled.platforms import own
 from fmu_bearing.files import CacheError, cache_root, own_folder, read_own
 
@@ -75,12 +75,12 @@ def test_what_is_made_is_this_user_s_alone_whatever_the_mask(tmp_path, monkeypat
     before = os.umask(0)
     try:
         folder = make.folder()
-        assert kept.write(folder / "step.o", b"code", pytest.fail)
+        assert disk_cache.write(folder / "step.o", b"code", pytest.fail)
     finally:
         os.umask(before)
     assert {mode(one) for one in (tmp_path / "a", tmp_path / "a" / "cache", folder)} == {0o700}
     assert mode(folder / "step.o") == 0o644
-    assert kept.read(folder / "step.o", pytest.fail) == b"code"
+    assert disk_cache.read(folder / "step.o", pytest.fail) == b"code"
 
 
 def test_without_a_home_the_cache_is_a_private_temporary_folder(tmp_path, monkeypatch):
@@ -105,12 +105,12 @@ def test_without_a_home_the_cache_is_a_private_temporary_folder(tmp_path, monkey
 def test_a_file_that_others_can_write_to_is_made_anew(place, which, rights, request):
     """Its checksum holds: whoever changed the file can have changed the checksum with it."""
     told = []
-    assert kept.write(place / "step.o", b"code", told.append)
+    assert disk_cache.write(place / "step.o", b"code", told.append)
     if rights is None:
         request.getfixturevalue("somebody_else")
     else:
         (place / which).chmod(rights)
-    assert kept.read(place / "step.o", told.append) is None
+    assert disk_cache.read(place / "step.o", told.append) is None
     (line,) = told
     assert f"{place / 'step.o'}" in line and "made anew" in line
     if which == "step.o":
@@ -124,7 +124,7 @@ def test_kernels_are_neither_read_nor_kept_where_others_can_write(place, monkeyp
         make, "_run", lambda due, display: pytest.fail("compiled for a folder that is refused")
     )
     folder = make.folder()
-    assert kept.write(folder / name, b"code", pytest.fail)
+    assert disk_cache.write(folder / name, b"code", pytest.fail)
     folder.chmod(0o777)
     with pytest.raises(CacheError, match=f"{folder} is refused"):
         make.objects(own(), ["step"], ["v0"])

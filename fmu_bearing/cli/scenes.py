@@ -130,11 +130,11 @@ def _findings(path: Path) -> tuple[bool, list[str]]:
     from fmu_bearing.design.operating_point import operating_point
     from fmu_bearing.design.verdicts import cautions
     from fmu_bearing.instance import EngineError, Instance
-    from fmu_bearing.interface import shown, variables
+    from fmu_bearing.interface import fmu_variables, variables
 
     try:
         scene = read_scene(path)
-        shown(scene, variables(scene, 0.0))
+        fmu_variables(scene, variables(scene, 0.0))
         _check_table(scene)
         bearing = Instance(_silent(scene))
         with warnings.catch_warnings(record=True) as told:

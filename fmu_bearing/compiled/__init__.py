@@ -9,7 +9,7 @@
 ``lower``       a unit as LLVM code for no machine in particular
 ``optimise``    that code optimised for one instruction set, as an object file
 ``worker``      both, in a process of its own
-``kept``        files of the user's cache: whole, checked, never needed
+``disk_cache``  files of the user's cache: whole, checked, never needed
 ``show``        progress: a bar on a terminal, lines in a log
 ``make``        objects: from the wheel, from the cache, or compiled now
 ``load``        entries as Python functions

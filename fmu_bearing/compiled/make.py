@@ -18,7 +18,7 @@ from collections.abc import Iterable
 from importlib.metadata import version
 from pathlib import Path
 
-from fmu_bearing.compiled import kept
+from fmu_bearing.compiled import disk_cache
 from fmu_bearing.compiled.errors import BuildError
 from fmu_bearing.compiled.platforms import Platform
 from fmu_bearing.compiled.settings import SETTINGS, TESTED, lean
@@ -75,7 +75,7 @@ def objects(platform: Platform, units: Iterable[str], sets: Iterable[str]) -> di
     wanted = {(unit, one): object_name(unit, platform.name, one) for unit in units for one in sets}
     found = {key: data for key, name in wanted.items() if (data := _there(name)) is not None}
     if len(found) < len(wanted):
-        with kept.alone(folder(), _tell):
+        with disk_cache.alone(folder(), _tell):
             for key, name in wanted.items():  # another process may have made them meanwhile
                 if key not in found and (data := _there(name)) is not None:
                     found[key] = data
@@ -107,7 +107,7 @@ def _tell(text: str) -> None:
 def _there(name: str) -> bytes | None:
     """Return a file that the wheel brought or the cache keeps."""
     brought = prebuilt(name)
-    return kept.read(folder() / name, _tell) if brought is None else brought
+    return disk_cache.read(folder() / name, _tell) if brought is None else brought
 
 
 def prebuilt(name: str) -> bytes | None:
@@ -140,7 +140,7 @@ def _compile(platform: Platform, missing: list[tuple[str, str]]) -> dict[tuple[s
             )
         files = _run(due, display)
         for name, data in files.items():
-            if not kept.write(folder() / name, data, display.tell):
+            if not disk_cache.write(folder() / name, data, display.tell):
                 break
     return {(unit, one): files[object_name(unit, platform.name, one)] for unit, one in missing}
 

@@ -2,7 +2,7 @@
 
 =================  ===================================================================================
 ``units``          units and display units in the terms of FMI
-``shown``          a model with its variables as the FMU shows them
+``fmu_model``      a model with its variables as the FMU shows them
 ``description``    the table of variables as ``modelDescription.xml``; GUID
 ``terminals``      variables that belong to one connection, as ``terminalsAndIcons.xml``
 ``documentation``  the pages inside the FMU

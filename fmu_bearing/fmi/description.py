@@ -17,7 +17,7 @@ import numpy as np
 
 from fmu_bearing import __version__
 from fmu_bearing.engine.choices import FIDELITIES, METHODS
-from fmu_bearing.fmi.shown import as_shown
+from fmu_bearing.fmi.fmu_model import as_fmu_model
 from fmu_bearing.fmi.units import NO_UNIT, UNITS
 from fmu_bearing.interface import Variable
 from fmu_bearing.interface.parameters import RADIATORS
@@ -155,7 +155,7 @@ def _serialise(root: Element) -> bytes:
 
 
 def _root(model: "Model", flavour: str, guid: str) -> Element:
-    shown = as_shown(model)
+    shown = as_fmu_model(model)
     scene = shown.scene
     root = Element(
         "fmiModelDescription",

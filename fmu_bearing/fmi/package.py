@@ -17,10 +17,10 @@ from fmu_bearing.engine.sources import engine_digest
 from fmu_bearing.files import write_whole
 from fmu_bearing.fmi import documentation, resources
 from fmu_bearing.fmi.description import FLAVOURS, description_xml, identifier, interface_guid
+from fmu_bearing.fmi.fmu_model import as_fmu_model
 from fmu_bearing.fmi.native.link import library
 from fmu_bearing.fmi.native.model_file import MODEL_FILE, model_bytes
 from fmu_bearing.fmi.reference import NoReference, reference_files, run_instance, run_library
-from fmu_bearing.fmi.shown import as_shown
 from fmu_bearing.fmi.terminals import TERMINALS_FILE, terminals_xml
 from fmu_bearing.progress import Tell, silent
 
@@ -128,7 +128,7 @@ def build(
     if path.is_dir():
         raise IsADirectoryError(f"{path} is a folder: name the file to write")
     check_choice(flavour, platforms)
-    model = as_shown(model)
+    model = as_fmu_model(model)
     remarks: tuple[str, ...] = ()
     binaries: dict[str, bytes] = {}
     if flavour != "python":
@@ -207,7 +207,7 @@ def contents(model: "Model", flavour: str, libraries: Mapping[str, bytes] | None
 
     ``libraries``: by platform, for a native build.
     """
-    model = as_shown(model)
+    model = as_fmu_model(model)
     inside = {
         "modelDescription.xml": description_xml(model, flavour),
         "model.png": (documentation.templates() / "model.png").read_bytes(),
@@ -215,7 +215,7 @@ def contents(model: "Model", flavour: str, libraries: Mapping[str, bytes] | None
     }
     inside |= {f"documentation/{file}": data for file, data in documentation.pages(model, flavour).items()}
     if model.scene.fmu is not None and model.scene.fmu.terminals:
-        inside[TERMINALS_FILE] = terminals_xml(as_shown(model))
+        inside[TERMINALS_FILE] = terminals_xml(as_fmu_model(model))
     if flavour == "python":
         return inside | _python_parts(model)
     name = identifier(model)

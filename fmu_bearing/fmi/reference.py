@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
+from fmu_bearing.fmi.fmu_model import as_fmu_model
 from fmu_bearing.fmi.native.model_file import MODEL_FILE
-from fmu_bearing.fmi.shown import as_shown
 from fmu_bearing.instance import Instance
 from fmu_bearing.interface import flat
 
@@ -81,7 +81,7 @@ def reference_files(model: "Model", run: Run) -> dict[str, bytes]:
     NoReference
         If the model cannot be run.
     """
-    wanted = [flat(name) for name in _WANTED] if as_shown(model).is_flat else _WANTED
+    wanted = [flat(name) for name in _WANTED] if as_fmu_model(model).is_flat else _WANTED
     places = {v.name: i for i, v in enumerate(model.variables) if v.name in wanted}
     names = [name for name in wanted if name in places]
     lines = [",".join(("time", *names))]

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from fmu_bearing.engine.sources import engine_digest
-from fmu_bearing.fmi.shown import as_shown
+from fmu_bearing.fmi.fmu_model import as_fmu_model
 from fmu_bearing.interface import variables
 from fmu_bearing.prepare.bodies import rings_at_port, rotor_inertia
 from fmu_bearing.prepare.model import Model
@@ -68,7 +68,7 @@ def load(folder: Path, expected: str) -> Model:
     parameters = np.load(folder / PARAMETERS, allow_pickle=False)
     parameters.setflags(write=False)
     table = variables(scene, rotor_inertia(scene), rings_at_port(scene))
-    model = as_shown(Model(scene, parameters, table))
+    model = as_fmu_model(Model(scene, parameters, table))
     if fingerprint(model) != expected:
         raise ValueError(
             f"the model in {folder} is damaged, or was built by another version of fmu-bearing than the one "

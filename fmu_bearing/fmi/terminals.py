@@ -9,7 +9,7 @@ import re
 from collections.abc import Iterable, Iterator
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
-from fmu_bearing.fmi.shown import ShownModel
+from fmu_bearing.fmi.fmu_model import FmuModel
 from fmu_bearing.interface import flat
 from fmu_bearing.scene import Scene
 
@@ -74,7 +74,7 @@ _PORTS = (("inner_ring", "inner ring"), ("outer_ring", "outer ring"), ("oil", "o
 _LEVELS = ("pressure", "spl", "spl_a", "leq", "leq_a")
 
 
-def terminals_xml(model: ShownModel) -> bytes:
+def terminals_xml(model: FmuModel) -> bytes:
     """Return ``terminalsAndIcons.xml`` of a model; members that are no inputs or outputs are left out.
 
     Terminals of flat names have flat names, too.

@@ -6,7 +6,7 @@
 ``data``           measured values from files and tables
 ``free``           free keys, their bounds and their scale
 ``sensors``        paths from recorded channels to the measured places, and levels there
-``kept``           evaluations on disk, so that a search can go on
+``run_cache``      evaluations on disk, so that a search can go on
 ``model``          computed levels for values of the free keys, over conditions and seeds
 ``statistics``     covariance of levels and of values, what cannot be told apart
 ``search``         least squares from several starts

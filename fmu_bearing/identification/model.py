@@ -19,8 +19,8 @@ from fmu_bearing.engine.sources import rooms_digest, source_hash
 from fmu_bearing.identification.data import Datum
 from fmu_bearing.identification.errors import IdentifyError
 from fmu_bearing.identification.free import Free, scene_values
-from fmu_bearing.identification.kept import Kept
 from fmu_bearing.identification.quantities import LINE, THIRD_OCTAVE
+from fmu_bearing.identification.run_cache import RunCache
 from fmu_bearing.identification.sensors import Sensors
 from fmu_bearing.prepare.sound import sound_key
 from fmu_bearing.recording.record import Recording, record
@@ -66,7 +66,7 @@ class Levels:
         told: Callable[[], None] = lambda: None,
     ) -> None:  # fmt: skip
         self.scene, self.data, self.free, self.workers, self.told = scene, data, free, workers, told
-        self.kept = Kept(folder)
+        self.cache = RunCache(folder)
         self.groups: dict[tuple[tuple[str, float], ...], list[int]] = {}
         for place, row in enumerate(data):
             self.groups.setdefault(row.conditions, []).append(place)
@@ -138,13 +138,13 @@ class Levels:
             return (math.nan,) * len(rows)
         settle = self._settle(fidelity)
         key = self._key(scene, rows, settle)
-        levels = self.kept.get(key)
+        levels = self.cache.get(key)
         if levels is None:
             try:
                 levels = tuple(map(float, self._measure(scene, rows, settle)))
             except (Refused, ValueError, ArithmeticError):
                 levels = (math.nan,) * len(rows)
-            self.kept.put(key, levels)
+            self.cache.put(key, levels)
             with self._lock:
                 self.runs += 1
             self.told()

@@ -12,13 +12,13 @@ all made from it. Names are a contract, because users' harnesses depend on them.
 ``parameters``  parameters, set before initialisation, and constants
 ``table``       all variables, in the order of the value references
 ``names``       patterns of names, and suggestions for misspelt ones
-``shown``       the table as the FMU of a scene shows it
+``fmu_names``   the table as the FMU of a scene shows it
 ==============  ======================================================================
 """
 
+from fmu_bearing.interface.fmu_names import flat, fmu_variables
 from fmu_bearing.interface.parameters import RADIATORS
-from fmu_bearing.interface.shown import flat, shown
 from fmu_bearing.interface.table import variables
 from fmu_bearing.interface.variable import Variable
 
-__all__ = ["RADIATORS", "Variable", "flat", "shown", "variables"]
+__all__ = ["RADIATORS", "Variable", "flat", "fmu_variables", "variables"]

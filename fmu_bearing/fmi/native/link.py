@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
 
-from fmu_bearing.compiled import BuildError, kept
+from fmu_bearing.compiled import BuildError, disk_cache
 from fmu_bearing.compiled.make import folder, objects, prebuilt
 from fmu_bearing.compiled.platforms import Platform, host
 from fmu_bearing.engine.sources import digest, engine_digest
@@ -141,19 +141,21 @@ def library(platform: Platform, prefer: str = "auto", tell: Tell = silent) -> by
     try:
         compiler = compiler_for(platform, prefer)
     except BuildError:
-        found = (kept.read(path, tell) for path in sorted(made.glob(f"{_shim_key()}-*{platform.suffix}")))
+        found = (
+            disk_cache.read(path, tell) for path in sorted(made.glob(f"{_shim_key()}-*{platform.suffix}"))
+        )
         for data in found:
             if data is not None and prefer in ("auto", "portable"):
                 return data
         raise
     made_by = hashlib.sha256(f"{compiler.name} {compiler.command[1:]}".encode()).hexdigest()[:8]
     path = made / f"{_shim_key()}-{made_by}{platform.suffix}"
-    data = kept.read(path, tell)
+    data = disk_cache.read(path, tell)
     if data is None:
         kernels = kernels_of(platform)
         tell(f"linking {platform.name} ({compiler.name})")
         data = link(compiler, platform, shim_sources(), kernels, engine_digest().hex())
-        kept.write(path, data, tell)
+        disk_cache.write(path, data, tell)
     return data
 
 

@@ -8,7 +8,7 @@ import sys
 import pytest
 
 from fmu_bearing import files
-from fmu_bearing.compiled import kept, make
+from fmu_bearing.compiled import disk_cache, make
 from fmu_bearing.compiled.platforms import own
 
 DATA = b"machine code" * 100
@@ -36,9 +36,9 @@ def told():
 
 def test_what_was_written_is_read(tmp_path, told):
     path = tmp_path / "new folder" / "step.o"
-    assert kept.read(path, told.append) is None
-    assert kept.write(path, DATA, told.append)
-    assert kept.read(path, told.append) == DATA
+    assert disk_cache.read(path, told.append) is None
+    assert disk_cache.write(path, DATA, told.append)
+    assert disk_cache.read(path, told.append) == DATA
     assert not told
 
 
@@ -59,21 +59,21 @@ def beside(path):
 )
 def test_a_damaged_file_is_told_and_never_used(tmp_path, told, damage):
     path = tmp_path / "step.o"
-    kept.write(path, DATA, told.append)
+    disk_cache.write(path, DATA, told.append)
     damage(path)
-    assert kept.read(path, told.append) is None
+    assert disk_cache.read(path, told.append) is None
     (line,) = told
     assert str(path) in line
     assert "damaged" in line
-    assert kept.write(path, DATA, told.append)  # made anew in its place
-    assert kept.read(path, told.append) == DATA
+    assert disk_cache.write(path, DATA, told.append)  # made anew in its place
+    assert disk_cache.read(path, told.append) == DATA
     assert len(told) == 1
 
 
 def test_a_file_that_cannot_be_read_is_told(tmp_path, told):
     path = tmp_path / "step.o"
     path.mkdir()  # refused for the super-user too
-    assert kept.read(path, told.append) is None
+    assert disk_cache.read(path, told.append) is None
     assert told == [f"the kept file {path} cannot be read ({os.strerror(errno.EISDIR)}): it is made anew"]
 
 
@@ -82,15 +82,15 @@ def test_who_reads_while_a_file_is_written_sees_no_damage(tmp_path, told, monkey
 
     def write_and_read(one, data):
         files.write_whole(one, data)
-        found.append(kept.read(path, told.append))
+        found.append(disk_cache.read(path, told.append))
 
-    monkeypatch.setattr(kept, "write_whole", write_and_read)
-    kept.write(path, DATA, told.append)
+    monkeypatch.setattr(disk_cache, "write_whole", write_and_read)
+    disk_cache.write(path, DATA, told.append)
     assert found == [None, DATA]
     assert not told
 
 
-class _NoLocks(kept.FileLock):
+class _NoLocks(disk_cache.FileLock):
     """A lock on a file system that has none, as earlier versions of `FileLock` meet it."""
 
     def acquire(self, *arguments, **named):
@@ -98,8 +98,8 @@ class _NoLocks(kept.FileLock):
 
 
 def test_a_folder_without_locks_is_used_without_one(tmp_path, told, monkeypatch):
-    monkeypatch.setattr(kept, "FileLock", _NoLocks)
-    with pytest.raises(KeyError) as found, kept.alone(tmp_path / "new", told.append):
+    monkeypatch.setattr(disk_cache, "FileLock", _NoLocks)
+    with pytest.raises(KeyError) as found, disk_cache.alone(tmp_path / "new", told.append):
         raise KeyError("of the work done there")
     assert found.value.__context__ is None  # the missing lock is no part of that failure
     assert not told
@@ -109,8 +109,8 @@ def test_what_fails_beside_the_lock_is_not_taken_for_a_missing_lock(tmp_path):
     def broken(text):
         raise BrokenPipeError
 
-    with kept.FileLock(tmp_path / "lock"), pytest.raises(BrokenPipeError):
-        with kept.alone(tmp_path, broken):
+    with disk_cache.FileLock(tmp_path / "lock"), pytest.raises(BrokenPipeError):
+        with disk_cache.alone(tmp_path, broken):
             pytest.fail("went on without the lock that another holds")
 
 
@@ -120,7 +120,7 @@ def test_a_full_disk_is_told_and_nothing_half_remains(tmp_path, told, monkeypatc
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
     monkeypatch.setattr(files.os, "fdopen", no_room)
-    assert not kept.write(tmp_path / "step.o", DATA, told.append)
+    assert not disk_cache.write(tmp_path / "step.o", DATA, told.append)
     (line,) = told
     assert "step.o" in line
     assert os.strerror(errno.ENOSPC) in line

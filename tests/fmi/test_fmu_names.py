@@ -15,8 +15,8 @@ from typer.testing import CliRunner
 from fmu_bearing import cli
 from fmu_bearing.compiled.errors import BuildError
 from fmu_bearing.fmi.description import description_xml
+from fmu_bearing.fmi.fmu_model import as_fmu_model
 from fmu_bearing.fmi.package import build
-from fmu_bearing.fmi.shown import as_shown
 from fmu_bearing.fmi.terminals import TERMINALS_FILE, terminals_xml
 from fmu_bearing.interface import flat
 from fmu_bearing.prepare.model import prepare
@@ -58,7 +58,7 @@ def other(built):
 
 
 def changed(scene_file, **options):
-    return as_shown(prepare(read_scene(scene_file).replace({f"fmu.{k}": v for k, v in options.items()})))
+    return as_fmu_model(prepare(read_scene(scene_file).replace({f"fmu.{k}": v for k, v in options.items()})))
 
 
 def roles(model):
@@ -66,7 +66,7 @@ def roles(model):
 
 
 def test_without_options_nothing_is_changed(model):
-    assert as_shown(model).variables == model.variables
+    assert as_fmu_model(model).variables == model.variables
 
 
 def test_promoted_variables_are_outputs_that_masters_can_connect(model, scene_file):
@@ -210,7 +210,7 @@ def test_what_terminals_of_a_set_do_names_the_members_they_have():
     assert terminals(changed(sets / "7003C-DB.toml"))["nose"][1] == said
     port = prepare(as_port(read_scene(sets / "7003C-DB.toml")))
     said = "Shaft of another model: it gives its motion at X = 0 and takes force and moment of the bearings"
-    assert terminals(as_shown(port))["port"][1] == said
+    assert terminals(as_fmu_model(port))["port"][1] == said
 
 
 def test_terminals_are_written_on_request_alone(fmu):

@@ -2,14 +2,14 @@
 
 from dataclasses import dataclass
 
-from fmu_bearing.interface import shown
+from fmu_bearing.interface import fmu_variables
 from fmu_bearing.prepare.model import Model
 
-__all__ = ["ShownModel", "as_shown"]
+__all__ = ["FmuModel", "as_fmu_model"]
 
 
 @dataclass(frozen=True)
-class ShownModel(Model):
+class FmuModel(Model):
     """A model whose variables have the names and causalities of the FMU."""
 
     @property
@@ -18,7 +18,7 @@ class ShownModel(Model):
         return self.scene.fmu is not None and self.scene.fmu.naming == "flat"
 
 
-def as_shown(model: Model) -> ShownModel:
+def as_fmu_model(model: Model) -> FmuModel:
     """Return the model as its FMU shows it; one that is so already stays.
 
     Raises
@@ -26,6 +26,6 @@ def as_shown(model: Model) -> ShownModel:
     SceneError
         If ``[fmu]`` of the scene names variables that the model does not have.
     """
-    if isinstance(model, ShownModel):
+    if isinstance(model, FmuModel):
         return model
-    return ShownModel(model.scene, model.parameters, shown(model.scene, model.variables), model.note)
+    return FmuModel(model.scene, model.parameters, fmu_variables(model.scene, model.variables), model.note)

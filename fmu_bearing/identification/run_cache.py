@@ -9,7 +9,7 @@ import zlib
 FILE = "runs.jsonl"
 
 
-class Kept:
+class RunCache:
     """Levels by key, in memory and, with a folder, in its file.
 
     A key stands for scene, places, quantities, settings and code. A line that cannot be read, or whose

@@ -1,4 +1,4 @@
-"""The table of variables as the FMU of a scene shows it: ``[fmu]`` of the scene."""
+"""The table of variables as the FMU of a scene has it: ``[fmu]`` of the scene."""
 
 import re
 from collections.abc import Sequence
@@ -9,7 +9,7 @@ from fmu_bearing.interface.variable import Variable
 from fmu_bearing.scene import Scene, SceneError
 from fmu_bearing.scene.fmu import Fmu
 
-__all__ = ["flat", "shown"]
+__all__ = ["flat", "fmu_variables"]
 
 _NO_IDENTIFIER = re.compile(r"[.\[]")
 
@@ -19,7 +19,7 @@ def flat(name: str) -> str:
     return _NO_IDENTIFIER.sub("_", name).replace("]", "")
 
 
-def shown(scene: Scene, variables: Sequence[Variable]) -> tuple[Variable, ...]:
+def fmu_variables(scene: Scene, variables: Sequence[Variable]) -> tuple[Variable, ...]:
     """Return the variables with the names and causalities that the FMU gives them, in the same order.
 
     Raises

@@ -27,10 +27,10 @@ from fmu_bearing.cli.base import refusals
 from fmu_bearing.elastic.modes import elastic, free_modes
 from fmu_bearing.elastic.section import INNER, OUTER, RACES, ring_section
 from fmu_bearing.extras import need
-from fmu_bearing.formulas.chance import best_of, chance
 from fmu_bearing.papers.assembly.basis import ring_basis, wall_limit
 from fmu_bearing.papers.assembly.conditions import BONDED, Condition, ContactModes, bodies, contact_modes
 from fmu_bearing.papers.assembly.patch import normal_stiffness
+from fmu_bearing.papers.chance import best_of, chance
 from fmu_bearing.papers.impact.chain import Sphere
 from fmu_bearing.papers.impact.lamb import spheroidal_frequencies, torsional_frequencies
 from fmu_bearing.papers.impact.row import row_modes

@@ -7,6 +7,5 @@
 ``iso76``      static load rating and safety
 ``iso16281``   reference rating life from the loads of the balls
 ``makers``     preload classes, speed limits and the least preload by makers' catalogues
-``chance``     matches of peaks with natural frequencies, beside what chance gives
 =============  =================================================================================
 """

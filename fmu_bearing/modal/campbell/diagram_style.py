@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import PchipInterpolator
 
 from fmu_bearing.acoustics.radiation.frequencies import BAND
@@ -54,9 +54,9 @@ def colour(name: str) -> str:
     )
 
 
-def width_class(damping: float) -> int:
-    """Place in ``WIDTHS`` of a damping ratio."""
-    return int(np.searchsorted(LIMITS, damping, side="right"))
+def width_class(damping: ArrayLike) -> NDArray[np.intp]:
+    """Place in ``WIDTHS`` of each damping ratio."""
+    return np.asarray(np.searchsorted(LIMITS, damping, side="right"))
 
 
 def dot_area(quality: float) -> float:
@@ -71,7 +71,7 @@ def runs(branch: Branch) -> Iterator[Run]:
     rpm = np.abs(branch.rpm)[order]
     places = np.interp(np.arange(_FINE * (rpm.size - 1) + 1) / _FINE, np.arange(rpm.size), rpm)
     frequency = PchipInterpolator(rpm, branch.frequency[order])(places)
-    classes = np.searchsorted(LIMITS, PchipInterpolator(rpm, branch.damping[order])(places), side="right")
+    classes = width_class(PchipInterpolator(rpm, branch.damping[order])(places))
     ends = np.flatnonzero(np.diff(classes)) + 1
     for first, last in zip([0, *ends], [*ends, places.size - 1], strict=True):
         # the piece goes on to where the next begins

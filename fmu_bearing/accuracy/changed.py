@@ -156,7 +156,7 @@ class Changes:
     scene : Scene
     before : Point
         Its operating point before any change.
-    heard : LevelBasis
+    basis : LevelBasis
         Its level, and how levels were computed.
     changes : tuple of Change
         In the order of `alternatives`; those without figures are in it, with their reason.
@@ -166,7 +166,7 @@ class Changes:
 
     scene: Scene
     before: Point
-    heard: LevelBasis
+    basis: LevelBasis
     changes: tuple[Change, ...]
     no_level: str = ""
     no_life: str = ""
@@ -242,13 +242,13 @@ class Changes:
 
     def remarks(self) -> list[str]:
         """Return the warnings of single changes, and the choices that were left out."""
-        found = [f"Unchanged: {text}." for text in (*self.before.cautions, self.heard.doubt) if text]
+        found = [f"Unchanged: {text}." for text in (*self.before.cautions, self.basis.doubt) if text]
         found += [f"{each.choice.words}: {text}." for each in self.changes for text in each.cautions]
         return found + [f"Left out: {each.choice.words}: {each.reason}." for each in self.refused]
 
     def conditions(self) -> str:
         """Return how the figures were computed, in sentences."""
-        h = self.heard
+        h = self.basis
         names = {"life": "life (L10r, ISO 16281)", "torque": "torque"}
         there = [text for name, text in names.items() if name in self.figures]
         words = ", ".join([*there, "radial stiffness"])
@@ -267,7 +267,7 @@ class Changes:
     def unchanged(self) -> str:
         """Return the figures of the unchanged scene, in words."""
         b = self.before
-        found = [f"{self.heard.level:.1f} dB(A)"] if "level" in self.figures else []
+        found = [f"{self.basis.level:.1f} dB(A)"] if "level" in self.figures else []
         found += [f"L10r {shown_hours(b.life)}"] if "life" in self.figures else []
         found += [f"torque {b.torque:.3g} N mm"] if "torque" in self.figures else []
         return ", ".join([*found, f"radial stiffness {b.stiffness:.3g} N/um"])
@@ -277,17 +277,17 @@ class Changes:
         first = self.figures[0]
         return {
             "scene": self.scene.name,
-            "level_dB": self.heard.level,
+            "level_dB": self.basis.level,
             "life_h": self.before.life,
             "torque_N_mm": self.before.torque,
             "stiffness_N_um": self.before.stiffness,
-            "microphone": self.heard.microphone,
-            "fidelity": self.heard.fidelity,
-            "radiation_model": self.heard.radiation_model,
-            "settle_s": self.heard.settle,
-            "duration_s": self.heard.duration,
-            "seeds": list(self.heard.seeds),
-            "doubt": self.heard.doubt,
+            "microphone": self.basis.microphone,
+            "fidelity": self.basis.fidelity,
+            "radiation_model": self.basis.radiation_model,
+            "settle_s": self.basis.settle,
+            "duration_s": self.basis.duration,
+            "seeds": list(self.basis.seeds),
+            "doubt": self.basis.doubt,
             "no_level": self.no_level,
             "no_life": self.no_life,
             "no_torque": self.no_torque,

@@ -81,11 +81,11 @@ def changes(
             ear.begin(scene, seeds)
         except ValueError as problem:
             ear, reason = None, str(problem)
-    heard = LevelBasis() if ear is None else LevelBasis(
+    basis = LevelBasis() if ear is None else LevelBasis(
         ear.level, ear.microphone, ear.fidelity, ear.estimator.radiation_model, ear.estimator.settle,
         ear.estimator.duration, ear.seeds, ear.doubt,
     )  # fmt: skip
-    found = Changes(scene, before, heard, (), reason, _no_life(scene))
+    found = Changes(scene, before, basis, (), reason, _no_life(scene))
     if not found.figures:
         raise ValueError(f"{scene.name} has nothing to compare. {found.conditions()}")
     rows = []

@@ -83,7 +83,7 @@ def test_the_direction_of_turning_changes_no_figure(spindle):
 @pytest.mark.parametrize("begin", ["preload 500 -> 350 N", "grade P4 -> P2"])
 def test_levels_are_those_of_two_recordings_with_the_same_seed(found, spindle, begin):
     row = named(found, begin)
-    heard = found.heard
+    heard = found.basis
     assert heard.fidelity == "response" and len(heard.seeds) == 2
     for k, seed in enumerate(heard.seeds):
         levels = []
@@ -106,7 +106,7 @@ def test_levels_are_those_of_two_recordings_with_the_same_seed(found, spindle, b
 def test_the_microphone_is_the_loudest(found, spindle):
     run = record(with_fidelity(spindle, model="response"), 0.06, settle=0.02, progress=False)
     levels = run.levels(weighting="A", resolution=20.0)
-    assert found.heard.microphone == run.microphones[int(np.argmax(levels))][0]
+    assert found.basis.microphone == run.microphones[int(np.argmax(levels))][0]
 
 
 def test_every_choice_is_there_and_ranked(found):
@@ -129,7 +129,7 @@ def test_every_choice_is_there_and_ranked(found):
 
 def test_summary_and_table_have_the_figures(found):
     told = found.summary()
-    assert told["seeds"] == list(found.heard.seeds) and told["microphone"] == found.heard.microphone
+    assert told["seeds"] == list(found.basis.seeds) and told["microphone"] == found.basis.microphone
     columns, rows = found.table()
     assert columns[0] == "change" and {len(row) for row in rows} == {len(columns)}
     for each, row, data in zip(found.ranked("level"), rows, told["changes"], strict=True):
@@ -260,7 +260,7 @@ def test_no_life_for_ceramic_rings_and_open_grooves(scene, spindle):
 def test_rings_that_bend_are_run_with_fidelity_full(scene, monkeypatch):
     only(monkeypatch, Alternative("preload", "less", {"mounting.preload_N": 300.0}))
     found = changes(scene("7009C-steel"), seeds=5)
-    assert found.heard.fidelity == "full" and len(found.heard.seeds) == 3
+    assert found.basis.fidelity == "full" and len(found.basis.seeds) == 3
     assert found.changes[0].levels.shape == (3,)
 
 
@@ -277,21 +277,21 @@ def test_a_weakly_damped_bearing_is_judged_by_full(spindle, example, monkeypatch
     flaws = spindle.imperfections.model_dump(mode="json", exclude_none=True)
     dry = example("7003C-impact").replace({"operation.speed_rpm": 8000.0, "imperfections": flaws})
     found = changes(with_fidelity(dry, model="full"), seeds=5)
-    assert found.heard.fidelity == "full" and set(heard) == {"full"} and len(found.heard.seeds) == 3
-    assert found.heard.doubt == found.summary()["doubt"] == ""
+    assert found.basis.fidelity == "full" and set(heard) == {"full"} and len(found.basis.seeds) == 3
+    assert found.basis.doubt == found.summary()["doubt"] == ""
     # a scene that asks for one of the others gets it, with the remark
     asked = changes(with_fidelity(dry, model="rings"), seeds=1)
-    assert asked.heard.fidelity == "rings"
+    assert asked.basis.fidelity == "rings"
     assert any("levels of fidelity rings are in doubt" in line for line in asked.remarks())
     heard.clear()
-    assert changes(spindle, seeds=1).heard.fidelity == "response"
+    assert changes(spindle, seeds=1).basis.fidelity == "response"
     assert set(heard) == {"rings", "response"}
 
 
 def test_the_seeds_begin_with_the_scenes(spindle, monkeypatch):
     only(monkeypatch)
     last = spindle.replace({"imperfections.seed": 2**31 - 1})
-    assert changes(last, seeds=2).heard.seeds == (2**31 - 1, 0)
+    assert changes(last, seeds=2).basis.seeds == (2**31 - 1, 0)
     with pytest.raises(ValueError, match="seeds = 0"):
         changes(spindle, seeds=0)
 

@@ -79,7 +79,7 @@ def test_the_table_has_every_change(found, full_page):
 
 def test_sentences_name_the_cost(found, full_page):
     text = full_page.sections["changes"]
-    assert found.heard.microphone in text and "5 seeds" in text and found.unchanged() in text
+    assert found.basis.microphone in text and "5 seeds" in text and found.unchanged() in text
     best = found.ranked("level")[0]
     low, high = sorted(map(abs, best.level_range))
     begin = f"{words(best)[0].upper()}{words(best)[1:]}: {abs(best.level):.1f} dB(A) quieter"

@@ -134,7 +134,7 @@ def _skids(model: Model, fidelity: str) -> tuple[Caution, ...]:
     p = model.parameters
     b = model.scene.bearing
     arm = 5e-4 * (b.pitch_diameter_mm - b.ball_diameter_mm * math.cos(math.radians(b.contact_angle_deg)))
-    along = 0.0 if p[P.SET] else model.inputs[U.PRELOAD] / math.sin(math.radians(b.contact_angle_deg))
+    along = 0.0 if SP.has_shaft(p) else model.inputs[U.PRELOAD] / math.sin(math.radians(b.contact_angle_deg))
     most = float(p[P.MU] * along * arm)
     if fidelity == "full" or (most == 0.0 and p[P.MU] > 0.0):
         return ()

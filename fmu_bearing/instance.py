@@ -87,7 +87,7 @@ def check(variable: Variable, value: float) -> None:
 
 def reasons(p: NDArray[np.float64]) -> dict[int, str]:
     """Return what the status codes of the engine mean for the parameters of a bearing, or of a set."""
-    found = REASONS | _OF_SETS if p[P.SET] else REASONS
+    found = REASONS | _OF_SETS if SP.has_shaft(p) else REASONS
     first, values = int(p[P.AT_WAVES]), len(RACES) * 2 * int(p[P.WAVE_INTERVALS])  # heights and slopes
     highest = 1e6 * float(np.abs(p[first : first + values : 2]).max()) if p[P.WAVINESS] else 0.0
     return found | {NO_START: found[NO_START] + _WAVY.format(highest)} if highest > _WAVES_HIGH else found

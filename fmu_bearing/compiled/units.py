@@ -122,18 +122,18 @@ def _of_motion(kernel: Callable[..., Any]) -> Callable[..., Any]:
 def _study() -> dict[str, Callable[..., Any]]:
     from numba import carray
 
+    from fmu_bearing.engine.fidelities.full import march as full
     from fmu_bearing.engine.layout import U
     from fmu_bearing.engine.mechanics import conditions as oil, equations
     from fmu_bearing.engine.newton import jacobian as newton
     from fmu_bearing.engine.readout import outputs
     from fmu_bearing.engine.reference import first_order as rates, playback, runge_kutta as explicit
-    from fmu_bearing.engine.spindle import march as sets
     from fmu_bearing.engine.statics import held as statics
 
     rhs, observe = equations.right_hand_side, outputs.contacts
     rk4, rows = explicit.runge_kutta, explicit.ROWS
     sound, at_displacement, conditions = playback.play, statics.held, oil.conditions
-    speed, newton_of_set = U.SPEED, sets.answer_set
+    speed, newton_of_set = U.SPEED, full.solve_at_state
     first, first_jacobian = rates.first_order, rates.first_order_jacobian
 
     def repeat(p, c, y, w, f, n, angle, speed, times):

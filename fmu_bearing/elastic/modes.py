@@ -90,7 +90,7 @@ class FreeMode(NamedTuple):
 
 
 def ring_modes(scene: Scene) -> tuple[RingMode, ...]:
-    """Modes of the scene's rings in the order of the engine's coordinates; none without [mounting.flexure].
+    """Modes of the scene's rings in the order of the engine's coordinates; none without a table ``flexure``.
 
     Inner ring before outer ring, orders rising; each mode stands for two coordinates, a before b. Per ring
     and order it is the lowest mode that moves mostly in the plane of the ring.
@@ -115,7 +115,7 @@ def ring_modes(scene: Scene) -> tuple[RingMode, ...]:
             try:
                 section = ring_section(scene, body)
             except ValueError as problem:
-                raise ValueError(f"{problem}, or leave the ring out of [mounting.flexure]") from None
+                raise ValueError(f"{problem}, or leave the ring out of the table flexure") from None
             constants = elastic(material)
             found += [in_plane_mode(section, constants, order) for order in orders]
     return tuple(found)
@@ -142,7 +142,7 @@ def in_plane_mode(section: Section, material: Elastic, order: int, fineness: int
     if not inside:
         raise ValueError(
             f"the {RACES[section.body]} ring has no in-plane mode of order {order} among its {_SEARCHED} "
-            "lowest: leave this order out of [mounting.flexure]"
+            "lowest: leave this order out of the table flexure"
         )
     pick = inside[0]
     shape = shapes[:, pick]

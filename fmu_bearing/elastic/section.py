@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from skfem import MeshQuad2
 
 #: What the extra ``elastic`` is for, in its error message.
-BENDING = "bending of the rings ([mounting.flexure])"
+BENDING = "bending of the rings (table `flexure`)"
 INNER, OUTER = 0, 1  # bodies, as the engine counts them
 RACES = ("inner", "outer")
 

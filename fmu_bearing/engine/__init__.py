@@ -15,8 +15,8 @@
 ``steady``             operating point: the steady state of the full equations, where a run starts
 ``sound``              filters from motion to microphones, level meters
 ``readout``            from the state to outputs, losses and motion samples
+``spindle``            bearings together: their shaft and housing, their joint equations, rest and sound
 ``fidelities``         how the state is stepped: full, rings, response
-``spindle``            fidelity full for several bearings on one shaft
 ``reference``          explicit integration, first-order form and played sound, for comparison
 ``abi``                public entry points: ``init``, ``step``, ``outputs``
 =====================  =======================================================================

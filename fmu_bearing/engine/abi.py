@@ -8,22 +8,21 @@ import math
 
 from fmu_bearing.engine.choices import FULL, RESPONSE, RINGS
 from fmu_bearing.engine.fidelities.full.march import march
+from fmu_bearing.engine.fidelities.full.port_derivative import port_derivative
 from fmu_bearing.engine.fidelities.full.start import start
 from fmu_bearing.engine.fidelities.response.march import march_response, start_response
+from fmu_bearing.engine.fidelities.response.set_march import march_response_set, start_response_set
 from fmu_bearing.engine.fidelities.rings.restart import march_rings
+from fmu_bearing.engine.fidelities.rings.set_march import start_rings_set
+from fmu_bearing.engine.fidelities.rings.set_restart import march_rings_set
 from fmu_bearing.engine.fidelities.rings.start import start_rings
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, P, U
 from fmu_bearing.engine.readout.outputs import observe
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.inputs import bearing_inputs, set_inputs_usable, spread_choices
-from fmu_bearing.engine.spindle.march import march_set, port_derivative
 from fmu_bearing.engine.spindle.outputs import observe_set
 from fmu_bearing.engine.spindle.port import has_port
-from fmu_bearing.engine.spindle.response import march_response_set, start_response_set
-from fmu_bearing.engine.spindle.restart import march_rings_set
-from fmu_bearing.engine.spindle.rings import start_rings_set
-from fmu_bearing.engine.spindle.start import start_set
 from fmu_bearing.engine.status import BAD_INPUT, BAD_STEP, OK, OTHER_FIDELITY, RIGID_ONLY
 
 _LARGEST = 1e15  # of any input, in its unit
@@ -52,8 +51,10 @@ def inputs_usable(u):
 
 
 @kernel
-def set_usable(p, u, w):
-    """Whether every input of a set is finite and within what the equations can take."""
+def usable(p, u, w):
+    """Whether every input is finite and within what the equations can take."""
+    if not members.has_shaft(p):
+        return inputs_usable(u)
     if not set_inputs_usable(p, u):
         return False
     given = members.own_work(p, w)[SP.INPUT : SP.INPUT + U.SIZE]
@@ -65,12 +66,14 @@ def set_usable(p, u, w):
 
 
 @kernel
-def set_computed(p):
-    """Whether the parameters of a set are made for its fidelity.
+def computed(p):
+    """Whether the parameters are made for their fidelity.
 
-    A ring on a pedestal of its own is among the set's coordinates in all fidelities but `full`, which alone
-    follows the motion of a port. The state has room for lines in `response` alone.
+    A ring on a pedestal of its own is among a set's coordinates in all fidelities but `full`, which alone
+    follows the motion of a port. The state of a set has room for lines in `response` alone.
     """
+    if not members.has_shaft(p):
+        return True
     if has_port(p) and p[P.FIDELITY] != FULL:
         return False
     if p[P.FIDELITY] == RESPONSE and p[int(p[P.SET]) + SP.LINED] == 0.0:
@@ -84,59 +87,42 @@ def set_computed(p):
 
 
 @kernel
-def init_set(p, u, s, z, w, t):
-    """Do what `init` does for a set of bearings on one shaft."""
-    if not set_usable(p, u, w) or not math.isfinite(t):
-        return BAD_INPUT
-    if not set_computed(p):
-        return OTHER_FIDELITY
-    if p[P.MODES] != 0.0 and p[P.FIDELITY] != FULL:
-        return RIGID_ONLY
-    if p[P.FIDELITY] == RINGS:
-        status = start_rings_set(p, u, s, w, t)
-    elif p[P.FIDELITY] == RESPONSE:
-        status = start_response_set(p, u, s, w, t)
-    else:
-        status = start_set(p, u, s, w, t)
-    if status == OK:
-        observe_set(p, s, z)
-    return status
+def bends(p):
+    """Whether a ring has flexural modes."""
+    found = False
+    for b in range(members.count(p)):
+        found = found or members.parameters(p, b)[P.MODES] != 0.0
+    return found
 
 
 @kernel
-def step_set(p, u, s, z, w, h):
-    """Do what `step` does for a set of bearings on one shaft."""
-    if not set_usable(p, u, w):
-        return BAD_INPUT
-    spread_choices(p)  # a state put back brings the head of p with it, that of the first bearing alone
-    if p[P.FIDELITY] == RINGS:
-        status = march_rings_set(p, u, s, w, h)
-    elif p[P.FIDELITY] == RESPONSE:
-        status = march_response_set(p, u, s, w, h)
-    else:
-        status = march_set(p, u, s, w, h)
-    if status == OK:
+def outputs(p, s, z):
+    """Fill the outputs ``z`` from the state ``s``."""
+    if members.has_shaft(p):
         observe_set(p, s, z)
-    return status
+    else:
+        observe(p, s, z)
+    return OK
 
 
 @kernel
 def init(p, u, s, z, w, t):
     """Put the state to the steady one at the inputs' values and time ``t`` (s); fill the outputs."""
-    if p[P.SET] != 0.0:
-        return init_set(p, u, s, z, w, t)
-    if not inputs_usable(u) or not math.isfinite(t):
+    if not usable(p, u, w) or not math.isfinite(t):
         return BAD_INPUT
-    if p[P.MODES] != 0.0 and p[P.FIDELITY] != FULL:
+    if not computed(p):
+        return OTHER_FIDELITY
+    if bends(p) and p[P.FIDELITY] != FULL:
         return RIGID_ONLY
+    together = members.has_shaft(p)
     if p[P.FIDELITY] == RINGS:
-        status = start_rings(p, u, s, w, t)
+        status = start_rings_set(p, u, s, w, t) if together else start_rings(p, u, s, w, t)
     elif p[P.FIDELITY] == RESPONSE:
-        status = start_response(p, u, s, w, t)
+        status = start_response_set(p, u, s, w, t) if together else start_response(p, u, s, w, t)
     else:
         status = start(p, u, s, w, t)
     if status == OK:
-        observe(p, s, z)
+        outputs(p, s, z)
     return status
 
 
@@ -146,29 +132,19 @@ def step(p, u, s, z, w, h):
     if not (h > 0.0 and h < _LONGEST):
         return BAD_STEP
     h = max(h, _SHORTEST)
-    if p[P.SET] != 0.0:
-        return step_set(p, u, s, z, w, h)
-    if not inputs_usable(u):
+    if not usable(p, u, w):
         return BAD_INPUT
+    spread_choices(p)  # a state put back brings the head of p with it, that of the first bearing alone
+    together = members.has_shaft(p)
     if p[P.FIDELITY] == RINGS:
-        status = march_rings(p, u, s, w, h)
+        status = march_rings_set(p, u, s, w, h) if together else march_rings(p, u, s, w, h)
     elif p[P.FIDELITY] == RESPONSE:
-        status = march_response(p, u, s, w, h)
+        status = march_response_set(p, u, s, w, h) if together else march_response(p, u, s, w, h)
     else:
         status = march(p, u, s, w, h)
     if status == OK:
-        observe(p, s, z)
+        outputs(p, s, z)
     return status
-
-
-@kernel
-def outputs(p, s, z):
-    """Fill the outputs ``z`` from the state ``s``."""
-    if p[P.SET] != 0.0:
-        observe_set(p, s, z)
-    else:
-        observe(p, s, z)
-    return OK
 
 
 @kernel
@@ -183,7 +159,7 @@ def derivative(p, u, s, z, w, h):
         z[i] = math.nan
     if not (h >= 0.0 and h < _LONGEST):
         return BAD_STEP
-    if p[P.SET] == 0.0 or not set_usable(p, u, w):
+    if not members.has_shaft(p) or not usable(p, u, w):
         return BAD_INPUT
     spread_choices(p)
     return port_derivative(p, u, s, z, w, h)

@@ -47,7 +47,7 @@ def first_output(scene: Scene, number: int) -> int:
 
     ``prepare`` lays them out so, each as of a single bearing without sound.
     """
-    return number * Z.size(scene.bearing.ball_count, 0)
+    return number * Z.size(scene.bearing.ball_count, 0, 0, scene.flexural_modes)
 
 
 def _count(scene: Scene) -> int:

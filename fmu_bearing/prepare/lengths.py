@@ -33,8 +33,8 @@ def members(p: NDArray[np.float64]) -> list[tuple[slice, slice]]:
 
 def lengths(p: NDArray[np.float64]) -> Lengths:
     """Return the lengths of the arrays that go with the parameters ``p``."""
-    if p[P.SET] == 0.0:
-        outputs = Z.size(*(int(p[place]) for place in (P.BALLS, P.MICS, P.BANDS, P.MODES)))
-    else:
+    if SP.has_shaft(p):
         outputs = int(p[int(p[P.SET]) + SP.SIZE_Z])
+    else:
+        outputs = Z.size(*(int(p[place]) for place in (P.BALLS, P.MICS, P.BANDS, P.MODES)))
     return Lengths(SP.inputs(p), S.size(p), outputs, W.size(p))

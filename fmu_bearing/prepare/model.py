@@ -28,7 +28,7 @@ from fmu_bearing.prepare.imperfections import (
 )
 from fmu_bearing.prepare.lengths import Lengths, lengths
 from fmu_bearing.prepare.sound import sound_blocks
-from fmu_bearing.prepare.spindle import pack_set
+from fmu_bearing.prepare.spindle import as_set_of_one, pack_set
 from fmu_bearing.prepare.surfaces import form_rows
 from fmu_bearing.scene import Scene, SceneError, si
 from fmu_bearing.scene.bearing import Cage
@@ -173,7 +173,7 @@ def pack(scene: Scene, *sounds: NDArray[np.float64]) -> NDArray[np.float64]:
         count = len(scene.spindle.bearing)
         blocks = sounds if len(sounds) == count else count * sounds
         return pack_set(scene, [_pack(one_of(scene, b), blocks[b], scene) for b in range(count)])
-    return _pack(scene, sounds[0], scene)
+    return as_set_of_one(_pack(scene, sounds[0], scene))
 
 
 def _pack(scene: Scene, sound: NDArray[np.float64], heard: Scene) -> NDArray[np.float64]:

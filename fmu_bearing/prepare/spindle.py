@@ -36,6 +36,24 @@ def expansions(scene: Scene) -> tuple[float, float]:
     return first, second
 
 
+def as_set_of_one(p: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the parameters ``p`` of a single bearing with the block of a set on no shaft.
+
+    The arrays of its bearing are the whole ones; what a set keeps of its own has room in them (`S.SET`,
+    `W.SET`).
+    """
+    block = np.zeros(SP.HEAD + SP.ROW)
+    block[SP.BEARINGS] = 1.0
+    block[SP.AT_ROWS] = SP.HEAD
+    block[SP.AT_S], block[SP.AT_W] = S.SET, W.SET
+    row = block[SP.HEAD :]
+    row[SP.ROW_SIGN] = 1.0
+    row[SP.ROW_SEAT] = SP.PEDESTAL
+    alone = np.concatenate([p, block])
+    alone[P.SET] = p.size
+    return alone
+
+
 def pack_set(
     scene: Scene, parameters: list[NDArray[np.float64]], shaft: ShaftModel | None = None
 ) -> NDArray[np.float64]:
@@ -45,13 +63,15 @@ def pack_set(
     ----------
     scene : Scene
     parameters : list of ndarray
-        Those of each bearing, as of a single one of `one_of`.
+        Those of each bearing, as of a single one of `one_of`, with or without a block of their own.
     shaft : ShaftModel, optional
         In the place of the scene's.
     """
     spindle = _set(scene)
     shaft = shaft_model(scene, spindle) if shaft is None else shaft
-    bearings = [p.copy() for p in parameters]
+    bearings = [p[: int(p[P.SET]) or p.size].copy() for p in parameters]
+    for p in bearings:
+        p[P.SET] = 0.0
     for p, one in zip(bearings, spindle.bearing, strict=True):
         if one.seat != "pedestal":
             _hold(p)
@@ -255,7 +275,8 @@ def _block(
     places = {"P": 0, "S": 0, "W": 0, "Z": 0}
     for k, (p, (mass, _)) in enumerate(zip(bearings, rows, strict=True)):
         row = block[at + k * SP.ROW : at + (k + 1) * SP.ROW]
-        sizes = {"P": p.size, "S": S.size(p), "W": W.size(p), "Z": Z.size(int(p[P.BALLS]), 0)}
+        outputs = Z.size(int(p[P.BALLS]), 0, 0, int(p[P.MODES]))
+        sizes = {"P": p.size, "S": S.size(p), "W": W.size(p), "Z": outputs}
         for name, length in sizes.items():
             row[getattr(SP, f"ROW_{name}")] = places[name]
             row[getattr(SP, f"ROW_{name}_SIZE")] = length

@@ -218,8 +218,6 @@ def _arrays(scene: Scene, blocks: list[NDArray[np.float64]], parameters: dict[st
 def _places(bearing: Arrays) -> list[int]:
     """Return where the outputs of each bearing begin in ``z``."""
     p = bearing.p
-    if p[P.SET] == 0.0:
-        return [0]
     first, count = SP.first(p, SP.AT_ROWS), int(p[int(p[P.SET]) + SP.BEARINGS])
     return [int(p[first + b * SP.ROW + SP.ROW_Z]) for b in range(count)]
 
@@ -239,7 +237,7 @@ def _meters(bearing: Arrays) -> tuple[float, ...]:
     """A-weighted equivalent levels (dB) that the meters show."""
     p = bearing.p
     first = Z.mics(int(p[P.BALLS]))
-    if p[P.SET] != 0.0:
+    if SP.has_shaft(p):
         block = int(p[P.SET])
         first = int(p[block + SP.AT_Z]) + SP.z_mics(int(p[block + SP.BEARINGS]))
     per_mic = len(Z.MIC_OUTPUTS)

@@ -51,6 +51,7 @@ def one_of(scene: Scene, number: int = 0) -> Scene:
         pedestal_axial_ratio=housing.pedestal_axial_ratio,
         pedestal_rotational_ratio_mm2=housing.pedestal_rotational_ratio_mm2,
         pedestal_damping_ratio=housing.pedestal_damping_ratio,
+        flexure=spindle.flexure,
     )
     mounting = mounting.model_copy(update={"preload_N": usual_load(spindle, number)})
     flaws = scene.imperfections

@@ -151,7 +151,7 @@ class Tables(Part):
             yield Conflict(
                 "fidelity.model",
                 f"'{model}' has rigid rings only: bending needs 'full' or 'auto', or leave out "
-                "[mounting.flexure]",
+                f"[{'mounting' if self.spindle is None else 'spindle'}.flexure]",
             )
 
     def _orders(self) -> Iterator[Conflict]:
@@ -208,16 +208,25 @@ class Tables(Part):
         return [0.0] if self.spindle is None else [one.position_mm for one in self.spindle.bearing]
 
     @property
+    def flexural_modes(self) -> int:
+        """Number of flexural modes of both rings of a bearing."""
+        mount = self.mounting or self.spindle
+        flexure = None if mount is None else mount.flexure
+        return 0 if flexure is None else len(flexure.inner_ring) + len(flexure.outer_ring)
+
+    @property
     def bends(self) -> bool:
         """Whether a ring bends."""
-        flexure = None if self.mounting is None else self.mounting.flexure
-        return flexure is not None and bool(flexure.inner_ring or flexure.outer_ring)
+        return self.flexural_modes > 0
 
     def with_rigid_rings(self) -> Self:
         """Return the scene without the bending of its rings."""
-        if self.mounting is None:
-            return self
-        return self.model_copy(update={"mounting": self.mounting.model_copy(update={"flexure": None})})
+        rigid = {
+            key: part.model_copy(update={"flexure": None})
+            for key, part in (("mounting", self.mounting), ("spindle", self.spindle))
+            if part is not None
+        }
+        return self.model_copy(update=rigid)
 
     @property
     def microphones(self) -> list[Place]:

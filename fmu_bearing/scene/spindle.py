@@ -8,6 +8,7 @@ from pydantic import Field
 
 from fmu_bearing.scene.base import Conflict, Part
 from fmu_bearing.scene.material import Material
+from fmu_bearing.scene.mounting import Flexure
 from fmu_bearing.scene.shaft import LONG, Shaft
 
 _MOST = 16  # bearings of a set
@@ -235,6 +236,9 @@ class Spindle(Part):
     preload: Preload | None = Field(default=None, description="Absent: the bearings just touch.")
     housing: SetHousing = Field(default_factory=SetHousing, description="What holds the outer rings.")
     load: Load = Field(default_factory=Load, description="Force on the shaft.")
+    flexure: Flexure | None = Field(
+        default=None, description="Bending of the rings of every bearing; absent: rigid rings."
+    )
 
     def conflicts(self) -> Iterator[Conflict]:
         """Yield bearings beside the shaft or out of order, and sets that nothing holds."""
@@ -262,6 +266,7 @@ class Spindle(Part):
             yield from self._held()
         yield from self._springs()
         yield from self._pedestals()
+        yield from self._round()
 
     def _held(self) -> Iterator[Conflict]:
         """Yield a set that carries one direction alone, and nothing pushes the shaft that way."""
@@ -282,6 +287,20 @@ class Spindle(Part):
                 f'all carry {way} and nothing holds the shaft the other way: turn one to carries = "{back}", '
                 f"or give a force that keeps them loaded, load.force_x_N {'>' if sign > 0 else '<'} 0",
             )
+
+    def _round(self) -> Iterator[Conflict]:
+        """Yield rings that bend although a solid shaft or housing on a tight seat keeps them round."""
+        if self.flexure is None:
+            return
+        seated = not all(one.seat == "pedestal" for one in self.bearing)
+        for ring, body, held in (("inner", "shaft", True), ("outer", "housing", seated)):
+            stiffness = getattr(self.flexure, f"{ring}_seat_stiffness_N_m")
+            if held and getattr(self.flexure, f"{ring}_ring") and stiffness == 0.0:
+                yield Conflict(
+                    f"flexure.{ring}_ring",
+                    f"cannot bend on the tight seat of the {body}: write {ring}_ring = [], or for a loose "
+                    f"fit give {ring}_seat_stiffness_N_m",
+                )
 
     def _springs(self) -> Iterator[Conflict]:
         """Yield sliding seats without a spring, springs without one, and sets that slide as a whole."""

@@ -7,8 +7,8 @@ from fmu_bearing.compiled import call
 from fmu_bearing.engine.fidelities.full.methods.table import AT_ESDIRK4, TABLEAUX
 from fmu_bearing.engine.fidelities.full.norms import newton_size
 from fmu_bearing.engine.fidelities.full.runge_kutta import (
+    complete_torque,
     correct,
-    keep_powers,
     keep_velocities,
     newton_residual,
     predict,
@@ -125,7 +125,9 @@ def test_torque_of_a_stage_is_that_behind_the_last_increment(silent):
     kept = behind.copy()
     kept[F.WORK :] = np.nan
     speed = run.s[S.SPEED]
-    keep_powers(run.p, run.s[S.C : S.C + C.SIZE], speed, GH, kept, run.w)
+    turn = F.BODY + Q.OUTER + Q.TURN
+    gained = run.p[P.OUTER_POLAR] * (kept[turn] - run.w[W.F + turn])
+    complete_torque(run.p, run.s[S.C : S.C + C.SIZE], speed, GH, gained, kept, run.w)
     change = behind[F.TORQUE] - before[F.TORQUE]
     assert abs(change) > 0.1 * abs(before[F.TORQUE])
     # balls are up to 10 um from the pitch circle of 13 mm at whose radius their orbit is counted: 8e-4

@@ -7,13 +7,12 @@ below is compiled with the engine's kernels (and kept in their cache), which tak
 import numpy as np
 import pytest
 
+from fmu_bearing.engine.fidelities.full.march import accept_all, factor_all, renew_jacobians
 from fmu_bearing.engine.fidelities.full.methods.table import AT_ESDIRK4, AT_RK4, AT_TRBDF2, TABLEAUX
-from fmu_bearing.engine.fidelities.full.runge_kutta import runge_kutta_step
+from fmu_bearing.engine.fidelities.full.progress import total_energy
+from fmu_bearing.engine.fidelities.full.step import runge_kutta_step
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import STRIDE, TAB, A, C, F, J, S, W, Y
-from fmu_bearing.engine.mechanics.equations import right_hand_side
-from fmu_bearing.engine.newton.block_arrow import factor
-from fmu_bearing.engine.newton.jacobian import jacobian
+from fmu_bearing.engine.layout import TAB, S, W, Y
 from tests.extremes.bearings import bearing, drive
 
 SMOOTH = {
@@ -32,26 +31,15 @@ PUSH = 1e-3  # m/s
 
 
 @kernel
-def fixed_steps(p, c, y, axes, flexure, angle, speed, h, count, tableau, tolerance, w, jac, fac, f):
-    """Advance ``y`` by ``count`` steps of ``h`` (s); number of steps that converged."""
-    report = np.zeros(W.REPORT_SIZE)
-    right_hand_side(p, c, y, angle, speed, 0.0, w, f)
-    jacobian(p, c, y, angle, speed, 0.0, w, jac)
-    gh = TABLEAUX[tableau + TAB.GAMMA] * h
-    factor(p, jac, gh, gh * gh, gh * gh, fac, w)
-    start = y[2 * STRIDE]
+def fixed_steps(p, s, w, h, count, tableau, tolerance):
+    """Advance the state ``s`` by ``count`` steps of ``h`` (s); number of steps that converged."""
+    total_energy(p, s, w)  # accelerations behind the push
+    renew_jacobians(p, s, w)
+    factor_all(p, s, w, TABLEAUX[tableau + TAB.GAMMA] * h)
     for n in range(count):
-        turned = y[2 * STRIDE] - start
-        if not runge_kutta_step(
-            p, c, y, f, axes, flexure, angle, speed, 0.0, h, tableau, fac, turned, tolerance, 0.1,
-            True, w, report,
-        ):  # fmt: skip
+        if not runge_kutta_step(p, s, w, h, tableau, tolerance, True, s[S.SPEED]):
             return n
-        for i in range(Y.SIZE):
-            y[i] = w[W.STAGE + i]
-        for i in range(F.SIZE):
-            f[i] = w[W.LAST + i]
-        angle += h * speed
+        accept_all(p, s, w, h, tableau)
     return count
 
 
@@ -67,17 +55,11 @@ def swinging():
 
 def rings_after(run, h, tableau, tolerance=1e-13):
     """Ring velocities (m/s) after ``DURATION`` in steps of ``h`` (s)."""
-    s = run.s
-    y = s[S.Y : S.Y + Y.SIZE].copy()
-    c, axes = s[S.C : S.C + C.SIZE].copy(), s[S.AXES : S.JAC].copy()
-    jac, fac, f = np.zeros(J.SIZE), np.zeros(A.SIZE), np.zeros(F.SIZE)
-    rigid = np.zeros(0)  # rings without flexural modes
+    s, w = run.s.copy(), np.zeros(W.size(run.p))
     count = round(DURATION / h)
-    angle, speed = s[S.ANGLE], s[S.SPEED]
-    w = np.zeros(W.size(run.p))
-    done = fixed_steps(run.p, c, y, axes, rigid, angle, speed, h, count, tableau, tolerance, w, jac, fac, f)
+    done = fixed_steps(run.p, s, w, h, count, tableau, tolerance)
     assert done == count
-    return y[[Y.V0, Y.V0 + 1, Y.V0 + 2, Y.V0 + 5, Y.V0 + 6, Y.V0 + 7]]
+    return s[S.Y + np.array([Y.V0, Y.V0 + 1, Y.V0 + 2, Y.V0 + 5, Y.V0 + 6, Y.V0 + 7])]
 
 
 def orders(run, tableau, steps, exact):

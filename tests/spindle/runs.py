@@ -105,4 +105,4 @@ class SetRun:
     def imbalance(self):
         """Work in less dissipation less change of stored energy (J)."""
         work = self.own[SP.WORK] + sum(self.state(b)[S.WORK] for b in range(self.count))
-        return work - self.heat - (self.own[SP.ENERGY_NOW] - self.own[SP.ENERGY_START])
+        return work - self.heat - (self.s[S.ENERGY_NOW] - self.s[S.ENERGY_START])

@@ -5,8 +5,8 @@ import pytest
 
 from fmu_bearing import read_scene
 from fmu_bearing.engine.fidelities.full.methods.table import AT_ESDIRK4, AT_RK4, AT_TRBDF2, TABLEAUX
+from fmu_bearing.engine.fidelities.full.stages import extrapolate, extrapolation
 from fmu_bearing.engine.layout import STRIDE, TAB, F, S, W, Y
-from fmu_bearing.engine.spindle.stages import extrapolate, extrapolation
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import prepare
 from tests.conftest import ROOT

@@ -49,7 +49,7 @@ AT_SOUND = _at()  # sound block; 0: there is none
 SOUND_SIZE = _at()  # its length, and those of its state and work space
 SOUND_STATE = _at()
 SOUND_WORK = _at()
-SET = _at()  # block of a set of bearings, see spindle; 0: a single bearing
+SET = _at()  # block of a set of bearings, see spindle; 0: parameters of one of its bearings
 # balls, contacts, oil
 PITCH_RADIUS = _at()  # m
 DIAMETER = _at()  # m, of a ball

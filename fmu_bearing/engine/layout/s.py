@@ -60,12 +60,13 @@ JAC = _at(_J.SIZE)  # Jacobian
 FAC = _at(_A.SIZE)  # factors
 _MORE = _at(-(-max(_LN.SIZE - _J.SIZE - _A.SIZE, 0) // FOUR) * FOUR)  # the lines' scratch is larger
 CONDENSED = _at(_L.SIZE)  # what fidelities rings and response keep
+SET = _at(_SP.state_size(1, 0))  # what a set keeps of its own, where the bearing is alone
 SOUND = _at.next  # sound state, then flexure (fidelity full) or lines (response)
 
 
 def size(p):
     """Length of ``s`` for the parameters ``p``."""
-    if p[_P.SET] != 0.0:
+    if _SP.has_shaft(p):
         return int(p[int(p[_P.SET]) + _SP.SIZE_S])
     lines = _L.MOST_LINES * _L.LINE_SIZE if p[_P.FIDELITY] == RESPONSE else 0
     return SOUND + int(p[_P.SOUND_STATE]) + _FL.state_size(int(p[_P.MODES])) + lines

@@ -153,8 +153,6 @@ HEAT = _at(2)  # J: lost in the bending shaft, in the pedestal
 POWER_NOW = _at(POWERS)  # W: work, heats of shaft and pedestal at the state
 MEAN_HEAT = _at(2)  # W
 SHAFT_STIFFNESS = _at(3)  # N/m, N/m, N m/rad: axial, radial, against tilts, where the set rested last
-ENERGY_START = _at()  # J
-ENERGY_NOW = _at()
 PORT_BEGIN = _at()  # s: of the communication step; place and derivatives of the shaft there:
 PORT_PLACE = _at(PLANE)  # m, rad
 PORT_RATE = _at(PLANE)
@@ -237,9 +235,14 @@ def first(p, place):
     return int(p[_P.SET]) + int(p[int(p[_P.SET]) + place])
 
 
+def has_shaft(p):
+    """Whether the parameters ``p`` are of a set on a shaft: a single bearing has no other coordinates."""
+    return p[_P.SET] != 0.0 and p[int(p[_P.SET]) + COUNT] != 0.0
+
+
 def inputs(p):
     """Length of ``u`` for the parameters ``p``."""
-    return _U.SIZE if p[_P.SET] == 0.0 else int(p[int(p[_P.SET]) + SIZE_U])
+    return int(p[int(p[_P.SET]) + SIZE_U]) if has_shaft(p) else _U.SIZE
 
 
 def padded(count):

@@ -149,10 +149,10 @@ def contacts(p, s, z):
 
 
 @kernel
-def flexure(p, s, z):
-    """Velocities (m/s) of the flexural coordinates, after the microphones."""
+def flexure(p, s, z, mics):
+    """Velocities (m/s) of the flexural coordinates, after the balls and so many microphones."""
     count = 2 * int(p[P.MODES])
-    to = Z.BALLS + Z.PER_BALL * int(p[P.BALLS]) + (Z.PER_MIC + int(p[P.BANDS])) * int(p[P.MICS])
+    to = Z.BALLS + Z.PER_BALL * int(p[P.BALLS]) + (Z.PER_MIC + int(p[P.BANDS])) * mics
     at = flexure_state(p) + count
     for i in range(count):
         z[to + i] = s[at + i]
@@ -161,15 +161,15 @@ def flexure(p, s, z):
 @kernel
 def observe(p, s, z):
     """Fill ``z`` (see ``layout``) from the state ``s``."""
-    observe_motion(p, s, z)
+    observe_motion(p, s, z, int(p[P.MICS]))
     if p[P.SOUND_SIZE] != 0.0:
         mics = Z.BALLS + Z.PER_BALL * int(p[P.BALLS])
         levels(sound_block(p), s[S.SOUND :], z, mics)
 
 
 @kernel
-def observe_motion(p, s, z):
-    """All outputs but those of microphones."""
+def observe_motion(p, s, z, mics):
+    """All outputs but those of ``mics`` microphones, for which there is room."""
     bodies(p, s, z)
     z[Z.TORQUE] = s[S.F + F.TORQUE]
     z[Z.MEAN_TORQUE] = s[S.MEAN_TORQUE]
@@ -177,7 +177,7 @@ def observe_motion(p, s, z):
         z[Z.HEAT + i] = s[S.MEAN_HEAT + i]
     contacts(p, s, z)
     losses(s, z)
-    flexure(p, s, z)
+    flexure(p, s, z, mics)
     z[Z.STEPS] = s[S.STEPS]
     z[Z.REJECTED] = s[S.REJECTED]
     z[Z.RESTARTS] = s[S.RESTARTS]

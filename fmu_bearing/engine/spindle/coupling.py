@@ -145,6 +145,8 @@ def condense_set(p, s, w, gh):
 @kernel
 def factor_set(p, s, w, gh):
     """Condense the factored bearings of the state and invert the shaft's matrix; False if singular."""
+    if not members.has_shaft(p):
+        return True
     if not condense_set(p, s, w, gh):
         return False
     ws = members.own_work(p, w)
@@ -231,6 +233,8 @@ def answer_free(p, b, pb, sb, wb, own, ws):
     border_product(fac, wb, d)
     if tied(pb):
         couple_springs(pb, fac, d, wb)
+    if count == 0:
+        return
     for i in range(count):
         ws[at + i] = d[F.BODY + i]
     # m R^-1 d0, told in fixed axes, with m r_I
@@ -259,6 +263,12 @@ def answer_driven(p, b, pb, sb, wb, own, ws):
     fac = sb[S.FAC : S.CONDENSED]
     c = ws[at + SP.TURNED]
     s = ws[at + SP.TURNED + 1]
+    lanes = int(pb[P.LANES])
+    if count == 0:
+        # its bodies have answered already
+        follow_bodies(fac, lanes, d, wb)
+        turn_pairs(d, F.BODY, c, s)
+        return
     members.moved(p, b, ws, members.vector(p, SP.INCREMENT), ws, to)
     turn_driven(count, ws, to, c, -s)
     for i in range(SP.LANES):
@@ -267,7 +277,6 @@ def answer_driven(p, b, pb, sb, wb, own, ws):
         ws[to + i] -= ws[at + i]
     answer = members.kept(p, b) + SP.ANSWER
     members.add_columns(own, answer, SP.LANES, count, 1.0, ws, to, ws, driving)
-    lanes = int(pb[P.LANES])
     if tied(pb):
         for i in range(count):
             wb[W.REST + i] += ws[driving + i]
@@ -286,6 +295,8 @@ def answer_driven(p, b, pb, sb, wb, own, ws):
 @kernel
 def solve_shaft(p, own, ws):
     """Solve the shaft's equations for its increment, in axes that turn with the first bearing."""
+    if not members.has_shaft(p):
+        return
     lanes = members.padded(p)
     residual = members.vector(p, SP.RESIDUAL)
     found = members.vector(p, SP.INCREMENT)

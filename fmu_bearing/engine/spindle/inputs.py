@@ -17,6 +17,10 @@ _PEDESTAL = 1e8  # N/m: of a ring that is held, so read by nothing
 @kernel
 def bearing_inputs(p, u, b, out):
     """Put the inputs of bearing ``b`` to ``out``, as a single one takes them; shaft and spacers load it."""
+    if not members.has_shaft(p):
+        for i in range(U.SIZE):
+            out[i] = u[i]
+        return
     at = SP.U_BEARINGS + b * SP.U_ROW
     out[U.SPEED] = u[SP.U_SPEED]
     out[U.PRELOAD] = 0.0
@@ -40,6 +44,8 @@ def bearing_conditions(p, u, b, speed, w):
 @kernel
 def offset_change(p, u, b):
     """How far (m) temperatures push the inner ring of bearing ``b`` into it, beyond 20 degC."""
+    if not members.has_shaft(p):
+        return 0.0
     block = int(p[P.SET])
     r = members.row(p, b)
     shaft = p[block + SP.SHAFT_EXPANSION] * (u[SP.U_SHAFT_T] - REFERENCE_TEMPERATURE)
@@ -50,6 +56,8 @@ def offset_change(p, u, b):
 @kernel
 def loads_differ(p, u, own):
     """Whether loads on the nose, force of springs or the housing's pedestal are others than those held."""
+    if not members.has_shaft(p):
+        return False
     if own[SP.SPRING] != u[SP.U_PRELOAD]:
         return True
     for i in range(SP.PLANE):
@@ -61,6 +69,8 @@ def loads_differ(p, u, own):
 @kernel
 def take_loads(p, u, own):
     """Put loads on the nose, force of springs and pedestal of the housing into the set's own state."""
+    if not members.has_shaft(p):
+        return
     block = int(p[P.SET])
     own[SP.SPRING] = u[SP.U_PRELOAD]
     for i in range(SP.PLANE):

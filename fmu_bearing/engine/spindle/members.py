@@ -18,6 +18,12 @@ def coordinates(p):
 
 
 @kernel
+def has_shaft(p):
+    """Whether a shaft carries the bearings; a single bearing has no coordinates but its own."""
+    return p[int(p[P.SET]) + SP.COUNT] != 0.0
+
+
+@kernel
 def padded(p):
     """Return how many numbers a vector of the coordinates has: whole groups of four."""
     return int(p[int(p[P.SET]) + SP.PADDED])
@@ -39,6 +45,8 @@ def row(p, b):
 @kernel
 def parameters(p, b):
     """Return the parameters of bearing ``b``."""
+    if not has_shaft(p):
+        return p
     r = row(p, b)
     return p[int(p[r + SP.ROW_P]) : int(p[r + SP.ROW_P]) + int(p[r + SP.ROW_P_SIZE])]
 
@@ -46,6 +54,8 @@ def parameters(p, b):
 @kernel
 def state(p, s, b):
     """Return the state of bearing ``b``."""
+    if not has_shaft(p):
+        return s
     r = row(p, b)
     return s[int(p[r + SP.ROW_S]) : int(p[r + SP.ROW_S]) + int(p[r + SP.ROW_S_SIZE])]
 
@@ -53,6 +63,8 @@ def state(p, s, b):
 @kernel
 def work(p, w, b):
     """Return the work space of bearing ``b``."""
+    if not has_shaft(p):
+        return w
     r = row(p, b)
     return w[int(p[r + SP.ROW_W]) : int(p[r + SP.ROW_W]) + int(p[r + SP.ROW_W_SIZE])]
 
@@ -66,6 +78,8 @@ def condensed(sb):
 @kernel
 def outputs(p, z, b):
     """Return the outputs of bearing ``b``."""
+    if not has_shaft(p):
+        return z
     r = row(p, b)
     return z[int(p[r + SP.ROW_Z]) : int(p[r + SP.ROW_Z]) + int(p[r + SP.ROW_Z_SIZE])]
 

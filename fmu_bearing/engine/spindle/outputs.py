@@ -36,7 +36,7 @@ def observe_bearings(p, s, z):
         zb = members.outputs(p, z, b)
         sign = p[members.row(p, b) + SP.ROW_SIGN]
         pb = members.parameters(p, b)
-        observe_motion(pb, members.state(p, s, b), zb)
+        observe_motion(pb, members.state(p, s, b), zb, 0)
         mirror(pb, sign, zb)
         for i in range(Z.HEAT_SIZE):
             z[at + SP.Z_HEAT + i] += zb[Z.HEAT + i]
@@ -98,6 +98,6 @@ def observe_set(p, s, z):
         sb = members.state(p, s, b)
         work += sb[S.WORK]
         lost += sb[S.HEAT] + sb[S.HEAT + 1] + sb[S.HEAT + 2]
-    gained = own[SP.ENERGY_NOW] - own[SP.ENERGY_START]
-    told = lost > 1e-12 + LITTLE_LOST * abs(own[SP.ENERGY_NOW])
+    gained = s[S.ENERGY_NOW] - s[S.ENERGY_START]
+    told = lost > 1e-12 + LITTLE_LOST * abs(s[S.ENERGY_NOW])
     z[at + SP.Z_RESIDUAL] = (work - lost - gained) / lost if told else 0.0

@@ -15,7 +15,7 @@ from fmu_bearing.engine.spindle import members
 
 
 @kernel
-def emit_set(p, s, w, h):
+def emit(p, s, w, h):
     """Take every sample that falls into the step just made through all bearings' filters, then the meters."""
     if p[P.SOUND_SIZE] == 0.0:
         return
@@ -38,7 +38,7 @@ def meter_set(p, s, w):
     """Move the meters of every bearing alone and those of their sum by one sample."""
     own = members.own_state(p, s)
     mics = int(p[P.MICS])
-    begun = meter.metered(s[S.SOUND :], p[P.METERING_START])
+    begun = members.has_shaft(p) and meter.metered(s[S.SOUND :], p[P.METERING_START])
     fraction = meter.fraction_of(p[P.TIME_WEIGHTING])
     for b in range(members.count(p)):
         ps = sound_block(members.parameters(p, b))

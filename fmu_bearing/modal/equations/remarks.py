@@ -19,9 +19,11 @@ _SOFT = (
 
 
 def remarks(scene: Scene, system: "Linearised | SetLinearised") -> Iterator[str]:
-    """Yield that no steady state was found, and that the pedestal is soft."""
+    """Yield that no steady state was found, that rings count as rigid, that the pedestal is soft."""
     if not system.steady:
         yield UNSTEADY
+    if scene.spindle is not None and scene.bends:
+        yield "rings count as rigid: modes and stiffness of sets leave out [spindle.flexure]; runs have it"
     moved, stiffness = system.on_pedestal
     if moved > _SOFT:
         key = "mounting" if scene.spindle is None else "spindle.housing"

@@ -161,7 +161,7 @@ def set_linearised(
     Parameters
     ----------
     scene : Scene
-        Cage, imperfections and sound are left out, and its fidelity counts as full.
+        Cage, imperfections, bending of the rings and sound are left out, and its fidelity counts as full.
     inputs : dict, optional
         Values by their places in ``u`` of a set (``SP.INPUTS``) in place of the scene's.
     friction : bool, optional
@@ -175,8 +175,8 @@ def set_linearised(
         For bearings on another model's shaft: without its mass there is no mode.
     """
     need_shaft(scene)
-    bare = with_fidelity(scene, model="full").model_copy(update={"sound": None, "imperfections": None})
-    run = Arrays.of_set(bare)
+    bare = with_fidelity(scene.with_rigid_rings(), model="full")
+    run = Arrays.of_set(bare.model_copy(update={"sound": None, "imperfections": None}))
     for place, value in (inputs or {}).items():
         run.u[place] = value
     rows = _rows(run.p)

@@ -1,20 +1,29 @@
-"""From one communication point to the next: inputs, internal steps, Jacobian policy, sound samples."""
+"""From one communication point to the next: inputs, internal steps, Jacobian policy, sound samples.
+
+One bearing and a set on a shaft go the same way: a single bearing is a set of one without coordinates beside
+its own.
+"""
 
 from fmu_bearing.engine.choices import RK4, TRBDF2
 from fmu_bearing.engine.fidelities import steps
 from fmu_bearing.engine.fidelities.full import control
 from fmu_bearing.engine.fidelities.full.methods.table import AT_ESDIRK4, AT_RK4, AT_TRBDF2, TABLEAUX
 from fmu_bearing.engine.fidelities.full.progress import accept, renew_jacobian, total_energy
-from fmu_bearing.engine.fidelities.full.runge_kutta import integrate_power, integrate_torque, runge_kutta_step
+from fmu_bearing.engine.fidelities.full.runge_kutta import integrate_power, integrate_torque
+from fmu_bearing.engine.fidelities.full.step import runge_kutta_step
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import TAB, C, F, P, S, U, W, Y
-from fmu_bearing.engine.mechanics.conditions import conditions
+from fmu_bearing.engine.layout import SP, TAB, C, F, P, S, W, Y
 from fmu_bearing.engine.mechanics.flexure import flexure_state
 from fmu_bearing.engine.mechanics.race import wave_time
 from fmu_bearing.engine.newton.block_arrow import factor
 from fmu_bearing.engine.newton.modes import factor_modes
 from fmu_bearing.engine.readout.losses import summarise
-from fmu_bearing.engine.readout.motion import emit_samples
+from fmu_bearing.engine.spindle import members
+from fmu_bearing.engine.spindle.coupling import factor_set, solve_set, turn_since
+from fmu_bearing.engine.spindle.follow import copy_rows
+from fmu_bearing.engine.spindle.inputs import bearing_conditions, growth_rate, loads_differ, take_loads
+from fmu_bearing.engine.spindle.port import has_port, take_motion
+from fmu_bearing.engine.spindle.sound import emit
 from fmu_bearing.engine.statics.rigid_preload import axial_speed
 from fmu_bearing.engine.status import NOT_CONVERGED, OK
 
@@ -28,37 +37,79 @@ _PROBE = 4
 # Factors serve a step within 5 % of theirs: the wrong scale contracts by about the same 0.05.
 _SAME_STEP = (0.95, 1.05)
 # Contraction beyond which a new Jacobian pays: with its factors it costs as much as a dozen iterations. Runs
-# under 300 and 1000 N take 6 and 4 % less than with 0.3. With 0.1 the spindle at 20,000 r/min takes 13 %
-# more, because a new Jacobian contracts no better there.
+# of one bearing under 300 and 1000 N take 6 and 4 % less than with 0.3. With 0.1 the spindle at 20,000 r/min
+# takes 13 % more, because a new Jacobian contracts no better there.
 _SLOW = 0.2
+# Of sets, where the bearing that contracts worst decides: with 0.2 QBC sets take 5 % more, and with 0.06 DB
+# sets 7 % (rigid shaft, 7003C, 20,000 r/min, best of four runs that scatter by 3 %).
+_SLOW_SET = 0.12
+
+
+@kernel
+def offset_rate(p, u, s, w, b, h):
+    """Rate (m/s) at which the inner ring of bearing ``b`` moves along its axis, from where the shaft puts it.
+
+    What grows with temperature in a set, or the way to the place of a rigid preload, over ``h`` (s).
+    """
+    pb = members.parameters(p, b)
+    if pb[P.RIGID] != 0.0:
+        wb = members.work(p, w, b)
+        fresh = wb[W.CONDITIONS : W.CONDITIONS + C.SIZE]
+        return axial_speed(pb, u, fresh, members.state(p, s, b), wb, h)
+    return growth_rate(p, u, members.own_state(p, s), b, h)
+
+
+@kernel
+def inputs_differ(p, u, s, w, h):
+    """Whether the inputs ``u`` change what is held over a communication step; fresh conditions on the way."""
+    own = members.own_state(p, s)
+    changed = loads_differ(p, u, own)
+    for b in range(members.count(p)):
+        sb = members.state(p, s, b)
+        wb = members.work(p, w, b)
+        bearing_conditions(p, u, b, 0.5 * (s[S.SPEED] + u[SP.U_SPEED]), w)
+        for i in range(C.USED):
+            if wb[W.CONDITIONS + i] != sb[S.C + i]:
+                changed = True
+        if offset_rate(p, u, s, w, b, h) != own[members.kept(p, b) + SP.OFFSET_RATE]:
+            changed = True
+    return changed
 
 
 @kernel
 def take_inputs(p, u, s, w, h):
-    """Set conditions and speed ramp; what a jump of a held input does to stored energy counts as work."""
-    rate = (u[U.SPEED] - s[S.SPEED]) / h
-    fresh = w[W.CONDITIONS : W.CONDITIONS + C.SIZE]
-    conditions(p, u, 0.5 * (s[S.SPEED] + u[U.SPEED]), fresh)
-    axial = axial_speed(p, u, fresh, s, w, h) if p[P.RIGID] != 0.0 else s[S.Y + Y.V0]
-    changed = axial != s[S.Y + Y.V0]
-    for i in range(C.USED):
-        if fresh[i] != s[S.C + i]:
-            changed = True
+    """Set conditions, loads and ramps; what a jump of them does to stored energy counts as work."""
+    own = members.own_state(p, s)
+    rate = (u[SP.U_SPEED] - s[S.SPEED]) / h
+    changed = inputs_differ(p, u, s, w, h)
+    if has_port(p):
+        take_motion(p, u, s, own, h)
+    elif not changed and rate == s[S.SPEED_RATE]:
+        return
+    before = total_energy(p, s, w) if changed else 0.0
+    for b in range(members.count(p)):
+        sb = members.state(p, s, b)
+        wb = members.work(p, w, b)
+        sb[S.SPEED_RATE] = rate
+        if changed:
+            along = offset_rate(p, u, s, w, b, h)
+            own[members.kept(p, b) + SP.OFFSET_RATE] = along
+            if members.parameters(p, b)[P.RIGID] != 0.0:
+                sb[S.Y + Y.V0] = along
+            for i in range(C.USED):
+                sb[S.C + i] = wb[W.CONDITIONS + i]
     if changed:
-        before = total_energy(p, s, w)
-        for i in range(C.USED):
-            s[S.C + i] = fresh[i]
-        s[S.SPEED_RATE] = rate
-        s[S.Y + Y.V0] = axial
-        s[S.WORK] += total_energy(p, s, w) - before
-    elif rate != s[S.SPEED_RATE]:
-        s[S.SPEED_RATE] = rate
-        total_energy(p, s, w)
+        take_loads(p, u, own)
+        copy_rows(p, s, w)
+    after = total_energy(p, s, w)
+    if changed:
+        s[S.WORK] += after - before
 
 
 @kernel
-def renewal_due(s, slow):
-    """Whether the Jacobian is too old, or contracts more slowly than ``slow``."""
+def renewal_due(p, s):
+    """Whether the Jacobians are too old, or contract too slowly."""
+    slow = _SLOW if members.count(p) == 1 else _SLOW_SET
     return s[S.TIME] - s[S.JACOBIAN_TIME] > _OLDEST or s[S.CONTRACTION] > slow
 
 
@@ -78,60 +129,175 @@ def probes(s):
 @kernel
 def longest_step(p, s, speed):
     """Length (s) of the longest internal step on the way to the shaft ``speed`` (rad/s)."""
-    longest = p[P.MAX_STEP] if p[P.MODES] == 0.0 else min(p[P.MAX_STEP], p[P.MODE_STEP])
-    return min(longest, _WAVE * wave_time(p, max(abs(s[S.SPEED]), abs(speed))))
+    longest = p[P.MAX_STEP]
+    for b in range(members.count(p)):
+        pb = members.parameters(p, b)
+        if pb[P.MODES] != 0.0:
+            longest = min(longest, pb[P.MODE_STEP])
+        longest = min(longest, _WAVE * wave_time(pb, max(abs(s[S.SPEED]), abs(speed))))
+    return longest
 
 
 @kernel
-def try_step(p, s, w, h, tableau, tolerance):
-    """One attempt of length ``h`` with Jacobian and factors kept as long as they serve.
+def renew_jacobians(p, s, w):
+    """Jacobians of all bearings at the present state."""
+    for b in range(members.count(p)):
+        renew_jacobian(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b))
 
-    Returns the error estimate over what is allowed, or -1 where Newton failed with a fresh Jacobian.
+
+@kernel
+def factor_all(p, s, w, gh):
+    """Factors of all bearings and the shaft for steps of weight ``gh`` (s); False if singular."""
+    for b in range(members.count(p)):
+        pb = members.parameters(p, b)
+        sb = members.state(p, s, b)
+        wb = members.work(p, w, b)
+        jac = sb[S.JAC : S.FAC]
+        fac = sb[S.FAC : S.CONDENSED]
+        if not factor(pb, jac, gh, gh * gh, gh * gh, fac, wb):
+            return False
+        factor_modes(
+            pb, jac, fac, sb[S.Y : S.Y + Y.SIZE], sb[S.Y + Y.TH] - sb[S.JACOBIAN_ANGLE], sb[S.SPEED], gh,
+            gh * gh, sb[flexure_state(pb) :], wb,
+        )  # fmt: skip
+    return factor_set(p, s, w, gh)
+
+
+@kernel
+def smallest_tolerance(p, s, speed):
+    """Error (m/s) allowed in the rings' velocities: the least of all bearings."""
+    smallest = 1e300
+    for b in range(members.count(p)):
+        allowed = control.allowed_velocity(members.parameters(p, b), members.state(p, s, b), speed)
+        smallest = min(smallest, allowed)
+    return smallest
+
+
+@kernel
+def try_step(p, s, w, h, tableau, speed):
+    """One attempt of length ``h`` with Jacobians and factors kept as long as they serve.
+
+    ``speed`` (rad/s): of the shaft at the end of the communication step. Returns the error estimate over what
+    is allowed, or -1 where Newton failed with fresh Jacobians.
     """
-    report = w[W.REPORT : W.REPORT + W.REPORT_SIZE]
     explicit = TABLEAUX[tableau + TAB.GAMMA] == 0.0
     for attempt in range(2):
         fresh = s[S.JACOBIAN_TIME] == s[S.TIME] or explicit
-        if not fresh and (attempt == 1 or renewal_due(s, _SLOW)):
-            renew_jacobian(p, s, w)
+        if not fresh and (attempt == 1 or renewal_due(p, s)):
+            renew_jacobians(p, s, w)
             fresh = True
         if not explicit and not same_step(s, h):
-            gh = TABLEAUX[tableau + TAB.GAMMA] * h
-            if not factor(p, s[S.JAC : S.FAC], gh, gh * gh, gh * gh, s[S.FAC : S.CONDENSED], w):
+            if not factor_all(p, s, w, TABLEAUX[tableau + TAB.GAMMA] * h):
                 if fresh:
                     return -1.0
                 continue
-            factor_modes(
-                p, s[S.JAC:S.FAC], s[S.FAC:S.CONDENSED], s[S.Y : S.Y + Y.SIZE],
-                s[S.Y + Y.TH] - s[S.JACOBIAN_ANGLE], s[S.SPEED], gh, gh * gh, s[flexure_state(p) :], w,
-            )  # fmt: skip
             s[S.FACTOR_STEP] = h
-        fine = runge_kutta_step(
-            p, s[S.C : S.C + C.SIZE], s[S.Y : S.Y + Y.SIZE], s[S.F : S.F + F.SIZE], s[S.AXES:S.JAC],
-            s[flexure_state(p) :], s[S.ANGLE], s[S.SPEED], s[S.SPEED_RATE], h, tableau, s[S.FAC:S.CONDENSED],
-            s[S.Y + Y.TH] - s[S.JACOBIAN_ANGLE], control.allowed_remainder(tolerance, h),
-            s[S.CONTRACTION], probes(s), w, report,
-        )  # fmt: skip
-        if fine:
-            if report[W.CONTRACTION] > 0.0:
-                s[S.CONTRACTION] = report[W.CONTRACTION]
-            s[S.NEWTON] += report[W.ITERATIONS]
-            return report[W.ERROR] / control.allowed_estimate(tolerance)
+        remainder = control.allowed_remainder(smallest_tolerance(p, s, speed), h)
+        if runge_kutta_step(p, s, w, h, tableau, remainder, probes(s), speed):
+            if w[W.REPORT + W.CONTRACTION] > 0.0:
+                s[S.CONTRACTION] = w[W.REPORT + W.CONTRACTION]
+            s[S.NEWTON] += w[W.REPORT + W.ITERATIONS]
+            return w[W.REPORT + W.ERROR]
         if fresh:
             return -1.0
     return -1.0
 
 
 @kernel
+def add_shaft_powers(p, own, ws, h, tableau):
+    """Add work and heat of shaft and pedestal over the step just made, and what the port was pushed with."""
+    stages = int(TABLEAUX[tableau + TAB.COUNT])
+    led = has_port(p)
+    for stage in range(stages):
+        weight = h * TABLEAUX[tableau + TAB.B + stage]
+        power = SP.POWER + stage * SP.POWERS
+        own[SP.WORK] += weight * ws[power]
+        own[SP.HEAT] += weight * ws[power + 1]
+        own[SP.HEAT + 1] += weight * ws[power + 2]
+        for i in range(SP.PLANE if led else 0):
+            own[SP.PORT_IMPULSE + i] += weight * ws[SP.PUSH + stage * SP.PLANE + i]
+    last = SP.POWER + (stages - 1) * SP.POWERS
+    for i in range(SP.POWERS):
+        own[SP.POWER_NOW + i] = ws[last + i]
+    for i in range(SP.PLANE if led else 0):
+        own[SP.PORT_FORCE + i] = ws[SP.PUSH + (stages - 1) * SP.PLANE + i]
+
+
+@kernel
+def accept_all(p, s, w, h, tableau):
+    """Add up work and heat of the step just made, emit its sound samples and move the state to its end."""
+    own = members.own_state(p, s)
+    ws = members.own_work(p, w)
+    n = members.padded(p)
+    if members.has_shaft(p):
+        add_shaft_powers(p, own, ws, h, tableau)
+    for b in range(members.count(p)):
+        sb = members.state(p, s, b)
+        wb = members.work(p, w, b)
+        integrate_power(h, tableau, wb, sb[S.WORK : S.WORK + F.POWERS])
+        shaft_work, torque_time = integrate_torque(h, tableau, wb, sb[S.SPEED], sb[S.SPEED_RATE])
+        sb[S.SHAFT_WORK] += shaft_work
+        sb[S.TORQUE_TIME] += torque_time
+    emit(p, s, w, h)
+    for b in range(members.count(p)):
+        sb = members.state(p, s, b)
+        accept(members.parameters(p, b), sb, members.work(p, w, b), h)
+        control.follow_rings(sb, h)
+        own[members.kept(p, b) + SP.OFFSET] += h * own[members.kept(p, b) + SP.OFFSET_RATE]
+    end = members.vector(p, int(TABLEAUX[tableau + TAB.COUNT]) - 1)
+    for i in range(n):
+        own[SP.S_HEAD + i] = ws[members.vector(p, SP.PLACE) + i]
+        own[SP.S_HEAD + n + i] = ws[members.vector(p, SP.RATE) + i]
+        own[SP.S_HEAD + 2 * n + i] = ws[end + i]
+    copy_rows(p, s, w)
+
+
+@kernel
+def begin_step(p, s):
+    """Keep sums where :func:`end_step` turns them into means over the communication step."""
+    own = members.own_state(p, s)
+    for b in range(members.count(p)):
+        steps.begin_means(members.state(p, s, b))
+    for i in range(2):
+        own[SP.MEAN_HEAT + i] = own[SP.HEAT + i]
+    for i in range(SP.PLANE):
+        own[SP.PORT_IMPULSE + i] = 0.0
+
+
+@kernel
+def end_step(p, s, w, speed, end, h):
+    """Clock, stored energy, losses and means at the end of the communication step ``h`` (s).
+
+    One evaluation at the end point gives stored energy for the balance, and accelerations and torque that do
+    not carry the last Newton iteration's remainder.
+    """
+    own = members.own_state(p, s)
+    for b in range(members.count(p)):
+        sb = members.state(p, s, b)
+        sb[S.TIME] = end
+        sb[S.SPEED] = speed
+    s[S.ENERGY_NOW] = total_energy(p, s, w)
+    for b in range(members.count(p)):
+        sb = members.state(p, s, b)
+        summarise(members.parameters(p, b), sb, members.work(p, w, b))
+        steps.end_means(sb, h)
+    for i in range(2):
+        own[SP.MEAN_HEAT + i] = (own[SP.HEAT + i] - own[SP.MEAN_HEAT + i]) / h
+    for i in range(SP.PLANE):
+        own[SP.PORT_MEAN + i] = own[SP.PORT_IMPULSE + i] / h
+
+
+@kernel
 def march(p, u, s, w, h):
     """Advance the state by the communication step ``h`` (s); status code."""
-    steps.begin_means(s)
+    begin_step(p, s)
     take_inputs(p, u, s, w, h)
     tableau = AT_TRBDF2 if p[P.METHOD] == TRBDF2 else AT_RK4 if p[P.METHOD] == RK4 else AT_ESDIRK4
     order = TABLEAUX[tableau + TAB.ORDER]
+    speed = u[SP.U_SPEED]
     begin = s[S.TIME]
     end = begin + h
-    longest = longest_step(p, s, u[U.SPEED])
+    longest = longest_step(p, s, speed)
     # bounded work: no more attempts than a hundred times what the largest internal step would need
     # (a thousand times for explicit steps, which stability keeps below 0.1 us)
     left = steps.most_attempts(h, longest, 1000.0 if tableau == AT_RK4 else 100.0)
@@ -141,26 +307,25 @@ def march(p, u, s, w, h):
         left -= 1.0
         if left < 0.0:
             return NOT_CONVERGED
-        error = try_step(p, s, w, length, tableau, control.allowed_velocity(p, s, u[U.SPEED]))
+        error = try_step(p, s, w, length, tableau, speed)
         if error < 0.0 or not (error <= 1.0):
             if not steps.rejected(s, length * control.shrinkage(s, error, order), h):
                 return NOT_CONVERGED
             continue
-        integrate_power(length, tableau, w, s[S.WORK : S.WORK + F.POWERS])
-        shaft_work, torque_time = integrate_torque(length, tableau, w, s[S.SPEED], s[S.SPEED_RATE])
-        s[S.SHAFT_WORK] += shaft_work
-        s[S.TORQUE_TIME] += torque_time
-        emit_samples(p, s, w, length)
         fresh = s[S.JACOBIAN_TIME] == s[S.TIME]
         control.propose(s, error, s[S.CONTRACTION] if fresh else 0.0, length, longest, order)
-        accept(p, s, w, length)
-        control.follow_rings(s, length)
+        accept_all(p, s, w, length, tableau)
         remaining = end - s[S.TIME]
-    s[S.TIME] = end
-    s[S.SPEED] = u[U.SPEED]
-    # One evaluation at the end point: stored energy for the balance, and accelerations and torque that do
-    # not carry the last Newton iteration's remainder.
-    s[S.ENERGY_NOW] = total_energy(p, s, w)
-    summarise(p, s, w)
-    steps.end_means(s, h)
+    end_step(p, s, w, speed, end, h)
+    return OK
+
+
+@kernel
+def solve_at_state(p, s, w, gh):
+    """Solve Newton's equations with Jacobians made at the state; where they stand: see `solve_set`."""
+    renew_jacobians(p, s, w)
+    if not factor_all(p, s, w, gh):
+        return NOT_CONVERGED
+    turn_since(p, s, w, 0.0)
+    solve_set(p, s, w)
     return OK

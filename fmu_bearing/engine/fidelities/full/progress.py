@@ -1,10 +1,10 @@
-"""What a step does to the state: renew the Jacobian, accept the step, add up energy."""
+"""What a step does to the state of a bearing: renew its Jacobian, accept the step; stored energy of all."""
 
 from fmu_bearing.engine.fidelities.full.flexible import accept_modes
 from fmu_bearing.engine.fidelities.full.vectors import copy_rows
 from fmu_bearing.engine.fidelities.steps import advance_clock
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import STRIDE, C, F, P, Q, S, W, Y
+from fmu_bearing.engine.layout import SP, STRIDE, C, F, P, Q, S, W, Y
 from fmu_bearing.engine.mechanics.ball_waves import advance_axes, turn_axes
 from fmu_bearing.engine.mechanics.energy import stored_energy
 from fmu_bearing.engine.mechanics.equations import right_hand_side
@@ -16,6 +16,9 @@ from fmu_bearing.engine.mechanics.flexure import (
 )
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 from fmu_bearing.engine.newton.jacobian import jacobian
+from fmu_bearing.engine.spindle import members
+from fmu_bearing.engine.spindle.follow import accelerate
+from fmu_bearing.engine.spindle.shaft import shaft_energy
 
 
 @kernel
@@ -26,8 +29,8 @@ def show_axes(p, s, w):
 
 
 @kernel
-def total_energy(p, s, w):
-    """Return the stored energy (J) of the state in ``s``; refresh its right-hand side on the way."""
+def bearing_energy(p, s, w):
+    """Return the stored energy (J) of a bearing; refresh its right-hand side, as of free rings."""
     show_axes(p, s, w)
     right_hand_side(
         p, s[S.C : S.C + C.SIZE], s[S.Y : S.Y + Y.SIZE], s[S.ANGLE], s[S.SPEED], s[S.SPEED_RATE], w,
@@ -38,6 +41,26 @@ def total_energy(p, s, w):
         keep_accelerations(p, s, w)
         energy += flexure_energy(p, s[S.Y : S.Y + Y.SIZE], s[S.SPEED], w)
     return energy
+
+
+@kernel
+def total_energy(p, s, w):
+    """Return the stored energy (J) of the state; accelerations and powers there are computed again."""
+    total = 0.0
+    for b in range(members.count(p)):
+        total += bearing_energy(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b))
+    if not members.has_shaft(p):
+        return total
+    own = members.own_state(p, s)
+    work, bent, shaken = accelerate(p, s, w, False, 0.0, s[S.ANGLE], s[S.SPEED], s[S.SPEED_RATE])
+    own[SP.POWER_NOW] = work
+    own[SP.POWER_NOW + 1] = bent
+    own[SP.POWER_NOW + 2] = shaken
+    n = members.padded(p)
+    total += shaft_energy(
+        p, own, own, SP.S_HEAD, SP.S_HEAD + n, members.own_work(p, w), members.vector(p, SP.FORCE)
+    )
+    return total
 
 
 @kernel

@@ -1,26 +1,44 @@
-"""The state at initialisation: the steady one under preload, radial loads, weights and misalignment.
+"""The state at initialisation: the steady one at the inputs, of a single bearing and of a set.
 
-Rings rest on their springs, bent by their loads where they are flexible; each ball has its own place, orbit
-and spin. From the quasi-static state of the bearing with its imperfections, all is moved by what steady and
-quasi-static state of the perfect bearing differ by.
+A single bearing rests under preload, radial loads, weights and misalignment on its own springs. In a set the
+preload is put in as offsets, shaft and housing rest, and each bearing stands about its rings there. Flexible
+rings are bent by their loads; each ball has its own place, orbit and spin. From the quasi-static state of the
+bearing with its imperfections, all is moved by what steady and quasi-static state of the perfect bearing
+differ by.
 """
 
 from fmu_bearing.engine.choices import FULL
+from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE
 from fmu_bearing.engine.fidelities.full.progress import show_axes, total_energy
 from fmu_bearing.engine.fidelities.full.settle import settle
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import EQ, PT, C, F, P, Q, S, U, W, Y
+from fmu_bearing.engine.layout import EQ, PT, SP, ST, C, F, P, Q, S, U, W, Y
 from fmu_bearing.engine.mechanics.ball_waves import first_axes
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.readout.losses import summarise
+from fmu_bearing.engine.spindle import members
+from fmu_bearing.engine.spindle.follow import copy_rows
+from fmu_bearing.engine.spindle.inputs import (
+    bearing_conditions,
+    bearing_inputs,
+    offset_change,
+    spread_choices,
+    take_loads,
+)
+from fmu_bearing.engine.spindle.port import begin_motion, has_port
+from fmu_bearing.engine.spindle.rest import keep_stiffness, outer_row, settle_bearing, start_vector
+from fmu_bearing.engine.spindle.steady import place_held, rest_steadily
+from fmu_bearing.engine.statics.axial import quasistatic
 from fmu_bearing.engine.statics.place import equilibrium, loads, place_balls, place_cage, place_rings
 from fmu_bearing.engine.statics.rigid_preload import rigid_start
 from fmu_bearing.engine.statics.spin_balance import balance_spins
-from fmu_bearing.engine.status import OK, TOO_SOFT
-from fmu_bearing.engine.steady.even import NONE
+from fmu_bearing.engine.status import NO_START, OK, TOO_SOFT
+from fmu_bearing.engine.steady.even import BOTH, NONE
 from fmu_bearing.engine.steady.point import EVEN_BALLS, NOT_FOUND, move_to_steady, settle_perfect
 
-FAR = 0.3  # of the pitch radius: beyond it the angles of pockets and waves, series in it, lose a micrometre
+_FAR = 0.3  # of the pitch radius: beyond it the angles of pockets and waves, series in it, lose a micrometre
+_BACKWARD = 1e-6  # of all forces: what a bearing may carry against its direction
+TOUCHING = 0.01  # N: without preload rings stand where the balls just touch, as for rigid preload
 
 
 @kernel
@@ -86,8 +104,13 @@ def begin_means(s):
 
 
 @kernel
-def place_perfect(p, c, speed, load, carried, found, first, w):
-    """Put the quasi-static state of the perfect bearing to ``first``; leave it where there is none."""
+def place_perfect(p, c, speed, carried, first, w):
+    """Put the quasi-static state of the perfect bearing to ``first``; leave it where there is none.
+
+    Under the load in ``W.LOAD`` and what the pedestal has ``carried`` (N): see `rest_alone`.
+    """
+    found = w[W.FOUND : W.FOUND + EQ.SIZE]
+    load = w[W.LOAD : W.LOAD + EQ.FREEDOMS]
     tilt = w[W.TILT : W.TILT + 2]
     if equilibrium(p, c, speed, load, 0.0, tilt, found, w) != OK:
         return
@@ -100,45 +123,217 @@ def place_perfect(p, c, speed, load, carried, found, first, w):
 
 
 @kernel
+def cold_place(p, u, b, load, w):
+    """Place (m) of an inner ring under an axial ``load`` (N) at standstill and 20 degC; status."""
+    pb = members.parameters(p, b)
+    wb = members.work(p, w, b)
+    still = wb[W.STILL_INPUTS : W.STILL_CONDITIONS]
+    c = wb[W.STILL_CONDITIONS : W.STILL_FOUND]
+    found = wb[W.STILL_FOUND : W.STILL_END]
+    bearing_inputs(p, u, b, still)
+    still[U.SPEED] = 0.0
+    still[U.OIL_T] = REFERENCE_TEMPERATURE
+    still[U.INNER_T] = REFERENCE_TEMPERATURE
+    still[U.OUTER_T] = REFERENCE_TEMPERATURE
+    conditions(pb, still, 0.0, c)
+    c[C.PRELOAD] = max(load, TOUCHING)
+    status = quasistatic(pb, c, 0.0, found)
+    place = found[ST.AXIAL_SHIFT]
+    if p[members.row(p, b) + SP.ROW_SEAT] == SP.PEDESTAL:
+        place += load / c[C.PEDESTAL_AXIAL]
+    return place, status
+
+
+@kernel
+def preload_set(p, u, s, w):
+    """Offsets of all bearings into the set's own state: where preload puts them, at the inputs; status code.
+
+    A set that carries one way stands where the load on its nose puts it: there the shaft's zero is free.
+    """
+    own = members.own_state(p, s)
+    asked = u[SP.U_PRELOAD]
+    if p[int(p[P.SET]) + SP.PRELOAD_KIND] == SP.TOUCHING:
+        asked = 0.0
+    for b in range(members.count(p)):
+        r = members.row(p, b)
+        load = p[r + SP.ROW_SHARE] * asked
+        if p[int(p[P.SET]) + SP.ONE_WAY] != 0.0:
+            load = abs(u[SP.U_NOSE]) / members.count(p)
+        place, status = cold_place(p, u, b, load, w)
+        if status != OK:
+            return status
+        at = members.kept(p, b)
+        own[at + SP.OFFSET_COLD] = place + p[r + SP.ROW_STICKOUT]
+        own[at + SP.OFFSET] = own[at + SP.OFFSET_COLD] + offset_change(p, u, b)
+        own[at + SP.OFFSET_RATE] = 0.0
+    return OK
+
+
+@kernel
+def pushed_back(p, w):
+    """Whether the shaft rests on a side of races without shoulder, in bearings settled last."""
+    ws = members.own_work(p, w)
+    total = 100.0
+    most = 0.0
+    for b in range(members.count(p)):
+        along = ws[members.scratch(p, b) + SP.START_FORCE]
+        total += abs(along)
+        most = max(most, along)
+    return most > _BACKWARD * total
+
+
+@kernel
+def too_far(p, y):
+    """Whether the outer ring has sunk further than the equations of pockets and waves are good for."""
+    aside = abs(y[Y.Q0 + Q.OUTER + Q.Y]) + abs(y[Y.Q0 + Q.OUTER + Q.Z])
+    return aside > _FAR * p[P.PITCH_RADIUS]
+
+
+@kernel
+def rest_alone(p, u, s, w, speed):
+    """Put the rings of a single bearing to rest in the state, what balls need to ``W.FOUND``.
+
+    Returns a status code, and the load (N) in z that the pedestal carries.
+    """
+    c = s[S.C : S.C + C.SIZE]
+    found = w[W.FOUND : W.FOUND + EQ.SIZE]
+    load = w[W.LOAD : W.LOAD + EQ.FREEDOMS]
+    tilt = w[W.TILT : W.TILT + 2]
+    if p[P.RIGID] != 0.0:
+        status = rigid_start(p, u, c, s, w, found)
+        if status != OK:
+            return status, 0.0
+    carried = loads(p, c, load)
+    status = equilibrium(p, c, speed, load, 1.0, tilt, found, w)
+    if status != OK:
+        return status, carried
+    y = s[S.Y : S.Y + Y.SIZE]
+    place_rings(c, y, found, tilt, c[C.LOAD_Y], carried)
+    if too_far(p, y):
+        return TOO_SOFT, carried
+    if p[P.RIGID] != 0.0:
+        y[Y.Q0] = s[S.PLACE]
+    return OK, carried
+
+
+@kernel
+def rest_together(p, u, s, w, speed, t):
+    """Put shaft and housing of a set to rest in its own state; status code."""
+    own = members.own_state(p, s)
+    ws = members.own_work(p, w)
+    take_loads(p, u, own)
+    status = preload_set(p, u, s, w)
+    if status != OK:
+        return status
+    z = start_vector(p, SP.UNKNOWNS)
+    if has_port(p):
+        for i in range(SP.PLANE):
+            ws[z + i] = u[SP.U_PORT + i]
+    status = rest_steadily(p, s, w, speed)
+    if status != OK:
+        return status
+    if pushed_back(p, w) and not has_port(p):
+        return NO_START
+    for i in range(members.coordinates(p)):
+        own[SP.S_HEAD + i] = ws[z + i]
+    keep_stiffness(p, s, w)
+    if has_port(p):
+        begin_motion(p, u, own, t)
+    return OK
+
+
+@kernel
+def rest_member(p, s, w, b, speed):
+    """Put the rings of bearing ``b`` of a set where shaft and housing rest; the balls' to ``W.FOUND``."""
+    pb = members.parameters(p, b)
+    sb = members.state(p, s, b)
+    ws = members.own_work(p, w)
+    settle_bearing(p, s, w, b, speed, start_vector(p, SP.UNKNOWNS), start_vector(p, SP.TRIAL_FORCES))
+    y = sb[S.Y : S.Y + Y.SIZE]
+    at = members.scratch(p, b)
+    for i in range(SP.HOUSING):
+        y[Y.Q0 + Q.OUTER + i] = ws[at + SP.START_OUTER + i]
+    if too_far(pb, y):
+        return TOO_SOFT
+    for i in range(SP.PLANE):
+        y[Y.Q0 + i] = ws[at + SP.START_RING + i] + ws[at + SP.START_OUTER + outer_row(i)]
+    return OK
+
+
+@kernel
+def begin_bearing(p, u, s, w, b, speed, carried, t):
+    """Balls and cage of bearing ``b`` about its rings at rest, moved to the steady state; its clock.
+
+    ``carried``: see `rest_alone`.
+    """
+    pb = members.parameters(p, b)
+    sb = members.state(p, s, b)
+    wb = members.work(p, w, b)
+    together = members.has_shaft(p)
+    c = sb[S.C : S.C + C.SIZE]
+    y = sb[S.Y : S.Y + Y.SIZE]
+    place_rest(pb, c, y, wb[W.FOUND : W.FOUND + EQ.SIZE], sb, wb)
+    settle(pb, c, y, 0.0, speed, sb, wb)
+    first = wb[W.PATTERN + PT.FIRST_STATE : W.PATTERN + PT.EVEN_STATE]
+    for i in range(Y.SIZE):
+        first[i] = y[i]
+    if c[C.OVERSIZE_SCALE] != 0.0 and pb[P.MODES] == 0.0:
+        if together:
+            place_held(p, b, speed, first, s, w)
+        else:
+            place_perfect(pb, c, speed, carried, first, wb)
+    if not together:
+        # a rigid preload was given as the load that it means here
+        c[C.PRELOAD] = u[U.PRELOAD]
+    become_steady(pb, c, y, first, BOTH if together else NONE, sb, wb, speed)
+    if pb[P.RIGID] != 0.0:
+        y[Y.Q0] = sb[S.PLACE]
+    begin_clock(pb, sb, speed, t)
+
+
+@kernel
 def start(p, u, s, w, t):
     """Fill the state ``s`` for the inputs ``u`` at time ``t`` (s); status code."""
     for i in range(s.size):
         s[i] = 0.0
-    for i in range(W.MOTION):
-        w[i] = 0.0
-    c = s[S.C : S.C + C.SIZE]
-    conditions(p, u, u[U.SPEED], c)
-    load = w[W.LOAD : W.LOAD + EQ.FREEDOMS]
-    tilt = w[W.TILT : W.TILT + 2]
-    found = w[W.FOUND : W.FOUND + EQ.SIZE]
-    if p[P.RIGID] != 0.0:
-        status = rigid_start(p, u, c, s, w, found)
-        if status != OK:
-            return status
-    carried = loads(p, c, load)
-    status = equilibrium(p, c, u[U.SPEED], load, 1.0, tilt, found, w)
+    for b in range(members.count(p)):
+        wb = members.work(p, w, b)
+        for i in range(W.MOTION):
+            wb[i] = 0.0
+    own = members.own_state(p, s)
+    ws = members.own_work(p, w)
+    for i in range(ws.size):
+        ws[i] = 0.0
+    speed = u[SP.U_SPEED]
+    spread_choices(p)
+    for b in range(members.count(p)):
+        bearing_conditions(p, u, b, speed, w)
+        sb = members.state(p, s, b)
+        for i in range(C.USED):
+            sb[S.C + i] = members.work(p, w, b)[W.CONDITIONS + i]
+    together = members.has_shaft(p)
+    carried = 0.0
+    if together:
+        status = rest_together(p, u, s, w, speed, t)
+    else:
+        status, carried = rest_alone(p, u, s, w, speed)
     if status != OK:
         return status
-    y = s[S.Y : S.Y + Y.SIZE]
-    place_rings(c, y, found, tilt, c[C.LOAD_Y], carried)
-    if abs(y[Y.Q0 + Q.OUTER + Q.Y]) + abs(y[Y.Q0 + Q.OUTER + Q.Z]) > FAR * p[P.PITCH_RADIUS]:
-        return TOO_SOFT
-    if p[P.RIGID] != 0.0:
-        y[Y.Q0] = s[S.PLACE]
-    place_rest(p, c, y, found, s, w)
-    settle(p, c, y, 0.0, u[U.SPEED], s, w)
-    first = w[W.PATTERN + PT.FIRST_STATE : W.PATTERN + PT.EVEN_STATE]
-    for i in range(Y.SIZE):
-        first[i] = y[i]
-    if c[C.OVERSIZE_SCALE] != 0.0 and p[P.MODES] == 0.0:
-        place_perfect(p, c, u[U.SPEED], load, carried, found, first, w)
-    c[C.PRELOAD] = u[U.PRELOAD]
-    become_steady(p, c, y, first, NONE, s, w, u[U.SPEED])
-    if p[P.RIGID] != 0.0:
-        y[Y.Q0] = s[S.PLACE]
-    begin_clock(p, s, u[U.SPEED], t)
+    for b in range(members.count(p)):
+        if together:
+            status = rest_member(p, s, w, b, speed)
+            if status != OK:
+                return status
+        begin_bearing(p, u, s, w, b, speed, carried, t)
+    copy_rows(p, s, w)
     s[S.ENERGY_START] = total_energy(p, s, w)
     s[S.ENERGY_NOW] = s[S.ENERGY_START]
-    summarise(p, s, w)
-    begin_means(s)
+    for b in range(members.count(p)):
+        sb = members.state(p, s, b)
+        summarise(members.parameters(p, b), sb, members.work(p, w, b))
+        begin_means(sb)
+    for i in range(2):
+        own[SP.MEAN_HEAT + i] = own[SP.POWER_NOW + 1 + i]
+    for i in range(SP.PLANE):
+        own[SP.PORT_MEAN + i] = own[SP.PORT_FORCE + i]
     return OK

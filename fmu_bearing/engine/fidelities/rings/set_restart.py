@@ -3,12 +3,12 @@
 from fmu_bearing.engine.fidelities import steps
 from fmu_bearing.engine.fidelities.condensed.rows import turn_balls
 from fmu_bearing.engine.fidelities.condensed.shared import advance
-from fmu_bearing.engine.fidelities.rings import predictor
+from fmu_bearing.engine.fidelities.rings import coupled, predictor, set_held
 from fmu_bearing.engine.fidelities.rings.restart import TRIES, forget_motion
+from fmu_bearing.engine.fidelities.rings.set_march import begin_at_rest, emit_rings, go_on, take_inputs
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, P, S
-from fmu_bearing.engine.spindle import condensed, held, members
-from fmu_bearing.engine.spindle.rings import begin_at_rest, emit_rings, go_on, take_inputs
+from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.status import OK
 
 
@@ -16,11 +16,11 @@ from fmu_bearing.engine.status import OK
 def begin_again(p, u, s, w):
     """Put shaft, housing, rings and balls to rest at the inputs ``u`` and the clock reached; status code."""
     own = members.own_state(p, s)
-    status = held.hold_from_zero(p, u, s, w)
+    status = set_held.hold_from_zero(p, u, s, w)
     if status != OK:
         return status
     predictor.forget(own, members.march(p), members.history(p), members.padded(p))
-    condensed.tell_march(p, s)
+    coupled.tell_march(p, s)
     for b in range(members.count(p)):
         forget_motion(members.condensed(members.state(p, s, b)))
     begin_at_rest(p, s, w)
@@ -63,8 +63,8 @@ def march_rings_set(p, u, s, w, h):
         sb = members.state(p, s, b)
         sb[S.TIME] = end
         sb[S.SPEED] = u[SP.U_SPEED]
-    condensed.keep_loads(p, s, w)
-    condensed.publish_set(p, s, w)
+    coupled.keep_loads(p, s, w)
+    coupled.publish_set(p, s, w)
     for b in range(members.count(p)):
         steps.end_means(members.state(p, s, b), h)
     return OK

@@ -3,10 +3,11 @@
 from fmu_bearing.engine.fidelities.condensed.held import held_speed, hold_at, out_of_date
 from fmu_bearing.engine.fidelities.condensed.shared import even_spacing, hold_masses
 from fmu_bearing.engine.fidelities.condensed.uneven import add_uneven, renew_uneven, uneven_out_of_date
+from fmu_bearing.engine.fidelities.full.start import TOUCHING, start
+from fmu_bearing.engine.fidelities.rings.coupled import find_levers
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import EQ, PT, SP, ST, STRIDE, C, L, P, Q, S, U, W, Y
 from fmu_bearing.engine.spindle import members
-from fmu_bearing.engine.spindle.condensed import find_levers
 from fmu_bearing.engine.spindle.inputs import (
     bearing_conditions,
     bearing_inputs,
@@ -16,7 +17,6 @@ from fmu_bearing.engine.spindle.inputs import (
     take_loads,
 )
 from fmu_bearing.engine.spindle.rest import keep_stiffness, settle_bearing, start_vector
-from fmu_bearing.engine.spindle.start import TOUCHING, start_set
 from fmu_bearing.engine.spindle.steady import place_held, rest_steadily
 from fmu_bearing.engine.statics.axial import quasistatic
 from fmu_bearing.engine.statics.held import held
@@ -197,7 +197,7 @@ def hold_from_zero(p, u, s, w):
 @kernel
 def start_held(p, u, s, w, t):
     """Start of fidelities rings and response: that of fidelity full, then what is held; status code."""
-    status = start_set(p, u, s, w, t)
+    status = start(p, u, s, w, t)
     if status != OK:
         return status
     for b in range(members.count(p)):

@@ -11,12 +11,12 @@ from fmu_bearing.engine.fidelities.condensed.transverse import (
     prepare_step,
 )
 from fmu_bearing.engine.fidelities.full.start import begin_means
-from fmu_bearing.engine.fidelities.rings import march, predictor
+from fmu_bearing.engine.fidelities.rings import coupled, march, predictor, set_held
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, STRIDE, C, H, L, P, S, T, W, Y
-from fmu_bearing.engine.spindle import condensed, held, members
+from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.shaft import shaft_forces
-from fmu_bearing.engine.spindle.sound import emit_set
+from fmu_bearing.engine.spindle.sound import emit
 from fmu_bearing.engine.status import NO_START, NOT_CONVERGED, OK
 
 
@@ -24,7 +24,7 @@ from fmu_bearing.engine.status import NO_START, NOT_CONVERGED, OK
 def longest_of(p, own, speed):
     """Longest internal step (s) at ``speed`` (rad/s)."""
     # a shaft that bends has modes far above those that matter: see `displace_set`
-    highest = 0.0 if condensed.bends(p) else own[members.march(p) + H.HIGHEST]
+    highest = 0.0 if coupled.bends(p) else own[members.march(p) + H.HIGHEST]
     longest = march.longest_step(members.parameters(p, 0), highest, speed)
     for b in range(1, members.count(p)):
         longest = min(longest, march.longest_step(members.parameters(p, b), highest, speed))
@@ -55,7 +55,7 @@ def place_on_waves(p, s, w, speed):
             c = sb[S.C : S.C + C.SIZE]
             stand(pb, c, lv, lv[L.THETA], lv[L.ROLLED], s[S.ANGLE], 0.0, speed, wb)
         if again == 0:
-            found = condensed.at_rest(p, s, w, speed)
+            found = coupled.at_rest(p, s, w, speed)
         if found:
             break
 
@@ -63,7 +63,7 @@ def place_on_waves(p, s, w, speed):
 @kernel
 def start_rings_set(p, u, s, w, t):
     """Fill the state ``s`` of a set for the inputs ``u`` at time ``t`` (s); status code."""
-    status = held.start_held(p, u, s, w, t)
+    status = set_held.start_held(p, u, s, w, t)
     if status != OK:
         return status
     own = members.own_state(p, s)
@@ -94,7 +94,7 @@ def begin_at_rest(p, s, w):
         lv = members.condensed(members.state(p, s, b))
         for row in (L.X, L.X1, L.X2):
             keep_balls(members.work(p, w, b), lv, row)
-    found = condensed.begin_anew(p, s, w)
+    found = coupled.begin_anew(p, s, w)
     if not found:
         own[members.march(p) + H.CONTRACTION] = 1.0
     for b in range(members.count(p)):
@@ -103,7 +103,7 @@ def begin_at_rest(p, s, w):
             count_settled(lv, int(members.parameters(p, b)[P.LANES]), members.work(p, w, b))
     # nothing is known of the rate of acceleration yet, which Newmark's velocity contains: begin finely
     s[S.STEP] = march.FIRST * longest_of(p, own, s[S.SPEED])
-    condensed.publish_set(p, s, w)
+    coupled.publish_set(p, s, w)
     return found
 
 
@@ -118,15 +118,15 @@ def displace_set(p, own, ws, h):
     """
     turned = members.vector(p, SP.FORCE)
     d = members.vector(p, SP.INCREMENT)
-    condensed.answer(p, own, ws, members.squares(p), d, turned)
+    coupled.answer(p, own, ws, members.squares(p), d, turned)
     n = members.coordinates(p)
     place = members.vector(p, SP.PLACE)
     predictor.displaced(ws, d, turned, place, n, h)
-    if condensed.bends(p):
+    if coupled.bends(p):
         again = members.vector(p, SP.RATE)
-        condensed.answer(p, own, ws, members.squares(p), turned, again)
+        coupled.answer(p, own, ws, members.squares(p), turned, again)
         for i in range(n):
-            ws[place + i] += condensed.THIRD * h**6 * ws[again + i]
+            ws[place + i] += coupled.THIRD * h**6 * ws[again + i]
 
 
 @kernel
@@ -145,7 +145,7 @@ def predict_set(p, s, w, h):
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)
         lv = members.condensed(sb)
-        condensed.follow_trial(p, b, own, ws, wb, h)
+        coupled.follow_trial(p, b, own, ws, wb, h)
         predictor.continue_places(lv, int(pb[P.LANES]), wb)
         begin_transverse(lv, h, wb)
         march.stand_ahead(pb, sb, h, wb)
@@ -166,7 +166,7 @@ def true_rates(p, own, ws, h):
     acc = members.vector(p, SP.ACCELERATION)
     newmark = members.vector(p, SP.NEWMARK)
     rate = members.vector(p, SP.RATE)
-    if not condensed.bends(p) or own[numbers + H.KNOWN] < 1.0:
+    if not coupled.bends(p) or own[numbers + H.KNOWN] < 1.0:
         predictor.true_velocities(own, numbers, x, lanes, n, h, ws, acc, newmark, rate)
         return
     for i in range(n):
@@ -194,13 +194,13 @@ def residual_of(p, s, w, h):
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)
         lv = members.condensed(sb)
-        condensed.follow_trial(p, b, own, ws, wb, h)
+        coupled.follow_trial(p, b, own, ws, wb, h)
         q = wb[T.Q : T.Q + L.COLUMN]
         fine = accelerations(pb, sb[S.C : S.C + C.SIZE], lv, angle, speed, rate, q, wb)
         add_transverse(pb, lv, wb)
         if not fine:
             return False
-        condensed.pull_rings(p, b, lv, wb, ws)
+        coupled.pull_rings(p, b, lv, wb, ws)
     return True
 
 
@@ -212,13 +212,13 @@ def correct_once(p, s, w, h):
     n = members.coordinates(p)
     lanes = members.padded(p)
     d = members.vector(p, SP.INCREMENT)
-    condensed.answer(p, own, ws, members.inverse(p), members.vector(p, SP.RESIDUAL), d)
+    coupled.answer(p, own, ws, members.inverse(p), members.vector(p, SP.RESIDUAL), d)
     for i in range(n):
         ws[members.vector(p, SP.ACCELERATION) + i] += ws[d + i]
         ws[members.vector(p, SP.NEWMARK) + i] += 0.5 * h * ws[d + i]
     displace_set(p, own, ws, h)
     known = own[members.march(p) + H.KNOWN]
-    counts = 0.0 if condensed.bends(p) and known >= 1.0 else predictor.last_counts(known)
+    counts = 0.0 if coupled.bends(p) and known >= 1.0 else predictor.last_counts(known)
     for b in range(members.count(p)):
         wb = members.work(p, w, b)
         members.moved(p, b, ws, d, wb, T.D)
@@ -259,18 +259,18 @@ def try_rings(p, s, w, h, tolerance):
     numbers = members.march(p)
     x = members.history(p)
     predictor.change_spacing(own, numbers, x, lanes, members.coordinates(p), h)
-    condensed.tell_march(p, s)
+    coupled.tell_march(p, s)
     for _ in range(2):
         if (
             own[numbers + H.CONTRACTION] > march.SLOW
             and own[numbers + H.FRESH] == 0.0
-            and not condensed.renew_rings(p, s, w)
+            and not coupled.renew_rings(p, s, w)
         ):
             return -1.0
         for b in range(members.count(p)):
             prepare_step(members.condensed(members.state(p, s, b)), h)
         if abs(h - own[numbers + H.FACTOR_STEP]) > 0.05 * h:
-            if not condensed.factor_rings(p, s, w, h):
+            if not coupled.factor_rings(p, s, w, h):
                 return -1.0
             own[numbers + H.FACTOR_STEP] = h
         probe = s[S.STEPS] % march.PROBE == 0.0
@@ -288,7 +288,7 @@ def try_rings(p, s, w, h, tolerance):
 @kernel
 def emit_rings(p, s, w, h):
     """Sound samples of the step ``h`` (s) just made; publish its end."""
-    condensed.show(p, s, w)
+    coupled.show(p, s, w)
     emit_shown(p, s, w, h)
 
 
@@ -297,7 +297,7 @@ def emit_shown(p, s, w, h):
     """Sound samples of the step ``h`` (s) to the rings as they are shown; publish its end."""
     for b in range(members.count(p)):
         show_end(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b), h, False)
-    emit_set(p, s, w, h)
+    emit(p, s, w, h)
     for b in range(members.count(p)):
         keep_end(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b))
 
@@ -315,7 +315,7 @@ def accept_rings(p, s, w, h):
         mine = members.kept(p, b)
         march.accept_balls(members.parameters(p, b), members.state(p, s, b), h, members.work(p, w, b))
         own[mine + SP.OFFSET] += h * own[mine + SP.OFFSET_RATE]
-    condensed.tell_march(p, s)
+    coupled.tell_march(p, s)
     if p[P.SOUND_SIZE] != 0.0:
         emit_rings(p, s, w, h)
     for b in range(members.count(p)):
@@ -325,18 +325,18 @@ def accept_rings(p, s, w, h):
 @kernel
 def take_inputs(p, u, s, w, h):
     """Set conditions, loads and ramps; renew what is held where it is out of date. Status code."""
-    if not held.take_rings_inputs(p, u, s, w, h):
+    if not set_held.take_rings_inputs(p, u, s, w, h):
         return OK
-    if held.hold_set(p, u, s, w) != OK:
+    if set_held.hold_set(p, u, s, w) != OK:
         return NOT_CONVERGED
     own = members.own_state(p, s)
     own[members.march(p) + H.KNOWN] = 0.0
-    condensed.tell_march(p, s)
+    coupled.tell_march(p, s)
     for b in range(members.count(p)):
         wb = members.work(p, w, b)
         for i in range(Y.SIZE):
             wb[W.STAGE + i] = 0.0
-    return OK if condensed.begin_anew(p, s, w) else NOT_CONVERGED
+    return OK if coupled.begin_anew(p, s, w) else NOT_CONVERGED
 
 
 @kernel

@@ -1,8 +1,8 @@
-"""One Runge-Kutta step of a set: the stages of every bearing and of the shaft go together."""
+"""One Runge-Kutta step: the stages of every bearing and of the shaft go together."""
 
 import math
 
-from fmu_bearing.engine.fidelities.full import control
+from fmu_bearing.engine.fidelities.full import control, flexible
 from fmu_bearing.engine.fidelities.full.methods.table import TABLEAUX
 from fmu_bearing.engine.fidelities.full.norms import body_size, newton_size, row_size
 from fmu_bearing.engine.fidelities.full.runge_kutta import (
@@ -12,10 +12,18 @@ from fmu_bearing.engine.fidelities.full.runge_kutta import (
     keep_velocities,
     newton_residual,
 )  # fmt: skip
+from fmu_bearing.engine.fidelities.full.stages import (
+    acceleration,
+    begin_stages,
+    predict_bearings,
+    predict_shaft,
+    velocity,
+)  # fmt: skip
 from fmu_bearing.engine.fidelities.full.vectors import add_scaled
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, TAB, C, F, P, Q, S, W, Y
 from fmu_bearing.engine.mechanics.equations import right_hand_side
+from fmu_bearing.engine.mechanics.flexure import flexure_state
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.coupling import (
     answer_driven,
@@ -28,13 +36,6 @@ from fmu_bearing.engine.spindle.coupling import (
 from fmu_bearing.engine.spindle.follow import accelerate, free_forces, growth_power
 from fmu_bearing.engine.spindle.port import clear, feel, has_port, keep_push, lead_stage
 from fmu_bearing.engine.spindle.shaft import shaft_forces
-from fmu_bearing.engine.spindle.stages import (
-    acceleration,
-    begin_stages,
-    predict_bearings,
-    predict_shaft,
-    velocity,
-)  # fmt: skip
 
 _DIVERGED = 1e6  # m/s: size of an increment
 
@@ -49,26 +50,38 @@ def evaluate(pb, sb, wb, angle, speed, rate):
 
 
 @kernel
+def shaft_residual(p, own, ws, stage, angle, speed, rate):
+    """Residual of the shaft's equations at a stage, without the bearings' part.
+
+    Returns power in (W) and the heats of shaft and pedestal (W) there; without a shaft all are zero.
+    """
+    if not members.has_shaft(p):
+        return 0.0, 0.0, 0.0
+    residual = members.vector(p, SP.RESIDUAL)
+    work, bent, shaken = shaft_forces(
+        p, own, ws, members.vector(p, SP.PLACE), members.vector(p, SP.RATE), angle, speed, rate, ws, residual
+    )  # fmt: skip
+    members.add_product(p, members.table(p, SP.AT_MASS), -1.0, ws, acceleration(p, stage), ws, residual)
+    return work, bent, shaken
+
+
+@kernel
 def increments(p, s, w, own, ws, stage, gh, angle, speed):
     """One iteration of Newton's method at a stage; its size (m/s), the largest over the bearings.
 
     With it power in and the heats of shaft and pedestal (W), of the state before the increment.
     """
     rate = s[S.SPEED_RATE]
-    residual = members.vector(p, SP.RESIDUAL)
-    found = members.vector(p, SP.INCREMENT)
     here = W.ACC + stage * F.SIZE
-    mine = acceleration(p, stage)
-    work, bent, shaken = shaft_forces(
-        p, own, ws, members.vector(p, SP.PLACE), members.vector(p, SP.RATE), angle, speed, rate, ws, residual
-    )  # fmt: skip
-    members.add_product(p, members.table(p, SP.AT_MASS), -1.0, ws, mine, ws, residual)
+    work, bent, shaken = shaft_residual(p, own, ws, stage, angle, speed, rate)
     for b in range(members.count(p)):
         pb = members.parameters(p, b)
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)
         evaluate(pb, sb, wb, angle, speed, rate)
         newton_residual(wb[here : here + F.SIZE], int(pb[P.LANES]), wb)
+        if pb[P.MODES] != 0.0:
+            flexible.solve_modes(pb, sb[flexure_state(pb) :], stage, wb[W.D : W.D + F.SIZE], wb)
         answer_free(p, b, pb, sb, wb, own, ws)
     solve_shaft(p, own, ws)
     largest = 0.0
@@ -79,8 +92,13 @@ def increments(p, s, w, own, ws, stage, gh, angle, speed):
         answer_driven(p, b, pb, sb, wb, own, ws)
         correct(wb[here : here + F.SIZE], int(pb[P.LANES]), gh, wb)
         size = newton_size(pb, sb[S.C : S.C + C.SIZE], wb[W.D : W.D + F.SIZE], gh)
+        if pb[P.MODES] != 0.0:
+            flexible.correct_modes(pb, stage, gh, wb)
+            size = flexible.modes_size(pb, size, gh, wb)
         # a size that is no number must not be overlooked
         largest = max(largest, size) if size < _DIVERGED else _DIVERGED
+    found = members.vector(p, SP.INCREMENT)
+    mine = acceleration(p, stage)
     place = members.vector(p, SP.PLACE)
     moving = members.vector(p, SP.RATE)
     for i in range(members.padded(p)):
@@ -187,12 +205,16 @@ def explicit_stage(p, s, w, stage, t):
     for b in range(members.count(p)):
         pb = members.parameters(p, b)
         evaluate(pb, members.state(p, s, b), members.work(p, w, b), angle, speed, s[S.SPEED_RATE])
-    work, bent, shaken = accelerate(p, s, w, True, t, angle, speed, s[S.SPEED_RATE])
+    work, bent, shaken = 0.0, 0.0, 0.0
+    if members.has_shaft(p):
+        work, bent, shaken = accelerate(p, s, w, True, t, angle, speed, s[S.SPEED_RATE])
     for b in range(members.count(p)):
         wb = members.work(p, w, b)
         here = W.ACC + stage * F.SIZE
         for i in range(F.SIZE):
             wb[here + i] = wb[W.F + i]
+        if members.parameters(p, b)[P.MODES] != 0.0:
+            flexible.take_accelerations(members.parameters(p, b), stage, wb)
     to = acceleration(p, stage)
     found = members.vector(p, SP.ACCELERATION)
     for i in range(n):
@@ -217,8 +239,27 @@ def first_powers(p, s, w):
 
 
 @kernel
-def step_error(p, s, w, h, tableau):
-    """Error estimate over what is allowed, the largest over the bearings; the nose counts as one of them."""
+def nose_square(p, ws, found):
+    """Square (m2/s2) of the nose's velocity by the vector of coordinates at ``ws[found:]``."""
+    n = members.padded(p)
+    nose = members.table(p, SP.AT_NOSE)
+    square = 0.0
+    for i in range(Q.INNER_BY):
+        total = 0.0
+        for k in range(n):
+            total += p[nose + i * n + k] * ws[found + k]
+        square += total * total
+    return square
+
+
+@kernel
+def step_error(p, s, w, h, tableau, speed):
+    """Error estimate over what is allowed, the largest over the bearings; the nose counts as one of them.
+
+    For implicit methods differences are divided by Newton's matrix (Shampine and Baca 1984): what is too
+    stiff for the step, and has died away in it, then means nothing. For explicit methods the stiff share is
+    what shows instability. ``speed`` (rad/s): of the shaft, that the tolerance goes with.
+    """
     ws = members.own_work(p, w)
     n = members.padded(p)
     stages = int(TABLEAUX[tableau + TAB.COUNT])
@@ -243,25 +284,20 @@ def step_error(p, s, w, h, tableau):
         members.add_product(p, members.table(p, SP.AT_MASS), 1.0, ws, found, ws, residual)
         turn_since(p, s, w, h)
         solve_set(p, s, w)
-    nose = members.table(p, SP.AT_NOSE)
-    square = 0.0
-    for i in range(Q.INNER_BY):
-        total = 0.0
-        for k in range(n):
-            total += p[nose + i * n + k] * ws[found + k]
-        square += total * total
     largest = 0.0
     for b in range(members.count(p)):
         pb = members.parameters(p, b)
         sb = members.state(p, s, b)
-        d = members.work(p, w, b)[W.D : W.D + F.SIZE]
-        allowed = control.allowed_estimate(control.allowed_velocity(pb, sb, s[S.SPEED]))
+        wb = members.work(p, w, b)
+        d = wb[W.D : W.D + F.SIZE]
+        allowed = control.allowed_estimate(control.allowed_velocity(pb, sb, speed))
         if explicit:
             size = newton_size(pb, sb[S.C : S.C + C.SIZE], d, 1.0)
         else:
             size = math.sqrt(body_size(pb, d, F.BODY, 0.1) + 0.01 * row_size(d, F.X, 2, int(pb[P.LANES])))
-        if b == 0:
-            size = max(size, math.sqrt(square))
+        size = flexible.modes_error(pb, size, h, tableau, wb)
+        if b == 0 and members.has_shaft(p):
+            size = max(size, math.sqrt(nose_square(p, ws, found)))
         if not (size < _DIVERGED):
             return size
         largest = max(largest, size / allowed)
@@ -269,11 +305,12 @@ def step_error(p, s, w, h, tableau):
 
 
 @kernel
-def set_step(p, s, w, h, tableau, tolerance, probe):
-    """One step of length ``h`` (s) of a set, from the state into every bearing's ``W.STAGE`` and ``W.LAST``.
+def runge_kutta_step(p, s, w, h, tableau, tolerance, probe, to_speed):
+    """One step of length ``h`` (s), from the state into every bearing's ``W.STAGE`` and ``W.LAST``.
 
-    ``tolerance`` (m/s): Newton's error; ``probe``: measure the contraction anew. The first bearing's report
-    takes ``W.ERROR`` (over what is allowed), ``W.CONTRACTION`` and ``W.ITERATIONS``. False where Newton's
+    ``tolerance`` (m/s): Newton's error; ``probe``: measure the contraction again; ``to_speed`` (rad/s): of
+    the shaft at the end of the communication step. The first bearing's report takes ``W.ERROR`` (over what is
+    allowed), ``W.CONTRACTION`` and ``W.ITERATIONS``. False where Newton's
     method does not converge.
     """
     gh = TABLEAUX[tableau + TAB.GAMMA] * h
@@ -305,6 +342,8 @@ def set_step(p, s, w, h, tableau, tolerance, probe):
             wb = members.work(p, w, b)
             to = W.VEL + stage * F.SIZE
             keep_velocities(wb[W.STAGE : W.STAGE + Y.SIZE], int(pb[P.LANES]), wb[to : to + F.SIZE])
+            if pb[P.MODES] != 0.0:
+                flexible.keep_mode_velocities(pb, stage, wb)
         to = velocity(p, stage)
         rate = members.vector(p, SP.RATE)
         for i in range(n):
@@ -315,7 +354,8 @@ def set_step(p, s, w, h, tableau, tolerance, probe):
         if last != W.LAST:
             for i in range(F.SIZE):
                 wb[W.LAST + i] = wb[last + i]
-    report[W.ERROR] = step_error(p, s, w, h, tableau)
+        flexible.end_modes(members.parameters(p, b), stages, wb)
+    report[W.ERROR] = step_error(p, s, w, h, tableau, to_speed)
     report[W.CONTRACTION] = worst
     report[W.ITERATIONS] = iterations
     return True

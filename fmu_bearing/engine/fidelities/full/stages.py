@@ -1,4 +1,4 @@
-"""Stages of a step of a set: where they stand in the work space, and where Newton's method begins.
+"""Stages of a step: where they stand in the work space, and where Newton's method begins.
 
 Newton's method of a single bearing begins at the accelerations of the stage before, and takes 1.06 iterations
 a stage. In a set the bearing that is furthest away decides: from there the QBC set of the benchmark takes 1.8
@@ -6,6 +6,7 @@ a stage. In a set the bearing that is furthest away decides: from there the QBC 
 implicit stage on that is 4 to 12 times as near there, and 1.3 iterations do.
 """
 
+from fmu_bearing.engine.fidelities.full import flexible
 from fmu_bearing.engine.fidelities.full.methods.table import TABLEAUX
 from fmu_bearing.engine.fidelities.full.runge_kutta import correct, keep_velocities, predict
 from fmu_bearing.engine.fidelities.full.vectors import add_scaled
@@ -13,6 +14,7 @@ from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
 from fmu_bearing.engine.layout import FOUR, SP, STRIDE, TAB, F, P, S, W, Y
 from fmu_bearing.engine.mechanics.ball_waves import turn_axes
+from fmu_bearing.engine.mechanics.flexure import flexure_state
 from fmu_bearing.engine.spindle import members
 
 
@@ -42,6 +44,7 @@ def begin_stages(p, s, w):
             wb[W.ACC + i] = sb[S.F + i]
             wb[W.F + i] = 0.0
         keep_velocities(sb[S.Y : S.Y + Y.SIZE], int(pb[P.LANES]), wb[W.VEL : W.VEL + F.SIZE])
+        flexible.begin_modes(pb, sb[flexure_state(pb) :], wb)
     acc = acceleration(p, 0)
     vel = velocity(p, 0)
     for i in range(n):
@@ -87,7 +90,7 @@ def predict_bearings(p, s, w, h, gh, stage, tableau):
 
     ``h``: length of the step (s); ``gh``: weight of rates (s).
     """
-    beyond = extrapolation(stage, tableau)
+    beyond = extrapolation(stage, tableau) if members.has_shaft(p) else 0.0
     t = h * TABLEAUX[tableau + TAB.NODES + stage]
     for b in range(members.count(p)):
         pb = members.parameters(p, b)
@@ -97,6 +100,8 @@ def predict_bearings(p, s, w, h, gh, stage, tableau):
         predict(y, int(pb[P.LANES]), h, gh, stage, tableau, wb)
         if beyond != 0.0:
             extrapolate(wb, int(pb[P.LANES]), gh, stage, beyond)
+        if pb[P.MODES] != 0.0:
+            flexible.predict_modes(pb, sb[flexure_state(pb) :], h, gh, stage, tableau, wb)
         turn_axes(pb, sb[S.AXES : S.JAC], y, int(pb[P.LANES]), t, wb)
 
 

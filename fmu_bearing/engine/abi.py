@@ -13,8 +13,6 @@ from fmu_bearing.engine.fidelities.full.start import start
 from fmu_bearing.engine.fidelities.response.march import march_response, start_response
 from fmu_bearing.engine.fidelities.response.set_march import march_response_set, start_response_set
 from fmu_bearing.engine.fidelities.rings.restart import march_rings
-from fmu_bearing.engine.fidelities.rings.set_march import start_rings_set
-from fmu_bearing.engine.fidelities.rings.set_restart import march_rings_set
 from fmu_bearing.engine.fidelities.rings.start import start_rings
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, P, U
@@ -116,7 +114,7 @@ def init(p, u, s, z, w, t):
         return RIGID_ONLY
     together = members.has_shaft(p)
     if p[P.FIDELITY] == RINGS:
-        status = start_rings_set(p, u, s, w, t) if together else start_rings(p, u, s, w, t)
+        status = start_rings(p, u, s, w, t)
     elif p[P.FIDELITY] == RESPONSE:
         status = start_response_set(p, u, s, w, t) if together else start_response(p, u, s, w, t)
     else:
@@ -137,7 +135,7 @@ def step(p, u, s, z, w, h):
     spread_choices(p)  # a state put back brings the head of p with it, that of the first bearing alone
     together = members.has_shaft(p)
     if p[P.FIDELITY] == RINGS:
-        status = march_rings_set(p, u, s, w, h) if together else march_rings(p, u, s, w, h)
+        status = march_rings(p, u, s, w, h)
     elif p[P.FIDELITY] == RESPONSE:
         status = march_response_set(p, u, s, w, h) if together else march_response(p, u, s, w, h)
     else:

@@ -49,6 +49,7 @@ def as_set_of_one(p: NDArray[np.float64]) -> NDArray[np.float64]:
     row = block[SP.HEAD :]
     row[SP.ROW_SIGN] = 1.0
     row[SP.ROW_SEAT] = SP.PEDESTAL
+    row[SP.ROW_MASS : SP.ROW_MASS + SP.DRIVEN] = 1.0  # its equations are those of accelerations
     alone = np.concatenate([p, block])
     alone[P.SET] = p.size
     return alone

@@ -4,7 +4,7 @@ import numpy as np
 from scipy.optimize import root
 
 from fmu_bearing.engine.constants import GRAVITY
-from fmu_bearing.engine.layout import C, L, P, S, U
+from fmu_bearing.engine.layout import SP, C, L, P, S, U
 from tests.oracles.cartesian_forces import turned_axes
 
 FIDELITIES = {"rings": 1.0, "response": 2.0}
@@ -18,6 +18,11 @@ def silent(scene):
 def block(run):
     """What the fidelities keep in the state."""
     return run.s[S.CONDENSED : S.CONDENSED + L.SIZE]
+
+
+def march(run):
+    """What the march of a single bearing keeps in its state, from ``layout.history`` on."""
+    return run.s[S.SET + SP.S_HEAD + (SP.MOTION + L.N) * L.COLUMN + SP.PER_BEARING :]
 
 
 def vibration(rows):

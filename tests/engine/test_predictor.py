@@ -3,31 +3,42 @@
 import numpy as np
 import pytest
 
-from fmu_bearing.engine.fidelities.rings.predictor import displace, judge, predict
-from fmu_bearing.engine.layout import STRIDE, L, P, T, W, Y
+from fmu_bearing.engine.fidelities.rings.predictor import continue_places, displaced, guess, judged
+from fmu_bearing.engine.layout import STRIDE, H, L, T
 
 STEP = 1e-5  # s
-ROWS = (L.A0, L.A1, L.A2, L.A3, L.A4)
+HISTORY = H.NUMBERS  # of the march: its numbers stand first
+ROWS = [HISTORY + k * L.COLUMN for k in (H.A0, H.A1, H.A2, H.A3, H.A4)]
+LEVERS = HISTORY + H.LEVERS * L.COLUMN
+TRIAL, CHANGE, PLACE, RATE, SOFT = (k * L.COLUMN for k in range(5))  # of trial vectors; nothing holds SOFT
 PLACES = (L.X, L.X1, L.X2, L.X3, L.X4)
 
 
 class Block:
-    """State and work space alone, with ``motion(n)`` as accelerations ``n`` steps ago."""
+    """History of a march alone, with ``motion(n)`` as accelerations and balls' places ``n`` steps ago."""
 
     def __init__(self, motion, known=5.0):
-        self.lv, self.w, self.p = np.zeros(L.SIZE), np.zeros(W.D), np.zeros(P.LANES + 1)
-        self.p[P.LANES] = 12
-        self.lv[L.LEVERS : L.LEVERS + L.N] = 1.0
+        self.x = np.zeros(HISTORY + H.VECTORS * L.COLUMN)
+        self.trial = np.zeros(5 * L.COLUMN)
+        self.lv, self.w = np.zeros(L.SIZE), np.zeros(T.X + 2 * STRIDE)
+        self.x[LEVERS : LEVERS + L.N] = 1.0
         self.lv[L.SETTLED : L.SETTLED + STRIDE] = 9.0
-        self.lv[L.KNOWN] = known
+        self.x[H.KNOWN] = self.lv[L.KNOWN] = known
         for n, (row, places) in enumerate(zip(ROWS, PLACES, strict=True)):
-            self.lv[row : row + L.N] = motion(n)
+            self.x[row : row + L.N] = motion(n)
             self.lv[places : places + 2 * STRIDE] = motion(n)
+
+    def predict(self):
+        """Trial vectors and places of the balls, a step on."""
+        guess(self.x, 0, HISTORY, L.COLUMN, STEP, self.trial, TRIAL, CHANGE, PLACE, RATE)
+        displaced(self.trial, CHANGE, SOFT, PLACE, L.COLUMN, STEP)
+        continue_places(self.lv, 12, self.w)
 
     def judged(self, found):
         """Third difference and the degree chosen when the step ends with the acceleration ``found``."""
-        self.w[T.A : T.A + L.N] = found
-        return judge(self.lv, self.w), self.lv[L.DEGREE]
+        self.trial[TRIAL : TRIAL + L.N] = found
+        third = judged(self.x, 0, HISTORY, L.COLUMN, self.trial, TRIAL, CHANGE)
+        return third, self.x[H.DEGREE]
 
 
 @pytest.mark.parametrize("degree", range(5))
@@ -36,32 +47,33 @@ def test_polynomials_are_continued(degree):
         return (3.0 - n) ** degree + 2.0
 
     block = Block(motion)
-    block.lv[L.DEGREE] = degree
-    predict(block.p, block.lv, STEP, block.w)
+    block.x[H.DEGREE] = degree
+    block.predict()
     # small whole numbers: exact
-    assert np.all(block.w[T.A : T.A + L.N] == motion(-1))
+    assert np.all(block.trial[TRIAL : TRIAL + L.N] == motion(-1))
     assert np.all(block.w[T.X : T.X + 12] == motion(-1))
     # Newmark's formulas with beta = 1/12 from rest
     now = motion(0)
     moved = STEP**2 * (5.0 / 12.0 * now + motion(-1) / 12.0)
-    np.testing.assert_allclose(block.w[W.STAGE + Y.Q0 :][: L.N], moved, rtol=1e-14)
-    np.testing.assert_allclose(block.w[W.STAGE + Y.V0 :][: L.N], 0.5 * STEP * (now + motion(-1)), rtol=1e-14)
+    np.testing.assert_allclose(block.trial[PLACE:][: L.N], moved, rtol=1e-14)
+    np.testing.assert_allclose(block.trial[RATE:][: L.N], 0.5 * STEP * (now + motion(-1)), rtol=1e-14)
 
 
 def test_only_known_values_are_used():
     block = Block(lambda n: 4.0 - n, known=1.0)
-    block.lv[L.DEGREE] = 4.0
-    for row in ROWS[2:] + PLACES[2:]:
-        block.lv[row : row + L.N] = 1e9
-    predict(block.p, block.lv, STEP, block.w)
-    assert np.all(block.w[T.A : T.A + L.N] == 5.0)
+    block.x[H.DEGREE] = 4.0
+    for row, places in zip(ROWS[2:], PLACES[2:], strict=True):
+        block.x[row : row + L.N] = 1e9
+        block.lv[places : places + L.N] = 1e9
+    block.predict()
+    assert np.all(block.trial[TRIAL : TRIAL + L.N] == 5.0)
     assert np.all(block.w[T.X : T.X + 12] == 5.0)
 
 
 def test_a_ball_without_rest_stays_where_it_is():
     block = Block(lambda n: 4.0 - n)
     block.lv[L.SETTLED + 7] = 3.0
-    predict(block.p, block.lv, STEP, block.w)
+    block.predict()
     assert block.w[T.X + 7] == block.w[T.R + 7] == 4.0
     assert block.w[T.X + 6] == 5.0
 
@@ -78,7 +90,7 @@ def test_the_degree_is_that_of_the_least_error():
 
 def test_the_third_difference_is_that_of_the_accelerations():
     block = Block(lambda n: (n - 1.5) ** 3)
-    block.lv[L.LEVERS + 2] = 2.0  # of an angle: its error counts at this radius
+    block.x[LEVERS + 2] = 2.0  # of an angle: its error counts at this radius
     assert block.judged(-(2.5**3))[0] == pytest.approx(2.0 * 6.0, rel=1e-12)
     assert Block(lambda n: n, known=1.0).judged(0.0)[0] == 0.0
 
@@ -86,13 +98,13 @@ def test_the_third_difference_is_that_of_the_accelerations():
 @pytest.mark.parametrize("turned", [0.1, 0.5, 1.0])
 def test_a_mode_turns_by_its_own_angle(turned):
     """Newmark's recursion of one mode against its exact turn: error of sixth order, (omega h)^6 / 12096."""
-    block = Block(lambda n: 0.0)
-    for i in range(L.N):
-        block.lv[L.SQUARES + L.DIAGONAL * i] = -((turned / STEP) ** 2)
-    block.w[T.D : T.D + L.N] = 1.0
-    displace(block.lv, STEP, block.w)
-    beta = block.w[W.STAGE + Y.Q0] / STEP**2
-    assert np.all(block.w[W.STAGE + Y.Q0 :][: L.N] == block.w[W.STAGE + Y.Q0])
+    trial = np.zeros(4 * L.COLUMN)
+    # a change of the acceleration by 1, and B^-1 J_x times it
+    trial[CHANGE : CHANGE + L.N] = 1.0
+    trial[RATE : RATE + L.N] = -((turned / STEP) ** 2)
+    displaced(trial, CHANGE, RATE, PLACE, L.COLUMN, STEP)
+    beta = trial[PLACE] / STEP**2
+    assert np.all(trial[PLACE : PLACE + L.N] == trial[PLACE])
     # 2 - 2 cos(w h) = (w h)^2 / (1 + beta (w h)^2) is Newmark's turn per step
     angle = np.arccos(1.0 - 0.5 * turned**2 / (1.0 + beta * turned**2))
     assert abs(angle / turned - 1.0) < turned**6 / 1e4

@@ -6,9 +6,9 @@ from scipy.integrate import solve_ivp
 
 from fmu_bearing.compiled import call
 from fmu_bearing.engine.fidelities.condensed.balls import stand
-from fmu_bearing.engine.layout import STRIDE, C, L, P, S, T, Y
+from fmu_bearing.engine.layout import STRIDE, C, H, L, P, S, T, Y
 from fmu_bearing.engine.status import NO_START, OK
-from tests.engine.condensed import FIDELITIES, Slow, block, silent
+from tests.engine.condensed import FIDELITIES, Slow, block, march, silent
 from tests.engine.helpers import Run, quiet
 
 
@@ -127,7 +127,7 @@ def test_a_new_jacobian_changes_nothing(scene):
         run.run(0.005)
         before = run.s[S.JACOBIANS]
         if renewed:
-            block(run)[L.CONTRACTION] = 1.0
+            march(run)[H.CONTRACTION] = 1.0
         rows.append(run.run(0.005)[:, :6])
         assert run.s[S.JACOBIANS] - before == renewed
     # both solve the same equations to the step's tolerance, 1e-4 of the motion at 5 us

@@ -60,7 +60,7 @@ JAC = _at(_J.SIZE)  # Jacobian
 FAC = _at(_A.SIZE)  # factors
 _MORE = _at(-(-max(_LN.SIZE - _J.SIZE - _A.SIZE, 0) // FOUR) * FOUR)  # the lines' scratch is larger
 CONDENSED = _at(_L.SIZE)  # what fidelities rings and response keep
-SET = _at(_SP.state_size(1, 0))  # what a set keeps of its own, where the bearing is alone
+SET = _at(_SP.state_size(1, _L.N))  # what a set keeps of its own, where the bearing is alone
 SOUND = _at.next  # sound state, then flexure (fidelity full) or lines (response)
 
 

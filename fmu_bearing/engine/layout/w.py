@@ -77,7 +77,7 @@ FLEX = _at(_FL.SIZE)  # flexible rings: see flexure
 MOTION = _at(_MO.SIZE)  # motion sample: see motion
 CONTACT = _at(_K.SIZE)  # how contacts answer motion: see contact
 PATTERN = _at(_PT.SIZE)  # steady state of unequal balls: see pattern
-SET = _at(_SP.work_size(1, 0))  # work space of a set's own, where the bearing is alone
+SET = _at(_SP.work_size(1, _L.N))  # work space of a set's own, where the bearing is alone
 SOUND = _at.next  # work space of the sound kernels
 
 LAST = ACC + (STAGES - 1) * _F.SIZE  # accelerations at the end of a step, of any method

@@ -5,13 +5,11 @@ derivative: both run on without a jump from step to step. All numbers of one ins
 weights.
 """
 
-from fmu_bearing.engine.choices import VECTORS
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
 from fmu_bearing.engine.layout import FL, FOUR, MO, SD, STRIDE, F, P, Q, S, W, Y
 from fmu_bearing.engine.mechanics.flexure import flexure_state
 from fmu_bearing.engine.mechanics.trigonometry import cosine_and_sine
-from fmu_bearing.engine.sound.radiate import push
 
 
 @kernel
@@ -191,16 +189,3 @@ def sample_motion(p, s, w, whole, h):
     if whole or sample == 0 or sample % SD.DECIMATION == SD.TURNING:
         ball_turns(p, s, w, h, t)
     flexure_motion(p, s, w, h, t)
-
-
-@kernel
-def emit_samples(p, s, w, h):
-    """Push every sample that falls into the step just made (old state in ``s``, new one in ``w``)."""
-    if p[P.SOUND_SIZE] == 0.0:
-        return
-    ps = sound_block(p)
-    whole = int(ps[SD.H_FORM]) != VECTORS
-    while sample_due(s, h):
-        sample_motion(p, s, w, whole, h)
-        push(ps, s[S.SOUND :], w[W.SOUND :], w[W.MOTION : W.SOUND], p[P.TIME_WEIGHTING], p[P.METERING_START])
-        s[S.SAMPLE] += 1.0

@@ -75,6 +75,10 @@ def shaft_matrix(p, own, ws, speed, by_mass, by_rate, by_place, at):
     Of shaft, housing with its pedestal, and springs at sliding rings; ``speed``: rad/s.
     """
     n = members.coordinates(p)
+    if not members.has_shaft(p):
+        for i in range(n * n):
+            ws[at + i] = 0.0
+        return
     lanes = members.padded(p)
     mass = members.table(p, SP.AT_MASS)
     damping = members.table(p, SP.AT_DAMPING)
@@ -99,6 +103,11 @@ def add_driven(p, b, x, first, row, column, out, to):
     X: of the driven rows, entry (i, j) at ``x[first + i row + j column]``; m: their inertia.
     """
     n = members.coordinates(p)
+    if not members.has_shaft(p):
+        for i in range(n):
+            for k in range(n):
+                out[to + i * n + k] += x[first + i * row + k * column]
+        return
     r = members.row(p, b)
     t = int(p[r + SP.ROW_AT_T])
     count = int(p[r + SP.ROW_DRIVEN])
@@ -233,8 +242,6 @@ def answer_free(p, b, pb, sb, wb, own, ws):
     border_product(fac, wb, d)
     if tied(pb):
         couple_springs(pb, fac, d, wb)
-    if count == 0:
-        return
     for i in range(count):
         ws[at + i] = d[F.BODY + i]
     # m R^-1 d0, told in fixed axes, with m r_I
@@ -264,11 +271,6 @@ def answer_driven(p, b, pb, sb, wb, own, ws):
     c = ws[at + SP.TURNED]
     s = ws[at + SP.TURNED + 1]
     lanes = int(pb[P.LANES])
-    if count == 0:
-        # its bodies have answered already
-        follow_bodies(fac, lanes, d, wb)
-        turn_pairs(d, F.BODY, c, s)
-        return
     members.moved(p, b, ws, members.vector(p, SP.INCREMENT), ws, to)
     turn_driven(count, ws, to, c, -s)
     for i in range(SP.LANES):
@@ -295,8 +297,6 @@ def answer_driven(p, b, pb, sb, wb, own, ws):
 @kernel
 def solve_shaft(p, own, ws):
     """Solve the shaft's equations for its increment, in axes that turn with the first bearing."""
-    if not members.has_shaft(p):
-        return
     lanes = members.padded(p)
     residual = members.vector(p, SP.RESIDUAL)
     found = members.vector(p, SP.INCREMENT)
@@ -316,11 +316,17 @@ def solve_shaft(p, own, ws):
 def solve_set(p, s, w):
     """Solve Newton's equations in place; orbit angles are those kept by `turn_since`.
 
+    Without a shaft they are those of a single bearing.
+
     Residuals: ``W.D`` of each bearing's work space (accelerations, driven rows as if free) and
     ``SP.RESIDUAL`` of the set's (N, N m). Increments: the same, and ``SP.INCREMENT``.
     """
-    own = members.own_state(p, s)
     ws = members.own_work(p, w)
+    if not members.has_shaft(p):
+        at = members.scratch(p, 0) + SP.TURNED
+        solve(p, s[S.FAC : S.CONDENSED], ws[at], ws[at + 1], w[W.D : W.D + F.SIZE], w)
+        return
+    own = members.own_state(p, s)
     for b in range(members.count(p)):
         pb = members.parameters(p, b)
         answer_free(p, b, pb, members.state(p, s, b), members.work(p, w, b), own, ws)

@@ -1,5 +1,6 @@
 """Arrays and numbers of one bearing of a set, and how shaft and housing move its driven rows."""
 
+from fmu_bearing.engine.choices import FULL
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, splat, store, sum_four
 from fmu_bearing.engine.layout import FOUR, SP, H, L, P, S
@@ -13,19 +14,26 @@ def count(p):
 
 @kernel
 def coordinates(p):
-    """Return how many coordinates shaft and housing have."""
+    """Return how many coordinates shaft, housing and sliding rings have.
+
+    A single bearing has those of its rings in fidelities rings and response, none in full.
+    """
+    if p[int(p[P.SET]) + SP.SHAFT] == 0.0:
+        return 0 if p[P.FIDELITY] == FULL else L.N
     return int(p[int(p[P.SET]) + SP.COUNT])
 
 
 @kernel
 def has_shaft(p):
     """Whether a shaft carries the bearings; a single bearing has no coordinates but its own."""
-    return p[int(p[P.SET]) + SP.COUNT] != 0.0
+    return p[int(p[P.SET]) + SP.SHAFT] != 0.0
 
 
 @kernel
 def padded(p):
     """Return how many numbers a vector of the coordinates has: whole groups of four."""
+    if p[int(p[P.SET]) + SP.SHAFT] == 0.0:
+        return 0 if p[P.FIDELITY] == FULL else L.COLUMN
     return int(p[int(p[P.SET]) + SP.PADDED])
 
 
@@ -123,7 +131,7 @@ def history(p):
 @kernel
 def squares(p):
     """Begin in the set's own state of the march's matrix B^-1 J_x."""
-    return history(p) + H.VECTORS * padded(p)
+    return squares_at(history(p), padded(p))
 
 
 @kernel
@@ -165,7 +173,25 @@ def matrix(p):
 @kernel
 def vector(p, k):
     """Begin in the set's own work space of vector ``k``: ``SP.PLACE`` and those behind it."""
-    return SP.W_HEAD + k * padded(p)
+    return vector_at(padded(p), k)
+
+
+@kernel
+def vector_at(lanes, k):
+    """As `vector`, for vectors of ``lanes`` numbers: inner loops need not read places from ``p`` again."""
+    return SP.W_HEAD + k * lanes
+
+
+@kernel
+def squares_at(x, lanes):
+    """As `squares`, for a history at ``x``."""
+    return x + H.VECTORS * lanes
+
+
+@kernel
+def inverse_at(x, n, lanes):
+    """As `inverse`, for ``n`` coordinates and a history at ``x``."""
+    return x - SP.MARCHED - n * lanes
 
 
 @kernel
@@ -194,6 +220,10 @@ def add_columns(m, at, lanes, count, scale, x, first, out, to):
 @kernel
 def moved(p, b, x, at, out, to):
     """Put what coordinates ``x[at:]`` do to driven rows of bearing ``b`` to ``LANES`` numbers of ``out``."""
+    if not has_shaft(p):
+        for i in range(0, SP.LANES, FOUR):
+            store(out, to + i, load(x, at + i))
+        return
     r = row(p, b)
     t = int(p[r + SP.ROW_AT_T])
     columns = int(p[r + SP.ROW_AT_COLUMNS])
@@ -217,6 +247,10 @@ def pull(p, b, forces, at, out, to):
 
     ``forces[at:]``: ``LANES`` numbers, spare ones zero.
     """
+    if not has_shaft(p):
+        for i in range(0, SP.LANES, FOUR):
+            store(out, to + i, load(out, to + i) + load(forces, at + i))
+        return
     r = row(p, b)
     t = int(p[r + SP.ROW_AT_T])
     columns = int(p[r + SP.ROW_AT_COLUMNS])

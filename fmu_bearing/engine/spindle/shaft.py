@@ -95,6 +95,10 @@ def shaft_forces(p, own, x, q, v, angle, speed, rate, out, to):
     """
     n = members.coordinates(p)
     lanes = members.padded(p)
+    if not members.has_shaft(p):
+        for i in range(lanes):
+            out[to + i] = 0.0
+        return 0.0, 0.0, 0.0
     held = SP.S_HEAD + SP.HELD_LOAD * lanes
     for i in range(lanes):
         out[to + i] = own[held + i]

@@ -1,7 +1,5 @@
 """Derivatives of the rings' accelerations and the rings' static equilibrium, with the balls condensed."""
 
-import math
-
 from fmu_bearing.engine.dense import invert, times
 from fmu_bearing.engine.fidelities.condensed.balls import accelerations
 from fmu_bearing.engine.fidelities.condensed.rows import component
@@ -134,45 +132,6 @@ def step_matrix(lv, cv, cx, w):
                 by = gain * lv[L.SIDE_PULL + row + i] + kick * lv[L.SIDE_DRAG + row + i]
                 value -= by * (by_place * lv[L.SIDE_FOLLOW + row + k] + by_rate * lv[L.SIDE_GUIDE + row + k])
             w[T.MATRIX + i * L.N + k] = value
-
-
-@kernel
-def factor_step(lv, cv, cx, cxx, w):
-    """Inverse of ``B - cv J_v - J_x (cx - cxx B^-1 J_x)`` into ``L.INVERSE``; False if singular."""
-    step_matrix(lv, cv, cx, w)
-    for k in range(L.N):
-        times(lv, L.JX, lv, L.SQUARES + L.COLUMN * k, w, T.D)
-        for i in range(L.N):
-            w[T.MATRIX + i * L.N + k] += cxx * w[T.D + i]
-    return invert_into(lv, w)
-
-
-@kernel
-def highest_mode(lv, w):
-    """Angular frequency (rad/s) of the highest mode, by power iteration; the inverse is left that of B.
-
-    Fills ``L.SQUARES``. ``L.JX`` belongs to balls that are held across their tracks.
-    """
-    lv[L.SIDE_GAIN] = 0.0
-    lv[L.SIDE_KICK] = 0.0
-    if not factor_step(lv, 0.0, 0.0, 0.0, w):
-        return 1e9
-    for i in range(L.N):
-        times(lv, L.INVERSE, lv, L.JX + L.COLUMN * i, lv, L.SQUARES + L.COLUMN * i)
-    for i in range(L.N):
-        w[T.D + i] = 1.0 + 0.1 * i
-    size = 0.0
-    for _ in range(40):
-        times(lv, L.SQUARES, w, T.D, w, T.A)
-        total = 0.0
-        before = 0.0
-        for i in range(L.N):
-            total += w[T.A + i] * w[T.A + i]
-            before += w[T.D + i] * w[T.D + i]
-        size = math.sqrt(total / before)
-        for i in range(L.N):
-            w[T.D + i] = -w[T.A + i] / (size + 1e-300)
-    return math.sqrt(size)
 
 
 @kernel

@@ -3,7 +3,7 @@
 from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.fidelities.condensed.ball_motion import show_moving
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import STRIDE, F, H, L, P, Q, Y
+from fmu_bearing.engine.layout import STRIDE, F, L, P, Q, Y
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 from fmu_bearing.engine.newton.jacobian import is_angle
 
@@ -14,27 +14,11 @@ _PER_RING = 10.0
 
 
 @kernel
-def rate_error(x, numbers, vectors, lanes, i):
-    """By how much Newmark's velocity exceeds the true one: h^2/12 times the rate of acceleration (m/s).
-
-    ``numbers``, ``vectors``: places in ``x`` of what the march keeps, see ``layout.history``; ``lanes``: from
-    one vector to the next.
-    """
-    h = x[numbers + H.SPACING]
-    at = vectors + i
-    if x[numbers + H.KNOWN] >= 2.0:
-        now = x[at + H.A0 * lanes]
-        return h / 24.0 * (3.0 * now - 4.0 * x[at + H.A1 * lanes] + x[at + H.A2 * lanes])
-    return h * h / 12.0 * x[at + H.JERK * lanes]
-
-
-@kernel
-def publish_rings(lv, newmark, y, f):
-    """Displacements, velocities and accelerations of the rings; ``newmark``: velocities are Newmark's."""
+def publish_rings(lv, y, f):
+    """Displacements, velocities and accelerations of the rings."""
     for i in range(L.N):
         y[Y.Q0 + i] = lv[L.Q0 + i]
-        error = rate_error(lv, L.MARCH, L.MOVING, L.COLUMN, i) if newmark else 0.0
-        y[Y.V0 + i] = lv[L.V0 + i] - error
+        y[Y.V0 + i] = lv[L.V0 + i]
         f[F.BODY + i] = lv[L.A0 + i]
 
 
@@ -97,9 +81,9 @@ def publish_losses(lv, speed, f):
 
 
 @kernel
-def publish(p, lv, speed, speed_rate, newmark, y, f):
+def publish(p, lv, speed, speed_rate, y, f):
     """Write the whole state ``y`` and its right-hand side ``f`` (of fidelity full: see the layout)."""
-    publish_rings(lv, newmark, y, f)
+    publish_rings(lv, y, f)
     publish_cage(p, lv, speed, speed_rate, y, f)
     publish_balls(p, lv, speed, speed_rate, y, f)
     publish_losses(lv, speed, f)

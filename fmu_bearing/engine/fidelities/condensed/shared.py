@@ -20,7 +20,6 @@ from fmu_bearing.engine.layout import EQ, STRIDE, C, F, L, P, S, T, U, W, Y
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 from fmu_bearing.engine.newton.jacobian import jacobian
-from fmu_bearing.engine.readout.motion import emit_samples
 from fmu_bearing.engine.statics.place import equilibrium, loads, place_balls, place_rings
 from fmu_bearing.engine.status import OK
 
@@ -179,7 +178,7 @@ def advance(s, h):
 
 
 @kernel
-def show_end(p, s, w, h, newmark):
+def show_end(p, s, w, h):
     """Put the end of the step ``h`` (s), now in ``lv``, beside the published state, for samples between."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     y = w[W.STAGE : W.STAGE + Y.SIZE]
@@ -188,7 +187,7 @@ def show_end(p, s, w, h, newmark):
         y[i] = s[S.Y + i]
     for i in range(F.SIZE):
         f[i] = 0.0
-    publish(p, lv, s[S.SPEED] + h * s[S.SPEED_RATE], s[S.SPEED_RATE], newmark, y, f)
+    publish(p, lv, s[S.SPEED] + h * s[S.SPEED_RATE], s[S.SPEED_RATE], y, f)
     # the interpolation needs angles that run on from the old ones
     turned = lv[L.RATIO] * h * (s[S.SPEED] + 0.5 * h * s[S.SPEED_RATE])
     for j in range(int(p[P.LANES])):
@@ -206,11 +205,3 @@ def keep_end(p, s, w):
         s[S.Y + i] = y[i]
     for i in range(F.SIZE):
         s[S.F + i] = f[i]
-
-
-@kernel
-def emit(p, s, w, h, newmark):
-    """Sound samples of the step ``h`` from the published state to the one now in ``lv``; publish that."""
-    show_end(p, s, w, h, newmark)
-    emit_samples(p, s, w, h)
-    keep_end(p, s, w)

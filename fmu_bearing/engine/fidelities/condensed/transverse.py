@@ -323,7 +323,7 @@ def add_transverse(p, lv, w):
 def correct_transverse(lv, h, counts, w):
     """Move the patterns on by what the last change ``T.D`` of the trial accelerations drives them.
 
-    The velocities that roll the balls are the true ones: see :func:`rings.march.correct`. ``counts``: what
+    The velocities that roll the balls are the true ones: see `rings.correction.true_rates`. ``counts``: what
     the last acceleration counts in its own rate, times h.
     """
     if lv[L.SIDE_SQUARE] == 0.0:

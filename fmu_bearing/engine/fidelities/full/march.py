@@ -224,13 +224,25 @@ def add_shaft_powers(p, own, ws, h, tableau):
 
 
 @kernel
+def accept_shaft(p, own, ws, tableau):
+    """Move shaft and housing to the end of the step just made."""
+    n = members.padded(p)
+    place = members.vector(p, SP.PLACE)
+    rate = members.vector(p, SP.RATE)
+    end = members.vector(p, int(TABLEAUX[tableau + TAB.COUNT]) - 1)
+    for i in range(n):
+        own[SP.S_HEAD + i] = ws[place + i]
+        own[SP.S_HEAD + n + i] = ws[rate + i]
+        own[SP.S_HEAD + 2 * n + i] = ws[end + i]
+
+
+@kernel
 def accept_all(p, s, w, h, tableau):
     """Add up work and heat of the step just made, emit its sound samples and move the state to its end."""
     own = members.own_state(p, s)
-    ws = members.own_work(p, w)
-    n = members.padded(p)
-    if members.has_shaft(p):
-        add_shaft_powers(p, own, ws, h, tableau)
+    together = members.has_shaft(p)
+    if together:
+        add_shaft_powers(p, own, members.own_work(p, w), h, tableau)
     for b in range(members.count(p)):
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)
@@ -244,12 +256,9 @@ def accept_all(p, s, w, h, tableau):
         accept(members.parameters(p, b), sb, members.work(p, w, b), h)
         control.follow_rings(sb, h)
         own[members.kept(p, b) + SP.OFFSET] += h * own[members.kept(p, b) + SP.OFFSET_RATE]
-    end = members.vector(p, int(TABLEAUX[tableau + TAB.COUNT]) - 1)
-    for i in range(n):
-        own[SP.S_HEAD + i] = ws[members.vector(p, SP.PLACE) + i]
-        own[SP.S_HEAD + n + i] = ws[members.vector(p, SP.RATE) + i]
-        own[SP.S_HEAD + 2 * n + i] = ws[end + i]
-    copy_rows(p, s, w)
+    if together:
+        accept_shaft(p, own, members.own_work(p, w), tableau)
+        copy_rows(p, s, w)
 
 
 @kernel

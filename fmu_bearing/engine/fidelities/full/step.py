@@ -53,10 +53,8 @@ def evaluate(pb, sb, wb, angle, speed, rate):
 def shaft_residual(p, own, ws, stage, angle, speed, rate):
     """Residual of the shaft's equations at a stage, without the bearings' part.
 
-    Returns power in (W) and the heats of shaft and pedestal (W) there; without a shaft all are zero.
+    Returns power in (W) and the heats of shaft and pedestal (W) there.
     """
-    if not members.has_shaft(p):
-        return 0.0, 0.0, 0.0
     residual = members.vector(p, SP.RESIDUAL)
     work, bent, shaken = shaft_forces(
         p, own, ws, members.vector(p, SP.PLACE), members.vector(p, SP.RATE), angle, speed, rate, ws, residual
@@ -66,22 +64,44 @@ def shaft_residual(p, own, ws, stage, angle, speed, rate):
 
 
 @kernel
+def residual_of(pb, sb, wb, stage, angle, speed, rate):
+    """Put a bearing's residual at a stage to ``W.D`` of its work space, as if its rings were free."""
+    here = W.ACC + stage * F.SIZE
+    evaluate(pb, sb, wb, angle, speed, rate)
+    newton_residual(wb[here : here + F.SIZE], int(pb[P.LANES]), wb)
+    if pb[P.MODES] != 0.0:
+        flexible.solve_modes(pb, sb[flexure_state(pb) :], stage, wb[W.D : W.D + F.SIZE], wb)
+
+
+@kernel
+def add_increment(pb, sb, wb, stage, gh):
+    """Add the increment in ``W.D`` to a bearing's stage; its size (m/s)."""
+    here = W.ACC + stage * F.SIZE
+    correct(wb[here : here + F.SIZE], int(pb[P.LANES]), gh, wb)
+    size = newton_size(pb, sb[S.C : S.C + C.SIZE], wb[W.D : W.D + F.SIZE], gh)
+    if pb[P.MODES] != 0.0:
+        flexible.correct_modes(pb, stage, gh, wb)
+        size = flexible.modes_size(pb, size, gh, wb)
+    return size
+
+
+@kernel
 def increments(p, s, w, own, ws, stage, gh, angle, speed):
     """One iteration of Newton's method at a stage; its size (m/s), the largest over the bearings.
 
     With it power in and the heats of shaft and pedestal (W), of the state before the increment.
     """
     rate = s[S.SPEED_RATE]
-    here = W.ACC + stage * F.SIZE
+    if not members.has_shaft(p):
+        residual_of(p, s, w, stage, angle, speed, rate)
+        solve_set(p, s, w)
+        return add_increment(p, s, w, stage, gh), 0.0, 0.0, 0.0
     work, bent, shaken = shaft_residual(p, own, ws, stage, angle, speed, rate)
     for b in range(members.count(p)):
         pb = members.parameters(p, b)
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)
-        evaluate(pb, sb, wb, angle, speed, rate)
-        newton_residual(wb[here : here + F.SIZE], int(pb[P.LANES]), wb)
-        if pb[P.MODES] != 0.0:
-            flexible.solve_modes(pb, sb[flexure_state(pb) :], stage, wb[W.D : W.D + F.SIZE], wb)
+        residual_of(pb, sb, wb, stage, angle, speed, rate)
         answer_free(p, b, pb, sb, wb, own, ws)
     solve_shaft(p, own, ws)
     largest = 0.0
@@ -90,11 +110,7 @@ def increments(p, s, w, own, ws, stage, gh, angle, speed):
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)
         answer_driven(p, b, pb, sb, wb, own, ws)
-        correct(wb[here : here + F.SIZE], int(pb[P.LANES]), gh, wb)
-        size = newton_size(pb, sb[S.C : S.C + C.SIZE], wb[W.D : W.D + F.SIZE], gh)
-        if pb[P.MODES] != 0.0:
-            flexible.correct_modes(pb, stage, gh, wb)
-            size = flexible.modes_size(pb, size, gh, wb)
+        size = add_increment(pb, sb, wb, stage, gh)
         # a size that is no number must not be overlooked
         largest = max(largest, size) if size < _DIVERGED else _DIVERGED
     found = members.vector(p, SP.INCREMENT)
@@ -163,6 +179,13 @@ def keep_powers(p, s, w, stage, gh, speed, work, bent, shaken, ws):
 
     A ring whose rotation is driven gives the housing what the last increment changes of its moment.
     """
+    if not members.has_shaft(p):
+        here = W.ACC + stage * F.SIZE
+        acc = w[here : here + F.SIZE]
+        turn = F.BODY + Q.OUTER + Q.TURN
+        gained = p[P.OUTER_POLAR] * (acc[turn] - w[W.F + turn])
+        complete_torque(p, s[S.C : S.C + C.SIZE], speed, gh, gained, acc, w)
+        return
     own = members.own_state(p, s)
     led = has_port(p)
     force = members.vector(p, SP.FORCE)
@@ -253,6 +276,22 @@ def nose_square(p, ws, found):
 
 
 @kernel
+def shaft_estimate(p, w, h, tableau):
+    """Put the difference of both solutions' rates to ``SP.INCREMENT``, times the mass to the residual."""
+    ws = members.own_work(p, w)
+    n = members.padded(p)
+    found = members.vector(p, SP.INCREMENT)
+    residual = members.vector(p, SP.RESIDUAL)
+    for i in range(n):
+        ws[found + i] = 0.0
+        ws[residual + i] = 0.0
+    for m in range(int(TABLEAUX[tableau + TAB.COUNT])):
+        e = h * TABLEAUX[tableau + TAB.ERROR + m]
+        add_scaled(e, ws[acceleration(p, m) :], ws[found:], n)
+    members.add_product(p, members.table(p, SP.AT_MASS), 1.0, ws, found, ws, residual)
+
+
+@kernel
 def step_error(p, s, w, h, tableau, speed):
     """Error estimate over what is allowed, the largest over the bearings; the nose counts as one of them.
 
@@ -260,18 +299,11 @@ def step_error(p, s, w, h, tableau, speed):
     stiff for the step, and has died away in it, then means nothing. For explicit methods the stiff share is
     what shows instability. ``speed`` (rad/s): of the shaft, that the tolerance goes with.
     """
-    ws = members.own_work(p, w)
-    n = members.padded(p)
     stages = int(TABLEAUX[tableau + TAB.COUNT])
     explicit = TABLEAUX[tableau + TAB.GAMMA] == 0.0
-    found = members.vector(p, SP.INCREMENT)
-    residual = members.vector(p, SP.RESIDUAL)
-    for i in range(n):
-        ws[found + i] = 0.0
-        ws[residual + i] = 0.0
-    for m in range(stages):
-        e = h * TABLEAUX[tableau + TAB.ERROR + m]
-        add_scaled(e, ws[acceleration(p, m) :], ws[found:], n)
+    together = members.has_shaft(p)
+    if together:
+        shaft_estimate(p, w, h, tableau)
     for b in range(members.count(p)):
         wb = members.work(p, w, b)
         d = wb[W.D : W.D + F.SIZE]
@@ -281,7 +313,6 @@ def step_error(p, s, w, h, tableau, speed):
             acc = W.ACC + m * F.SIZE
             add_scaled(h * TABLEAUX[tableau + TAB.ERROR + m], wb[acc : acc + F.WORK], d, F.WORK)
     if not explicit:
-        members.add_product(p, members.table(p, SP.AT_MASS), 1.0, ws, found, ws, residual)
         turn_since(p, s, w, h)
         solve_set(p, s, w)
     largest = 0.0
@@ -296,8 +327,9 @@ def step_error(p, s, w, h, tableau, speed):
         else:
             size = math.sqrt(body_size(pb, d, F.BODY, 0.1) + 0.01 * row_size(d, F.X, 2, int(pb[P.LANES])))
         size = flexible.modes_error(pb, size, h, tableau, wb)
-        if b == 0 and members.has_shaft(p):
-            size = max(size, math.sqrt(nose_square(p, ws, found)))
+        if b == 0 and together:
+            moved = nose_square(p, members.own_work(p, w), members.vector(p, SP.INCREMENT))
+            size = max(size, math.sqrt(moved))
         if not (size < _DIVERGED):
             return size
         largest = max(largest, size / allowed)
@@ -318,13 +350,16 @@ def runge_kutta_step(p, s, w, h, tableau, tolerance, probe, to_speed):
     ws = members.own_work(p, w)
     n = members.padded(p)
     report = w[W.REPORT : W.REPORT + W.REPORT_SIZE]
+    together = members.has_shaft(p)
     begin_stages(p, s, w)
-    first_powers(p, s, w)
+    if together:
+        first_powers(p, s, w)
     iterations = 0.0
     worst = 0.0
     for stage in range(1, stages):
         t = h * TABLEAUX[tableau + TAB.NODES + stage]
-        predict_shaft(p, s, w, h, gh, stage, tableau)
+        if together:
+            predict_shaft(p, s, w, h, gh, stage, tableau)
         predict_bearings(p, s, w, h, gh, stage, tableau)
         if has_port(p):
             lead_stage(p, s, w, stage, t)

@@ -21,7 +21,6 @@ from fmu_bearing.engine.fidelities.condensed.publish import publish
 from fmu_bearing.engine.fidelities.condensed.rows import from_equilibrium, keep_balls, show_balls, turn_balls
 from fmu_bearing.engine.fidelities.condensed.shared import (
     advance,
-    emit,
     flat,
     hold_masses,
     quasistatic_places,
@@ -29,6 +28,7 @@ from fmu_bearing.engine.fidelities.condensed.shared import (
     start_condensed,
 )
 from fmu_bearing.engine.fidelities.response.lines import line_table, renew_lines
+from fmu_bearing.engine.fidelities.rings.march import emit_shown
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, splat, store
 from fmu_bearing.engine.layout import FOUR, STRIDE, C, F, L, P, S, T, U, W, Y
@@ -320,7 +320,7 @@ def show(p, s, near, w):
     keep_back(s)
     place(p, s, 0.0, True, w)
     rest_balls(p, lv, w)
-    publish(p, lv, s[S.SPEED], s[S.SPEED_RATE], False, s[S.Y : S.Y + Y.SIZE], s[S.F : S.F + F.SIZE])
+    publish(p, lv, s[S.SPEED], s[S.SPEED_RATE], s[S.Y : S.Y + Y.SIZE], s[S.F : S.F + F.SIZE])
 
 
 @kernel
@@ -346,7 +346,7 @@ def march_response(p, u, s, w, h):
             follow_balls(p, s, step, w)
             near = True
             turn_balls(s, step)
-            emit(p, s, w, step, False)
+            emit_shown(p, s, w, step)
             advance(s, step)
     else:
         turn_balls(s, h)

@@ -9,8 +9,9 @@ from fmu_bearing.engine.fidelities.condensed.shared import advance, flat
 from fmu_bearing.engine.fidelities.full.start import begin_means
 from fmu_bearing.engine.fidelities.response import march
 from fmu_bearing.engine.fidelities.response.set_lines import answer_lines, sum_set_lines
-from fmu_bearing.engine.fidelities.rings import coupled, set_held
-from fmu_bearing.engine.fidelities.rings.set_march import emit_shown
+from fmu_bearing.engine.fidelities.rings import equations, held
+from fmu_bearing.engine.fidelities.rings.march import emit_shown
+from fmu_bearing.engine.fidelities.rings.rest import at_rest
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, STRIDE, C, L, P, S, T, W, Y
 from fmu_bearing.engine.spindle import members
@@ -44,7 +45,7 @@ def rest_anew(p, s, w, speed, x, at):
     for i in range(members.padded(p)):
         ws[place + i] = x[at + i]
     show_guess(p, s, w, L.EVEN)
-    found = coupled.at_rest(p, s, w, speed)
+    found = at_rest(p, s, w, speed)
     for i in range(members.padded(p)):
         own[mean + i] = ws[place + i] if found else x[at + i]
     for b in range(members.count(p)):
@@ -74,7 +75,7 @@ def place_set(p, s, w, ahead, near):
     ``near``: whether the balls' last places are good guesses.
     """
     sum_set_lines(p, s, w, ahead)
-    coupled.show_rings(p, s)
+    equations.show_rings(p, s)
     for b in range(members.count(p)):
         march.settle(members.parameters(p, b), members.state(p, s, b), ahead, near, members.work(p, w, b))
 
@@ -107,13 +108,13 @@ def show_set(p, s, w, near):
         pb = members.parameters(p, b)
         rest_balls(pb, members.condensed(members.state(p, s, b)), members.work(p, w, b))
     keep_ball_loads(p, s, w)
-    coupled.publish_rings(p, s)
+    equations.publish_rings(p, s)
 
 
 @kernel
 def start_response_set(p, u, s, w, t):
     """Fill the state ``s`` of a set for the inputs ``u`` at time ``t`` (s); status code."""
-    status = set_held.start_held(p, u, s, w, t)
+    status = held.start_held(p, u, s, w, t)
     if status != OK:
         return status
     own = members.own_state(p, s)
@@ -151,17 +152,17 @@ def renew_set_lines(p, u, s, w):
     speed = u[SP.U_SPEED]
     for b in range(members.count(p)):
         members.condensed(members.state(p, s, b))[L.KNOWN] = 0.0
-    if set_held.hold_set(p, u, s, w) == OK:
+    if held.hold_all(p, u, s, w) == OK:
         held_rest = members.vector(p, SP.NEWMARK)
         found = start_vector(p, SP.UNKNOWNS)
         for i in range(members.padded(p)):
             ws[held_rest + i] = ws[found + i] if i < members.coordinates(p) else 0.0
-        set_held.take_offsets(p, own)
+        held.take_offsets(p, own)
         if not rest_anew(p, s, w, speed, own, members.history(p)):
             rest_anew(p, s, w, speed, ws, held_rest)
         if linearise_set(p, s, w, speed):
             return OK
-    status = set_held.hold_from_zero(p, u, s, w)
+    status = held.hold_from_zero(p, u, s, w)
     if status != OK:
         return status
     rest_anew(p, s, w, speed, own, SP.S_HEAD)
@@ -221,7 +222,7 @@ def march_response_set(p, u, s, w, h):
         steps.begin_means(sb)
         if not march.is_near(sb, speed, h):
             near = False
-    renewed = set_held.take_rings_inputs(p, u, s, w, h)
+    renewed = held.set_inputs_of(p, u, s, w, h)
     for b in range(members.count(p)):
         own[members.kept(p, b) + SP.OFFSET_RATE] = 0.0
     if renewed:

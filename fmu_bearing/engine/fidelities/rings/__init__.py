@@ -1,13 +1,13 @@
 """Fidelity rings: the rings' degrees of freedom, stepped in time; of a set, its coordinates.
 
-===============  =============================================================
-``predictor``    first guess of a step
-``march``        steps of a single bearing and their control
-``start``        where rings and balls begin at rest
-``restart``      from one communication point to the next; rest, where a step fails
-``coupled``      the equations of condensed bearings, shaft and housing of a set
-``set_held``     what the bearings of a set hold, as the set loads them
-``set_march``    steps of a set and their control
-``set_restart``  a set from one communication point to the next; rest, where a step fails
-===============  =============================================================
+==============  =============================================================
+``predictor``   first guess of a step
+``equations``   the equations of condensed bearings, on a pedestal or on shaft and housing
+``rest``        where all rests, without unbalance
+``held``        what the bearings hold between changes of the inputs
+``correction``  the trial state of a step, and what its corrections leave
+``march``       steps and their control
+``start``       where rings and balls begin at rest
+``restart``     from one communication point to the next; rest, where a step fails
+==============  =============================================================
 """

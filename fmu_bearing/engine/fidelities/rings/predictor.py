@@ -7,14 +7,27 @@ one whose guess lately was best.
 
 import math
 
-from fmu_bearing.engine.dense import times
-from fmu_bearing.engine.fidelities.condensed.publish import rate_error
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import lane, load, select, splat, store
-from fmu_bearing.engine.layout import FOUR, STRIDE, H, L, P, T, W, Y
+from fmu_bearing.engine.layout import FOUR, STRIDE, H, L, T
 
 _HIGHEST = L.HISTORY - 1  # degree
 _FORGET = 0.9  # per step: what is left of an old error
+
+
+@kernel
+def rate_error(x, numbers, vectors, lanes, i):
+    """By how much Newmark's velocity exceeds the true one: h^2/12 times the rate of acceleration (m/s).
+
+    ``numbers``, ``vectors``: places in ``x`` of what the march keeps, see ``layout.history``; ``lanes``: from
+    one vector to the next.
+    """
+    h = x[numbers + H.SPACING]
+    at = vectors + i
+    if x[numbers + H.KNOWN] >= 2.0:
+        now = x[at + H.A0 * lanes]
+        return h / 24.0 * (3.0 * now - 4.0 * x[at + H.A1 * lanes] + x[at + H.A2 * lanes])
+    return h * h / 12.0 * x[at + H.JERK * lanes]
 
 
 @kernel
@@ -61,7 +74,7 @@ def weights(degree):
 
 
 @kernel
-def guess(x, numbers, vectors, lanes, n, h, w, a, d, q, v):
+def guess(x, numbers, vectors, lanes, h, w, a, d, q, v):
     """Trial accelerations to ``w[a:]``, their change to ``w[d:]``, places to ``w[q:]``, rates to ``w[v:]``.
 
     The places lack what :func:`displaced` adds. ``numbers`` and so on: see :func:`change_spacing`.
@@ -74,42 +87,46 @@ def guess(x, numbers, vectors, lanes, n, h, w, a, d, q, v):
     a4 = vectors + H.A4 * lanes
     q0 = vectors + H.Q0 * lanes
     v0 = vectors + H.V0 * lanes
-    for i in range(n):
-        now = x[a0 + i]
-        ahead = c0 * now + c1 * x[a1 + i] + c2 * x[a2 + i] + c3 * x[a3 + i] + c4 * x[a4 + i]
-        w[a + i] = ahead
-        w[d + i] = ahead - now
-        w[q + i] = x[q0 + i] + h * (x[v0 + i] + 0.5 * h * now)
-        w[v + i] = x[v0 + i] + 0.5 * h * (now + ahead)
+    for i in range(0, lanes, FOUR):
+        now = load(x, a0 + i)
+        rate = load(x, v0 + i)
+        ahead = c0 * now + c1 * load(x, a1 + i) + c2 * load(x, a2 + i)
+        ahead = ahead + c3 * load(x, a3 + i) + c4 * load(x, a4 + i)
+        store(w, a + i, ahead)
+        store(w, d + i, ahead - now)
+        store(w, q + i, load(x, q0 + i) + h * (rate + 0.5 * h * now))
+        store(w, v + i, rate + 0.5 * h * (now + ahead))
 
 
 @kernel
-def displaced(w, d, turned, q, n, h):
+def displaced(w, d, turned, q, lanes, h):
     """Add to the places at ``w[q:]`` what the change ``w[d:]`` of the trial accelerations moves them by.
 
     Newmark's beta is the matrix 1/12 - h^2/240 B^-1 J_x: for a mode of frequency omega the first two terms
     of 1/(2 - 2 cos omega h) - 1/(omega h)^2, with which the step turns it by omega h exactly. ``turned``:
     place of B^-1 J_x times the change.
     """
-    for i in range(n):
-        w[q + i] += h * h / 12.0 * (w[d + i] - h * h / 20.0 * w[turned + i])
+    for i in range(0, lanes, FOUR):
+        moved = load(w, d + i) - h * h / 20.0 * load(w, turned + i)
+        store(w, q + i, load(w, q + i) + h * h / 12.0 * moved)
 
 
 @kernel
-def true_velocities(x, numbers, vectors, lanes, n, h, w, a, v, out):
+def true_velocities(x, numbers, vectors, lanes, h, w, a, v, out):
     """Put to ``w[out:]`` Newmark's velocities at ``w[v:]`` less h^2/12 times the rate of acceleration."""
     known = x[numbers + H.KNOWN] >= 1.0
     longer = x[numbers + H.KNOWN] >= 2.0
     a0 = vectors + H.A0 * lanes
     a1 = vectors + H.A1 * lanes
     a2 = vectors + H.A2 * lanes
-    for i in range(n):
-        change = w[a + i] - x[a0 + i]
-        if known:
-            earlier = x[a0 + i] - x[a1 + i]
-            third = change - 2.0 * earlier + (x[a1 + i] - x[a2 + i]) if longer else 0.0
-            change = 0.5 * (3.0 * change - earlier) + third / 3.0
-        w[out + i] = w[v + i] - h / 12.0 * change
+    for i in range(0, lanes, FOUR):
+        now = load(x, a0 + i)
+        before = load(x, a1 + i)
+        change = load(w, a + i) - now
+        earlier = now - before
+        third = change - 2.0 * earlier + (before - load(x, a2 + i)) if longer else splat(0.0)
+        rate = 0.5 * (3.0 * change - earlier) + third / 3.0 if known else change
+        store(w, out + i, load(w, v + i) - h / 12.0 * rate)
 
 
 @kernel
@@ -119,35 +136,23 @@ def last_counts(known):
 
 
 @kernel
-def move_on(x, vectors, lanes, n, w, a, q, v):
+def move_on(x, vectors, lanes, w, a, q, v):
     """Make trial accelerations, places and velocities (``w[a:]``, ``w[q:]``, ``w[v:]``) the present ones."""
     a0 = vectors + H.A0 * lanes
     a1 = vectors + H.A1 * lanes
     a2 = vectors + H.A2 * lanes
     a3 = vectors + H.A3 * lanes
-    for i in range(n):
-        x[vectors + H.A4 * lanes + i] = x[a3 + i]
-        x[a3 + i] = x[a2 + i]
-        x[a2 + i] = x[a1 + i]
-        x[a1 + i] = x[a0 + i]
-        x[a0 + i] = w[a + i]
-        x[vectors + H.Q0 * lanes + i] = w[q + i]
-        x[vectors + H.V0 * lanes + i] = w[v + i]
-
-
-@kernel
-def predict(p, lv, h, w):
-    """Trial state in ``w[W.STAGE:]``, trial accelerations in ``T.A``, balls' places continued."""
-    guess(lv, L.MARCH, L.MOVING, L.COLUMN, L.N, h, w, T.A, T.D, W.STAGE + Y.Q0, W.STAGE + Y.V0)
-    displace(lv, h, w)
-    continue_places(lv, int(p[P.LANES]), w)
-
-
-@kernel
-def displace(lv, h, w):
-    """Add to the trial displacements what the change ``T.D`` of the trial accelerations moves them by."""
-    times(lv, L.SQUARES, w, T.D, w, T.Q)
-    displaced(w, T.D, T.Q, W.STAGE + Y.Q0, L.N, h)
+    a4 = vectors + H.A4 * lanes
+    q0 = vectors + H.Q0 * lanes
+    v0 = vectors + H.V0 * lanes
+    for i in range(0, lanes, FOUR):
+        store(x, a4 + i, load(x, a3 + i))
+        store(x, a3 + i, load(x, a2 + i))
+        store(x, a2 + i, load(x, a1 + i))
+        store(x, a1 + i, load(x, a0 + i))
+        store(x, a0 + i, load(w, a + i))
+        store(x, q0 + i, load(w, q + i))
+        store(x, v0 + i, load(w, v + i))
 
 
 @kernel
@@ -218,9 +223,3 @@ def judged(x, numbers, vectors, lanes, w, a, d):
                 best = float(n)
     x[numbers + H.DEGREE] = best
     return error if known >= 2.0 else 0.0
-
-
-@kernel
-def judge(lv, w):
-    """As `judged`, of the rings of a single bearing."""
-    return judged(lv, L.MARCH, L.MOVING, L.COLUMN, w, T.A, T.D)

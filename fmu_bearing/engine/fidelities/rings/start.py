@@ -1,63 +1,92 @@
-"""How fidelity `rings` begins: where rings and balls rest on waves and unequal balls."""
+"""How fidelity `rings` begins: where a bearing or a set rests on waves and unequal balls."""
 
 from fmu_bearing.engine.fidelities.condensed.balls import count_settled, stand
-from fmu_bearing.engine.fidelities.condensed.linearised import at_rest
-from fmu_bearing.engine.fidelities.condensed.publish import publish
-from fmu_bearing.engine.fidelities.condensed.rows import keep_balls, show_balls
-from fmu_bearing.engine.fidelities.condensed.shared import start_condensed
-from fmu_bearing.engine.fidelities.rings.march import FIRST, begin_anew, longest_step
+from fmu_bearing.engine.fidelities.condensed.rows import from_equilibrium, keep_balls
+from fmu_bearing.engine.fidelities.full.start import begin_means
+from fmu_bearing.engine.fidelities.rings import equations, held
+from fmu_bearing.engine.fidelities.rings.march import FIRST, longest_of_all
+from fmu_bearing.engine.fidelities.rings.rest import at_rest
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import C, F, L, P, S, W, Y
-from fmu_bearing.engine.newton.jacobian import is_angle
+from fmu_bearing.engine.layout import SP, STRIDE, C, H, L, P, S, W, Y
+from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.status import NO_START, OK
 
 
 @kernel
-def start_rings(p, u, s, w, t):
-    """Fill the state ``s`` for the inputs ``u`` at time ``t`` (s); status code."""
-    status = start_condensed(p, u, s, w, t)
-    if status != OK:
-        return status
-    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    lv[L.THETA] = 0.0
-    lv[L.ROLLED] = 0.0
-    if not begin_at_rest(p, s, w):
-        return NO_START
-    for i in range(3):
-        s[S.MEAN_HEAT + i] = lv[L.HEAT + i]
-    s[S.MEAN_TORQUE] = s[S.F + F.TORQUE]
-    return OK
+def place_on_waves(p, s, w, speed):
+    """Put shaft, housing, rings and balls where they rest on waves and unequal balls into the trial places.
+
+    Where there is no such rest, they stay at the quasi-static place, with the balls' places in ``L.EVEN``.
+    """
+    own = members.own_state(p, s)
+    ws = members.own_work(p, w)
+    place = members.vector(p, SP.PLACE)
+    found = False
+    for again in range(2):
+        for i in range(members.padded(p)):
+            ws[place + i] = own[SP.S_HEAD + i]
+        for b in range(members.count(p)):
+            sb = members.state(p, s, b)
+            wb = members.work(p, w, b)
+            for i in range(Y.SIZE):
+                wb[W.STAGE + i] = 0.0
+            pb = members.parameters(p, b)
+            lv = members.condensed(sb)
+            from_equilibrium(pb, lv, lv[L.THETA], wb)
+            c = sb[S.C : S.C + C.SIZE]
+            stand(pb, c, lv, lv[L.THETA], lv[L.ROLLED], s[S.ANGLE], 0.0, speed, wb)
+        if again == 0:
+            found = at_rest(p, s, w, speed)
+        if found:
+            break
 
 
 @kernel
 def begin_at_rest(p, s, w):
-    """Begin where rings and balls rest at the clock and angles reached; False where balls find no rest.
+    """Begin where all rests at the clock and angles reached; False where balls find no rest.
 
-    ``L.MEAN`` and the trial state hold the rest on even races. Where there is none on waves and unequal
-    balls, the rings stand there; where balls find none there, the next step has to look for it again.
+    Where there is no rest on waves and unequal balls, the rings are put to that on even races; where balls
+    find none there, the next step has to look for it again.
     """
-    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    # from the even races' equilibrium to the one on waves and unequal balls, or the start would ring
-    c = s[S.C : S.C + C.SIZE]
-    keep_balls(w, lv, L.EVEN)
-    stand(p, c, lv, lv[L.THETA], lv[L.ROLLED], s[S.ANGLE], 0.0, s[S.SPEED], w)
-    if not at_rest(p, c, lv, s[S.SPEED], w):
-        for i in range(L.N):
-            w[W.STAGE + Y.Q0 + i] = lv[L.MEAN + i]
-        show_balls(lv, L.EVEN, w)
-    for i in range(L.N):
-        lv[L.Q0 + i] = w[W.STAGE + Y.Q0 + i]
-        lv[L.V0 + i] = 0.0
-        lv[L.A0 + i] = 0.0
-        lv[L.LEVERS + i] = p[P.PITCH_RADIUS] if is_angle(i) else 1.0
-    for row in (L.X, L.X1, L.X2):
-        keep_balls(w, lv, row)
-    found = begin_anew(p, s, w)
+    own = members.own_state(p, s)
+    ws = members.own_work(p, w)
+    place_on_waves(p, s, w, s[S.SPEED])
+    for i in range(members.padded(p)):
+        own[members.history(p) + i] = ws[members.vector(p, SP.PLACE) + i]
+    for b in range(members.count(p)):
+        lv = members.condensed(members.state(p, s, b))
+        for row in (L.X, L.X1, L.X2):
+            keep_balls(members.work(p, w, b), lv, row)
+    found = equations.restart_march(p, s, w)
     if not found:
-        lv[L.CONTRACTION] = 1.0
-    for _ in range(L.HISTORY):
-        count_settled(lv, int(p[P.LANES]), w)
+        own[members.march(p) + H.CONTRACTION] = 1.0
+    for b in range(members.count(p)):
+        lv = members.condensed(members.state(p, s, b))
+        for _ in range(L.HISTORY):
+            count_settled(lv, int(members.parameters(p, b)[P.LANES]), members.work(p, w, b))
     # nothing is known of the rate of acceleration yet, which Newmark's velocity contains: begin finely
-    s[S.STEP] = FIRST * longest_step(p, lv[L.HIGHEST], s[S.SPEED])
-    publish(p, lv, s[S.SPEED], s[S.SPEED_RATE], True, s[S.Y : S.Y + Y.SIZE], s[S.F : S.F + F.SIZE])
+    s[S.STEP] = FIRST * longest_of_all(p, own, s[S.SPEED])
+    equations.publish_all(p, s, w)
     return found
+
+
+@kernel
+def start_rings(p, u, s, w, t):
+    """Fill the state ``s`` of a set for the inputs ``u`` at time ``t`` (s); status code."""
+    status = held.start_held(p, u, s, w, t)
+    if status != OK:
+        return status
+    own = members.own_state(p, s)
+    for b in range(members.count(p) if members.has_shaft(p) else 0):
+        sb = members.state(p, s, b)
+        lv = members.condensed(sb)
+        for j in range(STRIDE):
+            lv[L.EVEN + j] = sb[S.Y + Y.X + j]
+            lv[L.EVEN_R + j] = sb[S.Y + Y.R + j]
+    if not begin_at_rest(p, s, w):
+        return NO_START
+    for b in range(members.count(p)):
+        begin_means(members.state(p, s, b))
+    for i in range(2):
+        own[SP.MEAN_HEAT + i] = 0.0
+    return OK

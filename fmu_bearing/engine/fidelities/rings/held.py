@@ -1,10 +1,19 @@
-"""Quasi-static points of the bearings in fidelities rings and response, each as the set at rest loads it."""
+"""What bearings hold in fidelities rings and response: a single one at its inputs, of a set as it rests."""
 
-from fmu_bearing.engine.fidelities.condensed.held import held_speed, hold_at, out_of_date
-from fmu_bearing.engine.fidelities.condensed.shared import even_spacing, hold_masses
+from fmu_bearing.engine.fidelities.condensed.held import held_speed, hold, hold_at, out_of_date
+from fmu_bearing.engine.fidelities.condensed.linearised import at_rest
+from fmu_bearing.engine.fidelities.condensed.rows import keep_balls
+from fmu_bearing.engine.fidelities.condensed.shared import (
+    even_spacing,
+    flat,
+    hold_masses,
+    quasistatic_places,
+    set_inputs,
+    start_condensed,
+)
 from fmu_bearing.engine.fidelities.condensed.uneven import add_uneven, renew_uneven, uneven_out_of_date
 from fmu_bearing.engine.fidelities.full.start import TOUCHING, start
-from fmu_bearing.engine.fidelities.rings.coupled import find_levers
+from fmu_bearing.engine.fidelities.rings.rest import find_levers
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import EQ, PT, SP, ST, STRIDE, C, L, P, Q, S, U, W, Y
 from fmu_bearing.engine.spindle import members
@@ -137,8 +146,22 @@ def take_offsets(p, own):
 
 
 @kernel
-def hold_set(p, u, s, w):
-    """Renew what all bearings hold, where the set rests at the inputs ``u``; status code."""
+def hold_alone(p, u, s, w):
+    """Renew what a single bearing holds at the inputs ``u``; status code."""
+    status = hold(p, u, u[U.SPEED], s, w)
+    if status != OK:
+        return status
+    hold_masses(p, s, w)
+    if p[P.RIGID] != 0.0:
+        members.own_state(p, s)[members.history(p) + Q.X] = s[S.PLACE]
+    return OK
+
+
+@kernel
+def hold_all(p, u, s, w):
+    """Renew what all bearings hold, of a set where it rests at the inputs ``u``; status code."""
+    if not members.has_shaft(p):
+        return hold_alone(p, u, s, w)
     own = members.own_state(p, s)
     ws = members.own_work(p, w)
     for b in range(members.count(p)):
@@ -163,17 +186,51 @@ def hold_set(p, u, s, w):
 
 
 @kernel
+def put_at_mean(p, s, w):
+    """Put a single bearing to the rest on even races in its trial state; balls there to ``L.EVEN``."""
+    own = members.own_state(p, s)
+    lv = members.condensed(s)
+    keep_balls(w, lv, L.EVEN)
+    for i in range(3 * L.COLUMN):
+        own[SP.S_HEAD + i] = 0.0
+    for i in range(L.N):
+        lv[L.MEAN + i] = w[W.STAGE + Y.Q0 + i]
+        own[SP.S_HEAD + i] = lv[L.MEAN + i]
+
+
+@kernel
+def rest_alone(p, u, s, w):
+    """Do what `hold_from_zero` does, for a single bearing."""
+    status = hold_alone(p, u, s, w)
+    if status != OK:
+        return status
+    lv = members.condensed(s)
+    c = s[S.C : S.C + C.SIZE]
+    for part in range(2):
+        status = quasistatic_places(p, c, s[S.SPEED], w)
+        if status != OK:
+            return status
+        flat(p, c, lv, w)
+        if part == 1 or at_rest(p, c, lv, s[S.SPEED], w):
+            break
+    put_at_mean(p, s, w)
+    return OK
+
+
+@kernel
 def hold_from_zero(p, u, s, w):
-    """Do what `hold_set` does, from where the start looks for rest, and put the set there; status code.
+    """Do what `hold_all` does, from where the start looks for rest, and put the set there; status code.
 
     The balls' places, ball 0 at angle 0, go to ``L.EVEN``.
     """
+    if not members.has_shaft(p):
+        return rest_alone(p, u, s, w)
     own = members.own_state(p, s)
     ws = members.own_work(p, w)
     speed = u[SP.U_SPEED]
     for i in range(3 * members.padded(p)):
         own[SP.S_HEAD + i] = 0.0
-    status = hold_set(p, u, s, w)
+    status = hold_all(p, u, s, w)
     if status != OK:
         return status
     take_offsets(p, own)
@@ -197,20 +254,28 @@ def hold_from_zero(p, u, s, w):
 @kernel
 def start_held(p, u, s, w, t):
     """Start of fidelities rings and response: that of fidelity full, then what is held; status code."""
+    if not members.has_shaft(p):
+        status = start_condensed(p, u, s, w, t)
+        if status == OK:
+            put_at_mean(p, s, w)
+            find_levers(p, members.own_state(p, s))
+        return status
     status = start(p, u, s, w, t)
     if status != OK:
         return status
     for b in range(members.count(p)):
         even_spacing(members.parameters(p, b), members.condensed(members.state(p, s, b)))
-    status = hold_set(p, u, s, w)
+    status = hold_all(p, u, s, w)
     if status == OK:
         find_levers(p, members.own_state(p, s))
     return status
 
 
 @kernel
-def take_rings_inputs(p, u, s, w, h):
+def set_inputs_of(p, u, s, w, h):
     """Set conditions, loads and ramps; True where what is held is out of date."""
+    if not members.has_shaft(p):
+        return set_inputs(p, u, s, w, h)
     own = members.own_state(p, s)
     speed = u[SP.U_SPEED]
     rate = (speed - s[S.SPEED]) / h

@@ -1,28 +1,29 @@
-"""Equations of a set in fidelities rings and response: condensed bearings on shaft and housing.
+"""Equations of fidelities rings and response: condensed bearings, on a pedestal or on shaft and housing.
 
-Each bearing tells the accelerations f its rings would have alone, their masses B (``L.MASS``) and derivatives
-J. With m the rings' inertia, the set's forces are those of shaft and housing and sum T^T m (f - B a), its
-masses M and sum T^T m B T, and so on. Jacobians stand in fixed axes.
+Each bearing gives the accelerations f its rings would have alone, their masses B (``L.MASS``) and derivatives
+J. With m the rings' inertia, the forces on a set are those of shaft and housing and sum T^T m (f - B a), its
+masses M and sum T^T m B T, and so on. A single bearing is a set whose coordinates are those of its rings: T
+and m are one, M is zero. Jacobians stand in fixed axes.
 """
 
 import math
 
 from fmu_bearing.engine.dense import times
+from fmu_bearing.engine.fidelities.condensed.ball_motion import carry_balls
+from fmu_bearing.engine.fidelities.condensed.balls import accelerations, stand
 from fmu_bearing.engine.fidelities.condensed.linearised import derivatives, step_matrix
-from fmu_bearing.engine.fidelities.condensed.publish import publish, rate_error
-from fmu_bearing.engine.fidelities.rings.march import begin_jacobian, differentiate, forces_anew
+from fmu_bearing.engine.fidelities.condensed.publish import publish
+from fmu_bearing.engine.fidelities.condensed.rows import show_balls
+from fmu_bearing.engine.fidelities.condensed.transverse import carry_transverse, hold_across
+from fmu_bearing.engine.fidelities.rings.predictor import rate_error
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, C, F, H, L, P, S, T, W, Y
-from fmu_bearing.engine.newton.jacobian import is_angle
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.coupling import add_driven, invert_set, shaft_matrix
 from fmu_bearing.engine.spindle.follow import keep_load
 from fmu_bearing.engine.spindle.shaft import shaft_forces
 
-_ROUNDS = 60
-_LONGEST = 3e-6  # m: move of a ring in one round, about the approach of a loaded contact
-THIRD = 1.0 / 3200.0  # of beta, over (omega h)^4: see rings.displace_set
-_FLOOR = 2500.0  # 1/s2: (50 rad/s)^2 on soft directions, as for a single bearing
+THIRD = 1.0 / 3200.0  # of beta, over (omega h)^4: see `correction.displace`
 
 
 @kernel
@@ -61,7 +62,7 @@ def show_rings(p, s):
 
 
 @kernel
-def tell_march(p, s):
+def share_march(p, s):
     """Tell the bearings the spacing of the march and how many steps are known."""
     own = members.own_state(p, s)
     numbers = members.march(p)
@@ -72,7 +73,7 @@ def tell_march(p, s):
 
 
 @kernel
-def publish_set(p, s, w):
+def publish_all(p, s, w):
     """Write the states of all bearings and of the set that outputs are made of."""
     show(p, s, w)
     publish_rings(p, s)
@@ -86,39 +87,47 @@ def publish_rings(p, s):
         lv = members.condensed(sb)
         y = sb[S.Y : S.Y + Y.SIZE]
         f = sb[S.F : S.F + F.SIZE]
-        publish(members.parameters(p, b), lv, sb[S.SPEED], sb[S.SPEED_RATE], False, y, f)
+        publish(members.parameters(p, b), lv, sb[S.SPEED], sb[S.SPEED_RATE], y, f)
 
 
 @kernel
-def follow_trial(p, b, own, ws, wb, ahead):
+def follow_trial(p, b, own, ws, wb, lanes, ahead):
     """Put trial places, rates and accelerations of the rings of bearing ``b`` into its work space ``wb``.
 
-    ``ahead``: time (s) from the state on.
+    ``lanes``: of a vector of the coordinates; ``ahead``: time (s) from the state on.
     """
+    members.moved(p, b, ws, members.vector_at(lanes, SP.PLACE), wb, W.STAGE + Y.Q0)
+    members.moved(p, b, ws, members.vector_at(lanes, SP.RATE), wb, W.STAGE + Y.V0)
+    members.moved(p, b, ws, members.vector_at(lanes, SP.ACCELERATION), wb, T.A)
+    if not members.has_shaft(p):
+        return
     mine = members.kept(p, b)
-    members.moved(p, b, ws, members.vector(p, SP.PLACE), wb, W.STAGE + Y.Q0)
-    members.moved(p, b, ws, members.vector(p, SP.RATE), wb, W.STAGE + Y.V0)
-    members.moved(p, b, ws, members.vector(p, SP.ACCELERATION), wb, T.A)
     wb[W.STAGE + Y.Q0] += own[mine + SP.OFFSET] + ahead * own[mine + SP.OFFSET_RATE]
     wb[W.STAGE + Y.V0] += own[mine + SP.OFFSET_RATE]
 
 
 @kernel
-def pull_rings(p, b, lv, wb, ws):
-    """Add what the rings of bearing ``b`` put on the set to its residual.
+def pull_rings(p, b, lv, wb, ws, residual):
+    """Add what the rings of bearing ``b`` put on the set to its residual, at ``ws[residual:]``.
 
-    Accelerations by the forces stand in ``W.F``, those of the trial in ``T.A``.
+    Accelerations by the forces are in ``W.F``, those of the trial in ``T.A``.
     """
-    masses = members.row(p, b) + SP.ROW_MASS
     times(lv, L.MASS, wb, T.A, wb, T.D)
+    if not members.has_shaft(p):
+        for i in range(L.N):
+            ws[residual + i] += wb[W.F + F.BODY + i] - wb[T.D + i]
+        return
+    masses = members.row(p, b) + SP.ROW_MASS
     for i in range(L.N):
         wb[T.D + i] = p[masses + i] * (wb[W.F + F.BODY + i] - wb[T.D + i])
-    members.pull(p, b, wb, T.D, ws, members.vector(p, SP.RESIDUAL))
+    members.pull(p, b, wb, T.D, ws, residual)
 
 
 @kernel
 def keep_loads(p, s, w):
     """Keep what the inner rings put on their balls, by the accelerations `pull_rings` has used."""
+    if not members.has_shaft(p):
+        return
     own = members.own_state(p, s)
     ws = members.own_work(p, w)
     for b in range(members.count(p)):
@@ -136,6 +145,9 @@ def keep_loads(p, s, w):
 @kernel
 def answer(p, own, ws, matrix, x, out):
     """``ws[out:] = matrix ws[x:]``, the matrix of the coordinates' size in the set's own state."""
+    if not members.has_shaft(p):
+        times(own, matrix, ws, x, ws, out)
+        return
     lanes = members.padded(p)
     for i in range(lanes):
         ws[out + i] = 0.0
@@ -149,6 +161,49 @@ def stiffness_matrix(p, s, own, ws, at):
     for b in range(members.count(p)):
         lv = members.condensed(members.state(p, s, b))
         add_driven(p, b, lv, L.JX, 1, L.COLUMN, ws, at)
+
+
+@kernel
+def differentiate(p, s, w):
+    """Jacobian at the present state, with balls held across their tracks; False if there is none."""
+    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
+    c = s[S.C : S.C + C.SIZE]
+    for i in range(L.N):
+        w[W.STAGE + Y.Q0 + i] = lv[L.Q0 + i]
+        w[W.STAGE + Y.V0 + i] = lv[L.V0 + i]
+    show_balls(lv, L.X, w)
+    tau = p[P.CONTACT_DAMPING]
+    speed = s[S.SPEED]
+    theta = lv[L.THETA] + tau * lv[L.RATIO] * speed
+    stand(p, c, lv, theta, lv[L.ROLLED], s[S.ANGLE] + tau * speed, lv[L.Q0 + L.TURN], speed, w)
+    if not derivatives(p, c, lv, s[S.ANGLE], s[S.SPEED], s[S.SPEED_RATE], w):
+        return False
+    hold_across(p, lv, w)
+    s[S.JACOBIANS] += 1.0
+    return True
+
+
+@kernel
+def begin_jacobian(x, numbers, highest):
+    """Note a Jacobian at the present state with the ``highest`` mode (rad/s); ``numbers``: of the march."""
+    x[numbers + H.HIGHEST] = highest
+    x[numbers + H.FACTOR_STEP] = 0.0
+    x[numbers + H.CONTRACTION] = 0.1
+    x[numbers + H.FRESH] = 1.0
+
+
+@kernel
+def present_forces(p, s, w):
+    """After a jump and new derivatives: accelerations by the forces at the present state; False if none."""
+    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
+    # the derivatives leave the rows of the balls a nanometre off
+    q = w[T.Q : T.Q + L.COLUMN]
+    if not accelerations(p, s[S.C : S.C + C.SIZE], lv, s[S.ANGLE], s[S.SPEED], s[S.SPEED_RATE], q, w):
+        return False
+    carry_transverse(p, lv, w)
+    if p[P.SOUND_SIZE] != 0.0:
+        carry_balls(p, lv, w)
+    return True
 
 
 @kernel
@@ -174,7 +229,7 @@ def highest_mode(p, own, ws):
 
 
 @kernel
-def renew_rings(p, s, w):
+def renew(p, s, w):
     """Jacobians at the present state and the highest mode; the inverse is left that of the masses.
 
     False where balls find no rest.
@@ -221,7 +276,7 @@ def by_squares(p, own, ws, x, out):
 
 
 @kernel
-def factor_rings(p, s, w, h):
+def factor_step(p, s, w, h):
     """Inverse of the set's Newton matrix for a step ``h`` (s); False if singular.
 
     See ``condensed.linearised.factor_step``.
@@ -251,9 +306,9 @@ def factor_rings(p, s, w, h):
 
 
 @kernel
-def begin_anew(p, s, w):
+def restart_march(p, s, w):
     """After a jump: Jacobians and accelerations at the present state; False if there are none."""
-    if not renew_rings(p, s, w):
+    if not renew(p, s, w):
         return False
     own = members.own_state(p, s)
     ws = members.own_work(p, w)
@@ -266,11 +321,11 @@ def begin_anew(p, s, w):
     for b in range(members.count(p)):
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)
-        if not forces_anew(members.parameters(p, b), sb, wb):
+        if not present_forces(members.parameters(p, b), sb, wb):
             return False
         for i in range(L.COLUMN):
             wb[T.A + i] = 0.0
-        pull_rings(p, b, members.condensed(sb), wb, ws)
+        pull_rings(p, b, members.condensed(sb), wb, ws, residual)
     answer(p, own, ws, members.inverse(p), residual, found)
     for i in range(lanes):
         own[members.history(p) + H.A0 * lanes + i] = ws[found + i]
@@ -278,110 +333,3 @@ def begin_anew(p, s, w):
         members.moved(p, b, ws, found, members.work(p, w, b), T.A)
     keep_loads(p, s, w)
     return True
-
-
-@kernel
-def find_levers(p, own):
-    """Fill the levers: the most that a coordinate moves a ring or the nose, tilts at the pitch radius."""
-    lanes = members.padded(p)
-    levers = members.history(p) + H.LEVERS * lanes
-    nose = members.table(p, SP.AT_NOSE)
-    for k in range(members.coordinates(p)):
-        most = 0.0
-        for b in range(members.count(p)):
-            t = int(p[members.row(p, b) + SP.ROW_AT_T]) + k * SP.LANES
-            pitch = members.parameters(p, b)[P.PITCH_RADIUS]
-            for i in range(L.N):
-                most = max(most, abs(p[t + i]) * (pitch if is_angle(i) else 1.0))
-            for i in range(SP.PLANE):
-                most = max(most, abs(p[nose + i * lanes + k]) * (pitch if is_angle(i) else 1.0))
-        # a mode of the shaft between planes that stand still
-        own[levers + k] = most if most > 0.0 else math.sqrt(p[members.table(p, SP.AT_SCALE) + k])
-
-
-@kernel
-def diagonal_mass(p, k):
-    """Inertia of coordinate ``k`` with the rings it moves."""
-    total = p[members.table(p, SP.AT_MASS) + k * members.padded(p) + k]
-    for b in range(members.count(p)):
-        r = members.row(p, b)
-        t = int(p[r + SP.ROW_AT_T]) + k * SP.LANES
-        for i in range(int(p[r + SP.ROW_DRIVEN])):
-            total += p[r + SP.ROW_MASS + i] * p[t + i] * p[t + i]
-    return total
-
-
-@kernel
-def forces_at_rest(p, s, w, speed):
-    """Put forces at the trial places, at rest, to the residual, and find derivatives; False if none."""
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
-    place = members.vector(p, SP.PLACE)
-    rate = members.vector(p, SP.RATE)
-    for i in range(members.padded(p)):
-        ws[rate + i] = 0.0
-        ws[members.vector(p, SP.ACCELERATION) + i] = 0.0
-    shaft_forces(p, own, ws, place, rate, 0.0, 0.0, 0.0, ws, members.vector(p, SP.RESIDUAL))
-    for b in range(members.count(p)):
-        sb = members.state(p, s, b)
-        wb = members.work(p, w, b)
-        lv = members.condensed(sb)
-        follow_trial(p, b, own, ws, wb, 0.0)
-        wb[W.STAGE + Y.V0] = 0.0
-        if not derivatives(members.parameters(p, b), sb[S.C : S.C + C.SIZE], lv, 0.0, speed, 0.0, wb):
-            return False
-        pull_rings(p, b, lv, wb, ws)
-    return True
-
-
-@kernel
-def rest_once(p, s, w, speed):
-    """Move the trial places by one Newton step towards rest; its length (m), negative if there is none."""
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
-    n = members.coordinates(p)
-    if not forces_at_rest(p, s, w, speed):
-        return -1.0
-    at = members.matrix(p)
-    stiffness_matrix(p, s, own, ws, at)
-    for i in range(n):
-        for k in range(n):
-            floor = _FLOOR * diagonal_mass(p, i) if i == k else 0.0
-            ws[at + i * n + k] = floor - ws[at + i * n + k]
-    if not invert_set(p, own, ws):
-        return -1.0
-    found = members.vector(p, SP.INCREMENT)
-    answer(p, own, ws, members.inverse(p), members.vector(p, SP.RESIDUAL), found)
-    levers = members.history(p) + H.LEVERS * members.padded(p)
-    longest = 0.0
-    for i in range(n):
-        longest = max(longest, own[levers + i] * abs(ws[found + i]))
-    if not (longest < 1e3):
-        return -1.0
-    share = min(1.0, _LONGEST / (longest + 1e-300))
-    for i in range(n):
-        ws[members.vector(p, SP.PLACE) + i] += share * ws[found + i]
-    return longest
-
-
-@kernel
-def at_rest(p, s, w, speed):
-    """Find where the set rests without unbalance, from the guess in ``SP.PLACE``; whether found.
-
-    As ``condensed.linearised.at_rest`` does for a single bearing.
-    """
-    ws = members.own_work(p, w)
-    found = False
-    for b in range(members.count(p)):
-        sb = members.state(p, s, b)
-        ws[members.scratch(p, b) + SP.START_ECCENTRICITY] = sb[S.C + C.ECCENTRICITY]
-        sb[S.C + C.ECCENTRICITY] = 0.0
-    for _ in range(_ROUNDS):
-        longest = rest_once(p, s, w, speed)
-        if longest < 1e-12:
-            found = longest >= 0.0
-            break
-    for b in range(members.count(p)):
-        sb = members.state(p, s, b)
-        sb[S.C + C.ECCENTRICITY] = ws[members.scratch(p, b) + SP.START_ECCENTRICITY]
-    return found

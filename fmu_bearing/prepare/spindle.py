@@ -45,13 +45,13 @@ def as_set_of_one(p: NDArray[np.float64]) -> NDArray[np.float64]:
     block = np.zeros(SP.HEAD + SP.ROW)
     block[SP.BEARINGS] = 1.0
     block[SP.AT_ROWS] = SP.HEAD
-    block[SP.AT_S], block[SP.AT_W] = S.SET, W.SET
     row = block[SP.HEAD :]
     row[SP.ROW_SIGN] = 1.0
     row[SP.ROW_SEAT] = SP.PEDESTAL
     row[SP.ROW_MASS : SP.ROW_MASS + SP.DRIVEN] = 1.0  # its equations are those of accelerations
     alone = np.concatenate([p, block])
     alone[P.SET] = p.size
+    alone[P.ALONE] = 1.0
     return alone
 
 
@@ -72,7 +72,7 @@ def pack_set(
     shaft = shaft_model(scene, spindle) if shaft is None else shaft
     bearings = [p[: int(p[P.SET]) or p.size].copy() for p in parameters]
     for p in bearings:
-        p[P.SET] = 0.0
+        p[P.SET] = p[P.ALONE] = 0.0
     for p, one in zip(bearings, spindle.bearing, strict=True):
         if one.seat != "pedestal":
             _hold(p)

@@ -50,6 +50,7 @@ SOUND_SIZE = _at()  # its length, and those of its state and work space
 SOUND_STATE = _at()
 SOUND_WORK = _at()
 SET = _at()  # block of a set of bearings, see spindle; 0: parameters of one of its bearings
+ALONE = _at()  # 1: a single bearing, the only one of its set, without shaft
 # balls, contacts, oil
 PITCH_RADIUS = _at()  # m
 DIAMETER = _at()  # m, of a ball

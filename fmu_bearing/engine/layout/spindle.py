@@ -237,7 +237,7 @@ def first(p, place):
 
 def has_shaft(p):
     """Whether the parameters ``p`` are of a set on a shaft: a single bearing has no other coordinates."""
-    return p[_P.SET] != 0.0 and p[int(p[_P.SET]) + SHAFT] != 0.0
+    return p[_P.SET] != 0.0 and p[_P.ALONE] == 0.0
 
 
 def inputs(p):

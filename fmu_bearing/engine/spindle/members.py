@@ -3,12 +3,14 @@
 from fmu_bearing.engine.choices import FULL
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, splat, store, sum_four
-from fmu_bearing.engine.layout import FOUR, SP, H, L, P, S
+from fmu_bearing.engine.layout import FOUR, SP, H, L, P, S, W
 
 
 @kernel
 def count(p):
     """Return how many bearings the set has."""
+    if p[P.ALONE] != 0.0:
+        return 1
     return int(p[int(p[P.SET]) + SP.BEARINGS])
 
 
@@ -18,7 +20,7 @@ def coordinates(p):
 
     A single bearing has those of its rings in fidelities rings and response, none in full.
     """
-    if p[int(p[P.SET]) + SP.SHAFT] == 0.0:
+    if p[P.ALONE] != 0.0:
         return 0 if p[P.FIDELITY] == FULL else L.N
     return int(p[int(p[P.SET]) + SP.COUNT])
 
@@ -26,13 +28,13 @@ def coordinates(p):
 @kernel
 def has_shaft(p):
     """Whether a shaft carries the bearings; a single bearing has no coordinates but its own."""
-    return p[int(p[P.SET]) + SP.SHAFT] != 0.0
+    return p[P.ALONE] == 0.0
 
 
 @kernel
 def padded(p):
     """Return how many numbers a vector of the coordinates has: whole groups of four."""
-    if p[int(p[P.SET]) + SP.SHAFT] == 0.0:
+    if p[P.ALONE] != 0.0:
         return 0 if p[P.FIDELITY] == FULL else L.COLUMN
     return int(p[int(p[P.SET]) + SP.PADDED])
 
@@ -95,12 +97,16 @@ def outputs(p, z, b):
 @kernel
 def own_state(p, s):
     """Return the set's own state."""
+    if p[P.ALONE] != 0.0:
+        return s[S.SET :]
     return s[int(p[int(p[P.SET]) + SP.AT_S]) :]
 
 
 @kernel
 def own_work(p, w):
     """Return the set's own work space."""
+    if p[P.ALONE] != 0.0:
+        return w[W.SET :]
     return w[int(p[int(p[P.SET]) + SP.AT_W]) :]
 
 

@@ -342,8 +342,7 @@ def runge_kutta_step(p, s, w, h, tableau, tolerance, probe, to_speed):
 
     ``tolerance`` (m/s): Newton's error; ``probe``: measure the contraction again; ``to_speed`` (rad/s): of
     the shaft at the end of the communication step. The first bearing's report takes ``W.ERROR`` (over what is
-    allowed), ``W.CONTRACTION`` and ``W.ITERATIONS``. False where Newton's
-    method does not converge.
+    allowed), ``W.CONTRACTION`` and ``W.ITERATIONS``. False where Newton's method does not converge.
     """
     gh = TABLEAUX[tableau + TAB.GAMMA] * h
     stages = int(TABLEAUX[tableau + TAB.COUNT])

@@ -29,7 +29,7 @@ THIRD = 1.0 / 3200.0  # of beta, over (omega h)^4: see `correction.displace`
 @kernel
 def bends(p):
     """Whether the shaft bends: it has more coordinates than a rigid one."""
-    return p[int(p[P.SET]) + SP.SHAFT] > SP.PLANE
+    return members.has_shaft(p) and p[int(p[P.SET]) + SP.SHAFT] > SP.PLANE
 
 
 @kernel

@@ -81,7 +81,6 @@ def spindle():
         one = study(flexible=flexible)
         nose = 1e-6 * shaft_statics(one, force=(0.0, 0.0, 0.0)).nose_stiffness
         yield f"| {name} | {nose:.1f} | {first_frequency(one):.0f} |"
-    yield from _motor_spindle()
 
 
 def _lives(scene, found):
@@ -114,7 +113,7 @@ def _preloads(scene):
     yield f"The pair of the example stands {1e3 * warm[-1].spacing:.0f} mm apart"
 
 
-def _motor_spindle():
+def motor_spindle():
     """Preload and spacing of the motor spindle as its scene has it, its bending frequency."""
     cosimulate, run_up = (from_folder(SETS, name) for name in ("cosimulate", "run_up"))
     scene = read_scene(cosimulate.SCENE)
@@ -280,7 +279,7 @@ def examples():
 
 PAGES = {
     "coupling.md": coupling, "examples.md": examples, "gallery.md": gallery, "limits.md": limits,
-    "spindle.md": spindle,
+    "motor-spindle.md": motor_spindle, "spindle.md": spindle,
 }  # fmt: skip
 
 

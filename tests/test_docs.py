@@ -132,7 +132,7 @@ def test_every_command_is_described(site):
 
 
 def test_every_size_of_a_maker_is_listed_with_its_marks(site):
-    page = text(site, "catalogue.html")
+    page = text(site, "sizes.html")
     for name, size in sizes().items():
         row = re.search(rf"<tr>\s*<td>(?:<code>{name}</code>|{name} \(no model\))</td>(.*?)</tr>", page, re.S)
         assert row is not None, name
@@ -230,8 +230,8 @@ def test_every_variable_is_described(name, reference, site):
         assert sentence, variable.name
 
 
-RUN = ["quick-start.md", "catalogue.md", "choosing.md", "coupling.md", "stiffness.md"]
-LONG_RUN = ["modes.md", "spindle.md"]  # each about 20 s
+RUN = ["quick-start.md", "catalogue.md", "sizes.md", "choosing.md", "coupling.md", "stiffness.md"]
+LONG_RUN = ["modes.md", "spindle.md", "motor-spindle.md"]  # each about 20 s
 
 
 @pytest.mark.parametrize("page", [*RUN, *(pytest.param(page, marks=pytest.mark.heavy) for page in LONG_RUN)])

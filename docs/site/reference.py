@@ -125,7 +125,7 @@ def _sentence(key, field):
     return text.removesuffix(f", {unit}.") + "." if unit and text.endswith(f", {unit}.") else text
 
 
-_SIZES = "The sizes of NSK have [a table of their own](catalogue.md#sizes-with-a-makers-figures)."
+_SIZES = "The sizes of NSK have [a table of their own](sizes.md#sizes-with-a-makers-figures)."
 
 
 def sizes():

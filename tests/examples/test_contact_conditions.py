@@ -12,7 +12,7 @@ import pytest
 from tests.examples.conftest import ROOT
 
 RESULTS = ROOT / "docs" / "results"
-PAGE = (ROOT / "docs" / "impact.md").read_text(encoding="utf-8")
+PAGE = (ROOT / "docs" / "contact-conditions.md").read_text(encoding="utf-8")
 
 
 @pytest.fixture(scope="module")

@@ -74,7 +74,7 @@ def spindle():
         f"renewed when loads have moved by {100.0 * held._NEAR:g} %, speed by 1 %, or temperatures have "
         f"moved rings by {rounded(str(held._GROWN), 1)} m"
     )
-    yield f"a ring goes aside by more than {start._FAR:g} of the pitch radius"
+    yield f"a ring is displaced by more than {start._FAR:g} of the pitch radius"
     yield from _lives(scene, found)
     yield from _preloads(scene)
     for name, flexible in (("rigid", False), ("flexible", True)):
@@ -110,7 +110,7 @@ def _preloads(scene):
         f"It prints {first}, {second} and {third} N, and a neutral spacing of "
         f"{1e3 * warm[-1].neutral_spacing:.1f} mm"
     )
-    yield f"The pair of the example stands {1e3 * warm[-1].spacing:.0f} mm apart"
+    yield f"The bearings of the example are {1e3 * warm[-1].spacing:.0f} mm apart"
 
 
 def motor_spindle():
@@ -121,12 +121,13 @@ def motor_spindle():
     cold, running = (np.mean(found.preloads[when]) for when in ("cold", "running"))
     near = np.mean(shaft_statics(cosimulate.closer(scene)).preloads["running"])
     yield (
-        f"The middles of the pairs stand {1e3 * found.spacing:.0f} mm apart and the neutral spacing is "
+        f"The middles of the pairs are {1e3 * found.spacing:.0f} mm apart and the neutral spacing is "
         f"{1e3 * found.neutral_spacing:.0f} mm"
     )
     yield f"Spacers that gave {cold:.0f} N leave {running:.0f} N at the temperatures of the scene"
     yield (
-        f"At the temperatures of the scene, whose housing is cooler than its shaft, it would be {near:.0f} N"
+        "At the temperatures of the scene, where the housing is cooler than the shaft, it would be "
+        f"{near:.0f} N"
     )
     yield f"**Springs** of {cosimulate.on_springs(scene).spindle.preload.force_N:.0f} N"
     bending = run_up.shaft_frequencies(scene)[1]

@@ -8,7 +8,7 @@ def limits():
     yield from _rests_on_assumed_values()
     yield from _bands()
     yield from _loads_and_goals()
-    yield f"peaks ({critical_speed()} r/min) is put in"
+    yield f"peaks ({critical_speed()} r/min) is an input, not a prediction"
     gap = row("three_balls", case="in contact, 0.5 m/s, Hertz")
     paper = float(row("three_balls", case="measured, ref. [24]")["paper"])
     rigid, elastic, without = (

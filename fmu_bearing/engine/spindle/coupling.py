@@ -185,15 +185,19 @@ def keep_columns(x, at, count, lanes, out, to):
 
 
 @kernel
+def turned(sb, t):
+    """Cosine and sine of a bearing's orbit angle since its Jacobian, ``t`` (s) into the step."""
+    angle = sb[S.Y + Y.TH] - sb[S.JACOBIAN_ANGLE] + sb[S.Y + Y.OM] * t
+    return math.cos(angle), math.sin(angle)
+
+
+@kernel
 def turn_since(p, s, w, t):
     """Keep cosine and sine of the bearings' orbit angles since their Jacobians, ``t`` (s) into the step."""
     ws = members.own_work(p, w)
     for b in range(members.count(p)):
-        sb = members.state(p, s, b)
-        angle = sb[S.Y + Y.TH] - sb[S.JACOBIAN_ANGLE] + sb[S.Y + Y.OM] * t
         at = members.scratch(p, b) + SP.TURNED
-        ws[at] = math.cos(angle)
-        ws[at + 1] = math.sin(angle)
+        ws[at], ws[at + 1] = turned(members.state(p, s, b), t)
 
 
 @kernel
@@ -316,17 +320,11 @@ def solve_shaft(p, own, ws):
 def solve_set(p, s, w):
     """Solve Newton's equations in place; orbit angles are those kept by `turn_since`.
 
-    Without a shaft they are those of a single bearing.
-
     Residuals: ``W.D`` of each bearing's work space (accelerations, driven rows as if free) and
     ``SP.RESIDUAL`` of the set's (N, N m). Increments: the same, and ``SP.INCREMENT``.
     """
-    ws = members.own_work(p, w)
-    if not members.has_shaft(p):
-        at = members.scratch(p, 0) + SP.TURNED
-        solve(p, s[S.FAC : S.CONDENSED], ws[at], ws[at + 1], w[W.D : W.D + F.SIZE], w)
-        return
     own = members.own_state(p, s)
+    ws = members.own_work(p, w)
     for b in range(members.count(p)):
         pb = members.parameters(p, b)
         answer_free(p, b, pb, members.state(p, s, b), members.work(p, w, b), own, ws)

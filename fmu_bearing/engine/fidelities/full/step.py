@@ -24,6 +24,7 @@ from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, TAB, C, F, P, Q, S, W, Y
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.mechanics.flexure import flexure_state
+from fmu_bearing.engine.newton.block_arrow import solve
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.coupling import (
     answer_driven,
@@ -32,6 +33,7 @@ from fmu_bearing.engine.spindle.coupling import (
     solve_shaft,
     turn_driven,
     turn_since,
+    turned,
 )  # fmt: skip
 from fmu_bearing.engine.spindle.follow import accelerate, free_forces, growth_power
 from fmu_bearing.engine.spindle.port import clear, feel, has_port, keep_push, lead_stage
@@ -92,10 +94,6 @@ def increments(p, s, w, own, ws, stage, gh, angle, speed):
     With it power in and the heats of shaft and pedestal (W), of the state before the increment.
     """
     rate = s[S.SPEED_RATE]
-    if not members.has_shaft(p):
-        residual_of(p, s, w, stage, angle, speed, rate)
-        solve_set(p, s, w)
-        return add_increment(p, s, w, stage, gh), 0.0, 0.0, 0.0
     work, bent, shaken = shaft_residual(p, own, ws, stage, angle, speed, rate)
     for b in range(members.count(p)):
         pb = members.parameters(p, b)
@@ -135,11 +133,22 @@ def iterate(p, s, w, stage, h, gh, t, tolerance, contraction, probe):
     speed = s[S.SPEED] + t * s[S.SPEED_RATE]
     own = members.own_state(p, s)
     ws = members.own_work(p, w)
+    together = members.has_shaft(p)
+    fac = s[S.FAC : S.CONDENSED]
+    d = w[W.D : W.D + F.SIZE]
+    co, si = turned(s, t)
+    work = bent = shaken = 0.0
     worst = 0.0
     before = 0.0
-    turn_since(p, s, w, t)
+    if together:
+        turn_since(p, s, w, t)
     for n in range(MAX_ITERATIONS):
-        size, work, bent, shaken = increments(p, s, w, own, ws, stage, gh, angle, speed)
+        if together:
+            size, work, bent, shaken = increments(p, s, w, own, ws, stage, gh, angle, speed)
+        else:
+            residual_of(p, s, w, stage, angle, speed, s[S.SPEED_RATE])
+            solve(p, fac, co, si, d, w)
+            size = add_increment(p, s, w, stage, gh)
         if not (size < _DIVERGED):
             return -1.0, worst
         rate = contraction
@@ -312,9 +321,12 @@ def step_error(p, s, w, h, tableau, speed):
         for m in range(stages):
             acc = W.ACC + m * F.SIZE
             add_scaled(h * TABLEAUX[tableau + TAB.ERROR + m], wb[acc : acc + F.WORK], d, F.WORK)
-    if not explicit:
+    if not explicit and together:
         turn_since(p, s, w, h)
         solve_set(p, s, w)
+    elif not explicit:
+        co, si = turned(s, h)
+        solve(p, s[S.FAC : S.CONDENSED], co, si, w[W.D : W.D + F.SIZE], w)
     largest = 0.0
     for b in range(members.count(p)):
         pb = members.parameters(p, b)

@@ -96,12 +96,16 @@ def predict(p, s, w, own, ws, x, n, lanes, h):
         members.vector_at(lanes, SP.NEWMARK),
     )  # fmt: skip
     displace(p, own, ws, x, n, lanes, h)
+    together = members.has_shaft(p)
     for b in range(members.count(p)):
         pb = members.parameters(p, b)
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)
         lv = members.condensed(sb)
-        equations.follow_trial(p, b, own, ws, wb, lanes, h)
+        if together:
+            equations.follow_trial(p, b, own, ws, wb, lanes, h)
+        else:
+            equations.show_trial(ws, wb)
         predictor.continue_places(lv, int(pb[P.LANES]), wb)
         begin_transverse(lv, h, wb)
         stand_ahead(pb, sb, h, wb)
@@ -135,24 +139,31 @@ def residual_of(p, s, w, own, ws, x, n, lanes, h):
     angle = s[S.ANGLE] + h * (s[S.SPEED] + 0.5 * h * rate)
     acc = members.vector_at(lanes, SP.ACCELERATION)
     residual = members.vector_at(lanes, SP.RESIDUAL)
+    together = members.has_shaft(p)
     true_rates(p, own, ws, x, n, lanes, h)
-    place = members.vector_at(lanes, SP.PLACE)
-    moving = members.vector_at(lanes, SP.RATE)
-    shaft_forces(p, own, ws, place, moving, angle, speed, rate, ws, residual)
-    if members.has_shaft(p):
+    if together:
+        place = members.vector_at(lanes, SP.PLACE)
+        moving = members.vector_at(lanes, SP.RATE)
+        shaft_forces(p, own, ws, place, moving, angle, speed, rate, ws, residual)
         members.add_product(p, members.table(p, SP.AT_MASS), -1.0, ws, acc, ws, residual)
     for b in range(members.count(p)):
         pb = members.parameters(p, b)
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)
         lv = members.condensed(sb)
-        equations.follow_trial(p, b, own, ws, wb, lanes, h)
+        if together:
+            equations.follow_trial(p, b, own, ws, wb, lanes, h)
+        else:
+            equations.show_trial(ws, wb)
         q = wb[T.Q : T.Q + L.COLUMN]
         fine = accelerations(pb, sb[S.C : S.C + C.SIZE], lv, angle, speed, rate, q, wb)
         add_transverse(pb, lv, wb)
         if not fine:
             return False
-        equations.pull_rings(p, b, lv, wb, ws, residual)
+        if together:
+            equations.pull_rings(p, b, lv, wb, ws, residual)
+        else:
+            equations.rings_residual(lv, wb, ws, residual)
     return True
 
 

@@ -17,7 +17,8 @@ from fmu_bearing.engine.fidelities.condensed.rows import show_balls
 from fmu_bearing.engine.fidelities.condensed.transverse import carry_transverse, hold_across
 from fmu_bearing.engine.fidelities.rings.predictor import rate_error
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import SP, C, F, H, L, P, S, T, W, Y
+from fmu_bearing.engine.lanes import load, store
+from fmu_bearing.engine.layout import FOUR, SP, C, F, H, L, P, S, T, W, Y
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.coupling import add_driven, invert_set, shaft_matrix
 from fmu_bearing.engine.spindle.follow import keep_load
@@ -91,6 +92,25 @@ def publish_rings(p, s):
 
 
 @kernel
+def show_trial(ws, w):
+    """Do what `follow_trial` does, for a single bearing, whose coordinates are those of its rings."""
+    for i in range(0, L.COLUMN, FOUR):
+        store(w, W.STAGE + Y.Q0 + i, load(ws, SP.W_HEAD + SP.PLACE * L.COLUMN + i))
+    for i in range(0, L.COLUMN, FOUR):
+        store(w, W.STAGE + Y.V0 + i, load(ws, SP.W_HEAD + SP.RATE * L.COLUMN + i))
+        store(w, T.A + i, load(ws, SP.W_HEAD + SP.ACCELERATION * L.COLUMN + i))
+
+
+@kernel
+def rings_residual(lv, w, ws, residual):
+    """Put what is out of balance at the rings of a single bearing to ``ws[residual:]``, as `pull_rings`."""
+    times(lv, L.MASS, w, T.A, w, T.D)
+    for i in range(L.N):
+        ws[residual + i] = w[W.F + F.BODY + i] - w[T.D + i]
+    ws[residual + L.N] = 0.0
+
+
+@kernel
 def follow_trial(p, b, own, ws, wb, lanes, ahead):
     """Put trial places, rates and accelerations of the rings of bearing ``b`` into its work space ``wb``.
 
@@ -99,8 +119,6 @@ def follow_trial(p, b, own, ws, wb, lanes, ahead):
     members.moved(p, b, ws, members.vector_at(lanes, SP.PLACE), wb, W.STAGE + Y.Q0)
     members.moved(p, b, ws, members.vector_at(lanes, SP.RATE), wb, W.STAGE + Y.V0)
     members.moved(p, b, ws, members.vector_at(lanes, SP.ACCELERATION), wb, T.A)
-    if not members.has_shaft(p):
-        return
     mine = members.kept(p, b)
     wb[W.STAGE + Y.Q0] += own[mine + SP.OFFSET] + ahead * own[mine + SP.OFFSET_RATE]
     wb[W.STAGE + Y.V0] += own[mine + SP.OFFSET_RATE]
@@ -113,10 +131,6 @@ def pull_rings(p, b, lv, wb, ws, residual):
     Accelerations by the forces are in ``W.F``, those of the trial in ``T.A``.
     """
     times(lv, L.MASS, wb, T.A, wb, T.D)
-    if not members.has_shaft(p):
-        for i in range(L.N):
-            ws[residual + i] += wb[W.F + F.BODY + i] - wb[T.D + i]
-        return
     masses = members.row(p, b) + SP.ROW_MASS
     for i in range(L.N):
         wb[T.D + i] = p[masses + i] * (wb[W.F + F.BODY + i] - wb[T.D + i])

@@ -17,6 +17,8 @@ _Found = TypeVar("_Found")
 @lru_cache(maxsize=1)
 def _libraries() -> ThreadpoolController:
     """Return the linear algebra libraries of this process; they are looked for once."""
+    import scipy.linalg  # noqa: F401 - has a library of its own beside NumPy's: both must be there to be found
+
     return ThreadpoolController()
 
 

@@ -26,7 +26,7 @@ from fmu_bearing.engine.fidelities.full import start
 from fmu_bearing.engine.fidelities.rings import held
 from fmu_bearing.engine.layout import SD, P
 from fmu_bearing.instance import Instance
-from fmu_bearing.modal import weak
+from fmu_bearing.modal.campbell import weak
 from fmu_bearing.prepare.model import land_clearance, pack, prepare
 from fmu_bearing.scene import imperfections
 from tests.conftest import EXAMPLES, ROOT

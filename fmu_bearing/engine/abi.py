@@ -55,7 +55,7 @@ def usable(p, u, w):
         return inputs_usable(u)
     if not set_inputs_usable(p, u):
         return False
-    given = members.own_work(p, w)[SP.INPUT : SP.INPUT + U.SIZE]
+    given = members.set_work(p, w)[SP.INPUT : SP.INPUT + U.SIZE]
     for b in range(members.count(p)):
         bearing_inputs(p, u, b, given)
         if not inputs_usable(given):

@@ -4,7 +4,7 @@ import numpy as np
 from scipy.optimize import root
 
 from fmu_bearing.engine.constants import GRAVITY
-from fmu_bearing.engine.layout import SP, C, L, P, S, U
+from fmu_bearing.engine.layout import SP, C, H, L, P, S, U
 from tests.oracles.cartesian_forces import turned_axes
 
 FIDELITIES = {"rings": 1.0, "response": 2.0}
@@ -21,8 +21,13 @@ def block(run):
 
 
 def march(run):
-    """What the march of a single bearing keeps in its state, from ``layout.history`` on."""
+    """Numbers that the march of a single bearing keeps in its state, then its vectors: see `history`."""
     return run.s[S.SET + SP.S_HEAD + (SP.MOTION + L.N) * L.COLUMN + SP.PER_BEARING :]
+
+
+def history(run):
+    """Vectors of the march of a single bearing, by rows: see ``layout.history``."""
+    return march(run)[SP.MARCHED : SP.MARCHED + H.VECTORS * L.COLUMN].reshape(H.VECTORS, L.COLUMN)
 
 
 def vibration(rows):

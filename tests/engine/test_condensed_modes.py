@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from fmu_bearing.arrays import Arrays
-from fmu_bearing.engine.layout import L, U
+from fmu_bearing.engine.layout import H, L, U
 from fmu_bearing.modal.equations.linearised import linearised
 from fmu_bearing.scene.read import with_fidelity
-from tests.engine.condensed import FIDELITIES, block, with_patterns
+from tests.engine.condensed import FIDELITIES, history, with_patterns
 from tests.engine.helpers import RPM, Run, quiet
 from tests.modal.decay import pencil
 
@@ -66,7 +66,7 @@ def poles_of_full(scene, rpm):
 def poles_of_rings(scene, rpm, spacing=1e-5, count=300):
     """Poles (1/s) that the free decay of `rings` shows after a radial kick of the inner ring."""
     run = Run(quiet(scene), rpm, FIDELITY=FIDELITIES["rings"], GRAVITY=0.0, CAGE=0.0, MAX_STEP=5e-6).init()
-    block(run)[L.V0 + 1] += 1e-5
+    history(run)[H.V0, 1] += 1e-5
     rows = run.run(count * spacing, spacing)
     return pencil(rows[:, 1:2] + 1j * rows[:, 2:3], spacing, 20)
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from fmu_bearing.engine.layout import STRIDE, P
+from fmu_bearing.engine.layout import SP, STRIDE, P
 from fmu_bearing.formulas.hertz import effective_modulus, point_contact
 from fmu_bearing.prepare.contacts import films
 from fmu_bearing.prepare.model import pack, prepare
@@ -96,7 +96,9 @@ def test_ball_waves_stand_in_their_table():
 def test_what_is_left_out_takes_no_place(scene):
     bare = scene("7003C-bare")
     perfect = pack(bare.model_copy(update={"imperfections": None}), NO_SOUND)
-    assert perfect.size == P.TABLES + 2 * 5 + STRIDE  # five strips' nodes and weights, the balls' sizes
+    # five strips' nodes and weights, the balls' sizes; behind them the block of a set of one
+    assert perfect[P.SET] == P.TABLES + 2 * 5 + STRIDE
+    assert perfect.size == perfect[P.SET] + SP.HEAD + SP.ROW
     assert not perfect[
         places("AT_WAVES", "AT_ORDERS", "AT_FORM", "AT_AXES", "AT_SOUND", "BALL_WAVES", "WAVE_RATE")
     ].any()
@@ -107,7 +109,7 @@ def test_what_is_left_out_takes_no_place(scene):
 def test_sound_stands_last(scene):
     p = prepare(scene("7003C-bare")).parameters
     assert p[P.SOUND_SIZE] > 0.0
-    assert p[P.AT_SOUND] + p[P.SOUND_SIZE] == p.size
+    assert p[P.AT_SOUND] + p[P.SOUND_SIZE] == p[P.SET]
 
 
 @pytest.mark.parametrize(("race", "side", "sign"), [(0, "inner_ring", 1.0), (1, "outer_ring", -1.0)])

@@ -105,7 +105,7 @@ def test_a_set_of_one_bends_as_a_mounted_bearing():
         preload_N=500.0, pedestal_stiffness_N_m=1e8, flexure=Bending.model_validate(BENT),
         rotor=Rotor(mass_kg=mass, length_mm=180.0, diameter_mm=15.0),
     )  # fmt: skip
-    rows = Run(one_of(given).model_copy(update={"mounting": mounting}), 20e3).init().run(1e-3)
+    rows = Run(one_of(given).model_copy(update={"mounting": mounting}), 20e3, bends=True).init().run(1e-3)
     found = SetRun(given).init().run(1e-3)
     modes = Z.flexures(given.bearing.ball_count, 0)
     for first, count in ((Z.INNER_VELOCITY, 3), (Z.OUTER_VELOCITY, 3), (modes, 6)):

@@ -133,8 +133,8 @@ def condense_set(p, s, w, gh):
     ``gh``: weight of rates in the stages, s; that of places is its square. The matrix goes to the set's work
     space, row by row.
     """
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
     n = members.coordinates(p)
     at = members.matrix(p)
     shaft_matrix(p, own, ws, s[S.SPEED], 1.0, gh, gh * gh, at)
@@ -158,11 +158,11 @@ def factor_set(p, s, w, gh):
         return True
     if not condense_set(p, s, w, gh):
         return False
-    ws = members.own_work(p, w)
+    ws = members.set_work(p, w)
     n = members.coordinates(p)
     if has_port(p):
         hold_rows(ws, members.matrix(p), n, n)
-    return invert_set(p, members.own_state(p, s), ws)
+    return invert_set(p, members.set_state(p, s), ws)
 
 
 @kernel
@@ -194,7 +194,7 @@ def turned(sb, t):
 @kernel
 def turn_since(p, s, w, t):
     """Keep cosine and sine of the bearings' orbit angles since their Jacobians, ``t`` (s) into the step."""
-    ws = members.own_work(p, w)
+    ws = members.set_work(p, w)
     for b in range(members.count(p)):
         at = members.scratch(p, b) + SP.TURNED
         ws[at], ws[at + 1] = turned(members.state(p, s, b), t)
@@ -323,8 +323,8 @@ def solve_set(p, s, w):
     Residuals: ``W.D`` of each bearing's work space (accelerations, driven rows as if free) and
     ``SP.RESIDUAL`` of the set's (N, N m). Increments: the same, and ``SP.INCREMENT``.
     """
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
     for b in range(members.count(p)):
         pb = members.parameters(p, b)
         answer_free(p, b, pb, members.state(p, s, b), members.work(p, w, b), own, ws)

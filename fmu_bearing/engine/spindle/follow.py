@@ -11,8 +11,8 @@ from fmu_bearing.engine.spindle.shaft import shaft_forces, weighs
 @kernel
 def copy_rows(p, s, w):
     """Put places and rates of all driven rows to those of shaft and housing in the state."""
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
     n = members.padded(p)
     for b in range(members.count(p)):
         sb = members.state(p, s, b)
@@ -76,8 +76,8 @@ def accelerate(p, s, w, stage, t, angle, speed, rate):
     the force on the rotor at a port to the state, or to ``SP.FORCE``. Returns work, heats of shaft and
     pedestal (W); work of growing offsets and of a rotor at the port included.
     """
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
     n = members.padded(p)
     force = members.vector(p, SP.FORCE)
     if stage:

@@ -35,7 +35,7 @@ def bearing_inputs(p, u, b, out):
 @kernel
 def bearing_conditions(p, u, b, speed, w):
     """Conditions of bearing ``b`` into ``W.CONDITIONS`` of its work space; ``speed``: see ``conditions``."""
-    given = members.own_work(p, w)[SP.INPUT : SP.INPUT + U.SIZE]
+    given = members.set_work(p, w)[SP.INPUT : SP.INPUT + U.SIZE]
     bearing_inputs(p, u, b, given)
     wb = members.work(p, w, b)
     conditions(members.parameters(p, b), given, speed, wb[W.CONDITIONS : W.CONDITIONS + C.SIZE])

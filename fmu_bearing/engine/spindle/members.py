@@ -95,7 +95,7 @@ def outputs(p, z, b):
 
 
 @kernel
-def own_state(p, s):
+def set_state(p, s):
     """Return the set's own state."""
     if p[P.ALONE] != 0.0:
         return s[S.SET :]
@@ -103,7 +103,7 @@ def own_state(p, s):
 
 
 @kernel
-def own_work(p, w):
+def set_work(p, w):
     """Return the set's own work space."""
     if p[P.ALONE] != 0.0:
         return w[W.SET :]

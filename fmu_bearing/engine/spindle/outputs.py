@@ -25,7 +25,7 @@ def mirror(pb, sign, z):
 @kernel
 def observe_bearings(p, s, z):
     """Fill the outputs of every bearing, and those that add up over them."""
-    own = members.own_state(p, s)
+    own = members.set_state(p, s)
     at = int(p[int(p[P.SET]) + SP.AT_Z])
     for i in range(Z.HEAT_SIZE):
         z[at + SP.Z_HEAT + i] = 0.0
@@ -54,7 +54,7 @@ def observe_bearings(p, s, z):
 @kernel
 def observe_shaft(p, s, z):
     """Nose of the shaft, what resists it, and the housing."""
-    own = members.own_state(p, s)
+    own = members.set_state(p, s)
     n = members.padded(p)
     at = int(p[int(p[P.SET]) + SP.AT_Z])
     nose = members.table(p, SP.AT_NOSE)
@@ -86,7 +86,7 @@ def observe_set(p, s, z):
     observe_bearings(p, s, z)
     observe_shaft(p, s, z)
     levels_of_set(p, s, z)
-    own = members.own_state(p, s)
+    own = members.set_state(p, s)
     at = int(p[int(p[P.SET]) + SP.AT_Z])
     observe_port(p, own, z, at)
     z[at + SP.Z_STEPS] = s[S.STEPS]

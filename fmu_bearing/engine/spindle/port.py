@@ -59,8 +59,8 @@ def led_acceleration(own, s, t, out, to):
 @kernel
 def lead_stage(p, s, w, stage, t):
     """Put the shaft and the inner rings at a stage, ``t`` (s) into the step, where they are led."""
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
     since = s[S.TIME] - own[SP.PORT_BEGIN] + t
     here = members.vector(p, stage)
     place = members.vector(p, SP.PLACE)

@@ -146,8 +146,8 @@ def settle_bearing(p, s, w, b, speed, z, g):
 
     Returns its status.
     """
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
     pb = members.parameters(p, b)
     sb = members.state(p, s, b)
     wb = members.work(p, w, b)
@@ -191,8 +191,8 @@ def settle_bearing(p, s, w, b, speed, z, g):
 @kernel
 def forces_at(p, s, w, speed, z, g):
     """Put forces out of balance for the unknowns at ``z`` to ``g``; the worst status of a bearing."""
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
     count = unknowns(p)
     still = members.vector(p, SP.RATE)
     for i in range(members.coordinates(p)):
@@ -213,8 +213,8 @@ def forces_at(p, s, w, speed, z, g):
 @kernel
 def equations(p, s, w, damping):
     """Stiffness of all unknowns at the bearings settled last, with ``damping`` (N/m), in rows of one more."""
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
     n = members.coordinates(p)
     count = unknowns(p)
     at = members.matrix(p)
@@ -281,7 +281,7 @@ def force_size(p, ws, g):
 @kernel
 def newton_step(p, s, w, g, step, damping):
     """Step of the unknowns for the forces at ``g``; the work along it, not positive if unfit."""
-    ws = members.own_work(p, w)
+    ws = members.set_work(p, w)
     count = unknowns(p)
     equations(p, s, w, damping)
     at = members.matrix(p)
@@ -317,7 +317,7 @@ def give_at_nose(p, s, w, j, to):
 
     All else follows, the bearings as stiff as where they were settled last.
     """
-    ws = members.own_work(p, w)
+    ws = members.set_work(p, w)
     count = unknowns(p)
     at = members.matrix(p)
     nose = members.table(p, SP.AT_NOSE)
@@ -341,8 +341,8 @@ def keep_stiffness(p, s, w):
 
     Axial and radial with its other motions held, against a tilt with the shaft free to move aside.
     """
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
     give = SP.RESISTANCE
     stiff = give + SP.PLANE * SP.PLANE
     for i in range(3):
@@ -363,7 +363,7 @@ def keep_stiffness(p, s, w):
 @kernel
 def rest(p, s, w, speed):
     """Bring the unknowns to rest; status code. Bearings are left settled where they then stand."""
-    ws = members.own_work(p, w)
+    ws = members.set_work(p, w)
     count = unknowns(p)
     z = start_vector(p, SP.UNKNOWNS)
     trial = start_vector(p, SP.TRIALS)

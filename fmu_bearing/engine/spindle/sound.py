@@ -36,7 +36,7 @@ def emit(p, s, w, h):
 @kernel
 def meter_set(p, s, w):
     """Move the meters of every bearing alone and those of their sum by one sample."""
-    own = members.own_state(p, s)
+    own = members.set_state(p, s)
     mics = int(p[P.MICS])
     begun = members.has_shaft(p) and meter.metered(s[S.SOUND :], p[P.METERING_START])
     fraction = meter.fraction_of(p[P.TIME_WEIGHTING])
@@ -64,7 +64,7 @@ def levels_of_set(p, s, z):
     bearings = members.count(p)
     mics = int(p[P.MICS])
     meter.levels(sound_block(p), s[S.SOUND :], z, members.heard(p))
-    own = members.own_state(p, s)
+    own = members.set_state(p, s)
     ss = s[S.SOUND :]
     weight = ss[SD.SS_WEIGHT] if ss[SD.SS_METERED] > 0.0 else 1.0
     to = members.heard(p) + (Z.PER_MIC + int(p[P.BANDS])) * mics

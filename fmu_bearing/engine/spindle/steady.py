@@ -37,7 +37,7 @@ def place_held(p, b, speed, y, s, w):
     """Quasi-static state ``y`` of the perfect bearing ``b``, its rings where the set rested last."""
     pb = members.parameters(p, b)
     wb = members.work(p, w, b)
-    ws = members.own_work(p, w)
+    ws = members.set_work(p, w)
     c = members.state(p, s, b)[S.C : S.C + C.SIZE]
     at = members.scratch(p, b)
     found = wb[W.FOUND : W.FOUND + EQ.SIZE]
@@ -57,7 +57,7 @@ def axial_excess(p, b, speed, s, w):
     pb = members.parameters(p, b)
     sb = members.state(p, s, b)
     wb = members.work(p, w, b)
-    ws = members.own_work(p, w)
+    ws = members.set_work(p, w)
     c = sb[S.C : S.C + C.SIZE]
     at = members.scratch(p, b)
     found = wb[W.FOUND : W.FOUND + EQ.SIZE]
@@ -87,7 +87,7 @@ def axial_excess(p, b, speed, s, w):
 @kernel
 def rest_steadily(p, s, w, speed):
     """Bring the unknowns to rest with the steady forces of the bearings; status code, as of ``rest``."""
-    ws = members.own_work(p, w)
+    ws = members.set_work(p, w)
     for b in range(members.count(p)):
         ws[members.scratch(p, b) + SP.START_MORE] = 0.0
     status = rest(p, s, w, speed)

@@ -56,13 +56,13 @@ def offset_rate(p, u, s, w, b, h):
         wb = members.work(p, w, b)
         fresh = wb[W.CONDITIONS : W.CONDITIONS + C.SIZE]
         return axial_speed(pb, u, fresh, members.state(p, s, b), wb, h)
-    return growth_rate(p, u, members.own_state(p, s), b, h)
+    return growth_rate(p, u, members.set_state(p, s), b, h)
 
 
 @kernel
 def inputs_differ(p, u, s, w, h):
     """Whether the inputs ``u`` change what is held over a communication step; fresh conditions on the way."""
-    own = members.own_state(p, s)
+    own = members.set_state(p, s)
     changed = loads_differ(p, u, own)
     for b in range(members.count(p)):
         sb = members.state(p, s, b)
@@ -79,7 +79,7 @@ def inputs_differ(p, u, s, w, h):
 @kernel
 def take_inputs(p, u, s, w, h):
     """Set conditions, loads and ramps; what a jump of them does to stored energy counts as work."""
-    own = members.own_state(p, s)
+    own = members.set_state(p, s)
     rate = (u[SP.U_SPEED] - s[S.SPEED]) / h
     changed = inputs_differ(p, u, s, w, h)
     if has_port(p):
@@ -239,10 +239,10 @@ def accept_shaft(p, own, ws, tableau):
 @kernel
 def accept_all(p, s, w, h, tableau):
     """Add up work and heat of the step just made, emit its sound samples and move the state to its end."""
-    own = members.own_state(p, s)
+    own = members.set_state(p, s)
     together = members.has_shaft(p)
     if together:
-        add_shaft_powers(p, own, members.own_work(p, w), h, tableau)
+        add_shaft_powers(p, own, members.set_work(p, w), h, tableau)
     for b in range(members.count(p)):
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)
@@ -257,14 +257,14 @@ def accept_all(p, s, w, h, tableau):
         control.follow_rings(sb, h)
         own[members.kept(p, b) + SP.OFFSET] += h * own[members.kept(p, b) + SP.OFFSET_RATE]
     if together:
-        accept_shaft(p, own, members.own_work(p, w), tableau)
+        accept_shaft(p, own, members.set_work(p, w), tableau)
         copy_rows(p, s, w)
 
 
 @kernel
 def begin_step(p, s):
     """Keep sums where :func:`end_step` turns them into means over the communication step."""
-    own = members.own_state(p, s)
+    own = members.set_state(p, s)
     for b in range(members.count(p)):
         steps.begin_means(members.state(p, s, b))
     for i in range(2):
@@ -280,7 +280,7 @@ def end_step(p, s, w, speed, end, h):
     One evaluation at the end point gives stored energy for the balance, and accelerations and torque that do
     not carry the last Newton iteration's remainder.
     """
-    own = members.own_state(p, s)
+    own = members.set_state(p, s)
     for b in range(members.count(p)):
         sb = members.state(p, s, b)
         sb[S.TIME] = end

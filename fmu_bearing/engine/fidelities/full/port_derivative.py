@@ -61,7 +61,7 @@ def port_derivative(p, u, s, z, w, h):
             u[i] += side * (1.0 + k) * scale * u[n + i]
         if status == OK:
             status = march(p, u[:n], mine, w, length)
-        own = members.own_state(p, mine)
+        own = members.set_state(p, mine)
         for i in range(SP.PLANE):
             z[to + i] += side * own[SP.PORT_FORCE + i] / (2.0 * scale)
     p[P.MAX_STEP] = longest

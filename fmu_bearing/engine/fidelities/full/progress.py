@@ -51,14 +51,14 @@ def total_energy(p, s, w):
         total += bearing_energy(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b))
     if not members.has_shaft(p):
         return total
-    own = members.own_state(p, s)
+    own = members.set_state(p, s)
     work, bent, shaken = accelerate(p, s, w, False, 0.0, s[S.ANGLE], s[S.SPEED], s[S.SPEED_RATE])
     own[SP.POWER_NOW] = work
     own[SP.POWER_NOW + 1] = bent
     own[SP.POWER_NOW + 2] = shaken
     n = members.padded(p)
     total += shaft_energy(
-        p, own, own, SP.S_HEAD, SP.S_HEAD + n, members.own_work(p, w), members.vector(p, SP.FORCE)
+        p, own, own, SP.S_HEAD, SP.S_HEAD + n, members.set_work(p, w), members.vector(p, SP.FORCE)
     )
     return total
 

@@ -33,8 +33,8 @@ def velocity(p, stage):
 @kernel
 def begin_stages(p, s, w):
     """Put the state into the first stage of every bearing and of the shaft."""
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
     n = members.padded(p)
     for b in range(members.count(p)):
         pb = members.parameters(p, b)
@@ -108,8 +108,8 @@ def predict_bearings(p, s, w, h, gh, stage, tableau):
 @kernel
 def predict_shaft(p, s, w, h, gh, stage, tableau):
     """State of shaft and housing at a stage from those before, with a first guess of its accelerations."""
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
     n = members.padded(p)
     place = members.vector(p, SP.PLACE)
     rate = members.vector(p, SP.RATE)

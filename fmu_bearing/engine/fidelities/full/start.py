@@ -150,7 +150,7 @@ def preload_set(p, u, s, w):
 
     A set that carries one way stands where the load on its nose puts it: there the shaft's zero is free.
     """
-    own = members.own_state(p, s)
+    own = members.set_state(p, s)
     asked = u[SP.U_PRELOAD]
     if p[int(p[P.SET]) + SP.PRELOAD_KIND] == SP.TOUCHING:
         asked = 0.0
@@ -172,7 +172,7 @@ def preload_set(p, u, s, w):
 @kernel
 def pushed_back(p, w):
     """Whether the shaft rests on a side of races without shoulder, in bearings settled last."""
-    ws = members.own_work(p, w)
+    ws = members.set_work(p, w)
     total = 100.0
     most = 0.0
     for b in range(members.count(p)):
@@ -219,8 +219,8 @@ def rest_alone(p, u, s, w, speed):
 @kernel
 def rest_together(p, u, s, w, speed, t):
     """Put shaft and housing of a set to rest in its own state; status code."""
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
     take_loads(p, u, own)
     status = preload_set(p, u, s, w)
     if status != OK:
@@ -247,7 +247,7 @@ def rest_member(p, s, w, b, speed):
     """Put the rings of bearing ``b`` of a set where shaft and housing rest; the balls' to ``W.FOUND``."""
     pb = members.parameters(p, b)
     sb = members.state(p, s, b)
-    ws = members.own_work(p, w)
+    ws = members.set_work(p, w)
     settle_bearing(p, s, w, b, speed, start_vector(p, SP.UNKNOWNS), start_vector(p, SP.TRIAL_FORCES))
     y = sb[S.Y : S.Y + Y.SIZE]
     at = members.scratch(p, b)
@@ -300,8 +300,8 @@ def start(p, u, s, w, t):
         wb = members.work(p, w, b)
         for i in range(W.MOTION):
             wb[i] = 0.0
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
     for i in range(ws.size):
         ws[i] = 0.0
     speed = u[SP.U_SPEED]

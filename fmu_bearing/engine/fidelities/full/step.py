@@ -131,8 +131,8 @@ def iterate(p, s, w, stage, h, gh, t, tolerance, contraction, probe):
     """
     angle = s[S.ANGLE] + t * (s[S.SPEED] + 0.5 * t * s[S.SPEED_RATE])
     speed = s[S.SPEED] + t * s[S.SPEED_RATE]
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
     together = members.has_shaft(p)
     fac = s[S.FAC : S.CONDENSED]
     d = w[W.D : W.D + F.SIZE]
@@ -195,7 +195,7 @@ def keep_powers(p, s, w, stage, gh, speed, work, bent, shaken, ws):
         gained = p[P.OUTER_POLAR] * (acc[turn] - w[W.F + turn])
         complete_torque(p, s[S.C : S.C + C.SIZE], speed, gh, gained, acc, w)
         return
-    own = members.own_state(p, s)
+    own = members.set_state(p, s)
     led = has_port(p)
     force = members.vector(p, SP.FORCE)
     if led:
@@ -230,7 +230,7 @@ def keep_powers(p, s, w, stage, gh, speed, work, bent, shaken, ws):
 @kernel
 def explicit_stage(p, s, w, stage, t):
     """Accelerations of an explicit stage: those just evaluated."""
-    ws = members.own_work(p, w)
+    ws = members.set_work(p, w)
     n = members.padded(p)
     angle = s[S.ANGLE] + t * (s[S.SPEED] + 0.5 * t * s[S.SPEED_RATE])
     speed = s[S.SPEED] + t * s[S.SPEED_RATE]
@@ -262,8 +262,8 @@ def explicit_stage(p, s, w, stage, t):
 @kernel
 def first_powers(p, s, w):
     """Powers of the first stage: those at the state, kept since it was reached."""
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
     for i in range(SP.POWERS):
         ws[SP.POWER + i] = own[SP.POWER_NOW + i]
     for i in range(SP.PLANE):
@@ -287,7 +287,7 @@ def nose_square(p, ws, found):
 @kernel
 def shaft_estimate(p, w, h, tableau):
     """Put the difference of both solutions' rates to ``SP.INCREMENT``, times the mass to the residual."""
-    ws = members.own_work(p, w)
+    ws = members.set_work(p, w)
     n = members.padded(p)
     found = members.vector(p, SP.INCREMENT)
     residual = members.vector(p, SP.RESIDUAL)
@@ -340,7 +340,7 @@ def step_error(p, s, w, h, tableau, speed):
             size = math.sqrt(body_size(pb, d, F.BODY, 0.1) + 0.01 * row_size(d, F.X, 2, int(pb[P.LANES])))
         size = flexible.modes_error(pb, size, h, tableau, wb)
         if b == 0 and together:
-            moved = nose_square(p, members.own_work(p, w), members.vector(p, SP.INCREMENT))
+            moved = nose_square(p, members.set_work(p, w), members.vector(p, SP.INCREMENT))
             size = max(size, math.sqrt(moved))
         if not (size < _DIVERGED):
             return size
@@ -358,7 +358,7 @@ def runge_kutta_step(p, s, w, h, tableau, tolerance, probe, to_speed):
     """
     gh = TABLEAUX[tableau + TAB.GAMMA] * h
     stages = int(TABLEAUX[tableau + TAB.COUNT])
-    ws = members.own_work(p, w)
+    ws = members.set_work(p, w)
     n = members.padded(p)
     report = w[W.REPORT : W.REPORT + W.REPORT_SIZE]
     together = members.has_shaft(p)

@@ -37,8 +37,8 @@ def set_equations(p, s, w, speed, omega):
 
     The right side is zero. Real parts by rows of one more than the coordinates, then imaginary parts.
     """
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
     n = members.coordinates(p)
     re = members.matrix(p)
     im = re + n * (n + 1)
@@ -83,7 +83,7 @@ def weight_of_set(p, w, omega, x):
 
     The sum over all bearings' rings.
     """
-    ws = members.own_work(p, w)
+    ws = members.set_work(p, w)
     size = 0.0
     for b in range(members.count(p)):
         wb = members.work(p, w, b)
@@ -98,8 +98,8 @@ def weight_of_set(p, w, omega, x):
 @kernel
 def keep_line(p, s, w, b, a, shaft, rolled, omega):
     """Keep the answer at ``omega`` (rad/s) to the right side in the work space as a line of bearing ``b``."""
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
     n = members.coordinates(p)
     lanes = members.padded(p)
     re = members.matrix(p)
@@ -138,7 +138,7 @@ def unbalance_line(p, s, w, speed):
     """Line of the shaft's heavy spots."""
     if p[int(p[P.SET]) + SP.UNBALANCED] == 0.0 or abs(speed) < STILL:
         return
-    ws = members.own_work(p, w)
+    ws = members.set_work(p, w)
     n = members.coordinates(p)
     lanes = members.padded(p)
     spots = members.table(p, SP.AT_UNBALANCE)
@@ -154,8 +154,8 @@ def unbalance_line(p, s, w, speed):
 @kernel
 def answer_lines(p, s, w, speed):
     """Renew the lines of the set at ``speed`` (rad/s), all bearings having told what drives them."""
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
     n = members.coordinates(p)
     count = members.march(p) + SP.LINES
     own[count] = 0.0
@@ -204,7 +204,7 @@ def line_phases(p, s, w, lines, first, many, ahead):
 @kernel
 def sum_set_lines(p, s, w, ahead):
     """Places, rates and accelerations of the coordinates at ``ahead`` (s) from the present time."""
-    own = members.own_state(p, s)
+    own = members.set_state(p, s)
     lanes = members.padded(p)
     mean = members.history(p)
     lines = own[members.lines(p) :]

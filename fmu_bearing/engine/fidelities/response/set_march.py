@@ -38,8 +38,8 @@ def rest_anew(p, s, w, speed, x, at):
 
     Where there is no rest these serve themselves, as for a single bearing. Whether it was found.
     """
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
     mean = members.history(p)
     place = members.vector(p, SP.PLACE)
     for i in range(members.padded(p)):
@@ -83,7 +83,7 @@ def place_set(p, s, w, ahead, near):
 @kernel
 def keep_ball_loads(p, s, w):
     """Keep what the inner rings put on their balls, these being where `place_set` has found them."""
-    own = members.own_state(p, s)
+    own = members.set_state(p, s)
     for b in range(members.count(p)):
         wb = members.work(p, w, b)
         lv = members.condensed(members.state(p, s, b))
@@ -117,8 +117,8 @@ def start_response_set(p, u, s, w, t):
     status = held.start_held(p, u, s, w, t)
     if status != OK:
         return status
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
     speed = u[SP.U_SPEED]
     for b in range(members.count(p)):
         sb = members.state(p, s, b)
@@ -147,8 +147,8 @@ def start_response_set(p, u, s, w, t):
 @kernel
 def renew_set_lines(p, u, s, w):
     """Renew what is held, where the set rests, and lines, for the inputs ``u``; status code."""
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
     speed = u[SP.U_SPEED]
     for b in range(members.count(p)):
         members.condensed(members.state(p, s, b))[L.KNOWN] = 0.0
@@ -214,7 +214,7 @@ def sound_on_the_way(p, s, w, h, speed, near):
 @kernel
 def march_response_set(p, u, s, w, h):
     """Advance the state of a set by the communication step ``h`` (s); status code."""
-    own = members.own_state(p, s)
+    own = members.set_state(p, s)
     speed = u[SP.U_SPEED]
     near = True
     for b in range(members.count(p)):

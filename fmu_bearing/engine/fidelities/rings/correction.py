@@ -192,8 +192,8 @@ def correct_once(p, s, w, own, ws, x, n, lanes, h):
 @kernel
 def correct(p, s, w, h, tolerance, probe):
     """Trial state of a step by predictor and corrections; what the last leaves (m/s), or -1."""
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
     x = members.history(p)
     n = members.coordinates(p)
     lanes = members.padded(p)

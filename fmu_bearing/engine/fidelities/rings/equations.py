@@ -36,7 +36,7 @@ def bends(p):
 @kernel
 def show(p, s, w):
     """Put the march's places, true rates and accelerations to those of the set and of its bearings' rings."""
-    own = members.own_state(p, s)
+    own = members.set_state(p, s)
     lanes = members.padded(p)
     numbers = members.march(p)
     x = members.history(p)
@@ -50,7 +50,7 @@ def show(p, s, w):
 @kernel
 def show_rings(p, s):
     """Put places, rates and accelerations of all rings to those that the set has."""
-    own = members.own_state(p, s)
+    own = members.set_state(p, s)
     lanes = members.padded(p)
     for b in range(members.count(p)):
         lv = members.condensed(members.state(p, s, b))
@@ -65,7 +65,7 @@ def show_rings(p, s):
 @kernel
 def share_march(p, s):
     """Tell the bearings the spacing of the march and how many steps are known."""
-    own = members.own_state(p, s)
+    own = members.set_state(p, s)
     numbers = members.march(p)
     for b in range(members.count(p)):
         lv = members.condensed(members.state(p, s, b))
@@ -142,8 +142,8 @@ def keep_loads(p, s, w):
     """Keep what the inner rings put on their balls, by the accelerations `pull_rings` has used."""
     if not members.has_shaft(p):
         return
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
     for b in range(members.count(p)):
         wb = members.work(p, w, b)
         masses = members.row(p, b) + SP.ROW_MASS
@@ -248,8 +248,8 @@ def renew(p, s, w):
 
     False where balls find no rest.
     """
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
     n = members.coordinates(p)
     lanes = members.padded(p)
     show(p, s, w)
@@ -295,8 +295,8 @@ def factor_step(p, s, w, h):
 
     See ``condensed.linearised.factor_step``.
     """
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
     n = members.coordinates(p)
     at = members.matrix(p)
     by_place = h * h / 12.0
@@ -324,8 +324,8 @@ def restart_march(p, s, w):
     """After a jump: Jacobians and accelerations at the present state; False if there are none."""
     if not renew(p, s, w):
         return False
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
     lanes = members.padded(p)
     residual = members.vector(p, SP.RESIDUAL)
     found = members.vector(p, SP.ACCELERATION)

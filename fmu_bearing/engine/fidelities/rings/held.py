@@ -48,7 +48,7 @@ def hold_bearing(p, u, b, load, s, w):
     pb = members.parameters(p, b)
     sb = members.state(p, s, b)
     wb = members.work(p, w, b)
-    ws = members.own_work(p, w)
+    ws = members.set_work(p, w)
     lv = members.condensed(sb)
     c = lv[L.CONDITIONS : L.CONDITIONS + C.SIZE]
     y = lv[L.Y0 : L.Y0 + Y.SIZE]
@@ -91,7 +91,7 @@ def hold_bearing(p, u, b, load, s, w):
     c[C.LOAD_Y] = given[U.LOAD_Y]
     c[C.LOAD_Z] = given[U.LOAD_Z]
     add_uneven(speed, sb, wb)
-    own = members.own_state(p, s)
+    own = members.set_state(p, s)
     mine = members.kept(p, b)
     own[mine + SP.HELD_OFFSET] = own[mine + SP.OFFSET_COLD] + offset_change(p, u, b)
     return OK
@@ -153,7 +153,7 @@ def hold_alone(p, u, s, w):
         return status
     hold_masses(p, s, w)
     if p[P.RIGID] != 0.0:
-        members.own_state(p, s)[members.history(p) + Q.X] = s[S.PLACE]
+        members.set_state(p, s)[members.history(p) + Q.X] = s[S.PLACE]
     return OK
 
 
@@ -162,8 +162,8 @@ def hold_all(p, u, s, w):
     """Renew what all bearings hold, of a set where it rests at the inputs ``u``; status code."""
     if not members.has_shaft(p):
         return hold_alone(p, u, s, w)
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
     for b in range(members.count(p)):
         mine = members.kept(p, b)
         own[mine + SP.HELD_OFFSET] = own[mine + SP.OFFSET_COLD] + offset_change(p, u, b)
@@ -188,10 +188,10 @@ def hold_all(p, u, s, w):
 @kernel
 def put_at_mean(p, s, w):
     """Put a single bearing to the rest on even races in its trial state; balls there to ``L.EVEN``."""
-    own = members.own_state(p, s)
+    own = members.set_state(p, s)
     lv = members.condensed(s)
     keep_balls(w, lv, L.EVEN)
-    for i in range(3 * L.COLUMN):
+    for i in range(SP.HELD_LOAD * L.COLUMN):
         own[SP.S_HEAD + i] = 0.0
     for i in range(L.N):
         lv[L.MEAN + i] = w[W.STAGE + Y.Q0 + i]
@@ -225,8 +225,8 @@ def hold_from_zero(p, u, s, w):
     """
     if not members.has_shaft(p):
         return rest_alone(p, u, s, w)
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
     speed = u[SP.U_SPEED]
     for i in range(3 * members.padded(p)):
         own[SP.S_HEAD + i] = 0.0
@@ -258,7 +258,7 @@ def start_held(p, u, s, w, t):
         status = start_condensed(p, u, s, w, t)
         if status == OK:
             put_at_mean(p, s, w)
-            find_levers(p, members.own_state(p, s))
+            find_levers(p, members.set_state(p, s))
         return status
     status = start(p, u, s, w, t)
     if status != OK:
@@ -267,7 +267,7 @@ def start_held(p, u, s, w, t):
         even_spacing(members.parameters(p, b), members.condensed(members.state(p, s, b)))
     status = hold_all(p, u, s, w)
     if status == OK:
-        find_levers(p, members.own_state(p, s))
+        find_levers(p, members.set_state(p, s))
     return status
 
 
@@ -276,7 +276,7 @@ def set_inputs_of(p, u, s, w, h):
     """Set conditions, loads and ramps; True where what is held is out of date."""
     if not members.has_shaft(p):
         return set_inputs(p, u, s, w, h)
-    own = members.own_state(p, s)
+    own = members.set_state(p, s)
     speed = u[SP.U_SPEED]
     rate = (speed - s[S.SPEED]) / h
     middle = 0.5 * (s[S.SPEED] + speed)

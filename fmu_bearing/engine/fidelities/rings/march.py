@@ -100,8 +100,8 @@ def count_step(x, numbers):
 @kernel
 def try_step(p, s, w, h, tolerance):
     """One attempt of length ``h``: its error over the allowed one, or -1 with a fresh Jacobian in vain."""
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
     lanes = members.padded(p)
     numbers = members.march(p)
     x = members.history(p)
@@ -152,11 +152,11 @@ def emit_shown(p, s, w, h):
 @kernel
 def accept(p, s, w, h):
     """Move the state to the end of the step ``h`` (s)."""
-    own = members.own_state(p, s)
+    own = members.set_state(p, s)
     x = members.history(p)
     lanes = members.padded(p)
     predictor.move_on(
-        own, x, lanes, members.own_work(p, w), members.vector_at(lanes, SP.ACCELERATION),
+        own, x, lanes, members.set_work(p, w), members.vector_at(lanes, SP.ACCELERATION),
         members.vector_at(lanes, SP.PLACE), members.vector_at(lanes, SP.NEWMARK),
     )  # fmt: skip
     count_step(own, x - SP.MARCHED)
@@ -179,7 +179,7 @@ def take_inputs(p, u, s, w, h):
         return OK
     if held.hold_all(p, u, s, w) != OK:
         return NOT_CONVERGED
-    own = members.own_state(p, s)
+    own = members.set_state(p, s)
     own[members.march(p) + H.KNOWN] = 0.0
     equations.share_march(p, s)
     for b in range(members.count(p)):
@@ -192,7 +192,7 @@ def take_inputs(p, u, s, w, h):
 @kernel
 def go_on(p, u, s, w, h, remaining, end):
     """Step through what remains (s) of the communication step ``h`` (s) to time ``end``; status code."""
-    own = members.own_state(p, s)
+    own = members.set_state(p, s)
     speed = u[SP.U_SPEED]
     numbers = members.march(p)
     tolerance = steps.velocity_tolerance(p, speed)

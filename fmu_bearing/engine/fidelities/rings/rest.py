@@ -56,8 +56,8 @@ def diagonal_mass(p, k):
 @kernel
 def forces_at_rest(p, s, w, speed):
     """Put forces at the trial places, at rest, to the residual, and find derivatives; False if none."""
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
     place = members.vector(p, SP.PLACE)
     rate = members.vector(p, SP.RATE)
     for i in range(members.padded(p)):
@@ -79,8 +79,8 @@ def forces_at_rest(p, s, w, speed):
 @kernel
 def rest_once(p, s, w, speed):
     """Move the trial places by one Newton step towards rest; its length (m), negative if there is none."""
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
     n = members.coordinates(p)
     if not forces_at_rest(p, s, w, speed):
         return -1.0
@@ -112,7 +112,7 @@ def at_rest(p, s, w, speed):
 
     As ``condensed.linearised.at_rest`` does for a single bearing.
     """
-    ws = members.own_work(p, w)
+    ws = members.set_work(p, w)
     found = False
     for b in range(members.count(p)):
         sb = members.state(p, s, b)

@@ -32,7 +32,7 @@ def forget_motion(lv):
 @kernel
 def begin_again(p, u, s, w):
     """Put shaft, housing, rings and balls to rest at the inputs ``u`` and the clock reached; status code."""
-    own = members.own_state(p, s)
+    own = members.set_state(p, s)
     status = held.hold_from_zero(p, u, s, w)
     if status != OK:
         return status

@@ -18,8 +18,8 @@ def place_on_waves(p, s, w, speed):
 
     Where there is no such rest, they stay at the quasi-static place, with the balls' places in ``L.EVEN``.
     """
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
     place = members.vector(p, SP.PLACE)
     found = False
     for again in range(2):
@@ -48,8 +48,8 @@ def begin_at_rest(p, s, w):
     Where there is no rest on waves and unequal balls, the rings are put to that on even races; where balls
     find none there, the next step has to look for it again.
     """
-    own = members.own_state(p, s)
-    ws = members.own_work(p, w)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
     place_on_waves(p, s, w, s[S.SPEED])
     for i in range(members.padded(p)):
         own[members.history(p) + i] = ws[members.vector(p, SP.PLACE) + i]
@@ -76,7 +76,7 @@ def start_rings(p, u, s, w, t):
     status = held.start_held(p, u, s, w, t)
     if status != OK:
         return status
-    own = members.own_state(p, s)
+    own = members.set_state(p, s)
     for b in range(members.count(p) if members.has_shaft(p) else 0):
         sb = members.state(p, s, b)
         lv = members.condensed(sb)

@@ -11,7 +11,6 @@ from fmu_bearing.engine.fidelities.full.march import march
 from fmu_bearing.engine.fidelities.full.port_derivative import port_derivative
 from fmu_bearing.engine.fidelities.full.start import start
 from fmu_bearing.engine.fidelities.response.march import march_response, start_response
-from fmu_bearing.engine.fidelities.response.set_march import march_response_set, start_response_set
 from fmu_bearing.engine.fidelities.rings.restart import march_rings
 from fmu_bearing.engine.fidelities.rings.start import start_rings
 from fmu_bearing.engine.jit import kernel
@@ -112,11 +111,10 @@ def init(p, u, s, z, w, t):
         return OTHER_FIDELITY
     if bends(p) and p[P.FIDELITY] != FULL:
         return RIGID_ONLY
-    together = members.has_shaft(p)
     if p[P.FIDELITY] == RINGS:
         status = start_rings(p, u, s, w, t)
     elif p[P.FIDELITY] == RESPONSE:
-        status = start_response_set(p, u, s, w, t) if together else start_response(p, u, s, w, t)
+        status = start_response(p, u, s, w, t)
     else:
         status = start(p, u, s, w, t)
     if status == OK:
@@ -133,11 +131,10 @@ def step(p, u, s, z, w, h):
     if not usable(p, u, w):
         return BAD_INPUT
     spread_choices(p)  # a state put back brings the head of p with it, that of the first bearing alone
-    together = members.has_shaft(p)
     if p[P.FIDELITY] == RINGS:
         status = march_rings(p, u, s, w, h)
     elif p[P.FIDELITY] == RESPONSE:
-        status = march_response_set(p, u, s, w, h) if together else march_response(p, u, s, w, h)
+        status = march_response(p, u, s, w, h)
     else:
         status = march(p, u, s, w, h)
     if status == OK:

@@ -1,10 +1,10 @@
 """Fidelity response: the linear answer to every excitation, as a sum of lines.
 
-===============  =============================================================
-``lines``        which lines there are, and their displacements
-``ball_orders``  what the form of turning balls consists of
-``march``        start, and the state at any time
-``set_lines``    what each bearing of a set excites in the whole of it
-``set_march``    start of a set, and its state at any time
-===============  =============================================================
+=================  =============================================================
+``lines``          which lines a bearing has, and its answer to them
+``ball_orders``    what the form of turning balls consists of
+``bearing``        one bearing's part: derivatives, its own lines, its balls
+``coupled_lines``  what each bearing of a set excites in the whole of it
+``march``          start, renewal, and the state at any time
+=================  =============================================================
 """

@@ -13,347 +13,290 @@ between states 19.5 us apart.
 import math
 
 from fmu_bearing.engine.fidelities import steps
-from fmu_bearing.engine.fidelities.condensed.ball_motion import move_balls, move_places, rest_balls
-from fmu_bearing.engine.fidelities.condensed.balls import carried, count_settled, stand
-from fmu_bearing.engine.fidelities.condensed.held import hold
-from fmu_bearing.engine.fidelities.condensed.linearised import at_rest, derivatives
-from fmu_bearing.engine.fidelities.condensed.publish import publish
-from fmu_bearing.engine.fidelities.condensed.rows import from_equilibrium, keep_balls, show_balls, turn_balls
-from fmu_bearing.engine.fidelities.condensed.shared import (
-    advance,
-    flat,
-    hold_masses,
-    quasistatic_places,
-    set_inputs,
-    start_condensed,
-)
-from fmu_bearing.engine.fidelities.response.lines import line_table, renew_lines
+from fmu_bearing.engine.fidelities.condensed.ball_motion import move_places, rest_balls
+from fmu_bearing.engine.fidelities.condensed.rows import keep_balls, show_balls, turn_balls
+from fmu_bearing.engine.fidelities.condensed.shared import advance, flat
+from fmu_bearing.engine.fidelities.full.start import begin_means
+from fmu_bearing.engine.fidelities.response import bearing
+from fmu_bearing.engine.fidelities.response.coupled_lines import answer_lines, sum_set_lines
+from fmu_bearing.engine.fidelities.response.lines import line_table
+from fmu_bearing.engine.fidelities.rings import equations, held
 from fmu_bearing.engine.fidelities.rings.march import emit_shown
+from fmu_bearing.engine.fidelities.rings.rest import at_rest
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.lanes import load, splat, store
-from fmu_bearing.engine.layout import FOUR, STRIDE, C, F, L, P, S, T, U, W, Y
-from fmu_bearing.engine.mechanics.race import wave_time
-from fmu_bearing.engine.mechanics.trigonometry import ball_angles
+from fmu_bearing.engine.layout import SP, STRIDE, C, L, P, S, T, W, Y
+from fmu_bearing.engine.spindle import members
+from fmu_bearing.engine.spindle.rest import start_vector
 from fmu_bearing.engine.status import NO_START, OK
-
-_SAMPLING = 51_200.0  # Hz of the states that samples are interpolated between, with sound: no fewer
-_WAVE = 1.26  # rad of the fastest wave between two such states: the cubic between them errs by 0.6 %
-_TRIES = 8  # of 30 sweeps
-_NEAR = 0.05  # rad of orbit: a radially loaded ball moves by 15 um at most meanwhile, mostly by 0.5
-BACK = 2e-6  # s between the two states a ball's rate is taken from, without sound
 
 
 @kernel
-def linearise(p, s, alone, speed, w):
-    """Renew derivatives and lines at ``speed`` about ``L.MEAN``; False where there are none.
+def show_guess(p, s, w, row):
+    """Put the balls' places of row ``row`` of every bearing to its trial rows, on races without waves."""
+    for b in range(members.count(p)):
+        sb = members.state(p, s, b)
+        wb = members.work(p, w, b)
+        for i in range(Y.SIZE):
+            wb[W.STAGE + i] = 0.0
+        lv = members.condensed(sb)
+        show_balls(lv, row, wb)
+        flat(members.parameters(p, b), sb[S.C : S.C + C.SIZE], lv, wb)
 
-    ``alone``: see ``lines.keep``.
+
+@kernel
+def rest_from(p, s, w, speed, x, at):
+    """Find where all rests, from the coordinates ``x[at:]`` and the balls' places ``L.EVEN``.
+
+    Where there is no rest these serve themselves. Whether it was found.
     """
-    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    c = s[S.C : S.C + C.SIZE]
-    still(p, c, lv, w)
-    out_of_round(p, c, lv, w)
-    if not derivatives(p, c, lv, 0.0, speed, 0.0, w):
-        return False
-    still(p, c, lv, w)
-    renew_lines(p, s, alone, speed, w)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
+    mean = members.history(p)
+    place = members.vector(p, SP.PLACE)
+    for i in range(members.padded(p)):
+        ws[place + i] = x[at + i]
+    show_guess(p, s, w, L.EVEN)
+    found = at_rest(p, s, w, speed)
+    for i in range(members.padded(p)):
+        own[mean + i] = ws[place + i] if found else x[at + i]
+    for b in range(members.count(p)):
+        lv = members.condensed(members.state(p, s, b))
+        if found:
+            keep_balls(members.work(p, w, b), lv, L.EVEN)
+        members.moved(p, b, own, mean, lv, L.MEAN)
+        lv[L.MEAN] += own[members.kept(p, b) + SP.OFFSET]
+    return found
+
+
+@kernel
+def linearise(p, s, w, speed):
+    """Renew derivatives of all bearings and the lines at ``speed`` (rad/s); False if there are none."""
+    together = members.has_shaft(p)
+    for b in range(members.count(p)):
+        sb = members.state(p, s, b)
+        pb = members.parameters(p, b)
+        if not bearing.linearise(pb, sb, not together, speed, members.work(p, w, b)):
+            return False
+    if together:
+        answer_lines(p, s, w, speed)
     return True
 
 
 @kernel
-def out_of_round(p, c, lv, w):
-    """Add order 2 of the outer race to its heights under the balls.
+def place(p, s, w, ahead, near):
+    """Shaft, housing, rings and balls at ``ahead`` (s, may be negative) from the present time.
 
-    It loads the balls at two opposite sides more than those between them, always at the same place, so the
-    radial stiffness differs along and across. Other orders make no such difference to first order, and the
-    inner race's turns with the shaft. With 3 or 4 balls it would change as they turn: left out.
+    ``near``: whether the balls' last places are good guesses.
     """
-    if p[P.WAVINESS] == 0.0 or p[P.WAVE_ORDERS] < 2.0 or p[P.BALLS] < 5.0:
-        return
-    at = int(p[P.AT_ORDERS]) + 2 * int(p[P.WAVE_ORDERS]) + 2
-    scale = c[C.OVERSIZE_SCALE]
-    for j in range(0, int(p[P.LANES]), FOUR):
-        co = load(lv, L.COS + j)
-        si = load(lv, L.SIN + j)
-        height = p[at] * (co * co - si * si) - p[at + 1] * (2.0 * si * co)
-        store(w, T.OUTER + j, load(w, T.OUTER + j) + scale * height)
+    if members.has_shaft(p):
+        sum_set_lines(p, s, w, ahead)
+        equations.show_rings(p, s)
+    else:
+        lv = members.condensed(s)
+        theta, rolled, angle, speed = bearing.angles_at(s, ahead)
+        bearing.sum_lines(lv, s[line_table(p) :], theta, rolled, angle, lv[L.RATIO] * speed, speed, w)
+    for b in range(members.count(p)):
+        bearing.settle(members.parameters(p, b), members.state(p, s, b), ahead, near, members.work(p, w, b))
 
 
 @kernel
-def still(p, c, lv, w):
-    """Trial state at the equilibrium without motion, ball 0 at angle 0, even races."""
-    for i in range(Y.SIZE):
-        w[W.STAGE + i] = 0.0
-    for i in range(L.N):
-        w[W.STAGE + Y.Q0 + i] = lv[L.MEAN + i]
-    show_balls(lv, L.EVEN, w)
-    flat(p, c, lv, w)
+def keep_ball_loads(p, s, w):
+    """Keep what the inner rings put on their balls, these being where `place` has found them."""
+    if not members.has_shaft(p):
+        return
+    own = members.set_state(p, s)
+    for b in range(members.count(p)):
+        wb = members.work(p, w, b)
+        lv = members.condensed(members.state(p, s, b))
+        masses = members.row(p, b) + SP.ROW_MASS
+        for i in range(SP.PLANE):
+            load = -p[masses + i] * lv[L.A0 + i]
+            for k in range(L.N):
+                load += p[masses + i] * lv[L.MASS + i + L.COLUMN * k] * lv[L.A0 + k]
+            for j in range(int(members.parameters(p, b)[P.BALLS])):
+                load -= wb[T.FORCE + i * STRIDE + j]
+            own[members.kept(p, b) + SP.LOAD + i] = load
+
+
+@kernel
+def show(p, s, w, near):
+    """State for outputs at the present time, the balls' rates from two places a little apart."""
+    place(p, s, w, -bearing.BACK, near)
+    for b in range(members.count(p)):
+        bearing.keep_back(members.state(p, s, b))
+    place(p, s, w, 0.0, True)
+    for b in range(members.count(p)):
+        pb = members.parameters(p, b)
+        rest_balls(pb, members.condensed(members.state(p, s, b)), members.work(p, w, b))
+    keep_ball_loads(p, s, w)
+    equations.publish_rings(p, s)
+
+
+@kernel
+def begin_at_start(p, s, w, speed):
+    """Put the equilibrium to that of the start; a set comes to rest again with the balls' places there."""
+    own = members.set_state(p, s)
+    if not members.has_shaft(p):
+        for i in range(members.padded(p)):
+            own[members.history(p) + i] = own[SP.S_HEAD + i]
+        return
+    ws = members.set_work(p, w)
+    for b in range(members.count(p)):
+        sb = members.state(p, s, b)
+        lv = members.condensed(sb)
+        for j in range(STRIDE):
+            lv[L.EVEN + j] = sb[S.Y + Y.X + j]
+            lv[L.EVEN_R + j] = sb[S.Y + Y.R + j]
+    start = members.vector(p, SP.NEWMARK)
+    for i in range(members.padded(p)):
+        ws[start + i] = own[SP.S_HEAD + i]
+    rest_from(p, s, w, speed, ws, start)
 
 
 @kernel
 def start_response(p, u, s, w, t):
     """Fill the state ``s`` for the inputs ``u`` at time ``t`` (s); status code."""
-    status = start_condensed(p, u, s, w, t)
+    status = held.start_held(p, u, s, w, t)
     if status != OK:
         return status
-    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    keep_balls(w, lv, L.X)
-    keep_balls(w, lv, L.EVEN)
-    if not linearise(p, s, True, u[U.SPEED], w):
+    own = members.set_state(p, s)
+    speed = u[SP.U_SPEED]
+    begin_at_start(p, s, w, speed)
+    for b in range(members.count(p)):
+        lv = members.condensed(members.state(p, s, b))
+        for i in range(2 * STRIDE):
+            lv[L.X + i] = lv[L.EVEN + i]
+    if not linearise(p, s, w, speed):
         return NO_START
-    show(p, s, True, w)
-    for i in range(3):
-        s[S.MEAN_HEAT + i] = lv[L.HEAT + i]
-    s[S.MEAN_TORQUE] = s[S.F + F.TORQUE]
+    show(p, s, w, True)
+    for b in range(members.count(p)):
+        begin_means(members.state(p, s, b))
+    for i in range(2):
+        own[SP.MEAN_HEAT + i] = 0.0
     return OK
 
 
 @kernel
-def renew_equilibrium(p, u, s, w):
-    """Renew held values, equilibrium from the old one, and lines for the speed to come; status code.
+def rest_at_inputs(p, s, w, speed):
+    """Find the rest of a set from the last one, or from where `held.hold_all` has left it; whether found."""
+    own = members.set_state(p, s)
+    if not members.has_shaft(p):
+        return rest_from(p, s, w, speed, own, members.history(p))
+    ws = members.set_work(p, w)
+    held_rest = members.vector(p, SP.NEWMARK)
+    found = start_vector(p, SP.UNKNOWNS)
+    for i in range(members.padded(p)):
+        ws[held_rest + i] = ws[found + i] if i < members.coordinates(p) else 0.0
+    held.take_offsets(p, own)
+    if not rest_from(p, s, w, speed, own, members.history(p)):
+        rest_from(p, s, w, speed, ws, held_rest)
+    return True
 
-    Where Newton does not come from the old equilibrium to the new one, it starts from the quasi-static one,
-    which serves itself where there is no rest (as at the start). Where balls have no rest about which to find
-    lines, the rings stand still there (``solver.restarts`` counts it, and a warning says so).
+
+@kernel
+def renew(p, u, s, w):
+    """Renew what is held, the equilibrium from the old one, and lines, for the inputs ``u``; status code.
+
+    Where Newton's method does not come from the old equilibrium to the new one, it starts from the
+    quasi-static one, which serves itself where there is no rest (as at the start). Where balls have no rest
+    about which to find lines, the rings stay still there (``solver.restarts`` counts it, and a warning says
+    so).
     """
-    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    speed = u[U.SPEED]
-    status = hold(p, u, speed, s, w)
-    if status != OK:
-        return status
-    c = s[S.C : S.C + C.SIZE]
-    hold_masses(p, s, w)
-    for part in range(3):
-        if part == 0:
-            still(p, c, lv, w)
+    own = members.set_state(p, s)
+    speed = u[SP.U_SPEED]
+    for b in range(members.count(p)):
+        members.condensed(members.state(p, s, b))[L.KNOWN] = 0.0
+    if held.hold_all(p, u, s, w) == OK and rest_at_inputs(p, s, w, speed) and linearise(p, s, w, speed):
+        return OK
+    together = members.has_shaft(p)
+    for again in range(1 if together else 2):
+        status = held.hold_from_zero(p, u, s, w, again == 0)
+        if status != OK:
+            return status
+        if together:
+            rest_from(p, s, w, speed, own, SP.S_HEAD)
         else:
-            status = quasistatic_places(p, c, speed, w)
-            if status != OK:
-                return status
-            flat(p, c, lv, w)
-        if part < 2 and not at_rest(p, c, lv, speed, w):
-            continue
-        for i in range(L.N):
-            lv[L.MEAN + i] = w[W.STAGE + Y.Q0 + i]
-        keep_balls(w, lv, L.EVEN)
-        if linearise(p, s, True, speed, w):
+            begin_at_start(p, s, w, speed)
+        if linearise(p, s, w, speed):
             return OK
-    lv[L.COUNT] = 0.0
+    own[members.march(p) + SP.LINES] = 0.0
+    for b in range(members.count(p)):
+        members.condensed(members.state(p, s, b))[L.COUNT] = 0.0
     s[S.RESTARTS] += 1.0
     return OK
 
 
 @kernel
-def sum_lines(lv, lines, theta, rolled, angle, orbit, speed, w):
-    """Displacements, velocities and accelerations of the rings at the three angles of the lines (rad).
-
-    ``theta``: of ball 0; ``rolled``: by which the balls have turned; ``angle``: of the shaft. Cosines and
-    sines are taken for a row of lines at a time, the coordinates of a line four at a time.
-    """
-    count = int(lv[L.COUNT])
-    q0, q1, q2 = load(lv, L.MEAN), load(lv, L.MEAN + FOUR), load(lv, L.MEAN + 2 * FOUR)
-    v0, v1, v2 = splat(0.0), splat(0.0), splat(0.0)
-    a0, a1, a2 = splat(0.0), splat(0.0), splat(0.0)
-    for first in range(0, count, STRIDE):
-        many = min(count - first, STRIDE)
-        for k in range(many):
-            at = (first + k) * L.LINE_SIZE
-            phase = lines[at + L.LINE_BALL] * theta + lines[at + L.LINE_SHAFT] * angle
-            w[T.PHASES + k] = phase + lines[at + L.LINE_ROLLED] * rolled
-        # what stands behind the last line is a phase of another time, and not used
-        ball_angles(w, T.PHASES, (many + FOUR - 1) // FOUR * FOUR, w)
-        for k in range(many):
-            at = (first + k) * L.LINE_SIZE
-            omega = lines[at + L.LINE_BALL] * orbit + lines[at + L.LINE_SHAFT] * speed
-            omega += lines[at + L.LINE_ROLLED] * (lv[L.ROLL] * speed)
-            co = w[T.COS + k]
-            si = w[T.SIN + k]
-            re = at + L.LINE_REAL
-            im = at + L.LINE_IMAGINARY
-            x0, y0 = turned(lines, re, im, co, si)
-            x1, y1 = turned(lines, re + FOUR, im + FOUR, co, si)
-            x2, y2 = turned(lines, re + 2 * FOUR, im + 2 * FOUR, co, si)
-            squared = omega * omega
-            q0 += x0
-            q1 += x1
-            q2 += x2
-            v0 -= omega * y0
-            v1 -= omega * y1
-            v2 -= omega * y2
-            a0 -= squared * x0
-            a1 -= squared * x1
-            a2 -= squared * x2
-    store_twelve(lv, L.Q0, q0, q1, q2)
-    store_twelve(lv, L.V0, v0, v1, v2)
-    store_twelve(lv, L.A0, a0, a1, a2)
+def turn_all(p, s, h):
+    """Turn the balls of all bearings through ``h`` (s)."""
+    for b in range(members.count(p)):
+        turn_balls(members.state(p, s, b), h)
 
 
 @kernel
-def turned(lines, re, im, co, si):
-    """Real and imaginary parts of four coordinates of a line, at ``re`` and ``im``, turned by a phase."""
-    real = load(lines, re)
-    imaginary = load(lines, im)
-    return real * co - imaginary * si, real * si + imaginary * co
+def advance_all(p, s, h):
+    """Time, angle, speed and sums of all bearings at the end of the step ``h`` (s)."""
+    for b in range(members.count(p)):
+        advance(members.state(p, s, b), h)
 
 
 @kernel
-def store_twelve(lv, at, first, second, third):
-    """Write ``L.COLUMN`` numbers."""
-    store(lv, at, first)
-    store(lv, at + FOUR, second)
-    store(lv, at + 2 * FOUR, third)
-
-
-@kernel
-def find_places(p, c, lv, theta, speed, near, q, w):
-    """Places of rest for the rings at ``q``: from the last ones if ``near``, or else from the equilibrium's.
-
-    The last ones are far off after a long step or a jump of the load: a ball moves by 2 um per sweep, and
-    one left behind by 50 um would show 30 times its load. What is found in the end is shown in any case:
-    nearer than anything older.
-    """
-    if near:
-        show_balls(lv, L.X, w)
-        if carried(p, c, lv, speed, q, w):
-            return
-    from_equilibrium(p, lv, theta, w)
-    for _ in range(_TRIES):
-        if carried(p, c, lv, speed, q, w):
-            return
-
-
-@kernel
-def place(p, s, ahead, near, w):
-    """Rings and balls at ``ahead`` (s, may be negative) from the present time into ``lv``.
-
-    ``near``: whether the balls' last places are good guesses.
-    """
-    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    theta, rolled, angle, speed = angles_at(s, ahead)
-    sum_lines(lv, s[line_table(p) :], theta, rolled, angle, lv[L.RATIO] * speed, speed, w)
-    settle(p, s, ahead, near, w)
-
-
-@kernel
-def angles_at(s, ahead):
-    """Angles (rad) of ball 0, of the balls' turning and of the shaft at ``ahead`` (s), and its speed."""
-    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    turned = ahead * (s[S.SPEED] + 0.5 * ahead * s[S.SPEED_RATE])
-    theta = lv[L.THETA] + lv[L.RATIO] * turned
-    rolled = lv[L.ROLLED] + lv[L.ROLL] * turned
-    return theta, rolled, s[S.ANGLE] + turned, s[S.SPEED] + ahead * s[S.SPEED_RATE]
-
-
-@kernel
-def settle(p, s, ahead, near, w):
-    """Places of rest of the balls between the rings as they are in ``lv``; arguments: see `place`."""
-    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    c = s[S.C : S.C + C.SIZE]
-    theta, rolled, angle, speed = angles_at(s, ahead)
-    tau = p[P.CONTACT_DAMPING]
-    stand(
-        p, c, lv, theta + tau * lv[L.RATIO] * speed, rolled, angle + tau * speed, lv[L.Q0 + L.TURN], speed, w,
-    )  # fmt: skip
-    q = w[T.Q : T.Q + L.COLUMN]
-    for i in range(L.N):
-        q[i] = lv[L.Q0 + i]
-        w[T.AHEAD + i] = tau * lv[L.V0 + i]
-    find_places(p, c, lv, theta, speed, near, q, w)
-    keep_balls(w, lv, L.X)
-    count_settled(lv, int(p[P.LANES]), w)
-
-
-@kernel
-def is_near(s, speed, h):
-    """Whether the balls' last places are good guesses after a step ``h`` (s) to ``speed`` (rad/s)."""
-    return abs(h * s[S.CONDENSED + L.RATIO]) * max(abs(s[S.SPEED]), abs(speed)) < _NEAR
-
-
-@kernel
-def sample_spacing(p, s, speed):
-    """Longest time (s) between two states that samples are interpolated between, on the way to ``speed``."""
-    return min(1.0 / _SAMPLING, _WAVE * wave_time(p, max(abs(s[S.SPEED]), abs(speed))))
-
-
-@kernel
-def begin_spacing(s, step):
-    """Note the time ``step`` (s) from one state to the next; those at another one are forgotten."""
-    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    if abs(step - lv[L.SPACING]) > 1e-6 * step:
-        lv[L.SPACING] = step
-        lv[L.KNOWN] = 0.0
-
-
-@kernel
-def follow_balls(p, s, step, w):
-    """Move the balls across their tracks over a ``step`` (s) to where rings and places of rest now are."""
-    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    rate = lv[L.SIDE_RATE]
-    move_balls(p, lv, step, rate * rolling(lv, 0), rate * rolling(lv, 1), rate * rolling(lv, 2), w)
-    lv[L.KNOWN] += 1.0
-
-
-@kernel
-def rolling(lv, k):
-    """Velocity (m/s) that rolling alone gives pattern ``k``."""
-    total = 0.0
-    for i in range(L.N):
-        total += lv[L.SIDE_GUIDE + k * L.COLUMN + i] * lv[L.V0 + i]
-    return total
-
-
-@kernel
-def keep_back(s):
-    """Let the balls' places be those ``BACK`` before the present time."""
-    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    for i in range(2 * STRIDE):
-        lv[L.X1 + i] = lv[L.X + i]
-    lv[L.SPACING] = BACK
-    lv[L.KNOWN] = 1.0
-
-
-@kernel
-def show(p, s, near, w):
-    """State for outputs at the present time, the balls' rates from two places a little apart."""
-    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    place(p, s, -BACK, near, w)
-    keep_back(s)
-    place(p, s, 0.0, True, w)
-    rest_balls(p, lv, w)
-    publish(p, lv, s[S.SPEED], s[S.SPEED_RATE], s[S.Y : S.Y + Y.SIZE], s[S.F : S.F + F.SIZE])
+def sound_on_the_way(p, s, w, h, speed, near):
+    """Go through the communication step ``h`` (s) from state to state, with sound samples between them."""
+    longest = bearing.sample_spacing(p, s, speed)
+    for b in range(1, members.count(p)):
+        longest = min(longest, bearing.sample_spacing(members.parameters(p, b), s, speed))
+    count = math.ceil(h / longest - 1e-9)
+    step = h / count
+    for b in range(members.count(p)):
+        bearing.begin_spacing(members.state(p, s, b), step)
+    for _ in range(int(count)):
+        for b in range(members.count(p)):
+            lv = members.condensed(members.state(p, s, b))
+            move_places(lv, int(members.parameters(p, b)[P.LANES]))
+        place(p, s, w, step, near)
+        for b in range(members.count(p)):
+            bearing.follow_balls(
+                members.parameters(p, b), members.state(p, s, b), step, members.work(p, w, b)
+            )
+        near = True
+        keep_ball_loads(p, s, w)
+        turn_all(p, s, step)
+        emit_shown(p, s, w, step)
+        advance_all(p, s, step)
 
 
 @kernel
 def march_response(p, u, s, w, h):
     """Advance the state by the communication step ``h`` (s); status code."""
-    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    steps.begin_means(s)
-    near = is_near(s, u[U.SPEED], h)
-    if set_inputs(p, u, s, w, h):
+    own = members.set_state(p, s)
+    speed = u[SP.U_SPEED]
+    near = True
+    for b in range(members.count(p)):
+        sb = members.state(p, s, b)
+        steps.begin_means(sb)
+        if not bearing.is_near(sb, speed, h):
+            near = False
+    renewed = held.set_inputs_of(p, u, s, w, h)
+    for b in range(members.count(p)):
+        own[members.kept(p, b) + SP.OFFSET_RATE] = 0.0
+    if renewed:
         near = False
-        status = renew_equilibrium(p, u, s, w)
+        status = renew(p, u, s, w)
         if status != OK:
             return status
-        lv[L.KNOWN] = 0.0
     end = s[S.TIME] + h
     if p[P.SOUND_SIZE] != 0.0:
-        count = math.ceil(h / sample_spacing(p, s, u[U.SPEED]) - 1e-9)
-        step = h / count
-        begin_spacing(s, step)
-        for _ in range(int(count)):
-            move_places(lv, int(p[P.LANES]))
-            place(p, s, step, near, w)
-            follow_balls(p, s, step, w)
-            near = True
-            turn_balls(s, step)
-            emit_shown(p, s, w, step)
-            advance(s, step)
+        sound_on_the_way(p, s, w, h, speed, near)
     else:
-        turn_balls(s, h)
-        advance(s, h)
-    s[S.TIME] = end
-    s[S.SPEED] = u[U.SPEED]
+        turn_all(p, s, h)
+        advance_all(p, s, h)
+    for b in range(members.count(p)):
+        sb = members.state(p, s, b)
+        sb[S.TIME] = end
+        sb[S.SPEED] = speed
     if p[P.SOUND_SIZE] == 0.0:
-        show(p, s, near, w)
-    steps.end_means(s, h)
+        show(p, s, w, near)
+    for b in range(members.count(p)):
+        steps.end_means(members.state(p, s, b), h)
     return OK

@@ -199,7 +199,7 @@ def put_at_mean(p, s, w):
 
 
 @kernel
-def rest_alone(p, u, s, w):
+def rest_alone(p, u, s, w, settled):
     """Do what `hold_from_zero` does, for a single bearing."""
     status = hold_alone(p, u, s, w)
     if status != OK:
@@ -207,24 +207,25 @@ def rest_alone(p, u, s, w):
     lv = members.condensed(s)
     c = s[S.C : S.C + C.SIZE]
     for part in range(2):
-        status = quasistatic_places(p, c, s[S.SPEED], w)
+        status = quasistatic_places(p, c, u[U.SPEED], w)
         if status != OK:
             return status
         flat(p, c, lv, w)
-        if part == 1 or at_rest(p, c, lv, s[S.SPEED], w):
+        if part == 1 or not settled or at_rest(p, c, lv, u[U.SPEED], w):
             break
     put_at_mean(p, s, w)
     return OK
 
 
 @kernel
-def hold_from_zero(p, u, s, w):
+def hold_from_zero(p, u, s, w, settled):
     """Do what `hold_all` does, from where the start looks for rest, and put the set there; status code.
 
-    The balls' places, ball 0 at angle 0, go to ``L.EVEN``.
+    The balls' places, ball 0 at angle 0, go to ``L.EVEN``. A single bearing that need not be ``settled``
+    stays at its quasi-static place.
     """
     if not members.has_shaft(p):
-        return rest_alone(p, u, s, w)
+        return rest_alone(p, u, s, w, settled)
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
     speed = u[SP.U_SPEED]

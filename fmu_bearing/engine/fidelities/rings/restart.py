@@ -33,7 +33,7 @@ def forget_motion(lv):
 def begin_again(p, u, s, w):
     """Put shaft, housing, rings and balls to rest at the inputs ``u`` and the clock reached; status code."""
     own = members.set_state(p, s)
-    status = held.hold_from_zero(p, u, s, w)
+    status = held.hold_from_zero(p, u, s, w, True)
     if status != OK:
         return status
     predictor.forget(own, members.march(p), members.history(p), members.padded(p))

@@ -6,6 +6,7 @@ bearing, Z_b its rings' equations there.
 """
 
 from fmu_bearing.engine.dense import solve_complex
+from fmu_bearing.engine.fidelities.response.bearing import turned
 from fmu_bearing.engine.fidelities.response.lines import (
     STILL,
     counts_by,
@@ -14,7 +15,6 @@ from fmu_bearing.engine.fidelities.response.lines import (
     line_table,
     weakest,
 )
-from fmu_bearing.engine.fidelities.response.march import turned
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
 from fmu_bearing.engine.layout import FOUR, LN, SP, STRIDE, L, P, S, T

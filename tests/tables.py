@@ -106,3 +106,9 @@ def critical_speed():
     """Critical speed of the scene's pedestal, r/min."""
     found = float(row("sweep", **{"pedestal, N/m": "7.1e+07"})["mode, r/min"])
     return f"{100 * round(found / 100):,}"
+
+
+def missing(page, sentences):
+    """Return those of the sentences that a page lacks; line breaks do not count."""
+    text = " ".join((DOCS / page).read_text("utf-8").split())
+    return [one for one in sentences if " ".join(one.split()) not in text]

@@ -7,12 +7,12 @@ from tests import computed, figures, tables
 
 @pytest.mark.parametrize("page", figures.PAGES)
 def test_a_page_has_the_figures_of_the_tables(page):
-    assert not figures.missing(page)
+    assert not tables.missing(page, figures.PAGES[page]())
 
 
 @pytest.mark.parametrize("page", computed.PAGES)
 def test_a_page_has_the_figures_that_the_package_computes(page):
-    assert not computed.missing(page)
+    assert not tables.missing(page, computed.PAGES[page]())
 
 
 @pytest.mark.parametrize(
@@ -25,9 +25,9 @@ def test_figures_are_rounded(text, digits, shown):
 
 def test_a_figure_that_is_not_the_tables_is_found(monkeypatch):
     monkeypatch.setattr(figures, "_ratio", lambda found, key: "7.77")
-    assert any("7.77" in one for one in figures.missing("choosing.md"))
+    assert any("7.77" in one for one in tables.missing("choosing.md", figures.PAGES["choosing.md"]()))
 
 
 def test_a_figure_that_the_package_does_not_compute_is_found(monkeypatch):
     monkeypatch.setattr(computed, "_rings_at", lambda point: "7.77")
-    assert any("7.77" in one for one in computed.missing("gallery.md"))
+    assert any("7.77" in one for one in tables.missing("gallery.md", computed.PAGES["gallery.md"]()))

@@ -9,7 +9,6 @@ the shaft ties the bearings, and moves along its axis until their forces balance
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,10 +16,7 @@ from numpy.typing import NDArray
 from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.layout import P, Q, S, Y
 from fmu_bearing.modal.equations.coordinates import Coordinates
-from fmu_bearing.modal.equations.plain import MOVE, RATE, Plain
-
-if TYPE_CHECKING:
-    from fmu_bearing.modal.equations.set_linearised import One
+from fmu_bearing.modal.equations.plain import MOVE, RATE, BearingArrays, Plain
 
 _ROUNDS = 30
 # Steps of the differences by which balls move against rings in a round, 0.5 um: contacts stay closed. What
@@ -58,7 +54,7 @@ def settle(bearing: Arrays) -> bool:
     return settle_set([bearing])
 
 
-def settle_set(bearings: "Sequence[Arrays | One]", tie: Tie | None = None) -> bool:
+def settle_set(bearings: Sequence[Arrays | BearingArrays], tie: Tie | None = None) -> bool:
     """Move the states of a set's bearings to the steady ones; False as for `settle`."""
     parts = [_Part(one, None if tie is None else tie.inertia[k].size) for k, one in enumerate(bearings)]
     whole = _Whole(parts, tie)
@@ -83,7 +79,7 @@ def settle_set(bearings: "Sequence[Arrays | One]", tie: Tie | None = None) -> bo
 class _Part:
     """One bearing: motions that are alike for all its balls, and its rings along and about the axis."""
 
-    def __init__(self, bearing: "Arrays | One", driven: int | None) -> None:
+    def __init__(self, bearing: Arrays | BearingArrays, driven: int | None) -> None:
         self.bearing, self.at = bearing, Coordinates.of(bearing.p)
         self.plain = Plain(bearing, self.at)
         self.spread, self.mean = _even_motions(self.at)

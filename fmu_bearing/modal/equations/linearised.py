@@ -15,7 +15,6 @@ Imperfections and sound are left out, too. Weights count as loads where the scen
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,12 +26,9 @@ from fmu_bearing.engine.layout import C, P, Q, S, U, Y
 from fmu_bearing.instance import EngineError
 from fmu_bearing.modal.equations.coordinates import Coordinates
 from fmu_bearing.modal.equations.equilibrium import settle
-from fmu_bearing.modal.equations.plain import Plain
+from fmu_bearing.modal.equations.plain import BearingArrays, Plain
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.read import with_fidelity
-
-if TYPE_CHECKING:
-    from fmu_bearing.modal.equations.set_linearised import One
 
 PHASES = 6  # of one ball pitch
 
@@ -65,7 +61,7 @@ class Linearised:
     orbit: float
     spin: float
     speed: float
-    arrays: "Arrays | One"
+    arrays: Arrays | BearingArrays
     steady: bool
 
     @cached_property
@@ -193,7 +189,7 @@ def _mean(bearing: Arrays, row: int) -> float:
 
 
 def in_fixed_axes(
-    bearing: "Arrays | One", at: Coordinates, phase: float, orbit: float
+    bearing: Arrays | BearingArrays, at: Coordinates, phase: float, orbit: float
 ) -> NDArray[np.float64]:
     """Return A in fixed axes, from the derivatives in axes that are turned by ``phase`` against them.
 

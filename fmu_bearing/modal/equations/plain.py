@@ -1,6 +1,6 @@
 """Rates of a bearing at a state and their derivatives, ball by ball, as the engine's equations have them."""
 
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,13 +10,20 @@ from fmu_bearing.compiled import bound
 from fmu_bearing.engine.layout import FL, STRIDE, C, F, P, S, U, W, Y
 from fmu_bearing.modal.equations.coordinates import Coordinates
 
-if TYPE_CHECKING:
-    from fmu_bearing.modal.equations.set_linearised import One
-
 # Steps of the central differences: contacts approach by 1 um and more, so a nanometre errs by 1e-7 of the
 # slope; traction bends over 1e-3 m/s. Forces round to 1e-14 N.
 MOVE = 1e-9  # m
 RATE = 1e-6  # m/s
+
+
+@dataclass(frozen=True)
+class BearingArrays:
+    """Arrays ``p``, ``u``, ``s`` and ``w`` of one bearing of a set, laid out as of a single one."""
+
+    p: NDArray[np.float64]
+    u: NDArray[np.float64]
+    s: NDArray[np.float64]
+    w: NDArray[np.float64]
 
 
 class Plain:
@@ -29,7 +36,7 @@ class Plain:
     at : Coordinates
     """
 
-    def __init__(self, bearing: "Arrays | One", at: Coordinates) -> None:
+    def __init__(self, bearing: Arrays | BearingArrays, at: Coordinates) -> None:
         self.p, self.at = bearing.p, at
         self.y = bearing.s[S.Y : S.Y + Y.SIZE].copy()
         self._c = bearing.s[S.C : S.C + C.SIZE].copy()

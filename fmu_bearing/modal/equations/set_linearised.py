@@ -20,6 +20,7 @@ from fmu_bearing.instance import EngineError
 from fmu_bearing.modal.equations.coordinates import Coordinates
 from fmu_bearing.modal.equations.equilibrium import Tie, settle_set
 from fmu_bearing.modal.equations.linearised import PHASES, Linearised, in_fixed_axes
+from fmu_bearing.modal.equations.plain import BearingArrays
 from fmu_bearing.prepare.spindle import in_housing
 from fmu_bearing.scene import Scene, SceneError
 from fmu_bearing.scene.read import with_fidelity
@@ -225,16 +226,6 @@ def set_linearised(
     )  # fmt: skip
 
 
-@dataclass(frozen=True)
-class One:
-    """Arrays of one bearing of the set, as those of a single one."""
-
-    p: NDArray[np.float64]
-    u: NDArray[np.float64]
-    s: NDArray[np.float64]
-    w: NDArray[np.float64]
-
-
 def _rows(p: NDArray[np.float64]) -> list[NDArray[np.float64]]:
     block = int(p[P.SET])
     first = block + int(p[block + SP.AT_ROWS])
@@ -242,7 +233,7 @@ def _rows(p: NDArray[np.float64]) -> list[NDArray[np.float64]]:
     return [p[first + k * SP.ROW : first + (k + 1) * SP.ROW].copy() for k in range(count)]
 
 
-def _member(run: Arrays, row: NDArray[np.float64], speed: float) -> One:
+def _member(run: Arrays, row: NDArray[np.float64], speed: float) -> BearingArrays:
     """Return one bearing's arrays as those of a single one: p, u, s, w."""
     parts = {
         name: array[int(row[at]) : int(row[at]) + int(row[size])].copy()
@@ -254,7 +245,7 @@ def _member(run: Arrays, row: NDArray[np.float64], speed: float) -> One:
     parts["p"][P.SET] = 0.0
     u = np.zeros(U.SIZE)
     u[U.SPEED] = speed
-    return One(parts["p"], u, parts["s"], parts["w"])
+    return BearingArrays(parts["p"], u, parts["s"], parts["w"])
 
 
 def _tie(run: Arrays, block: SetBlock) -> Tie:
@@ -275,7 +266,9 @@ def _tie(run: Arrays, block: SetBlock) -> Tie:
     )  # fmt: skip
 
 
-def _on_pedestal(run: Arrays, rows: list[NDArray[np.float64]], members: list[One], block: SetBlock) -> float:
+def _on_pedestal(
+    run: Arrays, rows: list[NDArray[np.float64]], members: list[BearingArrays], block: SetBlock
+) -> float:
     """Return how far loads move the housing (m), or the ring on a pedestal of its own that goes furthest."""
     own = run.s[int(run.p[int(run.p[P.SET]) + SP.AT_S]) + SP.S_HEAD :]
     places = [own[block.shaft :][:3]] if block.housed else [
@@ -286,12 +279,12 @@ def _on_pedestal(run: Arrays, rows: list[NDArray[np.float64]], members: list[One
     return max((float(np.linalg.norm(place)) for place in places), default=0.0)
 
 
-def _of_balls(one: One, row: int) -> NDArray[np.float64]:
+def _of_balls(one: BearingArrays, row: int) -> NDArray[np.float64]:
     first = S.Y + row
     return np.asarray(one.s[first : first + int(one.p[P.BALLS])])
 
 
-def _even(one: One) -> bool:
+def _even(one: BearingArrays) -> bool:
     """Whether all balls stand alike."""
     radii = np.concatenate([_of_balls(one, row)[None] for row in (Y.X, Y.R)])
     return bool(np.ptp(radii, axis=1).max() < _EQUAL)
@@ -305,14 +298,14 @@ def _kept(at: Coordinates, driven: int) -> NDArray[np.int64]:
     return np.flatnonzero(found)
 
 
-def _turned(one: One, at: Coordinates, phase: float) -> One:
+def _turned(one: BearingArrays, at: Coordinates, phase: float) -> BearingArrays:
     """Return the bearing with its balls ``phase`` (rad) further on, in axes that went with them.
 
     Balls stand as others stood there: interpolated round the bearing. The rest turns back.
     """
     if phase == 0.0:
         return one
-    found = One(one.p, one.u, one.s.copy(), one.w)
+    found = BearingArrays(one.p, one.u, one.s.copy(), one.w)
     n, lanes = at.balls, int(one.p[P.LANES])
     where = 2.0 * math.pi * np.arange(n) / n
     across = at.patterns(where + phase)[0] @ np.linalg.inv(at.patterns(where)[0])

@@ -73,9 +73,9 @@ def pivot_row(a, at, n, width, k):
 def swap(a, one, other, count):
     """Exchange ``count`` numbers at ``a[one:]`` and ``a[other:]``."""
     for j in range(count):
-        kept = a[one + j]
+        saved = a[one + j]
         a[one + j] = a[other + j]
-        a[other + j] = kept
+        a[other + j] = saved
 
 
 @kernel

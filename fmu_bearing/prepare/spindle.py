@@ -257,7 +257,7 @@ def _block(
     total = tables[SP.AT_MASS] + sum(motion.T @ np.diag(mass) @ motion for mass, motion in rows)
     tables[SP.AT_SCALE] = np.diag(total)[:, None] / total[0, 0]
     tables[SP.AT_INVERSE] = np.asarray(np.linalg.inv(total), dtype=np.float64)
-    lanes = SP.padded(n)
+    lanes = SP.padded_size(n)
     columns = {place: _columns(table, lanes) for place, table in tables.items()}
     motions = [
         (_columns(motion, SP.LANES), np.flatnonzero(motion.any(axis=0)).astype(np.float64))
@@ -295,7 +295,7 @@ def _block(
             block[behind : behind + table.size] = table
             behind += table.size
         row[SP.ROW_COLUMNS] = motions[k][1].size
-    block[SP.BEARINGS], block[SP.SHAFT], block[SP.COUNT], block[SP.PADDED] = count, shaft.count, n, lanes
+    block[SP.BEARINGS], block[SP.SHAFT], block[SP.COUNT], block[SP.PADDED_SIZE] = count, shaft.count, n, lanes
     block[SP.HOUSED] = spindle.housing.moves
     block[SP.SPRUNG] = bool(tables[SP.AT_STIFFNESS].any() or tables[SP.AT_DAMPING].any())
     block[SP.PORT] = spindle.shaft.external

@@ -5,7 +5,7 @@ import pytest
 from numpy.polynomial.legendre import legder, legval
 from scipy.spatial.transform import Rotation
 
-from fmu_bearing.engine.fidelities.condensed.balls import stand
+from fmu_bearing.engine.fidelities.condensed.balls import set_angles
 from fmu_bearing.engine.fidelities.response.ball_orders import form_of, form_orders, form_over_turning
 from fmu_bearing.engine.layout import FOUR, LN, STRIDE, C, L, P, S, T
 from tests.engine.condensed import FIDELITIES, block, silent, vibration
@@ -46,7 +46,7 @@ def slow_form(run, rolled, speed, tau=0.0):
 def test_heights_are_those_of_turned_balls(scene, rolled):
     run = Run(quiet(scene("7009C-full-ceramic")), 18000, ball_waves=FORM, FIDELITY=1.0).init()
     speed, balls = 1885.0, int(run.p[P.BALLS])
-    stand(run.p, run.s[S.C : S.C + C.SIZE], block(run), 0.3, rolled, 2.2, 0.0, speed, run.w)
+    set_angles(run.p, run.s[S.C : S.C + C.SIZE], block(run), 0.3, rolled, 2.2, 0.0, speed, run.w)
     found = [run.w[at : at + 2 * STRIDE].reshape(2, STRIDE)[:, :balls] for at in (T.INNER, T.BEND, T.LEAN)]
     tau = run.p[P.CONTACT_DAMPING]
     assert tau > 0.0

@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from fmu_bearing.compiled import call
-from fmu_bearing.engine.fidelities.condensed.balls import stand
+from fmu_bearing.engine.fidelities.condensed.balls import set_angles
 from fmu_bearing.engine.layout import STRIDE, C, H, L, P, S, T, Y
 from fmu_bearing.engine.status import NO_START, OK
 from tests.engine.condensed import FIDELITIES, Slow, block, march, silent
@@ -17,7 +17,7 @@ def test_race_heights_are_those_of_the_tables_cubics(scene, theta):
     run = Run(silent(scene("7009C-full-ceramic")), 18000, FIDELITY=1.0).init()
     slow, lv, w = Slow(run), block(run), run.w
     inner, outer, speed = 2.2, -1e-3, 1885.0
-    stand(run.p, run.s[S.C : S.C + C.SIZE], lv, theta, 0.0, inner, outer, speed, w)
+    set_angles(run.p, run.s[S.C : S.C + C.SIZE], lv, theta, 0.0, inner, outer, speed, w)
     for j in range(slow.balls):
         angle = theta + 2 * np.pi * j / slow.balls
         # angles are rounded at 1e-15 rad, the steepest slope is some 1e-5 m/rad

@@ -78,14 +78,14 @@ class SetRun:
 
     def vector(self, k):
         """Places (0), rates (1) or accelerations (2) of all coordinates, without spare lanes."""
-        padded, n = (int(self.p[self.block + place]) for place in (SP.PADDED, SP.COUNT))
-        first = SP.S_HEAD + k * padded
+        padded_size, n = (int(self.p[self.block + place]) for place in (SP.PADDED_SIZE, SP.COUNT))
+        first = SP.S_HEAD + k * padded_size
         return self.own[first : first + n]
 
     def work_vector(self, k):
         """Vector of the set's own work space."""
-        padded, n = (int(self.p[self.block + place]) for place in (SP.PADDED, SP.COUNT))
-        first = int(self.p[self.block + SP.AT_W]) + SP.W_HEAD + k * padded
+        padded_size, n = (int(self.p[self.block + place]) for place in (SP.PADDED_SIZE, SP.COUNT))
+        first = int(self.p[self.block + SP.AT_W]) + SP.W_HEAD + k * padded_size
         return self.w[first : first + n]
 
     def value(self, name, b=None):

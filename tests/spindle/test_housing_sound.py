@@ -121,7 +121,9 @@ def recorded(scene, samples):
     block = int(p[P.SET])
     u, s, w = set_inputs(scene), np.zeros(S.size(p)), np.zeros(W.size(p))
     z = np.zeros(int(p[block + SP.SIZE_Z]))
-    first = int(p[block + SP.AT_S]) + SP.S_HEAD + 2 * int(p[block + SP.PADDED]) + int(p[block + SP.SHAFT])
+    first = (
+        int(p[block + SP.AT_S]) + SP.S_HEAD + 2 * int(p[block + SP.PADDED_SIZE]) + int(p[block + SP.SHAFT])
+    )
     middle = in_housing(1, 1e-3 * middle_mm(scene.spindle))
     assert call("init", p, u, s, z, w, 0.0) == OK
     found = [middle @ s[first : first + SP.HOUSING]]

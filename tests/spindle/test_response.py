@@ -38,7 +38,7 @@ def quiet(run, share):
 def lines(run):
     """Table of the set's lines."""
     n = int(run.p[run.block + SP.COUNT])
-    march = SP.S_HEAD + SP.MOTION * SP.padded(n) + run.count * SP.PER_BEARING + n * SP.padded(n)
+    march = SP.S_HEAD + SP.MOTION * SP.padded_size(n) + run.count * SP.PER_BEARING + n * SP.padded_size(n)
     count = int(run.own[march + SP.LINES])
     first = SP.state_size(run.count, n)
     return run.own[first : first + count * SP.line_size(n)].reshape(count, SP.line_size(n))

@@ -87,8 +87,8 @@ def test_elimination_is_the_dense_answer(seat, shaft):
 
 def offsets(run):
     """Where the engine's start has put the inner rings against the shaft (m)."""
-    padded = int(run.p[run.block + SP.PADDED])
-    first = SP.S_HEAD + SP.MOTION * padded
+    padded_size = int(run.p[run.block + SP.PADDED_SIZE])
+    first = SP.S_HEAD + SP.MOTION * padded_size
     return [run.own[first + b * SP.PER_BEARING + SP.OFFSET] for b in range(run.count)]
 
 

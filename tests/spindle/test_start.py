@@ -31,7 +31,7 @@ def test_vectors_of_the_start_do_not_overlap(seat):
         given = scene(changes={"spindle.shaft.flexible": True})
         run = SetRun(given, shaft=shaft_model(given, given.spindle))
     apart = start_vector(run.p, SP.STEPS) - start_vector(run.p, SP.TRIAL_FORCES)
-    assert apart >= int(run.p[run.block + SP.PADDED])
+    assert apart >= int(run.p[run.block + SP.PADDED_SIZE])
     end = start_vector(run.p, SP.START_VECTORS - 1) + apart
     assert end <= run.w.size
 

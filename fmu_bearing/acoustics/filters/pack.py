@@ -122,9 +122,9 @@ def pack(
     formed = SD.formed(int(found[SD.H_FORM]), radiation.harmonics, channels)
     found[SD.H_AT_FORMED] = block.put([order[channel] for channel in formed])
     deepest = _put_banks(block, banks, lengths)
-    rows, kept = _put_spans(block, banks, lengths)
+    rows, slots = _put_spans(block, banks, lengths)
     found[SD.H_ROWS] = max([deepest, *(2 * length + 1 for length in lengths)])
-    _place_state(block, rows, kept)
+    _place_state(block, rows, slots)
     _place_work(block, rows)
     return block.flat()
 
@@ -187,7 +187,7 @@ def _put_spans(
 ) -> tuple[list[list[int]], list[list[int]]]:
     """Put the filters of every block length; return each span's row, begun, and its lanes' slots."""
     found = []
-    kept = []
+    slots = []
     for span in spans(lengths):
         served = filters(banks, *span)
         runs = segments(one.lane for one in served)
@@ -196,19 +196,19 @@ def _put_spans(
             [lanes.index(one.lane), one.output, one.first, one.count, block.put(one.spectra)]
             for one in served
         ]
-        kept.append([max(one.first + one.count - 1 for one in served if one.lane == lane) for lane in lanes])
+        slots.append([max(one.first + one.count - 1 for one in served if one.lane == lane) for lane in lanes])
         turns = np.pi * np.arange(span[0] + 1) / span[0]
         found.append(
             [span[0], len(lanes), len(runs), block.put(runs), len(rows), block.put(rows)]
             + [block.put([np.cos(turns), np.sin(turns)])]
         )
-    return found, kept
+    return found, slots
 
 
-def _place_state(block: _Block, rows: Sequence[list[int]], kept: Sequence[list[int]]) -> None:
+def _place_state(block: _Block, rows: Sequence[list[int]], slots: Sequence[list[int]]) -> None:
     """Give every part of the state its place, complete the spans' ``rows`` with them and put these.
 
-    ``kept``: slots of each lane of each span.
+    ``slots``: how many past spectra each lane of each span holds.
     """
     found = block.head
     channels, mics = int(found[SD.H_CHANNELS]), int(found[SD.H_MICS])
@@ -224,9 +224,9 @@ def _place_state(block: _Block, rows: Sequence[list[int]], kept: Sequence[list[i
     found[SD.H_S_HIGH_PASS] = room(SD.HIGH_PASS_STATES * channels)
     found[SD.H_S_CHANNELS] = room(found[SD.H_ROWS] * channels)
     complete = []
-    for row, slots in zip(rows, kept, strict=True):
+    for row, counts in zip(rows, slots, strict=True):
         length = row[SD.SPAN_BLOCK]
-        lanes = [[count, room(count * 2 * (length + 1))] for count in slots]
+        lanes = [[count, room(count * 2 * (length + 1))] for count in counts]
         complete.append([*row, block.put(lanes), room(length * found[SD.H_OUTPUTS])])
     found[SD.H_AT_SPANS] = block.put(complete)
     found[SD.H_S_A_WEIGHTING] = room(SD.A_SECTIONS * SD.SECTION_STATES * found[SD.H_LANES])

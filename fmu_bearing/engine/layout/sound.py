@@ -14,7 +14,7 @@
   sample first; then runs, ``RUN_SIZE`` numbers each: neighbouring lanes that add to one output;
 * spans of lags that the convolution by blocks serves with one block length, ``SPAN_SIZE`` numbers each, with
   their tables of cosines and sines, their segments (``SEGMENT_SIZE`` numbers: the lanes they transform), what
-  they keep of each lane (``KEPT_SIZE`` numbers) and their filters, ``FILTER_SIZE`` numbers each, in the order
+  they keep of each lane (``PAST_SIZE`` numbers) and their filters, ``FILTER_SIZE`` numbers each, in the order
   of their outputs, with the spectra of their parts: part, real then imaginary, frequency;
 * sources, ``SOURCE_SIZE`` numbers each, and the source of each output;
 * groups of microphones, ``GROUP_SIZE`` numbers each, with weights: one row of microphones per output;
@@ -145,7 +145,7 @@ SPAN_AT_SEGMENTS = _span()
 SPAN_FILTERS = _span()  # number of filters
 SPAN_AT_FILTERS = _span()
 SPAN_AT_TURNS = _span()  # cosines, then sines
-SPAN_AT_KEPT = _span()  # what is kept of each lane
+SPAN_AT_PAST = _span()  # what is kept of each lane
 SPAN_S_FUTURE = _span()  # in ss: the next block of outputs
 SPAN_SIZE = _span.next
 
@@ -154,10 +154,10 @@ SEGMENT_LANE = _segment()  # first lane
 SEGMENT_COUNT = _segment()  # number of lanes
 SEGMENT_SIZE = _segment.next
 
-_kept = Places()
-KEPT_SLOTS = _kept()  # blocks of inputs: as many as the lane's longest filter has parts behind its first lag
-KEPT_S_SPECTRA = _kept()  # in ss: slot, real then imaginary, frequency
-KEPT_SIZE = _kept.next
+_past = Places()
+PAST_SLOTS = _past()  # blocks of inputs: as many as the lane's longest filter has parts behind its first lag
+PAST_S_SPECTRA = _past()  # in ss: slot, real then imaginary, frequency
+PAST_SIZE = _past.next
 
 _filter = Places()
 FILTER_LANE = _filter()  # of the span

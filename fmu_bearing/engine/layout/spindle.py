@@ -24,7 +24,7 @@ BEARINGS = _at()  # how many
 SHAFT = _at()  # coordinates of the shaft
 HOUSED = _at()  # 1: the housing moves
 COUNT = _at()  # coordinates of shaft, housing and sliding rings,
-PADDED = _at()  # in whole groups of four
+PADDED_SIZE = _at()  # in whole groups of four
 SPRUNG = _at()  # 1: there is such a stiffness
 UNBALANCED = _at()  # 1: it has heavy spots
 PORT = _at()  # 1: another model moves the shaft
@@ -164,14 +164,14 @@ PORT_MEAN = _at(PLANE)  # N, N m: and over the last one
 S_HEAD = _at.next
 MOTION = 4  # vectors behind the head: places, rates, accelerations,
 HELD_LOAD = 3  # and loads on the nose and of springs as forces on the coordinates
-_kept = Places()
-OFFSET = _kept()  # m: along the bearing's own axis, of its inner ring from where the shaft puts it,
-OFFSET_RATE = _kept()  # m/s,
-OFFSET_COLD = _kept()  # m: and that at standstill and 20 degC
-LOAD = _kept(PLANE)  # N, N m: of the inner ring on the balls, at the last communication point
-HELD_OFFSET = _kept()  # m: that the bearing's quasi-static point was held with (fidelity rings)
-ANSWER = _kept(LANES * DRIVEN)  # R^-1 of the driven rows, by columns of LANES
-PER_BEARING = _kept.next
+_bearing = Places()
+OFFSET = _bearing()  # m: along the bearing's own axis, of its inner ring from where the shaft puts it,
+OFFSET_RATE = _bearing()  # m/s,
+OFFSET_COLD = _bearing()  # m: and that at standstill and 20 degC
+LOAD = _bearing(PLANE)  # N, N m: of the inner ring on the balls, at the last communication point
+HELD_OFFSET = _bearing()  # m: that the bearing's quasi-static point was held with (fidelity rings)
+ANSWER = _bearing(LANES * DRIVEN)  # R^-1 of the driven rows, by columns of LANES
+PER_BEARING = _bearing.next
 # fidelity rings, behind the inverse: numbers, then the vectors of history and B^-1 J_x by padded columns
 MARCH = 0  # numbers of the march: see history
 _march = Places(_H.NUMBERS)
@@ -218,7 +218,7 @@ START_PULL = _start(LANES)  # N, N m: on the driven rows
 START_MORE = _start()  # N: along the axis, by which the steady force exceeds the quasi-static one
 START_ECCENTRICITY = _start()  # m: set aside
 TURNED = 3 * LANES  # cosine and sine of a bearing's orbit angle since its Jacobian
-KEPT = max(TURNED + 2, _start.next)  # per bearing: its answer in driven rows, what drives them, scratch
+SCRATCH = max(TURNED + 2, _start.next)  # per bearing: its answer in driven rows, what drives them, scratch
 # equations: rows of one more than unknowns; then vectors
 _vector = Places()
 UNKNOWNS = _vector()  # m, rad
@@ -245,28 +245,28 @@ def inputs(p):
     return int(p[int(p[_P.SET]) + SIZE_U]) if has_shaft(p) else _U.SIZE
 
 
-def padded(count):
+def padded_size(count):
     """Return ``count`` in whole groups of four."""
     return -(-count // FOUR) * FOUR
 
 
 def line_size(count):
     """How many numbers a line has for ``count`` coordinates."""
-    return LINE_REAL + 2 * padded(count)
+    return LINE_REAL + 2 * padded_size(count)
 
 
 def state_size(bearings, count, mics=0, lines=False):
     """Length of the set's own in ``s``: head, vectors, per bearing, inverse, march, levels, ``lines``."""
-    own = S_HEAD + MOTION * padded(count) + bearings * PER_BEARING + count * padded(count)
-    own += MARCHED + (_H.VECTORS + count) * padded(count) + bearings * mics
+    own = S_HEAD + MOTION * padded_size(count) + bearings * PER_BEARING + count * padded_size(count)
+    own += MARCHED + (_H.VECTORS + count) * padded_size(count) + bearings * mics
     return own + (_L.MOST_LINES * bearings * line_size(count) if lines else 0)
 
 
 def work_size(bearings, count):
     """Length of the set's own in ``w``: head, stages, Newton's vectors, bearings, the start's equations."""
-    start = padded(count) + HOUSING * bearings
-    own = W_HEAD + VECTORS * padded(count) + bearings * KEPT
-    equations = start * (start + START_VECTORS) + 2 * count * padded(count)
+    start = padded_size(count) + HOUSING * bearings
+    own = W_HEAD + VECTORS * padded_size(count) + bearings * SCRATCH
+    equations = start * (start + START_VECTORS) + 2 * count * padded_size(count)
     complex_ones = 2 * count * (2 * count + 1)  # of lines, with the two matrices they are made of
     return own + max(equations, complex_ones) + FOUR
 

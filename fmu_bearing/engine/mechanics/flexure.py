@@ -50,10 +50,10 @@ def show_flexure(p, s, w):
     if p[P.MODES] == 0.0:
         return
     count = 2 * int(p[P.MODES])
-    kept = s[flexure_state(p) :]
+    flexure = s[flexure_state(p) :]
     for i in range(count):
-        w[W.FLEX + FL.Q + i] = kept[i]
-        w[W.FLEX + FL.V + i] = kept[count + i]
+        w[W.FLEX + FL.Q + i] = flexure[i]
+        w[W.FLEX + FL.V + i] = flexure[count + i]
 
 
 @kernel
@@ -62,10 +62,10 @@ def keep_accelerations(p, s, w):
     if p[P.MODES] == 0.0:
         return
     count = 2 * int(p[P.MODES])
-    kept = s[flexure_state(p) + 2 * count :]
+    flexure = s[flexure_state(p) + 2 * count :]
     own = w[W.FLEX + FL.A :]
     for i in range(count):
-        kept[i] = own[i]
+        flexure[i] = own[i]
 
 
 @kernel

@@ -66,9 +66,9 @@ def invert_border(a, at, n, w):
         w[k] = float(pivot)
         if pivot != k:
             for m in range(n):
-                kept = a[at + k * n + m]
+                saved = a[at + k * n + m]
                 a[at + k * n + m] = a[at + pivot * n + m]
-                a[at + pivot * n + m] = kept
+                a[at + pivot * n + m] = saved
         inv = 1.0 / a[at + k * n + k]
         a[at + k * n + k] = 1.0
         for m in range(n):
@@ -84,9 +84,9 @@ def invert_border(a, at, n, w):
         pivot = int(w[k])
         if pivot != k:
             for i in range(n):
-                kept = a[at + i * n + k]
+                saved = a[at + i * n + k]
                 a[at + i * n + k] = a[at + i * n + pivot]
-                a[at + i * n + pivot] = kept
+                a[at + i * n + pivot] = saved
     return True
 
 

@@ -42,8 +42,8 @@ def local_column(jac, first, column, c, s, axis, j):
 
 
 @kernel
-def answers(p, jac, race, c, s, cv, cx, j, kept):
-    """Ball ``j``'s rows of the Newton matrix for motion of the groove under it, into ``kept``.
+def answers(p, jac, race, c, s, cv, cx, j, factors):
+    """Ball ``j``'s rows of the Newton matrix for motion of the groove under it, into ``factors``.
 
     The groove's motion along itself presses nothing: its place has no effect, only its velocity.
     """
@@ -53,14 +53,14 @@ def answers(p, jac, race, c, s, cv, cx, j, kept):
             value = cv * local_row(jac, i, first + Q.SIZE, c, s, axis, j)
             if axis < 2:
                 value += cx * local_row(jac, i, first, c, s, axis, j)
-            kept[(i * FL.GROOVE + axis) * STRIDE + j] = -value
+            factors[(i * FL.GROOVE + axis) * STRIDE + j] = -value
 
 
 @kernel
-def returns(p, jac, fac, race, c, s, cv, cx, j, kept, row):
+def returns(p, jac, fac, race, c, s, cv, cx, j, factors, row):
     """Groove's rows for the ball's motion, times the inverse of the ball's own block.
 
-    They follow in ``kept``; ``row``: scratch for ``J.BALL`` numbers.
+    They follow in ``factors``; ``row``: scratch for ``J.BALL`` numbers.
     """
     first = Q.INNER if race == 0 else Q.OUTER
     mass = p[P.INNER_MASS] if race == 0 else p[P.OUTER_MASS]
@@ -74,18 +74,18 @@ def returns(p, jac, fac, race, c, s, cv, cx, j, kept, row):
             total = 0.0
             for m in range(J.BALL):
                 total += row[m] * fac[in_groups(j, A.GROUP) + A.INVERSE + m * A.SIX + k * FOUR]
-            kept[(FL.ANSWERS + axis * J.BALL + k) * STRIDE + j] = total
+            factors[(FL.ANSWERS + axis * J.BALL + k) * STRIDE + j] = total
 
 
 @kernel
-def ring_answers(p, jac, fac, y, turned, race, cv, cx, kept, row):
-    """Rows of one ring at all balls into ``kept``."""
+def ring_answers(p, jac, fac, y, turned, race, cv, cx, factors, row):
+    """Rows of one ring at all balls into ``factors``."""
     for j in range(int(p[P.LANES])):
         angle = y[Y.TH + j] - turned
         c = math.cos(angle)
         s = math.sin(angle)
-        answers(p, jac, race, c, s, cv, cx, j, kept)
-        returns(p, jac, fac, race, c, s, cv, cx, j, kept, row)
+        answers(p, jac, race, c, s, cv, cx, j, factors)
+        returns(p, jac, fac, race, c, s, cv, cx, j, factors, row)
 
 
 @kernel
@@ -165,15 +165,15 @@ def between(pushed, moved):
 
 
 @kernel
-def ring_factors(kept, modes, race):
+def ring_factors(flexure, modes, race):
     """Return what Newton's method keeps of one ring's groove and the balls, in the flexure's state."""
-    return kept[FL.PER_MODE * modes + race * FL.FACTOR_ROWS * STRIDE :]
+    return flexure[FL.PER_MODE * modes + race * FL.FACTOR_ROWS * STRIDE :]
 
 
 @kernel
-def inverse_of_modes(kept, modes):
-    """Return the modes' inverse, behind what is kept of both rings."""
-    return kept[FL.PER_MODE * modes + 2 * FL.FACTOR_ROWS * STRIDE :]
+def inverse_of_modes(flexure, modes):
+    """Return the modes' inverse, behind the factors of both rings."""
+    return flexure[FL.PER_MODE * modes + 2 * FL.FACTOR_ROWS * STRIDE :]
 
 
 @kernel
@@ -210,18 +210,18 @@ def invert_modes(p, speed, cv, cx, totals, inverse):
 
 
 @kernel
-def factor_modes(p, jac, fac, y, turned, speed, cv, cx, kept, w):
+def factor_modes(p, jac, fac, y, turned, speed, cv, cx, flexure, w):
     """Prepare :func:`solve_modes` from the Jacobian ``jac`` and the factors ``fac`` made from it.
 
-    ``turned``: orbit angle (rad) since the Jacobian was made; ``kept``: the flexure's part of the state.
+    ``turned``: orbit angle (rad) since the Jacobian was made; ``flexure``: the flexure's part of the state.
     """
     if p[P.MODES] == 0.0:
         return
     modes = int(p[P.MODES])
     totals = w[W.GROOVE_INERTIA : W.GROOVE_INERTIA + FL.INERTIAS]
     row = w[W.GROOVE_ROW : W.GROOVE_ROW + J.BALL]
-    first = ring_factors(kept, modes, 0)
-    second = ring_factors(kept, modes, 1)
+    first = ring_factors(flexure, modes, 0)
+    second = ring_factors(flexure, modes, 1)
     inner = bends(p, 0)
     outer = bends(p, 1)
     if inner:
@@ -233,4 +233,4 @@ def factor_modes(p, jac, fac, y, turned, speed, cv, cx, kept, w):
     if inner and outer:
         groove_inertia(p, first, second, False, totals[between(0, 1) :])
         groove_inertia(p, second, first, False, totals[between(1, 0) :])
-    invert_modes(p, speed, cv, cx, totals, inverse_of_modes(kept, modes))
+    invert_modes(p, speed, cv, cx, totals, inverse_of_modes(flexure, modes))

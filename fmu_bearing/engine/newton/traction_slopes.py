@@ -107,18 +107,18 @@ def tried_slopes(p, c, lanes, race, w):
         moved = row + tried_row(column)
         out = W.CONTACT + K.TRACTION + column * K.TRACTION_SIZE
         for j in range(STRIDE):
-            kept = w[moved + j]
+            given = w[moved + j]
             step = _RATE if column == K.AN or column == K.AT or column == K.AM else _VELOCITY
             if column >= K.LOAD:
-                step = _SHARE * kept + _LIGHTEST * (1.0 if column == K.LOAD else 0.0)
-            w[W.CONTACT + K.PLACE + j] = kept
-            w[moved + j] = kept + step
+                step = _SHARE * given + _LIGHTEST * (1.0 if column == K.LOAD else 0.0)
+            w[W.CONTACT + K.PLACE + j] = given
+            w[moved + j] = given + step
         lubricated_traction(p, c, lanes, race, w)
         for j in range(lanes):
-            kept = w[W.CONTACT + K.PLACE + j]
-            per = 1.0 / (w[moved + j] - kept + 1e-300)
+            given = w[W.CONTACT + K.PLACE + j]
+            per = 1.0 / (w[moved + j] - given + 1e-300)
             if column == K.HALF:
-                per *= kept
+                per *= given
             for i in range(K.FORCES):
                 at = i * STRIDE + j
                 w[out + at] = (w[row + R.FT + at] - w[unmoved + at]) * per

@@ -184,5 +184,5 @@ def observe_motion(p, s, z, mics):
     z[Z.WAVE_TIME] = wave_time(p, s[S.SPEED])
     lost = s[S.HEAT] + s[S.HEAT + 1] + s[S.HEAT + 2]
     gained = s[S.ENERGY_NOW] - s[S.ENERGY_START]
-    told = lost > 1e-12 + LITTLE_LOST * abs(s[S.ENERGY_NOW])
-    z[Z.RESIDUAL] = (s[S.WORK] - lost - gained) / lost if told else 0.0
+    enough = lost > 1e-12 + LITTLE_LOST * abs(s[S.ENERGY_NOW])
+    z[Z.RESIDUAL] = (s[S.WORK] - lost - gained) / lost if enough else 0.0

@@ -112,7 +112,7 @@ def _renew(ps, ss, ws, at, place, newest):
     table = int(ps[at + SD.SPAN_AT_TURNS])
     turns = ps[table : table + 2 * (block + 1)]
     work = int(ps[SD.H_W_TRANSFORM])
-    kept = int(ps[at + SD.SPAN_AT_KEPT])
+    past = int(ps[at + SD.SPAN_AT_PAST])
     rows = block + 1
     z = ws[work : work + 2 * block * n]
     x = ws[work + 2 * block * n : work + 2 * (block + rows) * n]
@@ -120,13 +120,13 @@ def _renew(ps, ss, ws, at, place, newest):
     butterflies(z, n, block, turns, -1.0)
     unfold(z, n, block, turns, x)
     for lane in range(n):
-        slot = newest % int(ps[kept + SD.KEPT_SLOTS])
-        first = int(ps[kept + SD.KEPT_S_SPECTRA]) + 2 * rows * slot
+        slot = newest % int(ps[past + SD.PAST_SLOTS])
+        first = int(ps[past + SD.PAST_S_SPECTRA]) + 2 * rows * slot
         spectrum = ss[first : first + 2 * rows]
         for k in range(rows):
             spectrum[k] = x[2 * n * k + lane]
             spectrum[rows + k] = x[2 * n * k + n + lane]
-        kept += SD.KEPT_SIZE
+        past += SD.PAST_SIZE
     total = ws[work : work + 2 * rows * n_out]
     _multiply(ps, ss, ws, at, newest, total)
     z = ws[work + len(total) : work + len(total) + 2 * block * n_out]
@@ -186,9 +186,9 @@ def _multiply(ps, ss, ws, at, newest, total):
             y[k] = 0.0
             y[SD.MAX_FREQUENCIES + k] = 0.0
         while left > 0 and int(ps[row + SD.FILTER_OUTPUT]) == output:
-            kept = int(ps[at + SD.SPAN_AT_KEPT]) + SD.KEPT_SIZE * int(ps[row + SD.FILTER_LANE])
-            slots = int(ps[kept + SD.KEPT_SLOTS])
-            spectra = int(ps[kept + SD.KEPT_S_SPECTRA])
+            past = int(ps[at + SD.SPAN_AT_PAST]) + SD.PAST_SIZE * int(ps[row + SD.FILTER_LANE])
+            slots = int(ps[past + SD.PAST_SLOTS])
+            spectra = int(ps[past + SD.PAST_S_SPECTRA])
             slot = newest % slots + 1 - int(ps[row + SD.FILTER_FIRST])
             if slot < 0:
                 slot += slots

@@ -177,9 +177,9 @@ def _pressures(ps, ws, squares, n):
             total[i] += part[i]
             whole[i] += part[i]
         if kind < SD.METERS * n:
-            alike = squares[kind : kind + n]
+            same = squares[kind : kind + n]
             for i in range(n):
-                alike[i] += part[i]
+                same[i] += part[i]
 
 
 @kernel
@@ -276,7 +276,7 @@ def levels(ps, ss, z, offset):
         weight = ss[SD.SS_WEIGHT]
         fast = ss[SD.SS_FAST]
         slow = ss[SD.SS_SLOW]
-    kept = SD.METERS if int(ps[SD.H_DETAILS]) > 0 else SD.PLAIN
+    rows = SD.METERS if int(ps[SD.H_DETAILS]) > 0 else SD.PLAIN
     bands = int(ps[SD.H_BANDS])
     for mic in range(n):
         lane = int(ps[int(ps[SD.H_AT_ORDER]) + mic])
@@ -290,7 +290,7 @@ def levels(ps, ss, z, offset):
                 by = fast
             elif row == SD.M_SLOW or row == SD.M_SLOW_A:
                 by = slow
-            z[out + row] = decibel(ss[meters + row * n + lane] / by if row < kept else 0.0)
+            z[out + row] = decibel(ss[meters + row * n + lane] / by if row < rows else 0.0)
         mean = int(ps[SD.H_S_BANDS]) + SD.BAND_SIZE * lane + SD.BAND_MEAN
         first = offset + Z.PER_MIC * n + bands * mic
         for k in range(bands):

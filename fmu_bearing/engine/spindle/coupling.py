@@ -79,7 +79,7 @@ def shaft_matrix(p, own, ws, speed, by_mass, by_rate, by_place, at):
         for i in range(n * n):
             ws[at + i] = 0.0
         return
-    lanes = members.padded(p)
+    lanes = members.padded_size(p)
     mass = members.table(p, SP.AT_MASS)
     damping = members.table(p, SP.AT_DAMPING)
     gyroscopic = members.table(p, SP.AT_GYROSCOPIC)
@@ -146,7 +146,7 @@ def condense_set(p, s, w, gh):
         spare = at + n * n
         if not invert(wb, W.F0, count, ws, spare):
             return False
-        keep_columns(ws, spare, count, SP.LANES, own, members.kept(p, b) + SP.ANSWER)
+        keep_columns(ws, spare, count, SP.LANES, own, members.per_bearing(p, b) + SP.ANSWER)
         add_driven(p, b, ws, spare, count, 1, ws, at)
     return True
 
@@ -172,7 +172,7 @@ def invert_set(p, own, ws):
     at = members.matrix(p)
     if not invert(ws, at, n, ws, at + n * n):
         return False
-    keep_columns(ws, at + n * n, n, members.padded(p), own, members.inverse(p))
+    keep_columns(ws, at + n * n, n, members.padded_size(p), own, members.inverse(p))
     return True
 
 
@@ -251,7 +251,7 @@ def answer_free(p, b, pb, sb, wb, own, ws):
     # m R^-1 d0, told in fixed axes, with m r_I
     for i in range(SP.LANES):
         ws[to + i] = 0.0
-    answer = members.kept(p, b) + SP.ANSWER
+    answer = members.per_bearing(p, b) + SP.ANSWER
     members.add_columns(own, answer, SP.LANES, count, 1.0, ws, at, ws, to)
     turn_driven(count, ws, to, c, s)
     for i in range(count):
@@ -281,7 +281,7 @@ def answer_driven(p, b, pb, sb, wb, own, ws):
         ws[driving + i] = 0.0
     for i in range(count):
         ws[to + i] -= ws[at + i]
-    answer = members.kept(p, b) + SP.ANSWER
+    answer = members.per_bearing(p, b) + SP.ANSWER
     members.add_columns(own, answer, SP.LANES, count, 1.0, ws, to, ws, driving)
     if tied(pb):
         for i in range(count):
@@ -301,7 +301,7 @@ def answer_driven(p, b, pb, sb, wb, own, ws):
 @kernel
 def solve_shaft(p, own, ws):
     """Solve the shaft's equations for its increment, in axes that turn with the first bearing."""
-    lanes = members.padded(p)
+    lanes = members.padded_size(p)
     residual = members.vector(p, SP.RESIDUAL)
     found = members.vector(p, SP.INCREMENT)
     c = ws[members.scratch(p, 0) + SP.TURNED]

@@ -13,18 +13,18 @@ def copy_rows(p, s, w):
     """Put places and rates of all driven rows to those of shaft and housing in the state."""
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
-    n = members.padded(p)
+    lanes = members.padded_size(p)
     for b in range(members.count(p)):
         sb = members.state(p, s, b)
         r = members.row(p, b)
         at = members.scratch(p, b)
-        mine = members.kept(p, b)
+        bearing_at = members.per_bearing(p, b)
         members.moved(p, b, own, SP.S_HEAD, ws, at)
-        members.moved(p, b, own, SP.S_HEAD + n, ws, at + SP.LANES)
+        members.moved(p, b, own, SP.S_HEAD + lanes, ws, at + SP.LANES)
         for i in range(int(p[r + SP.ROW_DRIVEN])):
             axial = 1.0 if i == Q.X else 0.0
-            sb[S.Y + Y.Q0 + i] = ws[at + i] + axial * own[mine + SP.OFFSET]
-            sb[S.Y + Y.V0 + i] = ws[at + SP.LANES + i] + axial * own[mine + SP.OFFSET_RATE]
+            sb[S.Y + Y.Q0 + i] = ws[at + i] + axial * own[bearing_at + SP.OFFSET]
+            sb[S.Y + Y.V0 + i] = ws[at + SP.LANES + i] + axial * own[bearing_at + SP.OFFSET_RATE]
 
 
 @kernel
@@ -51,7 +51,9 @@ def growth_power(p, b, own, free, actual):
 
     ``free``: acceleration that balls and springs give the ring, ``actual``: that which it has (m/s2).
     """
-    return own[members.kept(p, b) + SP.OFFSET_RATE] * p[members.row(p, b) + SP.ROW_MASS] * (actual - free)
+    return (
+        own[members.per_bearing(p, b) + SP.OFFSET_RATE] * p[members.row(p, b) + SP.ROW_MASS] * (actual - free)
+    )
 
 
 @kernel
@@ -60,11 +62,11 @@ def keep_load(p, b, pb, own, ws, at):
 
     The moment has that of the turning ring's tilt, too (gyroscopic, some 1e-4 N m).
     """
-    mine = members.kept(p, b)
+    bearing_at = members.per_bearing(p, b)
     for i in range(SP.PLANE):
-        own[mine + SP.LOAD + i] = -ws[at + i]
+        own[bearing_at + SP.LOAD + i] = -ws[at + i]
     if weighs(p):
-        own[mine + SP.LOAD + Q.Z] -= GRAVITY * pb[P.INNER_MASS]
+        own[bearing_at + SP.LOAD + Q.Z] -= GRAVITY * pb[P.INNER_MASS]
 
 
 @kernel
@@ -78,7 +80,7 @@ def accelerate(p, s, w, stage, t, angle, speed, rate):
     """
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
-    n = members.padded(p)
+    lanes = members.padded_size(p)
     force = members.vector(p, SP.FORCE)
     if stage:
         x = ws
@@ -87,7 +89,7 @@ def accelerate(p, s, w, stage, t, angle, speed, rate):
     else:
         x = own
         q = SP.S_HEAD
-        v = SP.S_HEAD + n
+        v = SP.S_HEAD + lanes
     work, bent, shaken = shaft_forces(p, own, x, q, v, angle, speed, rate, ws, force)
     for b in range(members.count(p)):
         pb = members.parameters(p, b)
@@ -99,13 +101,13 @@ def accelerate(p, s, w, stage, t, angle, speed, rate):
             keep_load(p, b, pb, own, ws, members.scratch(p, b))
         members.pull(p, b, ws, members.scratch(p, b), ws, force)
     found = members.vector(p, SP.ACCELERATION)
-    for i in range(n):
+    for i in range(lanes):
         ws[found + i] = 0.0
     members.add_product(p, members.table(p, SP.AT_INVERSE), 1.0, ws, force, ws, found)
     led = has_port(p)
     if led:
         led_acceleration(own, s, t, ws, found)
-        clear(ws, force, n)
+        clear(ws, force, lanes)
     for b in range(members.count(p)):
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)
@@ -122,6 +124,6 @@ def accelerate(p, s, w, stage, t, angle, speed, rate):
     if not stage:
         for i in range(SP.PLANE):
             own[SP.PORT_FORCE + i] = ws[force + i] if led else 0.0
-        for i in range(n):
-            own[SP.S_HEAD + 2 * n + i] = ws[found + i]
+        for i in range(lanes):
+            own[SP.S_HEAD + 2 * lanes + i] = ws[found + i]
     return work, bent, shaken

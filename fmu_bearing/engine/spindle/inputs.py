@@ -113,7 +113,7 @@ def spread_choices(p):
 @kernel
 def growth_rate(p, u, own, b, h):
     """Rate (m/s) of the offset of bearing ``b`` on its way, in ``h`` (s), to the temperatures of ``u``."""
-    at = members.kept(p, b)
+    at = members.per_bearing(p, b)
     away = own[at + SP.OFFSET_COLD] + offset_change(p, u, b) - own[at + SP.OFFSET]
     # rounding of the place is not worth a new speed, which would cost an evaluation each step
     return 0.0 if abs(away) < _STILL else away / h

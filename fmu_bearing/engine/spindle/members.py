@@ -32,11 +32,11 @@ def has_shaft(p):
 
 
 @kernel
-def padded(p):
+def padded_size(p):
     """Return how many numbers a vector of the coordinates has: whole groups of four."""
     if p[P.ALONE] != 0.0:
         return 0 if p[P.FIDELITY] == FULL else L.COLUMN
-    return int(p[int(p[P.SET]) + SP.PADDED])
+    return int(p[int(p[P.SET]) + SP.PADDED_SIZE])
 
 
 @kernel
@@ -111,21 +111,21 @@ def set_work(p, w):
 
 
 @kernel
-def kept(p, b):
+def per_bearing(p, b):
     """Begin in the set's own state of what it keeps of bearing ``b``."""
-    return SP.S_HEAD + SP.MOTION * padded(p) + b * SP.PER_BEARING
+    return SP.S_HEAD + SP.MOTION * padded_size(p) + b * SP.PER_BEARING
 
 
 @kernel
 def inverse(p):
     """Begin in the set's own state of the inverse Newton matrix."""
-    return SP.S_HEAD + SP.MOTION * padded(p) + count(p) * SP.PER_BEARING
+    return SP.S_HEAD + SP.MOTION * padded_size(p) + count(p) * SP.PER_BEARING
 
 
 @kernel
 def march(p):
     """Begin in the set's own state of what its march by Newmark's method keeps (fidelity rings)."""
-    return inverse(p) + coordinates(p) * padded(p)
+    return inverse(p) + coordinates(p) * padded_size(p)
 
 
 @kernel
@@ -137,13 +137,13 @@ def history(p):
 @kernel
 def squares(p):
     """Begin in the set's own state of the march's matrix B^-1 J_x."""
-    return squares_at(history(p), padded(p))
+    return squares_at(history(p), padded_size(p))
 
 
 @kernel
 def alone(p, b):
     """Begin in the set's own state of mean squares (Pa2) of bearing ``b`` alone, one per microphone."""
-    return squares(p) + coordinates(p) * padded(p) + b * int(p[P.MICS])
+    return squares(p) + coordinates(p) * padded_size(p) + b * int(p[P.MICS])
 
 
 @kernel
@@ -155,11 +155,11 @@ def lines(p):
 @kernel
 def line_size(p):
     """Return how many numbers a line has."""
-    return SP.LINE_REAL + 2 * padded(p)
+    return SP.LINE_REAL + 2 * padded_size(p)
 
 
 @kernel
-def heard(p):
+def z_mics(p):
     """Place in ``z`` of the microphones, as of a single bearing; behind them the bearings' own levels."""
     return int(p[int(p[P.SET]) + SP.AT_Z]) + SP.Z_FORCES + SP.Z_FORCE * count(p)
 
@@ -167,19 +167,19 @@ def heard(p):
 @kernel
 def scratch(p, b):
     """Begin in the set's own work space of bearing ``b``'s numbers."""
-    return SP.W_HEAD + SP.VECTORS * padded(p) + b * SP.KEPT
+    return SP.W_HEAD + SP.VECTORS * padded_size(p) + b * SP.SCRATCH
 
 
 @kernel
 def matrix(p):
     """Begin in the set's own work space of a matrix of the shaft's equations, or of the start's."""
-    return SP.W_HEAD + SP.VECTORS * padded(p) + count(p) * SP.KEPT
+    return SP.W_HEAD + SP.VECTORS * padded_size(p) + count(p) * SP.SCRATCH
 
 
 @kernel
 def vector(p, k):
     """Begin in the set's own work space of vector ``k``: ``SP.PLACE`` and those behind it."""
-    return vector_at(padded(p), k)
+    return vector_at(padded_size(p), k)
 
 
 @kernel
@@ -189,15 +189,15 @@ def vector_at(lanes, k):
 
 
 @kernel
-def squares_at(x, lanes):
+def squares_at(vectors, lanes):
     """As `squares`, for a history at ``x``."""
-    return x + H.VECTORS * lanes
+    return vectors + H.VECTORS * lanes
 
 
 @kernel
-def inverse_at(x, n, lanes):
+def inverse_at(vectors, n, lanes):
     """As `inverse`, for ``n`` coordinates and a history at ``x``."""
-    return x - SP.MARCHED - n * lanes
+    return vectors - SP.MARCHED - n * lanes
 
 
 @kernel
@@ -273,4 +273,4 @@ def pull(p, b, forces, at, out, to):
 @kernel
 def add_product(p, at, scale, x, first, out, to):
     """``out[to:] += scale M x[first:]``, the matrix of the coordinates' size at ``p[at:]``."""
-    add_columns(p, at, padded(p), coordinates(p), scale, x, first, out, to)
+    add_columns(p, at, padded_size(p), coordinates(p), scale, x, first, out, to)

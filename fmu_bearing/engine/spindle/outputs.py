@@ -46,7 +46,7 @@ def observe_bearings(p, s, z):
         to = at + SP.Z_FORCES + SP.Z_FORCE * b
         for i in range(SP.PLANE):
             along = i == Q.X or i >= Q.INNER_BY
-            z[to + i] = own[members.kept(p, b) + SP.LOAD + i] * (sign if along else 1.0)
+            z[to + i] = own[members.per_bearing(p, b) + SP.LOAD + i] * (sign if along else 1.0)
     for i in range(2):
         z[at + SP.Z_HEAT + i] += own[SP.MEAN_HEAT + i]
 
@@ -55,15 +55,15 @@ def observe_bearings(p, s, z):
 def observe_shaft(p, s, z):
     """Nose of the shaft, what resists it, and the housing."""
     own = members.set_state(p, s)
-    n = members.padded(p)
+    lanes = members.padded_size(p)
     at = int(p[int(p[P.SET]) + SP.AT_Z])
     nose = members.table(p, SP.AT_NOSE)
     for i in range(SP.PLANE):
         place = 0.0
         rate = 0.0
-        for k in range(n):
-            place += p[nose + i * n + k] * own[SP.S_HEAD + k]
-            rate += p[nose + i * n + k] * own[SP.S_HEAD + n + k]
+        for k in range(lanes):
+            place += p[nose + i * lanes + k] * own[SP.S_HEAD + k]
+            rate += p[nose + i * lanes + k] * own[SP.S_HEAD + lanes + k]
         z[at + SP.Z_NOSE + i] = place
         if i < Q.INNER_BY:
             z[at + SP.Z_NOSE_VELOCITY + i] = rate
@@ -74,7 +74,7 @@ def observe_shaft(p, s, z):
         lever = p[int(p[P.SET]) + SP.HOUSING_X]
         for i in range(2):
             out = at + (SP.Z_HOUSING if i == 0 else SP.Z_HOUSING_VELOCITY)
-            x = h + i * n
+            x = h + i * lanes
             z[out] = own[x]
             z[out + Q.Y] = own[x + Q.Y] + lever * own[x + Q.BZ]
             z[out + Q.Z] = own[x + Q.Z] - lever * own[x + Q.BY]
@@ -99,5 +99,5 @@ def observe_set(p, s, z):
         work += sb[S.WORK]
         lost += sb[S.HEAT] + sb[S.HEAT + 1] + sb[S.HEAT + 2]
     gained = s[S.ENERGY_NOW] - s[S.ENERGY_START]
-    told = lost > 1e-12 + LITTLE_LOST * abs(s[S.ENERGY_NOW])
-    z[at + SP.Z_RESIDUAL] = (work - lost - gained) / lost if told else 0.0
+    enough = lost > 1e-12 + LITTLE_LOST * abs(s[S.ENERGY_NOW])
+    z[at + SP.Z_RESIDUAL] = (work - lost - gained) / lost if enough else 0.0

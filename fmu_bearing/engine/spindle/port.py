@@ -21,11 +21,11 @@ def has_port(p):
 @kernel
 def take_motion(p, u, s, own, h):
     """Lead the shaft from where it is to place and rate of ``u`` in ``h`` (s)."""
-    n = members.padded(p)
+    lanes = members.padded_size(p)
     own[SP.PORT_BEGIN] = s[S.TIME]
     for i in range(SP.PLANE):
         place = own[SP.S_HEAD + i]
-        rate = own[SP.S_HEAD + n + i]
+        rate = own[SP.S_HEAD + lanes + i]
         to_rate = u[SP.U_PORT_RATE + i]
         mean = (u[SP.U_PORT + i] - place) / h
         own[SP.PORT_PLACE + i] = place
@@ -37,11 +37,11 @@ def take_motion(p, u, s, own, h):
 @kernel
 def begin_motion(p, u, own, t):
     """Put the shaft to place and rate of ``u`` at time ``t`` (s), without acceleration."""
-    n = members.padded(p)
+    lanes = members.padded_size(p)
     own[SP.PORT_BEGIN] = t
     for i in range(SP.PLANE):
         own[SP.S_HEAD + i] = u[SP.U_PORT + i]
-        own[SP.S_HEAD + n + i] = u[SP.U_PORT_RATE + i]
+        own[SP.S_HEAD + lanes + i] = u[SP.U_PORT_RATE + i]
         own[SP.PORT_PLACE + i] = u[SP.U_PORT + i]
         own[SP.PORT_RATE + i] = u[SP.U_PORT_RATE + i]
         own[SP.PORT_ACCELERATION + i] = 0.0
@@ -75,7 +75,7 @@ def lead_stage(p, s, w, stage, t):
     for b in range(members.count(p)):
         wb = members.work(p, w, b)
         at = members.scratch(p, b)
-        mine = members.kept(p, b)
+        bearing_at = members.per_bearing(p, b)
         acc = W.ACC + stage * F.SIZE + F.BODY
         members.moved(p, b, ws, here, ws, at)
         for i in range(SP.PLANE):
@@ -86,9 +86,9 @@ def lead_stage(p, s, w, stage, t):
         members.moved(p, b, ws, place, ws, at)
         for i in range(SP.PLANE):
             wb[W.STAGE + Y.Q0 + i] = ws[at + i]
-        grown = own[mine + SP.OFFSET_RATE]
+        grown = own[bearing_at + SP.OFFSET_RATE]
         wb[W.STAGE + Y.V0 + Q.X] += grown
-        wb[W.STAGE + Y.Q0 + Q.X] += own[mine + SP.OFFSET] + t * grown
+        wb[W.STAGE + Y.Q0 + Q.X] += own[bearing_at + SP.OFFSET] + t * grown
 
 
 @kernel

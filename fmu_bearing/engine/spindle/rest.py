@@ -27,7 +27,7 @@ _FINE = 1e-6  # of the forces: what may stay out of balance
 
 
 @kernel
-def stands(p, b):
+def on_pedestal(p, b):
     """Whether the outer ring of bearing ``b`` stands on a pedestal of its own."""
     return p[members.row(p, b) + SP.ROW_SEAT] == SP.PEDESTAL
 
@@ -35,7 +35,7 @@ def stands(p, b):
 @kernel
 def free_rows(p, b):
     """Return how many unknowns the outer ring of bearing ``b`` has beside the set's coordinates."""
-    return SP.PLANE if stands(p, b) and p[members.row(p, b) + SP.ROW_DRIVEN] < SP.DRIVEN else 0
+    return SP.PLANE if on_pedestal(p, b) and p[members.row(p, b) + SP.ROW_DRIVEN] < SP.DRIVEN else 0
 
 
 @kernel
@@ -87,7 +87,7 @@ def put_rings(p, b, ws, own, z):
     for i in range(SP.PLANE):
         place = ws[at + SP.START_PULL + i]
         if i == Q.X:
-            place += own[members.kept(p, b) + SP.OFFSET]
+            place += own[members.per_bearing(p, b) + SP.OFFSET]
         ws[at + SP.START_RING + i] = place - ws[at + SP.START_OUTER + outer_row(i)]
     for i in range(2):
         ws[at + SP.START_TILT + i] = ws[at + SP.START_OUTER + Q.BY + i]
@@ -172,7 +172,7 @@ def settle_bearing(p, s, w, b, speed, z, g):
             value = -force[k - Q.OUTER] - (lying if k == Q.OUTER + Q.Z else 0.0)
         elif k > Q.OUTER + Q.TURN:
             value = -force[k - Q.OUTER - 1]
-        if k >= Q.OUTER and stands(p, b):
+        if k >= Q.OUTER and on_pedestal(p, b):
             value -= ring_stiffness(c, k) * ws[at + SP.START_OUTER + k - Q.OUTER]
         ws[at + SP.START_PULL + k] = value
     members.pull(p, b, ws, at + SP.START_PULL, ws, g)
@@ -225,7 +225,7 @@ def equations(p, s, w, damping):
     shaft = members.table(p, SP.AT_STIFFNESS)
     for i in range(n):
         for k in range(n):
-            ws[at + i * width + k] += p[shaft + k * members.padded(p) + i]
+            ws[at + i * width + k] += p[shaft + k * members.padded_size(p) + i]
     if has_housing(p):
         h = int(p[int(p[P.SET]) + SP.SHAFT])
         feet_matrix(p, own, SP.FEET, 1.0, ws, at + h * width + h, width, spare)
@@ -247,7 +247,7 @@ def equations(p, s, w, damping):
             ws[at + (mine + i) * width + mine + i] += pedestal_stiffness(c, i)
         r = members.row(p, b)
         t = int(p[r + SP.ROW_AT_T])
-        for k in range(Q.OUTER, int(p[r + SP.ROW_DRIVEN]) if stands(p, b) else 0):
+        for k in range(Q.OUTER, int(p[r + SP.ROW_DRIVEN]) if on_pedestal(p, b) else 0):
             for m in range(n):
                 share = ring_stiffness(c, k) * p[t + m * SP.LANES + k]
                 for h in range(n):
@@ -321,7 +321,7 @@ def give_at_nose(p, s, w, j, to):
     count = unknowns(p)
     at = members.matrix(p)
     nose = members.table(p, SP.AT_NOSE)
-    lanes = members.padded(p)
+    lanes = members.padded_size(p)
     equations(p, s, w, _FLOOR)
     for i in range(count):
         ws[at + i * (count + 1) + count] = p[nose + j * lanes + i] if i < members.coordinates(p) else 0.0

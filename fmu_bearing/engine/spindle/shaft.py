@@ -50,7 +50,7 @@ def along(x, at, y, to, count):
 def twice_energy(p, at, x, first):
     """``x M x`` for the matrix at ``p[at:]``."""
     n = members.coordinates(p)
-    lanes = members.padded(p)
+    lanes = members.padded_size(p)
     total = 0.0
     for k in range(n):
         total += x[first + k] * along(p, at + k * lanes, x, first, n)
@@ -62,7 +62,7 @@ def push(p, angle, speed, rate, out, to):
     """Add the force of the shaft's heavy spots to ``out[to:]``; ``rate``: of the speed (rad/s2)."""
     if p[int(p[P.SET]) + SP.UNBALANCED] == 0.0:
         return
-    lanes = members.padded(p)
+    lanes = members.padded_size(p)
     at = members.table(p, SP.AT_UNBALANCE)
     co = math.cos(angle)
     si = math.sin(angle)
@@ -76,7 +76,7 @@ def push(p, angle, speed, rate, out, to):
 @kernel
 def hold_load(p, own):
     """Turn loads on the nose and of springs into forces on the coordinates."""
-    lanes = members.padded(p)
+    lanes = members.padded_size(p)
     nose = members.table(p, SP.AT_NOSE)
     springs = members.table(p, SP.AT_SPRINGS)
     to = SP.S_HEAD + SP.HELD_LOAD * lanes
@@ -94,7 +94,7 @@ def shaft_forces(p, own, x, q, v, angle, speed, rate, out, to):
     heats of the bending shaft and of the pedestal (W).
     """
     n = members.coordinates(p)
-    lanes = members.padded(p)
+    lanes = members.padded_size(p)
     if not members.has_shaft(p):
         for i in range(lanes):
             out[to + i] = 0.0

@@ -63,11 +63,11 @@ def levels_of_set(p, s, z):
         return
     bearings = members.count(p)
     mics = int(p[P.MICS])
-    meter.levels(sound_block(p), s[S.SOUND :], z, members.heard(p))
+    meter.levels(sound_block(p), s[S.SOUND :], z, members.z_mics(p))
     own = members.set_state(p, s)
     ss = s[S.SOUND :]
     weight = ss[SD.SS_WEIGHT] if ss[SD.SS_METERED] > 0.0 else 1.0
-    to = members.heard(p) + (Z.PER_MIC + int(p[P.BANDS])) * mics
+    to = members.z_mics(p) + (Z.PER_MIC + int(p[P.BANDS])) * mics
     for mic in range(mics):
         for b in range(bearings):
             z[to + mic * bearings + b] = meter.decibel(own[members.alone(p, b) + mic] / weight)

@@ -208,10 +208,10 @@ def difference(p, c, speed, load, offset, ring, v, out):
     pitch = p[P.PITCH_RADIUS]
     for k in range(EQ.FREEDOMS):
         scale = 1.0 if k < Q.INNER_BY else pitch
-        kept = ring[k]
-        ring[k] = kept + _MOVE / scale
+        unmoved = ring[k]
+        ring[k] = unmoved + _MOVE / scale
         ring_forces(p, c, speed, load, offset, ring, v, 0.0, g1)
-        ring[k] = kept
+        ring[k] = unmoved
         for i in range(EQ.FREEDOMS):
             tilt = i >= Q.INNER_BY
             slope = (v[ST.FORCE + i] - g1[i]) / _MOVE * scale * (pitch if tilt else 1.0)

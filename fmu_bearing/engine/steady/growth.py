@@ -116,12 +116,12 @@ def factor_complex(re, im, n, m, order):
         order[k] = pivot
         if pivot != k:
             for j in range(n):
-                kept = re[k * m + j]
+                saved = re[k * m + j]
                 re[k * m + j] = re[pivot * m + j]
-                re[pivot * m + j] = kept
-                kept = im[k * m + j]
+                re[pivot * m + j] = saved
+                saved = im[k * m + j]
                 im[k * m + j] = im[pivot * m + j]
-                im[pivot * m + j] = kept
+                im[pivot * m + j] = saved
         pr = re[k * m + k] / best
         pi = -im[k * m + k] / best
         for i in range(k + 1, n):
@@ -149,12 +149,12 @@ def solve_factored(re, im, n, m, order, xr, xi):
     for k in range(n):
         pivot = int(order[k])
         if pivot != k:
-            kept = xr[k]
+            saved = xr[k]
             xr[k] = xr[pivot]
-            xr[pivot] = kept
-            kept = xi[k]
+            xr[pivot] = saved
+            saved = xi[k]
             xi[k] = xi[pivot]
-            xi[pivot] = kept
+            xi[pivot] = saved
     for k in range(n):
         for j in range(k):
             xr[k] -= re[k * m + j] * xr[j] - im[k * m + j] * xi[j]
@@ -166,9 +166,9 @@ def solve_factored(re, im, n, m, order, xr, xi):
         pr = re[k * m + k]
         pi = im[k * m + k]
         size = pr * pr + pi * pi
-        kept = (xr[k] * pr + xi[k] * pi) / size
+        real = (xr[k] * pr + xi[k] * pi) / size
         xi[k] = (xi[k] * pr - xr[k] * pi) / size
-        xr[k] = kept
+        xr[k] = real
 
 
 @kernel

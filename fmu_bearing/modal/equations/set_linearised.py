@@ -252,7 +252,7 @@ def _tie(run: Arrays, block: SetBlock) -> Tie:
     """Return what ties the bearings where the run starts: shaft, housing and sliding rings along the axis."""
     head, n = run.p[int(run.p[P.SET]) :], block.count
     own = run.s[int(head[SP.AT_S]) :]
-    lanes = SP.padded(n)
+    lanes = SP.padded_size(n)
     q, held = own[SP.S_HEAD : SP.S_HEAD + n], own[SP.S_HEAD + SP.HELD_LOAD * lanes :][:n]
     along = np.zeros(n, dtype=bool)
     along[0] = True  # the whole shaft's
@@ -325,7 +325,7 @@ def _turned(one: BearingArrays, at: Coordinates, phase: float) -> BearingArrays:
 def _matrix(p: NDArray[np.float64], place: int, rows: int, columns: int) -> NDArray[np.float64]:
     """Return a table of the block by its columns of padded rows."""
     block = int(p[P.SET])
-    lanes, first = SP.padded(rows), block + int(p[block + place])
+    lanes, first = SP.padded_size(rows), block + int(p[block + place])
     return np.asarray(p[first : first + lanes * columns].reshape(columns, lanes)[:, :rows].T.copy())
 
 

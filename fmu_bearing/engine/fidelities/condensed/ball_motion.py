@@ -77,10 +77,10 @@ def weigh_drives(lv, h):
 
 
 @kernel
-def move_balls(p, lv, h, alike, with_cosine, with_sine, w):
+def move_balls(p, lv, h, uniform, with_cosine, with_sine, w):
     """Move the balls across their tracks over a step ``h`` (s) to the places of rest of the last sweep.
 
-    ``alike``, ``with_cosine``, ``with_sine``: friction's drive by the rings' rolling at its end (m/s2), in
+    ``uniform``, ``with_cosine``, ``with_sine``: friction's drive by the rings' rolling at its end (m/s2), in
     the three patterns.
     """
     square, rate = lv[L.SIDE_SQUARE], lv[L.SIDE_RATE]
@@ -96,7 +96,7 @@ def move_balls(p, lv, h, alike, with_cosine, with_sine, w):
     k3, k4 = lv[L.OWN_KICK + _DRIVES - 2], lv[L.OWN_KICK + _DRIVES - 1]
     for j in range(0, int(p[P.LANES]), FOUR):
         rest, held = load(w, T.ASIDE + j), load(w, T.HELD + j)
-        rolled = alike + with_cosine * load(w, T.COS + j) - with_sine * load(w, T.SIN + j)
+        rolled = uniform + with_cosine * load(w, T.COS + j) - with_sine * load(w, T.SIN + j)
         end = square * rest + held * rolled
         now, before = load(lv, L.OWN_DRIVEN + j), load(lv, L.OWN_BEFORE + j)
         earlier, earliest = load(lv, L.OWN_EARLIER + j), load(lv, L.OWN_EARLIEST + j)
@@ -155,9 +155,9 @@ def show_moving(p, lv, limit, y, f):
         vx = per * ((v0 * x0 + v1 * x1) + (v2 * x2 + v3 * load(lv, L.X3 + j)) + v4 * load(lv, L.X4 + j))
         vr = per * ((v0 * r0 + v1 * r1) + (v2 * r2 + v3 * load(lv, L.R3 + j)) + v4 * load(lv, L.R4 + j))
         rates = (load(lv, L.SETTLED + j) >= known + 1.0) & (max(abs(vx), abs(vr)) <= limit)
-        told = select(rates, splat(1.0), splat(0.0))
-        vx, vr = told * vx, told * vr
-        ax, ar = told * bent * (x0 - 2.0 * x1 + x2), told * bent * (r0 - 2.0 * r1 + r2)
+        valid = select(rates, splat(1.0), splat(0.0))
+        vx, vr = valid * vx, valid * vr
+        ax, ar = valid * bent * (x0 - 2.0 * x1 + x2), valid * bent * (r0 - 2.0 * r1 + r2)
         place, velocity = load(lv, L.OWN_PLACE + j), load(lv, L.OWN_VELOCITY + j)
         held = load(lv, L.OWN_HELD + j)
         away = place - load(lv, L.OWN_REST + j)

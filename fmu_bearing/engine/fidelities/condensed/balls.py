@@ -42,7 +42,7 @@ _SOFT = 1e6  # N/m: moves count as if against this stiffness at most; loaded con
 
 
 @kernel
-def stand(p, c, lv, theta, rolled, inner_angle, outer_angle, speed, w):
+def set_angles(p, c, lv, theta, rolled, inner_angle, outer_angle, speed, w):
     """Cosines and sines of the balls' angles, height (m) of both races under each ball, its acceleration.
 
     ``theta``: angle of ball 0; all are evenly spaced; ``rolled``: angle by which the balls have turned (rad),
@@ -346,7 +346,7 @@ def accelerations(p, c, lv, angle, speed, speed_rate, q, w):
     """Accelerations of the rings at the trial state ``w[W.STAGE:]`` into ``w[W.F + F.BODY:]``; False if none.
 
     ``q``: scratch for ``L.COLUMN`` numbers. Balls, angles and race heights stand in the trial rows of ``w``
-    (:func:`stand`).
+    (:func:`set_angles`).
     """
     tau = p[P.CONTACT_DAMPING]
     for i in range(L.N):

@@ -39,10 +39,10 @@ def derivatives(p, c, lv, angle, speed, speed_rate, w):
         step = _MOVE if k < L.N else _RATE
         if is_angle(i):
             step /= lever
-        kept = w[at]
-        w[at] = kept + step
+        unmoved = w[at]
+        w[at] = unmoved + step
         fine = accelerations(p, c, lv, angle, speed, speed_rate, q, w)
-        w[at] = kept
+        w[at] = unmoved
         into = (L.JX if k < L.N else L.JV) + L.COLUMN * i
         for m in range(L.N):
             lv[into + m] = (w[W.F + F.BODY + m] - w[T.BASE + m]) / step

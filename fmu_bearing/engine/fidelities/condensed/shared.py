@@ -3,7 +3,7 @@
 import math
 
 from fmu_bearing.engine.constants import PI
-from fmu_bearing.engine.fidelities.condensed.balls import stand
+from fmu_bearing.engine.fidelities.condensed.balls import set_angles
 from fmu_bearing.engine.fidelities.condensed.held import hold, out_of_date
 from fmu_bearing.engine.fidelities.condensed.linearised import added_mass, at_rest, derivatives
 from fmu_bearing.engine.fidelities.condensed.modes import correct_modes
@@ -42,7 +42,7 @@ def even_spacing(p, lv):
 @kernel
 def flat(p, c, lv, w):
     """Angles at the start, and races without waves under balls of one size."""
-    stand(p, c, lv, 0.0, 0.0, 0.0, 0.0, 0.0, w)
+    set_angles(p, c, lv, 0.0, 0.0, 0.0, 0.0, 0.0, w)
     for i in range(2 * STRIDE):
         w[T.INNER + i] = 0.0
         w[T.BEND + i] = 0.0

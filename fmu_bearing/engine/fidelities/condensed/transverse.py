@@ -121,15 +121,15 @@ def find_transverse(p, c, lv, speed, w):
     for k in range(2 * L.N):
         i = L.SIDE_FOLLOW + k if k < L.N else L.SIDE_LEAD + k - L.N
         at = T.FOLLOW + k * T.FOLLOW_SIZE
-        alike = 0.0
+        uniform = 0.0
         with_cosine = 0.0
         with_sine = 0.0
         for j in range(int(p[P.BALLS])):
             aside = tx * w[at + j] + tr * w[at + STRIDE + j]
-            alike += aside
+            uniform += aside
             with_cosine += aside * w[T.COS + j]
             with_sine -= aside * w[T.SIN + j]
-        lv[i] = alike / pattern_weight(p, 0)
+        lv[i] = uniform / pattern_weight(p, 0)
         lv[i + L.COLUMN] = with_cosine / pattern_weight(p, 1)
         lv[i + 2 * L.COLUMN] = with_sine / pattern_weight(p, 2)
     guide(c, lv, w, T.CONTACT, Q.INNER, Q.INNER_BY, 0.5)

@@ -74,7 +74,7 @@ def combine(p, inverse, residual, out):
 
 
 @kernel
-def solve_modes(p, kept, stage, d, w):
+def solve_modes(p, flexure, stage, d, w):
     """Increments of the coordinates' accelerations at a stage.
 
     What they do to the balls is taken from the balls' residual ``d``.
@@ -91,7 +91,7 @@ def solve_modes(p, kept, stage, d, w):
     for race in range(2):
         if not bends(p, race):
             continue
-        groove_residual(ring_factors(kept, modes, race), d, lanes, p[P.BALLS], own)
+        groove_residual(ring_factors(flexure, modes, race), d, lanes, p[P.BALLS], own)
         for k in range(modes):
             mode = table + k * P.MODE_SIZE
             if int(p[mode + P.MODE_BODY]) == race:
@@ -99,7 +99,7 @@ def solve_modes(p, kept, stage, d, w):
                 cosine, sine = mode_force(p, mode, lanes, own, FL.MODES + i * STRIDE, 0.0)
                 own[residual + i] = own[found + i] - own[acc + i] - cosine / p[mode + P.MODE_MASS]
                 own[residual + i + 1] = own[found + i + 1] - own[acc + i + 1] - sine / p[mode + P.MODE_MASS]
-    combine(p, inverse_of_modes(kept, modes), own[residual:], own[out:])
+    combine(p, inverse_of_modes(flexure, modes), own[residual:], own[out:])
     for race in range(2):
         if not bends(p, race):
             continue
@@ -110,23 +110,23 @@ def solve_modes(p, kept, stage, d, w):
             if int(p[mode + P.MODE_BODY]) == race:
                 at = FL.MODES + 2 * k * STRIDE
                 spread(p, mode, lanes, own, at, own[out + 2 * k], own[out + 2 * k + 1])
-        ball_residual(ring_factors(kept, modes, race), d, lanes, own)
+        ball_residual(ring_factors(flexure, modes, race), d, lanes, own)
 
 
 @kernel
-def begin_modes(p, kept, w):
+def begin_modes(p, flexure, w):
     """Accelerations and velocities at the start of a step into the first stage's arrays."""
     if p[P.MODES] == 0.0:
         return
     count = 2 * int(p[P.MODES])
     own = w[W.FLEX :]
     for i in range(count):
-        own[FL.ACC + i] = kept[2 * count + i]
-        own[FL.VEL + i] = kept[count + i]
+        own[FL.ACC + i] = flexure[2 * count + i]
+        own[FL.VEL + i] = flexure[count + i]
 
 
 @kernel
-def predict_modes(p, kept, h, gh, stage, tableau, w):
+def predict_modes(p, flexure, h, gh, stage, tableau, w):
     """Coordinates of a stage from the stages before and its first guess of the accelerations."""
     count = 2 * int(p[P.MODES])
     own = w[W.FLEX :]
@@ -134,8 +134,8 @@ def predict_modes(p, kept, h, gh, stage, tableau, w):
     for i in range(count):
         guess = own[here - FL.COORDINATES + i]
         own[here + i] = guess
-        own[FL.V + i] = kept[count + i] + gh * guess
-        own[FL.Q + i] = kept[i]
+        own[FL.V + i] = flexure[count + i] + gh * guess
+        own[FL.Q + i] = flexure[i]
     for m in range(stage):
         a = h * TABLEAUX[tableau + TAB.A + stage * TAB.ROW + m]
         if a != 0.0:

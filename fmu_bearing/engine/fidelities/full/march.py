@@ -71,7 +71,7 @@ def inputs_differ(p, u, s, w, h):
         for i in range(C.USED):
             if wb[W.CONDITIONS + i] != sb[S.C + i]:
                 changed = True
-        if offset_rate(p, u, s, w, b, h) != own[members.kept(p, b) + SP.OFFSET_RATE]:
+        if offset_rate(p, u, s, w, b, h) != own[members.per_bearing(p, b) + SP.OFFSET_RATE]:
             changed = True
     return changed
 
@@ -93,7 +93,7 @@ def take_inputs(p, u, s, w, h):
         sb[S.SPEED_RATE] = rate
         if changed:
             along = offset_rate(p, u, s, w, b, h)
-            own[members.kept(p, b) + SP.OFFSET_RATE] = along
+            own[members.per_bearing(p, b) + SP.OFFSET_RATE] = along
             if members.parameters(p, b)[P.RIGID] != 0.0:
                 sb[S.Y + Y.V0] = along
             for i in range(C.USED):
@@ -226,14 +226,14 @@ def add_shaft_powers(p, own, ws, h, tableau):
 @kernel
 def accept_shaft(p, own, ws, tableau):
     """Move shaft and housing to the end of the step just made."""
-    n = members.padded(p)
+    lanes = members.padded_size(p)
     place = members.vector(p, SP.PLACE)
     rate = members.vector(p, SP.RATE)
     end = members.vector(p, int(TABLEAUX[tableau + TAB.COUNT]) - 1)
-    for i in range(n):
+    for i in range(lanes):
         own[SP.S_HEAD + i] = ws[place + i]
-        own[SP.S_HEAD + n + i] = ws[rate + i]
-        own[SP.S_HEAD + 2 * n + i] = ws[end + i]
+        own[SP.S_HEAD + lanes + i] = ws[rate + i]
+        own[SP.S_HEAD + 2 * lanes + i] = ws[end + i]
 
 
 @kernel
@@ -255,7 +255,7 @@ def accept_all(p, s, w, h, tableau):
         sb = members.state(p, s, b)
         accept(members.parameters(p, b), sb, members.work(p, w, b), h)
         control.follow_rings(sb, h)
-        own[members.kept(p, b) + SP.OFFSET] += h * own[members.kept(p, b) + SP.OFFSET_RATE]
+        own[members.per_bearing(p, b) + SP.OFFSET] += h * own[members.per_bearing(p, b) + SP.OFFSET_RATE]
     if together:
         accept_shaft(p, own, members.set_work(p, w), tableau)
         copy_rows(p, s, w)

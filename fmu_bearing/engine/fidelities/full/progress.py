@@ -56,9 +56,9 @@ def total_energy(p, s, w):
     own[SP.POWER_NOW] = work
     own[SP.POWER_NOW + 1] = bent
     own[SP.POWER_NOW + 2] = shaken
-    n = members.padded(p)
+    lanes = members.padded_size(p)
     total += shaft_energy(
-        p, own, own, SP.S_HEAD, SP.S_HEAD + n, members.set_work(p, w), members.vector(p, SP.FORCE)
+        p, own, own, SP.S_HEAD, SP.S_HEAD + lanes, members.set_work(p, w), members.vector(p, SP.FORCE)
     )
     return total
 

@@ -83,11 +83,11 @@ def correct(acc, lanes, gh, w):
 
 
 @kernel
-def keep_velocities(y, lanes, kept):
-    """Copy the rates of all places of a state into ``kept``, laid out like accelerations."""
-    copy_rows(y[Y.VX :], kept, Y.PLACES // STRIDE, lanes)
+def keep_velocities(y, lanes, out):
+    """Copy the rates of all places of a state into ``out``, laid out like accelerations."""
+    copy_rows(y[Y.VX :], out, Y.PLACES // STRIDE, lanes)
     for i in range(Q.SIZE):
-        kept[F.BODY + i] = y[Y.V0 + i]
+        out[F.BODY + i] = y[Y.V0 + i]
 
 
 @kernel

@@ -43,7 +43,7 @@ def settling(p, c, y, angle, speed, s, w):
     lanes = int(p[P.LANES])
     jac = s[S.JAC : S.FAC]
     fac = s[S.FAC : S.CONDENSED]
-    kept = s[flexure_state(p) :]
+    flexure = s[flexure_state(p) :]
     own = w[W.FLEX :]
     d = w[W.D : W.D + F.SIZE]
     f = w[W.F : W.F + F.SIZE]
@@ -51,13 +51,13 @@ def settling(p, c, y, angle, speed, s, w):
     hold_orbit(jac)
     # accelerations over a time of 1 s: the inertia beside the contacts' stiffness is 1e-11 then
     factor(p, jac, 0.0, 1.0, 1.0, fac, w)
-    factor_modes(p, jac, fac, y, 0.0, speed, 0.0, 1.0, kept, w)
+    factor_modes(p, jac, fac, y, 0.0, speed, 0.0, 1.0, flexure, w)
     right_hand_side(p, c, y, angle, speed, 0.0, w, f)
     for i in range(F.SIZE):
         d[i] = f[i] if i < F.TH else 0.0
     for i in range(2 * int(p[P.MODES])):
         own[FL.ACC + i] = 0.0
-    solve_modes(p, kept, 0, d, w)
+    solve_modes(p, flexure, 0, d, w)
     largest = 0.0
     for j in range(lanes):
         x = 0.0

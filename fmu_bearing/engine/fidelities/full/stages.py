@@ -35,7 +35,7 @@ def begin_stages(p, s, w):
     """Put the state into the first stage of every bearing and of the shaft."""
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
-    n = members.padded(p)
+    lanes = members.padded_size(p)
     for b in range(members.count(p)):
         pb = members.parameters(p, b)
         sb = members.state(p, s, b)
@@ -47,9 +47,9 @@ def begin_stages(p, s, w):
         flexible.begin_modes(pb, sb[flexure_state(pb) :], wb)
     acc = acceleration(p, 0)
     vel = velocity(p, 0)
-    for i in range(n):
-        ws[acc + i] = own[SP.S_HEAD + 2 * n + i]
-        ws[vel + i] = own[SP.S_HEAD + n + i]
+    for i in range(lanes):
+        ws[acc + i] = own[SP.S_HEAD + 2 * lanes + i]
+        ws[vel + i] = own[SP.S_HEAD + lanes + i]
 
 
 @kernel
@@ -110,21 +110,21 @@ def predict_shaft(p, s, w, h, gh, stage, tableau):
     """State of shaft and housing at a stage from those before, with a first guess of its accelerations."""
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
-    n = members.padded(p)
+    lanes = members.padded_size(p)
     place = members.vector(p, SP.PLACE)
     rate = members.vector(p, SP.RATE)
     here = acceleration(p, stage)
     last = acceleration(p, stage - 1)
     before = acceleration(p, max(stage - 2, 0))
     beyond = extrapolation(stage, tableau)
-    for i in range(n):
+    for i in range(lanes):
         guess = ws[last + i] + beyond * (ws[last + i] - ws[before + i])
         ws[here + i] = guess
         ws[place + i] = own[SP.S_HEAD + i]
-        ws[rate + i] = own[SP.S_HEAD + n + i] + gh * guess
+        ws[rate + i] = own[SP.S_HEAD + lanes + i] + gh * guess
     for m in range(stage):
         a = h * TABLEAUX[tableau + TAB.A + stage * TAB.ROW + m]
-        add_scaled(a, ws[acceleration(p, m) :], ws[rate:], n)
-        add_scaled(a, ws[velocity(p, m) :], ws[place:], n)
-    for i in range(n):
+        add_scaled(a, ws[acceleration(p, m) :], ws[rate:], lanes)
+        add_scaled(a, ws[velocity(p, m) :], ws[place:], lanes)
+    for i in range(lanes):
         ws[place + i] += gh * ws[rate + i]

@@ -162,7 +162,7 @@ def preload_set(p, u, s, w):
         place, status = cold_place(p, u, b, load, w)
         if status != OK:
             return status
-        at = members.kept(p, b)
+        at = members.per_bearing(p, b)
         own[at + SP.OFFSET_COLD] = place + p[r + SP.ROW_STICKOUT]
         own[at + SP.OFFSET] = own[at + SP.OFFSET_COLD] + offset_change(p, u, b)
         own[at + SP.OFFSET_RATE] = 0.0

@@ -115,7 +115,7 @@ def increments(p, s, w, own, ws, stage, gh, angle, speed):
     mine = acceleration(p, stage)
     place = members.vector(p, SP.PLACE)
     moving = members.vector(p, SP.RATE)
-    for i in range(members.padded(p)):
+    for i in range(members.padded_size(p)):
         d = ws[found + i]
         ws[mine + i] += d
         ws[moving + i] += gh * d
@@ -199,7 +199,7 @@ def keep_powers(p, s, w, stage, gh, speed, work, bent, shaken, ws):
     led = has_port(p)
     force = members.vector(p, SP.FORCE)
     if led:
-        clear(ws, force, members.padded(p))
+        clear(ws, force, members.padded_size(p))
     for b in range(members.count(p)):
         pb = members.parameters(p, b)
         wb = members.work(p, w, b)
@@ -231,7 +231,7 @@ def keep_powers(p, s, w, stage, gh, speed, work, bent, shaken, ws):
 def explicit_stage(p, s, w, stage, t):
     """Accelerations of an explicit stage: those just evaluated."""
     ws = members.set_work(p, w)
-    n = members.padded(p)
+    lanes = members.padded_size(p)
     angle = s[S.ANGLE] + t * (s[S.SPEED] + 0.5 * t * s[S.SPEED_RATE])
     speed = s[S.SPEED] + t * s[S.SPEED_RATE]
     for b in range(members.count(p)):
@@ -249,7 +249,7 @@ def explicit_stage(p, s, w, stage, t):
             flexible.take_accelerations(members.parameters(p, b), stage, wb)
     to = acceleration(p, stage)
     found = members.vector(p, SP.ACCELERATION)
-    for i in range(n):
+    for i in range(lanes):
         ws[to + i] = ws[found + i]
     if has_port(p):
         keep_push(p, ws, stage)
@@ -273,13 +273,13 @@ def first_powers(p, s, w):
 @kernel
 def nose_square(p, ws, found):
     """Square (m2/s2) of the nose's velocity by the vector of coordinates at ``ws[found:]``."""
-    n = members.padded(p)
+    lanes = members.padded_size(p)
     nose = members.table(p, SP.AT_NOSE)
     square = 0.0
     for i in range(Q.INNER_BY):
         total = 0.0
-        for k in range(n):
-            total += p[nose + i * n + k] * ws[found + k]
+        for k in range(lanes):
+            total += p[nose + i * lanes + k] * ws[found + k]
         square += total * total
     return square
 
@@ -288,15 +288,15 @@ def nose_square(p, ws, found):
 def shaft_estimate(p, w, h, tableau):
     """Put the difference of both solutions' rates to ``SP.INCREMENT``, times the mass to the residual."""
     ws = members.set_work(p, w)
-    n = members.padded(p)
+    lanes = members.padded_size(p)
     found = members.vector(p, SP.INCREMENT)
     residual = members.vector(p, SP.RESIDUAL)
-    for i in range(n):
+    for i in range(lanes):
         ws[found + i] = 0.0
         ws[residual + i] = 0.0
     for m in range(int(TABLEAUX[tableau + TAB.COUNT])):
         e = h * TABLEAUX[tableau + TAB.ERROR + m]
-        add_scaled(e, ws[acceleration(p, m) :], ws[found:], n)
+        add_scaled(e, ws[acceleration(p, m) :], ws[found:], lanes)
     members.add_product(p, members.table(p, SP.AT_MASS), 1.0, ws, found, ws, residual)
 
 
@@ -359,7 +359,7 @@ def runge_kutta_step(p, s, w, h, tableau, tolerance, probe, to_speed):
     gh = TABLEAUX[tableau + TAB.GAMMA] * h
     stages = int(TABLEAUX[tableau + TAB.COUNT])
     ws = members.set_work(p, w)
-    n = members.padded(p)
+    lanes = members.padded_size(p)
     report = w[W.REPORT : W.REPORT + W.REPORT_SIZE]
     together = members.has_shaft(p)
     begin_stages(p, s, w)
@@ -392,7 +392,7 @@ def runge_kutta_step(p, s, w, h, tableau, tolerance, probe, to_speed):
                 flexible.keep_mode_velocities(pb, stage, wb)
         to = velocity(p, stage)
         rate = members.vector(p, SP.RATE)
-        for i in range(n):
+        for i in range(lanes):
             ws[to + i] = ws[rate + i]
     last = W.ACC + (stages - 1) * F.SIZE
     for b in range(members.count(p)):

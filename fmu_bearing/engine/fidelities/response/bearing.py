@@ -1,7 +1,7 @@
 """One bearing's part of fidelity `response`: derivatives, its own lines, balls between the rings."""
 
 from fmu_bearing.engine.fidelities.condensed.ball_motion import move_balls
-from fmu_bearing.engine.fidelities.condensed.balls import carried, count_settled, stand
+from fmu_bearing.engine.fidelities.condensed.balls import carried, count_settled, set_angles
 from fmu_bearing.engine.fidelities.condensed.linearised import derivatives
 from fmu_bearing.engine.fidelities.condensed.rows import from_equilibrium, keep_balls, show_balls
 from fmu_bearing.engine.fidelities.condensed.shared import flat
@@ -162,7 +162,7 @@ def settle(p, s, ahead, near, w):
     c = s[S.C : S.C + C.SIZE]
     theta, rolled, angle, speed = angles_at(s, ahead)
     tau = p[P.CONTACT_DAMPING]
-    stand(
+    set_angles(
         p, c, lv, theta + tau * lv[L.RATIO] * speed, rolled, angle + tau * speed, lv[L.Q0 + L.TURN], speed, w,
     )  # fmt: skip
     q = w[T.Q : T.Q + L.COLUMN]

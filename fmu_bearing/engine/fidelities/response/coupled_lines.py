@@ -68,7 +68,7 @@ def add_drive(p, b, wb, drive, at, ws, side):
     n = members.coordinates(p)
     masses = members.row(p, b) + SP.ROW_MASS
     force = members.vector(p, SP.FORCE)
-    for i in range(members.padded(p)):
+    for i in range(members.padded_size(p)):
         ws[force + i] = 0.0
     for i in range(L.COLUMN):
         wb[T.D + i] = p[masses + i] * drive[at + i] if i < L.N else 0.0
@@ -88,7 +88,7 @@ def weight_of_set(p, w, omega, x):
     for b in range(members.count(p)):
         wb = members.work(p, w, b)
         for part in range(2):
-            members.moved(p, b, ws, x + part * members.padded(p), wb, T.D)
+            members.moved(p, b, ws, x + part * members.padded_size(p), wb, T.D)
             for i in range(L.TURN):
                 if not is_angle(i):
                     size += wb[T.D + i] ** 2
@@ -101,7 +101,7 @@ def keep_line(p, s, w, b, a, shaft, rolled, omega):
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
     n = members.coordinates(p)
-    lanes = members.padded(p)
+    lanes = members.padded_size(p)
     re = members.matrix(p)
     im = re + n * (n + 1)
     if not solve_complex(ws[re:im], ws[im : im + n * (n + 1)], n, n + 1):
@@ -140,7 +140,7 @@ def unbalance_line(p, s, w, speed):
         return
     ws = members.set_work(p, w)
     n = members.coordinates(p)
-    lanes = members.padded(p)
+    lanes = members.padded_size(p)
     spots = members.table(p, SP.AT_UNBALANCE)
     set_equations(p, s, w, speed, speed)
     re = members.matrix(p) + n
@@ -205,7 +205,7 @@ def line_phases(p, s, w, lines, first, many, ahead):
 def sum_set_lines(p, s, w, ahead):
     """Places, rates and accelerations of the coordinates at ``ahead`` (s) from the present time."""
     own = members.set_state(p, s)
-    lanes = members.padded(p)
+    lanes = members.padded_size(p)
     mean = members.history(p)
     lines = own[members.lines(p) :]
     size = members.line_size(p)

@@ -20,7 +20,7 @@ import math
 
 from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.dense import solve_complex
-from fmu_bearing.engine.fidelities.condensed.balls import carried, stand
+from fmu_bearing.engine.fidelities.condensed.balls import carried, set_angles
 from fmu_bearing.engine.fidelities.condensed.rows import component
 from fmu_bearing.engine.fidelities.condensed.transverse import pattern_answer, pattern_weight
 from fmu_bearing.engine.fidelities.response.ball_orders import form_of, form_orders
@@ -70,10 +70,10 @@ def sample_orbit(p, c, lv, speed, x, w):
     for i in range(L.N):
         q[i] = w[W.STAGE + Y.Q0 + i]
         w[T.AHEAD + i] = 0.0
-    kept = c[C.OVERSIZE_SCALE]
+    scale = c[C.OVERSIZE_SCALE]
     c[C.OVERSIZE_SCALE] = 0.0
     for part in range(parts):
-        stand(p, c, lv, 2.0 * PI * part / (balls * parts), 0.0, 0.0, 0.0, speed, w)
+        set_angles(p, c, lv, 2.0 * PI * part / (balls * parts), 0.0, 0.0, 0.0, speed, w)
         for kind in range(kinds):
             row = T.LEAN + (kind - LN.BY_LEAN) * STRIDE
             step = _LEAN
@@ -98,7 +98,7 @@ def sample_orbit(p, c, lv, speed, x, w):
                     if kind != LN.FORCE:
                         x[at] -= x[LN.SAMPLES + i * LN.AZIMUTHS + j * parts + part]
                         x[at] /= step
-    c[C.OVERSIZE_SCALE] = kept
+    c[C.OVERSIZE_SCALE] = scale
     return balls * parts
 
 

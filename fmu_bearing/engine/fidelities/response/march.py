@@ -53,18 +53,18 @@ def rest_from(p, s, w, speed, x, at):
     ws = members.set_work(p, w)
     mean = members.history(p)
     place = members.vector(p, SP.PLACE)
-    for i in range(members.padded(p)):
+    for i in range(members.padded_size(p)):
         ws[place + i] = x[at + i]
     show_guess(p, s, w, L.EVEN)
     found = at_rest(p, s, w, speed)
-    for i in range(members.padded(p)):
+    for i in range(members.padded_size(p)):
         own[mean + i] = ws[place + i] if found else x[at + i]
     for b in range(members.count(p)):
         lv = members.condensed(members.state(p, s, b))
         if found:
             keep_balls(members.work(p, w, b), lv, L.EVEN)
         members.moved(p, b, own, mean, lv, L.MEAN)
-        lv[L.MEAN] += own[members.kept(p, b) + SP.OFFSET]
+        lv[L.MEAN] += own[members.per_bearing(p, b) + SP.OFFSET]
     return found
 
 
@@ -115,7 +115,7 @@ def keep_ball_loads(p, s, w):
                 load += p[masses + i] * lv[L.MASS + i + L.COLUMN * k] * lv[L.A0 + k]
             for j in range(int(members.parameters(p, b)[P.BALLS])):
                 load -= wb[T.FORCE + i * STRIDE + j]
-            own[members.kept(p, b) + SP.LOAD + i] = load
+            own[members.per_bearing(p, b) + SP.LOAD + i] = load
 
 
 @kernel
@@ -137,7 +137,7 @@ def begin_at_start(p, s, w, speed):
     """Put the equilibrium to that of the start; a set comes to rest again with the balls' places there."""
     own = members.set_state(p, s)
     if not members.has_shaft(p):
-        for i in range(members.padded(p)):
+        for i in range(members.padded_size(p)):
             own[members.history(p) + i] = own[SP.S_HEAD + i]
         return
     ws = members.set_work(p, w)
@@ -148,7 +148,7 @@ def begin_at_start(p, s, w, speed):
             lv[L.EVEN + j] = sb[S.Y + Y.X + j]
             lv[L.EVEN_R + j] = sb[S.Y + Y.R + j]
     start = members.vector(p, SP.NEWMARK)
-    for i in range(members.padded(p)):
+    for i in range(members.padded_size(p)):
         ws[start + i] = own[SP.S_HEAD + i]
     rest_from(p, s, w, speed, ws, start)
 
@@ -185,7 +185,7 @@ def rest_at_inputs(p, s, w, speed):
     ws = members.set_work(p, w)
     held_rest = members.vector(p, SP.NEWMARK)
     found = start_vector(p, SP.UNKNOWNS)
-    for i in range(members.padded(p)):
+    for i in range(members.padded_size(p)):
         ws[held_rest + i] = ws[found + i] if i < members.coordinates(p) else 0.0
     held.take_offsets(p, own)
     if not rest_from(p, s, w, speed, own, members.history(p)):
@@ -279,7 +279,7 @@ def march_response(p, u, s, w, h):
             near = False
     renewed = held.set_inputs_of(p, u, s, w, h)
     for b in range(members.count(p)):
-        own[members.kept(p, b) + SP.OFFSET_RATE] = 0.0
+        own[members.per_bearing(p, b) + SP.OFFSET_RATE] = 0.0
     if renewed:
         near = False
         status = renew(p, u, s, w)

@@ -2,7 +2,7 @@
 
 import math
 
-from fmu_bearing.engine.fidelities.condensed.balls import accelerations, stand
+from fmu_bearing.engine.fidelities.condensed.balls import accelerations, set_angles
 from fmu_bearing.engine.fidelities.condensed.transverse import (
     add_transverse,
     begin_transverse,
@@ -19,13 +19,13 @@ _ITERATIONS = 6
 
 
 @kernel
-def stand_ahead(p, s, h, w):
+def set_angles_ahead(p, s, h, w):
     """Put balls and race heights to the end of a step ``h`` (s), with the rings at their trial places."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     speed = s[S.SPEED] + h * s[S.SPEED_RATE]
     turned = h * (s[S.SPEED] + 0.5 * h * s[S.SPEED_RATE])
     tau = p[P.CONTACT_DAMPING]
-    stand(
+    set_angles(
         p, s[S.C : S.C + C.SIZE], lv, lv[L.THETA] + lv[L.RATIO] * turned + tau * lv[L.RATIO] * speed,
         lv[L.ROLLED] + lv[L.ROLL] * turned, s[S.ANGLE] + turned + tau * speed,
         w[W.STAGE + Y.Q0 + L.TURN], speed, w,
@@ -66,7 +66,7 @@ def judge_correction(contraction, size, before, worst, n, probe, tolerance):
 
 
 @kernel
-def displace(p, own, ws, x, n, lanes, h):
+def displace(p, own, ws, vectors, n, lanes, h):
     """Add to the trial places what the change ``SP.INCREMENT`` of the accelerations moves them by.
 
     Modes above 2.45 radians per step make Newmark's method with the first two terms of beta unstable (see
@@ -77,7 +77,7 @@ def displace(p, own, ws, x, n, lanes, h):
     turned = members.vector_at(lanes, SP.FORCE)
     d = members.vector_at(lanes, SP.INCREMENT)
     place = members.vector_at(lanes, SP.PLACE)
-    squares = members.squares_at(x, lanes)
+    squares = members.squares_at(vectors, lanes)
     equations.answer(p, own, ws, squares, d, turned)
     predictor.displaced(ws, d, turned, place, lanes, h)
     if equations.bends(p):
@@ -88,14 +88,14 @@ def displace(p, own, ws, x, n, lanes, h):
 
 
 @kernel
-def predict(p, s, w, own, ws, x, n, lanes, h):
+def predict(p, s, w, own, ws, vectors, n, lanes, h):
     """Trial state at the end of a step ``h`` (s): coordinates, balls' places, what stands under them."""
     predictor.guess(
-        own, x - SP.MARCHED, x, lanes, h, ws, members.vector_at(lanes, SP.ACCELERATION),
+        own, vectors - SP.MARCHED, vectors, lanes, h, ws, members.vector_at(lanes, SP.ACCELERATION),
         members.vector_at(lanes, SP.INCREMENT), members.vector_at(lanes, SP.PLACE),
         members.vector_at(lanes, SP.NEWMARK),
     )  # fmt: skip
-    displace(p, own, ws, x, n, lanes, h)
+    displace(p, own, ws, vectors, n, lanes, h)
     together = members.has_shaft(p)
     for b in range(members.count(p)):
         pb = members.parameters(p, b)
@@ -108,11 +108,11 @@ def predict(p, s, w, own, ws, x, n, lanes, h):
             equations.show_trial(ws, wb)
         predictor.continue_places(lv, int(pb[P.LANES]), wb)
         begin_transverse(lv, h, wb)
-        stand_ahead(pb, sb, h, wb)
+        set_angles_ahead(pb, sb, h, wb)
 
 
 @kernel
-def true_rates(p, own, ws, x, n, lanes, h):
+def true_rates(p, own, ws, vectors, n, lanes, h):
     """Put the rates that dampers and gyroscopic moments see to ``SP.RATE``: see `predictor.true_velocities`.
 
     The rate of acceleration that the trial itself counts in makes modes about 3 radians per step unstable
@@ -122,17 +122,17 @@ def true_rates(p, own, ws, x, n, lanes, h):
     acc = members.vector_at(lanes, SP.ACCELERATION)
     newmark = members.vector_at(lanes, SP.NEWMARK)
     rate = members.vector_at(lanes, SP.RATE)
-    numbers = x - SP.MARCHED
+    numbers = vectors - SP.MARCHED
     if not equations.bends(p) or own[numbers + H.KNOWN] < 1.0:
-        predictor.true_velocities(own, numbers, x, lanes, h, ws, acc, newmark, rate)
+        predictor.true_velocities(own, numbers, vectors, lanes, h, ws, acc, newmark, rate)
         return
     for i in range(n):
-        change = own[x + H.A0 * lanes + i] - own[x + H.A1 * lanes + i]
+        change = own[vectors + H.A0 * lanes + i] - own[vectors + H.A1 * lanes + i]
         ws[rate + i] = ws[newmark + i] - h / 12.0 * change
 
 
 @kernel
-def residual_of(p, s, w, own, ws, x, n, lanes, h):
+def residual_of(p, s, w, own, ws, vectors, n, lanes, h):
     """Put what is out of balance at the trial state to ``SP.RESIDUAL``; False where balls find no rest."""
     rate = s[S.SPEED_RATE]
     speed = s[S.SPEED] + h * rate
@@ -140,7 +140,7 @@ def residual_of(p, s, w, own, ws, x, n, lanes, h):
     acc = members.vector_at(lanes, SP.ACCELERATION)
     residual = members.vector_at(lanes, SP.RESIDUAL)
     together = members.has_shaft(p)
-    true_rates(p, own, ws, x, n, lanes, h)
+    true_rates(p, own, ws, vectors, n, lanes, h)
     if together:
         place = members.vector_at(lanes, SP.PLACE)
         moving = members.vector_at(lanes, SP.RATE)
@@ -168,25 +168,25 @@ def residual_of(p, s, w, own, ws, x, n, lanes, h):
 
 
 @kernel
-def correct_once(p, s, w, own, ws, x, n, lanes, h):
+def correct_once(p, s, w, own, ws, vectors, n, lanes, h):
     """Correct the trial state by the residual; the size (m/s) of the correction."""
     d = members.vector_at(lanes, SP.INCREMENT)
     acc = members.vector_at(lanes, SP.ACCELERATION)
     newmark = members.vector_at(lanes, SP.NEWMARK)
     residual = members.vector_at(lanes, SP.RESIDUAL)
-    equations.answer(p, own, ws, members.inverse_at(x, n, lanes), residual, d)
+    equations.answer(p, own, ws, members.inverse_at(vectors, n, lanes), residual, d)
     for i in range(0, lanes, FOUR):
         change = load(ws, d + i)
         store(ws, acc + i, load(ws, acc + i) + change)
         store(ws, newmark + i, load(ws, newmark + i) + 0.5 * h * change)
-    displace(p, own, ws, x, n, lanes, h)
-    known = own[x - SP.MARCHED + H.KNOWN]
+    displace(p, own, ws, vectors, n, lanes, h)
+    known = own[vectors - SP.MARCHED + H.KNOWN]
     counts = 0.0 if equations.bends(p) and known >= 1.0 else predictor.last_counts(known)
     for b in range(members.count(p)):
         wb = members.work(p, w, b)
         members.moved(p, b, ws, d, wb, T.D)
         correct_transverse(members.condensed(members.state(p, s, b)), h, counts, wb)
-    return 0.5 * h * size_of(own, x + H.LEVERS * lanes, n, ws, d)
+    return 0.5 * h * size_of(own, vectors + H.LEVERS * lanes, n, ws, d)
 
 
 @kernel
@@ -194,17 +194,17 @@ def correct(p, s, w, h, tolerance, probe):
     """Trial state of a step by predictor and corrections; what the last leaves (m/s), or -1."""
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
-    x = members.history(p)
+    vectors = members.history(p)
     n = members.coordinates(p)
-    lanes = members.padded(p)
-    at = x - SP.MARCHED + H.CONTRACTION
-    predict(p, s, w, own, ws, x, n, lanes, h)
+    lanes = members.padded_size(p)
+    at = vectors - SP.MARCHED + H.CONTRACTION
+    predict(p, s, w, own, ws, vectors, n, lanes, h)
     before = 0.0
     worst = 0.0
     for k in range(_ITERATIONS):
-        if not residual_of(p, s, w, own, ws, x, n, lanes, h):
+        if not residual_of(p, s, w, own, ws, vectors, n, lanes, h):
             return -1.0
-        size = correct_once(p, s, w, own, ws, x, n, lanes, h)
+        size = correct_once(p, s, w, own, ws, vectors, n, lanes, h)
         s[S.NEWTON] += 1.0
         left, worst = judge_correction(own[at], size, before, worst, k, probe, tolerance)
         if left >= 0.0:

@@ -10,7 +10,7 @@ import math
 
 from fmu_bearing.engine.dense import times
 from fmu_bearing.engine.fidelities.condensed.ball_motion import carry_balls
-from fmu_bearing.engine.fidelities.condensed.balls import accelerations, stand
+from fmu_bearing.engine.fidelities.condensed.balls import accelerations, set_angles
 from fmu_bearing.engine.fidelities.condensed.linearised import derivatives, step_matrix
 from fmu_bearing.engine.fidelities.condensed.publish import publish
 from fmu_bearing.engine.fidelities.condensed.rows import show_balls
@@ -37,13 +37,15 @@ def bends(p):
 def show(p, s, w):
     """Put the march's places, true rates and accelerations to those of the set and of its bearings' rings."""
     own = members.set_state(p, s)
-    lanes = members.padded(p)
+    lanes = members.padded_size(p)
     numbers = members.march(p)
-    x = members.history(p)
+    vectors = members.history(p)
     for i in range(members.coordinates(p)):
-        own[SP.S_HEAD + i] = own[x + H.Q0 * lanes + i]
-        own[SP.S_HEAD + lanes + i] = own[x + H.V0 * lanes + i] - rate_error(own, numbers, x, lanes, i)
-        own[SP.S_HEAD + 2 * lanes + i] = own[x + H.A0 * lanes + i]
+        own[SP.S_HEAD + i] = own[vectors + H.Q0 * lanes + i]
+        own[SP.S_HEAD + lanes + i] = own[vectors + H.V0 * lanes + i] - rate_error(
+            own, numbers, vectors, lanes, i
+        )
+        own[SP.S_HEAD + 2 * lanes + i] = own[vectors + H.A0 * lanes + i]
     show_rings(p, s)
 
 
@@ -51,15 +53,15 @@ def show(p, s, w):
 def show_rings(p, s):
     """Put places, rates and accelerations of all rings to those that the set has."""
     own = members.set_state(p, s)
-    lanes = members.padded(p)
+    lanes = members.padded_size(p)
     for b in range(members.count(p)):
         lv = members.condensed(members.state(p, s, b))
-        mine = members.kept(p, b)
+        bearing_at = members.per_bearing(p, b)
         members.moved(p, b, own, SP.S_HEAD, lv, L.Q0)
         members.moved(p, b, own, SP.S_HEAD + lanes, lv, L.V0)
         members.moved(p, b, own, SP.S_HEAD + 2 * lanes, lv, L.A0)
-        lv[L.Q0] += own[mine + SP.OFFSET]
-        lv[L.V0] += own[mine + SP.OFFSET_RATE]
+        lv[L.Q0] += own[bearing_at + SP.OFFSET]
+        lv[L.V0] += own[bearing_at + SP.OFFSET_RATE]
 
 
 @kernel
@@ -119,9 +121,9 @@ def follow_trial(p, b, own, ws, wb, lanes, ahead):
     members.moved(p, b, ws, members.vector_at(lanes, SP.PLACE), wb, W.STAGE + Y.Q0)
     members.moved(p, b, ws, members.vector_at(lanes, SP.RATE), wb, W.STAGE + Y.V0)
     members.moved(p, b, ws, members.vector_at(lanes, SP.ACCELERATION), wb, T.A)
-    mine = members.kept(p, b)
-    wb[W.STAGE + Y.Q0] += own[mine + SP.OFFSET] + ahead * own[mine + SP.OFFSET_RATE]
-    wb[W.STAGE + Y.V0] += own[mine + SP.OFFSET_RATE]
+    bearing_at = members.per_bearing(p, b)
+    wb[W.STAGE + Y.Q0] += own[bearing_at + SP.OFFSET] + ahead * own[bearing_at + SP.OFFSET_RATE]
+    wb[W.STAGE + Y.V0] += own[bearing_at + SP.OFFSET_RATE]
 
 
 @kernel
@@ -162,7 +164,7 @@ def answer(p, own, ws, matrix, x, out):
     if not members.has_shaft(p):
         times(own, matrix, ws, x, ws, out)
         return
-    lanes = members.padded(p)
+    lanes = members.padded_size(p)
     for i in range(lanes):
         ws[out + i] = 0.0
     members.add_columns(own, matrix, lanes, members.coordinates(p), 1.0, ws, x, ws, out)
@@ -189,7 +191,7 @@ def differentiate(p, s, w):
     tau = p[P.CONTACT_DAMPING]
     speed = s[S.SPEED]
     theta = lv[L.THETA] + tau * lv[L.RATIO] * speed
-    stand(p, c, lv, theta, lv[L.ROLLED], s[S.ANGLE] + tau * speed, lv[L.Q0 + L.TURN], speed, w)
+    set_angles(p, c, lv, theta, lv[L.ROLLED], s[S.ANGLE] + tau * speed, lv[L.Q0 + L.TURN], speed, w)
     if not derivatives(p, c, lv, s[S.ANGLE], s[S.SPEED], s[S.SPEED_RATE], w):
         return False
     hold_across(p, lv, w)
@@ -251,7 +253,7 @@ def renew(p, s, w):
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
     n = members.coordinates(p)
-    lanes = members.padded(p)
+    lanes = members.padded_size(p)
     show(p, s, w)
     at = members.matrix(p)
     for b in range(members.count(p)):
@@ -285,7 +287,7 @@ def by_squares(p, own, ws, x, out):
         for k in range(n):
             total = 0.0
             for j in range(n):
-                total += ws[x + i * n + j] * own[squares + k * members.padded(p) + j]
+                total += ws[x + i * n + j] * own[squares + k * members.padded_size(p) + j]
             ws[out + i * n + k] = total
 
 
@@ -326,7 +328,7 @@ def restart_march(p, s, w):
         return False
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
-    lanes = members.padded(p)
+    lanes = members.padded_size(p)
     residual = members.vector(p, SP.RESIDUAL)
     found = members.vector(p, SP.ACCELERATION)
     shaft_forces(

@@ -92,8 +92,8 @@ def hold_bearing(p, u, b, load, s, w):
     c[C.LOAD_Z] = given[U.LOAD_Z]
     add_uneven(speed, sb, wb)
     own = members.set_state(p, s)
-    mine = members.kept(p, b)
-    own[mine + SP.HELD_OFFSET] = own[mine + SP.OFFSET_COLD] + offset_change(p, u, b)
+    bearing_at = members.per_bearing(p, b)
+    own[bearing_at + SP.HELD_OFFSET] = own[bearing_at + SP.OFFSET_COLD] + offset_change(p, u, b)
     return OK
 
 
@@ -130,19 +130,19 @@ def loads_apart(p, own):
 def exchange_offsets(p, own):
     """Exchange the offsets with those that the inputs ask for, kept in ``SP.HELD_OFFSET`` meanwhile."""
     for b in range(members.count(p)):
-        mine = members.kept(p, b)
-        now = own[mine + SP.OFFSET]
-        own[mine + SP.OFFSET] = own[mine + SP.HELD_OFFSET]
-        own[mine + SP.HELD_OFFSET] = now
+        bearing_at = members.per_bearing(p, b)
+        now = own[bearing_at + SP.OFFSET]
+        own[bearing_at + SP.OFFSET] = own[bearing_at + SP.HELD_OFFSET]
+        own[bearing_at + SP.HELD_OFFSET] = now
 
 
 @kernel
 def take_offsets(p, own):
     """Let the inner rings stand where temperatures hold them, without a ramp."""
     for b in range(members.count(p)):
-        mine = members.kept(p, b)
-        own[mine + SP.OFFSET] = own[mine + SP.HELD_OFFSET]
-        own[mine + SP.OFFSET_RATE] = 0.0
+        bearing_at = members.per_bearing(p, b)
+        own[bearing_at + SP.OFFSET] = own[bearing_at + SP.HELD_OFFSET]
+        own[bearing_at + SP.OFFSET_RATE] = 0.0
 
 
 @kernel
@@ -165,8 +165,8 @@ def hold_all(p, u, s, w):
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
     for b in range(members.count(p)):
-        mine = members.kept(p, b)
-        own[mine + SP.HELD_OFFSET] = own[mine + SP.OFFSET_COLD] + offset_change(p, u, b)
+        bearing_at = members.per_bearing(p, b)
+        own[bearing_at + SP.HELD_OFFSET] = own[bearing_at + SP.OFFSET_COLD] + offset_change(p, u, b)
     exchange_offsets(p, own)
     z = start_vector(p, SP.UNKNOWNS)
     for i in range(members.coordinates(p)):
@@ -229,7 +229,7 @@ def hold_from_zero(p, u, s, w, settled):
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
     speed = u[SP.U_SPEED]
-    for i in range(3 * members.padded(p)):
+    for i in range(3 * members.padded_size(p)):
         own[SP.S_HEAD + i] = 0.0
     status = hold_all(p, u, s, w)
     if status != OK:
@@ -292,11 +292,11 @@ def set_inputs_of(p, u, s, w, h):
         for i in range(C.USED):
             sb[S.C + i] = fresh[i]
         sb[S.SPEED_RATE] = rate
-        mine = members.kept(p, b)
-        own[mine + SP.OFFSET_RATE] = growth_rate(p, u, own, b, h)
+        bearing_at = members.per_bearing(p, b)
+        own[bearing_at + SP.OFFSET_RATE] = growth_rate(p, u, own, b, h)
         # the set's rest tells the load, see above
         fresh[C.PRELOAD] = lv[L.CONDITIONS + C.PRELOAD]
-        grown = own[mine + SP.OFFSET_COLD] + offset_change(p, u, b) - own[mine + SP.HELD_OFFSET]
+        grown = own[bearing_at + SP.OFFSET_COLD] + offset_change(p, u, b) - own[bearing_at + SP.HELD_OFFSET]
         if out_of_date(lv, fresh, speed) or abs(grown) > _GROWN:
             far = True
     return far

@@ -102,10 +102,10 @@ def try_step(p, s, w, h, tolerance):
     """One attempt of length ``h``: its error over the allowed one, or -1 with a fresh Jacobian in vain."""
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
-    lanes = members.padded(p)
+    lanes = members.padded_size(p)
     numbers = members.march(p)
-    x = members.history(p)
-    predictor.change_spacing(own, numbers, x, lanes, members.coordinates(p), h)
+    vectors = members.history(p)
+    predictor.change_spacing(own, numbers, vectors, lanes, members.coordinates(p), h)
     equations.share_march(p, s)
     for _ in range(2):
         if (
@@ -124,7 +124,7 @@ def try_step(p, s, w, h, tolerance):
         left = correct(p, s, w, h, _CORRECTION * tolerance, probe)
         if left >= 0.0:
             acc = members.vector(p, SP.ACCELERATION)
-            third = predictor.judged(own, numbers, x, lanes, ws, acc, members.vector(p, SP.INCREMENT))
+            third = predictor.judged(own, numbers, vectors, lanes, ws, acc, members.vector(p, SP.INCREMENT))
             return 0.01 * h * third / (_TRUNCATION * tolerance)
         if own[numbers + H.FRESH] != 0.0:
             return -1.0
@@ -153,18 +153,18 @@ def emit_shown(p, s, w, h):
 def accept(p, s, w, h):
     """Move the state to the end of the step ``h`` (s)."""
     own = members.set_state(p, s)
-    x = members.history(p)
-    lanes = members.padded(p)
+    vectors = members.history(p)
+    lanes = members.padded_size(p)
     predictor.move_on(
-        own, x, lanes, members.set_work(p, w), members.vector_at(lanes, SP.ACCELERATION),
+        own, vectors, lanes, members.set_work(p, w), members.vector_at(lanes, SP.ACCELERATION),
         members.vector_at(lanes, SP.PLACE), members.vector_at(lanes, SP.NEWMARK),
     )  # fmt: skip
-    count_step(own, x - SP.MARCHED)
+    count_step(own, vectors - SP.MARCHED)
     for b in range(members.count(p)):
         accept_balls(members.parameters(p, b), members.state(p, s, b), h, members.work(p, w, b))
         if members.has_shaft(p):
-            mine = members.kept(p, b)
-            own[mine + SP.OFFSET] += h * own[mine + SP.OFFSET_RATE]
+            bearing_at = members.per_bearing(p, b)
+            own[bearing_at + SP.OFFSET] += h * own[bearing_at + SP.OFFSET_RATE]
     equations.share_march(p, s)
     if p[P.SOUND_SIZE] != 0.0:
         emit_rings(p, s, w, h)

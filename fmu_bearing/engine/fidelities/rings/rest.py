@@ -19,7 +19,7 @@ _FLOOR = 2500.0  # 1/s2: (50 rad/s)^2 on soft directions, a hundredth of the low
 @kernel
 def find_levers(p, own):
     """Fill the levers: the most that a coordinate moves a ring or the nose, tilts at the pitch radius."""
-    lanes = members.padded(p)
+    lanes = members.padded_size(p)
     levers = members.history(p) + H.LEVERS * lanes
     if not members.has_shaft(p):
         for i in range(L.N):
@@ -44,7 +44,7 @@ def diagonal_mass(p, k):
     """Inertia of coordinate ``k`` with the rings it moves; one for the rings of a single bearing."""
     if not members.has_shaft(p):
         return 1.0
-    total = p[members.table(p, SP.AT_MASS) + k * members.padded(p) + k]
+    total = p[members.table(p, SP.AT_MASS) + k * members.padded_size(p) + k]
     for b in range(members.count(p)):
         r = members.row(p, b)
         t = int(p[r + SP.ROW_AT_T]) + k * SP.LANES
@@ -60,7 +60,7 @@ def forces_at_rest(p, s, w, speed):
     ws = members.set_work(p, w)
     place = members.vector(p, SP.PLACE)
     rate = members.vector(p, SP.RATE)
-    for i in range(members.padded(p)):
+    for i in range(members.padded_size(p)):
         ws[rate + i] = 0.0
         ws[members.vector(p, SP.ACCELERATION) + i] = 0.0
     shaft_forces(p, own, ws, place, rate, 0.0, 0.0, 0.0, ws, members.vector(p, SP.RESIDUAL))
@@ -68,7 +68,7 @@ def forces_at_rest(p, s, w, speed):
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)
         lv = members.condensed(sb)
-        follow_trial(p, b, own, ws, wb, members.padded(p), 0.0)
+        follow_trial(p, b, own, ws, wb, members.padded_size(p), 0.0)
         wb[W.STAGE + Y.V0] = 0.0
         if not derivatives(members.parameters(p, b), sb[S.C : S.C + C.SIZE], lv, 0.0, speed, 0.0, wb):
             return False
@@ -94,7 +94,7 @@ def rest_once(p, s, w, speed):
         return -1.0
     found = members.vector(p, SP.INCREMENT)
     answer(p, own, ws, members.inverse(p), members.vector(p, SP.RESIDUAL), found)
-    levers = members.history(p) + H.LEVERS * members.padded(p)
+    levers = members.history(p) + H.LEVERS * members.padded_size(p)
     longest = 0.0
     for i in range(n):
         longest = max(longest, own[levers + i] * abs(ws[found + i]))

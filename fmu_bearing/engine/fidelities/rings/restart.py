@@ -36,7 +36,7 @@ def begin_again(p, u, s, w):
     status = held.hold_from_zero(p, u, s, w, True)
     if status != OK:
         return status
-    predictor.forget(own, members.march(p), members.history(p), members.padded(p))
+    predictor.forget(own, members.march(p), members.history(p), members.padded_size(p))
     equations.share_march(p, s)
     for b in range(members.count(p)):
         forget_motion(members.condensed(members.state(p, s, b)))

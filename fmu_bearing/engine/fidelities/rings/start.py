@@ -1,6 +1,6 @@
 """How fidelity `rings` begins: where a bearing or a set rests on waves and unequal balls."""
 
-from fmu_bearing.engine.fidelities.condensed.balls import count_settled, stand
+from fmu_bearing.engine.fidelities.condensed.balls import count_settled, set_angles
 from fmu_bearing.engine.fidelities.condensed.rows import from_equilibrium, keep_balls
 from fmu_bearing.engine.fidelities.full.start import begin_means
 from fmu_bearing.engine.fidelities.rings import equations, held
@@ -23,7 +23,7 @@ def place_on_waves(p, s, w, speed):
     place = members.vector(p, SP.PLACE)
     found = False
     for again in range(2):
-        for i in range(members.padded(p)):
+        for i in range(members.padded_size(p)):
             ws[place + i] = own[SP.S_HEAD + i]
         for b in range(members.count(p)):
             sb = members.state(p, s, b)
@@ -34,7 +34,7 @@ def place_on_waves(p, s, w, speed):
             lv = members.condensed(sb)
             from_equilibrium(pb, lv, lv[L.THETA], wb)
             c = sb[S.C : S.C + C.SIZE]
-            stand(pb, c, lv, lv[L.THETA], lv[L.ROLLED], s[S.ANGLE], 0.0, speed, wb)
+            set_angles(pb, c, lv, lv[L.THETA], lv[L.ROLLED], s[S.ANGLE], 0.0, speed, wb)
         if again == 0:
             found = at_rest(p, s, w, speed)
         if found:
@@ -51,7 +51,7 @@ def begin_at_rest(p, s, w):
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
     place_on_waves(p, s, w, s[S.SPEED])
-    for i in range(members.padded(p)):
+    for i in range(members.padded_size(p)):
         own[members.history(p) + i] = ws[members.vector(p, SP.PLACE) + i]
     for b in range(members.count(p)):
         lv = members.condensed(members.state(p, s, b))

@@ -219,7 +219,13 @@ def keep_powers(p, s, w, stage, gh, speed, work, bent, shaken, ws):
             work += feel(p, b, pb, wb[W.STAGE : W.STAGE + Y.SIZE], acc, ws, at, force)
         else:
             work += growth_power(p, b, own, wb[W.F + F.BODY], acc[F.BODY])
-    if led:
+    put_powers(p, ws, stage, work, bent, shaken)
+
+
+@kernel
+def put_powers(p, ws, stage, work, bent, shaken):
+    """Write a stage's power in and heats of shaft and pedestal (W), and the force on the rotor at a port."""
+    if has_port(p):
         keep_push(p, ws, stage)
     power = SP.POWER + stage * SP.POWERS
     ws[power] = work
@@ -251,12 +257,7 @@ def explicit_stage(p, s, w, stage, t):
     found = members.vector(p, SP.ACCELERATION)
     for i in range(lanes):
         ws[to + i] = ws[found + i]
-    if has_port(p):
-        keep_push(p, ws, stage)
-    power = SP.POWER + stage * SP.POWERS
-    ws[power] = work
-    ws[power + 1] = bent
-    ws[power + 2] = shaken
+    put_powers(p, ws, stage, work, bent, shaken)
 
 
 @kernel

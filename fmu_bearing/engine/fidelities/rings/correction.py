@@ -96,16 +96,12 @@ def predict(p, s, w, own, ws, vectors, n, lanes, h):
         members.vector_at(lanes, SP.NEWMARK),
     )  # fmt: skip
     displace(p, own, ws, vectors, n, lanes, h)
-    together = members.has_shaft(p)
     for b in range(members.count(p)):
         pb = members.parameters(p, b)
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)
         lv = members.condensed(sb)
-        if together:
-            equations.follow_trial(p, b, own, ws, wb, lanes, h)
-        else:
-            equations.show_trial(ws, wb)
+        equations.follow_trial(p, b, own, ws, wb, lanes, h)
         predictor.continue_places(lv, int(pb[P.LANES]), wb)
         begin_transverse(lv, h, wb)
         set_angles_ahead(pb, sb, h, wb)
@@ -151,10 +147,7 @@ def residual_of(p, s, w, own, ws, vectors, n, lanes, h):
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)
         lv = members.condensed(sb)
-        if together:
-            equations.follow_trial(p, b, own, ws, wb, lanes, h)
-        else:
-            equations.show_trial(ws, wb)
+        equations.follow_trial(p, b, own, ws, wb, lanes, h)
         q = wb[T.Q : T.Q + L.COLUMN]
         fine = accelerations(pb, sb[S.C : S.C + C.SIZE], lv, angle, speed, rate, q, wb)
         add_transverse(pb, lv, wb)

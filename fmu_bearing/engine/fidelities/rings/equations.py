@@ -94,8 +94,8 @@ def publish_rings(p, s):
 
 
 @kernel
-def show_trial(ws, w):
-    """Do what `follow_trial` does, for a single bearing, whose coordinates are those of its rings."""
+def copy_trial(ws, w):
+    """Do what `follow_trial` does, for a single bearing, whose coordinates are its rings' own."""
     for i in range(0, L.COLUMN, FOUR):
         store(w, W.STAGE + Y.Q0 + i, load(ws, SP.W_HEAD + SP.PLACE * L.COLUMN + i))
     for i in range(0, L.COLUMN, FOUR):
@@ -116,8 +116,11 @@ def rings_residual(lv, w, ws, residual):
 def follow_trial(p, b, own, ws, wb, lanes, ahead):
     """Put trial places, rates and accelerations of the rings of bearing ``b`` into its work space ``wb``.
 
-    ``lanes``: of a vector of the coordinates; ``ahead``: time (s) from the state on.
+    ``ahead``: time (s) from the state on.
     """
+    if not members.has_shaft(p):
+        copy_trial(ws, wb)
+        return
     members.moved(p, b, ws, members.vector_at(lanes, SP.PLACE), wb, W.STAGE + Y.Q0)
     members.moved(p, b, ws, members.vector_at(lanes, SP.RATE), wb, W.STAGE + Y.V0)
     members.moved(p, b, ws, members.vector_at(lanes, SP.ACCELERATION), wb, T.A)

@@ -27,7 +27,7 @@ RaceControl = Literal["shared", "outer", "inner"]
 RACE_CONTROLS: tuple[RaceControl, ...] = get_args(RaceControl)
 SHARED_CONTROL, OUTER_CONTROL, INNER_CONTROL = range(len(RACE_CONTROLS))
 
-#: How the engine forms the channels of the sound filters, with the number that stands in the sound block:
+#: How the engine forms the channels of the sound filters, with its number in the sound block:
 #: the multi-source paper's magnitudes, accelerations, normal velocities at the contact points.
 ChannelForm = Literal["scalars", "vectors", "contacts"]
 CHANNEL_FORMS: dict[ChannelForm, int] = {"scalars": 1, "vectors": 2, "contacts": 3}

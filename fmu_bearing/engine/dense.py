@@ -58,9 +58,9 @@ def times(m, at, x, source, y, target):
 
 @kernel
 def pivot_row(a, at, n, width, k):
-    """Row, of those from ``k`` on, with the largest number in column ``k``.
+    """Row from ``k`` on with the largest number in column ``k``.
 
-    The ``n`` rows of ``width`` numbers stand at ``a[at:]``.
+    The ``n`` rows of ``width`` numbers begin at ``a[at:]``.
     """
     pivot = k
     for i in range(k + 1, n):
@@ -89,7 +89,7 @@ def subtract(a, one, factor, other, count):
 def eliminate(a, at, n):
     """Solve in place the ``n`` equations, rows of ``n + 1`` numbers at ``a[at:]``; False if singular.
 
-    Gauss-Jordan elimination with row pivoting; the solution stands in the last column.
+    Gauss-Jordan elimination with row pivoting; the last column takes the solution.
     """
     m = n + 1
     for k in range(n):

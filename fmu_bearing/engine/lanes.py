@@ -8,10 +8,10 @@ A kernel on four lanes reads like its formula for one ball and is always compile
 
 Arithmetic, comparisons, ``abs``, ``min``, ``max`` and ``math.sqrt`` act on each lane; a number beside four
 lanes counts for each of them; a comparison gives a mask for :func:`select`. Every operation is one of IEEE
-754, none is contracted and sums have a fixed order: the bits are those of the plain loop on any processor.
+754, none is contracted and sums have a fixed order: the bits equal those of the plain loop on any processor.
 
 Each operation is one template of its types and one instruction for LLVM, not an ``overload``, which Numba
-would compile anew for each kernel. The bodies of the functions here say what the operations mean; compiled
+would compile again for each kernel. The bodies of the functions here say what the operations mean; compiled
 kernels never run them.
 """
 
@@ -131,7 +131,7 @@ def _integer_beside_bits(context, builder, given, wanted, value):
 
 
 def _fits(given, wanted):
-    """Whether an argument may stand where ``wanted`` is asked for: scalars become four lanes."""
+    """Whether an argument serves where ``wanted`` is asked for: scalars become four lanes."""
     scalar = {four: types.Float, bits: types.Integer}.get(wanted, wanted)
     return given == wanted or isinstance(scalar, type) and isinstance(given, scalar)
 
@@ -249,7 +249,7 @@ def _row(array):
 def _place(context, builder, array, value, at, number):
     """Pointer to ``value[at]`` of an array."""
     if not _row(array):
-        raise TypeError(f"lanes stand in contiguous arrays of float64, not in {array}")
+        raise TypeError(f"lanes need contiguous arrays of float64, not {array}")
     position = context.data_model_manager[array].get_field_position("data")
     at = context.cast(builder, at, number, types.intp)
     return builder.gep(builder.extract_value(value, position), [at], inbounds=True)

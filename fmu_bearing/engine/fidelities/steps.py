@@ -74,7 +74,7 @@ def end_means(s, h):
     """Mean heats (W) and torque (N m) over the communication step ``h`` (s) since :func:`begin_means`.
 
     The torque is the shaft's work over the angle turned, so that mean torque times mean speed is the mean
-    power. Where the shaft stands or turns back, the work says nothing about the torque: there it is the
+    power. Where the shaft is still or turns back, the work says nothing about the torque: there it is the
     mean over time.
     """
     for i in range(3):

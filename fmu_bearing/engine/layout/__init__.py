@@ -7,7 +7,7 @@ After ``from fmu_bearing.engine.layout import P, S, W`` a kernel line shows whic
 module            as    array
 ================  ====  ==========================================================================
 ``sizes``               lengths that several arrays share, and `Places`, which hands out places
-``q``             Q     the bodies' 17 coordinates, wherever they stand
+``q``             Q     the bodies' 17 coordinates, in any array
 ``y``             Y     positions and velocities of the mechanics: head of ``s``, and each stage
 ``f``             F     right-hand side: accelerations, power, heat, torque
 ``c``             C     conditions held over a communication step
@@ -27,7 +27,7 @@ module            as    array
 ``equilibrium``   EQ    result of the quasi-static kernel
 ``statics``       ST    work space of the quasi-static kernels
 ``pattern``       PT    work space of the steady state of unequal balls
-``pose``          X     where a ball stands in a body's frame: rows of ``w``
+``pose``          X     where a ball is in a body's frame: rows of ``w``
 ``race``          R     contact of the balls with one race: rows of ``w``
 ``contact``       K     how a contact answers motion: scratch of the Jacobian in ``w``
 ``w``             W     work space: scratch, no value survives a call; its ledger of overlays
@@ -36,7 +36,7 @@ module            as    array
 ================  ====  ==========================================================================
 
 All arrays are one-dimensional, of float64, in SI units. Per-ball quantities are structures of arrays: the
-*row* of a quantity is the place of ball 0, ball j stands ``j`` places on, the next row ``STRIDE`` places on;
+*row* of a quantity is the place of ball 0, ball j is ``j`` places on, the next row ``STRIDE`` places on;
 one loop over balls is then one vector loop. Places are computed from sizes, never counted by hand.
 """
 

@@ -11,7 +11,7 @@ DIAGONAL = COLUMN + 1  # from one entry of a matrix's diagonal to the next
 MATRIX = COLUMN * N  # entry (i, k) at i + COLUMN * k
 VECTOR = 3  # numbers of a vector in space
 HISTORY = H.LENGTH  # places kept: now and at earlier steps
-PATTERNS = 3  # of the balls' motion that move the rings: alike, as cosine and as minus sine of their angle
+PATTERNS = 3  # of the balls' motion that move the rings: uniform, as cosine and as minus sine of their angle
 
 MOST_LINES = 384  # of fidelity response: a 7003C has 138 at 10,000 r/min; the last 100 weigh 4e-4 below 3,000
 # one line of fidelity response, in a table at the end of the state

@@ -1,4 +1,4 @@
-"""F: the right-hand side at one state. Accelerations stand in the order of the rates in ``y``."""
+"""F: the right-hand side at one state. Accelerations have the order of the rates in ``y``."""
 
 from fmu_bearing.engine.layout import q as Q
 from fmu_bearing.engine.layout.sizes import STRIDE, Places

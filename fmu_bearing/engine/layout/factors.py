@@ -1,6 +1,6 @@
-"""A: factors of the Newton matrix: those of the balls in groups of four lanes, then those of the bodies.
+"""A: factors of the Newton matrix: the balls' in groups of four lanes, then the bodies'.
 
-A group holds all that belongs to four balls. Each *entry* is four numbers, one per ball, and entries stand in
+A group holds all that belongs to four balls. Each *entry* is four numbers, one per ball, and entries have
 the order in which the solution reads them, so that it goes through memory from end to end.
 """
 

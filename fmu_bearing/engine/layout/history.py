@@ -5,7 +5,7 @@ Vectors follow each other in whole groups of four lanes, the spare ones with zer
 
 from fmu_bearing.engine.layout.sizes import Places
 
-LENGTH = 5  # accelerations kept: now and at earlier steps
+LENGTH = 5  # accelerations: now and at earlier steps
 
 _at = Places()
 HIGHEST = _at()  # rad/s: highest mode
@@ -27,6 +27,6 @@ A1 = _vector()  # and four steps before
 A2 = _vector()
 A3 = _vector()
 A4 = _vector()
-LEVERS = _vector()  # m or 1: what makes a coordinate a displacement; 0 where none stands
+LEVERS = _vector()  # m or 1: what makes a coordinate a displacement; 0 in spare lanes
 JERK = _vector()  # rates of acceleration, kept over a change of step
 VECTORS = _vector.next

@@ -1,6 +1,6 @@
 """LN: scratch of fidelity response while it renews its lines (``x`` in kernels).
 
-It stands from ``S.JAC`` on in ``s``, in the blocks of Jacobian and factors, which this fidelity does not need
+It begins at ``S.JAC`` in ``s`` and uses the blocks of Jacobian and factors, which this fidelity does not need
 then: forces of one ball on the rings, sampled round the orbit, and their circumferential orders. A complex
 vector is ``COMPONENTS`` real parts, then as many imaginary parts.
 """

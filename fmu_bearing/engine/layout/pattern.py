@@ -10,7 +10,7 @@ from fmu_bearing.engine.layout.sizes import MAX_BALLS, Places
 
 BALL = 6  # quantities of a ball: x, r (m), lead in its orbit (rad), absolute spin about x, r, theta (rad/s)
 PLACED = 3  # of which places
-# unknowns behind those of z balls, counted from BALL * z
+# unknowns behind the z balls' own, counted from BALL * z
 _tail = Places()
 BODIES = _tail(_Q.SIZE)  # m, rad
 ORBIT = _tail()  # rad/s: mean speed of the orbit

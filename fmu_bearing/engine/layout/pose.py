@@ -1,4 +1,4 @@
-"""X: where the balls stand in one body's frame and how fast they move there: rows of ``w`` per body."""
+"""X: where the balls are in one body's frame and how fast they move there: rows of ``w`` per body."""
 
 from fmu_bearing.engine.layout.sizes import STRIDE, Places
 

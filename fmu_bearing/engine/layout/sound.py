@@ -7,8 +7,8 @@
   order, ``SECTION`` numbers each: ``A_SECTIONS`` of A-weighting, ``BAND_SECTIONS`` of the third octaves,
   these with ``BAND_LANES`` bands side by side;
 * scalars that the papers' radiation models need to form their channels;
-* lane of each channel in the history: channels that the same microphones hear lie side by side, the unheard
-  last; once in the order of the channels, once in that in which they are formed (`formed`);
+* lane of each channel in the history: channels with paths to the same microphones lie side by side, channels
+  without a path last; once in the order of the channels, once in that in which they are formed (`formed`);
 * banks, ``BANK_SIZE`` numbers each: runs of neighbouring lanes, filtered side by side;
 * taps of the direct part: per bank ``BANK_TAPS`` rows (a multiple of ``FOUR``) of one number per lane, newest
   sample first; then runs, ``RUN_SIZE`` numbers each: neighbouring lanes that add to one output;
@@ -37,7 +37,7 @@ SECOND_TAPS = 71  # and of its second, to RATE
 FIRST_ROWS = FIRST_TAPS + 1  # samples that each stage keeps
 SECOND_ROWS = SECOND_TAPS + 1
 MIDDLE = FIRST_TAPS // 2 + HALF * (SECOND_TAPS // 2)  # motion samples by which the decimator is late
-TURNING = -MIDDLE % DECIMATION  # motion samples whose number leaves this rest stand in its middle once
+TURNING = -MIDDLE % DECIMATION  # motion samples whose number leaves this rest are in its middle once
 TURN_ROWS = -(-MIDDLE // DECIMATION)  # angles kept until then
 LATENCY = 88  # samples at RATE by which every pressure comes late: 1.72 ms
 COMPONENTS = ("inner_ring", "outer_ring", "cage", "balls")
@@ -145,7 +145,7 @@ SPAN_AT_SEGMENTS = _span()
 SPAN_FILTERS = _span()  # number of filters
 SPAN_AT_FILTERS = _span()
 SPAN_AT_TURNS = _span()  # cosines, then sines
-SPAN_AT_PAST = _span()  # what is kept of each lane
+SPAN_AT_PAST = _span()  # spectra of past inputs: PAST_SIZE numbers per lane
 SPAN_S_FUTURE = _span()  # in ss: the next block of outputs
 SPAN_SIZE = _span.next
 

@@ -1,11 +1,12 @@
 """SP: a set of bearings on one shaft: its block in ``p``, its inputs, state, outputs and work space.
 
-The arrays of a set hold those of its bearings one after the other, each as of a single bearing, and behind
-them the set's own: ``p`` its block, at ``p[P.SET]``; ``s``, ``w`` and ``z`` at the places told in the block.
-Its n coordinates are those of the shaft, then six of a housing that moves: x y z (m), rotation about X, tilts
-about y and z (rad) at X = 0, then the place of each sliding outer ring along its bearing's own axis. Vectors
-of them, and columns of their matrices, fill whole groups of four lanes, the spare ones with zeros. *Driven*
-rows of a bearing's bodies follow the coordinates: ``T q`` and an offset along the bearing's own axis.
+The arrays of a set hold the arrays of its bearings one after the other, each as of a single bearing, then the
+set's own part: in ``p`` its block, at ``p[P.SET]``; in ``s``, ``w`` and ``z`` at places that the block holds
+(``AT_S``, ``AT_W``, ``AT_Z``). Its n coordinates belong to the shaft, then to a housing that moves: x y z
+(m), rotation about X, tilts about y and z (rad) at X = 0; the last ones are the places of sliding outer rings
+along their bearings' own axes. Vectors of coordinates, and columns of their matrices, have `padded_size`
+numbers: whole groups of four lanes, the spare ones zero. *Driven* rows of a bearing's bodies follow the
+coordinates by ``T q`` (T constrains these degrees of freedom) and an offset along the bearing's own axis.
 """
 
 from fmu_bearing.engine.layout import condensed as _L, history as _H, p as _P, q as _Q, u as _U, z as _Z
@@ -13,7 +14,7 @@ from fmu_bearing.engine.layout.sizes import FOUR, STAGES, Places
 
 PLANE = _Q.OUTER  # coordinates of a plane of the shaft: x y z by bz
 HOUSING = _Q.CAGE - _Q.OUTER  # of a housing
-DRIVEN = _Q.RINGS  # rows that can be driven: those of both rings,
+DRIVEN = _Q.RINGS  # rows that can be driven: of both rings,
 LANES = -(-DRIVEN // FOUR) * FOUR  # in whole groups of four
 FIXED, SLIDING, PEDESTAL = range(3)  # seats
 TOUCHING, SPACER, SPRING = range(3)  # kinds of preload
@@ -36,7 +37,7 @@ SIZE_S = _at()  # lengths of s, w, z with all bearings
 SIZE_W = _at()
 SIZE_Z = _at()
 SIZE_U = _at()
-# tables, from the block's begin on; matrices by padded columns
+# tables, at places counted from the block's begin; matrices by padded columns
 AT_ROWS = _at()  # ROW numbers per bearing
 AT_MASS = _at()  # n x n, without rings that are driven
 AT_INVERSE = _at()  # n x n: inverse of the mass with them
@@ -82,7 +83,7 @@ ROW_POSITION = _row()  # m
 ROW_SEAT = _row()
 ROW_SHARE = _row()  # of the preload: its load over the preload asked
 ROW_STICKOUT = _row()  # m
-ROW_DRIVEN = _row()  # how many rows are driven: those of the inner ring, or of both
+ROW_DRIVEN = _row()  # how many rows are driven: of the inner ring, or of both
 ROW_MASS = _row(LANES)  # kg, kg m2: inertia of each of these
 ROW_AT_T = _row()  # their motion by columns of LANES
 ROW_COLUMNS = _row()  # how many of these are not zero,
@@ -142,7 +143,7 @@ Z_FORCE = len(BEARING_OUTPUTS)
 # behind the forces: microphones (z_mics), then levels of each bearing alone (z_alone)
 
 POWERS = 3
-# --- state: conditions held over a communication step and sums, then numbers per bearing and matrices -
+# --- state: conditions of a communication step, sums; then vectors, numbers per bearing, matrices ----
 _at = Places()
 NOSE = _at(PLANE)  # N, N m on the nose
 SPRING = _at()  # N: on each sliding ring
@@ -162,8 +163,8 @@ PORT_FORCE = _at(PLANE)  # N, N m: on the rotor at the state,
 PORT_IMPULSE = _at(PLANE)  # N s, N m s: since the communication step began,
 PORT_MEAN = _at(PLANE)  # N, N m: and over the last one
 S_HEAD = _at.next
-MOTION = 4  # vectors behind the head: places, rates, accelerations,
-HELD_LOAD = 3  # and loads on the nose and of springs as forces on the coordinates
+MOTION = 4  # vectors behind the head: places (m, rad), rates, accelerations,
+HELD_LOAD = 3  # N, N m: and loads on the nose and of springs as forces on the coordinates
 _bearing = Places()
 OFFSET = _bearing()  # m: along the bearing's own axis, of its inner ring from where the shaft puts it,
 OFFSET_RATE = _bearing()  # m/s,
@@ -218,7 +219,7 @@ START_PULL = _start(LANES)  # N, N m: on the driven rows
 START_MORE = _start()  # N: along the axis, by which the steady force exceeds the quasi-static one
 START_ECCENTRICITY = _start()  # m: set aside
 TURNED = 3 * LANES  # cosine and sine of a bearing's orbit angle since its Jacobian
-SCRATCH = max(TURNED + 2, _start.next)  # per bearing: its answer in driven rows, what drives them, scratch
+SCRATCH = max(TURNED + 2, _start.next)  # per bearing: its answer in driven rows, what drives them, other
 # equations: rows of one more than unknowns; then vectors
 _vector = Places()
 UNKNOWNS = _vector()  # m, rad
@@ -231,7 +232,7 @@ START_VECTORS = 1 + _vector.next  # with the right side
 
 
 def first(p, place):
-    """Place of the set's table that ``place`` of its block tells."""
+    """Place in ``p`` of the set's table that begins where ``place`` of its block says."""
     return int(p[_P.SET]) + int(p[int(p[_P.SET]) + place])
 
 
@@ -246,7 +247,7 @@ def inputs(p):
 
 
 def padded_size(count):
-    """Return ``count`` in whole groups of four."""
+    """Return how many numbers a vector of ``count`` coordinates has: whole groups of four."""
     return -(-count // FOUR) * FOUR
 
 
@@ -277,7 +278,7 @@ def z_mics(bearings):
 
 
 def z_alone(bearings, mics, bands):
-    """Place of the first microphone's levels of each bearing alone; those of the next one follow."""
+    """Place of the first microphone's levels of each bearing alone; the next microphone's follow."""
     return z_mics(bearings) + (_Z.PER_MIC + bands) * mics
 
 

@@ -1,8 +1,8 @@
 """T: work space of fidelities rings and response.
 
 Its rows are the first ones of the full force evaluation, which is not in use meanwhile. The trial numbers
-have places of their own. What is needed now and then (matrices, derivatives, lines) shares those of a
-Runge-Kutta step's stages.
+have places of their own. What is needed now and then (matrices, derivatives, lines) shares places with
+the stages of a Runge-Kutta step.
 """
 
 from fmu_bearing.engine.layout import condensed as _L, f as _F, jacobian as _J, lines as _LN, w as _W
@@ -94,7 +94,7 @@ DAMPER = _at(2 * BLOCK)  # 1/s: damping,
 HEAVY = _at(2 * BLOCK)  # and mass
 FULL_RE = _at(WHOLE)  # 1/s2: equations of a whirl by the full ones, rings and cage
 FULL_IM = _at(WHOLE)
-WHIRL_RE = _at(BLOCK)  # 1/s2: those of the rings alone, or of the condensed rings
+WHIRL_RE = _at(BLOCK)  # 1/s2: equations of the rings alone, or of the condensed rings
 WHIRL_IM = _at(BLOCK)
 MEAN_RE = _at(BLOCK)  # 1/s2: accelerations by the full equations, mean of both whirls
 MEAN_IM = _at(BLOCK)

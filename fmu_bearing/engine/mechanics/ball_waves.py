@@ -1,6 +1,6 @@
 """Waviness that turns with the ball: height of the ball's surface at its contacts, and what it does there.
 
-A ball carries a body-fixed unit axis a. Its surface stands h(e) = sum of A_n P_n(e . a) above the sphere in
+A ball carries a body-fixed unit axis a. Its surface is h(e) = sum of A_n P_n(e . a) above the sphere in
 the direction e (zonal harmonics, Legendre polynomials). With e from the ball into the race the approach
 gains h, and with G the gradient of h the contact pushes along the gradient of the whole approach:
 
@@ -29,7 +29,7 @@ def zonal(p, form, orders, x):
 
     ``form``: where their rows of ``P.FORM_ROW`` numbers begin (``prepare.surfaces.form_rows``). Legendre
     polynomials without their leading coefficients follow Q_(n+1) = x Q_n - n^2/(4 n^2 - 1) Q_(n-1); what they
-    leave out stands in the rows.
+    leave out is in the rows.
     """
     before = splat(1.0)
     here = x

@@ -146,7 +146,7 @@ def cage_body(p, c, y, f):
 def body_equations(p, c, y, angle, speed, speed_rate, w, f):
     """Turn the summed forces in the body rows of ``f`` into accelerations; add work and heat.
 
-    Tilts are those of a non-spinning frame: I_t b'' + I_p Omega x b' = moment.
+    Tilts belong to a non-spinning frame: I_t b'' + I_p Omega x b' = moment.
     """
     w[W.LANDS_ENERGY] = 0.0
     if p[P.CAGE] != 0.0:

@@ -20,7 +20,7 @@ def in_pocket(p, angle, turned, j, w):
 
     ``angle``: of the balls, ``turned``: of the cage (rad). Returns the offset along the cage's axis and
     around (m), its length, and the unit vectors along the bore and around, in the balls' orbiting axes. A
-    bore is fixed in the cage: its azimuth in the plane YZ is that of the cage, and it stands across the axis.
+    bore is fixed in the cage: its azimuth in the plane YZ is the cage's, and it runs across the axis.
     """
     pose = W.POSE + 2 * X.SIZE
     number = consecutive(j)

@@ -6,7 +6,7 @@ Coefficients are multiplied, not divided by: a division takes five times as long
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import from_bits, select, to_bits
 
-# 1.5 * 2^52: adding it to a number below 2^51 rounds to an integer, whose low bits then stand in the sum's.
+# 1.5 * 2^52: adding it to a number below 2^51 rounds to an integer, whose low bits are then the sum's.
 ROUND = 6755399441055744.0
 _LN2 = 0.6931471805599453
 _TWO_OVER_LN2 = 2.8853900817779268

@@ -1,7 +1,7 @@
 """Contact of the balls with one race: load, traction over strips, rolling resistance.
 
 The contact triad is (e_n, e_t, e_m): from the ball into the race, along rolling, along the major axis.
-Velocities are those of the ball's surface against the race's.
+Velocities: of the ball's surface against the race's.
 """
 
 import math

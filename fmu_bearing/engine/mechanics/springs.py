@@ -1,7 +1,7 @@
 """Springs and dampers between neighbouring balls in place of a cage (impact-noise paper, 1e5 to 2.5e7 N/m).
 
 Each joins the centres of two balls along their chord, in the plane of the balls, and is slack where balls
-stand evenly on the circle of their mean radius: a circle that grows stretches none. Pulls are equal and
+lie evenly on the circle of their mean radius: a circle that grows stretches none. Pulls are equal and
 opposite, so that balls that move together are free.
 """
 

@@ -141,7 +141,7 @@ def through_balls(fac, g, lanes, sums):
 def factor(p, jac, cv, cx, cx_ball, fac, w):
     """Factor I - cv Jv - cx Jx from the blocks ``jac`` into ``fac``; False if singular.
 
-    ``cx_ball`` stands for ``cx`` in the columns of the balls' places.
+    ``cx_ball`` takes the place of ``cx`` in the columns of the balls' places.
     """
     lanes = int(p[P.LANES])
     for j in range(0, lanes, FOUR):
@@ -202,7 +202,7 @@ def times_six(fac, at, x):
 
 @kernel
 def border_product(fac, w, d):
-    """Bodies' part of ``d`` from their residual in ``w``: S^-1 stands by columns of ``BORDER`` numbers."""
+    """Bodies' part of ``d`` from their residual in ``w``: S^-1 has columns of ``BORDER`` numbers."""
     for i in range(0, A.BORDER, FOUR):
         total = splat(0.0)
         for h in range(Q.SIZE):

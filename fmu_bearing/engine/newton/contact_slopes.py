@@ -1,4 +1,4 @@
-"""How force and moment on a ball change with its motion against one body: races and pockets alike.
+"""How force and moment on a ball change with its motion against one body, a race or a pocket.
 
 Each contact has three axes: e along the normal, t and m across it. Moving the ball along e presses it in;
 moving it across turns the whole contact: axes, velocities and force keep their components in axes that turn.
@@ -63,7 +63,7 @@ def levered(w, column, j, ball):
 
 @kernel
 def answers_to_motion(ball, gradient, bumps, stiffness, film, j, w):
-    """Fill the columns of velocity, spin and entrainment; return those of load and approach.
+    """Fill the columns of velocity, spin and entrainment; return the columns of load and approach.
 
     ``gradient`` of the approach by the ball's place; ``bumps``: slopes of the ball's own surface towards t
     and m; ``stiffness``: load by approach and by its rate, and logarithm of the ellipse by approach;
@@ -207,9 +207,9 @@ def own_spin(arm, w):
 
 @kernel
 def contact_columns(y, body, ball, contact, j, w):
-    """Fill all columns of a contact, in the ball's axes; those of traction are there.
+    """Fill all columns of a contact, in the ball's axes; the columns of traction are there.
 
-    ``ball``: its radius (m); ``contact``: as :func:`race_contact` and :func:`pocket_contact` tell it. That
+    ``ball``: its radius (m); ``contact``: as :func:`race_contact` and :func:`pocket_contact` give it. That
     is its axes; the gradient of the approach by the ball's place, and the ball's own slopes towards t and m;
     load by approach, load by its rate and logarithm of the ellipse by approach; load, and damping of a film
     along e and m; the body's axis; turns about it and about -t, by places along the three axes; change of
@@ -227,7 +227,7 @@ def contact_columns(y, body, ball, contact, j, w):
 
 @kernel
 def race_contact(p, c, y, race, turned, j, w):
-    """Tell :func:`contact_columns` of the contact with one race, turned by ``turned`` (rad).
+    """Return what :func:`contact_columns` needs of the contact with one race, turned by ``turned`` (rad).
 
     Left out: the change of a flexed groove's place and of a wavy ball's slope with the ball's own place, and
     that a flexed groove's slope does not turn with its ring; at most 4e-4 of the largest entries.
@@ -302,7 +302,7 @@ def pocket_traction(p, pressing, ut, um, j, w):
 
 @kernel
 def pocket_contact(p, c, y, turned, j, w):
-    """Tell :func:`contact_columns` of the contact with a pocket of the cage, turned by ``turned`` (rad).
+    """Return what :func:`contact_columns` needs of the contact with a pocket, turned by ``turned`` (rad).
 
     The columns of its friction are filled here.
     """

@@ -202,7 +202,7 @@ def turn_columns(y, body, turning, per, live, j, w, jac):
     about_ball = three(w, force + W.MX + j)
     own = three(y, Y.WX + j)
     whole_turn = added(own, scaled(-1.0, three(w, pose + X.DW + j)))
-    # the rate of the tilt itself is told in fixed axes and does not turn with the body
+    # the rate of the tilt itself is given in fixed axes and does not turn with the body
     tilting = added(whole_turn, scaled(-turning, n))
     v = added(three(w, pose + X.DV + j), cross(whole_turn, q))
     spin = added(own, scaled(-1.0, tilting))
@@ -220,7 +220,7 @@ def turn_columns(y, body, turning, per, live, j, w, jac):
             reacting = reaction(body, rate, j, w)
             body_column(per, live, k + Q.SIZE, motion + K.MOTIONS, rate, reacting, j, w, jac)
             if i > 0:
-                # a tilt leaves the angle about X from which the place along the body is told
+                # a tilt leaves the angle about X from which the place along the body counts
                 d = added(d, scaled(hx * dot(h, d), n))
             place = both(cross(d, on_ball), cross(d, about_ball))
             place = plus_scaled(place, 1.0, product(w, at + K.PLACE, cross(q, d)))
@@ -236,7 +236,7 @@ def turn_columns(y, body, turning, per, live, j, w, jac):
 
 @kernel
 def ball_columns(p, y, body, per, live, j, w, jac):
-    """Block D, and one body's share of B: the columns of a contact become those of the ball's nine states.
+    """Block D, and one body's share of B: from the columns of a contact to the ball's nine states.
 
     ``per``: see :func:`per_inertia`; ``live``: 0 for spare lanes, which follow ball 0 and put nothing on the
     bodies, else 1.
@@ -271,7 +271,7 @@ def ball_columns(p, y, body, per, live, j, w, jac):
                 share = live * w[at + K.PER_INERTIA + row]
                 value = load(w, at + K.REACTION + i * FOUR) * share
                 store(jac, J.D + (row * J.STATES + k) * STRIDE + j, value)
-    # the axes in which the ball's force is told turn with it, too
+    # the axes of the ball's force turn with it, too
     force = W.FORCE + body * W.FORCE_SIZE
     _, fr, ft = three(w, force + W.FX + j)
     _, mr, mt = three(w, force + W.MX + j)
@@ -311,7 +311,7 @@ def clear(p, jac, w):
 def jacobian(p, c, y, angle, speed, speed_rate, w, jac):
     """Fill the blocks B, C, D, E of ``jac`` at state ``y``, as ``layout.jacobian`` places them.
 
-    The right-hand side there stands at ``W.F0`` afterwards.
+    The right-hand side there is at ``W.F0`` afterwards.
     """
     lanes = int(p[P.LANES])
     right_hand_side(p, c, y, angle, speed, speed_rate, w, w[W.F0 : W.F0 + F.SIZE])

@@ -26,7 +26,7 @@ _ORBIT = 2  # row of a ball's accelerations
 def spring_matrix(p, cv, cx, fac, w):
     """Bodies' answers b_j and the matrix I - T G into ``fac`` (Z x Z at ``A.SPRING_BALLS``, to be inverted).
 
-    ``cv``, ``cx``: weights of velocity and position as in ``block_arrow.factor``, whose factors stand in
+    ``cv``, ``cx``: weights of velocity and position as in ``block_arrow.factor``, whose factors are in
     ``fac`` already.
     """
     balls = int(p[P.BALLS])

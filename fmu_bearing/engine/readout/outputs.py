@@ -169,7 +169,7 @@ def observe(p, s, z):
 
 @kernel
 def observe_motion(p, s, z, mics):
-    """All outputs but those of ``mics`` microphones, for which there is room."""
+    """All outputs but the microphones', for whose number ``mics`` room is left."""
     bodies(p, s, z)
     z[Z.TORQUE] = s[S.F + F.TORQUE]
     z[Z.MEAN_TORQUE] = s[S.MEAN_TORQUE]

@@ -23,7 +23,7 @@ def spread(p, x, y):
 
 @kernel
 def first_order(p, c, angle, speed, t, x, w, f, y, dx):
-    """Fill ``dx`` with the rates of ``x`` (SI) at ``t`` (s) after the shaft stood at ``angle`` (rad).
+    """Fill ``dx`` with the rates of ``x`` (SI) at ``t`` (s) after the shaft was at ``angle`` (rad).
 
     ``p`` parameters, ``c`` conditions, ``speed`` of the shaft (rad/s, constant); ``w``, ``f``, ``y`` scratch.
     """

@@ -2,12 +2,12 @@
 
 The first half takes from a motion sample the numbers that are decimated, its raw row; the second forms the
 channels at the lower rate. A ball's sound orbits with it: its signal times cosine and sine of multiples of
-its angle, summed over the balls, is what fixed filters need. The cosines are those of the sample in the
+its angle, summed over the balls, is what fixed filters need. The cosines belong to the sample in the
 decimator's middle. That the product comes behind the decimator and not before changes nothing but the
 decimator's response, taken at the frequency before the product: it is flat to 1e-4 up to 22 kHz, which
 leaves 2 kHz of shift, and what folds below is down by 84 dB.
 
-Which radiation model takes which form stands in `acoustics.registry`, the forms in `choices.CHANNEL_FORMS`.
+`acoustics.registry` gives the form of each radiation model, `choices.CHANNEL_FORMS` the forms.
 """
 
 import math

@@ -19,7 +19,7 @@ from fmu_bearing.engine.sound.transform import butterflies, fold, reversed_bits,
 
 @kernel
 def convolve(ps, ss, ws, place, count):
-    """Filter outputs of sample ``count``, whose lanes stand in row ``place`` of the history."""
+    """Filter outputs of sample ``count``, whose lanes are row ``place`` of the history."""
     n_out = int(ps[SD.H_OUTPUTS])
     out = ws[int(ps[SD.H_W_OUTPUTS]) : int(ps[SD.H_W_OUTPUTS]) + n_out]
     for i in range(n_out):

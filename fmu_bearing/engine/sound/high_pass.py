@@ -28,7 +28,7 @@ def high_pass(ps, ss, x, place, count):
         follow /= grown
         steer *= grown * grown
     if count == 0:
-        gain = 0.0  # the first sample is the mean of all so far, and tells no slope
+        gain = 0.0  # the first sample is the mean of all so far, and has no slope
         steer = 0.0
     state = int(ps[SD.H_S_HIGH_PASS])
     value = ss[state : state + n]

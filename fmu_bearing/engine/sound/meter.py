@@ -28,7 +28,7 @@ _TOTAL, _TOTAL_A = SD.M_LEVEL, SD.M_LEVEL_A
 
 @kernel
 def update(ps, ss, ws, time_weighting, metering_start):
-    """Move all meters by one sample; filter outputs stand in ``ws``."""
+    """Move all meters by one sample; filter outputs are in ``ws``."""
     gather(ps, ss, ws)
     follow(ps, ss, ws, time_weighting, metering_start)
 

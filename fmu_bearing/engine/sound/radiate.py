@@ -37,7 +37,7 @@ def push(ps, ss, ws, motion, time_weighting, metering_start):
 
 @kernel
 def filtered(ps, ss, ws, motion):
-    """Take one motion sample; whether it brings filter outputs at ``RATE``, which then stand in ``ws``.
+    """Take one motion sample; whether it brings filter outputs at ``RATE``, which are then in ``ws``.
 
     Whoever reads them counts them in ``SS_COUNT``. The decimator takes the first sample to have lasted for
     ever; for the high-pass see `high_pass`.

@@ -22,7 +22,7 @@ def reversed_bits(k, block):
 
 @kernel
 def butterflies(z, n, block, turns, sign):
-    """Transform ``block`` rows of ``n`` complex lanes in place; rows stand in bit-reversed order before.
+    """Transform ``block`` rows of ``n`` complex lanes in place; their order before is bit-reversed.
 
     ``turns``: cosines then sines of 2 pi k / (2 block), k = 0 .. block. ``sign`` is that of the exponent.
     """
@@ -51,7 +51,7 @@ def butterflies(z, n, block, turns, sign):
 
 @kernel
 def unfold(z, n, block, turns, out):
-    """Frequencies 0 .. ``block`` of the real signals whose folded transform stands in ``z``."""
+    """Frequencies 0 .. ``block`` of the real signals whose folded transform is in ``z``."""
     for k in range(block + 1):
         p = (k % block) * 2 * n
         q = ((block - k) % block) * 2 * n

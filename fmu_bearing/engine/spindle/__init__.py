@@ -1,12 +1,13 @@
 """Bearings together: arrays of each, shaft and housing, their joint equations, rest, sound and outputs.
 
-A bearing of a set keeps its arrays and kernels. Rows of its rings that follow shaft or housing are *driven*:
-their accelerations are those of the shaft. With the rest of the bearing condensed onto them, the shaft's
-equations are few and dense; what they find goes back into each bearing (substructures; Craig and Bampton 1968
-for the shaft's own coordinates). A single bearing is a set of one without shaft, coordinates and driven rows.
+A bearing of a set keeps its arrays and kernels. Rows of its rings that follow shaft or housing are *driven*
+(constrained degrees of freedom): their accelerations are the shaft's. With the rest of the bearing condensed
+onto them, the shaft's equations are few and dense; what they find goes back into each bearing (substructures;
+Craig and Bampton 1968 for the shaft's own coordinates). A single bearing is a set of one without shaft,
+coordinates and driven rows.
 
 =============  ==========================================================================
-``members``    arrays and numbers of one bearing; its motion with the shaft
+``members``    arrays and numbers of one bearing; its motion with the shaft; arguments of all kernels here
 ``shaft``      loads, springs, energy of shaft and housing
 ``port``       a shaft that another model owns
 ``inputs``     inputs as conditions of the bearings; what grows with temperature

@@ -5,8 +5,8 @@ forces that drive those rows by d from where they would go alone, d0, are m R^-1
 So the shaft has ``A ds = r_s + sum T^T (m r_I + m R^-1 d0)``, A its own matrix with sum T^T m R^-1 T, and
 then each bearing is solved with R^-1 (T ds - d0) as residual of its driven rows.
 
-Jacobians stand where the bearings were when they were made; each bearing's residual is turned back by the
-orbit angle since, the shaft's by that of the first bearing.
+Jacobians belong to the angles at which they were made; each bearing's residual is turned back by its orbit
+angle since, the shaft's by the first bearing's. Arguments: see `members`.
 """
 
 import math
@@ -31,13 +31,13 @@ from fmu_bearing.engine.spindle.shaft import feet, has_housing
 
 @kernel
 def tied(pb):
-    """Whether springs tie the balls together: the border alone does not tell the bearing's answers then."""
+    """Whether springs tie the balls together: the border alone does not give the bearing's answers then."""
     return (pb[P.SPRINGS] != 0.0) & (pb[P.CAGE] == 0.0)
 
 
 @kernel
 def driven_answers(p, b, pb, sb, wb, ws, at):
-    """Put the driven rows and columns of N^-1 of bearing ``b`` to ``ws[at:]``, row by row."""
+    """Put R, the driven rows and columns of N^-1, of bearing ``b`` to ``ws[at:]``, by rows."""
     r = members.row(p, b)
     count = int(p[r + SP.ROW_DRIVEN])
     fac = sb[S.FAC : S.CONDENSED]
@@ -193,7 +193,7 @@ def turned(sb, t):
 
 @kernel
 def turn_since(p, s, w, t):
-    """Keep cosine and sine of the bearings' orbit angles since their Jacobians, ``t`` (s) into the step."""
+    """Store cosine and sine of the bearings' orbit angles since their Jacobians, ``t`` (s) into the step."""
     ws = members.set_work(p, w)
     for b in range(members.count(p)):
         at = members.scratch(p, b) + SP.TURNED
@@ -212,7 +212,7 @@ def turn_driven(count, x, at, c, s):
 
 @kernel
 def turn_coordinates(p, x, at, c, s):
-    """Turn all pairs of the shaft's and the housing's coordinates: behind X they stand as y, z."""
+    """Turn all pairs of the shaft's and the housing's coordinates: y and z alternate behind X."""
     h = int(p[int(p[P.SET]) + SP.SHAFT])
     for i in range(1, h, 2):
         turn_pair(x, at + i, c, s)
@@ -223,10 +223,10 @@ def turn_coordinates(p, x, at, c, s):
 
 @kernel
 def answer_free(p, b, pb, sb, wb, own, ws):
-    """Solve bearing ``b`` with nothing driving its rows; add what it puts on the shaft to its residual.
+    """Solve bearing ``b`` with its driven rows free; add its forces on the shaft to the shaft's residual.
 
-    ``W.D`` of its work space ``wb`` holds the residual, in the end turned back and with zeros in driven rows;
-    its answers there stay in the set's scratch.
+    ``W.D`` of ``wb`` holds the bearing's residual, in the end turned back and zero in driven rows. Its
+    answers in these rows (d0) stay in its scratch.
     """
     r = members.row(p, b)
     count = int(p[r + SP.ROW_DRIVEN])
@@ -248,7 +248,7 @@ def answer_free(p, b, pb, sb, wb, own, ws):
         couple_springs(pb, fac, d, wb)
     for i in range(count):
         ws[at + i] = d[F.BODY + i]
-    # m R^-1 d0, told in fixed axes, with m r_I
+    # m R^-1 d0 in fixed axes, with m r_I
     for i in range(SP.LANES):
         ws[to + i] = 0.0
     answer = members.per_bearing(p, b) + SP.ANSWER
@@ -261,9 +261,9 @@ def answer_free(p, b, pb, sb, wb, own, ws):
 
 @kernel
 def answer_driven(p, b, pb, sb, wb, own, ws):
-    """Solve bearing ``b`` with its driven rows going where the shaft goes; the increment ends in ``W.D``.
+    """Solve bearing ``b`` with its driven rows following the shaft; the increment ends in ``W.D``.
 
-    What drives the rows, as accelerations, stays in the set's scratch behind ``SP.LANES``.
+    R^-1 (T ds - d0), the accelerations that drive the rows, stays in its scratch at ``SP.LANES``.
     """
     r = members.row(p, b)
     count = int(p[r + SP.ROW_DRIVEN])
@@ -290,7 +290,7 @@ def answer_driven(p, b, pb, sb, wb, own, ws):
         answer_alone(fac, lanes, d, wb)
         couple_springs(pb, fac, d, wb)
     else:
-        # the bodies' answer without what drives them stands there still
+        # the bodies' answer without what drives them is there still
         members.add_columns(fac, A.S, A.BORDER, count, 1.0, ws, driving, wb, W.BODIES)
         for g in range(Q.SIZE):
             d[F.BODY + g] = wb[W.BODIES + g]
@@ -318,7 +318,7 @@ def solve_shaft(p, own, ws):
 
 @kernel
 def solve_set(p, s, w):
-    """Solve Newton's equations in place; orbit angles are those kept by `turn_since`.
+    """Solve Newton's equations in place; `turn_since` has stored the orbit angles.
 
     Residuals: ``W.D`` of each bearing's work space (accelerations, driven rows as if free) and
     ``SP.RESIDUAL`` of the set's (N, N m). Increments: the same, and ``SP.INCREMENT``.

@@ -1,4 +1,4 @@
-"""Driven rows of the bearings' rings: places, rates and accelerations."""
+"""Driven rows of the bearings' rings: places, rates and accelerations. Arguments: see `members`."""
 
 from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.jit import kernel
@@ -10,7 +10,7 @@ from fmu_bearing.engine.spindle.shaft import shaft_forces, weighs
 
 @kernel
 def copy_rows(p, s, w):
-    """Put places and rates of all driven rows to those of shaft and housing in the state."""
+    """Put all driven rows to the places and rates that shaft and housing have in the state."""
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
     lanes = members.padded_size(p)
@@ -29,7 +29,7 @@ def copy_rows(p, s, w):
 
 @kernel
 def free_forces(p, b, pb, f, ws, at):
-    """Put forces on the driven rows to ``ws[at:]``, from what accelerations in ``f`` free rings have."""
+    """Put to ``ws[at:]`` the forces on driven rows: inertia times acceleration when free, from ``f``."""
     r = members.row(p, b)
     for i in range(SP.LANES):
         ws[at + i] = 0.0
@@ -39,7 +39,7 @@ def free_forces(p, b, pb, f, ws, at):
 
 @kernel
 def drive(p, b, f, ws, at):
-    """Put accelerations of the driven rows at ``ws[at:]`` into ``f``."""
+    """Put the accelerations ``ws[at:]`` of the driven rows into ``f``."""
     r = members.row(p, b)
     for i in range(int(p[r + SP.ROW_DRIVEN])):
         f[F.BODY + i] = ws[at + i]
@@ -47,20 +47,19 @@ def drive(p, b, f, ws, at):
 
 @kernel
 def growth_power(p, b, own, free, actual):
-    """Power (W) that a growing offset does: its rate times the force that drives the inner ring along x.
+    """Power (W) of a growing offset: its rate times the force that drives the inner ring along x.
 
-    ``free``: acceleration that balls and springs give the ring, ``actual``: that which it has (m/s2).
+    ``free``: acceleration that balls and springs give the ring, ``actual``: its true one (m/s2).
     """
-    return (
-        own[members.per_bearing(p, b) + SP.OFFSET_RATE] * p[members.row(p, b) + SP.ROW_MASS] * (actual - free)
-    )
+    rate = own[members.per_bearing(p, b) + SP.OFFSET_RATE]
+    return rate * p[members.row(p, b) + SP.ROW_MASS] * (actual - free)
 
 
 @kernel
 def keep_load(p, b, pb, own, ws, at):
-    """Keep what the inner ring of bearing ``b`` puts on its balls; free forces on its rows at ``ws[at:]``.
+    """Store the load of the inner ring of bearing ``b`` on its balls, from `free_forces` at ``ws[at:]``.
 
-    The moment has that of the turning ring's tilt, too (gyroscopic, some 1e-4 N m).
+    The moment contains the gyroscopic one of the turning ring's tilt, too (some 1e-4 N m).
     """
     bearing_at = members.per_bearing(p, b)
     for i in range(SP.PLANE):
@@ -71,12 +70,13 @@ def keep_load(p, b, pb, own, ws, at):
 
 @kernel
 def accelerate(p, s, w, stage, t, angle, speed, rate):
-    """From free rings to driven ones: accelerations of shaft and housing, put into all right-hand sides.
+    """Find the accelerations of shaft and housing and put the driven rows' into all right-hand sides.
 
-    Evaluated are all bearings at the state (``stage`` False: rows ``S.F``), or at the stage (``W.F``), ``t``
-    (s) into the step. The set's accelerations go to the state, or to ``SP.ACCELERATION`` of its work space;
-    the force on the rotor at a port to the state, or to ``SP.FORCE``. Returns work, heats of shaft and
-    pedestal (W); work of growing offsets and of a rotor at the port included.
+    The right-hand sides were evaluated as if all rings were free: at the state (``stage`` False: ``S.F``), or
+    at the stage ``t`` (s) into the step (``W.F``). The set's accelerations go to the state, or to
+    ``SP.ACCELERATION`` of its work space; the force on the rotor at a port to the state, or to ``SP.FORCE``.
+    Returns power in and the heats of shaft and pedestal (W); with the power of growing offsets and of a rotor
+    at the port.
     """
     own = members.set_state(p, s)
     ws = members.set_work(p, w)

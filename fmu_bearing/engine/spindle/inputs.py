@@ -1,4 +1,7 @@
-"""Inputs of a set as conditions of its bearings, of shaft and housing; what grows with temperature."""
+"""Inputs of a set as conditions of its bearings, of shaft and housing; what grows with temperature.
+
+Arguments: see `members`.
+"""
 
 import math
 
@@ -16,7 +19,7 @@ _PEDESTAL = 1e8  # N/m: of a ring that is held, so read by nothing
 
 @kernel
 def bearing_inputs(p, u, b, out):
-    """Put the inputs of bearing ``b`` to ``out``, as a single one takes them; shaft and spacers load it."""
+    """Put the ``U.SIZE`` inputs of bearing ``b`` as a single one to ``out``; shaft and spacers load it."""
     if not members.has_shaft(p):
         for i in range(U.SIZE):
             out[i] = u[i]
@@ -55,7 +58,7 @@ def offset_change(p, u, b):
 
 @kernel
 def loads_differ(p, u, own):
-    """Whether loads on the nose, force of springs or the housing's pedestal are others than those held."""
+    """Whether loads on the nose, force of springs or the housing's pedestal differ from the state's."""
     if not members.has_shaft(p):
         return False
     if own[SP.SPRING] != u[SP.U_PRELOAD]:
@@ -103,7 +106,7 @@ def set_inputs_usable(p, u):
 
 @kernel
 def spread_choices(p):
-    """Give all bearings the parameters that are tunable before initialisation: those of the first."""
+    """Copy the parameters that are tunable before initialisation from the first bearing to the others."""
     for b in range(1, members.count(p)):
         pb = members.parameters(p, b)
         for i in range(P.TUNABLE):

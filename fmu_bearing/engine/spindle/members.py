@@ -1,4 +1,32 @@
-"""Arrays and numbers of one bearing of a set, and how shaft and housing move its driven rows."""
+"""Arrays and numbers of one bearing of a set, and how shaft and housing move its driven rows.
+
+Kernels of sets, here and in ``fidelities``, have these arguments. Arrays are one-dimensional, of float64, in
+SI units. A vector is given as an array and the place of its first number: ``x[at:]``, ``out[to:]``.
+
+===================  =====================================================================================
+``p``                parameters of all bearings, then the set's block at ``p[P.SET]``; of one: ``pb``
+``u``                inputs: ``SP.INPUTS``, then ``SP.BEARING_INPUTS`` of each bearing
+``s``                states of all bearings, then the set's own; of one: ``sb``
+``w``                work spaces of all bearings, then the set's own; of one: ``wb``
+``z``                outputs of all bearings, then the set's own; of one: ``zb``
+``own``, ``ws``      the set's own state and work space (`set_state`, `set_work`); without a shaft: see there
+``lv``               what fidelities rings and response keep of one bearing (`condensed`), layout ``L``
+``c``, ``y``, ``f``  of one bearing: conditions, state, right-hand side; layouts ``C``, ``Y``, ``F``
+``b``                number of a bearing, from 0; ``r``: place of its numbers in ``p`` (`row`)
+``n``, ``lanes``     coordinates (`coordinates`), and how many numbers their vectors have (`padded_size`)
+``q``, ``v``         where places (m, rad) and rates (m/s, rad/s) of the coordinates begin
+``at``               unless said otherwise, begin of a bearing's scratch in ``ws`` (`scratch`)
+``bearing_at``       begin of a bearing's numbers in ``own`` (`per_bearing`)
+``angle``, ``rate``  of the shaft (rad, rad/s2); ``speed``: rad/s
+``h``, ``t``         length of a step (s); time since its begin (s)
+``gh``               weight of rates in a stage (s): diagonal entry of the method times ``h``
+===================  =====================================================================================
+
+Vectors of the coordinates have ``lanes`` numbers, zero from the n-th on: m and rad, m/s and rad/s, m/s2 and
+rad/s2, or N and N m. Matrices of the coordinates have n columns of ``lanes`` numbers in ``p`` and ``own``, n
+rows of n numbers in ``ws``. Vectors of a bearing's driven rows have ``SP.LANES`` numbers: inner ring x y z by
+bz, then the outer ring's x y z, rotation, by bz where it is driven, then zeros.
+"""
 
 from fmu_bearing.engine.choices import FULL
 from fmu_bearing.engine.jit import kernel
@@ -18,7 +46,7 @@ def count(p):
 def coordinates(p):
     """Return how many coordinates shaft, housing and sliding rings have.
 
-    A single bearing has those of its rings in fidelities rings and response, none in full.
+    A single bearing has its rings' own in fidelities rings and response, none in full.
     """
     if p[P.ALONE] != 0.0:
         return 0 if p[P.FIDELITY] == FULL else L.N
@@ -41,14 +69,14 @@ def padded_size(p):
 
 @kernel
 def table(p, place):
-    """Begin in ``p`` of the set's table that ``place`` of its block tells."""
+    """Place in ``p`` of the set's table that ``place`` names, such as ``SP.AT_MASS``."""
     block = int(p[P.SET])
     return block + int(p[block + place])
 
 
 @kernel
 def row(p, b):
-    """Begin in ``p`` of the numbers of bearing ``b``."""
+    """Place in ``p`` of the numbers ``SP.ROW_P`` and so on of bearing ``b``."""
     return table(p, SP.AT_ROWS) + b * SP.ROW
 
 
@@ -81,7 +109,7 @@ def work(p, w, b):
 
 @kernel
 def condensed(sb):
-    """Return what fidelity rings keeps of a bearing with the state ``sb``."""
+    """Return ``lv``, what fidelities rings and response keep in a bearing's state: ``L.SIZE`` numbers."""
     return sb[S.CONDENSED : S.CONDENSED + L.SIZE]
 
 
@@ -96,7 +124,7 @@ def outputs(p, z, b):
 
 @kernel
 def set_state(p, s):
-    """Return the set's own state."""
+    """Return the set's own state, ``SP.NOSE`` and so on; of a single bearing from ``S.SET`` on."""
     if p[P.ALONE] != 0.0:
         return s[S.SET :]
     return s[int(p[int(p[P.SET]) + SP.AT_S]) :]
@@ -104,7 +132,7 @@ def set_state(p, s):
 
 @kernel
 def set_work(p, w):
-    """Return the set's own work space."""
+    """Return the set's own work space, ``SP.INPUT`` and so on; of a single bearing from ``W.SET`` on."""
     if p[P.ALONE] != 0.0:
         return w[W.SET :]
     return w[int(p[int(p[P.SET]) + SP.AT_W]) :]
@@ -112,43 +140,43 @@ def set_work(p, w):
 
 @kernel
 def per_bearing(p, b):
-    """Begin in the set's own state of what it keeps of bearing ``b``."""
+    """Place in the set's own state of the numbers ``SP.OFFSET`` and so on of bearing ``b``."""
     return SP.S_HEAD + SP.MOTION * padded_size(p) + b * SP.PER_BEARING
 
 
 @kernel
 def inverse(p):
-    """Begin in the set's own state of the inverse Newton matrix."""
+    """Place in the set's own state of the inverse Newton matrix, by columns."""
     return SP.S_HEAD + SP.MOTION * padded_size(p) + count(p) * SP.PER_BEARING
 
 
 @kernel
 def march(p):
-    """Begin in the set's own state of what its march by Newmark's method keeps (fidelity rings)."""
+    """Place in the set's own state of the ``SP.MARCHED`` numbers of its march by Newmark's method."""
     return inverse(p) + coordinates(p) * padded_size(p)
 
 
 @kernel
 def history(p):
-    """Begin in the set's own state of the march's vectors."""
+    """Place in the set's own state of the march's vectors, ``H.VECTORS`` of them."""
     return march(p) + SP.MARCHED
 
 
 @kernel
 def squares(p):
-    """Begin in the set's own state of the march's matrix B^-1 J_x."""
+    """Place in the set's own state of the march's matrix B^-1 J_x (1/s2), by columns."""
     return squares_at(history(p), padded_size(p))
 
 
 @kernel
 def alone(p, b):
-    """Begin in the set's own state of mean squares (Pa2) of bearing ``b`` alone, one per microphone."""
+    """Place in the set's own state of mean squares (Pa2) of bearing ``b`` alone, one per microphone."""
     return squares(p) + coordinates(p) * padded_size(p) + b * int(p[P.MICS])
 
 
 @kernel
 def lines(p):
-    """Begin in the set's own state of its lines (fidelity response)."""
+    """Place in the set's own state of its lines, `line_size` numbers each (fidelity response)."""
     return alone(p, count(p))
 
 
@@ -166,37 +194,37 @@ def z_mics(p):
 
 @kernel
 def scratch(p, b):
-    """Begin in the set's own work space of bearing ``b``'s numbers."""
+    """Place in the set's own work space of bearing ``b``'s ``SP.SCRATCH`` numbers."""
     return SP.W_HEAD + SP.VECTORS * padded_size(p) + b * SP.SCRATCH
 
 
 @kernel
 def matrix(p):
-    """Begin in the set's own work space of a matrix of the shaft's equations, or of the start's."""
+    """Place in the set's own work space of the matrix of the shaft's equations, or of the start's."""
     return SP.W_HEAD + SP.VECTORS * padded_size(p) + count(p) * SP.SCRATCH
 
 
 @kernel
 def vector(p, k):
-    """Begin in the set's own work space of vector ``k``: ``SP.PLACE`` and those behind it."""
+    """Place in the set's own work space of vector ``k``: ``SP.PLACE`` and so on, or a stage's number."""
     return vector_at(padded_size(p), k)
 
 
 @kernel
 def vector_at(lanes, k):
-    """As `vector`, for vectors of ``lanes`` numbers: inner loops need not read places from ``p`` again."""
+    """As `vector`, for vectors of ``lanes`` numbers: inner loops need not read sizes from ``p`` again."""
     return SP.W_HEAD + k * lanes
 
 
 @kernel
 def squares_at(vectors, lanes):
-    """As `squares`, for a history at ``x``."""
+    """As `squares`, for the march's vectors at ``vectors``."""
     return vectors + H.VECTORS * lanes
 
 
 @kernel
 def inverse_at(vectors, n, lanes):
-    """As `inverse`, for ``n`` coordinates and a history at ``x``."""
+    """As `inverse`, for ``n`` coordinates and the march's vectors at ``vectors``."""
     return vectors - SP.MARCHED - n * lanes
 
 
@@ -225,7 +253,7 @@ def add_columns(m, at, lanes, count, scale, x, first, out, to):
 
 @kernel
 def moved(p, b, x, at, out, to):
-    """Put what coordinates ``x[at:]`` do to driven rows of bearing ``b`` to ``LANES`` numbers of ``out``."""
+    """Put ``T x[at:]``, the motion of bearing ``b``'s driven rows with the coordinates, to ``out[to:]``."""
     if not has_shaft(p):
         for i in range(0, SP.LANES, FOUR):
             store(out, to + i, load(x, at + i))
@@ -249,10 +277,7 @@ def moved(p, b, x, at, out, to):
 
 @kernel
 def pull(p, b, forces, at, out, to):
-    """Add to ``out[to:]`` what forces on the driven rows of bearing ``b`` do to the coordinates.
-
-    ``forces[at:]``: ``LANES`` numbers, spare ones zero.
-    """
+    """Add ``T^T forces[at:]``, of bearing ``b``'s driven rows, to the coordinates' forces ``out[to:]``."""
     if not has_shaft(p):
         for i in range(0, SP.LANES, FOUR):
             store(out, to + i, load(out, to + i) + load(forces, at + i))

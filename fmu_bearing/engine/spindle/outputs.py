@@ -1,4 +1,4 @@
-"""From the state of a set to its outputs: those of every bearing, told in shaft axes, and the shaft's."""
+"""From the state of a set to its outputs: every bearing's, in shaft axes, and the shaft's."""
 
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, P, Q, S, Z
@@ -11,7 +11,7 @@ from fmu_bearing.engine.spindle.sound import levels_of_set
 
 @kernel
 def mirror(pb, sign, z):
-    """Turn what bearings with ``sign`` -1 tell along their own axis into shaft axes."""
+    """Turn outputs along a bearing's own axis into shaft axes, where its ``sign`` is -1."""
     if sign > 0.0:
         return
     for place in (Z.INNER_VELOCITY, Z.OUTER_VELOCITY, Z.CAGE_VELOCITY, Z.INNER_PLACE, Z.OUTER_PLACE):

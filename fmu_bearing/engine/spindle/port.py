@@ -2,7 +2,7 @@
 
 The shaft's coordinates are then given, by a cubic (Hermite) polynomial over each communication step; housing
 and sliding rings stay unknown. Mass and weight of the inner rings are the rotor's: its equations have them,
-the force at the port has neither.
+the force at the port has neither. Arguments: see `members`.
 """
 
 from fmu_bearing.engine.constants import GRAVITY
@@ -20,7 +20,7 @@ def has_port(p):
 
 @kernel
 def take_motion(p, u, s, own, h):
-    """Lead the shaft from where it is to place and rate of ``u`` in ``h`` (s)."""
+    """Find the polynomial that takes the shaft to place and rate of ``u`` in ``h`` (s)."""
     lanes = members.padded_size(p)
     own[SP.PORT_BEGIN] = s[S.TIME]
     for i in range(SP.PLANE):
@@ -58,7 +58,7 @@ def led_acceleration(own, s, t, out, to):
 
 @kernel
 def lead_stage(p, s, w, stage, t):
-    """Put the shaft and the inner rings at a stage, ``t`` (s) into the step, where they are led."""
+    """Put the shaft and the inner rings to the port's motion at a stage, ``t`` (s) into the step."""
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
     since = s[S.TIME] - own[SP.PORT_BEGIN] + t
@@ -93,7 +93,7 @@ def lead_stage(p, s, w, stage, t):
 
 @kernel
 def hold_rows(x, at, count, width):
-    """Take the shaft out of ``count`` equations at ``x[at:]``, rows of ``width``: it moves by itself."""
+    """Take the shaft, whose motion is given, out of ``count`` equations at ``x[at:]``, rows of ``width``."""
     for i in range(SP.PLANE):
         for k in range(count):
             x[at + i * width + k] = 0.0
@@ -105,8 +105,9 @@ def hold_rows(x, at, count, width):
 def feel(p, b, pb, y, acc, ws, at, to):
     """Add the force of bearing ``b`` on the rotor to ``ws[to:]``; returns the rotor's power (W).
 
-    ``ws[at:]``: forces that free rings of the bearing would feel, overwritten; ``y``, ``acc``: its state and
-    accelerations. Without inertia and weight of the inner ring, which the power has.
+    ``ws[at:]``: `free_forces` of its rings (N, N m), overwritten; ``y``, ``acc``: its state (`layout.y`) and
+    accelerations (`layout.f`). The force is without inertia and weight of the inner ring, the power with
+    both.
     """
     r = members.row(p, b)
     power = 0.0
@@ -122,14 +123,14 @@ def feel(p, b, pb, y, acc, ws, at, to):
 
 @kernel
 def clear(x, at, count):
-    """Put ``count`` numbers to zero."""
+    """Put ``count`` numbers at ``x[at:]`` to zero."""
     for i in range(count):
         x[at + i] = 0.0
 
 
 @kernel
 def keep_push(p, ws, stage):
-    """Keep the force on the rotor at ``SP.FORCE`` as that of a stage."""
+    """Store the force on the rotor, at ``SP.FORCE``, as the stage's."""
     force = members.vector(p, SP.FORCE)
     for i in range(SP.PLANE):
         ws[SP.PUSH + stage * SP.PLANE + i] = ws[force + i]
@@ -137,7 +138,7 @@ def keep_push(p, ws, stage):
 
 @kernel
 def observe_port(p, own, z, at):
-    """Fill the port's outputs of the set's own at ``z[at:]``."""
+    """Fill the port's outputs; ``at``: place of the set's own in ``z``."""
     if not has_port(p):
         return
     for i in range(SP.PLANE):

@@ -2,6 +2,10 @@
 
 Unknowns: coordinates of shaft, housing and sliding rings, places x y z and tilts of each ring on a pedestal
 of its own. Contacts are springs: a step is judged by the force along it, which must not turn round.
+
+``z``, ``g``, ``step``: places in the set's own work space of vectors of `unknowns` numbers: the unknowns (m,
+rad), the forces out of balance at them (N, N m), a step of the unknowns. Each bearing's part of the scratch
+has ``SP.START_RING`` and what follows it. Other arguments: see `members`.
 """
 
 import math
@@ -28,7 +32,7 @@ _FINE = 1e-6  # of the forces: what may stay out of balance
 
 @kernel
 def on_pedestal(p, b):
-    """Whether the outer ring of bearing ``b`` stands on a pedestal of its own."""
+    """Whether the outer ring of bearing ``b`` is on a pedestal of its own."""
     return p[members.row(p, b) + SP.ROW_SEAT] == SP.PEDESTAL
 
 
@@ -58,7 +62,7 @@ def first_unknown(p, b):
 
 @kernel
 def start_vector(p, k):
-    """Begin of the ``k``-th vector of the start behind its equations; each has whole groups of lanes."""
+    """Place in the set's own work space of the start's ``k``-th vector; each has whole groups of lanes."""
     count = unknowns(p)
     apart = (count + FOUR - 1) // FOUR * FOUR
     return members.matrix(p) + count * (count + 1) + k * apart
@@ -66,13 +70,13 @@ def start_vector(p, k):
 
 @kernel
 def outer_row(i):
-    """Row of the outer ring that goes with row ``i`` of the inner one: its own rotation is left out."""
+    """Row of the outer ring for row ``i`` of the inner one, which has no rotation about its axis."""
     return i if i < Q.TURN else i + 1
 
 
 @kernel
 def put_rings(p, b, ws, own, z):
-    """Places of the rings of bearing ``b`` for the unknowns at ``ws[z:]`` into its scratch."""
+    """Put the places of the rings of bearing ``b`` for the unknowns ``ws[z:]`` into its scratch."""
     r = members.row(p, b)
     at = members.scratch(p, b)
     members.moved(p, b, ws, z, ws, at + SP.START_PULL)
@@ -95,7 +99,7 @@ def put_rings(p, b, ws, own, z):
 
 @kernel
 def ring_motion(p, b, i, out, to):
-    """How the inner ring of bearing ``b`` moves against the outer one in row ``i`` with all unknowns."""
+    """Put to ``out[to:]`` how row ``i`` of inner against outer ring, bearing ``b``, moves by each unknown."""
     n = members.coordinates(p)
     r = members.row(p, b)
     t = int(p[r + SP.ROW_AT_T])
@@ -112,7 +116,7 @@ def ring_motion(p, b, i, out, to):
 
 @kernel
 def weights(p, pb):
-    """Weight (N) of the inner ring, and of the outer one with balls and cage, which lie on it."""
+    """Weight (N) of the inner ring, and of the outer ring with the balls and the cage that it carries."""
     if not weighs(p):
         return 0.0, 0.0
     lying = pb[P.OUTER_MASS] + pb[P.BALLS] * pb[P.BALL_MASS]
@@ -212,7 +216,10 @@ def forces_at(p, s, w, speed, z, g):
 
 @kernel
 def equations(p, s, w, damping):
-    """Stiffness of all unknowns at the bearings settled last, with ``damping`` (N/m), in rows of one more."""
+    """Put the stiffness matrix of all unknowns to `members.matrix`, by rows of one number more.
+
+    With the bearings as they were settled last, and ``damping`` (N/m) times each unknown's inertia.
+    """
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
     n = members.coordinates(p)
@@ -258,7 +265,7 @@ def equations(p, s, w, damping):
 
 @kernel
 def inertia(p, i):
-    """Inertia of unknown ``i`` over that of the shaft along its axis: what makes forces and moments alike."""
+    """Inertia of unknown ``i`` over the shaft's along its axis; it makes forces and moments comparable."""
     if i < members.coordinates(p):
         return p[members.table(p, SP.AT_SCALE) + i]
     for b in range(members.count(p)):
@@ -313,9 +320,9 @@ def newton_step(p, s, w, g, step, damping):
 
 @kernel
 def give_at_nose(p, s, w, j, to):
-    """Put how a unit load on row ``j`` of the nose moves it to ``to``, by rows; False if singular.
+    """Put to ``ws[to:]``, by rows, how far a unit load on row ``j`` of the nose moves it; False if singular.
 
-    All else follows, the bearings as stiff as where they were settled last.
+    Shaft, housing and rings give way, the bearings with the stiffness where they were settled last.
     """
     ws = members.set_work(p, w)
     count = unknowns(p)
@@ -337,7 +344,7 @@ def give_at_nose(p, s, w, j, to):
 
 @kernel
 def keep_stiffness(p, s, w):
-    """Keep the stiffness of the shaft at X = 0 where the bearings were settled last; zeros if there is none.
+    """Store the stiffness of the shaft at X = 0 where the bearings were settled last; zeros if singular.
 
     Axial and radial with its other motions held, against a tilt with the shaft free to move aside.
     """
@@ -362,7 +369,7 @@ def keep_stiffness(p, s, w):
 
 @kernel
 def rest(p, s, w, speed):
-    """Bring the unknowns to rest; status code. Bearings are left settled where they then stand."""
+    """Bring the unknowns to rest; status code. Bearings are left settled where their rings then are."""
     ws = members.set_work(p, w)
     count = unknowns(p)
     z = start_vector(p, SP.UNKNOWNS)

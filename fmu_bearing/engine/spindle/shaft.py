@@ -1,4 +1,4 @@
-"""Shaft and housing: loads, unbalance, springs, dampers, energy."""
+"""Shaft and housing: loads, unbalance, springs, dampers, energy. Arguments: see `members`."""
 
 import math
 
@@ -16,15 +16,16 @@ def has_housing(p):
 
 @kernel
 def weighs(p):
-    """Whether weight counts: the first bearing's parameters tell, as for all choices of the scene."""
+    """Whether weight counts: a choice of the scene, as such read from the first bearing's parameters."""
     return p[P.GRAVITY] != 0.0
 
 
 @kernel
 def feet(p, stiffness, at, x, first, scale, out, to):
-    """Add ``scale`` times what the pedestal answers to the housing's motion ``x[first:]`` to ``out[to:]``.
+    """Add to ``out[to:]`` the pedestal's matrix times ``scale`` and the housing's motion ``x[first:]``.
 
-    ``stiffness[at:]``: along x y z, about x y z, in the pedestal's plane; motion and forces at X = 0.
+    Six numbers each. ``stiffness[at:]``: stiffness or damping along x y z, about x y z, in the pedestal's
+    plane; motion and forces at X = 0.
     """
     lever = p[int(p[P.SET]) + SP.HOUSING_X]
     across = scale * stiffness[at + Q.Y] * (x[first + Q.Y] + lever * x[first + Q.BZ])
@@ -39,7 +40,7 @@ def feet(p, stiffness, at, x, first, scale, out, to):
 
 @kernel
 def along(x, at, y, to, count):
-    """Sum of products of ``count`` numbers."""
+    """Sum of products of ``count`` numbers ``x[at:]`` and ``y[to:]``."""
     total = 0.0
     for i in range(count):
         total += x[at + i] * y[to + i]
@@ -48,7 +49,7 @@ def along(x, at, y, to, count):
 
 @kernel
 def twice_energy(p, at, x, first):
-    """``x M x`` for the matrix at ``p[at:]``."""
+    """``x M x`` for the coordinates ``x[first:]`` and their matrix at ``p[at:]``."""
     n = members.coordinates(p)
     lanes = members.padded_size(p)
     total = 0.0
@@ -90,8 +91,8 @@ def hold_load(p, own):
 def shaft_forces(p, own, x, q, v, angle, speed, rate, out, to):
     """Put the forces on shaft and housing, without their bearings', to ``out[to:]``.
 
-    ``own``: the set's own state; places and rates at ``x[q:]`` and ``x[v:]``. Returns power in (W), and the
-    heats of the bending shaft and of the pedestal (W).
+    Places and rates of the coordinates: ``x[q:]`` and ``x[v:]``. Returns power in (W), and the heats of the
+    bending shaft and of the pedestal (W).
     """
     n = members.coordinates(p)
     lanes = members.padded_size(p)
@@ -127,7 +128,10 @@ def shaft_forces(p, own, x, q, v, angle, speed, rate, out, to):
 
 @kernel
 def shaft_energy(p, own, x, q, v, w, at):
-    """Return the stored energy (J) of shaft and housing without driven rings; ``w[at:]``: scratch."""
+    """Return the stored energy (J) of shaft and housing without driven rings.
+
+    Places and rates: ``x[q:]`` and ``x[v:]``; ``w[at:]``: scratch of ``SP.HOUSING`` numbers.
+    """
     total = 0.5 * twice_energy(p, members.table(p, SP.AT_MASS), x, v)
     if p[int(p[P.SET]) + SP.SPRUNG] != 0.0:
         total += 0.5 * twice_energy(p, members.table(p, SP.AT_STIFFNESS), x, q)

@@ -1,7 +1,7 @@
 """Sound of a set: filters of all bearings over the same instants, their pressures added before metering.
 
-Each bearing has a sound block of its own, with microphones where they stand in its own axes. What its filters
-bring the microphones is added to the first bearing's rows, and the first bearing's meters read the sum:
+Each bearing has a sound block of its own, with the microphones' places in its own axes. The outputs of its
+filters are added to the first bearing's rows, and the first bearing's meters read the sum:
 pressures add, with form scalars energies as between the sources of one bearing.
 """
 
@@ -35,7 +35,7 @@ def emit(p, s, w, h):
 
 @kernel
 def meter_set(p, s, w):
-    """Move the meters of every bearing alone and those of their sum by one sample."""
+    """Move the meters of every bearing alone and of their sum by one sample."""
     own = members.set_state(p, s)
     mics = int(p[P.MICS])
     begun = members.has_shaft(p) and meter.metered(s[S.SOUND :], p[P.METERING_START])

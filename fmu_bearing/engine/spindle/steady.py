@@ -2,7 +2,7 @@
 
 ``rest`` moves the set with quasi-static bearings. What friction across the tracks changes in a bearing's
 force at the place it has is found with even balls, as if the bearing were displaced along its axis alone, and
-added; then the set is brought to rest again.
+added; then the set is brought to rest again. Arguments: see `members`; ``y``: see `layout.y`.
 """
 
 from fmu_bearing.engine.jit import kernel
@@ -22,7 +22,7 @@ _CLOSE = 1e-6  # of the load
 
 @kernel
 def place_rings_held(p, b, y, ws):
-    """Put the rings of bearing ``b`` in a state ``y``, else zero, to where the set rested last."""
+    """Put the rings of bearing ``b`` in the state ``y`` to where the set rested last, all else to zero."""
     at = members.scratch(p, b)
     for i in range(Y.SIZE):
         y[i] = 0.0

@@ -1,6 +1,6 @@
 """One ball between two displaced rings: contacts, rolling, gyroscopic friction, and its place.
 
-The ball may move along x and radially; its angle round the bearing is held. Vectors stand in the ball's
+The ball may move along x and radially; its angle round the bearing is held. Vectors are given in the ball's
 axes (x, r, theta), the outer ring's centre at the origin.
 """
 
@@ -249,7 +249,7 @@ def thrown_out(p, c, pose, orbit):
     press = force / p[P.RACES + P.RACE_SIZE + P.RACE_STIFFNESS]
     approach = math.exp(2.0 / 3.0 * math.log(press + 1e-30))
     radius = groove_radius + c[held + C.FREE] - pose.deeper_outer + approach
-    # a tilted ring's groove circle stands beside that of the upright one
+    # a tilted ring's groove circle lies beside the circle of the upright one
     return groove_x - groove_radius * pose.outer_nr, radius - pitch + groove_x * pose.outer_nr
 
 

@@ -1,4 +1,4 @@
-"""From a quasi-static equilibrium to the state: where rings, balls and cage stand, for all fidelities."""
+"""From a quasi-static equilibrium to the state: where rings, balls and cage are, for all fidelities."""
 
 import math
 
@@ -31,7 +31,7 @@ def equilibrium(p, c, speed, load, share, tilt, found, w):
     """Equilibrium on the pedestal with ``share`` of the imperfections (0 or 1); status code.
 
     A ring that hangs on a few balls at speed, with no axial load, may have none that can be found: then
-    one with a little axial load stands in, a start from which such a ring sets itself moving anyway.
+    one with a little axial load serves, a start from which such a ring sets itself moving anyway.
     """
     status = mounted_equilibrium(p, c, speed, load, share, tilt, found, w)
     if status != OK:

@@ -289,7 +289,7 @@ def keep_trial(p, v):
 def search(p, c, speed, load, offset, size, ahead, v):
     """Go along the step in ``v`` until the force along it does not turn round; returns the share gone.
 
-    As for a ball: contacts are springs, and the force along a step tells more than a norm of the residual.
+    As for a ball: contacts are springs, and the force along a step says more than a norm of the residual.
     """
     share = 1.0
     ring = v[ST.TRIAL_RING : ST.TRIAL_RING + EQ.FREEDOMS]

@@ -1,6 +1,6 @@
 """Rigid preload: the inner ring's axial place is prescribed instead of its axial force.
 
-The place is where the ring stands at standstill and reference temperature under the preload: the static
+The place is where the ring is at standstill and reference temperature under the preload: the static
 curve of the bearing plus the pedestal's deflection. Speed and temperature then change the contact loads, not
 the place. A new preload moves the ring to its new place at constant speed over one communication step.
 """
@@ -13,7 +13,7 @@ from fmu_bearing.engine.statics.axial import quasistatic
 from fmu_bearing.engine.status import OK
 
 _ROUNDS = 60
-_TOUCHING = 0.01  # N: without preload the ring stands where the balls just touch, not anywhere free
+_TOUCHING = 0.01  # N: without preload the ring is where the balls just touch, not anywhere free
 
 
 @kernel
@@ -42,10 +42,10 @@ def static_place(p, u, w):
 
 @kernel
 def load_at_place(p, c, place, speed, found):
-    """Axial load (N) under which the ring stands at ``place`` at ``speed`` (rad/s), left in ``c``; status.
+    """Axial load (N) under which the ring is at ``place`` (m) at ``speed`` (rad/s), left in ``c``; status.
 
     Bisection with secant steps on the increasing curve of place over load, the quasi-static equilibrium in
-    ``found``. A place that asks for a pull ends at no load: the ring then stands free of its balls.
+    ``found``. A place that asks for a pull ends at no load: the ring is then free of its balls.
     """
     wanted = c[C.PRELOAD]
     low = 0.0
@@ -97,7 +97,7 @@ def rigid_start(p, u, c, s, w, found):
 def axial_speed(p, u, fresh, s, w, h):
     """Axial speed (m/s) of the inner ring over the communication step ``h`` (s) that now begins.
 
-    ``fresh``: the new conditions; the old ones in ``s`` tell whether the preload has changed. Where the
+    ``fresh``: the new conditions; the old ones in ``s`` show whether the preload has changed. Where the
     static equilibrium is not found the ring stays.
     """
     if fresh[C.PRELOAD] != s[S.C + C.PRELOAD]:

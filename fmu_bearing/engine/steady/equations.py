@@ -1,9 +1,9 @@
 """What is out of balance in a pattern, and its derivatives by all unknowns.
 
-In the order of the unknowns: the balls' accelerations less those that running through the pattern means; the
-bodies' accelerations less those of turning with it; then, as there is one unknown too many for each, that the
-cage (without one: the mean of the balls) keeps its angle, and that a whirling cage is off its middle along z.
-Forces in N, moments over a lever.
+In the order of the unknowns: the balls' accelerations minus what running through the pattern means; the
+bodies' accelerations minus what turning with it means; then, as there is one unknown too many for each, that
+the cage (without one: the mean of the balls) keeps its angle, and that a whirling cage is off its middle
+along z. Forces in N, moments over a lever.
 """
 
 import math
@@ -221,7 +221,7 @@ def body_rows(p, held, ahead, w, jac):
 
 @kernel
 def last_rows(p, whirls, w):
-    """Rows behind those of the bodies: where the pattern counts from, and how a whirl lies in its axes."""
+    """Rows behind the bodies' own: where the pattern counts from, and how a whirl lies in its axes."""
     balls = int(p[P.BALLS])
     last = tail(p)
     width = last + PT.TAIL + 1

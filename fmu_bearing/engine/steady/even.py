@@ -3,8 +3,8 @@
 Unknowns: place x, r of the balls (m), their spin x, r, theta (rad/s), their orbit, which is the cage's
 turning (rad/s), the inner ring along the axis, the outer one along and about it, the lead of the balls in
 their pockets (rad), the cage along the axis. Each has an equation of the right-hand side: the mean of the
-balls' accelerations (without weight, which the mean takes out), and those of the bodies. Newton's method with
-the engine's own Jacobian; steps are limited, and halved where the balance gets worse.
+balls' accelerations (without weight, which the mean takes out), and the bodies' accelerations. Newton's
+method with the engine's own Jacobian; steps are limited, and halved where the balance gets worse.
 """
 
 import math

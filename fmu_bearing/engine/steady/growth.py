@@ -101,7 +101,7 @@ def combine(p, c, growth, turning, held, w):
 def factor_complex(re, im, n, m, order):
     """Factor a complex matrix, rows of ``m`` numbers of which ``n`` count, in place; False if singular.
 
-    Below the diagonal stand the factors of the rows; ``order``: the row that each was exchanged with.
+    Below the diagonal are the factors of the rows; ``order``: the row that each was exchanged with.
     """
     for k in range(n):
         best = 0.0

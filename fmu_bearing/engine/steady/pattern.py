@@ -1,11 +1,11 @@
 """A pattern of the balls' places and spins that stays in axes at rest or turning, and the state it means.
 
-Ball j of z stands at the phase 2 pi j/z. What a ball does where it passes a phase the next one does a little
+Ball j of z is at the phase 2 pi j/z. What a ball does where it passes a phase the next one does a little
 later: its rate is the pattern's slope times the speed at which balls run through the pattern,
 n = orbit - whirl. The slope is of third order, taken more from where the balls come from: of the balls'
 places and spins it keeps the first harmonics to 1e-3, and where a pocket opens or closes between two balls it
 does not ring, as a spectral slope does. At rest (whirl 0) the pattern belongs to loads across the axis; a
-cage that whirls in its lands takes the pattern and the rings with it, all turning alike.
+cage that whirls in its lands takes the pattern and the rings with it; all turn at one speed.
 """
 
 from fmu_bearing.engine.constants import PI
@@ -44,7 +44,7 @@ def slope(p, x, row, j, ahead):
 
 @kernel
 def tail(p):
-    """Return the number of the first unknown behind those of the balls."""
+    """Return the number of the first unknown behind the balls' own."""
     return PT.BALL * int(p[P.BALLS])
 
 

@@ -44,7 +44,7 @@ _ACROSS = 1e-12  # m, rad: rings less apart are in line
 
 @kernel
 def is_loaded(p, c, y, held):
-    """Whether anything acts across the axis, or rings that are held stand aside."""
+    """Whether anything acts across the axis, or rings that are held are off the axis."""
     if held > OUTER:
         for i in range(Q.Y, Q.OUTER):
             other = Q.OUTER + (i if i < Q.INNER_BY else i + 1)
@@ -250,7 +250,7 @@ def settle_perfect(p, c, y, speed, held, w, jac):
 
 @kernel
 def losing_state(found, w):
-    """State whose losses are those of the operating point, of what :func:`settle` has ``found``."""
+    """State that has the losses of the operating point, of what :func:`settle` has ``found``."""
     at = W.PATTERN + (PT.WHIRL_STATE if found == WHIRL else PT.REST_STATE if found == REST else PT.EVEN_STATE)
     return w[at : at + Y.SIZE]
 

@@ -15,6 +15,6 @@
 ``shared``       start, inputs, clock and sound samples
 ===============  =============================================================================
 
-Both leave out the cage's motion and slip. Friction torque and heats are those of
+Both leave out the cage's motion and slip. Friction torque and heats belong to
 the steady state. Work in is set equal to the heats: the energy residual is zero by construction.
 """

@@ -2,8 +2,8 @@
 
 Held with the operating point are the spin against the orbiting axes, the same for all balls, and the
 directions of the contacts. So each contact runs round one and the same circle on every ball, by the angle
-``L.ROLLED``; the balls differ by where their body-fixed axis a stood when that angle was zero. With g the
-contact's direction turned back by it, the surface stands h(g . a) above the sphere (``mechanics.ball_waves``)
+``L.ROLLED``; the balls differ by where their body-fixed axis a was when that angle was zero. With g the
+contact's direction turned back by it, the surface is h(g . a) above the sphere (``mechanics.ball_waves``)
 and its gradient across the track gives a force Q h' (g_m . a) / l, l from the groove's centre.
 
 Contact damping acts on the rate of approach, tau times its stiffness: that is the height h + tau dh/dt. It
@@ -24,7 +24,7 @@ _STILL = 1e-9  # of the shaft's speed: slower balls do not turn
 def hold_rolling(p, lv, y, turning, w):
     """Keep spin and contact directions of the state ``y`` at the shaft speed ``turning`` (rad/s).
 
-    The rows of both contacts in ``w`` are those of that state. Means over the balls, which are equal there.
+    The rows of both contacts in ``w`` belong to that state. Means over the balls, which are equal there.
     """
     balls = int(p[P.BALLS])
     for i in range(L.ROLL_SIZE):

@@ -174,7 +174,7 @@ def show_moving(p, lv, limit, y, f):
 
 @kernel
 def move_places(lv, lanes):
-    """Let the balls' places be those of a step before."""
+    """Move the balls' places on: the last ones become the places of a step before."""
     for row in range(0, 2 * STRIDE, STRIDE):
         for j in range(row, row + lanes, FOUR):
             store(lv, L.X4 + j, load(lv, L.X3 + j))

@@ -43,12 +43,12 @@ _SOFT = 1e6  # N/m: moves count as if against this stiffness at most; loaded con
 
 @kernel
 def set_angles(p, c, lv, theta, rolled, inner_angle, outer_angle, speed, w):
-    """Cosines and sines of the balls' angles, height (m) of both races under each ball, its acceleration.
+    """Put balls and races to their angles: cosines, sines, race heights (m) and their accelerations.
 
     ``theta``: angle of ball 0; all are evenly spaced; ``rolled``: angle by which the balls have turned (rad),
     not advanced by contact damping as the other angles may be: see ``ball_form``.
     Heights contain half the ball's diameter deviation;
-    their second derivatives by time (m/s2) are those of the table's cubics at the ``speed`` of the shaft.
+    their second derivatives by time (m/s2) follow from the table's cubics at the ``speed`` of the shaft.
     """
     lanes = int(p[P.LANES])
     c0 = math.cos(theta)
@@ -262,7 +262,7 @@ def push(lv, lanes, pair, lean, row, force, w):
 def sweep(p, c, lv, speed, part, q, w):
     """Move every ball by a ``part`` of a Newton step and write the forces on the rings, four balls at a time.
 
-    ``q``: the rings' ``L.N`` displacements; their rates times tau stand in ``T.AHEAD`` of ``w``, the balls'
+    ``q``: the rings' ``L.N`` displacements; their rates times tau are in ``T.AHEAD`` of ``w``, the balls'
     places in the rows ``T.X``, ``T.R``, which are moved; rows ``T.FORCE`` on take forces and moments,
     ``T.STEP`` the squares of the moves that matter, ``T.MOVED`` of all. Each loop is short: one ball's roots
     and divisions wait for each other, and the processor fills the time with the next balls only if it sees
@@ -345,7 +345,7 @@ def count_settled(lv, lanes, w):
 def accelerations(p, c, lv, angle, speed, speed_rate, q, w):
     """Accelerations of the rings at the trial state ``w[W.STAGE:]`` into ``w[W.F + F.BODY:]``; False if none.
 
-    ``q``: scratch for ``L.COLUMN`` numbers. Balls, angles and race heights stand in the trial rows of ``w``
+    ``q``: scratch for ``L.COLUMN`` numbers. Balls, angles and race heights are in the trial rows of ``w``
     (:func:`set_angles`).
     """
     tau = p[P.CONTACT_DAMPING]

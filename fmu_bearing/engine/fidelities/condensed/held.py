@@ -31,7 +31,7 @@ _STANDSTILL = 1.0  # rad/s: slower shafts are given the ratios of this speed
 
 @kernel
 def held_speed(p, u, speed, lv, c):
-    """Put the conditions ``c`` of what is held to those of ``u`` at ``speed``; a speed (rad/s) not zero."""
+    """Put the conditions ``c`` of what is held to ``u``'s at ``speed``; return a speed (rad/s) not zero."""
     conditions(p, u, speed, c)
     lv[L.FOUND_SPEED] = speed
     c[C.OVERSIZE_SCALE] = 0.0

@@ -20,7 +20,7 @@ _LONGEST = 3e-6  # m: move of a ring in one round, about the approach of a loade
 def derivatives(p, c, lv, angle, speed, speed_rate, w):
     """Fill ``L.JX`` and ``L.JV`` at the state in ``w[W.STAGE:]``; False where balls find no rest.
 
-    The balls' places in ``w`` are those of the state before and after. ``w[W.F + F.BODY:]`` keeps its
+    The balls' places in ``w`` belong to the state before and after. ``w[W.F + F.BODY:]`` keeps its
     accelerations; ``T.FOLLOW`` is what :func:`added_mass` needs.
     """
     q = w[T.Q : T.Q + L.COLUMN]

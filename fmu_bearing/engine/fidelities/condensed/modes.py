@@ -5,12 +5,12 @@ fidelity `full` they also slip, and a ball whose contact angles vibrate lags beh
 should have, the traction that drags it along takes energy, and the land's film takes the cage along. For each
 mode of the rings this finds its complex frequency by the full equations, linearised about even balls, with
 balls and cage eliminated at that frequency (``whirls``), forward and backward each its own, and gives the
-rings what is missing. What both whirls lack alike are symmetric matrices of mass and damping. Half of what
+rings what is missing. What both whirls lack equally are symmetric matrices of mass and damping. Half of what
 they lack apart acts from each plane on the other with opposite signs: a velocity's force changes their
 frequencies, as a gyroscope's does, and an acceleration's one whirl's damping at the other's expense. Such a
 force of displacements would do the same to damping, but act on the rings' static place, too.
 
-In a set the modes are those of the rings with their share of shaft and housing on them (``P.OWN_SHARE``): not
+In a set the modes belong to the rings with their share of shaft and housing on them (``P.OWN_SHARE``): not
 the set's own, but near enough for terms of a few per cent.
 """
 
@@ -34,7 +34,7 @@ _SLOWEST = 300.0  # rad/s: slower motions feel the supports, not the balls
 _STIFFEST = 1e14  # (rad/s)^2: faster ones are no modes of the rings
 _DAMPED = 0.5  # damping ratio beyond which a motion is no mode
 _ASIDE = 0.5  # of their mean frequency: both whirls of a mode are not further from it
-# rad/s: both whirls of slower modes are damped alike. A force by the acceleration is right at the frequency
+# rad/s: both whirls of slower modes are damped equally. A force by the acceleration is right at the frequency
 # that it is found for and grows with its square: a bearing that tilts with its shaft at 90 Hz, alone, does so
 # at 2 kHz where another one holds it.
 _APART_FROM = 2.0 * PI * 300.0
@@ -357,7 +357,7 @@ def modal_matrix(part, n, w):
 
 @kernel
 def show_added(p, lv, family, w):
-    """Gather the rings' matrices anew, and add what the modes are given so far."""
+    """Gather the rings' matrices again, and add what the modes are given so far."""
     n = family_size(family)
     gather_rings(p, lv, family, w)
     for part in range(T.PARTS):
@@ -369,7 +369,7 @@ def show_added(p, lv, family, w):
 
 @kernel
 def take_back(n, w):
-    """Put the matrix that takes modes back to ``T.BACK``; False where shapes are too much alike."""
+    """Put the matrix that takes modes back to ``T.BACK``; False where shapes are too similar."""
     for i in range(n * n):
         w[T.VECTORS + i] = w[T.SHAPES + i]
     # rows of shapes: the inverse has in column k what takes out mode k
@@ -415,6 +415,6 @@ def correct_family(p, lv, jac, family, w):
 
 @kernel
 def correct_modes(p, lv, jac, w):
-    """Add to ``L.MASS`` and ``L.EXTRA`` what the full Jacobian ``jac`` tells; ``L.JV`` is without it."""
+    """Add to ``L.MASS`` and ``L.EXTRA`` what the full Jacobian ``jac`` gives; ``L.JV`` is without it."""
     correct_family(p, lv, jac, 0, w)
     correct_family(p, lv, jac, 1, w)

@@ -41,7 +41,7 @@ def from_equilibrium(p, lv, theta, w):
     turned = theta * balls / (2.0 * PI)
     whole = math.floor(turned)
     part = turned - whole
-    for j in range(STRIDE):  # spare lanes, too: what stands in the work space must not get into the state
+    for j in range(STRIDE):  # spare lanes, too: leftovers of the work space must not get into the state
         near = int((j + whole) % balls)
         next_one = (near + 1) % balls
         for i in range(2):

@@ -5,7 +5,7 @@ grooves' centres: 21.9 kHz (7003C), 4.6 kHz (7009C). Above that it stays behind,
 there, not balls that follow. Traction drags it along with the mean of both races, in the 7003C so strongly
 that nothing swings.
 
-Rings feel the balls in three patterns alone, as far as those carry equal loads: all alike, and as the cosine
+Rings feel the balls in three patterns alone, as far as balls carry equal loads: uniform, and as the cosine
 and the minus sine of their angle. With S a pattern's place across the track, S_0 where the balls would rest
 (the condensed balls) and U v what the rings' velocities v would make them do by rolling,
 
@@ -300,7 +300,7 @@ def feel(lv, k, share, away, against, w):
 def add_transverse(p, lv, w):
     """Add the balls' transverse motion at the end of a step to the accelerations at ``w[W.F + F.BODY:]``.
 
-    The rings' velocities stand in the trial state, after :func:`begin_transverse` and a sweep.
+    The rings' velocities are in the trial state, after :func:`begin_transverse` and a sweep.
     """
     if lv[L.SIDE_SQUARE] == 0.0:
         return

@@ -1,7 +1,7 @@
 """Losses that are held: with even balls, and what uneven ones add.
 
 The point that fidelities rings and response are linearised about has even balls and a centred cage. Torque,
-heat and orbit speed are those of the whole steady state (``steady.point``), with balls that loads across the
+heat and orbit speed belong to the whole steady state (``steady.point``), with balls that loads across the
 axis make uneven or a cage that whirls. That takes some ten times as long to find: it is renewed when the
 speed or a load has moved by 5 %, and in between what it adds goes with the losses of the even balls.
 """
@@ -105,7 +105,7 @@ def renew_uneven(p, c, first, speed, turning, ring_held, s, w):
     """Find what uneven balls add near the quasi-static state ``first``, which is overwritten.
 
     ``c``: conditions without imperfections, with the loads; ``ring_held``: see `steady.even`. The losses that
-    are held are those of even balls, before and after.
+    are held belong to even balls, before and after.
     """
     lv = s[S.CONDENSED :]
     for i in range(L.LOST):

@@ -1,8 +1,8 @@
 """The rings' equations at a complex frequency, by the full equations and by the condensed ones.
 
 Balls carry equal loads at the held point, so the rings' coordinates fall into families: both rings along the
-axis, and both rings aside and tilting, in two planes alike. What two planes alike do are whirls, forward and
-backward, the second plane a quarter turn before or behind the first: a whirl's equations are as many as a
+axis, and both rings aside and tilting, in two equal planes. Motions of two equal planes are whirls, forward
+and backward, the second plane a quarter turn before or behind the first: a whirl's equations are as many as a
 plane's, with complex coefficients. One ball serves for all. It orbits, so a whirl of s is one of s - i times
 its orbit speed to it.
 
@@ -28,7 +28,7 @@ def family_size(family):
 
 @kernel
 def whole_size(p, family):
-    """Return the number of its coordinates with those of the cage, if there is one."""
+    """Return the number of its coordinates with the cage's, if there is one."""
     return family_size(family) + (T.CAGED if p[P.CAGE] != 0.0 else 0)
 
 
@@ -131,7 +131,7 @@ def spread_turned(p, block, factor, lv, at, w):
 def ball_answers(p, lv, jac, family, turn, sr, si, w):
     """Solve for the rates of ball 0 per displacement of a whirl at the complex frequency ``sr + i si``.
 
-    In 1/s. They stand behind the coefficients in ``T.BALL_RE``, ``T.BALL_IM``. ``turn``: 1 forward, -1
+    In 1/s. They follow the coefficients in ``T.BALL_RE``, ``T.BALL_IM``. ``turn``: 1 forward, -1
     backward, 0 along the axis. False if singular.
     """
     n = whole_size(p, family)

@@ -1,7 +1,9 @@
 """Flexural coordinates in the Runge-Kutta step: stages, and their place in Newton's method.
 
-The coordinates stand beside the state ``y`` in flat arrays of their own, so the block-arrow factors of balls
-and bodies stay as they are; ``newton.modes`` tells how both go together.
+The coordinates have flat arrays of their own beside the state ``y``, so the block-arrow factors of balls and
+bodies stay as they are; ``newton.modes`` solves both together. In kernels ``flexure`` is the modes' part of
+the state (places, rates, accelerations, then factors), ``own`` their part of the work space, ``w[W.FLEX:]``
+(layout ``FL``).
 """
 
 import math

@@ -1,7 +1,7 @@
 """From one communication point to the next: inputs, internal steps, Jacobian policy, sound samples.
 
 One bearing and a set on a shaft go the same way: a single bearing is a set of one without coordinates beside
-its own.
+its own. Arguments: see `step`.
 """
 
 from fmu_bearing.engine.choices import RK4, TRBDF2
@@ -205,7 +205,7 @@ def try_step(p, s, w, h, tableau, speed):
 
 @kernel
 def add_shaft_powers(p, own, ws, h, tableau):
-    """Add work and heat of shaft and pedestal over the step just made, and what the port was pushed with."""
+    """Add work and heat of shaft and pedestal over the step just made, and the impulse at a port."""
     stages = int(TABLEAUX[tableau + TAB.COUNT])
     led = has_port(p)
     for stage in range(stages):
@@ -263,7 +263,7 @@ def accept_all(p, s, w, h, tableau):
 
 @kernel
 def begin_step(p, s):
-    """Keep sums where :func:`end_step` turns them into means over the communication step."""
+    """Store the sums at the begin of a communication step; :func:`end_step` turns them into means."""
     own = members.set_state(p, s)
     for b in range(members.count(p)):
         steps.begin_means(members.state(p, s, b))
@@ -331,7 +331,7 @@ def march(p, u, s, w, h):
 
 @kernel
 def solve_at_state(p, s, w, gh):
-    """Solve Newton's equations with Jacobians made at the state; where they stand: see `solve_set`."""
+    """Solve Newton's equations with Jacobians made at the state; their places: see `solve_set`."""
     renew_jacobians(p, s, w)
     if not factor_all(p, s, w, gh):
         return NOT_CONVERGED

@@ -1,9 +1,9 @@
-"""Stages of a step: where they stand in the work space, and where Newton's method begins.
+"""Stages of a step: their places in the work space, and where Newton's method begins.
 
 Newton's method of a single bearing begins at the accelerations of the stage before, and takes 1.06 iterations
 a stage. In a set the bearing that is furthest away decides: from there the QBC set of the benchmark takes 1.8
 (20,000 r/min). Sets begin on the straight line through two stages (see `extrapolation`): from the second
-implicit stage on that is 4 to 12 times as near there, and 1.3 iterations do.
+implicit stage on that is 4 to 12 times as near there, and 1.3 iterations do. Arguments: see `step`.
 """
 
 from fmu_bearing.engine.fidelities.full import flexible
@@ -20,13 +20,13 @@ from fmu_bearing.engine.spindle import members
 
 @kernel
 def acceleration(p, stage):
-    """Begin in the set's own work space of a stage's accelerations."""
+    """Place in the set's own work space of a stage's accelerations (m/s2, rad/s2)."""
     return members.vector(p, stage)
 
 
 @kernel
 def velocity(p, stage):
-    """Begin in the set's own work space of a stage's rates."""
+    """Place in the set's own work space of a stage's rates (m/s, rad/s)."""
     return members.vector(p, SP.VELOCITIES + stage)
 
 

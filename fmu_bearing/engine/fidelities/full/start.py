@@ -1,10 +1,10 @@
 """The state at initialisation: the steady one at the inputs, of a single bearing and of a set.
 
 A single bearing rests under preload, radial loads, weights and misalignment on its own springs. In a set the
-preload is put in as offsets, shaft and housing rest, and each bearing stands about its rings there. Flexible
+preload is put in as offsets, shaft and housing rest, and the rings of each bearing are placed there. Flexible
 rings are bent by their loads; each ball has its own place, orbit and spin. From the quasi-static state of the
 bearing with its imperfections, all is moved by what steady and quasi-static state of the perfect bearing
-differ by.
+differ by. Arguments: see `spindle.members`.
 """
 
 from fmu_bearing.engine.choices import FULL
@@ -38,7 +38,7 @@ from fmu_bearing.engine.steady.point import EVEN_BALLS, NOT_FOUND, move_to_stead
 
 _FAR = 0.3  # of the pitch radius: beyond it the angles of pockets and waves, series in it, lose a micrometre
 _BACKWARD = 1e-6  # of all forces: what a bearing may carry against its direction
-TOUCHING = 0.01  # N: without preload rings stand where the balls just touch, as for rigid preload
+TOUCHING = 0.01  # N: without preload rings are where the balls just touch, as for rigid preload
 
 
 @kernel
@@ -97,7 +97,7 @@ def begin_clock(p, s, speed, t):
 
 @kernel
 def begin_means(s):
-    """Mean heats (W) and torque (N m) before the first communication step: those of the start."""
+    """Mean heats (W) and torque (N m) before the first communication step: the start's."""
     for i in range(3):
         s[S.MEAN_HEAT + i] = s[S.F + F.HEAT + i]
     s[S.MEAN_TORQUE] = s[S.F + F.TORQUE]
@@ -148,7 +148,8 @@ def cold_place(p, u, b, load, w):
 def preload_set(p, u, s, w):
     """Offsets of all bearings into the set's own state: where preload puts them, at the inputs; status code.
 
-    A set that carries one way stands where the load on its nose puts it: there the shaft's zero is free.
+    Where all bearings carry one way, the load on the nose takes the preload's place: the shaft's zero is
+    free.
     """
     own = members.set_state(p, s)
     asked = u[SP.U_PRELOAD]
@@ -171,7 +172,7 @@ def preload_set(p, u, s, w):
 
 @kernel
 def pushed_back(p, w):
-    """Whether the shaft rests on a side of races without shoulder, in bearings settled last."""
+    """Whether the shaft rests on a side of races without shoulder, with the bearings as they settled last."""
     ws = members.set_work(p, w)
     total = 100.0
     most = 0.0

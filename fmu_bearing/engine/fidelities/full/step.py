@@ -1,4 +1,9 @@
-"""One Runge-Kutta step: the stages of every bearing and of the shaft go together."""
+"""One Runge-Kutta step: the stages of every bearing and of the shaft go together.
+
+``stage``: its number, from 0; ``tableau``: place of the method in ``TABLEAUX``; ``d``: residual, then
+increment, as accelerations (layout ``F``); ``fac``: factors (layout ``A``). Other arguments: see
+`spindle.members`.
+"""
 
 import math
 
@@ -184,7 +189,7 @@ def corrected_forces(p, b, pb, wb, ws):
 
 @kernel
 def keep_powers(p, s, w, stage, gh, speed, work, bent, shaken, ws):
-    """Take powers, heats and torques of a finished stage; ``work``, ``bent``, ``shaken``: those of the shaft.
+    """Take powers, heats and torques of a finished stage; ``work``, ``bent``, ``shaken``: the shaft's (W).
 
     A ring whose rotation is driven gives the housing what the last increment changes of its moment.
     """
@@ -262,7 +267,7 @@ def explicit_stage(p, s, w, stage, t):
 
 @kernel
 def first_powers(p, s, w):
-    """Powers of the first stage: those at the state, kept since it was reached."""
+    """Powers of the first stage: they were found when the state was reached."""
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
     for i in range(SP.POWERS):

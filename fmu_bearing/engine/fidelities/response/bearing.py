@@ -83,7 +83,7 @@ def sum_lines(lv, lines, theta, rolled, angle, orbit, speed, w):
             at = (first + k) * L.LINE_SIZE
             phase = lines[at + L.LINE_BALL] * theta + lines[at + L.LINE_SHAFT] * angle
             w[T.PHASES + k] = phase + lines[at + L.LINE_ROLLED] * rolled
-        # what stands behind the last line is a phase of another time, and not used
+        # what follows the last line is a phase of another time, and not used
         ball_angles(w, T.PHASES, (many + FOUR - 1) // FOUR * FOUR, w)
         for k in range(many):
             at = (first + k) * L.LINE_SIZE

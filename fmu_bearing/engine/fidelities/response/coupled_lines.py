@@ -1,8 +1,12 @@
 """Lines of a set in fidelity response: what drives one bearing moves shaft, housing and all bearings.
 
-Each bearing tells what drives its rings line by line (``fidelities.response.lines``), at angles of its own
-orbit. The set's equations at a line's frequency are those of shaft and housing and ``T^T m Z_b T`` of every
-bearing, Z_b its rings' equations there.
+Each bearing keeps what drives its rings line by line (``fidelities.response.lines``), at angles of its own
+orbit. The set's equations at a line's frequency are the sum of the shaft's and the housing's and of
+``T^T m Z_b T`` of every bearing, Z_b its rings' equations there.
+
+A line is ``SP.line_size`` numbers (`members.line_size`): multiples of the angles, weight, bearing, then real
+and imaginary parts of the coordinates (m, rad). A bearing's ``drives`` are lines of ``L.LINE_SIZE`` numbers
+whose parts are accelerations of its free rings (m/s2, rad/s2). Other arguments: see `spindle.members`.
 """
 
 from fmu_bearing.engine.dense import solve_complex
@@ -97,7 +101,10 @@ def weight_of_set(p, w, omega, x):
 
 @kernel
 def keep_line(p, s, w, b, a, shaft, rolled, omega):
-    """Keep the answer at ``omega`` (rad/s) to the right side in the work space as a line of bearing ``b``."""
+    """Keep the answer at ``omega`` (rad/s) to the right side in the work space as a line of bearing ``b``.
+
+    ``a``, ``shaft``, ``rolled``: multiples of ball 0's angle, the shaft's and the balls' own turning.
+    """
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
     n = members.coordinates(p)
@@ -153,7 +160,7 @@ def unbalance_line(p, s, w, speed):
 
 @kernel
 def answer_lines(p, s, w, speed):
-    """Renew the lines of the set at ``speed`` (rad/s), all bearings having told what drives them."""
+    """Renew the lines of the set at ``speed`` (rad/s), when each bearing has found what drives it."""
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
     n = members.coordinates(p)
@@ -185,7 +192,7 @@ def answer_lines(p, s, w, speed):
 def line_phases(p, s, w, lines, first, many, ahead):
     """Phases of ``many`` lines from ``first`` on, ``ahead`` (s): cosines, sines, then frequencies (rad/s).
 
-    They stand in the rows ``T.COS``, ``T.SIN`` and ``T.DX`` of the first bearing's work space ``w``.
+    They go to the rows ``T.COS``, ``T.SIN`` and ``T.DX`` of the first bearing's work space ``w``.
     """
     speed = s[S.SPEED] + ahead * s[S.SPEED_RATE]
     travelled = ahead * (s[S.SPEED] + 0.5 * ahead * s[S.SPEED_RATE])
@@ -197,7 +204,7 @@ def line_phases(p, s, w, lines, first, many, ahead):
         phase += lines[at + SP.LINE_SHAFT] * (s[S.ANGLE] + travelled)
         w[T.PHASES + k] = phase + lines[at + SP.LINE_ROLLED] * (lv[L.ROLLED] + lv[L.ROLL] * travelled)
         w[T.DX + k] = frequency(lv, lines, at, speed)
-    # what stands behind the last line is a phase of another time, and not used
+    # what follows the last line is a phase of another time, and not used
     ball_angles(w, T.PHASES, (many + FOUR - 1) // FOUR * FOUR, w)
 
 

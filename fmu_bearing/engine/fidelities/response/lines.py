@@ -60,7 +60,7 @@ def kinds_of_sample(p):
 def sample_orbit(p, c, lv, speed, x, w):
     """Fill ``x`` with the forces of one ball on the rings all round, and their derivatives; the count.
 
-    The rings stand at ``w[W.STAGE:]``. All balls are moved through one spacing in equal parts.
+    The rings are at ``w[W.STAGE:]``. All balls are moved through one spacing in equal parts.
     """
     balls = int(p[P.BALLS])
     lanes = int(p[P.LANES])
@@ -211,7 +211,7 @@ def move_across(p, lv, k, omega, re, im, w):
         place_im = gr * drive_im + gi * drive_re
         away_re, away_im = place_re - rest_re, place_im - rest_im
         against_re, against_im = -omega * place_im, omega * place_re - rolled
-        # coefficients stand on the other side
+        # coefficients belong to the other side
         sign = -1.0 if n < L.N else 1.0
         for i in range(L.N):
             pull, drag = lv[L.SIDE_PULL + row + i], lv[L.SIDE_DRAG + row + i]

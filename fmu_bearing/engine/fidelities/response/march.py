@@ -1,13 +1,13 @@
 """Fidelity `response`: the rings' steady linear answer to every excitation, as a sum of lines.
 
-The rings stand at their static equilibrium; mass, damping and stiffness are those of fidelity `rings` there,
+The rings rest at their static equilibrium; mass, damping and stiffness are as in fidelity `rings` there,
 with the balls' stiffness averaged over the orbit. Each line turns with a ball 0's angle + b shaft's angle + m
 times the angle by which the balls have turned in their orbiting axes. a, b and m are whole, so that phases
 run on through changes of speed; amplitudes are renewed with what is ``held`` (speed by 1 %, conditions by
 0.1 %), and at once: the transient of the change is left out.
 
 Between communication points nothing is stepped but these angles; with sound, samples are interpolated
-between states 19.5 us apart.
+between states 19.5 us apart. Arguments: see `spindle.members`.
 """
 
 import math
@@ -45,9 +45,9 @@ def show_guess(p, s, w, row):
 
 @kernel
 def rest_from(p, s, w, speed, x, at):
-    """Find where all rests, from the coordinates ``x[at:]`` and the balls' places ``L.EVEN``.
+    """Find the rest of all bodies, from the coordinates ``x[at:]`` and the balls' places ``L.EVEN``.
 
-    Where there is no rest these serve themselves. Whether it was found.
+    Returns whether there is one; where there is none, these are taken as the rest.
     """
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
@@ -197,8 +197,8 @@ def rest_at_inputs(p, s, w, speed):
 def renew(p, u, s, w):
     """Renew what is held, the equilibrium from the old one, and lines, for the inputs ``u``; status code.
 
-    Where Newton's method does not come from the old equilibrium to the new one, it starts from the
-    quasi-static one, which serves itself where there is no rest (as at the start). Where balls have no rest
+    Where Newton's method does not reach the new equilibrium from the old one, it starts from the quasi-static
+    one, which is taken as the equilibrium where there is no rest (as at the start). Where balls have no rest
     about which to find lines, the rings stay still there (``solver.restarts`` counts it, and a warning says
     so).
     """

@@ -1,4 +1,8 @@
-"""The trial state of a step in fidelity `rings`: predictor, corrections, and what they leave."""
+"""The trial state of a step in fidelity `rings`: predictor, corrections, and what they leave.
+
+``vectors``: place in ``own`` of the march's vectors (`members.history`), whose numbers are ``SP.MARCHED``
+places before. Other arguments: see `spindle.members`.
+"""
 
 import math
 
@@ -70,7 +74,7 @@ def displace(p, own, ws, vectors, n, lanes, h):
     """Add to the trial places what the change ``SP.INCREMENT`` of the accelerations moves them by.
 
     Modes above 2.45 radians per step make Newmark's method with the first two terms of beta unstable (see
-    `predictor.displaced`), and those of a shaft that bends go up to 100 kHz. There a third term is added,
+    `predictor.displaced`), and the modes of a shaft that bends go up to 100 kHz. There a third term is added,
     (omega h)^4 / 3200: with 1 / 3900 no frequency is unstable, the rest is room for stiffness that varies.
     Slow modes are off by no more than without, as the series goes on with 1 / 6048.
     """
@@ -89,7 +93,7 @@ def displace(p, own, ws, vectors, n, lanes, h):
 
 @kernel
 def predict(p, s, w, own, ws, vectors, n, lanes, h):
-    """Trial state at the end of a step ``h`` (s): coordinates, balls' places, what stands under them."""
+    """Trial state at the end of a step ``h`` (s): coordinates, balls' places, race heights under them."""
     predictor.guess(
         own, vectors - SP.MARCHED, vectors, lanes, h, ws, members.vector_at(lanes, SP.ACCELERATION),
         members.vector_at(lanes, SP.INCREMENT), members.vector_at(lanes, SP.PLACE),

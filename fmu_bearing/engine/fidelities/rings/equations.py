@@ -1,9 +1,9 @@
 """Equations of fidelities rings and response: condensed bearings, on a pedestal or on shaft and housing.
 
 Each bearing gives the accelerations f its rings would have alone, their masses B (``L.MASS``) and derivatives
-J. With m the rings' inertia, the forces on a set are those of shaft and housing and sum T^T m (f - B a), its
-masses M and sum T^T m B T, and so on. A single bearing is a set whose coordinates are those of its rings: T
-and m are one, M is zero. Jacobians stand in fixed axes.
+J. With m the rings' inertia, the forces on a set are the shaft's and the housing's plus sum T^T m (f - B a),
+its masses M plus sum T^T m B T, and so on. A single bearing is a set whose coordinates are its rings' own: T
+and m are one, M is zero. Jacobians are given in fixed axes. Arguments: see `spindle.members`.
 """
 
 import math
@@ -35,23 +35,22 @@ def bends(p):
 
 @kernel
 def show(p, s, w):
-    """Put the march's places, true rates and accelerations to those of the set and of its bearings' rings."""
+    """Copy the march's places, true rates and accelerations to the set's and to its bearings' rings."""
     own = members.set_state(p, s)
     lanes = members.padded_size(p)
     numbers = members.march(p)
     vectors = members.history(p)
     for i in range(members.coordinates(p)):
         own[SP.S_HEAD + i] = own[vectors + H.Q0 * lanes + i]
-        own[SP.S_HEAD + lanes + i] = own[vectors + H.V0 * lanes + i] - rate_error(
-            own, numbers, vectors, lanes, i
-        )
+        own[SP.S_HEAD + lanes + i] = own[vectors + H.V0 * lanes + i]
+        own[SP.S_HEAD + lanes + i] -= rate_error(own, numbers, vectors, lanes, i)
         own[SP.S_HEAD + 2 * lanes + i] = own[vectors + H.A0 * lanes + i]
     show_rings(p, s)
 
 
 @kernel
 def show_rings(p, s):
-    """Put places, rates and accelerations of all rings to those that the set has."""
+    """Put places, rates and accelerations of all rings to where the set's coordinates are."""
     own = members.set_state(p, s)
     lanes = members.padded_size(p)
     for b in range(members.count(p)):
@@ -66,7 +65,7 @@ def show_rings(p, s):
 
 @kernel
 def share_march(p, s):
-    """Tell the bearings the spacing of the march and how many steps are known."""
+    """Copy the spacing of the march and the number of known steps to all bearings."""
     own = members.set_state(p, s)
     numbers = members.march(p)
     for b in range(members.count(p)):
@@ -95,7 +94,7 @@ def publish_rings(p, s):
 
 @kernel
 def copy_trial(ws, w):
-    """Do what `follow_trial` does, for a single bearing, whose coordinates are its rings' own."""
+    """As `follow_trial`, for a single bearing, whose coordinates are its rings' own."""
     for i in range(0, L.COLUMN, FOUR):
         store(w, W.STAGE + Y.Q0 + i, load(ws, SP.W_HEAD + SP.PLACE * L.COLUMN + i))
     for i in range(0, L.COLUMN, FOUR):
@@ -133,7 +132,7 @@ def follow_trial(p, b, own, ws, wb, lanes, ahead):
 def pull_rings(p, b, lv, wb, ws, residual):
     """Add what the rings of bearing ``b`` put on the set to its residual, at ``ws[residual:]``.
 
-    Accelerations by the forces are in ``W.F``, those of the trial in ``T.A``.
+    Accelerations by the forces are in ``W.F``, the trial's in ``T.A``.
     """
     times(lv, L.MASS, wb, T.A, wb, T.D)
     masses = members.row(p, b) + SP.ROW_MASS
@@ -144,7 +143,7 @@ def pull_rings(p, b, lv, wb, ws, residual):
 
 @kernel
 def keep_loads(p, s, w):
-    """Keep what the inner rings put on their balls, by the accelerations `pull_rings` has used."""
+    """Store the load of each inner ring on its balls, by the accelerations `pull_rings` has used."""
     if not members.has_shaft(p):
         return
     own = members.set_state(p, s)
@@ -204,7 +203,7 @@ def differentiate(p, s, w):
 
 @kernel
 def begin_jacobian(x, numbers, highest):
-    """Note a Jacobian at the present state with the ``highest`` mode (rad/s); ``numbers``: of the march."""
+    """Note a Jacobian at the present state with the ``highest`` mode (rad/s); ``numbers``: place in ``x``."""
     x[numbers + H.HIGHEST] = highest
     x[numbers + H.FACTOR_STEP] = 0.0
     x[numbers + H.CONTRACTION] = 0.1

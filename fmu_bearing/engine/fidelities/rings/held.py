@@ -1,4 +1,7 @@
-"""What bearings hold in fidelities rings and response: a single one at its inputs, of a set as it rests."""
+"""What bearings hold in fidelities rings and response: a single one at its inputs, of a set as it rests.
+
+Arguments: see `spindle.members`.
+"""
 
 from fmu_bearing.engine.fidelities.condensed.held import held_speed, hold, hold_at, out_of_date
 from fmu_bearing.engine.fidelities.condensed.linearised import at_rest
@@ -99,7 +102,7 @@ def hold_bearing(p, u, b, load, s, w):
 
 @kernel
 def note_loads(p, own):
-    """Note the loads on the set that its bearings' points are held with."""
+    """Store the loads on the set at which its bearings' quasi-static points were found."""
     at = members.march(p)
     for i in range(SP.PLANE):
         own[at + SP.HELD_NOSE + i] = own[SP.NOSE + i]
@@ -109,13 +112,13 @@ def note_loads(p, own):
 
 @kernel
 def apart(value, noted):
-    """Whether a load differs from the one noted by more than the points may be off."""
+    """Whether a load differs from the stored one by more than the points may be off."""
     return abs(value - noted) > _NEAR * abs(noted) + 1e-12
 
 
 @kernel
 def loads_apart(p, own):
-    """Whether loads on the set have left the neighbourhood of those noted."""
+    """Whether loads on the set have left the neighbourhood of the stored ones."""
     at = members.march(p)
     far = apart(own[SP.SPRING], own[at + SP.HELD_SPRING])
     if apart(own[SP.FEET + Q.Y], own[at + SP.HELD_FEET]):
@@ -128,7 +131,7 @@ def loads_apart(p, own):
 
 @kernel
 def exchange_offsets(p, own):
-    """Exchange the offsets with those that the inputs ask for, kept in ``SP.HELD_OFFSET`` meanwhile."""
+    """Exchange the offsets with the ones that the inputs ask for, which ``SP.HELD_OFFSET`` holds."""
     for b in range(members.count(p)):
         bearing_at = members.per_bearing(p, b)
         now = own[bearing_at + SP.OFFSET]
@@ -138,7 +141,7 @@ def exchange_offsets(p, own):
 
 @kernel
 def take_offsets(p, own):
-    """Let the inner rings stand where temperatures hold them, without a ramp."""
+    """Put the inner rings where temperatures hold them, without a ramp."""
     for b in range(members.count(p)):
         bearing_at = members.per_bearing(p, b)
         own[bearing_at + SP.OFFSET] = own[bearing_at + SP.HELD_OFFSET]
@@ -200,7 +203,7 @@ def put_at_mean(p, s, w):
 
 @kernel
 def rest_alone(p, u, s, w, settled):
-    """Do what `hold_from_zero` does, for a single bearing."""
+    """As `hold_from_zero`, for a single bearing."""
     status = hold_alone(p, u, s, w)
     if status != OK:
         return status
@@ -219,7 +222,7 @@ def rest_alone(p, u, s, w, settled):
 
 @kernel
 def hold_from_zero(p, u, s, w, settled):
-    """Do what `hold_all` does, from where the start looks for rest, and put the set there; status code.
+    """As `hold_all`, but search the rest from zero coordinates, and put the set there; status code.
 
     The balls' places, ball 0 at angle 0, go to ``L.EVEN``. A single bearing that need not be ``settled``
     stays at its quasi-static place.
@@ -294,7 +297,7 @@ def set_inputs_of(p, u, s, w, h):
         sb[S.SPEED_RATE] = rate
         bearing_at = members.per_bearing(p, b)
         own[bearing_at + SP.OFFSET_RATE] = growth_rate(p, u, own, b, h)
-        # the set's rest tells the load, see above
+        # the load follows from the set's rest, see above
         fresh[C.PRELOAD] = lv[L.CONDITIONS + C.PRELOAD]
         grown = own[bearing_at + SP.OFFSET_COLD] + offset_change(p, u, b) - own[bearing_at + SP.HELD_OFFSET]
         if out_of_date(lv, fresh, speed) or abs(grown) > _GROWN:

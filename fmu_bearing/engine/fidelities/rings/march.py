@@ -10,7 +10,7 @@ contraction measured now and then, would leave too much. Newmark's own velocity 
 the rate of acceleration, which outputs take away again, and which is exchanged when the step changes.
 
 A step is repeated at half its length when the correction does not settle, when balls find no rest, or when
-the third difference of the accelerations shows that it is too long.
+the third difference of the accelerations shows that it is too long. Arguments: see `correction`.
 """
 
 from fmu_bearing.engine.fidelities import steps

@@ -3,6 +3,11 @@
 Accelerations and balls' places are continued by the polynomial through the last few of them. High degrees
 serve smooth motion; what moves by more than a radian in a step they only make larger. So the degree is the
 one whose guess lately was best.
+
+``x``: the set's own state, where ``numbers`` and ``vectors`` are the places of the march's numbers and
+vectors (layout ``H``); ``w``: the set's own work space, in which ``a``, ``d``, ``q`` and ``v`` are places of
+vectors of the ``n`` coordinates, ``lanes`` numbers each; ``h``: s. In `continue_places`, ``w`` and ``lanes``
+are one bearing's work space and its balls' lanes.
 """
 
 import math
@@ -17,11 +22,7 @@ _FORGET = 0.9  # per step: what is left of an old error
 
 @kernel
 def rate_error(x, numbers, vectors, lanes, i):
-    """By how much Newmark's velocity exceeds the true one: h^2/12 times the rate of acceleration (m/s).
-
-    ``numbers``, ``vectors``: places in ``x`` of what the march keeps, see ``layout.history``; ``lanes``: from
-    one vector to the next.
-    """
+    """By how much Newmark's velocity exceeds the true one: h^2/12 times the rate of acceleration (m/s)."""
     h = x[numbers + H.SPACING]
     at = vectors + i
     if x[numbers + H.KNOWN] >= 2.0:
@@ -32,11 +33,7 @@ def rate_error(x, numbers, vectors, lanes, i):
 
 @kernel
 def change_spacing(x, numbers, vectors, lanes, n, h):
-    """Exchange the part of the velocities that belongs to the step, if that changes; forget the history.
-
-    ``numbers``, ``vectors``: places in ``x`` of what the march of ``n`` coordinates keeps, see the layout's
-    ``history``; ``lanes``: from one vector to the next.
-    """
+    """Exchange the part of the velocities that belongs to the step, if that changes; forget the history."""
     if abs(h - x[numbers + H.SPACING]) > 1e-6 * h:
         old = x[numbers + H.SPACING]
         if old > 0.0:
@@ -77,7 +74,7 @@ def weights(degree):
 def guess(x, numbers, vectors, lanes, h, w, a, d, q, v):
     """Trial accelerations to ``w[a:]``, their change to ``w[d:]``, places to ``w[q:]``, rates to ``w[v:]``.
 
-    The places lack what :func:`displaced` adds. ``numbers`` and so on: see :func:`change_spacing`.
+    The places lack what :func:`displaced` adds.
     """
     c0, c1, c2, c3, c4 = weights(min(x[numbers + H.DEGREE], x[numbers + H.KNOWN]))
     a0 = vectors + H.A0 * lanes
@@ -113,7 +110,7 @@ def displaced(w, d, turned, q, lanes, h):
 
 @kernel
 def true_velocities(x, numbers, vectors, lanes, h, w, a, v, out):
-    """Put to ``w[out:]`` Newmark's velocities at ``w[v:]`` less h^2/12 times the rate of acceleration."""
+    """Put to ``w[out:]`` Newmark's velocities ``w[v:]`` minus h^2/12 times the rate of acceleration."""
     known = x[numbers + H.KNOWN] >= 1.0
     longer = x[numbers + H.KNOWN] >= 2.0
     a0 = vectors + H.A0 * lanes

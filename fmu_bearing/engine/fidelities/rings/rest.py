@@ -1,4 +1,7 @@
-"""Where rings and balls rest on their pedestal, or shaft, housing and rings of a set, without unbalance."""
+"""Where rings and balls rest on their pedestal, or shaft, housing and rings of a set, without unbalance.
+
+Arguments: see `spindle.members`.
+"""
 
 import math
 
@@ -35,7 +38,7 @@ def find_levers(p, own):
                 most = max(most, abs(p[t + i]) * (pitch if is_angle(i) else 1.0))
             for i in range(SP.PLANE):
                 most = max(most, abs(p[nose + i * lanes + k]) * (pitch if is_angle(i) else 1.0))
-        # a mode of the shaft between planes that stand still
+        # a mode of the shaft that moves none of these planes
         own[levers + k] = most if most > 0.0 else math.sqrt(p[members.table(p, SP.AT_SCALE) + k])
 
 

@@ -4,6 +4,7 @@ There are states that no step leads out of: a ball that has left its races, a ri
 inputs. Clock, angles, sums, counts and sound go on; rings and balls begin at rest at the present inputs
 (``solver.restarts`` counts it, and a warning says so). Where no step leads out of that rest either, they stay
 there until the end of the communication step. A step is refused only where there is no rest at its inputs.
+Arguments: see `spindle.members`.
 """
 
 from fmu_bearing.engine.fidelities import steps

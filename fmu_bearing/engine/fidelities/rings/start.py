@@ -1,4 +1,7 @@
-"""How fidelity `rings` begins: where a bearing or a set rests on waves and unequal balls."""
+"""How fidelity `rings` begins: where a bearing or a set rests on waves and unequal balls.
+
+Arguments: see `spindle.members`.
+"""
 
 from fmu_bearing.engine.fidelities.condensed.balls import count_settled, set_angles
 from fmu_bearing.engine.fidelities.condensed.rows import from_equilibrium, keep_balls

@@ -1,7 +1,7 @@
 """The Runge-Kutta methods of fidelity full, as data.
 
 Each has an explicit first stage, one diagonal entry and its last stage at the new state. Places in a method's
-block of coefficients are those of ``layout.tableau`` (``TAB``).
+block of coefficients are in ``layout.tableau`` (``TAB``).
 
 ===========  ==============================================
 ``tableau``  packs the coefficients of one method

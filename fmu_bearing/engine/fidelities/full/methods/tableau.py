@@ -6,7 +6,7 @@ from fmu_bearing.engine.layout import TAB
 
 
 def tableau(gamma, order, rows, low):
-    """Pack one method whose last stage stands at the new state.
+    """Pack one method whose last stage is the new state.
 
     Parameters
     ----------

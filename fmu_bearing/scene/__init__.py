@@ -7,7 +7,7 @@
 ``entries``       entries by name: the package's, NSK's, those of users' files
 ``preload``       newtons of a preload class or of an offset of the ring faces
 ``template``      the text of a new scene
-``base``          base class of all tables: frozen, strict, reports all conflicts at once
+``base``          base class of all tables: frozen, strict, reports all conflicts at once; `SceneError`
 ``bearing``       geometry of rings, balls and cage
 ``material``      elastic and thermal constants; catalogue names
 ``lubricant``     oil, traction and film constants
@@ -31,7 +31,7 @@
 ================  =====================================================================
 """
 
-from fmu_bearing.scene.problems import SceneError
+from fmu_bearing.scene.base import SceneError
 from fmu_bearing.scene.read import Scene, SceneSource, read_scene, read_scene_text, scene_of
 from fmu_bearing.scene.units import si
 

@@ -1,4 +1,4 @@
-"""Base class of all tables of a scene: frozen, no unknown keys, no silent conversion, finite numbers only."""
+"""Base class of all tables of a scene: frozen, no unknown keys, no silent conversion; the error of scenes."""
 
 from collections.abc import Iterator
 from typing import Annotated, Any, NamedTuple, Self
@@ -9,6 +9,25 @@ from pydantic_core import PydanticCustomError
 #: Names end up in XML and in plots: letters, digits and a little punctuation, no control characters.
 LABEL = r"^[\w.,+()/ -]{1,40}$"
 Label = Annotated[str, Field(pattern=LABEL)]
+
+
+class SceneError(ValueError):
+    """A scene cannot be used; the message has one line per problem.
+
+    Examples
+    --------
+    >>> from fmu_bearing import SceneError, read_scene
+    >>> try:
+    ...     read_scene("none.toml")
+    ... except SceneError as problem:
+    ...     print(problem.problems[0])
+    none.toml: there is no such scene file
+    """
+
+    @property
+    def problems(self) -> tuple[str, ...]:
+        """The lines of the message."""
+        return tuple(str(self).splitlines())
 
 
 class Conflict(NamedTuple):

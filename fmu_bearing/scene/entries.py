@@ -16,9 +16,9 @@ from pydantic import ValidationError
 
 from fmu_bearing.files import read_text, real_path
 from fmu_bearing.scene import nsk
-from fmu_bearing.scene.base import Part
+from fmu_bearing.scene.base import Part, SceneError
 from fmu_bearing.scene.bearing import Bearing
-from fmu_bearing.scene.problems import SceneError, explain, shown
+from fmu_bearing.scene.problems import explain, shown
 from fmu_bearing.scene.toml_text import parse
 
 #: Key at the head of a scene: files with bearings of one's own.

@@ -13,8 +13,8 @@ import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from fmu_bearing.scene.base import SceneError
 from fmu_bearing.scene.bearing import most_balls
-from fmu_bearing.scene.problems import SceneError
 
 _BALL = 0.29
 

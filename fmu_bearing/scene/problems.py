@@ -37,25 +37,6 @@ _ALIKE = 0.5  # below this likeness a suggestion is a guess: the known keys are 
 Location = tuple[Any, ...]
 
 
-class SceneError(ValueError):
-    """A scene cannot be used; the message has one line per problem.
-
-    Examples
-    --------
-    >>> from fmu_bearing import SceneError, read_scene
-    >>> try:
-    ...     read_scene("none.toml")
-    ... except SceneError as problem:
-    ...     print(problem.problems[0])
-    none.toml: there is no such scene file
-    """
-
-    @property
-    def problems(self) -> tuple[str, ...]:
-        """The lines of the message."""
-        return tuple(str(self).splitlines())
-
-
 def explain(failure: ValidationError, data: dict[str, Any], skip: Iterable[Location] = ()) -> Iterator[str]:
     """Yield one line per problem that pydantic found in ``data``, none for tables under ``skip``.
 

@@ -10,6 +10,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from fmu_bearing.files import read_text, real_path
+from fmu_bearing.scene.base import SceneError
 from fmu_bearing.scene.entries import (
     KEY as CATALOGUES,
     Entry,
@@ -25,7 +26,6 @@ from fmu_bearing.scene.nsk import PREFIX
 from fmu_bearing.scene.preload import CLASS, FORCE, OFFSET, PreloadError, preload, preload_key
 from fmu_bearing.scene.problems import (
     Location,
-    SceneError,
     described,
     explain,
     is_material,
@@ -138,7 +138,7 @@ class Scene(Tables):
         >>> scene.replace({"mounting.prelaod_N": 300})
         Traceback (most recent call last):
         ...
-        fmu_bearing.scene.problems.SceneError: 7003C-bare: mounting.prelaod_N is not a key of a scene; did ...
+        fmu_bearing.scene.base.SceneError: 7003C-bare: mounting.prelaod_N is not a key of a scene; did ...
         """
         data = self.model_dump()
         given = {key: plain(value) for key, value in values.items()}

@@ -5,11 +5,11 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from fmu_bearing.scene.base import SceneError
 from fmu_bearing.scene.entries import KEY as CATALOGUES, entries
 from fmu_bearing.scene.estimate import Estimate, cage_estimates, estimates
 from fmu_bearing.scene.nsk import sizes
 from fmu_bearing.scene.preload import CLASS, FORCE, OFFSET
-from fmu_bearing.scene.problems import SceneError
 from fmu_bearing.scene.read import read_scene_text
 
 #: Materials of rings, balls and cage, by kind of bearing.

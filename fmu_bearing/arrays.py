@@ -1,4 +1,4 @@
-"""A bearing as flat arrays, for loops that save and restore the state."""
+"""A bearing, or a set, as flat arrays, for loops that save and restore the state."""
 
 from typing import Self
 
@@ -10,8 +10,7 @@ from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE, RPM
 from fmu_bearing.engine.layout import P, Q, S, U, Y
 from fmu_bearing.engine.status import OK
 from fmu_bearing.instance import reasons
-from fmu_bearing.interface.inputs import inputs
-from fmu_bearing.interface.set_inputs import set_inputs
+from fmu_bearing.interface.table import input_values
 from fmu_bearing.prepare.lengths import lengths
 from fmu_bearing.prepare.model import pack
 from fmu_bearing.scene import Scene
@@ -55,17 +54,6 @@ class Arrays:
         self.u[U.OIL_T : U.OUTER_T + 1] = REFERENCE_TEMPERATURE
         self._allocate()
 
-    @classmethod
-    def of_set(cls, scene: Scene, *sounds: NDArray[np.float64], **parameters: float) -> Self:
-        """Set of bearings at the scene's own speed, loads and temperatures; a sound block each, or none."""
-        made = cls.__new__(cls)
-        made.p = pack(scene, *(sounds or [np.empty(0)]))
-        for name, value in parameters.items():
-            made.p[getattr(P, name)] = value
-        made.u = set_inputs(scene)
-        made._allocate()
-        return made
-
     def _allocate(self) -> None:
         """Make state, outputs and work space, and bind all arrays."""
         sizes = lengths(self.p)
@@ -78,13 +66,23 @@ class Arrays:
         self._calls = Calls(self.p, self.u, self.s, self.z, self.w)
 
     @classmethod
-    def of(cls, scene: Scene, sound: NDArray[np.float64] | None = None, **parameters: float) -> Self:
-        """Bearing at the scene's own speed, loads and temperatures."""
-        bearing = cls(scene, scene.operation.speed_rpm, sound=sound, **parameters)
-        for variable in inputs(scene):
-            if variable.start is not None:
-                bearing.u[variable.index] = variable.start
-        return bearing
+    def of(cls, scene: Scene, *sounds: NDArray[np.float64], **parameters: float) -> Self:
+        """Return the arrays of a scene, of a set too, at its own speed, loads and temperatures.
+
+        ``sounds``: the sound block of each bearing (``prepare.sound.sound_blocks``); default: no sound.
+        """
+        made = cls.__new__(cls)
+        made.p = pack(scene, *(sounds or [np.empty(0)]))
+        for name, value in parameters.items():
+            made.p[getattr(P, name)] = value
+        made.u = input_values(scene)
+        made._allocate()
+        return made
+
+    @classmethod
+    def of_set(cls, scene: Scene, *sounds: NDArray[np.float64], **parameters: float) -> Self:
+        """Return the arrays of a set: as `of`."""
+        return cls.of(scene, *sounds, **parameters)
 
     def init(self) -> None:
         """Quasi-static state at the inputs; ``Refused`` if there is none."""

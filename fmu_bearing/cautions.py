@@ -115,7 +115,7 @@ def loose(fidelity: str) -> str:
 def cautions(model: Model) -> tuple[Caution, ...]:
     """Return the warnings checked after initialisation and after each step, each given once."""
     fidelity = FIDELITIES[int(model.parameters[P.FIDELITY])]
-    if model.scene.spindle is not None:
+    if SP.has_shaft(model.parameters):
         return (*_skids(model, fidelity), *_cautions_of_set(model.scene))
     before, nothing, after = loose(fidelity).partition("0")
     smallest = math.ulp(float(nothing))
@@ -147,26 +147,25 @@ def _skids(model: Model, fidelity: str) -> tuple[Caution, ...]:
         " N mm: in fidelity full they skid; cage speed, torque and the lines of cage and balls mean little "
         "here; give more traction or preload, or fidelity full"
     )
-    spindle = model.scene.spindle
-    place = first_output(model.scene, len(spindle.bearing)) + SP.Z_TORQUE if spindle else Z.TORQUE
+    place = Z.TORQUE
+    if SP.has_shaft(p):
+        place = first_output(model.scene, len(model.scene.bearings())) + SP.Z_TORQUE
     limit = max(most, _FRICTIONLESS)
     return tuple(Caution(place, sign * limit, 1e3, before, after, above=sign > 0.0) for sign in (1.0, -1.0))
 
 
 def _cautions_of_set(scene: Scene) -> tuple[Caution, ...]:
     """Return the warnings about a set: of each bearing its shoulders and that it is unloaded."""
-    assert scene.spindle is not None
-    count = len(scene.spindle.bearing)
+    bearings = scene.bearings()
     # one for all: their waves have the same orders
-    own = first_output(scene, count)
+    own = first_output(scene, len(bearings))
     found = [
         replace(_WAVES, index=own + SP.Z_WAVE_TIME), replace(_RESTARTS, index=own + SP.Z_RESTARTS),
     ]  # fmt: skip
-    for b in range(count):
-        begin = f"bearing {b + 1}: "
+    for bearing in bearings:
         for one in (_UNLOADED, *_SHOULDERS):
-            place = first_output(scene, b) + one.index
-            found.append(replace(one, index=place, before=begin + one.before))
-    if len({one.sign for one in scene.spindle.bearing}) == 1:
+            place = first_output(scene, bearing.number - 1) + one.index
+            found.append(replace(one, index=place, before=f"bearing {bearing.number}: {one.before}"))
+    if len({bearing.sign for bearing in bearings}) == 1:
         found.append(replace(_BACKWARD, index=first_output(scene, 0) + _BACKWARD.index))
     return tuple(found)

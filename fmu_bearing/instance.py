@@ -228,7 +228,7 @@ class Instance:
             why = "the bearings must be initialised" if places else "no other model owns the shaft"
             raise EngineError(f"there are no derivatives at a port: {why}")
         lengths = self.model.lengths
-        first = first_output(self.model.scene, len(self.model.scene.spindle.bearing)) + SP.Z_PORT  # type: ignore[union-attr]
+        first = first_output(self.model.scene, len(self.model.scene.bearings())) + SP.Z_PORT
         columns = []
         for place in places:
             change = np.zeros(2 * self.u.size)

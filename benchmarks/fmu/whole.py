@@ -34,7 +34,7 @@ def _best(step, count: int) -> float:
 def through_library(sounding: bool, count: int) -> float:
     """Speed of the arrays that Python holds."""
     scene = read_scene(GATES / f"{SCENE}.toml") if sounding else silent(SCENE)
-    bearing = Arrays.of(scene, sound_block(scene) if sounding else None)
+    bearing = Arrays.of(scene, *([sound_block(scene)] if sounding else []))
     bearing.init()
     bearing.run(WARM_UP, STEP)
     return _best(lambda: bearing.step(STEP), count)

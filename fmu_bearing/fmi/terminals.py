@@ -98,11 +98,9 @@ def terminals_xml(model: FmuModel) -> bytes:
 
 def _terminals(scene: Scene) -> Iterator[Terminal]:
     yield _SHAFT
-    of = [""]
     if scene.spindle is not None:
-        yield _RIGID if scene.spindle.shaft.external else _NOSE
-        of = [f"bearing[{b}]." for b in range(1, len(scene.spindle.bearing) + 1)]
-    for prefix in of:
+        yield _RIGID if scene.on_other_shaft else _NOSE
+    for prefix in (one.prefix for one in scene.bearings()):
         for name, words in _PORTS:
             heat = (
                 ("T", f"{prefix}{name}_temperature", "signal"),

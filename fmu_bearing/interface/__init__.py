@@ -10,7 +10,7 @@ all made from it. Names are a contract, because users' harnesses depend on them.
 ``set_inputs``  inputs of a set of bearings on one shaft
 ``set_outputs`` its outputs and local variables
 ``parameters``  parameters, set before initialisation, and constants
-``table``       all variables, in the order of the value references
+``table``       all variables, in the order of the value references; values of the inputs
 ``names``       patterns of names, and suggestions for misspelt ones
 ``fmu_names``   the table as the FMU of a scene shows it
 ==============  ======================================================================

@@ -87,7 +87,7 @@ def constants(scene: Scene, rotor_inertia: float, rings: tuple[float, float, flo
 
 def _turning(scene: Scene, polar: float, rings: tuple[float, float, float]) -> list[Variable]:
     """Return inertia that belongs to another model: to the drive, or to the rotor at a mechanical port."""
-    if scene.spindle is not None and scene.spindle.shaft.external:
+    if scene.on_other_shaft:
         mass, static, transverse = rings
         words, unit = "of the inner rings, which the rotor has", "kg.m2"
         return [

@@ -10,7 +10,7 @@ from fmu_bearing.engine.layout import SP
 from fmu_bearing.interface.inputs import FORCE, KELVIN, SPEED, SPRING
 from fmu_bearing.interface.variable import Variable
 from fmu_bearing.scene import Scene, si
-from fmu_bearing.scene.member import HELD, preload_asked
+from fmu_bearing.scene.member import HELD, preload_asked, set_of
 from fmu_bearing.scene.spindle import Spindle
 
 _MOST = 1e5  # N: of a load, as [spindle.load] has it
@@ -44,7 +44,7 @@ _PORT = (
 
 def set_inputs(scene: Scene) -> NDArray[np.float64]:
     """Return the inputs ``u`` of a set at the scene's operating point."""
-    spindle, operation = _set(scene), si(scene.operation)
+    spindle, operation = set_of(scene), si(scene.operation)
     shaft = si(spindle.shaft.model_copy(update={"sections_mm": None, "material": None}))
     housing = si(spindle.housing.model_copy(update={"material": None}))
     u = np.zeros(SP.U_BEARINGS + len(spindle.bearing) * SP.U_ROW)
@@ -66,23 +66,17 @@ def set_inputs(scene: Scene) -> NDArray[np.float64]:
 
 def led_inputs(scene: Scene) -> range:
     """Return the places in ``u`` of place and rate of a shaft that another model owns; empty without one."""
-    port = scene.spindle is not None and scene.spindle.shaft.external
-    return range(SP.U_PORT, SP.U_PORT + 2 * SP.PLANE) if port else range(0)
+    return range(SP.U_PORT, SP.U_PORT + 2 * SP.PLANE) if scene.on_other_shaft else range(0)
 
 
 def inputs_of_set(scene: Scene) -> list[Variable]:
     """Return the inputs of a set that its scene reads, in the order of the engine's array ``u``."""
     start = set_inputs(scene)
-    words = {**_shared(_set(scene)), **_of_bearings(len(start))}
+    words = {**_shared(set_of(scene)), **_of_bearings(len(start))}
     return [
         Variable(name, "input", "continuous", text, start=float(start[place]), array="u", index=place, **more)
         for place, (name, text, more) in sorted(words.items())
     ]
-
-
-def _set(scene: Scene) -> Spindle:
-    assert scene.spindle is not None, "the scene of a single bearing has no set"
-    return scene.spindle
 
 
 def _or(value: float | None, other: float) -> float:

@@ -7,7 +7,7 @@ from fmu_bearing.engine.layout import SP, Z
 from fmu_bearing.interface.outputs import AXES, FLOOR, internals, microphones, outputs, read
 from fmu_bearing.interface.variable import Variable
 from fmu_bearing.scene import Scene
-from fmu_bearing.scene.member import one_of
+from fmu_bearing.scene.member import one_of, set_of
 
 _SMALL = {"display_unit": "um"}
 _BOTH_SIGNS = {"min": -1e7, "max": 1e7}
@@ -19,9 +19,8 @@ def outputs_of_set(scene: Scene) -> list[Variable]:
     """Return the outputs: the shaft's, sums over the bearings, then those of each bearing."""
     single = outputs(one_of(scene))
     shared = [variable for variable in single if variable.name in SP.OUTPUTS]
-    port = scene.spindle is not None and scene.spindle.shaft.external
     table = [
-        *(_port(scene) if port else _nose(scene)),
+        *(_port(scene) if scene.on_other_shaft else _nose(scene)),
         *_housing(scene, "output"),
         *(_sum(scene, one) for one in shared),
     ]
@@ -34,7 +33,6 @@ def internals_of_set(scene: Scene) -> list[Variable]:
     """Return the local variables: the housing's and the solver's, then those of each bearing."""
     single = internals(one_of(scene))
     own = [variable for variable in single if variable.name in SP.OUTPUTS]
-    assert scene.spindle is not None
     table = [*_stiffness(scene), *_housing(scene, "local"), *(_shared(scene, one) for one in own)]
     single = [variable for variable in single if variable not in own]
     for b in range(_count(scene)):
@@ -51,8 +49,7 @@ def first_output(scene: Scene, number: int) -> int:
 
 
 def _count(scene: Scene) -> int:
-    assert scene.spindle is not None, "the scene of a single bearing has no set"
-    return len(scene.spindle.bearing)
+    return len(set_of(scene).bearing)
 
 
 def _own(scene: Scene, place: int) -> int:
@@ -82,8 +79,7 @@ def _shared(scene: Scene, one: Variable) -> Variable:
 def _sum(scene: Scene, one: Variable) -> Variable:
     """Return the sum of a variable over the bearings, with what shaft and housing add to it."""
     words = f"{one.description}; sum over the bearings"
-    spindle = scene.spindle
-    assert spindle is not None
+    spindle = set_of(scene)
     if one.name == "heat.inner_ring" and spindle.shaft.flexible:
         words += ", with what the bending shaft loses"
     if one.name == "heat.outer_ring" and spindle.housing.moves:
@@ -148,9 +144,7 @@ def _port(scene: Scene) -> list[Variable]:
 
 def _housing(scene: Scene, causality: str) -> list[Variable]:
     """Return velocity (outputs) or displacement (local) of a housing that moves, at its pedestal's plane."""
-    spindle = scene.spindle
-    assert spindle is not None
-    if not spindle.housing.moves:
+    if not set_of(scene).housing.moves:
         return []
     motion, unit, more = ("velocity", "m/s", {"display_unit": "mm/s"})
     if causality == "local":

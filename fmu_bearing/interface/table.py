@@ -1,9 +1,13 @@
-"""All variables of a scene in one table."""
+"""All variables of a scene in one table, and the values of its inputs."""
 
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.engine.layout import U
 from fmu_bearing.interface.inputs import inputs
 from fmu_bearing.interface.outputs import internals, outputs
 from fmu_bearing.interface.parameters import constants, parameters
-from fmu_bearing.interface.set_inputs import inputs_of_set
+from fmu_bearing.interface.set_inputs import inputs_of_set, set_inputs
 from fmu_bearing.interface.set_outputs import internals_of_set, outputs_of_set
 from fmu_bearing.interface.variable import Variable
 from fmu_bearing.scene import Scene
@@ -19,14 +23,33 @@ def variables(
     Parts that the scene leaves out (cage, sound, imperfections) have no variables.
     """
     if scene.spindle is None:
-        moving = [*inputs(scene), *outputs(scene), *internals(scene)]
+        computed = [*outputs(scene), *internals(scene)]
     else:
-        moving = [*inputs_of_set(scene), *outputs_of_set(scene), *internals_of_set(scene)]
+        computed = [*outputs_of_set(scene), *internals_of_set(scene)]
     table = [
-        *moving,
+        *inputs_of(scene),
+        *computed,
         *parameters(scene),
         *constants(scene, rotor_inertia, rings),
     ]
     names = [variable.name for variable in table]
     assert len(set(names)) == len(names), "a variable name stands twice"
     return tuple(table)
+
+
+def inputs_of(scene: Scene) -> list[Variable]:
+    """Return the inputs of a scene, of its single bearing or of its set."""
+    return inputs(scene) if scene.spindle is None else inputs_of_set(scene)
+
+
+def input_values(scene: Scene) -> NDArray[np.float64]:
+    """Return the engine's inputs ``u`` at the scene's operating point, SI units.
+
+    Those of a set that are no variables are included.
+    """
+    if scene.spindle is not None:
+        return set_inputs(scene)
+    u = np.zeros(U.SIZE)
+    for variable in inputs(scene):
+        u[variable.index] = variable.start
+    return u

@@ -75,10 +75,8 @@ def rotor_inertia(scene: Scene) -> float:
 
 
 def rings_at_port(scene: Scene) -> tuple[float, float, float]:
-    """Mass (kg), mass times X (kg m), inertia about Y or Z at X = 0 (kg m2) of a set's inner rings."""
-    if scene.spindle is None:
-        return 0.0, 0.0, 0.0
-    ring, places = inner_ring(scene), [si(one).position for one in scene.spindle.bearing]
+    """Mass (kg), mass times X (kg m), inertia about Y or Z at X = 0 (kg m2) of the inner rings."""
+    ring, places = inner_ring(scene), [one.position for one in scene.bearings()]
     about = len(places) * ring.transverse + ring.mass * sum(x * x for x in places)
     return len(places) * ring.mass, ring.mass * sum(places), about
 

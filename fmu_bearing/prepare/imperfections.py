@@ -8,7 +8,6 @@ from numpy.typing import NDArray
 from fmu_bearing.prepare.surfaces import ball_profile, frequencies, highest_orders, law, mean_patches
 from fmu_bearing.scene import Scene, si
 from fmu_bearing.scene.imperfections import HIGHEST_ORDER, RACES
-from fmu_bearing.scene.member import one_of
 
 _INTERVALS = 2048  # of a race's table at least
 #: Intervals per wave at least: the table's cubics then follow the shortest wave within 0.1 %.
@@ -149,10 +148,8 @@ def excitation_end(scene: Scene, speed: float) -> float | None:
 
     Above it the surfaces of the scene excite nothing. None: there are no waves, or the shaft stands still.
     """
-    bearings = [scene]
-    if scene.spindle is not None:
-        bearings = [one_of(scene, number) for number in range(len(scene.spindle.bearing))]
-    fastest = max(fastest_wave(one, race_harmonics(one), ball_waves(one)[0].size) for one in bearings)
+    alone = [one.scene for one in scene.bearings()]
+    fastest = max(fastest_wave(one, race_harmonics(one), ball_waves(one)[0].size) for one in alone)
     return fastest * abs(speed) / (2.0 * np.pi) or None
 
 

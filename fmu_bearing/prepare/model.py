@@ -14,7 +14,7 @@ from fmu_bearing.engine.choices import FIDELITIES, METHODS, RACE_CONTROLS
 from fmu_bearing.engine.layout import FOUR, SD, STRIDE, P, Q
 from fmu_bearing.formulas.hertz import effective_modulus, point_contact
 from fmu_bearing.interface import Variable, variables
-from fmu_bearing.interface.set_inputs import set_inputs
+from fmu_bearing.interface.table import input_values
 from fmu_bearing.prepare import bodies, contacts
 from fmu_bearing.prepare.flexure import longest_step, mode_table
 from fmu_bearing.prepare.imperfections import (
@@ -33,7 +33,6 @@ from fmu_bearing.prepare.surfaces import form_rows
 from fmu_bearing.scene import Scene, SceneError, si
 from fmu_bearing.scene.bearing import Cage
 from fmu_bearing.scene.material import Material
-from fmu_bearing.scene.member import one_of
 from fmu_bearing.scene.read import with_fidelity
 
 # Assumed for the cage (see docs/theory): Hunt-Crossley factor, slip scales, dry stop of the lands.
@@ -73,13 +72,7 @@ class Model:
     @property
     def inputs(self) -> NDArray[np.float64]:
         """Inputs ``u`` at the scene's operating point, those of a set that are no variables included."""
-        if self.scene.spindle is not None:
-            return set_inputs(self.scene)
-        u = np.zeros(self.lengths.inputs)
-        for variable in self.variables:
-            if variable.array == "u" and variable.start is not None:
-                u[variable.index] = variable.start
-        return u
+        return input_values(self.scene)
 
     @property
     def n_balls(self) -> int:
@@ -169,11 +162,10 @@ def pack(scene: Scene, *sounds: NDArray[np.float64]) -> NDArray[np.float64]:
         If the scene's fidelity is ``auto``.
     """
     _require_computable(scene)
-    if scene.spindle is not None:
-        count = len(scene.spindle.bearing)
-        blocks = sounds if len(sounds) == count else count * sounds
-        return pack_set(scene, [_pack(one_of(scene, b), blocks[b], scene) for b in range(count)])
-    return as_set_of_one(_pack(scene, sounds[0], scene))
+    bearings = scene.bearings()
+    blocks = sounds if len(sounds) == len(bearings) else len(bearings) * sounds
+    packed = [_pack(one.scene, block, scene) for one, block in zip(bearings, blocks, strict=True)]
+    return as_set_of_one(packed[0]) if scene.spindle is None else pack_set(scene, packed)
 
 
 def _pack(scene: Scene, sound: NDArray[np.float64], heard: Scene) -> NDArray[np.float64]:

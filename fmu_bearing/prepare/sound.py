@@ -94,13 +94,14 @@ def sound_key(scene: Scene) -> str:
 
     if scene.sound is None:
         return ""
-    if scene.spindle is not None and scene.sound.radiator == "housing":
+    if scene.spindle is not None:
+        count = len(scene.spindle.bearing)
+        if scene.sound.radiator != "housing":
+            return repr([sound_key(heard_of(scene, b)) for b in range(count)])
         # what stands inside is not heard, only counted
         first, housing = heard_of(scene, 0), housing_of_set(scene)
         heard = (first.sound, radiators_of(first, housing), scene.fidelity.ball_harmonics)
-        return repr((heard, len(scene.spindle.bearing)))
-    if scene.spindle is not None:
-        return repr([sound_key(heard_of(scene, b)) for b in range(len(scene.spindle.bearing))])
+        return repr((heard, count))
     flexure = scene.mounted.flexure
     bending = (flexure, scene.materials, scene.bearing) if flexure is not None else ()
     return repr((scene.sound, radiators_of(scene), scene.fidelity.ball_harmonics, bending))

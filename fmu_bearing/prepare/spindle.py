@@ -13,7 +13,7 @@ from fmu_bearing.interface.set_inputs import set_inputs
 from fmu_bearing.prepare import bodies
 from fmu_bearing.scene import Scene, si
 from fmu_bearing.scene.housing import middle_mm
-from fmu_bearing.scene.member import one_of, shares
+from fmu_bearing.scene.member import one_of, set_of, shares
 from fmu_bearing.scene.spindle import SetBearing, Spindle
 
 __all__ = ["expansions", "housing_of", "in_housing", "one_of", "pack_set", "set_inputs"]
@@ -23,14 +23,9 @@ _SEATS = {"fixed": SP.FIXED, "sliding": SP.SLIDING, "pedestal": SP.PEDESTAL}
 _TURN, _OUTER = Q.TURN, Q.OUTER
 
 
-def _set(scene: Scene) -> Spindle:
-    assert scene.spindle is not None, "the scene of a single bearing has no set"
-    return scene.spindle
-
-
 def expansions(scene: Scene) -> tuple[float, float]:
     """Expansion (1/K) of shaft and housing."""
-    spindle, materials = _set(scene), scene.materials
+    spindle, materials = set_of(scene), scene.materials
     pairs = ((spindle.shaft.material, materials.inner_ring), (spindle.housing.material, materials.outer_ring))
     first, second = (float(si(own or ring).expansion) for own, ring in pairs)
     return first, second
@@ -68,7 +63,7 @@ def pack_set(
     shaft : ShaftModel, optional
         In the place of the scene's.
     """
-    spindle = _set(scene)
+    spindle = set_of(scene)
     shaft = shaft_model(scene, spindle) if shaft is None else shaft
     bearings = [p[: int(p[P.SET]) or p.size].copy() for p in parameters]
     for p in bearings:
@@ -107,7 +102,7 @@ def _beside(mass: float, transverse: float, middle: float, places: list[float]) 
 
 def _own_shares(scene: Scene, p: NDArray[np.float64], one: SetBearing) -> NDArray[np.float64]:
     """Inertia of each row of the rings over that with what it carries of shaft and housing."""
-    spindle = _set(scene)
+    spindle = set_of(scene)
     if spindle.shaft.external:  # fidelity full alone, which does not read it
         return np.ones(SP.DRIVEN)
     places = [1e-3 * each.position_mm for each in spindle.bearing]
@@ -189,7 +184,7 @@ def _rows(
 
 def housing_of(scene: Scene) -> tuple[bodies.RigidBody, float]:
     """Return the housing as a body about its middle, and the place (m) of its middle and pedestal."""
-    spindle = _set(scene)
+    spindle = set_of(scene)
     housing = si(spindle.housing.model_copy(update={"material": None}))
     middle = 1e-3 * middle_mm(spindle)
     if not spindle.housing.moves:
@@ -199,7 +194,7 @@ def housing_of(scene: Scene) -> tuple[bodies.RigidBody, float]:
 
 def _matrices(scene: Scene, shaft: ShaftModel, n: int) -> dict[int, NDArray[np.float64]]:
     """Return tables of the block over all ``n`` coordinates by their places in its head."""
-    spindle = _set(scene)
+    spindle = set_of(scene)
     body, middle = housing_of(scene)
     count = SP.HOUSING if spindle.housing.moves else 0
     here = in_housing(1, middle)
@@ -251,7 +246,7 @@ def _block(
     bearings: list[NDArray[np.float64]],
     rows: list[tuple[NDArray[np.float64], NDArray[np.float64]]],
 ) -> NDArray[np.float64]:
-    spindle = _set(scene)
+    spindle = set_of(scene)
     count, n = len(bearings), rows[0][1].shape[1]
     tables = _matrices(scene, shaft, n)
     total = tables[SP.AT_MASS] + sum(motion.T @ np.diag(mass) @ motion for mass, motion in rows)
@@ -325,7 +320,7 @@ def _block(
 
 
 def _preload(scene: Scene, block: NDArray[np.float64]) -> None:
-    spindle = _set(scene)
+    spindle = set_of(scene)
     kinds = {"spacer": SP.SPACER, "spring": SP.SPRING}
     block[SP.PRELOAD_KIND] = SP.TOUCHING if spindle.preload is None else kinds[spindle.preload.kind]
     one_way = len({one.sign for one in spindle.bearing}) == 1

@@ -152,7 +152,7 @@ def measure(
         If the engine refuses.
     """
     blocks = [sound] if isinstance(sound, np.ndarray) else list(sound)
-    bearing = _arrays(scene, [], parameters)
+    bearing = Arrays.of(scene, **parameters)
     bearing.init()
     bearing.run(warm_up, COMMUNICATION)
     wall, cpu = speed(bearing, budget, 2, 1.0) if budget else (math.nan, math.nan)
@@ -172,7 +172,7 @@ def measure_between(
     refusals, as for `measure`, whose second run this saves.
     """
     blocks = [one for one in sound if one.size]
-    bearing = _arrays(scene, blocks, {"METERING_START": warm_up})
+    bearing = Arrays.of(scene, *blocks, METERING_START=warm_up)
     bearing.u[U.SPEED] = first
     bearing.init()
     bearing.run(warm_up, COMMUNICATION)
@@ -208,13 +208,6 @@ def _figures(z: NDArray[np.float64], levels: tuple[float, ...]) -> Figures:
     )
 
 
-def _arrays(scene: Scene, blocks: list[NDArray[np.float64]], parameters: dict[str, float]) -> Arrays:
-    """Return the arrays of a scene, of a set too."""
-    if scene.spindle is not None:
-        return Arrays.of_set(scene, *blocks, **parameters)
-    return Arrays.of(scene, blocks[0] if blocks else None, **parameters)
-
-
 def _places(bearing: Arrays) -> list[int]:
     """Return where the outputs of each bearing begin in ``z``."""
     p = bearing.p
@@ -227,7 +220,7 @@ def _levels(
     parameters: dict[str, float],
 ) -> tuple[float, ...]:  # fmt: skip
     """A-weighted equivalent levels (dB) over the window, as the engine's own meters show them."""
-    bearing = _arrays(scene, blocks, {**parameters, "METERING_START": warm_up})
+    bearing = Arrays.of(scene, *blocks, **parameters | {"METERING_START": warm_up})
     bearing.init()
     bearing.run(warm_up + window, COMMUNICATION)
     return _meters(bearing)

@@ -34,8 +34,7 @@ class Setting:
 
     def carries(self, scene: Scene) -> bool:
         """Whether the scene can be computed this way: bending rings and another model's shaft need full."""
-        led = scene.spindle is not None and scene.spindle.shaft.external
-        return not (scene.bends or led) or self.fidelity == "full"
+        return self.fidelity == "full" or not (scene.bends or scene.on_other_shaft)
 
     @property
     def name(self) -> str:

@@ -21,12 +21,12 @@
 ``fidelity``      physics, integrator, accuracy, terms left out
 ``fmu``           names, inputs and outputs of the FMU
 ``scene``         all tables together, with the checks that span several tables
+``member``        the bearings of a scene, each as the scene of a single one
 ``toml_text``     syntax of TOML, with lines and keys in its errors
 ``problems``      error messages, one line per problem, with the keys of the file
 ``origins``       where each value comes from, and which are assumed
 ``values``        values by dotted key: read, put in, compared
 ``read``          `Scene`: from TOML or dictionaries, or changed; catalogue names become values
-``member``        one bearing of a set as the scene of a single one
 ``units``         conversion of field units to SI
 ================  =====================================================================
 """

@@ -1,12 +1,73 @@
-"""One bearing of a set, as the scene of a single bearing; its share of the preload, and what it hears."""
+"""The bearings of a scene, each as the scene of a single one; its share of the preload, and what it hears."""
 
+from dataclasses import dataclass
+from typing import Generic, Literal, TypeVar
+
+from fmu_bearing.scene.base import SceneError
 from fmu_bearing.scene.mounting import Mounting, Rotor
-from fmu_bearing.scene.read import Scene
+from fmu_bearing.scene.scene import Tables
 from fmu_bearing.scene.sound import Microphone
 from fmu_bearing.scene.spindle import Spindle
+from fmu_bearing.scene.units import si
+
+Given = TypeVar("Given", bound=Tables)
 
 #: Radial stiffness (N/m) under an outer ring that its seat holds, so read by nothing.
 HELD = 1e8
+
+
+@dataclass(frozen=True)
+class SceneBearing(Generic[Given]):
+    """One bearing of a scene: the single one, or one of a set.
+
+    Attributes
+    ----------
+    number : int
+        From 1, of a set from the nose on.
+    sign : int
+        1 where it carries force on the shaft towards +X, else -1.
+    position : float
+        Plane of its ball centres from the shaft's nose (m); 0 of a single bearing, which is in the origin.
+    seat : str
+        What its outer ring is on: fixed in the housing, sliding in it, or a pedestal of its own.
+    prefix : str
+        Of its variables: ``bearing[1].`` and so on in a set, nothing for a single bearing.
+    scene : Scene
+        The scene of this bearing alone, see `one_of`; that of a single bearing is the whole one.
+    """
+
+    number: int
+    sign: int
+    position: float
+    seat: Literal["fixed", "sliding", "pedestal"]
+    prefix: str
+    scene: Given
+
+
+def bearings_of(scene: Given) -> tuple[SceneBearing[Given], ...]:
+    """Return the bearings of a scene, see `Scene.bearings`."""
+    if scene.spindle is None:
+        return (SceneBearing(1, 1, 0.0, "pedestal", "", scene),)
+    return tuple(
+        SceneBearing(k + 1, one.sign, si(one).position, one.seat, f"bearing[{k + 1}].", one_of(scene, k))
+        for k, one in enumerate(scene.spindle.bearing)
+    )
+
+
+def set_of(scene: Tables) -> Spindle:
+    """Return the set of a scene.
+
+    Raises
+    ------
+    SceneError
+        For the scene of one bearing.
+    """
+    if scene.spindle is None:
+        raise SceneError(
+            f"{scene.name}: has one bearing on its mounting; a set of bearings needs [spindle] in the place "
+            "of [mounting]"
+        )
+    return scene.spindle
 
 
 def shares(spindle: Spindle) -> list[float]:
@@ -36,14 +97,13 @@ def usual_load(spindle: Spindle, number: int) -> float:
     return shares(spindle)[number] * preload_asked(spindle)
 
 
-def one_of(scene: Scene, number: int = 0) -> Scene:
+def one_of(scene: Given, number: int = 0) -> Given:
     """Return the scene of one bearing of a set, without its place: no load, no sound.
 
     ``number``: from 0; each bearing has its own seed of imperfections. Its preload is its share of the set's,
     for what depends on the width of a contact.
     """
-    spindle = scene.spindle
-    assert spindle is not None, "the scene of a single bearing has no set"
+    spindle = set_of(scene)
     housing = spindle.housing
     mounting = Mounting(
         preload_N=0.0,
@@ -61,21 +121,21 @@ def one_of(scene: Scene, number: int = 0) -> Scene:
     return scene.model_copy(update=changes)
 
 
-def still_of(scene: Scene) -> Scene:
+def still_of(scene: Given) -> Given:
     """Return a set without what runs alone read: sound, imperfections and their lowest speed, the FMU."""
     operation = scene.operation.model_copy(update={"lowest_speed_rpm": None})
     changes = {"sound": None, "imperfections": None, "fmu": None, "operation": operation}
     return scene.model_copy(update=changes)
 
 
-def heard_of(scene: Scene, number: int) -> Scene:
+def heard_of(scene: Given, number: int) -> Given:
     """Return the scene of one bearing of a set, from 0, with microphones where they stand in its own axes.
 
     For its sound alone: a rotor without mass stands for the shaft, which fills its bore. It is bare: a
     housing of the set that radiates is `acoustics.filters.design.housing_of_set`.
     """
-    spindle, sound = scene.spindle, scene.sound
-    assert spindle is not None and sound is not None, "no set, or a set without sound"
+    spindle, sound = set_of(scene), scene.sound
+    assert sound is not None, "a set without sound"
     one = spindle.bearing[number]
     centre = 1e-3 * one.position_mm
 

@@ -21,7 +21,7 @@ from fmu_bearing.scene.entries import (
 )
 from fmu_bearing.scene.imperfections import RACES
 from fmu_bearing.scene.material import Materials
-from fmu_bearing.scene.mounting import Mounting
+from fmu_bearing.scene.member import SceneBearing, bearings_of
 from fmu_bearing.scene.nsk import PREFIX
 from fmu_bearing.scene.preload import CLASS, FORCE, OFFSET, PreloadError, preload, preload_key
 from fmu_bearing.scene.problems import (
@@ -59,18 +59,22 @@ class Scene(Tables):
     'name = "7003C-bare"'
     """
 
-    @property
-    def mounted(self) -> Mounting:
-        """How the one bearing is mounted.
+    def bearings(self) -> "tuple[SceneBearing[Scene], ...]":
+        """Return the bearings of the scene, those of a set from the nose to the rear.
 
-        Raises
-        ------
-        SceneError
-            For a set of bearings on one shaft: what needs a mounting cannot take it yet.
+        A single bearing is the first and only one; its scene is this one.
+
+        Examples
+        --------
+        >>> from fmu_bearing import read_scene
+        >>> pair = read_scene("examples/spindle_set/7003C-DB.toml")
+        >>> [(one.number, one.sign, one.prefix) for one in pair.bearings()]
+        [(1, 1, 'bearing[1].'), (2, -1, 'bearing[2].')]
+        >>> single = read_scene("examples/scenes/7003C-bare.toml")
+        >>> [(one.number, one.prefix, one.scene is single) for one in single.bearings()]
+        [(1, '', True)]
         """
-        if self.mounting is None:
-            raise self.unmounted()
-        return self.mounting
+        return bearings_of(self)
 
     def unmounted(self, what: str = "this") -> SceneError:
         """Return the refusal of a set by ``what`` computes one bearing on its mounting."""

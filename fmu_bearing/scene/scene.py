@@ -9,7 +9,7 @@ import tomlkit
 from pydantic import Field
 
 from fmu_bearing.scene import housing
-from fmu_bearing.scene.base import Conflict, Part
+from fmu_bearing.scene.base import Conflict, Part, SceneError
 from fmu_bearing.scene.bearing import Bearing
 from fmu_bearing.scene.fidelity import Fidelity
 from fmu_bearing.scene.fmu import Fmu
@@ -206,6 +206,27 @@ class Tables(Part):
     def _middles(self) -> list[float]:
         """Places (mm) of the bearings along the axis of the microphones."""
         return [0.0] if self.spindle is None else [one.position_mm for one in self.spindle.bearing]
+
+    @property
+    def mounted(self) -> Mounting:
+        """How the one bearing is mounted.
+
+        Raises
+        ------
+        SceneError
+            For a set of bearings on one shaft.
+        """
+        if self.mounting is None:
+            raise SceneError(
+                f"{self.name}: has a set of bearings on one shaft; one bearing needs [mounting] in the place "
+                "of [spindle]"
+            )
+        return self.mounting
+
+    @property
+    def on_other_shaft(self) -> bool:
+        """Whether another model owns the shaft of the bearings."""
+        return self.spindle is not None and self.spindle.shaft.external
 
     @property
     def flexural_modes(self) -> int:

@@ -10,11 +10,12 @@ from fmu_bearing.engine.constants import GRAVITY, REFERENCE_TEMPERATURE
 from fmu_bearing.prepare.bodies import inner_ring
 from fmu_bearing.prepare.spindle import expansions
 from fmu_bearing.scene import Scene, SceneError, si
-from fmu_bearing.scene.member import shares
-from fmu_bearing.scene.spindle import Spindle
+from fmu_bearing.scene.member import set_of, shares
 from fmu_bearing.scene.units import convert
 from fmu_bearing.spindle.member import Member
 from fmu_bearing.spindle.supports import Supports, axial_springs, supports
+
+__all__ = ["Assembly", "assembly", "set_of", "weight"]
 
 
 @dataclass(frozen=True)
@@ -45,22 +46,6 @@ class Assembly:
     offsets: NDArray[np.float64]
     warming: NDArray[np.float64]
     springs: dict[int, tuple[float, float]]
-
-
-def set_of(scene: Scene) -> Spindle:
-    """Return the set of a scene.
-
-    Raises
-    ------
-    SceneError
-        For the scene of one bearing.
-    """
-    if scene.spindle is None:
-        raise SceneError(
-            f"{scene.name}: has one bearing on its mounting; a set of bearings needs [spindle] in the place "
-            "of [mounting]"
-        )
-    return scene.spindle
 
 
 def assembly(scene: Scene, speed: float) -> Assembly:

@@ -110,10 +110,7 @@ def run_point(task: Task, blocks: Blocks | None = None) -> Outcome:
 
 def _measured(task: Task, sounds: Blocks) -> tuple[float, ...]:
     scene = task.scene
-    if scene.spindle is None:
-        bearing = Arrays.of(scene, *sounds, METERING_START=task.settle)
-    else:
-        bearing = Arrays.of_set(scene, *sounds, METERING_START=task.settle)
+    bearing = Arrays.of(scene, *sounds, METERING_START=task.settle)
     bearing.init()
     if task.settle > 0.0:
         steps = math.ceil(task.settle / COMMUNICATION)

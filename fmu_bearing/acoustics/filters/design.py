@@ -17,6 +17,7 @@ from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.scene import Scene, si
 from fmu_bearing.scene.housing import middle_mm
+from fmu_bearing.scene.member import set_of
 
 __all__ = [
     "FilterError",
@@ -162,15 +163,14 @@ def check_table(scene: Scene) -> None:
             radiation.paths(positions, members)
 
 
-def housing_of_set(scene: Scene) -> Housing | None:
-    """Return the housing that radiates, in the axes of a set's first bearing; None where none does.
+def housing_of_set(scene: Scene) -> Housing:
+    """Return the housing of a set that radiates, in the axes of its first bearing.
 
     All outer rings on fixed seats move with it as one rigid body, so the first one's motion and tilts tell
     everything that it does.
     """
-    if scene.spindle is None or scene.sound is None or scene.sound.radiator != "housing":
-        return None
-    spindle, first = scene.spindle, scene.spindle.bearing[0]
+    spindle = set_of(scene)
+    first = spindle.bearing[0]
     diameter, length = spindle.housing.diameter_mm, spindle.housing.length_mm
     assert diameter is not None and length is not None, "a housing that radiates moves and has a size"
     centre = first.sign * (middle_mm(spindle) - first.position_mm)

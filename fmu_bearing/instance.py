@@ -28,6 +28,7 @@ from fmu_bearing.interface import Variable
 from fmu_bearing.interface.set_inputs import led_inputs
 from fmu_bearing.interface.set_outputs import first_output
 from fmu_bearing.prepare.model import Model
+from fmu_bearing.scene import exclusions
 from fmu_bearing.scene.imperfections import RACES
 
 #: Messages for the status codes of the engine.
@@ -37,9 +38,8 @@ REASONS = {
     BAD_INPUT: "an input is not finite or outside its range",
     BAD_STEP: "the communication step must be above 0 s and below 1e6 s; give a run in several steps",
     NO_START: "no quasi-static equilibrium was found for these inputs; give more preload or less radial load",
-    RIGID_ONLY: "its rings bend, which needs fidelity full",
-    OTHER_FIDELITY: "a set of fidelity response, or with rings on pedestals of their own, keeps the fidelity "
-    "of its scene; bearings on another model's shaft have fidelity full alone",
+    RIGID_ONLY: exclusions.BENDING.words(),
+    OTHER_FIDELITY: exclusions.PREPARED.words(),
     TOO_SOFT: "the loads push the outer ring sideways by more than 0.3 of the pitch radius; "
     "give a stiffer pedestal or less radial load",
 }

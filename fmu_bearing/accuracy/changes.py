@@ -21,6 +21,7 @@ from fmu_bearing.formulas import iso281
 from fmu_bearing.modal.campbell.weak import whirl_words
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.scene import Scene, SceneSource, scene_of
+from fmu_bearing.scene.exclusions import require
 
 SEEDS = 5
 
@@ -70,8 +71,7 @@ def changes(
     if seeds < 1:
         raise ValueError(f"seeds = {seeds}: give 1 or more")
     scene = scene_of(source)
-    if scene.spindle is not None:
-        raise scene.unmounted("a study of changes")
+    require(scene, "changes")
     tell("operating point of the unchanged scene")
     before = point(scene)
     ear, reason = change_levels(scene, radiation_model) if levels else (None, "they were not asked for")

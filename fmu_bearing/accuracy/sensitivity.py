@@ -19,6 +19,7 @@ from fmu_bearing.prepare.sound import sound_key
 from fmu_bearing.results.table import machine, markdown, write_csv
 from fmu_bearing.run.metrics import INAUDIBLE, Figures, measure
 from fmu_bearing.scene import Scene, SceneError, SceneSource
+from fmu_bearing.scene.exclusions import require
 from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.scene.values import value_at
 
@@ -210,8 +211,7 @@ def sensitivity(
         For a set of bearings.
     """
     scene = with_fidelity(source, model="full")
-    if scene.spindle is not None:
-        raise scene.unmounted("a sensitivity study")
+    require(scene, "sensitivity")
     if scene.sound is not None and scene.sound.radiation_model == "bem" and scene.sound.radiator != "baffle":
         scene = scene.replace({"sound.radiation_model": "compact", "sound.reflecting_plane_mm": None})
     blocks: dict[str, NDArray[np.float64]] = {}

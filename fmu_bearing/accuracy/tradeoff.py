@@ -22,6 +22,7 @@ from fmu_bearing.results.table import machine, markdown, number, write_csv
 from fmu_bearing.run.metrics import COMMUNICATION, SAMPLE, Errors, errors, measure
 from fmu_bearing.run.settings import TERMS, Setting
 from fmu_bearing.scene import Scene, SceneSource, scene_of
+from fmu_bearing.scene.exclusions import BENDING, require
 
 CHECK = 5e-3  # s over which two integrators are compared
 
@@ -191,8 +192,7 @@ def tradeoff(
         For a set of bearings.
     """
     scene = scene_of(source)
-    if scene.spindle is not None:
-        raise scene.unmounted("a trade-off study")
+    require(scene, "tradeoff")
     sound = sound_block(scene)
     pair, own = check(scene, warm_up, min(CHECK, 0.5 * window))
     truth = measure(REFERENCE.scene(scene), sound, warm_up, window)
@@ -204,7 +204,7 @@ def tradeoff(
     rows = []
     for setting in track(settings):
         if not setting.carries(scene):
-            rows.append(Row(setting, remark="knows rigid rings only"))
+            rows.append(Row(setting, remark=BENDING.reason))
             continue
         try:
             run = measure(setting.scene(scene), sound, warm_up, window, budget=budget)

@@ -16,6 +16,7 @@ from fmu_bearing.acoustics.radiation.radiators import Air, Path, Radiators
 from fmu_bearing.acoustics.radiation.table import Table, table_paths
 from fmu_bearing.engine.choices import RADIATION_MODELS, ChannelForm
 from fmu_bearing.engine.layout import SD
+from fmu_bearing.scene.exclusions import RIGID_PLANE
 
 Position = tuple[float, float, float]
 
@@ -60,9 +61,7 @@ class Radiation:
         if self.model == "table" and self.table is None:
             raise ValueError('sound.radiation_model = "table" needs a table: give sound.table_file')
         if self.model != "bem" and (self.plane is not None or self.radiators.baffle):
-            raise ValueError(
-                f'a baffle or a reflecting plane needs sound.radiation_model = "bem", not "{self.model}"'
-            )
+            raise ValueError(f'sound.radiation_model = "{self.model}" {RIGID_PLANE.words()}')
 
     @property
     def form(self) -> ChannelForm:

@@ -18,6 +18,7 @@ from fmu_bearing.cli.base import (
 )
 from fmu_bearing.files import check_file
 from fmu_bearing.scene import read_scene
+from fmu_bearing.scene.exclusions import require
 
 Source = Annotated[
     Path, typer.Argument(metavar="SCENE|RUN.npz", help="Scene file (TOML), or a recording of a run (.npz).")
@@ -27,8 +28,8 @@ Page = Annotated[Path, typer.Option("--output", "-o", help="HTML file to write."
 
 def _kept_as(path: Path, source: Path) -> None:
     """Refuse a name under which the run cannot be kept, and a report without one."""
-    if source.suffix == ".toml" and read_scene(source).spindle is not None:
-        raise Refusal("--keep: the report of a set of bearings is made without a run: none to keep")
+    if source.suffix == ".toml":
+        require(read_scene(source), "run report")
     if path.suffix != ".npz":
         raise Refusal(f"--keep {path}: a run is kept as .npz")
     check_file(path)

@@ -12,6 +12,7 @@ from fmu_bearing.cli.base import FOUND, Catalogues, Json, Refusal, SceneFile, ap
 from fmu_bearing.files import write_whole
 from fmu_bearing.scene import Scene, SceneError, read_scene
 from fmu_bearing.scene.entries import Entry, entries, entry_text, too_many_balls
+from fmu_bearing.scene.exclusions import Exclusion, exclusion, exclusions_of
 from fmu_bearing.scene.nsk import PREFIX, sizes
 from fmu_bearing.scene.origins import Origin, origins
 from fmu_bearing.scene.template import MATERIALS, Dimensions
@@ -107,26 +108,40 @@ def check(
     catalogue: Catalogues = None,
     as_json: Json = False,
 ) -> None:
-    """Read scenes and find their equilibrium; print errors, warnings, and limits that are passed."""
+    """Read scenes and find their equilibrium; print errors, warnings, and limits that are passed.
+
+    Last come what such a scene cannot have, and why.
+    """
     with refusals():
         found = {str(path): _findings(path) for path in paths}
+    rows = {path: () if scene is None else exclusions_of(scene) for path, (scene, _) in found.items()}
     if as_json:
-        print_json({path: {"ok": ok, "findings": lines} for path, (ok, lines) in found.items()})
+        print_json({
+            path: {"ok": scene is not None, "findings": lines, "cannot": list(map(_cannot, rows[path]))}
+            for path, (scene, lines) in found.items()
+        })  # fmt: skip
     else:
-        for path, (ok, lines) in found.items():
+        for path, (scene, lines) in found.items():
             for line in lines:
-                typer.echo(f"{'caution' if ok else 'error'}: {line}", err=not ok)
-            if ok:
+                typer.echo(f"{'error' if scene is None else 'caution'}: {line}", err=scene is None)
+            if scene is not None:
                 typer.echo(f"{path}: a scene, with an equilibrium at its operating point")
-    if not all(ok for ok, _ in found.values()):
+            for row in rows[path]:
+                typer.echo(row.words())
+    if any(scene is None for scene, _ in found.values()):
         raise typer.Exit(FOUND)
+
+
+def _cannot(row: Exclusion) -> dict[str, Any]:
+    """Return a row of what a scene cannot have, for machines."""
+    return {"what": list(row.what.values()), "reason": row.reason, "way_out": row.way_out}
 
 
 _SHOULDER = "beyond its edge"
 
 
-def _findings(path: Path) -> tuple[bool, list[str]]:
-    """Return whether a scene can be run, and the messages about it."""
+def _findings(path: Path) -> tuple[Scene | None, list[str]]:
+    """Return a scene that can be run, else None, and the messages about it."""
     from fmu_bearing.design.operating_point import operating_point
     from fmu_bearing.design.verdicts import cautions
     from fmu_bearing.instance import EngineError, Instance
@@ -142,17 +157,16 @@ def _findings(path: Path) -> tuple[bool, list[str]]:
             bearing.initialise()
         lines = [str(one.message) for one in told]
         if scene.spindle is not None:
-            # of another model's shaft nothing is known at rest
-            at_rest = [] if scene.spindle.shaft.external else _of_statics(scene)
-            return True, [f"{path}: {line}" for line in lines + at_rest]
+            at_rest = [] if exclusion(scene, "statics") else _of_statics(scene)
+            return scene, [f"{path}: {line}" for line in lines + at_rest]
         # of a shoulder that is passed the bearing has warned by itself
         point = operating_point(scene)
         lines += [line for line in (*point.remarks, *cautions(point)) if _SHOULDER not in line]
-        return True, [f"{path}: {line}" for line in lines]
+        return scene, [f"{path}: {line}" for line in lines]
     except SceneError as problem:
-        return False, list(problem.problems)
+        return None, list(problem.problems)
     except EngineError as problem:
-        return False, [f"{path}: {problem}"]
+        return None, [f"{path}: {problem}"]
 
 
 def _check_table(scene: Scene) -> None:
@@ -313,7 +327,7 @@ def _sizes(found: Scene) -> dict[str, Any]:
     # an instance copies the parameters and keeps its last state beside the present one
     sizes = model.lengths
     places = p.size + 2 * sizes.state + sizes.work + sizes.outputs
-    if auto and found.spindle is not None and found.spindle.shaft.external:
+    if auto and found.on_other_shaft:
         words = "auto: full, which alone follows another model's shaft"
     elif auto:
         bounds = fidelity.accuracy

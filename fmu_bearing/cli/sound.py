@@ -66,6 +66,7 @@ def sound(
     from fmu_bearing.recording.record import Recording, record
     from fmu_bearing.recording.studies.spread import doubt_of
     from fmu_bearing.results.table import show
+    from fmu_bearing.scene.exclusions import require
     from fmu_bearing.scene.read import read_scene, with_fidelity
 
     with refusals(), quiet_warnings():
@@ -84,8 +85,7 @@ def sound(
             found = read_scene(source)
             if fidelity is not None:
                 found = with_fidelity(found, model=fidelity)
-            if found.spindle is not None:
-                raise found.unmounted("a measurement of sound")
+            require(found, "measurement")
             named_places(found.microphones, microphone)
             recording = record(
                 found, duration, speed=turning, settle=settle,

@@ -27,6 +27,7 @@ from fmu_bearing.identification.errors import IdentifyError
 from fmu_bearing.identification.free import Wanted, free_numbers
 from fmu_bearing.identification.result import Identified, Interrupted
 from fmu_bearing.scene import SceneSource, scene_of
+from fmu_bearing.scene.exclusions import require
 
 __all__ = ["Identified", "IdentifyError", "Interrupted", "identify"]
 
@@ -96,6 +97,8 @@ def identify(
     ------
     IdentifyError
         For data, keys or settings that are refused, all problems at once.
+    SceneError
+        For a set of bearings.
     Interrupted
         On Ctrl-C, a `KeyboardInterrupt` with the ``best`` values so far.
 
@@ -114,6 +117,7 @@ def identify(
     from fmu_bearing.identification.search import search
 
     start = scene_of(scene)
+    require(start, "identification")
     measured = read_data(data, start, background, accept=accept)
     held = {key for one in measured for key, _ in one.conditions}
     return search(

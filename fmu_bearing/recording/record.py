@@ -21,6 +21,7 @@ from fmu_bearing.prepare.model import Model, prepare
 from fmu_bearing.recording.recording import Recording
 from fmu_bearing.run.choose import resolve
 from fmu_bearing.scene import Scene, SceneSource, scene_of
+from fmu_bearing.scene.exclusions import require
 from fmu_bearing.scene.sound import Microphone, Sound
 
 __all__ = ["OUTPUTS", "Recording", "RecordingSource", "record", "recording_of"]
@@ -109,8 +110,7 @@ def record(
     [62, 59, 61, 68]
     """
     scene = source.scene if isinstance(source, Model) else scene_of(source)
-    if scene.spindle is not None:
-        raise scene.unmounted("a recording of sound channels")
+    require(scene, "recording")
     if not isinstance(source, Model):
         scene = resolve(scene)[0]
     for name, value, low in (("duration", duration, 0.0), ("step", step, 0.0), ("settle", settle, -1e-300)):

@@ -28,6 +28,7 @@ from fmu_bearing.reports.set_page import set_page
 from fmu_bearing.reports.sound import directivity_balloon, levels_and_spectra, playback, waterfall
 from fmu_bearing.run.choose import resolve
 from fmu_bearing.scene import Scene, SceneSource, read_scene, scene_of
+from fmu_bearing.scene.exclusions import refusal, require
 from fmu_bearing.scene.origins import origins
 
 Source = Recording | SceneSource
@@ -149,6 +150,7 @@ def make(
     _check(duration, settle, radius, run_up, run_up_time)
     given = _set_of(source)
     if given is not None:
+        require(given, "report")
         runs: dict[str, tuple[object, object]] = {
             "run_up": (run_up, None), "radiation_model": (radiation_model, None), "changes": (changes, None),
             "duration": (duration, DURATION), "settle": (settle, SETTLE), "radius": (radius, RADIUS),
@@ -241,9 +243,7 @@ def _of_set(
     """Write the page about a set; ``runs``: options that need a run, each with its default."""
     for name, (value, default) in runs.items():
         if value != default:
-            raise ValueError(
-                f"{name}: the report of a set of bearings is made of statics, without a run: leave it out"
-            )
+            raise ValueError(f"{name}: {refusal(scene, 'run report')}")
     if speed is not None:
         scene = scene.replace({"operation.speed_rpm": speed / RPM})
     page = set_page(scene, title, tell)
@@ -268,7 +268,9 @@ def _spread(subject: Subject, heard: Microphones | None, tell: Tell) -> Spread |
 def _taken(
     recording: Recording, origin: str, radiation_model: str | None, radius: float, speed: float | None
 ) -> Subject:
-    """Take a recording; ``ValueError`` for an option that needs another run."""
+    """Take a recording; ``ValueError`` for an option that needs another run, and for one of a set."""
+    if recording.scene is not None:
+        require(recording.scene, "run report")
     if speed is not None:
         raise ValueError(
             "the speed of a recording cannot be changed: give the scene to run it at another one"

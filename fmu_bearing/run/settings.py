@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from fmu_bearing.scene import Scene
+from fmu_bearing.scene.exclusions import exclusion
 from fmu_bearing.scene.fidelity import Terms
 from fmu_bearing.scene.read import with_fidelity
 
@@ -34,7 +35,7 @@ class Setting:
 
     def carries(self, scene: Scene) -> bool:
         """Whether the scene can be computed this way: bending rings and another model's shaft need full."""
-        return self.fidelity == "full" or not (scene.bends or scene.on_other_shaft)
+        return self.fidelity == "full" or exclusion(scene, "fidelities") is None
 
     @property
     def name(self) -> str:

@@ -22,6 +22,7 @@
 ``fmu``           names, inputs and outputs of the FMU
 ``scene``         all tables together, with the checks that span several tables
 ``member``        the bearings of a scene, each as the scene of a single one
+``exclusions``    what a scene cannot have, why, and the way out
 ``toml_text``     syntax of TOML, with lines and keys in its errors
 ``problems``      error messages, one line per problem, with the keys of the file
 ``origins``       where each value comes from, and which are assumed

@@ -1,10 +1,9 @@
-"""The housing of a set where it radiates: its place, and what keeps it from being the body that sounds."""
+"""The housing of a set where it radiates: its place, and what does not fit into it."""
 
 from collections.abc import Iterator
 
 from fmu_bearing.scene.base import Conflict
 from fmu_bearing.scene.bearing import Bearing
-from fmu_bearing.scene.sound import Sound
 from fmu_bearing.scene.spindle import Spindle
 
 #: mm: a microphone nearer to a body than this stands on it; places carry rounding.
@@ -29,23 +28,10 @@ def envelope(spindle: Spindle) -> tuple[float, float, float] | None:
     return 0.5 * diameter, middle - 0.5 * length, middle + 0.5 * length
 
 
-def conflicts(spindle: Spindle, bearing: Bearing, sound: Sound) -> Iterator[Conflict]:
-    """Yield why the housing cannot radiate: its motion, its size, what it holds, the radiation model."""
-    if sound.radiation_model.startswith("paper"):
-        yield Conflict(
-            "sound.radiation_model",
-            "takes every body as bare, and a set's housing covers its bearings: give "
-            f'"bem" or "compact", {_BACK}',
-        )
+def conflicts(spindle: Spindle, bearing: Bearing) -> Iterator[Conflict]:
+    """Yield why a housing that moves cannot radiate: its size, and bearings that are not inside."""
     found = envelope(spindle)
     if found is None:
-        seats = any(one.seat == "pedestal" for one in spindle.bearing)
-        more = ', with seat = "fixed" in the place of "pedestal"' if seats else ""
-        yield Conflict(
-            "sound.radiator",
-            "needs a housing that moves: give spindle.housing.mass_kg, diameter_mm, length_mm and "
-            f"pedestal_stiffness_N_m{more}, {_BACK}",
-        )
         return
     radius, front, rear = found
     limit = bearing.outside_diameter_mm
@@ -65,10 +51,3 @@ def conflicts(spindle: Spindle, bearing: Bearing, sound: Sound) -> Iterator[Conf
                 f"inside the housing that radiates, x = {front:g} to {rear:g} mm: change "
                 f"spindle.housing.position_mm or length_mm, {_BACK}",
             )
-    if spindle.bearing[0].seat == "sliding":
-        yield Conflict(
-            "spindle.bearing[1].seat",
-            '= "sliding": the outer ring that the housing shows in front must move with it, where the '
-            'housing radiates; give it "fixed" and the bearings that carry the other way "sliding", '
-            f"{_BACK}",
-        )

@@ -3,14 +3,14 @@
 import copy
 import difflib
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from pydantic import ValidationError
 
 from fmu_bearing.files import read_text, real_path
-from fmu_bearing.scene.base import SceneError
+from fmu_bearing.scene.base import Conflict, SceneError
 from fmu_bearing.scene.entries import (
     KEY as CATALOGUES,
     Entry,
@@ -19,6 +19,7 @@ from fmu_bearing.scene.entries import (
     named_files,
     too_many_balls,
 )
+from fmu_bearing.scene.exclusions import conflicts_of
 from fmu_bearing.scene.imperfections import RACES
 from fmu_bearing.scene.material import Materials
 from fmu_bearing.scene.member import SceneBearing, bearings_of
@@ -59,6 +60,11 @@ class Scene(Tables):
     'name = "7003C-bare"'
     """
 
+    def conflicts(self) -> Iterator[Conflict]:
+        """Yield conflicts between tables, and what such a scene cannot have."""
+        yield from super().conflicts()
+        yield from conflicts_of(self)
+
     def bearings(self) -> "tuple[SceneBearing[Scene], ...]":
         """Return the bearings of the scene, those of a set from the nose to the rear.
 
@@ -79,10 +85,7 @@ class Scene(Tables):
     def unmounted(self, what: str = "this") -> SceneError:
         """Return the refusal of a set by ``what`` computes one bearing on its mounting."""
         return SceneError(
-            f"{self.name}: {what} takes one bearing with [mounting] so far, not a set with [spindle]; "
-            "sets have `fmu-bearing info`, `stiffness`, `report`, `simulate`, `sweep`, `choose`, `modes` "
-            "and `build`, in Python `shaft_statics`, `operating_points`, `set_stiffness`, `modes`, "
-            "`campbell`, `simulate`, `sweep`, `choose`, `report`, `build_fmu` and `Bearing`"
+            f"{self.name}: {what} takes one bearing with [mounting] so far, not a set with [spindle]"
         )
 
     @classmethod

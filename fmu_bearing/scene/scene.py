@@ -62,7 +62,6 @@ class Tables(Part):
             yield Conflict(
                 "mounting.housing.diameter_mm", f"must exceed bearing.outside_diameter_mm = {limit:g}"
             )
-        yield from self._flexure()
         yield from self._orders()
         if self.sound is not None:
             if self.sound.radiator == "housing" and own is None and self.spindle is None:
@@ -72,20 +71,12 @@ class Tables(Part):
                 yield from self._behind_plane(self.sound.reflecting_plane_mm)
 
     def _set(self) -> Iterator[Conflict]:
-        """Yield what a set of bearings cannot have: nothing that is given may be ignored."""
+        """Yield what does not fit in a set of bearings, and a speed that nothing reads."""
         if self.spindle is None:
             return
-        if self.spindle.shaft.external:
-            yield from self._port()
-        yield from self._sound_of_set()
+        if self.sound is not None and self.sound.radiator == "housing":
+            yield from housing.conflicts(self.spindle, self.bearing)
         flaws = self.imperfections
-        if flaws is not None and flaws.unbalance_um > 0.0:
-            yield Conflict(
-                "imperfections.unbalance_um",
-                "is that of one rotor; a set has heavy spots on its shaft: leave "
-                "the key out and give [[spindle.shaft.unbalance]] with position_mm and amount_g_mm "
-                "(the rotor's mass in kg times its eccentricity in um)",
-            )
         if self.operation.lowest_speed_rpm is not None and not (flaws and flaws.follows_law):
             yield Conflict(
                 "operation.lowest_speed_rpm",
@@ -101,35 +92,6 @@ class Tables(Part):
                     f"{width:g} mm wide",
                 )
 
-    def _port(self) -> Iterator[Conflict]:
-        """Yield what bearings on another model's shaft do not have."""
-        if self.fidelity.model not in ("full", "auto"):
-            yield Conflict(
-                "fidelity.model",
-                "does not follow a shaft that another model moves (spindle.shaft.external): give 'full'",
-            )
-        if self.sound is not None:
-            yield Conflict(
-                "sound", "is not computed of bearings on another model's shaft (spindle.shaft.external) yet"
-            )
-
-    def _sound_of_set(self) -> Iterator[Conflict]:
-        """Yield radiators and tables of sound that are those of one bearing."""
-        if self.sound is None or self.spindle is None:
-            return
-        if self.sound.radiator == "baffle":
-            yield Conflict(
-                "sound.radiator",
-                'is not computed of a set ([spindle]) yet: give "bare" or "housing"',
-            )
-        if self.sound.radiator == "housing":
-            yield from housing.conflicts(self.spindle, self.bearing, self.sound)
-        if self.sound.radiation_model == "table":
-            yield Conflict(
-                "sound.radiation_model",
-                "holds the paths of one bearing, a set ([spindle]) has those of several: give another model",
-            )
-
     def _behind_plane(self, plane: float) -> Iterator[Conflict]:
         key = "sound.reflecting_plane_mm"
         for body, _, low, high in self._envelopes():
@@ -141,18 +103,6 @@ class Tables(Part):
                 yield Conflict(
                     key, f"stands between the bearing and microphone '{place.name}' at x = {x:g} mm"
                 )
-
-    def _flexure(self) -> Iterator[Conflict]:
-        """Yield a fidelity that cannot compute the bending of the rings."""
-        if not self.bends:
-            return
-        model = self.fidelity.model
-        if model not in ("full", "auto"):
-            yield Conflict(
-                "fidelity.model",
-                f"'{model}' has rigid rings only: bending needs 'full' or 'auto', or leave out "
-                f"[{'mounting' if self.spindle is None else 'spindle'}.flexure]",
-            )
 
     def _orders(self) -> Iterator[Conflict]:
         """Yield waviness whose highest order nothing decides, because the scene stands still."""

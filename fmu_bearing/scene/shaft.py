@@ -89,13 +89,8 @@ class Shaft(Part):
     )
 
     def conflicts(self) -> Iterator[Conflict]:
-        """Yield sections whose bore leaves nothing, a shaft without any, and what a port does not read."""
+        """Yield sections whose bore leaves nothing, and a shaft without any."""
         if self.external:
-            for key in ("sections_mm", "flexible", "fixed_modes", "damping_ratio", "unbalance"):
-                if getattr(self, key) != type(self).model_fields[key].default:
-                    yield Conflict(
-                        key, "is that of the model which owns the shaft (external = true): leave it out"
-                    )
             return
         if not self.sections_mm:
             yield Conflict(

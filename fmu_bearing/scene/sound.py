@@ -170,7 +170,7 @@ class Sound(Part):
     circle: Circle | None = Field(default=None, description="Microphones on a circle about the axis.")
 
     def conflicts(self) -> Iterator[Conflict]:
-        """Yield missing microphones, repeated names, and options that the radiation model lacks."""
+        """Yield missing microphones, repeated names, and a table that is missing or not read."""
         names = [place.name for place in self.points()]
         if not names:
             yield Conflict(
@@ -189,15 +189,6 @@ class Sound(Part):
             yield Conflict(
                 "table_file", f'is read with radiation_model = "table" only, not "{self.radiation_model}"'
             )
-        if self.radiation_model != "bem":
-            words = f'needs radiation_model = "bem"; "{self.radiation_model}" has no rigid planes'
-            if self.radiator == "baffle":
-                yield Conflict(
-                    "radiator",
-                    words,
-                )
-            if self.reflecting_plane_mm is not None:
-                yield Conflict("reflecting_plane_mm", words)
 
     def points(self) -> list[Place]:
         """Names and places (m) of all microphones: the single ones first, then the circle."""

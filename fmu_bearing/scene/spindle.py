@@ -257,12 +257,7 @@ class Spindle(Part):
                     f"= {other.position_mm:g} must exceed that of the bearing before it, "
                     f"{one.position_mm:g}: bearings are given from the nose to the rear",
                 )
-        if self.shaft.external:
-            if self.load != Load():
-                yield Conflict(
-                    "load", "acts on the shaft, which another model owns (shaft.external): leave it out"
-                )
-        else:
+        if not self.shaft.external:
             yield from self._held()
         yield from self._springs()
         yield from self._pedestals()

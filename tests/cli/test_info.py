@@ -10,6 +10,7 @@ from fmu_bearing import stiffness
 from fmu_bearing.accuracy.changes import point
 from fmu_bearing.instance import Instance
 from fmu_bearing.scene import read_scene
+from fmu_bearing.scene.exclusions import exclusions_of
 from tests.conftest import EXAMPLES
 from tests.spindle.sets import scene as bearings
 
@@ -126,6 +127,16 @@ def test_info_of_a_set_tells_what_each_bearing_carries(run):
 def test_a_set_is_checked_shown_and_run(run, tmp_path):
     told = run("scene", "check", SET)
     assert told.exit_code == 0 and "a scene, with an equilibrium" in told.stdout
+    last = told.stdout.partition("at its operating point\n")[2].splitlines()
+    assert last == [row.words() for row in exclusions_of(read_scene(SET))] and len(last) == 5
+    shown = run("scene", "check", SET, EXAMPLES / "7003C-bare.toml", "--json").data
+    pair, single = (shown[str(path)]["cannot"] for path in (SET, EXAMPLES / "7003C-bare.toml"))
+    assert single == [] and len(pair) == 5
+    assert pair[2] == {
+        "what": ["a report of a run"],
+        "reason": "its report is made from statics, without a run",
+        "way_out": "give the scene itself, without options that need a run",
+    }
     out = tmp_path / "run.csv"
     told = run("simulate", SET, "-t", 1e-3, "-v", "bearing[*].force.x", "-o", out, "--json")
     assert told.exit_code == 0 and told.data["points"] == 2
@@ -138,7 +149,7 @@ def test_a_set_is_checked_shown_and_run(run, tmp_path):
     }
     told = run("tradeoff", SET)
     assert told.exit_code == 2
-    assert "takes one bearing with [mounting] so far, not a set with [spindle]" in told.stderr
+    assert "7003C-DB: cannot have a trade-off study: these studies are built for one bearing" in told.stderr
 
 
 def test_a_bearing_of_a_set_without_load_is_shown_and_checked(run, tmp_path):

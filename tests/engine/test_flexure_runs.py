@@ -140,7 +140,7 @@ def test_shape_at_the_groove_centre(scene):
 def test_what_knows_rigid_rings_only_is_refused(scene, model):
     flexible = bending(quiet(scene(SCENE)), outer=(2,))
     with pytest.raises(
-        SceneError, match=r"fidelity\.model.*rigid rings only.*leave out \[mounting\.flexure\]"
+        SceneError, match=r"fidelity\.model.*rigid rings only.*leave out `\[mounting\.flexure\]`"
     ):
         with_fidelity(flexible, model=model)
 

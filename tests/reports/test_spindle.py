@@ -38,11 +38,15 @@ def test_page_of_a_tandem_says_what_it_lacks(tmp_path):
 def test_speed_is_taken_and_runs_are_refused(tmp_path):
     made = make(PAIR, tmp_path / "fast.html", speed=1000.0)
     assert "9,549 r/min" in made.path.read_text(encoding="utf-8")
-    with pytest.raises(ValueError, match="without a run: leave it out"):
+    with pytest.raises(ValueError, match="^run_up: 7003C-DB: cannot have a report of a run"):
         make(PAIR, tmp_path / "no.html", run_up=(500.0, 1000.0))
     kept = ["report", str(PAIR), "-o", str(tmp_path / "p.html"), "--keep", str(tmp_path / "r.npz")]
     shown = CliRunner().invoke(app, kept)
-    assert shown.exit_code != 0 and "none to keep" in shown.output.replace("\n", " ")
+    assert (
+        shown.exit_code != 0
+        and "cannot have a report of a run: its report is made from statics"
+        in shown.output.replace("\n", " ")
+    )
     assert not (tmp_path / "p.html").exists()
 
 
@@ -52,7 +56,9 @@ def test_speed_is_taken_and_runs_are_refused(tmp_path):
 )
 def test_options_of_a_run_are_refused(tmp_path, option):
     (name,) = option
-    with pytest.raises(ValueError, match=f"^{name}: the report of a set of bearings is made of statics"):
+    with pytest.raises(
+        ValueError, match=f"^{name}: 7003C-DB: cannot have a report of a run: its report is made from statics"
+    ):
         make(PAIR, tmp_path / "no.html", **option)
     assert not (tmp_path / "no.html").exists()
 

@@ -106,15 +106,15 @@ def test_a_catalogue_name_fills_what_the_file_leaves_out():
             'radiation_model = "bem"\nradiator = "bare"',
             'radiation_model = "compact"\nradiator = "baffle"',
             [
-                "sound.radiator = 'baffle' needs",
-                'radiation_model = "bem"',
-                '"compact" has no rigid planes',
+                "sound.radiator = 'baffle' is refused",
+                'give `sound.radiation_model` = "bem"',
+                "only boundary elements have rigid planes",
             ],
         ),
         (
             'radiation_model = "bem"\nradiator = "bare"',
             'radiation_model = "compact"\nradiator = "bare"\nreflecting_plane_mm = -50.0',
-            ["sound.reflecting_plane_mm = -50.0 needs", 'radiation_model = "bem"'],
+            ["sound.reflecting_plane_mm = -50.0 is refused", '`sound.radiation_model` = "bem"'],
         ),
         (
             'radiation_model = "bem"',

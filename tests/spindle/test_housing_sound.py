@@ -295,11 +295,11 @@ def test_a_sweep_hears_the_size_of_the_housing():
     [
         (
             {"housing": {}},
-            "radiator = 'housing' needs a housing that moves: give spindle.housing.mass_kg, diameter_mm",
+            "radiator = 'housing' is refused: only a housing that moves radiates; give `mass_kg`",
         ),
         (
             {"housing": {"pedestal_stiffness_N_m": 1e8}, "bearings": [{"seat": "pedestal"}] * 2},
-            'seat = "fixed" in the place of "pedestal"',
+            '`seat` = "fixed" in the place of "pedestal"',
         ),
         (
             {"change": {"diameter_mm": 35.0}},
@@ -307,10 +307,10 @@ def test_a_sweep_hears_the_size_of_the_housing():
         ),
         ({"change": {"position_mm": 115.0}}, "puts the bearing from x = 20 to 30 mm"),
         ({"change": {"length_mm": 100.0}}, "inside the housing that radiates, x = 40 to 140 mm"),
-        ({"model": "paper"}, "radiation_model = 'paper' takes every body as bare"),
+        ({"model": "paper"}, "radiator = 'housing' is refused: these models take every body as bare"),
         ({"places": [(60.0, 45.0, 0.0)]}, "lies inside the housing, which reaches to r = 50 mm"),
         ({"model": "bem", "heard": {"reflecting_plane_mm": 165.0}}, "cuts the housing"),
-        ({"heard": {"radiator": "baffle"}, "model": "bem"}, 'give "bare" or "housing"'),
+        ({"heard": {"radiator": "baffle"}, "model": "bem"}, 'give `sound.radiator` = "bare" or "housing"'),
     ],
 )
 def test_refusals(changes, words):

@@ -236,10 +236,13 @@ def test_library_has_a_port():
         ({"shaft": {}}, "shaft.sections_mm is missing"),
         (
             {"shaft": {"external": True, "sections_mm": [[10.0, 5.0, 0.0]]}},
-            "sections_mm: is that of the model",
+            "sections_mm: is refused: they are given in the model",
         ),
-        ({"shaft": {"external": True, "flexible": True}}, "flexible = true is that of the model"),
-        ({"shaft": {"external": True}, "load": {"force_x_N": 1.0}}, "load: acts on the shaft"),
+        (
+            {"shaft": {"external": True, "flexible": True}},
+            "flexible = true is refused: they are given",
+        ),
+        ({"shaft": {"external": True}, "load": {"force_x_N": 1.0}}, "load: is refused: it acts on the shaft"),
     ],
 )
 def test_what_a_port_does_not_read_is_refused(changes, words):

@@ -23,6 +23,7 @@ from fmu_bearing.acoustics.radiation.radiators import Air, Path, Radiators
 from fmu_bearing.acoustics.registry import Radiation, recipe_of
 from fmu_bearing.engine.choices import ChannelForm
 from fmu_bearing.engine.layout import SD
+from fmu_bearing.scene.exclusions import TABLE_CHANNELS
 
 Position = tuple[float, float, float]
 _Responses = Callable[[NDArray[np.float64]], dict[tuple[int, float], NDArray[np.complex128]]]
@@ -68,9 +69,7 @@ def circles(
         On the radiation model ``table``, an unknown one, or a microphone inside a body.
     """
     if model == "table":
-        raise ValueError(
-            'sound.radiation_model = "table" cannot be evaluated at other places: use "bem" or "compact"'
-        )
+        raise ValueError(f'sound.radiation_model = "table" {TABLE_CHANNELS.words()}')
     radiation = Radiation(model, radiators, air, harmonics, **options)
     for members in radiation.circles(positions):
         yield Circle(tuple(members), tuple(radiation.paths(positions, members)))

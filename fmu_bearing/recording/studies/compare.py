@@ -28,6 +28,7 @@ from fmu_bearing.results.result import ENDINGS, Run
 from fmu_bearing.results.table import write_csv
 from fmu_bearing.run.choose import resolve
 from fmu_bearing.scene import SceneSource, scene_of
+from fmu_bearing.scene.exclusions import require
 from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.scene.units import symbol
 from fmu_bearing.scene.values import flat
@@ -325,8 +326,7 @@ def _finished(
             return of_run(source, settle, radiation_model)
         return of_recording(source, name, radiation_model)
     scene = scene_of(source)
-    if scene.spindle is not None:
-        raise scene.unmounted("a recording of sound channels")
+    require(scene, "comparison")
     if fidelity is not None:
         scene = with_fidelity(scene, model=fidelity)
     if scene.fidelity.model == "auto":

@@ -9,6 +9,7 @@ from fmu_bearing.acoustics.analysis.field import Blocks, Circle, Position
 from fmu_bearing.acoustics.filters.weighting import a_weighting_db
 from fmu_bearing.recording.record import record
 from fmu_bearing.scene import Scene
+from fmu_bearing.scene.exclusions import PAPER_RUNS
 
 RESOLUTION = 20.0  # Hz
 
@@ -72,7 +73,4 @@ class LevelEstimator:
 def check_model(radiation_model: str) -> None:
     """Refuse the radiation models of the papers, which need channels of their own."""
     if radiation_model.startswith("paper"):
-        raise ValueError(
-            f'short runs are not heard with radiation_model = "{radiation_model}": record with "bem" or '
-            '"compact"'
-        )
+        raise ValueError(f'radiation_model = "{radiation_model}" {PAPER_RUNS.words()}')

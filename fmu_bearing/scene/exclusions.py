@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from fmu_bearing.scene.base import Conflict, SceneError
+from fmu_bearing.scene.member import set_of
 from fmu_bearing.scene.scene import Tables
 from fmu_bearing.scene.shaft import Shaft
 from fmu_bearing.scene.spindle import Load
@@ -64,7 +65,7 @@ class Exclusion:
     what : mapping
         Words for each subject.
     reason, way_out : str
-        In words; code in them stands in backquotes, as on a page.
+        In words; code in them is in backquotes, as on a page.
     given : callable
         Yields the dotted keys at which the file of a scene asks for it; none where a call or a command does.
     """
@@ -124,15 +125,13 @@ def _fidelities(tables: Tables) -> Keys:
 
 
 def _load(tables: Tables) -> Keys:
-    if tables.spindle is not None and tables.spindle.load != Load():
+    if set_of(tables).load != Load():
         yield "spindle.load"
 
 
 def _shaft(tables: Tables) -> Keys:
-    if tables.spindle is None:
-        return
     for key in ("sections_mm", "flexible", "fixed_modes", "damping_ratio", "unbalance"):
-        if getattr(tables.spindle.shaft, key) != Shaft.model_fields[key].default:
+        if getattr(set_of(tables).shaft, key) != Shaft.model_fields[key].default:
             yield f"spindle.shaft.{key}"
 
 
@@ -140,24 +139,23 @@ def _model(tables: Tables) -> str:
     return "" if tables.sound is None else tables.sound.radiation_model
 
 
+def _is_set(tables: Tables) -> bool:
+    return tables.spindle is not None
+
+
 def _sounds(tables: Tables) -> bool:
-    return tables.spindle is not None and tables.sound is not None
+    return _is_set(tables) and tables.sound is not None
 
 
-_SET = Kind("a set of bearings (`[spindle]`)", lambda one: one.spindle is not None)
+_SET = Kind("a set of bearings (`[spindle]`)", _is_set)
 _SOUNDING = Kind("a set with `[sound]`", _sounds)
 _RESTING = Kind(
     "a set with `[sound]` whose housing does not move",
-    lambda one: one.spindle is not None and _sounds(one) and not one.spindle.housing.moves,
+    lambda one: _sounds(one) and not set_of(one).housing.moves,
 )
 _SLIDING = Kind(
     "a set with `[sound]` whose housing moves and whose first bearing slides in it",
-    lambda one: (
-        one.spindle is not None
-        and _sounds(one)
-        and one.spindle.housing.moves
-        and one.spindle.bearing[0].seat == "sliding"
-    ),
+    lambda one: _sounds(one) and set_of(one).housing.moves and set_of(one).bearing[0].seat == "sliding",
 )
 _PAPER_SET = Kind(
     "a set with a paper's radiation model", lambda one: _sounds(one) and _model(one).startswith("paper")
@@ -254,7 +252,7 @@ EXCLUSIONS = (
     Exclusion(
         _SOUNDING,
         {"table": "the radiation model table"},
-        "its file holds the paths of one bearing, and a set has those of several",
+        "its file holds the paths of one bearing, and a set needs the paths of several",
         'give `sound.radiation_model` = "bem" or "compact"',
         _table,
     ),

@@ -66,7 +66,7 @@ class Scene(Tables):
         yield from conflicts_of(self)
 
     def bearings(self) -> "tuple[SceneBearing[Scene], ...]":
-        """Return the bearings of the scene, those of a set from the nose to the rear.
+        """Return the bearings of the scene, in a set from the nose to the rear.
 
         A single bearing is the first and only one; its scene is this one.
 

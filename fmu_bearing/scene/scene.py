@@ -99,7 +99,7 @@ class Tables(Part):
                 yield Conflict(key, f"cuts the {body}, which reaches from x = {low:g} to {high:g} mm")
         for place in self.microphones:
             x = 1e3 * place.position_m[0]
-            if any((x - plane) * (plane - middle) > 0.0 for middle in self._middles()):
+            if any((x - plane) * (plane - middle) > 0.0 for _, middle in self._middles()):
                 yield Conflict(
                     key, f"stands between the bearing and microphone '{place.name}' at x = {x:g} mm"
                 )
@@ -149,13 +149,14 @@ class Tables(Part):
             found = housing.envelope(self.spindle)
             if found is not None:
                 yield "housing", *found
-        for number, middle in enumerate(self._middles(), start=1):
-            name = "bearing" if self.spindle is None else f"bearing {number}"
+        for name, middle in self._middles():
             yield name, self.bearing.outside_diameter_mm / 2.0, middle - half, middle + half
 
-    def _middles(self) -> list[float]:
-        """Places (mm) of the bearings along the axis of the microphones."""
-        return [0.0] if self.spindle is None else [one.position_mm for one in self.spindle.bearing]
+    def _middles(self) -> list[tuple[str, float]]:
+        """Names of the bearings, and their places (mm) along the axis of the microphones."""
+        if self.spindle is None:
+            return [("bearing", 0.0)]
+        return [(f"bearing {k}", one.position_mm) for k, one in enumerate(self.spindle.bearing, start=1)]
 
     @property
     def mounted(self) -> Mounting:

@@ -1,4 +1,4 @@
-"""The bearings of a scene: one way through a single bearing and through those of a set."""
+"""The bearings of a scene: one way through a single bearing and through a set."""
 
 import numpy as np
 import pytest

@@ -132,7 +132,7 @@ CASES = [
 ]
 
 
-def test_every_subject_stands_in_the_table_and_has_a_door_here():
+def test_every_subject_is_in_the_table_and_has_a_door_here():
     assert {subject for row in EXCLUSIONS for subject in row.what} == set(get_args(Subject))
     for row, _, _, doors in ROWS:
         assert set(row.what) == set(doors)

@@ -161,7 +161,7 @@ def operating_point(scene: SceneSource, tell: Tell = silent) -> OperatingPoint:
     """
     scene = scene_of(scene)
     if scene.spindle is not None:
-        raise scene.unmounted("an operating point")
+        raise scene.unmounted("an operating point", "take `operating_points`")
     system = under_force(scene)
     given, scene = scene, scene.model_copy(update={"sound": None, "imperfections": None}).with_rigid_rings()
     bearing = Instance(prepare(scene, fidelity="full"), tell=tell)

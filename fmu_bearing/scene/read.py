@@ -82,10 +82,11 @@ class Scene(Tables):
         """
         return bearings_of(self)
 
-    def unmounted(self, what: str = "this") -> SceneError:
-        """Return the refusal of a set by ``what`` computes one bearing on its mounting."""
+    def unmounted(self, what: str, instead: str) -> SceneError:
+        """Return the refusal of a set by ``what`` computes one bearing; ``instead``: the way out."""
         return SceneError(
-            f"{self.name}: {what} takes one bearing with [mounting] so far, not a set with [spindle]"
+            f"{self.name}: {what} takes one bearing with [mounting] so far, not a set with [spindle]; "
+            f"{instead}"
         )
 
     @classmethod

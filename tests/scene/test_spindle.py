@@ -142,13 +142,16 @@ def test_what_does_not_fit_is_refused_with_the_way_out(data, message):
 
 
 @pytest.mark.parametrize(
-    ("use", "what"),
-    [(operating_point, "an operating point"), (stiffness, "a table of stiffness over frequency")],
+    ("use", "what", "instead"),
+    [
+        (operating_point, "an operating point", "operating_points"),
+        (stiffness, "a table of stiffness over frequency", "set_stiffness"),
+    ],
 )
-def test_what_cannot_take_a_set_says_so_in_one_sentence(use, what, tmp_path, monkeypatch):
+def test_what_cannot_take_a_set_says_so_in_one_sentence(use, what, instead, tmp_path, monkeypatch):
     """At once: also where `auto` would have to be probed before."""
     monkeypatch.chdir(tmp_path)
-    says = rf"^7003C-DB: {what} takes one bearing with \[mounting\] so far, not a set with \[spindle\]$"
+    says = rf"^7003C-DB: {what} takes one bearing with \[mounting\] so far, .*; take `{instead}`$"
     with pytest.raises(SceneError, match=says):
         use(with_fidelity(read_scene(FILE), model="auto"))
 

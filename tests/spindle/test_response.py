@@ -159,9 +159,8 @@ def test_extremes_stay_finite(signs, preload, rpm, force):
 
 def test_bearings_on_another_models_shaft_have_fidelity_full_alone():
     for name in ("rings", "response"):
-        with pytest.raises(
-            SceneError, match=f"fidelity.model = '{name}' does not follow a shaft that another"
-        ):
+        words = f"fidelity.model = '{name}' is refused: these fidelities count in coordinates of the shaft"
+        with pytest.raises(SceneError, match=words):
             with_fidelity(read_scene(PORT), model=name)
     run = SetRun(read_scene(PORT), FIDELITY=RINGS)
     assert run.try_init() == OTHER_FIDELITY

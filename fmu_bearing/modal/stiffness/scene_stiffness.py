@@ -190,7 +190,7 @@ def stiffness(
     """
     scene = scene_of(scene)
     if scene.spindle is not None:
-        raise scene.unmounted("a table of stiffness over frequency")
+        raise scene.unmounted("a table of stiffness over frequency", "take `set_stiffness`")
     if spacing not in get_args(Spacing):
         raise ValueError(f"spacing = {spacing!r} is refused: it is held or free")
     fixed = dict(inputs or {})

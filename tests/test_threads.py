@@ -1,6 +1,9 @@
 """Small matrices are solved on one thread."""
 
 import numpy as np
+
+# SciPy has a library of its own. Were it first loaded by `one_thread`, it would be missing before the call.
+import scipy.linalg  # noqa: F401
 import threadpoolctl
 
 from fmu_bearing.threads import one_thread

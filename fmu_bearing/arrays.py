@@ -79,11 +79,6 @@ class Arrays:
         made._allocate()
         return made
 
-    @classmethod
-    def of_set(cls, scene: Scene, *sounds: NDArray[np.float64], **parameters: float) -> Self:
-        """Return the arrays of a set: as `of`."""
-        return cls.of(scene, *sounds, **parameters)
-
     def init(self) -> None:
         """Quasi-static state at the inputs; ``Refused`` if there is none."""
         status = self._calls.init(0.0)

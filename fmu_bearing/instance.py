@@ -39,7 +39,9 @@ REASONS = {
     BAD_STEP: "the communication step must be above 0 s and below 1e6 s; give a run in several steps",
     NO_START: "no quasi-static equilibrium was found for these inputs; give more preload or less radial load",
     RIGID_ONLY: exclusions.BENDING.words(),
-    OTHER_FIDELITY: exclusions.PREPARED.words(),
+    OTHER_FIDELITY: "its numbers were prepared for another fidelity: a set in response, or with rings "
+    "on pedestals of their own, has numbers for one; bearings on another model's shaft have fidelity full "
+    "only; prepare the scene in the fidelity wanted (with_fidelity)",
     TOO_SOFT: "the loads push the outer ring sideways by more than 0.3 of the pitch radius; "
     "give a stiffer pedestal or less radial load",
 }
@@ -228,7 +230,8 @@ class Instance:
             why = "the bearings must be initialised" if places else "no other model owns the shaft"
             raise EngineError(f"there are no derivatives at a port: {why}")
         lengths = self.model.lengths
-        first = first_output(self.model.scene, len(self.model.scene.bearings())) + SP.Z_PORT
+        count = int(self.p[int(self.p[P.SET]) + SP.BEARINGS])
+        first = first_output(self.model.scene, count) + SP.Z_PORT
         columns = []
         for place in places:
             change = np.zeros(2 * self.u.size)

@@ -18,9 +18,8 @@ from fmu_bearing.prepare.lengths import members
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.scene import Scene, SceneSource, scene_of
-from fmu_bearing.scene.member import one_of, still_of
+from fmu_bearing.scene.member import one_of, set_of, still_of
 from fmu_bearing.scene.spindle import SetBearing
-from fmu_bearing.spindle.assembly import set_of
 from fmu_bearing.spindle.statics import ShaftStatics, shaft_statics
 from fmu_bearing.threads import one_thread
 

@@ -15,8 +15,7 @@ from fmu_bearing.modal.stiffness.stiffness_files import unit
 from fmu_bearing.results.picture_parts import OTHERS, empty, label
 from fmu_bearing.results.table import write_csv
 from fmu_bearing.scene import Scene, SceneSource, scene_of
-from fmu_bearing.scene.member import still_of
-from fmu_bearing.spindle.assembly import set_of
+from fmu_bearing.scene.member import set_of, still_of
 from fmu_bearing.spindle.statics import ShaftStatics, shaft_statics
 from fmu_bearing.threads import one_thread
 

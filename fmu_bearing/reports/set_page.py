@@ -17,7 +17,7 @@ from fmu_bearing.reports.page.look import axis
 from fmu_bearing.reports.page.render import render
 from fmu_bearing.reports.sections.summary import Tile, tile
 from fmu_bearing.scene import Scene, SceneError
-from fmu_bearing.spindle.assembly import set_of
+from fmu_bearing.scene.member import set_of
 from fmu_bearing.spindle.drawing import pressure_centres
 from fmu_bearing.spindle.statics import ShaftStatics, shaft_statics
 

@@ -26,7 +26,6 @@ Subject = Literal[
     "load",
     "measurement",
     "modes",
-    "other fidelity",
     "plane",
     "recording",
     "report",
@@ -169,12 +168,6 @@ _PAPER = Kind("a scene with a paper's radiation model", lambda one: _model(one).
 _OWN_SHAFT = "give the shaft as `sections_mm` of `[spindle.shaft]`"
 _BARE = 'give `sound.radiator` = "bare"'
 
-PREPARED = Exclusion(
-    _SET,
-    {"other fidelity": "another fidelity in its prepared numbers"},
-    "they are laid out for the fidelity of the scene",
-    "prepare the scene in the other fidelity (`with_fidelity`)",
-)
 BENDING = Exclusion(
     _BENDING,
     {"fidelities": "fidelity rings or response"},
@@ -241,7 +234,6 @@ EXCLUSIONS = (
         "of the rotor in kg times its eccentricity in um)",
         _set_unbalance,
     ),
-    PREPARED,
     Exclusion(
         _SOUNDING,
         {"baffle": "a face flush in a rigid plane (radiator baffle)"},

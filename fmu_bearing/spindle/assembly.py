@@ -15,8 +15,6 @@ from fmu_bearing.scene.units import convert
 from fmu_bearing.spindle.member import Member
 from fmu_bearing.spindle.supports import Supports, axial_springs, supports
 
-__all__ = ["Assembly", "assembly", "set_of", "weight"]
-
 
 @dataclass(frozen=True)
 class Assembly:

@@ -6,7 +6,8 @@ import numpy as np
 from scipy.optimize import brentq
 
 from fmu_bearing.scene import si
-from fmu_bearing.spindle.assembly import Assembly, set_of
+from fmu_bearing.scene.member import set_of
+from fmu_bearing.spindle.assembly import Assembly
 from fmu_bearing.spindle.equilibrium import rest
 from fmu_bearing.spindle.member import Member
 

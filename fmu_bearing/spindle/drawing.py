@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 from fmu_bearing.extras import need
 from fmu_bearing.results.picture_parts import COLOURS, empty
 from fmu_bearing.scene import Scene
-from fmu_bearing.spindle.assembly import set_of
+from fmu_bearing.scene.member import set_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

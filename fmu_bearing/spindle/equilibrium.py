@@ -15,7 +15,8 @@ from fmu_bearing.elastic.shaft import ShaftModel
 from fmu_bearing.elastic.shaft.model import FREEDOMS
 from fmu_bearing.engine.layout import P
 from fmu_bearing.instance import EngineError
-from fmu_bearing.spindle.assembly import Assembly, set_of
+from fmu_bearing.scene.member import set_of
+from fmu_bearing.spindle.assembly import Assembly
 from fmu_bearing.spindle.member import Held
 
 _ITERATIONS = 300

@@ -15,7 +15,8 @@ from fmu_bearing.modal.equations.remarks import remarks
 from fmu_bearing.modal.equations.set_linearised import set_linearised
 from fmu_bearing.modal.stiffness.impedance import at_rest
 from fmu_bearing.scene import Scene, SceneSource, scene_of
-from fmu_bearing.spindle.assembly import Assembly, assembly, set_of, weight
+from fmu_bearing.scene.member import set_of
+from fmu_bearing.spindle.assembly import Assembly, assembly, weight
 from fmu_bearing.spindle.axial import LiftOff, lift_off, neutral_spacing, preloads, spacing
 from fmu_bearing.spindle.equilibrium import Rest, rest, stiffness_with
 from fmu_bearing.spindle.member import shaft_speed

@@ -128,10 +128,10 @@ def test_a_set_is_checked_shown_and_run(run, tmp_path):
     told = run("scene", "check", SET)
     assert told.exit_code == 0 and "a scene, with an equilibrium" in told.stdout
     last = told.stdout.partition("at its operating point\n")[2].splitlines()
-    assert last == [row.words() for row in exclusions_of(read_scene(SET))] and len(last) == 5
+    assert last == [row.words() for row in exclusions_of(read_scene(SET))] and len(last) == 4
     shown = run("scene", "check", SET, EXAMPLES / "7003C-bare.toml", "--json").data
     pair, single = (shown[str(path)]["cannot"] for path in (SET, EXAMPLES / "7003C-bare.toml"))
-    assert single == [] and len(pair) == 5
+    assert single == [] and len(pair) == 4
     assert pair[2] == {
         "what": ["a report of a run"],
         "reason": "its report is made from statics, without a run",

@@ -21,7 +21,6 @@ from fmu_bearing.accuracy.sensitivity import sensitivity
 from fmu_bearing.accuracy.tradeoff import tradeoff
 from fmu_bearing.acoustics.analysis.field import circles
 from fmu_bearing.acoustics.radiation.radiators import Air
-from fmu_bearing.arrays import Arrays, Refused
 from fmu_bearing.cli import app
 from fmu_bearing.design.set_points import operating_points
 from fmu_bearing.design.set_stiffness import set_stiffness
@@ -64,14 +63,6 @@ def measured(scene, folder):
     raise SceneError(done.stderr.removeprefix("error: ").strip())
 
 
-def other_fidelity(scene):
-    """Numbers prepared for one fidelity, run in another."""
-    bearing = Arrays.of(scene, FIDELITY=float(FIDELITIES.index("response")))
-    with pytest.raises(Refused) as caught:
-        bearing.init()
-    raise SceneError(str(caught.value))
-
-
 SPRINGS = {
     "spindle.preload": {"kind": "spring", "force_N": 200.0},
     "spindle.bearing[1].seat": "sliding",
@@ -98,7 +89,6 @@ DOORS = (
     }),
     (pair(), SINGLE, {"run report": lambda scene, folder: make(scene, folder / "a.html", changes=True)}),
     (pair(), SINGLE, {"unbalance": {"imperfections": {"grade": "P4", "seed": 1, "unbalance_um": 0.5}}}),
-    (pair(), SINGLE, {"other fidelity": lambda scene, folder: other_fidelity(scene)}),
     (sounding("bem", pair()), sounding("bem"), {"baffle": {"sound.radiator": "baffle"}}),
     (sounding("bem", pair()), sounding("bem"), {
         "table": {"sound.radiation_model": "table", "sound.table_file": "a.npz"},

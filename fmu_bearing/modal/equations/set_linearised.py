@@ -177,7 +177,7 @@ def set_linearised(
     """
     need_shaft(scene)
     bare = with_fidelity(scene.with_rigid_rings(), model="full")
-    run = Arrays.of_set(bare.model_copy(update={"sound": None, "imperfections": None}))
+    run = Arrays.of(bare.model_copy(update={"sound": None, "imperfections": None}))
     for place, value in (inputs or {}).items():
         run.u[place] = value
     rows = _rows(run.p)

@@ -2,16 +2,19 @@
 
 import math
 
+import numpy as np
 import pytest
 
-from fmu_bearing import shaft_statics
+from fmu_bearing import read_scene, shaft_statics
 from fmu_bearing.elastic.shaft import shaft_model
 from fmu_bearing.engine.choices import FIDELITIES
-from fmu_bearing.engine.layout import SP, P
+from fmu_bearing.engine.layout import SP, F, P, Q, S
 from fmu_bearing.engine.spindle.rest import start_vector
 from fmu_bearing.engine.status import NO_START, OK, OTHER_FIDELITY, TOO_SOFT
+from fmu_bearing.engine.steady.point import REST
 from fmu_bearing.instance import EngineError, Instance
 from fmu_bearing.prepare.model import prepare
+from tests.conftest import GATES
 from tests.spindle.runs import SetRun
 from tests.spindle.sets import scene
 from tests.spindle.test_runs import loaded
@@ -120,6 +123,67 @@ def test_statics_and_start_agree_on_soft_pedestals(stiffness, preload):
         free = shaft_statics(given, force=(one.load, 0.0, 0.0), at=0.0).bearings
         assert free[one.bearing - 1].axial == pytest.approx(0.0, abs=1e-4 * abs(one.load))
         assert free[2 - one.bearing].axial == pytest.approx(abs(one.load), rel=1e-4)
+
+
+AXIS = {"force_x_N": 100.0, "force_z_N": -300.0, "position_mm": 0.0}
+
+
+def with_cage(given):
+    """The set with the cage of the gate scene, under its own weight."""
+    bearing = read_scene(GATES / "7003C-spindle.toml").bearing
+    caged = given.bearing.model_copy(update={"cage": bearing.cage})
+    return given.model_copy(update={"bearing": caged}).replace({"fidelity.terms.gravity": True})
+
+
+@pytest.mark.parametrize(
+    ("seat", "stiffness", "left"),
+    [
+        ("fixed", None, 1e-8),
+        ("cage", None, 1e-8),
+        # a bearing that has sunk by F/k: air drags balls about the fixed axis, and gyroscopes count from it
+        ("housing", 1e8, 2e-3),
+        ("housing", 1e7, 2e-2),
+        ("pedestal", 1e8, 1e-3),
+        ("pedestal", 1e7, 1e-2),
+        ("pedestal", 1e6, 1e-1),
+    ],
+)
+def test_a_set_starts_in_balance(seat, stiffness, left):
+    """Forces (N) that the shaft, housing and free rings are left with, of 316 N on the nose.
+
+    With quasi-static forces across the axis it was 0.2 N on fixed seats and up to 2.7 N on pedestals.
+    """
+    more = {}
+    if seat == "housing":
+        more = {"housing": HOUSING | {"pedestal_stiffness_N_m": stiffness}}
+    elif seat == "pedestal":
+        more = {"bearings": [{"seat": "pedestal"}] * 2, "housing": {"pedestal_stiffness_N_m": stiffness}}
+    given = scene(rpm=10e3, load=AXIS, **more)
+    run = SetRun(with_cage(given) if seat == "cage" else given).init()
+    head = run.p[run.block :]
+    n, lanes = int(head[SP.COUNT]), int(head[SP.PADDED_SIZE])
+    inverse = head[int(head[SP.AT_INVERSE]) :][: n * lanes].reshape(n, lanes)[:, :n]
+    lever = float(run.p[P.PITCH_RADIUS])
+    shaft = np.linalg.solve(inverse, run.vector(2))
+    assert np.abs(shaft[:3]).max() < left
+    assert np.abs(shaft[3:5]).max() < left * lever
+    for b in range(run.count):
+        assert run.state(b)[S.SETTLED] == REST
+        own = run.p[int(run.row(b)[SP.ROW_P]) :]
+        free = run.state(b)[S.F + F.BODY + Q.OUTER :][: Q.RINGS - Q.OUTER]
+        if seat == "pedestal":
+            assert np.abs(free[: Q.TURN]).max() * own[P.OUTER_MASS] < left
+            assert abs(free[Q.TURN]) * own[P.OUTER_POLAR] < left * lever
+            assert np.abs(free[Q.BY :]).max() * own[P.OUTER_TRANSVERSE] < left * lever
+
+
+def test_a_set_stays_where_it_starts():
+    """Without imperfections the nose stays in place for 2 ms; the balls' passing alone moves it."""
+    run = SetRun(scene(rpm=10e3, load=AXIS)).init()
+    before = np.array([run.value(f"shaft.nose.displacement.{axis}") for axis in "xyz"])
+    run.run(2e-3)
+    after = np.array([run.value(f"shaft.nose.displacement.{axis}") for axis in "xyz"])
+    assert np.abs(after - before).max() < 2e-10  # m, of 8e-6; from the quasi-static state it was 5e-9
 
 
 def test_a_state_without_room_for_lines_is_not_run_in_response():

@@ -145,6 +145,32 @@ def ring_stiffness(c, k):
 
 
 @kernel
+def show_ring_forces(p, b, speed, force, s, w, out, to):
+    """Put to ``out[to:]`` what quasi-static balls and weights put on all rows of both rings (N, N m).
+
+    ``force``: of the balls on the inner ring, as `held_tilted` has just found it.
+    """
+    ws = members.set_work(p, w)
+    pb = members.parameters(p, b)
+    own_weight, lying = weights(p, pb)
+    for i in range(Q.OUTER):
+        out[to + i] = force[i] - (own_weight if i == Q.Z else 0.0)
+    for i in range(Q.OUTER, Q.RINGS):
+        out[to + i] = 0.0
+    for i in range(Q.TURN):
+        out[to + Q.OUTER + i] = -force[i] - (lying if i == Q.Z else 0.0)
+    if on_pedestal(p, b) or has_housing(p):
+        wb = members.work(p, w, b)
+        c = members.state(p, s, b)[S.C : S.C + C.SIZE]
+        at = members.scratch(p, b)
+        tilt = ws[at + SP.START_TILT : at + SP.START_TILT + 2]
+        found = wb[W.FOUND : W.FOUND + EQ.SIZE]
+        my, mz = outer_moment(pb, c, speed, tilt, found, wb[W.STATICS : W.STATICS + ST.SIZE])
+        out[to + Q.OUTER + Q.BY] = my
+        out[to + Q.OUTER + Q.BZ] = mz
+
+
+@kernel
 def settle_bearing(p, s, w, b, speed, z, g):
     """Settle bearing ``b`` where the unknowns at ``z`` put its rings; add its forces to those at ``g``.
 
@@ -152,43 +178,30 @@ def settle_bearing(p, s, w, b, speed, z, g):
     """
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
-    pb = members.parameters(p, b)
-    sb = members.state(p, s, b)
     wb = members.work(p, w, b)
-    c = sb[S.C : S.C + C.SIZE]
-    r = members.row(p, b)
+    c = members.state(p, s, b)[S.C : S.C + C.SIZE]
     at = members.scratch(p, b)
     put_rings(p, b, ws, own, z)
     ring = ws[at + SP.START_RING : at + SP.START_RING + SP.PLANE]
     tilt = ws[at + SP.START_TILT : at + SP.START_TILT + 2]
     force = ws[at + SP.START_FORCE : at + SP.START_FORCE + SP.PLANE]
     found = wb[W.FOUND : W.FOUND + EQ.SIZE]
-    status = held_tilted(pb, c, speed, ring, tilt, 1.0, force, found, wb)
-    force[Q.X] += ws[at + SP.START_MORE]
-    own_weight, lying = weights(p, pb)
-    for i in range(SP.LANES):
-        ws[at + SP.START_PULL + i] = 0.0
-    for k in range(int(p[r + SP.ROW_DRIVEN])):
-        value = 0.0
-        if k < Q.OUTER:
-            value = force[k] - (own_weight if k == Q.Z else 0.0)
-        elif k < Q.OUTER + Q.TURN:
-            value = -force[k - Q.OUTER] - (lying if k == Q.OUTER + Q.Z else 0.0)
-        elif k > Q.OUTER + Q.TURN:
-            value = -force[k - Q.OUTER - 1]
-        if k >= Q.OUTER and on_pedestal(p, b):
-            value -= ring_stiffness(c, k) * ws[at + SP.START_OUTER + k - Q.OUTER]
-        ws[at + SP.START_PULL + k] = value
-    members.pull(p, b, ws, at + SP.START_PULL, ws, g)
-    mine = g + first_unknown(p, b)
+    status = held_tilted(members.parameters(p, b), c, speed, ring, tilt, 1.0, force, found, wb)
+    pull = at + SP.START_PULL
     outer = at + SP.START_OUTER
-    if free_rows(p, b) > 0:
-        my, mz = outer_moment(pb, c, speed, tilt, found, wb[W.STATICS : W.STATICS + ST.SIZE])
-        for i in range(SP.PLANE):
-            value = -force[i] if i < Q.INNER_BY else my if i == Q.INNER_BY else mz
-            if i == Q.Z:
-                value -= lying
-            ws[mine + i] = value - pedestal_stiffness(c, i) * ws[outer + outer_row(i)]
+    show_ring_forces(p, b, speed, force, s, w, ws, pull)
+    for i in range(SP.PLANE):
+        force[i] += ws[at + SP.START_MORE + i]
+    for k in range(Q.RINGS):
+        ws[pull + k] += ws[at + SP.START_MORE + k]
+        if k >= Q.OUTER and on_pedestal(p, b):
+            ws[pull + k] -= ring_stiffness(c, k) * ws[outer + k - Q.OUTER]
+    mine = g + first_unknown(p, b)
+    for i in range(free_rows(p, b)):
+        ws[mine + i] = ws[pull + Q.OUTER + outer_row(i)]
+    for k in range(int(p[members.row(p, b) + SP.ROW_DRIVEN]), SP.LANES):
+        ws[pull + k] = 0.0
+    members.pull(p, b, ws, pull, ws, g)
     return status
 
 

@@ -1,20 +1,27 @@
 """Where a set rests with the steady forces of its bearings.
 
-``rest`` moves the set with quasi-static bearings. What friction across the tracks changes in a bearing's
-force at the place it has is found with even balls, as if the bearing were displaced along its axis alone, and
-added; then the set is brought to rest again. Arguments: see `members`; ``y``: see `layout.y`.
+``rest`` moves the set with quasi-static bearings. By how much steady forces exceed quasi-static ones is found
+with the rings where they rest, and added; then the set is brought to rest again. Fidelity full counts it on
+all rows of both rings, with what loads across the axis do to balls and cage; rings and response, which are
+linearised about even balls, along the axis alone. Arguments: see `members`; ``y``: see `layout.y`.
+
+States here have the outer ring's centre on the axis: a shift of the whole bearing changes no force.
 """
 
+from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import sum_lanes
 from fmu_bearing.engine.layout import EQ, PT, SP, STRIDE, C, F, P, Q, S, W, Y
+from fmu_bearing.engine.mechanics.bodies import lands
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.spindle import members
-from fmu_bearing.engine.spindle.rest import outer_row, rest
+from fmu_bearing.engine.spindle.rest import outer_row, rest, show_ring_forces
+from fmu_bearing.engine.spindle.shaft import weighs
 from fmu_bearing.engine.statics.held import held, held_tilted
 from fmu_bearing.engine.statics.place import place_balls, place_cage
 from fmu_bearing.engine.status import OK
 from fmu_bearing.engine.steady.even import BOTH, make_even, settle_evenly
+from fmu_bearing.engine.steady.point import REST, settle_at_rest
 
 _ROUNDS = 8
 _CLOSE = 1e-6  # of the load
@@ -27,14 +34,17 @@ def place_rings_held(p, b, y, ws):
     for i in range(Y.SIZE):
         y[i] = 0.0
     for i in range(SP.HOUSING):
-        y[Y.Q0 + Q.OUTER + i] = ws[at + SP.START_OUTER + i]
+        y[Y.Q0 + Q.OUTER + i] = 0.0 if i == Q.Y or i == Q.Z else ws[at + SP.START_OUTER + i]
     for i in range(SP.PLANE):
-        y[Y.Q0 + i] = ws[at + SP.START_RING + i] + ws[at + SP.START_OUTER + outer_row(i)]
+        y[Y.Q0 + i] = ws[at + SP.START_RING + i] + y[Y.Q0 + Q.OUTER + outer_row(i)]
 
 
 @kernel
 def place_held(p, b, speed, y, s, w):
-    """Quasi-static state ``y`` of the perfect bearing ``b``, its rings where the set rested last."""
+    """Quasi-static state ``y`` of the perfect bearing ``b``, its rings where the set rested last.
+
+    Forces of its balls on the inner ring are left in ``W.LOAD``.
+    """
     pb = members.parameters(p, b)
     wb = members.work(p, w, b)
     ws = members.set_work(p, w)
@@ -53,7 +63,10 @@ def place_held(p, b, speed, y, s, w):
 
 @kernel
 def axial_excess(p, b, speed, s, w):
-    """By how much (N) the steady force of bearing ``b`` along its axis exceeds the quasi-static one."""
+    """By how much (N) the steady force of bearing ``b`` along its axis exceeds the quasi-static one.
+
+    With even balls, as if the bearing were displaced along its axis alone; ``c`` has no imperfections.
+    """
     pb = members.parameters(p, b)
     sb = members.state(p, s, b)
     wb = members.work(p, w, b)
@@ -74,33 +87,106 @@ def axial_excess(p, b, speed, s, w):
     if pb[P.CAGE] != 0.0:
         place_cage(pb, y, found)
     make_even(pb, c, y, speed)
-    scale = c[C.OVERSIZE_SCALE]
-    c[C.OVERSIZE_SCALE] = 0.0
-    excess = 0.0
-    if settle_evenly(pb, c, y, speed, BOTH, wb, sb[S.JAC : S.CONDENSED]):
-        right_hand_side(pb, c, y, 0.0, speed, 0.0, wb, wb[W.F : W.F + F.SIZE])
-        excess = sum_lanes(wb, W.BODY + Q.X * STRIDE, int(pb[P.LANES])) - before
-    c[C.OVERSIZE_SCALE] = scale
-    return excess
+    if not settle_evenly(pb, c, y, speed, BOTH, wb, sb[S.JAC : S.CONDENSED]):
+        return 0.0
+    right_hand_side(pb, c, y, 0.0, speed, 0.0, wb, wb[W.F : W.F + F.SIZE])
+    return sum_lanes(wb, W.BODY + Q.X * STRIDE, int(pb[P.LANES])) - before
 
 
 @kernel
-def rest_steadily(p, s, w, speed):
-    """Bring the unknowns to rest with the steady forces of the bearings; status code, as of ``rest``."""
+def show_steady_forces(p, b, y, speed, s, w, out, to):
+    """Put to ``out[to:]`` what balls, lands and weights put on all rows of both rings at the state ``y``."""
+    pb = members.parameters(p, b)
+    wb = members.work(p, w, b)
+    c = members.state(p, s, b)[S.C : S.C + C.SIZE]
+    f = wb[W.F : W.F + F.SIZE]
+    right_hand_side(pb, c, y, 0.0, speed, 0.0, wb, f)
+    for i in range(Q.RINGS):
+        out[to + i] = sum_lanes(wb, W.BODY + i * STRIDE, int(pb[P.LANES]))
+    if pb[P.CAGE] != 0.0 and pb[P.LAND] != 0.0:
+        for i in range(F.SIZE):
+            f[i] = 0.0
+        lands(pb, y, speed, f, wb)
+        for i in range(Q.OUTER):
+            out[to + i] += f[F.BODY + i]
+    if weighs(p):
+        out[to + Q.Z] -= GRAVITY * pb[P.INNER_MASS]
+        out[to + Q.OUTER + Q.Z] -= GRAVITY * pb[P.OUTER_MASS]
+
+
+@kernel
+def find_excess(p, b, speed, across, s, w):
+    """Put to ``START_PULL`` by how much steady forces of bearing ``b`` exceed quasi-static ones, by rows."""
+    pb = members.parameters(p, b)
+    sb = members.state(p, s, b)
+    wb = members.work(p, w, b)
+    ws = members.set_work(p, w)
+    c = sb[S.C : S.C + C.SIZE]
+    to = members.scratch(p, b) + SP.START_PULL
+    if across and speed != 0.0:
+        first = wb[W.PATTERN + PT.FIRST_STATE : W.PATTERN + PT.EVEN_STATE]
+        place_held(p, b, speed, first, s, w)
+        before = members.scratch(p, b) + SP.START_BEFORE
+        show_ring_forces(p, b, speed, wb[W.LOAD : W.LOAD + EQ.FREEDOMS], s, w, ws, before)
+        if settle_at_rest(pb, c, first, speed, BOTH, wb, sb[S.JAC : S.CONDENSED]) == REST:
+            show_steady_forces(p, b, wb[W.PATTERN + PT.REST_STATE : W.PATTERN + PT.WHIRL_STATE], speed, s, w,
+                               ws, to)  # fmt: skip
+            for i in range(Q.RINGS):
+                ws[to + i] -= ws[before + i]
+            return
+    for i in range(SP.LANES):
+        ws[to + i] = 0.0
+    ws[to + Q.X] = axial_excess(p, b, speed, s, w)
+    ws[to + Q.OUTER + Q.X] = -ws[to + Q.X]
+
+
+@kernel
+def add_excess(p, b, speed, across, s, w):
+    """Renew by how much steady forces of bearing ``b`` exceed quasi-static ones; whether that has moved."""
+    ws = members.set_work(p, w)
+    c = members.state(p, s, b)[S.C : S.C + C.SIZE]
+    at = members.scratch(p, b)
+    # imperfections pass, and what they do to a rest is in the quasi-static forces
+    scale, eccentric, of_cage = c[C.OVERSIZE_SCALE], c[C.ECCENTRICITY], c[C.CAGE_ECCENTRICITY]
+    c[C.OVERSIZE_SCALE] = 0.0
+    c[C.ECCENTRICITY] = 0.0
+    c[C.CAGE_ECCENTRICITY] = 0.0
+    find_excess(p, b, speed, across, s, w)
+    c[C.OVERSIZE_SCALE] = scale
+    c[C.ECCENTRICITY] = eccentric
+    c[C.CAGE_ECCENTRICITY] = of_cage
+    load = abs(ws[at + SP.START_FORCE + Q.X])
+    if across:
+        load += abs(ws[at + SP.START_FORCE + Q.Y]) + abs(ws[at + SP.START_FORCE + Q.Z])
+    moved = False
+    for i in range(Q.RINGS):
+        is_force = i < Q.TURN or Q.OUTER <= i < Q.OUTER + Q.TURN
+        lever = 1.0 if is_force else members.parameters(p, b)[P.PITCH_RADIUS]
+        if abs(ws[at + SP.START_PULL + i] - ws[at + SP.START_MORE + i]) > _CLOSE * load * lever:
+            moved = True
+        ws[at + SP.START_MORE + i] = ws[at + SP.START_PULL + i]
+    return moved
+
+
+@kernel
+def rest_steadily(p, s, w, speed, across):
+    """Bring the unknowns to rest with the steady forces of the bearings; status code, as of ``rest``.
+
+    ``across``: all of them, else along the axis alone.
+    """
     ws = members.set_work(p, w)
     for b in range(members.count(p)):
-        ws[members.scratch(p, b) + SP.START_MORE] = 0.0
+        at = members.scratch(p, b) + SP.START_MORE
+        for i in range(SP.LANES):
+            ws[at + i] = 0.0
     status = rest(p, s, w, speed)
     for _ in range(_ROUNDS):
         if status != OK:
             break
         far = False
         for b in range(members.count(p)):
-            at = members.scratch(p, b)
-            excess = axial_excess(p, b, speed, s, w)
-            if abs(excess - ws[at + SP.START_MORE]) > _CLOSE * abs(ws[at + SP.START_FORCE + Q.X]):
+            if add_excess(p, b, speed, across, s, w):
                 far = True
-            ws[at + SP.START_MORE] = excess
         # also where nothing moves any more: the search has left the bearings elsewhere
         status = rest(p, s, w, speed)
         if not far:

@@ -68,37 +68,61 @@ def around(p, found, row, j):
 
 
 @kernel
+def shift_balls(p, y, along_y, along_z):
+    """Shift the balls of the state ``y`` by two lengths (m): the same places and velocities from farther on.
+
+    Orbit angle and radius count from the inertial axis, so radial and tangential axes turn with a shift.
+    """
+    pitch = p[P.PITCH_RADIUS]
+    for j in range(int(p[P.LANES])):
+        angle = y[Y.TH + j]
+        radius = pitch + y[Y.R + j]
+        orbit = y[Y.OM + j]
+        outwards = y[Y.VR + j]
+        across = y[Y.WR + j]
+        ahead = y[Y.WT + j]
+        yb = along_y - radius * math.sin(angle)
+        zb = along_z + radius * math.cos(angle)
+        apart = math.sqrt(yb * yb + zb * zb)
+        c = (zb * math.cos(angle) - yb * math.sin(angle)) / apart
+        s = (-yb * math.cos(angle) - zb * math.sin(angle)) / apart
+        y[Y.TH + j] = angle + math.atan2(s, c)
+        y[Y.R + j] = apart - pitch
+        y[Y.VR + j] = outwards * c + radius * orbit * s
+        y[Y.OM + j] = (radius * orbit * c - outwards * s) / apart
+        y[Y.WR + j] = across * c + ahead * s
+        y[Y.WT + j] = ahead * c - across * s
+
+
+@kernel
+def shift_bearing(p, y, along_y, along_z):
+    """Shift rings, cage and balls of the state ``y`` together, by two lengths (m)."""
+    shift_balls(p, y, along_y, along_z)
+    for body in (Q.INNER, Q.OUTER, Q.CAGE):
+        y[Y.Q0 + body + Q.Y] += along_y
+        y[Y.Q0 + body + Q.Z] += along_z
+
+
+@kernel
 def place_balls(p, y, found):
     """Balls about the displaced outer ring, each in its own equilibrium; spare lanes copy the first.
 
     The first ball is at 12 o'clock. Under radial load or tilt a ball moves along and outwards as it orbits.
     """
-    x_outer = y[Y.Q0 + Q.OUTER]
-    y_outer = y[Y.Q0 + Q.OUTER + Q.Y]
-    z_outer = y[Y.Q0 + Q.OUTER + Q.Z]
     balls = p[P.BALLS]
-    pitch = p[P.PITCH_RADIUS]
     for j in range(int(p[P.LANES])):
         place = j if j < balls else 0
-        angle = 2.0 * PI * place / balls
-        # the ball's place and velocity, from the axes about the outer ring's centre to the inertial ones
-        radius = pitch + found[EQ.R + place]
         orbit = found[EQ.OM + place]
-        outwards = orbit * around(p, found, EQ.R, place)
-        yb = y_outer - radius * math.sin(angle)
-        zb = z_outer + radius * math.cos(angle)
-        apart = math.sqrt(yb * yb + zb * zb)
-        c = (zb * math.cos(angle) - yb * math.sin(angle)) / apart
-        s = (-yb * math.cos(angle) - zb * math.sin(angle)) / apart
-        y[Y.X + j] = found[EQ.X + place] + x_outer
-        y[Y.TH + j] = angle + math.atan2(s, c)
-        y[Y.R + j] = apart - pitch
+        y[Y.X + j] = found[EQ.X + place] + y[Y.Q0 + Q.OUTER]
+        y[Y.R + j] = found[EQ.R + place]
+        y[Y.TH + j] = 2.0 * PI * place / balls
         y[Y.VX + j] = orbit * around(p, found, EQ.X, place)
-        y[Y.VR + j] = outwards * c + radius * orbit * s
-        y[Y.OM + j] = (radius * orbit * c - outwards * s) / apart
+        y[Y.VR + j] = orbit * around(p, found, EQ.R, place)
+        y[Y.OM + j] = orbit
         y[Y.WX + j] = found[EQ.WX + place]
-        y[Y.WR + j] = found[EQ.WR + place] * c
-        y[Y.WT + j] = -found[EQ.WR + place] * s
+        y[Y.WR + j] = found[EQ.WR + place]
+        y[Y.WT + j] = 0.0
+    shift_balls(p, y, y[Y.Q0 + Q.OUTER + Q.Y], y[Y.Q0 + Q.OUTER + Q.Z])
 
 
 @kernel

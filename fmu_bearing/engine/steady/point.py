@@ -188,14 +188,8 @@ def along_axis(p, c, y, speed, held, state, w):
 
 
 @kernel
-def settle(p, c, y, speed, held, w, jac):
-    """Find the steady state near the quasi-static state ``y`` at shaft ``speed`` (rad/s); ``y`` stays.
-
-    Parameters: ``c`` without imperfections; ``held``: see `even.is_held`; ``jac``: scratch for a Jacobian.
-    Returns what was found, and leaves it in ``PT.EVEN_STATE``, ``PT.REST_STATE`` and ``PT.WHIRL_STATE``:
-    `NOT_FOUND`; `EVEN_BALLS`: these, but not where loads across the axis put them; `REST`: the cage rests, or
-    no whirl was found; `WHIRL`: it whirls.
-    """
+def settle_at_rest(p, c, y, speed, held, w, jac):
+    """As `settle`, but look for no whirl: `NOT_FOUND`, `EVEN_BALLS` or `REST`."""
     even = w[W.PATTERN + PT.EVEN_STATE : W.PATTERN + PT.REST_STATE]
     rest = w[W.PATTERN + PT.REST_STATE : W.PATTERN + PT.WHIRL_STATE]
     whirl = w[W.PATTERN + PT.WHIRL_STATE : W.PATTERN + PT.SIZE]
@@ -219,8 +213,24 @@ def settle(p, c, y, speed, held, w, jac):
         rest[i] = even[i]
     if loaded and not rest_under_loads(p, c, y, speed, held, even, rest, w, jac):
         return EVEN_BALLS
-    if p[P.CAGE] == 0.0 or p[P.LAND] == 0.0:
-        return REST
+    return REST
+
+
+@kernel
+def settle(p, c, y, speed, held, w, jac):
+    """Find the steady state near the quasi-static state ``y`` at shaft ``speed`` (rad/s); ``y`` stays.
+
+    Parameters: ``c`` without imperfections; ``held``: see `even.is_held`; ``jac``: scratch for a Jacobian.
+    Returns what was found, and leaves it in ``PT.EVEN_STATE``, ``PT.REST_STATE`` and ``PT.WHIRL_STATE``:
+    `NOT_FOUND`; `EVEN_BALLS`: these, but not where loads across the axis put them; `REST`: the cage rests, or
+    no whirl was found; `WHIRL`: it whirls.
+    """
+    found = settle_at_rest(p, c, y, speed, held, w, jac)
+    if found != REST or p[P.CAGE] == 0.0 or p[P.LAND] == 0.0:
+        return found
+    even = w[W.PATTERN + PT.EVEN_STATE : W.PATTERN + PT.REST_STATE]
+    rest = w[W.PATTERN + PT.REST_STATE : W.PATTERN + PT.WHIRL_STATE]
+    whirl = w[W.PATTERN + PT.WHIRL_STATE : W.PATTERN + PT.SIZE]
     growth = math.inf
     turning = _TURNING * abs(speed)
     if p[P.SPRINGS] == 0.0:

@@ -26,15 +26,28 @@ from fmu_bearing.engine.spindle.inputs import (
     take_loads,
 )
 from fmu_bearing.engine.spindle.port import begin_motion, has_port
-from fmu_bearing.engine.spindle.rest import keep_stiffness, outer_row, settle_bearing, start_vector
+from fmu_bearing.engine.spindle.rest import (
+    free_rows,
+    keep_stiffness,
+    outer_row,
+    settle_bearing,
+    start_vector,
+)
 from fmu_bearing.engine.spindle.steady import place_held, rest_steadily
 from fmu_bearing.engine.statics.axial import quasistatic
-from fmu_bearing.engine.statics.place import equilibrium, loads, place_balls, place_cage, place_rings
+from fmu_bearing.engine.statics.place import (
+    equilibrium,
+    loads,
+    place_balls,
+    place_cage,
+    place_rings,
+    shift_bearing,
+)
 from fmu_bearing.engine.statics.rigid_preload import rigid_start
 from fmu_bearing.engine.statics.spin_balance import balance_spins
 from fmu_bearing.engine.status import NO_START, OK, TOO_SOFT
 from fmu_bearing.engine.steady.even import BOTH, NONE
-from fmu_bearing.engine.steady.point import EVEN_BALLS, NOT_FOUND, move_to_steady, settle_perfect
+from fmu_bearing.engine.steady.point import NOT_FOUND, move_to_steady, settle_perfect
 
 _FAR = 0.3  # of the pitch radius: beyond it the angles of pockets and waves, series in it, lose a micrometre
 _BACKWARD = 1e-6  # of all forces: what a bearing may carry against its direction
@@ -62,9 +75,6 @@ def become_steady(p, c, y, first, held, s, w, speed):
     # fidelities rings and response find theirs with what they hold
     if p[P.FIDELITY] == FULL:
         settled = settle_perfect(p, c, first, speed, held, w, jac)
-    if p[P.MODES] != 0.0:
-        # bent rings hold their balls where they are
-        settled = min(settled, EVEN_BALLS)
     s[S.SETTLED] = settled
     if settled == NOT_FOUND:
         balance_spins(p, c, y, 0.0, speed, w, jac)
@@ -230,7 +240,7 @@ def rest_together(p, u, s, w, speed, t):
     if has_port(p):
         for i in range(SP.PLANE):
             ws[z + i] = u[SP.U_PORT + i]
-    status = rest_steadily(p, s, w, speed)
+    status = rest_steadily(p, s, w, speed, p[P.FIDELITY] == FULL)
     if status != OK:
         return status
     if pushed_back(p, w) and not has_port(p):
@@ -262,6 +272,14 @@ def rest_member(p, s, w, b, speed):
 
 
 @kernel
+def twist(p, b, c, y, w):
+    """Turn an outer ring on a pedestal of its own about its axis, as far as friction does."""
+    if free_rows(p, b) > 0:
+        moment = members.set_work(p, w)[members.scratch(p, b) + SP.START_MORE + Q.OUTER + Q.TURN]
+        y[Y.Q0 + Q.OUTER + Q.TURN] = moment / c[C.PEDESTAL_ROTATIONAL]
+
+
+@kernel
 def begin_bearing(p, u, s, w, b, speed, carried, t):
     """Balls and cage of bearing ``b`` about its rings at rest, moved to the steady state; its clock.
 
@@ -273,12 +291,16 @@ def begin_bearing(p, u, s, w, b, speed, carried, t):
     together = members.has_shaft(p)
     c = sb[S.C : S.C + C.SIZE]
     y = sb[S.Y : S.Y + Y.SIZE]
+    aside_y = y[Y.Q0 + Q.OUTER + Q.Y] if together else 0.0
+    aside_z = y[Y.Q0 + Q.OUTER + Q.Z] if together else 0.0
+    if together:
+        # the steady state of a bearing between held rings is found about the axis
+        shift_bearing(pb, y, -aside_y, -aside_z)
     place_rest(pb, c, y, wb[W.FOUND : W.FOUND + EQ.SIZE], sb, wb)
-    settle(pb, c, y, 0.0, speed, sb, wb)
     first = wb[W.PATTERN + PT.FIRST_STATE : W.PATTERN + PT.EVEN_STATE]
     for i in range(Y.SIZE):
         first[i] = y[i]
-    if c[C.OVERSIZE_SCALE] != 0.0 and pb[P.MODES] == 0.0:
+    if c[C.OVERSIZE_SCALE] != 0.0:
         if together:
             place_held(p, b, speed, first, s, w)
         else:
@@ -287,6 +309,10 @@ def begin_bearing(p, u, s, w, b, speed, carried, t):
         # a rigid preload was given as the load that it means here
         c[C.PRELOAD] = u[U.PRELOAD]
     become_steady(pb, c, y, first, BOTH if together else NONE, sb, wb, speed)
+    settle(pb, c, y, 0.0, speed, sb, wb)
+    if together:
+        shift_bearing(pb, y, aside_y, aside_z)
+        twist(p, b, c, y, w)
     if pb[P.RIGID] != 0.0:
         y[Y.Q0] = sb[S.PLACE]
     begin_clock(pb, sb, speed, t)

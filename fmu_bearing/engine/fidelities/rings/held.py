@@ -174,7 +174,7 @@ def hold_all(p, u, s, w):
     z = start_vector(p, SP.UNKNOWNS)
     for i in range(members.coordinates(p)):
         ws[z + i] = own[SP.S_HEAD + i]
-    status = rest_steadily(p, s, w, u[SP.U_SPEED])
+    status = rest_steadily(p, s, w, u[SP.U_SPEED], False)
     exchange_offsets(p, own)
     if status != OK:
         return status

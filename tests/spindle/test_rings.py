@@ -1,7 +1,5 @@
 """Fidelity rings on sets: against single bearings and fidelity full, symmetry, what is kept, refusals."""
 
-import math
-
 import numpy as np
 import pytest
 
@@ -11,10 +9,10 @@ from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import SP, P, S, U, Z
 from fmu_bearing.engine.status import OK, OTHER_FIDELITY
 from fmu_bearing.prepare.model import pack
-from fmu_bearing.scene.mounting import Mounting, Rotor
 from tests.conftest import GATES, ROOT
 from tests.engine.condensed import FIDELITIES
 from tests.engine.helpers import Run
+from tests.spindle import one
 from tests.spindle.runs import SetRun
 from tests.spindle.sets import scene
 from tests.spindle.test_dynamics_oracle import NO_CAGE, SEATS, bent
@@ -64,27 +62,9 @@ def compared(given, shaft=None, settle=0.02, duration=0.05, fidelity=RINGS, **pa
 
 
 def set_of_one(flaws, rpm):
-    """A bearing alone on its shaft, and the same as a single bearing with a rotor.
-
-    The shaft, centred in the bearing, is the rotor; the ring stands on the same pedestal.
-    """
-    length, diameter = 180.0, 15.0
-    given = scene(
-        "+", (length / 2.0,), None, rpm, changes={"fidelity.terms.gravity": flaws},
-        shaft={"sections_mm": [[length, diameter, 0.0]]}, bearings=[{"seat": "pedestal"}],
-        housing={"pedestal_stiffness_N_m": 1e8},
-        load={"force_x_N": 500.0, "force_z_N": -20.0, "position_mm": length / 2.0},
-    )  # fmt: skip
-    given = wavy(given) if flaws else given
-    density = given.materials.inner_ring.density_kg_m3
-    mass = density * math.pi / 4.0 * (1e-3 * diameter) ** 2 * 1e-3 * length
-    mounting = Mounting(
-        preload_N=500.0,
-        radial_load_z_N=-20.0,
-        pedestal_stiffness_N_m=1e8,
-        rotor=Rotor(mass_kg=mass, length_mm=length, diameter_mm=diameter),
-    )
-    return given, given.model_copy(update={"spindle": None, "mounting": mounting})
+    """A bearing alone on its shaft, and the same as a single bearing with a rotor; with waves and weight."""
+    pair = one.set_of_one(rpm, -20.0, changes={"fidelity.terms.gravity": flaws})
+    return tuple(wavy(given) for given in pair) if flaws else pair
 
 
 @pytest.mark.parametrize("flaws", [False, True])

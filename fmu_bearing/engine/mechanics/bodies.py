@@ -98,9 +98,11 @@ def outer_ring(p, c, y, f):
     f[g] = (f[g] - c[C.PEDESTAL_AXIAL] * y[q] - c[C.DAMPING_AXIAL] * y[v]) / mass
     between = c[C.PEDESTAL_YZ]
     damped = c[C.DAMPING_YZ]
-    f[g + Q.Y] -= c[C.PEDESTAL_Y] * y[q + Q.Y] + between * y[q + Q.Z]
+    aside_y = y[q + Q.Y] - c[C.NEUTRAL_Y]
+    aside_z = y[q + Q.Z] - c[C.NEUTRAL_Z]
+    f[g + Q.Y] -= c[C.PEDESTAL_Y] * aside_y + between * aside_z
     f[g + Q.Y] = (f[g + Q.Y] - c[C.DAMPING_Y] * y[v + Q.Y] - damped * y[v + Q.Z]) / mass
-    f[g + Q.Z] -= c[C.PEDESTAL_Z] * y[q + Q.Z] + between * y[q + Q.Y]
+    f[g + Q.Z] -= c[C.PEDESTAL_Z] * aside_z + between * aside_y
     f[g + Q.Z] = (f[g + Q.Z] - c[C.DAMPING_Z] * y[v + Q.Z] - damped * y[v + Q.Y] - weight) / mass
     damped = c[C.DAMPING_SPIN]
     f[g + Q.TURN] = (f[g + Q.TURN] - turn * y[q + Q.TURN] - damped * y[v + Q.TURN]) / p[P.OUTER_POLAR]

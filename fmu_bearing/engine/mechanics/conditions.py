@@ -117,6 +117,8 @@ def conditions(p, u, speed, c):
         c[held + C.ROLLING] = p[numbers + P.RACE_ROLLING] * math.exp(_ROLLING * math.log(eta)) * reduced
     c[C.BALL_RADIUS] = ball
     c[C.POCKET] = p[P.POCKET_STIFFNESS]
+    c[C.NEUTRAL_Y] = 0.0
+    c[C.NEUTRAL_Z] = 0.0
     c[C.PRELOAD] = u[U.PRELOAD]
     c[C.LOAD_Y] = u[U.LOAD_Y]
     c[C.LOAD_Z] = u[U.LOAD_Z]

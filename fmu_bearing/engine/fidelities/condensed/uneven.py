@@ -10,7 +10,14 @@ from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import STRIDE, C, F, L, P, Q, S, T, W, Y
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.readout.losses import summarise
-from fmu_bearing.engine.steady.point import EVEN_BALLS, NOT_FOUND, losing_state, settle
+from fmu_bearing.engine.steady.point import (
+    EVEN_BALLS,
+    NOT_FOUND,
+    bring_to_axis,
+    is_sunk,
+    losing_state,
+    settle,
+)
 
 _MOVED = 0.05  # of speed, loads, viscosity
 _GROWN = 2e-8  # m: of a contact's geometry, some hundredths of its approach
@@ -115,7 +122,11 @@ def renew_uneven(p, c, first, speed, turning, ring_held, s, w):
     lv[L.MORE_SPEED] = speed
     for i in range(C.SIZE):
         lv[L.MORE_CONDITIONS + i] = c[i]
+    if is_sunk(first):
+        bring_to_axis(p, c, first)
     found = settle(p, c, first, turning, ring_held, w, s[S.JAC : S.CONDENSED])
+    c[C.NEUTRAL_Y] = 0.0
+    c[C.NEUTRAL_Z] = 0.0
     if found == NOT_FOUND or found == EVEN_BALLS:
         return
     whole = losing_state(found, w)

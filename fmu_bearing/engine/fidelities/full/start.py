@@ -47,7 +47,13 @@ from fmu_bearing.engine.statics.rigid_preload import rigid_start
 from fmu_bearing.engine.statics.spin_balance import balance_spins
 from fmu_bearing.engine.status import NO_START, OK, TOO_SOFT
 from fmu_bearing.engine.steady.even import BOTH, NONE
-from fmu_bearing.engine.steady.point import NOT_FOUND, move_to_steady, settle_perfect
+from fmu_bearing.engine.steady.point import (
+    NOT_FOUND,
+    bring_to_axis,
+    is_sunk,
+    move_to_steady,
+    settle_perfect,
+)
 
 _FAR = 0.3  # of the pitch radius: beyond it the angles of pockets and waves, series in it, lose a micrometre
 _BACKWARD = 1e-6  # of all forces: what a bearing may carry against its direction
@@ -117,7 +123,8 @@ def begin_means(s):
 def place_perfect(p, c, speed, carried, first, w):
     """Put the quasi-static state of the perfect bearing to ``first``; leave it where there is none.
 
-    Under the load in ``W.LOAD`` and what the pedestal has ``carried`` (N): see `rest_alone`.
+    Under the load in ``W.LOAD`` and what the pedestal has ``carried`` (N): see `rest_alone`. An outer ring
+    that has sunk is brought to the axis.
     """
     found = w[W.FOUND : W.FOUND + EQ.SIZE]
     load = w[W.LOAD : W.LOAD + EQ.FREEDOMS]
@@ -130,6 +137,8 @@ def place_perfect(p, c, speed, carried, first, w):
     place_balls(p, first, found)
     if p[P.CAGE] != 0.0:
         place_cage(p, first, found)
+    if is_sunk(first):
+        bring_to_axis(p, c, first)
 
 
 @kernel
@@ -291,11 +300,9 @@ def begin_bearing(p, u, s, w, b, speed, carried, t):
     together = members.has_shaft(p)
     c = sb[S.C : S.C + C.SIZE]
     y = sb[S.Y : S.Y + Y.SIZE]
-    aside_y = y[Y.Q0 + Q.OUTER + Q.Y] if together else 0.0
-    aside_z = y[Y.Q0 + Q.OUTER + Q.Z] if together else 0.0
-    if together:
-        # the steady state of a bearing between held rings is found about the axis
-        shift_bearing(pb, y, -aside_y, -aside_z)
+    # the steady state is found about the axis
+    moved = together or is_sunk(y)
+    aside_y, aside_z = bring_to_axis(pb, c, y) if moved else (0.0, 0.0)
     place_rest(pb, c, y, wb[W.FOUND : W.FOUND + EQ.SIZE], sb, wb)
     first = wb[W.PATTERN + PT.FIRST_STATE : W.PATTERN + PT.EVEN_STATE]
     for i in range(Y.SIZE):
@@ -310,8 +317,11 @@ def begin_bearing(p, u, s, w, b, speed, carried, t):
         c[C.PRELOAD] = u[U.PRELOAD]
     become_steady(pb, c, y, first, BOTH if together else NONE, sb, wb, speed)
     settle(pb, c, y, 0.0, speed, sb, wb)
-    if together:
+    if moved:
         shift_bearing(pb, y, aside_y, aside_z)
+        c[C.NEUTRAL_Y] = 0.0
+        c[C.NEUTRAL_Z] = 0.0
+    if together:
         twist(p, b, c, y, w)
     if pb[P.RIGID] != 0.0:
         y[Y.Q0] = sb[S.PLACE]

@@ -17,7 +17,6 @@ from fmu_bearing.cli.base import (
     shaft_speed,
     tell,
 )
-from fmu_bearing.engine.layout import U
 from fmu_bearing.extras import available
 from fmu_bearing.files import check_folder
 
@@ -107,11 +106,10 @@ def changed(scene: "Scene", settings: list[str] | None) -> tuple["Scene", dict[s
     ValueError
         For text that is no setting, an unknown key, and a value that is refused.
     """
-    from fmu_bearing.interface.set_inputs import inputs_of_set
+    from fmu_bearing.interface.table import inputs_of
     from fmu_bearing.sweeps.axes import plain_value
 
-    table = None if scene.spindle is None else inputs_of_set(scene)
-    known = list(U.INPUTS) if table is None else [variable.name for variable in table]
+    known = {variable.name for variable in inputs_of(scene)}
     keys: dict[str, Any] = {}
     inputs: dict[str, float] = {}
     for setting in settings or ():
@@ -185,7 +183,6 @@ def _summary(found: "Modes", diagram: "Campbell | None", highest: float) -> dict
 
 def _write(folder: Path, found: "Modes", diagram: "Campbell | None") -> list[Path]:
     """Write tables, and for a diagram its picture and page; return the files."""
-    from fmu_bearing.modal.modes.set_modes import SetModes
     from fmu_bearing.results.picture_parts import save
 
     folder.mkdir(parents=True, exist_ok=True)
@@ -198,7 +195,7 @@ def _write(folder: Path, found: "Modes", diagram: "Campbell | None") -> list[Pat
     if available("matplotlib", "a picture", "no campbell.png", tell):
         files.append(folder / "campbell.png")
         save(diagram.picture(), files[-1])
-    if isinstance(found, SetModes):
+    if found.on_shaft:
         if available("matplotlib", "a picture", "no shaft.png", tell):
             files.append(folder / "shaft.png")
             save(found.picture(), files[-1])

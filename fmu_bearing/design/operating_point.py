@@ -20,7 +20,8 @@ from fmu_bearing.formulas.iso281 import viscosity_ratio
 from fmu_bearing.instance import Instance
 from fmu_bearing.modal.equations.linearised import under_force
 from fmu_bearing.modal.equations.remarks import remarks
-from fmu_bearing.modal.modes.natural_modes import Modes, may_grow, self_excited, solved
+from fmu_bearing.modal.modes.natural_modes import Modes, self_excited
+from fmu_bearing.modal.modes.solve import may_grow, solved
 from fmu_bearing.modal.stiffness.impedance import at_rest
 from fmu_bearing.prepare.bodies import ball
 from fmu_bearing.prepare.model import prepare
@@ -163,7 +164,7 @@ def operating_point(scene: SceneSource, tell: Tell = silent) -> OperatingPoint:
     if scene.spindle is not None:
         raise scene.unmounted("an operating point", "take `operating_points`")
     system = under_force(scene)
-    given, scene = scene, scene.model_copy(update={"sound": None, "imperfections": None}).with_rigid_rings()
+    scene = scene.model_copy(update={"sound": None, "imperfections": None}).with_rigid_rings()
     bearing = Instance(prepare(scene, fidelity="full"), tell=tell)
     bearing.initialise()
     settled = Instance(prepare(scene, fidelity="response"), tell=silent)
@@ -172,10 +173,10 @@ def operating_point(scene: SceneSource, tell: Tell = silent) -> OperatingPoint:
     radial = math.hypot(mounting.radial_load_y_N, mounting.radial_load_z_N)
     torque = settled.get("friction_torque")
     return replace(
-        figures(scene, bearing, bearing.get, mounting.preload_N, radial, torque, at_rest(system)),
+        figures(scene, bearing, bearing.get, mounting.preload_N, radial, torque, at_rest(system.bearings[0])),
         whirl=whirl_of(solved(scene, system)) if system.steady and may_grow(system.matrix) else None,
         steady=system.steady,
-        remarks=tuple(remarks(given, system)),
+        remarks=tuple(remarks(system)),
     )
 
 

@@ -11,9 +11,8 @@ from fmu_bearing.design.operating_point import OperatingPoint, figures, whirl_of
 from fmu_bearing.design.verdicts import Judgement, Verdict, judged_life, verdicts
 from fmu_bearing.formulas import iso281
 from fmu_bearing.instance import Instance
-from fmu_bearing.modal.equations.set_linearised import set_linearised
-from fmu_bearing.modal.modes.natural_modes import may_grow
-from fmu_bearing.modal.modes.set_modes import set_solved
+from fmu_bearing.modal.equations.linearised import linearised
+from fmu_bearing.modal.modes.solve import may_grow, solved
 from fmu_bearing.prepare.lengths import members
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.progress import Tell, silent
@@ -78,8 +77,8 @@ def operating_points(scene: SceneSource, tell: Tell = silent) -> tuple[Operating
         torque = run.get(f"bearing[{b + 1}].friction_torque")
         axial = max(0.0, carried.axial)
         found.append(figures(alone, part, output, axial, carried.radial, torque, carried.stiffness, True))
-    system = set_linearised(quiet)
-    whirl = whirl_of(set_solved(quiet, system)) if system.steady and may_grow(system.matrix) else None
+    system = linearised(quiet)
+    whirl = whirl_of(solved(quiet, system)) if system.steady and may_grow(system.matrix) else None
     return tuple(replace(one, whirl=whirl, steady=system.steady) for one in found)
 
 

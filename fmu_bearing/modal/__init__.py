@@ -1,4 +1,4 @@
-"""Small motions of a mounted bearing: natural modes, Campbell diagram, stiffness and damping.
+"""Small motions of a bearing or of a set on its shaft: natural modes, Campbell diagram, stiffness, damping.
 
 =============  ===========================================================================
 ``equations``  fidelity `full` linearised about a steady state, of a bearing and of a set

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from fmu_bearing.elastic.shaft import ShaftModel, shaft_model
 from fmu_bearing.elastic.shaft.model import FREEDOMS
 from fmu_bearing.engine.layout import SP
+from fmu_bearing.modal.equations.linearised import linearised
 from fmu_bearing.modal.equations.remarks import remarks
-from fmu_bearing.modal.equations.set_linearised import set_linearised
 from fmu_bearing.modal.stiffness.impedance import at_rest
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 from fmu_bearing.scene.member import set_of
@@ -274,14 +274,14 @@ def shaft_statics(
     found = rest(assembled, load)
     # loads on the shaft as they are on its nose, without weight, which is the scene's
     nose = {SP.U_NOSE + k: float(part) for k, part in enumerate(at_nose - weight(rigid))}
-    system = set_linearised(scene, nose)
-    matrices = [at_rest(one) for one in system.members]
+    system = linearised(scene, nose)
+    matrices = [at_rest(one) for one in system.bearings]
     bending = stiffness_with(assembled, _shaft(scene, flexible=True), matrices)
     return ShaftStatics(
         scene, at_nose, found.shaft[:FREEDOMS], _bearings(assembled, found, matrices),
         stiffness_with(assembled, assembled.shaft, matrices), _at_nose(bending), lift_off(assembled),
         preloads(assembled), spacing(assembled), neutral_spacing(assembled), found.residual,
-        tuple(remarks(scene, system)),
+        tuple(remarks(system)),
     )  # fmt: skip
 
 

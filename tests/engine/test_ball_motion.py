@@ -30,7 +30,7 @@ def of_full(scene, rpm, tau):
     state, excited by what the form does there to every acceleration.
     """
     damped = scene.replace({"bearing.contact_damping_us": 1e6 * tau})
-    found = linearised(quiet(damped), {U.SPEED: rpm * RPM})
+    found = linearised(quiet(damped), {U.SPEED: rpm * RPM}).bearings[0]
     arrays, at = found.arrays, found.coordinates
     matrix = Plain(arrays, at).derivatives()
     wavy = SimpleNamespace(p=wavy_balls(arrays.p, FORM), s=arrays.s.copy(), u=arrays.u, w=arrays.w)

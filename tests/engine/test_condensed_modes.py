@@ -30,7 +30,7 @@ class Motion(NamedTuple):
 
 def motions_of_full(scene, inputs=None):
     """Motions of `full` in fixed axes; of the balls what moves the rings: all alike, cosine and sine."""
-    found = linearised(scene.with_rigid_rings(), inputs)
+    found = linearised(scene.with_rigid_rings(), inputs).bearings[0]
     at = found.coordinates
     balls = np.tile(at.pattern_orders() <= 1, at.BALL_STATES)
     moving = np.concatenate([balls, np.ones(at.size - at.rings, dtype=bool)])
@@ -88,7 +88,7 @@ def damping_ratios(scene):
     it takes the rings along with up to 15 % of its energy.
     """
     full = motions_of_full(scene)
-    found = linearised(scene.with_rigid_rings())
+    found = linearised(scene.with_rigid_rings()).bearings[0]
     at = found.coordinates
     fast = motions_of_response(scene, at.masses[at.ring_rates : at.ring_rates + L.N])
     rows = {0: [], 1: [], -1: []}

@@ -23,7 +23,7 @@ def test_runs_settle_there(gate, name):
     start = run.s.copy()
     for _ in range(50):
         run.step(1e-3)
-    assert settle(own)
+    assert settle([own])
     balls = int(run.p[P.BALLS])
     for row in (Y.X, Y.R, Y.OM, Y.WX, Y.WR):
         reached, found, first = (s[S.Y + row : S.Y + row + balls].mean() for s in (run.s, own.s, start))
@@ -32,7 +32,7 @@ def test_runs_settle_there(gate, name):
 
 
 def test_a_bearing_without_steady_state_says_so(gate, monkeypatch):
-    monkeypatch.setattr(module, "settle", lambda bearing: False)
+    monkeypatch.setattr(module, "settle", lambda bearings, tie: False)
     scene = gate("7003C-spindle")
     words = "no steady state was found"
     assert any(words in line for line in modes(scene).cautions())

@@ -52,7 +52,7 @@ def test_springs_between_balls_give_the_chain(gate):
     """(1/pi) sqrt(k/m) cos(pi/N) sin(pi j/N), as races hold the radii; these and rings move them a little."""
     scene = gate("7003C-impact")
     found = modes(scene, {"shaft_speed": 10_000 * RPM})
-    spring, p = 2.5e7, found.linearised.arrays.p
+    spring, p = 2.5e7, found.linearised.bearings[0].arrays.p
     assert p[P.SPRINGS] == spring
     chain = np.sqrt(spring / p[P.BALL_MASS]) * np.sin(np.pi * np.arange(2, 7) / 12) / np.pi
     chain *= np.cos(np.pi / 12)
@@ -97,6 +97,13 @@ def test_nearest_mode_and_mode_by_name(gate):
         found.near(-1.0)
 
 
+def test_a_single_bearing_has_no_line_of_a_shaft(gate):
+    found = modes(gate("7003C-spindle"))
+    for ask in (lambda: found.line(0), found.picture):
+        with pytest.raises(ValueError, match="that of a set's shaft: `shape` has that of a bearing"):
+            ask()
+
+
 @pytest.mark.parametrize(
     ("inputs", "words"),
     [
@@ -126,7 +133,7 @@ def test_shape_of_the_axial_mode(gate):
     assert inner == pytest.approx(1.0) and -0.3 < outer.real < -0.05
     # momentum: rotor and housing are as heavy as each other but for the pedestal's force
     balls = shape.balls(0.3)
-    assert balls.shape == (3, found.linearised.coordinates.balls)
+    assert balls.shape == (3, found.linearised.bearings[0].coordinates.balls)
     assert np.ptp(balls[0].real) < 1e-9 and min(outer.real, 1.0) < balls[0, 0].real < 1.0
     assert np.abs(np.concatenate([shape.inner[2:], shape.outer[2:]])).max() < 1e-9
 

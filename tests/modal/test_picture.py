@@ -18,7 +18,7 @@ from fmu_bearing.modal.campbell.diagram_style import (
     top,
     width_class,
 )
-from fmu_bearing.modal.modes.natural_modes import MARGIN
+from fmu_bearing.modal.modes.mode import MARGIN
 
 SPEEDS = np.linspace(4_000, 28_000, 7)
 

@@ -9,7 +9,7 @@ import pytest
 
 from fmu_bearing import stiffness
 from fmu_bearing.engine.constants import RPM
-from fmu_bearing.engine.layout import P, Q, U
+from fmu_bearing.engine.layout import P, Q
 from fmu_bearing.modal.equations.linearised import linearised
 from fmu_bearing.modal.stiffness.impedance import at_rest
 from fmu_bearing.modal.stiffness.planes import errors, mirrored_matrix, planes
@@ -91,13 +91,14 @@ def test_errors_over_the_table(table):
 def test_tilt_counts_in_the_spindle(scene, whole, hertz):
     """Radial mode of the inner ring by the specification, with radial stiffness alone and with all of it."""
     system = linearised(scene("7003C-spindle").replace({"sound": None}))
-    p, masses = system.arrays.p, system.coordinates.masses[system.coordinates.ring_rates :]
+    (one,) = system.bearings
+    p, masses = one.arrays.p, one.coordinates.masses[one.coordinates.ring_rates :]
     rows = [Q.Y, Q.INNER_BZ, Q.OUTER + Q.Y, Q.OUTER + Q.BZ]
     inertia = masses[rows]
     inertia[[0, 2]] += 0.5 * p[P.BALLS] * p[P.BALL_MASS]  # balls follow half of each ring
-    k = at_rest(system)
+    k = at_rest(one)
     k = planes(k).stands_for(k) if whole else np.diag([0.0, k[Y, Y], 0.0, 0.0, 0.0])
-    pair, pedestal = k[np.ix_([Y, BZ], [Y, BZ])], system.arrays.u[U.PEDESTAL]
+    pair, pedestal = k[np.ix_([Y, BZ], [Y, BZ])], system.on_pedestal[1]
     found = np.block([[pair, -pair], [-pair, pair]])
     found += np.diag([0.0, p[P.TILT_STIFFNESS], pedestal, pedestal * p[P.ROTATIONAL_RATIO]])
     highest = math.sqrt(np.linalg.eigvals(found / inertia[:, None]).real.max()) / (2.0 * math.pi)

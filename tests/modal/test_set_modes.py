@@ -7,7 +7,6 @@ from scipy.linalg import eigh
 from fmu_bearing import campbell, modes, operating_point, operating_points, shaft_statics
 from fmu_bearing.engine.layout import SP, S, Y
 from fmu_bearing.modal.equations.linearised import linearised
-from fmu_bearing.modal.equations.set_linearised import set_linearised
 from fmu_bearing.modal.stiffness.impedance import at_rest
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.mounting import Mounting, Rotor
@@ -17,41 +16,71 @@ from tests.spindle.sets import scene, tables
 _LENGTH, _DIAMETER = 180.0, 15.0  # mm: of a shaft that is the single bearing's rotor
 
 
-def _pair(rpm, radial=0.0):
+BENT = {"outer_ring": [2, 3], "inner_ring": [2]}
+SEATS = {"outer_seat_stiffness_N_m": 1e7, "inner_seat_stiffness_N_m": 1e7}
+
+
+def _pair(rpm, radial=0.0, flexure=None):
     """A set of one on a pedestal, and the same as a mounted bearing."""
+    own = {} if flexure is None else {"flexure": flexure}
     one = scene(
         "+", (0.5 * _LENGTH,), preload=None, rpm=rpm, shaft={"sections_mm": [[_LENGTH, _DIAMETER, 0.0]]},
         load={"force_x_N": 500.0, "force_z_N": radial, "position_mm": 0.5 * _LENGTH},
-        bearings=[{"seat": "pedestal"}], housing={"pedestal_stiffness_N_m": 1e8},
+        bearings=[{"seat": "pedestal"}], housing={"pedestal_stiffness_N_m": 1e8}, **own,
     )  # fmt: skip
     density = one.materials.inner_ring.density_kg_m3
     mass = density * np.pi / 4.0 * (1e-3 * _DIAMETER) ** 2 * 1e-3 * _LENGTH
     rotor = Rotor(mass_kg=mass, length_mm=_LENGTH, diameter_mm=_DIAMETER)
-    mounting = Mounting(preload_N=500.0, radial_load_z_N=radial, pedestal_stiffness_N_m=1e8, rotor=rotor)
+    mounting = Mounting(
+        preload_N=500.0, radial_load_z_N=radial, pedestal_stiffness_N_m=1e8, rotor=rotor,
+        flexure=one.spindle.flexure,
+    )  # fmt: skip
     return one, one.model_copy(update={"spindle": None, "mounting": mounting})
 
 
+@pytest.mark.parametrize("flexure", [None, BENT | SEATS], ids=["rigid", "bending"])
 @pytest.mark.parametrize("rpm", [10_000.0, 40_000.0])
 @pytest.mark.parametrize("radial", [0.0, -50.0])
-def test_a_set_of_one_is_the_mounted_bearing(rpm, radial):
+def test_a_set_of_one_is_the_mounted_bearing(rpm, radial, flexure):
     """Both are settled: at 40,000 r/min that moves modes by 1 %.
 
-    Under a radial load the single one starts again at every phase, where the set turns its balls on; and the
-    rings of a set stand where quasi-static bearings hold them across the axis, 3e-4 of a frequency.
+    Under a radial load the rings of a set start where quasi-static bearings hold them across the axis, 3e-4
+    of a frequency beside the mounted one.
     """
-    several, one = _pair(rpm, radial)
-    alone, system = linearised(one), set_linearised(several)
+    several, one = _pair(rpm, radial, flexure)
+    alone, system = linearised(one), linearised(several)
     assert alone.steady and system.steady
     wanted = [value for value in np.linalg.eigvals(alone.matrix) if abs(value.imag) > 1e4]
     found = np.linalg.eigvals(system.matrix)
     # the last round of Newton's method moves a ball by 1e-10 m of a contact's 1e-6 m
     close = 1e-6 if radial == 0.0 else 1e-3
     assert max(abs(found - value).min() / abs(value) for value in wanted) < close
-    largest = np.abs(at_rest(alone)).max()
+    stiff = at_rest(alone.bearings[0])
+    largest = np.abs(stiff).max()
     atol = 10.0 if radial == 0.0 else close * largest
-    np.testing.assert_allclose(at_rest(system.members[0]), at_rest(alone), rtol=close, atol=atol)
+    np.testing.assert_allclose(at_rest(system.bearings[0]), stiff, rtol=close, atol=atol)
     mounted, (placed,) = operating_point(one), operating_points(several)
     np.testing.assert_allclose(placed.stiffness, mounted.stiffness, rtol=close, atol=atol)
+
+
+@pytest.mark.parametrize("rpm", [20_000.0, -20_000.0])
+def test_rings_of_a_set_bend_as_those_of_the_mounted_bearing(rpm):
+    """Names with the bearing's number, the same waves round the ring and the same damping."""
+    several, one = _pair(rpm, flexure=BENT | SEATS)
+    wanted, found = (
+        [mode for mode in modes(given).modes if "flexure" in mode.name] for given in (one, several)
+    )
+    assert {mode.name for mode in found} == {
+        f"{name} of bearing 1"
+        for name in ("outer flexure n = 2", "outer flexure n = 3", "inner flexure n = 2")
+    }
+    for mode, other in zip(found, wanted, strict=True):
+        assert mode.name == f"{other.name} of bearing 1"
+        assert (mode.order, mode.direction) == (other.order, other.direction) and mode.direction
+        assert mode.frequency == pytest.approx(other.frequency, rel=1e-6)
+        assert mode.damping == pytest.approx(other.damping, rel=1e-4)
+    branches = campbell(several, [rpm, 1.1 * rpm, 1.2 * rpm], highest=40e3).branches
+    assert {mode.name for mode in found} <= {branch.name for branch in branches}
 
 
 @pytest.mark.parametrize("kind", ["spacer", "spring", "housed"])
@@ -65,13 +94,13 @@ def test_runs_of_a_set_settle_where_its_modes_stand(kind):
     several = several.replace({"operation.speed_rpm": 40_000.0, "fidelity.terms.gravity": False})
     level = several.spindle.shaft.model_copy(update={"unbalance": ()})
     several = several.model_copy(update={"spindle": several.spindle.model_copy(update={"shaft": level})})
-    run, system = SetRun(several, CAGE=0.0), set_linearised(several)
+    run, system = SetRun(several, CAGE=0.0), linearised(several)
     assert system.steady
     run.init()
     start = run.s.copy()
     for _ in range(50):
         assert run.step(1e-3) == 0
-    for k, one in enumerate(system.members):
+    for k, one in enumerate(system.bearings):
         balls = one.coordinates.balls
         for row in (Y.R, Y.OM, Y.WX, Y.WR):
             own = slice(S.Y + row, S.Y + row + balls)
@@ -84,8 +113,8 @@ def test_runs_of_a_set_settle_where_its_modes_stand(kind):
 def test_standstill_has_the_frequencies_of_statics():
     """What is left is the balls' inertia, some grams against the shaft's 0.7 kg."""
     pair = scene("+-", (40.0, 70.0))
-    system = set_linearised(pair, friction=False)
-    squares = eigh(shaft_statics(pair).stiffness, system.block.total)[0]
+    system = linearised(pair, friction=False)
+    squares = eigh(shaft_statics(pair).stiffness, system.shaft.total)[0]
     found = np.linalg.eigvals(system.matrix).imag / (2.0 * np.pi)
     for wanted in np.sqrt(squares) / (2.0 * np.pi):
         assert abs(found - wanted).min() < 0.01 * wanted
@@ -101,7 +130,7 @@ def test_a_set_seen_from_its_rear_has_the_same_modes():
     front = scene("+-", (150.0, 210.0), rpm=12_000.0, load=load)
     turned = load | {"force_x_N": -100.0, "position_mm": 210.0}
     rear = scene("+-", (190.0, 250.0), rpm=-12_000.0, load=turned)
-    wanted, found = (set_linearised(several) for several in (front, rear))
+    wanted, found = (linearised(several) for several in (front, rear))
     assert found.orbits == pytest.approx(-wanted.orbits[::-1], rel=1e-9)
     values = np.linalg.eigvals(wanted.matrix)
     swings = values[(values.imag > 3e3) & (-values.real < 0.2 * abs(values))]
@@ -188,7 +217,7 @@ def housed():
 def test_housing_and_sliding_rings_have_modes():
     """The housing turns about the axis by itself; along it goes all that the bearings hold."""
     found = modes(housed())
-    total = np.diag(found.linearised.block.total)
+    total = np.diag(found.linearised.shaft.total)
     turning = found.named("housing spin")
     assert turning.frequency == pytest.approx(np.sqrt(1e7 * 200e-6 / total[8]) / (2.0 * np.pi), rel=3e-3)
     assert turning.damping == pytest.approx(0.05, rel=0.01)
@@ -238,7 +267,7 @@ def test_line_of_the_shaft():
     # a rigid shaft stays straight: nose, then 40 and 70 mm
     (nose, front, rear), (x0, x1, x2) = line.T, (0.0, 0.04, 0.07)
     assert front == pytest.approx(nose + (rear - nose) * (x1 - x0) / (x2 - x0), rel=1e-9, abs=1e-12)
-    own = found.linearised.block.nose[1:3] @ mode.vector[found.linearised.places :][:5]
+    own = found.linearised.shaft.nose[1:3] @ mode.vector[found.linearised.places :][:5]
     assert nose * own[0] == pytest.approx(own * nose[0], rel=1e-9)
     with pytest.raises(ValueError, match="`line` has that of the shaft"):
         found.shape(mode)

@@ -53,7 +53,7 @@ def test_it_is_that_of_one_ball_in_orbiting_axes(scene, name, rpm):
         {"sound": None, "imperfections": None, "fidelity.terms.gravity": False, "operation.speed_rpm": rpm,
          "mounting.radial_load_y_N": 0.0, "mounting.radial_load_z_N": 0.0, "mounting.flexure": None}
     )  # fmt: skip
-    system = linearised(bare)
+    system = linearised(bare).bearings[0]
     assert system.equal_loads
     for w in 2.0 * math.pi * np.array([30.0, 700.0, 4e3, 15e3]):
         for spacing, matrix in (("free", system.matrix), ("held", spaced(system, system.matrix))):
@@ -89,7 +89,7 @@ def test_slow_motion_meets_the_stiffness_at_rest(spindle, table):
     # the balls' inertia is 1e-4 of it at 50 Hz, friction held or not 2e-3 on a bearing that carries this much
     assert table.against_static() < 1e-3
     for k, load in enumerate((200.0, 500.0, 1000.0)):
-        arrays = linearised(spindle, {U.SPEED: 20e3 * RPM, U.PRELOAD: load}).arrays
+        arrays = linearised(spindle, {U.SPEED: 20e3 * RPM, U.PRELOAD: load}).bearings[0].arrays
         energy = np.diag(energy_hessian(arrays.p, arrays.s))
         np.testing.assert_allclose(np.diag(table.static[1, k]), energy, rtol=3e-3)
 
@@ -99,7 +99,7 @@ def test_a_light_load_at_speed_is_further_from_it(scene):
         {"sound": None, "imperfections": None, "fidelity.terms.gravity": False}
     )
     found = stiffness(light, [18e3], [0.1, 1e3], preloads=[175.0])
-    arrays = linearised(light, {U.SPEED: 18e3 * RPM, U.PRELOAD: 175.0}).arrays
+    arrays = linearised(light, {U.SPEED: 18e3 * RPM, U.PRELOAD: 175.0}).bearings[0].arrays
     # friction moves the balls with the ring; by the energy in the contacts there would be some per cent more
     off = np.diag(found.static[0, 0]) / np.diag(energy_hessian(arrays.p, arrays.s)) - 1.0
     assert 0.02 < np.abs(off).max() < 0.07
@@ -162,7 +162,7 @@ def test_rigid_preload_is_the_force_that_its_place_means(spindle):
     rigid = spindle.replace({"mounting.preload_mode": "rigid"})
     warm = {"inner_ring_temperature": 313.15}
     values = {U.SPEED: 20e3 * RPM, U.INNER_T: 313.15}
-    arrays = linearised(rigid, values).arrays
+    arrays = linearised(rigid, values).bearings[0].arrays
     # what its place pushes the pedestal by
     force = arrays.s[S.Y + ROW.Q0 + Q.OUTER] * arrays.s[S.C + C.PEDESTAL_AXIAL]
     assert force > 550.0  # warmth presses what preload_N pressed with 500 N when cold
@@ -188,7 +188,7 @@ def test_free_balls_bunch_at_the_frequency_of_their_orbit(spindle):
 
 
 def test_springs_between_balls_keep_them_apart(scene):
-    found = linearised(scene("7003C-impact").replace({"sound": None}))
+    found = linearised(scene("7003C-impact").replace({"sound": None})).bearings[0]
     if found.arrays.p[P.SPRINGS] == 0.0:
         pytest.skip("this scene has no springs between its balls")
     assert spaced(found, found.matrix) is found.matrix

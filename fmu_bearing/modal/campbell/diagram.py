@@ -12,7 +12,8 @@ from scipy.interpolate import PchipInterpolator
 from fmu_bearing.modal.campbell.excitation_lines import Line, Rates
 from fmu_bearing.modal.equations.remarks import UNSTEADY
 from fmu_bearing.modal.modes.energies import NEITHER
-from fmu_bearing.modal.modes.natural_modes import MARGIN, MOVES, Mode, Modes, self_excited
+from fmu_bearing.modal.modes.mode import MARGIN, MOVES, Mode
+from fmu_bearing.modal.modes.natural_modes import Modes, self_excited
 from fmu_bearing.scene import Scene
 
 WITHIN = 20.0  # dB below the largest: crossings that count
@@ -175,10 +176,10 @@ class Diagram:
         if not rings:
             return []
         rpm, mode = max(rings, key=lambda one: one[1].growth)
-        body = "ring" if self.points[0].scene.spindle is None else "set"
         return [
-            f"instability: the {body} whirls by itself at {rpm:,.0f} r/min ({mode.frequency:.0f} Hz, growth "
-            f"{mode.growth:.0f} 1/s); balls have most of its energy, and no branch shows it"
+            f"instability: the {self.points[0].body} whirls by itself at {rpm:,.0f} r/min "
+            f"({mode.frequency:.0f} Hz, growth {mode.growth:.0f} 1/s); balls have most of its energy, and no "
+            "branch shows it"
         ]
 
     def table(self) -> list[dict[str, Any]]:

@@ -12,7 +12,7 @@ from fmu_bearing.acoustics.radiation.frequencies import BAND
 from fmu_bearing.modal.campbell.diagram import Branch, Crossing, Diagram
 from fmu_bearing.modal.campbell.excitation_lines import Line
 from fmu_bearing.modal.modes.energies import BACKWARD, FORWARD, NEITHER
-from fmu_bearing.modal.modes.natural_modes import MARGIN
+from fmu_bearing.modal.modes.mode import MARGIN
 
 #: By what moves. Hues tell bodies apart for all kinds of colour vision (Okabe and Ito 2008), depths motions.
 COLOURS = {

@@ -11,12 +11,12 @@ from fmu_bearing.engine.constants import RPM
 from fmu_bearing.modal.campbell.diagram import Branch, Diagram, is_of_rings
 from fmu_bearing.modal.campbell.diagram_picture import campbell_picture
 from fmu_bearing.modal.campbell.excitation_lines import lines, rates, unbalance
-from fmu_bearing.modal.equations.set_linearised import need_shaft
-from fmu_bearing.modal.modes.natural_modes import Mode, Modes
+from fmu_bearing.modal.modes.mode import Mode
+from fmu_bearing.modal.modes.natural_modes import Modes
 from fmu_bearing.modal.modes.points import at_point, given
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.scene import Scene, SceneSource, scene_of
-from fmu_bearing.scene.member import one_of
+from fmu_bearing.scene.exclusions import require
 from fmu_bearing.threads import one_thread
 
 if TYPE_CHECKING:
@@ -104,7 +104,7 @@ def campbell(
     'Nearest: f_i - f_r (inner race) with inner radial backward'
     """
     scene = scene_of(scene)
-    need_shaft(scene)
+    require(scene, "modes")
     chosen = _speeds(scene, speeds)
     if inputs and "shaft_speed" in inputs:
         raise ValueError("shaft_speed is not an input of a Campbell diagram: give speeds, in r/min")
@@ -130,9 +130,8 @@ def campbell(
         np.array([one.spin for one in systems]), scene.bearing.ball_count,
     )  # fmt: skip
     branches = _branches(points, highest)
-    alone = scene if scene.spindle is None else one_of(scene)
     orders = {branch.order for branch in branches}
-    found = lines(alone, at, orders, highest, unbalance(scene))
+    found = lines(scene.bearings()[0].scene, at, orders, highest, unbalance(scene))
     return Campbell(scene, tuple(points), tuple(branches), tuple(found), at, highest, tuple(skipped))
 
 

@@ -13,12 +13,12 @@ from functools import lru_cache
 
 import numpy as np
 
-from fmu_bearing.interface.inputs import inputs as inputs_of_bearing
-from fmu_bearing.interface.set_inputs import inputs_of_set
+from fmu_bearing.interface.table import inputs_of
 from fmu_bearing.modal.campbell.diagram import can_move, is_of_rings
 from fmu_bearing.modal.campbell.excitation_lines import lines, rates, unbalance
 from fmu_bearing.modal.equations.remarks import UNSTEADY
-from fmu_bearing.modal.modes.natural_modes import Mode, Modes, self_excited
+from fmu_bearing.modal.modes.mode import Mode
+from fmu_bearing.modal.modes.natural_modes import Modes, self_excited
 from fmu_bearing.modal.modes.points import modes
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.read import read_scene_text, with_fidelity
@@ -74,10 +74,9 @@ def whirl(scene: Scene, inputs: Mapping[str, float] | None = None) -> str:
     so themselves. The cage is left out and rings are rigid.
     """
     found = _at(scene, inputs)
-    mode = None if found is None else _grows(found)
-    if mode is None:
+    if found is None or (mode := _grows(found)) is None:
         return ""
-    return whirl_words(mode.frequency, mode.growth, scene.spindle is not None)
+    return whirl_words(mode.frequency, mode.growth, found.on_shaft)
 
 
 def whirl_words(frequency: float, growth: float, of_set: bool) -> str:
@@ -108,9 +107,10 @@ def weakness(scene: Scene, inputs: Mapping[str, float] | None = None) -> str:
     if found is None:
         return ""
     if (grows := _grows(found)) is not None:
-        body = "ring" if scene.spindle is None else "set"
-        return f"the {body} whirls by itself at {grows.frequency:.0f} Hz (growth {grows.growth:.0f} 1/s)"
-    if scene.spindle is not None:
+        return (
+            f"the {found.body} whirls by itself at {grows.frequency:.0f} Hz (growth {grows.growth:.0f} 1/s)"
+        )
+    if found.on_shaft:
         return ""
     own = [mode for mode in found.modes if mode.frequency <= HIGHEST and is_of_rings(mode)]
     weakest = min(own, key=lambda mode: mode.damping, default=None)
@@ -139,8 +139,7 @@ def _grows(found: Modes) -> Mode | None:
 
 def _at(scene: Scene, inputs: Mapping[str, float] | None) -> Modes | None:
     """Return the modes of a scene with rigid rings at its inputs; None where there is no equilibrium."""
-    own = inputs_of_bearing(scene) if scene.spindle is None else inputs_of_set(scene)
-    names = {variable.name for variable in own}
+    names = {variable.name for variable in inputs_of(scene)}
     given = tuple(sorted((name, float(x)) for name, x in (inputs or {}).items() if name in names))
     # what modes leave out is no part of the key: it is the same scene to them
     bare = scene.with_rigid_rings().model_copy(update={"sound": None, "imperfections": None})

@@ -1,11 +1,12 @@
-"""Fidelity `full` linearised about a steady state: x' = A x, of a bearing and of a set.
+"""Fidelity `full` linearised about a steady state: x' = A x, of a single bearing and of a set.
 
-==================  ===========================================================================
-``coordinates``     what the numbers of a linearised bearing are
-``plain``           the engine's equations ball by ball, and their derivatives
-``equilibrium``     the steady state of balls and rings without cage
-``linearised``      fidelity `full` about its steady state, in fixed axes
-``set_linearised``  a set on its shaft: bearings by themselves, tied by shaft and housing
-``remarks``         what is to be said about the steady state
-==================  ===========================================================================
+===============  ===========================================================================
+``coordinates``  what the numbers of a linearised bearing are
+``plain``        the engine's equations ball by ball, and their derivatives
+``equilibrium``  the steady state of balls and rings without cage
+``bearing``      one bearing about its state, in fixed axes of its own
+``shaft``        matrices of shaft, housing and sliding rings; a single bearing has none
+``linearised``   the whole: bearings, tied by shaft and housing where there are some
+``remarks``      remarks on the steady state: that none was found, a soft pedestal
+===============  ===========================================================================
 """

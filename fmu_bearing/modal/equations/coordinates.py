@@ -112,6 +112,13 @@ class Coordinates:
         found[self.flexure : self.flexure_rates] = True
         return found
 
+    @property
+    def pairs(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Numbers of the places, and of the rate of each."""
+        places = np.flatnonzero(self.is_place)
+        moved = np.where(places < self.rings, len(_PLACES) * self.balls, Q.RINGS)
+        return places, places + np.where(places < self.flexure, moved, 2 * self.flexural)
+
     def pattern_orders(self) -> NDArray[np.int64]:
         """Order k of each pattern of the balls, shape (balls,)."""
         return (np.arange(self.balls) + 1) // 2

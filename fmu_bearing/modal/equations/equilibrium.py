@@ -49,13 +49,11 @@ class Tie:
     inertia: Sequence[NDArray[np.float64]]
 
 
-def settle(bearing: Arrays) -> bool:
-    """Move a bearing's state to the steady one; False, and the state as it was, where there is none near."""
-    return settle_set([bearing])
+def settle(bearings: Sequence[Arrays | BearingArrays], tie: Tie | None = None) -> bool:
+    """Move the states of bearings to the steady ones; False, and states as they were, where none is near.
 
-
-def settle_set(bearings: Sequence[Arrays | BearingArrays], tie: Tie | None = None) -> bool:
-    """Move the states of a set's bearings to the steady ones; False as for `settle`."""
+    ``tie``: of a set; None: nothing ties the bearings.
+    """
     parts = [_Part(one, None if tie is None else tie.inertia[k].size) for k, one in enumerate(bearings)]
     whole = _Whole(parts, tie)
     for _ in range(_ROUNDS):
@@ -77,7 +75,7 @@ def settle_set(bearings: Sequence[Arrays | BearingArrays], tie: Tie | None = Non
 
 
 class _Part:
-    """One bearing: motions that are alike for all its balls, and its rings along and about the axis."""
+    """One bearing: motions that are equal for all its balls, and its rings along and about the axis."""
 
     def __init__(self, bearing: Arrays | BearingArrays, driven: int | None) -> None:
         self.bearing, self.at = bearing, Coordinates.of(bearing.p)
@@ -87,7 +85,7 @@ class _Part:
         led = np.zeros(self.at.size)
         led[self.driven] = led[self.driven - Q.RINGS] = 1.0
         self.own = self.spread.T @ led == 0.0
-        # in steps of the differences all motions weigh alike
+        # in steps of the differences all motions weigh the same
         self.scale = self.spread.T @ self.plain.steps() / np.maximum(self.spread.sum(axis=0), 1.0)
         # balls along and across the axis, and along it against both rings
         first = [int(self.spread[place].argmax()) for place in (0, self.at.balls)]
@@ -154,7 +152,7 @@ class _Whole:
 
 
 def _even_motions(at: Coordinates) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return what spreads motions that are alike for all balls over x, and what takes their mean from x'.
+    """Return what spreads motions that are equal for all balls over x, and what takes their mean from x'.
 
     They are the balls' states but the angle of the orbit, and the rings along and about the axis.
     """

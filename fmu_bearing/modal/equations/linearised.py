@@ -1,18 +1,16 @@
-"""Fidelity `full` linearised about its steady state: constant first-order equations in fixed axes.
+"""Fidelity `full` linearised about its steady state: x' = A x of a single bearing, or of a set on its shaft.
 
-The balls' coordinates stand in axes that orbit with them, those of the rings in fixed axes, so the plain
-derivatives change as the balls orbit. As patterns round the bearing (1, cos k theta, sin k theta, with theta
-the angle in fixed axes: Coleman and Feingold 1958, for rotor blades) the balls stand in fixed axes, too.
-Equal ball loads then give constant coefficients, also on a pedestal of two stiffnesses. Under a radial load,
-weight or misalignment they repeat with each ball that passes: their mean over one pitch serves, and the
-matrices at single phases tell how much is lost.
+Each bearing has its own equations in fixed axes (see ``bearing``). Rows of its rings that shaft, housing or a
+sliding seat drive are ``T q``, and what they would accelerate by without it, times their inertia, is their
+force on the coordinates q. A single bearing is a set without shaft: no coordinates q, no driven rows.
 
-The state is the steady one (see ``equilibrium``), not an instant of a run. The cage and its films are left
-out: it touches balls and lands with clearance, and a linear cage would either not be there or never let go.
-Imperfections and sound are left out, too. Weights count as loads where the scene has them.
+The state is the steady one (see ``equilibrium``), not an instant of a run, with the loads, tilts and
+temperatures of every bearing. The cage and its films are left out: it touches balls and lands with clearance,
+and a linear cage would either not be there or never let go. Imperfections and sound are left out, too.
+Weights, of the balls too, load the steady state where the scene has them.
 """
 
-import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -21,70 +19,126 @@ from numpy.typing import NDArray
 from scipy.linalg import block_diag
 
 from fmu_bearing.arrays import Arrays, Refused
-from fmu_bearing.engine.constants import GRAVITY
-from fmu_bearing.engine.layout import C, P, Q, S, U, Y
+from fmu_bearing.engine.layout import SP, C, P, Q, S, U, Y
 from fmu_bearing.instance import EngineError
+from fmu_bearing.modal.equations.bearing import BearingLinearised, in_fixed_axes, phases_of
 from fmu_bearing.modal.equations.coordinates import Coordinates
 from fmu_bearing.modal.equations.equilibrium import settle
-from fmu_bearing.modal.equations.plain import BearingArrays, Plain
+from fmu_bearing.modal.equations.plain import BearingArrays
+from fmu_bearing.modal.equations.shaft import ShaftMatrices, matrices, rows_of, tie
 from fmu_bearing.scene import Scene
+from fmu_bearing.scene.exclusions import require
 from fmu_bearing.scene.read import with_fidelity
-
-PHASES = 6  # of one ball pitch
 
 
 @dataclass(frozen=True)
 class Linearised:
-    """Small motions x of a bearing: x' = A x, in fixed axes.
+    """Small motions x: x' = A x, in fixed axes.
+
+    x holds for each bearing its numbers in the order of ``Coordinates``, without the rows of its rings that
+    are driven; behind all bearings the places and the rates of shaft, housing and sliding rings.
 
     Attributes
     ----------
-    coordinates : Coordinates
-        What the numbers of x are.
-    matrix : ndarray
-        A (SI units), mean over the phases, shape (n, n).
-    phases : ndarray
-        A at single phases of one ball pitch, shape (phases, n, n): one where the balls' loads are equal.
-    orbit, spin : float
-        rad/s: mean speed of the balls' orbit; mean speed of a ball about its axis in orbiting axes.
+    bearings : tuple of BearingLinearised
+        Each bearing alone, in its own axes, in the place that it has on the shaft.
+    shaft : ShaftMatrices
+        Of a single bearing without coordinates: ``shaft.count`` is 0.
+    own : tuple of ndarray
+        Which numbers of each bearing are in x.
+    matrix : ndarray, shape (n, n)
+        A (SI units), mean over the phases.
+    phases : ndarray, shape (phases, n, n)
+        A at single phases of one ball pitch: one where the balls' loads are equal.
+    masses : ndarray, shape (n, n)
+        Kinetic energy is half its quadratic form in the rates.
     speed : float
-        rad/s, of the shaft.
-    arrays : Arrays
-        Parameters, conditions and state at the first phase.
+        rad/s of the shaft.
     steady : bool
         Whether the steady state was found; else all holds for the state in which a run starts.
+    on_pedestal : tuple of float
+        How far loads move the housing, or an outer ring on a pedestal of its own (m); its stiffness (N/m).
     """
 
-    coordinates: Coordinates
+    bearings: tuple[BearingLinearised, ...]
+    shaft: ShaftMatrices
+    own: tuple[NDArray[np.int64], ...]
     matrix: NDArray[np.float64]
     phases: NDArray[np.float64]
-    orbit: float
-    spin: float
+    masses: NDArray[np.float64]
     speed: float
-    arrays: Arrays | BearingArrays
     steady: bool
-
-    @cached_property
-    def equal_loads(self) -> bool:
-        """Whether one phase tells all: the balls carry equal loads."""
-        return len(self.phases) == 1
+    on_pedestal: tuple[float, float]
 
     @property
-    def on_pedestal(self) -> tuple[float, float]:
-        """How far the loads move the outer ring (m), and its pedestal's stiffness (N/m)."""
-        place = self.arrays.s[S.Y + Y.Q0 + Q.OUTER :][:3]
-        return float(np.linalg.norm(place)), float(self.arrays.u[U.PEDESTAL])
+    def orbits(self) -> NDArray[np.float64]:
+        """rad/s: speed of the balls' orbit in each bearing; loads make them differ by some 0.1 %."""
+        return np.array([one.orbit for one in self.bearings])
+
+    @property
+    def spins(self) -> NDArray[np.float64]:
+        """rad/s: speed of a ball about its own axis against axes that orbit with it, in each bearing."""
+        return np.array([one.spin for one in self.bearings])
+
+    @property
+    def orbit(self) -> float:
+        """rad/s: mean of the bearings."""
+        return float(self.orbits.mean())
+
+    @property
+    def spin(self) -> float:
+        """rad/s: mean of the bearings."""
+        return float(self.spins.mean())
+
+    @property
+    def places(self) -> int:
+        """First number of the shaft's places."""
+        return self.first[-1]
+
+    @property
+    def rates(self) -> int:
+        """First number of the shaft's rates."""
+        return self.first[-1] + self.shaft.count
+
+    @property
+    def equal_loads(self) -> bool:
+        """Whether one phase serves for all: the balls of each bearing carry equal loads."""
+        return len(self.phases) == 1
+
+    @cached_property
+    def first(self) -> tuple[int, ...]:
+        """Where each bearing begins in x; the last is where the places of the shaft begin."""
+        return (0, *(int(end) for end in np.cumsum([numbers.size for numbers in self.own])))
+
+    @cached_property
+    def pairs(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Numbers of the places in x, and of the rate of each."""
+        found = []
+        for one, own, first in zip(self.bearings, self.own, self.first, strict=False):
+            where = np.full(one.coordinates.size, -1)
+            where[own] = first + np.arange(own.size)
+            pairs = where[np.array(one.coordinates.pairs)]
+            found.append(pairs[:, pairs[0] >= 0])
+        places, rates = np.hstack([*found, np.arange(self.shaft.count) + [[self.places], [self.rates]]])
+        return places, rates
+
+    def of_bearing(self, number: int, vector: NDArray[np.complex128]) -> NDArray[np.complex128]:
+        """Return the part of a vector x that is a bearing's own, from 0, in its order; driven rows are 0."""
+        found = np.zeros(self.bearings[number].coordinates.size, dtype=complex)
+        found[self.own[number]] = vector[self.first[number] : self.first[number + 1]]
+        return found
 
 
 def linearised(scene: Scene, inputs: dict[int, float] | None = None, friction: bool = True) -> Linearised:
-    """Linearise a scene's bearing at its operating point.
+    """Linearise a scene, a single bearing or a set, at its operating point.
 
     Parameters
     ----------
     scene : Scene
         Its cage, imperfections and sound are left out, and its fidelity counts as full.
     inputs : dict, optional
-        Values by their places in ``layout.U`` in place of the scene's.
+        Values by their places in the engine's ``u`` (``layout.U``, of a set ``SP.INPUTS``) in place of the
+        scene's.
     friction : bool, optional
         False: contacts without traction.
 
@@ -92,31 +146,38 @@ def linearised(scene: Scene, inputs: dict[int, float] | None = None, friction: b
     ------
     EngineError
         Where there is no quasi-static equilibrium.
+    SceneError
+        For bearings on another model's shaft: without its mass there is no mode.
     """
-    # whatever a run takes
+    require(scene, "modes")
     full = with_fidelity(scene, model="full")
-    bare = full.model_copy(update={"sound": None, "imperfections": None})
-    bearing = Arrays.of(bare, CAGE=0.0)
+    run = Arrays.of(full.model_copy(update={"sound": None, "imperfections": None}))
     for place, value in (inputs or {}).items():
-        bearing.u[place] = value
-    first, steady = _bearing(scene.name, bearing, 0.0, friction)
-    even = _even(first)
-    count = 1 if even else PHASES
-    pitch = 2.0 * math.pi / first.p[P.BALLS]
-    bearings = [first]
-    for k in range(1, count):
-        one, found = _bearing(scene.name, bearing, pitch * k / count, friction)
-        bearings.append(one)
-        steady = steady and found
-    coordinates = Coordinates.of(first.p)
-    orbit = float(np.mean([_mean(one, Y.OM) for one in bearings]))
-    matrices = np.array(
-        [in_fixed_axes(one, coordinates, pitch * k / count, orbit) for k, one in enumerate(bearings)]
-    )
-    # about its own axis, against the axes that orbit with the ball
-    spin = math.hypot(_mean(first, Y.WX) - orbit, _mean(first, Y.WR))
-    speed = float(first.u[U.SPEED])
-    return Linearised(coordinates, matrices.mean(axis=0), matrices, orbit, spin, speed, first, steady)
+        run.u[place] = value
+    rows = rows_of(run.p)
+    _leave_out(run, rows, ("CAGE",) if friction else ("CAGE", "MU"))
+    try:
+        run.init()
+    except Refused as refusal:
+        raise EngineError(f"{scene.name}: {refusal}") from None
+    speed = float(run.u[U.SPEED])  # the first input of a set, too
+    shaft = matrices(run, speed)
+    settled = [_bearing(run, row, speed) for row in rows]
+    # without friction nothing decides how fast balls spin
+    steady = settle(settled, tie(run, shaft)) if friction else True
+    count = phases_of(settled)
+    bearings = tuple(in_fixed_axes(one, count, steady) for one in settled)
+    own = tuple(_own(one.coordinates, mass.size) for one, mass in zip(bearings, shaft.inertia, strict=True))
+    phases = np.array([_assembled(bearings, k, own, shaft) for k in range(count)])
+    masses = block_diag(
+        *[np.diag(one.coordinates.masses[numbers]) for one, numbers in zip(bearings, own, strict=True)],
+        np.zeros_like(shaft.mass), shaft.total,
+    )  # fmt: skip
+    pedestal = float(run.u[SP.U_PEDESTAL if SP.has_shaft(run.p) else U.PEDESTAL])
+    return Linearised(
+        bearings, shaft, own, phases.mean(axis=0), phases, masses, speed, steady,
+        (_on_pedestal(run, rows, settled, shaft), pedestal),
+    )  # fmt: skip
 
 
 def under_force(scene: Scene, inputs: dict[int, float] | None = None) -> Linearised:
@@ -125,84 +186,85 @@ def under_force(scene: Scene, inputs: dict[int, float] | None = None) -> Lineari
     A ring that is held would have no row.
     """
     system = linearised(scene, inputs)
-    if not system.coordinates.held:
+    one = system.bearings[0]
+    if not one.coordinates.held:
         return system
-    state = system.arrays.s
+    state = one.arrays.s
     force = float(state[S.Y + Y.Q0 + Q.OUTER] * state[S.C + C.PEDESTAL_AXIAL])
     return linearised(scene.replace({"mounting.preload_mode": "force"}), {**(inputs or {}), U.PRELOAD: force})
 
 
-def _bearing(name: str, given: Arrays, phase: float, friction: bool) -> tuple[Arrays, bool]:
-    """Return a bearing with the balls turned on by ``phase`` (rad), and whether its state is steady.
-
-    Its axes turn with the balls: the first one stays at 12 o'clock, loads and seats turn back. ``given``: the
-    bearing without cage, nothing turned, with its inputs; ``name``: of its scene.
-    """
-    turned: dict[str, float] = {"GRAVITY": 0.0} | _turned_seat(given.p, phase)
-    if not friction:
-        turned |= {"MU": 0.0}
-    bearing = given.with_parameters(**turned)
-    weight = GRAVITY * given.p[P.INNER_MASS] if given.p[P.GRAVITY] else 0.0
-    load = _turn_back(bearing.u[U.LOAD_Y], bearing.u[U.LOAD_Z] - weight, phase)
-    bearing.u[U.LOAD_Y], bearing.u[U.LOAD_Z] = load
-    try:
-        bearing.init()
-    except Refused as refusal:
-        raise EngineError(f"{name}: {refusal}") from None
-    # without friction nothing says how fast balls spin
-    return bearing, settle(bearing) if friction else True
+def _leave_out(run: Arrays, rows: Sequence[NDArray[np.float64]], names: Sequence[str]) -> None:
+    """Set parameters of all bearings to zero."""
+    run.p.setflags(write=True)
+    for row in rows:
+        for name in names:
+            run.p[int(row[SP.ROW_P]) + getattr(P, name)] = 0.0
+    run.p.setflags(write=False)
 
 
-def _turn_back(y: float, z: float, phase: float) -> tuple[float, float]:
-    c, s = math.cos(phase), math.sin(phase)
-    return c * y + s * z, c * z - s * y
+def _bearing(run: Arrays, row: NDArray[np.float64], speed: float) -> BearingArrays:
+    """Return one bearing's arrays as those of a single one; its weight is a load that it carries already."""
+    parts = []
+    for array, place, size in (
+        (run.p, SP.ROW_P, SP.ROW_P_SIZE), (run.s, SP.ROW_S, SP.ROW_S_SIZE), (run.w, SP.ROW_W, SP.ROW_W_SIZE),
+    ):  # fmt: skip
+        first = int(row[place])
+        length = int(row[size]) or array.size  # a single bearing has the whole arrays
+        parts.append(array[first : first + length].copy())
+    p, s, w = parts
+    if SP.has_shaft(run.p):
+        p[P.SET] = 0.0
+    p[P.GRAVITY] = 0.0  # a constant force, which would turn against the axes of a phase
+    u = np.zeros(U.SIZE)
+    u[U.SPEED] = speed
+    return BearingArrays(p, u, s, w)
 
 
-def _turned_seat(p: NDArray[np.float64], phase: float) -> dict[str, float]:
-    """Return the parameters of the seat of the outer ring in axes turned by ``phase`` (rad)."""
-    found = dict(
-        zip(
-            ("MISALIGNMENT_Y", "MISALIGNMENT_Z"),
-            _turn_back(p[P.MISALIGNMENT_Y], p[P.MISALIGNMENT_Z], phase),
-            strict=True,
-        )
-    )
-    c, s = math.cos(phase), math.sin(phase)
-    turn = np.array([[c, s], [-s, c]])
-    for name in ("PEDESTAL", "PEDESTAL_DAMPING"):
-        y, z, between = (p[getattr(P, f"{name}_{axes}")] for axes in ("Y", "Z", "YZ"))
-        tensor = turn @ np.array([[y, between], [between, z]]) @ turn.T
-        found[f"{name}_Y"], found[f"{name}_Z"] = float(tensor[0, 0]), float(tensor[1, 1])
-        found[f"{name}_YZ"] = float(tensor[0, 1])
-    return found
+def _on_pedestal(
+    run: Arrays, rows: list[NDArray[np.float64]], bearings: list[BearingArrays], shaft: ShaftMatrices
+) -> float:
+    """Return how far loads move the housing (m), or the ring on a pedestal of its own that goes furthest."""
+    own = run.s[int(run.p[int(run.p[P.SET]) + SP.AT_S]) + SP.S_HEAD :]
+    places = [own[shaft.shaft_count :][:3]] if shaft.housed else [
+        one.s[S.Y + Y.Q0 + Q.OUTER :][:3]
+        for one, row in zip(bearings, rows, strict=True)
+        if row[SP.ROW_SEAT] == SP.PEDESTAL
+    ]  # fmt: skip
+    return max((float(np.linalg.norm(place)) for place in places), default=0.0)
 
 
-def _even(bearing: Arrays) -> bool:
-    """Whether nothing tells one ball from another."""
-    u, p = bearing.u, bearing.p
-    return not (u[U.LOAD_Y] or u[U.LOAD_Z] or p[P.MISALIGNMENT_Y] or p[P.MISALIGNMENT_Z])
+def _own(at: Coordinates, driven: int) -> NDArray[np.int64]:
+    """Return which numbers of a bearing are its own in the set: not the driven rows of its rings."""
+    found = np.ones(at.size, dtype=bool)
+    for first in (at.rings, at.ring_rates):
+        found[first : first + driven] = False
+    return np.flatnonzero(found)
 
 
-def _mean(bearing: Arrays, row: int) -> float:
-    first = S.Y + row
-    return float(np.mean(bearing.s[first : first + int(bearing.p[P.BALLS])]))
-
-
-def in_fixed_axes(
-    bearing: Arrays | BearingArrays, at: Coordinates, phase: float, orbit: float
+def _assembled(
+    bearings: Sequence[BearingLinearised],
+    phase: int,
+    own: Sequence[NDArray[np.int64]],
+    shaft: ShaftMatrices,
 ) -> NDArray[np.float64]:
-    """Return A in fixed axes, from the derivatives in axes that are turned by ``phase`` against them.
-
-    ``orbit``: rad/s of the balls.
-    """
-    plain = Plain(bearing, at).derivatives()
-    angles = 2.0 * math.pi * np.arange(at.balls) / at.balls + phase
-    patterns, rates = at.patterns(angles)
-    back = np.linalg.inv(patterns)
-    turning = block_diag(*[back @ rates * orbit] * at.BALL_STATES)
-    rings = at.turned(phase)
-    balls = block_diag(*[patterns] * at.BALL_STATES)
-    into = block_diag(balls, rings)
-    found = np.linalg.solve(into, plain @ into)
-    found[: at.rings, : at.rings] -= turning
-    return np.asarray(found)
+    """Return A at a phase from the matrices of the bearings."""
+    n, behind = shaft.count, sum(numbers.size for numbers in own)
+    size = behind + 2 * n
+    places, rates = slice(behind, behind + n), slice(behind + n, size)
+    found, force = np.zeros((size, size)), np.zeros((n, size))
+    force[:, places], force[:, rates] = -shaft.stiffness, -shaft.damping
+    begin = 0
+    for one, numbers, motion, mass in zip(bearings, own, shaft.motions, shaft.inertia, strict=True):
+        at, end = one.coordinates, begin + numbers.size
+        into = np.zeros((at.size, size))
+        into[numbers, np.arange(begin, end)] = 1.0
+        into[at.rings : at.rings + mass.size, places] = motion
+        into[at.ring_rates : at.ring_rates + mass.size, rates] = motion
+        moved = one.phases[phase] @ into
+        found[begin:end] = moved[numbers]
+        force += motion.T @ (mass[:, None] * moved[at.ring_rates : at.ring_rates + mass.size])
+        begin = end
+    found[places, rates] = np.eye(n)
+    found[rates] = shaft.inverse @ force
+    return found

@@ -18,12 +18,17 @@ RATE = 1e-6  # m/s
 
 @dataclass(frozen=True)
 class BearingArrays:
-    """Arrays ``p``, ``u``, ``s`` and ``w`` of one bearing of a set, laid out as of a single one."""
+    """Arrays ``p``, ``u``, ``s`` and ``w`` of one bearing, laid out as of a single one."""
 
     p: NDArray[np.float64]
     u: NDArray[np.float64]
     s: NDArray[np.float64]
     w: NDArray[np.float64]
+
+
+def flexure(bearing: Arrays | BearingArrays, at: Coordinates) -> NDArray[np.float64]:
+    """Return the places (m) of the flexure in a bearing's state, two per mode: a view of ``s``."""
+    return bearing.s[S.SOUND + int(bearing.p[P.SOUND_STATE]) :][: 2 * at.flexural]
 
 
 class Plain:
@@ -45,7 +50,7 @@ class Plain:
         self._w = np.zeros(bearing.w.size)
         axes = slice(W.AXES, W.AXES + 3 * STRIDE)
         self._w[axes] = bearing.w[axes]
-        bends = bearing.s[S.SOUND + int(self.p[P.SOUND_STATE]) :][: 2 * at.flexural]
+        bends = flexure(bearing, at)
         self._w[W.FLEX + FL.Q : W.FLEX + FL.Q + bends.size] = bends
         places = at.places(self.y, self._w, float(self.p[P.PITCH_RADIUS]), 0.5 * float(self.p[P.DIAMETER]))
         found = list(places)

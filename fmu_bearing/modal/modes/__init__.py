@@ -1,10 +1,13 @@
 """Natural motions at an operating point: frequency, damping, and what moves.
 
 =================  ===========================================================================
-``energies``       what moves in a mode: energies, order round the bearing, direction
-``mode_shape``     how rings and balls move in a mode
-``natural_modes``  natural frequencies and damping of a bearing, with names
-``set_modes``      those of a set, with the line of the shaft
-``points``         `modes`: of a bearing or a set, at an operating point given by inputs
+``mode``           a natural motion, its remark, its row in a table
+``energies``       kinetic energies of a bearing's parts, order, direction, modal assurance
+``bodies``         what moves: parts of the bearings, of a set its shaft and housing too
+``mode_shape``     how rings and balls of a bearing move in a mode
+``shaft_line``     how the shaft of a set moves in a mode, and the picture of it
+``natural_modes``  `Modes`: all at one operating point, cautions, table
+``solve``          eigenvalues of the equations as modes: ringing, or put apart
+``points``         `modes`: of a scene, at an operating point given by inputs
 =================  ===========================================================================
 """

@@ -1,7 +1,8 @@
 """What moves in a mode: kinetic energy by component and pattern, order round the bearing, direction."""
 
 import math
-from typing import NamedTuple
+from collections.abc import Iterator
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +19,7 @@ _BALL_STATES = {"ball": (3, 4), "ball orbit": (5,), "ball spin": (6, 7, 8)}
 class Part(NamedTuple):
     """A component that moves in one pattern round the bearing."""
 
-    name: str
+    name: str  # with the order where a component moves in several
     order: int
     forward: float  # J: kinetic energy of the wave with the shaft's direction; all of it for order 0
     backward: float
@@ -31,8 +32,8 @@ class Wave(NamedTuple):
     direction: str
 
 
-def _circular(a: complex, b: complex, mass: float) -> tuple[float, float]:
-    """Mean kinetic energies of the forward and the backward wave of a pair of rates."""
+def _circular(a: Any, b: Any, mass: Any) -> tuple[Any, Any]:
+    """Mean kinetic energies of the forward and the backward wave of a pair of rates, or of arrays of them."""
     # cos(k theta - w t): a = 1, b = -i
     return 0.125 * mass * abs(a + 1j * b) ** 2, 0.125 * mass * abs(a - 1j * b) ** 2
 
@@ -47,7 +48,7 @@ def parts(at: Coordinates, shape: NDArray[np.complex128], turning: float) -> lis
     turning : float
         Sign of the shaft's speed: forward is its direction.
     """
-    found = list(_of_rings(at, shape)) + list(_of_flexure(at, shape)) + list(_of_balls(at, shape))
+    found = [*_of_rings(at, shape), *_of_flexure(at, shape), *_of_balls(at, shape)]
     if turning < 0.0:
         found = [
             part._replace(forward=part.backward, backward=part.forward) if part.order else part
@@ -56,50 +57,40 @@ def parts(at: Coordinates, shape: NDArray[np.complex128], turning: float) -> lis
     return found
 
 
-def _of_rings(at: Coordinates, shape: NDArray[np.complex128]) -> list[Part]:
+def _of_rings(at: Coordinates, shape: NDArray[np.complex128]) -> Iterator[Part]:
     rates, masses = shape[at.ring_rates : at.flexure], at.masses[at.ring_rates : at.flexure]
-    found = []
-    for name, first, tilt in zip(
-        _RINGS, (Q.INNER, Q.OUTER), (Q.INNER + Q.INNER_BY, Q.OUTER + Q.BY), strict=True
-    ):
-        found.append(Part(f"{name} axial", 0, 0.25 * masses[first] * abs(rates[first]) ** 2, 0.0))
+    for name, first, tilt in (("inner", Q.INNER, Q.INNER_BY), ("outer", Q.OUTER, Q.OUTER + Q.BY)):
+        yield Part(f"{name} axial", 0, 0.25 * masses[first] * abs(rates[first]) ** 2, 0.0)
         for kind, pair in (("radial", first + Q.Y), ("tilt", tilt)):
-            found.append(Part(f"{name} {kind}", 1, *_circular(rates[pair], rates[pair + 1], masses[pair])))
+            yield Part(f"{name} {kind}", 1, *_circular(rates[pair], rates[pair + 1], masses[pair]))
     spin = Q.OUTER + Q.TURN
-    found.append(Part("outer spin", 0, 0.25 * masses[spin] * abs(rates[spin]) ** 2, 0.0))
-    return found
+    yield Part("outer spin", 0, 0.25 * masses[spin] * abs(rates[spin]) ** 2, 0.0)
 
 
-def _of_flexure(at: Coordinates, shape: NDArray[np.complex128]) -> list[Part]:
+def _of_flexure(at: Coordinates, shape: NDArray[np.complex128]) -> Iterator[Part]:
     rates, masses = shape[at.flexure_rates :], at.masses[at.flexure_rates :]
-    return [
-        Part(f"{_RINGS[body]} flexure", n, *_circular(rates[2 * k], rates[2 * k + 1], masses[2 * k]))
-        for k, (n, body) in enumerate(zip(at.orders, at.bodies, strict=True))
-    ]
+    for k, (n, body) in enumerate(zip(at.orders, at.bodies, strict=True)):
+        waves = _circular(rates[2 * k], rates[2 * k + 1], masses[2 * k])
+        yield _numbered(f"{_RINGS[body]} flexure", n, *waves)
 
 
-def _of_balls(at: Coordinates, shape: NDArray[np.complex128]) -> list[Part]:
-    found = []
+def _numbered(name: str, order: int, forward: float, backward: float) -> Part:
+    """Return a part of a component that moves in several orders."""
+    return Part(f"{name} n = {order}", order, forward, backward)
+
+
+def _of_balls(at: Coordinates, shape: NDArray[np.complex128]) -> Iterator[Part]:
+    pairs = slice(1, 2 * ((at.balls - 1) // 2), 2), slice(2, at.balls, 2)  # cosine and sine of each order
     for name, kinds in _BALL_STATES.items():
-        for first in range(0, at.balls, 2):
-            forward = backward = 0.0
-            for kind in kinds:
-                own = at.ball_state(kind)
-                rates, masses = shape[own], at.masses[own]
-                if first:
-                    ahead, behind = _circular(rates[first - 1], rates[first], masses[first])
-                    forward, backward = forward + ahead, backward + behind
-                else:
-                    forward += 0.25 * masses[0] * abs(rates[0]) ** 2
-            found.append(Part(name, first // 2, float(forward), float(backward)))
+        rates, masses = (np.array([x[at.ball_state(kind)] for kind in kinds]) for x in (shape, at.masses))
+        squares = (0.25 * masses * abs(rates) ** 2).sum(axis=0).tolist()
+        yield _numbered(name, 0, squares[0], 0.0)
+        waves = _circular(rates[:, pairs[0]], rates[:, pairs[1]], masses[:, pairs[1]])
+        for k, (ahead, behind) in enumerate(np.sum(waves, axis=1).T.tolist(), start=1):
+            yield _numbered(name, k, ahead, behind)
         if at.balls % 2 == 0:
-            last = sum(
-                0.25 * at.masses[at.ball_state(kind)][-1] * abs(shape[at.ball_state(kind)][-1]) ** 2
-                for kind in kinds
-            )
             # it alternates in the orbiting axes, without direction
-            found.append(Part(name, at.balls // 2, 0.5 * float(last), 0.5 * float(last)))
-    return found
+            yield _numbered(name, at.balls // 2, 0.5 * squares[-1], 0.5 * squares[-1])
 
 
 def wave(found: list[Part]) -> Wave:
@@ -126,13 +117,20 @@ def whirl(ahead: float, behind: float) -> str:
 def participation(found: list[Part]) -> dict[str, float]:
     """Return the shares of the kinetic energy by component, the largest first."""
     total = sum(part.forward + part.backward for part in found) or 1.0
-    shares: dict[str, float] = {}
-    for part in found:
-        name = f"{part.name} n = {part.order}" if _is_numbered(part) else part.name
-        shares[name] = shares.get(name, 0.0) + float((part.forward + part.backward) / total)
+    shares = {part.name: float((part.forward + part.backward) / total) for part in found}
     return dict(sorted(shares.items(), key=lambda item: -item[1]))
 
 
-def _is_numbered(part: Part) -> bool:
-    """Whether a component's order is not told by its name."""
-    return part.name.startswith("ball") or part.name.endswith("flexure")
+def like(
+    one: NDArray[np.complex128], other: NDArray[np.complex128], masses: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Modal assurance criterion of the rates of each column of ``one`` against each of ``other``.
+
+    Allemang (2003): squared product over the product of squares, here weighed by inertia, ``masses`` of
+    shape (n, n), so that the products are energies.
+    """
+    moving = masses.any(axis=0)  # places have no inertia
+    a, b, weights = one[moving], other[moving], masses[np.ix_(moving, moving)]
+    moved = weights @ b
+    squares = [np.einsum("ik,ik->k", x.conj(), y).real for x, y in ((a, weights @ a), (b, moved))]
+    return np.asarray(abs(a.conj().T @ moved) ** 2 / np.maximum(np.outer(*squares), 1e-300))

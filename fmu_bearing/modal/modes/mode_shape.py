@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.engine.layout import P, Q
+from fmu_bearing.modal.equations.bearing import BearingLinearised
 from fmu_bearing.modal.equations.coordinates import Coordinates
-from fmu_bearing.modal.equations.linearised import Linearised
 
 _BALL_PLACES = 3  # x, r, theta
 
@@ -61,7 +61,7 @@ class Shape:
         return np.asarray(self.patterns @ np.array(columns))
 
 
-def shape(system: Linearised, vector: NDArray[np.complex128], value: complex) -> Shape:
+def shape(system: BearingLinearised, vector: NDArray[np.complex128], value: complex) -> Shape:
     """Return the shape of an eigenvector with its eigenvalue (1/s)."""
     at, p = system.coordinates, system.arrays.p
     pitch = float(p[P.PITCH_RADIUS])

@@ -1,105 +1,40 @@
-"""Natural motions of a mounted bearing: what moves, at which frequency, how damped, in which direction."""
+"""Natural motions of a mounted bearing, or of a set on its shaft: modes, cautions, table."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.engine.constants import RPM
-from fmu_bearing.engine.layout import P
 from fmu_bearing.modal.equations.linearised import Linearised
 from fmu_bearing.modal.equations.remarks import remarks
-from fmu_bearing.modal.modes.energies import BACKWARD, FORWARD, NEITHER, participation, parts, wave
+from fmu_bearing.modal.modes import shaft_line
+from fmu_bearing.modal.modes.energies import like
+from fmu_bearing.modal.modes.mode import (
+    GROWS,
+    LOWEST,
+    MOVES,
+    SPREAD,
+    Mode,
+    grouped,
+    groups_of,
+    row_of,
+    weak_words,
+)
 from fmu_bearing.modal.modes.mode_shape import Shape, shape
 from fmu_bearing.scene import Scene
 
-SLOW = 1.0  # rad/s: slower in the axes in which it stands, a motion is neutral
-DAMPED = 0.5  # damping ratio beyond which a motion does not ring
-MARGIN = 0.002  # damping ratio below which a mode is named as near the limit of stability (chosen)
-_LOWEST = 100.0  # Hz: slower motions that grow belong to the mounting
-#: 1/s: slower growth is not named. The mean over one ball pitch gives neutral motions of balls under a radial
-#: load up to 2.7 1/s; what grows by 5 1/s must be named.
-GROWS = 3.0
-MOVES = 0.05  # of the kinetic energy: with less of it in the rings, a motion is one of the balls alone
-SPREAD = 0.01  # of the frequency over one ball pitch, beyond which it is told
-_NEUTRAL = 0.02  # of the orbit: the balls' spins turn over so slowly at high speed
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 STICKING = 1e-3  # of a revolution per second: slower, contacts stick
 
 
 @dataclass(frozen=True)
-class Mode:
-    """A natural motion of the bearing.
-
-    Attributes
-    ----------
-    name : str
-        What moves most, by kinetic energy: ``inner radial``, ``outer axial``, ``ball n = 3``...
-    frequency : float
-        Hz, in fixed axes.
-    damping : float
-        Damping ratio; negative: the motion grows by itself.
-    order : int
-        Waves round the bearing: 0 axial and turning, 1 radial and tilting, n of a ring's flexure.
-    direction : str
-        ``forward`` with the shaft, ``backward`` or empty: order 0, or neither whirl dominates threefold.
-    participation : dict
-        Shares of the kinetic energy by component, the largest first.
-    spread : float
-        Range of the frequency over one ball pitch, over the frequency; 0 where balls carry equal loads.
-    value, orbiting : complex
-        Eigenvalues (1/s) in fixed axes, and in the axes that orbit with the balls.
-    vector : ndarray
-        Eigenvector in the order of ``Modes.linearised.coordinates``.
-    """
-
-    name: str
-    frequency: float
-    damping: float
-    order: int
-    direction: str
-    participation: dict[str, float]
-    spread: float
-    value: complex
-    orbiting: complex
-    vector: NDArray[np.complex128]
-
-    @property
-    def label(self) -> str:
-        """Name with direction."""
-        return f"{self.name} {self.direction}".rstrip()
-
-    @property
-    def ring_share(self) -> float:
-        """Share of the rings in the kinetic energy."""
-        return sum(share for name, share in self.participation.items() if not name.startswith("ball"))
-
-    @property
-    def remark(self) -> str:
-        """``unstable`` or ``instability margin`` for modes of the rings with hardly any damping, or empty."""
-        if self.damping >= MARGIN or self.ring_share <= MOVES:
-            return ""
-        if self.name.startswith("ball"):
-            # balls have most of the energy of the fastest whirls of a ring; those that rings hardly take
-            # part in are free along their orbits, and neutral
-            return "unstable" if self.growth > GROWS else ""
-        return "unstable" if self.damping < 0.0 else "instability margin"
-
-    @property
-    def growth(self) -> float:
-        """Rate (1/s) at which the motion grows by itself; negative where it dies away."""
-        return float(self.value.real)
-
-    @property
-    def quality(self) -> float:
-        """Q, the magnification at resonance, 1/(2 zeta); infinite for a mode without damping."""
-        return 0.5 / self.damping if self.damping > 0.0 else math.inf
-
-
-@dataclass(frozen=True)
 class Modes:
-    """Modes of a bearing at one operating point.
+    """Modes of a bearing, or of a set, at one operating point.
 
     Attributes
     ----------
@@ -107,9 +42,9 @@ class Modes:
     rpm : float
         Speed (r/min).
     modes : tuple of Mode
-        Those that ring, by frequency.
+        Those that ring, by frequency; of a set those in which shaft, housing or rings move.
     apart : tuple of Mode
-        Neutral and overdamped motions, which show as no peak.
+        Neutral and overdamped motions, which show as no peak; of a set motions of balls alone, too.
     linearised : Linearised
         The equations they belong to.
     friction : bool
@@ -139,10 +74,64 @@ class Modes:
             raise ValueError(f"{self.scene.name}: nothing rings at {self.rpm:,.0f} r/min; see `apart`")
         return min(self.modes, key=lambda mode: abs(math.log(mode.frequency / frequency)))
 
+    @property
+    def on_shaft(self) -> bool:
+        """Whether a set on its shaft moves, not a single bearing."""
+        return self.linearised.shaft.count > 0
+
+    @property
+    def body(self) -> str:
+        """What whirls, in a word: ``ring``, or ``set``."""
+        return "set" if self.on_shaft else "ring"
+
     def shape(self, mode: Mode | int) -> Shape:
-        """Return how rings and balls move in a mode, or in the one of that place in `modes`."""
-        chosen = self.modes[mode] if isinstance(mode, int) else mode
-        return shape(self.linearised, chosen.vector, chosen.value)
+        """Return how rings and balls of a single bearing move in a mode, or in that of a place in `modes`.
+
+        Raises
+        ------
+        ValueError
+            For a set, see `line` and `picture`.
+        """
+        if self.on_shaft:
+            raise ValueError(
+                f"{self.scene.name}: a shape is that of one bearing: `line` has that of the shaft"
+            )
+        chosen = self._chosen(mode)
+        return shape(self.linearised.bearings[0], chosen.vector, chosen.value)
+
+    def line(self, mode: Mode | int, places: Sequence[float] | None = None) -> NDArray[np.complex128]:
+        """Return y and z of a set's shaft along it, shape (2, places), over the largest of both.
+
+        ``places``: m from the nose; default: nose and bearings. Times e^(i w t) the real parts are
+        the motion.
+
+        Raises
+        ------
+        ValueError
+            For a single bearing, see `shape`.
+        """
+        self._need_shaft("a line")
+        return shaft_line.line(self.scene, self.linearised, self._chosen(mode), places)
+
+    def picture(self) -> "Figure":
+        """Draw the line of a set's shaft in its lowest modes across; needs the extra ``plots``.
+
+        Raises
+        ------
+        ValueError
+            For a single bearing, see `shape`.
+        """
+        self._need_shaft("the picture of a line")
+        return shaft_line.picture(self.scene, self.linearised, self.modes, self.rpm)
+
+    def _need_shaft(self, what: str) -> None:
+        if not self.on_shaft:
+            raise ValueError(
+                f"{self.scene.name}: {what} is that of a set's shaft: `shape` has that of a bearing"
+            )
+
+    def _chosen(self, mode: Mode | int) -> Mode:
+        return self.modes[mode] if isinstance(mode, int) else mode
 
     def named(self, name: str, direction: str = "") -> Mode:
         """Return the lowest mode of a name, such as ``inner radial``, and a direction if one is given."""
@@ -163,8 +152,8 @@ class Modes:
 
     def cautions(self) -> list[str]:
         """Return what limits these modes, in sentences."""
-        found = [_weak_words(mode) for mode in self.weak()] if self.friction else []
-        found += remarks(self.scene, self.linearised)
+        found = [weak_words(mode) for mode in self.weak()] if self.friction else []
+        found += remarks(self.linearised)
         of_rings = [mode for mode in self.modes if mode.ring_share > MOVES]
         spread = max((mode.spread for mode in of_rings), default=0.0)
         if spread > SPREAD:
@@ -200,28 +189,22 @@ class Modes:
             if mode.name.startswith("ball") and mode.order > 1 and mode.order not in self._bent:
                 alone.append(mode)
             else:
-                rows.append(_row(mode))
-        rows += [_group(group) for group in _alike(alone)]
+                rows.append(row_of(mode))
+        rows += [grouped(group) for group in groups_of(alone)]
         return sorted(rows, key=lambda row: row["frequency_Hz"])
 
     def alike(self, before: list[Mode], now: list[Mode]) -> NDArray[np.float64]:
         """Return the modal assurance criterion of modes before against modes now, by kinetic energy."""
         one, other = (np.array([mode.vector for mode in some]).T for some in (before, now))
-        return like(one, other, self.linearised.coordinates.masses)
+        return like(one, other, self.linearised.masses)
 
     @property
-    def _bent(self) -> tuple[int, ...]:
+    def _bent(self) -> set[int]:
         """Orders in which rings bend."""
-        return self.linearised.coordinates.orders
+        return {order for one in self.linearised.bearings for order in one.coordinates.orders}
 
 
-def may_grow(matrix: NDArray[np.float64]) -> bool:
-    """Whether a motion above 100 Hz grows by itself, from the eigenvalues alone."""
-    values = np.linalg.eigvals(matrix)
-    return bool(np.any((values.real > GROWS) & (values.imag > 2.0 * math.pi * _LOWEST)))
-
-
-def self_excited(found: "Modes") -> Mode | None:
+def self_excited(found: Modes) -> Mode | None:
     """Return the mode in which rings move that grows fastest by itself, by `GROWS` or more; None: none does.
 
     Its largest part may be the balls' orbits: at 7008AC, 20,000 r/min, 150 N balls have 85 % of its energy.
@@ -230,186 +213,6 @@ def self_excited(found: "Modes") -> Mode | None:
     growing = [
         one
         for one in (*found.modes, *found.apart)
-        if one.growth > GROWS and one.ring_share > MOVES and one.frequency > _LOWEST
+        if one.growth > GROWS and one.ring_share > MOVES and one.frequency > LOWEST
     ]
     return max(growing, key=lambda one: one.growth, default=None)
-
-
-def solved(scene: Scene, system: Linearised, friction: bool = True) -> Modes:
-    """Return the modes of a linearised bearing."""
-    values, vectors = _eigen(system, system.matrix)
-    spreads = _spreads(system, values, vectors)
-    found: list[Mode] = []
-    apart: list[Mode] = []
-    for value, vector, spread in zip(values, vectors.T, spreads, strict=True):
-        mode = _mode(system, value, vector, spread)
-        (found if _is_ringing(system, mode) else apart).append(mode)
-    by_frequency = sorted(found, key=lambda mode: mode.frequency)
-    return Modes(
-        scene, system.speed / RPM, tuple(by_frequency),
-        tuple(sorted(apart, key=lambda mode: mode.frequency)), system, friction,
-    )  # fmt: skip
-
-
-def _eigen(
-    system: Linearised, matrix: NDArray[np.float64]
-) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
-    """Return eigenvalues with no negative imaginary part, and their vectors, of unit kinetic energy."""
-    scale = np.sqrt(_weights(system))
-    values, vectors = (part.astype(complex) for part in np.linalg.eig(matrix * scale[:, None] / scale))
-    kept = values.imag >= 0.0
-    return values[kept], vectors[:, kept] / scale[:, None]
-
-
-def _weights(system: Linearised) -> NDArray[np.float64]:
-    """Return inertia for rates, and for places what they weigh at 1 rad/s: enough to tell neutral motions."""
-    at = system.coordinates
-    weights = at.masses.copy()
-    places = 3 * at.balls
-    weights[:places] = weights[places : 2 * places]
-    weights[at.rings : at.ring_rates] = weights[at.ring_rates : at.flexure]
-    weights[at.flexure : at.flexure_rates] = weights[at.flexure_rates :]
-    return weights
-
-
-def _spreads(
-    system: Linearised, values: NDArray[np.complex128], vectors: NDArray[np.complex128]
-) -> NDArray[np.float64]:
-    """Range of each frequency over the phases, over the frequency; modes are followed by their shapes."""
-    if system.equal_loads:
-        return np.zeros(values.size)
-    masses = system.coordinates.masses
-    low = high = values.imag
-    for matrix in system.phases:
-        others, shapes = _eigen(system, matrix)
-        found = others.imag[like(vectors, shapes, masses).argmax(axis=1)]
-        low, high = np.minimum(low, found), np.maximum(high, found)
-    return np.asarray((high - low) / np.maximum(values.imag, SLOW))
-
-
-def like(
-    one: NDArray[np.complex128], other: NDArray[np.complex128], masses: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Modal assurance criterion of the rates of each column of one set against each of another.
-
-    Allemang (2003): squared product over the product of squares, here weighed by inertia, so that the
-    products are energies.
-    """
-    a, b = (np.sqrt(masses)[:, None] * vectors for vectors in (one, other))
-    squares = np.outer((abs(a) ** 2).sum(axis=0), (abs(b) ** 2).sum(axis=0))
-    return np.asarray(abs(a.conj().T @ b) ** 2 / np.maximum(squares, 1e-300))
-
-
-def _mode(system: Linearised, value: complex, vector: NDArray[np.complex128], spread: float) -> Mode:
-    """Return the mode of an eigenvalue."""
-    at = system.coordinates
-    turning = math.copysign(1.0, system.speed)
-    moving = parts(at, vector, turning)
-    energy = sum(part.forward + part.backward for part in moving)
-    share = participation(moving)
-    if energy < 1e-12 * float(_weights(system) @ abs(vector) ** 2):
-        # nothing moves in the balls' own axes: told by the places
-        vector = _as_rates(system, vector)
-        moving = parts(at, vector, turning)
-        share = participation(moving)
-    order, direction = wave(moving)
-    if system.speed == 0.0:
-        direction = NEITHER
-    shift = {FORWARD: 1.0, BACKWARD: -1.0}.get(direction, 0.0) * order * abs(system.orbit)
-    if at.balls % 2 == 0 and order == at.balls // 2:
-        shift = 0.0
-    size = abs(value)
-    damping = -value.real / size if size else 1.0
-    name = next(iter(share))
-    return Mode(
-        name, float(value.imag) / (2.0 * math.pi), float(damping), order, direction, share, float(spread),
-        complex(value), complex(value - 1j * shift), vector,
-    )  # fmt: skip
-
-
-def _is_ringing(system: Linearised, mode: Mode) -> bool:
-    """Whether a motion swings by itself, neither overdamped nor neutral in the axes in which it stands."""
-    own = mode.orbiting
-    if mode.frequency <= 0.0 or mode.damping > DAMPED:
-        return False
-    # what is overdamped for the balls swings in fixed axes at multiples of the cage's frequency
-    if mode.ring_share <= DAMPED and -own.real > DAMPED * abs(own):
-        return False
-    alone = mode.ring_share < MOVES and mode.name.startswith(("ball orbit", "ball spin"))
-    if alone and not system.arrays.p[P.SPRINGS]:
-        return False  # along their orbits the cage holds the balls, which is left out
-    # Unequal loads mix the patterns, so a neutral motion of the balls is looked for at other orders, too: at
-    # low ones where rings take most of the little that moves.
-    most = 2 if mode.ring_share > DAMPED else system.coordinates.balls // 2
-    nearest = float(np.min(abs(mode.value - 1j * np.arange(-most, most + 1) * system.orbit)))
-    return nearest >= max(SLOW, _NEUTRAL * abs(system.orbit))
-
-
-def _as_rates(system: Linearised, vector: NDArray[np.complex128]) -> NDArray[np.complex128]:
-    """Return a vector with its places in the place of the rates."""
-    at = system.coordinates
-    found = vector.copy()
-    found[3 * at.balls : 6 * at.balls] = vector[: 3 * at.balls]
-    found[at.ring_rates : at.flexure] = vector[at.rings : at.ring_rates]
-    found[at.flexure_rates :] = vector[at.flexure : at.flexure_rates]
-    return found
-
-
-def _weak_words(mode: Mode) -> str:
-    where = f"'{mode.label}' at {mode.frequency:.0f} Hz"
-    if mode.damping < 0.0:
-        return (
-            f"instability: {where} grows by itself (damping ratio {mode.damping:.4f}): the bearing whirls "
-            "until its motion is large enough to limit itself; more preload or less speed may hold it"
-        )
-    return (
-        f"instability margin: {where} has a damping ratio of {mode.damping:.4f} only: a little less preload "
-        "or more speed may make it whirl by itself"
-    )
-
-
-def _row(mode: Mode) -> dict[str, Any]:
-    return {
-        "frequency_Hz": mode.frequency,
-        "damping_ratio": mode.damping,
-        "order": mode.order,
-        "direction": mode.direction,
-        "name": mode.name,
-        "participation": mode.participation,
-        "spread": mode.spread,
-        "remark": mode.remark,
-    }
-
-
-def _alike(alone: list[Mode]) -> list[list[Mode]]:
-    """Group motions of the balls alone that differ in fixed axes by the turning of their pattern only."""
-    groups: list[list[Mode]] = []
-    for mode in sorted(alone, key=lambda mode: (_what(mode), abs(mode.orbiting.imag))):
-        last = groups[-1][-1] if groups else None
-        if last and _what(last) == _what(mode):
-            apart = abs(mode.orbiting.imag) - abs(last.orbiting.imag)
-            if apart <= SPREAD * abs(mode.orbiting.imag):
-                groups[-1].append(mode)
-                continue
-        groups.append([mode])
-    return groups
-
-
-def _what(mode: Mode) -> str:
-    """Name of a mode without its order."""
-    return mode.name.partition(" n = ")[0]
-
-
-def _group(group: list[Mode]) -> dict[str, Any]:
-    """Row of motions of the balls alone that are one motion in orbiting axes: its numbers there."""
-    if len(group) == 1:
-        return _row(group[0])
-    orders = sorted({mode.order for mode in group})
-    value = complex(np.mean([mode.orbiting.real + 1j * abs(mode.orbiting.imag) for mode in group]))
-    words = f"{orders[0]} to {orders[-1]}" if len(orders) > 1 else str(orders[0])
-    return _row(group[0]) | {
-        "frequency_Hz": value.imag / (2.0 * math.pi),
-        "damping_ratio": -value.real / abs(value),
-        "name": f"{_what(group[0])} n = {words}",
-        "direction": "",
-    }

@@ -3,13 +3,11 @@
 from collections.abc import Mapping
 
 from fmu_bearing.instance import check, number
-from fmu_bearing.interface.inputs import inputs as inputs_of_bearing
 from fmu_bearing.interface.names import known
-from fmu_bearing.interface.set_inputs import inputs_of_set
+from fmu_bearing.interface.table import inputs_of
 from fmu_bearing.modal.equations.linearised import linearised
-from fmu_bearing.modal.equations.set_linearised import set_linearised
-from fmu_bearing.modal.modes.natural_modes import Modes, solved
-from fmu_bearing.modal.modes.set_modes import set_solved
+from fmu_bearing.modal.modes.natural_modes import Modes
+from fmu_bearing.modal.modes.solve import solved
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 from fmu_bearing.threads import one_thread
 
@@ -49,9 +47,7 @@ def modes(scene: SceneSource, inputs: Mapping[str, float] | None = None, *, fric
 @one_thread
 def at_point(scene: Scene, inputs: dict[int, float], friction: bool = True) -> Modes:
     """Return the modes of a bearing, or of a set, at inputs by their places in the engine's ``u``."""
-    if scene.spindle is None:
-        return solved(scene, linearised(scene, inputs, friction), friction)
-    return set_solved(scene, set_linearised(scene, inputs, friction), friction)
+    return solved(scene, linearised(scene, inputs, friction), friction)
 
 
 def given(scene: Scene, values: Mapping[str, float] | None) -> dict[int, float]:
@@ -62,8 +58,7 @@ def given(scene: Scene, values: Mapping[str, float] | None) -> dict[int, float]:
     ValueError
         For an unknown name, what is no number, and a value outside its range.
     """
-    own = inputs_of_bearing(scene) if scene.spindle is None else inputs_of_set(scene)
-    table = {variable.name: variable for variable in own}
+    table = {variable.name: variable for variable in inputs_of(scene)}
     found = {}
     for name, value in (values or {}).items():
         variable = table[known(name, list(table), "input")]

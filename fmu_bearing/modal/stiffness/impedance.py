@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.linalg import lu_factor, lu_solve
 
 from fmu_bearing.engine.layout import STRIDE, P, Y
-from fmu_bearing.modal.equations.linearised import Linearised
+from fmu_bearing.modal.equations.bearing import BearingLinearised
 
 FREEDOMS = ("x", "y", "z", "by", "bz")  # m, and tilts (rad), of the inner ring
 _BALL_PLACES = Y.PLACES // STRIDE  # ball states that are places
@@ -20,7 +20,7 @@ _ORBIT = Y.TH // STRIDE  # the place round the bearing
 _SLOW = 1e-3
 
 
-def at_rest(system: Linearised) -> NDArray[np.float64]:
+def at_rest(system: BearingLinearised) -> NDArray[np.float64]:
     """Return the stiffness for frequency to 0 with balls that keep their spacing, shape (5, 5), SI units.
 
     Rows and columns are those of `impedance`. Friction moves the balls with the ring, so the matrix is not
@@ -29,7 +29,7 @@ def at_rest(system: Linearised) -> NDArray[np.float64]:
     return impedance(system, spaced(system, system.matrix), np.array([_SLOW]))[0].real
 
 
-def spaced(system: Linearised, matrix: NDArray[np.float64]) -> NDArray[np.float64]:
+def spaced(system: BearingLinearised, matrix: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return a matrix in which no force depends on a ball's place round the bearing.
 
     A ring that circles with the balls, at the frequency of their orbit, tells one ball from another for good:
@@ -45,7 +45,7 @@ def spaced(system: Linearised, matrix: NDArray[np.float64]) -> NDArray[np.float6
 
 
 def impedance(
-    system: Linearised, matrix: NDArray[np.float64], frequencies: NDArray[np.float64]
+    system: BearingLinearised, matrix: NDArray[np.float64], frequencies: NDArray[np.float64]
 ) -> NDArray[np.complex128]:
     """Return dynamic stiffness Z at frequencies (rad/s, above 0), force = -Z motion, shape (k, 5, 5).
 
@@ -54,7 +54,7 @@ def impedance(
 
     Parameters
     ----------
-    system : Linearised
+    system : BearingLinearised
         With rigid preload turned into a force: a ring that is held has no row.
     matrix : ndarray
         Its mean matrix or that of one phase.

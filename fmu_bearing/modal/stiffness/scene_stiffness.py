@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.engine.constants import RPM
-from fmu_bearing.modal.equations.linearised import Linearised, under_force
+from fmu_bearing.modal.equations.bearing import BearingLinearised
+from fmu_bearing.modal.equations.linearised import under_force
 from fmu_bearing.modal.modes.points import given
 from fmu_bearing.modal.stiffness.impedance import FREEDOMS, at_rest, impedance, spaced
 from fmu_bearing.modal.stiffness.ross import write
@@ -220,7 +221,7 @@ def stiffness(
     w = 2.0 * math.pi * hertz
     for i, speed in enumerate(track(list(rpm)) if track else rpm):
         for k, load in enumerate(loads):
-            system = under_force(full, points[speed, load])
+            system = under_force(full, points[speed, load]).bearings[0]
             ready = spaced if spacing == "held" else _as_it_is
             z[i, k] = impedance(system, ready(system, system.matrix), w)
             static[i, k] = at_rest(system)
@@ -232,12 +233,14 @@ def stiffness(
                 spread[i, k] = max(spread[i, k], _apart(other, z[i, k][[0, -1]]))
     for k, load in enumerate(loads):
         there = np.flatnonzero(rpm == home)
-        own[k] = static[there[0], k] if there.size else at_rest(under_force(full, point(home, load)))
+        own[k] = (
+            static[there[0], k] if there.size else at_rest(under_force(full, point(home, load)).bearings[0])
+        )
     damping = z.imag / w[:, None, None]
     return Stiffness(scene, rpm, loads, hertz, z.real, damping, static, own, orbit, spread, steady, spacing)
 
 
-def _as_it_is(_system: Linearised, matrix: NDArray[np.float64]) -> NDArray[np.float64]:
+def _as_it_is(_system: BearingLinearised, matrix: NDArray[np.float64]) -> NDArray[np.float64]:
     return matrix
 
 

@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.modal.equations.remarks import UNSTEADY
-from fmu_bearing.modal.modes.natural_modes import SPREAD, STICKING
+from fmu_bearing.modal.modes.mode import SPREAD
+from fmu_bearing.modal.modes.natural_modes import STICKING
 from fmu_bearing.modal.stiffness.stiffness_table import StiffnessTable
 
 _NEAR = 0.2  # of the orbit's frequency: nearer to it, free balls that bunch are seen

@@ -23,7 +23,8 @@ from fmu_bearing.modal.campbell.diagram_style import (
     top,
 )
 from fmu_bearing.modal.campbell.over_speed import Campbell
-from fmu_bearing.modal.modes.natural_modes import MARGIN, SPREAD, Mode, Modes
+from fmu_bearing.modal.modes.mode import MARGIN, SPREAD, Mode
+from fmu_bearing.modal.modes.natural_modes import Modes
 from fmu_bearing.reports.page import look
 from fmu_bearing.reports.page.blocks import Chart, Table, small
 

@@ -1,0 +1,149 @@
+"""A natural motion: what moves, at which frequency, how damped, in which direction; what to say of it."""
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+MARGIN = 0.002  # damping ratio below which a mode is named as near the limit of stability (chosen)
+#: 1/s: slower growth is not named. The mean over one ball pitch gives neutral motions of balls under a radial
+#: load up to 2.7 1/s; what grows by 5 1/s must be named.
+GROWS = 3.0
+LOWEST = 100.0  # Hz: slower motions that grow belong to the mounting
+MOVES = 0.05  # of the kinetic energy: with less of it in the rings, a motion is one of the balls alone
+SPREAD = 0.01  # of the frequency over one ball pitch, beyond which it is named
+
+
+@dataclass(frozen=True)
+class Mode:
+    """A natural motion of a bearing or a set.
+
+    Attributes
+    ----------
+    name : str
+        What moves most, by kinetic energy: ``inner radial``, ``outer axial``, ``ball n = 3``; of a set
+        ``shaft bending``, ``housing axial``, ``outer tilt of bearing 1``...
+    frequency : float
+        Hz, in fixed axes.
+    damping : float
+        Damping ratio; negative: the motion grows by itself.
+    order : int
+        Waves round the bearing: 0 axial and turning, 1 radial and tilting, n of a ring's flexure.
+    direction : str
+        ``forward`` with the shaft, ``backward`` or empty: order 0, or neither whirl dominates threefold.
+        Order 1 of a set: the whirl at the shaft's nose.
+    participation : dict
+        Shares of the kinetic energy by component, the largest first.
+    spread : float
+        Range of the frequency over one ball pitch, over the frequency; 0 where balls carry equal loads.
+    value, orbiting : complex
+        Eigenvalues (1/s) in fixed axes, and in the axes that orbit with the balls.
+    vector : ndarray
+        Eigenvector in the order of ``Modes.linearised``.
+    """
+
+    name: str
+    frequency: float
+    damping: float
+    order: int
+    direction: str
+    participation: dict[str, float]
+    spread: float
+    value: complex
+    orbiting: complex
+    vector: NDArray[np.complex128]
+
+    @property
+    def label(self) -> str:
+        """Name with direction."""
+        return f"{self.name} {self.direction}".rstrip()
+
+    @property
+    def ring_share(self) -> float:
+        """Share of the rings in the kinetic energy."""
+        return sum(share for name, share in self.participation.items() if not name.startswith("ball"))
+
+    @property
+    def remark(self) -> str:
+        """``unstable`` or ``instability margin`` for modes of the rings with hardly any damping, or empty."""
+        if self.damping >= MARGIN or self.ring_share <= MOVES:
+            return ""
+        if self.name.startswith("ball"):
+            # balls have most of the energy of the fastest whirls of a ring; those that rings hardly take
+            # part in are free along their orbits, and neutral
+            return "unstable" if self.growth > GROWS else ""
+        return "unstable" if self.damping < 0.0 else "instability margin"
+
+    @property
+    def growth(self) -> float:
+        """Rate (1/s) at which the motion grows by itself; negative where it dies away."""
+        return float(self.value.real)
+
+    @property
+    def quality(self) -> float:
+        """Q, the magnification at resonance, 1/(2 zeta); infinite for a mode without damping."""
+        return 0.5 / self.damping if self.damping > 0.0 else math.inf
+
+
+def weak_words(mode: Mode) -> str:
+    """Return the caution of a mode near or beyond the limit of stability."""
+    where = f"'{mode.label}' at {mode.frequency:.0f} Hz"
+    if mode.damping < 0.0:
+        return (
+            f"instability: {where} grows by itself (damping ratio {mode.damping:.4f}): the bearing whirls "
+            "until its motion is large enough to limit itself; more preload or less speed may hold it"
+        )
+    return (
+        f"instability margin: {where} has a damping ratio of {mode.damping:.4f} only: a little less preload "
+        "or more speed may make it whirl by itself"
+    )
+
+
+def row_of(mode: Mode) -> dict[str, Any]:
+    """Return a mode as a row of `Modes.table`."""
+    return {
+        "frequency_Hz": mode.frequency,
+        "damping_ratio": mode.damping,
+        "order": mode.order,
+        "direction": mode.direction,
+        "name": mode.name,
+        "participation": mode.participation,
+        "spread": mode.spread,
+        "remark": mode.remark,
+    }
+
+
+def groups_of(alone: list[Mode]) -> list[list[Mode]]:
+    """Group motions of the balls alone that differ in fixed axes by the turning of their pattern only."""
+    groups: list[list[Mode]] = []
+    for mode in sorted(alone, key=lambda mode: (_what(mode), abs(mode.orbiting.imag))):
+        last = groups[-1][-1] if groups else None
+        if last and _what(last) == _what(mode):
+            apart = abs(mode.orbiting.imag) - abs(last.orbiting.imag)
+            if apart <= SPREAD * abs(mode.orbiting.imag):
+                groups[-1].append(mode)
+                continue
+        groups.append([mode])
+    return groups
+
+
+def _what(mode: Mode) -> str:
+    """Name of a mode without its order."""
+    return mode.name.partition(" n = ")[0]
+
+
+def grouped(group: list[Mode]) -> dict[str, Any]:
+    """Row of motions of the balls alone that are one motion in orbiting axes: its numbers there."""
+    if len(group) == 1:
+        return row_of(group[0])
+    orders = sorted({mode.order for mode in group})
+    value = complex(np.mean([mode.orbiting.real + 1j * abs(mode.orbiting.imag) for mode in group]))
+    words = f"{orders[0]} to {orders[-1]}" if len(orders) > 1 else str(orders[0])
+    return row_of(group[0]) | {
+        "frequency_Hz": value.imag / (2.0 * math.pi),
+        "damping_ratio": -value.real / abs(value),
+        "name": f"{_what(group[0])} n = {words}",
+        "direction": "",
+    }

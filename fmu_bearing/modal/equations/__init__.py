@@ -3,7 +3,6 @@
 ===============  ===========================================================================
 ``coordinates``  what the numbers of a linearised bearing are
 ``plain``        the engine's equations ball by ball, and their derivatives
-``equilibrium``  the steady state of balls and rings without cage
 ``bearing``      one bearing about its state, in fixed axes of its own
 ``shaft``        matrices of shaft, housing and sliding rings; a single bearing has none
 ``linearised``   the whole: bearings, tied by shaft and housing where there are some

@@ -4,7 +4,7 @@ Each bearing has its own equations in fixed axes (see ``bearing``). Rows of its 
 sliding seat drive are ``T q``, and what they would accelerate by without it, times their inertia, is their
 force on the coordinates q. A single bearing is a set without shaft: no coordinates q, no driven rows.
 
-The state is the steady one (see ``equilibrium``), not an instant of a run, with the loads, tilts and
+The state is the steady one in which runs of `full` start (``engine/steady``), with the loads, tilts and
 temperatures of every bearing. The cage and its films are left out: it touches balls and lands with clearance,
 and a linear cage would either not be there or never let go. Imperfections and sound are left out, too.
 Weights, of the balls too, load the steady state where the scene has them.
@@ -20,12 +20,12 @@ from scipy.linalg import block_diag
 
 from fmu_bearing.arrays import Arrays, Refused
 from fmu_bearing.engine.layout import SP, C, P, Q, S, U, Y
+from fmu_bearing.engine.steady.point import NOT_FOUND
 from fmu_bearing.instance import EngineError
 from fmu_bearing.modal.equations.bearing import BearingLinearised, in_fixed_axes, phases_of
 from fmu_bearing.modal.equations.coordinates import Coordinates
-from fmu_bearing.modal.equations.equilibrium import settle
 from fmu_bearing.modal.equations.plain import BearingArrays
-from fmu_bearing.modal.equations.shaft import ShaftMatrices, matrices, rows_of, tie
+from fmu_bearing.modal.equations.shaft import ShaftMatrices, matrices, rows_of
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.exclusions import require
 from fmu_bearing.scene.read import with_fidelity
@@ -162,11 +162,10 @@ def linearised(scene: Scene, inputs: dict[int, float] | None = None, friction: b
         raise EngineError(f"{scene.name}: {refusal}") from None
     speed = float(run.u[U.SPEED])  # the first input of a set, too
     shaft = matrices(run, speed)
-    settled = [_bearing(run, row, speed) for row in rows]
-    # without friction nothing decides how fast balls spin
-    steady = settle(settled, tie(run, shaft)) if friction else True
-    count = phases_of(settled)
-    bearings = tuple(in_fixed_axes(one, count, steady) for one in settled)
+    alone = [bearing_of(run, row, speed) for row in rows]
+    steady = all(_is_steady(one) for one in alone)
+    count = phases_of(alone)
+    bearings = tuple(in_fixed_axes(one, count, steady) for one in alone)
     own = tuple(_own(one.coordinates, mass.size) for one, mass in zip(bearings, shaft.inertia, strict=True))
     phases = np.array([_assembled(bearings, k, own, shaft) for k in range(count)])
     masses = block_diag(
@@ -176,7 +175,7 @@ def linearised(scene: Scene, inputs: dict[int, float] | None = None, friction: b
     pedestal = float(run.u[SP.U_PEDESTAL if SP.has_shaft(run.p) else U.PEDESTAL])
     return Linearised(
         bearings, shaft, own, phases.mean(axis=0), phases, masses, speed, steady,
-        (_on_pedestal(run, rows, settled, shaft), pedestal),
+        (_on_pedestal(run, rows, alone, shaft), pedestal),
     )  # fmt: skip
 
 
@@ -203,8 +202,11 @@ def _leave_out(run: Arrays, rows: Sequence[NDArray[np.float64]], names: Sequence
     run.p.setflags(write=False)
 
 
-def _bearing(run: Arrays, row: NDArray[np.float64], speed: float) -> BearingArrays:
-    """Return one bearing's arrays as those of a single one; its weight is a load that it carries already."""
+def bearing_of(run: Arrays, row: NDArray[np.float64], speed: float) -> BearingArrays:
+    """Return the arrays of one bearing of an initialised scene, as of a single one.
+
+    ``row``: see `rows_of`; ``speed``: of the shaft (rad/s). Its weight is a load that it carries already.
+    """
     parts = []
     for array, place, size in (
         (run.p, SP.ROW_P, SP.ROW_P_SIZE), (run.s, SP.ROW_S, SP.ROW_S_SIZE), (run.w, SP.ROW_W, SP.ROW_W_SIZE),
@@ -219,6 +221,12 @@ def _bearing(run: Arrays, row: NDArray[np.float64], speed: float) -> BearingArra
     u = np.zeros(U.SIZE)
     u[U.SPEED] = speed
     return BearingArrays(p, u, s, w)
+
+
+def _is_steady(bearing: BearingArrays) -> bool:
+    """Whether a bearing starts steady; at standstill and without friction nothing decides how balls spin."""
+    turns = bearing.u[U.SPEED] != 0.0 and bearing.p[P.MU] != 0.0
+    return not turns or bearing.s[S.SETTLED] != NOT_FOUND
 
 
 def _on_pedestal(

@@ -83,22 +83,3 @@ class Plain:
             found[:, k] = (ahead - self.rates()) / (2.0 * step)
             array[place] = kept
         return found
-
-    def along(self, directions: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the derivatives of x' along directions in x, shape (n, directions)."""
-        found = np.empty(directions.shape)
-        for k, direction in enumerate(directions.T):
-            step = float(np.min(self._steps[direction != 0.0] / np.abs(direction[direction != 0.0])))
-            kept = self.y.copy(), self._w.copy()
-            self.move(step * direction)
-            ahead = self.rates()
-            self.y[:], self._w[:] = kept
-            self.move(-step * direction)
-            found[:, k] = (ahead - self.rates()) / (2.0 * step)
-            self.y[:], self._w[:] = kept
-        return found
-
-    def move(self, change: NDArray[np.float64]) -> None:
-        """Move the state by a change of x."""
-        self.y[self._at_y] += change[: self._bodies]
-        self._w[self._at_w] += change[self._bodies :]

@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.arrays import Arrays
-from fmu_bearing.engine.layout import SP, P, Q
-from fmu_bearing.modal.equations.equilibrium import Tie
+from fmu_bearing.engine.layout import SP, P
 from fmu_bearing.prepare.spindle import in_housing
 
 
@@ -94,26 +93,6 @@ def matrices(run: Arrays, speed: float) -> ShaftMatrices:
         mass, inverse, stiffness, damping + speed * gyroscopic, tuple(motions), tuple(inertia),
         _matrix(p, SP.AT_NOSE, n, SP.PLANE).T, shaft, housed,
         np.array([row[SP.ROW_SIGN] for row in rows]), np.array([row[SP.ROW_POSITION] for row in rows]),
-    )  # fmt: skip
-
-
-def tie(run: Arrays, shaft: ShaftMatrices) -> Tie:
-    """Return what ties the bearings where the run starts: shaft, housing and sliding rings along the axis."""
-    head, n = run.p[int(run.p[P.SET]) :], shaft.count
-    own = run.s[int(head[SP.AT_S]) :]
-    lanes = SP.padded_size(n)
-    q, held = own[SP.S_HEAD : SP.S_HEAD + n], own[SP.S_HEAD + SP.HELD_LOAD * lanes :][:n]
-    along = np.zeros(n, dtype=bool)
-    along[:1] = True  # the whole shaft's
-    along[shaft.shaft_count :] = True
-    if shaft.housed:
-        along[shaft.shaft_count : shaft.shaft_count + SP.HOUSING] = np.isin(
-            np.arange(SP.HOUSING), (Q.X, Q.TURN)
-        )
-    at = np.ix_(along, along)
-    return Tie(
-        (held - shaft.stiffness @ q)[along], shaft.stiffness[at], shaft.inverse[at],
-        [motion[:, along] for motion in shaft.motions], shaft.inertia,
     )  # fmt: skip
 
 

@@ -1,10 +1,8 @@
-"""The steady state of bearings without cages: what is the same for all balls comes to rest.
+"""Oracle of the steady state: Newton's method for what is the same for all balls, bearings without cages.
 
-The engine starts from a quasi-static state whose balls hold their gyroscopic moments by an assumed share of
-friction at each race. There the mean of the balls still accelerates: contact angles, orbit and spin drift to
-where the friction in the contacts itself is balanced. On the 7009C at 18,000 r/min that moves natural
-frequencies by 0.6 %, on the 7003C at 10,000 r/min by 0.001 %. Newton's method goes there at once. In a set
-the shaft ties the bearings, and moves along its axis until their forces balance, too.
+The engine's own equations, differentiated by differences. A state is moved in the motions that all balls
+share, in a set with the coordinates of shaft, housing and sliding rings along the axis, until nothing
+accelerates.
 """
 
 from collections.abc import Sequence
@@ -14,9 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.arrays import Arrays
-from fmu_bearing.engine.layout import P, Q, S, Y
+from fmu_bearing.engine.layout import SP, P, Q, S, U, Y
 from fmu_bearing.modal.equations.coordinates import Coordinates
+from fmu_bearing.modal.equations.linearised import bearing_of
 from fmu_bearing.modal.equations.plain import MOVE, RATE, BearingArrays, Plain
+from fmu_bearing.modal.equations.shaft import ShaftMatrices, matrices, rows_of
 
 _ROUNDS = 30
 # Steps of the differences by which balls move against rings in a round, 0.5 um: contacts stay closed. What
@@ -49,6 +49,26 @@ class Tie:
     inertia: Sequence[NDArray[np.float64]]
 
 
+def tie(run: Arrays, shaft: ShaftMatrices) -> Tie:
+    """Return what ties the bearings where the run starts: shaft, housing and sliding rings along the axis."""
+    head, n = run.p[int(run.p[P.SET]) :], shaft.count
+    own = run.s[int(head[SP.AT_S]) :]
+    lanes = SP.padded_size(n)
+    q, held = own[SP.S_HEAD : SP.S_HEAD + n], own[SP.S_HEAD + SP.HELD_LOAD * lanes :][:n]
+    along = np.zeros(n, dtype=bool)
+    along[:1] = True  # the whole shaft's
+    along[shaft.shaft_count :] = True
+    if shaft.housed:
+        along[shaft.shaft_count : shaft.shaft_count + SP.HOUSING] = np.isin(
+            np.arange(SP.HOUSING), (Q.X, Q.TURN)
+        )
+    at = np.ix_(along, along)
+    return Tie(
+        (held - shaft.stiffness @ q)[along], shaft.stiffness[at], shaft.inverse[at],
+        [motion[:, along] for motion in shaft.motions], shaft.inertia,
+    )  # fmt: skip
+
+
 def settle(bearings: Sequence[Arrays | BearingArrays], tie: Tie | None = None) -> bool:
     """Move the states of bearings to the steady ones; False, and states as they were, where none is near.
 
@@ -74,12 +94,35 @@ def settle(bearings: Sequence[Arrays | BearingArrays], tie: Tie | None = None) -
     return False
 
 
+class _Moved(Plain):
+    """The equations of a bearing whose state moves."""
+
+    def along(self, directions: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the derivatives of x' along directions in x, shape (n, directions)."""
+        found = np.empty(directions.shape)
+        for k, direction in enumerate(directions.T):
+            step = float(np.min(self._steps[direction != 0.0] / np.abs(direction[direction != 0.0])))
+            before = self.y.copy(), self._w.copy()
+            self.move(step * direction)
+            ahead = self.rates()
+            self.y[:], self._w[:] = before
+            self.move(-step * direction)
+            found[:, k] = (ahead - self.rates()) / (2.0 * step)
+            self.y[:], self._w[:] = before
+        return found
+
+    def move(self, change: NDArray[np.float64]) -> None:
+        """Move the state by a change of x."""
+        self.y[self._at_y] += change[: self._bodies]
+        self._w[self._at_w] += change[self._bodies :]
+
+
 class _Part:
     """One bearing: motions that are equal for all its balls, and its rings along and about the axis."""
 
     def __init__(self, bearing: Arrays | BearingArrays, driven: int | None) -> None:
         self.bearing, self.at = bearing, Coordinates.of(bearing.p)
-        self.plain = Plain(bearing, self.at)
+        self.plain = _Moved(bearing, self.at)
         self.spread, self.mean = _even_motions(self.at)
         self.driven = self.at.ring_rates + np.arange(driven or 0)
         led = np.zeros(self.at.size)
@@ -170,3 +213,11 @@ def _even_motions(at: Coordinates) -> tuple[NDArray[np.float64], NDArray[np.floa
                 columns.append(column)
     spread = np.array(columns).T
     return spread, (spread / spread.sum(axis=0)).T
+
+
+def settled(run: Arrays) -> list[BearingArrays]:
+    """Return the bearings of an initialised scene without cages, moved to the steady state."""
+    speed = float(run.u[U.SPEED])
+    bearings = [bearing_of(run, row, speed) for row in rows_of(run.p)]
+    assert settle(bearings, tie(run, matrices(run, speed)))
+    return bearings

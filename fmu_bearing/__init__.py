@@ -6,13 +6,13 @@ Data flow in one direction::
 
 ==================  =========================================================================
 ``renamed``         old names, which are refused with their new names
-``progress``        progress of long work, told line by line
+``progress``        progress of long work, printed line by line
 ``files``           reading files that users name, writing those that other processes may read, the cache
 ``threads``         linear algebra on one thread
 ``extras``          optional packages, imported where they are used
 ``formulas``        closed formulas on plain numbers: Hertz contact, ratings, makers' rules
 ``engine``          Numba kernels on flat arrays: mechanics, fidelities, sound
-``compiled``        these kernels compiled ahead of time, for Python and FMUs alike
+``compiled``        these kernels compiled ahead of time, for Python and for FMUs
 ``scene``           scenes: frozen models read from TOML, catalogue
 ``elastic``         bending of the rings: sections, finite elements, modes
 ``acoustics``       transfer functions from motion to microphones, filters, analysis

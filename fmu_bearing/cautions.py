@@ -55,7 +55,7 @@ def _shoulder(ring: str, other: str) -> Caution:
         -180.0 / math.pi,
         f"the ellipse of the most loaded contact of the {ring} race reaches ",
         f" deg beyond its shoulder (bearing.{ring}_ring_{other}_diameter_mm): the edge cuts in there, while "
-        "loads and stiffness are those of an unbroken groove; reduce preload or load",
+        "loads and stiffness are computed for an unbroken groove; reduce preload or load",
     )
 
 
@@ -72,10 +72,10 @@ _RESTARTS = Caution(
     Z.BEARING_OUTPUTS.index("solver.restarts"),
     0.0,
     1.0,
-    "no step led on from the state reached: balls had left their races, or inputs jumped too far at once; ",
-    " times so far (solver.restarts) rings and balls begin again at rest at the present inputs; clock, "
-    "angles, heats and sound go on, but vibration and levels just after mean nothing; change inputs by less "
-    "at a time, over longer steps, give more preload, or fidelity full",
+    "no step was possible from the state reached: balls had left their races, or inputs changed too much; ",
+    " times so far (solver.restarts) rings and balls were restarted from rest at the present inputs; clock, "
+    "angles, heats and sound go on, but vibration and levels just after are meaningless; change inputs by "
+    "less at a time, over longer steps, give more preload, or fidelity full",
     decimals=0,
     above=True,
 )
@@ -94,7 +94,7 @@ _BACKWARD = Caution(  # of a set that carries one way: another has bearings for 
     180.0 / math.pi,
     "bearing 1: its contact angle is ",
     " deg: the load pushes the shaft the way that nothing holds, where races have no shoulder, while loads "
-    "and stiffness are those of a whole groove; turn a bearing, or reverse the load",
+    "and stiffness are computed for a whole groove; turn a bearing, or reverse the load",
 )
 _FRICTIONLESS = 1e-6  # N m: below it a torque is rounding, of a bearing without friction
 _LOOSE = "preload = 0 N: no axial force holds balls and races together: loose balls skid or lift off; "

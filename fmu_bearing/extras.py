@@ -1,7 +1,7 @@
 """Optional packages: imported where they are used; an error names the missing one.
 
 Nothing imports an optional package by a statement of its own: `need` does it, at the first use, so that the
-core works without it and its absence is told in one way.
+core works without it and its absence is reported in one way.
 """
 
 import importlib
@@ -45,7 +45,7 @@ def need(name: str, purpose: str) -> ModuleType:
 
 
 def available(name: str, purpose: str, left_out: str, tell: Callable[[str], None]) -> bool:
-    """Whether ``name`` can be imported; otherwise tell a line: what is left out, and the extra to install."""
+    """Whether ``name`` can be imported; otherwise print what is left out, and the extra to install."""
     try:
         need(name, purpose)
     except MissingExtra as absent:

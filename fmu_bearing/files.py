@@ -50,7 +50,7 @@ def plain_file(path: str | os.PathLike[str], most: float = float("inf")) -> Path
     if stat.S_ISDIR(found.st_mode):
         raise IsADirectoryError("it is a folder: name a file in it")
     if not stat.S_ISREG(found.st_mode):
-        raise OSError("it is a pipe or a device: write what it gives to a file, and name that")
+        raise OSError("it is a pipe or a device: write its output to a file, and name that file")
     if found.st_size > most:
         raise OSError(f"it has {1e-6 * found.st_size:.3g} MB; allowed: up to {1e-6 * most:g} MB")
     return Path(path)
@@ -75,7 +75,7 @@ def read_text(path: str | os.PathLike[str], most: float = 1e9) -> str:
 
 
 def read_arrays(path: str | os.PathLike[str], names: Iterable[str] | None = None) -> dict[str, Any]:
-    """Return arrays of a NumPy archive (``numpy.savez``), those of ``names`` that it has; default: all.
+    """Return arrays of a NumPy archive (``numpy.savez``), of ``names`` the ones that it has; default: all.
 
     Nothing is unpickled.
 
@@ -84,7 +84,7 @@ def read_arrays(path: str | os.PathLike[str], names: Iterable[str] | None = None
     OSError
         As `plain_file`.
     ValueError
-        For a file that is no archive of plain arrays, or damaged.
+        For a file that is not an archive of plain arrays, or damaged.
     """
     import numpy as np
 
@@ -93,7 +93,7 @@ def read_arrays(path: str | os.PathLike[str], names: Iterable[str] | None = None
         with np.load(file, allow_pickle=False) as archive:
             return {name: archive[name] for name in (names or archive.files) if name in archive.files}
     except _NO_ARCHIVE:
-        raise ValueError("it is no NumPy archive of plain arrays, or damaged") from None
+        raise ValueError("it is not a NumPy archive of plain arrays, or damaged") from None
 
 
 class CacheError(OSError):
@@ -104,7 +104,7 @@ def cache_root() -> Path:
     """Folder of all that is kept, this user's own (`own_folder`).
 
     ``FMU_BEARING_CACHE``, else ``fmu-bearing`` in the user's cache folder, else one per user among the
-    temporary files: without HOME and without an entry in the user table nobody knows a better one.
+    temporary files: without HOME and without an entry in the user table there is no better one.
 
     Raises
     ------
@@ -251,7 +251,7 @@ def write_whole(path: Path, data: bytes) -> Path:
         Where it cannot be written, or is a pipe or a device, which the file would replace.
     """
     if path.exists() and not path.is_file():
-        raise OSError(f"{path} is no plain file: name another one to write")
+        raise OSError(f"{path} is not a plain file: name another one to write")
     path.parent.mkdir(parents=True, exist_ok=True)
     handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
     try:

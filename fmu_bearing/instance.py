@@ -48,7 +48,7 @@ REASONS = {
 # of a set these words differ: loads are those on its shaft
 _OF_SETS = {
     NO_START: "no quasi-static equilibrium was found for these inputs; give more preload or less load "
-    "on the shaft, and only towards where a bearing carries it, or a stiffer pedestal where there is one",
+    "on the shaft, and only in directions that a bearing carries, or a stiffer pedestal where there is one",
     TOO_SOFT: "the loads push an outer ring or the housing sideways by more than 0.3 of the pitch radius; "
     "give a stiffer pedestal or less load on the shaft",
 }
@@ -64,7 +64,7 @@ _RELATIVE_SLACK = 1e-12  # a value at a bound may carry rounding from a unit con
 
 
 def number(name: str, value: object) -> float:
-    """Return a value as float; ``ValueError`` for text, truth values and what is no single number."""
+    """Return a value as float; ``ValueError`` for text, truth values and what is not a single number."""
     if type(value) is float:
         return value
     try:
@@ -134,7 +134,7 @@ class Instance:
         self.z: NDArray[np.float64] = np.zeros(sizes.outputs)
         self.s: NDArray[np.float64] = np.zeros(sizes.state)
         self._calls = Calls(self.p, self.u, self.s, self.z, np.zeros(sizes.work))
-        self._kept = self.s.copy()
+        self._saved_state = self.s.copy()
         self.initialised = False
         self._due = self._cautions
 
@@ -200,11 +200,11 @@ class Instance:
         if not self.initialised:
             raise EngineError("the bearing must be initialised before it is stepped")
         h = number("step h", h)
-        self._kept[:] = self.s
+        self._saved_state[:] = self.s
         status = self._calls.step(h)
         if status != OK:
             reached = self.time
-            self.s[:] = self._kept
+            self.s[:] = self._saved_state
             raise EngineError(
                 f"step of {h} s from t = {self.time:.9g} s (reached {reached:.9g} s): "
                 f"{self._reasons[status]}; {self._inputs()}"

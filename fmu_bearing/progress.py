@@ -1,4 +1,4 @@
-"""Progress of long work: told line by line to whoever wants to know."""
+"""Progress of long work: lines of text, passed to a callable."""
 
 from collections.abc import Callable
 
@@ -7,4 +7,4 @@ Tell = Callable[[str], None]
 
 
 def silent(text: str) -> None:
-    """Tell nobody."""
+    """Print nothing."""

@@ -1,4 +1,4 @@
-"""Names that changed before the first release, and values that were removed: refused with what serves."""
+"""Names that changed before the first release, and values that were removed: refused with the new ones."""
 
 import functools
 from collections.abc import Callable

@@ -141,7 +141,7 @@ print(json.dumps(results))
 
 
 @pytest.fixture(scope="module")
-def told(tmp_path_factory):
+def reported(tmp_path_factory):
     """Exit code, unexpected exception and output of each line of `CORE` and `USES`, without any extra."""
     folder = tmp_path_factory.mktemp("core")
     silent = re.sub(
@@ -166,16 +166,16 @@ def told(tmp_path_factory):
 
 
 @pytest.mark.parametrize("line", CORE, ids=" ".join)
-def test_the_core_alone_does(told, line):
-    code, strange, output = told[json.dumps(line)]
+def test_the_core_alone_does(reported, line):
+    code, strange, output = reported[json.dumps(line)]
     assert (code, strange) == (0, ""), output
 
 
 @pytest.mark.parametrize("package", EXTRAS)
-def test_whatever_needs_a_package_names_its_extra(told, package):
+def test_whatever_needs_a_package_names_its_extra(reported, package):
     assert package in USES, "no line here needs it"
     for line in USES[package]:
-        code, strange, output = told[json.dumps(line)]
+        code, strange, output = reported[json.dumps(line)]
         assert not strange, line
         assert f"pip install 'fmu-bearing[{EXTRAS[package]}]'" in output, line
         assert f"needs the package {package}:" in output, line

@@ -13,7 +13,7 @@ def test_a_new_place_is_accepted_and_not_made(tmp_path):
     assert not list(tmp_path.iterdir())
 
 
-def test_what_stands_in_the_way_is_named(tmp_path):
+def test_what_is_in_the_way_is_named(tmp_path):
     (tmp_path / "file").write_text("")
     (tmp_path / "dangling").symlink_to(tmp_path / "nowhere")
     with pytest.raises(OSError, match=r"sub cannot be written to: .*file is a file"):
@@ -30,7 +30,7 @@ def test_a_pipe_is_not_replaced(tmp_path):
     os.mkfifo(tmp_path / "pipe.csv")
     with pytest.raises(OSError, match=r"pipe.csv is a pipe or a device, which a file would replace"):
         check_file(tmp_path / "pipe.csv")
-    with pytest.raises(OSError, match=r"pipe.csv is no plain file: name another one to write"):
+    with pytest.raises(OSError, match=r"pipe.csv is not a plain file: name another one to write"):
         write_whole(tmp_path / "pipe.csv", b"")
     assert (tmp_path / "pipe.csv").is_fifo() and len(list(tmp_path.iterdir())) == 1
 

@@ -107,14 +107,14 @@ def test_speed_ramps_from_the_value_last_reached(model):
     assert bearing.s[S.ANGLE] == pytest.approx(1050.0 * 1e-4 + 1100.0 * 4e-4, rel=1e-12)
 
 
-def test_inertia_of_the_rotor_is_told_to_the_drive(model, scene):
-    told = Instance(model).get("rotor.inertia")
+def test_inertia_of_the_rotor_is_reported_to_the_drive(model, scene):
+    reported = Instance(model).get("rotor.inertia")
     bore, outside, width, density = 17e-3, 22.6e-3, 10e-3, 7800.0
     ring = density * math.pi / 4 * (outside**2 - bore**2) * width * (bore**2 + outside**2) / 8
-    assert told == pytest.approx(0.25 * 15e-3**2 / 8 + ring, rel=1e-9)
+    assert reported == pytest.approx(0.25 * 15e-3**2 / 8 + ring, rel=1e-9)
 
 
-def test_an_ellipse_beyond_the_shoulder_is_told(scene):
+def test_an_ellipse_beyond_the_shoulder_is_reported(scene):
     bearing = Instance(prepare(scene("7003C-bare")))
     with warnings.catch_warnings():
         warnings.simplefilter("error")
@@ -128,21 +128,21 @@ def test_an_ellipse_beyond_the_shoulder_is_told(scene):
     assert bearing.get("contact.inner.shoulder_margin") < 0.0
 
 
-def test_a_run_up_beyond_the_scenes_speed_is_told(example):
+def test_a_run_up_beyond_the_scenes_speed_is_reported(example):
     """Waves up to 10 kHz at 5,000 r/min lie at 30 kHz at 15,000 and shorten every step there."""
     scene = example("7003C-bare")
     slow = scene.model_copy(update={"operation": scene.operation.model_copy(update={"speed_rpm": 5000.0})})
-    told = []
-    bearing = Instance(prepare(slow, fidelity="rings"), told.append)
+    reported = []
+    bearing = Instance(prepare(slow, fidelity="rings"), reported.append)
     bearing.initialise()
     # 10 kHz: a radian takes 1 / (2 pi 10 kHz) = 15.9 us; whole orders reach somewhat less far
-    assert bearing.get("solver.wave_time") == pytest.approx(15.9e-6, rel=0.02) and not told
+    assert bearing.get("solver.wave_time") == pytest.approx(15.9e-6, rel=0.02) and not reported
     before = bearing.get("solver.steps")
     bearing.step(1e-3)
     bearing.set("shaft_speed", 15000.0 * math.pi / 30.0)
     for _ in range(2):
         bearing.step(1e-3)
-    assert len(told) == 1 and "by one radian in 5.3 us" in told[0]
+    assert len(reported) == 1 and "by one radian in 5.3 us" in reported[0]
     assert bearing.get("solver.steps") - before > 2 * 1e-3 / 5.3e-6  # the second step is at full speed
     with pytest.warns(UserWarning, match="by one radian"):
         fast = prepare(slow.model_copy(update={"operation": slow.operation.model_copy(
@@ -151,12 +151,12 @@ def test_a_run_up_beyond_the_scenes_speed_is_told(example):
 
 
 def test_a_perfect_bearing_has_no_waves_to_follow(example):
-    told = []
-    bearing = Instance(prepare(example("7003C-bare"), fidelity="rings"), told.append)
+    reported = []
+    bearing = Instance(prepare(example("7003C-bare"), fidelity="rings"), reported.append)
     bearing.set("imperfection.scale", 0.0)
     bearing.set("shaft_speed", 90000.0 * math.pi / 30.0)
     bearing.initialise()
-    assert bearing.get("solver.wave_time") == 1.0 and not any("wave" in text for text in told)
+    assert bearing.get("solver.wave_time") == 1.0 and not any("wave" in text for text in reported)
 
 
 def test_a_pedestal_too_soft_for_the_load_is_refused(scene):

@@ -87,9 +87,9 @@ class Solid:
         """Lowest ``count`` modes of one harmonic: frequencies (Hz), shapes in columns, rigid ones at 0 Hz.
 
         The shapes' modal masses per pi are 1; same input, same bits (ARPACK starts from a fixed vector).
-        ``held``: the seat's cylinder stands still in all directions.
+        ``held``: the seat's cylinder is fixed in all directions.
         """
-        start = 1.0 + np.arange(self.mass.shape[0]) % _COMPONENTS  # touches X, R and T alike
+        start = 1.0 + np.arange(self.mass.shape[0]) % _COMPONENTS  # has parts along X, R and T
         start += 0.1 * np.cos(np.arange(len(start)))
         stiffness, mass = self.stiffness(order), self.mass
         moving = np.arange(len(start))

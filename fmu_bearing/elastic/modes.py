@@ -52,7 +52,7 @@ class RingMode:
         g, twice the integral of psi_r psi_t over that of psi^2, both weighted with density: on a ring that
         spins at Omega, in its own frame, a'' + 2 Omega g b' + w0^2 a = 0 and b'' - 2 Omega g a' + w0^2 b =
         0, so that z = a - i b obeys z'' + 2 i Omega g z' + w0^2 z = 0; seen from the frame that does not
-        spin, n + g stands for g. -1 for translation, 2 (1 + g) = I_p / I_t for tilt.
+        spin, n + g means g. -1 for translation, 2 (1 + g) = I_p / I_t for tilt.
     groove : ndarray (3,)
         psi (x, r, t) where the unloaded ball touches the groove.
     groove_tilt : float
@@ -92,7 +92,7 @@ class FreeMode(NamedTuple):
 def ring_modes(scene: Scene) -> tuple[RingMode, ...]:
     """Modes of the scene's rings in the order of the engine's coordinates; none without a table ``flexure``.
 
-    Inner ring before outer ring, orders rising; each mode stands for two coordinates, a before b. Per ring
+    Inner ring before outer ring, orders rising; each mode has two coordinates, a before b. Per ring
     and order it is the lowest mode that moves mostly in the plane of the ring.
 
     Raises
@@ -301,7 +301,7 @@ def _skin(ring: Solid, shape: Array) -> tuple[Array, Array]:
 
 
 def _fixed(values: Array) -> Array:
-    """Return an array that nobody who shares the cached mode can change."""
+    """Return an array that users of the cached mode cannot change."""
     values = np.array(values)
     values.setflags(write=False)
     return values

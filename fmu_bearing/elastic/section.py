@@ -127,7 +127,7 @@ def ring_section(scene: Scene, body: int) -> Section:
     """Section of the inner (0) or outer (1) ring of a scene.
 
     The groove's circle is the one the contacts use: the ball touches it at the free contact angle. The
-    scene's effective diameter gives the ring's mass as a plain rectangle; the shoulders stand where the
+    scene's effective diameter gives the ring's mass as a plain rectangle; the shoulders are where the
     grooved ring has that mass. Both have the same diameter, although an angular contact bearing has one of
     them relieved: the scene knows no better (assumed).
 
@@ -180,7 +180,7 @@ def _section(body: int, seat: float, shoulder: float, width: float, groove: Groo
 
 
 def _no_shoulder(body: int, seat: float, width: float, moments: list[float]) -> str:
-    """Say which effective diameters the groove allows: those of rectangles with the extreme volumes."""
+    """Say which effective diameters the groove allows: values for rectangles with the extreme volumes."""
     sign = 1.0 if body == INNER else -1.0
     limits = [2e3 * math.sqrt(max(seat**2 + sign * 2.0 * moment / width, 0.0)) for moment in moments]
     key = "inner_ring_outer_diameter_mm" if body == INNER else "outer_ring_inner_diameter_mm"

@@ -47,7 +47,7 @@ def outer_ring(scene: Scene) -> RigidBody:
 
 
 def cage(scene: Scene) -> RigidBody:
-    """Cage: a ring less its round pockets, inertia scaled with the mass; zero where there is none."""
+    """Cage: a ring minus its round pockets, inertia scaled with the mass; zero where there is none."""
     if scene.bearing.cage is None or scene.materials.cage is None:
         return RigidBody(0.0, 0.0, 0.0)
     b, c = si(scene.bearing), si(scene.bearing.cage)

@@ -95,7 +95,7 @@ def _harmonics(scene: Scene, race: int) -> Harmonics:
 def _phases(scene: Scene, race: int) -> NDArray[np.float64]:
     """Phases (rad) of all orders from 1 on: a phase belongs to its order, whatever the band.
 
-    Those of orders from 2 on are one draw; order 1 has a draw of its own.
+    Phases of orders from 2 on are one draw; order 1 has a draw of its own.
     """
     assert scene.imperfections is not None
     seed, turn = scene.imperfections.seed, 2.0 * np.pi
@@ -146,7 +146,7 @@ def ball_waves(scene: Scene) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 def excitation_end(scene: Scene, speed: float) -> float | None:
     """Highest frequency (Hz) at which waves of races and balls pass a contact at a shaft speed (rad/s).
 
-    Above it the surfaces of the scene excite nothing. None: there are no waves, or the shaft stands still.
+    Above it the surfaces of the scene excite nothing. None: there are no waves, or the shaft does not turn.
     """
     alone = [one.scene for one in scene.bearings()]
     fastest = max(fastest_wave(one, race_harmonics(one), ball_waves(one)[0].size) for one in alone)

@@ -19,7 +19,7 @@ class Lengths:
 
 
 def members(p: NDArray[np.float64]) -> list[tuple[slice, slice]]:
-    """Return where the parameters and the state of each bearing of a set stand in ``p`` and ``s``."""
+    """Return where the parameters and the state of each bearing of a set are in ``p`` and ``s``."""
     block = int(p[P.SET])
     first = block + int(p[block + SP.AT_ROWS])
     found = []

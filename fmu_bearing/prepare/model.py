@@ -71,7 +71,7 @@ class Model:
 
     @property
     def inputs(self) -> NDArray[np.float64]:
-        """Inputs ``u`` at the scene's operating point, those of a set that are no variables included."""
+        """Inputs ``u`` at the scene's operating point, inputs of a set that are no variables included."""
         return input_values(self.scene)
 
     @property
@@ -107,7 +107,7 @@ def prepare(
     scene : Scene
     fidelity, method : str, optional
         Fidelity and integrator in place of the scene's. A scene whose fidelity is ``auto`` needs
-        ``fidelity``, because only runs of the scene tell which one is accurate enough.
+        ``fidelity``, because only runs of the scene show which one is accurate enough.
     max_step : float, optional
         Largest internal step (s) in place of the scene's.
     note : str, optional
@@ -168,8 +168,8 @@ def pack(scene: Scene, *sounds: NDArray[np.float64]) -> NDArray[np.float64]:
     return as_set_of_one(packed[0]) if scene.spindle is None else pack_set(scene, packed)
 
 
-def _pack(scene: Scene, sound: NDArray[np.float64], heard: Scene) -> NDArray[np.float64]:
-    """Return the parameters of one bearing; ``heard``: the scene that has the microphones."""
+def _pack(scene: Scene, sound: NDArray[np.float64], with_microphones: Scene) -> NDArray[np.float64]:
+    """Return the parameters of one bearing; ``with_microphones``: the scene that has the microphones."""
     nodes, weights = roots_jacobi(scene.fidelity.traction_strips, 1.0, 1.0)
     # what the scene leaves out is an empty table: it takes no place, and its offset is 0
     waves = race_harmonics(scene)
@@ -204,7 +204,7 @@ def _pack(scene: Scene, sound: NDArray[np.float64], heard: Scene) -> NDArray[np.
         p[P.MODES] = tables[P.AT_MODES].size // P.MODE_SIZE
         p[P.MODE_STEP] = longest_step(tables[P.AT_MODES], scene.fidelity.method)
     _fidelity(scene, p)
-    _sound(heard, sound, p)
+    _sound(with_microphones, sound, p)
     contacts.oil(scene, p)
     contacts.balls(scene, p)
     contacts.races(scene, p)
@@ -284,7 +284,7 @@ def _mounting(scene: Scene, p: NDArray[np.float64]) -> None:
     p[P.AXIAL_RATIO] = mounting.pedestal_axial_ratio
     p[P.ROTATIONAL_RATIO] = mounting.pedestal_rotational_ratio
     p[P.PEDESTAL_ZETA] = mounting.pedestal_damping_ratio
-    # along the turned axes y', z' as stiff as told, so their damping goes with the root
+    # along the turned axes y', z' as stiff as given, so their damping goes with the root
     ratio, angle = mounting.pedestal_stiffness_ratio, mounting.pedestal_axis_angle
     for first, along in ((P.PEDESTAL_Y, ratio), (P.PEDESTAL_DAMPING_Y, math.sqrt(ratio))):
         p[first] = along * math.cos(angle) ** 2 + math.sin(angle) ** 2
@@ -301,7 +301,7 @@ def _mounting(scene: Scene, p: NDArray[np.float64]) -> None:
 def land_clearance(scene: Scene, cage: Cage) -> float:
     """Radial clearance (m) between the cage's bore and its lands: the scene's, or what the bore leaves.
 
-    The lands are the inner ring's shoulders, which stand where the grooved ring has the mass that its
+    The lands are the inner ring's shoulders, which are where the grooved ring has the mass that its
     effective diameter gives it (`elastic.section`): as good as that diameter is.
 
     Raises

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from fmu_bearing.engine.sources import rooms_digest, source_hash
 from fmu_bearing.files import cache_root, write_whole
 from fmu_bearing.scene import Scene
-from fmu_bearing.scene.member import heard_of
+from fmu_bearing.scene.member import sound_scene
 
 if TYPE_CHECKING:
     from fmu_bearing.acoustics.radiation.radiators import Housing
@@ -51,7 +51,7 @@ def sound_block(scene: Scene, housing: "Housing | None" = None) -> NDArray[np.fl
     try:
         kept: NDArray[np.float64] = np.load(path, allow_pickle=False)
         return kept
-    except (OSError, ValueError, EOFError):  # not there, or damaged: made anew
+    except (OSError, ValueError, EOFError):  # not there, or damaged: made again
         block = sound_parameters(scene, housing)
     buffer = io.BytesIO()
     np.save(buffer, block, allow_pickle=False)
@@ -65,8 +65,8 @@ def sound_block(scene: Scene, housing: "Housing | None" = None) -> NDArray[np.fl
 def sound_blocks(scene: Scene) -> list[NDArray[np.float64]]:
     """Return the sound block of every bearing of a scene: of a set one each, else one.
 
-    A housing that radiates is heard with the first bearing, which it shows; the others are inside and have
-    blocks that hear nothing.
+    A housing that radiates belongs to the first bearing, which it shows; the others are inside and have
+    blocks without sources.
 
     Raises
     ------
@@ -75,12 +75,12 @@ def sound_blocks(scene: Scene) -> list[NDArray[np.float64]]:
     """
     if scene.spindle is None or scene.sound is None:
         return [sound_block(scene)]
-    heard = [heard_of(scene, b) for b in range(len(scene.spindle.bearing))]
+    alone = [sound_scene(scene, b) for b in range(len(scene.spindle.bearing))]
     if scene.sound.radiator != "housing":
-        return [sound_block(one) for one in heard]
+        return [sound_block(one) for one in alone]
     from fmu_bearing.acoustics.filters.design import housing_of_set, silent_parameters
 
-    first, *inside = heard
+    first, *inside = alone
     return [sound_block(first, housing_of_set(scene)), *(silent_parameters(one) for one in inside)]
 
 
@@ -97,11 +97,11 @@ def sound_key(scene: Scene) -> str:
     if scene.spindle is not None:
         count = len(scene.spindle.bearing)
         if scene.sound.radiator != "housing":
-            return repr([sound_key(heard_of(scene, b)) for b in range(count)])
-        # what stands inside is not heard, only counted
-        first, housing = heard_of(scene, 0), housing_of_set(scene)
-        heard = (first.sound, radiators_of(first, housing), scene.fidelity.ball_harmonics)
-        return repr((heard, count))
+            return repr([sound_key(sound_scene(scene, b)) for b in range(count)])
+        # bearings inside make no sound, they are only counted
+        first, housing = sound_scene(scene, 0), housing_of_set(scene)
+        radiating = (first.sound, radiators_of(first, housing), scene.fidelity.ball_harmonics)
+        return repr((radiating, count))
     flexure = scene.mounted.flexure
     bending = (flexure, scene.materials, scene.bearing) if flexure is not None else ()
     return repr((scene.sound, radiators_of(scene), scene.fidelity.ball_harmonics, bending))

@@ -1,4 +1,4 @@
-"""Parameters of a set of bearings on one shaft: those of every bearing, then the set's own block."""
+"""Parameters of a set of bearings on one shaft: of every bearing, then of the set itself."""
 
 import math
 
@@ -43,7 +43,7 @@ def as_set_of_one(p: NDArray[np.float64]) -> NDArray[np.float64]:
     row = block[SP.HEAD :]
     row[SP.ROW_SIGN] = 1.0
     row[SP.ROW_SEAT] = SP.PEDESTAL
-    row[SP.ROW_MASS : SP.ROW_MASS + SP.DRIVEN] = 1.0  # its equations are those of accelerations
+    row[SP.ROW_MASS : SP.ROW_MASS + SP.DRIVEN] = 1.0  # its equations are for accelerations
     alone = np.concatenate([p, block])
     alone[P.SET] = p.size
     alone[P.ALONE] = 1.0
@@ -59,7 +59,7 @@ def pack_set(
     ----------
     scene : Scene
     parameters : list of ndarray
-        Those of each bearing, as of a single one of `one_of`, with or without a block of their own.
+        Parameters of each bearing, as of a single one of `one_of`, with or without a block of their own.
     shaft : ShaftModel, optional
         In the place of the scene's.
     """
@@ -140,7 +140,7 @@ def _sliding(spindle: Spindle) -> list[SetBearing]:
 
 
 def in_housing(sign: int, position: float) -> NDArray[np.float64]:
-    """Return what takes the housing's six coordinates to those of a seat in the bearing's own axes."""
+    """Return the matrix from the housing's six coordinates to a seat's, in the bearing's own axes."""
     found = np.diag([sign, 1.0, 1.0, 1.0, sign, sign])
     found[Q.Y, Q.BZ], found[Q.Z, Q.BY] = position, -position
     return found
@@ -206,7 +206,7 @@ def _matrices(scene: Scene, shaft: ShaftModel, n: int) -> dict[int, NDArray[np.f
         block_diag(own, np.zeros((count, count)), free)
         for own in (shaft.stiffness, shaft.damping, shaft.gyroscopic)  # a housing does not spin
     ]
-    # springs stand between sliding rings and housing
+    # springs are between sliding rings and housing
     pressed = np.zeros((len(sliding), n))
     for k, one in enumerate(sliding):
         pressed[k, behind + k] = 1.0

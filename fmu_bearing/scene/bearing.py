@@ -123,7 +123,7 @@ class Bearing(Part):
         if self.cage is not None and self.ball_springs is not None:
             yield Conflict(
                 "ball_springs",
-                "stand instead of a cage, not beside one: write cage = false, or leave them out",
+                "replace a cage and cannot be given with one: write cage = false, or leave them out",
             )
 
     def _ball_conflicts(self) -> Iterator[Conflict]:

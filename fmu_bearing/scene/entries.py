@@ -55,7 +55,7 @@ def entries(kind: str, files: Sequence[Path] = ()) -> Mapping[str, Entry]:
     Raises
     ------
     SceneError
-        For a file that cannot be read, an entry that is no bearing, or a name that stands twice.
+        For a file that cannot be read, an entry that is not a bearing, or a name that is given twice.
     """
     found = _of_package(kind)
     wanted = tuple(dict.fromkeys(real_path(path) for path in (*_in_use.get(), *files)))
@@ -106,7 +106,7 @@ def _of_file(path: Path) -> dict[str, Entry]:
 def _faults(name: str, table: Any) -> Iterator[str]:
     """Yield what keeps a table of a user's file from being a bearing."""
     if not isinstance(table, dict):
-        yield f"{name} = {shown(table)} stands outside any table: a bearing is a table of its name, [{name}]"
+        yield f"{name} = {shown(table)} is outside any table: a bearing is a table of its name, [{name}]"
         return
     try:
         _Bearing.model_validate({"bearing": table})
@@ -116,7 +116,7 @@ def _faults(name: str, table: Any) -> Iterator[str]:
 
 
 def _twice(name: str, path: Path, first: Path | None) -> str:
-    where = "is in the catalogue of the package" if first is None else f"stands in {first}, too"
+    where = "is in the catalogue of the package" if first is None else f"is in {first}, too"
     return f"{path}: [{name}] {where}: give it a name of its own, for example [my-{name}]"
 
 

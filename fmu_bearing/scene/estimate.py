@@ -3,8 +3,8 @@
 Each rule names the bearings it was derived from, and their scatter. All its values are assumed.
 
 Ball and number of balls: against NSK's 60 sizes of series 70 and 79 (`fmu_bearing.scene.nsk`), whose balls
-follow from printed ratings, 0.29 of outside diameter less bore is off by 4.0 % rms (0.25 to 0.31 occur; 0.27,
-the rule before, was off by 7.5 %), and three quarters of a full circle by 7.7 % rms, 3 balls at
+follow from printed ratings, 0.29 of outside diameter minus bore is off by 4.0 % rms (0.25 to 0.31 occur;
+0.27, the rule before, was off by 7.5 %), and three quarters of a full circle by 7.7 % rms, 3 balls at
 most. Conformities 0.52 and 0.525: against 240 axial stiffnesses of pairs that NSK prints, with these balls,
 the median is 1.01, rms 2.5 % (0.515 and 0.52, the rule before: 1.10, 10 %).
 """
@@ -52,7 +52,9 @@ def estimates(bore: float, outside: float, width: float, angle: float) -> Iterat
     land = 0.7 * ball
     yield Estimate("pitch_diameter_mm", pitch, "mean of bore and outside diameter")
     yield Estimate(
-        "ball_diameter_mm", ball, f"{_BALL} of outside diameter less bore; series 70 and 79 have 0.26 to 0.31"
+        "ball_diameter_mm",
+        ball,
+        f"{_BALL} of outside diameter minus bore; series 70 and 79 have 0.26 to 0.31",
     )
     yield Estimate(
         "ball_count", math.floor(0.75 * most_balls(pitch, ball)), "three quarters of a full circle of balls"

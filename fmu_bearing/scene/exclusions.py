@@ -288,7 +288,7 @@ EXCLUSIONS = (
     Exclusion(
         _PORT,
         {"fidelities": "fidelity rings or response"},
-        "these fidelities count in coordinates of the shaft, which another model moves",
+        "these fidelities use coordinates of the shaft, which another model moves",
         'give `fidelity.model` = "full" or "auto"',
         _fidelities,
     ),

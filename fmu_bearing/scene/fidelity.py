@@ -28,7 +28,7 @@ class Terms(Part):
     )
     rolling_reduction: bool = Field(
         default=True,
-        description="Less rolling resistance by inlet shear heating and starvation; false: factor 1.",
+        description="Reduction of rolling resistance by inlet shear heating and starvation; false: factor 1.",
         examples=[True],
     )
     contact_damping: bool = Field(

@@ -10,7 +10,7 @@ from fmu_bearing.scene.base import Part
 class Fmu(Part):
     """Names, inputs and outputs of the FMU; the model and its numbers stay the same.
 
-    Names are those of the documentation (``contact.inner.load_max``), a star stands for any text.
+    Names are those of the documentation (``contact.inner.load_max``), a star matches any text.
     """
 
     outputs: tuple[str, ...] = Field(

@@ -6,7 +6,7 @@ from fmu_bearing.scene.base import Conflict
 from fmu_bearing.scene.bearing import Bearing
 from fmu_bearing.scene.spindle import Spindle
 
-#: mm: a microphone nearer to a body than this stands on it; places carry rounding.
+#: mm: a microphone nearer to a body than this is on it; places carry rounding.
 SKIN = 1e-3
 _BACK = 'or give sound.radiator = "bare"'
 

@@ -59,7 +59,7 @@ class Imperfections(Part):
         ge=0,
         le=4,
         examples=[1.35],
-        description="Exponent p of the law A_n = A_1 n^-p W(n) for races and balls; 0: all orders alike.",
+        description="Exponent p of the law A_n = A_1 n^-p W(n) for races and balls; 0: all orders equal.",
     )
     lowest_order: int = Field(
         default=2,
@@ -122,7 +122,9 @@ class Imperfections(Part):
             key, table = f"{race}_race_amplitude_um", f"{race}_race_harmonic"
             amplitude, harmonics = getattr(self, key), getattr(self, table)
             if amplitude is not None and harmonics:
-                yield Conflict(key, f"stands beside [[imperfections.{table}]]: leave out one of the two")
+                yield Conflict(
+                    key, f"cannot be given with [[imperfections.{table}]]: leave out one of the two"
+                )
             elif amplitude is None and not harmonics:
                 yield Conflict(
                     key,
@@ -141,7 +143,7 @@ class Imperfections(Part):
         counted = Counter(harmonic.order for harmonic in getattr(self, table))
         for order, count in sorted(counted.items()):
             if count > 1:
-                yield Conflict(table, f"order {order} stands more than once")
+                yield Conflict(table, f"order {order} is given more than once")
 
     def _law_conflicts(self) -> Iterator[Conflict]:
         if self.follows_law and self.waviness_exponent is None:

@@ -128,10 +128,10 @@ def still_of(scene: Given) -> Given:
     return scene.model_copy(update=changes)
 
 
-def heard_of(scene: Given, number: int) -> Given:
-    """Return the scene of one bearing of a set, from 0, with microphones where they stand in its own axes.
+def sound_scene(scene: Given, number: int) -> Given:
+    """Return the scene of one bearing of a set, from 0, with microphones at their places in its own axes.
 
-    For its sound alone: a rotor without mass stands for the shaft, which fills its bore. It is bare: a
+    For its sound alone: a rotor without mass replaces the shaft, and fills its bore. It is bare: a
     housing of the set that radiates is `acoustics.filters.design.housing_of_set`.
     """
     spindle, sound = set_of(scene), scene.sound

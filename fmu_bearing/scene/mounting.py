@@ -53,7 +53,7 @@ _MOST = _HIGHEST - _LOWEST + 1
 class Flexure(Part):
     """Bending of the rings in their plane: which orders move, how they are damped, how seats hold them.
 
-    On a tight seat or a solid shaft the bending is too small to be heard; leave this table out then.
+    On a tight seat or a solid shaft the bending is inaudible; leave this table out then.
     """
 
     # A file's array arrives as a list: the one conversion that strictness may let pass.

@@ -26,9 +26,9 @@ PREFIX = "NSK-"
 CLASSES = {"extra light": "EL", "light": "L", "medium": "M", "heavy": "H"}
 _PRINTED = "maker's print (NSK)"
 _STEEL, _PHENOLIC = 7.8e-6, 1.4e-6  # kg/mm3: rings and balls, cage
-_STEEP = 20.0  # deg: beyond it the mass does not tell the shoulder, see `land_offset`
-_LAND, _STEEP_LAND = 0.82, 0.7  # ball diameters off pitch: mean of the sizes whose mass tells it; the rule
-_SURE = 0.05  # ball diameters: the mass tells it where half of the last digit printed moves it by less
+_STEEP = 20.0  # deg: beyond it the mass does not determine the shoulder, see `land_offset`
+_LAND, _STEEP_LAND = 0.82, 0.7  # ball diameters off pitch: mean of the sizes whose mass gives it; the rule
+_SURE = 0.05  # ball diameters: the mass gives it where half of the last digit printed moves it by less
 _HALF_DIGIT = 5e-4  # kg
 #: Inner and outer conformity, fitted to the 240 axial stiffnesses of pairs that NSK prints: median 1.00, rms
 #: 2.4 %. These determine the sum alone (0.523 for both: 1.00, 2.3 %). The inner one is the widest that
@@ -157,19 +157,19 @@ def _known(size: Size) -> Iterator[Estimate]:
 
 
 def land_offset(size: Size) -> tuple[float, str]:
-    """Return how many ball diameters the rings' effective diameters stand off the pitch diameter, and why.
+    """Return how many ball diameters the rings' effective diameters are off the pitch diameter, and why.
 
     Two steel rings, steel balls and a phenolic cage by the rules have the mass that is printed. The effective
     diameters are the shoulders of the contacts, too: at 25 deg those by the mass would leave no room for the
     contact ellipse of the maker's own heavy class. Such bearings have higher shoulders on the loaded side
-    than the mean that the mass tells, and take the rule.
+    than the mean that the mass gives, and take the rule.
     """
     if size.angle > _STEEP:
         return _STEEP_LAND, f"{_STEEP_LAND} ball diameters, for the contact's shoulder,"
     low, middle, high = (_land_of_mass(size, size.mass + off) for off in (_HALF_DIGIT, 0.0, -_HALF_DIGIT))
     if high - low <= 2.0 * _SURE:
         return middle, f"derived from the mass (NSK), {middle:.2f} ball diameters"
-    return _LAND, f"{_LAND} ball diameters, as masses of larger sizes tell,"
+    return _LAND, f"{_LAND} ball diameters, as masses of larger sizes give,"
 
 
 def _land_of_mass(size: Size, mass: float) -> float:
@@ -180,6 +180,6 @@ def _land_of_mass(size: Size, mass: float) -> float:
     pockets = size.balls * math.pi / 4.0 * cage["pocket_diameter_mm"] ** 2 * (outside - inside) / 2.0
     rest = mass - _PHENOLIC * (math.pi / 4.0 * (outside**2 - inside**2) * cage["width_mm"] - pockets)
     rest -= size.balls * _STEEL * math.pi / 6.0 * size.ball**3
-    # both rings: D^2 - d^2 less the space between them, 4 d_m k D_w
+    # both rings: D^2 - d^2 minus the space between them, 4 d_m k D_w
     solid = size.outside**2 - size.bore**2
     return (solid - rest / (_STEEL * size.width * math.pi / 4.0)) / (4.0 * size.pitch * size.ball)

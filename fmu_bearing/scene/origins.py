@@ -59,7 +59,7 @@ def origins(path: str | Path) -> list[Origin]:
     Raises
     ------
     SceneError
-        For a file that is no scene.
+        For a file that is not a scene.
     """
     scene = read_scene(path)
     document = tomlkit.parse(Path(path).read_text("utf-8-sig"))
@@ -84,7 +84,7 @@ def _table(entry: Entry, name: str) -> Table:
 
 
 def _preload(document: Mapping[str, Any], scene: Tables) -> dict[str, tuple[str, str]]:
-    """Return the origin of a preload that a class or an offset stands for, in words."""
+    """Return the origin of a preload that a class or an offset gives, in words."""
     mounting = document.get("mounting", {})
     if CLASS not in mounting and OFFSET not in mounting:
         return {}

@@ -18,7 +18,7 @@ from fmu_bearing.scene.values import limits
 if TYPE_CHECKING:
     from fmu_bearing.formulas.axial import Axial
 
-#: Keys of a scene's file that stand for ``preload_N``.
+#: Keys of a scene's file that determine ``preload_N``.
 CLASS, OFFSET, FORCE = "preload_class", "preload_offset_um", "preload_N"
 _NEAR = 1.0  # deg: how far off the printed angle a measured one may be
 _MOST = 200.0  # um: more than any ball of a scene takes
@@ -90,14 +90,14 @@ def preload_key(mounting: Mapping[str, Any]) -> str | None:
     given = [key for key in (FORCE, CLASS, OFFSET) if mounting.get(key) is not None]
     if len(given) > 1:
         raise PreloadError(
-            f"mounting.{given[1]} = {shown(mounting[given[1]])} stands beside {given[0]}: "
+            f"mounting.{given[1]} = {shown(mounting[given[1]])} cannot be given with {given[0]}: "
             f"the preload is given by one of {FORCE}, {CLASS} and {OFFSET}; keep one"
         )
     return given[0] if given and given[0] != FORCE else None
 
 
 def preload(mounting: Mapping[str, Any], bearing: Any, materials: Any) -> Preload | None:
-    """Return the preload that a class or an offset stands for.
+    """Return the preload that a class or an offset gives.
 
     Parameters
     ----------
@@ -108,7 +108,7 @@ def preload(mounting: Mapping[str, Any], bearing: Any, materials: Any) -> Preloa
     Returns
     -------
     Preload or None
-        None: bearing or materials have errors, which are told elsewhere.
+        None: bearing or materials have errors, which are reported elsewhere.
 
     Raises
     ------
@@ -159,7 +159,7 @@ def _of_offset(offset: Any, bearing: Bearing, materials: Materials) -> Preload:
     most = limits(Mounting.model_fields[FORCE])[1]
     if force > most:
         raise PreloadError(
-            f"mounting.{OFFSET} = {shown(offset)} makes a preload of {force:.4g} N; allowed: up to {most:g} N"
+            f"mounting.{OFFSET} = {shown(offset)} gives a preload of {force:.4g} N; allowed: up to {most:g} N"
         )
     return Preload(force, f"offset of {offset:g} um: {force:.4g} N")
 

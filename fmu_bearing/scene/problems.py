@@ -22,7 +22,7 @@ _SOURCES = {
     "lubricant": 'catalogue = "spindle-oil"',
     "imperfections": 'grade = "P4"',
 }
-#: What may stand in the place of a key.
+#: What may be in the place of a key.
 _INSTEAD = {("mounting", "preload_N"): 'or preload_class = "light", or preload_offset_um = 10.0'}
 #: Keys that are in no source.
 _OWN = {"seed", "ball_springs", "inner_race_harmonic", "outer_race_harmonic"}
@@ -31,7 +31,7 @@ _TEXTS = {
     NAME: "60 letters (a to z), digits, blanks and . _ -, a letter or digit first",
 }
 _TEXT = 60  # longest value worth repeating
-_MOST = 20  # problems told one by one
+_MOST = 20  # problems listed one by one
 _ALIKE = 0.5  # below this likeness a suggestion is a guess: the known keys are listed instead
 
 Location = tuple[Any, ...]
@@ -53,7 +53,7 @@ def explain(failure: ValidationError, data: dict[str, Any], skip: Iterable[Locat
     yield from dict.fromkeys(itertools.islice(found, _MOST))
     every = sum(len(error["ctx"]["conflicts"]) if error["type"] == "conflict" else 1 for error in errors)
     if every > _MOST:
-        yield f"and {every - _MOST} more problems, which are told once these {_MOST} are corrected"
+        yield f"and {every - _MOST} more problems, which are listed once these {_MOST} are corrected"
 
 
 def _lines(errors: Iterable[Any], data: dict[str, Any]) -> Iterator[str]:
@@ -161,7 +161,7 @@ def too_long(tables: dict[str, Any], path: Location = ()) -> Iterator[tuple[Loca
 
 
 def is_material(path: Location) -> bool:
-    """Whether a material stands there, which a catalogue entry can name."""
+    """Whether a material is there, which a catalogue entry can name."""
     return path[0] == "materials" or path[-1] == "material"
 
 
@@ -221,7 +221,11 @@ def _unknown(path: Location) -> str:
         return f"{dotted(path)} is now {renamed.KEYS[dotted(path)]}; its values are the same"
     elsewhere = [where for where, other in _tables(Tables) if key in other.model_fields and where != table]
     if len(elsewhere) == 1:
-        hint = f"; it belongs in [{dotted(elsewhere[0])}]" if elsewhere[0] else "; it stands above all tables"
+        hint = (
+            f"; it belongs in [{dotted(elsewhere[0])}]"
+            if elsewhere[0]
+            else "; it is written above all tables"
+        )
     elif near:
         hint = f"; did you mean '{near[0]}'?"
     else:

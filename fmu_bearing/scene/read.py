@@ -127,7 +127,7 @@ class Scene(Tables):
         values : mapping
             Values by dotted key, in the unit of the key: ``"mounting.preload_N"``,
             ``"sound.microphone[1].y_mm"``. Whole tables can be given, None takes an optional value or table
-            out. The name of a catalogue entry (``"bearing.catalogue"``, ``"materials.balls"``) stands for all
+            out. The name of a catalogue entry (``"bearing.catalogue"``, ``"materials.balls"``) replaces all
             that the entry holds, ``"imperfections.grade"`` for the grade's values; keys given beside it win.
             ``"mounting.preload_class"`` or ``"mounting.preload_offset_um"`` gives another ``preload_N``.
 
@@ -201,7 +201,7 @@ def read_scene(path: str | os.PathLike[str]) -> Scene:
 
 
 def read_scene_text(text: str, name: str = "scene", folder: Path | None = None) -> Scene:
-    """Read a scene from TOML text; ``name`` stands for the file in messages.
+    """Read a scene from TOML text; ``name`` names the file in messages.
 
     Names of files in it count from ``folder`` (default: the current one).
 
@@ -251,7 +251,7 @@ def _one_mounting(data: Mapping[str, Any]) -> list[str]:
         return [f"{missing(('mounting',))}; several bearings on one shaft have [spindle] instead"]
     if len(given) > 1:
         return [
-            "mounting: stands beside [spindle]: one bearing has [mounting], a set on one shaft has "
+            "mounting: cannot be given with [spindle]: one bearing has [mounting], a set on one shaft has "
             "[spindle]; keep one"
         ]
     return []
@@ -276,7 +276,7 @@ def with_fidelity(scene: SceneSource, **keys: Any) -> Scene:
 
 
 def _make_room(data: dict[str, Any], given: Mapping[str, Any]) -> None:
-    """Take out of a scene's tables what names of catalogue entries among new values bring anew."""
+    """Take out of a scene's tables what names of catalogue entries among new values set again."""
     for key, name in given.items():
         *tables, last = key.split(".")
         part: Any = data
@@ -296,7 +296,7 @@ def _make_room(data: dict[str, Any], given: Mapping[str, Any]) -> None:
 def _bearings(data: dict[str, Any], folder: Path | None, lines: list[str]) -> Mapping[str, Entry] | None:
     """Take the users' catalogues out of a scene; return all bearings that it can name.
 
-    None: a catalogue is faulty, as ``lines`` tell then.
+    None: a catalogue is faulty, as ``lines`` say then.
     """
     files, refusal = named_files(data.pop(CATALOGUES, None), folder)
     if refusal:
@@ -320,7 +320,7 @@ def _resolve(
     name = bearing.get("catalogue") if isinstance(bearing, dict) else None
     if bearings is not None or name in entries("bearings"):
         _fill(data, ("bearing",), bearings or entries("bearings"), lines, unresolved)
-    elif name is not None:  # it may stand in the faulty catalogue
+    elif name is not None:  # it may be in the faulty catalogue
         unresolved.append(("bearing",))
     _fill(data, ("lubricant",), entries("lubricants"), lines, unresolved)
     bearing, materials = data.get("bearing"), data.get("materials")
@@ -362,7 +362,7 @@ def _give_preload(data: dict[str, Any], lines: list[str], unresolved: list[Locat
     mounting.pop(OFFSET, None)
     if found is not None:
         mounting[FORCE] = found.force
-    elif key is not None:  # what is wrong is told already
+    elif key is not None:  # what is wrong is reported already
         unresolved.append(("mounting", FORCE))
 
 

@@ -80,7 +80,7 @@ class Tables(Part):
         if self.operation.lowest_speed_rpm is not None and not (flaws and flaws.follows_law):
             yield Conflict(
                 "operation.lowest_speed_rpm",
-                "is read by nothing: it decides the highest order of [imperfections] that follow a law",
+                "has no effect: it sets the highest order of [imperfections] that follow a law; leave it out",
             )
         width = self.bearing.width_mm
         for number, (one, other) in enumerate(pairwise(self.spindle.bearing), start=2):
@@ -100,12 +100,10 @@ class Tables(Part):
         for place in self.microphones:
             x = 1e3 * place.position_m[0]
             if any((x - plane) * (plane - middle) > 0.0 for _, middle in self._middles()):
-                yield Conflict(
-                    key, f"stands between the bearing and microphone '{place.name}' at x = {x:g} mm"
-                )
+                yield Conflict(key, f"is between the bearing and microphone '{place.name}' at x = {x:g} mm")
 
     def _orders(self) -> Iterator[Conflict]:
-        """Yield waviness whose highest order nothing decides, because the scene stands still."""
+        """Yield waviness whose highest order nothing decides, because the shaft does not turn."""
         flaws, operation = self.imperfections, self.operation
         if flaws is None or not flaws.follows_law or operation.lowest_speed_rpm is not None:
             return

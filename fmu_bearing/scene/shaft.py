@@ -101,7 +101,7 @@ class Shaft(Part):
             return
         for key in () if self.flexible else ("fixed_modes", "damping_ratio"):
             if getattr(self, key) != type(self).model_fields[key].default:
-                yield Conflict(key, "is that of a shaft that bends: give flexible = true, or leave it out")
+                yield Conflict(key, "applies to a shaft that bends: give flexible = true, or leave it out")
         for number, (_, diameter, bore) in enumerate(self.sections_mm, start=1):
             if bore >= diameter:
                 yield Conflict(

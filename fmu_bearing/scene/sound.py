@@ -177,7 +177,7 @@ class Sound(Part):
                 "", "no microphone is given: add [[sound.microphone]] or [sound.circle], or leave out [sound]"
             )
         for name in sorted({name for name in names if names.count(name) > 1}):
-            yield Conflict("", f"microphone names must differ: {name} stands more than once")
+            yield Conflict("", f"microphone names must differ: {name} is given more than once")
         if "\0" in (self.table_file or ""):
             yield Conflict("table_file", "is refused: a file's name holds no NUL")
         if self.radiation_model == "table" and self.table_file is None:

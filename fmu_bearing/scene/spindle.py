@@ -1,4 +1,4 @@
-"""Several equal bearings on one shaft: where they stand, which way they carry, what preloads them."""
+"""Several equal bearings on one shaft: where they are, which way they carry, what preloads them."""
 
 from collections.abc import Iterator
 from itertools import pairwise
@@ -208,7 +208,7 @@ class SetHousing(Part):
                 )
         for key in (*sizes, "position_mm"):
             if not self.moves and getattr(self, key) is not None:
-                yield Conflict(key, "is of no use without mass_kg: the housing does not move; leave it out")
+                yield Conflict(key, "has no effect without mass_kg: the housing does not move; leave it out")
 
 
 class Load(Part):
@@ -329,7 +329,7 @@ class Spindle(Part):
         if own and self.housing.moves:
             yield Conflict(
                 "housing.mass_kg",
-                'is that of a housing on a pedestal, and a bearing has seat = "pedestal" of its own: leave '
+                'applies to a housing on a pedestal, but a bearing has seat = "pedestal" of its own: leave '
                 'mass_kg out, or give all bearings seat = "fixed" or "sliding"',
             )
         if own or self.housing.moves:
@@ -338,7 +338,7 @@ class Spindle(Part):
             if key.startswith("pedestal_") and getattr(self.housing, key) != field.default:
                 yield Conflict(
                     f"housing.{key}",
-                    "is read by nothing: give housing.mass_kg for a housing that moves, or a bearing with "
+                    "has no effect: give housing.mass_kg for a housing that moves, or a bearing with "
                     'seat = "pedestal"',
                 )
 

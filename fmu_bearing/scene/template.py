@@ -30,7 +30,7 @@ class Dimensions:
     --------
     >>> from fmu_bearing import Dimensions, new_scene
     >>> text = new_scene("my-7008C", Dimensions(bore=40.0, outside=68.0, width=15.0), sound=False)
-    >>> "ball_diameter_mm = 8.12 # assumed: 0.29 of outside diameter less bore" in text
+    >>> "ball_diameter_mm = 8.12 # assumed: 0.29 of outside diameter minus bore" in text
     True
     """
 
@@ -81,7 +81,7 @@ def new_scene(
     preload_offset_um : float, optional
         Offset of the ring faces, in place of ``preload_N``.
     folder : Path, optional
-        Where the scene is to stand, for the path of the user's file that has the bearing; default: the
+        Where the scene will be written, for the path of the user's file that has the bearing; default: the
         current folder.
     speed_rule, preload_rule : str, optional
         Why speed and preload are what they are: marked as assumed.

@@ -4,7 +4,7 @@ import re
 import tomllib
 from typing import Any
 
-#: Levels of tables and brackets beyond which a file is no scene or sweep; those have four at most.
+#: Levels of tables and brackets beyond which a file is not a scene or sweep; those have four at most.
 DEEPEST = 50
 #: Bytes of a scene's or sweep's file; the largest scene of all arrays takes a tenth, reading this a second.
 LONGEST = 1_000_000
@@ -22,7 +22,7 @@ def parse(text: str) -> dict[str, Any]:
     Raises
     ------
     ValueError
-        For text that is not TOML, with the line, and for a key that stands twice with both lines.
+        For text that is not TOML, with the line, and for a key that is given twice with both lines.
     """
     lines = text.splitlines()
     _check_names(lines)
@@ -61,14 +61,14 @@ def _too_deep(lines: list[str]) -> str:
 
 
 def _twice(lines: list[str], problem: str) -> str:
-    """Say which key or table stands twice, and in which lines; empty for another error."""
+    """Say which key or table is given twice, and in which lines; empty for another error."""
     place = _PLACE.search(problem)
     if place is None or not problem.startswith(_TWICE):
         return ""
     last = int(place[1] or len(lines))
     inline = _INLINE.search(problem)
     if inline is not None:
-        return f"line {last}: key '{inline[1]}' stands twice in an inline table: keep one of them"
+        return f"line {last}: key '{inline[1]}' is given twice in an inline table: keep one of them"
     header = _HEADER.match(lines[last - 1])
     if header is not None:
         name, first = header[1].strip(), _first_header(lines, last)
@@ -79,7 +79,7 @@ def _twice(lines: list[str], problem: str) -> str:
         thing = f"key {name}" if name else "a key"
         remedy = "keep one of them"
     where = f", first in line {first}" if first else ""
-    return f"line {last}: {thing} stands twice{where}: {remedy}"
+    return f"line {last}: {thing} is given twice{where}: {remedy}"
 
 
 def _first_header(lines: list[str], last: int) -> int:
@@ -96,10 +96,10 @@ def _name(line: str) -> str:
 def _key_before(lines: list[str], last: int) -> tuple[str, int]:
     """Return the dotted key whose value ends in line ``last``, and the line that gave it first (0: unknown).
 
-    A value may be an array over several lines: what stands alone as TOML is the whole of it.
+    A value may be an array over several lines: it is complete where its lines are valid TOML.
     """
     begin = last
-    while begin > 1 and not _stands_alone(lines[begin - 1 : last]):
+    while begin > 1 and not _is_complete(lines[begin - 1 : last]):
         begin -= 1
     found = _KEY.match(lines[begin - 1])
     if found is None:
@@ -112,7 +112,7 @@ def _key_before(lines: list[str], last: int) -> tuple[str, int]:
     return f"{table}.{key}".removeprefix("."), first
 
 
-def _stands_alone(lines: list[str]) -> bool:
+def _is_complete(lines: list[str]) -> bool:
     try:
         return bool(tomllib.loads("\n".join(lines)))
     except (ValueError, RecursionError):

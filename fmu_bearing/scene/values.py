@@ -27,8 +27,8 @@ def value_at(scene: Tables, key: str) -> Any:
 def put(data: dict[str, Any], values: Mapping[str, Any]) -> list[str]:
     """Put values at dotted keys into the nested tables of a scene; return a line for each that has no place.
 
-    A table that is not there is made, as a file makes it by its first key: the check of the scene tells what
-    it lacks, or that there is no such table.
+    A table that is not there is made, as a file makes it by its first key: the check of the scene reports
+    what it lacks, or that there is no such table.
     """
     problems = []
     for key, value in values.items():
@@ -65,7 +65,7 @@ def _put(data: dict[str, Any], key: str, value: Any) -> None:
 def _member(array: Any, place: int, key: str, path: str) -> Any:
     """Member of an array; ``LookupError`` where there is none."""
     if not isinstance(array, list | tuple):
-        raise LookupError(f"{key} is not a key of a scene; {path} is no array")
+        raise LookupError(f"{key} is not a key of a scene; {path} is not an array")
     if place < 0:
         raise LookupError(f"{key}: members of [{path}] are counted from 1, the first one is [1]")
     if not place < len(array):
@@ -74,7 +74,7 @@ def _member(array: Any, place: int, key: str, path: str) -> Any:
 
 
 def _kind(value: Any) -> str:
-    """Return what stands in a table's place, in words."""
+    """Return what is in a table's place, in words."""
     return "an array: name a member, as in [1]" if isinstance(value, list | tuple) else "a value, no table"
 
 

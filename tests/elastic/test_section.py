@@ -101,9 +101,9 @@ def variant(**keys):
 )
 def test_effective_diameter_that_no_grooved_ring_has(body, key, light, heavy):
     for value in (light, heavy):
-        with pytest.raises(ValueError, match=rf"bearing\.{key} gives; allowed ") as told:
+        with pytest.raises(ValueError, match=rf"bearing\.{key} gives; allowed ") as reported:
             ring_section(variant(**{key: value}), body)
-        low, high = map(float, re.search(r"angle: (\S+) to ([\d.]+)", str(told.value)).groups())
+        low, high = map(float, re.search(r"angle: (\S+) to ([\d.]+)", str(reported.value)).groups())
         assert not low <= value <= high
         for inside in (low + 0.01, high - 0.01):  # the message is rounded to four digits
             assert ring_section(variant(**{key: inside}), body).moment > 0.0

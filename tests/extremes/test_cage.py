@@ -11,7 +11,7 @@ CAGE = [f"cage.velocity.{axis}" for axis in "xyz"]
 
 
 def pair(changes, fidelity, method, push, rpm=2e4):
-    """Two bearings alike but for the cage's first velocity, m/s."""
+    """Two bearings, equal but for the cage's first velocity, m/s."""
     runs = []
     for given in (0.0, push):
         run = bearing("7003C-spindle", SILENT | changes, {"rpm": rpm}, fidelity, method)

@@ -20,7 +20,7 @@ LOADS = ["contact.inner.load_mean", "contact.outer.load_mean"]
 
 @pytest.fixture(scope="module")
 def settled():
-    """A bearing 30 ms after its start, anew for each caller; the first settles, the others copy."""
+    """A bearing 30 ms after its start, again for each caller; the first settles, the others copy."""
     kept = {}
 
     def make(name, fidelity, method):

@@ -62,7 +62,7 @@ def test_land_clearance(usual):
 
 
 def test_viscosity_and_film(usual):
-    """Hamrock and Dowson: the minimum film grows with the viscosity to 0.68, other things alike."""
+    """Hamrock and Dowson: the minimum film grows with the viscosity to 0.68, other things equal."""
     thin = settled({"lubricant.viscosity_Pa_s": 0.01})
     assert usual["film.lambda_min"] / thin["film.lambda_min"] == pytest.approx(3.0**0.68, rel=5e-3)
 
@@ -83,7 +83,7 @@ def test_reduction_of_the_rolling_resistance(usual):
 
 
 def test_temperature(usual):
-    """Hot rings alike leave the contact angle to the difference of steel and ceramic: it grows."""
+    """Equally hot rings leave the contact angle to the difference of steel and ceramic: it grows."""
     hot = settled(inputs={"inner_ring_temperature": 353.15, "outer_ring_temperature": 353.15})
     # grooves grow by 11.8e-6 per K, balls by 3.2e-6: more play, a steeper contact, a smaller load
     assert hot["contact.inner.angle_mean"] > usual["contact.inner.angle_mean"]

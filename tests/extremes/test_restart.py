@@ -96,7 +96,7 @@ def test_a_set_begins_again_where_no_step_leads_on():
     run.set("shaft_temperature", 308.15)
     run.step(1e-9)
     assert run.get("solver.restarts") >= 1.0
-    assert len([text for text in said if "begin again at rest" in text]) == 1
+    assert len([text for text in said if "restarted from rest" in text]) == 1
     # what goes on: clock, angle and sums
     assert run.time == pytest.approx(2e-3 + 1e-9, rel=1e-12)
     assert run.s[S.ANGLE] == pytest.approx(angle + 1e-9 * speed, abs=1e-12)
@@ -205,9 +205,9 @@ def test_balls_that_traction_cannot_drive_are_named(name, traction, skids, backw
     run = Instance(prepare(made, fidelity=fidelity), said.append)
     run.set("shaft_speed", -2094.0 if backwards else 2094.0)
     run.initialise()
-    told = [text for text in said if "traction_max" in text]
-    assert len(told) == (1 if skids and fidelity != "full" else 0)
-    for text in told:
+    reported = [text for text in said if "traction_max" in text]
+    assert len(reported) == (1 if skids and fidelity != "full" else 0)
+    for text in reported:
         assert f"traction_max = {traction:g}: contacts carry" in text
         # one threshold, of the scene's preload: the text says whose
         assert ("at the scene's preload, " in text) == (traction > 0.0 and made.spindle is None)

@@ -106,7 +106,7 @@ def test_what_is_left_out_takes_no_place(scene):
     assert perfect[P.SOUND_SIZE] == 0.0
 
 
-def test_sound_stands_last(scene):
+def test_sound_comes_last(scene):
     p = prepare(scene("7003C-bare")).parameters
     assert p[P.SOUND_SIZE] > 0.0
     assert p[P.AT_SOUND] + p[P.SOUND_SIZE] == p[P.SET]
@@ -234,7 +234,7 @@ def test_lands_of_a_cage_from_the_shoulders_that_guide_it():
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "told"),
+    ("old", "new", "reported"),
     [
         ("bore_mm = 23.4", "bore_mm = 22.9", r"bore_mm = 22\.9 leaves -0\.012 mm .* shoulders of 22\.92 mm"),
         (
@@ -244,9 +244,9 @@ def test_lands_of_a_cage_from_the_shoulders_that_guide_it():
         ),
     ],
 )
-def test_diameters_that_leave_no_land_are_refused(old, new, told):
+def test_diameters_that_leave_no_land_are_refused(old, new, reported):
     with pytest.raises(
-        SceneError, match=r"7003C-bare: bearing\.cage\.land_clearance_mm is absent, .*" + told
+        SceneError, match=r"7003C-bare: bearing\.cage\.land_clearance_mm is absent, .*" + reported
     ):
         packed((GIVEN, ""), (old, new))
 

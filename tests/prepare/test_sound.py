@@ -1,4 +1,4 @@
-"""The kept sound block: the same numbers, made once, and made anew where it matters."""
+"""The kept sound block: the same numbers, made once, and made again where it matters."""
 
 import numpy as np
 import pytest
@@ -42,7 +42,7 @@ def test_what_does_not_sound_does_not_matter(made, scene):
     assert len(made) == 2 and not np.array_equal(lighter, first)
 
 
-def test_a_damaged_block_is_made_anew(made, scene, tmp_path):
+def test_a_damaged_block_is_made_again(made, scene, tmp_path):
     first = sound.sound_block(scene("7003C-spindle"))
     (kept,) = tmp_path.glob("sound/block-*.npy")
     kept.write_bytes(kept.read_bytes()[:100])

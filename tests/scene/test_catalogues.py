@@ -13,7 +13,7 @@ HEAD = 'catalogues = ["bearings/own.toml"]\n'
 
 @pytest.fixture
 def own(tmp_path):
-    """Write a file with one bearing, changed as told; return it."""
+    """Write a file with one bearing, changed as given; return it."""
     text = entry_text(entries("bearings")["7003C"], "7003C").replace("[7003C", "[OWN")
 
     def write(old="", new="", name="own.toml"):
@@ -95,7 +95,7 @@ def test_a_name_of_the_package_is_refused_with_the_way_out(own, tmp_path):
     )
     first, second = own(), own(name="more.toml")
     (line,) = refusal(tmp_path, 'catalogues = ["bearings/own.toml", "bearings/more.toml"]\n')
-    assert line.startswith(f"a.toml: {second}: [OWN] stands in {first}, too: give it a name of its own")
+    assert line.startswith(f"a.toml: {second}: [OWN] is in {first}, too: give it a name of its own")
 
 
 def test_a_scene_that_is_written_elsewhere_keeps_its_catalogue(own, tmp_path):

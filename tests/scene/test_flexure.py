@@ -59,14 +59,14 @@ def test_written_table_reads_back_equal():
     ],
 )
 def test_refusals(line, expected):
-    (told,) = refused("7003C-bare", line)
-    assert told.startswith(expected)
+    (reported,) = refused("7003C-bare", line)
+    assert reported.startswith(expected)
 
 
 @pytest.mark.parametrize(("ring", "body"), [("inner", "rotor"), ("outer", "housing")])
 def test_a_ring_on_a_tight_seat_does_not_bend(ring, body):
-    (told,) = refused("7003C-spindle", f"{ring}_ring = [2]")
-    assert told == (
+    (reported,) = refused("7003C-spindle", f"{ring}_ring = [2]")
+    assert reported == (
         f"{ring}_ring: cannot bend on the tight seat of [mounting.{body}]: write {ring}_ring = [], or for a "
         f"loose fit give {ring}_seat_stiffness_N_m, or leave out the {body}"
     )

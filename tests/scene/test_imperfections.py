@@ -151,7 +151,8 @@ INNER, OUTER = (harmonics(race, [(5, 1.0, 0.0)]) for race in ("inner", "outer"))
     [
         (
             "inner_race_amplitude_um = 0.1\nlowest_order = 2\nhighest_order = 3\n" + INNER + OUTER,
-            "imperfections.inner_race_amplitude_um = 0.1 stands beside [[imperfections.inner_race_harmonic]]",
+            "imperfections.inner_race_amplitude_um = 0.1 cannot be given with "
+            "[[imperfections.inner_race_harmonic]]",
         ),
         (
             INNER,
@@ -167,7 +168,7 @@ INNER, OUTER = (harmonics(race, [(5, 1.0, 0.0)]) for race in ("inner", "outer"))
             "highest_order = 9\n" + INNER + OUTER,
             "highest_order = 9 has no meaning where both races have explicit harmonics",
         ),
-        (INNER + INNER + OUTER, "imperfections.inner_race_harmonic: order 5 stands more than once"),
+        (INNER + INNER + OUTER, "imperfections.inner_race_harmonic: order 5 is given more than once"),
         (
             INNER + OUTER.replace("order = 5", "order = 0"),
             "imperfections.outer_race_harmonic[1].order = 0 is refused; allowed: 1 to 1000, whole",
@@ -239,7 +240,7 @@ def test_an_order_beside_the_form_adds_to_it():
     assert np.array_equal(np.delete(both, 1), np.delete(form, 1))
 
 
-def test_axes_of_wavy_balls_point_everywhere_alike():
+def test_axes_of_wavy_balls_point_everywhere_equally():
     axes = np.concatenate(
         [ball_waves(flawed(f'grade = "P4"\nseed = {seed}'))[1] for seed in range(100)], axis=1
     )

@@ -134,7 +134,7 @@ def pair_ratios(found, conformities, balls=STEEL):
 
 
 @pytest.mark.parametrize("name", list(modelled()))
-def test_every_size_makes_a_model_of_its_mass_that_stands(name):
+def test_every_size_makes_a_model_of_its_mass_that_has_an_equilibrium(name):
     size = sizes()[name]
     # makers let a rigid pair of the heavy class run at half the speed of a single bearing
     speed = 0.4 * size.oil_speed
@@ -152,7 +152,7 @@ def test_every_size_makes_a_model_of_its_mass_that_stands(name):
         assert math.degrees(bearing.get(f"contact.{race}.shoulder_margin")) > 2.0
 
 
-def test_remarks_tell_print_from_derived_and_assumed():
+def test_remarks_distinguish_print_from_derived_and_assumed():
     text = entries("bearings")["NSK-7008AC"].text
     lines = [line for line in text.splitlines() if "=" in line and "designation" not in line]
     printed = {line.split(" =")[0] for line in lines if line.endswith("# maker's print (NSK)")}
@@ -162,7 +162,7 @@ def test_remarks_tell_print_from_derived_and_assumed():
 
 
 def test_the_rule_for_balls_is_as_good_as_it_says():
-    """0.29 of outside diameter less bore: 4.0 % rms against 7.5 % of 0.27, which was the rule before."""
+    """0.29 of outside diameter minus bore: 4.0 % rms against 7.5 % of 0.27, which was the rule before."""
     ratios = [one.ball / (one.outside - one.bore) for one in SIZES]
 
     def rms(rule):

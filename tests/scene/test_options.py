@@ -103,7 +103,7 @@ def test_springs_between_balls_need_no_cage_and_no_material():
 def test_springs_and_cage_exclude_each_other():
     (line,) = refused(TEXT + SPRINGS)
     assert line.startswith(
-        "bearing.ball_springs: stand instead of a cage, not beside one: write cage = false"
+        "bearing.ball_springs: replace a cage and cannot be given with one: write cage = false"
     )
 
 

@@ -48,10 +48,10 @@ def test_other_classes_are_shares_of_the_rating(name, share):
 
 def test_refusals_name_the_keys():
     assert refused('preload_class = "heavy"\npreload_N = 100.0') == (
-        "a: mounting.preload_class = 'heavy' stands beside preload_N: the preload is given by one of "
+        "a: mounting.preload_class = 'heavy' cannot be given with preload_N: the preload is given by one of "
         "preload_N, preload_class and preload_offset_um; keep one"
     )
-    assert "preload_offset_um = 3 stands beside preload_class" in refused(
+    assert "preload_offset_um = 3 cannot be given with preload_class" in refused(
         'preload_class = "heavy"\npreload_offset_um = 3'
     )
     assert "allowed: light, medium, heavy; extra light is a class of NSK's sizes" in refused(
@@ -61,7 +61,7 @@ def test_refusals_name_the_keys():
     for wrong in ('"5"', "-1", "true", "201", "nan"):
         assert "is refused; allowed: 0 to 200 um" in refused(f"preload_offset_um = {wrong}")
     assert re.search(
-        r"preload_offset_um = 190 makes a preload of \d+\.?\d*(e\+\d+)? N; allowed: up to 10000 N",
+        r"preload_offset_um = 190 gives a preload of \d+\.?\d*(e\+\d+)? N; allowed: up to 10000 N",
         refused("preload_offset_um = 190"),
     )
     missing = refused("")
@@ -113,11 +113,11 @@ def test_replace_takes_classes_and_offsets():
     assert other.mounting.preload_N == 880.0
     assert 20.0 < scene.replace({"mounting.preload_offset_um": 5}).mounting.preload_N < 80.0
     assert scene.replace({"mounting.preload_class": None}) == scene
-    with pytest.raises(SceneError, match="preload_class = 'heavy' stands beside preload_N"):
+    with pytest.raises(SceneError, match="preload_class = 'heavy' cannot be given with preload_N"):
         scene.replace({"mounting.preload_class": "heavy", "mounting.preload_N": 3.0})
 
 
-def test_origin_is_told_in_words(tmp_path):
+def test_origin_is_reported_in_words(tmp_path):
     file = tmp_path / "a.toml"
     for line, bearing, words in (
         ('preload_class = "heavy"', "NSK-7003C", "heavy class of NSK: 150 N"),

@@ -1,4 +1,4 @@
-"""Scene files: what is read, and what a user is told when something is wrong."""
+"""Scene files: what is read, and what is reported when something is wrong."""
 
 import pytest
 
@@ -119,7 +119,7 @@ def test_a_catalogue_name_fills_what_the_file_leaves_out():
         (
             'radiation_model = "bem"',
             'radiation_model = "bem"\nreflecting_plane_mm = -50.0',
-            ["sound.reflecting_plane_mm = -50.0 stands between", "microphone 'P4' at x = -80.5 mm"],
+            ["sound.reflecting_plane_mm = -50.0 is between", "microphone 'P4' at x = -80.5 mm"],
         ),
         (
             'radiation_model = "bem"',

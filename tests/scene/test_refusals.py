@@ -1,4 +1,4 @@
-"""What is wrong with a file is told in its own words, all of it, one line each."""
+"""What is wrong with a file is reported in its own words, all of it, one line each."""
 
 import pickle
 import re
@@ -64,7 +64,7 @@ def test_toml_syntax(text):
         read_scene_text(text, "b.toml")
 
 
-def told(text):
+def reported(text):
     """Message about a text, and the seconds of a core that it took."""
     begin = time.process_time()
     with pytest.raises(SceneError) as caught:
@@ -82,55 +82,60 @@ def test_a_file_of_another_program_is_answered_at_once(above):
 
     def answer(count):
         keys = "".join(f"key_{k} = {k}\n" for k in range(count))
-        return told(keys + TEXT if above else f"{TEXT}[sound.circle]\n{keys}")
+        return reported(keys + TEXT if above else f"{TEXT}[sound.circle]\n{keys}")
 
     few = min(answer(8_000)[1] for _ in range(3))
     message, seconds = answer(80_000)
     assert seconds < 40.0 * few
     lines = message.splitlines()
     assert len(lines) == 21
-    # the circle also lacks its three keys, which are told first
+    # the circle also lacks its three keys, which are listed first
     first = 0 if above else 3
     assert f"key_{19 - first} is not a key of a scene" in lines[19]
     assert (
-        lines[20] == f"a.toml: and {79_980 + first} more problems, which are told once these 20 are corrected"
+        lines[20]
+        == f"a.toml: and {79_980 + first} more problems, which are listed once these 20 are corrected"
     )
 
 
-def test_twenty_problems_are_told_without_a_rest():
+def test_twenty_problems_are_reported_without_a_rest():
     keys = "".join(f"key_{k} = {k}\n" for k in range(20))
-    message = told(keys + TEXT)[0]
+    message = reported(keys + TEXT)[0]
     assert len(message.splitlines()) == 20 and "more problems" not in message
 
 
 @pytest.mark.parametrize(
     ("old", "more", "words"),
     [
-        ("preload_N = 500.0", "preload_N = 1.0", "key mounting.preload_N stands twice, first in line {}"),
+        ("preload_N = 500.0", "preload_N = 1.0", "key mounting.preload_N is given twice, first in line {}"),
         (
             "preload_N = 500.0",
             "'preload_N' = [\n 1,\n 2]",
-            "key mounting.preload_N stands twice, first in line {}",
+            "key mounting.preload_N is given twice, first in line {}",
         ),
-        ("[mounting]", "[[sound.microphone]]\n[mounting]", "table [mounting] stands twice, first in line {}"),
+        (
+            "[mounting]",
+            "[[sound.microphone]]\n[mounting]",
+            "table [mounting] is given twice, first in line {}",
+        ),
         (
             "preload_N = 500.0",
             "rotor = { a = 1, a = 2 }",
-            "key 'a' stands twice in an inline table: keep one",
+            "key 'a' is given twice in an inline table: keep one",
         ),
     ],
 )
-def test_a_key_that_stands_twice_is_named_with_both_lines(old, more, words):
+def test_a_key_that_is_given_twice_is_named_with_both_lines(old, more, words):
     text = TEXT.replace(old, f"{old}\n{more}", 1)
-    message = told(text)[0]
+    message = reported(text)[0]
     line = text.splitlines().index(old) + 1
     assert words.format(line) in message, message
     last = line + len(more.splitlines())
     assert f"not valid TOML: line {last}: " in message
 
 
-def test_a_key_that_stands_twice_at_the_end_of_the_file():
-    assert "line 3: key a.b stands twice, first in line 2: keep one" in told("[a]\nb = 1\nb = 2")[0]
+def test_a_key_that_is_given_twice_at_the_end_of_the_file():
+    assert "line 3: key a.b is given twice, first in line 2: keep one" in reported("[a]\nb = 1\nb = 2")[0]
 
 
 @pytest.mark.parametrize(
@@ -147,7 +152,7 @@ def test_a_key_that_stands_twice_at_the_end_of_the_file():
     ],
 )
 def test_deep_nesting_is_explained(text, words):
-    message, seconds = told(text)
+    message, seconds = reported(text)
     assert words in message and "recursion" not in message and seconds < 2.0
 
 
@@ -319,7 +324,7 @@ def test_every_problem_has_its_line():
 # --- catalogue -----------------------------------------------------------------------------------
 
 
-def test_unknown_catalogue_names_are_all_told_and_nothing_beneath_them():
+def test_unknown_catalogue_names_are_all_reported_and_nothing_beneath_them():
     data = tomllib.loads(TEXT)
     for name in "bearing materials lubricant".split():
         assert name in data
@@ -377,7 +382,7 @@ def test_misspelt_catalogue_key():
         ("traction_strips = 5", "traction_strips = 4", "traction_strips = 4 must be 1, 3 or 5"),
         ("diameter_mm = 100.0", "diameter_mm = 35.0", "must exceed bearing.outside_diameter_mm = 35"),
         ("[materials.cage]", "[materials.nothing]", "materials.nothing is not a key of a scene"),
-        ('name = "P1"', 'name = "P2"', "sound: microphone names must differ: P2 stands more than once"),
+        ('name = "P1"', 'name = "P2"', "sound: microphone names must differ: P2 is given more than once"),
         ("y_mm = 105.0\n", "", "sound.microphone[1]: microphone 'P1' has x_mm, z_mm: give x_mm, y_mm, z_mm"),
         (
             "y_mm = 105.0\n",

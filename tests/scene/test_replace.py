@@ -19,7 +19,7 @@ def spindle():
     return read_scene(FILE)
 
 
-def told(call, *arguments):
+def reported(call, *arguments):
     """Lines of a refusal, the scene's name taken off."""
     with pytest.raises(SceneError) as caught:
         call(*arguments)
@@ -65,7 +65,7 @@ def test_messages_are_those_of_a_file(spindle, key, value, old, new):
     assert old in TEXT
     with pytest.raises(SceneError) as of_file:
         read_scene_text(TEXT.replace(old, new, 1), "7003C-spindle")
-    assert told(spindle.replace, {key: value}) == [
+    assert reported(spindle.replace, {key: value}) == [
         line.removeprefix("7003C-spindle: ") for line in of_file.value.problems
     ]
 
@@ -90,15 +90,15 @@ def test_a_name_of_the_catalogue_replaces_what_its_entry_holds(spindle):
     assert graded.imperfections.inner_race_amplitude_um == grade["inner_race_amplitude_um"]
     assert graded.imperfections.unbalance_um == 0.5
     assert graded.imperfections.seed == spindle.imperfections.seed
-    (line,) = told(spindle.replace, {"bearing.catalogue": "7003"})
+    (line,) = reported(spindle.replace, {"bearing.catalogue": "7003"})
     assert line.startswith("bearing.catalogue = '7003' is not in the catalogue; did you mean '7003C'?")
-    (line,) = told(spindle.replace, {"materials.balls": "Si3N"})
+    (line,) = reported(spindle.replace, {"materials.balls": "Si3N"})
     assert line.startswith("materials.balls = 'Si3N' is not in the catalogue; did you mean 'Si3N4'?")
 
 
 def test_tables_are_made_as_a_file_makes_them(spindle):
     perfect = spindle.replace({"imperfections": None})
-    lines = told(perfect.replace, {"imperfections.seed": 3})
+    lines = reported(perfect.replace, {"imperfections.seed": 3})
     assert "imperfections.unbalance_um is missing, for example unbalance_um = " in "".join(lines)
     for seeded in (
         perfect.replace({"imperfections": {"grade": "P4", "seed": 3}}),
@@ -108,20 +108,20 @@ def test_tables_are_made_as_a_file_makes_them(spindle):
 
 
 def test_places_that_no_scene_has(spindle):
-    (line,) = told(spindle.replace, {"sound.microphone[99].x_mm": 1.0})
+    (line,) = reported(spindle.replace, {"sound.microphone[99].x_mm": 1.0})
     assert line.endswith("[sound.microphone] has 4 members; give the whole array to lengthen it")
-    (line,) = told(spindle.replace, {"sound.microphone[0].x_mm": 1.0})
+    (line,) = reported(spindle.replace, {"sound.microphone[0].x_mm": 1.0})
     assert line.endswith("members of [sound.microphone] are counted from 1, the first one is [1]")
-    (line,) = told(spindle.replace, {"sound.microphone.x_mm": 1.0})
+    (line,) = reported(spindle.replace, {"sound.microphone.x_mm": 1.0})
     assert line.endswith("is not a key of a scene; sound.microphone is an array: name a member, as in [1]")
-    (line,) = told(spindle.replace, {"name.first": "a"})
+    (line,) = reported(spindle.replace, {"name.first": "a"})
     assert line == "name.first is not a key of a scene; name is a value, no table"
-    (line,) = told(spindle.replace, {"mounting[1].preload_N": 1.0})
-    assert line == "mounting[1].preload_N is not a key of a scene; mounting is no array"
+    (line,) = reported(spindle.replace, {"mounting[1].preload_N": 1.0})
+    assert line == "mounting[1].preload_N is not a key of a scene; mounting is not an array"
 
 
-def test_all_problems_are_told_at_once(spindle):
-    lines = told(spindle.replace, {"name.first": "a", "mounting.preload_N": -1, "bearing.bor_mm": 3.0})
+def test_all_problems_are_reported_at_once(spindle):
+    lines = reported(spindle.replace, {"name.first": "a", "mounting.preload_N": -1, "bearing.bor_mm": 3.0})
     assert len(lines) == 3 and "did you mean 'bore_mm'?" in "".join(lines)
 
 

@@ -104,26 +104,26 @@ def changed(path, value, **arguments):
         ),
         (
             changed(("spindle", "housing"), {"length_mm": 100.0}),
-            "spindle.housing.length_mm = 100.0 is of no use without mass_kg",
+            "spindle.housing.length_mm = 100.0 has no effect without mass_kg",
         ),
         (
             changed(("spindle", "housing"), {"pedestal_stiffness_N_m": 1e8}),
-            "spindle.housing.pedestal_stiffness_N_m = 100000000.0 is read by nothing",
+            "spindle.housing.pedestal_stiffness_N_m = 100000000.0 has no effect",
         ),
         (
             changed(("spindle", "housing"), {"pedestal_damping_ratio": 0.1}),
-            "spindle.housing.pedestal_damping_ratio = 0.1 is read by nothing",
+            "spindle.housing.pedestal_damping_ratio = 0.1 has no effect",
         ),
         (
             changed(("spindle", "shaft", "damping_ratio"), 0.02),
-            "spindle.shaft.damping_ratio = 0.02 is that of a shaft that bends: give flexible = true",
+            "spindle.shaft.damping_ratio = 0.02 applies to a shaft that bends: give flexible = true",
         ),
-        (changed(("spindle", "shaft", "fixed_modes"), 4), "spindle.shaft.fixed_modes = 4 is that of a shaft"),
+        (changed(("spindle", "shaft", "fixed_modes"), 4), "spindle.shaft.fixed_modes = 4 applies to a shaft"),
         (
             changed(("spindle", "shaft", "unbalance"), [{"position_mm": 900.0, "amount_g_mm": 1.0}]),
             "spindle.shaft.unbalance[1].position_mm = 900 is beyond the shaft's end",
         ),
-        (changed(("operation", "lowest_speed_rpm"), 5e3), "lowest_speed_rpm = 5000.0 is read by nothing"),
+        (changed(("operation", "lowest_speed_rpm"), 5e3), "lowest_speed_rpm = 5000.0 has no effect"),
         (
             changed(("sound",), SOUND | {"radiator": "baffle"}),
             "sound.radiator = 'baffle' is refused: only the face of one bearing is computed so far; give",
@@ -132,7 +132,7 @@ def changed(path, value, **arguments):
             changed(("imperfections",), {"grade": "P4", "seed": 1, "unbalance_um": 0.5}),
             "imperfections.unbalance_um = 0.5 is refused: it is the eccentricity of one rotor",
         ),
-        (changed(("mounting",), {}), "mounting: stands beside [spindle]"),
+        (changed(("mounting",), {}), "mounting: cannot be given with [spindle]"),
         (changed(("spindle",), None), "mounting is missing: the table [mounting]"),
     ],
 )  # fmt: skip

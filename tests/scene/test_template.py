@@ -31,7 +31,7 @@ def test_the_least_scene_is_the_usual_one():
     assert 12 * bearing.get("contact.inner.load_mean") * 0.3 == pytest.approx(300.0, rel=0.25)
 
 
-# the 7003C of the papers has a ball of 4.5 mm, smaller than any maker's: 0.25 of outside diameter less bore
+# the 7003C of the papers has a ball of 4.5 mm, smaller than any maker's: 0.25 of outside diameter minus bore
 @pytest.mark.parametrize("name", sorted(set(catalogue("bearings")) - {"7003C"}))
 def test_rules_of_thumb_against_the_catalogue(name):
     """What the rules give for known bearings, within the scatter that the rules state."""

@@ -24,10 +24,10 @@ from fmu_bearing.prepare.sound import sound_blocks, sound_key
 from fmu_bearing.prepare.spindle import in_housing, set_inputs
 from fmu_bearing.scene import SceneError
 from fmu_bearing.scene.housing import middle_mm
-from fmu_bearing.scene.member import heard_of
+from fmu_bearing.scene.member import sound_scene
 from fmu_bearing.scene.mounting import Housing as Mounted, Mounting, Rotor
 from tests.acoustics.playback import HOUSED, Player, still
-from tests.spindle.test_sound import DIAMETER, LENGTH, RPM, Heard, mute, sound, sounding
+from tests.spindle.test_sound import DIAMETER, LENGTH, RPM, MicrophoneSignals, mute, sound, sounding
 
 HOUSING = {
     "mass_kg": 2.0, "diameter_mm": 100.0, "length_mm": 160.0, "position_mm": 90.0,
@@ -105,7 +105,7 @@ def test_a_set_of_one_in_its_housing_sounds_as_the_single_bearing_there():
 def test_bodies_and_microphones_are_those_of_a_single_bearing_in_that_housing(model):
     """Equal radiators and places make equal filters: the same motion is heard alike."""
     given = housed(model=model)
-    ours, alone = heard_of(given, 0), single(given)
+    ours, alone = sound_scene(given, 0), single(given)
     heard, other = radiators_of(ours, housing_of_set(given)), radiators_of(alone)
     assert heard.housing.tilts and heard.shaft
     assert heard.housing.centre == pytest.approx(other.housing.centre, abs=1e-15)
@@ -163,12 +163,12 @@ def test_what_stands_inside_makes_no_sound_of_its_own():
     """The rear bearing bare but muted, in the place of its block: every pressure to the last bit."""
     given = housed()
     front, rear = sound_blocks(given)
-    assert np.array_equal(rear, silent_parameters(heard_of(given, 1)))
+    assert np.array_equal(rear, silent_parameters(sound_scene(given, 1)))
     assert rear[SD.H_OUTPUTS] == 0 and rear[SD.H_MICS] == front[SD.H_MICS] and rear.size < 200
-    ours = Heard(given)
+    ours = MicrophoneSignals(given)
     (_, bare) = sound_blocks(housed(places=[(-60.0, 0.0, 5.0), *PLACES[1:]], heard={"radiator": "bare"}))
     mute(bare)
-    other = Heard(given, blocks=[front, bare])
+    other = MicrophoneSignals(given, blocks=[front, bare])
     assert np.abs(ours.pressures).max() > 0.01
     assert np.array_equal(ours.pressures, other.pressures)
     for mic in range(len(PLACES)):
@@ -183,7 +183,10 @@ def test_noise_of_the_rear_bearing_moves_the_housing():
         first = int(p[int(p[P.SET]) + int(p[int(p[P.SET]) + SP.AT_ROWS]) + bearing * SP.ROW + SP.ROW_P])
         p[first + P.WAVINESS] = 0.0
 
-    loud, calm = Heard(housed()).pressures, Heard(housed(), change=lambda p: smooth(p, 1)).pressures
+    loud, calm = (
+        MicrophoneSignals(housed()).pressures,
+        MicrophoneSignals(housed(), change=lambda p: smooth(p, 1)).pressures,
+    )
     # waves of the rear one alone: they do not hide behind rounding
     assert np.abs(loud - calm).max() > 0.05 * np.abs(loud).max()
 
@@ -320,6 +323,9 @@ def test_refusals(changes, words):
 
 def test_springs_push_the_rear_bearing_alone():
     springs = {"spindle.preload": {"kind": "spring", "force_N": 200.0}}
-    assert Heard(housed().replace(springs | {"spindle.bearing[2].seat": "sliding"})).of(1, "spl") > 50.0
+    assert (
+        MicrophoneSignals(housed().replace(springs | {"spindle.bearing[2].seat": "sliding"})).of(1, "spl")
+        > 50.0
+    )
     with pytest.raises(SceneError, match="outer ring that the housing shows in front must move with it"):
         housed().replace(springs | {"spindle.bearing[1].seat": "sliding"})

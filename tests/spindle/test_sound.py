@@ -14,7 +14,7 @@ from fmu_bearing.prepare.model import pack
 from fmu_bearing.prepare.sound import sound_blocks
 from fmu_bearing.prepare.spindle import set_inputs
 from fmu_bearing.scene import SceneError
-from fmu_bearing.scene.member import heard_of
+from fmu_bearing.scene.member import sound_scene
 from fmu_bearing.scene.mounting import Mounting, Rotor
 from tests.conftest import GATES
 from tests.spindle.sets import tables
@@ -52,7 +52,7 @@ def pair(heard, place=55.0, **changes):
     )  # fmt: skip
 
 
-class Heard:
+class MicrophoneSignals:
     """A run on bare arrays.
 
     ``silent``: bearings whose filters give nothing; ``blocks``: of the sound; ``change``: of the parameters.
@@ -149,7 +149,11 @@ def test_pressures_of_a_pair_add_sample_by_sample(model):
     """The same motion with one bearing muted, then the other; no symmetry between them."""
     places = [(40.0, 105.0, 0.0), (40.0, 0.0, 105.0), (-60.0, 3.0, 4.0)]
     given = pair(sound(model, *places), flaws=True)
-    both, first, second = Heard(given), Heard(given, (1,)), Heard(given, (0,))
+    both, first, second = (
+        MicrophoneSignals(given),
+        MicrophoneSignals(given, (1,)),
+        MicrophoneSignals(given, (0,)),
+    )
     size = np.abs(both.pressures).max()
     assert size > 1e-5
     # the motion is the same to the last bit; sums in another order
@@ -167,7 +171,7 @@ def test_pressures_of_a_pair_add_sample_by_sample(model):
 @pytest.mark.parametrize("model", ["compact", "paper"])
 def test_a_symmetric_pair_in_its_middle_plane(model):
     """Mirror images: equal pressures there, so 6 dB more than each alone; 3 dB where energies add."""
-    found = Heard(pair(sound(model, (55.0, 105.0, 0.0), (55.0, -30.0, 80.0))))
+    found = MicrophoneSignals(pair(sound(model, (55.0, 105.0, 0.0), (55.0, -30.0, 80.0))))
     more = 10.0 * math.log10(2.0 if model == "paper" else 4.0)
     for mic in range(2):
         # -1.6 and 0.4 dB: nothing but load and unbalance moves the pair; a muted bearing is below -100 dB
@@ -178,7 +182,7 @@ def test_a_symmetric_pair_in_its_middle_plane(model):
 
 
 def test_sound_of_a_symmetric_pair_is_symmetric():
-    found = Heard(pair(sound("compact", (-70.0, 4.0, 0.0), (180.0, 4.0, 0.0))))
+    found = MicrophoneSignals(pair(sound("compact", (-70.0, 4.0, 0.0), (180.0, 4.0, 0.0))))
     assert found.of(0, "spl") == pytest.approx(found.of(1, "spl"), abs=1e-3)
     # the near bearing at one microphone is the far one at the other
     assert found.alone(0, 0) == pytest.approx(found.alone(1, 1), abs=1e-3)
@@ -188,7 +192,7 @@ def test_sound_of_a_symmetric_pair_is_symmetric():
 
 def test_levels_do_not_depend_on_where_steps_are_cut():
     given = pair(sound("compact", (40.0, 105.0, 0.0)), flaws=True)
-    fine, coarse = Heard(given, h=1e-4), Heard(given, h=1e-3)
+    fine, coarse = MicrophoneSignals(given, h=1e-4), MicrophoneSignals(given, h=1e-3)
     assert fine.of(0, "leq") == pytest.approx(coarse.of(0, "leq"), abs=0.05)
     assert fine.alone(0, 1) == pytest.approx(coarse.alone(0, 1), abs=0.05)
 
@@ -196,7 +200,7 @@ def test_levels_do_not_depend_on_where_steps_are_cut():
 def test_microphones_and_planes_in_a_bearings_own_axes():
     circle = {"radius_mm": 80.0, "axial_mm": 10.0, "count": 4}
     given = pair(sound("bem", (-60.0, 20.0, 30.0), circle=circle, reflecting_plane_mm=-100.0))
-    front, rear = heard_of(given, 0), heard_of(given, 1)
+    front, rear = sound_scene(given, 0), sound_scene(given, 1)
     assert front.microphones[0].position_m == pytest.approx((-0.1, 0.02, 0.03), abs=1e-12)
     assert rear.microphones[0].position_m == pytest.approx((0.13, 0.02, 0.03), abs=1e-12)
     assert [place.name for place in rear.microphones] == [place.name for place in given.microphones]
@@ -244,7 +248,7 @@ def test_a_sweep_reads_the_sound_of_a_set():
         (sound("table", (55.0, 105.0, 0.0), table_file="x.npz"), "holds the paths of one bearing"),
         (sound("compact", (70.0, 10.0, 0.0)), "lies inside the bearing 2"),
         (sound("bem", (55.0, 105.0, 0.0), reflecting_plane_mm=72.0), "cuts the bearing 2"),
-        (sound("bem", (20.0, 105.0, 0.0), reflecting_plane_mm=55.0), "stands between the bearing"),
+        (sound("bem", (20.0, 105.0, 0.0), reflecting_plane_mm=55.0), "is between the bearing"),
     ],
 )
 def test_refusals(heard, words):

@@ -59,7 +59,7 @@ def test_what_statics_refuses_the_engine_refuses(preload, along, upwards, at, rp
     with pytest.raises(EngineError, match="against its direction"):
         shaft_statics(given)
     one = Instance(prepare(given))
-    with pytest.raises(EngineError, match="and only towards where a bearing carries it"):
+    with pytest.raises(EngineError, match="and only in directions that a bearing carries"):
         one.initialise()
 
 

@@ -1,11 +1,11 @@
 """Stepped shaft as a chain of Timoshenko beam elements, in one plane.
 
-A round shaft bends in both planes through its axis alike, so one set of matrices serves both. Coordinates are
-deflection w (m) and slope of the section t (rad) of each node, in turn: y and bz in one plane, z and -by in
-the other. Elements are those of Friedman and Kosmatka (Computers & Structures 47, 1993, 473-481): their shape
-functions fulfil the static equations of a beam that shears, so loads at nodes bend a chain of cylinders
-exactly. Shear coefficients are Cowper's of hollow circles (Journal of Applied Mechanics 33, 1966, 335-340).
-Sections bend as cylinders up to their ends: the softer corner of a step is not in it.
+A round shaft bends in the same way in both planes through its axis: one set of matrices serves both.
+Coordinates are deflection w (m) and slope of the section t (rad) of each node, in turn: y and bz in one
+plane, z and -by in the other. Elements follow Friedman and Kosmatka (Computers & Structures 47, 1993,
+473-481): their shape functions fulfil the static equations of a beam that shears, so loads at nodes bend a
+chain of cylinders exactly. Shear coefficients are Cowper's of hollow circles (Journal of Applied Mechanics
+33, 1966, 335-340). Sections bend as cylinders up to their ends: the softer corner of a step is not in it.
 """
 
 import math
@@ -50,7 +50,7 @@ class Beam:
         """Return the number of the node at a place (m), which must be one."""
         found = int(np.argmin(np.abs(self.nodes - position)))
         if abs(self.nodes[found] - position) > SAME:
-            raise ValueError(f"no node stands at {position:g} m")
+            raise ValueError(f"there is no node at {position:g} m")
         return found
 
     def motion(self, position: float) -> NDArray[np.float64]:
@@ -83,7 +83,7 @@ def eigen(
 def beam(sections: Sequence[Section], planes: Sequence[float] = (), finer: int = 1) -> Beam:
     """Return the chain of a shaft's sections, with nodes at their ends and at planes (m from the nose).
 
-    ``finer``: elements per element; 2 halves them, which tells how much their length matters.
+    ``finer``: elements per element; 2 halves them, which shows how much their length matters.
     """
     ends = [sections[0].start, *(one.start + one.length for one in sections)]
     nodes = _nodes([*ends, *planes], ends[-1] / (_PER_LENGTH * finer), _PER_SPAN * finer)

@@ -2,7 +2,7 @@
 
 Order of the coordinates: x y z by bz of the nose; y z by bz of each bearing from the nose to the rear; y z of
 each mode with nose and bearings clamped, m at its largest deflection. A bearing at the nose shares its plane.
-x is that of the whole shaft, which is rigid along its axis. Statics at nose and bearings are those of the
+x is that of the whole shaft, which is rigid along its axis. Statics at nose and bearings equal those of the
 whole beam. (Craig and Bampton, AIAA Journal 6, 1968, 1313-1319.)
 """
 

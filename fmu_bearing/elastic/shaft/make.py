@@ -13,7 +13,7 @@ def shaft_model(scene: Scene, spindle: Spindle) -> ShaftModel:
     """Return the shaft of a scene's set: one that bends where the scene says so, else a rigid body.
 
     The coordinates of a rigid one are x y z, tilts about y and z of its nose; those of one that bends follow
-    the same five with those of bearings and modes: see ``flexible``.
+    the same five with coordinates of bearings and modes: see ``flexible``.
     """
     bearings = [si(one).position for one in spindle.bearing]
     spots = [si(one).position for one in spindle.shaft.unbalance]

@@ -24,7 +24,7 @@ def placed(sign: float, position: float) -> NDArray[np.float64]:
 class ShaftModel:
     """A shaft without its bearings and their rings, SI units, in fixed axes: X to the rear, Z up.
 
-    The n coordinates need not be displacements of planes; ``nose`` and ``planes`` tell what planes do. The
+    The n coordinates need not be displacements of planes: ``nose`` and ``planes`` give these. The
     equations are ``mass a + (damping + speed gyroscopic) v + stiffness q = force``; ``loads`` of a plane come
     in as the transpose of its motion.
 

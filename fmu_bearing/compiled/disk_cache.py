@@ -1,10 +1,10 @@
 """Files of the user's cache: whole or absent, checked when read, and never needed.
 
-A file stands beside its checksum, which is written first. A file that was cut short or changed, or whose
-checksum is missing or cannot be read, is told, removed and made anew. The checksum finds damage, no intent:
-who can write the file can write the checksum. So the folder is this user's own (`files.own_folder`), and a
-file that others can write to is not used either. Where nothing can be written (a full
-disk, a read-only home) the caller goes on with what it holds in memory.
+A file is beside its checksum, which is written first. A file that was cut short or changed, or whose
+checksum is missing or cannot be read, is reported, removed and made again. The checksum finds damage, no
+intent: who can write the file can write the checksum. So the folder is this user's own
+(`files.own_folder`), and a file that others can write to is not used either. Where nothing can be written (a
+full disk, a read-only home) the caller goes on with what it holds in memory.
 """
 
 import contextlib
@@ -26,21 +26,21 @@ _NO_LOCK = (OSError, NotImplementedError)
 
 
 def read(path: Path, tell: Tell) -> bytes | None:
-    """Content of a kept file; ``None`` where there is none, or a damaged one, which is told and removed."""
+    """Return the content of a kept file, or ``None``; a damaged file is reported and removed."""
     try:
         data = read_own(path)
     except (FileNotFoundError, NotADirectoryError):
         return None
     except CacheError as problem:
-        _remove(path, f"the kept file {problem}: it is not used but made anew", tell)
+        _remove(path, f"the kept file {problem}: it is not used but made again", tell)
         return None
     except OSError as problem:
-        tell(f"the kept file {path} cannot be read ({problem.strerror}): it is made anew")
+        tell(f"the kept file {path} cannot be read ({problem.strerror}): it is made again")
         return None
     with contextlib.suppress(OSError, UnicodeDecodeError):
         if hashlib.sha256(data).hexdigest() == read_own(_beside(path)).decode("ascii").strip():
             return data
-    _remove(path, f"the kept file {path} is damaged: it is made anew", tell)
+    _remove(path, f"the kept file {path} is damaged: it is made again", tell)
     return None
 
 

@@ -87,7 +87,7 @@ def _nothing(*arguments: Any, **named: Any) -> None:
 
 
 def _no_executable(self: CPUContext, library: Any, fndesc: Any, env: Any) -> Any:
-    """Return what stands for the compiled kernel in Numba's tables; never called."""
+    """Return the substitute for the compiled kernel in Numba's tables; never called."""
     name = fndesc.qualname.split(".")[-1]
     return _dynfunc.make_function(fndesc.lookup_module(), name, "not executable", 1, env, (library,))
 

@@ -71,7 +71,7 @@ def _address(array: NDArray[np.float64]) -> int:
 
 
 def call(name: str, *arguments: Any) -> int:
-    """Call an entry once; the addresses of its arrays are looked up anew.
+    """Call an entry once; the addresses of its arrays are looked up again.
 
     Parameters
     ----------
@@ -140,7 +140,7 @@ class Calls:
         z: NDArray[np.float64],
         w: NDArray[np.float64],
     ) -> None:
-        self._arrays = (p, u, s, z, w)  # addresses are those of these
+        self._arrays = (p, u, s, z, w)  # the addresses point into these
         self._lengths = np.array([one.size for one in self._arrays], dtype=np.int64)
         at_p, at_u, at_s, at_z, at_w = map(_address, self._arrays)
         n = self._lengths.ctypes.data

@@ -19,7 +19,7 @@ __all__ = ["portable_code"]
 
 
 def portable_code(unit: str, tell: Callable[[float], None], lean: bool) -> bytes:
-    """LLVM bitcode of a unit's entries in one module; what they share stands in it once.
+    """LLVM bitcode of a unit's entries in one module; what they share is in it once.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ def portable_code(unit: str, tell: Callable[[float], None], lean: bool) -> bytes
                     if one.name == wrapper:
                         one.name = symbol(name)
                     elif not one.is_declaration and lean and one.name in present:
-                        one.linkage = "linkonce_odr"  # shared with an entry before: stands in the whole
+                        one.linkage = "linkonce_odr"  # shared with an entry before: is in the whole
                 whole.link_in(part)
     whole.verify()
     return whole.as_bitcode()
@@ -71,7 +71,7 @@ def portable_code(unit: str, tell: Callable[[float], None], lean: bool) -> bytes
 def _uncounted(code: str) -> str:
     """Let counting of references do nothing: kernels do not allocate, and LLVM cannot drop all of it.
 
-    A kernel that returns a part of an array, called in a loop, hands on a count that stands in memory.
+    A kernel that returns a part of an array, called in a loop, hands on a count that is in memory.
     """
     counting = r"(?ms)^(define [^\n]*@NRT_(?:incref|decref)\([^\n]*\{\n).*?^\}"
     return re.sub(counting, r"\1  ret void\n}", code)
@@ -95,7 +95,7 @@ def _c_function(name: str, function: Callable[..., Any]) -> Any:
 
 @contextlib.contextmanager
 def _counted(entries: list[Any], tell: Callable[[float], None]) -> Iterator[None]:
-    """Tell the part of the kernels reached by ``entries`` whose compilation has ended."""
+    """Report the part of the kernels reached by ``entries`` whose compilation has ended."""
     from numba.core import event
 
     total = len(_reached(entries)) or 1

@@ -202,7 +202,7 @@ class _Worker:
         for reader in self._readers:
             reader.start()
         assert self._process.stdin is not None
-        # a process that is gone already leaves a broken pipe; its reason is told by `ended`
+        # a process that is gone already leaves a broken pipe; its reason is given by `ended`
         with contextlib.suppress(OSError), self._process.stdin as stdin:
             stdin.write(b"".join(codes.values()))
 
@@ -233,7 +233,7 @@ class _Worker:
             raise BuildError(f"the kernels could not be compiled ({units}): {words}")
         due = {object_name(unit, self.platform.name, one) for unit, sets in self.jobs.items() for one in sets}
         if lost := sorted(due - self.files.keys()):
-            raise BuildError(f"the kernels could not be compiled ({units}): {', '.join(lost)} never came")
+            raise BuildError(f"the kernels could not be compiled ({units}): not received: {', '.join(lost)}")
         self._done = 1.0
         return True
 

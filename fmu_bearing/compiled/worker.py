@@ -40,7 +40,7 @@ def _tell(job: int, jobs: int, share: float) -> None:
 
 
 def _between(part: Callable[[float], None], begin: float, k: int, count: int) -> Callable[[float], None]:
-    """Return what tells ``part`` of the ``k``-th of ``count`` equal pieces behind ``begin``."""
+    """Return a callable that reports ``part`` of the ``k``-th of ``count`` equal pieces behind ``begin``."""
     return lambda share: part(begin + (1.0 - begin) * (k + share) / count)
 
 

@@ -36,14 +36,14 @@ _AT_PORT = """\
 the mechanical port: set place and rate at the end of each step, and read force and moment on the rotor there
 and as mean over the step. The rotor has mass, inertia and weight of the inner rings:
 <code>port.mass</code>, <code>port.static_moment</code>, <code>port.inertia.transverse</code> and
-<code>port.inertia.polar</code> tell them. Places of the ball planes from the port, and the direction of the
+<code>port.inertia.polar</code> hold them. Places of the ball planes from the port, and the direction of the
 force on the rotor that each bearing carries: {places}. Inputs besides are speed and temperatures. The FMU
 computes the motion of the {balls} balls, rings and cage of each bearing, the friction torque on the rotor,
 and the heat of each bearing."""
 _OF_SET = """\
 X is the shaft's axis, from its front to its rear, Y horizontal, Z vertical up; gravity acts along -Z. Values
 of a bearing have the prefix <code>bearing[1].</code>, <code>bearing[2].</code> and so on from the nose, and
-are told in these axes. Positive speed is right-handed about +X. Friction torque and heats without a prefix
+are given in these axes. Positive speed is right-handed about +X. Friction torque and heats without a prefix
 are sums over the bearings."""
 _NEEDS = """This FMU runs its model in Python and needs on the machine that simulates it:
 

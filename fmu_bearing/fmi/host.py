@@ -7,7 +7,7 @@ from typing import Any
 
 __all__ = ["finalise_before_exit", "keep", "leave_search_path"]
 
-_kept: list[ctypes.CDLL] = []
+_loaded: list[ctypes.CDLL] = []
 
 
 def finalise_before_exit(resources: str, identifier: str) -> bool:
@@ -30,13 +30,13 @@ def finalise_before_exit(resources: str, identifier: str) -> bool:
         Whether anything had to be registered. In a Python host, on other systems (the Windows library
         does it itself) and with binaries unpacked elsewhere, nothing is.
     """
-    if sys.orig_argv or not sys.platform.startswith("linux") or _kept:
+    if sys.orig_argv or not sys.platform.startswith("linux") or _loaded:
         return False
     library = Path(resources).parent / "binaries" / "linux64" / f"{identifier}.so"
     if not library.is_file():
         return False
     loaded = ctypes.CDLL(str(library))  # one more reference: the function must outlive the master's
-    _kept.append(loaded)
+    _loaded.append(loaded)
     register = ctypes.CDLL(None).__cxa_atexit
     register.argtypes = (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)
     register(ctypes.cast(loaded.finalizePythonInterpreter, ctypes.c_void_p), None, None)

@@ -105,7 +105,7 @@ def build(
     flavour : str, optional
         ``native``: equations compiled, no Python at run time. ``python``: equations run by the installed
         package, through pythonfmu. Default: native where a library can be made or is kept for at least one
-        platform, else python; the remarks of the result tell why.
+        platform, else python; the remarks of the result say why.
     platforms : sequence of str, optional
         Platforms of a native FMU (names as in ``compiled.platforms.PLATFORMS``). Default: this machine's.
     tell : callable, optional

@@ -21,7 +21,7 @@ __all__ = ["DISCARD", "ERROR", "WARNING", "Phase", "Session"]
 
 WARNING, DISCARD, ERROR = "warning", "discard", "error"  # severities handed to the log
 
-_FAILED, _UNSETTLED = -1, -2  # keys beside the value references: until reset, until initialised anew
+_FAILED, _UNSETTLED = -1, -2  # keys beside the value references: until reset, until initialised again
 _NONE: frozenset[int] = frozenset()
 _TUNABLES = slice(0, P.VISCOSITY + 1)  # the head of p, all that can be set there
 

@@ -9,7 +9,7 @@ from math import pi
 
 __all__ = ["NO_UNIT", "UNITS", "DisplayUnit", "Unit"]
 
-NO_UNIT = "1"  # said of plain numbers, so that importers can tell them from a forgotten unit
+NO_UNIT = "1"  # said of plain numbers, so that importers can distinguish them from a forgotten unit
 
 
 @dataclass(frozen=True)

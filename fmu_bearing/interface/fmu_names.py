@@ -50,7 +50,7 @@ def _chosen(key: str, patterns: Sequence[str], names: list[str], others: list[st
     """Return the names that match; a name of the other kind is refused as such."""
     for pattern in patterns:
         if pattern in others:
-            what = "an input" if key == "outputs" else "no input: it is computed"
+            what = "an input" if key == "outputs" else "not an input: it is computed"
             raise SceneError(f"fmu.{key}: '{pattern}' is {what}; leave it out")
     try:
         return chosen_names(patterns, names, [])

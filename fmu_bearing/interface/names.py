@@ -41,7 +41,7 @@ def _some(names: Iterable[str]) -> str:
 def chosen_names(patterns: Sequence[str] | None, names: Iterable[str], default: Sequence[str]) -> list[str]:
     """Return the names that match any of the patterns, in order of the patterns, each once.
 
-    ``*`` stands for any text; brackets stand for themselves, as in ``mic[*].leq``.
+    ``*`` matches any text; brackets match themselves, as in ``mic[*].leq``.
 
     Raises
     ------

@@ -32,7 +32,7 @@ _MIC_WORDS = (
     ("spl_rotation", "Time-weighted partial level of the tilting of rings and cage at microphone {}"),
     ("spl_flexure", "Time-weighted partial level of the bending of the rings at microphone {}"),
 )
-#: What stands behind the description of every level.
+#: Appended to the description of every level.
 FLOOR = "; -106 dB: silence, or no metering yet"
 _PLAIN = 9  # of these, what every scene has; the rest need sound.details
 _CONTACTS_ALONE = "stiffness of the present contacts between the rings, friction and centrifugal force held"
@@ -56,12 +56,12 @@ def outputs(scene: Scene) -> list[Variable]:
     table += microphones(scene, "output")
     table += _flexure(scene)
     torque = (
-        "Torque taken from the shaft: positive brakes positive rotation, so it acts on a drive with a minus; "
-        "without inertia, which the drive owns"
+        "Torque taken from the shaft: positive brakes positive rotation, so it acts on a drive with a minus "
+        "sign; without inertia, which the drive owns"
     )
     mean = (
         "Friction torque of the last communication step: the shaft's work over the angle turned; mean over "
-        "time where the shaft stands or turns back"
+        "time where the shaft does not turn or turns back"
     )
     table.append(read("friction_torque", "output", torque, "N.m"))
     table.append(read("friction_torque_mean", "output", mean, "N.m"))
@@ -92,13 +92,13 @@ def internals(scene: Scene) -> list[Variable]:
         read(
             "energy.residual",
             "local",
-            "Work in less dissipation less change of stored energy, over dissipation once there is some",
+            "Work in minus dissipation minus change of stored energy, over dissipation once there is any",
         ),
         _count("solver.steps", "Internal steps so far"),
         _count("solver.rejected", "Internal steps refused so far"),
         _count(
             "solver.restarts",
-            "How often fidelities rings and response have begun again at rest, where no step led on",
+            "How often fidelities rings and response restarted from rest, because no step was possible",
         ),
         read(
             "solver.wave_time",
@@ -246,7 +246,7 @@ def microphones(scene: Scene, causality: str) -> list[Variable]:
 
 
 def _third_octaves(mic: int, name: str, first: int) -> list[Variable]:
-    """Return the bands of one microphone, named by their nominal frequency; 31 stands for 31.5 Hz."""
+    """Return the bands of one microphone, named by their nominal frequency; 31 means 31.5 Hz."""
     return [
         read(
             f"mic[{mic + 1}].third_octave[{int(nominal)}]",

@@ -30,7 +30,7 @@ _TILT = {"unit": "rad", "quantity": "Angle", "nominal": 1e-4, "min": -0.1, "max"
 _RATE = {"unit": "m/s", "quantity": "Velocity", "nominal": 0.1, "min": -100.0, "max": 100.0}
 _TURN = {"unit": "rad/s", "quantity": "AngularVelocity", "nominal": 1.0, "min": -1e4, "max": 1e4}
 _WAYS = (("x", "along the axis, +X to the rear"), ("y", "horizontal"), ("z", "upwards"))
-# what another model tells of its shaft, where X = 0
+# what another model gives for its shaft, where X = 0
 _PORT = (
     *(
         (f"port.displacement.{axis}", f"Displacement of the shaft at X = 0 {way}", _PLACE)

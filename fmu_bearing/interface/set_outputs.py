@@ -1,4 +1,4 @@
-"""Outputs and local variables of a set of bearings on one shaft; those of a bearing are a single one's."""
+"""Outputs and local variables of a set of bearings on one shaft; each bearing's equal a single one's."""
 
 from collections.abc import Iterable
 from dataclasses import replace
@@ -16,7 +16,7 @@ _DIRECTIONS = (_AXIS, "horizontal", "upwards")
 
 
 def outputs_of_set(scene: Scene) -> list[Variable]:
-    """Return the outputs: the shaft's, sums over the bearings, then those of each bearing."""
+    """Return the outputs: the shaft's, sums over the bearings, then outputs of each bearing."""
     single = outputs(one_of(scene))
     shared = [variable for variable in single if variable.name in SP.OUTPUTS]
     table = [
@@ -26,18 +26,18 @@ def outputs_of_set(scene: Scene) -> list[Variable]:
     ]
     for b in range(_count(scene)):
         table += [*_forces(scene, b), *_of_bearing(scene, b, single)]
-    return table + _heard(scene, "output")
+    return table + _microphone_variables(scene, "output")
 
 
 def internals_of_set(scene: Scene) -> list[Variable]:
-    """Return the local variables: the housing's and the solver's, then those of each bearing."""
+    """Return the local variables: the housing's and the solver's, then variables of each bearing."""
     single = internals(one_of(scene))
     own = [variable for variable in single if variable.name in SP.OUTPUTS]
     table = [*_stiffness(scene), *_housing(scene, "local"), *(_shared(scene, one) for one in own)]
     single = [variable for variable in single if variable not in own]
     for b in range(_count(scene)):
         table += _of_bearing(scene, b, single)
-    return [*table, *_heard(scene, "local"), *_alone(scene)]
+    return [*table, *_microphone_variables(scene, "local"), *_alone(scene)]
 
 
 def first_output(scene: Scene, number: int) -> int:
@@ -58,7 +58,7 @@ def _own(scene: Scene, place: int) -> int:
 
 
 def _of_bearing(scene: Scene, number: int, single: Iterable[Variable]) -> list[Variable]:
-    """Return variables of a single bearing as those of one of the set."""
+    """Return variables of a single bearing as variables of one of the set."""
     first = first_output(scene, number)
     return [
         replace(
@@ -110,7 +110,7 @@ def _stiffness(scene: Scene) -> list[Variable]:
     when = (
         "where the set rested at initialisation"
         if scene.fidelity.model == "full"
-        else "where the set rested last: found anew when loads, speed or temperatures have changed"
+        else "where the set rested last: computed again when loads, speed or temperatures have changed"
     )
     words = (
         ("axial", "Axial stiffness of the shaft on its contacts at X = 0, other motions held,", "N/m"),
@@ -162,8 +162,8 @@ def _housing(scene: Scene, causality: str) -> list[Variable]:
     ]
 
 
-def _heard(scene: Scene, causality: str) -> list[Variable]:
-    """Return the variables of the microphones: those of a single bearing, of the sum over the set."""
+def _microphone_variables(scene: Scene, causality: str) -> list[Variable]:
+    """Return the variables of the microphones: as for a single bearing, of the sum over the set."""
     behind = _own(scene, SP.z_mics(_count(scene))) - Z.mics(scene.bearing.ball_count)
     found = [replace(one, index=one.index + behind) for one in microphones(scene, causality)]
     if scene.sound is None or scene.sound.radiator != "housing":

@@ -33,7 +33,7 @@ def variables(
         *constants(scene, rotor_inertia, rings),
     ]
     names = [variable.name for variable in table]
-    assert len(set(names)) == len(names), "a variable name stands twice"
+    assert len(set(names)) == len(names), "a variable name is given twice"
     return tuple(table)
 
 
@@ -45,7 +45,7 @@ def inputs_of(scene: Scene) -> list[Variable]:
 def input_values(scene: Scene) -> NDArray[np.float64]:
     """Return the engine's inputs ``u`` at the scene's operating point, SI units.
 
-    Those of a set that are no variables are included.
+    Inputs of a set that are no variables are included.
     """
     if scene.spindle is not None:
         return set_inputs(scene)

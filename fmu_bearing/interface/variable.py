@@ -30,7 +30,7 @@ class Variable:
 
 
 # What a variable has unless it says otherwise, by unit: quantity, min, max, nominal. The bounds of what is
-# read lie beyond anything a bearing does; they tell a tool where a value has lost its meaning.
+# read lie beyond anything a bearing does; they show a tool where a value has lost its meaning.
 USUAL = {
     "m": ("Length", -1e3, 1e3, 1e-6),
     "m/s": ("Velocity", -1e4, 1e4, 1e-2),

@@ -30,16 +30,16 @@ print(make.objects(own(), ["step"], ["v0"])["step", "v0"].decode())
 
 
 @pytest.fixture
-def told():
+def reported():
     return []
 
 
-def test_what_was_written_is_read(tmp_path, told):
+def test_what_was_written_is_read(tmp_path, reported):
     path = tmp_path / "new folder" / "step.o"
-    assert disk_cache.read(path, told.append) is None
-    assert disk_cache.write(path, DATA, told.append)
-    assert disk_cache.read(path, told.append) == DATA
-    assert not told
+    assert disk_cache.read(path, reported.append) is None
+    assert disk_cache.write(path, DATA, reported.append)
+    assert disk_cache.read(path, reported.append) == DATA
+    assert not reported
 
 
 def beside(path):
@@ -57,37 +57,39 @@ def beside(path):
     ],
     ids=["cut short", "one byte", "empty", "checksum", "no checksum"],
 )
-def test_a_damaged_file_is_told_and_never_used(tmp_path, told, damage):
+def test_a_damaged_file_is_reported_and_never_used(tmp_path, reported, damage):
     path = tmp_path / "step.o"
-    disk_cache.write(path, DATA, told.append)
+    disk_cache.write(path, DATA, reported.append)
     damage(path)
-    assert disk_cache.read(path, told.append) is None
-    (line,) = told
+    assert disk_cache.read(path, reported.append) is None
+    (line,) = reported
     assert str(path) in line
     assert "damaged" in line
-    assert disk_cache.write(path, DATA, told.append)  # made anew in its place
-    assert disk_cache.read(path, told.append) == DATA
-    assert len(told) == 1
+    assert disk_cache.write(path, DATA, reported.append)  # made again in its place
+    assert disk_cache.read(path, reported.append) == DATA
+    assert len(reported) == 1
 
 
-def test_a_file_that_cannot_be_read_is_told(tmp_path, told):
+def test_a_file_that_cannot_be_read_is_reported(tmp_path, reported):
     path = tmp_path / "step.o"
     path.mkdir()  # refused for the super-user too
-    assert disk_cache.read(path, told.append) is None
-    assert told == [f"the kept file {path} cannot be read ({os.strerror(errno.EISDIR)}): it is made anew"]
+    assert disk_cache.read(path, reported.append) is None
+    assert reported == [
+        f"the kept file {path} cannot be read ({os.strerror(errno.EISDIR)}): it is made again"
+    ]
 
 
-def test_who_reads_while_a_file_is_written_sees_no_damage(tmp_path, told, monkeypatch):
+def test_who_reads_while_a_file_is_written_sees_no_damage(tmp_path, reported, monkeypatch):
     path, found = tmp_path / "step.o", []
 
     def write_and_read(one, data):
         files.write_whole(one, data)
-        found.append(disk_cache.read(path, told.append))
+        found.append(disk_cache.read(path, reported.append))
 
     monkeypatch.setattr(disk_cache, "write_whole", write_and_read)
-    disk_cache.write(path, DATA, told.append)
+    disk_cache.write(path, DATA, reported.append)
     assert found == [None, DATA]
-    assert not told
+    assert not reported
 
 
 class _NoLocks(disk_cache.FileLock):
@@ -97,12 +99,12 @@ class _NoLocks(disk_cache.FileLock):
         raise NotImplementedError("FileSystem does not appear to support flock")
 
 
-def test_a_folder_without_locks_is_used_without_one(tmp_path, told, monkeypatch):
+def test_a_folder_without_locks_is_used_without_one(tmp_path, reported, monkeypatch):
     monkeypatch.setattr(disk_cache, "FileLock", _NoLocks)
-    with pytest.raises(KeyError) as found, disk_cache.alone(tmp_path / "new", told.append):
+    with pytest.raises(KeyError) as found, disk_cache.alone(tmp_path / "new", reported.append):
         raise KeyError("of the work done there")
     assert found.value.__context__ is None  # the missing lock is no part of that failure
-    assert not told
+    assert not reported
 
 
 def test_what_fails_beside_the_lock_is_not_taken_for_a_missing_lock(tmp_path):
@@ -114,14 +116,14 @@ def test_what_fails_beside_the_lock_is_not_taken_for_a_missing_lock(tmp_path):
             pytest.fail("went on without the lock that another holds")
 
 
-def test_a_full_disk_is_told_and_nothing_half_remains(tmp_path, told, monkeypatch):
+def test_a_full_disk_is_reported_and_nothing_half_remains(tmp_path, reported, monkeypatch):
     def no_room(descriptor, *arguments, **named):
         os.close(descriptor)
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
     monkeypatch.setattr(files.os, "fdopen", no_room)
-    assert not disk_cache.write(tmp_path / "step.o", DATA, told.append)
-    (line,) = told
+    assert not disk_cache.write(tmp_path / "step.o", DATA, reported.append)
+    (line,) = reported
     assert "step.o" in line
     assert os.strerror(errno.ENOSPC) in line
     assert "FMU_BEARING_CACHE" in line

@@ -143,7 +143,7 @@ def test_a_failure_names_the_unit_and_the_reason(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize(
     ("code", "reason"),
-    [(3, "the process ended with code 3 and gave no reason"), (0, "study-{platform}-v0.o never came")],
+    [(3, "the process ended with code 3 and gave no reason"), (0, "not received: study-{platform}-v0.o")],
 )
 def test_a_worker_that_ends_at_once_is_a_failure_of_the_compilation(code, reason, tmp_path, monkeypatch):
     """It leaves a broken pipe: portable code larger than any pipe is on its way to it."""

@@ -1,4 +1,4 @@
-"""Both builds and the library give the same bits: in a run-up that is heard, across states and processes."""
+"""Both builds and the library give the same bits: in a run-up with sound, across states and processes."""
 
 import subprocess
 import sys
@@ -37,7 +37,7 @@ def test_run_up_of_both_builds_and_the_library(pair, model):
         alone.set("preload", 500.0 - i)
         alone.step(SIZE)
         assert values == [alone.get(name) for name in names], i
-    # it was heard, and it was a run-up
+    # there was sound, and it was a run-up
     last = dict(zip(names, native[-1], strict=True))
     loud = [name for name in names if name.endswith(".pressure") and abs(last[name]) > 1e-6]
     assert len(loud) == 4

@@ -226,7 +226,7 @@ def test_terminals_are_written_on_request_alone(fmu):
     [
         ({"outputs": ["inner_ring.displcement.x"]}, "did you mean 'inner_ring.displacement.x'?"),
         ({"outputs": ["shaft_speed"]}, "fmu.outputs: 'shaft_speed' is an input; leave it out"),
-        ({"inputs": ["heat.oil"]}, "fmu.inputs: 'heat.oil' is no input: it is computed; leave it out"),
+        ({"inputs": ["heat.oil"]}, "fmu.inputs: 'heat.oil' is not an input: it is computed; leave it out"),
         ({"inputs": ["heat.*"]}, "fmu.inputs: there is no variable 'heat.*'"),
         ({"naming": "camel"}, "fmu.naming = 'camel' is refused; allowed: structured, flat"),
         ({"outputs": "heat.oil"}, "fmu.outputs = 'heat.oil' is refused; allowed: a list of"),

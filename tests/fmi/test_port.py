@@ -80,9 +80,9 @@ def test_checkers_find_nothing(model, fmu, tmp_path, flavour):
     schema = Path(importlib.util.find_spec("fmpy").origin).parent / "schema" / "fmi2"
     etree.XMLSchema(etree.parse(schema / "fmi2ModelDescription.xsd")).assertValid(tree)
     # what a master adds to its rotor stands in the description
-    (told,) = tree.xpath("//ScalarVariable[@name='port.mass']/Real/@start")
+    (reported,) = tree.xpath("//ScalarVariable[@name='port.mass']/Real/@start")
     (mass,) = (one.value for one in model.variables if one.name == "port.mass")
-    assert float(told) == mass > 0.01
+    assert float(reported) == mass > 0.01
     text = (tmp_path / "fmu" / "documentation" / "index.html").read_text("utf-8")
     assert "carry a rotor that another model owns" in text and "loads on the nose" not in " ".join(
         text.split()

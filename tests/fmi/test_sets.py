@@ -263,6 +263,6 @@ def test_rings_that_begin_again_warn_once(masters):
                 assert one.step(at, h) == OK, one.messages
                 at += h
         assert one.get("solver.restarts") >= 3
-        texts.append([text for text in one.messages.splitlines() if "begin again at rest" in text])
+        texts.append([text for text in one.messages.splitlines() if "restarted from rest" in text])
         assert len(texts[-1]) == 1
         assert "1 times so far (solver.restarts)" in texts[-1][0]

@@ -235,7 +235,7 @@ BOTH = {"logStatusDiscard", "logStatusError"}
 
 
 @pytest.mark.parametrize(
-    ("names", "heard"),
+    ("names", "received"),
     [
         ((), BOTH),
         (("logStatusError",), {"logStatusError"}),
@@ -244,18 +244,18 @@ BOTH = {"logStatusDiscard", "logStatusError"}
         (("logStatusWarning",), set()),
     ],
 )
-def test_log_categories_can_be_asked_for(master, names, heard):
+def test_log_categories_can_be_asked_for(master, names, received):
     bearing = master(logging=False)
     assert bearing.call("SetDebugLogging", 1, *categories(*names)) == OK
     provoke(bearing)
-    assert {category for _, category, _ in bearing.log} == heard
+    assert {category for _, category, _ in bearing.log} == received
     bearing.log.clear()
     assert bearing.call("SetDebugLogging", 0, 0, None) == OK
     provoke(bearing)
     assert bearing.log == []
 
 
-def test_category_that_stands_for_all(master, expected):
+def test_category_that_means_all(master, expected):
     bearing = master(logging=False)
     assert bearing.call("SetDebugLogging", 1, *categories("logAll")) == OK
     provoke(bearing)

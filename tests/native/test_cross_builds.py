@@ -75,7 +75,7 @@ def test_library_of_this_machine(compiler):
     check_symbols(platform, library(platform))
 
 
-def test_reader_tells_what_is_too_much(compiler, tmp_path):
+def test_reader_reports_what_is_too_much(compiler, tmp_path):
     # the toy without hidden symbols and with one more: what the test above has to notice
     source = tmp_path / "more.c"
     source.write_text('#include <stdio.h>\nint more(void);\nint more(void) { return puts(""); }\n')

@@ -56,7 +56,7 @@ def test_location_that_leads_nowhere_is_named(master, location, words):
     one = master(location)
     assert one.instance is None
     assert one.log[-1][:2] == (ERROR, "logStatusError")
-    # a message is a format: every % in it stands twice
+    # a message is a format: every % in it is given twice
     assert words.replace("%", "%%") in one.messages
 
 

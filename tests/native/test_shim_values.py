@@ -144,7 +144,7 @@ def test_outputs_follow_the_inputs_in_initialisation(master):
     assert one.get("load_held") == 50.0
     assert one.set("load", 70.0) == OK
     assert one.get("load_held") == 70.0
-    assert one.get("angle") == 1.0  # initialised anew from an empty state, not on top of the last time
+    assert one.get("angle") == 1.0  # initialised again from an empty state, not on top of the last time
     assert one.exit() == OK
     other.start(load=70.0)
     assert one.run(2) == other.run(2)

@@ -89,7 +89,7 @@ class Contents:
         What a status of the kernels means.
     cautions : sequence of Caution
     categories : sequence of (str, int)
-        Log categories and the fmi2Status of their messages; that of fmi2OK (0) stands for all.
+        Log categories and the fmi2Status of their messages; that of fmi2OK (0) means all.
     """
 
     guid: str
@@ -113,7 +113,7 @@ class Contents:
 
 
 class _Texts:
-    """Texts by offset; equal ones stand once, the empty one at 0."""
+    """Texts by offset; equal ones are stored once, the empty one at 0."""
 
     def __init__(self) -> None:
         self.data = bytearray(b"\0")

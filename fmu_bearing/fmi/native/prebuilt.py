@@ -15,7 +15,7 @@ from fmu_bearing.fmi.native.link import library, library_name
 
 __all__ = ["WHEEL_TAGS", "fill"]
 
-#: Tags of wheels: the oldest systems that the compilers were told to serve.
+#: Tags of wheels: the oldest systems that the compilers were set to serve.
 WHEEL_TAGS = {
     "linux64": "py3-none-manylinux_2_17_x86_64",
     "aarch64-linux": "py3-none-manylinux_2_17_aarch64",

@@ -27,14 +27,14 @@ static fmi2Status not_known(Instance *it, const char *what)
     return instance_refuse(it, fmi2Error, &text);
 }
 
-/* Whether a value reference is that of a Real of a causality which stands in an array. */
+/* Whether a value reference is of a Real of a causality which is in an array. */
 static int stands_in(const Instance *it, fmi2ValueReference reference, unsigned causality, unsigned array)
 {
     return reference < it->n_variables && it->slots[reference].type == TYPE_REAL &&
            it->slots[reference].causality == causality && it->model.variables[reference].array == array;
 }
 
-/* Ask the engine: behind the inputs `u` stand their changes, behind the state `s` room for another. */
+/* Ask the engine: behind the inputs `u` are their changes, behind the state `s` room for another. */
 static int32_t ask(Instance *it, double *u, double *s, double *z)
 {
     FloatMode host = float_mode_take();

@@ -32,7 +32,7 @@ static fmi2Status may_get(Instance *it, const void *references, size_t count, co
     return fmi2OK;
 }
 
-/* In initialisation, outputs asked for are those of its end: settle the engine if one is among them. */
+/* In initialisation, outputs asked for are values at its end: settle the engine if one is among them. */
 static fmi2Status settle_for(Instance *it, const fmi2ValueReference *references, size_t count)
 {
     size_t i;

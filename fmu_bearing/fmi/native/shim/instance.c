@@ -55,7 +55,7 @@ static size_t carve_arrays(Instance *it, double *memory)
     return used + CACHE_LINE;
 }
 
-/* Say for every value reference where its value stands. */
+/* Find for every value reference where its value is. */
 static void fill_slots(Instance *it)
 {
     double *arrays[4];
@@ -223,8 +223,8 @@ void instance_warn(Instance *it)
         double value = caution->array == ARRAY_U ? it->u[caution->index] : it->z[caution->index];
         Text text = {0};
         int due = caution->above ? value > caution->threshold : value < caution->threshold;
-        if (!due || it->told >> i & 1) continue;
-        it->told |= (uint64_t)1 << i;
+        if (!due || it->warned >> i & 1) continue;
+        it->warned |= (uint64_t)1 << i;
         text_add(&text, model_text(&it->model, caution->before), NULL);
         text_add_fixed(&text, caution->scale * value, (int)caution->decimals);
         text_add(&text, model_text(&it->model, caution->after), NULL);
@@ -246,7 +246,7 @@ fmi2Status instance_settle(Instance *it, fmi2Status otherwise)
     float_mode_give_back(host);
     if (status == 0) {
         it->settled = 1;
-        it->told = 0;
+        it->warned = 0;
         instance_warn(it);
         return fmi2OK;
     }

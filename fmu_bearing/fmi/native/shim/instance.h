@@ -15,7 +15,7 @@ enum {
     PHASE_FAILED = 16
 };
 
-/* Where the value of a variable stands; NULL for strings. */
+/* Where the value of a variable is; NULL for strings. */
 typedef struct Slot {
     double *at;
     unsigned char type, causality, computed, settable, fixed; /* fixed: once initialised */
@@ -25,8 +25,8 @@ typedef struct Instance {
     unsigned phase;
     int settled; /* the engine has been initialised at the present values */
     int rated;   /* some input has a rate */
-    uint64_t told; /* one bit per warning that was given */
-    double time; /* at which the master stands (s) */
+    uint64_t warned; /* one bit per warning that was given */
+    double time; /* reached by the master (s) */
     double reached, last_step; /* time the engine reached; step behind, 0 if there is none to look back on */
     KernelStep *step;
     const double *p;

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #if defined _WIN32
-#define HIDDEN /* a DLL exports only what it is told to */
+#define HIDDEN /* a DLL exports only what is named */
 #else
 #define HIDDEN __attribute__((visibility("hidden")))
 #endif

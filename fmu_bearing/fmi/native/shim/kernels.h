@@ -15,7 +15,7 @@ typedef int32_t KernelStep(
     const double *p, const double *u, double *s, double *z, double *w, const int64_t *sizes, double h);
 typedef int32_t KernelOutputs(const double *p, const double *s, double *z, const int64_t *sizes);
 
-/* What changes z for a change of inputs over a step of h. Behind the inputs u stands their change, behind the
+/* What changes z for a change of inputs over a step of h. Behind the inputs u is their change, behind the
  * copy s of the state room for another; both are spoilt. */
 typedef int32_t KernelDerivative(
     const double *p, double *u, double *s, double *z, double *w, const int64_t *sizes, double h);

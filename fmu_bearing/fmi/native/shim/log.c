@@ -38,7 +38,7 @@ void log_say(const Log *log, fmi2Status status, const Text *text)
     send(log, status, name, text_string(text));
 }
 
-/* Bit of a category by name; the one of fmi2OK, logAll, stands for all. 0: unknown. */
+/* Bit of a category by name; the one of fmi2OK, logAll, means all. 0: unknown. */
 static uint32_t bits_of(const Model *model, const char *name)
 {
     uint64_t i;

@@ -66,7 +66,7 @@ static int variable_fits(const ModelHead *head, const ModelVariable *variable)
     int text = variable->type != TYPE_STRING || variable->array == ARRAY_NONE;
     return variable->type <= TYPE_STRING && variable->causality <= CAUSALITY_PARAMETER &&
            variable->variability <= VARIABILITY_TUNABLE && variable->array <= ARRAY_P && text &&
-           (variable->causality != CAUSALITY_INPUT || variable->array == ARRAY_U) && /* rates stand beside u */
+           (variable->causality != CAUSALITY_INPUT || variable->array == ARRAY_U) && /* rates are beside u */
            (variable->array == ARRAY_NONE || variable->index < sizes[variable->array]) &&
            variable->name < head->n_text && variable->unit < head->n_text && variable->text < head->n_text;
 }

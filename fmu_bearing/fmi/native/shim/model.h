@@ -28,7 +28,7 @@ typedef struct ModelHead {
     unsigned char fingerprint[DIGEST_SIZE];
     uint64_t n_p, n_u, n_s, n_z, n_w;
     uint64_t n_tunables; /* head of p that can be set */
-    uint64_t time;       /* where in s the time stands */
+    uint64_t time;       /* where in s the time is */
     uint64_t tolerance;  /* value reference, or MODEL_NOWHERE */
     uint64_t ramped;     /* input that the engine ramps over a step, the others being held; or MODEL_NOWHERE */
     uint64_t journal;    /* most steps, at least 1, that are repeated to go back behind a refused one ... */
@@ -38,7 +38,7 @@ typedef struct ModelHead {
     uint64_t led, n_led; /* inputs that are led to their values over a step; derivatives are by these */
 } ModelHead;
 
-/* A variable; its value reference is its place. Numbers of constants stand in `value`. */
+/* A variable; its value reference is its place. Numbers of constants are in `value`. */
 typedef struct ModelVariable {
     uint32_t type, causality, variability, array;
     uint32_t index, name, unit, text;

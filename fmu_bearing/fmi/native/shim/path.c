@@ -149,7 +149,7 @@ static FILE *open_file(const char *path)
 }
 #endif
 
-/* Open a file of the resources; a location that was not encoded is tried as it stands as well. */
+/* Open a file of the resources; a location that was not encoded is tried unchanged as well. */
 FILE *path_open(const char *location, const char *name, Text *path, Text *why)
 {
     int decode;

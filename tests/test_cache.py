@@ -102,17 +102,17 @@ def test_without_a_home_the_cache_is_a_private_temporary_folder(tmp_path, monkey
 
 @pytest.mark.parametrize("which", ["step.o", "step.o.sha256"])
 @pytest.mark.parametrize("rights", [0o666, 0o664, None])
-def test_a_file_that_others_can_write_to_is_made_anew(place, which, rights, request):
+def test_a_file_that_others_can_write_to_is_made_again(place, which, rights, request):
     """Its checksum holds: whoever changed the file can have changed the checksum with it."""
-    told = []
-    assert disk_cache.write(place / "step.o", b"code", told.append)
+    reported = []
+    assert disk_cache.write(place / "step.o", b"code", reported.append)
     if rights is None:
         request.getfixturevalue("somebody_else")
     else:
         (place / which).chmod(rights)
-    assert disk_cache.read(place / "step.o", told.append) is None
-    (line,) = told
-    assert f"{place / 'step.o'}" in line and "made anew" in line
+    assert disk_cache.read(place / "step.o", reported.append) is None
+    (line,) = reported
+    assert f"{place / 'step.o'}" in line and "made again" in line
     if which == "step.o":
         assert ("owns it" if rights is None else f"others can write to it (mode {rights:o})") in line
     assert not (place / "step.o").exists()
@@ -143,13 +143,13 @@ def test_the_command_line_says_so_in_one_line(place):
 def test_boundary_elements_are_kept_there_too(place):
     integrals._wrapped.cache_clear()
     try:
-        kernel = integrals._kept(integrals._static)
+        kernel = integrals._compiled_once(integrals._static)
         assert Path(kernel._cache.cache_path).is_relative_to(place / "integrals")
         assert mode(place / "integrals") == 0o700
         integrals._wrapped.cache_clear()
         (place / "integrals").chmod(0o777)
         with pytest.raises(CacheError, match="integrals is refused"):
-            integrals._kept(integrals._static)
+            integrals._compiled_once(integrals._static)
     finally:
         integrals._wrapped.cache_clear()
 

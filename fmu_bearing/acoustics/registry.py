@@ -143,7 +143,7 @@ def _circle(x: float, y: float, z: float) -> tuple[float, ...]:
 
 
 def _circle_of(microphones: Sequence[Position], members: Sequence[int]) -> MicrophoneCircle:
-    """Return the circle that the microphones ``members`` stand on."""
+    """Return the circle that the microphones ``members`` are on."""
     x, y, z = microphones[members[0]]
     azimuths = [float(np.arctan2(-microphones[i][1], microphones[i][2])) for i in members]
     return MicrophoneCircle(float(np.hypot(y, z)), float(x), azimuths)

@@ -154,7 +154,7 @@ def test_order_map_and_waterfall_of_a_run_up():
 def test_backward_turns_count_too_and_a_stop_is_refused():
     _, angle, signal, _ = run_up(0.5)
     assert on_angle(signal, -angle, 20.0)[0] == pytest.approx(on_angle(signal, angle, 20.0)[0])
-    with pytest.raises(ValueError, match="stands still"):
+    with pytest.raises(ValueError, match="the shaft stops"):
         on_angle(signal, np.zeros(len(signal)), 20.0)
     with pytest.raises(ValueError, match="blocks"):
         order_map(signal, angle, RATE, 20.0, 0.001)

@@ -45,7 +45,7 @@ def lengths_of(ps):
 
 
 def ring_of(decay, frequency, late):
-    """Stand-in for boundary elements: the outer ring heard through a resonance, two other paths plain."""
+    """Stand-in for boundary elements: the outer ring radiates through a resonance, two other paths plain."""
 
     def bem_paths(radiators, air, circle, harmonics, modes=(), plane=None):
         f = fit_frequencies()
@@ -182,7 +182,7 @@ def test_parts_hold_every_lag_once():
         assert np.max(np.abs(total)) < 1e-13
 
 
-def test_lanes_put_what_is_heard_together_side_by_side():
+def test_lanes_put_channels_of_the_same_filters_side_by_side():
     """Two groups hear channels 0 and 9 of 12, one also 4 and 5: gaps close, unheard ones come last."""
     rng = np.random.default_rng(3)
     wires = [blocks.Wire(0, channel, 7, rng.standard_normal(20), channel) for channel in (0, 4, 5, 9)]

@@ -84,10 +84,10 @@ def test_whole_decimator_in_the_stream_against_scipy():
 
 def test_what_folds_is_rejected():
     """Whatever folds below 22 kHz when the rate falls to 51.2 kHz; the band is flat to 0.002 dB."""
-    heard = np.arange(0.0, STOP + 1.0, 20.0)
-    for image in (SD.RATE - heard, SD.RATE + heard, 2 * SD.RATE - heard):
+    received = np.arange(0.0, STOP + 1.0, 20.0)
+    for image in (SD.RATE - received, SD.RATE + received, 2 * SD.RATE - received):
         assert np.max(np.abs(decimator_response(image))) < BEFORE
-    assert np.max(np.abs(20 * np.log10(np.abs(decimator_response(heard))))) < 2e-3
+    assert np.max(np.abs(20 * np.log10(np.abs(decimator_response(received))))) < 2e-3
 
 
 def test_band_limit():
@@ -145,7 +145,7 @@ def test_meters_and_recordings_hear_the_same(model, kind):
     rng = np.random.default_rng(6)
     if kind == "noise":
         motion = rng.standard_normal((samples, MO.SIZE))
-    else:  # 64 lines, half of them above 20 kHz; those from 20 to 25.6 kHz were heard by meters alone
+    else:  # 64 lines, half of them above 20 kHz; those from 20 to 25.6 kHz reached meters alone
         frequencies = np.concatenate([np.geomspace(100.0, 19_000.0, 32), np.linspace(20_500.0, 1e5, 32)])
         turns = np.exp(2j * np.pi * np.outer(raw_time(samples), frequencies))
         phases = np.exp(2j * np.pi * rng.uniform(size=(len(frequencies), MO.SIZE)))
@@ -158,19 +158,19 @@ def test_meters_and_recordings_hear_the_same(model, kind):
     player = Player(ps, metering_start=begin / SD.RATE)
     history = rows_of(player, motion, samples)
     last = len(history) - TAIL
-    heard = np.zeros((len(PAPER_POINTS), len(history)))
+    received = np.zeros((len(PAPER_POINTS), len(history)))
     for circle in circles(model, SMALL, Air(), PAPER_POINTS, 4):
-        heard[list(circle.members)] = Channels(history).pressures(circle)[""]
+        received[list(circle.members)] = Channels(history).pressures(circle)[""]
     again = Player(ps, metering_start=begin / SD.RATE)
     again.play(motion, 4 * (last + SD.LATENCY))
-    weighted = sosfilt(a_weighting_sections(SD.RATE), heard)
+    weighted = sosfilt(a_weighting_sections(SD.RATE), received)
     span = slice(begin - SD.LATENCY, last)
-    bands = np.array([sosfilt(band_sections(SD.RATE, band), heard)[:, span] for band in Z.BANDS])
+    bands = np.array([sosfilt(band_sections(SD.RATE, band), received)[:, span] for band in Z.BANDS])
     weights = np.exp(-np.arange(last - begin + SD.LATENCY)[::-1] / (SD.RATE * FAST))
     expected = level(np.average(bands**2, axis=2, weights=weights)).T
     read = again.z[len(PAPER_POINTS) * len(Z.MIC_OUTPUTS) :].reshape(len(PAPER_POINTS), len(Z.BANDS))
     for mic in range(len(PAPER_POINTS)):
-        for name, signal in (("leq", heard[mic]), ("leq_a", weighted[mic])):
+        for name, signal in (("leq", received[mic]), ("leq_a", weighted[mic])):
             found = float(level(np.mean(signal[span] ** 2)))
             assert again.reading(name, mic) == pytest.approx(found, abs=0.05), (name, mic)
         counted = expected[mic] > expected[mic].max() - 50.0  # dB; far below, filters remember the start

@@ -113,21 +113,21 @@ def test_energy_sum_beside_the_coherent_one(model):
     assert player.reading("spl_outer_ring") == pytest.approx(one, abs=0.01)
     assert player.reading("spl_energy_sum") == pytest.approx(one + 3.0103, abs=0.01)
     assert player.reading("spl") < one - 60
-    assert player.reading("spl_radial") < one - 60  # one kind, heard as one
+    assert player.reading("spl_radial") < one - 60  # one kind, metered as one
 
 
-def test_kinds_are_told_apart():
+def test_kinds_are_distinguished():
     ps = build("compact", SMALL, Air(), [(0.05, 0.06, 0.07)])
     place = {"spl_axial": 12 + 3, "spl_radial": 12 + 4, "spl_balls": MO.BALL_ACCELERATION}
-    for heard, column in place.items():
+    for received, column in place.items():
         motion = still(SMALL, PERIOD)
         motion[:, column] = 1000 * np.sin(2 * np.pi * 1000 * raw_time(PERIOD))
         player = Player(ps)
         player.play(motion, 41 * PERIOD)
-        assert player.reading(heard) == pytest.approx(player.reading("spl"), abs=1e-6)
-        for other in {*place, "spl_rotation", "spl_flexure"} - {heard}:
+        assert player.reading(received) == pytest.approx(player.reading("spl"), abs=1e-6)
+        for other in {*place, "spl_rotation", "spl_flexure"} - {received}:
             # axial tones leave the high-pass rest of nothing behind: the floor
-            assert player.reading(other) == pytest.approx(QUIET), (heard, other)
+            assert player.reading(other) == pytest.approx(QUIET), (received, other)
 
 
 def test_levels_without_details_cost_nothing_and_read_the_floor():

@@ -1,4 +1,4 @@
-"""Every radiation model is selectable and heard; the papers' two other models, and the user's tables."""
+"""Every radiation model can be selected and makes sound; the papers' two others, and the user's tables."""
 
 import itertools
 
@@ -80,8 +80,8 @@ def shaken():
     return motion
 
 
-def test_every_model_is_heard_and_none_is_another(elements):
-    heard = {}
+def test_every_model_makes_sound_and_none_is_another(elements):
+    received = {}
     assert tuple(RECIPES) == RADIATION_MODELS
     for model in RADIATION_MODELS:
         table = table_of(PAPER_POINTS, ["housing.acceleration.y"]) if model == "table" else None
@@ -92,13 +92,13 @@ def test_every_model_is_heard_and_none_is_another(elements):
             motion[:, MO.FLEXURES + 1] = 1.0
             motion[:, MO.FLEXURES] = 10 * np.sin(2 * np.pi * 1700 * raw_time(PERIOD))
         pressures = Player(ps).play(motion, 41 * PERIOD)
-        heard[model] = pressures[-512:]
-        assert np.sqrt(np.mean(heard[model][:, 0] ** 2)) > 1e-5, model
+        received[model] = pressures[-512:]
+        assert np.sqrt(np.mean(received[model][:, 0] ** 2)) > 1e-5, model
     for one, other in itertools.combinations(RADIATION_MODELS, 2):
-        assert np.max(np.abs(heard[one] - heard[other])) > 1e-5, (one, other)
+        assert np.max(np.abs(received[one] - received[other])) > 1e-5, (one, other)
 
 
-def test_flexure_is_heard_as_such(elements):
+def test_flexure_makes_sound_of_its_kind(elements):
     ps = build("bem", SMALL, Air(), PAPER_POINTS[:1], 2, modes=(Mode(0), Mode(1)))
     assert ps[SD.H_CHANNELS] == SD.vector_channels(2, 4) == 15 + 2 + 12 + 4
     motion = still(SMALL, PERIOD)
@@ -258,7 +258,7 @@ def test_table_makes_the_sound_of_its_transfer_functions(tmp_path):
         a, b = lines(found[:, mic], tones), lines(expected[:, mic], tones)
         assert np.max(np.abs(a - b)) < 10 ** (-45 / 20) * np.max(np.abs(b))
     loudest = max(abs(lines(found[:, mic], [7000.0])[0]) for mic in range(4))
-    assert loudest > 1e-8  # the ball's harmonic is heard too
+    assert loudest > 1e-8  # the ball's harmonic radiates too
 
 
 GOOD = {
@@ -280,11 +280,11 @@ GOOD = {
         ({"frequencies": np.linspace(50.0, 20_000.0, len(GRID))}, "reaches from 50 to 20000 Hz; 20 to 20000"),
         ({"frequencies": np.linspace(0.0, 8000.0, len(GRID))}, "reaches from 0 to 8000 Hz; 20 to 20000"),
         ({"positions": np.zeros((2, 2))}, r"positions has the shape \(2, 2\)"),
-        ({"microphones": np.array(["P1", "P1"])}, "microphone P1 stands more than once"),
+        ({"microphones": np.array(["P1", "P1"])}, "microphone P1 is given more than once"),
         ({"microphones": np.array(["P1", "X"])}, r"has no microphone 'P2' \(it has P1, X\); add it"),
-        ({"positions": np.array([PAPER_POINTS[0], (0.0, 0.2, 0.0)])}, r"stands at \(0, 200, 0\) mm"),
-        ({"inputs": np.array(["outer.acceleration.y"])}, "no input of .* did you mean 'outer_ring"),
-        ({"inputs": np.array(["flexure[1]"])}, "'flexure.1.' is no input of this scene"),
+        ({"positions": np.array([PAPER_POINTS[0], (0.0, 0.2, 0.0)])}, r"is at \(0, 200, 0\) mm"),
+        ({"inputs": np.array(["outer.acceleration.y"])}, "not an input of .* did you mean 'outer_ring"),
+        ({"inputs": np.array(["flexure[1]"])}, "'flexure.1.' is not an input of this scene"),
         ({"frequencies": np.array(["a"] * len(GRID))}, "must be numbers"),
         ({"H": np.exp(2j * np.pi * np.sin(GRID**2)) * np.ones((2, 1, 1))}, "too far apart for outer"),
     ],
@@ -306,7 +306,7 @@ def test_files_that_are_no_tables(tmp_path):
     np.save(tmp_path / "one.npy", np.ones(3))
     for name in ("text.npz", "one.npy"):
         with pytest.raises(
-            ValueError, match="no NumPy archive of plain arrays, or damaged; make one by nump"
+            ValueError, match="not a NumPy archive of plain arrays, or damaged; make one by nump"
         ):
             read_table(tmp_path / name)
 

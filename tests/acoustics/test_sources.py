@@ -177,16 +177,16 @@ def solved_housing(points):
     normals, points_of = RHO * scatterer.mesh.node_normals(), scatterer.mesh.points
     lever = normals[:, :1] * points_of[:, 1:] - normals[:, 1:] * points_of[:, :1]
     potentials = scatterer.field_potentials(np.array(points))
-    heard = []
+    received = []
     for k in wavenumbers:
         system, (single, double) = scatterer.at(k), potentials(k)
-        heard.append(
+        received.append(
             [
                 np.abs(single[m] @ drive + double[m] @ system.pressure(m, drive))[:, 0]
                 for m, drive in ((0, normals[:, :1]), (1, normals[:, 1:]), (1, lever))
             ]
         )
-    return np.array(heard)  # frequencies, axial or radial or tilting, points
+    return np.array(received)  # frequencies, axial or radial or tilting, points
 
 
 def test_housing_keeps_to_boundary_elements():

@@ -359,7 +359,7 @@ def test_three_balls_with_scattering_and_the_order_of_peaks_with_the_gap(chain):
     assert peaks[0.0] > 2.0 * free(chain).max()  # scattering dominates
 
 
-def test_nothing_is_heard_before_sound_arrives_and_the_window_does_not_matter(chain):
+def test_pressure_is_zero_before_sound_arrives_and_the_window_does_not_matter(chain):
     """Band and period are enough: nothing before the first arrival even when it is not cut off."""
     row = SphereRow([-2 * A, 0.0, 2 * A], [A] * 3, 28)
     short = impact_pressure(row, chain, BESIDE, TIMES)[0]

@@ -1,6 +1,6 @@
 """Sound files in pascals: WAV at 48 kHz, 32-bit float, with the calibration written into the file.
 
-A sample of 1.0 stands for the *full scale*, a pressure the caller states. It is kept as a comment in the file
+A sample of 1.0 is the *full scale*, a pressure the caller states. It is kept as a comment in the file
 (``full scale = 20 Pa``), so that `read_wav` gives pascals back.
 """
 

@@ -23,12 +23,12 @@ class Directivity:
     Attributes
     ----------
     da : float
-        Directivity angle: where the largest level stands (rad), eq. 13.
+        Directivity angle: direction of the largest level (rad), eq. 13.
     dl : float
         Directivity level: largest level over the mean of the levels in dB round the whole circle, eq. 14; NaN
         where that mean is not positive.
     dv : float
-        Largest less smallest level of the whole circle (dB), eq. 15.
+        Largest minus smallest level of the whole circle (dB), eq. 15.
     highest, lowest, mean : float
         Largest level in the range asked for, smallest and mean level of the whole circle (dB).
     """
@@ -93,7 +93,7 @@ def directivity(angles: ArrayLike, levels: ArrayLike, zone: tuple[float, float] 
     ----------
     zone : (from, to), optional
         Range of angles (rad, growing, ends included) in which the largest level is looked for, such as the
-        paper's impact and friction zones; mean and smallest level stay those of the whole circle.
+        paper's impact and friction zones; mean and smallest level stay values of the whole circle.
 
     Raises
     ------

@@ -129,9 +129,11 @@ class Channels:
             known = responses(self.frequency[block])
             for name in parts:
                 chosen = [path for path in circle.paths if label(path) == name]
-                heard = np.array([self.spectra[path.channel, block] * known[_key(path)] for path in chosen])
+                products = np.array(
+                    [self.spectra[path.channel, block] * known[_key(path)] for path in chosen]
+                )
                 weights = np.array([path.weights for path in chosen]).T
-                parts[name][:, block] = weights @ heard
+                parts[name][:, block] = weights @ products
         return {name: irfft(part, self.size, axis=1)[:, : self.rows] for name, part in parts.items()}
 
 

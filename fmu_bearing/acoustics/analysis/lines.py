@@ -1,4 +1,4 @@
-"""Lines in spectra: where the bearing's kinematics expect them, which stand out, and what explains them."""
+"""Lines in spectra: where the kinematics expect them, which exceed their surroundings, what explains them."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

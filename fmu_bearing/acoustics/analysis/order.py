@@ -81,7 +81,7 @@ def on_angle(
     Raises
     ------
     ValueError
-        When shapes differ or the shaft stands still or turns back.
+        When shapes differ or the shaft stops or turns back.
     """
     x = np.asarray(signal, dtype=float)
     phi = np.asarray(angle, dtype=float)
@@ -89,7 +89,7 @@ def on_angle(
         raise ValueError(f"signal {x.shape} and angle {phi.shape} must be one-dimensional and of one length")
     turned = np.sign(phi[-1] - phi[0]) * phi
     if not (np.diff(turned) > 0.0).all():
-        raise ValueError("the shaft stands still or turns back: orders need an angle that only grows")
+        raise ValueError("the shaft stops or turns back: orders need an angle that only grows")
     slowest = float(np.min(np.diff(turned)))
     per_turn = float(np.ceil(max(2.0 * highest * _MARGIN, 2.0 * np.pi / slowest)))
     if per_turn * (turned[-1] - turned[0]) > 2.0 * np.pi * _LONGEST * len(x):

@@ -1,7 +1,7 @@
 """Sound power: from pressures on an enclosing surface (ISO 3744), and from the motion of compact bodies.
 
 Pressures are computed in a perfect free field, so the corrections for background noise K1 and for the room K2
-are zero. ISO 3744 takes p^2 / (rho c) at 400 N s/m3; here the air's own rho c stands, 0.18 dB apart for
+are zero. ISO 3744 takes p^2 / (rho c) at 400 N s/m3; here it is the air's own rho c, 0.18 dB apart for
 the papers' air.
 """
 
@@ -40,7 +40,7 @@ class Power:
     surface_level : float
         Mean of the squared pressures over the surface, as a level (dB re 20 uPa).
     spread : float
-        Largest less smallest level on the surface (dB): above some 10 dB the points are too few.
+        Largest minus smallest level on the surface (dB): above some 10 dB the points are too few.
     """
 
     watts: float

@@ -68,20 +68,20 @@ def wired(wires: Sequence[Wire], channels: int) -> tuple[list[Bank], list[int]]:
     """Banks of a set of filters, and the lane of each channel.
 
     Channels that the same groups hear with the same delays lie side by side, in the order of their outputs,
-    the unheard ones last. Short gaps in a bank are filled with silence: one long vector loop beats two
+    the silent ones last. Short gaps in a bank are filled with silence: one long vector loop beats two
     short ones.
     """
-    heard: dict[int, dict[Key, Wire]] = {}
+    by_channel: dict[int, dict[Key, Wire]] = {}
     for wire in wires:
-        known = heard.setdefault(wire.channel, {})
+        known = by_channel.setdefault(wire.channel, {})
         again = sum(key[:2] == (wire.group, wire.delay) for key in known)
         known[wire.group, wire.delay, again] = wire
-    keys = sorted({key for known in heard.values() for key in known})
+    keys = sorted({key for known in by_channel.values() for key in known})
     order = sorted(
-        heard,
+        by_channel,
         key=lambda channel: (
-            sorted(heard[channel]),
-            [wire.target for _, wire in sorted(heard[channel].items())],
+            sorted(by_channel[channel]),
+            [wire.target for _, wire in sorted(by_channel[channel].items())],
             channel,
         ),
     )
@@ -89,14 +89,14 @@ def wired(wires: Sequence[Wire], channels: int) -> tuple[list[Bank], list[int]]:
     for key in keys:
         side: dict[int, Wire] = {}
         for lane, channel in enumerate(order):
-            if key not in heard[channel]:
+            if key not in by_channel[channel]:
                 continue
             if side and lane - max(side) > _LONGEST_GAP + 1:
                 banks.append(_bank(side))
                 side = {}
-            side[lane] = heard[channel][key]
+            side[lane] = by_channel[channel][key]
         banks.append(_bank(side))
-    order += [channel for channel in range(channels) if channel not in heard]
+    order += [channel for channel in range(channels) if channel not in by_channel]
     return banks, [order.index(channel) for channel in range(channels)]
 
 

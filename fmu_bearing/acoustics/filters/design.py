@@ -34,7 +34,7 @@ __all__ = [
 # Paths this far below their component's strongest one, at all frequencies, are left out.
 _NEGLIGIBLE = 1e-7
 # Worst deviation of a filter from its transfer function that is let pass, at any one frequency: 3 %, 0.27 dB.
-# Bodies without sharp resonances keep -50 dB; what each path has is told by `filter_errors`.
+# Bodies without sharp resonances keep -50 dB; `filter_errors` returns what each path has.
 _TOLERANCE = 10 ** (-30 / 20)
 _SILENT = 1e-12  # weight of a microphone on a node line, where rounding leaves a little
 _ALIKE = 12  # decimals to which weights are compared
@@ -54,7 +54,7 @@ class FilterError:
         Channel it filters and its length.
     error : float
         Largest deviation from 20 Hz to 20 kHz in dB, relative to the larger of the path's own magnitude and
-        its component's strongest one less 30 dB.
+        its component's strongest one minus 30 dB.
     """
 
     microphones: tuple[int, ...]
@@ -166,7 +166,7 @@ def check_table(scene: Scene) -> None:
 def housing_of_set(scene: Scene) -> Housing:
     """Return the housing of a set that radiates, in the axes of its first bearing.
 
-    All outer rings on fixed seats move with it as one rigid body, so the first one's motion and tilts tell
+    All outer rings on fixed seats move with it as one rigid body, so the first one's motion and tilts give
     everything that it does.
     """
     spindle = set_of(scene)
@@ -180,7 +180,7 @@ def housing_of_set(scene: Scene) -> Housing:
 def radiators_of(scene: Scene, housing: Housing | None = None) -> Radiators:
     """Return what sounds in a scene, in m.
 
-    The housing's front face stands ahead (-X) of the bearing's end face. ``housing``: in the place of the
+    The housing's front face is ahead (-X) of the bearing's end face. ``housing``: in the place of the
     scene's.
     """
     bearing = si(scene.bearing)
@@ -284,7 +284,7 @@ def _design(
 
 
 def _audible(paths: list[Path]) -> list[Path]:
-    """Leave out negligible paths and those on whose node lines all microphones stand."""
+    """Leave out negligible paths and those on whose node lines all microphones are."""
     strongest = _strongest(paths)
     return [
         path

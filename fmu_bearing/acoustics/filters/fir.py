@@ -50,7 +50,7 @@ def decimator_stages() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
     Each takes down by 84 dB or more what would fold below 22 kHz when every other sample goes: the first
     above ``RAW_RATE`` / 2 - 22 kHz = 80.4 kHz, the second above ``RATE`` - 22 kHz = 29.2 kHz. Beyond the 20
-    kHz that are heard this serves the balls' sound, which shifts by up to 2 kHz when it is projected onto
+    kHz that are audible this serves the balls' sound, which shifts by up to 2 kHz when it is projected onto
     circumferential harmonics behind the decimator.
     """
     first = _half_band(SD.FIRST_TAPS, STOP / SD.RAW_RATE)
@@ -149,7 +149,7 @@ def fit(
         Taps at ``RATE``, newest sample first, as few as reach -55 dB or, where 1024 do not, come within
         0.5 dB of the least error; largest deviation in `BAND` over the larger of the path's own magnitude and
         the strongest one's minus 30 dB. Filters longer than 512 taps are held to a grid four times as fine,
-        where a spline stands for the response.
+        where a spline replaces the response.
     """
     found = []
     for length in _LENGTHS:
@@ -172,15 +172,15 @@ def _fit_length(
     late = np.exp(2j * np.pi * grid * (delay_of(flight) - SD.LATENCY) / SD.RATE)
     wanted = np.append(response * late * _undone(length), np.zeros(_STOPPED))
     weight = 1.0 / np.maximum(np.abs(response), _WEAK * strongest)
-    heard = grid <= BAND[1]
-    weight[~heard] *= _EDGE_WEIGHT
-    weight = np.append(weight, np.full(_STOPPED, _STOP_WEIGHT * weight[heard][-1]))
+    audible = grid <= BAND[1]
+    weight[~audible] *= _EDGE_WEIGHT
+    weight = np.append(weight, np.full(_STOPPED, _STOP_WEIGHT * weight[audible][-1]))
     basis = _basis(length)
-    # Normal equations: far cheaper than an orthogonal solver, and the errors stay those of the filter
-    # length. Their matrix depends on the distance of two taps alone: one column tells all.
+    # Normal equations: far cheaper than an orthogonal solver, and the errors stay equal to the filter's
+    # length. Their matrix depends on the distance of two taps alone: one column holds all.
     square = weight**2
     column = (square @ basis).real
     column[0] *= 1.0 + _RIDGE
     taps = solve(toeplitz(column), ((square * wanted.conj()) @ basis).real, assume_a="pos")
     error = np.abs(basis @ taps - wanted) * weight
-    return taps, float(np.max(error[: len(grid)][heard]))
+    return taps, float(np.max(error[: len(grid)][audible]))

@@ -236,7 +236,7 @@ def _place_state(block: _Block, rows: Sequence[list[int]], slots: Sequence[list[
 
 
 def _place_work(block: _Block, served: Sequence[list[int]]) -> None:
-    """Give every part of the work space its place; the decimated row stands first, then the channels."""
+    """Give every part of the work space its place; the decimated row is first, then the channels."""
     found = block.head
     channels, outputs, mics = (int(found[k]) for k in (SD.H_CHANNELS, SD.H_OUTPUTS, SD.H_MICS))
     # of the balls' harmonics: sums and multiples

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from fmu_bearing.acoustics.radiation.radiators import BALLS, Air, Path, Radiators
 from fmu_bearing.engine.layout import SD
 
-#: m: a microphone nearer to a body than this stands on it, where fields of surface sources are singular.
+#: m: a microphone nearer to a body than this is on it, where fields of surface sources are singular.
 SKIN = 1e-6
 
 
@@ -102,7 +102,7 @@ def ball_paths(responses: NDArray[np.complex128], flight: float, circle: Microph
         cosine, sine = circle.order(m)
         for axis in range(SD.AXES):
             if m == 0 and axis == 2:
-                continue  # tangential accelerations alike all round make no sound
+                continue  # equal tangential accelerations all round make no sound
             first, second = (sine, -cosine) if axis == 2 else (cosine, sine)
             channel, response = SD.c_ball(m, axis), responses[axis, m]
             paths.append(Path(BALLS, channel, flight, response, first, SD.BALLS_KIND))

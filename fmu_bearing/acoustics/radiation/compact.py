@@ -71,8 +71,8 @@ def housing_responses(
     radius (axial, fading out towards the axis, where the end face looks straight at the microphone). The
     mixture is ours (assumed). Against boundary elements for d100 x 160 mm at points 105 mm from the axis
     and 60 mm ahead of the front face: within 1.1 dB to 0.5 kHz and 5.5 dB to 4 kHz,
-    but axial motion heard from beside over-reads above 2 kHz (10 dB at 3 kHz), where the true sound falls
-    into a minimum.
+    but axial motion at microphones beside the bearing over-reads above 2 kHz (10 dB at 3 kHz), where the
+    true sound falls into a minimum.
     """
     f = fit_frequencies()
     volume_radial, volume_axial = cylinder_volumes(housing.diameter, housing.length)
@@ -86,7 +86,7 @@ def housing_responses(
     )
     across = sources.compact_dipole(f, distance, radius / distance, volume_radial * share, *medium)
     radially = across.sum(axis=0)
-    tilting = -(place[:, None] * across).sum(axis=0)  # a turn about y lowers what stands at +X
+    tilting = -(place[:, None] * across).sum(axis=0)  # a turn about y lowers what is at +X
     aside = radius**2 / (radius**2 + (axial - housing.centre) ** 2)
     sphere = sources.sphere_factor(f, housing.diameter / 2, air.sound_speed)
     axially *= 1.0 - aside + aside * sphere

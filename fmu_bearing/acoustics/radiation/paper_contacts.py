@@ -65,17 +65,17 @@ def contact_paths(radiators: Radiators, air: Air, circle: MicrophoneCircle, harm
         answers = _surface(families, radiators.ball_count, k, m)
         channels: dict[int, NDArray[np.complex128]] = {}
         for i, family in enumerate(families):
-            heard = single[m, i] + np.einsum("jf,jf->f", double[m], answers[:, i])
-            heard = heard * (air.density * family.sign)
-            channels[family.channels] = channels.get(family.channels, 0.0) + heard
+            response = single[m, i] + np.einsum("jf,jf->f", double[m], answers[:, i])
+            response = response * (air.density * family.sign)
+            channels[family.channels] = channels.get(family.channels, 0.0) + response
         cosine, sine = circle.order(m)
-        for channel, heard in channels.items():
+        for channel, response in channels.items():
             component = next(g.component for g in families if g.channels == channel)
             kind = SD.BALLS_KIND if component == BALLS else SD.RADIAL
             first = channel * wide + (0 if m == 0 else 2 * m - 1)
-            paths.append(Path(component, first, flight, heard, cosine, kind))
+            paths.append(Path(component, first, flight, response, cosine, kind))
             if m:
-                paths.append(Path(component, first + 1, flight, heard, sine, kind))
+                paths.append(Path(component, first + 1, flight, response, sine, kind))
     return paths
 
 

@@ -1,6 +1,6 @@
 """Radiation model ``paper``: scalar sources of the multi-source paper.
 
-All sources stand in the bearing's centre (assumed: the paper leaves r open), cos(theta) = 1 (assumed), every
+All sources are in the bearing's centre (assumed: the paper leaves r open), cos(theta) = 1 (assumed), every
 body bare whatever the scene says about the housing.
 """
 

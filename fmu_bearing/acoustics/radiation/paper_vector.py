@@ -6,7 +6,7 @@ accelerations, each times the real direction cosine between its axis and the lin
 to the microphone: x / R for axial motion (the end face, eq. 27), -r sin(phi) / R and r cos(phi) / R for
 motion along y and z (the mantle, eq. 36), the same for tilts (the point source of eq. 18 with eq. 19's
 length). Spin has no cosine towards anything and is silent, as spin is. Everything adds as pressures; the
-paper's energy sum is the output ``spl_energy_sum``. Radii are those of the model ``paper``; all
+paper's energy sum is the output ``spl_energy_sum``. Radii equal those of the model ``paper``; all
 bodies are bare.
 """
 

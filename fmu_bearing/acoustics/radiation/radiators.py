@@ -25,7 +25,7 @@ class Housing:
 
     ``turned``: its open front looks towards +X, as round a mirrored bearing of a set. ``tilts``: model
     `compact` hears its tilts too. They move the middle of a set's housing, which may be far from the bearing
-    that tells its motion; of a single bearing the model hears translations alone.
+    whose motion it has; of a single bearing the model has translations alone.
     """
 
     diameter: float

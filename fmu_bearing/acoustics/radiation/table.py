@@ -33,7 +33,7 @@ from fmu_bearing.files import read_arrays
 
 _ARRAYS = ("frequencies", "inputs", "microphones", "positions", "H")
 _BODIES = {"inner_ring": 0, "outer_ring": 1, "housing": 1, "cage": 2}
-_APART = 1e-3  # m by which a microphone may stand off its place in the scene
+_APART = 1e-3  # m by which a microphone may be off its place in the scene
 _TURN = 0.5 * np.pi  # rad between neighbouring frequencies: beyond this the curve between them is a guess
 _HEARD = 10 ** (-40 / 20)  # turns count where the magnitude exceeds this share of the largest
 _SILENT = 1e-9  # an input this far below the loudest is what rounding has left
@@ -111,7 +111,7 @@ def _check(table: Table, where: str) -> None:
     for names, word in ((table.inputs, "input"), (table.microphones, "microphone")):
         twice = sorted({name for name in names if names.count(name) > 1})
         if twice:
-            raise ValueError(f"{where}: {word} {twice[0]} stands more than once")
+            raise ValueError(f"{where}: {word} {twice[0]} is given more than once")
 
 
 def select(table: Table, microphones: Sequence[tuple[str, Sequence[float]]], where: str) -> Table:
@@ -120,7 +120,7 @@ def select(table: Table, microphones: Sequence[tuple[str, Sequence[float]]], whe
     Raises
     ------
     ValueError
-        When one is absent or stands elsewhere.
+        When one is absent or is elsewhere.
     """
     order = []
     for name, place in microphones:
@@ -136,7 +136,7 @@ def select(table: Table, microphones: Sequence[tuple[str, Sequence[float]]], whe
             there = ", ".join(f"{1e3 * v:g}" for v in table.positions[row])
             here = ", ".join(f"{1e3 * v:g}" for v in place)
             raise ValueError(
-                f"{where}: microphone '{name}' stands at ({there}) mm, in the scene at ({here}) mm; they may "
+                f"{where}: microphone '{name}' is at ({there}) mm, in the scene at ({here}) mm; they may "
                 f"differ by {1e3 * _APART:g} mm"
             )
         order.append(row)
@@ -177,7 +177,7 @@ def table_paths(
     Raises
     ------
     ValueError
-        On an unknown input, two names for one body, or frequencies too far apart to tell what is between.
+        On an unknown input, two names for one body, or frequencies too far apart to interpolate.
     """
     known = channels(harmonics, bodies_of_flexures)
     responses = table.response[microphone]
@@ -188,24 +188,24 @@ def table_paths(
         if name not in known:
             near = difflib.get_close_matches(name, known, n=1, cutoff=0.6)
             hint = f"did you mean '{near[0]}'?" if near else "an example: outer_ring.acceleration.x"
-            raise ValueError(f"sound.table_file: '{name}' is no input of this scene; {hint}")
+            raise ValueError(f"sound.table_file: '{name}' is not an input of this scene; {hint}")
         component, channel, kind = known[name]
         if channel in found:
             raise ValueError(
-                f"sound.table_file: '{name}' stands twice, as housing and as outer_ring: keep one"
+                f"sound.table_file: '{name}' is given twice, as housing and as outer_ring: keep one"
             )
         if np.abs(response).max() > _SILENT * np.abs(responses).max():
             _check_spacing(table, microphone, name, response, flight)
-            heard = between(table.frequencies, response, flight, f)
-            found[channel] = Path(component, channel, flight, heard, np.ones(1), kind)
+            transfer = between(table.frequencies, response, flight, f)
+            found[channel] = Path(component, channel, flight, transfer, np.ones(1), kind)
     return list(found.values())
 
 
 def _flight(frequency: NDArray[np.float64], responses: NDArray[np.complex128]) -> float:
-    """Mean arrival time in s of all inputs at one microphone, less a margin: mean of the group delay."""
+    """Mean arrival time in s of all inputs at one microphone, minus a margin: mean of the group delay."""
     peaks = np.abs(responses).max(axis=1)
-    heard = peaks > _SILENT * peaks.max()
-    scaled = responses[heard] / peaks[heard, None]
+    audible = peaks > _SILENT * peaks.max()
+    scaled = responses[audible] / peaks[audible, None]
     steps = scaled[:, 1:] * scaled[:, :-1].conj()
     # the phase of neighbouring products, weighted by their magnitude and spacing
     delays = -np.angle(steps) / (2.0 * np.pi * np.diff(frequency))

@@ -117,7 +117,7 @@ def ring_basis(
     Parameters
     ----------
     held : bool
-        Whether the seat's cylinder stands still in all directions; the ring then has no rigid motion.
+        Whether the seat's cylinder is fixed in all directions; the ring then has no rigid motion.
     highest : float, optional
         By default `wall_limit`; 0 leaves rigid motions alone.
 

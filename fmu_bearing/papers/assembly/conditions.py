@@ -48,7 +48,7 @@ class ContactModes:
     condition : str
         ``C1`` to ``C4``.
     held : bool
-        Whether the outer ring's circumference stands still.
+        Whether the outer ring's circumference is fixed.
     frequencies : ndarray, shape (m,)
         Hz, ascending; exactly 0 for motions without resistance.
     shapes : ndarray, shape (c, m)
@@ -112,7 +112,7 @@ def contact_modes(
     patch_radius : float
         Radius a (m) of all patches. The paper's bonded faces are as large as its mesh makes them.
     held : bool
-        Whether the outer ring's circumference stands still in all directions; else all is free.
+        Whether the outer ring's circumference is fixed in all directions; else all is free.
     ball_springs : float
         Stiffness (N/m) between neighbouring balls' centres, along the chord; 0: none.
     highest : float, optional

@@ -37,13 +37,13 @@ def rigid_drive(collision: Collision, frequency: Array) -> Spectrum:
 def elastic_drive(collision: Collision, spheres: Sequence[Sphere], frequency: Array, orders: int) -> Spectrum:
     """Drive by elastic balls without damping, each pressed at a point by its neighbours' Hertz forces.
 
-    The forces are those of the rigid chain (assumed: waves inside do not change the contact). Shape
+    The forces are computed for the rigid chain (assumed: waves inside do not change the contact). Shape
     (f, spheres, orders + 1), per Hz. Order 1 contains the motion of the ball as a whole.
 
     Raises
     ------
     ValueError
-        When the spheres are not those of the collision in number.
+        When there are not as many spheres as in the collision.
     """
     count = len(collision.acceleration)
     if len(spheres) != count:
@@ -71,7 +71,7 @@ def impact_pressure(
 ) -> Array:
     """Pressure in Pa at points while the balls of a row hit each other, shape (points, times).
 
-    The row stands still: the balls move by micrometres. Zero before sound can arrive.
+    The row is at rest: the balls move by micrometres. Zero before sound can arrive.
 
     Parameters
     ----------
@@ -114,10 +114,10 @@ def impact_pressure(
         drive = rigid_drive(collision, frequency)
     else:
         drive = elastic_drive(collision, spheres, frequency, orders)
-    heard = row.pressure(frequency, row.amplitudes(frequency, drive), place)
+    pressure = row.pressure(frequency, row.amplitudes(frequency, drive), place)
     end = np.clip((frequency / band - 1.0 + _FADE) / _FADE, 0.0, 1.0)
     weight = (2.0 - (frequency == 0.0)) / window * np.cos(0.5 * np.pi * end) ** 2
-    history: Array = ((heard.T * weight) @ np.exp(2j * np.pi * frequency[:, None] * when)).real
+    history: Array = ((pressure.T * weight) @ np.exp(2j * np.pi * frequency[:, None] * when)).real
     return np.where(when >= first[:, None], history, 0.0)
 
 

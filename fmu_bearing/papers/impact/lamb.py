@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 
 #: Frequencies of shear waves on the radius below which a sphere is taken at its limit of zero frequency.
 _STATIC = 1e-4
-#: Step in w a / c_t between which two roots do not hide: those of one family lie about 1 apart.
+#: Step in w a / c_t between which two roots do not hide: roots of one family lie about 1 apart.
 _SCAN = 0.02
 #: Share of a natural frequency beside it at which its residue is read: rounding of the determinant's root
 #: over it, and its square, are both below 1e-7.

@@ -35,7 +35,7 @@ class RowModes:
     twist : ndarray
         n = 0, turning about the line; rigid balls.
     transverse : ndarray
-        n = 1, across the line and turning; rigid balls. Each stands for two modes.
+        n = 1, across the line and turning; rigid balls. Each represents two modes.
     """
 
     axial: Array
@@ -44,7 +44,7 @@ class RowModes:
 
     @property
     def zero_modes(self) -> int:
-        """Motions without resistance, those of n = 1 twice."""
+        """Motions without resistance, modes of n = 1 twice."""
         still = [int(np.sum(found == 0.0)) for found in (self.axial, self.twist, self.transverse)]
         return still[0] + still[1] + 2 * still[2]
 
@@ -69,7 +69,7 @@ def row_modes(
     Raises
     ------
     ValueError
-        For less than two balls or a patch that is not positive.
+        For fewer than two balls or a patch that is not positive.
     """
     if len(balls) < 2:
         raise ValueError(f"{len(balls)} balls do not make a row: give two or more")
@@ -103,9 +103,9 @@ def _chain(springs: Sequence[float], count: int) -> Array:
 
 def _axial(balls: Sequence[Sphere], springs: Sequence[float], highest: float) -> Array:
     """Along the line, n = 0: each ball as a whole and by its modes, which move its two poles."""
-    alike = {ball: _poles(ball, highest) for ball in balls}
-    own, right, left = (np.concatenate([alike[ball][k] for ball in balls]) for k in range(3))
-    owner = np.concatenate([np.full(alike[ball][0].size, j) for j, ball in enumerate(balls)])
+    poles = {ball: _poles(ball, highest) for ball in balls}
+    own, right, left = (np.concatenate([poles[ball][k] for ball in balls]) for k in range(3))
+    owner = np.concatenate([np.full(poles[ball][0].size, j) for j, ball in enumerate(balls)])
     total = np.diag(own)
     for j, k in enumerate(springs):
         opening = np.where(np.equal(owner, j + 1), left, 0.0) - np.where(np.equal(owner, j), right, 0.0)

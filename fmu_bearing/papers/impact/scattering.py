@@ -1,6 +1,6 @@
 """Spheres on one axis in each other's sound: all multiple scattering between rigid surfaces, m = 0.
 
-Each sphere sends out waves h_n P_n; those of the others are re-expanded about its centre (addition theorem);
+Each sphere sends out waves h_n P_n; waves of the others are re-expanded about its centre (addition theorem);
 the radial acceleration of its surface then fixes its own waves. One linear system per frequency, exact but
 for the order at which the waves end. Sources: Gumerov and Duraiswami (2002; multiple scattering from N
 spheres), Martin (2006), chapter 4. Spheres that touch or nearly touch need high orders: the wave squeezed

@@ -63,7 +63,7 @@ def sphere_pressure(
     _, shape, _ = scipy.signal.lsim(
         ([distance / radius, 1.0], [1.0, 2.0, 2.0]), delayed, (t - t[0]) / ringing
     )
-    heard: NDArray[np.float64] = (
+    pressure: NDArray[np.float64] = (
         air.density * radius**3 * cosine / distance**2 * np.asarray(shape, dtype=float)
     )
-    return heard
+    return pressure

@@ -52,7 +52,7 @@ def test_channels_components_and_weights(paths):
 
 
 def test_interpolation_between_solved_frequencies(paths):
-    """At 7,333 Hz, solved anew: -45 dB of each component's strongest path there."""
+    """At 7,333 Hz, solved again: -45 dB of each component's strongest path there."""
     frequency = 7333.0
     band = solved.Band(task_of(BARE, AIR, HARMONICS), [frequency, 20_000.0])  # the mesh of the upper band
     band.surface[0] = band.solve(frequency)
@@ -130,8 +130,8 @@ def test_flexural_shape_radiates_through_its_normal_part():
     task = task_of(BARE, AIR, 0, (mode,))
     band = solved.Band(dataclasses.replace(task, orbit=0.0), [3000.0])
     band.surface[0] = band.solve(3000.0)
-    heard = band.field(np.array([[0.0, 0.105]]))[0, :, 0]
-    assert heard[3 * solved.BODIES] == pytest.approx(heard[solved.RADIAL + OUTER], rel=1e-9)
+    received = band.field(np.array([[0.0, 0.105]]))[0, :, 0]
+    assert received[3 * solved.BODIES] == pytest.approx(received[solved.RADIAL + OUTER], rel=1e-9)
 
 
 @pytest.fixture
@@ -146,21 +146,21 @@ def short(monkeypatch, tmp_path):
     solved._remembered.cache_clear()
 
 
-def test_solutions_are_kept_on_disk_and_damaged_ones_made_anew(short, monkeypatch):
+def test_solutions_are_kept_on_disk_and_damaged_ones_made_again(short, monkeypatch):
     task = dataclasses.replace(task_of(BARE, AIR, 0), orbit=0.0)
     first = solved.solution(task)
     points = np.array([[0.0, 0.105]])
-    heard = first.field(points)
+    received = first.field(points)
     assert solved.solution(task) is first
     (kept,) = (short / "sound").glob("*.npz")
     solved._remembered.cache_clear()
     with monkeypatch.context() as patch:
         patch.setattr(solved.Band, "solve", lambda *_: pytest.fail("solved although a solution is kept"))
         again = solved.solution(task)
-    assert np.array_equal(again.field(points), heard)
+    assert np.array_equal(again.field(points), received)
     solved._remembered.cache_clear()
     kept.write_bytes(kept.read_bytes()[:1000])
-    assert np.array_equal(solved.solution(task).field(points), heard)
+    assert np.array_equal(solved.solution(task).field(points), received)
     assert np.all(np.diff(first.frequencies) > 0.0)
     other = dataclasses.replace(task, sound_speed=343.0)
     assert other.key() != task.key()

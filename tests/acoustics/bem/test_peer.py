@@ -17,11 +17,11 @@ def ours(frequency, points):
     system, normals = scatterer.at(k), DENSITY * scatterer.mesh.node_normals()
     across = np.hypot(points[:, 1], points[:, 2])
     single, double = scatterer.field_potentials(np.stack([points[:, 0], across], axis=1))(k)
-    heard = []
+    received = []
     for order, drive in ((0, normals[:, :1]), (1, normals[:, 1:])):
         there = single[order] @ drive + double[order] @ system.pressure(order, drive)
-        heard.append(there[:, 0] * (points[:, 2] / across if order else 1.0))
-    return np.array(heard)
+        received.append(there[:, 0] * (points[:, 2] / across if order else 1.0))
+    return np.array(received)
 
 
 @pytest.mark.heavy
@@ -37,7 +37,7 @@ def test_ring_against_bempp(frequency, allowed):
     assert unknowns > 1000
     found = ours(frequency, points)
     for one, other in zip(found, theirs, strict=True):
-        heard = np.abs(other) > 10 ** (-10 / 20) * np.abs(other).max()
-        off = 20.0 * np.log10(np.abs(one / other)[heard])
+        received = np.abs(other) > 10 ** (-10 / 20) * np.abs(other).max()
+        off = 20.0 * np.log10(np.abs(one / other)[received])
         assert np.abs(off).max() < allowed
-        assert np.abs(np.angle(one / other)[heard]).max() < 0.1
+        assert np.abs(np.angle(one / other)[received]).max() < 0.1

@@ -52,8 +52,8 @@ def sphere_errors(elements, frequency, radius=0.0175):
         found = field(scatterer, k, m, driven, system.pressure(m, driven))[:, 0]
         exact = -DENSITY * hankel(degree, k * distance) / (k * hankel(degree, k * radius, True))
         exact = exact * lpmv(m, degree, POINTS[:, 0] / distance)
-        heard = np.abs(exact) > 0.1 * np.abs(exact).max()
-        errors.append(np.abs(20.0 * np.log10(np.abs(found / exact)[heard])).max())
+        received = np.abs(exact) > 0.1 * np.abs(exact).max()
+        errors.append(np.abs(20.0 * np.log10(np.abs(found / exact)[received])).max())
     return np.array(errors)
 
 
@@ -171,15 +171,15 @@ def test_reciprocity(frequency):
 
     system, none = scatterer.at(k), np.zeros((scatterer.mesh.size, 0))
     for m in range(3):
-        heard = []
+        received = []
         for source, listener in ((0, 1), (1, 0)):
             incoming = ring_source(scatterer.mesh.points, places[source], m)[:, None]
             pressure = system.pressure(m, none, incoming)
             there = places[[listener]]
             silent = np.zeros((scatterer.mesh.size, 1))
             scattered = field(scatterer, k, m, silent, pressure, there)[0, 0]
-            heard.append(ring_source(there, places[source], m)[0] + scattered)
-        assert heard[0] == pytest.approx(heard[1], rel=2e-3)
+            received.append(ring_source(there, places[source], m)[0] + scattered)
+        assert received[0] == pytest.approx(received[1], rel=2e-3)
 
 
 def test_rings_shield_a_radial_ball_by_more_than_twenty_decibels():
@@ -193,7 +193,7 @@ def test_rings_shield_a_radial_ball_by_more_than_twenty_decibels():
     total = free[1, :, 0].copy()
     for m in range(9):
         total[m] += (double[m] @ system.pressure(m, none, incoming[1, m][:, None]))[0, 0]
-    # heard at the ball's own angle, all harmonics add up
+    # at the ball's own angle, all harmonics add up
     assert 20.0 * np.log10(abs(total.sum()) / abs(free[1, :, 0].sum())) < -20.0
 
 
@@ -214,13 +214,13 @@ def test_a_rigid_plane_doubles_a_small_source_on_it():
     """A small sphere just off the plane, moving along it: pressure on the plane doubles the free field's."""
     k, body = wavenumber(500.0), sphere(0.002, 40)
     points = np.array([[-0.0025, 0.3]])
-    heard = []
+    received = []
     for plane in (None, -0.0025):
         scatterer = Scatterer([body], k, 2, size=1.0, plane=plane)
         driven = DENSITY * scatterer.mesh.node_normals()[:, 1:]
-        heard.append(field(scatterer, k, 1, driven, scatterer.at(k).pressure(1, driven), points)[0, 0])
+        received.append(field(scatterer, k, 1, driven, scatterer.at(k).pressure(1, driven), points)[0, 0])
     # the wall 0.25 radii away also loads the sphere: its added mass grows by a few per cent
-    assert abs(heard[1] / heard[0]) == pytest.approx(2.0, rel=0.06)
+    assert abs(received[1] / received[0]) == pytest.approx(2.0, rel=0.06)
     far = Scatterer([body], k, 2, size=1.0, plane=-0.05)
     driven = DENSITY * far.mesh.node_normals()[:, 1:]
     found = field(far, k, 1, driven, far.at(k).pressure(1, driven), np.array([[0.1, 0.3]]))[0, 0]

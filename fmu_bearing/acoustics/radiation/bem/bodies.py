@@ -5,7 +5,7 @@ ring's bore, flush with the ring. ``housing``: outer ring and housing move toget
 shaft stub that ends flush with the housing's front face; the slot between the rings is open to the front and
 closed where the bearing ends (assumed: seals and spacers are not modelled). ``baffle``: the rings'
 front faces lie flush in an infinite rigid wall, the gap between them is closed (assumed), balls and cage
-are not heard.
+make no sound.
 
 Grooves, chamfers and the cage's pockets are left out.
 """

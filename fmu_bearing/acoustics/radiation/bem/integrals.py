@@ -29,7 +29,7 @@ _FOUR_PI = 4.0 * math.pi
 _wrapping = threading.Lock()
 
 
-def _kept(function):
+def _compiled_once(function):
     """Compile a function, once for all threads, and keep it where the engine's kernels are."""
     with _wrapping:
         return _wrapped(function)
@@ -218,7 +218,7 @@ class Potentials:
         total = np.zeros(shape)
         for on, ends, normals in self._sources:
             part = np.zeros(shape)
-            _kept(_static)(
+            _compiled_once(_static)(
                 points, on, ends, normals, _gauss(_FAR_POINTS), _gauss(_NEAR_POINTS), _gauss(NODES)[0],
                 orders, part,
             )  # fmt: skip
@@ -238,7 +238,9 @@ class Potentials:
         cosines = np.cos(np.arange(max(self._orders, 2))[:, None] * np.pi * np.arange(turns + 1) / turns)
         rule = _gauss(_PLAIN_POINTS)
         for on, ends, normals in self._sources:
-            _kept(_remainder)(self._points, on, ends, normals, rule, _basis(rule[0]), cosines, k, out)
+            _compiled_once(_remainder)(
+                self._points, on, ends, normals, rule, _basis(rule[0]), cosines, k, out
+            )
         out += self._closed[:2]
         out -= 0.5 * k**2 * self._closed[2:]
         return out[0], out[1]

@@ -69,7 +69,7 @@ def bem_paths(
     Parameters
     ----------
     radiators, air, circle
-        What sounds, in what, and where it is heard.
+        Sources, medium and receivers.
     harmonics
         Highest circumferential order kept of the balls' sound.
     modes
@@ -103,7 +103,7 @@ def bem_paths(
 
 
 def _body_paths(response: NDArray[np.complex128], flight: float, circle: MicrophoneCircle) -> list[Path]:
-    """Rigid motion that is heard; a turn about y lifts z, one about z lowers y."""
+    """Rigid motion that radiates; a turn about y lifts z, one about z lowers y."""
     paths: list[Path] = []
     for body in range(BODIES):
         paths += translation_paths(body, flight, response[AXIAL + body], response[RADIAL + body], circle)

@@ -332,7 +332,7 @@ def _load(path: pathlib.Path, found: Solution) -> bool:
         kept = read_arrays(path)
         tables = [(kept[f"frequencies{i}"], kept[f"surface{i}"]) for i in range(len(found.bands))]
     except (OSError, ValueError, KeyError):
-        return False  # absent or damaged: solve anew
+        return False  # absent or damaged: solve again
     for band, (frequencies, surface) in zip(found.bands, tables, strict=True):
         if surface.shape != (len(frequencies), *band.surface.shape[1:]) or not np.isfinite(surface).all():
             return False

@@ -8,7 +8,7 @@ with c = 1 in the air, 1/2 on the surface and 0 inside a body. Points inside clo
 further equations, so that the resonances of the bodies' inside do not spoil the solution (CHIEF, Schenck
 1968). Collocation with discontinuous linear elements.
 
-Walls may take in a little air: `wall_admittance` stands for the losses to viscosity and heat conduction in
+Walls may take in a little air: `wall_admittance` represents the losses to viscosity and heat conduction in
 a thin layer on them. They matter in narrow gaps only, whose resonances would otherwise ring for ever.
 """
 
@@ -29,7 +29,7 @@ _RING_ANGLES = 256  # round an orbit, for fields of ring sources: exact to exp(-
 _DEPTH = 0.12  # of a body's smaller extent: inner points keep this far from the skin
 _MOST_POINTS, _LEAST_POINTS = 60, 6
 _KINEMATIC_VISCOSITY, _PRANDTL, _HEAT_RATIO = 1.51e-5, 0.71, 1.40  # of air at 20 degC; m2/s
-# Losses in real gaps over those of smooth parallel walls: pockets, balls, oil and grooves (assumed).
+# Losses in real gaps over losses of smooth parallel walls: pockets, balls, oil and grooves (assumed).
 # Without it the air between a solid cage and the rings would ring with a quality factor of 75.
 ROUGHNESS_FACTOR = 3.0
 _SAFE = 0.8  # of a ring section's first resonance: below, no inner points are needed

@@ -39,7 +39,7 @@ OUTPUTS = (
     "contact.outer.angle_mean",
 )
 DURATION = 0.5  # s: of a scene that is recorded where a recording is taken
-_FAR = 2000.0  # mm: where the one microphone of a recording stands; its flight lengthens the channel history
+_FAR = 2000.0  # mm: place of the one microphone of a recording; its flight lengthens the channel history
 
 
 @renamed.arguments
@@ -136,7 +136,7 @@ def record(
     bearing.initialise()
     first = round(settle * SD.RATE)
     size = round(duration * SD.RATE)
-    kept = _Kept(bearing, tuple(outputs), first + size + TAIL, watch)
+    kept = _Readings(bearing, tuple(outputs), first + size + TAIL, watch)
     _march(bearing, drives, kept, min(step, (kept.depth - 8) / SD.RATE), progress)
     return Recording(
         scene, wanted, SD.RATE, first / SD.RATE, size, np.array(kept.time), np.array(kept.speed),
@@ -192,7 +192,7 @@ def with_far_microphone(scene: Scene, radiation_model: str) -> Scene:
     return scene.model_copy(update={"sound": sound})
 
 
-class _Kept:
+class _Readings:
     """Values read at communication points: rows of the engine's channel history, speed, outputs."""
 
     def __init__(
@@ -239,7 +239,7 @@ class _Kept:
 
 
 def _march(
-    bearing: Instance, drives: Mapping[str, Signal], kept: _Kept, step: float, progress: bool | None
+    bearing: Instance, drives: Mapping[str, Signal], kept: _Readings, step: float, progress: bool | None
 ) -> None:
     """Step until all rows are read."""
     from rich.console import Console

@@ -98,13 +98,15 @@ class Recording(ChannelHistory):
             rate = SD.RATE
         if rate < _ENOUGH:
             warnings.warn(
-                f"pressures at {rate:g} Hz fold what lies above {rate / 2:g} Hz: run with "
+                f"pressures at {rate:g} Hz alias all above {rate / 2:g} Hz: run with "
                 "output_interval=Recording.PRESSURE_STEP",
                 stacklevel=2,
             )
         first = int(np.searchsorted(time, time[0] + settle - 1e-9))
         if first >= len(time):
-            raise ValueError(f"settle = {settle} s leaves nothing of {time[-1] - time[0]:g} s")
+            raise ValueError(
+                f"settle = {settle} s leaves nothing of the {time[-1] - time[0]:g} s run: give less"
+            )
         known = (
             {} if scene is None else {f"mic[{k + 1}].pressure": m for k, m in enumerate(scene.microphones)}
         )
@@ -189,7 +191,7 @@ class Recording(ChannelHistory):
         """
         from fmu_bearing.recording.measurements.pictures import spectrum_picture
 
-        need("matplotlib", "a picture")  # told before the sound is computed
+        need("matplotlib", "a picture")  # refused before the sound is computed
         found = self.spectrum(positions, radiation_model, resolution)
         shown = found.frequency <= highest
         kinematics = None if self.scene is None else self.kinematics()
@@ -267,12 +269,12 @@ class Recording(ChannelHistory):
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> "Recording":
-        """Read what `save` wrote.
+        """Read a recording that `save` wrote.
 
         Raises
         ------
         ValueError
-            When there is no such file, or it is no recording.
+            When there is no such file, or it is not a recording.
         """
         try:
             data = read_arrays(path)
@@ -295,7 +297,9 @@ class Recording(ChannelHistory):
         except OSError as problem:
             raise ValueError(f"{path}: cannot be read: {problem}") from None
         except (ValueError, KeyError, TypeError):
-            raise ValueError(f"{path}: is no recording that this version has written, or damaged") from None
+            raise ValueError(
+                f"{path}: is not a recording that this version has written, or damaged"
+            ) from None
 
 
 def _speed_of(scene: Scene | None, count: int) -> NDArray[np.float64]:

@@ -161,18 +161,18 @@ def make(
     rising = _run_up(subject, run_up, run_up_time, tell, progress) if run_up else None
     with python_warnings.catch_warnings(record=True) as caught:
         python_warnings.simplefilter("always", UserWarning)
-        sections, heard = _sections(subject, rising, changes, tell)
+        sections, microphones = _sections(subject, rising, changes, tell)
     subject.warnings += [str(each.message) for each in caught if issubclass(each.category, UserWarning)]
     notes = summary.warnings_of(subject)
-    sure = _spread(subject, heard, tell)
-    shown = summary.tiles(subject, heard, sure)
+    sure = _spread(subject, microphones, tell)
+    shown = summary.tiles(subject, microphones, sure)
     judged = verdict_table(subject)
     scene = subject.recording.scene
     heading = title or ("Recording" if scene is None else scene.name)
     tell("writing the page")
     text = render(
         heading, conditions.source_words(subject), subject.source, sections, shown,
-        summary.sentences(subject, heard, sure), notes, judged,
+        summary.sentences(subject, microphones, sure), notes, judged,
     )  # fmt: skip
     data = text.encode("utf-8")
     write_whole(path, data)
@@ -252,14 +252,16 @@ def _of_set(
     return Report(path, len(data), page.sections, page.figures, page.warnings, None)
 
 
-def _spread(subject: Subject, heard: Microphones | None, tell: Tell) -> Spread | None:
+def _spread(subject: Subject, microphones: Microphones | None, tell: Tell) -> Spread | None:
     """Range of the level at the loudest microphone; None where there is none."""
-    if heard is None:
+    if microphones is None:
         return None
     tell("range of the level over seeds and assumed surfaces")
     try:
         return spread(
-            subject.recording, [heard.names[heard.loudest]], radiation_model=subject.radiation_model
+            subject.recording,
+            [microphones.names[microphones.loudest]],
+            radiation_model=subject.radiation_model,
         )
     except ValueError:
         return None  # no scene, no waviness, or a speed that changes
@@ -306,19 +308,19 @@ def _sections(
     subject: Subject, rising: Subject | None, changes: bool | None, tell: Tell
 ) -> tuple[list[Section], Microphones | None]:
     """All sections in the page's order; one that cannot be made gives the reason."""
-    heard: Microphones | None = None
+    microphones: Microphones | None = None
     reason = ""
-    tell("listening at the microphones")
+    tell("sound at the microphones")
     try:
-        heard = at_microphones(subject)
+        microphones = at_microphones(subject)
     except (Absent, ValueError) as problem:
         reason = str(problem)
 
     def with_sound(make_one: Callable[[Microphones], Section]) -> Callable[[], Section]:
         def made() -> Section:
-            if heard is None:
+            if microphones is None:
                 raise Absent(reason)
-            return make_one(heard)
+            return make_one(microphones)
 
         return made
 
@@ -330,7 +332,7 @@ def _sections(
         ("spectra", "Spectra", with_sound(lambda h: levels_and_spectra.spectra(subject, h))),
         ("audio", "Listen", with_sound(playback.audio)),
         ("waterfall", "Waterfall", with_sound(lambda h: waterfall.fall(h, rising))),
-        ("directivity", "Directivity", lambda: directivity_balloon.directivity(subject, heard)),
+        ("directivity", "Directivity", lambda: directivity_balloon.directivity(subject, microphones)),
         ("velocities", "Velocities", lambda: ring_motion.velocities(subject)),
         ("orbits", "Orbits", lambda: ring_motion.orbits(subject)),
         ("contacts", "Contacts", lambda: ball_contacts.contacts(subject)),
@@ -346,4 +348,4 @@ def _sections(
             found.append(make_one())
         except Absent as problem:
             found.append(Section(key, title, (), str(problem)))
-    return found, heard
+    return found, microphones

@@ -1,4 +1,4 @@
-"""The page about a set of bearings on one shaft: what statics says of it, without a run."""
+"""The page about a set of bearings on one shaft: its statics, without a run."""
 
 import math
 from collections.abc import Callable
@@ -29,7 +29,7 @@ _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#
 
 @dataclass(frozen=True)
 class SetPage:
-    """A page about a set, as text, with what stands in it.
+    """A page about a set, as text, with its contents.
 
     Attributes
     ----------
@@ -148,7 +148,7 @@ def _drawing(scene: Scene) -> Chart:
 
 
 def _bearings(found: ShaftStatics) -> Table:
-    """Return what each bearing carries."""
+    """Return the loads of each bearing."""
     columns = (
         "bearing", "at, mm", "axial, N", "y, N", "z, N", "largest ball load, N", "unloaded balls",
         "angle, deg", "pressure, GPa",
@@ -275,7 +275,7 @@ def _warm_keys(scene: Scene) -> tuple[dict[str, float], dict[str, float]]:
 def _together(together: list[Verdict]) -> Block:
     """Verdicts on the set as a whole."""
     if not together:
-        return Words("Of the set as a whole nothing is to be judged.", "note")
+        return Words("There is no verdict on the set as a whole.", "note")
     rows = [[one.label, one.text, one.judgement, one.limit, one.source] for one in together]
     columns = ("", "value", "verdict", "limit", "source of the limit")
     return Table("Verdicts on the set", columns, rows)
@@ -284,9 +284,9 @@ def _together(together: list[Verdict]) -> Block:
 def _verdicts(judged: list[list[Verdict | None]]) -> Block:
     """Verdicts on all bearings side by side."""
     rows = []
-    for alike in judged:
-        first = next(one for one in alike if one is not None)
-        cells = ["" if one is None else f"{one.text} ({one.judgement})" for one in alike]
+    for verdicts in judged:
+        first = next(one for one in verdicts if one is not None)
+        cells = ["" if one is None else f"{one.text} ({one.judgement})" for one in verdicts]
         rows.append([first.key.replace("_", " "), *cells, first.limit, first.source])
     columns = ("", *(f"bearing {k + 1}" for k in range(len(judged[0]))), "limit", "source of the limit")
     return Table("Verdicts on each bearing from its own loads", columns, rows)

@@ -1,6 +1,6 @@
 """Sound levels as they are drawn and listed: absent where there is none.
 
-A variable has to hold a number at all times, so a meter that has heard nothing, because metering has not
+A variable has to hold a number at all times, so a meter without signal, because metering has not
 begun or because its source is silent, reads the floor of -106 dB. That is no level: pictures leave a gap.
 """
 

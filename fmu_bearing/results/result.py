@@ -234,7 +234,7 @@ class Run(Series):
             with xr.open_dataset(path, engine="h5netcdf", decode_times=False) as data:
                 data.load()
         except (OSError, ValueError) as problem:
-            raise ResultError(f"{path}: is no netCDF file: {problem}") from None
+            raise ResultError(f"{path}: is not a netCDF file: {problem}") from None
         if "time" not in data.coords or any(data[name].dims != ("time",) for name in data.data_vars):
             raise ResultError(f"{path}: holds no variables over time; sweeps are read by xarray")
         columns = {"time": data["time"].values} | {str(n): data[n].values for n in data.data_vars}
@@ -307,7 +307,7 @@ def read_table(path: str | os.PathLike[str]) -> NDArray[Any]:
     except ResultError:
         raise
     except (OSError, UnicodeDecodeError, ValueError, IndexError, TypeError) as problem:
-        raise ResultError(f"{path}: is no table of numbers with a line of names: {problem}") from None
+        raise ResultError(f"{path}: is not a table of numbers with a line of names: {problem}") from None
     names = table.dtype.names or ()
     if not names or names[0] != "time":
         raise ResultError(f"{path}: the first column must be 'time' (s), not '{names[0] if names else ''}'")
@@ -321,7 +321,7 @@ def read_table(path: str | os.PathLike[str]) -> NDArray[Any]:
 
 
 def _plain(path: str | os.PathLike[str]) -> pathlib.Path:
-    """Return the path of a file that can be read; `ResultError` for what is none."""
+    """Return the path of a file that can be read; `ResultError` where there is none."""
     try:
         return plain_file(path)
     except FileNotFoundError:

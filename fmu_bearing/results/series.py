@@ -34,7 +34,7 @@ class Series:
     def __getitem__(self, name: str) -> NDArray[np.float64]:
         if name not in (self.table.dtype.names or ()):
             now = f"it is now '{renamed.VARIABLES[name]}'; " if name in renamed.VARIABLES else ""
-            raise KeyError(f"'{name}' was not kept; {now}kept were {', '.join(self.names)}")
+            raise KeyError(f"'{name}' was not kept; {now}kept: {', '.join(self.names)}")
         return np.asarray(self.table[name], dtype=float)
 
     def __iter__(self) -> Iterator[str]:

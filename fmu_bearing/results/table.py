@@ -150,5 +150,5 @@ def read_rows(path: str | os.PathLike[str]) -> list[tuple[int, list[Cell]]]:
             if any(cells):
                 rows.append((reader.line_num, cells))
     except csv.Error as problem:
-        raise ValueError(f"{path}: line {reader.line_num}: is no line of a table: {problem}") from None
+        raise ValueError(f"{path}: line {reader.line_num}: is not a line of a table: {problem}") from None
     return rows

@@ -27,7 +27,7 @@ USUAL = (
 _MOST = 14  # names in a column of a legend; curves drawn by default where a run has none of the usual
 #: Factor, offset and unit in pictures, where SI gives awkward numbers.
 _SHOWN = {"rad/s": (30.0 / math.pi, 0.0, "r/min"), "K": (1.0, -273.15, "degC")}
-# s: longer communication steps fold what waviness makes up to 10 kHz (imperfections.highest_frequency_kHz)
+# s: longer communication steps alias motion by waviness up to 10 kHz (imperfections.highest_frequency_kHz)
 _FINE = 5e-5
 # dB below its median: a level there at the beginning is what filters let through before sound arrives
 _STARTING = 40.0

@@ -36,12 +36,12 @@ def any_sets(scene: Scene) -> tuple[Scene, Scene]:
         "preload": {"kind": "spring", "force_N": 100.0},
         "housing": housing,
     }
-    heard = {
+    sound = {
         "radiation_model": "compact",
         "third_octaves": True,
         "circle": {"radius_mm": 10.0 * scene.bearing.outside_diameter_mm, "axial_mm": 0.0, "count": 1},
     }
-    tables = scene.model_dump() | {"mounting": None, "sound": heard, "imperfections": None}
+    tables = scene.model_dump() | {"mounting": None, "sound": sound, "imperfections": None}
     at_port = {"shaft": {"external": True}, "bearing": pair[:1]}
     return (
         Scene.from_dict(tables | {"spindle": spindle}),

@@ -23,13 +23,13 @@ class Bearing(Mapping[str, float]):
     source : Scene, Model or path
         Scene file (TOML) or scene in memory; fidelity ``auto`` is resolved.
     **fidelity
-        Other values for keys of ``[fidelity]``, such as ``tolerance=1e-4``; ``fidelity="rings"`` stands for
+        Other values for keys of ``[fidelity]``, such as ``tolerance=1e-4``; ``fidelity="rings"`` is short for
         its ``model``.
 
     Raises
     ------
     SceneError
-        For a scene that is refused, or what is no scene.
+        For a scene that is refused, or what is not a scene.
 
     Examples
     --------
@@ -106,7 +106,7 @@ class Bearing(Mapping[str, float]):
         self._instance.step(h)
 
     def read(self, *patterns: str) -> dict[str, float]:
-        """Return variables by name, SI units; ``*`` stands for any text; default: all outputs."""
+        """Return variables by name, SI units; ``*`` matches any text; default: all outputs."""
         names = chosen_names(patterns or None, self, self._outputs)
         return {name: self[name] for name in names}
 

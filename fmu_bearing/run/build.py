@@ -75,7 +75,7 @@ def build_fmu(
     8
     """
     check_choice(flavour, platforms)
-    # told before minutes of compiling
+    # refused before minutes of compiling
     if output is None:
         check_folder(".")
     else:

@@ -220,7 +220,7 @@ class Choice:
 
     @property
     def conditions(self) -> str:
-        """What was probed, and what was not."""
+        """Return which operating conditions were probed, and which were not."""
         *others, last = self.probed
         names = f"{', '.join(others)} and {last}" if others else last
         missing = f"{self.missing}; " if self.missing else ""
@@ -297,7 +297,7 @@ def choose(
     finest = bounded(FINEST, scene)
     first = measure(finest, sounds, warm_up, window, budget=budget)
     truth: dict[Condition, Figures] = {planned[0]: first.figures}
-    missing = "" if len(planned) > 1 else "another speed and a rise of speed, as the shaft stands still"
+    missing = "" if len(planned) > 1 else "another speed and a rise of speed, as the shaft does not turn"
     for one in planned[1:]:
         try:
             truth[one] = measure_between(finest, sounds, warm_up, window, one.first, one.last)

@@ -142,7 +142,7 @@ def _value(path: pathlib.Path, line: int, cell: Cell, column: Column, bounds: Bo
     except ValueError:
         given = math.nan
     if not math.isfinite(given):
-        raise ResultError(f"{where}: '{cell.written}' is no finite number")
+        raise ResultError(f"{where}: '{cell.written}' is not a finite number")
     value = column.si(given)
     if bounds is None:
         return value

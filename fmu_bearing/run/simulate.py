@@ -105,8 +105,10 @@ def simulate(
         known(name, player.settable, "input or parameter")
     with stoppable() as stop, bar(player.name, stop_time, progress) as tell:
         begin = clock.perf_counter()
-        told = _Estimate(stop_time, step, len(names), tell)
-        columns, ended, note = player.run(stop_time, step, table, dict(start_values or {}), names, stop, told)
+        estimate = _Estimate(stop_time, step, len(names), tell)
+        columns, ended, note = player.run(
+            stop_time, step, table, dict(start_values or {}), names, stop, estimate
+        )
         wall = clock.perf_counter() - begin
     if note:
         warnings.warn(note, EndedEarly, stacklevel=2)
@@ -292,7 +294,7 @@ def _check_times(stop_time: float, step: float) -> None:
 
 @contextmanager
 def stoppable() -> Iterator[Callable[[], bool]]:
-    """Turn the first Ctrl-C into a request to stop, told by the yielded function; a second interrupts."""
+    """Turn the first Ctrl-C into a request to stop, returned by the yielded function; a second interrupts."""
     asked = threading.Event()
     if threading.current_thread() is not threading.main_thread():
         yield asked.is_set  # only the main thread may handle signals

@@ -116,16 +116,16 @@ def open_fmu(path: pathlib.Path) -> FmuPlayer:
     Raises
     ------
     ResultError
-        When the file is no co-simulation FMU that FMPy reads.
+        When the file is not a co-simulation FMU that FMPy reads.
     """
     try:
         description = fmpy.read_model_description(str(plain_file(path)))
     except FileNotFoundError:
         raise ResultError(f"{path}: there is no such FMU") from None
     except Exception as problem:
-        raise ResultError(f"{path}: is no valid FMU: {problem}") from None
+        raise ResultError(f"{path}: is not a valid FMU: {problem}") from None
     if description.coSimulation is None:
-        raise ResultError(f"{path}: is no co-simulation FMU")
+        raise ResultError(f"{path}: is not a co-simulation FMU")
     return FmuPlayer(path, description)
 
 

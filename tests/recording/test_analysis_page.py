@@ -20,7 +20,7 @@ def test_the_page_runs(tmp_path, monkeypatch):
     assert f"{above:.1f} dB too high. For a housing" in " ".join(page.read_text(encoding="utf-8").split())
     rms = [np.sqrt(np.mean(signal**2)) for signal in (names["back"], names["pressure"])]
     assert abs(rms[0] / rms[1] - 1.0) < 0.01
-    assert names["heard"].levels()[0] > 60.0
+    assert names["from_fmu"].levels()[0] > 60.0
     sure = names["sure"]
     stated = re.search(
         r"reads (\d+) to\s+(\d+) dB\(A\), of which seeds make (\d) dB", page.read_text("utf-8")

@@ -46,11 +46,11 @@ def test_a_key_of_one_scene_alone(plain):
 def test_levels_are_those_of_the_recordings(found, plain, other):
     for side, scene in ((found.a, plain), (found.b, other)):
         made = record(scene, DURATION, settle=SETTLE, progress=False)
-        heard = analyse_sound(made)
-        pairs = zip(heard.names, heard.levels.tolist(), strict=True)
+        recorded = analyse_sound(made)
+        pairs = zip(recorded.names, recorded.levels.tolist(), strict=True)
         assert side.levels == {name: tuple(pair) for name, pair in pairs}
-        assert list(side.third_octaves["P2"].values()) == heard.third_octaves[1].tolist()
-        assert np.array_equal(side.spectrum["P3"], heard.spectra["total"][2])
+        assert list(side.third_octaves["P2"].values()) == recorded.third_octaves[1].tolist()
+        assert np.array_equal(side.spectrum["P3"], recorded.spectra["total"][2])
         kept = made.output_time >= SETTLE
         torque = made.outputs["friction_torque"][kept].mean()
         assert side.figures["friction_torque"] == pytest.approx(torque, rel=1e-12)  # the order of a sum
@@ -88,7 +88,7 @@ def test_tables_are_narrow_and_written(found, tmp_path):
     ]  # fmt: skip
     assert files[1].read_text().startswith('microphone,"A, dB"')
     page = found._repr_html_()
-    assert page.count("<table>") == 4 and "B less A" in page
+    assert page.count("<table>") == 4 and "B minus A" in page
 
 
 def test_picture_has_both_spectra(found):
@@ -96,7 +96,7 @@ def test_picture_has_both_spectra(found):
     curves = [line for line in ax.lines if line.get_gid() is None]
     assert [line.get_label() for line in curves] == ["A: 7003C-bare", "B: other"]
     assert ax.get_title() == f"microphone {found.loudest()}" and ax.lines[0].get_xdata()[-1] <= 8000.0
-    with pytest.raises(ValueError, match="no microphone 'P9' in both; there are P1, P2, P3, P4"):
+    with pytest.raises(ValueError, match="not both have a microphone 'P9'; both have P1, P2, P3, P4"):
         found.plot("P9")
 
 
@@ -136,7 +136,7 @@ def test_a_run_is_read_by_its_meters(plain, other, tmp_path):
     assert found.b.scene is None and not found.keys
     # a file does not say how its microphones are called
     assert list(found.b.levels) == ["mic[1]", "mic[2]", "mic[3]", "mic[4]"]
-    with pytest.raises(ValueError, match="no microphone of one name"):
+    with pytest.raises(ValueError, match="no microphone with the same name"):
         found.loudest()
     light = simulate(scene.replace({"mounting.preload_N": 300}), 0.1, outputs=kept, progress=False)
     both = compare(run, light)
@@ -158,7 +158,7 @@ def test_scenes_without_sound_have_loads(plain):
     light = mute.replace({"mounting.preload_N": 300})
     found = compare(mute, light, duration=0.02, settle=0.01, progress=False)
     assert list(found.tables()) == ["what differs in the scenes", "loads, angles, torque"]
-    with pytest.raises(ValueError, match="no microphone of one name"):
+    with pytest.raises(ValueError, match="no microphone with the same name"):
         found.plot()
 
 

@@ -109,15 +109,15 @@ def test_runs_recordings_and_comparisons_know_it(made):
 
 def test_reports_mark_it_and_name_no_source_beyond(made):
     subject = Subject(made, made.radiation_model)
-    heard, end = at_microphones(subject), made.excitation_end
-    spectrum, lines, thirds = spectra(subject, heard).blocks
+    recorded, end = at_microphones(subject), made.excitation_end
+    spectrum, lines, thirds = spectra(subject, recorded).blocks
     (mark,) = [trace for trace in spectrum.figure.data if trace.name.startswith("end of the excitation")]
     assert list(mark.x) == [end, end] and mark.visible is not False
     assert "excite up to" in spectrum.note and "no finding" in spectrum.note
     for row in lines.rows:
         assert (row[-1] == "beyond the excitation") == (float(row[0]) > end)
     (line,) = thirds.figure.layout.shapes
-    assert line.x0 == pytest.approx(10.0 * math.log10(end / heard.third_octaves[0][0]))
+    assert line.x0 == pytest.approx(10.0 * math.log10(end / recorded.third_octaves[0][0]))
 
 
 def test_no_kinematic_line_is_named_beyond(example):

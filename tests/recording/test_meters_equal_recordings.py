@@ -18,7 +18,7 @@ from fmu_bearing.prepare.model import prepare
 from fmu_bearing.recording.recording import Recording
 from fmu_bearing.scene.imperfections import Harmonic
 from fmu_bearing.scene.read import with_fidelity
-from tests.recording.listening import fast_levels
+from tests.recording.third_octaves import fast_levels
 
 # third octaves are filtered from the run's first sample on, before sound has arrived
 pytestmark = pytest.mark.filterwarnings("ignore:sound takes")
@@ -65,7 +65,7 @@ def meters(scene):
     ]
 
 
-def heard(scene, **options):
+def recorded(scene, **options):
     """A recording of the span that the meters cover at its last row, and what meters read then."""
     begin = round(scene.sound.metering_start_s * SD.RATE)
     count = 20 * STEPS + 1  # samples at the last communication point
@@ -101,7 +101,7 @@ def test_runs_rich_in_ultrasound(scene, name, fidelity, waves):
     given = with_bands(with_fidelity(scene(name), model=fidelity))
     given = rich(given) if waves else given
     names = [one for row in meters(given) for one in row]
-    agree(*heard(given, microphones=True, outputs=names))
+    agree(*recorded(given, microphones=True, outputs=names))
 
 
 @pytest.mark.parametrize("flavour", FLAVOURS)
@@ -117,13 +117,13 @@ def test_fmus(scene, flavour, tmp_path):
         path, STEPS * STEP, step=STEP, outputs=[one for row in names for one in row], progress=False
     )
     read = np.array([[run[name][-1] for name in row] for row in names])
-    agree(heard(given)[0], read)
+    agree(recorded(given)[0], read)
 
 
 def test_the_motion_is_rich(scene):
     """Without the band limit these scenes would tell: from 22 kHz on there is as much as below 20 kHz."""
     given = rich(with_fidelity(scene("7003C-bare"), model="rings"))
-    recording, _ = heard(given)
+    recording, _ = recorded(given)
     frequency, power = scipy.signal.welch(recording.channels[:, SD.c_body(1, 2)], SD.RATE, nperseg=1024)
     beyond, below = (power[part].sum() for part in (frequency > 22_000.0, frequency < 20_000.0))
     assert beyond > 0.1 * below

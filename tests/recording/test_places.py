@@ -13,7 +13,7 @@ ELSEWHERE = (0.0, 0.3, 0.0)
 
 
 @pytest.fixture(scope="module")
-def heard(scene):
+def recorded(scene):
     return record(with_fidelity(scene("7003C-bare"), model="rings"), 0.05)
 
 
@@ -28,42 +28,46 @@ def pressures():
     return Recording.from_fmu(table)
 
 
-def test_names_and_places_give_the_same(heard):
-    p1, p2 = heard.positions[:2]
+def test_names_and_places_give_the_same(recorded):
+    p1, p2 = recorded.positions[:2]
     by_name, by_place = (["P2", ELSEWHERE, "P1"], [p2, ELSEWHERE, p1])
-    for take in (heard.pressure, heard.levels, heard.places):
+    for take in (recorded.pressure, recorded.levels, recorded.places):
         assert np.array_equal(take(by_name), take(by_place))
-    assert np.array_equal(heard.levels(by_name, resolution=20.0), heard.levels(by_place, resolution=20.0))
-    assert np.array_equal(heard.mean_squares(by_name)[1], heard.mean_squares(by_place)[1])
-    parts = heard.partial("P1")
-    assert all(np.array_equal(part, heard.partial([p1])[name]) for name, part in parts.items())
-    assert np.array_equal(heard.pressure("P1"), heard.pressure([p1]))
-    assert [c.members for c in heard.paths(by_name)] == [c.members for c in heard.paths(by_place)]
+    assert np.array_equal(
+        recorded.levels(by_name, resolution=20.0), recorded.levels(by_place, resolution=20.0)
+    )
+    assert np.array_equal(recorded.mean_squares(by_name)[1], recorded.mean_squares(by_place)[1])
+    parts = recorded.partial("P1")
+    assert all(np.array_equal(part, recorded.partial([p1])[name]) for name, part in parts.items())
+    assert np.array_equal(recorded.pressure("P1"), recorded.pressure([p1]))
+    assert [c.members for c in recorded.paths(by_name)] == [c.members for c in recorded.paths(by_place)]
 
 
-def test_measurements_take_names(heard):
-    ours, theirs = (measure.component_spectra(heard, place)[1] for place in ("P3", heard.positions[2]))
+def test_measurements_take_names(recorded):
+    ours, theirs = (measure.component_spectra(recorded, place)[1] for place in ("P3", recorded.positions[2]))
     assert all(np.array_equal(ours[name], theirs[name]) for name in theirs)
-    ours, theirs = (measure.run_up(heard, place, 10.0, 0.5).levels for place in ("P3", heard.positions[2]))
+    ours, theirs = (
+        measure.run_up(recorded, place, 10.0, 0.5).levels for place in ("P3", recorded.positions[2])
+    )
     assert np.array_equal(ours, theirs)
 
 
-def test_spread_and_listen_take_places_and_name_them(heard, tmp_path):
-    found = analyse_sound(heard, ["P2", ELSEWHERE])
+def test_spread_and_listen_take_places_and_name_them(recorded, tmp_path):
+    found = analyse_sound(recorded, ["P2", ELSEWHERE])
     assert found.names == ("P2", "(0, 300, 0) mm")
-    assert found.levels[:, 0].tolist() == heard.levels(["P2", ELSEWHERE]).tolist()
-    files = write_all(heard, found, tmp_path, directivity=False)
+    assert found.levels[:, 0].tolist() == recorded.levels(["P2", ELSEWHERE]).tolist()
+    files = write_all(recorded, found, tmp_path, directivity=False)
     assert {"P2.wav", "-0--300--0--mm.wav"} <= {file.name for file in files}
-    sure = spread(heard, [ELSEWHERE, "P2"], seeds=1)
+    sure = spread(recorded, [ELSEWHERE, "P2"], seeds=1)
     assert sure.names == ("(0, 300, 0) mm", "P2")
-    assert sure.levels.tolist() == heard.levels([ELSEWHERE, "P2"], weighting="A").tolist()
+    assert sure.levels.tolist() == recorded.levels([ELSEWHERE, "P2"], weighting="A").tolist()
 
 
-def test_every_microphone_has_a_sound_file_of_its_own(heard, tmp_path):
+def test_every_microphone_has_a_sound_file_of_its_own(recorded, tmp_path):
     # the fourth and last differ from others by what some file systems, or file names, do not know
     names = ("A.1", "A-1", "A_1", "a-1", "A 1", "A/1", "A-1-2", ".1")
     places = tuple((name, (0.2 + 0.05 * k, 0.1, 0.0)) for k, name in enumerate(names))
-    named = dataclasses.replace(heard, microphones=places)
+    named = dataclasses.replace(recorded, microphones=places)
     written = write_all(named, analyse_sound(named), tmp_path, directivity=False)
     sounds = [file for file in written if file.suffix == ".wav"]
     assert [file.name for file in sounds[:4]] == ["A.1.wav", "A-1.wav", "A_1.wav", "a-1-2.wav"]
@@ -76,28 +80,28 @@ def test_every_microphone_has_a_sound_file_of_its_own(heard, tmp_path):
 
 
 @pytest.mark.parametrize("take", ["pressure", "levels", "partial", "mean_squares", "paths", "named"])
-def test_unknown_names_are_refused_with_the_known_ones(heard, take):
+def test_unknown_names_are_refused_with_the_known_ones(recorded, take):
     with pytest.raises(ValueError, match="no microphone 'P9', 'p1'; there are P1, P2, P3, P4"):
-        getattr(heard, take)(["P1", "p1", "P9"])
+        getattr(recorded, take)(["P1", "p1", "P9"])
 
 
-def test_unknown_names_elsewhere(heard):
+def test_unknown_names_elsewhere(recorded):
     for call in (
-        lambda: measure.component_spectra(heard, "P9"),
-        lambda: measure.run_up(heard, "P9"),
-        lambda: spread(heard, ["P1", "P9"]),
-        lambda: analyse_sound(heard, "P9"),
+        lambda: measure.component_spectra(recorded, "P9"),
+        lambda: measure.run_up(recorded, "P9"),
+        lambda: spread(recorded, ["P1", "P9"]),
+        lambda: analyse_sound(recorded, "P9"),
     ):
         with pytest.raises(ValueError, match="no microphone 'P9'; there are P1, P2, P3, P4"):
             call()
 
 
-def test_what_is_no_place(heard):
+def test_what_is_no_place(recorded):
     for wrong in ([(0.0, 0.1)], (0.0, 0.1, 0.2), [(0.0, np.nan, 0.1)]):
         with pytest.raises(ValueError, match=r"positions must be finite \(x, y, z\) in m or names"):
-            heard.levels(wrong)
+            recorded.levels(wrong)
     with pytest.raises(ValueError, match="no microphone to listen at"):
-        heard.levels([])
+        recorded.levels([])
     with pytest.raises(ValueError, match="there is no microphone 'P1'; there are none: give the scene"):
         named_places([], "P1")
 

@@ -64,7 +64,7 @@ def test_save_and_load(own, tmp_path):
     assert back.scene == own.scene and back.microphones == own.microphones
     assert np.array_equal(back.outputs["mic[1].leq"], own.outputs["mic[1].leq"])
     np.savez(tmp_path / "other.npz", x=np.zeros(3))
-    with pytest.raises(ValueError, match="no recording"):
+    with pytest.raises(ValueError, match="not a recording"):
         Recording.load(tmp_path / "other.npz")
 
 

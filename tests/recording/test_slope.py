@@ -12,7 +12,7 @@ ASIDE = [(0.0, 0.105, 0.0)]
 
 
 def level(scene, rpm, seed, exponent):
-    """Level aside of the bearing; waves of the races alone, all that can be heard."""
+    """Level aside of the bearing; waves of the races alone, all that is audible."""
     flaws = scene.imperfections.model_copy(
         update={
             "seed": seed,

@@ -120,22 +120,22 @@ def test_fmu_pressures_are_the_recordings(scene, tmp_path):
     )
     write_csv(tmp_path / "run.csv", rows.dtype.names, rows.tolist())
     for source in (rows, str(tmp_path / "run.csv")):
-        heard = Recording.from_fmu(source, spindle)
-        assert heard.rate == SD.RATE and [name for name, _ in heard.microphones] == ["P1", "P4"]
-        first = round(heard.start * SD.RATE) - own.first
-        assert heard.start == pytest.approx(0.02 - SD.LATENCY / SD.RATE, abs=1.1 / SD.RATE)
+        recorded = Recording.from_fmu(source, spindle)
+        assert recorded.rate == SD.RATE and [name for name, _ in recorded.microphones] == ["P1", "P4"]
+        first = round(recorded.start * SD.RATE) - own.first
+        assert recorded.start == pytest.approx(0.02 - SD.LATENCY / SD.RATE, abs=1.1 / SD.RATE)
         count = own.size - max(first, 0)
         exact = own.pressure([own.positions[0], own.positions[3]])[:, max(first, 0) :]
-        found = heard.pressure()[:, max(-first, 0) :][:, :count]
+        found = recorded.pressure()[:, max(-first, 0) :][:, :count]
         assert np.linalg.norm(found - exact) < 10 ** (-50 / 20) * np.linalg.norm(exact)
-    assert heard.pressure([own.positions[3]]).shape == (1, heard.size)
-    assert heard.levels() == pytest.approx(own.levels([own.positions[0], own.positions[3]]), abs=1.0)
-    assert heard.kinematics().f_r == pytest.approx(own.kinematics().f_r)
-    for call in (heard.partial, lambda: heard.pressure([(9.0, 9.0, 9.0)])):
+    assert recorded.pressure([own.positions[3]]).shape == (1, recorded.size)
+    assert recorded.levels() == pytest.approx(own.levels([own.positions[0], own.positions[3]]), abs=1.0)
+    assert recorded.kinematics().f_r == pytest.approx(own.kinematics().f_r)
+    for call in (recorded.partial, lambda: recorded.pressure([(9.0, 9.0, 9.0)])):
         with pytest.raises(ValueError, match=r"fmu_bearing\.record"):
             call()
     with pytest.raises(ValueError, match="motion"):
-        measure.motion_power(heard)
+        measure.motion_power(recorded)
 
 
 def test_fmu_results_that_do_not_serve():

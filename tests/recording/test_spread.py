@@ -1,4 +1,4 @@
-"""How sure a level is: ranges over seeds and surfaces against runs made one by one."""
+"""Uncertainty of a level: ranges over seeds and surfaces against runs made one by one."""
 
 import dataclasses
 
@@ -17,7 +17,7 @@ def changed(scene, **keys):
     return with_fidelity(scene.model_copy(update={"imperfections": flaws}), model="response")
 
 
-def heard(scene, places=None, **keys):
+def recorded(scene, places=None, **keys):
     made = record(changed(scene, **keys), 0.1, settle=0.03, progress=False, radiation_model="compact")
     return made if places is None else made.levels(places, weighting="A", resolution=20.0)
 
@@ -35,15 +35,15 @@ def bare(example):
 
 @pytest.fixture(scope="module")
 def found(bare):
-    return spread(heard(bare), ["P1", "P4"], seeds=3)
+    return spread(recorded(bare), ["P1", "P4"], seeds=3)
 
 
 def test_range_holds_the_runs_made_one_by_one(bare, found):
     places = [place.position_m for place in bare.microphones if place.name in ("P1", "P4")]
-    own = heard(bare, places)
-    runs = [heard(bare, places, seed=seed) for seed in (2, 3, 4)]
+    own = recorded(bare, places)
+    runs = [recorded(bare, places, seed=seed) for seed in (2, 3, 4)]
     law = [
-        heard(bare, places, waviness_exponent=p, **scaled_surfaces(bare, factor))
+        recorded(bare, places, waviness_exponent=p, **scaled_surfaces(bare, factor))
         for p in (1.0, 1.6)
         for factor in (0.5, 2.0)
     ]
@@ -69,7 +69,7 @@ def test_shares_are_those_of_each_imperfection_alone(bare, found):
         "outer race": {"inner_race_amplitude_um": 0.0, "ball_form_nm": 0.0},
     }
     others = {"unbalance_um": 0.0, "ball_diameter_spread_nm": 0.0}
-    levels = {name: heard(bare, places, **others, **keys) for name, keys in alone.items()}
+    levels = {name: recorded(bare, places, **others, **keys) for name, keys in alone.items()}
     ratio = 10.0 ** ((levels["inner race"] - levels["outer race"]) / 10.0)
     assert found.sources["inner race"] / found.sources["outer race"] == pytest.approx(ratio, rel=1e-6)
     assert sum(found.sources.values()) == pytest.approx([1.0, 1.0], abs=1e-12)
@@ -126,12 +126,12 @@ def test_a_weakly_damped_bearing_is_drawn_with_full(bare, example, monkeypatch):
     assert "inner tilt" in found.weak and f"Drawn with fidelity full, because {found.weak}" in found.remark()
     assert found.doubt == found.summary()["doubt"] and found.doubt.startswith("levels of fidelity response")
     drawn.clear()
-    assert spread(heard(bare), ["P1"], seeds=1).doubt == ""
+    assert spread(recorded(bare), ["P1"], seeds=1).doubt == ""
     assert set(drawn) == {"response"}
 
 
 def test_refusals(bare):
-    recording = heard(bare)
+    recording = recorded(bare)
     with pytest.raises(ValueError, match="no microphone 'P9'; there are P1, P2"):
         spread(recording, ["P1", "P9"])
     with pytest.raises(ValueError, match="seeds = 0"):

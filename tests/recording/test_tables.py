@@ -11,7 +11,7 @@ ELSEWHERE = (0.0, 0.3, 0.0)
 
 
 @pytest.fixture(scope="module")
-def heard(scene):
+def recorded(scene):
     return record(with_fidelity(scene("7003C-bare"), model="rings"), 0.05)
 
 
@@ -21,19 +21,19 @@ def mute(scene):
     return record(with_fidelity(scene("7003C-bare").replace({"sound": None}), model="rings"), 0.02)
 
 
-def test_spectrum_is_that_of_listen(heard):
-    found, known = heard.spectrum(["P2", ELSEWHERE]), analyse_sound(heard, ["P2", ELSEWHERE])
+def test_spectrum_is_that_of_listen(recorded):
+    found, known = recorded.spectrum(["P2", ELSEWHERE]), analyse_sound(recorded, ["P2", ELSEWHERE])
     assert found.names == known.names and found.units == ("dB", "dB") and found.kind == "microphone"
     assert np.array_equal(found.frequency, known.frequency)
     # partial pressures added up, against their sum at once: rounding
     assert found.values == pytest.approx(known.spectra["total"], abs=1e-6)
-    assert heard.spectrum(resolution=40.0).frequency[1] == 40.0
+    assert recorded.spectrum(resolution=40.0).frequency[1] == 40.0
     with pytest.raises(KeyError, match="no microphone 'P1' here; there are P2"):
         found["P1"]
 
 
-def test_spectrum_in_tables(heard):
-    found = heard.spectrum(["P1", "P3"])
+def test_spectrum_in_tables(recorded):
+    found = recorded.spectrum(["P1", "P3"])
     data = found.to_xarray()
     assert data["level"].dims == ("microphone", "frequency") and data["level"].attrs["units"] == "dB"
     assert data["level"].sel(microphone="P3").values.tolist() == found["P3"].tolist()
@@ -43,22 +43,22 @@ def test_spectrum_in_tables(heard):
     assert [ax.get_ylabel() for ax in found.plot().axes] == ["level, dB re 20 uPa"]
 
 
-def test_recording_in_tables(heard):
-    data = heard.to_xarray(["P1", ELSEWHERE])
+def test_recording_in_tables(recorded):
+    data = recorded.to_xarray(["P1", ELSEWHERE])
     assert data["microphone"].values.tolist() == ["P1", "(0, 300, 0) mm"]
     assert data["pressure"].attrs["units"] == "Pa" and data["y"].values.tolist() == [
-        heard.positions[0][1],
+        recorded.positions[0][1],
         0.3,
     ]
-    assert np.array_equal(data["pressure"].sel(microphone="P1"), heard.pressure("P1")[0])
-    assert data["time"].values.tolist() == heard.time.tolist() and data["x"].attrs["units"] == "m"
-    units = {name: data[name].attrs["units"] for name in heard.outputs}
+    assert np.array_equal(data["pressure"].sel(microphone="P1"), recorded.pressure("P1")[0])
+    assert data["time"].values.tolist() == recorded.time.tolist() and data["x"].attrs["units"] == "m"
+    units = {name: data[name].attrs["units"] for name in recorded.outputs}
     assert units["friction_torque"] == "N.m" and units["contact.inner.angle_mean"] == "rad"
     assert data["shaft_speed"].attrs["units"] == "rad/s"
-    assert read_scene_text(data.attrs["scene"]) == heard.scene and data.attrs["rate_Hz"] == heard.rate
-    frame = heard.to_pandas("P1")
-    assert frame.shape == (heard.size, 1) and frame.attrs["units"] == {"P1": "Pa"}
-    assert frame.index[0] == heard.start
+    assert read_scene_text(data.attrs["scene"]) == recorded.scene and data.attrs["rate_Hz"] == recorded.rate
+    frame = recorded.to_pandas("P1")
+    assert frame.shape == (recorded.size, 1) and frame.attrs["units"] == {"P1": "Pa"}
+    assert frame.index[0] == recorded.start
 
 
 def test_recordings_without_microphones(mute):
@@ -70,18 +70,20 @@ def test_recordings_without_microphones(mute):
     assert "friction_torque" in mute._repr_html_()
 
 
-def test_picture(heard):
-    (ax,) = heard.plot(["P1", "P4"], highest=5000.0, title="two").axes
+def test_picture(recorded):
+    (ax,) = recorded.plot(["P1", "P4"], highest=5000.0, title="two").axes
     assert [line.get_label() for line in ax.lines[:2]] == ["P1", "P4"]
     assert ax.get_xlim()[1] <= 5000.0 and ax.get_title() == "two"
     assert len(ax.lines) > 2  # kinematic frequencies
-    assert np.array_equal(ax.lines[0].get_ydata(), heard.spectrum("P1")["P1"][: len(ax.lines[0].get_ydata())])
+    assert np.array_equal(
+        ax.lines[0].get_ydata(), recorded.spectrum("P1")["P1"][: len(ax.lines[0].get_ydata())]
+    )
 
 
-def test_notebooks_see_microphones_and_means(heard, monkeypatch):
+def test_notebooks_see_microphones_and_means(recorded, monkeypatch):
     monkeypatch.setattr(Recording, "pressure", None)  # a notebook shows it at once: no sound is computed
-    page = heard._repr_html_()
+    page = recorded._repr_html_()
     assert "<td>P1</td><td>0, 105, 0</td><td>mm</td>" in page
-    within = heard.output_time >= heard.start
-    mean = heard.outputs["contact.inner.load_mean"][within].mean()
+    within = recorded.output_time >= recorded.start
+    mean = recorded.outputs["contact.inner.load_mean"][within].mean()
     assert f"<td>contact.inner.load_mean</td><td>{mean:.3g}</td><td>N</td>" in page

@@ -89,12 +89,12 @@ def test_sentences_name_the_cost(found, full_page):
     (sentence,) = [s for s in full_page.paragraphs if s.startswith("Preload") and ": life" in s]
     gained, lost = sentence.split("; but ")
     assert "times as long" in gained and "torque" in gained and "radial stiffness" in lost
-    # the bare bearing gets louder where less preload holds it: that is told, too
+    # the bare bearing gets louder where less preload holds it: that is reported, too
     assert lightest.acts("level") and f"{abs(lightest.level):.1f} dB(A) louder" in lost
     assert lightest.ratio("stiffness") < 1.0 < lightest.ratio("life")
 
 
-def test_cautions_and_refusals_are_told(found):
+def test_cautions_and_refusals_are_reported(found):
     refused = room.Change(Alternative("balls", "balls -> gold", {}), found.before, reason="gold is soft")
     made = shown(dataclasses.replace(found, changes=(*found.changes, refused)))
     texts = [block.text for block in made.blocks if block.sort == "words"]

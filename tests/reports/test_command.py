@@ -22,17 +22,17 @@ def test_a_scene_at_another_speed_with_run_up_and_its_recording_again(scene, tmp
         "--run-up", "6000:12000", "--run-up-time", 0.2, "--no-changes", "--json",
     )  # fmt: skip
     assert made.exit_code == 0, made.output
-    told = json.loads(made.stdout)
-    assert told["figures"]["speed_rpm"] == pytest.approx(12_000) and told["missing"] == {}
-    assert told["bytes"] == page.stat().st_size
+    reported = json.loads(made.stdout)
+    assert reported["figures"]["speed_rpm"] == pytest.approx(12_000) and reported["missing"] == {}
+    assert reported["bytes"] == page.stat().st_size
     read = Page(page)
     assert read.headings[0] == (1, "Try <1>")
     low, high = read.figures["waterfall"]["layout"]["yaxis"]["range"]
     assert 6000 < low < 7000 and 11_000 < high < 12_000  # blocks are named by their middles
     assert "from 6,000 to 12,000 r/min" in read.sections["waterfall"]
-    assert "changes" not in told["sections"] and "#changes" not in read.addresses
+    assert "changes" not in reported["sections"] and "#changes" not in read.addresses
     again = run(kept, "-o", tmp_path / "again.html", "--no-changes", "--json")
-    assert json.loads(again.stdout)["figures"] == pytest.approx(told["figures"], nan_ok=True)
+    assert json.loads(again.stdout)["figures"] == pytest.approx(reported["figures"], nan_ok=True)
 
 
 @pytest.mark.parametrize(
@@ -45,7 +45,7 @@ def test_a_scene_at_another_speed_with_run_up_and_its_recording_again(scene, tmp
     ],
 )
 def test_refusals_take_one_line(arguments, words, tmp_path):
-    told = run(*arguments, "-o", tmp_path / "page.html")
-    lines = told.output.splitlines()
-    assert told.exit_code == 2 and words in lines[-1] and lines[-1].startswith("error: ")
-    assert "Traceback" not in told.output and not (tmp_path / "page.html").exists()
+    reported = run(*arguments, "-o", tmp_path / "page.html")
+    lines = reported.output.splitlines()
+    assert reported.exit_code == 2 and words in lines[-1] and lines[-1].startswith("error: ")
+    assert "Traceback" not in reported.output and not (tmp_path / "page.html").exists()

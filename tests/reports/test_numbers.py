@@ -128,14 +128,14 @@ def test_directivity_is_the_recordings(full, full_page):
 
 def test_sounds_keep_their_ratio(full, full_page):
     """Louder there is louder here, within the fades and 16 bits."""
-    heard = []
+    received = []
     for data in full_page.sounds:
         rate, samples = wavfile.read(io.BytesIO(data))
         assert rate == 48_000 and samples.dtype == np.int16
         assert len(samples) / rate == pytest.approx(full.size / full.rate, abs=1e-3)
-        heard.append(10 * np.log10(np.mean(samples.astype(float) ** 2)))
+        received.append(10 * np.log10(np.mean(samples.astype(float) ** 2)))
     levels = full.levels()
-    assert np.array(heard) - heard[0] == pytest.approx(levels - levels[0], abs=0.3)
+    assert np.array(received) - received[0] == pytest.approx(levels - levels[0], abs=0.3)
     assert max(np.abs(wavfile.read(io.BytesIO(data))[1]).max() for data in full_page.sounds) > 0.85 * 32767
 
 

@@ -52,7 +52,7 @@ def test_what_is_said_is_said_to_the_end(full, full_page):
     summary, conditions = full_page.sections["summary"], full_page.sections["conditions"]
     part = max(full.partial().items(), key=lambda item: full.mean_square(item[1], "A").max())[0]
     assert f"the {part.replace('_', ' ')} is loudest (" in summary and "dB(A) alone), then the" in summary
-    assert "Its strongest line stands at" in summary and "ka = 0.5" in summary
+    assert "Its strongest line is at" in summary and "ka = 0.5" in summary
     assert "None" not in conditions and "waviness orders from 2 to " in conditions
     assert "5 strips per contact" in conditions and "% from rolling." in conditions
     assert "7003C at 20,000 r/min, preload 500 N" in full_page.text
@@ -151,7 +151,7 @@ def test_errors_name_the_way_out(rings, tmp_path, monkeypatch):
     with pytest.raises(OSError, match="name another folder"):
         make(rings, tmp_path / "file" / "page.html")
     (tmp_path / "bad.npz").write_bytes(b"nothing")
-    with pytest.raises(ValueError, match="bad.npz: is no recording"):
+    with pytest.raises(ValueError, match="bad.npz: is not a recording"):
         make(tmp_path / "bad.npz", page)
     with pytest.raises(ValueError, match="cannot be changed"):
         make(rings, page, speed=100.0)

@@ -30,7 +30,7 @@ def test_cells_are_broken_between_words(printed):
 
 
 @pytest.mark.parametrize("width", [80, 60])
-def test_a_table_that_is_too_wide_is_told_row_by_row(printed, width):
+def test_a_table_that_is_too_wide_is_reported_row_by_row(printed, width):
     columns = tuple(f"column-{k}" for k in range(15))
     lines = printed("title", columns, [[f"cell-{i}-{k}" for k in range(15)] for i in range(3)], width=width)
     assert max(map(len, lines)) <= width and lines[0] == "title"

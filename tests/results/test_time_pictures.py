@@ -29,8 +29,8 @@ def test_every_variable_asked_is_drawn_and_named(run):
     names = [name for name in run.names if name.startswith("ball[")][:30]
     figure = time_picture(run, names)
     assert list(curves(figure)) == names
-    told = [text.get_text() for ax in figure.axes for text in ax.get_legend().get_texts()]
-    assert told == names
+    reported = [text.get_text() for ax in figure.axes for text in ax.get_legend().get_texts()]
+    assert reported == names
 
 
 def test_speeds_are_in_r_min_and_temperatures_in_degC():
@@ -66,5 +66,5 @@ def test_motions_faster_than_the_step_are_points_not_curves(step, style):
     assert found["inner_ring.velocity.y"].get_linestyle() == style
     assert found["mic[1].pressure"].get_linestyle() == style
     assert found["friction_torque"].get_linestyle() == "-"
-    told = [ax.get_title(loc="left") for ax in figure.axes]
-    assert ("points every 1 ms" in told[0]) == (style == "None") and told[-1] == ""
+    reported = [ax.get_title(loc="left") for ax in figure.axes]
+    assert ("points every 1 ms" in reported[0]) == (style == "None") and reported[-1] == ""

@@ -126,7 +126,7 @@ def test_at_standstill_it_says_what_it_left_out(automatic):
     at_rest = {"operation.speed_rpm": 0.0, "operation.lowest_speed_rpm": 1e3}
     found = choose(automatic(6.0, 0.5).replace(at_rest), FEW[:1], warm_up=2e-3, window=2e-3, budget=1e-3)
     assert found.probed == ("0 r/min",)
-    assert "not probed: another speed and a rise of speed, as the shaft stands still; other" in found.summary
+    assert "not probed: another speed and a rise of speed, as the shaft does not turn; other" in found.summary
 
 
 def test_a_bearing_that_whirls_by_itself_takes_full(automatic, example):
@@ -277,7 +277,7 @@ def test_a_cache_that_cannot_be_written_costs_time_only(automatic, counted, monk
     assert chosen(automatic(1.0, 0.1)).chosen == 1
 
 
-def test_resolve_tells_in_the_fmu(automatic, silent, counted):
+def test_resolve_reports_in_the_fmu(automatic, silent, counted):
     assert resolve(silent) == (silent, None)
     scene, choice = resolve(automatic(1.0, 0.1))
     assert scene.fidelity.model == "full"

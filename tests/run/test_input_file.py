@@ -49,10 +49,10 @@ def test_units_separators_and_decimal_commas(tmp_path, text):
         ("", "holds no values"),
         ("time,preload\n", "holds no values"),
         ("t,preload\n0,1\n", r"the first column must be 'time' \(s\), not 't'"),
-        ("time,preload\n0,1\n1,one\n", "line 3, column 'preload': 'one' is no finite number"),
-        ("time,preload\n0,1\n\n1,\n", "line 4, column 'preload': '' is no finite number"),
-        ("time,preload\n0,nan\n", "line 2, column 'preload': 'nan' is no finite number"),
-        ("time;preload\n0;1.000,5\n", "'1.000,5' is no finite number"),
+        ("time,preload\n0,1\n1,one\n", "line 3, column 'preload': 'one' is not a finite number"),
+        ("time,preload\n0,1\n\n1,\n", "line 4, column 'preload': '' is not a finite number"),
+        ("time,preload\n0,nan\n", "line 2, column 'preload': 'nan' is not a finite number"),
+        ("time;preload\n0;1.000,5\n", "'1.000,5' is not a finite number"),
         ("time,preload\n0,5,1,5\n", "line 2 has 4 values for 2 columns; with decimal commas .* semicolons"),
         ("time,preload\n0,1\n1,1\n0.5,1\n", "line 4: time falls from 1 to 0.5 s"),
         ("time,prelaod\n0,1\n", "column 'prelaod': there is no input 'prelaod'; did you mean 'preload'"),
@@ -67,7 +67,7 @@ def test_units_separators_and_decimal_commas(tmp_path, text):
         ("time,preload\n0,-1\n", "-1 is refused: allowed are 0 to 10000 N"),
     ],
 )
-def test_what_is_wrong_is_told_with_line_and_column(tmp_path, text, reason):
+def test_what_is_wrong_is_reported_with_line_and_column(tmp_path, text, reason):
     with pytest.raises(ResultError, match=reason):
         read(tmp_path, text)
 

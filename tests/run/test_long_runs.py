@@ -12,7 +12,7 @@ from fmu_bearing.scene.read import with_fidelity
 
 
 @pytest.mark.parametrize(("step", "stop", "points"), [(1e-9, 1e6, "1e\\+15"), (1e-3, 1e9, "1e\\+12")])
-def test_it_is_told_with_the_time_it_would_take(silent, step, stop, points):
+def test_it_is_reported_with_the_time_it_would_take(silent, step, stop, points):
     rings = with_fidelity(silent, model="rings")
     timer = threading.Timer(2.5, signal.raise_signal, (signal.SIGINT,))
     timer.start()
@@ -35,7 +35,7 @@ def test_a_slow_run_that_ends_soon_is_not(silent, monkeypatch):
         simulate(with_fidelity(silent, model="rings"), 1e-2, step=1e-4, outputs=["friction_torque"])
 
 
-def test_much_memory_is_told(silent, monkeypatch):
+def test_much_memory_is_reported(silent, monkeypatch):
     monkeypatch.setattr("fmu_bearing.run.simulate._FIRST", 0.0)
     monkeypatch.setattr("fmu_bearing.run.simulate._MUCH", 1e3)
     with pytest.warns(UserWarning, match="and 1.6e-06 GB; take a longer step"):

@@ -16,32 +16,32 @@ def loose(silent, model, mode="force"):
     return with_fidelity(silent.model_copy(update={"mounting": mounting}), model=model)
 
 
-def about_preload(told):
-    return [str(one.message) for one in told if "preload = 0 N" in str(one.message)]
+def about_preload(reported):
+    return [str(one.message) for one in reported if "preload = 0 N" in str(one.message)]
 
 
 @pytest.mark.parametrize("mode", ["force", "rigid"])
 @pytest.mark.parametrize("model", ["full", "rings", "response"])
 def test_it_is_warned_of_once_at_every_fidelity(silent, model, mode):
-    with warnings.catch_warnings(record=True) as told:
+    with warnings.catch_warnings(record=True) as reported:
         warnings.simplefilter("always")
         simulate(loose(silent, model, mode), 2e-3, outputs=["friction_torque"])
-    (line,) = about_preload(told)
+    (line,) = about_preload(reported)
     assert "mounting.preload_N" in line and (model == "full") != (f"fidelity {model}" in line)
 
 
 def test_it_is_warned_of_when_an_input_takes_it_away(silent):
     bearing = Bearing(with_fidelity(silent, model="rings"))
-    with warnings.catch_warnings(record=True) as told:
+    with warnings.catch_warnings(record=True) as reported:
         warnings.simplefilter("always")
         bearing.init()
         bearing.step(1e-4)
-        assert not about_preload(told)
+        assert not about_preload(reported)
         bearing.step(1e-4, preload=0.0)
         bearing.step(1e-4)
-        assert len(about_preload(told)) == 1
+        assert len(about_preload(reported)) == 1
         bearing.init(preload=0.0)
-        assert len(about_preload(told)) == 2
+        assert len(about_preload(reported)) == 2
 
 
 def test_an_fmu_of_it_is_built_with_a_caution(silent):

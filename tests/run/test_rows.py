@@ -75,5 +75,5 @@ def test_what_is_no_table(tmp_path):
     with pytest.raises(ValueError, match="cannot be read as text in UTF-8"):
         read_rows(str(tmp_path / "latin.csv"))
     # a cell beyond 131072 characters, the limit of Python's module csv: a quote that nobody closes
-    with pytest.raises(ValueError, match=r"table\.csv: line 3: is no line of a table: field larger"):
+    with pytest.raises(ValueError, match=r"table\.csv: line 3: is not a line of a table: field larger"):
         read(tmp_path, 'a,b\n1,2\n"' + 140_000 * "x" + "\n")

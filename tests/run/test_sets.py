@@ -207,11 +207,11 @@ def test_a_housing_on_its_pedestal_sinks_under_the_load():
 
 def test_an_unloaded_bearing_is_warned_of_by_its_number():
     bearing = Bearing(scene(rpm=10000.0))
-    with warnings.catch_warnings(record=True) as told:
+    with warnings.catch_warnings(record=True) as reported:
         warnings.simplefilter("always")
         bearing.init({"nose.force.x": 3000.0})  # lift-off of the rear one: 2194 N
         bearing.step(1e-4)
-    texts = [str(one.message) for one in told]
+    texts = [str(one.message) for one in reported]
     assert sum("is unloaded" in text for text in texts) == 1  # once
     assert any(text.startswith("bearing 2: its inner race carries 0.2 N per ball") for text in texts)
     assert any(text.startswith("bearing 1: the ellipse of the most loaded contact") for text in texts)
@@ -225,10 +225,10 @@ def test_refusals_name_the_inputs_of_the_set():
         bearing.set({"radial_load.z": 1.0})
     bearing.init()
     before = bearing.read("*")
-    with pytest.raises(EngineError) as told:
+    with pytest.raises(EngineError) as reported:
         bearing.step(-1.0)
-    assert "inputs were shaft_speed = 1047.2, nose.force.x = 0, " in str(told.value)
-    assert str(told.value).endswith("bearing[2].outer_ring_temperature = 293.15")
+    assert "inputs were shaft_speed = 1047.2, nose.force.x = 0, " in str(reported.value)
+    assert str(reported.value).endswith("bearing[2].outer_ring_temperature = 293.15")
     assert bearing.read("*") == before
 
 
@@ -241,8 +241,8 @@ def test_auto_measures_all_bearings_of_a_set():
         "highest_order": 20,
         "inner_race_amplitude_um": 0.1, "outer_race_amplitude_um": 0.1, "ball_diameter_spread_nm": 50.0,
     }  # fmt: skip
-    heard = {"microphone": [{"name": "above", "x_mm": 55.0, "y_mm": 0.0, "z_mm": 1000.0}]}
-    data = tables(rpm=20e3) | {"imperfections": flaws, "sound": heard}
+    received = {"microphone": [{"name": "above", "x_mm": 55.0, "y_mm": 0.0, "z_mm": 1000.0}]}
+    data = tables(rpm=20e3) | {"imperfections": flaws, "sound": received}
     given = Scene.from_dict(data).replace(NO_CAGE)  # whose rattle only full has
     short = {"warm_up": 0.02, "window": 0.02, "budget": 0.01}
     found = choose(with_fidelity(given, model="auto"), CANDIDATES[:3], **short)
@@ -262,7 +262,7 @@ def test_auto_measures_all_bearings_of_a_set():
     assert found.apply(given).fidelity.model == found.probe.fidelity
 
 
-def test_rings_run_where_a_ring_stands_on_its_own_pedestal():
+def test_rings_run_where_a_ring_is_on_its_own_pedestal():
     seats = {"bearings": [{"seat": "pedestal"}, {}], "housing": {"pedestal_stiffness_N_m": 1e8}}
     given = with_fidelity(scene(rpm=10000.0, **seats), model="rings")
     run = simulate(given, 2e-3, step=1e-3, outputs=["bearing[1].force.x"])

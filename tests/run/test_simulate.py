@@ -94,7 +94,7 @@ def test_a_bearing_stepped_by_hand_is_the_same_run(rings):
     np.testing.assert_array_equal(again["friction_torque"], by_hand)
 
 
-def test_bearing_begins_anew_and_keeps_what_was_set(rings):
+def test_bearing_begins_again_and_keeps_what_was_set(rings):
     bearing = Bearing(rings)
     bearing.set(preload=321.0).init({"radial_load.z": 10.0})
     first = bearing.read("contact.*.load_mean")
@@ -152,11 +152,11 @@ def test_a_refused_step_of_an_fmu_keeps_the_same(silent, stiffened, built):
     np.testing.assert_array_equal(ours.table, library.table)
 
 
-def test_rings_begin_again_alike_in_library_and_fmu(rings, built):
+def test_rings_begin_again_equally_in_library_and_fmu(rings, built):
     """A load that no preload of 500 N carries, on a soft pedestal."""
     pushed = {"radial_load.z": lambda t: 0.0 if t < 2.5e-3 else 3000.0, "pedestal_stiffness": 1e5}
     names = ["friction_torque", "solver.restarts"]
-    with pytest.warns(UserWarning, match="begin again at rest"):
+    with pytest.warns(UserWarning, match="restarted from rest"):
         library = simulate(rings, 0.02, inputs=pushed, outputs=names)
     assert library["solver.restarts"][-1] >= 1
     ours = simulate(built("native"), 0.02, inputs=pushed, outputs=names)
@@ -194,9 +194,9 @@ def test_files_give_back_what_was_written(rings, tmp_path):
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
-        ("", "no table of numbers"),
+        ("", "not a table of numbers"),
         ("a,b\n1,2\n", "the first column must be 'time'"),
-        ("time,x\n0,one\n", "no table of numbers"),
+        ("time,x\n0,one\n", "not a table of numbers"),
         ("time,x\n0,nan\n", "column 'x' must hold one finite number per line"),
         ("time,x\n0,1\n1,1\n0.5,1\n", "time falls at line 4"),
         ("time,x\n0,1 2\n", "column 'x'"),

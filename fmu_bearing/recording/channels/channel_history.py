@@ -185,7 +185,7 @@ class ChannelHistory:
             return self.recorded[self._recorded_rows(positions)]
         places = self.places(positions)
         total = np.zeros((len(places), self.size))
-        for circle, parts in self._heard(places, radiation_model, lambda path: ""):
+        for circle, parts in self._pressures_by_circle(places, radiation_model, lambda path: ""):
             for part in parts.values():
                 total[list(circle.members)] += part
         return total
@@ -215,7 +215,7 @@ class ChannelHistory:
             raise ValueError(f'by = "{by}": sources are split by "component" or by "kind"')
         places = self.places(positions)
         found: dict[str, NDArray[np.float64]] = {}
-        for circle, parts in self._heard(
+        for circle, parts in self._pressures_by_circle(
             places,
             radiation_model,
             lambda path: SD.COMPONENTS[path.component] if by == "component" else kind_of(path),
@@ -236,7 +236,7 @@ class ChannelHistory:
         """Equivalent level (dB re 20 uPa) over the recording at each place, shape (mics,).
 
         Radiation models of the papers add energies, source by source (multi-source paper, eqs. 43 and 46).
-        How far a level rests on chance and on assumed surfaces tells ``fmu_bearing.spread(recording)``.
+        ``fmu_bearing.spread(recording)`` computes how far a level depends on chance and on assumed surfaces.
 
         Parameters
         ----------
@@ -257,7 +257,7 @@ class ChannelHistory:
         energies = (radiation_model or self.radiation_model).startswith("paper")
         for low in range(0, len(places), _TOGETHER):
             some = places[low : low + _TOGETHER]
-            for circle, parts in self._heard(
+            for circle, parts in self._pressures_by_circle(
                 some,
                 radiation_model,
                 (lambda path: path.channel) if energies else (lambda path: 0),
@@ -310,7 +310,7 @@ class ChannelHistory:
             raise ValueError(_NO_WEIGHTING.format(weighting))
         return np.asarray(np.mean(pressure[..., -self.size :] ** 2, axis=-1))
 
-    def _heard(
+    def _pressures_by_circle(
         self, places: list[Position], radiation_model: str | None, label, whole: bool = False
     ) -> Iterator[tuple[Circle, dict[Any, NDArray[np.float64]]]]:
         """Yield each circle with its pressures by label; ``whole``: with the samples before the first one."""
@@ -366,7 +366,7 @@ class ChannelHistory:
         Raises
         ------
         ValueError
-            For an unknown name, with the known ones; for what is no place; without any microphone.
+            For an unknown name, with the known ones; for what is not a place; without any microphone.
         """
         return named_places(self.microphones, positions)
 

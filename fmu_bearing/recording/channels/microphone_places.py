@@ -17,7 +17,7 @@ def named_places(there: Sequence[tuple[str, Position]], wanted: Places = None) -
     Raises
     ------
     ValueError
-        For an unknown name, with the known ones; for what is no place; without any microphone.
+        For an unknown name, with the known ones; for what is not a place; without any microphone.
     """
     if wanted is None:
         if not there:

@@ -72,7 +72,7 @@ __all__ = [
 #: In place of a kinematic line's name, above the end of the excitation.
 BEYOND = "beyond the excitation"
 RESOLUTION = 20.0  # Hz, as in the multi-source paper's spectra
-_FINE = 5.0  # Hz: tells neighbouring lines apart
+_FINE = 5.0  # Hz: separates neighbouring lines
 
 
 @dataclass(frozen=True)
@@ -155,7 +155,7 @@ def strongest(
 ) -> list[Line]:
     """Return the strongest lines of a spectrum of the recording and the kinematic line behind each.
 
-    A fine spectrum, such as 5 Hz, tells neighbouring lines apart better than one of 20 Hz. A line above the
+    A fine spectrum, such as 5 Hz, separates neighbouring lines better than one of 20 Hz. A line above the
     end of the excitation comes from no surface of the scene, so that no kinematic line is named for it.
     """
     end = math.inf if recording.excitation_end is None else recording.excitation_end
@@ -246,9 +246,9 @@ def sound_power(
         Of the measurement surface (m). In the open a dipole's near field adds 1 + 1/(kr)^2: 0.2 dB at 250 Hz
         and 1 m.
     plane : float, optional
-        Place along the axis (m) of a rigid plane behind the bearing (-X): the points then stand on a
+        Place along the axis (m) of a rigid plane behind the bearing (-X): the points are then on a
         hemisphere about the plane's centre. Its reflection is added as the pressures at the
-        mirrored points. Without a plane the points stand on a full sphere in a free field.
+        mirrored points. Without a plane the points are on a full sphere in a free field.
     many : bool
         With the standard's second set of points.
 
@@ -269,13 +269,13 @@ def sound_power(
     if radiators.housing is not None:
         rear = min(rear, radiators.housing.centre - radiators.housing.length / 2)
     if plane > rear:
-        raise ValueError(f"plane = {plane:g} m cuts the bearing, which reaches back to {rear:g} m: go behind")
+        raise ValueError(f"plane = {plane:g} m cuts the bearing: give at most {rear:g} m, its rear")
     points = hemisphere_points(radius, many) + np.array([plane, 0.0, 0.0])
     mirrored = points * np.array([-1.0, 1.0, 1.0]) + np.array([2.0 * plane, 0.0, 0.0])
-    heard = recording.pressure(list(points), radiation_model) + recording.pressure(
+    pressure = recording.pressure(list(points), radiation_model) + recording.pressure(
         list(mirrored), radiation_model
     )
-    squares = recording.mean_square(heard, weighting)
+    squares = recording.mean_square(pressure, weighting)
     return power_from_pressure(squares, radius, air, hemisphere=True)
 
 

@@ -185,7 +185,7 @@ def _ends(given: float | Mapping[str, float] | None) -> list[tuple[str, float]]:
 
 
 def _words(name: str) -> str:
-    """Name of a component in words; other names, such as those of microphones, stay as they are."""
+    """Name of a component in words; other names, such as microphones' names, stay as they are."""
     return name.replace("_", " ") if name in COLOURS else name
 
 

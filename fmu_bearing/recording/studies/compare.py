@@ -45,7 +45,7 @@ _BLANK = "-"
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Comparison:
-    """Two finished runs, A and B; differences are B less A.
+    """Two finished runs, A and B; differences are B minus A.
 
     Attributes
     ----------
@@ -62,7 +62,7 @@ class Comparison:
 
     @property
     def microphones(self) -> list[str]:
-        """Names of all microphones, those of A first."""
+        """Names of all microphones, names of A first."""
         return list(self.a.levels | self.b.levels)
 
     def loudest(self) -> str:
@@ -75,7 +75,9 @@ class Comparison:
         """
         both = [name for name in self.a.levels if name in self.b.levels]
         if not both:
-            raise ValueError("A and B have no microphone of one name: give the scenes the same [sound]")
+            raise ValueError(
+                "A and B have no microphone with the same name: give the scenes the same [sound]"
+            )
         return max(both, key=lambda name: self.a.levels[name][1])
 
     def levels_table(self) -> Table:
@@ -89,7 +91,7 @@ class Comparison:
 
     def third_octaves_table(self, microphone: str | None = None) -> Table:
         """Third-octave levels (dB) of A and B at a microphone; default: `loudest`."""
-        name = self._heard(microphone)
+        name = self._common_microphone(microphone)
         columns = ["band, Hz", "A, dB", "B, dB", "B - A"]
         a, b = self.a.third_octaves.get(name, {}), self.b.third_octaves.get(name, {})
         bands = sorted(a.keys() | b.keys())
@@ -134,7 +136,7 @@ class Comparison:
         }
         found = {title: make() for title, make in wanted.items()}
         if microphone is not None or any(name in self.b.third_octaves for name in self.a.third_octaves):
-            name = self._heard(microphone)
+            name = self._common_microphone(microphone)
             found[f"third octaves at {name}"] = self.third_octaves_table(name)
         return {title: table for title, table in found.items() if table[1]}
 
@@ -153,7 +155,7 @@ class Comparison:
             Without Matplotlib.
         """
         need("matplotlib", "a picture")
-        name = self._heard(microphone)
+        name = self._common_microphone(microphone)
         heading = f"microphone {name}" if title is None else title
         sides = {f"A: {self.a.name}": self.a, f"B: {self.b.name}": self.b}
         ends = {
@@ -216,7 +218,7 @@ class Comparison:
         return f"Comparison(A: {self.a.name}, B: {self.b.name}, {len(self.keys)} keys differ)"
 
     def _repr_html_(self) -> str:
-        lines = (f"{self!r}; differences are B less A", *self.doubts())
+        lines = (f"{self!r}; differences are B minus A", *self.doubts())
         parts = [f"<p>{html.escape(line)}</p>" for line in lines]
         for title, (columns, rows) in self.tables().items():
             head = "".join(f"<th>{html.escape(name)}</th>" for name in columns)
@@ -226,13 +228,13 @@ class Comparison:
             parts.append(f"<table><caption>{html.escape(title)}</caption><tr>{head}</tr>{body}</table>")
         return "".join(parts)
 
-    def _heard(self, microphone: str | None) -> str:
+    def _common_microphone(self, microphone: str | None) -> str:
         """Name of a microphone that both have."""
         if microphone is None:
             return self.loudest()
         if microphone not in self.a.levels or microphone not in self.b.levels:
             both = ", ".join(name for name in self.a.levels if name in self.b.levels) or "none"
-            raise ValueError(f"there is no microphone '{microphone}' in both; there are {both}")
+            raise ValueError(f"A and B do not both have a microphone '{microphone}'; both have {both}")
         return microphone
 
 
@@ -253,12 +255,12 @@ def compare(
     ----------
     a, b : Recording, Run, Scene or path
         Scenes (``.toml``) are recorded; recordings (``.npz``) and runs (``.csv``, ``.nc``) are taken as they
-        are. Of a run, levels are those of its meters (``mic[1].leq``), unless it kept ``mic[1].pressure`` at
+        are. Of a run, levels are read from its meters (``mic[1].leq``), unless it kept ``mic[1].pressure`` at
         `Recording.PRESSURE_STEP`.
     duration, settle : float
         Length (s) of the recording of a scene, and time left out before it.
     fidelity, radiation_model : str, optional
-        In place of those of the scenes.
+        In place of the scenes' own.
     tell : callable
         Takes a line of text before each piece of work.
     progress : bool, optional

@@ -1,7 +1,7 @@
-"""How sure a level is: its range over seeds and over what is assumed of the surfaces, and what decides it.
+"""Uncertainty of a level: its range over seeds and assumed surfaces, and the largest contribution to it.
 
 The phases of waviness are drawn from a seed that means nothing, and the power law of the surfaces is assumed.
-Both are drawn anew in cheap runs (fidelity ``response``, rigid rings; ``full`` where a mode is weakly
+Both are drawn again in cheap runs (fidelity ``response``, rigid rings; ``full`` where a mode is weakly
 damped), and the differences of their levels are added to the level in question.
 """
 
@@ -90,7 +90,7 @@ class Spread:
         return 2 * self.stays[0] > self.stays[1]
 
     def remark(self) -> str:
-        """Return what the range holds, in one sentence."""
+        """Return one sentence on what varies in the range."""
         return (
             f"Range over {self.drawn} seeds and, where waviness follows the law, over its exponent and a "
             "factor of two in its amplitude either way, that of the balls too. Both are assumed: two "
@@ -199,12 +199,12 @@ def spread(
         raise ValueError("the scene has no imperfections: its level has no spread over them")
     chosen = recording.named(microphones)
     places = [place for _, place in chosen]
-    heard = LevelEstimator(places, radiation_model or recording.radiation_model, weighting)
+    estimator = LevelEstimator(places, radiation_model or recording.radiation_model, weighting)
     flaws = scene.imperfections
     weak = weakness(scene)
     fidelity, seeds = ("full", min(seeds, _SEEDS_FULL)) if weak else ("response", seeds)
     draws = [flaws, *_seeds(flaws, seeds), *_corners(flaws)]
-    spectra = [heard.spectrum(_drawn(scene, draw, fidelity)) for draw in bar(draws)]
+    spectra = [estimator.spectrum(_drawn(scene, draw, fidelity)) for draw in bar(draws)]
     levels = level(np.array([each.sum(axis=1) for each in spectra]))
     change = levels - levels[0]
     here = recording.levels(places, radiation_model, weighting)
@@ -221,8 +221,8 @@ def spread(
         np.ptp(change[: 1 + seeds], axis=0),
         (corners[1] - corners[0]).mean(axis=0) * np.ones(len(places)),
         (corners[:, 1] - corners[:, 0]).mean(axis=0) * np.ones(len(places)),
-        _shares(scene, flaws, heard, fidelity),
-        float(heard.frequency[strongest[0]]),
+        _shares(scene, flaws, estimator, fidelity),
+        float(estimator.frequency[strongest[0]]),
         (stays, len(draws) - 1),
         seeds,
         doubt_of(recording),
@@ -280,7 +280,7 @@ def _corners(flaws: Imperfections) -> Iterator[Imperfections]:
 
 
 def _shares(
-    scene: Scene, flaws: Imperfections, heard: LevelEstimator, fidelity: str
+    scene: Scene, flaws: Imperfections, estimator: LevelEstimator, fidelity: str
 ) -> dict[str, NDArray[np.float64]]:
     """Share of the energy that each imperfection makes alone."""
     there = {name: keys for name, keys in _SOURCES.items() if any(getattr(flaws, key) for key in keys)}
@@ -289,6 +289,6 @@ def _shares(
         gone = [key for other, keys in there.items() if other != name for key in keys]
         others = {key: () if key.endswith("_harmonic") else 0.0 for key in gone}
         alone = _drawn(scene, flaws.model_copy(update=others), fidelity)
-        energies[name] = heard.spectrum(alone).sum(axis=1)
-    whole = sum(energies.values(), np.full(len(heard.places), 1e-30))
+        energies[name] = estimator.spectrum(alone).sum(axis=1)
+    whole = sum(energies.values(), np.full(len(estimator.places), 1e-30))
     return {name: energy / whole for name, energy in energies.items()}

@@ -56,7 +56,7 @@ class Subject:
         return "" if self.recording.scene is None else self.recording.scene.fidelity.model
 
     @cached_property
-    def kept(self) -> NDArray[np.bool_]:
+    def within(self) -> NDArray[np.bool_]:
         """Which communication points are within the recording, shape (points,)."""
         time, start = self.recording.output_time, self.recording.start
         end = start + self.recording.size / self.recording.rate
@@ -66,7 +66,7 @@ class Subject:
     @property
     def time(self) -> NDArray[np.float64]:
         """Communication points within the recording (s after initialisation)."""
-        return np.asarray(self.recording.output_time[self.kept])
+        return np.asarray(self.recording.output_time[self.within])
 
     @property
     def step(self) -> float:
@@ -84,7 +84,7 @@ class Subject:
                 f"the recording did not keep {name}: make the report from the scene, or record with "
                 f'outputs=("{name}", ...)'
             )
-        return np.asarray(self.recording.outputs[name][self.kept])
+        return np.asarray(self.recording.outputs[name][self.within])
 
     def mean(self, name: str) -> float:
         """Mean of a variable over the recording."""

@@ -100,7 +100,7 @@ class Sound:
 
 @dataclass(frozen=True)
 class Folded:
-    """Text as it stands, shown on request."""
+    """Text, unchanged, shown on request."""
 
     title: str
     text: str
@@ -137,7 +137,7 @@ class Section:
 
 
 def for_script(text: str) -> str:
-    """JSON that cannot end the ``<script>`` element it stands in."""
+    """JSON that cannot end the ``<script>`` element around it."""
     return text.replace("</", "<\\/").replace("<!--", "<\\!--")
 
 
@@ -152,7 +152,7 @@ def small(values: Any) -> NDArray[np.float32]:
 
 
 def thinned(values: ArrayLike, most: int = 6000) -> tuple[NDArray[np.float64], float]:
-    """Return at most ``most`` values and the number of samples each stands for.
+    """Return at most ``most`` values and the number of samples each represents.
 
     A longer signal is cut into equal spans; of each, the smallest and the largest value are kept in the order
     in which they come, so an envelope stays what it is and no peak is lost.

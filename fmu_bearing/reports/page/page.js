@@ -13,7 +13,7 @@
   let theme = "light";
   let printing = false;
 
-  // Colours of the light page exchanged for those of the dark one, through all of a figure.
+  // Colours of the light page exchanged for colours of the dark one, through all of a figure.
   const tinted = (value, table) => {
     if (typeof value === "string") return table[value] ?? value;
     if (Array.isArray(value)) return value.map((item) => tinted(item, table));
@@ -146,7 +146,7 @@
     redraw();
   });
 
-  // Plotly follows the window; from wide to narrow and back figures are arranged anew.
+  // Plotly follows the window; from wide to narrow and back figures are arranged again.
   let narrow = innerWidth < 700;
   addEventListener("resize", () => {
     if (narrow === innerWidth < 700 || printing) return;

@@ -43,7 +43,7 @@ def render(
     made : datetime, optional
         Default: now.
     kind : str
-        What stands above the title.
+        Text above the title.
 
     Raises
     ------

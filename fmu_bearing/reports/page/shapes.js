@@ -204,7 +204,7 @@
           const found = event.points.find((one) => one.customdata?.length === 2);
           if (found) { [branch, place] = found.customdata; show(); }
         });
-        // other colours draw the figure anew, without the mark
+        // other colours draw the figure again, without the mark
         plot.on("plotly_afterplot", () => highlight(plot));
         highlight(plot);
       }

@@ -220,7 +220,7 @@ def _table(subject: Subject) -> Table:
         "Contacts over the recording",
         columns,
         rows,
-        note="Figures of the whole bearing stand in the first three columns. Stiffness: perfect "
+        note="Figures of the whole bearing are in the first three columns. Stiffness: perfect "
         "bearing at the mean speed, for frequency to 0, as `info` has it.",
     )
 

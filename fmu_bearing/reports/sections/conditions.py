@@ -11,8 +11,8 @@ from fmu_bearing.scene import Scene
 
 _FIDELITIES = {
     "full": "all bodies move: rings, cage and every ball, with sliding, film, pockets and lands",
-    "rings": "rings move in time; each ball stands where both contacts balance it, the cage turns with "
-    "them; torque and heats are those of the operating point; no slip, no motion of the cage",
+    "rings": "rings move in time; each ball is where both contacts balance it, the cage turns with "
+    "them; torque and heats are computed at the operating point; no slip, no motion of the cage",
     "response": "linear response of the rings about the steady state, as a sum of lines; no slip, no "
     "motion of the "
     "cage, nothing that a change sets ringing",

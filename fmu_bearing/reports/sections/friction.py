@@ -30,7 +30,7 @@ def friction(subject: Subject) -> Section:
     if subject.fidelity in ("rings", "response"):
         blocks.append(
             Words(
-                f"With fidelity {subject.fidelity}, torque and heats are those of the steady state at "
+                f"With fidelity {subject.fidelity}, torque and heats are computed for the steady state at "
                 "the present inputs.",
                 "note",
             )

@@ -18,7 +18,7 @@ from fmu_bearing.run.balls import RACES
 
 Tile = dict[str, Any]
 _THIN_FILM = 1.0  # film over roughness: below it, asperities touch
-_CANCELS = 1.0  # dB by which a component alone exceeds all together before it is told
+_CANCELS = 1.0  # dB by which a component alone exceeds all together before it is mentioned
 _TURNS = 10.0  # of the cage, for a mean worth the name
 
 
@@ -27,8 +27,8 @@ def tile(key: str, label: str, value: float, unit: str, digits: str) -> Tile:
     return {"key": key, "label": label, "value": value, "unit": unit, "text": format(value, digits)}
 
 
-def tiles(subject: Subject, heard: Microphones | None, sure: Spread | None = None) -> list[Tile]:
-    """Return the most wanted figures; what the recording does not have is left out."""
+def tiles(subject: Subject, microphones: Microphones | None, sure: Spread | None = None) -> list[Tile]:
+    """Return the most important figures; figures that the recording does not have are left out."""
     found: list[Tile] = []
 
     def add(key: str, label: str, unit: str, digits: str, value: Callable[[], float]) -> None:
@@ -41,15 +41,15 @@ def tiles(subject: Subject, heard: Microphones | None, sure: Spread | None = Non
 
     add("speed_rpm", "shaft speed", "r/min", ",.0f", lambda: subject.speed / RPM)
     add("preload_N", "preload", "N", "g", lambda: subject.scene.mounted.preload_N)
-    if heard is not None:
-        k = heard.loudest
+    if microphones is not None:
+        k = microphones.loudest
         add(
             "laeq_dB",
-            f"loudest, at {heard.names[k]}"
+            f"loudest, at {microphones.names[k]}"
             + (f"; {sure.low[0]:.0f} to {sure.high[0]:.0f} over seeds and assumed surfaces" if sure else ""),
             "dB(A)",
             ".1f",
-            lambda: float(heard.levels["A"]["total"][k]),
+            lambda: float(microphones.levels["A"]["total"][k]),
         )
     for body in ("inner_ring", "outer_ring"):
         add(
@@ -81,29 +81,29 @@ def _largest(subject: Subject, name: str) -> float:
     return float(subject.output(name).max())
 
 
-def sentences(subject: Subject, heard: Microphones | None, sure: Spread | None = None) -> list[str]:
+def sentences(subject: Subject, microphones: Microphones | None, sure: Spread | None = None) -> list[str]:
     """Describe the loudest component, the strongest line and other main results."""
-    if heard is None:
+    if microphones is None:
         return []
-    k, found = heard.loudest, []
-    parts = heard.components[1:]
+    k, found = microphones.loudest, []
+    parts = microphones.components[1:]
     if parts:
-        ranked = sorted(parts, key=lambda name: -heard.levels["A"][name][k])
-        alone = heard.levels["A"][ranked[0]][k]
-        text = f"At {heard.names[k]} the {look.words(ranked[0])} is loudest ({alone:.1f} dB(A) alone)"
+        ranked = sorted(parts, key=lambda name: -microphones.levels["A"][name][k])
+        alone = microphones.levels["A"][ranked[0]][k]
+        text = f"At {microphones.names[k]} the {look.words(ranked[0])} is loudest ({alone:.1f} dB(A) alone)"
         if len(ranked) > 1:
-            text += f", then the {look.words(ranked[1])} ({heard.levels['A'][ranked[1]][k]:.1f})"
-        total = heard.levels["A"]["total"][k]
+            text += f", then the {look.words(ranked[1])} ({microphones.levels['A'][ranked[1]][k]:.1f})"
+        total = microphones.levels["A"]["total"][k]
         if alone > total + _CANCELS:
             text += f"; in phase opposition they leave {total:.1f} dB(A) together"
         found.append(text + ".")
-    if subject.recording.scene is not None and k in heard.shown:
-        frequency, values = heard.spectra["total"][heard.shown.index(k)]
+    if subject.recording.scene is not None and k in microphones.shown:
+        frequency, values = microphones.spectra["total"][microphones.shown.index(k)]
         lines = strongest(subject.recording, frequency, values, 1)
         if lines:
             line = lines[0]
             why = f", {line.name}" if line.name else ", which no kinematic frequency explains"
-            text = f"Its strongest line stands at {line.frequency:.0f} Hz with {line.level:.1f} dB{why}"
+            text = f"Its strongest line is at {line.frequency:.0f} Hz with {line.level:.1f} dB{why}"
             if sure is not None:
                 kept, drawn = sure.stays
                 words = (
@@ -128,8 +128,8 @@ def warnings_of(subject: Subject) -> list[str]:
             found.append(
                 f"The ellipse of the most loaded contact of the {race} race reaches "
                 f"{-math.degrees(margin):.1f} deg beyond "
-                "its shoulder: the edge cuts in there, while loads and stiffness are those of an unbroken "
-                "groove."
+                "its shoulder: the edge cuts in there, while loads and stiffness are computed for an "
+                "unbroken groove."
             )
     if (
         subject.has("film.lambda_min")
@@ -137,8 +137,7 @@ def warnings_of(subject: Subject) -> list[str]:
     ):
         found.append(
             f"The thinnest film is {film:.2g} times the composite roughness: asperities touch there, while "
-            f"traction is that "
-            "of a full film."
+            "traction is computed for a full film."
         )
     if doubted := doubt_of(subject.recording):
         found.append(f"{doubted[0].upper()}{doubted[1:]}.")

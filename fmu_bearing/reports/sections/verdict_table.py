@@ -60,4 +60,4 @@ def _note(point: OperatingPoint, found: list[Verdict]) -> str:
     advice = list(point.remarks)
     advice += [one.advice for judgement in ("change", "watch") for one in found if one.judgement == judgement]
     words = " ".join(f"{line[0].upper()}{line[1:]}." for line in advice if line)
-    return words or "Nothing that these limits would forbid."
+    return words or "None of these limits is exceeded."

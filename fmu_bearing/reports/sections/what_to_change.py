@@ -1,4 +1,4 @@
-"""What to change: choices of a designer ranked by what they do to level, life and friction torque."""
+"""What to change: choices of a designer ranked by their effect on level, life and friction torque."""
 
 import math
 from dataclasses import replace
@@ -27,10 +27,10 @@ _SHOWN = {
     "torque": ("Friction torque", "change of the friction torque, N mm", ("less", "more"), 2),
 }
 _BETTER, _WORSE = "inner", "outer"  # colours
-_ROW, _AROUND = 40, 100  # px: a row with its text above the bar, and what stands around the rows
+_ROW, _AROUND = 40, 100  # px: a row with its text above the bar, and what surrounds the rows
 _LIFTED = 15  # px of a text above the middle of its bar
 _BENDS = "rings that bend need fidelity full, which takes about 40 s; --changes computes them"
-_MANY = 2.0  # ratio from which on a life is told as so many times as long
+_MANY = 2.0  # ratio from which on a life is given as so many times as long
 
 
 def section(subject: Subject, tell: Tell, levels: bool | None = None) -> Section:
@@ -77,7 +77,7 @@ def _opening(found: Changes) -> str:
 
 
 def _sentences(found: Changes, figure: str) -> list[str]:
-    """Return the best change of each topic, with what it costs in the other figures."""
+    """Return the best change of each topic, with its effect on the other figures."""
     title, _, _, count = _SHOWN[figure]
     gains = [each for each in found.ranked(figure) if each.acts(figure) and each.gain(figure) > 0.0]
     # one of each topic
@@ -102,7 +102,7 @@ def _sentence(change: Change, figure: str, found: Changes) -> str:
 
 
 def _phrase(change: Change, figure: str) -> str:
-    """Return what a change does to one figure, in words."""
+    """Return the effect of a change on one figure, in words."""
     if figure == "level":
         return f"{abs(change.level):.1f} dB(A) {'quieter' if change.level < 0.0 else 'louder'}"
     ratio = change.ratio(figure)

@@ -89,11 +89,11 @@ def _resolution(subject: Subject) -> float:
     return max(_RESOLUTION, 2.0 * subject.recording.rate / subject.recording.size)
 
 
-def directivity(subject: Subject, heard: Microphones | None) -> Section:
+def directivity(subject: Subject, microphones: Microphones | None) -> Section:
     """Balloon, three planes, and a circle through the first microphone."""
     found = sphere(subject)
     blocks: list[Block] = [_balloon(subject, found), _planes(subject, found)]
-    if heard is not None and (chart := _circle(subject, heard)) is not None:
+    if microphones is not None and (chart := _circle(subject, microphones)) is not None:
         blocks.append(chart)
     return Section("directivity", "Directivity", blocks)
 
@@ -140,7 +140,7 @@ def _balloon(subject: Subject, found: Sphere) -> Chart:
         f"{a.max():.1f} dB.",
         (_choice(found, "Level"),), solid=True,
         note=f"Drag to turn, scroll to zoom. Distance from the centre and colour both are the level; the "
-        f"centre stands "
+        f"centre is "
         f"{_RANGE:g} dB below the loudest direction. {_LATITUDES * _AROUND - 2 * (_AROUND - 1)} "
         f"directions, radiation model {subject.radiation_model}, "
         f"{_resolution(subject):.3g} Hz blocks.",
@@ -196,9 +196,9 @@ def _planes(subject: Subject, found: Sphere) -> Chart:
     )  # fmt: skip
 
 
-def _circle(subject: Subject, heard: Microphones) -> Chart | None:
-    """Levels round the axis through the microphone farthest off it; none where all stand on the axis."""
-    places = [(math.hypot(y, z), x) for x, y, z in heard.positions]
+def _circle(subject: Subject, microphones: Microphones) -> Chart | None:
+    """Levels round the axis through the microphone farthest off it; none where all are on the axis."""
+    places = [(math.hypot(y, z), x) for x, y, z in microphones.positions]
     radius, axial = max(places)
     if not radius > 1e-6:
         return None

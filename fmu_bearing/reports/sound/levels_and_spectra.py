@@ -20,36 +20,36 @@ _UNSURE = 2.0  # dB of spread beyond which a third octave is more chance than le
 _LINES = 12
 
 
-def levels(subject: Subject, heard: Microphones) -> Section:
+def levels(subject: Subject, microphones: Microphones) -> Section:
     """Overall levels, the ranking of components, the strongest lines."""
-    blocks: list[Block] = [_level_table(heard)]
-    if len(heard.components) > 1:
-        blocks.append(_ranking(heard))
+    blocks: list[Block] = [_level_table(microphones)]
+    if len(microphones.components) > 1:
+        blocks.append(_ranking(microphones))
     else:
         blocks.append(Words("There are no components, because only pressures were recorded.", "absent"))
     total = len(subject.recording.microphones)
-    if total > len(heard.names):
-        blocks.append(Words(f"The first {len(heard.names)} of {total} microphones.", "note"))
+    if total > len(microphones.names):
+        blocks.append(Words(f"The first {len(microphones.names)} of {total} microphones.", "note"))
     return Section("levels", "Levels and sources", blocks)
 
 
-def spectra(subject: Subject, heard: Microphones) -> Section:
+def spectra(subject: Subject, microphones: Microphones) -> Section:
     """Spectra, lines and third octaves."""
-    blocks: list[Block] = [_spectrum(subject, heard), _line_table(subject, heard)]
-    if subject.recording.size / heard.rate >= 0.02:
-        blocks.append(_third_octaves(heard))
+    blocks: list[Block] = [_spectrum(subject, microphones), _line_table(subject, microphones)]
+    if subject.recording.size / microphones.rate >= 0.02:
+        blocks.append(_third_octaves(microphones))
     return Section("spectra", "Spectra", blocks)
 
 
-def _level_table(heard: Microphones) -> Table:
+def _level_table(microphones: Microphones) -> Table:
     rows = []
-    names = heard.components
-    for k, (name, place) in enumerate(zip(heard.names, heard.positions, strict=True)):
+    names = microphones.components
+    for k, (name, place) in enumerate(zip(microphones.names, microphones.positions, strict=True)):
         where = ", ".join("?" if math.isnan(v) else f"{1e3 * v:.4g}" for v in place)
-        cells = [f"{heard.levels['A'][c][k]:.1f}" for c in names]
-        rows.append([name, where, f"{heard.levels['Z']['total'][k]:.1f}", *cells])
+        cells = [f"{microphones.levels['A'][c][k]:.1f}" for c in names]
+        rows.append([name, where, f"{microphones.levels['Z']['total'][k]:.1f}", *cells])
     parts = [f"{look.words(c)}, dB(A)" for c in names[1:]]
-    duration = heard.subject.recording.size / heard.rate
+    duration = microphones.subject.recording.size / microphones.rate
     return Table(
         "Equivalent levels re 20 uPa",
         ["microphone", "x, y, z, mm", "Leq, dB", "LAeq, dB(A)", *parts],
@@ -60,21 +60,21 @@ def _level_table(heard: Microphones) -> Table:
     )
 
 
-def _ranking(heard: Microphones) -> Chart:
-    names = heard.components
+def _ranking(microphones: Microphones) -> Chart:
+    names = microphones.components
     figure = look.figure(
-        height=max(320, 90 + 44 * min(len(heard.names), 8)) if len(heard.names) <= 8 else 380
+        height=max(320, 90 + 44 * min(len(microphones.names), 8)) if len(microphones.names) <= 8 else 380
     )
     level = "LAeq, dB(A)"
     for weighting in ("A", "Z"):
         for name in names:
-            values = heard.levels[weighting][name]
+            values = microphones.levels[weighting][name]
             figure.add_bar(
-                x=small(values), y=heard.names, orientation="h", name=look.words(name),
+                x=small(values), y=microphones.names, orientation="h", name=look.words(name),
                 marker={"color": look.colour(name)}, meta={"weighting": weighting}, visible=weighting == "A",
                 hovertemplate="%{y}: %{x:.1f} dB<extra>" + look.words(name) + "</extra>",
             )  # fmt: skip
-    if len(heard.names) > 8:  # a circle of microphones: upright
+    if len(microphones.names) > 8:  # a circle of microphones: upright
         for trace in figure.data:
             trace.update(
                 x=trace.y,
@@ -84,20 +84,20 @@ def _ranking(heard: Microphones) -> Chart:
                 .replace("{x", "{y")
                 .replace("{t}", "{x}"),
             )
-    highest = max(float(np.max(values)) for w in heard.levels.values() for values in w.values())
+    highest = max(float(np.max(values)) for w in microphones.levels.values() for values in w.values())
     low = 10.0 * math.floor(
-        (min(float(np.min(heard.levels[w][n])) for w in "AZ" for n in names) - 5.0) / 10.0
+        (min(float(np.min(microphones.levels[w][n])) for w in "AZ" for n in names) - 5.0) / 10.0
     )
     axis = look.axis(level, range=[max(low, highest - 60.0), highest + 3.0])
     other = look.axis("", type="category")
-    if len(heard.names) <= 8:
+    if len(microphones.names) <= 8:
         other["autorange"] = "reversed"
         figure.update_layout(xaxis=axis, yaxis=other, barmode="group", bargap=0.25)
         which = "xaxis"
     else:
         figure.update_layout(xaxis=other, yaxis=axis, barmode="group", bargap=0.15)
         which = "yaxis"
-    loudest = _loudest(heard)
+    loudest = _loudest(microphones)
     return Chart(
         "ranking", "Which component is loudest", figure,
         f"Bars of the level of each component at each microphone. Loudest component by A-weighted level: "
@@ -110,30 +110,35 @@ def _ranking(heard: Microphones) -> Chart:
     )  # fmt: skip
 
 
-def _loudest(heard: Microphones) -> str:
+def _loudest(microphones: Microphones) -> str:
     """Loudest component at each microphone, in words; once where it is the same at all."""
-    parts = heard.components[1:]
+    parts = microphones.components[1:]
     first = [
-        look.words(max(parts, key=lambda name: heard.levels["A"][name][k])) for k in range(len(heard.names))
+        look.words(max(parts, key=lambda name: microphones.levels["A"][name][k]))
+        for k in range(len(microphones.names))
     ]
     if len(first) > 1 and len(set(first)) == 1:
         return f"the {first[0]} at all {len(first)} microphones"
-    return ", ".join(f"{mic}: {part}" for mic, part in zip(heard.names, first, strict=True))
+    return ", ".join(f"{mic}: {part}" for mic, part in zip(microphones.names, first, strict=True))
 
 
-def _microphone_choice(heard: Microphones) -> Choice:
-    order = sorted(range(len(heard.shown)), key=lambda k: -heard.levels["A"]["total"][heard.shown[k]])
-    return Choice("mic", "Microphone", [Option(heard.names[heard.shown[k]], str(k)) for k in order])
+def _microphone_choice(microphones: Microphones) -> Choice:
+    order = sorted(
+        range(len(microphones.shown)), key=lambda k: -microphones.levels["A"]["total"][microphones.shown[k]]
+    )
+    return Choice(
+        "mic", "Microphone", [Option(microphones.names[microphones.shown[k]], str(k)) for k in order]
+    )
 
 
-def _spectrum(subject: Subject, heard: Microphones) -> Chart:
+def _spectrum(subject: Subject, microphones: Microphones) -> Chart:
     figure = look.figure(height=470)
-    choice = _microphone_choice(heard)
+    choice = _microphone_choice(microphones)
     first = choice.options[0].value
     top = -math.inf
     # the total is drawn first, below the others
-    for name in heard.components:
-        for k, (frequency, values) in enumerate(heard.spectra[name]):
+    for name in microphones.components:
+        for k, (frequency, values) in enumerate(microphones.spectra[name]):
             keep = (frequency >= 20.0) & (frequency <= 20_000.0)
             top = max(top, float(values[keep].max()))
             figure.add_scatter(
@@ -151,19 +156,21 @@ def _spectrum(subject: Subject, heard: Microphones) -> Chart:
     )
     return Chart(
         "spectrum", "Spectrum, whole and by component", figure,
-        f"Levels over frequency at {', '.join(heard.names[k] for k in heard.shown)}, of all components "
-        f"together and of each.",
+        f"Levels over frequency at {', '.join(microphones.names[k] for k in microphones.shown)}, of all "
+        f"components together and of each.",
         (choice, reach()),
-        note=f"{heard.resolution:.3g} Hz between lines, flat-top window: a line's level is right within "
-        f"0.1 dB. Dotted: "
+        note=f"{microphones.resolution:.3g} Hz between lines, flat-top window: a line's level is right "
+        f"within 0.1 dB. Dotted: "
         "kinematic frequencies of rolling without sliding and harmonics to the fifth; click a legend entry "
         "to show or hide." + end_words(subject),
     )  # fmt: skip
 
 
-def _line_table(subject: Subject, heard: Microphones) -> Table:
-    place = max(range(len(heard.shown)), key=lambda k: heard.levels["A"]["total"][heard.shown[k]])
-    frequency, values = heard.spectra["total"][place]
+def _line_table(subject: Subject, microphones: Microphones) -> Table:
+    place = max(
+        range(len(microphones.shown)), key=lambda k: microphones.levels["A"]["total"][microphones.shown[k]]
+    )
+    frequency, values = microphones.spectra["total"][place]
     if subject.recording.scene is None:
         from fmu_bearing.acoustics.analysis.lines import strongest_lines
 
@@ -174,12 +181,12 @@ def _line_table(subject: Subject, heard: Microphones) -> Table:
     end = subject.recording.excitation_end
     for row, line in zip(rows, found, strict=True):
         at = int(np.argmin(np.abs(frequency - line.frequency)))
-        parts = {name: heard.spectra[name][place][1][at] for name in heard.components[1:]}
+        parts = {name: microphones.spectra[name][place][1][at] for name in microphones.components[1:]}
         beyond = end is not None and line.frequency > end
         loudest = look.words(max(parts, key=lambda name: parts[name])) if parts else ""
         row.append(BEYOND if beyond else loudest)
     return Table(
-        f"Strongest lines at {heard.names[heard.shown[place]]}",
+        f"Strongest lines at {microphones.names[microphones.shown[place]]}",
         [*columns, "loudest component"],
         rows,
         note="The simplest harmonic or sideband of f_r, f_c, f_b, f_i, f_o near a line explains it, 0.15 % "
@@ -188,11 +195,11 @@ def _line_table(subject: Subject, heard: Microphones) -> Table:
     )
 
 
-def _third_octaves(heard: Microphones) -> Chart:
-    bands, found = heard.third_octaves
+def _third_octaves(microphones: Microphones) -> Chart:
+    bands, found = microphones.third_octaves
     figure = look.figure(height=400, barmode="group", bargap=0.12)
     names = [f"{band:g}" for band in bands]
-    choice = _microphone_choice(heard)
+    choice = _microphone_choice(microphones)
     top = max(float(values.max()) for values in found.values())
     low = top - _RANGE
     for name, values in found.items():
@@ -207,16 +214,16 @@ def _third_octaves(heard: Microphones) -> Chart:
         xaxis=look.axis("third-octave band, Hz", type="category", tickangle=-45),
         yaxis=look.axis("level, dB re 20 uPa", range=[low, top + 4.0]),
     )
-    end = heard.subject.recording.excitation_end
+    end = microphones.subject.recording.excitation_end
     if end is not None and (place := band_place(bands, end)) < len(names) - 0.5:
         figure.add_vline(
             place, line={"color": look.colour("grey"), "width": 1.8, "dash": "dash"},
             annotation={"text": f"{END}, {1e-3 * end:.3g} kHz", "textangle": -90, "font": {"size": 11}},
         )  # fmt: skip
-    deviations = spread(np.array(bands), heard.third_octave_time)
+    deviations = spread(np.array(bands), microphones.third_octave_time)
     unsure = [band for band, deviation in zip(bands, deviations, strict=True) if deviation > _UNSURE]
     chance = (
-        f" In {heard.third_octave_time:.3g} s the bands up to {unsure[-1]:g} Hz scatter by more than "
+        f" In {microphones.third_octave_time:.3g} s the bands up to {unsure[-1]:g} Hz scatter by more than "
         f"{_UNSURE:g} dB if they hold "
         "noise: record longer if they matter."
         if unsure
@@ -225,5 +232,5 @@ def _third_octaves(heard: Microphones) -> Chart:
     return Chart(
         "third-octaves", "Third octaves", figure,
         "Third-octave levels at the chosen microphone, of all components together and of each.",
-        (choice,), note="IEC 61260-1, class 1." + end_words(heard.subject) + chance,
+        (choice,), note="IEC 61260-1, class 1." + end_words(microphones.subject) + chance,
     )  # fmt: skip

@@ -12,15 +12,15 @@ from fmu_bearing.reports.page.blocks import Block, Section, Sound, Words
 
 LONGEST = 3.0  # s of each sound: 16 bits at 48 kHz take 128 kB per second of a page
 _PEAK = 0.9
-_FADE = 5e-3  # s, at both ends: no click where the player begins again
+_FADE = 5e-3  # s, at both ends: no click where the player repeats
 _FULL = 32_767
 
 
-def audio(heard: Microphones) -> Section:
+def audio(microphones: Microphones) -> Section:
     """Put the chosen microphones into players."""
-    recording = heard.subject.recording
+    recording = microphones.subject.recording
     samples = min(recording.size, round(LONGEST * recording.rate))
-    signals = resample(heard.pressure[heard.shown][:, :samples], recording.rate)
+    signals = resample(microphones.pressure[microphones.shown][:, :samples], recording.rate)
     peak = float(np.max(np.abs(signals)))
     factor = _PEAK / peak if peak > 0.0 else 1.0
     seconds = signals.shape[1] / WAV_RATE
@@ -29,14 +29,14 @@ def audio(heard: Microphones) -> Section:
         Words(
             f"The first {seconds:.2g} s at each microphone, in a loop, with {1e3 * _FADE:g} ms of fading "
             f"at both ends. All "
-            f"are scaled alike, by {factor:.4g} per Pa ({1.0 / factor:.3g} Pa, {at_full:.1f} dB of a sine, "
-            f"is full scale): what "
+            f"are scaled by the same factor, {factor:.4g} per Pa ({1.0 / factor:.3g} Pa, {at_full:.1f} dB "
+            f"of a sine, is full scale): what "
             "is louder there is louder here. The loudness of your player is not calibrated."
         )
     ]
-    for place, signal in zip(heard.shown, signals, strict=True):
-        words = f"{heard.names[place]}, {heard.levels['A']['total'][place]:.1f} dB(A)"
-        blocks.append(Sound(heard.names[place], words, wav(factor * signal)))
+    for place, signal in zip(microphones.shown, signals, strict=True):
+        words = f"{microphones.names[place]}, {microphones.levels['A']['total'][place]:.1f} dB(A)"
+        blocks.append(Sound(microphones.names[place], words, wav(factor * signal)))
     return Section("audio", "Listen", blocks)
 
 

@@ -21,16 +21,15 @@ _ROWS = 160  # at most
 _LINES = ("f_r", "f_c", "f_i", "f_o")
 
 
-def fall(heard: Microphones, run_up: Subject | None = None) -> Section:
+def fall(microphones: Microphones, run_up: Subject | None = None) -> Section:
     """Waterfall of a run-up, or, without one, of the recording over time."""
     blocks: list[Block] = []
     if run_up is None:
-        blocks.append(_map(heard, over_speed=False))
+        blocks.append(_map(microphones, over_speed=False))
         blocks.append(
             Words(
-                "The speed is steady, so lines stand still; what changes is beating and chance. Ask for a "
-                "run-up to see "
-                "resonances: fmu-bearing report ... --run-up 5000:30000.",
+                "The speed is steady, so lines keep their frequency; changes over time are beating and "
+                "chance. Ask for a run-up to see resonances: fmu-bearing report ... --run-up 5000:30000.",
                 "note",
             )
         )
@@ -46,18 +45,18 @@ def fall(heard: Microphones, run_up: Subject | None = None) -> Section:
     return Section("waterfall", "Run-up", blocks)
 
 
-def _microphone(heard: Microphones) -> tuple[str, NDArray[np.float64]]:
+def _microphone(microphones: Microphones) -> tuple[str, NDArray[np.float64]]:
     """Name and pressure (Pa) of the loudest microphone."""
-    return heard.names[heard.loudest], heard.pressure[heard.loudest]
+    return microphones.names[microphones.loudest], microphones.pressure[microphones.loudest]
 
 
-def _waterfall(heard: Microphones) -> Waterfall:
-    recording = heard.subject.recording
+def _waterfall(microphones: Microphones) -> Waterfall:
+    recording = microphones.subject.recording
     duration = recording.size / recording.rate
     resolution = max(20.0, 8.0 / duration)
     if resolution * duration < 8.0 - 1e-9 or recording.size < 512:
         raise Absent(f"the recording of {duration:.3g} s is too short")
-    _, pressure = _microphone(heard)
+    _, pressure = _microphone(microphones)
     overlap = (
         max(0.0, min(0.75, 1.0 - resolution * duration / _ROWS))
         if resolution * duration * 4.0 > _ROWS
@@ -66,10 +65,10 @@ def _waterfall(heard: Microphones) -> Waterfall:
     return waterfall(pressure, recording.angle, recording.rate, _HIGHEST, resolution, overlap)
 
 
-def _map(heard: Microphones, over_speed: bool) -> Chart:
-    found = _waterfall(heard)
-    name, _ = _microphone(heard)
-    start = heard.subject.recording.start
+def _map(microphones: Microphones, over_speed: bool) -> Chart:
+    found = _waterfall(microphones)
+    name, _ = _microphone(microphones)
+    start = microphones.subject.recording.start
     y = found.speed / RPM if over_speed else found.time + start
     order = np.argsort(y)
     top = float(found.levels.max())
@@ -83,8 +82,8 @@ def _map(heard: Microphones, over_speed: bool) -> Chart:
         hovertemplate="%{x:.0f} Hz, %{y:.5g} " + unit + ": %{z:.1f} dB<extra></extra>",
     )  # fmt: skip
     if over_speed:
-        _order_lines(figure, heard.subject, y[order])
-    recording = heard.subject.recording
+        _order_lines(figure, microphones.subject, y[order])
+    recording = microphones.subject.recording
     if recording.excitation_end is not None:
         ends = recording.excitation_end * found.speed[order] / float(np.mean(recording.speed))
         figure.add_scatter(
@@ -129,20 +128,21 @@ def _order_lines(figure, subject: Subject, rpm: NDArray[np.float64]) -> None:
         )  # fmt: skip
 
 
-def _over_speed(heard: Microphones) -> Chart:
+def _over_speed(microphones: Microphones) -> Chart:
     """A-weighted level of each microphone over speed."""
-    recording = heard.subject.recording
+    recording = microphones.subject.recording
     figure = look.figure(height=340)
     span = max(64, recording.size // 80)
     blocks = recording.size // span
     rpm = recording.speed[: blocks * span].reshape(blocks, span).mean(axis=1) / RPM
     tints = ("inner_ring", "outer_ring", "cage", "balls", "first", "second")
-    for k in heard.shown:
-        weighted = _weighted(heard, k)[: blocks * span].reshape(blocks, span)
+    for k in microphones.shown:
+        weighted = _weighted(microphones, k)[: blocks * span].reshape(blocks, span)
         figure.add_scatter(
-            x=small(rpm), y=small(level(np.mean(weighted**2, axis=1))), mode="lines", name=heard.names[k],
+            x=small(rpm), y=small(level(np.mean(weighted**2, axis=1))), mode="lines",
+            name=microphones.names[k],
             line={"color": look.colour(tints[k % len(tints)])},
-            hovertemplate="%{x:.0f} r/min: %{y:.1f} dB(A)<extra>" + heard.names[k] + "</extra>",
+            hovertemplate="%{x:.0f} r/min: %{y:.1f} dB(A)<extra>" + microphones.names[k] + "</extra>",
         )  # fmt: skip
     figure.update_layout(
         xaxis=look.axis("shaft speed, r/min"), yaxis=look.axis("level, dB(A)"), showlegend=True
@@ -154,8 +154,8 @@ def _over_speed(heard: Microphones) -> Chart:
     )  # fmt: skip
 
 
-def _weighted(heard: Microphones, k: int) -> NDArray[np.float64]:
-    return np.asarray(scipy.signal.sosfilt(a_weighting_sections(heard.rate), heard.pressure[k]))
+def _weighted(microphones: Microphones, k: int) -> NDArray[np.float64]:
+    return np.asarray(scipy.signal.sosfilt(a_weighting_sections(microphones.rate), microphones.pressure[k]))
 
 
 def ramp(first: float, last: float, duration: float, settle: float):

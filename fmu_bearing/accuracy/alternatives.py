@@ -38,7 +38,7 @@ def alternatives(scene: Scene) -> list[Alternative]:
     """Return the choices that a designer has in a scene, each a change of its values.
 
     Number and size of the balls stay, because they make another bearing. Whether a scene allows a choice,
-    only `Scene.replace` tells.
+    only `Scene.replace` checks.
     """
     found = [
         *_preload(scene), *_balls(scene), *_grades(scene), *_oil(scene), *_geometry(scene), *_supports(scene),

@@ -82,7 +82,7 @@ class ChangeLevels:
         flaws = scene.imperfections.model_copy(update={"seed": seed})
         drawn = with_fidelity(scene.model_copy(update={"imperfections": flaws}), model=fidelity)
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", UserWarning)  # told of each choice's operating point
+            warnings.simplefilter("ignore", UserWarning)  # printed with each choice's operating point
             return np.asarray(level(self.estimator.spectrum(drawn).sum(axis=1)))
 
 
@@ -94,7 +94,7 @@ def change_levels(scene: Scene, radiation_model: str | None = None) -> "tuple[Ch
     if flaws is None:
         return None, "the scene has no imperfections, and a perfect bearing is silent"
     if scene.operation.speed_rpm == 0.0:
-        return None, "the shaft stands still"
+        return None, "the shaft does not turn"
     turns = _TURNS / abs(scene.operation.speed_rpm * RPM / (2.0 * math.pi))
     duration = min(max(_DURATION, turns), _LONGEST)
     try:

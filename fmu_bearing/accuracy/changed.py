@@ -36,7 +36,7 @@ class Point(NamedTuple):
 
 
 class LevelBasis(NamedTuple):
-    """How levels were computed: that of the unchanged scene (dB(A)), where, by what, how long (s), seeds.
+    """How levels were computed: level of the unchanged scene (dB(A)), microphone, models, times (s), seeds.
 
     ``doubt``: why they are in doubt; empty: they are not.
     """
@@ -213,7 +213,7 @@ class Changes:
         return columns, rows
 
     def resonances(self) -> list[str]:
-        """Return topics of which less and more are both quieter: a strong line stands near a resonance."""
+        """Return topics of which less and more are both quieter: a strong line is near a resonance."""
         found = []
         for topic, key in (("speed", "operation.speed_rpm"), ("preload", "mounting.preload_N")):
             now = value_at(self.scene, key)

@@ -1,8 +1,8 @@
-"""Sensitivity of level, life and friction torque to what a designer chooses, one choice at a time.
+"""Sensitivity of level, life and friction torque to a designer's choices, one at a time.
 
 Life, torque and stiffness are those of a perfect bearing at its operating point. Levels come
 from short runs with the same seeds before and after a change, so that a difference is that of the change. Its
-range over seeds is told with it: a change that makes one draw of the surfaces quieter and another louder is
+range over seeds is given with it: a change that makes one draw of the surfaces quieter and another louder is
 no finding.
 """
 
@@ -74,7 +74,7 @@ def changes(
     require(scene, "changes")
     tell("operating point of the unchanged scene")
     before = point(scene)
-    ear, reason = change_levels(scene, radiation_model) if levels else (None, "they were not asked for")
+    ear, reason = change_levels(scene, radiation_model) if levels else (None, "they were not requested")
     if ear is not None:
         tell("levels of the unchanged scene")
         try:
@@ -117,7 +117,7 @@ def point(scene: Scene) -> Point:
 
 def _no_life(scene: Scene) -> str:
     """Return why a scene has no life; empty: it has one."""
-    return unrated(scene) or ("the shaft stands still" if scene.operation.speed_rpm == 0.0 else "")
+    return unrated(scene) or ("the shaft does not turn" if scene.operation.speed_rpm == 0.0 else "")
 
 
 def _changed(scene: Scene, choice: Alternative, before: Point, ear: ChangeLevels | None) -> Change:

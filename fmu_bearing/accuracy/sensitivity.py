@@ -259,7 +259,7 @@ def changes(found: Figures, base: Figures) -> tuple[float, ...]:
 
 
 def _sound(scene: Scene, blocks: dict[str, NDArray[np.float64]]) -> NDArray[np.float64]:
-    """Sound block of a scene, computed once for all that radiate alike."""
+    """Sound block of a scene, computed once for all scenes that radiate in the same way."""
     # slow to load, and the command line has other uses of this module's tables
     from fmu_bearing.acoustics.filters.design import sound_parameters
 

@@ -8,7 +8,7 @@
 ``sensors``        paths from recorded channels to the measured places, and levels there
 ``run_cache``      evaluations on disk, so that a search can go on
 ``model``          computed levels for values of the free keys, over conditions and seeds
-``statistics``     covariance of levels and of values, what cannot be told apart
+``statistics``     covariance of levels and of values, what the data cannot distinguish
 ``search``         least squares from several starts
 ``result``         identified values, tables; an interrupted search
 ``files``          the scene with its new values, tables, report
@@ -62,7 +62,7 @@ def identify(
         ``check`` (`fmu_bearing.identification.data.read_data`).
     free : sequence of str, or mapping
         Dotted keys, ``"KEY"`` or ``"KEY=LOW:HIGH"``, or bounds (low, high) or None by key. ``*`` in a key
-        stands for any text: one common factor acts on all keys that match. Without bounds: a decade to
+        matches any text: one common factor acts on all keys that match. Without bounds: a decade to
         either side of the scene's value.
     background : like data, optional
         Levels that are there without the bearing; they are added as energy.

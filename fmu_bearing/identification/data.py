@@ -1,4 +1,4 @@
-"""Measured values: files and tables read into rows, checked, with all problems told at once."""
+"""Measured values: files and tables read into rows, checked, with all problems listed at once."""
 
 import math
 import os
@@ -29,7 +29,7 @@ _LOWEST, _HIGHEST = -60.0, 220.0  # dB: beyond is no level of a bearing but anot
 #: dB: levels of machines that run, of sound and of velocities; a narrow band or a line may be quieter.
 USUAL, QUIETEST_PART = (20.0, 160.0), 5.0
 SLOWEST = 500.0  # r/min: slower spindles are hardly measured
-_MOST = 12  # problems told at once
+_MOST = 12  # problems listed at once
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ class Datum:
     background : float
         Level (dB) that is there without the bearing, added to the computed one as energy; -inf: none.
     source : str
-        Where it stands, for messages.
+        File and line, for messages.
     """
 
     quantity: Quantity
@@ -90,7 +90,7 @@ def read_data(
     scene : Scene
         Its microphones are known by name; a condition that is left out is the scene's.
     background : like source, optional
-        Background levels with the same columns, without ``std_dB`` and ``role``. They may also stand among
+        Background levels with the same columns, without ``std_dB`` and ``role``. They may also be among
         the data, as quantities ``background_leq``, ``background_line[f_r]`` and so on.
     accept : bool
         Take levels and speeds that no machine usually has as they are; by default they are asked about.
@@ -197,7 +197,7 @@ def _rows(source: Source, scene: Scene, problems: list[str], background: bool = 
 
 
 def _records(source: Source) -> Iterable[tuple[str, dict[str, Any]]]:
-    """Yield where each row stands, and the row as a mapping."""
+    """Yield file and line of each row, and the row as a mapping."""
     if isinstance(source, str | os.PathLike):
         yield from _file(pathlib.Path(source))
         return
@@ -231,7 +231,7 @@ def _file(path: pathlib.Path) -> Iterable[tuple[str, dict[str, Any]]]:
     for number, cells in rows:
         where = f"{path}, line {number}"
         if len(cells) != len(columns):
-            raise IdentifyError(f"{where}: {len(cells)} values stand under {len(columns)} columns")
+            raise IdentifyError(f"{where}: {len(cells)} values for {len(columns)} columns")
         yield where, dict(zip(columns, cells, strict=True))
 
 
@@ -284,7 +284,7 @@ class _Reader:
             raise IdentifyError(f"microphone = '{name}' and {', '.join(given)} are given: leave out one")
         if given:
             if len(given) < 3:
-                raise IdentifyError(f"{', '.join(given)} alone is no place: give {', '.join(PLACE)}")
+                raise IdentifyError(f"{', '.join(given)} alone is not a place: give {', '.join(PLACE)}")
             x, y, z = (1e-3 * _number(row, axis) for axis in PLACE)
             return f"({1e3 * x:g}, {1e3 * y:g}, {1e3 * z:g}) mm", (x, y, z)
         if name not in self.places:
@@ -322,7 +322,7 @@ def _number(row: dict[str, Any], column: str, default: float | None = None) -> f
     try:
         value = float(cell)  # type: ignore[arg-type]
     except (TypeError, ValueError):
-        raise IdentifyError(f"{column} = '{cell}' is no number") from None
+        raise IdentifyError(f"{column} = '{cell}' is not a number") from None
     if not math.isfinite(value):
         raise IdentifyError(f"{column} = {cell} is not finite: leave the row out where nothing was measured")
     return value
@@ -345,7 +345,7 @@ def _value(row: dict[str, Any], quantity: Quantity) -> float:
     value = _number(row, "value_dB")
     if not _LOWEST <= value <= _HIGHEST:
         raise IdentifyError(
-            f"value_dB = {value:g} is no level in dB (re 20 uPa, velocities re 1 nm/s), which lies between "
-            f"{_LOWEST:g} and {_HIGHEST:g}"
+            f"value_dB = {value:g} is not a level in dB (re 20 uPa, velocities re 1 nm/s), which lies "
+            f"between {_LOWEST:g} and {_HIGHEST:g}"
         )
     return value

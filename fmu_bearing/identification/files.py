@@ -33,7 +33,7 @@ def identified_toml(found: Identified, text: str | None = None) -> str:
     Raises
     ------
     SceneError
-        If the text is no scene.
+        If the text is not a scene.
     """
     document = tomlkit.parse(found.start.to_toml() if text is None else text)
     for one in found.estimates:
@@ -70,7 +70,7 @@ def output_paths(target: str | os.PathLike[str]) -> tuple[pathlib.Path, pathlib.
     Raises
     ------
     IdentifyError
-        For a name that is no TOML file.
+        For a name that is not a TOML file.
     OSError
         Where they cannot be written.
     """

@@ -156,12 +156,14 @@ def _free(scene: Scene, key: str, bounds: Bounds) -> Free:
     starts = [value_at(scene, k) for k in keys]
     for k, start in zip(keys, starts, strict=True):
         if not _is_real(start):
-            shown = "not set in the scene" if start is None else f"{start!r}, which is no real number"
+            shown = "not set in the scene" if start is None else f"{start!r}, which is not a real number"
             raise IdentifyError(f"free key {k} is {shown}: only numbers that the scene has can be identified")
     low, high = limits(fields[keys[0]])
     log = low >= 0.0
     if len(keys) > 1 and (not log or min(starts) <= 0.0):
-        raise IdentifyError(f"free key '{key}' stands for values that are not all positive: give them singly")
+        raise IdentifyError(
+            f"free key '{key}' matches values that are not all positive: give them one by one"
+        )
     return _bounded(key, tuple(keys), tuple(map(float, starts)), (low, high), bounds, log)
 
 

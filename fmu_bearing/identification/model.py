@@ -27,7 +27,7 @@ from fmu_bearing.recording.record import Recording, record
 from fmu_bearing.scene import Scene
 
 _ROOMS = ("acoustics", "elastic", "formulas", "identification", "prepare", "recording", "scene")
-_TURNS = 8  # of the shaft in a run, at least: lines of the shaft stand apart
+_TURNS = 8  # of the shaft in a run, at least: lines of the shaft are separate
 _LENGTH = 0.1  # s, at least
 _BINS = 6  # in a third octave, at least
 _SETTLE = {"response": 0.03, "rings": 0.04}  # s: response is steady from the start, the high-pass is not
@@ -51,7 +51,7 @@ class Levels:
         Where runs are kept.
     workers : int
         Threads.
-    told : callable
+    finished_run : callable
         Called after each new run.
 
     Attributes
@@ -63,9 +63,15 @@ class Levels:
     def __init__(
         self, scene: Scene, data: Sequence[Datum], free: Sequence[Free], *, duration: float | None = None,
         settle: float | None = None, folder: pathlib.Path | None = None, workers: int = 1,
-        told: Callable[[], None] = lambda: None,
+        finished_run: Callable[[], None] = lambda: None,
     ) -> None:  # fmt: skip
-        self.scene, self.data, self.free, self.workers, self.told = scene, data, free, workers, told
+        self.scene, self.data, self.free, self.workers, self.finished_run = (
+            scene,
+            data,
+            free,
+            workers,
+            finished_run,
+        )
         self.cache = RunCache(folder)
         self.groups: dict[tuple[tuple[str, float], ...], list[int]] = {}
         for place, row in enumerate(data):
@@ -113,7 +119,7 @@ class Levels:
             found[k, self.groups[group]] = levels
         return found
 
-    def heard(self, raw: NDArray[np.float64], offset: NDArray[np.float64]) -> NDArray[np.float64]:
+    def with_background(self, raw: NDArray[np.float64], offset: NDArray[np.float64]) -> NDArray[np.float64]:
         """Levels (dB) with an offset (dB) of the bearing's sound, and the background, shape of ``raw``."""
         return np.asarray(10.0 * np.log10(10.0 ** ((raw + offset) / 10.0) + self.background))
 
@@ -147,7 +153,7 @@ class Levels:
             self.cache.put(key, levels)
             with self._lock:
                 self.runs += 1
-            self.told()
+            self.finished_run()
         return levels
 
     def reason(self, x: NDArray[np.float64], seed: int, fidelity: str) -> str:

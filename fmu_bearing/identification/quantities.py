@@ -39,7 +39,7 @@ class Quantity:
     channel : int, optional
         Velocity of a body: place of its acceleration among the channels; None: sound pressure.
     frequency : float
-        Centre of the third octave, or of a line that stands still (Hz); 0 for others.
+        Centre of the third octave, or of a line of fixed frequency (Hz); 0 for others.
     terms : tuple of (int, str)
         A line that follows the speed: factors of kinematic frequencies, ``((1, "f_i"), (-2, "f_r"))``.
     """
@@ -91,7 +91,7 @@ def _channel(text: str, body: str) -> int:
     name, _, axis = body.partition(".")
     if name not in _BODIES or axis not in _AXES:
         raise IdentifyError(
-            f"quantity '{text}': '{body}' is no direction of a body; write one of {', '.join(_BODIES)}, a "
+            f"quantity '{text}': '{body}' is not a direction of a body; write one of {', '.join(_BODIES)}, a "
             "dot and x, y or z, such as velocity[outer_ring.z]"
         )
     return SD.c_body(_BODIES[name], _AXES[axis])
@@ -107,13 +107,13 @@ def _band(text: str, inside: str) -> float:
         centre = band_centre(nominal)
     except (ValueError, ArithmeticError):
         raise IdentifyError(
-            f"quantity '{text}': '{inside}' is no centre of a third octave; write third_octave[1000], in Hz"
+            f"quantity '{text}': '{inside}' is not a centre of a third octave; write third_octave[1000] (Hz)"
         ) from None
     there = [nominal_frequency(f) for f in centre_frequencies(SD.RATE)]
     if nominal not in there:
         near = min(there, key=lambda f: abs(f - nominal))
         raise IdentifyError(
-            f"quantity '{text}': {nominal:g} Hz is no nominal centre of a third octave between 20 Hz and "
+            f"quantity '{text}': {nominal:g} Hz is not a nominal centre of a third octave between 20 Hz and "
             f"20 kHz; the nearest is {near:g}"
         )
     return centre
@@ -136,7 +136,7 @@ def _line(text: str, channel: int | None, inside: str) -> Quantity:
         end = match.end()
     if not terms or end < len(inside):
         raise IdentifyError(
-            f"quantity '{text}': '{inside}' is no line; write a frequency with its unit, line[467 Hz], or "
+            f"quantity '{text}': '{inside}' is not a line; write a frequency with its unit, line[467 Hz], or "
             "kinematic frequencies f_r, f_c, f_b, f_i, f_o: line[2 f_r], line[f_i - 2 f_r]"
         )
     return Quantity(text, LINE, channel, 0.0, tuple(terms))

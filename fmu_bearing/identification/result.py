@@ -52,7 +52,7 @@ class Estimate:
         if math.isnan(self.std):
             return math.nan, math.nan
         if self.free.log:
-            # a factor beyond e^50 is no number worth showing
+            # a factor beyond e^50 is not a number worth showing
             factor = math.exp(min(deviations * self.std, 50.0))
             low, high = self.value / factor, self.value * factor
         else:
@@ -124,7 +124,7 @@ class Identified:
     residual_scale : float
         Factor by which residuals exceed the stated standard deviations; at least 1. Covariance holds it.
     remarks : tuple of str
-        What cannot be told apart, what stands at a bound, what the data cannot carry.
+        What the data cannot distinguish, what is at a bound, what the data cannot determine.
     fidelity : str
         Of the search.
     seeds : tuple of int
@@ -179,7 +179,7 @@ class Identified:
         for one in self.estimates:
             if key == one.key or key in one.free.keys:
                 return one
-        raise KeyError(f"'{key}' was not free; free were {', '.join(one.key for one in self.estimates)}")
+        raise KeyError(f"'{key}' was not free; free: {', '.join(one.key for one in self.estimates)}")
 
     def summary(self) -> dict[str, Any]:
         """Return values, misfits and remarks, for machines."""

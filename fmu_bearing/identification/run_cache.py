@@ -12,7 +12,7 @@ FILE = "runs.jsonl"
 class RunCache:
     """Levels by key, in memory and, with a folder, in its file.
 
-    A key stands for scene, places, quantities, settings and code. A line that cannot be read, or whose
+    A key identifies scene, places, quantities, settings and code. A line that cannot be read, or whose
     checksum differs, is ignored.
     """
 

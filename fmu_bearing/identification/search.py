@@ -86,13 +86,14 @@ def search(
         )
     own = resolve(scene)[0]
     chosen = _fidelity(own, fidelity)
-    # a search passes through values that nobody will run; those of the result are told when it is run
-    with _bar(progress) as told, warnings.catch_warnings():
+    # a search tries values that are never run again; warnings about the result appear when it is run
+    with _bar(progress) as display, warnings.catch_warnings():
         warnings.simplefilter("ignore", UserWarning)
         levels = Levels(
-            own, data, free, duration=duration, settle=settle, folder=folder, workers=workers, told=told.ran
-        )
-        found = _Search(levels, chosen, seeds, starts, told)
+            own, data, free, duration=duration, settle=settle, folder=folder, workers=workers,
+            finished_run=display.ran,
+        )  # fmt: skip
+        found = _Search(levels, chosen, seeds, starts, display)
         try:
             return found.run()
         except KeyboardInterrupt:
@@ -145,8 +146,8 @@ class _Best:
 class _Search:
     """State of one search."""
 
-    def __init__(self, levels: Levels, fidelity: str, seeds: int, starts: int, told: "_Told") -> None:
-        self.levels, self.fidelity, self.starts, self.told = levels, fidelity, starts, told
+    def __init__(self, levels: Levels, fidelity: str, seeds: int, starts: int, display: "_Display") -> None:
+        self.levels, self.fidelity, self.starts, self.display = levels, fidelity, starts, display
         self.own = levels.scene.fidelity.model
         self.free, self.data = levels.free, levels.data
         flaws = levels.scene.imperfections
@@ -167,7 +168,7 @@ class _Search:
 
     def run(self) -> Identified:
         """Search and report."""
-        self.told.say("the scene as it is")
+        self.display.say("the scene as it is")
         self.before = self._mean(self.start, self.seeds, self.own, check=True)
         self._require(self.before, self.own)
         self._require(self._mean(self.start, self.seeds[:1])[self.fit], self.fidelity)
@@ -175,7 +176,7 @@ class _Search:
         ends = self._from_several_starts()
         x = ends[0]
         for number in range(_CORRECTIONS):
-            self.told.say(f"all seeds, round {number + 1}")
+            self.display.say(f"all seeds, round {number + 1}")
             self._weigh(x)
             if number:
                 x = self._descend(x, self.seeds, **_FINE)
@@ -193,11 +194,11 @@ class _Search:
         """Different ends of rough searches with one seed, the best first, no more than three."""
         tries = [self.start]
         if self.starts > 1:
-            self.told.say("places within the bounds")
+            self.display.say("places within the bounds")
             tries += self._promising(self.starts - 1)
         found = []
         for number, x in enumerate(tries):
-            self.told.say(f"start {number + 1} of {len(tries)}")
+            self.display.say(f"start {number + 1} of {len(tries)}")
             end = self._descend(x, self.seeds[:1], **_ROUGH)
             found.append((self._cost(end, self.seeds), number, end))
         return _distinct([end for _, _, end in sorted(found, key=lambda one: one[:2])])[:3]
@@ -221,7 +222,7 @@ class _Search:
                 )
                 said.append(
                     f"another solution fits nearly as well: {values}. The intervals are about the better "
-                    "one; measure at a further speed to tell them apart"
+                    "one; measure at a further speed to distinguish them"
                 )
         return said
 
@@ -253,7 +254,9 @@ class _Search:
         """Mean level (dB) over seeds of every value; of checked ones too if asked for."""
         fidelity = fidelity or self.fidelity
         offset = self.offset if fidelity == self.fidelity else np.zeros_like(self.offset)
-        return np.asarray(self.levels.heard(self.levels.at(x, seeds, fidelity, check), offset).mean(axis=0))
+        return np.asarray(
+            self.levels.with_background(self.levels.at(x, seeds, fidelity, check), offset).mean(axis=0)
+        )
 
     def _residual(self, x: NDArray[np.float64], seeds: Sequence[int]) -> NDArray[np.float64]:
         """Weighted residuals of the fitted values."""
@@ -264,7 +267,7 @@ class _Search:
         residual: NDArray[np.float64] = self.white @ off
         if len(seeds) == len(self.seeds):
             cost = _soft(residual)
-            self.told.misfit(float(np.sqrt(np.mean(off**2))))
+            self.display.misfit(float(np.sqrt(np.mean(off**2))))
             if cost < self.best.cost:
                 self.best.x, self.best.cost, self.best.computed = x.copy(), cost, computed
         return residual
@@ -294,7 +297,7 @@ class _Search:
         if self.weighed is not None and np.abs(x - self.weighed).max() < _STAYS:
             return
         self.weighed = x.copy()
-        over = self.levels.heard(self.levels.at(x, self.more, self.fidelity), self.offset)
+        over = self.levels.with_background(self.levels.at(x, self.more, self.fidelity), self.offset)
         over = over[:, self.fit]
         over = over[~np.isnan(over).any(axis=1)]
         covariance = level_covariance(self.std[self.fit], over, len(self.seeds))
@@ -326,7 +329,7 @@ class _Search:
         return np.clip(x, self.low + margin, self.high - margin)
 
     def _report(self, x: NDArray[np.float64]) -> Identified:
-        self.told.say("uncertainty")
+        self.display.say("uncertainty")
         self._weigh(x)
         slopes = np.nan_to_num(self._raw_slopes(x, self.seeds))
         after = self._mean(x, self.seeds, self.own, check=True)
@@ -334,7 +337,9 @@ class _Search:
         off = (after - self.value)[self.fit]
         spread = uncertainty(self.white @ slopes[self.fit], self.white @ off)
         spread = widened(spread, self._growth(x, spread))
-        over = self.levels.heard(self.levels.at(x, self.more, self.fidelity, check=True), self.offset)
+        over = self.levels.with_background(
+            self.levels.at(x, self.more, self.fidelity, check=True), self.offset
+        )
         return self._identified(x, after, np.nanstd(over, axis=0, ddof=min(1, len(over) - 1)), slopes, spread)
 
     def _growth(self, x: NDArray[np.float64], spread: Spread) -> NDArray[np.float64]:
@@ -382,7 +387,7 @@ class _Search:
         if complete:
             said = remarks(self.free, spread, values, int(self.fit.sum())) + self._rivals(x, spread)
         said += [
-            f"{one.key} is 0 in the scene: the search, and what stands under 'before', begin in the middle "
+            f"{one.key} is 0 in the scene: the search, and the values under 'before', begin in the middle "
             f"of its bounds, {one.start:.3g}"
             for one in self.free
             if one.guessed
@@ -411,7 +416,7 @@ def _soft(residual: NDArray[np.float64]) -> float:
 
 
 @dataclass
-class _Told:
+class _Display:
     """What is shown while a search runs."""
 
     say: Callable[[str], None]
@@ -420,7 +425,7 @@ class _Told:
 
 
 @contextmanager
-def _bar(shown: bool | None) -> Iterator[_Told]:
+def _bar(shown: bool | None) -> Iterator[_Display]:
     """Show stage, number of runs, misfit now and at best."""
     from rich.console import Console
     from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
@@ -439,6 +444,6 @@ def _bar(shown: bool | None) -> Iterator[_Told]:
             best = min(best, rms)
             display.update(task, misfit=f"{rms:.2f} dB rms, best {best:.2f} dB")
 
-        yield _Told(
+        yield _Display(
             lambda text: display.update(task, description=text), lambda: display.advance(task), misfit
         )

@@ -27,7 +27,7 @@ from fmu_bearing.recording.channels.channel_history import ChannelHistory
 
 _SEARCH = 0.004  # relative: how far from its frequency a line is looked for, as balls slide
 _STEPS = 9
-_LOWEST = 20.0  # Hz: velocities count from there on, as sound is heard
+_LOWEST = 20.0  # Hz: velocities count from there on, as for sound
 _FLOOR = 1e-12  # of the reference's square: -120 dB, so that levels of nothing stay finite
 
 
@@ -52,9 +52,9 @@ class Sensors:
         self.transfers = [Transfer(circle, channels) for circle in found]
         # the papers' own channels hold no accelerations of bodies
         bodies = [] if self.energies else [row.quantity.channel for row in rows]
-        heard = {path.channel for transfer in self.transfers for path in transfer.circle.paths}
+        sounding = {path.channel for transfer in self.transfers for path in transfer.circle.paths}
         #: Channels that anything here depends on: a housing hides the balls.
-        self.used = np.array(sorted({int(c) for c in (*heard, *bodies) if c is not None}))
+        self.used = np.array(sorted({int(c) for c in (*sounding, *bodies) if c is not None}))
         frequency = np.fft.rfftfreq(self.size, 1.0 / SD.RATE).astype(np.float64)
         self.keep = (frequency > 0.0) & (frequency < STOP)
         self.frequency = frequency[self.keep]

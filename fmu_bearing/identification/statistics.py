@@ -1,7 +1,7 @@
 """Covariance of levels and of identified values, and what it says in plain sentences.
 
 A measured level differs from the computed one by noise of the measurement and by phases of the surfaces that
-nobody knows: a model averaged over seeds is not the one bearing that was measured. Levels of one run move
+is unknown: a model averaged over seeds is not the one bearing that was measured. Levels of one run move
 together when phases change, so their deviations over seeds enter as a covariance, not as more noise.
 """
 
@@ -158,7 +158,7 @@ def at_bound(one: Free, value: float) -> str:
 def remarks(
     free: Sequence[Free], spread: Spread, values: Sequence[float], fitted: int
 ) -> list[str]:  # fmt: skip
-    """Say what the data cannot tell apart, what stands at a bound, and what they cannot carry."""
+    """Say what the data cannot distinguish, what is at a bound, and what they cannot determine."""
     found = []
     names = [one.key for one in free]
     if fitted < 3 * len(free):
@@ -180,8 +180,8 @@ def remarks(
         side = at_bound(one, value)
         if side:
             found.append(
-                f"{one.key} stands at its {side} bound, {one.low if side == 'low' else one.high:g}: the best "
-                "value may lie beyond, and its uncertainty is no interval about it"
+                f"{one.key} is at its {side} bound, {one.low if side == 'low' else one.high:g}: the best "
+                "value may lie beyond, and its uncertainty is not an interval about it"
             )
     known = [determined(one, float(d)) for one, d in zip(free, deviations, strict=True)]
     for k, direction in enumerate(spread.directions):
@@ -193,7 +193,7 @@ def remarks(
             found.append(f"the data do not determine {names[parts[0]]}: {_reach(free[parts[0]], deviation)}")
         else:
             found.append(
-                f"the data do not tell {' and '.join(names[i] for i in parts)} apart: "
+                f"the data do not distinguish {' and '.join(names[i] for i in parts)}: "
                 f"{_together(names, direction, parts)} changes no level by more than its uncertainty, over a "
                 f"factor of {_factor(deviation)} either way"
             )
@@ -202,7 +202,7 @@ def remarks(
 
 
 def _pairs(names: Sequence[str], covariance: NDArray[np.float64], known: Sequence[bool]) -> list[str]:
-    """Sentences on pairs of determined keys that move the levels alike."""
+    """Sentences on pairs of determined keys that move the levels in the same way."""
     deviation = np.sqrt(np.diag(covariance))
     correlation = covariance / np.outer(deviation, deviation)
     found = []

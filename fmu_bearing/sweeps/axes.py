@@ -49,7 +49,7 @@ class Axis:
         Dotted key of the scene.
     name : str
         Of the dimension: the key's last part, ``fidelity`` for ``fidelity.model``; the whole key where two
-        axes end alike.
+        axes have equal ends.
     values : tuple
         Numbers, texts or truth values, in the key's unit.
     unit, words : str
@@ -170,7 +170,7 @@ def _listed(key: str, values: Sequence[Any] | str, present: Any) -> list[Any]:
         plain = [int(v) if isinstance(v, float) and v.is_integer() else v for v in plain]
     twice = [value for k, value in enumerate(plain) if value in plain[:k]]
     if twice:
-        raise SweepError(f"axis {key}: {twice[0]} stands more than once")
+        raise SweepError(f"axis {key}: {twice[0]} is given more than once")
     if not plain:
         raise SweepError(f"axis {key} has no values")
     return plain

@@ -40,8 +40,8 @@ def cluster(
     Raises
     ------
     SweepError
-        For what is no address; when no scheduler answers, it has no workers, or their code differs from the
-        client's.
+        For what is not an address; when no scheduler answers, it has no workers, or their code differs from
+        the client's.
     MissingExtra
         Without Dask.
     """
@@ -87,7 +87,7 @@ def checked(address: str) -> ModuleType:
     Raises
     ------
     SweepError
-        For what is no address of a scheduler.
+        For what is not an address of a scheduler.
     MissingExtra
         Without Dask.
     """

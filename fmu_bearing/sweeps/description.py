@@ -50,7 +50,7 @@ def is_description(path: str | os.PathLike[str]) -> bool:
     try:
         data = parse(read_text(path, LONGEST))
     except (OSError, ValueError):
-        return False  # who reads it as a scene tells what is wrong
+        return False  # reading it as a scene reports what is wrong
     return "axes" in data or isinstance(data.get("scene"), str)
 
 

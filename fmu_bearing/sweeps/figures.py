@@ -92,7 +92,7 @@ def figures_of(scene: Scene, patterns: Sequence[str] | None = None) -> tuple[Fig
     patterns : sequence of str, optional
         Variables, with ``*`` for any text; ``:statistic`` behind one asks for another than the usual, for
         example ``"friction_torque:max"``. A body's velocity goes without axis: ``"cage.velocity"``. Default:
-        those of `DEFAULT` that the scene has.
+        figures of `DEFAULT` that the scene has.
 
     Raises
     ------

@@ -38,7 +38,7 @@ def sweep_picture(data: "xarray.Dataset", figures: Sequence[str] | None = None) 
     data : xarray.Dataset
         Of `sweep`.
     figures : sequence of str, optional
-        Names in the dataset, with ``*`` for any text, all drawn; default: those of `DEFAULT` that the
+        Names in the dataset, with ``*`` for any text, all drawn; default: all of `DEFAULT` that the
         dataset has.
 
     Raises
@@ -132,7 +132,7 @@ def _roles(data: "xarray.Dataset") -> tuple[str, str | None]:
             f"a picture has two axes, the sweep {', '.join(dims)}: choose along the others, "
             f"for example data.isel({dims[0]}=0)"
         )
-    # the longest axis of numbers goes along x; the sweep's first where they are alike
+    # the longest axis of numbers goes along x; the sweep's first where they are equal
     dims.sort(key=lambda name: (data[name].values.dtype.kind not in "iuf", -data[name].size))
     return dims[0], dims[1] if len(dims) == 2 else None
 

@@ -89,13 +89,13 @@ def plan(
         note = "" if choice is None else choice.summary
     scenes = _scenes(scene, found)
     if any(one.bends for one in scenes):
-        need("skfem", BENDING)  # told once, and not as the reason of every point
+        need("skfem", BENDING)  # reported once, and not as the reason of every point
     mounted = (one for one in scenes if one.mounting is not None)
     for model in dict.fromkeys(one.fidelity.model for one in mounted if not one.mounted.preload_N > 0.0):
         warnings.warn(loose(model), stacklevel=2)  # once, and not by each worker
     kept = figures_of(scene, figures)
     names = tuple(figure.name for figure in kept)
-    first: dict[str, Scene] = {}  # the first scene of all that sound alike
+    first: dict[str, Scene] = {}  # the first scene of all with the same sound
     tasks = []
     for one in scenes:
         silent = one.sound is None or not one.microphones

@@ -129,7 +129,7 @@ def _measured(task: Task, sounds: Blocks) -> tuple[float, ...]:
 
 
 def _names(wanted: tuple[str, ...], scene: Scene) -> list[str]:
-    """Return those of the figures that this scene has: an axis may remove the cage or a ball."""
+    """Return the figures that this scene has: an axis may remove the cage or a ball."""
     names = []
     for name in wanted:
         try:

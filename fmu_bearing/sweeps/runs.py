@@ -25,7 +25,7 @@ def run_plan(
     plan: Plan, store: Store | None = None, workers: int | None = None, scheduler: str | None = None,
     progress: bool | None = None,
 ) -> Outcomes:  # fmt: skip
-    """Run what ``store`` does not hold and return all outcomes by key.
+    """Run the points that ``store`` does not hold and return all outcomes by key.
 
     Raises
     ------
@@ -35,7 +35,7 @@ def run_plan(
         When no worker is available.
     """
     outcomes = finished(plan, store)
-    # points that sound alike follow each other, so that a worker keeps one sound at a time
+    # points with the same sound follow each other, so that a worker keeps one sound at a time
     order = {scene: place for place, scene in enumerate(plan.sounds)}
     todo = sorted(
         (task for task in plan.tasks if task.key not in outcomes),

@@ -144,7 +144,7 @@ def _at(run: Run, name: str, times: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def same_times(one: NDArray[np.float64], other: NDArray[np.float64]) -> bool:
-    """Tell whether two runs have the same points, but for rounding."""
+    """Return whether two runs have the same points, but for rounding."""
     slack = _SAME_TIME * max(1.0, abs(float(other[-1])))
     return len(one) == len(other) and bool(np.max(np.abs(one - other)) <= slack)
 
@@ -154,7 +154,7 @@ def _departure(
     wanted: NDArray[np.float64], allowed: float,
 ) -> Departure | None:  # fmt: skip
     off = np.abs(values - wanted)
-    beyond = ~(off <= allowed)  # what is no number is beyond
+    beyond = ~(off <= allowed)  # what is not a number is beyond
     if not beyond.any():
         return None
     first = int(np.argmax(beyond))

@@ -48,7 +48,7 @@ def step_fmu(fmu: str | os.PathLike[str], plan: Plan) -> Run:
         For a plan that does not fit the FMU, or a file that is not an FMU.
     """
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # an early end is told below
+        warnings.simplefilter("ignore")  # an early end is reported below
         run = simulate(
             os.fspath(fmu), plan.stop_time, step=plan.step, inputs=plan.inputs,
             start_values=plan.start_values, outputs=plan.outputs, progress=False,

@@ -10,7 +10,7 @@ from fmu_bearing.validation.remarks import FINDING, NOTE, Remark, Skip
 from fmu_bearing.validation.subject import NoInstance, Subject, difference, not_finite
 
 _STEPS = 5
-_FIRST = 3  # of equal kind that are told
+_FIRST = 3  # of equal kind that are listed
 _ROUNDING = 1e-14  # relative: 17 digits bring a double back, 16 need not
 _OTHER_GUID = "{00000000-0000-0000-0000-000000000000}"
 
@@ -40,7 +40,7 @@ def other_guid(subject: Subject) -> Iterator[Remark]:
     try:
         with subject.instances(guid=_OTHER_GUID):
             called = f"fmi2Instantiate with GUID {_OTHER_GUID}"
-            yield Remark(called, "an instance", "none, for the GUID is there to be compared", "2.1.5", NOTE)
+            yield Remark(called, "an instance", "none: the GUID has to be compared", "2.1.5", NOTE)
     except NoInstance:
         return
 
@@ -118,7 +118,7 @@ def independent(subject: Subject) -> Iterator[Remark]:
 
 
 def reset(subject: Subject) -> Iterator[Remark]:
-    """Return by reset to what a fresh instance is: the same run gives the same bits."""
+    """Reset gives the state of a fresh instance: the same run gives the same bits."""
     with subject.instances() as (one,):
         subject.initialise(one)
         before = subject.everything(one)

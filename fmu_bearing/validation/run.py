@@ -81,12 +81,12 @@ def _unpack(path: Path, folder: Path) -> None:
     try:
         with zipfile.ZipFile(plain_file(path)) as archive:
             if _DESCRIPTION not in archive.namelist():
-                raise NotAnFmu(f"{path}: is no FMU: it holds no {_DESCRIPTION}")
+                raise NotAnFmu(f"{path}: is not an FMU: it holds no {_DESCRIPTION}")
             archive.extractall(folder)  # leaves out what points outside the folder
     except FileNotFoundError:
         raise NotAnFmu(f"{path}: there is no such FMU") from None
     except (zipfile.BadZipFile, OSError) as problem:
-        raise NotAnFmu(f"{path}: is no FMU: {problem}") from None
+        raise NotAnFmu(f"{path}: is not an FMU: {problem}") from None
 
 
 def _kind(path: Path, folder: Path) -> str:
@@ -99,7 +99,7 @@ def _kind(path: Path, folder: Path) -> str:
     if version != "2.0" or root.find("CoSimulation") is None:
         kind = "co-simulation" if root.find("CoSimulation") is not None else "model exchange only"
         raise NotAnFmu(
-            f"{path}: is FMI {version or 'of no version'}, {kind}; checked are FMUs for FMI 2.0 co-simulation"
+            f"{path}: is FMI {version or 'of no version'}, {kind}; only FMI 2.0 co-simulation is checked"
         )
     try:
         from fmu_bearing.validation.subject import Subject
@@ -130,7 +130,7 @@ class _Behaviour:
             if not how:
                 number, alone = number + count, False
             elif at > number:
-                also = "instances before it in that process may have left something; alone it is run again"
+                also = "earlier instances in that process may have had an effect; it is run again alone"
                 self.found[at].add(FINDING, f"{how}; {also}")
                 number, alone = at, True
             else:

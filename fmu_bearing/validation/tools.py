@@ -27,25 +27,25 @@ def fmutool(path: Path) -> Result:
         result.add(SKIPPED, str(missing))
         return result
     logger = logging.getLogger("fmu_manipulation_toolbox")
-    heard = _Heard(logging.ERROR)
+    collector = _MessageCollector(logging.ERROR)
     before = logger.propagate, logger.level
-    logger.addHandler(heard)
+    logger.addHandler(collector)
     logger.propagate = False
     try:
         with operations.FMU(str(path)) as fmu:
             for check in checker.get_checkers():
                 fmu.apply_operation(check())
-    except Exception as problem:  # of a description that cannot be read: its own kinds, and those of XML
-        heard.lines.append(str(problem) or repr(problem))
+    except Exception as problem:  # of a description that cannot be read: its own kinds, and XML's
+        collector.lines.append(str(problem) or repr(problem))
     finally:
-        logger.removeHandler(heard)
+        logger.removeHandler(collector)
         logger.propagate, logger.level = before
-    for line in dict.fromkeys(heard.lines):
+    for line in dict.fromkeys(collector.lines):
         result.add(FINDING, line.replace(f"'{path}': ", ""))
     return result
 
 
-class _Heard(logging.Handler):
+class _MessageCollector(logging.Handler):
     """Keeps messages."""
 
     def __init__(self, level: int) -> None:

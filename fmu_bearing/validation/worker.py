@@ -1,6 +1,6 @@
 """Run checks of one unpacked FMU, in a process that the FMU may end.
 
-``python -m fmu_bearing.validation.worker FOLDER FIRST [COUNT]`` tells on its standard output, in lines of
+``python -m fmu_bearing.validation.worker FOLDER FIRST [COUNT]`` writes to its standard output, in lines of
 JSON, which check begins and what it found. What the FMU prints goes to standard error.
 """
 

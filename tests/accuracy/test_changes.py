@@ -83,20 +83,20 @@ def test_the_direction_of_turning_changes_no_figure(spindle):
 @pytest.mark.parametrize("begin", ["preload 500 -> 350 N", "grade P4 -> P2"])
 def test_levels_are_those_of_two_recordings_with_the_same_seed(found, spindle, begin):
     row = named(found, begin)
-    heard = found.basis
-    assert heard.fidelity == "response" and len(heard.seeds) == 2
-    for k, seed in enumerate(heard.seeds):
+    received = found.basis
+    assert received.fidelity == "response" and len(received.seeds) == 2
+    for k, seed in enumerate(received.seeds):
         levels = []
         for values in ({}, row.choice.values):
             drawn = with_fidelity(
                 spindle.replace({"imperfections.seed": seed} | dict(values)), model="response"
             )
-            run = record(drawn, heard.duration, settle=heard.settle, progress=False)
-            levels.append(run.levels([heard.microphone], weighting="A", resolution=20.0)[0])
+            run = record(drawn, received.duration, settle=received.settle, progress=False)
+            levels.append(run.levels([received.microphone], weighting="A", resolution=20.0)[0])
         # the same sums in another order
         assert row.levels[k] == pytest.approx(levels[1] - levels[0], abs=1e-9)
         if k == 0:
-            assert heard.level == pytest.approx(levels[0], abs=1e-9)
+            assert received.level == pytest.approx(levels[0], abs=1e-9)
             loudest = run.levels(weighting="A", resolution=20.0)
     assert len(loudest) > 1
     assert row.level == pytest.approx(row.levels.mean())
@@ -128,11 +128,11 @@ def test_every_choice_is_there_and_ranked(found):
 
 
 def test_summary_and_table_have_the_figures(found):
-    told = found.summary()
-    assert told["seeds"] == list(found.basis.seeds) and told["microphone"] == found.basis.microphone
+    reported = found.summary()
+    assert reported["seeds"] == list(found.basis.seeds) and reported["microphone"] == found.basis.microphone
     columns, rows = found.table()
     assert columns[0] == "change" and {len(row) for row in rows} == {len(columns)}
-    for each, row, data in zip(found.ranked("level"), rows, told["changes"], strict=True):
+    for each, row, data in zip(found.ranked("level"), rows, reported["changes"], strict=True):
         assert data["change"] == each.choice.words == row[0]
         words = "no finding" if each.depends_on_seed else "none"
         assert row[1] == (shown_level(each.level) if each.acts("level") else words)
@@ -158,7 +158,7 @@ def test_a_sign_that_depends_on_the_seed_is_no_finding():
     assert not one_change([], life=1.005).acts("life")
 
 
-def test_a_resonance_is_told_where_less_and_more_are_quieter(spindle):
+def test_a_resonance_is_reported_where_less_and_more_are_quieter(spindle):
     def study(low, high):
         rows = [
             Change(
@@ -214,7 +214,7 @@ def test_choices_follow_the_scene(scene, spindle):
     assert len(words(spindle.replace({"bearing.contact_angle_deg": 40.0}), "preload")) == 2
 
 
-def test_what_the_scene_or_the_engine_refuses_is_told(spindle, monkeypatch):
+def test_what_the_scene_or_the_engine_refuses_is_reported(spindle, monkeypatch):
     only(
         monkeypatch,
         Alternative("preload", "too much", {"mounting.preload_N": 2e4}),
@@ -228,7 +228,7 @@ def test_what_the_scene_or_the_engine_refuses_is_told(spindle, monkeypatch):
     assert found.summary()["changes"][-1]["reason"] == refused.reason
 
 
-def test_a_warning_of_the_choice_alone_is_told(found):
+def test_a_warning_of_the_choice_alone_is_reported(found):
     angle = named(found, "contact angle")
     assert any("beyond its shoulder" in text for text in angle.cautions)
     assert named(found, "oil 40 -> 50").cautions == ()
@@ -267,25 +267,25 @@ def test_rings_that_bend_are_run_with_fidelity_full(scene, monkeypatch):
 def test_a_weakly_damped_bearing_is_judged_by_full(spindle, example, monkeypatch):
     """`response` and `rings` agree on the dry 7003C at 8,000 r/min, 18 dB(A) away from `full`."""
     only(monkeypatch)
-    heard = []
+    received = []
 
     def levels(self, scene, fidelity, seed):
-        heard.append(fidelity)
+        received.append(fidelity)
         return np.full(len(scene.microphones), 50.0)
 
     monkeypatch.setattr(ChangeLevels, "_all", levels)
     flaws = spindle.imperfections.model_dump(mode="json", exclude_none=True)
     dry = example("7003C-impact").replace({"operation.speed_rpm": 8000.0, "imperfections": flaws})
     found = changes(with_fidelity(dry, model="full"), seeds=5)
-    assert found.basis.fidelity == "full" and set(heard) == {"full"} and len(found.basis.seeds) == 3
+    assert found.basis.fidelity == "full" and set(received) == {"full"} and len(found.basis.seeds) == 3
     assert found.basis.doubt == found.summary()["doubt"] == ""
     # a scene that asks for one of the others gets it, with the remark
     asked = changes(with_fidelity(dry, model="rings"), seeds=1)
     assert asked.basis.fidelity == "rings"
     assert any("levels of fidelity rings are in doubt" in line for line in asked.remarks())
-    heard.clear()
+    received.clear()
     assert changes(spindle, seeds=1).basis.fidelity == "response"
-    assert set(heard) == {"rings", "response"}
+    assert set(received) == {"rings", "response"}
 
 
 def test_the_seeds_begin_with_the_scenes(spindle, monkeypatch):
@@ -298,7 +298,7 @@ def test_the_seeds_begin_with_the_scenes(spindle, monkeypatch):
 
 def test_a_scene_without_any_figure_is_refused(spindle, example):
     still = spindle.replace({"operation.speed_rpm": 0.0, "operation.lowest_speed_rpm": 1000.0})
-    with pytest.raises(ValueError, match="nothing to compare.*stands still"):
+    with pytest.raises(ValueError, match="nothing to compare.*does not turn"):
         changes(still)
     # the papers' impact model knows no friction
     smooth = changes(example("7003C-impact"), levels=False)

@@ -72,7 +72,7 @@ def test_places_velocities_and_keys_as_columns(spindle):
     assert found[2].conditions == (("lubricant.viscosity_Pa_s", 0.02),)
 
 
-def test_background_stands_beside_its_value_or_in_a_file_of_its_own(spindle, tmp_path):
+def test_background_is_beside_its_value_or_in_a_file_of_its_own(spindle, tmp_path):
     (one,) = read(spindle, {}, {"quantity": "background_leq", "value_dB": 65.0})
     own = tmp_path / "background.csv"
     own.write_text("microphone,speed_rpm,quantity,value_dB\nP1,9000,leq,65\n")
@@ -106,19 +106,19 @@ def test_lines_follow_the_speed():
 
 REFUSED = [
     ({"quantity": "laeq"}, "there is no quantity 'laeq'; did you mean 'leq'"),
-    ({"quantity": "third_octave[1100]"}, "1100 Hz is no nominal centre.*nearest is 1000"),
-    ({"quantity": "third_octave[loud]"}, "'loud' is no centre"),
-    ({"quantity": "line[f_x]"}, r"'f_x' is no line; .*line\[2 f_r\]"),
+    ({"quantity": "third_octave[1100]"}, "1100 Hz is not a nominal centre.*nearest is 1000"),
+    ({"quantity": "third_octave[loud]"}, "'loud' is not a centre"),
+    ({"quantity": "line[f_x]"}, r"'f_x' is not a line; .*line\[2 f_r\]"),
     ({"quantity": "line[467]"}, "with its unit"),
     ({"quantity": "line[5 Hz]"}, "outside 20 Hz to 20 kHz"),
     ({"quantity": "leq[3]"}, "'3' is too much"),
-    ({"quantity": "velocity[housing.w]"}, "no direction of a body.*inner_ring, outer_ring, housing"),
+    ({"quantity": "velocity[housing.w]"}, "not a direction of a body.*inner_ring, outer_ring, housing"),
     ({"microphone": "P9"}, "no microphone 'P9'; the scene has P1, P2, P3, P4"),
     ({"microphone": "P1", "x_mm": 1.0}, "leave out one"),
-    ({"microphone": "", "x_mm": 1.0, "y_mm": 2.0}, "alone is no place"),
+    ({"microphone": "", "x_mm": 1.0, "y_mm": 2.0}, "alone is not a place"),
     ({"value_dB": math.nan}, "value_dB = nan is not finite"),
-    ({"value_dB": "loud"}, "value_dB = 'loud' is no number"),
-    ({"value_dB": 2e5}, "no level in dB"),
+    ({"value_dB": "loud"}, "value_dB = 'loud' is not a number"),
+    ({"value_dB": 2e5}, "not a level in dB"),
     ({"value_dB": None, "value_mm_s": 1.0}, "value_mm_s belongs to a velocity"),
     ({"std_dB": 0.0}, "std_dB = 0 must be above 0"),
     ({"role": "train"}, "role = 'train' is unknown: write fit or check"),
@@ -135,7 +135,7 @@ def test_what_is_refused(row, message, spindle):
         read(spindle, row)
 
 
-def test_all_problems_are_told_at_once_with_their_lines(spindle, tmp_path):
+def test_all_problems_are_reported_at_once_with_their_lines(spindle, tmp_path):
     path = tmp_path / "bad.csv"
     path.write_text("microphone,quantity,value_dB\nP9,leq,70\nP1,leq,70\nP1,leq,loud\nP1,leq,70\n")
     with pytest.raises(IdentifyError) as caught:
@@ -152,7 +152,7 @@ def test_all_problems_are_told_at_once_with_their_lines(spindle, tmp_path):
         ("# nothing\n\n", "is empty"),
         ("microphone,quantity,value_dB\n", "holds no measured value"),
         ("microphone,quantity\nP1,leq\n", "column value_dB is missing"),
-        ("microphone,quantity,value_dB\nP1,leq\n", "2 values stand under 3 columns"),
+        ("microphone,quantity,value_dB\nP1,leq\n", "2 values for 3 columns"),
         ("microphone,quantity,value_dB\nP1,background_leq,60\n", "without a measured value"),
     ],
 )

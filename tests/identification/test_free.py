@@ -44,7 +44,7 @@ def test_a_pattern_is_one_factor_on_all_that_match(spindle):
     [
         ([], "no key is free: give KEY or KEY=LOW:HIGH"),
         (["imperfections.unbalance"], "did you mean 'imperfections.unbalance_um'"),
-        (["imperfections.seed"], "imperfections.seed is 1, which is no real number"),
+        (["imperfections.seed"], "imperfections.seed is 1, which is not a real number"),
         (["imperfections.ball_waviness_nm"], "starts at 0: give bounds above 0"),
         (["mounting.shaft_*"], "matches no number"),
         (["imperfections.unbalance_um=5:1"], "the lower bound must be below"),

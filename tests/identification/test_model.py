@@ -45,9 +45,9 @@ def test_levels_are_those_of_a_recording(spindle):
 @pytest.mark.parametrize("model", ["paper", "paper_vector", "paper_contacts"])
 def test_radiation_models_of_the_papers_add_energies_as_recordings_do(spindle, model):
     sound = spindle.sound.model_copy(update={"radiation_model": model})
-    heard = spindle.model_copy(update={"sound": sound})
-    made = record(heard.replace({"operation.speed_rpm": SPEED}), 0.2, settle=0.05, progress=False)
-    assert levels(heard, rows("leq_a"))[0] == pytest.approx(made.levels(weighting="A")[0], abs=0.1)
+    received = spindle.model_copy(update={"sound": sound})
+    made = record(received.replace({"operation.speed_rpm": SPEED}), 0.2, settle=0.05, progress=False)
+    assert levels(received, rows("leq_a"))[0] == pytest.approx(made.levels(weighting="A")[0], abs=0.1)
 
 
 def test_velocities_are_those_of_a_run(spindle):
@@ -84,8 +84,8 @@ def test_energies_of_excitations_add_in_a_linear_response(spindle):
 def test_background_adds_as_energy(spindle):
     table = rows("leq") + rows("background_leq", value_dB=73.0)
     model = Levels(spindle, read_data(table, spindle), ())
-    assert model.heard(np.array([[73.0]]), np.zeros(1))[0, 0] == pytest.approx(76.01, abs=0.01)
-    assert model.heard(np.array([[40.0]]), np.zeros(1))[0, 0] == pytest.approx(73.0, abs=0.01)
+    assert model.with_background(np.array([[73.0]]), np.zeros(1))[0, 0] == pytest.approx(76.01, abs=0.01)
+    assert model.with_background(np.array([[40.0]]), np.zeros(1))[0, 0] == pytest.approx(73.0, abs=0.01)
 
 
 def test_kept_runs_are_not_run_again_and_damaged_ones_are(spindle, tmp_path):

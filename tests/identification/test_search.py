@@ -170,11 +170,11 @@ def test_free_keys_of_the_data_are_refused(spindle):
         identify(spindle, rows, ["mounting.preload_N"])
 
 
-def test_a_value_of_zero_in_the_scene_is_told(spindle, linear):
+def test_a_value_of_zero_in_the_scene_is_reported(spindle, linear):
     keys = ["imperfections.unbalance_um", "imperfections.ball_waviness_nm=1:100"]
     found = identify(spindle, table(np.full(8, 60.0)), keys, seeds=1, starts=1, progress=False)
     said = (
-        "imperfections.ball_waviness_nm is 0 in the scene: the search, and what stands under 'before', begin"
+        "imperfections.ball_waviness_nm is 0 in the scene: the search, and the values under 'before', begin"
     )
     assert [text for text in found.remarks if text.startswith(said) and text.endswith("of its bounds, 10")]
 
@@ -182,7 +182,7 @@ def test_a_value_of_zero_in_the_scene_is_told(spindle, linear):
 def test_values_by_name(spindle, linear):
     found = identify(spindle, table(np.full(8, 60.0)), KEYS, seeds=1, starts=1, progress=False)
     assert found[KEYS[0]].value == pytest.approx(0.5, rel=1e-3)
-    with pytest.raises(KeyError, match="free were imperfections.unbalance_um"):
+    with pytest.raises(KeyError, match="free: imperfections.unbalance_um"):
         found["mounting.preload_N"]
     assert free_numbers(spindle, KEYS) == tuple(one.free for one in found.estimates)
     assert len(read_data(table(np.full(8, 60.0)), spindle)) == len(found.compared)

@@ -1,4 +1,4 @@
-"""Statistics against closed forms, and sentences that say what cannot be told apart."""
+"""Statistics against closed forms, and sentences that say what cannot be distinguished."""
 
 import math
 
@@ -43,7 +43,9 @@ def test_a_direction_without_influence_is_unknown():
     found = uncertainty(np.array([[1.0, 1.0], [2.0, 2.0], [1.0, 1.0]]), np.zeros(3))
     assert found.covariance[0, 0] > 1e9 and found.covariance[1, 1] > 1e9
     sentences = remarks(free("a", "b"), found, [1.0, 1.0], 12)
-    assert any("do not tell" in s and "a" in s and "b" in s and "while lowering" in s for s in sentences)
+    assert any(
+        "do not distinguish" in s and "a" in s and "b" in s and "while lowering" in s for s in sentences
+    )
 
 
 def test_shrunk_covariance_keeps_variances_and_real_correlation():
@@ -68,11 +70,11 @@ def test_bending_levels_widen_one_direction_alone():
 
 
 def test_sentences():
-    alike = Spread(np.array([[0.04, 0.038], [0.038, 0.04]]), np.array([20.0, 4.0]), np.eye(2), 2.0)
-    said = " ".join(remarks(free("a", "b"), alike, [0.1, 2.0], 5))
+    equal = Spread(np.array([[0.04, 0.038], [0.038, 0.04]]), np.array([20.0, 4.0]), np.eye(2), 2.0)
+    said = " ".join(remarks(free("a", "b"), equal, [0.1, 2.0], 5))
     assert "5 fitted values carry 1 free keys" in said
     assert "residuals are 2.0 times" in said
-    assert "a stands at its low bound, 0.1" in said
+    assert "a is at its low bound, 0.1" in said
     assert "rise and fall together (correlation +0.95)" in said
     lost = Spread(np.diag([0.01, 4.0]), np.array([10.0, 0.5]), np.eye(2), 1.0)
     assert any("do not determine b: a factor of 7.4" in s for s in remarks(free("a", "b"), lost, [1, 1], 9))

@@ -1,4 +1,4 @@
-"""Points that do as they are told: what worker processes run in the tests; and small plans."""
+"""Points that do as they are asked: what worker processes run in the tests; and small plans."""
 
 import json
 import os
@@ -14,7 +14,7 @@ SPEEDS = range(1000, 7000, 1000)
 
 
 def small(scene, **axes):
-    """Silent points of a few milliseconds, told apart by their speed."""
+    """Silent points of a few milliseconds, distinguished by their speed."""
     made = {
         "fidelity": ["response"],
         "speed": [float(rpm) for rpm in axes.pop("speeds", range(1000, 7000, 1000))],

@@ -1,4 +1,4 @@
-"""Axes as people write them, and what is told of those that are refused."""
+"""Axes as people write them, and what is reported of those that are refused."""
 
 import numpy as np
 import pytest
@@ -18,7 +18,7 @@ def test_text_of_the_command_line():
 
 
 @pytest.mark.parametrize(
-    ("text", "told"),
+    ("text", "reported"),
     [
         ("speed", "write KEY=LOW:HIGH:COUNT"),
         ("speed=1:2", "write KEY=LOW:HIGH:COUNT"),
@@ -28,8 +28,8 @@ def test_text_of_the_command_line():
         ("speed=1:inf:3", "finite bounds"),
     ],
 )
-def test_text_that_is_no_axis(text, told):
-    with pytest.raises(SweepError, match=told):
+def test_text_that_is_no_axis(text, reported):
+    with pytest.raises(SweepError, match=reported):
         parse_axis(text)
 
 
@@ -51,7 +51,7 @@ def test_short_names_are_those_of_a_set():
     assert key_of(spacers, "speed") == "operation.speed_rpm"
 
 
-def test_axes_that_end_alike_keep_their_whole_keys(scene):
+def test_axes_with_equal_ends_keep_their_whole_keys(scene):
     axes = axes_of(
         scene("7003C-spindle"), {"mounting.rotor.mass_kg": [0.2], "mounting.housing.mass_kg": [2, 3]}
     )
@@ -63,16 +63,16 @@ def test_a_range_of_whole_numbers_serves_a_whole_number(scene):
     assert axis.values == (1, 2, 3, 4) and all(isinstance(value, int) for value in axis.values)
 
 
-def test_all_that_is_wrong_is_told_at_once(scene):
+def test_all_that_is_wrong_is_reported_at_once(scene):
     wrong = {"spede": [1], "mounting.preload": [1], "speed": [1, 1], "pedestal": [], "fidelity": [None]}
     with pytest.raises(SweepError) as caught:
         axes_of(scene("7003C-spindle"), wrong)
-    told = str(caught.value).splitlines()
-    assert told[0] == "no key of a scene 'spede'; did you mean 'speed'?"
-    assert "did you mean 'mounting.preload_N'?" in told[1]
-    assert told[2] == "axis operation.speed_rpm: 1 stands more than once"
-    assert told[3] == "axis mounting.pedestal_stiffness_N_m has no values"
-    assert "None is refused" in told[4] and len(told) == 5
+    reported = str(caught.value).splitlines()
+    assert reported[0] == "no key of a scene 'spede'; did you mean 'speed'?"
+    assert "did you mean 'mounting.preload_N'?" in reported[1]
+    assert reported[2] == "axis operation.speed_rpm: 1 is given more than once"
+    assert reported[3] == "axis mounting.pedestal_stiffness_N_m has no values"
+    assert "None is refused" in reported[4] and len(reported) == 5
     with pytest.raises(SweepError, match="given twice"):
         axes_of(scene("7003C-spindle"), {"speed": [1], "operation.speed_rpm": [2]})
     with pytest.raises(SweepError, match="needs an axis"):

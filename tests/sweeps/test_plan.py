@@ -30,28 +30,31 @@ def test_members_of_arrays_and_terms_are_keys_too(rings):
     assert [t.scene.fidelity.terms.drag for t in made.tasks] == [True, False, True, False]
 
 
-def test_values_out_of_range_are_told_for_all_points_as_the_scene_tells_them(rings):
+def test_values_out_of_range_are_reported_for_all_points_as_the_scene_reports_them(rings):
     with pytest.raises(SweepError) as caught:
         plan(
             rings, {"speed": [2e5, 1000, 3e5], "preload": [-1, 500], "bearing.inner_conformity": [0.4, 0.52]}
         )
-    told = str(caught.value).splitlines()
-    assert "operation.speed_rpm = 200000.0 is refused; allowed: -100000 to 100000 r/min" in told
-    assert "operation.speed_rpm = 300000.0 is refused; allowed: -100000 to 100000 r/min" in told
+    reported = str(caught.value).splitlines()
+    assert "operation.speed_rpm = 200000.0 is refused; allowed: -100000 to 100000 r/min" in reported
+    assert "operation.speed_rpm = 300000.0 is refused; allowed: -100000 to 100000 r/min" in reported
     assert (
-        sum(line.startswith("mounting.preload_N = -1 is refused; allowed: 0 to 10000 N") for line in told)
+        sum(line.startswith("mounting.preload_N = -1 is refused; allowed: 0 to 10000 N") for line in reported)
         == 1
     )
-    assert sum(line.startswith("bearing.inner_conformity = 0.4") for line in told) == 1 and len(told) == 4
+    assert (
+        sum(line.startswith("bearing.inner_conformity = 0.4") for line in reported) == 1
+        and len(reported) == 4
+    )
 
 
 def test_points_without_preload_are_warned_of_once_before_any_runs(rings):
-    with pytest.warns(UserWarning, match="preload = 0 N.*fidelity rings") as told:
+    with pytest.warns(UserWarning, match="preload = 0 N.*fidelity rings") as reported:
         plan(rings, {"preload": [0, 100], "speed": [1000, 2000]})
-    assert len(told) == 1
+    assert len(reported) == 1
 
 
-def test_values_that_do_not_fit_together_are_told(rings):
+def test_values_that_do_not_fit_together_are_reported(rings):
     with pytest.raises(SweepError, match=r"lies inside the housing"):
         plan(rings, {"mounting.housing.diameter_mm": [100, 400]})
     with pytest.raises(SweepError, match=r"no table \[mounting.flexure\]"):
@@ -61,7 +64,7 @@ def test_values_that_do_not_fit_together_are_told(rings):
 
 
 @pytest.mark.parametrize(
-    ("options", "told"),
+    ("options", "reported"),
     [
         ({"settle": -1.0}, "settle = -1.0 s is refused: allowed are 0 to 1000 s"),
         ({"window": 0.0}, "window = 0.0 s is refused: allowed are 0.001 to 1000 s"),
@@ -70,8 +73,8 @@ def test_values_that_do_not_fit_together_are_told(rings):
         ({"figures": ["friction_torque:1x"]}, "of a body's velocity"),
     ],
 )
-def test_settings_that_are_refused(rings, options, told):
-    with pytest.raises((SweepError, UnknownName), match=told):
+def test_settings_that_are_refused(rings, options, reported):
+    with pytest.raises((SweepError, UnknownName), match=reported):
         plan(rings, {"speed": [1000]}, **options)
 
 
@@ -88,7 +91,7 @@ def test_figures_have_their_usual_statistic(rings):
     ]  # fmt: skip
 
 
-def test_scenes_that_sound_alike_share_one_preparation(rings):
+def test_scenes_with_equal_sound_share_one_preparation(rings):
     made = plan(
         rings, {"speed": [1000, 2000], "pedestal": [1e7, 2e7], "mounting.housing.length_mm": [160, 200]}
     )

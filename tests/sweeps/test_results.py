@@ -117,7 +117,7 @@ def test_a_sweep_as_a_file(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("text", "told"),
+    ("text", "reported"),
     [
         ("[axes]\nspeed = [1]\n", 'scene is missing, for example scene = "my-scene.toml"'),
         ('scene = "a"\n', "axes is missing"),
@@ -133,9 +133,9 @@ def test_a_sweep_as_a_file(tmp_path):
         ("scene = \n", "cannot be read"),
     ],
 )
-def test_a_file_that_is_refused(tmp_path, text, told):
+def test_a_file_that_is_refused(tmp_path, text, reported):
     path = tmp_path / "sweep.toml"
     path.write_text(text)
     with pytest.raises(SweepError) as caught:
         read_description(path)
-    assert told in str(caught.value) and str(path) in str(caught.value) and "\n" not in str(caught.value)
+    assert reported in str(caught.value) and str(path) in str(caught.value) and "\n" not in str(caught.value)

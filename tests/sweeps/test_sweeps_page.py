@@ -52,9 +52,9 @@ def test_figures_of_the_page_are_those_of_the_table():
     with (ROOT / "docs" / "results" / "sweep.csv").open(encoding="utf-8", newline="") as file:
         head, *rows = list(csv.reader(file))
     assert [float(row[0]) for row in rows] == sorted(float(row[0]) for row in rows) and len(rows) == 9
-    modes, turn, heard = (np.array([float(row[k]) for row in rows]) for k in (1, 3, 5))
+    modes, turn, received = (np.array([float(row[k]) for row in rows]) for k in (1, 3, 5))
     assert f"{turn.min():.1f} to {turn.max():.1f} % above" in PAGE
-    assert f"{heard.min():.1f} to {heard.max():.1f} % above" in PAGE
+    assert f"{received.min():.1f} to {received.max():.1f} % above" in PAGE
     assert f"{round(modes[0], -2):,.0f} to {round(modes[-1], -2):,.0f} r/min" in PAGE
     scaled = modes / np.sqrt([float(row[0]) for row in rows])
     # the root of the pedestal's stiffness, in series with balls that are 1.1 to 4.6 times as stiff

@@ -34,10 +34,10 @@ def test_two_workers_give_the_bits_of_one(silent):
     rings = with_fidelity(silent, model="rings")
     one = sweep(rings, axes, workers=1, **options)
     two = sweep(rings, {name: values[::-1] for name, values in axes.items()}, workers=2, **options)
-    alike = two.sortby(["seed", "speed_rpm"])
+    equal = two.sortby(["seed", "speed_rpm"])
     for name in one.data_vars:
         if name != "wall":
-            np.testing.assert_array_equal(one[name].values, alike[name].values, err_msg=name)
+            np.testing.assert_array_equal(one[name].values, equal[name].values, err_msg=name)
     # the seed is one that matters
     velocity = one["outer_ring.velocity"]
     assert (abs(velocity.sel(seed=1) / velocity.sel(seed=2) - 1.0) > 1e-3).all()

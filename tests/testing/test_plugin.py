@@ -94,7 +94,7 @@ def fmu(example, tmp_path_factory):
     return build(prepare(example("7003C-spindle")), tmp_path_factory.mktemp("fmu") / "Bearing.fmu").path
 
 
-def test_example_passes_and_a_departure_is_told(pytester, fmu):
+def test_example_passes_and_a_departure_is_reported(pytester, fmu):
     same, changed = (shutil.copytree(HARNESS, pytester.path / name) for name in ("same", "changed"))
     file = changed / "references" / "start.csv"
     wanted = Run.load(file)
@@ -106,15 +106,15 @@ def test_example_passes_and_a_departure_is_told(pytester, fmu):
         result = pytester.runpytest_subprocess(*command)
         return result, "\n".join(result.outlines)
 
-    result, told = go()
+    result, reported = go()
     result.assert_outcomes(passed=3, failed=1)  # the example as it stands, and but for one reference
-    line = next(line for line in told.splitlines() if line.lstrip("E ").startswith("friction_torque: "))
+    line = next(line for line in reported.splitlines() if line.lstrip("E ").startswith("friction_torque: "))
     assert "first at t = 0.002 s" in line and "31 of 51 points" in line
-    assert "departs from references/start.csv in 1 of 8 variables" in told
-    assert "Traceback" not in told and "def " not in told  # the departure, no code of the plugin
-    result, told = go("--record-references", "changed")
+    assert "departs from references/start.csv in 1 of 8 variables" in reported
+    assert "Traceback" not in reported and "def " not in reported  # the departure, no code of the plugin
+    result, reported = go("--record-references", "changed")
     result.assert_outcomes(passed=2)
-    assert "reference recorded: " in told and "(51 points, 8 variables)" in told
+    assert "reference recorded: " in reported and "(51 points, 8 variables)" in reported
     recorded = Run.load(file)
     assert [one.name for one in compare(recorded, wanted)] == ["friction_torque"]
     assert compare(recorded, Run.load(same / "references" / "start.csv")) == []
@@ -153,11 +153,11 @@ def test_what_is_missing_is_said(pytester, fmu):
     step_fmu(fmu, Plan(2e-3, outputs=["friction_torque"])).save(pytester.path / "given.csv")
     result = pytester.runpytest_subprocess("-p", "fmu_bearing.testing.plugin", "--strict-markers")
     result.assert_outcomes(passed=1, failed=2, errors=2)
-    told = "\n".join(result.outlines)
-    assert "which FMU? give --fmu PATH" in told
-    assert re.search(r"there is no FMU or scene at .*none\.fmu", told)
-    assert re.search(r"there is no reference .*none\.csv: record it with --record-references", told)
-    assert re.search(r"AssertionError: .*Bearing\.fmu came to t = 0\.\d+ s of 0\.1 s: .*refused", told)
+    reported = "\n".join(result.outlines)
+    assert "which FMU? give --fmu PATH" in reported
+    assert re.search(r"there is no FMU or scene at .*none\.fmu", reported)
+    assert re.search(r"there is no reference .*none\.csv: record it with --record-references", reported)
+    assert re.search(r"AssertionError: .*Bearing\.fmu came to t = 0\.\d+ s of 0\.1 s: .*refused", reported)
 
 
 # --- the entry point ---------------------------------------------------------------------------------------

@@ -56,9 +56,9 @@ def run(*arguments):
 
 
 def test_native_build_has_nothing_to_find(native):
-    told = run(native, "--json")
-    assert told.exit_code == 0, told.output
-    results = [Result(**result) for result in json.loads(told.stdout)["results"]]
+    reported = run(native, "--json")
+    assert reported.exit_code == 0, reported.output
+    results = [Result(**result) for result in json.loads(reported.stdout)["results"]]
     assert of(results, "finding") == of(results, "note") == set(), results
     # the model gives no directional derivatives, and says so
     assert of(results, "skipped") == {"directional derivatives"}
@@ -82,10 +82,10 @@ def test_python_build_has_the_known_notes_only(model, tmp_path):
 )
 def test_foreign_fmu_without_ranges(tmp_path, flavour, notes):
     command = [sys.executable, str(SPINDLE / "build.py"), "--output-dir", str(tmp_path), "--flavour", flavour]
-    told = subprocess.run(command, capture_output=True, text=True)
-    if flavour == "native" and "no C compiler" in told.stderr:
-        pytest.skip(told.stderr)
-    assert told.returncode == 0, told.stderr
+    reported = subprocess.run(command, capture_output=True, text=True)
+    if flavour == "native" and "no C compiler" in reported.stderr:
+        pytest.skip(reported.stderr)
+    assert reported.returncode == 0, reported.stderr
     results = by_name(validate(tmp_path / "SpindleMotor.fmu"))
     assert of(results.values(), "finding") == set(), results
     assert of(results.values(), "note") == notes, results
@@ -246,11 +246,11 @@ def test_reference_results_that_are_not_those_of_the_fmu(damaged):
 # --- the command -------------------------------------------------------------------------------------------
 
 
-def test_command_tells_and_its_exit_code_says_it(broken):
-    told = run(broken("KEEPS", STATES))
-    assert told.exit_code == 1
-    assert "2 note, 1 finding" in told.output  # it looks at neither GUID nor time
-    assert "2.1.6" in told.output  # where FMI says what reset is to do
+def test_command_reports_and_its_exit_code_says_it(broken):
+    reported = run(broken("KEEPS", STATES))
+    assert reported.exit_code == 1
+    assert "2 note, 1 finding" in reported.output  # it looks at neither GUID nor time
+    assert "2.1.6" in reported.output  # where FMI says what reset is to do
 
 
 @pytest.mark.parametrize("kind", ["missing", "text", "zip", "exchange", "third"])
@@ -258,7 +258,7 @@ def test_what_is_no_fmu_is_refused(tmp_path, kind):
     path = tmp_path / "x.fmu"
     words = {
         "missing": "there is no such FMU",
-        "text": "is no FMU",
+        "text": "is not an FMU",
         "zip": "holds no modelDescription.xml",
         "exchange": "FMI 2.0, model exchange only",
         "third": "is FMI 3.0",
@@ -273,9 +273,9 @@ def test_what_is_no_fmu_is_refused(tmp_path, kind):
             archive.writestr("other.txt" if kind == "zip" else "modelDescription.xml", text)
     with pytest.raises(NotAnFmu, match=words):
         validate(path)
-    told = run(path)
-    assert told.exit_code == 2
-    assert told.stderr.splitlines()[-1].startswith("error: ") and "Traceback" not in told.output
+    reported = run(path)
+    assert reported.exit_code == 2
+    assert reported.stderr.splitlines()[-1].startswith("error: ") and "Traceback" not in reported.output
 
 
 def test_fmutool_that_is_not_installed_is_said(broken, monkeypatch):

@@ -49,10 +49,10 @@ def run_page(page, folder, monkeypatch, shown=False):
         if file is not None:
             (folder / file).write_text(text, encoding="utf-8")
         elif language == "python":
-            told = io.StringIO()
-            with contextlib.redirect_stdout(told):
+            reported = io.StringIO()
+            with contextlib.redirect_stdout(reported):
                 exec(compile(text, str(page), "exec"), names)
-            printed = told.getvalue()
+            printed = reported.getvalue()
         elif language == "sh":
             printed = "".join(_run(words) for words in commands(text))
         elif language == "text" and shown:
@@ -67,7 +67,7 @@ def not_printed(shown, printed):
     return [
         line
         for line in shown.splitlines()
-        if (words := _words(line)) and not any(_alike(words, other) for other in left)
+        if (words := _words(line)) and not any(_equal_words(words, other) for other in left)
     ]
 
 
@@ -75,7 +75,7 @@ def _words(line):
     return _FRAMES.sub(" ", line).split()
 
 
-def _alike(shown, printed):
+def _equal_words(shown, printed):
     """Whether two lines have the same words; rounding may move a last digit from one machine to another."""
     return len(shown) == len(printed) and all(map(_same, shown, printed))
 

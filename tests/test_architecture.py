@@ -43,7 +43,7 @@ def test_files_are_short():
     assert not long
 
 
-def test_the_engine_stands_alone():
+def test_the_engine_needs_no_other_room():
     """Importing the engine loads nothing else of the project and no workshop library (Numba loads SciPy)."""
     code = (
         "import sys, fmu_bearing.engine.abi\n"

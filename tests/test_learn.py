@@ -206,10 +206,10 @@ def test_a_page_ends_in_a_decision(page):
 def test_no_life_where_no_standard_gives_one():
     """What the pages say of full ceramic bearings is what the package prints."""
     assert ceramic().rating is None and ceramic().reference_life is None
-    told = {one.key: one.judgement for one in verdicts(ceramic())}
+    reported = {one.key: one.judgement for one in verdicts(ceramic())}
     for key in ("life", "static_safety", "pressure", "preload_class", "speed", "kappa", "spin"):
-        assert told[key] == "not judged"
-    assert told["gyroscopic"] == "watch" and told["least_preload"] == told["film"] == "good"
+        assert reported[key] == "not judged"
+    assert reported["gyroscopic"] == "watch" and reported["least_preload"] == reported["film"] == "good"
     assert "life_modified" not in {one.key for one in verdicts(point())}  # hybrid
 
 
@@ -231,10 +231,10 @@ def test_a_page_shows_what_its_code_prints(page, tmp_path, monkeypatch):
     if page == "preload.md":
         assert read_scene(tmp_path / "nsk.toml").mounting.preload_N == 150.0
     if page == "tutorial.md":
-        told = re.sub(r"<[^>]+>", " ", (tmp_path / "out" / "asked.html").read_text(encoding="utf-8"))
-        assert re.search(r"largest contact pressure\s+2\.04\s+GPa", told)
-        assert re.search(r"friction power\s+44\.2\s+W", told)
-        assert "at 1987 Hz" in told
+        reported = re.sub(r"<[^>]+>", " ", (tmp_path / "out" / "asked.html").read_text(encoding="utf-8"))
+        assert re.search(r"largest contact pressure\s+2\.04\s+GPa", reported)
+        assert re.search(r"friction power\s+44\.2\s+W", reported)
+        assert "at 1987 Hz" in reported
 
 
 def test_a_preload_in_between_is_as_loud():

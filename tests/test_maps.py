@@ -34,7 +34,7 @@ def there(folder):
 @pytest.mark.parametrize("folder", PACKAGES, ids=lambda path: path.relative_to(PACKAGE.parent).as_posix())
 def test_docstring_is_the_map_of_its_folder(folder):
     names, files = named(folder), there(folder)
-    assert len(names) == len(set(names)), "a name stands twice"
+    assert len(names) == len(set(names)), "a name is given twice"
     missing, gone = files - set(names), set(names) - files
     assert not missing, "not in the docstring"
     assert not gone, "not in the folder"

@@ -34,7 +34,7 @@ def compare(
     catalogue: Catalogues = None,
     as_json: Json = False,
 ) -> None:
-    """Compare levels, third octaves, loads, angles, torque; list the keys that differ. B less A."""
+    """Compare levels, third octaves, loads, angles, torque; list the keys that differ. B minus A."""
     from fmu_bearing.recording.channels.microphone_places import named_places
     from fmu_bearing.recording.studies.compare import compare as compare_them
     from fmu_bearing.results.picture_parts import check_picture, save
@@ -48,7 +48,7 @@ def compare(
             if microphone is not None and source.suffix == ".toml":
                 named_places(read_scene(source).microphones, microphone)
         if output is not None:
-            check_folder(output)  # told before the runs
+            check_folder(output)  # refused before the runs
         found = compare_them(
             a, b, duration=duration, settle=settle, fidelity=fidelity, radiation_model=radiation_model,
             tell=tell, progress=False if as_json else None,
@@ -65,7 +65,7 @@ def compare(
         show(title, *table)
     if not found.keys and found.a.scene is not None and found.b.scene is not None:
         typer.echo("the scenes do not differ")
-    typer.echo(f"A: {a}, B: {b}; differences are B less A")
+    typer.echo(f"A: {a}, B: {b}; differences are B minus A")
     for line in found.doubts():
         tell(line)
     if files:

@@ -54,7 +54,9 @@ def identify(
     duration: Annotated[
         float | None, typer.Option(help="Length of each run, s; default 0.1 or more.")
     ] = None,
-    settle: Annotated[float | None, typer.Option(help="Left out before it, s; default 0.03 to 0.05.")] = None,
+    settle: Annotated[
+        float | None, typer.Option(help="Time left out before it, s; default 0.03 to 0.05.")
+    ] = None,
     few: Annotated[bool, typer.Option("--few", help="Allow fewer than three values per free key.")] = False,
     accept: Annotated[
         bool, typer.Option("--accept", help="Take levels outside 20 to 160 dB and speeds below 500 r/min.")

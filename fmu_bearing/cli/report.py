@@ -26,7 +26,7 @@ Source = Annotated[
 Page = Annotated[Path, typer.Option("--output", "-o", help="HTML file to write.")]
 
 
-def _kept_as(path: Path, source: Path) -> None:
+def _check_keep(path: Path, source: Path) -> None:
     """Refuse a name under which the run cannot be kept, and a report without one."""
     if source.suffix == ".toml":
         require(read_scene(source), "run report")
@@ -87,8 +87,8 @@ def report(
     with refusals():
         turning = shaft_speed(speed)
         speeds = None if run_up is None else span(run_up)
-        if keep is not None:  # told before the run
-            _kept_as(keep, source)
+        if keep is not None:  # refused before the run
+            _check_keep(keep, source)
         from fmu_bearing.reports import make  # loads slowly, and no other command has use for it
 
         made = make(

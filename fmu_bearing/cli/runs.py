@@ -34,7 +34,7 @@ Variables = Annotated[
         "--variables",
         "-v",
         metavar="NAME,...",
-        help="Variables, with commas between or one option each; * stands for any text.",
+        help="Variables, with commas between or one option each; * matches any text.",
     ),
 ]
 
@@ -66,8 +66,8 @@ def simulate(
     from fmu_bearing.run.simulate import EndedEarly, simulate as run_it
 
     with refusals(), quiet_warnings():
-        warnings.simplefilter("ignore", EndedEarly)  # told below
-        check_file(results.check_target(output))  # told before the run
+        warnings.simplefilter("ignore", EndedEarly)  # printed below
+        check_file(results.check_target(output))  # refused before the run
         turning = shaft_speed(speed)
         start = _settings(settings) | ({} if turning is None else {"shaft_speed": turning})
         run = run_it(
@@ -104,7 +104,7 @@ def plot(
     ] = None,
     catalogue: Catalogues = None,
 ) -> None:
-    """Draw variables over time, one panel per unit: speeds in r/min, levels from where they sound."""
+    """Draw variables over time, one panel per unit: speeds in r/min, levels from the first valid sample."""
     from fmu_bearing.results.result import Run
     from fmu_bearing.results.time_pictures import draw
     from fmu_bearing.scene import read_scene

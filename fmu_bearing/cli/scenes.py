@@ -39,7 +39,7 @@ def new(
     ] = None,
     width: Annotated[float | None, typer.Option(help=f"mm. {_OPTIONAL}")] = None,
     contact_angle: Annotated[float, typer.Option(help="deg; with --bore.")] = 15.0,
-    designation: Annotated[str | None, typer.Option(help="What the bearing is called.")] = None,
+    designation: Annotated[str | None, typer.Option(help="Designation of the bearing.")] = None,
     kind: Annotated[str, typer.Option(metavar="|".join(MATERIALS), help="Materials.")] = "hybrid",
     speed: Annotated[
         float | None, typer.Option(help="r/min; default: half of the limit with oil, assumed.")
@@ -152,10 +152,10 @@ def _findings(path: Path) -> tuple[Scene | None, list[str]]:
         fmu_variables(scene, variables(scene, 0.0))
         _check_table(scene)
         bearing = Instance(_silent(scene))
-        with warnings.catch_warnings(record=True) as told:
+        with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             bearing.initialise()
-        lines = [str(one.message) for one in told]
+        lines = [str(one.message) for one in caught]
         if scene.spindle is not None:
             at_rest = [] if exclusion(scene, "statics") else _of_statics(scene)
             return scene, [f"{path}: {line}" for line in lines + at_rest]
@@ -187,8 +187,8 @@ def _of_statics(scene: Scene) -> list[str]:
     from fmu_bearing.spindle.statics import shaft_statics
 
     try:
-        told = set_cautions(shaft_statics(scene), operating_points(scene))
-        return [line for line in told if _SHOULDER not in line]
+        lines = set_cautions(shaft_statics(scene), operating_points(scene))
+        return [line for line in lines if _SHOULDER not in line]
     except SceneError as problem:
         return [f"statics: {line.removeprefix(f'{scene.name}: ')}" for line in problem.problems]
 
@@ -200,7 +200,7 @@ def show(
     catalogue: Catalogues = None,
     as_json: Json = False,
 ) -> None:
-    """Show every value of a scene, its unit and range, where it comes from, and what is assumed."""
+    """Show every value of a scene with its unit, range and origin, and which values are assumed."""
     from fmu_bearing.elastic.section import BENDING
     from fmu_bearing.extras import available
     from fmu_bearing.results.table import show as show_table
@@ -226,7 +226,7 @@ def show_catalogue(
     catalogue: Catalogues = None,
     as_json: Json = False,
 ) -> None:
-    """Show what the catalogue has: bearings, materials, lubricants, tolerance classes."""
+    """List the catalogue: bearings, materials, lubricants, tolerance classes."""
     with refusals():
         if kind not in KINDS:
             raise Refusal(f"there is no catalogue of '{kind}': choose from {', '.join(KINDS)}")
@@ -333,7 +333,7 @@ def _sizes(found: Scene) -> dict[str, Any]:
         bounds = fidelity.accuracy
         words = (
             f"auto, within {bounds.level_dB:g} dB and {bounds.relative:g} of fidelity full; "
-            "`fmu-bearing choose` tells which; sizes are those of full"
+            "`fmu-bearing choose` prints which; sizes are those of full"
         )
     else:
         method = f", method {fidelity.method}" if fidelity.model == "full" else ""

@@ -49,7 +49,7 @@ def sound(
         Path | None, typer.Option(help="With a result (.csv): the scene of the FMU that was run.")
     ] = None,
     resolution: Annotated[
-        float | None, typer.Option(help="Of the spectra, Hz; default: 5, or what a shorter one allows.")
+        float | None, typer.Option(help="Of the spectra, Hz; default: 5, or as fine as a shorter one allows.")
     ] = None,
     wav: Annotated[bool, typer.Option(help="Write WAV files.")] = True,
     directivity: Annotated[bool, typer.Option(help="Measure three planes.")] = True,
@@ -70,7 +70,7 @@ def sound(
     from fmu_bearing.scene.read import read_scene, with_fidelity
 
     with refusals(), quiet_warnings():
-        check_folder(output)  # told before the run
+        check_folder(output)  # refused before the run
         turning = shaft_speed(speed)
         if source.suffix == ".npz":
             recording = Recording.load(source)
@@ -93,21 +93,21 @@ def sound(
             )  # fmt: skip
             output.mkdir(parents=True, exist_ok=True)
             recording.save(output / "recording.npz")
-        heard = analyse_sound(recording, microphone, radiation_model, resolution)
-        files = write_all(recording, heard, output, radiation_model, wav, directivity, tell)
+        analysis = analyse_sound(recording, microphone, radiation_model, resolution)
+        files = write_all(recording, analysis, output, radiation_model, wav, directivity, tell)
         sure = _spread(recording, microphone, radiation_model, as_json) if spread else None
         doubted = doubt_of(recording)
     if as_json:
         print_json(
-            {"levels": heard.summary(), "doubt": doubted, "files": files}
+            {"levels": analysis.summary(), "doubt": doubted, "files": files}
             | ({"spread": sure.summary()} if sure else {})
         )
     else:
-        show(_heading(recording), *heard.rows())
+        show(_heading(recording), *analysis.rows())
         if doubted:
             tell(f"{doubted}.")
         if sure is not None:
-            show("how sure these levels are", *sure.rows())
+            show("uncertainty of these levels", *sure.rows())
             tell(sure.remark())
         tell(f"written: {output}: {', '.join(path.name for path in files)}")
 

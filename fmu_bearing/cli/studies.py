@@ -59,7 +59,7 @@ def tradeoff(
     from fmu_bearing.results.table import show
 
     with refusals():
-        # told before minutes of measuring
+        # refused before minutes of measuring
         need("matplotlib", "the chart")
         check_folder(output)
         chart = check_picture(chart or output / "tradeoff.png")
@@ -93,7 +93,7 @@ def sensitivity(
     from fmu_bearing.results.table import show
 
     with refusals():
-        check_folder(output)  # told before minutes of measuring
+        check_folder(output)  # refused before minutes of measuring
         bar = partial(progress, description="moves")
         if quick:
             study = moving.sensitivity(scene, moving.QUICK, warm_up=0.005, window=0.005, track=bar)
@@ -121,7 +121,7 @@ def changes(
     catalogue: Catalogues = None,
     as_json: Json = False,
 ) -> None:
-    """Change one choice of a designer at a time; rank what it does to level, life and friction torque."""
+    """Change one choice of a designer at a time; rank the effects on level, life and friction torque."""
     from fmu_bearing.accuracy.changes import changes as changing
     from fmu_bearing.results.table import show
 

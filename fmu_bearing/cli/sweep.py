@@ -41,7 +41,7 @@ Names = Annotated[
         "--variables",
         "-v",
         metavar="NAME[:STATISTIC],...",
-        help="What is kept, with commas between or one option each, * stands for any text; statistics: "
+        help="What is kept, with commas between or one option each, * matches any text; statistics: "
         "mean, rms, min, max, last, 1x.",
     ),
 ]

@@ -1,4 +1,4 @@
-"""``fmu-bearing validate``: whether an FMU does what FMI 2.0 asks of it."""
+"""``fmu-bearing validate``: whether an FMU conforms to FMI 2.0."""
 
 from dataclasses import asdict
 from pathlib import Path

@@ -24,7 +24,7 @@ def test_tables_picture_and_files(run, rings_file, light_file, tmp_path):
     assert done.exit_code == 0, done.output
     for words in ("what differs in the scenes", "levels", "loads, angles, torque", "third octaves at P2"):
         assert words in done.stdout
-    assert "mounting.preload_N" in done.stdout and "differences are B less A" in done.stdout
+    assert "mounting.preload_N" in done.stdout and "differences are B minus A" in done.stdout
     tables = [line for line in done.stdout.splitlines() if line[:1] in "┏┃┡│└"]
     assert len(tables) > 50 and max(map(len, tables)) <= 80
     assert "A: running 7003C-bare, fidelity rings" in done.stderr and "written:" in done.stderr

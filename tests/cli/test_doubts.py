@@ -42,8 +42,10 @@ def test_simulate_says_so_beside_torque_too(run, whirling_file, tmp_path):
 
 def test_sound_and_compare_say_so(run, whirling_file, tmp_path):
     quick = ("-t", "0.05", "--settle", "0.01")
-    heard = run("sound", whirling_file, *quick, "--no-wav", "--no-directivity", "--no-spread", "-o", tmp_path)
-    assert WORDS in heard.output and heard.output.count("whirls by itself") == 1
+    recorded = run(
+        "sound", whirling_file, *quick, "--no-wav", "--no-directivity", "--no-spread", "-o", tmp_path
+    )
+    assert WORDS in recorded.output and recorded.output.count("whirls by itself") == 1
     beside = run("compare", whirling_file, whirling_file, *quick)
     assert f"A: {WORDS}" in beside.output and f"B: {WORDS}" in beside.output
     assert beside.output.count("whirls by itself") == 2

@@ -44,12 +44,12 @@ def test_ctrl_c_is_one_line(tmp_path, words, seconds):
         time.sleep(seconds)
         os.killpg(program.pid, signal.SIGINT)
         try:
-            _, told = program.communicate(timeout=60)
+            _, reported = program.communicate(timeout=60)
         finally:
             program.kill()  # what does not end would hold up all other tests
-    assert program.returncode == 130, told
-    assert "Traceback" not in told
-    assert len([line for line in told.splitlines() if "interrupted" in line]) == 1
+    assert program.returncode == 130, reported
+    assert "Traceback" not in reported
+    assert len([line for line in reported.splitlines() if "interrupted" in line]) == 1
 
 
 @pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")

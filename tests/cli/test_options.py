@@ -6,8 +6,8 @@ import fmu_bearing
 
 
 def test_version(run):
-    told = run("--version")
-    assert told.exit_code == 0 and told.stdout == f"fmu-bearing {fmu_bearing.__version__}\n"
+    reported = run("--version")
+    assert reported.exit_code == 0 and reported.stdout == f"fmu-bearing {fmu_bearing.__version__}\n"
     assert "--version" in run("--help").stdout and "scenes, runs, FMUs" in run("--help").stdout
 
 

@@ -41,7 +41,7 @@ def test_simulate_scene_and_fmu_write_the_same(run, rings_file, fmu, tmp_path):
     assert found["scene"] == found["fmu"]
 
 
-def test_simulate_tells_machines_and_writes_netcdf(run, rings_file, tmp_path):
+def test_simulate_reports_machines_and_writes_netcdf(run, rings_file, tmp_path):
     result = tmp_path / "run.nc"
     done = run(
         "simulate", rings_file, "-t", 2e-3, "--speed", 12000, "-v", "friction_torque", "-o", result, "--json"
@@ -124,13 +124,13 @@ def test_plot(run, rings_file, tmp_path):
 
 
 @pytest.fixture(scope="module")
-def heard(run, rings_file, tmp_path_factory):
+def recorded(run, rings_file, tmp_path_factory):
     folder = tmp_path_factory.mktemp("sound")
     return folder, run("sound", rings_file, "-t", 0.1, "-o", folder, "--json")
 
 
-def test_sound_writes_what_is_usually_asked(heard):
-    folder, done = heard
+def test_sound_writes_what_is_usually_asked(recorded):
+    folder, done = recorded
     assert done.exit_code == 0, done.output
     names = {path.name for path in folder.iterdir()}
     assert names >= {
@@ -152,8 +152,8 @@ def test_sound_writes_what_is_usually_asked(heard):
         assert summed == pytest.approx(done.data["levels"]["P1"]["leq_dB"], abs=1.0)
 
 
-def test_sound_plays_in_pascals(heard, run):
-    folder, done = heard
+def test_sound_plays_in_pascals(recorded, run):
+    folder, done = recorded
     rate, signal_ = wavfile.read(folder / "P1.wav")
     other = wavfile.read(folder / "P4.wav")[1]
     apart = done.data["levels"]["P4"]["leq_dB"] - done.data["levels"]["P1"]["leq_dB"]
@@ -163,8 +163,8 @@ def test_sound_plays_in_pascals(heard, run):
     assert ratio == pytest.approx(apart, abs=0.2)
 
 
-def test_sound_of_a_recording_is_that_of_the_scene(heard, run, tmp_path):
-    folder, done = heard
+def test_sound_of_a_recording_is_that_of_the_scene(recorded, run, tmp_path):
+    folder, done = recorded
     again = run(
         "sound",
         folder / "recording.npz",
@@ -184,12 +184,12 @@ def test_sound_of_a_recording_is_that_of_the_scene(heard, run, tmp_path):
     }  # fmt: skip
 
 
-def test_sound_refuses_in_a_line(run, rings_file, heard, silent_file, tmp_path):
-    folder = heard[0]
+def test_sound_refuses_in_a_line(run, rings_file, recorded, silent_file, tmp_path):
+    folder = recorded[0]
     for arguments, reason in (
         ((folder / "recording.npz", "-m", "P9"), "there is no microphone 'P9'; there are P1, P2, P3, P4"),
         ((rings_file, "-t", 0.05, "--resolution", 5), "needs --duration 0.2 s or more"),
-        ((folder / "levels.csv",), "is no table of numbers"),
+        ((folder / "levels.csv",), "is not a table of numbers"),
         ((folder / "third-octaves.csv",), "the first column must be 'time'"),
         ((rings_file, "--radiation-model", "loud"), "loud"),
         ((rings_file, "--fidelity", "best"), "fidelity.model"),
@@ -202,30 +202,30 @@ def test_sound_refuses_in_a_line(run, rings_file, heard, silent_file, tmp_path):
 
 def test_listening_to_pressures_alone(scene):
     whole = record(with_fidelity(scene("7003C-bare"), model="rings"), 0.05)
-    heard = analyse_sound(whole)
+    recorded = analyse_sound(whole)
     alone = Recording(
         whole.scene, "recorded", whole.rate, whole.start, whole.size, whole.output_time, whole.speed_points,
         recorded=whole.pressure(), microphones=whole.microphones,
     )  # fmt: skip
     again = analyse_sound(alone)
-    np.testing.assert_allclose(again.levels[:, 0], heard.levels[:, 0], atol=1e-9)
-    assert set(heard.parts) == {"inner_ring", "outer_ring", "cage", "balls"} and again.parts == {}
+    np.testing.assert_allclose(again.levels[:, 0], recorded.levels[:, 0], atol=1e-9)
+    assert set(recorded.parts) == {"inner_ring", "outer_ring", "cage", "balls"} and again.parts == {}
 
 
 def test_levels_of_a_papers_radiation_model_add_energies(scene):
     """As the paper does (eqs. 43 and 46); the pressures of its sources added would read 0.3 dB more here."""
     whole = record(with_fidelity(scene("7003C-bare"), model="rings"), 0.05, radiation_model="paper")
-    heard = analyse_sound(whole)
-    np.testing.assert_array_equal(heard.levels[:, 1], whole.levels(weighting="A"))
+    recorded = analyse_sound(whole)
+    np.testing.assert_array_equal(recorded.levels[:, 1], whole.levels(weighting="A"))
     added = level(whole.mean_square(whole.pressure()))
-    assert np.all(np.abs(added - heard.levels[:, 0]) > 0.1)
+    assert np.all(np.abs(added - recorded.levels[:, 0]) > 0.1)
 
 
 def test_help_names_every_command_and_the_exit_codes(run):
-    told = run("--help").stdout
+    reported = run("--help").stdout
     for command in ("scene", "build", "simulate", "plot", "sound", "choose", "tradeoff", "sensitivity"):
-        assert command in told
-    assert "--install-completion" in told and "130 interrupted" in told
+        assert command in reported
+    assert "--install-completion" in reported and "130 interrupted" in reported
 
 
 def test_plot_draws_every_variable_asked(run, rings_file, tmp_path):

@@ -39,7 +39,7 @@ def test_new_from_dimensions_estimates_the_rest_and_says_so(run, tmp_path):
     assert bearing.ball_diameter_mm == pytest.approx(7.938, rel=0.1)
     assert 14 <= bearing.ball_count <= 19
     text = path.read_text()
-    assert "ball_diameter_mm = 8.12 # assumed: 0.29 of outside diameter less bore" in text
+    assert "ball_diameter_mm = 8.12 # assumed: 0.29 of outside diameter minus bore" in text
     assert "inner_conformity = 0.52 # assumed" in text and "outer_conformity = 0.525 # assumed" in text
     shown = run("scene", "show", path, "--assumed", "--json").data
     assumed = {one["key"] for one in shown["values"]}
@@ -92,7 +92,7 @@ def test_new_says_what_is_not_good(run, tmp_path):
     assert "caution" not in good.stderr
 
 
-def test_check_tells_every_problem_and_ends_with_one(run, silent_file, tmp_path):
+def test_check_reports_every_problem_and_ends_with_one(run, silent_file, tmp_path):
     faulty = tmp_path / "faulty.toml"
     text = silent_file.read_text()
     faulty.write_text(
@@ -111,7 +111,7 @@ def test_check_tells_every_problem_and_ends_with_one(run, silent_file, tmp_path)
     assert not data[str(faulty)]["ok"] and len(data[str(faulty)]["findings"]) == 2
 
 
-def test_check_tells_a_scene_without_equilibrium_and_one_to_look_at(run, silent_file, tmp_path):
+def test_check_reports_a_scene_without_equilibrium_and_one_to_look_at(run, silent_file, tmp_path):
     text = silent_file.read_text()
     loose, full = tmp_path / "loose.toml", tmp_path / "full.toml"
     loose.write_text(
@@ -126,7 +126,7 @@ def test_check_tells_a_scene_without_equilibrium_and_one_to_look_at(run, silent_
     assert found.exit_code == 0 and "beyond its shoulder" in found.stdout
 
 
-def test_show_tells_where_values_come_from(run, tmp_path):
+def test_show_reports_where_values_come_from(run, tmp_path):
     path = tmp_path / "my.toml"
     run("scene", "new", path, "--bearing", "7003C", "--preload", 300)
     values = {one["key"]: one for one in run("scene", "show", path, "--json").data["values"]}
@@ -271,8 +271,8 @@ def test_check_reads_the_table_of_transfer_functions(run, scene_file, tmp_path):
     for changes, said in (
         (None, f"sound.table_file {table}: there is no such file"),
         ({"H": good["H"][:1]}, f"sound.table_file {table}: H has the shape"),
-        ({"positions": places + 0.1}, "microphone 'P1' stands at"),
-        ({"inputs": np.array(["outer_rng.acceleration.y"])}, "'outer_rng.acceleration.y' is no input"),
+        ({"positions": places + 0.1}, "microphone 'P1' is at"),
+        ({"inputs": np.array(["outer_rng.acceleration.y"])}, "'outer_rng.acceleration.y' is not an input"),
         ({}, "a scene, with an equilibrium"),
     ):
         if changes is not None:
@@ -281,4 +281,4 @@ def test_check_reads_the_table_of_transfer_functions(run, scene_file, tmp_path):
         assert done.exit_code == (0 if changes == {} else 1), done.output
         assert said in done.output
     table.write_text("root:x:0:0")
-    assert "is no NumPy archive" in run("scene", "check", file).output
+    assert "is not a NumPy archive" in run("scene", "check", file).output

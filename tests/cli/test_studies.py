@@ -28,14 +28,14 @@ def auto_file(scene, tmp_path, monkeypatch):
     "command",
     ["build", "choose", "scene show", "sensitivity", "tradeoff", "simulate", "sound"],
 )
-def test_an_unknown_file_is_told_in_one_line(run, command, tmp_path):
+def test_an_unknown_file_is_reported_in_one_line(run, command, tmp_path):
     result = run(*command.split(), tmp_path / "none.toml")
     assert result.exit_code == 2
     assert result.output.startswith("error: ") and "there is no such scene file" in result.output
     assert "Traceback" not in result.output and result.output.count("\n") == 1
 
 
-def test_a_faulty_scene_is_told_by_key(run, tmp_path):
+def test_a_faulty_scene_is_reported_by_key(run, tmp_path):
     path = tmp_path / "faulty.toml"
     path.write_text((GATES / "7003C-bare.toml").read_text().replace("ball_count = 12", "ball_count = -3"))
     result = run("scene", "show", path)
@@ -43,9 +43,9 @@ def test_a_faulty_scene_is_told_by_key(run, tmp_path):
 
 
 def test_what_a_scene_is_computed_with(run, silent_file, auto_file):
-    told = run("scene", "show", silent_file)
-    assert told.exit_code == 0
-    assert "fidelity   full, method esdirk4" in told.output and "sound      none" in told.output
+    reported = run("scene", "show", silent_file)
+    assert reported.exit_code == 0
+    assert "fidelity   full, method esdirk4" in reported.output and "sound      none" in reported.output
     assert "fidelity   auto, within 1 dB and 0.1" in run("scene", "show", auto_file).output
 
 

@@ -96,7 +96,7 @@ def test_a_dry_run_runs_one_point_and_writes_nothing(run, silent_file, tmp_path)
 
 
 @pytest.mark.parametrize(
-    ("arguments", "told"),
+    ("arguments", "reported"),
     [
         (("-a", "spede=1,2"), "no key of a scene 'spede'; did you mean 'speed'?"),
         (("-a", "speed=2e5,3e5"), "operation.speed_rpm = 200000.0 is refused; allowed: -100000 to 1"),
@@ -106,10 +106,12 @@ def test_a_dry_run_runs_one_point_and_writes_nothing(run, silent_file, tmp_path)
         (("-a", "fidelity=rings", "-a", "speed=1,2", "--scheduler", "here"), "such as tcp://host:8786"),
     ],
 )  # fmt: skip
-def test_refusals_are_one_line(run, silent_file, tmp_path, arguments, told):
+def test_refusals_are_one_line(run, silent_file, tmp_path, arguments, reported):
     result = run("sweep", silent_file, *arguments, "-o", tmp_path / "out")
     assert result.exit_code == 2 and result.stdout == ""
-    assert result.stderr.startswith("error: ") and told in result.stderr and result.stderr.count("\n") == 1
+    assert (
+        result.stderr.startswith("error: ") and reported in result.stderr and result.stderr.count("\n") == 1
+    )
     assert not list(tmp_path.rglob("*.json"))  # nothing was run
 
 

@@ -61,10 +61,10 @@ def test_results_repeat_what_the_example_computes(made, title):
 def test_page_has_the_frequencies_of_the_results():
     stored = {row[0]: row for row in part((RESULTS / "contact_conditions.md").read_text(), "Natural freq")}
     rows = part(PAGE, "The bearing, kHz")[:6]
-    for condition, still, told in rows:
+    for condition, still, reported in rows:
         own = stored[condition]
         assert still == own[1]
-        plain = [entry for entry in told.removesuffix(" ...").split(", ") if "balls" not in entry]
+        plain = [entry for entry in reported.removesuffix(" ...").split(", ") if "balls" not in entry]
         assert len(plain) >= 5
         assert set(plain) <= set(own[2].split(", "))
 
@@ -91,20 +91,20 @@ def test_page_has_the_choice_and_the_contradictions():
     first = part(stored, "Matches with free choice")[0]
     assert f"finds {first[2].split()[0]} matches of 9" in PAGE.replace("\n", " ")
     assert f"p = {first[4]}." in PAGE
-    told = PAGE[PAGE.index("Contradictions:") : PAGE.index("Our own peaks")]
+    reported = PAGE[PAGE.index("Contradictions:") : PAGE.index("Our own peaks")]
     for figure in ("277 kHz", "53.9 kHz", "0.8 and 0.7 %", "7.9 to 124.4", "88 %"):
-        assert figure in re.sub(r"\s+", " ", told), figure
+        assert figure in re.sub(r"\s+", " ", reported), figure
         assert figure in re.sub(r"\s+", " ", stored), figure
 
 
 @pytest.mark.heavy
 def test_a_ball_peaks_at_the_chain_of_balls():
-    """The page's figures are the results', and one band of them is computed anew."""
+    """The page's figures are the results', and one band of them is computed again."""
     with (RESULTS / "own_peaks.csv").open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
-    for told in part(PAGE, "Our own peaks"):
-        own = [row for row in rows if (row["r/min"], row["band, kHz"]) == (told[0], told[1])]
-        assert told[2:5] == [row["matches"] for row in own]
+    for reported in part(PAGE, "Our own peaks"):
+        own = [row for row in rows if (row["r/min"], row["band, kHz"]) == (reported[0], reported[1])]
+        assert reported[2:5] == [row["matches"] for row in own]
     spec = importlib.util.spec_from_file_location("own", ROOT / "examples" / "impact" / "own_peaks.py")
     own = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(own)

@@ -77,7 +77,7 @@ def changing(variables):
 
 
 def test_every_bit_of_the_python_slave(partners, model):
-    """600 steps of random inputs and lengths; the matrix of the thermal network is made anew at times."""
+    """600 steps of random inputs and lengths; the matrix of the thermal network is made again at times."""
     from coupling import Fmu
 
     random = np.random.default_rng(14)

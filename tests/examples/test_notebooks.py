@@ -27,9 +27,9 @@ def run(name):
         notebook, timeout=300, kernel_name="python3", resources={"metadata": {"path": str(folder)}}
     ).execute()
     outputs = [output for cell in notebook.cells for output in cell.get("outputs", ())]
-    told = "".join(output.text for output in outputs if output.output_type == "stream")
+    reported = "".join(output.text for output in outputs if output.output_type == "stream")
     pictures = sum("image/png" in output.get("data", {}) for output in outputs)
-    return told, pictures
+    return reported, pictures
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
@@ -40,21 +40,21 @@ def test_no_outputs_are_stored(path):
 
 
 def test_first_result():
-    told, pictures = run("first_result")
+    reported, pictures = run("first_result")
     assert pictures == 1
-    assert "| f_i - f_r |" in told
+    assert "| f_i - f_r |" in reported
     # the shorter recording moves the level by chance of the cut, a few tenths of a dB
-    assert float(re.search(r"total +([\d.]+) dB\(A\)", told)[1]) == pytest.approx(71.7, abs=0.5)
-    assert float(re.search(r"100 N instead of 500 N: ([\d.]+) dB\(A\) less", told)[1]) > 5.0
+    assert float(re.search(r"total +([\d.]+) dB\(A\)", reported)[1]) == pytest.approx(71.7, abs=0.5)
+    assert float(re.search(r"100 N instead of 500 N: ([\d.]+) dB\(A\) less", reported)[1]) > 5.0
 
 
 def test_run_up():
-    told, pictures = run("run_up")
+    reported, pictures = run("run_up")
     assert pictures == 2
     peaks = {
         name: (float(rpm), float(hertz))
         for name, rpm, hertz in re.findall(
-            r"^(.+?) +order .* dB at (\d+) r/min, (\d+) Hz", told, re.MULTILINE
+            r"^(.+?) +order .* dB at (\d+) r/min, (\d+) Hz", reported, re.MULTILINE
         )
     }
     assert set(peaks) == {"shaft", "f_o", "f_i - f_r"}

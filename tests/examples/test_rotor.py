@@ -64,7 +64,7 @@ def test_a_rigid_body_on_its_bearings(script, table):
     assert min(abs(value / expected - 1.0) for value, _ in found) < 1e-3  # damped, 1 %
 
 
-def test_a_python_without_ross_is_told(script, tmp_path):
+def test_a_python_without_ross_is_reported(script, tmp_path):
     command = [sys.executable, str(SCRIPT), "--ross", f"{sys.executable} -S", "-o", str(tmp_path)]
     done = subprocess.run(command, capture_output=True, text=True)
     assert done.returncode == 1 and "failed" in done.stderr and not (tmp_path / "ross.md").exists()

@@ -72,7 +72,7 @@ def test_the_torque_of_the_motor_turns_the_spindle_up(short):
     # the motor takes the torque of the last communication point over each step
     load = float(ramp["friction_torque"][:-1] @ angle)
     kinetic = 0.5 * constants["rotor.inertia"] * ramp["shaft_speed"][-1] ** 2
-    # the controller renews its torque ten times a step, and only the last is told
+    # the controller renews its torque ten times a step, and only the last is reported
     assert float(ramp["motor_torque"][1:] @ angle) == pytest.approx(load + kinetic, rel=5e-3)
     assert table["shaft_speed"][-1] == pytest.approx(plan.target_speed, rel=1e-3)
 

@@ -9,7 +9,7 @@ from examples.papers.identification import BOTH
 from examples.papers.run import PAGES
 
 
-def test_recordings_are_told_apart_by_motion_alone():
+def test_recordings_are_distinguished_by_motion_alone():
     base = Case("7003C-spindle", 20000)
     assert base.key("compact") == base.key("bem") != base.key("paper")
     others = [

@@ -52,7 +52,7 @@ SUNK = {"mounting.pedestal_stiffness_N_m": 2e5, "mounting.radial_load_z_N": -60.
 def test_the_engine_starts_where_newtons_method_settles(gate, name, changes):
     """What all balls share moves by less than 1e-6; a first guess is up to 1e-2 off.
 
-    The ring of a sunk bearing is 0.4 mm off the axis, about which the method here takes its means: 1e-5.
+    The ring of a sunk bearing is 0.4 mm off the axis, about which the method here takes its means: 4e-5.
     """
     scene = read_scene(SETS / f"{name}.toml") if name.endswith("DB") else gate(name)
     run = started(scene.replace(changes))
@@ -61,7 +61,7 @@ def test_the_engine_starts_where_newtons_method_settles(gate, name, changes):
         own = bearing_of(run, row, speed)
         for place in ROWS:
             here, there = (means(one.s, one.p, place) for one in (own, moved))
-            close = 2e-5 if changes is SUNK else 1e-6
+            close = 1e-4 if changes is SUNK else 1e-6
             size = close * abs(there) if place >= Y.OM else 1e-5 * close
             assert here == pytest.approx(there, abs=size), place
 

@@ -159,7 +159,7 @@ def test_extremes_stay_finite(signs, preload, rpm, force):
 
 def test_bearings_on_another_models_shaft_have_fidelity_full_alone():
     for name in ("rings", "response"):
-        words = f"fidelity.model = '{name}' is refused: these fidelities count in coordinates of the shaft"
+        words = f"fidelity.model = '{name}' is refused: these fidelities use coordinates of the shaft"
         with pytest.raises(SceneError, match=words):
             with_fidelity(read_scene(PORT), model=name)
     run = SetRun(read_scene(PORT), FIDELITY=RINGS)

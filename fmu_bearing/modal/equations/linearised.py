@@ -163,7 +163,8 @@ def linearised(scene: Scene, inputs: dict[int, float] | None = None, friction: b
     speed = float(run.u[U.SPEED])  # the first input of a set, too
     shaft = matrices(run, speed)
     alone = [bearing_of(run, row, speed) for row in rows]
-    steady = all(_is_steady(one) for one in alone)
+    # without friction nothing decides how fast balls spin
+    steady = not friction or all(_is_steady(one) for one in alone)
     count = phases_of(alone)
     bearings = tuple(in_fixed_axes(one, count, steady) for one in alone)
     own = tuple(_own(one.coordinates, mass.size) for one, mass in zip(bearings, shaft.inertia, strict=True))
@@ -224,8 +225,8 @@ def bearing_of(run: Arrays, row: NDArray[np.float64], speed: float) -> BearingAr
 
 
 def _is_steady(bearing: BearingArrays) -> bool:
-    """Whether a bearing starts steady; at standstill and without friction nothing decides how balls spin."""
-    turns = bearing.u[U.SPEED] != 0.0 and bearing.p[P.MU] != 0.0
+    """Whether a bearing starts in its steady state; a quasi-static one is steady where nothing turns balls."""
+    turns = bearing.u[U.SPEED] != 0.0 and (bearing.p[P.MU] != 0.0 or bearing.p[P.GYROSCOPIC] != 0.0)
     return not turns or bearing.s[S.SETTLED] != NOT_FOUND
 
 

@@ -23,9 +23,9 @@ Data flow in one direction::
 ``fmi``             FMI 2.0: XML, native library, slave, the ``.fmu`` file
 ``arrays``          a bearing as flat arrays, for loops that read and restore the state
 ``results``         values of variables over time: tables, files, spectra, pictures
-``spindle``         sets of bearings on one shaft: statics
-``modal``           small motions: natural modes, Campbell diagram, stiffness and damping
+``modal``           small motions: natural modes, Campbell diagram
 ``run``             a scene or an FMU run over inputs; fidelity ``auto``
+``steady``          what a scene's bearings do without a run: rest, loads, stiffness and damping
 ``design``          what a designer asks: ratings, operating point, verdicts
 ``recording``       runs that keep the sound channels; measurements, pictures, tables, WAV files
 ``accuracy``        error against cost, sensitivity to assumed values and to a designer's choices
@@ -55,8 +55,6 @@ if TYPE_CHECKING:
     from fmu_bearing.accuracy.changes import changes
     from fmu_bearing.design.fresh import new_scene
     from fmu_bearing.design.operating_point import operating_point
-    from fmu_bearing.design.set_points import operating_points
-    from fmu_bearing.design.set_stiffness import set_stiffness
     from fmu_bearing.design.verdicts import verdicts
     from fmu_bearing.identification import identify
     from fmu_bearing.modal.campbell.over_speed import Campbell, campbell
@@ -74,7 +72,8 @@ if TYPE_CHECKING:
     from fmu_bearing.scene import Scene, SceneError, read_scene
     from fmu_bearing.scene.read import with_fidelity
     from fmu_bearing.scene.template import Dimensions
-    from fmu_bearing.spindle.statics import ShaftStatics, shaft_statics
+    from fmu_bearing.steady.statics import Statics, statics
+    from fmu_bearing.steady.stiffness.scene_stiffness import Stiffness, stiffness
     from fmu_bearing.sweeps import sweep
 
 __version__ = "0.1.0"
@@ -89,7 +88,8 @@ _PLACES = {
     "Run": "results.result",
     "Scene": "scene",
     "SceneError": "scene",
-    "ShaftStatics": "spindle.statics",
+    "Statics": "steady.statics",
+    "Stiffness": "steady.stiffness.scene_stiffness",
     "audio": "recording.measurements",
     "build_fmu": "run.build",
     "campbell": "modal.campbell.over_speed",
@@ -100,16 +100,14 @@ _PLACES = {
     "modes": "modal.modes.points",
     "new_scene": "design.fresh",
     "operating_point": "design.operating_point",
-    "operating_points": "design.set_points",
     "pictures": "recording.measurements",
     "read_scene": "scene",
     "record": "recording.record",
     "report": "reports",
-    "set_stiffness": "design.set_stiffness",
-    "shaft_statics": "spindle.statics",
     "simulate": "run.simulate",
     "spread": "recording.studies.spread",
-    "stiffness": "modal.stiffness.scene_stiffness",
+    "statics": "steady.statics",
+    "stiffness": "steady.stiffness.scene_stiffness",
     "sweep": "sweeps",
     "tables": "recording.measurements",
     "verdicts": "design.verdicts",
@@ -125,7 +123,8 @@ __all__ = [
     "Run",
     "Scene",
     "SceneError",
-    "ShaftStatics",
+    "Statics",
+    "Stiffness",
     "audio",
     "build_fmu",
     "campbell",
@@ -136,15 +135,13 @@ __all__ = [
     "modes",
     "new_scene",
     "operating_point",
-    "operating_points",
     "pictures",
     "read_scene",
     "record",
     "report",
-    "set_stiffness",
-    "shaft_statics",
     "simulate",
     "spread",
+    "statics",
     "stiffness",
     "sweep",
     "tables",
@@ -155,6 +152,10 @@ __all__ = [
 
 def __getattr__(name: str) -> Any:
     if name not in _PLACES:
+        renamed = import_module("fmu_bearing.renamed").PUBLIC
+        if name in renamed:
+            # an AttributeError would lose its words in `from fmu_bearing import`
+            raise ImportError(f"fmu_bearing has no '{name}': it is now '{renamed[name]}'")
         raise AttributeError(f"fmu_bearing has no '{name}'; public names are {', '.join(__all__)}")
     place = import_module(f"fmu_bearing.{_PLACES[name]}")
     if not hasattr(place, name):  # a module that nothing has imported yet

@@ -6,6 +6,13 @@ from typing import Any, TypeVar
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
+#: Public names of the package.
+PUBLIC = {
+    "ShaftStatics": "Statics",
+    "operating_points": "operating_point",
+    "set_stiffness": "stiffness",
+    "shaft_statics": "statics",
+}
 #: Keys of a scene.
 KEYS = {"fidelity.level": "fidelity.model", "sound.rung": "sound.radiation_model"}
 #: Values of a scene's keys that were removed, each with the one to use instead.

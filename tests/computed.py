@@ -14,10 +14,9 @@ import numpy as np
 
 from fmu_bearing import (
     operating_point,
-    operating_points,
     read_scene,
-    shaft_statics,
     simulate,
+    statics,
     verdicts,
     with_fidelity,
 )  # fmt: skip
@@ -50,6 +49,11 @@ def perfect(**keys):
     return example("7003C-spindle").replace({"imperfections": None, **changes})
 
 
+def bearing_at(scene):
+    """The single bearing of a scene at its operating point."""
+    return operating_point(scene).bearings[0]
+
+
 def from_folder(folder, name):
     """A module of an example, imported as its script imports its neighbours."""
     sys.path.insert(0, str(folder))
@@ -62,7 +66,7 @@ def from_folder(folder, name):
 def spindle():
     """Statics of the example's sets, and of the design study's."""
     scene = read_scene(SETS / "7003C-DB.toml")
-    found = shaft_statics(scene)
+    found = statics(scene)
     for one in found.table():
         cells = (
             f"{one['bearing']}, {one['carries']}", f"{one['position_mm']:g}", f"{one['axial_N']:.1f}",
@@ -78,14 +82,12 @@ def spindle():
     yield from _preloads(scene)
     for name, flexible in (("rigid", False), ("flexible", True)):
         one = study(flexible=flexible)
-        nose = 1e-6 * shaft_statics(one, force=(0.0, 0.0, 0.0)).nose_stiffness
+        nose = 1e-6 * statics(one, force=(0.0, 0.0, 0.0)).nose_stiffness
         yield f"| {name} | {nose:.1f} | {first_frequency(one):.0f} |"
 
 
 def _lives(scene, found):
-    lives = [
-        next(float(v.value) for v in verdicts(point) if v.key == "life") for point in operating_points(scene)
-    ]
+    lives = [float(one.value) for one in verdicts(operating_point(scene)) if one.key == "life"]
     together = sum(life ** (-10.0 / 9.0) for life in lives) ** -0.9
     first, second, both = (f"{100 * round(life / 100):,} h" for life in (*lives, together))
     pressure = found.table()[0]["pressure_inner_GPa"]
@@ -103,7 +105,7 @@ def _preloads(scene):
         keys = {
             "operation.inner_ring_temperature_degC": celsius, "spindle.shaft.temperature_degC": celsius,
         }  # fmt: skip
-        warm.append(shaft_statics(scene.replace(keys)))
+        warm.append(statics(scene.replace(keys)))
     first, second, third = (round(one.preloads["running"][0]) for one in warm)
     yield (
         f"It prints {first}, {second} and {third} N, and a neutral spacing of "
@@ -116,9 +118,9 @@ def motor_spindle():
     """Preload and spacing of the motor spindle as its scene has it, its bending frequency."""
     cosimulate, run_up = (from_folder(SETS, name) for name in ("cosimulate", "run_up"))
     scene = read_scene(cosimulate.SCENE)
-    found = shaft_statics(scene)
+    found = statics(scene)
     cold, running = (np.mean(found.preloads[when]) for when in ("cold", "running"))
-    near = np.mean(shaft_statics(cosimulate.closer(scene)).preloads["running"])
+    near = np.mean(statics(cosimulate.closer(scene)).preloads["running"])
     yield (
         f"The middles of the pairs are {1e3 * found.spacing:.0f} mm apart and the neutral spacing is "
         f"{1e3 * found.neutral_spacing:.0f} mm"
@@ -154,7 +156,7 @@ def limits():
     yield f"up to {imperfections._HARMONICS} harmonics per race, to order {imperfections.HIGHEST_ORDER:,}"
     yield f"Pressure comes {SD.LATENCY} samples ({1e3 * SD.LATENCY / SD.RATE:.2f} ms) late"
     margins = [
-        operating_point(scene.replace({"mounting.preload_N": load})).contacts["inner"]["shoulder_margin"]
+        bearing_at(scene.replace({"mounting.preload_N": load})).contacts["inner"]["shoulder_margin"]
         for load in (800.0, 1000.0)
     ]
     assert margins[0] > 0.0 > margins[1], margins
@@ -214,7 +216,7 @@ def coupling():
     inertia, balls = 1.64e-4, 1.19e-7  # kg m2, of docs/results/coupling.md
     for rpm in (2e3, 1e4, 2e4, 4e4):
         low, torque, high = (
-            operating_point(perfect(speed_rpm=share * rpm)).friction_torque for share in (0.98, 1.0, 1.02)
+            bearing_at(perfect(speed_rpm=share * rpm)).friction_torque for share in (0.98, 1.0, 1.02)
         )
         slope = (high - low) / (0.04 * rpm * RPM)
         longest = rounded(str(2.0 * (inertia - balls) / slope))
@@ -234,7 +236,7 @@ def coupling():
 def _heat(celsius):
     """Heat (W) of the perfect spindle over the oil's temperature."""
     scene = perfect(oil_temperature_degC=celsius)
-    return operating_point(scene).friction_torque * scene.operation.speed_rpm * RPM
+    return bearing_at(scene).friction_torque * scene.operation.speed_rpm * RPM
 
 
 def _ripple(name, rpm):
@@ -258,7 +260,7 @@ def _derivatives():
 
 def gallery():
     """The strongest line of the spectrum, the rotor on the balls."""
-    point = operating_point(perfect())
+    point = bearing_at(perfect())
     found = point.frequencies
     yield f"The strongest line, at {found.f_i - found.f_r:.0f} Hz, is f_i - f_r"
     yield f"the radial one at {_rings_at(point)} kHz"
@@ -273,7 +275,7 @@ def examples():
     """Settings of the example scripts that the page repeats."""
     tolerance = from_folder(ROOT / "examples" / "tolerance_study", "tolerance")
     yield f"{tolerance.SEEDS} bearings of each class are drawn from seeds"
-    where = _rings_at(operating_point(perfect()))
+    where = _rings_at(bearing_at(perfect()))
     yield f"where they come to {where} kHz, at which the rotor rings on the balls"
 
 

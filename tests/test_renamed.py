@@ -45,6 +45,13 @@ def bearing():
     return Bearing(read_scene(FILE).model_copy(update={"sound": None}))
 
 
+@pytest.mark.parametrize(("old", "new"), renamed.PUBLIC.items())
+def test_public_names(old, new):
+    with pytest.raises(ImportError, match=f"^fmu_bearing has no '{old}': it is now '{new}'$"):
+        exec(f"from fmu_bearing import {old}")
+    assert new in fmu_bearing.__all__ and old not in fmu_bearing.__all__
+
+
 @pytest.mark.parametrize(("old", "new"), renamed.KEYS.items())
 def test_keys(old, new):
     text = FILE.read_text("utf-8")

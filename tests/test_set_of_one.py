@@ -2,13 +2,16 @@
 
 import math
 
+import numpy as np
 import pytest
 
+from fmu_bearing import modes, operating_point, statics, stiffness, verdicts
+from fmu_bearing.elastic.shaft import placed
 from fmu_bearing.instance import Instance
 from fmu_bearing.interface import variables
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.scene import Scene
-from tests.spindle.one import MIDDLE, set_of_one
+from tests.spindle.one import MIDDLE, PRELOAD, set_of_one
 
 RPM = 20e3
 BALLS = 11.4  # m/s: speed of the balls
@@ -21,6 +24,94 @@ CLOSE = {"full": 4e-6, "rings": 2e-4, "response": 2e-4}
 SLIP = {"full": 4e-6, "rings": 1e-2, "response": 1e-2}
 #: What is nothing, by unit: a millionth of the balls' speed, of the load; 1e-5 of approach and tilt.
 NOTHING = {"m/s": 1e-6 * BALLS, "N": 5e-4, "N.m": 1e-7, "W": 2e-5, "m": 3e-11, "rad": 5e-9}
+
+
+#: Figures of the doors that belong to a set as such, or to a mounting: see the tests.
+OWN = ("scene", "arrangement", "position_mm", "preload", "nose", "spacing", "cautions", "verdicts")
+#: Of a figure of the doors under a radial load, as above; small ones of the largest of their kind.
+AT_REST = 4e-6
+#: The torque is that of fidelity response; damping is small beside stiffness over frequency.
+LOOSER = {"friction_torque": 6e-5, "C": 5e-5, "against_static": 1e-5}
+#: What small figures are compared with: the preload (N), its moment at 10 mm (N m), the whole of a share.
+LEAST = {"force": PRELOAD, "radial_load": PRELOAD, "moment": 0.01 * PRELOAD, "spread": 1.0}
+
+
+def flat(given, name=""):
+    """Yield names and values of a summary, numbers as arrays; without what is a set's own."""
+    if isinstance(given, dict):
+        for key, part in given.items():
+            if not str(key).startswith(OWN):
+                yield from flat(part, f"{name}.{key}")
+    elif isinstance(given, list | tuple) and any(isinstance(one, dict) for one in given):
+        for k, part in enumerate(given):
+            yield from flat(part, f"{name}[{k}]")
+    else:
+        yield name, given
+
+
+def compare(ours, theirs, close):
+    """Compare two summaries, figure by figure; return how many there are."""
+    found, wanted = dict(flat(ours)), dict(flat(theirs))
+    assert found.keys() == wanted.keys()
+    for name, one in wanted.items():
+        other = found[name]
+        if isinstance(one, str | bool) or one is None:
+            assert other == one, name
+            continue
+        a, b = np.asarray(other, dtype=float), np.asarray(one, dtype=float)
+        limit = max((size for key, size in LOOSER.items() if f".{key}" in name), default=close)
+        # rounding of differences leaves 1e-8 of a stiffness
+        least = [size for key, size in LEAST.items() if f".{key}" in name]
+        size = max(np.nanmax(np.abs(b), initial=0.0), *least, 0.0)
+        np.testing.assert_allclose(a, b, rtol=0.0, atol=max(limit, 1e-8) * size + 1e-300, err_msg=name)
+    return len(wanted)
+
+
+@pytest.mark.parametrize("cage", [True, False])
+@pytest.mark.parametrize(("radial", "close"), [(0.0, 1e-7), (-50.0, AT_REST)])
+def test_every_figure_at_rest(radial, close, cage):
+    """Statics, operating point with life and verdicts, stiffness: one door each, one shape of the result.
+
+    What differs is the place of the bearing, and that its load is no preload of a mounting.
+    """
+    several, single = set_of_one(RPM, radial, cage=cage)
+    ours, theirs = statics(several), statics(single)
+    # the shaft's nose is 90 mm ahead of the bearing
+    there = placed(1.0, 1e-3 * MIDDLE)
+    at_nose = there.T @ theirs.stiffness @ there
+    np.testing.assert_allclose(ours.stiffness, at_nose, rtol=0.0, atol=1e-6 * np.abs(at_nose).max())
+    np.testing.assert_allclose(there @ ours.displacement, theirs.displacement, rtol=0.0, atol=4e-9)
+    np.testing.assert_allclose(ours.load, there.T @ theirs.load, rtol=0.0, atol=1e-9)
+    first = {key: part for key, part in ours.summary().items() if key == "bearings"}
+    second = {key: part for key, part in theirs.summary().items() if key == "bearings"}
+    assert compare(first, second, close) > 10
+    ours, theirs = operating_point(several), operating_point(single)
+    first, second = (
+        {key: part for key, part in one.summary().items() if key != "statics"} for one in (ours, theirs)
+    )
+    assert compare(first, second, close) > 30
+    judged = {one.key: (one.text, one.judgement) for one in verdicts(ours)}
+    for one in verdicts(theirs):
+        if one.key != "preload_class":
+            assert judged[one.key] == (one.text, one.judgement), one.key
+    speeds = [10e3, RPM]
+    first, second = (stiffness(one, speeds).summary() for one in (several, single))
+    assert compare(first, second, close) >= 6
+
+
+@pytest.mark.parametrize("radial", [0.0, -50.0])
+def test_every_mode(radial):
+    """Frequencies, damping, names and directions; what moves is the shaft there, the inner ring here."""
+    several, single = set_of_one(RPM, radial)
+    ours, theirs = modes(several).modes, modes(single).modes
+    rings = [one for one in theirs if not one.name.startswith("ball")]
+    assert len(rings) > 8
+    for one in rings:
+        other = min(ours, key=lambda mode, value=one.value: abs(mode.value - value))
+        assert abs(other.value - one.value) < 1e-6 * abs(one.value)
+        assert other.direction == one.direction and other.order == one.order
+        name = one.name.replace("inner", "shaft")
+        assert other.name in (name, f"{name} of bearing 1"), (one.label, other.label)
 
 
 def run_of(scene, fidelity):

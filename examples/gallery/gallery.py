@@ -28,7 +28,7 @@ from fmu_bearing import (
     with_fidelity,
 )
 from fmu_bearing.cli.base import refusals
-from fmu_bearing.design.operating_point import OperatingPoint
+from fmu_bearing.design.operating_point import BearingPoint
 from fmu_bearing.extras import need
 from fmu_bearing.formulas.makers import CLASS_PRESSURE
 from fmu_bearing.results.picture_parts import empty
@@ -46,7 +46,7 @@ SOUND = {"radiation_model": "compact", "progress": False}
 LEVEL, PRESSURE, LIFE = "#0072B2", "#D55E00", "#009E73"
 
 
-def resonance(point: OperatingPoint) -> float:
+def resonance(point: BearingPoint) -> float:
     """Hz: rotor and housing against each other on the radial stiffness of the balls."""
     mounting = point.scene.mounting
     assert mounting.rotor is not None and mounting.housing is not None
@@ -67,7 +67,7 @@ def loudness(scene: Scene, seeds: int) -> list[float]:
 def over_preload(scene: Scene, preloads: tuple[float, ...], seeds: int) -> "Figure":
     """Draw level, pressure and life over preload."""
     scenes = [scene.replace({"mounting.preload_N": preload}) for preload in preloads]
-    points = [operating_point(one) for one in scenes]
+    points = [operating_point(one).bearings[0] for one in scenes]
     levels = np.array([loudness(one, seeds) for one in scenes])
     figure = empty((11.0, 4.4))
     left, right = figure.subplots(1, 2)
@@ -89,7 +89,7 @@ def over_preload(scene: Scene, preloads: tuple[float, ...], seeds: int) -> "Figu
     return figure
 
 
-def _mark_lines(ax: "Axes", preloads: tuple[float, ...], points: list[OperatingPoint]) -> None:
+def _mark_lines(ax: "Axes", preloads: tuple[float, ...], points: list[BearingPoint]) -> None:
     """Mark the preloads at which the resonance meets a line of the balls and races."""
     at = np.array([resonance(point) for point in points])
     found = [point.frequencies for point in points]

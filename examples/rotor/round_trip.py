@@ -26,8 +26,8 @@ from scipy.linalg import block_diag, eig
 
 from fmu_bearing import read_scene, stiffness
 from fmu_bearing.engine.constants import RPM
-from fmu_bearing.modal.stiffness.planes import mirrored_matrix
 from fmu_bearing.results.table import machine, markdown, write_csv
+from fmu_bearing.steady.stiffness.planes import mirrored_matrix
 
 HERE = pathlib.Path(__file__).parent
 SCENE = HERE.parent / "scenes" / "7003C-spindle.toml"
@@ -184,7 +184,7 @@ def main():
     parser.add_argument("--output-dir", "-o", type=pathlib.Path, default=pathlib.Path("out/rotor"))
     given = parser.parse_args()
     scene = read_scene(SCENE)
-    table = stiffness(scene, SPEEDS)
+    (table,) = stiffness(scene, SPEEDS).bearings
     files = [*table.to_ross(given.output_dir / "front.toml")]
     files += table.to_ross(given.output_dir / "rear.toml", mirrored=True)
     nodes = layout(table)
@@ -195,7 +195,7 @@ def main():
     }  # fmt: skip
     answer = ask(given.ross, asked)
     # between the speeds of the table ROSS interpolates, and ours is computed there
-    rows, worst = compare(answer, {rpm: stiffness(scene, [rpm]) for rpm in ASKED}, nodes)
+    rows, worst = compare(answer, {rpm: stiffness(scene, [rpm]).bearings[0] for rpm in ASKED}, nodes)
     lines = [
         "# A shaft on two bearings in ROSS",
         "",

@@ -5,7 +5,7 @@ import pathlib
 
 from fmu_bearing import Scene, read_scene
 from fmu_bearing.results.picture_parts import save
-from fmu_bearing.spindle.drawing import set_figure
+from fmu_bearing.steady.drawing import set_figure
 
 PAIR = pathlib.Path(__file__).with_name("7003C-DB.toml")
 SETS = {

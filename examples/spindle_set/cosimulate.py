@@ -25,7 +25,7 @@ import typer
 from fmpy.util import write_csv
 from numpy.typing import NDArray
 
-from fmu_bearing import Scene, build_fmu, read_scene, shaft_statics
+from fmu_bearing import Scene, build_fmu, read_scene, statics
 from fmu_bearing.cli.base import refusals
 from fmu_bearing.compiled import BuildError
 from fmu_bearing.extras import need
@@ -138,9 +138,9 @@ def compare(scene: Scene, table: NDArray[np.void]) -> list[dict[str, float]]:
         last = int(np.searchsorted(table["thermal_time"], at, side="right")) - 1
         about = table[(table["time"] > table["time"][last] - MEAN) & (table["time"] <= table["time"][last])]
         there = warm_scene(scene, about[len(about) // 2])
-        spacers = shaft_statics(there)
-        sets = {"spacers": spacers, "springs": shaft_statics(on_springs(there))}
-        sets["closer"] = shaft_statics(closer(there))
+        spacers = statics(there)
+        sets = {"spacers": spacers, "springs": statics(on_springs(there))}
+        sets["closer"] = statics(closer(there))
         row = {"thermal_time_s": float(table["thermal_time"][last])}
         row |= {f"{name}_N": float(np.mean(found.preloads["running"])) for name, found in sets.items()}
         for prefix, static in zip(bearing_prefixes(scene), spacers.table(), strict=True):

@@ -18,7 +18,7 @@ import typer
 from numpy.typing import NDArray
 from scipy.signal import stft
 
-from fmu_bearing import Scene, read_scene, shaft_statics, simulate
+from fmu_bearing import Scene, read_scene, simulate, statics
 from fmu_bearing.cli.base import refusals
 from fmu_bearing.elastic.shaft import shaft_model
 from fmu_bearing.extras import need
@@ -64,7 +64,7 @@ def shaft_frequencies(scene: Scene) -> NDArray[np.float64]:
     assert scene.spindle is not None
     model = shaft_model(scene, scene.spindle)
     stiffness, n = model.stiffness.copy(), len(model.mass)
-    for bearing, plane in zip(shaft_statics(scene).bearings, model.planes, strict=True):
+    for bearing, plane in zip(statics(scene).bearings, model.planes, strict=True):
         own = np.diag([bearing.sign, 1.0, 1.0, bearing.sign, bearing.sign]) @ plane
         stiffness += own.T @ bearing.stiffness @ own
     whirl = scene.operation.speed_rpm * RPM * model.gyroscopic

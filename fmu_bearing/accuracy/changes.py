@@ -17,7 +17,6 @@ from fmu_bearing.accuracy.change_levels import ChangeLevels, change_levels
 from fmu_bearing.accuracy.changed import Change, Changes, LevelBasis, Point
 from fmu_bearing.design.operating_point import operating_point
 from fmu_bearing.design.rating import unrated
-from fmu_bearing.formulas import iso281
 from fmu_bearing.modal.campbell.weak import whirl_words
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.scene import Scene, SceneSource, scene_of
@@ -107,12 +106,11 @@ def point(scene: Scene) -> Point:
     found = operating_point(scene, cautions.append)
     cautions += found.remarks
     if found.whirl is not None:
-        cautions.append(whirl_words(*found.whirl, found.on_shaft))
-    rpm, turns = scene.operation.speed_rpm, found.reference_life
-    radial = 1e-6 * 0.5 * float(found.stiffness[1, 1] + found.stiffness[2, 2])
-    torque = 1e3 * found.friction_torque * math.copysign(1.0, rpm)
-    life = math.nan if turns is None or rpm == 0.0 else iso281.hours(turns, rpm)
-    return Point(torque, life, radial, tuple(cautions))
+        cautions.append(whirl_words(*found.whirl, False))
+    (one,) = found.bearings
+    radial = 1e-6 * 0.5 * float(one.stiffness[1, 1] + one.stiffness[2, 2])
+    torque = 1e3 * one.friction_torque * math.copysign(1.0, scene.operation.speed_rpm)
+    return Point(torque, math.nan if one.life is None else one.life, radial, tuple(cautions))
 
 
 def _no_life(scene: Scene) -> str:

@@ -5,12 +5,11 @@
 ``build``       the FMU of a scene
 ``scenes``      scene new, check, show, catalogue
 ``info``        the operating point, without a run
-``spindle``     what it shows of a set on one shaft
 ``runs``        simulate, plot
 ``compare``     two scenes, recordings or runs side by side
 ``sound``       levels, spectra, directivity, WAV
 ``studies``     choose, tradeoff, sensitivity, changes
-``stiffness``   K and C over speed, preload and frequency, for rotor programs
+``stiffness``   K and C over speed, preload and frequency, and of a set's shaft
 ``sweep``       a scene over a grid of its values
 ``identify``    numbers of a scene from measured levels
 ``modes``       natural frequencies, and over speed what excites them

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 import typer
 
 from fmu_bearing.cli.base import Catalogues, Json, SceneFile, app, print_json, refusals, tell
-from fmu_bearing.cli.spindle import show_set
 
 if TYPE_CHECKING:
-    from fmu_bearing.design.operating_point import OperatingPoint
-    from fmu_bearing.design.verdicts import Verdict
+    from fmu_bearing.design.operating_point import BearingPoint
+    from fmu_bearing.design.verdict import Verdict
+    from fmu_bearing.steady.statics import Statics
 
 _FREEDOMS = ("axial", "radial y", "radial z", "tilt y", "tilt z")
 _PLACES = 3  # of them are displacements
@@ -22,32 +22,32 @@ _WORDS = {
 
 @app.command()
 def info(scene: SceneFile, catalogue: Catalogues = None, as_json: Json = False) -> None:
-    """Show a bearing at its operating point without a run: contacts, stiffness, frequencies, verdicts.
+    """Show a scene's bearings at their operating point without a run: contacts, stiffness, verdicts.
 
     Of a set of bearings on one shaft: the load of each, the stiffness of the shaft, lift-off, preload.
     """
     from fmu_bearing.design.operating_point import operating_point
-    from fmu_bearing.design.verdicts import verdicts
-    from fmu_bearing.scene import read_scene
+    from fmu_bearing.design.verdicts import cautions, verdicts
 
     with refusals():
-        given = read_scene(scene)
-    if given.spindle is not None:
-        show_set(given, as_json)
-        return
-    with refusals():
-        point = operating_point(given)
+        point = operating_point(scene)
     found = verdicts(point)
-    told = [*point.remarks, *(one.advice for one in found if one.advice)]
+    lines = cautions(point, found)
     if as_json:
-        print_json(point.summary() | {"verdicts": [one.as_dict() for one in found], "cautions": told})
+        judged = {"verdicts": [one.as_dict() for one in found], "cautions": lines}
+        print_json(point.summary() | judged)
         return
-    _show(point, found)
-    for line in told:
+    if point.scene.spindle is None:
+        _show_bearing(point.bearings[0])
+    else:
+        _show_set(point.statics)
+    _show_verdicts(found, len(point.bearings))
+    for line in lines:
         tell(f"caution: {line}")
 
 
-def _show(point: "OperatingPoint", found: "list[Verdict]") -> None:
+def _show_bearing(point: "BearingPoint") -> None:
+    """Print contacts, stiffness, frequencies and ratings of a single bearing."""
     from fmu_bearing.results.table import show
 
     scene = point.scene
@@ -66,11 +66,95 @@ def _show(point: "OperatingPoint", found: "list[Verdict]") -> None:
     ]
     show("kinematic frequencies", ("", "of", "Hz", "orders"), rows)
     show("oil and ratings", ("", "value", "source"), _ratings(point))
+
+
+def _show_set(found: "Statics") -> None:
+    """Print what the bearings of a set carry, and how stiff they hold the shaft."""
+    from fmu_bearing.results.table import show
+
+    scene = found.scene
+    typer.echo(
+        f"{scene.name}: {len(found.bearings)} x {scene.bearing.designation}, {found.arrangement}, "
+        f"{scene.operation.speed_rpm:g} r/min; statics, "
+        f"{'shaft that bends' if scene.spindle and scene.spindle.shaft.flexible else 'rigid shaft'}"
+    )
+    columns = (
+        "bearing", "at, mm", "axial, N", "y, N", "z, N", "ball, N", "angle, deg", "inner, GPa", "outer, GPa",
+    )  # fmt: skip
+    show("bearings: load; largest ball load, angle, pressure", columns, _loads(found))
+    show("shaft", ("", "value"), _shaft(found))
+
+
+def _show_verdicts(found: "tuple[Verdict, ...]", bearings: int) -> None:
+    """Print the verdicts: of several bearings side by side, what is not good marked, then on the whole."""
+    from fmu_bearing.design.verdicts import side_by_side
+    from fmu_bearing.results.table import show
+
+    one_by_one = ("figure", "value", "verdict", "limit (source)")
     rows = [[one.label, one.text, one.judgement, _limit(one)] for one in found]
-    show("verdicts", ("figure", "value", "verdict", "limit (source)"), rows)
+    if bearings == 1:
+        show("verdicts", one_by_one, rows)
+        return
+    together = [row for row, one in zip(rows, found, strict=True) if one.bearing is None]
+    rows = []
+    for same in side_by_side(found):
+        first = next(one for one in same if one is not None)
+        cells = [
+            "" if one is None else one.text + (f" {one.judgement}" if one.advice else "") for one in same
+        ]
+        label = first.label.split(":")[0].replace(", inner race", "").replace(", outer race", "")
+        rows.append([label, *cells, first.limit])
+    show("verdicts", ("figure", *(f"bearing {k + 1}" for k in range(bearings)), "limit"), rows)
+    show("verdicts on the set", one_by_one, together)
 
 
-def _contacts(point: "OperatingPoint") -> list[list[str]]:
+def _loads(found: "Statics") -> list[list[str]]:
+    """Rows of the table of what the bearings of a set carry."""
+    from fmu_bearing.results.table import tenths
+
+    return [
+        [
+            f"{row['bearing']}, {row['carries']}", f"{row['position_mm']:g}", tenths(row["axial_N"]),
+            tenths(row["force_y_N"]), tenths(row["force_z_N"]), f"{row['ball_load_max_N']:.1f}",
+            f"{row['angle_inner_max_deg']:.2f}", f"{row['pressure_inner_GPa']:.3f}",
+            f"{row['pressure_outer_GPa']:.3f}",
+        ]
+        for row in found.table()
+    ]  # fmt: skip
+
+
+def _shaft(found: "Statics") -> list[list[str]]:
+    """Rows of the table of the shaft."""
+    from fmu_bearing.results.table import tenths
+
+    x, y, z, by, bz = 1e6 * found.displacement
+    rows = [
+        ["nose moves by x, y, z, um", ", ".join(tenths(value) for value in (x, y, z))],
+        ["and tilts about y, z, urad", ", ".join(tenths(value) for value in (by, bz))],
+        ["axial stiffness, N/um", f"{1e-6 * found.axial_stiffness:.1f}"],
+        ["radial stiffness, N/um", f"{1e-6 * found.radial_stiffness:.1f}"],
+        ["tilt stiffness, N m/mrad", f"{1e-3 * found.tilt_stiffness:.2f}"],
+        ["radial stiffness at the nose, N/um", f"{1e-6 * found.nose_stiffness:.1f}"],
+    ]
+    for words, key in (
+        ("preload at standstill and 20 degC, N", "cold"),
+        ("preload at the temperatures, N", "warm"),
+        ("preload at speed too, N", "running"),
+    ):
+        if key in found.preloads:
+            rows.append([words, ", ".join(f"{force:.1f}" for force in found.preloads[key])])
+    for way, one in found.lift_off.items():
+        rows.append(
+            [f"axial load {way} that unloads bearing {one.bearing} at standstill, N", f"{abs(one.load):.0f}"]
+        )
+    if found.spacing is not None:
+        rows.append(["spacing of both directions, mm", f"{1e3 * found.spacing:.1f}"])
+    if found.neutral_spacing is not None:
+        rows.append(["temperature-neutral spacing, mm", f"{1e3 * found.neutral_spacing:.1f}"])
+    return rows
+
+
+def _contacts(point: "BearingPoint") -> list[list[str]]:
     """Rows of the table of contacts."""
     rows = (
         ("load of a ball, mean, N", "load_mean", 1.0, ".1f"),
@@ -86,7 +170,7 @@ def _contacts(point: "OperatingPoint") -> list[list[str]]:
     ]
 
 
-def _matrix(point: "OperatingPoint") -> list[list[str]]:
+def _matrix(point: "BearingPoint") -> list[list[str]]:
     """Rows of the stiffness matrix: what is below a millionth of its row and column is rounding."""
     k = point.stiffness
     rows = []
@@ -104,7 +188,7 @@ def _limit(one: "Verdict") -> str:
     return one.source if one.limit == "-" else f"{one.limit} ({one.source})"
 
 
-def _ratings(point: "OperatingPoint") -> list[list[str]]:
+def _ratings(point: "BearingPoint") -> list[list[str]]:
     """Rows of the table of what is neither good nor bad by itself."""
     from fmu_bearing.design.rating import unrated
 

@@ -156,12 +156,9 @@ def _findings(path: Path) -> tuple[Scene | None, list[str]]:
             warnings.simplefilter("always")
             bearing.initialise()
         lines = [str(one.message) for one in caught]
-        if scene.spindle is not None:
-            at_rest = [] if exclusion(scene, "statics") else _of_statics(scene)
-            return scene, [f"{path}: {line}" for line in lines + at_rest]
-        # of a shoulder that is passed the bearing has warned by itself
-        point = operating_point(scene)
-        lines += [line for line in (*point.remarks, *cautions(point)) if _SHOULDER not in line]
+        if exclusion(scene, "statics") is None:
+            # of a shoulder that is passed the bearing has warned by itself
+            lines += [line for line in cautions(operating_point(scene)) if _SHOULDER not in line]
         return scene, [f"{path}: {line}" for line in lines]
     except SceneError as problem:
         return None, list(problem.problems)
@@ -179,18 +176,6 @@ def _check_table(scene: Scene) -> None:
         check_table(scene)
     except ValueError as problem:
         raise SceneError(f"{scene.name}: {problem}") from None
-
-
-def _of_statics(scene: Scene) -> list[str]:
-    """Return cautions about the statics of a set, or that they are not computed."""
-    from fmu_bearing.design.set_points import operating_points, set_cautions
-    from fmu_bearing.spindle.statics import shaft_statics
-
-    try:
-        lines = set_cautions(shaft_statics(scene), operating_points(scene))
-        return [line for line in lines if _SHOULDER not in line]
-    except SceneError as problem:
-        return [f"statics: {line.removeprefix(f'{scene.name}: ')}" for line in problem.problems]
 
 
 @scene_app.command()

@@ -1,4 +1,4 @@
-"""``fmu-bearing stiffness``: stiffness and damping of a bearing for rotor programs."""
+"""``fmu-bearing stiffness``: stiffness and damping of a scene's bearings for rotor programs."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -18,11 +18,12 @@ from fmu_bearing.cli.base import (
     tell,
 )
 from fmu_bearing.cli.modes import Changes, changed
-from fmu_bearing.cli.spindle import stiffness_of_set
 
 if TYPE_CHECKING:
-    from fmu_bearing.modal.stiffness.scene_stiffness import Stiffness
-    from fmu_bearing.modal.stiffness.stiffness_table import Spacing
+    from fmu_bearing.steady.stiffness.bearing_stiffness import BearingStiffness
+    from fmu_bearing.steady.stiffness.nose_stiffness import NoseStiffness
+    from fmu_bearing.steady.stiffness.scene_stiffness import Stiffness
+    from fmu_bearing.steady.stiffness.stiffness_table import Spacing
 
 _ENDINGS = {"csv": ".csv", "netcdf": ".nc", "ross": ".toml"}
 _SYNTAX = "LOW:HIGH:COUNT, LOW:HIGH:COUNTlog or VALUE,VALUE,..."
@@ -65,18 +66,19 @@ def stiffness(
 ) -> None:
     """Compute stiffness and damping over speed, preload and frequency; write them for rotor programs.
 
-    Of a set of bearings on one shaft: static stiffness at its nose over speed and preload.
+    Of a set of bearings on one shaft: also the static stiffness at its nose over speed and preload; with
+    csv in FILE itself, each bearing's table in FILE-1, FILE-2 and so on.
 
     With --format ross the file NAME.toml becomes NAME-1.toml and NAME-2.toml: a bearing element of ROSS 3
-    each, with half of the bearing. The table tells what both lack of its tilt and coupling.
+    each, with half of the bearing. The table has what both lack of its tilt and coupling.
     """
-    from fmu_bearing.modal.stiffness.scene_stiffness import stiffness as table_of
     from fmu_bearing.results.picture_parts import check_picture, save
     from fmu_bearing.scene import read_scene
+    from fmu_bearing.steady.stiffness.scene_stiffness import stiffness as table_of
 
     with refusals():
         if mirrored and form != "ross":
-            raise Refusal("--mirrored is for --format ross: tables are told in the bearing's own axes")
+            raise Refusal("--mirrored is for --format ross: tables are in the bearing's own axes")
         asked = {
             name: _values(name, text)
             for name, text in (("speeds", speeds), ("preloads", preloads), ("frequencies", frequencies))
@@ -88,35 +90,26 @@ def stiffness(
         if picture is not None:
             check_picture(picture)
         chosen, inputs = changed(given, settings)
-        if chosen.spindle is not None:
-            for there, words in (
-                (frequencies is not None, "--frequencies"), (form != "csv", f"--format {form}"),
-                (mirrored, "--mirrored"), (spacing != "held", "--spacing"),
-                (bool(inputs), "--set of an input"),
-            ):  # fmt: skip
-                if there:
-                    raise Refusal(
-                        f"{words} is for one bearing: of a set with [spindle] the static stiffness of its "
-                        "shaft is written, as csv"
-                    )
-            stiffness_of_set(chosen, asked["speeds"], asked["preloads"], target, picture, as_json)
-            return
+        if mirrored and chosen.spindle is not None:
+            raise Refusal("--mirrored is for one bearing: a set says which way each of its bearings carries")
         found = table_of(
             chosen, asked["speeds"], asked["frequencies"], preloads=asked["preloads"], inputs=inputs,
             spacing=_spacing(spacing),
             track=None if as_json else lambda values: progress(values, "speeds", transient=True),
         )  # fmt: skip
-        files = _write(found, form, target, mirrored)
+        files = [*found.save(target)] if form != "ross" else _elements(found, target, mirrored)
         if picture is not None:
             save(found.picture(), picture)
             files.append(picture)
     if as_json:
         print_json(_document(found, form, mirrored) | {"files": files})
         return
+    if found.nose is not None:
+        _show_nose(found.nose)
     _show(found)
-    if form == "ross":
-        for preload in found.preloads:
-            _show_planes(found, float(preload), mirrored)
+    for one in found.bearings if form == "ross" else ():
+        for preload in one.preloads:
+            _show_planes(one, float(preload), mirrored or one.sign < 0)
     for line in found.cautions():
         tell(f"caution: {line}")
     tell(f"written: {', '.join(map(str, files))}")
@@ -145,8 +138,8 @@ def _spacing(text: str) -> "Spacing":
 
 def _target(form: str, output: Path | None, asked: dict[str, list[float] | None]) -> Path:
     """Return the file to write, checked before anything is computed."""
-    from fmu_bearing.modal.stiffness.ross import check_axes, check_element
-    from fmu_bearing.modal.stiffness.stiffness_files import check_table
+    from fmu_bearing.steady.stiffness.ross import check_axes, check_element
+    from fmu_bearing.steady.stiffness.stiffness_files import check_table
 
     if form not in _ENDINGS:
         raise Refusal(f"--format {form} is refused: it is {', '.join(_ENDINGS)}")
@@ -159,49 +152,71 @@ def _target(form: str, output: Path | None, asked: dict[str, list[float] | None]
     return check_element(target)
 
 
-def _write(found: "Stiffness", form: str, target: Path, mirrored: bool) -> list[Path]:
-    """Write the table, or two elements per preload, and return the files."""
-    if form != "ross":
-        return [found.save(target)]
+def _elements(found: "Stiffness", target: Path, mirrored: bool) -> list[Path]:
+    """Write two elements per bearing and preload, and return the files."""
     files: list[Path] = []
-    for preload in found.preloads:
-        name = target if len(found.preloads) == 1 else target.with_stem(f"{target.stem}-{preload:g}N")
-        files += found.to_ross(name, preload, mirrored=mirrored)
+    for one, file in zip(found.bearings, found.files(target), strict=True):
+        for preload in one.preloads:
+            name = file if len(one.preloads) == 1 else file.with_stem(f"{file.stem}-{preload:g}N")
+            files += one.to_ross(name, preload, mirrored=mirrored or one.sign < 0)
     return files
 
 
+def _show_nose(found: "NoseStiffness") -> None:
+    """Print the static stiffness of a set's shaft."""
+    from fmu_bearing.results.table import show
+    from fmu_bearing.steady.stiffness.nose_stiffness import NAMED
+
+    rows = [
+        [
+            f"{speed:g}",
+            f"{preload:g}",
+            *(f"{factor * found.named(attribute)[i, k]:.2f}" for _, attribute, _, factor in NAMED),
+        ]
+        for i, speed in enumerate(found.speeds)
+        for k, preload in enumerate(found.preloads)
+    ]
+    columns = ("r/min", "N", *(f"K {words}" for words, *_ in NAMED))
+    show(f"{found.scene.name} at the nose, static: K in N/um and N m/mrad", columns, rows)
+
+
 def _show(found: "Stiffness") -> None:
-    """Print the table at its middle frequency."""
+    """Print the tables of the bearings at their middle frequency."""
     from fmu_bearing.results.table import show
 
-    at = len(found.frequencies) // 2
+    at, several = len(found.frequencies) // 2, found.nose is not None
     rows = []
-    for i, speed in enumerate(found.speeds):
-        for k, preload in enumerate(found.preloads):
-            stiff, damped = found.K[i, k, at].diagonal(), found.C[i, k, at].diagonal()
-            row = [f"{speed:g}", f"{preload:g}", f"{1e-6 * stiff[0]:.2f}", f"{1e-6 * stiff[1]:.1f}"]
-            row += [f"{1e-3 * stiff[4]:.3f}", f"{damped[0]:.1f}", f"{damped[1]:.1f}"]
-            rows.append([*row, f"{1e3 * damped[4]:.2f}"])
+    for one in found.bearings:
+        for i, speed in enumerate(found.speeds):
+            for k, preload in enumerate(found.preloads):
+                stiff, damped = one.K[i, k, at].diagonal(), one.C[i, k, at].diagonal()
+                row = [str(one.number)] if several else []
+                row += [f"{speed:g}", f"{preload:g}", f"{1e-6 * stiff[0]:.2f}", f"{1e-6 * stiff[1]:.1f}"]
+                row += [f"{1e-3 * stiff[4]:.3f}", f"{damped[0]:.1f}", f"{damped[1]:.1f}"]
+                rows.append([*row, f"{1e3 * damped[4]:.2f}"])
     units = "K in N/um and N m/mrad, C in N s/m and mN m s/rad"
-    show(f"{found.scene.name} at {found.frequencies[at]:.4g} Hz: {units}", _COLUMNS, rows)
+    columns = ("bearing", *_COLUMNS) if several else _COLUMNS
+    show(f"{found.scene.name} at {found.frequencies[at]:.4g} Hz: {units}", columns, rows)
+    apart = max(one.against_static() for one in found.bearings)
     typer.echo(
         f"K for frequency to 0 differs from K at {found.frequencies[0]:.4g} Hz by at most "
-        f"{_PERCENT * found.against_static():.2g} %"
+        f"{_PERCENT * apart:.2g} %"
     )
 
 
-def _show_planes(found: "Stiffness", preload: float, mirrored: bool) -> None:
+def _show_planes(found: "BearingStiffness", preload: float, mirrored: bool) -> None:
     """Print where the two planes stand and what they lack, over all frequencies."""
-    from fmu_bearing.modal.stiffness.planes import ERRORS
     from fmu_bearing.results.table import show
+    from fmu_bearing.steady.stiffness.planes import ERRORS
 
+    name = f"bearing {found.number}, " if found.on_shaft else ""
     planes, off = found.planes(preload, mirrored), _PERCENT * found.plane_errors(preload)
     low, high = off.min(axis=1), off.max(axis=1)
     rows = [
         [f"{speed:g}", *(f"{low[i, k]:+.2g} to {high[i, k]:+.2g}" for k in range(len(ERRORS)))]
         for i, speed in enumerate(found.speeds)
     ]
-    show(f"{preload:g} N: error of the two planes, %, over all frequencies", ("r/min", *ERRORS), rows)
+    show(f"{name}{preload:g} N: error of the two planes, %, over all frequencies", ("r/min", *ERRORS), rows)
     typer.echo(
         f"planes at {1e3 * planes.places[0]:+.3f} and {1e3 * planes.places[1]:+.3f} mm from the centre of "
         f"the balls: e = {1e3 * planes.centre:+.3f}, h = {1e3 * planes.half:.3f} mm"
@@ -210,19 +225,17 @@ def _show_planes(found: "Stiffness", preload: float, mirrored: bool) -> None:
 
 def _document(found: "Stiffness", form: str, mirrored: bool) -> dict[str, Any]:
     """Return all numbers by name, for machines."""
-    result: dict[str, Any] = {
-        "scene": found.scene.name, "speeds_rpm": found.speeds, "preloads_N": found.preloads,
-        "frequencies_Hz": found.frequencies, "K": found.K, "C": found.C, "static": found.static,
-        "f_c_Hz": found.orbit, "spread": found.spread, "spacing": found.spacing,
-        "against_static": found.against_static(), "cautions": found.cautions(),
-    }  # fmt: skip
-    if form == "ross":
-        result["planes"] = [
-            {
-                "preload_N": float(preload),
-                "places_mm": [1e3 * place for place in found.planes(float(preload), mirrored).places],
-                "errors": found.plane_errors(float(preload)),
-            }
-            for preload in found.preloads
-        ]
+    result = found.summary()
+    for one, document in zip(found.bearings, result["bearings"], strict=True):
+        if form == "ross":
+            document["planes"] = [
+                {
+                    "preload_N": float(preload),
+                    "places_mm": [
+                        1e3 * place for place in one.planes(float(preload), mirrored or one.sign < 0).places
+                    ],
+                    "errors": one.plane_errors(float(preload)),
+                }
+                for preload in one.preloads
+            ]
     return result

@@ -1,11 +1,10 @@
-"""What a designer asks of a bearing: ratings, operating point, verdicts.
+"""What a designer asks of a scene's bearings: ratings, operating point, verdicts.
 
 ===================  ================================================================
 ``rating``           ratings and makers' limits of the bearing of a scene
-``operating_point``  a bearing at its operating point, without a run
-``set_points``       the bearings of a set at their operating points, and the life of all
-``set_stiffness``    static stiffness of a set at its nose over speed and preload
-``verdicts``         figure, limit, source and judgement of what a designer asks
+``operating_point``  a scene's bearings at their operating point, without a run
+``verdict``          figure, limit, source and judgement
+``verdicts``         the verdicts on each bearing, and on all together
 ``fresh``            `new_scene`: a scene at an operating point that the verdicts find good
 ===================  ================================================================
 """

@@ -119,7 +119,7 @@ def _preload(scene: Scene) -> tuple[float, str, bool]:
         light = None
     force, rule = (0.0, "") if light is None else light
     # the least preload depends on the contact angles, and so a little on the preload
-    least = _PRELOAD_SHARE * operating_point(_at(scene, force=max(force, 1.0))).least_preload
+    least = _PRELOAD_SHARE * operating_point(_at(scene, force=max(force, 1.0))).bearings[0].least_preload
     if force < least:
         force, rule = _rounded(least), f"{_PRELOAD_SHARE:g} times the least preload at this speed"
     most = limits(Mounting.model_fields["preload_N"])[1]

@@ -1,12 +1,12 @@
-"""A bearing at its operating point, without a run: contacts, stiffness, frequencies, film, limits, life.
+"""A scene's bearings at their operating point, without a run: contacts, frequencies, film, limits, life.
 
-Everything is that of the perfect bearing with rigid rings in its steady state; the stiffness is that
-of `modal.stiffness.scene_stiffness`. Ratings and limits come from `design.rating`, with their sources.
+Everything is that of perfect bearings with rigid rings in their steady state; loads and stiffness are those
+of `steady.statics`. Ratings and limits come from `design.rating`, with their sources.
 """
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -16,39 +16,39 @@ from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies, kinema
 from fmu_bearing.design.rating import Rating, least_preload, rating, reference_life, speed_limit
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import C, P, S, Y
-from fmu_bearing.formulas.iso281 import viscosity_ratio
+from fmu_bearing.formulas import iso281
 from fmu_bearing.instance import Instance
-from fmu_bearing.modal.equations.linearised import under_force
-from fmu_bearing.modal.equations.remarks import remarks
-from fmu_bearing.modal.modes.natural_modes import Modes, self_excited
+from fmu_bearing.modal.equations.linearised import Linearised
+from fmu_bearing.modal.modes.natural_modes import self_excited
 from fmu_bearing.modal.modes.solve import may_grow, solved
-from fmu_bearing.modal.stiffness.impedance import at_rest
 from fmu_bearing.prepare.bodies import ball
-from fmu_bearing.prepare.model import prepare
 from fmu_bearing.progress import Tell, silent
-from fmu_bearing.run.balls import Readable, Reader
+from fmu_bearing.run.balls import Readable
 from fmu_bearing.scene import Scene, SceneSource, scene_of, si
+from fmu_bearing.scene.member import SceneBearing, set_of, still_of
+from fmu_bearing.steady.rest import parts, started
+from fmu_bearing.steady.statics import BearingLoad, Point, Statics, point
 from fmu_bearing.threads import one_thread
 
 RINGS = ("inner", "outer")
 _CONTACTS = (
     "load_mean", "load_max", "angle_mean", "pressure_max", "spin_to_roll", "shoulder_margin",
 )  # fmt: skip
+_SLOPE = 10.0 / 9.0  # Weibull's exponent of point contact: Lundberg and Palmgren (1947), ISO 281
 
 
 @dataclass(frozen=True)
-class OperatingPoint:
-    """Figures of a bearing at its operating point, SI units.
+class BearingPoint:
+    """Figures of one bearing at its operating point, SI units.
 
     Attributes
     ----------
     scene : Scene
-        Without sound, imperfections and bending.
+        Of this bearing alone, without sound, imperfections and bending. Of a set its preload is what it
+        carries loose, at standstill and 20 degC without load on the shaft, by a constant force behind springs
+        and by displacement with spacers; 0 in a set without one.
     contacts : dict
         By ``inner`` and ``outer``: the outputs ``contact.*`` there.
-    stiffness : ndarray, shape (5, 5)
-        Forces x, y, z and moments about y, z on the inner ring per displacement and tilt, for frequency to 0
-        at the steady state, balls keeping their spacing: `Stiffness.static`. Rings bend as the scene has it.
     frequencies : KinematicFrequencies
         At the mean of both contact angles, Hz.
     film : float
@@ -65,32 +65,20 @@ class OperatingPoint:
         N: below it balls skid, see `design.rating.least_preload`.
     rating : Rating, optional
         None for what no standard rates.
-    ball_loads : dict
-        By ``inner`` and ``outer``: N, shape (balls,).
     reference_life : float, optional
-        Mrev: L10r by ISO 16281 from these loads; None for what no standard rates.
+        Mrev: L10r by ISO 16281 from the loads of the balls; None for what no standard rates.
     friction_torque : float
         N m: of the settled bearing, positive where it brakes positive rotation.
     gyroscopic_friction : float
         Coefficient of friction that keeps a ball from turning about its gyroscopic axis, mean of the balls.
-    displacement : float
-        m: of the inner ring against the outer along the axis.
-    axial, radial : float
-        N: loads that it carries.
+    load : BearingLoad
+        What it carries, where its ring is, the loads of its balls.
     on_shaft : bool
         Whether it is one of a set: the shaft holds its inner ring.
-    whirl : tuple of float, optional
-        Hz, 1/s: frequency and growth of the mode by which the inner ring, or its set, whirls by itself; None
-        where none grows, or where it is not known.
-    steady : bool
-        Whether a steady state was found; else no growth is known.
-    remarks : tuple of str
-        That no steady state was found, that the pedestal is soft; of a set `ShaftStatics` has them.
     """
 
     scene: Scene
     contacts: dict[str, dict[str, float]]
-    stiffness: NDArray[np.float64]
     frequencies: KinematicFrequencies
     film: float
     viscosity: float
@@ -99,22 +87,53 @@ class OperatingPoint:
     speed_limit: float | None
     least_preload: float
     rating: Rating | None
-    displacement: float
-    axial: float
-    radial: float
-    on_shaft: bool
-    ball_loads: dict[str, NDArray[np.float64]]
     reference_life: float | None
     friction_torque: float
     gyroscopic_friction: float
-    whirl: tuple[float, float] | None = None
-    steady: bool = True
-    remarks: tuple[str, ...] = ()
+    load: BearingLoad
+    on_shaft: bool
+
+    @property
+    def stiffness(self) -> NDArray[np.float64]:
+        """Forces x, y, z and moments about y, z on the inner ring per displacement and tilt, shape (5, 5).
+
+        For frequency to 0 at the steady state, balls keeping their spacing: `BearingStiffness.static`. Rings
+        of a single bearing bend as the scene has it.
+        """
+        return self.load.stiffness
+
+    @property
+    def axial(self) -> float:
+        """Axial load (N) for its rating: 0 of a bearing that is unloaded."""
+        return max(0.0, self.load.axial)
+
+    @property
+    def radial(self) -> float:
+        """Radial load, N, weights included."""
+        return self.load.radial
+
+    @property
+    def displacement(self) -> float:
+        """Of the inner ring against the outer along the bearing's own axis, m."""
+        return float(self.load.displacement[0])
+
+    @property
+    def ball_loads(self) -> dict[str, NDArray[np.float64]]:
+        """Loads (N) by ``inner`` and ``outer``, shape (balls,)."""
+        return dict(zip(RINGS, self.load.ball_loads, strict=True))
+
+    @property
+    def life(self) -> float | None:
+        """L10r in hours; None where no standard rates the bearing, and at standstill."""
+        speed = self.scene.operation.speed_rpm
+        if self.reference_life is None or speed == 0.0:
+            return None
+        return iso281.hours(self.reference_life, speed)
 
     def summary(self) -> dict[str, Any]:
         """Return all figures by name, SI units, for machines."""
         return {
-            "scene": self.scene.name,
+            "bearing": self.load.number,
             "kind": self.scene.materials.kind,
             "speed_rpm": self.scene.operation.speed_rpm,
             "preload_N": self.scene.mounted.preload_N,
@@ -134,106 +153,171 @@ class OperatingPoint:
             "reference_life_Mrev": self.reference_life,
             "friction_torque_N_m": self.friction_torque,
             "gyroscopic_friction": self.gyroscopic_friction,
+            "ball_loads_N": {ring: loads.tolist() for ring, loads in self.ball_loads.items()},
+        }
+
+
+@dataclass(frozen=True)
+class OperatingPoint:
+    """A scene's bearings at their operating point, SI units.
+
+    Attributes
+    ----------
+    scene : Scene
+    bearings : tuple of BearingPoint
+        From the nose on; a single bearing is the only one.
+    statics : Statics
+        What they carry, and how stiff they hold the shaft.
+    life : float, optional
+        h: L10r of all bearings together; None where one has none, and at standstill.
+    whirl : tuple of float, optional
+        Hz, 1/s: frequency and growth of the mode by which the inner ring, or the set, whirls by itself; None
+        where none grows, or where it is not known.
+    steady : bool
+        Whether a steady state was found; else no growth is known.
+    """
+
+    scene: Scene
+    bearings: tuple[BearingPoint, ...]
+    statics: Statics
+    life: float | None
+    whirl: tuple[float, float] | None
+    steady: bool
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """That no steady state was found, that the pedestal is soft."""
+        return self.statics.remarks
+
+    def summary(self) -> dict[str, Any]:
+        """Return all figures by name, SI units, for machines."""
+        return {
+            "scene": self.scene.name,
+            "speed_rpm": self.scene.operation.speed_rpm,
+            "bearings": [one.summary() for one in self.bearings],
+            "statics": self.statics.summary(),
+            "life_h": self.life,
             "whirl_Hz_1_s": self.whirl,
             "steady": self.steady,
-            "ball_loads_N": {ring: loads.tolist() for ring, loads in self.ball_loads.items()},
         }
 
 
 @one_thread
 def operating_point(scene: SceneSource, tell: Tell = silent) -> OperatingPoint:
-    """Return the figures of a scene, or that of a file, at its operating point, without a run.
+    """Return the figures of a scene's bearings at its operating point, without a run.
 
-    ``tell`` takes the warnings of the bearing.
+    Each bearing of a set is where the shaft puts it, under its own load and at its own temperatures. Friction
+    torques are those of settled bearings with their cages.
+
+    Parameters
+    ----------
+    scene : Scene or path
+    tell : callable
+        Takes the warnings of the bearings.
 
     Raises
     ------
     SceneError
-        If the file cannot be read.
+        If the file cannot be read, or another model owns the shaft.
     EngineError
         Where there is no equilibrium; a ``ValueError``.
 
     Examples
     --------
     >>> from fmu_bearing import operating_point
-    >>> point = operating_point("examples/scenes/7003C-spindle.toml")
-    >>> f"{1e-9 * point.contacts['inner']['pressure_max']:.2f} GPa, kappa {point.viscosity_ratio:.2f}"
+    >>> (one,) = operating_point("examples/scenes/7003C-spindle.toml").bearings
+    >>> f"{1e-9 * one.contacts['inner']['pressure_max']:.2f} GPa, kappa {one.viscosity_ratio:.2f}"
     '1.89 GPa, kappa 1.79'
+    >>> for one in operating_point("examples/spindle_set/7003C-DB.toml").bearings:
+    ...     print(f"{one.axial:.0f} N, {1e-9 * one.contacts['inner']['pressure_max']:.2f} GPa")
+    167 N, 1.54 GPa
+    67 N, 1.17 GPa
     """
-    scene = scene_of(scene)
-    if scene.spindle is not None:
-        raise scene.unmounted("an operating point", "take `operating_points`")
-    system = under_force(scene)
-    scene = scene.model_copy(update={"sound": None, "imperfections": None}).with_rigid_rings()
-    bearing = Instance(prepare(scene, fidelity="full"), tell=tell)
-    bearing.initialise()
-    settled = Instance(prepare(scene, fidelity="response"), tell=silent)
-    settled.initialise()
-    mounting = scene.mounted
-    radial = math.hypot(mounting.radial_load_y_N, mounting.radial_load_z_N)
-    torque = settled.get("friction_torque")
-    return replace(
-        figures(scene, bearing, bearing.get, mounting.preload_N, radial, torque, at_rest(system.bearings[0])),
-        whirl=whirl_of(solved(scene, system)) if system.steady and may_grow(system.matrix) else None,
-        steady=system.steady,
-        remarks=tuple(remarks(system)),
+    scene = still_of(scene_of(scene))
+    found = point(scene, tell=tell)
+    rigid = scene.with_rigid_rings()
+    settled = started(scene, fidelity="response")
+    bearings = tuple(
+        _figures(_alone(rigid, one, found.statics), one, part, load, found, settled)
+        for one, part, load in zip(rigid.bearings(), parts(found.run), found.statics.bearings, strict=True)
     )
+    whirl, steady = _whirl(rigid, found.system), found.system.steady
+    return OperatingPoint(scene, bearings, found.statics, _life_of(bearings), whirl, steady)
 
 
-def whirl_of(found: Modes) -> tuple[float, float] | None:
-    """Frequency (Hz) and growth (1/s) of the mode that grows fastest by itself, if one does."""
-    grows = self_excited(found)
+def _whirl(scene: Scene, system: Linearised) -> tuple[float, float] | None:
+    """Frequency (Hz) and growth (1/s) of the mode that grows fastest by itself; None where none is known."""
+    if not system.steady or not may_grow(system.matrix):
+        return None
+    grows = self_excited(solved(scene, system))
     return None if grows is None else (grows.frequency, grows.growth)
 
 
-def figures(
-    scene: Scene, bearing: Readable, output: Callable[[str], float], axial: float, radial: float,
-    torque: float, stiffness: NDArray[np.float64], on_shaft: bool = False,
-) -> OperatingPoint:  # fmt: skip
-    """Return the figures of a bearing whose state is known.
+def _alone(scene: Scene, one: SceneBearing[Scene], found: Statics) -> Scene:
+    """Return the scene of one bearing with the preload and temperatures that it has in its set."""
+    if scene.spindle is None:
+        return scene
+    spindle, cold = set_of(scene), found.preloads.get("cold")
+    carried = 0.0 if cold is None else max(cold[one.number - 1], 0.0)
+    spacer = spindle.preload is not None and spindle.preload.kind == "spacer"
+    mounting = {"preload_N": float(f"{carried:.4g}"), "preload_mode": "rigid" if spacer else "force"}
+    place = spindle.bearing[one.number - 1]
+    rings = ("inner_ring_temperature_degC", "outer_ring_temperature_degC")
+    warm = {key: getattr(place, key) for key in rings if getattr(place, key) is not None}
+    return one.scene.model_copy(
+        update={
+            "mounting": one.scene.mounted.model_copy(update=mounting),
+            "operation": one.scene.operation.model_copy(update=warm),
+        }
+    )
 
-    Parameters
-    ----------
-    scene : Scene
-        Of the bearing, without sound, imperfections and bending.
-    bearing : Readable
-        Its parameters and state.
-    output : callable
-        Gives its outputs by name, in its own axes.
-    axial, radial : float
-        Loads (N) for its rating.
-    torque : float
-        Its friction torque, N m.
-    stiffness : ndarray, shape (5, 5)
-        As `OperatingPoint` has it.
-    on_shaft : bool
-        Whether it is one of a set.
+
+def _figures(
+    scene: Scene, one: SceneBearing[Scene], part: Readable, load: BearingLoad, found: Point, settled: Instance
+) -> BearingPoint:
+    """Return the figures of a bearing.
+
+    ``scene``: of the bearing alone; ``part``: its parameters and state; ``settled``: the engine where its
+    torque is read.
     """
+
+    def output(name: str) -> float:
+        return found.run.get(one.prefix + name)
+
     contacts = {ring: {key: output(f"contact.{ring}.{key}") for key in _CONTACTS} for ring in RINGS}
-    b, operation = si(scene.bearing), scene.operation
-    speed = operation.speed_rpm * RPM
+    b, rpm = si(scene.bearing), scene.operation.speed_rpm
     angle = 0.5 * (contacts["inner"]["angle_mean"] + contacts["outer"]["angle_mean"])
-    frequencies = kinematic_frequencies(speed, b.ball_count, b.ball_diameter, b.pitch_diameter, angle)
+    frequencies = kinematic_frequencies(rpm * RPM, b.ball_count, b.ball_diameter, b.pitch_diameter, angle)
     mass, _ = ball(scene)
     centrifugal = mass * 0.5 * b.pitch_diameter * (2.0 * math.pi * frequencies.f_c) ** 2
-    nu = 1e6 * float(bearing.s[S.C + C.VISCOSITY]) / scene.lubricant.density_kg_m3
-    balls = Reader(bearing).read(bearing)
-    loads = {"inner": balls[:, 1], "outer": balls[:, 3]}
-    return OperatingPoint(
-        scene, contacts, stiffness, frequencies, output("film.lambda_min"), nu,
-        viscosity_ratio(nu, operation.speed_rpm, scene.bearing.pitch_diameter_mm),
-        abs(operation.speed_rpm) * scene.bearing.pitch_diameter_mm, speed_limit(scene),
-        least_preload(scene, centrifugal), rating(scene, axial, radial, operation.speed_rpm),
-        output("inner_ring.displacement.x") - output("outer_ring.displacement.x"), axial, radial, on_shaft,
-        loads, reference_life(scene, loads["inner"], loads["outer"]), torque,
-        _gyroscopic_friction(bearing, loads),
+    nu = 1e6 * float(part.s[S.C + C.VISCOSITY]) / scene.lubricant.density_kg_m3
+    pitch = scene.bearing.pitch_diameter_mm
+    return BearingPoint(
+        scene, contacts, frequencies, output("film.lambda_min"), nu,
+        iso281.viscosity_ratio(nu, rpm, pitch), abs(rpm) * pitch, speed_limit(scene),
+        least_preload(scene, centrifugal), rating(scene, max(0.0, load.axial), load.radial, rpm),
+        reference_life(scene, *load.ball_loads), settled.get(one.prefix + "friction_torque"),
+        _gyroscopic_friction(part, load.ball_loads), load, one.prefix != "",
     )  # fmt: skip
 
 
-def _gyroscopic_friction(bearing: Readable, loads: dict[str, NDArray[np.float64]]) -> float:
+def _gyroscopic_friction(bearing: Readable, loads: NDArray[np.float64]) -> float:
     """Coefficient 2 M_g / (D_w (Q_i + Q_o)) that holds the gyroscopic moment M_g (Harris 2006), mean."""
-    j = np.arange(len(loads["inner"]))
+    j = np.arange(loads.shape[1])
     orbit, spin = bearing.s[S.Y + Y.OM + j], bearing.s[S.Y + Y.WR + j]
     moment = bearing.p[P.BALL_INERTIA] * np.abs(orbit * spin)
-    carried = bearing.s[S.C + C.BALL_RADIUS] * (loads["inner"] + loads["outer"])
+    carried = bearing.s[S.C + C.BALL_RADIUS] * loads.sum(axis=0)
     return float(np.mean(moment / np.maximum(carried, 1e-12)))
+
+
+def _life_of(bearings: Sequence[BearingPoint]) -> float | None:
+    """Return L10r (h) of all bearings together.
+
+    Ten of a hundred sets have lost a bearing by then: with lives L, the sum of L^(-10/9) is that of the set
+    (Lundberg and Palmgren 1947; Weibull's exponent 10/9 of point contact, ISO 281).
+    """
+    lives = [one.life for one in bearings]
+    if any(life is None for life in lives):
+        return None
+    total = sum(life**-_SLOPE for life in lives if life is not None and math.isfinite(life))
+    return float(total ** (-1.0 / _SLOPE)) if total > 0.0 else math.inf

@@ -1,21 +1,19 @@
-"""Verdicts on a bearing at its operating point: figure, limit, source of the limit, judgement, way out.
+"""Verdicts on a scene's bearings at their operating point, and on the whole.
 
-A limit is a standard's, a maker's rule or a rule of the field, and says which. What nothing judges is told
-as such: limits of steel judge no rings of ceramics, and hybrid bearings have no modified life.
+A limit is a standard's, a maker's rule or a rule of the field, and says which. What nothing judges is named
+so: limits of steel judge no rings of ceramics, and hybrid bearings have no modified life.
 """
 
 import math
-from collections.abc import Iterator, Sequence
-from dataclasses import asdict, dataclass
-from typing import Any, Literal
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
 
-from fmu_bearing.design.operating_point import RINGS, OperatingPoint
+from fmu_bearing.design.operating_point import RINGS, BearingPoint, OperatingPoint
 from fmu_bearing.design.rating import preload_classes, unclassed, unrated
+from fmu_bearing.design.verdict import Judgement, Verdict, judged_life, shown_hours, unjudged
 from fmu_bearing.formulas import iso76, iso281, makers
 from fmu_bearing.modal.campbell.weak import whirl_words
 from fmu_bearing.modal.equations.remarks import UNSTEADY
-
-Judgement = Literal["good", "watch", "change", "not judged"]
 
 #: Pa: pressures beyond which races of hardened steel are marked in the long run: a rule, no standard.
 HIGH_PRESSURE = 2.0e9
@@ -29,52 +27,18 @@ SPIN = 0.4
 GYROSCOPIC = 0.02
 #: Static safety for quiet running, and the least: NSK.
 QUIET, LEAST_SAFETY = 2.0, 1.0
-#: h: life that is asked for where the scene asks for none: assumed, as machine tools are often laid out.
-ASSUMED_LIFE = 20_000.0
 _TOUCHES = 1e6  # Pa: below it balls of an unloaded bearing just touch, and a safety means nothing
 _LITTLE = 2.0  # deg: a groove's edge and a contact angle are known no better
+_SIDEWAYS = 0.1  # of the axial load: less, as of a weight, hardly tilts the ring (chosen)
 _CLEAN = "high"
 
 
-@dataclass(frozen=True)
-class Verdict:
-    """What is to be said about one figure.
+def verdicts(point: OperatingPoint) -> tuple[Verdict, ...]:
+    """Return the verdicts on a scene's bearings, in the order of a designer's questions, then on the whole.
 
-    Attributes
+    Parameters
     ----------
-    key : str
-        For machines.
-    label : str
-    value : float, optional
-        SI units, or the unit in the label.
-    text : str
-        The value as it is shown, with its unit.
-    limit : str
-        The limit in words.
-    source : str
-        Where the limit comes from.
-    judgement : str
-        ``good``, ``watch``, ``change`` or ``not judged``.
-    advice : str
-        One sentence with figure, limit and way out; empty where all is good.
-    """
-
-    key: str
-    label: str
-    value: float | None
-    text: str
-    limit: str
-    source: str
-    judgement: Judgement
-    advice: str = ""
-
-    def as_dict(self) -> dict[str, Any]:
-        """Return the verdict by name, for machines."""
-        return asdict(self)
-
-
-def verdicts(point: OperatingPoint) -> list[Verdict]:
-    """Return the verdicts on a bearing at its operating point, in the order of a designer's questions.
+    point : OperatingPoint
 
     Examples
     --------
@@ -85,39 +49,56 @@ def verdicts(point: OperatingPoint) -> list[Verdict]:
     pressure, inner race, GPa 1.89 limit: 1.50 heaviest class; 2.0 marks races
     preload class, N 500: 2.8 x heavy limit: light 29.8, medium 89.4, heavy 179
     """
-    found = [_pressure(point), *_static_safety(point), *_life(point), *_preload(point), _speed(point)]
-    found += [*_film(point), _spin(point), _gyroscopic(point), _shoulder(point)]
-    found.append(_whirl(point))
-    return found
+    found = [one for bearing in point.bearings for one in bearing_verdicts(bearing)]
+    return *found, *_set_life(point), *_lift_off(point), _whirl(point)
 
 
-def side_by_side(points: Sequence[OperatingPoint]) -> Iterator[list[Verdict | None]]:
-    """Yield the verdicts on each figure of several bearings; None where a bearing has no such figure.
+def bearing_verdicts(bearing: BearingPoint) -> list[Verdict]:
+    """Return the verdicts on one bearing."""
+    found = [
+        _pressure(bearing),
+        *_static_safety(bearing),
+        *_life(bearing),
+        *_preload(bearing),
+        _speed(bearing),
+    ]
+    found += [*_film(bearing), _spin(bearing), _gyroscopic(bearing), _shoulder(bearing)]
+    return [replace(one, bearing=bearing.load.number) for one in found]
+
+
+def side_by_side(found: Iterable[Verdict]) -> Iterator[list[Verdict | None]]:
+    """Yield the verdicts on each figure of the bearings; None where a bearing has no such figure.
 
     A bearing without load has neither life nor static safety.
     """
-    tables = [{one.key: one for one in verdicts(point)} for point in points]
-    for key in max(tables, key=len):
-        yield [table.get(key) for table in tables]
+    tables: dict[int, dict[str, Verdict]] = {}
+    for one in found:
+        if one.bearing is not None:
+            tables.setdefault(one.bearing, {})[one.key] = one
+    for key in max(tables.values(), key=len):
+        yield [table.get(key) for table in tables.values()]
 
 
-def cautions(point: OperatingPoint) -> list[str]:
-    """Return what a designer should know: value, limit with its source, and the way out."""
-    return [one.advice for one in verdicts(point) if one.advice]
+def cautions(point: OperatingPoint, found: Iterable[Verdict] | None = None) -> list[str]:
+    """Return what a designer should look at: of the statics, of each bearing, of the whole.
+
+    ``found``: `verdicts` of the point, where they are known.
+    """
+    lines = point.statics.cautions()
+    for one in verdicts(point) if found is None else found:
+        if one.advice:
+            several = one.bearing is not None and point.bearings[0].on_shaft
+            lines.append(f"bearing {one.bearing}: {one.advice}" if several else one.advice)
+    return lines
 
 
-def _unjudged(key: str, label: str, why: str, value: float | None = None, text: str = "-") -> Verdict:
-    """Return a figure that no limit is known for, with the reason in place of the source."""
-    return Verdict(key, label, value, text, "none", why, "not judged")
-
-
-def _pressure(point: OperatingPoint) -> Verdict:
+def _pressure(point: BearingPoint) -> Verdict:
     race = max(RINGS, key=lambda ring: point.contacts[ring]["pressure_max"])
     pressure = point.contacts[race]["pressure_max"]
     label, text = f"pressure, {race} race, GPa", f"{1e-9 * pressure:.2f}"
     if not point.scene.materials.steel_rings:
         why = "limits are known for races of steel: ask for the maker's proof load"
-        return _unjudged("pressure", label, why, pressure, text)
+        return unjudged("pressure", label, why, pressure, text)
     usual = makers.CLASS_PRESSURE[point.scene.materials.kind]
     shown = f"contact pressure {text} GPa at the {race} race"
     limit = f"{1e-9 * usual:.2f} heaviest class; {1e-9 * HIGH_PRESSURE:.1f} marks races"
@@ -145,19 +126,19 @@ def _pressure(point: OperatingPoint) -> Verdict:
     return Verdict("pressure", label, pressure, text, limit, source, judgement, advice)
 
 
-def _static_safety(point: OperatingPoint) -> Iterator[Verdict]:
+def _static_safety(point: BearingPoint) -> Iterator[Verdict]:
     limit = f"{QUIET:g} quiet running, {LEAST_SAFETY:g} at least"
     label = "static safety"
     if point.rating is None:
         words = f"{unrated(point.scene)}: ask for the maker's proof load"
-        yield _unjudged("static_safety", label, words)
+        yield unjudged("static_safety", label, words)
         return
     kind = point.scene.materials.kind
     share = iso76.HYBRID if kind == "hybrid" else 1.0
     note = f"; {share:g} C0 for ceramic balls (GMN)" if kind == "hybrid" else ""
     load = point.rating.static_load
     if load is None:
-        yield _unjudged("static_safety", f"{label}, C0 / P0", _no_factors(point, "P0"))
+        yield unjudged("static_safety", f"{label}, C0 / P0", _no_factors(point, "P0"))
     elif load > 0.0:
         safety = share * point.rating.static / load
         yield _safety("static_safety", f"{label}, C0 / P0", safety, limit, f"ISO 76, NSK{note}")
@@ -168,7 +149,7 @@ def _static_safety(point: OperatingPoint) -> Iterator[Verdict]:
         yield _safety("static_safety_pressure", words, safety, limit, "4.2 GPa (ISO 76), computed; NSK")
 
 
-def _no_factors(point: OperatingPoint, load: str) -> str:
+def _no_factors(point: BearingPoint, load: str) -> str:
     angle = point.scene.bearing.contact_angle_deg
     return f"factors of {load} are known for contact angles of 15 and 25 deg, not {angle:g}; see ball loads"
 
@@ -184,33 +165,32 @@ def _safety(key: str, label: str, safety: float, limit: str, source: str) -> Ver
     return Verdict(key, label, safety, f"{safety:.2f}", limit, source, judgement, advice)
 
 
-def _life(point: OperatingPoint) -> Iterator[Verdict]:
+def _life(point: BearingPoint) -> Iterator[Verdict]:
     scene = point.scene
     required, rpm = scene.operation.required_life_h, scene.operation.speed_rpm
     if point.rating is None:
-        yield _unjudged("life", "rating life", f"{unrated(scene)}; what holds is the maker's experience")
+        yield unjudged("life", "rating life", f"{unrated(scene)}; what holds is the maker's experience")
         return
     if rpm == 0.0:
         return
     load = point.rating.equivalent
     if load is None:
-        yield _unjudged("life_basic", "L10, h", _no_factors(point, "P"))
+        yield unjudged("life_basic", "L10, h", _no_factors(point, "P"))
     elif point.rating.life is not None:
-        hours = point.rating.life
+        basic = point.rating.life
         source = "ISO 281, loads of the scene; judged as L10r"
-        yield _unjudged("life_basic", "L10, h", source, hours, shown_hours(hours))
-    turns = point.reference_life
-    if turns is not None and math.isfinite(turns):
+        yield unjudged("life_basic", "L10, h", source, basic, shown_hours(basic))
+    hours = point.life
+    if hours is not None and math.isfinite(hours):
         note = "; hybrid: no modified life" if scene.materials.kind == "hybrid" else ""
-        if point.radial:  # a quarter of the life depends on it
+        if point.radial > _SIDEWAYS * point.axial:  # a quarter of the life depends on it
             held = "held by tilt_support" if scene.mounted.tilt_support else "free to tilt"
             held = "held by the shaft" if point.on_shaft else held
             note = f"; inner ring {held}{note}"
         source = f"ISO 16281, computed ball loads; clean oil, full film{note}"
-        hours = iso281.hours(turns, rpm)
         yield judged_life("life", "L10r", hours, required, source)
         if scene.materials.kind == "steel" and load is None:
-            yield _unjudged("life_modified", "L10mr, h", _no_factors(point, "P"))
+            yield unjudged("life_modified", "L10mr, h", _no_factors(point, "P"))
         elif scene.materials.kind == "steel" and load:
             clean = scene.lubricant.cleanliness or _CLEAN
             pitch = scene.bearing.pitch_diameter_mm
@@ -219,31 +199,7 @@ def _life(point: OperatingPoint) -> Iterator[Verdict]:
             yield judged_life("life_modified", "L10mr", factor * hours, required, source)
 
 
-def shown_hours(hours: float) -> str:
-    """Return a rating life (h) as it is shown, beyond `iso281.MOST_HOURS` without its figure."""
-    return iso281.BEYOND_HOURS if hours > iso281.MOST_HOURS else f"{hours:.0f}"
-
-
-def judged_life(
-    key: str, name: str, hours: float, required: float | None, source: str,
-    remedy: str = "reduce preload or load, or take a larger bearing",
-) -> Verdict:  # fmt: skip
-    """Return the verdict on a rating life (h) by that asked for; None: by `ASSUMED_LIFE`."""
-    wanted = ASSUMED_LIFE if required is None else required
-    origin = "assumed" if required is None else "asked for"
-    advice = ""
-    if hours < wanted:
-        way = "" if required else "give operation.required_life_h, "
-        advice = (
-            f"rating life {name} {shown_hours(hours)} h: below the {wanted:.0f} h that are {origin} "
-            f"({source}): {way}{remedy}"
-        )
-    judgement: Judgement = "change" if advice else "good"
-    limit = f"{wanted:.0f} {origin}"
-    return Verdict(key, f"{name}, h", hours, shown_hours(hours), limit, source, judgement, advice)
-
-
-def _preload(point: OperatingPoint) -> Iterator[Verdict]:
+def _preload(point: BearingPoint) -> Iterator[Verdict]:
     preload = point.scene.mounted.preload_N
     rpm = point.scene.operation.speed_rpm
     advice, name = "", "axial load" if point.on_shaft else "preload"
@@ -264,7 +220,7 @@ def _preload(point: OperatingPoint) -> Iterator[Verdict]:
     label, found = "preload class, N", preload_classes(point.scene)
     if found is None or preload == 0.0:
         why = unclassed(point.scene) or "no preload"
-        yield _unjudged("preload_class", label, why, preload, f"{preload:g}")
+        yield unjudged("preload_class", label, why, preload, f"{preload:g}")
         return
     heavy, advice = found.loads["heavy"], ""
     own = makers.preload_class(preload, found.loads)
@@ -286,18 +242,18 @@ def _preload(point: OperatingPoint) -> Iterator[Verdict]:
     )  # fmt: skip
 
 
-def _speed(point: OperatingPoint) -> Verdict:
+def _speed(point: BearingPoint) -> Verdict:
     number, single = point.speed_number, point.speed_limit
     label, text = "n d_m, 1e6 mm r/min", f"{1e-6 * number:.2f}"
     if single is None:
         steel = point.scene.materials.steel_rings
         why = "no maker's limit at this contact angle" if steel else "makers' limits are for rings of steel"
-        return _unjudged("speed", label, why, number, text)
+        return unjudged("speed", label, why, number, text)
     factor, mounted = 1.0, "on springs"
     if point.scene.mounted.preload_mode == "rigid":
         found = preload_classes(point.scene)
         if found is None:
-            return _unjudged("speed", label, f"rigid pair: {unclassed(point.scene)}", number, text)
+            return unjudged("speed", label, f"rigid pair: {unclassed(point.scene)}", number, text)
         name = makers.preload_class(point.scene.mounted.preload_N, found.loads) or "heavy"
         factor, mounted = makers.RIGID_SPEED[name], f"as a rigid {name} pair"
     limit = factor * single
@@ -314,7 +270,7 @@ def _speed(point: OperatingPoint) -> Verdict:
     )
 
 
-def _film(point: OperatingPoint) -> Iterator[Verdict]:
+def _film(point: BearingPoint) -> Iterator[Verdict]:
     if point.scene.operation.speed_rpm == 0.0:
         return
     film, kappa = point.film, point.viscosity_ratio
@@ -331,7 +287,7 @@ def _film(point: OperatingPoint) -> Iterator[Verdict]:
     yield Verdict("film", "film over roughness", film, f"{film:.2f}", limit, "Harris 2006", judgement, advice)
     label, text = "viscosity ratio kappa", f"{kappa:.2f}"
     if not point.scene.materials.steel_rings:
-        yield _unjudged("kappa", label, "limits of ISO 281 are for rings of steel", kappa, text)
+        yield unjudged("kappa", label, "limits of ISO 281 are for rings of steel", kappa, text)
         return
     judgement = "good" if kappa >= FULL_FILM else "watch" if kappa >= WEAR else "change"
     advice = ""
@@ -346,12 +302,12 @@ def _film(point: OperatingPoint) -> Iterator[Verdict]:
     yield Verdict("kappa", label, kappa, text, limit, "ISO 281", judgement, advice)
 
 
-def _spin(point: OperatingPoint) -> Verdict:
+def _spin(point: BearingPoint) -> Verdict:
     race = max(RINGS, key=lambda ring: point.contacts[ring]["spin_to_roll"])
     spin = point.contacts[race]["spin_to_roll"]
     label, text = f"spin over roll, {race} race", f"{spin:.2f}"
     if not point.scene.materials.steel_rings:
-        return _unjudged("spin", label, "GMN's limit is for rings of steel", spin, text)
+        return unjudged("spin", label, "GMN's limit is for rings of steel", spin, text)
     advice = ""
     if spin > SPIN:
         advice = (
@@ -363,7 +319,7 @@ def _spin(point: OperatingPoint) -> Verdict:
     )
 
 
-def _gyroscopic(point: OperatingPoint) -> Verdict:
+def _gyroscopic(point: BearingPoint) -> Verdict:
     needed = point.gyroscopic_friction
     advice = ""
     if needed > GYROSCOPIC:
@@ -377,19 +333,7 @@ def _gyroscopic(point: OperatingPoint) -> Verdict:
     )  # fmt: skip
 
 
-def _whirl(point: OperatingPoint) -> Verdict:
-    label, source = "whirl of the ring, 1/s", "the linearised equations: no mode of the rings grows"
-    if not point.steady:
-        return _unjudged("whirl", label, UNSTEADY)
-    if point.whirl is None:
-        return Verdict("whirl", label, None, "none", "none", source, "good")
-    frequency, growth = point.whirl
-    advice = whirl_words(frequency, growth, point.on_shaft)
-    text = f"{growth:.0f} at {frequency:.0f} Hz"
-    return Verdict("whirl", label, growth, text, "none", source, "change", advice)
-
-
-def _shoulder(point: OperatingPoint) -> Verdict:
+def _shoulder(point: BearingPoint) -> Verdict:
     race = min(RINGS, key=lambda ring: point.contacts[ring]["shoulder_margin"])
     margin = math.degrees(point.contacts[race]["shoulder_margin"])
     judgement: Judgement = "good" if margin >= _LITTLE else "watch" if margin >= 0.0 else "change"
@@ -409,3 +353,45 @@ def _shoulder(point: OperatingPoint) -> Verdict:
         "shoulder", f"ellipse to shoulder, {race}, deg", math.radians(margin), f"{margin:.1f}",
         f"{_LITTLE:g}", "assumed: what tolerances take", judgement, advice,
     )  # fmt: skip
+
+
+def _set_life(point: OperatingPoint) -> Iterator[Verdict]:
+    hours = point.life
+    if hours is not None and math.isfinite(hours) and point.scene.spindle is not None:
+        yield judged_life(
+            "set_life", "L10r of all bearings together", hours, point.scene.operation.required_life_h,
+            "Lundberg and Palmgren 1947, exponent 10/9",
+            "relieve the bearing with the shortest life, or take a larger one",
+        )  # fmt: skip
+
+
+def _lift_off(point: OperatingPoint) -> Iterator[Verdict]:
+    """Yield the load that unloads a bearing over the axial force given, where both are there."""
+    found = point.statics
+    force = float(found.load[0])
+    first = found.lift_off.get("+x" if force > 0.0 else "-x") if force else None
+    if first is None:
+        return
+    margin, advice = first.load / force, ""
+    if margin < 1.0:
+        advice = (
+            f"axial load {abs(force):.0f} N: above the {abs(first.load):.0f} N that unload bearing "
+            f"{first.bearing} at standstill: raise the preload, or give the loaded side more bearings"
+        )
+    judgement: Judgement = "change" if advice else "good"
+    yield Verdict(
+        "lift_off", "lift-off over axial load", margin, f"{margin:.1f}", "1",
+        "axial load alone, standstill, temperatures of the scene", judgement, advice,
+    )  # fmt: skip
+
+
+def _whirl(point: OperatingPoint) -> Verdict:
+    label, source = "whirl of the ring, 1/s", "the linearised equations: no mode of the rings grows"
+    if not point.steady:
+        return unjudged("whirl", label, UNSTEADY)
+    if point.whirl is None:
+        return Verdict("whirl", label, None, "none", "none", source, "good")
+    frequency, growth = point.whirl
+    advice = whirl_words(frequency, growth, point.scene.spindle is not None)
+    text = f"{growth:.0f} at {frequency:.0f} Hz"
+    return Verdict("whirl", label, growth, text, "none", source, "change", advice)

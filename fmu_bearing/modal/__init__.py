@@ -1,9 +1,8 @@
-"""Small motions of a bearing or of a set on its shaft: natural modes, Campbell diagram, stiffness, damping.
+"""Small motions of a bearing or of a set on its shaft: natural modes, Campbell diagram.
 
 =============  ===========================================================================
 ``equations``  fidelity `full` linearised about a steady state, of a bearing and of a set
 ``modes``      natural frequencies and damping, and what moves in each mode
 ``campbell``   modes over speed and what excites them; where fidelities are in doubt
-``stiffness``  forces per motion of the inner ring, over speed, preload and frequency
 =============  ===========================================================================
 """

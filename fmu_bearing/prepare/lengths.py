@@ -18,13 +18,13 @@ class Lengths:
     work: int
 
 
-def members(p: NDArray[np.float64]) -> list[tuple[slice, slice]]:
-    """Return where the parameters and the state of each bearing of a set are in ``p`` and ``s``."""
-    block = int(p[P.SET])
-    first = block + int(p[block + SP.AT_ROWS])
+def parts_of(p: NDArray[np.float64]) -> list[tuple[slice, slice]]:
+    """Return the places of each bearing's parameters in ``p`` and state in ``s``; all of a single one's."""
+    if not SP.has_shaft(p):
+        return [(slice(None), slice(None))]
+    first, count = SP.first(p, SP.AT_ROWS), int(p[int(p[P.SET]) + SP.BEARINGS])
     found = []
-    for b in range(int(p[block + SP.BEARINGS])):
-        row = p[first + b * SP.ROW : first + (b + 1) * SP.ROW]
+    for row in p[first : first + count * SP.ROW].reshape(count, SP.ROW):
         at_p, at_s = int(row[SP.ROW_P]), int(row[SP.ROW_S])
         sizes = int(row[SP.ROW_P_SIZE]), int(row[SP.ROW_S_SIZE])
         found.append((slice(at_p, at_p + sizes[0]), slice(at_s, at_s + sizes[1])))

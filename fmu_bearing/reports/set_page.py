@@ -6,20 +6,23 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fmu_bearing.design.operating_point import OperatingPoint
-from fmu_bearing.design.set_points import life_of_set, operating_points, set_cautions, set_verdicts
-from fmu_bearing.design.verdicts import Verdict, shown_hours, side_by_side
+from fmu_bearing.design.operating_point import OperatingPoint, operating_point
+from fmu_bearing.design.verdict import Verdict, shown_hours
+from fmu_bearing.design.verdicts import cautions, side_by_side, verdicts
+from fmu_bearing.engine.layout import SP
 from fmu_bearing.instance import EngineError
 from fmu_bearing.progress import Tell
 from fmu_bearing.reports.page import look
-from fmu_bearing.reports.page.blocks import Absent, Block, Chart, Section, Table, Words
+from fmu_bearing.reports.page.blocks import Absent, Block, Chart, Section, Table
 from fmu_bearing.reports.page.look import axis
 from fmu_bearing.reports.page.render import render
 from fmu_bearing.reports.sections.summary import Tile, tile
+from fmu_bearing.results.table import tenths
 from fmu_bearing.scene import Scene, SceneError
 from fmu_bearing.scene.member import set_of
-from fmu_bearing.spindle.drawing import pressure_centres
-from fmu_bearing.spindle.statics import ShaftStatics, shaft_statics
+from fmu_bearing.steady.drawing import pressure_centres
+from fmu_bearing.steady.rest import forces, nose, preloads, started
+from fmu_bearing.steady.statics import Statics
 
 _STEPS = 13  # loads of the curve
 _BEYOND = 1.2  # of the load that unloads a bearing: as far as the curve goes
@@ -56,18 +59,16 @@ def set_page(scene: Scene, title: str, tell: Tell) -> SetPage:
     EngineError
         Where there is no equilibrium.
     """
-    tell("statics of the set")
-    found = shaft_statics(scene)
-    tell("operating points of the bearings")
-    points = operating_points(scene)
-    judged, together = list(side_by_side(points)), set_verdicts(found, points)
-    warnings = set_cautions(found, points)
+    tell("operating point of the set")
+    point = operating_point(scene)
+    found, judged = point.statics, verdicts(point)
+    warnings = cautions(point, judged)
     plan: tuple[tuple[str, str, Callable[[], list[Block]]], ...] = (
         ("arrangement", "Arrangement", lambda: [_drawing(scene), _bearings(found)]),
-        ("balls", "Ball loads", lambda: [_balls(points)]),
+        ("balls", "Ball loads", lambda: [_balls(point)]),
         ("axial", "Axial load", lambda: [_axial(scene, found, tell)]),
         ("warmth", "Preload and warmth", lambda: [_warmth(scene, found, tell)]),
-        ("verdicts", "Verdicts", lambda: [_verdicts(judged), _together(together)]),
+        ("verdicts", "Verdicts", lambda: [_verdicts(judged), _together(judged)]),
     )
     sections = []
     for key, heading, blocks in plan:
@@ -75,7 +76,7 @@ def set_page(scene: Scene, title: str, tell: Tell) -> SetPage:
             sections.append(Section(key, heading, blocks()))
         except Absent as problem:
             sections.append(Section(key, heading, [], str(problem)))
-    tiles = _tiles(found, points)
+    tiles = _tiles(point)
     subtitle = (
         f"{len(found.bearings)} x {scene.bearing.designation}, {found.arrangement}, "
         f"{scene.operation.speed_rpm:,.0f} r/min"
@@ -88,8 +89,9 @@ def set_page(scene: Scene, title: str, tell: Tell) -> SetPage:
     return SetPage(text, missing, {one["key"]: one["value"] for one in tiles}, warnings)
 
 
-def _tiles(found: ShaftStatics, points: tuple[OperatingPoint, ...]) -> list[Tile]:
+def _tiles(point: OperatingPoint) -> list[Tile]:
     """Return the figures at the top."""
+    found, life = point.statics, point.life
     lowest = min(found.bearings, key=lambda one: one.axial)
     tiles = [
         tile("axial_stiffness", "axial stiffness of the shaft", 1e-6 * found.axial_stiffness, "N/um", ".1f"),
@@ -100,7 +102,6 @@ def _tiles(found: ShaftStatics, points: tuple[OperatingPoint, ...]) -> list[Tile
         way, first = min(found.lift_off.items(), key=lambda pair: abs(pair[1].load))
         words = f"axial load {way} that unloads bearing {first.bearing}"
         tiles.append(tile("lift_off_N", words, abs(first.load), "N", ".0f"))
-    life = life_of_set(points)
     if life is not None and math.isfinite(life):
         shown = tile("life_h", "L10r of all bearings together", life, "h", ",.0f")
         tiles.append(shown | {"text": shown_hours(life)})
@@ -147,7 +148,7 @@ def _drawing(scene: Scene) -> Chart:
     return Chart("arrangement", "Shaft, bearings, lines of contact", figure, words)
 
 
-def _bearings(found: ShaftStatics) -> Table:
+def _bearings(found: Statics) -> Table:
     """Return the loads of each bearing."""
     columns = (
         "bearing", "at, mm", "axial, N", "y, N", "z, N", "largest ball load, N", "unloaded balls",
@@ -155,8 +156,8 @@ def _bearings(found: ShaftStatics) -> Table:
     )  # fmt: skip
     rows = [
         [
-            f"{row['bearing']}, {row['carries']}", f"{row['position_mm']:g}", _tenths(row["axial_N"]),
-            _tenths(row["force_y_N"]), _tenths(row["force_z_N"]), f"{row['ball_load_max_N']:.1f}",
+            f"{row['bearing']}, {row['carries']}", f"{row['position_mm']:g}", tenths(row["axial_N"]),
+            tenths(row["force_y_N"]), tenths(row["force_z_N"]), f"{row['ball_load_max_N']:.1f}",
             str(row["balls_unloaded"]), f"{row['angle_inner_max_deg']:.2f}",
             f"{max(row['pressure_inner_GPa'], row['pressure_outer_GPa']):.3f}",
         ]
@@ -165,16 +166,11 @@ def _bearings(found: ShaftStatics) -> Table:
     return Table("What each bearing carries, in the axes of the shaft", columns, rows)
 
 
-def _tenths(value: float) -> str:
-    """Return a number with one decimal; what rounds to nothing has no sign."""
-    return f"{round(value, 1) + 0.0:.1f}"
-
-
-def _balls(points: tuple[OperatingPoint, ...]) -> Chart:
+def _balls(point: OperatingPoint) -> Chart:
     """Draw the loads at the inner race round each bearing."""
     figure = look.polar(420, {"title": {"text": "N"}})
-    for number, point in enumerate(points, start=1):
-        loads = point.ball_loads["inner"]
+    for number, one in enumerate(point.bearings, start=1):
+        loads = one.ball_loads["inner"]
         angles = 360.0 * np.arange(len(loads)) / len(loads)
         figure.add_scatterpolar(
             r=[*loads, loads[0]], theta=[*angles, 360.0], name=f"bearing {number}", mode="lines+markers",
@@ -184,7 +180,7 @@ def _balls(points: tuple[OperatingPoint, ...]) -> Chart:
     return Chart("ball_loads", "Loads of the balls at the inner races", figure, words)
 
 
-def _axial(scene: Scene, found: ShaftStatics, tell: Tell) -> Chart:
+def _axial(scene: Scene, found: Statics, tell: Tell) -> Chart:
     """How the bearings share an axial load alone, and how far the shaft goes.
 
     Raises
@@ -198,14 +194,16 @@ def _axial(scene: Scene, found: ShaftStatics, tell: Tell) -> Chart:
     reach = [_BEYOND * one.load for one in found.lift_off.values()]
     low, high = min(0.0, *reach), max(0.0, *reach)
     loads, shares, places = [], [], []
+    signs = np.array([one.sign for one in found.bearings])
+    alone = dict.fromkeys(range(SP.U_NOSE, SP.U_NOSE + SP.PLANE), 0.0)
     for load in np.linspace(low, high, _STEPS):
         try:
-            at = shaft_statics(scene, force=(float(load), 0.0, 0.0), at=0.0)
+            run = started(scene, alone | {SP.U_NOSE: float(load)})
         except EngineError:
             continue
         loads.append(load)
-        shares.append([one.axial for one in at.bearings])
-        places.append(1e6 * at.displacement[0])
+        shares.append(signs * forces(run)[:, 0])
+        places.append(1e6 * nose(run)[0])
     figure = look.figure(380)
     for k, curve in enumerate(np.array(shares).T):
         figure.add_scatter(
@@ -228,7 +226,7 @@ def _axial(scene: Scene, found: ShaftStatics, tell: Tell) -> Chart:
     return Chart("axial", "Axial load alone: shares and displacement", figure, words)
 
 
-def _warmth(scene: Scene, found: ShaftStatics, tell: Tell) -> Chart:
+def _warmth(scene: Scene, found: Statics, tell: Tell) -> Chart:
     """How preload follows the temperature of inner rings, of the shaft, and of both.
 
     Raises
@@ -250,7 +248,7 @@ def _warmth(scene: Scene, found: ShaftStatics, tell: Tell) -> Chart:
         for rise in _WARMER:
             changes = shaft | {key: value + rise for key, value in keys.items()}
             try:
-                curve.append(shaft_statics(scene.replace(changes)).preloads["running"][0])
+                curve.append(preloads(started(scene.replace(changes)))["running"][0])
             except (SceneError, EngineError) as problem:
                 raise Absent(f"{name} by {rise:g} K: {problem}") from None
         figure.add_scatter(x=_WARMER, y=curve, name=name, line={"color": colour})
@@ -272,21 +270,21 @@ def _warm_keys(scene: Scene) -> tuple[dict[str, float], dict[str, float]]:
     return rings, {"spindle.shaft.temperature_degC": warm if own is None else own}
 
 
-def _together(together: list[Verdict]) -> Block:
+def _together(judged: tuple[Verdict, ...]) -> Block:
     """Verdicts on the set as a whole."""
-    if not together:
-        return Words("There is no verdict on the set as a whole.", "note")
-    rows = [[one.label, one.text, one.judgement, one.limit, one.source] for one in together]
+    rows = [
+        [one.label, one.text, one.judgement, one.limit, one.source] for one in judged if one.bearing is None
+    ]
     columns = ("", "value", "verdict", "limit", "source of the limit")
     return Table("Verdicts on the set", columns, rows)
 
 
-def _verdicts(judged: list[list[Verdict | None]]) -> Block:
+def _verdicts(judged: tuple[Verdict, ...]) -> Block:
     """Verdicts on all bearings side by side."""
     rows = []
-    for verdicts in judged:
-        first = next(one for one in verdicts if one is not None)
-        cells = ["" if one is None else f"{one.text} ({one.judgement})" for one in verdicts]
+    for same in side_by_side(judged):
+        first = next(one for one in same if one is not None)
+        cells = ["" if one is None else f"{one.text} ({one.judgement})" for one in same]
         rows.append([first.key.replace("_", " "), *cells, first.limit, first.source])
-    columns = ("", *(f"bearing {k + 1}" for k in range(len(judged[0]))), "limit", "source of the limit")
+    columns = ("", *(f"bearing {k + 1}" for k in range(len(rows[0]) - 3)), "limit", "source of the limit")
     return Table("Verdicts on each bearing from its own loads", columns, rows)

@@ -45,6 +45,11 @@ def number(value: float) -> str:
     return f"{value:.1e}"
 
 
+def tenths(value: float) -> str:
+    """Return a number with one decimal; what rounds to nothing has no sign."""
+    return f"{round(value, 1) + 0.0:.1f}"
+
+
 def markdown(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     """Pipe table."""
     lines = ["| " + " | ".join(columns) + " |", "|" + " --- |" * len(columns)]

@@ -19,15 +19,18 @@ from fmu_bearing.instance import Instance
 class Readable(Protocol):
     """What has the parameters and the state of one bearing: an instance, or a part of a set's."""
 
-    p: NDArray[np.float64]
-    s: NDArray[np.float64]
+    @property
+    def p(self) -> NDArray[np.float64]:
+        """Parameters."""
+
+    @property
+    def s(self) -> NDArray[np.float64]:
+        """State."""
 
 
 _ROWS = 9  # of the state, per ball
 _CAGE = S.Y + Y.Q0 + Q.CAGE
 RACES = ("inner", "outer")
-# load and angle at both races
-_READ = [Z.CONTACT + race * Z.CONTACT_SIZE + k for race in range(2) for k in (Z.LOAD_MEAN, Z.ANGLE_MEAN)]
 
 
 def name_of(ball: int, what: str, race: str = "") -> str:
@@ -69,9 +72,17 @@ class Watch:
 
 
 class Reader:
-    """Reads the balls of one initialised bearing."""
+    """Reads the balls of one initialised bearing.
 
-    def __init__(self, bearing: Readable) -> None:
+    Parameters
+    ----------
+    bearing : Readable
+    what : tuple of int
+        What is read at each race, of the four numbers at ``Z.CONTACT``.
+    """
+
+    def __init__(self, bearing: Readable, what: tuple[int, ...] = (Z.LOAD_MEAN, Z.ANGLE_MEAN)) -> None:
+        self._read = [Z.CONTACT + race * Z.CONTACT_SIZE + k for race in range(len(RACES)) for k in what]
         # without the sound block behind the tables, which is large
         end = int(bearing.p[P.AT_SOUND]) or len(bearing.p)
         self._p: NDArray[np.float64] = bearing.p[:end].copy()
@@ -84,17 +95,17 @@ class Reader:
         self._z: NDArray[np.float64] = np.zeros(len(Z.BEARING_OUTPUTS))
 
     def read(self, bearing: Readable) -> NDArray[np.float64]:
-        """Return azimuth (rad, from 12 o'clock about +X), load (N) and angle (rad) at inner and outer race.
+        """Return azimuth (rad, from 12 o'clock about +X), then what is read at inner and outer race.
 
-        Shape (balls, 5).
+        By default load (N) and angle (rad): shape (balls, 5).
         """
         state = bearing.s[: S.AXES].copy()  # the kernel reads nothing behind
         places = state[self._rows[:, None] + np.arange(self.balls)]
-        found = np.empty((self.balls, 1 + 2 * len(RACES)))
+        found = np.empty((self.balls, 1 + len(self._read)))
         for j in range(self.balls):
             state[self._rows] = places[:, j]
             self._p[self._oversize] = self._diameters[j]
             call("contacts", self._p, state, self._z)
             found[j, 0] = places[Y.TH // STRIDE, j] % (2.0 * math.pi)
-            found[j, 1:] = self._z[_READ]
+            found[j, 1:] = self._z[self._read]
         return found

@@ -82,13 +82,6 @@ class Scene(Tables):
         """
         return bearings_of(self)
 
-    def unmounted(self, what: str, instead: str) -> SceneError:
-        """Return the refusal of a set by ``what`` computes one bearing; ``instead``: the way out."""
-        return SceneError(
-            f"{self.name}: {what} takes one bearing with [mounting] so far, not a set with [spindle]; "
-            f"{instead}"
-        )
-
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> "Scene":
         """Return the scene that nested tables hold, checked and completed as a scene file is.

@@ -49,7 +49,7 @@ def life_of(scene):
     groove = 1.044 * r * (fi / fo * (2 * fo - 1) / (2 * fi - 1)) ** 0.41
     inner = c / (0.407 * z * math.cos(a) ** 0.7) * (1 + groove ** (10 / 3)) ** 0.3
     outer = c / (0.389 * z * math.cos(a) ** 0.7) * (1 + groove ** (-10 / 3)) ** 0.3
-    loads = operating_point(scene).contacts
+    loads = operating_point(scene).bearings[0].contacts
     shares = [(q / loads[k]["load_mean"]) ** (-10 / 3) for k, q in (("inner", inner), ("outer", outer))]
     return sum(shares) ** -0.9 * 1e6 / (60 * turning)
 

@@ -1,8 +1,8 @@
-"""stiffness of a set: table, picture, and the refusals of what belongs to one bearing."""
+"""stiffness of a set: tables of the shaft and of its bearings, picture, elements for ROSS."""
 
 import pytest
 
-from fmu_bearing import shaft_statics
+from fmu_bearing import statics
 from tests.conftest import EXAMPLES
 
 DB = EXAMPLES.parent / "spindle_set" / "7003C-DB.toml"
@@ -16,24 +16,37 @@ def test_table_picture_and_numbers(run, tmp_path):
     assert picture.stat().st_size > 10_000 and len(out.read_text("utf-8").splitlines()) == 5
     assert "7003C-DB at the nose" in told.stdout and "set spindle.shaft.flexible = true" in told.stderr
     data = run("stiffness", DB, "-o", out, "--json").data
-    assert data["nose_stiffness"] == [[pytest.approx(shaft_statics(DB).nose_stiffness)]]
+    assert data["nose"]["nose_stiffness"] == [[pytest.approx(statics(DB).nose_stiffness)]]
     assert data["preloads_N"] == [150.0] and data["speeds_rpm"] == [15000.0]
     changed = run("stiffness", DB, "--set", "spindle.preload.preload_N=300", "-o", out, "--json").data
-    assert changed["nose_stiffness"][0][0] > data["nose_stiffness"][0][0]
+    assert changed["nose"]["nose_stiffness"][0][0] > data["nose"]["nose_stiffness"][0][0]
 
 
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        (("--frequencies", "100"), "--frequencies is for one bearing"),
-        (("--format", "ross"), "--format ross is for one bearing"),
-        (("--spacing", "free"), "--spacing is for one bearing"),
-        (("--set", "nose.force.z=-80"), "--set of an input is for one bearing"),
-        (("-o", "k.nc"), "writes files that end in .csv"),
-    ],
-)
-def test_what_belongs_to_one_bearing_is_refused(run, tmp_path, monkeypatch, arguments, words):
+def test_tables_of_the_bearings_are_written_too(run, tmp_path):
+    out = tmp_path / "k.csv"
+    words = ("--speeds", "15000", "--frequencies", "100,1000", "--set", "nose.force.z=-80")
+    told = run("stiffness", DB, *words, "-o", out)
+    assert told.exit_code == 0, told.output
+    assert {path.name for path in tmp_path.iterdir()} == {"k.csv", "k-1.csv", "k-2.csv"}
+    shown = " ".join(told.stdout.split())
+    assert "7003C-DB at the nose" in shown and "7003C-DB at 1000 Hz" in shown and "│ 2 │ 15000" in shown
+    data = run("stiffness", DB, *words, "-o", out, "--json").data
+    assert [one["bearing"] for one in data["bearings"]] == [1, 2]
+    assert len(data["bearings"][0]["K"][0][0]) == 2
+
+
+def test_elements_for_ross_are_mirrored_where_a_bearing_is(run, tmp_path):
+    words = ("--speeds", "15000", "--frequencies", "1000", "--format", "ross", "-o", tmp_path / "k.toml")
+    data = run("stiffness", DB, *words, "--json").data
+    assert {path.name for path in tmp_path.iterdir()} == {
+        f"k-{b}-{part}.toml" for b in (1, 2) for part in (1, 2)
+    }
+    front, rear = (one["planes"][0]["places_mm"] for one in data["bearings"])
+    assert max(front) < 0.0 < min(rear)
+
+
+def test_a_set_says_which_way_each_bearing_carries(run, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    told = run("stiffness", DB, *arguments)
-    assert told.exit_code == 2 and words in told.stderr
+    told = run("stiffness", DB, "--format", "ross", "--mirrored")
+    assert told.exit_code == 2 and "--mirrored is for one bearing" in told.stderr
     assert not list(tmp_path.iterdir())

@@ -59,9 +59,11 @@ def test_json_holds_all(run, silent_file, tmp_path):
     )
     assert done.exit_code == 0
     data = done.data
-    assert len(data["K"][0][0]) == len(data["frequencies_Hz"]) == 8 and len(data["K"][0][0][0]) == 5
-    assert data["planes"][0]["places_mm"] == [pytest.approx(-2.64, abs=0.02), pytest.approx(-7.15, abs=0.02)]
-    assert len(data["planes"][0]["errors"][0]) == 8
+    (own,) = data["bearings"]
+    assert len(own["K"][0][0]) == len(data["frequencies_Hz"]) == 8 and len(own["K"][0][0][0]) == 5
+    assert data["nose"] is None
+    assert own["planes"][0]["places_mm"] == [pytest.approx(-2.64, abs=0.02), pytest.approx(-7.15, abs=0.02)]
+    assert len(own["planes"][0]["errors"][0]) == 8
     assert [name.rpartition("/")[2] for name in data["files"]] == ["k-1.toml", "k-2.toml"]
 
 

@@ -4,7 +4,8 @@ from dataclasses import replace
 
 import pytest
 
-from fmu_bearing import operating_point, operating_points, verdicts
+from fmu_bearing import operating_point
+from fmu_bearing.design.verdicts import bearing_verdicts
 from fmu_bearing.formulas import makers
 from fmu_bearing.scene import read_scene_text
 from fmu_bearing.scene.nsk import modelled, sizes
@@ -18,17 +19,25 @@ KINDS = ("steel", "hybrid")
 
 
 def judged(point):
-    return {one.key: one for one in verdicts(point)}
+    return {one.key: one for one in bearing_verdicts(point)}
+
+
+def bearings_at(scene):
+    return operating_point(scene).bearings
+
+
+def bearing_at(scene):
+    return bearings_at(scene)[0]
 
 
 @pytest.fixture(scope="module")
 def single(scene):
-    return operating_point(scene("7003C-spindle"))
+    return bearing_at(scene("7003C-spindle"))
 
 
 @pytest.fixture(scope="module")
 def member():
-    return operating_points(set_scene(rpm=12e3))[0]
+    return bearings_at(set_scene(rpm=12e3))[0]
 
 
 def of_size(point, size, force):
@@ -66,7 +75,7 @@ def classes_of(size):
 def test_the_case_that_was_judged_one_class_too_heavy():
     """NSK-7010C, medium 390 N, rigid: 0.7 of 1.25 x 1.75e6, not 0.5 of it."""
     text = new_scene("a", "NSK-7010C", kind="hybrid", sound=False, preload_class="medium", speed_rpm=10e3)
-    told = judged(operating_point(read_scene_text(text).replace({"mounting.preload_mode": "rigid"})))
+    told = judged(bearing_at(read_scene_text(text).replace({"mounting.preload_mode": "rigid"})))
     assert told["preload_class"].text == "390: medium" and told["speed"].limit == "1.53"
     assert "as a rigid medium pair" in told["speed"].source
 
@@ -85,7 +94,7 @@ def a_set(name, force, **keys):
 @pytest.mark.parametrize("preload", ["extra light", "light", "medium", "heavy"])
 def test_one_of_a_set_is_judged_as_a_loose_bearing(name, preload):
     force = sizes()[name].preload[preload].force
-    points = operating_points(a_set(name, force))
+    points = bearings_at(a_set(name, force))
     for point in points:
         told = judged(point)
         assert told["preload_class"].text == f"{force:g}: {preload}"
@@ -103,8 +112,8 @@ def test_every_class_of_every_size_by_itself_and_in_a_set(name):
         text = new_scene(
             "a", name, kind=KINDS[k % 2], sound=False, preload_class=preload, speed_rpm=speed
         )  # fmt: skip
-        alone = operating_point(read_scene_text(text))
-        for point in (alone, *operating_points(a_set(name, one.force, rpm=speed))):
+        alone = bearing_at(read_scene_text(text))
+        for point in (alone, *bearings_at(a_set(name, one.force, rpm=speed))):
             assert judged(point)["preload_class"].text == f"{one.force:g}: {preload}"
 
 
@@ -112,7 +121,7 @@ def test_a_set_that_carries_one_way_has_no_class():
     pushed = set_scene(
         "+", (40.0,), None, 12e3, load={"force_x_N": 500.0}, changes={"bearing.catalogue": "NSK-7003C"}
     )
-    verdict = judged(operating_points(pushed)[0])["preload_class"]
+    verdict = judged(bearings_at(pushed)[0])["preload_class"]
     assert (verdict.judgement, verdict.source) == ("not judged", "no preload")
 
 
@@ -139,6 +148,6 @@ def test_a_key_and_its_verdict_read_the_same_class(scene):
     for values in ({}, {"bearing.designation": "front", "bearing.catalogue": "NSK-7003C"}):
         for name in ("light", "medium", "heavy"):
             asked = base.replace(values | {"mounting.preload_class": name})
-            verdict = judged(operating_point(asked))["preload_class"]
+            verdict = judged(bearing_at(asked))["preload_class"]
             force = asked.mounting.preload_N
             assert verdict.text == f"{force:g}: {name}" and f"{name} {force:g}" in verdict.limit

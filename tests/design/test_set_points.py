@@ -6,18 +6,9 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from fmu_bearing import (
-    operating_point,
-    operating_points,
-    read_scene,
-    set_stiffness,
-    shaft_statics,
-    verdicts,
-)
+from fmu_bearing import operating_point, read_scene, statics, stiffness, verdicts
 from fmu_bearing.cli import app
-from fmu_bearing.design.set_points import life_of_set
 from fmu_bearing.formulas import iso76
-from fmu_bearing.scene import SceneError
 from tests.conftest import ROOT
 from tests.spindle.sets import scene
 
@@ -26,11 +17,12 @@ PAIR = ROOT / "examples" / "spindle_set" / "7003C-DB.toml"
 
 def test_a_pair_under_preload_alone_is_two_bearings_by_themselves():
     given = scene("+-", (40.0, 70.0), 500.0, 15e3)
-    front, rear = operating_points(given)
-    running = float(f"{shaft_statics(given).preloads['running'][0]:.4g}")
-    single = operating_point(
+    pair = operating_point(given)
+    front, rear = pair.bearings
+    running = float(f"{statics(given).preloads['running'][0]:.4g}")
+    (single,) = operating_point(
         front.scene.replace({"mounting.preload_mode": "force", "mounting.preload_N": running})
-    )
+    ).bearings
     for point in (front, rear):
         for race in ("inner", "outer"):
             for key in ("load_mean", "load_max", "angle_mean", "pressure_max"):
@@ -42,22 +34,25 @@ def test_a_pair_under_preload_alone_is_two_bearings_by_themselves():
         assert point.frequencies.f_c == pytest.approx(single.frequencies.f_c, rel=1e-5)
     # two alike live 2^(-9/10) as long as one
     one = 1e6 * single.reference_life / (60.0 * 15e3)
-    assert life_of_set((front, rear)) == pytest.approx(2.0**-0.9 * one, rel=1e-3)
+    assert pair.life == pytest.approx(2.0**-0.9 * one, rel=1e-3)
 
 
 def test_each_bearing_carries_its_own_load():
-    points, found = operating_points(PAIR), shaft_statics(PAIR)
+    pair, found = operating_point(PAIR), statics(PAIR)
+    points = pair.bearings
     for point, one in zip(points, found.bearings, strict=True):
         carried = point.rating
-        assert point.ball_loads["inner"] == pytest.approx(one.ball_loads[0], rel=2e-3, abs=0.05)
+        assert np.array_equal(point.ball_loads["inner"], one.ball_loads[0])
         wanted = iso76.static_load(read_scene(PAIR).bearing.contact_angle_deg, one.axial, one.radial)
         assert carried.static_load == pytest.approx(wanted, rel=1e-9)
     assert points[0].reference_life < points[1].reference_life
     # the preload judged is that of the loose bearing: at standstill and 20 degC
     carried = [p.scene.mounted.preload_N for p in points]
     assert carried == pytest.approx(found.preloads["cold"], rel=5e-4)  # four digits
-    for point in points:
-        assert {one.key for one in verdicts(point)} >= {"pressure", "least_preload", "speed", "life"}
+    for number in (1, 2):
+        keys = {one.key for one in verdicts(pair) if one.bearing == number}
+        assert keys >= {"pressure", "least_preload", "speed", "life"}
+    assert {one.key for one in verdicts(pair) if one.bearing is None} == {"set_life", "lift_off", "whirl"}
 
 
 @pytest.mark.parametrize("rpm", [0.0, 15e3])
@@ -66,17 +61,19 @@ def test_waves_ask_for_nothing_here(rpm):
     wavy = {"imperfections": {"grade": "P4", "seed": 1}, "operation.lowest_speed_rpm": 3000.0}
     given = read_scene(PAIR).replace(wavy | {"operation.speed_rpm": rpm})
     plain = read_scene(PAIR).replace({"operation.speed_rpm": rpm})
-    for one, other in zip(operating_points(given), operating_points(plain), strict=True):
+    for one, other in zip(operating_point(given).bearings, operating_point(plain).bearings, strict=True):
         assert one.friction_torque == other.friction_torque
         assert np.array_equal(one.ball_loads["inner"], other.ball_loads["inner"])
     speeds = [0.0, 10e3]
-    found = set_stiffness(given, speeds).named("axial_stiffness")
-    assert np.array_equal(found, set_stiffness(plain, speeds).named("axial_stiffness"))
+    found = stiffness(given, speeds, [1e3]).named("axial_stiffness")
+    assert np.array_equal(found, stiffness(plain, speeds, [1e3]).named("axial_stiffness"))
 
 
 def test_temperatures_are_those_of_each_bearing():
     given = read_scene(PAIR).replace({"spindle.bearing[2].inner_ring_temperature_degC": 60.0})
-    cool, warm = (point.scene.operation.inner_ring_temperature_degC for point in operating_points(given))
+    cool, warm = (
+        point.scene.operation.inner_ring_temperature_degC for point in operating_point(given).bearings
+    )
     assert (cool, warm) == (42.0, 60.0)
 
 
@@ -88,13 +85,19 @@ def test_info_shows_all_bearings_side_by_side(tmp_path):
     assert shown.exit_code == 0 and "bearing 2" in shown.output
     assert "L10r of all bearings together" in shown.output
     found = json.loads(CliRunner().invoke(app, ["info", str(file), "--json"]).output)
-    assert len(found["operating_points"]) == 2 and found["life_of_set_h"] > 0.0
-    lives = [one for point in found["operating_points"] for one in point["verdicts"] if one["key"] == "life"]
-    assert all(one["judgement"] == "change" for one in lives) and len(lives) == 2
+    assert len(found["bearings"]) == 2 and found["life_h"] > 0.0
+    lives = [one for one in found["verdicts"] if one["key"] == "life"]
+    assert [(one["bearing"], one["judgement"]) for one in lives] == [(1, "change"), (2, "change")]
 
 
-def test_one_bearing_and_several_are_asked_for_by_their_names():
-    with pytest.raises(SceneError, match="operating_points"):
-        operating_point(PAIR)
-    with pytest.raises(SceneError, match=r"needs \[spindle\]"):
-        operating_points(ROOT / "examples" / "scenes" / "7003C-spindle.toml")
+def test_a_single_bearing_is_a_set_of_one():
+    """One door: the same figures by name, and verdicts on the whole where there is one."""
+    single, pair = operating_point(ROOT / "examples" / "scenes" / "7003C-spindle.toml"), operating_point(PAIR)
+    assert single.summary().keys() == pair.summary().keys()
+    for part in ("statics", "bearings"):
+        one, other = single.summary()[part], pair.summary()[part]
+        assert (one[0].keys() == other[0].keys()) if part == "bearings" else one.keys() == other.keys()
+    (one,) = single.bearings
+    assert single.life == pytest.approx(one.life) and not one.on_shaft
+    assert single.statics.bearings[0] is one.load and single.statics.arrangement == "single"
+    assert {one.key for one in verdicts(single) if one.bearing is None} == {"whirl"}

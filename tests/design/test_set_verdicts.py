@@ -3,10 +3,9 @@
 import numpy as np
 import pytest
 
-from fmu_bearing import operating_point, operating_points, read_scene, shaft_statics, verdicts
+from fmu_bearing import operating_point, read_scene, verdicts
 from fmu_bearing.design.rating import reference_life
-from fmu_bearing.design.set_points import life_of_set, set_cautions, set_verdicts
-from fmu_bearing.design.verdicts import side_by_side
+from fmu_bearing.design.verdicts import cautions, side_by_side
 from fmu_bearing.reports import make, set_page
 from tests.conftest import EXAMPLES, GATES
 from tests.oracles import B7003C
@@ -17,8 +16,9 @@ DB = EXAMPLES.parent / "spindle_set" / "7003C-DB.toml"
 QBC = DB.with_name("7003C-QBC.toml")
 
 
-def by_key(found):
-    return {one.key: one for one in found}
+def by_key(point, bearing=None):
+    """Verdicts on a bearing, from 1, or on the whole."""
+    return {one.key: one for one in verdicts(point) if one.bearing == bearing}
 
 
 def pushed(force, **keys):
@@ -26,7 +26,7 @@ def pushed(force, **keys):
 
 
 def test_a_pushed_set_of_one_is_the_single_bearing():
-    (one,) = operating_points(pushed(500.0, signs="+", positions=(40.0,), preload=None, rpm=12e3))
+    set_of_one = operating_point(pushed(500.0, signs="+", positions=(40.0,), preload=None, rpm=12e3))
     single = read_scene(GATES / "7003C-bare.toml").replace(
         {
             "operation.speed_rpm": 12e3,
@@ -38,12 +38,13 @@ def test_a_pushed_set_of_one_is_the_single_bearing():
             "fidelity.terms.gravity": False,
         }
     )
-    other = operating_point(single)
+    alone = operating_point(single)
+    (one,), (other,) = set_of_one.bearings, alone.bearings
     for ring in ("inner", "outer"):
         # one solves for the force within 1e-8 of it, the other for the place
         assert one.contacts[ring] == pytest.approx(other.contacts[ring], rel=1e-6)
     assert one.rating == pytest.approx(other.rating, rel=1e-6)
-    ours, theirs = by_key(verdicts(one)), by_key(verdicts(other))
+    ours, theirs = by_key(set_of_one, 1), by_key(alone, 1)
     assert ours.keys() == theirs.keys()
     # its name of the load differs, and no preload loads it
     assert (ours["preload_class"].judgement, ours["preload_class"].source) == ("not judged", "no preload")
@@ -53,54 +54,54 @@ def test_a_pushed_set_of_one_is_the_single_bearing():
 
 def test_life_of_each_bearing_is_that_of_independent_ball_loads():
     rpm = 12e3
-    points = operating_points(pushed(200.0, rpm=rpm))
+    points = operating_point(pushed(200.0, rpm=rpm)).bearings
     model = JonesHarris(B7003C, "outer", control="outer")
     for one in points:
         solved = model.solve((one.axial, 0.0, 0.0), rpm * np.pi / 30.0, moment=(0.0, 0.0))
         loads = [
             np.array([getattr(ball, f"{race}_load") for ball in solved.balls]) for race in ("inner", "outer")
         ]
-        # loads agree within 1e-5, life goes with their third power
-        assert one.reference_life == pytest.approx(reference_life(one.scene, *loads), rel=1e-4)
+        # loads agree within 5e-5, by the friction across that the start has; life goes with their third power
+        assert one.reference_life == pytest.approx(reference_life(one.scene, *loads), rel=5e-4)
 
 
 def test_a_set_lives_as_long_as_all_of_its_bearings_survive():
-    points = operating_points(QBC)
-    rpm = points[0].scene.operation.speed_rpm
+    found = operating_point(QBC)
+    points, rpm = found.bearings, found.scene.operation.speed_rpm
     lives = np.array([one.reference_life * 1e6 / (60.0 * rpm) for one in points])
     # the chance of each at the life of the set: exp(-ln(1/0.9) (L / L_i)^e)
-    survive = np.prod(0.9 ** ((life_of_set(points) / lives) ** (10.0 / 9.0)))
+    survive = np.prod(0.9 ** ((found.life / lives) ** (10.0 / 9.0)))
     assert survive == pytest.approx(0.9, rel=1e-12)
 
 
 def test_life_asked_for_is_judged_of_the_set_and_of_each_bearing():
-    points, found = operating_points(DB), shaft_statics(DB)
-    life = by_key(set_verdicts(found, points))["set_life"]
+    found = operating_point(DB)
+    life = by_key(found)["set_life"]
     # 20,400 h
-    assert (life.judgement, life.limit) == ("good", "20000 assumed") and life.value == life_of_set(points)
-    shortest = min(by_key(verdicts(one))["life"].value for one in points)
+    assert (life.judgement, life.limit) == ("good", "20000 assumed") and life.value == found.life
+    shortest = min(by_key(found, number)["life"].value for number in (1, 2))
     assert life.value < shortest
     # between both: each bearing lives long enough, the set does not
     asked = read_scene(DB).replace({"operation.required_life_h": 0.5 * (life.value + shortest)})
-    points, found = operating_points(asked), shaft_statics(asked)
-    assert all(by_key(verdicts(one))["life"].judgement == "good" for one in points)
-    life = by_key(set_verdicts(found, points))["set_life"]
+    found = operating_point(asked)
+    assert all(by_key(found, number)["life"].judgement == "good" for number in (1, 2))
+    life = by_key(found)["set_life"]
     assert life.judgement == "change" and "relieve the bearing with the shortest life" in life.advice
 
 
 def test_a_life_of_a_set_that_says_no_more_is_capped():
     given = scene(preload=30.0, rpm=3e3)
-    points, found = operating_points(given), shaft_statics(given)
-    life = by_key(set_verdicts(found, points))["set_life"]
+    found = operating_point(given)
+    life = by_key(found)["set_life"]
     assert life.value > 1e6 and (life.text, life.judgement) == ("> 1e6", "good")
-    (shown,) = [one for one in set_page._tiles(found, points) if one["key"] == "life_h"]
+    (shown,) = [one for one in set_page._tiles(found) if one["key"] == "life_h"]
     assert (shown["text"], shown["value"]) == ("> 1e6", life.value)
 
 
 def test_lift_off_over_the_load_that_is_given():
     def judged(force):
         given = pushed(force, preload=500.0)
-        return by_key(set_verdicts(shaft_statics(given), operating_points(given))).get("lift_off")
+        return by_key(operating_point(given)).get("lift_off")
 
     # a pair of 7003C with 500 N lifts off at 4.387 times the preload (design study)
     one = judged(1000.0)
@@ -114,22 +115,23 @@ def test_lift_off_over_the_load_that_is_given():
 def test_a_bearing_skids_by_the_load_that_it_carries():
     """The preload alone would be enough: the load takes it from the rear bearing."""
     given = pushed(700.0, preload=100.0, rpm=3e4)
-    points, found = operating_points(given), shaft_statics(given)
-    front, rear = (by_key(verdicts(one))["least_preload"] for one in points)
-    assert [front.value, rear.value] == pytest.approx([max(one.axial, 0.0) for one in found.bearings])
+    found = operating_point(given)
+    points = found.bearings
+    front, rear = (by_key(found, number)["least_preload"] for number in (1, 2))
+    assert [front.value, rear.value] == pytest.approx([max(one.load.axial, 0.0) for one in points])
     # 106 N of preload, 12 N against skidding, 7 N are left
     assert points[1].scene.mounting.preload_N > 5.0 * points[1].least_preload > 7.0 * rear.value
     assert (front.judgement, rear.judgement) == ("good", "change")
-    assert any(line.startswith("bearing 2: axial load") for line in set_cautions(found, points))
+    assert any(line.startswith("bearing 2: axial load") for line in cautions(found))
 
 
 def test_a_bearing_without_load_has_figures_missing_and_all_are_told(tmp_path):
     given = pushed(2500.0, preload=500.0)
-    points = operating_points(given)
-    assert points[1].axial == 0.0
-    rows = list(side_by_side(points))
+    found = operating_point(given)
+    assert found.bearings[1].axial == pytest.approx(0.0, abs=1e-9)
+    rows = list(side_by_side(verdicts(found)))
     missing = {row[0].key for row in rows if row[1] is None}
     assert missing == {"static_safety", "static_safety_pressure"}
-    assert {row[0].key for row in rows} == by_key(verdicts(points[0])).keys()
+    assert {row[0].key for row in rows} == by_key(found, 1).keys()
     made = make(given, tmp_path / "free.html")
     assert made.sections["verdicts"] == "" and any("2194 N" in line for line in made.warnings)

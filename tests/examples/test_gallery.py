@@ -34,7 +34,7 @@ def test_where_the_resonance_meets_a_line(preload, line):
     gallery = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(gallery)
     scene = read_scene(EXAMPLES / "7003C-spindle.toml").replace({"mounting.preload_N": preload})
-    point = operating_point(scene)
+    (point,) = operating_point(scene).bearings
     # 10 N beside the place: the resonance goes with the cube root of that
     assert gallery.resonance(point) == pytest.approx(line(point.frequencies), rel=0.01)
 

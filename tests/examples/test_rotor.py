@@ -18,6 +18,11 @@ SCRIPT = ROOT / "examples" / "rotor" / "round_trip.py"
 ROSS = os.environ.get("FMU_BEARING_ROSS")
 
 
+def table_of(*arguments, **options):
+    """The table of a single bearing."""
+    return stiffness(*arguments, **options).bearings[0]
+
+
 @pytest.fixture(scope="module")
 def script():
     spec = importlib.util.spec_from_file_location("round_trip", SCRIPT)
@@ -30,7 +35,7 @@ def script():
 
 @pytest.fixture(scope="module")
 def table(script):
-    return stiffness(script.SCENE, script.SPEEDS[[0, 2]], [100.0, 1000.0, 10000.0])
+    return table_of(script.SCENE, script.SPEEDS[[0, 2]], [100.0, 1000.0, 10000.0])
 
 
 def test_nodes_stand_at_the_planes(script, table):

@@ -6,7 +6,7 @@ import fmpy
 import numpy as np
 import pytest
 
-from fmu_bearing import read_scene, shaft_statics
+from fmu_bearing import read_scene, statics
 from tests.conftest import ROOT
 
 SET = ROOT / "examples" / "spindle_set"
@@ -80,7 +80,7 @@ def test_the_torque_of_the_motor_turns_the_spindle_up(short):
 def test_forces_of_the_bearings_carry_load_and_weight(short):
     scene, plan, table, _ = short
     hold = table[table["time"] > plan.end_time - 0.1]
-    load = shaft_statics(scene).load  # the tool's and the weight, moved to the nose
+    load = statics(scene).load  # the tool's and the weight, moved to the nose
     for axis, wanted in zip("xyz", load, strict=False):
         carried = sum(hold[f"bearing[{b}].force.{axis}"] for b in range(1, BEARINGS + 1)).mean()
         # the rest is the shaft's acceleration: its mean is the change of velocity over 0.1 s. At 20,000 r/min

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fmu_bearing import shaft_statics
+from fmu_bearing import statics
 from fmu_bearing.engine.layout import SP, S
 from fmu_bearing.engine.status import BAD_INPUT, BAD_STEP, OK
 from tests.spindle.runs import SetRun
@@ -59,7 +59,7 @@ def test_a_rear_bearing_without_load_at_the_start():
 
 @pytest.mark.parametrize("rise", [10.0, 40.0, -40.0])
 def test_warmth_in_a_ramp_ends_at_the_loads_of_statics(rise):
-    still = shaft_statics(
+    still = statics(
         pair(
             changes={
                 "operation.inner_ring_temperature_degC": 20.0 + rise,

@@ -11,10 +11,15 @@ from fmu_bearing import stiffness
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import P, Q
 from fmu_bearing.modal.equations.linearised import linearised
-from fmu_bearing.modal.stiffness.impedance import at_rest
-from fmu_bearing.modal.stiffness.planes import errors, mirrored_matrix, planes
+from fmu_bearing.steady.impedance import at_rest
+from fmu_bearing.steady.stiffness.planes import errors, mirrored_matrix, planes
 
 X, Y, Z, BY, BZ = range(5)
+
+
+def table_of(*arguments, **options):
+    """The table of a single bearing."""
+    return stiffness(*arguments, **options).bearings[0]
 
 
 def bearing(radial, tilt, coupling, axial=5e7, cross=0.0):
@@ -30,7 +35,7 @@ def bearing(radial, tilt, coupling, axial=5e7, cross=0.0):
 def table(scene):
     """Five speeds and six frequencies."""
     spindle = scene("7003C-spindle").replace({"sound": None, "imperfections": None})
-    return stiffness(spindle, np.linspace(8e3, 28e3, 5), np.geomspace(50, 8e3, 6), preloads=[500.0, 800.0])
+    return table_of(spindle, np.linspace(8e3, 28e3, 5), np.geomspace(50, 8e3, 6), preloads=[500.0, 800.0])
 
 
 def test_planes_of_the_7003C(table):

@@ -14,12 +14,17 @@ from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import C, P, Q, S, U, Y as ROW
 from fmu_bearing.instance import EngineError
 from fmu_bearing.modal.equations.linearised import linearised
-from fmu_bearing.modal.stiffness.impedance import impedance, spaced
-from fmu_bearing.modal.stiffness.stiffness_files import columns, unit
+from fmu_bearing.steady.impedance import impedance, spaced
+from fmu_bearing.steady.stiffness.stiffness_files import columns, unit
 from tests.modal.energy import stiffness as energy_hessian
 from tests.modal.orbit import along, circling
 
 X, Y, Z, BY, BZ = range(5)
+
+
+def table_of(*arguments, **options):
+    """The table of a single bearing."""
+    return stiffness(*arguments, **options).bearings[0]
 
 
 @pytest.fixture(scope="module")
@@ -33,13 +38,13 @@ def spindle(scene):
 @pytest.fixture(scope="module")
 def table(spindle):
     """Three speeds, three preloads, five frequencies."""
-    return stiffness(spindle, [5e3, 20e3, 28e3], [50, 200, 1e3, 3e3, 1e4], preloads=[200, 500, 1000])
+    return table_of(spindle, [5e3, 20e3, 28e3], [50, 200, 1e3, 3e3, 1e4], preloads=[200, 500, 1000])
 
 
 @pytest.mark.parametrize("spacing", ["held", "free"])
 def test_gate_of_the_7003C(spindle, spacing):
     # an independent program with all forces moving, 500 N, 20,000 r/min; 0.3 % by the specification
-    k = stiffness(spindle, [20e3], [1e3], spacing=spacing).K[0, 0, 0]
+    k = table_of(spindle, [20e3], [1e3], spacing=spacing).K[0, 0, 0]
     assert k[X, X] == pytest.approx(5.563e7, rel=3e-3)
     assert k[Y, Y] == pytest.approx(1.623e8, rel=3e-3)
     assert k[BY, BY] == pytest.approx(4720.0, rel=3e-3)
@@ -82,7 +87,7 @@ def test_symmetry_under_axial_load(table):
 
 
 def test_slow_motion_meets_the_stiffness_at_rest(spindle, table):
-    slow = stiffness(spindle, [20e3], [0.1], preloads=[200, 500, 1000])
+    slow = table_of(spindle, [20e3], [0.1], preloads=[200, 500, 1000])
     # the spin of the balls follows at 1e3 1/s here, K differs by the square of the ratio
     np.testing.assert_allclose(slow.K[0, :, 0], slow.static[0], rtol=1e-5, atol=1.0)
     np.testing.assert_array_equal(slow.static[0], table.static[1])
@@ -98,13 +103,13 @@ def test_a_light_load_at_speed_is_further_from_it(scene):
     light = scene("7009C-full-ceramic").replace(
         {"sound": None, "imperfections": None, "fidelity.terms.gravity": False}
     )
-    found = stiffness(light, [18e3], [0.1, 1e3], preloads=[175.0])
+    found = table_of(light, [18e3], [0.1, 1e3], preloads=[175.0])
     arrays = linearised(light, {U.SPEED: 18e3 * RPM, U.PRELOAD: 175.0}).bearings[0].arrays
     # friction moves the balls with the ring; by the energy in the contacts there would be some per cent more
     off = np.diag(found.static[0, 0]) / np.diag(energy_hessian(arrays.p, arrays.s)) - 1.0
     assert 0.02 < np.abs(off).max() < 0.07
     assert not any("for frequency to 0" in line for line in found.cautions())
-    faster = stiffness(light, [18e3], [1e3], preloads=[175.0])
+    faster = table_of(light, [18e3], [1e3], preloads=[175.0])
     # at 1 kHz spins do not follow any more
     assert faster.against_static() == pytest.approx(0.19, abs=0.01)
     assert any("K at 1000 Hz differs from that for frequency to 0" in line for line in faster.cautions())
@@ -115,8 +120,8 @@ def test_a_light_load_at_speed_is_further_from_it(scene):
 )
 def test_the_matrix_at_rest_is_that_of_the_operating_point(scene, mode, bends):
     known = scene("7003C-bare").replace({"mounting.preload_mode": mode, "mounting.flexure": bends})
-    found = stiffness(known, [12e3, 20e3], [500.0])
-    np.testing.assert_array_equal(found.static[1, 0], operating_point(known).stiffness)
+    found = table_of(known, [12e3, 20e3], [500.0])
+    np.testing.assert_array_equal(found.static[1, 0], operating_point(known).bearings[0].stiffness)
     np.testing.assert_array_equal(found.own[0], found.static[1, 0])
     assert found.static[0, 0, X, X] != found.static[1, 0, X, X]
 
@@ -132,7 +137,7 @@ def test_full_loaded_slowly_gives_way_by_the_matrix_at_rest(scene, name):
             "mounting.pedestal_stiffness_N_m": 1e11,
         }
     )  # fmt: skip
-    expected, force, places = operating_point(light).stiffness[Y, Y], 10.0, []
+    expected, force, places = operating_point(light).bearings[0].stiffness[Y, Y], 10.0, []
     for load in (force, -force):
         run = Arrays.of(light, CAGE=0.0, TILT_STIFFNESS=1e6, TILT_DAMPING=5.0)
         run.u[U.LOAD_Y] = load
@@ -149,12 +154,12 @@ def test_full_loaded_slowly_gives_way_by_the_matrix_at_rest(scene, name):
 
 def test_a_constant_force_is_no_constant_place(spindle):
     warm = {"inner_ring_temperature": 293.15 + 20.0}
-    cold, hot = (stiffness(spindle, [20e3], [1e3], inputs=one).K[0, 0, 0] for one in ({}, warm))
+    cold, hot = (table_of(spindle, [20e3], [1e3], inputs=one).K[0, 0, 0] for one in ({}, warm))
     # the angle falls: -13 % and +7 % by the specification
     assert hot[X, X] / cold[X, X] - 1.0 == pytest.approx(-0.13, abs=0.01)
     assert hot[Y, Y] / cold[Y, Y] - 1.0 == pytest.approx(0.07, abs=0.01)
     # with rigid preload the load rises, and axial stiffness with it
-    rigid = stiffness(spindle.replace({"mounting.preload_mode": "rigid"}), [20e3], [1e3], inputs=warm)
+    rigid = table_of(spindle.replace({"mounting.preload_mode": "rigid"}), [20e3], [1e3], inputs=warm)
     assert rigid.K[0, 0, 0, X, X] > 1.05 * hot[X, X] and rigid.K[0, 0, 0, Y, Y] > 1.02 * hot[Y, Y]
 
 
@@ -166,18 +171,18 @@ def test_rigid_preload_is_the_force_that_its_place_means(spindle):
     # what its place pushes the pedestal by
     force = arrays.s[S.Y + ROW.Q0 + Q.OUTER] * arrays.s[S.C + C.PEDESTAL_AXIAL]
     assert force > 550.0  # warmth presses what preload_N pressed with 500 N when cold
-    one = stiffness(rigid, [20e3], [300.0, 2e3], inputs=warm)
-    other = stiffness(spindle, [20e3], [300.0, 2e3], preloads=[force], inputs=warm)
+    one = table_of(rigid, [20e3], [300.0, 2e3], inputs=warm)
+    other = table_of(spindle, [20e3], [300.0, 2e3], preloads=[force], inputs=warm)
     # the place is found to 1e-9 of the load
     np.testing.assert_allclose(one.K, other.K, rtol=1e-6, atol=1e-6 * np.abs(other.K[0, 0, 0, BY, BY]))
     assert one.K[0, 0, 0, X, X] > 1e7
 
 
 def test_free_balls_bunch_at_the_frequency_of_their_orbit(spindle):
-    f_c = stiffness(spindle, [20e3], [1.0]).orbit[0, 0]
+    f_c = table_of(spindle, [20e3], [1.0]).orbit[0, 0]
     assert f_c == pytest.approx(139.86, rel=1e-3)  # 0.4196 of the shaft
     around = f_c * np.array([0.5, 0.99, 1.01, 2.0, 20.0])
-    held, free = (stiffness(spindle, [20e3], around, spacing=one) for one in ("held", "free"))
+    held, free = (table_of(spindle, [20e3], around, spacing=one) for one in ("held", "free"))
     off = np.abs(free.K[0, 0, :, Y, Y] / held.K[0, 0, :, Y, Y] - 1.0)
     assert off[1] > 0.02 and off[2] > 0.02  # to both sides of a pole
     assert off[0] < 2e-3 and off[3] < 1e-3 and off[4] < 3e-4
@@ -196,7 +201,7 @@ def test_springs_between_balls_keep_them_apart(scene):
 
 def test_radial_load_is_a_mean_over_one_pitch(spindle):
     light, one, turned = (
-        stiffness(spindle, [20e3], [300.0, 3e3], inputs=load)
+        table_of(spindle, [20e3], [300.0, 3e3], inputs=load)
         for load in ({"radial_load.z": -300.0}, {"radial_load.z": -1e3}, {"radial_load.y": -1e3})
     )
     k = one.K[0, 0, 0]
@@ -216,13 +221,13 @@ def test_bending_rings_count_where_loads_are_unequal(scene):
         {"sound": None, "imperfections": None, "fidelity.terms.gravity": False, "mounting.flexure": None}
     )
     bending = rigid.replace({"mounting.flexure": {"outer_ring": [2, 3], "inner_ring": [2]}})
-    one, other = (stiffness(each, [10e3], [500.0]) for each in (rigid, bending))
+    one, other = (table_of(each, [10e3], [500.0]) for each in (rigid, bending))
     # round equal loads a motion of the ring has no share in orders 2 and more
     np.testing.assert_allclose(other.K[0, 0, 0, Y, Y], one.K[0, 0, 0, Y, Y], rtol=1e-7)
     np.testing.assert_allclose(one.static, other.static, rtol=1e-6, atol=1.0)
     assert any("rings bend" in line for line in other.cautions())
     load = {"radial_load.z": -600.0}
-    one, other = (stiffness(each, [10e3], [500.0], inputs=load) for each in (rigid, bending))
+    one, other = (table_of(each, [10e3], [500.0], inputs=load) for each in (rigid, bending))
     assert other.K[0, 0, 0, Z, Z] < 0.999 * one.K[0, 0, 0, Z, Z]
 
 
@@ -276,23 +281,21 @@ def test_a_whirl_that_feeds_on_the_shaft_is_told(table, sign):
 )
 def test_values_that_are_refused(spindle, options, words):
     with pytest.raises(ValueError, match=re.escape(words)):
-        stiffness(spindle, **options)
+        table_of(spindle, **options)
 
 
 def test_where_there_is_no_equilibrium(spindle):
     soft = {"pedestal_stiffness": 1e4, "radial_load.z": -3e3}
     with pytest.raises(EngineError, match="7003C-spindle: initialisation: the loads push the outer ring"):
-        stiffness(spindle, [20e3], [100.0], inputs=soft)
+        table_of(spindle, [20e3], [100.0], inputs=soft)
 
 
 def test_a_bearing_without_preload_is_told(spindle):
-    assert any(
-        "loose balls" in line for line in stiffness(spindle, [1e4], [100.0], preloads=[0.0]).cautions()
-    )
+    assert any("loose balls" in line for line in table_of(spindle, [1e4], [100.0], preloads=[0.0]).cautions())
 
 
 def test_standstill_is_told(spindle):
-    still = stiffness(spindle, [0.0], [1e3])
+    still = table_of(spindle, [0.0], [1e3])
     assert any(line.startswith("0 r/min: contacts that do not roll stick") for line in still.cautions())
     # nothing turns: no force at right angles to the motion, no whirl that feeds on the shaft
     assert abs(still.K[0, 0, 0, Y, Z]) < 1e-6 * still.K[0, 0, 0, Y, Y]

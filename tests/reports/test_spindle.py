@@ -3,9 +3,8 @@
 import pytest
 from typer.testing import CliRunner
 
-from fmu_bearing import shaft_statics
+from fmu_bearing import operating_point, statics
 from fmu_bearing.cli import app
-from fmu_bearing.design.set_points import life_of_set, operating_points
 from fmu_bearing.progress import silent
 from fmu_bearing.reports import make
 from fmu_bearing.reports.set_page import _warmth
@@ -21,10 +20,10 @@ def test_page_of_a_pair_has_all_sections_and_the_figures_of_statics(tmp_path):
     assert not any(made.sections.values()) and made.recording is None
     text = made.path.read_text(encoding="utf-8")
     assert "DB (O)" in text and "bearing 2" in text and made.size == len(text.encode())
-    found = shaft_statics(PAIR)
+    found = statics(PAIR)
     assert made.figures["nose_stiffness"] == pytest.approx(1e-6 * found.nose_stiffness)
     assert made.figures["lift_off_N"] == pytest.approx(min(abs(x.load) for x in found.lift_off.values()))
-    assert made.figures["life_h"] == pytest.approx(life_of_set(operating_points(PAIR)))
+    assert made.figures["life_h"] == pytest.approx(operating_point(PAIR).life)
     assert any(line.startswith("bearing 1: contact pressure") for line in made.warnings)
 
 
@@ -65,14 +64,14 @@ def test_options_of_a_run_are_refused(tmp_path, option):
 
 def test_inner_rings_of_their_own_temperature_become_warmer_too():
     given = scene(bearings=[{"inner_ring_temperature_degC": 45.0}, {}])
-    found = shaft_statics(given)
+    found = statics(given)
     curves = {one.name: one.y for one in _warmth(given, found, silent).figure.data}
     warmer = given.replace(
         {"operation.inner_ring_temperature_degC": given.operation.inner_ring_temperature_degC + 20.0}
         | {"spindle.bearing[1].inner_ring_temperature_degC": 65.0}
         | {"spindle.shaft.temperature_degC": given.operation.inner_ring_temperature_degC}
     )
-    wanted = shaft_statics(warmer).preloads["running"][0]
+    wanted = statics(warmer).preloads["running"][0]
     assert curves["inner rings warmer"][-1] == pytest.approx(wanted, rel=1e-9)
     assert curves["inner rings warmer"][-1] > 1.2 * curves["inner rings warmer"][0]
 

@@ -26,10 +26,11 @@ def point_of(subject):
 def test_rows_are_those_of_the_run_that_the_table_heads(subject):
     """Pressure, film and shoulder are those of the run's extremes, as the figures above the table."""
     rpm, point = subject.speed / RPM, point_of(subject)
+    (bearing,) = point.bearings
     for ring in ("inner", "outer"):
-        point.contacts[ring]["pressure_max"] = subject.output(f"contact.{ring}.pressure_max").max()
-        point.contacts[ring]["shoulder_margin"] = subject.output(f"contact.{ring}.shoulder_margin").min()
-    point = replace(point, film=subject.output("film.lambda_min").min())
+        bearing.contacts[ring]["pressure_max"] = subject.output(f"contact.{ring}.pressure_max").max()
+        bearing.contacts[ring]["shoulder_margin"] = subject.output(f"contact.{ring}.shoulder_margin").min()
+    point = replace(point, bearings=(replace(bearing, film=subject.output("film.lambda_min").min()),))
     table = verdict_table(subject)
     assert table.rows == [[v.label, v.text, v.judgement, v.limit, v.source] for v in verdicts(point)]
     assert f"{rpm:,.0f} r/min" in table.caption

@@ -6,7 +6,7 @@ import warnings
 import numpy as np
 import pytest
 
-from fmu_bearing import Bearing, read_scene, shaft_statics, simulate, sweep, with_fidelity
+from fmu_bearing import Bearing, read_scene, simulate, statics, sweep, with_fidelity
 from fmu_bearing.engine.layout import SP, P, Z
 from fmu_bearing.instance import EngineError
 from fmu_bearing.interface import variables
@@ -18,6 +18,7 @@ from fmu_bearing.run.metrics import measure
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.member import one_of
 from tests.conftest import EXAMPLES
+from tests.spindle.rest import oracle
 from tests.spindle.sets import scene, tables
 from tests.spindle.test_dynamics_oracle import NO_CAGE
 
@@ -113,30 +114,35 @@ def test_each_bearing_has_the_variables_of_a_single_one():
     assert held == set() and "housing.velocity.x" in names
 
 
-# friction along the tracks, which statics leaves out, is 0.6e-3 of the loads of the one, 1.2e-3 of the other;
-# friction across them, which it shares by assumption, 0.8e-3 more of the other. The balls of QBC, which is
+# friction along the tracks, which the oracle leaves out, is 0.6e-3 of the loads of the one, 1.2e-3 of the
+# other; friction across them, which it shares by assumption, 0.8e-3 more of the other. The balls of QBC,
 # loaded across the axis, settle while the rings stay where quasi-static bearings hold them: 1.7 %
 @pytest.mark.parametrize(("file", "friction"), [(DB, 1e-3), (QBC, 2e-2)], ids=["DB", "QBC"])
 def test_forces_at_the_start_are_those_of_statics(file, friction):
     perfect = read_scene(file).replace({"imperfections": None, "spindle.shaft.unbalance": ()})
-    found = shaft_statics(perfect)
+    found, known = statics(perfect), oracle(perfect)
     bearing = Bearing(perfect)
     bearing.init()
-    largest = max(np.linalg.norm(one.moment) for one in found.bearings)
-    for one in found.bearings:
+    wanted = [-held.force * (one.sign, 1, 1, one.sign, one.sign)
+              for one, held in zip(found.bearings, known.held, strict=True)]  # fmt: skip
+    largest = max(np.linalg.norm(one[3:]) for one in wanted)
+    for one, held in zip(found.bearings, wanted, strict=True):
         force = [bearing[f"bearing[{one.number}].force.{axis}"] for axis in "xyz"]
         moment = [bearing[f"bearing[{one.number}].moment.{axis}"] for axis in "yz"]
-        assert force == pytest.approx(one.force, abs=friction * np.linalg.norm(one.force))
-        assert moment == pytest.approx(one.moment, abs=2.0 * friction * largest)
+        assert force == pytest.approx(one.force) and moment == pytest.approx(one.moment)
+        assert force == pytest.approx(held[:3], abs=friction * np.linalg.norm(held[:3]))
+        assert moment == pytest.approx(held[3:], abs=2.0 * friction * largest)
     # 5e-3: the nose leans on the same stiffness, preload and friction come off
     nose = [bearing[f"shaft.nose.displacement.{axis}"] for axis in "xyz"]
-    assert nose == pytest.approx(found.displacement[:3], abs=5e-3 * np.linalg.norm(found.displacement[:3]))
+    assert nose == pytest.approx(known.shaft[:3], abs=5e-3 * np.linalg.norm(known.shaft[:3]))
+    assert nose == pytest.approx(found.displacement[:3])
     for _ in range(40):
         bearing.step(1e-3)
-    for one in found.bearings:
+    for one, held in zip(found.bearings, wanted, strict=True):
         force = [bearing[f"bearing[{one.number}].force.{axis}"] for axis in "xyz"]
         # what the start set ringing is still 2e-3 to 4e-3
-        assert force == pytest.approx(one.force, abs=6e-3 * np.linalg.norm(one.force))
+        assert force == pytest.approx(held[:3], abs=6e-3 * np.linalg.norm(held[:3]))
+        assert force == pytest.approx(one.force, abs=(6e-3 + friction) * np.linalg.norm(one.force))
 
 
 def test_sums_are_sums_and_lost_power_is_heat():

@@ -13,17 +13,17 @@ from fmu_bearing import (
     compare,
     identify,
     modes,
+    operating_point,
     read_scene,
     record,
-    shaft_statics,
+    statics,
+    stiffness,
 )
 from fmu_bearing.accuracy.sensitivity import sensitivity
 from fmu_bearing.accuracy.tradeoff import tradeoff
 from fmu_bearing.acoustics.analysis.field import circles
 from fmu_bearing.acoustics.radiation.radiators import Air
 from fmu_bearing.cli import app
-from fmu_bearing.design.set_points import operating_points
-from fmu_bearing.design.set_stiffness import set_stiffness
 from fmu_bearing.engine.choices import FIDELITIES
 from fmu_bearing.recording.studies.level_estimator import LevelEstimator
 from fmu_bearing.reports import make
@@ -149,7 +149,7 @@ def test_what_a_row_names_is_refused_in_its_words(row, scene, subject, door, tmp
 @pytest.mark.parametrize(
     "use",
     [
-        shaft_statics, operating_points, set_stiffness, modes,
+        statics, operating_point, stiffness, modes,
         lambda scene: campbell(scene, [5e3, 1e4, 2e4]),
     ],
 )  # fmt: skip

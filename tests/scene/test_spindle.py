@@ -5,7 +5,7 @@ import time
 
 import pytest
 
-from fmu_bearing import operating_point, read_scene, stiffness, with_fidelity
+from fmu_bearing import read_scene
 from fmu_bearing.scene import Scene, SceneError, read_scene_text
 from fmu_bearing.scene.origins import origins
 from tests.conftest import GATES, ROOT
@@ -141,26 +141,12 @@ def test_what_does_not_fit_is_refused_with_the_way_out(data, message):
     assert any(message in line for line in lines), lines
 
 
-@pytest.mark.parametrize(
-    ("use", "what", "instead"),
-    [
-        (operating_point, "an operating point", "operating_points"),
-        (stiffness, "a table of stiffness over frequency", "set_stiffness"),
-    ],
-)
-def test_what_cannot_take_a_set_says_so_in_one_sentence(use, what, instead, tmp_path, monkeypatch):
-    """At once: also where `auto` would have to be probed before."""
-    monkeypatch.chdir(tmp_path)
-    says = rf"^7003C-DB: {what} takes one bearing with \[mounting\] so far, .*; take `{instead}`$"
-    with pytest.raises(SceneError, match=says):
-        use(with_fidelity(read_scene(FILE), model="auto"))
+def test_loads_of_the_shaft_are_of_sets():
+    from fmu_bearing import statics
 
-
-def test_a_mounted_scene_is_no_set():
-    from fmu_bearing import shaft_statics
-
-    with pytest.raises(SceneError, match=r"a set of bearings needs \[spindle\] in the place of \[mounting\]"):
-        shaft_statics(GATES / "7003C-bare.toml")
+    for load in ({"force": (1.0, 0.0, 0.0)}, {"at": 0.1}, {"moment": (1.0, 0.0)}):
+        with pytest.raises(SceneError, match=r"are of the shaft of a set; .* of \[mounting\]"):
+            statics(GATES / "7003C-bare.toml", **load)
 
 
 @pytest.mark.parametrize("section", [[1.0, 17.0, 0.0], [0.0, "wide", -1.0]])

@@ -19,8 +19,8 @@ from fmu_bearing.prepare.model import pack
 from fmu_bearing.scene import si
 from fmu_bearing.scene.mounting import Mounting
 from fmu_bearing.scene.spindle import SetHousing
-from fmu_bearing.spindle.assembly import assembly
 from tests.oracles import spindle_dynamics as oracle
+from tests.spindle.rest import assembly
 
 _PEDESTAL = slice(C.PEDESTAL, C.VISCOSITY)  # stiffness and damping under the outer ring
 _RELATIVE = [0, 1, 2, 4, 5]  # coordinates of the outer ring against which the inner one moves

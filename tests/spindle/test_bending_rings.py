@@ -126,9 +126,9 @@ def test_modes_of_every_bearing_are_outputs():
 
 
 def _state(one, number):
-    from fmu_bearing.prepare.lengths import members
+    from fmu_bearing.prepare.lengths import parts_of
 
-    return members(one.p)[number - 1][1]
+    return parts_of(one.p)[number - 1][1]
 
 
 def test_tight_seats_are_refused_with_the_way_out():

@@ -6,7 +6,7 @@ import math
 import pytest
 
 from fmu_bearing.results.picture_parts import single
-from fmu_bearing.spindle.drawing import draw_set, pressure_centres
+from fmu_bearing.steady.drawing import draw_set, pressure_centres
 from tests.conftest import ROOT
 from tests.spindle.sets import scene
 

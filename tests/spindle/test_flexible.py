@@ -6,15 +6,14 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
-from fmu_bearing import shaft_statics
+from fmu_bearing import statics
 from fmu_bearing.elastic.shaft import shaft_model
 from fmu_bearing.elastic.shaft.flexible import flexible_model
 from fmu_bearing.elastic.shaft.sections import shaft_sections
 from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.prepare.bodies import inner_ring
 from fmu_bearing.scene import Scene
-from fmu_bearing.spindle.assembly import assembly
-from fmu_bearing.spindle.equilibrium import rest
+from tests.spindle.rest import assembly, rest
 from tests.spindle.sets import scene, tables
 
 QBC = ("++--", (40.0, 55.0, 140.0, 155.0))
@@ -27,7 +26,7 @@ def spindle(*args, flexible=True, **keys):
 
 def first_frequency(one):
     """Lowest frequency across (Hz) of the shaft without rings on the bearings as they rest."""
-    found, model = shaft_statics(one, force=(0, 0, 0)), shaft_model(one, one.spindle)
+    found, model = statics(one, force=(0, 0, 0)), shaft_model(one, one.spindle)
     stiffness = model.stiffness.copy()
     for bearing, plane in zip(found.bearings, model.planes, strict=True):
         own = np.array([bearing.sign, 1.0, 1.0, bearing.sign, bearing.sign])[:, None] * plane
@@ -38,7 +37,7 @@ def first_frequency(one):
 
 def test_the_study_figures():
     """A rigid shaft's nose is 11 times too stiff: 159 and 14.5 N/um."""
-    rigid, soft = (shaft_statics(spindle(flexible=one), force=(0, 0, 0)) for one in (False, True))
+    rigid, soft = (statics(spindle(flexible=one), force=(0, 0, 0)) for one in (False, True))
     assert 1e-6 * rigid.nose_stiffness == pytest.approx(159.0, abs=0.5)
     assert 1e-6 * soft.nose_stiffness == pytest.approx(14.5, abs=0.05)
     assert soft.nose_stiffness_bending == pytest.approx(soft.nose_stiffness, rel=1e-12)
@@ -80,11 +79,12 @@ def test_a_very_stiff_shaft_is_the_rigid_one():
 @pytest.mark.parametrize("at", [-0.02, 0.0, 0.055, 0.1, 0.23])
 def test_loads_anywhere_are_in_balance(at):
     """The bearings carry force and moment of the load, wherever on the shaft it acts."""
-    found = shaft_statics(spindle(), force=(100.0, 40.0, -300.0), at=at)
+    found = statics(spindle(), force=(100.0, 40.0, -300.0), at=at)
     carried = sum(one.force for one in found.bearings)
-    np.testing.assert_allclose(carried, (100.0, 40.0, -300.0), atol=1e-6)
+    # across, balls that creep at the start have up to 0.06 N of traction beside a preload of 500 N
+    np.testing.assert_allclose(carried, (100.0, 40.0, -300.0), rtol=0.0, atol=0.1)
     tilting = sum(one.moment[0] - one.position * one.force[2] for one in found.bearings)
-    assert tilting == pytest.approx(300.0 * at, abs=1e-6)
+    assert tilting == pytest.approx(300.0 * at, abs=0.1 * 0.155)
     np.testing.assert_allclose(found.load[3:], (300.0 * at, 40.0 * at), atol=1e-12)
 
 
@@ -106,9 +106,10 @@ def test_springs_and_weight_with_a_shaft_that_bends():
     data["spindle"]["preload"] = {"kind": "spring", "force_N": 300.0, "stiffness_N_m": 1e6}
     data["fidelity"]["terms"]["gravity"] = True
     one = Scene.from_dict(data)
-    found = shaft_statics(one, force=(0, 0, 0))
+    found = statics(one, force=(0, 0, 0))
     ring, model = inner_ring(one).mass, shaft_model(one, one.spindle)
     weight = GRAVITY * (model.mass[0, 0] + 2.0 * ring)
-    assert sum(b.force[2] for b in found.bearings) == pytest.approx(-weight, rel=1e-6)
+    # balls that creep at the start have 0.009 N of traction beside a preload of 300 N
+    assert sum(b.force[2] for b in found.bearings) == pytest.approx(-weight, abs=0.02)
     assert found.load[2] == pytest.approx(-weight, rel=1e-9)
     np.testing.assert_allclose([b.axial for b in found.bearings], 300.0, rtol=1e-2)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fmu_bearing import SceneError, campbell, modes, shaft_statics
+from fmu_bearing import SceneError, campbell, modes, statics
 from fmu_bearing.compiled import call
 from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.layout import SP, P, S
@@ -250,7 +250,7 @@ def test_what_a_port_does_not_read_is_refused(changes, words):
         Scene.from_dict(tables(**changes))
 
 
-@pytest.mark.parametrize("use", [shaft_statics, modes, lambda one: campbell(one, [5e3, 1e4, 2e4])])
+@pytest.mark.parametrize("use", [statics, modes, lambda one: campbell(one, [5e3, 1e4, 2e4])])
 def test_statics_and_modes_of_another_models_shaft_are_refused(use):
     with pytest.raises(SceneError, match="another model owns the shaft"):
         use(as_port(loaded("fixed")))

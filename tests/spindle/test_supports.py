@@ -3,13 +3,14 @@
 import numpy as np
 import pytest
 
-from fmu_bearing import shaft_statics
+from fmu_bearing import statics
 from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.layout import SP, P, Q, S, Y
 from fmu_bearing.prepare.spindle import one_of
 from fmu_bearing.scene.mounting import Mounting, Rotor
 from tests.engine.condensed import FIDELITIES
 from tests.engine.helpers import Run
+from tests.spindle.rest import oracle
 from tests.spindle.runs import SetRun
 from tests.spindle.sets import scene
 from tests.spindle.test_dynamics_oracle import BODY, SEATS
@@ -22,14 +23,17 @@ FORCES = ("force.x", "force.y", "force.z")
 @pytest.mark.parametrize("seat", SEATS)
 def test_statics_are_where_runs_start(seat, flexible):
     given = loaded(seat, rpm=0.0, **{"spindle.shaft.flexible": flexible})
-    found, run = shaft_statics(given), SetRun(given).init()
-    for b, one in enumerate(found.bearings):
+    found, run = statics(given), SetRun(given).init()
+    known = oracle(given)
+    for b, (one, held) in enumerate(zip(found.bearings, known.held, strict=True)):
         ours = [run.value(name, b) for name in FORCES]
+        assert one.force == pytest.approx(ours, rel=1e-9, abs=1e-9)
         # the balls of the run lean on the outer race by their weight, 0.1 N in all; tilts of a housing of
         # 3e-4 rad turn 500 N by 0.15 N
-        assert one.force == pytest.approx(ours, abs=0.4)
+        assert held.force[:3] * (-one.sign, -1, -1) == pytest.approx(ours, abs=0.4)
     nose = [run.value(f"shaft.nose.displacement.{axis}") for axis in "xyz"]
-    assert found.displacement[:3] == pytest.approx(nose, rel=2e-3, abs=1e-9)
+    assert found.displacement[:3] == pytest.approx(nose, rel=1e-9, abs=1e-15)
+    assert known.shaft[:3] == pytest.approx(nose, rel=2e-3, abs=1e-9)
 
 
 @pytest.mark.parametrize("fidelity", [0.0, *FIDELITIES.values()], ids=["full", *FIDELITIES])
@@ -39,7 +43,7 @@ def test_the_stiffness_that_runs_tell_is_that_of_statics(seat, flexible, fidelit
     given = loaded(seat, rpm=0.0, **{"spindle.shaft.flexible": flexible})
     run = SetRun(given, FIDELITY=fidelity).init()
     # of a rigid shaft where the same shaft rests, bending as it may
-    found = shaft_statics(given)
+    found = statics(given)
     told = [run.value(f"shaft.stiffness.{name}") for name in ("axial", "radial", "tilt")]
     assert told == pytest.approx(
         [found.axial_stiffness, found.radial_stiffness, found.tilt_stiffness], rel=2e-3
@@ -68,13 +72,16 @@ def test_a_housing_sinks_under_all_that_it_carries():
     given = scene(rpm=0.0, changes={"fidelity.terms.gravity": True, "spindle.housing": BODY})
     run = SetRun(given).init()
     down = given.replace({"spindle.housing": {}})
-    still, moved = shaft_statics(down), shaft_statics(given)
+    still, moved = statics(down), statics(given)
     # at the middle between the bearings, where the housing's own middle is
     carried = sum(one.force[2] for one in still.bearings)
     rings = sum(run.of(run.p, b, "P")[P.OUTER_MASS] for b in range(2))
     lying = rings + 24.0 * run.p[P.BALL_MASS] + 2.0 * run.p[P.CAGE_MASS]
     sunk = (carried - GRAVITY * (BODY["mass_kg"] + lying)) / BODY["pedestal_stiffness_N_m"]
-    assert run.value("housing.displacement.z") == pytest.approx(sunk, rel=1e-6)
+    # forces across have 0.008 N of traction, of balls that creep at the start beside a preload of 500 N
+    assert run.value("housing.displacement.z") == pytest.approx(
+        sunk, abs=0.02 / BODY["pedestal_stiffness_N_m"]
+    )
     # what the bearings carry against each other does not depend on the pedestal, but for its tilt
     for one, other in zip(still.bearings, moved.bearings, strict=True):
         assert other.force == pytest.approx(one.force, abs=1e-3 * np.abs(one.force).max())
@@ -87,7 +94,7 @@ def test_pedestals_of_their_own_stand_in_series_with_their_bearings():
     soft = {"spindle.bearing[1].seat": "pedestal", "spindle.bearing[2].seat": "pedestal"}
     stiffness = 1e8
     given = scene(changes=soft | {"spindle.housing.pedestal_stiffness_N_m": stiffness})
-    held, found = shaft_statics(scene()), shaft_statics(given)
+    held, found = statics(scene()), statics(given)
     each = held.axial_stiffness / 2.0
     assert found.axial_stiffness == pytest.approx(2.0 / (1.0 / each + 1.0 / stiffness), rel=1e-6)
     # pedestals take part of the way to lift-off, so that it needs less load
@@ -101,7 +108,7 @@ def test_a_single_bearing_on_its_pedestal_stands_as_a_mounted_one():
         load={"force_x_N": 500.0, "position_mm": 90.0}, housing={"pedestal_stiffness_N_m": 1e8},
         shaft={"sections_mm": [[180.0, 15.0, 0.0]]},
     )  # fmt: skip
-    found = shaft_statics(given)
+    found = statics(given)
     shaft = -found.load[2] / GRAVITY - SetRun(given).p[P.INNER_MASS]
     mounting = Mounting(
         preload_N=500.0, pedestal_stiffness_N_m=1e8,
@@ -110,6 +117,8 @@ def test_a_single_bearing_on_its_pedestal_stands_as_a_mounted_one():
     single = Run(one_of(given).model_copy(update={"mounting": mounting}), 0.0).init()
     y = single.s[S.Y : S.Y + Y.SIZE]
     ring = Y.Q0 + Q.OUTER
-    assert found.bearings[0].force[:3] == pytest.approx([500.0, 0.0, found.load[2]], abs=1e-6)
+    assert found.bearings[0].force[:3] == pytest.approx(
+        [500.0, 0.0, found.load[2]], abs=0.02
+    )  # creeping balls: 0.004 N
     apart = y[Y.Q0 : Y.Q0 + 3] - y[ring : ring + 3]
     assert found.bearings[0].displacement[1:3] == pytest.approx(apart[1:], rel=1e-3, abs=1e-12)

@@ -231,8 +231,9 @@ def _stiffness(subject: Subject) -> list[list[str]]:
     if scene is None:
         return []
     try:
-        found = operating_point(scene.replace({"operation.speed_rpm": subject.speed / RPM})).stiffness
+        point = operating_point(scene.replace({"operation.speed_rpm": subject.speed / RPM}))
     except EngineError:
         return []
+    found = point.bearings[0].stiffness
     sizes = (("axial", found[0, 0]), ("radial", 0.5 * (found[1, 1] + found[2, 2])))
     return [[f"{way} stiffness at rest", "N/um", f"{1e-6 * size:.4g}"] for way, size in sizes]

@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 
 from fmu_bearing.design.operating_point import RINGS, OperatingPoint, operating_point
-from fmu_bearing.design.verdicts import Verdict, verdicts
+from fmu_bearing.design.verdict import Verdict
+from fmu_bearing.design.verdicts import verdicts
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.instance import EngineError
 from fmu_bearing.reports.data.subject import Subject
@@ -41,8 +42,9 @@ def verdict_table(subject: Subject) -> Table | None:
 
 def _of_run(point: OperatingPoint, subject: Subject) -> tuple[OperatingPoint, str]:
     """Return the point with what the run reached, and words that say so; empty: the run kept none of it."""
-    contacts = {ring: dict(point.contacts[ring]) for ring in RINGS}
-    film, kept = point.film, False
+    (bearing,) = point.bearings
+    contacts = {ring: dict(bearing.contacts[ring]) for ring in RINGS}
+    film, kept = bearing.film, False
     for ring in RINGS:
         for key, extreme in _EXTREMES.items():
             name = f"contact.{ring}.{key}"
@@ -52,10 +54,10 @@ def _of_run(point: OperatingPoint, subject: Subject) -> tuple[OperatingPoint, st
     if subject.has("film.lambda_min"):
         film, kept = float(subject.output("film.lambda_min").min()), True
     words = "pressure, film and shoulder at the run's extremes; all else of the " if kept else ""
-    return replace(point, contacts=contacts, film=film), words
+    return replace(point, bearings=(replace(bearing, contacts=contacts, film=film),)), words
 
 
-def _note(point: OperatingPoint, found: list[Verdict]) -> str:
+def _note(point: OperatingPoint, found: tuple[Verdict, ...]) -> str:
     """Say what to do: about the state itself, then about what is judged, the gravest first."""
     advice = list(point.remarks)
     advice += [one.advice for judgement in ("change", "watch") for one in found if one.judgement == judgement]

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from fmu_bearing.modal.equations.remarks import UNSTEADY
 from fmu_bearing.modal.modes.mode import SPREAD
 from fmu_bearing.modal.modes.natural_modes import STICKING
-from fmu_bearing.modal.stiffness.stiffness_table import StiffnessTable
+from fmu_bearing.steady.stiffness.stiffness_table import StiffnessTable
 
 _NEAR = 0.2  # of the orbit's frequency: nearer to it, free balls that bunch are seen
 _APART = 0.03  # of the stiffness: that at rest is then no substitute
@@ -23,7 +23,7 @@ def limits_of(found: StiffnessTable) -> Iterator[str]:
             f"single phases of a ball pitch differ by up to {100.0 * largest:.1f} % from these means: the "
             "balls' loads are unequal, and a rotor sees stiffness that changes as they pass"
         )
-    if found.preloads[0] == 0.0:
+    if found.preloads[0] == 0.0 and not found.on_shaft:  # of a set the loads may hold them
         yield "0 N: nothing holds balls and races together: K and C are those of loose balls and mean little"
     slow = found.speeds[np.abs(found.speeds) / 60.0 < STICKING]
     if slow.size:

@@ -1,4 +1,4 @@
-"""Stiffness and damping over speed, preload and frequency: the numbers, and what follows from them."""
+"""Stiffness and damping of one bearing over speed, preload and frequency: numbers, and what follows."""
 
 import math
 from dataclasses import dataclass
@@ -7,15 +7,15 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.modal.stiffness.planes import Planes, errors, planes
 from fmu_bearing.scene import Scene
+from fmu_bearing.steady.stiffness.planes import Planes, errors, planes
 
 Spacing = Literal["held", "free"]
 
 
 @dataclass(frozen=True)
 class StiffnessTable:
-    """Numbers of `Stiffness`, which describes them, and adds files and a picture."""
+    """Numbers of `BearingStiffness`, which describes them, and adds files and a picture."""
 
     scene: Scene
     speeds: NDArray[np.float64]
@@ -29,6 +29,9 @@ class StiffnessTable:
     spread: NDArray[np.float64]
     steady: NDArray[np.bool_]
     spacing: Spacing = "held"
+    number: int = 1
+    sign: int = 1
+    on_shaft: bool = False
 
     @property
     def impedance(self) -> NDArray[np.complex128]:

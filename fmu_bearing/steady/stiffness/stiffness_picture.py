@@ -4,9 +4,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fmu_bearing.modal.stiffness.impedance import FREEDOMS
-from fmu_bearing.modal.stiffness.stiffness_table import StiffnessTable
 from fmu_bearing.results.picture_parts import OTHERS, empty, label
+from fmu_bearing.steady.impedance import FREEDOMS
+from fmu_bearing.steady.stiffness.stiffness_table import StiffnessTable
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -20,7 +20,7 @@ _PANELS = (
 
 
 def picture(found: StiffnessTable, frequency: float | None = None) -> "Figure":
-    """Draw K and C over speed; see `Stiffness.picture`."""
+    """Draw K and C over speed; see `BearingStiffness.picture`."""
     wanted = found.frequencies[len(found.frequencies) // 2] if frequency is None else frequency
     at = int(np.abs(np.log(found.frequencies / wanted)).argmin())
     figure = empty((11.0, 6.2))

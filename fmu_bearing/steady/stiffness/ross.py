@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.files import check_file, write_whole
-from fmu_bearing.modal.stiffness.impedance import FREEDOMS
-from fmu_bearing.modal.stiffness.stiffness_table import StiffnessTable
+from fmu_bearing.steady.impedance import FREEDOMS
+from fmu_bearing.steady.stiffness.stiffness_table import StiffnessTable
 
 RELEASE = "3.1.0"  # the one whose reading and writing was tried
 FEWEST = 5  # values of an axis, below which ROSS warns of its interpolation
@@ -57,7 +57,7 @@ def write(
     found: StiffnessTable, path: str | os.PathLike[str], preload: float | None, mirrored: bool,
     nodes: tuple[int, int],
 ) -> tuple[Path, Path]:  # fmt: skip
-    """Write both elements; see `Stiffness.to_ross`."""
+    """Write both elements; see `BearingStiffness.to_ross`."""
     target = check_element(path)
     check_axes(len(found.speeds), len(found.frequencies))
     at, planes = found.at_preload(preload), found.planes(preload, mirrored)

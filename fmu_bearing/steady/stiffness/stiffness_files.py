@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from fmu_bearing.engine.sources import source_hash
 from fmu_bearing.extras import need
 from fmu_bearing.files import check_file, write_whole
-from fmu_bearing.modal.stiffness.impedance import FREEDOMS
-from fmu_bearing.modal.stiffness.stiffness_table import StiffnessTable
 from fmu_bearing.results.result import written
 from fmu_bearing.results.table import write_csv
+from fmu_bearing.steady.impedance import FREEDOMS
+from fmu_bearing.steady.stiffness.stiffness_table import StiffnessTable
 
 if TYPE_CHECKING:
     import xarray
@@ -47,7 +47,7 @@ def check_table(path: str | os.PathLike[str]) -> Path:
 
 
 def save(found: StiffnessTable, path: str | os.PathLike[str]) -> Path:
-    """Write a table to ``.csv`` or ``.nc``; see `Stiffness.save`."""
+    """Write a table to ``.csv`` or ``.nc``; see `BearingStiffness.save`."""
     target = check_table(path)
     target.parent.mkdir(parents=True, exist_ok=True)
     if target.suffix == ".csv":
@@ -92,7 +92,7 @@ def _text(value: float) -> str:
 
 
 def dataset(found: StiffnessTable) -> "xarray.Dataset":
-    """Return a table as a dataset; see `Stiffness.to_xarray`."""
+    """Return a table as a dataset; see `BearingStiffness.to_xarray`."""
     xr = need("xarray", "a dataset")
     over = ("speed", "preload", "frequency")
     pair = ("force", "motion")

@@ -1,7 +1,7 @@
 """Static stiffness of a set's shaft at its nose over speed and preload; its table and picture."""
 
 import os
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -10,19 +10,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.files import check_file
-from fmu_bearing.modal.stiffness.impedance import FREEDOMS
-from fmu_bearing.modal.stiffness.stiffness_files import unit
 from fmu_bearing.results.picture_parts import OTHERS, empty, label
 from fmu_bearing.results.table import write_csv
-from fmu_bearing.scene import Scene, SceneSource, scene_of
-from fmu_bearing.scene.member import set_of, still_of
-from fmu_bearing.spindle.statics import ShaftStatics, shaft_statics
-from fmu_bearing.threads import one_thread
+from fmu_bearing.scene import Scene
+from fmu_bearing.steady.impedance import FREEDOMS
+from fmu_bearing.steady.statics import Statics
+from fmu_bearing.steady.stiffness.stiffness_files import unit
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-#: Named stiffness: words, attribute of `ShaftStatics`, unit and factor of a picture.
+#: Named stiffness: words, attribute of `Statics`, unit and factor of a picture.
 NAMED = (
     ("axial", "axial_stiffness", "N/um", 1e-6),
     ("radial", "radial_stiffness", "N/um", 1e-6),
@@ -34,7 +32,7 @@ _PANELS = 4  # the first of them
 
 
 @dataclass(frozen=True)
-class SetStiffness:
+class NoseStiffness:
     """Stiffness of a set's shaft at its nose over speed and preload, under the scene's load.
 
     Attributes
@@ -44,14 +42,14 @@ class SetStiffness:
         r/min.
     preloads : ndarray
         N: of spacers, or the force of springs; 0 alone for a set without preload.
-    points : tuple of tuple of ShaftStatics
+    points : tuple of tuple of Statics
         By speed, then by preload.
     """
 
     scene: Scene
     speeds: NDArray[np.float64]
     preloads: NDArray[np.float64]
-    points: tuple[tuple[ShaftStatics, ...], ...]
+    points: tuple[tuple[Statics, ...], ...]
 
     @property
     def static(self) -> NDArray[np.float64]:
@@ -72,7 +70,9 @@ class SetStiffness:
         OSError
             Where it cannot be written.
         """
-        target = check_set_table(path)
+        target = check_file(path)
+        if target.suffix != ".csv":
+            raise ValueError(f"{target}: the stiffness of a shaft at its nose is written as .csv")
         target.parent.mkdir(parents=True, exist_ok=True)
         entries = [(force, motion) for force in FREEDOMS for motion in FREEDOMS]
         columns = ["speed_rpm", "preload_N"]
@@ -115,85 +115,9 @@ class SetStiffness:
 
     def cautions(self) -> list[str]:
         """Return what a designer should look at, each line once."""
-        told = (line for row in self.points for one in row for line in one.cautions())
-        return list(dict.fromkeys(told))
+        lines = (line for row in self.points for one in row for line in one.cautions())
+        return list(dict.fromkeys(lines))
 
     def summary(self) -> dict[str, Any]:
-        """Return all numbers by name, SI units, for machines."""
-        named = {attribute: self.named(attribute) for _, attribute, _, _ in NAMED}
-        return {
-            "scene": self.scene.name, "speeds_rpm": self.speeds, "preloads_N": self.preloads,
-            "static": self.static, **named, "cautions": self.cautions(),
-        }  # fmt: skip
-
-
-@one_thread
-def set_stiffness(
-    scene: SceneSource, speeds: Sequence[float] | None = None, preloads: Sequence[float] | None = None,
-    track: Callable[[Iterable[float]], Iterable[float]] = iter,
-) -> SetStiffness:  # fmt: skip
-    """Return the static stiffness of a set's shaft at its nose under the scene's load.
-
-    Parameters
-    ----------
-    scene : Scene or path
-        With a set.
-    speeds : sequence of float, optional
-        r/min; default: the scene's.
-    preloads : sequence of float, optional
-        N: of spacers or springs; default: the scene's.
-    track : callable
-        Wraps the speeds, to tell progress.
-
-    Raises
-    ------
-    SceneError
-        If the scene has no set, or a value is refused.
-    EngineError
-        Where there is no equilibrium; a ``ValueError``.
-    ValueError
-        For preloads of a set without one.
-
-    Examples
-    --------
-    >>> from fmu_bearing import set_stiffness
-    >>> found = set_stiffness("examples/spindle_set/7003C-DB.toml", [0.0, 15e3], [100.0, 200.0])
-    >>> (1e-6 * found.named("axial_stiffness")).round(1).tolist()
-    [[37.7, 57.1], [36.6, 57.0]]
-    """
-    scene = scene_of(scene)
-    preload = set_of(scene).preload
-    rpm = [scene.operation.speed_rpm] if speeds is None else [float(speed) for speed in speeds]
-    key, own = None, 0.0
-    if preload is not None:
-        key = "force_N" if preload.kind == "spring" else "preload_N"
-        own = getattr(preload, key)
-    elif preloads is not None:
-        raise ValueError(f"{scene.name}: has no [spindle.preload] that could be changed: leave preloads out")
-    forces = [own] if preloads is None else [float(force) for force in preloads]
-    points, still = [], still_of(scene)
-    for speed in track(rpm):
-        row = []
-        for force in forces:
-            changed: dict[str, Any] = {"operation.speed_rpm": speed}
-            if key is not None:
-                changed[f"spindle.preload.{key}"] = force
-            row.append(shaft_statics(still.replace(changed)))
-        points.append(tuple(row))
-    return SetStiffness(scene, np.array(rpm), np.array(forces), tuple(points))
-
-
-def check_set_table(path: str | os.PathLike[str]) -> Path:
-    """Return the path of a table that is going to be written; called before the computation.
-
-    Raises
-    ------
-    ValueError
-        For another ending than ``.csv``.
-    OSError
-        Where it cannot be written.
-    """
-    target = check_file(path)
-    if target.suffix != ".csv":
-        raise ValueError(f"{target}: the stiffness of a set is written as .csv")
-    return target
+        """Return the numbers by name, SI units, for machines."""
+        return {"static": self.static, **{key: self.named(key) for _, key, _, _ in NAMED}}

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.modal.stiffness.impedance import FREEDOMS
+from fmu_bearing.steady.impedance import FREEDOMS
 
 _Y, _Z, _BY, _BZ = (FREEDOMS.index(name) for name in ("y", "z", "by", "bz"))
 

@@ -1,0 +1,80 @@
+"""A verdict: figure, limit, source of the limit, judgement, way out."""
+
+from dataclasses import asdict, dataclass
+from typing import Any, Literal
+
+from fmu_bearing.formulas import iso281
+
+Judgement = Literal["good", "watch", "change", "not judged"]
+
+#: h: life that is asked for where the scene asks for none: assumed, as machine tools are often laid out.
+ASSUMED_LIFE = 20_000.0
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """The judgement of one figure.
+
+    Attributes
+    ----------
+    key : str
+        For machines.
+    label : str
+    value : float, optional
+        SI units, or the unit in the label.
+    text : str
+        The value as it is shown, with its unit.
+    limit : str
+        The limit in words.
+    source : str
+        Where the limit comes from.
+    judgement : str
+        ``good``, ``watch``, ``change`` or ``not judged``.
+    advice : str
+        One sentence with figure, limit and way out; empty where all is good.
+    bearing : int, optional
+        Of which bearing, from 1; None: of all together.
+    """
+
+    key: str
+    label: str
+    value: float | None
+    text: str
+    limit: str
+    source: str
+    judgement: Judgement
+    advice: str = ""
+    bearing: int | None = None
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the verdict by name, for machines."""
+        return asdict(self)
+
+
+def unjudged(key: str, label: str, why: str, value: float | None = None, text: str = "-") -> Verdict:
+    """Return a figure that no limit is known for, with the reason in place of the source."""
+    return Verdict(key, label, value, text, "none", why, "not judged")
+
+
+def shown_hours(hours: float) -> str:
+    """Return a rating life (h) as it is shown, beyond `iso281.MOST_HOURS` without its figure."""
+    return iso281.BEYOND_HOURS if hours > iso281.MOST_HOURS else f"{hours:.0f}"
+
+
+def judged_life(
+    key: str, name: str, hours: float, required: float | None, source: str,
+    remedy: str = "reduce preload or load, or take a larger bearing",
+) -> Verdict:  # fmt: skip
+    """Return the verdict on a rating life (h) by that asked for; None: by `ASSUMED_LIFE`."""
+    wanted = ASSUMED_LIFE if required is None else required
+    origin = "assumed" if required is None else "asked for"
+    advice = ""
+    if hours < wanted:
+        way = "" if required else "give operation.required_life_h, "
+        advice = (
+            f"rating life {name} {shown_hours(hours)} h: below the {wanted:.0f} h that are {origin} "
+            f"({source}): {way}{remedy}"
+        )
+    judgement: Judgement = "change" if advice else "good"
+    limit = f"{wanted:.0f} {origin}"
+    return Verdict(key, f"{name}, h", hours, shown_hours(hours), limit, source, judgement, advice)

@@ -1,0 +1,132 @@
+"""Stiffness and damping of one bearing over speed, preload and frequency, with its files and picture."""
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from fmu_bearing.steady.stiffness.ross import write
+from fmu_bearing.steady.stiffness.stiffness_files import dataset, save
+from fmu_bearing.steady.stiffness.stiffness_limits import limits_of
+from fmu_bearing.steady.stiffness.stiffness_picture import picture
+from fmu_bearing.steady.stiffness.stiffness_table import StiffnessTable
+
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.figure import Figure
+
+
+class BearingStiffness(StiffnessTable):
+    """Stiffness and damping of a bearing's inner ring against the held outer ring, SI units.
+
+    Forces on the ring are -K q - C q' with q = x, y, z (m) and tilts about y, z (rad), at the centre of the
+    circle of balls. The balls' inertia and friction are in K and C; mass, gyroscopic moment and supports of
+    the ring are not. Cage, imperfections and sound are left out. All is in the bearing's own axes: those of
+    the shaft, with x and tilts reversed where it carries towards -X.
+
+    Attributes
+    ----------
+    scene : Scene
+        Of the bearing alone.
+    speeds : ndarray
+        r/min, rising.
+    preloads : ndarray
+        N, rising: values of the input ``preload``, of a set of spacers or springs.
+    frequencies : ndarray
+        Hz, rising.
+    K, C : ndarray, shape (speed, preload, frequency, 5, 5)
+        N/m, N/rad, N m/rad and these times s.
+    static : ndarray, shape (speed, preload, 5, 5)
+        K for frequency to 0, always of balls that keep their distances: what the bearing has at rest.
+    own : ndarray, shape (preload, 5, 5)
+        The same at the scene's own speed.
+    orbit : ndarray, shape (speed, preload)
+        Hz: frequency of the balls' orbit, f_c.
+    spread : ndarray, shape (speed, preload)
+        Largest distance of a single phase of a ball pitch from the mean, on the diagonal of K and C w, over
+        K, at the lowest and the highest frequency; 0 for equal ball loads.
+    steady : ndarray of bool, shape (speed, preload)
+        Whether the steady state was found; else the entries hold for the state in which a run starts.
+    spacing : str
+        ``held``: balls keep their distances along the orbit, as in a cage; ``free``: they do not.
+    number, sign : int
+        From 1 at the nose; 1 where it carries force on the shaft towards +X, else -1.
+    on_shaft : bool
+        Whether it is one of a set.
+
+    Examples
+    --------
+    >>> from fmu_bearing import stiffness
+    >>> (found,) = stiffness("examples/scenes/7003C-spindle.toml", [10e3, 20e3], [200.0, 1000.0]).bearings
+    >>> found.K.shape, f"{found.K[1, 0, 1, 1, 1] / 1e6:.0f} N/um"
+    ((2, 1, 2, 5, 5), '159 N/um')
+    """
+
+    def cautions(self) -> list[str]:
+        """Return what limits these numbers, in sentences."""
+        return [*limits_of(self)]
+
+    def summary(self) -> dict[str, Any]:
+        """Return the numbers by name, SI units, for machines."""
+        return {
+            "bearing": self.number, "K": self.K, "C": self.C, "static": self.static, "f_c_Hz": self.orbit,
+            "spread": self.spread, "steady": self.steady, "against_static": self.against_static(),
+        }  # fmt: skip
+
+    def to_xarray(self) -> "xarray.Dataset":
+        """Return all as a dataset over speed, preload and frequency, the scene as TOML text in ``scene``.
+
+        Raises
+        ------
+        MissingExtra
+            Without xarray.
+        """
+        return dataset(self)
+
+    def save(self, path: str | os.PathLike[str]) -> Path:
+        """Write to ``.csv`` (a row per matrix, SI units) or ``.nc`` (netCDF).
+
+        Raises
+        ------
+        ValueError
+            For another ending.
+        MissingExtra
+            For netCDF without xarray.
+        """
+        return save(self, path)
+
+    def to_ross(
+        self, path: str | os.PathLike[str], preload: float | None = None, *, mirrored: bool = False,
+        nodes: tuple[int, int] = (0, 1),
+    ) -> tuple[Path, Path]:  # fmt: skip
+        """Write two bearing elements for ROSS 3, each a file with half of the bearing; see ``ross``.
+
+        Parameters
+        ----------
+        path : path
+            ``NAME.toml`` makes ``NAME-1.toml`` and ``NAME-2.toml``, for the planes of `planes` in order.
+        preload, mirrored
+            As for `planes`.
+        nodes : tuple of int
+            Nodes of the rotor at both planes.
+
+        Raises
+        ------
+        ValueError
+            As for `planes`, for another ending, and for an axis of two to four values.
+        """
+        return write(self, path, preload, mirrored, nodes)
+
+    def picture(self, frequency: float | None = None) -> "Figure":
+        """Draw K and C over speed, a curve per preload, K for frequency to 0 dashed.
+
+        Parameters
+        ----------
+        frequency : float, optional
+            Hz: the nearest one of the table is drawn; default: the middle one.
+
+        Raises
+        ------
+        MissingExtra
+            Without Matplotlib.
+        """
+        return picture(self, frequency)

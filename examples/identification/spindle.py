@@ -4,7 +4,7 @@ A 7003C in its spindle is "measured" at four speeds: sound levels at four microp
 the velocity of the housing. The measured machine is a scene too, with other values than the one the search
 starts from and with surfaces of its own (another seed), computed with fidelity ``full``; its levels get 1.5
 dB of noise. `identify` sees the levels alone. A fifth speed is not fitted: it checks. Then the identified
-values stand beside the truth.
+values are beside the truth.
 
 All four come out within two standard deviations; fitted values fall from 5.0 to 1.6 dB rms, checked ones from
 4.3 to 1.7 dB. Writes

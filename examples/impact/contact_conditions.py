@@ -2,7 +2,7 @@
 
 The modal analysis of Kuan, Chen, Shen and Chang (2026), sections 3.2, 4.3 and 4.4.2: twelve silicon nitride
 balls between rings of 52100 steel, bonded or sliding without separation, the outer circumference held or
-free. Patches have one radius, which the paper's mesh decides and its text does not tell; it is varied here.
+free. Patches have one radius, which the paper's mesh decides and its text does not give; it is varied here.
 Writes
 
 * ``contact_conditions.md`` and ``contact_conditions.csv`` - frequencies, what moves, matches and chance;
@@ -46,7 +46,7 @@ PATCH = 0.233e-3  # m: k_n = 6.3e7 N/m
 PATCHES = PATCH * 2.0 ** np.linspace(-1.0, 1.0, 21)
 SPRINGS = 2.5e7  # N/m between balls: the paper's final choice
 TOP = 60e3  # Hz: tables of modes end here
-#: Peaks of the sound, kHz, as section 4.4.2 prints them; 9.7 and 9.9 stand for one peak.
+#: Peaks of the sound, kHz, as section 4.4.2 prints them; 9.7 and 9.9 are one peak.
 PEAKS = (9.8, 11.8, 12.6, 20.0, 22.5, 29.4, 33.2, 46.0, 67.6)
 TOLERANCE = 0.02
 RANGE = (9.5e3, 70e3)  # Hz: in which those peaks lie
@@ -69,7 +69,7 @@ CONTRADICTIONS = (
     "C4 is a ball joint: the inner ring tilts in two directions and spins without resistance, and each ball "
     "has five motions so. A held bearing then has {zero} motions of 0 Hz.",
     "C1 resists tilt only because a patch of finite size hinders rolling: patches of {patches} mm give "
-    "{tilts} kHz. The text tells no patch.",
+    "{tilts} kHz. The text gives no patch.",
 )
 
 
@@ -130,11 +130,11 @@ def short_table(found: dict[Case, ContactModes]) -> tuple[list[str], list[list[s
     """One row for each case: zero modes, and lines up to `TOP`; many neighbours in brackets."""
     rows = []
     for case, modes in found.items():
-        told = [
+        cells = [
             f"{line.frequency / 1e3:.2f}" + (f" x{line.number}" if line.number > 1 else "")
             for line in modes.lines(TOP)
         ]
-        rows.append([case.name, str(modes.zero_modes), ", ".join(told)])
+        rows.append([case.name, str(modes.zero_modes), ", ".join(cells)])
     return ["condition", "zero modes", "kHz"], rows
 
 
@@ -144,13 +144,13 @@ def varied(scene: Scene, short: bool) -> tuple[list[str], list[list[str]]]:
     patches = [(f"patch {1e3 * a:.3f} mm", a, None) for a in (PATCH / 2, PATCH / 2**0.5, PATCH, PATCH * 2)]
     limits = [(f"ring modes to {highest / 1e3:.0f} kHz", PATCH, highest) for highest in (0.0, *LIMITS)]
     for name, patch, highest in patches[2:3] if short else patches + limits:
-        told = []
+        cells = []
         for condition, count in (("C1", 4), ("C4", 3)):
             lines = solved(scene, Case(condition, True, patch), highest).lines(80e3)
             lines = [line for line in lines if "balls turning" not in next(iter(line.shares))]
-            told += [f"{line.frequency / 1e3:.2f}" for line in lines[:count]]
-            told += [""] * (count - len(lines[:count]))
-        rows.append([name.replace(" to 0 kHz", ": none"), *told])
+            cells += [f"{line.frequency / 1e3:.2f}" for line in lines[:count]]
+            cells += [""] * (count - len(lines[:count]))
+        rows.append([name.replace(" to 0 kHz", ": none"), *cells])
     heads = ["", "C1 tilt", "C1 spin", "C1 axial", "C1 radial", "C4 axial", "C4 radial", "C4 third"]
     return heads, rows
 
@@ -160,8 +160,8 @@ def matched(found: dict[str, Array]) -> tuple[list[str], list[list[str]]]:
     rows = []
     for name, modes in found.items():
         r = chance(1e3 * np.array(PEAKS), modes, TOLERANCE, *RANGE)
-        told = f"{100 * r.coverage:.0f}", f"{r.expected:.1f}", f"{r.probability:.2f}"
-        rows.append([name, f"{r.matches} of {r.peaks}", *told])
+        cells = f"{100 * r.coverage:.0f}", f"{r.expected:.1f}", f"{r.probability:.2f}"
+        rows.append([name, f"{r.matches} of {r.peaks}", *cells])
     return ["modes", "matches", "covered, %", "expected by chance", "p"], rows
 
 
@@ -189,12 +189,12 @@ def nearest(found: dict[str, Array]) -> tuple[list[str], list[list[str]]]:
     names = [name for name in found if not name.startswith("C1 to")]
     rows = []
     for peak in PEAKS:
-        told = []
+        cells = []
         for name in names:
             off = 100.0 * (peak * 1e3 / found[name] - 1.0)
             best = off[np.abs(off).argmin()]
-            told.append(f"**{best:+.1f}**" if abs(best) <= 100 * TOLERANCE else f"{best:+.1f}")
-        rows.append([f"{peak:g}", *told])
+            cells.append(f"**{best:+.1f}**" if abs(best) <= 100 * TOLERANCE else f"{best:+.1f}")
+        rows.append([f"{peak:g}", *cells])
     return ["peak, kHz", *names], rows
 
 
@@ -246,11 +246,11 @@ def row_table() -> tuple[list[str], list[list[str]]]:
     ):  # fmt: skip
         found = row_modes([BALL] * 3, ROW_PATCH, bonded=bonded, highest=highest)
 
-        def told(values: Iterable[float]) -> str:
+        def listed(values: Iterable[float]) -> str:
             return ", ".join(f"{f:.0f}" for f in values if f > 0.0) or "0"
 
         axial = ", ".join(f"{f / 1e3:.3f}" for f in found.axial[1:3])
-        rigid = [told(found.twist), told(found.transverse), str(found.zero_modes)]
+        rigid = [listed(found.twist), listed(found.transverse), str(found.zero_modes)]
         rows.append([name, axial, *(["", "", ""] if highest else rigid)])
     return [
         "three balls",

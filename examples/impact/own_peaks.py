@@ -25,14 +25,17 @@ Array = NDArray[np.float64]
 
 SCENE = Path(__file__).parents[1] / "scenes" / "7003C-impact.toml"
 SPEEDS = (10000, 20000)  # r/min
-BANDS = ((54e3, 200e3), (5e3, 70e3))  # Hz: where the paper compares the balls' peaks, and those of the sound
+BANDS = (
+    (54e3, 200e3),
+    (5e3, 70e3),
+)  # Hz: where the paper compares the balls' peaks, and the peaks of the sound
 DURATION, STEP = 0.02, 1e-6  # s: lines are 50 Hz wide
 #: Of the run, so that waves up to 200 kHz are followed: 10 steps to a period at most.
 ACCURACY = {"max_internal_step_us": 0.5, "tolerance": 1e-6}
 COUNT = 9  # strongest peaks of a band, as many as the paper's sound has
 APART = TOLERANCE = 0.02  # peaks nearer than that are one; a mode that near is a match
 PROMINENCE = 6.0  # dB above both sides
-WEAKEST = 30.0  # dB below the strongest of its band: weaker ones stand in the noise of the steps
+WEAKEST = 30.0  # dB below the strongest of its band: weaker ones are in the noise of the steps
 HEADS = ("r/min", "band, kHz", "direction", "peaks, kHz", "matches", "covered, %", "expected by chance", "p")
 
 
@@ -77,12 +80,12 @@ def judged(scene: Scene) -> list[list[str]]:
             for name, signal in signals.items():
                 r = chance(lines := peaks(signal, low, high), own, TOLERANCE, low, high)
                 near = [np.abs(own / f - 1.0).min() <= TOLERANCE for f in lines]
-                told = [
+                shown = [
                     f"**{f / 1e3:.2f}**" if hit else f"{f / 1e3:.2f}"
                     for f, hit in zip(lines, near, strict=True)
                 ]
                 rows.append([
-                    f"{rpm:,}", f"{low / 1e3:g} to {high / 1e3:g}", name, ", ".join(told),
+                    f"{rpm:,}", f"{low / 1e3:g} to {high / 1e3:g}", name, ", ".join(shown),
                     f"{r.matches} of {r.peaks}", f"{100 * r.coverage:.0f}", f"{r.expected:.1f}",
                     f"{r.probability:.4f}",
                 ])  # fmt: skip

@@ -1,7 +1,7 @@
 """Three steel balls in a row: the pressure 285 mm beside the middle one, and its sensitivity.
 
 The test of Kuan, Chen, Shen and Chang (2026), section 3: balls O1, O2, O3 of 22.2 mm on the x axis, in
-contact; O1 starts towards O2 and O3 at 0.5 m/s; the microphone stands on the z axis, square to the row,
+contact; O1 starts towards O2 and O3 at 0.5 m/s; the microphone is on the z axis, square to the row,
 285 mm from O2. The model has Hertz contacts, and exact scattering of sound between the balls. Nothing is
 fitted.
 Writes

@@ -1,6 +1,6 @@
 """Move the axial mode of a spindle away from the balls that pass its inner race.
 
-The 7003C in its spindle shall run at 10,000 r/min. The Campbell diagram tells at which speed f_i, the
+The 7003C in its spindle shall run at 10,000 r/min. The Campbell diagram shows at which speed f_i, the
 frequency at which balls pass a place of the inner race, meets the axial mode: 4 % above operation, with a
 damping ratio of 1.5 %. Preload moves the mode. For each preload this computes the mode, the speeds at which
 f_i and 2 f_b (the form of the balls) meet it, and by runs with fidelity `response` the axial velocity of both
@@ -74,8 +74,8 @@ def row(preload: float) -> list[str]:
     cells.append(f"{100.0 * np.interp(OPERATION, branch.rpm, branch.damping):.2f}")
     for line in LINES:
         speed = meets(diagram, line)
-        told = (f"{speed:.0f}", f"{100.0 * (speed / OPERATION - 1.0):+.1f}")
-        cells += ["", ""] if math.isnan(speed) else told
+        shown = (f"{speed:.0f}", f"{100.0 * (speed / OPERATION - 1.0):+.1f}")
+        cells += ["", ""] if math.isnan(speed) else shown
     return cells + [f"{1e3 * value:.2f}" for value in velocities(scene)]
 
 
@@ -85,7 +85,7 @@ def note(rows: Sequence[Sequence[str]]) -> str:
         "# The axial mode and the preload\n\n"
         f"{datetime.date.today()}, {machine()}.\n\n"
         f"Made by `examples/modes/axial_mode.py` for the 7003C in its spindle at {OPERATION:,.0f} r/min.\n"
-        "Modes are those of `fmu-bearing modes`, velocities those of runs with fidelity `response` and the\n"
+        "Modes are from `fmu-bearing modes`, velocities from runs with fidelity `response` and the\n"
         "surfaces of the scene. Margins are counted from the speed of operation.\n\n"
         + markdown(COLUMNS, rows)
     )

@@ -44,7 +44,7 @@ _STEPS = 9
 
 
 class Ear:
-    """A recording heard through paths that are kept on disk.
+    """A recording through paths that are kept on disk.
 
     Parameters
     ----------

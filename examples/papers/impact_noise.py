@@ -31,8 +31,8 @@ BANDS = ((0.0, 5e3), (5e3, 1e4), (1e4, 2e4))  # Hz
 #: The paper's planes (its Y is the bearing's axis, its X horizontal) and ours.
 PLANES = {"XY": "XY", "YZ": "XZ", "XZ": "YZ"}
 #: Rings that bend on a seat all round: the outer ring's wall, held at its circumference, yields under each
-#: ball. Spring damping stands for what the cage takes up. All assumed, none fitted. Waves excite to 20 kHz,
-#: because the paper's peaks stand from 9.7 to 20 kHz and beyond, where no ear and no meter of ours reaches.
+#: ball. Spring damping includes what the cage takes up. All assumed, none fitted. Waves excite to 20 kHz,
+#: because the paper's peaks are from 9.7 to 20 kHz and beyond, where no ear and no meter of ours reaches.
 CHANGES: Changes = (
     ("imperfections.highest_frequency_kHz", 20.0),
     ("mounting.flexure.outer_ring", (2, 3, 4, 5)),

@@ -54,7 +54,7 @@ _CRITICAL_HZ = 28000 / 60.0  # of the first lateral mode, which the pedestal is 
 
 
 def cases(found: Changes, seeds: tuple[int, ...], quick: bool) -> list[Case]:
-    """Operating points: all speeds with what is identified, those of the values with the scene's own."""
+    """Operating points: all speeds with what is identified, the speeds of the values with the scene's own."""
     if quick:
         return [Case(SCENE, 28000, (*CHANGES, *found), seed, 0.01, 0.052, IDENTIFIED) for seed in seeds]
     own = sorted({int(value.rpm) for value in VALUES})
@@ -78,7 +78,7 @@ def identified(runs: Runs) -> Answer:
 def with_masses(rotor: float, housing: float) -> Changes:
     """Return the changes that other masses (kg) need: the pedestal keeps the lateral mode at 467 Hz."""
     scene = changed(SCENE, CHANGES)
-    # all that stands on the pedestal moves as one in that mode: stiffness over mass stays
+    # all that the pedestal holds moves as one in that mode: stiffness over mass stays
     assert scene.mounting.rotor is not None and scene.mounting.housing is not None
     own = scene.mounting.rotor.mass_kg + scene.mounting.housing.mass_kg
     effective = scene.mounting.pedestal_stiffness_N_m / (2.0 * math.pi * _CRITICAL_HZ) ** 2
@@ -91,7 +91,7 @@ def with_masses(rotor: float, housing: float) -> Changes:
 
 
 def _corner_table(runs: Runs) -> str:
-    """Identify anew with other assumed masses, from the same fitted values; what the checked ones become."""
+    """Identify again with other assumed masses, from the same fitted values; what the checked ones become."""
     if runs.quick:
         return "Not run.\n"
     checked = [value for value in VALUES if value.role == values.CHECK and not value.without]

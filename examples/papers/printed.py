@@ -1,12 +1,12 @@
 """The multi-source paper's equations on the paper's own system: rings on a soft pedestal.
 
 The paper writes its equations for the bearing's parts alone (eqs. 1 to 6) and calls 28,000 r/min critical.
-Both rings then have to stand on 3.3e5 N/m: 467 Hz with their 38 g. Two readings of its sound:
+Both rings then have to be on 3.3e5 N/m: 467 Hz with their 38 g. Two readings of its sound:
 
 ``printed``   eqs. 16 and 41 take magnitudes |v|, which turn a sine into a constant and twice its frequency
 ``energies``  at each frequency the energies of the vector's components, all cosines 1
 
-In both the energies of a component's sources, and those of the components, add (eqs. 43 and 46). Neither has
+In both the energies of a component's sources add, and so do the components' (eqs. 43 and 46). Neither has
 angles: P1 and P3 are the same.
 """
 
@@ -45,7 +45,7 @@ def cases(seeds: tuple[int, ...], quick: bool) -> list[Case]:
     """Operating points of one reading."""
     if quick:
         return [Case(SCENE, 28000, CHANGES, seed, 0.01, 0.052) for seed in seeds]
-    # every second speed and those of the values: 144 runs of the reading, not 248;
+    # every second speed and the speeds of the values: 144 runs of the reading, not 248;
     # a mode at 467 Hz with a damping ratio of 0.05 falls by 60 dB in 50 ms
     speeds = sorted({*SPEEDS[::2], *SPECTRA, *(int(value.rpm) for value in VALUES)})
     return [Case(SCENE, rpm, CHANGES, seed) for rpm in speeds for seed in seeds]
@@ -60,7 +60,7 @@ def directions(distance: float) -> Places:
     return [(-distance, 0.0, 0.0), (0.0, distance, 0.0), (0.0, 0.0, distance)]
 
 
-def heard(ear: Ear, distance: float) -> Sources:
+def sources_at(ear: Ear, distance: float) -> Sources:
     """Return each component's sources at a distance, shape (sources, 1, size), and ``total``."""
     if ear.radiation_model == "paper":
         return ear.sources([(0.0, distance, 0.0)])
@@ -81,7 +81,7 @@ def reduce(ear: Ear, quick: bool) -> dict[str, Any]:
     levels: dict[str, list[float]] = {}
     lines: dict[str, dict[str, float]] = {}
     apart = (0.105, 0.150, 0.105, 0.0805)  # m, of P1 to P4 from the bearing's centre
-    by_distance = {distance: heard(ear, distance) for distance in set(apart)}
+    by_distance = {distance: sources_at(ear, distance) for distance in set(apart)}
     for distance in apart:
         for name, found in by_distance[distance].items():
             levels.setdefault(name, []).append(float(below(found, rate, LAST)[0]))

@@ -71,7 +71,7 @@ def main(arguments: list[str] | None = None) -> None:
     if unknown:
         parser.error(f"no page named {', '.join(unknown)}; there are {', '.join(PAGES)}")
     try:
-        need("matplotlib", "a page with pictures")  # told before minutes of computing
+        need("matplotlib", "a page with pictures")  # refused before minutes of computing
     except MissingExtra as missing:
         parser.error(str(missing))
     clock = time.perf_counter()

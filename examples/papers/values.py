@@ -1,4 +1,4 @@
-"""Values readable from a paper: where each stands, what it is used for, and how far ours lie from it.
+"""Values readable from a paper: where each is printed, what it is used for, and how far ours lie from it.
 
 A value that the paper gives only as a difference and a percentage of it, both rounded, is an interval; its
 residual is the distance to that interval. Each value is either *fitted* (numbers of the scene are identified

@@ -2,7 +2,7 @@
 
 ``extrapolated``  Gauss-Seidel: the rotor steps with the bearings' force extrapolated, then the bearings
 ``derivative``    the rotor's trapezoidal rule has the force's derivatives in it
-``rollback``      the bearings step twice: after the first the rotor's equations are solved anew (Newton)
+``rollback``      the bearings step twice: after the first the rotor's equations are solved again (Newton)
 
     python examples/port/couple.py derivative 2e-5
 """
@@ -173,7 +173,7 @@ def damped(row: NDArray[np.float64], h: float, low: float = 0.0) -> tuple[float,
 
 
 def main(scheme: str, h: float) -> None:
-    """Couple the rigid rotor, and tell frequency and damping of its first mode."""
+    """Couple the rigid rotor, and return frequency and damping of its first mode."""
     scene = read_scene(SCENE)
     bearings = Bearings(scene.replace({"fidelity.model": "full"}))
     bearings.start(np.zeros(PORT))

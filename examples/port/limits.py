@@ -22,7 +22,7 @@ PUSH = 1e-3  # N s at X = 0, upwards
 DURATION = 4e-3  # s
 STEPS = (5e-6, 1e-5, 1.5e-5, 2e-5, 2.25e-5, 2.5e-5, 3e-5, 5e-5, 7e-5)  # s
 SHORT = (1e-5, 3e-5)  # s
-_SEEN = 8.0  # samples per period that tell a damping ratio
+_SEEN = 8.0  # samples per period that show a damping ratio
 
 
 def with_shaft(scene: Scene) -> Scene:

@@ -1,6 +1,6 @@
 """The part of the round trip that runs in the environment of ROSS 3: JSON comes in, JSON goes out.
 
-It reads the elements, tells their coefficients, puts them into a rotor and solves that. It knows nothing of
+It reads the elements, returns their coefficients, puts them into a rotor and solves that. It knows nothing of
 this program but the text of its files.
 """
 

@@ -167,13 +167,13 @@ def compare(answer, tables, nodes):
 
 def differences(answer, table):
     """Return the largest difference of ROSS's coefficients at the points of the table, over the largest."""
-    told = np.array(answer["tables"])  # element, speed, frequency, K or C, 3, 3
+    tables = np.array(answer["tables"])  # element, speed, frequency, K or C, 3, 3
     order = np.array([1, 2, 0])
     worst = 0.0
     for which, own in enumerate((table.K, table.C)):
         half = 0.5 * own[:, 0][..., order[:, None], order]
         half[..., [0, 1], 2] = half[..., 2, [0, 1]] = 0.0  # an element couples radial motions alone
-        worst = max(worst, float(np.abs(told[:, :, :, which] - half).max() / np.abs(half).max()))
+        worst = max(worst, float(np.abs(tables[:, :, :, which] - half).max() / np.abs(half).max()))
     return worst
 
 
@@ -199,7 +199,7 @@ def main():
     lines = [
         "# A shaft on two bearings in ROSS",
         "",
-        *told(table, answer, rows, worst),
+        *sentences(table, answer, rows, worst),
         "",
         markdown(COLUMNS, rows),
     ]
@@ -208,7 +208,7 @@ def main():
     print("\n".join(lines))
 
 
-def told(table, answer, rows, worst):
+def sentences(table, answer, rows, worst):
     """Return the page's sentences."""
     versions, planes = answer["versions"], table.planes()
     off = 100.0 * table.plane_errors()
@@ -225,7 +225,7 @@ def told(table, answer, rows, worst):
         "",
         f"Scene {table.scene.name}, {table.preloads[0]:g} N, tables of {len(table.speeds)} speeds and "
         f"{len(table.frequencies)} frequencies. A shaft of steel, {1e3 * DIAMETER:g} mm thick and "
-        f"{1e3 * LENGTH:g} mm long, with a tool of {DISK['m']:g} kg, stands on two bearings that carry "
+        f"{1e3 * LENGTH:g} mm long, with a tool of {DISK['m']:g} kg, is held by two bearings that carry "
         f"opposite ways. Their planes are {mm[0]} and {mm[1]} mm from the centres of the balls.",
         "",
         f"* ROSS reads the four elements, writes them, and reads the same again: {answer['saved_again']}.",
@@ -234,7 +234,7 @@ def told(table, answer, rows, worst):
         "* It solves each mode with the coefficients of the mode's own frequency. Our solution with springs "
         f"in the same planes differs by at most {worst[ASKED[0]]:.0e} at {ASKED[0]:.0f} r/min, a speed of "
         f"the table, and by {worst[ASKED[1]]:.0e} at {ASKED[1]:.0f} r/min, between two of its speeds.",
-        "* The planes stand beside the balls. A shaft that bends in between moves frequencies by up to "
+        "* The planes are beside the balls. A shaft that bends in between moves frequencies by up to "
         f"{100.0 * apart['bending']:.2g} % against five freedoms at their centre. With rigid arms "
         f"without mass over these seats both agree within {100.0 * apart['rigid']:.2g} %; one plane with "
         f"the whole radial stiffness is off by up to {100.0 * one:.2g} %.",

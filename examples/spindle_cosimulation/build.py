@@ -82,7 +82,7 @@ def build(
     platforms : sequence of str
         Platforms of a native FMU; default: this machine's.
     bearings : int
-        How many bearings a thermal network has; more than one are those of a set.
+        How many bearings a thermal network has; more than one are the bearings of a set.
 
     Raises
     ------

@@ -66,7 +66,7 @@ class Interrupt:
 
 
 class Watch:
-    """Progress bars that also tell how much time is simulated per second of waiting."""
+    """Progress bars that also show how much time is simulated per second of waiting."""
 
     def __init__(self, console: Console, interrupt: Interrupt) -> None:
         self.interrupt = interrupt
@@ -122,7 +122,7 @@ def main(
         metering_start=min(studies.METERING_START, 0.2 * end_time),
     )
     try:
-        need("matplotlib", "the pictures")  # told before the run
+        need("matplotlib", "the pictures")  # refused before the run
         output_dir.mkdir(parents=True, exist_ok=True)
         _demo(console, fmu_dir, output_dir, plan, short)
     except (MissingExtra, OSError, SimulationError) as error:

@@ -120,7 +120,7 @@ class Fmu:
         return Path(self._folder) / "resources" / name
 
     def having(self, names: Iterable[str]) -> list[str]:
-        """Those of ``names`` that this FMU has."""
+        """Return the ``names`` that this FMU has."""
         return [name for name in names if name in self.variables]
 
     def _reference(self, name: str) -> int:
@@ -236,7 +236,7 @@ def run(
     progress : callable
         Called after each step with the time reached in s; ``False`` stops the run.
     recorded : iterable of str
-        Variables of the bearing that are kept; default: all that :func:`bearing_names` tells.
+        Variables of the bearing that are kept; default: all that :func:`bearing_names` returns.
 
     Returns
     -------

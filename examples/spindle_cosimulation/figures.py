@@ -148,7 +148,7 @@ def _spectrum(
     if marks is not None:
         for i, (name, value) in enumerate(sorted(marks._asdict().items(), key=lambda mark: mark[1])):
             axis.axvline(value, color="C3", linewidth=0.8, linestyle=":")
-            # two heights, for f_c and f_r stand close together
+            # two heights, for f_c and f_r are close together
             axis.text(value, top + (3.0, 8.0)[i % 2], f"${name}$", ha="center", color="C3")
     _legend(axis)
 

@@ -1,6 +1,6 @@
 """Speed-controlled spindle drive as an FMU: controller, motor and all rotating inertia.
 
-The bearing FMU reports what it takes from the shaft and nothing more, so the equation of the shaft stands
+The bearing FMU reports what it takes from the shaft and nothing more, so the equation of the shaft is
 here: ``J dOmega/dt = motor torque - load torque``, with J from the bearing's ``rotor.inertia``.
 
 A PI controller runs at its own sampling rate, as drives do, and holds the torque in between. Torque and load

@@ -8,11 +8,11 @@
 The motor takes a second, warmth a quarter of an hour. To 1 s all three share one time; then the thermal
 network runs ahead, by 500 s per second of motor and bearings (``Plan.true_until``, ``Plan.thermal_rate``):
 what turns is settled within milliseconds, so heat and forces follow the temperatures as if these took their
-time. Rows have the time of motor and bearings; ``thermal_time`` is that of the temperatures.
+time. Rows have the time of motor and bearings; ``thermal_time`` is the time of the temperatures.
 
 Result: after 900 s the shaft has 31 degC, the inner rings 32, the outer 24 and the housing 23. The pairs
-stand further apart than the neutral spacing, so the spacers' preload falls from 117 N to 49 N; axial loads of
-the run are those of statics at its temperatures within 1.5 N. With the rear pair 26 mm behind the front one
+are further apart than the neutral spacing, so the spacers' preload falls from 117 N to 49 N; axial loads of
+the run agree with statics at its temperatures within 1.5 N. With the rear pair 26 mm behind the front one
 it would grow to 152 N; springs keep their 120 N.
 """
 

@@ -30,7 +30,7 @@ Table = NDArray[np.void]
 def signals(path: Path) -> list[tuple[str, str]]:
     """Component and variable of every connected output of a flat system.
 
-    Inputs are left out: FMPy shows those of the next step, libcosim those of the last.
+    Inputs are left out: FMPy shows the inputs of the next step, libcosim of the last.
     """
     return [
         (element.name, connector.name)

@@ -48,7 +48,7 @@ CONNECTIONS = (
 )
 #: Unit of each variable by (component, variable).
 Units = dict[tuple[str, str], str]
-PARAMETER_SET = "operation"  # ecos applies a set of parameters only when told its name
+PARAMETER_SET = "operation"  # ecos applies a set of parameters only by its name
 
 NAMESPACES = {
     part: f"http://ssp-standard.org/SSP1/SystemStructure{name}"

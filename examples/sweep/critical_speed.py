@@ -99,12 +99,12 @@ def rows_of(found: dict, modes: Sequence[float]) -> list[list[str]]:
     rows = []
     for k, (stiffness, mode) in enumerate(zip(whole["pedestal_stiffness_N_m"].values, modes, strict=True)):
         turn = ridge(speeds, 20.0 * np.log10(whole[TURN].values[k]))
-        heard = ridge(speeds, alone[SOUND].values[k])
+        loud = ridge(speeds, alone[SOUND].values[k])
         loudest = speeds[int(np.argmax(whole[SOUND].values[k]))]
         rows.append(
             [
                 f"{stiffness:.3g}", f"{mode:.0f}", f"{turn:.0f}", f"{100 * (turn / mode - 1):+.1f}",
-                f"{heard:.0f}", f"{100 * (heard / mode - 1):+.1f}", f"{loudest:.0f}",
+                f"{loud:.0f}", f"{100 * (loud / mode - 1):+.1f}", f"{loudest:.0f}",
             ]
         )  # fmt: skip
     return rows

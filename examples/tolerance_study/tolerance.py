@@ -12,8 +12,8 @@ they lie. No other tolerance (clearance, conformity, contact angle) is varied.
 
 Result, mean and standard deviation of 12 bearings: P5 79.7 +/- 1.6 dB(A), P4 74.3 +/- 1.3, P2 70.3 +/- 2.5 at
 P1; outer ring 1.33, 0.71, 0.46 mm/s rms; torque 15.8 N mm, whatever the class. From one class to the next it
-is 4 to 5 dB(A); two bearings of one class differ by up to 7.5 dB(A), those of P2 most, whose balls are no
-rounder than those of P4.
+is 4 to 5 dB(A); two bearings of one class differ by up to 7.5 dB(A), bearings of P2 most, whose balls are no
+rounder than balls of P4.
 """
 
 from pathlib import Path

@@ -104,7 +104,7 @@ def changed(scene: "Scene", settings: list[str] | None) -> tuple["Scene", dict[s
     Raises
     ------
     ValueError
-        For text that is no setting, an unknown key, and a value that is refused.
+        For text that is not a setting, an unknown key, and a value that is refused.
     """
     from fmu_bearing.interface.table import inputs_of
     from fmu_bearing.sweeps.axes import plain_value
@@ -145,8 +145,8 @@ def _show(found: "Modes", highest: float, words: str) -> None:
 
 def _shares(participation: dict[str, float]) -> str:
     """Return the largest shares of a mode in text."""
-    told = [(name, share) for name, share in participation.items() if share >= _LEAST][:_LARGEST]
-    return ", ".join(f"{name} {100.0 * share:.0f}" for name, share in told)
+    largest = [(name, share) for name, share in participation.items() if share >= _LEAST][:_LARGEST]
+    return ", ".join(f"{name} {100.0 * share:.0f}" for name, share in largest)
 
 
 def _show_crossings(diagram: "Campbell") -> None:
@@ -188,7 +188,7 @@ def _write(folder: Path, found: "Modes", diagram: "Campbell | None") -> list[Pat
     folder.mkdir(parents=True, exist_ok=True)
     files = [_csv(folder / "modes.csv", [_flat(row) for row in found.table()])]
     if diagram is None:
-        tell("no Campbell diagram: the scene's shaft stands still; give --speeds")
+        tell("no Campbell diagram: the scene's shaft does not turn; give --speeds")
         return files
     files.append(_csv(folder / "campbell.csv", diagram.table()))
     files.append(_csv(folder / "crossings.csv", [one.as_dict() for one in diagram.crossings()]))

@@ -137,13 +137,10 @@ def _cannot(row: Exclusion) -> dict[str, Any]:
     return {"what": list(row.what.values()), "reason": row.reason, "way_out": row.way_out}
 
 
-_SHOULDER = "beyond its edge"
-
-
 def _findings(path: Path) -> tuple[Scene | None, list[str]]:
     """Return a scene that can be run, else None, and the messages about it."""
     from fmu_bearing.design.operating_point import operating_point
-    from fmu_bearing.design.verdicts import cautions
+    from fmu_bearing.design.verdicts import cautions, verdicts
     from fmu_bearing.instance import EngineError, Instance
     from fmu_bearing.interface import fmu_variables, variables
 
@@ -157,8 +154,10 @@ def _findings(path: Path) -> tuple[Scene | None, list[str]]:
             bearing.initialise()
         lines = [str(one.message) for one in caught]
         if exclusion(scene, "statics") is None:
-            # of a shoulder that is passed the bearing has warned by itself
-            lines += [line for line in cautions(operating_point(scene)) if _SHOULDER not in line]
+            point = operating_point(scene)
+            # the bearing itself has warned of an ellipse beyond the shoulder
+            judged = [one for one in verdicts(point) if (one.key, one.judgement) != ("shoulder", "change")]
+            lines += cautions(point, judged)
         return scene, [f"{path}: {line}" for line in lines]
     except SceneError as problem:
         return None, list(problem.problems)
@@ -318,7 +317,7 @@ def _sizes(found: Scene) -> dict[str, Any]:
         bounds = fidelity.accuracy
         words = (
             f"auto, within {bounds.level_dB:g} dB and {bounds.relative:g} of fidelity full; "
-            "`fmu-bearing choose` prints which; sizes are those of full"
+            "`fmu-bearing choose` prints which; sizes are of fidelity full"
         )
     else:
         method = f", method {fidelity.method}" if fidelity.model == "full" else ""

@@ -38,10 +38,10 @@ def stiffness(
         str | None, typer.Option(metavar="VALUES", help=f"r/min: {_SYNTAX}; default: the scene's.")
     ] = None,
     preloads: Annotated[
-        str | None, typer.Option(metavar="VALUES", help="N, written alike; default: the scene's.")
+        str | None, typer.Option(metavar="VALUES", help="N, same syntax; default: the scene's.")
     ] = None,
     frequencies: Annotated[
-        str | None, typer.Option(metavar="VALUES", help="Hz, written alike; default: 8 from 50 to 10000.")
+        str | None, typer.Option(metavar="VALUES", help="Hz, same syntax; default: 8 from 50 to 10000.")
     ] = None,
     settings: Changes = None,
     spacing: Annotated[
@@ -70,7 +70,7 @@ def stiffness(
     csv in FILE itself, each bearing's table in FILE-1, FILE-2 and so on.
 
     With --format ross the file NAME.toml becomes NAME-1.toml and NAME-2.toml: a bearing element of ROSS 3
-    each, with half of the bearing. The table has what both lack of its tilt and coupling.
+    each, with half of the bearing. The table has the errors of both in its tilt and coupling.
     """
     from fmu_bearing.results.picture_parts import check_picture, save
     from fmu_bearing.scene import read_scene
@@ -91,7 +91,9 @@ def stiffness(
             check_picture(picture)
         chosen, inputs = changed(given, settings)
         if mirrored and chosen.spindle is not None:
-            raise Refusal("--mirrored is for one bearing: a set says which way each of its bearings carries")
+            raise Refusal(
+                "--mirrored is for one bearing: of a set the scene gives the direction of each bearing"
+            )
         found = table_of(
             chosen, asked["speeds"], asked["frequencies"], preloads=asked["preloads"], inputs=inputs,
             spacing=_spacing(spacing),
@@ -205,7 +207,7 @@ def _show(found: "Stiffness") -> None:
 
 
 def _show_planes(found: "BearingStiffness", preload: float, mirrored: bool) -> None:
-    """Print where the two planes stand and what they lack, over all frequencies."""
+    """Print where the two planes are and their errors, over all frequencies."""
     from fmu_bearing.results.table import show
     from fmu_bearing.steady.stiffness.planes import ERRORS
 

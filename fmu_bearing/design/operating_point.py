@@ -1,7 +1,7 @@
 """A scene's bearings at their operating point, without a run: contacts, frequencies, film, limits, life.
 
-Everything is that of perfect bearings with rigid rings in their steady state; loads and stiffness are those
-of `steady.statics`. Ratings and limits come from `design.rating`, with their sources.
+All figures are of perfect bearings with rigid rings in their steady state; loads and stiffness come from
+`steady.statics`. Ratings and limits come from `design.rating`, with their sources.
 """
 
 import math
@@ -64,9 +64,9 @@ class BearingPoint:
     least_preload : float
         N: below it balls skid, see `design.rating.least_preload`.
     rating : Rating, optional
-        None for what no standard rates.
+        None where no standard rates the bearing.
     reference_life : float, optional
-        Mrev: L10r by ISO 16281 from the loads of the balls; None for what no standard rates.
+        Mrev: L10r by ISO 16281 from the loads of the balls; None where no standard rates the bearing.
     friction_torque : float
         N m: of the settled bearing, positive where it brakes positive rotation.
     gyroscopic_friction : float
@@ -207,7 +207,7 @@ def operating_point(scene: SceneSource, tell: Tell = silent) -> OperatingPoint:
     """Return the figures of a scene's bearings at its operating point, without a run.
 
     Each bearing of a set is where the shaft puts it, under its own load and at its own temperatures. Friction
-    torques are those of settled bearings with their cages.
+    torques are of settled bearings with their cages.
 
     Parameters
     ----------

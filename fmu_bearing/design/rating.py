@@ -43,7 +43,7 @@ def is_rated(scene: Scene) -> bool:
 
 
 def rating(scene: Scene, axial: float, radial: float, speed_rpm: float) -> Rating | None:
-    """Return C, C0, P and L10 at an axial and a radial load (N); None for what `unrated` tells of.
+    """Return C, C0, P and L10 at an axial and a radial load (N); None where `unrated` gives a reason.
 
     The life is that of a perfect bearing in clean oil.
     """
@@ -96,7 +96,7 @@ def preload_classes(scene: Scene) -> Classes | None:
 def reference_life(scene: Scene, inner: NDArray[np.float64], outer: NDArray[np.float64]) -> float | None:
     """Return L10r (Mrev) for the loads (N) of the balls at both races; None where no standard rates it.
 
-    Grooves closer than those of the rating count as these.
+    Grooves closer than the grooves of the rating count as these.
     """
     if not is_rated(scene):
         return None

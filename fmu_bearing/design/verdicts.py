@@ -1,7 +1,7 @@
 """Verdicts on a scene's bearings at their operating point, and on the whole.
 
-A limit is a standard's, a maker's rule or a rule of the field, and says which. What nothing judges is named
-so: limits of steel judge no rings of ceramics, and hybrid bearings have no modified life.
+A limit is from a standard, a maker's rule or a rule of the field, and its source is given. Figures without a
+limit are `not judged`: limits for steel hold for no ceramic rings, and hybrid bearings have no modified life.
 """
 
 import math
@@ -15,7 +15,7 @@ from fmu_bearing.formulas import iso76, iso281, makers
 from fmu_bearing.modal.campbell.weak import whirl_words
 from fmu_bearing.modal.equations.remarks import UNSTEADY
 
-#: Pa: pressures beyond which races of hardened steel are marked in the long run: a rule, no standard.
+#: Pa: pressures beyond which races of hardened steel are marked in the long run: a rule, not a standard.
 HIGH_PRESSURE = 2.0e9
 #: Film over roughness below which surfaces touch, and from which on they are apart (Harris 2006).
 MIXED, APART = 1.0, 3.0
@@ -169,7 +169,7 @@ def _life(point: BearingPoint) -> Iterator[Verdict]:
     scene = point.scene
     required, rpm = scene.operation.required_life_h, scene.operation.speed_rpm
     if point.rating is None:
-        yield unjudged("life", "rating life", f"{unrated(scene)}; what holds is the maker's experience")
+        yield unjudged("life", "rating life", f"{unrated(scene)}; ask for the maker's experience")
         return
     if rpm == 0.0:
         return
@@ -366,7 +366,7 @@ def _set_life(point: OperatingPoint) -> Iterator[Verdict]:
 
 
 def _lift_off(point: OperatingPoint) -> Iterator[Verdict]:
-    """Yield the load that unloads a bearing over the axial force given, where both are there."""
+    """Yield the load that unloads a bearing over the axial force given, where the set has both."""
     found = point.statics
     force = float(found.load[0])
     first = found.lift_off.get("+x" if force > 0.0 else "-x") if force else None

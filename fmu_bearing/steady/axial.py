@@ -21,7 +21,7 @@ class LiftOff:
     Attributes
     ----------
     load : float
-        N along X: the sign tells the direction.
+        N along X: the sign gives the direction.
     bearing : int
         Which bearing is the first, from 1.
     """
@@ -35,7 +35,7 @@ def lift_off(members: Sequence[Member]) -> dict[str, LiftOff]:
 
     At standstill and the temperatures of the bearings, without other loads and weight: at speed centrifugal
     forces keep the balls of an unloaded bearing on both races, and its load fades without an end. Missing: a
-    direction in which nothing is unloaded, as springs of constant force never let go.
+    direction in which nothing is unloaded, as springs of constant force never unload their bearings.
     """
     found = {}
     for key, way in (("+x", 1.0), ("-x", -1.0)):
@@ -54,7 +54,7 @@ def _free_at(one: Member) -> float:
     slide = 0.0
     if one.spring is not None:
         push, stiffness = one.spring
-        if push >= _REACH * stiffness:  # springs that soft never let go
+        if push >= _REACH * stiffness:  # springs that soft never unload their bearing
             return -one.sign * np.inf
         slide = -push / stiffness
     return one.sign * (one.lifted() + slide - one.offset)
@@ -77,7 +77,7 @@ def _carried(one: Member, shaft: float) -> float:
     def excess(slide: float) -> float:
         return one.carried(inner - slide) - push - stiffness * slide
 
-    if excess(low) <= 0.0:  # the bearing that lets go: both ends are one place
+    if excess(low) <= 0.0:  # the bearing that is unloaded: both ends are one place
         return one.carried(inner - low)
     return one.carried(inner - float(brentq(excess, low, free, xtol=1e-14)))
 

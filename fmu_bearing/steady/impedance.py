@@ -23,7 +23,7 @@ _SLOW = 1e-3
 def at_rest(system: BearingLinearised) -> NDArray[np.float64]:
     """Return the stiffness for frequency to 0 with balls that keep their spacing, shape (5, 5), SI units.
 
-    Rows and columns are those of `impedance`. Friction moves the balls with the ring, so the matrix is not
+    Rows and columns as of `impedance`. Friction moves the balls with the ring, so the matrix is not
     quite symmetric.
     """
     return impedance(system, spaced(system, system.matrix), np.array([_SLOW]))[0].real
@@ -32,7 +32,7 @@ def at_rest(system: BearingLinearised) -> NDArray[np.float64]:
 def spaced(system: BearingLinearised, matrix: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return a matrix in which no force depends on a ball's place round the bearing.
 
-    A ring that circles with the balls, at the frequency of their orbit, tells one ball from another for good:
+    A ring that circles with the balls, at the frequency of their orbit, loads each ball differently for good:
     free balls drift apart and bunch, and the bearing's stiffness has a pole there. A cage keeps them apart.
     Where springs between the balls do that, the matrix stays.
     """

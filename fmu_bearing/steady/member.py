@@ -85,7 +85,7 @@ class Member:
         return -float(self._force[Q.X])
 
     def place_under(self, load: float, inputs: NDArray[np.float64]) -> float:
-        """Axial place (m) under an axial load (N); without load that where the balls just touch."""
+        """Axial place (m) under an axial load (N); without load the place where the balls just touch."""
         load = max(load, _TOUCHING)
         low, high = self._between(load, inputs)
         found = sum(_bisected(low, high, lambda place: self.carried(place, inputs) < load)) / 2.0

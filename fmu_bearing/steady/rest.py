@@ -1,7 +1,7 @@
 """Where a scene's bearings are in their steady state: the engine started at the operating point, and read.
 
-The start of fidelity full, from which runs begin: perfect bearings with rigid rings, without sound. Values
-are in the axes of the shaft, those of a part in its bearing's own axes.
+The state in which runs of fidelity full start: perfect bearings with rigid rings, without sound. Values are
+in the axes of the shaft, values of a part in its bearing's own axes.
 """
 
 from collections.abc import Mapping
@@ -96,7 +96,7 @@ def parts(run: Instance) -> tuple[Part, ...]:
 
 
 def nose(run: Instance) -> NDArray[np.float64]:
-    """Place (m) and tilts (rad) of the shaft's nose, of a single bearing those of its inner ring, shape (5,).
+    """Place (m) and tilts (rad) of the shaft's nose, of a single bearing its inner ring's, shape (5,).
 
     The shaft's zero is where the preloaded set is at 20 degC and standstill; of a set that carries one way
     where its balls are in line with the grooves, as of a single bearing.
@@ -125,7 +125,7 @@ def forces(run: Instance) -> NDArray[np.float64]:
         names = [[one.prefix + name for name in SP.BEARING_OUTPUTS] for one in scene.bearings()]
         return np.array([[run.get(name) for name in of_one] for of_one in names])
     p, u, c, y = run.p, run.u, run.s[S.C :], run.s[S.Y :]
-    held = p[P.RIGID] != 0.0  # the pedestal then carries what the held place means
+    held = p[P.RIGID] != 0.0  # the pedestal then carries the force of the held place
     axial = y[Y.Q0 + Q.OUTER] * c[C.PEDESTAL_AXIAL] if held else u[U.PRELOAD]
     weight = GRAVITY * p[P.INNER_MASS] if p[P.GRAVITY] else 0.0
     support = -p[P.TILT_STIFFNESS] * y[Y.Q0 + Q.INNER_BY : Y.Q0 + Q.INNER_BZ + 1]

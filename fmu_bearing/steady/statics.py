@@ -267,7 +267,7 @@ def statics(
     ----------
     scene : Scene or path
     force : sequence of three floats, optional
-        Force x y z on the shaft of a set (N); default: that of ``[spindle.load]``. Weight is added unless
+        Force x y z on the shaft of a set (N); default: ``[spindle.load]``. Weight is added unless
         ``fidelity.terms.gravity`` is false.
     at : float, optional
         Where it acts, m from the nose; default: as ``[spindle.load]`` has it. As in runs, the nose takes it
@@ -278,8 +278,8 @@ def statics(
     Raises
     ------
     SceneError
-        If the scene cannot be read, where another model owns the shaft, and for loads beside those of the
-        scene on a single bearing.
+        If the scene cannot be read, where another model owns the shaft, and for loads given beside the
+        scene's own on a single bearing.
     EngineError
         Where there is no equilibrium; a ``ValueError``.
 

@@ -28,9 +28,9 @@ def changed(tmp_path, *changes, name="7003C-spindle"):
 def test_info_tells_the_operating_point_without_a_run(run, monkeypatch):
     monkeypatch.setattr(Instance, "step", lambda *a: pytest.fail("a run has begun"))
     begin = time.perf_counter()
-    told = run("info", EXAMPLES / "7003C-spindle.toml", "--json")
-    assert told.exit_code == 0 and time.perf_counter() - begin < 2.0  # 0.2 s, 1.1 s with a new interpreter
-    (data,) = told.data["bearings"]
+    result = run("info", EXAMPLES / "7003C-spindle.toml", "--json")
+    assert result.exit_code == 0 and time.perf_counter() - begin < 2.0  # 0.2 s, 1.1 s with a new interpreter
+    (data,) = result.data["bearings"]
     # 500 N on 12 balls at the loaded angle: Q = F / (Z sin a)
     inner = data["contact"]["inner"]
     assert inner["load_mean"] == pytest.approx(500.0 / 12 / math.sin(inner["angle_mean"]), rel=0.01)
@@ -46,17 +46,17 @@ def test_info_tells_the_operating_point_without_a_run(run, monkeypatch):
 
 
 def test_info_fits_a_terminal_and_names_units(run):
-    told = run("info", EXAMPLES / "7003C-spindle.toml")
-    assert told.exit_code == 0
-    assert max(map(len, told.stdout.splitlines()[1:])) <= 80
+    result = run("info", EXAMPLES / "7003C-spindle.toml")
+    assert result.exit_code == 0
+    assert max(map(len, result.stdout.splitlines()[1:])) <= 80
     for words in ("GPa", "orders", "ISO 281", "tilt z", "n d_m"):
-        assert words in told.stdout
-    assert "caution: contact pressure 1.89 GPa" in told.stderr
+        assert words in result.stdout
+    assert "caution: contact pressure 1.89 GPa" in result.stderr
 
 
 def test_info_of_ceramic_rings_has_no_life_and_of_nonsense_no_figures(run, tmp_path):
-    told = run("info", EXAMPLES / "7009C-full-ceramic.toml")
-    assert told.exit_code == 0 and "standards rate rings of steel only" in told.stdout
+    result = run("info", EXAMPLES / "7009C-full-ceramic.toml")
+    assert result.exit_code == 0 and "standards rate rings of steel only" in result.stdout
     still = changed(tmp_path, ("speed_rpm = 20000.0", "speed_rpm = 0.0\nlowest_speed_rpm = 1000.0"))
     assert run("info", still).exit_code == 0
     refused = run("info", tmp_path / "none.toml")
@@ -95,17 +95,17 @@ def test_info_of_ceramic_rings_has_no_life_and_of_nonsense_no_figures(run, tmp_p
     ],
 )
 def test_check_cautions_where_a_limit_is_passed(run, tmp_path, name, changes, words):
-    told = run("scene", "check", changed(tmp_path, *changes, name=name))
-    assert told.exit_code == 0, told.output
+    result = run("scene", "check", changed(tmp_path, *changes, name=name))
+    assert result.exit_code == 0, result.output
     assert any(
         line.startswith("caution: ") and all(word in line for word in words)
-        for line in told.stdout.splitlines()
-    ), told.stdout
+        for line in result.stdout.splitlines()
+    ), result.stdout
 
 
 def test_check_says_nothing_of_a_bearing_within_its_limits(run, tmp_path):
-    told = run("scene", "check", changed(tmp_path, ("preload_N = 500.0", "preload_N = 100.0")))
-    assert told.exit_code == 0 and "caution" not in told.output
+    result = run("scene", "check", changed(tmp_path, ("preload_N = 500.0", "preload_N = 100.0")))
+    assert result.exit_code == 0 and "caution" not in result.output
 
 
 SET = EXAMPLES.parent / "spindle_set" / "7003C-DB.toml"
@@ -122,15 +122,15 @@ def test_info_of_a_set_tells_what_each_bearing_carries(run):
     assert front["force_z_N"] + rear["force_z_N"] == pytest.approx(found["load"][2], abs=0.1)
     assert found["preloads_N"]["cold"] == pytest.approx([150.0, 150.0], rel=1e-6)
     assert set(found["lift_off"]) == {"+x", "-x"}
-    told = run("info", SET)
-    assert told.exit_code == 0 and "2 x 7003C, DB (O), 15000 r/min" in told.stdout
-    assert max(map(len, told.stdout.splitlines())) <= 80
+    result = run("info", SET)
+    assert result.exit_code == 0 and "2 x 7003C, DB (O), 15000 r/min" in result.stdout
+    assert max(map(len, result.stdout.splitlines())) <= 80
 
 
 def test_a_set_is_checked_shown_and_run(run, tmp_path):
-    told = run("scene", "check", SET)
-    assert told.exit_code == 0 and "a scene, with an equilibrium" in told.stdout
-    last = told.stdout.partition("at its operating point\n")[2].splitlines()
+    result = run("scene", "check", SET)
+    assert result.exit_code == 0 and "a scene, with an equilibrium" in result.stdout
+    last = result.stdout.partition("at its operating point\n")[2].splitlines()
     assert last == [row.words() for row in exclusions_of(read_scene(SET))] and len(last) == 4
     shown = run("scene", "check", SET, EXAMPLES / "7003C-bare.toml", "--json").data
     pair, single = (shown[str(path)]["cannot"] for path in (SET, EXAMPLES / "7003C-bare.toml"))
@@ -141,18 +141,18 @@ def test_a_set_is_checked_shown_and_run(run, tmp_path):
         "way_out": "give the scene itself, without options that need a run",
     }
     out = tmp_path / "run.csv"
-    told = run("simulate", SET, "-t", 1e-3, "-v", "bearing[*].force.x", "-o", out, "--json")
-    assert told.exit_code == 0 and told.data["points"] == 2
+    result = run("simulate", SET, "-t", 1e-3, "-v", "bearing[*].force.x", "-o", out, "--json")
+    assert result.exit_code == 0 and result.data["points"] == 2
     assert run("plot", out).exit_code == 0 and out.with_suffix(".png").is_file()
-    told = run("scene", "show", SET, "--json")
-    assert told.data["computed"]["scene"] == "7003C-DB: 2 x 7003C, DB (O), 15000 r/min"
-    assert {one["key"] for one in told.data["values"]} >= {
+    result = run("scene", "show", SET, "--json")
+    assert result.data["computed"]["scene"] == "7003C-DB: 2 x 7003C, DB (O), 15000 r/min"
+    assert {one["key"] for one in result.data["values"]} >= {
         "spindle.preload.kind",
         "spindle.bearing[1].carries",
     }
-    told = run("tradeoff", SET)
-    assert told.exit_code == 2
-    assert "7003C-DB: cannot have a trade-off study: these studies are built for one bearing" in told.stderr
+    result = run("tradeoff", SET)
+    assert result.exit_code == 2
+    assert "7003C-DB: cannot have a trade-off study: these studies are built for one bearing" in result.stderr
 
 
 def test_a_bearing_of_a_set_without_load_is_shown_and_checked(run, tmp_path):
@@ -160,12 +160,12 @@ def test_a_bearing_of_a_set_without_load_is_shown_and_checked(run, tmp_path):
     file = tmp_path / "free.toml"
     load = {"force_x_N": 2500.0, "position_mm": 0.0}
     file.write_text(bearings(preload=500.0, load=load).to_toml(), "utf-8")
-    told = run("info", file)
-    assert told.exit_code == 0 and "caution: axial load 2500 N: above the 2194 N" in told.stderr
-    assert "lift-off over axial load" in told.stdout
-    told = run("scene", "check", file)
-    assert told.exit_code == 0 and "bearing 1: contact pressure" in told.stdout
-    assert "above the 2194 N that unload bearing 2" in told.stdout
+    result = run("info", file)
+    assert result.exit_code == 0 and "caution: axial load 2500 N: above the 2194 N" in result.stderr
+    assert "lift-off over axial load" in result.stdout
+    result = run("scene", "check", file)
+    assert result.exit_code == 0 and "bearing 1: contact pressure" in result.stdout
+    assert "above the 2194 N that unload bearing 2" in result.stdout
 
 
 #: Catalogue bearing, changes of the scene that `scene new` writes, radial stiffness at rest, N/um. Own
@@ -186,8 +186,8 @@ def test_stiffness_is_one_figure(run, tmp_path, bearing, kind, changes, radial):
     loose |= {"bearing.inner_conformity": 0.52, "bearing.outer_conformity": 0.53}
     light = read_scene(path).replace(changes | warmth | loose)
     path.write_text(light.to_toml(), "utf-8")
-    told = run("info", path, "--json")
-    matrix = np.array(told.data["bearings"][0]["stiffness"])
+    result = run("info", path, "--json")
+    matrix = np.array(result.data["bearings"][0]["stiffness"])
     # traction, and what a new scene assumes, move it by less
     assert 1e-6 * matrix[1, 1] == pytest.approx(radial, rel=5e-3)
     known = stiffness(light, frequencies=[0.1])
@@ -208,13 +208,13 @@ def test_the_matrix_is_headed_by_directions(run):
 def test_a_soft_pedestal_is_named(run, tmp_path, command):
     firm, weak = (f"pedestal_stiffness_N_m = {value}" for value in ("1e8", "1e5"))
     soft = changed(tmp_path, (firm, weak), name="7003C-bare")
-    told = run(*command, soft)
-    assert told.exit_code == 0
-    words = " ".join((told.stdout + told.stderr).split())
+    result = run(*command, soft)
+    assert result.exit_code == 0
+    words = " ".join((result.stdout + result.stderr).split())
     key = "mounting.pedestal_stiffness_N_m = 100000"
     # 500 N along the axis; its axial stiffness is the radial one
     assert f"soft pedestal: with {key} the loads move the outer ring by 5 mm; give 1e+06 N/m" in words
     assert "no steady state" not in words
     firm = changed(tmp_path, name="7003C-bare")
-    told = run(*command, firm)
-    assert "soft pedestal" not in told.stdout + told.stderr
+    result = run(*command, firm)
+    assert "soft pedestal" not in result.stdout + result.stderr

@@ -10,11 +10,15 @@ SPINDLE = GATES / "7003C-spindle.toml"
 
 
 def test_table_of_modes(run):
-    told = run("modes", SPINDLE)
-    assert told.exit_code == 0
-    assert "7003C, 20,000 r/min" in told.stdout and "inner tilt" in told.stdout and "forward" in told.stdout
-    assert "the cage and its films are left out" in told.stderr
-    assert max(map(len, told.stdout.splitlines())) <= 80
+    result = run("modes", SPINDLE)
+    assert result.exit_code == 0
+    assert (
+        "7003C, 20,000 r/min" in result.stdout
+        and "inner tilt" in result.stdout
+        and "forward" in result.stdout
+    )
+    assert "the cage and its films are left out" in result.stderr
+    assert max(map(len, result.stdout.splitlines())) <= 80
 
 
 def test_modes_for_machines(run):
@@ -27,9 +31,9 @@ def test_modes_for_machines(run):
 
 def test_campbell_and_its_files(run, tmp_path):
     out = tmp_path / "modes"
-    told = run("modes", SPINDLE, "--speeds", "16000:24000:5", "--output", out)
-    assert told.exit_code == 0
-    assert "Nearest: " in told.stdout and "crossings" in told.stdout
+    result = run("modes", SPINDLE, "--speeds", "16000:24000:5", "--output", out)
+    assert result.exit_code == 0
+    assert "Nearest: " in result.stdout and "crossings" in result.stdout
     with (out / "crossings.csv").open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     assert any(row["line"] == "f_i" and row["mode"] == "inner axial" for row in rows)
@@ -53,15 +57,15 @@ def test_keys_of_the_scene_and_inputs_can_be_set(run):
 
 
 def test_standstill_is_given_both_ways(run):
-    told = run("modes", SPINDLE, "--speed", 0)
-    assert told.exit_code == 0
-    assert "contacts stick" in told.stdout and "without friction" in told.stdout
+    result = run("modes", SPINDLE, "--speed", 0)
+    assert result.exit_code == 0
+    assert "contacts stick" in result.stdout and "without friction" in result.stdout
 
 
 def test_instability_is_told(run):
-    told = run("modes", EXAMPLES / "7009C-full-ceramic.toml", "--speed", 18_000)
-    assert told.exit_code == 0 and "instability: 'inner tilt forward'" in told.stderr
-    assert "(unstable)" in told.stdout
+    result = run("modes", EXAMPLES / "7009C-full-ceramic.toml", "--speed", 18_000)
+    assert result.exit_code == 0 and "instability: 'inner tilt forward'" in result.stderr
+    assert "(unstable)" in result.stdout
 
 
 @pytest.mark.parametrize(
@@ -78,6 +82,6 @@ def test_instability_is_told(run):
     ],
 )
 def test_refusals(run, options, words):
-    told = run("modes", SPINDLE, *options)
-    assert told.exit_code == 2 and words in told.stderr and told.stderr.startswith("error: ")
-    assert told.stdout == ""
+    result = run("modes", SPINDLE, *options)
+    assert result.exit_code == 2 and words in result.stderr and result.stderr.startswith("error: ")
+    assert result.stdout == ""

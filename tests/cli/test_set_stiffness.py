@@ -11,10 +11,10 @@ DB = EXAMPLES.parent / "spindle_set" / "7003C-DB.toml"
 def test_table_picture_and_numbers(run, tmp_path):
     out, picture = tmp_path / "k.csv", tmp_path / "k.png"
     words = ("--speeds", "0:15000:2", "--preloads", "100,150", "-o", out, "--picture", picture)
-    told = run("stiffness", DB, *words)
-    assert told.exit_code == 0, told.output
+    result = run("stiffness", DB, *words)
+    assert result.exit_code == 0, result.output
     assert picture.stat().st_size > 10_000 and len(out.read_text("utf-8").splitlines()) == 5
-    assert "7003C-DB at the nose" in told.stdout and "set spindle.shaft.flexible = true" in told.stderr
+    assert "7003C-DB at the nose" in result.stdout and "set spindle.shaft.flexible = true" in result.stderr
     data = run("stiffness", DB, "-o", out, "--json").data
     assert data["nose"]["nose_stiffness"] == [[pytest.approx(statics(DB).nose_stiffness)]]
     assert data["preloads_N"] == [150.0] and data["speeds_rpm"] == [15000.0]
@@ -25,10 +25,10 @@ def test_table_picture_and_numbers(run, tmp_path):
 def test_tables_of_the_bearings_are_written_too(run, tmp_path):
     out = tmp_path / "k.csv"
     words = ("--speeds", "15000", "--frequencies", "100,1000", "--set", "nose.force.z=-80")
-    told = run("stiffness", DB, *words, "-o", out)
-    assert told.exit_code == 0, told.output
+    result = run("stiffness", DB, *words, "-o", out)
+    assert result.exit_code == 0, result.output
     assert {path.name for path in tmp_path.iterdir()} == {"k.csv", "k-1.csv", "k-2.csv"}
-    shown = " ".join(told.stdout.split())
+    shown = " ".join(result.stdout.split())
     assert "7003C-DB at the nose" in shown and "7003C-DB at 1000 Hz" in shown and "│ 2 │ 15000" in shown
     data = run("stiffness", DB, *words, "-o", out, "--json").data
     assert [one["bearing"] for one in data["bearings"]] == [1, 2]
@@ -47,6 +47,6 @@ def test_elements_for_ross_are_mirrored_where_a_bearing_is(run, tmp_path):
 
 def test_a_set_says_which_way_each_bearing_carries(run, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    told = run("stiffness", DB, "--format", "ross", "--mirrored")
-    assert told.exit_code == 2 and "--mirrored is for one bearing" in told.stderr
+    result = run("stiffness", DB, "--format", "ross", "--mirrored")
+    assert result.exit_code == 2 and "--mirrored is for one bearing" in result.stderr
     assert not list(tmp_path.iterdir())

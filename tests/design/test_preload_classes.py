@@ -56,13 +56,13 @@ def of_size(point, size, force):
 def test_every_printed_load_reads_its_own_class(single, member, size):
     for point in (single, member):
         for name, one in size.preload.items():
-            told = judged(of_size(point, size, one.force))
-            verdict = told["preload_class"]
+            by_key = judged(of_size(point, size, one.force))
+            verdict = by_key["preload_class"]
             assert (verdict.text, verdict.judgement) == (f"{one.force:g}: {name}", "good")
             assert "NSK" in verdict.source
             # and a rigid pair the speed of its own class
             limit = makers.RIGID_SPEED[name] * point.speed_limit
-            assert told["speed"].limit == f"{1e-6 * limit:.2f}"
+            assert by_key["speed"].limit == f"{1e-6 * limit:.2f}"
             # one tenth more is the slack, beyond it the next class begins
             assert makers.preload_class(1.0999 * one.force, classes_of(size)) == name
             assert makers.preload_class(1.1001 * one.force, classes_of(size)) != name
@@ -75,9 +75,9 @@ def classes_of(size):
 def test_the_case_that_was_judged_one_class_too_heavy():
     """NSK-7010C, medium 390 N, rigid: 0.7 of 1.25 x 1.75e6, not 0.5 of it."""
     text = new_scene("a", "NSK-7010C", kind="hybrid", sound=False, preload_class="medium", speed_rpm=10e3)
-    told = judged(bearing_at(read_scene_text(text).replace({"mounting.preload_mode": "rigid"})))
-    assert told["preload_class"].text == "390: medium" and told["speed"].limit == "1.53"
-    assert "as a rigid medium pair" in told["speed"].source
+    by_key = judged(bearing_at(read_scene_text(text).replace({"mounting.preload_mode": "rigid"})))
+    assert by_key["preload_class"].text == "390: medium" and by_key["speed"].limit == "1.53"
+    assert "as a rigid medium pair" in by_key["speed"].source
 
 
 def a_set(name, force, **keys):
@@ -96,9 +96,9 @@ def test_one_of_a_set_is_judged_as_a_loose_bearing(name, preload):
     force = sizes()[name].preload[preload].force
     points = bearings_at(a_set(name, force))
     for point in points:
-        told = judged(point)
-        assert told["preload_class"].text == f"{force:g}: {preload}"
-        assert f"as a rigid {preload} pair" in told["speed"].source
+        by_key = judged(point)
+        assert by_key["preload_class"].text == f"{force:g}: {preload}"
+        assert f"as a rigid {preload} pair" in by_key["speed"].source
     # warmth and speed have changed what it carries, which pressure and life judge
     assert points[0].axial != pytest.approx(force, rel=0.02)
 

@@ -32,7 +32,7 @@ def test_a_pair_under_preload_alone_is_two_bearings_by_themselves():
         assert point.reference_life == pytest.approx(single.reference_life, rel=1e-3)
         assert point.rating.life == pytest.approx(single.rating.life, rel=1e-3)
         assert point.frequencies.f_c == pytest.approx(single.frequencies.f_c, rel=1e-5)
-    # two alike live 2^(-9/10) as long as one
+    # two equal ones live 2^(-9/10) as long as one
     one = 1e6 * single.reference_life / (60.0 * 15e3)
     assert pair.life == pytest.approx(2.0**-0.9 * one, rel=1e-3)
 

@@ -49,7 +49,7 @@ def test_points_are_those_of_the_statics_and_the_file_holds_them(tmp_path):
 
 
 def test_bearings_of_a_set_have_tables_of_their_own(tmp_path):
-    """At each point those of the operating point, in their own axes; loads differ, so does stiffness."""
+    """Matrices of each operating point, in the bearings' own axes; loads differ, so does stiffness."""
     found = stiffness(DB, [15e3], [0.1, 1e3])
     points = operating_point(DB).bearings
     for table, point in zip(found.bearings, points, strict=True):

@@ -134,15 +134,15 @@ def test_lives_that_say_no_more_are_capped(hybrid, hours, text):
 @pytest.mark.parametrize("angle", [12.0, 18.0, 20.0, 30.0, 40.0])
 def test_no_figure_vanishes_at_other_contact_angles(steel, angle):
     """P and P0 have factors for 15 and 25 deg alone: what needs them says so, and life stays judged."""
-    told = found(bearing_at(steel.scene.replace({"bearing.contact_angle_deg": angle})))
-    assert set(told) == set(found(steel))
+    by_key = found(bearing_at(steel.scene.replace({"bearing.contact_angle_deg": angle})))
+    assert set(by_key) == set(found(steel))
     for key in ("static_safety", "life_basic", "life_modified"):
-        assert told[key].judgement == NONE and f"15 and 25 deg, not {angle:g}" in told[key].source
-    assert told["life"].judgement != NONE and told["static_safety_pressure"].judgement != NONE
+        assert by_key[key].judgement == NONE and f"15 and 25 deg, not {angle:g}" in by_key[key].source
+    assert by_key["life"].judgement != NONE and by_key["static_safety_pressure"].judgement != NONE
     between = 14.0 <= angle <= 26.0
     for key in ("preload_class", "speed"):
-        assert (told[key].judgement == NONE) == (not between)
-        assert between or "contact angle" in told[key].source
+        assert (by_key[key].judgement == NONE) == (not between)
+        assert between or "contact angle" in by_key[key].source
 
 
 def test_hybrid_bearings_have_no_modified_life_and_steel_ones_do(hybrid, steel):
@@ -157,18 +157,18 @@ def test_hybrid_bearings_have_no_modified_life_and_steel_ones_do(hybrid, steel):
 
 
 def test_rings_of_ceramics_have_no_rated_life_and_no_static_safety(ceramic):
-    told = found(ceramic)
+    by_key = found(ceramic)
     for key in ("life", "static_safety"):
-        assert told[key].judgement == NONE and told[key].value is None
-        assert "standards rate rings of steel only" in told[key].source
-    assert not {"life_basic", "life_modified", "static_safety_pressure"} & set(told)
+        assert by_key[key].judgement == NONE and by_key[key].value is None
+        assert "standards rate rings of steel only" in by_key[key].source
+    assert not {"life_basic", "life_modified", "static_safety_pressure"} & set(by_key)
     # nor do limits that makers of steel and hybrid bearings give, whatever the figure
     fast = found(replace(contact(ceramic, spin_to_roll=1.0), speed_number=9e6, viscosity_ratio=0.1))
     for key in ("pressure", "preload_class", "speed", "kappa", "spin"):
-        for verdict in (told[key], fast[key]):
+        for verdict in (by_key[key], fast[key]):
             assert (verdict.judgement, verdict.limit, verdict.advice) == (NONE, "none", "")
             assert "steel" in verdict.source
-    assert ceramic.speed_limit is None and "with rings of steel" in told["least_preload"].source
+    assert ceramic.speed_limit is None and "with rings of steel" in by_key["least_preload"].source
     other = mounted(ceramic, "materials", outer_ring="GCr15")
     assert other.scene.materials.kind == "other"
     assert found(replace(other, speed_limit=rate.speed_limit(other.scene)))["speed"].judgement == NONE
@@ -192,9 +192,9 @@ def test_reference_life_of_the_designers_cases(name, rpm, ratio):
 
 def test_wider_grooves_than_those_of_the_rating_are_not_rated(hybrid):
     wide = bearing_at(hybrid.scene.replace({"bearing.inner_conformity": 0.5201}))
-    told = found(wide)
-    assert wide.rating is None and told["life"].judgement == NONE
-    assert "conformities of 0.52 (inner) and 0.53 (outer)" in told["life"].source
+    by_key = found(wide)
+    assert wide.rating is None and by_key["life"].judgement == NONE
+    assert "conformities of 0.52 (inner) and 0.53 (outer)" in by_key["life"].source
     # closer ones do not raise the rating
     close = bearing_at(hybrid.scene.replace({"bearing.inner_conformity": 0.51}))
     assert close.rating.dynamic == hybrid.rating.dynamic
@@ -346,9 +346,9 @@ def test_every_verdict_has_limit_and_source(hybrid, steel, ceramic):
 
 def test_at_standstill_there_is_no_film_and_no_hours():
     still = {"operation.speed_rpm": 0.0, "operation.lowest_speed_rpm": 1000.0}
-    told = found(bearing_at(read_scene(EXAMPLES / "7003C-spindle.toml").replace(still)))
-    assert not {"life", "life_basic", "film", "kappa"} & set(told)
-    assert told["speed"].judgement == GOOD
+    by_key = found(bearing_at(read_scene(EXAMPLES / "7003C-spindle.toml").replace(still)))
+    assert not {"life", "life_basic", "film", "kappa"} & set(by_key)
+    assert by_key["speed"].judgement == GOOD
 
 
 def test_fmus_carry_what_is_fixed(hybrid):

@@ -7,7 +7,7 @@ import pytest
 from tests.conftest import ROOT
 
 NOTEBOOKS = sorted((ROOT / "examples" / "notebooks").glob("*.ipynb"))
-#: s, of recordings in the tests: long enough to tell the lines apart that the notebooks name.
+#: s, of recordings in the tests: long enough to separate the lines that the notebooks name.
 SHORT = {"first_result": 0.2, "run_up": 0.3}
 
 

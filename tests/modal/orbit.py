@@ -19,7 +19,7 @@ def blocks(system):
     arrays = system.arrays
     p, c = arrays.p, arrays.s[S.C : S.C + C.SIZE].copy()
     y, jac = arrays.s[S.Y : S.Y + Y.SIZE].copy(), np.zeros(J.SIZE)
-    assert abs(y[Y.TH]) < 1e-9  # at 12 o'clock its axes are those of the rings
+    assert abs(y[Y.TH]) < 1e-9  # at 12 o'clock its axes are the axes of the rings
     call("jacobian", p, c, y, np.zeros(arrays.w.size), jac, 0.0, system.speed, 0.0)
 
     def block(first, rows, columns):

@@ -34,7 +34,7 @@ class Tie:
     Attributes
     ----------
     load : ndarray, shape (m,)
-        N: forces at the state where the bearings start, without those of the bearings.
+        N: forces at the state where the bearings start, without forces of the bearings.
     stiffness, inverse : ndarray, shape (m, m)
         SI units; the inverse is that of the mass with all driven rings.
     motions : sequence of ndarray, shape (rows, m)

@@ -30,7 +30,7 @@ def test_crossings_of_the_spindle(spindle, line, mode):
 
 
 def test_a_crossing_is_where_both_frequencies_are_one(gate, spindle):
-    """Against the modes at that very speed, not those of the grid."""
+    """Against the modes at that very speed, not the modes of the grid."""
     for one in spindle.crossings()[::25]:
         at = modes(gate("7003C-spindle"), {"shaft_speed": one.rpm * RPM})
         assert at.near(one.frequency).frequency == pytest.approx(one.frequency, rel=1e-4)
@@ -59,7 +59,7 @@ def test_what_a_wave_of_a_race_can_move():
     from tests.conftest import GATES
 
     scene = read_scene(GATES / "7003C-spindle.toml")
-    told = {
+    reported = {
         (one.source, one.surface_order, one.order, one.direction): one.frequency[0]
         for one in lines(scene, at, orders, 40e3) if one.source.endswith("race")
     }  # fmt: skip
@@ -77,9 +77,9 @@ def test_what_a_wave_of_a_race_can_move():
                     speeds = np.where(bins > 2048, bins - 4096, bins) * 20.0
                     own = [abs(speed) for speed in speeds if n == 0 or speed * sign > 0.0]
                     key = (source, k, n, direction)
-                    assert (key in told) == bool(own), key
+                    assert (key in reported) == bool(own), key
                     if own:
-                        assert 2.0 * np.pi * told[key] == pytest.approx(max(own), rel=1e-9)
+                        assert 2.0 * np.pi * reported[key] == pytest.approx(max(own), rel=1e-9)
 
 
 def test_lines_are_those_of_the_scene(gate):

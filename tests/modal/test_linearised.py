@@ -49,7 +49,7 @@ def engine_jacobian(bearing):
 
 
 def test_differences_are_the_derivatives_of_the_engine(system):
-    """In units in which motions weigh alike; the engine's Jacobian leaves small parts of traction out."""
+    """In units in which motions weigh equally; the engine's Jacobian leaves small parts of traction out."""
     plain = Plain(system.arrays, system.coordinates)
     own, other = plain.derivatives(), engine_jacobian(system.arrays)
     step = plain.steps()
@@ -80,7 +80,7 @@ def test_equal_loads_need_one_phase_and_unequal_ones_six(gate, system):
     assert system.equal_loads and len(system.phases) == 1
     loaded = linearised(gate("7003C-bare"), {U.SPEED: 1000.0, U.LOAD_Z: -100.0})
     assert not loaded.equal_loads and len(loaded.phases) == 6
-    # one pitch on, the balls stand where their neighbours stood: the mean over it forgets no phase
+    # one pitch on, the balls are where their neighbours were: the mean covers the whole pitch
     assert np.ptp(loaded.phases, axis=0).max() > 0.0
 
 
@@ -123,12 +123,12 @@ def test_a_pedestal_of_two_stiffnesses_still_has_constant_coefficients(gate):
     y, z = (system.matrix[at.ring_rates + k, at.rings + k] for k in (Q.OUTER + Q.Y, Q.OUTER + Q.Z))
     apart = abs(y - z)
     assert apart > 0.05 * abs(z)
-    # with a seat that turns with the balls the phases differ by 0.4 of what tells y from z
+    # with a seat that turns with the balls the phases differ by 0.4 of the difference of y and z
     assert np.ptp(system.phases, axis=0)[rings].max() < 1e-5 * apart
 
 
 def test_the_state_is_steady(system):
-    """What is alike for all balls does not accelerate any more."""
+    """What is equal for all balls does not accelerate any more."""
     at = system.coordinates
     rates = Plain(system.arrays, at).rates()
     means = [rates[at.ball_state(kind)].mean() for kind in range(PLACES, STATES)]

@@ -100,7 +100,7 @@ def test_nearest_mode_and_mode_by_name(gate):
 def test_a_single_bearing_has_no_line_of_a_shaft(gate):
     found = modes(gate("7003C-spindle"))
     for ask in (lambda: found.line(0), found.picture):
-        with pytest.raises(ValueError, match="that of a set's shaft: `shape` has that of a bearing"):
+        with pytest.raises(ValueError, match="for the shaft of a set: `shape` returns a bearing's motion"):
             ask()
 
 
@@ -124,7 +124,7 @@ def test_a_bearing_without_equilibrium_is_refused_with_the_reason(gate):
 
 
 def test_shape_of_the_axial_mode(gate):
-    """Rings move against each other along the axis, balls between them, all alike; nothing else moves."""
+    """Rings move against each other along the axis, balls between them, all equally; nothing else moves."""
     found = modes(gate("7003C-spindle"))
     axial = found.named("inner axial")
     shape = found.shape(axial)

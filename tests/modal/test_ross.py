@@ -49,11 +49,11 @@ def test_planes_of_the_7003C(table):
 
 def test_two_planes_are_exact_where_they_stand_for_one_matrix():
     k = bearing(1.6e8, 4700.0, -7.9e5)
-    np.testing.assert_allclose(planes(k).stands_for(k), k, rtol=1e-12, atol=1e-9)
+    np.testing.assert_allclose(planes(k).equivalent(k), k, rtol=1e-12, atol=1e-9)
     assert np.abs(errors(planes(k), k, k)).max() < 1e-12
     # cross-coupling of the radial motions takes its own tilt along, which is not the bearing's
     crossed = bearing(1.6e8, 4700.0, -7.9e5, cross=2e4)
-    assert np.abs((planes(k).stands_for(crossed) - crossed)[:3, :3]).max() < 1e-6
+    assert np.abs((planes(k).equivalent(crossed) - crossed)[:3, :3]).max() < 1e-6
 
 
 def test_a_mirrored_bearing_has_its_planes_on_the_other_side():
@@ -102,7 +102,7 @@ def test_tilt_counts_in_the_spindle(scene, whole, hertz):
     inertia = masses[rows]
     inertia[[0, 2]] += 0.5 * p[P.BALLS] * p[P.BALL_MASS]  # balls follow half of each ring
     k = at_rest(one)
-    k = planes(k).stands_for(k) if whole else np.diag([0.0, k[Y, Y], 0.0, 0.0, 0.0])
+    k = planes(k).equivalent(k) if whole else np.diag([0.0, k[Y, Y], 0.0, 0.0, 0.0])
     pair, pedestal = k[np.ix_([Y, BZ], [Y, BZ])], system.on_pedestal[1]
     found = np.block([[pair, -pair], [-pair, pair]])
     found += np.diag([0.0, p[P.TILT_STIFFNESS], pedestal, pedestal * p[P.ROTATIONAL_RATIO]])

@@ -95,7 +95,7 @@ def test_standstill_has_the_frequencies_of_statics():
 
 
 def test_a_set_seen_from_its_rear_has_the_same_modes():
-    """The shaft turns the other way then; loads stand at the same bearings.
+    """The shaft turns the other way then; loads are at the same bearings.
 
     Overdamped motions of the balls are left out: their eigenvalues lie close together, and rounding moves
     them by 4e-6.
@@ -243,5 +243,5 @@ def test_line_of_the_shaft():
     assert front == pytest.approx(nose + (rear - nose) * (x1 - x0) / (x2 - x0), rel=1e-9, abs=1e-12)
     own = found.linearised.shaft.nose[1:3] @ mode.vector[found.linearised.places :][:5]
     assert nose * own[0] == pytest.approx(own * nose[0], rel=1e-9)
-    with pytest.raises(ValueError, match="`line` has that of the shaft"):
+    with pytest.raises(ValueError, match="`line` returns the motion of the shaft"):
         found.shape(mode)

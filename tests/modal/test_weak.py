@@ -32,15 +32,15 @@ def test_a_dry_or_steel_bearing_is_named(name, rpm, mode):
 
 @pytest.mark.parametrize(("name", "rpm"), [("7003C-spindle", 20000), ("7003C-bare", 20000)])
 def test_well_damped_bearings_are_not(name, rpm):
-    """Their levels agree with those of full within 0.3 dB(A), docs/choosing.md."""
+    """Their levels agree with levels of full within 0.3 dB(A), docs/choosing.md."""
     assert weakness(at(name, rpm)) == ""
 
 
 def test_a_line_on_a_narrow_mode_counts(monkeypatch):
-    """With a wider bound the spindle's radial mode (damping ratio 0.02) is one that f_i - f_r stands on."""
+    """With a wider bound f_i - f_r lies within the peak of the spindle's radial mode (damping ratio 0.02)."""
     monkeypatch.setattr(weak, "NARROW", 0.02)
     scene = at("7003C-spindle", 20000)
     assert "'inner radial backward'" in weakness(scene)
-    assert weakness(scene).endswith("and f_i - f_r of inner race stands on it)")
+    assert weakness(scene).endswith("and f_i - f_r of inner race lies within its peak)")
     assert weakness(scene.replace({"imperfections": None})) == ""
     assert weakness(scene.replace({"operation.speed_rpm": 22000.0})) == ""

@@ -99,7 +99,7 @@ def test_where_no_steady_state_was_found_nothing_is_judged():
 
 
 def test_a_campbell_diagram_says_what_it_does_not_draw():
-    """At 14,000 and 20,000 r/min balls have most of the energy of the whirl; branches are those of rings.
+    """At 14,000 and 20,000 r/min balls have most of the energy of the whirl; branches are modes of rings.
 
     The state has the weight of the balls; with that of the inner ring alone, as a load, 860 Hz and 788 1/s.
     """

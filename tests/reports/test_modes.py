@@ -116,7 +116,7 @@ def test_the_instability_margin_is_named_in_table_and_report(scene, monkeypatch)
 def test_at_standstill_there_are_modes_with_and_without_friction(scene):
     made = section(subject_of(scene("7003C-spindle"), 0.0))
     assert not [block for block in made.blocks if block.sort == "chart"]
-    assert texts(made)[0].startswith("No Campbell diagram: the shaft stands still")
+    assert texts(made)[0].startswith("No Campbell diagram: the shaft does not turn")
     stuck, sliding = (block for block in made.blocks if block.sort == "table")
     assert "contacts stick" in stuck.caption and "without friction" in sliding.caption
     tilts = [
@@ -137,7 +137,7 @@ def test_a_scene_without_imperfections_and_sound(scene):
 
 @pytest.mark.parametrize("model", ["rings", "response", "auto"])
 def test_every_fidelity_has_modes(scene, model, monkeypatch):
-    """They are those of `full`, so only the speeds are cut down here."""
+    """They are modes of `full`, so only the speeds are cut down here."""
     monkeypatch.setattr(room, "_SHARES", (0.9, 1.0, 1.1))
     given = scene("7003C-spindle")
     given = given.model_copy(update={"fidelity": given.fidelity.model_copy(update={"model": model})})
@@ -248,7 +248,7 @@ def test_a_click_chooses_the_mode_that_moves(file, found):
         page.wait_for_function(f"was => {drawn} !== was", arg=before)
         page.click(".shape-pause")
         assert page.text_content(".shape-pause") == "Move"
-        # the axes' own scales say where a point of the axial mode stands
+        # the axes' own scales say where a point of the axial mode is
         (k,) = [k for k, one in enumerate(found.branches) if one.name == "inner axial"]
         branch = found.branches[k]
         x, y = page.evaluate(
@@ -271,7 +271,7 @@ def test_a_click_chooses_the_mode_that_moves(file, found):
         assert page.evaluate(f"{chosen}.map(t => [t.x[0], t.y[0]])") == [
             pytest.approx([branch.rpm[1], branch.frequency[1]], abs=0.1)
         ]
-        # other colours: drawn anew, the mark comes back, once
+        # other colours: drawn again, the mark comes back, once
         page.click("#theme")
         page.wait_for_function(f"{chosen}.length === 1")
         page.select_option(".shape-mode", "0")

@@ -164,7 +164,7 @@ def bearing_of(scene, number, **parameters):
 def offsets_of(scene):
     """Axial place (m) of each inner ring in its own axes with the shaft at zero; force, stiffness of springs.
 
-    Those of statics; on a pedestal of its own the outer ring gives way under the preload, too.
+    Places of statics; on a pedestal of its own the outer ring gives way under the preload, too.
     """
     spindle = scene.spindle
     seats = [
@@ -300,7 +300,7 @@ def _against_outer(q):
 
 
 def _equilibrium(system, limit):
-    """Places of all unknowns where forces on shaft, housing and outer rings end; those of balls zero."""
+    """Places of all unknowns where forces on shaft, housing and outer rings end; places of balls are zero."""
     n = system.count
     slow = [np.arange(system.carriers.start, system.carriers.stop)]
     for one, own in zip(system.mounted, system.own, strict=True):

@@ -2,7 +2,7 @@
 
 Only the balls of a bearing that is held are the engine's (its entry ``held``, which has oracles of its own).
 Preload, offsets, supports, loads and the search for the rest are written here, in matrices. Unknowns are the
-coordinates of the shaft, then those of what holds the outer rings and gives way: the place of each sliding
+coordinates of the shaft, then of what holds the outer rings and gives way: the place of each sliding
 ring along its bearing's own axis; six of a housing that moves; x y z and tilts of each ring on a pedestal.
 Contacts are springs: a step is judged by the force along it, which must not turn round. Units are SI.
 """
@@ -100,7 +100,7 @@ class Member:
     def at(self, own, inputs=None):
         """Return the bearing with its inner ring held at ``own`` (m, rad) in its own axes.
 
-        ``inputs``: of the engine, ``layout.U``; default: those of the operating point.
+        ``inputs``: of the engine, ``layout.U``; default: the inputs of the operating point.
 
         Raises
         ------
@@ -394,7 +394,7 @@ def rest(assembled, load, inputs=None):
     load : ndarray, shape (n,)
         On the shaft's coordinates: forces (N), moments (N m).
     inputs : list of ndarray, optional
-        Of the engine, per bearing; default: those of the operating point.
+        Of the engine, per bearing; default: the inputs of the operating point.
 
     Raises
     ------
@@ -459,7 +459,7 @@ class _System:
         return np.hstack([inner, -self.supports.rings[k]])
 
     def start(self):
-        """Place the shaft where preloaded bearings stand; a set that carries one way, where its load is."""
+        """Place the shaft where preloaded bearings are; a set that carries one way, where its load is."""
         z = np.zeros(self.count)
         signs = {one.sign for one in self.members}
         if len(signs) == 1:

@@ -121,7 +121,7 @@ def test_modes_of_every_bearing_are_outputs():
     one.step(1e-3)
     for b in (1, 2):
         assert one.get(f"bearing[{b}].outer_ring.flexure.n3.sine") != 0.0
-        first = S.SOUND + 6  # places stand before rates
+        first = S.SOUND + 6  # places come before rates
         assert one.get(f"bearing[{b}].inner_ring.flexure.n2.cosine") == one.s[_state(one, b)][first]
 
 

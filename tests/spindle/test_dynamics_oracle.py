@@ -134,7 +134,7 @@ def test_dense_answer_stands_in_the_engines_layout(seat):
     residuals = [rng.uniform(-1e3, 1e3, F.SIZE) for _ in spindle.mounted]
     carriers = rng.uniform(-1.0, 1.0, spindle.total_mass[spindle.carriers].shape[0])
     found, moved = dense_answer(spindle, state, residuals, carriers, gh)
-    # each bearing's own equations hold for what it is told to do, as the engine would check them
+    # each bearing's own equations hold for its driven motion, as the engine would check them
     struct = spindle.mass[spindle.carriers, spindle.carriers] @ moved
     damping, stiffness = (one[spindle.carriers, spindle.carriers] for one in spindle.matrices(0.0))
     struct += (gh * damping + gh * gh * stiffness) @ moved
@@ -173,7 +173,7 @@ def test_elimination_of_each_bearing_gives_the_dense_answer(seat):
     """Bearings condensed to the rings that are carried, held (carried by nothing) or slide: the same answer.
 
     A sliding ring's x is one more coordinate beside shaft and housing, without mass of its own: so its spring
-    may stand between ring and housing, and the bearing's own equations stay as they are.
+    may be between ring and housing, and the bearing's own equations stay as they are.
     """
     spindle, gh = system(seat, bent), 2e-5
     state, rng = shaken(spindle), np.random.default_rng(5)
@@ -364,6 +364,6 @@ def test_place_of_the_start_is_that_of_the_oracle_of_statics():
     places, _ = spindle.split(at_rest(spindle))
     found = rest(given).shaft
     np.testing.assert_allclose(places[spindle.of_shaft], found, rtol=0, atol=1e-9 * np.abs(found).max())
-    # statics has what friction across the tracks changes: 1.5e-11 m of places of 8e-6 m, 2e-11 rad
+    # statics has the friction of the steady state: it turns the shaft aside by 7e-8 of 1.3e-4 rad
     found = statics(given).displacement
-    np.testing.assert_allclose(places[spindle.of_shaft], found, rtol=0, atol=1e-6 * np.abs(found).max())
+    np.testing.assert_allclose(places[spindle.of_shaft], found, rtol=0, atol=1e-3 * np.abs(found).max())

@@ -37,7 +37,7 @@ _BEGIN, _TURNS = MO.OUTER + MO.ACCELERATION, MO.OUTER + MO.SPIN_RATE
 PLACES = [(-60.0, 0.0, 5.0), (60.0, 105.0, 0.0), (20.0, -30.0, 110.0)]
 
 
-def housed(signs="+-", model="compact", places=PLACES, change=None, heard=None, **spindle):
+def housed(signs="+-", model="compact", places=PLACES, change=None, sound_keys=None, **spindle):
     """A pair on an overhung rotor ahead of the middle of its housing, which tilts therefore."""
     given = {
         "shaft": {
@@ -47,8 +47,8 @@ def housed(signs="+-", model="compact", places=PLACES, change=None, heard=None, 
         "load": {"force_z_N": -60.0, "position_mm": 10.0},
         "housing": HOUSING | (change or {}),
     }
-    table = sound(model, *places, **{"radiator": "housing"} | (heard or {}))
-    return sounding(signs, (25.0, 55.0), 500.0, RPM, heard=table, flaws=True, **given | spindle)
+    table = sound(model, *places, **{"radiator": "housing"} | (sound_keys or {}))
+    return sounding(signs, (25.0, 55.0), 500.0, RPM, sound_keys=table, flaws=True, **given | spindle)
 
 
 def single(scene, number=0, **more):
@@ -69,18 +69,20 @@ def single(scene, number=0, **more):
         for place in scene.microphones
         for x, y, z in (place.position_m,)
     ]
-    heard = scene.sound.model_dump() | {"microphone": microphones}
-    given = scene.model_dump() | {"spindle": None, "mounting": mounting.model_dump(), "sound": heard}
+    sound_keys = scene.sound.model_dump() | {"microphone": microphones}
+    given = scene.model_dump() | {"spindle": None, "mounting": mounting.model_dump(), "sound": sound_keys}
     return Scene.from_dict(given)
 
 
 def test_a_set_of_one_in_its_housing_sounds_as_the_single_bearing_there():
-    """Boundary elements, and a housing whose middle is the bearing: both stand on their pedestal there."""
+    """Boundary elements, and a housing whose middle is the bearing: both are on their pedestal there."""
     x = 0.5 * LENGTH
     small = {"mass_kg": 0.5, "diameter_mm": 40.0, "length_mm": 14.0, "pedestal_stiffness_N_m": 1e8}
     given = sounding(
         "+", (x,), None, RPM, flaws=True, housing=small,
-        heard=sound("bem", (x, 105.0, 0.0), (x - 80.5, 0.0, 20.0), radiator="housing", third_octaves=True),
+        sound_keys=sound(
+            "bem", (x, 105.0, 0.0), (x - 80.5, 0.0, 20.0), radiator="housing", third_octaves=True,
+        ),
         shaft={"sections_mm": [[LENGTH, DIAMETER, 0.0]]},
         load={"force_x_N": 500.0, "force_z_N": -20.0, "position_mm": x},
     )  # fmt: skip
@@ -95,7 +97,7 @@ def test_a_set_of_one_in_its_housing_sounds_as_the_single_bearing_there():
     names = [one.name for one in variables(alone, 0.0) if one.unit == "dB"]
     assert len(names) > 70 and ours.get("mic[1].spl_rotation") > -100.0
     for name in names:
-        # the rings of a set under load stand where quasi-static bearings hold them: 7e-4 dB measured, 2 dB in
+        # the rings of a set under load are where quasi-static bearings hold them: 7e-4 dB measured, 2 dB in
         # silent bands
         within = 0.01 if name.endswith((".spl", ".leq", "_a")) else 5.0
         assert ours.get(name) == pytest.approx(own.get(name), abs=within), name
@@ -103,14 +105,14 @@ def test_a_set_of_one_in_its_housing_sounds_as_the_single_bearing_there():
 
 @pytest.mark.parametrize("model", ["compact", "bem"])
 def test_bodies_and_microphones_are_those_of_a_single_bearing_in_that_housing(model):
-    """Equal radiators and places make equal filters: the same motion is heard alike."""
+    """Equal radiators and places make equal filters: the same motion makes the same sound."""
     given = housed(model=model)
     ours, alone = sound_scene(given, 0), single(given)
-    heard, other = radiators_of(ours, housing_of_set(given)), radiators_of(alone)
-    assert heard.housing.tilts and heard.shaft
-    assert heard.housing.centre == pytest.approx(other.housing.centre, abs=1e-15)
-    exact = dataclasses.replace(heard.housing, tilts=False, centre=other.housing.centre)
-    assert dataclasses.replace(heard, housing=exact, shaft=False) == other
+    found, other = radiators_of(ours, housing_of_set(given)), radiators_of(alone)
+    assert found.housing.tilts and found.shaft
+    assert found.housing.centre == pytest.approx(other.housing.centre, abs=1e-15)
+    exact = dataclasses.replace(found.housing, tilts=False, centre=other.housing.centre)
+    assert dataclasses.replace(found, housing=exact, shaft=False) == other
     for mine, its in zip(ours.microphones, alone.microphones, strict=True):
         assert mine.position_m == pytest.approx(its.position_m, abs=1e-12)
 
@@ -135,7 +137,7 @@ def recorded(scene, samples):
 
 
 def level(scene, moved, tilts=True):
-    """Levels of a housing that is moved as ``moved`` tells of its middle, heard as a single bearing's is."""
+    """Levels of a housing whose middle moves as ``moved`` has it, by the filters of a single bearing."""
     middle = 1e-3 * middle_mm(scene.spindle)
     places = [(x - middle, y, z) for _, (x, y, z) in scene.microphones]
     centred = dataclasses.replace(HOUSED, housing=Housing(0.1, 0.16, 0.0, tilts=True))
@@ -150,13 +152,13 @@ def level(scene, moved, tilts=True):
 
 def test_the_housing_is_heard_by_the_motion_of_its_middle():
     """A single bearing's housing about its own middle, moved as the run's housing: 0.05 dB."""
-    given = housed(heard={"metering_start_s": 0.001})
-    moved, heard = recorded(given, 2048)
+    given = housed(sound_keys={"metering_start_s": 0.001})
+    moved, levels = recorded(given, 2048)
     expected = level(given, moved)
     assert min(expected) > 60.0
-    assert heard == pytest.approx(expected, abs=0.05)
+    assert levels == pytest.approx(expected, abs=0.05)
     # so far is what the plane of the bearing does from what the middle does, turns about it left out
-    assert max(abs(one - other) for one, other in zip(heard, level(given, moved, False), strict=True)) > 0.5
+    assert max(abs(one - other) for one, other in zip(levels, level(given, moved, False), strict=True)) > 0.5
 
 
 def test_what_stands_inside_makes_no_sound_of_its_own():
@@ -166,7 +168,7 @@ def test_what_stands_inside_makes_no_sound_of_its_own():
     assert np.array_equal(rear, silent_parameters(sound_scene(given, 1)))
     assert rear[SD.H_OUTPUTS] == 0 and rear[SD.H_MICS] == front[SD.H_MICS] and rear.size < 200
     ours = MicrophoneSignals(given)
-    (_, bare) = sound_blocks(housed(places=[(-60.0, 0.0, 5.0), *PLACES[1:]], heard={"radiator": "bare"}))
+    (_, bare) = sound_blocks(housed(places=[(-60.0, 0.0, 5.0), *PLACES[1:]], sound_keys={"radiator": "bare"}))
     mute(bare)
     other = MicrophoneSignals(given, blocks=[front, bare])
     assert np.abs(ours.pressures).max() > 0.01
@@ -177,7 +179,7 @@ def test_what_stands_inside_makes_no_sound_of_its_own():
 
 
 def test_noise_of_the_rear_bearing_moves_the_housing():
-    """Its waves are heard, by the housing: muted is the block, not the bearing."""
+    """Its waves sound by the housing: the block is muted, not the bearing."""
 
     def smooth(p, bearing):
         first = int(p[int(p[P.SET]) + int(p[int(p[P.SET]) + SP.AT_ROWS]) + bearing * SP.ROW + SP.ROW_P])
@@ -191,8 +193,8 @@ def test_noise_of_the_rear_bearing_moves_the_housing():
     assert np.abs(loud - calm).max() > 0.05 * np.abs(loud).max()
 
 
-def test_turned_front_bearings_hear_alike():
-    """A first bearing that carries towards -X tells the same motion in mirrored axes: equal pressures."""
+def test_turned_front_bearings_make_equal_pressures():
+    """A first bearing that carries towards -X has the same motion in mirrored axes: equal pressures."""
     samples = 8192
     rng = np.random.default_rng(3)
     motion = still(HOUSED, samples)
@@ -205,15 +207,15 @@ def test_turned_front_bearings_hear_alike():
         mirrored[:, begin + MO.ACCELERATION] *= -1.0
         mirrored[:, begin + MO.SPIN_RATE + 1 : begin + MO.SPIN_RATE + 3] *= -1.0
     mirrored[:, first : first + 12] *= -1.0
-    heard = [
+    pressures = [
         Player(sound_blocks(housed(signs))[0]).play(moved, samples)
         for signs, moved in (("+-", motion), ("-+", mirrored))
     ]
-    assert np.abs(heard[1] - heard[0]).max() < 1e-9 * np.abs(heard[0]).max()
+    assert np.abs(pressures[1] - pressures[0]).max() < 1e-9 * np.abs(pressures[0]).max()
 
 
 def test_the_front_of_a_turned_housing_looks_the_other_way():
-    """Boundary elements of mirrored bodies: motion along x and tilts with the other sign, the rest alike.
+    """Boundary elements of mirrored bodies: motion along x and tilts with the other sign, the rest unchanged.
 
     As far as the points inside the bodies let them, which are drawn and not mirrored: -80 dB.
     """
@@ -250,7 +252,7 @@ def test_which_bearing_tells_the_motion_does_not_matter():
 
 
 def test_variables_of_a_set_in_its_housing():
-    given = housed(heard={"third_octaves": True})
+    given = housed(sound_keys={"third_octaves": True})
     names = [one.name for one in variables(given, 0.0)]
     assert "mic[1].spl_outer_ring" in names and "mic[1].third_octave[1000]" in names
     assert not any("spl_bearing" in name for name in names)
@@ -273,7 +275,7 @@ def test_its_key_knows_the_housing():
         housed(change={"position_mm": 91.0}),
         housed("-+"),
         housed(model="bem"),
-        housed(heard={"radiator": "bare"}, places=[(-60.0, 0.0, 5.0)]),
+        housed(sound_keys={"radiator": "bare"}, places=[(-60.0, 0.0, 5.0)]),
     ]
     assert len({sound_key(one) for one in keys}) == len(keys)
     assert sound_key(given) == sound_key(given.replace({"operation.speed_rpm": 5000.0}))
@@ -312,8 +314,11 @@ def test_a_sweep_hears_the_size_of_the_housing():
         ({"change": {"length_mm": 100.0}}, "inside the housing that radiates, x = 40 to 140 mm"),
         ({"model": "paper"}, "radiator = 'housing' is refused: these models take every body as bare"),
         ({"places": [(60.0, 45.0, 0.0)]}, "lies inside the housing, which reaches to r = 50 mm"),
-        ({"model": "bem", "heard": {"reflecting_plane_mm": 165.0}}, "cuts the housing"),
-        ({"heard": {"radiator": "baffle"}, "model": "bem"}, 'give `sound.radiator` = "bare" or "housing"'),
+        ({"model": "bem", "sound_keys": {"reflecting_plane_mm": 165.0}}, "cuts the housing"),
+        (
+            {"sound_keys": {"radiator": "baffle"}, "model": "bem"},
+            'give `sound.radiator` = "bare" or "housing"',
+        ),
     ],
 )
 def test_refusals(changes, words):

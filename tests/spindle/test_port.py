@@ -99,13 +99,13 @@ def test_rotor_has_the_rings_inertia_and_weight():
     run = PortRun(given).lead(0.0, 0.0).init()
     mass, transverse = run.p[P.INNER_MASS], run.p[P.INNER_TRANSVERSE]
     places = np.array([0.04, 0.07])
-    told = {one.name: one.value for one in prepare(given).variables if one.variability == "constant"}
-    assert told["port.mass"] == pytest.approx(2.0 * mass, rel=1e-12)
-    assert told["port.static_moment"] == pytest.approx(mass * places.sum(), rel=1e-12)
+    constants = {one.name: one.value for one in prepare(given).variables if one.variability == "constant"}
+    assert constants["port.mass"] == pytest.approx(2.0 * mass, rel=1e-12)
+    assert constants["port.static_moment"] == pytest.approx(mass * places.sum(), rel=1e-12)
     wanted = 2.0 * transverse + mass * (places**2).sum()
-    assert told["port.inertia.transverse"] == pytest.approx(wanted, rel=1e-12)
-    assert told["port.inertia.polar"] == pytest.approx(2.0 * run.p[P.INNER_POLAR], rel=1e-12)
-    assert "rotor.inertia" not in told  # it would be that of the rings alone
+    assert constants["port.inertia.transverse"] == pytest.approx(wanted, rel=1e-12)
+    assert constants["port.inertia.polar"] == pytest.approx(2.0 * run.p[P.INNER_POLAR], rel=1e-12)
+    assert "rotor.inertia" not in constants  # it would be the inertia of the rings alone
     # at rest balls weigh on the outer rings, rings are the rotor's: the weight that is left is small
     assert abs(run.force()[2]) < 0.5 * GRAVITY * mass
     # a free fall of everything: force without the rings' inertia
@@ -174,8 +174,8 @@ def test_derivatives_are_partial_ones(h, seat):
     near = {1e-6: 3e-9, 2e-6: 4e-9, 5e-6: 1e-8, 1e-5: 3e-8, 2e-5: 3e-8}.get(h, 5e-9)
     measured = differences(run, h, near)
     for one, other in zip(found, measured, strict=True):
-        alike = np.outer(SCALE, SCALE)
-        assert np.linalg.norm((one - other) * alike, 2) < 0.01 * np.linalg.norm(other * alike, 2)
+        weights = np.outer(SCALE, SCALE)
+        assert np.linalg.norm((one - other) * weights, 2) < 0.01 * np.linalg.norm(other * weights, 2)
 
 
 @pytest.mark.parametrize("h", [1e-6, 2e-6, 5e-6, 1e-5, 2e-5])
@@ -185,8 +185,8 @@ def test_derivatives_are_those_of_the_equations(h):
     found = derivatives(run, h)
     run.p[P.MAX_STEP] = run.s[S.STEP] = 1e-7
     for one, other in zip(found, differences(run, h, 1e-10), strict=True):
-        alike = np.outer(SCALE, SCALE)
-        assert np.linalg.norm((one - other) * alike, 2) < 0.01 * np.linalg.norm(other * alike, 2)
+        weights = np.outer(SCALE, SCALE)
+        assert np.linalg.norm((one - other) * weights, 2) < 0.01 * np.linalg.norm(other * weights, 2)
 
 
 def test_resistance_at_rest_is_the_static_stiffness():

@@ -59,7 +59,7 @@ def test_a_set_of_one_is_the_single_bearing(flaws):
         size = np.abs(one[:6]).max()
         # both find the even balls by steps that end at 3e-11 m, of an approach of 1e-6 m; measured 4e-4
         assert np.abs(one[:6] - ours[:6]).max() < 2e-3 * size + 1e-8
-        # the rings of a set under load stand where quasi-static bearings hold them; measured 2e-3
+        # the rings of a set under load are where quasi-static bearings hold them; measured 2e-3
         assert run.z[Z.TORQUE] == pytest.approx(one[Z.TORQUE], rel=5e-3)
     assert run.value("friction_torque_mean") == pytest.approx(one[Z.MEAN_TORQUE], rel=5e-3)
 
@@ -104,8 +104,8 @@ def test_sound_of_small_flaws_is_that_of_rings():
 
     A twentieth of them leave 0.36 dB.
     """
-    heard = sound("compact", (55.0, 0.0, 1000.0), metering_start_s=0.2)
-    given = pair(heard, flaws=True).replace(NO_CAGE | SMALL | {"fidelity.tolerance": 1e-3})
+    sound_keys = sound("compact", (55.0, 0.0, 1000.0), metering_start_s=0.2)
+    given = pair(sound_keys, flaws=True).replace(NO_CAGE | SMALL | {"fidelity.tolerance": 1e-3})
     names = ["mic[1].leq", "mic[1].spl_inner_ring"]
     rings, response = (
         simulate(with_fidelity(given, model=one), 0.26, step=1e-3, outputs=names)

@@ -82,9 +82,9 @@ def test_a_set_of_one_is_the_single_bearing(flaws):
         one, ours = single.z, run.of(run.z, 0, "Z")
         size = np.abs(one[:6]).max()
         # both find the even balls by steps that end at 3e-11 m, of an approach of 1e-6 m: measured 3e-4.
-        # The perfect bearing stands still
+        # The perfect bearing is at rest
         assert np.abs(one[:6] - ours[:6]).max() < 2e-3 * size + 1e-8
-        # the rings of a set under load stand where quasi-static bearings hold them; measured 2e-3
+        # the rings of a set under load are where quasi-static bearings hold them; measured 2e-3
         assert run.z[Z.TORQUE] == pytest.approx(one[Z.TORQUE], rel=5e-3)
     assert run.s[S.STEPS] == single.s[S.STEPS]
     assert run.value("friction_torque_mean") == pytest.approx(one[Z.MEAN_TORQUE], rel=5e-3)
@@ -217,7 +217,7 @@ def test_mirrored_bearings_do_the_same():
     front, rear = rows[:, :3], rows[:, 6:9]
     size = np.abs(rows).max()
     assert size > 1e-4
-    # outputs are told in the shaft's axes; rounding of Newton's corrections
+    # outputs are in the shaft's axes; rounding of Newton's corrections
     assert np.abs(front[:, 1:] - rear[:, 1:]).max() < 1e-7 * size
     assert np.abs(rows[:, -3]).max() < 1e-7 * size
 

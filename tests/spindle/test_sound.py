@@ -33,17 +33,17 @@ def sound(model="compact", *places, **more):
     return {"radiation_model": model, "metering_start_s": 0.005, "microphone": microphones, **more}
 
 
-def sounding(*args, heard, flaws=False, **spindle):
+def sounding(*args, sound_keys, flaws=False, **spindle):
     """Scene of a set with sound."""
-    data = tables(*args, **spindle) | {"sound": heard} | ({"imperfections": FLAWS} if flaws else {})
+    data = tables(*args, **spindle) | {"sound": sound_keys} | ({"imperfections": FLAWS} if flaws else {})
     data["fidelity"] |= {"tolerance": 1e-5}
     return Scene.from_dict(data)
 
 
-def pair(heard, place=55.0, **changes):
+def pair(sound_keys, place=55.0, **changes):
     """A DB pair that is symmetric about its middle plane, with a radial load and an unbalance there."""
     return sounding(
-        "+-", (place - 15.0, place + 15.0), 500.0, RPM, heard=heard,
+        "+-", (place - 15.0, place + 15.0), 500.0, RPM, sound_keys=sound_keys,
         shaft={
             "sections_mm": [[2.0 * place, 17.0, 0.0]],
             "unbalance": [{"position_mm": place, "amount_g_mm": 0.2}],
@@ -113,8 +113,8 @@ def single(scene, x):
         | {"z_mm": 1e3 * place.position_m[2]}
         for k, place in enumerate(scene.microphones)
     ]
-    heard = scene.sound.model_dump() | {"microphone": microphones}
-    given = scene.model_dump() | {"spindle": None, "mounting": mounting.model_dump(), "sound": heard}
+    sound_keys = scene.sound.model_dump() | {"microphone": microphones}
+    given = scene.model_dump() | {"spindle": None, "mounting": mounting.model_dump(), "sound": sound_keys}
     return Scene.from_dict(given)
 
 
@@ -123,7 +123,7 @@ def test_a_set_of_one_sounds_as_the_single_bearing_there(model):
     x = 0.5 * LENGTH
     places = [(x, 105.0, 0.0), (x - 80.5, 0.0, 0.0), (x + 30.0, -20.0, 110.0)]
     given = sounding(
-        "+", (x,), None, RPM, heard=sound(model, *places, third_octaves=True), flaws=True,
+        "+", (x,), None, RPM, sound_keys=sound(model, *places, third_octaves=True), flaws=True,
         shaft={"sections_mm": [[LENGTH, DIAMETER, 0.0]]}, bearings=[{"seat": "pedestal"}],
         housing={"pedestal_stiffness_N_m": 1e8},
         load={"force_x_N": 500.0, "force_z_N": -20.0, "position_mm": x},
@@ -238,7 +238,7 @@ def test_a_sweep_reads_the_sound_of_a_set():
 
 
 @pytest.mark.parametrize(
-    "heard, words",
+    "sound_keys, words",
     [
         (sound("bem", (55.0, 105.0, 0.0), radiator="housing"), "only a housing that moves radiates"),
         (
@@ -251,6 +251,6 @@ def test_a_sweep_reads_the_sound_of_a_set():
         (sound("bem", (20.0, 105.0, 0.0), reflecting_plane_mm=55.0), "is between the bearing"),
     ],
 )
-def test_refusals(heard, words):
+def test_refusals(sound_keys, words):
     with pytest.raises(SceneError, match=words):
-        pair(heard)
+        pair(sound_keys)

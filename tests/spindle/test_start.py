@@ -26,7 +26,7 @@ HOUSING = {"mass_kg": 2.0, "diameter_mm": 100.0, "length_mm": 160.0, "pedestal_s
 
 @pytest.mark.parametrize("seat", ["fixed", "sliding", "pedestal", "housing", "bends"])
 def test_vectors_of_the_start_do_not_overlap(seat):
-    """Forces are written in whole groups of lanes: those of a trial must not reach the step behind them."""
+    """Forces are written in whole groups of lanes: forces of a trial must not reach the step behind them."""
     if seat in ("fixed", "sliding", "pedestal"):
         run = SetRun(loaded(seat))
     elif seat == "housing":
@@ -68,18 +68,20 @@ def test_what_the_oracle_refuses_the_engine_refuses(preload, along, upwards, at,
 
 @pytest.mark.parametrize("fidelity", ["full", "rings", "response"])
 def test_a_load_that_turns_round_in_a_run_is_told(fidelity):
-    told = []
-    one = Instance(prepare(scene(**ONE_WAY, rpm=5e3, changes={"fidelity.model": fidelity})), tell=told.append)
+    warnings = []
+    one = Instance(
+        prepare(scene(**ONE_WAY, rpm=5e3, changes={"fidelity.model": fidelity})), tell=warnings.append
+    )
     one.initialise()
-    assert told == []
+    assert warnings == []
     one.set("nose.force.x", -500.0)
     for _ in range(40):
         try:
             one.step(1e-3)
         except EngineError:
             break
-    backward = [line for line in told if "the way that nothing holds" in line]
-    assert len(backward) == 1, told
+    backward = [line for line in warnings if "the way that nothing holds" in line]
+    assert len(backward) == 1, warnings
     assert backward[0].startswith("bearing 1: its contact angle is -")
 
 

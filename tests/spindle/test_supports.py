@@ -44,14 +44,14 @@ def test_the_stiffness_that_runs_tell_is_that_of_statics(seat, flexible, fidelit
     run = SetRun(given, FIDELITY=fidelity).init()
     # of a rigid shaft where the same shaft rests, bending as it may
     found = statics(given)
-    told = [run.value(f"shaft.stiffness.{name}") for name in ("axial", "radial", "tilt")]
-    assert told == pytest.approx(
+    outputs = [run.value(f"shaft.stiffness.{name}") for name in ("axial", "radial", "tilt")]
+    assert outputs == pytest.approx(
         [found.axial_stiffness, found.radial_stiffness, found.tilt_stiffness], rel=2e-3
     )
 
 
 def test_the_stiffness_follows_the_preload():
-    """At once in fidelities rings and response, which find the set's rest anew."""
+    """At once in fidelities rings and response, which find the set's rest again."""
     given = scene(rpm=10e3)
     for fidelity in ("rings", "response"):
         run = SetRun(given, FIDELITY=FIDELITIES[fidelity]).init()

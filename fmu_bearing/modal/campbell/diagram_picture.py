@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from matplotlib.text import Annotation
 
 _SIZE = (10.0, 7.2)  # inches
-_LEFT, _BOTTOM, _ACROSS = 0.09, 0.225, 0.695  # of the figure: axes, names stand to the right
+_LEFT, _BOTTOM, _ACROSS = 0.09, 0.225, 0.695  # of the figure: axes, names to the right
 _TOP, _TOP_NAMED = 0.945, 0.865  # without names above the axes, and with them
 _DASHES: dict[str, Any] = {"forward": "-", "backward": (0, (4.5, 2.0)), "": (0, (1.0, 1.3))}
 _DIRECTIONS = {"forward": "forward", "backward": "backward", "": "no direction"}
@@ -163,7 +163,7 @@ def _draw_operation(ax: "Axes", campbell: Diagram) -> None:
 
 
 def spaced(wanted: NDArray[np.float64], least: float, low: float, high: float) -> NDArray[np.float64]:
-    """Return places nearest to the wanted ones, in rising order, that stand ``least`` or more apart.
+    """Return places nearest to the wanted ones, in rising order, ``least`` or more apart.
 
     Pool adjacent violators (Barlow et al. 1972): neighbours too close share the mean of what they want.
     """

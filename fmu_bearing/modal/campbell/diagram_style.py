@@ -14,7 +14,7 @@ from fmu_bearing.modal.campbell.excitation_lines import Line
 from fmu_bearing.modal.modes.energies import BACKWARD, FORWARD, NEITHER
 from fmu_bearing.modal.modes.mode import MARGIN
 
-#: By what moves. Hues tell bodies apart for all kinds of colour vision (Okabe and Ito 2008), depths motions.
+#: By what moves. Hues distinguish bodies for all kinds of colour vision (Okabe and Ito 2008), depths motions.
 COLOURS = {
     "inner axial": "#56B4E9", "inner radial": "#0072B2", "inner tilt": "#1F3B8C",
     "outer axial": "#E69F00", "outer radial": "#D55E00", "outer tilt": "#8C2D04", "outer spin": "#B8860B",

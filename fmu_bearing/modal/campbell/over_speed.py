@@ -58,8 +58,8 @@ class Campbell(Diagram):
     def picture(self) -> "Figure":
         """Draw the Campbell diagram as a Matplotlib figure; needs the extra ``plots``.
 
-        Branches are coloured by what moves; width tells damping (thin: weak), dashes the direction. Lines are
-        those that meet a mode; dots are crossings, sized by Q; a bar marks the operating speed.
+        Branches are coloured by what moves; width shows damping (thin: weak), dashes the direction. Lines are
+        the ones that meet a mode; dots are crossings, sized by Q; a bar marks the operating speed.
         """
         return campbell_picture(self)
 
@@ -151,7 +151,7 @@ def _speeds(scene: Scene, speeds: Sequence[float] | None) -> list[float]:
 
 
 def _branches(points: Sequence[Modes], highest: float) -> list[Branch]:
-    """Follow modes from speed to speed by the likeness of their rates."""
+    """Follow modes from speed to speed by the modal assurance criterion of their rates."""
     open_ones: list[list[tuple[Modes, Mode]]] = []
     done: list[list[tuple[Modes, Mode]]] = []
     for point in points:
@@ -175,9 +175,9 @@ def _branches(points: Sequence[Modes], highest: float) -> list[Branch]:
 def _pairs(before: list[Mode], now: list[Mode], point: Modes) -> dict[int, int]:
     if not before or not now:
         return {}
-    alike = point.alike(before, now)
-    rows, columns = linear_sum_assignment(-alike)
-    return {int(i): int(k) for i, k in zip(rows, columns, strict=True) if alike[i, k] >= _SAME}
+    assurance = point.modal_assurance(before, now)
+    rows, columns = linear_sum_assignment(-assurance)
+    return {int(i): int(k) for i, k in zip(rows, columns, strict=True) if assurance[i, k] >= _SAME}
 
 
 def _branch(chain: list[tuple[Modes, Mode]]) -> Branch:

@@ -2,10 +2,11 @@
 
 Both hold friction and the cage's speed, and condense the balls about the steady state. Where a mode of the
 rings grows there, `full` leaves that state, and torque, heat and levels of the other two belong to a point
-that does not last. Where little damping is left, or a line stands on such a mode, a small error of damping
-or frequency is one of decibels, and motions that grow large are limited by what they leave out.
+that does not last. Where little damping is left, or a line lies within the peak of such a mode, a small error
+of damping or frequency is one of decibels, and motions that grow large are limited by effects that they leave
+out.
 
-All places that print figures ask `doubt`, and say what it returns.
+All places that print figures call `doubt`, and print what it returns.
 """
 
 from collections.abc import Mapping
@@ -34,13 +35,14 @@ _LEVELS = "levels"
 def doubt(scene: Scene, inputs: Mapping[str, float] | None = None) -> str:
     """Return why figures by a scene's own fidelity are in doubt; empty: they are not, or it is full.
 
-    Of a ring that whirls by itself, and where no steady state was found, all figures are, else levels alone.
+    Where a ring whirls by itself, and where no steady state was found, all figures are in doubt, else levels
+    alone.
 
     Parameters
     ----------
     scene : Scene
     inputs : mapping, optional
-        Inputs by name, SI units, in place of the scene's; parameters among them count for nothing.
+        Inputs by name, SI units, in place of the scene's; parameters among them are ignored.
     """
     model = scene.fidelity.model
     if model in ("full", "auto"):
@@ -70,8 +72,8 @@ def unsteady(scene: Scene, inputs: Mapping[str, float] | None = None) -> bool:
 def whirl(scene: Scene, inputs: Mapping[str, float] | None = None) -> str:
     """Return that a ring, or a set, whirls by itself at the steady state, what that means, and what stops it.
 
-    Empty where no mode of the rings grows (`modes.self_excited`), and where there is no equilibrium: runs say
-    so themselves. The cage is left out and rings are rigid.
+    Empty where no mode of the rings grows (`modes.self_excited`), and where there is no equilibrium: runs
+    report that themselves. The cage is left out and rings are rigid.
     """
     found = _at(scene, inputs)
     if found is None or (mode := _grows(found)) is None:
@@ -87,7 +89,7 @@ def whirl_words(frequency: float, growth: float, of_set: bool) -> str:
     )
     if of_set:
         body, way = "the set whirls by itself", "more preload or a stiffer shaft stops it"
-    # no number among the first words, by which warnings are known again
+    # no number among the first words, by which repeated warnings are recognised
     return (
         f"{body}, figures are of the unstable point, and only fidelity full shows the whirl: its motion "
         f"grows by {growth:.0f} 1/s at {frequency:.0f} Hz (linearised equations, no standard); {way}"
@@ -99,9 +101,9 @@ def weakness(scene: Scene, inputs: Mapping[str, float] | None = None) -> str:
 
     A mode of the rings, with the cage left out and rings rigid, grows by itself or has a damping ratio below
     `LEAST`; or a line that the scene contains and that can move a mode with one below `NARROW` lies within
-    the width of its peak at half power. Where there is no equilibrium nothing is said: runs say so
-    themselves. Of a set growth alone counts: its modes are those of the shaft, mostly with damping ratios
-    about these bounds, and were not compared.
+    the width of its peak at half power. Where there is no equilibrium the result is empty: runs report
+    that themselves. Of a set growth alone counts: its modes are modes of the shaft, mostly with damping
+    ratios about these bounds, and were not compared.
     """
     found = _at(scene, inputs)
     if found is None:
@@ -128,7 +130,9 @@ def weakness(scene: Scene, inputs: Mapping[str, float] | None = None) -> str:
             apart = abs(float(line.frequency[0]) - mode.frequency)
             within = mode.damping < NARROW and apart <= 2.0 * mode.damping * mode.frequency
             if within and line.present and can_move(line, mode):
-                return _words(mode, f"{mode.damping:.4f}, and {line.name} of {line.source} stands on it")
+                return _words(
+                    mode, f"{mode.damping:.4f}, and {line.name} of {line.source} lies within its peak"
+                )
     return ""
 
 
@@ -141,7 +145,7 @@ def _at(scene: Scene, inputs: Mapping[str, float] | None) -> Modes | None:
     """Return the modes of a scene with rigid rings at its inputs; None where there is no equilibrium."""
     names = {variable.name for variable in inputs_of(scene)}
     given = tuple(sorted((name, float(x)) for name, x in (inputs or {}).items() if name in names))
-    # what modes leave out is no part of the key: it is the same scene to them
+    # what modes leave out is not part of the key
     bare = scene.with_rigid_rings().model_copy(update={"sound": None, "imperfections": None})
     return _modes(with_fidelity(bare, model="full").to_toml(), given)
 

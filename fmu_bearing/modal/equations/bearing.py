@@ -4,8 +4,8 @@ Coordinates of the balls count in axes that orbit with them, coordinates of the 
 plain derivatives change as the balls orbit. As patterns round the bearing (1, cos k theta, sin k theta, with
 theta the angle in fixed axes: Coleman and Feingold 1958, for rotor blades) the balls are in fixed axes, too.
 Equal ball loads then give constant coefficients, also on a pedestal of two stiffnesses. Under a radial load,
-weight or misalignment they repeat with each ball that passes: their mean over one pitch serves, and the
-matrices at single phases show how much is lost.
+weight or misalignment they repeat with each ball that passes: their mean over one pitch is used, and the
+matrices at single phases show how much that neglects.
 """
 
 import math

@@ -159,7 +159,7 @@ class Coordinates:
     def places(
         self, y: NDArray[np.float64], w: NDArray[np.float64], pitch: float, ball: float
     ) -> Iterator[tuple[NDArray[np.float64], int, float]]:
-        """Yield for each number where it stands, ball by ball, and what makes a length of it (m or 1)."""
+        """Yield array, place and lever (m or 1: what makes a length of it) of each number, ball by ball."""
         sizes = (1.0, 1.0, pitch, 1.0, 1.0, pitch, ball, ball, ball)
         for row, size in zip((*_PLACES, *_RATES), sizes, strict=True):
             for j in range(self.balls):

@@ -6,7 +6,7 @@ force on the coordinates q. A single bearing is a set without shaft: no coordina
 
 The state is the steady one in which runs of `full` start (``engine/steady``), with the loads, tilts and
 temperatures of every bearing. The cage and its films are left out: it touches balls and lands with clearance,
-and a linear cage would either not be there or never let go. Imperfections and sound are left out, too.
+and a linear cage would either have no contact or never lose it. Imperfections and sound are left out, too.
 Weights, of the balls too, load the steady state where the scene has them.
 """
 
@@ -225,7 +225,7 @@ def bearing_of(run: Arrays, row: NDArray[np.float64], speed: float) -> BearingAr
 
 
 def _is_steady(bearing: BearingArrays) -> bool:
-    """Whether a bearing starts in its steady state; a quasi-static one is steady where nothing turns balls."""
+    """Whether a bearing starts steady; so does a quasi-static state where nothing turns balls."""
     turns = bearing.u[U.SPEED] != 0.0 and (bearing.p[P.MU] != 0.0 or bearing.p[P.GYROSCOPIC] != 0.0)
     return not turns or bearing.s[S.SETTLED] != NOT_FOUND
 

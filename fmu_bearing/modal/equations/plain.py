@@ -1,4 +1,4 @@
-"""Rates of a bearing at a state and their derivatives, ball by ball, as the engine's equations have them."""
+"""Rates of a bearing at a state and their derivatives, ball by ball, by the engine's equations."""
 
 from dataclasses import dataclass
 

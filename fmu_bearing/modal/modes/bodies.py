@@ -1,8 +1,8 @@
 """What moves in a mode, with its kinetic energy: the parts of each bearing, of a set its shaft and housing.
 
-Kinetic energy of the shaft with the inner rings is given as that of its rigid motion along the axis, across
-and tilting about the centre of mass, and of bending, which is what is left; that of the housing with the
-rings in it likewise.
+Kinetic energy of the shaft with the inner rings is divided into its rigid motion along the axis, across it
+and tilting about the centre of mass, and bending, which is the rest; the energy of the housing with the rings
+in it likewise.
 """
 
 import math
@@ -88,7 +88,7 @@ class _Body:
 
 
 def _rigid_bodies(shaft: ShaftMatrices) -> list[_Body]:
-    """Return shaft and housing, as far as there are some."""
+    """Return shaft and housing, where the set has them."""
     if not shaft.count:
         return []
     own = slice(0, shaft.shaft_count)

@@ -121,7 +121,7 @@ def participation(found: list[Part]) -> dict[str, float]:
     return dict(sorted(shares.items(), key=lambda item: -item[1]))
 
 
-def like(
+def modal_assurance(
     one: NDArray[np.complex128], other: NDArray[np.complex128], masses: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """Modal assurance criterion of the rates of each column of ``one`` against each of ``other``.

@@ -1,4 +1,4 @@
-"""A natural motion: what moves, at which frequency, how damped, in which direction; what to say of it."""
+"""A natural motion: what moves, at which frequency, how damped, in which direction; its remark."""
 
 import math
 from dataclasses import dataclass
@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-MARGIN = 0.002  # damping ratio below which a mode is named as near the limit of stability (chosen)
-#: 1/s: slower growth is not named. The mean over one ball pitch gives neutral motions of balls under a radial
-#: load up to 2.7 1/s; what grows by 5 1/s must be named.
+MARGIN = 0.002  # damping ratio below which a mode counts as near the limit of stability (chosen)
+#: 1/s: slower growth is not reported. The mean over one ball pitch gives neutral motions of balls under a
+#: radial load up to 2.7 1/s; growth of 5 1/s must be reported.
 GROWS = 3.0
 LOWEST = 100.0  # Hz: slower motions that grow belong to the mounting
 MOVES = 0.05  # of the kinetic energy: with less of it in the rings, a motion is one of the balls alone
-SPREAD = 0.01  # of the frequency over one ball pitch, beyond which it is named
+SPREAD = 0.01  # of the frequency over one ball pitch, beyond which it is reported
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,7 @@ class Mode:
         if self.damping >= MARGIN or self.ring_share <= MOVES:
             return ""
         if self.name.startswith("ball"):
-            # balls have most of the energy of the fastest whirls of a ring; those that rings hardly take
+            # balls have most of the energy of the fastest whirls of a ring; the ones that rings hardly take
             # part in are free along their orbits, and neutral
             return "unstable" if self.growth > GROWS else ""
         return "unstable" if self.damping < 0.0 else "instability margin"

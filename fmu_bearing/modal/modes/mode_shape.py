@@ -33,7 +33,7 @@ class Shape:
     ----------
     inner, outer : ndarray, shape (6,)
         x, turn about x, y, z, tilts about y and z of a ring; angles times the pitch radius. The turn of the
-        inner ring is an input, so it stands still.
+        inner ring is an input, so it is 0.
     bends : tuple of Bend
         One per order in which a ring bends.
     patterns : ndarray, shape (3, balls)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from fmu_bearing.modal.equations.linearised import Linearised
 from fmu_bearing.modal.equations.remarks import remarks
 from fmu_bearing.modal.modes import shaft_line
-from fmu_bearing.modal.modes.energies import like
+from fmu_bearing.modal.modes.energies import modal_assurance
 from fmu_bearing.modal.modes.mode import (
     GROWS,
     LOWEST,
@@ -42,7 +42,7 @@ class Modes:
     rpm : float
         Speed (r/min).
     modes : tuple of Mode
-        Those that ring, by frequency; of a set those in which shaft, housing or rings move.
+        The ones that ring, by frequency; of a set the ones in which shaft, housing or rings move.
     apart : tuple of Mode
         Neutral and overdamped motions, which show as no peak; of a set motions of balls alone, too.
     linearised : Linearised
@@ -85,7 +85,7 @@ class Modes:
         return "set" if self.on_shaft else "ring"
 
     def shape(self, mode: Mode | int) -> Shape:
-        """Return how rings and balls of a single bearing move in a mode, or in that of a place in `modes`.
+        """Return how rings and balls of a single bearing move in a mode, or in the one at a place in `modes`.
 
         Raises
         ------
@@ -94,7 +94,7 @@ class Modes:
         """
         if self.on_shaft:
             raise ValueError(
-                f"{self.scene.name}: a shape is that of one bearing: `line` has that of the shaft"
+                f"{self.scene.name}: `shape` is for one bearing: `line` returns the motion of the shaft"
             )
         chosen = self._chosen(mode)
         return shape(self.linearised.bearings[0], chosen.vector, chosen.value)
@@ -102,7 +102,7 @@ class Modes:
     def line(self, mode: Mode | int, places: Sequence[float] | None = None) -> NDArray[np.complex128]:
         """Return y and z of a set's shaft along it, shape (2, places), over the largest of both.
 
-        ``places``: m from the nose; default: nose and bearings. Times e^(i w t) the real parts are
+        ``places``: m from the nose; default: nose and bearings. The real parts times e^(i w t) are
         the motion.
 
         Raises
@@ -127,7 +127,7 @@ class Modes:
     def _need_shaft(self, what: str) -> None:
         if not self.on_shaft:
             raise ValueError(
-                f"{self.scene.name}: {what} is that of a set's shaft: `shape` has that of a bearing"
+                f"{self.scene.name}: {what} is for the shaft of a set: `shape` returns a bearing's motion"
             )
 
     def _chosen(self, mode: Mode | int) -> Mode:
@@ -160,11 +160,11 @@ class Modes:
             worst = max(of_rings, key=lambda mode: mode.spread)
             found.append(
                 f"loads differ from ball to ball: '{worst.label}' moves by {100 * spread:.1f} % of its "
-                "frequency while one ball pitch passes, so lines stand beside it; frequencies are means"
+                "frequency while one ball pitch passes, so lines appear beside it; frequencies are means"
             )
         if self.friction and abs(self.rpm) < 60.0 * STICKING:
             found.append(
-                "the shaft stands still, so contacts stick; once they slide, modes are those without friction"
+                "the shaft does not turn, so contacts stick; once they slide, the modes without friction hold"
             )
         if self.scene.bearing.cage is not None:
             found.append("the cage and its films are left out: it touches balls and lands with clearance")
@@ -193,10 +193,10 @@ class Modes:
         rows += [grouped(group) for group in groups_of(alone)]
         return sorted(rows, key=lambda row: row["frequency_Hz"])
 
-    def alike(self, before: list[Mode], now: list[Mode]) -> NDArray[np.float64]:
+    def modal_assurance(self, before: list[Mode], now: list[Mode]) -> NDArray[np.float64]:
         """Return the modal assurance criterion of modes before against modes now, by kinetic energy."""
         one, other = (np.array([mode.vector for mode in some]).T for some in (before, now))
-        return like(one, other, self.linearised.masses)
+        return modal_assurance(one, other, self.linearised.masses)
 
     @property
     def _bent(self) -> set[int]:

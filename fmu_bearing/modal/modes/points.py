@@ -26,7 +26,8 @@ def modes(scene: SceneSource, inputs: Mapping[str, float] | None = None, *, fric
         Inputs of the model by name, SI units (``shaft_speed`` in rad/s, ``preload`` in N), in place of the
         scene's.
     friction : bool, optional
-        False: contacts without traction. At standstill contacts stick, and both say something.
+        False: contacts without traction. At standstill contacts stick; modes of a turning bearing
+        lie between both.
 
     Raises
     ------
@@ -51,12 +52,12 @@ def at_point(scene: Scene, inputs: dict[int, float], friction: bool = True) -> M
 
 
 def given(scene: Scene, values: Mapping[str, float] | None) -> dict[int, float]:
-    """Return inputs by their places in ``layout.U``, of a set by those in ``SP.INPUTS``.
+    """Return inputs by their places in ``layout.U``, of a set in ``SP.INPUTS``.
 
     Raises
     ------
     ValueError
-        For an unknown name, what is no number, and a value outside its range.
+        For an unknown name, what is not a number, and a value outside its range.
     """
     table = {variable.name: variable for variable in inputs_of(scene)}
     found = {}

@@ -9,7 +9,7 @@ from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import P
 from fmu_bearing.modal.equations.linearised import Linearised
 from fmu_bearing.modal.modes.bodies import Bodies
-from fmu_bearing.modal.modes.energies import BACKWARD, FORWARD, NEITHER, like, participation, wave
+from fmu_bearing.modal.modes.energies import BACKWARD, FORWARD, NEITHER, modal_assurance, participation, wave
 from fmu_bearing.modal.modes.mode import GROWS, LOWEST, MOVES, Mode
 from fmu_bearing.modal.modes.natural_modes import Modes
 from fmu_bearing.scene import Scene
@@ -43,7 +43,7 @@ def may_grow(matrix: NDArray[np.float64]) -> bool:
 
 
 def _scale(system: Linearised) -> NDArray[np.float64]:
-    """Return roots of the inertia of rates, and for places of that of their rates: as at 1 rad/s.
+    """Return roots of the inertia of rates, and for places of the inertia of their rates: as at 1 rad/s.
 
     Neutral motions, without rates, have a size by it.
     """
@@ -72,7 +72,7 @@ def _spreads(
     low = high = values.imag
     for matrix in system.phases:
         others, shapes = _eigen(matrix, scale)
-        found = others.imag[like(vectors, shapes, system.masses).argmax(axis=1)]
+        found = others.imag[modal_assurance(vectors, shapes, system.masses).argmax(axis=1)]
         low, high = np.minimum(low, found), np.maximum(high, found)
     return np.asarray((high - low) / np.maximum(values.imag, _SLOW))
 
@@ -128,7 +128,7 @@ def _is_ringing(system: Linearised, mode: Mode) -> bool:
 
 
 def _are_free(system: Linearised, mode: Mode) -> bool:
-    """Whether balls that move alone are put apart: all of a set, of a bearing those along their orbits.
+    """Whether balls that move alone are put apart: all of a set, of a bearing motions along their orbits.
 
     Along the orbits the cage holds the balls, which is left out.
     """

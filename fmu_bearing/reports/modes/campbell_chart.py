@@ -29,16 +29,16 @@ from fmu_bearing.reports.page import look
 from fmu_bearing.reports.page.blocks import Chart, Table, small
 
 KEY = "campbell"
-_HEIGHT, _TOP, _BOTTOM, _RIGHT = 580, 40, 56, 178  # px: figure, and what stands around its axes
+_HEIGHT, _TOP, _BOTTOM, _RIGHT = 580, 40, 56, 178  # px: figure, and the margins of its axes
 _NAME = 15.0  # px between the middles of names
-_ALIKE = 0.03  # of the height: branches of one name that end closer share a name
-_LEAST = 0.05  # of the kinetic energy: smaller shares are not told
-_MOST = 4  # shares that are told
+_TOGETHER = 0.03  # of the height: branches of one name that end closer share a name
+_LEAST = 0.05  # of the kinetic energy: smaller shares are left out
+_MOST = 4  # shares named
 _LONG = 30  # rows of an open table
 
 
 def campbell_chart(found: Campbell) -> Chart:
-    """Return the diagram; what is under the pointer is told, and points know their branch and speed."""
+    """Return the diagram; the pointer shows what is under it, and points have their branch and speed."""
     crossings = counted(found)
     highest, speeds = top(found, crossings), np.abs(found.rpm)
     drawn = look.figure(
@@ -129,8 +129,8 @@ def _mode_words(mode: Mode) -> str:
 
 def moving(shares: dict[str, float]) -> str:
     """Shares of the kinetic energy in words, the largest first."""
-    told = [(name, share) for name, share in shares.items() if share >= _LEAST][:_MOST]
-    return ", ".join(f"{100.0 * share:.0f} % {name}" for name, share in told)
+    largest = [(name, share) for name, share in shares.items() if share >= _LEAST][:_MOST]
+    return ", ".join(f"{100.0 * share:.0f} % {name}" for name, share in largest)
 
 
 def crossing_words(one: Crossing) -> str:
@@ -193,7 +193,9 @@ def _names(found: Campbell, highest: float) -> list[dict[str, Any]]:
     """Names of the branches beside the axes, apart from each other, in the order of their ends."""
     groups: list[list[Branch]] = []
     for branch in sorted((one for one in found.branches if _end(one) <= highest), key=_end):
-        own = [g for g in groups if g[0].name == branch.name and _end(branch) - _end(g[0]) < _ALIKE * highest]
+        own = [
+            g for g in groups if g[0].name == branch.name and _end(branch) - _end(g[0]) < _TOGETHER * highest
+        ]
         if own:
             own[0].append(branch)
         else:
@@ -223,7 +225,7 @@ def _ways(group: list[Branch]) -> str:
 
 
 def mode_table(point: Modes, highest: float, words: str = "") -> Table:
-    """Return the modes at one operating point, with what is to be said of each."""
+    """Return the modes at one operating point, with a remark on each."""
     rows = [
         [
             str(row["name"]), str(row["direction"]), f"{row['frequency_Hz']:,.1f}",
@@ -242,11 +244,11 @@ def mode_table(point: Modes, highest: float, words: str = "") -> Table:
 
 
 def _remark(row: dict[str, Any]) -> str:
-    """Return what threatens or blurs a mode; empty: nothing."""
-    told = [row["remark"]] if row["remark"] else []
+    """Return that a mode is hardly damped, or that its frequency changes as balls pass; else empty."""
+    remarks = [row["remark"]] if row["remark"] else []
     if row["spread"] > SPREAD:
-        told.append(f"moves by {100.0 * row['spread']:.1f} % as balls pass")
-    return "; ".join(told)
+        remarks.append(f"moves by {100.0 * row['spread']:.1f} % as balls pass")
+    return "; ".join(remarks)
 
 
 def crossing_table(found: Campbell, folded: bool | None = None) -> Table | None:

@@ -20,7 +20,7 @@ from fmu_bearing.scene import Scene
 HIGHEST = 20e3  # Hz: modes that the section lists
 #: Speeds of its diagram over the shaft's own: fewer than on a page of its own, closer together near it.
 _SHARES = (0.1, 0.3, 0.5, 0.7, 0.85, 1.0, 1.15, 1.3, 1.4)
-_STILL = 1.0  # r/min: slower, the shaft stands
+_STILL = 1.0  # r/min: slower, the shaft counts as at rest
 _LINEAR = (
     "Fidelity full linearised about its steady state: perfect surfaces, no cage. A run at one speed "
     "has its peaks at the lines, not at the modes; a run-up passes both."
@@ -48,7 +48,7 @@ def _at_rest(scene: Scene) -> list[Block]:
     """Return modes at standstill: contacts stick there, until they slide."""
     stuck, sliding = modes(scene), modes(scene, friction=False)
     return [
-        Words("No Campbell diagram: the shaft stands still, and nothing that turns excites a mode."),
+        Words("No Campbell diagram: the shaft does not turn, so nothing excites a mode."),
         *_said(stuck.cautions()),
         mode_table(stuck, HIGHEST, ", contacts stick"),
         mode_table(sliding, HIGHEST, ", without friction"),
@@ -76,7 +76,7 @@ def nearest_point(found: Campbell, rpm: float) -> Modes:
 
 
 def _cautions(found: Campbell, point: Modes) -> list[str]:
-    """Return what limits modes at the operating point, then over speed; that the cage is out stands below."""
+    """Return what limits modes at the operating point, then over speed; the note below names the cage."""
     own = [words for words in point.cautions() if not words.startswith("the cage")]
     return own + found.cautions()
 
@@ -154,7 +154,7 @@ def _apart(point: Modes, highest: float) -> list[Table]:
         for row in rows
     ]
     columns = ["motion", "direction", "frequency, Hz", "damping ratio"]
-    words = "Neutral and overdamped motions: no peak stands there"
+    words = "Neutral and overdamped motions: they make no peak"
     return [Table(words, columns, cells, folded=True)]
 
 

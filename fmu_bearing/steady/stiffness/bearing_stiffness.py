@@ -20,8 +20,8 @@ class BearingStiffness(StiffnessTable):
 
     Forces on the ring are -K q - C q' with q = x, y, z (m) and tilts about y, z (rad), at the centre of the
     circle of balls. The balls' inertia and friction are in K and C; mass, gyroscopic moment and supports of
-    the ring are not. Cage, imperfections and sound are left out. All is in the bearing's own axes: those of
-    the shaft, with x and tilts reversed where it carries towards -X.
+    the ring are not. Cage, imperfections and sound are left out. All is in the bearing's own axes: the axes
+    of the shaft, with x and tilts reversed where it carries towards -X.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""Two planes whose radial springs stand for a bearing that also resists tilt, for programs without tilt.
+"""Two planes whose radial springs replace a bearing that also resists tilt, for programs without tilt.
 
 Springs of half the radial stiffness K_r at e + h and e - h along the axis have the tilt stiffness
 K_r (e^2 + h^2) and the coupling K_r e. So e, the load centre, is the coupling over K_r, and h^2 the tilt
@@ -36,7 +36,7 @@ class Planes:
         """Both planes (m): e + h, e - h."""
         return self.centre + self.half, self.centre - self.half
 
-    def stands_for(self, matrix: NDArray[np.float64]) -> NDArray[np.float64]:
+    def equivalent(self, matrix: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the matrices (shape (..., 5, 5)) that springs or dampers in both planes have."""
         found = np.zeros_like(matrix)
         found[..., 0, 0] = matrix[..., 0, 0]
@@ -56,7 +56,7 @@ def planes(matrix: NDArray[np.float64], mirrored: bool = False) -> Planes:
     ----------
     matrix : ndarray, shape (5, 5)
     mirrored : bool
-        Whether the bearing carries the other way: its planes then stand on the other side.
+        Whether the bearing carries the other way: its planes are then on the other side.
 
     Raises
     ------
@@ -67,12 +67,12 @@ def planes(matrix: NDArray[np.float64], mirrored: bool = False) -> Planes:
     tilt = 0.5 * float(matrix[_BY, _BY] + matrix[_BZ, _BZ])
     coupling = 0.25 * float(matrix[_Y, _BZ] + matrix[_BZ, _Y] - matrix[_Z, _BY] - matrix[_BY, _Z])
     if not radial > 0.0:
-        raise ValueError("no two planes can stand for this bearing: it has no radial stiffness")
+        raise ValueError("no two planes can replace this bearing: it has no radial stiffness")
     centre = coupling / radial
     square = tilt / radial - centre**2
     if not square > 0.0:
         raise ValueError(
-            f"no two planes can stand for this bearing: its tilt stiffness of {tilt:.4g} N m/rad is less "
+            f"no two planes can replace this bearing: its tilt stiffness of {tilt:.4g} N m/rad is less "
             f"than the {radial * centre**2:.4g} N m/rad of radial springs at its load centre, "
             f"{1e3 * centre:.2f} mm from its centre"
         )
@@ -85,7 +85,7 @@ def mirrored_matrix(matrix: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(signs[:, None] * matrix * signs)
 
 
-#: What `errors` tells, in order.
+#: What `errors` returns, in order.
 ERRORS = ("tilt stiffness", "coupling stiffness", "tilt damping", "coupling damping")
 
 
@@ -104,7 +104,7 @@ def errors(found: Planes, k: NDArray[np.float64], c: NDArray[np.float64]) -> NDA
     """
     columns = []
     for matrix in (k, c):
-        other = found.stands_for(matrix)
+        other = found.equivalent(matrix)
         for pairs in (((_BZ, _BZ), (_BY, _BY)), ((_Y, _BZ), (_Z, _BY))):
             ways = np.stack([other[..., i, j] / matrix[..., i, j] - 1.0 for i, j in pairs])
             columns.append(np.take_along_axis(ways, np.abs(ways).argmax(axis=0)[None], axis=0)[0])

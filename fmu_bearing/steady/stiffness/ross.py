@@ -76,7 +76,7 @@ def _element(
     remarks = (
         f"Half of a bearing for ROSS {RELEASE}; release 2 cannot read it.",
         f"Scene {found.scene.name}, preload {found.preloads[at]:g} N{', mirrored' if mirrored else ''}.",
-        f"The node stands {1e3 * place:+.4f} mm from the centre of the circle of balls along z, the axis of",
+        f"The node is {1e3 * place:+.4f} mm from the centre of the circle of balls along z, the axis of",
         "ROSS that is X of the scene. Both halves together have the static tilt stiffness and coupling.",
     )
     lines = [f"# {remark}" for remark in remarks]

@@ -105,7 +105,7 @@ class Stiffness:
         Returns
         -------
         tuple of Path
-            What was written: the table of the nose, then those of the bearings.
+            What was written: the table of the nose, then the tables of the bearings.
 
         Raises
         ------
@@ -156,7 +156,7 @@ def stiffness(
 
     Fidelity ``full`` is linearised about the steady state of each speed and preload. The outer ring is
     held, the inner ring moves, and the balls follow with all their inertia and friction. Under radial load,
-    weight or misalignment the derivatives are a mean over one ball pitch, and `BearingStiffness.spread` tells
+    weight or misalignment the derivatives are a mean over one ball pitch, and `BearingStiffness.spread` is
     how far single phases are from it. Of a set the static stiffness of the shaft at its nose is there too.
 
     Parameters

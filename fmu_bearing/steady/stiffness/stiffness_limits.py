@@ -11,8 +11,8 @@ from fmu_bearing.modal.modes.natural_modes import STICKING
 from fmu_bearing.steady.stiffness.stiffness_table import StiffnessTable
 
 _NEAR = 0.2  # of the orbit's frequency: nearer to it, free balls that bunch are seen
-_APART = 0.03  # of the stiffness: that at rest is then no substitute
-_ROUNDING = 1e-9  # of the stiffness: a loss below it is none
+_APART = 0.03  # of the stiffness: K for frequency to 0 is then no substitute
+_ROUNDING = 1e-9  # of the stiffness: a smaller loss is none
 
 
 def limits_of(found: StiffnessTable) -> Iterator[str]:
@@ -24,7 +24,7 @@ def limits_of(found: StiffnessTable) -> Iterator[str]:
             "balls' loads are unequal, and a rotor sees stiffness that changes as they pass"
         )
     if found.preloads[0] == 0.0 and not found.on_shaft:  # of a set the loads may hold them
-        yield "0 N: nothing holds balls and races together: K and C are those of loose balls and mean little"
+        yield "0 N: no preload holds balls and races together: K and C are of loose balls and mean little"
     slow = found.speeds[np.abs(found.speeds) / 60.0 < STICKING]
     if slow.size:
         yield (
@@ -42,13 +42,13 @@ def limits_of(found: StiffnessTable) -> Iterator[str]:
                 "spacing = held leaves that out"
             )
     if found.scene.bends:
-        yield ("the rings bend in K and C, which counts where balls carry unequal loads")
+        yield "K and C include the bending of the rings, which matters where balls carry unequal loads"
     apart = found.against_static()
     if apart > _APART:
         yield (
-            f"K at {found.frequencies[0]:.4g} Hz differs from that for frequency to 0 by up to "
+            f"K at {found.frequencies[0]:.4g} Hz differs from K for frequency to 0 by up to "
             f"{100.0 * apart:.0f} %: balls that carry little take tens of milliseconds to turn over to new "
-            "contact angles; the planes for ROSS stand by K for frequency to 0"
+            "contact angles; the planes for ROSS follow from K for frequency to 0"
         )
 
 

@@ -62,7 +62,7 @@ class StiffnessTable:
         return float(np.abs((self.K[:, :, 0] - self.static) / _pairs(self.static)).max())
 
     def planes(self, preload: float | None = None, mirrored: bool = False) -> Planes:
-        """Return the two planes whose radial springs stand for tilt and coupling; see ``planes``.
+        """Return the two planes whose radial springs replace tilt and coupling; see ``planes``.
 
         Parameters
         ----------
@@ -74,7 +74,7 @@ class StiffnessTable:
         Raises
         ------
         ValueError
-            For a preload that is not there, and where no two planes can stand for the bearing.
+            For a preload that is not in the table, and where no two planes can replace the bearing.
         """
         return planes(self.own[self.at_preload(preload)], mirrored)
 
@@ -90,15 +90,15 @@ class StiffnessTable:
         return errors(self.planes(preload), self.K[:, at], self.C[:, at])
 
     def at_preload(self, preload: float | None) -> int:
-        """Return the place of a preload (N) on its axis; ``ValueError`` for one that is not there."""
+        """Return the place of a preload (N) on its axis; ``ValueError`` for one that is not in the table."""
         listed = ", ".join(f"{value:g}" for value in self.preloads)
         if preload is None:
             if len(self.preloads) > 1:
-                raise ValueError(f"which preload is meant has to be said: {listed} N are there")
+                raise ValueError(f"the table has several preloads: give one of {listed} N")
             return 0
         near = np.flatnonzero(np.isclose(self.preloads, preload, rtol=1e-9))
         if near.size == 0:
-            raise ValueError(f"preload = {preload:g} N is not in this table: {listed} N are there")
+            raise ValueError(f"preload = {preload:g} N is not in this table: it has {listed} N")
         return int(near[0])
 
 

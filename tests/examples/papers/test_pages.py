@@ -98,9 +98,9 @@ def test_printed_energies_of_unbalance_are_those_of_a_whirl(tmp_path):
     recording = Case(printed.SCENE, 28000, whirl, 1, 0.05, 0.06).recording("paper_vector", tmp_path)
     ear = Ear(recording, "paper_vector", tmp_path)
     f_r = 28000 / 60
-    both = line(printed.heard(ear, 0.105)["total"][:, 0], recording.rate, f_r)
+    both = line(printed.sources_at(ear, 0.105)["total"][:, 0], recording.rate, f_r)
     once = line(ear.parts([(0.0, 0.105, 0.0)], lambda path: path.component)[1], recording.rate, f_r)
-    outer = line(printed.heard(ear, 0.105)["outer_ring"][:, 0], recording.rate, f_r)
+    outer = line(printed.sources_at(ear, 0.105)["outer_ring"][:, 0], recording.rate, f_r)
     assert outer - once == pytest.approx(3.01, abs=0.2)  # one of two equal components; friction turns some
     assert both > outer
 

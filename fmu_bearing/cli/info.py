@@ -91,7 +91,7 @@ def _show_verdicts(found: "tuple[Verdict, ...]", bearings: int) -> None:
     from fmu_bearing.results.table import show
 
     one_by_one = ("figure", "value", "verdict", "limit (source)")
-    rows = [[one.label, one.text, one.judgement, _limit(one)] for one in found]
+    rows = [[one.label, one.text, one.judgement, f"{one.limit} ({one.source})"] for one in found]
     if bearings == 1:
         show("verdicts", one_by_one, rows)
         return
@@ -182,10 +182,6 @@ def _matrix(point: "BearingPoint") -> list[list[str]]:
             cells.append("0" if small else f"{factor * k[i, j]:.4g}")
         rows.append([name, *cells])
     return rows
-
-
-def _limit(one: "Verdict") -> str:
-    return one.source if one.limit == "-" else f"{one.limit} ({one.source})"
 
 
 def _ratings(point: "BearingPoint") -> list[list[str]]:

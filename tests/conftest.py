@@ -28,6 +28,7 @@ LONG = (
     "testing/test_plugin.py",
     "modal/test_stiffness.py",
     "examples/papers/test_pages.py",
+    "examples/papers/test_printed_motion.py",
     "fmi/test_calls.py",
     "engine/test_vector_code.py",
     "sweeps/test_workers.py",

@@ -71,6 +71,12 @@ def choosing():
     yield f"without contact damping this spindle is {rounded(damping['dB(A)'])} dB(A) louder"
     for microphones in ("1", "4"):
         yield f"| {microphones} | {_sound_costs(microphones)} |"
+    below = [
+        float(one["ours"]) - float(one["paper_contacts"])
+        for one in table("papers/sound-field-values")
+        if "r/min" in one["value"]
+    ]
+    yield f"Beside the 7009C it is {min(below):.0f} to {max(below):.0f} dB below `bem`"
     for circle in ("24", "360"):
         yield f"| circle of {circle} | {_sound_costs(f'circle of {circle}')} |"
 

@@ -1,35 +1,27 @@
 """The impact-noise paper: dry 7003C, outer ring held all round, springs between the balls for a cage."""
 
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
-from scipy.signal import find_peaks
 
-from examples.papers import charts, page, values
+from examples.papers import charts, multi_source, page, values
 from examples.papers.case import Case, Changes
-from examples.papers.hearing import NAMES, Ear, a_weighted
-from examples.papers.identification import Answer, by_bracket
-from examples.papers.page import Output
+from examples.papers.hearing import NAMES
+from examples.papers.identification import Answer, amplitude, identify
+from examples.papers.medians import by_seed
+from examples.papers.page import Output, Slope
+from examples.papers.reduced import COUNT, SIDES
 from examples.papers.runs import Results, Runs
 from examples.papers.statements import AGAINST, Judged, Reason, both, classed, counts, trend, verdict
-from fmu_bearing.acoustics.analysis.directivity import plane_points
-from fmu_bearing.acoustics.analysis.spectrum import power_spectral_density
-from fmu_bearing.acoustics.filters.weighting import level
+from examples.papers.values import FIT, Met, Value
 from fmu_bearing.results.table import markdown
 
 NAME = "impact-noise"
 TITLE = "Impact-noise paper: dry 7003C, held all round, springs for a cage"
-MODULES = ("impact_noise", "hearing", "values")
 SCENE = "7003C-impact"
 SPEEDS = (10000, 15000, 20000)
 SPRINGS = (1e5, 5e6, 2.5e7)  # N/m; the paper keeps the last
-ABOVE = (0.0, 0.0, 0.1)  # m
-RADIUS = 0.1  # m, of the three planes
-COUNT = 72  # points of a plane: every 5 degrees, the paper's are one degree apart
-WINDOW = 5e-3  # s: the paper's whole history
-BANDS = ((0.0, 5e3), (5e3, 1e4), (1e4, 2e4))  # Hz
-#: The paper's planes (its Y is the bearing's axis, its X horizontal) and ours.
-PLANES = {"XY": "XY", "YZ": "XZ", "XZ": "YZ"}
 #: Rings that bend on a seat all round: the outer ring's wall, held at its circumference, yields under each
 #: ball. Spring damping includes what the cage takes up. All assumed, none fitted. Waves excite to 20 kHz,
 #: because the paper's peaks are from 9.7 to 20 kHz and beyond, where no ear and no meter of ours reaches.
@@ -42,10 +34,19 @@ CHANGES: Changes = (
     ("mounting.flexure.inner_seat_stiffness_N_m", 0.0),
     ("bearing.ball_springs.damping_N_s_m", 2.0),
 )
+_RIGID: Changes = (("mounting.flexure", None),)  # quick cases
 VALUES = values.read(NAME)
-IDENTIFIED, BEFORE = "identified", "before"
-#: Other seats of the outer ring against bending (N/m), to see what the assumed one decides.
-SEATS = (1e7, 1e9)
+NUMBERS = (amplitude("10,000 r/min"),)
+_AS_ASSUMED = "as assumed"
+#: Other values of what is assumed, at the same A_1: what each of them decides.
+OTHERS: dict[str, Changes] = {
+    "seat 1e7 N/m (1e8)": (("mounting.flexure.outer_seat_stiffness_N_m", 1e7),),
+    "seat 1e9 N/m": (("mounting.flexure.outer_seat_stiffness_N_m", 1e9),),
+    "preload 250 N (500)": (("mounting.preload_N", 250.0),),
+    "contact damping 10 us (2.5)": (("bearing.contact_damping_us", 10.0),),
+    "waviness exponent 1.6 (1.35)": (("imperfections.waviness_exponent", 1.6),),
+}
+START_RPM = 500.0  # from which the ring jumps: the least speed with a sound of its own far below all others
 _TURNED = (
     "12 balls map onto themselves under 90 degrees, which turns XY into YZ: they differ by the draw alone"
 )
@@ -53,139 +54,90 @@ REASONS = {
     "plane YZ varies most": Reason(AGAINST, _TURNED),
     "20,000 r/min: maximum of YZ above XY above XZ": Reason(AGAINST, _TURNED),
 }
+_UNKNOWN = (
+    "preload, damping and the seat of the outer ring, none of which the paper names ([what they "
+    "decide](#what-is-assumed-decides)), and what the facets of its mesh excite, for which our waves are "
+    "taken."
+)
+BySeed = dict[int, dict[int, dict[str, Any]]]  # then by speed
 
 
-_SEAT = "mounting.flexure.outer_seat_stiffness_N_m"
-
-
-def _case(label: str, changes: Changes, rpm: float, seed: int, spring: float = SPRINGS[-1]) -> Case:
+def case(rpm: float, changes: Changes = (), spring: float = SPRINGS[-1], label: str = "") -> Case:
+    """One operating point."""
     stiffness = ("bearing.ball_springs.stiffness_N_m", spring)
-    return Case(SCENE, rpm, (*CHANGES, *changes, stiffness), seed, label=label)
+    return Case(SCENE, rpm, (*CHANGES, *changes, stiffness), label=label)
 
 
-def cases(found: Changes, seeds: tuple[int, ...], quick: bool) -> list[Case]:
-    """Operating points: three speeds with the stiffest springs, the softer ones at the lowest."""
-    if quick:
-        rigid = ("mounting.flexure", None)
-        return [Case(SCENE, 10000, (*CHANGES, *found, rigid), seed, 0.01, 0.02, IDENTIFIED) for seed in seeds]
-    points = [(rpm, SPRINGS[-1]) for rpm in SPEEDS] + [(SPEEDS[0], spring) for spring in SPRINGS[:-1]]
-    own = [
-        _case(label, changes, rpm, seed, spring)
-        for label, changes in ((BEFORE, ()), (IDENTIFIED, found))
-        for rpm, spring in points
-        for seed in seeds
-    ]
-    return own + [
-        _case(f"{seat:g}", (*found, (_SEAT, seat)), rpm, seeds[0]) for seat in SEATS for rpm in SPEEDS
-    ]
+def _points(runs: Runs, found: Changes, spring: float) -> list[Case]:
+    """Operating points of the values with one stiffness of the springs."""
+    if runs.quick:
+        return runs.around([Case(SCENE, 10000, (*CHANGES, *found, *_RIGID), 1, 0.01, 0.02)])
+    return runs.around(
+        [case(rpm, found, spring) for rpm in (SPEEDS if spring == SPRINGS[-1] else SPEEDS[:1])]
+    )
 
 
 def identified(runs: Runs) -> Answer:
     """Identify A_1 from the fitted value."""
-    (value,) = (one for one in VALUES if one.role == values.FIT)
 
-    def level(changes: Changes) -> float:
-        own = (
-            cases(changes, runs.seeds, True)
-            if runs.quick
-            else [_case(IDENTIFIED, changes, value.rpm, seed) for seed in runs.seeds]
-        )
-        found = runs.all(NAME, own, f"{NAME}: A_1 {changes[0][1]:.3g} um", what="top")
-        return float(np.mean([result["dB"] for result in found.values()]))
+    def levels(changes: Changes) -> dict[str, Met]:
+        own = [one for one in _points(runs, changes, SPRINGS[-1]) if one.rpm == SPEEDS[0]]
+        found = runs.all("planes", own, f"{NAME}: A_1 {changes[0][1]:.3g} um")
+        return {met.value.name: met for met in met_of(found)}
 
-    return by_bracket(SCENE, CHANGES, VALUES, level)
+    return identify(SCENE, CHANGES, NUMBERS, VALUES, levels, 1 if runs.quick else 8)
 
 
-def top(ear: Ear, quick: bool) -> dict[str, Any]:
-    """Largest A-weighted level (dB) of a 5 ms history above the bearing, mean over histories."""
-    rate = ear.recording.rate
-    return {"dB": float(histories(a_weighted(ear.pressure([ABOVE]), rate), rate)[0].mean())}
+def met_of(found: Results, spring: float = SPRINGS[-1]) -> list[Met]:
+    """Join the values with one stiffness of the springs and ours."""
+    return values.met(
+        VALUES, ((one.seed, ours(VALUES, one.rpm, result, spring)) for one, result in found.items())
+    )
 
 
-def histories(pressure, rate: float):
-    """Largest A-weighted pressure of each 5 ms history but the first (dB), shape (mics, histories)."""
-    size = round(WINDOW * rate)
-    count = pressure.shape[-1] // size
-    cut = pressure[:, size : count * size].reshape(len(pressure), count - 1, size)
-    return level((cut**2).max(axis=2))
+def ours(wanted: Iterable[Value], rpm: float, result: dict[str, Any], spring: float) -> dict[str, float]:
+    """Our values of one run, by name."""
+    found = {}
+    for value in wanted:
+        plane = value.place in SIDES
+        if value.rpm != rpm or (SPRINGS[-1] if plane else float(value.place)) != spring:
+            continue
+        if plane:
+            found[value.name] = result["planes"][value.place][value.quantity]
+        else:
+            name = {"peak": "largest_A", "average peak": "average_peak"}[value.quantity]
+            found[value.name] = result["above"]["total"][name]
+    return found
 
 
-def reduce(ear: Ear, quick: bool) -> dict[str, Any]:
-    """Levels above the bearing by component, and round the three planes."""
-    recording = ear.recording
-    rate = recording.rate
-    skip = round(WINDOW * rate)
-    parts = {}
-    for name, found in ear.sources([ABOVE]).items():
-        weighted = a_weighted(found.sum(axis=0), rate)
-        peaks, _ = find_peaks(np.abs(weighted[0, skip:]))
-        parts[name] = {
-            "histories": histories(weighted, rate)[0].tolist(),
-            "leq_A": float(level((weighted[:, skip:] ** 2).mean())),
-            "average_peak": float(level((np.abs(weighted[0, skip:])[peaks] ** 2).mean()))
-            if len(peaks)
-            else -106.0,
-            "bands": _bands(found.sum(axis=0)[0], rate),
-        }
-    planes = {}
-    kept = recording.scene.bearing.ball_springs.stiffness_N_m == SPRINGS[-1]  # the paper's planes have these
-    count = 24 if quick else COUNT
-    points = np.concatenate([plane_points(ours, RADIUS, count) for ours in PLANES.values()])
-    around = a_weighted(ear.pressure(points), rate) if kept else points  # planes share circles: one call
-    for k, name in enumerate(PLANES if kept else ()):
-        weighted = around[k * count : (k + 1) * count]
-        largest = histories(weighted, rate)
-        planes[name] = {
-            "largest": largest.mean(axis=1).round(3).tolist(),
-            "range": float(np.ptp(largest, axis=0).mean()),
-            "maximum": float(largest.max(axis=0).mean()),
-            "leq_A": level((weighted[:, skip:] ** 2).mean(axis=1)).round(3).tolist(),
-        }
-    spring = recording.scene.bearing.ball_springs.stiffness_N_m
-    return {"above": parts, "planes": planes, "spring": float(spring)}
+def orderings(by_speed: dict[int, dict[str, Any]], by_spring: Mapping[float, dict[str, Any]]) -> list[Judged]:
+    """Judge the paper's statements for one seed.
 
-
-def _bands(pressure, rate: float) -> list[float]:
-    """Share of the unweighted energy in each of `BANDS`."""
-    frequency, density = power_spectral_density(pressure, rate, 100.0)
-    shares = [density[(frequency >= low) & (frequency < high)].sum() for low, high in BANDS]
-    return [float(share / sum(shares)) for share in shares]
-
-
-def loudest(result: dict[str, Any], name: str = "total") -> float:
-    """Largest of a 5 ms history (dB(A)), mean over histories."""
-    return float(np.mean(result["above"][name]["histories"]))
-
-
-Points = dict[tuple[int, float], dict[str, Any]]  # by speed and spring
-
-
-def orderings(results: Points) -> list[Judged]:
-    """Judge the paper's statements; results by speed and spring."""
-    by_speed = {rpm: results[rpm, SPRINGS[-1]] for rpm in SPEEDS if (rpm, SPRINGS[-1]) in results}
-    by_spring = {k: results[SPEEDS[0], k] for k in SPRINGS if (SPEEDS[0], k) in results}
+    Parameters
+    ----------
+    by_speed : mapping of int to result
+        With the stiffest springs.
+    by_spring : mapping of float to result
+        At the lowest speed.
+    """
     steps = list(zip(sorted(by_speed), sorted(by_speed)[1:], strict=False))
+    tops = {n: result["above"]["total"]["largest_A"] for n, result in by_speed.items()}
+    soft = [result["above"]["total"]["largest_A"] for result in by_spring.values()]
+    rings = [
+        (f"{n:,}", r["above"]["outer_ring"]["leq_A"] - r["above"]["inner_ring"]["leq_A"])
+        for n, r in by_speed.items()
+    ]
     found = [
         trend(
-            "level grows with speed",
-            [
-                (f"{b:,}", _paper(b) - _paper(a), loudest(by_speed[b]) - loudest(by_speed[a]))
-                for a, b in steps
-            ],
+            "level grows with speed", [(f"{b:,}", _paper(b) - _paper(a), tops[b] - tops[a]) for a, b in steps]
         ),
         verdict(
             "springs of 1e5 to 2.5e7 N/m differ by less than 1 dB",
-            [("10,000", 1.0 - np.ptp([loudest(r) for r in by_spring.values()]))]
-            if len(by_spring) > 1
-            else [],
+            [(f"{SPEEDS[0]:,}", 1.0 - float(np.ptp(soft)))] if len(soft) > 1 else [],
         ),
+        verdict("outer ring above inner ring", rings),
     ]
-    for one, other in (("outer_ring", "inner_ring"), ("inner_ring", "balls")):
-        margins = [
-            (f"{n:,}", r["above"][one]["leq_A"] - r["above"][other]["leq_A"]) for n, r in by_speed.items()
-        ]
-        found.append(verdict(f"{NAMES[one]} above {NAMES[other]}", margins))
-    ranges = {n: {p: r["planes"][p]["range"] for p in PLANES} for n, r in by_speed.items()}
+    ranges = {n: {p: r["planes"][p]["range"] for p in SIDES} for n, r in by_speed.items()}
     found += [
         both(
             verdict(
@@ -212,18 +164,7 @@ def orderings(results: Points) -> list[Judged]:
                 for a, b in steps
             ],
         ),
-        verdict(
-            "20,000 r/min: maximum of YZ above XY above XZ",
-            [
-                (
-                    f"{a} > {b}",
-                    by_speed[20000]["planes"][a]["maximum"] - by_speed[20000]["planes"][b]["maximum"],
-                )
-                for a, b in (("YZ", "XY"), ("XY", "XZ"))
-            ]
-            if 20000 in by_speed
-            else [],
-        ),
+        verdict("20,000 r/min: maximum of YZ above XY above XZ", _maxima(by_speed.get(20000))),
         verdict(
             "most energy between 10 and 20 kHz (unweighted, above)",
             [
@@ -236,9 +177,16 @@ def orderings(results: Points) -> list[Judged]:
     return found
 
 
+def _maxima(result: dict[str, Any] | None) -> list[tuple[str, float]]:
+    if result is None:
+        return []
+    top = {plane: result["planes"][plane]["maximum"] for plane in SIDES}
+    return [(f"{a} > {b}", top[a] - top[b]) for a, b in (("YZ", "XY"), ("XY", "XZ"))]
+
+
 def _paper(rpm: int) -> float:
-    """Measured level (dB(A)) at a speed."""
-    return next(v.paper.middle for v in VALUES if v.group == "measured" and v.rpm == rpm)
+    """Level (dB(A)) that the paper calculates at a speed."""
+    return next(v.paper.middle for v in _calculated(VALUES) if v.rpm == rpm)
 
 
 def _range(plane: str, rpm: int) -> float:
@@ -248,118 +196,182 @@ def _range(plane: str, rpm: int) -> float:
     )
 
 
-def ours(results: Points) -> dict[str, float]:
-    """Our values of one seed, by name."""
-    found = {}
-    for value in VALUES:
-        spring = float(value.place) if value.place not in PLANES else SPRINGS[-1]
-        result = results.get((int(value.rpm), spring))
-        if result is None:
-            continue
-        if value.quantity == "peak":
-            found[value.name] = loudest(result)
-        elif value.quantity == "average peak":
-            found[value.name] = result["above"]["total"]["average_peak"]
-        else:
-            found[value.name] = result["planes"][value.place][value.quantity]
-    return found
+def _calculated(wanted: Iterable[Value]) -> list[Value]:
+    """Levels that the paper calculates above the bearing with the springs that it keeps."""
+    return [v for v in wanted if v.quantity == "peak" and float(v.place) == SPRINGS[-1]]
 
 
-def write(found: Results, answer: Answer, runs: Runs, output: Output) -> str:
-    """Write pictures and CSV; return the page."""
-    radiation_model = runs.radiation_model
-    every: dict[str, dict[int, Points]] = {}
-    for case, result in found.items():
-        at = (int(case.rpm), result["spring"])
-        every.setdefault(case.label, {}).setdefault(case.seed, {})[at] = result
-    now = every[IDENTIFIED]
-    seeds = sorted(now)
-    first = now[seeds[0]]
-    _pictures(first, output)
-    _csv(now, output)
-    judged = classed([orderings(now[seed]) for seed in seeds], REASONS)
-    met = values.met(VALUES, [ours(now[seed]) for seed in seeds])
-    before = values.met(VALUES, [ours(one) for one in every.get(BEFORE, {}).values()])
-    any_case = next(iter(found))
+def page_of(runs: Runs, output: Output) -> str:
+    """Run all cases, write pictures and CSV; return the page."""
+    answer = identified(runs)
+    stiff = runs.all("planes", _points(runs, answer.changes, SPRINGS[-1]), NAME)
+    soft = {
+        spring: runs.all("above", _points(runs, answer.changes, spring), f"{NAME}: springs {spring:g} N/m")
+        for spring in (() if runs.quick else SPRINGS[:-1])
+    }
+    now = by_seed(stiff.items())
+    springs = {spring: by_seed(found.items()) for spring, found in soft.items()} | {SPRINGS[-1]: now}
+    judged = classed(
+        [orderings(now[seed], {k: by[seed][SPEEDS[0]] for k, by in springs.items()}) for seed in sorted(now)],
+        REASONS,
+    )
+    met = sorted(
+        [*met_of(stiff), *(m for spring, found in soft.items() for m in met_of(found, spring))],
+        key=lambda m: VALUES.index(m.value),
+    )
+    levels = _calculated(VALUES)
+    lines = page.slopes("calculated there", [one for one in met if one.value in levels])
+    assumed, of_assumed = _assumed(runs, answer.changes, stiff)
+    _pictures(now[min(now)], output)
+    _csv(now, springs, output)
+    one = next(iter(stiff))
     return page.template(NAME).format(
-        timing=page.timing(any_case.settle, any_case.duration), seeds=len(seeds), count=COUNT,
-        title=TITLE, caution=page.caution(radiation_model), radiation_model=radiation_model,
-        identified=answer.words, values=page.values_part(met, before, "dB(A)"),
-        slope=page.slope_table([one for one in met if one.value.group == "measured"]),
-        counts=counts(judged), statements=page.statements_table(judged), above=_above_table(now),
-        seats=_seat_table(every, seeds[0]),
+        title=TITLE, caution=page.caution(runs.radiation_model), radiation_model=runs.radiation_model,
+        verdict=page.verdict_part(answer, met, lines, _UNKNOWN, _missed(lines, of_assumed)),
+        values=page.values_part(met, "dB(A)"),
+        slope=page.slope_table(lines), identified=answer.words, timing=page.timing(one.settle, one.duration),
+        counts=counts(judged), statements=page.statements_table(judged), count=COUNT,
+        quoted=_quoted_table(runs), start=_start_table(runs, answer.changes),
+        assumed=assumed, above=_above_table(soft | {SPRINGS[-1]: stiff}),
     )  # fmt: skip
 
 
-def _seat_table(every: dict[str, dict[int, Points]], seed: int) -> str:
-    """Levels above the bearing with other seats, one seed, at the same A_1."""
-    rows = []
-    for seat in sorted((*SEATS, dict(CHANGES)[_SEAT])):
-        results = every.get(f"{seat:g}" if seat in SEATS else IDENTIFIED, {}).get(seed, {})
-        for (rpm, spring), result in sorted(results.items()):
-            if spring == SPRINGS[-1]:
-                parts = [f"{loudest(result, name):.1f}" for name in ("outer_ring", "inner_ring", "total")]
-                rows.append([f"{seat:.0e}", f"{rpm:,}", *parts])
-    columns = ["seat, N/m", "r/min", "outer ring, dB(A)", "inner ring", "total"]
-    return markdown(columns, rows)
-
-
-def _above_table(now: dict[int, Points]) -> str:
-    """Levels of the components 100 mm above, over the seeds."""
-    rows = []
-    for rpm, spring in sorted(now[min(now)]):
-        results = [by_point[rpm, spring] for by_point in now.values() if (rpm, spring) in by_point]
-        for name in results[0]["above"]:
-            top = [loudest(result, name) for result in results]
-            parts = [result["above"][name] for result in results]
-            rows.append([
-                f"{rpm:,}", f"{spring:.3g}", NAMES.get(name, name), f"{np.mean(top):.1f}", page.spread(top),
-                f"{np.mean([part['leq_A'] for part in parts]):.1f}",
-                f"{np.mean([part['average_peak'] for part in parts]):.1f}",
-            ])  # fmt: skip
-    columns = ["r/min", "springs, N/m", "component", "largest of 5 ms", "seeds", "Leq", "average peak"]
-    return markdown(columns, rows)
-
-
-def _csv(now: dict[int, Points], output: Output) -> None:
-    columns = {
-        f"{seed} {rpm} {spring:g} {plane} {kind}": around[kind]
-        for seed, results in sorted(now.items())
-        for (rpm, spring), result in sorted(results.items())
-        for plane, around in result["planes"].items()
-        for kind in ("largest", "leq_A")
+def _quoted_table(runs: Runs) -> str:
+    """Compare the measured levels that the paper quotes with the spindle's scene."""
+    if runs.quick:
+        return "Not run.\n"
+    changes = multi_source.identified(runs).changes
+    quoted = [value for value in multi_source.VALUES if value.rpm in SPEEDS and value.place == "P3"]
+    own = runs.around([Case(multi_source.SCENE, value.rpm, changes) for value in quoted])
+    found = runs.all("above", own, f"{NAME}: spindle")
+    by_key = {
+        key: values.met(
+            quoted,
+            [
+                (one.seed, {value.name: result["above"]["total"][key]})
+                for value in quoted
+                for one, result in found.items()
+                if one.rpm == value.rpm
+            ],
+        )
+        for key in ("leq", "leq_A")
     }
-    count = len(next(iter(columns.values())))
+    rows = []
+    for value, *levels in zip(quoted, *by_key.values(), strict=True):
+        cells = [
+            cell
+            for met in levels
+            for cell in (f"{met.level:.1f}", page.spread(met.by_seed), f"{met.residual:+.1f}")
+        ]
+        remark = value.marked or ("A_1 of the spindle is from it" if value.role == FIT else "")
+        rows.append([f"{value.rpm:,.0f}", page.printed(value.paper), *cells, remark])
+    columns = ["r/min", "quoted", "dB", "seeds", "less quoted", "dB(A)", "seeds", "less quoted", ""]
+    lines = page.slopes("spindle, dB(A), against quoted", by_key["leq_A"])
+    return f"{markdown(columns, rows)}\n{page.slope_table(lines)}"
+
+
+def _start_table(runs: Runs, found: Changes) -> str:
+    """First 5 ms after a jump of the inner ring to its speed, with the identified waves and without."""
+    if runs.quick:
+        return "Not run.\n"
+    none = tuple((key, 0.0) for key in NUMBERS[0].keys)
+    rows = []
+    for rpm in SPEEDS:
+        both_of = [
+            Case(SCENE, rpm, (*CHANGES, *changes), settle=0.0, duration=0.025, jump_from=START_RPM)
+            for changes in (found, none)
+        ]
+        got = runs.all("start", both_of, f"{NAME}: jump to {rpm:,} r/min")
+        waves, ideal = (got[one] for one in both_of)
+        rows.append([
+            f"{rpm:,}", f"{waves['first_A']:.1f}", f"{waves['later_A']:.1f}", f"{ideal['first_A']:.1f}",
+        ])  # fmt: skip
+    return markdown(
+        ["r/min", "first 5 ms, dB(A)", "5 ms later on, mean", "first 5 ms, races without waves"], rows
+    )
+
+
+def _assumed(runs: Runs, found: Changes, stiff: Results) -> tuple[str, list[float]]:
+    """Table of the levels above the bearing with other assumed numbers at the same A_1, and its slopes."""
+    every = {_AS_ASSUMED: stiff}
+    for name, changes in ({} if runs.quick else OTHERS).items():
+        own = runs.few([case(rpm, (*found, *changes)) for rpm in SPEEDS])
+        every[name] = runs.all("above", own, f"{NAME}: {name}")
+    rows, slopes = [], []
+    for name, results in every.items():
+        levels = {part: _tops(results, part) for part in ("total", "outer_ring", "inner_ring")}
+        total = levels["total"]
+        rise = values.slope(list(total), list(total.values())) if len(total) > 1 else float("nan")
+        slopes.append(rise)
+        cells = (" / ".join(f"{x:.1f}" for x in own.values()) for own in levels.values())
+        rows.append([name, *cells, f"{rise:.1f}" if len(total) > 1 else ""])
+    at = " / ".join(f"{rpm:,.0f}" for rpm in total)
+    columns = ["", f"total, dB(A), at {at} r/min", "outer ring", "inner ring", "slope of the total"]
+    return markdown(columns, rows), slopes
+
+
+def _missed(lines: list[Slope], assumed: list[float]) -> str:
+    """Say by how much the slope is missed and what was ruled out."""
+    if not lines or abs(lines[0].ours - lines[0].paper) <= page.SLOPE_GOAL_DB:
+        return ""
+    own = lines[0]
+    return (
+        f"the slope, by {abs(own.ours - own.paper):.1f} dB per decade. Ruled out: chance in speed and seeds "
+        f"({page.spread(own.by_seed)}), the springs (Table 7 agrees), and [the start](#the-impulsive-start), "
+        "whose first 5 ms do not grow with speed. Other assumed numbers would give "
+        f"{page.spread(assumed)}, [each alone](#what-is-assumed-decides)."
+    )
+
+
+def _tops(found: Results, name: str, key: str = "largest_A") -> dict[float, float]:
+    """Median over all runs of a component's level above the bearing, by speed."""
+    every: dict[float, list[float]] = {}
+    for one, result in found.items():
+        every.setdefault(one.rpm, []).append(result["above"][name][key])
+    return {rpm: float(np.median(levels)) for rpm, levels in sorted(every.items())}
+
+
+def _above_table(springs: Mapping[float, Results]) -> str:
+    """Levels 100 mm above, medians over all runs."""
+    rows = []
+    for spring, found in sorted(springs.items()):
+        columns = [_tops(found, name) for name in ("outer_ring", "inner_ring", "balls", "total")]
+        columns += [_tops(found, "total", key) for key in ("leq_A", "average_peak")]
+        rows += [[f"{n:,.0f}", f"{spring:.3g}", *(f"{one[n]:.1f}" for one in columns)] for n in columns[0]]
+    heads = (NAMES[name] for name in ("outer_ring", "inner_ring", "balls"))
+    return markdown(["r/min", "springs, N/m", *heads, "total", "its Leq", "its average peak"], rows)
+
+
+def _csv(now: BySeed, springs: Mapping[float, BySeed], output: Output) -> None:
+    columns = {
+        f"{seed} {rpm} {plane}": around["largest"]
+        for seed, results in now.items()
+        for rpm, result in results.items()
+        for plane, around in result["planes"].items()
+    }
     rows = [
-        [f"{360 * k // count}", *(f"{value:.1f}" for value in row)]
+        [f"{360 * k // COUNT}", *(f"{value:.1f}" for value in row)]
         for k, row in enumerate(zip(*columns.values(), strict=True))
     ]
     output.csv("impact-noise-planes", ["angle_deg", *columns], rows)
     rows = [
-        [str(seed), str(rpm), f"{spring:g}", name, str(k), f"{top:.2f}"]
-        for seed, results in sorted(now.items())
-        for (rpm, spring), result in sorted(results.items())
+        [str(seed), str(rpm), f"{spring:g}", name, *(f"{part[key]:.2f}" for key in ("largest_A", "leq_A"))]
+        for spring, seeds in sorted(springs.items())
+        for seed, results in seeds.items()
+        for rpm, result in results.items()
         for name, part in result["above"].items()
-        for k, top in enumerate(part["histories"])
     ]
     output.csv(
-        "impact-noise-above", ["seed", "rpm", "spring_N_m", "component", "history", "largest_dBA"], rows
+        "impact-noise-above", ["seed", "rpm", "spring_N_m", "component", "largest_dBA", "leq_dBA"], rows
     )
 
 
-def _pictures(results: Points, output: Output) -> None:
+def _pictures(first: dict[int, dict[str, Any]], output: Output) -> None:
     """Three planes at three speeds."""
     drawn, axes = charts.figure(12.0, 4.4, 1, 3, polar=True)
-    for ax, plane in zip(axes, PLANES, strict=True):
-        lines = {
-            f"{rpm:,} r/min": result["planes"][plane]["largest"]
-            for (rpm, spring), result in sorted(results.items())
-            if spring == SPRINGS[-1]
-        }
-        if not lines:
-            continue
-        count = len(next(iter(lines.values())))
+    for ax, plane in zip(axes, SIDES, strict=True):
+        lines = {f"{rpm:,} r/min": result["planes"][plane]["largest"] for rpm, result in first.items()}
         zero = "N" if plane == "XZ" else "E"  # from 12 o'clock, or from the bearing's axis
-        angles = [360.0 * k / count for k in range(count)]
+        angles = [360.0 * k / COUNT for k in range(COUNT)]
         charts.circle(ax, angles, lines, f"plane {plane}, dB(A)", zero)
     charts.save(drawn, output.images / "impact-noise-planes.png")

@@ -1,27 +1,23 @@
 """Points, components and lines of the multi-source paper, and its statements on them."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
 
-from examples.papers.hearing import NAMES, Ear
-from examples.papers.statements import AGAINST, UNSEEN, Judged, Reason, verdict
+from examples.papers.hearing import NAMES
+from examples.papers.reduced import LINES, STEP
+from examples.papers.statements import AGAINST, UNSEEN, WITHIN_DB, Judged, Reason, verdict
 from examples.papers.values import Value
 
 SPEEDS = tuple(range(10000, 40001, 1000))
 SPECTRA = (20000, 25000, 28000, 30000)
 POINTS = ("P1", "P2", "P3", "P4")
 PARTS = ("outer_ring", "inner_ring", "balls", "cage")
-STEP, LAST = 20.0, 4000.0  # Hz, as the paper's figures 11 to 14
-LINES = ("f_r", "2 f_r", "f_c", "f_b", "f_i", "f_o")
+HALF_DB = 3.0  # what a part of the sound adds to the rest when it has half of the energy
 _ALL_MODES = (
-    "where f_b, f_c, f_i and f_o each lead a component (10, 13, 16, 18), all four, each one number times the "
-    "speed, must meet a mode at one speed, and f_r a fifth"
-)
-_SUM = (
-    "energies of the components add (eq. 46): a line that is weaker in the loudest components than another "
-    "one cannot lead their sum by more than the sum of such lines, so f_r cannot lead (9)"
+    "in linear response: where f_b, f_c, f_i and f_o each lead a component (10, 13, 16, 18), all four, each "
+    "one number times the speed, must meet a mode at one speed, and f_r a fifth"
 )
 _EQUAL = (
     "form of order 2 sounds at 2 f_b, equal balls on perfect races at f_o: f_b needs a dent or odd orders"
@@ -34,38 +30,47 @@ REASONS = {
     "P1: every component loudest at 28,000 r/min": Reason(AGAINST, _ALL_MODES),
     "balls: f_b largest": Reason(AGAINST, _EQUAL),
     "cage: f_b third": Reason(AGAINST, _EQUAL),
-    "inner ring: f_i largest": Reason(AGAINST, _SUM),
-    "outer ring: f_o largest": Reason(AGAINST, _SUM),
 }
+BySpeed = Mapping[int, Mapping[str, Any]]
 
 
-def frequencies(ear: Ear) -> dict[str, float]:
-    """Frequencies (Hz) of `LINES`, from the cage's mean speed in the recording."""
-    recording = ear.recording
-    ratio = float(np.mean(recording.outputs["cage.speed_ratio"][recording.output_time >= recording.start]))
-    rolling = recording.kinematics()
-    balls = recording.scene.bearing.ball_count
-    f_r, f_c = rolling.f_r, ratio * rolling.f_r
-    return {"f_r": f_r, "2 f_r": 2 * f_r, "f_c": f_c, "f_b": rolling.f_b, "f_i": balls * (f_r - f_c),
-            "f_o": balls * f_c}  # fmt: skip
+def ours(values: Iterable[Value], rpm: float, result: Mapping[str, Any]) -> dict[str, float]:
+    """Our values of one run at a speed (r/min), by name."""
+    return {
+        value.name: result["levels"]["total"][POINTS.index(value.place)]
+        if value.quantity == "leq"
+        else result["lines"]["total"][value.quantity.removeprefix("line ")]
+        for value in values
+        if value.rpm == rpm
+    }
 
 
-def ours(values: Iterable[Value], results: dict[int, dict[str, Any]]) -> dict[str, float]:
-    """Our values of one seed, by name; results by speed."""
-    found = {}
-    for value in values:
-        if value.rpm in results:
-            own = results[int(value.rpm)]
-            found[value.name] = (
-                own["levels"]["total"][POINTS.index(value.place)]
-                if value.quantity == "leq"
-                else own["lines"]["total"][value.quantity.removeprefix("line ")]
-            )
-    return found
+def loudest_line(result: Mapping[str, Any]) -> tuple[str, float, float]:
+    """Return the loudest line of a run at P1: its name, frequency (Hz), and level less the total's (dB).
+
+    Beside `LINES` there are f_i - f_r and f_i + f_r, which orders N - 1 and N + 1 of an inner race with N
+    balls excite across the axis. A line within one step of the spectrum from none of them is *other*.
+    """
+    at = dict(result["frequencies"])
+    at |= {"f_i - f_r": at["f_i"] - at["f_r"], "f_i + f_r": at["f_i"] + at["f_r"]}
+    spectrum = np.array(result["spectra"]["total"])
+    spectrum[0] = -np.inf  # a mean is no line
+    found = STEP * int(spectrum.argmax())
+    name = min(at, key=lambda key: abs(at[key] - found))
+    over = float(spectrum.max() - result["levels"]["total"][0])
+    return (name if abs(at[name] - found) <= STEP else "other", found, over)
 
 
-def orderings(results: dict[int, dict[str, Any]]) -> list[Judged]:
-    """Judge the paper's statements for one radiation model; results by speed."""
+def orderings(results: BySpeed, frictionless: BySpeed | None = None) -> list[Judged]:
+    """Judge the paper's statements for one seed and one radiation model.
+
+    Parameters
+    ----------
+    results : mapping of int to result
+        By speed.
+    frictionless : mapping of int to result, optional
+        The same bearing without friction, at some of the speeds; none: what needs it is not judged.
+    """
     total = {rpm: dict(zip(POINTS, found["levels"]["total"], strict=True)) for rpm, found in results.items()}
     speeds = sorted(results)
 
@@ -93,22 +98,24 @@ def orderings(results: dict[int, dict[str, Any]]) -> list[Judged]:
         *_peaks(results, total, speeds),
         *_lines(results),
     ]
-    ranks = [
-        (f"{rpm:,} {one} > {other}", results[rpm]["levels"][a][0] - results[rpm]["levels"][b][0])
-        for rpm in speeds
-        for a, b, one, other in (
-            ("outer_ring", "inner_ring", "outer", "inner"),
-            ("inner_ring", "balls", "inner", "balls"),
-            ("balls", "cage", "balls", "cage"),
-        )
-    ]
-    for one, other in (("outer", "inner"), ("inner", "balls"), ("balls", "cage")):
-        margins = [(n.split()[0], m) for n, m in ranks if f"{one} > {other}" in n]
+    for a, b, one, other in (
+        ("outer_ring", "inner_ring", "outer", "inner"),
+        ("inner_ring", "balls", "inner", "balls"),
+        ("balls", "cage", "balls", "cage"),
+    ):
+        margins = [
+            (f"{rpm:,}", results[rpm]["levels"][a][0] - results[rpm]["levels"][b][0]) for rpm in speeds
+        ]
         found.append(verdict(f"P1: {one} above {other} at every speed", margins))
-    return found
+    gain = [
+        (f"{rpm:,}", total[rpm]["P1"] - off["levels"]["total"][0] - HALF_DB)
+        for rpm, off in sorted((frictionless or {}).items())
+        if rpm in results
+    ]
+    return [*found, *_trends(results), verdict("friction is the main component: over 3 dB of P1", gain)]
 
 
-def _peaks(results: dict[int, dict[str, Any]], total, speeds) -> list[Judged]:
+def _peaks(results: BySpeed, total, speeds) -> list[Judged]:
     """Statements on the critical speed."""
     if 28000 not in results or len(speeds) < 3:
         return [Judged(words, UNSEEN, "") for words in _PEAK_WORDS]
@@ -146,8 +153,8 @@ _PEAK_WORDS = (
 )
 
 
-def _lines(results: dict[int, dict[str, Any]]) -> list[Judged]:
-    """Statements on lines of the components' spectra at the paper's four speeds."""
+def _lines(results: BySpeed) -> list[Judged]:
+    """Statements on the order of lines in the components' spectra at the paper's four speeds."""
     speeds = [rpm for rpm in SPECTRA if rpm in results]
 
     def over(component, margin):
@@ -173,3 +180,76 @@ def _lines(results: dict[int, dict[str, Any]]) -> list[Judged]:
         verdict("outer ring: f_o largest", over("outer_ring", largest("f_o"))),
         verdict("outer ring: f_c above 2 f_r", over("outer_ring", lambda t: t["f_c"] - t["2 f_r"])),
     ]
+
+
+def _trends(results: BySpeed) -> list[Judged]:
+    """Statements of sections 5.1 to 5.4 on single lines over the four speeds of the spectra.
+
+    A line's share (the paper's *contribution*) is its level less the component's.
+    """
+    seen = all(rpm in results for rpm in SPECTRA)
+
+    def lines_at(component: str, rpm: int) -> Mapping[str, float]:
+        return results[rpm]["lines"][component]
+
+    def shares(component: str, key: str) -> list[float]:
+        return [lines_at(component, n)[key] - results[n]["levels"][component][0] for n in SPECTRA]
+
+    def steps(component: str, sign: float, *keys: str) -> list[tuple[str, float]]:
+        """Return the changes of shares with each step of speed, in the direction of ``sign``."""
+        return [
+            (f"{key}, {rpm:,}", sign * (after - before))
+            for key in keys
+            for rpm, before, after in zip(
+                SPECTRA[1:], shares(component, key), shares(component, key)[1:], strict=False
+            )
+        ]
+
+    def loudest(component: str, *keys: str) -> list[tuple[str, float]]:
+        return [
+            (
+                key,
+                lines_at(component, 28000)[key]
+                - max(lines_at(component, n)[key] for n in SPECTRA if n != 28000),
+            )
+            for key in keys
+        ]
+
+    def second_order() -> list[tuple[str, float]]:
+        low, high = lines_at("balls", 20000), lines_at("balls", 30000)
+        return [("20,000", low["f_c"] - low["2 f_r"]), ("30,000", high["2 f_r"] - high["f_c"])]
+
+    def between() -> list[tuple[str, float]]:
+        low, middle, high = (lines_at("cage", n) for n in (20000, 25000, 30000))
+        return [(key, min(middle[key] - low[key], high[key] - middle[key])) for key in ("f_c", "f_r", "f_b")]
+
+    def near() -> list[tuple[str, float]]:
+        tones = lines_at("outer_ring", 28000)
+        return [
+            ("f_r - f_b", tones["f_r"] - tones["f_b"]),
+            ("3 dB less distance to f_o", WITHIN_DB - abs(tones["f_r"] - tones["f_o"])),
+        ]
+
+    def up_and_down() -> list[tuple[str, float]]:
+        at = [lines_at("outer_ring", n)["f_i"] for n in SPECTRA]
+        return [("20,000 to 25,000", at[1] - at[0]), ("28,000 to 30,000", at[2] - at[3])]
+
+    def steady() -> list[tuple[str, float]]:
+        found = {key: shares("outer_ring", key) for key in ("f_c", "2 f_r")}
+        return [(key, WITHIN_DB - (max(one) - min(one))) for key, one in found.items()]
+
+    stated = {
+        "balls: 2 f_r below f_c at 20,000, above it at 30,000 r/min": second_order,
+        "balls: every line loudest at 28,000 r/min": lambda: loudest("balls", *LINES),
+        "cage: f_c, f_r, f_b loudest at 28,000 r/min": lambda: loudest("cage", "f_c", "f_r", "f_b"),
+        "cage: f_c, f_r, f_b at 25,000 between 20,000 and 30,000 r/min": between,
+        "inner ring: share of f_b falls with speed": lambda: steps("inner_ring", -1.0, "f_b"),
+        "inner ring: shares of f_r and f_o grow": lambda: steps("inner_ring", 1.0, "f_r", "f_o"),
+        "inner ring: share of f_c grows": lambda: steps("inner_ring", 1.0, "f_c"),
+        "outer ring: share of f_r grows": lambda: steps("outer_ring", 1.0, "f_r"),
+        "outer ring: f_r at 28,000 r/min above f_b and within 3 dB of f_o": near,
+        "outer ring: share of f_o falls": lambda: steps("outer_ring", -1.0, "f_o"),
+        "outer ring: f_i rises first, then falls": up_and_down,
+        "outer ring: shares of f_c and 2 f_r vary by less than 3 dB": steady,
+    }
+    return [verdict(words, margins() if seen else []) for words, margins in stated.items()]

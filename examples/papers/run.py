@@ -1,7 +1,8 @@
 """Write the validation pages of the three papers: ``python -m examples.papers.run [PAGE ...]``.
 
-Per page: identify the free numbers from the fitted values, run every operating point with all seeds, write
-the page. What is computed is kept under ``--cache``: a run that is interrupted goes on from there.
+Per page: identify the free numbers from the fitted values, run every operating point with its seeds and the
+speeds around it, write the page. What is computed is kept under ``--cache``: a run that is interrupted goes
+on from there.
 """
 
 import argparse
@@ -42,13 +43,9 @@ def run(
     output.make()
     written = []
     with ProcessPoolExecutor(jobs) as pool, Progress(*columns) as bar:
-        runs = Runs(pool, bar, radiation_model, quick, cache, jobs)
+        runs = Runs(pool, bar, radiation_model, quick, cache)
         for name in names:
-            task = bar.add_task(f"{name}: identification", total=1)
-            answer = PAGES[name].identified(runs)
-            bar.advance(task)
-            results = runs.all(name, PAGES[name].cases(answer.changes, runs.seeds, quick), name)
-            written.append(output.write(name, PAGES[name].write(results, answer, runs, output)))
+            written.append(output.write(name, PAGES[name].page_of(runs, output)))
     return written
 
 

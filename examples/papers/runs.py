@@ -1,37 +1,34 @@
 """Cases evaluated on the cores given, with progress; results are kept on disk."""
 
-import importlib
 import pathlib
 import warnings
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import Executor, as_completed
 from typing import TYPE_CHECKING, Any
 
-from examples.papers.case import QUICK_SEEDS, SEEDS, Case, code_hash, kept
+from examples.papers import reduced
+from examples.papers.case import AROUND, FEW_AROUND, FEW_SEEDS, SEEDS, Case, around, code_hash, kept
 from examples.papers.hearing import Ear
 
 if TYPE_CHECKING:
     from rich.progress import Progress
 
 Results = dict[Case, dict[str, Any]]
+_QUICK = ((1, 2), (1.0,))  # seeds, speeds over the named one
 
 
-def evaluate(
-    name: str, what: str, case: Case, radiation_model: str, quick: bool, cache: pathlib.Path
-) -> dict[str, Any]:
-    """Return what a page's function ``what`` makes of one case (worker)."""
-    module = importlib.import_module(f"examples.papers.{name.replace('-', '_')}")
-    key = f"{case.key(radiation_model)}-{radiation_model}-{code_hash(*module.MODULES)}"
-    place = cache / name / f"{key}-{what}{'-quick' if quick else ''}.json"
+def evaluate(what: str, case: Case, radiation_model: str, cache: pathlib.Path) -> dict[str, Any]:
+    """Return what a function of `reduced` makes of one case (worker)."""
+    name = f"{case.key(radiation_model)}-{radiation_model}-{code_hash('reduced', 'hearing')}-{what}"
 
     def compute() -> dict[str, Any]:
         # of contact ellipses that reach a shoulder at large amplitudes, once per run: the page says so
         warnings.simplefilter("ignore", UserWarning)
-        ear = Ear(case.recording(radiation_model, cache), radiation_model, cache)
-        found: dict[str, Any] = getattr(module, what)(ear, quick)
+        ear = Ear(case.recording(radiation_model), radiation_model, cache)
+        found: dict[str, Any] = getattr(reduced, what)(ear, case)
         return found
 
-    return kept(place, compute)
+    return kept(cache / what / f"{name}.json", compute)
 
 
 class Runs:
@@ -41,32 +38,50 @@ class Runs:
     ----------
     radiation_model : str
     quick : bool
-        Tiny cases with few seeds: to see that it works.
+        Tiny cases with few seeds, each at its own speed: to see that it works.
     cache : pathlib.Path
-    jobs : int
-        Processes.
-    seeds : tuple of int
     """
 
     def __init__(
-        self, pool: Executor, bar: "Progress", radiation_model: str, quick: bool, cache: pathlib.Path,
-        jobs: int,
-    ) -> None:  # fmt: skip
+        self, pool: Executor, bar: "Progress", radiation_model: str, quick: bool, cache: pathlib.Path
+    ) -> None:
         self._pool, self._bar = pool, bar
-        self.radiation_model, self.quick, self.cache, self.jobs = radiation_model, quick, cache, jobs
-        self.seeds = QUICK_SEEDS if quick else SEEDS
+        self.radiation_model, self.quick, self.cache = radiation_model, quick, cache
+
+    def around(self, cases: Sequence[Case]) -> list[Case]:
+        """Return the cases of values: all seeds and nine speeds around each."""
+        return around(cases, *(_QUICK if self.quick else (SEEDS, AROUND)))
+
+    def few(self, cases: Sequence[Case]) -> list[Case]:
+        """Return the cases of a whole range of speeds: two seeds and five speeds around each."""
+        return around(cases, *(_QUICK if self.quick else (FEW_SEEDS, FEW_AROUND)))
+
+    def one(self, place: pathlib.Path, compute: Callable[[], dict[str, Any]], words: str) -> dict[str, Any]:
+        """Return what ``place`` (JSON) holds, or compute it in a worker and put it there."""
+        task = self._bar.add_task(words, total=1)
+        found: dict[str, Any] = self._pool.submit(kept, place, compute).result()
+        self._bar.advance(task)
+        return found
 
     def all(
-        self, name: str, cases: Sequence[Case], words: str, *, what: str = "reduce",
-        radiation_model: str | None = None,
-    ) -> Results:  # fmt: skip
-        """Results of all cases, in their order."""
+        self, what: str, cases: Sequence[Case], words: str, radiation_model: str | None = None
+    ) -> Results:
+        """Results of all cases, in their order; of one that is asked for twice, one.
+
+        Parameters
+        ----------
+        what : str
+            A function of `reduced`.
+        cases : sequence of Case
+        words : str
+            Shown beside the bar.
+        radiation_model : str, optional
+            In place of the page's.
+        """
+        cases = list(dict.fromkeys(cases))
         task = self._bar.add_task(words, total=len(cases))
         model = radiation_model or self.radiation_model
-        waiting = {
-            self._pool.submit(evaluate, name, what, case, model, self.quick, self.cache): case
-            for case in cases
-        }
+        waiting = {self._pool.submit(evaluate, what, case, model, self.cache): case for case in cases}
         found: Results = {}
         try:
             for done in as_completed(waiting):

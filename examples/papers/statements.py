@@ -1,10 +1,10 @@
 """Statements of a paper that need no absolute level: judged seed by seed, then put into one of four classes.
 
 ================================  ========================================================================
-*holds*                           for all seeds, or all but one
-*does not hold*                   for none, or one
+*holds*                           for all seeds
+*does not hold*                   for none
 *chance*                          it depends on the draw: the paper's inputs have no cause for it, or it holds
-                                  for two to six of eight seeds; the count is given
+                                  for some seeds; the count is given
 *contradicts mechanics*           a proof of one line says why no such bearing can do it
 ================================  ========================================================================
 
@@ -150,14 +150,10 @@ def _one(same: Sequence[Judged], reason: Reason | None) -> Classed:
 
 
 def by_count(holds: int, count: int) -> str:
-    """Class of a statement from the number of seeds it holds for: one of eight may differ.
-
-    With fewer than eight draws all have to agree.
-    """
-    spare = 1 if count >= 8 else 0
-    if holds >= count - spare:
+    """Class of a statement from the number of seeds it holds for: they have to agree."""
+    if holds == count:
         return HOLDS
-    return NOT if holds <= spare else CHANCE
+    return CHANCE if holds else NOT
 
 
 def counts(found: Sequence[Classed]) -> str:

@@ -95,6 +95,8 @@ class Value:
         Figure, table or derivation.
     without : str
         Why it stays out of every average; empty for all others.
+    marked : str
+        What else is in it by the paper's own words: averages and slopes are given with and without it.
     """
 
     name: str
@@ -106,29 +108,42 @@ class Value:
     paper: Interval
     source: str
     without: str = ""
+    marked: str = ""
 
 
 @dataclass(frozen=True)
 class Met:
-    """A value of a paper and ours, one per seed."""
+    """A value of a paper and ours.
+
+    Attributes
+    ----------
+    value : Value
+    ours : mapping of int to tuple of float
+        By seed: one number for each speed around the value's own.
+    """
 
     value: Value
-    ours: tuple[float, ...]
+    ours: Mapping[int, tuple[float, ...]]
 
     @property
-    def mean(self) -> float:
-        """Mean of ours over the seeds (dB values are averaged as they are)."""
-        return math.fsum(self.ours) / len(self.ours)
+    def level(self) -> float:
+        """Median of ours over speeds and seeds (of dB values as they are)."""
+        return float(np.median(np.concatenate(list(self.ours.values()))))
+
+    @property
+    def by_seed(self) -> tuple[float, ...]:
+        """Median over the speeds for each seed."""
+        return tuple(float(np.median(numbers)) for _, numbers in sorted(self.ours.items()))
 
     @property
     def residual(self) -> float:
-        """Distance of the mean from the paper's interval."""
-        return self.value.paper.distance(self.mean)
+        """Distance of the median from the paper's interval."""
+        return self.value.paper.distance(self.level)
 
     @property
     def from_middle(self) -> float:
-        """Difference of the mean from the middle of the paper's interval."""
-        return self.mean - self.value.paper.middle
+        """Difference of the median from the middle of the paper's interval."""
+        return self.level - self.value.paper.middle
 
 
 def read(name: str) -> tuple[Value, ...]:
@@ -168,21 +183,28 @@ def read(name: str) -> tuple[Value, ...]:
             found.append(
                 Value(
                     what, row["role"], row["group"], row["quantity"], row["place"], float(row["rpm"]),
-                    paper, source, row["without"],
+                    paper, source, row["without"], row["marked"],
                 )
             )  # fmt: skip
     return tuple(found)
 
 
-def met(values: Iterable[Value], ours: Iterable[Mapping[str, float]]) -> list[Met]:
-    """Join values with ours, given by name for each seed; values that no seed has are left out."""
-    by_seed = list(ours)
-    found = []
-    for value in values:
-        numbers = tuple(one[value.name] for one in by_seed if value.name in one)
-        if numbers:
-            found.append(Met(value, numbers))
-    return found
+def met(values: Iterable[Value], ours: Iterable[tuple[int, Mapping[str, float]]]) -> list[Met]:
+    """Join values with ours.
+
+    Parameters
+    ----------
+    values : iterable of Value
+        Those that no run has are left out.
+    ours : iterable of (seed, mapping)
+        One mapping for each run: ours by name, of the values at the run's speed.
+    """
+    found: dict[str, dict[int, tuple[float, ...]]] = {}
+    for seed, numbers in ours:
+        for name, number in numbers.items():
+            by_seed = found.setdefault(name, {})
+            by_seed[seed] = (*by_seed.get(seed, ()), number)
+    return [Met(value, found[value.name]) for value in values if value.name in found]
 
 
 def rms(found: Iterable[Met], *, middle: bool = False) -> float:
@@ -190,8 +212,19 @@ def rms(found: Iterable[Met], *, middle: bool = False) -> float:
 
     Values that stay out of averages (`Value.without`) are not counted.
     """
-    rest = [one.from_middle if middle else one.residual for one in found if not one.value.without]
-    return math.sqrt(math.fsum(r * r for r in rest) / len(rest)) if rest else math.nan
+    return _rms(one.from_middle if middle else one.residual for one in found if not one.value.without)
+
+
+def rms_by_seed(found: Sequence[Met]) -> tuple[float, ...]:
+    """Root mean square of residuals for each seed alone, of seeds that all values were run with."""
+    rest = [one for one in found if not one.value.without]
+    seeds = sorted(set.intersection(*(set(one.ours) for one in rest))) if rest else []
+    return tuple(_rms(one.value.paper.distance(float(np.median(one.ours[s]))) for one in rest) for s in seeds)
+
+
+def _rms(numbers: Iterable[float]) -> float:
+    squares = [number * number for number in numbers]
+    return math.sqrt(math.fsum(squares) / len(squares)) if squares else math.nan
 
 
 def slope(speeds: Sequence[float], levels: Sequence[float]) -> float:

@@ -5,8 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from examples.papers import hearing, impact_noise
+from examples.papers import hearing
 from examples.papers.hearing import a_weighted, below, line, spectrum
+from examples.papers.reduced import histories
 from fmu_bearing.acoustics.filters.weighting import a_weighting_db
 from fmu_bearing.files import CacheError
 
@@ -38,7 +39,7 @@ def test_levels_up_to_a_frequency_leave_out_what_lies_above():
 def test_histories_are_peaks_of_the_weighted_pressure():
     time = np.arange(5120) / RATE  # 100 ms
     tone = 0.2 * np.sin(2 * np.pi * 3150.0 * time)
-    peaks = impact_noise.histories(a_weighted(tone[None], RATE), RATE)
+    peaks = histories(a_weighted(tone[None], RATE), RATE)
     assert peaks.shape == (1, 19)
     peak = 20 * math.log10(0.2 / 2e-5) + float(a_weighting_db([3150.0])[0])
     assert peaks[0] == pytest.approx([peak] * 19, abs=0.1)  # 16 samples a period: 0.17 dB at worst, rarely

@@ -1,53 +1,92 @@
-"""Identification for the papers' pages: count of free numbers, search for one, values for `identify`."""
+"""Identification for the papers' pages: one number for each fitted value, and the search for them."""
 
 import math
 
+import numpy as np
 import pytest
 
-from examples.papers import case as case_module, impact_noise, multi_source, sound_field
-from examples.papers.identification import AMPLITUDE_UM, BOTH, by_bracket, check_count
-from examples.papers.page import Output
+from examples.papers import impact_noise, multi_source, sound_field
+from examples.papers.identification import BOTH, Number, amplitude, check_numbers, identify
+from examples.papers.values import Interval, Met, Value
+
+UNBALANCE = "imperfections.unbalance_um"
 
 
-def test_there_are_never_more_free_numbers_than_fitted_values():
-    for module, free in ((multi_source, multi_source.FREE), (sound_field, sound_field.FREE)):
-        assert check_count(len(free), module.VALUES)
-        with pytest.raises(ValueError, match="free numbers, but"):
-            check_count(len(free) + 1, module.VALUES)
+def value(name, level, role="fit"):
+    return Value(name, role, "measured", "leq", "P1", 10000.0, Interval(level, level), "made up")
+
+
+@pytest.mark.parametrize("module", [multi_source, sound_field, impact_noise], ids=lambda module: module.NAME)
+def test_each_page_has_one_number_for_each_fitted_value(module):
+    check_numbers(module.NUMBERS, module.VALUES)
+    with pytest.raises(ValueError, match="but fitted values are"):
+        check_numbers((*module.NUMBERS, amplitude("a value that is not there")), module.VALUES)
+    with pytest.raises(ValueError, match="but fitted values are"):
+        check_numbers(module.NUMBERS[1:], module.VALUES)
 
 
 @pytest.mark.parametrize("slope", [1.0, 0.5, 2.5])
-def test_the_search_for_one_number_ends_at_the_value(slope):
-    def level(changes):
+def test_the_search_ends_at_the_value(slope):
+    target = value("a", 74.0)
+
+    def levels(changes):
         (_, inner), (_, outer) = changes
-        assert inner == outer
-        return 70.0 + slope * 20.0 * math.log10(inner)
+        assert inner == outer  # both races together
+        loud = 70.0 + slope * 20.0 * math.log10(inner)
+        return {"a": Met(target, {1: (loud - 1.0, loud + 1.0), 2: (loud, loud)})}
 
-    found = by_bracket(impact_noise.SCENE, (), impact_noise.VALUES, level)
-    assert level(found.changes) == pytest.approx(73.96, abs=0.11)  # it ends within 0.1 dB, at four digits
-    assert [key for key, _ in found.changes] == list(BOTH)
-    ((_, before, after),) = found.left
-    assert abs(after) <= 0.11 < abs(before)
-
-
-def test_the_search_for_one_number_is_bounded_and_says_so():
-    found = by_bracket(impact_noise.SCENE, (), impact_noise.VALUES, lambda changes: changes[0][1])
-    assert found.numbers[0].after == pytest.approx(AMPLITUDE_UM[1]) and "bound" in found.words
+    found = identify("7003C-spindle", (), (amplitude("a"),), [target], levels)
+    (one,) = found.found
+    assert one.fitted.level == pytest.approx(74.0, abs=0.11)  # it ends within 0.1 dB, at four digits
+    assert one.after == pytest.approx(10.0 ** (4.0 / 20.0 / slope), rel=0.015 / slope)
+    assert [key for key, _ in found.changes] == list(BOTH) and one.before == 0.3
+    assert one.seeds == pytest.approx((one.after, one.after))  # both seeds have one median
+    assert "| 74.0 | 74" in found.words
 
 
-@pytest.mark.parametrize("module", [multi_source, sound_field], ids=lambda module: module.NAME)
-def test_measured_values_are_read_by_identify(module, tmp_path):
-    from fmu_bearing.identification.data import read_data
-    from fmu_bearing.identification.free import free_numbers
+def test_two_numbers_are_found_together_and_seeds_give_a_range():
+    """A level of waves with some unbalance in it, and a line of the unbalance alone: energies add."""
+    loud, tone = value("loud", 80.0), value("tone", 84.0)
 
-    output = Output(tmp_path)
-    output.make()
-    output.records("measured", module.measured("fit", "check"))
-    scene = case_module.changed(module.SCENE, module.CHANGES)
-    found = read_data(output.results / "measured.csv", scene)
-    wanted = [v for v in module.VALUES if v.role == "fit"]
-    assert [row.value for row in found if row.fit] == pytest.approx(
-        [round(v.paper.middle, 2) for v in wanted]
-    )
-    free = free_numbers(scene, dict(module.FREE))
-    assert free[0].keys == BOTH  # both races together
+    def levels(changes):
+        waves, unbalance = dict(changes)[BOTH[0]], dict(changes)[UNBALANCE]
+        of_waves, of_unbalance = 10.0 * waves**2, 0.1 * unbalance**2
+        total = 70.0 + 10.0 * math.log10(of_waves + 0.03 * of_unbalance)
+        line = 70.0 + 10.0 * math.log10(of_unbalance)
+        return {
+            "loud": Met(loud, {1: (total + 2.0,), 2: (total - 2.0,)}),
+            "tone": Met(tone, {1: (line,), 2: (line,)}),
+        }
+
+    numbers = (amplitude("loud"), Number("unbalance", "um", (UNBALANCE,), "tone", (0.05, 20.0)))
+    found = identify("7003C-spindle", (), numbers, [loud, tone], levels)
+    waves, unbalance = found.found
+    wanted = math.sqrt(10.0 ** (14.0 / 10.0) / 0.1)
+    assert unbalance.after == pytest.approx(wanted, rel=0.015)  # 0.1 dB
+    assert waves.after == pytest.approx(math.sqrt((10.0 - 0.03 * 10.0**1.4) / 10.0), rel=0.02)
+    low, high = waves.seeds
+    # waves carry 92 % of the level's energy: 4 dB of it are 4 / 0.92 dB of their amplitude
+    assert high / low == pytest.approx(10.0 ** (4.0 / 0.92 / 20.0), rel=0.1) and low < waves.after < high
+    assert found.tries <= 8
+
+
+def test_the_search_is_bounded_and_says_so():
+    target = value("a", 74.0)
+    found = identify(
+        "7003C-spindle", (), (amplitude("a"),), [target],
+        lambda changes: {"a": Met(target, {1: (10.0 + math.log10(changes[0][1]),)})},
+    )  # fmt: skip
+    assert found.found[0].after == pytest.approx(5.0) and "at its upper bound" in found.words
+
+
+def test_a_search_that_cannot_end_gives_its_best():
+    """A level that jumps over its value: the nearest try is the answer."""
+    target, asked = value("a", 74.0), []
+
+    def levels(changes):
+        asked.append(changes[0][1])
+        return {"a": Met(target, {1: (77.0 if changes[0][1] > 0.4 else 73.0,)})}
+
+    found = identify("7003C-spindle", (), (amplitude("a"),), [target], levels)
+    assert found.found[0].fitted.level == 73.0 and found.tries == len(asked) <= 8
+    assert np.isfinite(found.found[0].after)

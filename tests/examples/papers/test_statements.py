@@ -49,24 +49,22 @@ def test_order_and_size_are_both_wanted():
     assert statements.both(order, statements.trend("", [])).verdict == HOLDS  # nothing printed
 
 
-def _seeds(holds, count=8):
+def _seeds(holds, count=4):
     margins = [1.0] * holds + [-1.0] * (count - holds)
     return [[statements.verdict("s", [("x", margin)])] for margin in margins]
 
 
-@pytest.mark.parametrize(
-    ("holds", "kind"), [(8, HOLDS), (7, HOLDS), (6, CHANCE), (2, CHANCE), (1, NOT), (0, NOT)]
-)
-def test_classes_follow_the_count_over_eight_seeds(holds, kind):
+@pytest.mark.parametrize(("holds", "kind"), [(4, HOLDS), (3, CHANCE), (1, CHANCE), (0, NOT)])
+def test_classes_follow_the_count_over_the_seeds(holds, kind):
     (found,) = statements.classed(_seeds(holds), {})
-    assert (found.kind, found.holds, found.seeds) == (kind, holds, 8)
-    assert found.share == pytest.approx(holds / 8)
+    assert (found.kind, found.holds, found.seeds) == (kind, holds, 4)
+    assert found.share == pytest.approx(holds / 4)
 
 
 def test_a_reason_classes_what_does_not_hold_and_nothing_else():
     why = Reason(AGAINST, "momentum")
     assert statements.classed(_seeds(0), {"s": why})[0].kind == AGAINST
-    (refuted,) = statements.classed(_seeds(8), {"s": why})  # our own bearing does it
+    (refuted,) = statements.classed(_seeds(4), {"s": why})  # our own bearing does it
     assert (refuted.kind, refuted.reason) == (HOLDS, "")
     (draw,) = statements.classed(_seeds(0), {"s": Reason(CHANCE, "no direction")})
     assert (draw.kind, draw.reason) == (CHANCE, "no direction")

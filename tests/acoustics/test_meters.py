@@ -8,6 +8,7 @@ from fmu_bearing.acoustics.filters.design import build
 from fmu_bearing.acoustics.filters.weighting import band_centre, band_sections
 from fmu_bearing.acoustics.radiation.compact import Air
 from fmu_bearing.engine.layout import MO, SD, Z
+from fmu_bearing.engine.sound import meter
 from tests.acoustics.playback import LARGE, PAPER_POINTS, SMALL, Player, lines, raw_time, still
 
 PERIOD = 2048  # raw samples: 100 Hz
@@ -142,6 +143,26 @@ def test_levels_without_details_cost_nothing_and_read_the_floor():
         assert player.reading(name) == pytest.approx(QUIET), name
     thirds = build("compact", LARGE, Air(), PAPER_POINTS, thirds=True)
     assert thirds[SD.H_STATE] > plain[SD.H_STATE]
+
+
+def gathered(order, first, by_microphone):
+    """A block's head, and a work space with rows of three microphones in the block's own lanes."""
+    at = SD.HEAD_SIZE + first
+    ps, ws = np.zeros(at + 3), np.zeros(first + 3 * SD.METERS)
+    ps[SD.H_MICS], ps[SD.H_AT_ORDER], ps[SD.H_W_METERS] = 3, at, first
+    ps[at:] = order
+    ws[first:].reshape(SD.METERS, 3)[:, order] = by_microphone
+    return ps, ws
+
+
+def test_rows_of_two_blocks_add_by_microphone_whatever_lanes_each_gives_them():
+    rows = np.arange(2.0 * 3 * SD.METERS).reshape(2, SD.METERS, 3)
+    rows[1] *= 100.0
+    orders = [2, 0, 1], [1, 2, 0]
+    first, second = gathered(orders[0], 7, rows[0]), gathered(orders[1], 4, rows[1])
+    meter.add(*first, *second)
+    assert np.array_equal(first[1][7:].reshape(SD.METERS, 3)[:, orders[0]], rows[0] + rows[1])
+    assert np.array_equal(second[1][4:].reshape(SD.METERS, 3)[:, orders[1]], rows[1])
 
 
 def test_opposite_bodies_of_the_paper_model_do_not_cancel():

@@ -8,6 +8,7 @@ import pytest
 from fmu_bearing import read_scene, statics
 from fmu_bearing.elastic.shaft import ShaftModel, placed, shaft_model
 from fmu_bearing.engine.layout import STRIDE, F, P, Q, S, U, Y
+from fmu_bearing.engine.spindle import members, shaft as shaft_kernels
 from fmu_bearing.prepare import bodies
 from fmu_bearing.prepare.model import pack
 from fmu_bearing.scene import si
@@ -16,6 +17,7 @@ from tests.engine.helpers import Run
 from tests.oracles import spindle_dynamics as oracle
 from tests.spindle.dynamics import Bearing, at_rest, bearing_arrays, dense_answer, place_from, spindle_of
 from tests.spindle.rest import oracle as rest
+from tests.spindle.runs import SetRun
 from tests.spindle.sets import scene
 
 STEP = 2e-7  # s: with half of it rates differ by 1e-10 of the largest
@@ -59,8 +61,8 @@ def bent(scene):
     )
 
 
-def system(seat, shaft=None, cage=True, speed_rate=0.0, rpm=15e3):
-    """A loaded and unbalanced DB pair with one of the seats."""
+def unbalanced(seat, cage=True, rpm=15e3):
+    """Scene of a loaded and unbalanced DB pair with one of the seats."""
     changes = SEATS[seat] | ({} if cage else NO_CAGE)
     given = scene(
         "+-",
@@ -71,7 +73,12 @@ def system(seat, shaft=None, cage=True, speed_rate=0.0, rpm=15e3):
         load={"force_x_N": 100.0, "force_y_N": 30.0, "force_z_N": -100.0, "position_mm": -10.0},
     )
     heavy = [{"position_mm": 100.0, "amount_g_mm": 2.0, "angle_deg": 40.0}]
-    given = given.replace({"spindle.shaft.unbalance": heavy})
+    return given.replace({"spindle.shaft.unbalance": heavy})
+
+
+def system(seat, shaft=None, cage=True, speed_rate=0.0, rpm=15e3):
+    """The oracle's system of that scene."""
+    given = unbalanced(seat, cage, rpm)
     return spindle_of(given, shaft=None if shaft is None else shaft(given), speed_rate=speed_rate)
 
 
@@ -239,6 +246,21 @@ def test_a_ring_that_warms_does_work():
     assert bearing_arrays(spindle, state, t)[0][Y.V0] != pytest.approx(
         state[spindle.count :][spindle.of_shaft][0]
     )
+
+
+@pytest.mark.parametrize("shaft", [None, bent], ids=["rigid", "bent"])
+def test_heavy_spots_of_a_shaft_that_speeds_up_push_as_in_the_oracle(shaft):
+    """At 80 rad/s and 3e4 rad/s2 the tangential force is five times the radial one."""
+    given = unbalanced("housing")
+    own = None if shaft is None else shaft(given)
+    spindle, run = spindle_of(given, shaft=own), SetRun(given, shaft=own)
+    spindle.drive = replace(spindle.drive, nose=np.zeros(5), angle=0.7, speed=80.0, speed_rate=3e4)
+    wanted = spindle.outside(0.0)[spindle.carriers]
+    found = np.zeros(members.padded_size(run.p))
+    shaft_kernels.push(run.p, 0.7, 80.0, 3e4, found, 0)
+    # of 0.06 N: two sums of the same products
+    np.testing.assert_allclose(found[: wanted.size], wanted, rtol=0, atol=1e-13 * np.abs(wanted).max())
+    assert not found[wanted.size :].any()
 
 
 def test_both_bearings_turn_the_housing_with_the_shaft():

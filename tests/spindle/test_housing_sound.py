@@ -214,6 +214,19 @@ def test_turned_front_bearings_make_equal_pressures():
     assert np.abs(pressures[1] - pressures[0]).max() < 1e-9 * np.abs(pressures[0]).max()
 
 
+@pytest.mark.parametrize(("signs", "way"), [("+-", 1.0), ("-+", -1.0)])
+def test_the_slot_of_a_set_is_open_ahead_whichever_way_its_first_bearing_carries(signs, way):
+    """Housing from X = 10 to 170 mm, first bearing at 25 mm: the slot to its rings begins at X = 10 mm."""
+    given = housed(signs, model="bem")
+    body = bodies_of(radiators_of(sound_scene(given, 0), housing_of_set(given)))[0]
+    along = 0.025 + way * body.contour[:, 0]
+    order = slice(None, None, round(way))  # the contour of a mirrored body is walked the other way round
+    wanted = [10, 10, 20, 20, 30, 30, 20, 20, 10, 10, 170, 170]
+    assert along[order] == pytest.approx(1e-3 * np.array(wanted), abs=1e-12)
+    ring, shaft = 0.5 * given.bearing.outside_diameter_mm, 8.5
+    assert body.contour[order, 1][[1, 7, 8, 9]] == pytest.approx(1e-3 * np.array([shaft, ring, ring, 50.0]))
+
+
 def test_the_front_of_a_turned_housing_looks_the_other_way():
     """Boundary elements of mirrored bodies: motion along x and tilts with the other sign, the rest unchanged.
 

@@ -1,8 +1,10 @@
 """Analysis of signals whose results are known in closed form."""
 
+import math
+
 import numpy as np
 import pytest
-from scipy.signal import sosfreqz
+from scipy.signal import sosfilt, sosfreqz
 
 from fmu_bearing.acoustics.analysis.audio import read_wav, resample, write_wav
 from fmu_bearing.acoustics.analysis.directivity import (
@@ -92,6 +94,21 @@ def test_third_octaves_of_noise():
     assert levels[1] == pytest.approx(levels[0] + 20, abs=1e-9)
     with pytest.raises(ValueError, match="settle"):
         third_octave_levels(noise, RATE, settle=5.0)
+
+
+def test_a_band_of_noise_scatters_by_its_width_and_time():
+    """400 records of 0.2 s: B T = 46, and 4.34 / sqrt(B T) = 0.639 dB of an ideal band.
+
+    The filter is a Butterworth band of fourth order either way. Its statistical bandwidth, the square of the
+    integral of |H|^2 over the integral of |H|^4, is pi / 8 / sin(pi / 8) / (7 / 8) = 1.173 of the band.
+    """
+    assert spread(1000.0, 0.2) == pytest.approx(0.6393, abs=1e-4)
+    noise = np.random.default_rng(2).standard_normal((400, round(0.3 * RATE)))
+    centres, sections = band_filters(RATE)
+    band = sosfilt(sections[list(np.round(centres)).index(1000.0)], noise)[:, round(0.1 * RATE) :]
+    deviation = (10.0 * np.log10((band**2).mean(axis=1))).std()
+    # three standard deviations of a standard deviation from 400 values
+    assert deviation == pytest.approx(spread(1000.0, 0.2) / math.sqrt(1.173), rel=3.0 / math.sqrt(800.0))
 
 
 def test_a_weighting_offline():
@@ -242,6 +259,26 @@ def test_dipole_strengths_follow_the_channels():
     volume = 2 * np.pi * (SMALL.ball_diameter / 2) ** 3
     assert weights["balls"] @ sample == pytest.approx([0, 0, volume])
     assert set(weights) == {"inner_ring", "outer_ring", "cage", "balls"}
+
+
+def test_balls_are_a_dipole_of_the_accelerations_of_all_in_vectors():
+    """Balls anywhere on the orbit, shaken along x, r and theta: channels of their sums, then V sum a."""
+    rng, channels = np.random.default_rng(4), SD.vector_channels(2)
+    own, angle = rng.normal(size=(3, SMALL.ball_count)), rng.uniform(0.0, 2.0 * np.pi, SMALL.ball_count)
+    sample = np.zeros(channels)
+    sample[[SD.c_ball(0, 0), SD.c_ball(0, 1)]] = own[:2].sum(axis=1)
+    for order in (1, 2):
+        for axis in range(3):
+            place, turned = SD.c_ball(order, axis), order * angle
+            sample[[place, place + 1]] = (own[axis] * np.array([np.cos(turned), np.sin(turned)])).sum(axis=1)
+    along, outwards, ahead = own
+    wanted = [
+        along.sum(),
+        (-outwards * np.sin(angle) - ahead * np.cos(angle)).sum(),  # 12 o'clock is +Z, a quarter on is -Y
+        (outwards * np.cos(angle) - ahead * np.sin(angle)).sum(),
+    ]
+    volume = 2 * np.pi * (SMALL.ball_diameter / 2) ** 3
+    assert dipoles(SMALL, channels)["balls"] @ sample == pytest.approx(volume * np.array(wanted), rel=1e-12)
 
 
 def test_wav_keeps_pascals(tmp_path):

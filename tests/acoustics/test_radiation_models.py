@@ -17,6 +17,7 @@ from fmu_bearing.acoustics.radiation.table import Table, channels, read_table, s
 from fmu_bearing.acoustics.registry import RECIPES, Radiation
 from fmu_bearing.engine.choices import RADIATION_MODELS
 from fmu_bearing.engine.layout import MO, SD, STRIDE
+from fmu_bearing.engine.sound.channels import keep
 from tests.acoustics.playback import PAPER_POINTS, RHO, SMALL, C, Player, ball, chain, lines, raw_time, still
 
 PERIOD = 2048  # raw samples: 100 Hz
@@ -219,6 +220,46 @@ def test_contact_sources_that_orbit_keep_their_strength():
     single = np.abs(lines(Player(ps).play(one, 41 * PERIOD)[:, 0], frequencies))
     assert single[0] > 1e-6 and single[1] > 1e-8
     assert np.all(whole[:2] < 1e-6 * single[:2])
+
+
+def test_normal_velocities_at_orbiting_contacts_change_as_motion_in_vectors_says():
+    """d/dt (v . n) by a difference: rings and cage in even acceleration, normals that turn with the balls.
+
+    Normals of the rings point from the inner race to the outer, those of the cage along the orbit. Balls
+    have x'' and r'' at their contacts.
+    """
+    rng, number, h = np.random.default_rng(2), SMALL.ball_count, 1e-6
+    start, omega = 2 * np.pi * np.arange(number) / number + 0.3, 1200.0 * rng.uniform(0.8, 1.2, number)
+    sine, cosine = np.sin(SMALL.contact_angle), np.cos(SMALL.contact_angle)
+    velocity, acceleration = rng.normal(size=(3, 3)), 1e3 * rng.normal(size=(3, 3))
+    speeds, rates = rng.normal(size=(2, number)), 1e3 * rng.normal(size=(2, number))  # of balls along x, r
+
+    def normal_velocities(t):
+        y, z = -np.sin(start + omega * t), np.cos(start + omega * t)
+        outwards, ahead = np.array([0.0 * y, y, z]), np.array([0.0 * y, -z, y])
+        slanted = np.array([[sine], [0.0], [0.0]]) + cosine * outwards
+        rings = [v @ n for v, n in zip(velocity + t * acceleration, (slanted, slanted, ahead), strict=True)]
+        return np.array([*rings, (sine, cosine) @ (speeds + t * rates)])
+
+    motion, radius = np.zeros(MO.SIZE), 0.5 * SMALL.pitch_diameter
+    for body in range(3):
+        at = MO.PER_BODY * body
+        motion[at + MO.VELOCITY : at + MO.ACCELERATION] = velocity[body]
+        motion[at + MO.ACCELERATION : at + MO.SPIN] = acceleration[body]
+    along = [*speeds, radius * omega, rates[0], rates[1] - radius * omega**2]
+    rows = [ball(0, first, axis) for first in (MO.BALL_VELOCITY, MO.BALL_ACCELERATION) for axis in range(3)]
+    along += [np.cos(start), np.sin(start)]
+    for first, values in zip([*rows[:5], MO.COS, MO.SIN], along, strict=True):
+        motion[first : first + number] = values
+    ps = build("paper_contacts", SMALL, Air(), [(0.0, 0.15, 0.0)], 2)
+    row = np.zeros(int(ps[SD.H_RAW]))
+    keep(ps, motion, row)
+    found = row.reshape(SD.FAMILIES, SD.FAMILY_ROWS, -1)[:, :, :number]
+    turning = omega * normal_velocities(0.0)
+    assert found[:, SD.FAMILY_TURN] == pytest.approx(turning, rel=1e-12)
+    # of 1000 m/s2; the error of the difference is (omega h)^2 / 6 of omega v
+    rate = (normal_velocities(h) - normal_velocities(-h)) / (2.0 * h)
+    assert found[:, SD.FAMILY_RATE] == pytest.approx(rate, abs=1e-2)
 
 
 def test_contact_paths_need_a_place_outside():

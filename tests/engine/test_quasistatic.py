@@ -49,6 +49,29 @@ def test_hertz_constants(scene):
         assert p[P.RACES + P.RACE_SIZE + P.RACE_STIFFNESS] == pytest.approx(outer, rel=5e-3)
 
 
+@pytest.mark.parametrize(("inner", "outer"), [(60.0, 60.0), (10.0, 0.0), (-40.0, 30.0)])
+def test_axial_place_without_load_over_temperature(scene, inner, outer):
+    """Groove centres are apart by both groove radii less the ball's diameter, where the ball just touches.
+
+    Every length of a ring grows with its own temperature (11.8e-6/K), the ball with the mean (3.2e-6/K): also
+    the axial places of the groove centres about the ring's own middle, 0.02 um of the shift at 60 K.
+    """
+
+    def place(inner, outer):
+        first, second = 1.0 + 11.8e-6 * inner, 1.0 + 11.8e-6 * outer
+        ball = 4.5e-3 * (1.0 + 3.2e-6 * 0.5 * (inner + outer))
+        apart = 4.5e-3 * (0.515 * first + 0.52 * second) - ball
+        reach_i, reach_o, sine, cosine = 0.015 * 4.5e-3, 0.02 * 4.5e-3, np.sin(np.pi / 12), np.cos(np.pi / 12)
+        across = (13e-3 + reach_i * cosine) * first - (13e-3 - reach_o * cosine) * second
+        return np.sqrt(apart**2 - across**2) - (reach_i * first + reach_o * second) * sine
+
+    assert place(0.0, 0.0) == pytest.approx(0.0, abs=1e-15)
+    given, load = scene("7003C-bare"), 1e-5  # N: 0.1 nm of elastic approach
+    cold = solve(given, 0.0, load)["shift"]
+    warm = solve(given, 0.0, load, inner=293.15 + inner, outer=293.15 + outer)["shift"]
+    assert warm - cold == pytest.approx(place(inner, outer), abs=1e-9)
+
+
 def test_static_gate_of_the_7003c(scene):
     found = solve(scene("7003C-bare"), 0.0, 500.0)
     # gates of the design study, stated within 0.5 %

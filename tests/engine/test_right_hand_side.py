@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fmu_bearing.engine.layout import P, Q, Y
 from fmu_bearing.engine.mechanics.cage import film_force
 from fmu_bearing.engine.mechanics.energy import stored_energy
 from tests.engine.states import BUMPS, LIFTED, ROUNDING, SCENES, SPEED_RATE, TRAPPED, agree, harmonics, off
@@ -84,6 +85,27 @@ def test_wavy_balls(case, name, tilt):
         rest = oracle.equations(replace(one.setup, bumps=None), one.state, SPEED_RATE)
         for k in range(6):  # every row of a ball feels the waves
             assert off(rest.balls[:, k, None], smooth.balls[:, k, None]) > 1e-7
+
+
+@pytest.mark.parametrize("bumps", [{}, {"ball_waves": BUMPS}], ids=["round balls", "wavy balls"])
+@pytest.mark.parametrize("race", [0, 1], ids=["inner", "outer"])
+def test_a_contact_that_parts_fast_does_not_pull(case, race, bumps):
+    """At 20 m/s the damping of a pressed contact exceeds its elastic force: it lets go, as in the oracle."""
+    one, fast = case(SCENES[0], LAND=0.0, **bumps), 4
+    one.y[Y.VR + fast] = 20.0 if race == 0 else -20.0
+    gap = oracle.approach(one.setup, one.state, fast, race)
+    # the contact's direction is within 30 deg of the radius
+    assert 1e-6 < gap < 0.5 * 1.5 * one.p[P.CONTACT_DAMPING] * 20.0
+    agree(one, ROUNDING)
+
+
+def test_a_pocket_that_parts_fast_does_not_pull(case):
+    """The trapped ball leaves at 1 m/s, five times as fast as the pocket's damping lets it press."""
+    one = case(SCENES[0], LAND=0.0)
+    one.y[Y.OM + TRAPPED] = one.y[Y.V0 + Q.CAGE + Q.TURN] - 1.0 / one.p[P.PITCH_RADIUS]
+    assert one.p[P.POCKET_DAMPING] * 1.0 == 5.0  # elastic force times 1 + damping * rate
+    assert np.linalg.norm(oracle.in_pocket(one.setup, one.state, TRAPPED)) > 1e-6 + one.setup.pocket.clearance
+    agree(one, ROUNDING)
 
 
 def test_leaning_seat(case):

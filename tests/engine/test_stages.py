@@ -16,6 +16,7 @@ from fmu_bearing.engine.fidelities.full.runge_kutta import (
 from fmu_bearing.engine.fidelities.full.vectors import add_scaled, sum_scaled
 from fmu_bearing.engine.layout import STRIDE, TAB, C, F, P, Q, S, W, Y
 from fmu_bearing.engine.status import OK
+from tests.engine.explicit import Motion
 from tests.engine.helpers import Run
 
 LANES, STAGE, H, GH = 12, 3, 2e-5, 5e-6
@@ -147,6 +148,31 @@ def test_size_of_an_increment(w):
     square = ((weights * bodies) ** 2).sum() + 0.03 * mean[:2].sum()
     square += (0.1 * 0.013) ** 2 * mean[2] + (0.03 * 0.002) ** 2 * mean[3:].sum()
     assert newton_size(p, c, d, -2.0) == pytest.approx(2.0 * np.sqrt(square), rel=1e-14)
+
+
+def test_error_estimate_of_an_explicit_step_by_hand(silent):
+    """Classical Runge-Kutta and its companion differ by h / 6 (k4 - k5), k5 at the step's end.
+
+    Over what is allowed: a tenth of the tolerance, which goes with the rings' root mean square velocity,
+    within a tenth and four times 5 um at the shaft's speed.
+    """
+    run = Run(silent, 20000, METHOD=3.0, TOLERANCE=1e-4).init()
+    run.run(1e-4)
+    motion, square, steps = Motion(run), run.s[S.RING_SQUARE], run.s[S.STEPS]
+    y, h = motion.start, 2e-7
+    k1 = motion.rate(0.0, y)
+    k2 = motion.rate(0.5 * h, y + 0.5 * h * k1)
+    k3 = motion.rate(0.5 * h, y + 0.5 * h * k2)
+    k4 = motion.rate(h, y + h * k3)
+    k5 = motion.rate(h, y + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4))
+    apart = h / 6.0 * (k4 - k5)
+    d = np.zeros(F.SIZE)
+    d[: F.BODY], d[F.BODY : F.WORK] = apart[Y.VX : Y.Q0], apart[Y.V0 : Y.SIZE]
+    size = newton_size(run.p, run.s[S.C : S.C + C.SIZE], d, 1.0)
+    usual = 1e-4 * 5e-6 * run.s[S.SPEED]
+    allowed = 0.1 * min(4.0 * usual, max(0.1 * usual, 1e-4 * np.sqrt(square)))
+    assert run.step(h) == OK and run.s[S.STEPS] == steps + 1
+    assert run.w[W.REPORT + W.ERROR] == pytest.approx(size / allowed, rel=1e-6)
 
 
 @pytest.mark.parametrize("n", [3, 17, 24])

@@ -307,12 +307,12 @@ def _block(
     _preload(scene, block)
     body, middle = housing_of(scene)
     housing = si(spindle.housing.model_copy(update={"material": None}))
-    # the damping ratio counts what lies on the pedestal, as for a single bearing
-    carried = [one for one, place in zip(bearings, spindle.bearing, strict=True) if place.seat != "pedestal"]
+    # The damping ratio counts what lies on the pedestal, as for a single bearing: all outer rings, because
+    # the scene refuses pedestals of their own beside a housing that moves. No other housing needs it.
     block[SP.HOUSING_X] = middle
-    block[SP.HOUSING_MASS] = body.mass + sum(p[P.OUTER_MASS] for p in carried)
-    block[SP.HOUSING_TRANSVERSE] = body.transverse + sum(p[P.OUTER_TRANSVERSE] for p in carried)
-    block[SP.HOUSING_POLAR] = body.polar + sum(p[P.OUTER_POLAR] for p in carried)
+    block[SP.HOUSING_MASS] = body.mass + sum(p[P.OUTER_MASS] for p in bearings)
+    block[SP.HOUSING_TRANSVERSE] = body.transverse + sum(p[P.OUTER_TRANSVERSE] for p in bearings)
+    block[SP.HOUSING_POLAR] = body.polar + sum(p[P.OUTER_POLAR] for p in bearings)
     block[SP.AXIAL_RATIO] = housing.pedestal_axial_ratio
     block[SP.ROTATIONAL_RATIO] = housing.pedestal_rotational_ratio
     block[SP.PEDESTAL_ZETA] = housing.pedestal_damping_ratio

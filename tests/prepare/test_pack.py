@@ -7,10 +7,12 @@ import pytest
 
 from fmu_bearing.engine.layout import SP, STRIDE, P
 from fmu_bearing.formulas.hertz import effective_modulus, point_contact
+from fmu_bearing.prepare.bodies import cage
 from fmu_bearing.prepare.contacts import films
 from fmu_bearing.prepare.model import pack, prepare
 from fmu_bearing.scene import SceneError, read_scene_text
 from tests.conftest import GATES
+from tests.spindle.sets import scene as spindle_scene
 
 TEXT = (GATES / "7003C-bare.toml").read_text(encoding="utf-8")
 NO_SOUND = np.empty(0)
@@ -104,6 +106,47 @@ def test_what_is_left_out_takes_no_place(scene):
     ].any()
     assert perfect[P.WAVINESS] == 0.0
     assert perfect[P.SOUND_SIZE] == 0.0
+
+
+def test_pockets_take_their_part_of_the_cage():
+    """7003C by hand: a ring of 23.4 to 27.6 mm and 9.1 mm, 12 holes of 4.6 mm through its wall of 2.1 mm.
+
+    1531.0 less 12 times 34.90 mm3 of bakelite, 1400 kg/m3.
+    """
+    found = cage(read_scene_text(TEXT))
+    mass = 1400.0 * (1531.0 - 12.0 * 34.90) * 1e-9  # 1.557 g
+    assert found.mass == pytest.approx(mass, rel=1e-4)
+    # a ring's moments of inertia over its mass, in mm2: (11.7^2 + 13.8^2) / 2; half of that and 9.1^2 / 12
+    assert found.polar == pytest.approx(mass * 163.665e-6, rel=1e-4)
+    assert found.transverse == pytest.approx(mass * (81.8325 + 6.9008) * 1e-6, rel=1e-4)
+    p = packed()
+    assert p[P.CAGE_MASS] == found.mass and p[P.CAGE_POLAR] == found.polar
+
+
+def test_a_pedestal_carries_housing_and_outer_rings():
+    """Solid cylinder of 2 kg, 100 by 160 mm; rings of 7800 kg/m3, 29.6 to 35 mm, 10 mm: 21.37 g each.
+
+    The damping ratio of the pedestal counts all. A bearing on a pedestal of its own is refused beside it.
+    """
+    changes = {
+        "spindle.bearing[2].seat": "sliding",
+        "spindle.preload": {"kind": "spring", "force_N": 500.0, "stiffness_N_m": 1e6},
+        "spindle.housing": {
+            "mass_kg": 2.0, "diameter_mm": 100.0, "length_mm": 160.0, "pedestal_stiffness_N_m": 1e8,
+        },
+    }  # fmt: skip
+    given = spindle_scene("+-", (40.0, 70.0), None, changes=changes)
+    p = pack(given, NO_SOUND)
+    block = p[int(p[P.SET]) :]
+    ring = 7800.0 * math.pi / 4.0 * (35.0**2 - 29.6**2) * 10.0 * 1e-9
+    squares = (14.8**2 + 17.5**2) * 1e-6  # m2
+    assert ring == pytest.approx(0.021369, rel=1e-4)
+    assert block[SP.HOUSING_MASS] == pytest.approx(2.0 + 2.0 * ring, rel=1e-12)
+    assert block[SP.HOUSING_POLAR] == pytest.approx(0.05**2 + ring * squares, rel=1e-12)
+    turned = 2.0 * (0.05**2 / 4.0 + 0.16**2 / 12.0) + 2.0 * ring * (squares / 4.0 + 0.01**2 / 12.0)
+    assert block[SP.HOUSING_TRANSVERSE] == pytest.approx(turned, rel=1e-12)
+    with pytest.raises(SceneError, match="spindle.housing.mass_kg = 2.0 applies to a housing on a pedestal"):
+        given.replace({"spindle.bearing[1].seat": "pedestal"})
 
 
 def test_sound_comes_last(scene):

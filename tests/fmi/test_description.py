@@ -39,6 +39,28 @@ SHOWN = {
     "mPa.s": (1e3, 0.0),
 }
 
+# Exponents of the SI base units, written down apart from the package's table: 1 N = 1 kg m/s2.
+EXPONENTS = {
+    "1": {},
+    "dB": {},
+    "m": {"m": 1},
+    "s": {"s": 1},
+    "m/s": {"m": 1, "s": -1},
+    "rad": {"rad": 1},
+    "rad/s": {"rad": 1, "s": -1},
+    "K": {"K": 1},
+    "kg": {"kg": 1},
+    "kg.m": {"kg": 1, "m": 1},
+    "kg.m2": {"kg": 1, "m": 2},
+    "N": {"kg": 1, "m": 1, "s": -2},
+    "N/m": {"kg": 1, "s": -2},
+    "N.m": {"kg": 1, "m": 2, "s": -2},
+    "N.m/rad": {"kg": 1, "m": 2, "s": -2, "rad": -1},
+    "Pa": {"kg": 1, "m": -1, "s": -2},
+    "Pa.s": {"kg": 1, "m": -1, "s": -1},
+    "W": {"kg": 1, "m": 2, "s": -3},
+}
+
 
 @pytest.fixture(scope="module")
 def tree(model, flavour):
@@ -164,13 +186,20 @@ def test_display_units_go_there_and_back(tree):
             assert (shown - offset) / factor == pytest.approx(value, rel=4e-16, abs=1.2e-13)
 
 
-def test_units_in_the_description_are_those_of_the_table(tree):
+def test_units_have_the_exponents_of_the_si():
+    """All units, also those that the description of this scene does without."""
+    assert {name: unit.base for name, unit in UNITS.items()} == EXPONENTS
+
+
+def test_units_in_the_description_have_their_exponents(tree):
+    described = {element.get("name") for element in tree.find("UnitDefinitions")}
+    assert {"N", "N.m", "Pa.s", "rad/s", "K", "dB"} <= described
     for element in tree.find("UnitDefinitions"):
         base = element.find("BaseUnit")
         if element.get("name") == "dB":  # a tool that finds a base unit converts 60 dB to the number 60
             assert base is None
             continue
-        assert {key: int(value) for key, value in base.attrib.items()} == UNITS[element.get("name")].base
+        assert {key: int(value) for key, value in base.attrib.items()} == EXPONENTS[element.get("name")]
 
 
 def test_unknown_unit_is_named(model):

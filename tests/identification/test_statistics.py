@@ -63,6 +63,18 @@ def test_shrunk_covariance_keeps_variances_and_real_correlation():
     assert np.linalg.eigvalsh(level_covariance(np.full(3, 2.0), samples[:5], 4)).min() >= 4.0 - 1e-9
 
 
+def test_covariance_of_levels_by_hand():
+    """Three seeds with variances 4 and 3 dB2, whose mean of two is compared: 1.5 times that and noise.
+
+    The bearing that was measured has a draw of its own, and the mean of two seeds half the variance more.
+    """
+    seeds = np.array([[70.0, 60.0], [72.0, 60.0], [74.0, 63.0]])
+    found = level_covariance(np.array([0.5, 1.0]), seeds, averaged=2)
+    assert found == pytest.approx(np.diag([0.25 + 1.5 * 4.0, 1.0 + 1.5 * 3.0]), rel=1e-12)
+    many = level_covariance(np.zeros(2), seeds, averaged=1000)
+    assert many == pytest.approx(np.diag([4.004, 3.003]), rel=1e-12)
+
+
 def test_bending_levels_widen_one_direction_alone():
     spread = Spread(np.diag([0.01, 0.04]), np.array([10.0, 5.0]), np.eye(2), 1.0)
     found = widened(spread, np.array([2.0, 0.25]))

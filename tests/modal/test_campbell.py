@@ -1,10 +1,14 @@
 """Branches, lines and crossings of the Campbell diagram."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from fmu_bearing import campbell
-from fmu_bearing.modal.campbell.excitation_lines import lines, rates
+from fmu_bearing.modal.campbell import excitation_lines
+from fmu_bearing.modal.campbell.diagram import Branch, Diagram
+from fmu_bearing.modal.campbell.excitation_lines import Line, lines, rates
 from fmu_bearing.modal.modes.points import modes
 
 RPM = np.pi / 30.0
@@ -111,6 +115,59 @@ def test_verdict_names_the_nearest_crossing(gate, spindle):
         "Nearest: f_i (inner race) with inner axial, 21,208 r/min, 6.0 % above operation, damping ratio "
         "0.56 %."
     )
+
+
+def straight(gate, own, meets, damping=0.02, amplitude=1e-8):
+    """Diagram of modes at 1000 Hz, each with a line through it at one of the speeds ``meets`` (r/min)."""
+    rpm = np.array([2e3, 10e3, 18e3, 26e3])
+    points = tuple(SimpleNamespace(rpm=one) for one in rpm)
+    branches = [
+        Branch("inner radial", "forward", order, rpm, np.full(4, 1e3), np.full(4, damping), ())
+        for order in range(len(meets))
+    ]
+    found = [
+        Line(f"line {order}", "inner race", 12, order, "forward", 1e3 * rpm / speed, amplitude)
+        for order, speed in enumerate(meets)
+    ]
+    scene = gate("7003C-spindle").replace({"operation.speed_rpm": own})
+    return Diagram(scene, points, tuple(branches), tuple(found), None, 20e3)
+
+
+def test_velocity_of_a_crossing_by_hand(gate):
+    """10 nm at 1000 Hz and Q = 1 / (2 0.02) = 25: 2 pi 1000 1e-8 25 = 1.5708 mm/s."""
+    (one,) = straight(gate, 10e3, [12e3]).crossings()
+    assert (one.rpm, one.frequency) == pytest.approx((12e3, 1e3), rel=1e-9)
+    assert one.quality == pytest.approx(25.0) and one.velocity == pytest.approx(1.570796e-3, rel=1e-6)
+    # with less damping than the margin of stability the margin counts: Q = 250
+    (weak,) = straight(gate, 10e3, [12e3], damping=1e-4).crossings()
+    assert weak.velocity == pytest.approx(15.70796e-3, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("meets", "nearest"),
+    [([5_500.0, 15_000.0], 15_000.0), ([7_500.0, 13_000.0], 13_000.0), ([8_000.0, 13_000.0], 8_000.0)],
+)
+def test_nearest_crossing_on_either_side_of_operation_is_that_of_the_least_ratio(gate, meets, nearest):
+    """At 10,000 r/min: 0.55 and 1.5, 0.75 and 1.3, 0.8 and 1.3 times the speed."""
+    found = straight(gate, 10e3, meets)
+    assert [one.rpm for one in found.crossings(in_scene=True)] == pytest.approx(meets)
+    assert found.nearest().rpm == pytest.approx(nearest)
+
+
+def test_amplitude_of_alternating_ball_sizes(gate, monkeypatch):
+    """Balls larger and smaller by 100 nm of diameter in turn: a wave of 50 nm, of order 6 for 12 balls.
+
+    Of that order only the cosine fits the balls; of order 2 cosine and sine do.
+    """
+    at, angle = rates(*np.array([[1000.0], [420.0], [2500.0]]), 12), 2.0 * np.pi * np.arange(12) / 12
+    for order in (2, 6):
+        monkeypatch.setattr(excitation_lines, "ball_oversizes", lambda _, n=order: 1e-7 * np.cos(n * angle))
+        found = {
+            line.order: line.amplitude
+            for line in lines(gate("7003C-spindle"), at, {1, 2, 6}, 20e3)
+            if line.source == "ball sizes"
+        }
+        assert found == pytest.approx({n: 5e-8 * (n == order) for n in (1, 2, 6)}, abs=1e-20)
 
 
 def test_instability_is_told_with_its_speed(gate):

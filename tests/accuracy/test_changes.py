@@ -134,10 +134,33 @@ def test_summary_and_table_have_the_figures(found):
     assert columns[0] == "change" and {len(row) for row in rows} == {len(columns)}
     for each, row, data in zip(found.ranked("level"), rows, reported["changes"], strict=True):
         assert data["change"] == each.choice.words == row[0]
-        words = "no finding" if each.depends_on_seed else "none"
-        assert row[1] == (shown_level(each.level) if each.acts("level") else words)
-        assert row[columns.index("life")] == shown_ratio(data["life_ratio"])
-        assert data["level_change_low_dB"] <= data["level_change_dB"] <= data["level_change_high_dB"]
+        assert data["level_change_dB"] == pytest.approx(np.mean(each.levels), abs=1e-12)
+        assert (data["level_change_low_dB"], data["level_change_high_dB"]) == (
+            min(each.levels), max(each.levels),
+        )  # fmt: skip
+        if each.acts("level"):
+            assert float(row[1]) == pytest.approx(np.mean(each.levels), abs=0.0501)
+        else:
+            assert row[1] == ("no finding" if each.depends_on_seed else "none")
+        for name, unit, column in (
+            ("life", "h", "life"),
+            ("torque", "N_mm", "torque"),
+            ("stiffness", "N_um", "stiff."),
+        ):
+            ratio = data[f"{name}_{unit}"] / reported[f"{name}_{unit}"]
+            assert data[f"{name}_ratio"] == pytest.approx(ratio, rel=1e-12)
+            cell = row[columns.index(column)]
+            shown = 1.0 if cell == "=" else float(cell.removeprefix("x"))
+            # a hundredth of change is none; three digits, or two after the point
+            assert shown == pytest.approx(ratio, abs=0.0101, rel=5e-3)
+
+
+def test_how_differences_and_ratios_are_printed():
+    assert [shown_level(x) for x in (-3.14159, 0.06, -0.04, 12.34)] == ["-3.1", "+0.1", "0.0", "+12.3"]
+    assert [shown_level(x, 2) for x in (-3.14159, 12.34)] == ["-3.1", "+12"]
+    ratios = {0.8512: "x0.85", 1.005: "=", 0.995: "=", 1.02: "x1.02", 12.34: "x12.3", 250.4: "x250"}
+    assert {ratio: shown_ratio(ratio) for ratio in ratios} == ratios
+    assert shown_ratio(math.nan) == ""
 
 
 def one_change(levels, **ratios):

@@ -1,6 +1,7 @@
 """compare: tables within 80 columns, files, JSON, refusals in a line."""
 
 import csv
+import math
 
 import pytest
 
@@ -16,6 +17,11 @@ def light_file(rings_file, tmp_path_factory):
     return path
 
 
+def cells(path):
+    with path.open(encoding="utf-8", newline="") as file:
+        return list(csv.reader(file))
+
+
 def test_tables_picture_and_files(run, rings_file, light_file, tmp_path):
     done = run(
         "compare", rings_file, light_file, *SHORT, "--plot", tmp_path / "both.png", "-m", "P2", "-o",
@@ -29,10 +35,21 @@ def test_tables_picture_and_files(run, rings_file, light_file, tmp_path):
     assert len(tables) > 50 and max(map(len, tables)) <= 80
     assert "A: running 7003C-bare, fidelity rings" in done.stderr and "written:" in done.stderr
     assert (tmp_path / "both.png").read_bytes().startswith(b"\x89PNG")
-    with (tmp_path / "tables" / "levels.csv").open(newline="") as file:
-        rows = list(csv.reader(file))
-    assert rows[0][:4] == ["microphone", "A, dB", "B, dB", "B - A"]
-    assert [row[0] for row in rows[1:]] == ["P1", "P2", "P3", "P4"]
+    head, *levels = cells(tmp_path / "tables" / "levels.csv")
+    assert head[:4] == ["microphone", "A, dB", "B, dB", "B - A"]
+    assert [row[0] for row in levels] == ["P1", "P2", "P3", "P4"]
+    _, *bands = cells(tmp_path / "tables" / "third-octaves.csv")
+    for row in levels + bands:  # each of the three is rounded to 0.1 dB
+        assert float(row[3]) == pytest.approx(float(row[2]) - float(row[1]), abs=0.151), row
+    for column in (1, 2):  # filters overlap at their edges
+        total = 10.0 * math.log10(sum(10.0 ** (0.1 * float(row[column])) for row in bands))
+        assert total == pytest.approx(float(levels[1][column]), abs=0.5)
+    _, *means = cells(tmp_path / "tables" / "loads-angles-torque.csv")
+    by_name = {row[0]: [float(cell) for cell in row[2:5]] for row in means}
+    for k, preload in enumerate((500.0, 200.0)):  # twelve balls carry the preload at their contact angle
+        angle = math.radians(by_name["contact.inner.angle_mean"][k])
+        load = by_name["contact.inner.load_mean"][k]
+        assert load == pytest.approx(preload / (12.0 * math.sin(angle)), rel=5e-3)
 
 
 def test_machines(run, rings_file, light_file):

@@ -19,21 +19,44 @@ def lubricated(scene, law, rpm=20000):
     return run
 
 
-@pytest.mark.parametrize("law", ["eyring", "paper"])
-def test_every_traction_law_runs(scene, law):
+def kinematic_ratio(run, rows):
+    """Speed of the orbit over that of the shaft for balls that roll: (1 - D cos(alpha) / d_m) / 2."""
+    angle = run.value("contact.inner.angle_mean", rows)[-1]
+    return 0.5 * (1.0 - 4.5 / 26.0 * np.cos(angle))
+
+
+@pytest.mark.parametrize(("law", "slip"), [("eyring", False), ("paper", True)])
+def test_every_traction_law_runs(scene, law, slip):
+    """Eyring's law drives the balls at the kinematic speed; the paper's lets them run ahead of it."""
     run = lubricated(scene(NAME).model_copy(update={"sound": None}), law).init()
     rows = run.run(0.01)
-    assert np.isfinite(rows).all()
-    assert abs(run.imbalance) < 1e-3 * run.heat
-    ratio = run.value("cage.speed_ratio", rows)
-    if law == "eyring":  # drives the balls at the kinematic speed, as the regularised law does
-        assert np.abs(ratio[20:] - 0.42).max() < 0.01
+    assert abs(run.imbalance) < 1e-4 * run.heat
+    off = run.value("cage.speed_ratio", rows)[20:] - kinematic_ratio(run, rows)
+    if slip:  # traction of 3e-5 of the load does not drive the balls: up to a seventh
+        assert off.min() > 0.01 and 0.03 < off.max() < 0.07
+    else:  # slip of some 1e-4, and the cage's play in its pockets
+        assert abs(off.mean()) < 3e-4 and np.abs(off).max() < 2e-3
 
 
-@pytest.mark.parametrize("rpm", [0, 1, 100, 100000])
-def test_eyring_at_any_speed(scene, rpm):
+@pytest.mark.parametrize(
+    ("rpm", "within"), [(1, 0.08), (100, 2e-3), (100000, 2e-3)], ids=["1", "100", "100000"]
+)
+def test_eyring_at_any_speed(scene, rpm, within):
+    """The cage follows at the kinematic speed; at 1 r/min it still settles, by a fifth."""
     run = lubricated(scene(NAME).model_copy(update={"sound": None}), "eyring", rpm).init()
-    assert np.isfinite(run.run(0.002)).all()
+    rows = run.run(0.002)
+    assert abs(run.imbalance) < 1e-4 * run.heat + 1e-9
+    ratio = run.value("cage.speed_ratio", rows)[10:]
+    assert np.abs(ratio - kinematic_ratio(run, rows)).max() < within
+
+
+def test_eyring_at_standstill(scene):
+    """Nothing is driven: rings and rotor ring after the start by some micrometres per second."""
+    run = lubricated(scene(NAME).model_copy(update={"sound": None}), "eyring", 0).init()
+    rows = run.run(0.002)
+    assert abs(run.imbalance) < 1e-9
+    for name in ("inner_ring.velocity.x", "inner_ring.velocity.z", "outer_ring.velocity.z"):
+        assert np.abs(run.value(name, rows)[10:]).max() < 1e-5, name
 
 
 @pytest.mark.parametrize("stiffness", [1e5, 5e6, 2.5e7])

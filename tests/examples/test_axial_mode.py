@@ -47,10 +47,17 @@ def test_the_page_shows_the_committed_figures():
     text = PAGE.read_text("utf-8").partition("<!-- axial_mode -->")[2].strip()
     known = rows(ROOT / "docs" / "results" / "axial_mode.csv")
     shown = [line.strip("| ").split(" | ") for line in text.splitlines()[2:8]]
-    assert len(shown) == 6
+    assert [row[0] for row in shown] == ["200", "300", "400", "500", "650", "800"]
     for preload, hertz, f_i, f_b, inner in shown:
         cells = known[preload]
         assert [hertz, f_i, f_b, inner] == [cells[0], cells[3], cells[5], cells[6]]
+        # the margin follows from the speed beside it, in r/min without a digit after the point
+        for speed, margin in ((cells[2], f_i), (cells[4], f_b)):
+            assert float(margin) == pytest.approx(100.0 * (float(speed) / 10_000.0 - 1.0), abs=0.056)
+    # the sentences below the table
+    margin, shaken = ({row[0]: float(row[column]) for row in shown} for column in (2, 4))
+    assert abs(margin["400"]) < abs(margin["500"]) and shaken["400"] > shaken["500"]
+    assert shaken["200"] / shaken["500"] == pytest.approx(3.0, abs=0.5)
 
 
 def test_the_page_shows_what_the_command_gives():

@@ -92,12 +92,29 @@ def test_the_chart_has_branches_lines_and_crossings(found):
 
 
 def test_tables_are_those_of_modes_and_crossings(found):
-    table = crossing_table(found)
-    apart = [abs(float(row[1])) for row in table.rows]
-    assert len(table.rows) == len(counted(found)) >= 5 and apart[0] == min(apart)
+    """Every row is a crossing, the nearest to 20,000 r/min by ratio first; printed to the last digit."""
+    table, left = crossing_table(found), list(counted(found))
+    assert len(table.rows) == len(left) >= 5
+    speeds = []
+    for rpm, apart, line, source, mode, hertz, damping, quality, velocity in table.rows:
+        speeds.append(float(rpm.replace(",", "")))
+        (one,) = [
+            each for each in left
+            if (each.line.name, each.branch.label) == (line, mode) and abs(each.rpm - speeds[-1]) < 0.501
+        ]  # fmt: skip
+        left.remove(one)
+        assert float(apart) == pytest.approx(100.0 * (one.rpm / 20e3 - 1.0), abs=0.0501)
+        assert source.partition(",")[0] == one.line.source
+        assert float(hertz.replace(",", "")) == pytest.approx(one.frequency, abs=0.501)
+        assert float(damping) == pytest.approx(one.damping, abs=5.01e-5)
+        assert float(quality) == pytest.approx(0.5 / one.damping, abs=0.501)
+        assert float(velocity.replace(",", "")) == pytest.approx(1e6 * one.velocity, abs=0.501)
+    assert not left
+    apart = np.abs(np.log(np.array(speeds) / 20e3))
+    assert (np.diff(apart) > -1e-4).all()  # speeds are rounded to 1 r/min
     near = found.nearest()
-    assert table.rows[0][2] == near.line.name and table.rows[0][4] == near.branch.label
-    assert f"{near.rpm:,.0f}" == table.rows[0][0]
+    assert (table.rows[0][2], table.rows[0][4]) == (near.line.name, near.branch.label)
+    assert table.rows[0][0] == f"{near.rpm:,.0f}"
 
 
 def test_the_instability_margin_is_named_in_table_and_report(scene, monkeypatch):

@@ -202,12 +202,26 @@ def test_a_smooth_race_needs_no_orders():
 
 
 def test_draws_are_those_of_the_first_release(scene):
-    # pinned: a scene's numbers must not change under its feet
+    """Pinned, because a scene's numbers must not change: NumPy's generator for each kind of draw, seed first.
+
+    Order 1 has a draw of its own, phases of the orders from 2 on are one draw.
+    """
     bare = scene("7003C-bare")
-    phases = race_harmonics(bare)[0].phases
-    assert phases[0] == np.random.default_rng([1, 0]).uniform(0.0, 2.0 * np.pi, 19)[0]
+    for race, found in enumerate(race_harmonics(bare)):
+        assert list(found.orders) == list(range(2, 21))
+        assert np.array_equal(found.phases, np.random.default_rng([1, race]).uniform(0.0, 2.0 * np.pi, 19))
+        whole = bare.model_copy(
+            update={"imperfections": bare.imperfections.model_copy(update={"lowest_order": 1})}
+        )
+        first = np.random.default_rng([1, race, 1]).uniform(0.0, 2.0 * np.pi, 1)[0]
+        assert race_harmonics(whole)[race].phases[0] == first
     drawn = np.random.default_rng([1, 2]).uniform(-50e-9, 50e-9, 12)
     assert np.array_equal(ball_oversizes(bare), drawn - drawn.mean())
+    axes = np.random.default_rng([1, 3]).normal(size=(12, 3))
+    wavy = bare.model_copy(
+        update={"imperfections": bare.imperfections.model_copy(update={"ball_waviness_nm": 20.0})}
+    )
+    assert np.array_equal(ball_waves(wavy)[1].T, axes / np.linalg.norm(axes, axis=1)[:, None])
 
 
 def test_the_seed_fixes_every_number():

@@ -35,10 +35,24 @@ def test_examples_read_and_survive_the_way_through_toml(name):
 def test_examples_agree_with_the_catalogue(name):
     scene = read_scene(EXAMPLES / f"{name}.toml")
     assert scene.bearing.model_dump(exclude_none=True) == catalogue("bearings")[name.split("-")[0]]
-    materials = catalogue("materials")
-    for part in ("inner_ring", "outer_ring", "balls", "cage"):
-        assert getattr(scene.materials, part).model_dump() in materials.values()
+    materials, ceramic = catalogue("materials"), name == "7009C-full-ceramic"
+    ring, cage = ("ZrO2", "PEEK") if ceramic else ("GCr15", "bakelite")
+    for part, material in (("inner_ring", ring), ("outer_ring", ring), ("balls", "Si3N4"), ("cage", cage)):
+        assert getattr(scene.materials, part).model_dump() == materials[material], part
     assert scene.lubricant.model_dump(exclude_none=True) == catalogue("lubricants")["spindle-oil"]
+
+
+def test_materials_of_the_catalogue_have_these_values():
+    """Modulus (GPa), Poisson's ratio, density (kg/m3), expansion (1e-6/K)."""
+    values = {
+        "GCr15": (208.0, 0.3, 7800.0, 11.8),
+        "Si3N4": (310.0, 0.26, 3200.0, 3.2),
+        "ZrO2": (210.0, 0.3, 6000.0, 10.5),
+        "bakelite": (8.0, 0.35, 1400.0, 30.0),
+        "PEEK": (3.8, 0.39, 1310.0, 47.0),
+    }
+    keys = ("youngs_modulus_GPa", "poisson_ratio", "density_kg_m3", "expansion_1e6_K")
+    assert catalogue("materials") == {name: dict(zip(keys, row, strict=True)) for name, row in values.items()}
 
 
 def test_table_1_of_the_papers(example):

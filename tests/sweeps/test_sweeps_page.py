@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from fmu_bearing import cli
+from fmu_bearing import cli, simulate
 from fmu_bearing.sweeps.description import read_description
 
 ROOT = pathlib.Path(__file__).parents[2]
@@ -31,6 +31,14 @@ def test_python_of_the_page_runs(tmp_path, monkeypatch):
     }  # fmt: skip
     torque = names["torque"].values
     assert torque.shape == (4, 3) and (np.diff(torque, axis=1) > 0.0).all()  # more preload, more friction
+    # one point by a run of its own: N mm, mean over the window of 10 ms
+    alone = names["scene"].replace({"operation.speed_rpm": 10e3, "mounting.preload_N": 500.0})
+    run = simulate(alone, 0.015, step=1e-3, outputs=["friction_torque_mean"], progress=False)
+    wanted = 1e3 * run["friction_torque_mean"][run.time > 0.0055].mean()
+    assert names["torque"].sel(speed_rpm=10e3, preload_N=500) == pytest.approx(wanted, rel=5e-3)
+    with (tmp_path / "out" / "friction" / "sweep.csv").open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [1e3 * float(row["friction_torque [N.m]"]) for row in rows] == pytest.approx(list(torque.ravel()))
 
 
 def test_the_file_of_the_page_is_a_sweep(tmp_path):

@@ -1,6 +1,8 @@
 # make demo    install, build the FMU, run the spindle co-simulation; results under out/
 # make test    install with test tools and run the tests that take seconds
 # make heavy   the tests that take minutes
+# make lint    style, format, types, imports and the site, checked by their tools
+# make soak    random walks with other draws for half an hour (SOAK=1800 s)
 # make bench   time the fidelities beside other programs; writes docs/results/benchmark.md and .csv
 # make papers  run the papers' cases and write docs/papers; some minutes, kept under out/papers
 # make docs    build the documentation site into out/site; opens from the disk, works offline
@@ -20,12 +22,15 @@ BEARING := $(OUT)/Bearing7003C.fmu
 SOURCES := $(shell find fmu_bearing modelDescription -type f ! -name '*.pyc' 2>/dev/null)
 
 # Two test workers on two cores: linear algebra libraries must not start threads of their own.
-test heavy papers: export OPENBLAS_NUM_THREADS = 1
+test heavy lint soak papers: export OPENBLAS_NUM_THREADS = 1
 # Tests start some hundred processes: none of them has to compile the sources again, whatever the user's shell
 # says.
-test heavy: export PYTHONDONTWRITEBYTECODE =
+test heavy lint soak: export PYTHONDONTWRITEBYTECODE =
 
-.PHONY: demo test heavy bench papers docs kernels wheels clean
+# .ci/run holds skipped tests against a list.
+SKIPS ?=
+
+.PHONY: demo test heavy lint soak bench papers docs kernels wheels clean
 .DELETE_ON_ERROR:
 
 demo: $(BEARING) $(OUT)/SpindleMotor.fmu
@@ -45,10 +50,20 @@ $(OUT)/SpindleMotor.fmu: $(VENV)/.installed $(wildcard $(SPINDLE)/*.py $(SPINDLE
 # Files stay together: what a file compiles or prepares for itself is made by one worker, not by each. They go
 # in the order of tests/conftest.py: the long ones first.
 test: kernels
-	$(BIN)/python -m pytest -n $(JOBS) --dist loadfile --no-loadscope-reorder -m "not heavy"
+	$(BIN)/python -m pytest -n $(JOBS) --dist loadfile --no-loadscope-reorder -m "not heavy and not lint" $(SKIPS)
 
 heavy: kernels
-	$(BIN)/python -m pytest -n $(JOBS) -m heavy
+	$(BIN)/python -m pytest -n $(JOBS) -m heavy $(SKIPS)
+
+lint: $(VENV)/.installed-test
+	$(BIN)/python -m pytest -n $(JOBS) -m lint $(SKIPS)
+
+# What fails is printed with the draw that shows it.
+SOAK ?= 1800
+soak: kernels
+	HYPOTHESIS_PROFILE=soak timeout $(SOAK) sh -c 'while $(BIN)/python -m pytest -n $(JOBS) -q -m "heavy or not heavy" \
+		tests/extremes/test_random_walk.py tests/scene/test_scenes.py tests/native/test_shim_values.py; do :; done'; \
+		test $$? -eq 124
 
 # A quarter of an hour of one core; on a machine that does nothing else.
 bench: $(VENV)/.installed-bench

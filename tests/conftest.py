@@ -3,6 +3,7 @@
 import os
 import pathlib
 
+import hypothesis
 import pytest
 
 from fmu_bearing.files import cache_root, own_folder
@@ -10,9 +11,15 @@ from fmu_bearing.files import cache_root, own_folder
 # Kernels that tests call one by one are compiled once, not by each worker and each run.
 os.environ.setdefault("FMU_BEARING_KEEP_KERNELS", str(own_folder(cache_root() / "kernels")))
 
+# A test draws the same numbers each time and everywhere, and no clock fails it. `make soak` draws others.
+hypothesis.settings.register_profile("fixed", derandomize=True, deadline=None, database=None)
+hypothesis.settings.register_profile("soak", deadline=None, print_blob=True)
+hypothesis.settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "fixed"))
+
 ROOT = pathlib.Path(__file__).parents[1]
 #: Gates of all kinds run on these: every value is written out, so that a better default moves no gate.
 GATES = ROOT / "tests" / "scenes" / "gates"
+HEAVY_TIMEOUT = 3000  # s: one of them compiles the plain way, five minutes of a processor
 #: Files that take more than 5 s of CPU, the longest first. They go before all others, so that the last files
 #: are short and no worker waits for the other. The first
 #: one solves the boundary elements that test_readme.py reads.
@@ -54,9 +61,62 @@ EXAMPLES = ROOT / "examples" / "scenes"
 
 
 def pytest_collection_modifyitems(items):
-    """Put the tests of long files first."""
+    """Put the tests of long files first; give heavy ones more time."""
+    for item in items:
+        if item.get_closest_marker("heavy") and not item.get_closest_marker("timeout"):
+            item.add_marker(pytest.mark.timeout(HEAVY_TIMEOUT))
     rank = {ROOT / "tests" / name: place for place, name in enumerate(LONG)}
     items.sort(key=lambda item: rank.get(item.path, len(LONG)))  # a sort keeps the order of equals
+
+
+class Skips:
+    """Skipped tests with their reasons, held against a list of those that may be skipped.
+
+    The list has lines ``NODE: REASON``: what the test's name begins with, and a part of the reason.
+    """
+
+    def __init__(self, file):
+        lines = (line for line in file.read_text(encoding="utf-8").splitlines() if line and line[0] != "#")
+        self.allowed = [tuple(part.strip() for part in line.split(": ", 1)) for line in lines]
+        self.found, self.unexpected = 0, []
+
+    def pytest_runtest_logreport(self, report):
+        """Note a skip; expected failures are none."""
+        if report.skipped and not hasattr(report, "wasxfail"):
+            reason = report.longrepr[2] if isinstance(report.longrepr, tuple) else str(report.longrepr)
+            self.note(report.nodeid, reason)
+
+    def pytest_collectreport(self, report):
+        """Note a file that is skipped as a whole."""
+        if report.skipped:
+            self.note(report.nodeid, report.longrepr[2])
+
+    def note(self, node, reason):
+        """Hold one skip against the list."""
+        self.found += 1
+        if not any(node.startswith(begin) and words in reason for begin, words in self.allowed):
+            self.unexpected.append(f"{node}: {reason}")
+
+    def pytest_sessionfinish(self, session):
+        """Fail a run that has skips nobody expects."""
+        if self.unexpected and session.exitstatus == 0:
+            session.exitstatus = pytest.ExitCode.TESTS_FAILED
+
+    def pytest_terminal_summary(self, terminalreporter):
+        """Name the skips that nobody expects."""
+        for one in sorted(set(self.unexpected)):
+            terminalreporter.write_line(f"SKIPPED, and not on the list: {one}", red=True)
+
+
+def pytest_addoption(parser):
+    """Add the list of tests that may be skipped."""
+    parser.addoption("--skips", metavar="FILE", help="fail where a test is skipped that FILE does not list")
+
+
+def pytest_configure(config):
+    """Watch skips in the process that reports them."""
+    if config.getoption("--skips") and not hasattr(config, "workerinput"):
+        config.pluginmanager.register(Skips(pathlib.Path(config.getoption("--skips"))), "skips")
 
 
 def _compact(folder):

@@ -94,7 +94,7 @@ def _run(words):
         assert done.exit_code == 0, f"{shlex.join(words)}\n{done.output}\n{done.exception!r}"
         return done.output
     path = f"{pathlib.Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
-    done = subprocess.run(words, capture_output=True, text=True, env=os.environ | {"PATH": path})
+    done = subprocess.run(words, capture_output=True, text=True, env=os.environ | {"PATH": path}, timeout=600)
     assert done.returncode == 0, f"{shlex.join(words)}\n{done.stdout}{done.stderr}"
     return done.stdout
 

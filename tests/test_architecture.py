@@ -1,5 +1,6 @@
 """The rules that tools can check: style, format, types, and who may import whom."""
 
+import ast
 import pathlib
 import subprocess
 import sys
@@ -13,23 +14,27 @@ LINT_IMPORTS = "from importlinter.cli import lint_imports_command; lint_imports_
 
 def check(*arguments):
     """Run a tool with this interpreter in the repository; its output is the failure message."""
-    done = subprocess.run([sys.executable, *arguments], cwd=ROOT, capture_output=True, text=True)
+    done = subprocess.run([sys.executable, *arguments], cwd=ROOT, capture_output=True, text=True, timeout=600)
     if done.returncode != 0:
         pytest.fail(done.stdout + done.stderr, pytrace=False)
 
 
+@pytest.mark.lint
 def test_style():
     check("-m", "ruff", "check", ".")
 
 
+@pytest.mark.lint
 def test_format():
     check("-m", "ruff", "format", "--check", ".")
 
 
+@pytest.mark.lint
 def test_types():
     check("-m", "mypy")
 
 
+@pytest.mark.lint
 def test_imports():
     check("-c", LINT_IMPORTS)
 
@@ -53,3 +58,14 @@ def test_the_engine_needs_no_other_room():
         "assert not strangers, strangers\n"
     )
     check("-c", code)
+
+
+def test_no_process_is_waited_for_without_end():
+    """Every process that a test runs has a timeout: one that hangs fails its test, not the whole run."""
+    endless, waiting = [], ("subprocess.run", "subprocess.check_output", "subprocess.check_call")
+    for path in sorted((ROOT / "tests").rglob("*.py")):
+        calls = (n for n in ast.walk(ast.parse(path.read_text("utf-8"))) if isinstance(n, ast.Call))
+        for call in (one for one in calls if ast.unparse(one.func) in waiting):
+            if not {"timeout", None} & {given.arg for given in call.keywords}:
+                endless.append(f"{path.relative_to(ROOT)}:{call.lineno}")
+    assert not endless

@@ -135,7 +135,7 @@ def test_kernels_are_neither_read_nor_kept_where_others_can_write(place, monkeyp
 def test_the_command_line_says_so_in_one_line(place):
     place.chmod(0o777)
     command = [sys.executable, "-m", "fmu_bearing", "warm-up"]
-    ran = subprocess.run(command, capture_output=True, text=True)
+    ran = subprocess.run(command, capture_output=True, text=True, timeout=600)
     assert ran.returncode == 2
     assert ran.stderr.startswith(f"error: {place} is refused") and len(ran.stderr.splitlines()) == 1
 

@@ -158,7 +158,11 @@ def reported(tmp_path_factory):
     lines = [*CORE, *(line for uses in USES.values() for line in uses)]
     asked = {"absent": list(EXTRAS), "left": ["fmu_bearing.testing.plugin"], "lines": lines}
     done = subprocess.run(
-        [sys.executable, "-c", SCRIPT, json.dumps(asked)], cwd=folder, capture_output=True, text=True
+        [sys.executable, "-c", SCRIPT, json.dumps(asked)],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        timeout=600,
     )
     assert done.returncode == 0, done.stderr
     results = json.loads(done.stdout.splitlines()[-1])
@@ -212,7 +216,11 @@ runpy.run_path(str(script), run_name="__main__")
 def test_an_example_names_the_extra_that_it_needs(script, tmp_path):
     asked = {"absent": list(EXTRAS), "root": str(ROOT), "script": script}
     done = subprocess.run(
-        [sys.executable, "-c", ALONE, json.dumps(asked)], cwd=tmp_path, capture_output=True, text=True
+        [sys.executable, "-c", ALONE, json.dumps(asked)],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        timeout=600,
     )
     package = "xarray" if script.startswith("sweep") else "matplotlib"
     assert done.returncode == 2, done.stderr

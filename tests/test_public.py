@@ -71,5 +71,7 @@ def test_no_module_hides_a_public_name():
 
 def test_importing_the_package_costs_nothing():
     code = "import sys, fmu_bearing; print(len({'numpy', 'numba', 'scipy', 'pydantic'} & set(sys.modules)))"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT)
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT, timeout=600
+    )
     assert done.stdout.strip() == "0"

@@ -23,7 +23,7 @@ def blocks(language):
 @pytest.mark.parametrize("command", re.findall(r"^make (\w+)", README, flags=re.MULTILINE))
 def test_make_knows_the_target(command):
     # -n prints what would be done and does nothing
-    done = subprocess.run(["make", "-n", command], cwd=ROOT, capture_output=True, text=True)
+    done = subprocess.run(["make", "-n", command], cwd=ROOT, capture_output=True, text=True, timeout=600)
     assert done.returncode == 0, done.stderr
 
 
@@ -33,7 +33,7 @@ def test_python_of_the_readme_runs(example_file, tmp_path, monkeypatch):
     (tmp_path / "out").mkdir()
     # of the scene that make demo builds, but for the sound of boundary elements
     command = [sys.executable, str(ROOT / "build_fmu.py"), str(example_file), "-o", "out/Bearing7003C.fmu"]
-    subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, text=True)
+    subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, text=True, timeout=600)
     monkeypatch.chdir(tmp_path)
     printed = io.StringIO()
     with contextlib.redirect_stdout(printed):

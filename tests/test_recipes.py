@@ -99,7 +99,9 @@ class Copy:
         """Run a command with the copy's package and kernels; its output is the failure message."""
         own = {"PYTHONPATH": str(self.folder), "FMU_BEARING_CACHE": str(self.folder / "cache")}
         command = [sys.executable if word == ".venv/bin/python" else word for word in command]
-        done = subprocess.run(command, cwd=self.folder, env=os.environ | own, capture_output=True, text=True)
+        done = subprocess.run(
+            command, cwd=self.folder, env=os.environ | own, capture_output=True, text=True, timeout=600
+        )
         if done.returncode != 0:
             pytest.fail(f"{shlex.join(command)}\n{done.stdout}{done.stderr}", pytrace=False)
 

@@ -27,9 +27,9 @@ def changed(tmp_path, *changes, name="7003C-spindle"):
 
 def test_info_tells_the_operating_point_without_a_run(run, monkeypatch):
     monkeypatch.setattr(Instance, "step", lambda *a: pytest.fail("a run has begun"))
-    begin = time.perf_counter()
+    begin = time.process_time()  # of this process: other work on the machine does not count
     result = run("info", EXAMPLES / "7003C-spindle.toml", "--json")
-    assert result.exit_code == 0 and time.perf_counter() - begin < 2.0  # 0.2 s, 1.1 s with a new interpreter
+    assert result.exit_code == 0 and time.process_time() - begin < 2.0  # 0.2 s, 1.1 s with a new interpreter
     (data,) = result.data["bearings"]
     # 500 N on 12 balls at the loaded angle: Q = F / (Z sin a)
     inner = data["contact"]["inner"]

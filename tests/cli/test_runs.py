@@ -17,6 +17,7 @@ from fmu_bearing.instance import Instance
 from fmu_bearing.recording.measurements.sound_analysis import analyse_sound
 from fmu_bearing.recording.record import Recording, record
 from fmu_bearing.scene.read import with_fidelity
+from tests.native_builds import no_native_fmu
 
 
 @pytest.fixture(scope="module")
@@ -24,7 +25,7 @@ def fmu(rings_file, tmp_path_factory):
     try:
         return build_fmu(rings_file, tmp_path_factory.mktemp("fmu") / "rings.fmu", "native").path
     except BuildError as problem:
-        pytest.skip(f"no native library: {problem}")
+        no_native_fmu(problem)
 
 
 def test_simulate_scene_and_fmu_write_the_same(run, rings_file, fmu, tmp_path):

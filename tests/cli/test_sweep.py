@@ -159,4 +159,4 @@ def test_help_loads_nothing_heavy():
         "loaded = {'distributed', 'xarray', 'matplotlib', 'numba'} & set(sys.modules)\n"
         "assert not loaded, loaded"
     )
-    subprocess.run([sys.executable, "-c", code], check=True)
+    subprocess.run([sys.executable, "-c", code], check=True, timeout=600)

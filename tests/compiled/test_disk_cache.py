@@ -178,7 +178,7 @@ def test_the_key_does_not_know_the_place_of_the_installation(tmp_path):
     code = "import fmu_bearing.compiled.make as m; print(m.__file__); print(m.folder().name)"
     ran = subprocess.run(
         [sys.executable, "-c", code], env={**os.environ, "PYTHONPATH": str(tmp_path)}, cwd=tmp_path,
-        capture_output=True, text=True, check=True,
+        capture_output=True, text=True, check=True, timeout=600,
     )  # fmt: skip
     place, name = ran.stdout.split()
     assert place.startswith(str(tmp_path))

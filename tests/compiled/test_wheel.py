@@ -80,7 +80,7 @@ def wheels(tmp_path_factory):
     ]  # fmt: skip
     outer = ("MAKEFLAGS", "MFLAGS", "MAKELEVEL")  # of the call of make that may have begun the tests
     environment = {name: value for name, value in os.environ.items() if name not in outer}
-    subprocess.run(command, cwd=ROOT, env=environment, check=True)
+    subprocess.run(command, cwd=ROOT, env=environment, check=True, timeout=600)
     found = [Wheel.read(path) for path in (out / "wheels").glob("*.whl")]
     assert len(found) == 3
     return {wheel.tag: wheel for wheel in found}
@@ -132,15 +132,15 @@ def installed(wheels, tmp_path_factory):
     python = folder / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
     pip = [python, "-m", "pip", "--quiet", "--disable-pip-version-check"]
     wheel = wheels[WHEEL_TAGS[host().name]].path
-    subprocess.run([*pip, "install", "--no-index", "--no-deps", wheel], check=True)
+    subprocess.run([*pip, "install", "--no-index", "--no-deps", wheel], check=True, timeout=600)
     site = subprocess.run(
         [python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))"],
-        check=True, stdout=subprocess.PIPE, text=True,
+        check=True, stdout=subprocess.PIPE, text=True, timeout=600,
     ).stdout.strip()  # fmt: skip
     # behind the environment's own packages; links in there, to a checkout, are not followed
     places = {sysconfig.get_path("purelib"), sysconfig.get_path("platlib")}
     Path(site, "outer.pth").write_text("\n".join(sorted(places)) + "\n", encoding="utf-8")
-    subprocess.run([*pip, "check"], check=True)  # of versions that the wheel asks for
+    subprocess.run([*pip, "check"], check=True, timeout=600)  # of versions that the wheel asks for
     return python, Path(site)
 
 
@@ -150,7 +150,7 @@ def test_the_first_run_from_a_wheel_compiles_nothing(installed, tmp_path, scene_
     python, site = installed
     lonely = {"PATH": "", "CC": "", "HOME": str(tmp_path), "FMU_BEARING_CACHE": str(tmp_path / "empty")}
     run = [python, "-c", _FIRST, str(scene_file), str(tmp_path / "bearing.fmu")]
-    ran = subprocess.run(run, env=lonely, cwd=tmp_path, capture_output=True, text=True)
+    ran = subprocess.run(run, env=lonely, cwd=tmp_path, capture_output=True, text=True, timeout=600)
     assert ran.returncode == 0, ran.stderr
     seconds, place, platforms = ran.stdout.splitlines()
     assert Path(place).is_relative_to(site)

@@ -227,7 +227,7 @@ def test_whirl_is_that_of_ross():
     ]
     given = {"parts": parts, "nodes": [whole.node(place) for place in PLANES], "speed": speed}
     command = [*shlex.split(str(ROSS)), "-c", _SCRIPT]
-    done = subprocess.run(command, input=json.dumps(given), capture_output=True, text=True)
+    done = subprocess.run(command, input=json.dumps(given), capture_output=True, text=True, timeout=600)
     assert done.returncode == 0, done.stderr
     found = sorted(value for value in json.loads(done.stdout.splitlines()[-1]) if value > 10.0)
     expected = whirl(mass, spin, stiffness, speed)[:4]

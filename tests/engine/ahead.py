@@ -51,7 +51,7 @@ def assembly(module, kernel, kinds):
     """
     ran = subprocess.run(
         [sys.executable, "-c", _SCRIPT, module, kernel, kinds],
-        env={**os.environ, **SETTINGS}, capture_output=True, text=True,
+        env={**os.environ, **SETTINGS}, capture_output=True, text=True, timeout=600,
     )  # fmt: skip
     assert ran.returncode == 0, ran.stderr
     return {part.split("\n", 1)[0]: part for part in ran.stdout.split("==== ")[1:]}

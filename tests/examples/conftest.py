@@ -60,5 +60,5 @@ def real_fmus(builder, example_file, tmp_path_factory):
         builder.build(SPINDLE / f"{model}.py", folder)
     bearing = folder / "Bearing7003C.fmu"
     command = [sys.executable, str(ROOT / "build_fmu.py"), str(example_file), "-o", str(bearing)]
-    subprocess.run(command, check=True, capture_output=True, text=True)
+    subprocess.run(command, check=True, capture_output=True, text=True, timeout=600)
     return folder

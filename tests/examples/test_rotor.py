@@ -71,7 +71,7 @@ def test_a_rigid_body_on_its_bearings(script, table):
 
 def test_a_python_without_ross_is_reported(script, tmp_path):
     command = [sys.executable, str(SCRIPT), "--ross", f"{sys.executable} -S", "-o", str(tmp_path)]
-    done = subprocess.run(command, capture_output=True, text=True)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=600)
     assert done.returncode == 1 and "failed" in done.stderr and not (tmp_path / "ross.md").exists()
 
 
@@ -94,7 +94,7 @@ def test_the_result_that_is_kept():
 @pytest.mark.skipif(ROSS is None, reason="FMU_BEARING_ROSS names no Python with ROSS 3")
 def test_ross_gives_that_result(tmp_path):
     command = [sys.executable, str(SCRIPT), "--ross", str(ROSS), "-o", str(tmp_path)]
-    done = subprocess.run(command, capture_output=True, text=True)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=600)
     assert done.returncode == 0, done.stderr
     assert "reads the same again: True" in done.stdout
     kept = rows(ROOT / "docs" / "results" / "ross.csv")

@@ -111,22 +111,20 @@ def walk(scene, start, moves, fidelity, method):
     assert np.isfinite(run.z).all()
 
 
-_HEALTH = list(HealthCheck)
-QUICK = {"deadline": None, "derandomize": True, "suppress_health_check": _HEALTH}
-LONG = {"deadline": None, "suppress_health_check": _HEALTH}
+HEALTH = {"suppress_health_check": list(HealthCheck)}
 # every change of an input makes them look for a new equilibrium
 CONDENSED = [pair for pair in COMPUTED if pair not in FULL]
 
 
 @pytest.mark.parametrize(("fidelity", "method"), FULL)
-@settings(max_examples=25, **QUICK)
+@settings(max_examples=25, **HEALTH)
 @given(start=STARTS, moves=st.lists(MOVES, min_size=1, max_size=12))
 def test_a_short_walk(fidelity, method, start, moves):
     walk("7003C-bare", start, moves, fidelity, method)
 
 
 @pytest.mark.parametrize(("fidelity", "method"), CONDENSED)
-@settings(max_examples=10, **QUICK)
+@settings(max_examples=10, **HEALTH)
 @given(start=STARTS, moves=st.lists(MOVES, min_size=1, max_size=6))
 def test_a_short_walk_of_condensed_fidelities(fidelity, method, start, moves):
     walk("7003C-bare", start, moves, fidelity, method)
@@ -187,7 +185,7 @@ def test_loose_balls_in_a_stop_from_full_speed():
 @pytest.mark.heavy
 @pytest.mark.parametrize(("fidelity", "method"), FULL)
 @pytest.mark.parametrize("scene", ["7003C-bare", "7003C-spindle", "7009C-full-ceramic"])
-@settings(max_examples=8, **LONG)
+@settings(max_examples=8, **HEALTH)
 @given(start=STARTS, moves=st.lists(MOVES, min_size=10, max_size=30))
 def test_a_long_walk(scene, fidelity, method, start, moves):
     walk(scene, start, moves, fidelity, method)
@@ -196,7 +194,7 @@ def test_a_long_walk(scene, fidelity, method, start, moves):
 @pytest.mark.heavy
 @pytest.mark.parametrize(("fidelity", "method"), CONDENSED)
 @pytest.mark.parametrize("scene", ["7003C-spindle", "7009C-full-ceramic"])
-@settings(max_examples=5, **LONG)
+@settings(max_examples=5, **HEALTH)
 @given(start=STARTS, moves=st.lists(MOVES, min_size=5, max_size=12))
 def test_a_long_walk_of_condensed_fidelities(scene, fidelity, method, start, moves):
     walk(scene, start, moves, fidelity, method)

@@ -20,6 +20,7 @@ from fmu_bearing.prepare.model import prepare
 from fmu_bearing.scene import read_scene
 from tests.conftest import GATES
 from tests.native import master as calls
+from tests.native_builds import no_native_fmu
 
 from .differences import DIFFERENCES
 
@@ -54,7 +55,7 @@ def fmus(model, tmp_path_factory):
     def built(flavour):
         path = of(flavour)
         if isinstance(path, str):
-            pytest.skip(f"no native FMU here: {path}")
+            no_native_fmu(path)
         return path
 
     return built

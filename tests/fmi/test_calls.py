@@ -335,7 +335,7 @@ def test_threads_step_at_the_same_time(master):
     while stepped.is_alive():
         time.sleep(1e-3)
         turns += 1
-    assert turns > 10
+    assert turns > 2  # some 50 on an idle machine
     assert pair[0].last_time() == (OK, pytest.approx(3 * 5e-3 + 0.1))
 
 
@@ -348,7 +348,9 @@ print(library.fmi2DoStep(None, 0.0, 1e-4, 1), flush=True)
 
 
 def test_no_instance(master, expected):
-    ran = subprocess.run([sys.executable, "-c", NOTHING, master().library], capture_output=True, text=True)
+    ran = subprocess.run(
+        [sys.executable, "-c", NOTHING, master().library], capture_output=True, text=True, timeout=600
+    )
     if expected["NULL instead of an instance"] == ERROR:
         assert (ran.returncode, ran.stdout) == (0, f"{ERROR}\n"), ran.stderr
     else:
@@ -380,6 +382,8 @@ def test_paths(master, unpacked, expected, tmp_path, name):
         return
     bearing = master()
     arguments = [bearing.library, (folder / "resources").as_uri(), bearing.description.guid]
-    ran = subprocess.run([sys.executable, "-c", CRASH, *arguments], capture_output=True, text=True)
+    ran = subprocess.run(
+        [sys.executable, "-c", CRASH, *arguments], capture_output=True, text=True, timeout=600
+    )
     assert ran.returncode != 0
     assert ran.stdout == ""

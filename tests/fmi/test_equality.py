@@ -77,7 +77,7 @@ bearing.free()
 
 def in_another_process(pytestconfig, folder, *files):
     command = [sys.executable, "-c", CHILD, str(pytestconfig.rootpath), str(folder), *map(str, files)]
-    ran = subprocess.run(command, capture_output=True, text=True)
+    ran = subprocess.run(command, capture_output=True, text=True, timeout=600)
     assert ran.returncode == 0, ran.stderr
     return ran.stdout.split()
 

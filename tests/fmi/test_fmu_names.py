@@ -23,6 +23,7 @@ from fmu_bearing.prepare.model import prepare
 from fmu_bearing.results.variable_names import unit_of
 from fmu_bearing.scene import SceneError, read_scene
 from tests.conftest import EXAMPLES
+from tests.native_builds import no_native_fmu
 from tests.spindle.port import as_port
 
 from .conftest import ERROR, OK, Master
@@ -43,7 +44,7 @@ def built(scene_file, flavour, tmp_path_factory):
     try:
         path = build(prepare(read_scene(scene_file).replace(OPTIONS)), folder / "b.fmu", flavour).path
     except BuildError as problem:
-        pytest.skip(f"no native FMU here: {problem}")
+        no_native_fmu(problem)
     with zipfile.ZipFile(path) as archive:
         archive.extractall(folder / "in")
     return path, folder / "in"

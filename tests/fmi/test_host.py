@@ -51,7 +51,9 @@ def program(tmp_path_factory):
     source, program = folder / "host.c", folder / "host"
     source.write_text(HOST)
     headers = Path(importlib.util.find_spec("fmpy").origin).parent / "c-code"
-    subprocess.run([compiler, f"-I{headers}", str(source), "-o", str(program), "-ldl"], check=True)
+    subprocess.run(
+        [compiler, f"-I{headers}", str(source), "-o", str(program), "-ldl"], check=True, timeout=600
+    )
     return program
 
 
@@ -59,7 +61,9 @@ def leave(program, folder, *how, **environment):
     description = fmpy.read_model_description(str(folder))
     library = folder / "binaries" / "linux64" / f"{description.coSimulation.modelIdentifier}.so"
     command = [str(program), str(library), (folder / "resources").as_uri(), description.guid, *how]
-    return subprocess.run(command, capture_output=True, text=True, env={**os.environ, **environment})
+    return subprocess.run(
+        command, capture_output=True, text=True, env={**os.environ, **environment}, timeout=600
+    )
 
 
 LEAVE = pytest.mark.parametrize("how", [(), ("free",), ("free", "close")], ids=["leave", "free", "close"])

@@ -32,6 +32,7 @@ def command(*arguments, **environment):
         capture_output=True,
         text=True,
         env={**os.environ, "COLUMNS": "200", **environment},
+        timeout=600,
     )
 
 

@@ -18,6 +18,7 @@ from fmu_bearing.fmi.package import build
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import prepare
 from tests.examples.conftest import ROOT
+from tests.native_builds import no_native_fmu
 
 SCENE = ROOT / "examples" / "port" / "7003C-DB-port.toml"
 STEP = 1e-4
@@ -39,7 +40,7 @@ def fmu(model, tmp_path_factory):
     try:
         built = build(model, tmp_path_factory.mktemp("port") / "port.fmu", flavour="native")
     except BuildError as problem:
-        pytest.skip(str(problem))
+        no_native_fmu(problem)
     return str(built.path)
 
 

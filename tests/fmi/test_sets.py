@@ -22,6 +22,7 @@ from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.scene import read_scene
 from tests.conftest import EXAMPLES
+from tests.native_builds import no_native_fmu
 
 from .conftest import DISCARD, OK, Master
 from .differences import DIFFERENCES
@@ -58,7 +59,7 @@ def folders(tmp_path_factory):
         try:
             path = build(model(name, **fmu), made / "set.fmu", flavour).path
         except BuildError as problem:
-            pytest.skip(f"no native FMU here: {problem}")
+            no_native_fmu(problem)
         with zipfile.ZipFile(path) as archive:
             archive.extractall(made / "in")
         return path, made / "in"

@@ -21,7 +21,10 @@ def fmucontainer(description, folder):
     """Run the toolbox's command; path of the container."""
     command = [Path(sys.executable).with_name("fmucontainer"), "-fmu-directory", folder]
     ran = subprocess.run(
-        [*map(str, command), "-container", f"{description}:{EXACT_STEP!r}"], capture_output=True, text=True
+        [*map(str, command), "-container", f"{description}:{EXACT_STEP!r}"],
+        capture_output=True,
+        text=True,
+        timeout=600,
     )
     assert ran.returncode == 0, ran.stdout + ran.stderr
     return (folder / description).with_suffix(".fmu")

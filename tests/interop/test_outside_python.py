@@ -20,7 +20,7 @@ def host(compiler, headers, tmp_path_factory):
     """The host program; it links nothing but the C library."""
     program = tmp_path_factory.mktemp("host") / "host"
     command = [compiler, "-std=c99", f"-I{headers}", *HOST, "-o", str(program), "-ldl", "-lpthread", "-lm"]
-    subprocess.run(command, check=True)
+    subprocess.run(command, check=True, timeout=600)
     return program
 
 
@@ -36,6 +36,7 @@ def test_c_host(host, unpacked, clean_environment, expected):
         env=clean_environment | {"LD_DEBUG": "files"},
         capture_output=True,
         text=True,
+        timeout=600,
     )
     assert ran.returncode == 0, ran.stdout + ran.stderr[-2000:]
     rows = [[float(word) for word in line.split()] for line in ran.stdout.splitlines()]
@@ -61,7 +62,7 @@ def in_c(host, unpacked):
         filled = [re.sub(r"{(.*?)}", lambda found: references[found[1]], text) for text in commands]
         where = (unpacked / "resources").as_uri()
         command = [str(host), str(library), description.guid, where, *filled]
-        ran = subprocess.run(command, capture_output=True, text=True)
+        ran = subprocess.run(command, capture_output=True, text=True, timeout=600)
         return ran.returncode, ran.stdout.splitlines()
 
     return play

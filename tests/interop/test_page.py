@@ -36,6 +36,7 @@ def test_commands_run_as_printed(native, compiler, tmp_path):
         env=environment,
         capture_output=True,
         text=True,
+        timeout=600,
     )
     assert ran.returncode == 0, ran.stdout + ran.stderr
     made = {path.name for path in (tmp_path / "out").iterdir()}

@@ -264,7 +264,9 @@ def test_library_runs_under_an_emulator(emulator, zig, host, spindle, tmp_path, 
     platform = PLATFORMS[name]
     mine = tmp_path / "own"
     mine.write_bytes(library(own_platform()))
-    own = subprocess.run([host, mine, guid, folder.as_uri(), *commands], capture_output=True, text=True)
+    own = subprocess.run(
+        [host, mine, guid, folder.as_uri(), *commands], capture_output=True, text=True, timeout=600
+    )
     expected = _values(own)
     assert expected.shape == (len(_SPEEDS), len(names))
     program = tmp_path / ("host.exe" if name == "win64" else "host")

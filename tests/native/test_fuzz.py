@@ -54,7 +54,7 @@ def sanitizers(compiler, tmp_path_factory):
     source = tmp_path_factory.mktemp("sanitizers") / "nothing.c"
     source.write_text("int main(void) { return 0; }\n")
     command = [compiler, *SANITIZED, str(source), "-o", str(source.with_suffix(""))]
-    if subprocess.run(command, capture_output=True).returncode != 0:
+    if subprocess.run(command, capture_output=True, timeout=600).returncode != 0:
         pytest.skip("the C compiler has no address and undefined-behaviour sanitisers (Debian: gcc)")
     return SANITIZED
 

@@ -20,7 +20,9 @@ def declared():
 
 
 def symbols(library, which):
-    ran = subprocess.run(["nm", "-D", which, str(library)], capture_output=True, text=True, check=True)
+    ran = subprocess.run(
+        ["nm", "-D", which, str(library)], capture_output=True, text=True, check=True, timeout=600
+    )
     return {line.split()[-1].split("@")[0] for line in ran.stdout.splitlines()}
 
 
@@ -35,14 +37,14 @@ def test_library_shows_the_functions_of_fmi_and_nothing_else(library):
     shutil.which("ldd") is None or "TOY_FLAGS" in os.environ, reason="needs ldd, and no sanitizer"
 )
 def test_library_needs_the_c_library_only(library):
-    ran = subprocess.run(["ldd", str(library)], capture_output=True, text=True, check=True)
+    ran = subprocess.run(["ldd", str(library)], capture_output=True, text=True, check=True, timeout=600)
     names = {line.split()[0].split("/")[-1].split(".")[0] for line in ran.stdout.splitlines()}
     assert names <= {"linux-vdso", "libm", "libc", "ld-linux-x86-64", "ld-linux-aarch64"}
 
 
 def run_host(host, library, resources, *commands):
     command = [str(host), str(library), toy.GUID, resources.as_uri(), *commands]
-    return subprocess.run(command, capture_output=True, text=True)
+    return subprocess.run(command, capture_output=True, text=True, timeout=600)
 
 
 def test_host_in_c(host, library, resources):
@@ -83,6 +85,8 @@ def test_minimal_fmu_of_the_benchmark(host, compiler, tmp_path, pytestconfig):
     toy.run([compiler, *flags, source, "-o", str(library), "-lm"])
     command = [str(host), str(library), "{00000000-0000-0000-0000-000000000000}", "", "start:2", "set:3:7"]
     command += ["step:0.1:5", "get:3,8", "save:" + str(tmp_path / "s"), "load:" + str(tmp_path / "s")]
-    ran = subprocess.run([*command, "time:9", "expect:3", "step:1"], capture_output=True, text=True)
+    ran = subprocess.run(
+        [*command, "time:9", "expect:3", "step:1"], capture_output=True, text=True, timeout=600
+    )
     assert ran.returncode == 0, ran.stdout
     assert ran.stdout.splitlines()[0] == "7 0"

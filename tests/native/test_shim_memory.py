@@ -104,7 +104,7 @@ def test_message_without_memory(counting, resources):
 @pytest.mark.heavy
 def test_no_byte_beyond_the_arrays_is_touched(compiler, pytestconfig):
     runtime = subprocess.run(
-        [compiler, "-print-file-name=libasan.so"], capture_output=True, text=True
+        [compiler, "-print-file-name=libasan.so"], capture_output=True, text=True, timeout=600
     ).stdout.strip()
     if not Path(runtime).is_absolute():
         pytest.skip("this compiler has no AddressSanitizer")
@@ -117,6 +117,8 @@ def test_no_byte_beyond_the_arrays_is_touched(compiler, pytestconfig):
     }
     command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-m", "not heavy"]
     command += ["--deselect", "tests/native/test_shim_memory.py", "tests/native"]
-    ran = subprocess.run(command, capture_output=True, text=True, env=environment, cwd=pytestconfig.rootpath)
+    ran = subprocess.run(
+        command, capture_output=True, text=True, env=environment, cwd=pytestconfig.rootpath, timeout=600
+    )
     assert ran.returncode == 0, ran.stdout[-5000:] + ran.stderr[-5000:]
     assert " passed" in ran.stdout

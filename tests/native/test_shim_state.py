@@ -135,7 +135,7 @@ def test_another_process_continues_with_the_same_bits(host, library, resources, 
     file, shown = str(tmp_path / "state.bin"), "get:4,5,9"
     first = [*command, "start:1.5", "set:0:7.25", "step:0.1:3", f"save:{file}", "step:0.1:2", shown]
     second = [*command, f"load:{file}", "time:1.8", "step:0.1:2", shown]
-    answers = [subprocess.run(one, capture_output=True, text=True) for one in (first, second)]
+    answers = [subprocess.run(one, capture_output=True, text=True, timeout=600) for one in (first, second)]
     assert [answer.returncode for answer in answers] == [0, 0], answers
     assert answers[0].stdout == answers[1].stdout
     assert len(answers[0].stdout.split()) == 3

@@ -296,7 +296,7 @@ def test_reset_keeps_the_log_as_it_was_set(master):
     assert one.log == []
 
 
-@settings(max_examples=300, suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None)
+@settings(max_examples=300, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(value=st.floats().filter(lambda x: not 0.0 <= x <= 1e4))
 def test_numbers_are_written_as_python_writes_them(master, value):
     one = master().start()

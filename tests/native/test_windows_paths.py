@@ -26,7 +26,9 @@ def asked(compiler, tmp_path_factory):
     )  # fmt: skip
 
     def ask(location):
-        done = subprocess.run([str(program), location], capture_output=True, text=True, check=True)
+        done = subprocess.run(
+            [str(program), location], capture_output=True, text=True, check=True, timeout=600
+        )
         return done.stdout.splitlines()
 
     return ask

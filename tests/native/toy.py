@@ -105,5 +105,5 @@ def compile_library(folder, *options, compiler=("cc",), suffix=".so", objects=()
 
 def run(command):
     """Run a compiler, and show what it says if it fails."""
-    done = subprocess.run(command, capture_output=True, text=True)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=600)
     assert done.returncode == 0, done.stdout + done.stderr

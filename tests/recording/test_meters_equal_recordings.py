@@ -18,6 +18,7 @@ from fmu_bearing.prepare.model import prepare
 from fmu_bearing.recording.recording import Recording
 from fmu_bearing.scene.imperfections import Harmonic
 from fmu_bearing.scene.read import with_fidelity
+from tests.native_builds import no_native_fmu
 from tests.recording.third_octaves import fast_levels
 
 # third octaves are filtered from the run's first sample on, before sound has arrived
@@ -111,7 +112,7 @@ def test_fmus(scene, flavour, tmp_path):
     try:
         path = build(prepare(given), tmp_path / "Rich.fmu", flavour).path
     except BuildError as problem:
-        pytest.skip(f"no native FMU here: {problem}")
+        no_native_fmu(problem)
     names = meters(given)
     run = simulate(
         path, STEPS * STEP, step=STEP, outputs=[one for row in names for one in row], progress=False

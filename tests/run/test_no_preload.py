@@ -9,6 +9,7 @@ from fmu_bearing import Bearing, simulate
 from fmu_bearing.compiled import BuildError
 from fmu_bearing.run.build import build_fmu, model_of
 from fmu_bearing.scene.read import with_fidelity
+from tests.native_builds import no_native_fmu
 
 
 def loose(silent, model, mode="force"):
@@ -63,7 +64,7 @@ def test_fmus_say_it_in_every_host(silent, tmp_path, flavour):
     try:
         path = build_fmu(with_fidelity(silent, model="response"), tmp_path / "a.fmu", flavour).path
     except BuildError as problem:
-        pytest.skip(f"no native FMU here: {problem}")
+        no_native_fmu(problem)
     said = []
     fmpy.simulate_fmu(
         str(path), stop_time=1e-3, start_values={"preload": 0.0}, debug_logging=True,

@@ -17,6 +17,7 @@ from fmu_bearing.results.series import structured
 from fmu_bearing.results.variable_names import unit_of
 from fmu_bearing.run.inputs import input_table
 from fmu_bearing.scene.read import with_fidelity
+from tests.native_builds import no_native_fmu
 
 
 @pytest.fixture(scope="module")
@@ -35,7 +36,7 @@ def built(rings, tmp_path_factory):
             try:
                 build_fmu(with_fidelity(rings, model=fidelity), path, flavour)
             except BuildError as problem:
-                pytest.skip(f"no native library: {problem}")
+                no_native_fmu(problem)
         return path
 
     return of

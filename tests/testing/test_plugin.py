@@ -168,7 +168,11 @@ def test_plugin_is_declared_and_loads_little():
     (name,) = project["entry-points"]["pytest11"].values()
     code = f"import sys; before = set(sys.modules); import {name}; print(*(set(sys.modules) - before))"
     done = subprocess.run(
-        [sys.executable, "-c", f"import pytest; {code}"], capture_output=True, text=True, check=True
+        [sys.executable, "-c", f"import pytest; {code}"],
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=600,
     )
     ours = {module for module in done.stdout.split() if module.startswith("fmu_bearing")}
     assert ours == {"fmu_bearing", "fmu_bearing.testing", "fmu_bearing.testing.plugin"}

@@ -23,6 +23,7 @@ from fmu_bearing.validation.checks import CHECKS, meaning_of, name_of
 from fmu_bearing.validation.remarks import Skip
 from fmu_bearing.validation.subject import NoInstance, Subject
 from tests.conftest import ROOT
+from tests.native_builds import no_native_fmu
 
 SPINDLE = ROOT / "examples" / "spindle_cosimulation"
 
@@ -48,7 +49,7 @@ def native(model, tmp_path_factory):
     try:
         return build(model, tmp_path_factory.mktemp("native") / "Bearing.fmu", "native").path
     except BuildError as problem:
-        pytest.skip(f"no native FMU here: {problem}")
+        no_native_fmu(problem)
 
 
 def run(*arguments):
@@ -82,7 +83,7 @@ def test_python_build_has_the_known_notes_only(model, tmp_path):
 )
 def test_foreign_fmu_without_ranges(tmp_path, flavour, notes):
     command = [sys.executable, str(SPINDLE / "build.py"), "--output-dir", str(tmp_path), "--flavour", flavour]
-    reported = subprocess.run(command, capture_output=True, text=True)
+    reported = subprocess.run(command, capture_output=True, text=True, timeout=600)
     if flavour == "native" and "no C compiler" in reported.stderr:
         pytest.skip(reported.stderr)
     assert reported.returncode == 0, reported.stderr
@@ -126,7 +127,7 @@ def broken(tmp_path_factory):
         library, path = folder / f"{fault}.so", folder / f"{fault}.fmu"
         source = Path(__file__).with_name("broken.c")
         command = [compiler, "-shared", "-fPIC", "-O1", f"-I{headers}", f"-DFAULT={fault}", str(source)]
-        subprocess.run([*command, "-o", str(library), "-lm"], check=True)
+        subprocess.run([*command, "-o", str(library), "-lm"], check=True, timeout=600)
         with zipfile.ZipFile(path, "w") as archive:
             archive.writestr("modelDescription.xml", DESCRIPTION.format(more=more))
             archive.write(library, f"binaries/{host().name}/Broken.so")

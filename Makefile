@@ -4,7 +4,7 @@
 # make lint    style, format, types, imports and the site, checked by their tools
 # make soak    random walks with other draws for half an hour (SOAK=1800 s)
 # make bench   time the fidelities beside other programs; writes docs/results/benchmark.md and .csv
-# make papers  run the papers' cases and write docs/papers; some minutes, kept under out/papers
+# make papers  run the papers' cases and write docs/papers; a quarter of an hour, kept under out/papers
 # make docs    build the documentation site into out/site; opens from the disk, works offline
 # make wheels  one wheel per platform with compiled kernels inside, and a universal one, into out/wheels
 # make clean   remove what was made here

@@ -11,72 +11,18 @@ import numpy as np
 import pytest
 
 from fmu_bearing.compiled import BuildError, call, make, show
-from fmu_bearing.compiled.platforms import PLATFORMS, instruction_set, own
+from fmu_bearing.compiled.platforms import PLATFORMS, own
 from fmu_bearing.compiled.settings import SETTINGS, TESTED, lean
 from fmu_bearing.compiled.units import ENTRIES, UNITS
-from tests.conftest import GATES
+from tests.compiled import both_ways
 
-#: Compiles one entry of two kernels both ways; prints what it computes.
-_BOTH_WAYS = """
-import ctypes, sys
-import numpy as np
-from numba import carray
-from fmu_bearing.compiled import lower, units
-from fmu_bearing.compiled.load import _linked
-from fmu_bearing.compiled.optimise import object_code
-from fmu_bearing.compiled.platforms import instruction_set, own
+#: An entry of two kernels.
+_INVERTS = """
 from fmu_bearing.engine.dense import invert
 
 def entry(a, b, n):
     invert(carray(a, (n[0],)), 0, 5, carray(b, (n[1],)), 0)
     return 0
-
-units.ENTRIES["entry"] = units.Entry("entry", "ab")
-lower.functions = lambda unit: {"entry": entry}
-code = lower.portable_code("entry", lambda done: None, sys.argv[1] == "lean")
-suffix = instruction_set(own())
-engine = _linked(object_code(code, own(), suffix, lambda done: None))
-call = ctypes.CFUNCTYPE(ctypes.c_int32, *[ctypes.c_void_p] * 3)(
-    engine.get_function_address(units.symbol("entry", suffix))
-)
-a = np.random.default_rng(7).standard_normal(25)
-b, n = np.zeros(25), np.array([25, 25])
-call(a.ctypes.data, b.ctypes.data, n.ctypes.data)
-print(b.tobytes().hex())
-"""
-
-
-#: Compiles a unit the plain way and keeps its object.
-_PLAIN = """
-import pathlib, sys
-from fmu_bearing.compiled.lower import portable_code
-from fmu_bearing.compiled.optimise import object_code
-from fmu_bearing.compiled.platforms import own
-
-unit, suffix, target = sys.argv[1:]
-code = portable_code(unit, lambda done: None, False)
-pathlib.Path(target).write_bytes(object_code(code, own(), suffix, lambda done: None))
-"""
-
-#: Runs scenes for 2 ms, with objects of a folder if one is named; prints state and outputs at each step.
-_RUN = """
-import hashlib, pathlib, sys
-from fmu_bearing.compiled import load
-from fmu_bearing.arrays import Arrays
-from fmu_bearing.scene import read_scene
-
-scenes, folders = sys.argv[1].split(":"), sys.argv[2:]
-lean = load.objects
-for folder in folders:
-    load.objects = lambda platform, units, sets: lean(platform, units, sets) | {
-        ("step", one): pathlib.Path(folder, "step.o").read_bytes() for one in sets
-    }
-for path in scenes:
-    bearing = Arrays.of(read_scene(path).model_copy(update={"sound": None}))
-    bearing.init()
-    for _ in range(20):
-        bearing.step(1e-4)
-        print(hashlib.sha256(bearing.s.tobytes() + bearing.z.tobytes()).hexdigest())
 """
 
 
@@ -178,7 +124,7 @@ def test_another_checkout_in_the_current_folder_is_not_compiled(tmp_path, monkey
 def test_an_unknown_platform_is_refused_by_name(module, tmp_path):
     ran = subprocess.run(
         [sys.executable, "-m", *module, "linux32"], cwd=tmp_path, stdin=subprocess.DEVNULL,
-        capture_output=True, text=True, timeout=600,
+        capture_output=True, text=True,
     )  # fmt: skip
     assert ran.returncode == 1
     assert f"there is no platform 'linux32': choose from {', '.join(PLATFORMS)}" in ran.stderr
@@ -187,7 +133,7 @@ def test_an_unknown_platform_is_refused_by_name(module, tmp_path):
 
 
 @pytest.mark.skipif(os.name == "nt", reason="no SIGINT for a child process on Windows")
-def test_ctrl_c_ends_it_at_once(tmp_path):
+def test_ctrl_c_ends_within_a_second(tmp_path):
     environment = {**os.environ, "FMU_BEARING_CACHE": str(tmp_path)}
     process = subprocess.Popen(
         [sys.executable, "-m", "fmu_bearing", "warm-up"], env=environment, text=True,
@@ -196,13 +142,13 @@ def test_ctrl_c_ends_it_at_once(tmp_path):
     )  # fmt: skip
     assert "compiling the kernels" in process.stderr.readline()
     time.sleep(3.0)  # deep in Numba
+    begin = time.monotonic()
     process.send_signal(signal.SIGINT)  # to this process alone: it ends its workers itself
-    out, complaint = process.communicate(timeout=15)  # compiling would take longer on any machine
+    out, complaint = process.communicate(timeout=30)
+    assert time.monotonic() - begin < 1.0
     assert process.returncode != 0
     assert "Traceback" not in complaint + out
-    left = subprocess.run(
-        ["ps", "-o", "pid=", "-s", str(process.pid)], capture_output=True, text=True, timeout=600
-    ).stdout
+    left = subprocess.run(["ps", "-o", "pid=", "-s", str(process.pid)], capture_output=True, text=True).stdout
     assert left.strip() == ""
 
 
@@ -210,45 +156,12 @@ def test_ctrl_c_ends_it_at_once(tmp_path):
 def test_the_lean_way_computes_the_plain_ways_bits():
     found = {}
     for way in ("lean", "plain"):
-        ran = subprocess.run(
-            [sys.executable, "-c", _BOTH_WAYS, way], env={**os.environ, **SETTINGS},
-            capture_output=True, text=True, timeout=600,
-        )  # fmt: skip
+        ran = both_ways.run(_INVERTS, way)
         assert ran.returncode == 0, ran.stderr
         found[way] = np.frombuffer(bytes.fromhex(ran.stdout.strip()))
     a = np.random.default_rng(7).standard_normal(25).reshape(5, 5)
     np.testing.assert_allclose(found["plain"].reshape(5, 5) @ a, np.eye(5), atol=1e-12)
     assert found["lean"].tobytes() == found["plain"].tobytes()
-
-
-@pytest.mark.heavy
-@pytest.mark.skipif(not lean(make.version("numba")), reason="this Numba is compiled with the plain way only")
-def test_a_run_has_the_same_bits_both_ways(tmp_path):
-    """Fidelity full on rigid and on bending rings; the plain way takes 5 minutes of a processor.
-
-    The unit of the steps alone: it has the kernels of the start, too.
-    """
-    suffix, target = instruction_set(own()), tmp_path / "step.o"
-    lean_object = make.objects(own(), ("step",), [suffix])["step", suffix]
-    compiled = subprocess.run(
-        [sys.executable, "-c", _PLAIN, "step", suffix, str(target)],
-        env={**os.environ, **SETTINGS}, stderr=subprocess.PIPE, text=True, timeout=2400,
-    )  # fmt: skip
-    assert compiled.returncode == 0, compiled.stderr
-    assert target.read_bytes() != lean_object  # two ways, two objects
-    scenes = ":".join(str(GATES / f"{name}.toml") for name in ("7003C-spindle", "7009C-steel"))
-    lean_run, plain_run = (
-        subprocess.run(
-            [sys.executable, "-c", _RUN, scenes, *folder],
-            check=True,
-            stdout=subprocess.PIPE,
-            text=True,
-            timeout=600,
-        ).stdout.splitlines()
-        for folder in ([], [str(tmp_path)])
-    )
-    assert len(set(lean_run)) == 40  # 20 steps of two scenes, none of which stands still
-    assert plain_run == lean_run
 
 
 def test_other_numbas_get_the_plain_way():

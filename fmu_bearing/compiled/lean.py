@@ -12,29 +12,25 @@ This reaches into Numba: it is used with the versions that `settings` names; `lo
 others.
 """
 
+import functools
 import operator
+from collections.abc import Iterable
 from typing import Any
 
 import llvmlite.binding as llvm
-from numba import _dynfunc, types  # type: ignore[attr-defined]
-from numba.core import cgutils, codegen, compiler_machinery
-from numba.core.cpu import CPUContext
-from numba.core.registry import cpu_target
+from numba import _dynfunc, core, types  # type: ignore[attr-defined]
 from numba.core.runtime.context import NRTContext
-from numba.core.typing.context import BaseContext
 from numba.extending import lower_builtin
 
 __all__ = ["install", "modules"]
 
 
-class Library(codegen.JITCodeLibrary):
+class Library(core.codegen.JITCodeLibrary):
     """Keeps the code of one kernel as text, and the libraries of the kernels that it calls."""
-
-    texts: list[str]
 
     def add_ir_module(self, ir_module: Any) -> None:
         """Keep a module."""
-        self.__dict__.setdefault("texts", []).append(cgutils.normalize_ir_text(str(ir_module)))
+        self.__dict__.setdefault("texts", []).append(core.cgutils.normalize_ir_text(str(ir_module)))
 
     def add_linking_library(self, library: Any) -> None:
         """Remember a library that is called."""
@@ -49,13 +45,13 @@ class Library(codegen.JITCodeLibrary):
         return 0
 
 
+@functools.cache
 def install() -> None:
-    """Turn Numba in this process into a front end; not to be undone."""
-    cpu_target.target_context.codegen()._library_class = Library
-    context: Any = CPUContext
+    """Turn Numba in this process into a front end, once for all units; not to be undone."""
+    context: Any = core.cpu.CPUContext
     counting: Any = NRTContext
-    context.get_executable = _no_executable
-    context.create_cpython_wrapper = _nothing
+    core.registry.cpu_target.target_context.codegen()._library_class = Library
+    context.get_executable, context.create_cpython_wrapper = _no_executable, _nothing
     wrap = context.create_cfunc_wrapper
 
     def wrap_entries(self: Any, library: Any, fndesc: Any, env: Any, call_helper: Any) -> None:
@@ -65,51 +61,34 @@ def install() -> None:
     context.create_cfunc_wrapper = wrap_entries
     counting.incref = counting.decref = _nothing
     # Consistency of Numba's own passes is checked after each of them: 15 % of the time.
-    compiler_machinery.PassManager._ENFORCING = False
+    core.compiler_machinery.PassManager._ENFORCING = False
     _remember_operators()
     _plain_access()
 
 
-def modules(function: Any) -> list[llvm.ModuleRef]:
-    """Return the code of a compiled C function and of all that it reaches, one module per kernel."""
-    found: list[Any] = []
-    due = [function._library]
+def modules(functions: Iterable[Any]) -> list[llvm.ModuleRef]:
+    """Return the code of compiled C functions and of all that they reach, one module per kernel.
+
+    A kernel is in it once, whichever of them reach it, and also if a unit before had it.
+    """
+    found: dict[int, Any] = {}
+    due = [function._library for function in functions]
     while due:
         library = due.pop()
-        if library not in found:
-            found.append(library)
+        if id(library) not in found:
+            found[id(library)] = library
             due += [one for one in library._linking_libraries if isinstance(one, Library)]
-    return [llvm.parse_assembly(text) for library in found for text in library.__dict__.get("texts", ())]
+    return [llvm.parse_assembly(text) for one in found.values() for text in getattr(one, "texts", ())]
 
 
 def _nothing(*arguments: Any, **named: Any) -> None:
     """Do nothing."""
 
 
-def _no_executable(self: CPUContext, library: Any, fndesc: Any, env: Any) -> Any:
+def _no_executable(self: Any, library: Any, fndesc: Any, env: Any) -> Any:
     """Return the substitute for the compiled kernel in Numba's tables; never called."""
     name = fndesc.qualname.split(".")[-1]
     return _dynfunc.make_function(fndesc.lookup_module(), name, "not executable", 1, env, (library,))
-
-
-def _remember_operators() -> None:
-    """Let operators and functions of numbers alone be resolved once per types."""
-    context: Any = BaseContext
-    resolve = context._resolve_user_function_type
-    known: dict[Any, Any] = {}
-
-    def resolved(self: Any, func: Any, args: Any, kws: Any, literals: Any = None) -> Any:
-        numbers = type(func) is types.Function and not kws
-        if not numbers or not all(isinstance(one, (types.Number, types.Boolean)) for one in args):
-            return resolve(self, func, args, kws, literals)
-        found = known.get((func, args))
-        if found is None:
-            found = resolve(self, func, args, kws, literals)
-            if found is not None:
-                known[func, args] = found
-        return found
-
-    context._resolve_user_function_type = resolved
 
 
 def _plain_access() -> None:
@@ -132,3 +111,23 @@ def _plain_access() -> None:
     for one in (flat, constant):
         lower_builtin(operator.getitem, one, types.intp)(read)
     lower_builtin(operator.setitem, flat, types.intp, types.float64)(write)
+
+
+def _remember_operators() -> None:
+    """Let operators and functions of numbers alone be resolved once per types."""
+    context: Any = core.typing.context.BaseContext
+    resolve = context._resolve_user_function_type
+    known: dict[Any, Any] = {}
+
+    def resolved(self: Any, func: Any, args: Any, kws: Any, literals: Any = None) -> Any:
+        numbers = type(func) is types.Function and not kws
+        if not numbers or not all(isinstance(one, (types.Number, types.Boolean)) for one in args):
+            return resolve(self, func, args, kws, literals)
+        found = known.get((func, args))
+        if found is None:
+            found = resolve(self, func, args, kws, literals)
+            if found is not None:
+                known[func, args] = found
+        return found
+
+    context._resolve_user_function_type = resolved

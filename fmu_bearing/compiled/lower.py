@@ -44,28 +44,32 @@ def portable_code(unit: str, tell: Callable[[float], None], lean: bool) -> bytes
 
         front.install()
     made = functions(unit)
-    whole = llvm.parse_assembly("")
     with _counted(list(made.values()), tell):
-        for name, function in made.items():
-            compiled = _c_function(name, function)
-            wrapper = compiled.native_name
-            if lean:
-                parts = front.modules(compiled)
-            else:
-                parts = [llvm.parse_assembly(_uncounted(compiled.inspect_llvm()))]
-            present = {one.name for one in whole.functions if not one.is_declaration}
-            for part in parts:
-                # Of the machine that generated it: `optimise` sets each target's. Read with it, as the layout
-                # gives loads and stores their alignment, which is the same on all platforms.
-                part.triple = part.data_layout = ""
-                for one in part.functions:
-                    if one.name == wrapper:
-                        one.name = symbol(name)
-                    elif not one.is_declaration and lean and one.name in present:
-                        one.linkage = "linkonce_odr"  # shared with an entry before: is in the whole
-                whole.link_in(part)
+        compiled = {name: _c_function(name, function) for name, function in made.items()}
+    if lean:
+        parts = front.modules(compiled.values())
+    else:
+        parts = [llvm.parse_assembly(_uncounted(one.inspect_llvm())) for one in compiled.values()]
+    names = {one.native_name: symbol(name) for name, one in compiled.items()}
+    for part in parts:
+        # Of the machine that generated it: `optimise` sets each target's. Read with it, as the layout gives
+        # loads and stores their alignment, which is the same on all platforms.
+        part.triple = part.data_layout = ""
+        for one in part.functions:
+            if one.name in names:
+                one.name = names[one.name]
+    whole = _linked(parts)
     whole.verify()
     return whole.as_bitcode()
+
+
+def _linked(parts: list[Any]) -> Any:
+    """Link modules in pairs, then what they gave in pairs: one by one costs the square of their number."""
+    while len(parts) > 1:
+        for one, other in zip(parts[::2], parts[1::2], strict=False):
+            one.link_in(other)
+        parts = parts[::2]
+    return parts[0]
 
 
 def _uncounted(code: str) -> str:

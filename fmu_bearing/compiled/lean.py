@@ -62,6 +62,7 @@ def install() -> None:
     counting.incref = counting.decref = _nothing
     # Consistency of Numba's own passes is checked after each of them: 15 % of the time.
     core.compiler_machinery.PassManager._ENFORCING = False
+    _take_plain_arguments()
     _remember_operators()
     _plain_access()
 
@@ -89,6 +90,18 @@ def _no_executable(self: Any, library: Any, fndesc: Any, env: Any) -> Any:
     """Return the substitute for the compiled kernel in Numba's tables; never called."""
     name = fndesc.qualname.split(".")[-1]
     return _dynfunc.make_function(fndesc.lookup_module(), name, "not executable", 1, env, (library,))
+
+
+def _take_plain_arguments() -> None:
+    """Compile a kernel once per types, not per literals (`get_call_template`): LLVM specialises by itself."""
+    kind: Any = core.dispatcher._DispatcherBase
+    template = kind.get_call_template
+
+    def plain(self: Any, args: Any, kws: Any) -> Any:
+        named = {name: types.unliteral(one) for name, one in kws.items()}
+        return template(self, tuple(map(types.unliteral, args)), named)
+
+    kind.get_call_template = plain
 
 
 def _plain_access() -> None:

@@ -1,15 +1,15 @@
 """Numba as a front end alone: each kernel to LLVM code once, nothing optimised or made executable on the way.
 
 For every kernel Numba also makes a wrapper for Python and one for C, links the kernel with all that it calls,
-optimises the whole and emits machine code. An ahead-of-time build needs none of that: 345 times. Here the
-code of each kernel is kept as text, and what an entry reaches is linked once.
+optimises the whole and emits machine code. An ahead-of-time build needs none of that: 700 times. Here the
+code of each kernel is kept as text, and what a unit reaches is linked once.
 
-Left out besides, because kernels neither allocate nor raise: counting of references (each array that is
-passed on would be counted up and down) and wrapping of negative indices, which every access would have to
-ask for. Types that Numba found for an operator are remembered.
+Kernels use less than Numba offers, and what they do not use is left out: they neither allocate (no references
+are counted) nor raise (calls have no status; a kernel that raises is refused), and index arrays from their
+begin.
 
 This reaches into Numba: it is used with the versions that `settings` names; `lower` has the plain way for
-others.
+others. Both ways compute the same bits: a test compares them for every entry.
 """
 
 import functools
@@ -18,11 +18,16 @@ from collections.abc import Iterable
 from typing import Any
 
 import llvmlite.binding as llvm
+from llvmlite.ir import Constant, Function, FunctionType, IRBuilder
 from numba import _dynfunc, core, types  # type: ignore[attr-defined]
 from numba.core.runtime.context import NRTContext
 from numba.extending import lower_builtin
 
+from fmu_bearing.compiled.errors import BuildError
+
 __all__ = ["install", "modules"]
+
+_RAISES = tuple(kind for name, kind in vars(core.ir).items() if name.endswith("Raise"))
 
 
 class Library(core.codegen.JITCodeLibrary):
@@ -52,17 +57,13 @@ def install() -> None:
     counting: Any = NRTContext
     core.registry.cpu_target.target_context.codegen()._library_class = Library
     context.get_executable, context.create_cpython_wrapper = _no_executable, _nothing
-    wrap = context.create_cfunc_wrapper
-
-    def wrap_entries(self: Any, library: Any, fndesc: Any, env: Any, call_helper: Any) -> None:
-        if any(isinstance(one, types.CPointer) for one in fndesc.argtypes):
-            wrap(self, library, fndesc, env, call_helper)
-
-    context.create_cfunc_wrapper = wrap_entries
+    context.create_cfunc_wrapper = _wrap_entry
     counting.incref = counting.decref = _nothing
     # Consistency of Numba's own passes is checked after each of them: 15 % of the time.
     core.compiler_machinery.PassManager._ENFORCING = False
     _take_plain_arguments()
+    _refuse_raises()
+    _call_without_status()
     _remember_operators()
     _plain_access()
 
@@ -92,6 +93,11 @@ def _no_executable(self: Any, library: Any, fndesc: Any, env: Any) -> Any:
     return _dynfunc.make_function(fndesc.lookup_module(), name, "not executable", 1, env, (library,))
 
 
+def _is_kernel(module: str) -> bool:
+    """Whether a function of that module is a kernel of ours; Numba's own may need all of Numba."""
+    return module.split(".")[0] != "numba"
+
+
 def _take_plain_arguments() -> None:
     """Compile a kernel once per types, not per literals (`get_call_template`): LLVM specialises by itself."""
     kind: Any = core.dispatcher._DispatcherBase
@@ -102,6 +108,61 @@ def _take_plain_arguments() -> None:
         return template(self, tuple(map(types.unliteral, args)), named)
 
     kind.get_call_template = plain
+
+
+def _refuse_raises() -> None:
+    """Refuse kernels that raise when they are lowered: a caller would go on as if nothing had happened."""
+    kind: Any = core.lowering.Lower
+    lower = kind.lower_function_body
+
+    def lower_function_body(self: Any) -> Any:
+        module, name = self.fndesc.modname, self.fndesc.qualname
+        for one in (one for block in self.blocks.values() for one in block.body):
+            if isinstance(one, _RAISES) and _is_kernel(module):
+                raise BuildError(f"kernels raise nothing: {module}.{name} does in line {one.loc.line}")
+        return lower(self)
+
+    kind.lower_function_body = lower_function_body
+
+
+def _call(context: Any, builder: Any, fndesc: Any, values: Iterable[Any]) -> Any:
+    """Emit a call of a compiled function that takes the result and asks for no status."""
+    if isinstance(fndesc.restype, types.Optional):
+        raise BuildError(f"kernels return one type: {fndesc.modname}.{fndesc.qualname} may return nothing")
+    function = context.declare_function(builder.module, fndesc)
+    place, error, *_ = function.function_type.args
+    result = core.cgutils.alloca_once(builder, place.pointee)
+    given = context.call_conv._get_arg_packer(fndesc.argtypes).as_arguments(builder, values)
+    builder.call(function, [result, Constant(error, None), *given])
+    return context.get_returned_value(builder, fndesc.restype, builder.load(result))
+
+
+def _call_without_status() -> None:
+    """Leave out the check after each call (`user_function`, `call_internal`): nothing raises."""
+
+    def user_function(fndesc: Any, libs: Any) -> Any:
+        def call(context: Any, builder: Any, signature: Any, values: Any) -> Any:
+            return _call(context, builder, fndesc, values)
+
+        vars(call).update(signature=fndesc.argtypes, libs=tuple(libs))
+        return call
+
+    def call_internal(self: Any, builder: Any, fndesc: Any, signature: Any, values: Any) -> Any:
+        return _call(self, builder, fndesc, values)
+
+    base: Any = core.base
+    base.user_function, base.BaseContext.call_internal = user_function, call_internal
+
+
+def _wrap_entry(self: Any, library: Any, fndesc: Any, env: Any, call_helper: Any) -> None:
+    """Make the C function of an entry, which takes pointers, without Numba's way out to Python."""
+    if any(isinstance(one, types.CPointer) for one in fndesc.argtypes):
+        result, *kinds = map(self.get_value_type, (fndesc.restype, *fndesc.argtypes))
+        module = self.create_module("entry")
+        wrapper = Function(module, FunctionType(result, kinds), fndesc.llvm_cfunc_wrapper_name)
+        builder = IRBuilder(wrapper.append_basic_block("entry"))
+        builder.ret(_call(self, builder, fndesc, wrapper.args))
+        library.add_ir_module(module)
 
 
 def _plain_access() -> None:

@@ -1,8 +1,8 @@
 """From portable code to the object file of one instruction set, by LLVM.
 
-Numba's code for a function that might raise calls back into Python. The kernels never raise; once every
-symbol but the entries is internal, LLVM proves that and drops those calls. The result is checked: an object
-may call the C library's mathematics only.
+Code made the plain way calls back into Python where a function might raise. The kernels never raise; once
+every symbol but the entries is internal, LLVM proves that and drops those calls. Code made the lean way has
+none. The result is checked: an object may call the C library's mathematics only.
 """
 
 import re
@@ -21,10 +21,11 @@ MATHEMATICS = frozenset(
     "acos asin atan atan2 cbrt ceil copysign cos cosh exp exp2 expm1 fabs floor fmod hypot log log10 log1p "
     "log2 pow round sin sincos sinh sqrt tan tanh trunc memcpy memmove memset".split()
 )
-#: Part of the processor's time that has passed after each task: each kernel made simple, the whole without
-#: Python's error paths, the whole with vector loops; machine code is the rest. Measured on x86-64-v3, for the
-#: three units: 0.09 to 0.12, 0.35 to 0.41, 0.73 to 0.76.
-_THROUGH = (0.1, 0.4, 0.75)
+#: How the names of functions of Python begin, which code that might raise calls.
+_PYTHON = ("Py", "numba_")
+#: Part of the processor's time that has passed after each task: each kernel made simple, the whole optimised;
+#: machine code is the rest.
+_THROUGH = (0.1, 0.6)
 
 
 def object_code(bitcode: bytes, platform: Platform, suffix: str, tell: Callable[[float], None]) -> bytes:
@@ -77,10 +78,10 @@ def improve(
     # Numba's code keeps every variable in memory: in registers it is a fifth as long for all that follows
     _simplify(module, target)
     tell(_THROUGH[0])
-    _optimise(module, target, last=False)
+    if any(one.is_declaration and one.name.startswith(_PYTHON) for one in module.functions):
+        _optimise(module, target, speed=2, loops=False)  # against the paths of errors
+    _optimise(module, target, speed=3, loops=True)
     tell(_THROUGH[1])
-    _optimise(module, target, last=True)
-    tell(_THROUGH[2])
 
 
 def _simplify(module: llvm.ModuleRef, target: llvm.TargetMachine) -> None:
@@ -95,10 +96,10 @@ def _simplify(module: llvm.ModuleRef, target: llvm.TargetMachine) -> None:
     passes.run(module, builder)
 
 
-def _optimise(module: llvm.ModuleRef, target: llvm.TargetMachine, last: bool) -> None:
-    """Run LLVM's standard passes: first against error paths, last with vector loops."""
-    tuning = llvm.create_pipeline_tuning_options(speed_level=3 if last else 2)
-    tuning.loop_vectorization = tuning.slp_vectorization = tuning.loop_unrolling = last
+def _optimise(module: llvm.ModuleRef, target: llvm.TargetMachine, speed: int, loops: bool) -> None:
+    """Run LLVM's standard passes of a level of speed; ``loops``: make vectors of loops, and unroll them."""
+    tuning = llvm.create_pipeline_tuning_options(speed_level=speed)
+    tuning.loop_vectorization = tuning.slp_vectorization = tuning.loop_unrolling = loops
     builder = llvm.create_pass_builder(target, tuning)
     builder.getModulePassManager().run(module, builder)
 

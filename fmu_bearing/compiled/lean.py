@@ -5,8 +5,8 @@ optimises the whole and emits machine code. An ahead-of-time build needs none of
 code of each kernel is kept as text, and what a unit reaches is linked once.
 
 Kernels use less than Numba offers, and what they do not use is left out: they neither allocate (no references
-are counted) nor raise (calls have no status; a kernel that raises is refused), and index arrays from their
-begin.
+are counted) nor raise (calls have no status; a kernel that raises is refused), have no closures (few passes),
+and index arrays from their begin.
 
 This reaches into Numba: it is used with the versions that `settings` names; `lower` has the plain way for
 others. Both ways compute the same bits: a test compares them for every entry.
@@ -64,6 +64,7 @@ def install() -> None:
     _take_plain_arguments()
     _refuse_raises()
     _call_without_status()
+    _run_few_passes()
     _remember_operators()
     _plain_access()
 
@@ -163,6 +164,35 @@ def _wrap_entry(self: Any, library: Any, fndesc: Any, env: Any, call_helper: Any
         builder = IRBuilder(wrapper.append_basic_block("entry"))
         builder.ret(_call(self, builder, fndesc, wrapper.args))
         library.add_ir_module(module)
+
+
+def _run_few_passes() -> None:
+    """Run those of Numba's passes that change a kernel (`DefaultPassBuilder`); its own functions get all.
+
+    Left out are closures, inlining, `with`, unrolling of literals, and pruning of branches, which LLVM does.
+    """
+    compiler, builder = core.compiler, core.compiler.DefaultPassBuilder
+    few = {
+        "define_untyped_pipeline": "TranslateByteCode FixupArgs IRProcessing GenericRewrites "
+        "RewriteDynamicRaises ReconstructSSA",
+        "define_typed_pipeline": "NopythonTypeInference PreLowerStripPhis",
+        "define_nopython_lowering_pipeline": "IRLegalization NativeLowering NoPythonBackend",
+    }
+
+    def defined(whole: Any, passes: str) -> Any:
+        def define(state: Any) -> Any:
+            if not _is_kernel(state.func_id.modname):
+                return whole(state)
+            manager = compiler.PassManager("kernel")
+            for one in passes.split():
+                manager.add_pass(getattr(compiler, one), one)
+            manager.finalize()
+            return manager
+
+        return staticmethod(define)
+
+    for name, passes in few.items():
+        setattr(builder, name, defined(getattr(builder, name), passes))
 
 
 def _plain_access() -> None:

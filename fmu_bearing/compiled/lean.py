@@ -65,7 +65,8 @@ def install() -> None:
     _refuse_raises()
     _call_without_status()
     _run_few_passes()
-    _remember_operators()
+    _remember_calls()
+    _emit_operators()
     _plain_access()
 
 
@@ -195,6 +196,56 @@ def _run_few_passes() -> None:
         setattr(builder, name, defined(getattr(builder, name), passes))
 
 
+def _remember_calls() -> None:
+    """Let operators and functions be resolved once per types (`BaseFunction.get_call_type`).
+
+    A literal number counts as its type. So it does for Numba, but for templates that prefer literals, as
+    powers do. Functions as arguments are looked at each time: what they stand for may grow.
+    """
+    kind: Any = core.types.functions.BaseFunction
+    resolve = kind.get_call_type
+    known: dict[Any, Any] = {}
+
+    def get_call_type(self: Any, context: Any, args: Any, kws: Any) -> Any:
+        if kws or any(isinstance(one, types.Callable) for one in args):
+            return resolve(self, context, args, kws)
+        plain = tuple(map(types.unliteral, args))
+        numbers = all(isinstance(one, types.Number | types.Boolean | types.Array) for one in plain)
+        literal = not numbers or any(one.prefer_literal for one in self.templates)
+        key = self, context, tuple(args) if literal else plain
+        if key not in known:
+            known[key] = resolve(self, context, args, kws)
+        return known[key]
+
+    kind.get_call_type = get_call_type
+
+
+def _emit_operators() -> None:
+    """Emit + - * of two doubles or whole numbers, and comparisons of doubles, at once (`lower_binop`).
+
+    It is the instruction that Numba emits, after it has looked for the implementation up to four times.
+    """
+    kind: Any = core.lowering.Lower
+    lower, double, whole = kind.lower_binop, types.float64, types.intp
+    known: dict[Any, tuple[str, ...]] = {}
+    for name in ("add", "sub", "mul"):
+        for one in (getattr(operator, name), getattr(operator, f"i{name}")):
+            known[one, double, double], known[one, whole, whole] = (f"f{name}",), (name,)
+    for name, sign in {"lt": "<", "le": "<=", "gt": ">", "ge": ">=", "eq": "=="}.items():
+        known[getattr(operator, name), double, types.boolean] = ("fcmp_ordered", sign)
+
+    def lower_binop(self: Any, result: Any, expr: Any, op: Any) -> Any:
+        one, other = self.fndesc.calltypes[expr].args
+        found = known.get((op, one, result))
+        if found is None or one != other:
+            return lower(self, result, expr, op)
+        instruction, *sign = found
+        sides = (self._cast_var(side, one) for side in (expr.lhs, expr.rhs))
+        return getattr(self.builder, instruction)(*sign, *sides)
+
+    kind.lower_binop = lower_binop
+
+
 def _plain_access() -> None:
     """Read and write numbers of flat arrays by their place, which is never negative."""
 
@@ -215,23 +266,3 @@ def _plain_access() -> None:
     for one in (flat, constant):
         lower_builtin(operator.getitem, one, types.intp)(read)
     lower_builtin(operator.setitem, flat, types.intp, types.float64)(write)
-
-
-def _remember_operators() -> None:
-    """Let operators and functions of numbers alone be resolved once per types."""
-    context: Any = core.typing.context.BaseContext
-    resolve = context._resolve_user_function_type
-    known: dict[Any, Any] = {}
-
-    def resolved(self: Any, func: Any, args: Any, kws: Any, literals: Any = None) -> Any:
-        numbers = type(func) is types.Function and not kws
-        if not numbers or not all(isinstance(one, (types.Number, types.Boolean)) for one in args):
-            return resolve(self, func, args, kws, literals)
-        found = known.get((func, args))
-        if found is None:
-            found = resolve(self, func, args, kws, literals)
-            if found is not None:
-                known[func, args] = found
-        return found
-
-    context._resolve_user_function_type = resolved

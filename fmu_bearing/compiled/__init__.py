@@ -6,6 +6,7 @@
 ``settings``    settings of Numba for portable code, and the versions of the lean way
 ``units``       entries with C's calling convention, in units that are compiled side by side
 ``lean``        Numba as a front end alone
+``flat``        flat arrays in it as pointer and length
 ``lower``       a unit as LLVM code for no machine in particular
 ``optimise``    that code optimised for one instruction set, as an object file
 ``worker``      both, in a process of its own

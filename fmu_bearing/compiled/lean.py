@@ -6,7 +6,7 @@ code of each kernel is kept as text, and what a unit reaches is linked once.
 
 Kernels use less than Numba offers, and what they do not use is left out: they neither allocate (no references
 are counted) nor raise (calls have no status; a kernel that raises is refused), have no closures (few passes),
-and index arrays from their begin.
+and index flat arrays from their begin (`flat`).
 
 This reaches into Numba: it is used with the versions that `settings` names; `lower` has the plain way for
 others. Both ways compute the same bits: a test compares them for every entry.
@@ -21,8 +21,8 @@ import llvmlite.binding as llvm
 from llvmlite.ir import Constant, Function, FunctionType, IRBuilder
 from numba import _dynfunc, core, types  # type: ignore[attr-defined]
 from numba.core.runtime.context import NRTContext
-from numba.extending import lower_builtin
 
+from fmu_bearing.compiled import flat
 from fmu_bearing.compiled.errors import BuildError
 
 __all__ = ["install", "modules"]
@@ -67,7 +67,7 @@ def install() -> None:
     _run_few_passes()
     _remember_calls()
     _emit_operators()
-    _plain_access()
+    flat.install()
 
 
 def modules(functions: Iterable[Any]) -> list[llvm.ModuleRef]:
@@ -244,25 +244,3 @@ def _emit_operators() -> None:
         return getattr(self.builder, instruction)(*sign, *sides)
 
     kind.lower_binop = lower_binop
-
-
-def _plain_access() -> None:
-    """Read and write numbers of flat arrays by their place, which is never negative."""
-
-    def address(context: Any, builder: Any, array_type: Any, array: Any, place: Any) -> Any:
-        model = context.data_model_manager[array_type]
-        data = builder.extract_value(array, model.get_field_position("data"))
-        return builder.gep(data, [place], inbounds=True)
-
-    def read(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        return builder.load(address(context, builder, signature.args[0], args[0], args[1]))
-
-    def write(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        builder.store(args[2], address(context, builder, signature.args[0], args[0], args[1]))
-        return context.get_dummy_value()
-
-    flat = types.Array(types.float64, 1, "C")
-    constant = types.Array(types.float64, 1, "C", readonly=True)
-    for one in (flat, constant):
-        lower_builtin(operator.getitem, one, types.intp)(read)
-    lower_builtin(operator.setitem, flat, types.intp, types.float64)(write)

@@ -32,7 +32,7 @@ __all__ = ["PREBUILT", "bitcode", "folder", "objects", "prebuilt", "sources_key"
 #: Objects and bitcode that a wheel brings along, with the key of the sources they were made from.
 PREBUILT = Path(__file__).parent / "prebuilt"
 #: Modules of this package that decide what is in an object.
-_MAKERS = ("units", "settings", "lower", "lean", "platforms", "optimise")
+_MAKERS = ("units", "settings", "lower", "lean", "flat", "platforms", "optimise")
 #: Units that one process compiles in turn: most kernels of the second are already through with the first, and
 #: two processes then have about as much to do.
 _TOGETHER = (("step",), ("init", "study"))

@@ -44,5 +44,5 @@ def run(code, way):
     """
     return subprocess.run(
         [sys.executable, "-c", _SCRIPT.format(code=code), way], env={**os.environ, **SETTINGS},
-        capture_output=True, text=True,
+        capture_output=True, text=True, timeout=600,
     )  # fmt: skip

@@ -32,7 +32,7 @@ def _digests(*folder):
     """Digest by case, from the package's objects or those of a folder, in a process of its own."""
     ran = subprocess.run(
         [sys.executable, "-m", "tests.compiled.bits", *map(str, folder)], cwd=ROOT, capture_output=True,
-        text=True,
+        text=True, timeout=600,
     )  # fmt: skip
     assert ran.returncode == 0, ran.stderr
     pairs = (line.split(" ", 1) for line in ran.stdout.splitlines())
@@ -53,7 +53,7 @@ def test_every_entry_computes_the_plain_ways_bits(tmp_path):
         target = tmp_path / f"{unit}.o"
         compiled = subprocess.run(
             [sys.executable, "-c", _PLAIN, unit, suffix, str(target)],
-            env={**os.environ, **SETTINGS}, stderr=subprocess.PIPE, text=True,
+            env={**os.environ, **SETTINGS}, stderr=subprocess.PIPE, text=True, timeout=2400,
         )  # fmt: skip
         assert compiled.returncode == 0, compiled.stderr
         assert target.read_bytes() != made[unit, suffix]  # two ways, two objects

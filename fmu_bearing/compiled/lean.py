@@ -170,14 +170,15 @@ def _wrap_entry(self: Any, library: Any, fndesc: Any, env: Any, call_helper: Any
 def _run_few_passes() -> None:
     """Run those of Numba's passes that change a kernel (`DefaultPassBuilder`); its own functions get all.
 
-    Left out are closures, inlining, `with`, unrolling of literals, and pruning of branches, which LLVM does.
+    Left out are closures, inlining, `with`, unrolling of literals, pruning of branches, which LLVM does, and
+    the end of each variable's life, where references would be counted.
     """
     compiler, builder = core.compiler, core.compiler.DefaultPassBuilder
     few = {
         "define_untyped_pipeline": "TranslateByteCode FixupArgs IRProcessing GenericRewrites "
         "RewriteDynamicRaises ReconstructSSA",
         "define_typed_pipeline": "NopythonTypeInference PreLowerStripPhis",
-        "define_nopython_lowering_pipeline": "IRLegalization NativeLowering NoPythonBackend",
+        "define_nopython_lowering_pipeline": "NativeLowering NoPythonBackend",
     }
 
     def defined(whole: Any, passes: str) -> Any:

@@ -132,7 +132,7 @@ def _compile(platform: Platform, missing: list[tuple[str, str]]) -> dict[tuple[s
     ]
     with Display(f"compiling the kernels for {platform.name}, once for this version") as display:
         if not lean(version("numba")):
-            # Portable code with Numba 0.68, processor's time: init 326 s, step 402 s; lean 24 s and 32 s.
+            # Portable code with Numba 0.68, processor's time: init 326 s, step 402 s; lean 21 s and 28 s.
             display.tell(
                 f"Numba {version('numba')} is not one of the versions tested "
                 f"({', '.join(TESTED)}): the kernels are compiled the plain way, which takes "

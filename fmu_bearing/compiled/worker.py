@@ -23,8 +23,8 @@ from fmu_bearing.compiled.units import object_name
 __all__ = ["main"]
 
 #: Part of the processor's time that goes into portable code, made the lean way, where one object is made from
-#: it. Measured on x86-64-v3: 0.52 for the unit step (31.5 s of 60.4 s), 0.72 for init (24.0 s of 33.2 s) and
-#: 0.24 for study (3.7 s of 15.7 s), most of whose kernels have come with init.
+#: it. Measured on x86-64-v3: 0.53 for the unit step (28.3 s of 53.3 s), 0.71 for init (21.3 s of 30.2 s) and
+#: 0.23 for study (3.1 s of 13.2 s), most of whose kernels have come with init.
 _PORTABLE = 0.55
 
 

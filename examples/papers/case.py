@@ -1,4 +1,4 @@
-"""One operating point of a scene, and its recording on disk."""
+"""One operating point of a scene: its run, its key, and what is kept of it on disk."""
 
 import hashlib
 import json

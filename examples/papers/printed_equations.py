@@ -2,7 +2,7 @@
 
 The right-hand side is the paper's: twelve balls (place, velocity, spin), cage, inner ring with its speed
 prescribed, outer ring on its pedestal. Nothing of the engine is used. With :meth:`Corrections.none` the
-rows are as printed, with :meth:`Corrections.all` those of docs/theory.md. Forces that the paper leaves to
+rows are as printed, with :meth:`Corrections.all` as docs/theory.md has them. Forces that the paper leaves to
 its references are the same in both: Hertzian load with damping, rolling resistance, drag, pockets, lands.
 Rolling resistance F_xi is a moment: the pressure in the inlet (F_by) takes back what F_xi pushes.
 
@@ -146,7 +146,7 @@ class Equations:
         Of the inner ring, rad/s.
     corrections : Corrections
     even : bool
-        One ball stands for all and rings move along the axis only: no weights, no tilts.
+        One ball represents all and rings move along the axis only: no weights, no tilts.
     """
 
     def __init__(self, bearing: Bearing, speed: float, corrections: Corrections, even: bool = False) -> None:

@@ -196,14 +196,15 @@ def alone_table(found: dict[str, Any]) -> tuple[list[str], list[list[str]]]:
 def page_of(found: dict[str, Any]) -> str:
     """Return the page: the finding, then both tables; ``found`` is what :func:`results` returned."""
     over_speed, single = markdown(*speed_table(found)), markdown(*alone_table(found))
+    runs, alone = _conditions(found)
     return (
         "# The printed equations of motion, run as printed\n\n"
         "Written by `python -m examples.papers.run multi-source` (`make papers`); figures are of that run.\n"
         "Equations 1 to 6 of the [multi-source paper](multi-source.md), with and without what [mechanics\n"
         "contradicts](../printed-equations.md): `python -m examples.papers.printed_motion` runs them at any\n"
         "speed with any of the corrections.\n\n"
-        f"## Verdict\n\n{_finding(found)}\n\n## Over speed\n\n{over_speed}\n"
-        f"## Each correction left out\n\n{_between(found)}\n\n{single}"
+        f"## Verdict\n\n{_finding(found)}\n\n## Over speed\n\n{over_speed}\n{runs}\n\n"
+        f"## Each correction left out\n\n{alone}\n\n{single}"
     )
 
 
@@ -245,20 +246,21 @@ def _finding(found: dict[str, Any]) -> str:
     )
 
 
-def _between(found: dict[str, Any]) -> str:
+def _conditions(found: dict[str, Any]) -> tuple[str, str]:
+    """Say what was run for each of the two tables."""
     turns, rpm = f"{found['turns']:.0f} turns", f"{ALONE:,} r/min"
     runs = f"""Repaired readings are shown {turns} of the shaft after a start in rolling, because growing spin
         soon means nothing; the others are steady. Orbit and cage are over shaft speed, spin is seen from
         the orbit, its pitch is from the axis. The ring's velocity is the largest along the axis in the
         second half of the run. Forces that the paper leaves to its references, contact damping included,
-        are the product's in all rows. Balls are equal and the load is axial: one ball stands for twelve,
-        and no ring can tilt."""
+        are the product's in all rows. Balls are equal and the load is axial: one ball represents
+        twelve, and no ring can tilt."""
     single = f"""At {rpm} each correction is left out alone, for {turns} from the corrected steady state.
         Growth is about that state, of twelve balls with all rows, so that tilts are included. Traction that
         carries a load holds the balls, and faults in their moments then hardly show; of the faults that
         last, only the missing centrifugal force changes loads. Wrong signs of the pedestal, of the cage's
         rotation and of the inner ring's moments let the bearing fall apart within a tenth of a turn."""
-    return f"{_filled(runs)}\n\n{_filled(single)}"
+    return _filled(runs), _filled(single)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

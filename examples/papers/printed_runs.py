@@ -1,6 +1,6 @@
 """Runs of :mod:`examples.papers.printed_equations` on the bare 7003C, and what is read from them.
 
-Runs are of even balls under an axial load: one ball stands for twelve, rings move along the axis, the cage
+Runs are of even balls under an axial load: one ball represents twelve, rings move along the axis, the cage
 turns. Growth rates are of all twelve balls, rings and cage about the corrected steady state.
 """
 

@@ -29,10 +29,10 @@ _C4, _C5, _C6 = -2.75573143513906633035e-07, 2.08757232129817482790e-09, -1.1359
 
 @numba.njit(nogil=True, error_model="numpy", fastmath={"contract"})
 def _terms(k, a2, twice, less, normal, lift, even, odd, even_slope, odd_slope):
-    """Fill four rows: real and imaginary part of the remainder, and of its derivative along the normal.
+    """Fill four rows: real and imaginary part of the remainder (1/m), and of its slope along the normal.
 
-    ``a2`` is the squared distance in the meridian plane, ``twice`` 2 r r', ``less`` 1 - cos phi;
-    ``normal`` + ``lift`` * ``less`` is the distance along the source's normal.
+    ``k`` is the wavenumber (1/m), ``a2`` the squared distance in the meridian plane, ``twice`` 2 r r' (m2),
+    ``less`` 1 - cos phi; ``normal`` + ``lift`` * ``less`` is the distance along the source's normal (m).
     """
     for j in range(len(less)):
         distance = math.sqrt(a2 + twice * less[j])
@@ -78,6 +78,7 @@ def _sum(weights, row):
 def remainder(points, own, ends, normals, rule, basis, cosines, k, out):
     """Add the smooth parts of order m to ``out`` (2, orders, points, elements * NODES), complex.
 
+    ``points`` (points, 2) and ``ends`` (elements, 4) are places x, r (m), ``k`` the wavenumber (1/m);
     ``cosines`` (orders, n), two rows at least: cos(m phi) at n azimuths from 0 to pi, the second row
     cos(phi) itself; ``rule`` and ``basis``: points, weights and shape functions along an element.
     """

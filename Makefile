@@ -47,13 +47,16 @@ $(OUT)/SpindleMotor.fmu: $(VENV)/.installed $(wildcard $(SPINDLE)/*.py $(SPINDLE
 
 # Kernels are compiled once, before the parallel tests share them. Without a C compiler there is no library
 # for FMUs; tests of it then say so.
-# Files stay together: what a file compiles or prepares for itself is made by one worker, not by each. They go
-# in the order of tests/conftest.py: the long ones first.
+# Files stay together: what a file compiles or prepares for itself is made by one worker, not by each. Those that
+# took longest go first (tests/order.py); TIMES=--measure-times measures them again.
+TIMES ?=
 test: kernels
-	$(BIN)/python -m pytest -n $(JOBS) --dist loadfile --no-loadscope-reorder -m "not heavy and not lint" $(SKIPS)
+	$(BIN)/python -m pytest -n $(JOBS) --dist loadfile --no-loadscope-reorder -m "not heavy and not lint" \
+		--times tests/times/quick.txt $(TIMES) $(SKIPS)
 
 heavy: kernels
-	$(BIN)/python -m pytest -n $(JOBS) -m heavy $(SKIPS)
+	$(BIN)/python -m pytest -n $(JOBS) --dist loadfile --no-loadscope-reorder -m heavy \
+		--times tests/times/heavy.txt $(TIMES) $(SKIPS)
 
 lint: $(VENV)/.installed-test
 	$(BIN)/python -m pytest -n $(JOBS) -m lint $(SKIPS)

@@ -20,53 +20,15 @@ ROOT = pathlib.Path(__file__).parents[1]
 #: Gates of all kinds run on these: every value is written out, so that a better default moves no gate.
 GATES = ROOT / "tests" / "scenes" / "gates"
 HEAVY_TIMEOUT = 3000  # s: one of them compiles the plain way, five minutes of a processor
-#: Files that take more than 5 s of CPU, the longest first. They go before all others, so that the last files
-#: are short and no worker waits for the other. The first
-#: one solves the boundary elements that test_readme.py reads.
-LONG = (
-    "test_docs.py",
-    "test_architecture.py",
-    "examples/test_cosimulation.py",
-    "test_recipes.py",
-    "test_readme.py",
-    "test_learn.py",
-    "engine/test_fidelities.py",
-    "fmi/test_package.py",
-    "testing/test_plugin.py",
-    "modal/test_stiffness.py",
-    "examples/papers/test_pages.py",
-    "examples/papers/test_printed_motion.py",
-    "fmi/test_calls.py",
-    "engine/test_vector_code.py",
-    "sweeps/test_workers.py",
-    "engine/test_numerics.py",
-    "reports/test_page.py",
-    "examples/test_demo.py",
-    "sweeps/test_cluster.py",
-    "compiled/test_make.py",
-    "cli/test_runs.py",
-    "identification/test_page.py",
-    "design/test_fresh.py",
-    "examples/test_identification.py",
-    "reports/test_changes.py",
-    "accuracy/test_changes.py",
-    "cli/test_identify.py",
-    "examples/test_critical_speed.py",
-    "examples/test_notebooks.py",
-    "examples/test_gallery.py",
-    "test_page_figures.py",
-)
 #: For tests of the examples themselves, of the documentation and of the catalogue.
 EXAMPLES = ROOT / "examples" / "scenes"
 
 
 def pytest_collection_modifyitems(items):
-    """Put the tests of long files first; give heavy ones more time."""
+    """Give heavy tests more time."""
     for item in items:
         if item.get_closest_marker("heavy") and not item.get_closest_marker("timeout"):
             item.add_marker(pytest.mark.timeout(HEAVY_TIMEOUT))
-    rank = {ROOT / "tests" / name: place for place, name in enumerate(LONG)}
-    items.sort(key=lambda item: rank.get(item.path, len(LONG)))  # a sort keeps the order of equals
 
 
 class Skips:
@@ -109,14 +71,21 @@ class Skips:
 
 
 def pytest_addoption(parser):
-    """Add the list of tests that may be skipped."""
+    """Add the list of tests that may be skipped, and the times that tests took."""
     parser.addoption("--skips", metavar="FILE", help="fail where a test is skipped that FILE does not list")
+    parser.addoption("--times", metavar="FILE", help="run the longest tests first, by the seconds in FILE")
+    parser.addoption("--measure-times", action="store_true", help="write the file of --times again")
 
 
 def pytest_configure(config):
-    """Watch skips in the process that reports them."""
+    """Watch skips in the process that reports them; sort tests in every process."""
     if config.getoption("--skips") and not hasattr(config, "workerinput"):
         config.pluginmanager.register(Skips(pathlib.Path(config.getoption("--skips"))), "skips")
+    if config.getoption("--times"):
+        from tests.order import Order
+
+        times = pathlib.Path(config.getoption("--times"))
+        config.pluginmanager.register(Order(times, config.getoption("--measure-times")), "order")
 
 
 def _compact(folder):

@@ -7,7 +7,7 @@ import re
 import pytest
 
 from fmu_bearing.engine.choices import FIDELITIES, METHODS
-from tests.conftest import LONG
+from tests import order
 from tests.pages import DOCS, ROOT
 
 
@@ -55,5 +55,7 @@ def test_every_method_has_its_column(structure):
     assert [row.split(" | ")[0] for row in table[2:]] == [f"| `{model}`" for model in FIDELITIES]
 
 
-def test_files_that_run_first_are_there():
-    assert all((ROOT / "tests" / name).is_file() for name in LONG)
+@pytest.mark.parametrize("run", ["quick", "heavy"])
+def test_places_whose_times_are_listed_are_there(run):
+    times = order.read(ROOT / "tests" / "times" / f"{run}.txt")
+    assert len(times) > 20 and all((ROOT / name).exists() for name in times)

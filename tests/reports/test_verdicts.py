@@ -7,7 +7,6 @@ import pytest
 from fmu_bearing.design.operating_point import operating_point
 from fmu_bearing.design.verdicts import verdicts
 from fmu_bearing.engine.constants import RPM
-from fmu_bearing.reports import report
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.sections.summary import tiles
 from fmu_bearing.reports.sections.verdict_table import verdict_table
@@ -69,8 +68,8 @@ def test_a_recording_without_scene_has_none(subject):
         recording.scene = scene
 
 
-def test_the_page_shows_them_before_the_sections(full, tmp_path):
-    page = report(full, tmp_path / "r.html").read_text("utf-8")
+def test_the_page_shows_them_before_the_sections(full_page):
+    page = full_page.text
     begin, end = page.index('id="summary"'), page.index('id="conditions"')
     assert begin < page.index("Verdicts at") < end
     assert 'class="judged-watch"' in page[begin:end] or 'class="judged-good"' in page[begin:end]

@@ -191,8 +191,9 @@ def test_derivatives_are_those_of_the_equations(h):
 
 def test_resistance_at_rest_is_the_static_stiffness():
     run = PortRun(as_port(scene("+-", (0.0, 30.0)))).lead(0.0, 0.0).init()
-    # gate 1 of the design study, 7003C DB; within 1 ms balls do not quite come to rest
-    for h, tolerance in ((2.0, 5e-4), (2e-3, 3e-3)):
+    # gate 1 of the design study, 7003C DB; balls come to rest slowly: 2.7e-3 are left after 2 ms, 2e-4
+    # after 0.1 s
+    for h, tolerance in ((0.1, 5e-4), (2e-3, 3e-3)):
         found = given_resistance(run, h)
         assert found[0, 0] == pytest.approx(1.11465e8, rel=tolerance)
         assert found[2, 2] == pytest.approx(3.24901e8, rel=tolerance)

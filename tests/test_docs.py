@@ -16,6 +16,7 @@ from fmu_bearing.scene import Scene, read_scene
 from fmu_bearing.scene.nsk import sizes
 from fmu_bearing.scene.units import symbol
 from tests.conftest import EXAMPLES
+from tests.marks import heavy_but
 from tests.pages import DOCS, ROOT, blocks, commands, parse, run_page
 
 PAGES = sorted(
@@ -240,11 +241,13 @@ def test_every_variable_is_described(name, reference, site):
         assert sentence, variable.name
 
 
-RUN = ["quick-start.md", "catalogue.md", "sizes.md", "choosing.md", "coupling.md", "stiffness.md"]
-LONG_RUN = ["modes.md", "spindle.md", "motor-spindle.md"]  # each about 20 s
+RUN = [
+    "quick-start.md", "catalogue.md", "sizes.md", "choosing.md", "coupling.md", "stiffness.md", "modes.md",
+    "spindle.md", "motor-spindle.md",
+]  # fmt: skip
 
 
-@pytest.mark.parametrize("page", [*RUN, *(pytest.param(page, marks=pytest.mark.heavy) for page in LONG_RUN)])
+@pytest.mark.parametrize("page", heavy_but(RUN, "quick-start.md", "coupling.md"))
 def test_code_of_a_page_runs(page, tmp_path, monkeypatch):
     run_page(DOCS / page, tmp_path, monkeypatch)
 

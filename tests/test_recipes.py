@@ -149,6 +149,7 @@ def test_changed_packages_keep_their_maps(copy):
     copy.run([sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "tests/test_maps.py"])
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("title", [title for title in RECIPES if title not in COMPILED])
 def test_recipe_without_kernels(title, copy):
     for command in RECIPES[title].commands:

@@ -280,6 +280,7 @@ def test_no_life_for_ceramic_rings_and_open_grooves(scene, spindle):
     assert math.isnan(point(spindle.replace({"bearing.inner_conformity": 0.525})).life)
 
 
+@pytest.mark.heavy
 def test_rings_that_bend_are_run_with_fidelity_full(scene, monkeypatch):
     only(monkeypatch, Alternative("preload", "less", {"mounting.preload_N": 300.0}))
     found = changes(scene("7009C-steel"), seeds=5)

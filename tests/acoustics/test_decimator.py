@@ -31,6 +31,7 @@ from tests.acoustics.playback import (
     raw_time,
     still,
 )
+from tests.marks import heavy_but
 
 BAND, STOP, NYQUIST = 20_000.0, 22_000.0, SD.RATE / 2
 #: Rejection of the single filter of 64 taps that the two stages replaced.
@@ -138,7 +139,7 @@ def test_frequency_response_of_the_whole_path():
 
 
 @pytest.mark.parametrize("kind", ["noise", "lines"])
-@pytest.mark.parametrize("model", ["compact", "paper_vector", "paper_contacts"])
+@pytest.mark.parametrize("model", heavy_but(["compact", "paper_vector", "paper_contacts"], "compact"))
 def test_meters_and_recordings_hear_the_same(model, kind):
     """Up to 100 kHz in every coordinate: 0.05 dB in Leq, LAeq and the third octaves."""
     samples = 4 * 12_000

@@ -73,6 +73,7 @@ def test_record_warns_once(whirling):
             record(whirling, 1e-3, settle=0.0, progress=False, **quiet)
 
 
+@pytest.mark.heavy
 def test_changes_and_report_say_so(whirling):
     found = changes(whirling, levels=False)
     assert sum("Unchanged: the ring whirls by itself" in line for line in found.remarks()) == 1

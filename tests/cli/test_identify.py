@@ -126,6 +126,7 @@ def test_ctrl_c_writes_the_best_so_far(run, scene_of, measured, tmp_path, monkey
     assert "uncertainty unknown" in output.read_text("utf-8")
 
 
+@pytest.mark.heavy
 def test_what_contradicts_itself_is_not_written_unless_asked_for(run, scene_of, measured, tmp_path):
     lines = measured.read_text().splitlines()
     *row, value = lines[-1].split(",")
@@ -148,6 +149,7 @@ def test_what_contradicts_itself_is_not_written_unless_asked_for(run, scene_of, 
     assert "standard deviations apart" in (output.with_suffix("") / "report.md").read_text("utf-8")
 
 
+@pytest.mark.heavy
 def test_unusual_data_are_asked_about(run, scene_of, measured, tmp_path):
     dead = tmp_path / "dead.csv"
     lines = measured.read_text().splitlines()

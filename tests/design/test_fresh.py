@@ -6,6 +6,7 @@ from fmu_bearing import Dimensions, modes, new_scene, operating_point, verdicts
 from fmu_bearing.modal.modes.natural_modes import self_excited
 from fmu_bearing.scene import SceneError, origins, read_scene_text
 from fmu_bearing.scene.nsk import modelled, sizes
+from tests.marks import heavy_but
 
 #: Of each series the least, a middle and the largest size, at both angles; the papers' bearings; dimensions.
 BEARINGS = (
@@ -17,11 +18,17 @@ BEARINGS = (
 
 @pytest.mark.parametrize(
     ("bearing", "kind"),
-    [
-        *((bearing, "hybrid") for bearing in BEARINGS),
-        *((bearing, "steel") for bearing in ("NSK-7004C", "NSK-7914C", "7009C")),
-        ("NSK-7010C", "full-ceramic"),
-    ],
+    heavy_but(
+        [
+            *((bearing, "hybrid") for bearing in BEARINGS),
+            *((bearing, "steel") for bearing in ("NSK-7004C", "NSK-7914C", "7009C")),
+            ("NSK-7010C", "full-ceramic"),
+        ],
+        "NSK-7900C-hybrid",
+        "7003C-hybrid",
+        "7009C-steel",
+        "NSK-7010C-full-ceramic",
+    ),
     ids=str,
 )
 def test_a_fresh_scene_is_good(bearing, kind):

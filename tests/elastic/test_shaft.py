@@ -184,6 +184,7 @@ def whirl(mass, spin, stiffness, speed):
     return np.sort(roots.imag[roots.imag > 1.0])
 
 
+@pytest.mark.heavy
 def test_reduction_keeps_gyroscopic_splitting():
     _, mass, stiffness, spin = full()
     model, speed = reduced(), 5000.0

@@ -62,7 +62,7 @@ def test_balls_swing_across_their_tracks(scene, name, rpm, kilohertz):
 
 @pytest.mark.heavy
 def test_rings_against_scipy(scene):
-    """0.4 ms by DOP853 on the same equations written slowly; velocities within 1e-3 of what they move.
+    """0.4 ms by Radau on the same equations written slowly; velocities within 1e-3 of what they move.
 
     Steps of 2.5 us: at 20 us the first velocities after a start carry Newmark's h^2/12 term, 5e-3 here.
     """
@@ -80,8 +80,10 @@ def test_rings_against_scipy(scene):
     # accelerations agree to the first-order treatment of the balls, so the solution may differ no more
     found = rate(0.0, start)[half : half + L.N]
     np.testing.assert_allclose(found, lv[L.A0 : L.A0 + L.N], atol=2e-2, rtol=1e-2)
-    # friction across the track decays within a microsecond: an implicit method
-    exact = solve_ivp(rate, (0.0, 4e-4), start, method="Radau", rtol=1e-7, atol=1e-9).y[:, -1]
+    # friction across the track decays within a microsecond: an implicit method; ten times its tolerance
+    # changes the velocities by 1.5e-4 of what they move
+    least = np.repeat([1e-11, 1e-6], half)  # m and m/s
+    exact = solve_ivp(rate, (0.0, 4e-4), start, method="Radau", rtol=1e-4, atol=least).y[:, -1]
     run.run(4e-4, 2e-5)
     rings = [0, 1, 2, 5, 6, 7]
     velocities = run.s[S.Y + Y.V0 :][rings]

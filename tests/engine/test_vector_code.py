@@ -32,6 +32,7 @@ KERNELS = {
 }
 
 
+@pytest.mark.heavy  # compiles each on its own
 @pytest.mark.parametrize("kernel", KERNELS, ids=lambda kernel: kernel[1])
 def test_contacts_are_vector_code_on_every_processor(kernel):
     room, name, kinds = kernel

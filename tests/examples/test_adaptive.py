@@ -55,6 +55,7 @@ def test_a_step_that_an_fmu_refuses_is_taken_back(together):
     assert one.values() == before
 
 
+@pytest.mark.heavy
 def test_adaptive_steps_follow_the_error(tmp_path):
     import adaptive
 

@@ -25,6 +25,7 @@ def short(tmp_path_factory):
     return rows(out / "axial_mode.csv")
 
 
+@pytest.mark.heavy
 def test_the_committed_table_is_what_the_example_gives(short):
     known = rows(ROOT / "docs" / "results" / "axial_mode.csv")
     assert set(short) == {"200", "500", "650"} and set(short) < set(known)

@@ -24,6 +24,7 @@ def rows(path):
         return [[float(cell) for cell in row] for row in list(csv.reader(file))[1:]]
 
 
+@pytest.mark.heavy
 def test_the_ridge_moves_with_the_root_of_the_stiffness(folder):
     assert (folder / "sweep.png").stat().st_size > 10_000 and (folder / "sweep.md").exists()
     found = rows(folder / "sweep.csv")

@@ -15,6 +15,7 @@ from tests.pages import DOCS, commands
 SCRIPT = ROOT / "examples" / "gallery" / "gallery.py"
 
 
+@pytest.mark.heavy
 def test_the_script_draws(tmp_path):
     command = [sys.executable, str(SCRIPT), "--quick", "--output", str(tmp_path)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=300)

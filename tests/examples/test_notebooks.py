@@ -39,6 +39,7 @@ def test_no_outputs_are_stored(path):
     assert path.stem in SHORT
 
 
+@pytest.mark.heavy
 def test_first_result():
     reported, pictures = run("first_result")
     assert pictures == 1
@@ -48,6 +49,7 @@ def test_first_result():
     assert float(re.search(r"100 N instead of 500 N: ([\d.]+) dB\(A\) less", reported)[1]) > 5.0
 
 
+@pytest.mark.heavy
 def test_run_up():
     reported, pictures = run("run_up")
     assert pictures == 2

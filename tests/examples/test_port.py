@@ -26,6 +26,7 @@ def outcome(limits):
     return truth, {(name, scheme, h): text for name, scheme, h, text in found}
 
 
+@pytest.mark.heavy
 def test_no_coupling_is_stable_by_damping_of_its_own(outcome):
     (frequency, ratio), found = outcome
     for scheme in ("extrapolated", "derivative", "rollback"):

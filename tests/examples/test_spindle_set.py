@@ -42,6 +42,7 @@ def rows(example, short):
     return example[0].compare(short[0], short[2])
 
 
+@pytest.mark.heavy
 def test_the_network_gets_every_joule_of_the_bearings(short):
     _, _, table, constants = short
     each = sum(table[f"bearing[{b}].{name}"] for b in range(1, BEARINGS + 1) for name in HEATS)
@@ -89,6 +90,7 @@ def test_forces_of_the_bearings_carry_load_and_weight(short):
         assert carried == pytest.approx(wanted, abs=2.0), axis
 
 
+@pytest.mark.heavy
 def test_axial_loads_are_those_of_statics_at_the_temperatures(rows):
     for row in rows:
         for b in range(1, BEARINGS + 1):
@@ -186,6 +188,7 @@ def test_a_motor_has_no_number_of_bearings(builder, tmp_path):
         builder.build(builder.HERE / "motor.py", tmp_path, bearings=2)
 
 
+@pytest.mark.heavy
 def test_the_nose_rings_where_linear_algebra_puts_the_bending_shaft(example):
     """Its loudest line up to 5 kHz, while waves go by, is the frequency of the shaft in its bearings."""
     _, run_up = example

@@ -25,6 +25,7 @@ def rows(path):
         return {row["case"]: row for row in csv.DictReader(file)}
 
 
+@pytest.mark.heavy
 def test_table_holds_ours_beside_the_papers(folder):
     assert {path.name for path in folder.iterdir()} == {
         "three_balls.md",

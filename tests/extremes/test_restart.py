@@ -13,6 +13,7 @@ from fmu_bearing.instance import EngineError, Instance
 from fmu_bearing.prepare.model import prepare
 from tests.extremes.bearings import SILENT, edited
 from tests.extremes.test_set_walk import FLAWS
+from tests.marks import heavy_but
 from tests.spindle.sets import scene
 
 SETS = {
@@ -65,7 +66,7 @@ def walk(name, fidelity, seed, duration):
 
 
 @pytest.mark.parametrize("fidelity", CHEAP)
-@pytest.mark.parametrize("name", SETS)
+@pytest.mark.parametrize("name", heavy_but(SETS, "DB"))
 def test_a_short_walk_of_a_set_returns(name, fidelity):
     walk(name, fidelity, 1, 0.01)
 
@@ -80,7 +81,9 @@ def test_a_walk_of_a_set_returns(name, fidelity, seed):
 
 
 @pytest.mark.parametrize("fidelity", ("full", *CHEAP))
-@pytest.mark.parametrize("name", ["7003C-bare", "7003C-spindle", "7003C-impact", "7009C-steel"])
+@pytest.mark.parametrize(
+    "name", heavy_but(["7003C-bare", "7003C-spindle", "7003C-impact", "7009C-steel"], "7003C-bare")
+)
 def test_a_walk_of_a_single_bearing_returns(name, fidelity):
     walk(name, fidelity, 2, 5e-3)
 

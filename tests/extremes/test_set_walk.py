@@ -6,6 +6,7 @@ import pytest
 from fmu_bearing.instance import EngineError, Instance
 from fmu_bearing.prepare.model import prepare
 from tests.extremes.test_random_walk import REFUSALS
+from tests.marks import heavy_but
 from tests.spindle.sets import scene
 
 BODY = {"mass_kg": 2.0, "diameter_mm": 100.0, "length_mm": 160.0, "pedestal_stiffness_N_m": 1e8}
@@ -46,9 +47,10 @@ def bounds(name):
 
 
 @pytest.mark.parametrize(
-    ("fidelity", "seed"), [("full", 0), ("full", 1), ("full", 2), ("rings", 0), ("response", 0)]
+    ("fidelity", "seed"),
+    heavy_but([("full", 0), ("full", 1), ("full", 2), ("rings", 0), ("response", 0)], "full-0", "rings-0"),
 )
-@pytest.mark.parametrize("name", SETS)
+@pytest.mark.parametrize("name", heavy_but(SETS, "sliding", "DF on a beam"))
 def test_a_walk_goes_on_or_is_refused(name, fidelity, seed):
     rng = np.random.default_rng(seed)
     run = Instance(prepare(SETS[name](), fidelity=fidelity), tell=lambda text: None)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from fmu_bearing.modal.modes.points import modes
+from tests.marks import heavy_but
 from tests.modal.decay import axial, bending, nearest, radial
 
 RPM = np.pi / 30.0
@@ -26,7 +27,8 @@ def compare(found, poles, order, above=0.0, frequency=1e-4, damping=0.005):
 
 
 @pytest.mark.parametrize(
-    ("name", "rpm"), [("7003C-bare", 10_000), ("7003C-bare", 28_000), ("7009C-full-ceramic", 18_000)]
+    ("name", "rpm"),
+    heavy_but([("7003C-bare", 10_000), ("7003C-bare", 28_000), ("7009C-full-ceramic", 18_000)], 0),
 )
 def test_free_decay_has_the_frequencies_the_damping_and_the_direction_of_the_modes(gate, name, rpm):
     scene = gate(name).with_rigid_rings()
@@ -42,6 +44,7 @@ def test_decay_of_a_bearing_that_turns_backwards(gate):
     assert compare(found, radial(scene, -10_000).conj(), 1) == 8
 
 
+@pytest.mark.heavy
 def test_decay_on_a_pedestal_of_two_stiffnesses(gate):
     """The outer ring swings along the pedestal's axes: neither whirl dominates there."""
     scene = gate("7003C-spindle", **{"mounting.pedestal_stiffness_ratio": 1.5})
@@ -56,6 +59,7 @@ def test_decay_on_a_pedestal_of_two_stiffnesses(gate):
         )
 
 
+@pytest.mark.heavy
 def test_decay_of_rings_that_bend(gate):
     bent = {"mounting.flexure": {"outer_ring": [2, 3], "inner_ring": [2]}}
     scene = gate("7003C-bare", **bent)
@@ -63,6 +67,7 @@ def test_decay_of_rings_that_bend(gate):
     assert compare(found, bending(scene, 10_000, 0), 2) == 2
 
 
+@pytest.mark.heavy
 def test_decay_under_a_radial_load_has_the_frequencies_of_the_mean_over_a_pitch(gate):
     scene = gate("7003C-bare").with_rigid_rings()
     found = modes(scene, {"shaft_speed": 10_000 * RPM, "radial_load.z": -200.0})

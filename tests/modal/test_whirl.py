@@ -14,6 +14,7 @@ from fmu_bearing.modal.modes.natural_modes import self_excited
 from fmu_bearing.scene.read import read_scene_text, with_fidelity
 from tests.conftest import ROOT
 from tests.engine.test_steady_point import SUPPORT, scene_at
+from tests.marks import heavy_but
 
 # Growth (1/s) as it is, and as it was read before rolling resistance and conformities were corrected. The
 # sign is what counts: above +5 1/s it must be named, below -5 must not.
@@ -32,7 +33,9 @@ CALM = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("bearing", "rpm", "preload", "support", "growth", "before"), GROWING)
+@pytest.mark.parametrize(
+    ("bearing", "rpm", "preload", "support", "growth", "before"), heavy_but(GROWING, 0, 6)
+)
 def test_a_ring_that_grows_is_named(bearing, rpm, preload, support, growth, before):
     scene = scene_at(bearing, rpm, preload, support=support)
     mode = self_excited(modes(scene))
@@ -50,7 +53,7 @@ def test_a_ring_that_grows_is_named(bearing, rpm, preload, support, growth, befo
     assert verdict.judgement == "change" and verdict.advice == whirl(scene)
 
 
-@pytest.mark.parametrize(("bearing", "rpm", "preload", "support"), CALM)
+@pytest.mark.parametrize(("bearing", "rpm", "preload", "support"), heavy_but(CALM, 0, 4))
 def test_a_ring_that_does_not_is_not(bearing, rpm, preload, support):
     scene = scene_at(bearing, rpm, preload, support=support)
     assert self_excited(modes(scene)) is None and whirl(scene) == ""

@@ -76,6 +76,7 @@ def test_modes_add_up_to_the_response_at_rest(order):
     assert frequencies.size >= 7
 
 
+@pytest.mark.heavy
 def test_elastic_balls_are_softer_in_proportion_to_what_is_counted():
     """Modes to 500 kHz: 4.69 and 8.16 kHz (independent prototype). A point force sees them all."""
     steps = [row_modes([BALL] * 3, PATCH, bonded=False, highest=h).axial[1:3] for h in (250e3, 500e3)]

@@ -238,6 +238,7 @@ def test_refusals_name_the_inputs_of_the_set():
     assert bearing.read("*") == before
 
 
+@pytest.mark.heavy
 def test_auto_measures_all_bearings_of_a_set():
     """A pair with flaws: what is measured are the rings of both, loads, torque and what microphones hear."""
     flaws = {

@@ -11,6 +11,7 @@ from fmu_bearing.scene.member import one_of
 from fmu_bearing.scene.mounting import Flexure as Bending, Mounting, Rotor
 from tests.engine.flexible import Flexure
 from tests.engine.helpers import Run
+from tests.marks import heavy_but
 from tests.oracles import spindle_dynamics as oracle
 from tests.spindle.dynamics import Bearing, bearing_arrays, bearing_of, place_from, spindle_of
 from tests.spindle.runs import SetRun
@@ -61,7 +62,7 @@ def rates_of(system):
     return rate
 
 
-@pytest.mark.parametrize("seat", ["fixed", "housing", "pedestal"])
+@pytest.mark.parametrize("seat", heavy_but(["fixed", "housing", "pedestal"], "housing"))
 def test_runs_are_those_of_the_oracle(seat):
     """Balls, bodies, modes and shaft in one dense system, by the classical method in steps of 0.1 us."""
     given = loaded(seat, **{"fidelity.tolerance": 1e-6, "spindle.flexure": BENT})

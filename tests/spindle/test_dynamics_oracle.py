@@ -14,6 +14,7 @@ from fmu_bearing.prepare.model import pack
 from fmu_bearing.scene import si
 from tests.conftest import GATES
 from tests.engine.helpers import Run
+from tests.marks import heavy_but
 from tests.oracles import spindle_dynamics as oracle
 from tests.spindle.dynamics import Bearing, at_rest, bearing_arrays, dense_answer, place_from, spindle_of
 from tests.spindle.rest import oracle as rest
@@ -318,7 +319,9 @@ def mounted(sign, in_housing):
     return run, oracle.Spindle([one], shaft, drive, body)
 
 
-@pytest.mark.parametrize(("sign", "in_housing"), [(1.0, False), (-1.0, False), (1.0, True), (-1.0, True)])
+@pytest.mark.parametrize(
+    ("sign", "in_housing"), heavy_but([(1.0, False), (-1.0, False), (1.0, True), (-1.0, True)], "-1.0-True")
+)
 def test_one_bearing_runs_as_in_the_engine(sign, in_housing):
     """Rotor and housing of a mounted bearing as shaft and body of a set, mirrored or not."""
     run, spindle = mounted(sign, in_housing)
@@ -351,6 +354,7 @@ def axial(spindle, state, t):
     ]
 
 
+@pytest.mark.heavy
 def test_a_pair_stays_at_its_statics_and_in_its_mirror():
     """DB at 10,000 r/min under a load between its bearings: each does what the other does in a mirror."""
     given = scene(rpm=10e3, changes=NO_CAGE)

@@ -10,6 +10,7 @@ from fmu_bearing.engine.status import OK
 from fmu_bearing.scene.member import one_of
 from fmu_bearing.scene.mounting import Mounting, Rotor
 from tests.engine.helpers import Run
+from tests.marks import heavy_but
 from tests.oracles import spindle_dynamics as oracle
 from tests.spindle.dynamics import bearing_arrays, dense_answer, place_from, spindle_of
 from tests.spindle.runs import SetRun
@@ -93,7 +94,7 @@ def offsets(run):
 
 
 @pytest.mark.parametrize("shaft", SHAFTS.values(), ids=SHAFTS)
-@pytest.mark.parametrize("seat", SEATS)
+@pytest.mark.parametrize("seat", heavy_but(SEATS, "pedestal", "sliding in housing"))
 def test_runs_are_those_of_the_oracle(seat, shaft):
     given = loaded(seat, **{"fidelity.tolerance": 1e-6})
     own = None if shaft is None else shaft(given)

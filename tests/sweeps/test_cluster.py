@@ -65,6 +65,7 @@ def test_workers_with_other_code_are_refused(silent, dask, monkeypatch):
         next(cluster(points.small(silent).tasks, dask.scheduler_address))
 
 
+@pytest.mark.heavy
 def test_a_scheduler_that_does_not_answer(silent):
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))

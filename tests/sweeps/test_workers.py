@@ -43,6 +43,7 @@ def test_two_workers_give_the_bits_of_one(silent):
     assert (abs(velocity.sel(seed=1) / velocity.sel(seed=2) - 1.0) > 1e-3).all()
 
 
+@pytest.mark.heavy
 def test_lost_workers_lose_no_point(silent, trace, monkeypatch):
     """One death costs a try; a point that always kills its worker, or fails, stops no other."""
     monkeypatch.setattr(local, "TRIES", 2)

@@ -26,6 +26,7 @@ def tiny(tmp_path_factory):
     return root, pages
 
 
+@pytest.mark.heavy
 def test_tiny_pages_are_whole(tiny):
     root, pages = tiny
     assert [path.name for path in pages] == [f"{name}.md" for name in PAGES]
@@ -115,7 +116,7 @@ def test_short_pages_say_what_is_known(tmp_path, monkeypatch):
     for module in (lines, multi_source, printed):
         monkeypatch.setattr(module, "SPEEDS", speeds)
     monkeypatch.setattr("examples.papers.runs.SEEDS", (1, 2))
-    monkeypatch.setattr("examples.papers.runs.AROUND", (0.99, 1.0, 1.01))
+    monkeypatch.setattr("examples.papers.runs.AROUND", (1.0,))
     monkeypatch.setattr("examples.papers.runs.FEW_AROUND", (1.0,))
     monkeypatch.setattr(multi_source, "CORNERS", multi_source.CORNERS[:1])
     monkeypatch.setenv("PYTHONWARNINGS", "ignore")

@@ -85,6 +85,7 @@ def test_one_ball_stands_for_twelve(corrections):
         np.testing.assert_allclose(whole, np.broadcast_to(part, whole.shape), rtol=1e-9, atol=1e-9 * scale)
 
 
+@pytest.mark.heavy
 def test_corrected_motion_is_the_products(found):
     """Nothing in the equations comes from the engine: what is printed differs by its faults alone."""
     of_speed = found["speeds"][str(ALONE)]
@@ -349,6 +350,7 @@ def test_command_refuses_what_it_does_not_know(arguments, words, capsys):
     assert words in capsys.readouterr().err
 
 
+@pytest.mark.heavy
 def test_command_prints_one_reading(capsys):
     main(["--speed", str(ALONE), "--correct", "orbit_terms"])
     printed = capsys.readouterr().out

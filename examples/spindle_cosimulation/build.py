@@ -6,10 +6,12 @@ units and start values of both builds come from the slaves in ``motor.py`` and `
 pythonfmu 0.7 writes no units, no initial unknowns, no ability to keep states, 16 digits of a start value and
 a random GUID, and Python keeps modules by name for the life of a process, so that two FMUs with a module of
 the same name would share the first one's code. This file adds the former and names each module after a hash
-of its source.
+of its source. It also adds to the module what keeps pythonfmu's library from using freed memory at exit
+(`fmu_bearing.fmi.host.release_at_exit`): the FMUs run where this package is not installed.
 """
 
 import hashlib
+import inspect
 import logging
 import re
 import sys
@@ -28,6 +30,7 @@ from pythonfmu.builder import FmuBuilder
 from fmu_bearing.cli.build import Flavour, Platforms, named
 from fmu_bearing.compiled import BuildError
 from fmu_bearing.compiled.platforms import PLATFORMS, host
+from fmu_bearing.fmi.host import release_at_exit
 from fmu_bearing.fmi.native.link import compiler_for, link
 from fmu_bearing.fmi.package import ChoiceError, check_choice
 
@@ -36,6 +39,22 @@ NATIVE = HERE / "native"
 MODELS = ("thermal", "motor")
 EPOCH = (1980, 1, 1, 0, 0, 0)  # the earliest date of a zip: the clock stays out of the FMU
 UNIX = 3
+
+#: End of each slave's module, whose body runs once per instance with the FMU's resources first in sys.path.
+ENDING = f"""
+
+import atexit
+import ctypes
+import os
+import sys
+from pathlib import Path
+
+
+{inspect.getsource(release_at_exit)}
+
+for library in Path(sys.path[0]).parent.glob("binaries/linux64/*.so"):
+    release_at_exit(library)
+"""
 
 #: Base units of FMI 2.0 for each unit used here, and what tools may show instead (name, factor, offset).
 UNITS = {
@@ -118,6 +137,7 @@ def pack(target: Path, files: dict[str, bytes], compression: int) -> Path:
 
 def _python_parts(name: str, source: bytes) -> tuple[dict[str, bytes], Fmi2Slave]:
     """Return the files of pythonfmu's FMU in name order, and a fresh instance of its slave."""
+    source += ENDING.encode()
     module = f"spindle_{name}_{hashlib.sha256(source).hexdigest()[:12]}"
     # pythonfmu logs the same line about its binary folder for every build
     logging.getLogger("pythonfmu").setLevel(logging.ERROR)

@@ -121,7 +121,7 @@ def test_a_file_that_others_can_write_to_is_made_again(place, which, rights, req
 def test_kernels_are_neither_read_nor_kept_where_others_can_write(place, monkeypatch):
     name = f"step-{own().name}-v0.o"
     monkeypatch.setattr(
-        make, "_run", lambda due, display: pytest.fail("compiled for a folder that is refused")
+        make, "_run", lambda due, codes, display: pytest.fail("compiled for a folder that is refused")
     )
     folder = make.folder()
     assert disk_cache.write(folder / name, b"code", pytest.fail)

@@ -4,6 +4,7 @@
 ``platforms``   targets of FMI 2.0, this process, and the instruction set that its processor runs
 ``errors``      what can go wrong
 ``settings``    settings of Numba for portable code, and the versions of the lean way
+``single``     kernels without what only sets need
 ``units``       entries with C's calling convention, in units that are compiled side by side
 ``lean``        Numba as a front end alone
 ``flat``        flat arrays in it as pointer and length

@@ -15,15 +15,16 @@ import llvmlite.binding as llvm
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.compiled.make import objects
+from fmu_bearing.compiled.make import kept, objects
 from fmu_bearing.compiled.platforms import instruction_set, own
-from fmu_bearing.compiled.units import ENTRIES, symbol
+from fmu_bearing.compiled.units import ENTRIES, SINGLE, symbol
+from fmu_bearing.engine.layout import P
 
 __all__ = ["Calls", "bound", "call", "ready"]
 
 _lock = threading.RLock()
 _engines: dict[str, Any] = {}  # by unit; kept, because functions point into them
-_functions: dict[str, Any] = {}
+_functions: dict[tuple[str, str], Any] = {}  # by unit and entry
 
 
 def ready(*units: str) -> None:
@@ -38,11 +39,11 @@ def ready(*units: str) -> None:
         for unit in missing:
             _engines[unit] = _linked(made[unit, suffix])
             for name, entry in ENTRIES.items():
-                if entry.unit == unit:
+                if unit in (entry.unit, SINGLE.get(entry.unit)):
                     address = _engines[unit].get_function_address(symbol(name, suffix))
                     pointers = [ctypes.c_void_p] * (len(entry.arrays) + 1)
                     scalars = [ctypes.c_double] * entry.scalars
-                    _functions[name] = ctypes.CFUNCTYPE(ctypes.c_int32, *pointers, *scalars)(address)
+                    _functions[unit, name] = ctypes.CFUNCTYPE(ctypes.c_int32, *pointers, *scalars)(address)
 
 
 def _linked(data: bytes) -> Any:
@@ -57,10 +58,19 @@ def _linked(data: bytes) -> Any:
     return engine
 
 
-def _function(name: str) -> Any:
-    if name not in _functions:
-        ready(*(("init", "step") if ENTRIES[name].unit != "study" else ("study",)))
-    return _functions[name]
+def _function(name: str, p: NDArray[np.float64]) -> Any:
+    """Return an entry for the parameters ``p``.
+
+    For a single bearing its own units are compiled, unless those that serve every scene are there.
+    """
+    unit = ENTRIES[name].unit
+    units = tuple(SINGLE) if unit in SINGLE else (unit,)
+    if unit in SINGLE and unit not in _engines and p[P.ALONE] != 0.0:
+        platform = own()
+        if not kept(platform, units, instruction_set(platform)):
+            unit, units = SINGLE[unit], tuple(SINGLE.values())
+    ready(*units)
+    return _functions[unit, name]
 
 
 def _address(array: NDArray[np.float64]) -> int:
@@ -101,7 +111,7 @@ def call(name: str, *arguments: Any) -> int:
 
 def bound(name: str, *arrays: NDArray[np.float64]) -> Callable[..., int]:
     """Return `call` of an entry with arrays that stay where they are; it takes the numbers behind them."""
-    entry, function = ENTRIES[name], _function(name)
+    entry, function = ENTRIES[name], _function(name, arrays[0])
     lengths = np.zeros(max(entry.places()) + 1, dtype=np.int64)
     for place, array in zip(entry.places(), arrays, strict=True):
         lengths[place] = array.size
@@ -145,7 +155,7 @@ class Calls:
         at_p, at_u, at_s, at_z, at_w = map(_address, self._arrays)
         n = self._lengths.ctypes.data
         self._all, self._read = (at_p, at_u, at_s, at_z, at_w, n), (at_p, at_s, at_z, n)
-        self._init, self._step, self._outputs = map(_function, ("init", "step", "outputs"))
+        self._init, self._step, self._outputs = (_function(name, p) for name in ("init", "step", "outputs"))
 
     def init(self, time: float) -> int:
         """Put the state to the quasi-static one at ``time`` (s) and fill the outputs; return the status."""

@@ -23,19 +23,20 @@ from fmu_bearing.compiled.errors import BuildError
 from fmu_bearing.compiled.platforms import Platform
 from fmu_bearing.compiled.settings import SETTINGS, TESTED, lean
 from fmu_bearing.compiled.show import Display
-from fmu_bearing.compiled.units import object_name
+from fmu_bearing.compiled.units import SINGLE, UNITS, object_name
 from fmu_bearing.engine.sources import engine_digest
 from fmu_bearing.files import cache_root, own_folder
 
-__all__ = ["PREBUILT", "bitcode", "folder", "objects", "prebuilt", "sources_key"]
+__all__ = ["PREBUILT", "bitcode", "folder", "kept", "objects", "prebuilt", "sources_key"]
 
 #: Objects and bitcode that a wheel brings along, with the key of the sources they were made from.
 PREBUILT = Path(__file__).parent / "prebuilt"
 #: Modules of this package that decide what is in an object.
-_MAKERS = ("units", "settings", "lower", "lean", "flat", "platforms", "optimise")
-#: Units that one process compiles in turn: most kernels of the second are already through with the first, and
-#: two processes then have about as much to do.
-_TOGETHER = (("step",), ("init", "study"))
+_MAKERS = ("units", "single", "settings", "lower", "lean", "flat", "platforms", "optimise")
+#: Units whose portable code one process makes in turn: most kernels of the later ones are through with the
+#: first. The longest to optimise comes first: another process does so meanwhile.
+_TOGETHER = (UNITS, tuple(SINGLE.values()))
+_CODE = ".bc"  # of files of portable code
 _TICK = 0.2  # s
 _LONGEST_GUESS = 0.1  # of the whole: how far the bar may run ahead of what was reported
 
@@ -85,6 +86,11 @@ def objects(platform: Platform, units: Iterable[str], sets: Iterable[str]) -> di
     return found
 
 
+def kept(platform: Platform, units: Iterable[str], suffix: str) -> bool:
+    """Whether objects of units are there, so that nothing needs to be compiled."""
+    return all(_there(object_name(unit, platform.name, suffix)) is not None for unit in units)
+
+
 def bitcode(unit: str) -> bytes:
     """Portable code of a unit, which the objects of every platform are made from.
 
@@ -93,7 +99,7 @@ def bitcode(unit: str) -> bytes:
     BuildError
         If no object was made from it here; `objects` makes both.
     """
-    data = _there(f"{unit}.bc")
+    data = _there(f"{unit}{_CODE}")
     if data is None:
         raise BuildError(f"the portable code of {unit} is not kept: clear {folder()} and compile again")
     return data
@@ -121,15 +127,18 @@ def prebuilt(name: str) -> bytes | None:
 
 
 def _compile(platform: Platform, missing: list[tuple[str, str]]) -> dict[tuple[str, str], bytes]:
-    """Compile units side by side in processes of their own, and keep what they make."""
-    sets: dict[str, list[str]] = {}
-    for unit, one in missing:
-        sets.setdefault(unit, []).append(one)
+    """Compile units by processes of their own, and keep what they make.
+
+    Some make portable code of units in turn; others optimise what has come, side by side.
+    """
+    units = {unit for unit, _ in missing}
+    codes = {unit: code for unit in units if (code := _there(f"{unit}{_CODE}"))}
     due = [
-        _Worker({unit: sets[unit] for unit in together if unit in sets}, platform)
+        _Worker(lacking)
         for together in _TOGETHER
-        if any(unit in sets for unit in together)
+        if (lacking := [unit for unit in together if unit in units - codes.keys()])
     ]
+    due += [_Worker([unit], platform, one) for unit, one in missing]
     with Display(f"compiling the kernels for {platform.name}, once for this version") as display:
         if not lean(version("numba")):
             # Portable code with Numba 0.68, processor's time: init 326 s, step 402 s; lean 21 s and 28 s.
@@ -138,29 +147,37 @@ def _compile(platform: Platform, missing: list[tuple[str, str]]) -> dict[tuple[s
                 f"({', '.join(TESTED)}): the kernels are compiled the plain way, which takes "
                 "minutes"
             )
-        files = _run(due, display)
+        files = _run(due, codes, display)
         for name, data in files.items():
             if not disk_cache.write(folder() / name, data, display.tell):
                 break
     return {(unit, one): files[object_name(unit, platform.name, one)] for unit, one in missing}
 
 
-def _run(due: list["_Worker"], display: Display) -> dict[str, bytes]:
-    """Run workers, as many at a time as there are cores; end them all if one fails or on Ctrl-C."""
+def _run(due: list["_Worker"], codes: dict[str, bytes], display: Display) -> dict[str, bytes]:
+    """Run workers, as many at a time as there are cores; end them all if one fails or on Ctrl-C.
+
+    ``codes``: portable code by unit, to which what comes is added.
+    """
     waiting = list(due)
     running: list[_Worker] = []
     at_once = max(1, os.cpu_count() or 1)
     try:
         while waiting or running:
-            while waiting and len(running) < at_once:
-                worker = waiting.pop(0)
-                worker.start()
+            able = [worker for worker in waiting if worker.suffix is None or worker.units[0] in codes]
+            for worker in able[: at_once - len(running)]:
+                waiting.remove(worker)
                 running.append(worker)
+                worker.start(b"" if worker.suffix is None else codes[worker.units[0]])
             time.sleep(_TICK)
             for worker in list(running):
                 if worker.ended():
                     running.remove(worker)
-            display.at(sum(worker.part() for worker in due) / len(due))
+                for name, data in list(worker.files.items()):
+                    if name.endswith(_CODE):
+                        codes[name.removesuffix(_CODE)] = data
+            parts = sum(len(worker.units) * worker.part() for worker in due)
+            display.at(parts / sum(len(worker.units) for worker in due))
     finally:
         for worker in running:
             worker.kill()
@@ -168,29 +185,42 @@ def _run(due: list["_Worker"], display: Display) -> dict[str, bytes]:
 
 
 class _Worker:
-    """A process that compiles units for instruction sets, ``jobs``, and what it has sent so far."""
+    """A process that makes portable code of units, or optimises one, and what it has sent so far.
 
-    def __init__(self, jobs: dict[str, list[str]], platform: Platform) -> None:
-        self.jobs, self.platform = jobs, platform
+    Parameters
+    ----------
+    units : list of str
+    platform, suffix : optional
+        Of the object that it makes from portable code of the unit; without them it makes portable code.
+    """
+
+    def __init__(self, units: list[str], platform: Platform | None = None, suffix: str | None = None) -> None:
+        self.units, self.platform, self.suffix = units, platform, suffix
         self.files: dict[str, bytes] = {}
         self._messages: queue.SimpleQueue[float] = queue.SimpleQueue()
         self._done, self._since, self._begin = 0.0, 0.0, 0.0
         self._process: subprocess.Popen[bytes] | None = None
 
-    def _command(self, sizes: dict[str, int]) -> list[str]:
-        way = "lean" if lean(version("numba")) else "plain"
-        jobs = [f"{unit}={','.join(sets)}={sizes[unit]}" for unit, sets in self.jobs.items()]
+    def _command(self) -> list[str]:
+        if self.platform is None or self.suffix is None:
+            job = ["lean" if lean(version("numba")) else "plain", *self.units]
+        else:
+            job = [self.platform.name, *self.units, self.suffix]
         # -P: not from the current folder, where another checkout may lie, whose kernels have another key
-        worker = [sys.executable, "-P", "-m", "fmu_bearing.compiled.worker"]
-        return [*worker, way, self.platform.name, *jobs]
+        return [sys.executable, "-P", "-m", "fmu_bearing.compiled.worker", *job]
 
-    def start(self) -> None:
-        """Start the process."""
-        codes = {unit: _there(f"{unit}.bc") or b"" for unit in self.jobs}
+    def _due(self) -> set[str]:
+        """Names of the files that it makes."""
+        if self.platform is None or self.suffix is None:
+            return {f"{unit}{_CODE}" for unit in self.units}
+        return {object_name(unit, self.platform.name, self.suffix) for unit in self.units}
+
+    def start(self, code: bytes) -> None:
+        """Start the process, which is given portable code."""
         package = str(Path(__file__).parents[2])
         path = os.pathsep.join([package, *filter(None, [os.environ.get("PYTHONPATH")])])
         self._process = subprocess.Popen(
-            self._command({unit: len(code) for unit, code in codes.items()}),
+            self._command(),
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
@@ -204,7 +234,7 @@ class _Worker:
         assert self._process.stdin is not None
         # a process that is gone already leaves a broken pipe; its reason is given by `ended`
         with contextlib.suppress(OSError), self._process.stdin as stdin:
-            stdin.write(b"".join(codes.values()))
+            stdin.write(code)
 
     def _listen(self) -> None:
         assert self._process is not None and self._process.stdout is not None
@@ -226,13 +256,12 @@ class _Worker:
             return False
         for reader in self._readers:
             reader.join()
-        units = " and ".join(self.jobs)
+        units = " and ".join(self.units)
         if self._process.returncode != 0:
             words = self._complaint.decode(errors="replace").strip()[-2000:]
             words = words or f"the process ended with code {self._process.returncode} and gave no reason"
             raise BuildError(f"the kernels could not be compiled ({units}): {words}")
-        due = {object_name(unit, self.platform.name, one) for unit, sets in self.jobs.items() for one in sets}
-        if lost := sorted(due - self.files.keys()):
+        if lost := sorted(self._due() - self.files.keys()):
             raise BuildError(f"the kernels could not be compiled ({units}): not received: {', '.join(lost)}")
         self._done = 1.0
         return True

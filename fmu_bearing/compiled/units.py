@@ -1,14 +1,17 @@
 """What is compiled: entries with C's calling convention, in units that are compiled side by side.
 
 An entry takes pointers to doubles, then a pointer to the lengths of its arrays (int64), then doubles, and
-returns a status (int32). Units ``init`` and ``step`` make up an FMU; ``study`` serves Python alone.
+returns a status (int32). Units ``init`` and ``step`` make up an FMU; ``study`` serves Python alone. Of the
+former there are units for single bearings alone, with the same entries, for who needs no more (`SINGLE`).
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-__all__ = ["ENTRIES", "ONCE", "UNITS", "Entry", "functions", "object_name", "symbol"]
+from fmu_bearing.compiled import single
+
+__all__ = ["ENTRIES", "ONCE", "SINGLE", "UNITS", "Entry", "functions", "object_name", "symbol"]
 
 
 @dataclass(frozen=True)
@@ -58,6 +61,8 @@ ENTRIES = {
 ONCE = ("init",)
 #: Units, the longest to compile first.
 UNITS = ("step", "init", "study")
+#: Units that serve every scene, and the ones beside them for single bearings alone: half the work to compile.
+SINGLE = {"step": "single_step", "init": "single_init"}
 
 
 def symbol(entry: str, instruction_set: str = "") -> str:
@@ -71,8 +76,14 @@ def object_name(unit: str, platform: str, instruction_set: str) -> str:
 
 
 def functions(unit: str) -> dict[str, Callable[..., Any]]:
-    """Return the entries of a unit as functions that Numba can compile for pointers."""
-    return {"init": _init, "step": _step, "study": _study}[unit]()
+    """Return the entries of a unit as functions that Numba can compile for pointers.
+
+    For a unit of `SINGLE` kernels are loaded in another way, so a process makes units of one kind.
+    """
+    whole = {one: unit for unit, one in SINGLE.items()}
+    if unit in whole:
+        single.install()
+    return {"init": _init, "step": _step, "study": _study}[whole.get(unit, unit)]()
 
 
 def _init() -> dict[str, Callable[..., Any]]:

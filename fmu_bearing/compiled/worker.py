@@ -1,15 +1,14 @@
-"""Units, compiled in turn by a process of its own.
+"""Portable code of units, made in turn, or one unit optimised, by a process of its own.
 
-Called as ``python -m fmu_bearing.compiled.worker lean|plain PLATFORM UNIT=SET,...=SIZE ...``.
+Called as ``python -m fmu_bearing.compiled.worker lean|plain UNIT ...`` or, with the unit's portable code on
+standard input, ``python -m fmu_bearing.compiled.worker PLATFORM UNIT SET``.
 
-Numba and LLVM hold the interpreter, so units are compiled side by side by several processes, which the parent
-can end at once. A process that compiles two units keeps the kernels that both use. What is made goes through
-standard output, so that no disk is needed: lines of JSON, each with the part of the work that is done or with
-the name and size of a file whose bytes follow. Where a unit's bitcode is there already, it comes through
-standard input, SIZE bytes of it.
+Numba and LLVM hold the interpreter, so several processes work side by side, which the parent can end at once.
+A process that makes portable code of several units keeps the kernels that they share. What is made goes
+through standard output, so that no disk is needed: lines of JSON, each with the part of the work that is done
+or with the name and size of a file whose bytes follow.
 """
 
-import functools
 import json
 import os
 import sys
@@ -17,15 +16,14 @@ from collections.abc import Callable
 
 from fmu_bearing.compiled.errors import BuildError
 from fmu_bearing.compiled.optimise import object_code
-from fmu_bearing.compiled.platforms import OWN, Platform, own, platform_named
+from fmu_bearing.compiled.platforms import OWN, own, platform_named
 from fmu_bearing.compiled.units import object_name
 
 __all__ = ["main"]
 
-#: Part of the processor's time that goes into portable code, made the lean way, where one object is made from
-#: it. Measured on x86-64-v3: 0.53 for the unit step (28.3 s of 53.3 s), 0.71 for init (21.3 s of 30.2 s) and
-#: 0.23 for study (3.1 s of 13.2 s), most of whose kernels have come with init.
-_PORTABLE = 0.55
+#: Part of the time for portable code of several units that the first takes: 52.3 of 57.7 s for step, init and
+#: study, 46.2 of 52.2 s for those of single bearings.
+_FIRST = 0.9
 
 
 def _send(message: dict[str, object], data: bytes = b"") -> None:
@@ -34,42 +32,37 @@ def _send(message: dict[str, object], data: bytes = b"") -> None:
     out.flush()
 
 
-def _tell(job: int, jobs: int, share: float) -> None:
-    """Send that a share of one of several jobs is done."""
-    _send({"done": (job + share) / jobs})
+def _part(begin: float, end: float) -> Callable[[float], None]:
+    """Return what sends how much of all is done, from a share of what lies between two parts."""
+    return lambda share: _send({"done": begin + (end - begin) * share})
 
 
-def _between(part: Callable[[float], None], begin: float, k: int, count: int) -> Callable[[float], None]:
-    """Return a callable that reports ``part`` of the ``k``-th of ``count`` equal pieces behind ``begin``."""
-    return lambda share: part(begin + (1.0 - begin) * (k + share) / count)
+def _translate(units: list[str], lean: bool) -> None:
+    """Make portable code of units and send it."""
+    from fmu_bearing.compiled.lower import portable_code
 
-
-def _compile(
-    unit: str, code: bytes, sets: list[str], platform: Platform, lean: bool, part: Callable[[float], None]
-) -> None:
-    """Compile one unit and send its bitcode, unless ``code`` is that, and its objects."""
-    begin = 0.0
-    if not code:
-        from fmu_bearing.compiled.lower import portable_code
-
-        begin = _PORTABLE if sets else 1.0
-        code = portable_code(unit, lambda share: part(begin * share), lean)
+    later = len(units) - 1
+    ends = [0.0, *(_FIRST + (1.0 - _FIRST) * k / later for k in range(later)), 1.0]
+    for unit, begin, end in zip(units, ends, ends[1:], strict=False):
+        code = portable_code(unit, _part(begin, end), lean)
         _send({"file": f"{unit}.bc", "size": len(code)}, code)
-    for k, one in enumerate(sets):
-        made = object_code(code, platform, one, _between(part, begin, k, len(sets)))
-        _send({"file": object_name(unit, platform.name, one), "size": len(made)}, made)
+
+
+def _optimise(name: str, unit: str, suffix: str) -> None:
+    """Make the object of a unit for an instruction set of a platform and send it."""
+    platform = own() if name == OWN else platform_named(name)
+    made = object_code(sys.stdin.buffer.read(), platform, suffix, _part(0.0, 1.0))
+    _send({"file": object_name(unit, platform.name, suffix), "size": len(made)}, made)
 
 
 def main() -> None:
-    """Compile units for instruction sets of a platform."""
-    way, name, *jobs = sys.argv[1:]
+    """Do what the command line asks for."""
+    what, *names = sys.argv[1:]
     try:
-        platform = own() if name == OWN else platform_named(name)
-        for k, job in enumerate(jobs):
-            unit, sets, size = job.split("=")
-            code = sys.stdin.buffer.read(int(size))
-            part = functools.partial(_tell, k, len(jobs))
-            _compile(unit, code, sets.split(",") if sets else [], platform, way == "lean", part)
+        if what in ("lean", "plain"):
+            _translate(names, what == "lean")
+        else:
+            _optimise(what, *names)
     except BuildError as problem:
         sys.exit(str(problem))
     _send({"done": 1.0})

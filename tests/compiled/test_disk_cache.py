@@ -18,7 +18,7 @@ from fmu_bearing.compiled import make
 from fmu_bearing.compiled.platforms import own
 log = pathlib.Path(sys.argv[1])
 
-def run(due, display):
+def run(due, codes, display):
     with log.open("a") as file:
         file.write("compiled\\n")
     time.sleep(1.5)
@@ -135,7 +135,7 @@ def test_where_nothing_can_be_written_kernels_are_used_all_the_same(tmp_path, mo
     (tmp_path / "file").write_text("")
     monkeypatch.setenv("FMU_BEARING_CACHE", str(tmp_path / "file" / "cache"))
     name = f"step-{own().name}-v0.o"
-    monkeypatch.setattr(make, "_run", lambda due, display: {name: DATA})
+    monkeypatch.setattr(make, "_run", lambda due, codes, display: {name: DATA})
     assert make.objects(own(), ["step"], ["v0"]) == {("step", "v0"): DATA}
     assert f"{name} cannot be kept in {tmp_path}" in capfd.readouterr().err
 

@@ -62,7 +62,7 @@ def test_the_part_that_is_done_moves_on_between_reports(monkeypatch):
     """Half a minute of one optimisation pass reports nothing: the bar goes on at the pace so far."""
     now = [10.0]
     monkeypatch.setattr(make.time, "monotonic", lambda: now[0])
-    worker = make._Worker({"step": ["v3"]}, own())
+    worker = make._Worker(["step"], own(), "v3")
     worker._begin = worker._since = 0.0
     worker._messages.put(0.4)
     assert worker.part() == 0.4
@@ -78,7 +78,7 @@ def test_a_failure_names_the_unit_and_the_reason(tmp_path, monkeypatch):
     monkeypatch.setenv("FMU_BEARING_CACHE", str(tmp_path))
     monkeypatch.setitem(SETTINGS, "NUMBA_OPT", "3")  # no portable code with it: lower refuses
 
-    def broken(self, sizes):
+    def broken(self):
         return [sys.executable, "-c", "import sys; sys.exit('no such thing')"]
 
     monkeypatch.setattr(make._Worker, "_command", broken)
@@ -96,7 +96,7 @@ def test_a_worker_that_ends_at_once_is_a_failure_of_the_compilation(code, reason
     monkeypatch.setenv("FMU_BEARING_CACHE", str(tmp_path))
     monkeypatch.setattr(make, "_there", lambda name: bytes(10**7) if name.endswith(".bc") else None)
     command = [sys.executable, "-c", f"import os; os._exit({code})"]
-    monkeypatch.setattr(make._Worker, "_command", lambda self, sizes: command)
+    monkeypatch.setattr(make._Worker, "_command", lambda self: command)
     with pytest.raises(BuildError) as refusal:
         make.objects(own(), ["study"], ["v0"])
     reason = reason.format(platform=own().name)
@@ -118,12 +118,15 @@ def test_another_checkout_in_the_current_folder_is_not_compiled(tmp_path, monkey
 
 @pytest.mark.parametrize(
     "module",
-    [["fmu_bearing.compiled.worker", "lean"], ["fmu_bearing.fmi.native.prebuilt", "folder"]],
+    [
+        ["fmu_bearing.compiled.worker", "linux32", "step", "v2"],
+        ["fmu_bearing.fmi.native.prebuilt", "folder", "linux32"],
+    ],
     ids=["worker", "prebuilt"],
 )
 def test_an_unknown_platform_is_refused_by_name(module, tmp_path):
     ran = subprocess.run(
-        [sys.executable, "-m", *module, "linux32"], cwd=tmp_path, stdin=subprocess.DEVNULL,
+        [sys.executable, "-m", *module], cwd=tmp_path, stdin=subprocess.DEVNULL,
         capture_output=True, text=True, timeout=600,
     )  # fmt: skip
     assert ran.returncode == 1

@@ -37,7 +37,7 @@ from fmu_bearing.engine.layout import FOUR, SP, H, L, P, S, W
 @kernel
 def count(p):
     """Return how many bearings the set has."""
-    if p[P.ALONE] != 0.0:
+    if not has_shaft(p):
         return 1
     return int(p[int(p[P.SET]) + SP.BEARINGS])
 
@@ -48,21 +48,24 @@ def coordinates(p):
 
     A single bearing has its rings' own in fidelities rings and response, none in full.
     """
-    if p[P.ALONE] != 0.0:
+    if not has_shaft(p):
         return 0 if p[P.FIDELITY] == FULL else L.N
     return int(p[int(p[P.SET]) + SP.COUNT])
 
 
 @kernel
 def has_shaft(p):
-    """Whether a shaft carries the bearings; a single bearing has no coordinates but its own."""
+    """Whether a shaft carries the bearings; a single bearing has no coordinates but its own.
+
+    All kernels ask here: where they are compiled for single bearings alone, each call is ``False``.
+    """
     return p[P.ALONE] == 0.0
 
 
 @kernel
 def padded_size(p):
     """Return how many numbers a vector of the coordinates has: whole groups of four."""
-    if p[P.ALONE] != 0.0:
+    if not has_shaft(p):
         return 0 if p[P.FIDELITY] == FULL else L.COLUMN
     return int(p[int(p[P.SET]) + SP.PADDED_SIZE])
 
@@ -125,7 +128,7 @@ def outputs(p, z, b):
 @kernel
 def set_state(p, s):
     """Return the set's own state, ``SP.NOSE`` and so on; of a single bearing from ``S.SET`` on."""
-    if p[P.ALONE] != 0.0:
+    if not has_shaft(p):
         return s[S.SET :]
     return s[int(p[int(p[P.SET]) + SP.AT_S]) :]
 
@@ -133,7 +136,7 @@ def set_state(p, s):
 @kernel
 def set_work(p, w):
     """Return the set's own work space, ``SP.INPUT`` and so on; of a single bearing from ``W.SET`` on."""
-    if p[P.ALONE] != 0.0:
+    if not has_shaft(p):
         return w[W.SET :]
     return w[int(p[int(p[P.SET]) + SP.AT_W]) :]
 

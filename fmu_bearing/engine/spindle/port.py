@@ -15,7 +15,7 @@ from fmu_bearing.engine.spindle.shaft import weighs
 @kernel
 def has_port(p):
     """Whether another model moves the shaft."""
-    return p[P.ALONE] == 0.0 and p[int(p[P.SET]) + SP.PORT] != 0.0
+    return members.has_shaft(p) and p[int(p[P.SET]) + SP.PORT] != 0.0
 
 
 @kernel

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from fmu_bearing.cli.base import refusals, tell
-from fmu_bearing.cli.build import Flavour, Output, Platforms, named
+from fmu_bearing.cli.build import Flavour, OnlyHere, Output, Platforms, named
 from fmu_bearing.fmi.description import description_xml
 from fmu_bearing.run.build import build_fmu, model_of
 
@@ -20,6 +20,7 @@ def main(
     output: Output = None,
     flavour: Flavour = None,
     platforms: Platforms = None,
+    only_here: OnlyHere = False,
     write_description: Annotated[
         bool, typer.Option(help="Only renew modelDescription/modelDescription.xml from the scene.")
     ] = False,
@@ -31,7 +32,7 @@ def main(
             DESCRIPTION.write_bytes(description_xml(model))
             typer.echo(f"{DESCRIPTION}: {len(model.variables)} variables")
         else:
-            typer.echo(f"built {build_fmu(scene, output, flavour, named(platforms), tell)}")
+            typer.echo(f"built {build_fmu(scene, output, flavour, named(platforms), tell, only_here)}")
 
 
 if __name__ == "__main__":

@@ -28,6 +28,13 @@ Platforms = Annotated[
         help=f"Platforms of a native FMU: {', '.join(PLATFORMS)}, or all; default: this machine's.",
     ),
 ]
+OnlyHere = Annotated[
+    bool,
+    typer.Option(
+        "--only-here",
+        help="A native FMU for this machine's instruction set and this scene: half the time to compile.",
+    ),
+]
 
 
 def named(platforms: str | None) -> list[str]:
@@ -42,6 +49,7 @@ def build(
     output: Output = None,
     flavour: Flavour = None,
     platforms: Platforms = None,
+    only_here: OnlyHere = False,
     catalogue: Catalogues = None,
     as_json: Json = False,
 ) -> None:
@@ -49,7 +57,7 @@ def build(
     from fmu_bearing.run.build import build_fmu
 
     with refusals():
-        built = build_fmu(scene, output, flavour, named(platforms), tell)
+        built = build_fmu(scene, output, flavour, named(platforms), tell, only_here)
     if as_json:
         print_json(asdict(built))
     else:

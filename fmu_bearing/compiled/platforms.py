@@ -3,11 +3,20 @@
 import os
 import platform as machine
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 from fmu_bearing.compiled.errors import BuildError
 
-__all__ = ["OWN", "PLATFORMS", "Platform", "host", "instruction_set", "own", "platform_named"]
+__all__ = [
+    "OWN",
+    "PLATFORMS",
+    "Platform",
+    "host",
+    "instruction_set",
+    "narrowed",
+    "own",
+    "platform_named",
+]
 
 # Levels of the x86-64 psABI: v2 (2009) is the least asked for, v3 (2015, AVX2) is used where it is there.
 _X86 = (("v2", "x86-64-v2"), ("v3", "x86-64-v3"))
@@ -35,7 +44,7 @@ class Platform:
     triple: str
     zig: str
     suffix: str
-    instruction_sets: tuple[tuple[str, str], ...] = _X86
+    instruction_sets: tuple[tuple[str, str], ...] = field(default=_X86, compare=False)
 
 
 PLATFORMS = {
@@ -105,3 +114,10 @@ def instruction_set(platform: Platform) -> str:
     needed = ("avx", "avx2", "bmi", "bmi2", "f16c", "fma", "lzcnt", "movbe")
     fits = all(features.get(one, False) for one in needed)
     return "v3" if fits and os.environ.get("FMU_BEARING_ISA") != "v2" else "v2"
+
+
+def narrowed(platform: Platform) -> Platform:
+    """Return this machine's platform with the newest instruction set alone, where the processor runs it."""
+    found = instruction_set(platform)
+    newest = platform.instruction_sets[-1]
+    return replace(platform, instruction_sets=(newest,)) if found == newest[0] else platform

@@ -12,7 +12,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from fmu_bearing.compiled import BuildError
-from fmu_bearing.compiled.platforms import PLATFORMS, host, platform_named
+from fmu_bearing.compiled.platforms import PLATFORMS, host, narrowed, platform_named
+from fmu_bearing.engine.layout import P
 from fmu_bearing.engine.sources import engine_digest
 from fmu_bearing.files import write_whole
 from fmu_bearing.fmi import documentation, resources
@@ -92,6 +93,7 @@ def build(
     flavour: str | None = None,
     platforms: Sequence[str] | None = None,
     tell: Tell = silent,
+    only_here: bool = False,
 ) -> BuiltFmu:
     """Write the FMU of a model.
 
@@ -110,6 +112,9 @@ def build(
         Platforms of a native FMU (names as in ``compiled.platforms.PLATFORMS``). Default: this machine's.
     tell : callable, optional
         Takes a line of text before work that takes minutes.
+    only_here : bool
+        A native FMU for this machine's instruction set, with no more equations than the scene needs: less to
+        compile. Results have the same bits.
 
     Returns
     -------
@@ -120,20 +125,21 @@ def build(
     OSError
         If the file cannot be written.
     ChoiceError
-        If there is no such flavour or platform, or platforms are named for a Python build.
+        If there is no such flavour or platform, or platforms are named for a Python build or one only for
+        here.
     BuildError
         If a library that was asked for cannot be made.
     """
     path = Path(output) if output is not None else Path(f"{identifier(model)}.fmu")
     if path.is_dir():
         raise IsADirectoryError(f"{path} is a folder: name the file to write")
-    check_choice(flavour, platforms)
+    check_choice(flavour, platforms, only_here)
     model = as_fmu_model(model)
     remarks: tuple[str, ...] = ()
     binaries: dict[str, bytes] = {}
     if flavour != "python":
         try:
-            binaries = _libraries(platforms, tell)
+            binaries = _library_here(model, tell) if only_here else _libraries(platforms, tell)
             flavour = "native"
         except BuildError as problem:
             if flavour == "native" or platforms:
@@ -166,7 +172,7 @@ class ChoiceError(ValueError):
     """An unknown flavour or platform."""
 
 
-def check_choice(flavour: str | None, platforms: Sequence[str] | None) -> None:
+def check_choice(flavour: str | None, platforms: Sequence[str] | None, only_here: bool = False) -> None:
     """Raise :class:`ChoiceError` unless an FMU of that flavour can be built for those platforms."""
     if flavour not in (None, *FLAVOURS):
         raise ChoiceError(f"there is no flavour '{flavour}': choose {' or '.join(FLAVOURS)}")
@@ -177,6 +183,19 @@ def check_choice(flavour: str | None, platforms: Sequence[str] | None) -> None:
             raise ChoiceError(str(unknown)) from None
     if flavour == "python" and platforms:
         raise ChoiceError("platforms cannot be chosen for a python build: it holds pythonfmu's libraries")
+    if platforms and only_here:
+        raise ChoiceError(
+            "an FMU only for here is for this machine: name no platforms, or leave out --only-here"
+        )
+
+
+def _library_here(model: "Model", tell: Tell) -> dict[str, bytes]:
+    """Return this machine's library that holds what a model needs."""
+    own = host()
+    if own is None:
+        raise BuildError("this machine is none of " + ", ".join(PLATFORMS))
+    units = "single" if model.parameters[P.ALONE] != 0.0 else "all"
+    return {own.name: library(narrowed(own), "auto", tell, units)}
 
 
 def _libraries(platforms: Sequence[str] | None, tell: Tell) -> dict[str, bytes]:

@@ -45,6 +45,7 @@ def build_fmu(
     flavour: str | None = None,
     platforms: Sequence[str] | None = None,
     tell: Tell = silent,
+    only_here: bool = False,
 ) -> BuiltFmu:
     """Write the FMU of a scene.
 
@@ -56,6 +57,8 @@ def build_fmu(
         As for :func:`fmu_bearing.fmi.package.build`.
     tell : callable, optional
         Takes a line of text before work that takes minutes, and the choice of fidelity ``auto``.
+    only_here : bool
+        As for :func:`fmu_bearing.fmi.package.build`.
 
     Returns
     -------
@@ -74,14 +77,14 @@ def build_fmu(
     >>> build_fmu(scene, "bearing.fmu", flavour="python").variables["input"]
     8
     """
-    check_choice(flavour, platforms)
+    check_choice(flavour, platforms, only_here)
     # refused before minutes of compiling
     if output is None:
         check_folder(".")
     else:
         check_file(output)
     model = source if isinstance(source, Model) else model_of(source, tell)
-    return build(model, None if output is None else os.fspath(output), flavour, platforms, tell)
+    return build(model, None if output is None else os.fspath(output), flavour, platforms, tell, only_here)
 
 
 def _doubt(scene: Scene) -> str:

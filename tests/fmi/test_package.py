@@ -18,7 +18,7 @@ from fmu_bearing.compiled.platforms import host
 from fmu_bearing.engine.layout import P
 from fmu_bearing.files import cache_root
 from fmu_bearing.fmi import resources
-from fmu_bearing.fmi.package import build
+from fmu_bearing.fmi.package import ChoiceError, build
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.scene import read_scene
 
@@ -93,6 +93,12 @@ def test_errors_take_one_line_and_exit_code_2(case, scene_file, tmp_path):
     assert len(built.stderr.strip().splitlines()) == 1, built.stderr
     assert "Traceback" not in built.stderr
     assert list(tmp_path.glob("*.fmu")) == []
+
+
+def test_an_fmu_only_for_here_takes_no_platforms(model, tmp_path):
+    with pytest.raises(ChoiceError, match="is for this machine: name no platforms"):
+        build(model, tmp_path / "bearing.fmu", platforms=["win64"], only_here=True)
+    assert list(tmp_path.iterdir()) == []
 
 
 COMMON = (

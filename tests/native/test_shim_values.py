@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, given, settings, strategies as st
 
-from .master import DISCARD, ERROR, OK, WARNING
-from .toy import IS_X86
+from .master import DISCARD, ERROR, OK, WARNING, Master, load
+from .toy import IS_X86, compile_library, write_model
 
 
 def test_starts_are_read_before_initialisation(master):
@@ -36,17 +36,45 @@ def test_kernels_get_the_lengths_of_the_arrays(master):
     assert master().start().get("sizes") == 3 + 4 + 5 + 7 + 2
 
 
-@pytest.mark.skipif(
-    not (IS_X86 and Path("/proc/cpuinfo").exists()), reason="needs x86-64 and Linux's list of what it can"
-)
-def test_instruction_set_is_chosen_when_an_instance_is_made(master, monkeypatch):
+def best_level():
+    """Level of x86-64 that this processor has."""
+    if not (IS_X86 and Path("/proc/cpuinfo").exists()):
+        pytest.skip("needs x86-64 and Linux's list of what it can")
     flags = f" {Path('/proc/cpuinfo').read_text()} "
-    best = 3 if all(f" {flag} " in flags for flag in ("avx2", "bmi2", "fma", "movbe", "abm")) else 2
+    return 3 if all(f" {flag} " in flags for flag in ("avx2", "bmi2", "fma", "movbe", "abm")) else 2
+
+
+def test_instruction_set_is_chosen_when_an_instance_is_made(master, monkeypatch):
+    best = best_level()
     assert master().start().get("mark", "Integer") == best
     monkeypatch.setenv("FMU_BEARING_ISA", "v2")
     assert master().start().get("mark", "Integer") == 2
     monkeypatch.setenv("FMU_BEARING_ISA", "v9")
     assert master().start().get("mark", "Integer") == best
+
+
+@pytest.fixture(scope="module")
+def narrow(compiler, tmp_path_factory):
+    """Functions of a library with the newer instruction set alone, for models whose p[1] is not zero."""
+    options = ("-DFB_NEWER_ONLY", "-DFB_ALONE=1")
+    return load(compile_library(tmp_path_factory.mktemp("narrow"), *options, compiler=(compiler,)))
+
+
+def test_library_with_one_instruction_set_takes_it_or_says_why_not(narrow, resources, monkeypatch):
+    monkeypatch.setenv("FMU_BEARING_ISA", "v2")
+    best = best_level()
+    one = Master(narrow, resources)
+    if best == 3:
+        assert one.start().get("mark", "Integer") == 3
+        one.free()
+    else:
+        assert "built for x86-64-v3 alone (AVX2), which this processor lacks" in one.messages
+
+
+def test_library_for_single_bearings_refuses_a_set(narrow, tmp_path):
+    one = Master(narrow, write_model(tmp_path, parameters=[1e-3, 0.0, 42.0]))
+    assert one.instance is None
+    assert "holds the equations of single bearings alone, and the model is a set" in one.messages
 
 
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, -1e-3, 1e4 + 1e-3])

@@ -19,6 +19,8 @@ from pathlib import Path
 from fmu_bearing.compiled import BuildError, disk_cache
 from fmu_bearing.compiled.make import folder, objects, prebuilt
 from fmu_bearing.compiled.platforms import Platform, host
+from fmu_bearing.compiled.units import SINGLE
+from fmu_bearing.engine.layout import P
 from fmu_bearing.engine.sources import digest, engine_digest
 from fmu_bearing.extras import install_command
 from fmu_bearing.files import own_folder
@@ -123,10 +125,20 @@ def _version(command: str) -> str:
     return ran.stdout.splitlines()[0] if ran.returncode == 0 and ran.stdout else command
 
 
-def library(platform: Platform, prefer: str = "auto", tell: Tell = silent) -> bytes:
+def library(platform: Platform, prefer: str = "auto", tell: Tell = silent, units: str = "all") -> bytes:
     """Shared library for a platform: from the wheel, from the cache, or made now.
 
     Where there is no compiler now, a cached library from another compiler is used.
+
+    Parameters
+    ----------
+    platform : Platform
+        With the instruction sets that the library holds (`platforms.narrowed`).
+    prefer : str
+        See `compiler_for`.
+    tell : callable, optional
+    units : str
+        ``all``: serves every scene; ``single``: single bearings alone.
 
     Raises
     ------
@@ -137,7 +149,8 @@ def library(platform: Platform, prefer: str = "auto", tell: Tell = silent) -> by
     """
     if prefer in ("auto", "portable") and (brought := prebuilt(library_name(platform))) is not None:
         return brought
-    made = own_folder(folder() / platform.name)
+    sets = "-".join(suffix for suffix, _ in platform.instruction_sets)
+    made = own_folder(folder() / f"{platform.name}-{sets}-{units}")
     try:
         compiler = compiler_for(platform, prefer)
     except BuildError:
@@ -152,17 +165,19 @@ def library(platform: Platform, prefer: str = "auto", tell: Tell = silent) -> by
     path = made / f"{_shim_key()}-{made_by}{platform.suffix}"
     data = disk_cache.read(path, tell)
     if data is None:
-        kernels = kernels_of(platform)
+        kernels = kernels_of(platform, units)
         tell(f"linking {platform.name} ({compiler.name})")
-        data = link(compiler, platform, shim_sources(), kernels, engine_digest().hex())
+        alone = units == "single"
+        data = link(compiler, platform, shim_sources(), kernels, engine_digest().hex(), alone)
         disk_cache.write(path, data, tell)
     return data
 
 
-def kernels_of(platform: Platform) -> list[bytes]:
-    """Object files of the kernels that a library of a platform holds."""
+def kernels_of(platform: Platform, units: str = "all") -> list[bytes]:
+    """Object files of the kernels that a library of a platform holds; ``units`` as for `library`."""
     sets = [suffix for suffix, _ in platform.instruction_sets]
-    return list(objects(platform, LINKED, sets).values())
+    linked = [SINGLE[unit] for unit in LINKED] if units == "single" else LINKED
+    return list(objects(platform, linked, sets).values())
 
 
 def library_name(platform: Platform) -> str:
@@ -175,11 +190,17 @@ def _shim_key() -> str:
 
 
 def link(
-    compiler: Compiler, platform: Platform, sources: Sequence[Path], kernels: Sequence[bytes], digest: str
+    compiler: Compiler,
+    platform: Platform,
+    sources: Sequence[Path],
+    kernels: Sequence[bytes],
+    digest: str,
+    alone: bool = False,
 ) -> bytes:
     """Compile C sources, link them with objects, and return the shared library.
 
-    ``digest`` (64 hex digits) names the equations of the objects; the library refuses models of others.
+    ``digest`` (64 hex digits) names the equations of the objects; the library refuses models of others, and
+    those of sets where the objects serve single bearings ``alone``.
 
     Raises
     ------
@@ -187,8 +208,11 @@ def link(
         With the messages of the compiler.
     """
     defines = [f'-DFB_KERNELS="{digest}"']
-    if len(platform.instruction_sets) > 1:
-        defines.append("-DFB_X86")
+    sets = dict(platform.instruction_sets)
+    if "v3" in sets:
+        defines += ["-DFB_X86"] if "v2" in sets else ["-DFB_X86", "-DFB_NEWER_ONLY"]
+    if alone:
+        defines.append(f"-DFB_ALONE={P.ALONE}")
     with tempfile.TemporaryDirectory() as temporary:
         made = Path(temporary) / f"bearing{platform.suffix}"
         files = [Path(temporary) / f"kernels{k}.o" for k in range(len(kernels))]

@@ -98,7 +98,7 @@ static int allocate(Instance *it, const char *name)
 /* Make an instance. */
 Instance *instance_new(Model *model, const Log *log, Text *why)
 {
-    const Kernels *kernels = kernels_choose(why);
+    const Kernels *kernels = kernels_choose(model->p, why);
     Instance *it = kernels ? calloc(1, sizeof *it) : NULL;
     const ModelHead *head = model->head;
     if (!kernels) return NULL;

@@ -9,16 +9,41 @@
 #define HIDDEN __attribute__((visibility("hidden")))
 #endif
 
+/* Whether the kernels serve a model with the parameters p. */
+static int serve(const double *p, Text *why)
+{
+#ifdef FB_ALONE
+    if (p[FB_ALONE] == 0.0) {
+        text_add(why, "this library holds the equations of single bearings alone, and the model is a set", NULL);
+        return 0;
+    }
+#endif
+    (void)p;
+    (void)why;
+    return 1;
+}
+
 #ifdef FB_X86
 #include <cpuid.h>
 
-HIDDEN KernelInit fb_init_v2, fb_init_v3;
-HIDDEN KernelStep fb_step_v2, fb_step_v3;
-HIDDEN KernelDerivative fb_derivative_v2, fb_derivative_v3;
-HIDDEN KernelOutputs fb_outputs_v2, fb_outputs_v3;
+HIDDEN KernelInit fb_init_v3;
+HIDDEN KernelStep fb_step_v3;
+HIDDEN KernelDerivative fb_derivative_v3;
+HIDDEN KernelOutputs fb_outputs_v3;
+
+static const Kernels V3 = {fb_init_v3, fb_step_v3, fb_derivative_v3, fb_outputs_v3};
+
+#ifdef FB_NEWER_ONLY
+static const Kernels *const OLDER = NULL;
+#else
+HIDDEN KernelInit fb_init_v2;
+HIDDEN KernelStep fb_step_v2;
+HIDDEN KernelDerivative fb_derivative_v2;
+HIDDEN KernelOutputs fb_outputs_v2;
 
 static const Kernels V2 = {fb_init_v2, fb_step_v2, fb_derivative_v2, fb_outputs_v2};
-static const Kernels V3 = {fb_init_v3, fb_step_v3, fb_derivative_v3, fb_outputs_v3};
+static const Kernels *const OLDER = &V2;
+#endif
 
 /* Whether all of some bits are set. */
 static int all(unsigned value, unsigned bits)
@@ -48,17 +73,22 @@ static int processor_level(void)
     return all(more, v3_more) && all(extended, bit_LZCNT) ? 3 : 2;
 }
 
-/* The kernels for this processor. */
-const Kernels *kernels_choose(Text *why)
+/* The kernels for this processor and a model with the parameters p. */
+const Kernels *kernels_choose(const double *p, Text *why)
 {
     const char *wanted = getenv("FMU_BEARING_ISA");
     int level = processor_level();
+    if (!serve(p, why)) return NULL;
     if (level < 2) {
         text_add(why, "this processor lacks instructions of x86-64-v2 (SSE4.2, POPCNT): nothing older can run "
                       "this library", NULL);
         return NULL;
     }
-    return level == 3 && !(wanted && strcmp(wanted, "v2") == 0) ? &V3 : &V2;
+    if (level < 3 && !OLDER) {
+        text_add(why, "this library was built for x86-64-v3 alone (AVX2), which this processor lacks", NULL);
+        return NULL;
+    }
+    return level < 3 || (OLDER && wanted && strcmp(wanted, "v2") == 0) ? OLDER : &V3;
 }
 
 #else
@@ -70,10 +100,9 @@ HIDDEN KernelOutputs fb_outputs_base;
 
 static const Kernels BASE = {fb_init_base, fb_step_base, fb_derivative_base, fb_outputs_base};
 
-/* The kernels for this processor: one set for all. */
-const Kernels *kernels_choose(Text *why)
+/* The kernels for a model with the parameters p: one set for all processors. */
+const Kernels *kernels_choose(const double *p, Text *why)
 {
-    (void)why;
-    return &BASE;
+    return serve(p, why) ? &BASE : NULL;
 }
 #endif

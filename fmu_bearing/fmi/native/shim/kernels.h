@@ -1,7 +1,9 @@
 /* The compiled equations: one set of entries per instruction set, chosen when an instance is made.
  *
  * The build defines FB_KERNELS, a string of 64 hexadecimal digits that names the equations, and FB_X86
- * where the library holds kernels for x86-64-v2 and x86-64-v3 rather than one set for any processor. */
+ * where the library holds kernels for x86-64-v2 and x86-64-v3 rather than one set for any processor. A library
+ * for few also has FB_NEWER_ONLY, where those for x86-64-v2 are left out, and FB_ALONE, where the kernels serve
+ * single bearings alone: the place in p of what tells them from sets. */
 #ifndef FB_KERNELS_H
 #define FB_KERNELS_H
 
@@ -27,7 +29,8 @@ typedef struct Kernels {
     KernelOutputs *outputs;
 } Kernels;
 
-/* The kernels for this processor, NULL with the reason if it is too old; FMU_BEARING_ISA=v2 takes v2. */
-const Kernels *kernels_choose(Text *why);
+/* The kernels for this processor and a model with the parameters p, or NULL with the reason; FMU_BEARING_ISA=v2
+ * takes v2 where it is there. */
+const Kernels *kernels_choose(const double *p, Text *why);
 
 #endif

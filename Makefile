@@ -15,7 +15,8 @@ OUT ?= out
 JOBS ?= 2
 
 BIN := $(VENV)/bin
-PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt
+# Not compiled by pip: Python compiles a module when it is first imported, most never are.
+PIP := $(BIN)/python -m pip install --quiet --no-compile --disable-pip-version-check --constraint constraints.txt
 SCENE := examples/scenes/7003C-spindle.toml
 SPINDLE := examples/spindle_cosimulation
 BEARING := $(OUT)/Bearing7003C.fmu
@@ -23,14 +24,13 @@ SOURCES := $(shell find fmu_bearing modelDescription -type f ! -name '*.pyc' 2>/
 
 # Two test workers on two cores: linear algebra libraries must not start threads of their own.
 test heavy lint soak papers: export OPENBLAS_NUM_THREADS = 1
-# Tests start some hundred processes: none of them has to compile the sources again, whatever the user's shell
-# says.
-test heavy lint soak: export PYTHONDONTWRITEBYTECODE =
+# No process has to compile sources again that one before it has imported, whatever the user's shell says.
+export PYTHONDONTWRITEBYTECODE =
 
 # .ci/run holds skipped tests against a list.
 SKIPS ?=
 
-.PHONY: demo test heavy lint soak bench papers docs kernels wheels clean
+.PHONY: demo test heavy lint soak bench papers docs kernels compiled wheels clean
 .DELETE_ON_ERROR:
 
 demo: $(BEARING) $(OUT)/SpindleMotor.fmu
@@ -38,7 +38,7 @@ demo: $(BEARING) $(OUT)/SpindleMotor.fmu
 
 $(BEARING): $(VENV)/.installed build_fmu.py $(SCENE) $(SOURCES)
 	@mkdir -p $(OUT)
-	$(BIN)/python build_fmu.py $(SCENE) -o $@
+	$(BIN)/python build_fmu.py $(SCENE) -o $@ --only-here
 
 # One call writes both, the motor last.
 $(OUT)/SpindleMotor.fmu: $(VENV)/.installed $(wildcard $(SPINDLE)/*.py $(SPINDLE)/native/*)
@@ -69,13 +69,11 @@ soak: kernels
 		test $$? -eq 124
 
 # A quarter of an hour of one core; on a machine that does nothing else.
-bench: $(VENV)/.installed-bench
-	$(BIN)/fmu-bearing warm-up
+bench: $(VENV)/.installed-bench compiled
 	$(BIN)/python -m benchmarks.run --output docs/results
 
 # Interrupted, it goes on from what is under out/papers.
-papers: $(VENV)/.installed
-	$(BIN)/fmu-bearing warm-up
+papers: compiled
 	$(BIN)/python -m examples.papers.run --jobs $(JOBS)
 
 # References are made from the code here, so it is installed too.
@@ -94,7 +92,11 @@ wheels: $(VENV)/.installed-test
 	done
 	$(BIN)/python -m pip wheel --quiet --no-deps --wheel-dir $(OUT)/wheels .
 
-kernels: $(VENV)/.installed-test
+# While pip installs the test tools, kernels are compiled with what is there: on two cores at the same time.
+kernels: $(VENV)/.installed
+	@$(MAKE) --no-print-directory -j 2 $(VENV)/.installed-test compiled
+
+compiled: $(VENV)/.installed
 	$(BIN)/fmu-bearing warm-up
 
 # Stamps: pip runs again only when the requirements change.
@@ -103,7 +105,7 @@ $(VENV)/.installed: pyproject.toml constraints.txt | $(BIN)/python
 	$(PIP) --editable ".[elastic,plots]"
 	@touch $@
 
-$(VENV)/.installed-test: pyproject.toml constraints.txt | $(BIN)/python
+$(VENV)/.installed-test: pyproject.toml constraints.txt | $(VENV)/.installed
 	$(PIP) --editable ".[test]"
 	@touch $@ $(VENV)/.installed
 

@@ -6,12 +6,10 @@ import stat
 import subprocess
 import sys
 import tempfile
-from pathlib import Path
 
 import pytest
 
 from fmu_bearing import files
-from fmu_bearing.acoustics.radiation.bem import integrals
 from fmu_bearing.compiled import disk_cache, make
 from fmu_bearing.compiled.platforms import own
 from fmu_bearing.files import CacheError, cache_root, own_folder, read_own
@@ -138,20 +136,6 @@ def test_the_command_line_says_so_in_one_line(place):
     ran = subprocess.run(command, capture_output=True, text=True, timeout=600)
     assert ran.returncode == 2
     assert ran.stderr.startswith(f"error: {place} is refused") and len(ran.stderr.splitlines()) == 1
-
-
-def test_boundary_elements_are_kept_there_too(place):
-    integrals._wrapped.cache_clear()
-    try:
-        kernel = integrals._compiled_once(integrals._static)
-        assert Path(kernel._cache.cache_path).is_relative_to(place / "integrals")
-        assert mode(place / "integrals") == 0o700
-        integrals._wrapped.cache_clear()
-        (place / "integrals").chmod(0o777)
-        with pytest.raises(CacheError, match="integrals is refused"):
-            integrals._compiled_once(integrals._static)
-    finally:
-        integrals._wrapped.cache_clear()
 
 
 def test_only_own_files_are_read(tmp_path):

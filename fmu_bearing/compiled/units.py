@@ -55,6 +55,8 @@ ENTRIES = {
     "held": Entry("study", "pucdgqw"),
     "answer_set": Entry("study", "psw", 1),
     "play": Entry("study", "pswmzr", 7),
+    "closed_part": Entry("study", "xoenfgcwr", 1),
+    "remainder": Entry("study", "xoengbdtwr", 1),
 }
 #: Entries that a simulation calls once: LLVM optimises them at its lowest level, without vectors of loops.
 #: They run as long as with the highest (2.2 ms for a bearing, 11.4 ms for a pair).
@@ -136,6 +138,7 @@ def _of_motion(kernel: Callable[..., Any]) -> Callable[..., Any]:
 def _study() -> dict[str, Callable[..., Any]]:
     from numba import carray
 
+    from fmu_bearing.engine.boundary_elements import closed_part as closed, remainder as rest
     from fmu_bearing.engine.fidelities.full import march as full
     from fmu_bearing.engine.layout import U
     from fmu_bearing.engine.mechanics import conditions as oil, equations
@@ -148,6 +151,7 @@ def _study() -> dict[str, Callable[..., Any]]:
     rk4, rows = explicit.runge_kutta, explicit.ROWS
     sound, at_displacement, conditions = playback.play, statics.held, oil.conditions
     speed, newton_of_set = U.SPEED, full.solve_at_state
+    at_all_frequencies, at_one = closed.closed_part, rest.remainder
     first, first_jacobian = rates.first_order, rates.first_order_jacobian
 
     def repeat(p, c, y, w, f, n, angle, speed, times):
@@ -203,6 +207,22 @@ def _study() -> dict[str, Callable[..., Any]]:
         )  # fmt: skip
         return 0
 
+    def closed_part(x, o, e, n, f, g, c, w, r, of, orders):
+        at_all_frequencies(
+            carray(x, (of[0],)), carray(o, (of[1],)), carray(e, (of[2],)), carray(n, (of[3],)),
+            carray(f, (of[4],)), carray(g, (of[5],)), carray(c, (of[6],)), carray(w, (of[7],)),
+            carray(r, (of[8],)), int(orders),
+        )  # fmt: skip
+        return 0
+
+    def remainder(x, o, e, n, g, b, d, t, w, r, of, k):
+        at_one(
+            carray(x, (of[0],)), carray(o, (of[1],)), carray(e, (of[2],)), carray(n, (of[3],)),
+            carray(g, (of[4],)), carray(b, (of[5],)), carray(d, (of[6],)), carray(t, (of[7],)),
+            carray(w, (of[8],)), carray(r, (of[9],)), k,
+        )  # fmt: skip
+        return 0
+
     return {
         "right_hand_side": _of_motion(rhs),
         "repeat": repeat,
@@ -214,4 +234,6 @@ def _study() -> dict[str, Callable[..., Any]]:
         "held": held,
         "answer_set": answer_set,
         "play": play,
+        "closed_part": closed_part,
+        "remainder": remainder,
     }

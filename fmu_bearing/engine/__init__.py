@@ -17,6 +17,7 @@
 ``readout``            from the state to outputs, losses and motion samples
 ``spindle``            bearings together: their shaft and housing, their joint equations, rest and sound
 ``fidelities``         how the state is stepped: full, rings, response
+``boundary_elements``  integrals over line elements of bodies of revolution, for sound
 ``reference``          explicit integration, first-order form and played sound, for comparison
 ``abi``                public entry points: ``init``, ``step``, ``outputs``
 =====================  =======================================================================

@@ -3,9 +3,7 @@
 ==================  =======================================================================
 ``meridian``        contours of bodies and their line elements
 ``bodies``          the bodies of a scene: rings, cage, housing, shaft
-``ring_potential``  harmonics of 1/R between two rings, in closed form
 ``integrals``       single and double layer potentials for all circumferential orders
-``remainder``       the smooth rest of the kernel, azimuths in rows
 ``solver``          the exterior Helmholtz problem, with CHIEF points and losses at the walls
 ``solution``        one scene's surface pressures over frequency, kept on disk; fields from them
 ``paths``           the radiation model ``bem``: from a scene's bodies to paths

@@ -6,9 +6,16 @@ import mpmath
 import numpy as np
 import pytest
 
-from fmu_bearing.acoustics.radiation.bem.ring_potential import elliptic, static_harmonics, toroidal
+from fmu_bearing.engine.boundary_elements.ring_potential import elliptic, static_harmonics, toroidal
 
 EXCESSES = (1e-9, 1e-4, 0.05, 0.099, 0.101, 1.0, 30.0, 3e3)
+
+
+def harmonics(dx, r, s, nx, ns, flat, orders):
+    """Harmonics of 1/R, of its derivative, of R and of its derivative, shape (4, orders)."""
+    work = np.zeros(5 * (orders + 2))
+    static_harmonics(dx, r, s, nx, ns, flat, orders, work)
+    return work.reshape(5, -1)[1:, :orders]
 
 
 @pytest.mark.parametrize("excess", EXCESSES)
@@ -35,9 +42,8 @@ def test_elliptic_integrals(complement):
 @pytest.mark.parametrize(("dx", "r", "s"), [(0.001, 0.0175, 0.017), (0.02, 0.05, 0.03), (-0.08, 0.105, 0.02)])
 def test_harmonics_against_the_integral(dx, r, s):
     orders = 9
-    found = [np.zeros(orders) for _ in range(4)]
     nx, ns = 0.6, -0.8
-    static_harmonics(dx, r, s, nx, ns, False, orders, np.zeros(orders + 2), *found)
+    found = harmonics(dx, r, s, nx, ns, False, orders)
     phi = 2.0 * math.pi * np.arange(4096) / 4096  # exact: the nearest approach is 1 mm at 17 mm radius
     distance = np.sqrt(dx**2 + (s - r) ** 2 + 2.0 * r * s * (1.0 - np.cos(phi)))
     along = (nx * dx + ns * (s - r * np.cos(phi))) / distance
@@ -49,7 +55,6 @@ def test_harmonics_against_the_integral(dx, r, s):
 def test_a_point_on_its_own_element_has_no_normal_distance():
     """The double layer of a straight element on itself stays finite: only curvature acts."""
     orders = 2
-    found = [np.zeros(orders) for _ in range(4)]
-    static_harmonics(1e-9, 0.02, 0.02, 0.0, 1.0, True, orders, np.zeros(orders + 2), *found)
+    found = harmonics(1e-9, 0.02, 0.02, 0.0, 1.0, True, orders)
     # A^2 times the harmonic of 1/R^3 tends to 2 / r
     assert found[1][0] == pytest.approx(-0.5 / 0.02 * (found[0][0] - 2.0 / 0.02), rel=1e-6)

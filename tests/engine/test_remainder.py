@@ -1,11 +1,13 @@
-"""Smooth rest of the kernel in rows of azimuths against one azimuth at a time, with the library's sine."""
+"""Rest of the boundary elements' kernel, four azimuths at a time, against one at a time with libm's sine."""
 
 import numpy as np
 import pytest
 
-from fmu_bearing.acoustics.radiation.bem.integrals import _basis, _compiled_once as compiled_once, _gauss
+from fmu_bearing.acoustics.radiation.bem.integrals import _azimuths, _basis, _gauss
 from fmu_bearing.acoustics.radiation.bem.meridian import cylinder, mesh_of, ring
-from fmu_bearing.acoustics.radiation.bem.remainder import _terms, remainder
+from fmu_bearing.compiled.load import call
+from fmu_bearing.engine.boundary_elements.remainder import ROWS, terms
+from tests.engine import ahead
 from tests.oracles import bem_remainder
 
 #: Rings half a millimetre apart, a shaft that reaches the axis: elements side by side and on one corner.
@@ -20,16 +22,17 @@ MESH = mesh_of(BODIES, 0.004)
 def both(points, own, k, orders, turns):
     """Return the fast and the slow answer, shape (2, orders, points, elements * 2)."""
     rule = _gauss(3)
+    basis = _basis(rule[0])
+    fast, slow = (np.zeros((2, orders, len(points), 2 * len(MESH.ends)), dtype=complex) for _ in range(2))
+    less, weights = _azimuths(orders, turns)
+    given = (points, own.astype(float), MESH.ends, MESH.normals, rule, basis, less, weights)
+    call("remainder", *given, np.zeros(ROWS * len(less)), fast.view(float), k)
     cosines = np.cos(np.arange(max(orders, 2))[:, None] * np.pi * np.arange(turns + 1) / turns)
-    found = []
-    for function in (compiled_once(remainder), bem_remainder.remainder):
-        out = np.zeros((2, orders, len(points), 2 * len(MESH.ends)), dtype=complex)
-        function(points, own, MESH.ends, MESH.normals, rule, _basis(rule[0]), cosines, k, out)
-        found.append(out)
-    return found
+    bem_remainder.remainder(points, own, MESH.ends, MESH.normals, rule, basis, cosines, k, slow)
+    return fast, slow
 
 
-@pytest.mark.parametrize("turns", [11, 23, 24, 60])  # full rows of eight, and rows that are filled up
+@pytest.mark.parametrize("turns", [11, 23, 24, 60])  # full rows of four, and rows that are filled up
 @pytest.mark.parametrize(
     ("k", "allowed"), [(0.37, 1e-12), (20.0, 1e-13), (110.0, 1e-13), (406.0, 1e-13), (4000.0, 1e-13)]
 )
@@ -55,12 +58,18 @@ def test_rows_of_azimuths_give_the_slow_answer(k, allowed, turns, orders):
         assert np.abs(fast[layer] - slow[layer]).max() < allowed * largest
 
 
+def filled(k, a2, twice, less, normal, lift):
+    """Four rows of the remainder at azimuths, one behind the other."""
+    rows = np.zeros(ROWS * len(less))
+    terms(k, a2, twice, normal, lift, less, rows)
+    return rows.reshape(ROWS, -1)
+
+
 def test_sine_and_cosine_over_all_quarters():
     """At distances of 1 m and beyond, k R up to 2000: 2e-16 for sine and cosine, and z to rounding."""
     count = 40_000
     less = np.linspace(0.0, 4e6, count)  # (k R)^2 for a2 = 0, 2 r r' = 1
-    rows = np.zeros((4, count))
-    _terms(1.0, 0.0, 1.0, less, 0.0, 0.0, *rows)
+    rows = filled(1.0, 0.0, 1.0, less, 0.0, 0.0)
     z = np.sqrt(less)
     sine = -rows[1] * z  # of the imaginary part, sin(z) / R
     ordinary = z > 0.02
@@ -75,8 +84,15 @@ def test_sine_and_cosine_over_all_quarters():
 
 def test_no_distance_at_all():
     """A point that meets a source: finite, as in the slow version."""
-    rows = np.zeros((4, 8))
-    _terms(100.0, 0.0, 1e-4, np.zeros(8), 0.0, 1e-3, *rows)
+    rows = filled(100.0, 0.0, 1e-4, np.zeros(8), 0.0, 1e-3)
     assert rows[0] == pytest.approx(0.0)
     assert rows[1] == pytest.approx(-100.0)
     assert rows[2:] == pytest.approx(0.0)
+
+
+def test_four_azimuths_are_vector_code_on_every_processor():
+    """26 multiplications of sine and cosine and 20 around them; four sums have another four."""
+    found = ahead.assembly("fmu_bearing.engine.boundary_elements.remainder", "terms", "ddddda" + "a")
+    assert ahead.count(found["x86-64-v3"], r"vmulpd\s.*ymm") >= 35
+    assert ahead.count(found["x86-64-v3"], r"vsqrtpd\s.*ymm")
+    assert not ahead.count(found["x86-64-v3"], "vsqrtsd")

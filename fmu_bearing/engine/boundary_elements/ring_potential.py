@@ -11,7 +11,7 @@ are toroidal (Legendre) functions. Source: Cohl and Tohline (1999, eqs. 12 to 19
 
 import math
 
-import numba
+from fmu_bearing.engine.jit import kernel
 
 MAX_ORDER = 16
 _FORWARD = 1.1  # below this chi the upward recurrence loses less than three digits up to order 16
@@ -19,7 +19,7 @@ _DIGITS = 40.0  # the downward recurrence begins exp(-40) below the wanted order
 _AGM_STEPS = 40
 
 
-@numba.njit(nogil=True, error_model="numpy")
+@kernel
 def elliptic(complement):
     """Complete elliptic integrals K and E of the parameter 1 - ``complement``, by the arithmetic mean."""
     a = 1.0
@@ -38,7 +38,7 @@ def elliptic(complement):
     return k, k * (1.0 - total)
 
 
-@numba.njit(nogil=True, error_model="numpy")
+@kernel
 def toroidal(excess, highest, q):
     """Fill ``q[0 .. highest]`` with Q_{m-1/2}(1 + ``excess``), ``excess`` > 0."""
     chi = 1.0 + excess
@@ -72,30 +72,30 @@ def toroidal(excess, highest, q):
         q[m] *= scale
 
 
-@numba.njit(nogil=True, error_model="numpy")
-def static_harmonics(dx, r, s, nx, ns, flat, orders, q, single, double, far_single, far_double):
+@kernel
+def static_harmonics(dx, r, s, nx, ns, flat, orders, w):
     """Harmonics of 1/R and R, and of their derivatives along the source's normal (nx, ns).
 
-    ``dx`` = x' - x, ``r`` and ``s`` the radii of field and source point; ``flat``: the field point lies on
-    the source's own straight element, where the normal component of the distance is nil. Orders
-    0 .. ``orders`` - 1 go to ``single`` (1/R), ``double`` (its derivative), ``far_single`` (R) and
-    ``far_double``; ``q`` is scratch of ``orders`` + 1 numbers.
+    ``dx`` = x' - x, ``r`` and ``s`` the radii of field and source point (m); ``flat``: the field point is on
+    the source's own straight element, where the normal component of the distance is nil. Five rows of
+    ``orders`` + 2 numbers of ``w``: scratch, then orders 0 .. ``orders`` - 1 of 1/R, of its derivative, of R
+    and of its derivative.
     """
+    row = orders + 2
     a2 = dx * dx + (s - r) * (s - r)
     rs = r * s
     excess = a2 / (2.0 * rs)
-    toroidal(excess, orders, q)
+    toroidal(excess, orders, w)
     scale = 2.0 / math.sqrt(rs)
     chi = 1.0 + excess
     slope = -scale / (rs * excess * (2.0 + excess))
     normal = 0.0 if flat else nx * dx + ns * (s - r)
     for m in range(orders):
-        here = scale * q[m]
-        before = scale * q[abs(m - 1)]
-        after = scale * q[m + 1]
-        cubed = slope * (m - 0.5) * (chi * q[m] - q[abs(m - 1)])  # harmonics of 1/R^3
-        less = here - 0.5 * (before + after)  # harmonics of (1 - cos phi) / R
-        single[m] = here
-        double[m] = -(normal * cubed + 0.5 * ns / s * (here - a2 * cubed))
-        far_single[m] = a2 * here + 2.0 * rs * less
-        far_double[m] = normal * here + ns * r * less
+        below = w[1] if m == 0 else w[m - 1]  # of the order |m - 1|
+        here = scale * w[m]
+        cubed = slope * (m - 0.5) * (chi * w[m] - below)  # harmonics of 1/R^3
+        less = here - 0.5 * scale * (below + w[m + 1])  # harmonics of (1 - cos phi) / R
+        w[row + m] = here
+        w[2 * row + m] = -(normal * cubed + 0.5 * ns / s * (here - a2 * cubed))
+        w[3 * row + m] = a2 * here + 2.0 * rs * less
+        w[4 * row + m] = normal * here + ns * r * less

@@ -1,6 +1,7 @@
 # make demo    install, build the FMU, run the spindle co-simulation; results under out/
 # make test    install with test tools and run the tests that take seconds
 # make heavy   the tests that take minutes
+# make bits    compare the bits of kernels compiled in all ways; after a change in compiled/ or fmi/native/
 # make lint    style, format, types, imports and the site, checked by their tools
 # make soak    random walks with other draws for half an hour (SOAK=1800 s)
 # make bench   time the fidelities beside other programs; writes docs/results/benchmark.md and .csv
@@ -23,14 +24,14 @@ BEARING := $(OUT)/Bearing7003C.fmu
 SOURCES := $(shell find fmu_bearing modelDescription -type f ! -name '*.pyc' 2>/dev/null)
 
 # Two test workers on two cores: linear algebra libraries must not start threads of their own.
-test heavy lint soak papers: export OPENBLAS_NUM_THREADS = 1
+test heavy bits lint soak papers: export OPENBLAS_NUM_THREADS = 1
 # No process has to compile sources again that one before it has imported, whatever the user's shell says.
 export PYTHONDONTWRITEBYTECODE =
 
 # .ci/run holds skipped tests against a list.
 SKIPS ?=
 
-.PHONY: demo test heavy lint soak bench papers docs kernels compiled wheels clean
+.PHONY: demo test heavy bits lint soak bench papers docs kernels compiled wheels clean
 .DELETE_ON_ERROR:
 
 demo: $(BEARING) $(OUT)/SpindleMotor.fmu
@@ -51,12 +52,16 @@ $(OUT)/SpindleMotor.fmu: $(VENV)/.installed $(wildcard $(SPINDLE)/*.py $(SPINDLE
 # took longest go first (tests/order.py); TIMES=--measure-times measures them again.
 TIMES ?=
 test: kernels
-	$(BIN)/python -m pytest -n $(JOBS) --dist loadfile --no-loadscope-reorder -m "not heavy and not lint" \
+	$(BIN)/python -m pytest -n $(JOBS) --dist loadfile --no-loadscope-reorder -m "not heavy and not bits and not lint" \
 		--times tests/times/quick.txt $(TIMES) $(SKIPS)
 
 heavy: kernels
 	$(BIN)/python -m pytest -n $(JOBS) --dist loadfile --no-loadscope-reorder -m heavy \
 		--times tests/times/heavy.txt $(TIMES) $(SKIPS)
+
+# One worker: the compilers that it starts go side by side.
+bits: kernels
+	$(BIN)/python -m pytest -m bits $(SKIPS)
 
 lint: $(VENV)/.installed-test
 	$(BIN)/python -m pytest -n $(JOBS) -m lint $(SKIPS)

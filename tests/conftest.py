@@ -19,15 +19,16 @@ hypothesis.settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "fixed"))
 ROOT = pathlib.Path(__file__).parents[1]
 #: Gates of all kinds run on these: every value is written out, so that a better default moves no gate.
 GATES = ROOT / "tests" / "scenes" / "gates"
-HEAVY_TIMEOUT = 3000  # s: one of them compiles the plain way, five minutes of a processor
+HEAVY_TIMEOUT = 3000  # s: one of them compiles the plain way, some minutes of two processors
 #: For tests of the examples themselves, of the documentation and of the catalogue.
 EXAMPLES = ROOT / "examples" / "scenes"
 
 
 def pytest_collection_modifyitems(items):
-    """Give heavy tests more time."""
+    """Give those of minutes more time."""
     for item in items:
-        if item.get_closest_marker("heavy") and not item.get_closest_marker("timeout"):
+        slow = item.get_closest_marker("heavy") or item.get_closest_marker("bits")
+        if slow and not item.get_closest_marker("timeout"):
             item.add_marker(pytest.mark.timeout(HEAVY_TIMEOUT))
 
 

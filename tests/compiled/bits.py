@@ -1,6 +1,7 @@
-"""What every entry computes, as digests: run as ``python -m tests.compiled.bits [FOLDER]``.
+"""What every entry computes, as digests: run as ``python -m tests.compiled.bits [FOLDER | single]``.
 
 With a folder, its ``step.o``, ``init.o`` and ``study.o`` are loaded instead of the package's own objects.
+With ``single``, units for single bearings alone compute the cases that they serve.
 """
 
 import hashlib
@@ -131,22 +132,29 @@ def _play(scene, sound: str) -> str:
     return _digest(z, pressures, ss)
 
 
+def singles() -> Iterator[tuple[str, str]]:
+    """Name and digest of each case of a single bearing that units for those alone can compute."""
+    single, bare = read_scene(SINGLE), read_scene(GATES / "7003C-bare.toml")
+    for fidelity in FIDELITIES:
+        choice = {"fidelity.model": fidelity}
+        yield f"single {fidelity}", _steps(_ran(single.replace(choice)))
+        yield f"compact {fidelity}", _steps(_ran(bare.replace(choice), "compact"))
+    yield "bem full", _steps(_ran(bare, "bem"))
+    for name in ("7009C-steel", "7009C-full-ceramic", "7003C-impact"):
+        yield name, _steps(_ran(read_scene(GATES / f"{name}.toml")))
+
+
 def digests() -> Iterator[tuple[str, str]]:
     """Name and digest of each case."""
+    yield from singles()
     single, pair, port = map(read_scene, (SINGLE, PAIR, PORT))
     bare = read_scene(GATES / "7003C-bare.toml")
     for fidelity in FIDELITIES:
-        choice = {"fidelity.model": fidelity}
-        for name, scene in (("single", single), ("pair", pair)):
-            yield f"{name} {fidelity}", _steps(_ran(scene.replace(choice)))
-        yield f"compact {fidelity}", _steps(_ran(bare.replace(choice), "compact"))
-    yield "bem full", _steps(_ran(bare, "bem"))
+        yield f"pair {fidelity}", _steps(_ran(pair.replace({"fidelity.model": fidelity})))
     yield "pair compact full", _steps(_ran(pair.model_copy(update={"sound": bare.sound}), "compact"))
     yield "four full", _steps(_ran(read_scene(FOUR)))
     yield "port full", _steps(_ran(port.replace({"fidelity.model": "full"})))
     yield "derivative full", _port(port.replace({"fidelity.model": "full"}))
-    for name in ("7009C-steel", "7009C-full-ceramic", "7003C-impact"):
-        yield name, _steps(_ran(read_scene(GATES / f"{name}.toml")))
     yield from _study(single)
     yield "answer_set", _answer_set(pair)
     for sound in ("compact", "bem"):
@@ -155,12 +163,15 @@ def digests() -> Iterator[tuple[str, str]]:
 
 def main() -> None:
     """Print the digests, one case a line."""
-    folders = sys.argv[1:]
-    if folders:
+    cases, choice = digests, sys.argv[1:]
+    load.kept = lambda platform, units, suffix: choice != ["single"]
+    if choice == ["single"]:
+        cases = singles
+    elif choice:
         load.objects = lambda platform, units, sets: {
-            (unit, one): Path(folders[0], f"{unit}.o").read_bytes() for unit in units for one in sets
+            (unit, one): Path(choice[0], f"{unit}.o").read_bytes() for unit in units for one in sets
         }
-    for name, found in digests():
+    for name, found in cases():
         print(f"{found} {name}", flush=True)
 
 

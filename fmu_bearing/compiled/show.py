@@ -1,4 +1,4 @@
-"""Progress of a compilation: a bar on a terminal, lines in a log, on standard error."""
+"""Progress of long work: a bar on a terminal, lines in a log, on standard error."""
 
 import sys
 import time
@@ -11,15 +11,17 @@ _PAUSE = 10.0  # s between two lines in a log
 
 
 class Display:
-    """Shows what is compiled, how far it is and how long it has taken.
+    """Shows what is done, how far it is and how long it has taken.
 
     Parameters
     ----------
     what : str
+    steady : bool
+        Whether the part that is done grows evenly, so that the time of the rest can be shown.
     """
 
-    def __init__(self, what: str) -> None:
-        self.what = what
+    def __init__(self, what: str, steady: bool = False) -> None:
+        self.what, self.steady = what, steady
         self._begin = self._told = time.monotonic()
         self._bar: Any = None
 
@@ -43,11 +45,13 @@ class Display:
     def at(self, done: float) -> None:
         """Show the part (0 to 1) that is done."""
         now = time.monotonic()
+        past = now - self._begin
+        rest = f", about {past * (1.0 / done - 1.0):.0f} s more" if self.steady and done > 0.0 else ""
         if self._bar is not None:
-            self._bar.update(self._task, completed=done)
+            self._bar.update(self._task, completed=done, description=self.what + rest)
         elif now - self._told >= _PAUSE:
             self._told = now
-            self.tell(f"{self.what}: {done:.0%} after {now - self._begin:.0f} s")
+            self.tell(f"{self.what}: {done:.0%} after {past:.0f} s{rest}")
 
     def tell(self, text: str) -> None:
         """Show a line."""

@@ -4,7 +4,7 @@ import functools
 import hashlib
 import io
 import json
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import scipy
@@ -22,8 +22,9 @@ __all__ = ["sound_block", "sound_blocks", "sound_key"]
 
 #: Packages whose code computes the numbers, beside the engine.
 _ROOMS = ("acoustics", "elastic", "formulas", "prepare", "scene")
-#: Parts of a scene that its sound block depends on, with one number of its fidelity.
-_PARTS = {"bearing", "materials", "mounting", "sound", "microphones"}
+#: Parts of a scene that its sound block depends on, with microphones' places and one number of its fidelity.
+_PARTS: Any = {"bearing": True, "materials": True, "mounting": {"rotor", "housing", "flexure"}, "sound": True}
+_LEFT_OUT: Any = {"sound": {"microphone", "circle"}}  # names of microphones
 
 
 def sound_parameters(scene: Scene, housing: "Housing | None" = None) -> NDArray[np.float64]:
@@ -108,8 +109,9 @@ def sound_key(scene: Scene) -> str:
 
 
 def _key(scene: Scene, housing: "Housing | None" = None) -> str:
-    parts = scene.model_dump(mode="json", include=_PARTS)
-    digest = hashlib.sha256(json.dumps(parts, sort_keys=True).encode())
+    parts = scene.model_dump(mode="json", include=_PARTS, exclude=_LEFT_OUT)
+    places = [list(place) for _, place in scene.microphones]
+    digest = hashlib.sha256(json.dumps([parts, places], sort_keys=True).encode())
     digest.update(f"{scene.fidelity.ball_harmonics} {_code()}".encode())
     if housing is not None:
         digest.update(repr(housing).encode())

@@ -47,6 +47,17 @@ def test_a_log_gets_lines(monkeypatch):
     ]
 
 
+def test_the_time_of_the_rest_is_shown_where_work_is_even(monkeypatch):
+    log, now = io.StringIO(), [100.0]
+    monkeypatch.setattr(show.sys, "stderr", log)
+    monkeypatch.setattr(show.time, "monotonic", lambda: now[0])
+    with show.Display("solving", steady=True) as display:
+        display.at(0.0)
+        now[0] = 112.0
+        display.at(0.4)
+    assert log.getvalue().splitlines()[1] == "solving: 40% after 12 s, about 18 s more"
+
+
 def test_a_terminal_gets_a_bar(monkeypatch):
     terminal = Terminal()
     monkeypatch.setattr(show.sys, "stderr", terminal)

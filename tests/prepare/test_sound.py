@@ -38,8 +38,17 @@ def test_what_does_not_sound_does_not_matter(made, scene):
     first = sound.sound_block(spindle)
     again = sound.sound_block(changed(spindle, "operation", speed_rpm=5000.0))
     assert len(made) == 1 and np.array_equal(again, first)
+    sound.sound_block(changed(spindle, "mounting", preload_N=200.0, pedestal_stiffness_N_m=3e7))
+    renamed = tuple(
+        one.model_copy(update={"name": f"M{i}"}) for i, one in enumerate(spindle.sound.microphone)
+    )
+    sound.sound_block(changed(spindle, "sound", microphone=renamed))
+    assert len(made) == 1
+    moved = tuple(one.model_copy(update={"x_mm": one.x_mm + 10.0}) for one in spindle.sound.microphone)
+    sound.sound_block(changed(spindle, "sound", microphone=moved))
+    assert len(made) == 2
     lighter = sound.sound_block(changed(spindle, "sound", air_density_kg_m3=0.6))
-    assert len(made) == 2 and not np.array_equal(lighter, first)
+    assert len(made) == 3 and not np.array_equal(lighter, first)
 
 
 def test_a_damaged_block_is_made_again(made, scene, tmp_path):

@@ -9,8 +9,10 @@ import pytest
 from fmu_bearing.acoustics.filters.fir import fit
 from fmu_bearing.acoustics.radiation import sources
 from fmu_bearing.acoustics.radiation.bem import solution as solved
+from fmu_bearing.acoustics.radiation.bem.band import Band
 from fmu_bearing.acoustics.radiation.bem.bodies import bodies_of
 from fmu_bearing.acoustics.radiation.bem.paths import bem_paths, task_of
+from fmu_bearing.acoustics.radiation.bem.task import BODIES, RADIAL, TILT
 from fmu_bearing.acoustics.radiation.circle import MicrophoneCircle, check_outside
 from fmu_bearing.acoustics.radiation.compact import compact_paths
 from fmu_bearing.acoustics.radiation.frequencies import fit_frequencies
@@ -54,12 +56,12 @@ def test_channels_components_and_weights(paths):
 def test_interpolation_between_solved_frequencies(paths):
     """At 7,333 Hz, solved again: -45 dB of each component's strongest path there."""
     frequency = 7333.0
-    band = solved.Band(task_of(BARE, AIR, HARMONICS), [frequency, 20_000.0])  # the mesh of the upper band
+    band = Band(task_of(BARE, AIR, HARMONICS), [frequency, 20_000.0])  # the mesh of the upper band
     band.surface[0] = band.solve(frequency)
-    exact = band.field(np.array([[0.02, 0.105]]))[0, :, 0]
+    exact = AIR.density * band.field(np.array([[0.02, 0.105]]))[0, :, 0]
     f = fit_frequencies()
     drives = {0: 0, 3: 1, 2: 3, 5: 4, 9: 6, 11: 7}
-    size = max(abs(exact[drive]) for drive in drives.values() if drive < solved.TILT)
+    size = max(abs(exact[drive]) for drive in drives.values() if drive < TILT)
     for channel, drive in drives.items():
         path = paths[channel]
         still = path.response * np.exp(2j * np.pi * f * path.flight)
@@ -99,9 +101,9 @@ def test_housing_moves_as_its_compact_twin_at_low_frequency():
     assert [body.name for body in bodies] == ["housing"]
     assert set(bodies[0].sides) == {INNER, OUTER}
     task = dataclasses.replace(task_of(radiators, AIR, 0), orbit=0.0)
-    band = solved.Band(task, [200.0])
+    band = Band(task, [200.0])
     band.surface[0] = band.solve(200.0)
-    found = abs(band.field(np.array([[0.0, 0.105]]))[0, solved.RADIAL + OUTER, 0])
+    found = AIR.density * abs(band.field(np.array([[0.0, 0.105]]))[0, RADIAL + OUTER, 0])
     twin = compact_paths(radiators, AIR, MicrophoneCircle(0.105, 0.0, [0.0]), 0)
     exact = abs(at_frequency(next(path for path in twin if path.channel == SD.C_OUTER + 2), 200.0))
     assert abs(20.0 * np.log10(found / exact)) < 1.1
@@ -128,15 +130,15 @@ def test_flexural_shape_radiates_through_its_normal_part():
     shape = np.tile([0.0, 1.0, -1.0], (len(points), 1))
     mode = types.SimpleNamespace(body=OUTER, order=1, skin_points=points, skin_shape=shape)
     task = task_of(BARE, AIR, 0, (mode,))
-    band = solved.Band(dataclasses.replace(task, orbit=0.0), [3000.0])
+    band = Band(dataclasses.replace(task, orbit=0.0), [3000.0])
     band.surface[0] = band.solve(3000.0)
     received = band.field(np.array([[0.0, 0.105]]))[0, :, 0]
-    assert received[3 * solved.BODIES] == pytest.approx(received[solved.RADIAL + OUTER], rel=1e-9)
+    assert received[3 * BODIES] == pytest.approx(received[RADIAL + OUTER], rel=1e-9)
 
 
 @pytest.fixture
 def short(monkeypatch, tmp_path):
-    """A cache of its own, and few frequencies."""
+    """A cache of its own, and narrow bands."""
     monkeypatch.setenv("FMU_BEARING_CACHE", str(tmp_path))
     monkeypatch.setattr(
         solved, "BASE_FREQUENCIES", ((20.0, 500.0, 1000.0, 1500.0), (1500.0, 1750.0, 2000.0, 2250.0))
@@ -146,24 +148,38 @@ def short(monkeypatch, tmp_path):
     solved._remembered.cache_clear()
 
 
+POINTS, WANTED = np.array([[0.0, 0.105], [0.1, 0.02]]), np.array([20.0, 777.0, 1500.0, 1501.0, 2250.0])
+
+
 def test_solutions_are_kept_on_disk_and_damaged_ones_made_again(short, monkeypatch):
     task = dataclasses.replace(task_of(BARE, AIR, 0), orbit=0.0)
     first = solved.solution(task)
-    points = np.array([[0.0, 0.105]])
-    received = first.field(points)
+    received = first.transfer(POINTS, WANTED)
     assert solved.solution(task) is first
     (kept,) = (short / "sound").glob("*.npz")
     solved._remembered.cache_clear()
     with monkeypatch.context() as patch:
-        patch.setattr(solved.Band, "solve", lambda *_: pytest.fail("solved although a solution is kept"))
+        patch.setattr(Band, "solve", lambda *_: pytest.fail("solved although a solution is kept"))
         again = solved.solution(task)
-    assert np.array_equal(again.field(points), received)
+    assert np.array_equal(again.transfer(POINTS, WANTED), received)
     solved._remembered.cache_clear()
     kept.write_bytes(kept.read_bytes()[:1000])
-    assert np.array_equal(solved.solution(task).field(points), received)
-    assert np.all(np.diff(first.frequencies) > 0.0)
+    assert np.array_equal(solved.solution(task).transfer(POINTS, WANTED), received)
     other = dataclasses.replace(task, sound_speed=343.0)
     assert other.key() != task.key()
+
+
+def test_air_names_and_microphones_share_one_solution(short, monkeypatch):
+    """What bodies and speed of sound do not depend on solves nothing again; pressures follow the density."""
+    circle = MicrophoneCircle(0.105, 0.02, [0.0])
+    first = bem_paths(BARE, AIR, circle, 1)
+    solved._remembered.cache_clear()
+    monkeypatch.setattr(Band, "solve", lambda *_: pytest.fail("solved again"))
+    renamed = dataclasses.replace(AIR, density=1.1)
+    for path, lighter in zip(first, bem_paths(BARE, renamed, circle, 1), strict=True):
+        assert lighter.response == pytest.approx(path.response * 1.1 / 1.225, rel=1e-12)
+    bem_paths(BARE, AIR, MicrophoneCircle(0.3, -0.1, [1.0]), 1)
+    assert len(list((short / "sound").glob("*.npz"))) == 1
 
 
 def test_refusals():
@@ -185,4 +201,4 @@ def test_refusals():
         bem_paths(BARE, AIR, MicrophoneCircle(0.105, 0.03, [0.0]), HARMONICS, plane=0.02)
     with pytest.raises(ValueError, match="does not hold the bearing"):
         bodies_of(dataclasses.replace(BARE, housing=Housing(0.06, 0.05, 0.2)))
-    assert CAGE == solved.BODIES - 1  # the cage is the last of the bodies: its nodes are left out for balls
+    assert CAGE == BODIES - 1  # the cage is the last of the bodies: its nodes are left out for balls

@@ -4,20 +4,12 @@ from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 
 from fmu_bearing.acoustics.radiation import sources
 from fmu_bearing.acoustics.radiation.bem.bodies import bodies_of
 from fmu_bearing.acoustics.radiation.bem.meridian import Body
-from fmu_bearing.acoustics.radiation.bem.solution import (
-    AXIAL,
-    BODIES,
-    RADIAL,
-    TILT,
-    Task,
-    shapes_of,
-    solution,
-)
+from fmu_bearing.acoustics.radiation.bem.solution import solution
+from fmu_bearing.acoustics.radiation.bem.task import AXIAL, BODIES, RADIAL, TILT, Task, shapes_of
 from fmu_bearing.acoustics.radiation.circle import (
     SKIN,
     MicrophoneCircle,
@@ -43,7 +35,7 @@ def task_of(
     bodies = tuple(bodies_of(radiators))
     if radiators.baffle:
         wall = float(bodies[0].contour[0, 0])
-        return Task(bodies, air.sound_speed, air.density, 0.0, 0, (), wall, True)
+        return Task(bodies, air.sound_speed, 0.0, 0, (), wall, True)
     if plane is not None:
         for body in bodies:
             low, high = body.contour[:, 0].min(), body.contour[:, 0].max()
@@ -53,7 +45,7 @@ def task_of(
                     f"{1e3 * high:g} mm: move sound.reflecting_plane_mm beyond it"
                 )
     orbit = 0.5 * radiators.pitch_diameter
-    return Task(bodies, air.sound_speed, air.density, orbit, harmonics, shapes_of(modes), plane)
+    return Task(bodies, air.sound_speed, orbit, harmonics, shapes_of(modes), plane)
 
 
 def bem_paths(
@@ -85,13 +77,10 @@ def bem_paths(
     task = task_of(radiators, air, harmonics, modes, plane)
     _check_outside(task, circle)
     solved = solution(task)
-    here = (circle.axial, circle.radius)
-    field = solved.field(np.array([here]))[0]
-    nearest = float(np.hypot(*(solved.points - here).T).min())
-    flight = nearest / air.sound_speed
-    field *= np.exp(2j * np.pi * solved.frequencies * flight)  # smooth enough to interpolate
     f = fit_frequencies()
-    response = CubicSpline(solved.frequencies, field, axis=1)(f) * np.exp(-2j * np.pi * f * flight)
+    here = np.array([[circle.axial, circle.radius]])
+    response = air.density * solved.transfer(here, f)[0]
+    flight = float(solved.bands[-1].flights(here)[0])
     paths = _body_paths(response, flight, circle) + _mode_paths(response, flight, circle, modes, harmonics)
     if task.orbit > 0.0:
         radius = 0.5 * radiators.ball_diameter

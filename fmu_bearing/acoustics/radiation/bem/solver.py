@@ -17,8 +17,6 @@ from collections.abc import Sequence
 import numpy as np
 import scipy
 from numpy.typing import NDArray
-from scipy.linalg import cho_solve, cholesky
-from scipy.linalg.blas import zherk
 
 from fmu_bearing.acoustics.radiation.bem.integrals import Potentials
 from fmu_bearing.acoustics.radiation.bem.meridian import NODES, Body, mesh_of
@@ -135,19 +133,18 @@ class System:
         """
         size = self._size
         there = np.ones(size, dtype=bool) if keep is None else keep
-        rows = np.concatenate([there, np.ones(self._double.shape[1] - size, dtype=bool)])
         matrix = -self._double[order][:, there]
         matrix[:size][there, np.arange(there.sum())] += 0.5
         right = self._single[order][:, there] @ driven[there]
         if incident is not None:
             right = np.concatenate([right, incident], axis=1)
-        matrix, right = matrix[rows], right[rows]
-        if len(matrix) == matrix.shape[1]:
-            found = np.linalg.solve(matrix, right)
-        else:
-            # Normal equations: the condition number is below 1e4 once inner points are in.
-            square = zherk(1.0, matrix, trans=2, lower=1)
-            found = cho_solve((cholesky(square, lower=True, overwrite_a=True), True), matrix.conj().T @ right)
+        square, given = matrix[:size][there], right[:size][there]
+        if len(matrix) > size:
+            # Equations of inner points, multiplied from the left by their conjugate transpose, are added: the
+            # solution fulfils both, and waves of the inside, which the skin's equations let pass, none.
+            inside = matrix[size:]
+            square, given = square + inside.conj().T @ inside, given + inside.conj().T @ right[size:]
+        found = np.linalg.solve(square, given)
         result = np.zeros((size, right.shape[1]), dtype=complex)
         result[there] = found
         return result

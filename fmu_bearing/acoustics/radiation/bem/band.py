@@ -1,0 +1,280 @@
+"""Surface pressures over one band of frequencies, on one mesh, and the fields around the bodies."""
+
+import itertools
+from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+
+from fmu_bearing.acoustics.radiation.bem import rational
+from fmu_bearing.acoustics.radiation.bem.solver import ROUGHNESS_FACTOR, orbit_dipoles, wall_admittance
+from fmu_bearing.acoustics.radiation.bem.task import BODIES, Task, drives
+
+Real = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+_COARSEST = 10_000.0  # Hz: meshes reach that far at least, whatever their band
+# Where rational functions fail: largest error of the cubic at the middle of an interval. The middle is then
+# added, which makes the error of what is used about sixteen times smaller: -50 dB.
+_INTERPOLATION = 5e-2
+_NARROWEST = 16.0  # Hz: intervals are not halved below
+#: Points around the bodies whose pressures say which frequencies to solve: distances over the radius of a
+#: sphere round all bodies, and angles (rad) from the axis.
+_SPHERES = (1.2, 4.0)
+_ANGLES = (0.3, 0.9, 1.6, 2.2, 2.8)
+#: Frequencies that a band takes: some, and more for each wavelength that a sphere round the bodies gains from
+#: the band's begin to its end. Measured: 14 and 18 (bare 7003C), 14 and 26 (7009C), 20 and 43 (in a housing).
+_FEWEST, _PER_WAVE = 12.0, 3.5
+_ROUNDING = 1e-6  # of the loudest drive at a point: what is weaker there may be rounding
+#: Frequencies beyond which a band's intervals are halved.
+MOST = 80
+
+
+class Band:
+    """Surface pressures of a task over one band of frequencies, on one mesh, and fields computed from them.
+
+    Attributes
+    ----------
+    frequencies : ndarray, shape (n,)
+        Hz, rising.
+    surface : ndarray, shape (n, drives, nodes)
+        Pressures (Pa per unit of each drive, in air of 1 kg/m3) at `points`.
+    probed : ndarray, shape (n, drives, spheres, points)
+        Pressures around the bodies, which rational functions of frequency are fitted to; empty: cubics.
+    done, left : float
+        Frequencies solved, and how many more are probably needed.
+    """
+
+    def __init__(self, task: Task, base: Sequence[float]) -> None:
+        self.task = task
+        self._scatterer = task.scatterer(max(base[-1], _COARSEST))
+        self._drives = drives(task, self._scatterer.mesh)
+        self._balls = task.harmonics + 1 if task.orbit > 0.0 else 0
+        self.groups = self._groups()
+        self.frequencies = np.array(base)
+        self.surface = np.zeros((len(self.frequencies), self.count, self._scatterer.mesh.size), dtype=complex)
+        self.probed = self._unprobed()
+        waves = 2.0 * self._sphere()[1] * (base[-1] - base[0]) / task.sound_speed
+        self._expected = _FEWEST + _PER_WAVE * waves
+        self.done, self.left = 0, self._expected
+
+    @property
+    def count(self) -> int:
+        """Number of drives."""
+        return len(self._drives) + 3 * self._balls
+
+    def ball_drive(self, order: int, axis: int) -> int:
+        """Place of the balls' drive of a circumferential order along x (0), r (1) or theta (2)."""
+        return len(self._drives) + 3 * order + axis
+
+    @property
+    def points(self) -> Real:
+        """Collocation points (x, r) in m, shape (nodes, 2)."""
+        return self._scatterer.mesh.points
+
+    def _groups(self) -> list[list[int]]:
+        """Drives whose pressures have the same poles: of one order, with or without the solid cage."""
+        found = []
+        for order in range(self.task.orders):
+            bodies = [i for i, (m, shape) in enumerate(self._drives) if m == order and shape.any()]
+            # balls do not radiate along theta in order 0
+            balls = [self.ball_drive(order, axis) for axis in range(3 if order else 2)]
+            found += [bodies] if bodies else []
+            found += [balls] if order < self._balls else []
+        return found
+
+    def solve(self, frequency: float) -> Complex:
+        """Surface pressures at a frequency (Hz), shape (drives, nodes)."""
+        k = self._wavenumber(frequency)
+        mesh = self._scatterer.mesh
+        found = np.zeros((self.count, mesh.size), dtype=complex)
+        system = self._scatterer.at(k, self._losses(k))
+        cage_away = mesh.node_component() != BODIES - 1
+        everything = np.concatenate([mesh.points, self._scatterer.inside])
+        incoming = self._incoming(everything, k)
+        none = np.zeros((mesh.size, 0))
+        for order in range(self.task.orders):
+            of_order = [i for i, (m, _) in enumerate(self._drives) if m == order]
+            if of_order:
+                driven = np.stack([self._drives[i][1] for i in of_order], axis=1)
+                found[of_order] = system.pressure(order, driven).T
+            if order < self._balls:
+                # the balls sit in the cage's pockets: their sound does not pass through its solid parts
+                places = [self.ball_drive(order, axis) for axis in range(3)]
+                found[places] = system.pressure(order, none, incoming[:, order].T, keep=cage_away).T
+        return found
+
+    def field(self, points: Real) -> Complex:
+        """Pressures (Pa per unit of each drive, in air of 1 kg/m3) at points (x, r) and `frequencies`.
+
+        Shape (points, drives, frequencies).
+        """
+        sounding = self._sounding(points)
+        return np.stack([sounding(*each) for each in zip(self.frequencies, self.surface, strict=True)], -1)
+
+    def _sounding(self, points: Real) -> Callable[[float, Complex], Complex]:
+        """Return what gives pressures (points, drives) at a frequency (Hz) from the surface's."""
+        potentials = self._scatterer.field_potentials(points)
+
+        def at(frequency: float, surface: Complex) -> Complex:
+            k = self._wavenumber(frequency)
+            single, double = potentials(k)
+            if not self.task.baffled:
+                double = double - 1j * k * self._losses(k) * single
+            found = np.zeros((len(points), self.count), dtype=complex)
+            for i, (order, shape) in enumerate(self._drives):
+                found[:, i] = single[order] @ shape + double[order] @ surface[i]
+            direct = self._incoming(points, k)
+            for order in range(self._balls):
+                for axis in range(3):
+                    i = self.ball_drive(order, axis)
+                    found[:, i] = direct[axis, order] + double[order] @ surface[i]
+            return found
+
+        return at
+
+    def flights(self, points: Real) -> Real:
+        """Return the times (s) that sound takes to points from the nearest part of the bodies."""
+        offset = points[:, None, :] - self.points
+        return np.hypot(offset[:, :, 0], offset[:, :, 1]).min(axis=1) / self.task.sound_speed
+
+    def transfer(self, points: Real, wanted: Real) -> Complex:
+        """Pressures at points, as `field`, at any frequencies (Hz) of the band, from those solved."""
+        flights = self.flights(points)[:, None, None]
+        still = self.field(points) * np.exp(2j * np.pi * self.frequencies * flights)
+        if len(self.probed):
+            found = np.stack([self._between(one, wanted) for one in still])
+        else:
+            found = CubicSpline(self.frequencies, still, axis=2)(wanted)
+        return found * np.exp(-2j * np.pi * wanted * flights)
+
+    def _between(self, still: Complex, wanted: Real) -> Complex:
+        """Pressures (drives, wanted) of one point between those solved, by rational functions.
+
+        Their poles follow from the pressures around the bodies and at the point itself.
+        """
+        found = np.zeros((len(still), len(wanted)), dtype=complex)
+        point = np.repeat(still.T[:, :, None, None], self.probed.shape[3], axis=3)
+        values = np.concatenate([self.probed, point], axis=2)
+        groups = [rational.Group() for _ in self.groups]
+        share = np.array([rational.SILENT] * len(_SPHERES) + [_ROUNDING])
+        rational.renew(
+            groups, self.frequencies, [values[:, own] for own in self.groups], self._family(), share
+        )
+        for group, members in zip(groups, self.groups, strict=True):
+            group.sharp(self.frequencies[0], self.frequencies[-1])
+            found[members] = group.predicted(wanted)[:, :, -1, 0].T
+        return found
+
+    def _family(self) -> list[int]:
+        """Harmonics of the balls are equally strong; of the bodies, the drives of one order move together."""
+        return [-1 if group[0] >= len(self._drives) else i for i, group in enumerate(self.groups)]
+
+    def _unprobed(self) -> Complex:
+        return np.zeros((0, self.count, len(_SPHERES), 1), dtype=complex)
+
+    def search(self, pool: Executor, solved: Callable[[], None] = lambda: None) -> None:
+        """Solve where rational functions of frequency are uncertain; halve intervals where they fail.
+
+        ``solved`` is called after each frequency.
+        """
+        base = self.frequencies
+        known: dict[float, Complex] = {}
+        probed: dict[float, Complex] = {}
+        points = self._probes()
+        sounding, flights = self._sounding(points), self.flights(points)
+
+        def measure(frequencies: Real) -> list[Complex]:
+            received = []
+            for frequency, surface in zip(frequencies, pool.map(self.solve, frequencies), strict=True):
+                known[frequency] = surface
+                still = sounding(frequency, surface) * np.exp(2j * np.pi * frequency * flights)[:, None]
+                received.append(still.T)
+                self._count(solved)
+            parts = np.array(received).reshape(len(received), self.count, len(_SPHERES), -1)
+            probed.update(zip(frequencies, parts, strict=True))
+            return [parts[:, group] for group in self.groups]
+
+        def expect(least: float, certain: bool) -> None:
+            self.left = least if certain else max(least, self._expected - self.done)
+
+        found = rational.search(measure, base[0], base[-1], MOST, self._family(), expect)
+        if found is None:
+            self.halve(pool, solved)
+            return
+        self.frequencies = found
+        self.surface = np.array([known[f] for f in found])
+        self.probed = np.array([probed[f] for f in found])
+        self.left = 0.0
+        solved()
+
+    def _count(self, solved: Callable[[], None], left: float | None = None) -> None:
+        """Count a frequency; ``left``: by default one less than before, but one at least."""
+        self.done, self.left = self.done + 1, max(self.left - 1.0, 1.0) if left is None else left
+        solved()
+
+    def _sphere(self) -> tuple[float, float]:
+        """Place on the axis (m) and radius (m) of a sphere around all bodies."""
+        corners = np.concatenate([body.contour for body in self.task.bodies])
+        middle = 0.5 * (corners[:, 0].min() + corners[:, 0].max())
+        return middle, float(np.hypot(corners[:, 0] - middle, corners[:, 1]).max())
+
+    def _probes(self) -> Real:
+        """Points (x, r) around the bodies, sphere by sphere, on their side of a wall."""
+        middle, size = self._sphere()
+        radii, angles = np.repeat(size * np.array(_SPHERES), len(_ANGLES)), np.tile(_ANGLES, len(_SPHERES))
+        points = np.stack([middle + radii * np.cos(angles), radii * np.sin(angles)], axis=1)
+        if self.task.plane is not None:
+            front = (points[:, 0] - self.task.plane) * (middle - self.task.plane) > 0.0
+            # as many of each sphere: angles whose points are all before the wall
+            points = points[np.tile(front.reshape(-1, len(_ANGLES)).all(axis=0), len(_SPHERES))]
+        return points
+
+    def halve(self, pool: Executor, solved: Callable[[], None] = lambda: None) -> None:
+        """Solve the base frequencies, then halve intervals until the cubic through neighbours fits."""
+        self.surface = np.zeros((len(self.frequencies), self.count, self._scatterer.mesh.size), dtype=complex)
+        for f, found in enumerate(pool.map(self.solve, self.frequencies)):
+            self.surface[f] = found
+            self._count(solved, 2.0 * len(self.frequencies) - f)
+        open_ = list(itertools.pairwise(self.frequencies.tolist()))
+        while open_:
+            middles = [0.5 * (low + high) for low, high in open_]
+            halved = []
+            surfaces = []
+            for k, found in enumerate(pool.map(self.solve, middles)):
+                low, high = open_[k]
+                if high - low > 2.0 * _NARROWEST and self._missed(middles[k], found) > _INTERPOLATION:
+                    halved += [(low, middles[k]), (middles[k], high)]
+                surfaces.append(found)
+                self._count(solved, len(open_) - k - 1.0 + len(halved))
+            order = np.argsort(np.concatenate([self.frequencies, middles]))
+            self.frequencies = np.concatenate([self.frequencies, middles])[order]
+            self.surface = np.concatenate([self.surface, surfaces])[order]
+            open_ = halved
+        self.probed = self._unprobed()
+
+    def _missed(self, frequency: float, found: Complex) -> float:
+        """Largest error of the cubic through the four nearest frequencies, over each drive's own size."""
+        place = int(np.searchsorted(self.frequencies, frequency))
+        first = min(max(place - 2, 0), len(self.frequencies) - 4)
+        near = slice(first, first + 4)
+        f = self.frequencies[near]
+        weights = [np.prod([(frequency - b) / (a - b) for b in f if b != a]) for a in f]
+        wrong = np.linalg.norm(found - np.tensordot(weights, self.surface[near], axes=1), axis=1)
+        size = np.linalg.norm(found, axis=1)
+        return float(np.max(wrong / np.maximum(size, 1e-300)))
+
+    def _incoming(self, points: Real, k: float) -> Complex:
+        """Sound of the balls in free space, shape (3, harmonics + 1, points)."""
+        if self._balls == 0:
+            return np.zeros((3, 0, len(points)), dtype=complex)
+        return orbit_dipoles(points, k, self.task.orbit, self._balls, self.task.plane)
+
+    def _losses(self, k: float) -> complex:
+        """Admittance of the skins."""
+        return ROUGHNESS_FACTOR * wall_admittance(k, self.task.sound_speed)
+
+    def _wavenumber(self, frequency: float) -> float:
+        return 2.0 * np.pi * float(frequency) / self.task.sound_speed

@@ -1,8 +1,9 @@
 """What is compiled: entries with C's calling convention, in units that are compiled side by side.
 
 An entry takes pointers to doubles, then a pointer to the lengths of its arrays (int64), then doubles, and
-returns a status (int32). Units ``init`` and ``step`` make up an FMU; ``study`` serves Python alone. Of the
-former there are units for single bearings alone, with the same entries, for who needs no more (`SINGLE`).
+returns a status (int32). Units ``init`` and ``step`` make up an FMU; there are two more with the same entries
+for single bearings alone, for who needs no more (`SINGLE`). ``study`` and ``sound`` serve Python: oracles and
+recordings the one, boundary elements the other.
 """
 
 from collections.abc import Callable
@@ -55,14 +56,14 @@ ENTRIES = {
     "held": Entry("study", "pucdgqw"),
     "answer_set": Entry("study", "psw", 1),
     "play": Entry("study", "pswmzr", 7),
-    "closed_part": Entry("study", "xoenfgcwr", 1),
-    "remainder": Entry("study", "xoengbdtwr", 1),
+    "closed_part": Entry("sound", "xoenfgcwr", 1),
+    "remainder": Entry("sound", "xoengbdtwr", 1),
 }
 #: Entries that a simulation calls once: LLVM optimises them at its lowest level, without vectors of loops.
 #: They run as long as with the highest (2.2 ms for a bearing, 11.4 ms for a pair).
 ONCE = ("init",)
 #: Units, the longest to compile first.
-UNITS = ("step", "init", "study")
+UNITS = ("step", "init", "study", "sound")
 #: Units that serve every scene, and the ones beside them for single bearings alone: half the work to compile.
 SINGLE = {"step": "single_step", "init": "single_init"}
 
@@ -85,7 +86,7 @@ def functions(unit: str) -> dict[str, Callable[..., Any]]:
     whole = {one: unit for unit, one in SINGLE.items()}
     if unit in whole:
         single.install()
-    return {"init": _init, "step": _step, "study": _study}[whole.get(unit, unit)]()
+    return {"init": _init, "step": _step, "study": _study, "sound": _sound}[whole.get(unit, unit)]()
 
 
 def _init() -> dict[str, Callable[..., Any]]:
@@ -138,7 +139,6 @@ def _of_motion(kernel: Callable[..., Any]) -> Callable[..., Any]:
 def _study() -> dict[str, Callable[..., Any]]:
     from numba import carray
 
-    from fmu_bearing.engine.boundary_elements import closed_part as closed, remainder as rest
     from fmu_bearing.engine.fidelities.full import march as full
     from fmu_bearing.engine.layout import U
     from fmu_bearing.engine.mechanics import conditions as oil, equations
@@ -151,7 +151,6 @@ def _study() -> dict[str, Callable[..., Any]]:
     rk4, rows = explicit.runge_kutta, explicit.ROWS
     sound, at_displacement, conditions = playback.play, statics.held, oil.conditions
     speed, newton_of_set = U.SPEED, full.solve_at_state
-    at_all_frequencies, at_one = closed.closed_part, rest.remainder
     first, first_jacobian = rates.first_order, rates.first_order_jacobian
 
     def repeat(p, c, y, w, f, n, angle, speed, times):
@@ -207,6 +206,27 @@ def _study() -> dict[str, Callable[..., Any]]:
         )  # fmt: skip
         return 0
 
+    return {
+        "right_hand_side": _of_motion(rhs),
+        "repeat": repeat,
+        "jacobian": _of_motion(newton.jacobian),
+        "runge_kutta": runge_kutta,
+        "first_order": first_order,
+        "first_order_jacobian": first_order_jacobian,
+        "contacts": contacts,
+        "held": held,
+        "answer_set": answer_set,
+        "play": play,
+    }
+
+
+def _sound() -> dict[str, Callable[..., Any]]:
+    from numba import carray
+
+    from fmu_bearing.engine.boundary_elements import closed_part as closed, remainder as rest
+
+    at_all_frequencies, at_one = closed.closed_part, rest.remainder
+
     def closed_part(x, o, e, n, f, g, c, w, r, of, orders):
         at_all_frequencies(
             carray(x, (of[0],)), carray(o, (of[1],)), carray(e, (of[2],)), carray(n, (of[3],)),
@@ -223,17 +243,4 @@ def _study() -> dict[str, Callable[..., Any]]:
         )  # fmt: skip
         return 0
 
-    return {
-        "right_hand_side": _of_motion(rhs),
-        "repeat": repeat,
-        "jacobian": _of_motion(newton.jacobian),
-        "runge_kutta": runge_kutta,
-        "first_order": first_order,
-        "first_order_jacobian": first_order_jacobian,
-        "contacts": contacts,
-        "held": held,
-        "answer_set": answer_set,
-        "play": play,
-        "closed_part": closed_part,
-        "remainder": remainder,
-    }
+    return {"closed_part": closed_part, "remainder": remainder}

@@ -1,6 +1,6 @@
 """What every entry computes, as digests: run as ``python -m tests.compiled.bits [FOLDER | single]``.
 
-With a folder, its ``step.o``, ``init.o`` and ``study.o`` are loaded instead of the package's own objects.
+With a folder, its ``step.o``, ``init.o``, ... are loaded instead of the package's own objects.
 With ``single``, units for single bearings alone compute the cases that they serve.
 """
 
@@ -12,6 +12,8 @@ from pathlib import Path
 import numpy as np
 
 from fmu_bearing.accuracy.first_order import FirstOrder
+from fmu_bearing.acoustics.radiation.bem.integrals import Potentials
+from fmu_bearing.acoustics.radiation.bem.meridian import mesh_of, ring
 from fmu_bearing.arrays import Arrays
 from fmu_bearing.compiled import call, load
 from fmu_bearing.engine.layout import EQ, MO, SD, C, F, J, Q, S, U, Y, Z
@@ -132,6 +134,13 @@ def _play(scene, sound: str) -> str:
     return _digest(z, pressures, ss)
 
 
+def _potentials() -> str:
+    """Digest of the matrices of boundary elements for a ring at some wavenumbers (1/m)."""
+    mesh = mesh_of([ring("outer", 1, 0.035, 0.0296, -0.005, 0.005)], 0.002)
+    found = Potentials(mesh.points, np.repeat(np.arange(len(mesh.ends)), 2), mesh, 4, plane=0.02)
+    return _digest(*(layer for k in (0.37, 20.0, 400.0) for layer in found(k)))
+
+
 def singles() -> Iterator[tuple[str, str]]:
     """Name and digest of each case of a single bearing that units for those alone can compute."""
     single, bare = read_scene(SINGLE), read_scene(GATES / "7003C-bare.toml")
@@ -157,6 +166,7 @@ def digests() -> Iterator[tuple[str, str]]:
     yield "derivative full", _port(port.replace({"fidelity.model": "full"}))
     yield from _study(single)
     yield "answer_set", _answer_set(pair)
+    yield "potentials", _potentials()
     for sound in ("compact", "bem"):
         yield f"play {sound}", _play(bare, sound)
 

@@ -36,6 +36,7 @@ def test_the_committed_table_is_what_the_example_gives(short):
                 assert float(own) == pytest.approx(float(other), rel=0.01, abs=0.011)
 
 
+@pytest.mark.heavy
 def test_the_vibration_follows_the_distance_from_what_excites(short):
     """The decision of the page: 650 N shakes least, 200 N most."""
     inner = {preload: float(cells[-2]) for preload, cells in short.items()}

@@ -37,6 +37,7 @@ def test_the_ridge_moves_with_the_root_of_the_stiffness(folder):
         assert turn == pytest.approx(mode, abs=1300.0)
 
 
+@pytest.mark.heavy
 def test_the_committed_table_has_the_same_modes(folder):
     known = {row[0]: row[1] for row in rows(ROOT / "docs" / "results" / "sweep.csv")}
     for stiffness, mode, *_ in rows(folder / "sweep.csv"):

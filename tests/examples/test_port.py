@@ -36,6 +36,7 @@ def test_no_coupling_is_stable_by_damping_of_its_own(outcome):
         assert float(hertz) == pytest.approx(frequency, rel=0.03), scheme
 
 
+@pytest.mark.heavy
 def test_page_has_what_the_example_prints(outcome):
     """Frequencies within 2 Hz, ratios within 5e-4: processors round a fit of a few periods differently."""
     (frequency, ratio), found = outcome
@@ -56,6 +57,7 @@ def test_page_has_what_the_example_prints(outcome):
                 assert float(shown[1]) == pytest.approx(float(printed[1]), abs=5e-4), scheme
 
 
+@pytest.mark.heavy
 def test_extrapolation_has_its_limit_and_the_others_none(outcome):
     _, found = outcome
     for rotor in ("rigid", "bending"):
@@ -63,6 +65,7 @@ def test_extrapolation_has_its_limit_and_the_others_none(outcome):
         assert found[rotor, "derivative", 3e-5] == found[rotor, "rollback", 3e-5] == "decays"
 
 
+@pytest.mark.heavy
 def test_rest_is_that_of_the_shaft_inside(limits):
     import couple
     from rotor import PORT

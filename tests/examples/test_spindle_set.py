@@ -56,6 +56,7 @@ def test_the_network_gets_every_joule_of_the_bearings(short):
     assert kept == pytest.approx(supplied, rel=1e-9)
 
 
+@pytest.mark.heavy
 def test_heat_is_the_power_of_the_friction_torque(short):
     """At constant speed; what balls and cages store is small against the heat of 20 ms."""
     _, plan, table, _ = short
@@ -65,6 +66,7 @@ def test_heat_is_the_power_of_the_friction_torque(short):
     assert heat == pytest.approx(power, rel=5e-3)
 
 
+@pytest.mark.heavy
 def test_the_torque_of_the_motor_turns_the_spindle_up(short):
     """Work of the motor: kinetic energy of shaft and rings, and the work done on the bearings."""
     _, plan, table, constants = short
@@ -78,6 +80,7 @@ def test_the_torque_of_the_motor_turns_the_spindle_up(short):
     assert table["shaft_speed"][-1] == pytest.approx(plan.target_speed, rel=1e-3)
 
 
+@pytest.mark.heavy
 def test_forces_of_the_bearings_carry_load_and_weight(short):
     scene, plan, table, _ = short
     hold = table[table["time"] > plan.end_time - 0.1]
@@ -102,6 +105,7 @@ def test_axial_loads_are_those_of_statics_at_the_temperatures(rows):
     assert last["springs_N"] == pytest.approx(first["springs_N"], rel=1e-6) == 120.0
 
 
+@pytest.mark.heavy
 def test_temperatures_are_those_of_each_bearing(short):
     """The front pair carries the tool, so it is warmer; the inner rings have no way out but the shaft."""
     _, _, table, _ = short
@@ -114,6 +118,7 @@ def test_temperatures_are_those_of_each_bearing(short):
     assert inner.min() > last["shaft_temperature"] > last["housing_temperature"] > 295.15
 
 
+@pytest.mark.heavy
 def test_the_picture_is_drawn(example, short, rows, tmp_path):
     cosimulate, _ = example
     scene, plan, table, _ = short

@@ -41,6 +41,7 @@ def test_table_holds_ours_beside_the_papers(folder):
     assert float(far["rigid max"]) > float(touching["rigid max"])
 
 
+@pytest.mark.heavy
 def test_page_repeats_what_the_example_computes(folder):
     """The fast cases stand in the page with the same figures."""
     page = (ROOT / "docs" / "results" / "three_balls.md").read_text(encoding="utf-8")

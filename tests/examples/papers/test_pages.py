@@ -46,6 +46,7 @@ def test_tiny_pages_are_whole(tiny):
     assert sound_field.NO_CIRCLE in field and "sound-field.png" not in field
 
 
+@pytest.mark.heavy
 def test_a_page_lists_only_fitted_values_as_fitted(tiny):
     root, _ = tiny
     for name in PAGES:
@@ -55,6 +56,7 @@ def test_a_page_lists_only_fitted_values_as_fitted(tiny):
         assert set(shown) <= FITTED[name]
 
 
+@pytest.mark.heavy
 def test_tiny_results_stand_in_csv(tiny):
     root, _ = tiny
     folder = root / "docs" / "results" / "papers"
@@ -72,6 +74,7 @@ def test_tiny_results_stand_in_csv(tiny):
     assert all(row["P1"] == row["P3"] for row in rows)  # the equations have no angles
 
 
+@pytest.mark.heavy
 def test_a_repeated_run_takes_what_is_kept(tiny, monkeypatch):
     root, pages = tiny
     before = [path.read_text("utf-8") for path in pages]

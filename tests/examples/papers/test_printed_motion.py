@@ -275,6 +275,7 @@ def test_nothing_grows_in_the_corrected_equations():
 # what the page shows
 
 
+@pytest.mark.heavy
 def test_as_printed_the_ring_is_gone_at_once(found):
     """It leaves no faster than with the preload behind it, no slower than with all that it takes along."""
     printed = found["speeds"][str(ALONE)]["printed"]
@@ -289,6 +290,7 @@ def test_as_printed_the_ring_is_gone_at_once(found):
     assert pushed < printed["seconds"] < loaded
 
 
+@pytest.mark.heavy
 def test_printed_spin_grows_at_half_the_orbit_speed(found):
     """With traction too weak: w_r' = -theta' w_theta / 2 and back, so |w| grows as exp(theta' t / 2)."""
     system = equations(40_000, Corrections.none().changed(on=REPAIRED))
@@ -303,6 +305,7 @@ def test_printed_spin_grows_at_half_the_orbit_speed(found):
     assert max(found["speeds"][str(ALONE)]["ours"]["slide_across"]) < 0.01
 
 
+@pytest.mark.heavy
 def test_printed_loads_have_no_centrifugal_force(found):
     of_speed = found["speeds"][str(ALONE)]
     for key in ("running", "carried"):
@@ -316,6 +319,7 @@ def test_printed_loads_have_no_centrifugal_force(found):
     assert left_out["load"][INNER] == pytest.approx(left_out["load"][OUTER], abs=0.05)
 
 
+@pytest.mark.heavy
 def test_page_shows_what_the_runs_gave(found):
     page = page_of(found)
     of_speed = found["speeds"][str(ALONE)]

@@ -9,6 +9,7 @@ import math
 from fmu_bearing.engine.boundary_elements.ring_potential import static_harmonics
 from fmu_bearing.engine.jit import kernel
 
+END, X1, R1, X2, R2 = 4, 0, 1, 2, 3  # numbers of an element in the array of ends, and their places
 KINDS = 4  # 1/R, its derivative along the normal, R, its derivative
 _NEAR = 2.0  # element lengths within which an element is cut into shrinking intervals
 _SHRINK = 0.2  # of each interval against the one before
@@ -22,7 +23,7 @@ def _interval(x, r, ends, normals, e, a, b, flat, rule, nodes, orders, w, out, a
 
     The block, (nodes, orders), begins at ``at``, those of the other kinds ``apart`` behind each other.
     """
-    x1, r1, x2, r2 = ends[4 * e], ends[4 * e + 1], ends[4 * e + 2], ends[4 * e + 3]
+    x1, r1, x2, r2 = ends[END * e + X1], ends[END * e + R1], ends[END * e + X2], ends[END * e + R2]
     length = math.hypot(x2 - x1, r2 - r1)
     count = rule.size // 2
     row = orders + 2
@@ -72,12 +73,12 @@ def closed_part(points, own, ends, normals, far_rule, near_rule, nodes, w, out, 
         r = points[2 * i + 1]
         for e in range(count):
             at = (i * count + e) * block
-            dx = ends[4 * e + 2] - ends[4 * e]
-            dr = ends[4 * e + 3] - ends[4 * e + 1]
+            dx = ends[END * e + X2] - ends[END * e + X1]
+            dr = ends[END * e + R2] - ends[END * e + R1]
             length = math.hypot(dx, dr)
-            t = ((x - ends[4 * e]) * dx + (r - ends[4 * e + 1]) * dr) / (length * length)
+            t = ((x - ends[END * e + X1]) * dx + (r - ends[END * e + R1]) * dr) / (length * length)
             t = min(max(t, 0.0), 1.0)
-            gap = math.hypot(ends[4 * e] + t * dx - x, ends[4 * e + 1] + t * dr - r)
+            gap = math.hypot(ends[END * e + X1] + t * dx - x, ends[END * e + R1] + t * dr - r)
             flat = own[i] == e
             if gap > _NEAR * length:
                 _interval(

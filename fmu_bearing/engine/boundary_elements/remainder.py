@@ -6,12 +6,14 @@ that are filled up to a multiple of it with weights of zero.
 
 import math
 
+from fmu_bearing.engine.boundary_elements.closed_part import END, R1, R2, X1, X2
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, select, splat, store, sum_four
 from fmu_bearing.engine.layout import FOUR
 from fmu_bearing.engine.mechanics.trigonometry import cosine_and_sine
 
-ROWS = 4  # real and imaginary part, and those of the slope along the normal
+ROWS = 4  # of the work space: real and imaginary part, and those of the slope along the normal
+REAL_SLOPE, IMAGINARY_SLOPE = 2, 3
 _SMALL = 0.02  # k R below which the remainder is taken from its series
 
 
@@ -38,8 +40,8 @@ def terms(k, a2, twice, normal, lift, less, w):
         along = (normal + lift * turned) * inverse
         store(w, j, select(small, k * (1.0 / 24.0) * (z2 * z), real))
         store(w, width + j, select(small, k * (z2 * (1.0 / 6.0) - 1.0), -imaginary))
-        store(w, 2 * width + j, real_slope * along)
-        store(w, 3 * width + j, -imaginary_slope * along)
+        store(w, REAL_SLOPE * width + j, real_slope * along)
+        store(w, IMAGINARY_SLOPE * width + j, -imaginary_slope * along)
 
 
 @kernel
@@ -62,14 +64,14 @@ def remainder(points, own, ends, normals, rule, basis, less, weights, w, out, k)
         x = points[2 * i]
         r = points[2 * i + 1]
         for e in range(elements):
-            dx = ends[4 * e + 2] - ends[4 * e]
-            dr = ends[4 * e + 3] - ends[4 * e + 1]
+            dx = ends[END * e + X2] - ends[END * e + X1]
+            dr = ends[END * e + R2] - ends[END * e + R1]
             length = math.hypot(dx, dr)
             nx = normals[2 * e]
             nr = normals[2 * e + 1]
             for g in range(gauss):
-                away = ends[4 * e] + rule[g] * dx - x
-                s = ends[4 * e + 1] + rule[g] * dr
+                away = ends[END * e + X1] + rule[g] * dx - x
+                s = ends[END * e + R1] + rule[g] * dr
                 normal = 0.0 if own[i] == e else nx * away + nr * (s - r)
                 a2 = away * away + (s - r) * (s - r)
                 terms(k, a2, 2.0 * r * s, normal, nr * r, less, w)
@@ -85,8 +87,8 @@ def remainder(points, own, ends, normals, rule, basis, less, weights, w, out, k)
                         part = load(weights, m * width + j)
                         real += part * load(w, j)
                         imaginary += part * load(w, width + j)
-                        real_slope += part * load(w, 2 * width + j)
-                        imaginary_slope += part * load(w, 3 * width + j)
+                        real_slope += part * load(w, REAL_SLOPE * width + j)
+                        imaginary_slope += part * load(w, IMAGINARY_SLOPE * width + j)
                     one, two = sum_four(real), sum_four(imaginary)
                     three, four = sum_four(real_slope), sum_four(imaginary_slope)
                     for n in range(nodes):

@@ -14,6 +14,7 @@ import math
 from fmu_bearing.engine.jit import kernel
 
 MAX_ORDER = 16
+_DISTANCE, _DISTANCE_SLOPE = 3, 4  # rows of the work space for R and its derivative
 _FORWARD = 1.1  # below this chi the upward recurrence loses less than three digits up to order 16
 _DIGITS = 40.0  # the downward recurrence begins exp(-40) below the wanted orders
 _AGM_STEPS = 40
@@ -97,5 +98,5 @@ def static_harmonics(dx, r, s, nx, ns, flat, orders, w):
         less = here - 0.5 * scale * (below + w[m + 1])  # harmonics of (1 - cos phi) / R
         w[row + m] = here
         w[2 * row + m] = -(normal * cubed + 0.5 * ns / s * (here - a2 * cubed))
-        w[3 * row + m] = a2 * here + 2.0 * rs * less
-        w[4 * row + m] = normal * here + ns * r * less
+        w[_DISTANCE * row + m] = a2 * here + 2.0 * rs * less
+        w[_DISTANCE_SLOPE * row + m] = normal * here + ns * r * less

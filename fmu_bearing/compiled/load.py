@@ -67,7 +67,7 @@ def _function(name: str, p: NDArray[np.float64]) -> Any:
     units = tuple(SINGLE) if unit in SINGLE else (unit,)
     if unit in SINGLE and unit not in _engines and p[P.ALONE] != 0.0:
         platform = own()
-        if not kept(platform, units, instruction_set(platform)):
+        if SINGLE[unit] in _engines or not kept(platform, units, instruction_set(platform)):
             unit, units = SINGLE[unit], tuple(SINGLE.values())
     ready(*units)
     return _functions[unit, name]

@@ -14,7 +14,8 @@ static int serve(const double *p, Text *why)
 {
 #ifdef FB_ALONE
     if (p[FB_ALONE] == 0.0) {
-        text_add(why, "this library holds the equations of single bearings alone, and the model is a set", NULL);
+        text_add(why, "this library holds the equations of single bearings alone, and the model is a set: "
+                      "build its FMU from its scene", NULL);
         return 0;
     }
 #endif
@@ -85,7 +86,8 @@ const Kernels *kernels_choose(const double *p, Text *why)
         return NULL;
     }
     if (level < 3 && !OLDER) {
-        text_add(why, "this library was built for x86-64-v3 alone (AVX2), which this processor lacks", NULL);
+        text_add(why, "this library was built for x86-64-v3 alone (AVX2), which this processor lacks: "
+                      "build the FMU without --only-here", NULL);
         return NULL;
     }
     return level < 3 || (OLDER && wanted && strcmp(wanted, "v2") == 0) ? OLDER : &V3;

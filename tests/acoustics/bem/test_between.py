@@ -20,6 +20,9 @@ _SILENT = 1e-3  # of the loudest harmonic of the balls: what is weaker is compar
 class InTurn(contextlib.nullcontext):
     """A pool that solves one frequency after the other."""
 
+    def __enter__(self):
+        return self
+
     map = staticmethod(map)
 
 

@@ -1,6 +1,5 @@
 """Rational functions of frequency: on known ones, and on boundary elements against direct solutions."""
 
-import contextlib
 import io
 import re
 
@@ -11,6 +10,7 @@ from fmu_bearing.acoustics.radiation.bem import rational, solution as solved
 from fmu_bearing.acoustics.radiation.bem.band import Band
 from fmu_bearing.acoustics.radiation.bem.paths import task_of
 from fmu_bearing.compiled import show
+from tests.acoustics.bem.test_between import InTurn
 from tests.acoustics.bem.test_paths import AIR, BARE
 
 LOW, HIGH = 6000.0, 22_000.0
@@ -96,12 +96,6 @@ def test_the_time_of_the_rest_is_right_within_half(monkeypatch):
     def timed(self, frequency):
         now[0] += 1.4
         return solve(self, frequency)
-
-    class InTurn(contextlib.nullcontext):
-        def __enter__(self):
-            return self
-
-        map = staticmethod(map)
 
     monkeypatch.setattr(Band, "solve", timed)
     monkeypatch.setattr(solved, "ThreadPoolExecutor", InTurn)

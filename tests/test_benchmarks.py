@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from benchmarks import memory, ours, peers, scenes, sets, sound, stale, table, terms
+from benchmarks import memory, ours, peers, realtime, scenes, sets, sound, stale, table, terms
 from benchmarks.cases import CASES, GATES, SOLVERS, Case
 from benchmarks.fmu import calls, whole
 from fmu_bearing.accuracy.first_order import FirstOrder
@@ -51,6 +51,7 @@ def test_every_table_of_the_benchmark_can_be_made():
         (sound.COLUMNS, sound.rows("7003C-spindle", ("compact",), 1)),
         (whole.COLUMNS, whole.rows(quick=True)),
         (calls.COLUMNS, calls.rows(quick=True)),
+        (realtime.COLUMNS, realtime.rows(quick=True)),
     ):
         assert rows and all(len(row) == len(columns) for row in rows)
 

@@ -3,7 +3,8 @@
 import math
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import L
+from fmu_bearing.engine.lanes import load, store
+from fmu_bearing.engine.layout import FOUR, L
 
 _SWEEPS = 12  # of Jacobi's method: more than any matrix here needs
 _LARGEST = 1e300  # a pivot beyond it is no number to divide by
@@ -197,4 +198,45 @@ def solve_complex(re, im, n, m):
                 for j in range(k, m):
                     re[i * m + j] -= fr * re[k * m + j] - fi * im[k * m + j]
                     im[i * m + j] -= fr * im[k * m + j] + fi * re[k * m + j]
+    return True
+
+
+@kernel
+def solve_columns(re, im, n, lanes):
+    """Solve ``n`` complex equations in place, columns of ``lanes`` numbers; False if singular.
+
+    Columns of coefficients, then the right side, which takes the solution. ``lanes``: ``n`` filled up to
+    whole groups of four; spare rows are zero. As `solve_complex`, but a column's rows go side by side.
+    """
+    for k in range(n):
+        column = k * lanes
+        best = 0.0
+        pivot = k
+        for i in range(k, n):
+            size = re[column + i] * re[column + i] + im[column + i] * im[column + i]
+            if size > best:
+                best = size
+                pivot = i
+        if not (best > 0.0 and best < _LARGEST):
+            return False
+        pr = re[column + pivot] / best
+        pi = -im[column + pivot] / best
+        if pivot != k:
+            for j in range(k, n + 1):
+                swap(re, j * lanes + k, j * lanes + pivot, 1)
+                swap(im, j * lanes + k, j * lanes + pivot, 1)
+        # the pivot's row is written by itself
+        re[column + k] = 0.0
+        im[column + k] = 0.0
+        for j in range(k + 1, n + 1):
+            at = j * lanes
+            xr = re[at + k] * pr - im[at + k] * pi
+            xi = re[at + k] * pi + im[at + k] * pr
+            for g in range(0, lanes, FOUR):
+                fr = load(re, column + g)
+                fi = load(im, column + g)
+                store(re, at + g, load(re, at + g) - (fr * xr - fi * xi))
+                store(im, at + g, load(im, at + g) - (fr * xi + fi * xr))
+            re[at + k] = xr
+            im[at + k] = xi
     return True

@@ -91,8 +91,8 @@ def test_orders_over_the_turning_add_up_to_the_form(scene):
     exact = slow_form(run, rolled, 1.0)[[0, 2]].reshape(LN.FORMS, balls) - every.mean(0)
     np.testing.assert_allclose(sums, exact, atol=1e-12 * np.abs(exact).max())
     count = 16
-    form_over_turning(run.p, block(run), 1, count, LN.TURNED, LN.TURNS, x)
-    rows = x[LN.TURNED :][: LN.FORMS * LN.TURNS].reshape(LN.FORMS, LN.TURNS)[:, :count]
+    form_over_turning(run.p, block(run), 1, count, LN.TURNED, x)
+    rows = x[LN.TURNED :][: count * LN.FORMS].reshape(count, LN.FORMS).T
     np.testing.assert_allclose(rows, every[::4, :, 1].T, atol=1e-13 * np.abs(every).max())
 
 

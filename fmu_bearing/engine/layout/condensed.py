@@ -20,6 +20,7 @@ LINE_BALL = _line()  # multiple of ball 0's angle,
 LINE_SHAFT = _line()  # of the shaft's,
 LINE_ROLLED = _line()  # and of the balls' own turning
 LINE_WEIGHT = _line()  # m2/s2: what the line weighs beside others
+LINE_HEAP = _line()  # of a full table's heap by weight: number of the line at this place
 LINE_REAL = _line(COLUMN)  # m, rad: complex displacements of the coordinates, zero for TURN: real parts,
 LINE_IMAGINARY = _line(COLUMN)  # imaginary parts
 LINE_SIZE = _line.next

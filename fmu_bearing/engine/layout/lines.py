@@ -27,6 +27,8 @@ FORMS = 4  # a ball's heights under both races, then its slopes across both trac
 _at = Places()
 COS = _at(TURNS)  # of the azimuths, later of the parts of a ball's turning
 SIN = _at(TURNS)
+BALL_COS = _at(STRIDE)  # of the balls' azimuths from ball 0
+BALL_SIN = _at(STRIDE)
 # orders 0 .. REACH of each kind from BY_HEIGHT on: see `order_of` in response/lines
 TABLE = _at((KINDS - BY_HEIGHT) * (REACH + 1) * COMPLEX)
 FORCE_ORDER = _at(COMPLEX)  # one order of the force

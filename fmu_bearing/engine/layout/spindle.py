@@ -184,12 +184,20 @@ MARCHED = _march.next
 
 # fidelity response, at the end: lines, each with the complex displacements of the padded coordinates
 _line = Places()
-LINE_BALL = _line()  # multiples of the angles as of a single bearing's lines, and its weight,
+LINE_BALL = _line()  # multiples of the angles as of a single bearing's lines, its weight and the heap,
 LINE_SHAFT = _line()
 LINE_ROLLED = _line()
 LINE_WEIGHT = _line()
+LINE_HEAP = _line()
 LINE_MEMBER = _line()  # of which bearing,
 LINE_REAL = _line.next  # m, rad: real parts; imaginary parts follow
+
+# equations of a line, as vectors of the coordinates: how the balls of a bearing act on them across their
+# tracks. Per pattern: how far balls at rest follow, per rate of it, how far rolling takes them; forces by the
+# distance from rest, and by the velocity against rolling
+MOVES_FOLLOW, MOVES_LEAD, MOVES_GUIDE, MOVES_PULL, MOVES_DRAG = range(5)
+MOVES = 5
+LINE_MOVES = MOVES * _L.PATTERNS  # per bearing
 
 # --- work space -------------------------------------------------------------------------------------
 _at = Places()
@@ -269,7 +277,8 @@ def work_size(bearings, count):
     start = padded_size(count) + HOUSING * bearings
     own = W_HEAD + VECTORS * padded_size(count) + bearings * SCRATCH
     equations = start * (start + START_VECTORS) + 2 * count * padded_size(count)
-    complex_ones = 2 * count * (2 * count + 1)  # of lines, with the two matrices they are made of
+    # of lines, with the three matrices they are made of and what the balls' patterns add
+    complex_ones = (2 * (count + 1) + 3 * count + bearings * LINE_MOVES) * padded_size(count)
     return own + max(equations, complex_ones) + FOUR
 
 

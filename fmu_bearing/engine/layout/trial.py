@@ -122,9 +122,9 @@ MODES_END = _at.next
 MASS_TURNED = 2 * FAMILY  # places in ADDED
 DAMPER_TURNED = 3 * FAMILY
 # lines of fidelity response
-LINE_ROW = _L.N + 1  # numbers per equation of the rings: coefficients, then right side
-LINE_RE = _at(_L.N * LINE_ROW)
-LINE_IM = _at(_L.N * LINE_ROW)
+LINE_SIDE = _L.N * _L.COLUMN  # right side of the rings' equations: behind the columns of coefficients
+LINE_RE = _at(LINE_SIDE + _L.COLUMN)
+LINE_IM = _at(LINE_SIDE + _L.COLUMN)
 LINE_FORCE = _at(_LN.COMPLEX)  # N, N m: one line's excitation
 BY_HEIGHT = _at(_LN.COMPLEX)  # one order of the force per height,
 BY_BEND = _at(_LN.COMPLEX)  # and per second time derivative of the height
@@ -153,8 +153,8 @@ LEDGER: tuple[Area, ...] = (
     Area("T.MATRIX", MATRIX, _L.N * _L.N, _CONDENSED),
     Area("T.INVERSE", INVERSE, _L.N * _L.N, _CONDENSED),
     Area("T modes", STILL, MODES_END - STILL, _CONDENSED),
-    Area("T.LINE_RE", LINE_RE, _L.N * LINE_ROW, _LINES),
-    Area("T.LINE_IM", LINE_IM, _L.N * LINE_ROW, _LINES),
+    Area("T.LINE_RE", LINE_RE, LINE_SIDE + _L.COLUMN, _LINES),
+    Area("T.LINE_IM", LINE_IM, LINE_SIDE + _L.COLUMN, _LINES),
     Area("T.LINE_FORCE", LINE_FORCE, _LN.COMPLEX, _LINES),
     Area("T.BY_HEIGHT", BY_HEIGHT, _LN.COMPLEX, _LINES),
     Area("T.BY_BEND", BY_BEND, _LN.COMPLEX, _LINES),

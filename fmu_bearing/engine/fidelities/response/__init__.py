@@ -2,6 +2,7 @@
 
 =================  =============================================================
 ``lines``          which lines a bearing has, and its answer to them
+``table``          the heaviest of them
 ``ball_orders``    what the form of turning balls consists of
 ``bearing``        one bearing's part: derivatives, its own lines, its balls
 ``coupled_lines``  what each bearing of a set excites in the whole of it

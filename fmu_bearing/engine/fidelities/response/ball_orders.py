@@ -8,32 +8,40 @@ order.
 import math
 
 from fmu_bearing.engine.constants import PI
-from fmu_bearing.engine.fidelities.condensed.ball_form import turned_back
+from fmu_bearing.engine.fidelities.condensed.ball_form import pair_of_sums, turned_back
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.lanes import lane
+from fmu_bearing.engine.lanes import lane, load, splat
 from fmu_bearing.engine.layout import LN, STRIDE, P
-from fmu_bearing.engine.mechanics.ball_waves import zonal
 from fmu_bearing.engine.mechanics.triples import dot
 
 
 @kernel
-def form_over_turning(p, lv, j, count, at, stride, x):
-    """Sample the form of ball ``j`` at ``count`` equal parts of its turning into four rows of ``x[at:]``.
+def form_over_turning(p, lv, j, count, at, x):
+    """Sample the form of ball ``j`` at ``count`` equal parts of its turning, an even number, into ``x[at:]``.
 
-    ``stride``: from row to row. Heights (m) under inner and outer race, then slopes (m/rad) across both
+    ``LN.FORMS`` numbers per part: heights (m) under inner and outer race, then slopes (m/rad) across both
     tracks.
     """
     table = int(p[P.AT_AXES]) + j
+    form, orders = int(p[P.AT_FORM]), int(p[P.BALL_WAVES])
     a = p[table], p[table + STRIDE], p[table + 2 * STRIDE]
-    for k in range(count):
-        turn = 2.0 * PI * k / count
-        # four directions at once, not four places of the turning
-        directions, _, _ = turned_back(lv, math.cos(turn), math.sin(turn))
-        sines = dot(a, directions)
-        height, rise = zonal(p, int(p[P.AT_FORM]), int(p[P.BALL_WAVES]), sines)
+    for k in range(0, count, 2):
+        # four directions at once, not four places of the turning; two places, as each waits for itself
+        one, other = sines_at(lv, a, 2.0 * PI * k / count), sines_at(lv, a, 2.0 * PI * (k + 1) / count)
+        height, rise, _, height_after, rise_after, _ = pair_of_sums(p, form, orders, one, other)
         for race in range(2):
-            x[at + race * stride + k] = lane(height, race)
-            x[at + (2 + race) * stride + k] = lane(rise, race) * lane(sines, 2 + race)
+            here = at + LN.FORMS * k + race
+            x[here] = lane(height, race)
+            x[here + 2] = lane(rise, race) * lane(one, 2 + race)
+            x[here + LN.FORMS] = lane(height_after, race)
+            x[here + LN.FORMS + 2] = lane(rise_after, race) * lane(other, 2 + race)
+
+
+@kernel
+def sines_at(lv, a, turn):
+    """Sines of the four directions of a ball's contacts against its axis ``a``, turned by ``turn`` (rad)."""
+    directions, _, _ = turned_back(lv, math.cos(turn), math.sin(turn))
+    return dot(a, directions)
 
 
 @kernel
@@ -50,14 +58,17 @@ def form_orders(p, lv, highest, x):
         x[LN.COS + k] = math.cos(2.0 * PI * k / count) / count
         x[LN.SIN + k] = math.sin(2.0 * PI * k / count) / count
     for j in range(int(p[P.BALLS])):
-        form_over_turning(p, lv, j, count, LN.TURNED, LN.TURNS, x)
+        form_over_turning(p, lv, j, count, LN.TURNED, x)
         for m in range(1, highest + 1):
+            re, im = splat(0.0), splat(0.0)
+            place = 0  # of m k among the parts
+            for k in range(count):
+                values = load(x, LN.TURNED + LN.FORMS * k)
+                re += values * x[LN.COS + place]
+                im -= values * x[LN.SIN + place]
+                place += m
+                if place >= count:
+                    place -= count
             for form in range(LN.FORMS):
-                re = 0.0
-                im = 0.0
-                for k in range(count):
-                    value = x[LN.TURNED + form * LN.TURNS + k]
-                    re += value * x[LN.COS + (m * k) % count]
-                    im -= value * x[LN.SIN + (m * k) % count]
-                x[form_of(form, m) + j] = re
-                x[form_of(form, m) + STRIDE + j] = im
+                x[form_of(form, m) + j] = lane(re, form)
+                x[form_of(form, m) + STRIDE + j] = lane(im, form)

@@ -9,23 +9,17 @@ and imaginary parts of the coordinates (m, rad). A bearing's ``drives`` are line
 whose parts are accelerations of its free rings (m/s2, rad/s2). Other arguments: see `spindle.members`.
 """
 
-from fmu_bearing.engine.dense import solve_complex
+from fmu_bearing.engine.dense import solve_columns
 from fmu_bearing.engine.fidelities.response.bearing import turned
-from fmu_bearing.engine.fidelities.response.lines import (
-    STILL,
-    counts_by,
-    drop_weak,
-    line_equations,
-    line_table,
-    weakest,
-)
+from fmu_bearing.engine.fidelities.response.lines import STILL, across, add_moves, counts_by, line_table
+from fmu_bearing.engine.fidelities.response.table import counted, drop_weak, place_for
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
-from fmu_bearing.engine.layout import FOUR, LN, SP, STRIDE, L, P, S, T
+from fmu_bearing.engine.layout import FOUR, SP, STRIDE, L, P, S, T
 from fmu_bearing.engine.mechanics.trigonometry import ball_angles
 from fmu_bearing.engine.newton.jacobian import is_angle
 from fmu_bearing.engine.spindle import members
-from fmu_bearing.engine.spindle.coupling import add_driven, shaft_matrix
+from fmu_bearing.engine.spindle.coupling import add_driven, keep_columns, shaft_matrix
 
 
 @kernel
@@ -36,49 +30,121 @@ def frequency(lv, lines, at, speed):
 
 
 @kernel
-def set_equations(p, s, w, speed, omega):
-    """Put the set's equations at ``omega``, for a shaft at ``speed`` (rad/s), to its work space.
+def equations_at(p):
+    """Places in the set's work space: imaginary part of a line's equations, then the table made for all.
 
-    The right side is zero. Real parts by rows of one more than the coordinates, then imaginary parts.
+    Their real part is at `members.matrix`; the table: see `prepare_equations`.
     """
-    own = members.set_state(p, s)
+    lanes = members.padded_size(p)
+    n = members.coordinates(p)
+    im = members.matrix(p) + (n + 1) * lanes
+    return im, im + (n + 1) * lanes
+
+
+@kernel
+def prepare_equations(p, s, w, speed):
+    """Make what the set's equations at any frequency consist of, for a shaft at ``speed`` (rad/s).
+
+    Matrices of the coordinates by padded columns: mass, rates, places, with all bearings' rings. Then
+    vectors for the balls' patterns: see ``SP.LINE_MOVES``.
+    """
+    lanes = members.padded_size(p)
+    size = members.coordinates(p) * lanes
+    _, table = equations_at(p)
+    prepare_matrix(p, s, w, speed, L.MASS, 1.0, 0.0, 0.0, table)
+    prepare_matrix(p, s, w, speed, L.JV, 0.0, 1.0, 0.0, table + size)
+    prepare_matrix(p, s, w, speed, L.JX, 0.0, 0.0, 1.0, table + 2 * size)
+    for b in range(members.count(p)):
+        prepare_moves(p, s, w, b, table + 3 * size + b * SP.LINE_MOVES * lanes)
+
+
+@kernel
+def prepare_matrix(p, s, w, speed, matrix, by_mass, by_rate, by_place, to):
+    """Put one of the shaft's matrices with that of all bearings' rings at ``lv[matrix:]`` to ``ws[to:]``.
+
+    ``by_mass``, ``by_rate``, ``by_place``: see `coupling.shaft_matrix`; one of them is one. Rates and places
+    of the rings are derivatives of accelerations: they belong to the other side.
+    """
     ws = members.set_work(p, w)
     n = members.coordinates(p)
-    re = members.matrix(p)
-    im = re + n * (n + 1)
-    real = im + n * (n + 1)
-    imaginary = real + n * n
-    shaft_matrix(p, own, ws, speed, -omega * omega, 0.0, 1.0, real)
-    shaft_matrix(p, own, ws, speed, 0.0, omega, 0.0, imaginary)
+    spare = members.matrix(p)
+    rings = spare + n * n
+    for i in range(n * n):
+        ws[rings + i] = 0.0
     for b in range(members.count(p)):
-        pb = members.parameters(p, b)
-        wb = members.work(p, w, b)
-        for i in range(LN.COMPLEX):
-            wb[T.LINE_FORCE + i] = 0.0
-        line_equations(pb, members.condensed(members.state(p, s, b)), omega, wb)
-        add_driven(p, b, wb, T.LINE_RE, T.LINE_ROW, 1, ws, real)
-        add_driven(p, b, wb, T.LINE_IM, T.LINE_ROW, 1, ws, imaginary)
-    for i in range(n):
-        for k in range(n):
-            ws[re + i * (n + 1) + k] = ws[real + i * n + k]
-            ws[im + i * (n + 1) + k] = ws[imaginary + i * n + k]
-        ws[re + i * (n + 1) + n] = 0.0
-        ws[im + i * (n + 1) + n] = 0.0
+        lv = members.condensed(members.state(p, s, b))
+        add_driven(p, b, lv, matrix, 1, L.COLUMN, ws, rings)
+    shaft_matrix(p, members.set_state(p, s), ws, speed, by_mass, by_rate, by_place, spare)
+    sign = 1.0 if by_mass != 0.0 else -1.0
+    for i in range(n * n):
+        ws[spare + i] += sign * ws[rings + i]
+    keep_columns(ws, spare, n, members.padded_size(p), ws, to)
+
+
+@kernel
+def prepare_moves(p, s, w, b, to):
+    """Put the vectors of the balls' patterns of bearing ``b`` to ``ws[to:]``."""
+    ws = members.set_work(p, w)
+    wb = members.work(p, w, b)
+    lv = members.condensed(members.state(p, s, b))
+    lanes = members.padded_size(p)
+    masses = members.row(p, b) + SP.ROW_MASS
+    for i in range(SP.LINE_MOVES * lanes):
+        ws[to + i] = 0.0
+    for k in range(L.PATTERNS):
+        row = k * L.COLUMN
+        at = to + k * SP.MOVES * lanes
+        members.pull(p, b, lv, L.SIDE_FOLLOW + row, ws, at + SP.MOVES_FOLLOW * lanes)
+        members.pull(p, b, lv, L.SIDE_LEAD + row, ws, at + SP.MOVES_LEAD * lanes)
+        members.pull(p, b, lv, L.SIDE_GUIDE + row, ws, at + SP.MOVES_GUIDE * lanes)
+        for i in range(L.COLUMN):
+            wb[T.D + i] = p[masses + i] * lv[L.SIDE_PULL + row + i] if i < L.N else 0.0
+        members.pull(p, b, wb, T.D, ws, at + SP.MOVES_PULL * lanes)
+        for i in range(L.COLUMN):
+            wb[T.D + i] = p[masses + i] * lv[L.SIDE_DRAG + row + i] if i < L.N else 0.0
+        members.pull(p, b, wb, T.D, ws, at + SP.MOVES_DRAG * lanes)
+
+
+@kernel
+def set_equations(p, s, w, omega):
+    """Put the set's equations at ``omega`` (rad/s) to its work space, by padded columns; no right side.
+
+    From what `prepare_equations` has made.
+    """
+    ws = members.set_work(p, w)
+    n = members.coordinates(p)
+    lanes = members.padded_size(p)
+    size = n * lanes
+    re = members.matrix(p)
+    im, table = equations_at(p)
+    for i in range(0, size, FOUR):
+        mass, places = load(ws, table + i), load(ws, table + 2 * size + i)
+        store(ws, re + i, places - omega * omega * mass)
+        store(ws, im + i, omega * load(ws, table + size + i))
+    for i in range(lanes):
+        ws[re + size + i] = 0.0
+        ws[im + size + i] = 0.0
+    for b in range(members.count(p)):
+        lv = members.condensed(members.state(p, s, b))
+        if lv[L.SIDE_SQUARE] == 0.0:
+            continue
+        for k in range(L.PATTERNS):
+            at = table + 3 * size + (b * L.PATTERNS + k) * SP.MOVES * lanes
+            pull, drag = at + SP.MOVES_PULL * lanes, at + SP.MOVES_DRAG * lanes
+            for i in range(n):
+                follow, lead = ws[at + SP.MOVES_FOLLOW * lanes + i], ws[at + SP.MOVES_LEAD * lanes + i]
+                guide = ws[at + SP.MOVES_GUIDE * lanes + i]
+                moves = across(lv, omega, follow, omega * lead, omega * guide)
+                add_moves(ws, pull, drag, -1.0, moves, ws[re:im], ws[im:table], i * lanes, lanes)
 
 
 @kernel
 def add_drive(p, b, wb, drive, at, ws, side):
     """Add what drives the rings of bearing ``b`` (accelerations, ``drive[at:]``) to a right side."""
-    n = members.coordinates(p)
     masses = members.row(p, b) + SP.ROW_MASS
-    force = members.vector(p, SP.FORCE)
-    for i in range(members.padded_size(p)):
-        ws[force + i] = 0.0
     for i in range(L.COLUMN):
         wb[T.D + i] = p[masses + i] * drive[at + i] if i < L.N else 0.0
-    members.pull(p, b, wb, T.D, ws, force)
-    for i in range(n):
-        ws[side + i * (n + 1)] += ws[force + i]
+    members.pull(p, b, wb, T.D, ws, side)
 
 
 @kernel
@@ -110,26 +176,21 @@ def keep_line(p, s, w, b, a, shaft, rolled, omega):
     n = members.coordinates(p)
     lanes = members.padded_size(p)
     re = members.matrix(p)
-    im = re + n * (n + 1)
-    if not solve_complex(ws[re:im], ws[im : im + n * (n + 1)], n, n + 1):
+    im, table = equations_at(p)
+    if not solve_columns(ws[re:im], ws[im:table], n, lanes):
         return
     found = members.vector(p, SP.RESIDUAL)  # with the vector behind it
     for i in range(lanes):
-        ws[found + i] = ws[re + i * (n + 1) + n] if i < n else 0.0
-        ws[found + lanes + i] = ws[im + i * (n + 1) + n] if i < n else 0.0
+        ws[found + i] = ws[re + n * lanes + i]
+        ws[found + lanes + i] = ws[im + n * lanes + i]
     weight = weight_of_set(p, w, omega, found)
-    if not (weight < 1e9):
-        return
     lines = own[members.lines(p) :]
     size = members.line_size(p)
-    count = members.march(p) + SP.LINES
-    into = int(own[count])
-    if into == L.MOST_LINES * members.count(p):
-        into = weakest(lines, size, into)
-        if lines[into * size + SP.LINE_WEIGHT] >= weight:
-            return
-    else:
-        own[count] += 1.0
+    most = L.MOST_LINES * members.count(p)
+    count = int(own[members.march(p) + SP.LINES])
+    into = place_for(lines, size, count, most, weight)
+    if into < 0:
+        return
     at = into * size
     lines[at + SP.LINE_BALL] = a
     lines[at + SP.LINE_SHAFT] = shaft
@@ -138,6 +199,7 @@ def keep_line(p, s, w, b, a, shaft, rolled, omega):
     lines[at + SP.LINE_MEMBER] = b
     for i in range(2 * lanes):
         lines[at + SP.LINE_REAL + i] = ws[found + i]
+    own[members.march(p) + SP.LINES] = counted(lines, size, count, most)
 
 
 @kernel
@@ -149,12 +211,12 @@ def unbalance_line(p, s, w, speed):
     n = members.coordinates(p)
     lanes = members.padded_size(p)
     spots = members.table(p, SP.AT_UNBALANCE)
-    set_equations(p, s, w, speed, speed)
-    re = members.matrix(p) + n
-    im = re + n * (n + 1)
+    set_equations(p, s, w, speed)
+    re = members.matrix(p) + n * lanes
+    im, _ = equations_at(p)
     for i in range(n):
-        ws[re + i * (n + 1)] = speed * speed * p[spots + i]
-        ws[im + i * (n + 1)] = -speed * speed * p[spots + lanes + i]
+        ws[re + i] = speed * speed * p[spots + i]
+        ws[im + n * lanes + i] = -speed * speed * p[spots + lanes + i]
     keep_line(p, s, w, 0, 0.0, 1.0, 0.0, speed)
 
 
@@ -163,9 +225,11 @@ def answer_lines(p, s, w, speed):
     """Renew the lines of the set at ``speed`` (rad/s), when each bearing has found what drives it."""
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
-    n = members.coordinates(p)
+    side = members.coordinates(p) * members.padded_size(p)
+    im, _ = equations_at(p)
     count = members.march(p) + SP.LINES
     own[count] = 0.0
+    prepare_equations(p, s, w, speed)
     unbalance_line(p, s, w, speed)
     for b in range(members.count(p)):
         sb = members.state(p, s, b)
@@ -177,10 +241,9 @@ def answer_lines(p, s, w, speed):
             if not (drives[at + L.LINE_WEIGHT] > 0.0):
                 continue
             omega = frequency(lv, drives, at, speed)
-            set_equations(p, s, w, speed, omega)
-            side = members.matrix(p) + n
-            add_drive(p, b, wb, drives, at + L.LINE_REAL, ws, side)
-            add_drive(p, b, wb, drives, at + L.LINE_IMAGINARY, ws, side + n * (n + 1))
+            set_equations(p, s, w, omega)
+            add_drive(p, b, wb, drives, at + L.LINE_REAL, ws, members.matrix(p) + side)
+            add_drive(p, b, wb, drives, at + L.LINE_IMAGINARY, ws, im + side)
             keep_line(
                 p, s, w, b, drives[at + L.LINE_BALL], drives[at + L.LINE_SHAFT], drives[at + L.LINE_ROLLED],
                 omega,

@@ -19,13 +19,15 @@ combinations that add up to multiples of their number Z:
 import math
 
 from fmu_bearing.engine.constants import PI
-from fmu_bearing.engine.dense import solve_complex
+from fmu_bearing.engine.dense import solve_columns
 from fmu_bearing.engine.fidelities.condensed.balls import carried, set_angles
 from fmu_bearing.engine.fidelities.condensed.rows import component
 from fmu_bearing.engine.fidelities.condensed.transverse import pattern_answer, pattern_weight
 from fmu_bearing.engine.fidelities.response.ball_orders import form_of, form_orders
+from fmu_bearing.engine.fidelities.response.table import counted, drop_weak, place_for
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import LN, STRIDE, C, L, P, Q, S, T, W, Y
+from fmu_bearing.engine.lanes import load, store
+from fmu_bearing.engine.layout import FOUR, LN, STRIDE, C, L, P, Q, S, T, W, Y
 from fmu_bearing.engine.newton.body_slopes import inertia
 from fmu_bearing.engine.newton.jacobian import is_angle
 
@@ -33,7 +35,6 @@ _HEIGHT = 1e-9  # m, for differences; heights' accelerations by (3e4 rad/s)^2 ti
 _BEND = 1.0  # m/s2
 _LEAN = 1e-8  # m/rad
 _SMALL = 1e-6  # of the largest coefficient of a kind: an order of the balls below it is left out
-_WEAK = 1e-5  # of the strongest line's weight, as an amplitude: left out
 _RADIATES = 6300.0  # rad/s: from here on lines count by their acceleration
 STILL = 1e-3  # rad/s: a line as slow as that is none
 
@@ -134,25 +135,70 @@ def coefficients(x, kind, order, target, w):
 
 
 @kernel
-def line_equations(p, lv, omega, w):
-    """Put the rings' equations at ``omega`` (rad/s) with ``T.LINE_FORCE`` to ``T.LINE_RE`` and ``T.LINE_IM``.
-
-    Per own inertia; the right side is the last number of a row.
-    """
-    re = w[T.LINE_RE : T.LINE_RE + L.N * T.LINE_ROW]
-    im = w[T.LINE_IM : T.LINE_IM + L.N * T.LINE_ROW]
-    for i in range(L.N):
-        for k in range(L.N):
-            at = i + L.COLUMN * k
-            re[i * T.LINE_ROW + k] = -omega * omega * lv[L.MASS + at] - lv[L.JX + at]
-            im[i * T.LINE_ROW + k] = -omega * lv[L.JV + at]
-        per = 1.0 / inertia(p, i)
-        at = T.LINE_FORCE + component(i)
-        re[i * T.LINE_ROW + L.N] = w[at] * per if i != L.TURN else 0.0
-        im[i * T.LINE_ROW + L.N] = w[at + LN.IMAGINARY] * per if i != L.TURN else 0.0
+def line_matrix(lv, omega, re, im):
+    """Put the coefficients of the rings' equations at ``omega`` (rad/s), per own inertia, by columns."""
+    for at in range(0, T.LINE_SIDE, FOUR):
+        store(re, at, -omega * omega * load(lv, L.MASS + at) - load(lv, L.JX + at))
+        store(im, at, -omega * load(lv, L.JV + at))
     if lv[L.SIDE_SQUARE] != 0.0:
         for k in range(L.PATTERNS):
-            move_across(p, lv, k, omega, re, im, w)
+            row = k * L.COLUMN
+            pull, drag = L.SIDE_PULL + row, L.SIDE_DRAG + row
+            for n in range(L.N):
+                follow, lead = lv[L.SIDE_FOLLOW + row + n], lv[L.SIDE_LEAD + row + n]
+                moves = across(lv, omega, follow, omega * lead, omega * lv[L.SIDE_GUIDE + row + n])
+                add_moves(lv, pull, drag, -1.0, moves, re, im, n * L.COLUMN, L.COLUMN)
+    for n in range(L.N):
+        re[n * L.COLUMN + L.N] = 0.0
+        im[n * L.COLUMN + L.N] = 0.0
+
+
+@kernel
+def line_side(p, lv, omega, w, re, im):
+    """Put ``T.LINE_FORCE`` as accelerations of the rings at ``omega`` (rad/s) to the right side."""
+    for i in range(L.COLUMN):
+        moves = i < L.N and i != L.TURN
+        at = T.LINE_FORCE + component(i)
+        per = 1.0 / inertia(p, i) if moves else 0.0
+        re[T.LINE_SIDE + i] = w[at] * per if moves else 0.0
+        im[T.LINE_SIDE + i] = w[at + LN.IMAGINARY] * per if moves else 0.0
+    if lv[L.SIDE_SQUARE] != 0.0:
+        for k in range(L.PATTERNS):
+            at = T.LINE_FORCE + L.FORCES + k
+            weight = pattern_weight(p, k)
+            moves = across(lv, omega, w[at] / weight, w[at + LN.IMAGINARY] / weight, 0.0)
+            row = k * L.COLUMN
+            add_moves(lv, L.SIDE_PULL + row, L.SIDE_DRAG + row, 1.0, moves, re, im, T.LINE_SIDE, L.COLUMN)
+    re[T.LINE_SIDE + L.N] = 0.0
+    im[T.LINE_SIDE + L.N] = 0.0
+
+
+@kernel
+def across(lv, omega, rest_re, rest_im, rolled):
+    """How far balls are from a place of rest that moves at ``omega``, and their velocity against rolling.
+
+    Complex: both parts of the distance, then of the velocity, per number at which the place of rest moves;
+    ``rolled``: imaginary part of the velocity that rolling gives.
+    """
+    gr, gi = pattern_answer(lv, omega)
+    square, rate = lv[L.SIDE_SQUARE], lv[L.SIDE_RATE]
+    drive_re, drive_im = square * rest_re, square * rest_im + rate * rolled
+    place_re = gr * drive_re - gi * drive_im
+    place_im = gr * drive_im + gi * drive_re
+    return place_re - rest_re, place_im - rest_im, -omega * place_im, omega * place_re - rolled
+
+
+@kernel
+def add_moves(x, pull, drag, sign, moves, re, im, at, lanes):
+    """Add forces of balls that move `across` to a column of ``lanes`` numbers at ``re[at:]`` and ``im[at:]``.
+
+    By distance ``x[pull:]`` and by velocity ``x[drag:]``; ``sign``: -1 for coefficients.
+    """
+    away_re, away_im, against_re, against_im = moves
+    for g in range(0, lanes, FOUR):
+        by_place, by_rate = load(x, pull + g), load(x, drag + g)
+        store(re, at + g, load(re, at + g) + sign * (by_place * away_re + by_rate * against_re))
+        store(im, at + g, load(im, at + g) + sign * (by_place * away_im + by_rate * against_im))
 
 
 @kernel
@@ -163,24 +209,20 @@ def keep(p, lv, lines, alone, a, b, m, omega, w):
     """
     if abs(omega) < STILL:
         return
-    re = w[T.LINE_RE : T.LINE_RE + L.N * T.LINE_ROW]
-    im = w[T.LINE_IM : T.LINE_IM + L.N * T.LINE_ROW]
-    line_equations(p, lv, omega, w)
-    if alone and not solve_complex(re, im, L.N, T.LINE_ROW):
-        return
-    into = int(lv[L.COUNT])
+    re = w[T.LINE_RE : T.LINE_RE + T.LINE_SIDE + L.COLUMN]
+    im = w[T.LINE_IM : T.LINE_IM + T.LINE_SIDE + L.COLUMN]
+    line_side(p, lv, omega, w, re, im)
+    if alone:
+        line_matrix(lv, omega, re, im)
+        if not solve_columns(re, im, L.N, L.COLUMN):
+            return
     size = weight_of(omega, re, im)
     if not alone:
         size /= omega**4  # as free rings would answer
-    if not (size < 1e9):
+    count = int(lv[L.COUNT])
+    into = place_for(lines, L.LINE_SIZE, count, L.MOST_LINES, size)
+    if into < 0:
         return
-    if into == L.MOST_LINES:
-        # full: the weakest line makes room, if it is weaker than this one
-        into = weakest(lines, L.LINE_SIZE, into)
-        if lines[into * L.LINE_SIZE + L.LINE_WEIGHT] >= size:
-            return
-    else:
-        lv[L.COUNT] += 1.0
     at = into * L.LINE_SIZE
     lines[at + L.LINE_BALL] = a
     lines[at + L.LINE_SHAFT] = b
@@ -188,35 +230,9 @@ def keep(p, lv, lines, alone, a, b, m, omega, w):
     lines[at + L.LINE_WEIGHT] = size
     for i in range(L.COLUMN):
         moves = i < L.N and i != L.TURN
-        lines[at + L.LINE_REAL + i] = re[i * T.LINE_ROW + L.N] if moves else 0.0
-        lines[at + L.LINE_IMAGINARY + i] = im[i * T.LINE_ROW + L.N] if moves else 0.0
-
-
-@kernel
-def move_across(p, lv, k, omega, re, im, w):
-    """Add what pattern ``k`` of the balls does across the track to a line's equations and right side."""
-    gr, gi = pattern_answer(lv, omega)
-    square, rate = lv[L.SIDE_SQUARE], lv[L.SIDE_RATE]
-    at = T.LINE_FORCE + L.FORCES + k
-    sum_re, sum_im = w[at] / pattern_weight(p, k), w[at + LN.IMAGINARY] / pattern_weight(p, k)
-    row = k * L.COLUMN
-    for n in range(L.N + 1):
-        rest_re, rest_im, rolled = sum_re, sum_im, 0.0
-        if n < L.N:
-            rest_re = lv[L.SIDE_FOLLOW + row + n]
-            rest_im = omega * lv[L.SIDE_LEAD + row + n]
-            rolled = omega * lv[L.SIDE_GUIDE + row + n]
-        drive_re, drive_im = square * rest_re, square * rest_im + rate * rolled
-        place_re = gr * drive_re - gi * drive_im
-        place_im = gr * drive_im + gi * drive_re
-        away_re, away_im = place_re - rest_re, place_im - rest_im
-        against_re, against_im = -omega * place_im, omega * place_re - rolled
-        # coefficients belong to the other side
-        sign = -1.0 if n < L.N else 1.0
-        for i in range(L.N):
-            pull, drag = lv[L.SIDE_PULL + row + i], lv[L.SIDE_DRAG + row + i]
-            re[i * T.LINE_ROW + n] += sign * (pull * away_re + drag * against_re)
-            im[i * T.LINE_ROW + n] += sign * (pull * away_im + drag * against_im)
+        lines[at + L.LINE_REAL + i] = re[T.LINE_SIDE + i] if moves else 0.0
+        lines[at + L.LINE_IMAGINARY + i] = im[T.LINE_SIDE + i] if moves else 0.0
+    lv[L.COUNT] = counted(lines, L.LINE_SIZE, count, L.MOST_LINES)
 
 
 @kernel
@@ -228,7 +244,7 @@ def weight_of(omega, re, im):
     size = 0.0
     for i in range(L.TURN):
         if not is_angle(i):
-            size += re[i * T.LINE_ROW + L.N] ** 2 + im[i * T.LINE_ROW + L.N] ** 2
+            size += re[T.LINE_SIDE + i] ** 2 + im[T.LINE_SIDE + i] ** 2
     return counts_by(omega) * size
 
 
@@ -237,32 +253,6 @@ def counts_by(omega):
     """Weight (1/s2) of squared displacements at ``omega`` (rad/s): see `weight_of`."""
     squared = omega * omega
     return squared * (1.0 + squared / (_RADIATES * _RADIATES))
-
-
-@kernel
-def weakest(lines, size, count):
-    """Index of the kept line, of ``size`` numbers, that weighs least."""
-    best = 0
-    for k in range(1, count):
-        if lines[k * size + L.LINE_WEIGHT] < lines[best * size + L.LINE_WEIGHT]:
-            best = k
-    return best
-
-
-@kernel
-def drop_weak(lines, size, count):
-    """Leave out lines, of ``size`` numbers each, that are nothing beside the strongest; how many are left."""
-    most = 0.0
-    for k in range(count):
-        most = max(most, lines[k * size + L.LINE_WEIGHT])
-    into = 0
-    for k in range(count):
-        at = k * size
-        if lines[at + L.LINE_WEIGHT] > _WEAK * _WEAK * most:
-            for i in range(size):
-                lines[into * size + i] = lines[at + i]
-            into += 1
-    return into
 
 
 @kernel
@@ -401,9 +391,10 @@ def form_lines(p, c, lv, lines, alone, x, orbit, speed, w):
                 re = 0.0
                 im = 0.0
                 for j in range(balls):
-                    turn = 2.0 * PI * ((a * j) % balls) / balls
-                    re += x[at + j] * math.cos(turn) - x[at + STRIDE + j] * math.sin(turn)
-                    im += x[at + j] * math.sin(turn) + x[at + STRIDE + j] * math.cos(turn)
+                    co = x[LN.BALL_COS + (a * j) % balls]
+                    si = x[LN.BALL_SIN + (a * j) % balls]
+                    re += x[at + j] * co - x[at + STRIDE + j] * si
+                    im += x[at + j] * si + x[at + STRIDE + j] * co
                 kind = LN.BY_HEIGHT + form if form < 2 else LN.BY_LEAN + form - 2
                 add_form(x, kind, a, double * re, double * im, m * rate, p[P.CONTACT_DAMPING], w)
             keep(p, lv, lines, alone, a, 0.0, m, a * orbit + m * rate, w)
@@ -423,6 +414,9 @@ def renew_lines(p, s, alone, speed, w):
     for m in range(count):
         x[LN.COS + m] = math.cos(2.0 * PI * m / count)
         x[LN.SIN + m] = math.sin(2.0 * PI * m / count)
+    for j in range(int(p[P.BALLS])):
+        x[LN.BALL_COS + j] = math.cos(2.0 * PI * j / int(p[P.BALLS]))
+        x[LN.BALL_SIN + j] = math.sin(2.0 * PI * j / int(p[P.BALLS]))
     for kind in range(LN.BY_HEIGHT, kinds_of_sample(p)):
         for order in range(LN.REACH + 1):
             transform(x, kind, order, count, order_of(kind, order))

@@ -1,4 +1,7 @@
-"""Wheels as `make wheels` builds them: what is inside, and a first run from one that compiles nothing."""
+"""Wheels as `make wheels` builds them: what is inside, and a first run from one that compiles nothing.
+
+Kernels that no test runs are not optimised here; `tests/native/test_cross_builds.py` makes them as for users.
+"""
 
 import email
 import os
@@ -13,16 +16,18 @@ from pathlib import Path
 
 import pytest
 
-from fmu_bearing.compiled.make import sources_key
-from fmu_bearing.compiled.platforms import PLATFORMS, host
+from fmu_bearing.compiled import disk_cache
+from fmu_bearing.compiled.make import bitcode, folder, objects, sources_key
+from fmu_bearing.compiled.platforms import PLATFORMS, host, instruction_set
 from fmu_bearing.compiled.units import UNITS, object_name
 from fmu_bearing.fmi.native.link import library_name
 from fmu_bearing.fmi.native.prebuilt import WHEEL_TAGS
+from tests.compiled import unoptimised
 from tests.conftest import ROOT
 from tests.native import binaries
 
-#: Another platform than this machine's.
-FOREIGN = "win64" if host() != PLATFORMS["win64"] else "linux64"
+#: Another platform than this machine's, of one instruction set.
+FOREIGN = "aarch64-linux" if host() != PLATFORMS["aarch64-linux"] else "aarch64-darwin"
 #: Format of objects and libraries, and processor.
 FORMATS = {
     "linux64": ("ELF", "x86-64"),
@@ -64,6 +69,19 @@ class Wheel:
         return cls(path, fields["Tag"], fields["Root-Is-Purelib"] == "true", prebuilt)
 
 
+def kernel_files():
+    """Return all files of kernels that wheels need, by name; optimised are those that this machine runs."""
+    own = objects(host(), UNITS, [instruction_set(host())])
+    files = {object_name(unit, host().name, one): data for (unit, one), data in own.items()}
+    files |= {f"{unit}.bc": bitcode(unit) for unit in UNITS}
+    for platform in (host(), PLATFORMS[FOREIGN]):
+        for suffix, _ in platform.instruction_sets:
+            for unit in UNITS:
+                name = object_name(unit, platform.name, suffix)
+                files[name] = files.get(name) or unoptimised.object_of(unit, platform.name, suffix)
+    return files
+
+
 @pytest.fixture(scope="module")
 def wheels(tmp_path_factory):
     """Wheels of this machine's platform, of a foreign one, and the universal one, by tag.
@@ -73,13 +91,19 @@ def wheels(tmp_path_factory):
     pytest.importorskip("ziglang")
     if host() is None or shutil.which("make") is None:
         pytest.skip("no wheel can be made for this machine, or make is not installed")
-    out = tmp_path_factory.mktemp("out")
+    out, cache = tmp_path_factory.mktemp("out"), tmp_path_factory.mktemp("cache")
+    files = kernel_files()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("FMU_BEARING_CACHE", str(cache))
+        for name, data in files.items():
+            assert disk_cache.write(folder() / name, data, print)
     command = [
         "make", "wheels", f"PLATFORMS={host().name} {FOREIGN}", f"OUT={out}",
         f"BIN={Path(sys.executable).parent}", "VENV=any", "--old-file=any/.installed-test",
     ]  # fmt: skip
     outer = ("MAKEFLAGS", "MFLAGS", "MAKELEVEL")  # of the call of make that may have begun the tests
     environment = {name: value for name, value in os.environ.items() if name not in outer}
+    environment["FMU_BEARING_CACHE"] = str(cache)
     subprocess.run(command, cwd=ROOT, env=environment, check=True, timeout=600)
     found = [Wheel.read(path) for path in (out / "wheels").glob("*.whl")]
     assert len(found) == 3

@@ -17,18 +17,13 @@ __all__ = ["install", "object_of"]
 
 def install(put=setattr):
     """Let `optimise.object_code` make such objects in this process; ``put``: sets an attribute."""
-    machine, standard = llvm.Target.create_target_machine, optimise._optimise
-
-    def few(module, target, speed, loops):
-        if speed == 2:  # of code made the plain way, against the paths of errors, which need Python
-            standard(module, target, speed, loops)
-        _drop_unused(module, target)
-
-    put(optimise, "_optimise", few)
+    machine = llvm.Target.create_target_machine
+    put(optimise, "_optimise", _drop_unused)
     put(llvm.Target, "create_target_machine", lambda self, **choice: machine(self, **(choice | {"opt": 0})))
 
 
-def _drop_unused(module, target):
+def _drop_unused(module, target, speed, loops):
+    """In place of LLVM's standard passes."""
     passes = llvm.create_new_module_pass_manager()
     passes.add_global_dead_code_eliminate_pass()
     passes.run(module, llvm.create_pass_builder(target, llvm.create_pipeline_tuning_options(speed_level=0)))

@@ -6,7 +6,15 @@ import re
 
 import pytest
 
-from examples.papers import case as case_module, lines, multi_source, printed, sound_field, values
+from examples.papers import (
+    case as case_module,
+    lines,
+    multi_source,
+    printed,
+    printed_motion,
+    sound_field,
+    values,
+)
 from examples.papers.case import ROOT, Case
 from examples.papers.hearing import Ear, equivalent, line
 from examples.papers.identification import BOTH
@@ -122,6 +130,9 @@ def test_short_pages_say_what_is_known(tmp_path, monkeypatch):
     monkeypatch.setattr("examples.papers.runs.AROUND", (1.0,))
     monkeypatch.setattr("examples.papers.runs.FEW_AROUND", (1.0,))
     monkeypatch.setattr(multi_source, "CORNERS", multi_source.CORNERS[:1])
+    # one speed, one correction left out, one turn: test_printed_motion.py runs more and reads the figures
+    brief = ((printed_motion.ALONE,), ("traction_law",), 1.0)
+    monkeypatch.setattr(printed_motion.results, "__defaults__", brief)
     monkeypatch.setenv("PYTHONWARNINGS", "ignore")
     (path,) = run(["multi-source"], "compact", quick=False, jobs=2, cache=tmp_path / "cache", root=tmp_path)
     text = path.read_text("utf-8")

@@ -11,7 +11,7 @@ from examples.papers import printed_motion, printed_runs
 from examples.papers.printed_equations import Corrections, Equations
 from examples.papers.printed_forces import INNER, LAG, OM, OUTER, WX, Bearing, R, X, printed_pull
 from examples.papers.printed_motion import ALONE, REPAIRED, apart, cells, main, page_of, results
-from examples.papers.printed_runs import bearing_at, equations, growth, run, settled, start
+from examples.papers.printed_runs import bearing_at, equations, growth, of_run, ours, run, settled, start
 from fmu_bearing.engine.choices import TRACTION_LAWS
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import STRIDE, C, P, Y
@@ -104,7 +104,8 @@ def test_corrected_motion_is_the_products(found):
 @pytest.mark.heavy
 @pytest.mark.parametrize("rpm", [10_000, 40_000])
 def test_corrected_motion_is_the_products_at_other_speeds(rpm):
-    other = results((rpm,), (), 1.0)
+    corrected = of_run(equations(rpm, Corrections.all()), settled(rpm))
+    other = {"speeds": {str(rpm): {"corrected": corrected, "ours": ours(rpm)}}}
     load, angle, orbit = apart(other, "corrected", "ours")
     assert load < 0.05 and angle < 0.01 and orbit < 1e-4
 

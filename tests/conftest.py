@@ -11,6 +11,9 @@ from fmu_bearing.files import cache_root, own_folder
 # Kernels that tests call one by one are compiled once, not by each worker and each run.
 os.environ.setdefault("FMU_BEARING_KEEP_KERNELS", str(own_folder(cache_root() / "kernels")))
 
+# Numba colours the messages of all the overloads that it tries and drops: a tenth of what compiling takes.
+os.environ.setdefault("NUMBA_DISABLE_ERROR_MESSAGE_HIGHLIGHTING", "1")
+
 # A test draws the same numbers each time and everywhere, and no clock fails it. `make soak` draws others.
 hypothesis.settings.register_profile("fixed", derandomize=True, deadline=None, database=None)
 hypothesis.settings.register_profile("soak", derandomize=False, deadline=None, print_blob=True)
@@ -86,7 +89,8 @@ def pytest_configure(config):
         from tests.order import Order
 
         times = pathlib.Path(config.getoption("--times"))
-        config.pluginmanager.register(Order(times, config.getoption("--measure-times")), "order")
+        worker = getattr(config, "workerinput", {}).get("workerid", "gw0")
+        config.pluginmanager.register(Order(times, config.getoption("--measure-times"), worker), "order")
 
 
 def _compact(folder):

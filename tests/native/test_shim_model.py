@@ -105,13 +105,13 @@ def test_folder_in_place_of_the_file(master, tmp_path):
     assert "model.bin" in one.messages
 
 
-@pytest.mark.parametrize("place", range(0, len(GOOD), 7))
-def test_changed_byte_is_noticed(master, tmp_path, place):
-    changed = bytearray(GOOD)
-    changed[place] ^= 0x10
-    one = master(written(tmp_path, bytes(changed)))
-    assert one.instance is None
-    assert "cannot be used" in one.messages
+def test_changed_byte_is_noticed(master, tmp_path):
+    for place in range(0, len(GOOD), 7):
+        changed = bytearray(GOOD)
+        changed[place] ^= 0x10
+        one = master(written(tmp_path, bytes(changed)))
+        assert one.instance is None, place
+        assert "cannot be used" in one.messages, place
 
 
 def head(**fields):

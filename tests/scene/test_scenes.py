@@ -63,22 +63,22 @@ def fields(model=Scene, path=()):
 # --- models --------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("path", "field"), [pytest.param(p, f, id=".".join(p)) for p, f in fields()])
-def test_every_field_is_described_and_bounded(path, field):
-    words = field.description
-    assert words and words.endswith(".") and words[0].isupper()
-    if field.annotation in (int, float, float | None, int | None):
-        rules = {name for rule in field.metadata for name in ("ge", "le") if hasattr(rule, name)}
-        assert rules == {"ge", "le"}
-        suffix = split_unit(path[-1])[1]
-        if suffix:
-            assert words.removesuffix(".").endswith(symbol(path[-1]))
-        (low,) = [rule.ge for rule in field.metadata if hasattr(rule, "ge")]
-        (high,) = [rule.le for rule in field.metadata if hasattr(rule, "le")]
-        assert all(low <= example <= high for example in field.examples)
-        assert limits(field) == (low, high)
-    elif field.annotation is str:
-        assert limits(field) == (-math.inf, math.inf)
+def test_every_field_is_described_and_bounded():
+    for path, field in fields():
+        name, words = ".".join(path), field.description
+        assert words and words.endswith(".") and words[0].isupper(), name
+        if field.annotation in (int, float, float | None, int | None):
+            rules = {end for rule in field.metadata for end in ("ge", "le") if hasattr(rule, end)}
+            assert rules == {"ge", "le"}, name
+            suffix = split_unit(path[-1])[1]
+            if suffix:
+                assert words.removesuffix(".").endswith(symbol(path[-1])), name
+            (low,) = [rule.ge for rule in field.metadata if hasattr(rule, "ge")]
+            (high,) = [rule.le for rule in field.metadata if hasattr(rule, "le")]
+            assert all(low <= example <= high for example in field.examples), name
+            assert limits(field) == (low, high), name
+        elif field.annotation is str:
+            assert limits(field) == (-math.inf, math.inf), name
 
 
 # --- example scenes ------------------------------------------------------------------------------

@@ -11,7 +11,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.compiled import call
+from fmu_bearing.compiled import bound
 from fmu_bearing.engine.layout import STRIDE, P, Q, S, Y, Z
 from fmu_bearing.instance import Instance
 
@@ -93,19 +93,22 @@ class Reader:
         self._p[P.BALLS] = 1.0
         self._rows = S.Y + STRIDE * np.arange(_ROWS)
         self._z: NDArray[np.float64] = np.zeros(len(Z.BEARING_OUTPUTS))
+        # a copy, for every ball is put in the first one's place; the kernel reads nothing behind
+        self._s: NDArray[np.float64] = bearing.s[: S.AXES].copy()
+        self._contacts = bound("contacts", self._p, self._s, self._z)
 
     def read(self, bearing: Readable) -> NDArray[np.float64]:
         """Return azimuth (rad, from 12 o'clock about +X), then what is read at inner and outer race.
 
         By default load (N) and angle (rad): shape (balls, 5).
         """
-        state = bearing.s[: S.AXES].copy()  # the kernel reads nothing behind
-        places = state[self._rows[:, None] + np.arange(self.balls)]
+        self._s[:] = bearing.s[: S.AXES]
+        places = self._s[self._rows[:, None] + np.arange(self.balls)]
         found = np.empty((self.balls, 1 + len(self._read)))
         for j in range(self.balls):
-            state[self._rows] = places[:, j]
+            self._s[self._rows] = places[:, j]
             self._p[self._oversize] = self._diameters[j]
-            call("contacts", self._p, state, self._z)
+            self._contacts()
             found[j, 0] = places[Y.TH // STRIDE, j] % (2.0 * math.pi)
             found[j, 1:] = self._z[self._read]
         return found

@@ -180,12 +180,12 @@ class Coordinates:
 
     def rates(
         self, y: NDArray[np.float64], f: NDArray[np.float64], w: NDArray[np.float64]
-    ) -> NDArray[np.float64]:
-        """Return x', ball by ball, from a state and the right-hand side there."""
+    ) -> list[NDArray[np.float64]]:
+        """Return the parts of x', ball by ball, of a state and the right-hand side there: views of both."""
         n = self.balls
         parts = [y[row : row + n] for row in _RATES[: len(_PLACES)]]
         parts += [f[row : row + n] for row in _ACCELERATIONS]
         parts += [y[Y.V0 : Y.V0 + Q.RINGS], f[F.BODY : F.BODY + Q.RINGS]]
         for first in (FL.V, FL.A):
             parts.append(w[W.FLEX + first : W.FLEX + first + 2 * self.flexural])
-        return np.concatenate(parts)
+        return parts

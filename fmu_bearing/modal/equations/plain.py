@@ -59,6 +59,7 @@ class Plain:
         self._at_y, self._at_w = np.array(rows[: self._bodies]), np.array(rows[self._bodies :], dtype=int)
         self._steps = np.where(at.is_place, MOVE, RATE) / np.array([size for _, _, size in found])
         self._evaluate = bound("right_hand_side", self.p, self._c, self.y, self._w, self._f)
+        self._rates = at.rates(self.y, self._f, self._w)
 
     def steps(self) -> NDArray[np.float64]:
         """Return the steps of the differences in the units of x: a nanometre or a micrometre per second."""
@@ -67,7 +68,7 @@ class Plain:
     def rates(self) -> NDArray[np.float64]:
         """Return x' at the present state."""
         self._evaluate(0.0, self._speed, 0.0)
-        return self.at.rates(self.y, self._f, self._w)
+        return np.concatenate(self._rates)
 
     def derivatives(self) -> NDArray[np.float64]:
         """Return the derivatives of x' by x, shape (n, n), by central differences."""

@@ -1,5 +1,6 @@
 """Shared by all tests: the gate scenes, which are frozen, and the example scenes, which may become better."""
 
+import importlib
 import os
 import pathlib
 
@@ -22,6 +23,7 @@ hypothesis.settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "fixed"))
 ROOT = pathlib.Path(__file__).parents[1]
 #: Gates of all kinds run on these: every value is written out, so that a better default moves no gate.
 GATES = ROOT / "tests" / "scenes" / "gates"
+SHARES = (0.9, 1.0, 1.1)  # of the speed: a diagram of modes needs no more to be one
 HEAVY_TIMEOUT = 3000  # s: one of them compiles the plain way, some minutes of two processors
 #: For tests of the examples themselves, of the documentation and of the catalogue.
 EXAMPLES = ROOT / "examples" / "scenes"
@@ -145,3 +147,15 @@ def example_file(tmp_path_factory):
 def silent(scene):
     """The 7003C in its spindle without microphones."""
     return scene("7003C-spindle").model_copy(update={"sound": None})
+
+
+@pytest.fixture
+def brief(monkeypatch):
+    """Reports with three speeds of their modes and without draws of other seeds.
+
+    The page of `full` (tests/reports/conftest.py) has draws; the modes' own tests have all speeds.
+    """
+    from fmu_bearing.reports.modes import modes_section
+
+    monkeypatch.setattr(modes_section, "_SHARES", SHARES)
+    monkeypatch.setattr(importlib.import_module("fmu_bearing.reports.make"), "_spread", lambda *given: None)

@@ -14,7 +14,9 @@ from tests.conftest import ROOT
 
 
 @pytest.mark.parametrize("name", fmu_bearing.__all__)
-def test_every_public_name_has_an_example_that_runs(name, monkeypatch, tmp_path):
+def test_every_public_name_has_an_example_that_runs(name, monkeypatch, tmp_path, request):
+    if name == "report":
+        request.getfixturevalue("brief")
     monkeypatch.chdir(tmp_path)
     (tmp_path / "examples").symlink_to(ROOT / "examples")
     thing = getattr(fmu_bearing, name)

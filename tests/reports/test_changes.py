@@ -15,14 +15,21 @@ from fmu_bearing.recording.studies.spread import at_speed
 from fmu_bearing.reports.data.observed_run import observed
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page.blocks import Absent
+from fmu_bearing.reports.sections import what_to_change
 from fmu_bearing.reports.sections.what_to_change import section, shown
 from tests.reports.reading import numbers
 
 
 @pytest.fixture(scope="module")
-def found(full):
-    """The same study as the page's, by the public function."""
-    return changes(at_speed(full), radiation_model=full.radiation_model)
+def found(whole):
+    return whole.found
+
+
+def test_the_study_is_of_the_recordings_scene(full, whole):
+    """The page's study is the public function's, at the speed that was run."""
+    assert whole.scene == at_speed(full)
+    assert whole.options["levels"] is True and whole.options["radiation_model"] == full.radiation_model
+    assert what_to_change.changes is changes
 
 
 def words(change):

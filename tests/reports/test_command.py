@@ -14,6 +14,7 @@ def run(*arguments):
     return CliRunner().invoke(app, ["report", *(str(a) for a in arguments)])
 
 
+@pytest.mark.usefixtures("brief")
 def test_a_scene_at_another_speed_with_run_up_and_its_recording_again(scene, tmp_path):
     file, page, kept = tmp_path / "s.toml", tmp_path / "new" / "page.html", tmp_path / "run.npz"
     file.write_text(with_fidelity(scene("7003C-spindle"), model="rings").to_toml(), "utf-8")

@@ -18,6 +18,7 @@ from fmu_bearing.reports.modes.campbell_chart import campbell_chart, crossing_ta
 from fmu_bearing.reports.modes.modes_section import section
 from fmu_bearing.reports.modes.moving_shapes import moving_shapes
 from fmu_bearing.reports.page.blocks import Absent
+from tests.conftest import SHARES
 from tests.reports.reading import Page, numbers
 from tests.reports.test_browser import BROWSER, NAMES
 
@@ -119,7 +120,7 @@ def test_tables_are_those_of_modes_and_crossings(found):
 
 def test_the_instability_margin_is_named_in_table_and_report(scene, monkeypatch):
     """7009C at 18,000 r/min: forward tilting with a damping ratio of about 0.0001."""
-    monkeypatch.setattr(room, "_SHARES", (0.9, 1.0, 1.1))
+    monkeypatch.setattr(room, "_SHARES", SHARES)
     made = section(subject_of(scene("7009C-full-ceramic"), 18_000.0))
     (table,) = [b for b in made.blocks if b.sort == "table" and b.caption.startswith("Modes at 18,000")]
     (row,) = [row for row in table.rows if row[:2] == ["inner tilt", "forward"]]
@@ -155,7 +156,7 @@ def test_a_scene_without_imperfections_and_sound(scene):
 @pytest.mark.parametrize("model", ["rings", "response", "auto"])
 def test_every_fidelity_has_modes(scene, model, monkeypatch):
     """They are modes of `full`, so only the speeds are cut down here."""
-    monkeypatch.setattr(room, "_SHARES", (0.9, 1.0, 1.1))
+    monkeypatch.setattr(room, "_SHARES", SHARES)
     given = scene("7003C-spindle")
     given = given.model_copy(update={"fidelity": given.fidelity.model_copy(update={"model": model})})
     made = section(subject_of(given, 20_000.0))

@@ -50,6 +50,7 @@ def test_what_is_said_is_said_to_the_end(full, full_page):
     assert "7003C at 20,000 r/min, preload 500 N" in full_page.text
 
 
+@pytest.mark.usefixtures("brief")
 def test_assumed_values_carry_the_files_remarks(tmp_path):
     made = make(
         GATES / "7003C-bare.toml", tmp_path / "a.html",
@@ -64,6 +65,7 @@ def test_assumed_values_carry_the_files_remarks(tmp_path):
     assert any("turns of the cage" in warning for warning in made.warnings)
 
 
+@pytest.mark.usefixtures("brief")
 def test_fidelity_rings_says_what_does_not_move(rings, tmp_path):
     page = Page(report(rings, tmp_path / "rings.html", changes=False))
     assert {t["meta"]["orbit"] for t in page.traces("orbits")} == {"inner_ring", "outer_ring"}
@@ -112,6 +114,7 @@ def test_pressures_of_an_fmu_alone(tmp_path):
     assert float(page.tables["Strongest lines at mic[1].pressure"][1][0]) == pytest.approx(1000.0, abs=1.0)
 
 
+@pytest.mark.usefixtures("brief")
 def test_a_recording_of_few_variables_and_a_papers_radiation_model(scene, tmp_path):
     rings = with_fidelity(scene("7003C-spindle"), model="rings")
     recording = record(rings, 0.03, radiation_model="paper", outputs=("inner_ring.velocity.x",))
@@ -126,6 +129,7 @@ def test_a_recording_of_few_variables_and_a_papers_radiation_model(scene, tmp_pa
     assert "contact.inner.load_mean" in made.sections["contacts"]
 
 
+@pytest.mark.usefixtures("brief")
 def test_a_scene_without_microphones(rings, tmp_path):
     deaf = Recording(
         **{name: getattr(rings, name) for name in rings.__dataclass_fields__ if name != "_spectra"}

@@ -268,16 +268,21 @@ def test_examples_import_no_extra_by_a_statement():
     assert not wrong
 
 
+@functools.cache
+def nodes(path):
+    """All nodes of a file's syntax tree."""
+    return list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
+
+
 def imports(path):
     """Root of each absolute import of a file, and whether it is for type checkers alone."""
-    tree = ast.parse(path.read_text(encoding="utf-8"))
     unread = {
         inner
-        for node in ast.walk(tree)
+        for node in nodes(path)
         if isinstance(node, ast.If) and isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING"
         for inner in ast.walk(node)
     }
-    for node in ast.walk(tree):
+    for node in nodes(path):
         if isinstance(node, ast.Import):
             yield from ((alias.name.split(".")[0], node in unread) for alias in node.names)
         elif isinstance(node, ast.ImportFrom) and node.level == 0:
@@ -320,7 +325,7 @@ def test_imports_are_of_the_core_or_of_an_extra():
 def test_what_is_asked_for_by_need_is_in_the_table():
     asked = set()
     for path in FILES:
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        for node in nodes(path):
             name = getattr(getattr(node, "func", None), "id", None)
             if name in ("need", "available", "install_command") and path.name != "extras.py":
                 assert isinstance(node.args[0], ast.Constant), f"{path.name}:{node.lineno}"

@@ -229,8 +229,8 @@ def test_a_wanted_life_is_judged():
 
 
 def weighed(page):
-    """The page; the tutorial makes a report with its runs, which takes 20 s."""
-    return pytest.param(page, marks=pytest.mark.heavy) if page == "tutorial.md" else page
+    """The page; the tutorial makes a report with its runs, the page on noise dozens of runs: some 20 s each."""
+    return pytest.param(page, marks=pytest.mark.heavy) if page in ("tutorial.md", "noise.md") else page
 
 
 @pytest.mark.parametrize("page", [weighed(page) for page in PAGES])

@@ -75,7 +75,8 @@ def test_new_replaces_nothing_unasked(run, tmp_path):
     path.write_text("mine")
     refused = run("scene", "new", path, *KNOWN)
     assert refused.exit_code == 2 and "--force" in refused.stderr and path.read_text() == "mine"
-    assert run("scene", "new", path, "--force", *KNOWN).exit_code == 0
+    given = ("--speed", 20000, "--preload", 100)  # what is not given is searched for: a second
+    assert run("scene", "new", path, "--force", *KNOWN, *given).exit_code == 0
 
 
 def test_new_says_what_is_not_good(run, tmp_path):

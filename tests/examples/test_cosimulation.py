@@ -109,23 +109,6 @@ def command(fmus, output, *options):
     ]
 
 
-def test_command_line_writes_tables_and_pictures(fmus, tmp_path):
-    done = subprocess.run(command(fmus, tmp_path, "--short"), capture_output=True, text=True, timeout=300)
-    assert done.returncode == 0, done.stderr
-    assert "Operating point at 0.1 s" in done.stdout
-    written = {path.name for path in tmp_path.iterdir()}
-    assert {
-        "spindle.csv",
-        "sound.csv",
-        "preload.csv",
-        "viscosity.csv",
-        "spindle.png",
-        "effects.png",
-    } == written
-    header = (tmp_path / "spindle.csv").read_text().splitlines()[0]
-    assert header.startswith('"time","shaft_speed"')
-
-
 @pytest.mark.parametrize(("complete", "code"), [(True, 0), (False, -signal.SIGSEGV)])
 def test_freed_memory_is_not_used_at_exit(builder, monkeypatch, tmp_path, complete, code):
     # pythonfmu 0.7.0 does, and glibc then aborted one of many runs that had written everything. Without the

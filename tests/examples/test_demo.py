@@ -28,14 +28,14 @@ def test_writes_tables_and_pictures(demo):
     output, folder = demo
     names = {"spindle.csv", "sound.csv", "preload.csv", "viscosity.csv", "spindle.png", "effects.png"}
     assert {path.name for path in folder.iterdir()} == names
-    assert "f_i (kinematic)" in output
+    assert "Operating point at 0.1 s" in output and "f_i (kinematic)" in output
     assert "P4 (-80.5, 0, 0) " in output
 
 
 def test_columns_begin_with_time_and_hold_no_nan(demo):
     _, folder = demo
     table = read(folder / "spindle.csv")
-    assert table.dtype.names[0] == "time"
+    assert table.dtype.names[:2] == ("time", "shaft_speed")
     assert all(np.isfinite(table[name]).all() for name in table.dtype.names)
 
 

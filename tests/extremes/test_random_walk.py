@@ -117,7 +117,7 @@ CONDENSED = [pair for pair in COMPUTED if pair not in FULL]
 
 
 @pytest.mark.parametrize(("fidelity", "method"), FULL)
-@settings(max_examples=25, **HEALTH)
+@settings(max_examples=10, **HEALTH)  # three times as many, and longer ones, are heavy
 @given(start=STARTS, moves=st.lists(MOVES, min_size=1, max_size=12))
 def test_a_short_walk(fidelity, method, start, moves):
     walk("7003C-bare", start, moves, fidelity, method)

@@ -83,7 +83,7 @@ def test_a_start_at_drawn_inputs_ends_or_is_refused(name):
     rng = np.random.default_rng(7)
     run = Instance(prepare(SETS[name]()), tell=lambda text: None)
     inputs = [one.name for one in run.model.variables if one.causality == "input"]
-    for _ in range(6):
+    for _ in range(3):  # of each of six sets
         run.reset()
         for which in inputs:
             low, high = bounds(which)

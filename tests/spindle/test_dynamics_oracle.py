@@ -226,10 +226,10 @@ def test_energy_closes(seat):
     """Work less heat less change of energy, with unbalance and a speed that rises: rounding of the sums."""
     spindle = system(seat, bent, speed_rate=3e4)
     state = at_rest(spindle)
-    before, t = spindle.energy(0.0, state), 1e-4
+    before, t = spindle.energy(0.0, state), 4e-5
     state = oracle.runge_kutta(spindle.rate, state, t, STEP)
     work, heat = state[-2:]
-    assert heat > 1e-3
+    assert heat > 4e-4
     assert abs(work - heat - (spindle.energy(t, state) - before)) < 1e-8 * heat
 
 
@@ -238,7 +238,7 @@ def test_a_ring_that_warms_does_work():
     spindle = system("fixed")
     still = at_rest(spindle)
     spindle.mounted = (replace(spindle.mounted[0], growth=0.01), spindle.mounted[1])
-    before, t = spindle.energy(0.0, still), 1e-4
+    before, t = spindle.energy(0.0, still), 4e-5
     state = oracle.runge_kutta(spindle.rate, still, t, STEP)
     work, heat = state[-2:]
     change = spindle.energy(t, state) - before
@@ -335,12 +335,12 @@ def test_one_bearing_runs_as_in_the_engine(sign, in_housing):
         carriers = np.hstack([carriers, rings])
     state = place_from(spindle, [y], carriers)
     np.testing.assert_allclose(bearing_arrays(spindle, state)[0][Y.Q0 :], y[Y.Q0 :], rtol=0, atol=1e-17)
-    state = oracle.runge_kutta(spindle.rate, state, 1e-3, STEP)
-    run.run(1e-3)
+    state = oracle.runge_kutta(spindle.rate, state, 4e-4, STEP)
+    run.run(4e-4)
     rates = bearing_arrays(spindle, state)[0][Y.V0 :][: Q.RINGS]
     expected = run.s[S.Y + Y.V0 :][: Q.RINGS]
     size = np.abs(expected[:3]).max()
-    assert size > 0.01
+    assert size > 5e-3
     # the design study's gate of the engine is 1e-5; its tolerance here is 1e-6 of the same size
     np.testing.assert_allclose(rates, expected, rtol=0, atol=1e-6 * size)
     assert state[-2] == pytest.approx(run.s[S.WORK], rel=1e-6)

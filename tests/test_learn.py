@@ -229,7 +229,7 @@ def test_a_wanted_life_is_judged():
 
 
 def weighed(page):
-    """The page; the tutorial makes a report with its runs, the page on noise dozens of runs: some 20 s each."""
+    """The page; tutorial (a report) and noise (dozens of runs) take some 20 s each."""
     return pytest.param(page, marks=pytest.mark.heavy) if page in ("tutorial.md", "noise.md") else page
 
 

@@ -18,7 +18,7 @@ from tests.spindle.runs import SetRun
 pytestmark = pytest.mark.heavy
 
 TORQUE, ORBIT = 0.03, 2e-3
-SETTLING, MEAN = 0.6, 0.3  # s
+SETTLING, MEAN = 0.6, 0.15  # s
 WIDE = TiltSupport(stiffness_N_m_rad=5e4, damping_ratio=0.05)  # of the 7014C
 NO_FIDELITY = -1.0
 
@@ -49,10 +49,10 @@ def agree(bearing, rpm, preload, load=0.0, support=None, gate=TORQUE):
 def rows():
     """Bearing, speed, preload, support: all with a tilt support, bare where the ring stays quiet."""
     for bearing, growing in (
-        ("NSK-7008AC", {(14000, 150), (20000, 150), (20000, 400)}),
-        ("NSK-7010C", {(14000, 150), (20000, 150), (20000, 400)}),
+        ("NSK-7008AC", {(20000, 150), (20000, 400)}),
+        ("NSK-7010C", {(20000, 150), (20000, 400)}),
     ):
-        for rpm in (8000, 14000, 20000):
+        for rpm in (8000, 20000):
             for preload in (150, 400, 800):
                 if (rpm, preload) not in growing:
                     yield bearing, rpm, preload, None
@@ -73,7 +73,7 @@ def test_under_preload_and_weight(bearing, rpm, preload, support):
 @pytest.mark.parametrize(
     ("bearing", "support"), [("NSK-7008AC", SUPPORT), ("NSK-7010C", SUPPORT), ("NSK-7010C", None)]
 )
-@pytest.mark.parametrize("share", [0.1, 0.3, 0.5])
+@pytest.mark.parametrize("share", [0.1, 0.5])
 def test_under_radial_load(bearing, support, share):
     agree(bearing, 20000, 400, share * 400, support)
 

@@ -27,7 +27,7 @@ def level(scene, rpm, seed, exponent):
     operation = scene.operation.model_copy(update={"speed_rpm": float(rpm)})
     changed = scene.model_copy(update={"imperfections": flaws, "operation": operation})
     made = record(
-        with_fidelity(changed, model="response"), 0.05, settle=0.02, progress=False,
+        with_fidelity(changed, model="response"), 0.05, settle=0.02, step=4e-3, progress=False, warn=False,
         radiation_model="compact", outputs=(),
     )  # fmt: skip
     return made.levels(ASIDE)[0]
@@ -35,7 +35,7 @@ def level(scene, rpm, seed, exponent):
 
 @pytest.mark.heavy
 @pytest.mark.filterwarnings("ignore:the fastest wave")
-@pytest.mark.parametrize("exponent", [1.0, 1.5, 2.0])
+@pytest.mark.parametrize("exponent", [1.0, 2.0])
 def test_level_rises_by_20_p_minus_10_per_decade(example, exponent):
     """A wave of order n meets a mode at the speed f / n: its square is n^-2p, and lines lie f_r apart.
 

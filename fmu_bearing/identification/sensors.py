@@ -109,7 +109,8 @@ class Sensors:
         """Mean squares (Pa^2), shape (mics, frequencies), of spectra (channels, frequencies)."""
         if self.energies:  # radiation models of the papers add energies, source by source
             return np.asarray((np.abs(response * spectra) ** 2).sum(axis=1))
-        return np.asarray(np.abs(np.einsum("mcf,cf->mf", response, spectra)) ** 2)
+        # microphone by microphone: in the processor's cache
+        return np.array([np.abs((path * spectra).sum(axis=0)) ** 2 for path in response])
 
     def _weight(self, kind: str, centre: float) -> NDArray[np.float64]:
         """Weights of the bins of a quantity."""

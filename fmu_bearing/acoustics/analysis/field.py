@@ -204,16 +204,17 @@ class Transfer:
     """
 
     def __init__(self, circle: Circle, channels: int) -> None:
-        self.circle, self.channels = circle, channels
+        self.circle = circle
         self._responses = _interpolated(circle.paths)
+        places = {key: k for k, key in enumerate(dict.fromkeys(map(_key, circle.paths)))}
+        self._weights = np.zeros((len(circle.members), channels, len(places)))
+        for path in circle.paths:
+            self._weights[:, path.channel, places[_key(path)]] += path.weights
 
     def __call__(self, frequency: NDArray[np.float64]) -> NDArray[np.complex128]:
         """Pressure per channel (Pa per unit of the channel), shape (members, channels, frequencies)."""
-        known = self._responses(frequency)
-        found = np.zeros((len(self.circle.members), self.channels, len(frequency)), complex)
-        for path in self.circle.paths:
-            found[:, path.channel] += np.outer(path.weights, known[_key(path)])
-        return found
+        known = np.array(list(self._responses(frequency).values()))
+        return np.asarray(np.tensordot(self._weights, known, 1))
 
 
 def _key(path: Path) -> tuple[int, float]:
@@ -222,7 +223,7 @@ def _key(path: Path) -> tuple[int, float]:
 
 
 def _interpolated(paths: Sequence[Path]) -> _Responses:
-    """Return a function that gives the responses of all paths at frequencies, by `_key`.
+    """Return a function that gives the responses of all paths at frequencies, by `_key` in the paths' order.
 
     One cubic spline through the responses without their flight times, conjugate at negative frequencies.
     Beyond the last tabulated frequency, where everything fades, the value there is held.

@@ -10,6 +10,7 @@ import os
 import re
 import warnings
 from collections.abc import Callable, Iterator
+from types import ModuleType
 from typing import Any
 
 from fmu_bearing.compiled.settings import SETTINGS
@@ -120,13 +121,14 @@ def _counted(entries: list[Any], tell: Callable[[float], None]) -> Iterator[None
 
 
 def _reached(entries: list[Any]) -> set[Any]:
-    """Python functions of all kernels that functions reach through their globals and closures."""
+    """Python functions of all kernels that functions reach through globals, modules' names and closures."""
     found: set[Any] = set()
     due = list(entries)
     while due:
         function = due.pop()
         names = function.__code__.co_names
         values = [function.__globals__.get(name) for name in names]
+        values += [vars(one).get(name) for one in values if isinstance(one, ModuleType) for name in names]
         values += [cell.cell_contents for cell in function.__closure__ or ()]
         for value in values:
             kernel = getattr(value, "py_func", None)

@@ -5,8 +5,8 @@ standard input, ``python -m fmu_bearing.compiled.worker PLATFORM UNIT SET``.
 
 Numba and LLVM hold the interpreter, so several processes work side by side, which the parent can end at once.
 A process that makes portable code of several units keeps the kernels that they share. What is made goes
-through standard output, so that no disk is needed: lines of JSON, each with the part of the work that is done
-or with the name and size of a file whose bytes follow.
+through standard output, so that no disk is needed: lines of JSON, each with the number of units that are done
+(with fractions) or with the name and size of a file whose bytes follow.
 """
 
 import json
@@ -21,10 +21,6 @@ from fmu_bearing.compiled.units import object_name
 
 __all__ = ["main"]
 
-#: Part of the time for portable code of several units that the first takes: 52.3 of 57.7 s for step, init and
-#: study, 46.2 of 52.2 s for those of single bearings.
-_FIRST = 0.9
-
 
 def _send(message: dict[str, object], data: bytes = b"") -> None:
     out = sys.stdout.buffer
@@ -32,26 +28,24 @@ def _send(message: dict[str, object], data: bytes = b"") -> None:
     out.flush()
 
 
-def _part(begin: float, end: float) -> Callable[[float], None]:
-    """Return what sends how much of all is done, from a share of what lies between two parts."""
-    return lambda share: _send({"done": begin + (end - begin) * share})
+def _part(units: int) -> Callable[[float], None]:
+    """Return what sends how many units are done, from the share of the next one that is."""
+    return lambda share: _send({"done": units + share})
 
 
 def _translate(units: list[str], lean: bool) -> None:
     """Make portable code of units and send it."""
     from fmu_bearing.compiled.lower import portable_code
 
-    later = len(units) - 1
-    ends = [0.0, *(_FIRST + (1.0 - _FIRST) * k / later for k in range(later)), 1.0]
-    for unit, begin, end in zip(units, ends, ends[1:], strict=False):
-        code = portable_code(unit, _part(begin, end), lean)
+    for k, unit in enumerate(units):
+        code = portable_code(unit, _part(k), lean)
         _send({"file": f"{unit}.bc", "size": len(code)}, code)
 
 
 def _optimise(name: str, unit: str, suffix: str) -> None:
     """Make the object of a unit for an instruction set of a platform and send it."""
     platform = own() if name == OWN else platform_named(name)
-    made = object_code(sys.stdin.buffer.read(), platform, suffix, _part(0.0, 1.0))
+    made = object_code(sys.stdin.buffer.read(), platform, suffix, _part(0))
     _send({"file": object_name(unit, platform.name, suffix), "size": len(made)}, made)
 
 
@@ -65,7 +59,6 @@ def main() -> None:
             _optimise(what, *names)
     except BuildError as problem:
         sys.exit(str(problem))
-    _send({"done": 1.0})
 
 
 if __name__ == "__main__":

@@ -10,10 +10,12 @@ import time
 import numpy as np
 import pytest
 
-from fmu_bearing.compiled import BuildError, call, make, show
+from fmu_bearing.compiled import BuildError, call, lower, make, show
 from fmu_bearing.compiled.platforms import PLATFORMS, own
 from fmu_bearing.compiled.settings import SETTINGS, TESTED, lean
 from fmu_bearing.compiled.units import ENTRIES, UNITS
+from fmu_bearing.engine import abi
+from fmu_bearing.engine.fidelities.rings import held, march
 from tests.compiled import both_ways
 
 #: An entry of two kernels.
@@ -70,19 +72,35 @@ def test_a_terminal_gets_a_bar(monkeypatch):
 
 
 def test_the_part_that_is_done_moves_on_between_reports(monkeypatch):
-    """Half a minute of one optimisation pass reports nothing: the bar goes on at the pace so far."""
+    """Many seconds of one optimisation pass report nothing: the bar goes on at the pace so far."""
     now = [10.0]
     monkeypatch.setattr(make.time, "monotonic", lambda: now[0])
     worker = make._Worker(["step"], own(), "v3")
     worker._begin = worker._since = 0.0
-    worker._messages.put(0.4)
-    assert worker.part() == 0.4
+    worker._messages.put(0.1)
+    assert worker.part() == pytest.approx(0.1)
     now[0] = 11.0
-    assert worker.part() == pytest.approx(0.44)
+    assert worker.part() == pytest.approx(0.11)
     now[0] = 100.0
-    assert worker.part() == pytest.approx(0.5)  # never far ahead of what was reported
+    assert worker.part() == pytest.approx(0.7)  # never farther ahead of what was reported than a pass is long
     worker._messages.put(0.5)
-    assert worker.part() == 0.5
+    assert worker.part() == pytest.approx(0.7)  # never back
+    worker._messages.put(0.9)
+    assert worker.part() == pytest.approx(0.9)
+
+
+def test_units_count_by_the_time_they_take(monkeypatch):
+    monkeypatch.setattr(make, "_SECONDS", {"step": (30.0, 0.0), "init": (10.0, 0.0)})
+    worker = make._Worker(["step", "init"])
+    shares = {units: worker._share(units) for units in (0.0, 0.5, 1.0, 1.5, 2.0)}
+    assert shares == {0.0: 0.0, 0.5: 0.375, 1.0: 0.75, 1.5: 0.875, 2.0: 1.0}
+
+
+def test_the_kernels_of_a_unit_are_counted_wherever_they_are_named():
+    """Most are called through their module, as ``held.hold_all``."""
+    counted = lower._reached([abi.step.py_func])
+    assert {held.hold_all.py_func, march.try_step.py_func, abi.outputs.py_func} <= counted
+    assert abi.init.py_func not in counted
 
 
 def test_a_failure_names_the_unit_and_the_reason(tmp_path, monkeypatch):

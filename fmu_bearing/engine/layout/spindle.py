@@ -192,9 +192,11 @@ LINE_HEAP = _line()
 LINE_MEMBER = _line()  # of which bearing,
 LINE_REAL = _line.next  # m, rad: real parts; imaginary parts follow
 
-# equations of a line, as vectors of the coordinates: how the balls of a bearing act on them across their
-# tracks. Per pattern: how far balls at rest follow, per rate of it, how far rolling takes them; forces by the
-# distance from rest, and by the velocity against rolling
+# what the equations of all lines are made of: matrices of the coordinates by padded columns, then vectors of
+# them, how the balls of a bearing act on them across their tracks. Per pattern: how far balls at rest follow,
+# per rate of it, how far rolling takes them; forces by distance from rest, and by velocity against rolling
+LINE_MASS, LINE_DAMPING, LINE_STIFFNESS = range(3)
+LINE_MATRICES = 3
 MOVES_FOLLOW, MOVES_LEAD, MOVES_GUIDE, MOVES_PULL, MOVES_DRAG = range(5)
 MOVES = 5
 LINE_MOVES = MOVES * _L.PATTERNS  # per bearing
@@ -278,7 +280,7 @@ def work_size(bearings, count):
     own = W_HEAD + VECTORS * padded_size(count) + bearings * SCRATCH
     equations = start * (start + START_VECTORS) + 2 * count * padded_size(count)
     # of lines, with the three matrices they are made of and what the balls' patterns add
-    complex_ones = (2 * (count + 1) + 3 * count + bearings * LINE_MOVES) * padded_size(count)
+    complex_ones = (2 * (count + 1) + LINE_MATRICES * count + bearings * LINE_MOVES) * padded_size(count)
     return own + max(equations, complex_ones) + FOUR
 
 

@@ -51,11 +51,11 @@ def prepare_equations(p, s, w, speed):
     lanes = members.padded_size(p)
     size = members.coordinates(p) * lanes
     _, table = equations_at(p)
-    prepare_matrix(p, s, w, speed, L.MASS, 1.0, 0.0, 0.0, table)
-    prepare_matrix(p, s, w, speed, L.JV, 0.0, 1.0, 0.0, table + size)
-    prepare_matrix(p, s, w, speed, L.JX, 0.0, 0.0, 1.0, table + 2 * size)
+    prepare_matrix(p, s, w, speed, L.MASS, 1.0, 0.0, 0.0, table + SP.LINE_MASS * size)
+    prepare_matrix(p, s, w, speed, L.JV, 0.0, 1.0, 0.0, table + SP.LINE_DAMPING * size)
+    prepare_matrix(p, s, w, speed, L.JX, 0.0, 0.0, 1.0, table + SP.LINE_STIFFNESS * size)
     for b in range(members.count(p)):
-        prepare_moves(p, s, w, b, table + 3 * size + b * SP.LINE_MOVES * lanes)
+        prepare_moves(p, s, w, b, table + SP.LINE_MATRICES * size + b * SP.LINE_MOVES * lanes)
 
 
 @kernel
@@ -118,9 +118,9 @@ def set_equations(p, s, w, omega):
     re = members.matrix(p)
     im, table = equations_at(p)
     for i in range(0, size, FOUR):
-        mass, places = load(ws, table + i), load(ws, table + 2 * size + i)
-        store(ws, re + i, places - omega * omega * mass)
-        store(ws, im + i, omega * load(ws, table + size + i))
+        mass = load(ws, table + SP.LINE_MASS * size + i)
+        store(ws, re + i, load(ws, table + SP.LINE_STIFFNESS * size + i) - omega * omega * mass)
+        store(ws, im + i, omega * load(ws, table + SP.LINE_DAMPING * size + i))
     for i in range(lanes):
         ws[re + size + i] = 0.0
         ws[im + size + i] = 0.0
@@ -129,7 +129,7 @@ def set_equations(p, s, w, omega):
         if lv[L.SIDE_SQUARE] == 0.0:
             continue
         for k in range(L.PATTERNS):
-            at = table + 3 * size + (b * L.PATTERNS + k) * SP.MOVES * lanes
+            at = table + SP.LINE_MATRICES * size + (b * L.PATTERNS + k) * SP.MOVES * lanes
             pull, drag = at + SP.MOVES_PULL * lanes, at + SP.MOVES_DRAG * lanes
             for i in range(n):
                 follow, lead = ws[at + SP.MOVES_FOLLOW * lanes + i], ws[at + SP.MOVES_LEAD * lanes + i]

@@ -12,8 +12,13 @@ import pytest
 import fmu_bearing
 from tests.conftest import ROOT
 
+#: Examples that take seconds, of what has quick tests of its own.
+LONG = {"changes", "compare", "identify", "report", "spread"}
 
-@pytest.mark.parametrize("name", fmu_bearing.__all__)
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.heavy] * (name in LONG)) for name in fmu_bearing.__all__]
+)
 def test_every_public_name_has_an_example_that_runs(name, monkeypatch, tmp_path, request):
     if name == "report":
         request.getfixturevalue("brief")

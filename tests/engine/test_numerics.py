@@ -184,11 +184,14 @@ def solve_both(p, springs, angle=0.0, balls=11, lanes=12):
     return got, expected
 
 
+# Kernels that nothing else compiles by themselves; a wrong solution would keep every run from converging.
+@pytest.mark.heavy
 def test_block_arrow_solves_the_dense_system():
     got, expected = solve_both(np.zeros(P.TABLES), lambda cv, cx: 0.0)
     np.testing.assert_allclose(got, expected, rtol=1e-10, atol=1e-12)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("angle", [0.0, 0.6])
 @pytest.mark.parametrize("stiffness", [1.0, 1e6])
 def test_springs_between_balls_solve_the_dense_system(angle, stiffness):

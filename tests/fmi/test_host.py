@@ -13,6 +13,9 @@ import pytest
 
 from tests.fence import fence
 
+# How hosts end: some thirty processes.
+pytestmark = pytest.mark.heavy
+
 HOST = r"""
 #include <dlfcn.h>
 #include <stdio.h>

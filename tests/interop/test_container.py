@@ -14,6 +14,9 @@ import pytest
 
 from .conftest import CSV_ERROR, EXACT_STEP, STEPS, WATCHED, alone, needs_linux64, read_csv
 
+# Other masters; one FMU and three in FMPy are quick tests (tests/fmi, examples/test_cosimulation).
+pytestmark = pytest.mark.heavy
+
 STOP = STEPS * EXACT_STEP
 
 

@@ -11,6 +11,9 @@ import pytest
 
 from .conftest import ROOT, needs_linux64
 
+# Other masters; one FMU and three in FMPy are quick tests (tests/fmi, examples/test_cosimulation).
+pytestmark = pytest.mark.heavy
+
 CONSTRAINTS = (ROOT / "constraints.txt").read_text(encoding="utf-8")
 PAGE = (ROOT / "docs" / "interop.md").read_text(encoding="utf-8")
 

@@ -19,7 +19,8 @@ from tests.conftest import GATES
 
 from .conftest import EXACT_STEP, STEPS, needs_linux64
 
-pytestmark = needs_linux64
+# Other masters; one FMU and three in FMPy are quick tests (tests/fmi, examples/test_cosimulation).
+pytestmark = [needs_linux64, pytest.mark.heavy]
 
 
 @pytest.fixture(params=["native", "python", "mixed"])
@@ -225,7 +226,6 @@ def test_another_step_changes_no_more_than_rounding_at_first(archives):
     assert largest_difference(one, other) < 1e-9
 
 
-@pytest.mark.heavy
 def test_the_spindle_scene_for_a_fifth_of_a_second(tmp_path):
     from run import ENGINES
     from write import write

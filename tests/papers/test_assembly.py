@@ -22,6 +22,9 @@ from fmu_bearing.scene import read_scene, si
 from tests.conftest import GATES
 from tests.elastic.rings import STEEL, THIN
 
+# What only the papers' pages use.
+pytestmark = pytest.mark.heavy
+
 PATCH = 0.233e-3
 SPRINGS = 2.5e7  # N/m between balls: the paper's final choice
 CASES = list(itertools.product(BONDED, (True, False)))
@@ -261,7 +264,6 @@ def test_springs_of_a_run_pull_equally_and_leave_common_motions_free(paper):
     assert answer == pytest.approx(answer.T, abs=1e-7 * largest)
 
 
-@pytest.mark.heavy
 def test_more_ring_modes_lower_every_frequency(paper):
     """Rayleigh. A point force sees all: the axial mode falls by 1 to 2 % for each doubling."""
     limits = (150e3, 300e3, 600e3)

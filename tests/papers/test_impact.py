@@ -23,6 +23,9 @@ from fmu_bearing.papers.impact.impact_sound import impact_pressure
 from fmu_bearing.papers.impact.scattering import SphereRow
 from fmu_bearing.papers.impact.sphere_field import sphere_pressure
 
+# What only the papers' pages use.
+pytestmark = pytest.mark.heavy
+
 BALL = Sphere(11.1e-3, 7900.0, 195e9, 0.3)
 A = BALL.radius
 RHO, C = 1.225, 340.0

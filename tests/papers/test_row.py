@@ -15,6 +15,9 @@ from fmu_bearing.papers.impact.chain import Sphere, hertz_stiffness
 from fmu_bearing.papers.impact.lamb import pole_modes, surface_acceleration, wave_speeds
 from fmu_bearing.papers.impact.row import row_modes
 
+# What only the papers' pages use.
+pytestmark = pytest.mark.heavy
+
 BALL = Sphere(11.1e-3, 7900.0, 195e9, 0.3)
 PATCH = 0.2e-3
 STIFFNESS = 2.0 * 195e9 / (2.0 * (1.0 - 0.3**2)) * PATCH  # 2 E* a
@@ -76,7 +79,6 @@ def test_modes_add_up_to_the_response_at_rest(order):
     assert frequencies.size >= 7
 
 
-@pytest.mark.heavy
 def test_elastic_balls_are_softer_in_proportion_to_what_is_counted():
     """Modes to 500 kHz: 4.69 and 8.16 kHz (independent prototype). A point force sees them all."""
     steps = [row_modes([BALL] * 3, PATCH, bonded=False, highest=h).axial[1:3] for h in (250e3, 500e3)]

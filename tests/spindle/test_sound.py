@@ -17,6 +17,7 @@ from fmu_bearing.scene import SceneError
 from fmu_bearing.scene.member import sound_scene
 from fmu_bearing.scene.mounting import Mounting, Rotor
 from tests.conftest import GATES
+from tests.marks import heavy_but
 from tests.spindle.sets import tables
 
 RPM, RUN = 20e3, 0.02
@@ -118,7 +119,7 @@ def single(scene, x):
     return Scene.from_dict(given)
 
 
-@pytest.mark.parametrize("model", MODELS)
+@pytest.mark.parametrize("model", heavy_but(MODELS, "compact", "bem"))
 def test_a_set_of_one_sounds_as_the_single_bearing_there(model):
     x = 0.5 * LENGTH
     places = [(x, 105.0, 0.0), (x - 80.5, 0.0, 0.0), (x + 30.0, -20.0, 110.0)]

@@ -13,6 +13,9 @@ from fmu_bearing.sweeps.cluster import cluster
 from fmu_bearing.sweeps.point import run_point
 from tests.sweeps import points
 
+# Clusters are for long sweeps; that workers change no result is tested in test_workers.
+pytestmark = pytest.mark.heavy
+
 distributed = pytest.importorskip("distributed", reason="Dask is not installed: extra 'cluster'")
 
 
@@ -65,7 +68,6 @@ def test_workers_with_other_code_are_refused(silent, dask, monkeypatch):
         next(cluster(points.small(silent).tasks, dask.scheduler_address))
 
 
-@pytest.mark.heavy
 def test_a_scheduler_that_does_not_answer(silent):
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))

@@ -147,6 +147,7 @@ OWN = """
 """
 
 
+@pytest.mark.heavy
 def test_what_is_missing_is_said(pytester, fmu):
     pytester.makepyfile(test_own=OWN)
     shutil.copy(fmu, pytester.path / "Bearing.fmu")

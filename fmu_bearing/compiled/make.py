@@ -40,6 +40,7 @@ _MAKERS = ("units", "single", "settings", "lower", "lean", "flat", "platforms", 
 _TOGETHER = (UNITS, tuple(SINGLE.values()))
 _CODE = ".bc"  # of files of portable code
 _TICK = 0.2  # s
+_END_OF_WORDS = 1000  # characters of either end of what a process that failed has written
 #: Of a process's work: how far the bar may run ahead of what was reported. Of an object LLVM's longest task
 #: is as much (`optimise`).
 _LONGEST_GUESS = 0.6
@@ -276,7 +277,9 @@ class _Worker:
             reader.join()
         units = " and ".join(self.units)
         if self._process.returncode != 0:
-            words = self._complaint.decode(errors="replace").strip()[-2000:]
+            words = self._complaint.decode(errors="replace").strip()
+            if len(words) > 2 * _END_OF_WORDS:  # Numba gives its reason first, and the calls to it behind
+                words = f"{words[:_END_OF_WORDS]} [...] {words[-_END_OF_WORDS:]}"
             words = words or f"the process ended with code {self._process.returncode} and gave no reason"
             raise BuildError(f"the kernels could not be compiled ({units}): {words}")
         if lost := sorted(self._due() - self.files.keys()):

@@ -116,6 +116,17 @@ def test_a_failure_names_the_unit_and_the_reason(tmp_path, monkeypatch):
     assert str(refusal.value) == "the kernels could not be compiled (study): no such thing"
 
 
+def test_a_long_failure_keeps_both_ends(tmp_path, monkeypatch):
+    """Numba gives the reason first, then thousands of characters of where."""
+    monkeypatch.setenv("FMU_BEARING_CACHE", str(tmp_path))
+    words = "import sys; sys.exit('the reason ' + 5000 * 'calls ' + 'the last call')"
+    monkeypatch.setattr(make._Worker, "_command", lambda self: [sys.executable, "-c", words])
+    with pytest.raises(BuildError) as refusal:
+        make.objects(own(), ["study"], ["v0"])
+    said = str(refusal.value)
+    assert ": the reason calls" in said and said.endswith("the last call") and len(said) < 2200
+
+
 @pytest.mark.parametrize(
     ("code", "reason"),
     [(3, "the process ended with code 3 and gave no reason"), (0, "not received: study-{platform}-v0.o")],

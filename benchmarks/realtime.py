@@ -60,7 +60,7 @@ def scenes() -> dict[str, Scene]:
     pair["sound"] = {"radiation_model": "bem", "microphone": around}
     flaws = single.imperfections.model_dump(exclude={"unbalance_um"})
     pair["imperfections"] = flaws
-    pair["spindle"]["shaft"]["unbalance"] = [{"position_mm": 65.0, "amount_g_mm": 0.2}]
+    pair["spindle"]["shaft"]["unbalance"] = [{"position_mm": 65.0, "amount_g_mm": 0.2}]  # assumed
     return {"single": single, "DB": Scene.from_dict(pair)}
 
 

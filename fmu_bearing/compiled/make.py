@@ -45,7 +45,8 @@ _END_OF_WORDS = 1000  # characters of either end of what a process that failed h
 #: is as much (`optimise`).
 _LONGEST_GUESS = 0.6
 #: Processor's time (s) of the portable code of each unit, those before it being done, and of its object: what
-#: the bar is divided by. On a two-core AMD EPYC virtual machine, Python 3.11, Numba 0.68.
+#: the bar is divided by. Of step measured (idle two-core AMD EPYC virtual machine, Python 3.11, Numba 0.68),
+#: of the others estimated from shares of it under load.
 _SECONDS = {
     "step": (47.0, 38.0),
     "init": (4.0, 6.0),

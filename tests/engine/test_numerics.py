@@ -184,7 +184,7 @@ def solve_both(p, springs, angle=0.0, balls=11, lanes=12):
     return got, expected
 
 
-# Kernels that nothing else compiles by themselves; a wrong solution would keep every run from converging.
+# Heavy, as is the next, because these kernels are compiled by themselves here, in 11 s.
 @pytest.mark.heavy
 def test_block_arrow_solves_the_dense_system():
     got, expected = solve_both(np.zeros(P.TABLES), lambda cv, cx: 0.0)

@@ -64,7 +64,9 @@ def fields(model=Scene, path=()):
 
 
 def test_every_field_is_described_and_bounded():
-    for path, field in fields():
+    found = list(fields())
+    assert len(found) > 100
+    for path, field in found:
         name, words = ".".join(path), field.description
         assert words and words.endswith(".") and words[0].isupper(), name
         if field.annotation in (int, float, float | None, int | None):

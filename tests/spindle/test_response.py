@@ -84,6 +84,7 @@ def test_the_unbalance_line_of_a_pair_against_a_dense_solve():
     damp[shaft, shaft] = -table(SP.AT_DAMPING, n) - speed * table(SP.AT_GYROSCOPIC, n)
     for b in range(run.count):
         row, rings = run.row(b), np.s_[: L.N]
+        assert run.state(b)[S.CONDENSED + L.SIDE_SQUARE] > 0.0  # balls move across their tracks by themselves
         first = int(row[SP.ROW_AT_T])
         moved = run.p[first : first + n * SP.LANES].reshape(n, SP.LANES)[:, : L.N].T
         own = row[SP.ROW_MASS : SP.ROW_MASS + L.N]

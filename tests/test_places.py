@@ -15,10 +15,13 @@ FILES = sorted(
     for path in ENGINE.rglob("*.py")
     if path.parent.name != "layout" and path.name not in ("__main__.py", "jit.py", "sources.py")
 )
-LAYOUT = set("A C EQ F FL H J K L LN MO P PT Q R S SD SP ST T TAB U W X Y Z".split())
+LAYOUT = set("A C EQ F FL H J K L LN MO P PT Q R S SD SL SP ST T TAB U W X Y Z".split())
 LARGEST = 2  # 0, 1, 2 are components of a vector, neighbours, pairs
 #: Functions whose numbers are not places of an array, with the reason.
-FREE = {"times": "twelve sums by name stay in registers; groups of four take 5 % longer"}
+FREE = {
+    "times": "twelve sums by name stay in registers; groups of four take 5 % longer",
+    "sort_lines": "gaps of Shell's method, each three times the one before",
+}
 
 
 @functools.cache

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.arrays import Refused
-from fmu_bearing.prepare.sound import sound_key
+from fmu_bearing.prepare.sound import sound_blocks, sound_key
 from fmu_bearing.results.table import machine, markdown, write_csv
 from fmu_bearing.run.metrics import INAUDIBLE, Figures, measure
 from fmu_bearing.scene import Scene, SceneError, SceneSource
@@ -260,14 +260,11 @@ def changes(found: Figures, base: Figures) -> tuple[float, ...]:
 
 def _sound(scene: Scene, blocks: dict[str, NDArray[np.float64]]) -> NDArray[np.float64]:
     """Sound block of a scene, computed once for all scenes that radiate in the same way."""
-    # slow to load, and the command line has other uses of this module's tables
-    from fmu_bearing.acoustics.filters.design import sound_parameters
-
     if scene.sound is None:
         return np.empty(0)
     key = sound_key(scene)
     if key not in blocks:
-        blocks[key] = sound_parameters(scene)
+        (blocks[key],) = sound_blocks(scene)
     return blocks[key]
 
 

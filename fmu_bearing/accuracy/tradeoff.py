@@ -17,7 +17,7 @@ import numpy as np
 
 from fmu_bearing.accuracy.reference import explicit_rings, implicit_rings, relative_error
 from fmu_bearing.arrays import Arrays, Refused
-from fmu_bearing.prepare.sound import sound_block
+from fmu_bearing.prepare.sound import Sounds
 from fmu_bearing.results.table import machine, markdown, number, write_csv
 from fmu_bearing.run.metrics import COMMUNICATION, SAMPLE, Errors, errors, measure
 from fmu_bearing.run.settings import TERMS, Setting
@@ -193,9 +193,9 @@ def tradeoff(
     """
     scene = scene_of(source)
     require(scene, "tradeoff")
-    sound = sound_block(scene)
+    sounds = Sounds(scene)
     pair, own = check(scene, warm_up, min(CHECK, 0.5 * window))
-    truth = measure(REFERENCE.scene(scene), sound, warm_up, window)
+    truth = measure(REFERENCE.scene(scene), sounds.at(REFERENCE.fidelity), warm_up, window)
     agreement = np.nan
     if WITNESS.carries(scene):
         with suppress(Refused):
@@ -207,7 +207,7 @@ def tradeoff(
             rows.append(Row(setting, remark=BENDING.reason))
             continue
         try:
-            run = measure(setting.scene(scene), sound, warm_up, window, budget=budget)
+            run = measure(setting.scene(scene), sounds.at(setting.fidelity), warm_up, window, budget=budget)
         except Refused as problem:
             rows.append(Row(setting, remark=f"refused: {problem}"))
             continue

@@ -98,7 +98,7 @@ class Model:
 @renamed.arguments
 def prepare(
     scene: Scene, *, fidelity: str | None = None, method: str | None = None, max_step: float | None = None,
-    note: str = "",
+    note: str = "", samples: bool = False,
 ) -> Model:  # fmt: skip
     """Turn a scene into a model.
 
@@ -112,6 +112,8 @@ def prepare(
         Largest internal step (s) in place of the scene's.
     note : str, optional
         The model's ``note``.
+    samples : bool
+        Sample the sound in fidelity response, too, where it could be a sum of lines.
 
     Returns
     -------
@@ -133,7 +135,7 @@ def prepare(
         scene = with_fidelity(scene, **given)
     _require_computable(scene)
     try:
-        sounds = sound_blocks(scene)
+        sounds = sound_blocks(scene, lines=False if samples else None)
     except ValueError as problem:
         raise SceneError(f"{scene.name}: {problem}") from None
     parameters = pack(scene, *sounds)

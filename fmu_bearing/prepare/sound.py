@@ -4,6 +4,7 @@ import functools
 import hashlib
 import io
 import json
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -27,33 +28,62 @@ _PARTS: Any = {"bearing": True, "materials": True, "mounting": {"rotor", "housin
 _LEFT_OUT: Any = {"sound": {"microphone", "circle"}}  # names of microphones
 
 
-def sound_parameters(scene: Scene, housing: "Housing | None" = None) -> NDArray[np.float64]:
+@dataclass(frozen=True)
+class Block:
+    """Which sound block of a scene is wanted.
+
+    ``housing``: in the place of the scene's; ``lines``: one of lines, with ``bearings`` and ``metered`` as in
+    `acoustics.filters.design.line_parameters`.
+    """
+
+    housing: "Housing | None" = None
+    lines: bool = False
+    bearings: int = 0
+    metered: bool = True
+
+
+def from_lines(scene: Scene, fidelity: str | None = None) -> bool:
+    """Whether the sound of a scene is made of lines: in fidelity response, by sources linear in velocity.
+
+    ``fidelity``: in the place of the scene's.
+    """
+    if scene.sound is None or (fidelity or scene.fidelity.model) != "response":
+        return False
+    from fmu_bearing.acoustics.registry import RECIPES
+
+    return RECIPES[scene.sound.radiation_model].form != "scalars"
+
+
+def sound_parameters(scene: Scene, wanted: Block) -> NDArray[np.float64]:
     """Compute the block. SciPy is imported here, because that takes half a second."""
     from fmu_bearing.acoustics.filters import design as stream
 
-    return stream.sound_parameters(scene, housing=housing)
+    if wanted.lines:
+        return stream.line_parameters(scene, wanted.housing, bearings=wanted.bearings, metered=wanted.metered)
+    return stream.sound_parameters(scene, housing=wanted.housing)
 
 
-def sound_block(scene: Scene, housing: "Housing | None" = None) -> NDArray[np.float64]:
-    """Sound block of a scene (`acoustics.filters.design.sound_parameters`), from the cache if possible.
+def sound_block(scene: Scene, wanted: Block | None = None) -> NDArray[np.float64]:
+    """Sound block of a scene (`sound_parameters`), from the cache if possible.
 
-    ``housing``: in the place of the scene's.
+    ``wanted``: default: of the scene as it is, of lines where `from_lines` says so.
 
     Raises
     ------
     ValueError
-        As `acoustics.filters.design.sound_parameters`.
+        As `acoustics.filters.design.sound_parameters` and `line_parameters` there.
     """
     if scene.sound is None or not scene.microphones:
         return np.zeros(0)
+    wanted = wanted or Block(lines=from_lines(scene))
     if scene.sound.radiation_model == "table":  # a table may change under its name
-        return sound_parameters(scene)
-    path = cache_root() / "sound" / f"block-{_key(scene, housing)}.npy"
+        return sound_parameters(scene, wanted)
+    path = cache_root() / "sound" / f"block-{_key(scene, wanted)}.npy"
     try:
         kept: NDArray[np.float64] = np.load(path, allow_pickle=False)
         return kept
     except (OSError, ValueError, EOFError):  # not there, or damaged: made again
-        block = sound_parameters(scene, housing)
+        block = sound_parameters(scene, wanted)
     buffer = io.BytesIO()
     np.save(buffer, block, allow_pickle=False)
     try:
@@ -63,8 +93,10 @@ def sound_block(scene: Scene, housing: "Housing | None" = None) -> NDArray[np.fl
     return block
 
 
-def sound_blocks(scene: Scene) -> list[NDArray[np.float64]]:
+def sound_blocks(scene: Scene, *, lines: bool | None = None) -> list[NDArray[np.float64]]:
     """Return the sound block of every bearing of a scene: of a set one each, else one.
+
+    ``lines``: whether they are of lines or for samples; default: as `from_lines` says.
 
     A housing that radiates belongs to the first bearing, which it shows; the others are inside and have
     blocks without sources.
@@ -74,15 +106,40 @@ def sound_blocks(scene: Scene) -> list[NDArray[np.float64]]:
     ValueError
         As `sound_block`.
     """
+    if lines is None:
+        lines = from_lines(scene)
     if scene.spindle is None or scene.sound is None:
-        return [sound_block(scene)]
-    alone = [sound_scene(scene, b) for b in range(len(scene.spindle.bearing))]
+        return [sound_block(scene, Block(lines=lines))]
+    count = len(scene.spindle.bearing)
+    alone = [sound_scene(scene, b) for b in range(count)]
+    own = [Block(None, lines, count if lines and b == 0 else 0, metered=b == 0) for b in range(count)]
     if scene.sound.radiator != "housing":
-        return [sound_block(one) for one in alone]
+        return [sound_block(one, block) for one, block in zip(alone, own, strict=True)]
     from fmu_bearing.acoustics.filters.design import housing_of_set, silent_parameters
 
     first, *inside = alone
-    return [sound_block(first, housing_of_set(scene)), *(silent_parameters(one) for one in inside)]
+    radiating = sound_block(first, replace(own[0], housing=housing_of_set(scene)))
+    return [radiating, *(silent_parameters(one, lines=lines) for one in inside)]
+
+
+class Sounds:
+    """Sound blocks of one scene at any fidelity, each made once: those for samples and those of lines.
+
+    Parameters
+    ----------
+    scene : Scene
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        self._scene = scene
+        self._made: dict[bool, list[NDArray[np.float64]]] = {}
+
+    def at(self, fidelity: str) -> list[NDArray[np.float64]]:
+        """Return the blocks of the scene at a fidelity; raises as `sound_blocks`."""
+        lines = from_lines(self._scene, fidelity)
+        if lines not in self._made:
+            self._made[lines] = sound_blocks(self._scene, lines=lines)
+        return self._made[lines]
 
 
 def sound_key(scene: Scene) -> str:
@@ -91,14 +148,19 @@ def sound_key(scene: Scene) -> str:
     It does not depend on speed, loads, oil, springs and imperfections: a sweep over those prepares the sound
     once.
     """
-    from fmu_bearing.acoustics.filters.design import housing_of_set, radiators_of
-
     if scene.sound is None:
         return ""
+    return f"{'lines' if from_lines(scene) else 'samples'} {_source_key(scene)}"
+
+
+def _source_key(scene: Scene) -> str:
+    """Key of what radiates in a scene with sound, and how."""
+    from fmu_bearing.acoustics.filters.design import housing_of_set, radiators_of
+
     if scene.spindle is not None:
         count = len(scene.spindle.bearing)
-        if scene.sound.radiator != "housing":
-            return repr([sound_key(sound_scene(scene, b)) for b in range(count)])
+        if scene.sound is None or scene.sound.radiator != "housing":
+            return repr([_source_key(sound_scene(scene, b)) for b in range(count)])
         # bearings inside make no sound, they are only counted
         first, housing = sound_scene(scene, 0), housing_of_set(scene)
         radiating = (first.sound, radiators_of(first, housing), scene.fidelity.ball_harmonics)
@@ -108,13 +170,13 @@ def sound_key(scene: Scene) -> str:
     return repr((scene.sound, radiators_of(scene), scene.fidelity.ball_harmonics, bending))
 
 
-def _key(scene: Scene, housing: "Housing | None" = None) -> str:
+def _key(scene: Scene, wanted: Block) -> str:
     parts = scene.model_dump(mode="json", include=_PARTS, exclude=_LEFT_OUT)
     places = [list(place) for _, place in scene.microphones]
     digest = hashlib.sha256(json.dumps([parts, places], sort_keys=True).encode())
     digest.update(f"{scene.fidelity.ball_harmonics} {_code()}".encode())
-    if housing is not None:
-        digest.update(repr(housing).encode())
+    if wanted != Block():
+        digest.update(repr(wanted).encode())
     return digest.hexdigest()[:24]
 
 

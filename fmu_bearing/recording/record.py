@@ -18,6 +18,7 @@ from fmu_bearing.engine.layout import SD, P, S
 from fmu_bearing.instance import Instance
 from fmu_bearing.modal.campbell.weak import doubt
 from fmu_bearing.prepare.model import Model, prepare
+from fmu_bearing.prepare.sound import from_lines
 from fmu_bearing.recording.recording import Recording
 from fmu_bearing.run.choose import resolve
 from fmu_bearing.scene import Scene, SceneSource, scene_of
@@ -127,9 +128,10 @@ def record(
         drives["shaft_speed"] = speed
     if warn and (doubted := _doubt(scene, drives)):
         warnings.warn(doubted, stacklevel=3)  # of renamed.arguments, which wraps this
-    model = source if isinstance(source, Model) and microphones else prepare(
+    model = source if isinstance(source, Model) and microphones and not from_lines(scene) else prepare(
         scene if microphones
-        else with_far_microphone(scene, "compact" if form_of(wanted) == "vectors" else wanted)
+        else with_far_microphone(scene, "compact" if form_of(wanted) == "vectors" else wanted),
+        samples=True,
     )  # fmt: skip
     bearing = Instance(model)
     _drive(bearing, drives, 0.0)

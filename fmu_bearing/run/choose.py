@@ -30,7 +30,7 @@ from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.sources import source_hash
 from fmu_bearing.files import cache_root, write_whole
 from fmu_bearing.modal.campbell import weak
-from fmu_bearing.prepare.sound import sound_blocks
+from fmu_bearing.prepare.sound import Sounds
 from fmu_bearing.results.table import number
 from fmu_bearing.run.metrics import SILENT, SILENT_RAMP, Errors, Figures, errors, measure, measure_between
 from fmu_bearing.run.settings import Setting
@@ -290,17 +290,19 @@ def choose(
     Refused
         If fidelity ``full`` itself is refused.
     """
-    sounds = sound_blocks(scene)
+    sounds = Sounds(scene)
     candidates = [c for c in candidates if c.carries(scene)]
     planned = conditions(scene, window)
     against = _against(scene, planned)
     finest = bounded(FINEST, scene)
-    first = measure(finest, sounds, warm_up, window, budget=budget)
+    first = measure(finest, sounds.at(finest.fidelity.model), warm_up, window, budget=budget)
     truth: dict[Condition, Figures] = {planned[0]: first.figures}
     missing = "" if len(planned) > 1 else "another speed and a rise of speed, as the shaft does not turn"
     for one in planned[1:]:
         try:
-            truth[one] = measure_between(finest, sounds, warm_up, window, one.first, one.last)
+            truth[one] = measure_between(
+                finest, sounds.at(finest.fidelity.model), warm_up, window, one.first, one.last
+            )
         except Refused as problem:
             missing += f"{'; ' if missing else ''}{one.name}, where fidelity full is refused ({problem})"
     probes = []
@@ -312,12 +314,13 @@ def choose(
             reasons.append(f"{_LEFT_OUT}{against}")
         else:
             try:
-                run = measure(variant, sounds, warm_up, window, budget=budget)
+                own = sounds.at(fidelity.model)
+                run = measure(variant, own, warm_up, window, budget=budget)
                 pace = run.cpu
                 for one, true in truth.items():
                     figures = run.figures
                     if one is not planned[0]:
-                        figures = measure_between(variant, sounds, warm_up, window, one.first, one.last)
+                        figures = measure_between(variant, own, warm_up, window, one.first, one.last)
                     silent = SILENT if one.first == one.last else SILENT_RAMP
                     found.append(errors(figures, true, silent))
                     reasons.append(too_far(found[-1], scene))

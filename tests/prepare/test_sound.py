@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from fmu_bearing.engine.layout import SD
 from fmu_bearing.prepare import sound
 
 
@@ -12,9 +13,9 @@ def made(monkeypatch, tmp_path):
     scenes = []
     compute = sound.sound_parameters
 
-    def counted(scene, housing=None):
+    def counted(scene, wanted):
         scenes.append(scene)
-        return compute(scene, housing)
+        return compute(scene, wanted)
 
     monkeypatch.setenv("FMU_BEARING_CACHE", str(tmp_path))
     monkeypatch.setattr(sound, "sound_parameters", counted)
@@ -49,6 +50,18 @@ def test_what_does_not_sound_does_not_matter(made, scene):
     assert len(made) == 2
     lighter = sound.sound_block(changed(spindle, "sound", air_density_kg_m3=0.6))
     assert len(made) == 3 and not np.array_equal(lighter, first)
+
+
+def test_lines_and_samples_have_blocks_of_their_own(made, scene):
+    bare = scene("7003C-bare").replace({"sound.radiation_model": "compact"})
+    lines = bare.replace({"fidelity.model": "response"})
+    for one in (bare, lines, bare, lines):
+        sound.sound_block(one)
+    assert len(made) == 2
+    assert sound.sound_key(bare) != sound.sound_key(lines)
+    both = sound.Sounds(bare)
+    assert both.at("response")[0][SD.H_LINES] > 0 == both.at("rings")[0][SD.H_LINES]
+    assert both.at("full") is both.at("rings")
 
 
 def test_a_damaged_block_is_made_again(made, scene, tmp_path):

@@ -2,14 +2,15 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.filters.blocks import Wire
-from fmu_bearing.acoustics.filters.fir import delay_of, fit
-from fmu_bearing.acoustics.filters.pack import pack
+from fmu_bearing.acoustics.filters.fir import band_limit, delay_of, fit
+from fmu_bearing.acoustics.filters.pack import Lines, Ray, pack
+from fmu_bearing.acoustics.radiation.frequencies import fit_frequencies, spline_of
 from fmu_bearing.acoustics.radiation.radiators import Air, Housing, Path, Radiators, Ring
 from fmu_bearing.acoustics.radiation.table import Table, read_table, select
 from fmu_bearing.acoustics.registry import Position, Radiation
@@ -25,6 +26,7 @@ __all__ = [
     "check_table",
     "filter_errors",
     "housing_of_set",
+    "line_parameters",
     "radiation_of",
     "radiators_of",
     "silent_parameters",
@@ -74,6 +76,14 @@ class Group:
     weights: NDArray[np.float64]
 
 
+class Circle(NamedTuple):
+    """Microphones that share filters: paths to them, the output and factor of each path."""
+
+    paths: list[Path]
+    targets: list[tuple[int, float]]
+    group: Group
+
+
 def sound_parameters(
     scene: Scene, modes: Sequence[Any] | None = None, housing: Housing | None = None
 ) -> NDArray[np.float64]:
@@ -100,11 +110,74 @@ def sound_parameters(
     return _block(radiation, positions, details=scene.sound.details, thirds=scene.sound.third_octaves)
 
 
-def silent_parameters(scene: Scene) -> NDArray[np.float64]:
-    """Sound block of a scene with microphones that hears nothing: no filters, no harmonics, few meters."""
+def line_parameters(
+    scene: Scene, housing: Housing | None = None, *, bearings: int = 0, metered: bool = True
+) -> NDArray[np.float64]:
+    """Sound block of lines of a scene (fidelity response); empty when the scene has no sound.
+
+    Parameters
+    ----------
+    housing
+        Where it radiates; by default the scene's.
+    bearings
+        Of the set that it belongs to, whose levels alone are kept.
+    metered
+        Whether this block's meters read the sum of the set; each set has one.
+
+    Raises
+    ------
+    ValueError
+        When a microphone lies inside a body, or the table does not serve.
+    """
+    if scene.sound is None or not scene.microphones:
+        return np.zeros(0)
+    radiation = radiation_of(scene, None, housing)
+    sources: list[tuple[int, int]] = []
+    rays: list[list[Ray]] = []
+    flights: list[float] = []
+    circles = _circles(radiation, [position for _, position in scene.microphones], sources)
+    for circle in circles:
+        flight = min((path.flight for path in circle.paths), default=0.0)
+        known: dict[int, NDArray[np.float64]] = {}  # a shared response has shared nodes
+        for path in circle.paths:
+            if id(path.response) not in known:
+                known[id(path.response)] = nodes(path.response, flight)
+        rays.append(
+            [
+                Ray(path.channel, target, factor, known[id(path.response)])
+                for path, (target, factor) in zip(circle.paths, circle.targets, strict=True)
+            ]
+        )
+        flights.append(flight)
+    groups = [circle.group for circle in circles]
+    lines = Lines(rays, flights, bearings, metered)
+    details, thirds = scene.sound.details, scene.sound.third_octaves
+    return pack(radiation, [], groups, sources, details=details, thirds=thirds, lengths=(), lines=lines)
+
+
+def nodes(response: NDArray[np.complex128], flight: float) -> NDArray[np.float64]:
+    """Values and slopes of a transfer function, band limit included: shape (``SD.NODES``, ``SD.NODE_SIZE``).
+
+    ``response``: at `fit_frequencies`; ``flight``: time (s) taken out.
+    """
+    spline = spline_of(fit_frequencies(), response, flight)
+    frequency: NDArray[np.float64] = SD.NODE_STEP * np.arange(SD.NODES, dtype=float)
+    limit = band_limit(frequency)
+    falls = band_limit(frequency + 0.5) - band_limit(frequency - 0.5)  # per Hz
+    value = limit * spline(frequency)
+    slope = SD.NODE_STEP * (falls * spline(frequency) + limit * spline(frequency, 1))
+    return np.stack([value.real, value.imag, slope.real, slope.imag], axis=1)
+
+
+def silent_parameters(scene: Scene, *, lines: bool = False) -> NDArray[np.float64]:
+    """Sound block of a scene with microphones that hears nothing: no filters, no harmonics, few meters.
+
+    ``lines``: one of lines, inside a set.
+    """
     radiation = replace(radiation_of(scene, ()), harmonics=0)
     groups = [Group((k,), 0, np.zeros((0, 1))) for k in range(len(scene.microphones))]
-    return pack(radiation, [], groups, [], details=False, thirds=False, lengths=())
+    silent = Lines([[] for _ in groups], [0.0 for _ in groups], metered=False) if lines else None
+    return pack(radiation, [], groups, [], details=False, thirds=False, lengths=(), lines=silent)
 
 
 def filter_errors(scene: Scene, modes: Sequence[Any] | None = None) -> list[FilterError]:
@@ -269,18 +342,28 @@ def _design(
 ) -> tuple[list[Wire], list[Group], list[tuple[int, int]]]:
     """Design filters; groups of microphones; component and kind of every output. Adds to ``errors``."""
     wires: list[Wire] = []
-    groups: list[Group] = []
     sources: list[tuple[int, int]] = []
+    circles = _circles(radiation, microphones, sources)
+    for number, (paths, targets, group) in enumerate(circles):
+        place = ", ".join(f"{1e3 * length:g}" for length in microphones[group.members[0]])
+        filters = _filters(paths, place, group.members, errors)
+        for path, taps, (target, factor) in zip(paths, filters, targets, strict=True):
+            wires.append(Wire(number, path.channel, delay_of(path.flight), factor * taps, target))
+    return wires, [circle.group for circle in circles], sources
+
+
+def _circles(
+    radiation: Radiation, microphones: Sequence[Position], sources: list[tuple[int, int]]
+) -> list[Circle]:
+    """Paths to each circle of microphones and their outputs, whose sources are appended."""
+    circles: list[Circle] = []
     for members in radiation.circles(microphones):
         paths = _audible(radiation.paths(microphones, members))
-        place = ", ".join(f"{1e3 * length:g}" for length in microphones[members[0]])
-        filters = _filters(paths, place, members, errors)
         first = len(sources)
         targets, rows = _outputs(radiation, paths, sources)
-        for path, taps, (target, factor) in zip(paths, filters, targets, strict=True):
-            wires.append(Wire(len(groups), path.channel, delay_of(path.flight), factor * taps, target))
-        groups.append(Group(tuple(members), first, np.array(rows).reshape(-1, len(members))))
-    return wires, groups, sources
+        weights = np.array(rows).reshape(-1, len(members))
+        circles.append(Circle(paths, targets, Group(tuple(members), first, weights)))
+    return circles
 
 
 def _audible(paths: list[Path]) -> list[Path]:

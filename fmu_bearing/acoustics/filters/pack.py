@@ -1,6 +1,7 @@
 """Lays the sound block flat: head, tables, and the places of the kernels' state and work."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from itertools import groupby
 from typing import Any, Protocol
 
@@ -13,7 +14,7 @@ from fmu_bearing.acoustics.filters.weighting import a_weighting_sections, band_s
 from fmu_bearing.acoustics.radiation.paper_scalars import paper_scalars
 from fmu_bearing.acoustics.registry import Radiation
 from fmu_bearing.engine.choices import CHANNEL_FORMS
-from fmu_bearing.engine.layout import FOUR, SD, Z
+from fmu_bearing.engine.layout import FOUR, SD, SL, Z
 
 MICROPHONE_LOW_LIMIT = 5.0  # Hz, second order: of a half-inch measurement microphone (assumed)
 _KEEP = [0, 1, 2, 4, 5]  # of a section: the leading denominator coefficient is 1
@@ -33,6 +34,32 @@ class Members(Protocol):
     @property
     def weights(self) -> NDArray[np.float64]:
         """Weights, shape (outputs, microphones)."""
+
+
+@dataclass(frozen=True)
+class Ray:
+    """One channel's way to the microphones of one group, for lines.
+
+    ``nodes``: value and slope of its transfer function, shape (``SD.NODES``, ``SD.NODE_SIZE``).
+    """
+
+    channel: int
+    output: int
+    factor: float
+    nodes: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Lines:
+    """What a block of lines has: rays and flight (s) of every group.
+
+    ``bearings``: of a set, whose levels alone are kept; ``metered``: whether this block's meters read them.
+    """
+
+    rays: Sequence[Sequence[Ray]]
+    flights: Sequence[float]
+    bearings: int = 0
+    metered: bool = True
 
 
 class _Block:
@@ -64,6 +91,7 @@ def pack(
     details: bool,
     thirds: bool,
     lengths: Sequence[int] | None,
+    lines: Lines | None = None,
 ) -> NDArray[np.float64]:
     """Lay out a sound block.
 
@@ -75,6 +103,8 @@ def pack(
         Which meters are kept.
     lengths
         Block lengths of the convolution; default: the cheapest.
+    lines
+        What a block of lines needs, in the place of ``wires``.
 
     Raises
     ------
@@ -117,10 +147,14 @@ def pack(
         [*paper_scalars(radiation.radiators), np.sin(angle), np.cos(angle), orbit]
     )
     _put_sources(block, sources)
-    _put_groups(block, groups)
+    _put_groups(block, groups, lines)
     found[SD.H_AT_LANES] = block.put(order)
     formed = SD.formed(int(found[SD.H_FORM]), radiation.harmonics, channels)
     found[SD.H_AT_FORMED] = block.put([order[channel] for channel in formed])
+    if lines is not None:
+        found[SD.H_AT_BOUNDS] = block.put(_bounds(groups, lines, channels))
+        _place_lines(block, lines)
+        return block.flat()
     deepest = _put_banks(block, banks, lengths)
     rows, slots = _put_spans(block, banks, lengths)
     found[SD.H_ROWS] = max([deepest, *(2 * length + 1 for length in lengths)])
@@ -153,13 +187,25 @@ def _put_sources(block: _Block, sources: Sequence[tuple[int, int]]) -> None:
     block.head[SD.H_AT_OUTPUTS] = block.put([kinds.index(source) for source in sources])
 
 
-def _put_groups(block: _Block, groups: Sequence[Members]) -> None:
+def _put_groups(block: _Block, groups: Sequence[Members], lines: Lines | None) -> None:
     rows = []
+    tables: dict[int, int] = {}
     lane = 0
     order = np.zeros(sum(len(group.members) for group in groups))
-    for group in groups:
+    for number, group in enumerate(groups):
         outputs, mics = group.weights.shape
-        rows.append([group.first, outputs, lane, mics, block.put(group.weights)])
+        row = [group.first, outputs, lane, mics, block.put(group.weights), 0, 0, 0.0]
+        if lines is not None:
+            rays = sorted(lines.rays[number], key=lambda ray: ray.channel)
+            for ray in rays:
+                if id(ray.nodes) not in tables:
+                    tables[id(ray.nodes)] = block.put(ray.nodes)
+            first = np.searchsorted(
+                [ray.channel for ray in rays], np.arange(int(block.head[SD.H_CHANNELS]) + 1)
+            )
+            flat = [[ray.channel, ray.output, ray.factor, tables[id(ray.nodes)]] for ray in rays]
+            row[SD.GROUP_AT_RAYS :] = [block.put(flat), block.put(first), lines.flights[number]]
+        rows.append(row)
         order[list(group.members)] = lane + np.arange(mics)
         lane += mics
     block.head[SD.H_AT_GROUPS] = block.put(rows)
@@ -233,6 +279,63 @@ def _place_state(block: _Block, rows: Sequence[list[int]], slots: Sequence[list[
     found[SD.H_S_METERS] = room(SD.METERS * mics)
     found[SD.H_S_BANDS] = room(SD.BAND_SIZE * mics if found[SD.H_BANDS] else 0)
     found[SD.H_STATE] = end
+
+
+def _bounds(groups: Sequence[Members], lines: Lines, channels: int) -> NDArray[np.float64]:
+    """Root of the microphones' summed squared pressures per channel, the largest over each run of nodes.
+
+    Shape (runs, channels). A tenth more covers what a cubic does between nodes.
+    """
+    runs = -(-SD.NODES // SD.BOUND_NODES)
+    total = np.zeros((SD.NODES, channels))
+    for group, rays in zip(groups, lines.rays, strict=True):
+        largest = np.zeros((channels, group.weights.shape[1], SD.NODES))
+        for ray in rays:
+            size = np.hypot(ray.nodes[:, SD.NODE_REAL], ray.nodes[:, SD.NODE_IMAGINARY])
+            weights = np.abs(ray.factor * group.weights[ray.output - group.first])
+            largest[ray.channel] += weights[:, None] * size
+        total += (largest**2).sum(1).T
+    padded = np.zeros((runs * SD.BOUND_NODES + 1, channels))
+    padded[: SD.NODES] = 1.1 * np.sqrt(total)
+    return np.array([padded[k * SD.BOUND_NODES : (k + 1) * SD.BOUND_NODES + 1].max(0) for k in range(runs)])
+
+
+def _place_lines(block: _Block, lines: Lines) -> None:
+    """Give every part of the state and work of a block of lines its place."""
+    found = block.head
+    channels, outputs, mics = (int(found[k]) for k in (SD.H_CHANNELS, SD.H_OUTPUTS, SD.H_MICS))
+    bearings, bands = lines.bearings, int(found[SD.H_BANDS])
+    most = SL.most_lines(mics) * max(lines.bearings, 1) if lines.metered else 0
+    found[SD.H_LINES] = max(most, 1)
+    found[SD.H_BEARINGS] = bearings
+    found[SD.H_DELAY] = SD.LATENCY / SD.RATE
+    end = SD.SS_TABLES
+    for place, size in (
+        (SD.H_S_METERS, SD.METERS * mics),
+        (SD.H_S_BANDS, bands * mics),
+        (SD.H_S_LINES, most * SL.line_size(mics)),
+        (SD.H_S_ALONE, bearings * mics),
+        (SD.H_S_MEANS, SL.quantities(bearings, bands) * mics),
+        (SD.H_S_BEATS, SL.MOST_BEATS * SL.beat_size(bearings, bands, mics) if most else 0),
+    ):
+        found[place] = end
+        end += size
+    found[SD.H_STATE] = end
+    end = 0
+    for place, size in (
+        (SD.H_W_OUTPUTS, 2 * outputs),
+        (SD.H_W_CHANNELS, 2 * channels + 2),
+        (SD.H_W_ROWS, 2 * SL.ROW_ALONE * mics),
+        (SD.H_W_PARTS, 2 * most * (SL.ROW_ALONE + bearings) * mics),
+        (SD.H_W_INDEX, SL.INDEX_ROWS * most + SL.HEADS + 1),
+        (SD.H_W_GAINS, (SL.GAIN_BANDS + bands) * most),
+        (SD.H_W_PHASES, 2 * most),
+        (SD.H_W_TURNS, SL.TURN),
+        (SD.H_W_ANGLES, SL.ANGLES * max(bearings, 1)),
+    ):
+        found[place] = end
+        end += size
+    found[SD.H_WORK] = end
 
 
 def _place_work(block: _Block, served: Sequence[list[int]]) -> None:

@@ -15,22 +15,28 @@ def fit_frequencies() -> NDArray[np.float64]:
     )
 
 
+def spline_of(frequency: NDArray[np.float64], response: NDArray[np.complex128], flight: float) -> CubicSpline:
+    """Cubic spline of a transfer function whose flight time (s) is taken out.
+
+    Towards zero frequency it knows that negative frequencies carry the conjugate.
+    """
+    still = response * np.exp(2j * np.pi * frequency * flight)
+    low = frequency > 0.0
+    ends = np.concatenate([-frequency[low][::-1], frequency])
+    return CubicSpline(ends, np.concatenate([still[low][::-1].conj(), still]))
+
+
 def between(
     frequency: NDArray[np.float64],
     response: NDArray[np.complex128],
     flight: float,
     wanted: NDArray[np.float64],
 ) -> NDArray[np.complex128]:
-    """Transfer function at the frequencies ``wanted`` (Hz), by a cubic spline.
+    """Transfer function at the frequencies ``wanted`` (Hz), by a cubic spline (`spline_of`).
 
-    The flight time (s) is taken out before and put back after. Towards zero frequency the spline knows that
-    negative frequencies carry the conjugate; above the last given frequency its value is held.
+    The flight time (s) is taken out before and put back after. Above the last given frequency its value is
+    held.
     """
-    still = response * np.exp(2j * np.pi * frequency * flight)
-    low = frequency > 0.0
-    ends = np.concatenate([-frequency[low][::-1], frequency])
-    spline = CubicSpline(ends, np.concatenate([still[low][::-1].conj(), still]))
-    result: NDArray[np.complex128] = spline(np.minimum(wanted, frequency[-1])) * np.exp(
-        -2j * np.pi * wanted * flight
-    )
+    still = spline_of(frequency, response, flight)(np.minimum(wanted, frequency[-1]))
+    result: NDArray[np.complex128] = still * np.exp(-2j * np.pi * wanted * flight)
     return result

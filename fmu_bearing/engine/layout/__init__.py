@@ -15,6 +15,7 @@ module            as    array
 ``z``             Z     outputs
 ``spindle``       SP    a set of bearings on one shaft: its own in ``p``, ``u``, ``s``, ``z``, ``w``
 ``sound``         SD    sound blocks: parameters ``ps``, state ``ss``, work ``ws``
+``sound_lines``   SL    of a sound block of lines (fidelity response): more of ``ss`` and ``ws``
 ``motion``        MO    one motion sample for the sound kernels
 ``flexure``       FL    bending rings: their rows and numbers in ``w``, what ``s`` keeps of them
 ``p``             P     parameters: written once by ``prepare``, read only in the engine
@@ -59,6 +60,7 @@ from fmu_bearing.engine.layout import (
     race as R,
     s as S,
     sound as SD,
+    sound_lines as SL,
     spindle as SP,
     statics as ST,
     tableau as TAB,
@@ -71,6 +73,6 @@ from fmu_bearing.engine.layout import (
 from fmu_bearing.engine.layout.sizes import FOUR, MAX_BALLS, MAX_MODES, STAGES, STRIDE
 
 __all__ = [
-    "A", "C", "EQ", "F", "FL", "H", "J", "K", "L", "LN", "MO", "P", "PT", "Q", "R", "S", "SD", "SP", "ST",
-    "T", "TAB", "U", "W", "X", "Y", "Z", "FOUR", "MAX_BALLS", "MAX_MODES", "STAGES", "STRIDE",
+    "A", "C", "EQ", "F", "FL", "H", "J", "K", "L", "LN", "MO", "P", "PT", "Q", "R", "S", "SD", "SL", "SP",
+    "ST", "T", "TAB", "U", "W", "X", "Y", "Z", "FOUR", "MAX_BALLS", "MAX_MODES", "STAGES", "STRIDE",
 ]  # fmt: skip

@@ -5,10 +5,12 @@ then: forces of one ball on the rings, sampled round the orbit, and their circum
 vector is ``COMPONENTS`` real parts, then as many imaginary parts.
 """
 
-from fmu_bearing.engine.layout.condensed import FORCES, PATTERNS
-from fmu_bearing.engine.layout.sizes import BALL_ORDERS, STRIDE, Places
+from fmu_bearing.engine.layout.condensed import FORCES, PATTERNS, N as RINGS
+from fmu_bearing.engine.layout.sizes import BALL_ORDERS, FOUR, STRIDE, Places
 
-COMPONENTS = FORCES + PATTERNS  # of the balls' forces, then of their places of rest across the track (m)
+PLACES = FORCES + PATTERNS  # components of the balls' forces, then of their places of rest across the track
+AWAY = PLACES - PATTERNS  # m: the uniform one of these
+COMPONENTS = PLACES + 2  # and their places x, r between the races (m)
 REACH = 8  # highest circumferential order of the balls' unequal loads
 AZIMUTHS = 96  # samples over the orbit at most
 TURNS = 2 * (BALL_ORDERS + 1)  # samples over a ball's own turning at most
@@ -33,6 +35,10 @@ BALL_SIN = _at(STRIDE)
 TABLE = _at((KINDS - BY_HEIGHT) * (REACH + 1) * COMPLEX)
 FORCE_ORDER = _at(COMPLEX)  # one order of the force
 TURNED = _at(FORMS * TURNS)  # m, m/rad: forms of one ball over its turning
+# what the balls sound by, see response/ball_sound: orders 0 .. REACH of the balls' places (m) as their loads
+# leave them, and of how they follow the rings' coordinates; four numbers each: x real, imaginary, r likewise
+REST = _at((REACH + 1) * FOUR)
+FOLLOW = _at((REACH + 1) * RINGS * FOUR)
 # samples round the orbit: entry (kind, i, m) at (kind * COMPONENTS + i) * AZIMUTHS + m
 SAMPLES = _at(KINDS * COMPONENTS * AZIMUTHS)
 # when they are no longer needed, orders of the balls' forms: real and imaginary row of (form, order m) at

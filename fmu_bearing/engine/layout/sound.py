@@ -20,9 +20,15 @@
 * groups of microphones, ``GROUP_SIZE`` numbers each, with weights: one row of microphones per output;
 * for each microphone of the scene its lane: microphones of a group lie side by side.
 
+A block of *lines* (fidelity response, see `sound.beats`) has no decimator, banks and spans. It has transfer
+functions: per group rows of ``RAY_SIZE`` numbers, one per path, and tables of ``NODES`` places ``NODE_STEP``
+apart, each with value and slope (per step) of a complex number; the flight is taken out.
+
 Microphones on one circle about the bearing axis share their filters: a body of revolution sounds the same
 all round, up to cos(m phi) and sin(m phi), which are the weights.
 """
+
+import math
 
 from fmu_bearing.engine.choices import VECTORS
 from fmu_bearing.engine.layout import z as _Z
@@ -39,6 +45,7 @@ SECOND_ROWS = SECOND_TAPS + 1
 MIDDLE = FIRST_TAPS // 2 + HALF * (SECOND_TAPS // 2)  # motion samples by which the decimator is late
 TURNING = -MIDDLE % DECIMATION  # motion samples whose number leaves this rest are in its middle once
 TURN_ROWS = -(-MIDDLE // DECIMATION)  # angles kept until then
+FAST, SLOW = 0.125, 1.0  # s: time constants of IEC 61672-1
 LATENCY = 88  # samples at RATE by which every pressure comes late: 1.72 ms
 COMPONENTS = ("inner_ring", "outer_ring", "cage", "balls")
 KINDS = ("radial", "axial", "rotation", "flexure", "balls")  # source types
@@ -64,6 +71,9 @@ H_GROUPS = _head()  # number of groups of microphones
 H_LANES = _head()  # A-weighting filters: form scalars one per filter output, others one per microphone
 H_DETAILS = _head()  # switch: meters beyond the first `PLAIN` are kept
 H_BANDS = _head()  # third octaves; 0: none
+H_LINES = _head()  # most lines that a block of lines has; 0: sound is sampled
+H_BEARINGS = _head()  # whose levels alone a block of lines keeps; 0: a single bearing's
+H_DELAY = _head()  # s: by which the pressures of lines come late, beside their flight
 # places in ps
 H_AT_FIRST = _head()  # of the decimator
 H_AT_SECOND = _head()
@@ -79,6 +89,7 @@ H_AT_SOURCES = _head()
 H_AT_OUTPUTS = _head()
 H_AT_GROUPS = _head()
 H_AT_ORDER = _head()
+H_AT_BOUNDS = _head()  # of lines: largest pressure per channel, by BOUND_NODES nodes: see `transfer.bound`
 # places in ss
 H_S_SECOND = _head()  # history of the decimator's second stage
 H_S_TURNS = _head()  # cosines, then sines of the balls' angles, until their sample is in the middle
@@ -87,8 +98,20 @@ H_S_CHANNELS = _head()  # channel history
 H_S_A_WEIGHTING = _head()
 H_S_METERS = _head()
 H_S_BANDS = _head()
+H_S_LINES = _head()  # lines, `line_size` numbers each,
+H_S_ALONE = _head()  # Pa2: mean squares of each bearing of a set alone,
+H_S_MEANS = _head()  # Pa2: their mean squares, rows of microphones: see QUANTITIES,
+H_S_BEATS = _head()  # and what close pairs of them add, `beat_size` numbers each
 # places in ws
 H_W_OUTPUTS = _head()
+H_W_CHANNELS = _head()  # of one line: real, then imaginary parts, then first and last that is not zero
+H_W_ROWS = _head()  # Pa: rows of microphones of one line: see `sound_lines`; real, then imaginary parts
+H_W_PARTS = _head()  # the same of every line
+H_W_INDEX = _head()  # of lines: see there
+H_W_GAINS = _head()  # of filters at each line's frequency, squared
+H_W_PHASES = _head()  # rad: of lines, then their cosines and sines
+H_W_TURNS = _head()  # of beats
+H_W_ANGLES = _head()  # of each bearing
 H_W_LANES = _head()  # of one bank
 H_W_WEIGHTED = _head()
 H_W_SOURCES = _head()
@@ -178,7 +201,28 @@ GROUP_COUNT = _group()  # number of outputs
 GROUP_LANE = _group()  # first microphone's lane
 GROUP_MICS = _group()  # number of microphones
 GROUP_AT_WEIGHTS = _group()
+GROUP_AT_RAYS = _group()  # paths to it, in a block of lines, in the order of their channels,
+GROUP_AT_FIRST = _group()  # and the number of the first path of each channel, of all at the end
+GROUP_FLIGHT = _group()  # s: taken out of their transfer functions
 GROUP_SIZE = _group.next
+
+_ray = Places()
+RAY_CHANNEL = _ray()
+RAY_OUTPUT = _ray()
+RAY_FACTOR = _ray()
+RAY_AT_NODES = _ray()
+RAY_SIZE = _ray.next
+
+NODE_STEP = 62.5  # Hz between the nodes of a transfer function, from zero on
+NODES = 353  # up to 22 kHz,
+BOUND_NODES = 16  # over so many a transfer function is bounded by its largest value
+TOP = 2.0 * math.pi * NODE_STEP * (NODES - 1)  # rad/s
+_node = Places()
+NODE_REAL = _node()
+NODE_IMAGINARY = _node()
+NODE_REAL_SLOPE = _node()
+NODE_IMAGINARY_SLOPE = _node()
+NODE_SIZE = _node.next
 
 _scalar = Places()
 SCALAR_BALL = _scalar()  # m: D/4, eq. 19 of the multi-source paper
@@ -314,6 +358,9 @@ SS_METERED = _at()  # of which metered
 SS_WEIGHT = _at()  # sum of weights of the exponential meter with the chosen time constant,
 SS_FAST = _at()  # Fast,
 SS_SLOW = _at()  # and Slow
+SS_LINES = _at()  # how many lines there are,
+SS_BEATS = _at()  # and beats between them
+SS_SPEED = _at()  # rad/s: of the shaft, that they were found at
 SS_TABLES = _at.next  # history of the decimator's first stage begins here
 
 # Third octaves of one microphone: states of each section, then running mean squares.

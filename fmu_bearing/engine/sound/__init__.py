@@ -1,4 +1,4 @@
-"""Sound in the engine: filters from motion samples to pressures, and level meters.
+"""Sound in the engine: filters from motion samples to pressures, or sums of lines, and level meters.
 
 =============  ===========================================================================
 ``radiate``    `radiate.push`: one motion sample in, filters and meters moved on
@@ -9,7 +9,9 @@
 ``transform``  Fourier transforms of many signals at once
 ``meter``      `meter.levels`: what each microphone reads now
 ``thirds``     third octaves
+``transfer``   lines: from channels to the pressure at every microphone
+``beats``      lines: mean squares, and meters that follow them
 =============  ===========================================================================
 
-Places in the sound blocks: `layout.sound`.
+Places in the sound blocks: `layout.sound`, of lines also `layout.sound_lines`.
 """

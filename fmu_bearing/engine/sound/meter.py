@@ -19,8 +19,8 @@ from fmu_bearing.engine.sound.section import filter_section
 
 _FLOOR = 1e-20  # Pa^2
 _REFERENCE = 4e-10  # Pa^2
-_FAST = 1.0 - math.exp(-1.0 / (SD.RATE * 0.125))  # time constants of IEC 61672-1
-_SLOW = 1.0 - math.exp(-1.0 / (SD.RATE * 1.0))
+_FAST = 1.0 - math.exp(-1.0 / (SD.RATE * SD.FAST))
+_SLOW = 1.0 - math.exp(-1.0 / (SD.RATE * SD.SLOW))
 # Squares of one sample in ``ws`` from ``H_W_METERS`` on, one row of microphones each, places as in
 # ``MIC_OUTPUTS``: total and its A-weighted twin, components, energy sum, kinds.
 _TOTAL, _TOTAL_A = SD.M_LEVEL, SD.M_LEVEL_A
@@ -292,6 +292,10 @@ def levels(ps, ss, z, offset):
                 by = slow
             z[out + row] = decibel(ss[meters + row * n + lane] / by if row < rows else 0.0)
         mean = int(ps[SD.H_S_BANDS]) + SD.BAND_SIZE * lane + SD.BAND_MEAN
+        apart = 1
+        if ps[SD.H_LINES] != 0.0:  # rows of microphones
+            mean = int(ps[SD.H_S_BANDS]) + lane
+            apart = n
         first = offset + Z.PER_MIC * n + bands * mic
         for k in range(bands):
-            z[first + k] = decibel(ss[mean + k] / fast)
+            z[first + k] = decibel(ss[mean + k * apart] / fast)

@@ -1,11 +1,14 @@
 """Fidelity response: the linear answer to every excitation, as a sum of lines.
 
 =================  =============================================================
+``samples``        forces and places of the balls round their orbit, by orders
 ``lines``          which lines a bearing has, and its answer to them
 ``table``          the heaviest of them
 ``ball_orders``    what the form of turning balls consists of
 ``bearing``        one bearing's part: derivatives, its own lines, its balls
 ``coupled_lines``  what each bearing of a set excites in the whole of it
+``ball_sound``     what the balls do in the sound of a line
+``sound``          levels and pressures of all lines
 ``march``          start, renewal, and the state at any time
 =================  =============================================================
 """

@@ -20,21 +20,25 @@ import math
 
 from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.dense import solve_columns
-from fmu_bearing.engine.fidelities.condensed.balls import carried, set_angles
 from fmu_bearing.engine.fidelities.condensed.rows import component
 from fmu_bearing.engine.fidelities.condensed.transverse import pattern_answer, pattern_weight
 from fmu_bearing.engine.fidelities.response.ball_orders import form_of, form_orders
+from fmu_bearing.engine.fidelities.response.samples import (
+    coefficients,
+    highest_order,
+    keep_places,
+    kinds_of_sample,
+    order_of,
+    sample_orbit,
+    transform,
+)
 from fmu_bearing.engine.fidelities.response.table import counted, drop_weak, place_for
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
-from fmu_bearing.engine.layout import FOUR, LN, STRIDE, C, L, P, Q, S, T, W, Y
+from fmu_bearing.engine.layout import FOUR, LN, STRIDE, C, L, P, Q, S, T
 from fmu_bearing.engine.newton.body_slopes import inertia
 from fmu_bearing.engine.newton.jacobian import is_angle
 
-_HEIGHT = 1e-9  # m, for differences; heights' accelerations by (3e4 rad/s)^2 times that
-_BEND = 1.0  # m/s2
-_LEAN = 1e-8  # m/rad
-_SMALL = 1e-6  # of the largest coefficient of a kind: an order of the balls below it is left out
 _RADIATES = 6300.0  # rad/s: from here on lines count by their acceleration
 STILL = 1e-3  # rad/s: a line as slow as that is none
 
@@ -49,89 +53,6 @@ def line_table(p):
 def orders(p):
     """Highest order of waviness that excites; 0 where it is left out."""
     return int(p[P.WAVE_ORDERS]) if p[P.WAVINESS] != 0.0 else 0
-
-
-@kernel
-def kinds_of_sample(p):
-    """Kinds of sample that are needed: slopes across the track belong to the balls' form."""
-    return LN.KINDS if p[P.BALL_WAVES] != 0.0 else LN.BY_LEAN
-
-
-@kernel
-def sample_orbit(p, c, lv, speed, x, w):
-    """Fill ``x`` with the forces of one ball on the rings all round, and their derivatives; the count.
-
-    The rings are at ``w[W.STAGE:]``. All balls are moved through one spacing in equal parts.
-    """
-    balls = int(p[P.BALLS])
-    lanes = int(p[P.LANES])
-    parts = max(LN.AZIMUTHS // balls, 1)
-    kinds = kinds_of_sample(p)
-    q = w[T.Q : T.Q + L.COLUMN]
-    for i in range(L.N):
-        q[i] = w[W.STAGE + Y.Q0 + i]
-        w[T.AHEAD + i] = 0.0
-    scale = c[C.OVERSIZE_SCALE]
-    c[C.OVERSIZE_SCALE] = 0.0
-    for part in range(parts):
-        set_angles(p, c, lv, 2.0 * PI * part / (balls * parts), 0.0, 0.0, 0.0, speed, w)
-        for kind in range(kinds):
-            row = T.LEAN + (kind - LN.BY_LEAN) * STRIDE
-            step = _LEAN
-            if kind < LN.BY_BEND:
-                row = T.INNER + (kind - LN.BY_HEIGHT) * STRIDE
-                step = _HEIGHT
-            elif kind < LN.BY_LEAN:
-                row = T.BEND + (kind - LN.BY_BEND) * STRIDE
-                step = _BEND
-            if kind != LN.FORCE:
-                for j in range(lanes):
-                    w[row + j] = step
-            carried(p, c, lv, speed, q, w)
-            carried(p, c, lv, speed, q, w)
-            if kind != LN.FORCE:
-                for j in range(lanes):
-                    w[row + j] = 0.0
-            for i in range(LN.COMPONENTS):
-                for j in range(balls):
-                    at = LN.SAMPLES + (kind * LN.COMPONENTS + i) * LN.AZIMUTHS + j * parts + part
-                    x[at] = w[T.FORCE + i * STRIDE + j]
-                    if kind != LN.FORCE:
-                        x[at] -= x[LN.SAMPLES + i * LN.AZIMUTHS + j * parts + part]
-                        x[at] /= step
-    c[C.OVERSIZE_SCALE] = scale
-    return balls * parts
-
-
-@kernel
-def transform(x, kind, order, count, out):
-    """Circumferential order of one kind of sample into the complex vector ``x[out:]``."""
-    for i in range(LN.COMPLEX):
-        x[out + i] = 0.0
-    for m in range(count):
-        place = (order * m) % count
-        co = x[LN.COS + place] / count
-        si = x[LN.SIN + place] / count
-        for i in range(LN.COMPONENTS):
-            value = x[LN.SAMPLES + (kind * LN.COMPONENTS + i) * LN.AZIMUTHS + m]
-            x[out + i] += value * co
-            x[out + LN.IMAGINARY + i] -= value * si
-
-
-@kernel
-def order_of(kind, order):
-    """Place in ``x`` of ``order`` (0 .. ``LN.REACH``) of one kind of sample from ``LN.BY_HEIGHT`` on."""
-    return LN.TABLE + ((kind - LN.BY_HEIGHT) * (LN.REACH + 1) + order) * LN.COMPLEX
-
-
-@kernel
-def coefficients(x, kind, order, target, w):
-    """Complex vector of any order in the table, of either sign, into ``w[target:]``."""
-    at = order_of(kind, abs(order))
-    sign = 1.0 if order >= 0 else -1.0
-    for i in range(LN.COMPONENTS):
-        w[target + i] = x[at + i]
-        w[target + LN.IMAGINARY + i] = sign * x[at + LN.IMAGINARY + i]
 
 
 @kernel
@@ -256,16 +177,23 @@ def counts_by(omega):
 
 
 @kernel
+def wave_of(p, race, n, factor):
+    """Wave ``n`` of a race (m) times ``factor``: real and imaginary part."""
+    at = int(p[P.AT_ORDERS]) + race * 2 * int(p[P.WAVE_ORDERS]) + 2 * (n - 1)
+    return factor * p[at], factor * p[at + 1]
+
+
+@kernel
 def add_wave(p, x, race, n, order, factor, rate, tau, w):
     """Add ``factor`` times wave ``n`` of a race through order ``order`` of the balls to ``T.LINE_FORCE``.
 
     ``rate``: of the balls against the race (rad/s); contact damping advances the height by ``tau``.
     """
-    at = int(p[P.AT_ORDERS]) + race * 2 * int(p[P.WAVE_ORDERS]) + 2 * (n - 1)
     co = math.cos(n * rate * tau)
     si = math.sin(n * rate * tau)
-    hr = factor * (p[at] * co - p[at + 1] * si)
-    hi = factor * (p[at] * si + p[at + 1] * co)
+    re, im = wave_of(p, race, n, factor)
+    hr = re * co - im * si
+    hi = re * si + im * co
     squared = n * rate * n * rate
     coefficients(x, LN.BY_HEIGHT + race, order, T.BY_HEIGHT, w)
     coefficients(x, LN.BY_BEND + race, order, T.BY_BEND, w)
@@ -277,12 +205,43 @@ def add_wave(p, x, race, n, order, factor, rate, tau, w):
 
 
 @kernel
+def size_sums(p, a, scale):
+    """Sum of the balls' diameter deviations (m) times exp(i a angle from ball 0): both parts."""
+    balls = int(p[P.BALLS])
+    dr = 0.0
+    di = 0.0
+    for j in range(balls):
+        size = scale * p[int(p[P.AT_OVERSIZE]) + j]
+        dr += size * math.cos(2.0 * PI * a * j / balls)
+        di += size * math.sin(2.0 * PI * a * j / balls)
+    return dr, di
+
+
+@kernel
+def form_sums(p, x, form, m, a, scale):
+    """Sum of the balls' orders ``m`` of one form times exp(i a angle from ball 0): both parts."""
+    balls = int(p[P.BALLS])
+    at = form_of(form, m)
+    re = 0.0
+    im = 0.0
+    turned = a % balls
+    place = 0  # of a j among the balls
+    for j in range(balls):
+        co, si = x[LN.BALL_COS + place], x[LN.BALL_SIN + place]
+        re += x[at + j] * co - x[at + STRIDE + j] * si
+        im += x[at + j] * si + x[at + STRIDE + j] * co
+        place += turned
+        if place >= balls:
+            place -= balls
+    return scale * re, scale * im
+
+
+@kernel
 def steady_lines(p, c, lv, lines, alone, x, count, orbit, w):
     """Lines that turn with the balls alone: outer race, varying compliance, unequal balls."""
     balls = int(p[P.BALLS])
     scale = c[C.OVERSIZE_SCALE]
     tau = p[P.CONTACT_DAMPING]
-    sizes = int(p[P.AT_OVERSIZE])
     highest = orders(p)
     for a in range(1, max(highest, LN.AZIMUTHS // 2) + LN.REACH + 1):
         if a % balls != 0 and a > LN.REACH:
@@ -297,11 +256,7 @@ def steady_lines(p, c, lv, lines, alone, x, count, orbit, w):
             for n in range(max(a - LN.REACH, 1), min(a + LN.REACH, highest) + 1):
                 add_wave(p, x, 1, n, a - n, balls * scale, orbit, tau, w)
         if a <= LN.REACH:
-            dr = 0.0
-            di = 0.0
-            for j in range(balls):
-                dr += scale * p[sizes + j] * math.cos(2.0 * PI * a * j / balls)
-                di += scale * p[sizes + j] * math.sin(2.0 * PI * a * j / balls)
+            dr, di = size_sums(p, a, scale)
             for race in range(2):
                 coefficients(x, LN.BY_HEIGHT + race, a, T.BY_HEIGHT, w)
                 for i in range(LN.COMPONENTS):
@@ -336,21 +291,6 @@ def shaft_lines(p, c, lv, lines, alone, x, orbit, speed, w):
 
 
 @kernel
-def highest_order(x, kind):
-    """Highest order of one kind of sample that is more than rounding."""
-    largest = 0.0
-    highest = 0
-    for order in range(LN.REACH + 1):
-        size = 0.0
-        for i in range(LN.COMPLEX):
-            size = max(size, abs(x[order_of(kind, order) + i]))
-        if size > _SMALL * largest:
-            highest = order
-        largest = max(largest, size)
-    return highest
-
-
-@kernel
 def add_form(x, kind, order, re, im, rate, tau, w):
     """Add what one form of the balls, ``re`` + i ``im`` over all of them, excites through ``order``.
 
@@ -376,7 +316,6 @@ def add_form(x, kind, order, re, im, rate, tau, w):
 @kernel
 def form_lines(p, c, lv, lines, alone, x, orbit, speed, w):
     """Lines of the balls' form; the samples round the orbit are overwritten."""
-    balls = int(p[P.BALLS])
     rate = lv[L.ROLL] * speed
     highest = int(p[P.BALL_WAVES])
     reach = max(highest_order(x, LN.BY_HEIGHT), highest_order(x, LN.BY_HEIGHT + 1))
@@ -387,16 +326,9 @@ def form_lines(p, c, lv, lines, alone, x, orbit, speed, w):
             for i in range(LN.COMPLEX):
                 w[T.LINE_FORCE + i] = 0.0
             for form in range(LN.FORMS):
-                at = form_of(form, m)
-                re = 0.0
-                im = 0.0
-                for j in range(balls):
-                    co = x[LN.BALL_COS + (a * j) % balls]
-                    si = x[LN.BALL_SIN + (a * j) % balls]
-                    re += x[at + j] * co - x[at + STRIDE + j] * si
-                    im += x[at + j] * si + x[at + STRIDE + j] * co
+                re, im = form_sums(p, x, form, m, a, double)
                 kind = LN.BY_HEIGHT + form if form < 2 else LN.BY_LEAN + form - 2
-                add_form(x, kind, a, double * re, double * im, m * rate, p[P.CONTACT_DAMPING], w)
+                add_form(x, kind, a, re, im, m * rate, p[P.CONTACT_DAMPING], w)
             keep(p, lv, lines, alone, a, 0.0, m, a * orbit + m * rate, w)
 
 
@@ -420,6 +352,8 @@ def renew_lines(p, s, alone, speed, w):
     for kind in range(LN.BY_HEIGHT, kinds_of_sample(p)):
         for order in range(LN.REACH + 1):
             transform(x, kind, order, count, order_of(kind, order))
+    if p[P.SOUND_SIZE] != 0.0:
+        keep_places(p, x, count, w)
     lines = s[line_table(p) :]
     lv[L.COUNT] = 0.0
     shaft_lines(p, c, lv, lines, alone, x, orbit, speed, w)

@@ -6,7 +6,8 @@ times the angle by which the balls have turned in their orbiting axes. a, b and 
 run on through changes of speed; amplitudes are renewed with what is ``held`` (speed by 1 %, conditions by
 0.1 %), and at once: the transient of the change is left out.
 
-Between communication points nothing is stepped but these angles; with sound, samples are interpolated
+Between communication points nothing is stepped but these angles, and sound is a sum of lines, too
+(``sound``). Where it is sampled (recordings, radiation models of the papers), samples are interpolated
 between states 19.5 us apart. Arguments: see `spindle.members`.
 """
 
@@ -20,6 +21,13 @@ from fmu_bearing.engine.fidelities.full.start import begin_means
 from fmu_bearing.engine.fidelities.response import bearing
 from fmu_bearing.engine.fidelities.response.coupled_lines import answer_lines, sum_set_lines
 from fmu_bearing.engine.fidelities.response.lines import line_table
+from fmu_bearing.engine.fidelities.response.sound import (
+    follow_lines,
+    from_lines,
+    renew_sound,
+    show_pressures,
+    sound_moved,
+)
 from fmu_bearing.engine.fidelities.rings import equations, held
 from fmu_bearing.engine.fidelities.rings.march import emit_shown
 from fmu_bearing.engine.fidelities.rings.rest import at_rest
@@ -79,6 +87,7 @@ def linearise(p, s, w, speed):
             return False
     if together:
         answer_lines(p, s, w, speed)
+    renew_sound(p, s, w, speed)
     return True
 
 
@@ -173,6 +182,8 @@ def start_response(p, u, s, w, t):
         begin_means(members.state(p, s, b))
     for i in range(2):
         own[SP.MEAN_HEAT + i] = 0.0
+    if from_lines(p):
+        show_pressures(p, s, w)
     return OK
 
 
@@ -222,6 +233,7 @@ def renew(p, u, s, w):
     own[members.march(p) + SP.LINES] = 0.0
     for b in range(members.count(p)):
         members.condensed(members.state(p, s, b))[L.COUNT] = 0.0
+    renew_sound(p, s, w, speed)
     s[S.RESTARTS] += 1.0
     return OK
 
@@ -285,8 +297,11 @@ def march_response(p, u, s, w, h):
         status = renew(p, u, s, w)
         if status != OK:
             return status
+    elif sound_moved(p, s, speed):
+        renew_sound(p, s, w, speed)
     end = s[S.TIME] + h
-    if p[P.SOUND_SIZE] != 0.0:
+    sampled = p[P.SOUND_SIZE] != 0.0 and not from_lines(p)
+    if sampled:
         sound_on_the_way(p, s, w, h, speed, near)
     else:
         turn_all(p, s, h)
@@ -295,8 +310,10 @@ def march_response(p, u, s, w, h):
         sb = members.state(p, s, b)
         sb[S.TIME] = end
         sb[S.SPEED] = speed
-    if p[P.SOUND_SIZE] == 0.0:
+    if not sampled:
         show(p, s, w, near)
+    if from_lines(p):
+        follow_lines(p, s, w, h)
     for b in range(members.count(p)):
         steps.end_means(members.state(p, s, b), h)
     return OK

@@ -1,0 +1,142 @@
+"""Forces and places of the balls round their orbit, by circumferential orders (fidelity `response`).
+
+One ball's forces on the rings, and its place between them, at azimuths round the orbit: at rest, and per
+height under it, acceleration of that height and slope across its track. See `lines` for what they are for.
+"""
+
+from fmu_bearing.engine.constants import PI
+from fmu_bearing.engine.fidelities.condensed.balls import carried, set_angles
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.layout import FOUR, LN, STRIDE, C, L, P, T, W, Y
+
+_HEIGHT = 1e-9  # m, for differences; heights' accelerations by (3e4 rad/s)^2 times that
+_BEND = 1.0  # m/s2
+_LEAN = 1e-8  # m/rad
+_SMALL = 1e-6  # of the largest coefficient of a kind: an order of the balls below it is left out
+
+
+@kernel
+def kinds_of_sample(p):
+    """Kinds of sample that are needed: slopes across the track belong to the balls' form."""
+    return LN.KINDS if p[P.BALL_WAVES] != 0.0 else LN.BY_LEAN
+
+
+@kernel
+def sample_orbit(p, c, lv, speed, x, w):
+    """Fill ``x`` with the forces of one ball on the rings all round, and their derivatives; the count.
+
+    The rings are at ``w[W.STAGE:]``. All balls are moved through one spacing in equal parts.
+    """
+    balls = int(p[P.BALLS])
+    lanes = int(p[P.LANES])
+    parts = max(LN.AZIMUTHS // balls, 1)
+    kinds = kinds_of_sample(p)
+    q = w[T.Q : T.Q + L.COLUMN]
+    for i in range(L.N):
+        q[i] = w[W.STAGE + Y.Q0 + i]
+        w[T.AHEAD + i] = 0.0
+    scale = c[C.OVERSIZE_SCALE]
+    c[C.OVERSIZE_SCALE] = 0.0
+    for part in range(parts):
+        set_angles(p, c, lv, 2.0 * PI * part / (balls * parts), 0.0, 0.0, 0.0, speed, w)
+        for kind in range(kinds):
+            changed = T.LEAN + (kind - LN.BY_LEAN) * STRIDE
+            step = _LEAN
+            if kind < LN.BY_BEND:
+                changed = T.INNER + (kind - LN.BY_HEIGHT) * STRIDE
+                step = _HEIGHT
+            elif kind < LN.BY_LEAN:
+                changed = T.BEND + (kind - LN.BY_BEND) * STRIDE
+                step = _BEND
+            if kind != LN.FORCE:
+                for j in range(lanes):
+                    w[changed + j] = step
+            carried(p, c, lv, speed, q, w)
+            carried(p, c, lv, speed, q, w)
+            if kind != LN.FORCE:
+                for j in range(lanes):
+                    w[changed + j] = 0.0
+            for i in range(LN.COMPONENTS):
+                row = T.FORCE + i * STRIDE if i < LN.PLACES else T.X + (i - LN.PLACES) * STRIDE
+                for j in range(balls):
+                    at = LN.SAMPLES + (kind * LN.COMPONENTS + i) * LN.AZIMUTHS + j * parts + part
+                    x[at] = w[row + j]
+                    if kind != LN.FORCE:
+                        x[at] -= x[LN.SAMPLES + i * LN.AZIMUTHS + j * parts + part]
+                        x[at] /= step
+    c[C.OVERSIZE_SCALE] = scale
+    return balls * parts
+
+
+@kernel
+def transform(x, kind, order, count, out):
+    """Circumferential order of one kind of sample into the complex vector ``x[out:]``."""
+    for i in range(LN.COMPLEX):
+        x[out + i] = 0.0
+    for m in range(count):
+        place = (order * m) % count
+        co = x[LN.COS + place] / count
+        si = x[LN.SIN + place] / count
+        for i in range(LN.COMPONENTS):
+            value = x[LN.SAMPLES + (kind * LN.COMPONENTS + i) * LN.AZIMUTHS + m]
+            x[out + i] += value * co
+            x[out + LN.IMAGINARY + i] -= value * si
+
+
+@kernel
+def order_of(kind, order):
+    """Place in ``x`` of ``order`` (0 .. ``LN.REACH``) of one kind of sample from ``LN.BY_HEIGHT`` on."""
+    return LN.TABLE + ((kind - LN.BY_HEIGHT) * (LN.REACH + 1) + order) * LN.COMPLEX
+
+
+@kernel
+def coefficients(x, kind, order, target, w):
+    """Complex vector of any order in the table, of either sign, into ``w[target:]``."""
+    at = order_of(kind, abs(order))
+    sign = 1.0 if order >= 0 else -1.0
+    for i in range(LN.COMPONENTS):
+        w[target + i] = x[at + i]
+        w[target + LN.IMAGINARY + i] = sign * x[at + LN.IMAGINARY + i]
+
+
+@kernel
+def keep_places(p, x, count, w):
+    """Keep orders of the balls' places, as their loads leave them and as they follow the rings.
+
+    From the samples and from ``T.FOLLOW``; orders that so few balls cannot tell apart are left out.
+    """
+    balls = int(p[P.BALLS])
+    for order in range(LN.REACH + 1):
+        transform(x, LN.FORCE, order, count, LN.FORCE_ORDER)
+        if order == 0:
+            x[LN.FORCE_ORDER + LN.PLACES + 1] += p[P.PITCH_RADIUS]
+        for k in range(2):
+            at = LN.FORCE_ORDER + LN.PLACES + k
+            x[LN.REST + FOUR * order + 2 * k] = x[at]
+            x[LN.REST + FOUR * order + 2 * k + 1] = x[at + LN.IMAGINARY]
+        for i in range(L.N):
+            for k in range(2):
+                re = 0.0
+                im = 0.0
+                for j in range(balls if 2 * order < balls else 0):
+                    value = w[T.FOLLOW + i * T.FOLLOW_SIZE + k * STRIDE + j] / balls
+                    re += value * x[LN.BALL_COS + (order * j) % balls]
+                    im -= value * x[LN.BALL_SIN + (order * j) % balls]
+                at = LN.FOLLOW + (order * L.N + i) * FOUR + 2 * k
+                x[at] = re
+                x[at + 1] = im
+
+
+@kernel
+def highest_order(x, kind):
+    """Highest order of one kind of sample that is more than rounding."""
+    largest = 0.0
+    highest = 0
+    for order in range(LN.REACH + 1):
+        size = 0.0
+        for i in range(LN.COMPLEX):
+            size = max(size, abs(x[order_of(kind, order) + i]))
+        if size > _SMALL * largest:
+            highest = order
+        largest = max(largest, size)
+    return highest

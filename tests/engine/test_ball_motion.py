@@ -13,7 +13,7 @@ from fmu_bearing.engine.fidelities.response.lines import line_table
 from fmu_bearing.engine.layout import STRIDE, C, L, P, Q, S, U, W, Y
 from fmu_bearing.modal.equations.linearised import linearised
 from fmu_bearing.modal.equations.plain import Plain
-from fmu_bearing.prepare.sound import sound_block
+from fmu_bearing.prepare.sound import Block, sound_block
 from fmu_bearing.scene.read import with_fidelity
 from tests.engine.condensed import block
 from tests.engine.helpers import RPM, quiet, wavy_balls
@@ -56,7 +56,8 @@ def of_full(scene, rpm, tau):
 def bearing_with_form(scene, rpm, fidelity, sound=False, **parameters):
     """A bearing with wavy balls alone: no cage, no weight."""
     one = with_fidelity(scene, model=fidelity)
-    block_of_sound = sound_block(one) if sound else np.empty(0)
+    # samples show each ball across its track; response makes its sound of lines else, and shows balls at rest
+    block_of_sound = sound_block(one, Block()) if sound else np.empty(0)
     even = Arrays(one.model_copy(update={"imperfections": None}), rpm, sound=block_of_sound)
     run = even.with_parameters(CAGE=0.0, GRAVITY=0.0, IMPERFECTION_SCALE=1.0, **parameters)
     run.p = wavy_balls(run.p, FORM)

@@ -11,7 +11,7 @@ from fmu_bearing.engine.layout import P, Q, S, U, Y
 from fmu_bearing.engine.status import OK
 from fmu_bearing.instance import reasons
 from fmu_bearing.interface.table import input_values
-from fmu_bearing.prepare.lengths import lengths
+from fmu_bearing.prepare.lengths import lengths, parts_of
 from fmu_bearing.prepare.model import pack
 from fmu_bearing.scene import Scene
 
@@ -117,7 +117,7 @@ class Arrays:
         other.u, other.s, other.z, other.w = (a.copy() for a in (self.u, self.s, self.z, self.w))
         other._freeze()
         # Newton's memory belongs to the old parameters: no factors, a first step that suits the new bound
-        other.s[S.FACTOR_STEP] = 0.0
-        other.s[S.JACOBIAN_TIME] = -1e300
+        for _, part in parts_of(other.p):
+            other.s[part][[S.FACTOR_STEP, S.JACOBIAN_TIME]] = 0.0, -1e300
         other.s[S.STEP] = min(other.s[S.STEP], other.p[P.MAX_STEP])
         return other

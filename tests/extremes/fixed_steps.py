@@ -46,7 +46,8 @@ def entry():
     """Return the driver as a function that Numba can compile for pointers."""
     from numba import carray
 
-    from fmu_bearing.engine.fidelities.full.march import accept_all, factor_all, renew_jacobians
+    from fmu_bearing.engine.fidelities.full.jacobians import factor_all, renew_jacobians
+    from fmu_bearing.engine.fidelities.full.march import accept_all
     from fmu_bearing.engine.fidelities.full.methods.table import TABLEAUX
     from fmu_bearing.engine.fidelities.full.progress import total_energy
     from fmu_bearing.engine.fidelities.full.step import runge_kutta_step
@@ -56,10 +57,10 @@ def entry():
     @kernel
     def march(p, s, w, h, count, tableau, tolerance):
         total_energy(p, s, w)  # accelerations behind the push
-        renew_jacobians(p, s, w)
-        factor_all(p, s, w, TABLEAUX[tableau + TAB.GAMMA] * h)
+        renew_jacobians(p, s, w, True)
+        factor_all(p, s, w, h, TABLEAUX[tableau + TAB.GAMMA] * h)
         for n in range(count):
-            if not runge_kutta_step(p, s, w, h, tableau, tolerance, True, s[S.SPEED]):
+            if not runge_kutta_step(p, s, w, h, tableau, tolerance, s[S.CONTRACTION], True, s[S.SPEED]):
                 return n
             accept_all(p, s, w, h, tableau)
         return count

@@ -42,8 +42,10 @@ FORCE_SIZE = _force.next
 # report of a Runge-Kutta step
 _report = Places()
 ERROR = _report()  # m/s: its estimate
-CONTRACTION = _report()  # of Newton's method: the worst measured, 0: none
 ITERATIONS = _report()
+# of each bearing of a set:
+SIZE = _report()  # m/s: of Newton's last increment
+CONTRACTION = _report()  # its increments over the set's largest before: the worst measured, 0: none
 REPORT_SIZE = _report.next
 
 _at = Places()
@@ -65,7 +67,7 @@ LOAD = _at(_EQ.FREEDOMS)  # N, N m: on the inner ring, for the quasi-static kern
 TILT = _at(2)  # rad: tilts y z of the outer ring that it found
 CONDITIONS = _at(_C.SIZE)  # at the inputs just taken, see c
 TRIAL = _at(5 * _L.COLUMN + 6 * _L.PATTERNS)  # trial numbers of fidelities rings and response: see trial
-REPORT = _at(REPORT_SIZE)  # of a Runge-Kutta step: ERROR, CONTRACTION, ITERATIONS
+REPORT = _at(REPORT_SIZE)  # of a Runge-Kutta step: ERROR, ITERATIONS, ...
 WEIGHTS = _at(STAGES * FOUR)  # s: what the stages before count in this one, each for four lanes
 STAGE = _at(_Y.SIZE)  # stage state
 F = _at(_F.SIZE)  # right-hand side

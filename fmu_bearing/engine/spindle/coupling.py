@@ -127,37 +127,72 @@ def add_driven(p, b, x, first, row, column, out, to):
 
 
 @kernel
+def condense_bearing(p, s, w, b):
+    """Condense the factored bearing ``b`` of the state onto its driven rows; False if singular."""
+    if not members.has_shaft(p):
+        return True
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
+    wb = members.work(p, w, b)
+    count = int(p[members.row(p, b) + SP.ROW_DRIVEN])
+    driven_answers(p, b, members.parameters(p, b), members.state(p, s, b), wb, wb, W.F0)
+    spare = members.matrix(p)
+    if not invert(wb, W.F0, count, ws, spare):
+        return False
+    keep_columns(ws, spare, count, SP.LANES, own, members.per_bearing(p, b) + SP.ANSWER)
+    return True
+
+
+@kernel
+def turned_rows(x, at, count, c, s, out, to):
+    """Put the matrix of ``count`` driven rows, columns of ``SP.LANES`` at ``x[at:]``, turned to ``out[to:]``.
+
+    Row by row; ``c``, ``s``: cosine and sine of the angle.
+    """
+    for k in range(count):
+        for i in range(count):
+            out[to + k * count + i] = x[at + k * SP.LANES + i]
+        turn_driven(count, out, to + k * count, c, s)
+    for i in range(count):
+        for k in range(i):
+            one = to + i * count + k
+            other = to + k * count + i
+            kept = out[one]
+            out[one] = out[other]
+            out[other] = kept
+    for i in range(count):
+        turn_driven(count, out, to + i * count, c, s)
+
+
+@kernel
 def condense_set(p, s, w, gh):
-    """Condense the factored bearings of the state onto the coordinates; False if singular.
+    """Condense the bearings, each condensed already, onto the coordinates.
 
     ``gh``: weight of rates in the stages, s; that of places is its square. The matrix goes to the set's work
-    space, row by row.
+    space, row by row. It belongs to the first bearing's orbit angle at its Jacobian: the others' are turned
+    by as much as they have turned less since their own.
     """
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
     n = members.coordinates(p)
     at = members.matrix(p)
     shaft_matrix(p, own, ws, s[S.SPEED], 1.0, gh, gh * gh, at)
+    spare = at + n * n
+    first = orbited(s)
     for b in range(members.count(p)):
-        pb = members.parameters(p, b)
-        wb = members.work(p, w, b)
         count = int(p[members.row(p, b) + SP.ROW_DRIVEN])
-        driven_answers(p, b, pb, members.state(p, s, b), wb, wb, W.F0)
-        spare = at + n * n
-        if not invert(wb, W.F0, count, ws, spare):
-            return False
-        keep_columns(ws, spare, count, SP.LANES, own, members.per_bearing(p, b) + SP.ANSWER)
+        angle = orbited(members.state(p, s, b)) - first
+        answer = members.per_bearing(p, b) + SP.ANSWER
+        turned_rows(own, answer, count, math.cos(angle), math.sin(angle), ws, spare)
         add_driven(p, b, ws, spare, count, 1, ws, at)
-    return True
 
 
 @kernel
 def factor_set(p, s, w, gh):
-    """Condense the factored bearings of the state and invert the shaft's matrix; False if singular."""
+    """Invert the shaft's matrix with all bearings condensed onto it; False if singular."""
     if not members.has_shaft(p):
         return True
-    if not condense_set(p, s, w, gh):
-        return False
+    condense_set(p, s, w, gh)
     ws = members.set_work(p, w)
     n = members.coordinates(p)
     if has_port(p):
@@ -185,9 +220,15 @@ def keep_columns(x, at, count, lanes, out, to):
 
 
 @kernel
+def orbited(sb):
+    """Orbit angle (rad) of a bearing since its Jacobian."""
+    return sb[S.Y + Y.TH] - sb[S.JACOBIAN_ANGLE]
+
+
+@kernel
 def turned(sb, t):
     """Cosine and sine of a bearing's orbit angle since its Jacobian, ``t`` (s) into the step."""
-    angle = sb[S.Y + Y.TH] - sb[S.JACOBIAN_ANGLE] + sb[S.Y + Y.OM] * t
+    angle = orbited(sb) + sb[S.Y + Y.OM] * t
     return math.cos(angle), math.sin(angle)
 
 

@@ -11,6 +11,7 @@ A single bearing goes the way of a set: it is one without coordinates beside its
 ``control``          how large an error may be, and how long the next step is
 ``stages``           stages of a step, and where Newton's method begins
 ``step``             one step: the stages of every bearing and of the shaft together
+``jacobians``        when Jacobians and factors are made again
 ``progress``         what a step does to the state: Jacobian, energy, acceptance
 ``settle``           flexible rings at the start
 ``start``            the state at initialisation

@@ -1,4 +1,4 @@
-"""From one communication point to the next: inputs, internal steps, Jacobian policy, sound samples.
+"""From one communication point to the next: inputs, internal steps, sound samples.
 
 One bearing and a set on a shaft go the same way: a single bearing is a set of one without coordinates beside
 its own. Arguments: see `step`.
@@ -7,19 +7,22 @@ its own. Arguments: see `step`.
 from fmu_bearing.engine.choices import RK4, TRBDF2
 from fmu_bearing.engine.fidelities import steps
 from fmu_bearing.engine.fidelities.full import control
+from fmu_bearing.engine.fidelities.full.jacobians import (
+    contraction,
+    factor_all,
+    keep_contraction,
+    renew_jacobians,
+)  # fmt: skip
 from fmu_bearing.engine.fidelities.full.methods.table import AT_ESDIRK4, AT_RK4, AT_TRBDF2, TABLEAUX
 from fmu_bearing.engine.fidelities.full.progress import accept, renew_jacobian, total_energy
 from fmu_bearing.engine.fidelities.full.runge_kutta import integrate_power, integrate_torque
 from fmu_bearing.engine.fidelities.full.step import runge_kutta_step
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, TAB, C, F, P, S, W, Y
-from fmu_bearing.engine.mechanics.flexure import flexure_state
 from fmu_bearing.engine.mechanics.race import wave_time
-from fmu_bearing.engine.newton.block_arrow import factor
-from fmu_bearing.engine.newton.modes import factor_modes
 from fmu_bearing.engine.readout.losses import summarise
 from fmu_bearing.engine.spindle import members
-from fmu_bearing.engine.spindle.coupling import factor_set, solve_set, turn_since
+from fmu_bearing.engine.spindle.coupling import solve_set, turn_since
 from fmu_bearing.engine.spindle.follow import copy_rows
 from fmu_bearing.engine.spindle.inputs import bearing_conditions, growth_rate, loads_differ, take_loads
 from fmu_bearing.engine.spindle.port import has_port, take_motion
@@ -29,20 +32,10 @@ from fmu_bearing.engine.status import NOT_CONVERGED, OK
 
 # Radians of the fastest wave in a step: the error estimate does not see what folds between its stages.
 _WAVE = 1.6
-_OLDEST = 5e-3  # s: age at which the Jacobian is renewed in any case
 # Steps between measurements of the contraction, each an iteration more. Under radial load it grows within a
 # few steps; what Newton's method then leaves unseen enters the error estimate. Measured every 16 steps, twice
 # as many steps are rejected at 1000 N, and the run takes a twentieth longer.
 _PROBE = 4
-# Factors serve a step within 5 % of theirs: the wrong scale contracts by about the same 0.05.
-_SAME_STEP = (0.95, 1.05)
-# Contraction beyond which a new Jacobian pays: with its factors it costs as much as a dozen iterations. Runs
-# of one bearing under 300 and 1000 N take 6 and 4 % less than with 0.3. With 0.1 the spindle at 20,000 r/min
-# takes 13 % more, because a new Jacobian contracts no better there.
-_SLOW = 0.2
-# Of sets, where the bearing that contracts worst decides: with 0.2 QBC sets take 5 % more, and with 0.06 DB
-# sets 7 % (rigid shaft, 7003C, 20,000 r/min, best of four runs that scatter by 3 %).
-_SLOW_SET = 0.12
 
 
 @kernel
@@ -107,20 +100,6 @@ def take_inputs(p, u, s, w, h):
 
 
 @kernel
-def renewal_due(p, s):
-    """Whether the Jacobians are too old, or contract too slowly."""
-    slow = _SLOW if members.count(p) == 1 else _SLOW_SET
-    return s[S.TIME] - s[S.JACOBIAN_TIME] > _OLDEST or s[S.CONTRACTION] > slow
-
-
-@kernel
-def same_step(s, h):
-    """Whether the factors serve a step ``h`` (s)."""
-    ratio = h / (s[S.FACTOR_STEP] + 1e-300)
-    return not (ratio < _SAME_STEP[0] or ratio > _SAME_STEP[1])
-
-
-@kernel
 def probes(s):
     """Whether the next step measures the contraction of Newton's method."""
     return s[S.STEPS] % _PROBE == 0.0
@@ -139,31 +118,6 @@ def longest_step(p, s, speed):
 
 
 @kernel
-def renew_jacobians(p, s, w):
-    """Jacobians of all bearings at the present state."""
-    for b in range(members.count(p)):
-        renew_jacobian(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b))
-
-
-@kernel
-def factor_all(p, s, w, gh):
-    """Factors of all bearings and the shaft for steps of weight ``gh`` (s); False if singular."""
-    for b in range(members.count(p)):
-        pb = members.parameters(p, b)
-        sb = members.state(p, s, b)
-        wb = members.work(p, w, b)
-        jac = sb[S.JAC : S.FAC]
-        fac = sb[S.FAC : S.CONDENSED]
-        if not factor(pb, jac, gh, gh * gh, gh * gh, fac, wb):
-            return False
-        factor_modes(
-            pb, jac, fac, sb[S.Y : S.Y + Y.SIZE], sb[S.Y + Y.TH] - sb[S.JACOBIAN_ANGLE], sb[S.SPEED], gh,
-            gh * gh, sb[flexure_state(pb) :], wb,
-        )  # fmt: skip
-    return factor_set(p, s, w, gh)
-
-
-@kernel
 def smallest_tolerance(p, s, speed):
     """Error (m/s) allowed in the rings' velocities: the least of all bearings."""
     smallest = 1e300
@@ -175,27 +129,23 @@ def smallest_tolerance(p, s, speed):
 
 @kernel
 def try_step(p, s, w, h, tableau, speed):
-    """One attempt of length ``h`` with Jacobians and factors kept as long as they serve.
+    """One attempt of length ``h``: with Jacobians and factors kept as long as they serve, or all renewed.
 
     ``speed`` (rad/s): of the shaft at the end of the communication step. Returns the error estimate over what
     is allowed, or -1 where Newton failed with fresh Jacobians.
     """
-    explicit = TABLEAUX[tableau + TAB.GAMMA] == 0.0
+    gamma = TABLEAUX[tableau + TAB.GAMMA]
+    explicit = gamma == 0.0
     for attempt in range(2):
-        fresh = s[S.JACOBIAN_TIME] == s[S.TIME] or explicit
-        if not fresh and (attempt == 1 or renewal_due(p, s)):
-            renew_jacobians(p, s, w)
-            fresh = True
-        if not explicit and not same_step(s, h):
-            if not factor_all(p, s, w, TABLEAUX[tableau + TAB.GAMMA] * h):
-                if fresh:
-                    return -1.0
-                continue
-            s[S.FACTOR_STEP] = h
+        fresh = explicit or renew_jacobians(p, s, w, attempt == 1)
+        if not explicit and not factor_all(p, s, w, h, gamma * h):
+            if fresh:
+                return -1.0
+            continue
         remainder = control.allowed_remainder(smallest_tolerance(p, s, speed), h)
-        if runge_kutta_step(p, s, w, h, tableau, remainder, probes(s), speed):
-            if w[W.REPORT + W.CONTRACTION] > 0.0:
-                s[S.CONTRACTION] = w[W.REPORT + W.CONTRACTION]
+        expected = contraction(p, s, False)
+        if runge_kutta_step(p, s, w, h, tableau, remainder, expected, probes(s), speed):
+            keep_contraction(p, s, w)
             s[S.NEWTON] += w[W.REPORT + W.ITERATIONS]
             return w[W.REPORT + W.ERROR]
         if fresh:
@@ -321,8 +271,7 @@ def march(p, u, s, w, h):
             if not steps.rejected(s, length * control.shrinkage(s, error, order), h):
                 return NOT_CONVERGED
             continue
-        fresh = s[S.JACOBIAN_TIME] == s[S.TIME]
-        control.propose(s, error, s[S.CONTRACTION] if fresh else 0.0, length, longest, order)
+        control.propose(s, error, contraction(p, s, True), length, longest, order)
         accept_all(p, s, w, length, tableau)
         remaining = end - s[S.TIME]
     end_step(p, s, w, speed, end, h)
@@ -332,9 +281,12 @@ def march(p, u, s, w, h):
 @kernel
 def solve_at_state(p, s, w, gh):
     """Solve Newton's equations with Jacobians made at the state; their places: see `solve_set`."""
-    renew_jacobians(p, s, w)
-    if not factor_all(p, s, w, gh):
-        return NOT_CONVERGED
-    turn_since(p, s, w, 0.0)
-    solve_set(p, s, w)
-    return OK
+    for b in range(members.count(p)):
+        renew_jacobian(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b))
+    fine = factor_all(p, s, w, gh, gh)
+    if fine:
+        turn_since(p, s, w, 0.0)
+        solve_set(p, s, w)
+    for b in range(members.count(p)):
+        members.state(p, s, b)[S.FACTOR_STEP] = 0.0  # of what step is not known
+    return OK if fine else NOT_CONVERGED

@@ -82,13 +82,14 @@ def residual_of(pb, sb, wb, stage, angle, speed, rate):
 
 @kernel
 def add_increment(pb, sb, wb, stage, gh):
-    """Add the increment in ``W.D`` to a bearing's stage; its size (m/s)."""
+    """Add the increment in ``W.D`` to a bearing's stage; its size (m/s), which its report takes, too."""
     here = W.ACC + stage * F.SIZE
     correct(wb[here : here + F.SIZE], int(pb[P.LANES]), gh, wb)
     size = newton_size(pb, sb[S.C : S.C + C.SIZE], wb[W.D : W.D + F.SIZE], gh)
     if pb[P.MODES] != 0.0:
         flexible.correct_modes(pb, stage, gh, wb)
         size = flexible.modes_size(pb, size, gh, wb)
+    wb[W.REPORT + W.SIZE] = size
     return size
 
 
@@ -129,10 +130,23 @@ def increments(p, s, w, own, ws, stage, gh, angle, speed):
 
 
 @kernel
-def iterate(p, s, w, stage, h, gh, t, tolerance, contraction, probe):
-    """Newton's method at a stage, ``t`` (s) into the step; returns iterations and worst contraction.
+def measure_contraction(p, w, before):
+    """Keep in each bearing's report how large its last increment is over ``before``, the set's largest (m/s).
 
-    Iterations are negative where it does not converge.
+    The set contracts as the bearing with the largest increment left, and it is that one's Jacobian that fits
+    least: what others have left is less, or follows from it through the shaft.
+    """
+    for b in range(members.count(p)):
+        wb = members.work(p, w, b)
+        rate = wb[W.REPORT + W.SIZE] / (before + 1e-300)
+        wb[W.REPORT + W.CONTRACTION] = max(wb[W.REPORT + W.CONTRACTION], rate)
+
+
+@kernel
+def iterate(p, s, w, stage, h, gh, t, tolerance, contraction, probe):
+    """Newton's method at a stage, ``t`` (s) into the step; returns iterations, negative if it fails.
+
+    ``contraction``: expected of the first iteration; what others are found to be goes to the reports.
     """
     angle = s[S.ANGLE] + t * (s[S.SPEED] + 0.5 * t * s[S.SPEED_RATE])
     speed = s[S.SPEED] + t * s[S.SPEED_RATE]
@@ -143,7 +157,6 @@ def iterate(p, s, w, stage, h, gh, t, tolerance, contraction, probe):
     d = w[W.D : W.D + F.SIZE]
     co, si = turned(s, t)
     work = bent = shaken = 0.0
-    worst = 0.0
     before = 0.0
     if together:
         turn_since(p, s, w, t)
@@ -155,19 +168,19 @@ def iterate(p, s, w, stage, h, gh, t, tolerance, contraction, probe):
             solve(p, fac, co, si, d, w)
             size = add_increment(p, s, w, stage, gh)
         if not (size < _DIVERGED):
-            return -1.0, worst
+            return -1.0
         rate = contraction
         if n > 0:
             rate = size / (before + 1e-300)
             if size > 1e-2 * tolerance:
-                worst = max(worst, rate)
+                measure_contraction(p, w, before)
             if rate > 0.9 and size > tolerance:
-                return -1.0, worst
+                return -1.0
         if (n > 0 or not probe) and size * rate <= tolerance * (1.0 - min(rate, 0.9)):
             keep_powers(p, s, w, stage, gh, speed, work, bent, shaken, ws)
-            return n + 1.0, worst
+            return n + 1.0
         before = size
-    return -1.0, worst
+    return -1.0
 
 
 @kernel
@@ -355,12 +368,13 @@ def step_error(p, s, w, h, tableau, speed):
 
 
 @kernel
-def runge_kutta_step(p, s, w, h, tableau, tolerance, probe, to_speed):
+def runge_kutta_step(p, s, w, h, tableau, tolerance, contraction, probe, to_speed):
     """One step of length ``h`` (s), from the state into every bearing's ``W.STAGE`` and ``W.LAST``.
 
-    ``tolerance`` (m/s): Newton's error; ``probe``: measure the contraction again; ``to_speed`` (rad/s): of
-    the shaft at the end of the communication step. The first bearing's report takes ``W.ERROR`` (over what is
-    allowed), ``W.CONTRACTION`` and ``W.ITERATIONS``. False where Newton's method does not converge.
+    ``tolerance`` (m/s): Newton's error; ``contraction``: expected of its method; ``probe``: measure it again;
+    ``to_speed`` (rad/s): of the shaft at the end of the communication step. The first bearing's report takes
+    ``W.ERROR`` (over what is allowed) and ``W.ITERATIONS``, every bearing's ``W.CONTRACTION``. False where
+    Newton's method does not converge.
     """
     gh = TABLEAUX[tableau + TAB.GAMMA] * h
     stages = int(TABLEAUX[tableau + TAB.COUNT])
@@ -371,8 +385,9 @@ def runge_kutta_step(p, s, w, h, tableau, tolerance, probe, to_speed):
     begin_stages(p, s, w)
     if together:
         first_powers(p, s, w)
+    for b in range(members.count(p)):
+        members.work(p, w, b)[W.REPORT + W.CONTRACTION] = 0.0
     iterations = 0.0
-    worst = 0.0
     for stage in range(1, stages):
         t = h * TABLEAUX[tableau + TAB.NODES + stage]
         if together:
@@ -384,11 +399,10 @@ def runge_kutta_step(p, s, w, h, tableau, tolerance, probe, to_speed):
             explicit_stage(p, s, w, stage, t)
         else:
             last = probe and stage == stages - 1
-            done, contraction = iterate(p, s, w, stage, h, gh, t, tolerance, s[S.CONTRACTION], last)
+            done = iterate(p, s, w, stage, h, gh, t, tolerance, contraction, last)
             if done < 0.0:
                 return False
             iterations += done
-            worst = max(worst, contraction)
         for b in range(members.count(p)):
             pb = members.parameters(p, b)
             wb = members.work(p, w, b)
@@ -408,6 +422,5 @@ def runge_kutta_step(p, s, w, h, tableau, tolerance, probe, to_speed):
                 wb[W.LAST + i] = wb[last + i]
         flexible.end_modes(members.parameters(p, b), stages, wb)
     report[W.ERROR] = step_error(p, s, w, h, tableau, to_speed)
-    report[W.CONTRACTION] = worst
     report[W.ITERATIONS] = iterations
     return True

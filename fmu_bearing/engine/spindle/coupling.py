@@ -1,9 +1,8 @@
 """Newton's equations of a set: each bearing condensed onto its driven rows, the shaft's equations, and back.
 
-With N d = r the equations of one bearing (``newton.block_arrow``) and R the driven rows and columns of N^-1,
-forces that drive those rows by d from where they would go alone, d0, are m R^-1 (d - d0), m their inertia.
-So the shaft has ``A ds = r_s + sum T^T (m r_I + m R^-1 d0)``, A its own matrix with sum T^T m R^-1 T, and
-then each bearing is solved with R^-1 (T ds - d0) as residual of its driven rows.
+The bearings' forces on the shaft come from `elimination`. With R the driven rows and columns of the inverse
+of a bearing's equations, and m the inertia of these rows, the shaft has ``A ds = r_s + forces``, A its own
+matrix with sum T^T m R^-1 T.
 
 Jacobians belong to the angles at which they were made; each bearing's residual is turned back by its orbit
 angle since, the shaft's by the first bearing's. Arguments: see `members`.
@@ -13,43 +12,17 @@ import math
 
 from fmu_bearing.engine.dense import invert
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.lanes import load, sum_four
-from fmu_bearing.engine.layout import FOUR, SP, A, F, P, Q, S, W, Y
-from fmu_bearing.engine.newton.block_arrow import (
-    answer_alone,
-    border_product,
-    follow_bodies,
-    solve,
-    turn_pair,
-    turn_pairs,
-)  # fmt: skip
-from fmu_bearing.engine.newton.springs import couple_springs
+from fmu_bearing.engine.layout import SP, P, Q, S, Y
+from fmu_bearing.engine.newton.block_arrow import turn_pair
 from fmu_bearing.engine.spindle import members
+from fmu_bearing.engine.spindle.elimination import (
+    answer_driven,
+    answer_free,
+    keep_columns,
+    turn_driven,
+)  # fmt: skip
 from fmu_bearing.engine.spindle.port import clear, has_port, hold_rows
 from fmu_bearing.engine.spindle.shaft import feet, has_housing
-
-
-@kernel
-def tied(pb):
-    """Whether springs tie the balls together: the border alone does not give the bearing's answers then."""
-    return (pb[P.SPRINGS] != 0.0) & (pb[P.CAGE] == 0.0)
-
-
-@kernel
-def driven_answers(p, b, pb, sb, wb, ws, at):
-    """Put R, the driven rows and columns of N^-1, of bearing ``b`` to ``ws[at:]``, by rows."""
-    r = members.row(p, b)
-    count = int(p[r + SP.ROW_DRIVEN])
-    fac = sb[S.FAC : S.CONDENSED]
-    d = wb[W.D : W.D + F.SIZE]
-    for k in range(count):
-        if tied(pb):
-            for i in range(F.SIZE):
-                d[i] = 0.0
-            d[F.BODY + k] = 1.0
-            solve(pb, fac, 1.0, 0.0, d, wb)
-        for i in range(count):
-            ws[at + i * count + k] = d[F.BODY + i] if tied(pb) else fac[A.S + k * A.BORDER + i]
 
 
 @kernel
@@ -127,23 +100,6 @@ def add_driven(p, b, x, first, row, column, out, to):
 
 
 @kernel
-def condense_bearing(p, s, w, b):
-    """Condense the factored bearing ``b`` of the state onto its driven rows; False if singular."""
-    if not members.has_shaft(p):
-        return True
-    own = members.set_state(p, s)
-    ws = members.set_work(p, w)
-    wb = members.work(p, w, b)
-    count = int(p[members.row(p, b) + SP.ROW_DRIVEN])
-    driven_answers(p, b, members.parameters(p, b), members.state(p, s, b), wb, wb, W.F0)
-    spare = members.matrix(p)
-    if not invert(wb, W.F0, count, ws, spare):
-        return False
-    keep_columns(ws, spare, count, SP.LANES, own, members.per_bearing(p, b) + SP.ANSWER)
-    return True
-
-
-@kernel
 def turned_rows(x, at, count, c, s, out, to):
     """Put the matrix of ``count`` driven rows, columns of ``SP.LANES`` at ``x[at:]``, turned to ``out[to:]``.
 
@@ -212,14 +168,6 @@ def invert_set(p, own, ws):
 
 
 @kernel
-def keep_columns(x, at, count, lanes, out, to):
-    """Copy a square matrix, row by row at ``x[at:]``, into columns of ``lanes`` numbers at ``out[to:]``."""
-    for k in range(count):
-        for i in range(lanes):
-            out[to + k * lanes + i] = x[at + i * count + k] if i < count else 0.0
-
-
-@kernel
 def orbited(sb):
     """Orbit angle (rad) of a bearing since its Jacobian."""
     return sb[S.Y + Y.TH] - sb[S.JACOBIAN_ANGLE]
@@ -242,16 +190,6 @@ def turn_since(p, s, w, t):
 
 
 @kernel
-def turn_driven(count, x, at, c, s):
-    """Turn the y, z pairs of ``count`` driven rows at ``x[at:]`` by the angle of cosine ``c``, sine ``s``."""
-    turn_pair(x, at + Q.Y, c, s)
-    turn_pair(x, at + Q.INNER_BY, c, s)
-    if count > Q.OUTER:
-        turn_pair(x, at + Q.OUTER + Q.Y, c, s)
-        turn_pair(x, at + Q.OUTER + Q.BY, c, s)
-
-
-@kernel
 def turn_coordinates(p, x, at, c, s):
     """Turn all pairs of the shaft's and the housing's coordinates: y and z alternate behind X."""
     h = int(p[int(p[P.SET]) + SP.SHAFT])
@@ -260,83 +198,6 @@ def turn_coordinates(p, x, at, c, s):
     if has_housing(p):
         turn_pair(x, at + h + Q.Y, c, s)
         turn_pair(x, at + h + Q.BY, c, s)
-
-
-@kernel
-def answer_free(p, b, pb, sb, wb, own, ws):
-    """Solve bearing ``b`` with its driven rows free; add its forces on the shaft to the shaft's residual.
-
-    ``W.D`` of ``wb`` holds the bearing's residual, in the end turned back and zero in driven rows. Its
-    answers in these rows (d0) stay in its scratch.
-    """
-    r = members.row(p, b)
-    count = int(p[r + SP.ROW_DRIVEN])
-    at = members.scratch(p, b)
-    to = at + SP.LANES
-    d = wb[W.D : W.D + F.SIZE]
-    fac = sb[S.FAC : S.CONDENSED]
-    c = ws[at + SP.TURNED]
-    s = ws[at + SP.TURNED + 1]
-    for i in range(count):
-        ws[at + 2 * SP.LANES + i] = p[r + SP.ROW_MASS + i] * d[F.BODY + i]
-        d[F.BODY + i] = 0.0
-    turn_pairs(d, F.BODY, c, -s)
-    answer_alone(fac, int(pb[P.LANES]), d, wb)
-    for g in range(Q.SIZE):
-        wb[W.REST + g] = d[F.BODY + g] - sum_four(load(wb, W.BODY_SUMS + g * FOUR))
-    border_product(fac, wb, d)
-    if tied(pb):
-        couple_springs(pb, fac, d, wb)
-    for i in range(count):
-        ws[at + i] = d[F.BODY + i]
-    # m R^-1 d0 in fixed axes, with m r_I
-    for i in range(SP.LANES):
-        ws[to + i] = 0.0
-    answer = members.per_bearing(p, b) + SP.ANSWER
-    members.add_columns(own, answer, SP.LANES, count, 1.0, ws, at, ws, to)
-    turn_driven(count, ws, to, c, s)
-    for i in range(count):
-        ws[to + i] = p[r + SP.ROW_MASS + i] * ws[to + i] + ws[at + 2 * SP.LANES + i]
-    members.pull(p, b, ws, to, ws, members.vector(p, SP.RESIDUAL))
-
-
-@kernel
-def answer_driven(p, b, pb, sb, wb, own, ws):
-    """Solve bearing ``b`` with its driven rows following the shaft; the increment ends in ``W.D``.
-
-    R^-1 (T ds - d0), the accelerations that drive the rows, stays in its scratch at ``SP.LANES``.
-    """
-    r = members.row(p, b)
-    count = int(p[r + SP.ROW_DRIVEN])
-    at = members.scratch(p, b)
-    driving = at + SP.LANES
-    to = at + 2 * SP.LANES
-    d = wb[W.D : W.D + F.SIZE]
-    fac = sb[S.FAC : S.CONDENSED]
-    c = ws[at + SP.TURNED]
-    s = ws[at + SP.TURNED + 1]
-    lanes = int(pb[P.LANES])
-    members.moved(p, b, ws, members.vector(p, SP.INCREMENT), ws, to)
-    turn_driven(count, ws, to, c, -s)
-    for i in range(SP.LANES):
-        ws[driving + i] = 0.0
-    for i in range(count):
-        ws[to + i] -= ws[at + i]
-    answer = members.per_bearing(p, b) + SP.ANSWER
-    members.add_columns(own, answer, SP.LANES, count, 1.0, ws, to, ws, driving)
-    if tied(pb):
-        for i in range(count):
-            wb[W.REST + i] += ws[driving + i]
-        border_product(fac, wb, d)
-        answer_alone(fac, lanes, d, wb)
-        couple_springs(pb, fac, d, wb)
-    else:
-        # the bodies' answer without what drives them is there still
-        members.add_columns(fac, A.S, A.BORDER, count, 1.0, ws, driving, wb, W.BODIES)
-        for g in range(Q.SIZE):
-            d[F.BODY + g] = wb[W.BODIES + g]
-    follow_bodies(fac, lanes, d, wb)
-    turn_pairs(d, F.BODY, c, s)
 
 
 @kernel

@@ -13,7 +13,8 @@ from fmu_bearing.engine.mechanics.flexure import flexure_state
 from fmu_bearing.engine.newton.block_arrow import factor
 from fmu_bearing.engine.newton.modes import factor_modes
 from fmu_bearing.engine.spindle import members
-from fmu_bearing.engine.spindle.coupling import condense_bearing, factor_set
+from fmu_bearing.engine.spindle.coupling import factor_set
+from fmu_bearing.engine.spindle.elimination import condense_bearing
 
 _OLDEST = 5e-3  # s: age at which the Jacobian is renewed in any case
 # Factors serve a step within 5 % of theirs: the wrong scale contracts by about the same 0.05.

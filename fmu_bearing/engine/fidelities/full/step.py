@@ -31,15 +31,8 @@ from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.mechanics.flexure import flexure_state
 from fmu_bearing.engine.newton.block_arrow import solve
 from fmu_bearing.engine.spindle import members
-from fmu_bearing.engine.spindle.coupling import (
-    answer_driven,
-    answer_free,
-    solve_set,
-    solve_shaft,
-    turn_driven,
-    turn_since,
-    turned,
-)  # fmt: skip
+from fmu_bearing.engine.spindle.coupling import solve_set, solve_shaft, turn_since, turned
+from fmu_bearing.engine.spindle.elimination import answer_driven, answer_free, find_drive, turn_driven
 from fmu_bearing.engine.spindle.follow import accelerate, free_forces, growth_power
 from fmu_bearing.engine.spindle.port import clear, feel, has_port, keep_push, lead_stage
 from fmu_bearing.engine.spindle.shaft import shaft_forces
@@ -109,7 +102,9 @@ def increments(p, s, w, own, ws, stage, gh, angle, speed):
         answer_free(p, b, pb, sb, wb, own, ws)
     solve_shaft(p, own, ws)
     largest = 0.0
-    for b in range(members.count(p)):
+    count = members.count(p)
+    for k in range(count):
+        b = count - 1 - k  # the last one's factors are still in the cache
         pb = members.parameters(p, b)
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)
@@ -226,8 +221,10 @@ def keep_powers(p, s, w, stage, gh, speed, work, bent, shaken, ws):
         acc = wb[here : here + F.SIZE]
         turn = F.BODY + Q.OUTER + Q.TURN
         gained = pb[P.OUTER_POLAR] * (acc[turn] - wb[W.F + turn])
-        r = members.row(p, b)
-        if p[r + SP.ROW_DRIVEN] > Q.OUTER:
+        outer = p[members.row(p, b) + SP.ROW_DRIVEN] > Q.OUTER
+        if led or outer:
+            find_drive(p, b, pb, wb, ws)
+        if outer:
             driving = ws[members.scratch(p, b) + SP.LANES + Q.OUTER + Q.TURN]
             gained = pb[P.OUTER_POLAR] * (wb[W.D + turn] - driving)
         c = sb[S.C : S.C + C.SIZE]

@@ -19,7 +19,8 @@ from fmu_bearing.engine.layout import FOUR, SP, STRIDE, L, P, S, T
 from fmu_bearing.engine.mechanics.trigonometry import ball_angles
 from fmu_bearing.engine.newton.jacobian import is_angle
 from fmu_bearing.engine.spindle import members
-from fmu_bearing.engine.spindle.coupling import add_driven, keep_columns, shaft_matrix
+from fmu_bearing.engine.spindle.coupling import add_driven, shaft_matrix
+from fmu_bearing.engine.spindle.elimination import keep_columns
 
 
 @kernel
